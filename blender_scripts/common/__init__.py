@@ -1,0 +1,1 @@
+"""Helpers that every Blender script of the pipeline shares."""
