@@ -1,0 +1,47 @@
+// Obstacles on the ground plane: metres, x east, y north.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "runtime/base/math.h"
+
+namespace flaneur {
+
+// Doubles: towns in a map projection keep millimetres.
+struct Point2 { double x = 0, y = 0; };
+
+enum class ObstacleKind { kBuilding, kWall, kTree, kLamp, kOther };
+const char* ObstacleKindName(ObstacleKind kind);
+
+// A polygon with holes, or a circle (outer empty, radius_m > 0).
+struct Obstacle {
+  std::string name;                        // unique in a collection
+  ObstacleKind kind = ObstacleKind::kBuilding;
+  std::string source;                      // node or object id it was made from
+  double clearance_m = 0;
+  double ground_z_m = 0;
+  std::vector<Point2> outer;               // anticlockwise, first point not repeated
+  std::vector<std::vector<Point2>> holes;  // clockwise
+  Point2 center;
+  double radius_m = 0;
+};
+
+struct Footprints {
+  double clearance_m = 0.05;
+  std::array<double, 2> band_m{0.1, 2.0};  // height over the local ground that blocks
+  Point2 origin_m;                         // add to a coordinate to get the source's own
+  std::vector<Obstacle> obstacles;
+};
+
+// Walkable surface as a regular raster; cell (column, row) covers
+// [min.x + column * cell, ...) x [min.y + row * cell, ...); row 0 is the southernmost.
+struct GroundRaster {
+  Vec2 min_m;
+  float cell_m = 0.25f;
+  int columns = 0, rows = 0;
+  std::vector<float> height_m;   // columns * rows, z at the cell's centre
+  std::vector<uint8_t> kind;     // GroundKind; 0: no ground
+};
+
+}  // namespace flaneur

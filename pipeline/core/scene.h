@@ -1,0 +1,37 @@
+// An editable static scene: a town. Metres, glTF axes (Y up).
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "pipeline/core/mesh.h"
+#include "runtime/base/math.h"
+
+namespace flaneur {
+
+// What a node stands for in the town; see docs/town-convention.md.
+enum class NodeKind { kUntagged, kBuilding, kWall, kTree, kLamp, kOther, kGround, kDoor, kExit, kLoiter, kNone };
+enum class GroundKind : uint8_t { kNone = 0, kCarriageway = 1, kPavement = 2, kSquare = 3, kGrass = 4 };
+
+const char* NodeKindName(NodeKind kind);      // "building", ...
+const char* GroundKindName(GroundKind kind);  // "carriageway", ...
+
+struct SceneNode {
+  std::string name;
+  int parent = -1;
+  Mat4 world;                 // to scene space
+  std::vector<int> meshes;    // indices into Scene::meshes
+  NodeKind kind = NodeKind::kUntagged;      // own tag or the nearest ancestor's
+  GroundKind ground = GroundKind::kNone;    // likewise, where kind is kGround
+  float radius_m = 0;         // 0: not given
+  float width_m = 0;          // 0: not given
+};
+
+struct Scene {
+  std::vector<SceneNode> nodes;
+  std::vector<Mesh> meshes;
+  std::vector<Material> materials;
+  std::vector<Image> images;
+};
+
+}  // namespace flaneur

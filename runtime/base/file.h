@@ -1,0 +1,23 @@
+// Whole files in and out. Paths in messages are as given by the caller.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/base/error.h"
+
+namespace flaneur {
+
+// Errors: missing, a directory, unreadable; each names the path.
+Error ReadFile(const std::filesystem::path& path, std::vector<uint8_t>* bytes);
+Error ReadTextFile(const std::filesystem::path& path, std::string* text);
+
+// Writes beside the target, flushes, then renames: the target is either the old file or the whole new one.
+// Creates missing parent folders. Errors: no permission, disk full.
+Error WriteFile(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+Error WriteTextFile(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace flaneur

@@ -1,0 +1,19 @@
+// Text for messages.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace flaneur {
+
+// The candidate most like `name` (smallest edit distance, at most a third of its length and at least 1),
+// else empty. For "did you mean".
+std::string NearestName(std::string_view name, std::span<const std::string> candidates);
+
+// `"; did you mean 'X'?"`, or empty where nothing is near.
+std::string DidYouMean(std::string_view name, std::span<const std::string> candidates);
+
+// Line breaks and control characters become spaces, so that any text fits in a one-line message.
+std::string OneLine(std::string_view text);
+
+}  // namespace flaneur

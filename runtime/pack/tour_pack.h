@@ -1,0 +1,161 @@
+// The tour pack: a glTF binary with the root extension FLANEUR_tour, as the runtime sees it after loading.
+// Geometry in glTF axes (Y up), everything of the tour on the ground plane (x east, y north, z up). Metres, seconds, radians.
+// The extension's JSON mirrors these structs name for name (see docs/pack-format.md and runtime/pack/FLANEUR_tour.schema.json).
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runtime/base/error.h"
+#include "runtime/base/math.h"
+
+namespace flaneur {
+
+inline constexpr int kTourPackVersion = 1;
+inline constexpr const char* kTourExtension = "FLANEUR_tour";
+
+struct PackImage {           // decoded, 8 bits a channel
+  int width_px = 0, height_px = 0;
+  std::vector<uint8_t> rgba; // top row first
+};
+
+struct PackMaterial {
+  std::string name;
+  Vec4 base_color{1, 1, 1, 1};  // linear
+  int base_color_image = -1;    // index into TourPack::images, sRGB
+  bool double_sided = false;
+  bool alpha_mask = false;      // BLEND is drawn as a mask too
+  float alpha_cutoff = 0.5f;
+};
+
+struct PackPrimitive {
+  int material = -1;
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;
+  std::vector<Vec2> uvs;                        // empty: none
+  std::vector<Vec4> colors;                     // empty: white
+  std::vector<std::array<uint16_t, 4>> joints;  // empty: not skinned
+  std::vector<std::array<float, 4>> weights;
+  std::vector<uint32_t> indices;
+};
+
+struct PackMesh { std::vector<PackPrimitive> primitives; };
+
+struct TownInstance {
+  std::string name;
+  int mesh = 0;  // index into TourPack::meshes
+  Mat4 world;
+};
+
+// Skinning matrices (avatar space), sampled at a constant rate; frame `frames` would equal frame 0.
+struct PackClip {
+  float duration_s = 0;
+  int frames = 0;
+  std::vector<Mat4> matrices;  // frames x joints, frame by frame
+};
+
+struct PackLevel {
+  int mesh = 0;
+  int triangles = 0;
+  float error_mm = 0, posed_error_mm = 0, switch_px = 0;
+};
+
+struct PackImpostorClip { std::string name; int first_frame = 0, phases = 0; };
+
+// Meaning of the fields: pipeline/core/impostor.h says how an atlas is laid out.
+struct PackImpostor {
+  int directions = 0, frames = 0;
+  std::vector<float> elevations_deg;
+  int cell_width_px = 0, cell_height_px = 0;
+  float window_width_m = 0, window_height_m = 0, bottom_m = 0, depth_range_m = 0;
+  std::vector<PackImpostorClip> clips;
+  int albedo_image = -1, normal_image = -1;  // indices into TourPack::images
+};
+
+struct PackAvatar {
+  std::string name;
+  float share = 1;           // of the crowd, relative to the others'
+  float height_m = 1.75f, radius_m = 0.25f;
+  float walk_speed_mps = 1.3f;  // at which the walk clip's feet don't slide
+  int joints = 0;
+  PackClip walk, idle, talk; // always present: a missing talk is the idle, a missing idle a standing pose
+  std::vector<PackLevel> levels;  // finest first, at least one
+  PackImpostor impostor;
+};
+
+struct PackObstacle {        // a polygon with holes, or a circle where radius_m > 0
+  std::string name, kind;
+  std::vector<Vec2> outer;   // anticlockwise
+  std::vector<std::vector<Vec2>> holes;
+  Vec2 center;
+  float radius_m = 0;
+};
+
+// Raster of the walkable surface; the layout is GroundRaster's (pipeline/core/footprint.h).
+// kind: 0 none, 1 carriageway, 2 pavement, 3 square, 4 grass.
+struct PackGround {
+  Vec2 min_m;
+  float cell_m = 0;
+  int columns = 0, rows = 0;
+  std::vector<float> height_m;
+  std::vector<uint8_t> kind;
+};
+
+// Where people come from and go to. kind: door, exit, goal (go there), loiter (stand there a while), spawn (start there).
+struct PackPlace {
+  std::string name, kind;
+  Vec2 position_m;
+  float width_m = 1;
+};
+
+struct TourStop { Vec2 position_m; float yaw_rad = 0; float pause_s = 0; std::string caption; };
+
+struct CrowdSettings {
+  int people = 200;
+  uint64_t seed = 1;
+  float preferred_speed_mps = 1.3f, speed_spread_mps = 0.2f, top_speed_mps = 1.9f;
+  float loiter_share = 0.15f;  // of the people, standing at loiter places at any time
+};
+
+struct ControlSettings {
+  std::string method = "count";   // count | frame_time
+  std::string adaptation = "full"; // off | paper | full
+  int high_limit = 12;
+  float target_ms = 16.7f;
+  int budget_triangles = 200000;  // for all visible people together
+  float r_personal_m = 0.6f, r_high_m = 10, r_unimportant_m = 40, r_far_m = 200;
+  float fov_rad = 1.0472f;        // horizontal
+  float step_hz = 30;
+  float max_yaw_rate_dps = 120, camera_speed_mps = 1.4f;
+};
+
+struct LightSettings {
+  float sun_azimuth_rad = 2.4f, sun_elevation_rad = 0.7f;  // direction to the sun at the start
+  float day_length_s = 600;  // time for the sun's way across the sky; 0: it stands still
+};
+
+struct TourPack {
+  std::string name;
+  std::vector<PackImage> images;
+  std::vector<PackMaterial> materials;
+  std::vector<PackMesh> meshes;
+  std::vector<TownInstance> town;
+  std::vector<PackAvatar> avatars;
+  std::vector<PackObstacle> obstacles;
+  PackGround ground;
+  std::vector<PackPlace> places;
+  std::vector<TourStop> path;  // guided path, in order; pause 0 and no caption: only a waypoint
+  CrowdSettings crowd;
+  ControlSettings control;
+  LightSettings light;
+};
+
+struct LoadOptions { bool geometry_and_images = true; };  // false: enough for a run without drawing
+
+// The bytes are not trusted: every offset, count and index is checked.
+// Errors: no such file, not a glTF binary, truncated, no FLANEUR_tour, a newer version, an index out of range (names it).
+Error LoadTourPack(const std::filesystem::path& path, const LoadOptions& options, TourPack* pack);
+
+}  // namespace flaneur
