@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <random>
+
+#include "runtime/base/file.h"
+#include "runtime/base/math.h"
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_(fs::temp_directory_path() / ("flaneur_base_" + std::to_string(::getpid()))) {
+    fs::create_directories(path_);
+  }
+  ~TemporaryFolder() { fs::remove_all(path_); }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+size_t FilesIn(const fs::path& folder) {
+  return static_cast<size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(File, ComesBackAsWritten) {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "deeper" / "a.bin";
+  const std::vector<uint8_t> bytes{0, 1, 255, 10, 13};
+  ASSERT_EQ(WriteFile(path, bytes).message, "");
+  std::vector<uint8_t> back;
+  ASSERT_EQ(ReadFile(path, &back).message, "");
+  EXPECT_EQ(back, bytes);
+  EXPECT_EQ(FilesIn(path.parent_path()), 1u);
+}
+
+TEST(File, AFailedWriteKeepsWhatWasThere) {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "kept";
+  fs::create_directories(path / "not_empty");  // a folder of that name cannot be replaced by a file
+  const Error error = WriteTextFile(path, "new");
+  EXPECT_NE(error.message.find(path.string()), std::string::npos);
+  EXPECT_TRUE(fs::exists(path / "not_empty"));
+  EXPECT_EQ(FilesIn(folder.path()), 1u);
+}
+
+TEST(File, MissingAndFolderAreNamed) {
+  std::string text;
+  EXPECT_NE(ReadTextFile("/no/such/file", &text).message.find("/no/such/file: no such file"),
+            std::string::npos);
+  EXPECT_NE(ReadTextFile("/", &text).message.find("folder"), std::string::npos);
+}
+
+TEST(Text, SuggestsTheNearestNameOnly) {
+  const std::vector<std::string> names{"clearance_m", "people", "seed"};
+  EXPECT_EQ(NearestName("clearence_m", names), "clearance_m");
+  EXPECT_EQ(NearestName("poeple", names), "people");
+  EXPECT_EQ(NearestName("quite_different", names), "");
+  EXPECT_EQ(OneLine("a\nb\r\n"), "a b");
+}
+
+Mat4 RandomTransform(std::mt19937& random) {
+  std::uniform_real_distribution<float> u(-1, 1);
+  const Quat q = Normalized(Quat{u(random), u(random), u(random), u(random)});
+  return FromTranslationRotationScale({u(random), u(random), u(random)}, q,
+                                      {1.5f + u(random), 1.5f + u(random), -1.5f + u(random)});
+}
+
+TEST(Math, InverseUndoesATransform) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 100; ++i) {
+    const Mat4 m = RandomTransform(random);
+    const Vec3 p{1, -2, 3};
+    EXPECT_LT(Length(TransformPoint(Inverse(m), TransformPoint(m, p)) - p), 1e-3f);
+  }
+}
+
+TEST(Math, SlerpTakesTheShorterArcAtConstantRate) {
+  const Quat a{0, 0, 0, 1};
+  const Quat b{0, std::sin(0.5f), 0, std::cos(0.5f)};
+  const Quat minus_b{0, -b.y, 0, -b.w};
+  for (float t : {0.0f, 0.25f, 0.5f, 1.0f}) {
+    EXPECT_NEAR(Slerp(a, b, t).y, std::sin(0.5f * t), 1e-5f);
+    EXPECT_NEAR(Slerp(a, minus_b, t).y, std::sin(0.5f * t), 1e-5f);
+  }
+}
+
+TEST(Math, AxesGoThereAndBack) {
+  const Vec3 p{1, 2, 3};
+  EXPECT_EQ(Length(GroundFromGltf(GltfFromGround(p)) - p), 0);
+  EXPECT_EQ(GltfFromGround({0, 0, 1}).y, 1);   // up is glTF's Y
+  EXPECT_EQ(GltfFromGround({0, 1, 0}).z, -1);  // north is glTF's -Z
+}
+
+}  // namespace
+}  // namespace flaneur
