@@ -1,0 +1,237 @@
+"""What is worn over the garments: belts, aprons, capes, cloaks, collars. Lengths as in garments.py."""
+
+import numpy as np
+
+from townspeople import surface as sf
+from townspeople import tailor as tl
+
+
+def belt(tailor, name, at, height=0.04, thickness=0.010, ease=0.004, columns=40, cell="belt"):
+    """A band about the waist, over everything worn so far."""
+    size, z = tailor.size, tailor.height(at)
+    angles = tl.angles_of(columns)
+    tree = tl.trunk_tree(tailor, arms=False)
+    centre = np.array([0.0, tl.axis_y(tailor, z), z])
+    half = 0.5 * height * size
+    rings = []
+    for dz in (half, 0.0, -half):
+        reach = [sf.outermost(tree, centre + [0, 0, dz], ray, 0.6) or 0.15 for ray in tl.direction(angles)]
+        rings.append(tl.circular_blur(np.array(reach), 1))
+    reach = np.max(rings, axis=0) + ease * size
+    shape = ((half, -0.006), (half, thickness), (-half, thickness), (-half, -0.006))
+    points = np.array([centre + np.array([0, 0, dz]) + tl.direction(angles) * (reach + out * size)[:, None]
+                       for dz, out in shape])
+    flat = points.reshape(-1, 3)
+    weights = _as_worn(tailor, flat).reshape(len(shape), columns, -1)
+    tailor.worn["belt " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles), [0.0, 0.2, 0.8, 1.0])
+
+
+def _as_worn(tailor, points):
+    """Weights of the nearest worn garment vertices (trunk garments and skirts)."""
+    sources = [worn for name, worn in tailor.worn.items() if name.startswith(("upper", "skirt", "plate"))]
+    sources = sources or [tailor.figure.parts["shirt"]]
+    both = sf.joined(sources)
+    return sf.nearest_weights(points, both.vertices, both.weights, 4)
+
+
+def cord(tailor, name, start, end, angle_deg, radius=0.011, out=0.02, cell="belt"):
+    """A rope's hanging ends: a thin tube on the skirt's surface from height `start` to `end`."""
+    size, angle = tailor.size, np.radians(angle_deg)
+    tree = tl.trunk_tree(tailor, arms=False)
+    heights = np.linspace(tailor.height(start), tailor.height(end), 9)
+    ray = tl.direction(angle)
+    reach = [sf.outermost(tree, (0.0, tl.axis_y(tailor, z), z), ray, 0.8) or 0.15 for z in heights]
+    reach = np.maximum.accumulate(np.array(reach)) + out * size
+    around = tl.angles_of(6)
+    rings = []
+    for row, (z, distance) in enumerate(zip(heights, reach)):
+        swell = 1.6 if row == len(heights) - 2 else 1.0
+        centre = np.array([0.0, tl.axis_y(tailor, z), z]) + ray * distance
+        rings.append(centre + tl.direction(around) * radius * size * swell)
+    points = np.array(rings)
+    weights = _as_worn(tailor, points.mean(axis=1))[:, None].repeat(len(around), axis=1)
+    tailor.worn["cord " + name] = sf.grid(points, weights, cell, sf.mirrored_u(around))
+
+
+def pouch(tailor, name, at, angle_deg, width=0.10, depth=0.055, height=0.13, out=0.02, cell="belt"):
+    """A purse that hangs on the belt: a rounded box."""
+    size, angle, z = tailor.size, np.radians(angle_deg), tailor.height(at)
+    tree = tl.trunk_tree(tailor, arms=False)
+    ray = tl.direction(angle)
+    low = z - height * size
+    reach = max(sf.outermost(tree, (0.0, tl.axis_y(tailor, y), y), ray, 0.8) or 0.15 for y in (z, low))
+    centre = np.array([0.0, tl.axis_y(tailor, z), z]) + ray * (reach + out * size)
+    side = np.array([-ray[1], ray[0], 0.0])
+    around = tl.angles_of(10)
+    rings = []
+    for t, scale in ((0.0, 0.55), (0.12, 0.75), (0.5, 0.95), (0.8, 1.0), (0.95, 0.8), (1.0, 0.3)):
+        ring = (np.cos(around)[:, None] * side * width + np.sin(around)[:, None] * ray * depth) * 0.5 * scale
+        rings.append(centre + ring * size - np.array([0, 0, t * height * size]))
+    points = np.array(rings)
+    weights = np.broadcast_to(_as_worn(tailor, centre[None])[0], points.shape[:2] + (points.shape[2],)[:0] + (
+        len(tailor.figure.skeleton.names),))
+    tailor.worn["pouch " + name] = sf.grid(points, np.array(weights), cell, np.full(10, 0.5))
+
+
+def apron(tailor, name, over, hem_row=0.9, half_angle_deg=62, lift=0.012, bib_top=None, bib_half_angle_deg=38,
+          cell="apron"):
+    """A cloth over the front of a skirt that is worn already, with a bib where `bib_top` is a place."""
+    points, weights, angles = tailor.grids[over]
+    size = tailor.size
+    signed = (angles + np.pi) % (2 * np.pi) - np.pi
+    order = [c for c in np.argsort(signed) if abs(signed[c]) <= np.radians(half_angle_deg)]
+    rows = max(int(round(hem_row * (len(points) - 1))), 2) + 1
+    cut, weights = points[:rows, order], weights[:rows, order]
+    axis = cut.copy()
+    axis[..., 0], axis[..., 1] = 0.0, np.array([tl.axis_y(tailor, z) for z in cut[:, 0, 2]])[:, None]
+    outward = (cut - axis) / np.linalg.norm(cut - axis, axis=2, keepdims=True)
+    layer = cut + outward * lift * size
+    u_columns = sf.mirrored_u(signed[order]) * 180.0 / half_angle_deg
+    sheet = sf.grid(layer, weights, cell, u_columns, np.linspace(0.3 if bib_top else 0.0, 1.0, rows), closed=False)
+    tailor.worn["skirt apron " + name] = sf.lined(sheet, len(order), rows, False, 0.006 * size, cell)
+    if bib_top:
+        _bib(tailor, name, tailor.height(bib_top), layer[0, :, 2].mean(), bib_half_angle_deg, lift, cell)
+
+
+def _bib(tailor, name, top, bottom, half_angle_deg, lift, cell):
+    angles = np.radians(np.linspace(-half_angle_deg, half_angle_deg, 13))
+    heights = np.linspace(top, bottom - 0.02 * tailor.size, 8)
+    tree = tl.trunk_tree(tailor, arms=False)
+    rows = []
+    for z in heights:
+        centre = np.array([0.0, tl.axis_y(tailor, z), z])
+        reach = np.array([sf.outermost(tree, centre, ray, 0.6) or 0.12 for ray in tl.direction(angles)])
+        reach = tl.circular_blur(reach, 2, closed=False) + lift * tailor.size
+        rows.append(centre + tl.direction(angles) * reach[:, None])
+    points = np.array(rows)
+    weights = tl.transferred(tailor, points.reshape(-1, 3), tailor.figure.parts["shirt"], 1.0)
+    weights = weights.reshape(len(rows), len(angles), -1)
+    sheet = sf.grid(points, weights, cell, sf.mirrored_u(angles) * 180.0 / half_angle_deg,
+                    np.linspace(0.0, 0.32, len(rows)), closed=False)
+    tailor.worn["upper bib " + name] = sf.lined(sheet, len(angles), len(rows), False, 0.006 * tailor.size, cell)
+
+
+def _shoulder_centre(tailor):
+    z = tailor.height(("shoulder", -0.17))
+    return np.array([0.0, tl.axis_y(tailor, z), z])
+
+
+def cape(tailor, name, top_deg=64, bottom_deg=0, ease=0.022, hem=None, open_deg=0, flare=0.1, folds=9,
+         fold_depth=0.02, columns=40, hang_rows=6, calm_arms=0.55, point=0.0, lining=None, cell="cape"):
+    """Cloth draped over the shoulders: collar, shawl, shoulder cape, or cloak.
+
+    It starts at the neck `top_deg` above the chest's middle and comes down to `bottom_deg`; from there it
+    hangs to the place `hem`, where given. open_deg: half the opening in front. point: lowers front and back.
+    """
+    size = tailor.size
+    angles = _opened_angles(columns, open_deg)
+    centre = _shoulder_centre(tailor)
+    elevations = np.linspace(top_deg, bottom_deg, 9)
+    eases = size * ease * np.linspace(0.35, 1.0, len(elevations))
+    tree = tl.trunk_tree(tailor, arms=True)
+    points = tl.star_rows(tree, centre, angles, elevations, eases, 0.2 * size)
+    if point:
+        share = np.linspace(0.0, 1.0, len(points))[:, None] ** 2
+        points[..., 2] -= share * point * size * np.abs(np.cos(angles))[None] ** 3
+    if hem is not None:
+        points = _hung(tailor, points, angles, tailor.height(hem), flare, folds, fold_depth, hang_rows)
+    flat = points.reshape(-1, 3)
+    weights = _cape_weights(tailor, flat, calm_arms, hem is not None).reshape(*points.shape[:2], -1)
+    tailor.grids[name] = (points, weights, angles)
+    closed = open_deg == 0
+    sheet = sf.grid(points, weights, cell, sf.mirrored_u(angles), closed=closed)
+    tailor.worn["cape " + name] = sf.lined(sheet, columns, len(points), closed, 0.007 * size, lining or cell)
+
+
+def _opened_angles(columns, open_deg):
+    if open_deg == 0:
+        return tl.angles_of(columns)
+    return np.linspace(np.radians(open_deg), 2 * np.pi - np.radians(open_deg), columns)
+
+
+def _hung(tailor, points, angles, z_hem, flare, folds, fold_depth, rows):
+    """Rows that hang from the last one down to z_hem."""
+    from townspeople.garments import fold_wave
+    size, edge = tailor.size, points[-1]
+    cloud = tl.slice_points(tailor, arms=True)
+    wave = fold_wave(tailor.random, angles, folds)
+    reach = np.linalg.norm(edge[:, :2] - [0.0, tl.axis_y(tailor, edge[:, 2].mean())], axis=1)
+    z_edge, added = edge[:, 2].mean(), []
+    for t in np.linspace(0.0, 1.0, rows + 1)[1:]:
+        z = edge[:, 2] + (z_hem - edge[:, 2]) * t
+        outline = tl.slice_radii(tailor, cloud, z.mean(), angles)
+        if outline is not None and z.mean() > tailor.height("crotch"):
+            reach = np.maximum(reach * 0.985, outline + 0.02 * size)
+        fall = (z_edge - z.mean()) / size
+        radii = reach + flare * size * fall + fold_depth * size * wave * min(fall / 0.3, 1.0)
+        base = np.stack([np.zeros_like(z), np.full_like(z, tl.axis_y(tailor, z.mean())), z], axis=1)
+        added.append(base + tl.direction(angles) * radii[:, None])
+    return np.concatenate([points, np.array(added)])
+
+
+def _cape_weights(tailor, points, calm_arms, hangs):
+    worn = sf.joined([tailor.figure.parts["shirt"]])
+    weights = tl.transferred(tailor, points, worn, calm_arms)
+    if not hangs:
+        return weights
+    below = 1.0 - sf.smoothstep(tailor.height("chest"), tailor.height("shoulder"), points[:, 2])[:, None]
+    return weights * (1 - below) + tl.hanging_weights(tailor, points, 0.55, 0.2) * below
+
+
+def collar(tailor, name, height=0.045, flare=0.010, cell="collar"):
+    """A standing collar about the neck."""
+    _neck_rings(tailor, name, [(-0.03, 0.004), (0.0, 0.006), (height, 0.006 + flare), (height, flare - 0.006),
+                               (0.005, -0.004)], cell)
+
+
+def _neck_rings(tailor, name, shape, cell, columns=28):
+    """Rings about the neck: (height above its foot, distance from the skin)."""
+    size = tailor.size
+    angles = tl.angles_of(columns)
+    tree = sf.tree_of([tailor.figure.parts["body"]])
+    base = tailor.height(("neck", -0.015))
+    low, high = tailor.figure.landmarks["shoulder"], tailor.figure.landmarks["neck"]
+    rows = []
+    for up, out in shape:
+        centre = low + (high - low) * ((base + up * size - low[2]) / (high[2] - low[2]))
+        tilt = 0.022 * size * np.cos(angles)
+        reach = np.array([sf.outermost(tree, high, ray, 0.12 * size) or 0.06 * size
+                          for ray in tl.direction(angles)])
+        ring = centre + tl.direction(angles) * (tl.circular_blur(reach, 3) + out * size)[:, None]
+        ring[:, 2] = base + up * size - tilt
+        rows.append(ring)
+    points = np.array(rows)
+    weights = np.zeros(points.shape[:2] + (len(tailor.figure.skeleton.names),))
+    weights[..., tailor.column("spine01")] = 0.6
+    weights[..., tailor.column("neck01")] = 0.4
+    tailor.worn["neck " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles))
+
+
+def ruff(tailor, name, inner=0.062, outer=0.135, height=0.05, pleats=22, cell="collar"):
+    """A pleated ruff: a figure-of-eight frill about the neck."""
+    size, columns = tailor.size, pleats * 4
+    angles = tl.angles_of(columns)
+    centre = tailor.figure.landmarks["neck"] + np.array([0.0, 0.0, 0.004]) * size
+    wave = np.sin(pleats * angles)
+    rows = []
+    for t in (0.0, 0.55, 1.0):
+        radius = inner + (outer - inner) * t
+        z = (0.5 * height * wave * min(t * 2.2, 1.0) + 0.030 * t - 0.018 * np.cos(angles) * (1 + t)) * size
+        ring = centre + tl.direction(angles) * radius * size
+        ring[:, 2] += z
+        rows.append(ring)
+    points = np.array(rows)
+    weights = np.zeros(points.shape[:2] + (len(tailor.figure.skeleton.names),))
+    weights[..., tailor.column("spine01")] = 0.5
+    weights[..., tailor.column("neck01")] = 0.5
+    tailor.worn["neck " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles))
+
+
+def plate(tailor, name, bottom, ease=0.020, smooth=25, cell="plate"):
+    """A cuirass: the shirt's trunk, smooth and stiff."""
+    from townspeople import garments
+    before = dict(tailor.worn)
+    garments.upper(tailor, name, bottom, ease, smooth, None, cell)
+    armour = tailor.worn.pop("upper " + name)
+    tailor.worn = before
+    tailor.worn["plate " + name] = armour

@@ -1,0 +1,275 @@
+"""Garments over trunk, arms and legs. Each function takes the tailor and plain data, and adds Surfaces
+to what is worn. Lengths are metres on a figure of 1.7 m.
+"""
+
+import numpy as np
+
+from townspeople import surface as sf
+from townspeople import tailor as tl
+from townspeople.body import joint_share
+
+
+def upper(tailor, name, bottom, ease=0.008, smooth=8, sleeve=None, cell="upper", sleeve_cell="sleeve"):
+    """Bodice, doublet or the top of a tunic: from the neck to `bottom`, with sleeves.
+
+    sleeve: list of [place, radius] along the arm; place 0 shoulder, 1 elbow, 2 wrist. None: sleeveless.
+    """
+    figure, size = tailor.figure, tailor.size
+    base = sf.offset(sf.smoothed(figure.parts["shirt"], smooth), ease * size)
+    arm = joint_share(figure, base, tl.ARM_JOINTS)
+    z_bottom = tailor.height(bottom)
+    keep = [base.vertices[list(face), 2].mean() > z_bottom and
+            (sleeve is not None or arm[list(face)].mean() < 0.5) for face in base.faces]
+    base = sf.keep_faces(base, keep)
+    arm = joint_share(figure, base, tl.ARM_JOINTS)
+    is_arm = [arm[list(face)].mean() > 0.5 for face in base.faces]
+    base = _trunk_mapping(tailor, base, is_arm, z_bottom, cell, sleeve_cell)
+    if sleeve is not None:
+        for side in ("_L", "_R"):
+            base = _with_sleeve(tailor, base, side, sleeve, sleeve_cell)
+    tailor.worn["upper " + name] = base
+
+
+def _trunk_mapping(tailor, base, is_arm, z_bottom, cell, sleeve_cell):
+    """Cylindrical texture coordinates: about the trunk, and about the arms for the sleeves' faces."""
+    top = tailor.height("neck")
+    corner_uv, cells = [], []
+    for face, on_arm in zip(base.faces, is_arm):
+        points = base.vertices[list(face)]
+        if on_arm:
+            side = "_L" if points[:, 0].mean() > 0 else "_R"
+            place, angle, _ = _arm_coordinates(tailor, side, points)
+            corner_uv.append(np.stack([sf.mirrored_u(angle), place / 2.05], axis=1))
+        else:
+            angle = np.arctan2(points[:, 0], -(points[:, 1] - tl.axis_y(tailor, points[:, 2].mean())))
+            v = (top - points[:, 2]) / (top - z_bottom)
+            corner_uv.append(np.stack([sf.mirrored_u(angle), v], axis=1))
+        cells.append(sleeve_cell if on_arm else cell)
+    return sf.with_parts(base, corner_uv=np.clip(np.concatenate(corner_uv), 0, 1), cells=cells)
+
+
+def _arm_path(tailor, side):
+    return np.array([tailor.joint(name + side) for name in ("shoulder02", "lowerarm01", "wrist")])
+
+
+def _arm_frame(tailor, side, place):
+    """Centre, direction and two normals (front, outside) at a place on the arm (0 to 2 and beyond)."""
+    path = _arm_path(tailor, side)
+    upper_way, lower_way = path[1] - path[0], path[2] - path[1]
+    centre = path[0] + upper_way * min(place, 1.0) + lower_way * max(place - 1.0, 0.0)
+    bend = sf.smoothstep(0.75, 1.25, place)
+    way = (upper_way / np.linalg.norm(upper_way) * (1 - bend) + lower_way / np.linalg.norm(lower_way) * bend)
+    way /= np.linalg.norm(way)
+    outside = np.array([1.0 if side == "_L" else -1.0, 0.0, 0.0])
+    outside -= way * (outside @ way)
+    outside /= np.linalg.norm(outside)
+    front = np.cross(way, outside)
+    front *= -np.sign(front[1]) if abs(front[1]) > 1e-6 else 1.0
+    return centre, way, front, outside
+
+
+def _arm_coordinates(tailor, side, points):
+    """Place along the arm, angle about it (0 outside) and distance from it, of points."""
+    path = _arm_path(tailor, side)
+    upper_way, lower_way = path[1] - path[0], path[2] - path[1]
+    along_upper = ((points - path[0]) @ upper_way) / (upper_way @ upper_way)
+    along_lower = ((points - path[1]) @ lower_way) / (lower_way @ lower_way)
+    place = np.where(along_lower > 0, 1.0 + along_lower, np.minimum(along_upper, 1.0))
+    angles, distances = [], []
+    for point, at in zip(points, place):
+        centre, _, front, outside = _arm_frame(tailor, side, float(np.clip(at, 0.0, 2.2)))
+        a, b = (point - centre) @ outside, (point - centre) @ front
+        angles.append(np.arctan2(b, a))
+        distances.append(np.hypot(a, b))
+    return place, np.array(angles), np.array(distances)
+
+
+def arm_size(tailor, side="_L"):
+    path = _arm_path(tailor, side)
+    return np.linalg.norm(path[1] - path[0]) / 0.2406
+
+
+def _arm_weights(tailor, side, place):
+    weights = np.zeros(len(tailor.figure.skeleton.names))
+    elbow, twist = sf.smoothstep(0.82, 1.18, place), sf.smoothstep(1.25, 1.75, place)
+    weights[tailor.column("upperarm02" + side)] = 1.0 - elbow
+    weights[tailor.column("lowerarm01" + side)] = elbow * (1.0 - twist)
+    weights[tailor.column("lowerarm02" + side)] = elbow * twist
+    return weights
+
+
+def _with_sleeve(tailor, base, side, profile, cell):
+    """Extrudes the shirt's sleeve hem along the arm."""
+    sign = 1.0 if side == "_L" else -1.0
+    loops = [loop for loop in sf.boundary_loops(base)
+             if base.vertices[loop][:, 0].mean() * sign > 0.15 * tailor.size]
+    if not loops:
+        return base
+    loop = loops[0]
+    place, angle, distance = _arm_coordinates(tailor, side, base.vertices[loop])
+    size = arm_size(tailor)
+    ends = [stop[0] for stop in profile]
+    rows = np.linspace(place.mean(), ends[-1], 11)[1:]
+    rings, weights, v_rows = [], [], [place.mean() / 2.05]
+    first = base.weights[loop]
+    for k, at in enumerate(list(rows) + [rows[-1], rows[-1] - 0.12]):
+        centre, _, front, outside = _arm_frame(tailor, side, at)
+        radius = np.interp(at, ends, [stop[1] for stop in profile]) * size
+        inside = max(k - len(rows) + 1, 0)
+        blend = min((k + 1) / 3.0, 1.0)
+        radii = (distance * (1 - blend) + radius * blend) * (1.0, 0.86, 0.8)[inside]
+        rings.append(centre + np.cos(angle)[:, None] * outside * radii[:, None]
+                     + np.sin(angle)[:, None] * front * radii[:, None])
+        weights.append(first * (1 - blend) + blend * _arm_weights(tailor, side, at))
+        v_rows.append(min(at, 2.0) / 2.05)
+    return _extruded(base, loop, np.array(rings), np.array(weights), sf.mirrored_u(angle), v_rows, cell)
+
+
+def _extruded(base, loop, rings, weights, u_columns, v_rows, cell):
+    """`base` with rings of new vertices grown from a boundary loop."""
+    count, start = len(loop), len(base.vertices)
+    ids = [list(loop)] + [list(range(start + k * count, start + (k + 1) * count)) for k in range(len(rings))]
+    faces, corner_uv = list(base.faces), [base.corner_uv]
+    for k in range(len(rings)):
+        for c in range(count):
+            d = (c + 1) % count
+            faces.append((ids[k][c], ids[k][d], ids[k + 1][d], ids[k + 1][c]))
+            corner_uv.append(np.array([(u_columns[c], v_rows[k]), (u_columns[d], v_rows[k]),
+                                       (u_columns[d], v_rows[k + 1]), (u_columns[c], v_rows[k + 1])]))
+    points = np.concatenate([base.vertices] + list(rings))
+    return sf.with_parts(base, vertices=points, faces=faces, corner_uv=np.concatenate(corner_uv),
+                         weights=np.concatenate([base.weights] + list(weights)),
+                         cells=base.cells + [cell] * (count * len(rings)))
+
+
+def fold_wave(random, angles, folds):
+    """Irregular pleats about the body: 0 in the valleys, 1 on the crests."""
+    bent = angles + 0.25 * np.sin(2 * angles + random.uniform(0, 6.28)) / 2
+    wave = 0.5 + 0.5 * np.cos(folds * bent + random.uniform(0, 6.28))
+    slow = 0.5 + 0.5 * np.cos(max(folds // 3, 1) * angles + random.uniform(0, 6.28))
+    return wave * (0.55 + 0.45 * slow)
+
+
+def skirt(tailor, name, top, hem, ease=0.012, flare=0.10, folds=12, fold_depth=0.03, columns=48,
+          rows=12, gather=0.35, front_flare=0.6, follow=1.0, shin=0.45, cell="skirt", hidden=False):
+    """Cloth that hangs from `top` (a place on the trunk) to `hem`: tunic skirt, habit, gown.
+
+    flare: extra radius at the hem for a fall of 1 m. gather: how soon the folds reach full depth.
+    hidden: only a form for an apron to be laid over.
+    """
+    size = tailor.size
+    angles = tl.angles_of(columns)
+    z_rows = np.linspace(tailor.height(top), tailor.height(hem), rows)
+    cloud = tl.slice_points(tailor, arms=False)
+    wave = fold_wave(tailor.random, angles, folds)
+    facing = 0.5 + 0.5 * np.cos(angles)
+    points, reach = [], None
+    hip = tailor.height("hip")
+    for z in z_rows:
+        fall = (z_rows[0] - z) / size
+        outline = tl.slice_radii(tailor, cloud, z, angles)
+        outline = reach if outline is None else tl.circular_blur(outline, 2)
+        reach = outline if reach is None else np.maximum(outline, reach * (1.0 if z < hip + 0.1 else 0.0))
+        depth = fold_depth * size * min(fall / gather, 1.0) if gather > 0 else fold_depth * size
+        spread = flare * size * max(fall, 0.0) * (1.0 - (1.0 - front_flare) * facing)
+        radii = reach + ease * size + spread + depth * wave
+        centre = np.array([0.0, tl.axis_y(tailor, z), z])
+        points.append(centre + tl.direction(angles) * radii[:, None])
+    points = np.array(points)
+    flat = points.reshape(-1, 3)
+    weights = tl.hanging_weights(tailor, flat, follow, shin)
+    top_share = sf.smoothstep(hip, tailor.height("waist"), flat[:, 2])[:, None]
+    worn_weights = tl.transferred(tailor, flat, tailor.figure.parts["shirt"], 1.0)
+    weights = (weights * (1 - top_share) + worn_weights * top_share).reshape(rows, columns, -1)
+    tailor.grids[name] = (points, weights, angles)
+    if not hidden:
+        tailor.worn["skirt " + name] = _with_hem(points, weights, angles, cell, size)
+
+
+def _with_hem(points, weights, angles, cell, size):
+    """The loft with its lowest row turned in, so that the cloth shows a thickness."""
+    centre = points[-1].mean(axis=0)
+    inward = points[-1] + (centre - points[-1]) * 0.06
+    lifted = points[-2] * 0.5 + points[-1] * 0.5
+    lifted = lifted + (centre - lifted) * np.array([0.12, 0.12, 0.0])
+    v_rows = list(np.linspace(0.0, 0.985, len(points))) + [1.0, 0.95]
+    points = np.concatenate([points, inward[None], lifted[None]])
+    weights = np.concatenate([weights, weights[-1:], weights[-1:]])
+    return sf.grid(points, weights, cell, sf.mirrored_u(angles), v_rows)
+
+
+def trousers(tailor, name, bottom, ease=0.004, puff=0.0, smooth=6, cell="trousers"):
+    """Breeches from the waist to `bottom`; puff widens the thighs."""
+    size = tailor.size
+    base = sf.smoothed(tailor.figure.parts["trousers"], smooth)
+    low, top = tailor.height(bottom), tailor.height("waist")
+    base = sf.keep_faces(base, base_above(base, low))
+    place = np.clip((base.vertices[:, 2] - low) / (tailor.height("crotch") - low), 0.0, 1.3)
+    base = sf.offset(base, size * (ease + puff * np.clip(np.sin(np.pi * np.minimum(place, 1.0) * 0.8), 0, 1)))
+    corner_uv = []
+    for face in base.faces:
+        points = base.vertices[list(face)]
+        side = np.sign(points[:, 0].mean())
+        centre = np.array([side * 0.12 * size, tl.axis_y(tailor, points[:, 2].mean())])
+        around = np.arctan2((points[:, 0] - centre[0]) * side, -(points[:, 1] - centre[1]))
+        corner_uv.append(np.stack([sf.mirrored_u(around), (top - points[:, 2]) / (top - low)], axis=1))
+    base = sf.with_parts(base, corner_uv=np.clip(np.concatenate(corner_uv), 0, 1),
+                         cells=[cell] * len(base.faces))
+    for loop in sf.boundary_loops(base)[:]:
+        if base.vertices[loop][:, 2].mean() < low + 0.1 * size:
+            base = _knee_band(base, loop, size, cell)
+    tailor.worn["trousers " + name] = base
+
+
+def base_above(base, z):
+    return [base.vertices[list(face), 2].mean() > z for face in base.faces]
+
+
+def _knee_band(base, loop, size, cell):
+    """Gathers an open leg into a band."""
+    edge = base.vertices[loop]
+    centre = edge.mean(axis=0)
+    rings = []
+    for shrink, drop in ((0.80, 0.012), (0.74, 0.03), (0.60, 0.035)):
+        ring = centre + (edge - centre) * shrink
+        ring[:, 2] = centre[2] - drop * size
+        rings.append(ring)
+    weights = np.array([base.weights[loop]] * 3)
+    return _extruded(base, loop, np.array(rings), weights, np.full(len(loop), 0.5), [0.97, 0.98, 0.99, 1.0], cell)
+
+
+LEG_PROFILE = [[0.0, 0.088], [0.5, 0.076], [0.85, 0.060], [1.0, 0.057], [1.3, 0.060], [1.7, 0.046], [2.0, 0.042]]
+
+
+def leg_pieces(tailor, name, start, end, profile=None, ease=0.0, columns=14, rows=14, cell="hose"):
+    """Hose, stockings or boot legs: tubes about both legs. Places: 0 hip, 1 knee, 2 ankle."""
+    profile = profile or LEG_PROFILE
+    angles = tl.angles_of(columns)
+    parts = []
+    for side in ("_L", "_R"):
+        path = np.array([tailor.joint(joint + side) for joint in ("upperleg02", "lowerleg01", "foot")])
+        thick = tailor.figure.leg_thickness
+        rings, weights = [], []
+        for place in np.linspace(start, end, rows):
+            at = path[0] + (path[1] - path[0]) * min(place, 1.0) + (path[2] - path[1]) * max(place - 1.0, 0.0)
+            radius = (np.interp(place, [p[0] for p in profile], [p[1] for p in profile]) + ease) * thick
+            calf = 0.014 * np.exp(-((place - 1.3) / 0.22) ** 2) + 0.008 * sf.smoothstep(1.5, 2.0, place)
+            rings.append(at + np.array([0.0, calf * thick, 0.0]) + tl.direction(angles) * radius)
+            weights.append(_leg_weights(tailor, side, place, columns))
+        parts.append(sf.grid(np.array(rings), np.array(weights), cell, sf.mirrored_u(angles)))
+    tailor.worn["legs " + name] = sf.joined(parts)
+
+
+def _leg_weights(tailor, side, place, columns):
+    weights = np.zeros((columns, len(tailor.figure.skeleton.names)))
+    hip = 1.0 - sf.smoothstep(-0.1, 0.2, place)
+    knee = sf.smoothstep(0.88, 1.12, place)
+    weights[:, tailor.column("root")] = hip
+    weights[:, tailor.column("upperleg02" + side)] = (1 - hip) * (1 - knee)
+    weights[:, tailor.column("lowerleg01" + side)] = (1 - hip) * knee
+    return weights
+
+
+def arm_place(tailor, side, point):
+    """Where along the arm a point lies: 0 shoulder, 1 elbow, 2 wrist."""
+    return float(_arm_coordinates(tailor, side, point[None])[0][0])

@@ -1,0 +1,225 @@
+"""Textures: cloth, leather, metal, hair painted with numpy into cells of an atlas; skin from the source.
+
+Pictures are (height, width, 3) arrays of sRGB values 0 to 1, top row first. In a cell, u runs from the
+front of the body (left) to its back (right), v from the garment's top to its hem.
+"""
+
+import os
+import tempfile
+
+import bpy
+import numpy as np
+
+from common.settings import fail
+
+ATLAS_PX = 512
+GUTTER_PX = 3
+HEM_DIRT = np.array([0.30, 0.25, 0.19])
+
+
+def value_noise(random, height, width, cells_down, cells_across):
+    """Smooth noise from -1 to 1 with about so many bumps."""
+    grid = random.uniform(-1.0, 1.0, (cells_down + 2, cells_across + 2))
+    y = np.linspace(0, cells_down, height, endpoint=False)[:, None]
+    x = np.linspace(0, cells_across, width, endpoint=False)[None, :]
+    y0, x0 = y.astype(int), x.astype(int)
+    fy, fx = y - y0, x - x0
+    fy, fx = fy * fy * (3 - 2 * fy), fx * fx * (3 - 2 * fx)
+    top = grid[y0, x0] * (1 - fx) + grid[y0, x0 + 1] * fx
+    bottom = grid[y0 + 1, x0] * (1 - fx) + grid[y0 + 1, x0 + 1] * fx
+    return top * (1 - fy) + bottom * fy
+
+
+def _mottled(random, h, w, amount):
+    return amount * (0.6 * value_noise(random, h, w, 5, 4) + 0.4 * value_noise(random, h, w, 13, 11))
+
+
+def _wool(random, h, w):
+    fibres = value_noise(random, h, w, max(h // 12, 2), w // 2)
+    return 1.0 + _mottled(random, h, w, 0.10) + 0.05 * fibres + 0.05 * random.uniform(-1, 1, (h, w))
+
+
+def _linen(random, h, w):
+    warp, weft = random.uniform(-1, 1, (1, w)), random.uniform(-1, 1, (h, 1))
+    return 1.0 + _mottled(random, h, w, 0.05) + 0.03 * warp + 0.03 * weft + 0.02 * random.uniform(-1, 1, (h, w))
+
+
+def _velvet(random, h, w):
+    sheen = value_noise(random, h, w, 2, 9)
+    return 1.0 + 0.16 * sheen + _mottled(random, h, w, 0.08) + 0.03 * random.uniform(-1, 1, (h, w))
+
+
+def _leather(random, h, w):
+    creases = np.abs(value_noise(random, h, w, h // 6, w // 6))
+    return 1.0 + _mottled(random, h, w, 0.20) - 0.12 * (creases < 0.06) + 0.05 * random.uniform(-1, 1, (h, w))
+
+
+def _metal(random, h, w):
+    v = np.linspace(0, 1, h)[:, None]
+    scratches = value_noise(random, h, w, h // 3, max(w // 20, 2))
+    return 1.0 + 0.10 * np.cos(5 * v) + 0.10 * scratches + _mottled(random, h, w, 0.15)
+
+
+def _hair(random, h, w):
+    locks = value_noise(random, h, w, 3, w // 5)
+    return 1.0 + 0.30 * locks + 0.22 * value_noise(random, h, w, 4, w // 2) + 0.05 * random.uniform(-1, 1, (h, w))
+
+
+def _straw(random, h, w):
+    rings = np.sin(np.linspace(0, h * 0.9, h))[:, None]
+    blades = value_noise(random, h, w, h // 3, w // 4)
+    return 1.0 + 0.12 * rings + 0.12 * blades + _mottled(random, h, w, 0.08)
+
+
+def _rope(random, h, w):
+    y, x = np.mgrid[0:h, 0:w]
+    return 1.0 + 0.22 * np.sin((x / w * 4 + y / h * 22) * np.pi) + 0.08 * random.uniform(-1, 1, (h, w))
+
+
+WEAVES = {"wool": _wool, "linen": _linen, "velvet": _velvet, "leather": _leather, "metal": _metal,
+          "hair": _hair, "straw": _straw, "rope": _rope}
+
+
+def _blend(picture, mask, colour):
+    mask = np.clip(mask, 0.0, 1.0)[..., None]
+    return picture * (1 - mask) + np.asarray(colour) * mask
+
+
+def paint(random, size_px, weave, colour, hem=0.0, folds=0.0, trim=(), placket=None, damask=None, seams=True,
+          stripes=None):
+    """One cell's picture.
+
+    hem: strength of the dirt at the lower edge. folds: strength of painted folds. trim: list of
+    [v from, v to, colour]. placket: [width in u, colour, number of buttons, button colour]. damask: colour
+    of a woven pattern. stripes: [number, colour].
+    """
+    w, h = size_px
+    if weave not in WEAVES:
+        fail("people.py: no weave '%s'" % weave)
+    u, v = np.linspace(0, 1, w)[None, :], np.linspace(0, 1, h)[:, None]
+    picture = np.ones((h, w, 3)) * np.asarray(colour, float)
+    if damask is not None:
+        a, b = u * 14 * np.pi, v * 18 * np.pi
+        motif = np.sin(a) * np.sin(b) + 0.6 * np.sin(2 * a + np.sin(b)) * np.sin(b * 0.5)
+        picture = _blend(picture, 0.8 * (np.clip(motif * 3, 0, 1)), damask)
+    if stripes is not None:
+        picture = _blend(picture, (np.sin(u * 2 * np.pi * stripes[0]) > 0.35) * 1.0, stripes[1])
+    for start, end, trim_colour in trim:
+        picture = _blend(picture, (v >= start) * (v <= end) * np.ones_like(u), trim_colour)
+    if placket is not None:
+        picture = _placket(picture, u, v, placket)
+    light = WEAVES[weave](random, h, w)
+    if folds:
+        bent = u + 0.04 * value_noise(random, h, w, 4, 3)
+        light = light - folds * (0.5 + 0.5 * np.sin(bent * 2 * np.pi * 9)) ** 3 * v
+    if seams:
+        light = light - 0.10 * np.exp(-((v - 1.0) / 0.02) ** 2) - 0.08 * np.exp(-(v / 0.015) ** 2)
+    picture = picture * light[..., None]
+    if hem:
+        ragged = v + 0.05 * value_noise(random, h, w, 3, 9)
+        picture = _blend(picture, hem * np.clip((ragged - 0.80) / 0.2, 0, 1) ** 1.5, HEM_DIRT)
+    return np.clip(picture, 0.0, 1.0)
+
+
+def _placket(picture, u, v, placket):
+    width, colour, buttons, button_colour = placket
+    picture = _blend(picture, (u < width) * np.ones_like(v), colour)
+    edge = np.exp(-((u - width) / 0.008) ** 2) * np.ones_like(v)
+    picture = picture * (1 - 0.35 * edge[..., None])
+    if buttons:
+        place = (v * buttons) % 1.0 - 0.5
+        dot = (u / 0.016) ** 2 + (place / (0.11)) ** 2 < 1.0
+        picture = _blend(picture, dot * 1.0, button_colour)
+    return picture
+
+
+def shrunk(picture, width, height):
+    """Box-filtered down to a size that divides the picture's, or nearest where it does not."""
+    h, w = picture.shape[:2]
+    fy, fx = h // height, w // width
+    if fy >= 1 and fx >= 1 and h % height == 0 and w % width == 0:
+        return picture.reshape(height, fy, width, fx, 3).mean(axis=(1, 3))
+    rows = (np.arange(height) + 0.5) * h // height
+    columns = (np.arange(width) + 0.5) * w // width
+    return picture[rows.astype(int)][:, columns.astype(int)]
+
+
+def pack_cells(pictures):
+    """Shelf-packs {name: picture} into one atlas; returns it with {name: (x, y, width, height)} in px."""
+    atlas = np.full((ATLAS_PX, ATLAS_PX, 3), 0.4)
+    places, x, y, shelf = {}, 0, 0, 0
+    for name in sorted(pictures, key=lambda key: (-pictures[key].shape[0], key)):
+        h, w = pictures[name].shape[:2]
+        if x + w > ATLAS_PX:
+            x, y, shelf = 0, y + shelf, 0
+        if y + h > ATLAS_PX:
+            fail("people.py: the texture cells do not fit into %d px (at '%s')" % (ATLAS_PX, name))
+        atlas[y:y + h, x:x + w] = pictures[name]
+        places[name] = (x, y, w, h)
+        x, shelf = x + w, max(shelf, h)
+    return atlas, places
+
+
+def atlas_uv(corner_uv, place):
+    """glTF texture coordinates (v down from the top) in the atlas of coordinates in a cell."""
+    x, y, w, h = place
+    inner = np.array([w - 2 * GUTTER_PX, h - 2 * GUTTER_PX])
+    return (np.array([x, y]) + GUTTER_PX + np.clip(corner_uv, 0, 1) * inner) / ATLAS_PX
+
+
+def skin_picture(source, tint, smooth, blush=0.0):
+    """The MakeHuman skin at 1024 px: tinted, and without stubble where `smooth` (0 to 1)."""
+    picture = shrunk(source[::-1], 1024, 1024)
+    if smooth:
+        picture = picture * (1 - smooth) + _without_speckles(picture) * smooth
+    picture = picture * np.asarray(tint)
+    if blush:
+        picture = picture * (1.0 - blush * np.array([0.0, 0.10, 0.08]))
+    return np.clip(picture, 0.0, 1.0)
+
+
+def _without_speckles(picture):
+    """Removes dark specks (stubble, pores) but keeps large dark areas: a closing by rank filters."""
+    def shifted(stack_of):
+        return np.stack([np.roll(np.roll(stack_of, dy, 0), dx, 1) for dy in (-2, 0, 2) for dx in (-2, 0, 2)])
+    closed = shifted(shifted(picture).max(axis=0)).min(axis=0)
+    blurred = shifted(closed).mean(axis=0)
+    return blurred
+
+
+def blender_image(name, picture, quality=88):
+    """A packed JPEG image in Blender."""
+    h, w = picture.shape[:2]
+    image = bpy.data.images.new(name, w, h)
+    values = np.ones((h, w, 4), np.float32)
+    values[..., :3] = picture[::-1]
+    image.pixels.foreach_set(values.ravel())
+    image.update()
+    settings = bpy.context.scene.render.image_settings
+    settings.file_format, settings.quality, settings.color_mode = "JPEG", quality, "RGB"
+    bpy.context.scene.view_settings.view_transform = "Standard"
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, name + ".jpg")
+        image.save_render(path)
+        loaded = bpy.data.images.load(path)
+        loaded.pack()
+    bpy.data.images.remove(image)
+    loaded.name = name
+    return loaded
+
+
+def blender_material(name, image, roughness, metallic):
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    material.use_backface_culling = False
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    texture = nodes.new("ShaderNodeTexImage")
+    texture.image = image
+    links.new(texture.outputs["Color"], shader.inputs["Base Color"])
+    shader.inputs["Roughness"].default_value = roughness
+    shader.inputs["Metallic"].default_value = metallic
+    for specular in ("Specular", "Specular IOR Level"):
+        if specular in shader.inputs:
+            shader.inputs[specular].default_value = 0.5
+    return material
