@@ -1,0 +1,136 @@
+"""Ambient occlusion of every vertex by casting rays over its hemisphere, and the colours that come of it."""
+
+import math
+
+import numpy as np
+from mathutils import Vector
+from mathutils.bvhtree import BVHTree
+
+REACH_M = 6.0        # farther things darken nothing
+DARKEST = 0.16
+START_M = 0.03       # rays start this far off the surface
+PULL = 0.06          # and this share of the way to the middle of the polygon
+
+
+class Corners:
+    """A mesh as arrays, one row a corner."""
+
+    def __init__(self, mesh):
+        self.points = np.array(mesh.points, float).reshape(-1, 3)
+        self.sizes = np.array(mesh.sizes, int)
+        self.first = np.concatenate([[0], np.cumsum(self.sizes)[:-1]]).astype(int)
+        self.face = np.repeat(np.arange(len(self.sizes)), self.sizes)
+        p = self.points
+        nxt = np.arange(len(p)) + 1
+        last = self.first + self.sizes - 1
+        nxt[last] = self.first
+        cross = np.cross(p - p[self.first][self.face], p[nxt] - p[self.first][self.face])
+        normal = np.zeros((len(self.sizes), 3))
+        np.add.at(normal, self.face, cross)
+        length = np.linalg.norm(normal, axis=1)
+        self.area = length / 2
+        self.face_normal = normal / np.maximum(1e-12, length)[:, None]
+        self.normals = self.face_normal[self.face].copy()
+        for index, values in mesh.normals.items():
+            f = self.first[index]
+            n = np.array(values, float)
+            self.normals[f:f + len(n)] = n / np.maximum(1e-9, np.linalg.norm(n, axis=1))[:, None]
+        middle = np.zeros((len(self.sizes), 3))
+        np.add.at(middle, self.face, p)
+        self.middle = middle / self.sizes[:, None]
+        self.colors = np.array(mesh.colors, float).reshape(-1, 3)[self.face]
+
+    def polygons(self, start=0):
+        return [list(range(start + f, start + f + n)) for f, n in zip(self.first.tolist(), self.sizes.tolist())]
+
+
+def make_tree(parts):
+    """A search tree over the polygons of several Corners."""
+    points, polygons = [], []
+    for part in parts:
+        polygons.extend(part.polygons(len(points)))
+        points.extend(map(tuple, part.points.tolist()))
+    return BVHTree.FromPolygons(points, polygons)
+
+
+def _hemisphere(count):
+    """Cosine-weighted directions about +z (Fibonacci spiral)."""
+    k = np.arange(count) + 0.5
+    r = np.sqrt(k / count)
+    t = k * math.pi * (3 - math.sqrt(5))
+    return np.stack([r * np.cos(t), r * np.sin(t), np.sqrt(1 - k / count)], axis=1)
+
+
+def occlusion(part, tree, samples):
+    """Open share of the sky dome at every corner, 0 to 1; corners inside other solids take their neighbours'."""
+    n = part.normals
+    key = np.round(np.concatenate([part.points * 50, n * 6], axis=1)).astype(np.int64)
+    _, chosen, inverse = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    inverse = inverse.reshape(-1)
+    p, n, middle = part.points[chosen], part.normals[chosen], part.middle[part.face[chosen]]
+    start = p + n * START_M + (middle - p) * PULL
+    helper = np.where(np.abs(n[:, 2:3]) < 0.9, np.array([[0.0, 0.0, 1.0]]), np.array([[1.0, 0.0, 0.0]]))
+    t = np.cross(helper, n)
+    t /= np.maximum(1e-9, np.linalg.norm(t, axis=1))[:, None]
+    b = np.cross(n, t)
+    dome = _hemisphere(samples)
+    turn = (key[chosen, 0] * 12.9898 + key[chosen, 1] * 78.233 + key[chosen, 2] * 37.719) % (2 * math.pi)
+    light = np.ones(len(p))
+    buried = np.zeros(len(p), bool)
+    cast = tree.ray_cast
+    for i in range(len(p)):
+        c, s = math.cos(turn[i]), math.sin(turn[i])
+        local = np.stack([dome[:, 0] * c - dome[:, 1] * s, dome[:, 0] * s + dome[:, 1] * c, dome[:, 2]], axis=1)
+        rays = local @ np.array([t[i], b[i], n[i]])
+        origin = Vector(start[i])
+        shadow, inside = 0.0, 0
+        for ray in rays.tolist():
+            hit, normal, _, distance = cast(origin, ray, REACH_M)
+            if hit is not None:
+                shadow += 1 - distance / REACH_M
+                if normal[0] * ray[0] + normal[1] * ray[1] + normal[2] * ray[2] > 0:
+                    inside += 1
+        light[i] = 1 - shadow / samples
+        buried[i] = inside > 0.6 * samples
+    light, buried = light[inverse], buried[inverse]
+    return _fill(part, light, buried)
+
+
+def _fill(part, light, buried):
+    """Corners inside other solids take the mean of the open corners of their polygon."""
+    total = np.zeros(len(part.sizes))
+    count = np.zeros(len(part.sizes))
+    np.add.at(total, part.face, np.where(buried, 0, light))
+    np.add.at(count, part.face, ~buried)
+    mean = np.where(count > 0, total / np.maximum(count, 1), 0.3)
+    return np.where(buried, mean[part.face] * 0.75, light)
+
+
+def value_noise(x, y, z, cell):
+    """Smooth noise from 0 to 1 in space."""
+    p = np.stack([x, y, z], axis=-1) / cell
+    base = np.floor(p).astype(np.int64)
+    f = p - base
+    f = f * f * (3 - 2 * f)
+    total = np.zeros(p.shape[:-1])
+    for dx in (0, 1):
+        for dy in (0, 1):
+            for dz in (0, 1):
+                h = (base[..., 0] + dx) * 73856093 ^ (base[..., 1] + dy) * 19349663 ^ (base[..., 2] + dz) * 83492791
+                h = (h ^ (h >> 13)) * 1274126177 & 0xFFFFFF
+                w = (f[..., 0] if dx else 1 - f[..., 0]) * (f[..., 1] if dy else 1 - f[..., 1]) \
+                    * (f[..., 2] if dz else 1 - f[..., 2])
+                total += w * (h / float(0xFFFFFF))
+    return total
+
+
+def vertex_colors(part, light, weather):
+    """Linear RGB of every corner: tint, times light (shadows a little warm), times large soft stains."""
+    open_sky = DARKEST + (1 - DARKEST) * np.clip(light, 0, 1) ** 1.25
+    warm = np.stack([open_sky ** 0.92, open_sky, open_sky ** 1.08], axis=1)
+    p = part.points
+    stain = 1.0
+    if weather > 0:
+        noise = 0.6 * value_noise(*p.T, 5.3) + 0.4 * value_noise(*(p + 100).T, 1.9)
+        stain = (1 - weather + 2 * weather * noise)[:, None]
+    return np.clip(part.colors * warm * stain, 0, 1)

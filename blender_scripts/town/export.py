@@ -1,0 +1,115 @@
+"""Blender objects from the gathered meshes, and the GLB."""
+
+import os
+
+import bpy
+import numpy as np
+
+import textures
+
+
+def make_materials(names, pixels, seed, folder):
+    """One material a name: base colour = texture times vertex colour."""
+    made = {}
+    for name in names:
+        material = bpy.data.materials.new(name)
+        material.use_nodes = True
+        material.use_backface_culling = name != "leaves"
+        shader = material.node_tree.nodes["Principled BSDF"]
+        if name in textures.TEXTURES:
+            image = _image(name, pixels, seed, folder)
+            node = material.node_tree.nodes.new("ShaderNodeTexImage")
+            node.image = image
+            material.node_tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
+            shader.inputs["Roughness"].default_value = textures.TEXTURES[name][2]
+        else:
+            shader.inputs["Base Color"].default_value = (1, 1, 1, 1)
+            shader.inputs["Roughness"].default_value = 0.5
+            shader.inputs["Metallic"].default_value = 0.0
+        made[name] = material
+    return made
+
+
+def _image(name, pixels, seed, folder):
+    """The texture as a JPEG file, which the exporter embeds as it is."""
+    values = textures.make(name, pixels, seed)
+    size = values.shape[0]
+    image = bpy.data.images.new(name, size, size)
+    rgba = np.ones((size, size, 4), np.float32)
+    rgba[..., :3] = values
+    image.pixels.foreach_set(rgba.ravel())
+    path = os.path.join(folder, name + ".jpg")
+    image.filepath_raw = path
+    image.file_format = "JPEG"
+    bpy.context.scene.render.image_settings.quality = 88
+    image.save()
+    bpy.data.images.remove(image)
+    loaded = bpy.data.images.load(path)
+    loaded.name = name
+    return loaded
+
+
+def make_blender_mesh(name, mesh, part, colors, materials):
+    """A Blender mesh with shared points, flat normals unless given, texture coordinates and vertex colours."""
+    keep = part.area > 1e-6
+    corner_kept = keep[part.face]
+    points = part.points[corner_kept]
+    key = np.round(points * 10000).astype(np.int64)
+    _, chosen, inverse = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    inverse = inverse.reshape(-1)
+    sizes = part.sizes[keep]
+    data = bpy.data.meshes.new(name)
+    data.vertices.add(len(chosen))
+    data.vertices.foreach_set("co", points[chosen].astype(np.float32).ravel())
+    data.loops.add(len(points))
+    data.loops.foreach_set("vertex_index", inverse.astype(np.int32))
+    data.polygons.add(len(sizes))
+    data.polygons.foreach_set("loop_start", np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int32))
+    data.polygons.foreach_set("loop_total", sizes.astype(np.int32))
+    used = sorted(set(mesh.materials))
+    for material in used:
+        data.materials.append(materials[material])
+    slot = {material: i for i, material in enumerate(used)}
+    indices = np.array([slot[m] for m in mesh.materials], np.int32)[keep]
+    data.polygons.foreach_set("material_index", indices)
+    smooth = np.zeros(len(part.sizes), bool)
+    smooth[list(mesh.normals)] = True
+    data.polygons.foreach_set("use_smooth", smooth[keep])
+    data.update(calc_edges=True)
+    layer = data.uv_layers.new(name="UVMap")
+    layer.data.foreach_set("uv", np.array(mesh.uvs, np.float32)[corner_kept].ravel())
+    attribute = data.color_attributes.new("Color", "BYTE_COLOR", "CORNER")
+    rgba = np.ones((len(points), 4), np.float32)
+    rgba[:, :3] = colors[corner_kept]
+    attribute.data.foreach_set("color", rgba.ravel())
+    data.color_attributes.active_color = attribute
+    data.color_attributes.render_color_index = 0
+    if smooth.any():
+        data.use_auto_smooth = True
+        data.normals_split_custom_set([tuple(n) for n in part.normals[corner_kept].tolist()])
+    return data
+
+
+def add_object(name, data, extras, location=(0, 0, 0), yaw=0.0, scale=1.0):
+    """An object of the scene; its custom properties become the node's extras."""
+    thing = bpy.data.objects.new(name, data)
+    thing.location = location
+    thing.rotation_euler = (0, 0, yaw)
+    thing.scale = (scale, scale, scale)
+    for key, value in extras.items():
+        thing[key] = value
+    bpy.context.scene.collection.objects.link(thing)
+    return thing
+
+
+def write_glb(path):
+    """Exports the scene; options that this Blender's exporter does not know are left out."""
+    if not hasattr(np, "bool"):   # the exporter of Blender 3.4 still uses this name, numpy 1.24 dropped it
+        np.bool = bool
+    wish = {"filepath": path, "export_format": "GLB", "export_extras": True, "export_yup": True, "export_apply": False,
+            "export_colors": True, "export_vertex_color": "ACTIVE", "export_all_vertex_colors": False,
+            "export_active_vertex_color_when_no_material": True, "export_animations": False, "export_skins": False,
+            "export_morph": False, "export_image_format": "AUTO", "export_lights": False, "export_cameras": False,
+            "export_tangents": False}
+    known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
+    bpy.ops.export_scene.gltf(**{key: value for key, value in wish.items() if key in known})

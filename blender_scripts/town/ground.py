@@ -1,0 +1,142 @@
+"""The ground: carriageways, square, pavements with kerbs, lawns, back gardens and the land outside.
+
+One constrained triangulation carries the kerb lines, the edges of lawns and the feet of the walls, so that nothing
+overlaps and the baked light has vertices where it changes.
+"""
+
+import math
+
+import numpy as np
+from mathutils import Vector, geometry
+
+import plan
+from layout import Field, contour, simplify
+from mesh import Mesh, shade, srgb
+
+UNDER_WALLS_M = 0.5     # the walkable ground goes on this far under the walls
+KERB_STONE_M = 0.2
+MATERIAL = {"carriageway": "cobble", "square": "setts", "pavement": "paving", "grass": "grass", "kerb": "stone",
+            "garden": "grass"}
+TINT = {"carriageway": (0.95, 0.94, 0.92), "square": (1.0, 0.98, 0.95), "pavement": (0.96, 0.94, 0.9),
+        "grass": (0.95, 1.0, 0.9), "kerb": (0.78, 0.76, 0.73), "garden": (0.85, 0.92, 0.8)}
+
+
+def _lines(streets, public):
+    """Lines that the triangulation has to keep."""
+    carriage = Field(lambda p: plan.carriage_distance(p, streets))
+    grass = Field(plan.grass_distance)
+    square = Field(plan.square_distance)
+    fields = [(carriage, 0.0, 0.02), (carriage, KERB_STONE_M, 0.03), (grass, 0.0, 0.04), (square, 0.0, 0.04),
+              (public, 0.0, 0.05), (public, -0.7, 0.06), (public, UNDER_WALLS_M, 0.06)]
+    kept = []
+    for field, level, tolerance in fields:
+        for line in contour(field.values, field.xs, field.ys, level):
+            line = simplify(line, tolerance)
+            kept.append(_divided(line, 2.2))
+    return kept, carriage
+
+
+def _divided(line, longest):
+    out = [line[0]]
+    for a, b in zip(line[:-1], line[1:]):
+        count = max(1, math.ceil(np.linalg.norm(b - a) / longest))
+        out.extend(a + (b - a) * i / count for i in range(1, count + 1))
+    return np.array(out)
+
+
+def _scattered(public, rng):
+    """Inner points: dense where people walk, wide in the gardens."""
+    fine = np.array([(x + 0.8 * (j % 2) + rng.uniform(-0.2, 0.2), y + rng.uniform(-0.2, 0.2))
+                     for j, y in enumerate(np.arange(-91, 91, 1.6)) for x in np.arange(-95, 95, 1.75)])
+    d = public(fine)
+    fine = fine[d < -1.0]
+    coarse = np.array([(x + rng.uniform(-1, 1), y + rng.uniform(-1, 1))
+                       for y in np.arange(-95, 96, 6.0) for x in np.arange(-99, 100, 6.0)])
+    return np.vstack([fine, coarse[public(coarse) > 2.0]])
+
+
+def make_ground(streets, public, rng):
+    """Meshes by kind: carriageway, square, pavement (with kerbs), grass and garden."""
+    lines, carriage_field = _lines(streets, public)
+    points, edges = [], []
+    for line in lines:
+        first = len(points)
+        points.extend(map(tuple, line))
+        edges.extend((first + i, first + i + 1) for i in range(len(line) - 1))
+    points.extend(map(tuple, _scattered(public, rng)))
+    verts, _, faces, *_ = geometry.delaunay_2d_cdt([Vector(p) for p in points], edges, [], 0, 1e-4)
+    xy = np.array([tuple(v) for v in verts])
+    tri = np.array([tuple(f) for f in faces])
+    middle = xy[tri].mean(axis=1)
+    a, b, c = xy[tri[:, 0]], xy[tri[:, 1]], xy[tri[:, 2]]
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    tri = np.where((area < 0)[:, None], tri[:, ::-1], tri)
+    kinds = _classify(middle, streets, public)
+    kinds[np.abs(area) < 1e-5] = "none"
+    meshes = {}
+    for kind in ("carriageway", "square", "pavement", "grass", "garden", "kerb"):
+        mesh = meshes.setdefault("pavement" if kind == "kerb" else kind, Mesh())
+        chosen = tri[kinds == kind]
+        height = plan.ground_height(xy[:, 0], xy[:, 1]) + (0.0 if kind in ("carriageway", "square") else plan.KERB_M)
+        if kind == "garden":
+            height = height - 0.03
+        spots = [(p[0], p[1], z) for p, z in zip(xy.tolist(), height.tolist())]
+        for t in chosen.tolist():
+            corners = [spots[i] for i in t]
+            mesh.face(MATERIAL[kind], corners, [(p[0], p[1]) for p in corners], TINT[kind])
+    for line in contour(carriage_field.values, carriage_field.xs, carriage_field.ys, 0.0):
+        _kerb(meshes["pavement"], _divided(simplify(line, 0.02), 2.2))
+    return meshes
+
+
+def _classify(middle, streets, public):
+    d_public = public(middle)
+    d_carriage = plan.carriage_distance(middle, streets)
+    outside = plan.distance_to_polygon(middle, plan.WALL_RING)
+    kinds = np.full(len(middle), "pavement", dtype=object)
+    kinds[d_carriage < KERB_STONE_M] = "kerb"
+    kinds[plan.grass_distance(middle) < 0] = "grass"
+    carriage = d_carriage < 0
+    kinds[carriage] = "carriageway"
+    kinds[carriage & (plan.square_distance(middle) < 0)] = "square"
+    kinds[d_public > UNDER_WALLS_M] = "garden"
+    kinds[outside > 13.0] = "none"
+    return kinds
+
+
+def _kerb(mesh, line):
+    along = 0.0
+    for a, b in zip(line[:-1], line[1:]):
+        length = float(np.linalg.norm(b - a))
+        if length < 1e-3:
+            continue
+        za, zb = float(plan.ground_height(*a)), float(plan.ground_height(*b))
+        points = [(b[0], b[1], zb - 0.02), (a[0], a[1], za - 0.02), (a[0], a[1], za + plan.KERB_M),
+                  (b[0], b[1], zb + plan.KERB_M)]
+        mesh.face("stone", points, [(along + length, 0), (along, 0), (along, 0.1), (along + length, 0.1)], TINT["kerb"])
+        along += length
+
+
+def far_land(rng):
+    """Meadows and wooded hills round the town, never walked on."""
+    mesh = Mesh()
+    radii = [74, 92, 104, 125, 160, 215, 290, 390, 520]
+    count = 72
+    waves = [(rng.uniform(0, 6.3), rng.randrange(2, 9), rng.uniform(0.4, 1.0)) for _ in range(6)]
+
+    def height(r, t):
+        x, y = r * math.cos(t), r * math.sin(t)
+        base = float(plan.ground_height(x, y)) - 0.5
+        hill = sum(w * math.sin(k * t + p + r * 0.004 * k) for p, k, w in waves) / 3 + 0.75
+        return base + max(0.0, hill) * 46 * max(0.0, (r - 130) / 390) ** 1.3
+
+    rings = [[(r * math.cos(2 * math.pi * i / count), r * math.sin(2 * math.pi * i / count),
+               height(r, 2 * math.pi * i / count)) for i in range(count)] for r in radii]
+    for k in range(len(radii) - 1):
+        for i in range(count):
+            j = (i + 1) % count
+            points = [rings[k][i], rings[k + 1][i], rings[k + 1][j], rings[k][j]]
+            wood = radii[k] > 200 and math.sin(i * 1.7 + k * 2.1) > 0.1
+            color = shade(srgb("5a7a48") if wood else srgb("a9b070"), rng.uniform(0.85, 1.0))
+            mesh.face("grass", points, [(p[0] * 0.2, p[1] * 0.2) for p in points], color)
+    return mesh

@@ -1,0 +1,298 @@
+"""Puts houses along the streets and round the square, and closes what stays open with garden walls.
+
+A plot is a rectangle: `origin` is the left end of its front seen from the street, `along` the unit vector to the
+right, `back` the one away from the street.
+"""
+
+import math
+
+import numpy as np
+
+import plan
+
+GAP_M = 0.35   # a house front may lie this far behind the line of the street
+
+
+class Field:
+    """A signed distance sampled on a grid over the whole town, read back between the samples."""
+
+    def __init__(self, function, step=0.5):
+        self.values, self.xs, self.ys = grid_field(function, step)
+        self.step = step
+
+    def __call__(self, points):
+        p = np.asarray(points, float).reshape(-1, 2)
+        ny, nx = self.values.shape
+        gx = np.clip((p[:, 0] - self.xs[0]) / self.step, 0, nx - 1.001)
+        gy = np.clip((p[:, 1] - self.ys[0]) / self.step, 0, ny - 1.001)
+        i, j = gx.astype(int), gy.astype(int)
+        fx, fy = gx - i, gy - j
+        v = self.values
+        return ((v[j, i] * (1 - fx) + v[j, i + 1] * fx) * (1 - fy)
+                + (v[j + 1, i] * (1 - fx) + v[j + 1, i + 1] * fx) * fy)
+
+
+class Plot:
+    """Where a house stands, and which of its sides can be seen."""
+
+    def __init__(self, origin, along, width, depth, kind="house"):
+        self.origin = np.array(origin, float)
+        self.along = np.array(along, float)
+        self.back = np.array((-along[1], along[0]), float)
+        self.width, self.depth, self.kind = width, depth, kind
+        self.left_open = self.right_open = self.back_open = True
+        self.middle = self.at(width / 2, depth / 2)
+
+    @property
+    def yaw(self):
+        return plan.yaw_of(self.along)
+
+    def corners(self, inset=0.0):
+        o, a, b, w, d = self.origin, self.along, self.back, self.width, self.depth
+        return np.array([o + a * inset + b * inset, o + a * (w - inset) + b * inset,
+                         o + a * (w - inset) + b * (d - inset), o + a * inset + b * (d - inset)])
+
+    def at(self, u, v):
+        return self.origin + self.along * u + self.back * v
+
+    def samples(self):
+        us = np.linspace(0.05, self.width - 0.05, 6)
+        vs = np.linspace(GAP_M, self.depth, 7)
+        return np.array([self.at(u, v) for u in us for v in vs])
+
+    def contains(self, points, grow=0.0):
+        p = np.asarray(points, float).reshape(-1, 2) - self.origin
+        u, v = p @ self.along, p @ self.back
+        return (u > -grow) & (u < self.width + grow) & (v > -grow) & (v < self.depth + grow)
+
+
+def _overlap(a, b):
+    """How deep two plots lie in each other (separating axes), 0 if apart."""
+    pa, pb = a.corners(), b.corners()
+    least = 1e9
+    for axis in (a.along, a.back, b.along, b.back):
+        ia, ib = pa @ axis, pb @ axis
+        least = min(least, min(ia.max(), ib.max()) - max(ia.min(), ib.min()))
+        if least <= 0:
+            return 0.0
+    return least
+
+
+def offset_line(axis, distance):
+    """The line at a signed distance to the left of an axis."""
+    tangent = np.gradient(axis, axis=0)
+    tangent /= np.linalg.norm(tangent, axis=1)[:, None]
+    return axis + distance * np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
+
+
+class _Line:
+    """A line by its length."""
+
+    def __init__(self, points):
+        self.points = points
+        self.s = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+
+    def at(self, s):
+        return np.array([np.interp(s, self.s, self.points[:, 0]), np.interp(s, self.s, self.points[:, 1])])
+
+
+def frontages(streets):
+    """Lines that houses stand along, each with the houses to the left of its direction reversed: a house's front
+    runs from left to right seen from the street, so the house lies to the left of the line."""
+    x0, x1, y0, y1 = plan.SQUARE
+    lines = [np.array([(x0, y1), (x1, y1)], float), np.array([(x1, y0), (x0, y0)], float),
+             np.array([(x1, y1), (x1, y0)], float), np.array([(x0, y0), (x0, y1)], float)]
+    for street in streets:
+        half = street.width_m / 2
+        lines.append(offset_line(street.axis, half))
+        lines.append(offset_line(street.axis, -half)[::-1])
+    end = streets[-1].axis
+    tip, direction = end[-1], end[-1] - end[-2]
+    direction /= np.linalg.norm(direction)
+    side = np.array([direction[1], -direction[0]])
+    lines.append(np.array([tip - side * 4.5, tip + side * 4.5]))
+    lines.append(np.array([(19.5, 42.0), (29.0, 42.0)]))      # north side of the church plaza
+    return lines
+
+
+def _fits(plot, plots, public):
+    if np.any(public(plot.samples()) < 0.0):
+        return False
+    ring = np.array(plan.WALL_RING)
+    if np.any(plan.distance_to_polygon(plot.corners(), ring) > -2.2):
+        return False
+    near = [o for o in plots if np.abs(o.middle - plot.middle).max() < 16.0]
+    return all(_overlap(plot, other) < 0.3 for other in near)
+
+
+def _try(line, s, width, depth, setback, plots, public):
+    if s + width > line.s[-1]:
+        return None
+    start, end = line.at(s), line.at(s + width)
+    chord = end - start
+    length = np.linalg.norm(chord)
+    along = chord / length
+    back = np.array((-along[1], along[0]))
+    middle = line.at(s + width / 2)
+    bulge = max(0.0, float((middle - start) @ back))
+    plot = Plot(start + back * (bulge + 0.02 + setback), along, length, depth)
+    return plot if _fits(plot, plots, public) else None
+
+
+def special_plots():
+    """The house over the passage at the south side of the square, town hall and church."""
+    hall, church = plan.TOWN_HALL, plan.CHURCH
+    passage = Plot((14.2, plan.SQUARE[2] - 0.05), (-1.0, 0.0), 8.4, 9.4, "passage")
+    back = hall["front"] + hall["arcade"]
+    return [passage, Plot((hall["x0"], back), (1.0, 0.0), hall["x1"] - hall["x0"], hall["back"] - back, "town_hall"),
+            Plot((church["west"], church["axis"] - 8), (1.0, 0.0), 40, 16, "church")]
+
+
+def place_houses(streets, public, rng, width_m):
+    """Plots in the order of their frontages; `width_m` is the mean width."""
+    plots = special_plots()
+    for points in frontages(streets):
+        line = _Line(points)
+        s = 0.0
+        while s < line.s[-1] - 4.8:
+            wish = min(9.0, max(5.2, rng.gauss(width_m, 0.95)))
+            depth, setback = rng.uniform(8.4, 10.2), 0.14 * rng.random()
+            plot = None
+            for width in (wish, 0.85 * wish, 5.6, 5.0):
+                for cut in (0.0, 1.6, 3.0):
+                    plot = plot or _try(line, s, max(5.0, width), max(6.2, depth - cut), setback,
+                                        plots, public)
+            if plot is None:
+                s += 0.3
+                continue
+            plots.append(plot)
+            s += plot.width
+    for plot in plots:
+        _find_open_sides(plot, plots)
+    return plots
+
+
+def _find_open_sides(plot, plots):
+    def free(points):
+        return any(not any(o is not plot and o.contains(p, 0.25)[0] for o in plots) for p in points)
+
+    w, d = plot.width, plot.depth
+    plot.left_open = free([plot.at(-0.5, d * 0.3), plot.at(-0.5, d * 0.7)])
+    plot.right_open = free([plot.at(w + 0.5, d * 0.3), plot.at(w + 0.5, d * 0.7)])
+    plot.back_open = free([plot.at(w * 0.3, d + 0.5), plot.at(w * 0.7, d + 0.5)])
+
+
+def contour(field, xs, ys, level=0.0):
+    """Lines where a field on a grid crosses a level, the lower side to their left; closed lines repeat a point."""
+    f = field - level
+    f = np.where(np.abs(f) < 1e-6, 1e-6, f)
+    links = {}
+    ny, nx = f.shape
+
+    def cross(j, i, k, m):
+        t = f[j, i] / (f[j, i] - f[k, m])
+        return (xs[i] + (xs[m] - xs[i]) * t, ys[j] + (ys[k] - ys[j]) * t)
+
+    inside = f < 0
+    mixed = inside[:-1, :-1].astype(int) + inside[1:, :-1] + inside[:-1, 1:] + inside[1:, 1:]
+    for j, i in zip(*np.nonzero((mixed > 0) & (mixed < 4))):
+        ring = [(j, i), (j, i + 1), (j + 1, i + 1), (j + 1, i)]
+        enter, leave = [], []
+        for a, b in zip(ring, ring[1:] + ring[:1]):
+            if inside[a] != inside[b]:
+                key = (a, b) if a < b else (b, a)
+                (leave if inside[a] else enter).append(key)
+        # Walking round the cell anticlockwise, the inside is left at `leave`: the line runs leave -> enter.
+        for a, b in zip(leave, enter if len(enter) == 1 else enter[::-1]):
+            links[a] = b
+    lines = []
+    ends = set(links.values())
+    starts = [k for k in links if k not in ends] + list(links)
+    used = set()
+    for start in starts:
+        if start in used:
+            continue
+        chain, key = [start], start
+        while key in links and key not in used:
+            used.add(key)
+            key = links[key]
+            chain.append(key)
+        lines.append(np.array([cross(*a, *b) for a, b in chain]))
+    return lines
+
+
+def simplify(line, tolerance):
+    """Douglas-Peucker."""
+    if len(line) < 3:
+        return line
+    keep = np.zeros(len(line), bool)
+    keep[0] = keep[-1] = True
+    closed = np.allclose(line[0], line[-1])
+    if closed:
+        keep[len(line) // 2] = True
+    stack = [(0, len(line) // 2), (len(line) // 2, len(line) - 1)] if closed else [(0, len(line) - 1)]
+    while stack:
+        a, b = stack.pop()
+        if b - a < 2:
+            continue
+        chord = line[b] - line[a]
+        length = max(1e-9, np.linalg.norm(chord))
+        away = line[a + 1:b] - line[a]
+        d = np.abs(away[:, 0] * chord[1] - away[:, 1] * chord[0]) / length
+        k = int(np.argmax(d))
+        if d[k] > tolerance:
+            keep[a + 1 + k] = True
+            stack += [(a, a + 1 + k), (a + 1 + k, b)]
+    return line[keep]
+
+
+def grid_axes(step):
+    return np.arange(-96.0, 96.0 + step / 2, step), np.arange(-92.0, 92.0 + step / 2, step)
+
+
+def grid_field(function, step):
+    xs, ys = grid_axes(step)
+    gx, gy = np.meshgrid(xs, ys)
+    return function(np.stack([gx.ravel(), gy.ravel()], axis=1)).reshape(gx.shape), xs, ys
+
+
+def garden_walls(public, plots):
+    """Lines along the edge of the public space where no house closes it, lengthened a little into the houses."""
+    ring = np.array(plan.WALL_RING)
+    hall = plan.TOWN_HALL
+    runs = []
+    for line in contour(public.values, public.xs, public.ys, 0.12):
+        cum = _Line(line)
+        count = max(2, int(cum.s[-1] / 0.2))
+        p = np.array([cum.at(s) for s in np.linspace(0, cum.s[-1], count)])
+        tangent = np.gradient(p, axis=0)
+        tangent /= np.maximum(1e-9, np.linalg.norm(tangent, axis=1))[:, None]
+        outside = p + 0.25 * np.stack([tangent[:, 1], -tangent[:, 0]], axis=1)   # the public space is to the left
+        covered = np.zeros(count, bool)
+        for plot in plots:
+            covered |= plot.contains(outside, 0.02)
+        covered |= plan.distance_to_box(p, hall["x0"] - 0.05, hall["x1"] + 0.05, hall["front"], hall["back"]) < 0.1
+        covered |= plan.distance_to_polygon(p, ring) > -0.3
+        start = None
+        for i in range(count + 1):
+            bare = i < count and not covered[i]
+            if bare and start is None:
+                start = i
+            if not bare and start is not None:
+                if i - start >= 1:
+                    a, b = max(0, start - 2), min(count, i + 2)
+                    runs.append(simplify(p[a:b], 0.05))
+                start = None
+    return [run for run in runs if len(run) > 1]
+
+
+def make_layout(rng, width_m):
+    """Streets, the signed distance to the edge of the public space, plots and garden walls."""
+    streets = plan.make_streets(rng)
+    public = Field(lambda p: plan.walkable_distance(p, streets))
+    plots = place_houses(streets, public, rng, width_m)
+    return streets, public, plots, garden_walls(public, plots)
+
+
+def nearest_plot(plots, x, y):
+    return min(plots, key=lambda p: math.hypot(*(p.at(p.width / 2, p.depth / 2) - (x, y))))
