@@ -1,0 +1,86 @@
+#include "pipeline/core/avatar.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flaneur {
+namespace {
+
+Vec3 Mix(Vec3 a, Vec3 b, float t) { return a * (1 - t) + b * t; }
+
+Transform Mix(const Transform& a, const Transform& b, float t) {
+  return {Mix(a.translation, b.translation, t), Slerp(a.rotation, b.rotation, t),
+          Mix(a.scale, b.scale, t)};
+}
+
+// Key and share of the next one at the time, wrapped into the clip.
+void FindKey(const Clip& clip, float time_s, int* key, float* share) {
+  *key = 0;
+  *share = 0;
+  if (clip.keys < 2 || !(clip.duration_s > 0)) return;
+  const float turns = time_s / clip.duration_s;
+  const float at = (turns - std::floor(turns)) * static_cast<float>(clip.keys - 1);
+  *key = std::min(static_cast<int>(at), clip.keys - 2);
+  *share = at - static_cast<float>(*key);
+}
+
+Mat4 Blend(const std::array<uint16_t, 4>& joints, const std::array<float, 4>& weights,
+           const std::vector<Mat4>& matrices) {
+  Mat4 out;
+  for (size_t c = 0; c < 4; ++c) {
+    for (size_t r = 0; r < 4; ++r) {
+      float sum = 0;
+      for (size_t i = 0; i < 4; ++i) sum += weights[i] * matrices[joints[i]].m[c][r];
+      out.m[c][r] = sum;
+    }
+  }
+  return out;
+}
+
+// Cofactors of the upper 3x3: the inverse transpose but for length, which also holds for singular matrices.
+Vec3 TransformNormal(const Mat4& m, Vec3 n) {
+  const Vec3 x{m.m[0][0], m.m[0][1], m.m[0][2]};
+  const Vec3 y{m.m[1][0], m.m[1][1], m.m[1][2]};
+  const Vec3 z{m.m[2][0], m.m[2][1], m.m[2][2]};
+  return Normalized(Cross(y, z) * n.x + Cross(z, x) * n.y + Cross(x, y) * n.z);
+}
+
+}  // namespace
+
+std::vector<Mat4> SkinningMatrices(const Avatar& avatar, const Clip& clip, float time_s) {
+  const size_t joints = avatar.joints.size();
+  int key = 0;
+  float share = 0;
+  FindKey(clip, time_s, &key, &share);
+  const Transform* first = clip.transforms.data() + static_cast<size_t>(key) * joints;
+  std::vector<Mat4> matrices(joints);
+  for (size_t j = 0; j < joints; ++j) {
+    const Transform local = share > 0 ? Mix(first[j], first[joints + j], share) : first[j];
+    const Mat4 matrix =
+        FromTranslationRotationScale(local.translation, local.rotation, local.scale);
+    const int parent = avatar.joints[j].parent;
+    matrices[j] = parent < 0 ? matrix : matrices[static_cast<size_t>(parent)] * matrix;
+  }
+  for (size_t j = 0; j < joints; ++j) matrices[j] = matrices[j] * avatar.joints[j].inverse_bind;
+  return matrices;
+}
+
+Mesh Skinned(const Mesh& mesh, const std::vector<Mat4>& matrices) {
+  Mesh out = mesh;
+  if (mesh.joints.size() != mesh.positions.size()) return out;
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Mat4 matrix = Blend(mesh.joints[i], mesh.weights[i], matrices);
+    out.positions[i] = TransformPoint(matrix, mesh.positions[i]);
+    if (!mesh.normals.empty()) out.normals[i] = TransformNormal(matrix, mesh.normals[i]);
+  }
+  return out;
+}
+
+const Clip* FindClip(const Avatar& avatar, const std::string& name) {
+  for (const Clip& clip : avatar.clips) {
+    if (clip.name == name) return &clip;
+  }
+  return nullptr;
+}
+
+}  // namespace flaneur

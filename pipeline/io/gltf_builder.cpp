@@ -1,0 +1,595 @@
+#include "pipeline/io/gltf_builder.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "pipeline/io/draco_codec.h"
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // glTF component types
+constexpr int kVertices = 34962, kIndices = 34963;                      // glTF bufferView targets
+
+json Numbers(Vec3 v) { return {v.x, v.y, v.z}; }
+json Numbers(Vec4 v) { return {v.x, v.y, v.z, v.w}; }
+json Numbers(Quat q) { return {q.x, q.y, q.z, q.w}; }
+
+template <typename T>
+std::span<const uint8_t> Bytes(const std::vector<T>& values) {
+  return {reinterpret_cast<const uint8_t*>(values.data()), values.size() * sizeof(T)};
+}
+
+// Floats that share one bufferView: the validator wants one kind of use each.
+struct FloatPool {
+  std::vector<float> values;
+  std::map<std::vector<float>, int> accessors;  // equal arrays are stored once
+  std::vector<int> waiting;                     // accessors whose bufferView is still to come
+};
+
+PositionGrid GridAround(std::span<const Mesh> parts) {
+  Vec3 min{1e30f, 1e30f, 1e30f}, max{-1e30f, -1e30f, -1e30f};
+  for (const Mesh& mesh : parts) {
+    for (const uint32_t i : mesh.indices) {
+      const Vec3 p = mesh.positions[i];
+      min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
+      max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
+    }
+  }
+  const Vec3 size = max - min;
+  const float largest = std::max({size.x, size.y, size.z});
+  return {min, largest > 0 ? largest : 1.0f};
+}
+
+Error CheckPart(const Mesh& mesh, std::span<const int> materials) {
+  const size_t n = mesh.positions.size();
+  const auto fits = [n](size_t size) { return size == 0 || size == n; };
+  if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.uvs1.size()) ||
+      !fits(mesh.colors.size()) || !fits(mesh.joints.size()) || !fits(mesh.weights.size())) {
+    return Fail("an attribute has not one value a vertex");
+  }
+  if (mesh.indices.size() % 3 != 0) return Fail("its indices are not triangles");
+  for (const uint32_t i : mesh.indices) {
+    if (i >= n) return Fail("an index is out of range");
+  }
+  if (mesh.material >= static_cast<int>(materials.size())) {
+    return Fail("its material is out of range");
+  }
+  return Ok();
+}
+
+// Only the vertices that triangles use, in order of first use.
+Mesh Compact(const Mesh& in) {
+  std::vector<uint32_t> to(in.positions.size(), 0xffffffffu), from;
+  Mesh out;
+  out.material = in.material;
+  for (const uint32_t i : in.indices) {
+    if (to[i] == 0xffffffffu) {
+      to[i] = static_cast<uint32_t>(from.size());
+      from.push_back(i);
+    }
+    out.indices.push_back(to[i]);
+  }
+  const auto gather = [&from](const auto& values, auto* result) {
+    if (values.empty()) return;
+    for (const uint32_t i : from) result->push_back(values[i]);
+  };
+  gather(in.positions, &out.positions);
+  gather(in.normals, &out.normals);
+  gather(in.uvs, &out.uvs);
+  gather(in.uvs1, &out.uvs1);
+  gather(in.colors, &out.colors);
+  gather(in.joints, &out.joints);
+  gather(in.weights, &out.weights);
+  return out;
+}
+
+bool JointsFitBytes(std::span<const Mesh> parts) {
+  for (const Mesh& mesh : parts) {
+    for (const auto& joints : mesh.joints) {
+      if (*std::max_element(joints.begin(), joints.end()) > 255) return false;
+    }
+  }
+  return true;
+}
+
+void PutU32(uint32_t value, std::vector<uint8_t>* out) {
+  for (int i = 0; i < 4; ++i) out->push_back(static_cast<uint8_t>(value >> (8 * i)));
+}
+
+void PutChunk(uint32_t type, std::span<const uint8_t> bytes, uint8_t padding,
+              std::vector<uint8_t>* out) {
+  const size_t padded = (bytes.size() + 3) / 4 * 4;
+  PutU32(static_cast<uint32_t>(padded), out);
+  PutU32(type, out);
+  out->insert(out->end(), bytes.begin(), bytes.end());
+  out->insert(out->end(), padded - bytes.size(), padding);
+}
+
+}  // namespace
+
+struct GltfBuilder::Impl {
+  json root = {{"asset", {{"version", "2.0"}, {"generator", "Flaneur"}}}};
+  std::vector<uint8_t> binary;
+  std::set<std::string> used, required;
+  std::map<std::string, int> images;  // by their bytes
+  std::map<std::pair<int, bool>, int> textures;
+  FloatPool binds, key_times, key_values;
+  Error problem;  // the first broken JSON given, reported by Finish
+
+  int Add(const char* list, json item) {
+    root[list].push_back(std::move(item));
+    return static_cast<int>(root[list].size()) - 1;
+  }
+
+  int AddView(std::span<const uint8_t> bytes, int target) {
+    binary.resize((binary.size() + 3) / 4 * 4);
+    json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
+    if (target != 0) view["target"] = target;
+    binary.insert(binary.end(), bytes.begin(), bytes.end());
+    return Add("bufferViews", std::move(view));
+  }
+
+  json ParseObject(const std::string& what, std::string_view text) {
+    json value = json::parse(text, nullptr, false);
+    if (value.is_object()) return value;
+    if (!problem) problem = Fail("glTF: " + what + " is not a JSON object");
+    return json::object();
+  }
+
+  int AddFloats(FloatPool* pool, const std::vector<float>& values, const char* type,
+                size_t components, bool bounds) {
+    // Equal numbers as another type would be another accessor; the component count tells them apart.
+    std::vector<float> identity = values;
+    identity.push_back(static_cast<float>(components));
+    const auto [it, is_new] = pool->accessors.try_emplace(std::move(identity), -1);
+    if (!is_new) return it->second;
+    json accessor = {{"byteOffset", pool->values.size() * sizeof(float)},
+                     {"componentType", kFloat},
+                     {"count", values.size() / components},
+                     {"type", type}};
+    if (bounds) {
+      accessor["min"] = {*std::min_element(values.begin(), values.end())};
+      accessor["max"] = {*std::max_element(values.begin(), values.end())};
+    }
+    pool->values.insert(pool->values.end(), values.begin(), values.end());
+    it->second = Add("accessors", std::move(accessor));
+    pool->waiting.push_back(it->second);
+    return it->second;
+  }
+
+  void FlushPool(FloatPool* pool) {
+    if (pool->waiting.empty()) return;
+    const int view = AddView(Bytes(pool->values), 0);
+    for (const int accessor : pool->waiting) {
+      root["accessors"][static_cast<size_t>(accessor)]["bufferView"] = view;
+    }
+    pool->waiting.clear();
+  }
+
+  // An accessor whose numbers are in the Draco data, or in `view`.
+  int AddAttribute(int view, int component, const char* type, size_t count, bool normalized) {
+    json accessor = {{"componentType", component}, {"count", count}, {"type", type}};
+    if (view >= 0) accessor["bufferView"] = view;
+    if (normalized) accessor["normalized"] = true;
+    return Add("accessors", std::move(accessor));
+  }
+
+  void SetBounds(int accessor, Vec3 min, Vec3 max) {
+    json& a = root["accessors"][static_cast<size_t>(accessor)];
+    a["min"] = Numbers(min);
+    a["max"] = Numbers(max);
+  }
+
+  Error AddCompressed(const Mesh& mesh, const DracoOptions& options, const PositionGrid& grid,
+                      bool byte_joints, json* primitive);
+  void AddPlain(const Mesh& mesh, bool byte_joints, json* primitive);
+  json Channel(const Clip& clip, size_t joint, size_t joints, const Transform& rest, int node,
+               const char* path, json* samplers);
+};
+
+Error GltfBuilder::Impl::AddCompressed(const Mesh& mesh, const DracoOptions& options,
+                                       const PositionGrid& grid, bool byte_joints,
+                                       json* primitive) {
+  DracoMesh draco;
+  if (Error e = EncodeDraco(mesh, options, grid, byte_joints, &draco)) return e;
+  json ids = json::object();
+  json& attributes = (*primitive)["attributes"];
+  const auto add = [&](int id, const char* name, int component, const char* type, bool normalized) {
+    if (id < 0) return;
+    ids[name] = id;
+    attributes[name] =
+        AddAttribute(-1, component, type, static_cast<size_t>(draco.vertices), normalized);
+  };
+  add(draco.position, "POSITION", kFloat, "VEC3", false);
+  add(draco.normal, "NORMAL", kFloat, "VEC3", false);
+  add(draco.uv, "TEXCOORD_0", kFloat, "VEC2", false);
+  add(draco.uv1, "TEXCOORD_1", kFloat, "VEC2", false);
+  add(draco.color, "COLOR_0", kFloat, "VEC4", false);
+  add(draco.joints, "JOINTS_0", byte_joints ? kByte : kShort, "VEC4", false);
+  add(draco.weights, "WEIGHTS_0", kByte, "VEC4", true);
+  SetBounds(attributes["POSITION"], draco.min, draco.max);
+  (*primitive)["indices"] = AddAttribute(-1, draco.vertices > 65535 ? kInt : kShort, "SCALAR",
+                                         3 * static_cast<size_t>(draco.triangles), false);
+  (*primitive)["extensions"]["KHR_draco_mesh_compression"] = {
+      {"bufferView", AddView(draco.bytes, 0)}, {"attributes", ids}};
+  used.insert("KHR_draco_mesh_compression");
+  required.insert("KHR_draco_mesh_compression");
+  return Ok();
+}
+
+void GltfBuilder::Impl::AddPlain(const Mesh& mesh, bool byte_joints, json* primitive) {
+  json& attributes = (*primitive)["attributes"];
+  const size_t n = mesh.positions.size();
+  const auto add = [&](const char* name, const auto& values, int component, const char* type,
+                       bool normalized) {
+    if (values.empty()) return;
+    attributes[name] =
+        AddAttribute(AddView(Bytes(values), kVertices), component, type, n, normalized);
+  };
+  add("POSITION", mesh.positions, kFloat, "VEC3", false);
+  add("NORMAL", mesh.normals, kFloat, "VEC3", false);
+  add("TEXCOORD_0", mesh.uvs, kFloat, "VEC2", false);
+  add("TEXCOORD_1", mesh.uvs1, kFloat, "VEC2", false);
+  add("COLOR_0", mesh.colors, kFloat, "VEC4", false);
+  std::vector<std::array<uint8_t, 4>> joints, weights;
+  for (const auto& j : mesh.joints) {
+    joints.push_back({static_cast<uint8_t>(j[0]), static_cast<uint8_t>(j[1]),
+                      static_cast<uint8_t>(j[2]), static_cast<uint8_t>(j[3])});
+  }
+  for (const auto& w : mesh.weights) weights.push_back(WeightBytes(w));
+  if (byte_joints) add("JOINTS_0", joints, kByte, "VEC4", false);
+  if (!byte_joints) add("JOINTS_0", mesh.joints, kShort, "VEC4", false);
+  add("WEIGHTS_0", weights, kByte, "VEC4", true);
+  Vec3 min = mesh.positions[0], max = min;
+  for (const Vec3 p : mesh.positions) {
+    min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
+    max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
+  }
+  SetBounds(attributes["POSITION"], min, max);
+  if (n > 65535) {
+    (*primitive)["indices"] =
+        AddAttribute(AddView(Bytes(mesh.indices), kIndices), kInt, "SCALAR", mesh.indices.size(),
+                     false);
+    return;
+  }
+  const std::vector<uint16_t> indices(mesh.indices.begin(), mesh.indices.end());
+  (*primitive)["indices"] =
+      AddAttribute(AddView(Bytes(indices), kIndices), kShort, "SCALAR", indices.size(), false);
+}
+
+GltfBuilder::GltfBuilder() : impl_(std::make_unique<Impl>()) {}
+GltfBuilder::~GltfBuilder() = default;
+GltfBuilder::GltfBuilder(GltfBuilder&&) noexcept = default;
+GltfBuilder& GltfBuilder::operator=(GltfBuilder&&) noexcept = default;
+
+int GltfBuilder::AddImage(const Image& image) {
+  const auto [it, is_new] = impl_->images.try_emplace(
+      std::string(image.bytes.begin(), image.bytes.end()), -1);
+  if (!is_new) return it->second;
+  json item = {{"bufferView", impl_->AddView(image.bytes, 0)}, {"mimeType", image.mime_type}};
+  if (!image.name.empty()) item["name"] = image.name;
+  return it->second = impl_->Add("images", std::move(item));
+}
+
+int GltfBuilder::AddTexture(int image, bool repeat) {
+  const auto [it, is_new] = impl_->textures.try_emplace({image, repeat}, -1);
+  if (!is_new) return it->second;
+  const int wrap = repeat ? 10497 : 33071;
+  json sampler = {{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", wrap}, {"wrapT", wrap}};
+  json& samplers = impl_->root["samplers"];
+  int index = -1;
+  for (size_t i = 0; i < samplers.size(); ++i) {
+    if (samplers[i] == sampler) index = static_cast<int>(i);
+  }
+  if (index < 0) index = impl_->Add("samplers", std::move(sampler));
+  return it->second = impl_->Add("textures", {{"sampler", index}, {"source", image}});
+}
+
+int GltfBuilder::AddMaterial(const Material& material) {
+  json pbr = {{"baseColorFactor", Numbers(material.base_color)},
+              {"metallicFactor", material.metallic},
+              {"roughnessFactor", material.roughness}};
+  if (material.base_color_image >= 0) {
+    pbr["baseColorTexture"] = {{"index", AddTexture(material.base_color_image)}};
+  }
+  json item = {{"pbrMetallicRoughness", pbr}};
+  if (!material.name.empty()) item["name"] = material.name;
+  if (material.normal_image >= 0) {
+    item["normalTexture"] = {{"index", AddTexture(material.normal_image)}};
+  }
+  if (material.double_sided) item["doubleSided"] = true;
+  if (material.alpha == Material::Alpha::kBlend) item["alphaMode"] = "BLEND";
+  if (material.alpha == Material::Alpha::kMask) {
+    item["alphaMode"] = "MASK";
+    item["alphaCutoff"] = material.alpha_cutoff;
+  }
+  return impl_->Add("materials", std::move(item));
+}
+
+std::vector<int> GltfBuilder::AddMaterials(std::span<const Material> materials,
+                                           std::span<const Image> images) {
+  std::vector<int> added;
+  const auto here = [&](int image) {
+    return image < 0 ? -1 : AddImage(images[static_cast<size_t>(image)]);
+  };
+  for (Material material : materials) {
+    material.base_color_image = here(material.base_color_image);
+    material.normal_image = here(material.normal_image);
+    added.push_back(AddMaterial(material));
+  }
+  return added;
+}
+
+Error GltfBuilder::AddMesh(const std::string& name, std::span<const Mesh> parts,
+                           std::span<const int> materials, const DracoOptions& draco, int* mesh) {
+  for (const Mesh& part : parts) {
+    if (Error e = CheckPart(part, materials)) {
+      return Fail("mesh '" + OneLine(name) + "': " + e.message);
+    }
+  }
+  const PositionGrid grid = GridAround(parts);
+  const bool byte_joints = JointsFitBytes(parts);
+  json primitives = json::array();
+  for (const Mesh& part : parts) {
+    if (part.indices.empty()) continue;
+    const Mesh compact = Compact(part);
+    json primitive = json::object();
+    if (part.material >= 0) primitive["material"] = materials[static_cast<size_t>(part.material)];
+    if (!draco.compress) {
+      impl_->AddPlain(compact, byte_joints, &primitive);
+    } else if (Error e = impl_->AddCompressed(compact, draco, grid, byte_joints, &primitive)) {
+      return Fail("mesh '" + OneLine(name) + "': " + e.message);
+    }
+    primitives.push_back(std::move(primitive));
+  }
+  if (primitives.empty()) return Fail("mesh '" + OneLine(name) + "' has no triangle");
+  json item = {{"primitives", std::move(primitives)}};
+  if (!name.empty()) item["name"] = name;
+  *mesh = impl_->Add("meshes", std::move(item));
+  return Ok();
+}
+
+int GltfBuilder::AddNode(const GltfNode& node) {
+  json item = json::object();
+  if (!node.name.empty()) item["name"] = node.name;
+  if (node.mesh >= 0) item["mesh"] = node.mesh;
+  if (node.skin >= 0) item["skin"] = node.skin;
+  const Transform& t = node.transform;
+  const Transform none;
+  if (Numbers(t.translation) != Numbers(none.translation)) {
+    item["translation"] = Numbers(t.translation);
+  }
+  if (Numbers(t.rotation) != Numbers(none.rotation)) item["rotation"] = Numbers(t.rotation);
+  if (Numbers(t.scale) != Numbers(none.scale)) item["scale"] = Numbers(t.scale);
+  if (!node.extras.empty()) item["extras"] = impl_->ParseObject("a node's extras", node.extras);
+  const int index = impl_->Add("nodes", std::move(item));
+  if (node.parent >= 0) {
+    impl_->root["nodes"][static_cast<size_t>(node.parent)]["children"].push_back(index);
+  }
+  return index;
+}
+
+int GltfBuilder::AddSkin(const std::string& name, std::span<const int> joint_nodes,
+                         std::span<const Mat4> inverse_binds, int skeleton_node) {
+  std::vector<float> values;
+  for (const Mat4& matrix : inverse_binds) {
+    for (const auto& column : matrix.m) values.insert(values.end(), column.begin(), column.end());
+    // What glTF asks of an affine matrix, without rounding's last digits.
+    const size_t first = values.size() - 16;
+    values[first + 3] = values[first + 7] = values[first + 11] = 0;
+    values[first + 15] = 1;
+  }
+  json item = {{"joints", std::vector<int>(joint_nodes.begin(), joint_nodes.end())},
+               {"inverseBindMatrices",
+                impl_->AddFloats(&impl_->binds, values, "MAT4", 16, false)}};
+  if (!name.empty()) item["name"] = name;
+  if (skeleton_node >= 0) item["skeleton"] = skeleton_node;
+  return impl_->Add("skins", std::move(item));
+}
+
+namespace {
+
+// Tolerances of a dropped key: invisible, and far below Draco's rounding of the vertices it moves.
+constexpr float kTranslationTolerance_m = 0.0002f;
+constexpr float kRotationTolerance = 0.0005f;  // of a quaternion's components, about 0.06 degrees
+constexpr float kScaleTolerance = 0.0002f;
+
+struct Track {
+  size_t width = 3;
+  float tolerance = 0;
+  std::vector<Vec4> keys;
+};
+
+Track MakeTrack(const Clip& clip, size_t joint, size_t joints, const std::string& path) {
+  Track track;
+  track.tolerance = path == "translation" ? kTranslationTolerance_m
+                    : path == "rotation"  ? kRotationTolerance
+                                          : kScaleTolerance;
+  if (path == "rotation") track.width = 4;
+  for (size_t k = 0; k < static_cast<size_t>(clip.keys); ++k) {
+    const Transform& t = clip.transforms[k * joints + joint];
+    const Vec3 v = path == "translation" ? t.translation : t.scale;
+    Vec4 key{v.x, v.y, v.z, 0};
+    if (path == "rotation") {
+      key = {t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w};
+      // The shorter way round, also for players that interpolate by component.
+      if (k > 0) {
+        const Vec4 b = track.keys.back();
+        if (key.x * b.x + key.y * b.y + key.z * b.z + key.w * b.w < 0) {
+          key = {-key.x, -key.y, -key.z, -key.w};
+        }
+      }
+    }
+    track.keys.push_back(key);
+  }
+  return track;
+}
+
+float Difference(Vec4 a, Vec4 b) {
+  return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z),
+                   std::abs(a.w - b.w)});
+}
+
+Vec4 Interpolated(const Track& track, size_t first, size_t last, size_t k) {
+  const float t = static_cast<float>(k - first) / static_cast<float>(last - first);
+  const Vec4 a = track.keys[first], b = track.keys[last];
+  if (track.width == 4) {
+    const Quat q = Slerp({a.x, a.y, a.z, a.w}, {b.x, b.y, b.z, b.w}, t);
+    return {q.x, q.y, q.z, q.w};
+  }
+  return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, 0};
+}
+
+// The keys to keep: the greatest misfit splits a run, as Ramer, Douglas and Peucker do for lines.
+void KeepKeys(const Track& track, size_t first, size_t last, std::vector<bool>* keep) {
+  (*keep)[first] = (*keep)[last] = true;
+  float worst = track.tolerance;
+  size_t split = 0;
+  for (size_t k = first + 1; k < last; ++k) {
+    const float misfit = Difference(Interpolated(track, first, last, k), track.keys[k]);
+    if (misfit > worst) {
+      worst = misfit;
+      split = k;
+    }
+  }
+  if (split == 0) return;
+  KeepKeys(track, first, split, keep);
+  KeepKeys(track, split, last, keep);
+}
+
+Vec4 RestKey(const Transform& rest, const std::string& path) {
+  if (path == "rotation") {
+    return {rest.rotation.x, rest.rotation.y, rest.rotation.z, rest.rotation.w};
+  }
+  const Vec3 v = path == "translation" ? rest.translation : rest.scale;
+  return {v.x, v.y, v.z, 0};
+}
+
+}  // namespace
+
+json GltfBuilder::Impl::Channel(const Clip& clip, size_t joint, size_t joints,
+                                const Transform& rest, int node, const char* path,
+                                json* samplers) {
+  const Track track = MakeTrack(clip, joint, joints, path);
+  const Vec4 still = RestKey(rest, path), opposite{-still.x, -still.y, -still.z, -still.w};
+  bool moves = false;
+  for (const Vec4 key : track.keys) {
+    const float from_rest = track.width == 4
+                                ? std::min(Difference(key, still), Difference(key, opposite))
+                                : Difference(key, still);
+    moves = moves || from_rest > track.tolerance / 2;
+  }
+  if (!moves) return nullptr;
+  const size_t keys = track.keys.size();
+  std::vector<bool> keep(keys, false);
+  KeepKeys(track, 0, keys - 1, &keep);
+  std::vector<float> times, values;
+  for (size_t k = 0; k < keys; ++k) {
+    if (!keep[k]) continue;
+    const float share = keys > 1 ? static_cast<float>(k) / static_cast<float>(keys - 1) : 0.0f;
+    times.push_back(share * clip.duration_s);
+    const float* v = &track.keys[k].x;
+    values.insert(values.end(), v, v + track.width);
+  }
+  samplers->push_back({{"input", AddFloats(&key_times, times, "SCALAR", 1, true)},
+                       {"output", AddFloats(&key_values, values,
+                                            track.width == 4 ? "VEC4" : "VEC3", track.width,
+                                            false)}});
+  return {{"sampler", samplers->size() - 1}, {"target", {{"node", node}, {"path", path}}}};
+}
+
+int GltfBuilder::AddAnimation(const std::string& name, const Clip& clip,
+                              std::span<const Joint> joints, std::span<const int> joint_nodes) {
+  json channels = json::array(), samplers = json::array();
+  for (size_t j = 0; j < joints.size(); ++j) {
+    for (const char* path : {"translation", "rotation", "scale"}) {
+      json channel = impl_->Channel(clip, j, joints.size(), joints[j].rest, joint_nodes[j], path,
+                                    &samplers);
+      if (!channel.is_null()) channels.push_back(std::move(channel));
+    }
+  }
+  if (channels.empty()) return -1;
+  json item = {{"channels", std::move(channels)}, {"samplers", std::move(samplers)}};
+  if (!name.empty()) item["name"] = name;
+  return impl_->Add("animations", std::move(item));
+}
+
+int GltfBuilder::AddScene(const std::string& name, std::span<const int> root_nodes) {
+  json item = json::object();
+  if (!name.empty()) item["name"] = name;
+  if (!root_nodes.empty()) item["nodes"] = std::vector<int>(root_nodes.begin(), root_nodes.end());
+  impl_->root["scene"] = 0;
+  return impl_->Add("scenes", std::move(item));
+}
+
+int GltfBuilder::AddBufferView(std::span<const uint8_t> bytes) { return impl_->AddView(bytes, 0); }
+
+void GltfBuilder::UseExtension(const std::string& name, bool required) {
+  impl_->used.insert(name);
+  if (required) impl_->required.insert(name);
+}
+
+void GltfBuilder::SetRootExtension(const std::string& name, std::string_view text) {
+  impl_->root["extensions"][name] = impl_->ParseObject(name, text);
+  UseExtension(name);
+}
+
+void GltfBuilder::SetNodeExtension(int node, const std::string& name, std::string_view text) {
+  impl_->root["nodes"][static_cast<size_t>(node)]["extensions"][name] =
+      impl_->ParseObject(name, text);
+  UseExtension(name);
+}
+
+void GltfBuilder::SetNodeExtras(int node, std::string_view text) {
+  impl_->root["nodes"][static_cast<size_t>(node)]["extras"] =
+      impl_->ParseObject("a node's extras", text);
+}
+
+void GltfBuilder::SetLevels(int node, std::span<const int> coarser,
+                            std::span<const float> switch_heights) {
+  json& item = impl_->root["nodes"][static_cast<size_t>(node)];
+  item["extensions"]["MSFT_lod"]["ids"] = std::vector<int>(coarser.begin(), coarser.end());
+  item["extras"]["MSFT_screencoverage"] =
+      std::vector<float>(switch_heights.begin(), switch_heights.end());
+  UseExtension("MSFT_lod");
+}
+
+Error GltfBuilder::Finish(std::vector<uint8_t>* glb) {
+  Impl& impl = *impl_;
+  for (FloatPool* pool : {&impl.binds, &impl.key_times, &impl.key_values}) impl.FlushPool(pool);
+  if (!impl.used.empty()) impl.root["extensionsUsed"] = impl.used;
+  if (!impl.required.empty()) impl.root["extensionsRequired"] = impl.required;
+  if (!impl.binary.empty()) {
+    impl.root["buffers"] = json::array({{{"byteLength", impl.binary.size()}}});
+  }
+  const Error problem = impl.problem;
+  std::string text;
+  try {
+    text = impl.root.dump();
+  } catch (const json::exception& e) {  // text that is not UTF-8
+    *this = GltfBuilder();
+    return Fail(std::string("glTF: ") + OneLine(e.what()));
+  }
+  const size_t size = 12 + 8 + text.size() + 3 + 8 + impl.binary.size() + 3;
+  if (!problem && size > 0xffffffffu) {
+    *this = GltfBuilder();
+    return Fail("glTF: more than the 4 GiB that a binary file can hold");
+  }
+  glb->clear();
+  glb->reserve(size);
+  for (const uint32_t word : {0x46546c67u, 2u, 0u}) PutU32(word, glb);
+  PutChunk(0x4e4f534au, {reinterpret_cast<const uint8_t*>(text.data()), text.size()}, ' ', glb);
+  if (!impl.binary.empty()) PutChunk(0x004e4942u, impl.binary, 0, glb);
+  for (size_t i = 0; i < 4; ++i) (*glb)[8 + i] = static_cast<uint8_t>(glb->size() >> (8 * i));
+  *this = GltfBuilder();
+  return problem;
+}
+
+}  // namespace flaneur

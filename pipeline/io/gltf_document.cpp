@@ -1,0 +1,622 @@
+#include "pipeline/io/gltf_document.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+#include "pipeline/io/draco_codec.h"
+#include "pipeline/io/gltf_accessor.h"
+#include "pipeline/io/gltf_primitive.h"
+#include "runtime/base/file.h"
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+using tinygltf::Model;
+using tinygltf::Value;
+
+// Extensions that this reader either understands or that change nothing about geometry and base colour.
+const std::set<std::string> kKnownExtensions{
+    "KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_texture_transform",
+    "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit", "KHR_materials_specular",
+    "KHR_materials_ior", "KHR_materials_clearcoat", "KHR_materials_sheen",
+    "KHR_materials_emissive_strength", "KHR_materials_variants", "KHR_materials_anisotropy",
+    "KHR_materials_transmission", "KHR_materials_volume", "KHR_lights_punctual", "MSFT_lod",
+    "KHR_xmp_json_ld", "FLANEUR_tour"};
+
+std::string Quoted(const std::string& name) { return "'" + OneLine(name) + "'"; }
+
+std::string NameOr(const std::string& name, const char* kind, size_t index) {
+  return name.empty() ? std::string(kind) + " " + std::to_string(index) : name;
+}
+
+// Keeps the file's bytes; decoding is the affair of whoever uses the picture.
+bool KeepImageBytes(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                    const unsigned char* bytes, int size, void*) {
+  // An image in a bufferView is fetched later, with its bounds checked.
+  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
+  image->as_is = true;
+  return true;
+}
+
+Error ParseFile(const std::filesystem::path& path, Model* model) {
+  std::vector<uint8_t> bytes;
+  if (Error e = ReadFile(path, &bytes)) return e;
+  const std::string file = path.string();
+  if (bytes.size() > 0xffffffffu) return Fail(file + ": larger than 4 GiB, split it");
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader(KeepImageBytes, nullptr);
+  std::string error, warning;
+  const std::string folder = path.parent_path().string();
+  const unsigned size = static_cast<unsigned>(bytes.size());
+  const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+  bool ok = false;
+  try {
+    ok = binary ? loader.LoadBinaryFromMemory(model, &error, &warning, bytes.data(), size, folder)
+                : loader.LoadASCIIFromString(model, &error, &warning,
+                                             reinterpret_cast<const char*>(bytes.data()), size,
+                                             folder);
+  } catch (const std::exception& e) {
+    ok = false;
+    error = e.what();
+  }
+  if (ok) return Ok();
+  if (error.empty()) error = "broken";
+  return Fail(file + (binary ? ": broken or truncated glTF binary: " : ": not a glTF file: ") +
+              OneLine(error));
+}
+
+Error CheckExtensions(const Model& model) {
+  for (const std::string& name : model.extensionsRequired) {
+    if (kKnownExtensions.count(name) > 0) continue;
+    return Fail("needs the extension " + OneLine(name) +
+                ", which is not supported; export the file without it");
+  }
+  return Ok();
+}
+
+Error ReadNumberTag(const Value& extras, const char* key, float* value) {
+  if (!extras.Has(key)) return Ok();
+  if (!extras.Get(key).IsNumber()) return Fail(std::string(key) + " must be a number");
+  *value = static_cast<float>(extras.Get(key).GetNumberAsDouble());
+  return std::isfinite(*value) && *value >= 0 ? Ok() : Fail(std::string(key) + " is out of range");
+}
+
+Error ReadTextTag(const Value& extras, const char* key, std::string* value) {
+  if (!extras.Has(key)) return Ok();
+  if (!extras.Get(key).IsString()) return Fail(std::string(key) + " must be a string");
+  *value = extras.Get(key).Get<std::string>();
+  return Ok();
+}
+
+Error ReadTags(const Value& extras, NodeTags* tags) {
+  if (!extras.IsObject()) return Ok();
+  if (Error e = ReadTextTag(extras, "flaneur_kind", &tags->kind)) return e;
+  if (Error e = ReadTextTag(extras, "flaneur_ground", &tags->ground)) return e;
+  if (Error e = ReadNumberTag(extras, "flaneur_radius_m", &tags->radius_m)) return e;
+  if (Error e = ReadNumberTag(extras, "flaneur_width_m", &tags->width_m)) return e;
+  return ReadNumberTag(extras, "flaneur_walk_speed_mps", &tags->walk_speed_mps);
+}
+
+void ReadTransform(const tinygltf::Node& in, DocumentNode* out) {
+  const auto f = [](double v) { return static_cast<float>(v); };
+  if (in.translation.size() == 3) {
+    out->translation = {f(in.translation[0]), f(in.translation[1]), f(in.translation[2])};
+  }
+  if (in.rotation.size() == 4) {
+    out->rotation = Normalized(
+        Quat{f(in.rotation[0]), f(in.rotation[1]), f(in.rotation[2]), f(in.rotation[3])});
+  }
+  if (in.scale.size() == 3) out->scale = {f(in.scale[0]), f(in.scale[1]), f(in.scale[2])};
+  if (in.matrix.size() == 16) {
+    out->has_matrix = true;
+    for (size_t i = 0; i < 16; ++i) out->matrix.m[i / 4][i % 4] = f(in.matrix[i]);
+  }
+}
+
+bool Finite(const Mat4& matrix) {
+  for (const auto& column : matrix.m) {
+    for (const float v : column) {
+      if (!std::isfinite(v)) return false;
+    }
+  }
+  return true;
+}
+
+Error ReadNode(const Model& model, size_t index, DocumentNode* out) {
+  const tinygltf::Node& in = model.nodes[index];
+  out->name = NameOr(in.name, "node", index);
+  out->mesh = in.mesh;
+  out->skin = in.skin;
+  ReadTransform(in, out);
+  if (!Finite(LocalMatrix(*out))) return Fail("its transform is not finite");
+  if (in.mesh >= static_cast<int>(model.meshes.size())) {
+    return Fail("mesh " + std::to_string(in.mesh) + " does not exist");
+  }
+  if (in.skin >= static_cast<int>(model.skins.size())) {
+    return Fail("skin " + std::to_string(in.skin) + " does not exist");
+  }
+  return ReadTags(in.extras, &out->tags);
+}
+
+Error LinkNodes(const Model& model, GltfDocument* document) {
+  const int count = static_cast<int>(document->nodes.size());
+  for (int i = 0; i < count; ++i) {
+    for (const int child : model.nodes[static_cast<size_t>(i)].children) {
+      if (child < 0 || child >= count) {
+        return Fail("node " + Quoted(document->nodes[i].name) + ": child " +
+                    std::to_string(child) + " does not exist");
+      }
+      DocumentNode& node = document->nodes[static_cast<size_t>(child)];
+      if (node.parent >= 0 || child == i) {
+        return Fail("node " + Quoted(node.name) + " has two parents");
+      }
+      node.parent = i;
+    }
+  }
+  return Ok();
+}
+
+// Depth first from the roots; nodes in a ring are never reached.
+Error OrderNodes(const Model& model, GltfDocument* document) {
+  std::vector<int> stack;
+  for (int i = static_cast<int>(document->nodes.size()) - 1; i >= 0; --i) {
+    if (document->nodes[static_cast<size_t>(i)].parent < 0) stack.push_back(i);
+  }
+  while (!stack.empty()) {
+    const int node = stack.back();
+    stack.pop_back();
+    document->order.push_back(node);
+    const auto& children = model.nodes[static_cast<size_t>(node)].children;
+    stack.insert(stack.end(), children.rbegin(), children.rend());
+  }
+  if (document->order.size() != document->nodes.size()) return Fail("its nodes form a ring");
+  return Ok();
+}
+
+// Coarser levels that MSFT_lod names stand beside the scene, also where the file has no scene.
+std::set<int> CoarserLevels(const Model& model) {
+  std::set<int> nodes;
+  for (const tinygltf::Node& node : model.nodes) {
+    const auto lod = node.extensions.find("MSFT_lod");
+    if (lod == node.extensions.end() || !lod->second.Has("ids")) continue;
+    const Value& ids = lod->second.Get("ids");
+    for (size_t i = 0; ids.IsArray() && i < ids.ArrayLen(); ++i) {
+      if (ids.Get(i).IsNumber()) nodes.insert(ids.Get(i).GetNumberAsInt());
+    }
+  }
+  return nodes;
+}
+
+void MarkScene(const Model& model, GltfDocument* document) {
+  const size_t scene = model.defaultScene >= 0 ? static_cast<size_t>(model.defaultScene) : 0;
+  if (scene < model.scenes.size()) {
+    for (const int root : model.scenes[scene].nodes) {
+      if (root >= 0 && root < static_cast<int>(document->nodes.size())) {
+        document->nodes[static_cast<size_t>(root)].in_scene = true;
+      }
+    }
+  } else {
+    for (DocumentNode& node : document->nodes) node.in_scene = node.parent < 0;
+    for (const int i : CoarserLevels(model)) {
+      if (i >= 0 && i < static_cast<int>(document->nodes.size())) {
+        document->nodes[static_cast<size_t>(i)].in_scene = false;
+      }
+    }
+  }
+  for (const int i : document->order) {
+    DocumentNode& node = document->nodes[static_cast<size_t>(i)];
+    if (node.parent >= 0) {
+      node.in_scene = node.in_scene || document->nodes[static_cast<size_t>(node.parent)].in_scene;
+    }
+  }
+}
+
+Error ReadNodes(const Model& model, GltfDocument* document) {
+  document->nodes.resize(model.nodes.size());
+  for (size_t i = 0; i < model.nodes.size(); ++i) {
+    if (Error e = ReadNode(model, i, &document->nodes[i])) {
+      return Fail("node " + Quoted(document->nodes[i].name) + ": " + e.message);
+    }
+  }
+  if (Error e = LinkNodes(model, document)) return e;
+  if (Error e = OrderNodes(model, document)) return e;
+  MarkScene(model, document);
+  return Ok();
+}
+
+// Images: those in use are copied once.
+class ImageTable {
+ public:
+  ImageTable(const Model& model, GltfDocument* document)
+      : model_(model), document_(document), index_(model.images.size(), -1) {}
+
+  // The document's image behind a texture of the file; -1 where there is none.
+  Error Use(int texture, int* image) {
+    *image = -1;
+    if (texture < 0) return Ok();
+    if (static_cast<size_t>(texture) >= model_.textures.size()) {
+      return Fail("texture " + std::to_string(texture) + " does not exist");
+    }
+    const int source = model_.textures[static_cast<size_t>(texture)].source;
+    if (source < 0) return Fail("texture " + std::to_string(texture) + " has no PNG or JPEG image");
+    if (static_cast<size_t>(source) >= model_.images.size()) {
+      return Fail("image " + std::to_string(source) + " does not exist");
+    }
+    int& index = index_[static_cast<size_t>(source)];
+    if (index < 0) {
+      Image copy;
+      if (Error e = Copy(static_cast<size_t>(source), &copy)) return e;
+      index = static_cast<int>(document_->images.size());
+      document_->images.push_back(std::move(copy));
+    }
+    *image = index;
+    return Ok();
+  }
+
+ private:
+  Error Copy(size_t source, Image* out) {
+    const tinygltf::Image& in = model_.images[source];
+    out->name = NameOr(in.name.empty() ? in.uri.substr(0, 200) : in.name, "image", source);
+    out->bytes = in.image;
+    if (in.bufferView >= 0) {
+      std::span<const uint8_t> bytes;
+      if (Error e = BufferViewBytes(model_, in.bufferView, &bytes)) return e;
+      out->bytes.assign(bytes.begin(), bytes.end());
+    }
+    const auto starts = [&](std::initializer_list<uint8_t> magic) {
+      return out->bytes.size() > magic.size() &&
+             std::equal(magic.begin(), magic.end(), out->bytes.begin());
+    };
+    if (out->bytes.empty()) return Fail("image " + Quoted(out->name) + " is missing or empty");
+    if (starts({0x89, 'P', 'N', 'G'})) {
+      out->mime_type = "image/png";
+    } else if (starts({0xff, 0xd8, 0xff})) {
+      out->mime_type = "image/jpeg";
+    } else {
+      return Fail("image " + Quoted(out->name) + " is neither PNG nor JPEG; convert it");
+    }
+    return Ok();
+  }
+
+  const Model& model_;
+  GltfDocument* document_;
+  std::vector<int> index_;
+};
+
+Vec2 Pair(const Value& object, const char* key, Vec2 otherwise) {
+  if (!object.Has(key) || object.Get(key).ArrayLen() != 2) return otherwise;
+  const Value& pair = object.Get(key);
+  return {static_cast<float>(pair.Get(0).GetNumberAsDouble()),
+          static_cast<float>(pair.Get(1).GetNumberAsDouble())};
+}
+
+UvSource ReadUvSource(int set, const tinygltf::ExtensionMap& extensions) {
+  UvSource out;
+  out.set = set;
+  const auto it = extensions.find("KHR_texture_transform");
+  if (it == extensions.end() || !it->second.IsObject()) return out;
+  const Value& transform = it->second;
+  out.offset = Pair(transform, "offset", out.offset);
+  out.scale = Pair(transform, "scale", out.scale);
+  if (transform.Has("rotation")) {
+    out.rotation_rad = static_cast<float>(transform.Get("rotation").GetNumberAsDouble());
+  }
+  if (transform.Has("texCoord")) out.set = transform.Get("texCoord").GetNumberAsInt();
+  return out;
+}
+
+Vec4 Factor(const std::vector<double>& values) {
+  if (values.size() != 4) return {1, 1, 1, 1};
+  return {static_cast<float>(values[0]), static_cast<float>(values[1]),
+          static_cast<float>(values[2]), static_cast<float>(values[3])};
+}
+
+// The diffuse part of KHR_materials_pbrSpecularGlossiness stands in for the base colour.
+void ReadDiffuse(const Value& extension, Vec4* factor, int* texture) {
+  if (extension.Has("diffuseFactor")) {
+    const Value& diffuse = extension.Get("diffuseFactor");
+    std::vector<double> values;
+    for (size_t i = 0; i < diffuse.ArrayLen(); ++i) {
+      values.push_back(diffuse.Get(static_cast<int>(i)).GetNumberAsDouble());
+    }
+    *factor = Factor(values);
+  }
+  if (extension.Has("diffuseTexture") && extension.Get("diffuseTexture").Has("index")) {
+    *texture = extension.Get("diffuseTexture").Get("index").GetNumberAsInt();
+  }
+}
+
+bool SameUvs(const UvSource& a, const UvSource& b) {
+  return a.set == b.set && a.rotation_rad == b.rotation_rad && Length(a.offset - b.offset) == 0 &&
+         Length(a.scale - b.scale) == 0;
+}
+
+Error ReadMaterial(const tinygltf::Material& in, ImageTable* images, Material* out,
+                   UvSource* uv_source, std::vector<std::string>* warnings) {
+  const auto& pbr = in.pbrMetallicRoughness;
+  out->base_color = Factor(pbr.baseColorFactor);
+  out->metallic = static_cast<float>(pbr.metallicFactor);
+  out->roughness = static_cast<float>(pbr.roughnessFactor);
+  out->double_sided = in.doubleSided;
+  out->alpha_cutoff = static_cast<float>(in.alphaCutoff);
+  if (in.alphaMode == "MASK") out->alpha = Material::Alpha::kMask;
+  if (in.alphaMode == "BLEND") out->alpha = Material::Alpha::kBlend;
+  int base_texture = pbr.baseColorTexture.index;
+  const auto glossiness = in.extensions.find("KHR_materials_pbrSpecularGlossiness");
+  if (glossiness != in.extensions.end()) {
+    ReadDiffuse(glossiness->second, &out->base_color, &base_texture);
+    out->metallic = 0;
+  }
+  if (Error e = images->Use(base_texture, &out->base_color_image)) return e;
+  if (Error e = images->Use(in.normalTexture.index, &out->normal_image)) return e;
+  const UvSource normal_uvs =
+      ReadUvSource(in.normalTexture.texCoord, in.normalTexture.extensions);
+  *uv_source = out->base_color_image >= 0
+                   ? ReadUvSource(pbr.baseColorTexture.texCoord, pbr.baseColorTexture.extensions)
+                   : normal_uvs;
+  if (out->normal_image >= 0 && !SameUvs(*uv_source, normal_uvs)) {
+    out->normal_image = -1;
+    warnings->push_back("material " + Quoted(out->name) +
+                        ": its normal map is left out, as it lies on other uvs than its colour");
+  }
+  return Ok();
+}
+
+Error ReadMaterials(const Model& model, GltfDocument* document, std::vector<UvSource>* uv_sources,
+                    std::vector<std::string>* warnings) {
+  ImageTable images(model, document);
+  document->materials.resize(model.materials.size());
+  uv_sources->resize(model.materials.size());
+  for (size_t i = 0; i < model.materials.size(); ++i) {
+    Material& material = document->materials[i];
+    material.name = NameOr(model.materials[i].name, "material", i);
+    if (Error e = ReadMaterial(model.materials[i], &images, &material, &(*uv_sources)[i],
+                               warnings)) {
+      return Fail("material " + Quoted(material.name) + ": " + e.message);
+    }
+  }
+  return Ok();
+}
+
+bool WantedAttribute(const std::string& name) {
+  return name == "POSITION" || name == "NORMAL" || name == "COLOR_0" ||
+         name.starts_with("TEXCOORD_") || name.starts_with("JOINTS_") ||
+         name.starts_with("WEIGHTS_");
+}
+
+Error ReadDracoPrimitive(const Model& model, const tinygltf::Primitive& in, const Value& extension,
+                         RawPrimitive* raw) {
+  if (!extension.Has("bufferView") || !extension.Has("attributes")) {
+    return Fail("KHR_draco_mesh_compression lacks bufferView or attributes");
+  }
+  std::span<const uint8_t> bytes;
+  if (Error e = BufferViewBytes(model, extension.Get("bufferView").GetNumberAsInt(), &bytes)) {
+    return e;
+  }
+  std::vector<std::string> names;
+  std::vector<DracoAttribute> attributes;
+  for (const std::string& name : extension.Get("attributes").Keys()) {
+    if (!WantedAttribute(name)) continue;
+    names.push_back(name);
+    attributes.push_back({extension.Get("attributes").Get(name).GetNumberAsInt(), 0, false, {}});
+  }
+  if (Error e = DecodeDraco(bytes, attributes, &raw->indices)) return e;
+  raw->indexed = true;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const auto accessor = in.attributes.find(names[i]);
+    if (accessor == in.attributes.end() || accessor->second < 0 ||
+        static_cast<size_t>(accessor->second) >= model.accessors.size()) {
+      return Fail(names[i] + " has no accessor");
+    }
+    const tinygltf::Accessor& a = model.accessors[static_cast<size_t>(accessor->second)];
+    if (a.normalized && !attributes[i].normalized) {
+      const int bits = 8 * tinygltf::GetComponentSizeInBytes(
+                               static_cast<uint32_t>(a.componentType));
+      const bool is_signed = a.componentType == TINYGLTF_COMPONENT_TYPE_BYTE ||
+                             a.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
+      const double largest = static_cast<double>((1ull << (bits - (is_signed ? 1 : 0))) - 1);
+      for (float& v : attributes[i].values) v = static_cast<float>(v / largest);
+    }
+    raw->attributes[names[i]] = std::move(attributes[i].values);
+  }
+  return Ok();
+}
+
+Error ReadPlainPrimitive(const Model& model, const tinygltf::Primitive& in, RawPrimitive* raw) {
+  for (const auto& [name, accessor] : in.attributes) {
+    if (!WantedAttribute(name)) continue;
+    if (Error e = ReadFloats(model, accessor, 0, &raw->attributes[name])) {
+      return Fail(name + ": " + e.message);
+    }
+  }
+  raw->indexed = in.indices >= 0;
+  return raw->indexed ? ReadIndices(model, in.indices, &raw->indices) : Ok();
+}
+
+Error ReadPrimitive(const Model& model, const tinygltf::Primitive& in,
+                    const std::vector<UvSource>& uv_sources, DocumentPrimitive* out) {
+  RawPrimitive raw;
+  if (in.mode == TINYGLTF_MODE_TRIANGLE_STRIP) raw.mode = TriangleMode::kStrip;
+  if (in.mode == TINYGLTF_MODE_TRIANGLE_FAN) raw.mode = TriangleMode::kFan;
+  const auto draco = in.extensions.find("KHR_draco_mesh_compression");
+  const bool compressed = draco != in.extensions.end();
+  if (compressed) raw.mode = TriangleMode::kList;  // whatever the mode was, Draco holds triangles
+  if (Error e = compressed ? ReadDracoPrimitive(model, in, draco->second, &raw)
+                           : ReadPlainPrimitive(model, in, &raw)) {
+    return e;
+  }
+  UvSource uv_source;
+  if (in.material >= static_cast<int>(uv_sources.size())) {
+    return Fail("material " + std::to_string(in.material) + " does not exist");
+  }
+  out->mesh.material = in.material;
+  if (in.material >= 0) uv_source = uv_sources[static_cast<size_t>(in.material)];
+  return MakePrimitive(std::move(raw), uv_source, out);
+}
+
+Error ReadMesh(const Model& model, size_t index, const std::vector<UvSource>& uv_sources,
+               DocumentMesh* out) {
+  for (const tinygltf::Primitive& in : model.meshes[index].primitives) {
+    out->morphs = out->morphs || !in.targets.empty();
+    const bool triangles = in.mode == -1 || (in.mode >= TINYGLTF_MODE_TRIANGLES &&
+                                             in.mode <= TINYGLTF_MODE_TRIANGLE_FAN);
+    if (!triangles) continue;
+    DocumentPrimitive primitive;
+    if (Error e = ReadPrimitive(model, in, uv_sources, &primitive)) return e;
+    primitive.mesh.name = out->name;
+    if (!primitive.mesh.indices.empty()) out->primitives.push_back(std::move(primitive));
+  }
+  return Ok();
+}
+
+// Only meshes that the scene shows.
+Error ReadMeshes(const Model& model, const std::vector<UvSource>& uv_sources,
+                 GltfDocument* document) {
+  document->meshes.resize(model.meshes.size());
+  std::vector<bool> done(model.meshes.size());
+  for (const int i : document->order) {
+    const DocumentNode& node = document->nodes[static_cast<size_t>(i)];
+    if (!node.in_scene || node.mesh < 0 || done[static_cast<size_t>(node.mesh)]) continue;
+    const size_t m = static_cast<size_t>(node.mesh);
+    done[m] = true;
+    document->meshes[m].name = NameOr(model.meshes[m].name, "mesh", m);
+    if (Error e = ReadMesh(model, m, uv_sources, &document->meshes[m])) {
+      return Fail("node " + Quoted(node.name) + ", mesh " + Quoted(document->meshes[m].name) +
+                  ": " + e.message);
+    }
+  }
+  return Ok();
+}
+
+Error ReadSkin(const Model& model, const tinygltf::Skin& in, DocumentSkin* out) {
+  out->joints = in.joints;
+  for (const int joint : in.joints) {
+    if (joint < 0 || joint >= static_cast<int>(model.nodes.size())) {
+      return Fail("joint " + std::to_string(joint) + " does not exist");
+    }
+  }
+  out->inverse_binds.resize(in.joints.size());
+  if (in.inverseBindMatrices < 0) return Ok();
+  std::vector<float> values;
+  if (Error e = ReadFloats(model, in.inverseBindMatrices, 16, &values)) return e;
+  if (values.size() < 16 * in.joints.size()) return Fail("it has too few inverse bind matrices");
+  for (size_t j = 0; j < in.joints.size(); ++j) {
+    Mat4& matrix = out->inverse_binds[j];
+    for (size_t i = 0; i < 16; ++i) matrix.m[i / 4][i % 4] = values[16 * j + i];
+    if (!Finite(matrix)) return Fail("an inverse bind matrix is not finite");
+  }
+  return Ok();
+}
+
+Error ReadChannel(const Model& model, const tinygltf::Animation& animation,
+                  const tinygltf::AnimationChannel& in, DocumentChannel* out) {
+  if (in.sampler < 0 || static_cast<size_t>(in.sampler) >= animation.samplers.size()) {
+    return Fail("sampler " + std::to_string(in.sampler) + " does not exist");
+  }
+  const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<size_t>(in.sampler)];
+  out->node = in.target_node;
+  out->path = in.target_path == "translation" ? ChannelPath::kTranslation
+              : in.target_path == "rotation"  ? ChannelPath::kRotation
+                                              : ChannelPath::kScale;
+  if (sampler.interpolation == "STEP") out->interpolation = Interpolation::kStep;
+  if (sampler.interpolation == "CUBICSPLINE") out->interpolation = Interpolation::kCubic;
+  if (Error e = ReadFloats(model, sampler.input, 1, &out->times)) return e;
+  const size_t width = out->path == ChannelPath::kRotation ? 4 : 3;
+  std::vector<float> values;
+  if (Error e = ReadFloats(model, sampler.output, static_cast<int>(width), &values)) return e;
+  const size_t per_key = out->interpolation == Interpolation::kCubic ? 3 : 1;
+  if (out->times.empty() || values.size() != width * per_key * out->times.size()) {
+    return Fail("a channel has not one value a key");
+  }
+  out->values.resize(values.size() / width);
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) return Fail("a key is not finite");
+    (&out->values[i / width].x)[i % width] = values[i];
+  }
+  for (size_t i = 0; i < out->times.size(); ++i) {
+    if (!std::isfinite(out->times[i]) || (i > 0 && out->times[i] < out->times[i - 1])) {
+      return Fail("the times of a channel do not rise");
+    }
+  }
+  return Ok();
+}
+
+Error ReadClip(const Model& model, size_t index, DocumentClip* out) {
+  const tinygltf::Animation& in = model.animations[index];
+  out->name = NameOr(in.name, "animation", index);
+  for (const tinygltf::AnimationChannel& channel : in.channels) {
+    const bool moves_node = channel.target_path == "translation" ||
+                            channel.target_path == "rotation" || channel.target_path == "scale";
+    if (!moves_node || channel.target_node < 0) continue;
+    if (static_cast<size_t>(channel.target_node) >= model.nodes.size()) {
+      return Fail("node " + std::to_string(channel.target_node) + " does not exist");
+    }
+    DocumentChannel read;
+    if (Error e = ReadChannel(model, in, channel, &read)) return e;
+    out->channels.push_back(std::move(read));
+  }
+  return Ok();
+}
+
+Error ReadModel(const Model& model, GltfDocument* document, std::vector<std::string>* warnings) {
+  std::vector<UvSource> uv_sources;
+  if (Error e = CheckExtensions(model)) return e;
+  if (Error e = ReadNodes(model, document)) return e;
+  if (Error e = ReadMaterials(model, document, &uv_sources, warnings)) return e;
+  if (Error e = ReadMeshes(model, uv_sources, document)) return e;
+  document->skins.resize(model.skins.size());
+  for (size_t i = 0; i < model.skins.size(); ++i) {
+    if (Error e = ReadSkin(model, model.skins[i], &document->skins[i])) {
+      return Fail("skin " + std::to_string(i) + ": " + e.message);
+    }
+  }
+  document->clips.resize(model.animations.size());
+  for (size_t i = 0; i < model.animations.size(); ++i) {
+    if (Error e = ReadClip(model, i, &document->clips[i])) {
+      return Fail("clip " + Quoted(document->clips[i].name) + ": " + e.message);
+    }
+  }
+  return Ok();
+}
+
+}  // namespace
+
+Mat4 LocalMatrix(const DocumentNode& node) {
+  if (node.has_matrix) return node.matrix;
+  return FromTranslationRotationScale(node.translation, node.rotation, node.scale);
+}
+
+std::vector<Mat4> WorldMatrices(const GltfDocument& document) {
+  std::vector<Mat4> world(document.nodes.size());
+  for (const int i : document.order) {
+    const DocumentNode& node = document.nodes[static_cast<size_t>(i)];
+    const Mat4 local = LocalMatrix(node);
+    world[static_cast<size_t>(i)] =
+        node.parent < 0 ? local : world[static_cast<size_t>(node.parent)] * local;
+  }
+  return world;
+}
+
+Error LoadGltf(const std::filesystem::path& path, GltfDocument* document,
+               std::vector<std::string>* warnings) {
+  *document = {};
+  document->path = path.string();
+  Model model;
+  if (Error e = ParseFile(path, &model)) return e;
+  std::vector<std::string> notes;
+  Error error;
+  try {
+    error = ReadModel(model, document, &notes);
+  } catch (const std::exception& e) {
+    error = Fail(e.what());
+  }
+  if (error) return Fail(document->path + ": " + error.message);
+  for (const std::string& note : notes) warnings->push_back(document->path + ": " + note);
+  return Ok();
+}
+
+}  // namespace flaneur
