@@ -1,0 +1,27 @@
+// Puts a person as read from any file into the shape that everything after relies on.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "pipeline/core/avatar.h"
+#include "runtime/base/error.h"
+
+namespace flaneur {
+
+struct NormalizeOptions {
+  float height_m = 0;        // 0: as it is where 0.5 to 2.3 m, else 1.75
+  float walk_speed_mps = 0;  // known from the source, before any scaling; 0: measure
+};
+
+// Removes travel from the clips, makes them loop, scales, sets the feet on y = 0 (lowest point over each clip) and the
+// trunk over x = z = 0, then measures height, radius and walking speed. `body`: the part of the surface that can touch
+// the ground and that gives the trunk's width, without what is carried; on the avatar's joints.
+// Errors: a figure without height, numbers beyond reason.
+Error NormalizeAvatar(const NormalizeOptions& options, Mesh body, Avatar* avatar,
+                      std::vector<std::string>* warnings);
+
+// Speed over the ground, m/s, at which the soles of a walk on the spot do not slide: the median backward speed of the
+// points near the ground. 0 where nothing tells.
+float MeasureWalkSpeed(const Avatar& avatar, const Clip& walk, const Mesh& body);
+
+}  // namespace flaneur

@@ -1,0 +1,563 @@
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "pipeline/io/avatar_normalize.h"
+#include "pipeline/io/gltf.h"
+#include "pipeline/io/gltf_document.h"
+#include "pipeline/io/gltf_pose.h"
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kKeysPerSecond = 30;
+
+std::string Quoted(const std::string& name) { return std::string("'").append(OneLine(name)) + "'"; }
+
+std::string Lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string Listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) {
+    if (!list.empty()) list += ", ";
+    list += Quoted(name);
+  }
+  return names.empty() ? "no clips" : list;
+}
+
+std::vector<std::string> ClipNames(const GltfDocument& document) {
+  std::vector<std::string> names;
+  for (const DocumentClip& clip : document.clips) names.push_back(clip.name);
+  return names;
+}
+
+// -1: none. Of several names that contain the word the shortest is the plainest; file order breaks ties.
+int GuessClip(const GltfDocument& document, const std::string& word) {
+  int best = -1;
+  for (size_t i = 0; i < document.clips.size(); ++i) {
+    const std::string name = Lower(document.clips[i].name);
+    if (name == word) return static_cast<int>(i);
+    if (name.find(word) == std::string::npos) continue;
+    if (best < 0 || name.size() < document.clips[static_cast<size_t>(best)].name.size()) {
+      best = static_cast<int>(i);
+    }
+  }
+  return best;
+}
+
+Error NamedClip(const GltfDocument& document, const std::string& name, int* clip) {
+  for (size_t i = 0; i < document.clips.size(); ++i) {
+    if (Lower(document.clips[i].name) != Lower(name)) continue;
+    *clip = static_cast<int>(i);
+    return Ok();
+  }
+  const std::vector<std::string> names = ClipNames(document);
+  return Fail("no clip " + Quoted(name) + DidYouMean(name, names) + " (the file has: " +
+              Listed(names) + ")");
+}
+
+struct ChosenClip {
+  std::string name;  // ours: walk, idle, talk
+  int source = -1;   // index into the document's clips
+};
+
+Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options,
+                  std::vector<ChosenClip>* chosen) {
+  const std::pair<const char*, const std::string*> wanted[] = {
+      {"walk", &options.walk}, {"idle", &options.idle}, {"talk", &options.talk}};
+  for (const auto& [name, given] : wanted) {
+    int clip = -1;
+    if (!given->empty()) {
+      if (Error e = NamedClip(document, *given, &clip)) return e;
+    } else {
+      clip = GuessClip(document, name);
+    }
+    const bool walk = std::string(name) == "walk";
+    if (clip < 0 && walk && document.clips.size() == 1) clip = 0;
+    if (clip < 0 && walk) {
+      return Fail("no walk clip; the file has: " + Listed(ClipNames(document)) +
+                  "; name the one to walk with");
+    }
+    if (clip >= 0 && document.clips[static_cast<size_t>(clip)].channels.empty()) {
+      if (walk) return Fail("walk clip " + Quoted(document.clips[clip].name) + " moves nothing");
+      continue;
+    }
+    if (clip >= 0) chosen->push_back({name, clip});
+  }
+  return Ok();
+}
+
+// Nodes to draw: in the scene and not beneath a hidden one.
+Error VisibleNodes(const GltfDocument& document, const std::vector<std::string>& hide,
+                   std::vector<bool>* visible) {
+  std::vector<std::string> names;
+  for (const DocumentNode& node : document.nodes) names.push_back(node.name);
+  for (const std::string& name : hide) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    return Fail("no node " + Quoted(name) + " to hide" + DidYouMean(name, names));
+  }
+  visible->assign(document.nodes.size(), false);
+  for (const int i : document.order) {
+    const DocumentNode& node = document.nodes[static_cast<size_t>(i)];
+    const bool hidden = std::find(hide.begin(), hide.end(), node.name) != hide.end();
+    const bool parent_seen = node.parent < 0 || !document.nodes[node.parent].in_scene ||
+                             (*visible)[static_cast<size_t>(node.parent)];
+    (*visible)[static_cast<size_t>(i)] = node.in_scene && parent_seen && !hidden;
+  }
+  return Ok();
+}
+
+// A node with a mesh, and for a rigid one the node of the skeleton that it moves with.
+struct Part {
+  int node = 0;
+  bool skinned = false;
+  int anchor = -1;
+};
+
+bool HasInfluences(const DocumentMesh& mesh) {
+  return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [](const auto& primitive) {
+    return primitive.influences.per_vertex > 0;
+  });
+}
+
+Error CheckSkins(const GltfDocument& document) {
+  for (const DocumentSkin& skin : document.skins) {
+    if (!skin.joints.empty()) return Ok();
+  }
+  return Fail("no skin: no mesh is bound to a skeleton; export the rigged figure");
+}
+
+class AvatarReader {
+ public:
+  AvatarReader(const GltfDocument& document, const ReadAvatarOptions& options, Avatar* avatar,
+               std::vector<std::string>* notes)
+      : document_(document), options_(options), avatar_(avatar), notes_(notes) {}
+
+  Error Read();
+
+ private:
+  Error FindParts();
+  Error FindJoints();
+  void FindBindPose();
+  Error AddPart(const Part& part);
+  Error SkinVertices(const Part& part, const DocumentPrimitive& primitive, Mesh* mesh);
+  void AttachVertices(const Part& part, Mesh* mesh) const;
+  Mesh* MergedMesh(int material);
+  void AddClip(const ChosenClip& chosen);
+  void DropUnusedMaterials();
+
+  const DocumentNode& Node(int i) const { return document_.nodes[static_cast<size_t>(i)]; }
+
+  const GltfDocument& document_;
+  const ReadAvatarOptions& options_;
+  Avatar* avatar_;
+  std::vector<std::string>* notes_;
+
+  std::vector<ChosenClip> clips_;
+  std::vector<Part> parts_;
+  std::vector<int> joint_nodes_;   // node of each of the avatar's joints
+  std::vector<int> joint_of_;      // joint of each node, -1: none
+  std::vector<Mat4> rest_;         // world matrices of the file's own pose
+  std::vector<Mat4> to_metres_;    // a joint: removes the scale that its node has at rest
+  Mesh body_;                      // skinned parts: what stands on the ground
+  int unnormalized_ = 0;
+  int weightless_ = 0;
+};
+
+Error AvatarReader::FindParts() {
+  std::vector<bool> visible;
+  if (Error e = VisibleNodes(document_, options_.hide, &visible)) return e;
+  std::vector<bool> moves(document_.nodes.size(), false);
+  for (const DocumentSkin& skin : document_.skins) {
+    for (const int joint : skin.joints) moves[static_cast<size_t>(joint)] = true;
+  }
+  for (const ChosenClip& clip : clips_) {
+    for (const DocumentChannel& c : document_.clips[static_cast<size_t>(clip.source)].channels) {
+      moves[static_cast<size_t>(c.node)] = true;
+    }
+  }
+  bool any_skinned = false;
+  for (const int i : document_.order) {
+    const DocumentNode& node = Node(i);
+    if (!visible[static_cast<size_t>(i)] || node.mesh < 0) continue;
+    const DocumentMesh& mesh = document_.meshes[static_cast<size_t>(node.mesh)];
+    if (mesh.primitives.empty()) continue;
+    if (mesh.morphs) notes_->push_back("mesh " + Quoted(mesh.name) + ": morph targets are ignored");
+    Part part{i, node.skin >= 0 && HasInfluences(mesh), -1};
+    for (int a = i; a >= 0 && part.anchor < 0; a = Node(a).parent) {
+      if (moves[static_cast<size_t>(a)]) part.anchor = a;
+    }
+    if (!part.skinned && part.anchor < 0) {
+      notes_->push_back("node " + Quoted(node.name) + " hangs on no bone and is left out");
+      continue;
+    }
+    any_skinned = any_skinned || part.skinned;
+    parts_.push_back(part);
+  }
+  if (!any_skinned) {
+    return Fail("no skin: no visible mesh is bound to a skeleton; export the rigged figure");
+  }
+  return Ok();
+}
+
+// Joints that some vertex follows, and the skeleton above them.
+Error AvatarReader::FindJoints() {
+  std::vector<bool> bone(document_.nodes.size(), false), used(document_.nodes.size(), false);
+  for (const DocumentSkin& skin : document_.skins) {
+    for (const int joint : skin.joints) bone[static_cast<size_t>(joint)] = true;
+  }
+  for (const Part& part : parts_) {
+    if (!part.skinned) {
+      used[static_cast<size_t>(part.anchor)] = true;
+      continue;
+    }
+    const DocumentSkin& skin = document_.skins[static_cast<size_t>(Node(part.node).skin)];
+    const int mesh = Node(part.node).mesh;
+    for (const auto& primitive : document_.meshes[static_cast<size_t>(mesh)].primitives) {
+      const Influences& in = primitive.influences;
+      for (size_t i = 0; i < in.joints.size(); ++i) {
+        if (in.weights[i] <= 0) continue;
+        if (in.joints[i] < 0 || in.joints[i] >= static_cast<int>(skin.joints.size())) {
+          return Fail("mesh " + Quoted(primitive.mesh.name) + ": joint " +
+                      std::to_string(in.joints[i]) + " is not in its skin");
+        }
+        used[static_cast<size_t>(skin.joints[static_cast<size_t>(in.joints[i])])] = true;
+      }
+      if (in.per_vertex == 0) used[static_cast<size_t>(skin.joints[0])] = true;
+    }
+  }
+  for (auto it = document_.order.rbegin(); it != document_.order.rend(); ++it) {
+    const int parent = Node(*it).parent;
+    // Kept bones reach up to the topmost bone; plain nodes between and above fold into them.
+    for (int a = parent; used[static_cast<size_t>(*it)] && a >= 0; a = Node(a).parent) {
+      if (bone[static_cast<size_t>(a)]) used[static_cast<size_t>(a)] = true;
+    }
+  }
+  joint_of_.assign(document_.nodes.size(), -1);
+  for (const int i : document_.order) {
+    if (!used[static_cast<size_t>(i)]) continue;
+    Joint joint;
+    joint.name = Node(i).name;
+    for (int a = Node(i).parent; a >= 0 && joint.parent < 0; a = Node(a).parent) {
+      joint.parent = joint_of_[static_cast<size_t>(a)];
+    }
+    joint_of_[static_cast<size_t>(i)] = static_cast<int>(joint_nodes_.size());
+    joint_nodes_.push_back(i);
+    avatar_->joints.push_back(std::move(joint));
+  }
+  if (static_cast<int>(joint_nodes_.size()) > options_.max_joints) {
+    return Fail("it uses " + std::to_string(joint_nodes_.size()) + " joints, at most " +
+                std::to_string(options_.max_joints) + " are possible; simplify the skeleton");
+  }
+  return Ok();
+}
+
+float Determinant(const Mat4& m) {
+  const Vec3 x{m.m[0][0], m.m[0][1], m.m[0][2]};
+  const Vec3 y{m.m[1][0], m.m[1][1], m.m[1][2]};
+  const Vec3 z{m.m[2][0], m.m[2][1], m.m[2][2]};
+  return Dot(Cross(x, y), z);
+}
+
+Mat4 UniformScale(float s) { return FromTranslationRotationScale({}, {}, {s, s, s}); }
+
+// One bind pose for all skins, in scene space: that of the first skin each joint is in, placed so that the first
+// joint's bind pose is its rest pose. Parts bound otherwise are moved into it when they are added.
+void AvatarReader::FindBindPose() {
+  rest_ = WorldMatrices(document_);
+  std::vector<const Mat4*> binds(joint_nodes_.size(), nullptr);
+  for (const Part& part : parts_) {
+    if (!part.skinned) continue;
+    const DocumentSkin& skin = document_.skins[static_cast<size_t>(Node(part.node).skin)];
+    for (size_t k = 0; k < skin.joints.size(); ++k) {
+      const int joint = joint_of_[static_cast<size_t>(skin.joints[k])];
+      if (joint < 0 || binds[static_cast<size_t>(joint)] != nullptr) continue;
+      binds[static_cast<size_t>(joint)] = &skin.inverse_binds[k];
+    }
+  }
+  Mat4 from_bind;  // the skins' space to scene space
+  for (size_t j = 0; j < binds.size(); ++j) {
+    if (binds[j] == nullptr) continue;
+    from_bind = rest_[static_cast<size_t>(joint_nodes_[j])] * *binds[j];
+    break;
+  }
+  const Mat4 to_bind = Inverse(from_bind);
+  for (size_t j = 0; j < binds.size(); ++j) {
+    const Mat4& rest = rest_[static_cast<size_t>(joint_nodes_[j])];
+    const float volume = std::abs(Determinant(rest));
+    const float scale = volume > 0 ? std::cbrt(volume) : 1.0f;
+    to_metres_.push_back(UniformScale(1 / scale));
+    const Mat4 inverse = binds[j] != nullptr ? *binds[j] * to_bind : Inverse(rest);
+    avatar_->joints[j].inverse_bind = UniformScale(scale) * inverse;
+    const int parent = avatar_->joints[j].parent;
+    const Mat4 own = rest * to_metres_[j];
+    const size_t p = static_cast<size_t>(std::max(parent, 0));
+    avatar_->joints[j].rest = Decomposed(
+        parent < 0 ? own
+                   : Inverse(rest_[static_cast<size_t>(joint_nodes_[p])] * to_metres_[p]) * own);
+  }
+}
+
+// Positions and normals through one matrix.
+void Transform3(const Mat4& matrix, Vec3* position, Vec3* normal) {
+  *position = TransformPoint(matrix, *position);
+  const Vec3 x{matrix.m[0][0], matrix.m[0][1], matrix.m[0][2]};
+  const Vec3 y{matrix.m[1][0], matrix.m[1][1], matrix.m[1][2]};
+  const Vec3 z{matrix.m[2][0], matrix.m[2][1], matrix.m[2][2]};
+  const Vec3 n = Cross(y, z) * normal->x + Cross(z, x) * normal->y + Cross(x, y) * normal->z;
+  // Cofactors turn the normal over where the matrix mirrors; it stays outside.
+  *normal = Normalized(Determinant(matrix) < 0 ? n * -1 : n);
+}
+
+void TurnRound(Mesh* mesh) {
+  for (size_t i = 0; i < mesh->indices.size(); i += 3) {
+    std::swap(mesh->indices[i], mesh->indices[i + 1]);
+  }
+}
+
+struct Weighted {
+  uint16_t joint = 0;
+  float weight = 0;
+};
+
+// The four heaviest, summing to 1. Returns false where there is no weight at all.
+bool FourHeaviest(std::vector<Weighted> all, std::array<uint16_t, 4>* joints,
+                  std::array<float, 4>* weights) {
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Weighted& a, const Weighted& b) { return a.weight > b.weight; });
+  all.resize(4);
+  float sum = 0;
+  for (const Weighted& each : all) sum += each.weight;
+  if (!(sum > 0)) return false;
+  for (size_t i = 0; i < 4; ++i) {
+    (*weights)[i] = all[i].weight / sum;
+    (*joints)[i] = all[i].weight > 0 ? all[i].joint : uint16_t{0};
+  }
+  return true;
+}
+
+Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& primitive,
+                                 Mesh* mesh) {
+  const DocumentSkin& skin = document_.skins[static_cast<size_t>(Node(part.node).skin)];
+  std::vector<Mat4> into_bind(skin.joints.size());  // the part's space to the avatar's bind pose
+  for (size_t k = 0; k < skin.joints.size(); ++k) {
+    const int joint = joint_of_[static_cast<size_t>(skin.joints[k])];
+    if (joint < 0) continue;
+    const size_t j = static_cast<size_t>(joint);
+    into_bind[k] = Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) *
+                   skin.inverse_binds[k];
+  }
+  const Influences& in = primitive.influences;
+  const size_t width = static_cast<size_t>(in.per_vertex);
+  const size_t vertices = mesh->positions.size();
+  mesh->joints.resize(vertices);
+  mesh->weights.resize(vertices);
+  int mirrored = 0;
+  for (size_t v = 0; v < vertices; ++v) {
+    std::vector<Weighted> all;
+    Mat4 blend = UniformScale(0);
+    blend.m[3][3] = 0;
+    float sum = 0;
+    for (size_t i = v * width; i < (v + 1) * width; ++i) {
+      const float weight = in.weights[i];
+      if (weight <= 0) continue;
+      const size_t k = static_cast<size_t>(in.joints[i]);
+      sum += weight;
+      for (size_t m = 0; m < 16; ++m) blend.m[m / 4][m % 4] += weight * into_bind[k].m[m / 4][m % 4];
+      const auto joint = static_cast<uint16_t>(joint_of_[static_cast<size_t>(skin.joints[k])]);
+      const auto same = std::find_if(all.begin(), all.end(),
+                                     [&](const Weighted& w) { return w.joint == joint; });
+      if (same == all.end()) all.push_back({joint, weight});
+      else same->weight += weight;
+    }
+    if (!FourHeaviest(all, &mesh->joints[v], &mesh->weights[v])) {
+      ++weightless_;
+      const int root = joint_of_[static_cast<size_t>(skin.joints[0])];
+      mesh->joints[v] = {static_cast<uint16_t>(std::max(root, 0)), 0, 0, 0};
+      mesh->weights[v] = {1, 0, 0, 0};
+      blend = into_bind[0];
+      sum = 1;
+    }
+    if (std::abs(sum - 1) > 0.01f) ++unnormalized_;
+    for (auto& column : blend.m) {
+      for (float& value : column) value /= sum;
+    }
+    if (Determinant(blend) < 0) ++mirrored;
+    Transform3(blend, &mesh->positions[v], &mesh->normals[v]);
+  }
+  if (2 * static_cast<size_t>(mirrored) > vertices) TurnRound(mesh);
+  return Ok();
+}
+
+void AvatarReader::AttachVertices(const Part& part, Mesh* mesh) const {
+  const int joint = joint_of_[static_cast<size_t>(part.anchor)];
+  const size_t j = static_cast<size_t>(joint);
+  const Mat4 from_anchor = Inverse(rest_[static_cast<size_t>(part.anchor)]) *
+                           rest_[static_cast<size_t>(part.node)];
+  const Mat4 matrix = Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) *
+                      from_anchor;
+  for (size_t v = 0; v < mesh->positions.size(); ++v) {
+    Transform3(matrix, &mesh->positions[v], &mesh->normals[v]);
+  }
+  if (Determinant(matrix) < 0) TurnRound(mesh);
+  mesh->joints.assign(mesh->positions.size(), {static_cast<uint16_t>(joint), 0, 0, 0});
+  mesh->weights.assign(mesh->positions.size(), {1, 0, 0, 0});
+}
+
+template <typename T>
+void AppendAll(const std::vector<T>& from, std::vector<T>* to) {
+  to->insert(to->end(), from.begin(), from.end());
+}
+
+// As AppendAll; where only one side has the attribute the other is filled with `missing`.
+template <typename T>
+void AppendFilled(const std::vector<T>& from, size_t from_count, size_t to_count, T missing,
+                  std::vector<T>* to) {
+  if (from.empty() && to->empty()) return;
+  if (to->empty()) to->assign(to_count, missing);
+  AppendAll(from, to);
+  to->resize(to_count + from_count, missing);
+}
+
+Mesh* AvatarReader::MergedMesh(int material) {
+  for (Mesh& mesh : avatar_->meshes) {
+    if (mesh.material == material) return &mesh;
+  }
+  avatar_->meshes.emplace_back();
+  avatar_->meshes.back().material = material;
+  avatar_->meshes.back().name =
+      material < 0 ? "plain" : document_.materials[static_cast<size_t>(material)].name;
+  return &avatar_->meshes.back();
+}
+
+void AppendMesh(const Mesh& part, Mesh* mesh) {
+  const size_t base = mesh->positions.size(), count = part.positions.size();
+  AppendFilled(part.uvs, count, base, Vec2{}, &mesh->uvs);
+  AppendFilled(part.colors, count, base, Vec4{1, 1, 1, 1}, &mesh->colors);
+  AppendAll(part.positions, &mesh->positions);
+  AppendAll(part.normals, &mesh->normals);
+  AppendAll(part.joints, &mesh->joints);
+  AppendAll(part.weights, &mesh->weights);
+  for (const uint32_t i : part.indices) {
+    mesh->indices.push_back(static_cast<uint32_t>(base) + i);
+  }
+}
+
+Error AvatarReader::AddPart(const Part& part) {
+  const int mesh_index = Node(part.node).mesh;
+  for (const auto& primitive : document_.meshes[static_cast<size_t>(mesh_index)].primitives) {
+    Mesh mesh = primitive.mesh;
+    if (part.skinned && primitive.influences.per_vertex > 0) {
+      if (Error e = SkinVertices(part, primitive, &mesh)) return e;
+    } else if (part.anchor >= 0) {
+      AttachVertices(part, &mesh);
+    } else {
+      Part on_skin = part;
+      on_skin.anchor = document_.skins[static_cast<size_t>(Node(part.node).skin)].joints[0];
+      AttachVertices(on_skin, &mesh);
+    }
+    AppendMesh(mesh, MergedMesh(mesh.material));
+    if (part.skinned) AppendMesh(mesh, &body_);
+  }
+  return Ok();
+}
+
+void AvatarReader::AddClip(const ChosenClip& chosen) {
+  const DocumentClip& source = document_.clips[static_cast<size_t>(chosen.source)];
+  const ClipSpan span = SpanOf(source);
+  Clip clip;
+  clip.name = chosen.name;
+  clip.duration_s = span.end_s - span.start_s;
+  clip.keys = std::max(2, 1 + static_cast<int>(std::lround(clip.duration_s * kKeysPerSecond)));
+  if (!(clip.duration_s > 0)) clip.duration_s = 1;  // a pose, held
+  const size_t joints = joint_nodes_.size();
+  for (int k = 0; k < clip.keys; ++k) {
+    const float share = static_cast<float>(k) / static_cast<float>(clip.keys - 1);
+    const std::vector<Mat4> world =
+        PoseAt(document_, source, span.start_s + share * (span.end_s - span.start_s));
+    std::vector<Mat4> own(joints);
+    for (size_t j = 0; j < joints; ++j) {
+      own[j] = world[static_cast<size_t>(joint_nodes_[j])] * to_metres_[j];
+      const int parent = avatar_->joints[j].parent;
+      Transform local = Decomposed(
+          parent < 0 ? own[j] : Inverse(own[static_cast<size_t>(parent)]) * own[j]);
+      if (k > 0) {
+        const Quat b = clip.transforms[clip.transforms.size() - joints].rotation;
+        Quat& q = local.rotation;
+        if (q.x * b.x + q.y * b.y + q.z * b.z + q.w * b.w < 0) q = {-q.x, -q.y, -q.z, -q.w};
+      }
+      clip.transforms.push_back(local);
+    }
+  }
+  avatar_->clips.push_back(std::move(clip));
+}
+
+void AvatarReader::DropUnusedMaterials() {
+  std::vector<int> image_to(document_.images.size(), -1);
+  const auto use_image = [&](int* image) {
+    if (*image < 0) return;
+    int& to = image_to[static_cast<size_t>(*image)];
+    if (to < 0) {
+      to = static_cast<int>(avatar_->images.size());
+      avatar_->images.push_back(document_.images[static_cast<size_t>(*image)]);
+    }
+    *image = to;
+  };
+  for (Mesh& mesh : avatar_->meshes) {
+    if (mesh.material < 0) continue;
+    Material material = document_.materials[static_cast<size_t>(mesh.material)];
+    use_image(&material.base_color_image);
+    use_image(&material.normal_image);
+    mesh.material = static_cast<int>(avatar_->materials.size());
+    avatar_->materials.push_back(std::move(material));
+  }
+}
+
+Error AvatarReader::Read() {
+  if (Error e = CheckSkins(document_)) return e;
+  if (Error e = ChooseClips(document_, options_, &clips_)) return e;
+  if (Error e = FindParts()) return e;
+  if (Error e = FindJoints()) return e;
+  FindBindPose();
+  for (const Part& part : parts_) {
+    if (Error e = AddPart(part)) return e;
+  }
+  DropUnusedMaterials();
+  for (const ChosenClip& clip : clips_) AddClip(clip);
+  if (unnormalized_ > 0) {
+    notes_->push_back(std::to_string(unnormalized_) +
+                      " vertices had weights that do not sum to 1; they were scaled");
+  }
+  if (weightless_ > 0) {
+    notes_->push_back(std::to_string(weightless_) +
+                      " vertices had no weight; they follow the skin's first joint");
+  }
+  NormalizeOptions normalize;
+  normalize.height_m = options_.height_m;
+  for (const DocumentNode& node : document_.nodes) {
+    normalize.walk_speed_mps = std::max(normalize.walk_speed_mps, node.tags.walk_speed_mps);
+  }
+  return NormalizeAvatar(normalize, body_, avatar_, notes_);
+}
+
+}  // namespace
+
+Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& options,
+                 Avatar* avatar, std::vector<std::string>* warnings) {
+  GltfDocument document;
+  if (Error e = LoadGltf(path, &document, warnings)) return e;
+  *avatar = {};
+  avatar->name = options.name.empty() ? path.stem().string() : options.name;
+  std::vector<std::string> notes;
+  if (Error e = AvatarReader(document, options, avatar, &notes).Read()) {
+    return Fail(document.path + ": " + e.message);
+  }
+  for (const std::string& note : notes) warnings->push_back(document.path + ": " + note);
+  return Ok();
+}
+
+}  // namespace flaneur

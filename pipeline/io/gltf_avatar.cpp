@@ -1,0 +1,87 @@
+#include <nlohmann/json.hpp>
+
+#include "pipeline/io/gltf.h"
+#include "pipeline/io/gltf_builder.h"
+#include "runtime/base/file.h"
+
+namespace flaneur {
+namespace {
+
+// MSFT_lod's thresholds are shares of the screen's height; ours are pixels, taken on a screen this high.
+constexpr float kScreenHeight_px = 1080;
+
+std::string LevelExtras(const AvatarLevel& level) {
+  const nlohmann::json extras = {{"flaneur_triangles", level.triangles},
+                                 {"flaneur_error_mm", level.error_mm},
+                                 {"flaneur_posed_error_mm", level.posed_error_mm},
+                                 {"flaneur_switch_px", level.switch_px}};
+  return extras.dump();
+}
+
+void AddSkeleton(GltfBuilder* builder, const Avatar& avatar, const std::string& prefix,
+                 AvatarPart* part) {
+  GltfNode skeleton;
+  skeleton.name = prefix + "skeleton";
+  skeleton.extras = nlohmann::json{{"flaneur_walk_speed_mps", avatar.walk_speed_mps}}.dump();
+  part->skeleton_node = builder->AddNode(skeleton);
+  std::vector<Mat4> inverse_binds;
+  for (const Joint& joint : avatar.joints) {
+    GltfNode node;
+    node.name = prefix + joint.name;
+    node.parent = joint.parent < 0 ? part->skeleton_node
+                                   : part->joint_nodes[static_cast<size_t>(joint.parent)];
+    node.transform = joint.rest;
+    part->joint_nodes.push_back(builder->AddNode(node));
+    inverse_binds.push_back(joint.inverse_bind);
+  }
+  part->skin =
+      builder->AddSkin(prefix + "skin", part->joint_nodes, inverse_binds, part->skeleton_node);
+}
+
+}  // namespace
+
+Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix,
+                const DracoOptions& draco, AvatarPart* part) {
+  const Avatar& avatar = levels.avatar;
+  *part = {};
+  AddSkeleton(builder, avatar, prefix, part);
+  const std::vector<int> materials = builder->AddMaterials(avatar.materials, avatar.images);
+  std::vector<float> switch_shares;
+  for (size_t k = 0; k < levels.levels.size(); ++k) {
+    GltfNode node;
+    node.name = prefix + "level" + std::to_string(k);
+    node.skin = part->skin;
+    node.extras = LevelExtras(levels.levels[k]);
+    if (Error e = builder->AddMesh(node.name, levels.levels[k].meshes, materials, draco,
+                                   &node.mesh)) {
+      return e;
+    }
+    part->level_nodes.push_back(builder->AddNode(node));
+    switch_shares.push_back(std::min(levels.levels[k].switch_px / kScreenHeight_px, 1.0f));
+  }
+  if (part->level_nodes.size() > 1) {
+    builder->SetLevels(part->level_nodes[0], std::span(part->level_nodes).subspan(1),
+                       switch_shares);
+  }
+  for (const Clip& clip : avatar.clips) {
+    part->animations.push_back(
+        builder->AddAnimation(prefix + clip.name, clip, avatar.joints, part->joint_nodes));
+  }
+  return Ok();
+}
+
+Error WriteAvatarGlb(const std::filesystem::path& path, const AvatarLevels& levels,
+                     const DracoOptions& draco) {
+  GltfBuilder builder;
+  AvatarPart part;
+  if (Error e = AddAvatar(&builder, levels, "", draco, &part)) {
+    return Fail(path.string() + ": " + e.message);
+  }
+  const int roots[] = {part.level_nodes[0], part.skeleton_node};
+  builder.AddScene(levels.avatar.name, roots);
+  std::vector<uint8_t> glb;
+  if (Error e = builder.Finish(&glb)) return Fail(path.string() + ": " + e.message);
+  return WriteFile(path, glb);
+}
+
+}  // namespace flaneur

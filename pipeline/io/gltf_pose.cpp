@@ -1,0 +1,128 @@
+#include "pipeline/io/gltf_pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flaneur {
+namespace {
+
+Vec4 Mix(Vec4 a, float wa, Vec4 b, float wb) {
+  return {a.x * wa + b.x * wb, a.y * wa + b.y * wb, a.z * wa + b.z * wb, a.w * wa + b.w * wb};
+}
+
+Quat ToQuat(Vec4 v) { return {v.x, v.y, v.z, v.w}; }
+Vec4 ToVec4(Quat q) { return {q.x, q.y, q.z, q.w}; }
+
+// Hermite spline between key k and the next, as glTF's appendix on interpolation has it.
+Vec4 Cubic(const DocumentChannel& channel, size_t k, float t, float interval_s) {
+  const float t2 = t * t, t3 = t2 * t;
+  const Vec4* v = channel.values.data() + 3 * k;
+  const Vec4 ends = Mix(v[1], 2 * t3 - 3 * t2 + 1, v[4], 3 * t2 - 2 * t3);
+  const Vec4 slopes = Mix(v[2], (t3 - 2 * t2 + t) * interval_s, v[3], (t3 - t2) * interval_s);
+  return Mix(ends, 1, slopes, 1);
+}
+
+Vec4 Sample(const DocumentChannel& channel, float time_s) {
+  const auto& times = channel.times;
+  const bool cubic = channel.interpolation == Interpolation::kCubic;
+  const auto value = [&](size_t k) { return channel.values[cubic ? 3 * k + 1 : k]; };
+  const auto next = std::upper_bound(times.begin(), times.end(), time_s);
+  if (next == times.begin()) return value(0);
+  const size_t k = static_cast<size_t>(next - times.begin()) - 1;
+  if (next == times.end() || channel.interpolation == Interpolation::kStep) return value(k);
+  const float interval_s = times[k + 1] - times[k];
+  const float t = (time_s - times[k]) / interval_s;
+  if (cubic) return Cubic(channel, k, t, interval_s);
+  if (channel.path == ChannelPath::kRotation) {
+    return ToVec4(Slerp(Normalized(ToQuat(value(k))), Normalized(ToQuat(value(k + 1))), t));
+  }
+  return Mix(value(k), 1 - t, value(k + 1), t);
+}
+
+void Apply(const DocumentChannel& channel, float time_s, DocumentNode* node) {
+  if (node->has_matrix) {
+    const Transform t = Decomposed(node->matrix);
+    node->translation = t.translation;
+    node->rotation = t.rotation;
+    node->scale = t.scale;
+    node->has_matrix = false;
+  }
+  const Vec4 v = Sample(channel, time_s);
+  switch (channel.path) {
+    case ChannelPath::kTranslation: node->translation = {v.x, v.y, v.z}; break;
+    case ChannelPath::kRotation: node->rotation = Normalized(ToQuat(v)); break;
+    case ChannelPath::kScale: node->scale = {v.x, v.y, v.z}; break;
+  }
+}
+
+// Of an orthonormal, right-handed basis; the branch with the largest component keeps precision.
+Quat QuatFromBasis(Vec3 x, Vec3 y, Vec3 z) {
+  const float trace = x.x + y.y + z.z;
+  if (trace > 0) {
+    const float s = 2 * std::sqrt(trace + 1);
+    return {(y.z - z.y) / s, (z.x - x.z) / s, (x.y - y.x) / s, s / 4};
+  }
+  if (x.x > y.y && x.x > z.z) {
+    const float s = 2 * std::sqrt(1 + x.x - y.y - z.z);
+    return {s / 4, (x.y + y.x) / s, (z.x + x.z) / s, (y.z - z.y) / s};
+  }
+  if (y.y > z.z) {
+    const float s = 2 * std::sqrt(1 + y.y - x.x - z.z);
+    return {(x.y + y.x) / s, s / 4, (y.z + z.y) / s, (z.x - x.z) / s};
+  }
+  const float s = 2 * std::sqrt(1 + z.z - x.x - y.y);
+  return {(z.x + x.z) / s, (y.z + z.y) / s, s / 4, (x.y - y.x) / s};
+}
+
+}  // namespace
+
+ClipSpan SpanOf(const DocumentClip& clip) {
+  ClipSpan span;
+  for (size_t i = 0; i < clip.channels.size(); ++i) {
+    const auto& times = clip.channels[i].times;
+    span.start_s = i == 0 ? times.front() : std::min(span.start_s, times.front());
+    span.end_s = i == 0 ? times.back() : std::max(span.end_s, times.back());
+  }
+  return span;
+}
+
+std::vector<Mat4> PoseAt(const GltfDocument& document, const DocumentClip& clip, float time_s) {
+  std::vector<Mat4> world(document.nodes.size());
+  std::vector<Mat4> local(document.nodes.size());
+  for (size_t i = 0; i < local.size(); ++i) local[i] = LocalMatrix(document.nodes[i]);
+  // Channels of one node mostly stand together; the node is copied once for each run of them.
+  for (size_t c = 0; c < clip.channels.size();) {
+    const int target = clip.channels[c].node;
+    DocumentNode node = document.nodes[static_cast<size_t>(target)];
+    for (const DocumentChannel& channel : clip.channels) {
+      if (channel.node == target) Apply(channel, time_s, &node);
+    }
+    local[static_cast<size_t>(target)] = LocalMatrix(node);
+    while (c < clip.channels.size() && clip.channels[c].node == target) ++c;
+  }
+  for (const int i : document.order) {
+    const int parent = document.nodes[static_cast<size_t>(i)].parent;
+    const size_t n = static_cast<size_t>(i);
+    world[n] = parent < 0 ? local[n] : world[static_cast<size_t>(parent)] * local[n];
+  }
+  return world;
+}
+
+Transform Decomposed(const Mat4& matrix) {
+  const auto column = [&](size_t c) {
+    return Vec3{matrix.m[c][0], matrix.m[c][1], matrix.m[c][2]};
+  };
+  Vec3 x = column(0), y = column(1), z = column(2);
+  Transform out;
+  out.translation = column(3);
+  out.scale = {Length(x), Length(y), Length(z)};
+  if (Dot(Cross(x, y), z) < 0) out.scale.x = -out.scale.x;
+  if (out.scale.x == 0 || out.scale.y == 0 || out.scale.z == 0) return out;
+  x = Normalized(x * (1 / out.scale.x));
+  y = Normalized(y - x * Dot(x, y));
+  z = Cross(x, y);
+  out.rotation = Normalized(QuatFromBasis(x, y, z));
+  return out;
+}
+
+}  // namespace flaneur
