@@ -1,0 +1,294 @@
+"""Renders a person's impostor views: every direction and elevation of one frame side by side, frame by frame.
+
+Run as every script here (see common/settings.py). The settings:
+
+    output          folder (there already) for frame_0000.exr, frame_0001.exr, ...
+    seed            of the sample pattern
+    geometry        folder with the binary arrays named below
+    vertices, triangles, frames     lengths of these arrays
+    materials       list of {"texture": file or "", "mask": bool, "cutoff": number, "double_sided": bool}
+    directions, elevations_deg      as in an impostor atlas
+    cell_width_px, cell_height_px, window_width_m, window_height_m, bottom_m    as in an impostor atlas
+    options         samples (a pixel), default 16
+
+Arrays, little-endian, without header, axes as in glTF (Y up, the person faces +Z):
+
+    positions.f32 frames x vertices x 3     normals.f32 frames x vertices x 3
+    uvs.f32 vertices x 2 (v downward)       colors.f32 vertices x 4 (linear, straight alpha)
+    indices.u32 triangles x 3               materials.u32 triangles
+
+Each EXR holds float layers that are sums over a pixel's samples divided by their number, so every value is premultiplied
+with the coverage: albedo (linear), normal (avatar's axes), depth (metres from the axis towards the camera), coverage.
+Elevation 0 is the uppermost row of cells, direction 0 the leftmost column.
+"""
+
+import math
+import os
+import sys
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+from common.settings import fail, load_settings  # noqa: E402
+
+REQUIRED = ("output", "seed", "geometry", "vertices", "triangles", "frames", "materials",
+            "directions", "elevations_deg", "cell_width_px", "cell_height_px", "window_width_m",
+            "window_height_m", "bottom_m")
+COLOR_LAYERS = ("albedo", "normal")
+VALUE_LAYERS = ("depth", "coverage")
+
+
+def read_array(settings, name, kind, shape):
+    path = os.path.join(settings["geometry"], name)
+    try:
+        values = np.fromfile(path, dtype=np.dtype(kind).newbyteorder("<"))
+    except OSError as error:
+        fail("%s: %s" % (path, error.strerror or error))
+    if values.size != np.prod(shape):
+        fail("%s: holds %d values, expected %d" % (path, values.size, np.prod(shape)))
+    return values.reshape(shape)
+
+
+def read_geometry(settings):
+    """The arrays by name; positions in Blender's axes, normals in glTF's."""
+    frames, vertices, triangles = settings["frames"], settings["vertices"], settings["triangles"]
+    arrays = {
+        "positions": read_array(settings, "positions.f32", "f4", (frames, vertices, 3)),
+        "normals": read_array(settings, "normals.f32", "f4", (frames, vertices, 3)),
+        "uvs": read_array(settings, "uvs.f32", "f4", (vertices, 2)),
+        "colors": read_array(settings, "colors.f32", "f4", (vertices, 4)),
+        "indices": read_array(settings, "indices.u32", "u4", (triangles, 3)),
+        "materials": read_array(settings, "materials.u32", "u4", (triangles,)),
+    }
+    x, y, z = np.moveaxis(arrays["positions"], 2, 0)
+    arrays["positions"] = np.stack((x, -z, y), axis=2)
+    return arrays
+
+
+class Nodes:
+    """A material's shader nodes, made by calls that read like the formula they stand for."""
+
+    def __init__(self, tree):
+        self.tree = tree
+
+    def _put(self, value, socket):
+        if isinstance(value, bpy.types.NodeSocket):
+            self.tree.links.new(value, socket)
+        else:
+            socket.default_value = value
+
+    def node(self, kind, **properties):
+        node = self.tree.nodes.new(kind)
+        for name, value in properties.items():
+            setattr(node, name, value)
+        return node
+
+    def attribute(self, name):
+        return self.node("ShaderNodeAttribute", attribute_type="GEOMETRY", attribute_name=name)
+
+    def math(self, operation, a, b):
+        node = self.node("ShaderNodeMath", operation=operation)
+        self._put(a, node.inputs[0])
+        self._put(b, node.inputs[1])
+        return node.outputs[0]
+
+    def multiply(self, a, b):
+        """Two vectors, component by component."""
+        node = self.node("ShaderNodeVectorMath", operation="MULTIPLY")
+        self._put(a, node.inputs[0])
+        self._put(b, node.inputs[1])
+        return node.outputs["Vector"]
+
+    def scale(self, vector, factor):
+        node = self.node("ShaderNodeVectorMath", operation="SCALE")
+        self._put(vector, node.inputs[0])
+        self._put(factor, node.inputs["Scale"])
+        return node.outputs["Vector"]
+
+    def write_layer(self, name, value):
+        node = self.node("ShaderNodeOutputAOV", name=name)
+        if hasattr(node, "aov_name"):  # from Blender 4.2 on; before, the node's own name counts.
+            node.aov_name = name
+        self._put(value, node.inputs["Color" if name in COLOR_LAYERS else "Value"])
+
+
+def load_texture(path):
+    try:
+        image = bpy.data.images.load(path)
+    except RuntimeError as error:
+        fail("%s: cannot read the texture: %s" % (path, error))
+    if not image.has_data and not image.size[0]:
+        fail("%s: cannot read the texture" % path)
+    image.colorspace_settings.name = "sRGB"
+    image.alpha_mode = "CHANNEL_PACKED"  # colour stays what the file says where alpha is 0.
+    return image
+
+
+def base_color(nodes, texture):
+    """Linear colour and alpha: the vertex colour times the texture."""
+    vertex = nodes.attribute("person_color")
+    if not texture:
+        return vertex.outputs["Color"], vertex.outputs["Alpha"]
+    image = nodes.node("ShaderNodeTexImage", image=load_texture(texture))
+    nodes.tree.links.new(nodes.attribute("person_uv").outputs["Vector"], image.inputs["Vector"])
+    return (nodes.multiply(vertex.outputs["Color"], image.outputs["Color"]),
+            nodes.math("MULTIPLY", vertex.outputs["Alpha"], image.outputs["Alpha"]))
+
+
+def visibility(nodes, description, alpha, backfacing):
+    """1 where a sample sees the surface, 0 in its holes and at the back of a single-sided surface."""
+    visible = None
+    if description["mask"]:
+        hole = nodes.math("LESS_THAN", alpha, description["cutoff"])
+        visible = nodes.math("SUBTRACT", 1.0, hole)
+    if not description["double_sided"]:
+        front = nodes.math("SUBTRACT", 1.0, backfacing)
+        visible = front if visible is None else nodes.math("MULTIPLY", visible, front)
+    return visible
+
+
+def make_material(description):
+    """Writes the layers at the first visible surface.
+
+    A layer is written at every surface a sample meets, also where the sample then passes through, so all
+    are multiplied with the visibility. The surface is diffuse and black without a lamp: under an emission
+    of strength 0 Cycles leaves the layers out.
+    """
+    material = bpy.data.materials.new("impostor")
+    material.use_nodes = True
+    material.node_tree.nodes.clear()
+    nodes = Nodes(material.node_tree)
+    geometry = nodes.node("ShaderNodeNewGeometry")
+    color, alpha = base_color(nodes, description["texture"])
+    visible = visibility(nodes, description, alpha, geometry.outputs["Backfacing"])
+    depth = nodes.scale(geometry.outputs["Position"], -1.0)  # the camera looks along +y.
+    split = nodes.node("ShaderNodeSeparateXYZ")
+    nodes.tree.links.new(depth, split.inputs[0])
+    side = nodes.math("SUBTRACT", 1.0, nodes.math("MULTIPLY", geometry.outputs["Backfacing"], 2.0))
+    normal = nodes.scale(nodes.attribute("person_normal").outputs["Vector"], side)
+    shader = nodes.node("ShaderNodeBsdfDiffuse").outputs["BSDF"]
+    if visible is None:
+        nodes.write_layer("albedo", color)
+        nodes.write_layer("normal", normal)
+        nodes.write_layer("depth", split.outputs["Y"])
+        nodes.write_layer("coverage", 1.0)
+    else:
+        nodes.write_layer("albedo", nodes.scale(color, visible))
+        nodes.write_layer("normal", nodes.scale(normal, visible))
+        nodes.write_layer("depth", nodes.math("MULTIPLY", split.outputs["Y"], visible))
+        nodes.write_layer("coverage", visible)
+        mix = nodes.node("ShaderNodeMixShader")
+        nodes.tree.links.new(visible, mix.inputs[0])
+        nodes.tree.links.new(nodes.node("ShaderNodeBsdfTransparent").outputs[0], mix.inputs[1])
+        nodes.tree.links.new(shader, mix.inputs[2])
+        shader = mix.outputs[0]
+    output = nodes.node("ShaderNodeOutputMaterial")
+    nodes.tree.links.new(shader, output.inputs["Surface"])
+    return material
+
+
+def make_mesh(arrays, materials):
+    """The person in the first frame. Attributes have names that Blender keeps for nothing of its own."""
+    mesh = bpy.data.meshes.new("impostor")
+    mesh.from_pydata(arrays["positions"][0].tolist(), [], arrays["indices"].tolist())
+    for material in materials:
+        mesh.materials.append(material)
+    mesh.polygons.foreach_set("material_index", arrays["materials"].astype(np.int32))
+    uvs = arrays["uvs"]
+    uvs = np.stack((uvs[:, 0], 1 - uvs[:, 1], np.zeros(len(uvs))), axis=1).astype(np.float32)
+    mesh.attributes.new("person_uv", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", uvs.ravel())
+    color = mesh.attributes.new("person_color", "FLOAT_COLOR", "POINT")
+    color.data.foreach_set("color", arrays["colors"].ravel())
+    mesh.attributes.new("person_normal", "FLOAT_VECTOR", "POINT")
+    return mesh
+
+
+def pose(mesh, arrays, frame):
+    mesh.vertices.foreach_set("co", arrays["positions"][frame].astype(np.float32).ravel())
+    mesh.attributes["person_normal"].data.foreach_set("vector", arrays["normals"][frame].ravel())
+    mesh.update()
+
+
+def place_views(settings, mesh):
+    """One instance a cell, turned so that the camera, which looks along +y, sees it as the cell asks."""
+    width, height = settings["window_width_m"], settings["window_height_m"]
+    directions, elevations = settings["directions"], settings["elevations_deg"]
+    for row, elevation in enumerate(elevations):
+        for column in range(directions):
+            x = (column - (directions - 1) / 2) * width
+            z = (len(elevations) / 2 - 1 - row) * height - settings["bottom_m"]
+            view = bpy.data.objects.new("view", mesh)
+            view.matrix_world = (Matrix.Translation((x, 0, z)) @
+                                 Matrix.Rotation(math.radians(elevation), 4, "X") @
+                                 Matrix.Rotation(-2 * math.pi * column / directions, 4, "Z"))
+            bpy.context.scene.collection.objects.link(view)
+
+
+def place_camera(settings, scene, distance):
+    camera = bpy.data.cameras.new("camera")
+    camera.type = "ORTHO"
+    camera.sensor_fit = "HORIZONTAL"
+    camera.ortho_scale = settings["window_width_m"] * settings["directions"]
+    camera.clip_start, camera.clip_end = 0.01 * distance, 3 * distance
+    scene.camera = bpy.data.objects.new("camera", camera)
+    scene.camera.matrix_world = (Matrix.Translation((0, -distance, 0)) @
+                                 Matrix.Rotation(math.pi / 2, 4, "X"))
+    scene.collection.objects.link(scene.camera)
+
+
+def set_up_cycles(settings, scene):
+    """Exact, repeatable samples: a box filter, no adaptive sampling, no denoising, no light."""
+    scene.render.engine = "CYCLES"
+    scene.world = None
+    cycles = scene.cycles
+    cycles.device = "CPU"
+    cycles.samples = settings["options"]["samples"]
+    cycles.seed = settings["seed"] & 0x7FFFFFFF
+    cycles.pixel_filter_type = "BOX"
+    cycles.use_adaptive_sampling = False
+    cycles.use_denoising = False
+    cycles.use_auto_tile = False
+    cycles.max_bounces = 0
+    cycles.transparent_max_bounces = 64
+    scene.render.film_transparent = True
+    scene.render.use_compositing = False
+    scene.render.use_sequencer = False
+    scene.view_settings.view_transform = "Raw"
+
+
+def set_up_output(settings, scene):
+    render = scene.render
+    render.resolution_x = settings["cell_width_px"] * settings["directions"]
+    render.resolution_y = settings["cell_height_px"] * len(settings["elevations_deg"])
+    render.resolution_percentage = 100
+    render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    render.image_settings.color_depth = "32"
+    render.image_settings.exr_codec = "ZIP"
+    layer = scene.view_layers[0]
+    layer.use_pass_z = False
+    for names, kind in ((COLOR_LAYERS, "COLOR"), (VALUE_LAYERS, "VALUE")):
+        for name in names:
+            aov = layer.aovs.add()
+            aov.name, aov.type = name, kind
+
+
+def main():
+    settings = load_settings(required=REQUIRED, options={"samples": 16})
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    arrays = read_geometry(settings)
+    mesh = make_mesh(arrays, [make_material(each) for each in settings["materials"]])
+    place_views(settings, mesh)
+    place_camera(settings, scene, distance=2 * float(np.abs(arrays["positions"]).max()) + 1)
+    set_up_cycles(settings, scene)
+    set_up_output(settings, scene)
+    for frame in range(settings["frames"]):
+        pose(mesh, arrays, frame)
+        scene.render.filepath = os.path.join(settings["output"], "frame_%04d.exr" % frame)
+        bpy.ops.render.render(write_still=True)
+
+
+if __name__ == "__main__":
+    main()
