@@ -1,0 +1,228 @@
+#include "pipeline/footprint/band.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+namespace flaneur {
+namespace {
+
+constexpr double kGrid_m = 0.001;
+constexpr double kBend_m = 0.005;         // the ground may leave an edge's straight line by this much
+constexpr double kShortEdge_m = 0.25;     // shorter edges are not split
+constexpr double kThin_m = 0.002;         // parts thinner than this in plan are drawn as one line
+constexpr double kOvershoot_m = 0.002;    // links run a little past their aim, to cross it for certain
+constexpr double kHashCell_m = 0.5;
+
+bool Before(const Point3& a, const Point3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+bool Before(Point2 a, Point2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
+bool Before(const Segment& s, const Segment& t) {
+  return std::tie(s.a.x, s.a.y, s.b.x, s.b.y) < std::tie(t.a.x, t.a.y, t.b.x, t.b.y);
+}
+bool Same(Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }
+
+// Interpolates from the lesser point, so that an edge gives the same point in both directions.
+Point3 Between(Point3 a, Point3 b, double t) {
+  if (Before(b, a)) std::swap(a, b), t = 1 - t;
+  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
+}
+
+double Snap(double value) { return std::round(value / kGrid_m) * kGrid_m; }
+Point2 Snap(Point2 p) { return {Snap(p.x), Snap(p.y)}; }
+
+// Cuts a polygon whose z is the height over the ground: keeps sign * (z - level) >= 0.
+std::vector<Point3> CutAt(const std::vector<Point3>& polygon, double level, double sign) {
+  std::vector<Point3> out;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Point3& a = polygon[i];
+    const Point3& b = polygon[(i + 1) % polygon.size()];
+    const bool keep_a = sign * (a.z - level) >= 0, keep_b = sign * (b.z - level) >= 0;
+    if (keep_a) out.push_back(a);
+    if (keep_a == keep_b) continue;
+    const bool forward = Before(a, b);
+    const Point3& low = forward ? a : b;
+    const Point3& high = forward ? b : a;
+    Point3 p = Between(low, high, (level - low.z) / (high.z - low.z));
+    p.z = level;
+    out.push_back(p);
+  }
+  return out;
+}
+
+class BandCutter {
+ public:
+  BandCutter(const LocalGround& ground, const std::array<double, 2>& band_m) : ground_(ground), band_m_(band_m) {}
+
+  void Add(const Triangle3& t, int depth = 0) {
+    const auto [low, high] = std::minmax({t[0].z, t[1].z, t[2].z});
+    if (low > ground_.max_height() + band_m_[1] || high < ground_.min_height() + band_m_[0]) return;
+    int longest = -1;
+    double length = kShortEdge_m;
+    for (int i = 0; i < 3; ++i) {
+      const Point3& a = t[static_cast<size_t>(i)];
+      const Point3& b = t[static_cast<size_t>((i + 1) % 3)];
+      const double l = std::hypot(b.x - a.x, b.y - a.y);
+      if (l > length && GroundBends(a, b)) longest = i, length = l;
+    }
+    if (longest < 0 || depth > 24) return AddFlat(t);
+    const Point3& a = t[static_cast<size_t>(longest)];
+    const Point3& b = t[static_cast<size_t>((longest + 1) % 3)];
+    const Point3& c = t[static_cast<size_t>((longest + 2) % 3)];
+    const Point3 m = Between(a, b, 0.5);
+    Add({a, m, c}, depth + 1);
+    Add({m, b, c}, depth + 1);
+  }
+
+  BandParts Finish() {
+    std::sort(parts_.segments.begin(), parts_.segments.end(),
+              [](const Segment& s, const Segment& t) { return Before(s, t); });
+    const auto same = [](const Segment& s, const Segment& t) { return Same(s.a, t.a) && Same(s.b, t.b); };
+    parts_.segments.erase(std::unique(parts_.segments.begin(), parts_.segments.end(), same), parts_.segments.end());
+    parts_.areas = UnionOfRings(parts_.areas);
+    return std::move(parts_);
+  }
+
+ private:
+  bool GroundBends(const Point3& a, const Point3& b) const {
+    const double from = ground_.Height(a.x, a.y), to = ground_.Height(b.x, b.y);
+    for (const double t : {0.25, 0.5, 0.75}) {
+      const Point3 p = Between(a, b, t);
+      const double share = Before(b, a) ? 1 - t : t;
+      const double straight = Before(b, a) ? to + share * (from - to) : from + share * (to - from);
+      if (std::abs(ground_.Height(p.x, p.y) - straight) > kBend_m) return true;
+    }
+    return false;
+  }
+
+  void AddFlat(const Triangle3& t) {
+    std::vector<Point3> part;
+    for (const Point3& p : t) part.push_back({p.x, p.y, p.z - ground_.Height(p.x, p.y)});
+    part = CutAt(part, band_m_[0], 1);
+    if (part.size() >= 2) part = CutAt(part, band_m_[1], -1);
+    if (part.size() >= 2) Project(part);
+  }
+
+  void Project(const std::vector<Point3>& part) {
+    Ring ring;
+    for (const Point3& p : part) {
+      const Point2 q = Snap({p.x, p.y});
+      if (ring.empty() || !Same(ring.back(), q)) ring.push_back(q);
+    }
+    // The two points furthest apart, and how far the others lie from their line.
+    size_t first = 0, last = 0;
+    double width = -1;
+    for (size_t i = 0; i < ring.size(); ++i) {
+      for (size_t j = 0; j < ring.size(); ++j) {
+        if (!Before(ring[i], ring[j])) continue;
+        const double d = std::hypot(ring[j].x - ring[i].x, ring[j].y - ring[i].y);
+        if (d > width || (d == width && Before(Segment{ring[i], ring[j]}, Segment{ring[first], ring[last]})))
+          width = d, first = i, last = j;
+      }
+    }
+    if (width <= 0) return;
+    double thickness = 0;
+    for (const Point2& p : ring) thickness = std::max(thickness, DistanceToSegment(p, ring[first], ring[last]));
+    if (thickness <= kThin_m) return Draw(ring[first], ring[last]);
+    for (size_t i = 0; i < ring.size(); ++i) Draw(ring[i], ring[(i + 1) % ring.size()]);
+    parts_.areas.push_back(std::move(ring));
+  }
+
+  void Draw(Point2 a, Point2 b) {
+    if (Same(a, b)) return;
+    if (Before(b, a)) std::swap(a, b);
+    parts_.segments.push_back({a, b});
+  }
+
+  const LocalGround& ground_;
+  const std::array<double, 2> band_m_;
+  BandParts parts_;
+};
+
+// Segments by the cells of a grid that their boxes touch.
+class SegmentGrid {
+ public:
+  explicit SegmentGrid(const std::vector<Segment>& segments, double reach_m) {
+    for (size_t i = 0; i < segments.size(); ++i) {
+      const Segment& s = segments[i];
+      const double length = std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
+      const int steps = std::max(1, static_cast<int>(std::ceil(length / kHashCell_m)));
+      for (int k = 0; k < steps; ++k) {  // box by box along the segment, so that long ones stay cheap
+        const double t0 = static_cast<double>(k) / steps, t1 = static_cast<double>(k + 1) / steps;
+        AddBox(i, {s.a.x + t0 * (s.b.x - s.a.x), s.a.y + t0 * (s.b.y - s.a.y)},
+               {s.a.x + t1 * (s.b.x - s.a.x), s.a.y + t1 * (s.b.y - s.a.y)}, reach_m);
+      }
+    }
+  }
+  const std::vector<size_t>& Near(Point2 p) const {
+    static const std::vector<size_t> none;
+    const auto found = cells_.find(Key(Cell(p.x), Cell(p.y)));
+    return found == cells_.end() ? none : found->second;
+  }
+
+ private:
+  static int64_t Cell(double v) { return static_cast<int64_t>(std::floor(v / kHashCell_m)); }
+  static int64_t Key(int64_t x, int64_t y) { return x * 73856093 + y; }
+  void AddBox(size_t i, Point2 a, Point2 b, double reach_m) {
+    for (int64_t x = Cell(std::min(a.x, b.x) - reach_m); x <= Cell(std::max(a.x, b.x) + reach_m); ++x) {
+      for (int64_t y = Cell(std::min(a.y, b.y) - reach_m); y <= Cell(std::max(a.y, b.y) + reach_m); ++y) {
+        std::vector<size_t>& cell = cells_[Key(x, y)];
+        if (cell.empty() || cell.back() != i) cell.push_back(i);
+      }
+    }
+  }
+  std::unordered_map<int64_t, std::vector<size_t>> cells_;
+};
+
+Point2 NearestOn(const Segment& s, Point2 p) {
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
+  const double t = std::clamp(((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+  return {s.a.x + t * dx, s.a.y + t * dy};
+}
+
+}  // namespace
+
+BandParts CutToBand(const std::vector<Triangle3>& triangles, const LocalGround& ground,
+                    const std::array<double, 2>& band_m) {
+  BandCutter cutter(ground, band_m);
+  for (const Triangle3& t : triangles) cutter.Add(t);
+  return cutter.Finish();
+}
+
+void BridgeLooseEnds(std::vector<Segment>* segments, double reach_m) {
+  std::map<std::pair<double, double>, std::pair<int, size_t>> ends;  // point: how many segments, and one of them
+  for (size_t i = 0; i < segments->size(); ++i) {
+    for (const Point2 p : {(*segments)[i].a, (*segments)[i].b}) {
+      auto& entry = ends[{p.x, p.y}];
+      ++entry.first;
+      entry.second = i;
+    }
+  }
+  const SegmentGrid grid(*segments, reach_m);
+  std::vector<Segment> links;
+  for (const auto& [point, use] : ends) {
+    if (use.first > 1) continue;
+    const Point2 p{point.first, point.second};
+    const Segment& own = (*segments)[use.second];
+    for (const size_t other : grid.Near(p)) {
+      if (other == use.second) continue;
+      const Segment& s = (*segments)[other];
+      const Point2 q = NearestOn(s, p);
+      double dx = q.x - p.x, dy = q.y - p.y;
+      const double distance = std::hypot(dx, dy);
+      if (distance > reach_m) continue;
+      if (distance < kGrid_m) {  // touches: run on along its own direction
+        const Point2 from = Same(p, own.a) ? own.b : own.a;
+        dx = p.x - from.x, dy = p.y - from.y;
+      }
+      const double length = std::hypot(dx, dy);
+      const double run = (distance < kGrid_m ? 0 : distance) + kOvershoot_m;
+      const Point2 end = Snap({p.x + dx / length * run, p.y + dy / length * run});
+      if (!Same(p, end)) links.push_back(Before(p, end) ? Segment{p, end} : Segment{end, p});
+    }
+  }
+  segments->insert(segments->end(), links.begin(), links.end());
+}
+
+}  // namespace flaneur

@@ -1,0 +1,134 @@
+#include "pipeline/footprint/enclosed_regions.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+
+#include <algorithm>
+#include <map>
+
+namespace flaneur {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_2<Kernel>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<int, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_intersections_tag>;
+using Face = Triangulation::Face_handle;
+using Vertex = Triangulation::Vertex_handle;
+
+// A triangle larger than this is sampled at several points.
+constexpr double kSampleArea_m2 = 0.25;
+
+Triangulation Triangulate(const std::vector<Segment>& segments) {
+  std::vector<Kernel::Point_2> points;
+  std::vector<std::pair<size_t, size_t>> edges;
+  std::map<std::pair<double, double>, size_t> index;
+  const auto vertex = [&](Point2 p) {
+    const auto [entry, is_new] = index.try_emplace({p.x, p.y}, points.size());
+    if (is_new) points.emplace_back(p.x, p.y);
+    return entry->second;
+  };
+  for (const Segment& s : segments) {
+    const size_t a = vertex(s.a);
+    edges.emplace_back(a, vertex(s.b));
+  }
+  Triangulation triangulation;
+  triangulation.insert_constraints(points.begin(), points.end(), edges.begin(), edges.end());
+  return triangulation;
+}
+
+void Flood(Face start, int region) {
+  std::vector<Face> queue{start};
+  start->info() = region;
+  while (!queue.empty()) {
+    const Face face = queue.back();
+    queue.pop_back();
+    for (int i = 0; i < 3; ++i) {
+      const Face next = face->neighbor(i);
+      if (face->is_constrained(i) || next->info() >= 0) continue;
+      next->info() = region;
+      queue.push_back(next);
+    }
+  }
+}
+
+Point2 ToPoint(Vertex v) { return {CGAL::to_double(v->point().x()), CGAL::to_double(v->point().y())}; }
+
+struct Region { double area_m2 = 0; std::vector<RegionSample> samples; };
+
+void AddSamples(Face face, Region* region) {
+  const Point2 a = ToPoint(face->vertex(0)), b = ToPoint(face->vertex(1)), c = ToPoint(face->vertex(2));
+  const double area = SignedArea({a, b, c});
+  region->area_m2 += area;
+  const Point2 m{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+  if (area <= kSampleArea_m2) return region->samples.push_back({m, area});
+  region->samples.push_back({m, area / 4});
+  for (const Point2 p : {a, b, c}) region->samples.push_back({{(m.x + p.x) / 2, (m.y + p.y) / 2}, area / 4});
+}
+
+// Numbers the regions from 0, the outside.
+std::vector<Region> FindRegions(Triangulation* triangulation) {
+  for (const Face face : triangulation->all_face_handles()) face->info() = -1;
+  Flood(triangulation->infinite_face(), 0);
+  std::vector<Region> regions(1);
+  for (const Face face : triangulation->finite_face_handles()) {
+    if (face->info() == 0) continue;
+    if (face->info() < 0) {
+      Flood(face, static_cast<int>(regions.size()));
+      regions.emplace_back();
+    }
+    AddSamples(face, &regions[static_cast<size_t>(face->info())]);
+  }
+  return regions;
+}
+
+// Walks along the edges with something solid on their left.
+Rings TraceSolid(const Triangulation& triangulation, const std::vector<bool>& solid) {
+  std::map<Vertex, std::vector<Vertex>> next;
+  std::vector<Vertex> starts;
+  for (const Face face : triangulation.finite_face_handles()) {
+    if (!solid[static_cast<size_t>(face->info())]) continue;
+    for (int i = 0; i < 3; ++i) {
+      if (solid[static_cast<size_t>(face->neighbor(i)->info())]) continue;
+      const Vertex from = face->vertex(Triangulation::ccw(i));
+      next[from].push_back(face->vertex(Triangulation::cw(i)));
+      starts.push_back(from);
+    }
+  }
+  Rings rings;
+  for (const Vertex start : starts) {
+    Ring ring;
+    for (Vertex v = start; !next[v].empty();) {
+      ring.push_back(ToPoint(v));
+      const Vertex to = next[v].back();
+      next[v].pop_back();
+      v = to;
+    }
+    if (ring.size() >= 3) rings.push_back(std::move(ring));
+  }
+  return Union(rings, {});
+}
+
+}  // namespace
+
+Enclosure EncloseRegions(const std::vector<Segment>& segments, const RegionTest& is_solid) {
+  if (segments.empty()) return {};
+  Triangulation triangulation = Triangulate(segments);
+  if (triangulation.dimension() < 2) return {{}, segments};
+  const std::vector<Region> regions = FindRegions(&triangulation);
+  std::vector<bool> solid(regions.size(), false);
+  for (size_t i = 1; i < regions.size(); ++i) solid[i] = is_solid(regions[i].area_m2, regions[i].samples);
+  Enclosure out;
+  out.solid = TraceSolid(triangulation, solid);
+  for (const auto& [face, i] : triangulation.finite_edges()) {
+    if (!face->is_constrained(i)) continue;
+    if (solid[static_cast<size_t>(face->info())] || solid[static_cast<size_t>(face->neighbor(i)->info())]) continue;
+    out.loose.push_back({ToPoint(face->vertex(Triangulation::ccw(i))), ToPoint(face->vertex(Triangulation::cw(i)))});
+  }
+  return out;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,22 @@
+// The regions that line segments enclose, found with exact arithmetic.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "pipeline/footprint/polygon_sets.h"
+
+namespace flaneur {
+
+struct Enclosure {
+  Rings solid;                  // the regions that `is_solid` took
+  std::vector<Segment> loose;   // segments on neither side of which is anything solid
+};
+
+// A region is enclosed where no way leads to it from outside without crossing a segment. is_solid is asked once for each,
+// with its area and points inside it, each with the area it stands for. Segments may cross, overlap and repeat.
+// Deterministic for the same segments in the same order.
+using RegionSample = std::pair<Point2, double>;
+using RegionTest = std::function<bool(double area_m2, const std::vector<RegionSample>& samples)>;
+Enclosure EncloseRegions(const std::vector<Segment>& segments, const RegionTest& is_solid);
+
+}  // namespace flaneur

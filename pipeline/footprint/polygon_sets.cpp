@@ -1,0 +1,222 @@
+#include "pipeline/footprint/polygon_sets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <clipper.hpp>
+
+namespace flaneur {
+namespace {
+
+namespace cl = ClipperLib;
+constexpr double kUnitsPerMetre = 1e5;
+
+cl::Path ToPath(const Ring& ring) {
+  cl::Path path;
+  path.reserve(ring.size());
+  for (const Point2& p : ring)
+    path.push_back({static_cast<cl::cInt>(std::llround(p.x * kUnitsPerMetre)),
+                    static_cast<cl::cInt>(std::llround(p.y * kUnitsPerMetre))});
+  return path;
+}
+
+cl::Paths ToPaths(const Rings& rings) {
+  cl::Paths paths;
+  paths.reserve(rings.size());
+  for (const Ring& ring : rings) paths.push_back(ToPath(ring));
+  return paths;
+}
+
+Ring ToRing(const cl::Path& path) {
+  Ring ring;
+  ring.reserve(path.size());
+  for (const cl::IntPoint& p : path)
+    ring.push_back({static_cast<double>(p.X) / kUnitsPerMetre, static_cast<double>(p.Y) / kUnitsPerMetre});
+  return ring;
+}
+
+Rings ToRings(const cl::Paths& paths) {
+  Rings rings;
+  for (const cl::Path& path : paths)
+    if (path.size() >= 3) rings.push_back(ToRing(path));
+  return rings;
+}
+
+Rings Combine(cl::ClipType type, const Rings& a, const Rings& b) {
+  cl::Clipper clipper;
+  clipper.StrictlySimple(true);
+  clipper.AddPaths(ToPaths(a), cl::ptSubject, true);
+  clipper.AddPaths(ToPaths(b), cl::ptClip, true);
+  cl::Paths out;
+  clipper.Execute(type, out, cl::pftEvenOdd, cl::pftEvenOdd);
+  return ToRings(out);
+}
+
+void SimplifyChain(const Ring& ring, size_t first, size_t last, double tolerance_m, std::vector<bool>* keep) {
+  double worst = tolerance_m;
+  size_t split = 0;
+  for (size_t i = first + 1; i < last; ++i) {
+    const double d = DistanceToSegment(ring[i % ring.size()], ring[first % ring.size()], ring[last % ring.size()]);
+    if (d > worst) worst = d, split = i;
+  }
+  if (split == 0) return;
+  (*keep)[split % ring.size()] = true;
+  SimplifyChain(ring, first, split, tolerance_m, keep);
+  SimplifyChain(ring, split, last, tolerance_m, keep);
+}
+
+// Starts at the south-western vertex, so that the result does not depend on where the ring starts.
+Ring SimplifyRing(const Ring& ring, double tolerance_m) {
+  const size_t n = ring.size();
+  size_t start = 0, far = 0;
+  for (size_t i = 1; i < n; ++i)
+    if (ring[i].x + ring[i].y < ring[start].x + ring[start].y) start = i;
+  const auto distance = [&](size_t i) { return std::hypot(ring[i].x - ring[start].x, ring[i].y - ring[start].y); };
+  for (size_t i = 0; i < n; ++i)
+    if (distance(i) > distance(far) || far == start) far = i;
+  std::vector<bool> keep(n, false);
+  keep[start] = keep[far] = true;
+  const size_t middle = far > start ? far : far + n;
+  SimplifyChain(ring, start, middle, tolerance_m, &keep);
+  SimplifyChain(ring, middle, start + n, tolerance_m, &keep);
+  Ring out;
+  for (size_t i = 0; i < n; ++i)
+    if (keep[i]) out.push_back(ring[i]);
+  return out;
+}
+
+void AddPolygons(const cl::PolyNode& node, std::vector<Polygon>* out) {
+  for (const cl::PolyNode* outer : node.Childs) {
+    Polygon polygon{ToRing(outer->Contour), {}};
+    for (const cl::PolyNode* hole : outer->Childs) {
+      polygon.holes.push_back(ToRing(hole->Contour));
+      AddPolygons(*hole, out);
+    }
+    out->push_back(std::move(polygon));
+  }
+}
+
+}  // namespace
+
+double SignedArea(const Ring& ring) {
+  if (ring.empty()) return 0;
+  double twice = 0;
+  const Point2 o = ring[0];
+  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
+    twice += (ring[j].x - o.x) * (ring[i].y - o.y) - (ring[i].x - o.x) * (ring[j].y - o.y);
+  return twice / 2;
+}
+
+double Area(const Rings& rings) {
+  double area = 0;
+  for (const Ring& ring : rings) area += SignedArea(ring);
+  return area;
+}
+
+Rings Union(const Rings& a, const Rings& b) { return Combine(cl::ctUnion, a, b); }
+Rings Intersection(const Rings& a, const Rings& b) { return Combine(cl::ctIntersection, a, b); }
+Rings Difference(const Rings& a, const Rings& b) { return Combine(cl::ctDifference, a, b); }
+
+Rings UnionOfRings(const Rings& rings) {
+  cl::Paths paths = ToPaths(rings);
+  for (cl::Path& path : paths)
+    if (!cl::Orientation(path)) cl::ReversePath(path);
+  cl::Clipper clipper;
+  clipper.StrictlySimple(true);
+  clipper.AddPaths(paths, cl::ptSubject, true);
+  cl::Paths out;
+  clipper.Execute(cl::ctUnion, out, cl::pftNonZero, cl::pftNonZero);
+  return ToRings(out);
+}
+
+Rings Offset(const Rings& rings, double distance_m, double miter_limit) {
+  if (rings.empty()) return {};
+  cl::ClipperOffset offset(miter_limit);
+  offset.AddPaths(ToPaths(rings), cl::jtMiter, cl::etClosedPolygon);
+  cl::Paths out;
+  offset.Execute(out, distance_m * kUnitsPerMetre);
+  cl::SimplifyPolygons(out, cl::pftEvenOdd);
+  return Union(ToRings(out), {});
+}
+
+Rings OffsetSegments(const std::vector<Segment>& segments, double distance_m) {
+  Rings boxes;
+  for (const Segment& s : segments) {
+    const double length = std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
+    const double dx = length > 0 ? (s.b.x - s.a.x) / length * distance_m : distance_m;
+    const double dy = length > 0 ? (s.b.y - s.a.y) / length * distance_m : 0;
+    boxes.push_back({{s.a.x - dx + dy, s.a.y - dy - dx}, {s.b.x + dx + dy, s.b.y + dy - dx},
+                     {s.b.x + dx - dy, s.b.y + dy + dx}, {s.a.x - dx - dy, s.a.y - dy + dx}});
+  }
+  return UnionOfRings(boxes);
+}
+
+std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area) {
+  if (area.empty()) return segments;
+  cl::Clipper clipper;
+  for (const Segment& s : segments) clipper.AddPath(ToPath({s.a, s.b}), cl::ptSubject, false);
+  clipper.AddPaths(ToPaths(area), cl::ptClip, true);
+  cl::PolyTree tree;
+  clipper.Execute(cl::ctDifference, tree, cl::pftEvenOdd, cl::pftEvenOdd);
+  cl::Paths open;
+  cl::OpenPathsFromPolyTree(tree, open);
+  std::vector<Segment> out;
+  for (const cl::Path& path : open) {
+    const Ring line = ToRing(path);
+    for (size_t i = 0; i + 1 < line.size(); ++i) out.push_back({line[i], line[i + 1]});
+  }
+  return out;
+}
+
+Rings Simplify(const Rings& rings, double tolerance_m) {
+  Rings out;
+  for (const Ring& ring : rings) {
+    Ring simple = SimplifyRing(ring, tolerance_m);
+    if (simple.size() >= 3) out.push_back(std::move(simple));
+  }
+  return Union(out, {});
+}
+
+std::vector<Polygon> ToPolygons(const Rings& rings) {
+  cl::Clipper clipper;
+  clipper.StrictlySimple(true);
+  clipper.AddPaths(ToPaths(rings), cl::ptSubject, true);
+  cl::PolyTree tree;
+  clipper.Execute(cl::ctUnion, tree, cl::pftEvenOdd, cl::pftEvenOdd);
+  std::vector<Polygon> out;
+  AddPolygons(tree, &out);
+  return out;
+}
+
+bool Contains(const Ring& ring, Point2 p) {
+  bool inside = false;
+  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Point2 a = ring[i], b = ring[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+  }
+  return inside;
+}
+
+bool Contains(const Rings& rings, Point2 p) {
+  bool inside = false;
+  for (const Ring& ring : rings)
+    if (Contains(ring, p)) inside = !inside;
+  return inside;
+}
+
+double DistanceToSegment(Point2 p, Point2 a, Point2 b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double square = dx * dx + dy * dy;
+  const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0;
+  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
+
+double DistanceToBoundary(const Rings& rings, Point2 p) {
+  double nearest = std::numeric_limits<double>::max();
+  for (const Ring& ring : rings)
+    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
+      nearest = std::min(nearest, DistanceToSegment(p, ring[j], ring[i]));
+  return nearest;
+}
+
+}  // namespace flaneur

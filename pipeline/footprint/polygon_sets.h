@@ -1,0 +1,43 @@
+// Boolean operations, offsets and simplification of polygons on a grid of 0.01 mm.
+#pragma once
+#include <vector>
+
+#include "pipeline/core/footprint.h"
+
+namespace flaneur {
+
+using Ring = std::vector<Point2>;
+// The area inside by the even-odd rule. Results have outer rings anticlockwise and holes clockwise, all simple.
+using Rings = std::vector<Ring>;
+struct Segment { Point2 a, b; };
+struct Polygon { Ring outer; Rings holes; };
+
+double SignedArea(const Ring& ring);  // square metres, positive where anticlockwise
+double Area(const Rings& rings);
+
+Rings Union(const Rings& a, const Rings& b);
+// The union of rings that overlap, each filled whatever its orientation.
+Rings UnionOfRings(const Rings& rings);
+Rings Intersection(const Rings& a, const Rings& b);
+Rings Difference(const Rings& a, const Rings& b);
+
+// Grown by distance_m (shrunk where negative). Corners are mitred up to miter_limit * distance_m, sharper ones cut.
+Rings Offset(const Rings& rings, double distance_m, double miter_limit = 2);
+// All that lies within distance_m of a segment, ends squared.
+Rings OffsetSegments(const std::vector<Segment>& segments, double distance_m);
+// The parts of the segments outside the area.
+std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area);
+
+// Drops vertices where the boundary moves by at most tolerance_m.
+Rings Simplify(const Rings& rings, double tolerance_m);
+
+// Splits an area into polygons with their holes.
+std::vector<Polygon> ToPolygons(const Rings& rings);
+
+// Even-odd; a point on the boundary may be either.
+bool Contains(const Ring& ring, Point2 p);
+bool Contains(const Rings& rings, Point2 p);
+double DistanceToSegment(Point2 p, Point2 a, Point2 b);
+double DistanceToBoundary(const Rings& rings, Point2 p);
+
+}  // namespace flaneur

@@ -1,0 +1,194 @@
+#include "pipeline/footprint/rasterize_ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace flaneur {
+namespace {
+
+constexpr double kLargestExtent_m = 100'000;
+constexpr int kSmoothingRounds = 30;
+
+struct Extent {
+  double min_x = std::numeric_limits<double>::max(), min_y = min_x, min_z = min_x;
+  double max_x = -min_x, max_y = -min_x;
+  void Add(const Point3& p) {
+    min_x = std::min(min_x, p.x), max_x = std::max(max_x, p.x);
+    min_y = std::min(min_y, p.y), max_y = std::max(max_y, p.y);
+    min_z = std::min(min_z, p.z);
+  }
+};
+
+Extent GroundExtent(const TownObjects& town) {
+  Extent extent;
+  for (const GroundPatch& patch : town.ground)
+    for (const Triangle3& t : patch.triangles)
+      for (const Point3& p : t) extent.Add(p);
+  return extent;
+}
+
+Extent ObstacleExtent(const TownObjects& town) {
+  Extent extent;
+  for (const TownObject& object : town.obstacles) extent.Add(object.min_m), extent.Add(object.max_m);
+  return extent;
+}
+
+Error LayOut(const Extent& extent, const GroundRasterOptions& options, GroundRaster* raster) {
+  const double width = extent.max_x - extent.min_x, depth = extent.max_y - extent.min_y;
+  if (!(width < kLargestExtent_m) || !(depth < kLargestExtent_m))
+    return Fail("the town is " + std::to_string(std::max(width, depth) / 1000) +
+                " km wide, more than 100 km; are its units metres? See the option for the scale");
+  double cell = options.cell_m;
+  while ((width / cell + 2) * (depth / cell + 2) > options.max_cells) cell *= 2;
+  raster->min_m = {static_cast<float>(std::floor(extent.min_x / cell) * cell),
+                   static_cast<float>(std::floor(extent.min_y / cell) * cell)};
+  raster->cell_m = static_cast<float>(cell);
+  raster->columns = static_cast<int>(std::ceil((extent.max_x - raster->min_m.x) / cell - 1e-6));
+  raster->rows = static_cast<int>(std::ceil((extent.max_y - raster->min_m.y) / cell - 1e-6));
+  raster->columns = std::max(raster->columns, 1);
+  raster->rows = std::max(raster->rows, 1);
+  const size_t cells = static_cast<size_t>(raster->columns) * static_cast<size_t>(raster->rows);
+  raster->height_m.assign(cells, 0);
+  raster->kind.assign(cells, static_cast<uint8_t>(GroundKind::kNone));
+  return Ok();
+}
+
+int Column(const GroundRaster& raster, double x) {
+  return static_cast<int>(std::floor((x - raster.min_m.x) / raster.cell_m));
+}
+int Row(const GroundRaster& raster, double y) {
+  return static_cast<int>(std::floor((y - raster.min_m.y) / raster.cell_m));
+}
+
+void DrawTriangle(const Triangle3& t, GroundKind kind, GroundRaster* raster) {
+  const auto [a, b, c] = t;
+  const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+  if (std::abs(area) < 1e-9) return;
+  const int c0 = std::max(Column(*raster, std::min({a.x, b.x, c.x})), 0);
+  const int c1 = std::min(Column(*raster, std::max({a.x, b.x, c.x})), raster->columns - 1);
+  const int r0 = std::max(Row(*raster, std::min({a.y, b.y, c.y})), 0);
+  const int r1 = std::min(Row(*raster, std::max({a.y, b.y, c.y})), raster->rows - 1);
+  for (int row = r0; row <= r1; ++row) {
+    for (int column = c0; column <= c1; ++column) {
+      const double x = raster->min_m.x + (column + 0.5) * raster->cell_m;
+      const double y = raster->min_m.y + (row + 0.5) * raster->cell_m;
+      const double wb = ((x - a.x) * (c.y - a.y) - (c.x - a.x) * (y - a.y)) / area;
+      const double wc = ((b.x - a.x) * (y - a.y) - (x - a.x) * (b.y - a.y)) / area;
+      if (wb < -1e-9 || wc < -1e-9 || wb + wc > 1 + 1e-9) continue;
+      const float z = static_cast<float>(a.z + wb * (b.z - a.z) + wc * (c.z - a.z));
+      const size_t cell = static_cast<size_t>(row) * static_cast<size_t>(raster->columns) +
+                          static_cast<size_t>(column);
+      const bool empty = raster->kind[cell] == 0;
+      // Equal heights: the higher kind wins, so that the order of the patches does not matter.
+      const bool above = z > raster->height_m[cell] ||
+                         (z == raster->height_m[cell] && static_cast<uint8_t>(kind) > raster->kind[cell]);
+      if (!empty && !above) continue;
+      raster->height_m[cell] = z;
+      raster->kind[cell] = static_cast<uint8_t>(kind);
+    }
+  }
+}
+
+// Two sweeps each way carry every empty cell the height of a near ground cell.
+void FillGaps(GroundRaster* raster) {
+  const int columns = raster->columns, rows = raster->rows;
+  const auto at = [&](int column, int row) {
+    return static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
+  };
+  std::vector<float> distance(raster->kind.size(), std::numeric_limits<float>::max());
+  for (size_t i = 0; i < distance.size(); ++i)
+    if (raster->kind[i]) distance[i] = 0;
+  const auto take = [&](int column, int row, int from_column, int from_row, float step) {
+    if (from_column < 0 || from_column >= columns || from_row < 0 || from_row >= rows) return;
+    const size_t to = at(column, row), from = at(from_column, from_row);
+    if (distance[from] + step >= distance[to]) return;
+    distance[to] = distance[from] + step;
+    raster->height_m[to] = raster->height_m[from];
+  };
+  const float diagonal = 1.41421356f;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      take(column, row, column - 1, row, 1), take(column, row, column, row - 1, 1);
+      take(column, row, column - 1, row - 1, diagonal), take(column, row, column + 1, row - 1, diagonal);
+    }
+    for (int column = columns - 1; column >= 0; --column) take(column, row, column + 1, row, 1);
+  }
+  for (int row = rows - 1; row >= 0; --row) {
+    for (int column = columns - 1; column >= 0; --column) {
+      take(column, row, column + 1, row, 1), take(column, row, column, row + 1, 1);
+      take(column, row, column + 1, row + 1, diagonal), take(column, row, column - 1, row + 1, diagonal);
+    }
+    for (int column = 0; column < columns; ++column) take(column, row, column - 1, row, 1);
+  }
+}
+
+void SmoothGaps(GroundRaster* raster) {
+  const int columns = raster->columns, rows = raster->rows;
+  for (int round = 0; round < kSmoothingRounds; ++round) {
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const size_t i = static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
+        if (raster->kind[i]) continue;
+        const size_t stride = static_cast<size_t>(columns);
+        const float west = column > 0 ? raster->height_m[i - 1] : raster->height_m[i];
+        const float east = column + 1 < columns ? raster->height_m[i + 1] : raster->height_m[i];
+        const float south = row > 0 ? raster->height_m[i - stride] : raster->height_m[i];
+        const float north = row + 1 < rows ? raster->height_m[i + stride] : raster->height_m[i];
+        raster->height_m[i] = (west + east + south + north) / 4;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Error RasterizeGround(const TownObjects& town, const GroundRasterOptions& options, GroundRaster* raster) {
+  if (!(options.cell_m > 0) || options.max_cells <= 0)
+    return Fail("the ground's cell size and the most cells must be greater than zero");
+  Extent extent = GroundExtent(town);
+  const bool bare = extent.min_x > extent.max_x;
+  if (bare) {
+    extent = ObstacleExtent(town);
+    if (extent.min_x > extent.max_x) return Fail("the town has neither ground nor obstacles");
+    extent.min_x -= options.bare_margin_m, extent.max_x += options.bare_margin_m;
+    extent.min_y -= options.bare_margin_m, extent.max_y += options.bare_margin_m;
+  }
+  if (Error error = LayOut(extent, options, raster)) return error;
+  if (bare) {
+    std::fill(raster->height_m.begin(), raster->height_m.end(), static_cast<float>(extent.min_z));
+    std::fill(raster->kind.begin(), raster->kind.end(), static_cast<uint8_t>(GroundKind::kSquare));
+  }
+  for (const GroundPatch& patch : town.ground)
+    for (const Triangle3& t : patch.triangles) DrawTriangle(t, patch.kind, raster);
+  return Ok();
+}
+
+Error RasterizeGround(const Scene& scene, const GroundRasterOptions& options, GroundRaster* raster) {
+  if (!(options.scale > 0)) return Fail("the scale must be greater than zero");
+  return RasterizeGround(SortTown(scene, options.scale), options, raster);
+}
+
+LocalGround::LocalGround(const GroundRaster& raster) : raster_(raster) {
+  FillGaps(&raster_);
+  SmoothGaps(&raster_);
+  const auto [low, high] = std::minmax_element(raster_.height_m.begin(), raster_.height_m.end());
+  min_height_ = *low, max_height_ = *high;
+}
+
+double LocalGround::Height(double x, double y) const {
+  const double u = std::clamp((x - raster_.min_m.x) / raster_.cell_m - 0.5, 0.0, raster_.columns - 1.0);
+  const double v = std::clamp((y - raster_.min_m.y) / raster_.cell_m - 0.5, 0.0, raster_.rows - 1.0);
+  const int c0 = static_cast<int>(u), r0 = static_cast<int>(v);
+  const int c1 = std::min(c0 + 1, raster_.columns - 1), r1 = std::min(r0 + 1, raster_.rows - 1);
+  const auto at = [&](int column, int row) -> double {
+    return raster_.height_m[static_cast<size_t>(row) * static_cast<size_t>(raster_.columns) +
+                            static_cast<size_t>(column)];
+  };
+  const double fu = u - c0, fv = v - r0;
+  return (at(c0, r0) * (1 - fu) + at(c1, r0) * fu) * (1 - fv) +
+         (at(c0, r1) * (1 - fu) + at(c1, r1) * fu) * fv;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,36 @@
+// The walkable surface of a town as a raster.
+#pragma once
+#include "pipeline/core/footprint.h"
+#include "pipeline/core/scene.h"
+#include "pipeline/footprint/town_objects.h"
+#include "runtime/base/error.h"
+
+namespace flaneur {
+
+struct GroundRasterOptions {
+  double cell_m = 0.25;          // > 0; doubled until the raster holds at most max_cells
+  int max_cells = 4'000'000;     // > 0
+  double scale = 1;              // metres per unit of the scene, > 0
+  double bare_margin_m = 10;     // a town without ground gets a flat square this far round it
+};
+
+// Each cell takes the topmost ground triangle over its centre. A town without any ground stands on a flat square at its
+// lowest point. Errors: an option out of range, nothing in the scene, a town wider than 100 km (names the extent).
+Error RasterizeGround(const Scene& scene, const GroundRasterOptions& options, GroundRaster* raster);
+Error RasterizeGround(const TownObjects& town, const GroundRasterOptions& options, GroundRaster* raster);
+
+// The height of the ground everywhere: between cell centres bilinear, where there is no ground that of the nearest
+// ground, smoothed. The raster must have at least one cell of ground.
+class LocalGround {
+ public:
+  explicit LocalGround(const GroundRaster& raster);
+  double Height(double x, double y) const;
+  double min_height() const { return min_height_; }
+  double max_height() const { return max_height_; }
+
+ private:
+  GroundRaster raster_;  // filled: every cell has a height
+  double min_height_ = 0, max_height_ = 0;
+};
+
+}  // namespace flaneur

@@ -1,0 +1,122 @@
+#include "pipeline/footprint/town_objects.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+namespace flaneur {
+namespace {
+
+// A node no higher than this, and wide, is ground to walk on.
+constexpr double kFlatHeight_m = 0.15;
+constexpr double kFlatWidth_m = 1.0;
+
+std::string Lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool HasAny(const std::string& text, std::initializer_list<const char*> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return text.find(word) != std::string::npos; });
+}
+
+struct Meaning { NodeKind kind; GroundKind ground = GroundKind::kNone; };
+
+Meaning FromName(const std::string& name, const Point3& min, const Point3& max) {
+  if (name.starts_with("tree")) return {NodeKind::kTree};
+  if (name.starts_with("lamp")) return {NodeKind::kLamp};
+  if (HasAny(name, {"road", "street"})) return {NodeKind::kGround, GroundKind::kCarriageway};
+  if (HasAny(name, {"grass", "lawn"})) return {NodeKind::kGround, GroundKind::kGrass};
+  if (HasAny(name, {"ground", "terrain", "floor", "hex", "path"}))
+    return {NodeKind::kGround, GroundKind::kPavement};
+  const bool flat = max.z - min.z <= kFlatHeight_m &&
+                    std::min(max.x - min.x, max.y - min.y) >= kFlatWidth_m;
+  if (flat) return {NodeKind::kGround, GroundKind::kSquare};
+  return {NodeKind::kBuilding};
+}
+
+std::vector<Triangle3> WorldTriangles(const Scene& scene, const SceneNode& node, double scale) {
+  std::vector<Triangle3> out;
+  for (const int index : node.meshes) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(index)];
+    std::vector<Point3> points;
+    points.reserve(mesh.positions.size());
+    for (const Vec3 p : mesh.positions) {
+      const Vec3 g = GroundFromGltf(TransformPoint(node.world, p));
+      points.push_back({g.x * scale, g.y * scale, g.z * scale});
+    }
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+      out.push_back({points[mesh.indices[i]], points[mesh.indices[i + 1]], points[mesh.indices[i + 2]]});
+  }
+  return out;
+}
+
+void Grow(const std::vector<Triangle3>& triangles, Point3* min, Point3* max) {
+  for (const Triangle3& t : triangles) {
+    for (const Point3& p : t) {
+      *min = {std::min(min->x, p.x), std::min(min->y, p.y), std::min(min->z, p.z)};
+      *max = {std::max(max->x, p.x), std::max(max->y, p.y), std::max(max->z, p.z)};
+    }
+  }
+}
+
+// The topmost ancestor of the same kind: where the tag stands. Untagged nodes stand for themselves.
+int ObjectRoot(const Scene& scene, int node) {
+  const NodeKind kind = scene.nodes[static_cast<size_t>(node)].kind;
+  if (kind == NodeKind::kUntagged) return node;
+  int root = node;
+  for (int parent = scene.nodes[static_cast<size_t>(node)].parent;
+       parent >= 0 && scene.nodes[static_cast<size_t>(parent)].kind == kind;
+       parent = scene.nodes[static_cast<size_t>(parent)].parent)
+    root = parent;
+  return root;
+}
+
+bool ObstacleKindOf(NodeKind kind, ObstacleKind* out) {
+  switch (kind) {
+    case NodeKind::kBuilding: *out = ObstacleKind::kBuilding; return true;
+    case NodeKind::kWall: *out = ObstacleKind::kWall; return true;
+    case NodeKind::kTree: *out = ObstacleKind::kTree; return true;
+    case NodeKind::kLamp: *out = ObstacleKind::kLamp; return true;
+    case NodeKind::kOther: *out = ObstacleKind::kOther; return true;
+    default: return false;
+  }
+}
+
+}  // namespace
+
+TownObjects SortTown(const Scene& scene, double scale) {
+  TownObjects town;
+  std::map<int, size_t> object_of_root;
+  for (size_t i = 0; i < scene.nodes.size(); ++i) {
+    const SceneNode& node = scene.nodes[i];
+    if (node.meshes.empty() || node.kind == NodeKind::kNone) continue;
+    std::vector<Triangle3> triangles = WorldTriangles(scene, node, scale);
+    if (triangles.empty()) continue;
+    Point3 min = triangles[0][0], max = min;
+    Grow(triangles, &min, &max);
+    Meaning meaning{node.kind, node.ground};
+    if (node.kind == NodeKind::kUntagged) meaning = FromName(Lower(node.name), min, max);
+    if (meaning.kind == NodeKind::kGround) {
+      if (meaning.ground == GroundKind::kNone) meaning.ground = GroundKind::kPavement;
+      town.ground.push_back({meaning.ground, std::move(triangles)});
+      continue;
+    }
+    ObstacleKind kind;
+    if (!ObstacleKindOf(meaning.kind, &kind)) continue;
+    const int root = ObjectRoot(scene, static_cast<int>(i));
+    const auto [entry, is_new] = object_of_root.try_emplace(root, town.obstacles.size());
+    if (is_new) {
+      const SceneNode& top = scene.nodes[static_cast<size_t>(root)];
+      const std::string name = top.name.empty() ? "node_" + std::to_string(root) : top.name;
+      town.obstacles.push_back({name, kind, top.radius_m, {}, min, max});
+    }
+    TownObject& object = town.obstacles[entry->second];
+    Grow(triangles, &object.min_m, &object.max_m);
+    object.triangles.insert(object.triangles.end(), triangles.begin(), triangles.end());
+  }
+  return town;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,36 @@
+// A scene sorted by what it means for a person on foot: ground and things in the way.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "pipeline/core/footprint.h"
+#include "pipeline/core/scene.h"
+
+namespace flaneur {
+
+// A point of the town: x east, y north, z up, metres.
+struct Point3 { double x = 0, y = 0, z = 0; };
+using Triangle3 = std::array<Point3, 3>;
+
+struct TownObject {
+  std::string name;  // of the topmost node that carries the tag
+  ObstacleKind kind = ObstacleKind::kBuilding;
+  double radius_m = 0;  // 0: measure it
+  std::vector<Triangle3> triangles;
+  Point3 min_m, max_m;
+};
+
+struct GroundPatch { GroundKind kind = GroundKind::kPavement; std::vector<Triangle3> triangles; };
+
+struct TownObjects {
+  std::vector<TownObject> obstacles;
+  std::vector<GroundPatch> ground;
+};
+
+// Parts of one tagged node are one object. Untagged nodes are told by their names (ground, terrain, road, street,
+// floor, hex, path; tree, lamp), flat ones are ground, and the rest are buildings. Nodes tagged none, door, exit or
+// loiter are left out. `scale` turns the scene's units into metres. Degenerate triangles are kept.
+TownObjects SortTown(const Scene& scene, double scale);
+
+}  // namespace flaneur
