@@ -149,8 +149,8 @@ def add_furniture(town, streets, public, plots, doors, rng):
 
 
 def add_copies(town, streets, public, plots, rng):
-    for i, (height, crown, tint) in enumerate(((8.6, 3.0, "93a65a"), (9.6, 2.8, "7f9a52"), (7.4, 2.7, "a3ab5c"))):
-        town.shared["tree_%d" % (i + 1)] = nature.make_tree(rng, height, crown, tint)
+    for name, height, crown, tint, detail in furnish.TREE_SORTS:
+        town.shared[name] = nature.make_tree(rng, height, crown, tint, detail)
     town.shared["lamp"] = nature.make_lamp()
     for i, (x, y, scale, sort) in enumerate(furnish.trees(public, plots, rng)):
         z = float(plan.pavement_height(x, y)) - (0.1 if public([(x, y)])[0] < 0 else 0.15)
@@ -158,7 +158,7 @@ def add_copies(town, streets, public, plots, rng):
         extras = {"flaneur_kind": "none" if outside else "tree"}
         if not outside:
             extras["flaneur_radius_m"] = round(nature.TRUNK_RADIUS_M * scale, 3)
-        town.copies.append(("tree_%03d" % (i + 1), "tree_%d" % (sort + 1), extras, (x, y, z - (0.4 if outside else 0)),
+        town.copies.append(("tree_%03d" % (i + 1), furnish.TREE_SORTS[sort][0], extras, (x, y, z - (0.4 if outside else 0)),
                             rng.uniform(0, 2 * math.pi), scale))
     for i, (x, y) in enumerate(furnish.lamps(streets, public)):
         z = float(plan.ground_height(x, y)) + (plan.KERB_M if plan.carriage_distance([(x, y)], streets)[0] > 0 else 0)
@@ -180,10 +180,10 @@ def bake(town, samples):
     for name, _, _, weather in town.parts:
         part = corners[name]
         count = max(4, samples // 3) if name in ("back_gardens", "far_land") else samples
-        baked[name] = (part, light.vertex_colors(part, light.occlusion(part, tree, count), weather))
+        baked[name] = (part, light.vertex_colors(part, light.occlusion(part, tree, count, part.coarse), weather))
     for name, mesh in town.shared.items():
         part = light.Corners(mesh)
-        own = light.occlusion(part, light.make_tree([part]), samples)
+        own = light.occlusion(part, light.make_tree([part]), samples, part.coarse)
         baked[name + "_mesh"] = (part, light.vertex_colors(part, own, 0.0))
     return baked
 

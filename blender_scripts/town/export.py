@@ -50,11 +50,16 @@ def _image(name, pixels, seed, folder):
 
 
 def make_blender_mesh(name, mesh, part, colors, materials):
-    """A Blender mesh with shared points, flat normals unless given, texture coordinates and vertex colours."""
+    """A Blender mesh with flat normals unless given, texture coordinates and vertex colours.
+
+    Corners share a point only if they share its colour too: the exporter of Blender 3.4 mixes up colours that are
+    stored by corner, so they are stored by point.
+    """
     keep = part.area > 1e-6
     corner_kept = keep[part.face]
     points = part.points[corner_kept]
-    key = np.round(points * 10000).astype(np.int64)
+    shades = np.round(colors[corner_kept] * 4095)
+    key = np.concatenate([np.round(points * 10000), shades], axis=1).astype(np.int64)
     _, chosen, inverse = np.unique(key, axis=0, return_index=True, return_inverse=True)
     inverse = inverse.reshape(-1)
     sizes = part.sizes[keep]
@@ -78,14 +83,15 @@ def make_blender_mesh(name, mesh, part, colors, materials):
     data.update(calc_edges=True)
     layer = data.uv_layers.new(name="UVMap")
     layer.data.foreach_set("uv", np.array(mesh.uvs, np.float32)[corner_kept].ravel())
-    attribute = data.color_attributes.new("Color", "BYTE_COLOR", "CORNER")
-    rgba = np.ones((len(points), 4), np.float32)
-    rgba[:, :3] = colors[corner_kept]
+    attribute = data.color_attributes.new("Color", "BYTE_COLOR", "POINT")
+    rgba = np.ones((len(chosen), 4), np.float32)
+    rgba[:, :3] = colors[corner_kept][chosen]
     attribute.data.foreach_set("color", rgba.ravel())
     data.color_attributes.active_color = attribute
     data.color_attributes.render_color_index = 0
     if smooth.any():
-        data.use_auto_smooth = True
+        if hasattr(data, "use_auto_smooth"):   # gone from Blender 4.1 on, where custom normals need no switch
+            data.use_auto_smooth = True
         data.normals_split_custom_set([tuple(n) for n in part.normals[corner_kept].tolist()])
     return data
 

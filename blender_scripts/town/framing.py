@@ -225,11 +225,9 @@ def jetty(mesh, frame, width, overhang, drop, posts, colors, rng):
                   [(0, 0), (overhang, 0), (overhang, drop), (0, drop)], color)
         mesh.face("timber", [f(b, -drop, end), f(b, -drop, lower), f(b, 0, lower), f(b, 0, end)],
                   [(0, 0), (overhang, 0), (overhang, drop), (0, drop)], color)
-        mesh.face("timber", [f(a, -drop, lower), f(b, -drop, lower), f(b, -drop, end), f(a, -drop, end)],
-                  [(0, 0), (0.17, 0), (0.17, overhang), (0, overhang)], color)
         side = Frame(frame.at(u - 0.06, -drop, lower), frame.n)   # the bracket seen from the left
         reach, fall = overhang * 0.92, 0.52
-        profile = [(0, -fall), (0.06, -fall), (reach * 0.45, -fall * 0.55), (reach, -0.08), (reach, 0.0), (0, 0.0)]
+        profile = [(0, -fall), (reach * 0.45, -fall * 0.6), (reach, -0.08), (reach, 0.0), (0, 0.0)]
         extrude(mesh, "timber", side, profile, -0.12, 0.0, tone(colors["bracket"], rng), front=True, back=True,
-                flanks=(1, 2, 3, 0))
+                flanks=(0, 1, 2))
 

@@ -7,6 +7,10 @@ import numpy as np
 import plan
 from layout import offset_line
 
+# Name of the shared mesh, height, crown radius, colour, detail.
+TREE_SORTS = [("tree_lime", 8.6, 3.0, "93a65a", 1.0), ("tree_maple", 9.6, 2.8, "7f9a52", 1.0),
+              ("tree_apple", 6.4, 2.6, "a3ab5c", 0.45), ("tree_elm", 8.8, 3.1, "869c55", 0.45),
+              ("tree_far", 9.5, 3.4, "8a9c5c", 0.25)]
 STALLS = [(-10.0, 6.6, 0.0), (-5.4, 6.9, 0.0), (-0.8, 6.7, 0.0), (3.8, 6.9, 0.0), (8.6, 6.6, 0.0),
           (1.2, -8.2, math.pi), (5.9, -8.4, math.pi), (10.6, -8.1, math.pi)]
 WELL = (-2.5, -1.2)
@@ -40,7 +44,7 @@ def lamps(streets, public):
 def trees(public, plots, rng):
     """(x, y, scale, sort) of trees on the square, in the churchyard, in gardens and outside the wall."""
     spots = [(x, y, 0.85, 0) for x, y in SQUARE_TREES]
-    spots += [(x + rng.uniform(-0.6, 0.6), y + rng.uniform(-0.6, 0.6), rng.uniform(0.9, 1.2), rng.randrange(3))
+    spots += [(x + rng.uniform(-0.6, 0.6), y + rng.uniform(-0.6, 0.6), rng.uniform(0.9, 1.2), rng.randrange(2))
               for x, y in ((36, 16.0), (46, 15.2), (56, 14.2), (68, 14.5), (73, 31), (70, 46), (57, 47.4), (46, 46.8), (35.5, 47))]
     gardens = []
     for _ in range(2600):
@@ -49,7 +53,7 @@ def trees(public, plots, rng):
                 and not any(o.contains([p], 2.6)[0] for o in plots) \
                 and all(math.hypot(p[0] - q[0], p[1] - q[1]) > 4.6 for q in gardens):
             gardens.append(p)
-    spots += [(x, y, rng.uniform(0.6, 1.0), rng.randrange(3)) for x, y in gardens]
+    spots += [(x, y, rng.uniform(0.7, 1.0), rng.randrange(2, 4)) for x, y in gardens]
     for i in range(46):
         a = 2 * math.pi * (i + rng.uniform(-0.3, 0.3)) / 46
         for r in np.arange(60, 120, 2.0):
@@ -58,7 +62,7 @@ def trees(public, plots, rng):
                 break
         if public([p])[0] > 3:
             k = rng.uniform(1.02, 1.12)
-            spots.append((p[0] * k, p[1] * k, rng.uniform(0.95, 1.4), rng.randrange(3)))
+            spots.append((p[0] * k, p[1] * k, rng.uniform(0.95, 1.4), 4))
     return spots
 
 

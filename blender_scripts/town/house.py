@@ -37,6 +37,7 @@ class House:
         self.rng, self.mesh, self.roof = rng, Mesh(), roof
         self.width, self.depth = plot.width, plot.depth
         self.left_open, self.right_open, self.back_open = plot.left_open, plot.right_open, plot.back_open
+        self.left_seen, self.right_seen = plot.left_seen, plot.right_seen
         self.passage = plot.kind == "passage"
         self.colors = pick_colors(rng)
         self.heights = [rng.uniform(2.75, 3.15)] + [rng.uniform(2.5, 2.75) for _ in range(storeys - 1)]
@@ -194,16 +195,17 @@ def sides(house, level):
     last = level == len(house.heights) - 1
     height = house.heights[level] + (0.0 if last else DROP)
     low = FOOT if level == 0 else z
-    for frame, length, is_open in ((Frame((w, y, 0), (0, 1, 0)), d - y, house.right_open),
-                                   (Frame((0, d, 0), (0, -1, 0)), d - y, house.left_open)):
+    for frame, is_open, seen in ((Frame((w, y, 0), (0, 1, 0)), house.right_open, house.right_seen),
+                                 (Frame((0, d, 0), (0, -1, 0)), house.left_open, house.left_seen)):
+        length = d - y
         if not is_open:
             panel(mesh, "plaster", frame, 0, length, low, z + height, colors["plaster"], step=4.5)
         elif level == 0:
             panel(mesh, "plaster", frame, 0, length, low, z + height, colors["plaster"])
             plinth(mesh, frame, length, [], rng)
         else:
-            edges = bay_edges(length, 1.3)
-            lights = [b and rng.random() < 0.5 for b in window_bays(len(edges) - 1, rng)]
+            edges = bay_edges(length, 1.3 if seen else 2.2)
+            lights = [seen and b and rng.random() < 0.5 for b in window_bays(len(edges) - 1, rng)]
             storey(mesh, frame.shifted(0, z), length, height, colors, rng, lights, "plain", "brace", (), edges)
     back = Frame((w, d, 0), (-1, 0, 0))
     holes = []
@@ -242,8 +244,9 @@ def cover(house):
     span = d - y0
     verge = (0.24 if house.left_open else 0.03, 0.24 if house.right_open else 0.03)
     gable_roof(mesh, lambda l, s, h: (l, y0 + s, h), w, span, z, slope, 0.36, verge, tint, timber, rng)
-    for frame, is_open in ((Frame((w, y0, z), (0, 1, 0)), house.right_open), (Frame((0, d, z), (0, -1, 0)), house.left_open)):
-        gable(mesh, frame, span, slope, colors, rng, decorated=is_open, windows=is_open)
+    for frame, is_open, seen in ((Frame((w, y0, z), (0, 1, 0)), house.right_open, house.right_seen),
+                                 (Frame((0, d, z), (0, -1, 0)), house.left_open, house.left_seen)):
+        gable(mesh, frame, span, slope, colors, rng, decorated=is_open, windows=seen)
         if is_open:
             bargeboards(mesh, frame, span, slope, 0.24, 0.2, colors, rng)
     rise = span / 2 * slope

@@ -40,7 +40,8 @@ class Plot:
         self.along = np.array(along, float)
         self.back = np.array((-along[1], along[0]), float)
         self.width, self.depth, self.kind = width, depth, kind
-        self.left_open = self.right_open = self.back_open = True
+        self.left_open = self.right_open = self.back_open = True    # no other house stands against it
+        self.left_seen = self.right_seen = True                     # and it can be seen from a street
         self.middle = self.at(width / 2, depth / 2)
 
     @property
@@ -56,9 +57,9 @@ class Plot:
         return self.origin + self.along * u + self.back * v
 
     def samples(self):
-        us = np.linspace(0.05, self.width - 0.05, 6)
-        vs = np.linspace(GAP_M, self.depth, 7)
-        return np.array([self.at(u, v) for u in us for v in vs])
+        """Points over the plot, as an array."""
+        u, v = np.meshgrid(np.linspace(0.05, self.width - 0.05, 6), np.linspace(GAP_M, self.depth, 7))
+        return self.origin + u.reshape(-1, 1) * self.along + v.reshape(-1, 1) * self.back
 
     def contains(self, points, grow=0.0):
         p = np.asarray(points, float).reshape(-1, 2) - self.origin
@@ -115,17 +116,16 @@ def frontages(streets):
     return lines
 
 
-def _fits(plot, plots, public):
+def _fits(plot, plots, public, inside):
     if np.any(public(plot.samples()) < 0.0):
         return False
-    ring = np.array(plan.WALL_RING)
-    if np.any(plan.distance_to_polygon(plot.corners(), ring) > -2.2):
+    if np.any(inside(plot.corners()) > -2.2):
         return False
     near = [o for o in plots if np.abs(o.middle - plot.middle).max() < 16.0]
     return all(_overlap(plot, other) < 0.3 for other in near)
 
 
-def _try(line, s, width, depth, setback, plots, public):
+def _try(line, s, width, depth, setback, plots, public, inside):
     if s + width > line.s[-1]:
         return None
     start, end = line.at(s), line.at(s + width)
@@ -136,7 +136,7 @@ def _try(line, s, width, depth, setback, plots, public):
     middle = line.at(s + width / 2)
     bulge = max(0.0, float((middle - start) @ back))
     plot = Plot(start + back * (bulge + 0.02 + setback), along, length, depth)
-    return plot if _fits(plot, plots, public) else None
+    return plot if _fits(plot, plots, public, inside) else None
 
 
 def special_plots():
@@ -151,6 +151,7 @@ def special_plots():
 def place_houses(streets, public, rng, width_m):
     """Plots in the order of their frontages; `width_m` is the mean width."""
     plots = special_plots()
+    inside = Field(lambda p: plan.distance_to_polygon(p, plan.WALL_RING), 1.0)
     for points in frontages(streets):
         line = _Line(points)
         s = 0.0
@@ -158,27 +159,34 @@ def place_houses(streets, public, rng, width_m):
             wish = min(9.0, max(5.2, rng.gauss(width_m, 0.95)))
             depth, setback = rng.uniform(8.4, 10.2), 0.14 * rng.random()
             plot = None
+            start, ahead = line.at(s + 0.3), line.at(s + 0.4) - line.at(s + 0.3)
+            behind = start + 1.5 * np.array((-ahead[1], ahead[0])) / max(1e-9, np.linalg.norm(ahead))
+            if public([behind])[0] < 0.2 or any(o.contains([behind], -0.35)[0] for o in plots):
+                s += 0.3
+                continue
             for width in (wish, 0.85 * wish, 5.6, 5.0):
                 for cut in (0.0, 1.6, 3.0):
                     plot = plot or _try(line, s, max(5.0, width), max(6.2, depth - cut), setback,
-                                        plots, public)
+                                        plots, public, inside)
             if plot is None:
                 s += 0.3
                 continue
             plots.append(plot)
             s += plot.width
     for plot in plots:
-        _find_open_sides(plot, plots)
+        _find_open_sides(plot, plots, public)
     return plots
 
 
-def _find_open_sides(plot, plots):
+def _find_open_sides(plot, plots, public):
     def free(points):
         return any(not any(o is not plot and o.contains(p, 0.25)[0] for o in plots) for p in points)
 
     w, d = plot.width, plot.depth
     plot.left_open = free([plot.at(-0.5, d * 0.3), plot.at(-0.5, d * 0.7)])
     plot.right_open = free([plot.at(w + 0.5, d * 0.3), plot.at(w + 0.5, d * 0.7)])
+    plot.left_seen = plot.left_open and min(public([plot.at(-1.2, d * 0.2), plot.at(-1.2, d * 0.5)])) < 1.6
+    plot.right_seen = plot.right_open and min(public([plot.at(w + 1.2, d * 0.2), plot.at(w + 1.2, d * 0.5)])) < 1.6
     plot.back_open = free([plot.at(w * 0.3, d + 0.5), plot.at(w * 0.7, d + 0.5)])
 
 

@@ -129,7 +129,7 @@ def polygon(mesh, material, frame, corners, color, out=0.0, uv_shift=(0.0, 0.0))
               [(a + uv_shift[0], b + uv_shift[1]) for a, b in corners], color)
 
 
-def beam(mesh, frame, a, b, width, proud, color, rng, material="timber", ends=False, base=0.0, step=1.7):
+def beam(mesh, frame, a, b, width, proud, color, rng, material="timber", ends=False, base=0.0, step=2.6):
     """A timber on a wall from a to b (wall coordinates of its axis): its face and flanks, no back."""
     du, dv = b[0] - a[0], b[1] - a[1]
     length = math.hypot(du, dv)

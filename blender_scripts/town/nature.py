@@ -36,8 +36,11 @@ def _unit(a):
     return tuple(c / n for c in a)
 
 
-def make_tree(rng, height=8.5, crown=2.9, tint="8fa05a"):
-    """A broad-leaved tree: forked trunk, clumps of foliage, loose leaf sprays that break the outline."""
+def make_tree(rng, height, crown, tint, detail=1.0):
+    """A broad-leaved tree: forked trunk, clumps of foliage, loose leaf sprays that break the outline.
+
+    detail: 1 to be seen from nearby, less for gardens and the far side of the wall.
+    """
     mesh = Mesh()
     bark = srgb("c9bba8")
     fork = height * 0.36
@@ -47,7 +50,7 @@ def make_tree(rng, height=8.5, crown=2.9, tint="8fa05a"):
     top = (lean[0], lean[1], fork)
     _limb(mesh, (0, 0, fork * 0.6), top, 0.23, 0.2, 9, bark)
     clumps = []
-    arms = 6
+    arms = 6 if detail > 0.6 else 4
     for i in range(arms):
         yaw = 2 * math.pi * (i + rng.uniform(-0.25, 0.25)) / arms
         out = crown * rng.uniform(0.5, 0.72)
@@ -57,20 +60,20 @@ def make_tree(rng, height=8.5, crown=2.9, tint="8fa05a"):
     peak = (lean[0], lean[1], height * 0.86)
     _limb(mesh, top, peak, 0.15, 0.04, 5, bark)
     clumps += [((lean[0], lean[1], height * 0.84), crown * 0.5), ((lean[0] + 0.5, lean[1] - 0.3, height * 0.66), crown * 0.66)]
-    for i in range(4):
+    for i in range(4 if detail > 0.3 else 0):
         yaw = 2 * math.pi * (i + 0.5 + rng.uniform(-0.2, 0.2)) / 4
         clumps.append(((lean[0] + math.cos(yaw) * crown * 0.45, lean[1] + math.sin(yaw) * crown * 0.45, height * 0.74),
                        crown * rng.uniform(0.4, 0.48)))
     middle = (lean[0], lean[1], height * 0.62)
     green = srgb(tint)
     for center, radius in clumps:
-        _clump(mesh, center, radius, middle, height, green, rng)
+        _clump(mesh, center, radius, middle, height, green, rng, detail)
     return mesh
 
 
-def _clump(mesh, center, radius, middle, height, green, rng):
+def _clump(mesh, center, radius, middle, height, green, rng, detail):
     """A lumpy ball of foliage, and leaf sprays around it."""
-    sides, bands = 8, 5
+    sides, bands = (8, 5) if detail > 0.6 else (6, 4)
     offset = [[1 + rng.uniform(-0.2, 0.2) for _ in range(sides)] for _ in range(bands + 1)]
 
     def spot(k, i):
@@ -96,7 +99,7 @@ def _clump(mesh, center, radius, middle, height, green, rng):
                 points, uvs = points[:3], uvs[:3]
             inner = 0.62 + 0.3 * k / bands
             mesh.face("leaves", points, uvs, shade(green, inner * rng.uniform(0.9, 1.05)), [soft(p) for p in points])
-    for _ in range(30):
+    for _ in range(int(34 * detail)):
         a, b = rng.uniform(0, 2 * math.pi), math.acos(rng.uniform(-0.75, 1.0))
         d = (math.sin(b) * math.cos(a), math.sin(b) * math.sin(a), math.cos(b))
         p = tuple(center[m] + d[m] * radius * (0.94 if m < 2 else 0.8) for m in range(3))

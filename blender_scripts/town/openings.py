@@ -9,30 +9,19 @@ LEAF = [srgb("6f8f3a"), srgb("5c7f34"), srgb("86a04a")]
 FLOWERS = [srgb("d8433a"), srgb("e07a9a"), srgb("f1ece0"), srgb("c2362f"), srgb("e2a33a")]
 
 
-def _bars(mesh, frame, u0, u1, v0, v1, width, proud, color, rng, base):
-    """A frame of four bars round a rectangle, its outer edge the rectangle."""
-    h = width / 2
-    beam(mesh, frame, (u0, v0 + h), (u1, v0 + h), width, proud, color, rng, "planks", base=base, step=9)
-    beam(mesh, frame, (u0, v1 - h), (u1, v1 - h), width, proud, color, rng, "planks", base=base, step=9)
-    beam(mesh, frame, (u0 + h, v0 + width), (u0 + h, v1 - width), width, proud, color, rng, "planks", base=base, step=9)
-    beam(mesh, frame, (u1 - h, v0 + width), (u1 - h, v1 - width), width, proud, color, rng, "planks", base=base, step=9)
-
-
 def window(mesh, frame, u, v, width, height, color, rng, base=0.0, sill=True, casements=2):
     """A leaded window, centred at u, its sill at v; `base` is how far its plane lies out of the wall."""
     u0, u1, v1 = u - width / 2, u + width / 2, v + height
-    bar = 0.055
-    _bars(mesh, frame, u0, u1, v, v1, bar, base + 0.055, color, rng, base)
-    shift = (rng.randrange(24) * 0.12, rng.randrange(24) * 0.18)
-    polygon(mesh, "glass", frame, [(u0 + bar, v + bar), (u1 - bar, v + bar), (u1 - bar, v1 - bar),
-                                   (u0 + bar, v1 - bar)], (0.9, 0.9, 0.9), base + 0.018, shift)
-    for i in range(1, casements):
-        x = u0 + width * i / casements
-        beam(mesh, frame, (x, v + bar), (x, v1 - bar), 0.07, base + 0.05, color, rng, "planks", base=base + 0.018, step=9)
+    extrude(mesh, "planks", frame, [(u0, v), (u1, v), (u1, v1), (u0, v1)], base, base + 0.045, color)
+    rows = [(v + 0.05, v1 - 0.05)]
     if height > 1.0:
-        z = v + height * 0.66
-        beam(mesh, frame, (u0 + bar, z), (u1 - bar, z), 0.05, base + 0.042, color, rng, "planks", base=base + 0.018,
-             step=9)
+        rows = [(v + 0.05, v + height * 0.66 - 0.025), (v + height * 0.66 + 0.025, v1 - 0.05)]
+    pane = (width - 0.05) / casements
+    for i in range(casements):
+        a, b = u0 + 0.05 + pane * i, u0 + pane * (i + 1)
+        shift = (rng.randrange(24) * 0.12 - a, rng.randrange(24) * 0.18 - v)
+        for c, d in rows:
+            polygon(mesh, "glass", frame, [(a, c), (b, c), (b, d), (a, d)], (0.92, 0.92, 0.92), base + 0.054, shift)
     if sill:
         beam(mesh, frame, (u0 - 0.05, v - 0.02), (u1 + 0.05, v - 0.02), 0.06, base + 0.11, shade(color, 0.9), rng,
              "planks", ends=True, base=base, step=9)
@@ -45,9 +34,6 @@ def shutters(mesh, frame, u, v, width, height, color, rng, base=0.0):
         middle = u + side * (width / 2 + leaf / 2 + 0.03)
         a, b = middle - leaf / 2, middle + leaf / 2
         extrude(mesh, "planks", frame, [(a, v), (b, v), (b, v + height), (a, v + height)], base, base + 0.045, color)
-        for z in (0.18, 0.82):
-            beam(mesh, frame, (a + 0.03, v + height * z), (b - 0.03, v + height * z), 0.08, base + 0.065,
-                 shade(color, 0.8), rng, "planks", base=base + 0.045, step=9)
 
 
 def leaf_tuft(mesh, center, size, color, rng, count=5):
@@ -74,9 +60,9 @@ def flower_box(mesh, frame, u, v, width, rng):
     a, b = u - width / 2, u + width / 2
     extrude(mesh, "planks", frame, [(a, v - 0.26), (b, v - 0.26), (b, v - 0.06), (a, v - 0.06)], 0.05, 0.27, wood)
     bloom = rng.choice(FLOWERS)
-    for i in range(int(width / 0.16)):
-        center = frame.at(a + 0.1 + i * 0.16, v - 0.08, 0.16 + rng.uniform(-0.03, 0.05))
-        leaf_tuft(mesh, center, 0.2, rng.choice(LEAF), rng, 4)
+    for i in range(int(width / 0.2)):
+        center = frame.at(a + 0.1 + i * 0.2, v - 0.08, 0.16 + rng.uniform(-0.03, 0.05))
+        leaf_tuft(mesh, center, 0.22, rng.choice(LEAF), rng, 3)
         leaf_tuft(mesh, (center[0], center[1], center[2] + 0.1), 0.13, bloom, rng, 3)
 
 
