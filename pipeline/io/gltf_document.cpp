@@ -8,8 +8,8 @@
 
 #include "pipeline/io/draco_codec.h"
 #include "pipeline/io/gltf_accessor.h"
+#include "pipeline/io/gltf_parse.h"
 #include "pipeline/io/gltf_primitive.h"
-#include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -31,42 +31,6 @@ std::string Quoted(const std::string& name) { return "'" + OneLine(name) + "'"; 
 
 std::string NameOr(const std::string& name, const char* kind, size_t index) {
   return name.empty() ? std::string(kind) + " " + std::to_string(index) : name;
-}
-
-// Keeps the file's bytes; decoding is the affair of whoever uses the picture.
-bool KeepImageBytes(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
-                    const unsigned char* bytes, int size, void*) {
-  // An image in a bufferView is fetched later, with its bounds checked.
-  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
-  image->as_is = true;
-  return true;
-}
-
-Error ParseFile(const std::filesystem::path& path, Model* model) {
-  std::vector<uint8_t> bytes;
-  if (Error e = ReadFile(path, &bytes)) return e;
-  const std::string file = path.string();
-  if (bytes.size() > 0xffffffffu) return Fail(file + ": larger than 4 GiB, split it");
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(KeepImageBytes, nullptr);
-  std::string error, warning;
-  const std::string folder = path.parent_path().string();
-  const unsigned size = static_cast<unsigned>(bytes.size());
-  const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
-  bool ok = false;
-  try {
-    ok = binary ? loader.LoadBinaryFromMemory(model, &error, &warning, bytes.data(), size, folder)
-                : loader.LoadASCIIFromString(model, &error, &warning,
-                                             reinterpret_cast<const char*>(bytes.data()), size,
-                                             folder);
-  } catch (const std::exception& e) {
-    ok = false;
-    error = e.what();
-  }
-  if (ok) return Ok();
-  if (error.empty()) error = "broken";
-  return Fail(file + (binary ? ": broken or truncated glTF binary: " : ": not a glTF file: ") +
-              OneLine(error));
 }
 
 Error CheckExtensions(const Model& model) {
@@ -606,7 +570,7 @@ Error LoadGltf(const std::filesystem::path& path, GltfDocument* document,
   *document = {};
   document->path = path.string();
   Model model;
-  if (Error e = ParseFile(path, &model)) return e;
+  if (Error e = ParseGltf(path, &model)) return e;
   std::vector<std::string> notes;
   Error error;
   try {

@@ -1,0 +1,110 @@
+#include "pipeline/io/gltf_parse.h"
+
+#include <tiny_gltf.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
+
+#include "runtime/base/file.h"
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
+constexpr size_t kJsonOffset = 20;  // of a binary file's JSON: file header and chunk header
+
+// Keeps the file's bytes; decoding is the affair of whoever uses the picture.
+bool KeepImageBytes(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                    const unsigned char* bytes, int size, void*) {
+  // An image in a bufferView is fetched later, with its bounds checked.
+  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
+  image->as_is = true;
+  return true;
+}
+
+uint32_t GetU32(const std::vector<uint8_t>& bytes, size_t at) {
+  uint32_t value = 0;
+  for (size_t i = 4; i-- > 0;) value = value << 8 | bytes[at + i];
+  return value;
+}
+
+void SetU32(uint32_t value, size_t at, std::vector<uint8_t>* bytes) {
+  for (size_t i = 0; i < 4; ++i) (*bytes)[at + i] = static_cast<uint8_t>(value >> (8 * i));
+}
+
+// tinygltf built without Draco refuses index accessors that have no bufferView, as glTF allows them beside
+// compressed data. The Draco data has the indices, so the accessor is not needed.
+void DropDracoIndices(json* root) {
+  if (!root->is_object() || !root->contains("meshes") || !(*root)["meshes"].is_array()) return;
+  for (json& mesh : (*root)["meshes"]) {
+    if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) {
+      continue;
+    }
+    for (json& primitive : mesh["primitives"]) {
+      if (!primitive.is_object() || !primitive.contains("extensions")) continue;
+      const json& extensions = primitive["extensions"];
+      if (extensions.is_object() && extensions.contains(kDraco)) primitive.erase("indices");
+    }
+  }
+}
+
+// Rewrites the JSON within the file where it uses Draco. Broken JSON stays, for tinygltf to report.
+void PrepareDraco(bool binary, std::vector<uint8_t>* bytes) {
+  const size_t begin = binary ? kJsonOffset : 0;
+  size_t end = bytes->size();
+  if (binary) {
+    if (bytes->size() < kJsonOffset || GetU32(*bytes, 12) > bytes->size() - kJsonOffset) return;
+    end = kJsonOffset + GetU32(*bytes, 12);
+  }
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()) + begin, end - begin);
+  if (text.find(kDraco) == std::string_view::npos) return;
+  json root = json::parse(text, nullptr, false);
+  if (root.is_discarded()) return;
+  DropDracoIndices(&root);
+  std::string changed = root.dump(-1, ' ', false, json::error_handler_t::replace);
+  changed.resize((changed.size() + 3) / 4 * 4, ' ');
+  const auto at = [&](size_t i) { return bytes->begin() + static_cast<std::ptrdiff_t>(i); };
+  bytes->erase(at(begin), at(end));
+  bytes->insert(at(begin), changed.begin(), changed.end());
+  if (!binary) return;
+  const size_t length = GetU32(*bytes, 8) + changed.size() - (end - begin);
+  SetU32(static_cast<uint32_t>(length), 8, bytes);
+  SetU32(static_cast<uint32_t>(changed.size()), 12, bytes);
+}
+
+}  // namespace
+
+Error ParseGltf(const std::filesystem::path& path, tinygltf::Model* model) {
+  std::vector<uint8_t> bytes;
+  if (Error e = ReadFile(path, &bytes)) return e;
+  const std::string file = path.string();
+  const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+  std::string error, warning;
+  bool ok = false;
+  try {
+    PrepareDraco(binary, &bytes);
+    if (bytes.size() > 0xffffffffu) return Fail(file + ": larger than 4 GiB; split it");
+    tinygltf::TinyGLTF loader;
+    loader.SetImageLoader(KeepImageBytes, nullptr);
+    const std::string folder = path.parent_path().string();
+    const unsigned size = static_cast<unsigned>(bytes.size());
+    ok = binary ? loader.LoadBinaryFromMemory(model, &error, &warning, bytes.data(), size, folder)
+                : loader.LoadASCIIFromString(model, &error, &warning,
+                                             reinterpret_cast<const char*>(bytes.data()), size,
+                                             folder);
+  } catch (const std::exception& e) {
+    error = e.what();
+  }
+  if (ok) return Ok();
+  if (error.empty()) error = "broken";
+  while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
+  return Fail(file + (binary ? ": broken or truncated glTF binary: " : ": not a glTF file: ") +
+              OneLine(error));
+}
+
+}  // namespace flaneur
