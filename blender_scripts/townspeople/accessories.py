@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from townspeople import clearance
 from townspeople import surface as sf
 from townspeople import tailor as tl
 
@@ -22,16 +23,8 @@ def belt(tailor, name, at, height=0.04, thickness=0.010, ease=0.004, columns=40,
     points = np.array([centre + np.array([0, 0, dz]) + tl.direction(angles) * (reach + out * size)[:, None]
                        for dz, out in shape])
     flat = points.reshape(-1, 3)
-    weights = _as_worn(tailor, flat).reshape(len(shape), columns, -1)
+    weights = tl.as_worn(tailor, flat).reshape(len(shape), columns, -1)
     tailor.worn["belt " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles), [0.0, 0.2, 0.8, 1.0])
-
-
-def _as_worn(tailor, points):
-    """Weights of the nearest worn garment vertices (trunk garments and skirts)."""
-    sources = [worn for name, worn in tailor.worn.items() if name.startswith(("upper", "skirt", "plate"))]
-    sources = sources or [tailor.figure.parts["shirt"]]
-    both = sf.joined(sources)
-    return sf.nearest_weights(points, both.vertices, both.weights, 4)
 
 
 def cord(tailor, name, start, end, angle_deg, radius=0.011, out=0.02, cell="belt"):
@@ -49,7 +42,7 @@ def cord(tailor, name, start, end, angle_deg, radius=0.011, out=0.02, cell="belt
         centre = np.array([0.0, tl.axis_y(tailor, z), z]) + ray * distance
         rings.append(centre + tl.direction(around) * radius * size * swell)
     points = np.array(rings)
-    weights = _as_worn(tailor, points.mean(axis=1))[:, None].repeat(len(around), axis=1)
+    weights = tl.as_worn(tailor, points.mean(axis=1))[:, None].repeat(len(around), axis=1)
     tailor.worn["cord " + name] = sf.grid(points, weights, cell, sf.mirrored_u(around))
 
 
@@ -68,9 +61,8 @@ def pouch(tailor, name, at, angle_deg, width=0.10, depth=0.055, height=0.13, out
         ring = (np.cos(around)[:, None] * side * width + np.sin(around)[:, None] * ray * depth) * 0.5 * scale
         rings.append(centre + ring * size - np.array([0, 0, t * height * size]))
     points = np.array(rings)
-    weights = np.broadcast_to(_as_worn(tailor, centre[None])[0], points.shape[:2] + (points.shape[2],)[:0] + (
-        len(tailor.figure.skeleton.names),))
-    tailor.worn["pouch " + name] = sf.grid(points, np.array(weights), cell, np.full(10, 0.5))
+    weights = np.tile(tl.as_worn(tailor, centre[None])[0], points.shape[:2] + (1,))
+    tailor.worn["pouch " + name] = sf.grid(points, weights, cell, np.full(10, 0.5))
 
 
 def apron(tailor, name, over, hem_row=0.9, half_angle_deg=62, lift=0.012, bib_top=None, bib_half_angle_deg=38,
@@ -135,12 +127,24 @@ def cape(tailor, name, top_deg=64, bottom_deg=0, ease=0.022, hem=None, open_deg=
         points[..., 2] -= share * point * size * np.abs(np.cos(angles))[None] ** 3
     if hem is not None:
         points = _hung(tailor, points, angles, tailor.height(hem), flare, folds, fold_depth, hang_rows)
-    flat = points.reshape(-1, 3)
-    weights = _cape_weights(tailor, flat, calm_arms, hem is not None).reshape(*points.shape[:2], -1)
-    tailor.grids[name] = (points, weights, angles)
     closed = open_deg == 0
+    kinds = ("upper", "plate", "skirt", "belt", "body")
+    tree = sf.tree_of([tl.beneath(tailor, kinds)])
+    flat = clearance.pushed_out(points.reshape(-1, 3), tree, 0.4 * ease * size)
+    weights = _cape_weights(tailor, flat, calm_arms, hem is not None).reshape(*points.shape[:2], -1)
+    points = flat.reshape(points.shape)
+    points = clearance.cleared(points, weights, _away(points, centre), tl.beneath(tailor, kinds), tailor.poses,
+                               0.012 * size, 0.10 * size, closed)
+    tailor.grids[name] = (points, weights, angles)
     sheet = sf.grid(points, weights, cell, sf.mirrored_u(angles), closed=closed)
     tailor.worn["cape " + name] = sf.lined(sheet, columns, len(points), closed, 0.007 * size, lining or cell)
+
+
+def _away(points, centre):
+    """Unit vectors from the chest's middle, level below it."""
+    ways = points - centre
+    ways[..., 2] = np.maximum(ways[..., 2], 0.0)
+    return ways / np.linalg.norm(ways, axis=-1, keepdims=True)
 
 
 def _opened_angles(columns, open_deg):
@@ -151,16 +155,15 @@ def _opened_angles(columns, open_deg):
 
 def _hung(tailor, points, angles, z_hem, flare, folds, fold_depth, rows):
     """Rows that hang from the last one down to z_hem."""
-    from townspeople.garments import fold_wave
     size, edge = tailor.size, points[-1]
-    cloud = tl.slice_points(tailor, arms=True)
-    wave = fold_wave(tailor.random, angles, folds)
+    cloud = tl.slice_points(tailor, arms=True, skirts=True)
+    wave = tl.fold_wave(tailor.random, angles, folds)
     reach = np.linalg.norm(edge[:, :2] - [0.0, tl.axis_y(tailor, edge[:, 2].mean())], axis=1)
     z_edge, added = edge[:, 2].mean(), []
     for t in np.linspace(0.0, 1.0, rows + 1)[1:]:
         z = edge[:, 2] + (z_hem - edge[:, 2]) * t
         outline = tl.slice_radii(tailor, cloud, z.mean(), angles)
-        if outline is not None and z.mean() > tailor.height("crotch"):
+        if outline is not None:
             reach = np.maximum(reach * 0.985, outline + 0.02 * size)
         fall = (z_edge - z.mean()) / size
         radii = reach + flare * size * fall + fold_depth * size * wave * min(fall / 0.3, 1.0)
@@ -175,7 +178,12 @@ def _cape_weights(tailor, points, calm_arms, hangs):
     if not hangs:
         return weights
     below = 1.0 - sf.smoothstep(tailor.height("chest"), tailor.height("shoulder"), points[:, 2])[:, None]
-    return weights * (1 - below) + tl.hanging_weights(tailor, points, 0.55, 0.2) * below
+    skirted = [grid for key, grid in tailor.grids.items() if "skirt " + key in tailor.worn]
+    hanging = tl.hanging_weights(tailor, points, 0.55, 0.2)
+    if skirted:     # cloth on cloth moves alike
+        low = sf.smoothstep(tailor.height("hip"), tailor.height("crotch"), points[:, 2])[:, None]
+        hanging = hanging * (1 - low) + tl.as_worn(tailor, points, ("skirt",)) * low
+    return weights * (1 - below) + hanging * below
 
 
 def collar(tailor, name, height=0.045, flare=0.010, cell="collar"):
@@ -207,17 +215,17 @@ def _neck_rings(tailor, name, shape, cell, columns=28):
     tailor.worn["neck " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles))
 
 
-def ruff(tailor, name, inner=0.062, outer=0.135, height=0.05, pleats=22, cell="collar"):
+def ruff(tailor, name, inner=0.060, outer=0.125, height=0.034, pleats=19, cell="collar"):
     """A pleated ruff: a figure-of-eight frill about the neck."""
-    size, columns = tailor.size, pleats * 4
+    size, columns = tailor.size, pleats * 5
     angles = tl.angles_of(columns)
-    centre = tailor.figure.landmarks["neck"] + np.array([0.0, 0.0, 0.004]) * size
-    wave = np.sin(pleats * angles)
+    centre = tailor.figure.landmarks["neck"] + np.array([0.0, 0.004, 0.010]) * size
+    wave = np.sin(pleats * angles) * (0.85 + 0.15 * np.cos(7 * angles))
     rows = []
-    for t in (0.0, 0.55, 1.0):
+    for t in (0.0, 0.35, 0.7, 1.0):
         radius = inner + (outer - inner) * t
-        z = (0.5 * height * wave * min(t * 2.2, 1.0) + 0.030 * t - 0.018 * np.cos(angles) * (1 + t)) * size
-        ring = centre + tl.direction(angles) * radius * size
+        z = (0.5 * height * wave * min(0.25 + t * 1.5, 1.0) + 0.018 * t - 0.018 * np.cos(angles) * (1 + t)) * size
+        ring = centre + tl.direction(angles + 0.05 * np.cos(pleats * angles) * t) * radius * size
         ring[:, 2] += z
         rows.append(ring)
     points = np.array(rows)
@@ -225,13 +233,3 @@ def ruff(tailor, name, inner=0.062, outer=0.135, height=0.05, pleats=22, cell="c
     weights[..., tailor.column("spine01")] = 0.5
     weights[..., tailor.column("neck01")] = 0.5
     tailor.worn["neck " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles))
-
-
-def plate(tailor, name, bottom, ease=0.020, smooth=25, cell="plate"):
-    """A cuirass: the shirt's trunk, smooth and stiff."""
-    from townspeople import garments
-    before = dict(tailor.worn)
-    garments.upper(tailor, name, bottom, ease, smooth, None, cell)
-    armour = tailor.worn.pop("upper " + name)
-    tailor.worn = before
-    tailor.worn["plate " + name] = armour

@@ -244,7 +244,7 @@ def bulged(figure, bulges):
     """Pushes shirt, trousers and body by smooth bumps.
 
     Each bump: {"at": landmark, "by": (x, y, z) offset from it, "radius": (x, y, z), "push": (x, y, z),
-    "mirror": bool}; lengths relative to a figure of 1.7 m.
+    "swell": share, "mirror": bool}; lengths relative to a figure of 1.7 m. swell grows what lies about the point.
     """
     factor = figure.landmarks["crown"][2] / 1.7
     parts = dict(figure.parts)
@@ -253,12 +253,13 @@ def bulged(figure, bulges):
         for side in sides:
             flip = np.array([side, 1.0, 1.0])
             centre = figure.landmarks[bump["at"]] + np.array(bump["by"]) * flip * factor
-            push = np.array(bump["push"]) * flip * factor
+            push = np.array(bump.get("push", (0.0, 0.0, 0.0))) * flip * factor
             for key in ("shirt", "trousers", "body", "eyes"):
                 points = parts[key].vertices
                 distance = np.linalg.norm((points - centre) / (np.array(bump["radius"]) * factor), axis=1)
                 share = 1.0 - smoothstep(0.0, 1.0, distance)
-                parts[key] = with_parts(parts[key], vertices=points + share[:, None] * push)
+                parts[key] = with_parts(parts[key], vertices=points + share[:, None]
+                                        * (push + bump.get("swell", 0.0) * (points - centre)))
     return replace(figure, parts=parts)
 
 

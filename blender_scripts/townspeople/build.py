@@ -23,11 +23,11 @@ PIECES = {
     "upper": garments.upper, "skirt": garments.skirt, "trousers": garments.trousers,
     "legs": garments.leg_pieces, "belt": accessories.belt, "cord": accessories.cord,
     "pouch": accessories.pouch, "apron": accessories.apron, "cape": accessories.cape,
-    "standing collar": accessories.collar, "ruff": accessories.ruff, "plate": accessories.plate,
-    "shell": headwear.shell, "beard": headwear.beard, "moustache": headwear.moustache,
+    "standing collar": accessories.collar, "ruff": accessories.ruff, "plate": garments.plate,
+    "shell": headwear.shell, "beard": headwear.beard, "moustache": headwear.moustache, "brows": headwear.brows,
     "hat": headwear.hat, "feather": headwear.feather,
 }
-MATERIALS = {"skin": (0.62, 0.0), "cloth": (0.92, 0.0), "trim": (0.55, 0.0)}   # roughness, metallic
+MATERIALS = {"skin": (0.62, 0.0), "cloth": (0.92, 0.0), "trim": (0.70, 0.0)}   # roughness, metallic
 
 
 def make_figure(person, rig_path):
@@ -36,9 +36,16 @@ def make_figure(person, rig_path):
     return body.bulged(figure, person.get("bulges", []))
 
 
-def dress(figure, person, seed):
+def sampled_poses(figure, moves):
+    """Skinning matrices of some frames of each clip."""
+    return [skeleton.transforms(figure.skeleton, clip.rotations[f], clip.roots[f])
+            for clip, every in zip(moves, (2, 24, 12)) for f in range(0, len(clip.rotations) - 1, every)]
+
+
+def dress(figure, person, moves, seed):
     """All garments, in the order in which they are put on."""
-    tailor = Tailor(figure, np.random.default_rng(seed), size=figure.landmarks["crown"][2] / 1.7)
+    tailor = Tailor(figure, np.random.default_rng(seed), size=figure.landmarks["crown"][2] / 1.7,
+                    poses=sampled_poses(figure, moves))
     for number, wear in enumerate(person["wear"]):
         piece = dict(wear)
         make = PIECES[piece.pop("piece")]
@@ -63,8 +70,16 @@ def visible_skin(tailor, person):
             place = garments.arm_place(tailor, side, centre)
             keep.append(place > person.get("bare_arm_from", 1.7))
         else:
-            keep.append(centre[2] > tailor.height(("shoulder", -0.03)))
-    return sf.keep_faces(skin, keep)
+            keep.append(centre[2] > tailor.height(("shoulder", -0.02)))
+    tucked = _tucked(tailor, sf.keep_faces(skin, keep))
+    return tucked
+
+
+def _tucked(tailor, skin):
+    """The neck's foot drawn in, so that it stays beneath the garments."""
+    share = 1.0 - sf.smoothstep(tailor.height(("neck", -0.045)), tailor.height(("neck", -0.015)), skin.vertices[:, 2])
+    share *= body.joint_share(tailor.figure, skin, ("spine", "clavicle", "neck"))
+    return sf.offset(skin, -0.012 * tailor.size * share)
 
 
 def assemble(tailor, person):
@@ -126,17 +141,18 @@ def main():
 
     scene.empty_scene()
     figure = make_figure(person, options["human_rig"])
-    tailor = dress(figure, person, seed)
+    manner = clips.Manner(**person.get("manner", {}))
+    walk, speed_mps = clips.walk_clip(figure, manner)
+    moves = (walk, clips.idle_clip(figure, manner), clips.talk_clip(figure, manner))
+    tailor = dress(figure, person, moves, seed)
     surface = assemble(tailor, person)
     made, material_of_cell, places = make_materials(figure, person, seed, set(surface.cells))
     uv = texture_coordinates(surface, places)
-    manner = clips.Manner(**person.get("manner", {}))
-    walk, speed_mps = clips.walk_clip(figure, manner)
 
     armature = scene.make_armature(figure.skeleton)
     armature["flaneur_walk_speed_mps"] = round(speed_mps, 4)
     scene.make_mesh(surface, made, material_of_cell, uv, armature)
-    for clip in (walk, clips.idle_clip(figure, manner), clips.talk_clip(figure, manner)):
+    for clip in moves:
         scene.add_clip(armature, figure.skeleton, clip)
     write_atomically(settings["output"], scene.export_glb)
     print("townsperson %s: %d triangles, %d joints, walks %.2f m/s" % (

@@ -19,6 +19,7 @@ PITCH = [[0.0, -19.0], [0.10, -1.0], [0.16, 0.0], [0.36, 0.0], [0.48, 11.0], [0.
          [0.84, 4.0], [0.93, -16.0], [1.0, -19.0]]
 SWING_LIFT = 0.055        # of the leg's length
 MAX_BOB = 0.030           # half the pelvis' rise and fall at most, of the leg's length
+BEHIND = 0.035            # so far the steps' middle lies behind the hips, of the leg's length
 STRAIGHTEST = 0.997       # a leg never stretches beyond this share of its length
 
 
@@ -117,7 +118,7 @@ def step_legs(figure, rotations, stride_m, half_width_m, toe_out_deg=5.0):
     root = skeleton.heads[0]
     leg = sum(np.linalg.norm(skeleton.head(b) - skeleton.head(a)) for a, b in
               (("upperleg02_L", "lowerleg01_L"), ("lowerleg01_L", "foot_L")))
-    centre = 0.5 * (track.y[0] + track.y[int(STANCE * SUBSTEPS)])
+    centre = 0.5 * (track.y[0] + track.y[int(STANCE * SUBSTEPS)]) - BEHIND * leg
     hip_y = skeleton.head("upperleg02_L")[1] - root[1]
     cycles = (np.arange(frames + 1) / frames * 24.0 - STRIKE_FRAME) / 24.0
     ankles, pitches, hips, limits = {}, {}, {}, []

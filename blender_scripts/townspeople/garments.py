@@ -4,6 +4,7 @@ to what is worn. Lengths are metres on a figure of 1.7 m.
 
 import numpy as np
 
+from townspeople import clearance
 from townspeople import surface as sf
 from townspeople import tailor as tl
 from townspeople.body import joint_share
@@ -27,7 +28,31 @@ def upper(tailor, name, bottom, ease=0.008, smooth=8, sleeve=None, cell="upper",
     if sleeve is not None:
         for side in ("_L", "_R"):
             base = _with_sleeve(tailor, base, side, sleeve, sleeve_cell)
+    skin = sf.tree_of([figure.parts["body"]])
+    base = sf.with_parts(base, vertices=clearance.pushed_out(base.vertices, skin, 0.4 * ease * size, 0.03))
     tailor.worn["upper " + name] = base
+
+
+def plate(tailor, name, bottom, ease=0.012, smooth=25, cell="plate"):
+    """A cuirass: the trunk of the shirt, smooth and stiff, over what is worn already."""
+    under = [worn for key, worn in tailor.worn.items() if key.startswith("upper")]
+    worn = dict(tailor.worn)
+    upper(tailor, name, bottom, ease, smooth, None, cell)
+    armour = tailor.worn["upper " + name]
+    tailor.worn = worn
+    if under:
+        points = clearance.pushed_out(armour.vertices, sf.tree_of(under), ease * tailor.size)
+        armour = sf.smoothed(sf.with_parts(armour, vertices=points), 3)
+        points = clearance.pushed_out(armour.vertices, sf.tree_of(under), 0.5 * ease * tailor.size)
+        armour = sf.with_parts(armour, vertices=points)
+    rim = sf.boundary_loops(armour)
+    for loop in rim:
+        centre = armour.vertices[loop].mean(axis=0)
+        edge = armour.vertices[loop]
+        inner = edge + (centre - edge) * 0.10
+        armour = _extruded(armour, loop, inner[None], armour.weights[loop][None], np.full(len(loop), 0.5),
+                           [0.02, 0.0], cell)
+    tailor.worn["plate " + name] = armour
 
 
 def _trunk_mapping(tailor, base, is_arm, z_bottom, cell, sleeve_cell):
@@ -142,14 +167,6 @@ def _extruded(base, loop, rings, weights, u_columns, v_rows, cell):
                          cells=base.cells + [cell] * (count * len(rings)))
 
 
-def fold_wave(random, angles, folds):
-    """Irregular pleats about the body: 0 in the valleys, 1 on the crests."""
-    bent = angles + 0.25 * np.sin(2 * angles + random.uniform(0, 6.28)) / 2
-    wave = 0.5 + 0.5 * np.cos(folds * bent + random.uniform(0, 6.28))
-    slow = 0.5 + 0.5 * np.cos(max(folds // 3, 1) * angles + random.uniform(0, 6.28))
-    return wave * (0.55 + 0.45 * slow)
-
-
 def skirt(tailor, name, top, hem, ease=0.012, flare=0.10, folds=12, fold_depth=0.03, columns=48,
           rows=12, gather=0.35, front_flare=0.6, follow=1.0, shin=0.45, cell="skirt", hidden=False):
     """Cloth that hangs from `top` (a place on the trunk) to `hem`: tunic skirt, habit, gown.
@@ -161,7 +178,7 @@ def skirt(tailor, name, top, hem, ease=0.012, flare=0.10, folds=12, fold_depth=0
     angles = tl.angles_of(columns)
     z_rows = np.linspace(tailor.height(top), tailor.height(hem), rows)
     cloud = tl.slice_points(tailor, arms=False)
-    wave = fold_wave(tailor.random, angles, folds)
+    wave = tl.fold_wave(tailor.random, angles, folds)
     facing = 0.5 + 0.5 * np.cos(angles)
     points, reach = [], None
     hip = tailor.height("hip")
@@ -181,6 +198,10 @@ def skirt(tailor, name, top, hem, ease=0.012, flare=0.10, folds=12, fold_depth=0
     top_share = sf.smoothstep(hip, tailor.height("waist"), flat[:, 2])[:, None]
     worn_weights = tl.transferred(tailor, flat, tailor.figure.parts["shirt"], 1.0)
     weights = (weights * (1 - top_share) + worn_weights * top_share).reshape(rows, columns, -1)
+    legs = tl.beneath(tailor, ("legs", "trousers", "skirt"))
+    if legs is not None:
+        points = clearance.cleared(points, weights, tl.outward_of(tailor, points), legs, tailor.poses,
+                                   0.008 * size, 0.08 * size)
     tailor.grids[name] = (points, weights, angles)
     if not hidden:
         tailor.worn["skirt " + name] = _with_hem(points, weights, angles, cell, size)
@@ -238,7 +259,8 @@ def _knee_band(base, loop, size, cell):
     return _extruded(base, loop, np.array(rings), weights, np.full(len(loop), 0.5), [0.97, 0.98, 0.99, 1.0], cell)
 
 
-LEG_PROFILE = [[0.0, 0.088], [0.5, 0.076], [0.85, 0.060], [1.0, 0.057], [1.3, 0.060], [1.7, 0.046], [2.0, 0.042]]
+LEG_PROFILE = [[0.0, 0.088], [0.5, 0.076], [0.85, 0.060], [1.0, 0.056], [1.15, 0.058], [1.35, 0.064], [1.6, 0.050],
+               [1.8, 0.041], [1.92, 0.039], [2.0, 0.040]]
 
 
 def leg_pieces(tailor, name, start, end, profile=None, ease=0.0, columns=14, rows=14, cell="hose"):
@@ -253,7 +275,7 @@ def leg_pieces(tailor, name, start, end, profile=None, ease=0.0, columns=14, row
         for place in np.linspace(start, end, rows):
             at = path[0] + (path[1] - path[0]) * min(place, 1.0) + (path[2] - path[1]) * max(place - 1.0, 0.0)
             radius = (np.interp(place, [p[0] for p in profile], [p[1] for p in profile]) + ease) * thick
-            calf = 0.014 * np.exp(-((place - 1.3) / 0.22) ** 2) + 0.008 * sf.smoothstep(1.5, 2.0, place)
+            calf = 0.017 * np.exp(-((place - 1.35) / 0.22) ** 2) + 0.008 * sf.smoothstep(1.5, 2.0, place)
             rings.append(at + np.array([0.0, calf * thick, 0.0]) + tl.direction(angles) * radius)
             weights.append(_leg_weights(tailor, side, place, columns))
         parts.append(sf.grid(np.array(rings), np.array(weights), cell, sf.mirrored_u(angles)))

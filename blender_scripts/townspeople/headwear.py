@@ -6,6 +6,7 @@ forward and 180 behind (both sides alike), elevation 90 the crown.
 
 import numpy as np
 
+from townspeople import clearance
 from townspeople import surface as sf
 from townspeople import tailor as tl
 
@@ -40,11 +41,11 @@ def _carried(tailor, points, neck_below=True):
 
 
 def shell(tailor, name, edge, thickness, crown_thickness=None, rows=8, columns=32, roughness=0.0, tuck=0.012,
-          peak=0.0, nape=0.0, cell="hair"):
+          peak=0.0, nape=0.0, drop=0.0, cell="hair"):
     """A cap that follows the head from `edge` to the crown: hair, coif, hood.
 
     thickness at the edge, crown_thickness on top; roughness: height of random locks; peak lengthens the top
-    backwards; nape pushes the lower back outwards.
+    backwards; nape pushes the lower back outwards; drop lengthens sides and back straight down.
     """
     size = _head_size(tailor)
     crown_thickness = thickness if crown_thickness is None else crown_thickness
@@ -64,6 +65,11 @@ def shell(tailor, name, edge, thickness, crown_thickness=None, rows=8, columns=3
         extra = extra + roughness * random_rows[r] + peak * back * np.sin(np.pi * min(t * 1.6, 1.0))
         extra = extra + nape * back * t ** 2
         points.append(centre + rays * (reach + extra * size)[:, None])
+    if drop:
+        away = tl.direction(angles) * 0.4
+        share = sf.smoothstep(45.0, 80.0, np.degrees(sf.mirrored_u(angles) * np.pi))[:, None]
+        for t in (0.33, 0.67, 1.0):
+            points.append(points[rows] + share * drop * size * t * (away * t - np.array([0.0, 0.0, 1.0])))
     last = points[-1]
     inward = (centre - last) / np.linalg.norm(centre - last, axis=1, keepdims=True)
     points.append(last + inward * (thickness + tuck) * size * 0.8 + np.array([0, 0, 0.004]) * size)
@@ -72,8 +78,9 @@ def shell(tailor, name, edge, thickness, crown_thickness=None, rows=8, columns=3
     tailor.worn["hair " + name] = sf.grid(points, _carried(tailor, points), cell, sf.mirrored_u(angles), pole=True)
 
 
-def beard(tailor, name, thickness=0.016, length=0.0, upper_edge=((0, -31), (25, -29), (50, -16), (80, 2), (92, 8)),
-          lower_edge=((0, -62), (40, -58), (70, -40), (92, -10)), cell="hair"):
+def beard(tailor, name, thickness=0.013, length=0.0,
+          upper_edge=((0, -47), (12, -46), (22, -40), (30, -33), (45, -28), (60, -21), (75, -6), (92, 9)),
+          lower_edge=((0, -66), (40, -62), (62, -50), (78, -32), (92, -4)), cell="hair"):
     """Hair over jaw and chin; `length` draws the chin's part down."""
     size = _head_size(tailor)
     angles = np.radians(np.linspace(-92, 92, 25))
@@ -101,12 +108,12 @@ def beard(tailor, name, thickness=0.016, length=0.0, upper_edge=((0, -31), (25, 
 def moustache(tailor, name, thickness=0.010, cell="hair"):
     """A strip between nose and mouth."""
     size = _head_size(tailor)
-    angles = np.radians(np.linspace(-30, 30, 11))
+    angles = np.radians(np.linspace(-26, 26, 11))
     centre, tree = tailor.figure.landmarks["head"], _head_tree(tailor)
-    droop = 9.0 * (np.abs(angles) / angles[-1]) ** 2
+    droop = 8.0 * (np.abs(angles) / angles[-1]) ** 2
     points = []
     for t in np.linspace(0.0, 1.0, 4):
-        elevation = np.radians(-26.5 - 7.0 * t - droop)
+        elevation = np.radians(-30.5 - 6.0 * t - droop)
         rays = tl.direction(angles) * np.cos(elevation)[:, None]
         rays[:, 2] = np.sin(elevation)
         reach = np.array([sf.outermost(tree, centre, ray, 0.5) or 0.09 * size for ray in rays])
@@ -142,26 +149,57 @@ def hat(tailor, name, profile, sit=0.030, tilt_deg=-4, ease=0.012, columns=28, w
     angle = np.radians(tilt_deg)
     turn = np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
     points = (points - band) @ turn.T + band
+    covered = sf.tree_of([sf.keep_faces(part, [part.vertices[list(face), 2].min() > brow[2] for face in part.faces])
+                          for part in covers])
+    points = clearance.pushed_out(points.reshape(-1, 3), covered, 0.006 * size, 0.05).reshape(points.shape)
     pole = profile[0][0] == 0 and profile[0][1] == 0
     weights = np.zeros(points.shape[:2] + (len(tailor.figure.skeleton.names),))
     weights[..., tailor.column("head")] = 1.0
     tailor.worn["head " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles), pole=pole)
 
 
-def feather(tailor, name, azimuth_deg=100, length=0.22, sit=0.05, width=0.05, cell="collar"):
-    """A plume on the hat's side, swept back."""
+def brows(tailor, name, thickness=0.003, cell="hair"):
+    """Eyebrows: two thin strips."""
+    size = _head_size(tailor)
+    centre, tree = tailor.figure.landmarks["head"], _head_tree(tailor)
+    sides = []
+    for sign in (1.0, -1.0):
+        angles = np.radians(np.linspace(8.0, 36.0, 6))[::int(sign)] * sign
+        reached = np.abs(np.degrees(angles))
+        arch = 4.5 + 3.0 * np.sin(np.pi * np.clip((reached - 8.0) / 34.0, 0, 1))
+        half = np.interp(reached, [8, 14, 28, 36], [1.6, 1.9, 1.3, 0.4])
+        points = []
+        for up in (1.0, 0.0, -1.0):
+            elevation = np.radians(arch + up * half)
+            rays = tl.direction(angles) * np.cos(elevation)[:, None]
+            rays[:, 2] = np.sin(elevation)
+            reach = np.array([sf.outermost(tree, centre, ray, 0.5) or 0.09 * size for ray in rays])
+            points.append(centre + rays * (reach + (thickness if up == 0.0 else 0.0008) * size)[:, None])
+        points = np.array(points)
+        if sign < 0:
+            points = points[:, ::-1]
+            angles = angles[::-1]
+        order = np.argsort(np.arctan2(points[0, :, 0], -points[0, :, 1]))
+        points = points[:, order]
+        sides.append(sf.grid(points, _carried(tailor, points, False), cell, np.full(6, 0.5), closed=False))
+    tailor.worn["hair " + name] = sf.joined(sides)
+
+
+def feather(tailor, name, azimuth_deg=75, length=0.26, sit=0.03, width=0.065, cell="collar"):
+    """A plume on the hat's side, swept back over the brim."""
     size, angle = _head_size(tailor), np.radians(azimuth_deg)
     brow, centre = tailor.figure.landmarks["brow"], tailor.figure.landmarks["head"]
-    foot = np.array([0.0, centre[1], brow[2] + sit * size]) + tl.direction(angle) * 0.105 * size
+    foot = np.array([0.0, centre[1], brow[2] + sit * size]) + tl.direction(angle) * 0.118 * size
     rows = []
-    for t in np.linspace(0.0, 1.0, 8):
-        spine = foot + np.array([0.02 * np.sin(2 * t), 0.75 * length * t, length * 0.75 * np.sin(2.2 * t)]) * size
-        half = 0.5 * width * size * np.sin(np.pi * (0.12 + 0.82 * t))
-        along = np.array([0.0, 1.0, 0.3])
-        rows.append([spine + np.array([0.5, 0, 0.9]) * half, spine + along * half * 0.2 + [0.012 * size, 0, 0],
-                     spine - np.array([0.5, 0, 0.9]) * half])
+    for t in np.linspace(0.0, 1.0, 9):
+        bend = 1.9 * t
+        spine = foot + np.array([0.015 * t, length * (0.25 * t + 0.6 * t * t),
+                                 length * 0.55 * np.sin(bend) * (1.0 - 0.25 * t)]) * size
+        half = 0.5 * width * size * np.sin(np.pi * (0.10 + 0.84 * t)) ** 0.7
+        across = np.array([0.35, -np.sin(bend) * 0.6, 0.9])
+        across /= np.linalg.norm(across)
+        rows.append([spine + across * half, spine + np.array([0.014, 0, 0]) * size, spine - across * half])
     points = np.array(rows)
     weights = np.zeros(points.shape[:2] + (len(tailor.figure.skeleton.names),))
     weights[..., tailor.column("head")] = 1.0
-    sheet = sf.grid(points, weights, cell, np.array([0.2, 0.5, 0.8]), closed=False)
-    tailor.worn["head " + name] = sheet
+    tailor.worn["head " + name] = sf.grid(points, weights, cell, np.array([0.2, 0.5, 0.8]), closed=False)

@@ -36,7 +36,7 @@ def _mottled(random, h, w, amount):
 
 def _wool(random, h, w):
     fibres = value_noise(random, h, w, max(h // 12, 2), w // 2)
-    return 1.0 + _mottled(random, h, w, 0.10) + 0.05 * fibres + 0.05 * random.uniform(-1, 1, (h, w))
+    return 1.0 + _mottled(random, h, w, 0.06) + 0.05 * fibres + 0.05 * random.uniform(-1, 1, (h, w))
 
 
 def _linen(random, h, w):
@@ -111,7 +111,7 @@ def paint(random, size_px, weave, colour, hem=0.0, folds=0.0, trim=(), placket=N
     light = WEAVES[weave](random, h, w)
     if folds:
         bent = u + 0.04 * value_noise(random, h, w, 4, 3)
-        light = light - folds * (0.5 + 0.5 * np.sin(bent * 2 * np.pi * 9)) ** 3 * v
+        light = light - 0.5 * folds * (0.5 + 0.5 * np.sin(bent * 2 * np.pi * 9)) ** 3 * v
     if seams:
         light = light - 0.10 * np.exp(-((v - 1.0) / 0.02) ** 2) - 0.08 * np.exp(-(v / 0.015) ** 2)
     picture = picture * light[..., None]

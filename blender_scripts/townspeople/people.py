@@ -11,7 +11,7 @@ CELLS = {
     "overskirt": ("cloth", (128, 128)), "apron": ("cloth", (128, 160)), "cape": ("cloth", (128, 192)),
     "lining": ("cloth", (64, 64)), "trousers": ("cloth", (128, 128)), "hose": ("cloth", (64, 128)),
     "coif": ("cloth", (96, 96)), "collar": ("cloth", (96, 64)), "hood": ("cloth", (96, 128)),
-    "hat": ("trim", (160, 96)), "hair": ("trim", (160, 96)), "belt": ("trim", (96, 64)),
+    "hat": ("cloth", (160, 96)), "hair": ("trim", (160, 96)), "belt": ("trim", (96, 64)),
     "plate": ("trim", (160, 160)), "boots": ("trim", (96, 96)), "pouch": ("trim", (64, 64)),
 }
 
@@ -28,6 +28,27 @@ WOMAN_BULGES = [
     {"at": "waist", "by": (0.16, 0, 0.03), "radius": (0.14, 0.25, 0.14), "push": (-0.022, 0, 0), "mirror": True},
     {"at": "hip", "by": (0.17, 0.02, 0.02), "radius": (0.16, 0.25, 0.18), "push": (0.022, 0.0, 0), "mirror": True},
 ]
+
+def eyes_by(swell):
+    return {"at": "brow", "by": (0.031, 0.010, -0.018), "radius": (0.028, 0.04, 0.024), "swell": swell, "mirror": True}
+
+
+WOMAN_FACE = [
+    {"at": "nose", "by": (0, 0.012, 0), "radius": (0.03, 0.04, 0.035), "push": (0, 0.008, 0.002), "swell": -0.12},
+    {"at": "chin", "by": (0.055, 0.06, 0.01), "radius": (0.05, 0.07, 0.05), "push": (-0.007, 0, 0), "mirror": True},
+    {"at": "brow", "by": (0, 0, 0.006), "radius": (0.06, 0.04, 0.026), "push": (0, 0.004, 0)},
+    {"at": "mouth", "by": (0, 0, 0), "radius": (0.03, 0.03, 0.02), "push": (0, -0.002, 0), "swell": 0.08},
+    {"at": "chin", "by": (0, 0.01, 0), "radius": (0.035, 0.04, 0.03), "push": (0, 0.004, 0.004)}, eyes_by(0.14),
+]
+CHILD_FACE = [
+    {"at": "nose", "by": (0, 0.015, 0), "radius": (0.04, 0.05, 0.045), "push": (0, 0.014, 0.004), "swell": -0.30},
+    {"at": "nose", "by": (0.045, 0.035, -0.012), "radius": (0.04, 0.05, 0.04), "push": (0.003, -0.007, 0), "mirror": True},
+    {"at": "chin", "by": (0.055, 0.06, 0.01), "radius": (0.05, 0.07, 0.05), "push": (-0.006, 0, 0.003), "mirror": True},
+    {"at": "brow", "by": (0, 0, 0.008), "radius": (0.07, 0.05, 0.035), "push": (0, 0.007, 0)},
+    {"at": "mouth", "by": (0, 0, 0), "radius": (0.04, 0.04, 0.025), "push": (0, 0.004, 0), "swell": -0.12},
+    {"at": "mouth", "by": (0.022, 0.012, 0.0), "radius": (0.015, 0.02, 0.012), "push": (0, 0, 0.004), "mirror": True},
+    {"at": "chin", "by": (0, 0.01, 0), "radius": (0.045, 0.05, 0.035), "push": (0, 0.006, 0.007)}, eyes_by(0.22),
+]
 BELLY = {"at": "waist", "by": (0, -0.10, 0.0), "radius": (0.24, 0.22, 0.24), "push": (0, -0.07, -0.01)}
 
 SHORT_HAIR = {"piece": "shell", "name": "hair", "thickness": 0.007, "crown_thickness": 0.016, "roughness": 0.003,
@@ -39,7 +60,8 @@ WOMAN_HAIR = {"piece": "shell", "name": "hair", "thickness": 0.006, "crown_thick
               "edge": [[0, 50], [30, 44], [58, 20], [78, 0], [100, -6], [130, -26], [180, -36]]}
 COIF = {"piece": "shell", "name": "coif", "thickness": 0.014, "crown_thickness": 0.020, "peak": 0.020,
         "cell": "coif", "edge": [[0, 62], [35, 55], [65, 26], [85, -14], [105, -32], [140, -40], [180, -44]]}
-BEARD = {"piece": "beard", "thickness": 0.015}
+BEARD = {"piece": "beard"}
+BAND = {"piece": "cape", "name": "band", "top_deg": 70, "bottom_deg": 50, "ease": 0.012, "columns": 28, "cell": "collar"}
 STOCKINGS = {"piece": "legs", "name": "hose", "start": 0.4, "end": 2.0}
 SHORT_STOCKINGS = {"piece": "legs", "name": "hose", "start": 1.35, "end": 2.0, "rows": 7}
 CLOSE_SLEEVE = [[0, 0.074], [0.6, 0.064], [1, 0.058], [1.5, 0.052], [1.93, 0.041]]
@@ -63,7 +85,7 @@ PEOPLE = {
              "flare": 0.22, "folds": 14, "fold_depth": 0.012, "rows": 6, "cell": "overskirt"},
             {"piece": "belt", "at": ["waist", -0.02], "height": 0.035},
             {"piece": "pouch", "at": ["waist", -0.05], "angle_deg": -60, "cell": "pouch"},
-            dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
+            {"piece": "brows"}, dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
             {"piece": "cape", "name": "cloak", "top_deg": 60, "bottom_deg": 0, "ease": 0.026, "open_deg": 62,
              "hem": ["crotch", 0.02], "flare": 0.22, "folds": 8, "fold_depth": 0.03, "lining": "lining"},
             {"piece": "ruff"},
@@ -94,10 +116,11 @@ PEOPLE = {
              "flare": 0.20, "folds": 11, "fold_depth": 0.022, "rows": 9},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.04},
             {"piece": "pouch", "at": ["waist", -0.02], "angle_deg": 50},
-            dict(BEARD, thickness=0.012), dict(SHORT_HAIR),
+            {"piece": "brows"}, dict(BEARD, thickness=0.011), dict(SHORT_HAIR),
             {"piece": "shell", "name": "hood", "thickness": 0.022, "crown_thickness": 0.020, "peak": 0.035,
              "columns": 40, "nape": 0.01, "cell": "hood",
-             "edge": [[0, 42], [30, 36], [48, 14], [60, -25], [72, -52], [100, -62], [180, -62]]},
+             "drop": 0.07,
+             "edge": [[0, 44], [30, 38], [48, 18], [58, -14], [66, -40], [80, -50], [180, -52]]},
             {"piece": "cape", "name": "hood", "top_deg": 68, "bottom_deg": 12, "ease": 0.026, "point": 0.03},
         ],
         "cloth": {
@@ -119,10 +142,10 @@ PEOPLE = {
             {"piece": "skirt", "name": "shirt", "top": ["waist", 0.0], "hem": ["crotch", -0.06], "ease": 0.012,
              "flare": 0.2, "folds": 12, "fold_depth": 0.014, "rows": 7},
             {"piece": "skirt", "name": "form", "top": ["waist", 0.0], "hem": ["knee", -0.06], "ease": 0.022,
-             "flare": 0.2, "folds": 5, "fold_depth": 0.012, "rows": 9, "hidden": True},
+             "flare": 0.16, "folds": 5, "fold_depth": 0.010, "rows": 9, "follow": 0.85, "shin": 0.2, "hidden": True},
             {"piece": "apron", "over": "form", "hem_row": 1.0, "bib_top": ["chest", 0.05], "half_angle_deg": 66},
-            {"piece": "belt", "at": ["waist", 0.0], "height": 0.028},
-            dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
+            {"piece": "belt", "at": ["waist", 0.0], "height": 0.028}, dict(BAND),
+            {"piece": "brows"}, dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
             {"piece": "hat", "name": "cap", "sit": 0.024, "tilt_deg": -10, "profile": [
                 [0, 0, 0.070], [0.6, 0, 0.072], [1.0, 0.020, 0.058], [1.0, 0.032, 0.034], [1.0, 0.010, 0.006], [1.0, 0.006, -0.014],
                 [0.96, 0, -0.018]]},
@@ -132,11 +155,11 @@ PEOPLE = {
             "sleeve": dyed("linen", (0.74, 0.69, 0.58)), "skirt": dyed("linen", (0.74, 0.69, 0.58)),
             "apron": dyed("leather", (0.40, 0.26, 0.15), hem=0.3), "trousers": dyed("wool", (0.22, 0.27, 0.34)),
             "hose": dyed("wool", (0.50, 0.45, 0.36)), "belt": dyed("leather", (0.22, 0.13, 0.08)),
-            "hair": dyed("hair", (0.16, 0.11, 0.08)), "hat": dyed("wool", (0.36, 0.15, 0.11)),
+            "hair": dyed("hair", (0.16, 0.11, 0.08)), "collar": dyed("linen", (0.76, 0.71, 0.60)), "hat": dyed("wool", (0.36, 0.15, 0.11)),
         },
     },
     "townswoman": {
-        "height_m": 1.63, "skin": FEMALE, "proportions": WOMAN_SHAPE, "bulges": WOMAN_BULGES,
+        "height_m": 1.63, "skin": FEMALE, "proportions": WOMAN_SHAPE, "bulges": WOMAN_BULGES + WOMAN_FACE,
         "manner": {"arm_spread_deg": 7.0, "stride": 0.92},
         "wear": [
             SHORT_STOCKINGS,
@@ -146,8 +169,8 @@ PEOPLE = {
              "flare": 0.18, "folds": 16, "fold_depth": 0.030, "gather": 0.2},
             {"piece": "apron", "over": "skirt", "hem_row": 0.82, "half_angle_deg": 58},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.03, "thickness": 0.008},
-            dict(WOMAN_HAIR), dict(COIF),
-            {"piece": "standing collar", "height": 0.03, "flare": 0.012},
+            {"piece": "brows"}, dict(WOMAN_HAIR), dict(COIF),
+            dict(BAND),
         ],
         "cloth": {
             "upper": dyed("wool", (0.20, 0.27, 0.38), placket=[0.07, (0.80, 0.77, 0.68), 9, (0.16, 0.12, 0.1)]),
@@ -160,7 +183,7 @@ PEOPLE = {
     },
     "noblewoman": {
         "height_m": 1.66, "skin": {"tint": (1.08, 1.05, 1.04), "smooth": 1.0}, "proportions": WOMAN_SHAPE,
-        "bulges": WOMAN_BULGES,
+        "bulges": WOMAN_BULGES + WOMAN_FACE,
         "manner": {"arm_spread_deg": 11.0, "stride": 0.86},
         "wear": [
             SHORT_STOCKINGS,
@@ -169,7 +192,7 @@ PEOPLE = {
             {"piece": "skirt", "name": "gown", "top": ["waist", 0.0], "hem": ["sole", 0.03], "ease": 0.04,
              "flare": 0.20, "folds": 15, "fold_depth": 0.03, "gather": 0.15, "columns": 60},
             {"piece": "belt", "at": ["waist", -0.01], "height": 0.022, "thickness": 0.007},
-            dict(WOMAN_HAIR),
+            {"piece": "brows"}, dict(WOMAN_HAIR),
             {"piece": "cape", "name": "mantle", "top_deg": 52, "bottom_deg": 0, "ease": 0.022, "open_deg": 82,
              "hem": ["knee", -0.22], "flare": 0.16, "folds": 9, "fold_depth": 0.035, "lining": "lining", "hang_rows": 10},
             {"piece": "ruff", "outer": 0.15},
@@ -191,7 +214,7 @@ PEOPLE = {
     },
     "maid": {
         "height_m": 1.58, "skin": {"tint": (1.0, 0.94, 0.90), "smooth": 1.0}, "proportions": WOMAN_SHAPE,
-        "bulges": WOMAN_BULGES,
+        "bulges": WOMAN_BULGES + WOMAN_FACE,
         "manner": {"arm_spread_deg": 6.0, "stride": 0.98},
         "wear": [
             dict(SHORT_STOCKINGS, start=1.1),
@@ -201,7 +224,7 @@ PEOPLE = {
              "flare": 0.20, "folds": 13, "fold_depth": 0.030, "gather": 0.25},
             {"piece": "apron", "over": "skirt", "hem_row": 0.9, "half_angle_deg": 50},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.025, "thickness": 0.007},
-            dict(WOMAN_HAIR), dict(COIF, peak=0.03, edge=[[0, 58], [35, 50], [65, 24], [85, 0], [105, -12], [140, -30], [180, -40]]),
+            {"piece": "brows"}, dict(WOMAN_HAIR), dict(COIF, peak=0.03, edge=[[0, 58], [35, 50], [65, 24], [85, 0], [105, -12], [140, -30], [180, -40]]),
             {"piece": "cape", "name": "shawl", "top_deg": 62, "bottom_deg": 16, "ease": 0.018, "point": 0.10},
         ],
         "bare_arm_from": 1.25,
@@ -224,6 +247,7 @@ PEOPLE = {
              "flare": 0.12, "folds": 13, "fold_depth": 0.035},
             {"piece": "belt", "at": ["waist", 0.01], "height": 0.026, "thickness": 0.016},
             {"piece": "cord", "start": ["waist", 0.0], "end": ["knee", 0.05], "angle_deg": 30},
+            {"piece": "brows"},
             {"piece": "shell", "name": "hair", "thickness": 0.008, "roughness": 0.003,
              "edge": [[0, 44], [40, 34], [70, 10], [95, 4], [130, -25], [180, -34]]},
             {"piece": "cape", "name": "cowl", "top_deg": 66, "bottom_deg": 8, "ease": 0.03},
@@ -247,8 +271,8 @@ PEOPLE = {
              "flare": 0.22, "folds": 14, "fold_depth": 0.016, "rows": 7},
             {"piece": "plate", "bottom": ["waist", -0.03]},
             {"piece": "belt", "at": ["waist", -0.03], "height": 0.045},
-            dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache", "thickness": 0.013},
-            {"piece": "standing collar", "height": 0.045, "flare": 0.014},
+            {"piece": "brows"}, dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache", "thickness": 0.013},
+            dict(BAND),
             {"piece": "hat", "name": "helmet", "sit": 0.020, "tilt_deg": -3, "cell": "plate", "profile": [
                 [0, 0, 0.135], [0.35, 0, 0.128], [0.65, 0, 0.108], [0.88, 0, 0.070], [1.0, 0.0, 0.020],
                 [1.0, 0.012, 0.004], [1.0, 0.060, -0.022], [1.0, 0.063, -0.030], [1.0, 0.010, -0.012]]},
@@ -257,14 +281,14 @@ PEOPLE = {
         "cloth": {
             "upper": dyed("wool", (0.50, 0.37, 0.13)), "sleeve": dyed("wool", (0.50, 0.37, 0.13), stripes=[8, (0.16, 0.20, 0.30)]),
             "skirt": dyed("wool", (0.50, 0.37, 0.13), stripes=[12, (0.16, 0.20, 0.30)]),
-            "trousers": dyed("wool", (0.50, 0.37, 0.13), stripes=[9, (0.16, 0.20, 0.30)]),
+            "trousers": dyed("wool", (0.44, 0.33, 0.13)),
             "hose": dyed("wool", (0.30, 0.28, 0.27)), "boots": dyed("leather", (0.22, 0.14, 0.09), hem=0.4),
             "plate": dyed("metal", (0.42, 0.43, 0.45)), "belt": dyed("leather", (0.20, 0.12, 0.07)),
             "collar": dyed("linen", (0.80, 0.77, 0.7)), "hair": dyed("hair", (0.20, 0.14, 0.09)),
         },
     },
     "child": {
-        "height_m": 1.20, "skin": {"tint": (1.06, 1.0, 0.97), "smooth": 1.0},         "proportions": {"head": (1.30, 1.27, 1.20), "neck": (0.95, 0.95, 0.9), "trunk": (0.88, 0.95, 0.90), "arms": (0.90, 0.90, 0.90),
+        "height_m": 1.20, "skin": {"tint": (1.06, 1.0, 0.97), "smooth": 1.0}, "bulges": CHILD_FACE,         "proportions": {"head": (1.30, 1.27, 1.20), "neck": (0.95, 0.95, 0.9), "trunk": (0.88, 0.95, 0.90), "arms": (0.90, 0.90, 0.90),
                         "hands": (0.95, 0.95, 0.95), "legs": (0.98, 0.98, 0.86), "feet": (1.0, 0.98, 1.0)},
         "manner": {"arm_spread_deg": 1.0, "stride": 1.0},
         "wear": [
@@ -274,8 +298,8 @@ PEOPLE = {
             {"piece": "skirt", "name": "tunic", "top": ["waist", 0.01], "hem": ["knee", 0.01], "ease": 0.016,
              "flare": 0.26, "folds": 11, "fold_depth": 0.022, "rows": 9},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.03},
-            dict(LONG_HAIR),
-            {"piece": "standing collar", "height": 0.02, "flare": 0.02},
+            {"piece": "brows"}, dict(LONG_HAIR),
+            dict(BAND),
             {"piece": "hat", "name": "cap", "sit": 0.040, "tilt_deg": -14, "profile": [
                 [0, 0, 0.060], [0.6, 0, 0.060], [1.0, 0.018, 0.046], [1.0, 0.028, 0.026], [1.0, 0.008, 0.004], [1.0, 0.004, -0.012],
                 [0.96, 0, -0.016]]},
@@ -299,8 +323,8 @@ PEOPLE = {
             {"piece": "skirt", "name": "coat", "top": ["waist", 0.01], "hem": ["knee", -0.20], "ease": 0.016,
              "flare": 0.15, "folds": 12, "fold_depth": 0.028},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.035},
-            dict(LONG_HAIR), dict(BEARD, thickness=0.02, length=0.10), {"piece": "moustache", "thickness": 0.014},
-            {"piece": "cape", "name": "cloak", "top_deg": 62, "bottom_deg": 0, "ease": 0.028, "open_deg": 50,
+            {"piece": "brows"}, dict(LONG_HAIR), dict(BEARD, thickness=0.02, length=0.10), {"piece": "moustache", "thickness": 0.014},
+            {"piece": "cape", "name": "cloak", "top_deg": 62, "bottom_deg": 0, "ease": 0.030, "open_deg": 64,
              "hem": ["knee", 0.0], "flare": 0.17, "folds": 9, "fold_depth": 0.035, "hang_rows": 9},
             {"piece": "hat", "name": "cap", "sit": 0.024, "tilt_deg": -8, "profile": [
                 [0, 0, 0.058], [0.6, 0, 0.060], [1.0, 0.024, 0.046], [1.0, 0.036, 0.026], [1.0, 0.010, 0.004], [1.0, 0.008, -0.016],

@@ -20,6 +20,7 @@ class Tailor:
     worn: dict = field(default_factory=dict)     # name -> Surface, in the order of dressing
     grids: dict = field(default_factory=dict)    # name -> (points, weights, angles) of lofted garments
     size: float = 1.0                            # lengths in people.py are for a figure of 1.7 m
+    poses: list = field(default_factory=list)    # sampled skinning matrices of all clips
 
     def height(self, place):
         """z in metres of a landmark name, or of [landmark, offset in m at 1.7 m]."""
@@ -51,11 +52,12 @@ def axis_y(tailor, z):
     return float(np.interp(z, [mark[2] for mark in marks], [min(mark[1], 0.02) for mark in marks]))
 
 
-def slice_points(tailor, arms):
-    """Points all over trunk and legs (and arms down to the elbow), as worn so far."""
+def slice_points(tailor, arms, skirts=False):
+    """Points all over trunk and legs (and arms down to the elbow, and skirts), as worn so far."""
     figure = tailor.figure
     parts = [figure.parts["trousers"], figure.parts["shirt"]]
-    parts += [tailor.worn[name] for name in tailor.worn if name.startswith(("upper", "trousers", "belly"))]
+    kinds = ("upper", "trousers", "plate") + (("skirt",) if skirts else ())
+    parts += [tailor.worn[name] for name in tailor.worn if name.startswith(kinds)]
     clouds = []
     for part in parts:
         share = joint_share(figure, part, ARM_JOINTS)
@@ -130,6 +132,29 @@ def transferred(tailor, points, source, calm_arms=0.0):
     return weights
 
 
+def as_worn(tailor, points, kinds=("upper", "skirt", "plate")):
+    """Weights of the nearest worn garments of the trunk, sleeves left out."""
+    sources = [worn for name, worn in tailor.worn.items() if name.startswith(kinds)]
+    both = sf.joined(sources or [tailor.figure.parts["shirt"]])
+    trunk = joint_share(tailor.figure, both, ARM_JOINTS) < 0.1
+    return sf.nearest_weights(points, both.vertices[trunk], both.weights[trunk], 4)
+
+
+def beneath(tailor, kinds):
+    """Everything of these kinds that is worn, as one surface; the skin where kinds names it."""
+    parts = [worn for name, worn in tailor.worn.items() if name.startswith(kinds)]
+    parts += [tailor.figure.parts[name] for name in ("shoes", "body") if name in kinds]
+    return sf.joined(parts) if parts else None
+
+
+def outward_of(tailor, points):
+    """Horizontal unit vectors away from the trunk's axis."""
+    ways = points.copy()
+    ways[..., 1] -= np.vectorize(lambda z: axis_y(tailor, z))(points[..., 2])
+    ways[..., 2] = 0.0
+    return ways / np.maximum(np.linalg.norm(ways, axis=-1, keepdims=True), 1e-6)
+
+
 def trunk_tree(tailor, arms):
     """Rays' target: everything worn on trunk, neck (and upper arms)."""
     figure = tailor.figure
@@ -154,3 +179,11 @@ def star_rows(tree, centre, angles, elevations_deg, ease, fallback):
         reach = np.array([fallback if value is None else value for value in reach])
         rows.append(centre + rays * (circular_blur(reach, 2) + extra)[:, None])
     return np.array(rows)
+
+
+def fold_wave(random, angles, folds):
+    """Irregular pleats about the body: 0 in the valleys, 1 on the crests."""
+    bent = angles + 0.25 * np.sin(2 * angles + random.uniform(0, 6.28)) / 2
+    wave = 0.5 + 0.5 * np.cos(folds * bent + random.uniform(0, 6.28))
+    slow = 0.5 + 0.5 * np.cos(max(folds // 3, 1) * angles + random.uniform(0, 6.28))
+    return wave * (0.55 + 0.45 * slow)
