@@ -1,0 +1,171 @@
+#include "runtime/pack/gltf_file.h"
+
+#include <cstring>
+
+namespace flaneur {
+namespace {
+
+constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+
+uint32_t Word(std::span<const uint8_t> bytes, size_t offset) {
+  uint32_t word = 0;
+  if (offset + 4 > bytes.size()) throw PackRefused("is truncated");
+  std::memcpy(&word, bytes.data() + offset, 4);
+  return word;
+}
+
+size_t ComponentSize(int type) {
+  switch (type) {
+    case 5120: case 5121: return 1;
+    case 5122: case 5123: return 2;
+    case 5125: case 5126: return 4;
+    default: throw PackRefused("has an accessor of unknown component type " + std::to_string(type));
+  }
+}
+
+template <typename T>
+T Read(const uint8_t* data) {
+  T value;
+  std::memcpy(&value, data, sizeof value);
+  return value;
+}
+
+double ReadComponent(const uint8_t* data, int type) {
+  switch (type) {
+    case 5120: return Read<int8_t>(data);
+    case 5121: return Read<uint8_t>(data);
+    case 5122: return Read<int16_t>(data);
+    case 5123: return Read<uint16_t>(data);
+    case 5125: return Read<uint32_t>(data);
+    default: return static_cast<double>(Read<float>(data));
+  }
+}
+
+// Calls visit(value) for every component of the accessor, in order.
+template <typename Visit>
+void VisitComponents(const GltfFile& file, int accessor_index, Visit visit) {
+  const Json& accessor = Element(file.json, "accessors", accessor_index);
+  const std::string name = "accessor " + std::to_string(accessor_index);
+  const int type = Member(accessor, "componentType").get<int>();
+  const size_t size = ComponentSize(type);
+  const size_t components = static_cast<size_t>(ComponentCount(Member(accessor, "type").get<std::string>()));
+  const size_t count = Member(accessor, "count").get<size_t>();
+  if (!accessor.contains("bufferView") || accessor.contains("sparse")) {
+    throw PackRefused("has " + name + " without plain data");
+  }
+  const int view_index = accessor["bufferView"].get<int>();
+  const std::span<const uint8_t> view = BufferView(file, view_index);
+  const Json& view_json = file.json["bufferViews"][static_cast<size_t>(view_index)];
+  const size_t stride = view_json.value("byteStride", size * components);
+  const size_t offset = accessor.value("byteOffset", size_t{0});
+  if (stride < size * components || offset > view.size() || count > view.size() / std::max<size_t>(stride, 1) + 1 ||
+      (count > 0 && offset + (count - 1) * stride + size * components > view.size())) {
+    throw PackRefused("has " + name + " that reaches beyond its buffer view");
+  }
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t c = 0; c < components; ++c) {
+      visit(ReadComponent(view.data() + offset + i * stride + c * size, type));
+    }
+  }
+}
+
+}  // namespace
+
+GltfFile OpenGltf(std::vector<uint8_t> bytes) {
+  GltfFile file;
+  file.bytes = std::move(bytes);
+  const std::span<const uint8_t> all(file.bytes);
+  if (all.size() < 12 || Word(all, 0) != kMagic) throw PackRefused("is not a glTF binary");
+  if (Word(all, 4) != 2) throw PackRefused("is not glTF 2.0");
+  if (Word(all, 8) != all.size()) throw PackRefused("is truncated");
+  const size_t json_size = Word(all, 12);
+  if (Word(all, 16) != kJsonChunk || json_size > all.size() - 20) throw PackRefused("is truncated");
+  const auto text = all.subspan(20, json_size);
+  file.json = Json::parse(text.begin(), text.end(), nullptr, false);
+  if (!file.json.is_object()) throw PackRefused("holds broken JSON");
+  const size_t chunk = 20 + json_size;
+  if (chunk + 8 <= all.size() && Word(all, chunk + 4) == kBinaryChunk) {
+    const size_t binary_size = Word(all, chunk);
+    if (binary_size > all.size() - chunk - 8) throw PackRefused("is truncated");
+    file.binary = all.subspan(chunk + 8, binary_size);
+  }
+  return file;
+}
+
+const Json& Member(const Json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  if (!object.is_object() || found == object.end()) throw PackRefused("lacks '" + std::string(key) + "'");
+  return *found;
+}
+
+int Index(const Json& object, const char* key, size_t limit) {
+  const auto value = Member(object, key).get<int64_t>();
+  if (value < 0 || static_cast<size_t>(value) >= limit) {
+    throw PackRefused("has '" + std::string(key) + "' " + std::to_string(value) + ", but there are only " +
+                      std::to_string(limit));
+  }
+  return static_cast<int>(value);
+}
+
+int IndexOrNone(const Json& object, const char* key, size_t limit) {
+  if (!object.contains(key) || object[key] == -1) return -1;
+  return Index(object, key, limit);
+}
+
+const Json& Element(const Json& root, const char* array, int index) {
+  const Json& all = Member(root, array);
+  if (!all.is_array() || index < 0 || static_cast<size_t>(index) >= all.size()) {
+    throw PackRefused("has no element " + std::to_string(index) + " in '" + array + "'");
+  }
+  return all[static_cast<size_t>(index)];
+}
+
+std::span<const uint8_t> BufferView(const GltfFile& file, int index) {
+  const Json& view = Element(file.json, "bufferViews", index);
+  const size_t offset = view.value("byteOffset", size_t{0});
+  const size_t length = Member(view, "byteLength").get<size_t>();
+  if (view.value("buffer", 0) != 0 || offset > file.binary.size() || length > file.binary.size() - offset) {
+    throw PackRefused("has buffer view " + std::to_string(index) + " that reaches beyond the file");
+  }
+  return file.binary.subspan(offset, length);
+}
+
+int ComponentCount(const std::string& type) {
+  if (type == "SCALAR") return 1;
+  if (type == "VEC2") return 2;
+  if (type == "VEC3") return 3;
+  if (type == "VEC4") return 4;
+  if (type == "MAT4") return 16;
+  throw PackRefused("has an accessor of unknown type '" + type + "'");
+}
+
+float NormalizedScale(const Json& accessor) {
+  if (!accessor.value("normalized", false)) return 1;
+  switch (Member(accessor, "componentType").get<int>()) {
+    case 5120: return 1.0f / 127;
+    case 5121: return 1.0f / 255;
+    case 5122: return 1.0f / 32767;
+    case 5123: return 1.0f / 65535;
+    default: return 1;
+  }
+}
+
+Values ReadAccessor(const GltfFile& file, int accessor) {
+  const Json& json = Element(file.json, "accessors", accessor);
+  Values values;
+  values.components = ComponentCount(Member(json, "type").get<std::string>());
+  const float scale = NormalizedScale(json);
+  VisitComponents(file, accessor, [&](double v) { values.numbers.push_back(static_cast<float>(v) * scale); });
+  return values;
+}
+
+std::vector<uint32_t> ReadIndices(const GltfFile& file, int accessor) {
+  std::vector<uint32_t> indices;
+  VisitComponents(file, accessor, [&](double v) {
+    if (!(v >= 0 && v <= 4294967295.0)) throw PackRefused("has an index out of range");
+    indices.push_back(static_cast<uint32_t>(v));
+  });
+  return indices;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,50 @@
+// A glTF binary opened for reading: its JSON and checked access to its binary chunk. Internal to runtime/pack.
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace flaneur {
+
+using Json = nlohmann::json;
+
+// Thrown inside this folder alone, and turned into an Error by LoadTourPack.
+struct PackRefused : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct GltfFile {
+  std::vector<uint8_t> bytes;
+  Json json;
+  std::span<const uint8_t> binary;  // into bytes
+};
+
+// Splits the container and parses the JSON. Throws PackRefused.
+GltfFile OpenGltf(std::vector<uint8_t> bytes);
+
+// Member access that names what is missing or of the wrong type.
+const Json& Member(const Json& object, const char* key);
+int Index(const Json& object, const char* key, size_t limit);          // 0 <= value < limit
+int IndexOrNone(const Json& object, const char* key, size_t limit);    // -1 where absent or -1
+const Json& Element(const Json& root, const char* array, int index);   // root[array][index]
+
+std::span<const uint8_t> BufferView(const GltfFile& file, int index);
+
+struct Values {
+  int components = 0;          // a value
+  std::vector<float> numbers;  // normalized integers scaled to their range
+  size_t count() const { return components > 0 ? numbers.size() / static_cast<size_t>(components) : 0; }
+};
+
+// An accessor's values as floats.
+Values ReadAccessor(const GltfFile& file, int accessor);
+std::vector<uint32_t> ReadIndices(const GltfFile& file, int accessor);
+int ComponentCount(const std::string& type);
+// The factor that turns a normalized integer of this component type into its range, 1 for others.
+float NormalizedScale(const Json& accessor);
+
+}  // namespace flaneur

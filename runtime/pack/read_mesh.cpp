@@ -1,0 +1,157 @@
+#include "runtime/pack/read_mesh.h"
+
+#include <draco/compression/decode.h>
+
+#include <cmath>
+#include <functional>
+
+namespace flaneur {
+namespace {
+
+constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+
+// Gives an attribute's values by its glTF name, empty where the primitive has none.
+using AttributeSource = std::function<Values(const char* name)>;
+
+std::unique_ptr<draco::Mesh> DecodeDraco(const GltfFile& file, const Json& extension) {
+  const auto view = BufferView(file, Member(extension, "bufferView").get<int>());
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(view.data()), view.size());
+  draco::Decoder decoder;
+  auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+  if (!decoded.ok()) throw PackRefused("holds Draco data that cannot be decoded: " + decoded.status().error_msg_string());
+  return std::move(decoded).value();
+}
+
+Values DracoAttribute(const draco::Mesh& mesh, int unique_id, const Json& accessor) {
+  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(static_cast<uint32_t>(unique_id));
+  if (attribute == nullptr) throw PackRefused("lacks Draco attribute " + std::to_string(unique_id));
+  Values values;
+  values.components = attribute->num_components();
+  if (values.components < 1 || values.components > 4) throw PackRefused("has a Draco attribute of odd size");
+  const float scale = attribute->normalized() ? 1 : NormalizedScale(accessor);
+  values.numbers.resize(static_cast<size_t>(mesh.num_points()) * static_cast<size_t>(values.components));
+  for (uint32_t p = 0; p < mesh.num_points(); ++p) {
+    float* out = &values.numbers[static_cast<size_t>(p) * static_cast<size_t>(values.components)];
+    if (!attribute->ConvertValue<float>(attribute->mapped_index(draco::PointIndex(p)),
+                                        static_cast<int8_t>(values.components), out)) {
+      throw PackRefused("has a Draco attribute that cannot be read");
+    }
+    for (int c = 0; c < values.components; ++c) out[c] *= scale;
+  }
+  return values;
+}
+
+void Expect(const Values& values, size_t count, int components, const char* name) {
+  if (values.components != components || values.count() != count) {
+    throw PackRefused("has an attribute " + std::string(name) + " of the wrong size");
+  }
+}
+
+std::vector<Vec3> ToVec3(const Values& v) {
+  std::vector<Vec3> out(v.count());
+  for (size_t i = 0; i < out.size(); ++i) out[i] = {v.numbers[3 * i], v.numbers[3 * i + 1], v.numbers[3 * i + 2]};
+  return out;
+}
+
+void FillColors(const Values& v, PackPrimitive* primitive) {
+  const size_t n = static_cast<size_t>(v.components);
+  for (size_t i = 0; i < v.count(); ++i) {
+    const float* c = &v.numbers[n * i];
+    primitive->colors.push_back({c[0], c[1], c[2], n == 4 ? c[3] : 1.0f});
+  }
+}
+
+void FillSkin(const Values& joints, const Values& weights, PackPrimitive* primitive) {
+  const size_t count = primitive->positions.size();
+  Expect(joints, count, 4, "JOINTS_0");
+  Expect(weights, count, 4, "WEIGHTS_0");
+  primitive->joints.resize(count);
+  primitive->weights.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    float sum = 0;
+    for (size_t k = 0; k < 4; ++k) {
+      const float joint = joints.numbers[4 * i + k];
+      if (!(joint >= 0 && joint < 65536)) throw PackRefused("has a joint index out of range");
+      primitive->joints[i][k] = static_cast<uint16_t>(joint);
+      primitive->weights[i][k] = std::max(0.0f, weights.numbers[4 * i + k]);
+      sum += primitive->weights[i][k];
+    }
+    if (!(sum > 0) || !std::isfinite(sum)) throw PackRefused("has a vertex without weights");
+    for (float& w : primitive->weights[i]) w /= sum;
+  }
+}
+
+void FillVertices(const AttributeSource& attribute, PackPrimitive* primitive) {
+  const Values positions = attribute("POSITION");
+  Expect(positions, positions.count(), 3, "POSITION");
+  primitive->positions = ToVec3(positions);
+  const size_t count = primitive->positions.size();
+  for (const Vec3& p : primitive->positions) {
+    if (!std::isfinite(p.x + p.y + p.z)) throw PackRefused("has a non-finite position");
+  }
+  const Values normals = attribute("NORMAL");
+  if (normals.components == 0) {
+    primitive->normals.assign(count, Vec3{0, 1, 0});
+  } else {
+    Expect(normals, count, 3, "NORMAL");
+    primitive->normals = ToVec3(normals);
+  }
+  if (const Values uvs = attribute("TEXCOORD_0"); uvs.components != 0) {
+    Expect(uvs, count, 2, "TEXCOORD_0");
+    for (size_t i = 0; i < count; ++i) primitive->uvs.push_back({uvs.numbers[2 * i], uvs.numbers[2 * i + 1]});
+  }
+  if (const Values colors = attribute("COLOR_0"); colors.components >= 3) {
+    Expect(colors, count, colors.components, "COLOR_0");
+    FillColors(colors, primitive);
+  }
+  if (const Values joints = attribute("JOINTS_0"); joints.components != 0) {
+    FillSkin(joints, attribute("WEIGHTS_0"), primitive);
+  }
+}
+
+PackPrimitive ReadPrimitive(const GltfFile& file, const Json& json) {
+  PackPrimitive primitive;
+  if (json.value("mode", 4) != 4) throw PackRefused("has a primitive that is not of triangles");
+  primitive.material = IndexOrNone(json, "material", Member(file.json, "materials").size());
+  const Json& attributes = Member(json, "attributes");
+  const bool compressed = json.contains("extensions") && json["extensions"].contains(kDracoExtension);
+  if (compressed) {
+    const Json& extension = json["extensions"][kDracoExtension];
+    const auto mesh = DecodeDraco(file, extension);
+    const Json& ids = Member(extension, "attributes");
+    FillVertices([&](const char* name) {
+      if (!ids.contains(name)) return Values{};
+      return DracoAttribute(*mesh, ids[name].get<int>(),
+                            Element(file.json, "accessors", Member(attributes, name).get<int>()));
+    }, &primitive);
+    for (draco::FaceIndex f(0); f < mesh->num_faces(); ++f) {
+      for (int corner = 0; corner < 3; ++corner) primitive.indices.push_back(mesh->face(f)[corner].value());
+    }
+  } else {
+    FillVertices([&](const char* name) {
+      return attributes.contains(name) ? ReadAccessor(file, attributes[name].get<int>()) : Values{};
+    }, &primitive);
+    primitive.indices = ReadIndices(file, Member(json, "indices").get<int>());
+  }
+  if (primitive.indices.size() % 3 != 0) throw PackRefused("has a number of indices that is no multiple of 3");
+  for (uint32_t index : primitive.indices) {
+    if (index >= primitive.positions.size()) throw PackRefused("has an index beyond the vertices");
+  }
+  return primitive;
+}
+
+}  // namespace
+
+PackMesh ReadMesh(const GltfFile& file, int mesh) {
+  const Json& json = Element(file.json, "meshes", mesh);
+  try {
+    PackMesh out;
+    for (const Json& primitive : Member(json, "primitives")) out.primitives.push_back(ReadPrimitive(file, primitive));
+    return out;
+  } catch (const std::exception& e) {
+    throw PackRefused("mesh " + std::to_string(mesh) + " '" + json.value("name", "") + "' " + e.what());
+  }
+}
+
+}  // namespace flaneur

@@ -1,0 +1,12 @@
+// A glTF mesh as runtime primitives. Internal to runtime/pack.
+#pragma once
+#include "runtime/pack/gltf_file.h"
+#include "runtime/pack/tour_pack.h"
+
+namespace flaneur {
+
+// Plain or Draco-compressed. Every index is below the vertex count, every array as long as the positions, every position
+// finite, weights sum to 1. Throws PackRefused naming the mesh.
+PackMesh ReadMesh(const GltfFile& file, int mesh);
+
+}  // namespace flaneur
