@@ -7,7 +7,7 @@ from mathutils.bvhtree import BVHTree
 
 SMALL_PARTS = ("timber", "planks", "glass", "iron", "cloth", "leaves", "bark")
 REACH_M = 6.0        # farther things darken nothing
-DARKEST = 0.16
+DARKEST = 0.22
 START_M = 0.03       # rays start this far off the surface
 PULL = 0.06          # and this share of the way to the middle of the polygon
 
@@ -105,7 +105,7 @@ def _cast(part, corners, tree, samples):
         for ray in rays[i]:
             hit, normal, _, distance = cast(origin, ray, REACH_M)
             if hit is not None:
-                shadow += 1 - distance * share
+                shadow += 1 - (distance * share) ** 2
                 if normal[0] * ray[0] + normal[1] * ray[1] + normal[2] * ray[2] > 0:
                     inside += 1
         light[i] = 1 - shadow / samples

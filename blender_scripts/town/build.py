@@ -35,7 +35,7 @@ from town_hall import make_town_hall  # noqa: E402
 OPTIONS = {
     "ao_samples": 24,        # rays a vertex for the baked light, 4 to 256
     "texture_px": 1024,      # edge of the larger textures, 128 to 4096
-    "house_width_m": 7.0,    # mean width of the houses, 5.5 to 9; wider means fewer
+    "house_width_m": 7.3,    # mean width of the houses, 5.5 to 9; wider means fewer
 }
 GROUND_KINDS = ("carriageway", "square", "pavement", "grass")
 

@@ -77,13 +77,11 @@ def field(mesh, frame, pattern, u0, u1, v0, v1, colors, rng):
 
 
 def storey(mesh, frame, width, height, colors, rng, windows, pattern, corner="brace", holes=(), posts=None,
-           with_shutters=False, flowers=0.0, plain=False):
+           with_shutters=False, flowers=0.0, sills=True):
     """One storey of framing on a wall from u = 0 to width and v = 0 to height."""
     edges = posts or bay_edges(width)
     panel(mesh, "plaster", frame, 0, width, 0, height, colors["plaster"], holes, uv_shift=(colors["shift"], colors["shift"]))
     timber = colors["timber"]
-    if plain:
-        return edges
 
     def clear(u0, u1, v0, v1):
         return not any(h[0] < u1 and u0 < h[1] and h[2] < v1 and v0 < h[3] for h in holes)
@@ -118,7 +116,8 @@ def storey(mesh, frame, width, height, colors, rng, windows, pattern, corner="br
             if with_shutters:
                 wide = min(wide, 0.62)
                 shutters(mesh, frame, (a + b) / 2, sill_v, wide, tall, colors["shutter"], rng, PROUD)
-            window(mesh, frame, (a + b) / 2, sill_v, wide, tall, colors["frame"], rng, casements=2 if wide > 0.7 else 1)
+            window(mesh, frame, (a + b) / 2, sill_v, wide, tall, colors["frame"], rng, sill=sills,
+                   casements=2 if wide > 0.7 else 1)
             if rng.random() < flowers:
                 flower_box(mesh, frame, (a + b) / 2, sill_v, wide, rng)
         elif corner == "brace" and i in (0, last) and last > 0:

@@ -8,9 +8,9 @@ import plan
 from layout import offset_line
 
 # Name of the shared mesh, height, crown radius, colour, detail.
-TREE_SORTS = [("tree_lime", 8.6, 3.0, "93a65a", 1.0), ("tree_maple", 9.6, 2.8, "7f9a52", 1.0),
-              ("tree_apple", 6.4, 2.6, "a3ab5c", 0.45), ("tree_elm", 8.8, 3.1, "869c55", 0.45),
-              ("tree_far", 9.5, 3.4, "8a9c5c", 0.25)]
+TREE_SORTS = [("tree_lime", 8.6, 3.0, "8c9a48", 1.0), ("tree_maple", 9.6, 2.8, "7a8f45", 1.0),
+              ("tree_apple", 6.4, 2.6, "9aa04f", 0.45), ("tree_elm", 8.8, 3.1, "7f9148", 0.45),
+              ("tree_far", 9.5, 3.4, "7f8c50", 0.25)]
 STALLS = [(-10.0, 6.6, 0.0), (-5.4, 6.9, 0.0), (-0.8, 6.7, 0.0), (3.8, 6.9, 0.0), (8.6, 6.6, 0.0),
           (1.2, -8.2, math.pi), (5.9, -8.4, math.pi), (10.6, -8.1, math.pi)]
 WELL = (-2.5, -1.2)
@@ -74,8 +74,8 @@ def along_fronts(plots, doors, streets, public, rng):
             continue
         door_u = entries[0]
         u = plot.width * 0.22 if door_u > plot.width / 2 else plot.width * 0.78
-        p, ahead = plot.at(u, -0.42), plot.at(u, -1.5)
-        if abs(u - door_u) < 1.9 or public([p])[0] > -0.2 or public([ahead])[0] > -1.2:
+        p, ahead = plot.at(u, -0.42), plot.at(u, -2.0)
+        if abs(u - door_u) < 1.9 or public([p])[0] > -0.2 or public([ahead])[0] > -1.75:
             continue
         if float(plan.carriage_distance([plot.at(u, -0.9)], streets)[0]) < 0.1:
             continue

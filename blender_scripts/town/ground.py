@@ -18,7 +18,7 @@ KERB_STONE_M = 0.2
 MATERIAL = {"carriageway": "cobble", "square": "setts", "pavement": "paving", "grass": "grass", "kerb": "stone",
             "garden": "grass"}
 TINT = {"carriageway": (0.95, 0.94, 0.92), "square": (1.0, 0.98, 0.95), "pavement": (0.96, 0.94, 0.9),
-        "grass": (0.95, 1.0, 0.9), "kerb": (0.78, 0.76, 0.73), "garden": (0.85, 0.92, 0.8)}
+        "grass": (0.97, 0.95, 0.88), "kerb": (0.78, 0.76, 0.73), "garden": (0.88, 0.88, 0.8)}
 
 
 def _lines(streets, public):
@@ -137,6 +137,6 @@ def far_land(rng):
             j = (i + 1) % count
             points = [rings[k][i], rings[k + 1][i], rings[k + 1][j], rings[k][j]]
             wood = radii[k] > 200 and math.sin(i * 1.7 + k * 2.1) > 0.1
-            color = shade(srgb("5a7a48") if wood else srgb("a9b070"), rng.uniform(0.85, 1.0))
+            color = shade(srgb("76805a") if wood else srgb("c4bf98"), rng.uniform(0.85, 1.0))
             mesh.face("grass", points, [(p[0] * 0.2, p[1] * 0.2) for p in points], color)
     return mesh

@@ -11,11 +11,12 @@ DROP = 0.2          # height of the joists between two storeys
 PLINTH = 0.42       # top of the stone plinth above the door's ground
 FOOT = -1.1         # walls reach this deep
 
-PLASTER = ["f4efe2", "f1e7cf", "ecd9ae", "e3c98f", "e6cdb5", "e8d3c8", "d9dcc0", "c9d3bd", "efe9dc", "dfd3bd", "f2e3c6",
-           "d8c3a0", "e5b9a0", "cfd6d2", "f6f1e6", "f3ead6"]
+PLASTER = ["f4efe2", "f3ead6", "efe4cc", "ecd6a0", "e8c47c", "dfae62", "e9cfae", "e6b9a4", "dc9f8c", "d5dab4", "bfcda6",
+           "efe9dc", "e2d2b2", "f2dfb6", "c8d2cc", "e9c8b4"]
 TIMBER = ["3b2a1f", "4a3122", "57392a", "5e2c23", "6d3427", "4a443d", "5c554b", "2f2723", "71492f", "40302a", "3d4a40"]
 FRAME = ["f4f1e8", "efeade", "f4f1e8", "5a3b28", "e7e0d0", "41584a"]
 DOOR = ["3f5a45", "5b3524", "2f4459", "6e2f27", "4b3a2b", "75543a", "3b4f4c", "7a5a2f"]
+TILE = [(1.0, 0.95, 0.9), (0.92, 0.8, 0.74), (0.74, 0.7, 0.7), (0.62, 0.58, 0.58), (0.85, 0.86, 0.84), (1.0, 0.85, 0.72)]
 ACCENT = [("c9a24a", "8f3b2e"), ("b5532f", "3f6b52"), ("d9b765", "3c5c7a"), ("e0d4b4", "7d3328"), ("c46d3a", "2f4f3c")]
 
 
@@ -27,7 +28,7 @@ def pick_colors(rng):
             "bracket": shade(timber, rng.uniform(0.85, 1.25)), "frame": frame, "door": door_color,
             "shutter": srgb(rng.choice(DOOR)), "barge": shade(timber, 0.9), "shift": rng.random() * 4,
             "accent": [srgb(c) for c in rng.choice(ACCENT)],
-            "tile": shade(tuple(rng.uniform(0.86, 1.0) for _ in range(3)), rng.uniform(0.72, 1.0))}
+            "tile": shade(rng.choice(TILE), rng.uniform(0.85, 1.0))}
 
 
 class House:
@@ -178,7 +179,7 @@ def upper_floor(house, level):
         house.pattern, house.corner = rng.choice(PATTERNS), rng.choice(("brace", "brace", "man"))
     pattern = house.pattern if level == 1 or rng.random() < 0.5 else rng.choice(PATTERNS)
     storey(mesh, frame, w, house.heights[level], colors, rng, lights, pattern, house.corner, (), edges,
-           flowers=0.12 if level == 1 else 0.04)
+           flowers=0.12 if level == 1 else 0.04, sills=level == 1)
     overhang = house.fronts[level - 1] - house.fronts[level]
     jetty(mesh, frame, w, overhang, DROP, edges, colors, rng)
     y0, y1, z = house.fronts[level - 1], house.fronts[level], house.bases[level]
@@ -203,9 +204,11 @@ def sides(house, level):
         elif level == 0:
             panel(mesh, "plaster", frame, 0, length, low, z + height, colors["plaster"])
             plinth(mesh, frame, length, [], rng)
+        elif not seen:
+            rough_frame(house, frame.shifted(0, z), length, height)
         else:
-            edges = bay_edges(length, 1.3 if seen else 2.2)
-            lights = [seen and b and rng.random() < 0.5 for b in window_bays(len(edges) - 1, rng)]
+            edges = bay_edges(length, 1.3)
+            lights = [b and rng.random() < 0.5 for b in window_bays(len(edges) - 1, rng)]
             storey(mesh, frame.shifted(0, z), length, height, colors, rng, lights, "plain", "brace", (), edges)
     back = Frame((w, d, 0), (-1, 0, 0))
     holes = []
@@ -216,11 +219,20 @@ def sides(house, level):
         for u in (w * 0.25, w * 0.75):
             window(mesh, back, u, z + 0.95, 0.85, 1.15, colors["frame"], rng)
         if level > 0:
-            for v in (z + 0.1, z + height - 0.1):
-                beam(mesh, back, (0, v), (w, v), 0.2, 0.03, tone(colors["timber"], rng), rng, step=9)
-            for i in range(5):
-                u = min(max(0.09, w * i / 4), w - 0.09)
-                beam(mesh, back, (u, z + 0.2), (u, z + height - 0.2), 0.16, 0.028, tone(colors["timber"], rng), rng, step=9)
+            rough_frame(house, back.shifted(0, z), w, height, plaster=False)
+
+
+def rough_frame(house, frame, length, height, plaster=True):
+    """Plain framing of a wall that is only seen from afar."""
+    colors, rng = house.colors, house.rng
+    if plaster:
+        panel(house.mesh, "plaster", frame, 0, length, 0, height, colors["plaster"], step=2.6)
+    count = max(2, round(length / 1.9))
+    for v in (0.1, height * 0.5, height - 0.1):
+        beam(house.mesh, frame, (0, v), (length, v), 0.18, 0.03, tone(colors["timber"], rng), rng, step=9)
+    for i in range(count + 1):
+        u = min(max(0.09, length * i / count), length - 0.09)
+        beam(house.mesh, frame, (u, 0.2), (u, height - 0.2), 0.16, 0.026, tone(colors["timber"], rng), rng, step=9)
 
 
 def cover(house):

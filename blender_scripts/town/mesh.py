@@ -129,6 +129,10 @@ def polygon(mesh, material, frame, corners, color, out=0.0, uv_shift=(0.0, 0.0))
               [(a + uv_shift[0], b + uv_shift[1]) for a, b in corners], color)
 
 
+def _upright(uvs):
+    return [(0.03 + 0.2 * (v - 0.03), u) for u, v in uvs]
+
+
 def beam(mesh, frame, a, b, width, proud, color, rng, material="timber", ends=False, base=0.0, step=2.6):
     """A timber on a wall from a to b (wall coordinates of its axis): its face and flanks, no back."""
     du, dv = b[0] - a[0], b[1] - a[1]
@@ -137,8 +141,9 @@ def beam(mesh, frame, a, b, width, proud, color, rng, material="timber", ends=Fa
         return
     du, dv = du / length, dv / length
     su, sv = -dv * width / 2, du * width / 2
-    shift = rng.random() * 7.0
-    across = rng.random() * 7.0
+    shift, across, along = rng.random() * 7.0, rng.random() * 7.0, list
+    if material == "planks":        # a single board: its grain runs along v, and no joint crosses it
+        across, along = 0.03, _upright
     pieces = max(1, math.ceil(length / step - 0.2))
     for i in range(pieces):
         s, e = length * i / pieces, length * (i + 1) / pieces
@@ -147,15 +152,14 @@ def beam(mesh, frame, a, b, width, proud, color, rng, material="timber", ends=Fa
         low0, low1 = (p[0] - su, p[1] - sv), (q[0] - su, q[1] - sv)
         top0, top1 = (p[0] + su, p[1] + sv), (q[0] + su, q[1] + sv)
         f = frame.at
+        grain0, grain1 = shift + s, shift + e
         mesh.face(material, [f(*low0, proud), f(*low1, proud), f(*top1, proud), f(*top0, proud)],
-                  [(shift + s, across), (shift + e, across), (shift + e, across + width), (shift + s, across + width)],
-                  color)
-        mesh.face(material, [f(*low0, base), f(*low1, base), f(*low1, proud), f(*low0, proud)],
-                  [(shift + s, across), (shift + e, across), (shift + e, across + 0.04), (shift + s, across + 0.04)],
-                  color)
-        mesh.face(material, [f(*top1, base), f(*top0, base), f(*top0, proud), f(*top1, proud)],
-                  [(shift + e, across), (shift + s, across), (shift + s, across + 0.04), (shift + e, across + 0.04)],
-                  color)
+                  along([(grain0, across), (grain1, across), (grain1, across + width), (grain0, across + width)]), color)
+        flank = along([(grain0, across), (grain1, across), (grain1, across + 0.04), (grain0, across + 0.04)])
+        mesh.face(material, [f(*low0, base), f(*low1, base), f(*low1, proud), f(*low0, proud)], flank, color)
+        if du == 1.0 and base == 0.0 and material == "timber":
+            continue   # the upper side of a rail is seen by nobody
+        mesh.face(material, [f(*top1, base), f(*top0, base), f(*top0, proud), f(*top1, proud)], flank, color)
     if ends:
         low, top = (a[0] - su, a[1] - sv), (a[0] + su, a[1] + sv)
         mesh.face(material, [f(*top, base), f(*low, base), f(*low, proud), f(*top, proud)],

@@ -99,13 +99,13 @@ def _clump(mesh, center, radius, middle, height, green, rng, detail):
                 points, uvs = points[:3], uvs[:3]
             inner = 0.62 + 0.3 * k / bands
             mesh.face("leaves", points, uvs, shade(green, inner * rng.uniform(0.9, 1.05)), [soft(p) for p in points])
-    for _ in range(int(34 * detail)):
+    for _ in range(int(46 * detail)):
         a, b = rng.uniform(0, 2 * math.pi), math.acos(rng.uniform(-0.75, 1.0))
         d = (math.sin(b) * math.cos(a), math.sin(b) * math.sin(a), math.cos(b))
         p = tuple(center[m] + d[m] * radius * (0.94 if m < 2 else 0.8) for m in range(3))
         side = _unit(_cross(d, (rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1))))
         fall = _cross(d, side)
-        long, wide = rng.uniform(0.28, 0.46), rng.uniform(0.13, 0.2)
+        long, wide = rng.uniform(0.2, 0.34), rng.uniform(0.08, 0.13)
         tip = [0.55 * d[m] + 0.8 * fall[m] for m in range(3)]
         points = [p, tuple(p[m] + tip[m] * long * 0.5 + side[m] * wide for m in range(3)),
                   tuple(p[m] + tip[m] * long for m in range(3)),

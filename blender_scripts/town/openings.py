@@ -9,10 +9,18 @@ LEAF = [srgb("6f8f3a"), srgb("5c7f34"), srgb("86a04a")]
 FLOWERS = [srgb("d8433a"), srgb("e07a9a"), srgb("f1ece0"), srgb("c2362f"), srgb("e2a33a")]
 
 
+def _plate(mesh, frame, u0, u1, v0, v1, low, high, color, shift):
+    """A flat painted board: its face and three flanks."""
+    at, uv = frame.at, [(0.04, shift), (0.11, shift), (0.11, shift + 0.5), (0.04, shift + 0.5)]
+    mesh.face("planks", [at(u0, v0, high), at(u1, v0, high), at(u1, v1, high), at(u0, v1, high)], uv, color)
+    for (a, b), (c, d) in (((u1, v0), (u1, v1)), ((u1, v1), (u0, v1)), ((u0, v1), (u0, v0))):
+        mesh.face("planks", [at(a, b, low), at(c, d, low), at(c, d, high), at(a, b, high)], uv, color)
+
+
 def window(mesh, frame, u, v, width, height, color, rng, base=0.0, sill=True, casements=2):
     """A leaded window, centred at u, its sill at v; `base` is how far its plane lies out of the wall."""
     u0, u1, v1 = u - width / 2, u + width / 2, v + height
-    extrude(mesh, "planks", frame, [(u0, v), (u1, v), (u1, v1), (u0, v1)], base, base + 0.045, color)
+    _plate(mesh, frame, u0, u1, v, v1, base, base + 0.045, color, rng.random())
     rows = [(v + 0.05, v1 - 0.05)]
     if height > 1.0:
         rows = [(v + 0.05, v + height * 0.66 - 0.025), (v + height * 0.66 + 0.025, v1 - 0.05)]
@@ -21,7 +29,7 @@ def window(mesh, frame, u, v, width, height, color, rng, base=0.0, sill=True, ca
         a, b = u0 + 0.05 + pane * i, u0 + pane * (i + 1)
         shift = (rng.randrange(24) * 0.12 - a, rng.randrange(24) * 0.18 - v)
         for c, d in rows:
-            polygon(mesh, "glass", frame, [(a, c), (b, c), (b, d), (a, d)], (0.92, 0.92, 0.92), base + 0.054, shift)
+            polygon(mesh, "glass", frame, [(a, c), (b, c), (b, d), (a, d)], (0.8, 0.8, 0.8), base + 0.054, shift)
     if sill:
         beam(mesh, frame, (u0 - 0.05, v - 0.02), (u1 + 0.05, v - 0.02), 0.06, base + 0.11, shade(color, 0.9), rng,
              "planks", ends=True, base=base, step=9)

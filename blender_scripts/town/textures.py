@@ -105,7 +105,7 @@ def _bricks(rng, x, y, across, up, width_jitter=0.3, shift=True):
     return np.minimum(left, right) / across, np.minimum(fy, 1 - fy) / up, label
 
 
-def _stones(size, distance, label, rng, palette, joint, joint_color, soft, bump=9.0, grain=0.25):
+def _stones(size, distance, label, rng, palette, joint, joint_color, soft, bump, grain=0.25):
     """Coloured stones with rounded edges and dark joints from a distance field."""
     top = _step(joint, joint + soft, distance)
     rough = _fractal(rng, size, 32, 4)
@@ -129,7 +129,7 @@ def cobble(size, seed):
     wx = (_noise(rng, size, 6) - 0.5) * 0.02
     border, _, label = _cells(rng, (x + wx) % 1, y, 24, 26, 0.62)
     palette = [(0.37, 0.35, 0.33), (0.42, 0.39, 0.35), (0.33, 0.33, 0.34), (0.46, 0.42, 0.37), (0.40, 0.35, 0.31)]
-    color = _stones(size, border, label, rng, palette, 0.10, (0.17, 0.155, 0.125), 0.34, bump=5.0)
+    color = _stones(size, border, label, rng, palette, 0.10, (0.215, 0.2, 0.165), 0.34, bump=3.6)
     moss = _step(0.55, 0.72, _fractal(rng, size, 4, 5)) * (1 - _step(0.1, 0.3, border))
     return _mix(color, _rgb(0.17, 0.20, 0.09) * (0.7 + 0.6 * _noise(rng, size, 128))[..., None], 0.75 * moss)
 
@@ -144,7 +144,7 @@ def setts(size, seed):
     jx, jy, label = _bricks(rng, x, (y - arc + (_noise(rng, size, 8) - 0.5) * 0.006) % 1, 30, 36, 0.5)
     distance = np.minimum(jx * 30, jy * 30)
     palette = [(0.45, 0.42, 0.38), (0.50, 0.47, 0.42), (0.40, 0.38, 0.36), (0.47, 0.41, 0.36), (0.53, 0.50, 0.45)]
-    return _stones(size, distance, label, rng, palette, 0.07, (0.24, 0.22, 0.18), 0.22, bump=4.0)
+    return _stones(size, distance, label, rng, palette, 0.07, (0.33, 0.31, 0.265), 0.2, bump=2.2)
 
 
 def paving(size, seed):
@@ -155,7 +155,7 @@ def paving(size, seed):
     jx, jy, label = _bricks(rng, (x + wave) % 1, (y + np.roll(wave, size // 3, 0)) % 1, 6, 8, 0.5)
     distance = np.minimum(jx, jy) * 40
     palette = [(0.50, 0.47, 0.42), (0.46, 0.44, 0.41), (0.54, 0.50, 0.44), (0.48, 0.44, 0.38), (0.43, 0.42, 0.40)]
-    color = _stones(size, distance, label, rng, palette, 0.11, (0.21, 0.195, 0.155), 0.3, bump=4.0, grain=0.34)
+    color = _stones(size, distance, label, rng, palette, 0.11, (0.30, 0.285, 0.24), 0.16, bump=1.4, grain=0.4)
     wear = _fractal(rng, size, 64, 3)
     return color * (0.9 + 0.2 * wear)[..., None]
 
@@ -167,8 +167,8 @@ def stone(size, seed):
     wave = (_fractal(rng, size, 6, 3) - 0.5) * 0.014
     jx, jy, label = _bricks(rng, (x + wave) % 1, (y + np.roll(wave, size // 4, 1) * 0.8) % 1, 6, 10, 0.62)
     distance = np.minimum(jx, jy) * 40
-    palette = [(0.60, 0.54, 0.44), (0.54, 0.49, 0.42), (0.65, 0.58, 0.46), (0.50, 0.47, 0.43), (0.58, 0.49, 0.38)]
-    color = _stones(size, distance, label, rng, palette, 0.12, (0.47, 0.43, 0.36), 0.32, bump=6.5, grain=0.45)
+    palette = [(0.74, 0.69, 0.60), (0.69, 0.65, 0.58), (0.78, 0.72, 0.61), (0.66, 0.63, 0.58), (0.72, 0.65, 0.55)]
+    color = _stones(size, distance, label, rng, palette, 0.09, (0.58, 0.545, 0.48), 0.16, bump=1.5, grain=0.5)
     stain = _step(0.5, 0.75, _fractal(rng, size, (6, 3), 5))
     return color * (1 - 0.22 * stain)[..., None]
 
@@ -199,9 +199,9 @@ def timber(size, seed):
     row = ((y + wave) % 1 * size).astype(int) % size
     fiber = _fractal(rng, size, (4, 160), 3)[row, np.arange(size)[None, :]]
     coarse = _fractal(rng, size, (2, 24), 3)[row, np.arange(size)[None, :]]
-    value = 0.62 + 0.42 * (fiber - 0.5) + 0.42 * (coarse - 0.5) + 0.12 * (rings - 0.5)
+    value = 0.74 + 0.30 * (fiber - 0.5) + 0.34 * (coarse - 0.5) + 0.12 * (rings - 0.5)
     split = _step(0.70, 0.78, _fractal(rng, size, (3, 64), 2)[row, np.arange(size)[None, :]])
-    value = np.clip(value - 0.28 * split, 0.12, 1.0) * _relief(fiber, 1.6) ** 0.7
+    value = np.clip(value - 0.2 * split, 0.2, 1.0) * _relief(fiber, 1.0) ** 0.7
     return _rgb(1.0, 0.95, 0.88) * value[..., None]
 
 
@@ -285,7 +285,7 @@ def leaves(size, seed):
     rng = _rng(seed, "leaves")
     x, y = _grid(size)
     image = np.zeros((size, size, 3))
-    image[:] = (0.13, 0.16, 0.06)
+    image[:] = (0.30, 0.32, 0.22)
     for layer in range(5):
         count = 13 + layer
         border, near, label = _cells(rng, (x + 0.13 * layer) % 1, (y + 0.29 * layer) % 1, count, count, 0.95, 0.5)
@@ -295,7 +295,7 @@ def leaves(size, seed):
         kept = (rng.rand(cells) < 0.62)[label]
         vein = np.abs(np.cos(angle) * (x * count % 1 - 0.5) + np.sin(angle) * (y * count % 1 - 0.5))
         leaf = kept & (near < 0.46) & (border > 0.05)
-        body = np.stack([0.60 + 0.16 * (tone - 0.7), 0.78 + 0 * tone, 0.34 + 0 * tone], axis=-1)
+        body = np.stack([0.76 + 0.16 * (tone - 0.7), 0.80 + 0 * tone, 0.60 + 0 * tone], axis=-1)
         color = body * (tone * (0.75 + 0.5 * np.clip(0.5 - near, 0, 0.5)) * (1 + 0.3 * (vein < 0.03)))[..., None]
         image = np.where(leaf[..., None], color, image * np.where(near < 0.5, 0.9, 1.0)[..., None])
     return np.clip(image * 1.25, 0, 1)
@@ -312,7 +312,7 @@ def glass(size, seed):
     tilt = rng.rand(up, across)[row % up, column % across]
     ripple = _fractal(rng, size, 10, 3)
     sky = np.clip(0.12 + 0.34 * tilt * (0.5 + fy) + 0.22 * (ripple - 0.5), 0.04, 1)
-    color = sky[..., None] * _rgb(0.72, 0.86, 0.96) + _rgb(0.035, 0.04, 0.04)
+    color = sky[..., None] * _rgb(0.82, 0.9, 0.94) + _rgb(0.03, 0.032, 0.032)
     warm = (rng.rand(up, across) > 0.86)[row % up, column % across]
     color = np.where(warm[..., None], color * 0.6 + _rgb(0.16, 0.12, 0.07), color)
     bead = _step(0.004, 0.009, lead)
