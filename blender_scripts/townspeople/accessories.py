@@ -18,10 +18,10 @@ def belt(tailor, name, at, height=0.04, thickness=0.010, ease=0.004, columns=40,
     for dz in (half, 0.0, -half):
         reach = [sf.outermost(tree, centre + [0, 0, dz], ray, 0.6) or 0.15 for ray in tl.direction(angles)]
         rings.append(tl.circular_blur(np.array(reach), 1))
-    reach = np.max(rings, axis=0) + ease * size
-    shape = ((half, -0.006), (half, thickness), (-half, thickness), (-half, -0.006))
+    high, low = (np.maximum(rings[i], rings[1] - 0.004 * size) + ease * size for i in (0, 2))
+    shape = ((half, high, -0.006), (half, high, thickness), (-half, low, thickness), (-half, low, -0.006))
     points = np.array([centre + np.array([0, 0, dz]) + tl.direction(angles) * (reach + out * size)[:, None]
-                       for dz, out in shape])
+                       for dz, reach, out in shape])
     flat = points.reshape(-1, 3)
     weights = tl.as_worn(tailor, flat).reshape(len(shape), columns, -1)
     tailor.worn["belt " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles), [0.0, 0.2, 0.8, 1.0])

@@ -71,15 +71,24 @@ def visible_skin(tailor, person):
             keep.append(place > person.get("bare_arm_from", 1.7))
         else:
             keep.append(centre[2] > tailor.height(("shoulder", -0.02)))
-    tucked = _tucked(tailor, sf.keep_faces(skin, keep))
-    return tucked
+    return _lengthened_neck(tailor, sf.keep_faces(skin, keep))
 
 
-def _tucked(tailor, skin):
-    """The neck's foot drawn in, so that it stays beneath the garments."""
-    share = 1.0 - sf.smoothstep(tailor.height(("neck", -0.045)), tailor.height(("neck", -0.015)), skin.vertices[:, 2])
-    share *= body.joint_share(tailor.figure, skin, ("spine", "clavicle", "neck"))
-    return sf.offset(skin, -0.012 * tailor.size * share)
+def _lengthened_neck(tailor, skin):
+    """The neck's open foot drawn down beneath the garments, so that no gap shows at a neckline."""
+    loop = next(loop for loop in sf.boundary_loops(skin)
+                if abs(skin.vertices[loop][:, 0].mean()) < 0.02 and len(loop) > 12
+                and skin.vertices[loop][:, 2].mean() < tailor.height("neck"))
+    edge = skin.vertices[loop]
+    rings = [edge * [1.02, 1.0, 1.0] - [0, 0, 0.03 * tailor.size], edge * [1.0, 1.0, 1.0] - [0, 0, 0.07 * tailor.size]]
+    corners = {v: uv for v, uv in zip((v for face in skin.faces for v in face), skin.corner_uv)}
+    uv = np.array([corners[v] for v in loop])
+    grown = garments.extruded(skin, loop, np.array(rings), np.array([skin.weights[loop]] * 2),
+                              uv[:, 0], [0.0] * 3, "body")
+    added = len(grown.corner_uv) - len(skin.corner_uv)
+    ring_uv = np.array([uv[i] for c in range(len(loop)) for i in (c, (c + 1) % len(loop), (c + 1) % len(loop), c)])
+    grown.corner_uv[-added:] = np.concatenate([ring_uv] * 2)
+    return grown
 
 
 def assemble(tailor, person):
@@ -87,7 +96,7 @@ def assemble(tailor, person):
     parts = [visible_skin(tailor, person), tailor.figure.parts["eyes"], tailor.figure.parts["shoes"]]
     whole = sf.joined(parts + list(tailor.worn.values()))
     whole = sf.with_parts(whole, weights=skeleton.at_most_four(whole.weights))
-    return occlusion.with_shade(whole)
+    return occlusion.with_shade(whole, lightest_for={"eyes": 1.0, "body": 0.8})
 
 
 def paint_cells(figure, person, seed, cells):
@@ -108,9 +117,25 @@ def paint_cells(figure, person, seed, cells):
     return pictures
 
 
+def face_places(figure):
+    """Where lips and cheeks lie in the skin's picture: {name: (centre uv, radius in u and v)}."""
+    skin, places = figure.parts["body"], {}
+    scale = (figure.landmarks["crown"][2] - figure.landmarks["chin"][2]) / 0.230
+    corner_vertices = [v for face in skin.faces for v in face]
+    for name, shift, reach in (("lips", (0, 0.004, 0), 0.022), ("cheek_L", (0.042, 0.04, 0.028), 0.024),
+                               ("cheek_R", (-0.042, 0.04, 0.028), 0.024)):
+        centre = figure.landmarks["mouth"] + np.array(shift) * scale
+        near = np.linalg.norm(skin.vertices - centre, axis=1) < reach * scale
+        near &= skin.vertices[:, 1] < centre[1] + 0.02 * scale
+        uv = np.array([uv for v, uv in zip(corner_vertices, skin.corner_uv) if near[v]])
+        if len(uv):
+            places[name] = (uv.mean(axis=0), np.maximum(uv.std(axis=0) * 1.6, 0.004))
+    return places
+
+
 def make_materials(figure, person, seed, cells):
     """Blender materials by name, each cell's material, and each cell's place in its atlas."""
-    skin = materials.skin_picture(figure.images["skin"], **person["skin"])
+    skin = materials.skin_picture(figure.images["skin"], face_places(figure), **person["skin"])
     made = {"skin": materials.blender_material("skin", materials.blender_image("skin", skin), *MATERIALS["skin"])}
     material_of_cell, places = {"body": "skin"}, {}
     for name, pictures in paint_cells(figure, person, seed, cells - {"body"}).items():

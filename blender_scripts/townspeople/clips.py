@@ -25,7 +25,8 @@ class Manner:
     """How a person moves."""
     arm_spread_deg: float = 0.0   # arms held off the body, for wide skirts
     stride: float = 1.0           # double step against an adult's usual one on these legs
-    liveliness: float = 1.0       # of trunk and arms while walking
+    liveliness: float = 1.0       # of the trunk while walking
+    arm_swing: float = 1.0        # of the arms while walking
     stoop_deg: float = 0.0        # bend of the back
 
 
@@ -71,7 +72,8 @@ def walk_clip(figure, manner):
     phases = np.linspace(0.0, 2.0 * np.pi, len(local)) - gait.STRIKE_FRAME / 24.0 * 2.0 * np.pi
     for frame, phase in zip(local, phases):
         frame[0] = np.eye(3)
-        _enliven(skeleton, frame, np.cos(phase) * manner.liveliness, np.sin(phase) * manner.liveliness)
+        _calm_arms(skeleton, frame, manner.arm_swing)
+        _enliven(skeleton, frame, np.cos(phase), np.sin(phase), manner)
         _hold(skeleton, frame, manner, 2.0)
     rotations = _globals(skeleton, local)
     leg = skeleton.head("upperleg02_L")[2]
@@ -85,11 +87,20 @@ def _turn(skeleton, frame, name, axis, degrees):
     frame[joint] = sk.rotation(axis, degrees) @ frame[joint]
 
 
-def _enliven(skeleton, frame, ahead, over):
+def _calm_arms(skeleton, frame, share):
+    """Scales the source's own arm swing (the rest pose is its mean)."""
+    for joint, name in enumerate(skeleton.names):
+        if name.startswith(("shoulder02", "upperarm02", "lowerarm01")):
+            frame[joint] = _matrix_of(_vector_of(frame[joint]) * share)
+
+
+def _enliven(skeleton, frame, ahead, over, manner):
     """Counter-turn of hips and chest, more arm swing, elbows that give.
 
     ahead: 1 where the left foot strikes, -1 where the right does. over: 1 where the left leg carries.
     """
+    swings = manner.arm_swing * ahead
+    ahead, over = ahead * manner.liveliness, over * manner.liveliness
     _turn(skeleton, frame, "root", "z", -4.0 * ahead)
     _turn(skeleton, frame, "root", "y", 1.5 * over)
     _turn(skeleton, frame, "spine05", "z", 4.0 * ahead)
@@ -97,7 +108,7 @@ def _enliven(skeleton, frame, ahead, over):
     _turn(skeleton, frame, "spine01", "z", 5.0 * ahead)
     _turn(skeleton, frame, "neck01", "z", -4.0 * ahead)
     for side, sign in (("_L", 1.0), ("_R", -1.0)):
-        swing = sign * ahead           # positive x turns backward: left arm, where the left foot strikes
+        swing = sign * swings          # positive x turns backward: left arm, where the left foot strikes
         _turn(skeleton, frame, "shoulder02" + side, "x", 10.0 * swing)
         _turn(skeleton, frame, "lowerarm01" + side, "x", 6.0 + 7.0 * swing)
 
@@ -112,6 +123,19 @@ def _hold(skeleton, frame, manner, lean_deg):
     for side, sign in (("_L", 1.0), ("_R", -1.0)):
         _turn(skeleton, frame, "shoulder02" + side, "x", -0.8 * bend)
         _turn(skeleton, frame, "shoulder02" + side, "y", -sign * manner.arm_spread_deg)
+        _curl_fingers(skeleton, frame, side, sign)
+
+
+def _curl_fingers(skeleton, frame, side, sign):
+    """Fingers a little bent towards the palm, as hands hang."""
+    along = skeleton.head("finger3-2" + side) - skeleton.head("finger3-1" + side)
+    thumb = skeleton.head("finger1-1" + side) - skeleton.head("wrist" + side)
+    palm = np.cross(along, thumb) * sign
+    axis = np.cross(along, palm)
+    axis /= np.linalg.norm(axis)
+    for name, degrees in (("finger3-1", 18.0), ("finger3-2", 24.0)):
+        joint = skeleton.index(name + side)
+        frame[joint] = _matrix_of(axis * np.radians(degrees)) @ frame[joint]
 
 
 def _soles(figure):

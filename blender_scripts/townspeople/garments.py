@@ -50,7 +50,7 @@ def plate(tailor, name, bottom, ease=0.012, smooth=25, cell="plate"):
         centre = armour.vertices[loop].mean(axis=0)
         edge = armour.vertices[loop]
         inner = edge + (centre - edge) * 0.10
-        armour = _extruded(armour, loop, inner[None], armour.weights[loop][None], np.full(len(loop), 0.5),
+        armour = extruded(armour, loop, inner[None], armour.weights[loop][None], np.full(len(loop), 0.5),
                            [0.02, 0.0], cell)
     tailor.worn["plate " + name] = armour
 
@@ -147,10 +147,10 @@ def _with_sleeve(tailor, base, side, profile, cell):
                      + np.sin(angle)[:, None] * front * radii[:, None])
         weights.append(first * (1 - blend) + blend * _arm_weights(tailor, side, at))
         v_rows.append(min(at, 2.0) / 2.05)
-    return _extruded(base, loop, np.array(rings), np.array(weights), sf.mirrored_u(angle), v_rows, cell)
+    return extruded(base, loop, np.array(rings), np.array(weights), sf.mirrored_u(angle), v_rows, cell)
 
 
-def _extruded(base, loop, rings, weights, u_columns, v_rows, cell):
+def extruded(base, loop, rings, weights, u_columns, v_rows, cell):
     """`base` with rings of new vertices grown from a boundary loop."""
     count, start = len(loop), len(base.vertices)
     ids = [list(loop)] + [list(range(start + k * count, start + (k + 1) * count)) for k in range(len(rings))]
@@ -236,7 +236,7 @@ def trousers(tailor, name, bottom, ease=0.004, puff=0.0, smooth=6, cell="trouser
         corner_uv.append(np.stack([sf.mirrored_u(around), (top - points[:, 2]) / (top - low)], axis=1))
     base = sf.with_parts(base, corner_uv=np.clip(np.concatenate(corner_uv), 0, 1),
                          cells=[cell] * len(base.faces))
-    for loop in sf.boundary_loops(base)[:]:
+    for loop in sf.boundary_loops(base):
         if base.vertices[loop][:, 2].mean() < low + 0.1 * size:
             base = _knee_band(base, loop, size, cell)
     tailor.worn["trousers " + name] = base
@@ -248,7 +248,10 @@ def base_above(base, z):
 
 def _knee_band(base, loop, size, cell):
     """Gathers an open leg into a band."""
-    edge = base.vertices[loop]
+    level = base.vertices.copy()
+    level[loop, 2] = level[loop, 2].mean()
+    base = sf.with_parts(base, vertices=level)
+    edge = level[loop]
     centre = edge.mean(axis=0)
     rings = []
     for shrink, drop in ((0.80, 0.012), (0.74, 0.03), (0.60, 0.035)):
@@ -256,7 +259,7 @@ def _knee_band(base, loop, size, cell):
         ring[:, 2] = centre[2] - drop * size
         rings.append(ring)
     weights = np.array([base.weights[loop]] * 3)
-    return _extruded(base, loop, np.array(rings), weights, np.full(len(loop), 0.5), [0.97, 0.98, 0.99, 1.0], cell)
+    return extruded(base, loop, np.array(rings), weights, np.full(len(loop), 0.5), [0.97, 0.98, 0.99, 1.0], cell)
 
 
 LEG_PROFILE = [[0.0, 0.088], [0.5, 0.076], [0.85, 0.060], [1.0, 0.056], [1.15, 0.058], [1.35, 0.064], [1.6, 0.050],

@@ -67,7 +67,7 @@ def shell(tailor, name, edge, thickness, crown_thickness=None, rows=8, columns=3
         points.append(centre + rays * (reach + extra * size)[:, None])
     if drop:
         away = tl.direction(angles) * 0.4
-        share = sf.smoothstep(45.0, 80.0, np.degrees(sf.mirrored_u(angles) * np.pi))[:, None]
+        share = 0.05 + 0.95 * sf.smoothstep(45.0, 80.0, np.degrees(sf.mirrored_u(angles) * np.pi))[:, None]
         for t in (0.33, 0.67, 1.0):
             points.append(points[rows] + share * drop * size * t * (away * t - np.array([0.0, 0.0, 1.0])))
     last = points[-1]
@@ -125,6 +125,20 @@ def moustache(tailor, name, thickness=0.010, cell="hair"):
                                           sf.mirrored_u(angles), closed=False)
 
 
+def _raised(points, covers, band, size):
+    """The crown lifted off the hair: each ring moves evenly, so that the hat stays round."""
+    above = [sf.keep_faces(part, [part.vertices[list(face), 2].min() > band[2] + 0.01 * size for face in part.faces])
+             for part in covers]
+    moved = clearance.pushed_out(points.reshape(-1, 3), sf.tree_of(above), 0.005 * size, 0.05).reshape(points.shape)
+    ways = points - band
+    ways[..., 2] = np.maximum(ways[..., 2], 0.0) + 1e-6
+    ways /= np.linalg.norm(ways, axis=-1, keepdims=True)
+    lift = np.maximum(((moved - points) * ways).sum(axis=-1), 0.0).max(axis=1)
+    lift[points[..., 2].mean(axis=1) < band[2] + 0.01 * size] = 0.0
+    lift = np.maximum(lift, np.concatenate([lift[1:], [0.0]]) * 0.7)
+    return points + ways * lift[:, None, None]
+
+
 def hat(tailor, name, profile, sit=0.030, tilt_deg=-4, ease=0.012, columns=28, wave=0.0, cell="hat"):
     """A hat or helmet turned about the head's axis.
 
@@ -149,9 +163,7 @@ def hat(tailor, name, profile, sit=0.030, tilt_deg=-4, ease=0.012, columns=28, w
     angle = np.radians(tilt_deg)
     turn = np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
     points = (points - band) @ turn.T + band
-    covered = sf.tree_of([sf.keep_faces(part, [part.vertices[list(face), 2].min() > brow[2] for face in part.faces])
-                          for part in covers])
-    points = clearance.pushed_out(points.reshape(-1, 3), covered, 0.006 * size, 0.05).reshape(points.shape)
+    points = _raised(points, covers, band, size)
     pole = profile[0][0] == 0 and profile[0][1] == 0
     weights = np.zeros(points.shape[:2] + (len(tailor.figure.skeleton.names),))
     weights[..., tailor.column("head")] = 1.0

@@ -25,8 +25,11 @@ def _frames(normals):
     return tangents, np.cross(normals, tangents)
 
 
-def with_shade(surface):
-    """The surface with `shade` filled in: DARKEST where everything is hidden, 1 in the open."""
+def with_shade(surface, lightest_for):
+    """The surface with `shade` filled in: DARKEST where everything is hidden, 1 in the open.
+
+    lightest_for: {texture cell: least shade}, for parts that would look too dark.
+    """
     tree = sf.tree_of([surface])
     normals = sf.vertex_normals(surface)
     tangents, bitangents = _frames(normals)
@@ -44,4 +47,7 @@ def with_shade(surface):
                 hidden[v] += 1.0 - 0.6 * distance / REACH_M
     open_share = 1.0 - hidden / RAYS
     shade = DARKEST + (1.0 - DARKEST) * sf.smoothstep(0.0, 0.9, open_share)
+    for face, cell in zip(surface.faces, surface.cells):
+        if cell in lightest_for:
+            shade[list(face)] = np.maximum(shade[list(face)], lightest_for[cell])
     return sf.with_parts(surface, shade=shade)

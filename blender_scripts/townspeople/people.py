@@ -16,7 +16,7 @@ CELLS = {
 }
 
 MALE = {"tint": (0.97, 0.95, 0.93), "smooth": 0.0}
-FEMALE = {"tint": (1.04, 1.0, 0.98), "smooth": 1.0}
+FEMALE = {"tint": (1.05, 1.0, 0.97), "smooth": 1.0, "rouge": 1.0}
 TANNED = {"tint": (0.86, 0.80, 0.74), "smooth": 0.0}
 
 WOMAN_SHAPE = {"trunk": (0.90, 0.94, 0.98), "arms": (0.92, 0.92, 0.92), "hands": (0.88, 0.88, 0.88),
@@ -35,10 +35,10 @@ def eyes_by(swell):
 
 WOMAN_FACE = [
     {"at": "nose", "by": (0, 0.012, 0), "radius": (0.03, 0.04, 0.035), "push": (0, 0.008, 0.002), "swell": -0.12},
-    {"at": "chin", "by": (0.055, 0.06, 0.01), "radius": (0.05, 0.07, 0.05), "push": (-0.007, 0, 0), "mirror": True},
+    {"at": "chin", "by": (0.055, 0.06, 0.01), "radius": (0.05, 0.07, 0.05), "push": (-0.011, 0, 0), "mirror": True},
     {"at": "brow", "by": (0, 0, 0.006), "radius": (0.06, 0.04, 0.026), "push": (0, 0.004, 0)},
     {"at": "mouth", "by": (0, 0, 0), "radius": (0.03, 0.03, 0.02), "push": (0, -0.002, 0), "swell": 0.08},
-    {"at": "chin", "by": (0, 0.01, 0), "radius": (0.035, 0.04, 0.03), "push": (0, 0.004, 0.004)}, eyes_by(0.14),
+    {"at": "chin", "by": (0, 0.01, 0), "radius": (0.035, 0.04, 0.03), "push": (0, 0.004, 0.004)}, eyes_by(0.20),
 ]
 CHILD_FACE = [
     {"at": "nose", "by": (0, 0.015, 0), "radius": (0.04, 0.05, 0.045), "push": (0, 0.014, 0.004), "swell": -0.30},
@@ -75,7 +75,7 @@ def dyed(weave, colour, **look):
 PEOPLE = {
     "merchant": {
         "height_m": 1.76, "skin": MALE, "bulges": [BELLY],
-        "manner": {"arm_spread_deg": -2.0},
+        "manner": {"arm_spread_deg": -2.0, "arm_swing": 0.8},
         "wear": [
             STOCKINGS,
             {"piece": "trousers", "name": "breeches", "bottom": ["knee", 0.02], "ease": 0.012, "puff": 0.035},
@@ -160,7 +160,7 @@ PEOPLE = {
     },
     "townswoman": {
         "height_m": 1.63, "skin": FEMALE, "proportions": WOMAN_SHAPE, "bulges": WOMAN_BULGES + WOMAN_FACE,
-        "manner": {"arm_spread_deg": 7.0, "stride": 0.92},
+        "manner": {"arm_spread_deg": 4.0, "stride": 0.92},
         "wear": [
             SHORT_STOCKINGS,
             {"piece": "upper", "name": "bodice", "bottom": ["waist", -0.05], "ease": 0.006, "smooth": 10,
@@ -182,9 +182,9 @@ PEOPLE = {
         },
     },
     "noblewoman": {
-        "height_m": 1.66, "skin": {"tint": (1.08, 1.05, 1.04), "smooth": 1.0}, "proportions": WOMAN_SHAPE,
+        "height_m": 1.66, "skin": {"tint": (1.10, 1.06, 1.05), "smooth": 1.0, "rouge": 1.2}, "proportions": WOMAN_SHAPE,
         "bulges": WOMAN_BULGES + WOMAN_FACE,
-        "manner": {"arm_spread_deg": 11.0, "stride": 0.86},
+        "manner": {"arm_spread_deg": 8.0, "arm_swing": 0.5, "stride": 0.86},
         "wear": [
             SHORT_STOCKINGS,
             {"piece": "upper", "name": "bodice", "bottom": ["waist", -0.06], "ease": 0.006, "smooth": 14,
@@ -213,9 +213,9 @@ PEOPLE = {
         },
     },
     "maid": {
-        "height_m": 1.58, "skin": {"tint": (1.0, 0.94, 0.90), "smooth": 1.0}, "proportions": WOMAN_SHAPE,
+        "height_m": 1.58, "skin": {"tint": (1.0, 0.94, 0.90), "smooth": 1.0, "rouge": 0.9}, "proportions": WOMAN_SHAPE,
         "bulges": WOMAN_BULGES + WOMAN_FACE,
-        "manner": {"arm_spread_deg": 6.0, "stride": 0.98},
+        "manner": {"arm_spread_deg": 4.0, "stride": 0.98},
         "wear": [
             dict(SHORT_STOCKINGS, start=1.1),
             {"piece": "upper", "name": "bodice", "bottom": ["waist", -0.05], "ease": 0.008, "smooth": 8,
@@ -288,7 +288,7 @@ PEOPLE = {
         },
     },
     "child": {
-        "height_m": 1.20, "skin": {"tint": (1.06, 1.0, 0.97), "smooth": 1.0}, "bulges": CHILD_FACE,         "proportions": {"head": (1.30, 1.27, 1.20), "neck": (0.95, 0.95, 0.9), "trunk": (0.88, 0.95, 0.90), "arms": (0.90, 0.90, 0.90),
+        "height_m": 1.20, "skin": {"tint": (1.08, 1.01, 0.97), "smooth": 1.0, "rouge": 0.8}, "bulges": CHILD_FACE,         "proportions": {"head": (1.30, 1.27, 1.20), "neck": (0.95, 0.95, 0.9), "trunk": (0.88, 0.95, 0.90), "arms": (0.90, 0.90, 0.90),
                         "hands": (0.95, 0.95, 0.95), "legs": (0.98, 0.98, 0.86), "feet": (1.0, 0.98, 1.0)},
         "manner": {"arm_spread_deg": 1.0, "stride": 1.0},
         "wear": [
@@ -315,7 +315,7 @@ PEOPLE = {
     },
     "old_man": {
         "height_m": 1.69, "skin": {"tint": (0.98, 0.94, 0.92), "smooth": 0.6},         "bulges": [dict(BELLY, push=(0, -0.035, 0))],
-        "manner": {"arm_spread_deg": 1.0, "stride": 0.76, "liveliness": 0.7, "stoop_deg": 8.0},
+        "manner": {"arm_spread_deg": 1.0, "stride": 0.76, "liveliness": 0.7, "arm_swing": 0.5, "stoop_deg": 8.0},
         "wear": [
             dict(STOCKINGS, start=1.0),
             {"piece": "upper", "name": "coat", "bottom": ["waist", -0.05], "ease": 0.014, "smooth": 12,

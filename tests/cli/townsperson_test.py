@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Checks townspeople GLBs: python3 townsperson_test.py FILE.glb...
+
+What a crowd needs from each person: 6,000 to 15,000 triangles, one skin of at most 76 joints, weights that sum
+to 1, the clips walk, idle and talk, a walk that loops exactly and names its speed.
+"""
+
+import json
+import math
+import struct
+import sys
+import unittest
+
+COMPONENTS = {5120: ("b", 1, 127.0), 5121: ("B", 1, 255.0), 5122: ("h", 2, 32767.0), 5123: ("H", 2, 65535.0),
+              5125: ("I", 4, None), 5126: ("f", 4, None)}
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+CLIPS = ["idle", "talk", "walk"]
+
+
+class Glb:
+    """The JSON and binary chunk of a GLB."""
+
+    def __init__(self, path):
+        with open(path, "rb") as file:
+            data = file.read()
+        magic, version, length = struct.unpack_from("<4sII", data, 0)
+        if magic != b"glTF" or version != 2 or length != len(data):
+            raise ValueError("%s: not a whole glTF 2 binary" % path)
+        json_length, _ = struct.unpack_from("<I4s", data, 12)
+        self.json = json.loads(data[20:20 + json_length])
+        start = 20 + json_length
+        binary_length, _ = struct.unpack_from("<I4s", data, start)
+        self.binary = data[start + 8:start + 8 + binary_length]
+
+    def values(self, accessor_index):
+        """An accessor's elements as tuples of floats (normalised integers scaled to 0..1)."""
+        accessor = self.json["accessors"][accessor_index]
+        view = self.json["bufferViews"][accessor["bufferView"]]
+        letter, size, largest = COMPONENTS[accessor["componentType"]]
+        width = WIDTHS[accessor["type"]]
+        stride = view.get("byteStride", size * width)
+        offset = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        scale = largest if accessor.get("normalized") else None
+        for i in range(accessor["count"]):
+            element = struct.unpack_from("<%d%s" % (width, letter), self.binary, offset + i * stride)
+            yield tuple(v / scale for v in element) if scale else element
+
+    def primitives(self):
+        return [primitive for mesh in self.json["meshes"] for primitive in mesh["primitives"]]
+
+
+class TownspersonTest(unittest.TestCase):
+    paths = []
+
+    def each(self):
+        self.assertTrue(self.paths, "name at least one GLB")
+        for path in self.paths:
+            with self.subTest(path):
+                yield Glb(path)
+
+    def test_triangles(self):
+        for glb in self.each():
+            triangles = 0
+            for primitive in glb.primitives():
+                self.assertEqual(primitive.get("mode", 4), 4)
+                source = primitive.get("indices", primitive["attributes"]["POSITION"])
+                triangles += glb.json["accessors"][source]["count"] // 3
+            self.assertGreaterEqual(triangles, 6000)
+            self.assertLessEqual(triangles, 15000)
+
+    def test_clips(self):
+        for glb in self.each():
+            self.assertEqual(sorted(clip["name"] for clip in glb.json["animations"]), CLIPS)
+
+    def test_one_skin(self):
+        for glb in self.each():
+            self.assertEqual(len(glb.json["skins"]), 1)
+            self.assertLessEqual(len(glb.json["skins"][0]["joints"]), 76)
+
+    def test_weights_sum_to_one(self):
+        for glb in self.each():
+            for primitive in glb.primitives():
+                self.assertIn("JOINTS_0", primitive["attributes"])
+                self.assertNotIn("JOINTS_1", primitive["attributes"])
+                for weights in glb.values(primitive["attributes"]["WEIGHTS_0"]):
+                    self.assertAlmostEqual(sum(weights), 1.0, delta=1e-3)
+
+    def test_walk_loops(self):
+        for glb in self.each():
+            walk = next(clip for clip in glb.json["animations"] if clip["name"] == "walk")
+            for channel in walk["channels"]:
+                sampler = walk["samplers"][channel["sampler"]]
+                values = list(glb.values(sampler["output"]))
+                first, last = values[0], values[-1]
+                if channel["target"]["path"] == "rotation":
+                    alike = abs(sum(a * b for a, b in zip(first, last)))
+                    self.assertGreater(alike, 1.0 - 1e-5)
+                else:
+                    self.assertLess(math.dist(first, last), 1e-4)
+
+    def test_walk_moves_both_legs(self):
+        for glb in self.each():
+            walk = next(clip for clip in glb.json["animations"] if clip["name"] == "walk")
+            names = [node.get("name", "") for node in glb.json["nodes"]]
+            moving = set()
+            for channel in walk["channels"]:
+                values = list(glb.values(walk["samplers"][channel["sampler"]]["output"]))
+                if max(math.dist(values[0], value) for value in values) > 0.1:
+                    moving.add(names[channel["target"]["node"]])
+            self.assertTrue({"upperleg02_L", "upperleg02_R"} <= moving, moving)
+
+    def test_speed_is_named(self):
+        for glb in self.each():
+            speeds = [node["extras"]["flaneur_walk_speed_mps"] for node in glb.json["nodes"]
+                      if "flaneur_walk_speed_mps" in node.get("extras", {})]
+            self.assertEqual(len(speeds), 1)
+            self.assertGreater(speeds[0], 0.4)
+            self.assertLess(speeds[0], 2.0)
+
+    def test_vertex_colours_hold_the_ambient_light(self):
+        for glb in self.each():
+            for primitive in glb.primitives():
+                self.assertIn("COLOR_0", primitive["attributes"])
+
+    def test_stands_on_the_ground(self):
+        for glb in self.each():
+            bounds = [glb.json["accessors"][primitive["attributes"]["POSITION"]] for primitive in glb.primitives()]
+            self.assertAlmostEqual(min(bound["min"][1] for bound in bounds), 0.0, delta=0.01)
+
+
+if __name__ == "__main__":
+    TownspersonTest.paths = sys.argv[1:]
+    unittest.main(argv=sys.argv[:1])
