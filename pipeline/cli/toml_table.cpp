@@ -1,0 +1,179 @@
+#include "pipeline/cli/toml_table.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+std::string Compact(double number) {
+  std::ostringstream out;
+  out << number;
+  return out.str();
+}
+
+}  // namespace
+
+void TomlContext::Refuse(const toml::node* node, const std::string& why) {
+  if (error) return;
+  const std::string line = node != nullptr && node->source().begin.line > 0
+                               ? ":" + std::to_string(node->source().begin.line)
+                               : "";
+  error = Fail(path.string() + line + ": " + why);
+}
+
+TomlTable::TomlTable(TomlContext* context, const toml::table* table, std::string name)
+    : context_(context), table_(table), name_(std::move(name)) {}
+
+std::string TomlTable::Name(const char* key) const {
+  return name_.empty() ? key : name_ + "." + key;
+}
+
+const toml::node* TomlTable::Find(const char* key) {
+  keys_.push_back(key);
+  context_->known.push_back(Name(key));
+  return table_ == nullptr ? nullptr : table_->get(key);
+}
+
+bool TomlTable::ReadNumber(const char* key, bool integer, double least, double most, double* number) {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return false;
+  if (!node->is_integer() && (integer || !node->is_floating_point())) {
+    context_->Refuse(node, Name(key) + " must be a " + (integer ? "whole number" : "number"));
+    return false;
+  }
+  *number = *node->value<double>();
+  if (!(*number >= least && *number <= most)) {
+    context_->Refuse(node, Name(key) + " is " + Compact(*number) + ", it must be from " + Compact(least) + " to " +
+                               Compact(most));
+    return false;
+  }
+  return true;
+}
+
+void TomlTable::Angle(const char* stem, float* radians, double least_deg, double most_deg) {
+  const std::string key = std::string(stem) + "_deg";
+  double degrees = 0;
+  if (ReadNumber(key.c_str(), false, least_deg, most_deg, &degrees)) {
+    *radians = static_cast<float>(degrees) * kPi / 180;
+  }
+}
+
+void TomlTable::Choice(const char* key, std::string* value, std::initializer_list<const char*> allowed) {
+  std::string text = *value;
+  const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
+  Text(key, &text);
+  const std::vector<std::string> names(allowed.begin(), allowed.end());
+  if (std::find(names.begin(), names.end(), text) != names.end()) {
+    *value = text;
+    return;
+  }
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  context_->Refuse(node, Name(key) + " is '" + text + "', it must be one of: " + list);
+}
+
+void TomlTable::Text(const char* key, std::string* value) {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return;
+  if (!node->is_string()) return context_->Refuse(node, Name(key) + " must be text in quotes");
+  *value = *node->value<std::string>();
+}
+
+void TomlTable::Flag(const char* key, bool* value) {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return;
+  if (!node->is_boolean()) return context_->Refuse(node, Name(key) + " must be true or false");
+  *value = *node->value<bool>();
+}
+
+void TomlTable::Numbers(const char* key, std::vector<float>* values, double least, double most) {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return;
+  const toml::array* array = node->as_array();
+  std::vector<float> read;
+  for (size_t i = 0; array != nullptr && i < array->size(); ++i) {
+    const auto number = (*array)[i].value<double>();
+    if (!number || !(*number >= least && *number <= most)) {
+      return context_->Refuse(node, Name(key) + " must hold numbers from " + Compact(least) + " to " + Compact(most));
+    }
+    read.push_back(static_cast<float>(*number));
+  }
+  if (read.empty()) return context_->Refuse(node, Name(key) + " must be a list of numbers");
+  *values = std::move(read);
+}
+
+void TomlTable::Texts(const char* key, std::vector<std::string>* values) {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) return context_->Refuse(node, Name(key) + " must be a list of texts");
+  values->clear();
+  for (const toml::node& element : *array) {
+    if (!element.is_string()) return context_->Refuse(&element, Name(key) + " must be a list of texts");
+    values->push_back(*element.value<std::string>());
+  }
+}
+
+void TomlTable::Point(const char* key, Vec2* value) {
+  std::vector<float> numbers{value->x, value->y};
+  const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
+  Numbers(key, &numbers, -1e6, 1e6);
+  if (numbers.size() != 2) return context_->Refuse(node, Name(key) + " must be [x, y] in metres");
+  *value = {numbers[0], numbers[1]};
+}
+
+void TomlTable::File(const char* key, std::filesystem::path* value) {
+  std::string text;
+  Text(key, &text);
+  if (!text.empty()) *value = (context_->path.parent_path() / text).lexically_normal();
+}
+
+void TomlTable::Json(const char* key, std::string* json) {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return;
+  if (!node->is_table()) return context_->Refuse(node, Name(key) + " must be a table");
+  std::ostringstream out;
+  out << toml::json_formatter(*node->as_table());
+  *json = out.str();
+}
+
+TomlTable TomlTable::Table(const char* key) {
+  const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
+  keys_.push_back(key);
+  if (node != nullptr && !node->is_table()) context_->Refuse(node, Name(key) + " must be a table");
+  return {context_, node == nullptr ? nullptr : node->as_table(), Name(key)};
+}
+
+std::vector<TomlTable> TomlTable::Tables(const char* key) {
+  const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
+  keys_.push_back(key);
+  std::vector<TomlTable> tables;
+  if (node == nullptr) return tables;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) {
+    context_->Refuse(node, "write [[" + Name(key) + "]] with two brackets: there may be several");
+    return tables;
+  }
+  for (const toml::node& element : *array) {
+    if (element.is_table()) tables.emplace_back(context_, element.as_table(), Name(key));
+    else context_->Refuse(&element, Name(key) + " must be a list of tables");
+  }
+  return tables;
+}
+
+void TomlTable::Refuse(const std::string& why) { context_->Refuse(table_, why); }
+
+void TomlTable::Finish() {
+  if (table_ == nullptr) return;
+  for (const auto& [key, node] : *table_) {
+    const std::string name(key.str());
+    if (std::find(keys_.begin(), keys_.end(), name) != keys_.end()) continue;
+    context_->Refuse(&node, "unknown key '" + name + "'" + (name_.empty() ? "" : " in [" + name_ + "]") +
+                                DidYouMean(name, keys_));
+  }
+}
+
+}  // namespace flaneur

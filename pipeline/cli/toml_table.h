@@ -1,0 +1,64 @@
+// Reads one table of a TOML file field by field, and then says which keys nobody asked for.
+#pragma once
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "runtime/base/error.h"
+#include "runtime/base/math.h"
+
+namespace flaneur {
+
+// What all tables of one file share: the first error met, and the names of all fields.
+struct TomlContext {
+  std::filesystem::path path;
+  Error error;
+  std::vector<std::string> known;  // "section.key"
+
+  void Refuse(const toml::node* node, const std::string& why);  // keeps the first
+};
+
+class TomlTable {
+ public:
+  // `table` may be null: then every field keeps its default. `name` is how messages call it.
+  TomlTable(TomlContext* context, const toml::table* table, std::string name);
+
+  template <typename T>
+  void Number(const char* key, T* value, double least, double most) {
+    double number = static_cast<double>(*value);
+    if (ReadNumber(key, std::is_integral_v<T>, least, most, &number)) *value = static_cast<T>(number);
+  }
+  void Angle(const char* stem, float* radians, double least_deg, double most_deg);
+  void Choice(const char* key, std::string* value, std::initializer_list<const char*> allowed);
+  void Text(const char* key, std::string* value);
+  void Flag(const char* key, bool* value);
+  void Numbers(const char* key, std::vector<float>* values, double least, double most);
+  void Texts(const char* key, std::vector<std::string>* values);
+  void Point(const char* key, Vec2* value);
+  void File(const char* key, std::filesystem::path* value);  // relative to the file's folder
+  void Json(const char* key, std::string* json);             // a table, as a JSON object
+  // The table, or array of tables, under the key.
+  TomlTable Table(const char* key);
+  std::vector<TomlTable> Tables(const char* key);
+
+  bool Has(const char* key) const { return table_ != nullptr && table_->contains(key); }
+  // Something is wrong with this table as a whole.
+  void Refuse(const std::string& why);
+  // Refuses keys that no field above read. Call last.
+  void Finish();
+
+ private:
+  const toml::node* Find(const char* key);
+  bool ReadNumber(const char* key, bool integer, double least, double most, double* number);
+  std::string Name(const char* key) const;
+
+  TomlContext* context_;
+  const toml::table* table_;
+  std::string name_;
+  std::vector<std::string> keys_;
+};
+
+}  // namespace flaneur

@@ -1,0 +1,178 @@
+#include "pipeline/cli/tour_settings.h"
+
+#include <cmath>
+#include <set>
+
+#include "pipeline/cli/toml_table.h"
+#include "runtime/base/file.h"
+#include "runtime/base/text.h"
+#include "runtime/pack/settings_fields.h"
+
+namespace flaneur {
+namespace {
+
+void ReadSource(TomlTable* table, SourceSettings* source) {
+  table->File("file", &source->file);
+  table->Number("seed", &source->seed, 0, 2147483647);
+  table->Json("options", &source->options_json);
+}
+
+void ReadPart(TomlTable table, TourSettings* settings) {
+  TownPart part;
+  table.File("file", &part.file);
+  table.Point("position_m", &part.position_m);
+  table.Number("yaw_deg", &part.yaw_deg, -360, 360);
+  table.Number("scale", &part.scale, 1e-6, 1e6);
+  if (part.file.empty()) table.Refuse("a [[town.part]] needs a file");
+  table.Finish();
+  settings->parts.push_back(part);
+}
+
+void ReadTown(TomlTable table, TourSettings* settings) {
+  ReadSource(&table, &settings->town);
+  table.Number("scale", &settings->town_scale, 1e-6, 1e6);
+  for (TomlTable& part : table.Tables("part")) ReadPart(part, settings);
+  table.Finish();
+}
+
+void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
+  AvatarSettings avatar;
+  table.Text("name", &avatar.name);
+  ReadSource(&table, &avatar.source);
+  table.Number("share", &avatar.share, 0, 1e6);
+  table.Number("height_m", &avatar.height_m, 0, 10);
+  table.Text("walk", &avatar.walk);
+  table.Text("idle", &avatar.idle);
+  table.Text("talk", &avatar.talk);
+  table.Texts("hide", &avatar.hide);
+  if (avatar.source.file.empty()) table.Refuse("an [[avatar]] needs a file");
+  if (avatar.name.empty()) avatar.name = avatar.source.file.stem().string();
+  for (const AvatarSettings& other : settings->avatars) {
+    if (other.name == avatar.name) table.Refuse("two avatars are named '" + avatar.name + "'; give each its own name");
+  }
+  table.Finish();
+  settings->avatars.push_back(avatar);
+}
+
+void ReadLevels(TomlTable table, LevelsOptions* options) {
+  table.Numbers("ratios", &options->ratios, 0.001, 1);
+  table.Number("max_triangles", &options->max_triangles, 0, 1e8);
+  table.Number("min_triangles", &options->min_triangles, 1, 1e6);
+  table.Finish();
+}
+
+void ReadImpostor(TomlTable table, ImpostorOptions* options) {
+  table.Number("directions", &options->directions, 1, 64);
+  table.Numbers("elevations_deg", &options->elevations_deg, -89, 89);
+  table.Number("height_px", &options->height_px, 16, 1024);
+  table.Number("samples", &options->samples, 1, 4096);
+  for (ImpostorClipOptions& clip : options->clips) {
+    table.Number((clip.name + "_phases").c_str(), &clip.phases, 1, 256);
+  }
+  table.Finish();
+}
+
+void ReadFootprints(TomlTable table, FootprintOptions* options, GroundRasterOptions* ground) {
+  table.Number("clearance_m", &options->clearance_m, 0, 2);
+  std::vector<float> band{static_cast<float>(options->band_m[0]), static_cast<float>(options->band_m[1])};
+  table.Numbers("band_m", &band, 0, 100);
+  if (band.size() != 2 || band[0] >= band[1]) table.Refuse("footprints.band_m must be [low, high] in metres");
+  else options->band_m = {std::round(band[0] * 1e4) / 1e4, std::round(band[1] * 1e4) / 1e4};
+  table.Number("tolerance_m", &options->tolerance_m, 0, 1);
+  table.Number("bridge_m", &options->bridge_m, 0, 1);
+  table.Flag("merge_blocks", &options->merge_blocks);
+  table.Number("ground_cell_m", &ground->cell_m, 0.05, 10);
+  table.Finish();
+}
+
+void ReadPlace(TomlTable table, TourSettings* settings) {
+  PackPlace place;
+  place.kind = "goal";
+  table.Text("name", &place.name);
+  table.Choice("kind", &place.kind, {"door", "exit", "goal", "loiter", "spawn"});
+  table.Point("position_m", &place.position_m);
+  table.Number("width_m", &place.width_m, 0.1, 1000);
+  if (!table.Has("position_m")) table.Refuse("a [[place]] needs position_m = [x, y]");
+  table.Finish();
+  settings->places.push_back(place);
+}
+
+void ReadStop(TomlTable table, TourSettings* settings) {
+  TourStop stop;
+  table.Point("position_m", &stop.position_m);
+  table.Angle("yaw", &stop.yaw_rad, -360, 360);
+  table.Number("pause_s", &stop.pause_s, 0, 3600);
+  table.Text("caption", &stop.caption);
+  if (!table.Has("position_m")) table.Refuse("a [[stop]] needs position_m = [x, y]");
+  table.Finish();
+  settings->path.push_back(stop);
+}
+
+void ReadAll(TomlTable root, TourSettings* settings) {
+  TomlTable tour = root.Table("tour");
+  tour.Text("name", &settings->name);
+  tour.Finish();
+  ReadTown(root.Table("town"), settings);
+  for (TomlTable& avatar : root.Tables("avatar")) ReadAvatarSettings(avatar, settings);
+  ReadLevels(root.Table("levels"), &settings->levels);
+  ReadImpostor(root.Table("impostor"), &settings->impostor);
+  ReadFootprints(root.Table("footprints"), &settings->footprints, &settings->ground);
+  for (TomlTable& place : root.Tables("place")) ReadPlace(place, settings);
+  for (TomlTable& stop : root.Tables("stop")) ReadStop(stop, settings);
+  const auto section = [&](const char* name, auto* values) {
+    TomlTable table = root.Table(name);
+    VisitFields(table, values);
+    table.Finish();
+  };
+  section("crowd", &settings->crowd);
+  section("control", &settings->control);
+  section("light", &settings->light);
+  root.Finish();
+}
+
+void CheckWhole(TomlContext* context, const TourSettings& s) {
+  const auto refuse = [&](const std::string& why) { context->Refuse(nullptr, why); };
+  if (s.town.file.empty() && s.parts.empty()) refuse("no town: give [town] a file, or [[town.part]]s");
+  if (s.avatars.empty()) refuse("nobody to populate the town: add an [[avatar]] with a file");
+  const ControlSettings& c = s.control;
+  if (!(c.r_personal_m < c.r_high_m && c.r_high_m < c.r_unimportant_m && c.r_unimportant_m < c.r_far_m)) {
+    refuse("control: r_personal_m < r_high_m < r_unimportant_m < r_far_m must hold");
+  }
+  if (s.crowd.preferred_speed_mps > s.crowd.top_speed_mps) {
+    refuse("crowd: preferred_speed_mps must not be above top_speed_mps");
+  }
+}
+
+}  // namespace
+
+Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings) {
+  std::string text;
+  if (Error e = ReadTextFile(path, &text)) return e;
+  try {
+    const toml::table root = toml::parse(text, path.string());
+    TomlContext context{path, {}, {}};
+    TourSettings read;
+    read.name = path.stem().string() == "tour" ? std::filesystem::absolute(path).parent_path().filename().string()
+                                               : path.stem().string();
+    ReadAll(TomlTable(&context, &root, ""), &read);
+    CheckWhole(&context, read);
+    if (context.error) return context.error;
+    *settings = std::move(read);
+    return Ok();
+  } catch (const toml::parse_error& e) {
+    return Fail(path.string() + ":" + std::to_string(e.source().begin.line) + ": not TOML: " +
+                OneLine(e.description()));
+  }
+}
+
+std::vector<std::string> KnownSettings() {
+  // One empty table of each kind makes every field be asked for.
+  const toml::table root = toml::parse("[[avatar]]\n[[place]]\n[[stop]]\n[[town.part]]\n");
+  TomlContext context;
+  TourSettings settings;
+  ReadAll(TomlTable(&context, &root, ""), &settings);
+  const std::set<std::string> unique(context.known.begin(), context.known.end());
+  return {unique.begin(), unique.end()};
+}
+
+}  // namespace flaneur

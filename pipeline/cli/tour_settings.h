@@ -1,0 +1,64 @@
+// tour.toml: the one file that a user writes. assets_src/reference/tour.toml explains every setting.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/avatar/decimate.h"
+#include "pipeline/footprint/extract_footprints.h"
+#include "pipeline/footprint/rasterize_ground.h"
+#include "pipeline/impostor/bake_impostor.h"
+#include "runtime/base/error.h"
+#include "runtime/pack/tour_pack.h"
+
+namespace flaneur {
+
+// A file, or a Blender script (.py) that makes one from a seed and options.
+struct SourceSettings {
+  std::filesystem::path file;  // relative ones are taken from tour.toml's folder
+  int seed = 1;
+  std::string options_json = "{}";
+};
+
+// One of several models that make up the town, placed on the ground plane.
+struct TownPart {
+  std::filesystem::path file;
+  Vec2 position_m;
+  float yaw_deg = 0;  // anticlockwise
+  float scale = 1;    // metres per unit of the file
+};
+
+struct AvatarSettings {
+  std::string name;
+  SourceSettings source;
+  float share = 1;     // of the crowd, relative to the others'
+  float height_m = 0;  // 0: as in the file, see ReadAvatarOptions
+  std::string walk, idle, talk;
+  std::vector<std::string> hide;
+};
+
+struct TourSettings {
+  std::string name;
+  SourceSettings town;            // empty file: only parts
+  float town_scale = 1;           // metres per unit of the town's file
+  std::vector<TownPart> parts;
+  std::vector<AvatarSettings> avatars;
+  LevelsOptions levels;
+  ImpostorOptions impostor;
+  FootprintOptions footprints;
+  GroundRasterOptions ground;
+  std::vector<PackPlace> places;  // besides those tagged in the town
+  std::vector<TourStop> path;
+  CrowdSettings crowd;
+  ControlSettings control;
+  LightSettings light;
+};
+
+// Errors: unreadable, not TOML, an unknown key (with the nearest known one), a wrong type, a value out of range, no town, no
+// avatar, two of a name; each as FILE:LINE.
+Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings);
+
+// Every setting that may stand in tour.toml, as "section.key".
+std::vector<std::string> KnownSettings();
+
+}  // namespace flaneur

@@ -1,0 +1,143 @@
+#include "pipeline/pack/tour_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "runtime/pack/settings_fields.h"
+
+namespace flaneur {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The shortest decimal that reads back as the same float.
+double Short(float value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.7g", static_cast<double>(value));
+  return std::atof(text);
+}
+
+double Millimetres(double metres) { return std::round(metres * 1e4) / 1e4; }
+
+Json PointJson(const Point2& p) { return {Millimetres(p.x), Millimetres(p.y)}; }
+Json PointJson(const Vec2& p) { return {Short(p.x), Short(p.y)}; }
+
+template <typename Points>
+Json PointsJson(const Points& points) {
+  Json out = Json::array();
+  for (const auto& p : points) out.push_back(PointJson(p));
+  return out;
+}
+
+struct SettingsWriter {
+  Json* json;
+  template <typename T>
+  void Number(const char* name, T* value, double, double) const {
+    if constexpr (std::is_integral_v<T>) (*json)[name] = *value;
+    else (*json)[name] = Short(*value);
+  }
+  void Angle(const char* stem, float* radians, double, double) const {
+    (*json)[std::string(stem) + "_rad"] = Short(*radians);
+  }
+  void Choice(const char* name, std::string* value, std::initializer_list<const char*>) const { (*json)[name] = *value; }
+};
+
+template <typename Settings>
+Json SettingsJson(Settings settings) {
+  Json json = Json::object();
+  VisitFields(SettingsWriter{&json}, &settings);
+  return json;
+}
+
+Json ImpostorJson(const ImpostorAtlas& atlas, int albedo_image, int normal_image) {
+  Json clips = Json::array(), elevations = Json::array();
+  for (const ImpostorClip& clip : atlas.clips) {
+    clips.push_back({{"name", clip.name}, {"first_frame", clip.first_frame}, {"phases", clip.phases}});
+  }
+  for (float e : atlas.elevations_deg) elevations.push_back(Short(e));
+  return {{"directions", atlas.directions},
+          {"elevations_deg", elevations},
+          {"frames", atlas.frames},
+          {"cell_width_px", atlas.cell_width_px},
+          {"cell_height_px", atlas.cell_height_px},
+          {"window_width_m", Short(atlas.window_width_m)},
+          {"window_height_m", Short(atlas.window_height_m)},
+          {"bottom_m", Short(atlas.bottom_m)},
+          {"depth_range_m", Short(atlas.depth_range_m)},
+          {"clips", clips},
+          {"albedo_image", albedo_image},
+          {"normal_image", normal_image}};
+}
+
+Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, int albedo_image, int normal_image) {
+  const Avatar& person = avatar.levels.avatar;
+  Json levels = Json::array(), clips = Json::object();
+  for (size_t i = 0; i < avatar.levels.levels.size(); ++i) {
+    const AvatarLevel& level = avatar.levels.levels[i];
+    levels.push_back({{"node", part.level_nodes[i]},
+                      {"triangles", level.triangles},
+                      {"error_mm", Short(level.error_mm)},
+                      {"posed_error_mm", Short(level.posed_error_mm)},
+                      {"switch_px", Short(level.switch_px)}});
+  }
+  for (const char* name : {"walk", "idle", "talk"}) {
+    for (size_t c = 0; c < person.clips.size(); ++c) {
+      if (person.clips[c].name == name) clips[name] = part.animations[c];
+    }
+  }
+  return {{"name", person.name},
+          {"share", Short(avatar.share)},
+          {"height_m", Short(person.height_m)},
+          {"radius_m", Short(person.radius_m)},
+          {"walk_speed_mps", Short(person.walk_speed_mps)},
+          {"clips", clips},
+          {"levels", levels},
+          {"impostor", ImpostorJson(avatar.impostor, albedo_image, normal_image)}};
+}
+
+Json ObstacleJson(const Obstacle& obstacle) {
+  Json json{{"name", obstacle.name}, {"kind", ObstacleKindName(obstacle.kind)}};
+  if (obstacle.outer.empty()) {
+    json["center_m"] = PointJson(obstacle.center);
+    json["radius_m"] = Millimetres(obstacle.radius_m);
+    return json;
+  }
+  json["outer_m"] = PointsJson(obstacle.outer);
+  if (!obstacle.holes.empty()) {
+    json["holes_m"] = Json::array();
+    for (const auto& hole : obstacle.holes) json["holes_m"].push_back(PointsJson(hole));
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string TourJson(const TourParts& parts, const TourIndices& indices) {
+  Json tour{{"version", kTourPackVersion}, {"name", parts.name}};
+  tour["avatars"] = Json::array();
+  for (size_t i = 0; i < parts.avatars.size(); ++i) {
+    tour["avatars"].push_back(
+        AvatarJson(parts.avatars[i], indices.avatars[i], indices.albedo_images[i], indices.normal_images[i]));
+  }
+  tour["obstacles"] = Json::array();
+  for (const Obstacle& o : parts.footprints.obstacles) tour["obstacles"].push_back(ObstacleJson(o));
+  tour["ground"] = {{"min_m", PointJson(parts.ground.min_m)}, {"cell_m", Short(parts.ground.cell_m)},
+                    {"columns", parts.ground.columns},        {"rows", parts.ground.rows},
+                    {"height_view", indices.height_view},     {"kind_view", indices.kind_view}};
+  tour["places"] = Json::array();
+  for (const PackPlace& p : parts.places) {
+    tour["places"].push_back({{"name", p.name}, {"kind", p.kind}, {"position_m", PointJson(p.position_m)},
+                              {"width_m", Short(p.width_m)}});
+  }
+  tour["path"] = Json::array();
+  for (const TourStop& s : parts.path) {
+    tour["path"].push_back({{"position_m", PointJson(s.position_m)}, {"yaw_rad", Short(s.yaw_rad)},
+                            {"pause_s", Short(s.pause_s)}, {"caption", s.caption}});
+  }
+  tour["crowd"] = SettingsJson(parts.crowd);
+  tour["control"] = SettingsJson(parts.control);
+  tour["light"] = SettingsJson(parts.light);
+  return tour.dump();
+}
+
+}  // namespace flaneur

@@ -1,0 +1,20 @@
+// The root extension FLANEUR_tour as JSON. Internal to pipeline/pack.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "pipeline/io/gltf_builder.h"
+#include "pipeline/pack/write_tour_pack.h"
+
+namespace flaneur {
+
+// Where the glTF part of the pack put what the extension refers to.
+struct TourIndices {
+  std::vector<AvatarPart> avatars;
+  std::vector<int> albedo_images, normal_images;  // one an avatar
+  int height_view = -1, kind_view = -1;
+};
+
+std::string TourJson(const TourParts& parts, const TourIndices& indices);
+
+}  // namespace flaneur

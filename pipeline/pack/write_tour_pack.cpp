@@ -1,0 +1,133 @@
+#include "pipeline/pack/write_tour_pack.h"
+
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "pipeline/io/gltf_builder.h"
+#include "pipeline/pack/tour_json.h"
+#include "runtime/base/file.h"
+
+namespace flaneur {
+namespace {
+
+// A street's ground is hundreds of metres wide, and its textures repeat: both need finer steps than a person.
+constexpr int kTownPositionBits = 18, kTownUvBits = 16;
+
+// The matrix as translation, rotation and scale; none where it shears.
+std::optional<Transform> Decompose(const Mat4& m) {
+  Vec3 axes[3];
+  float lengths[3];
+  for (size_t c = 0; c < 3; ++c) {
+    axes[c] = {m.m[c][0], m.m[c][1], m.m[c][2]};
+    lengths[c] = Length(axes[c]);
+    if (!(lengths[c] > 1e-6f)) return std::nullopt;
+    axes[c] = axes[c] * (1 / lengths[c]);
+  }
+  if (std::abs(Dot(axes[0], axes[1])) > 1e-4f || std::abs(Dot(axes[0], axes[2])) > 1e-4f ||
+      std::abs(Dot(axes[1], axes[2])) > 1e-4f) {
+    return std::nullopt;
+  }
+  if (Dot(Cross(axes[0], axes[1]), axes[2]) < 0) {
+    axes[0] = axes[0] * -1;
+    lengths[0] = -lengths[0];
+  }
+  // Shepperd's choice of the largest component keeps the square root away from zero.
+  const float trace = axes[0].x + axes[1].y + axes[2].z;
+  Quat q;
+  if (trace > 0) {
+    q = {axes[1].z - axes[2].y, axes[2].x - axes[0].z, axes[0].y - axes[1].x, 1 + trace};
+  } else if (axes[0].x >= axes[1].y && axes[0].x >= axes[2].z) {
+    q = {1 + axes[0].x - axes[1].y - axes[2].z, axes[0].y + axes[1].x, axes[2].x + axes[0].z, axes[1].z - axes[2].y};
+  } else if (axes[1].y >= axes[2].z) {
+    q = {axes[0].y + axes[1].x, 1 - axes[0].x + axes[1].y - axes[2].z, axes[1].z + axes[2].y, axes[2].x - axes[0].z};
+  } else {
+    q = {axes[2].x + axes[0].z, axes[1].z + axes[2].y, 1 - axes[0].x - axes[1].y + axes[2].z, axes[0].y - axes[1].x};
+  }
+  return Transform{{m.m[3][0], m.m[3][1], m.m[3][2]}, Normalized(q), {lengths[0], lengths[1], lengths[2]}};
+}
+
+std::vector<Mesh> Baked(std::vector<Mesh> meshes, const Mat4& world) {
+  const Mat4 inverse = Inverse(world);
+  for (Mesh& mesh : meshes) {
+    for (Vec3& p : mesh.positions) p = TransformPoint(world, p);
+    for (Vec3& n : mesh.normals) {  // by the inverse transpose
+      n = Normalized(Vec3{inverse.m[0][0] * n.x + inverse.m[0][1] * n.y + inverse.m[0][2] * n.z,
+                          inverse.m[1][0] * n.x + inverse.m[1][1] * n.y + inverse.m[1][2] * n.z,
+                          inverse.m[2][0] * n.x + inverse.m[2][1] * n.y + inverse.m[2][2] * n.z});
+    }
+  }
+  return meshes;
+}
+
+std::string TagExtras(const SceneNode& node) {
+  if (node.kind == NodeKind::kUntagged) return "";
+  std::string json = std::string("{\"flaneur_kind\":\"") + NodeKindName(node.kind) + "\"";
+  if (node.kind == NodeKind::kGround) json += std::string(",\"flaneur_ground\":\"") + GroundKindName(node.ground) + "\"";
+  return json + "}";
+}
+
+Error AddTown(const Scene& town, GltfBuilder* builder) {
+  DracoOptions draco;
+  draco.position_bits = kTownPositionBits;
+  draco.uv_bits = kTownUvBits;
+  const std::vector<int> materials = builder->AddMaterials(town.materials, town.images);
+  std::map<std::vector<int>, int> shared;  // a node's meshes -> their glTF mesh
+  std::vector<int> roots;
+  for (const SceneNode& node : town.nodes) {
+    if (node.meshes.empty()) continue;
+    std::vector<Mesh> parts;
+    for (int m : node.meshes) parts.push_back(town.meshes[static_cast<size_t>(m)]);
+    const std::optional<Transform> transform = Decompose(node.world);
+    int mesh = -1;
+    if (const auto found = shared.find(node.meshes); transform && found != shared.end()) {
+      mesh = found->second;
+    } else {
+      if (!transform) parts = Baked(std::move(parts), node.world);
+      if (Error e = builder->AddMesh(node.name, parts, materials, draco, &mesh)) return e;
+      if (transform) shared[node.meshes] = mesh;
+    }
+    GltfNode out;
+    out.name = node.name;
+    out.mesh = mesh;
+    out.transform = transform.value_or(Transform{});
+    out.extras = TagExtras(node);
+    roots.push_back(builder->AddNode(out));
+  }
+  builder->AddScene("town", roots);
+  return Ok();
+}
+
+Error AddAvatars(const TourParts& parts, GltfBuilder* builder, TourIndices* indices) {
+  for (const TourAvatar& avatar : parts.avatars) {
+    const std::string& name = avatar.levels.avatar.name;
+    AvatarPart part;
+    if (Error e = AddAvatar(builder, avatar.levels, name + "_", DracoOptions{}, &part)) return e;
+    const int roots[] = {part.skeleton_node, part.level_nodes.front()};
+    builder->AddScene(name, roots);
+    indices->avatars.push_back(std::move(part));
+    indices->albedo_images.push_back(builder->AddImage(avatar.impostor.albedo));
+    indices->normal_images.push_back(builder->AddImage(avatar.impostor.normal));
+  }
+  return Ok();
+}
+
+}  // namespace
+
+Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, size_t* bytes) {
+  GltfBuilder builder;
+  TourIndices indices;
+  if (Error e = AddTown(parts.town, &builder)) return e;
+  if (Error e = AddAvatars(parts, &builder, &indices)) return e;
+  const auto& heights = parts.ground.height_m;
+  indices.height_view = builder.AddBufferView(
+      {reinterpret_cast<const uint8_t*>(heights.data()), heights.size() * sizeof(float)});
+  indices.kind_view = builder.AddBufferView(parts.ground.kind);
+  builder.SetRootExtension(kTourExtension, TourJson(parts, indices));
+  std::vector<uint8_t> glb;
+  if (Error e = builder.Finish(&glb)) return e;
+  *bytes = glb.size();
+  return WriteFile(path, glb);
+}
+
+}  // namespace flaneur

@@ -1,0 +1,39 @@
+// Everything a bake made, written as one tour pack: a glTF binary that any viewer opens, with the tour in its root extension.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/core/avatar.h"
+#include "pipeline/core/footprint.h"
+#include "pipeline/core/impostor.h"
+#include "pipeline/core/scene.h"
+#include "runtime/base/error.h"
+#include "runtime/pack/tour_pack.h"
+
+namespace flaneur {
+
+struct TourAvatar {
+  AvatarLevels levels;
+  ImpostorAtlas impostor;
+  float share = 1;
+};
+
+struct TourParts {
+  std::string name;
+  Scene town;
+  std::vector<TourAvatar> avatars;
+  Footprints footprints;
+  GroundRaster ground;
+  std::vector<PackPlace> places;
+  std::vector<TourStop> path;
+  CrowdSettings crowd;
+  ControlSettings control;
+  LightSettings light;
+};
+
+// Scene 0 is the town; one scene more holds each avatar. The same parts give the same bytes.
+// Errors: geometry that cannot be compressed (names the mesh); as for WriteFile.
+Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, size_t* bytes);
+
+}  // namespace flaneur
