@@ -1,4 +1,4 @@
-"""Renders a person's impostor views: every direction and elevation of one frame side by side, frame by frame.
+"""Renders a person's impostor views: each frame once, all directions and elevations side by side.
 
 Run as every script here (see common/settings.py). The settings:
 
@@ -6,9 +6,9 @@ Run as every script here (see common/settings.py). The settings:
     seed            of the sample pattern
     geometry        folder with the binary arrays named below
     vertices, triangles, frames     lengths of these arrays
-    materials       list of {"texture": file or "", "mask": bool, "cutoff": number, "double_sided": bool}
-    directions, elevations_deg      as in an impostor atlas
-    cell_width_px, cell_height_px, window_width_m, window_height_m, bottom_m    as in an impostor atlas
+    materials       list of {"texture": file or "", "mask", "cutoff", "double_sided"}
+    directions, elevations_deg, cell_width_px, cell_height_px, window_width_m, window_height_m,
+    bottom_m        as in an impostor atlas
     options         samples (a pixel), default 16
 
 Arrays, little-endian, without header, axes as in glTF (Y up, the person faces +Z):
@@ -17,8 +17,9 @@ Arrays, little-endian, without header, axes as in glTF (Y up, the person faces +
     uvs.f32 vertices x 2 (v downward)       colors.f32 vertices x 4 (linear, straight alpha)
     indices.u32 triangles x 3               materials.u32 triangles
 
-Each EXR holds float layers that are sums over a pixel's samples divided by their number, so every value is premultiplied
-with the coverage: albedo (linear), normal (avatar's axes), depth (metres from the axis towards the camera), coverage.
+Each EXR holds float layers: means over all samples of a pixel, so that every value is premultiplied
+with the coverage. They are albedo (linear), normal (avatar's axes), depth (metres from the axis
+towards the camera) and coverage.
 Elevation 0 is the uppermost row of cells, direction 0 the leftmost column.
 """
 
@@ -138,7 +139,7 @@ def base_color(nodes, texture):
 
 
 def visibility(nodes, description, alpha, backfacing):
-    """1 where a sample sees the surface, 0 in its holes and at the back of a single-sided surface."""
+    """1 where a sample sees the surface, 0 in holes and behind a single-sided surface; None: 1."""
     visible = None
     if description["mask"]:
         hole = nodes.math("LESS_THAN", alpha, description["cutoff"])
@@ -152,9 +153,9 @@ def visibility(nodes, description, alpha, backfacing):
 def make_material(description):
     """Writes the layers at the first visible surface.
 
-    A layer is written at every surface a sample meets, also where the sample then passes through, so all
-    are multiplied with the visibility. The surface is diffuse and black without a lamp: under an emission
-    of strength 0 Cycles leaves the layers out.
+    A layer is written at every surface a sample meets, also where the sample then passes through,
+    so all are multiplied with the visibility. The surface is diffuse, and black as there is no
+    lamp: under an emission of strength 0 Cycles leaves the layers out.
     """
     material = bpy.data.materials.new("impostor")
     material.use_nodes = True
@@ -190,7 +191,7 @@ def make_material(description):
 
 
 def make_mesh(arrays, materials):
-    """The person in the first frame. Attributes have names that Blender keeps for nothing of its own."""
+    """The person in the first frame. The attributes' names are none that Blender reserves."""
     mesh = bpy.data.meshes.new("impostor")
     mesh.from_pydata(arrays["positions"][0].tolist(), [], arrays["indices"].tolist())
     for material in materials:
@@ -198,7 +199,8 @@ def make_mesh(arrays, materials):
     mesh.polygons.foreach_set("material_index", arrays["materials"].astype(np.int32))
     uvs = arrays["uvs"]
     uvs = np.stack((uvs[:, 0], 1 - uvs[:, 1], np.zeros(len(uvs))), axis=1).astype(np.float32)
-    mesh.attributes.new("person_uv", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", uvs.ravel())
+    uv = mesh.attributes.new("person_uv", "FLOAT_VECTOR", "POINT")
+    uv.data.foreach_set("vector", uvs.ravel())
     color = mesh.attributes.new("person_color", "FLOAT_COLOR", "POINT")
     color.data.foreach_set("color", arrays["colors"].ravel())
     mesh.attributes.new("person_normal", "FLOAT_VECTOR", "POINT")
@@ -212,7 +214,7 @@ def pose(mesh, arrays, frame):
 
 
 def place_views(settings, mesh):
-    """One instance a cell, turned so that the camera, which looks along +y, sees it as the cell asks."""
+    """One instance a cell, turned as the cell asks before the camera, which looks along +y."""
     width, height = settings["window_width_m"], settings["window_height_m"]
     directions, elevations = settings["directions"], settings["elevations_deg"]
     for row, elevation in enumerate(elevations):

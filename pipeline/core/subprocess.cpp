@@ -162,8 +162,8 @@ Error RunBlenderScript(const fs::path& script, const std::string& settings_json,
   if (Error error = RunProcess(argv, run, &process)) return error;
   if (result) *result = process;
   if (process.exit_status == 0) return Ok();
-  return Fail(path.filename().string() + ": " + Reason(run.log_file) + " (Blender ended with status " +
-              std::to_string(process.exit_status) + ")");
+  return Fail(path.filename().string() + ": " + Reason(run.log_file) +
+              " (Blender ended with status " + std::to_string(process.exit_status) + ")");
 }
 
 }  // namespace flaneur

@@ -14,8 +14,9 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   ~TemporaryFolder();
 
-  // Makes a new folder, readable by this user alone, inside `parent`, or inside the system's folder for temporary files
-  // (environment variable TMPDIR, else /tmp) where that is empty. Errors: missing parent, no permission, disk full.
+  // Makes a new folder, readable by this user alone, inside `parent`, or inside the system's folder
+  // for temporary files (environment variable TMPDIR, else /tmp) where that is empty.
+  // Errors: missing parent, no permission, disk full.
   Error Create(const std::string& prefix, const std::filesystem::path& parent = {});
 
   const std::filesystem::path& path() const { return path_; }  // empty before Create

@@ -16,8 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One sample of 4096 counts, rounding in Blender's sums does not.
+// One sample in 4096 counts; what rounding leaves in Blender's sums does not.
 constexpr float kLeastCoverage = 1e-4f;
+
+// Enough for three mip levels; what lies further out only costs bytes, so that it gets one colour.
+constexpr int kFillRings = 8;
 
 enum Layer { kRed, kGreen, kBlue, kNormalX, kNormalY, kNormalZ, kDepth, kCoverage, kLayers };
 constexpr std::array<const char*, kLayers> kLayerNames = {
@@ -78,18 +81,33 @@ void PutTexel(const std::array<float, kLayers>& layers, float depth_range_m, uin
 class CellFill {
  public:
   CellFill(int left, int top, int width, int height, AtlasPixels* atlas)
-      : left_(left), top_(top), width_(width), height_(height), atlas_(atlas),
+      : left_(left),
+        top_(top),
+        width_(width),
+        height_(height),
+        atlas_(atlas),
         known_(static_cast<size_t>(width) * static_cast<size_t>(height), 0) {}
 
   void Run() {
     FindCovered();
-    for (std::vector<int> ring = NextRing(); !ring.empty(); ring = NextRing()) {
-      for (int at : ring) Put(at);
+    if (fresh_.empty()) return;
+    const Sums whole = SumsOf(fresh_);
+    for (int rings = 0; rings < kFillRings; ++rings) {
+      const std::vector<int> ring = NextRing();
+      for (int at : ring) PutMean(SumsOf(KnownNeighbours(at)), at);
       for (int at : ring) known_[static_cast<size_t>(at)] = 1;
+    }
+    for (int at = 0; at < width_ * height_; ++at) {
+      if (!known_[static_cast<size_t>(at)]) PutMean(whole, at);
     }
   }
 
  private:
+  struct Sums {
+    std::array<int, 8> channels{};  // albedo's, then normal's
+    int count = 0;
+  };
+
   void FindCovered() {
     for (int at = 0; at < width_ * height_; ++at) {
       if (atlas_->albedo.rgba[Offset(at) + 3] == 0) continue;
@@ -128,20 +146,30 @@ class CellFill {
     return ring;
   }
 
-  void Put(int at) {
-    std::array<int, 8> sums{};  // albedo's channels, then normal's
-    int count = 0;
+  std::vector<int> KnownNeighbours(int at) const {
+    std::vector<int> known;
     ForNeighbours(at, [&](int other) {
-      if (!known_[static_cast<size_t>(other)]) return;
-      for (size_t c = 0; c < 4; ++c) {
-        sums[c] += atlas_->albedo.rgba[Offset(other) + c];
-        sums[c + 4] += atlas_->normal.rgba[Offset(other) + c];
-      }
-      ++count;
+      if (known_[static_cast<size_t>(other)]) known.push_back(other);
     });
+    return known;
+  }
+
+  Sums SumsOf(const std::vector<int>& texels) const {
+    Sums sums;
+    for (int at : texels) {
+      for (size_t c = 0; c < 4; ++c) {
+        sums.channels[c] += atlas_->albedo.rgba[Offset(at) + c];
+        sums.channels[c + 4] += atlas_->normal.rgba[Offset(at) + c];
+      }
+    }
+    sums.count = static_cast<int>(texels.size());
+    return sums;
+  }
+
+  void PutMean(const Sums& sums, int at) {
     for (size_t c = 0; c < 4; ++c) {
-      if (c < 3) atlas_->albedo.rgba[Offset(at) + c] = Mean(sums[c], count);
-      atlas_->normal.rgba[Offset(at) + c] = Mean(sums[c + 4], count);
+      if (c < 3) atlas_->albedo.rgba[Offset(at) + c] = Mean(sums.channels[c], sums.count);
+      atlas_->normal.rgba[Offset(at) + c] = Mean(sums.channels[c + 4], sums.count);
     }
   }
 
@@ -196,16 +224,16 @@ void FillGutters(int cell_width, int cell_height, AtlasPixels* atlas) {
 double FillRate(const Pixels& albedo) {
   size_t covered = 0;
   for (size_t i = 3; i < albedo.rgba.size(); i += 4) covered += albedo.rgba[i] > 0;
-  return albedo.rgba.empty() ? 0
-                             : 4 * static_cast<double>(covered) /
-                                   static_cast<double>(albedo.rgba.size());
+  return albedo.rgba.empty()
+             ? 0
+             : 4 * static_cast<double>(covered) / static_cast<double>(albedo.rgba.size());
 }
 
 Error EncodePng(const Pixels& pixels, bool srgb, Image* image) {
   OIIO::ImageSpec spec(pixels.width, pixels.height, 4, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:UnassociatedAlpha", 1);  // else the writer would divide by it
   if (srgb) spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("png:compressionLevel", 9);
+  spec.attribute("png:compressionLevel", 6);
   OIIO::Filesystem::IOVecOutput bytes;
   auto output = OIIO::ImageOutput::create("atlas.png", &bytes);
   if (!output) return Fail("OpenImageIO cannot write PNG: " + OneLine(OIIO::geterror()));

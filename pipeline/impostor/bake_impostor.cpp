@@ -62,7 +62,8 @@ Error LayOut(const ViewGeometry& geometry, const ImpostorOptions& options, Impos
     return Fail("impostor: the atlas would be " +
                 std::to_string(static_cast<int64_t>(width_px * options.directions)) + " x " +
                 std::to_string(rows * options.height_px) + " px, more than " +
-                std::to_string(kMostAtlasPixels) + "; ask for fewer directions or phases, or a "
+                std::to_string(kMostAtlasPixels) +
+                "; ask for fewer directions or phases, or a "
                 "smaller height");
   }
   *atlas = {};
@@ -165,8 +166,8 @@ Error Assemble(const fs::path& folder, ImpostorAtlas* atlas, ImpostorStatistics*
   AtlasPixels pixels{EmptyPixels(*atlas), EmptyPixels(*atlas)};
   const int frame_rows = static_cast<int>(atlas->elevations_deg.size()) * atlas->cell_height_px;
   for (int frame = 0; frame < atlas->frames; ++frame) {
-    if (Error error = ReadLayers(FramePath(folder, frame), frame * frame_rows,
-                                 atlas->depth_range_m, &pixels)) {
+    if (Error error = ReadLayers(FramePath(folder, frame), frame * frame_rows, atlas->depth_range_m,
+                                 &pixels)) {
       return error;
     }
   }
@@ -199,6 +200,21 @@ json Description(const ImpostorAtlas& atlas) {
           {"normal", "normal.png"}};
 }
 
+Error WriteFiles(const fs::path& folder, const ImpostorAtlas& atlas) {
+  TemporaryFolder temporary;
+  if (Error error = temporary.Create(".flaneur_impostor_", folder)) return error;
+  const fs::path& from = temporary.path();
+  if (Error e = WriteFile(from / "albedo.png", atlas.albedo.bytes)) return e;
+  if (Error e = WriteFile(from / "normal.png", atlas.normal.bytes)) return e;
+  if (Error e = WriteTextFile(from / "impostor.json", Description(atlas).dump(2) + "\n")) return e;
+  for (const char* name : {"albedo.png", "normal.png", "impostor.json"}) {
+    std::error_code code;
+    fs::rename(from / name, folder / name, code);
+    if (code) return Fail((folder / name).string() + ": cannot write: " + code.message());
+  }
+  return Ok();
+}
+
 }  // namespace
 
 Error BakeImpostor(const Avatar& avatar, const ImpostorOptions& options, ImpostorAtlas* atlas,
@@ -206,8 +222,7 @@ Error BakeImpostor(const Avatar& avatar, const ImpostorOptions& options, Imposto
   std::vector<std::string> unheard;
   *statistics = {};
   if (Error error = CheckOptions(options)) return error;
-  const std::vector<ViewMaterial> materials =
-      ViewMaterials(avatar, warnings ? warnings : &unheard);
+  const std::vector<ViewMaterial> materials = ViewMaterials(avatar, warnings ? warnings : &unheard);
   ViewGeometry geometry;
   if (Error error = PoseFrames(avatar, options.clips, &geometry)) return error;
   ImpostorAtlas made;
@@ -234,21 +249,12 @@ Error BakeImpostor(const Avatar& avatar, const ImpostorOptions& options, Imposto
 }
 
 Error WriteImpostor(const fs::path& folder, const ImpostorAtlas& atlas) {
-  const fs::path target = fs::absolute(folder).lexically_normal();
   std::error_code code;
-  fs::create_directories(target, code);
+  const bool made = fs::create_directories(folder, code);
   if (code) return Fail(folder.string() + ": cannot make this folder: " + code.message());
-  TemporaryFolder temporary;
-  if (Error error = temporary.Create(".flaneur_impostor_", target)) return error;
-  const fs::path& from = temporary.path();
-  if (Error e = WriteFile(from / "albedo.png", atlas.albedo.bytes)) return e;
-  if (Error e = WriteFile(from / "normal.png", atlas.normal.bytes)) return e;
-  if (Error e = WriteTextFile(from / "impostor.json", Description(atlas).dump(2) + "\n")) return e;
-  for (const char* name : {"albedo.png", "normal.png", "impostor.json"}) {
-    fs::rename(from / name, target / name, code);
-    if (code) return Fail((folder / name).string() + ": cannot write: " + code.message());
-  }
-  return Ok();
+  const Error error = WriteFiles(folder, atlas);
+  if (error && made) fs::remove(folder, code);
+  return error;
 }
 
 }  // namespace flaneur

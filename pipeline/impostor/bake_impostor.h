@@ -1,5 +1,5 @@
-// Impostor atlases, offline: a person drawn once from every direction at every phase of every clip, by Blender's Cycles
-// without light, so that the runtime can light the pictures anew.
+// Impostor atlases, offline: a person drawn from every direction at every phase of every clip, by
+// Blender's Cycles without light, so that the runtime can light the pictures anew.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -21,11 +21,11 @@ struct ImpostorOptions {
   int directions = 16;                   // 1 to 64
   std::vector<float> elevations_deg{0};  // 1 to 8 of them, -89 to 89
   std::vector<ImpostorClipOptions> clips{{"walk", 8}, {"idle", 2}, {"talk", 2}};
-  int height_px = 128;  // of a cell, 16 to 1024
-  int border_px = 2;    // left empty around the silhouette in each cell, 1 to 16
-  int samples = 16;     // a pixel, 1 to 4096; coverage comes in as many steps
-  int seed = 0;         // of the sample pattern, >= 0
-  int threads = 0;      // of Blender, 0: one a core; the atlas does not depend on it
+  int height_px = 128;             // of a cell, 16 to 1024
+  int border_px = 2;               // left empty around the silhouette in each cell, 1 to 16
+  int samples = 16;                // a pixel, 1 to 4096; coverage comes in as many steps
+  int seed = 0;                    // of the sample pattern, >= 0
+  int threads = 0;                 // of Blender, 0: one a core; the atlas does not depend on it
   std::filesystem::path log_file;  // keeps what Blender printed; empty: nobody needs it
 };
 
@@ -37,18 +37,21 @@ struct ImpostorStatistics {
   int64_t blender_peak_memory_bytes = 0;
 };
 
-// Poses avatar.meshes as the runtime does, has one Blender render them, and assembles the atlas. The window is the same for
-// all cells: as high and as wide as the person ever gets, plus the border; the cell's width follows, a multiple of 4.
-// Its heights are measured along the camera's up axis, from the point between the feet. Shows base colour texture x base
-// colour x vertex colour; masked and blended materials are cut out at alpha_cutoff; single-sided ones are not seen from
-// behind. A clip the avatar does not have is left out. The same input gives the same bytes. `warnings` (may be null) gets
-// one line for each texture that could not be used. Errors: none of the clips, no triangles, an option out of range, an
-// atlas wider or higher than 8192 px, no Blender, whatever Blender complains of (an unreadable texture).
+// Poses avatar.meshes as the runtime does, has one Blender render them, and assembles the atlas.
+// The window is the same for all cells: as high and as wide as the person ever gets, plus the
+// border; the cell's width follows, a multiple of 4. Its heights are measured along the camera's up
+// axis, from the point between the feet. Shows base colour texture x base colour x vertex colour;
+// masked and blended materials are cut out at alpha_cutoff; single-sided ones are not seen from
+// behind. A clip the avatar does not have is left out. The same input gives the same bytes.
+// `warnings` (may be null) gets one line for each texture that could not be used. Errors: none of
+// the clips, no triangles, an option out of range, an atlas wider or higher than 8192 px, no
+// Blender, whatever Blender complains of (an unreadable texture).
 Error BakeImpostor(const Avatar& avatar, const ImpostorOptions& options, ImpostorAtlas* atlas,
                    ImpostorStatistics* statistics, std::vector<std::string>* warnings = nullptr);
 
-// Writes albedo.png, normal.png and impostor.json (the atlas's other fields by their names) into `folder`, which is made
-// where missing. Either all three are replaced or none. Errors: a file in the way, no permission, disk full.
+// Writes albedo.png, normal.png and impostor.json (the atlas's other fields by their names) into
+// `folder`, which is made where missing; nothing in it is touched before all three are complete.
+// Errors: a file in the way, no permission, disk full.
 Error WriteImpostor(const std::filesystem::path& folder, const ImpostorAtlas& atlas);
 
 }  // namespace flaneur

@@ -10,15 +10,16 @@
 
 namespace flaneur {
 
-// Positions and normals stand frame by frame, each frame as long as uvs and colors. glTF axes, metres.
+// Positions and normals stand frame by frame, each frame as long as uvs and colors. glTF axes,
+// metres.
 struct ViewGeometry {
   int frames = 0;
   std::vector<ImpostorClip> clips;
   std::vector<Vec3> positions, normals;
-  std::vector<Vec2> uvs;               // (0, 0) where the mesh has none
-  std::vector<Vec4> colors;            // linear; vertex colour x base colour
-  std::vector<uint32_t> indices;       // triangles
-  std::vector<uint32_t> materials;     // one a triangle, index into ViewMaterials' result
+  std::vector<Vec2> uvs;            // (0, 0) where the mesh has none
+  std::vector<Vec4> colors;         // linear; vertex colour x base colour
+  std::vector<uint32_t> indices;    // triangles
+  std::vector<uint32_t> materials;  // one a triangle, index into ViewMaterials' result
 };
 
 struct ViewMaterial {
@@ -30,15 +31,16 @@ struct ViewMaterial {
 
 // Extent over all frames, directions and elevations, about the point between the feet.
 struct ViewExtent {
-  float half_width_m = 0;       // to either side of the axis
+  float half_width_m = 0;         // to either side of the axis
   float bottom_m = 0, top_m = 0;  // along the camera's up axis
-  float depth_m = 0;            // towards the camera or away from it
+  float depth_m = 0;              // towards the camera or away from it
 };
 
 // One a mesh, in their order. Textures that cannot be used are left out with a warning.
 std::vector<ViewMaterial> ViewMaterials(const Avatar& avatar, std::vector<std::string>* warnings);
 
-// Errors: none of the clips, no triangles, a mesh without normals, a non-finite vertex (names mesh, clip and vertex).
+// Errors: none of the clips, no triangles, a mesh without normals, a non-finite vertex (names mesh,
+// clip and vertex).
 Error PoseFrames(const Avatar& avatar, const std::vector<ImpostorClipOptions>& clips,
                  ViewGeometry* geometry);
 

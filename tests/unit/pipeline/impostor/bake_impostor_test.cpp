@@ -54,14 +54,16 @@ Image SignTexture() {
   pixels.width = pixels.height = 32;
   for (int i = 0; i < 32 * 32; ++i) {
     const uint8_t alpha = i % 32 < 16 ? 255 : 0;
-    pixels.rgba.insert(pixels.rgba.end(), {uint8_t{kSign.r}, uint8_t{kSign.g}, uint8_t{kSign.b}, alpha});
+    pixels.rgba.insert(pixels.rgba.end(),
+                       {uint8_t{kSign.r}, uint8_t{kSign.g}, uint8_t{kSign.b}, alpha});
   }
   Image image;
   EXPECT_FALSE(EncodePng(pixels, true, &image));
   return image;
 }
 
-// A box without lid or floor, and before its front a textured sign with a hole. The only clip stands still.
+// A box without lid or floor, and before its front a textured sign with a hole. The only clip
+// stands still.
 Avatar BoxAvatar() {
   Avatar avatar;
   avatar.name = "box";
@@ -130,8 +132,8 @@ class BoxImpostor : public testing::Test {
   // The texel that shows the point `right_m` of the axis and `up_m` above the ground.
   static const uint8_t* At(const Pixels& pixels, int direction, float right_m, float up_m) {
     const float x = (right_m / atlas_.window_width_m + 0.5f) * float(atlas_.cell_width_px);
-    const float y = (1 - (up_m - atlas_.bottom_m) / atlas_.window_height_m) *
-                    float(atlas_.cell_height_px);
+    const float y =
+        (1 - (up_m - atlas_.bottom_m) / atlas_.window_height_m) * float(atlas_.cell_height_px);
     return Texel(pixels, direction * atlas_.cell_width_px + int(x), int(y));
   }
 
