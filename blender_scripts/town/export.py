@@ -41,7 +41,7 @@ def _image(name, pixels, seed, folder):
     path = os.path.join(folder, name + ".jpg")
     image.filepath_raw = path
     image.file_format = "JPEG"
-    bpy.context.scene.render.image_settings.quality = 88
+    bpy.context.scene.render.image_settings.quality = 82
     image.save()
     bpy.data.images.remove(image)
     loaded = bpy.data.images.load(path)

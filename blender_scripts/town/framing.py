@@ -116,9 +116,10 @@ def storey(mesh, frame, width, height, colors, rng, windows, pattern, corner="br
             if with_shutters:
                 wide = min(wide, 0.62)
                 shutters(mesh, frame, (a + b) / 2, sill_v, wide, tall, colors["shutter"], rng, PROUD)
-            window(mesh, frame, (a + b) / 2, sill_v, wide, tall, colors["frame"], rng, sill=sills,
+            blooming = rng.random() < flowers
+            window(mesh, frame, (a + b) / 2, sill_v, wide, tall, colors["frame"], rng, sill=sills or blooming,
                    casements=2 if wide > 0.7 else 1)
-            if rng.random() < flowers:
+            if blooming:
                 flower_box(mesh, frame, (a + b) / 2, sill_v, wide, rng)
         elif corner == "brace" and i in (0, last) and last > 0:
             s, e = (b, a) if i == 0 else (a, b)
@@ -139,7 +140,7 @@ def rail(mesh, frame, a, b, v, colors, rng):
     beam(mesh, frame, (a, v), (b, v), 0.13, PROUD - 0.004, tone(colors["timber"], rng), rng, step=9)
 
 
-def gable(mesh, frame, width, slope, colors, rng, decorated=True, windows=True, base=0.0):
+def gable(mesh, frame, width, slope, colors, rng, decorated=True, windows=True, base=0.0, flanks=True):
     """The triangle above a wall from u = 0 to width at v = base; slope: rise per metre."""
     peak = width / 2 * slope
     levels = [0.0]
@@ -160,7 +161,8 @@ def gable(mesh, frame, width, slope, colors, rng, decorated=True, windows=True, 
         return
     for index, (low, high) in enumerate(zip(levels, levels[1:])):
         a = low / slope
-        beam(mesh, frame, (a, base + low + 0.09), (width - a, base + low + 0.09), 0.18, PROUD + 0.012, tone(timber, rng), rng)
+        beam(mesh, frame, (a, base + low + 0.09), (width - a, base + low + 0.09), 0.18, PROUD + 0.012, tone(timber, rng), rng,
+             flanks=flanks)
         span = width - 2 * a
         count = max(2, round(span / 1.12))
         if count % 2 == 0 and span > 2.4:
@@ -169,7 +171,8 @@ def gable(mesh, frame, width, slope, colors, rng, decorated=True, windows=True, 
         for u in edges[1:-1]:
             top = min(base + high, base + min(u, width - u) * slope - 0.14)
             if top - base - low > 0.5:
-                beam(mesh, frame, (u, base + low + 0.18), (u, top), POST * 0.9, PROUD, tone(timber, rng), rng)
+                beam(mesh, frame, (u, base + low + 0.18), (u, top), POST * 0.9, PROUD, tone(timber, rng), rng,
+                     flanks=flanks)
         middle = count // 2
         for i, (p, q) in enumerate(zip(edges, edges[1:])):
             head = min(high, min(p, width - q) * slope - 0.1) - low
@@ -189,7 +192,7 @@ def gable(mesh, frame, width, slope, colors, rng, decorated=True, windows=True, 
                 end = foot + (0.75 if side == 0 else -0.75) * min(1.0, top - low - 0.3)
                 if top - low > 0.9:
                     beam(mesh, frame, (end, base + low + 0.18), (foot, base + top), 0.12, PROUD - 0.01, tone(timber, rng),
-                         rng)
+                         rng, flanks=flanks)
 
 
 def bargeboards(mesh, frame, width, slope, over, drop, colors, rng):
@@ -200,10 +203,11 @@ def bargeboards(mesh, frame, width, slope, over, drop, colors, rng):
         beam(mesh, plane, a, b, 0.2, 0.0, colors["barge"], rng, "planks", base=-0.04, ends=True)
 
 
-def jetty(mesh, frame, width, overhang, drop, posts, colors, rng):
+def jetty(mesh, frame, width, overhang, drop, posts, colors, rng, brackets=1):
     """What carries an upper wall that stands `overhang` before the lower one: joist ends, brackets, filling boards.
 
-    frame: the upper wall, its v = 0 at the lower edge of its sill; drop: height of the joists.
+    frame: the upper wall, its v = 0 at the lower edge of its sill; drop: height of the joists; brackets: under every
+    joist (1) or every other one (2).
     """
     timber = colors["timber"]
     lower, upper = -overhang, 0.0
@@ -212,7 +216,7 @@ def jetty(mesh, frame, width, overhang, drop, posts, colors, rng):
         a, b = width * i / cuts, width * (i + 1) / cuts
         mesh.face("timber", [frame.at(a, -drop, lower), frame.at(b, -drop, lower), frame.at(b, 0, upper),
                              frame.at(a, 0, upper)], [(a, 0), (b, 0), (b, 0.5), (a, 0.5)], shade(timber, 0.8))
-    for u in posts:
+    for i, u in enumerate(posts):
         u = min(max(u, 0.1), width - 0.1)
         color = tone(timber, rng)
         a, b = u - 0.085, u + 0.085
@@ -224,6 +228,8 @@ def jetty(mesh, frame, width, overhang, drop, posts, colors, rng):
                   [(0, 0), (overhang, 0), (overhang, drop), (0, drop)], color)
         mesh.face("timber", [f(b, -drop, end), f(b, -drop, lower), f(b, 0, lower), f(b, 0, end)],
                   [(0, 0), (overhang, 0), (overhang, drop), (0, drop)], color)
+        if i % brackets:
+            continue
         side = Frame(frame.at(u - 0.06, -drop, lower), frame.n)   # the bracket seen from the left
         reach, fall = overhang * 0.92, 0.52
         profile = [(0, -fall), (reach * 0.45, -fall * 0.6), (reach, -0.08), (reach, 0.0), (0, 0.0)]

@@ -8,7 +8,7 @@ import plan
 from layout import offset_line
 
 # Name of the shared mesh, height, crown radius, colour, detail.
-TREE_SORTS = [("tree_lime", 8.6, 3.0, "8c9a48", 1.0), ("tree_maple", 9.6, 2.8, "7a8f45", 1.0),
+TREE_SORTS = [("tree_lime", 8.6, 3.0, "8c9a48", 1.5), ("tree_maple", 9.6, 2.8, "7a8f45", 1.2),
               ("tree_apple", 6.4, 2.6, "9aa04f", 0.45), ("tree_elm", 8.8, 3.1, "7f9148", 0.45),
               ("tree_far", 9.5, 3.4, "7f8c50", 0.25)]
 STALLS = [(-10.0, 6.6, 0.0), (-5.4, 6.9, 0.0), (-0.8, 6.7, 0.0), (3.8, 6.9, 0.0), (8.6, 6.6, 0.0),
@@ -44,12 +44,12 @@ def lamps(streets, public):
 def trees(public, plots, rng):
     """(x, y, scale, sort) of trees on the square, in the churchyard, in gardens and outside the wall."""
     spots = [(x, y, 0.85, 0) for x, y in SQUARE_TREES]
-    spots += [(x + rng.uniform(-0.6, 0.6), y + rng.uniform(-0.6, 0.6), rng.uniform(0.9, 1.2), rng.randrange(2))
+    spots += [(x + rng.uniform(-0.6, 0.6), y + rng.uniform(-0.6, 0.6), rng.uniform(0.9, 1.2), 1 if x < 40 else 3)
               for x, y in ((36, 16.0), (46, 15.2), (56, 14.2), (68, 14.5), (73, 31), (70, 46), (57, 47.4), (46, 46.8), (35.5, 47))]
     gardens = []
     for _ in range(2600):
         p = (rng.uniform(-76, 78), rng.uniform(-68, 66))
-        if len(gardens) < 44 and public([p])[0] > 3.6 and plan.distance_to_polygon([p], plan.WALL_RING)[0] < -3.5 \
+        if len(gardens) < 34 and public([p])[0] > 3.6 and plan.distance_to_polygon([p], plan.WALL_RING)[0] < -3.5 \
                 and not any(o.contains([p], 2.6)[0] for o in plots) \
                 and all(math.hypot(p[0] - q[0], p[1] - q[1]) > 4.6 for q in gardens):
             gardens.append(p)

@@ -11,7 +11,7 @@ from mathutils import Vector, geometry
 
 import plan
 from layout import Field, contour, simplify
-from mesh import Mesh, shade, srgb
+from mesh import Mesh, lathe, shade, srgb
 
 UNDER_WALLS_M = 0.5     # the walkable ground goes on this far under the walls
 KERB_STONE_M = 0.2
@@ -136,7 +136,17 @@ def far_land(rng):
         for i in range(count):
             j = (i + 1) % count
             points = [rings[k][i], rings[k + 1][i], rings[k + 1][j], rings[k][j]]
-            wood = radii[k] > 200 and math.sin(i * 1.7 + k * 2.1) > 0.1
-            color = shade(srgb("76805a") if wood else srgb("c4bf98"), rng.uniform(0.85, 1.0))
+            color = shade(srgb("c4bf98"), 0.92 + 0.08 * math.sin(i * 0.9 + k * 1.3))
             mesh.face("grass", points, [(p[0] * 0.2, p[1] * 0.2) for p in points], color)
+    for _ in range(260):
+        t, r = rng.uniform(0, 2 * math.pi), rng.choice((rng.uniform(112, 150), rng.uniform(170, 330), rng.uniform(200, 450)))
+        if math.sin(3 * t + r * 0.02) + math.sin(7 * t - r * 0.011) > -0.2:
+            _copse(mesh, (r * math.cos(t), r * math.sin(t), height(r, t)), rng.uniform(3.0, 5.0) * (0.8 + r / 220), rng)
     return mesh
+
+
+def _copse(mesh, center, radius, rng):
+    """A lump of distant trees."""
+    green = shade(srgb("8d9060"), rng.uniform(0.6, 0.95))
+    profile = [(radius * 1.0, -0.5), (radius * 1.15, radius * 0.45), (radius * 0.75, radius * 0.95), (0.0, radius * 1.2)]
+    lathe(mesh, "leaves", center, profile, 7, green, turn=rng.uniform(0, 6), caps=False)

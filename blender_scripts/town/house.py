@@ -16,7 +16,7 @@ PLASTER = ["f4efe2", "f3ead6", "efe4cc", "ecd6a0", "e8c47c", "dfae62", "e9cfae",
 TIMBER = ["3b2a1f", "4a3122", "57392a", "5e2c23", "6d3427", "4a443d", "5c554b", "2f2723", "71492f", "40302a", "3d4a40"]
 FRAME = ["f4f1e8", "efeade", "f4f1e8", "5a3b28", "e7e0d0", "41584a"]
 DOOR = ["3f5a45", "5b3524", "2f4459", "6e2f27", "4b3a2b", "75543a", "3b4f4c", "7a5a2f"]
-TILE = [(1.0, 0.95, 0.9), (0.92, 0.8, 0.74), (0.74, 0.7, 0.7), (0.62, 0.58, 0.58), (0.85, 0.86, 0.84), (1.0, 0.85, 0.72)]
+TILE = [(1.0, 0.95, 0.9), (0.9, 0.78, 0.72), (0.68, 0.66, 0.68), (0.52, 0.5, 0.52), (0.82, 0.86, 0.86), (0.72, 0.6, 0.54)]
 ACCENT = [("c9a24a", "8f3b2e"), ("b5532f", "3f6b52"), ("d9b765", "3c5c7a"), ("e0d4b4", "7d3328"), ("c46d3a", "2f4f3c")]
 
 
@@ -179,9 +179,9 @@ def upper_floor(house, level):
         house.pattern, house.corner = rng.choice(PATTERNS), rng.choice(("brace", "brace", "man"))
     pattern = house.pattern if level == 1 or rng.random() < 0.5 else rng.choice(PATTERNS)
     storey(mesh, frame, w, house.heights[level], colors, rng, lights, pattern, house.corner, (), edges,
-           flowers=0.12 if level == 1 else 0.04, sills=level == 1)
+           flowers=0.12 if level == 1 else 0.04, sills=False)
     overhang = house.fronts[level - 1] - house.fronts[level]
-    jetty(mesh, frame, w, overhang, DROP, edges, colors, rng)
+    jetty(mesh, frame, w, overhang, DROP, edges, colors, rng, brackets=1 if level == 1 else 2)
     y0, y1, z = house.fronts[level - 1], house.fronts[level], house.bases[level]
     for x, order, open_side in ((0.0, -1, house.left_open), (w, 1, house.right_open)):
         if open_side:
@@ -229,10 +229,11 @@ def rough_frame(house, frame, length, height, plaster=True):
         panel(house.mesh, "plaster", frame, 0, length, 0, height, colors["plaster"], step=2.6)
     count = max(2, round(length / 1.9))
     for v in (0.1, height * 0.5, height - 0.1):
-        beam(house.mesh, frame, (0, v), (length, v), 0.18, 0.03, tone(colors["timber"], rng), rng, step=9)
+        beam(house.mesh, frame, (0, v), (length, v), 0.18, 0.03, tone(colors["timber"], rng), rng, step=9, flanks=False)
     for i in range(count + 1):
         u = min(max(0.09, length * i / count), length - 0.09)
-        beam(house.mesh, frame, (u, 0.2), (u, height - 0.2), 0.16, 0.026, tone(colors["timber"], rng), rng, step=9)
+        beam(house.mesh, frame, (u, 0.2), (u, height - 0.2), 0.16, 0.026, tone(colors["timber"], rng), rng, step=9,
+             flanks=False)
 
 
 def cover(house):
@@ -249,7 +250,8 @@ def cover(house):
         front = Frame((0, y0, z), (1, 0, 0))
         gable(mesh, front, w, slope, colors, rng)
         bargeboards(mesh, front, w, slope, 0.34, 0.16, colors, rng)
-        gable(mesh, Frame((w, d, z), (-1, 0, 0)), w, slope, colors, rng, decorated=house.back_open, windows=False)
+        gable(mesh, Frame((w, d, z), (-1, 0, 0)), w, slope, colors, rng, decorated=house.back_open, windows=False,
+              flanks=False)
         ridge_x, ridge_y, rise = w / 2, rng.uniform(0.45, 0.75) * d, w / 2 * slope
         chimney(mesh, ridge_x + rng.choice((-0.7, 0.7)), ridge_y, z + rise - 2.0, z + rise + rng.uniform(0.5, 1.0), rng)
         return
@@ -258,7 +260,7 @@ def cover(house):
     gable_roof(mesh, lambda l, s, h: (l, y0 + s, h), w, span, z, slope, 0.36, verge, tint, timber, rng)
     for frame, is_open, seen in ((Frame((w, y0, z), (0, 1, 0)), house.right_open, house.right_seen),
                                  (Frame((0, d, z), (0, -1, 0)), house.left_open, house.left_seen)):
-        gable(mesh, frame, span, slope, colors, rng, decorated=is_open, windows=seen)
+        gable(mesh, frame, span, slope, colors, rng, decorated=is_open, windows=seen, flanks=seen)
         if is_open:
             bargeboards(mesh, frame, span, slope, 0.24, 0.2, colors, rng)
     rise = span / 2 * slope

@@ -133,8 +133,12 @@ def _upright(uvs):
     return [(0.03 + 0.2 * (v - 0.03), u) for u, v in uvs]
 
 
-def beam(mesh, frame, a, b, width, proud, color, rng, material="timber", ends=False, base=0.0, step=2.6):
-    """A timber on a wall from a to b (wall coordinates of its axis): its face and flanks, no back."""
+def beam(mesh, frame, a, b, width, proud, color, rng, material="timber", ends=False, base=0.0, step=2.6,
+         flanks=True):
+    """A timber on a wall from a to b (wall coordinates of its axis): its face and flanks, no back.
+
+    Flanks that only somebody above could see are left out where the wall itself stands above eye height.
+    """
     du, dv = b[0] - a[0], b[1] - a[1]
     length = math.hypot(du, dv)
     if length < 0.02:
@@ -144,6 +148,7 @@ def beam(mesh, frame, a, b, width, proud, color, rng, material="timber", ends=Fa
     shift, across, along = rng.random() * 7.0, rng.random() * 7.0, list
     if material == "planks":        # a single board: its grain runs along v, and no joint crosses it
         across, along = 0.03, _upright
+    high_up = frame.o[2] > 2.0 and base == 0.0 and proud < 0.06
     pieces = max(1, math.ceil(length / step - 0.2))
     for i in range(pieces):
         s, e = length * i / pieces, length * (i + 1) / pieces
@@ -156,10 +161,10 @@ def beam(mesh, frame, a, b, width, proud, color, rng, material="timber", ends=Fa
         mesh.face(material, [f(*low0, proud), f(*low1, proud), f(*top1, proud), f(*top0, proud)],
                   along([(grain0, across), (grain1, across), (grain1, across + width), (grain0, across + width)]), color)
         flank = along([(grain0, across), (grain1, across), (grain1, across + 0.04), (grain0, across + 0.04)])
-        mesh.face(material, [f(*low0, base), f(*low1, base), f(*low1, proud), f(*low0, proud)], flank, color)
-        if du == 1.0 and base == 0.0 and material == "timber":
-            continue   # the upper side of a rail is seen by nobody
-        mesh.face(material, [f(*top1, base), f(*top0, base), f(*top0, proud), f(*top1, proud)], flank, color)
+        if flanks and not (high_up and du < -0.3):
+            mesh.face(material, [f(*low0, base), f(*low1, base), f(*low1, proud), f(*low0, proud)], flank, color)
+        if flanks and not (high_up and du > 0.3):
+            mesh.face(material, [f(*top1, base), f(*top0, base), f(*top0, proud), f(*top1, proud)], flank, color)
     if ends:
         low, top = (a[0] - su, a[1] - sv), (a[0] + su, a[1] + sv)
         mesh.face(material, [f(*top, base), f(*low, base), f(*low, proud), f(*top, proud)],

@@ -56,7 +56,7 @@ def sack(mesh, x, y, z, rng):
 def make_stall(rng):
     """A market stall, its counter towards -y; about 3 m wide and 2.2 m deep."""
     mesh = Mesh()
-    w, d, high, low = 3.0, 1.9, 2.75, 2.3
+    w, d, high, low = 3.0, 1.9, 2.95, 2.5
     wood = rng.choice(WOOD)
     for x in (-w / 2, w / 2):
         for y, top in ((-d / 2, low), (d / 2, high)):

@@ -112,7 +112,7 @@ def _stones(size, distance, label, rng, palette, joint, joint_color, soft, bump,
     height = top * (0.8 + 0.35 * rough)
     count = int(label.max()) + 1
     pick = rng.randint(0, len(palette), count)
-    tone = 0.8 + 0.36 * rng.rand(count)
+    tone = 0.85 + 0.28 * rng.rand(count)
     stone = np.array(palette)[pick][label] * tone[label][..., None]
     stone = stone * (1 - grain / 2 + grain * rough)[..., None]
     dirt = _fractal(rng, size, 5, 4)
@@ -154,8 +154,8 @@ def paving(size, seed):
     wave = (_fractal(rng, size, 8, 3) - 0.5) * 0.012
     jx, jy, label = _bricks(rng, (x + wave) % 1, (y + np.roll(wave, size // 3, 0)) % 1, 6, 8, 0.5)
     distance = np.minimum(jx, jy) * 40
-    palette = [(0.50, 0.47, 0.42), (0.46, 0.44, 0.41), (0.54, 0.50, 0.44), (0.48, 0.44, 0.38), (0.43, 0.42, 0.40)]
-    color = _stones(size, distance, label, rng, palette, 0.11, (0.30, 0.285, 0.24), 0.16, bump=1.4, grain=0.4)
+    palette = [(0.50, 0.47, 0.42), (0.48, 0.46, 0.42), (0.53, 0.495, 0.44), (0.49, 0.455, 0.40), (0.46, 0.445, 0.42)]
+    color = _stones(size, distance, label, rng, palette, 0.11, (0.29, 0.275, 0.23), 0.2, bump=0.9, grain=0.42)
     wear = _fractal(rng, size, 64, 3)
     return color * (0.9 + 0.2 * wear)[..., None]
 
@@ -168,7 +168,7 @@ def stone(size, seed):
     jx, jy, label = _bricks(rng, (x + wave) % 1, (y + np.roll(wave, size // 4, 1) * 0.8) % 1, 6, 10, 0.62)
     distance = np.minimum(jx, jy) * 40
     palette = [(0.74, 0.69, 0.60), (0.69, 0.65, 0.58), (0.78, 0.72, 0.61), (0.66, 0.63, 0.58), (0.72, 0.65, 0.55)]
-    color = _stones(size, distance, label, rng, palette, 0.09, (0.58, 0.545, 0.48), 0.16, bump=1.5, grain=0.5)
+    color = _stones(size, distance, label, rng, palette, 0.09, (0.55, 0.515, 0.45), 0.2, bump=0.9, grain=0.5)
     stain = _step(0.5, 0.75, _fractal(rng, size, (6, 3), 5))
     return color * (1 - 0.22 * stain)[..., None]
 
@@ -259,8 +259,8 @@ def grass(size, seed):
     tuft = _fractal(rng, size, 20, 4)
     patch = _fractal(rng, size, 4, 5)
     value = 0.35 + 0.9 * (blades - 0.45) + 0.35 * (tuft - 0.5)
-    green = _mix(np.broadcast_to(_rgb(0.27, 0.37, 0.13), (size, size, 3)),
-                 np.broadcast_to(_rgb(0.44, 0.46, 0.20), (size, size, 3)), _step(0.4, 0.7, patch))
+    green = _mix(np.broadcast_to(_rgb(0.33, 0.37, 0.19), (size, size, 3)),
+                 np.broadcast_to(_rgb(0.47, 0.46, 0.26), (size, size, 3)), _step(0.4, 0.7, patch))
     color = green * (0.55 + 1.1 * np.clip(value, 0, 1))[..., None]
     earth = _step(0.68, 0.8, _fractal(rng, size, 6, 5)) * (1 - _step(0.5, 0.7, tuft))
     return _mix(color, _rgb(0.36, 0.30, 0.2) * (0.6 + 0.8 * blades)[..., None], 0.7 * earth)
@@ -311,7 +311,7 @@ def glass(size, seed):
     lead = np.minimum(np.minimum(fx, 1 - fx) / across, np.minimum(fy, 1 - fy) / up)
     tilt = rng.rand(up, across)[row % up, column % across]
     ripple = _fractal(rng, size, 10, 3)
-    sky = np.clip(0.12 + 0.34 * tilt * (0.5 + fy) + 0.22 * (ripple - 0.5), 0.04, 1)
+    sky = np.clip(0.13 + 0.17 * tilt * (0.5 + fy) + 0.20 * (ripple - 0.5), 0.04, 1)
     color = sky[..., None] * _rgb(0.82, 0.9, 0.94) + _rgb(0.03, 0.032, 0.032)
     warm = (rng.rand(up, across) > 0.86)[row % up, column % across]
     color = np.where(warm[..., None], color * 0.6 + _rgb(0.16, 0.12, 0.07), color)
