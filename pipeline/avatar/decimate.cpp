@@ -226,8 +226,7 @@ Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLeve
     if (target < original) {
       if (!decimater) decimater = std::make_unique<QuadricDecimater>(DecimationPoses(avatar));
       const int most = static_cast<int>((1 + kTargetTolerance) * static_cast<float>(target));
-      decimater->DecimateTo(target, false);
-      if (decimater->Triangles() > most) decimater->DecimateTo(target, true);
+      decimater->DecimateTo(target);
       if (decimater->Triangles() > most) {
         warnings->push_back("avatar '" + OneLine(avatar.name) + "': a level has " +
                             std::to_string(decimater->Triangles()) + " triangles instead of " +

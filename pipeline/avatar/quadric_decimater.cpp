@@ -32,7 +32,6 @@ struct Surface {
   WedgeSurface wedges;                        // faces by OpenMesh's face index
   const std::vector<Mesh>* meshes = nullptr;  // the bind pose's
   std::vector<std::vector<OpenMesh::Vec3d>> positions;  // by pose and vertex
-  bool cross_seams = false;
 };
 
 int WedgeAt(const Surface& surface, int face, int vertex) {
@@ -82,7 +81,8 @@ float NormalAgreement(const Surface& surface, int a, int b) {
   return Dot(mesh.normals[VertexOf(surface, a)], MeshOf(surface, b).normals[VertexOf(surface, b)]);
 }
 
-// The priority of a collapse is its quadric error over all poses; illegal where a seam would tear.
+// The priority of a collapse is its quadric error over all poses, and the shift of the picture where a corner leaves
+// its uv seam; illegal where a border of materials would tear.
 template <typename MeshType>
 class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
  public:
@@ -143,13 +143,14 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
     for (const int v : vertices) quadrics_[pose][static_cast<size_t>(v)] += plane;
   }
 
+  // Weights are lengths: by area the large faces would leave nothing of a hand, with equal ones of a coat.
   void AddFace(int face) {
     const auto& v = surface_->wedges.faces[static_cast<size_t>(face)].vertices;
     for (size_t pose = 0; pose < quadrics_.size(); ++pose) {
       const auto& p = surface_->positions[pose];
       const auto a = p[static_cast<size_t>(v[0])];
       const auto normal = (p[static_cast<size_t>(v[1])] - a) % (p[static_cast<size_t>(v[2])] - a);
-      AddPlane(pose, normal, a, normal.norm() / 2, {v[0], v[1], v[2]});
+      AddPlane(pose, normal, a, std::sqrt(normal.norm() / 2), {v[0], v[1], v[2]});
     }
   }
 
@@ -170,7 +171,7 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
         const auto at = [&](int i) { return p[static_cast<size_t>(i)]; };
         const auto normal = (at(v[1]) - at(v[0])) % (at(v[2]) - at(v[0]));
         const auto along = at(b) - at(a);
-        AddPlane(pose, along % normal, at(a), kSeamWeight * along.sqrnorm(), {a, b});
+        AddPlane(pose, along % normal, at(a), kSeamWeight * along.norm(), {a, b});
       }
     }
   }
@@ -220,7 +221,7 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
       int w1 = continued;
       if (continued >= 0 && !exact) w1 = Nearest(info, continued, w0);
       if (continued < 0) {
-        w1 = surface_->cross_seams ? Nearest(info, -1, w0) : -1;
+        w1 = Nearest(info, -1, w0);
         if (w1 < 0) {
           // Only reached without legality where a neighbour changed in between: the corner stays where it was.
           moved_.emplace_back(face.idx(), w0);
@@ -326,10 +327,9 @@ int QuadricDecimater::Triangles() const {
   return count;
 }
 
-void QuadricDecimater::DecimateTo(int triangles, bool cross_seams) {
+void QuadricDecimater::DecimateTo(int triangles) {
   const int surplus = Triangles() - triangles;
   if (surplus <= 0) return;
-  impl_->surface.cross_seams = cross_seams;
   // OpenMesh counts faces with the deleted ones of earlier calls.
   const auto all = static_cast<int>(impl_->mesh.n_faces());
   impl_->decimater->decimate_to_faces(0, static_cast<size_t>(std::max(all - surplus, 0)));

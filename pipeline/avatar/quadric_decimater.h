@@ -16,9 +16,8 @@ class QuadricDecimater {
 
   int Triangles() const;
 
-  // Collapses edges, cheapest first, until at most `triangles` are left or no edge may be collapsed. Where
-  // `cross_seams`, a vertex on a uv seam may also leave its seam, at a price; borders of materials always stay.
-  void DecimateTo(int triangles, bool cross_seams);
+  // Collapses edges, cheapest first, until at most `triangles` are left or no edge may be collapsed.
+  void DecimateTo(int triangles);
 
   // What is left, as parts of the first pose's meshes: same order, materials and attributes.
   std::vector<Mesh> Meshes() const;

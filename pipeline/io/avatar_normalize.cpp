@@ -10,6 +10,7 @@ namespace {
 constexpr float kDefaultHeight_m = 1.75f;
 constexpr float kLeastHeight_m = 0.5f, kGreatestHeight_m = 2.3f;  // kept as they are in between
 constexpr float kDefaultSpeed_mps = 1.3f;                         // of an adult, where nothing tells
+constexpr float kLeastSpeed_mps = 0.2f;                           // slower is not a walk
 constexpr float kTravel = 0.05f;           // of the height: more than sway, so the root travels
 constexpr float kSole = 0.015f;            // of the height: how near the ground a standing sole is
 constexpr float kBlendedShare = 0.25f;     // of a clip that does not loop
@@ -168,11 +169,15 @@ std::vector<std::vector<Vec3>> BodyOverClip(const Avatar& avatar, const Clip& cl
   return keys;
 }
 
+float LowestOf(const std::vector<Vec3>& points) {
+  float lowest = 1e30f;
+  for (const Vec3 p : points) lowest = std::min(lowest, p.y);
+  return lowest;
+}
+
 float Lowest(const std::vector<std::vector<Vec3>>& keys) {
   float lowest = 1e30f;
-  for (const auto& positions : keys) {
-    for (const Vec3 p : positions) lowest = std::min(lowest, p.y);
-  }
+  for (const auto& positions : keys) lowest = std::min(lowest, LowestOf(positions));
   return lowest;
 }
 
@@ -188,6 +193,7 @@ std::vector<Vec3> Trunk(const std::vector<std::vector<Vec3>>& keys, float ground
   return trunk;
 }
 
+// Of x and of z; y is 0.
 Vec3 MedianOf(const std::vector<Vec3>& points) {
   std::vector<float> x, z;
   for (const Vec3 p : points) {
@@ -245,64 +251,95 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
   return Ok();
 }
 
+// The rotation b, then a.
+Quat Product(Quat a, Quat b) {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+          a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
+          a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+// Turns the figure about the vertical by the quarter that brings its walk nearest to +Z.
+void TurnToFace(Vec3 walk_mps, Avatar* avatar, Mesh* body, std::vector<std::string>* warnings) {
+  const float away_rad = std::atan2(walk_mps.x, walk_mps.z);
+  const float quarters = std::round(away_rad / (kPi / 2));
+  if (quarters == 0) return;
+  const float half_rad = -quarters * kPi / 4;
+  const Quat turn{0, std::sin(half_rad), 0, std::cos(half_rad)};
+  const Mat4 matrix = FromTranslationRotationScale({}, turn, {1, 1, 1});
+  const auto turn_mesh = [&](Mesh* mesh) {
+    for (Vec3& p : mesh->positions) p = TransformPoint(matrix, p);
+    for (Vec3& n : mesh->normals) n = TransformDirection(matrix, n);
+  };
+  for (Mesh& mesh : avatar->meshes) turn_mesh(&mesh);
+  turn_mesh(body);
+  const auto turn_root = [&](Transform* t) {
+    t->translation = TransformPoint(matrix, t->translation);
+    t->rotation = Normalized(Product(turn, t->rotation));
+  };
+  const size_t joints = avatar->joints.size();
+  for (size_t j = 0; j < joints; ++j) {
+    avatar->joints[j].inverse_bind = avatar->joints[j].inverse_bind * Inverse(matrix);
+    if (avatar->joints[j].parent >= 0) continue;
+    turn_root(&avatar->joints[j].rest);
+    for (Clip& clip : avatar->clips) {
+      for (size_t i = j; i < clip.transforms.size(); i += joints) turn_root(&clip.transforms[i]);
+    }
+  }
+  char degrees[16];
+  std::snprintf(degrees, sizeof degrees, "%.0f", static_cast<double>(-quarters * 90));
+  warnings->push_back("the walk does not go towards +Z; the figure is turned by " +
+                      std::string(degrees) + " degrees");
+}
+
 // The first that is known: told by the source, the root's travel, the soles.
-void SetWalkSpeed(float told_mps, Vec3 travel_mps, const Mesh& body, Avatar* avatar,
+void SetWalkSpeed(float told_mps, Vec3 walk_mps, Avatar* avatar,
                   std::vector<std::string>* warnings) {
-  const float usual = kDefaultSpeed_mps * std::sqrt(avatar->height_m / kDefaultHeight_m);
-  const float travelled = Length(travel_mps);
-  avatar->walk_speed_mps = told_mps;
-  if (travelled > 0 && travel_mps.z < 0.7f * travelled) {
-    warnings->push_back("the walk does not go towards +Z; turn the figure to face +Z");
-  }
-  if (avatar->walk_speed_mps <= 0) avatar->walk_speed_mps = travelled;
-  if (avatar->walk_speed_mps <= 0) {
-    avatar->walk_speed_mps = MeasureWalkSpeed(*avatar, *FindClip(*avatar, "walk"), body);
-  }
-  if (avatar->walk_speed_mps > 0.1f) return;
-  warnings->push_back("the walk's speed cannot be told from its soles; " + Metres(usual) +
-                      " m/s is taken");
-  avatar->walk_speed_mps = usual;
+  avatar->walk_speed_mps = told_mps > 0 ? told_mps : Length(walk_mps);
+  if (avatar->walk_speed_mps > kLeastSpeed_mps) return;
+  avatar->walk_speed_mps = kDefaultSpeed_mps * std::sqrt(avatar->height_m / kDefaultHeight_m);
+  warnings->push_back("the walk's speed cannot be told from its soles; " +
+                      Metres(avatar->walk_speed_mps) + " m/s is taken");
 }
 
 }  // namespace
 
-float MeasureWalkSpeed(const Avatar& avatar, const Clip& walk, const Mesh& body) {
+Vec3 MeasureWalk(const Avatar& avatar, const Clip& walk, const Mesh& body) {
   const auto keys = BodyOverClip(avatar, walk, body);
-  if (keys.size() < 3) return 0;
+  if (keys.size() < 3) return {};
   const float step_s = walk.duration_s / static_cast<float>(keys.size());
-  std::vector<float> speeds;
+  std::vector<Vec3> votes;  // one a key, so that a moment with a flat sole does not outweigh the rest
   for (size_t k = 0; k < keys.size(); ++k) {
     const auto& now = keys[k];
     const auto& next = keys[(k + 1) % keys.size()];
-    float ground = 1e30f, next_ground = 1e30f;
-    for (const Vec3 p : now) ground = std::min(ground, p.y);
-    for (const Vec3 p : next) next_ground = std::min(next_ground, p.y);
-    std::vector<float> backward;
+    const float ground = LowestOf(now), next_ground = LowestOf(next);
+    std::vector<Vec3> backward;
     for (size_t i = 0; i < now.size(); ++i) {
       const bool stands = now[i].y < ground + kSole * avatar.height_m &&
                           next[i].y < next_ground + kSole * avatar.height_m;
-      if (stands) backward.push_back((now[i].z - next[i].z) / step_s);
+      if (stands) backward.push_back((now[i] - next[i]) * (1 / step_s));
     }
-    // One vote a key, so that a moment with a flat sole does not outweigh the rest.
-    if (!backward.empty()) speeds.push_back(Median(std::move(backward)));
+    if (!backward.empty()) votes.push_back(MedianOf(backward));
   }
-  return std::max(Median(std::move(speeds)), 0.0f);
+  return MedianOf(votes);
 }
 
 Error NormalizeAvatar(const NormalizeOptions& options, Mesh body, Avatar* avatar,
                       std::vector<std::string>* warnings) {
   float scale = 1;
   if (Error e = ScaleToHeight(options, avatar, &body, &scale, warnings)) return e;
-  Vec3 walk_travel_mps;
+  Vec3 walk_mps;
   for (Clip& clip : avatar->clips) {
     const Vec3 travel_mps = RemoveTravel(*avatar, avatar->height_m, &clip);
-    if (clip.name == "walk") walk_travel_mps = travel_mps;
+    if (clip.name == "walk") walk_mps = travel_mps;
     MakeLoop(*avatar, &clip, warnings);
   }
-  PlaceClips(body, avatar);
   const Clip& walk = *FindClip(*avatar, "walk");
+  if (!(Length(walk_mps) > 0)) walk_mps = MeasureWalk(*avatar, walk, body);
+  if (Length(walk_mps) > kLeastSpeed_mps) TurnToFace(walk_mps, avatar, &body, warnings);
+  PlaceClips(body, avatar);
   avatar->radius_m = TrunkRadius(*avatar, walk, body);
-  SetWalkSpeed(options.walk_speed_mps * scale, walk_travel_mps, body, avatar, warnings);
+  SetWalkSpeed(options.walk_speed_mps * scale, walk_mps, avatar, warnings);
   return Ok();
 }
 

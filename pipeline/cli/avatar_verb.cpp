@@ -1,0 +1,153 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "pipeline/avatar/decimate.h"
+#include "pipeline/cli/verbs.h"
+#include "pipeline/io/gltf.h"
+#include "runtime/base/file.h"
+
+namespace flaneur {
+namespace {
+
+struct AvatarArguments {
+  std::filesystem::path input, output, json;
+  ReadAvatarOptions read;
+  LevelsOptions levels;
+  DracoOptions draco;
+  bool plain = false;
+};
+
+void AddFiles(CLI::App* app, AvatarArguments* a) {
+  app->add_option("IN", a->input, "The person: a glTF file with a skin and a walk clip")
+      ->required();
+  app->add_option("-o,--output", a->output, "The glTF binary to write")->required();
+  app->add_option("--json", a->json, "Also write the levels' numbers to this JSON file");
+  app->option_defaults()->always_capture_default();
+}
+
+void AddPerson(CLI::App* app, AvatarArguments* a) {
+  const std::string person = "Person";
+  app->add_option("--name", a->read.name, "Name of the person; empty: the file's")->group(person);
+  app->add_option("--walk", a->read.walk, "Name of the walk clip in the file; empty: found by itself")
+      ->group(person);
+  app->add_option("--idle", a->read.idle, "Name of the idle clip")->group(person);
+  app->add_option("--talk", a->read.talk, "Name of the talk clip")->group(person);
+  app->add_option("--height", a->read.height_m,
+                  "Metres to scale the person to; 0: as it is, or 1.75 where that is no person's height")
+      ->check(CLI::Range(0.0, 10.0))->group(person);
+  app->add_option("--hide", a->read.hide,
+                  "Names of nodes left out with what hangs on them, separated by commas")
+      ->delimiter(',')->group(person);
+}
+
+void AddLevels(CLI::App* app, AvatarArguments* a) {
+  const std::string levels = "Levels";
+  app->add_option("--ratios", a->levels.ratios,
+                  "Share of the triangles in each level, falling, separated by commas")
+      ->delimiter(',')->check(CLI::Range(0.0, 1.0))->group(levels);
+  app->add_option("--max-triangles", a->levels.max_triangles,
+                  "Most triangles of the finest level; 0: no limit")
+      ->check(CLI::NonNegativeNumber)->group(levels);
+  app->add_option("--min-triangles", a->levels.min_triangles, "Fewest triangles of a level")
+      ->check(CLI::PositiveNumber)->group(levels);
+}
+
+void AddCompression(CLI::App* app, AvatarArguments* a) {
+  const std::string compression = "Compression";
+  app->add_flag("--no-draco", a->plain, "Write plain meshes, for programs without Draco")
+      ->group(compression);
+  app->add_option("--position-bits", a->draco.position_bits, "Bits of a position's component")
+      ->check(CLI::Range(8, 24))->group(compression);
+  app->add_option("--normal-bits", a->draco.normal_bits, "Bits of a normal")
+      ->check(CLI::Range(4, 16))->group(compression);
+  app->add_option("--uv-bits", a->draco.uv_bits, "Bits of a texture coordinate's component")
+      ->check(CLI::Range(6, 20))->group(compression);
+}
+
+nlohmann::json Statistics(const AvatarLevels& levels, double seconds) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const AvatarLevel& level : levels.levels) {
+    list.push_back({{"triangles", level.triangles},
+                    {"error_mm", level.error_mm},
+                    {"posed_error_mm", level.posed_error_mm},
+                    {"switch_px", level.switch_px}});
+  }
+  const Avatar& avatar = levels.avatar;
+  nlohmann::json clips = nlohmann::json::array();
+  for (const Clip& clip : avatar.clips) {
+    clips.push_back({{"name", clip.name}, {"duration_s", clip.duration_s}});
+  }
+  return {{"version", 1},
+          {"item", avatar.name},
+          {"seconds", seconds},
+          {"height_m", avatar.height_m},
+          {"radius_m", avatar.radius_m},
+          {"walk_speed_mps", avatar.walk_speed_mps},
+          {"joints", avatar.joints.size()},
+          {"clips", clips},
+          {"levels", list}};
+}
+
+Error Run(AvatarArguments a, AvatarLevels* levels, std::vector<std::string>* warnings) {
+  const auto start = std::chrono::steady_clock::now();
+  Avatar avatar;
+  if (Error e = ReadAvatar(a.input, a.read, &avatar, warnings)) return e;
+  if (Error e = BuildLevels(avatar, a.levels, levels, warnings)) return e;
+  a.draco.compress = !a.plain;
+  if (Error e = WriteAvatarGlb(a.output, *levels, a.draco)) return e;
+  if (a.json.empty()) return Ok();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  return WriteTextFile(a.json, Statistics(*levels, seconds.count()).dump(2) + "\n");
+}
+
+void PrintSummary(const AvatarArguments& a, const AvatarLevels& levels) {
+  const Avatar& avatar = levels.avatar;
+  std::printf("%s: %.2f m high, %zu joints, walks at %.2f m/s\n", a.output.c_str(),
+              static_cast<double>(avatar.height_m), avatar.joints.size(),
+              static_cast<double>(avatar.walk_speed_mps));
+  std::printf("level  triangles  error mm  posed mm  needed from px\n");
+  for (size_t k = 0; k < levels.levels.size(); ++k) {
+    const AvatarLevel& level = levels.levels[k];
+    std::printf("%5zu  %9d  %8.2f  %8.2f  %14.0f\n", k, level.triangles,
+                static_cast<double>(level.error_mm), static_cast<double>(level.posed_error_mm),
+                static_cast<double>(level.switch_px));
+  }
+}
+
+}  // namespace
+
+int RunAvatar(const Arguments& args) {
+  CLI::App app("Reduces a person to a chain of levels of detail and writes them as one compressed "
+               "glTF binary with skeleton and clips.", "flaneur avatar");
+  AvatarArguments arguments;
+  AddFiles(&app, &arguments);
+  AddPerson(&app, &arguments);
+  AddLevels(&app, &arguments);
+  AddCompression(&app, &arguments);
+  try {
+    app.parse(Arguments(args.rbegin(), args.rend()));
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "flaneur: error: avatar: %s; see flaneur avatar --help\n", error.what());
+    return 2;
+  }
+  AvatarLevels levels;
+  std::vector<std::string> warnings;
+  const Error error = Run(arguments, &levels, &warnings);
+  for (const std::string& warning : warnings) {
+    std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
+  }
+  if (error) {
+    std::fprintf(stderr, "flaneur: error: %s\n", error.message.c_str());
+    return 2;
+  }
+  PrintSummary(arguments, levels);
+  return 0;
+}
+
+}  // namespace flaneur
