@@ -20,6 +20,7 @@ constexpr double kBlockReach_m = 0.1;      // houses nearer than this are looked
 constexpr double kRoofedShare = 0.5;       // of a region's area must lie under something
 constexpr double kSmallestPiece_m2 = 0.01; // what clipping leaves over that is smaller is dropped
 constexpr double kSmallestGap_m2 = 0.01;   // of a block that no single house accounts for
+constexpr double kOpenShell_m = 1.0;       // of wall without anything solid beside it, in a building
 constexpr double kThinWall_m = 0.001;      // half the thickness of a wall without any, before the clearance
 
 // An object's part in the band.
@@ -223,6 +224,12 @@ Error CheckOptions(const FootprintOptions& options) {
   return Ok();
 }
 
+double LooseLength(const Shape& shape) {
+  double length = 0;
+  for (const Segment& s : Outside(shape.loose, Offset(shape.solid, 0.002))) length += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
+  return length;
+}
+
 void MergeBlock(const std::vector<size_t>& block, std::vector<Shape>* shapes) {
   Shape& first = (*shapes)[block[0]];
   for (size_t k = 1; k < block.size(); ++k) {
@@ -282,6 +289,10 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   std::vector<Rings> enlarged;
   for (const Shape& shape : shapes) enlarged.push_back(Enlarged(site, shape));
   Separate(shapes, &enlarged);
+
+  for (size_t i = 0; i < shapes.size(); ++i)
+    if (town.obstacles[i].kind == ObstacleKind::kBuilding && LooseLength(shapes[i]) > kOpenShell_m)
+      counts.open_shells.push_back(town.obstacles[i].name);
 
   NameGiver names;
   for (size_t i = 0; i < shapes.size(); ++i) {

@@ -26,6 +26,7 @@ struct FootprintStats {
   int segments = 0;           // wall lines in the band
   int obstacles = 0;
   double covered_m2 = 0;      // without circles
+  std::vector<std::string> open_shells;  // buildings with walls that enclose nothing: the obstacle may lack something
 };
 
 // What reaches into the band over the ground below it blocks. Eaves and storeys above the band do not; arcades and

@@ -85,6 +85,9 @@ Ring SimplifyRing(const Ring& ring, double tolerance_m) {
   return out;
 }
 
+// Of the index, one metre.
+int64_t IndexCell(double v) { return static_cast<int64_t>(std::floor(v)); }
+
 void AddPolygons(const cl::PolyNode& node, std::vector<Polygon>* out) {
   for (const cl::PolyNode* outer : node.Childs) {
     Polygon polygon{ToRing(outer->Contour), {}};
@@ -124,6 +127,15 @@ Rings UnionOfRings(const Rings& rings) {
   cl::Clipper clipper;
   clipper.StrictlySimple(true);
   clipper.AddPaths(paths, cl::ptSubject, true);
+  cl::Paths out;
+  clipper.Execute(cl::ctUnion, out, cl::pftNonZero, cl::pftNonZero);
+  return ToRings(out);
+}
+
+Rings UnionOfAreas(const Rings& rings) {
+  cl::Clipper clipper;
+  clipper.StrictlySimple(true);
+  clipper.AddPaths(ToPaths(rings), cl::ptSubject, true);
   cl::Paths out;
   clipper.Execute(cl::ctUnion, out, cl::pftNonZero, cl::pftNonZero);
   return ToRings(out);
@@ -217,6 +229,38 @@ double DistanceToBoundary(const Rings& rings, Point2 p) {
     for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
       nearest = std::min(nearest, DistanceToSegment(p, ring[j], ring[i]));
   return nearest;
+}
+
+AreaIndex::AreaIndex(Rings rings, double reach_m) : rings_(std::move(rings)), reach_m_(reach_m) {
+  for (const Ring& ring : rings_) {
+    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const Segment s{ring[j], ring[i]};
+      const auto [low, high] = std::minmax(s.a.y, s.b.y);
+      const auto [left, right] = std::minmax(s.a.x, s.b.x);
+      for (int64_t y = IndexCell(low - reach_m_); y <= IndexCell(high + reach_m_); ++y) {
+        rows_[y].push_back(s);
+        for (int64_t x = IndexCell(left - reach_m_); x <= IndexCell(right + reach_m_); ++x)
+          cells_[x * 1'000'003 + y].push_back(s);
+      }
+    }
+  }
+}
+
+bool AreaIndex::Inside(Point2 p) const {
+  const auto found = rows_.find(IndexCell(p.y));
+  if (found == rows_.end()) return false;
+  bool inside = false;
+  for (const auto& [a, b] : found->second)
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+  return inside;
+}
+
+double AreaIndex::Depth(Point2 p) const {
+  double nearest = reach_m_;
+  const auto found = cells_.find(IndexCell(p.x) * 1'000'003 + IndexCell(p.y));
+  if (found != cells_.end())
+    for (const Segment& s : found->second) nearest = std::min(nearest, DistanceToSegment(p, s.a, s.b));
+  return Inside(p) ? nearest : -nearest;
 }
 
 }  // namespace flaneur

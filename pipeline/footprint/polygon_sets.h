@@ -1,5 +1,7 @@
 // Boolean operations, offsets and simplification of polygons on a grid of 0.01 mm.
 #pragma once
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "pipeline/core/footprint.h"
@@ -18,6 +20,8 @@ double Area(const Rings& rings);
 Rings Union(const Rings& a, const Rings& b);
 // The union of rings that overlap, each filled whatever its orientation.
 Rings UnionOfRings(const Rings& rings);
+// The union of areas whose rings are listed one after the other: outer rings anticlockwise, holes clockwise.
+Rings UnionOfAreas(const Rings& rings);
 Rings Intersection(const Rings& a, const Rings& b);
 Rings Difference(const Rings& a, const Rings& b);
 
@@ -39,5 +43,20 @@ bool Contains(const Ring& ring, Point2 p);
 bool Contains(const Rings& rings, Point2 p);
 double DistanceToSegment(Point2 p, Point2 a, Point2 b);
 double DistanceToBoundary(const Rings& rings, Point2 p);
+
+// Fast answers about one area with many corners.
+class AreaIndex {
+ public:
+  AreaIndex(Rings rings, double reach_m);
+  const Rings& rings() const { return rings_; }
+  bool Inside(Point2 p) const;
+  // The distance to the boundary, at most reach_m; negative outside.
+  double Depth(Point2 p) const;
+
+ private:
+  Rings rings_;
+  double reach_m_;
+  std::unordered_map<int64_t, std::vector<Segment>> rows_, cells_;
+};
 
 }  // namespace flaneur
