@@ -1,0 +1,74 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/cli/arguments.h"
+#include "pipeline/cli/verbs.h"
+#include "pipeline/footprint/extract_footprints.h"
+#include "pipeline/footprint/map.h"
+#include "pipeline/footprint/rasterize_ground.h"
+#include "pipeline/io/geojson.h"
+#include "pipeline/io/gltf.h"
+
+namespace flaneur {
+namespace {
+
+struct FootprintsArguments {
+  std::filesystem::path town, output, map;
+  FootprintOptions options;
+};
+
+void AddOptions(CLI::App* app, FootprintsArguments* a) {
+  app->add_option("TOWN", a->town, "The town: a glTF file, tagged by the town convention or not")->required();
+  app->add_option("-o,--output", a->output, "GeoJSON file to write")->required();
+  app->add_option("--map", a->map, "Also draw a plan as SVG");
+  app->option_defaults()->always_capture_default();
+  app->add_option("--clearance-m", a->options.clearance_m, "Enlarge obstacles by this")
+      ->check(CLI::Range(0.0, 10.0));
+  app->add_option("--band", a->options.band_m,
+                  "Heights over the local ground between which things block, in metres: LOW HIGH")
+      ->check(CLI::Range(0.0, 100.0));
+  app->add_option("--tolerance-m", a->options.tolerance_m, "Simplification moves outlines by at most this")
+      ->check(CLI::Range(0.0, 1.0));
+  app->add_option("--bridge-m", a->options.bridge_m, "Walls that miss each other by less are joined")
+      ->check(CLI::Range(0.0, 1.0));
+  app->add_option("--scale", a->options.scale, "Metres per unit of the file")->check(CLI::PositiveNumber);
+  app->add_flag("--merge-blocks", a->options.merge_blocks, "Make one obstacle of houses that adjoin");
+}
+
+Error Run(const FootprintsArguments& a) {
+  Scene scene;
+  Footprints footprints;
+  FootprintStats stats;
+  std::vector<std::string> warnings;
+  if (Error error = ReadScene(a.town, &scene, &warnings)) return error;
+  if (Error error = ExtractFootprints(scene, a.options, &footprints, &stats, &warnings))
+    return Fail(a.town.string() + ": " + error.message);
+  for (const std::string& warning : warnings) std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
+  if (Error error = WriteGeoJson(a.output, footprints)) return error;
+  std::printf("%s: %d obstacles from %d objects, %d triangles; %.1f m2 covered\n", a.output.c_str(), stats.obstacles,
+              stats.objects, stats.triangles, stats.covered_m2);
+  for (const std::string& name : stats.open_shells)
+    std::printf("open shell: '%s' has walls that enclose nothing; look whether its obstacle is right\n", name.c_str());
+  if (a.map.empty()) return Ok();
+  GroundRaster ground;
+  GroundRasterOptions options;
+  options.scale = a.options.scale;
+  if (Error error = RasterizeGround(scene, options, &ground)) return error;
+  return WriteMap(a.map, footprints, {a.town.filename().string(), &ground, {}});
+}
+
+}  // namespace
+
+int RunFootprints(const Arguments& args) {
+  CLI::App app("Finds what stands in a walker's way in a town model, as polygons with holes and circles (GeoJSON).",
+               "flaneur footprints");
+  FootprintsArguments arguments;
+  AddOptions(&app, &arguments);
+  if (const int status = ParseArguments(&app, args); status >= 0) return status;
+  return Report(Run(arguments));
+}
+
+}  // namespace flaneur
