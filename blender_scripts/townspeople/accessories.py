@@ -134,10 +134,10 @@ def cape(tailor, name, top_deg=64, bottom_deg=0, ease=0.022, hem=None, open_deg=
     weights = _cape_weights(tailor, flat, calm_arms, hem is not None).reshape(*points.shape[:2], -1)
     points = flat.reshape(points.shape)
     points = clearance.cleared(points, weights, _away(points, centre), tl.beneath(tailor, kinds), tailor.poses,
-                               0.012 * size, 0.10 * size, closed)
+                               0.022 * size, 0.12 * size, closed)
     tailor.grids[name] = (points, weights, angles)
     sheet = sf.grid(points, weights, cell, sf.mirrored_u(angles), closed=closed)
-    tailor.worn["cape " + name] = sf.lined(sheet, columns, len(points), closed, 0.007 * size, lining or cell)
+    tailor.worn["cape " + name] = sf.lined(sheet, columns, len(points), closed, 0.004 * size, lining or cell)
 
 
 def _away(points, centre):

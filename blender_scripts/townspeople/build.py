@@ -13,7 +13,7 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import numpy as np  # noqa: E402
 
 from common.settings import fail, load_settings, unknown_key, write_atomically  # noqa: E402
-from townspeople import (accessories, body, clips, garments, headwear, materials,  # noqa: E402
+from townspeople import (accessories, body, clearance, clips, garments, headwear, materials,  # noqa: E402
                          occlusion, scene, skeleton)
 from townspeople import surface as sf  # noqa: E402
 from townspeople.people import CELLS, PEOPLE  # noqa: E402
@@ -71,7 +71,22 @@ def visible_skin(tailor, person):
             keep.append(place > person.get("bare_arm_from", 1.7))
         else:
             keep.append(centre[2] > tailor.height(("shoulder", -0.02)))
-    return _lengthened_neck(tailor, sf.keep_faces(skin, keep))
+    return _lengthened_neck(tailor, _tucked(tailor, sf.keep_faces(skin, keep)))
+
+
+def _tucked(tailor, skin):
+    """Skin below the neckline drawn in beneath the cloth."""
+    cloth = next(worn for name, worn in tailor.worn.items() if name.startswith("upper"))
+    middle = tailor.height("neck")
+    line = next(cloth.vertices[loop] for loop in sf.boundary_loops(cloth)
+                if abs(cloth.vertices[loop][:, 2].mean() - middle) < 0.12 * tailor.size
+                and abs(cloth.vertices[loop][:, 0].mean()) < 0.03)
+    gaps = np.linalg.norm(skin.vertices[:, None, :2] - line[None, :, :2], axis=2)
+    below = skin.vertices[:, 2] < line[gaps.argmin(axis=1), 2] - 0.006 * tailor.size
+    below &= body.joint_share(tailor.figure, skin, ("spine", "clavicle", "neck", "shoulder")) > 0.5
+    points = skin.vertices.copy()
+    points[below] = clearance.drawn_in(points[below], sf.tree_of([cloth]), 0.008 * tailor.size)
+    return sf.with_parts(skin, vertices=points)
 
 
 def _lengthened_neck(tailor, skin):
@@ -96,7 +111,7 @@ def assemble(tailor, person):
     parts = [visible_skin(tailor, person), tailor.figure.parts["eyes"], tailor.figure.parts["shoes"]]
     whole = sf.joined(parts + list(tailor.worn.values()))
     whole = sf.with_parts(whole, weights=skeleton.at_most_four(whole.weights))
-    return occlusion.with_shade(whole, lightest_for={"eyes": 1.0, "body": 0.8})
+    return occlusion.with_shade(whole, lightest_for={"eyes": 1.0, "body": 0.8, "hair": 0.65})
 
 
 def paint_cells(figure, person, seed, cells):

@@ -6,8 +6,9 @@ from mathutils import Vector
 from townspeople import skeleton as sk
 from townspeople import surface as sf
 
-SEARCH_M = 0.09      # penetrations deeper than this are taken for something else
+SEARCH_M = 0.12      # penetrations deeper than this are taken for something else
 ROUNDS_AT_REST = 3
+SMOOTHINGS = 8
 
 
 def pushed_out(points, tree, gap_m, search_m=SEARCH_M):
@@ -21,6 +22,17 @@ def pushed_out(points, tree, gap_m, search_m=SEARCH_M):
             height = (Vector(point) - location).dot(normal)
             if height < gap_m and (height < 0 or distance < gap_m):
                 result[i] = point + np.array(normal) * (gap_m - height) * 0.8
+    return result
+
+
+def drawn_in(points, tree, gap_m, search_m=0.04):
+    """Points moved behind the tree's surface until `gap_m` beneath it."""
+    result = points.copy()
+    for i, point in enumerate(result):
+        location, normal, _, _ = tree.find_nearest(Vector(point), search_m)
+        if location is not None:
+            height = (Vector(point) - location).dot(normal)
+            result[i] = point - np.array(normal) * max(height + gap_m, 0.0)
     return result
 
 
@@ -46,7 +58,7 @@ def _spread(needs, closed):
         return moved
     around = [shifted(needs, axis, step) for axis in (0, 1) for step in (-1, 1)]
     needs = np.maximum.reduce([needs] + around)
-    for _ in range(4):
+    for _ in range(SMOOTHINGS):
         around = [shifted(needs, axis, step) for axis in (0, 1) for step in (-1, 1)]
         needs = 0.4 * needs + 0.15 * sum(around)
     return needs

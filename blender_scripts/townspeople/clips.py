@@ -27,6 +27,7 @@ class Manner:
     stride: float = 1.0           # double step against an adult's usual one on these legs
     liveliness: float = 1.0       # of the trunk while walking
     arm_swing: float = 1.0        # of the arms while walking
+    arm_forward_deg: float = 0.0  # arms held before the body, for cloaks
     stoop_deg: float = 0.0        # bend of the back
 
 
@@ -121,7 +122,7 @@ def _hold(skeleton, frame, manner, lean_deg):
     _turn(skeleton, frame, "neck01", "x", 0.4 * bend)
     _turn(skeleton, frame, "head", "x", -lean_deg - 1.1 * bend)
     for side, sign in (("_L", 1.0), ("_R", -1.0)):
-        _turn(skeleton, frame, "shoulder02" + side, "x", -0.8 * bend)
+        _turn(skeleton, frame, "shoulder02" + side, "x", -0.8 * bend - manner.arm_forward_deg)
         _turn(skeleton, frame, "shoulder02" + side, "y", -sign * manner.arm_spread_deg)
         _curl_fingers(skeleton, frame, side, sign)
 

@@ -66,7 +66,8 @@ def _trunk_mapping(tailor, base, is_arm, z_bottom, cell, sleeve_cell):
             place, angle, _ = _arm_coordinates(tailor, side, points)
             corner_uv.append(np.stack([sf.mirrored_u(angle), place / 2.05], axis=1))
         else:
-            angle = np.arctan2(points[:, 0], -(points[:, 1] - tl.axis_y(tailor, points[:, 2].mean())))
+            axis = np.array([tl.axis_y(tailor, z) for z in points[:, 2]])
+            angle = np.arctan2(points[:, 0], -(points[:, 1] - axis))
             v = (top - points[:, 2]) / (top - z_bottom)
             corner_uv.append(np.stack([sf.mirrored_u(angle), v], axis=1))
         cells.append(sleeve_cell if on_arm else cell)
@@ -184,15 +185,16 @@ def skirt(tailor, name, top, hem, ease=0.012, flare=0.10, folds=12, fold_depth=0
     hip = tailor.height("hip")
     for z in z_rows:
         fall = (z_rows[0] - z) / size
-        outline = tl.slice_radii(tailor, cloud, z, angles)
+        outline = tl.slice_radii(tailor, cloud, z, angles, 0.015 if reach is None else 0.03)
         outline = reach if outline is None else tl.circular_blur(outline, 2)
         reach = outline if reach is None else np.maximum(outline, reach * (1.0 if z < hip + 0.1 else 0.0))
         depth = fold_depth * size * min(fall / gather, 1.0) if gather > 0 else fold_depth * size
         spread = flare * size * max(fall, 0.0) * (1.0 - (1.0 - front_flare) * facing)
-        radii = reach + ease * size + spread + depth * wave
+        loose = ease * size * (0.25 + 0.75 * min(fall / 0.08, 1.0))
+        radii = reach + loose + spread + depth * wave
         centre = np.array([0.0, tl.axis_y(tailor, z), z])
         points.append(centre + tl.direction(angles) * radii[:, None])
-    points = np.array(points)
+    points = _over_upper(tailor, np.array(points))
     flat = points.reshape(-1, 3)
     weights = tl.hanging_weights(tailor, flat, follow, shin)
     top_share = sf.smoothstep(hip, tailor.height("waist"), flat[:, 2])[:, None]
@@ -205,6 +207,15 @@ def skirt(tailor, name, top, hem, ease=0.012, flare=0.10, folds=12, fold_depth=0
     tailor.grids[name] = (points, weights, angles)
     if not hidden:
         tailor.worn["skirt " + name] = _with_hem(points, weights, angles, cell, size)
+
+
+def _over_upper(tailor, points):
+    """The skirt's points pushed off the bodice or tunic whose end they cover."""
+    under = tl.beneath(tailor, ("upper",))
+    if under is None:
+        return points
+    flat = clearance.pushed_out(points.reshape(-1, 3), sf.tree_of([under]), 0.005 * tailor.size, 0.03)
+    return flat.reshape(points.shape)
 
 
 def _with_hem(points, weights, angles, cell, size):
@@ -231,8 +242,8 @@ def trousers(tailor, name, bottom, ease=0.004, puff=0.0, smooth=6, cell="trouser
     for face in base.faces:
         points = base.vertices[list(face)]
         side = np.sign(points[:, 0].mean())
-        centre = np.array([side * 0.12 * size, tl.axis_y(tailor, points[:, 2].mean())])
-        around = np.arctan2((points[:, 0] - centre[0]) * side, -(points[:, 1] - centre[1]))
+        axis = np.array([tl.axis_y(tailor, z) for z in points[:, 2]])
+        around = np.arctan2((points[:, 0] - side * 0.12 * size) * side, -(points[:, 1] - axis))
         corner_uv.append(np.stack([sf.mirrored_u(around), (top - points[:, 2]) / (top - low)], axis=1))
     base = sf.with_parts(base, corner_uv=np.clip(np.concatenate(corner_uv), 0, 1),
                          cells=[cell] * len(base.faces))

@@ -79,8 +79,8 @@ def shell(tailor, name, edge, thickness, crown_thickness=None, rows=8, columns=3
 
 
 def beard(tailor, name, thickness=0.013, length=0.0,
-          upper_edge=((0, -47), (12, -46), (22, -40), (30, -33), (45, -28), (60, -21), (75, -6), (92, 9)),
-          lower_edge=((0, -66), (40, -62), (62, -50), (78, -32), (92, -4)), cell="hair"):
+          upper_edge=((0, -47), (12, -46), (22, -40), (30, -33), (45, -29), (60, -25), (76, -13), (92, 4)),
+          lower_edge=((0, -66), (40, -62), (62, -53), (78, -38), (92, -14)), cell="hair"):
     """Hair over jaw and chin; `length` draws the chin's part down."""
     size = _head_size(tailor)
     angles = np.radians(np.linspace(-92, 92, 25))
@@ -95,7 +95,7 @@ def beard(tailor, name, thickness=0.013, length=0.0,
         rays[:, 2] = np.sin(elevation)
         reach = np.array([sf.outermost(tree, centre, ray, 0.5) or 0.09 * size for ray in rays])
         bump = np.sin(np.pi * min(t * 0.85 + 0.08, 1.0)) * np.sin(np.pi * np.linspace(0.03, 0.97, len(angles)))
-        extra = (thickness * (bump * 1.1 + 0.02) + 0.002 * random_rows[r] * bump - 0.003)
+        extra = (thickness * (bump * 1.1 + 0.02) + 0.002 * random_rows[r] * bump - 0.0015)
         ring = centre + rays * (tl.circular_blur(reach, 1, closed=False) + extra * size)[:, None]
         ring[:, 2] -= length * size * front * t ** 1.5
         ring[:, 1] -= 0.3 * length * size * front * t
@@ -129,7 +129,7 @@ def _raised(points, covers, band, size):
     """The crown lifted off the hair: each ring moves evenly, so that the hat stays round."""
     above = [sf.keep_faces(part, [part.vertices[list(face), 2].min() > band[2] + 0.01 * size for face in part.faces])
              for part in covers]
-    moved = clearance.pushed_out(points.reshape(-1, 3), sf.tree_of(above), 0.005 * size, 0.05).reshape(points.shape)
+    moved = clearance.pushed_out(points.reshape(-1, 3), sf.tree_of(above), 0.006 * size, 0.09).reshape(points.shape)
     ways = points - band
     ways[..., 2] = np.maximum(ways[..., 2], 0.0) + 1e-6
     ways /= np.linalg.norm(ways, axis=-1, keepdims=True)

@@ -75,7 +75,7 @@ def dyed(weave, colour, **look):
 PEOPLE = {
     "merchant": {
         "height_m": 1.76, "skin": MALE, "bulges": [BELLY],
-        "manner": {"arm_spread_deg": -2.0, "arm_swing": 0.8},
+        "manner": {"arm_swing": 0.3, "arm_forward_deg": 13.0},
         "wear": [
             STOCKINGS,
             {"piece": "trousers", "name": "breeches", "bottom": ["knee", 0.02], "ease": 0.012, "puff": 0.035},
@@ -86,9 +86,9 @@ PEOPLE = {
             {"piece": "belt", "at": ["waist", -0.02], "height": 0.035},
             {"piece": "pouch", "at": ["waist", -0.05], "angle_deg": -60, "cell": "pouch"},
             {"piece": "brows"}, dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
-            {"piece": "cape", "name": "cloak", "top_deg": 60, "bottom_deg": 0, "ease": 0.026, "open_deg": 62,
+            {"piece": "cape", "name": "cloak", "top_deg": 65, "bottom_deg": 0, "ease": 0.024, "open_deg": 62,
              "hem": ["crotch", 0.02], "flare": 0.22, "folds": 8, "fold_depth": 0.03, "lining": "lining"},
-            {"piece": "ruff"},
+            {"piece": "standing collar", "height": 0.035, "flare": 0.0, "cell": "upper"}, {"piece": "ruff"},
             {"piece": "hat", "profile": [[0, 0, 0.118], [0.45, 0, 0.120], [0.80, 0, 0.112], [0.93, 0, 0.06], [1, 0, 0],
                                          [1.0, 0.045, -0.004], [1.0, 0.072, 0.002], [1.0, 0.070, -0.006],
                                          [1.0, 0.02, -0.012]], "wave": 0.006},
@@ -116,7 +116,7 @@ PEOPLE = {
              "flare": 0.20, "folds": 11, "fold_depth": 0.022, "rows": 9},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.04},
             {"piece": "pouch", "at": ["waist", -0.02], "angle_deg": 50},
-            {"piece": "brows"}, dict(BEARD, thickness=0.011), dict(SHORT_HAIR),
+            {"piece": "brows"}, dict(BEARD, thickness=0.012), dict(SHORT_HAIR),
             {"piece": "shell", "name": "hood", "thickness": 0.022, "crown_thickness": 0.020, "peak": 0.035,
              "columns": 40, "nape": 0.01, "cell": "hood",
              "drop": 0.07,
@@ -184,7 +184,7 @@ PEOPLE = {
     "noblewoman": {
         "height_m": 1.66, "skin": {"tint": (1.10, 1.06, 1.05), "smooth": 1.0, "rouge": 1.2}, "proportions": WOMAN_SHAPE,
         "bulges": WOMAN_BULGES + WOMAN_FACE,
-        "manner": {"arm_spread_deg": 8.0, "arm_swing": 0.5, "stride": 0.86},
+        "manner": {"arm_spread_deg": 6.0, "arm_swing": 0.3, "arm_forward_deg": 14.0, "stride": 0.86},
         "wear": [
             SHORT_STOCKINGS,
             {"piece": "upper", "name": "bodice", "bottom": ["waist", -0.06], "ease": 0.006, "smooth": 14,
@@ -193,9 +193,9 @@ PEOPLE = {
              "flare": 0.20, "folds": 15, "fold_depth": 0.03, "gather": 0.15, "columns": 60},
             {"piece": "belt", "at": ["waist", -0.01], "height": 0.022, "thickness": 0.007},
             {"piece": "brows"}, dict(WOMAN_HAIR),
-            {"piece": "cape", "name": "mantle", "top_deg": 52, "bottom_deg": 0, "ease": 0.022, "open_deg": 82,
+            {"piece": "cape", "name": "mantle", "top_deg": 64, "bottom_deg": 0, "ease": 0.022, "open_deg": 82,
              "hem": ["knee", -0.22], "flare": 0.16, "folds": 9, "fold_depth": 0.035, "lining": "lining", "hang_rows": 10},
-            {"piece": "ruff", "outer": 0.15},
+            {"piece": "standing collar", "height": 0.035, "flare": 0.0, "cell": "upper"}, {"piece": "ruff", "outer": 0.14},
             {"piece": "hat", "sit": 0.036, "tilt_deg": -9, "profile": [
                 [0, 0, 0.10], [0.5, 0, 0.102], [0.82, 0, 0.092], [0.95, 0, 0.05], [1.0, 0, 0.0], [1.0, 0.030, 0.0],
                 [1.0, 0.045, 0.006], [1.0, 0.043, 0.0], [1.0, 0.01, -0.008]]},
@@ -301,7 +301,7 @@ PEOPLE = {
             {"piece": "brows"}, dict(LONG_HAIR),
             dict(BAND),
             {"piece": "hat", "name": "cap", "sit": 0.040, "tilt_deg": -14, "profile": [
-                [0, 0, 0.060], [0.6, 0, 0.060], [1.0, 0.018, 0.046], [1.0, 0.028, 0.026], [1.0, 0.008, 0.004], [1.0, 0.004, -0.012],
+                [0, 0, 0.080], [0.6, 0, 0.078], [1.0, 0.018, 0.056], [1.0, 0.028, 0.026], [1.0, 0.008, 0.004], [1.0, 0.004, -0.012],
                 [0.96, 0, -0.016]]},
         ],
         "cloth": {
@@ -315,7 +315,7 @@ PEOPLE = {
     },
     "old_man": {
         "height_m": 1.69, "skin": {"tint": (0.98, 0.94, 0.92), "smooth": 0.6},         "bulges": [dict(BELLY, push=(0, -0.035, 0))],
-        "manner": {"arm_spread_deg": 1.0, "stride": 0.76, "liveliness": 0.7, "arm_swing": 0.5, "stoop_deg": 8.0},
+        "manner": {"arm_spread_deg": 1.0, "stride": 0.76, "liveliness": 0.7, "arm_swing": 0.3, "arm_forward_deg": 10.0, "stoop_deg": 8.0},
         "wear": [
             dict(STOCKINGS, start=1.0),
             {"piece": "upper", "name": "coat", "bottom": ["waist", -0.05], "ease": 0.014, "smooth": 12,
@@ -324,10 +324,10 @@ PEOPLE = {
              "flare": 0.15, "folds": 12, "fold_depth": 0.028},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.035},
             {"piece": "brows"}, dict(LONG_HAIR), dict(BEARD, thickness=0.02, length=0.10), {"piece": "moustache", "thickness": 0.014},
-            {"piece": "cape", "name": "cloak", "top_deg": 62, "bottom_deg": 0, "ease": 0.030, "open_deg": 64,
+            {"piece": "cape", "name": "cloak", "top_deg": 66, "bottom_deg": 0, "ease": 0.028, "open_deg": 64,
              "hem": ["knee", 0.0], "flare": 0.17, "folds": 9, "fold_depth": 0.035, "hang_rows": 9},
             {"piece": "hat", "name": "cap", "sit": 0.024, "tilt_deg": -8, "profile": [
-                [0, 0, 0.058], [0.6, 0, 0.060], [1.0, 0.024, 0.046], [1.0, 0.036, 0.026], [1.0, 0.010, 0.004], [1.0, 0.008, -0.016],
+                [0, 0, 0.088], [0.6, 0, 0.085], [1.0, 0.024, 0.060], [1.0, 0.036, 0.026], [1.0, 0.010, 0.004], [1.0, 0.008, -0.016],
                 [0.96, 0, -0.02]]},
         ],
         "cloth": {

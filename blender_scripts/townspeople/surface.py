@@ -213,7 +213,7 @@ def mirrored_u(angles):
 def lined(surface, columns, rows, closed, thickness_m, cell):
     """A grid with an inner layer and closed rims, so that it has two sides."""
     inner = offset(surface, -thickness_m)
-    flipped = with_parts(inner, faces=[face[::-1] for face in inner.faces], cells=[cell] * len(inner.faces),
+    flipped = with_parts(inner, faces=[face[:1] + face[:0:-1] for face in inner.faces], cells=[cell] * len(inner.faces),
                          corner_uv=_reversed_corners(inner))
     both = joined([surface, flipped])
     count = rows * columns
@@ -231,7 +231,8 @@ def lined(surface, columns, rows, closed, thickness_m, cell):
 
 
 def _reversed_corners(surface):
+    """Texture coordinates of the faces turned over about their first corner (the same diagonals stay)."""
     starts = corner_starts(surface.faces)
-    order = np.concatenate([np.arange(starts[i], starts[i + 1])[::-1]
+    order = np.concatenate([np.append(starts[i], np.arange(starts[i + 1] - 1, starts[i], -1))
                             for i in range(len(surface.faces))])
     return surface.corner_uv[order]
