@@ -1,0 +1,189 @@
+#include "pipeline/avatar/decimate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "pipeline/avatar/surface_distance.h"
+#include "pipeline/avatar/wedge_surface.h"
+#include "pipeline/io/gltf.h"
+#include "tests/unit/pipeline/test_person.h"
+
+namespace flaneur {
+namespace {
+
+int Triangles(const std::vector<Mesh>& meshes) {
+  int count = 0;
+  for (const Mesh& mesh : meshes) count += TriangleCount(mesh);
+  return count;
+}
+
+using Key = std::tuple<float, float, float, float, float>;
+
+// Position and uv of every vertex.
+std::set<Key> Vertices(const Mesh& mesh) {
+  std::set<Key> keys;
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3 p = mesh.positions[v];
+    const Vec2 uv = mesh.uvs.empty() ? Vec2{} : mesh.uvs[v];
+    keys.insert({p.x, p.y, p.z, uv.x, uv.y});
+  }
+  return keys;
+}
+
+// What holds for the levels of any person.
+void ExpectSoundLevels(const Avatar& avatar, const AvatarLevels& levels) {
+  std::set<Key> original;
+  for (const Mesh& mesh : avatar.meshes) original.merge(Vertices(mesh));
+  for (size_t k = 0; k < levels.levels.size(); ++k) {
+    const AvatarLevel& level = levels.levels[k];
+    EXPECT_EQ(level.triangles, Triangles(level.meshes));
+    ASSERT_EQ(level.meshes.size(), avatar.meshes.size());
+    if (k > 0) {
+      EXPECT_LE(level.switch_px, levels.levels[k - 1].switch_px);
+    }
+    for (size_t m = 0; m < level.meshes.size(); ++m) {
+      const Mesh& mesh = level.meshes[m];
+      EXPECT_EQ(mesh.material, avatar.meshes[m].material);
+      ASSERT_EQ(mesh.weights.size(), mesh.positions.size());
+      for (size_t v = 0; v < mesh.weights.size(); ++v) {
+        const auto& w = mesh.weights[v];
+        EXPECT_NEAR(w[0] + w[1] + w[2] + w[3], 1, 1e-4f);
+        for (const uint16_t joint : mesh.joints[v]) EXPECT_LT(joint, avatar.joints.size());
+      }
+      for (const uint32_t i : mesh.indices) ASSERT_LT(i, mesh.positions.size());
+      for (const Key& key : Vertices(mesh)) EXPECT_TRUE(original.count(key) > 0);
+    }
+  }
+  EXPECT_EQ(levels.levels.back().switch_px, 0);
+}
+
+TEST(BuildLevels, HitsItsTargetsAndMeasuresThem) {
+  const Avatar avatar = MadePerson();
+  const int original = Triangles(avatar.meshes);
+  AvatarLevels levels;
+  std::vector<std::string> warnings;
+  ASSERT_EQ(BuildLevels(avatar, {}, &levels, &warnings).message, "");
+  EXPECT_TRUE(warnings.empty());
+  ASSERT_EQ(levels.levels.size(), 4u);
+  EXPECT_EQ(levels.levels[0].triangles, original);
+  EXPECT_EQ(levels.levels[0].error_mm, 0);
+  const float ratios[] = {1, 0.5f, 0.25f, 0.1f};
+  for (size_t k = 1; k < 4; ++k) {
+    const float target = std::max(ratios[k] * static_cast<float>(original), 200.0f);
+    EXPECT_NEAR(static_cast<float>(levels.levels[k].triangles), target, 0.02f * target + 2);
+    // Round tubes lose little: the section of 16 corners can always become one of 8.
+    EXPECT_LT(levels.levels[k].error_mm, 80);
+  }
+  ExpectSoundLevels(avatar, levels);
+}
+
+TEST(BuildLevels, SwitchesWhereTheNextErrorIsAPixel) {
+  const Avatar avatar = MadePerson();
+  LevelsOptions options;
+  options.ratios = {1, 0.02f};  // tubes of so few triangles are no longer round
+  options.min_triangles = 20;
+  AvatarLevels levels;
+  std::vector<std::string> warnings;
+  ASSERT_EQ(BuildLevels(avatar, options, &levels, &warnings).message, "");
+  const AvatarLevel& last = levels.levels.back();
+  const float error_mm = std::max(last.error_mm, last.posed_error_mm);
+  ASSERT_GT(error_mm, 0);
+  EXPECT_NEAR(levels.levels[levels.levels.size() - 2].switch_px * error_mm, 1800, 1);
+}
+
+TEST(BuildLevels, LimitsTheFinestLevel) {
+  const Avatar avatar = MadePerson();
+  LevelsOptions options;
+  options.max_triangles = 1000;
+  AvatarLevels levels;
+  std::vector<std::string> warnings;
+  ASSERT_EQ(BuildLevels(avatar, options, &levels, &warnings).message, "");
+  EXPECT_NEAR(levels.levels[0].triangles, 1000, 20);
+  EXPECT_EQ(Triangles(levels.avatar.meshes), levels.levels[0].triangles);
+}
+
+TEST(BuildLevels, RefusesNonsenseByName) {
+  AvatarLevels levels;
+  std::vector<std::string> warnings;
+  Avatar avatar = MadePerson();
+  avatar.meshes[0].positions[7].y = std::numeric_limits<float>::quiet_NaN();
+  const Error broken = BuildLevels(avatar, {}, &levels, &warnings);
+  EXPECT_NE(broken.message.find("body"), std::string::npos) << broken.message;
+  EXPECT_NE(broken.message.find("7"), std::string::npos) << broken.message;
+  avatar = MadePerson();
+  avatar.meshes.clear();
+  EXPECT_TRUE(BuildLevels(avatar, {}, &levels, &warnings));
+  LevelsOptions rising;
+  rising.ratios = {0.5f, 0.7f};
+  EXPECT_TRUE(BuildLevels(MadePerson(), rising, &levels, &warnings));
+}
+
+// Three leaves on one edge: no two-sided surface, but every leaf must stay.
+TEST(JoinWedges, LosesNoFaceAtACrossedEdge) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}};
+  mesh.indices = {0, 1, 2, 0, 1, 3, 0, 1, 4};
+  const WedgeSurface surface = JoinWedges({mesh});
+  EXPECT_EQ(surface.faces.size(), 3u);
+  std::set<std::pair<int, int>> half_edges;
+  for (const auto& face : surface.faces) {
+    for (size_t k = 0; k < 3; ++k) {
+      EXPECT_TRUE(half_edges.insert({face.vertices[k], face.vertices[(k + 1) % 3]}).second);
+    }
+  }
+}
+
+TEST(JoinWedges, JoinsAcrossUvSeamsAndMaterials) {
+  Mesh a, b;
+  a.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  b.positions = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  a.indices = b.indices = {0, 1, 2};
+  const WedgeSurface surface = JoinWedges({a, b});
+  EXPECT_EQ(surface.wedges.size(), 6u);
+  EXPECT_EQ(surface.wedge_of_vertex.size(), 4u);
+}
+
+TEST(SurfaceTree, AgreesWithAPlainSearchOfKnownDistances) {
+  const Avatar avatar = MadePerson();
+  const Mesh& mesh = avatar.meshes[0];
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    triangles.push_back({mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
+                         mesh.positions[mesh.indices[i + 2]]});
+  }
+  const SurfaceTree tree(triangles);
+  for (const Vec3 p : mesh.positions) EXPECT_NEAR(tree.Distance(p), 0, 1e-5f);
+  // Far beside the trunk the nearest point is its wall.
+  EXPECT_NEAR(tree.Distance({1.2f, 1.4f, 0}), 1.0f, 1e-4f);
+  EXPECT_NEAR(tree.Distance({0.2f, 2.8f, 0}), 1.0f, 1e-4f);
+}
+
+TEST(BuildLevels, HandlesRealPeople) {
+  if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
+  for (const char* file : {"kaykit/Knight.glb", "kaykit/Mage.glb", "khronos/CesiumMan.glb"}) {
+    SCOPED_TRACE(file);
+    Avatar avatar;
+    std::vector<std::string> warnings;
+    ASSERT_EQ(ReadAvatar(SharedData() / "avatars" / file, {}, &avatar, &warnings).message, "");
+    const int original = Triangles(avatar.meshes);
+    AvatarLevels levels;
+    warnings.clear();
+    LevelsOptions options;
+    options.walk_poses = 2;
+    ASSERT_EQ(BuildLevels(avatar, options, &levels, &warnings).message, "");
+    EXPECT_TRUE(warnings.empty());
+    ASSERT_EQ(levels.levels.size(), 4u);
+    for (size_t k = 0; k < 4; ++k) {
+      const float target = options.ratios[k] * static_cast<float>(original);
+      EXPECT_NEAR(static_cast<float>(levels.levels[k].triangles), target, 0.02f * target);
+    }
+    ExpectSoundLevels(avatar, levels);
+  }
+}
+
+}  // namespace
+}  // namespace flaneur

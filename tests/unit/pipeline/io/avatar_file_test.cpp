@@ -1,0 +1,266 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "pipeline/io/gltf.h"
+#include "runtime/base/file.h"
+#include "tests/unit/pipeline/test_person.h"
+
+namespace flaneur {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AvatarFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / (std::string("flaneur_avatar_file_") + info->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path Write(const Avatar& avatar, const DracoOptions& draco = {}) {
+    const fs::path path = folder_ / "person.glb";
+    EXPECT_EQ(WriteAvatarGlb(path, OneLevel(avatar), draco).message, "");
+    return path;
+  }
+
+  // Reads back; the message of the error.
+  std::string Read(const fs::path& path, const ReadAvatarOptions& options = {}) {
+    avatar_ = {};
+    warnings_.clear();
+    const std::string message = ReadAvatar(path, options, &avatar_, &warnings_).message;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+    return message;
+  }
+
+  // The file with the first `from` in its JSON replaced by `to`, padded to the same length.
+  fs::path Changed(const fs::path& path, const std::string& from, std::string to) {
+    std::vector<uint8_t> bytes;
+    EXPECT_EQ(ReadFile(path, &bytes).message, "");
+    const auto at = std::search(bytes.begin(), bytes.end(), from.begin(), from.end());
+    EXPECT_TRUE(at != bytes.end()) << from;
+    EXPECT_LE(to.size(), from.size());
+    to.resize(from.size(), ' ');
+    std::copy(to.begin(), to.end(), at);
+    const fs::path changed = folder_ / "changed.glb";
+    EXPECT_EQ(WriteFile(changed, bytes).message, "");
+    return changed;
+  }
+
+  fs::path folder_;
+  Avatar avatar_;
+  std::vector<std::string> warnings_;
+};
+
+void ExpectSoundAvatar(const Avatar& avatar) {
+  ASSERT_NE(FindClip(avatar, "walk"), nullptr);
+  for (size_t j = 0; j < avatar.joints.size(); ++j) {
+    EXPECT_LT(avatar.joints[j].parent, static_cast<int>(j));
+  }
+  for (const Clip& clip : avatar.clips) {
+    ASSERT_EQ(clip.transforms.size(), static_cast<size_t>(clip.keys) * avatar.joints.size());
+    const size_t last = clip.transforms.size() - avatar.joints.size();
+    for (size_t j = 0; j < avatar.joints.size(); ++j) {
+      EXPECT_EQ(clip.transforms[j].rotation.x, clip.transforms[last + j].rotation.x);
+      EXPECT_EQ(clip.transforms[j].translation.y, clip.transforms[last + j].translation.y);
+    }
+  }
+  for (const Mesh& mesh : avatar.meshes) {
+    ASSERT_EQ(mesh.joints.size(), mesh.positions.size());
+    ASSERT_EQ(mesh.weights.size(), mesh.positions.size());
+    for (size_t v = 0; v < mesh.weights.size(); ++v) {
+      const auto& w = mesh.weights[v];
+      ASSERT_NEAR(w[0] + w[1] + w[2] + w[3], 1, 1e-5f);
+      for (const uint16_t joint : mesh.joints[v]) ASSERT_LT(joint, avatar.joints.size());
+    }
+  }
+  // Lowest point of the walk on the ground.
+  const Clip& walk = *FindClip(avatar, "walk");
+  float lowest = 1e30f;
+  for (int k = 0; k + 1 < walk.keys; ++k) {
+    const float t = walk.duration_s * static_cast<float>(k) / static_cast<float>(walk.keys - 1);
+    for (const Mesh& mesh : avatar.meshes) {
+      for (const Vec3 p : Skinned(mesh, SkinningMatrices(avatar, walk, t)).positions) {
+        lowest = std::min(lowest, p.y);
+      }
+    }
+  }
+  EXPECT_NEAR(lowest, 0, 0.002f);
+}
+
+TEST_F(AvatarFile, ComesBackAsItWasWritten) {
+  const Avatar made = MadePerson();
+  for (const bool compress : {true, false}) {
+    DracoOptions draco;
+    draco.compress = compress;
+    ASSERT_EQ(Read(Write(made, draco)), "");
+    ExpectSoundAvatar(avatar_);
+    EXPECT_EQ(avatar_.joints.size(), 3u);
+    EXPECT_EQ(TriangleCount(avatar_.meshes[0]), TriangleCount(made.meshes[0]));
+    EXPECT_NEAR(avatar_.height_m, 1.8f, 0.001f);
+    EXPECT_NEAR(avatar_.walk_speed_mps, 1.2f, 1e-5f) << "told by the file";
+    const Clip& walk = *FindClip(avatar_, "walk");
+    EXPECT_NEAR(walk.duration_s, 1, 1e-5f);
+    for (const float t : {0.1f, 0.3f, 0.77f}) {
+      const auto a = SkinningMatrices(made, made.clips[0], t);
+      const auto b = SkinningMatrices(avatar_, walk, t);
+      for (size_t j = 0; j < 3; ++j) {
+        const Vec3 hip = TransformPoint(Inverse(made.joints[j].inverse_bind), {});
+        const Vec3 foot = hip + Vec3{0, -0.8f, 0};
+        // The walk's lowest point is on the ground, so the whole figure may have moved up or down.
+        const Vec3 moved = TransformPoint(b[j], foot) - TransformPoint(a[j], foot);
+        EXPECT_NEAR(moved.x, 0, 0.003f);
+        EXPECT_NEAR(moved.z, 0, 0.003f);
+        EXPECT_NEAR(moved.y, 0, 0.03f);
+      }
+    }
+  }
+}
+
+TEST_F(AvatarFile, MeasuresTheSpeedOfTheSoles) {
+  Avatar made = MadePerson();
+  made.walk_speed_mps = 0;
+  ASSERT_EQ(Read(Write(made)), "");
+  // A stance leg of 0.9 m swings at up to 0.3 * 2 pi rad/s; the median is below that and well above nothing.
+  EXPECT_GT(avatar_.walk_speed_mps, 0.8f);
+  EXPECT_LT(avatar_.walk_speed_mps, 0.9f * 0.3f * 2 * kPi + 0.05f);
+}
+
+TEST_F(AvatarFile, TakesTravelOutOfTheWalkAsItsSpeed) {
+  Avatar made = MadePerson();
+  made.walk_speed_mps = 0;
+  Clip& walk = made.clips[0];
+  for (int k = 0; k < walk.keys; ++k) {
+    walk.transforms[static_cast<size_t>(3 * k)].translation.z += 1.4f * static_cast<float>(k) / 30;
+  }
+  ASSERT_EQ(Read(Write(made)), "");
+  EXPECT_NEAR(avatar_.walk_speed_mps, 1.4f, 0.01f);
+  ExpectSoundAvatar(avatar_);
+  for (const Transform& t : FindClip(avatar_, "walk")->transforms) {
+    EXPECT_LT(std::abs(t.translation.z), 0.1f);
+  }
+}
+
+TEST_F(AvatarFile, ScalesToTheAskedHeight) {
+  ReadAvatarOptions options;
+  options.height_m = 0.9f;
+  ASSERT_EQ(Read(Write(MadePerson()), options), "");
+  EXPECT_NEAR(avatar_.height_m, 0.9f, 1e-5f);
+  EXPECT_NEAR(avatar_.walk_speed_mps, 0.6f, 0.001f);
+  ExpectSoundAvatar(avatar_);
+}
+
+TEST_F(AvatarFile, FaultsAreOneClearLine) {
+  const fs::path good = Write(MadePerson());
+  EXPECT_NE(Read(folder_ / "absent.glb").find("absent.glb"), std::string::npos);
+  ASSERT_EQ(WriteTextFile(folder_ / "text.glb", "not a picture of a person").message, "");
+  EXPECT_NE(Read(folder_ / "text.glb").find("text.glb"), std::string::npos);
+
+  Avatar still = MadePerson();
+  still.clips.clear();
+  EXPECT_NE(Read(Write(still)).find("no walk clip"), std::string::npos);
+
+  Avatar swimmer = MadePerson();
+  swimmer.clips[0].name = "swim";
+  swimmer.clips.push_back(swimmer.clips[0]);
+  swimmer.clips[1].name = "dive";
+  const std::string message = Read(Write(swimmer));
+  EXPECT_NE(message.find("'swim', 'dive'"), std::string::npos) << message;
+  ReadAvatarOptions options;
+  options.walk = "swum";
+  EXPECT_NE(Read(Write(swimmer), options).find("did you mean 'swim'"), std::string::npos);
+  options.walk = "SWIM";
+  EXPECT_EQ(Read(Write(swimmer), options), "");
+  options = {};
+  options.hide = {"level9"};
+  EXPECT_NE(Read(Write(MadePerson()), options).find("did you mean 'level0'"), std::string::npos);
+  options = {};
+  options.max_joints = 2;
+  EXPECT_NE(Read(Write(MadePerson()), options).find("joints"), std::string::npos);
+}
+
+TEST_F(AvatarFile, NamesTheNodeOfANonFiniteVertex) {
+  Avatar broken = MadePerson();
+  broken.meshes[0].positions[5].x = std::numeric_limits<float>::quiet_NaN();
+  DracoOptions plain;
+  plain.compress = false;
+  const std::string message = Read(Write(broken, plain));
+  EXPECT_NE(message.find("level0"), std::string::npos) << message;
+  EXPECT_NE(message.find("not finite"), std::string::npos) << message;
+}
+
+TEST_F(AvatarFile, RefusesWhatItCannotDecode) {
+  const fs::path path = Changed(Write(MadePerson()), "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]",
+                                "\"extensionsRequired\":[\"EXT_meshopt_compression\"]");
+  EXPECT_NE(Read(path).find("EXT_meshopt_compression"), std::string::npos);
+}
+
+TEST_F(AvatarFile, WithoutASkinIsRefused) {
+  const fs::path path = Changed(Write(MadePerson()), "\"skin\":0", "\"skim\":0");
+  EXPECT_NE(Read(path).find("no skin"), std::string::npos);
+}
+
+TEST_F(AvatarFile, EveryPrefixIsAnError) {
+  for (const bool compress : {true, false}) {
+    DracoOptions draco;
+    draco.compress = compress;
+    std::vector<uint8_t> bytes;
+    ASSERT_EQ(ReadFile(Write(MadePerson(), draco), &bytes).message, "");
+    const fs::path cut = folder_ / "cut.glb";
+    const size_t step = std::max<size_t>(bytes.size() / 300, 1);
+    for (size_t size = 0; size < bytes.size(); size += size < 64 ? 1 : step) {
+      ASSERT_EQ(WriteFile(cut, std::span(bytes).first(size)).message, "");
+      ASSERT_NE(Read(cut), "") << size << " of " << bytes.size() << " bytes";
+    }
+  }
+}
+
+// Flipped bytes may still make a readable file; they must not make a crash.
+TEST_F(AvatarFile, BrokenBytesDoNotCrash) {
+  std::vector<uint8_t> bytes;
+  ASSERT_EQ(ReadFile(Write(MadePerson()), &bytes).message, "");
+  const fs::path broken = folder_ / "broken.glb";
+  uint32_t random = 1;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<uint8_t> changed = bytes;
+    for (int i = 0; i < 3; ++i) {
+      random = random * 1664525u + 1013904223u;
+      changed[20 + (random >> 8) % (changed.size() - 20)] = static_cast<uint8_t>(random >> 3);
+    }
+    ASSERT_EQ(WriteFile(broken, changed).message, "");
+    Avatar avatar;
+    std::vector<std::string> warnings;
+    if (ReadAvatar(broken, {}, &avatar, &warnings)) continue;
+    for (const Mesh& mesh : avatar.meshes) {
+      for (const uint32_t i : mesh.indices) ASSERT_LT(i, mesh.positions.size());
+    }
+  }
+}
+
+TEST_F(AvatarFile, ReadsRealPeople) {
+  if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
+  const fs::path people = SharedData() / "avatars";
+  ASSERT_EQ(Read(people / "khronos/CesiumMan.glb"), "");
+  ExpectSoundAvatar(avatar_);
+  EXPECT_EQ(TriangleCount(avatar_.meshes[0]), 4672);
+  EXPECT_NE(std::find_if(warnings_.begin(), warnings_.end(),
+                         [](const auto& w) { return w.find("210 vertices") != std::string::npos; }),
+            warnings_.end());
+  EXPECT_NEAR(avatar_.walk_speed_mps, 0.9f, 0.2f);
+
+  ReadAvatarOptions options;
+  options.hide = {"1H_Sword_Offhand", "Badge_Shield", "Rectangle_Shield", "Spike_Shield", "2H_Sword"};
+  ASSERT_EQ(Read(people / "kaykit/Knight.glb", options), "");
+  EXPECT_EQ(avatar_.meshes.size(), 1u) << "one a material";
+  EXPECT_LT(TriangleCount(avatar_.meshes[0]), 6952);
+  EXPECT_EQ(avatar_.clips.size(), 2u);
+  EXPECT_NEAR(FindClip(avatar_, "walk")->duration_s, 1.0667f, 0.001f) << "Walking_A";
+  ASSERT_EQ(Read(people / "khronos/RiggedFigure.glb"), "");
+  ExpectSoundAvatar(avatar_);
+}
+
+}  // namespace
+}  // namespace flaneur

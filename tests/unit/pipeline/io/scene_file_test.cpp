@@ -1,0 +1,159 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "pipeline/io/gltf.h"
+#include "runtime/base/file.h"
+#include "tests/unit/pipeline/test_person.h"
+
+namespace flaneur {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SceneFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / (std::string("flaneur_scene_file_") + info->name());
+    fs::create_directories(folder_);
+    Mesh quad;
+    quad.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    quad.normals.assign(4, {0, 0, 1});
+    quad.indices = {0, 1, 2, 0, 2, 3};
+    quad_ = quad;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  int AddQuad(const std::string& name) {
+    DracoOptions plain;
+    plain.compress = false;
+    int mesh = -1;
+    EXPECT_EQ(builder_.AddMesh(name, {&quad_, 1}, {}, plain, &mesh).message, "");
+    return mesh;
+  }
+
+  fs::path Finish(std::vector<int> roots) {
+    builder_.AddScene("town", roots);
+    std::vector<uint8_t> glb;
+    EXPECT_EQ(builder_.Finish(&glb).message, "");
+    EXPECT_EQ(WriteFile(folder_ / "town.glb", glb).message, "");
+    return folder_ / "town.glb";
+  }
+
+  fs::path folder_;
+  GltfBuilder builder_;
+  Mesh quad_;
+  Scene scene_;
+};
+
+GltfNode NodeWith(const std::string& name, int parent, int mesh, const std::string& extras) {
+  GltfNode node;
+  node.name = name;
+  node.parent = parent;
+  node.mesh = mesh;
+  node.extras = extras;
+  return node;
+}
+
+TEST_F(SceneFile, TagsGoDownToChildrenUnlessTheyHaveTheirOwn) {
+  const int mesh = AddQuad("quad");
+  const int town = builder_.AddNode(NodeWith("house", -1, -1, R"({"flaneur_kind": "building"})"));
+  builder_.AddNode(NodeWith("wall", town, mesh, ""));
+  builder_.AddNode(NodeWith("door", town, -1,
+                            R"({"flaneur_kind": "door", "flaneur_width_m": 1.2})"));
+  const int ground = builder_.AddNode(
+      NodeWith("street", -1, mesh, R"({"flaneur_kind": "ground", "flaneur_ground": "carriageway"})"));
+  builder_.AddNode(NodeWith("kerb", ground, mesh, ""));
+  ASSERT_EQ(ReadScene(Finish({town, ground}), &scene_).message, "");
+  ASSERT_EQ(scene_.nodes.size(), 5u);
+  EXPECT_EQ(scene_.nodes[1].kind, NodeKind::kBuilding);
+  EXPECT_EQ(scene_.nodes[2].kind, NodeKind::kDoor);
+  EXPECT_NEAR(scene_.nodes[2].width_m, 1.2f, 1e-6f);
+  EXPECT_EQ(scene_.nodes[4].ground, GroundKind::kCarriageway);
+  EXPECT_EQ(scene_.meshes.size(), 1u) << "shared";
+}
+
+TEST_F(SceneFile, AnUnknownTagIsAnErrorWithAdvice) {
+  const int node = builder_.AddNode(
+      NodeWith("house 7", -1, AddQuad("quad"), R"({"flaneur_kind": "bulding"})"));
+  const std::string message = ReadScene(Finish({node}), &scene_).message;
+  EXPECT_NE(message.find("house 7"), std::string::npos) << message;
+  EXPECT_NE(message.find("did you mean 'building'"), std::string::npos) << message;
+}
+
+TEST_F(SceneFile, MirroredNodesKeepTheirOutside) {
+  GltfNode node = NodeWith("mirrored", -1, AddQuad("quad"), "");
+  node.transform.scale = {-1, 1, 1};
+  ASSERT_EQ(ReadScene(Finish({builder_.AddNode(node)}), &scene_).message, "");
+  const SceneNode& read = scene_.nodes[0];
+  const Mesh& mesh = scene_.meshes[static_cast<size_t>(read.meshes[0])];
+  const auto at = [&](size_t i) { return TransformPoint(read.world, mesh.positions[mesh.indices[i]]); };
+  EXPECT_GT(Cross(at(1) - at(0), at(2) - at(0)).z, 0);
+}
+
+TEST_F(SceneFile, MissingNormalsAreThoseOfTheFaces) {
+  quad_.normals.clear();
+  ASSERT_EQ(ReadScene(Finish({builder_.AddNode(NodeWith("a", -1, AddQuad("quad"), ""))}), &scene_).message,
+            "");
+  for (const Vec3 n : scene_.meshes[0].normals) EXPECT_NEAR(n.z, 1, 1e-6f);
+  EXPECT_EQ(scene_.meshes[0].normals.size(), scene_.meshes[0].positions.size());
+}
+
+TEST_F(SceneFile, WithoutTrianglesIsAnError) {
+  const std::string message =
+      ReadScene(Finish({builder_.AddNode(NodeWith("empty", -1, -1, ""))}), &scene_).message;
+  EXPECT_NE(message.find("no triangle"), std::string::npos) << message;
+}
+
+TEST_F(SceneFile, ANonFiniteVertexNamesNodeAndMesh) {
+  quad_.positions[2].y = std::numeric_limits<float>::infinity();
+  const std::string message =
+      ReadScene(Finish({builder_.AddNode(NodeWith("house_17", -1, AddQuad("gable"), ""))}), &scene_)
+          .message;
+  EXPECT_NE(message.find("house_17"), std::string::npos) << message;
+  EXPECT_NE(message.find("gable"), std::string::npos) << message;
+}
+
+// Text files with strips, fans, no indices, and quantised positions.
+TEST_F(SceneFile, ReadsStripsFansAndQuantisedText) {
+  // Four 16-bit corners of a quad as a strip: (0,0) (1,0) (0,1) (1,1), z = 0.
+  const char* text = R"({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_mesh_quantization"],
+    "extensionsRequired": ["KHR_mesh_quantization"], "scene": 0,
+    "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [2, 2, 2]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 5},
+                               {"attributes": {"POSITION": 0}, "mode": 6},
+                               {"attributes": {"POSITION": 0}, "mode": 1}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5122, "count": 4, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 32, "byteStride": 8}],
+    "buffers": [{"byteLength": 32, "uri": "corners of it.bin"}]})";
+  const int16_t corners[16] = {0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0};
+  const auto* bytes = reinterpret_cast<const uint8_t*>(corners);
+  ASSERT_EQ(WriteFile(folder_ / "corners of it.bin", {bytes, sizeof corners}).message, "");
+  ASSERT_EQ(WriteTextFile(folder_ / "town.gltf", text).message, "");
+  ASSERT_EQ(ReadScene(folder_ / "town.gltf", &scene_).message, "");
+  ASSERT_EQ(scene_.meshes.size(), 2u) << "lines are left out";
+  for (const Mesh& mesh : scene_.meshes) EXPECT_EQ(TriangleCount(mesh), 2);
+  for (const Vec3 n : scene_.meshes[0].normals) EXPECT_NEAR(n.z, 1, 1e-6f) << "strip";
+  fs::remove(folder_ / "corners of it.bin");
+  EXPECT_NE(ReadScene(folder_ / "town.gltf", &scene_).message.find("town.gltf"), std::string::npos);
+}
+
+TEST_F(SceneFile, ReadsARealBuilding) {
+  if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(SharedData() / "towns/kaykit-medieval")) {
+    if (entry.path().extension() != ".gltf") continue;
+    ++files;
+    ASSERT_EQ(ReadScene(entry.path(), &scene_).message, "");
+    EXPECT_FALSE(scene_.meshes.empty());
+    ASSERT_EQ(scene_.images.size(), 1u);
+    EXPECT_EQ(scene_.images[0].mime_type, "image/png");
+  }
+  EXPECT_GT(files, 0);
+}
+
+}  // namespace
+}  // namespace flaneur
