@@ -1,0 +1,90 @@
+#include "pipeline/cli/assemble_town.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "pipeline/footprint/town_objects.h"
+
+namespace flaneur {
+namespace {
+
+template <typename T>
+void Append(std::vector<T>* to, std::vector<T>& from) {
+  to->insert(to->end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+void Shift(int* index, size_t by) {
+  if (*index >= 0) *index += static_cast<int>(by);
+}
+
+}  // namespace
+
+void AppendScene(Scene part, float scale, float yaw_rad, Vec2 position_m, Scene* town) {
+  const Quat turn{0, std::sin(yaw_rad / 2), 0, std::cos(yaw_rad / 2)};
+  const Mat4 place = FromTranslationRotationScale(GltfFromGround({position_m.x, position_m.y, 0}), turn,
+                                                  {scale, scale, scale});
+  const size_t nodes = town->nodes.size(), meshes = town->meshes.size();
+  const size_t materials = town->materials.size(), images = town->images.size();
+  for (SceneNode& node : part.nodes) {
+    Shift(&node.parent, nodes);
+    for (int& mesh : node.meshes) Shift(&mesh, meshes);
+    node.world = place * node.world;
+    node.radius_m *= scale;
+    node.width_m *= scale;
+  }
+  for (Mesh& mesh : part.meshes) Shift(&mesh.material, materials);
+  for (Material& material : part.materials) {
+    Shift(&material.base_color_image, images);
+    Shift(&material.normal_image, images);
+  }
+  Append(&town->nodes, part.nodes);
+  Append(&town->meshes, part.meshes);
+  Append(&town->materials, part.materials);
+  Append(&town->images, part.images);
+}
+
+std::vector<PackPlace> TaggedPlaces(const Scene& town) {
+  std::vector<PackPlace> places;
+  for (const SceneNode& node : town.nodes) {
+    const bool place = node.kind == NodeKind::kDoor || node.kind == NodeKind::kExit || node.kind == NodeKind::kLoiter;
+    if (!place || !node.meshes.empty()) continue;
+    const Vec3 p = GroundFromGltf({node.world.m[3][0], node.world.m[3][1], node.world.m[3][2]});
+    places.push_back({node.name, NodeKindName(node.kind), {p.x, p.y}, node.width_m > 0 ? node.width_m : 1});
+  }
+  return places;
+}
+
+bool AddGroundWhereNone(float margin_m, Scene* town) {
+  const TownObjects objects = SortTown(*town, 1);
+  if (!objects.ground.empty() || objects.obstacles.empty()) return false;
+  Point3 low = objects.obstacles.front().min_m, high = objects.obstacles.front().max_m;
+  for (const TownObject& o : objects.obstacles) {
+    low = {std::min(low.x, o.min_m.x), std::min(low.y, o.min_m.y), std::min(low.z, o.min_m.z)};
+    high = {std::max(high.x, o.max_m.x), std::max(high.y, o.max_m.y), high.z};
+  }
+  const auto corner = [&](double x, double y) {
+    return GltfFromGround({static_cast<float>(x), static_cast<float>(y), static_cast<float>(low.z)});
+  };
+  Mesh mesh;
+  mesh.name = "ground";
+  mesh.material = static_cast<int>(town->materials.size());
+  mesh.positions = {corner(low.x - margin_m, low.y - margin_m), corner(high.x + margin_m, low.y - margin_m),
+                    corner(high.x + margin_m, high.y + margin_m), corner(low.x - margin_m, high.y + margin_m)};
+  mesh.normals.assign(4, Vec3{0, 1, 0});
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  Material material;
+  material.name = "ground";
+  material.base_color = {0.30f, 0.27f, 0.22f, 1};
+  SceneNode node;
+  node.name = "ground";
+  node.meshes = {static_cast<int>(town->meshes.size())};
+  node.kind = NodeKind::kGround;
+  node.ground = GroundKind::kSquare;
+  town->materials.push_back(material);
+  town->meshes.push_back(mesh);
+  town->nodes.push_back(node);
+  return true;
+}
+
+}  // namespace flaneur

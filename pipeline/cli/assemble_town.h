@@ -1,0 +1,20 @@
+// One town from several models, and the places that its nodes mark.
+#pragma once
+#include <vector>
+
+#include "pipeline/core/scene.h"
+#include "runtime/pack/tour_pack.h"
+
+namespace flaneur {
+
+// Appends `part` to `town`, scaled, turned anticlockwise and moved on the ground plane.
+void AppendScene(Scene part, float scale, float yaw_rad, Vec2 position_m, Scene* town);
+
+// Door, exit and loiter nodes.
+std::vector<PackPlace> TaggedPlaces(const Scene& town);
+
+// Gives a town without any ground a flat square under it, `margin_m` wider than the town; else does nothing.
+// Returns whether it did.
+bool AddGroundWhereNone(float margin_m, Scene* town);
+
+}  // namespace flaneur

@@ -1,0 +1,70 @@
+#include "pipeline/core/fingerprint.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <regex>
+#include <vector>
+
+#include "runtime/base/file.h"
+
+namespace flaneur {
+namespace fs = std::filesystem;
+namespace {
+
+std::vector<fs::path> PythonFiles(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ec;
+  for (fs::recursive_directory_iterator it(folder, ec), end; !ec && it != end; it.increment(ec)) {
+    if (it->path().extension() == ".py") files.push_back(it->path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// The files beside a .gltf that its text names by "uri".
+std::vector<fs::path> NamedFiles(const fs::path& gltf, const std::string& text) {
+  static const std::regex uri("\"uri\"\\s*:\\s*\"([^\"]{1,512})\"");
+  std::vector<fs::path> files;
+  for (std::sregex_iterator it(text.begin(), text.end(), uri), end; it != end; ++it) {
+    files.push_back(gltf.parent_path() / (*it)[1].str());
+  }
+  return files;
+}
+
+}  // namespace
+
+Fingerprint& Fingerprint::Add(std::string_view part) {
+  const auto mix = [this](uint8_t byte) { state_ = (state_ ^ byte) * 1099511628211ull; };
+  for (uint64_t size = part.size(), i = 0; i < 8; ++i) mix(static_cast<uint8_t>(size >> (8 * i)));
+  for (char c : part) mix(static_cast<uint8_t>(c));
+  return *this;
+}
+
+Fingerprint& Fingerprint::Add(double number) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", number);
+  return Add(text);
+}
+
+Fingerprint& Fingerprint::AddFile(const fs::path& path) {
+  std::error_code ec;
+  if (fs::is_directory(path, ec)) {
+    for (const fs::path& file : PythonFiles(path)) Add(file.filename().string()).AddFile(file);
+    return *this;
+  }
+  std::string text;
+  if (ReadTextFile(path, &text)) text.clear();
+  Add(text);
+  if (path.extension() == ".gltf") {
+    for (const fs::path& file : NamedFiles(path, text)) AddFile(file);
+  }
+  return *this;
+}
+
+std::string Fingerprint::Hex() const {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(state_));
+  return text;
+}
+
+}  // namespace flaneur
