@@ -1,0 +1,70 @@
+// The townspeople: arrays by field, and the passes of one fixed step over them. Metres, seconds, radians, ground plane.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "runtime/base/random.h"
+#include "runtime/crowd/flow_field.h"
+#include "runtime/crowd/walkable.h"
+
+namespace flaneur {
+
+// How a person stands to the camera (paper, section 3.1). The values order by how much care is taken.
+enum class ViewClass : uint8_t { kOutside, kBoundary, kVisible };
+enum class Activity : uint8_t { kWalking, kStanding, kTalking };
+
+// A disc that some people keep out of: the visitor, or the paper's camera obstacles.
+struct MovingObstacle {
+  Vec2 center;
+  float radius_m = 0;
+  bool everyone = false;  // else only people with `avoids_camera`
+};
+
+struct Crowd {
+  std::vector<int> id, avatar;
+  std::vector<Vec2> position, velocity;
+  std::vector<float> heading_rad, radius_m, preferred_mps, top_mps;
+  std::vector<int> field;               // index into fields: where the person goes; -1: stays
+  std::vector<Vec2> waypoint;           // on the way there, renewed now and then
+  std::vector<Activity> activity;
+  std::vector<float> wait_s;            // left to stand
+  std::vector<ViewClass> view;
+  std::vector<uint8_t> avoids_camera;   // set by the control
+  std::vector<uint8_t> arrived;         // reached the goal in the last step
+  std::vector<float> pace;              // factor on the preferred speed, set by the control; 1: as they like
+  std::vector<float> walked_m;          // since appearing: drives the walk cycle
+  std::vector<FlowField> fields;
+  int next_id = 0;
+  int64_t step = 0;
+
+  // Scratch of the passes, kept so that a steady step allocates nothing.
+  std::vector<Vec2> wanted, moved;
+  std::vector<int> grid_start, grid_people, grid_cell;
+
+  size_t size() const { return id.size(); }
+};
+
+struct Person {
+  int avatar = 0;
+  Vec2 position;
+  float heading_rad = 0, radius_m = 0.25f, preferred_mps = 1.3f, top_mps = 1.9f;
+  int field = -1;
+};
+
+int AddPerson(const Person& person, Crowd* crowd);  // returns the id
+void RemovePerson(size_t index, Crowd* crowd);      // the last one takes the place
+// The field for this goal, made where there is none yet.
+int FieldFor(const Walkable& w, Vec2 goal, Crowd* crowd);
+
+// One step of step_s. Visible and boundary people avoid each other and never overlap more than they did; others only follow
+// their way. Nobody's centre comes nearer to an obstacle than radius_m, nobody moves farther than top_mps * step_s.
+void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* crowd);
+
+// Boundary people who overlap are moved apart at once, none of them into the inner volume (paper, section 4.3.1).
+// keep_out(p) is true for points of the inner volume.
+void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2 p, const void* volume), const void* volume, Crowd* crowd);
+
+// Over positions and headings: equal for equal runs.
+uint64_t StateHash(const Crowd& crowd);
+
+}  // namespace flaneur

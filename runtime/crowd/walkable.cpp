@@ -1,0 +1,284 @@
+#include "runtime/crowd/walkable.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/crowd/constants.h"
+
+namespace flaneur {
+namespace {
+
+// Edges are listed for all cells that a person standing in the cell, and stepping out of it, can touch.
+constexpr float kReach_m = 1.0f;
+
+Vec2 NearestOnSegment(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 ab = b - a;
+  const float length2 = Dot(ab, ab);
+  const float t = length2 > 0 ? std::clamp(Dot(p - a, ab) / length2, 0.0f, 1.0f) : 0.0f;
+  return a + ab * t;
+}
+
+bool InsideRing(Vec2 p, const std::vector<Vec2>& ring) {
+  bool inside = false;
+  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Vec2 a = ring[i], b = ring[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+  }
+  return inside;
+}
+
+bool InsidePolygon(Vec2 p, const PolygonObstacle& polygon) {
+  if (!InsideRing(p, polygon.outer)) return false;
+  for (const auto& hole : polygon.holes) {
+    if (InsideRing(p, hole)) return false;
+  }
+  return true;
+}
+
+void AddEdges(const std::vector<Vec2>& ring, std::vector<Walkable::Edge>* edges) {
+  for (size_t i = 0; i < ring.size(); ++i) edges->push_back({ring[i], ring[(i + 1) % ring.size()]});
+}
+
+// Calls visit(cell) for the cells whose box, grown by kReach_m, the box touches.
+template <typename Visit>
+void VisitCells(const Walkable& w, Vec2 low, Vec2 high, Visit visit) {
+  const auto index = [&](float v, float origin, int count) {
+    return std::clamp(static_cast<int>(std::floor((v - origin) / w.cell_m)), 0, count - 1);
+  };
+  const int x0 = index(low.x - kReach_m, w.min_m.x, w.columns), x1 = index(high.x + kReach_m, w.min_m.x, w.columns);
+  const int y0 = index(low.y - kReach_m, w.min_m.y, w.rows), y1 = index(high.y + kReach_m, w.min_m.y, w.rows);
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) visit(y * w.columns + x);
+  }
+}
+
+bool EdgeNearCell(const Walkable& w, const Walkable::Edge& e, int cell) {
+  const Vec2 c = CellCenter(w, cell);
+  return Length(NearestOnSegment(c, e.a, e.b) - c) <= kReach_m + w.cell_m * 0.71f;
+}
+
+// Turns (cell, item) pairs, given twice by `each`, into ranges by cell.
+template <typename Each>
+void Bucket(int cells, Each each, std::vector<int>* start, std::vector<int>* items) {
+  start->assign(static_cast<size_t>(cells) + 1, 0);
+  each([&](int cell, int) { ++(*start)[static_cast<size_t>(cell) + 1]; });
+  for (size_t i = 1; i < start->size(); ++i) (*start)[i] += (*start)[i - 1];
+  items->resize(static_cast<size_t>(start->back()));
+  std::vector<int> fill(start->begin(), start->end() - 1);
+  each([&](int cell, int item) { (*items)[static_cast<size_t>(fill[static_cast<size_t>(cell)]++)] = item; });
+}
+
+void BucketObstacles(Walkable* w) {
+  const int cells = w->columns * w->rows;
+  Bucket(cells, [&](auto add) {
+    for (size_t e = 0; e < w->edges.size(); ++e) {
+      const auto& edge = w->edges[e];
+      const Vec2 low{std::min(edge.a.x, edge.b.x), std::min(edge.a.y, edge.b.y)};
+      const Vec2 high{std::max(edge.a.x, edge.b.x), std::max(edge.a.y, edge.b.y)};
+      VisitCells(*w, low, high, [&](int cell) {
+        if (EdgeNearCell(*w, edge, cell)) add(cell, static_cast<int>(e));
+      });
+    }
+  }, &w->wall_start, &w->wall_edges);
+  Bucket(cells, [&](auto add) {
+    for (size_t c = 0; c < w->circles.size(); ++c) {
+      const Vec2 r{w->circles[c].radius_m, w->circles[c].radius_m};
+      VisitCells(*w, w->circles[c].center - r, w->circles[c].center + r, [&](int cell) { add(cell, static_cast<int>(c)); });
+    }
+  }, &w->circle_start, &w->wall_circles);
+}
+
+// Marks what lies inside polygons, row by row.
+std::vector<char> Covered(const Walkable& w) {
+  std::vector<char> covered(w.cost.size(), 0);
+  for (const PolygonObstacle& polygon : w.polygons) {
+    Vec2 low = polygon.outer[0], high = low;
+    for (Vec2 p : polygon.outer) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    VisitCells(w, low, high, [&](int cell) {
+      if (InsidePolygon(CellCenter(w, cell), polygon)) covered[static_cast<size_t>(cell)] = 1;
+    });
+  }
+  return covered;
+}
+
+float Clearance(const Walkable& w, int cell, Vec2 p) {
+  float nearest = 1e9f;
+  for (int i = w.wall_start[static_cast<size_t>(cell)]; i < w.wall_start[static_cast<size_t>(cell) + 1]; ++i) {
+    const auto& e = w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(i)])];
+    nearest = std::min(nearest, Length(NearestOnSegment(p, e.a, e.b) - p));
+  }
+  for (int i = w.circle_start[static_cast<size_t>(cell)]; i < w.circle_start[static_cast<size_t>(cell) + 1]; ++i) {
+    const auto& c = w.circles[static_cast<size_t>(w.wall_circles[static_cast<size_t>(i)])];
+    nearest = std::min(nearest, Length(c.center - p) - c.radius_m);
+  }
+  return nearest;
+}
+
+int GroundCell(const GroundGrid& g, Vec2 p) {
+  const int x = static_cast<int>(std::floor((p.x - g.min_m.x) / g.cell_m));
+  const int y = static_cast<int>(std::floor((p.y - g.min_m.y) / g.cell_m));
+  return x < 0 || y < 0 || x >= g.columns || y >= g.rows ? -1 : y * g.columns + x;
+}
+
+void NumberComponents(Walkable* w) {
+  w->component.assign(w->cost.size(), -1);
+  std::vector<int> stack;
+  int count = 0;
+  for (int seed = 0; seed < static_cast<int>(w->cost.size()); ++seed) {
+    if (w->cost[static_cast<size_t>(seed)] <= 0 || w->component[static_cast<size_t>(seed)] >= 0) continue;
+    stack.assign(1, seed);
+    w->component[static_cast<size_t>(seed)] = count;
+    while (!stack.empty()) {
+      const int cell = stack.back();
+      stack.pop_back();
+      const int x = cell % w->columns, y = cell / w->columns;
+      const int next[4] = {x > 0 ? cell - 1 : -1, x + 1 < w->columns ? cell + 1 : -1, y > 0 ? cell - w->columns : -1,
+                           y + 1 < w->rows ? cell + w->columns : -1};
+      for (int n : next) {
+        if (n < 0 || w->cost[static_cast<size_t>(n)] <= 0 || w->component[static_cast<size_t>(n)] >= 0) continue;
+        w->component[static_cast<size_t>(n)] = count;
+        stack.push_back(n);
+      }
+    }
+    ++count;
+  }
+}
+
+}  // namespace
+
+void BuildWalkable(float person_radius_m, Walkable* w) {
+  w->person_radius_m = person_radius_m;
+  w->cell_m = kNavigationCell_m;
+  w->min_m = w->ground.min_m;
+  w->columns = std::max(1, static_cast<int>(std::ceil(static_cast<float>(w->ground.columns) * w->ground.cell_m / w->cell_m)));
+  w->rows = std::max(1, static_cast<int>(std::ceil(static_cast<float>(w->ground.rows) * w->ground.cell_m / w->cell_m)));
+  w->cost.assign(static_cast<size_t>(w->columns) * static_cast<size_t>(w->rows), 0);
+  w->height_m.assign(w->cost.size(), 0);
+  w->edges.clear();
+  for (const PolygonObstacle& polygon : w->polygons) {
+    AddEdges(polygon.outer, &w->edges);
+    for (const auto& hole : polygon.holes) AddEdges(hole, &w->edges);
+  }
+  BucketObstacles(w);
+  const std::vector<char> covered = Covered(*w);
+  for (int cell = 0; cell < static_cast<int>(w->cost.size()); ++cell) {
+    const Vec2 center = CellCenter(*w, cell);
+    const int ground = GroundCell(w->ground, center);
+    const uint8_t kind = ground < 0 ? 0 : w->ground.kind[static_cast<size_t>(ground)];
+    if (kind == 0 || kind > 4) continue;
+    w->height_m[static_cast<size_t>(cell)] = w->ground.height_m[static_cast<size_t>(ground)];
+    if (covered[static_cast<size_t>(cell)] || Clearance(*w, cell, center) < person_radius_m) continue;
+    w->cost[static_cast<size_t>(cell)] = kGroundCost[kind];
+  }
+  NumberComponents(w);
+}
+
+int CellAt(const Walkable& w, Vec2 p) {
+  const int x = static_cast<int>(std::floor((p.x - w.min_m.x) / w.cell_m));
+  const int y = static_cast<int>(std::floor((p.y - w.min_m.y) / w.cell_m));
+  return x < 0 || y < 0 || x >= w.columns || y >= w.rows ? -1 : y * w.columns + x;
+}
+
+Vec2 CellCenter(const Walkable& w, int cell) {
+  return {w.min_m.x + (static_cast<float>(cell % w.columns) + 0.5f) * w.cell_m,
+          w.min_m.y + (static_cast<float>(cell / w.columns) + 0.5f) * w.cell_m};
+}
+
+bool IsFree(const Walkable& w, Vec2 p) {
+  const int cell = CellAt(w, p);
+  return cell >= 0 && w.cost[static_cast<size_t>(cell)] > 0;
+}
+
+float HeightAt(const Walkable& w, Vec2 p) {
+  const GroundGrid& g = w.ground;
+  if (g.height_m.empty()) return 0;
+  const float fx = std::clamp((p.x - g.min_m.x) / g.cell_m - 0.5f, 0.0f, static_cast<float>(g.columns - 1));
+  const float fy = std::clamp((p.y - g.min_m.y) / g.cell_m - 0.5f, 0.0f, static_cast<float>(g.rows - 1));
+  const int x0 = static_cast<int>(fx), y0 = static_cast<int>(fy);
+  const int x1 = std::min(x0 + 1, g.columns - 1), y1 = std::min(y0 + 1, g.rows - 1);
+  const float tx = fx - static_cast<float>(x0), ty = fy - static_cast<float>(y0);
+  float sum = 0, weight = 0;  // corners without ground don't count
+  const auto corner = [&](int x, int y, float share) {
+    const size_t i = static_cast<size_t>(y) * static_cast<size_t>(g.columns) + static_cast<size_t>(x);
+    if (g.kind[i] == 0) return;
+    sum += share * g.height_m[i];
+    weight += share;
+  };
+  corner(x0, y0, (1 - tx) * (1 - ty));
+  corner(x1, y0, tx * (1 - ty));
+  corner(x0, y1, (1 - tx) * ty);
+  corner(x1, y1, tx * ty);
+  return weight > 1e-6f ? sum / weight : g.height_m[static_cast<size_t>(y0) * static_cast<size_t>(g.columns) + static_cast<size_t>(x0)];
+}
+
+bool InsideObstacle(const Walkable& w, Vec2 p) {
+  for (const CircleObstacle& c : w.circles) {
+    if (Length(p - c.center) < c.radius_m) return true;
+  }
+  for (const PolygonObstacle& polygon : w.polygons) {
+    if (InsidePolygon(p, polygon)) return true;
+  }
+  return false;
+}
+
+int NearestFreeCell(const Walkable& w, Vec2 p, float reach_m) {
+  const int reach = static_cast<int>(std::ceil(reach_m / w.cell_m));
+  const int cx = static_cast<int>(std::floor((p.x - w.min_m.x) / w.cell_m));
+  const int cy = static_cast<int>(std::floor((p.y - w.min_m.y) / w.cell_m));
+  int best = -1;
+  float best_m = reach_m;
+  for (int y = std::max(0, cy - reach); y <= std::min(w.rows - 1, cy + reach); ++y) {
+    for (int x = std::max(0, cx - reach); x <= std::min(w.columns - 1, cx + reach); ++x) {
+      const int cell = y * w.columns + x;
+      if (w.cost[static_cast<size_t>(cell)] <= 0) continue;
+      const float distance_m = Length(CellCenter(w, cell) - p);
+      if (distance_m < best_m) {
+        best_m = distance_m;
+        best = cell;
+      }
+    }
+  }
+  return best;
+}
+
+Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {
+  // A step is far shorter than a cell, so walls near the cell of `from` are all that can be met.
+  const int cell = CellAt(w, from);
+  if (cell < 0) return from;
+  const auto push = [&](Vec2 p) {
+    for (int i = w.wall_start[static_cast<size_t>(cell)]; i < w.wall_start[static_cast<size_t>(cell) + 1]; ++i) {
+      const auto& e = w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(i)])];
+      const Vec2 nearest = NearestOnSegment(p, e.a, e.b);
+      const Vec2 off = p - nearest;
+      const float distance_m = Length(off);
+      if (distance_m >= radius_m) continue;
+      Vec2 normal = distance_m > 1e-4f ? off * (1 / distance_m) : Vec2{};
+      // On the far side of the wall, or on it: back to where the person came from.
+      const Vec2 came = from - NearestOnSegment(from, e.a, e.b);
+      if (Dot(came, normal) <= 0) normal = Length(came) > 1e-6f ? came * (1 / Length(came)) : normal;
+      p = nearest + normal * radius_m;
+    }
+    for (int i = w.circle_start[static_cast<size_t>(cell)]; i < w.circle_start[static_cast<size_t>(cell) + 1]; ++i) {
+      const auto& c = w.circles[static_cast<size_t>(w.wall_circles[static_cast<size_t>(i)])];
+      const Vec2 off = p - c.center;
+      const float distance_m = Length(off);
+      if (distance_m < c.radius_m + radius_m && distance_m > 1e-6f) {
+        p = c.center + off * ((c.radius_m + radius_m) / distance_m);
+      }
+    }
+    return p;
+  };
+  const auto clear = [&](Vec2 p) { return Clearance(w, cell, p) >= radius_m - 0.01f; };
+  Vec2 p = push(push(to));
+  if (clear(p) && Length(p - from) <= Length(to - from) * 1.0001f + 1e-6f) return p;
+  // In a corner: slide no farther than the step asked for, else stay.
+  const Vec2 step = p - from;
+  const float asked_m = Length(to - from), got_m = Length(step);
+  if (got_m > asked_m && got_m > 1e-9f) p = from + step * (asked_m / got_m);
+  return clear(p) ? p : from;
+}
+
+}  // namespace flaneur
