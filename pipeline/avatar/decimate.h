@@ -16,9 +16,9 @@ struct LevelsOptions {
   int walk_poses = 8;         // that posed_error_mm is measured over
 };
 
-// Reduces the avatar step by step, each level from the original by half-edge collapses, so that every vertex of a level
-// is one of the original with its own uv, normal, colour and weights. Borders between materials, uv seams and open
-// edges keep their line. Every level has its target of triangles within 2 % or a warning says why not.
+// Reduces the avatar step by step by half-edge collapses, so that every vertex of a level stands where one of the
+// original stands and has its weights. Borders between materials, uv seams and open edges keep their line; where a
+// corner must leave its seam it keeps its uv. Every level has its target of triangles within 2 % or a warning says why.
 // Errors: no triangles, ratios out of order or range, a non-finite position (names the mesh and vertex).
 Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLevels* levels,
                   std::vector<std::string>* warnings);

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <tuple>
 
 namespace flaneur {
 namespace {
@@ -20,7 +22,7 @@ using Face = WedgeSurface::Face;
 constexpr double kSeamWeight = 2;        // of a border's or seam's own planes, against those of faces
 constexpr float kSameUv = 1e-4f;         // uvs nearer than this are no seam
 constexpr float kSameColor = 0.02f;
-constexpr double kUvLength_m = 0.5;      // a uv shift of 1 costs as much as this distance
+constexpr double kStretch = 0.3;         // a picture shifted by a length costs as much as this share of it
 constexpr float kMaxFlip_deg = 80;       // a face that turns further is taken to fold over
 
 OpenMesh::Vec3d ToDouble(Vec3 v) {
@@ -116,8 +118,9 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
   void preprocess_collapse(const CollapseInfo& info) override {
     double shift = 0;
     MapWedges(info, &shift);
-    for (const auto& [face, wedge] : moved_) {
-      Face& f = surface_->wedges.faces[static_cast<size_t>(face)];
+    for (const Move& move : moved_) {
+      Face& f = surface_->wedges.faces[static_cast<size_t>(move.face)];
+      const int wedge = move.place < 0 ? move.wedge : Displaced(move.wedge, move.place);
       for (size_t k = 0; k < 3; ++k) {
         if (f.vertices[k] != info.v0.idx()) continue;
         f.vertices[k] = info.v1.idx();
@@ -133,6 +136,22 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
   }
 
  private:
+  // What happens to the corner at v0 of a face that stays.
+  struct Move {
+    int face = 0;
+    int wedge = 0;
+    int place = -1;  // a wedge at v1 where only the corner's place changes, not its uv; -1: `wedge` has it all
+  };
+
+  // A wedge with the picture of one and the place of another.
+  int Displaced(int wedge, int place) {
+    auto& wedges = surface_->wedges.wedges;
+    WedgeSurface::Wedge displaced = wedges[static_cast<size_t>(wedge)];
+    displaced.place = wedges[static_cast<size_t>(place)].place;
+    wedges.push_back(displaced);
+    return static_cast<int>(wedges.size()) - 1;
+  }
+
   void AddPlane(size_t pose, OpenMesh::Vec3d normal, OpenMesh::Vec3d point, double weight,
                 std::initializer_list<int> vertices) {
     const double length = normal.norm();
@@ -191,49 +210,47 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
     return found;
   }
 
-  // Of the wedges at v1: the one like `like` whose normal fits best; across a seam the one with the nearest uv of the
-  // same mesh; -1: none.
+  // Of the wedges at v1 the one of the same mesh, without a seam to `like` where given, whose normal fits best;
+  // -1: none.
   int Nearest(const CollapseInfo& info, int like, int wedge) {
     int best = -1;
-    float least = 1e30f;
+    float closest = -2;
     for (const auto face : Base::mesh().vf_range(info.v1)) {
       const int w1 = WedgeAt(*surface_, face.idx(), info.v1.idx());
       if (w1 < 0 || !SameMesh(*surface_, w1, wedge)) continue;
       if (like >= 0 && !NoSeam(*surface_, w1, like)) continue;
-      const float misfit = 1 - NormalAgreement(*surface_, w1, wedge) +
-                           (like >= 0 ? 0 : 100 * UvShift(*surface_, w1, wedge));
-      if (misfit < least) {
-        least = misfit;
-        best = w1;
-      }
+      const float agreement = NormalAgreement(*surface_, w1, wedge);
+      if (agreement <= closest) continue;
+      closest = agreement;
+      best = w1;
     }
     return best;
   }
 
-  // Fills moved_: the new wedge of each face that stays at v0. False where that would tear a seam.
+  // Fills moved_. A corner whose seam does not lead to v1 keeps its uv there, which shifts the picture a little; the
+  // wedges of v1 lie elsewhere in the picture. False where the mesh itself ends: borders of materials stay.
   bool MapWedges(const CollapseInfo& info, double* shift) {
     moved_.clear();
+    bool whole = true;
+    const auto& p = surface_->positions[0];
+    const double edge2 = (p[static_cast<size_t>(info.v1.idx())] -
+                          p[static_cast<size_t>(info.v0.idx())]).sqrnorm();
     for (const auto face : Base::mesh().vf_range(info.v0)) {
       if (face == info.fl || face == info.fr) continue;
       const int w0 = WedgeAt(*surface_, face.idx(), info.v0.idx());
       bool exact = false;
       const int continued = Continuation(info, w0, &exact);
-      int w1 = continued;
-      if (continued >= 0 && !exact) w1 = Nearest(info, continued, w0);
-      if (continued < 0) {
-        w1 = Nearest(info, -1, w0);
-        if (w1 < 0) {
-          // Only reached without legality where a neighbour changed in between: the corner stays where it was.
-          moved_.emplace_back(face.idx(), w0);
-          tears_ = true;
-          continue;
-        }
-        const double distance = kUvLength_m * static_cast<double>(UvShift(*surface_, w0, w1));
-        *shift += distance * distance * FaceArea(face.idx());
+      if (continued >= 0) {
+        moved_.push_back({face.idx(), exact ? continued : Nearest(info, continued, w0), -1});
+        continue;
       }
-      moved_.emplace_back(face.idx(), w1);
+      const int place = Nearest(info, -1, w0);
+      // Without a place the corner stays where it was: a neighbour's collapse took the mesh away in between.
+      moved_.push_back({face.idx(), w0, place});
+      whole = whole && place >= 0;
+      *shift += kStretch * kStretch * edge2 * std::sqrt(FaceArea(face.idx()));
     }
-    return !std::exchange(tears_, false);
+    return whole;
   }
 
   double FaceArea(int face) const {
@@ -245,8 +262,7 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
 
   Surface* surface_ = nullptr;
   std::vector<std::vector<Quadric>> quadrics_;    // by pose and vertex
-  std::vector<std::pair<int, int>> moved_;        // face, wedge
-  bool tears_ = false;
+  std::vector<Move> moved_;
 };
 
 }  // namespace
@@ -338,33 +354,33 @@ void QuadricDecimater::DecimateTo(int triangles) {
 std::vector<Mesh> QuadricDecimater::Meshes() const {
   const Surface& surface = impl_->surface;
   std::vector<Mesh> out;
-  std::vector<std::vector<int>> index;  // by mesh and vertex of the original, -1: not used
+  std::map<std::tuple<int, uint32_t, uint32_t>, uint32_t> index;  // of a wedge's mesh, vertex and place
   for (const Mesh& mesh : impl_->bind) {
     out.emplace_back();
     out.back().name = mesh.name;
     out.back().material = mesh.material;
-    index.emplace_back(mesh.positions.size(), -1);
   }
   const auto copy = [](const auto& from, size_t v, auto* to) {
     if (!from.empty()) to->push_back(from[v]);
   };
   for (const auto face : impl_->mesh.faces()) {  // skips deleted ones
     for (const int wedge : surface.wedges.faces[static_cast<size_t>(face.idx())].wedges) {
-      const auto& from = surface.wedges.wedges[static_cast<size_t>(wedge)];
+      const WedgeSurface::Wedge from = surface.wedges.wedges[static_cast<size_t>(wedge)];
       const Mesh& mesh = impl_->bind[static_cast<size_t>(from.mesh)];
       Mesh& to = out[static_cast<size_t>(from.mesh)];
-      int& i = index[static_cast<size_t>(from.mesh)][from.vertex];
-      if (i < 0) {
-        i = static_cast<int>(to.positions.size());
-        copy(mesh.positions, from.vertex, &to.positions);
+      const auto [at, is_new] =
+          index.try_emplace({from.mesh, from.vertex, from.place},
+                            static_cast<uint32_t>(to.positions.size()));
+      if (is_new) {
+        copy(mesh.positions, from.place, &to.positions);
+        copy(mesh.joints, from.place, &to.joints);
+        copy(mesh.weights, from.place, &to.weights);
         copy(mesh.normals, from.vertex, &to.normals);
         copy(mesh.uvs, from.vertex, &to.uvs);
         copy(mesh.uvs1, from.vertex, &to.uvs1);
         copy(mesh.colors, from.vertex, &to.colors);
-        copy(mesh.joints, from.vertex, &to.joints);
-        copy(mesh.weights, from.vertex, &to.weights);
       }
-      to.indices.push_back(static_cast<uint32_t>(i));
+      to.indices.push_back(at->second);
     }
   }
   return out;

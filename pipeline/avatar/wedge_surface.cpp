@@ -44,7 +44,7 @@ void AddFaces(const std::vector<Mesh>& meshes, const std::vector<int>& places,
   for (size_t m = 0; m < meshes.size(); ++m) {
     const Mesh& mesh = meshes[m];
     for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
-      surface->wedges.push_back({static_cast<int>(m), v});
+      surface->wedges.push_back({static_cast<int>(m), v, v});
     }
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       WedgeSurface::Face face;

@@ -11,7 +11,8 @@ namespace flaneur {
 struct WedgeSurface {
   struct Wedge {
     int mesh = 0;
-    uint32_t vertex = 0;
+    uint32_t vertex = 0;  // gives normal, uv and colour
+    uint32_t place = 0;   // gives position and weights; the same vertex until a corner leaves its seam
   };
   struct Face {
     std::array<int, 3> vertices{};
