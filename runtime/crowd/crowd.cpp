@@ -182,9 +182,23 @@ void ChooseVelocities(const Walkable& w, const std::vector<MovingObstacle>& movi
   }
 }
 
-void Move(const Walkable& w, float step_s, Crowd* c) {
+// Nobody walks into a disc that is for everyone: a step that would goes along its rim or not at all.
+Vec2 KeepOut(const std::vector<MovingObstacle>& moving, Vec2 from, Vec2 to, float radius_m) {
+  for (const MovingObstacle& m : moving) {
+    if (!m.everyone) continue;
+    const float reach_m = m.radius_m + radius_m, before_m = Length(from - m.center);
+    const Vec2 off = to - m.center;
+    const float after_m = Length(off);
+    if (after_m >= reach_m || after_m >= before_m || after_m < 1e-5f) continue;
+    const Vec2 rim = m.center + off * (std::min(reach_m, before_m) / after_m);
+    to = from + ClampLength(rim - from, Length(to - from));
+  }
+  return to;
+}
+
+void Move(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
   for (size_t i = 0; i < c->size(); ++i) {
-    const Vec2 to = c->position[i] + c->wanted[i] * step_s;
+    const Vec2 to = KeepOut(moving, c->position[i], c->position[i] + c->wanted[i] * step_s, c->radius_m[i]);
     c->moved[i] = KeepOffWalls(w, c->position[i], to, c->radius_m[i]);
   }
 }
@@ -282,7 +296,7 @@ void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
   RenewWaypoints(w, c);
   const NeighbourGrid g = SortIntoGrid(w, c);
   ChooseVelocities(w, moving, g, step_s, c);
-  Move(w, step_s, c);
+  Move(w, moving, step_s, c);
   ResolveOverlaps(w, g, step_s, c);
   Arrive(step_s, c);
   ++c->step;

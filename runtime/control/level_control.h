@@ -1,0 +1,46 @@
+// Who is drawn how: levels of detail within the triangle budget (paper, sections 3.2 and 4).
+#pragma once
+#include <vector>
+
+#include "runtime/control/view_volumes.h"
+
+namespace flaneur {
+
+inline constexpr int kImpostor = -1, kNotDrawn = -2;
+inline constexpr int kImpostorTriangles = 2;
+
+struct LevelCost { int triangles = 0; float switch_px = 0; };  // needed at this height on screen or above
+
+struct AvatarCosts {
+  std::vector<LevelCost> levels;  // finest first
+  float height_m = 1.75f;
+  float impostor_px = 128;        // height of its picture: adequate below one screen pixel per texel
+};
+
+struct LevelSettings {
+  bool by_frame_time = false;  // method 2, else method 1
+  int high_limit = 12;
+  float target_ms = 16.7f;
+  int budget_triangles = 200000;
+  float r_high_m = 10, r_far_m = 200;
+  int screen_width_px = 1280;  // that pixel sizes are meant for
+};
+
+struct LevelState {
+  float r_high_m = 0;              // in force; 0 before the first step
+  float budget_triangles = 0;      // in force
+  std::vector<int> level;          // by person index: a mesh level, kImpostor or kNotDrawn
+  std::vector<int> id;             // whose, in the last step
+  int high = 0, low = 0, shortfalls = 0, switches_in_view = 0;
+  int64_t triangles = 0;
+  bool exceeded = false;
+
+  std::vector<int> order, last_level;  // scratch
+};
+
+// Chooses everybody's level for this frame. The budget holds whatever happens: who does not fit becomes an impostor, and where
+// even those do not fit, the farthest are not drawn. frame_ms: what the last frame took, for method 2.
+void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera,
+                  float camera_speed_mps, float frame_ms, const LevelSettings& settings, float step_s, LevelState* state);
+
+}  // namespace flaneur
