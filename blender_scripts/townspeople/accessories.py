@@ -1,4 +1,6 @@
-"""What is worn over the garments: belts, aprons, capes, cloaks, collars. Lengths as in garments.py."""
+"""What is worn over the garments: belts, aprons, capes, cloaks, collars. Lengths as in
+garments.py.
+"""
 
 import numpy as np
 
@@ -16,15 +18,29 @@ def belt(tailor, name, at, height=0.04, thickness=0.010, ease=0.004, columns=40,
     half = 0.5 * height * size
     rings = []
     for dz in (half, 0.0, -half):
-        reach = [sf.outermost(tree, centre + [0, 0, dz], ray, 0.6) or 0.15 for ray in tl.direction(angles)]
+        reach = [
+            sf.outermost(tree, centre + [0, 0, dz], ray, 0.6) or 0.15
+            for ray in tl.direction(angles)
+        ]
         rings.append(tl.circular_blur(np.array(reach), 1))
     high, low = (np.maximum(rings[i], rings[1] - 0.004 * size) + ease * size for i in (0, 2))
-    shape = ((half, high, -0.006), (half, high, thickness), (-half, low, thickness), (-half, low, -0.006))
-    points = np.array([centre + np.array([0, 0, dz]) + tl.direction(angles) * (reach + out * size)[:, None]
-                       for dz, reach, out in shape])
+    shape = (
+        (half, high, -0.006),
+        (half, high, thickness),
+        (-half, low, thickness),
+        (-half, low, -0.006),
+    )
+    points = np.array(
+        [
+            centre + np.array([0, 0, dz]) + tl.direction(angles) * (reach + out * size)[:, None]
+            for dz, reach, out in shape
+        ]
+    )
     flat = points.reshape(-1, 3)
     weights = tl.as_worn(tailor, flat).reshape(len(shape), columns, -1)
-    tailor.worn["belt " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles), [0.0, 0.2, 0.8, 1.0])
+    tailor.worn["belt " + name] = sf.grid(
+        points, weights, cell, sf.mirrored_u(angles), [0.0, 0.2, 0.8, 1.0]
+    )
 
 
 def cord(tailor, name, start, end, angle_deg, radius=0.011, out=0.02, cell="belt"):
@@ -52,22 +68,39 @@ def pouch(tailor, name, at, angle_deg, width=0.10, depth=0.055, height=0.13, out
     tree = tl.trunk_tree(tailor, arms=False)
     ray = tl.direction(angle)
     low = z - height * size
-    reach = max(sf.outermost(tree, (0.0, tl.axis_y(tailor, y), y), ray, 0.8) or 0.15 for y in (z, low))
+    reach = max(
+        sf.outermost(tree, (0.0, tl.axis_y(tailor, y), y), ray, 0.8) or 0.15 for y in (z, low)
+    )
     centre = np.array([0.0, tl.axis_y(tailor, z), z]) + ray * (reach + out * size)
     side = np.array([-ray[1], ray[0], 0.0])
     around = tl.angles_of(10)
     rings = []
     for t, scale in ((0.0, 0.55), (0.12, 0.75), (0.5, 0.95), (0.8, 1.0), (0.95, 0.8), (1.0, 0.3)):
-        ring = (np.cos(around)[:, None] * side * width + np.sin(around)[:, None] * ray * depth) * 0.5 * scale
+        ring = (
+            (np.cos(around)[:, None] * side * width + np.sin(around)[:, None] * ray * depth)
+            * 0.5
+            * scale
+        )
         rings.append(centre + ring * size - np.array([0, 0, t * height * size]))
     points = np.array(rings)
     weights = np.tile(tl.as_worn(tailor, centre[None])[0], points.shape[:2] + (1,))
     tailor.worn["pouch " + name] = sf.grid(points, weights, cell, np.full(10, 0.5))
 
 
-def apron(tailor, name, over, hem_row=0.9, half_angle_deg=62, lift=0.012, bib_top=None, bib_half_angle_deg=38,
-          cell="apron"):
-    """A cloth over the front of a skirt that is worn already, with a bib where `bib_top` is a place."""
+def apron(
+    tailor,
+    name,
+    over,
+    hem_row=0.9,
+    half_angle_deg=62,
+    lift=0.012,
+    bib_top=None,
+    bib_half_angle_deg=38,
+    cell="apron",
+):
+    """A cloth over the front of a skirt that is worn already, with a bib where `bib_top` is a
+    place.
+    """
     points, weights, angles = tailor.grids[over]
     size = tailor.size
     signed = (angles + np.pi) % (2 * np.pi) - np.pi
@@ -75,14 +108,34 @@ def apron(tailor, name, over, hem_row=0.9, half_angle_deg=62, lift=0.012, bib_to
     rows = max(int(round(hem_row * (len(points) - 1))), 2) + 1
     cut, weights = points[:rows, order], weights[:rows, order]
     axis = cut.copy()
-    axis[..., 0], axis[..., 1] = 0.0, np.array([tl.axis_y(tailor, z) for z in cut[:, 0, 2]])[:, None]
+    axis[..., 0], axis[..., 1] = (
+        0.0,
+        np.array([tl.axis_y(tailor, z) for z in cut[:, 0, 2]])[:, None],
+    )
     outward = (cut - axis) / np.linalg.norm(cut - axis, axis=2, keepdims=True)
     layer = cut + outward * lift * size
     u_columns = sf.mirrored_u(signed[order]) * 180.0 / half_angle_deg
-    sheet = sf.grid(layer, weights, cell, u_columns, np.linspace(0.3 if bib_top else 0.0, 1.0, rows), closed=False)
-    tailor.worn["skirt apron " + name] = sf.lined(sheet, len(order), rows, False, 0.006 * size, cell)
+    sheet = sf.grid(
+        layer,
+        weights,
+        cell,
+        u_columns,
+        np.linspace(0.3 if bib_top else 0.0, 1.0, rows),
+        closed=False,
+    )
+    tailor.worn["skirt apron " + name] = sf.lined(
+        sheet, len(order), rows, False, 0.006 * size, cell
+    )
     if bib_top:
-        _bib(tailor, name, tailor.height(bib_top), layer[0, :, 2].mean(), bib_half_angle_deg, lift, cell)
+        _bib(
+            tailor,
+            name,
+            tailor.height(bib_top),
+            layer[0, :, 2].mean(),
+            bib_half_angle_deg,
+            lift,
+            cell,
+        )
 
 
 def _bib(tailor, name, top, bottom, half_angle_deg, lift, cell):
@@ -92,15 +145,25 @@ def _bib(tailor, name, top, bottom, half_angle_deg, lift, cell):
     rows = []
     for z in heights:
         centre = np.array([0.0, tl.axis_y(tailor, z), z])
-        reach = np.array([sf.outermost(tree, centre, ray, 0.6) or 0.12 for ray in tl.direction(angles)])
+        reach = np.array(
+            [sf.outermost(tree, centre, ray, 0.6) or 0.12 for ray in tl.direction(angles)]
+        )
         reach = tl.circular_blur(reach, 2, closed=False) + lift * tailor.size
         rows.append(centre + tl.direction(angles) * reach[:, None])
     points = np.array(rows)
     weights = tl.transferred(tailor, points.reshape(-1, 3), tailor.figure.parts["shirt"], 1.0)
     weights = weights.reshape(len(rows), len(angles), -1)
-    sheet = sf.grid(points, weights, cell, sf.mirrored_u(angles) * 180.0 / half_angle_deg,
-                    np.linspace(0.0, 0.32, len(rows)), closed=False)
-    tailor.worn["upper bib " + name] = sf.lined(sheet, len(angles), len(rows), False, 0.006 * tailor.size, cell)
+    sheet = sf.grid(
+        points,
+        weights,
+        cell,
+        sf.mirrored_u(angles) * 180.0 / half_angle_deg,
+        np.linspace(0.0, 0.32, len(rows)),
+        closed=False,
+    )
+    tailor.worn["upper bib " + name] = sf.lined(
+        sheet, len(angles), len(rows), False, 0.006 * tailor.size, cell
+    )
 
 
 def _shoulder_centre(tailor):
@@ -108,12 +171,29 @@ def _shoulder_centre(tailor):
     return np.array([0.0, tl.axis_y(tailor, z), z])
 
 
-def cape(tailor, name, top_deg=64, bottom_deg=0, ease=0.022, hem=None, open_deg=0, flare=0.1, folds=9,
-         fold_depth=0.02, columns=40, hang_rows=6, calm_arms=0.55, point=0.0, lining=None, cell="cape"):
+def cape(
+    tailor,
+    name,
+    top_deg=64,
+    bottom_deg=0,
+    ease=0.022,
+    hem=None,
+    open_deg=0,
+    flare=0.1,
+    folds=9,
+    fold_depth=0.02,
+    columns=40,
+    hang_rows=6,
+    calm_arms=0.55,
+    point=0.0,
+    lining=None,
+    cell="cape",
+):
     """Cloth draped over the shoulders: collar, shawl, shoulder cape, or cloak.
 
-    It starts at the neck `top_deg` above the chest's middle and comes down to `bottom_deg`; from there it
-    hangs to the place `hem`, where given. open_deg: half the opening in front. point: lowers front and back.
+    It starts at the neck `top_deg` above the chest's middle and comes down to `bottom_deg`; from
+    there it hangs to the place `hem`, where given. open_deg: half the opening in front. point:
+    lowers front and back.
     """
     size = tailor.size
     angles = _opened_angles(columns, open_deg)
@@ -126,18 +206,30 @@ def cape(tailor, name, top_deg=64, bottom_deg=0, ease=0.022, hem=None, open_deg=
         share = np.linspace(0.0, 1.0, len(points))[:, None] ** 2
         points[..., 2] -= share * point * size * np.abs(np.cos(angles))[None] ** 3
     if hem is not None:
-        points = _hung(tailor, points, angles, tailor.height(hem), flare, folds, fold_depth, hang_rows)
+        points = _hung(
+            tailor, points, angles, tailor.height(hem), flare, folds, fold_depth, hang_rows
+        )
     closed = open_deg == 0
     kinds = ("upper", "plate", "skirt", "belt", "body")
     tree = sf.tree_of([tl.beneath(tailor, kinds)])
     flat = clearance.pushed_out(points.reshape(-1, 3), tree, 0.4 * ease * size)
     weights = _cape_weights(tailor, flat, calm_arms, hem is not None).reshape(*points.shape[:2], -1)
     points = flat.reshape(points.shape)
-    points = clearance.cleared(points, weights, _away(points, centre), tl.beneath(tailor, kinds), tailor.poses,
-                               0.022 * size, 0.12 * size, closed)
+    points = clearance.cleared(
+        points,
+        weights,
+        _away(points, centre),
+        tl.beneath(tailor, kinds),
+        tailor.poses,
+        0.022 * size,
+        0.12 * size,
+        closed,
+    )
     tailor.grids[name] = (points, weights, angles)
     sheet = sf.grid(points, weights, cell, sf.mirrored_u(angles), closed=closed)
-    tailor.worn["cape " + name] = sf.lined(sheet, columns, len(points), closed, 0.004 * size, lining or cell)
+    tailor.worn["cape " + name] = sf.lined(
+        sheet, columns, len(points), closed, 0.004 * size, lining or cell
+    )
 
 
 def _away(points, centre):
@@ -177,10 +269,13 @@ def _cape_weights(tailor, points, calm_arms, hangs):
     weights = tl.transferred(tailor, points, worn, calm_arms)
     if not hangs:
         return weights
-    below = 1.0 - sf.smoothstep(tailor.height("chest"), tailor.height("shoulder"), points[:, 2])[:, None]
+    below = (
+        1.0
+        - sf.smoothstep(tailor.height("chest"), tailor.height("shoulder"), points[:, 2])[:, None]
+    )
     skirted = [grid for key, grid in tailor.grids.items() if "skirt " + key in tailor.worn]
     hanging = tl.hanging_weights(tailor, points, 0.55, 0.2)
-    if skirted:     # cloth on cloth moves alike
+    if skirted:  # cloth on cloth moves alike
         low = sf.smoothstep(tailor.height("hip"), tailor.height("crotch"), points[:, 2])[:, None]
         hanging = hanging * (1 - low) + tl.as_worn(tailor, points, ("skirt",)) * low
     return weights * (1 - below) + hanging * below
@@ -188,8 +283,35 @@ def _cape_weights(tailor, points, calm_arms, hangs):
 
 def collar(tailor, name, height=0.045, flare=0.010, cell="collar"):
     """A standing collar about the neck."""
-    _neck_rings(tailor, name, [(-0.03, 0.004), (0.0, 0.006), (height, 0.006 + flare), (height, flare - 0.006),
-                               (0.005, -0.004)], cell)
+    _neck_rings(
+        tailor,
+        name,
+        [
+            (-0.03, 0.004),
+            (0.0, 0.006),
+            (height, 0.006 + flare),
+            (height, flare - 0.006),
+            (0.005, -0.004),
+        ],
+        cell,
+    )
+
+
+def roll(tailor, name, thickness=0.030, cell="cape"):
+    """Cloth bunched about the neck: a hood that is down, a kerchief."""
+    _neck_rings(
+        tailor,
+        name,
+        [
+            (-0.035, thickness * 0.8),
+            (-0.012, thickness * 1.35),
+            (0.012, thickness * 1.3),
+            (0.028, thickness * 0.8),
+            (0.022, 0.004),
+            (-0.02, 0.0),
+        ],
+        cell,
+    )
 
 
 def _neck_rings(tailor, name, shape, cell, columns=28):
@@ -203,8 +325,12 @@ def _neck_rings(tailor, name, shape, cell, columns=28):
     for up, out in shape:
         centre = low + (high - low) * ((base + up * size - low[2]) / (high[2] - low[2]))
         tilt = 0.022 * size * np.cos(angles)
-        reach = np.array([sf.outermost(tree, high, ray, 0.12 * size) or 0.06 * size
-                          for ray in tl.direction(angles)])
+        reach = np.array(
+            [
+                sf.outermost(tree, high, ray, 0.12 * size) or 0.06 * size
+                for ray in tl.direction(angles)
+            ]
+        )
         ring = centre + tl.direction(angles) * (tl.circular_blur(reach, 3) + out * size)[:, None]
         ring[:, 2] = base + up * size - tilt
         rows.append(ring)
@@ -224,7 +350,11 @@ def ruff(tailor, name, inner=0.060, outer=0.125, height=0.034, pleats=19, cell="
     rows = []
     for t in (0.0, 0.35, 0.7, 1.0):
         radius = inner + (outer - inner) * t
-        z = (0.5 * height * wave * min(0.25 + t * 1.5, 1.0) + 0.018 * t - 0.018 * np.cos(angles) * (1 + t)) * size
+        z = (
+            0.5 * height * wave * min(0.25 + t * 1.5, 1.0)
+            + 0.018 * t
+            - 0.018 * np.cos(angles) * (1 + t)
+        ) * size
         ring = centre + tl.direction(angles + 0.05 * np.cos(pleats * angles) * t) * radius * size
         ring[:, 2] += z
         rows.append(ring)

@@ -1,4 +1,6 @@
-"""The MakeHuman figure of Debian's morse-simulator-data: loaded, stood upright, given its proportions."""
+"""The MakeHuman figure of Debian's morse-simulator-data: loaded, stood upright, given its
+proportions.
+"""
 
 import os
 from dataclasses import dataclass, field, replace
@@ -12,23 +14,38 @@ from townspeople.surface import Surface, nearest_weights, smoothstep, with_parts
 
 HUMAN_RIG = "/usr/share/morse/data/robots/human_rig.blend"
 ARMATURE = "HumanSkeleton"
-WALK_FRAMES = range(9, 34)     # first and last are the same pose
+WALK_FRAMES = range(9, 34)  # first and last are the same pose
 WALK_FRAMES_PER_SECOND = 24.0
-PARTS = {"body": "male1591", "shirt": "tshirt02", "trousers": "jeans01",
-         "shoes": "classic_shoes_lres", "eyes": "eyes"}
-IMAGES = {"skin": "young_lightskinned_male_diffuse.png", "shoes": "classicshoes_texture_diffuse.png",
-          "eye": "brown_eye.png"}
+PARTS = {
+    "body": "male1591",
+    "shirt": "tshirt02",
+    "trousers": "jeans01",
+    "shoes": "classic_shoes_lres",
+    "eyes": "eyes",
+}
+IMAGES = {
+    "skin": "young_lightskinned_male_diffuse.png",
+    "shoes": "classicshoes_texture_diffuse.png",
+    "eye": "brown_eye.png",
+}
 TURN = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])  # the rig faces +x, people -y
 
 # Points of the rig (turned) that garments are placed by, each with the joint that carries it.
 LANDMARKS = {
-    "sole": ((0.0, -0.09, -0.006), "root"), "ankle": ((0.0, -0.02, 0.075), "root"),
-    "knee": ((0.0, -0.03, 0.496), "root"), "crotch": ((0.0, -0.01, 0.79), "root"),
-    "hip": ((0.0, -0.01, 0.87), "root"), "waist": ((0.0, -0.01, 1.06), "spine03"),
-    "chest": ((0.0, 0.0, 1.26), "spine01"), "shoulder": ((0.0, -0.015, 1.40), "spine01"),
-    "neck": ((0.0, 0.0, 1.47), "neck01"), "chin": ((0.0, -0.13, 1.505), "head"),
-    "mouth": ((0.0, -0.147, 1.53), "head"), "nose": ((0.0, -0.165, 1.565), "head"),
-    "brow": ((0.0, -0.14, 1.62), "head"), "head": ((0.0, -0.05, 1.615), "head"),
+    "sole": ((0.0, -0.09, -0.006), "root"),
+    "ankle": ((0.0, -0.02, 0.075), "root"),
+    "knee": ((0.0, -0.03, 0.496), "root"),
+    "crotch": ((0.0, -0.01, 0.79), "root"),
+    "hip": ((0.0, -0.01, 0.87), "root"),
+    "waist": ((0.0, -0.01, 1.06), "spine03"),
+    "chest": ((0.0, 0.0, 1.26), "spine01"),
+    "shoulder": ((0.0, -0.015, 1.40), "spine01"),
+    "neck": ((0.0, 0.0, 1.47), "neck01"),
+    "chin": ((0.0, -0.13, 1.505), "head"),
+    "mouth": ((0.0, -0.147, 1.53), "head"),
+    "nose": ((0.0, -0.165, 1.565), "head"),
+    "brow": ((0.0, -0.14, 1.62), "head"),
+    "head": ((0.0, -0.05, 1.615), "head"),
     "crown": ((0.0, -0.04, 1.735), "head"),
 }
 
@@ -36,23 +53,29 @@ LANDMARKS = {
 @dataclass
 class Figure:
     """A person without garments. Rest pose: upright, arms a little away from the body."""
+
     skeleton: sk.Skeleton
-    parts: dict                 # name in PARTS -> Surface
-    walk: np.ndarray            # (frames, joints, 3, 3) global rotations against the rest pose
-    walk_root: np.ndarray       # (frames, 3) positions of the root's head
-    images: dict                # name in IMAGES -> (height, width, 3) bytes-like floats, bottom row first
+    parts: dict  # name in PARTS -> Surface
+    walk: np.ndarray  # (frames, joints, 3, 3) global rotations against the rest pose
+    walk_root: np.ndarray  # (frames, 3) positions of the root's head
+    images: dict  # name in IMAGES -> (height, width, 3) bytes-like floats, bottom row first
     landmarks: dict = field(default_factory=dict)
     leg_thickness: float = 1.0  # against the source's own legs
 
 
 def _append(path):
     if not os.path.exists(path):
-        fail("%s: not found; install the Debian package morse-simulator-data, or name the file in "
-             "the option 'human_rig'" % path)
+        fail(
+            "%s: not found; install the Debian package morse-simulator-data, or name the file in "
+            "the option 'human_rig'" % path
+        )
     try:
         with bpy.data.libraries.load(path, link=False) as (source, target):
-            wanted = [ARMATURE] + [name for name in source.objects
-                                   if any(name.endswith(part) for part in PARTS.values())]
+            wanted = [ARMATURE] + [
+                name
+                for name in source.objects
+                if any(name.endswith(part) for part in PARTS.values())
+            ]
             target.objects = [name for name in source.objects if name in wanted]
             target.images = [name for name in source.images if name in IMAGES.values()]
     except OSError as error:
@@ -110,7 +133,9 @@ def _surface(thing, columns, key):
 
 
 def _sample_walk(armature):
-    """Global rotations of the kept joints and root positions at every frame of the source's walk."""
+    """Global rotations of the kept joints and root positions at every frame of the source's
+    walk.
+    """
     scene = bpy.context.scene
     scene.collection.objects.link(armature)
     rest_root = np.array(armature.data.bones["root"].head_local)
@@ -118,8 +143,10 @@ def _sample_walk(armature):
     for frame in WALK_FRAMES:
         scene.frame_set(frame)
         bones = armature.pose.bones
-        moved = {name: np.array(bones[name].matrix @ bones[name].bone.matrix_local.inverted())
-                 for name in sk.KEPT}
+        moved = {
+            name: np.array(bones[name].matrix @ bones[name].bone.matrix_local.inverted())
+            for name in sk.KEPT
+        }
         rotations.append([TURN @ sk.orthonormal(moved[name][:3, :3]) @ TURN.T for name in sk.KEPT])
         roots.append(TURN @ (moved["root"][:3, :3] @ rest_root + moved["root"][:3, 3]))
     return np.array(rotations), np.array(roots)
@@ -152,11 +179,15 @@ def load_figure(path):
         bpy.data.objects.remove(thing)
     for action in list(bpy.data.actions):
         bpy.data.actions.remove(action)
-    return Figure(sk.Skeleton(list(sk.KEPT), parents, heads), parts, walk, walk_root, images, landmarks)
+    return Figure(
+        sk.Skeleton(list(sk.KEPT), parents, heads), parts, walk, walk_root, images, landmarks
+    )
 
 
 def standing_pose(figure, arm_lift_deg):
-    """Global rotations: trunk as in the walk, legs upright, upper arms `arm_lift_deg` off vertical."""
+    """Global rotations: trunk as in the walk, legs upright, upper arms `arm_lift_deg` off
+    vertical.
+    """
     local = sk.local_from_global(figure.skeleton, _mean_rotations(figure.walk))
     pose = {name: local[i] for i, name in enumerate(figure.skeleton.names)}
     pose["root"] = np.eye(3)
@@ -176,15 +207,18 @@ def _mean_rotations(walk):
 
 def _move(figure, matrices, heads, walk, walk_root):
     """The figure with vertices, landmarks and joints carried by per-joint matrices."""
-    parts = {key: with_parts(part, vertices=sk.skinned(part.vertices, part.weights, matrices))
-             for key, part in figure.parts.items()}
+    parts = {
+        key: with_parts(part, vertices=sk.skinned(part.vertices, part.weights, matrices))
+        for key, part in figure.parts.items()
+    }
     landmarks = {}
     for key, point in figure.landmarks.items():
         matrix = matrices[figure.skeleton.index(LANDMARKS[key][1])]
         landmarks[key] = matrix[:3, :3] @ point + matrix[:3, 3]
     skeleton = sk.Skeleton(figure.skeleton.names, figure.skeleton.parents, heads)
-    return replace(figure, skeleton=skeleton, parts=parts, walk=walk, walk_root=walk_root,
-                   landmarks=landmarks)
+    return replace(
+        figure, skeleton=skeleton, parts=parts, walk=walk, walk_root=walk_root, landmarks=landmarks
+    )
 
 
 def stood(figure, arm_lift_deg=20.0):
@@ -198,9 +232,15 @@ def stood(figure, arm_lift_deg=20.0):
 
 def _joint_scales(names, proportions):
     """World-axis scale (x, y, z) of each joint's own flesh."""
-    groups = {"legs": ("upperleg", "lowerleg"), "feet": ("foot",), "arms": ("shoulder02", "upperarm", "lowerarm"),
-              "hands": ("wrist", "finger"), "head": ("head",), "neck": ("neck",),
-              "trunk": ("root", "spine", "clavicle")}
+    groups = {
+        "legs": ("upperleg", "lowerleg"),
+        "feet": ("foot",),
+        "arms": ("shoulder02", "upperarm", "lowerarm"),
+        "hands": ("wrist", "finger"),
+        "head": ("head",),
+        "neck": ("neck",),
+        "trunk": ("root", "spine", "clavicle"),
+    }
     scales = np.ones((len(names), 3))
     for i, name in enumerate(names):
         for group, prefixes in groups.items():
@@ -231,8 +271,13 @@ def proportioned(figure, height_m, proportions):
     whole[:3, 3] = -shift * factor
     legs = factor * scales[skeleton.index("lowerleg01_L")][2]
     root = (figure.walk_root - skeleton.heads[0]) * legs + (centre - shift) * factor
-    result = _move(moved, np.tile(whole, (len(skeleton.names), 1, 1)), (heads - shift) * factor,
-                   figure.walk, root)
+    result = _move(
+        moved,
+        np.tile(whole, (len(skeleton.names), 1, 1)),
+        (heads - shift) * factor,
+        figure.walk,
+        root,
+    )
     for key in ("ankle", "knee"):
         joint = {"ankle": "foot_L", "knee": "lowerleg01_L"}[key]
         result.landmarks[key][2] = result.skeleton.head(joint)[2]
@@ -243,8 +288,9 @@ def proportioned(figure, height_m, proportions):
 def bulged(figure, bulges):
     """Pushes shirt, trousers and body by smooth bumps.
 
-    Each bump: {"at": landmark, "by": (x, y, z) offset from it, "radius": (x, y, z), "push": (x, y, z),
-    "swell": share, "mirror": bool}; lengths relative to a figure of 1.7 m. swell grows what lies about the point.
+    Each bump: {"at": landmark, "by": (x, y, z) offset from it, "radius": (x, y, z), "push": (x, y,
+    z), "swell": share, "mirror": bool}; lengths relative to a figure of 1.7 m. swell grows what
+    lies about the point.
     """
     factor = figure.landmarks["crown"][2] / 1.7
     parts = dict(figure.parts)
@@ -256,10 +302,15 @@ def bulged(figure, bulges):
             push = np.array(bump.get("push", (0.0, 0.0, 0.0))) * flip * factor
             for key in ("shirt", "trousers", "body", "eyes"):
                 points = parts[key].vertices
-                distance = np.linalg.norm((points - centre) / (np.array(bump["radius"]) * factor), axis=1)
+                distance = np.linalg.norm(
+                    (points - centre) / (np.array(bump["radius"]) * factor), axis=1
+                )
                 share = 1.0 - smoothstep(0.0, 1.0, distance)
-                parts[key] = with_parts(parts[key], vertices=points + share[:, None]
-                                        * (push + bump.get("swell", 0.0) * (points - centre)))
+                parts[key] = with_parts(
+                    parts[key],
+                    vertices=points
+                    + share[:, None] * (push + bump.get("swell", 0.0) * (points - centre)),
+                )
     return replace(figure, parts=parts)
 
 

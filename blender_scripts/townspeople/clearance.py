@@ -1,4 +1,6 @@
-"""Keeps an outer garment outside of what lies beneath it, at rest and in the sampled poses of the clips."""
+"""Keeps an outer garment outside of what lies beneath it, at rest and in the sampled poses of
+the clips.
+"""
 
 import numpy as np
 from mathutils import Vector
@@ -6,7 +8,7 @@ from mathutils import Vector
 from townspeople import skeleton as sk
 from townspeople import surface as sf
 
-SEARCH_M = 0.12      # penetrations deeper than this are taken for something else
+SEARCH_M = 0.12  # penetrations deeper than this are taken for something else
 ROUNDS_AT_REST = 3
 SMOOTHINGS = 8
 
@@ -49,6 +51,7 @@ def _needs(points, outward, tree, gap_m):
 
 def _spread(needs, closed):
     """Neighbours move along, so that no dents show: the largest need near by, then smoothed."""
+
     def shifted(values, axis, step):
         moved = np.roll(values, step, axis)
         if axis == 0 or not closed:
@@ -56,6 +59,7 @@ def _spread(needs, closed):
             edge[axis] = 0 if step > 0 else -1
             moved[tuple(edge)] = values[tuple(edge)]
         return moved
+
     around = [shifted(needs, axis, step) for axis in (0, 1) for step in (-1, 1)]
     needs = np.maximum.reduce([needs] + around)
     for _ in range(SMOOTHINGS):
@@ -77,7 +81,14 @@ def cleared(points, weights, outward, inner, poses, gap_m, limit_m, closed=True)
         posed = sf.with_parts(inner, vertices=sk.skinned(inner.vertices, inner.weights, matrices))
         turned = matrices.copy()
         turned[:, :3, 3] = 0.0
-        needs = np.maximum(needs, _needs(sk.skinned(flat, flat_weights, matrices),
-                                         sk.skinned(ways, flat_weights, turned), sf.tree_of([posed]), gap_m))
+        needs = np.maximum(
+            needs,
+            _needs(
+                sk.skinned(flat, flat_weights, matrices),
+                sk.skinned(ways, flat_weights, turned),
+                sf.tree_of([posed]),
+                gap_m,
+            ),
+        )
     needs = np.minimum(_spread(needs.reshape(shape), closed), limit_m)
     return points + outward * needs[..., None]

@@ -9,32 +9,35 @@ from townspeople import skeleton as sk
 from townspeople.body import WALK_FRAMES_PER_SECOND
 
 IDLE_SECONDS = 4.0
-CONTACT_BAND_M = 0.01    # sole points this near to the ground carry the person
-STRIDE = 1.36            # double step of a walk, in leg lengths
+CONTACT_BAND_M = 0.01  # sole points this near to the ground carry the person
+STRIDE = 1.36  # double step of a walk, in leg lengths
 
 
 @dataclass
 class Clip:
     name: str
-    rotations: np.ndarray   # (frames, joints, 3, 3) global; the last frame repeats the first
-    roots: np.ndarray       # (frames, 3)
+    rotations: np.ndarray  # (frames, joints, 3, 3) global; the last frame repeats the first
+    roots: np.ndarray  # (frames, 3)
 
 
 @dataclass
 class Manner:
     """How a person moves."""
-    arm_spread_deg: float = 0.0   # arms held off the body, for wide skirts
-    stride: float = 1.0           # double step against an adult's usual one on these legs
-    liveliness: float = 1.0       # of the trunk while walking
-    arm_swing: float = 1.0        # of the arms while walking
+
+    arm_spread_deg: float = 0.0  # arms held off the body, for wide skirts
+    stride: float = 1.0  # double step against an adult's usual one on these legs
+    liveliness: float = 1.0  # of the trunk while walking
+    arm_swing: float = 1.0  # of the arms while walking
     arm_forward_deg: float = 0.0  # arms held before the body, for cloaks
-    stoop_deg: float = 0.0        # bend of the back
+    stoop_deg: float = 0.0  # bend of the back
 
 
 def _vector_of(matrix):
     """Rotation vector (axis times angle)."""
     angle = np.arccos(np.clip((np.trace(matrix) - 1.0) * 0.5, -1.0, 1.0))
-    axis = np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
+    axis = np.array(
+        [matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]]
+    )
     length = np.linalg.norm(axis)
     return axis / length * angle if length > 1e-9 else np.zeros(3)
 
@@ -67,7 +70,9 @@ def _globals(skeleton, local):
 
 
 def walk_clip(figure, manner):
-    """The source's walk with some life in the trunk and feet that roll; also its measured speed in m/s."""
+    """The source's walk with some life in the trunk and feet that roll; also its measured speed
+    in m/s.
+    """
     skeleton = figure.skeleton
     local, _ = _closed_loop(skeleton, figure.walk, figure.walk_root)
     phases = np.linspace(0.0, 2.0 * np.pi, len(local)) - gait.STRIKE_FRAME / 24.0 * 2.0 * np.pi
@@ -78,7 +83,9 @@ def walk_clip(figure, manner):
         _hold(skeleton, frame, manner, 2.0)
     rotations = _globals(skeleton, local)
     leg = skeleton.head("upperleg02_L")[2]
-    roots = gait.step_legs(figure, rotations, STRIDE * manner.stride * leg, 0.72 * skeleton.head("upperleg02_L")[0])
+    roots = gait.step_legs(
+        figure, rotations, STRIDE * manner.stride * leg, 0.72 * skeleton.head("upperleg02_L")[0]
+    )
     return Clip("walk", rotations, roots), _measured_speed(figure, rotations, roots)
 
 
@@ -98,7 +105,8 @@ def _calm_arms(skeleton, frame, share):
 def _enliven(skeleton, frame, ahead, over, manner):
     """Counter-turn of hips and chest, more arm swing, elbows that give.
 
-    ahead: 1 where the left foot strikes, -1 where the right does. over: 1 where the left leg carries.
+    ahead: 1 where the left foot strikes, -1 where the right does. over: 1 where the left leg
+    carries.
     """
     swings = manner.arm_swing * ahead
     ahead, over = ahead * manner.liveliness, over * manner.liveliness
@@ -109,7 +117,7 @@ def _enliven(skeleton, frame, ahead, over, manner):
     _turn(skeleton, frame, "spine01", "z", 5.0 * ahead)
     _turn(skeleton, frame, "neck01", "z", -4.0 * ahead)
     for side, sign in (("_L", 1.0), ("_R", -1.0)):
-        swing = sign * swings          # positive x turns backward: left arm, where the left foot strikes
+        swing = sign * swings  # positive x turns backward: left arm, where the left foot strikes
         _turn(skeleton, frame, "shoulder02" + side, "x", 10.0 * swing)
         _turn(skeleton, frame, "lowerarm01" + side, "x", 6.0 + 7.0 * swing)
 
@@ -148,8 +156,12 @@ def _soles(figure):
 
 def _sole_tracks(figure, rotations, roots):
     points, weights = _soles(figure)
-    return np.array([sk.skinned(points, weights, sk.transforms(figure.skeleton, r, p))
-                     for r, p in zip(rotations, roots)])
+    return np.array(
+        [
+            sk.skinned(points, weights, sk.transforms(figure.skeleton, r, p))
+            for r, p in zip(rotations, roots)
+        ]
+    )
 
 
 def _measured_speed(figure, rotations, roots):
@@ -164,7 +176,9 @@ def _measured_speed(figure, rotations, roots):
 
 
 def _standing(figure, frames, manner):
-    """Relaxed standing: arms down, elbows a little bent, breathing, weight going from foot to foot."""
+    """Relaxed standing: arms down, elbows a little bent, breathing, weight going from foot to
+    foot.
+    """
     skeleton = figure.skeleton
     turns = np.linspace(0.0, 2.0 * np.pi, frames)
     leg = skeleton.head("upperleg02_L")[2]

@@ -1,8 +1,9 @@
 """Legs of the walk: feet that roll over the ground without sliding, solved back to hips and knees.
 
-The source's walk drags its feet (the swinging foot stays as low as the standing one). So the trunk, the
-arms, the timing and the pelvis come from there, and the legs are stepped anew: while a foot stands, its
-lowest sole point moves backwards evenly; the rest of the leg follows by two-bone inverse kinematics.
+The source's walk drags its feet (the swinging foot stays as low as the standing one). So the
+trunk, the arms, the timing and the pelvis come from there, and the legs are stepped anew: while a
+foot stands, its lowest sole point moves backwards evenly; the rest of the leg follows by two-bone
+inverse kinematics.
 """
 
 from dataclasses import dataclass
@@ -11,21 +12,32 @@ import numpy as np
 
 from townspeople import skeleton as sk
 
-STANCE = 0.62             # share of the cycle that a foot is on the ground
-SUBSTEPS = 240            # a cycle, for the rolling
-STRIKE_FRAME = 4.0        # of 24: where the source's left foot is farthest forward
+STANCE = 0.62  # share of the cycle that a foot is on the ground
+SUBSTEPS = 240  # a cycle, for the rolling
+STRIKE_FRAME = 4.0  # of 24: where the source's left foot is farthest forward
 # Foot pitch, degrees (toe up is negative), over the cycle of one foot from heel strike.
-PITCH = [[0.0, -19.0], [0.10, -1.0], [0.16, 0.0], [0.36, 0.0], [0.48, 11.0], [0.62, 36.0], [0.71, 42.0],
-         [0.84, 4.0], [0.93, -16.0], [1.0, -19.0]]
-SWING_LIFT = 0.055        # of the leg's length
-MAX_BOB = 0.030           # half the pelvis' rise and fall at most, of the leg's length
-BEHIND = 0.035            # so far the steps' middle lies behind the hips, of the leg's length
-STRAIGHTEST = 0.997       # a leg never stretches beyond this share of its length
+PITCH = [
+    [0.0, -19.0],
+    [0.10, -1.0],
+    [0.16, 0.0],
+    [0.36, 0.0],
+    [0.48, 11.0],
+    [0.62, 36.0],
+    [0.71, 42.0],
+    [0.84, 4.0],
+    [0.93, -16.0],
+    [1.0, -19.0],
+]
+SWING_LIFT = 0.055  # of the leg's length
+MAX_BOB = 0.030  # half the pelvis' rise and fall at most, of the leg's length
+BEHIND = 0.035  # so far the steps' middle lies behind the hips, of the leg's length
+STRAIGHTEST = 0.997  # a leg never stretches beyond this share of its length
 
 
 @dataclass
 class FootTrack:
     """One foot's cycle, sampled at SUBSTEPS + 1 phases from heel strike; y is forward-negative."""
+
     y: np.ndarray
     z: np.ndarray
     pitch_deg: np.ndarray
@@ -43,7 +55,9 @@ def sole_points(figure, side):
     shoes, column = figure.parts["shoes"], figure.skeleton.index("foot" + side)
     own = shoes.weights[:, column] > 0.5
     points = shoes.vertices[own]
-    return points[points[:, 2] < shoes.vertices[:, 2].min() + 0.03] - figure.skeleton.head("foot" + side)
+    return points[points[:, 2] < shoes.vertices[:, 2].min() + 0.03] - figure.skeleton.head(
+        "foot" + side
+    )
 
 
 def foot_track(figure, stride_m):
@@ -60,15 +74,21 @@ def foot_track(figure, stride_m):
         y[i + 1] = y[i] + step - (turned[i + 1, low[i], 1] - turned[i, low[i], 1])
     s = np.linspace(0.0, 1.0, SUBSTEPS + 1 - lift_off)
     span = len(s) - 1
-    y[lift_off:] = _hermite(s, y[lift_off], y[0], (y[lift_off] - y[lift_off - 1]) * span, (y[1] - y[0]) * span)
-    lift = SWING_LIFT * leg * np.sin(np.pi * s ** 0.8) ** 2
+    y[lift_off:] = _hermite(
+        s, y[lift_off], y[0], (y[lift_off] - y[lift_off - 1]) * span, (y[1] - y[0]) * span
+    )
+    lift = SWING_LIFT * leg * np.sin(np.pi * s**0.8) ** 2
     z[lift_off:] = z[lift_off:] + lift
     return FootTrack(y, z, pitch)
 
 
 def _hermite(s, start, end, start_slope, end_slope):
-    return ((2 * s ** 3 - 3 * s ** 2 + 1) * start + (s ** 3 - 2 * s ** 2 + s) * start_slope
-            + (-2 * s ** 3 + 3 * s ** 2) * end + (s ** 3 - s ** 2) * end_slope)
+    return (
+        (2 * s**3 - 3 * s**2 + 1) * start
+        + (s**3 - 2 * s**2 + s) * start_slope
+        + (-2 * s**3 + 3 * s**2) * end
+        + (s**3 - s**2) * end_slope
+    )
 
 
 def _frame_of(way, side):
@@ -90,8 +110,8 @@ def _leg_rotations(skeleton, side, hip, ankle, left):
     forward = forward / np.linalg.norm(forward)
     if forward[1] > 0:
         forward = -forward
-    along = (thigh ** 2 - shin ** 2 + distance ** 2) / (2 * distance)
-    knee = hip + line * along + forward * np.sqrt(max(thigh ** 2 - along ** 2, 0.0))
+    along = (thigh**2 - shin**2 + distance**2) / (2 * distance)
+    knee = hip + line * along + forward * np.sqrt(max(thigh**2 - along**2, 0.0))
     turns = []
     for (a, b), (p, q) in (((rest[0], rest[1]), (hip, knee)), ((rest[1], rest[2]), (knee, ankle))):
         turns.append(_frame_of(q - p, left) @ _frame_of(b - a, np.array([1.0, 0.0, 0.0])).T)
@@ -116,8 +136,10 @@ def step_legs(figure, rotations, stride_m, half_width_m, toe_out_deg=5.0):
     track = foot_track(figure, stride_m)
     frames = len(rotations) - 1
     root = skeleton.heads[0]
-    leg = sum(np.linalg.norm(skeleton.head(b) - skeleton.head(a)) for a, b in
-              (("upperleg02_L", "lowerleg01_L"), ("lowerleg01_L", "foot_L")))
+    leg = sum(
+        np.linalg.norm(skeleton.head(b) - skeleton.head(a))
+        for a, b in (("upperleg02_L", "lowerleg01_L"), ("lowerleg01_L", "foot_L"))
+    )
     centre = 0.5 * (track.y[0] + track.y[int(STANCE * SUBSTEPS)]) - BEHIND * leg
     hip_y = skeleton.head("upperleg02_L")[1] - root[1]
     cycles = (np.arange(frames + 1) / frames * 24.0 - STRIKE_FRAME) / 24.0
@@ -126,11 +148,15 @@ def step_legs(figure, rotations, stride_m, half_width_m, toe_out_deg=5.0):
         at = np.mod(cycles + shift, 1.0) * SUBSTEPS
         samples = np.arange(SUBSTEPS + 1)
         y = np.interp(at, samples, track.y) - centre + root[1] + hip_y
-        ankles[side] = np.stack([np.full(frames + 1, sign * half_width_m), y, np.interp(at, samples, track.z)], axis=1)
+        ankles[side] = np.stack(
+            [np.full(frames + 1, sign * half_width_m), y, np.interp(at, samples, track.z)], axis=1
+        )
         pitches[side] = np.interp(at, samples, track.pitch_deg)
-        hips[side] = np.array([turn[0] @ (skeleton.head("upperleg02" + side) - root) for turn in rotations])
+        hips[side] = np.array(
+            [turn[0] @ (skeleton.head("upperleg02" + side) - root) for turn in rotations]
+        )
         flat = ankles[side][:, :2] - hips[side][:, :2] - root[:2]
-        reach = np.sqrt(np.maximum((STRAIGHTEST * leg) ** 2 - (flat ** 2).sum(axis=1), 0.0))
+        reach = np.sqrt(np.maximum((STRAIGHTEST * leg) ** 2 - (flat**2).sum(axis=1), 0.0))
         limits.append(ankles[side][:, 2] + reach - hips[side][:, 2])
     height = _pelvis_height(np.min(limits, axis=0), cycles, MAX_BOB * leg)
     roots = np.stack([np.zeros(frames + 1), np.full(frames + 1, root[1]), height], axis=1)

@@ -1,5 +1,5 @@
-"""Garments over trunk, arms and legs. Each function takes the tailor and plain data, and adds Surfaces
-to what is worn. Lengths are metres on a figure of 1.7 m.
+"""Garments over trunk, arms and legs. Each function takes the tailor and plain data, and adds
+Surfaces to what is worn. Lengths are metres on a figure of 1.7 m.
 """
 
 import numpy as np
@@ -10,17 +10,23 @@ from townspeople import tailor as tl
 from townspeople.body import joint_share
 
 
-def upper(tailor, name, bottom, ease=0.008, smooth=8, sleeve=None, cell="upper", sleeve_cell="sleeve"):
+def upper(
+    tailor, name, bottom, ease=0.008, smooth=8, sleeve=None, cell="upper", sleeve_cell="sleeve"
+):
     """Bodice, doublet or the top of a tunic: from the neck to `bottom`, with sleeves.
 
-    sleeve: list of [place, radius] along the arm; place 0 shoulder, 1 elbow, 2 wrist. None: sleeveless.
+    sleeve: list of [place, radius] along the arm; place 0 shoulder, 1 elbow, 2 wrist. None:
+    sleeveless.
     """
     figure, size = tailor.figure, tailor.size
     base = sf.offset(sf.smoothed(figure.parts["shirt"], smooth), ease * size)
     arm = joint_share(figure, base, tl.ARM_JOINTS)
     z_bottom = tailor.height(bottom)
-    keep = [base.vertices[list(face), 2].mean() > z_bottom and
-            (sleeve is not None or arm[list(face)].mean() < 0.5) for face in base.faces]
+    keep = [
+        base.vertices[list(face), 2].mean() > z_bottom
+        and (sleeve is not None or arm[list(face)].mean() < 0.5)
+        for face in base.faces
+    ]
     base = sf.keep_faces(base, keep)
     arm = joint_share(figure, base, tl.ARM_JOINTS)
     is_arm = [arm[list(face)].mean() > 0.5 for face in base.faces]
@@ -29,7 +35,9 @@ def upper(tailor, name, bottom, ease=0.008, smooth=8, sleeve=None, cell="upper",
         for side in ("_L", "_R"):
             base = _with_sleeve(tailor, base, side, sleeve, sleeve_cell)
     skin = sf.tree_of([figure.parts["body"]])
-    base = sf.with_parts(base, vertices=clearance.pushed_out(base.vertices, skin, 0.4 * ease * size, 0.03))
+    base = sf.with_parts(
+        base, vertices=clearance.pushed_out(base.vertices, skin, 0.4 * ease * size, 0.03)
+    )
     tailor.worn["upper " + name] = base
 
 
@@ -50,13 +58,22 @@ def plate(tailor, name, bottom, ease=0.012, smooth=25, cell="plate"):
         centre = armour.vertices[loop].mean(axis=0)
         edge = armour.vertices[loop]
         inner = edge + (centre - edge) * 0.10
-        armour = extruded(armour, loop, inner[None], armour.weights[loop][None], np.full(len(loop), 0.5),
-                           [0.02, 0.0], cell)
+        armour = extruded(
+            armour,
+            loop,
+            inner[None],
+            armour.weights[loop][None],
+            np.full(len(loop), 0.5),
+            [0.02, 0.0],
+            cell,
+        )
     tailor.worn["plate " + name] = armour
 
 
 def _trunk_mapping(tailor, base, is_arm, z_bottom, cell, sleeve_cell):
-    """Cylindrical texture coordinates: about the trunk, and about the arms for the sleeves' faces."""
+    """Cylindrical texture coordinates: about the trunk, and about the arms for the sleeves'
+    faces.
+    """
     top = tailor.height("neck")
     corner_uv, cells = [], []
     for face, on_arm in zip(base.faces, is_arm):
@@ -79,12 +96,17 @@ def _arm_path(tailor, side):
 
 
 def _arm_frame(tailor, side, place):
-    """Centre, direction and two normals (front, outside) at a place on the arm (0 to 2 and beyond)."""
+    """Centre, direction and two normals (front, outside) at a place on the arm (0 to 2 and
+    beyond).
+    """
     path = _arm_path(tailor, side)
     upper_way, lower_way = path[1] - path[0], path[2] - path[1]
     centre = path[0] + upper_way * min(place, 1.0) + lower_way * max(place - 1.0, 0.0)
     bend = sf.smoothstep(0.75, 1.25, place)
-    way = (upper_way / np.linalg.norm(upper_way) * (1 - bend) + lower_way / np.linalg.norm(lower_way) * bend)
+    way = (
+        upper_way / np.linalg.norm(upper_way) * (1 - bend)
+        + lower_way / np.linalg.norm(lower_way) * bend
+    )
     way /= np.linalg.norm(way)
     outside = np.array([1.0 if side == "_L" else -1.0, 0.0, 0.0])
     outside -= way * (outside @ way)
@@ -127,8 +149,11 @@ def _arm_weights(tailor, side, place):
 def _with_sleeve(tailor, base, side, profile, cell):
     """Extrudes the shirt's sleeve hem along the arm."""
     sign = 1.0 if side == "_L" else -1.0
-    loops = [loop for loop in sf.boundary_loops(base)
-             if base.vertices[loop][:, 0].mean() * sign > 0.15 * tailor.size]
+    loops = [
+        loop
+        for loop in sf.boundary_loops(base)
+        if base.vertices[loop][:, 0].mean() * sign > 0.15 * tailor.size
+    ]
     if not loops:
         return base
     loop = loops[0]
@@ -144,32 +169,68 @@ def _with_sleeve(tailor, base, side, profile, cell):
         inside = max(k - len(rows) + 1, 0)
         blend = min((k + 1) / 3.0, 1.0)
         radii = (distance * (1 - blend) + radius * blend) * (1.0, 0.86, 0.8)[inside]
-        rings.append(centre + np.cos(angle)[:, None] * outside * radii[:, None]
-                     + np.sin(angle)[:, None] * front * radii[:, None])
+        rings.append(
+            centre
+            + np.cos(angle)[:, None] * outside * radii[:, None]
+            + np.sin(angle)[:, None] * front * radii[:, None]
+        )
         weights.append(first * (1 - blend) + blend * _arm_weights(tailor, side, at))
         v_rows.append(min(at, 2.0) / 2.05)
-    return extruded(base, loop, np.array(rings), np.array(weights), sf.mirrored_u(angle), v_rows, cell)
+    return extruded(
+        base, loop, np.array(rings), np.array(weights), sf.mirrored_u(angle), v_rows, cell
+    )
 
 
 def extruded(base, loop, rings, weights, u_columns, v_rows, cell):
     """`base` with rings of new vertices grown from a boundary loop."""
     count, start = len(loop), len(base.vertices)
-    ids = [list(loop)] + [list(range(start + k * count, start + (k + 1) * count)) for k in range(len(rings))]
+    ids = [list(loop)] + [
+        list(range(start + k * count, start + (k + 1) * count)) for k in range(len(rings))
+    ]
     faces, corner_uv = list(base.faces), [base.corner_uv]
     for k in range(len(rings)):
         for c in range(count):
             d = (c + 1) % count
             faces.append((ids[k][c], ids[k][d], ids[k + 1][d], ids[k + 1][c]))
-            corner_uv.append(np.array([(u_columns[c], v_rows[k]), (u_columns[d], v_rows[k]),
-                                       (u_columns[d], v_rows[k + 1]), (u_columns[c], v_rows[k + 1])]))
+            corner_uv.append(
+                np.array(
+                    [
+                        (u_columns[c], v_rows[k]),
+                        (u_columns[d], v_rows[k]),
+                        (u_columns[d], v_rows[k + 1]),
+                        (u_columns[c], v_rows[k + 1]),
+                    ]
+                )
+            )
     points = np.concatenate([base.vertices] + list(rings))
-    return sf.with_parts(base, vertices=points, faces=faces, corner_uv=np.concatenate(corner_uv),
-                         weights=np.concatenate([base.weights] + list(weights)),
-                         cells=base.cells + [cell] * (count * len(rings)))
+    return sf.with_parts(
+        base,
+        vertices=points,
+        faces=faces,
+        corner_uv=np.concatenate(corner_uv),
+        weights=np.concatenate([base.weights] + list(weights)),
+        cells=base.cells + [cell] * (count * len(rings)),
+    )
 
 
-def skirt(tailor, name, top, hem, ease=0.012, flare=0.10, folds=12, fold_depth=0.03, columns=48,
-          rows=12, gather=0.35, front_flare=0.6, follow=1.0, shin=0.45, cell="skirt", hidden=False):
+def skirt(
+    tailor,
+    name,
+    top,
+    hem,
+    ease=0.012,
+    flare=0.10,
+    folds=12,
+    fold_depth=0.03,
+    columns=48,
+    rows=12,
+    gather=0.35,
+    front_flare=0.6,
+    follow=1.0,
+    shin=0.45,
+    cell="skirt",
+    hidden=False,
+):
     """Cloth that hangs from `top` (a place on the trunk) to `hem`: tunic skirt, habit, gown.
 
     flare: extra radius at the hem for a fall of 1 m. gather: how soon the folds reach full depth.
@@ -187,7 +248,11 @@ def skirt(tailor, name, top, hem, ease=0.012, flare=0.10, folds=12, fold_depth=0
         fall = (z_rows[0] - z) / size
         outline = tl.slice_radii(tailor, cloud, z, angles, 0.015 if reach is None else 0.03)
         outline = reach if outline is None else tl.circular_blur(outline, 2)
-        reach = outline if reach is None else np.maximum(outline, reach * (1.0 if z < hip + 0.1 else 0.0))
+        reach = (
+            outline
+            if reach is None
+            else np.maximum(outline, reach * (1.0 if z < hip + 0.1 else 0.0))
+        )
         depth = fold_depth * size * min(fall / gather, 1.0) if gather > 0 else fold_depth * size
         spread = flare * size * max(fall, 0.0) * (1.0 - (1.0 - front_flare) * facing)
         loose = ease * size * (0.25 + 0.75 * min(fall / 0.08, 1.0))
@@ -200,10 +265,17 @@ def skirt(tailor, name, top, hem, ease=0.012, flare=0.10, folds=12, fold_depth=0
     top_share = sf.smoothstep(hip, tailor.height("waist"), flat[:, 2])[:, None]
     worn_weights = tl.transferred(tailor, flat, tailor.figure.parts["shirt"], 1.0)
     weights = (weights * (1 - top_share) + worn_weights * top_share).reshape(rows, columns, -1)
-    legs = tl.beneath(tailor, ("legs", "trousers", "skirt"))
+    legs = tl.beneath(tailor, ("legs", "trousers", "skirt", "shoes"))
     if legs is not None:
-        points = clearance.cleared(points, weights, tl.outward_of(tailor, points), legs, tailor.poses,
-                                   0.008 * size, 0.08 * size)
+        points = clearance.cleared(
+            points,
+            weights,
+            tl.outward_of(tailor, points),
+            legs,
+            tailor.poses,
+            0.008 * size,
+            0.08 * size,
+        )
     tailor.grids[name] = (points, weights, angles)
     if not hidden:
         tailor.worn["skirt " + name] = _with_hem(points, weights, angles, cell, size)
@@ -214,7 +286,9 @@ def _over_upper(tailor, points):
     under = tl.beneath(tailor, ("upper",))
     if under is None:
         return points
-    flat = clearance.pushed_out(points.reshape(-1, 3), sf.tree_of([under]), 0.005 * tailor.size, 0.03)
+    flat = clearance.pushed_out(
+        points.reshape(-1, 3), sf.tree_of([under]), 0.005 * tailor.size, 0.03
+    )
     return flat.reshape(points.shape)
 
 
@@ -237,16 +311,21 @@ def trousers(tailor, name, bottom, ease=0.004, puff=0.0, smooth=6, cell="trouser
     low, top = tailor.height(bottom), tailor.height("waist")
     base = sf.keep_faces(base, base_above(base, low))
     place = np.clip((base.vertices[:, 2] - low) / (tailor.height("crotch") - low), 0.0, 1.3)
-    base = sf.offset(base, size * (ease + puff * np.clip(np.sin(np.pi * np.minimum(place, 1.0) * 0.8), 0, 1)))
+    base = sf.offset(
+        base, size * (ease + puff * np.clip(np.sin(np.pi * np.minimum(place, 1.0) * 0.8), 0, 1))
+    )
     corner_uv = []
     for face in base.faces:
         points = base.vertices[list(face)]
         side = np.sign(points[:, 0].mean())
         axis = np.array([tl.axis_y(tailor, z) for z in points[:, 2]])
         around = np.arctan2((points[:, 0] - side * 0.12 * size) * side, -(points[:, 1] - axis))
-        corner_uv.append(np.stack([sf.mirrored_u(around), (top - points[:, 2]) / (top - low)], axis=1))
-    base = sf.with_parts(base, corner_uv=np.clip(np.concatenate(corner_uv), 0, 1),
-                         cells=[cell] * len(base.faces))
+        corner_uv.append(
+            np.stack([sf.mirrored_u(around), (top - points[:, 2]) / (top - low)], axis=1)
+        )
+    base = sf.with_parts(
+        base, corner_uv=np.clip(np.concatenate(corner_uv), 0, 1), cells=[cell] * len(base.faces)
+    )
     for loop in sf.boundary_loops(base):
         if base.vertices[loop][:, 2].mean() < low + 0.1 * size:
             base = _knee_band(base, loop, size, cell)
@@ -270,11 +349,23 @@ def _knee_band(base, loop, size, cell):
         ring[:, 2] = centre[2] - drop * size
         rings.append(ring)
     weights = np.array([base.weights[loop]] * 3)
-    return extruded(base, loop, np.array(rings), weights, np.full(len(loop), 0.5), [0.97, 0.98, 0.99, 1.0], cell)
+    return extruded(
+        base, loop, np.array(rings), weights, np.full(len(loop), 0.5), [0.97, 0.98, 0.99, 1.0], cell
+    )
 
 
-LEG_PROFILE = [[0.0, 0.088], [0.5, 0.076], [0.85, 0.060], [1.0, 0.056], [1.15, 0.058], [1.35, 0.064], [1.6, 0.050],
-               [1.8, 0.041], [1.92, 0.039], [2.0, 0.040]]
+LEG_PROFILE = [
+    [0.0, 0.088],
+    [0.5, 0.076],
+    [0.85, 0.060],
+    [1.0, 0.056],
+    [1.15, 0.058],
+    [1.35, 0.064],
+    [1.6, 0.050],
+    [1.8, 0.041],
+    [1.92, 0.039],
+    [2.0, 0.040],
+]
 
 
 def leg_pieces(tailor, name, start, end, profile=None, ease=0.0, columns=14, rows=14, cell="hose"):
@@ -283,13 +374,23 @@ def leg_pieces(tailor, name, start, end, profile=None, ease=0.0, columns=14, row
     angles = tl.angles_of(columns)
     parts = []
     for side in ("_L", "_R"):
-        path = np.array([tailor.joint(joint + side) for joint in ("upperleg02", "lowerleg01", "foot")])
+        path = np.array(
+            [tailor.joint(joint + side) for joint in ("upperleg02", "lowerleg01", "foot")]
+        )
         thick = tailor.figure.leg_thickness
         rings, weights = [], []
         for place in np.linspace(start, end, rows):
-            at = path[0] + (path[1] - path[0]) * min(place, 1.0) + (path[2] - path[1]) * max(place - 1.0, 0.0)
-            radius = (np.interp(place, [p[0] for p in profile], [p[1] for p in profile]) + ease) * thick
-            calf = 0.017 * np.exp(-((place - 1.35) / 0.22) ** 2) + 0.008 * sf.smoothstep(1.5, 2.0, place)
+            at = (
+                path[0]
+                + (path[1] - path[0]) * min(place, 1.0)
+                + (path[2] - path[1]) * max(place - 1.0, 0.0)
+            )
+            radius = (
+                np.interp(place, [p[0] for p in profile], [p[1] for p in profile]) + ease
+            ) * thick
+            calf = 0.017 * np.exp(-(((place - 1.35) / 0.22) ** 2)) + 0.008 * sf.smoothstep(
+                1.5, 2.0, place
+            )
             rings.append(at + np.array([0.0, calf * thick, 0.0]) + tl.direction(angles) * radius)
             weights.append(_leg_weights(tailor, side, place, columns))
         parts.append(sf.grid(np.array(rings), np.array(weights), cell, sf.mirrored_u(angles)))

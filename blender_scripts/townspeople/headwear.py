@@ -1,7 +1,7 @@
 """Hair, beards, coifs, hoods and hats: shells about the head. Lengths as in garments.py.
 
-Edges are given as [azimuth, elevation] pairs in degrees as seen from the head's middle: azimuth 0 is
-forward and 180 behind (both sides alike), elevation 90 the crown.
+Edges are given as [azimuth, elevation] pairs in degrees as seen from the head's middle: azimuth 0
+is forward and 180 behind (both sides alike), elevation 90 the crown.
 """
 
 import numpy as np
@@ -19,8 +19,26 @@ def _head_size(tailor):
 
 def _head_tree(tailor):
     body = tailor.figure.parts["body"]
-    return sf.tree_of([sf.keep_faces(body, [body.vertices[list(face), 2].max() > tailor.height(("neck", -0.08))
-                                            for face in body.faces])])
+    return sf.tree_of(
+        [
+            sf.keep_faces(
+                body,
+                [
+                    body.vertices[list(face), 2].max() > tailor.height(("neck", -0.08))
+                    for face in body.faces
+                ],
+            )
+        ]
+    )
+
+
+def _dressed_head_tree(tailor):
+    """The head with the hair on it: what a coif or hood goes over."""
+    hair = [worn for name, worn in tailor.worn.items() if name.startswith("hair")]
+    body = tailor.figure.parts["body"]
+    low = tailor.height(("neck", -0.08))
+    head = sf.keep_faces(body, [body.vertices[list(face), 2].max() > low for face in body.faces])
+    return sf.tree_of([head] + hair)
 
 
 def _edge(pairs, angles):
@@ -33,54 +51,96 @@ def _carried(tailor, points, neck_below=True):
     weights = np.zeros(points.shape[:-1] + (len(tailor.figure.skeleton.names),))
     share = np.ones(points.shape[:-1])
     if neck_below:
-        share = sf.smoothstep(tailor.height(("neck", -0.02)), tailor.height(("chin", 0.02)), points[..., 2])
+        share = sf.smoothstep(
+            tailor.height(("neck", -0.02)), tailor.height(("chin", 0.02)), points[..., 2]
+        )
     weights[..., tailor.column("head")] = share
     weights[..., tailor.column("neck01")] = (1 - share) * 0.5
     weights[..., tailor.column("spine01")] = (1 - share) * 0.5
     return weights
 
 
-def shell(tailor, name, edge, thickness, crown_thickness=None, rows=8, columns=32, roughness=0.0, tuck=0.012,
-          peak=0.0, nape=0.0, drop=0.0, cell="hair"):
+def shell(
+    tailor,
+    name,
+    edge,
+    thickness,
+    crown_thickness=None,
+    rows=8,
+    columns=32,
+    roughness=0.0,
+    tuck=0.012,
+    peak=0.0,
+    nape=0.0,
+    drop=0.0,
+    top_deg=90,
+    cell="hair",
+):
     """A cap that follows the head from `edge` to the crown: hair, coif, hood.
 
-    thickness at the edge, crown_thickness on top; roughness: height of random locks; peak lengthens the top
-    backwards; nape pushes the lower back outwards; drop lengthens sides and back straight down.
+    thickness at the edge, crown_thickness on top; roughness: height of random locks; peak
+    lengthens the top backwards; nape pushes the lower back outwards; drop lengthens sides and back
+    straight down; below 90, top_deg leaves the crown bald down to that elevation.
     """
     size = _head_size(tailor)
     crown_thickness = thickness if crown_thickness is None else crown_thickness
     angles = tl.angles_of(columns)
-    centre, tree = tailor.figure.landmarks["head"], _head_tree(tailor)
+    centre, tree = tailor.figure.landmarks["head"], _dressed_head_tree(tailor)
     low = _edge(edge, angles)
     random_rows = tailor.random.uniform(-1.0, 1.0, (rows + 1, columns))
     points = []
     for r, t in enumerate(np.linspace(0.0, 1.0, rows + 1)):
-        elevation = np.radians(90.0 + (low - 90.0) * t)
+        elevation = np.radians(top_deg + (low - top_deg) * t)
         rays = tl.direction(angles) * np.cos(elevation)[:, None]
         rays[:, 2] = np.sin(elevation)
         reach = np.array([sf.outermost(tree, centre, ray, 0.5) or 0.09 * size for ray in rays])
         reach = tl.circular_blur(reach, 2)
         back = np.clip(-np.cos(angles), 0.0, 1.0)
-        extra = crown_thickness + (thickness - crown_thickness) * t ** 1.5
+        extra = crown_thickness + (thickness - crown_thickness) * t**1.5
         extra = extra + roughness * random_rows[r] + peak * back * np.sin(np.pi * min(t * 1.6, 1.0))
-        extra = extra + nape * back * t ** 2
+        extra = extra + nape * back * t**2
+        if top_deg < 90 and r == 0:
+            extra = np.full(columns, -0.004)
         points.append(centre + rays * (reach + extra * size)[:, None])
     if drop:
         away = tl.direction(angles) * 0.4
-        share = 0.05 + 0.95 * sf.smoothstep(45.0, 80.0, np.degrees(sf.mirrored_u(angles) * np.pi))[:, None]
+        share = (
+            0.05
+            + 0.95 * sf.smoothstep(45.0, 80.0, np.degrees(sf.mirrored_u(angles) * np.pi))[:, None]
+        )
         for t in (0.33, 0.67, 1.0):
-            points.append(points[rows] + share * drop * size * t * (away * t - np.array([0.0, 0.0, 1.0])))
+            points.append(
+                points[rows] + share * drop * size * t * (away * t - np.array([0.0, 0.0, 1.0]))
+            )
     last = points[-1]
     inward = (centre - last) / np.linalg.norm(centre - last, axis=1, keepdims=True)
     points.append(last + inward * (thickness + tuck) * size * 0.8 + np.array([0, 0, 0.004]) * size)
     points = np.array(points)
-    points[0] = points[0].mean(axis=0)
-    tailor.worn["hair " + name] = sf.grid(points, _carried(tailor, points), cell, sf.mirrored_u(angles), pole=True)
+    if top_deg == 90:
+        points[0] = points[0].mean(axis=0)
+    tailor.worn["hair " + name] = sf.grid(
+        points, _carried(tailor, points), cell, sf.mirrored_u(angles), pole=top_deg == 90
+    )
 
 
-def beard(tailor, name, thickness=0.013, length=0.0,
-          upper_edge=((0, -47), (12, -46), (22, -40), (30, -33), (45, -29), (60, -25), (76, -13), (92, 4)),
-          lower_edge=((0, -66), (40, -62), (62, -53), (78, -38), (92, -14)), cell="hair"):
+def beard(
+    tailor,
+    name,
+    thickness=0.013,
+    length=0.0,
+    upper_edge=(
+        (0, -47),
+        (12, -46),
+        (22, -40),
+        (30, -33),
+        (45, -29),
+        (60, -25),
+        (76, -13),
+        (92, 4),
+    ),
+    lower_edge=((0, -66), (40, -62), (62, -53), (78, -38), (92, -14)),
+    cell="hair",
+):
     """Hair over jaw and chin; `length` draws the chin's part down."""
     size = _head_size(tailor)
     angles = np.radians(np.linspace(-92, 92, 25))
@@ -94,15 +154,18 @@ def beard(tailor, name, thickness=0.013, length=0.0,
         rays = tl.direction(angles) * np.cos(elevation)[:, None]
         rays[:, 2] = np.sin(elevation)
         reach = np.array([sf.outermost(tree, centre, ray, 0.5) or 0.09 * size for ray in rays])
-        bump = np.sin(np.pi * min(t * 0.85 + 0.08, 1.0)) * np.sin(np.pi * np.linspace(0.03, 0.97, len(angles)))
-        extra = (thickness * (bump * 1.1 + 0.02) + 0.002 * random_rows[r] * bump - 0.0015)
+        bump = np.sin(np.pi * min(t * 0.85 + 0.08, 1.0)) * np.sin(
+            np.pi * np.linspace(0.03, 0.97, len(angles))
+        )
+        extra = thickness * (bump * 1.1 + 0.02) + 0.002 * random_rows[r] * bump - 0.0015
         ring = centre + rays * (tl.circular_blur(reach, 1, closed=False) + extra * size)[:, None]
-        ring[:, 2] -= length * size * front * t ** 1.5
+        ring[:, 2] -= length * size * front * t**1.5
         ring[:, 1] -= 0.3 * length * size * front * t
         points.append(ring)
     points = np.array(points)
-    tailor.worn["hair " + name] = sf.grid(points, _carried(tailor, points, False), cell,
-                                          sf.mirrored_u(angles), closed=False)
+    tailor.worn["hair " + name] = sf.grid(
+        points, _carried(tailor, points, False), cell, sf.mirrored_u(angles), closed=False
+    )
 
 
 def moustache(tailor, name, thickness=0.010, cell="hair"):
@@ -121,15 +184,23 @@ def moustache(tailor, name, thickness=0.010, cell="hair"):
         extra = thickness * np.sin(np.pi * (0.15 + 0.7 * t)) * taper - 0.002
         points.append(centre + rays * (reach + extra * size)[:, None])
     points = np.array(points)
-    tailor.worn["hair " + name] = sf.grid(points, _carried(tailor, points, False), cell,
-                                          sf.mirrored_u(angles), closed=False)
+    tailor.worn["hair " + name] = sf.grid(
+        points, _carried(tailor, points, False), cell, sf.mirrored_u(angles), closed=False
+    )
 
 
 def _raised(points, covers, band, size):
     """The crown lifted off the hair: each ring moves evenly, so that the hat stays round."""
-    above = [sf.keep_faces(part, [part.vertices[list(face), 2].min() > band[2] + 0.01 * size for face in part.faces])
-             for part in covers]
-    moved = clearance.pushed_out(points.reshape(-1, 3), sf.tree_of(above), 0.006 * size, 0.09).reshape(points.shape)
+    above = [
+        sf.keep_faces(
+            part,
+            [part.vertices[list(face), 2].min() > band[2] + 0.01 * size for face in part.faces],
+        )
+        for part in covers
+    ]
+    moved = clearance.pushed_out(
+        points.reshape(-1, 3), sf.tree_of(above), 0.006 * size, 0.09
+    ).reshape(points.shape)
     ways = points - band
     ways[..., 2] = np.maximum(ways[..., 2], 0.0) + 1e-6
     ways /= np.linalg.norm(ways, axis=-1, keepdims=True)
@@ -139,11 +210,13 @@ def _raised(points, covers, band, size):
     return points + ways * lift[:, None, None]
 
 
-def hat(tailor, name, profile, sit=0.030, tilt_deg=-4, ease=0.012, columns=28, wave=0.0, cell="hat"):
+def hat(
+    tailor, name, profile, sit=0.030, tilt_deg=-4, ease=0.012, columns=28, wave=0.0, cell="hat"
+):
     """A hat or helmet turned about the head's axis.
 
-    profile: [fraction of the head's outline, extra radius, height above the hat band] from the crown's middle
-    outwards and down. sit: height of the hat band above the brow.
+    profile: [fraction of the head's outline, extra radius, height above the hat band] from the
+    crown's middle outwards and down. sit: height of the hat band above the brow.
     """
     size = _head_size(tailor)
     angles = tl.angles_of(columns)
@@ -161,7 +234,9 @@ def hat(tailor, name, profile, sit=0.030, tilt_deg=-4, ease=0.012, columns=28, w
         rings.append(ring)
     points = np.array(rings)
     angle = np.radians(tilt_deg)
-    turn = np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
+    turn = np.array(
+        [[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]]
+    )
     points = (points - band) @ turn.T + band
     points = _raised(points, covers, band, size)
     pole = profile[0][0] == 0 and profile[0][1] == 0
@@ -176,7 +251,7 @@ def brows(tailor, name, thickness=0.003, cell="hair"):
     centre, tree = tailor.figure.landmarks["head"], _head_tree(tailor)
     sides = []
     for sign in (1.0, -1.0):
-        angles = np.radians(np.linspace(8.0, 36.0, 6))[::int(sign)] * sign
+        angles = np.radians(np.linspace(8.0, 36.0, 6))[:: int(sign)] * sign
         reached = np.abs(np.degrees(angles))
         arch = 4.5 + 3.0 * np.sin(np.pi * np.clip((reached - 8.0) / 34.0, 0, 1))
         half = np.interp(reached, [8, 14, 28, 36], [1.6, 1.9, 1.3, 0.4])
@@ -186,14 +261,18 @@ def brows(tailor, name, thickness=0.003, cell="hair"):
             rays = tl.direction(angles) * np.cos(elevation)[:, None]
             rays[:, 2] = np.sin(elevation)
             reach = np.array([sf.outermost(tree, centre, ray, 0.5) or 0.09 * size for ray in rays])
-            points.append(centre + rays * (reach + (thickness if up == 0.0 else 0.0008) * size)[:, None])
+            points.append(
+                centre + rays * (reach + (thickness if up == 0.0 else 0.0008) * size)[:, None]
+            )
         points = np.array(points)
         if sign < 0:
             points = points[:, ::-1]
             angles = angles[::-1]
         order = np.argsort(np.arctan2(points[0, :, 0], -points[0, :, 1]))
         points = points[:, order]
-        sides.append(sf.grid(points, _carried(tailor, points, False), cell, np.full(6, 0.5), closed=False))
+        sides.append(
+            sf.grid(points, _carried(tailor, points, False), cell, np.full(6, 0.5), closed=False)
+        )
     tailor.worn["hair " + name] = sf.joined(sides)
 
 
@@ -205,13 +284,26 @@ def feather(tailor, name, azimuth_deg=75, length=0.26, sit=0.03, width=0.065, ce
     rows = []
     for t in np.linspace(0.0, 1.0, 9):
         bend = 1.9 * t
-        spine = foot + np.array([0.015 * t, length * (0.25 * t + 0.6 * t * t),
-                                 length * 0.55 * np.sin(bend) * (1.0 - 0.25 * t)]) * size
+        spine = (
+            foot
+            + np.array(
+                [
+                    0.015 * t,
+                    length * (0.25 * t + 0.6 * t * t),
+                    length * 0.55 * np.sin(bend) * (1.0 - 0.25 * t),
+                ]
+            )
+            * size
+        )
         half = 0.5 * width * size * np.sin(np.pi * (0.10 + 0.84 * t)) ** 0.7
         across = np.array([0.35, -np.sin(bend) * 0.6, 0.9])
         across /= np.linalg.norm(across)
-        rows.append([spine + across * half, spine + np.array([0.014, 0, 0]) * size, spine - across * half])
+        rows.append(
+            [spine + across * half, spine + np.array([0.014, 0, 0]) * size, spine - across * half]
+        )
     points = np.array(rows)
     weights = np.zeros(points.shape[:2] + (len(tailor.figure.skeleton.names),))
     weights[..., tailor.column("head")] = 1.0
-    tailor.worn["head " + name] = sf.grid(points, weights, cell, np.array([0.2, 0.5, 0.8]), closed=False)
+    tailor.worn["head " + name] = sf.grid(
+        points, weights, cell, np.array([0.2, 0.5, 0.8]), closed=False
+    )

@@ -1,7 +1,8 @@
-"""Textures: cloth, leather, metal, hair painted with numpy into cells of an atlas; skin from the source.
+"""Textures: cloth, leather, metal, hair painted with numpy into cells of an atlas; skin from the
+source.
 
-Pictures are (height, width, 3) arrays of sRGB values 0 to 1, top row first. In a cell, u runs from the
-front of the body (left) to its back (right), v from the garment's top to its hem.
+Pictures are (height, width, 3) arrays of sRGB values 0 to 1, top row first. In a cell, u runs from
+the front of the body (left) to its back (right), v from the garment's top to its hem.
 """
 
 import os
@@ -31,7 +32,9 @@ def value_noise(random, height, width, cells_down, cells_across):
 
 
 def _mottled(random, h, w, amount):
-    return amount * (0.6 * value_noise(random, h, w, 5, 4) + 0.4 * value_noise(random, h, w, 13, 11))
+    return amount * (
+        0.6 * value_noise(random, h, w, 5, 4) + 0.4 * value_noise(random, h, w, 13, 11)
+    )
 
 
 def _wool(random, h, w):
@@ -41,7 +44,13 @@ def _wool(random, h, w):
 
 def _linen(random, h, w):
     warp, weft = random.uniform(-1, 1, (1, w)), random.uniform(-1, 1, (h, 1))
-    return 1.0 + _mottled(random, h, w, 0.05) + 0.03 * warp + 0.03 * weft + 0.02 * random.uniform(-1, 1, (h, w))
+    return (
+        1.0
+        + _mottled(random, h, w, 0.05)
+        + 0.03 * warp
+        + 0.03 * weft
+        + 0.02 * random.uniform(-1, 1, (h, w))
+    )
 
 
 def _velvet(random, h, w):
@@ -51,7 +60,12 @@ def _velvet(random, h, w):
 
 def _leather(random, h, w):
     creases = np.abs(value_noise(random, h, w, h // 6, w // 6))
-    return 1.0 + _mottled(random, h, w, 0.20) - 0.12 * (creases < 0.06) + 0.05 * random.uniform(-1, 1, (h, w))
+    return (
+        1.0
+        + _mottled(random, h, w, 0.20)
+        - 0.12 * (creases < 0.06)
+        + 0.05 * random.uniform(-1, 1, (h, w))
+    )
 
 
 def _metal(random, h, w):
@@ -62,7 +76,12 @@ def _metal(random, h, w):
 
 def _hair(random, h, w):
     locks = value_noise(random, h, w, 3, w // 5)
-    return 1.0 + 0.30 * locks + 0.22 * value_noise(random, h, w, 4, w // 2) + 0.05 * random.uniform(-1, 1, (h, w))
+    return (
+        1.0
+        + 0.30 * locks
+        + 0.22 * value_noise(random, h, w, 4, w // 2)
+        + 0.05 * random.uniform(-1, 1, (h, w))
+    )
 
 
 def _straw(random, h, w):
@@ -73,11 +92,21 @@ def _straw(random, h, w):
 
 def _rope(random, h, w):
     y, x = np.mgrid[0:h, 0:w]
-    return 1.0 + 0.22 * np.sin((x / w * 4 + y / h * 22) * np.pi) + 0.08 * random.uniform(-1, 1, (h, w))
+    return (
+        1.0 + 0.22 * np.sin((x / w * 4 + y / h * 22) * np.pi) + 0.08 * random.uniform(-1, 1, (h, w))
+    )
 
 
-WEAVES = {"wool": _wool, "linen": _linen, "velvet": _velvet, "leather": _leather, "metal": _metal,
-          "hair": _hair, "straw": _straw, "rope": _rope}
+WEAVES = {
+    "wool": _wool,
+    "linen": _linen,
+    "velvet": _velvet,
+    "leather": _leather,
+    "metal": _metal,
+    "hair": _hair,
+    "straw": _straw,
+    "rope": _rope,
+}
 
 
 def _blend(picture, mask, colour):
@@ -85,13 +114,24 @@ def _blend(picture, mask, colour):
     return picture * (1 - mask) + np.asarray(colour) * mask
 
 
-def paint(random, size_px, weave, colour, hem=0.0, folds=0.0, trim=(), placket=None, damask=None, seams=True,
-          stripes=None):
+def paint(
+    random,
+    size_px,
+    weave,
+    colour,
+    hem=0.0,
+    folds=0.0,
+    trim=(),
+    placket=None,
+    damask=None,
+    seams=True,
+    stripes=None,
+):
     """One cell's picture.
 
     hem: strength of the dirt at the lower edge. folds: strength of painted folds. trim: list of
-    [v from, v to, colour]. placket: [width in u, colour, number of buttons, button colour]. damask: colour
-    of a woven pattern. stripes: [number, colour].
+    [v from, v to, colour]. placket: [width in u, colour, number of buttons, button colour].
+    damask: colour of a woven pattern. stripes: [number, colour].
     """
     w, h = size_px
     if weave not in WEAVES:
@@ -113,7 +153,9 @@ def paint(random, size_px, weave, colour, hem=0.0, folds=0.0, trim=(), placket=N
         bent = u + 0.04 * value_noise(random, h, w, 4, 3)
         light = light - 0.5 * folds * (0.5 + 0.5 * np.sin(bent * 2 * np.pi * 9)) ** 3 * v
     if seams:
-        light = light - 0.10 * np.exp(-((v - 1.0) / 0.02) ** 2) - 0.08 * np.exp(-(v / 0.015) ** 2)
+        light = (
+            light - 0.10 * np.exp(-(((v - 1.0) / 0.02) ** 2)) - 0.08 * np.exp(-((v / 0.015) ** 2))
+        )
     picture = picture * light[..., None]
     if hem:
         ragged = v + 0.05 * value_noise(random, h, w, 3, 9)
@@ -124,7 +166,7 @@ def paint(random, size_px, weave, colour, hem=0.0, folds=0.0, trim=(), placket=N
 def _placket(picture, u, v, placket):
     width, colour, buttons, button_colour = placket
     picture = _blend(picture, (u < width) * np.ones_like(v), colour)
-    edge = np.exp(-((u - width) / 0.008) ** 2) * np.ones_like(v)
+    edge = np.exp(-(((u - width) / 0.008) ** 2)) * np.ones_like(v)
     picture = picture * (1 - 0.35 * edge[..., None])
     if buttons:
         place = (v * buttons) % 1.0 - 0.5
@@ -145,7 +187,9 @@ def shrunk(picture, width, height):
 
 
 def pack_cells(pictures):
-    """Shelf-packs {name: picture} into one atlas; returns it with {name: (x, y, width, height)} in px."""
+    """Shelf-packs {name: picture} into one atlas; returns it with {name: (x, y, width, height)}
+    in px.
+    """
     atlas = np.full((ATLAS_PX, ATLAS_PX, 3), 0.4)
     places, x, y, shelf = {}, 0, 0, 0
     for name in sorted(pictures, key=lambda key: (-pictures[key].shape[0], key)):
@@ -154,7 +198,7 @@ def pack_cells(pictures):
             x, y, shelf = 0, y + shelf, 0
         if y + h > ATLAS_PX:
             fail("people.py: the texture cells do not fit into %d px (at '%s')" % (ATLAS_PX, name))
-        atlas[y:y + h, x:x + w] = pictures[name]
+        atlas[y : y + h, x : x + w] = pictures[name]
         places[name] = (x, y, w, h)
         x, shelf = x + w, max(shelf, h)
     return atlas, places
@@ -168,7 +212,8 @@ def atlas_uv(corner_uv, place):
 
 
 def skin_picture(source, places, tint, smooth, rouge=0.0):
-    """The MakeHuman skin at 1024 px: tinted, without stubble where `smooth`, with lips and cheeks reddened.
+    """The MakeHuman skin at 1024 px: tinted, without stubble where `smooth`, with lips and cheeks
+    reddened.
 
     places: {"lips" ...: (centre uv, radius in u and v)}, v from the top.
     """
@@ -179,15 +224,21 @@ def skin_picture(source, places, tint, smooth, rouge=0.0):
     u, v = (np.arange(1024)[None, :] + 0.5) / 1024, (np.arange(1024)[:, None] + 0.5) / 1024
     for name, (centre, radius) in places.items():
         strength = rouge * (0.55 if name == "lips" else 0.28)
-        mask = np.exp(-((u - centre[0]) / radius[0]) ** 2 - ((v - centre[1]) / radius[1]) ** 2)
+        mask = np.exp(-(((u - centre[0]) / radius[0]) ** 2) - ((v - centre[1]) / radius[1]) ** 2)
         picture = picture * (1.0 - strength * mask[..., None] * np.array([0.05, 0.45, 0.42]))
     return np.clip(picture, 0.0, 1.0)
 
 
 def _without_speckles(picture):
-    """Removes dark specks (stubble, pores) but keeps large dark areas: a closing by rank filters."""
+    """Removes dark specks (stubble, pores) but keeps large dark areas: a closing by rank
+    filters.
+    """
+
     def shifted(stack_of):
-        return np.stack([np.roll(np.roll(stack_of, dy, 0), dx, 1) for dy in (-2, 0, 2) for dx in (-2, 0, 2)])
+        return np.stack(
+            [np.roll(np.roll(stack_of, dy, 0), dx, 1) for dy in (-2, 0, 2) for dx in (-2, 0, 2)]
+        )
+
     closed = shifted(shifted(picture).max(axis=0)).min(axis=0)
     blurred = shifted(closed).mean(axis=0)
     return blurred

@@ -6,8 +6,8 @@ from mathutils import Vector
 from townspeople import surface as sf
 
 RAYS = 28
-REACH_M = 0.45          # what is farther away hides nothing
-LIFT_M = 0.006          # rays start so far off the surface
+REACH_M = 0.45  # what is farther away hides nothing
+LIFT_M = 0.006  # rays start so far off the surface
 DARKEST = 0.42
 
 
@@ -15,7 +15,9 @@ def _hemisphere(count):
     """Cosine-weighted directions about +z (a Fibonacci spiral)."""
     i = np.arange(count) + 0.5
     radius, angle = np.sqrt(i / count), i * np.pi * (3.0 - np.sqrt(5.0))
-    return np.stack([radius * np.cos(angle), radius * np.sin(angle), np.sqrt(1.0 - i / count)], axis=1)
+    return np.stack(
+        [radius * np.cos(angle), radius * np.sin(angle), np.sqrt(1.0 - i / count)], axis=1
+    )
 
 
 def _frames(normals):
@@ -36,7 +38,9 @@ def with_shade(surface, lightest_for):
     hidden = np.zeros(len(surface.vertices))
     local = _hemisphere(RAYS)
     for v, start in enumerate(surface.vertices + normals * LIFT_M):
-        rays = local[:, :1] * tangents[v] + local[:, 1:2] * bitangents[v] + local[:, 2:] * normals[v]
+        rays = (
+            local[:, :1] * tangents[v] + local[:, 1:2] * bitangents[v] + local[:, 2:] * normals[v]
+        )
         origin = Vector(start)
         for ray in rays:
             distance = tree.ray_cast(origin, Vector(ray), REACH_M)[3]

@@ -54,7 +54,9 @@ def make_mesh(surface, materials, material_of_cell, uv, armature):
     names = list(materials)
     for name in names:
         mesh.materials.append(materials[name])
-    mesh.polygons.foreach_set("material_index", [names.index(material_of_cell[c]) for c in surface.cells])
+    mesh.polygons.foreach_set(
+        "material_index", [names.index(material_of_cell[c]) for c in surface.cells]
+    )
     mesh.polygons.foreach_set("use_smooth", [True] * len(surface.faces))
     layer = mesh.uv_layers.new(name="UVMap")
     flipped = np.stack([uv[:, 0], 1.0 - uv[:, 1]], axis=1)
@@ -65,7 +67,9 @@ def make_mesh(surface, materials, material_of_cell, uv, armature):
     colours.data.foreach_set("color", values.ravel())
     thing = bpy.data.objects.new("person_mesh", mesh)
     bpy.context.scene.collection.objects.link(thing)
-    groups = [thing.vertex_groups.new(name=name) for name in [bone.name for bone in armature.data.bones]]
+    groups = [
+        thing.vertex_groups.new(name=name) for name in [bone.name for bone in armature.data.bones]
+    ]
     index = {group.name: group for group in groups}
     for vertex, joint in np.argwhere(surface.weights > 0):
         index[sk.KEPT[joint]].add([int(vertex)], float(surface.weights[vertex, joint]), "REPLACE")
@@ -83,13 +87,17 @@ def add_clip(armature, skeleton, clip):
     local = np.array([sk.local_from_global(skeleton, frame) for frame in clip.rotations])
     for joint, name in enumerate(skeleton.names):
         rest = np.array(armature.data.bones[name].matrix_local)[:3, :3]
-        turns = [Matrix((rest.T @ frame @ rest).tolist()).to_quaternion() for frame in local[:, joint]]
+        turns = [
+            Matrix((rest.T @ frame @ rest).tolist()).to_quaternion() for frame in local[:, joint]
+        ]
         for before, after in zip(turns, turns[1:]):
             if before.dot(after) < 0:
                 after.negate()
         path = 'pose.bones["%s"].' % name
         for axis in range(4):
-            _curve(action, path + "rotation_quaternion", axis, name, frames, [q[axis] for q in turns])
+            _curve(
+                action, path + "rotation_quaternion", axis, name, frames, [q[axis] for q in turns]
+            )
         if skeleton.parents[joint] < 0:
             moves = (clip.roots - skeleton.heads[joint]) @ rest
             for axis in range(3):
@@ -115,18 +123,37 @@ def _curve(action, path, axis, group, frames, values):
 def export_glb(path):
     """Everything in the scene as one GLB, with the options that this Blender's exporter knows."""
     for name, kind in (("bool", bool), ("int", int), ("float", float), ("object", object)):
-        if name not in np.__dict__:   # Blender 3.4's exporter uses names that numpy 1.24 dropped
+        if name not in np.__dict__:  # Blender 3.4's exporter uses names that numpy 1.24 dropped
             setattr(np, name, kind)
-    wanted = dict(filepath=path, export_format="GLB", export_yup=True, export_apply=False,
-                  export_animations=True, export_frame_range=False, export_force_sampling=True,
-                  export_nla_strips=True, export_animation_mode="NLA_TRACKS", export_def_bones=True,
-                  export_skins=True, export_all_influences=False, export_extras=True, export_colors=True,
-                  export_vertex_color="ACTIVE", export_all_vertex_colors=False,
-                  export_image_format="AUTO", export_morph=False, export_lights=False,
-                  export_cameras=False, export_optimize_animation_size=True,
-                  export_optimize_animation_keep_anim_armature=False,
-                  export_anim_single_armature=True, export_reset_pose_bones=True)
+    wanted = dict(
+        filepath=path,
+        export_format="GLB",
+        export_yup=True,
+        export_apply=False,
+        export_animations=True,
+        export_frame_range=False,
+        export_force_sampling=True,
+        export_nla_strips=True,
+        export_animation_mode="NLA_TRACKS",
+        export_def_bones=True,
+        export_skins=True,
+        export_all_influences=False,
+        export_extras=True,
+        export_colors=True,
+        export_vertex_color="ACTIVE",
+        export_all_vertex_colors=False,
+        export_image_format="AUTO",
+        export_morph=False,
+        export_lights=False,
+        export_cameras=False,
+        export_optimize_animation_size=True,
+        export_optimize_animation_keep_anim_armature=False,
+        export_anim_single_armature=True,
+        export_reset_pose_bones=True,
+    )
     known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
-    result = bpy.ops.export_scene.gltf(**{key: value for key, value in wanted.items() if key in known})
+    result = bpy.ops.export_scene.gltf(
+        **{key: value for key, value in wanted.items() if key in known}
+    )
     if "FINISHED" not in result:
         raise RuntimeError("the glTF export failed")

@@ -1,27 +1,42 @@
 """Joints, poses and skinning with world-axis rotations.
 
-A pose is one rotation a joint, in the world axes of the rest pose ("global" rotations: 3x3 matrices that
-turn the rest pose's joint into the posed one), and the position of the root's head. So bone rolls never
-matter until the very end, when Blender wants each rotation in its bone's own axes.
+A pose is one rotation a joint, in the world axes of the rest pose ("global" rotations: 3x3
+matrices that turn the rest pose's joint into the posed one), and the position of the root's head.
+So bone rolls never matter until the very end, when Blender wants each rotation in its bone's own
+axes.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-# Joints that are exported; every other bone of the source rig hands its weights to the nearest of these
-# above it. Finger bones of one rank move together.
+# Joints that are exported; every other bone of the source rig hands its weights to the nearest of
+# these above it. Finger bones of one rank move together.
 KEPT = ["root", "spine05", "spine03", "spine01", "neck01", "head"] + [
-    name + side for side in ("_L", "_R") for name in (
-        "clavicle", "shoulder02", "upperarm02", "lowerarm01", "lowerarm02", "wrist",
-        "finger1-1", "finger3-1", "finger3-2", "upperleg02", "lowerleg01", "foot")]
+    name + side
+    for side in ("_L", "_R")
+    for name in (
+        "clavicle",
+        "shoulder02",
+        "upperarm02",
+        "lowerarm01",
+        "lowerarm02",
+        "wrist",
+        "finger1-1",
+        "finger3-1",
+        "finger3-2",
+        "upperleg02",
+        "lowerleg01",
+        "foot",
+    )
+]
 
 
 @dataclass
 class Skeleton:
-    names: list            # parents come before their children; names[0] is the root
-    parents: list          # index of each joint's parent, -1 for the root
-    heads: np.ndarray      # (joints, 3)
+    names: list  # parents come before their children; names[0] is the root
+    parents: list  # index of each joint's parent, -1 for the root
+    heads: np.ndarray  # (joints, 3)
 
     def index(self, name):
         return self.names.index(name)

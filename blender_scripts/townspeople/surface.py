@@ -13,18 +13,27 @@ from mathutils.bvhtree import BVHTree
 @dataclass
 class Surface:
     """Polygons over shared vertices; corner_uv runs parallel to the corners of `faces`."""
-    vertices: np.ndarray                    # (n, 3)
-    faces: list                             # of tuples of vertex indices, anticlockwise from outside
-    weights: np.ndarray                     # (n, joints), rows sum to 1
-    corner_uv: np.ndarray                   # (corners, 2); u around, v from 0 (top) to 1 (bottom)
-    cells: list                             # the texture cell of each face
-    shade: np.ndarray = field(default=None)  # (n,), baked ambient light, 1 where nothing hides the sky
+
+    vertices: np.ndarray  # (n, 3)
+    faces: list  # of tuples of vertex indices, anticlockwise from outside
+    weights: np.ndarray  # (n, joints), rows sum to 1
+    corner_uv: np.ndarray  # (corners, 2); u around, v from 0 (top) to 1 (bottom)
+    cells: list  # the texture cell of each face
+    shade: np.ndarray = field(
+        default=None
+    )  # (n,), baked ambient light, 1 where nothing hides the sky
 
 
 def with_parts(surface, **changes):
     """A copy with some members replaced."""
-    members = dict(vertices=surface.vertices, faces=surface.faces, weights=surface.weights,
-                   corner_uv=surface.corner_uv, cells=surface.cells, shade=surface.shade)
+    members = dict(
+        vertices=surface.vertices,
+        faces=surface.faces,
+        weights=surface.weights,
+        corner_uv=surface.corner_uv,
+        cells=surface.cells,
+        shade=surface.shade,
+    )
     members.update(changes)
     return Surface(**members)
 
@@ -43,11 +52,15 @@ def keep_faces(surface, keep):
     used = np.unique([v for face in faces for v in face]).astype(int)
     renumber = np.full(len(surface.vertices), -1)
     renumber[used] = np.arange(len(used))
-    return with_parts(surface, vertices=surface.vertices[used], weights=surface.weights[used],
-                      faces=[tuple(int(renumber[v]) for v in face) for face in faces],
-                      corner_uv=surface.corner_uv[corners],
-                      cells=[surface.cells[index] for index in kept],
-                      shade=None if surface.shade is None else surface.shade[used])
+    return with_parts(
+        surface,
+        vertices=surface.vertices[used],
+        weights=surface.weights[used],
+        faces=[tuple(int(renumber[v]) for v in face) for face in faces],
+        corner_uv=surface.corner_uv[corners],
+        cells=[surface.cells[index] for index in kept],
+        shade=None if surface.shade is None else surface.shade[used],
+    )
 
 
 def face_centres(surface):
@@ -115,8 +128,9 @@ def smoothed(surface, rounds, hold_boundary=True):
 def offset(surface, distance_m):
     """Every vertex moved along its normal; `distance_m` a number or one a vertex."""
     distance = np.broadcast_to(np.asarray(distance_m, float), (len(surface.vertices),))
-    return with_parts(surface, vertices=surface.vertices
-                      + vertex_normals(surface) * distance[:, None])
+    return with_parts(
+        surface, vertices=surface.vertices + vertex_normals(surface) * distance[:, None]
+    )
 
 
 def joined(surfaces):
@@ -125,13 +139,19 @@ def joined(surfaces):
     for part in surfaces:
         faces += [tuple(v + start for v in face) for face in part.faces]
         start += len(part.vertices)
-    return with_parts(surfaces[0], faces=faces,
-                      vertices=np.concatenate([part.vertices for part in surfaces]),
-                      weights=np.concatenate([part.weights for part in surfaces]),
-                      corner_uv=np.concatenate([part.corner_uv for part in surfaces]),
-                      cells=[cell for part in surfaces for cell in part.cells],
-                      shade=(None if any(part.shade is None for part in surfaces) else
-                             np.concatenate([part.shade for part in surfaces])))
+    return with_parts(
+        surfaces[0],
+        faces=faces,
+        vertices=np.concatenate([part.vertices for part in surfaces]),
+        weights=np.concatenate([part.weights for part in surfaces]),
+        corner_uv=np.concatenate([part.corner_uv for part in surfaces]),
+        cells=[cell for part in surfaces for cell in part.cells],
+        shade=(
+            None
+            if any(part.shade is None for part in surfaces)
+            else np.concatenate([part.shade for part in surfaces])
+        ),
+    )
 
 
 def smoothstep(low, high, value):
@@ -148,11 +168,11 @@ def nearest_weights(points, source_vertices, source_weights, count=6):
     count = min(count, len(source_vertices))
     result = np.empty((len(points), source_weights.shape[1]))
     for start in range(0, len(points), 512):
-        part = points[start:start + 512]
+        part = points[start : start + 512]
         squares = ((part[:, None, :] - source_vertices[None]) ** 2).sum(axis=2)
         near = np.argpartition(squares, count - 1, axis=1)[:, :count]
         share = 1.0 / (np.take_along_axis(squares, near, axis=1) + 1e-6)
-        result[start:start + 512] = (source_weights[near] * share[..., None]).sum(axis=1)
+        result[start : start + 512] = (source_weights[near] * share[..., None]).sum(axis=1)
     return normalised(result)
 
 
@@ -185,8 +205,8 @@ def outermost(tree, centre, direction, reach_m=2.0):
 def grid(points, weights, cell, u_columns, v_rows=None, closed=True, pole=False):
     """A quad grid of `points` (rows, columns, 3), `weights` (rows, columns, joints).
 
-    Rows run top to bottom, columns anticlockwise seen from above, so that the faces look outward. `closed`
-    joins the last column to the first; `pole` makes the first row one point.
+    Rows run top to bottom, columns anticlockwise seen from above, so that the faces look outward.
+    `closed` joins the last column to the first; `pole` makes the first row one point.
     """
     rows, columns = points.shape[:2]
     v_rows = np.linspace(0.0, 1.0, rows) if v_rows is None else np.asarray(v_rows)
@@ -198,10 +218,16 @@ def grid(points, weights, cell, u_columns, v_rows=None, closed=True, pole=False)
             if pole and r == 0:
                 corners = [(0, 0)] + corners[1:3]
             faces.append(tuple(i * columns + j for i, j in corners))
-            corner_uv += [(u_columns[c] if i == 0 and pole else u_columns[j], v_rows[i])
-                          for i, j in corners]
-    surface = Surface(points.reshape(-1, 3), faces, weights.reshape(rows * columns, -1),
-                      np.array(corner_uv), [cell] * len(faces))
+            corner_uv += [
+                (u_columns[c] if i == 0 and pole else u_columns[j], v_rows[i]) for i, j in corners
+            ]
+    surface = Surface(
+        points.reshape(-1, 3),
+        faces,
+        weights.reshape(rows * columns, -1),
+        np.array(corner_uv),
+        [cell] * len(faces),
+    )
     return keep_faces(surface, [True] * len(faces)) if pole else surface
 
 
@@ -213,26 +239,40 @@ def mirrored_u(angles):
 def lined(surface, columns, rows, closed, thickness_m, cell):
     """A grid with an inner layer and closed rims, so that it has two sides."""
     inner = offset(surface, -thickness_m)
-    flipped = with_parts(inner, faces=[face[:1] + face[:0:-1] for face in inner.faces], cells=[cell] * len(inner.faces),
-                         corner_uv=_reversed_corners(inner))
+    flipped = with_parts(
+        inner,
+        faces=[face[:1] + face[:0:-1] for face in inner.faces],
+        cells=[cell] * len(inner.faces),
+        corner_uv=_reversed_corners(inner),
+    )
     both = joined([surface, flipped])
     count = rows * columns
     rim = [[(rows - 1) * columns + c for c in range(columns)]]
     if not closed:
-        rim[0] = ([r * columns for r in range(rows)] + rim[0][1:]
-                  + [r * columns + columns - 1 for r in range(rows - 2, -1, -1)])
+        rim[0] = (
+            [r * columns for r in range(rows)]
+            + rim[0][1:]
+            + [r * columns + columns - 1 for r in range(rows - 2, -1, -1)]
+        )
     faces, corner_uv = list(both.faces), [both.corner_uv]
     for a, b in zip(rim[0], rim[0][1:] + (rim[0][:1] if closed else [])):
         faces.append((a, a + count, b + count, b))
         corner_uv.append(np.array([(0.5, 0.97)] * 4))
     added = len(faces) - len(both.faces)
-    return with_parts(both, faces=faces, corner_uv=np.concatenate(corner_uv),
-                      cells=both.cells + [cell] * added)
+    return with_parts(
+        both, faces=faces, corner_uv=np.concatenate(corner_uv), cells=both.cells + [cell] * added
+    )
 
 
 def _reversed_corners(surface):
-    """Texture coordinates of the faces turned over about their first corner (the same diagonals stay)."""
+    """Texture coordinates of the faces turned over about their first corner (the same diagonals
+    stay).
+    """
     starts = corner_starts(surface.faces)
-    order = np.concatenate([np.append(starts[i], np.arange(starts[i + 1] - 1, starts[i], -1))
-                            for i in range(len(surface.faces))])
+    order = np.concatenate(
+        [
+            np.append(starts[i], np.arange(starts[i + 1] - 1, starts[i], -1))
+            for i in range(len(surface.faces))
+        ]
+    )
     return surface.corner_uv[order]

@@ -15,12 +15,15 @@ HAND_JOINTS = ("wrist", "finger")
 @dataclass
 class Tailor:
     """A figure and the garments made for it so far."""
+
     figure: object
-    random: object                               # numpy.random.Generator
-    worn: dict = field(default_factory=dict)     # name -> Surface, in the order of dressing
-    grids: dict = field(default_factory=dict)    # name -> (points, weights, angles) of lofted garments
-    size: float = 1.0                            # lengths in people.py are for a figure of 1.7 m
-    poses: list = field(default_factory=list)    # sampled skinning matrices of all clips
+    random: object  # numpy.random.Generator
+    worn: dict = field(default_factory=dict)  # name -> Surface, in the order of dressing
+    grids: dict = field(
+        default_factory=dict
+    )  # name -> (points, weights, angles) of lofted garments
+    size: float = 1.0  # lengths in people.py are for a figure of 1.7 m
+    poses: list = field(default_factory=list)  # sampled skinning matrices of all clips
 
     def height(self, place):
         """z in metres of a landmark name, or of [landmark, offset in m at 1.7 m]."""
@@ -48,7 +51,9 @@ def direction(angles):
 
 def axis_y(tailor, z):
     """Front-back position of the trunk's axis."""
-    marks = [tailor.figure.landmarks[name] for name in ("sole", "knee", "hip", "waist", "chest", "neck")]
+    marks = [
+        tailor.figure.landmarks[name] for name in ("sole", "knee", "hip", "waist", "chest", "neck")
+    ]
     return float(np.interp(z, [mark[2] for mark in marks], [min(mark[1], 0.02) for mark in marks]))
 
 
@@ -64,8 +69,11 @@ def slice_points(tailor, arms, skirts=False):
         elbow = joint_share(figure, part, HAND_JOINTS + ("lowerarm",))
         kept = (elbow < 0.3) if arms else (share < 0.35)
         clouds.append(part.vertices[kept])
-        centres = [part.vertices[list(face)].mean(axis=0) for face in part.faces
-                   if all(kept[v] for v in face)]
+        centres = [
+            part.vertices[list(face)].mean(axis=0)
+            for face in part.faces
+            if all(kept[v] for v in face)
+        ]
         clouds.append(np.array(centres).reshape(-1, 3))
     return np.concatenate(clouds)
 
@@ -81,7 +89,9 @@ def slice_radii(tailor, cloud, z, angles, half_band_m=0.03):
 def circular_blur(values, rounds, closed=True):
     for _ in range(rounds):
         if closed:
-            values = 0.5 * values + 0.25 * (np.roll(values, 1, axis=-1) + np.roll(values, -1, axis=-1))
+            values = 0.5 * values + 0.25 * (
+                np.roll(values, 1, axis=-1) + np.roll(values, -1, axis=-1)
+            )
         else:
             padded = np.concatenate([values[..., :1], values, values[..., -1:]], axis=-1)
             values = 0.5 * values + 0.25 * (padded[..., :-2] + padded[..., 2:])
@@ -112,7 +122,9 @@ def hanging_weights(tailor, points, follow=1.0, shin=0.45):
     width = abs(tailor.joint("upperleg02_L")[0]) * 1.7
     left = sf.smoothstep(-width, width, points[:, 0])
     behind = sf.smoothstep(-0.12, 0.15, points[:, 1] - axis_y(tailor, hip))
-    low = sf.smoothstep(knee + 0.12 * tailor.size, ankle, points[:, 2]) * shin * (0.5 + 0.7 * behind)
+    low = (
+        sf.smoothstep(knee + 0.12 * tailor.size, ankle, points[:, 2]) * shin * (0.5 + 0.7 * behind)
+    )
     weights *= (1.0 - leg)[:, None]
     for side, share in (("_L", left), ("_R", 1.0 - left)):
         weights[:, tailor.column("upperleg02" + side)] += leg * share * (1.0 - low)
@@ -121,7 +133,9 @@ def hanging_weights(tailor, points, follow=1.0, shin=0.45):
 
 
 def transferred(tailor, points, source, calm_arms=0.0):
-    """Weights of the nearest vertices of `source`; `calm_arms` of the arms' part goes to the chest."""
+    """Weights of the nearest vertices of `source`; `calm_arms` of the arms' part goes to the
+    chest.
+    """
     weights = sf.nearest_weights(points, source.vertices, source.weights)
     if calm_arms:
         for i, name in enumerate(tailor.figure.skeleton.names):
@@ -164,7 +178,9 @@ def trunk_tree(tailor, arms):
     for part in parts:
         share = joint_share(figure, part, HAND_JOINTS + ("lowerarm",) if arms else ARM_JOINTS)
         head = joint_share(figure, part, ("head",))
-        flags = [max(share[list(face)]) < 0.5 and max(head[list(face)]) < 0.9 for face in part.faces]
+        flags = [
+            max(share[list(face)]) < 0.5 and max(head[list(face)]) < 0.9 for face in part.faces
+        ]
         kept.append(sf.keep_faces(part, flags))
     return sf.tree_of(kept)
 
@@ -172,7 +188,9 @@ def trunk_tree(tailor, arms):
 def star_rows(tree, centre, angles, elevations_deg, ease, fallback):
     """Rows of points where rays from `centre` leave the target, plus `ease` (a number a row)."""
     rows = []
-    for elevation, extra in zip(np.radians(elevations_deg), np.broadcast_to(ease, (len(elevations_deg),))):
+    for elevation, extra in zip(
+        np.radians(elevations_deg), np.broadcast_to(ease, (len(elevations_deg),))
+    ):
         flat = direction(angles) * np.cos(elevation)
         rays = flat + np.array([0.0, 0.0, np.sin(elevation)])
         reach = [sf.outermost(tree, centre, ray) for ray in rays]

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Checks townspeople GLBs: python3 townsperson_test.py FILE.glb...
 
-What a crowd needs from each person: 6,000 to 15,000 triangles, one skin of at most 76 joints, weights that sum
-to 1, the clips walk, idle and talk, a walk that loops exactly and names its speed.
+What a crowd needs from each person: 6,000 to 15,000 triangles, one skin of at most 76 joints,
+weights that sum to 1, the clips walk, idle and talk, a walk that loops exactly and names its speed.
 """
 
 import json
@@ -11,8 +11,14 @@ import struct
 import sys
 import unittest
 
-COMPONENTS = {5120: ("b", 1, 127.0), 5121: ("B", 1, 255.0), 5122: ("h", 2, 32767.0), 5123: ("H", 2, 65535.0),
-              5125: ("I", 4, None), 5126: ("f", 4, None)}
+COMPONENTS = {
+    5120: ("b", 1, 127.0),
+    5121: ("B", 1, 255.0),
+    5122: ("h", 2, 32767.0),
+    5123: ("H", 2, 65535.0),
+    5125: ("I", 4, None),
+    5126: ("f", 4, None),
+}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 CLIPS = ["idle", "talk", "walk"]
 
@@ -27,10 +33,10 @@ class Glb:
         if magic != b"glTF" or version != 2 or length != len(data):
             raise ValueError("%s: not a whole glTF 2 binary" % path)
         json_length, _ = struct.unpack_from("<I4s", data, 12)
-        self.json = json.loads(data[20:20 + json_length])
+        self.json = json.loads(data[20 : 20 + json_length])
         start = 20 + json_length
         binary_length, _ = struct.unpack_from("<I4s", data, start)
-        self.binary = data[start + 8:start + 8 + binary_length]
+        self.binary = data[start + 8 : start + 8 + binary_length]
 
     def values(self, accessor_index):
         """An accessor's elements as tuples of floats (normalised integers scaled to 0..1)."""
@@ -42,7 +48,9 @@ class Glb:
         offset = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         scale = largest if accessor.get("normalized") else None
         for i in range(accessor["count"]):
-            element = struct.unpack_from("<%d%s" % (width, letter), self.binary, offset + i * stride)
+            element = struct.unpack_from(
+                "<%d%s" % (width, letter), self.binary, offset + i * stride
+            )
             yield tuple(v / scale for v in element) if scale else element
 
     def primitives(self):
@@ -111,8 +119,11 @@ class TownspersonTest(unittest.TestCase):
 
     def test_speed_is_named(self):
         for glb in self.each():
-            speeds = [node["extras"]["flaneur_walk_speed_mps"] for node in glb.json["nodes"]
-                      if "flaneur_walk_speed_mps" in node.get("extras", {})]
+            speeds = [
+                node["extras"]["flaneur_walk_speed_mps"]
+                for node in glb.json["nodes"]
+                if "flaneur_walk_speed_mps" in node.get("extras", {})
+            ]
             self.assertEqual(len(speeds), 1)
             self.assertGreater(speeds[0], 0.4)
             self.assertLess(speeds[0], 2.0)
@@ -124,7 +135,10 @@ class TownspersonTest(unittest.TestCase):
 
     def test_stands_on_the_ground(self):
         for glb in self.each():
-            bounds = [glb.json["accessors"][primitive["attributes"]["POSITION"]] for primitive in glb.primitives()]
+            bounds = [
+                glb.json["accessors"][primitive["attributes"]["POSITION"]]
+                for primitive in glb.primitives()
+            ]
             self.assertAlmostEqual(min(bound["min"][1] for bound in bounds), 0.0, delta=0.01)
 
 

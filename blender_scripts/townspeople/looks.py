@@ -1,0 +1,59 @@
+"""A person's textures and materials: the skin, and two atlases of painted cells."""
+
+import numpy as np
+
+from townspeople import materials
+from townspeople import surface as sf
+from townspeople.skin import face_places
+from townspeople.wardrobe import CELLS
+
+MATERIALS = {"skin": (0.62, 0.0), "cloth": (0.92, 0.0), "trim": (0.70, 0.0)}  # roughness, metallic
+
+
+def paint_cells(figure, person, seed, cells):
+    """Pictures of the texture cells in use: {material: {cell: picture}}."""
+    pictures = {"cloth": {}, "trim": {}}
+    for number, cell in enumerate(sorted(cells)):
+        random = np.random.default_rng([seed, number])
+        if cell == "eyes":
+            pictures["trim"][cell] = materials.shrunk(figure.images["eye"][::-1], 64, 64)
+        elif cell == "shoes":
+            leather = materials.shrunk(figure.images["shoes"][::-1], 128, 128)
+            pictures["trim"][cell] = np.clip(
+                leather * np.asarray(person.get("shoe_tint", (0.55, 0.5, 0.5))), 0, 1
+            )
+        else:
+            material, size = CELLS[cell]
+            look = dict(person["cloth"][cell])
+            weave, colour = look.pop("weave"), look.pop("colour")
+            pictures[material][cell] = materials.paint(random, size, weave, colour, **look)
+    return pictures
+
+
+def make_materials(figure, person, seed, cells):
+    """Blender materials by name, each cell's material, and each cell's place in its atlas."""
+    skin = materials.skin_picture(figure.images["skin"], face_places(figure), **person["skin"])
+    made = {
+        "skin": materials.blender_material(
+            "skin", materials.blender_image("skin", skin), *MATERIALS["skin"]
+        )
+    }
+    material_of_cell, places = {"body": "skin"}, {}
+    for name, pictures in paint_cells(figure, person, seed, cells - {"body"}).items():
+        atlas, atlas_places = materials.pack_cells(pictures)
+        made[name] = materials.blender_material(
+            name, materials.blender_image(name, atlas), *MATERIALS[name]
+        )
+        material_of_cell.update({cell: name for cell in pictures})
+        places.update(atlas_places)
+    return made, material_of_cell, places
+
+
+def texture_coordinates(surface, places):
+    uv = surface.corner_uv.copy()
+    starts = sf.corner_starts(surface.faces)
+    for index, cell in enumerate(surface.cells):
+        if cell in places:
+            corners = slice(starts[index], starts[index + 1])
+            uv[corners] = materials.atlas_uv(uv[corners], places[cell])
+    return uv
