@@ -1,0 +1,146 @@
+#include "runtime/player/camera_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flaneur {
+namespace {
+
+constexpr float kTourYawRate_radps = 0.9f;    // a calm turn of the head
+constexpr float kLookAhead_m = 3.0f;          // people within this ahead slow the camera
+constexpr float kDenseAhead_pm2 = 2.0f;       // at this density ahead the speed is least
+constexpr float kLeastFactor = 0.2f;
+constexpr float kReached_m = 0.3f;
+constexpr float kGiveUp_s = 6;                // a leg whose way is barred ends
+constexpr float kTourSpeed_mps = 1.3f;
+
+float WrapAngle(float a) {
+  while (a > kPi) a -= 2 * kPi;
+  while (a < -kPi) a += 2 * kPi;
+  return a;
+}
+
+void TurnTowards(float yaw_rad, float rate_radps, Simulation* s) {
+  const float most = rate_radps * s->step_s;
+  const float turn = std::clamp(WrapAngle(yaw_rad - s->camera.view.yaw_rad), -most, most);
+  s->camera.view.yaw_rad = WrapAngle(s->camera.view.yaw_rad + turn);
+  s->camera.yaw_rate_radps = turn / s->step_s;
+}
+
+// The user's speed falls in proportion to the density of the crowd ahead.
+float DensityFactor(const Simulation& s, Vec2 direction) {
+  float people = 0;
+  for (size_t i = 0; i < s.crowd.size(); ++i) {
+    const Vec2 off = s.crowd.position[i] - s.camera.view.position;
+    const float distance_m = Length(off);
+    if (distance_m < kLookAhead_m && Dot(off, direction) > 0.7071f * distance_m) people += 1;
+  }
+  const float density = people / (kPi / 4 * kLookAhead_m * kLookAhead_m);
+  return std::clamp(1 - density / kDenseAhead_pm2, kLeastFactor, 1.0f);
+}
+
+// How far the camera may go along the step without anybody coming within r_personal who was not already.
+float FreeShare(const Simulation& s, Vec2 step) {
+  float share = 1;
+  const float step2 = Dot(step, step);
+  if (step2 <= 0) return 0;
+  for (size_t i = 0; i < s.crowd.size(); ++i) {
+    const Vec2 off = s.crowd.position[i] - s.camera.view.position;
+    const float reach_m = s.r_personal_m + s.crowd.radius_m[i] + 0.06f;  // room for the person's own next step
+    const float along = Dot(off, step);
+    if (along <= 0) continue;
+    const float gap2 = Dot(off, off) - reach_m * reach_m;
+    if (gap2 <= 0) return 0;
+    const float discriminant = along * along - step2 * gap2;
+    if (discriminant <= 0) continue;
+    share = std::min(share, std::max(0.0f, (along - std::sqrt(discriminant)) / step2));
+  }
+  return share;
+}
+
+void Walk(Vec2 direction, float asked_mps, Simulation* s) {
+  CameraState& camera = s->camera;
+  camera.asked_mps = asked_mps;
+  const Vec2 before = camera.view.position;
+  const float speed = asked_mps * DensityFactor(*s, direction);
+  Vec2 step = direction * (speed * s->step_s);
+  step = step * FreeShare(*s, step);
+  const Vec2 target = before + step;
+  if (InsideObstacle(s->walkable, before)) camera.view.position = target;  // let a camera out that a scenario put in a wall
+  else camera.view.position = KeepOffWalls(s->walkable, before, target, kCameraRadius_m);
+  camera.velocity = (camera.view.position - before) * (1 / s->step_s);
+  camera.actual_mps = Length(camera.velocity);
+  s->stuck_s = camera.actual_mps < 0.05f * asked_mps ? s->stuck_s + s->step_s : 0;
+}
+
+void NextLeg(size_t count, Simulation* s) {
+  s->leg_done = 0;
+  s->stuck_s = 0;
+  if (++s->leg >= count) s->finished = true;
+}
+
+void FollowLegs(Simulation* s) {
+  const CameraLeg& leg = s->legs[s->leg];
+  switch (leg.kind) {
+    case CameraLeg::Kind::kWait:
+      s->leg_done += s->step_s;
+      if (s->leg_done >= leg.wait_s) NextLeg(s->legs.size(), s);
+      return;
+    case CameraLeg::Kind::kTurn: {
+      const float left = std::abs(leg.turn_deg * kPi / 180) - s->leg_done;
+      const float turn = std::min(left, leg.rate_dps * kPi / 180 * s->step_s);
+      s->leg_done += turn;
+      const float signed_turn = leg.turn_deg >= 0 ? turn : -turn;
+      s->camera.view.yaw_rad = WrapAngle(s->camera.view.yaw_rad + signed_turn);
+      s->camera.yaw_rate_radps = signed_turn / s->step_s;
+      if (left - turn <= 1e-6f) NextLeg(s->legs.size(), s);
+      return;
+    }
+    case CameraLeg::Kind::kWalk: {
+      const Vec2 way = leg.to_m - s->camera.view.position;
+      const float way_m = Length(way);
+      if (way_m < kReached_m || s->stuck_s > kGiveUp_s) return NextLeg(s->legs.size(), s);
+      TurnTowards(std::atan2(way.y, way.x), s->max_yaw_rate_radps * 0.75f, s);
+      Walk(way * (1 / way_m), leg.speed_mps, s);
+      return;
+    }
+  }
+}
+
+void FollowTour(Simulation* s) {
+  const TourStop& stop = s->path[s->leg];
+  if (s->leg_done > 0 || Length(stop.position_m - s->camera.view.position) < kReached_m * 3) {
+    if (stop.pause_s > 0) TurnTowards(stop.yaw_rad, kTourYawRate_radps, s);
+    s->leg_done += s->step_s;
+    if (s->leg_done >= stop.pause_s) NextLeg(s->path.size(), s);
+    return;
+  }
+  if (s->stuck_s > kGiveUp_s) return NextLeg(s->path.size(), s);
+  const int field = FieldFor(s->walkable, stop.position_m, &s->crowd);
+  const Vec2 way = Waypoint(s->walkable, s->crowd.fields[static_cast<size_t>(field)], s->camera.view.position) -
+                   s->camera.view.position;
+  const float way_m = Length(way);
+  if (way_m < 1e-3f) return NextLeg(s->path.size(), s);
+  TurnTowards(std::atan2(way.y, way.x), kTourYawRate_radps, s);
+  Walk(way * (1 / way_m), kTourSpeed_mps, s);
+}
+
+}  // namespace
+
+void MoveCamera(const CameraInput& input, Simulation* s) {
+  CameraState& camera = s->camera;
+  camera.velocity = {};
+  camera.yaw_rate_radps = camera.asked_mps = camera.actual_mps = 0;
+  if (!camera.present) return;
+  if (input.active) {
+    camera.yaw_rate_radps = std::clamp(input.yaw_rate_radps, -s->max_yaw_rate_radps, s->max_yaw_rate_radps);
+    camera.view.yaw_rad = WrapAngle(camera.view.yaw_rad + camera.yaw_rate_radps * s->step_s);
+    if (input.speed_mps > 0) Walk(input.direction, input.speed_mps, s);
+    return;
+  }
+  if (s->finished) return;
+  if (!s->legs.empty()) FollowLegs(s);
+  else if (!s->path.empty()) FollowTour(s);
+}
+
+}  // namespace flaneur

@@ -1,0 +1,47 @@
+#include <cstdio>
+
+#include "runtime/base/text.h"
+#include "runtime/player/options.h"
+#include "runtime/player/run.h"
+#include "runtime/player/scenario.h"
+
+namespace flaneur {
+namespace {
+
+Error Play(const PlayerOptions& options) {
+  Scenario scenario;
+  if (!options.scenario.empty()) {
+    if (Error e = ReadScenario(options.scenario, &scenario)) return e;
+  }
+  if (options.people) scenario.people = *options.people;
+  if (options.seed) scenario.seed = *options.seed;
+
+  TourPack pack;
+  if (!options.pack.empty()) {
+    if (Error e = LoadTourPack(options.pack, LoadOptions{!options.no_draw}, &pack)) return e;
+  } else if (!options.no_draw) {
+    return Fail("nothing to draw without a pack; add --headless --no-draw or name a pack");
+  }
+  Simulation simulation;
+  if (Error e = StartSimulation(options.pack.empty() ? nullptr : &pack, scenario, &simulation)) {
+    const auto& source = options.scenario.empty() ? options.pack : options.scenario;
+    return Fail(source.string() + ": " + e.message);
+  }
+  for (const std::string& warning : simulation.warnings) std::fprintf(stderr, "flaneur-player: warning: %s\n", warning.c_str());
+  const float seconds = RunLength_s(options, scenario, simulation);
+  if (options.no_draw) return RunWithoutDrawing(options, seconds, &simulation);
+  if (options.headless) return RunHeadless(options, seconds, pack, &simulation);
+  return RunInWindow(options, pack, &simulation);
+}
+
+}  // namespace
+}  // namespace flaneur
+
+int main(int argc, char** argv) {
+  flaneur::PlayerOptions options;
+  if (const int status = flaneur::ParsePlayerOptions(argc, argv, &options); status >= 0) return status;
+  const flaneur::Error error = flaneur::Play(options);
+  if (!error) return 0;
+  std::fprintf(stderr, "flaneur-player: error: %s\n", flaneur::OneLine(error.message).c_str());
+  return 2;
+}

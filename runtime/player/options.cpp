@@ -1,0 +1,58 @@
+#include "runtime/player/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+int Refuse(const std::string& why) {
+  std::fprintf(stderr, "flaneur-player: error: %s; see flaneur-player --help\n", OneLine(why).c_str());
+  return 2;
+}
+
+bool ParseSize(const std::string& text, PlayerOptions* o) {
+  int used = 0;
+  return std::sscanf(text.c_str(), "%dx%d%n", &o->width_px, &o->height_px, &used) == 2 &&
+         static_cast<size_t>(used) == text.size() && o->width_px >= 16 && o->height_px >= 16 && o->width_px <= 8192 &&
+         o->height_px <= 8192;
+}
+
+}  // namespace
+
+int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
+  CLI::App app{"Plays a tour pack: a walk through a historic town among its townspeople.\n"
+               "In the window: W A S D or arrows walk, the mouse looks, Tab changes between guided tour and free walk, "
+               "Esc ends.\nExit status: 0 done, 2 bad usage or input.",
+               "flaneur-player"};
+  std::string size = "1280x720";
+  app.add_option("PACK", o->pack, "Tour pack (.glb); not needed where the scenario brings its own ground");
+  app.add_flag("--headless", o->headless, "No window: run by itself, as fast as it goes");
+  app.add_flag("--no-draw", o->no_draw, "With --headless: the simulation alone, without OpenGL");
+  app.add_option("--seconds", o->seconds, "End after so much simulated time (default: the scenario's, else the guided tour's end, else 60)")
+      ->check(CLI::Range(0.0, 1e6));
+  app.add_option("--scenario", o->scenario, "Scenario file (TOML)");
+  app.add_option("--metrics", o->metrics, "Write one row a frame (CSV)");
+  app.add_option("--trajectories", o->trajectories, "Write one row a person a frame (CSV)");
+  app.add_option("--screenshot", o->screenshot, "Write the last picture (PNG)");
+  app.add_option("--film", o->film, "Write a film (MP4, H.264)");
+  app.add_option("--size", size, "Picture size in pixels")->capture_default_str();
+  app.add_option("--people", o->people, "How many people (default: the scenario's, else the pack's)")->check(CLI::Range(0, 1000000));
+  app.add_option("--seed", o->seed, "Seed of the crowd (default: likewise)");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);
+    return Refuse(e.what());
+  }
+  if (!ParseSize(size, o)) return Refuse("--size must be WIDTHxHEIGHT in pixels, 16 to 8192 each, not '" + size + "'");
+  if (o->pack.empty() && o->scenario.empty()) return Refuse("a pack is missing");
+  if (o->no_draw && !o->headless) return Refuse("--no-draw needs --headless");
+  if (o->no_draw && (!o->screenshot.empty() || !o->film.empty())) return Refuse("--no-draw makes no pictures; leave it out");
+  if (!o->headless && (!o->screenshot.empty() || !o->film.empty())) return Refuse("--screenshot and --film need --headless");
+  return -1;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,21 @@
+// What flaneur-player is asked to do.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace flaneur {
+
+struct PlayerOptions {
+  std::filesystem::path pack, scenario, metrics, trajectories, screenshot, film;
+  bool headless = false, no_draw = false;
+  std::optional<float> seconds;
+  std::optional<int> people;
+  std::optional<uint64_t> seed;
+  int width_px = 1280, height_px = 720;
+};
+
+// Negative: go on. Else the exit status: 0 after --help, 2 after bad usage, which was said in one line.
+int ParsePlayerOptions(int argc, char** argv, PlayerOptions* options);
+
+}  // namespace flaneur

@@ -1,0 +1,77 @@
+#include "runtime/player/records.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+#include "runtime/base/file.h"
+
+namespace flaneur {
+namespace {
+
+constexpr const char* kMetricsHeader =
+    "frame,time_s,camera_x_m,camera_y_m,camera_yaw_rad,camera_fov_rad,outer_apex_back_m,asked_speed_mps,actual_speed_mps,"
+    "people,visible,boundary,outside,high,low,limit,r_personal_m,r_high_m,r_unimportant_m,exceeded,shortfalls,"
+    "triangles_people,triangles_town,budget_triangles,level_switches_in_view,step_ms,control_ms,draw_ms\n";
+constexpr const char* kTrajectoriesHeader = "frame,id,avatar,x_m,y_m,z_m,heading_rad,radius_m,view,level\n";
+constexpr const char* kViewNames[] = {"outside", "boundary", "visible"};
+
+__attribute__((format(printf, 2, 3))) void Append(std::string* text, const char* format, ...) {
+  char line[512];
+  va_list args;
+  va_start(args, format);
+  std::vsnprintf(line, sizeof line, format, args);
+  va_end(args);
+  *text += line;
+}
+
+double D(float value) { return static_cast<double>(value); }
+
+void RecordMetrics(const Simulation& s, const FrameCosts& costs, std::string* text) {
+  int count[3] = {0, 0, 0};
+  for (ViewClass view : s.crowd.view) ++count[static_cast<size_t>(view)];
+  const CameraState& c = s.camera;
+  Append(text, "%lld,%.6f,%.4f,%.4f,%.6f,%.6f,%.4f,%.4f,%.4f,", static_cast<long long>(s.frame),
+         static_cast<double>(s.frame) * D(s.step_s), D(c.view.position.x), D(c.view.position.y), D(c.view.yaw_rad),
+         D(c.view.fov_rad), D(s.outer_apex_back_m), D(c.asked_mps), D(c.actual_mps));
+  Append(text, "%zu,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.4f,%d,%d,", s.crowd.size(), count[2], count[1], count[0], s.levels.high,
+         s.levels.low, s.level_settings.high_limit, D(s.r_personal_m), D(s.levels.r_high_m),
+         D(s.influence.r_unimportant_m), s.levels.exceeded ? 1 : 0, s.levels.shortfalls);
+  Append(text, "%lld,%lld,%.0f,%d,%.4f,%.4f,%.4f\n", static_cast<long long>(s.levels.triangles),
+         static_cast<long long>(costs.town_triangles), D(s.levels.budget_triangles), s.levels.switches_in_view, s.step_ms,
+         s.control_ms, costs.draw_ms);
+}
+
+void RecordTrajectories(const Simulation& s, std::string* text) {
+  for (size_t i = 0; i < s.crowd.size(); ++i) {
+    const Vec2 p = s.crowd.position[i];
+    const int level = s.levels.level[i];
+    const std::string level_name = level == kNotDrawn ? "none" : level == kImpostor ? "impostor" : std::to_string(level);
+    Append(text, "%lld,%d,%s,%.5f,%.5f,%.4f,%.5f,%.4f,%s,%s\n", static_cast<long long>(s.frame), s.crowd.id[i],
+           s.avatar_names[static_cast<size_t>(s.crowd.avatar[i])].c_str(), D(p.x), D(p.y), D(HeightAt(s.walkable, p)),
+           D(s.crowd.heading_rad[i]), D(s.crowd.radius_m[i]), kViewNames[static_cast<size_t>(s.crowd.view[i])],
+           level_name.c_str());
+  }
+}
+
+}  // namespace
+
+void Record(const Simulation& s, const FrameCosts& costs, Records* records) {
+  if (records->keep_metrics) {
+    if (records->metrics.empty()) records->metrics = kMetricsHeader;
+    RecordMetrics(s, costs, &records->metrics);
+  }
+  if (records->keep_trajectories) {
+    if (records->trajectories.empty()) records->trajectories = kTrajectoriesHeader;
+    RecordTrajectories(s, &records->trajectories);
+  }
+}
+
+Error WriteRecords(const Records& records, const std::filesystem::path& metrics, const std::filesystem::path& trajectories) {
+  if (records.keep_metrics) {
+    if (Error e = WriteTextFile(metrics, records.metrics)) return e;
+  }
+  if (records.keep_trajectories) return WriteTextFile(trajectories, records.trajectories);
+  return Ok();
+}
+
+}  // namespace flaneur

@@ -1,0 +1,33 @@
+#include "runtime/player/run.h"
+
+#include "runtime/player/records.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kDefaultLength_s = 60;
+constexpr float kLongest_s = 1e6f;
+
+}  // namespace
+
+float RunLength_s(const PlayerOptions& options, const Scenario& scenario, const Simulation& simulation) {
+  if (options.seconds) return *options.seconds;
+  if (scenario.seconds) return *scenario.seconds;
+  const bool ends_by_itself = !simulation.legs.empty() || !simulation.path.empty();
+  return ends_by_itself ? kLongest_s : kDefaultLength_s;
+}
+
+Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation* simulation) {
+  Records records;
+  records.keep_metrics = !options.metrics.empty();
+  records.keep_trajectories = !options.trajectories.empty();
+  Record(*simulation, {}, &records);
+  const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(simulation->step_s) + 0.5);
+  while (simulation->frame < steps && !simulation->finished) {
+    StepSimulation({}, 0, simulation);
+    Record(*simulation, {}, &records);
+  }
+  return WriteRecords(records, options.metrics, options.trajectories);
+}
+
+}  // namespace flaneur

@@ -1,0 +1,17 @@
+// The ways to play: the simulation alone, into pictures, or in a window.
+#pragma once
+#include "runtime/base/error.h"
+#include "runtime/pack/tour_pack.h"
+#include "runtime/player/options.h"
+#include "runtime/player/simulation.h"
+
+namespace flaneur {
+
+// How long a run lasts in simulated seconds; it also ends with the last leg or the tour's end.
+float RunLength_s(const PlayerOptions& options, const Scenario& scenario, const Simulation& simulation);
+
+Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation* simulation);
+Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Simulation* simulation);
+Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Simulation* simulation);
+
+}  // namespace flaneur

@@ -1,0 +1,51 @@
+// A scenario: what is simulated, and how the camera moves. Written as TOML, used by demo, tests and benchmarks.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/base/error.h"
+#include "runtime/pack/tour_pack.h"
+
+namespace flaneur {
+
+struct CameraLeg {
+  enum class Kind { kWalk, kTurn, kWait } kind = Kind::kWait;
+  Vec2 to_m;
+  float speed_mps = 1.4f;
+  float turn_deg = 0, rate_dps = 60;
+  float wait_s = 0;
+};
+
+struct ScenarioPerson {
+  Vec2 position_m;
+  std::vector<Vec2> goals_m;
+  bool stay = false;
+  std::string avatar;
+  float speed_mps = 0, top_speed_mps = 0, radius_m = 0;  // 0: the pack's
+};
+
+struct Scenario {
+  std::string name;
+  std::optional<int> people;
+  std::optional<uint64_t> seed;
+  std::optional<float> step_hz, seconds;
+  std::optional<std::string> adaptation, method;
+  std::optional<int> high_limit, budget_triangles;
+  std::optional<float> target_ms;
+  bool has_camera = false;
+  Vec2 camera_position_m;
+  float camera_yaw_deg = 0;
+  std::optional<float> fov_deg, r_high_m, eye_height_m, pitch_deg;
+  std::vector<CameraLeg> legs;
+  std::vector<ScenarioPerson> persons;
+  bool has_ground = false;
+  Vec2 ground_min_m, ground_max_m;
+  std::vector<PackObstacle> obstacles;
+};
+
+// Errors: unreadable, not TOML, an unknown key (with the nearest known one), a wrong type or value; FILE:LINE in front.
+Error ReadScenario(const std::filesystem::path& path, Scenario* scenario);
+
+}  // namespace flaneur

@@ -1,0 +1,185 @@
+#include "runtime/player/simulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "runtime/player/camera_walk.h"
+#include "runtime/player/population.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kFlatCell_m = 0.5f;
+
+void TakePack(const TourPack& pack, Simulation* s) {
+  for (const PackAvatar& avatar : pack.avatars) {
+    AvatarCosts costs;
+    for (const PackLevel& level : avatar.levels) costs.levels.push_back({level.triangles, level.switch_px});
+    costs.height_m = avatar.height_m;
+    costs.impostor_px = static_cast<float>(avatar.impostor.cell_height_px) * avatar.height_m /
+                        std::max(0.1f, avatar.impostor.window_height_m);
+    s->avatar_names.push_back(avatar.name);
+    s->avatar_costs.push_back(costs);
+    s->avatar_share.push_back(avatar.share);
+    s->avatar_radius_m.push_back(avatar.radius_m);
+  }
+  s->crowd_settings = pack.crowd;
+  const ControlSettings& c = pack.control;
+  s->level_settings = {c.method == "frame_time", c.high_limit, c.target_ms, c.budget_triangles, c.r_high_m, c.r_far_m, 1280};
+  s->influence.r_unimportant_m = c.r_unimportant_m;
+  s->influence.adaptation = c.adaptation == "off" ? Adaptation::kOff : c.adaptation == "paper" ? Adaptation::kPaper : Adaptation::kFull;
+  s->r_personal_m = c.r_personal_m;
+  s->step_s = 1 / c.step_hz;
+  s->max_yaw_rate_radps = c.max_yaw_rate_dps * kPi / 180;
+  s->camera.view.fov_rad = c.fov_rad;
+  s->places = pack.places;
+  s->path = pack.path;
+  s->walkable.ground = {pack.ground.min_m, pack.ground.cell_m, pack.ground.columns, pack.ground.rows,
+                        pack.ground.height_m, pack.ground.kind};
+  for (const PackObstacle& o : pack.obstacles) {
+    if (o.radius_m > 0) s->walkable.circles.push_back({o.center, o.radius_m});
+    else s->walkable.polygons.push_back({o.outer, o.holes});
+  }
+}
+
+void TakeGround(const Scenario& scenario, Simulation* s) {
+  GroundGrid& g = s->walkable.ground;
+  const Vec2 size = scenario.ground_max_m - scenario.ground_min_m;
+  g.min_m = scenario.ground_min_m;
+  g.cell_m = kFlatCell_m;
+  g.columns = static_cast<int>(size.x / kFlatCell_m);
+  g.rows = static_cast<int>(size.y / kFlatCell_m);
+  g.height_m.assign(static_cast<size_t>(g.columns) * static_cast<size_t>(g.rows), 0);
+  g.kind.assign(g.height_m.size(), 3);
+  s->walkable.circles.clear();
+  s->walkable.polygons.clear();
+  s->places.clear();
+  s->path.clear();
+}
+
+void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
+  if (scenario.has_ground) TakeGround(scenario, s);
+  for (const PackObstacle& o : scenario.obstacles) {
+    if (o.radius_m > 0) s->walkable.circles.push_back({o.center, o.radius_m});
+    else s->walkable.polygons.push_back({o.outer, o.holes});
+  }
+  if (s->avatar_names.empty()) {  // without a pack: one plain figure
+    s->avatar_names = {"person"};
+    s->avatar_costs = {{{{6000, 60}, {1500, 0}}, 1.75f, 128}};
+    s->avatar_share = {1};
+    s->avatar_radius_m = {0.25f};
+    s->crowd_settings.people = 0;
+  }
+  s->crowd_settings.people = scenario.people.value_or(scenario.has_ground ? 0 : s->crowd_settings.people);
+  s->crowd_settings.seed = scenario.seed.value_or(s->crowd_settings.seed);
+  if (scenario.step_hz) s->step_s = 1 / *scenario.step_hz;
+  if (scenario.method) s->level_settings.by_frame_time = *scenario.method == "frame_time";
+  s->level_settings.high_limit = scenario.high_limit.value_or(s->level_settings.high_limit);
+  s->level_settings.budget_triangles = scenario.budget_triangles.value_or(s->level_settings.budget_triangles);
+  s->level_settings.target_ms = scenario.target_ms.value_or(s->level_settings.target_ms);
+  s->level_settings.r_high_m = scenario.r_high_m.value_or(s->level_settings.r_high_m);
+  if (scenario.adaptation) {
+    s->influence.adaptation = *scenario.adaptation == "off" ? Adaptation::kOff
+                              : *scenario.adaptation == "paper" ? Adaptation::kPaper : Adaptation::kFull;
+  }
+  s->influence.high_limit = s->level_settings.high_limit;
+  s->influence.r_high_m = s->level_settings.r_high_m;
+  if (scenario.fov_deg) s->camera.view.fov_rad = *scenario.fov_deg * kPi / 180;
+  s->camera.eye_height_m = scenario.eye_height_m.value_or(kEyeHeight_m);
+  s->camera.pitch_rad = scenario.pitch_deg.value_or(0) * kPi / 180;
+  s->camera.present = scenario.has_camera || (has_pack && !scenario.has_ground);
+  s->legs = scenario.legs;
+}
+
+void PlaceCamera(const Scenario& scenario, Simulation* s) {
+  if (scenario.has_camera) {
+    s->camera.view.position = scenario.camera_position_m;
+    s->camera.view.yaw_rad = scenario.camera_yaw_deg * kPi / 180;
+  } else if (!s->path.empty()) {
+    s->camera.view.position = s->path.front().position_m;
+    const Vec2 way = s->path.size() > 1 ? s->path[1].position_m - s->path[0].position_m : Vec2{1, 0};
+    s->camera.view.yaw_rad = std::atan2(way.y, way.x);
+  } else if (const int cell = BestFreeCell(s->walkable); cell >= 0) {
+    s->camera.view.position = CellCenter(s->walkable, cell);
+  }
+}
+
+void DeriveGap(Simulation* s) {
+  const Walkable& w = s->walkable;
+  const Vec2 size{static_cast<float>(w.columns) * w.cell_m, static_cast<float>(w.rows) * w.cell_m};
+  MotionLimits limits;
+  limits.step_s = s->step_s;
+  limits.reach_m = Length(size);
+  limits.yaw_rate_radps = s->max_yaw_rate_radps;
+  limits.camera_speed_mps = 3;
+  limits.person_speed_mps = s->crowd_settings.top_speed_mps;
+  for (const CameraLeg& leg : s->legs) {
+    limits.yaw_rate_radps = std::max(limits.yaw_rate_radps, leg.rate_dps * kPi / 180);
+    limits.camera_speed_mps = std::max(limits.camera_speed_mps, leg.speed_mps);
+  }
+  s->outer_apex_back_m = OuterApexBack_m(limits, s->camera.view.fov_rad);
+}
+
+void ClassifyAll(Simulation* s) {
+  for (size_t i = 0; i < s->crowd.size(); ++i) {
+    s->crowd.view[i] = s->camera.present ? Classify(s->crowd.position[i], s->camera.view, s->outer_apex_back_m)
+                                         : ViewClass::kVisible;
+  }
+}
+
+double Now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void ControlCrowd(float frame_ms, Simulation* s) {
+  const double start_ms = Now_ms();
+  const float speed = Length(s->camera.velocity);
+  ChooseLevels(s->crowd, s->avatar_costs, s->camera.view, speed, frame_ms, s->level_settings, s->step_s, &s->levels);
+  s->moving.clear();
+  if (s->camera.present) {
+    s->moving.push_back({s->camera.view.position, s->r_personal_m, true});
+    InfluenceCrowd(s->camera.view, s->camera.velocity, s->camera.yaw_rate_radps, s->levels, s->influence, &s->crowd,
+                   &s->moving);
+  }
+  s->control_ms = Now_ms() - start_ms;
+}
+
+bool InInnerVolume(Vec2 p, const void* volume) {
+  const auto* camera = static_cast<const ViewCamera*>(volume);
+  return InWedge(p, camera->position, camera->yaw_rad, camera->fov_rad);
+}
+
+}  // namespace
+
+Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation* out) {
+  Simulation s;
+  if (pack == nullptr && !scenario.has_ground) return Fail("no pack and no [ground] in the scenario; give one of them");
+  if (pack != nullptr) TakePack(*pack, &s);
+  TakeScenario(scenario, pack != nullptr, &s);
+  BuildWalkable(*std::max_element(s.avatar_radius_m.begin(), s.avatar_radius_m.end()) + 0.05f, &s.walkable);
+  if (BestFreeCell(s.walkable) < 0) return Fail("there is no walkable ground");
+  s.random.state = s.crowd_settings.seed;
+  PlaceCamera(scenario, &s);
+  DeriveGap(&s);
+  if (Error e = PlaceScenarioPeople(scenario, &s)) return e;
+  PlaceCrowd(&s);
+  ClassifyAll(&s);
+  ControlCrowd(0, &s);
+  *out = std::move(s);
+  return Ok();
+}
+
+void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
+  const double start_ms = Now_ms();
+  MoveCamera(input, s);
+  StepCrowd(s->walkable, s->moving, s->step_s, &s->crowd);
+  LeaveAndArrive(s);
+  ClassifyAll(s);
+  if (s->camera.present) SeparateBoundary(s->walkable, InInnerVolume, &s->camera.view, &s->crowd);
+  ControlCrowd(frame_ms, s);
+  ++s->frame;
+  s->step_ms = Now_ms() - start_ms;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,77 @@
+// The tour as it lives: crowd, camera and control, one fixed step at a time. Knows nothing of drawing.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "runtime/base/error.h"
+#include "runtime/control/crowd_influence.h"
+#include "runtime/control/level_control.h"
+#include "runtime/control/view_volumes.h"
+#include "runtime/crowd/crowd.h"
+#include "runtime/pack/tour_pack.h"
+#include "runtime/player/scenario.h"
+
+namespace flaneur {
+
+inline constexpr float kEyeHeight_m = 1.65f;
+inline constexpr float kCameraRadius_m = 0.3f;
+
+struct CameraInput {
+  bool active = false;      // false: scenario or guided tour moves the camera
+  Vec2 direction;           // asked way, unit or zero
+  float speed_mps = 0, yaw_rate_radps = 0;
+};
+
+struct CameraState {
+  ViewCamera view;
+  float pitch_rad = 0, eye_height_m = kEyeHeight_m;
+  Vec2 velocity;
+  float yaw_rate_radps = 0, asked_mps = 0, actual_mps = 0;
+  bool present = true;      // false: everybody counts as visible
+};
+
+struct PersonPlan {         // of one person, by id
+  std::vector<Vec2> goals;  // after the present one, next first
+  bool stay = false, leaves = true;
+};
+
+struct Simulation {
+  std::vector<std::string> avatar_names;
+  std::vector<AvatarCosts> avatar_costs;
+  std::vector<float> avatar_share, avatar_radius_m;
+  CrowdSettings crowd_settings;
+  LevelSettings level_settings;
+  InfluenceSettings influence;
+  float step_s = 1.0f / 30, r_personal_m = 0.6f;
+  float outer_apex_back_m = 0, max_yaw_rate_radps = 2.1f;
+
+  Walkable walkable;
+  std::vector<PackPlace> places;
+  std::vector<TourStop> path;      // guided tour
+  std::vector<CameraLeg> legs;     // of the scenario; empty: the guided tour
+  int target_people = 0;           // kept up by people who appear out of sight
+
+  Crowd crowd;
+  std::vector<PersonPlan> plans;   // by id
+  CameraState camera;
+  LevelState levels;
+  std::vector<MovingObstacle> moving;
+  Random random;
+  int64_t frame = 0;
+  size_t leg = 0;                  // of legs or path
+  float leg_done = 0;              // seconds waited, or radians turned
+  float stuck_s = 0;
+  bool finished = false;           // the last leg is over
+  double step_ms = 0, control_ms = 0;
+  std::vector<std::string> warnings;
+};
+
+// `pack` may be null where the scenario has its own ground. Errors: no walkable ground, a scenario's person inside an obstacle or
+// with a goal nobody can reach, an unknown avatar, no ground at all; each names the person. More people than fit: as many as do,
+// and a warning.
+Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation* simulation);
+
+// frame_ms: what the last frame took, for the frame-time method; 0: unknown.
+void StepSimulation(const CameraInput& input, float frame_ms, Simulation* simulation);
+
+}  // namespace flaneur
