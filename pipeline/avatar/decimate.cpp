@@ -11,9 +11,9 @@
 namespace flaneur {
 namespace {
 
-constexpr int kQuadricPoses = 4;             // of the walk, besides the bind pose
+constexpr int kQuadricPoses = 4;  // of the walk, besides the bind pose
 constexpr float kTargetTolerance = 0.02f;
-constexpr float kEndless_px = 100000;        // switch height where the next level is exact
+constexpr float kEndless_px = 100000;  // switch height where the next level is exact
 
 Error CheckMeshes(const Avatar& avatar) {
   int triangles = 0;
@@ -168,13 +168,13 @@ class Comparison {
 
   LevelsOptions options_;
   std::vector<std::vector<Mat4>> poses_;
-  std::vector<SurfaceTree> trees_;          // the original's, bind pose first
+  std::vector<SurfaceTree> trees_;  // the original's, bind pose first
   std::vector<std::vector<Vec3>> points_;
 };
 
 std::vector<int> Targets(const LevelsOptions& options, int triangles) {
-  const int limit = options.max_triangles > 0 ? std::min(options.max_triangles, triangles)
-                                              : triangles;
+  const int limit =
+      options.max_triangles > 0 ? std::min(options.max_triangles, triangles) : triangles;
   std::vector<int> targets;
   for (const float ratio : options.ratios) {
     const int wanted = static_cast<int>(std::lround(ratio * static_cast<float>(limit)));
@@ -188,7 +188,8 @@ std::vector<int> Targets(const LevelsOptions& options, int triangles) {
   return targets;
 }
 
-// A level is needed where the next coarser one's error would show: span at least a pixel of the screen.
+// A level is needed where the next coarser one's error would show: span at least a pixel of the
+// screen.
 void SetSwitchHeights(float height_m, std::vector<AvatarLevel>* levels) {
   float error_mm = 0;
   for (size_t k = 1; k < levels->size(); ++k) {

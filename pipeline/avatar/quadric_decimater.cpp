@@ -19,11 +19,11 @@ using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 using Quadric = OpenMesh::Geometry::Quadricd;
 using Face = WedgeSurface::Face;
 
-constexpr double kSeamWeight = 2;        // of a border's or seam's own planes, against those of faces
-constexpr float kSameUv = 1e-4f;         // uvs nearer than this are no seam
+constexpr double kSeamWeight = 2;  // of a border's or seam's own planes, against those of faces
+constexpr float kSameUv = 1e-4f;   // uvs nearer than this are no seam
 constexpr float kSameColor = 0.02f;
-constexpr double kStretch = 0.3;         // a picture shifted by a length costs as much as this share of it
-constexpr float kMaxFlip_deg = 80;       // a face that turns further is taken to fold over
+constexpr double kStretch = 0.3;  // a picture shifted by a length costs as much as this share of it
+constexpr float kMaxFlip_deg = 80;  // a face that turns further is taken to fold over
 
 OpenMesh::Vec3d ToDouble(Vec3 v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
@@ -31,8 +31,8 @@ OpenMesh::Vec3d ToDouble(Vec3 v) {
 
 // Everything the decimating module needs of the surface; lives as long as the decimater.
 struct Surface {
-  WedgeSurface wedges;                        // faces by OpenMesh's face index
-  const std::vector<Mesh>* meshes = nullptr;  // the bind pose's
+  WedgeSurface wedges;                                  // faces by OpenMesh's face index
+  const std::vector<Mesh>* meshes = nullptr;            // the bind pose's
   std::vector<std::vector<OpenMesh::Vec3d>> positions;  // by pose and vertex
 };
 
@@ -45,8 +45,8 @@ int WedgeAt(const Surface& surface, int face, int vertex) {
 }
 
 const Mesh& MeshOf(const Surface& surface, int wedge) {
-  return (*surface.meshes)[static_cast<size_t>(
-      surface.wedges.wedges[static_cast<size_t>(wedge)].mesh)];
+  return (
+      *surface.meshes)[static_cast<size_t>(surface.wedges.wedges[static_cast<size_t>(wedge)].mesh)];
 }
 
 uint32_t VertexOf(const Surface& surface, int wedge) {
@@ -83,8 +83,8 @@ float NormalAgreement(const Surface& surface, int a, int b) {
   return Dot(mesh.normals[VertexOf(surface, a)], MeshOf(surface, b).normals[VertexOf(surface, b)]);
 }
 
-// The priority of a collapse is its quadric error over all poses, and the shift of the picture where a corner leaves
-// its uv seam; illegal where a border of materials would tear.
+// The priority of a collapse is its quadric error over all poses, and the shift of the picture
+// where a corner leaves its uv seam; illegal where a border of materials would tear.
 template <typename MeshType>
 class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
  public:
@@ -140,7 +140,8 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
   struct Move {
     int face = 0;
     int wedge = 0;
-    int place = -1;  // a wedge at v1 where only the corner's place changes, not its uv; -1: `wedge` has it all
+    int place = -1;  // a wedge at v1 where only the corner's place changes, not its uv; -1: `wedge`
+                     // has it all
   };
 
   // A wedge with the picture of one and the place of another.
@@ -162,7 +163,8 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
     for (const int v : vertices) quadrics_[pose][static_cast<size_t>(v)] += plane;
   }
 
-  // Weights are lengths: by area the large faces would leave nothing of a hand, with equal ones of a coat.
+  // Weights are lengths: by area the large faces would leave nothing of a hand, with equal ones of
+  // a coat.
   void AddFace(int face) {
     const auto& v = surface_->wedges.faces[static_cast<size_t>(face)].vertices;
     for (size_t pose = 0; pose < quadrics_.size(); ++pose) {
@@ -195,7 +197,8 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
     }
   }
 
-  // The wedge at v1 that continues `wedge` of v0 across one of the two faces that vanish; -1: none does.
+  // The wedge at v1 that continues `wedge` of v0 across one of the two faces that vanish; -1: none
+  // does.
   int Continuation(const CollapseInfo& info, int wedge, bool* exact) const {
     int found = -1;
     for (const auto& face : {info.fl, info.fr}) {
@@ -210,8 +213,8 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
     return found;
   }
 
-  // Of the wedges at v1 the one of the same mesh, without a seam to `like` where given, whose normal fits best;
-  // -1: none.
+  // Of the wedges at v1 the one of the same mesh, without a seam to `like` where given, whose
+  // normal fits best; -1: none.
   int Nearest(const CollapseInfo& info, int like, int wedge) {
     int best = -1;
     float closest = -2;
@@ -227,14 +230,15 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
     return best;
   }
 
-  // Fills moved_. A corner whose seam does not lead to v1 keeps its uv there, which shifts the picture a little; the
-  // wedges of v1 lie elsewhere in the picture. False where the mesh itself ends: borders of materials stay.
+  // Fills moved_. A corner whose seam does not lead to v1 keeps its uv there, which shifts the
+  // picture a little; the wedges of v1 lie elsewhere in the picture. False where the mesh itself
+  // ends: borders of materials stay.
   bool MapWedges(const CollapseInfo& info, double* shift) {
     moved_.clear();
     bool whole = true;
     const auto& p = surface_->positions[0];
-    const double edge2 = (p[static_cast<size_t>(info.v1.idx())] -
-                          p[static_cast<size_t>(info.v0.idx())]).sqrnorm();
+    const double edge2 =
+        (p[static_cast<size_t>(info.v1.idx())] - p[static_cast<size_t>(info.v0.idx())]).sqrnorm();
     for (const auto face : Base::mesh().vf_range(info.v0)) {
       if (face == info.fl || face == info.fr) continue;
       const int w0 = WedgeAt(*surface_, face.idx(), info.v0.idx());
@@ -245,7 +249,8 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
         continue;
       }
       const int place = Nearest(info, -1, w0);
-      // Without a place the corner stays where it was: a neighbour's collapse took the mesh away in between.
+      // Without a place the corner stays where it was: a neighbour's collapse took the mesh away in
+      // between.
       moved_.push_back({face.idx(), w0, place});
       whole = whole && place >= 0;
       *shift += kStretch * kStretch * edge2 * std::sqrt(FaceArea(face.idx()));
@@ -261,7 +266,7 @@ class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
   }
 
   Surface* surface_ = nullptr;
-  std::vector<std::vector<Quadric>> quadrics_;    // by pose and vertex
+  std::vector<std::vector<Quadric>> quadrics_;  // by pose and vertex
   std::vector<Move> moved_;
 };
 
@@ -319,8 +324,7 @@ QuadricDecimater::QuadricDecimater(const std::vector<std::vector<Mesh>>& poses)
     auto& positions = surface.positions.emplace_back();
     for (const int wedge : surface.wedges.wedge_of_vertex) {
       const auto& from = surface.wedges.wedges[static_cast<size_t>(wedge)];
-      positions.push_back(
-          ToDouble(pose[static_cast<size_t>(from.mesh)].positions[from.vertex]));
+      positions.push_back(ToDouble(pose[static_cast<size_t>(from.mesh)].positions[from.vertex]));
     }
   }
   // Refusals are dealt with; OpenMesh need not tell of each.
@@ -354,7 +358,8 @@ void QuadricDecimater::DecimateTo(int triangles) {
 std::vector<Mesh> QuadricDecimater::Meshes() const {
   const Surface& surface = impl_->surface;
   std::vector<Mesh> out;
-  std::map<std::tuple<int, uint32_t, uint32_t>, uint32_t> index;  // of a wedge's mesh, vertex and place
+  std::map<std::tuple<int, uint32_t, uint32_t>, uint32_t>
+      index;  // of a wedge's mesh, vertex and place
   for (const Mesh& mesh : impl_->bind) {
     out.emplace_back();
     out.back().name = mesh.name;
@@ -368,9 +373,8 @@ std::vector<Mesh> QuadricDecimater::Meshes() const {
       const WedgeSurface::Wedge from = surface.wedges.wedges[static_cast<size_t>(wedge)];
       const Mesh& mesh = impl_->bind[static_cast<size_t>(from.mesh)];
       Mesh& to = out[static_cast<size_t>(from.mesh)];
-      const auto [at, is_new] =
-          index.try_emplace({from.mesh, from.vertex, from.place},
-                            static_cast<uint32_t>(to.positions.size()));
+      const auto [at, is_new] = index.try_emplace({from.mesh, from.vertex, from.place},
+                                                  static_cast<uint32_t>(to.positions.size()));
       if (is_new) {
         copy(mesh.positions, from.place, &to.positions);
         copy(mesh.joints, from.place, &to.joints);

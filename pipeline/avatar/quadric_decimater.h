@@ -1,4 +1,5 @@
-// Quadric decimation of a wedge surface with OpenMesh: half-edge collapses that keep seams, borders and poses.
+// Quadric decimation of a wedge surface with OpenMesh: half-edge collapses that keep seams, borders
+// and poses.
 #pragma once
 #include <memory>
 #include <vector>
@@ -10,13 +11,15 @@ namespace flaneur {
 
 class QuadricDecimater {
  public:
-  // `poses`: the same meshes in several poses, the bind pose first; a collapse costs its error in all of them.
+  // `poses`: the same meshes in several poses, the bind pose first; a collapse costs its error in
+  // all of them.
   explicit QuadricDecimater(const std::vector<std::vector<Mesh>>& poses);
   ~QuadricDecimater();
 
   int Triangles() const;
 
-  // Collapses edges, cheapest first, until at most `triangles` are left or no edge may be collapsed.
+  // Collapses edges, cheapest first, until at most `triangles` are left or no edge may be
+  // collapsed.
   void DecimateTo(int triangles);
 
   // What is left, as parts of the first pose's meshes: same order, materials and attributes.

@@ -19,7 +19,8 @@ class SurfaceTree {
  private:
   struct Box {
     Vec3 min, max;
-    uint32_t first = 0, count = 0;  // leaf: triangles; inner node: count 0, children at first and first + 1
+    uint32_t first = 0,
+             count = 0;  // leaf: triangles; inner node: count 0, children at first and first + 1
   };
 
   void Build(uint32_t box, uint32_t first, uint32_t count);

@@ -13,7 +13,8 @@ class Sets {
   explicit Sets(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
   int Find(int i) {
     while (parent_[static_cast<size_t>(i)] != i) {
-      parent_[static_cast<size_t>(i)] = parent_[static_cast<size_t>(parent_[static_cast<size_t>(i)])];
+      parent_[static_cast<size_t>(i)] =
+          parent_[static_cast<size_t>(parent_[static_cast<size_t>(i)])];
       i = parent_[static_cast<size_t>(i)];
     }
     return i;
@@ -61,8 +62,8 @@ void AddFaces(const std::vector<Mesh>& meshes, const std::vector<int>& places,
 
 struct EdgeUse {
   int face[2] = {-1, -1};
-  int corner[2] = {0, 0};   // where the edge starts in the face
-  bool forward[2] = {};     // from the lower place to the higher
+  int corner[2] = {0, 0};  // where the edge starts in the face
+  bool forward[2] = {};    // from the lower place to the higher
   int count = 0;
 };
 
@@ -70,7 +71,8 @@ uint64_t EdgeKey(int a, int b) {
   return static_cast<uint64_t>(std::min(a, b)) << 32 | static_cast<uint32_t>(std::max(a, b));
 }
 
-// Joins corners of neighbouring faces across proper edges; each set of corners is a vertex of its own.
+// Joins corners of neighbouring faces across proper edges; each set of corners is a vertex of its
+// own.
 Sets JoinAcrossEdges(const WedgeSurface& surface) {
   std::unordered_map<uint64_t, EdgeUse> edges;
   for (size_t f = 0; f < surface.faces.size(); ++f) {

@@ -33,28 +33,36 @@ void AddFiles(CLI::App* app, AvatarArguments* a) {
 void AddPerson(CLI::App* app, AvatarArguments* a) {
   const std::string person = "Person";
   app->add_option("--name", a->read.name, "Name of the person; empty: the file's")->group(person);
-  app->add_option("--walk", a->read.walk, "Name of the walk clip in the file; empty: found by itself")
+  app->add_option("--walk", a->read.walk,
+                  "Name of the walk clip in the file; empty: found by itself")
       ->group(person);
   app->add_option("--idle", a->read.idle, "Name of the idle clip")->group(person);
   app->add_option("--talk", a->read.talk, "Name of the talk clip")->group(person);
-  app->add_option("--height", a->read.height_m,
-                  "Metres to scale the person to; 0: as it is, or 1.75 where that is no person's height")
-      ->check(CLI::Range(0.0, 10.0))->group(person);
+  app->add_option(
+         "--height", a->read.height_m,
+         "Metres to scale the person to; 0: as it is, or 1.75 where that is no person's height")
+      ->check(CLI::Range(0.0, 10.0))
+      ->group(person);
   app->add_option("--hide", a->read.hide,
                   "Names of nodes left out with what hangs on them, separated by commas")
-      ->delimiter(',')->group(person);
+      ->delimiter(',')
+      ->group(person);
 }
 
 void AddLevels(CLI::App* app, AvatarArguments* a) {
   const std::string levels = "Levels";
   app->add_option("--ratios", a->levels.ratios,
                   "Share of the triangles in each level, falling, separated by commas")
-      ->delimiter(',')->check(CLI::Range(0.0, 1.0))->group(levels);
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(levels);
   app->add_option("--max-triangles", a->levels.max_triangles,
                   "Most triangles of the finest level; 0: no limit")
-      ->check(CLI::NonNegativeNumber)->group(levels);
+      ->check(CLI::NonNegativeNumber)
+      ->group(levels);
   app->add_option("--min-triangles", a->levels.min_triangles, "Fewest triangles of a level")
-      ->check(CLI::PositiveNumber)->group(levels);
+      ->check(CLI::PositiveNumber)
+      ->group(levels);
 }
 
 void AddCompression(CLI::App* app, AvatarArguments* a) {
@@ -62,11 +70,14 @@ void AddCompression(CLI::App* app, AvatarArguments* a) {
   app->add_flag("--no-draco", a->plain, "Write plain meshes, for programs without Draco")
       ->group(compression);
   app->add_option("--position-bits", a->draco.position_bits, "Bits of a position's component")
-      ->check(CLI::Range(8, 24))->group(compression);
+      ->check(CLI::Range(8, 24))
+      ->group(compression);
   app->add_option("--normal-bits", a->draco.normal_bits, "Bits of a normal")
-      ->check(CLI::Range(4, 16))->group(compression);
+      ->check(CLI::Range(4, 16))
+      ->group(compression);
   app->add_option("--uv-bits", a->draco.uv_bits, "Bits of a texture coordinate's component")
-      ->check(CLI::Range(6, 20))->group(compression);
+      ->check(CLI::Range(6, 20))
+      ->group(compression);
 }
 
 nlohmann::json Statistics(const AvatarLevels& levels, double seconds) {
@@ -122,8 +133,10 @@ void PrintSummary(const AvatarArguments& a, const AvatarLevels& levels) {
 }  // namespace
 
 int RunAvatar(const Arguments& args) {
-  CLI::App app("Reduces a person to a chain of levels of detail and writes them as one compressed "
-               "glTF binary with skeleton and clips.", "flaneur avatar");
+  CLI::App app(
+      "Reduces a person to a chain of levels of detail and writes them as one compressed "
+      "glTF binary with skeleton and clips.",
+      "flaneur avatar");
   AvatarArguments arguments;
   AddFiles(&app, &arguments);
   AddPerson(&app, &arguments);

@@ -37,7 +37,8 @@ Mat4 Blend(const std::array<uint16_t, 4>& joints, const std::array<float, 4>& we
   return out;
 }
 
-// Cofactors of the upper 3x3: the inverse transpose but for length, which also holds for singular matrices.
+// Cofactors of the upper 3x3: the inverse transpose but for length, which also holds for singular
+// matrices.
 Vec3 TransformNormal(const Mat4& m, Vec3 n) {
   const Vec3 x{m.m[0][0], m.m[0][1], m.m[0][2]};
   const Vec3 y{m.m[1][0], m.m[1][1], m.m[1][2]};

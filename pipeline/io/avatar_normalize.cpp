@@ -9,8 +9,8 @@ namespace {
 
 constexpr float kDefaultHeight_m = 1.75f;
 constexpr float kLeastHeight_m = 0.5f, kGreatestHeight_m = 2.3f;  // kept as they are in between
-constexpr float kDefaultSpeed_mps = 1.3f;                         // of an adult, where nothing tells
-constexpr float kLeastSpeed_mps = 0.2f;                           // slower is not a walk
+constexpr float kDefaultSpeed_mps = 1.3f;  // of an adult, where nothing tells
+constexpr float kLeastSpeed_mps = 0.2f;    // slower is not a walk
 constexpr float kTravel = 0.05f;           // of the height: more than sway, so the root travels
 constexpr float kSole = 0.015f;            // of the height: how near the ground a standing sole is
 constexpr float kBlendedShare = 0.25f;     // of a clip that does not loop
@@ -29,9 +29,9 @@ float Median(std::vector<float> values) {
 }
 
 float TimeOf(const Clip& clip, int key) {
-  return clip.keys < 2 ? 0
-                       : clip.duration_s * static_cast<float>(key) /
-                             static_cast<float>(clip.keys - 1);
+  return clip.keys < 2
+             ? 0
+             : clip.duration_s * static_cast<float>(key) / static_cast<float>(clip.keys - 1);
 }
 
 // Unlike SkinningMatrices at a time, this does not wrap the last key to the first.
@@ -77,8 +77,8 @@ void Shift(const Avatar& avatar, Clip* clip, Vec3 by) {
 
 // Takes even horizontal travel out of the clip; returns its velocity.
 Vec3 RemoveTravel(const Avatar& avatar, float height, Clip* clip) {
-  Vec3 travel = Mean(JointPositions(avatar, *clip, clip->keys - 1)) -
-                Mean(JointPositions(avatar, *clip, 0));
+  Vec3 travel =
+      Mean(JointPositions(avatar, *clip, clip->keys - 1)) - Mean(JointPositions(avatar, *clip, 0));
   travel.y = 0;
   if (Length(travel) < kTravel * height) return {};
   const Vec3 velocity = travel * (1 / clip->duration_s);
@@ -93,8 +93,8 @@ Transform Mix(const Transform& a, const Transform& b, float t) {
           a.scale * (1 - t) + b.scale * t};
 }
 
-// Makes the last key equal the first: exactly where it nearly does, by one more key where just that is missing, else
-// by blending the clip's end into its first pose.
+// Makes the last key equal the first: exactly where it nearly does, by one more key where just that
+// is missing, else by blending the clip's end into its first pose.
 void MakeLoop(const Avatar& avatar, Clip* clip, std::vector<std::string>* warnings) {
   const size_t joints = avatar.joints.size();
   const std::vector<Vec3> first = JointPositions(avatar, *clip, 0);
@@ -117,11 +117,11 @@ void MakeLoop(const Avatar& avatar, Clip* clip, std::vector<std::string>* warnin
     if (clip->name == "walk") {
       warnings->push_back("the walk clip does not loop; its end is blended into its start");
     }
-    const int blended = std::max(1, static_cast<int>(kBlendedShare *
-                                                     static_cast<float>(clip->keys)));
+    const int blended =
+        std::max(1, static_cast<int>(kBlendedShare * static_cast<float>(clip->keys)));
     for (int k = clip->keys - blended; k < clip->keys; ++k) {
-      const float t = static_cast<float>(k - (clip->keys - blended) + 1) /
-                      static_cast<float>(blended);
+      const float t =
+          static_cast<float>(k - (clip->keys - blended) + 1) / static_cast<float>(blended);
       for (size_t j = 0; j < joints; ++j) {
         Transform& own = *(key(k) + static_cast<std::ptrdiff_t>(j));
         own = Mix(own, clip->transforms[j], t * t * (3 - 2 * t));
@@ -203,7 +203,8 @@ Vec3 MedianOf(const std::vector<Vec3>& points) {
   return {Median(std::move(x)), 0, Median(std::move(z))};
 }
 
-// Feet on the ground, trunk over the origin. Other clips than the walk keep their place beside it unless they stray.
+// Feet on the ground, trunk over the origin. Other clips than the walk keep their place beside it
+// unless they stray.
 void PlaceClips(const Mesh& body, Avatar* avatar) {
   for (Clip& clip : avatar->clips) {
     const auto keys = BodyOverClip(*avatar, clip, body);
@@ -253,10 +254,9 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
 
 // The rotation b, then a.
 Quat Product(Quat a, Quat b) {
-  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-          a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
-          a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+  return {
+      a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+      a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
 // Turns the figure about the vertical by the quarter that brings its walk nearest to +Z.
@@ -308,7 +308,8 @@ Vec3 MeasureWalk(const Avatar& avatar, const Clip& walk, const Mesh& body) {
   const auto keys = BodyOverClip(avatar, walk, body);
   if (keys.size() < 3) return {};
   const float step_s = walk.duration_s / static_cast<float>(keys.size());
-  std::vector<Vec3> votes;  // one a key, so that a moment with a flat sole does not outweigh the rest
+  std::vector<Vec3>
+      votes;  // one a key, so that a moment with a flat sole does not outweigh the rest
   for (size_t k = 0; k < keys.size(); ++k) {
     const auto& now = keys[k];
     const auto& next = keys[(k + 1) % keys.size()];

@@ -13,15 +13,16 @@ struct NormalizeOptions {
   float walk_speed_mps = 0;  // known from the source, before any scaling; 0: measure
 };
 
-// Removes travel from the clips, makes them loop, turns the figure by quarters so that it walks towards +Z, scales, sets the feet on y = 0 (lowest point over each clip) and the
-// trunk over x = z = 0, then measures height, radius and walking speed. `body`: the part of the surface that can touch
-// the ground and that gives the trunk's width, without what is carried; on the avatar's joints.
-// Errors: a figure without height, numbers beyond reason.
+// Removes travel from the clips, makes them loop, turns the figure by quarters so that it walks
+// towards +Z, scales, sets the feet on y = 0 (lowest point over each clip) and the trunk over x = z
+// = 0, then measures height, radius and walking speed. `body`: the part of the surface that can
+// touch the ground and that gives the trunk's width, without what is carried; on the avatar's
+// joints. Errors: a figure without height, numbers beyond reason.
 Error NormalizeAvatar(const NormalizeOptions& options, Mesh body, Avatar* avatar,
                       std::vector<std::string>* warnings);
 
-// Velocity over the ground, m/s, at which the soles of a walk on the spot do not slide: against the median velocity of
-// the points near the ground. Zero where nothing tells.
+// Velocity over the ground, m/s, at which the soles of a walk on the spot do not slide: against the
+// median velocity of the points near the ground. Zero where nothing tells.
 Vec3 MeasureWalk(const Avatar& avatar, const Clip& walk, const Mesh& body);
 
 }  // namespace flaneur

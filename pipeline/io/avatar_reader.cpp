@@ -35,7 +35,8 @@ std::vector<std::string> ClipNames(const GltfDocument& document) {
   return names;
 }
 
-// -1: none. Of several names that contain the word the shortest is the plainest; file order breaks ties.
+// -1: none. Of several names that contain the word the shortest is the plainest; file order breaks
+// ties.
 int GuessClip(const GltfDocument& document, const std::string& word) {
   int best = -1;
   for (size_t i = 0; i < document.clips.size(); ++i) {
@@ -56,8 +57,8 @@ Error NamedClip(const GltfDocument& document, const std::string& name, int* clip
     return Ok();
   }
   const std::vector<std::string> names = ClipNames(document);
-  return Fail("no clip " + Quoted(name) + DidYouMean(name, names) + " (the file has: " +
-              Listed(names) + ")");
+  return Fail("no clip " + Quoted(name) + DidYouMean(name, names) +
+              " (the file has: " + Listed(names) + ")");
 }
 
 struct ChosenClip {
@@ -119,9 +120,8 @@ struct Part {
 };
 
 bool HasInfluences(const DocumentMesh& mesh) {
-  return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [](const auto& primitive) {
-    return primitive.influences.per_vertex > 0;
-  });
+  return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                     [](const auto& primitive) { return primitive.influences.per_vertex > 0; });
 }
 
 Error CheckSkins(const GltfDocument& document) {
@@ -159,11 +159,11 @@ class AvatarReader {
 
   std::vector<ChosenClip> clips_;
   std::vector<Part> parts_;
-  std::vector<int> joint_nodes_;   // node of each of the avatar's joints
-  std::vector<int> joint_of_;      // joint of each node, -1: none
-  std::vector<Mat4> rest_;         // world matrices of the file's own pose
-  std::vector<Mat4> to_metres_;    // a joint: removes the scale that its node has at rest
-  Mesh body_;                      // skinned parts: what stands on the ground
+  std::vector<int> joint_nodes_;  // node of each of the avatar's joints
+  std::vector<int> joint_of_;     // joint of each node, -1: none
+  std::vector<Mat4> rest_;        // world matrices of the file's own pose
+  std::vector<Mat4> to_metres_;   // a joint: removes the scale that its node has at rest
+  Mesh body_;                     // skinned parts: what stands on the ground
   int unnormalized_ = 0;
   int weightless_ = 0;
 };
@@ -265,8 +265,9 @@ float Determinant(const Mat4& m) {
 
 Mat4 UniformScale(float s) { return FromTranslationRotationScale({}, {}, {s, s, s}); }
 
-// One bind pose for all skins, in scene space: that of the first skin each joint is in, placed so that the first
-// joint's bind pose is its rest pose. Parts bound otherwise are moved into it when they are added.
+// One bind pose for all skins, in scene space: that of the first skin each joint is in, placed so
+// that the first joint's bind pose is its rest pose. Parts bound otherwise are moved into it when
+// they are added.
 void AvatarReader::FindBindPose() {
   rest_ = WorldMatrices(document_);
   std::vector<const Mat4*> binds(joint_nodes_.size(), nullptr);
@@ -340,16 +341,15 @@ bool FourHeaviest(std::vector<Weighted> all, std::array<uint16_t, 4>* joints,
   return true;
 }
 
-Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& primitive,
-                                 Mesh* mesh) {
+Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& primitive, Mesh* mesh) {
   const DocumentSkin& skin = document_.skins[static_cast<size_t>(Node(part.node).skin)];
   std::vector<Mat4> into_bind(skin.joints.size());  // the part's space to the avatar's bind pose
   for (size_t k = 0; k < skin.joints.size(); ++k) {
     const int joint = joint_of_[static_cast<size_t>(skin.joints[k])];
     if (joint < 0) continue;
     const size_t j = static_cast<size_t>(joint);
-    into_bind[k] = Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) *
-                   skin.inverse_binds[k];
+    into_bind[k] =
+        Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) * skin.inverse_binds[k];
   }
   const Influences& in = primitive.influences;
   const size_t width = static_cast<size_t>(in.per_vertex);
@@ -367,12 +367,15 @@ Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& prim
       if (weight <= 0) continue;
       const size_t k = static_cast<size_t>(in.joints[i]);
       sum += weight;
-      for (size_t m = 0; m < 16; ++m) blend.m[m / 4][m % 4] += weight * into_bind[k].m[m / 4][m % 4];
+      for (size_t m = 0; m < 16; ++m)
+        blend.m[m / 4][m % 4] += weight * into_bind[k].m[m / 4][m % 4];
       const auto joint = static_cast<uint16_t>(joint_of_[static_cast<size_t>(skin.joints[k])]);
-      const auto same = std::find_if(all.begin(), all.end(),
-                                     [&](const Weighted& w) { return w.joint == joint; });
-      if (same == all.end()) all.push_back({joint, weight});
-      else same->weight += weight;
+      const auto same =
+          std::find_if(all.begin(), all.end(), [&](const Weighted& w) { return w.joint == joint; });
+      if (same == all.end())
+        all.push_back({joint, weight});
+      else
+        same->weight += weight;
     }
     if (!FourHeaviest(all, &mesh->joints[v], &mesh->weights[v])) {
       ++weightless_;
@@ -396,10 +399,10 @@ Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& prim
 void AvatarReader::AttachVertices(const Part& part, Mesh* mesh) const {
   const int joint = joint_of_[static_cast<size_t>(part.anchor)];
   const size_t j = static_cast<size_t>(joint);
-  const Mat4 from_anchor = Inverse(rest_[static_cast<size_t>(part.anchor)]) *
-                           rest_[static_cast<size_t>(part.node)];
-  const Mat4 matrix = Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) *
-                      from_anchor;
+  const Mat4 from_anchor =
+      Inverse(rest_[static_cast<size_t>(part.anchor)]) * rest_[static_cast<size_t>(part.node)];
+  const Mat4 matrix =
+      Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) * from_anchor;
   for (size_t v = 0; v < mesh->positions.size(); ++v) {
     Transform3(matrix, &mesh->positions[v], &mesh->normals[v]);
   }
@@ -483,8 +486,8 @@ void AvatarReader::AddClip(const ChosenClip& chosen) {
     for (size_t j = 0; j < joints; ++j) {
       own[j] = world[static_cast<size_t>(joint_nodes_[j])] * to_metres_[j];
       const int parent = avatar_->joints[j].parent;
-      Transform local = Decomposed(
-          parent < 0 ? own[j] : Inverse(own[static_cast<size_t>(parent)]) * own[j]);
+      Transform local =
+          Decomposed(parent < 0 ? own[j] : Inverse(own[static_cast<size_t>(parent)]) * own[j]);
       if (k > 0) {
         const Quat b = clip.transforms[clip.transforms.size() - joints].rotation;
         Quat& q = local.rotation;

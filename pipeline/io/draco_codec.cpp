@@ -11,7 +11,8 @@
 namespace flaneur {
 namespace {
 
-// Decodes without exceptions reaching the caller: Draco itself has none, but allocates what a broken header asks for.
+// Decodes without exceptions reaching the caller: Draco itself has none, but allocates what a
+// broken header asks for.
 Error DecodeMesh(std::span<const uint8_t> bytes, std::unique_ptr<draco::Mesh>* mesh) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -47,8 +48,8 @@ Error CopyAttribute(const draco::Mesh& mesh, DracoAttribute* out) {
 int AddAttribute(draco::Mesh* mesh, draco::GeometryAttribute::Type type, draco::DataType data_type,
                  int components, bool normalized, const void* data, size_t count) {
   draco::GeometryAttribute attribute;
-  const size_t stride = static_cast<size_t>(components) *
-                        static_cast<size_t>(draco::DataTypeLength(data_type));
+  const size_t stride =
+      static_cast<size_t>(components) * static_cast<size_t>(draco::DataTypeLength(data_type));
   attribute.Init(type, nullptr, static_cast<int8_t>(components), data_type, normalized,
                  static_cast<int64_t>(stride), 0);
   const int id = mesh->AddAttribute(attribute, true, static_cast<uint32_t>(count));
@@ -162,7 +163,8 @@ Error EncodeDraco(const Mesh& in, const DracoOptions& options, const PositionGri
   out->joints = AddJoints(&mesh, in, byte_joints);
   out->weights = AddWeights(&mesh, in);
   AddFaces(in, &mesh);
-  // Edgebreaker follows shared positions across seams; without this each seam would cut the surface.
+  // Edgebreaker follows shared positions across seams; without this each seam would cut the
+  // surface.
   if (!mesh.DeduplicateAttributeValues()) return Fail("Draco refuses the attributes");
   mesh.DeduplicatePointIds();
 

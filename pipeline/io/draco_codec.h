@@ -11,8 +11,8 @@
 
 namespace flaneur {
 
-// One attribute to decode: Draco's own id, and floats out. Integers come as they are, unless the Draco attribute
-// itself is marked as normalised.
+// One attribute to decode: Draco's own id, and floats out. Integers come as they are, unless the
+// Draco attribute itself is marked as normalised.
 struct DracoAttribute {
   int id = 0;
   int components = 0;         // out

@@ -21,12 +21,18 @@ double Load(const uint8_t* bytes) {
 
 double LoadComponent(const uint8_t* bytes, int type) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: return Load<int8_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return Load<uint8_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_SHORT: return Load<int16_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return Load<uint16_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return Load<uint32_t>(bytes);
-    default: return Load<float>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return Load<int8_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return Load<uint8_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return Load<int16_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return Load<uint16_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return Load<uint32_t>(bytes);
+    default:
+      return Load<float>(bytes);
   }
 }
 
@@ -34,11 +40,16 @@ double LoadComponent(const uint8_t* bytes, int type) {
 double NormalizedScale(const tinygltf::Accessor& accessor) {
   if (!accessor.normalized) return 1;
   switch (accessor.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: return 1 / 127.0;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1 / 255.0;
-    case TINYGLTF_COMPONENT_TYPE_SHORT: return 1 / 32767.0;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 1 / 65535.0;
-    default: return 1;
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return 1 / 127.0;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 1 / 255.0;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return 1 / 32767.0;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 1 / 65535.0;
+    default:
+      return 1;
   }
 }
 
@@ -69,17 +80,17 @@ Error ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accesso
   const size_t count = static_cast<size_t>(sparse.count);
   const int index_type = sparse.indices.componentType;
   if (!KnownComponentType(index_type)) return Fail("sparse accessor has unknown index type");
-  const size_t index_size = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(
-      static_cast<uint32_t>(index_type)));
+  const size_t index_size =
+      static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(index_type)));
   const size_t size = component_size * static_cast<size_t>(components);
   const uint8_t* indices = nullptr;
   const uint8_t* data = nullptr;
   if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) {
     return Fail("sparse accessor has a negative offset");
   }
-  if (Error e = Elements(model, sparse.indices.bufferView,
-                         static_cast<size_t>(sparse.indices.byteOffset), index_size, index_size,
-                         count, &indices)) {
+  if (Error e =
+          Elements(model, sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset),
+                   index_size, index_size, count, &indices)) {
     return e;
   }
   if (Error e = Elements(model, sparse.values.bufferView,
@@ -115,9 +126,9 @@ Error Locate(const tinygltf::Model& model, int index, const tinygltf::Accessor**
   if (components < 1) return Fail("accessor has an unknown type");
   if (a.count > kMaxElements) return Fail("accessor has too many elements");
   if (a.bufferView < 0) return Ok();
-  const size_t size = static_cast<size_t>(components) *
-                      static_cast<size_t>(tinygltf::GetComponentSizeInBytes(
-                          static_cast<uint32_t>(a.componentType)));
+  const size_t size =
+      static_cast<size_t>(components) * static_cast<size_t>(tinygltf::GetComponentSizeInBytes(
+                                            static_cast<uint32_t>(a.componentType)));
   if (static_cast<size_t>(a.bufferView) >= model.bufferViews.size()) {
     return Fail("bufferView " + std::to_string(a.bufferView) + " does not exist");
   }

@@ -1,5 +1,5 @@
-// Numbers out of a glTF file's buffers, every offset checked. The errors say what is wrong with the accessor; the
-// caller adds the file and the element.
+// Numbers out of a glTF file's buffers, every offset checked. The errors say what is wrong with the
+// accessor; the caller adds the file and the element.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -15,8 +15,9 @@ namespace flaneur {
 
 Error BufferViewBytes(const tinygltf::Model& model, int view, std::span<const uint8_t>* bytes);
 
-// `components` floats an element; integers are scaled where the accessor is normalised. `components` 0 takes the
-// accessor's own number. A missing bufferView reads as zeros, sparse values are applied.
+// `components` floats an element; integers are scaled where the accessor is normalised.
+// `components` 0 takes the accessor's own number. A missing bufferView reads as zeros, sparse
+// values are applied.
 Error ReadFloats(const tinygltf::Model& model, int accessor, int components,
                  std::vector<float>* values);
 

@@ -7,7 +7,8 @@
 namespace flaneur {
 namespace {
 
-// MSFT_lod's thresholds are shares of the screen's height; ours are pixels, taken on a screen this high.
+// MSFT_lod's thresholds are shares of the screen's height; ours are pixels, taken on a screen this
+// high.
 constexpr float kScreenHeight_px = 1080;
 
 std::string LevelExtras(const AvatarLevel& level) {
@@ -52,8 +53,8 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
     node.name = prefix + "level" + std::to_string(k);
     node.skin = part->skin;
     node.extras = LevelExtras(levels.levels[k]);
-    if (Error e = builder->AddMesh(node.name, levels.levels[k].meshes, materials, draco,
-                                   &node.mesh)) {
+    if (Error e =
+            builder->AddMesh(node.name, levels.levels[k].meshes, materials, draco, &node.mesh)) {
       return e;
     }
     part->level_nodes.push_back(builder->AddNode(node));

@@ -87,6 +87,13 @@ Mesh Compact(const Mesh& in) {
   gather(in.colors, &out.colors);
   gather(in.joints, &out.joints);
   gather(in.weights, &out.weights);
+  // glTF wants joint 0 where the weight, as it is stored, is 0.
+  for (size_t v = 0; v < out.weights.size() && v < out.joints.size(); ++v) {
+    const auto bytes = WeightBytes(out.weights[v]);
+    for (size_t i = 0; i < 4; ++i) {
+      if (bytes[i] == 0) out.joints[v][i] = 0;
+    }
+  }
   return out;
 }
 
@@ -145,7 +152,8 @@ struct GltfBuilder::Impl {
 
   int AddFloats(FloatPool* pool, const std::vector<float>& values, const char* type,
                 size_t components, bool bounds) {
-    // Equal numbers as another type would be another accessor; the component count tells them apart.
+    // Equal numbers as another type would be another accessor; the component count tells them
+    // apart.
     std::vector<float> identity = values;
     identity.push_back(static_cast<float>(components));
     const auto [it, is_new] = pool->accessors.try_emplace(std::move(identity), -1);
@@ -254,9 +262,8 @@ void GltfBuilder::Impl::AddPlain(const Mesh& mesh, bool byte_joints, json* primi
   }
   SetBounds(attributes["POSITION"], min, max);
   if (n > 65535) {
-    (*primitive)["indices"] =
-        AddAttribute(AddView(Bytes(mesh.indices), kIndices), kInt, "SCALAR", mesh.indices.size(),
-                     false);
+    (*primitive)["indices"] = AddAttribute(AddView(Bytes(mesh.indices), kIndices), kInt, "SCALAR",
+                                           mesh.indices.size(), false);
     return;
   }
   const std::vector<uint16_t> indices(mesh.indices.begin(), mesh.indices.end());
@@ -270,8 +277,8 @@ GltfBuilder::GltfBuilder(GltfBuilder&&) noexcept = default;
 GltfBuilder& GltfBuilder::operator=(GltfBuilder&&) noexcept = default;
 
 int GltfBuilder::AddImage(const Image& image) {
-  const auto [it, is_new] = impl_->images.try_emplace(
-      std::string(image.bytes.begin(), image.bytes.end()), -1);
+  const auto [it, is_new] =
+      impl_->images.try_emplace(std::string(image.bytes.begin(), image.bytes.end()), -1);
   if (!is_new) return it->second;
   json item = {{"bufferView", impl_->AddView(image.bytes, 0)}, {"mimeType", image.mime_type}};
   if (!image.name.empty()) item["name"] = image.name;
@@ -387,8 +394,7 @@ int GltfBuilder::AddSkin(const std::string& name, std::span<const int> joint_nod
     values[first + 15] = 1;
   }
   json item = {{"joints", std::vector<int>(joint_nodes.begin(), joint_nodes.end())},
-               {"inverseBindMatrices",
-                impl_->AddFloats(&impl_->binds, values, "MAT4", 16, false)}};
+               {"inverseBindMatrices", impl_->AddFloats(&impl_->binds, values, "MAT4", 16, false)}};
   if (!name.empty()) item["name"] = name;
   if (skeleton_node >= 0) item["skeleton"] = skeleton_node;
   return impl_->Add("skins", std::move(item));
@@ -433,8 +439,8 @@ Track MakeTrack(const Clip& clip, size_t joint, size_t joints, const std::string
 }
 
 float Difference(Vec4 a, Vec4 b) {
-  return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z),
-                   std::abs(a.w - b.w)});
+  return std::max(
+      {std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z), std::abs(a.w - b.w)});
 }
 
 Vec4 Interpolated(const Track& track, size_t first, size_t last, size_t k) {
@@ -475,8 +481,7 @@ Vec4 RestKey(const Transform& rest, const std::string& path) {
 }  // namespace
 
 json GltfBuilder::Impl::Channel(const Clip& clip, size_t joint, size_t joints,
-                                const Transform& rest, int node, const char* path,
-                                json* samplers) {
+                                const Transform& rest, int node, const char* path, json* samplers) {
   const Track track = MakeTrack(clip, joint, joints, path);
   const Vec4 still = RestKey(rest, path), opposite{-still.x, -still.y, -still.z, -still.w};
   bool moves = false;
@@ -499,9 +504,8 @@ json GltfBuilder::Impl::Channel(const Clip& clip, size_t joint, size_t joints,
     values.insert(values.end(), v, v + track.width);
   }
   samplers->push_back({{"input", AddFloats(&key_times, times, "SCALAR", 1, true)},
-                       {"output", AddFloats(&key_values, values,
-                                            track.width == 4 ? "VEC4" : "VEC3", track.width,
-                                            false)}});
+                       {"output", AddFloats(&key_values, values, track.width == 4 ? "VEC4" : "VEC3",
+                                            track.width, false)}});
   return {{"sampler", samplers->size() - 1}, {"target", {{"node", node}, {"path", path}}}};
 }
 
@@ -510,8 +514,8 @@ int GltfBuilder::AddAnimation(const std::string& name, const Clip& clip,
   json channels = json::array(), samplers = json::array();
   for (size_t j = 0; j < joints.size(); ++j) {
     for (const char* path : {"translation", "rotation", "scale"}) {
-      json channel = impl_->Channel(clip, j, joints.size(), joints[j].rest, joint_nodes[j], path,
-                                    &samplers);
+      json channel =
+          impl_->Channel(clip, j, joints.size(), joints[j].rest, joint_nodes[j], path, &samplers);
       if (!channel.is_null()) channels.push_back(std::move(channel));
     }
   }

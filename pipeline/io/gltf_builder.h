@@ -1,4 +1,5 @@
-// Builds a glTF 2.0 binary piece by piece. Every Add function returns the index that glTF itself uses.
+// Builds a glTF 2.0 binary piece by piece. Every Add function returns the index that glTF itself
+// uses.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -14,22 +15,22 @@
 
 namespace flaneur {
 
-// Bits each component is rounded to, over the extent of the mesh. Joints and weights are lossless: weights are stored
-// as bytes that sum to 255.
+// Bits each component is rounded to, over the extent of the mesh. Joints and weights are lossless:
+// weights are stored as bytes that sum to 255.
 struct DracoOptions {
   bool compress = true;    // false: plain accessors, nothing rounded but weights
   int position_bits = 14;  // 0.12 mm over 2 m
   int normal_bits = 10;
   int uv_bits = 12;
   int color_bits = 10;
-  int speed = 3;           // 0: smallest, 10: fastest
+  int speed = 3;  // 0: smallest, 10: fastest
 };
 
 struct GltfNode {
   std::string name;
   int parent = -1;  // index of an earlier node; -1: a root, to be named in a scene
   int mesh = -1;
-  int skin = -1;    // a node with a skin must be a root and have no transform
+  int skin = -1;  // a node with a skin must be a root and have no transform
   Transform transform;
   std::string extras;  // a JSON object, or empty
 };
@@ -46,35 +47,41 @@ class GltfBuilder {
   int AddTexture(int image, bool repeat = true);
   // `material`'s image indices are those of AddImage.
   int AddMaterial(const Material& material);
-  // Adds the images and materials of one owner; returns where each material went, to be passed to AddMesh.
+  // Adds the images and materials of one owner; returns where each material went, to be passed to
+  // AddMesh.
   std::vector<int> AddMaterials(std::span<const Material> materials, std::span<const Image> images);
 
-  // One glTF mesh with a primitive for each of `parts`; `materials[part.material]` is its material here.
-  // All parts share one grid of rounded positions, so that they stay joined. Parts without triangles are left out;
-  // at least one must have some. Joint indices are those of the skin that the node will name.
-  // Errors: an index or array length out of range, Draco's refusal; each names the mesh.
-  Error AddMesh(const std::string& name, std::span<const Mesh> parts, std::span<const int> materials,
-                const DracoOptions& draco, int* mesh);
+  // One glTF mesh with a primitive for each of `parts`; `materials[part.material]` is its material
+  // here. All parts share one grid of rounded positions, so that they stay joined. Parts without
+  // triangles are left out; at least one must have some. Joint indices are those of the skin that
+  // the node will name. Errors: an index or array length out of range, Draco's refusal; each names
+  // the mesh.
+  Error AddMesh(const std::string& name, std::span<const Mesh> parts,
+                std::span<const int> materials, const DracoOptions& draco, int* mesh);
 
   int AddNode(const GltfNode& node);
-  int AddSkin(const std::string& name, std::span<const int> joint_nodes, std::span<const Mat4> inverse_binds,
-              int skeleton_node);
-  // Keys that interpolation restores within 0.2 mm and 0.03 degrees are left out, and so are channels that only hold
-  // the joint's rest transform. Returns -1, and adds nothing, where no channel is left.
+  int AddSkin(const std::string& name, std::span<const int> joint_nodes,
+              std::span<const Mat4> inverse_binds, int skeleton_node);
+  // Keys that interpolation restores within 0.2 mm and 0.03 degrees are left out, and so are
+  // channels that only hold the joint's rest transform. Returns -1, and adds nothing, where no
+  // channel is left.
   int AddAnimation(const std::string& name, const Clip& clip, std::span<const Joint> joints,
                    std::span<const int> joint_nodes);
-  int AddScene(const std::string& name, std::span<const int> root_nodes);  // the first is the default scene
+  int AddScene(const std::string& name,
+               std::span<const int> root_nodes);  // the first is the default scene
 
   // Raw bytes in the binary chunk, aligned to 4; for the extensions' own data.
   int AddBufferView(std::span<const uint8_t> bytes);
 
-  // `json` is an object; a second call for the same name replaces the first. Both note the extension as used.
+  // `json` is an object; a second call for the same name replaces the first. Both note the
+  // extension as used.
   void SetRootExtension(const std::string& name, std::string_view json);
   void SetNodeExtension(int node, const std::string& name, std::string_view json);
   void SetNodeExtras(int node, std::string_view json);
   void UseExtension(const std::string& name, bool required = false);
-  // The node's coarser stand-ins (MSFT_lod), finest first; they belong in no scene. `switch_heights`, one for the
-  // node and each stand-in: the share of the screen's height at or above which it is shown.
+  // The node's coarser stand-ins (MSFT_lod), finest first; they belong in no scene.
+  // `switch_heights`, one for the node and each stand-in: the share of the screen's height at or
+  // above which it is shown.
   void SetLevels(int node, std::span<const int> coarser, std::span<const float> switch_heights);
 
   // The whole file. The builder is empty afterwards.
@@ -88,15 +95,16 @@ class GltfBuilder {
 // Where an avatar went.
 struct AvatarPart {
   int skin = -1;
-  int skeleton_node = -1;          // parent of the root joints; a root of the scene
-  std::vector<int> joint_nodes;    // as Avatar::joints
-  std::vector<int> level_nodes;    // finest first; the first is a root of the scene
-  std::vector<int> animations;     // as Avatar::clips; -1: a clip without motion
+  int skeleton_node = -1;        // parent of the root joints; a root of the scene
+  std::vector<int> joint_nodes;  // as Avatar::joints
+  std::vector<int> level_nodes;  // finest first; the first is a root of the scene
+  std::vector<int> animations;   // as Avatar::clips; -1: a clip without motion
 };
 
-// Adds skeleton, skin, levels (chained by MSFT_lod) and clips; names of nodes and animations start with `prefix`.
-// The caller puts `skeleton_node` and `level_nodes[0]` into a scene. Errors: as AddMesh.
-Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix, const DracoOptions& draco,
-                AvatarPart* part);
+// Adds skeleton, skin, levels (chained by MSFT_lod) and clips; names of nodes and animations start
+// with `prefix`. The caller puts `skeleton_node` and `level_nodes[0]` into a scene. Errors: as
+// AddMesh.
+Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix,
+                const DracoOptions& draco, AvatarPart* part);
 
 }  // namespace flaneur

@@ -18,14 +18,26 @@ namespace {
 using tinygltf::Model;
 using tinygltf::Value;
 
-// Extensions that this reader either understands or that change nothing about geometry and base colour.
-const std::set<std::string> kKnownExtensions{
-    "KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_texture_transform",
-    "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit", "KHR_materials_specular",
-    "KHR_materials_ior", "KHR_materials_clearcoat", "KHR_materials_sheen",
-    "KHR_materials_emissive_strength", "KHR_materials_variants", "KHR_materials_anisotropy",
-    "KHR_materials_transmission", "KHR_materials_volume", "KHR_lights_punctual", "MSFT_lod",
-    "KHR_xmp_json_ld", "FLANEUR_tour"};
+// Extensions that this reader either understands or that change nothing about geometry and base
+// colour.
+const std::set<std::string> kKnownExtensions{"KHR_draco_mesh_compression",
+                                             "KHR_mesh_quantization",
+                                             "KHR_texture_transform",
+                                             "KHR_materials_pbrSpecularGlossiness",
+                                             "KHR_materials_unlit",
+                                             "KHR_materials_specular",
+                                             "KHR_materials_ior",
+                                             "KHR_materials_clearcoat",
+                                             "KHR_materials_sheen",
+                                             "KHR_materials_emissive_strength",
+                                             "KHR_materials_variants",
+                                             "KHR_materials_anisotropy",
+                                             "KHR_materials_transmission",
+                                             "KHR_materials_volume",
+                                             "KHR_lights_punctual",
+                                             "MSFT_lod",
+                                             "KHR_xmp_json_ld",
+                                             "FLANEUR_tour"};
 
 std::string Quoted(const std::string& name) { return "'" + OneLine(name) + "'"; }
 
@@ -111,8 +123,8 @@ Error LinkNodes(const Model& model, GltfDocument* document) {
   for (int i = 0; i < count; ++i) {
     for (const int child : model.nodes[static_cast<size_t>(i)].children) {
       if (child < 0 || child >= count) {
-        return Fail("node " + Quoted(document->nodes[i].name) + ": child " +
-                    std::to_string(child) + " does not exist");
+        return Fail("node " + Quoted(document->nodes[i].name) + ": child " + std::to_string(child) +
+                    " does not exist");
       }
       DocumentNode& node = document->nodes[static_cast<size_t>(child)];
       if (node.parent >= 0 || child == i) {
@@ -317,8 +329,7 @@ Error ReadMaterial(const tinygltf::Material& in, ImageTable* images, Material* o
   }
   if (Error e = images->Use(base_texture, &out->base_color_image)) return e;
   if (Error e = images->Use(in.normalTexture.index, &out->normal_image)) return e;
-  const UvSource normal_uvs =
-      ReadUvSource(in.normalTexture.texCoord, in.normalTexture.extensions);
+  const UvSource normal_uvs = ReadUvSource(in.normalTexture.texCoord, in.normalTexture.extensions);
   *uv_source = out->base_color_image >= 0
                    ? ReadUvSource(pbr.baseColorTexture.texCoord, pbr.baseColorTexture.extensions)
                    : normal_uvs;
@@ -338,8 +349,8 @@ Error ReadMaterials(const Model& model, GltfDocument* document, std::vector<UvSo
   for (size_t i = 0; i < model.materials.size(); ++i) {
     Material& material = document->materials[i];
     material.name = NameOr(model.materials[i].name, "material", i);
-    if (Error e = ReadMaterial(model.materials[i], &images, &material, &(*uv_sources)[i],
-                               warnings)) {
+    if (Error e =
+            ReadMaterial(model.materials[i], &images, &material, &(*uv_sources)[i], warnings)) {
       return Fail("material " + Quoted(material.name) + ": " + e.message);
     }
   }
@@ -378,8 +389,8 @@ Error ReadDracoPrimitive(const Model& model, const tinygltf::Primitive& in, cons
     }
     const tinygltf::Accessor& a = model.accessors[static_cast<size_t>(accessor->second)];
     if (a.normalized && !attributes[i].normalized) {
-      const int bits = 8 * tinygltf::GetComponentSizeInBytes(
-                               static_cast<uint32_t>(a.componentType));
+      const int bits =
+          8 * tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType));
       const bool is_signed = a.componentType == TINYGLTF_COMPONENT_TYPE_BYTE ||
                              a.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
       const double largest = static_cast<double>((1ull << (bits - (is_signed ? 1 : 0))) - 1);

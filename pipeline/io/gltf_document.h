@@ -50,8 +50,8 @@ struct DocumentNode {
 };
 
 struct DocumentSkin {
-  std::vector<int> joints;           // nodes
-  std::vector<Mat4> inverse_binds;   // one a joint
+  std::vector<int> joints;          // nodes
+  std::vector<Mat4> inverse_binds;  // one a joint
 };
 
 enum class Interpolation { kStep, kLinear, kCubic };
@@ -72,14 +72,14 @@ struct DocumentClip {
 };
 
 struct GltfDocument {
-  std::string path;                  // for messages
+  std::string path;  // for messages
   std::vector<DocumentNode> nodes;
   std::vector<int> order;            // all nodes, depth first, parents before children
   std::vector<DocumentMesh> meshes;  // those the scene does not use are empty
   std::vector<DocumentSkin> skins;
   std::vector<DocumentClip> clips;
   std::vector<Material> materials;
-  std::vector<Image> images;         // only those that a material uses
+  std::vector<Image> images;  // only those that a material uses
 };
 
 Mat4 LocalMatrix(const DocumentNode& node);

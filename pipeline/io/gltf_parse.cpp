@@ -37,8 +37,8 @@ void SetU32(uint32_t value, size_t at, std::vector<uint8_t>* bytes) {
   for (size_t i = 0; i < 4; ++i) (*bytes)[at + i] = static_cast<uint8_t>(value >> (8 * i));
 }
 
-// tinygltf built without Draco refuses index accessors that have no bufferView, as glTF allows them beside
-// compressed data. The Draco data has the indices, so the accessor is not needed.
+// tinygltf built without Draco refuses index accessors that have no bufferView, as glTF allows them
+// beside compressed data. The Draco data has the indices, so the accessor is not needed.
 void DropDracoIndices(json* root) {
   if (!root->is_object() || !root->contains("meshes") || !(*root)["meshes"].is_array()) return;
   for (json& mesh : (*root)["meshes"]) {

@@ -10,7 +10,8 @@ class Model;
 
 namespace flaneur {
 
-// Errors name the path: unreadable, neither glTF binary nor glTF text, truncated, an external buffer missing.
+// Errors name the path: unreadable, neither glTF binary nor glTF text, truncated, an external
+// buffer missing.
 Error ParseGltf(const std::filesystem::path& path, tinygltf::Model* model);
 
 }  // namespace flaneur

@@ -49,9 +49,15 @@ void Apply(const DocumentChannel& channel, float time_s, DocumentNode* node) {
   }
   const Vec4 v = Sample(channel, time_s);
   switch (channel.path) {
-    case ChannelPath::kTranslation: node->translation = {v.x, v.y, v.z}; break;
-    case ChannelPath::kRotation: node->rotation = Normalized(ToQuat(v)); break;
-    case ChannelPath::kScale: node->scale = {v.x, v.y, v.z}; break;
+    case ChannelPath::kTranslation:
+      node->translation = {v.x, v.y, v.z};
+      break;
+    case ChannelPath::kRotation:
+      node->rotation = Normalized(ToQuat(v));
+      break;
+    case ChannelPath::kScale:
+      node->scale = {v.x, v.y, v.z};
+      break;
   }
 }
 

@@ -13,11 +13,12 @@ struct ClipSpan {
 
 ClipSpan SpanOf(const DocumentClip& clip);
 
-// World matrices of all nodes, with the clip's step, linear or cubic interpolation; held before the first key and
-// after the last.
+// World matrices of all nodes, with the clip's step, linear or cubic interpolation; held before the
+// first key and after the last.
 std::vector<Mat4> PoseAt(const GltfDocument& document, const DocumentClip& clip, float time_s);
 
-// Translation, rotation and scale of a matrix; a mirrored one gets a negative x scale, shear is lost.
+// Translation, rotation and scale of a matrix; a mirrored one gets a negative x scale, shear is
+// lost.
 Transform Decomposed(const Mat4& matrix);
 
 }  // namespace flaneur

@@ -169,7 +169,7 @@ void RepairNormals(Mesh* mesh) {
 Error CheckWidths(const RawPrimitive& raw, size_t vertices) {
   for (const auto& [name, values] : raw.attributes) {
     const size_t width = values.size() / vertices;
-    const size_t wanted = name == "NORMAL"              ? 3
+    const size_t wanted = name == "NORMAL"               ? 3
                           : name.starts_with("TEXCOORD") ? 2
                           : name.starts_with("COLOR")    ? (width == 3 ? 3 : 4)
                           : name.starts_with("POSITION") ? 3

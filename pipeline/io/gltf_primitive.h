@@ -26,8 +26,9 @@ struct RawPrimitive {
   TriangleMode mode = TriangleMode::kList;
 };
 
-// Missing normals are computed flat, as glTF asks, which parts the triangles; triangles with a repeated corner go.
-// Errors: an attribute of the wrong length, an index out of range, a non-finite number (names attribute and vertex).
+// Missing normals are computed flat, as glTF asks, which parts the triangles; triangles with a
+// repeated corner go. Errors: an attribute of the wrong length, an index out of range, a non-finite
+// number (names attribute and vertex).
 Error MakePrimitive(RawPrimitive raw, const UvSource& uv_source, DocumentPrimitive* out);
 
 }  // namespace flaneur

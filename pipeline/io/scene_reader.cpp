@@ -44,8 +44,8 @@ Error ApplyTags(const NodeTags& tags, const SceneNode* parent, SceneNode* node) 
     if (Error e = FromName("flaneur_kind", tags.kind, kKinds, NodeKindName, &node->kind)) return e;
   }
   if (!tags.ground.empty()) {
-    if (Error e = FromName("flaneur_ground", tags.ground, kGrounds, GroundKindName,
-                           &node->ground)) {
+    if (Error e =
+            FromName("flaneur_ground", tags.ground, kGrounds, GroundKindName, &node->ground)) {
       return e;
     }
   }
@@ -64,11 +64,14 @@ bool Mirrors(const Mat4& m) {
   return Dot(Cross(x, y), z) < 0;
 }
 
-// Puts each of the document's meshes into the scene when first used, as it is and turned round apart.
+// Puts each of the document's meshes into the scene when first used, as it is and turned round
+// apart.
 class MeshTable {
  public:
   MeshTable(GltfDocument* document, Scene* scene)
-      : document_(document), scene_(scene), plain_(document->meshes.size()),
+      : document_(document),
+        scene_(scene),
+        plain_(document->meshes.size()),
         mirrored_(document->meshes.size()) {}
 
   const std::vector<int>& Use(int mesh, bool mirrored) {

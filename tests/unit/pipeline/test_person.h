@@ -1,4 +1,5 @@
-// A small made-up person for tests: a column on a root, with two legs that swing; every number is known.
+// A small made-up person for tests: a column on a root, with two legs that swing; every number is
+// known.
 #pragma once
 #include <cmath>
 #include <cstdlib>
@@ -11,8 +12,10 @@ namespace flaneur {
 
 inline Mat4 Moved(Vec3 by) { return FromTranslationRotationScale(by, {}, {1, 1, 1}); }
 
-// A tube of square section from y = bottom to top in `rings` rings, closed at both ends, all on one joint.
-inline void AddTube(float x, float bottom, float top, float half_width, int rings, uint16_t joint, Mesh* mesh) {
+// A tube of square section from y = bottom to top in `rings` rings, closed at both ends, all on one
+// joint.
+inline void AddTube(float x, float bottom, float top, float half_width, int rings, uint16_t joint,
+                    Mesh* mesh) {
   const uint32_t base = static_cast<uint32_t>(mesh->positions.size());
   for (int r = 0; r < rings; ++r) {
     const float t = static_cast<float>(r) / static_cast<float>(rings - 1);

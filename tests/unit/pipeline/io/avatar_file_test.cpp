@@ -124,7 +124,8 @@ TEST_F(AvatarFile, MeasuresTheSpeedOfTheSoles) {
   Avatar made = MadePerson();
   made.walk_speed_mps = 0;
   ASSERT_EQ(Read(Write(made)), "");
-  // A stance leg of 0.9 m swings at up to 0.3 * 2 pi rad/s; the median is below that and well above nothing.
+  // A stance leg of 0.9 m swings at up to 0.3 * 2 pi rad/s; the median is below that and well above
+  // nothing.
   EXPECT_GT(avatar_.walk_speed_mps, 0.8f);
   EXPECT_LT(avatar_.walk_speed_mps, 0.9f * 0.3f * 2 * kPi + 0.05f);
 }
@@ -193,8 +194,9 @@ TEST_F(AvatarFile, NamesTheNodeOfANonFiniteVertex) {
 }
 
 TEST_F(AvatarFile, RefusesWhatItCannotDecode) {
-  const fs::path path = Changed(Write(MadePerson()), "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]",
-                                "\"extensionsRequired\":[\"EXT_meshopt_compression\"]");
+  const fs::path path =
+      Changed(Write(MadePerson()), "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]",
+              "\"extensionsRequired\":[\"EXT_meshopt_compression\"]");
   EXPECT_NE(Read(path).find("EXT_meshopt_compression"), std::string::npos);
 }
 
@@ -252,7 +254,8 @@ TEST_F(AvatarFile, ReadsRealPeople) {
   EXPECT_NEAR(avatar_.walk_speed_mps, 0.9f, 0.2f);
 
   ReadAvatarOptions options;
-  options.hide = {"1H_Sword_Offhand", "Badge_Shield", "Rectangle_Shield", "Spike_Shield", "2H_Sword"};
+  options.hide = {"1H_Sword_Offhand", "Badge_Shield", "Rectangle_Shield", "Spike_Shield",
+                  "2H_Sword"};
   ASSERT_EQ(Read(people / "kaykit/Knight.glb", options), "");
   EXPECT_EQ(avatar_.meshes.size(), 1u) << "one a material";
   EXPECT_LT(TriangleCount(avatar_.meshes[0]), 6952);

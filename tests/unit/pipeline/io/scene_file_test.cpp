@@ -61,10 +61,10 @@ TEST_F(SceneFile, TagsGoDownToChildrenUnlessTheyHaveTheirOwn) {
   const int mesh = AddQuad("quad");
   const int town = builder_.AddNode(NodeWith("house", -1, -1, R"({"flaneur_kind": "building"})"));
   builder_.AddNode(NodeWith("wall", town, mesh, ""));
-  builder_.AddNode(NodeWith("door", town, -1,
-                            R"({"flaneur_kind": "door", "flaneur_width_m": 1.2})"));
-  const int ground = builder_.AddNode(
-      NodeWith("street", -1, mesh, R"({"flaneur_kind": "ground", "flaneur_ground": "carriageway"})"));
+  builder_.AddNode(
+      NodeWith("door", town, -1, R"({"flaneur_kind": "door", "flaneur_width_m": 1.2})"));
+  const int ground = builder_.AddNode(NodeWith(
+      "street", -1, mesh, R"({"flaneur_kind": "ground", "flaneur_ground": "carriageway"})"));
   builder_.AddNode(NodeWith("kerb", ground, mesh, ""));
   ASSERT_EQ(ReadScene(Finish({town, ground}), &scene_).message, "");
   ASSERT_EQ(scene_.nodes.size(), 5u);
@@ -76,8 +76,8 @@ TEST_F(SceneFile, TagsGoDownToChildrenUnlessTheyHaveTheirOwn) {
 }
 
 TEST_F(SceneFile, AnUnknownTagIsAnErrorWithAdvice) {
-  const int node = builder_.AddNode(
-      NodeWith("house 7", -1, AddQuad("quad"), R"({"flaneur_kind": "bulding"})"));
+  const int node =
+      builder_.AddNode(NodeWith("house 7", -1, AddQuad("quad"), R"({"flaneur_kind": "bulding"})"));
   const std::string message = ReadScene(Finish({node}), &scene_).message;
   EXPECT_NE(message.find("house 7"), std::string::npos) << message;
   EXPECT_NE(message.find("did you mean 'building'"), std::string::npos) << message;
@@ -89,13 +89,16 @@ TEST_F(SceneFile, MirroredNodesKeepTheirOutside) {
   ASSERT_EQ(ReadScene(Finish({builder_.AddNode(node)}), &scene_).message, "");
   const SceneNode& read = scene_.nodes[0];
   const Mesh& mesh = scene_.meshes[static_cast<size_t>(read.meshes[0])];
-  const auto at = [&](size_t i) { return TransformPoint(read.world, mesh.positions[mesh.indices[i]]); };
+  const auto at = [&](size_t i) {
+    return TransformPoint(read.world, mesh.positions[mesh.indices[i]]);
+  };
   EXPECT_GT(Cross(at(1) - at(0), at(2) - at(0)).z, 0);
 }
 
 TEST_F(SceneFile, MissingNormalsAreThoseOfTheFaces) {
   quad_.normals.clear();
-  ASSERT_EQ(ReadScene(Finish({builder_.AddNode(NodeWith("a", -1, AddQuad("quad"), ""))}), &scene_).message,
+  ASSERT_EQ(ReadScene(Finish({builder_.AddNode(NodeWith("a", -1, AddQuad("quad"), ""))}), &scene_)
+                .message,
             "");
   for (const Vec3 n : scene_.meshes[0].normals) EXPECT_NEAR(n.z, 1, 1e-6f);
   EXPECT_EQ(scene_.meshes[0].normals.size(), scene_.meshes[0].positions.size());
@@ -144,7 +147,8 @@ TEST_F(SceneFile, ReadsStripsFansAndQuantisedText) {
 TEST_F(SceneFile, ReadsARealBuilding) {
   if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
   int files = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(SharedData() / "towns/kaykit-medieval")) {
+  for (const auto& entry :
+       fs::recursive_directory_iterator(SharedData() / "towns/kaykit-medieval")) {
     if (entry.path().extension() != ".gltf") continue;
     ++files;
     ASSERT_EQ(ReadScene(entry.path(), &scene_).message, "");
