@@ -253,7 +253,7 @@ def brows(tailor, name, thickness=0.003, cell="hair"):
     for sign in (1.0, -1.0):
         angles = np.radians(np.linspace(8.0, 36.0, 6))[:: int(sign)] * sign
         reached = np.abs(np.degrees(angles))
-        arch = 4.5 + 3.0 * np.sin(np.pi * np.clip((reached - 8.0) / 34.0, 0, 1))
+        arch = 6.2 + 1.4 * np.sin(np.pi * np.clip((reached - 8.0) / 34.0, 0, 1))
         half = np.interp(reached, [8, 14, 28, 36], [1.6, 1.9, 1.3, 0.4])
         points = []
         for up in (1.0, 0.0, -1.0):

@@ -328,7 +328,7 @@ PEOPLE = {
     "girl": {
         "height_m": 1.28, "skin": {"tint": (1.08, 1.01, 0.97), "smooth": 1.0, "rouge": 1.0},
         "bulges": CHILD_FACE, "proportions": CHILD_SHAPE,
-        "manner": {"arm_spread_deg": 2.0},
+        "manner": {"arm_spread_deg": 5.0},
         "wear": [
             dict(STOCKINGS, start=0.8),
             {"piece": "upper", "name": "dress", "bottom": ["waist", -0.05], "ease": 0.012,

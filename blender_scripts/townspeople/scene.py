@@ -48,7 +48,10 @@ def _onward(skeleton, joint):
 
 
 def make_mesh(surface, materials, material_of_cell, uv, armature):
-    """The skinned mesh object; `uv` are glTF texture coordinates of the corners."""
+    """The skinned mesh object; `uv` are glTF texture coordinates of the corners.
+
+    It is no child of the armature: a skinned mesh below another node draws a validator's warning.
+    """
     mesh = bpy.data.meshes.new("person_mesh")
     mesh.from_pydata([tuple(v) for v in surface.vertices], [], surface.faces)
     names = list(materials)
@@ -73,7 +76,6 @@ def make_mesh(surface, materials, material_of_cell, uv, armature):
     index = {group.name: group for group in groups}
     for vertex, joint in np.argwhere(surface.weights > 0):
         index[sk.KEPT[joint]].add([int(vertex)], float(surface.weights[vertex, joint]), "REPLACE")
-    thing.parent = armature
     modifier = thing.modifiers.new("Armature", "ARMATURE")
     modifier.object = armature
     return thing
