@@ -120,8 +120,13 @@ def add_walls(town, streets, garden_lines, rng):
     for index, line in enumerate(garden_lines):
         height, tint = rng.uniform(2.1, 2.6), rng.uniform(0.85, 1.0)
         color = tuple(c * tint for c in srgb("ddd0b8"))
-        town.add("garden_wall_%02d" % (index + 1), town_wall.make_line_wall(line, height, 0.4, color, rng), "wall")
-    town.add("churchyard_wall", town_wall.churchyard_wall(rng), "wall")
+        mesh = town_wall.make_line_wall(line, height, 0.4, color)
+        for a, b in zip(line[:-1].tolist(), line[1:].tolist()):
+            if math.dist(a, b) > 1.6 and rng.random() < 0.55:
+                low, high = float(plan.pavement_height(*a)), float(plan.pavement_height(*b))
+                nature.add_ivy(mesh, (a, b), lambda t: low + (high - low) * t, lambda t: low + (high - low) * t + height, rng)
+        town.add("garden_wall_%02d" % (index + 1), mesh, "wall")
+    town.add("churchyard_wall", town_wall.churchyard_wall(), "wall")
 
 
 def add_furniture(town, streets, public, plots, doors, rng):

@@ -48,7 +48,7 @@ def tower(mesh, x, axis, rng):
 
 def clock(mesh, wall, u, v):
     rim = [(u + math.cos(k * math.pi / 8) * 1.05, v + math.sin(k * math.pi / 8) * 1.05) for k in range(16)]
-    polygon(mesh, "iron", wall, rim, (0.02, 0.035, 0.07), 0.06)
+    extrude(mesh, "iron", wall, rim, 0.0, 0.06, (0.02, 0.035, 0.07))
     gold = (0.62, 0.43, 0.1)
     for k in range(12):
         c, s = math.cos(k * math.pi / 6), math.sin(k * math.pi / 6)

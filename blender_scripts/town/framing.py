@@ -228,6 +228,8 @@ def jetty(mesh, frame, width, overhang, drop, posts, colors, rng, brackets=1):
                   [(0, 0), (overhang, 0), (overhang, drop), (0, drop)], color)
         mesh.face("timber", [f(b, -drop, end), f(b, -drop, lower), f(b, 0, lower), f(b, 0, end)],
                   [(0, 0), (overhang, 0), (overhang, drop), (0, drop)], color)
+        mesh.face("timber", [f(a, -drop, lower), f(b, -drop, lower), f(b, -drop, end), f(a, -drop, end)],
+                  [(0, 0), (0.17, 0), (0.17, overhang), (0, overhang)], color)
         if i % brackets:
             continue
         side = Frame(frame.at(u - 0.06, -drop, lower), frame.n)   # the bracket seen from the left

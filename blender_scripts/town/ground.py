@@ -139,7 +139,7 @@ def far_land(rng):
             color = shade(srgb("c4bf98"), 0.92 + 0.08 * math.sin(i * 0.9 + k * 1.3))
             mesh.face("grass", points, [(p[0] * 0.2, p[1] * 0.2) for p in points], color)
     for _ in range(260):
-        t, r = rng.uniform(0, 2 * math.pi), rng.choice((rng.uniform(112, 150), rng.uniform(170, 330), rng.uniform(200, 450)))
+        t, r = rng.uniform(0, 2 * math.pi), rng.choice((rng.uniform(150, 200), rng.uniform(190, 330), rng.uniform(240, 450)))
         if math.sin(3 * t + r * 0.02) + math.sin(7 * t - r * 0.011) > -0.2:
             _copse(mesh, (r * math.cos(t), r * math.sin(t), height(r, t)), rng.uniform(3.0, 5.0) * (0.8 + r / 220), rng)
     return mesh

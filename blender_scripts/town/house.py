@@ -152,8 +152,8 @@ def passage_walls(house, hole):
     for frame in (Frame((u0, 0, 0), (0, 1, 0)), Frame((u1, d, 0), (0, -1, 0))):
         panel(mesh, "stone", frame, 0, d, FOOT, 1.2, stone, step=1.2)
         panel(mesh, "plaster", frame, 0, d, 1.2, top, shade(colors["plaster"], 0.9), step=1.2)
-        beam(mesh, frame, (0, 1.2), (d, 1.2), 0.14, 0.04, tone(colors["timber"], rng), rng)
-        beam(mesh, frame, (0, top - 0.3), (d, top - 0.3), 0.18, 0.06, tone(colors["timber"], rng), rng)
+        beam(mesh, frame, (0, 1.2), (d, 1.2), 0.14, 0.04, tone(colors["timber"], rng), rng, ends=True)
+        beam(mesh, frame, (0, top - 0.3), (d, top - 0.3), 0.18, 0.06, tone(colors["timber"], rng), rng, ends=True)
     panel(mesh, "planks", Frame((u0, d, top), (1, 0, 0), (0, -1, 0)), 0, u1 - u0, 0, d, shade(colors["timber"], 1.3), step=1.5)
     y = 0.4
     while y < d:
@@ -163,11 +163,12 @@ def passage_walls(house, hole):
     for frame in (front_frame(), Frame((house.width, d, 0), (-1, 0, 0))):
         a, b = (u0, u1) if frame.u[0] > 0 else (house.width - u1, house.width - u0)
         for u in (a - 0.1, b + 0.1):
-            beam(mesh, frame, (u, -0.3), (u, top), 0.22, 0.06, tone(colors["timber"], rng), rng)
-        beam(mesh, frame, (a - 0.3, top + 0.12), (b + 0.3, top + 0.12), 0.26, 0.08, tone(colors["timber"], rng), rng,
+            beam(mesh, frame, (u, -0.3), (u, top), 0.2, 0.1, tone(colors["timber"], rng), rng)
+        beam(mesh, frame, (a - 0.3, top + 0.13), (b + 0.3, top + 0.13), 0.26, 0.11, tone(colors["timber"], rng), rng,
              ends=True)
         for s, u in ((1, a), (-1, b)):
-            beam(mesh, frame, (u, top - 0.7), (u + s * 0.55, top), 0.14, 0.05, tone(colors["timber"], rng), rng)
+            brace = [(u, top - 0.8), (u + s * 0.66, top), (u + s * 0.5, top), (u, top - 0.6)]
+            extrude(mesh, "timber", frame, brace[::s], -0.1, 0.05, tone(colors["timber"], rng), back=True)
 
 
 def upper_floor(house, level):

@@ -87,10 +87,11 @@ def buttress(mesh, frame, u, heights, depths, width, color, foot=-1.2):
         low = high + rise if inner > 0 else high
 
 
-def arched_wall(mesh, frame, openings, width, top, thickness, color, rng, foot=-1.2, pointed=False, trim=None):
+def arched_wall(mesh, frame, openings, width, top, thickness, color, rng, foot=-1.2, pointed=False, trim=None,
+                reveals=(-1, 1)):
     """A free wall with arched openings one can walk through: both faces, reveals, and a trim on the front.
 
-    openings: (u, width, springing, rise). The wall runs from u = 0 to width, v = foot to top, out from -thickness to 0.
+    openings: (u, width, springing, rise); reveals: which upright sides of an opening to build, left -1, right 1. The wall runs from u = 0 to width, v = foot to top, out from -thickness to 0.
     """
     start = 0.0
     back = Frame(frame.at(width, 0, -thickness), tuple(-c for c in frame.u))
@@ -112,7 +113,8 @@ def arched_wall(mesh, frame, openings, width, top, thickness, color, rng, foot=-
                 polygon(mesh, "stone", plane, corners, color)
             mesh.face("stone", [frame.at(*q), frame.at(*q, -thickness), frame.at(*p, -thickness), frame.at(*p)],
                       [(q[0], 0), (q[0], thickness), (p[0], thickness), (p[0], 0)], shade(color, 0.92))
-        for x, order in ((u - wide / 2, -1), (u + wide / 2, 1)):
+        for order in reveals:
+            x = u + order * wide / 2
             low = foot
             while low < spring - 1e-6:
                 high = min(spring, low + 1.4)
@@ -125,7 +127,8 @@ def arched_wall(mesh, frame, openings, width, top, thickness, color, rng, foot=-
             outer = [(u + (x - u) * (1 + 0.5 / wide), spring + (z - spring) * (1 + 0.25 / rise)) for x, z in points]
             for k in range(len(points) - 1):
                 quad = [points[k], outer[k], outer[k + 1], points[k + 1]]
-                extrude(mesh, "stone", frame, quad, 0.0, 0.06, trim, flanks=(1,))
+                ends = ((0,) if k == 0 else ()) + ((2,) if k == len(points) - 2 else ())
+                extrude(mesh, "stone", frame, quad, 0.0, 0.06, trim, flanks=(1, 3) + ends)
         start = u + wide / 2
 
 

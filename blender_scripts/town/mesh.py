@@ -109,8 +109,12 @@ def ticks(start, end, step, extra=()):
     return out
 
 
-def panel(mesh, material, frame, u0, u1, v0, v1, color, holes=(), step=1.4, out=0.0, uv_shift=(0.0, 0.0)):
-    """A wall rectangle, cut into cells for the baked light, without the holes (u0, u1, v0, v1)."""
+def panel(mesh, material, frame, u0, u1, v0, v1, color, holes=(), step=1.4, out=0.0, uv_shift=(0.0, 0.0),
+          turned=False):
+    """A wall rectangle, cut into cells for the baked light, without the holes (u0, u1, v0, v1).
+
+    turned: the texture lies on its side (boards run along u).
+    """
     us = ticks(u0, u1, step, [c for h in holes for c in h[:2]])
     vs = ticks(v0, v1, step, [c for h in holes for c in h[2:]])
     for a, b in zip(us, us[1:]):
@@ -119,8 +123,8 @@ def panel(mesh, material, frame, u0, u1, v0, v1, color, holes=(), step=1.4, out=
             if any(h[0] < mu < h[1] and h[2] < mv < h[3] for h in holes):
                 continue
             corners = [(a, c), (b, c), (b, d), (a, d)]
-            mesh.face(material, [frame.at(p, q, out) for p, q in corners],
-                      [(p + uv_shift[0], q + uv_shift[1]) for p, q in corners], color)
+            uvs = [(p + uv_shift[0], q + uv_shift[1]) for p, q in corners]
+            mesh.face(material, [frame.at(p, q, out) for p, q in corners], [(v, u) for u, v in uvs] if turned else uvs, color)
 
 
 def polygon(mesh, material, frame, corners, color, out=0.0, uv_shift=(0.0, 0.0)):
@@ -187,7 +191,8 @@ def box(mesh, material, low, high, color, skip="", step=9.0, shift=0.0):
     }
     for name, (frame, width, height, su, sv) in sides.items():
         if name not in skip:
-            panel(mesh, material, frame, 0, width, 0, height, color, step=step, uv_shift=(su + shift, sv + shift))
+            panel(mesh, material, frame, 0, width, 0, height, color, step=step, uv_shift=(su + shift, sv + shift),
+                  turned=material == "planks" and width > 1.5 * height)
 
 
 def extrude(mesh, material, frame, corners, out0, out1, color, front=True, back=False, flanks=None):

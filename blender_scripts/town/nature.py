@@ -48,7 +48,7 @@ def make_tree(rng, height, crown, tint, detail=1.0):
     mesh_base = [(0.42, -0.6), (0.33, 0.0), (0.27, 0.35), (0.23, fork * 0.6)]
     lathe(mesh, "bark", (0, 0, 0), mesh_base, 9, bark, caps=False)
     top = (lean[0], lean[1], fork)
-    _limb(mesh, (0, 0, fork * 0.6), top, 0.23, 0.2, 9, bark)
+    _limb(mesh, (0, 0, fork * 0.6 - 0.12), top, 0.226, 0.2, 9, bark)
     clumps = []
     arms = 6 if detail > 0.6 else 4
     for i in range(arms):
@@ -91,8 +91,8 @@ def _clump(mesh, center, radius, middle, height, green, rng, detail):
     for k in range(bands):
         for i in range(sides):
             points = [spot(k, i), spot(k, i + 1), spot(k + 1, i + 1), spot(k + 1, i)]
-            uvs = [(i * radius * 0.6, k * 0.5), ((i + 1) * radius * 0.6, k * 0.5), ((i + 1) * radius * 0.6, k * 0.5 + 0.5),
-                   (i * radius * 0.6, k * 0.5 + 0.5)]
+            wide, tall = radius * 0.78, radius * 0.55
+            uvs = [(i * wide, k * tall), ((i + 1) * wide, k * tall), ((i + 1) * wide, (k + 1) * tall), (i * wide, (k + 1) * tall)]
             if k == 0:
                 points, uvs = [points[0], points[2], points[3]], [uvs[0], uvs[2], uvs[3]]
             elif k == bands - 1:
@@ -143,3 +143,32 @@ def _limb_iron(mesh, a, b, color):
     before = len(mesh.materials)
     _limb(mesh, a, b, 0.022, 0.022, 4, color)
     mesh.materials[before:] = ["iron"] * (len(mesh.materials) - before)
+
+
+def add_ivy(mesh, line, low, high, rng):
+    """Ivy over a stretch of a wall along a line: leaves that hang down its left face, densest on top.
+
+    low and high: functions of the place along the line, 0 to 1, that give the ground and the top of the wall.
+    """
+    length = math.dist(line[0], line[1])
+    way = ((line[1][0] - line[0][0]) / length, (line[1][1] - line[0][1]) / length)
+    out = (-way[1], way[0])
+    reach, center = min(length / 2, rng.uniform(0.9, 2.0)), rng.uniform(0.3, 0.7)
+    for _ in range(int(70 * reach)):
+        t = center + rng.gauss(0, 0.45) * reach / length
+        if not 0.02 < t < 0.98:
+            continue
+        fall = abs(rng.gauss(0, 0.42)) * max(0.15, 1 - abs(t - center) * length / reach / 1.3)
+        z = max(low(t) + 0.15, high(t) + 0.2 - 1.9 * fall)
+        off = rng.uniform(-0.42, 0.06) if z > high(t) + 0.1 else rng.uniform(0.02, 0.09)
+        x, y = line[0][0] + way[0] * length * t + out[0] * off, line[0][1] + way[1] * length * t + out[1] * off
+        size, tilt = rng.uniform(0.1, 0.19), rng.uniform(-0.9, 0.9)
+        a = (way[0] * math.cos(tilt), way[1] * math.cos(tilt), math.sin(tilt))
+        b = (-way[0] * math.sin(tilt) + out[0] * 0.25, -way[1] * math.sin(tilt) + out[1] * 0.25, math.cos(tilt))
+        points = [(x - b[0] * size, y - b[1] * size, z - b[2] * size), (x + a[0] * size * 0.8, y + a[1] * size * 0.8, z + a[2] * size * 0.8),
+                  (x + b[0] * size * 0.8, y + b[1] * size * 0.8, z + b[2] * size * 0.8),
+                  (x - a[0] * size * 0.8, y - a[1] * size * 0.8, z - a[2] * size * 0.8)]
+        shift = rng.random() * 3
+        up = _unit((out[0] * 0.8, out[1] * 0.8, 0.6))
+        mesh.face("leaves", points, [(shift, 0), (shift + 0.06, 0.06), (shift, 0.12), (shift - 0.06, 0.06)],
+                  shade(srgb("6f8a3c"), rng.uniform(0.6, 1.1)), [up] * 4)

@@ -9,18 +9,19 @@ LEAF = [srgb("6f8f3a"), srgb("5c7f34"), srgb("86a04a")]
 FLOWERS = [srgb("d8433a"), srgb("e07a9a"), srgb("f1ece0"), srgb("c2362f"), srgb("e2a33a")]
 
 
-def _plate(mesh, frame, u0, u1, v0, v1, low, high, color, shift):
-    """A flat painted board: its face and three flanks."""
+def _plate(mesh, frame, u0, u1, v0, v1, low, high, color, shift, sill):
+    """A flat painted board: its face and flanks, the upper one only above a sill, the lower one only without."""
     at, uv = frame.at, [(0.04, shift), (0.11, shift), (0.11, shift + 0.5), (0.04, shift + 0.5)]
     mesh.face("planks", [at(u0, v0, high), at(u1, v0, high), at(u1, v1, high), at(u0, v1, high)], uv, color)
-    for (a, b), (c, d) in (((u1, v0), (u1, v1)), ((u1, v1), (u0, v1)), ((u0, v1), (u0, v0))):
+    level = ((u1, v1), (u0, v1)) if sill else ((u0, v0), (u1, v0))
+    for (a, b), (c, d) in (((u1, v0), (u1, v1)), level, ((u0, v1), (u0, v0))):
         mesh.face("planks", [at(a, b, low), at(c, d, low), at(c, d, high), at(a, b, high)], uv, color)
 
 
 def window(mesh, frame, u, v, width, height, color, rng, base=0.0, sill=True, casements=2):
     """A leaded window, centred at u, its sill at v; `base` is how far its plane lies out of the wall."""
     u0, u1, v1 = u - width / 2, u + width / 2, v + height
-    _plate(mesh, frame, u0, u1, v, v1, base, base + 0.045, color, rng.random())
+    _plate(mesh, frame, u0, u1, v, v1, base, base + 0.045, color, rng.random(), sill)
     rows = [(v + 0.05, v1 - 0.05)]
     if height > 1.0:
         rows = [(v + 0.05, v + height * 0.66 - 0.025), (v + height * 0.66 + 0.025, v1 - 0.05)]
@@ -84,8 +85,7 @@ def door(mesh, frame, u, width, height, colors, rng, recess=0.2, arched=False, s
     rim = srgb("b9ad97") if stone else colors["timber"]
     material = "stone" if stone else "timber"
     inner = frame.shifted(0, 0, -recess)
-    for corners in ([(u0, sill), (u0, height)], [(u1, height), (u1, sill)], [(u0, height), (u1, height)],
-                    [(u1, sill), (u0, sill)]):
+    for corners in ([(u0, sill), (u0, height)], [(u1, height), (u1, sill)], [(u0, height), (u1, height)]):
         (a, b), (c, d) = corners
         mesh.face(material, [frame.at(a, b), frame.at(a, b, -recess), frame.at(c, d, -recess), frame.at(c, d)],
                   [(0, b), (recess, b), (recess, d), (0, d)] if a == c else [(a, 0), (a, recess), (c, recess), (c, 0)],
@@ -107,6 +107,7 @@ def door(mesh, frame, u, width, height, colors, rng, recess=0.2, arched=False, s
     beam(mesh, frame, (u0 - edge - 0.05, height + 0.09), (u1 + edge + 0.05, height + 0.09), 0.19, proud + 0.02, rim, rng,
          material, ends=True)
     step = srgb("c9bda8")
+    extrude(mesh, "stone", frame, [(u0, -0.6), (u1, -0.6), (u1, sill), (u0, sill)], -recess, 0.01, step, flanks=(2,))
     extrude(mesh, "stone", frame, [(u0 - 0.2, -0.6), (u1 + 0.2, -0.6), (u1 + 0.2, 0.07), (u0 - 0.2, 0.07)], 0.0, 0.36,
             step, flanks=(1, 2, 3))
     return u0, u1, sill, height
@@ -133,8 +134,8 @@ def sign(mesh, frame, u, v, rng):
     """A painted board on an iron bracket that hangs out over the street, its lower edge at v."""
     reach = 0.95
     across = Frame(frame.at(u, v), frame.n)          # the plane of the board, seen from the left
-    beam(mesh, across, (0, 0.72), (reach, 0.72), 0.035, 0.018, IRON, rng, "iron", base=-0.018, ends=True)
-    beam(mesh, across, (0, 0.35), (reach * 0.6, 0.72), 0.025, 0.012, IRON, rng, "iron", base=-0.012)
+    for bar in ([(0, 0.7), (reach, 0.7), (reach, 0.735), (0, 0.735)], [(0, 0.35), (reach * 0.6, 0.7), (reach * 0.55, 0.7), (0, 0.385)]):
+        extrude(mesh, "iron", across, bar, -0.014, 0.014, IRON, back=True)
     paint = rng.choice([srgb("7c2f26"), srgb("2f4d3a"), srgb("28466b"), srgb("a9772a")])
     gold = srgb("d8b25a")
     corners = [(0.3, 0.12), (0.62, 0.0), (0.92, 0.12), (0.92, 0.6), (0.3, 0.6)]
@@ -147,4 +148,5 @@ def sign(mesh, frame, u, v, rng):
                  [(0.44, 0.3), (0.61, 0.2), (0.78, 0.3), (0.78, 0.46), (0.44, 0.46)]][kind]
         polygon(mesh, "planks", plane, shape, gold, 0.024)
     for x in (0.36, 0.86):
-        beam(mesh, across, (x, 0.6), (x, 0.71), 0.02, 0.01, IRON, rng, "iron", base=-0.01)
+        extrude(mesh, "iron", across, [(x - 0.01, 0.6), (x + 0.01, 0.6), (x + 0.01, 0.7), (x - 0.01, 0.7)], -0.01, 0.01, IRON,
+                back=True, flanks=(1, 3))

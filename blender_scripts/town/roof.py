@@ -118,9 +118,9 @@ def dormer(mesh, x, width, y_front, z_base, wall, main, slope, colors, tint, rng
         eave = [(xe, y_front - out, z_eave), (xe, behind(z_eave) + 0.1, z_eave), top[1], top[0]]
         if side == -1:
             top, uvs = top[::-1], uvs[::-1]
-            eave = eave[::-1]
+            eave, under = eave[::-1], under[::-1]
         else:
-            under, rim = under[::-1], rim[::-1]
+            rim = rim[::-1]
         mesh.face("roof_tile", top, uvs, tint)
         mesh.face("timber", under, [(0, 0), (run, 0), (run, 0.2), (0, 0.2)], shade(timber, 0.7))
         mesh.face("planks", rim, [(0, 0), (0, run), (0.1, run), (0.1, 0)], colors["barge"])

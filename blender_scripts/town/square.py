@@ -27,8 +27,8 @@ def crate(mesh, x, y, z, size, rng, goods=True):
     wood = shade(rng.choice(WOOD), 1.15)
     part = Mesh()
     box(part, "planks", (-w / 2, -d / 2, 0), (w / 2, d / 2, h), wood, skip="zZ")
-    part_in = [Frame((-w / 2, -d / 2, h - 0.05), (1, 0, 0), (0, 1, 0))]
-    polygon(part, "planks", part_in[0], [(0, 0), (w, 0), (w, d), (0, d)], shade(wood, 0.5))
+    lid = Frame((-w / 2, -d / 2, h - 0.015), (1, 0, 0), (0, 1, 0))
+    polygon(part, "planks", lid, [(0, 0), (w, 0), (w, d), (0, d)], shade(wood, 0.5))
     if goods:
         heap(part, -w / 2 + 0.06, w / 2 - 0.06, -d / 2 + 0.06, d / 2 - 0.06, h - 0.05, rng)
     mesh.add(part.moved(x, y, z, rng.uniform(-0.3, 0.3)))
@@ -64,6 +64,7 @@ def make_stall(rng):
     awning(mesh, w, d, high, low, [srgb(c) for c in rng.choice(STRIPES)])
     box(mesh, "planks", (-w / 2 + 0.05, -d / 2 - 0.1, 0.82), (w / 2 - 0.05, -0.1, 0.9), shade(wood, 1.1))
     panel(mesh, "planks", Frame((-w / 2 + 0.05, -d / 2 - 0.02, 0), (1, 0, 0)), 0, w - 0.1, -0.2, 0.82, shade(wood, 0.95))
+    panel(mesh, "planks", Frame((w / 2 - 0.05, -0.2, 0), (-1, 0, 0)), 0, w - 0.1, -0.2, 0.82, shade(wood, 0.9))
     for x, frame_u in ((w / 2 - 0.05, (0, 1, 0)), (-w / 2 + 0.05, (0, -1, 0))):
         y = -d / 2 - 0.02 if frame_u[1] > 0 else -0.2
         panel(mesh, "planks", Frame((x, y, 0), frame_u), 0, d / 2 - 0.18, -0.2, 0.82, shade(wood, 0.9))
@@ -156,7 +157,7 @@ def _roller(mesh, wood):
         a, b = 2 * math.pi * i / sides, 2 * math.pi * (i + 1) / sides
         points = [(-1.1, math.cos(a) * 0.12, 1.95 + math.sin(a) * 0.12), (-1.1, math.cos(b) * 0.12, 1.95 + math.sin(b) * 0.12),
                   (1.1, math.cos(b) * 0.12, 1.95 + math.sin(b) * 0.12), (1.1, math.cos(a) * 0.12, 1.95 + math.sin(a) * 0.12)]
-        mesh.face("timber", points[::-1], [(0, 0), (0, 0.1), (2.2, 0.1), (2.2, 0)], wood)
+        mesh.face("timber", points, [(0, 0), (0, 0.1), (2.2, 0.1), (2.2, 0)], wood)
 
 
 def make_bench(rng):

@@ -43,12 +43,14 @@ def arcade(mesh, width, depth, deep, colors, rng):
     openings = [(PIER + (bay - PIER) / 2 + i * bay, bay - PIER, SPRING, RISE) for i in range(BAYS)]
     front = Frame((0, 0, 0), (1, 0, 0))
     arched_wall(mesh, front, openings, width, TOP, PIER, SANDSTONE, rng, trim=LIMESTONE)
-    clear = deep - PIER - 0.25
-    end = [(PIER + clear / 2, clear, SPRING, RISE)]
-    right = Frame((width, 0, 0), (0, 1, 0))
-    left = Frame((0, deep, 0), (0, -1, 0))
-    arched_wall(mesh, right, end, deep, TOP, PIER, SANDSTONE, rng, trim=LIMESTONE)
-    arched_wall(mesh, left, [(deep - u, w, s, r) for u, w, s, r in end], deep, TOP, PIER, SANDSTONE, rng, trim=LIMESTONE)
+    run = deep - PIER
+    clear = run - 0.25
+    right, left = Frame((width, PIER, 0), (0, 1, 0)), Frame((0, deep, 0), (0, -1, 0))
+    arched_wall(mesh, right, [(clear / 2, clear, SPRING, RISE)], run, TOP, PIER, SANDSTONE, rng, trim=LIMESTONE, reveals=(1,))
+    arched_wall(mesh, left, [(run - clear / 2, clear, SPRING, RISE)], run, TOP, PIER, SANDSTONE, rng, trim=LIMESTONE,
+                reveals=(-1,))
+    for wall in (Frame((width, 0, 0), (0, 1, 0)), Frame((0, PIER, 0), (0, -1, 0))):
+        panel(mesh, "stone", wall, 0, PIER, -1.2, TOP, SANDSTONE)
     for i in range(BAYS + 1):
         x = i * bay
         for low, high, out in ((-1.2, 0.35, 0.07), (SPRING - 0.16, SPRING, 0.06)):

@@ -147,39 +147,69 @@ def make_tower(index, rng):
     return mesh.moved(x, y, z)
 
 
-def make_line_wall(line, height, thickness, color, rng, coping=True, center=0.25):
-    """A garden wall along a line; it lies to the right of the line and steps with the ground."""
+def make_line_wall(line, height, thickness, color, near=0.05):
+    """A mitred wall with a coping along a line, which lies `near` to its left; its top follows the ground."""
     mesh = Mesh()
-    for a, b in zip(line[:-1], line[1:]):
-        length = float(np.linalg.norm(b - a))
-        if length < 0.03:
-            continue
-        way = (b - a) / length
-        side = np.array([way[1], -way[0]])
-        o = a + side * (center - thickness / 2)
-        z0, z1 = (float(plan.pavement_height(*p)) for p in (a, b))
-        piece = Mesh()
-        near = Frame((length, 0, 0), (-1, 0, 0))            # faces the line
-        far = Frame((0, -thickness, 0), (1, 0, 0))
-        panel(piece, "stone", near, -0.04, length + 0.04, -1.2, height, color, step=1.3, uv_shift=(a[0] + a[1], 0))
-        panel(piece, "stone", far, -0.04, length + 0.04, -1.2, height, color, step=3)
-        for frame in (Frame((0, 0, 0), (0, -1, 0)), Frame((length, -thickness, 0), (0, 1, 0))):
-            panel(piece, "stone", frame, 0, thickness, -1.2, height, color, step=3)
-        cap = 0.06 if coping else 0.0
-        box(piece, "stone", (-0.05, -thickness - cap, height), (length + 0.05, cap, height + 0.12),
-            shade(color, 0.92))
-        slope = (z1 - z0) / length
-        piece.points = [(p[0], p[1], p[2] + slope * p[0]) for p in piece.points]
-        mesh.add(piece.moved(o[0], o[1], z0, math.atan2(way[1], way[0])))
+    line = line[np.concatenate([[True], np.linalg.norm(np.diff(line, axis=0), axis=1) > 0.02])]
+    low = [_offset(line, distance) for distance in (near, near + thickness)]
+    cap = [_offset(line, distance) for distance in (near - 0.06, near + thickness + 0.06)]
+    ground = [float(plan.pavement_height(*p)) for p in line]
+    along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    for i in range(len(line) - 1):
+        j, dark = i + 1, shade(color, 0.92)
+        tops = [(ground[i] + height, ground[j] + height), (ground[i] + height + 0.13, ground[j] + height + 0.13)]
+        for side, (a, b) in ((0, (j, i)), (1, (i, j))):
+            _strip(mesh, low[side][a], low[side][b], (ground[a] - 1.2, ground[b] - 1.2), (ground[a] + height, ground[b] + height),
+                   (along[a], along[b]), color)
+            _strip(mesh, cap[side][a], cap[side][b], (ground[a] + height, ground[b] + height),
+                   (ground[a] + height + 0.13, ground[b] + height + 0.13), (along[a], along[b]), dark)
+        for (za, zb), order in ((tops[0], -1), (tops[1], 1)):
+            points = [(*cap[1][i], za), (*cap[1][j], zb), (*cap[0][j], zb), (*cap[0][i], za)]
+            width = thickness + 0.12
+            mesh.face("stone", points[::order], [(along[i], 0), (along[j], 0), (along[j], width), (along[i], width)][::order],
+                      dark)
+    for k, (p, q) in ((0, (0, 1)), (len(line) - 1, (1, 0))):
+        _strip(mesh, low[p][k], low[q][k], (ground[k] - 1.2,) * 2, (ground[k] + height,) * 2, (0, thickness), color)
+        _strip(mesh, cap[p][k], cap[q][k], (ground[k] + height,) * 2, (ground[k] + height + 0.13,) * 2, (0, thickness), color)
     return mesh
 
 
-def churchyard_wall(rng):
+def _offset(line, distance):
+    """The line moved to its right, with mitred corners."""
+    way = np.diff(line, axis=0)
+    way /= np.linalg.norm(way, axis=1)[:, None]
+    right = np.stack([way[:, 1], -way[:, 0]], axis=1)
+    before, after = np.vstack([right[:1], right]), np.vstack([right, right[-1:]])
+    both = before + after
+    both /= np.maximum(0.5, np.sum(both * after, axis=1))[:, None]
+    return (line + distance * both).tolist()
+
+
+def _strip(mesh, a, b, low, high, along, color):
+    """An upright quadrilateral, from a to b seen from outside, cut into cells for the baked light."""
+    columns = max(1, math.ceil(math.dist(a, b) / 1.6))
+    rows = max(1, math.ceil((high[0] - low[0]) / 1.6))
+
+    def spot(i, k):
+        s, t = i / columns, k / rows
+        z = (low[0] + (low[1] - low[0]) * s) * (1 - t) + (high[0] + (high[1] - high[0]) * s) * t
+        return (a[0] + (b[0] - a[0]) * s, a[1] + (b[1] - a[1]) * s, z), (along[0] + (along[1] - along[0]) * s, z)
+
+    for i in range(columns):
+        for k in range(rows):
+            corners = [spot(i, k), spot(i + 1, k), spot(i + 1, k + 1), spot(i, k + 1)]
+            uvs = [c[1] for c in corners]
+            if along[1] < along[0]:
+                uvs = [(-u, v) for u, v in uvs]
+            mesh.face("stone", [c[0] for c in corners], uvs, color)
+
+
+def churchyard_wall():
     """The low wall between the church's plaza and its lawn, open before the portal and the paths."""
     mesh = Mesh()
     x = 30.9
     for y0, y1 in ((12.6, 20.4), (23.2, 26.2), (36.8, 39.6), (42.8, 49.4)):
-        mesh.add(make_line_wall(np.array([(x, y0), (x, y1)]), 0.85, 0.45, srgb("d5c8b0"), rng))
+        mesh.add(make_line_wall(np.array([(x, y0), (x, y1)]), 0.85, 0.45, srgb("d5c8b0")))
     for y in (20.4, 23.2, 26.2, 36.8, 39.6, 42.8):
         z = float(plan.pavement_height(x, y))
         box(mesh, "stone", (x - 0.1, y - 0.32, z - 0.5), (x + 0.6, y + 0.32, z + 1.25), LIMESTONE, skip="z")
