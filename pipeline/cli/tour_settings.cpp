@@ -1,5 +1,6 @@
 #include "pipeline/cli/tour_settings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -15,6 +16,15 @@ void ReadSource(TomlTable* table, SourceSettings* source) {
   table->File("file", &source->file);
   table->Number("seed", &source->seed, 0, 2147483647);
   table->Json("options", &source->options_json);
+}
+
+// Names become names of files.
+void ReadName(TomlTable* table, std::string* name) {
+  table->Text("name", name);
+  const bool control = std::any_of(name->begin(), name->end(), [](char c) { return c == '/' || (c >= 0 && c < ' '); });
+  if (control || name->rfind('.', 0) == 0 || name->size() > 100) {
+    table->Refuse("the name '" + OneLine(*name) + "' must do as a file name: no '/', no '.' in front, at most 100 letters");
+  }
 }
 
 void ReadPart(TomlTable table, TourSettings* settings) {
@@ -37,7 +47,7 @@ void ReadTown(TomlTable table, TourSettings* settings) {
 
 void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
   AvatarSettings avatar;
-  table.Text("name", &avatar.name);
+  ReadName(&table, &avatar.name);
   ReadSource(&table, &avatar.source);
   table.Number("share", &avatar.share, 0, 1e6);
   table.Number("height_m", &avatar.height_m, 0, 10);
@@ -65,6 +75,7 @@ void ReadImpostor(TomlTable table, ImpostorOptions* options) {
   table.Number("directions", &options->directions, 1, 64);
   table.Numbers("elevations_deg", &options->elevations_deg, -89, 89);
   table.Number("height_px", &options->height_px, 16, 1024);
+  table.Number("border_px", &options->border_px, 1, 16);
   table.Number("samples", &options->samples, 1, 4096);
   for (ImpostorClipOptions& clip : options->clips) {
     table.Number((clip.name + "_phases").c_str(), &clip.phases, 1, 256);
@@ -80,6 +91,7 @@ void ReadFootprints(TomlTable table, FootprintOptions* options, GroundRasterOpti
   else options->band_m = {std::round(band[0] * 1e4) / 1e4, std::round(band[1] * 1e4) / 1e4};
   table.Number("tolerance_m", &options->tolerance_m, 0, 1);
   table.Number("bridge_m", &options->bridge_m, 0, 1);
+  table.Number("open_yard_m2", &options->open_yard_m2, 0, 1e6);
   table.Flag("merge_blocks", &options->merge_blocks);
   table.Number("ground_cell_m", &ground->cell_m, 0.05, 10);
   table.Finish();
@@ -110,7 +122,7 @@ void ReadStop(TomlTable table, TourSettings* settings) {
 
 void ReadAll(TomlTable root, TourSettings* settings) {
   TomlTable tour = root.Table("tour");
-  tour.Text("name", &settings->name);
+  ReadName(&tour, &settings->name);
   tour.Finish();
   ReadTown(root.Table("town"), settings);
   for (TomlTable& avatar : root.Tables("avatar")) ReadAvatarSettings(avatar, settings);

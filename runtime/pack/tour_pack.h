@@ -126,13 +126,13 @@ struct ControlSettings {
   float target_ms = 16.7f;
   int budget_triangles = 200000;  // for all visible people together
   float r_personal_m = 0.6f, r_high_m = 10, r_unimportant_m = 40, r_far_m = 200;
-  float fov_rad = 1.0472f;        // horizontal
+  float fov_rad = kPi / 3;        // horizontal
   float step_hz = 30;
   float max_yaw_rate_dps = 120, camera_speed_mps = 1.4f;
 };
 
 struct LightSettings {
-  float sun_azimuth_rad = 2.4f, sun_elevation_rad = 0.7f;  // direction to the sun at the start
+  float sun_azimuth_rad = 0.75f * kPi, sun_elevation_rad = kPi / 4.5f;  // direction to the sun at the start
   float day_length_s = 600;  // time for the sun's way across the sky; 0: it stands still
 };
 
