@@ -1,62 +1,46 @@
-// OpenGL ES 3.0 contexts: without a display through EGL, with one through GLFW. One thread, one context at a time.
+// An OpenGL ES 3.0 context: without a display through EGL, or with a window.
 #pragma once
 #include <memory>
-#include <string>
 
 #include "runtime/base/error.h"
+#include "runtime/base/math.h"
 
 namespace flaneur {
 
-// Current from Create() until destroyed. Tries the graphics devices in the driver's order, then Mesa without a surface, then
-// the default display.
+// A context without any window, current in this thread for as long as it lives.
 class HeadlessContext {
  public:
   HeadlessContext();
   ~HeadlessContext();
-  HeadlessContext(const HeadlessContext&) = delete;
-  HeadlessContext& operator=(const HeadlessContext&) = delete;
-
-  // Errors: no EGL driver offers OpenGL ES 3.0 (says which package brings one).
+  // Errors: no EGL display or no OpenGL ES 3 on this machine.
   Error Create();
-  std::string Description() const;  // the driver's name for itself
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
-// What the visitor does, polled once a frame.
 struct WindowInput {
-  bool close = false;
-  float forward = 0, left = 0;       // asked way, -1..1, from WASD or arrow keys
-  bool fast = false;                 // shift
-  float yaw_rad = 0, pitch_rad = 0;  // mouse moved since the last poll, as turns: left and up positive
-  bool toggle_tour = false;          // Tab or space was pressed
+  Vec2 walk;               // x to the right, y ahead, each -1 to 1
+  float turn_rad = 0, pitch_rad = 0;  // since the last call
+  bool toggle_tour = false, close = false;
 };
 
-class WindowContext {
+// A window with its context, current in this thread for as long as it lives.
+class Window {
  public:
-  WindowContext();
-  ~WindowContext();
-  WindowContext(const WindowContext&) = delete;
-  WindowContext& operator=(const WindowContext&) = delete;
-
-  // Opens a window with a current context; swaps wait for the screen.
-  // Errors: no display, no OpenGL ES 3.0.
-  Error Create(int width_px, int height_px, const std::string& title);
+  Window();
+  ~Window();
+  // Errors: no display, no OpenGL ES 3.
+  Error Create(int width_px, int height_px, const char* title);
   WindowInput Poll();
-  void Swap();
-  void SetTitle(const std::string& title);
-  // Of the drawable, which the user may resize; 0 while minimized.
-  int width_px() const;
-  int height_px() const;
+  void Size(int* width_px, int* height_px) const;
+  void Show();             // what was drawn; waits for the display
+  void SetTitle(const char* title);
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
-
-// True where a window can be tried: an X11 or Wayland display is set.
-bool HasDisplay();
 
 }  // namespace flaneur

@@ -1,7 +1,7 @@
-// Draws a tour pack with OpenGL ES 3.0: town, people as skinned meshes or relit impostors, shadows, sky.
+// Draws a tour pack with OpenGL ES 3.0: town, people as skinned meshes near and relit impostors far, sun with shadows.
 #pragma once
-#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "runtime/base/error.h"
@@ -10,33 +10,22 @@
 
 namespace flaneur {
 
-struct RenderOptions {
-  int samples = 4;               // multisampling; fewer where the driver has fewer
-  int shadow_map_px = 2048;
-};
-
-// Owns all OpenGL objects. A context (runtime/render/context.h) must be current from Create() until the destructor is done.
+// Needs a current context for its whole life.
 class Renderer {
  public:
   Renderer();
   ~Renderer();
-  Renderer(const Renderer&) = delete;
-  Renderer& operator=(const Renderer&) = delete;
-
-  // Uploads the pack, which isn't needed afterwards.
-  // Errors: a shader that the driver rejects, an image or skeleton larger than the driver's limits, out of memory.
-  Error Create(const TourPack& pack, const RenderOptions& options = {});
-
-  // Draws into the current framebuffer's own (window) surface and keeps the picture for ReadPixels.
-  // people[i].avatar and .level must be valid for the pack. width and height in pixels, positive.
-  FrameStatistics Draw(const FrameInput& frame, int width_px, int height_px);
-
-  // The last picture, RGB, top row first: 3 * width * height bytes.
-  std::vector<uint8_t> ReadPixels() const;
+  // Uploads the pack. Errors: a shader that the driver refuses, textures larger than it can hold.
+  Error Create(const TourPack& pack);
+  // Draws into a picture of its own; Read or Present brings it out.
+  void Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics);
+  // The last picture: RGB, 8 bits a channel, top row first.
+  void Read(std::vector<uint8_t>* rgb);
+  void Present();  // onto the window's surface
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace flaneur

@@ -1,0 +1,96 @@
+#include "runtime/player/film.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "runtime/base/file.h"
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+extern char** environ;
+
+namespace flaneur {
+
+FilmWriter::~FilmWriter() {
+  if (pipe_ >= 0) ::close(pipe_);
+  if (process_ > 0) {
+    ::kill(process_, SIGTERM);
+    ::waitpid(process_, nullptr, 0);
+  }
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+Error FilmWriter::Start(const std::filesystem::path& path, int width_px, int height_px, float frames_per_s) {
+  if (width_px % 2 != 0 || height_px % 2 != 0) return Fail("a film needs an even --size, not " + std::to_string(width_px) + "x" + std::to_string(height_px));
+  std::error_code ec;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ec);
+  path_ = path;
+  temporary_ = path.string() + ".part-" + std::to_string(::getpid()) + ".mp4";
+  const std::string size = std::to_string(width_px) + "x" + std::to_string(height_px), rate = std::to_string(frames_per_s);
+  const char* argv[] = {"ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", size.c_str(),
+                        "-framerate", rate.c_str(), "-i", "-", "-c:v", "libx264", "-preset", "veryfast", "-crf", "20",
+                        "-pix_fmt", "yuv420p", "-movflags", "+faststart", temporary_.c_str(), nullptr};
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return Fail("no pipe to ffmpeg: " + std::string(std::strerror(errno)));
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[0], 0);
+  ::signal(SIGPIPE, SIG_IGN);
+  const int failed = ::posix_spawnp(&process_, "ffmpeg", &actions, nullptr, const_cast<char**>(argv), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[0]);
+  if (failed != 0) {
+    ::close(ends[1]);
+    process_ = -1;
+    return Fail("ffmpeg cannot be started: install the Debian package ffmpeg, or leave --film out");
+  }
+  pipe_ = ends[1];
+  return Ok();
+}
+
+Error FilmWriter::Add(const std::vector<uint8_t>& rgb) {
+  size_t done = 0;
+  while (done < rgb.size()) {
+    const ssize_t count = ::write(pipe_, rgb.data() + done, rgb.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return Fail(path_.string() + ": cannot be written: ffmpeg stopped; is the disk full?");
+    done += static_cast<size_t>(count);
+  }
+  return Ok();
+}
+
+Error FilmWriter::Finish() {
+  ::close(pipe_);
+  pipe_ = -1;
+  int status = 0;
+  ::waitpid(process_, &status, 0);
+  process_ = -1;
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || ::rename(temporary_.c_str(), path_.c_str()) != 0) {
+    return Fail(path_.string() + ": cannot be written: ffmpeg failed");
+  }
+  temporary_.clear();
+  return Ok();
+}
+
+Error WritePng(const std::filesystem::path& path, int width_px, int height_px, const std::vector<uint8_t>& rgb) {
+  int size = 0;
+  unsigned char* png = stbi_write_png_to_mem(rgb.data(), width_px * 3, width_px, height_px, 3, &size);
+  if (png == nullptr) return Fail(path.string() + ": the picture cannot be encoded");
+  const Error error = WriteFile(path, {png, static_cast<size_t>(size)});
+  std::free(png);
+  return error;
+}
+
+}  // namespace flaneur

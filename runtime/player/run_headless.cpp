@@ -1,0 +1,54 @@
+#include <cstdio>
+
+#include "runtime/player/film.h"
+#include "runtime/player/frame_from_simulation.h"
+#include "runtime/player/records.h"
+#include "runtime/player/run.h"
+#include "runtime/render/context.h"
+#include "runtime/render/renderer.h"
+
+namespace flaneur {
+
+Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Simulation* simulation) {
+  HeadlessContext context;
+  if (Error e = context.Create()) return e;
+  Renderer renderer;
+  if (Error e = renderer.Create(pack)) return e;
+  Records records;
+  records.keep_metrics = !options.metrics.empty();
+  records.keep_trajectories = !options.trajectories.empty();
+  FilmWriter film;
+  const bool filming = !options.film.empty();
+  if (filming) {
+    if (Error e = film.Start(options.film, options.width_px, options.height_px, 1 / simulation->step_s)) return e;
+  }
+  // A still alone needs only its last picture drawn.
+  const bool draw_all = filming || records.keep_metrics || options.screenshot.empty();
+  const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(simulation->step_s) + 0.5);
+  FrameInput frame;
+  FrameStatistics statistics;
+  std::vector<uint8_t> rgb;
+  for (;;) {
+    const bool last = simulation->frame >= steps || simulation->finished;
+    if (draw_all || last) {
+      FrameFromSimulation(pack, *simulation, &frame);
+      renderer.Draw(frame, options.width_px, options.height_px, &statistics);
+      if (filming || last) renderer.Read(&rgb);
+      if (filming) {
+        if (Error e = film.Add(rgb)) return e;
+      }
+    }
+    Record(*simulation, {statistics.town_triangles, statistics.draw_ms}, &records);
+    if (last) break;
+    StepSimulation({}, static_cast<float>(statistics.draw_ms), simulation);
+  }
+  if (!options.screenshot.empty()) {
+    if (Error e = WritePng(options.screenshot, options.width_px, options.height_px, rgb)) return e;
+  }
+  if (filming) {
+    if (Error e = film.Finish()) return e;
+  }
+  return WriteRecords(records, options.metrics, options.trajectories);
+}
+
+}  // namespace flaneur

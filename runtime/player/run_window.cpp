@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "runtime/player/frame_from_simulation.h"
+#include "runtime/player/records.h"
+#include "runtime/player/run.h"
+#include "runtime/render/context.h"
+#include "runtime/render/renderer.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kWalkSpeed_mps = 1.5f;
+constexpr float kMostPitch_rad = 1.2f;
+constexpr int kMostStepsAFrame = 4;  // a machine that can't keep up slows the town down rather than freeze
+
+double Now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+CameraInput ToCameraInput(const WindowInput& input, bool free_walk, const Simulation& s) {
+  CameraInput out;
+  out.active = free_walk;
+  const float yaw = s.camera.view.yaw_rad;
+  const Vec2 ahead{std::cos(yaw), std::sin(yaw)}, right{ahead.y, -ahead.x};
+  const Vec2 way = ahead * input.walk.y + right * input.walk.x;
+  const float length = Length(way);
+  if (length > 0) out.direction = way * (1 / length);
+  out.speed_mps = length > 0 ? kWalkSpeed_mps : 0;
+  out.yaw_rate_radps = input.turn_rad / s.step_s;
+  return out;
+}
+
+}  // namespace
+
+Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Simulation* s) {
+  Window window;
+  if (Error e = window.Create(options.width_px, options.height_px, pack.name.c_str())) return e;
+  Renderer renderer;
+  if (Error e = renderer.Create(pack)) return e;
+  Records records;
+  records.keep_metrics = !options.metrics.empty();
+  records.keep_trajectories = !options.trajectories.empty();
+  bool free_walk = s->legs.empty() && s->path.empty();
+  double clock_s = Now_s(), owed_s = 0, title_s = clock_s;
+  int frames = 0;
+  FrameInput frame;
+  FrameStatistics statistics;
+  for (;;) {
+    WindowInput input = window.Poll();
+    if (input.close || (options.seconds && static_cast<float>(s->frame) * s->step_s >= *options.seconds)) break;
+    if (input.toggle_tour || input.walk.x != 0 || input.walk.y != 0) free_walk = input.toggle_tour ? !free_walk : true;
+    s->camera.pitch_rad = std::clamp(s->camera.pitch_rad + input.pitch_rad, -kMostPitch_rad, kMostPitch_rad);
+    const double now_s = Now_s(), frame_s = now_s - clock_s;
+    clock_s = now_s;
+    owed_s = std::min(owed_s + frame_s, static_cast<double>(s->step_s) * kMostStepsAFrame);
+    while (owed_s >= static_cast<double>(s->step_s)) {
+      StepSimulation(ToCameraInput(input, free_walk, *s), static_cast<float>(frame_s * 1000), s);
+      Record(*s, {statistics.town_triangles, statistics.draw_ms}, &records);
+      input.turn_rad = 0;  // a mouse movement turns once
+      owed_s -= static_cast<double>(s->step_s);
+    }
+    int width_px = 0, height_px = 0;
+    window.Size(&width_px, &height_px);
+    if (width_px > 0 && height_px > 0) {
+      FrameFromSimulation(pack, *s, &frame);
+      renderer.Draw(frame, width_px, height_px, &statistics);
+      renderer.Present();
+    }
+    window.Show();
+    ++frames;
+    if (now_s - title_s > 1) {
+      char title[160];
+      std::snprintf(title, sizeof title, "%s - %.0f frames/s, %zu people, %lld triangles", pack.name.c_str(),
+                    frames / (now_s - title_s), s->crowd.size(),
+                    static_cast<long long>(statistics.people_triangles + statistics.town_triangles));
+      window.SetTitle(title);
+      title_s = now_s;
+      frames = 0;
+    }
+  }
+  return WriteRecords(records, options.metrics, options.trajectories);
+}
+
+}  // namespace flaneur

@@ -1,0 +1,213 @@
+// Shader sources, GLSL ES 3.00: the same text runs as WebGL 2. Internal to runtime/render.
+#pragma once
+
+namespace flaneur {
+
+inline constexpr const char* kHeader =
+    "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2DShadow;\n";
+
+// Light: sun with two shadow maps (town, people), sky and ground from all sides, haze.
+inline constexpr const char* kLight = R"(
+uniform vec3 u_eye, u_to_sun, u_sun_color, u_sky_color, u_ground_color, u_haze_color;
+uniform mat4 u_town_shadow, u_people_shadow;
+uniform sampler2DShadow u_town_shadow_map, u_people_shadow_map;
+float shadow_of(sampler2DShadow map, mat4 matrix, vec3 p, float bias) {
+  vec4 q = matrix * vec4(p, 1.0);
+  vec3 c = q.xyz * 0.5 + 0.5;
+  if (any(lessThan(c, vec3(0.002))) || any(greaterThan(c, vec3(0.998)))) return 1.0;
+  vec2 texel = 1.0 / vec2(textureSize(map, 0));
+  float sum = 0.0;
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 2; ++x)
+      sum += texture(map, vec3(c.xy + (vec2(x, y) - 0.5) * texel, c.z - bias));
+  return sum * 0.25;
+}
+vec3 lit(vec3 albedo, vec3 n, vec3 p) {
+  float sun = max(dot(n, u_to_sun), 0.0);
+  vec3 lifted = p + n * 0.05;
+  if (sun > 0.0) sun *= shadow_of(u_town_shadow_map, u_town_shadow, lifted, 0.0006) *
+                        shadow_of(u_people_shadow_map, u_people_shadow, lifted, 0.0012);
+  vec3 around = mix(u_ground_color, u_sky_color, n.y * 0.5 + 0.5);
+  return albedo * (u_sun_color * sun + around);
+}
+vec3 shown(vec3 color, vec3 p) {
+  float haze = 1.0 - exp(-distance(p, u_eye) * 0.0035);
+  color = mix(color, u_haze_color, haze);
+  color = (color * (2.51 * color + 0.03)) / (color * (2.43 * color + 0.59) + 0.14);
+  return pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2));
+}
+)";
+
+inline constexpr const char* kTownVertex = R"(
+layout(location = 0) in vec3 a_position;
+layout(location = 1) in vec3 a_normal;
+layout(location = 2) in vec2 a_uv;
+layout(location = 3) in vec4 a_color;
+uniform mat4 u_view_projection, u_world;
+out vec3 v_position, v_normal;
+out vec2 v_uv;
+out vec4 v_color;
+void main() {
+  vec4 p = u_world * vec4(a_position, 1.0);
+  v_position = p.xyz;
+  v_normal = mat3(u_world) * a_normal;
+  v_uv = a_uv;
+  v_color = a_color;
+  gl_Position = u_view_projection * p;
+}
+)";
+
+// Every frame of every clip is a row of the joint texture, three texels a joint.
+inline constexpr const char* kPersonVertex = R"(
+layout(location = 0) in vec3 a_position;
+layout(location = 1) in vec3 a_normal;
+layout(location = 2) in vec2 a_uv;
+layout(location = 3) in vec4 a_color;
+layout(location = 4) in uvec4 a_joints;
+layout(location = 5) in vec4 a_weights;
+layout(location = 6) in vec4 a_place;  // position, turn about the vertical
+layout(location = 7) in vec3 a_rows;   // two rows of the joint texture and how far between them
+uniform mat4 u_view_projection;
+uniform highp sampler2D u_joint_texture;
+out vec3 v_position, v_normal;
+out vec2 v_uv;
+out vec4 v_color;
+vec4 joint_row(int joint, int k) {
+  vec4 a = texelFetch(u_joint_texture, ivec2(3 * joint + k, int(a_rows.x)), 0);
+  vec4 b = texelFetch(u_joint_texture, ivec2(3 * joint + k, int(a_rows.y)), 0);
+  return mix(a, b, a_rows.z);
+}
+void main() {
+  vec4 r0 = vec4(0.0), r1 = vec4(0.0), r2 = vec4(0.0);
+  for (int i = 0; i < 4; ++i) {
+    float w = a_weights[i];
+    if (w <= 0.0) continue;
+    int j = int(a_joints[i]);
+    r0 += w * joint_row(j, 0);
+    r1 += w * joint_row(j, 1);
+    r2 += w * joint_row(j, 2);
+  }
+  vec4 p = vec4(a_position, 1.0);
+  vec3 posed = vec3(dot(r0, p), dot(r1, p), dot(r2, p));
+  vec3 n = vec3(dot(r0.xyz, a_normal), dot(r1.xyz, a_normal), dot(r2.xyz, a_normal));
+  float c = cos(a_place.w), s = sin(a_place.w);
+  v_position = vec3(c * posed.x + s * posed.z, posed.y, c * posed.z - s * posed.x) + a_place.xyz;
+  v_normal = vec3(c * n.x + s * n.z, n.y, c * n.z - s * n.x);
+  v_uv = a_uv;
+  v_color = a_color;
+  gl_Position = u_view_projection * vec4(v_position, 1.0);
+}
+)";
+
+inline constexpr const char* kSurfaceFragment = R"(
+in vec3 v_position, v_normal;
+in vec2 v_uv;
+in vec4 v_color;
+uniform sampler2D u_texture;
+uniform vec4 u_base_color;
+uniform float u_alpha_cutoff;
+out vec4 o_color;
+void main() {
+  vec4 albedo = texture(u_texture, v_uv) * u_base_color;
+  if (albedo.a * v_color.a < u_alpha_cutoff) discard;
+  vec3 n = normalize(v_normal);
+  if (!gl_FrontFacing) n = -n;
+  o_color = vec4(shown(lit(albedo.rgb * v_color.rgb, n, v_position), v_position), 1.0);
+}
+)";
+
+inline constexpr const char* kShadowFragment = R"(
+in vec2 v_uv;
+uniform sampler2D u_texture;
+uniform float u_alpha_cutoff;
+void main() { if (u_alpha_cutoff > 0.0 && texture(u_texture, v_uv).a < u_alpha_cutoff) discard; }
+)";
+
+// A quad that stands upright and turns to the eye (or to the sun, for its shadow).
+inline constexpr const char* kImpostorVertex = R"(
+layout(location = 0) in vec2 a_corner;  // x -1 to 1, y 0 to 1
+layout(location = 6) in vec4 a_place;   // position, turn about the vertical
+layout(location = 7) in vec3 a_cells;   // two columns and how far between them
+layout(location = 8) in float a_row;
+layout(location = 9) in vec2 a_right;   // on the ground, glTF's x and z
+uniform mat4 u_view_projection;
+uniform vec3 u_window;                  // width, height, bottom in metres
+uniform vec4 u_cell;                    // a cell's size and half a texel, in texture coordinates
+out vec3 v_position;
+out vec2 v_uv0, v_uv1, v_turn;
+out float v_mix;
+void main() {
+  vec3 right = vec3(a_right.x, 0.0, a_right.y);
+  float up = u_window.z + a_corner.y * u_window.y;
+  v_position = a_place.xyz + right * (a_corner.x * 0.5 * u_window.x) + vec3(0.0, up, 0.0);
+  vec2 inside = vec2(a_corner.x * 0.5 + 0.5, 1.0 - a_corner.y) * (u_cell.xy - 2.0 * u_cell.zw) + u_cell.zw;
+  v_uv0 = vec2(a_cells.x, a_row) * u_cell.xy + inside;
+  v_uv1 = vec2(a_cells.y, a_row) * u_cell.xy + inside;
+  v_mix = a_cells.z;
+  v_turn = vec2(cos(a_place.w), sin(a_place.w));
+  gl_Position = u_view_projection * vec4(v_position, 1.0);
+}
+)";
+
+inline constexpr const char* kImpostorFragment = R"(
+in vec3 v_position;
+in vec2 v_uv0, v_uv1, v_turn;
+in float v_mix;
+uniform sampler2D u_texture, u_normals;
+out vec4 o_color;
+void main() {
+  vec4 a = texture(u_texture, v_uv0), b = texture(u_texture, v_uv1);
+  if (mix(a.a, b.a, v_mix) < 0.45) discard;
+  // Where only one of the two pictures shows the person, it alone gives colour and normal.
+  float wa = (1.0 - v_mix) * a.a, wb = v_mix * b.a;
+  float share = wb / max(wa + wb, 1e-4);
+  vec3 albedo = mix(a.rgb, b.rgb, share);
+  vec3 n = mix(texture(u_normals, v_uv0).rgb, texture(u_normals, v_uv1).rgb, share) * 2.0 - 1.0;
+  n = normalize(vec3(v_turn.x * n.x + v_turn.y * n.z, n.y, v_turn.x * n.z - v_turn.y * n.x));
+  o_color = vec4(shown(lit(albedo, n, v_position), v_position), 1.0);
+}
+)";
+
+inline constexpr const char* kImpostorShadowFragment = R"(
+in vec2 v_uv0, v_uv1;
+in float v_mix;
+uniform sampler2D u_texture;
+void main() { if (mix(texture(u_texture, v_uv0).a, texture(u_texture, v_uv1).a, v_mix) < 0.45) discard; }
+)";
+
+inline constexpr const char* kSkyVertex = R"(
+uniform mat4 u_inverse_view_projection;
+out vec3 v_ray;
+void main() {
+  vec2 p = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0;
+  gl_Position = vec4(p, 1.0, 1.0);
+  vec4 a = u_inverse_view_projection * vec4(p, 1.0, 1.0), b = u_inverse_view_projection * vec4(p, -1.0, 1.0);
+  v_ray = a.xyz / a.w - b.xyz / b.w;
+}
+)";
+
+inline constexpr const char* kSkyFragment = R"(
+in vec3 v_ray;
+uniform vec3 u_to_sun, u_sun_color, u_zenith_color, u_haze_color;
+out vec4 o_color;
+float hash(vec2 p) { return fract(sin(dot(p, vec2(41.3, 289.1))) * 43758.5453); }
+float noise(vec2 p) {
+  vec2 i = floor(p), f = fract(p);
+  f = f * f * (3.0 - 2.0 * f);
+  return mix(mix(hash(i), hash(i + vec2(1, 0)), f.x), mix(hash(i + vec2(0, 1)), hash(i + vec2(1, 1)), f.x), f.y);
+}
+void main() {
+  vec3 d = normalize(v_ray);
+  float up = max(d.y, 0.0);
+  vec3 color = mix(u_haze_color, u_zenith_color, pow(up, 0.45));
+  vec2 q = d.xz / (up + 0.12) * 1.4;
+  float cloud = noise(q) * 0.55 + noise(q * 2.3 + 7.0) * 0.3 + noise(q * 5.1) * 0.15;
+  color = mix(color, vec3(1.15, 1.12, 1.07), smoothstep(0.52, 0.85, cloud) * smoothstep(0.02, 0.25, d.y) * 0.65);
+  float glow = max(dot(d, u_to_sun), 0.0);
+  color += u_sun_color * (pow(glow, 500.0) * 4.0 + pow(glow, 12.0) * 0.08);
+  color = (color * (2.51 * color + 0.03)) / (color * (2.43 * color + 0.59) + 0.14);
+  o_color = vec4(pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
+}
+)";
+
+}  // namespace flaneur
