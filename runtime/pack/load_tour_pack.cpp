@@ -189,6 +189,20 @@ PackImpostor ReadImpostor(const GltfFile& file, const Json& json) {
   return out;
 }
 
+// Every cell of the atlas lies in both images. Without images there is nothing to check.
+void CheckAtlas(const PackImpostor& impostor, const std::vector<PackImage>& images) {
+  if (images.empty()) return;
+  const int64_t width = int64_t{impostor.directions} * impostor.cell_width_px;
+  const int64_t height = int64_t{impostor.frames} * static_cast<int64_t>(impostor.elevations_deg.size()) *
+                         impostor.cell_height_px;
+  for (int i : {impostor.albedo_image, impostor.normal_image}) {
+    const PackImage& image = images[static_cast<size_t>(i)];
+    if (width < 1 || height < 1 || width > image.width_px || height > image.height_px) {
+      throw PackRefused("has an impostor whose cells do not fit in image " + std::to_string(i));
+    }
+  }
+}
+
 void CheckJoints(const PackMesh& mesh, int joints) {
   for (const PackPrimitive& primitive : mesh.primitives) {
     for (const auto& four : primitive.joints) {
@@ -219,7 +233,9 @@ PackAvatar ReadAvatar(const GltfFile& file, const Json& json, MeshTable* meshes,
     level.error_mm = Number(level_json, "error_mm");
     level.posed_error_mm = Number(level_json, "posed_error_mm");
     level.switch_px = Number(level_json, "switch_px");
-    skin = Index(node, "skin", Member(file.json, "skins").size());
+    const int level_skin = Index(node, "skin", Member(file.json, "skins").size());
+    if (skin >= 0 && level_skin != skin) throw PackRefused("has an avatar '" + avatar.name + "' with two skins");
+    skin = level_skin;
     avatar.levels.push_back(level);
   }
   if (avatar.levels.empty()) throw PackRefused("has an avatar '" + avatar.name + "' without levels");
@@ -234,6 +250,7 @@ PackAvatar ReadAvatar(const GltfFile& file, const Json& json, MeshTable* meshes,
   avatar.idle = ReadClip(file, skin, IndexOrNone(clips, "idle", animations));
   avatar.talk = clips.contains("talk") ? ReadClip(file, skin, IndexOrNone(clips, "talk", animations)) : avatar.idle;
   avatar.impostor = ReadImpostor(file, Member(json, "impostor"));
+  CheckAtlas(avatar.impostor, pack.images);
   return avatar;
 }
 
@@ -321,13 +338,17 @@ void Load(std::vector<uint8_t> bytes, const LoadOptions& options, TourPack* pack
 Error LoadTourPack(const std::filesystem::path& path, const LoadOptions& options, TourPack* pack) {
   std::vector<uint8_t> bytes;
   if (Error e = ReadFile(path, &bytes)) return e;
+  return ParseTourPack(std::move(bytes), path.string(), options, pack);
+}
+
+Error ParseTourPack(std::vector<uint8_t> bytes, const std::string& name, const LoadOptions& options, TourPack* pack) {
   try {
     TourPack loaded;
     Load(std::move(bytes), options, &loaded);
     *pack = std::move(loaded);
     return Ok();
   } catch (const std::exception& e) {
-    return Fail(path.string() + ": " + OneLine(e.what()));
+    return Fail(name + ": " + OneLine(e.what()));
   }
 }
 

@@ -158,4 +158,7 @@ struct LoadOptions { bool geometry_and_images = true; };  // false: enough for a
 // Errors: no such file, not a glTF binary, truncated, no FLANEUR_tour, a newer version, an index out of range (names it).
 Error LoadTourPack(const std::filesystem::path& path, const LoadOptions& options, TourPack* pack);
 
+// The same from memory; `name` stands for the path in messages.
+Error ParseTourPack(std::vector<uint8_t> bytes, const std::string& name, const LoadOptions& options, TourPack* pack);
+
 }  // namespace flaneur

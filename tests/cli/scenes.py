@@ -1,4 +1,5 @@
 """Tiny glTF files made by hand: a box town, and what is wrong with a file."""
+import math
 import struct
 
 from support import write_glb
@@ -39,8 +40,8 @@ def write_town(path, parts):
             accessor = {"bufferView": len(gltf["bufferViews"]) - 1, "componentType": component,
                         "count": len(values) // (3 if kind == "VEC3" else 1), "type": kind}
             if kind == "VEC3":
-                accessor["min"] = [min(p[i] for p in positions) for i in range(3)]
-                accessor["max"] = [max(p[i] for p in positions) for i in range(3)]
+                finite = [[p[i] for p in positions if math.isfinite(p[i])] or [0.0] for i in range(3)]
+                accessor["min"], accessor["max"] = [min(v) for v in finite], [max(v) for v in finite]
             gltf["accessors"].append(accessor)
             binary += data
         gltf["meshes"].append({"primitives": [{"attributes": {"POSITION": first}, "indices": first + 1}]})

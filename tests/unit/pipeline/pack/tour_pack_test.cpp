@@ -1,0 +1,338 @@
+// Packs written and read again: both halves of the contract at once, and what a reader does with broken bytes.
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <random>
+
+#include "pipeline/core/temporary_folder.h"
+#include "pipeline/pack/write_tour_pack.h"
+#include "runtime/base/file.h"
+#include "runtime/pack/tour_pack.h"
+#include "tests/unit/pipeline/test_person.h"
+
+namespace flaneur {
+namespace {
+
+Image Png(const std::string& name, int width, int height) {
+  std::vector<uint8_t> pixels(static_cast<size_t>(width * height) * 4);
+  for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<uint8_t>(i * 7 + name.size());
+  Image image{name, "image/png", {}};
+  stbi_write_png_to_func(
+      [](void* context, void* data, int size) {
+        auto* bytes = static_cast<std::vector<uint8_t>*>(context);
+        bytes->insert(bytes->end(), static_cast<uint8_t*>(data), static_cast<uint8_t*>(data) + size);
+      },
+      &image.bytes, width, height, 4, pixels.data(), 4 * width);
+  return image;
+}
+
+Mesh Quad() {
+  Mesh mesh;
+  mesh.name = "quad";
+  mesh.material = 0;
+  mesh.positions = {{-20, 0, -20}, {20, 0, -20}, {20, 0, 20}, {-20, 0, 20}};
+  mesh.normals.assign(4, Vec3{0, 1, 0});
+  mesh.uvs = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  mesh.indices = {0, 2, 1, 0, 3, 2};
+  return mesh;
+}
+
+Scene SmallTown() {
+  Scene town;
+  Material material;
+  material.name = "cobbles";
+  material.base_color_image = 0;
+  town.materials = {material};
+  town.images = {Png("cobbles", 4, 4)};
+  town.meshes = {Quad()};
+  for (int i = 0; i < 3; ++i) {  // the last one shears, which no glTF node can say
+    SceneNode node;
+    node.name = "part_" + std::to_string(i);
+    node.meshes = {0};
+    node.kind = NodeKind::kGround;
+    node.ground = GroundKind::kSquare;
+    node.world = Moved({static_cast<float>(50 * i), 0, 0});
+    if (i == 2) node.world.m[1][0] = 0.5f;
+    town.nodes.push_back(node);
+  }
+  return town;
+}
+
+ImpostorAtlas SmallAtlas() {
+  ImpostorAtlas atlas;
+  atlas.directions = 4;
+  atlas.elevations_deg = {0, 20};
+  atlas.frames = 3;
+  atlas.cell_width_px = 4;
+  atlas.cell_height_px = 8;
+  atlas.window_width_m = 1;
+  atlas.window_height_m = 2;
+  atlas.bottom_m = -0.05f;
+  atlas.depth_range_m = 0.5f;
+  atlas.clips = {{"walk", 0, 2}, {"idle", 2, 1}};
+  atlas.albedo = Png("albedo", 16, 48);
+  atlas.normal = Png("normal!", 16, 48);
+  return atlas;
+}
+
+AvatarLevels TwoLevels() {
+  AvatarLevels levels = OneLevel(MadePerson());
+  AvatarLevel coarse = levels.levels[0];
+  for (Mesh& mesh : coarse.meshes) mesh.indices.resize(mesh.indices.size() / 6 * 3);
+  coarse.triangles = 0;
+  for (const Mesh& mesh : coarse.meshes) coarse.triangles += TriangleCount(mesh);
+  coarse.posed_error_mm = 12.5f;
+  levels.levels[0].switch_px = 90;
+  levels.levels.push_back(coarse);
+  return levels;
+}
+
+Footprints SmallFootprints() {
+  Footprints footprints;
+  Obstacle house, tree;
+  house.name = "house_1";
+  house.outer = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  house.holes = {{{1, 1}, {1, 2}, {2, 2}, {2, 1}}};
+  tree.name = "tree_1";
+  tree.kind = ObstacleKind::kTree;
+  tree.center = {-3, 2};
+  tree.radius_m = 0.4;
+  footprints.obstacles = {house, tree};
+  return footprints;
+}
+
+TourParts SmallTour() {
+  TourParts parts;
+  parts.name = "small";
+  parts.town = SmallTown();
+  parts.avatars = {{TwoLevels(), SmallAtlas(), 2.5f}};
+  parts.footprints = SmallFootprints();
+  parts.ground = {{-20, -20}, 10, 4, 3, std::vector<float>(12, 0.25f), std::vector<uint8_t>(12, 3)};
+  parts.ground.height_m[5] = -1.5f;
+  parts.places = {{"west", "exit", {-18, 0}, 2}};
+  parts.path = {{{1, 2}, 0.5f, 3, "Grüß Gott"}};
+  parts.crowd.people = 17;
+  parts.control.method = "frame_time";
+  parts.light.day_length_s = 0;
+  return parts;
+}
+
+std::vector<uint8_t> Written(const TourParts& parts) {
+  TemporaryFolder folder;
+  EXPECT_FALSE(folder.Create("flaneur_test_"));
+  size_t size = 0;
+  EXPECT_EQ(WriteTourPack(folder.path() / "small.glb", parts, &size).message, "");
+  std::vector<uint8_t> bytes;
+  EXPECT_FALSE(ReadFile(folder.path() / "small.glb", &bytes));
+  EXPECT_EQ(bytes.size(), size);
+  return bytes;
+}
+
+TourPack Read(const std::vector<uint8_t>& bytes, const LoadOptions& options = {}) {
+  TourPack pack;
+  EXPECT_EQ(ParseTourPack(bytes, "small.glb", options, &pack).message, "");
+  return pack;
+}
+
+TEST(TourPack, TheSamePartsGiveTheSameBytes) { EXPECT_EQ(Written(SmallTour()), Written(SmallTour())); }
+
+TEST(TourPack, BringsTheTourAcross) {
+  const TourPack pack = Read(Written(SmallTour()));
+  EXPECT_EQ(pack.name, "small");
+  ASSERT_EQ(pack.obstacles.size(), 2u);
+  EXPECT_EQ(pack.obstacles[0].name, "house_1");
+  EXPECT_EQ(pack.obstacles[0].kind, "building");
+  EXPECT_EQ(pack.obstacles[0].outer.size(), 4u);
+  ASSERT_EQ(pack.obstacles[0].holes.size(), 1u);
+  EXPECT_EQ(pack.obstacles[0].holes[0][1].y, 2);
+  EXPECT_FLOAT_EQ(pack.obstacles[1].radius_m, 0.4f);
+  EXPECT_FLOAT_EQ(pack.obstacles[1].center.x, -3);
+  EXPECT_EQ(pack.ground.columns, 4);
+  EXPECT_EQ(pack.ground.rows, 3);
+  EXPECT_EQ(pack.ground.height_m[5], -1.5f);
+  EXPECT_EQ(pack.ground.kind, std::vector<uint8_t>(12, 3));
+  ASSERT_EQ(pack.places.size(), 1u);
+  EXPECT_EQ(pack.places[0].kind, "exit");
+  ASSERT_EQ(pack.path.size(), 1u);
+  EXPECT_EQ(pack.path[0].caption, "Grüß Gott");
+  EXPECT_EQ(pack.crowd.people, 17);
+  EXPECT_EQ(pack.control.method, "frame_time");
+  EXPECT_EQ(pack.control.r_high_m, ControlSettings{}.r_high_m);
+  EXPECT_EQ(pack.light.day_length_s, 0);
+}
+
+TEST(TourPack, BringsTheTownAcross) {
+  const TourPack pack = Read(Written(SmallTour()));
+  ASSERT_EQ(pack.town.size(), 3u);
+  for (const TownInstance& part : pack.town) {
+    const int i = part.name.back() - '0';
+    const PackPrimitive& quad = pack.meshes[static_cast<size_t>(part.mesh)].primitives.at(0);
+    EXPECT_EQ(quad.indices.size(), 6u);
+    ASSERT_GE(quad.material, 0);
+    EXPECT_GE(pack.materials[static_cast<size_t>(quad.material)].base_color_image, 0);
+    float least_x = 1e9f;
+    for (const Vec3& p : quad.positions) least_x = std::min(least_x, TransformPoint(part.world, p).x);
+    EXPECT_NEAR(least_x, 50 * i - 20, 0.01);
+  }
+}
+
+TEST(TourPack, BringsAvatarsAcross) {
+  const TourParts parts = SmallTour();
+  const TourPack pack = Read(Written(parts));
+  ASSERT_EQ(pack.avatars.size(), 1u);
+  const PackAvatar& avatar = pack.avatars[0];
+  EXPECT_EQ(avatar.name, "made");
+  EXPECT_EQ(avatar.share, 2.5f);
+  EXPECT_EQ(avatar.walk_speed_mps, 1.2f);
+  ASSERT_EQ(avatar.levels.size(), 2u);
+  EXPECT_EQ(avatar.levels[0].switch_px, 90);
+  EXPECT_EQ(avatar.levels[1].posed_error_mm, 12.5f);
+  for (const PackLevel& level : avatar.levels) {
+    size_t triangles = 0;
+    for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(level.mesh)].primitives) {
+      triangles += p.indices.size() / 3;
+      EXPECT_EQ(p.joints.size(), p.positions.size());
+    }
+    EXPECT_EQ(triangles, static_cast<size_t>(level.triangles));
+  }
+  const PackImage& albedo = pack.images[static_cast<size_t>(avatar.impostor.albedo_image)];
+  EXPECT_EQ(albedo.width_px, 16);
+  EXPECT_EQ(albedo.height_px, 48);
+  ASSERT_EQ(avatar.impostor.clips.size(), 2u);
+  EXPECT_EQ(avatar.impostor.clips[1].first_frame, 2);
+}
+
+TEST(TourPack, ItsPersonMovesAsTheEditableOneDid) {
+  const TourParts parts = SmallTour();
+  const Avatar& source = parts.avatars[0].levels.avatar;
+  const PackAvatar avatar = Read(Written(parts)).avatars.at(0);
+  EXPECT_EQ(avatar.walk.frames, 30);
+  EXPECT_FLOAT_EQ(avatar.walk.duration_s, 1);
+  EXPECT_EQ(avatar.idle.frames, 1);  // has none: stands
+  const size_t joints = static_cast<size_t>(avatar.joints);
+  ASSERT_EQ(avatar.walk.matrices.size(), 30 * joints);
+  for (int frame = 0; frame < 30; ++frame) {
+    const std::vector<Mat4> wanted = SkinningMatrices(source, source.clips[0], static_cast<float>(frame) / 30);
+    for (size_t j = 0; j < joints; ++j) {
+      const Vec3 foot{0.1f, 0, 0.1f};
+      const Vec3 a = TransformPoint(wanted[j], foot);
+      const Vec3 b = TransformPoint(avatar.walk.matrices[static_cast<size_t>(frame) * joints + j], foot);
+      EXPECT_LT(Length(a - b), 0.002f) << frame << ' ' << j;
+    }
+  }
+}
+
+TEST(TourPack, WithoutGeometryTheCrowdHasAllItNeeds) {
+  const TourPack pack = Read(Written(SmallTour()), LoadOptions{false});
+  EXPECT_TRUE(pack.images.empty());
+  EXPECT_EQ(pack.obstacles.size(), 2u);
+  EXPECT_EQ(pack.ground.height_m.size(), 12u);
+  EXPECT_EQ(pack.avatars.at(0).levels.size(), 2u);
+}
+
+void Put(std::vector<uint8_t>* bytes, size_t offset, size_t value) {
+  const uint32_t word = static_cast<uint32_t>(value);
+  std::memcpy(bytes->data() + offset, &word, 4);
+}
+
+uint32_t Get(const std::vector<uint8_t>& bytes, size_t offset) {
+  uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + offset, 4);
+  return word;
+}
+
+bool Refused(std::vector<uint8_t> bytes) {
+  TourPack pack;
+  pack.name = "untouched";
+  const Error error = ParseTourPack(std::move(bytes), "small.glb", LoadOptions{}, &pack);
+  if (error) {
+    EXPECT_EQ(error.message.rfind("small.glb: ", 0), 0u) << error.message;
+    EXPECT_EQ(error.message.find('\n'), std::string::npos);
+    EXPECT_EQ(pack.name, "untouched");
+  }
+  return static_cast<bool>(error);
+}
+
+TEST(TourPack, EveryPrefixIsRefused) {
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  for (size_t size = 0; size < whole.size(); ++size) {
+    ASSERT_TRUE(Refused({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)})) << size;
+  }
+}
+
+// The container's own lengths agree with the shorter file, so that the cut is met further in.
+TEST(TourPack, EveryPrefixWithFittingLengthsIsRefused) {
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  const size_t binary = 20 + Get(whole, 12);
+  for (size_t size = binary; size < whole.size(); size += 37) {
+    std::vector<uint8_t> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    Put(&cut, 8, size);
+    if (size >= binary + 8) Put(&cut, binary, size - binary - 8);
+    ASSERT_TRUE(Refused(std::move(cut))) << size;
+  }
+}
+
+TEST(TourPack, RandomDamageNeverCrashesTheReader) {
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  std::mt19937 random(1);
+  int refused = 0;
+  for (int round = 0; round < 3000; ++round) {
+    std::vector<uint8_t> bytes = whole;
+    for (int flips = 1 + static_cast<int>(random() % 4); flips > 0; --flips) {
+      bytes[random() % bytes.size()] ^= static_cast<uint8_t>(1u << (random() % 8));
+    }
+    refused += Refused(std::move(bytes)) ? 1 : 0;
+  }
+  EXPECT_GT(refused, 1000);
+}
+
+// Digits of the JSON are the counts, offsets and indices: the damage that hurts most.
+TEST(TourPack, WrongNumbersNeverCrashTheReader) {
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  const size_t end = 20 + Get(whole, 12);
+  std::mt19937 random(2);
+  for (size_t i = 20; i < end; ++i) {
+    if (whole[i] < '0' || whole[i] > '9') continue;
+    std::vector<uint8_t> bytes = whole;
+    bytes[i] = static_cast<uint8_t>("0123456789-e"[random() % 12]);
+    Refused(std::move(bytes));
+  }
+}
+
+TEST(TourPack, OtherVersionsAreRefusedByNumber) {
+  std::vector<uint8_t> bytes = Written(SmallTour());
+  const std::string member = "\"version\":1";
+  const auto at = std::search(bytes.begin(), bytes.end(), member.begin(), member.end());
+  ASSERT_NE(at, bytes.end());
+  at[static_cast<std::ptrdiff_t>(member.size()) - 1] = '9';
+  TourPack pack;
+  const std::string message = ParseTourPack(bytes, "small.glb", LoadOptions{}, &pack).message;
+  EXPECT_NE(message.find("version 9"), std::string::npos) << message;
+}
+
+TEST(TourPack, AGlbWithoutATourIsNamedSo) {
+  TourPack pack;
+  const std::string text = "{\"asset\":{\"version\":\"2.0\"}} ";
+  std::vector<uint8_t> bytes(20);
+  std::memcpy(bytes.data(), "glTF", 4);
+  Put(&bytes, 4, 2);
+  Put(&bytes, 8, 20 + text.size());
+  Put(&bytes, 12, text.size());
+  std::memcpy(bytes.data() + 16, "JSON", 4);
+  bytes.insert(bytes.end(), text.begin(), text.end());
+  const std::string message = ParseTourPack(bytes, "x.glb", LoadOptions{}, &pack).message;
+  EXPECT_NE(message.find("FLANEUR_tour"), std::string::npos) << message;
+  EXPECT_NE(message.find("flaneur bake"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace flaneur
