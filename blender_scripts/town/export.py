@@ -1,6 +1,9 @@
 """Blender objects from the gathered meshes, and the GLB."""
 
+import json
+import math
 import os
+import struct
 
 import bpy
 import numpy as np
@@ -52,14 +55,16 @@ def _image(name, pixels, seed, folder):
 def make_blender_mesh(name, mesh, part, colors, materials):
     """A Blender mesh with flat normals unless given, texture coordinates and vertex colours.
 
-    Corners share a point only if they share its colour too: the exporter of Blender 3.4 mixes up colours that are
-    stored by corner, so they are stored by point.
+    Corners share a point only if they share its colour and normal too. So colours can be stored by point (the exporter
+    of Blender 3.4 mixes up those stored by corner), and walls come out flat although every point has one normal, which
+    lets the exporter share points within a wall.
     """
     keep = part.area > 1e-6
     corner_kept = keep[part.face]
     points = part.points[corner_kept]
-    shades = np.round(colors[corner_kept] * 4095)
-    key = np.concatenate([np.round(points * 10000), shades], axis=1).astype(np.int64)
+    normals = part.normals[corner_kept]
+    key = np.concatenate([np.round(points * 10000), np.round(colors[corner_kept] * 4095), np.round(normals * 100)], axis=1)
+    key = key.astype(np.int64)
     _, chosen, inverse = np.unique(key, axis=0, return_index=True, return_inverse=True)
     inverse = inverse.reshape(-1)
     sizes = part.sizes[keep]
@@ -70,16 +75,15 @@ def make_blender_mesh(name, mesh, part, colors, materials):
     data.loops.foreach_set("vertex_index", inverse.astype(np.int32))
     data.polygons.add(len(sizes))
     data.polygons.foreach_set("loop_start", np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int32))
-    data.polygons.foreach_set("loop_total", sizes.astype(np.int32))
+    if not bpy.types.MeshPolygon.bl_rna.properties["loop_total"].is_readonly:   # later versions find it themselves
+        data.polygons.foreach_set("loop_total", sizes.astype(np.int32))
     used = sorted(set(mesh.materials))
     for material in used:
         data.materials.append(materials[material])
     slot = {material: i for i, material in enumerate(used)}
     indices = np.array([slot[m] for m in mesh.materials], np.int32)[keep]
     data.polygons.foreach_set("material_index", indices)
-    smooth = np.zeros(len(part.sizes), bool)
-    smooth[list(mesh.normals)] = True
-    data.polygons.foreach_set("use_smooth", smooth[keep])
+    data.polygons.foreach_set("use_smooth", np.ones(len(sizes), bool))
     data.update(calc_edges=True)
     layer = data.uv_layers.new(name="UVMap")
     layer.data.foreach_set("uv", np.array(mesh.uvs, np.float32)[corner_kept].ravel())
@@ -89,10 +93,10 @@ def make_blender_mesh(name, mesh, part, colors, materials):
     attribute.data.foreach_set("color", rgba.ravel())
     data.color_attributes.active_color = attribute
     data.color_attributes.render_color_index = 0
-    if smooth.any():
+    if mesh.normals:
         if hasattr(data, "use_auto_smooth"):   # gone from Blender 4.1 on, where custom normals need no switch
-            data.use_auto_smooth = True
-        data.normals_split_custom_set([tuple(n) for n in part.normals[corner_kept].tolist()])
+            data.use_auto_smooth, data.auto_smooth_angle = True, math.pi
+        data.normals_split_custom_set_from_vertices([tuple(n) for n in normals[chosen].tolist()])
     return data
 
 
@@ -119,3 +123,24 @@ def write_glb(path):
             "export_tangents": False}
     known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
     bpy.ops.export_scene.gltf(**{key: value for key, value in wish.items() if key in known})
+    _snap_normals(path)
+
+
+def _snap_normals(path):
+    """Rounds the file's normals: Blender sums them on several threads, so that their last bits differ between runs."""
+    with open(path, "rb") as file:
+        data = bytearray(file.read())
+    length = struct.unpack_from("<I", data, 12)[0]
+    gltf = json.loads(data[20:20 + length])
+    binary = 20 + length + 8
+    for mesh in gltf["meshes"]:
+        for primitive in mesh["primitives"]:
+            accessor = gltf["accessors"][primitive["attributes"]["NORMAL"]]
+            view = gltf["bufferViews"][accessor["bufferView"]]
+            start = binary + view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+            normals = np.frombuffer(data, np.float32, accessor["count"] * 3, start).reshape(-1, 3)
+            normals = np.round(normals.astype(np.float64) * 4096) / 4096 + 0.0
+            normals /= np.linalg.norm(normals, axis=1)[:, None]
+            data[start:start + normals.size * 4] = normals.astype(np.float32).tobytes()
+    with open(path, "wb") as file:
+        file.write(data)
