@@ -11,7 +11,12 @@
 namespace flaneur {
 namespace {
 
-struct Refused { const toml::node* node; std::string why; };
+// Keeps the line, not the node: the document is gone when this is caught.
+struct Refused {
+  Refused(const toml::node* node, std::string what) : line(node->source().begin.line), why(std::move(what)) {}
+  uint32_t line;
+  std::string why;
+};
 
 // One table read field by field; Finish() refuses what nobody asked for.
 class Table {
@@ -222,7 +227,7 @@ Error ReadScenario(const std::filesystem::path& path, Scenario* scenario) {
   } catch (const toml::parse_error& e) {
     return Fail(at(e.source().begin.line) + "not TOML: " + OneLine(e.description()));
   } catch (const Refused& e) {
-    return Fail(at(e.node->source().begin.line) + e.why);
+    return Fail(at(e.line) + e.why);
   }
 }
 

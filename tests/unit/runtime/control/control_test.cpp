@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "runtime/control/crowd_influence.h"
+#include "runtime/control/level_control.h"
+#include "runtime/control/view_volumes.h"
+
+namespace flaneur {
+namespace {
+
+// The inner wedge by angles, as the design states it: an independent formulation.
+bool InWedgeByAngle(Vec2 p, Vec2 apex, float yaw_rad, float fov_rad) {
+  const Vec2 off = p - apex;
+  float angle = std::atan2(off.y, off.x) - yaw_rad;
+  while (angle > kPi) angle -= 2 * kPi;
+  while (angle < -kPi) angle += 2 * kPi;
+  return std::abs(angle) <= fov_rad / 2;
+}
+
+TEST(ViewVolumes, AgreeWithTheDefinitionByAngles) {
+  Random random{3};
+  for (int i = 0; i < 100000; ++i) {
+    const Vec2 p{random.Uniform(-50, 50), random.Uniform(-50, 50)};
+    const Vec2 c{random.Uniform(-5, 5), random.Uniform(-5, 5)};
+    const float yaw = random.Uniform(-kPi, kPi), fov = random.Uniform(0.3f, 2.4f);
+    const Vec2 off = p - c;
+    const float edge = std::abs(std::abs(std::remainder(std::atan2(off.y, off.x) - yaw, 2 * kPi)) - fov / 2);
+    if (edge < 1e-4f) continue;
+    ASSERT_EQ(InWedge(p, c, yaw, fov), InWedgeByAngle(p, c, yaw, fov));
+  }
+}
+
+TEST(ViewVolumes, NobodyBecomesVisibleWithoutAStepInTheBoundary) {
+  Random random{11};
+  MotionLimits limits;
+  limits.reach_m = 120;
+  ViewCamera camera{{0, 0}, 0, 1.05f};
+  const float back_m = OuterApexBack_m(limits, camera.fov_rad);
+  std::vector<Vec2> people(50);
+  for (Vec2& p : people) p = {random.Uniform(-80, 80), random.Uniform(-80, 80)};
+  std::vector<ViewClass> view(people.size());
+  for (size_t i = 0; i < people.size(); ++i) view[i] = Classify(people[i], camera, back_m);
+  for (int step = 0; step < 20000; ++step) {  // 10^6 moves of a person
+    camera.yaw_rad += random.Uniform(-1, 1) > 0 ? limits.yaw_rate_radps * limits.step_s : -limits.yaw_rate_radps * limits.step_s;
+    const float way = random.Uniform(-kPi, kPi);
+    camera.position = camera.position + Vec2{std::cos(way), std::sin(way)} * (limits.camera_speed_mps * limits.step_s);
+    if (Length(camera.position) > 20) camera.position = {};
+    for (size_t i = 0; i < people.size(); ++i) {
+      const float heading = random.Uniform(-kPi, kPi);
+      people[i] = people[i] + Vec2{std::cos(heading), std::sin(heading)} * (limits.person_speed_mps * limits.step_s);
+      const ViewClass now = Classify(people[i], camera, back_m);
+      if (Length(camera.position) > 0) {
+        ASSERT_FALSE(now == ViewClass::kVisible && view[i] == ViewClass::kOutside) << "step " << step;
+      }
+      view[i] = now;
+    }
+  }
+}
+
+Crowd PeopleInView(int count, Random* random) {
+  Crowd crowd;
+  for (int i = 0; i < count; ++i) {
+    Person p;
+    p.position = {random->Uniform(1, 60), random->Uniform(-15, 15)};
+    AddPerson(p, &crowd);
+    crowd.view.back() = ViewClass::kVisible;
+  }
+  return crowd;
+}
+
+TEST(LevelControl, TheBudgetAlwaysHoldsAndCountsAgree) {
+  Random random{5};
+  const std::vector<AvatarCosts> avatars{{{{9000, 300}, {4000, 120}, {900, 0}}, 1.75f, 128}};
+  for (int round = 0; round < 200; ++round) {
+    Crowd crowd = PeopleInView(random.Below(300), &random);
+    LevelSettings settings;
+    settings.high_limit = random.Below(30);
+    settings.budget_triangles = random.Below(150000);
+    LevelState state;
+    for (int step = 0; step < 5; ++step) {
+      ChooseLevels(crowd, avatars, ViewCamera{}, 0, 0, settings, 1.0f / 30, &state);
+      int64_t triangles = 0;
+      int high = 0;
+      for (int level : state.level) {
+        if (level >= 0) ++high;
+        triangles += level >= 0 ? avatars[0].levels[static_cast<size_t>(level)].triangles : level == kImpostor ? 2 : 0;
+      }
+      ASSERT_LE(triangles, settings.budget_triangles);
+      ASSERT_EQ(triangles, state.triangles);
+      ASSERT_LE(high, settings.high_limit);
+      ASSERT_EQ(high, state.high);
+    }
+  }
+}
+
+TEST(LevelControl, NobodyFlickersWhereNothingMoves) {
+  Random random{9};
+  const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
+  Crowd crowd = PeopleInView(100, &random);
+  LevelState state;
+  for (int step = 0; step < 600; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, 0, 0, LevelSettings{}, 1.0f / 30, &state);
+  for (int step = 0; step < 100; ++step) {
+    ChooseLevels(crowd, avatars, ViewCamera{}, 0, 0, LevelSettings{}, 1.0f / 30, &state);
+    ASSERT_EQ(state.switches_in_view, 0);
+  }
+}
+
+TEST(CrowdInfluence, OnlyLowResolutionVisiblePeopleAvoidTheCameraAndOnlyAtTheLimit) {
+  Random random{13};
+  Crowd crowd = PeopleInView(60, &random);
+  LevelState state;
+  state.level.assign(60, kImpostor);
+  state.level[0] = 0;
+  InfluenceSettings settings;
+  settings.adaptation = Adaptation::kPaper;
+  std::vector<MovingObstacle> obstacles;
+  state.high = settings.high_limit - 1;
+  InfluenceCrowd(ViewCamera{}, {}, 0, state, settings, &crowd, &obstacles);
+  EXPECT_TRUE(obstacles.empty());
+  state.high = settings.high_limit;
+  InfluenceCrowd(ViewCamera{}, {}, 0, state, settings, &crowd, &obstacles);
+  EXPECT_EQ(obstacles.size(), 2u);
+  EXPECT_FALSE(crowd.avoids_camera[0]);
+  for (size_t i = 1; i < crowd.size(); ++i) {
+    EXPECT_EQ(crowd.avoids_camera[i] != 0, Length(crowd.position[i]) <= settings.r_unimportant_m);
+  }
+}
+
+}  // namespace
+}  // namespace flaneur

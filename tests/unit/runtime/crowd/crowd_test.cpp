@@ -1,0 +1,111 @@
+#include "runtime/crowd/crowd.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace flaneur {
+namespace {
+
+constexpr float kStep_s = 1.0f / 30;
+
+// A square field of 40 m with a house, a tree and a wall with a doorway of 1.5 m.
+Walkable Field() {
+  Walkable w;
+  w.ground = {{-20, -20}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)};
+  w.polygons.push_back({{{-8, -3}, {-3, -3}, {-3, 3}, {-8, 3}}, {}});
+  w.polygons.push_back({{{5, -20}, {5.3f, -20}, {5.3f, -0.75f}, {5, -0.75f}}, {}});
+  w.polygons.push_back({{{5, 0.75f}, {5.3f, 0.75f}, {5.3f, 20}, {5, 20}}, {}});
+  w.circles.push_back({{0, 6}, 0.5f});
+  BuildWalkable(0.3f, &w);
+  return w;
+}
+
+Crowd PeopleWhoCross(const Walkable& w, int count) {
+  Crowd crowd;
+  Random random{7};
+  while (static_cast<int>(crowd.size()) < count) {
+    Person p;
+    p.position = {random.Uniform(-19, 19), random.Uniform(-19, 19)};
+    p.top_mps = 1.9f;
+    p.preferred_mps = random.Uniform(1.0f, 1.5f);
+    if (!IsFree(w, p.position)) continue;
+    bool taken = false;
+    for (Vec2 other : crowd.position) taken = taken || Length(other - p.position) < 0.7f;
+    if (taken) continue;
+    p.field = FieldFor(w, {p.position.x > 0 ? -18.0f : 18.0f, std::round(p.position.y / 8) * 8}, &crowd);
+    AddPerson(p, &crowd);
+    crowd.view.back() = ViewClass::kVisible;
+  }
+  return crowd;
+}
+
+TEST(Crowd, NobodyOverlapsWarpsOrEntersAnObstacle) {
+  const Walkable w = Field();
+  Crowd crowd = PeopleWhoCross(w, 120);
+  for (int step = 0; step < 900; ++step) {
+    const std::vector<Vec2> before = crowd.position;
+    StepCrowd(w, {}, kStep_s, &crowd);
+    for (size_t i = 0; i < crowd.size(); ++i) {
+      ASSERT_LE(Length(crowd.position[i] - before[i]), crowd.top_mps[i] * kStep_s * 1.001f + 1e-5f);
+      ASSERT_FALSE(InsideObstacle(w, crowd.position[i])) << "person " << i << " at step " << step;
+      for (size_t j = 0; j < i; ++j) {
+        const float reach_m = crowd.radius_m[i] + crowd.radius_m[j];
+        ASSERT_GT(Length(crowd.position[i] - crowd.position[j]), reach_m - 0.05f) << "step " << step;
+      }
+    }
+  }
+}
+
+TEST(Crowd, OnePersonGoesRoundTheHouseToTheGoal) {
+  const Walkable w = Field();
+  Crowd crowd;
+  Person p;
+  p.position = {-15, 0};
+  p.field = FieldFor(w, {15, 0}, &crowd);
+  AddPerson(p, &crowd);
+  int step = 0;
+  while (!crowd.arrived[0] && step < 3000) {
+    StepCrowd(w, {}, kStep_s, &crowd);
+    ++step;
+  }
+  EXPECT_LT(static_cast<float>(step) * kStep_s, 1.25f * 31 / 1.3f) << "the way round is about 31 m at 1.3 m/s";
+}
+
+TEST(Crowd, AGoalBehindWallsIsUnreachable) {
+  Walkable w = Field();
+  w.polygons.push_back({{{5, -0.75f}, {5.3f, -0.75f}, {5.3f, 0.75f}, {5, 0.75f}}, {}});
+  BuildWalkable(0.3f, &w);
+  EXPECT_FALSE(Reachable(w, BuildFlowField(w, {15, 0}), {-15, 0}));
+  EXPECT_TRUE(Reachable(w, BuildFlowField(w, {-15, 10}), {-15, 0}));
+}
+
+TEST(Crowd, TheSameRunGivesTheSameState) {
+  const Walkable w = Field();
+  Crowd a = PeopleWhoCross(w, 80), b = PeopleWhoCross(w, 80);
+  for (int step = 0; step < 200; ++step) {
+    StepCrowd(w, {}, kStep_s, &a);
+    StepCrowd(w, {}, kStep_s, &b);
+  }
+  EXPECT_EQ(StateHash(a), StateHash(b));
+}
+
+TEST(Crowd, NobodyEntersTheVisitorsPersonalSpace) {
+  const Walkable w = Field();
+  Crowd crowd = PeopleWhoCross(w, 80);
+  const MovingObstacle visitor{{12, 0}, 0.6f, true};
+  std::vector<char> outside(crowd.size(), 0);
+  for (int step = 0; step < 600; ++step) {
+    StepCrowd(w, {visitor}, kStep_s, &crowd);
+    for (size_t i = 0; i < crowd.size(); ++i) {
+      const float distance_m = Length(crowd.position[i] - visitor.center);
+      if (outside[i]) {
+        ASSERT_GE(distance_m, 0.6f);
+      }
+      if (distance_m > 0.6f + crowd.radius_m[i]) outside[i] = 1;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flaneur
