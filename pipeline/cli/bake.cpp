@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -14,6 +15,7 @@
 #include "pipeline/avatar/decimate.h"
 #include "pipeline/cli/assemble_town.h"
 #include "pipeline/cli/bake_impostor.h"
+#include "pipeline/cli/thumbnail.h"
 #include "pipeline/cli/tour_settings.h"
 #include "pipeline/core/fingerprint.h"
 #include "pipeline/core/report.h"
@@ -30,6 +32,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr float kBareGroundMargin_m = 15;
+constexpr size_t kMostWarningsShown = 8;  // of a step on the terminal; the report has all
 // Part of every fingerprint: changed when a stage makes something else of the same input.
 constexpr const char* kStagesVersion = "1";
 
@@ -56,6 +59,18 @@ double PeakMemory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+void ShowProgress(int done, int steps, const StageReport& report, const std::vector<std::string>& warnings) {
+  std::fprintf(stderr, "[%*d/%d] %-10s %s ... ", steps > 9 ? 2 : 1, done, steps, report.stage.c_str(), report.item.c_str());
+  if (report.cached) std::fprintf(stderr, "cached\n");
+  else std::fprintf(stderr, "%.1f s\n", report.seconds);
+  for (size_t i = 0; i < std::min(warnings.size(), kMostWarningsShown); ++i) {
+    std::fprintf(stderr, "        warning: %s\n", warnings[i].c_str());
+  }
+  if (warnings.size() > kMostWarningsShown) {
+    std::fprintf(stderr, "        and %zu more warnings, see report.html\n", warnings.size() - kMostWarningsShown);
+  }
+}
+
 // Runs one item of a stage, reports it and shows progress.
 Error RunStep(Baking* baking, const std::string& stage, const std::string& item,
               const std::function<Error(StageReport*, std::vector<std::string>*)>& work) {
@@ -69,12 +84,8 @@ Error RunStep(Baking* baking, const std::string& stage, const std::string& item,
   if (report.peak_mb == 0) report.peak_mb = PeakMemory_mb();
   const std::lock_guard lock(baking->mutex);
   if (error) return error;
-  std::fprintf(stderr, "[%d/%d] %s %s  %s\n", ++baking->done, baking->steps, stage.c_str(), item.c_str(),
-               report.cached ? "cached" : (std::to_string(static_cast<int>(report.seconds + 0.5)) + " s").c_str());
-  for (const std::string& warning : warnings) {
-    baking->report.warnings.push_back(stage + " " + item + ": " + warning);
-    std::fprintf(stderr, "  warning: %s\n", warning.c_str());
-  }
+  ShowProgress(++baking->done, baking->steps, report, warnings);
+  for (const std::string& warning : warnings) baking->report.warnings.push_back(stage + " " + item + ": " + warning);
   baking->report.stages.push_back(std::move(report));
   return Ok();
 }
@@ -238,9 +249,9 @@ Error MakeImpostor(Baking* baking, size_t i) {
     TourAvatar& avatar = baking->parts.avatars[i];
     const fs::path folder = baking->Cache("impostor_" + name);
     const std::string fingerprint = ImpostorFingerprint(*baking, i);
-    report->picture_png = "cache/impostor_" + name + "/albedo.png";
     if (ReadCachedImpostor(folder, fingerprint, &avatar.impostor)) {
       report->cached = true;
+      report->picture_png = ImpostorThumbnail(avatar.impostor);
       return Ok();
     }
     ImpostorOptions options = baking->settings.impostor;
@@ -251,6 +262,7 @@ Error MakeImpostor(Baking* baking, size_t i) {
     report->figures = {{"cells", statistics.cells},
                        {"fill_rate", statistics.fill_rate},
                        {"blender_cpu_s", statistics.blender_cpu_s}};
+    report->picture_png = ImpostorThumbnail(avatar.impostor);
     return WriteCachedImpostor(folder, fingerprint, avatar.impostor);
   });
 }
@@ -276,22 +288,58 @@ Error MakeFootprints(Baking* baking) {
   });
 }
 
+// The doors and exits of tour.toml; the check finds the town's own by itself.
+std::vector<Gate> GatesOfSettings(const TourSettings& settings) {
+  std::vector<Gate> gates;
+  for (const PackPlace& place : settings.places) {
+    if (place.kind != "door" && place.kind != "exit") continue;
+    const Point2 at{static_cast<double>(place.position_m.x), static_cast<double>(place.position_m.y)};
+    gates.push_back({place.name, at, {}, place.kind == "exit"});
+  }
+  return gates;
+}
+
+// One line for each kind of error: how often, and the first place.
+void SummarizeErrors(const std::vector<Finding>& findings, std::vector<std::string>* warnings) {
+  std::map<int, std::pair<int, const Finding*>> by_code;
+  for (const Finding& f : findings) {
+    if (KindOf(f.code).severity != Severity::kError) continue;
+    auto& [count, first] = by_code[f.code];
+    if (count++ == 0) first = &f;
+  }
+  for (const auto& [code, entry] : by_code) {
+    char place[64];
+    std::snprintf(place, sizeof place, " at (%.1f, %.1f): ", entry.second->at_m.x, entry.second->at_m.y);
+    warnings->push_back(std::to_string(code) + " " + KindOf(code).title + ", " + std::to_string(entry.first) +
+                        (entry.first == 1 ? " time: " : " times, first: ") + entry.second->feature + place +
+                        entry.second->message);
+  }
+}
+
+void ReportFindings(const std::vector<Finding>& findings, StageReport* stage, BakeReport* report) {
+  double errors = 0;
+  for (const Finding& f : findings) {
+    const FindingKind& kind = KindOf(f.code);
+    errors += kind.severity == Severity::kError ? 1 : 0;
+    report->findings.push_back({f.code, SeverityName(kind.severity), kind.title, f.feature, f.message, kind.advice,
+                                {static_cast<float>(f.at_m.x), static_cast<float>(f.at_m.y)}});
+  }
+  stage->figures = {{"errors", errors}, {"warnings", static_cast<double>(findings.size()) - errors}};
+}
+
 // Findings do not stop a bake: the designer reads them in the report and decides.
 Error CheckTown(Baking* baking) {
   const std::string& name = baking->settings.name;
   return RunStep(baking, "check", name, [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
     CheckOptions options;
+    options.gates = GatesOfSettings(baking->settings);
     MapOptions map;
     map.title = name;
     map.ground = &baking->parts.ground;
     if (Error e = Check(baking->parts.footprints, &baking->parts.town, options, &map.findings)) return e;
-    double errors = 0;
-    for (const Finding& finding : map.findings) {
-      if (KindOf(finding.code).severity != Severity::kError) continue;
-      ++errors;
-      warnings->push_back(std::to_string(finding.code) + " " + finding.message);
-    }
-    report->figures = {{"errors", errors}, {"findings", static_cast<double>(map.findings.size())}};
+    SummarizeErrors(map.findings, warnings);
+    ReportFindings(map.findings, report, &baking->report);
+    if (Error e = WriteTextFile(baking->Cache("findings.json"), FindingsJson(map.findings))) return e;
     const fs::path svg = baking->Cache("map.svg");
     if (Error e = WriteMap(svg, baking->parts.footprints, map)) return e;
     return ReadTextFile(svg, &baking->report.map_svg);
@@ -342,7 +390,8 @@ bool ReportUnchanged(const fs::path& output, const std::string& name, const std:
     return false;
   }
   auto report = nlohmann::ordered_json::parse(text, nullptr, false);
-  if (!report.is_object() || !report.contains("stages")) return false;
+  if (!report.is_object() || !report.contains("stages") || !report.contains("pack")) return false;
+  if (report["pack"].value("bytes", uintmax_t{0}) != fs::file_size(output / (name + ".glb"), ec)) return false;
   for (auto& stage : report["stages"]) {
     stage["cached"] = true;
     stage["seconds"] = 0;

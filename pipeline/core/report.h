@@ -1,5 +1,6 @@
 // What a bake did: report.json for programs, report.html for people.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -7,6 +8,7 @@
 
 #include "pipeline/core/avatar.h"
 #include "runtime/base/error.h"
+#include "runtime/base/math.h"
 
 namespace flaneur {
 
@@ -17,7 +19,14 @@ struct StageReport {
   double peak_mb = 0;  // of the child process that did the work, else of this one so far
   std::vector<std::pair<std::string, double>> figures;  // further numbers, by their key in report.json
   std::vector<AvatarLevel> levels;                      // an avatar's, without geometry
-  std::string picture_png;                              // path, relative to the report; may be empty
+  std::vector<uint8_t> picture_png;                     // shown in report.html; may be empty
+};
+
+// What the check found, see docs/findings.md.
+struct ReportFinding {
+  int code = 0;
+  std::string severity, title, feature, message, advice;
+  Vec2 at_m;
 };
 
 struct BakeReport {
@@ -26,10 +35,14 @@ struct BakeReport {
   std::string pack_path;
   size_t pack_bytes = 0;
   std::string map_svg;  // the town's plan, inline in the HTML; may be empty
+  std::vector<ReportFinding> findings;
   std::vector<std::string> warnings;
 };
 
 // Writes report.json and report.html into the folder. Errors: as for WriteFile.
 Error WriteReport(const std::filesystem::path& folder, const BakeReport& report);
+
+// The page as text: needs no other file.
+std::string ReportHtml(const BakeReport& report);
 
 }  // namespace flaneur

@@ -15,7 +15,7 @@ def tour_of_foreign_parts():
 [[town.part]]
 file = "{shared_data(f'{TOWN}/building_{house}_blue.gltf')}"
 position_m = [{-16 + 16 * (i % 3)}, {-10 + 20 * (i // 3)}]
-yaw_deg = {90 * i}
+yaw_deg = {90 * (i % 4)}
 scale = 5
 """ for i, house in enumerate(HOUSES))
     avatars = "".join(f"""
