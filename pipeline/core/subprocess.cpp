@@ -152,8 +152,11 @@ Error RunBlenderScript(const fs::path& script, const std::string& settings_json,
   if (Error error = WriteTextFile(settings, settings_json)) return error;
   RunOptions run;
   run.log_file = options.log_file.empty() ? folder.path() / "log.txt" : options.log_file;
-  // The user's own Python modules and byte code folders stay untouched.
-  run.environment = {"PYTHONDONTWRITEBYTECODE=1"};
+  // The user's own Python modules and byte code folders stay untouched. A distribution's Blender takes
+  // the modules of the first python3 on PATH: let that be the one beside it, not a pyenv's or conda's.
+  const char* folders = std::getenv("PATH");
+  run.environment = {"PYTHONDONTWRITEBYTECODE=1",
+                     "PATH=" + blender.parent_path().string() + ":" + (folders ? folders : "")};
   std::vector<std::string> argv = {blender.string(), "--background", "--factory-startup",
                                    "--python-exit-code", "1"};
   if (options.threads > 0) argv.insert(argv.end(), {"--threads", std::to_string(options.threads)});
