@@ -1,4 +1,4 @@
-// The numbered findings of the check. docs/findings.md explains each.
+// The numbered findings of the check.
 #pragma once
 #include <string>
 #include <vector>
