@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <regex>
 #include <vector>
 
 #include "runtime/base/file.h"
@@ -23,10 +22,16 @@ std::vector<fs::path> PythonFiles(const fs::path& folder) {
 
 // The files beside a .gltf that its text names by "uri".
 std::vector<fs::path> NamedFiles(const fs::path& gltf, const std::string& text) {
-  static const std::regex uri("\"uri\"\\s*:\\s*\"([^\"]{1,512})\"");
+  constexpr std::string_view kKey = "\"uri\"";
   std::vector<fs::path> files;
-  for (std::sregex_iterator it(text.begin(), text.end(), uri), end; it != end; ++it) {
-    files.push_back(gltf.parent_path() / (*it)[1].str());
+  for (size_t at = text.find(kKey); at != std::string::npos; at = text.find(kKey, at)) {
+    at += kKey.size();
+    const size_t open = text.find_first_not_of(" \t\r\n:", at);
+    if (open == std::string::npos || text[open] != '"') continue;
+    const size_t close = text.find('"', open + 1);
+    if (close == std::string::npos) break;
+    const std::string uri = text.substr(open + 1, close - open - 1);
+    if (uri.rfind("data:", 0) != 0) files.push_back(gltf.parent_path() / uri);
   }
   return files;
 }

@@ -1,0 +1,53 @@
+#include "pipeline/core/fingerprint.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/core/temporary_folder.h"
+#include "runtime/base/file.h"
+
+namespace flaneur {
+namespace {
+
+class FingerprintFiles : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_FALSE(folder_.Create("flaneur_test_")); }
+  void Put(const std::string& name, const std::string& text) { ASSERT_FALSE(WriteTextFile(At(name), text)); }
+  std::filesystem::path At(const std::string& name) const { return folder_.path() / name; }
+  std::string Of(const std::string& name) const { return Fingerprint().AddFile(At(name)).Hex(); }
+  TemporaryFolder folder_;
+};
+
+TEST(Fingerprint, KeepsPartsAndNumbersApart) {
+  EXPECT_NE(Fingerprint().Add("ab").Add("c").Hex(), Fingerprint().Add("a").Add("bc").Hex());
+  EXPECT_NE(Fingerprint().Add(0.1).Hex(), Fingerprint().Add(0.1 + 1e-16 * 2).Hex());
+  EXPECT_EQ(Fingerprint().Add("x").Add(2).Hex(), Fingerprint().Add("x").Add(2.0).Hex());
+}
+
+TEST_F(FingerprintFiles, FollowTheContentNotTheName) {
+  Put("a.glb", "one");
+  Put("b.glb", "one");
+  EXPECT_EQ(Of("a.glb"), Of("b.glb"));
+  Put("b.glb", "two");
+  EXPECT_NE(Of("a.glb"), Of("b.glb"));
+}
+
+TEST_F(FingerprintFiles, OfAGltfFollowTheFilesItNames) {
+  Put("house.gltf", R"({"buffers": [{"uri" : "house.bin"}], "images": [{"uri":"data:image/png;base64,AAAA"}]})");
+  Put("house.bin", "walls");
+  const std::string before = Of("house.gltf");
+  Put("house.bin", "other walls");
+  EXPECT_NE(Of("house.gltf"), before);
+}
+
+TEST_F(FingerprintFiles, OfAFolderFollowItsScripts) {
+  Put("scripts/build.py", "a");
+  Put("scripts/notes.txt", "b");
+  const std::string before = Of("scripts");
+  Put("scripts/notes.txt", "c");
+  EXPECT_EQ(Of("scripts"), before);
+  Put("scripts/parts/house.py", "d");
+  EXPECT_NE(Of("scripts"), before);
+}
+
+}  // namespace
+}  // namespace flaneur
