@@ -3,31 +3,62 @@
 
 namespace flaneur {
 
-// Mean top walking acceleration of adults; starting and stopping takes about half a second (Fruin 1971, Teknomo 2002).
+// Starting and stopping takes adults about half a second (Fruin 1971; Teknomo 2002).
 inline constexpr float kMaxAcceleration_mps2 = 2.5f;
-// A walking person turns a corner of 90 degrees within about a second; standing people turn faster than this but need not.
-inline constexpr float kMaxTurnRate_radps = 2.8f;
-// How far ahead collisions are predicted; people start to evade 2 to 4 s before (Karamouzas, Skinner, Guy 2014).
-inline constexpr float kAnticipation_s = 3.0f;
-// Strength of the power-law interaction energy, tau^-2 exp(-tau / tau0) (same paper, section III).
-inline constexpr float kInteraction_k = 1.5f;
-inline constexpr float kInteraction_tau0_s = 3.0f;
+// A body turns a right angle in about half a second when it has to; on the way far slower.
+inline constexpr float kMaxTurnRate_radps = 3.6f;
+// Slower than this the body keeps its heading, so that a jam doesn't make people spin.
+inline constexpr float kTurnsAbove_mps = 0.15f;
 // Time in which people settle into the velocity they prefer (Helbing and Molnar 1995: 0.5 s).
 inline constexpr float kRelaxation_s = 0.5f;
-// Neighbours farther than this don't matter within the anticipation at walking speeds that close in.
+
+// How far ahead collisions are predicted; people evade 2 to 4 s before (Karamouzas, Skinner and Guy 2014).
+inline constexpr float kAnticipation_s = 3.0f;
+// The interaction energy of the same paper, k tau^-2 exp(-tau / tau0).
+inline constexpr float kInteraction_k = 1.5f;
+inline constexpr float kInteraction_tau0_s = 3.0f;
+// One predicted collision never asks for more than this: beyond it contact resolution takes over.
+inline constexpr float kMostPush_mps2 = 8.0f;
+// What happens at one's back is felt, not foreseen.
+inline constexpr float kAttentionBehind = 0.2f;
+// Two who meet head on both step to their right: each sees the other turned this far to the left (radians).
+inline constexpr float kPassOnTheRight_rad = 0.06f;
+// Others farther than this don't matter within the anticipation at usual closing speeds.
 inline constexpr float kNeighbourRadius_m = 3.5f;
-inline constexpr int kMaxNeighbours = 10;  // the nearest decide; more only cost time
+
 // People keep this beyond touching when they have the choice.
 inline constexpr float kComfort_m = 0.12f;
-inline constexpr float kSeparation_mps2 = 6.0f;
-// Weidmann 1993: v = v0 (1 - exp(-1.913 (1/rho - 1/rho_max))), rho_max = 5.4 people/m^2.
-inline constexpr float kWeidmannGamma = 1.913f;
-inline constexpr float kWeidmannMaxDensity_pm2 = 5.4f;
-// Cost of a metre of ground by kind, relative to pavement: none (not walkable), carriageway, pavement, square, grass.
+inline constexpr float kSeparation_mps2 = 5.0f;
+// Contacts are resolved until nothing moves, at most so many times a step.
+inline constexpr int kContactPasses = 6;
+
+// Weidmann 1993: v = v0 (1 - exp(-1.913 (1 / rho - 1 / rho_max))), rho_max = 5.4 people/m^2.
+inline constexpr float kWeidmannGamma_pm2 = 1.913f;
+inline constexpr float kWeidmannMostDensity_pm2 = 5.4f;
+inline constexpr float kLeastDensitySpeed = 0.1f;  // share of the preferred speed: a jam still creeps and can dissolve
+inline constexpr float kDensityRadius_m = 2.0f;
+
+// Keeping off walls: a gentle push within this beyond touching.
+inline constexpr float kWallComfort_m = 0.25f;
+inline constexpr float kWallPush_mps2 = 2.5f;
+
+// Cost of a metre of ground by kind, relative to pavement: none, carriageway, pavement, square, grass.
 inline constexpr float kGroundCost[] = {0, 1.6f, 1.0f, 1.1f, 3.0f};
-// Cells of the navigation grid; half a person's width keeps doors of 1 m open.
-inline constexpr float kNavigationCell_m = 0.5f;
+// A metre close to a wall costs this much more, so that ways keep off corners where there is room.
+inline constexpr float kNearWallCost = 1.25f;
+inline constexpr float kNearWall_m = 0.35f;
+// A metre up or down a gradient g counts 1 + 4 |g|, near the energy of walking on gentle slopes (Minetti et al. 2002).
+inline constexpr float kSlopeCost = 4.0f;
+// And is walked at 1 / (1 + 2 |g|) of the speed (near Tobler 1993 for the slopes of a town).
+inline constexpr float kSlopeSlows = 2.0f;
+
+// Cells of the navigation grid: a doorway of 1 m leaves 0.4 m to the centres of people, which holds at least one of them.
+inline constexpr float kNavigationCell_m = 0.35f;
+inline constexpr float kMostNavigationCells = 1.5e6f;  // larger areas get larger cells
 // Walking into a goal's circle counts as arriving.
-inline constexpr float kArrival_m = 0.7f;
+inline constexpr float kArrival_m = 0.5f;
+// Ways are looked up, and lines of sight to the goal renewed, once in so many steps.
+inline constexpr int kWayEvery_steps = 4;
+inline constexpr int kSightEvery_steps = 16;
 
 }  // namespace flaneur

@@ -1,10 +1,12 @@
 // The townspeople: arrays by field, and the passes of one fixed step over them. Metres, seconds, radians, ground plane.
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "runtime/base/random.h"
 #include "runtime/crowd/flow_field.h"
+#include "runtime/crowd/neighbours.h"
 #include "runtime/crowd/walkable.h"
 
 namespace flaneur {
@@ -18,6 +20,7 @@ struct MovingObstacle {
   Vec2 center;
   float radius_m = 0;
   bool everyone = false;  // else only people with `avoids_camera`
+  Vec2 velocity{};        // foreseen as it moves
 };
 
 struct Crowd {
@@ -25,21 +28,26 @@ struct Crowd {
   std::vector<Vec2> position, velocity;
   std::vector<float> heading_rad, radius_m, preferred_mps, top_mps;
   std::vector<int> field;               // index into fields: where the person goes; -1: stays
-  std::vector<Vec2> waypoint;           // on the way there, renewed now and then
+  std::vector<Vec2> way;                // unit vector along the way there, zero: none; renewed now and then
+  std::vector<uint8_t> sees_goal;       // walks straight to it; renewed now and then
   std::vector<Activity> activity;
   std::vector<float> wait_s;            // left to stand
+  std::vector<Vec2> facing;             // where to look while standing; zero: as before
   std::vector<ViewClass> view;
   std::vector<uint8_t> avoids_camera;   // set by the control
   std::vector<uint8_t> arrived;         // reached the goal in the last step
   std::vector<float> pace;              // factor on the preferred speed, set by the control; 1: as they like
   std::vector<float> walked_m;          // since appearing: drives the walk cycle
-  std::vector<FlowField> fields;
+  std::vector<FlowField> fields;        // built when the first person needs one
   int next_id = 0;
   int64_t step = 0;
 
   // Scratch of the passes, kept so that a steady step allocates nothing.
   std::vector<Vec2> wanted, moved;
-  std::vector<int> grid_start, grid_people, grid_cell;
+  std::vector<uint8_t> cares;
+  NeighbourGrid neighbours;
+  std::vector<std::pair<int, int>> contacts;
+  std::vector<int> displaced;
 
   size_t size() const { return id.size(); }
 };
@@ -53,10 +61,14 @@ struct Person {
 
 int AddPerson(const Person& person, Crowd* crowd);  // returns the id
 void RemovePerson(size_t index, Crowd* crowd);      // the last one takes the place
-// The field for this goal, made where there is none yet.
-int FieldFor(const Walkable& w, Vec2 goal, Crowd* crowd);
+// Sends the person there; -1: to stay.
+void SetGoal(size_t index, int field, Crowd* crowd);
+// The field for this goal; added, still to be built, where there is none yet.
+int FieldFor(Vec2 goal, Crowd* crowd);
+// The way from p to the goal of a field, which is built if it wasn't yet.
+Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, Crowd* crowd);
 
-// One step of step_s. Visible and boundary people avoid each other and never overlap more than they did; others only follow
+// One step of step_s. The same on every machine. Visible and boundary people avoid each other; others only follow
 // their way. Nobody's centre comes nearer to an obstacle than radius_m, nobody moves farther than top_mps * step_s.
 void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* crowd);
 

@@ -1,96 +1,176 @@
 #include "runtime/crowd/flow_field.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
 
+#include "runtime/crowd/constants.h"
+
 namespace flaneur {
 namespace {
 
-constexpr float kSlopeCost = 4;
 constexpr float kGoalReach_m = 3;
-constexpr int kLookAhead_cells = 14;  // 7 m: farther corners are seen in time all the same
+constexpr float kExactAround_m = 3;  // straight lines instead of marching: marching is least exact near its source
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr uint8_t kNoWay = 255;
 
-constexpr int kStepX[8] = {1, -1, 0, 0, 1, 1, -1, -1};
-constexpr int kStepY[8] = {0, 0, 1, -1, 1, -1, 1, -1};
+using Entry = std::pair<float, int>;  // ties by cell: the same everywhere
+using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
-bool FreeCell(const Walkable& w, int x, int y) {
-  return x >= 0 && y >= 0 && x < w.columns && y < w.rows && w.cost[static_cast<size_t>(y * w.columns + x)] > 0;
+// Travel cost of a metre in each cell; isotropic in slope.
+float CostAt(const Walkable& w, int cell) {
+  return w.cost[static_cast<size_t>(cell)] * (1 + kSlopeCost * w.slope[static_cast<size_t>(cell)]);
 }
 
-// The neighbour in direction k, -1 where it is blocked or a corner would be cut.
-int Neighbour(const Walkable& w, int cell, int k) {
-  const int x = cell % w.columns + kStepX[k], y = cell / w.columns + kStepY[k];
-  if (!FreeCell(w, x, y)) return -1;
-  if (k >= 4 && (!FreeCell(w, x, cell / w.columns) || !FreeCell(w, cell % w.columns, y))) return -1;
-  return y * w.columns + x;
+// The cheaper of two opposite neighbours and where it lies (-1, +1), infinity if neither has a value.
+struct Upwind { float value = kInfinity; int side = 0; };
+
+Upwind Cheaper(const std::vector<float>& t, int cell, int stride, bool has_low, bool has_high) {
+  Upwind u;
+  if (has_low && t[static_cast<size_t>(cell - stride)] < u.value) u = {t[static_cast<size_t>(cell - stride)], -1};
+  if (has_high && t[static_cast<size_t>(cell + stride)] < u.value) u = {t[static_cast<size_t>(cell + stride)], 1};
+  return u;
 }
 
-bool SeesPoint(const Walkable& w, Vec2 from, Vec2 to) {
-  const Vec2 way = to - from;
-  const int steps = static_cast<int>(std::ceil(Length(way) / (w.cell_m * 0.4f)));
-  for (int i = 1; i < steps; ++i) {
-    if (!IsFree(w, from + way * (static_cast<float>(i) / static_cast<float>(steps)))) return false;
+struct Around { Upwind x, y; };
+
+Around Look(const Walkable& w, const std::vector<float>& t, int cell) {
+  const int x = cell % w.columns, y = cell / w.columns;
+  Around a{Cheaper(t, cell, 1, x > 0, x + 1 < w.columns), Cheaper(t, cell, w.columns, y > 0, y + 1 < w.rows)};
+  // Between two free cells an obstacle's corner may stick out: then only the cheaper of them leads on.
+  if (a.x.side != 0 && a.y.side != 0 && w.cost[static_cast<size_t>(cell + a.x.side + a.y.side * w.columns)] <= 0) {
+    (a.x.value <= a.y.value ? a.y : a.x) = Upwind{};
   }
-  return true;
+  return a;
+}
+
+// First-order upwind solution of |grad T| = cost at a cell.
+float Solve(const Around& a, float cost_of_cell) {
+  const float low = std::min(a.x.value, a.y.value), high = std::max(a.x.value, a.y.value);
+  if (high - low >= cost_of_cell) return low + cost_of_cell;
+  const float sum = low + high;
+  return 0.5f * (sum + std::sqrt(2 * cost_of_cell * cost_of_cell - (high - low) * (high - low)));
+}
+
+void SeedAroundGoal(const Walkable& w, Vec2 goal, int start, FlowField* field, Queue* open) {
+  const int reach = static_cast<int>(kExactAround_m / w.cell_m);
+  const int cx = start % w.columns, cy = start / w.columns;
+  for (int y = std::max(0, cy - reach); y <= std::min(w.rows - 1, cy + reach); ++y) {
+    for (int x = std::max(0, cx - reach); x <= std::min(w.columns - 1, cx + reach); ++x) {
+      const int cell = y * w.columns + x;
+      const Vec2 center = CellCenter(w, cell);
+      const float distance_m = Length(center - goal);
+      if (w.cost[static_cast<size_t>(cell)] <= 0 || distance_m > kExactAround_m) continue;
+      if (cell != start && !(StraightWay(w, center, goal) && StraightWay(w, goal, center))) continue;
+      field->distance[static_cast<size_t>(cell)] = distance_m * CostAt(w, cell);
+      open->push({field->distance[static_cast<size_t>(cell)], cell});
+    }
+  }
+}
+
+void March(const Walkable& w, FlowField* field, Queue* open) {
+  std::vector<float>& t = field->distance;
+  while (!open->empty()) {
+    const auto [value, cell] = open->top();
+    open->pop();
+    if (value > t[static_cast<size_t>(cell)]) continue;
+    const int x = cell % w.columns, y = cell / w.columns;
+    const int next[4] = {x > 0 ? cell - 1 : -1, x + 1 < w.columns ? cell + 1 : -1, y > 0 ? cell - w.columns : -1,
+                         y + 1 < w.rows ? cell + w.columns : -1};
+    for (int n : next) {
+      if (n < 0 || w.cost[static_cast<size_t>(n)] <= 0 || t[static_cast<size_t>(n)] <= value) continue;
+      const float better = Solve(Look(w, t, n), CostAt(w, n) * w.cell_m);
+      if (better >= t[static_cast<size_t>(n)]) continue;
+      t[static_cast<size_t>(n)] = better;
+      open->push({better, n});
+    }
+  }
+}
+
+uint8_t Descent(const Walkable& w, const FlowField& field, int cell) {
+  const float t = field.distance[static_cast<size_t>(cell)];
+  if (!std::isfinite(t)) return kNoWay;
+  Vec2 way = field.goal - CellCenter(w, cell);
+  if (Length(way) > kExactAround_m || !StraightWay(w, CellCenter(w, cell), field.goal)) {
+    const Around a = Look(w, field.distance, cell);
+    way = {a.x.value < t ? static_cast<float>(a.x.side) * (t - a.x.value) : 0.0f,
+           a.y.value < t ? static_cast<float>(a.y.side) * (t - a.y.value) : 0.0f};
+  }
+  const float turn = std::atan2(way.y, way.x) / (2 * kPi);
+  return static_cast<uint8_t>(static_cast<int>(std::lround(turn * 255.0f) + 255) % 255);
+}
+
+std::array<Vec2, 256> MakeDirections() {
+  std::array<Vec2, 256> table{};
+  for (size_t k = 0; k < 255; ++k) {
+    const double angle = 2 * 3.14159265358979323846 * static_cast<double>(k) / 255;
+    table[k] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+  }
+  return table;  // the last entry, no way, is zero
+}
+
+const std::array<Vec2, 256> kDirections = MakeDirections();
+
+Vec2 Unit(Vec2 v) {
+  const float length = Length(v);
+  return length > 1e-6f ? v * (1 / length) : Vec2{};
 }
 
 }  // namespace
 
 FlowField BuildFlowField(const Walkable& w, Vec2 goal) {
-  FlowField field{goal, std::vector<float>(w.cost.size(), std::numeric_limits<float>::infinity())};
+  FlowField field{goal, std::vector<float>(w.cost.size(), kInfinity), std::vector<uint8_t>(w.cost.size(), kNoWay)};
   const int start = IsFree(w, goal) ? CellAt(w, goal) : NearestFreeCell(w, goal, kGoalReach_m);
   if (start < 0) return field;
-  using Entry = std::pair<float, int>;  // ties by cell: the same everywhere
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  field.distance[static_cast<size_t>(start)] = 0;
-  open.push({0, start});
-  while (!open.empty()) {
-    const auto [distance, cell] = open.top();
-    open.pop();
-    if (distance > field.distance[static_cast<size_t>(cell)]) continue;
-    for (int k = 0; k < 8; ++k) {
-      const int next = Neighbour(w, cell, k);
-      if (next < 0) continue;
-      const float step_m = w.cell_m * (k < 4 ? 1.0f : 1.41421356f);
-      const float rise = std::abs(w.height_m[static_cast<size_t>(next)] - w.height_m[static_cast<size_t>(cell)]);
-      const float cost = 0.5f * (w.cost[static_cast<size_t>(next)] + w.cost[static_cast<size_t>(cell)]);
-      const float total = distance + cost * (step_m + kSlopeCost * rise);
-      if (total < field.distance[static_cast<size_t>(next)]) {
-        field.distance[static_cast<size_t>(next)] = total;
-        open.push({total, next});
-      }
-    }
+  Queue open;
+  SeedAroundGoal(w, goal, start, &field, &open);
+  March(w, &field, &open);
+  for (int cell = 0; cell < static_cast<int>(w.cost.size()); ++cell) {
+    field.direction[static_cast<size_t>(cell)] = Descent(w, field, cell);
   }
   return field;
 }
 
 bool Reachable(const Walkable& w, const FlowField& field, Vec2 from) {
-  const int cell = IsFree(w, from) ? CellAt(w, from) : NearestFreeCell(w, from, kGoalReach_m);
-  return cell >= 0 && std::isfinite(field.distance[static_cast<size_t>(cell)]);
+  const int a = IsFree(w, from) ? CellAt(w, from) : NearestFreeCell(w, from, kGoalReach_m);
+  const int b = IsFree(w, field.goal) ? CellAt(w, field.goal) : NearestFreeCell(w, field.goal, kGoalReach_m);
+  return a >= 0 && b >= 0 && w.component[static_cast<size_t>(a)] == w.component[static_cast<size_t>(b)];
 }
 
-Vec2 Waypoint(const Walkable& w, const FlowField& field, Vec2 p) {
-  int cell = IsFree(w, p) ? CellAt(w, p) : NearestFreeCell(w, p, kGoalReach_m);
-  if (cell < 0) return p;
-  Vec2 seen = CellCenter(w, cell);
-  for (int i = 0; i < kLookAhead_cells; ++i) {
-    int best = -1;
-    float best_distance = field.distance[static_cast<size_t>(cell)];
-    for (int k = 0; k < 8; ++k) {
-      const int next = Neighbour(w, cell, k);
-      if (next >= 0 && field.distance[static_cast<size_t>(next)] < best_distance) {
-        best = next;
-        best_distance = field.distance[static_cast<size_t>(next)];
-      }
-    }
-    if (best < 0) return SeesPoint(w, p, field.goal) ? field.goal : seen;  // at the goal's cell
-    cell = best;
-    const Vec2 center = CellCenter(w, cell);
-    if (i > 0 && !SeesPoint(w, p, center)) break;
-    seen = center;
+Vec2 WayAt(const Walkable& w, const FlowField& field, Vec2 p) {
+  // Bilinear over the four nearest cells, those without a way left out.
+  const float fx = (p.x - w.min_m.x) / w.cell_m - 0.5f, fy = (p.y - w.min_m.y) / w.cell_m - 0.5f;
+  const int x0 = static_cast<int>(std::floor(fx)), y0 = static_cast<int>(std::floor(fy));
+  const float tx = fx - static_cast<float>(x0), ty = fy - static_cast<float>(y0);
+  Vec2 sum;
+  for (int k = 0; k < 4; ++k) {
+    const int x = x0 + (k & 1), y = y0 + (k >> 1);
+    if (x < 0 || y < 0 || x >= w.columns || y >= w.rows) continue;
+    const float share = ((k & 1) ? tx : 1 - tx) * ((k >> 1) ? ty : 1 - ty);
+    sum = sum + kDirections[field.direction[static_cast<size_t>(y * w.columns + x)]] * share;
   }
-  return seen;
+  if (Dot(sum, sum) > 0.01f) return Unit(sum);
+  const int cell = NearestFreeCell(w, p, kGoalReach_m);  // squeezed against a wall: back to where ways are known
+  if (cell < 0) return {};
+  const Vec2 there = kDirections[field.direction[static_cast<size_t>(cell)]];
+  return Unit(Unit(CellCenter(w, cell) - p) + there);
+}
+
+bool StraightWay(const Walkable& w, Vec2 p, Vec2 q) {
+  const int first = CellAt(w, p);
+  if (first < 0) return false;
+  const float dearest = w.cost[static_cast<size_t>(first)] > 0 ? w.cost[static_cast<size_t>(first)] * kNearWallCost * 1.01f : kGroundCost[1];
+  const Vec2 way = q - p;
+  const int steps = static_cast<int>(std::ceil(Length(way) / (w.cell_m * 0.5f)));
+  for (int i = 1; i < steps; ++i) {
+    const int cell = CellAt(w, p + way * (static_cast<float>(i) / static_cast<float>(steps)));
+    if (cell < 0) return false;
+    const float cost = w.cost[static_cast<size_t>(cell)];
+    if (cost <= 0 || cost > dearest) return false;
+  }
+  return true;
 }
 
 }  // namespace flaneur

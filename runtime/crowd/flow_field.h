@@ -1,5 +1,6 @@
-// The way to one destination from everywhere: Dijkstra distances over the navigation grid, shared by all who go there.
+// The way to one destination from everywhere: travel costs over the navigation grid, shared by all who go there.
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "runtime/crowd/walkable.h"
@@ -8,16 +9,21 @@ namespace flaneur {
 
 struct FlowField {
   Vec2 goal;
-  std::vector<float> distance;  // weighted metres; infinity where there is no way
+  std::vector<float> distance;      // weighted metres by cell; infinity where there is no way; empty until built
+  std::vector<uint8_t> direction;   // of the best way, in 1/255 turns anticlockwise from +x; 255: none
 };
 
-// Slopes cost more: a metre up or down a gradient g counts 1 + 4 |g|, near the energy of walking on gentle slopes
-// (Minetti et al. 2002). The goal's nearest free cell within 3 m is the destination.
+// Solves |grad T| = cost by fast marching (Sethian 1996), exact around the goal. Slopes cost more (constants.h). The goal's
+// nearest free cell within 3 m is the destination.
 FlowField BuildFlowField(const Walkable& w, Vec2 goal);
 
+// By connected areas: costs nothing, also for a field that isn't built yet.
 bool Reachable(const Walkable& w, const FlowField& field, Vec2 from);
 
-// A point to walk straight to: the farthest of the next cells on the best way that can be seen from p, or the goal.
-Vec2 Waypoint(const Walkable& w, const FlowField& field, Vec2 p);
+// Unit vector along the best way, zero where there is none. The field must be built.
+Vec2 WayAt(const Walkable& w, const FlowField& field, Vec2 p);
+
+// True where one can walk straight from p to q over ground that is nowhere dearer than at p.
+bool StraightWay(const Walkable& w, Vec2 p, Vec2 q);
 
 }  // namespace flaneur

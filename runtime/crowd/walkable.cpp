@@ -4,19 +4,14 @@
 #include <cmath>
 
 #include "runtime/crowd/constants.h"
+#include "runtime/crowd/walls.h"
 
 namespace flaneur {
 namespace {
 
-// Edges are listed for all cells that a person standing in the cell, and stepping out of it, can touch.
-constexpr float kReach_m = 1.0f;
-
-Vec2 NearestOnSegment(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 ab = b - a;
-  const float length2 = Dot(ab, ab);
-  const float t = length2 > 0 ? std::clamp(Dot(p - a, ab) / length2, 0.0f, 1.0f) : 0.0f;
-  return a + ab * t;
-}
+// Beyond touching: how far a person steps or feels a wall at most.
+constexpr float kReachBeyondRadius_m = 0.6f;
+constexpr float kMostSlope = 0.6f;
 
 bool InsideRing(Vec2 p, const std::vector<Vec2>& ring) {
   bool inside = false;
@@ -39,22 +34,22 @@ void AddEdges(const std::vector<Vec2>& ring, std::vector<Walkable::Edge>* edges)
   for (size_t i = 0; i < ring.size(); ++i) edges->push_back({ring[i], ring[(i + 1) % ring.size()]});
 }
 
-// Calls visit(cell) for the cells whose box, grown by kReach_m, the box touches.
+// Calls visit(cell) for the cells that the box, grown by reach_m, touches.
 template <typename Visit>
-void VisitCells(const Walkable& w, Vec2 low, Vec2 high, Visit visit) {
+void VisitCells(const Walkable& w, Vec2 low, Vec2 high, float reach_m, Visit visit) {
   const auto index = [&](float v, float origin, int count) {
     return std::clamp(static_cast<int>(std::floor((v - origin) / w.cell_m)), 0, count - 1);
   };
-  const int x0 = index(low.x - kReach_m, w.min_m.x, w.columns), x1 = index(high.x + kReach_m, w.min_m.x, w.columns);
-  const int y0 = index(low.y - kReach_m, w.min_m.y, w.rows), y1 = index(high.y + kReach_m, w.min_m.y, w.rows);
+  const int x0 = index(low.x - reach_m, w.min_m.x, w.columns), x1 = index(high.x + reach_m, w.min_m.x, w.columns);
+  const int y0 = index(low.y - reach_m, w.min_m.y, w.rows), y1 = index(high.y + reach_m, w.min_m.y, w.rows);
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) visit(y * w.columns + x);
   }
 }
 
-bool EdgeNearCell(const Walkable& w, const Walkable::Edge& e, int cell) {
+bool EdgeNearCell(const Walkable& w, const Walkable::Edge& e, int cell, float reach_m) {
   const Vec2 c = CellCenter(w, cell);
-  return Length(NearestOnSegment(c, e.a, e.b) - c) <= kReach_m + w.cell_m * 0.71f;
+  return Length(NearestOnSegment(c, e.a, e.b) - c) <= reach_m + w.cell_m * 0.71f;
 }
 
 // Turns (cell, item) pairs, given twice by `each`, into ranges by cell.
@@ -68,22 +63,23 @@ void Bucket(int cells, Each each, std::vector<int>* start, std::vector<int>* ite
   each([&](int cell, int item) { (*items)[static_cast<size_t>(fill[static_cast<size_t>(cell)]++)] = item; });
 }
 
-void BucketObstacles(Walkable* w) {
+void BucketObstacles(float reach_m, Walkable* w) {
   const int cells = w->columns * w->rows;
   Bucket(cells, [&](auto add) {
     for (size_t e = 0; e < w->edges.size(); ++e) {
       const auto& edge = w->edges[e];
       const Vec2 low{std::min(edge.a.x, edge.b.x), std::min(edge.a.y, edge.b.y)};
       const Vec2 high{std::max(edge.a.x, edge.b.x), std::max(edge.a.y, edge.b.y)};
-      VisitCells(*w, low, high, [&](int cell) {
-        if (EdgeNearCell(*w, edge, cell)) add(cell, static_cast<int>(e));
+      VisitCells(*w, low, high, reach_m, [&](int cell) {
+        if (EdgeNearCell(*w, edge, cell, reach_m)) add(cell, static_cast<int>(e));
       });
     }
   }, &w->wall_start, &w->wall_edges);
   Bucket(cells, [&](auto add) {
     for (size_t c = 0; c < w->circles.size(); ++c) {
       const Vec2 r{w->circles[c].radius_m, w->circles[c].radius_m};
-      VisitCells(*w, w->circles[c].center - r, w->circles[c].center + r, [&](int cell) { add(cell, static_cast<int>(c)); });
+      VisitCells(*w, w->circles[c].center - r, w->circles[c].center + r, reach_m,
+                 [&](int cell) { add(cell, static_cast<int>(c)); });
     }
   }, &w->circle_start, &w->wall_circles);
 }
@@ -97,30 +93,53 @@ std::vector<char> Covered(const Walkable& w) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
-    VisitCells(w, low, high, [&](int cell) {
+    VisitCells(w, low, high, 0, [&](int cell) {
       if (InsidePolygon(CellCenter(w, cell), polygon)) covered[static_cast<size_t>(cell)] = 1;
     });
   }
   return covered;
 }
 
-float Clearance(const Walkable& w, int cell, Vec2 p) {
-  float nearest = 1e9f;
-  for (int i = w.wall_start[static_cast<size_t>(cell)]; i < w.wall_start[static_cast<size_t>(cell) + 1]; ++i) {
-    const auto& e = w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(i)])];
-    nearest = std::min(nearest, Length(NearestOnSegment(p, e.a, e.b) - p));
-  }
-  for (int i = w.circle_start[static_cast<size_t>(cell)]; i < w.circle_start[static_cast<size_t>(cell) + 1]; ++i) {
-    const auto& c = w.circles[static_cast<size_t>(w.wall_circles[static_cast<size_t>(i)])];
-    nearest = std::min(nearest, Length(c.center - p) - c.radius_m);
-  }
-  return nearest;
-}
-
 int GroundCell(const GroundGrid& g, Vec2 p) {
   const int x = static_cast<int>(std::floor((p.x - g.min_m.x) / g.cell_m));
   const int y = static_cast<int>(std::floor((p.y - g.min_m.y) / g.cell_m));
   return x < 0 || y < 0 || x >= g.columns || y >= g.rows ? -1 : y * g.columns + x;
+}
+
+// From the heights a metre around.
+float SlopeAt(const Walkable& w, Vec2 p) {
+  constexpr float kAround_m = 0.5f;
+  const float dx = HeightAt(w, p + Vec2{kAround_m, 0}) - HeightAt(w, p - Vec2{kAround_m, 0});
+  const float dy = HeightAt(w, p + Vec2{0, kAround_m}) - HeightAt(w, p - Vec2{0, kAround_m});
+  const float slope = std::sqrt(dx * dx + dy * dy) / (2 * kAround_m);
+  return slope > kMostSlope ? 0.0f : slope;  // a step between two levels of ground, not a slope
+}
+
+// A box as wide as the disc that density is measured in, by running sums along rows and columns.
+void MeasureOpenShares(const std::vector<char>& covered, Walkable* w) {
+  const int columns = w->columns, rows = w->rows;
+  const int reach = std::max(1, static_cast<int>(0.886f * kDensityRadius_m / w->cell_m));  // a square of the same area
+  std::vector<int> sum((static_cast<size_t>(columns) + 1) * (static_cast<size_t>(rows) + 1), 0);
+  const auto at = [&](int x, int y) -> int& {
+    return sum[static_cast<size_t>(y) * (static_cast<size_t>(columns) + 1) + static_cast<size_t>(x)];
+  };
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      const int cell = y * columns + x;
+      const bool open = !covered[static_cast<size_t>(cell)] && OnGround(*w, CellCenter(*w, cell));
+      at(x + 1, y + 1) = at(x, y + 1) + at(x + 1, y) - at(x, y) + (open ? 1 : 0);
+    }
+  }
+  w->open_share.resize(w->cost.size());
+  const float all = static_cast<float>((2 * reach + 1) * (2 * reach + 1));
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      const int x0 = std::max(0, x - reach), x1 = std::min(columns, x + reach + 1);
+      const int y0 = std::max(0, y - reach), y1 = std::min(rows, y + reach + 1);
+      w->open_share[static_cast<size_t>(y * columns + x)] =
+          static_cast<float>(at(x1, y1) - at(x0, y1) - at(x1, y0) + at(x0, y0)) / all;
+    }
+  }
 }
 
 void NumberComponents(Walkable* w) {
@@ -149,31 +168,36 @@ void NumberComponents(Walkable* w) {
 
 }  // namespace
 
-void BuildWalkable(float person_radius_m, Walkable* w) {
+void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
+  const GroundGrid& g = w->ground;
+  const Vec2 size{static_cast<float>(g.columns) * g.cell_m, static_cast<float>(g.rows) * g.cell_m};
   w->person_radius_m = person_radius_m;
-  w->cell_m = kNavigationCell_m;
-  w->min_m = w->ground.min_m;
-  w->columns = std::max(1, static_cast<int>(std::ceil(static_cast<float>(w->ground.columns) * w->ground.cell_m / w->cell_m)));
-  w->rows = std::max(1, static_cast<int>(std::ceil(static_cast<float>(w->ground.rows) * w->ground.cell_m / w->cell_m)));
-  w->cost.assign(static_cast<size_t>(w->columns) * static_cast<size_t>(w->rows), 0);
-  w->height_m.assign(w->cost.size(), 0);
+  w->cell_m = std::max(kNavigationCell_m, std::sqrt(size.x * size.y / kMostNavigationCells));
+  w->min_m = g.min_m;
+  w->columns = std::max(1, static_cast<int>(std::ceil(size.x / w->cell_m)));
+  w->rows = std::max(1, static_cast<int>(std::ceil(size.y / w->cell_m)));
+  const size_t cells = static_cast<size_t>(w->columns) * static_cast<size_t>(w->rows);
+  w->cost.assign(cells, 0);
+  w->slope.assign(cells, 0);
   w->edges.clear();
   for (const PolygonObstacle& polygon : w->polygons) {
     AddEdges(polygon.outer, &w->edges);
     for (const auto& hole : polygon.holes) AddEdges(hole, &w->edges);
   }
-  BucketObstacles(w);
+  BucketObstacles(std::max(person_radius_m, most_radius_m) + kReachBeyondRadius_m, w);
   const std::vector<char> covered = Covered(*w);
-  for (int cell = 0; cell < static_cast<int>(w->cost.size()); ++cell) {
+  for (int cell = 0; cell < static_cast<int>(cells); ++cell) {
     const Vec2 center = CellCenter(*w, cell);
-    const int ground = GroundCell(w->ground, center);
-    const uint8_t kind = ground < 0 ? 0 : w->ground.kind[static_cast<size_t>(ground)];
-    if (kind == 0 || kind > 4) continue;
-    w->height_m[static_cast<size_t>(cell)] = w->ground.height_m[static_cast<size_t>(ground)];
-    if (covered[static_cast<size_t>(cell)] || Clearance(*w, cell, center) < person_radius_m) continue;
-    w->cost[static_cast<size_t>(cell)] = kGroundCost[kind];
+    const int ground = GroundCell(g, center);
+    const uint8_t kind = ground < 0 ? 0 : g.kind[static_cast<size_t>(ground)];
+    if (kind == 0 || kind > 4 || covered[static_cast<size_t>(cell)]) continue;
+    const float clearance_m = Clearance(*w, cell, center) - person_radius_m;
+    if (clearance_m < 0) continue;
+    w->cost[static_cast<size_t>(cell)] = kGroundCost[kind] * (clearance_m < kNearWall_m ? kNearWallCost : 1.0f);
+    w->slope[static_cast<size_t>(cell)] = SlopeAt(*w, center);
   }
   NumberComponents(w);
+  MeasureOpenShares(covered, w);
 }
 
 int CellAt(const Walkable& w, Vec2 p) {
@@ -190,6 +214,11 @@ Vec2 CellCenter(const Walkable& w, int cell) {
 bool IsFree(const Walkable& w, Vec2 p) {
   const int cell = CellAt(w, p);
   return cell >= 0 && w.cost[static_cast<size_t>(cell)] > 0;
+}
+
+bool OnGround(const Walkable& w, Vec2 p) {
+  const int ground = GroundCell(w.ground, p);
+  return ground >= 0 && w.ground.kind[static_cast<size_t>(ground)] != 0;
 }
 
 float HeightAt(const Walkable& w, Vec2 p) {
@@ -242,43 +271,6 @@ int NearestFreeCell(const Walkable& w, Vec2 p, float reach_m) {
     }
   }
   return best;
-}
-
-Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {
-  // A step is far shorter than a cell, so walls near the cell of `from` are all that can be met.
-  const int cell = CellAt(w, from);
-  if (cell < 0) return from;
-  const auto push = [&](Vec2 p) {
-    for (int i = w.wall_start[static_cast<size_t>(cell)]; i < w.wall_start[static_cast<size_t>(cell) + 1]; ++i) {
-      const auto& e = w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(i)])];
-      const Vec2 nearest = NearestOnSegment(p, e.a, e.b);
-      const Vec2 off = p - nearest;
-      const float distance_m = Length(off);
-      if (distance_m >= radius_m) continue;
-      Vec2 normal = distance_m > 1e-4f ? off * (1 / distance_m) : Vec2{};
-      // On the far side of the wall, or on it: back to where the person came from.
-      const Vec2 came = from - NearestOnSegment(from, e.a, e.b);
-      if (Dot(came, normal) <= 0) normal = Length(came) > 1e-6f ? came * (1 / Length(came)) : normal;
-      p = nearest + normal * radius_m;
-    }
-    for (int i = w.circle_start[static_cast<size_t>(cell)]; i < w.circle_start[static_cast<size_t>(cell) + 1]; ++i) {
-      const auto& c = w.circles[static_cast<size_t>(w.wall_circles[static_cast<size_t>(i)])];
-      const Vec2 off = p - c.center;
-      const float distance_m = Length(off);
-      if (distance_m < c.radius_m + radius_m && distance_m > 1e-6f) {
-        p = c.center + off * ((c.radius_m + radius_m) / distance_m);
-      }
-    }
-    return p;
-  };
-  const auto clear = [&](Vec2 p) { return Clearance(w, cell, p) >= radius_m - 0.01f; };
-  Vec2 p = push(push(to));
-  if (clear(p) && Length(p - from) <= Length(to - from) * 1.0001f + 1e-6f) return p;
-  // In a corner: slide no farther than the step asked for, else stay.
-  const Vec2 step = p - from;
-  const float asked_m = Length(to - from), got_m = Length(step);
-  if (got_m > asked_m && got_m > 1e-9f) p = from + step * (asked_m / got_m);
-  return clear(p) ? p : from;
 }
 
 }  // namespace flaneur

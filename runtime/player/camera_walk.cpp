@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/crowd/walls.h"
+
 namespace flaneur {
 namespace {
 
@@ -116,9 +118,10 @@ void FollowTour(Simulation* s) {
     return;
   }
   if (s->stuck_s > kGiveUp_s) return NextLeg(s->path.size(), s);
-  const int field = FieldFor(s->walkable, stop.position_m, &s->crowd);
-  const Vec2 way = Waypoint(s->walkable, s->crowd.fields[static_cast<size_t>(field)], s->camera.view.position) -
-                   s->camera.view.position;
+  const int field = FieldFor(stop.position_m, &s->crowd);
+  const Vec2 way = StraightWay(s->walkable, s->camera.view.position, stop.position_m)
+                       ? stop.position_m - s->camera.view.position
+                       : WayToGoal(s->walkable, field, s->camera.view.position, &s->crowd);
   const float way_m = Length(way);
   if (way_m < 1e-3f) return NextLeg(s->path.size(), s);
   TurnTowards(std::atan2(way.y, way.x), kTourYawRate_radps, s);

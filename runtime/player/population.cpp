@@ -11,6 +11,7 @@ constexpr float kLeastWait_s = 15, kMostWait_s = 50;
 constexpr float kBirthGap_m = 0.3f;         // between a newcomer and everybody else, beyond touching
 constexpr int kTries = 40;                  // to find a free spot before giving up for now
 constexpr int kBirths_perStep = 2;
+constexpr float kTalkingDistance_m = 2.5f;
 
 int LargestComponent(const Walkable& w) {
   std::vector<int> size;
@@ -98,7 +99,7 @@ int PickDestination(Simulation* s, Vec2 from, bool may_loiter) {
   for (int attempt = 0; attempt < 8; ++attempt) {
     const PackPlace& place = s->places[choices[static_cast<size_t>(s->random.Below(static_cast<int>(choices.size())))]];
     if (Length(place.position_m - from) < 8 && attempt < 7) continue;  // somewhere worth walking to
-    return FieldFor(s->walkable, place.position_m, &s->crowd);
+    return FieldFor(place.position_m, &s->crowd);
   }
   return -1;
 }
@@ -116,30 +117,43 @@ void Add(const Person& person, PersonPlan plan, Simulation* s) {
   s->plans.push_back(std::move(plan));
 }
 
+// Who stands talks with the nearest one who stands there too, and faces them.
+void Loiter(size_t i, Simulation* s) {
+  Crowd& c = s->crowd;
+  SetGoal(i, -1, &c);
+  c.wait_s[i] = s->random.Uniform(kLeastWait_s, kMostWait_s);
+  float nearest_m = kTalkingDistance_m;
+  for (size_t j = 0; j < c.size(); ++j) {
+    const Vec2 way = c.position[j] - c.position[i];
+    if (j == i || c.field[j] >= 0 || Length(way) >= nearest_m || Length(way) < 1e-3f) continue;
+    nearest_m = Length(way);
+    c.facing[i] = way * (1 / nearest_m);
+    c.facing[j] = c.facing[i] * -1;
+    c.activity[i] = c.activity[j] = Activity::kTalking;
+  }
+}
+
 // True where the person is done and leaves the scene.
 bool NextForArrived(size_t i, Simulation* s) {
   Crowd& c = s->crowd;
   PersonPlan& plan = s->plans[static_cast<size_t>(c.id[i])];
   if (!plan.goals.empty()) {
-    c.field[i] = FieldFor(s->walkable, plan.goals.front(), &c);
+    SetGoal(i, FieldFor(plan.goals.front(), &c), &c);
     plan.goals.erase(plan.goals.begin());
     return false;
   }
   if (plan.stay) {
-    c.field[i] = -1;
-    c.activity[i] = Activity::kStanding;
+    SetGoal(i, -1, &c);
     return false;
   }
   if (plan.leaves) return true;
   const PackPlace* place = PlaceAt(*s, c.fields[static_cast<size_t>(c.field[i])].goal);
   if (place != nullptr && IsGate(*place)) return true;
   if (place != nullptr && place->kind == "loiter") {
-    c.activity[i] = s->random.Uniform() < 0.6f ? Activity::kTalking : Activity::kStanding;
-    c.wait_s[i] = s->random.Uniform(kLeastWait_s, kMostWait_s);
-    c.field[i] = -1;
+    Loiter(i, s);
     return false;
   }
-  c.field[i] = PickDestination(s, c.position[i], true);
+  SetGoal(i, PickDestination(s, c.position[i], true), &c);
   return false;
 }
 
@@ -194,13 +208,13 @@ Error PlaceScenarioPeople(const Scenario& scenario, Simulation* s) {
     if (CellAt(s->walkable, p.position) < 0) return Fail(name + ": starts outside the ground");
     PersonPlan plan{wanted.goals_m, wanted.stay, true};
     for (size_t g = 0; g < wanted.goals_m.size(); ++g) {
-      const int field = FieldFor(s->walkable, wanted.goals_m[g], &s->crowd);
+      const int field = FieldFor(wanted.goals_m[g], &s->crowd);
       if (!Reachable(s->walkable, s->crowd.fields[static_cast<size_t>(field)], p.position)) {
         return Fail(name + ": nobody can get to goal " + std::to_string(g + 1));
       }
     }
     if (!plan.goals.empty()) {
-      p.field = FieldFor(s->walkable, plan.goals.front(), &s->crowd);
+      p.field = FieldFor(plan.goals.front(), &s->crowd);
       plan.goals.erase(plan.goals.begin());
       const Vec2 way = s->crowd.fields[static_cast<size_t>(p.field)].goal - p.position;
       p.heading_rad = std::atan2(way.y, way.x);
@@ -249,7 +263,7 @@ void PlaceCrowd(Simulation* s) {
     p.position = CellCenter(s->walkable, cells[next]);
     p.field = PickDestination(s, p.position, true);
     if (p.field >= 0) {
-      const Vec2 way = Waypoint(s->walkable, s->crowd.fields[static_cast<size_t>(p.field)], p.position) - p.position;
+      const Vec2 way = s->crowd.fields[static_cast<size_t>(p.field)].goal - p.position;
       p.heading_rad = std::atan2(way.y, way.x);
     }
     Add(p, PersonPlan{{}, false, false}, s);
@@ -261,8 +275,7 @@ void LeaveAndArrive(Simulation* s) {
   for (size_t i = 0; i < c.size();) {
     if (c.activity[i] != Activity::kWalking && c.wait_s[i] <= 0 && c.field[i] < 0 &&
         !s->plans[static_cast<size_t>(c.id[i])].leaves) {
-      c.activity[i] = Activity::kWalking;
-      c.field[i] = PickDestination(s, c.position[i], false);
+      SetGoal(i, PickDestination(s, c.position[i], false), &c);
     }
     if (c.arrived[i] && NextForArrived(i, s)) {
       RemovePerson(i, &c);

@@ -33,7 +33,7 @@ Crowd PeopleWhoCross(const Walkable& w, int count) {
     bool taken = false;
     for (Vec2 other : crowd.position) taken = taken || Length(other - p.position) < 0.7f;
     if (taken) continue;
-    p.field = FieldFor(w, {p.position.x > 0 ? -18.0f : 18.0f, std::round(p.position.y / 8) * 8}, &crowd);
+    p.field = FieldFor({p.position.x > 0 ? -18.0f : 18.0f, std::round(p.position.y / 8) * 8}, &crowd);
     AddPerson(p, &crowd);
     crowd.view.back() = ViewClass::kVisible;
   }
@@ -62,7 +62,7 @@ TEST(Crowd, OnePersonGoesRoundTheHouseToTheGoal) {
   Crowd crowd;
   Person p;
   p.position = {-15, 0};
-  p.field = FieldFor(w, {15, 0}, &crowd);
+  p.field = FieldFor({15, 0}, &crowd);
   AddPerson(p, &crowd);
   int step = 0;
   while (!crowd.arrived[0] && step < 3000) {

@@ -1,0 +1,126 @@
+#include "runtime/crowd/walls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/crowd/constants.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kTolerance_m = 1e-3f;
+constexpr int kSlides = 3;  // a corner needs two
+
+// Calls visit(away, distance_m) for all walls and trees near the cell: `away` from the nearest point to p, distance_m to it.
+template <typename Visit>
+void VisitWalls(const Walkable& w, int cell, Vec2 p, Visit visit) {
+  const size_t k = static_cast<size_t>(cell);
+  for (int i = w.wall_start[k]; i < w.wall_start[k + 1]; ++i) {
+    const Walkable::Edge& e = w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(i)])];
+    const Vec2 away = p - NearestOnSegment(p, e.a, e.b);
+    visit(away, Length(away));
+  }
+  for (int i = w.circle_start[k]; i < w.circle_start[k + 1]; ++i) {
+    const CircleObstacle& c = w.circles[static_cast<size_t>(w.wall_circles[static_cast<size_t>(i)])];
+    const Vec2 off = p - c.center;
+    const float length = Length(off);
+    const float distance_m = length - c.radius_m;
+    visit(length > 1e-6f ? off * (distance_m / length) : Vec2{}, distance_m);
+  }
+}
+
+bool NothingNear(const Walkable& w, int cell) {
+  const size_t k = static_cast<size_t>(cell);
+  return w.wall_start[k] == w.wall_start[k + 1] && w.circle_start[k] == w.circle_start[k + 1];
+}
+
+Vec2 PushOut(const Walkable& w, int cell, Vec2 p, float radius_m) {
+  Vec2 out = p;
+  const size_t k = static_cast<size_t>(cell);
+  const auto push = [&](Vec2 away, float distance_m) {
+    if (distance_m >= radius_m || std::abs(distance_m) < 1e-5f) return;
+    out = out + away * ((radius_m - distance_m) / distance_m);
+  };
+  for (int i = w.wall_start[k]; i < w.wall_start[k + 1]; ++i) {
+    const Walkable::Edge& e = w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(i)])];
+    const Vec2 away = out - NearestOnSegment(out, e.a, e.b);
+    push(away, Length(away));
+  }
+  for (int i = w.circle_start[k]; i < w.circle_start[k + 1]; ++i) {
+    const CircleObstacle& c = w.circles[static_cast<size_t>(w.wall_circles[static_cast<size_t>(i)])];
+    const Vec2 off = out - c.center;
+    const float length = Length(off);
+    if (length > 1e-6f) push(off * ((length - c.radius_m) / length), length - c.radius_m);
+  }
+  return out;
+}
+
+// One step no longer than half the radius: too short to reach a wall's other side.
+Vec2 ShortStep(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {
+  const int cell = CellAt(w, from);
+  if (cell < 0) return from;
+  const bool was_on_ground = OnGround(w, from);
+  const auto grounded = [&](Vec2 p) { return !was_on_ground || OnGround(w, p); };
+  if (NothingNear(w, cell)) {
+    if (grounded(to)) return to;
+    if (grounded({to.x, from.y})) return {to.x, from.y};
+    return grounded({from.x, to.y}) ? Vec2{from.x, to.y} : from;
+  }
+  const float least_m = std::min(radius_m - kTolerance_m, Clearance(w, cell, from));
+  const float asked_m = Length(to - from);
+  Vec2 p = to;
+  for (int slide = 0; slide < kSlides; ++slide) {
+    const Vec2 pushed = PushOut(w, cell, p, radius_m);
+    if (pushed.x == p.x && pushed.y == p.y) break;
+    p = pushed;
+  }
+  for (int attempt = 0; attempt < 4; ++attempt) {  // shorter and shorter, else stay
+    const float got_m = Length(p - from);
+    if (got_m > asked_m && got_m > 1e-9f) p = from + (p - from) * (asked_m / got_m);
+    if (Clearance(w, cell, p) >= least_m && grounded(p)) return p;
+    p = from + (p - from) * 0.5f;
+  }
+  return from;
+}
+
+}  // namespace
+
+Vec2 NearestOnSegment(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 ab = b - a;
+  const float length2 = Dot(ab, ab);
+  const float t = length2 > 0 ? std::clamp(Dot(p - a, ab) / length2, 0.0f, 1.0f) : 0.0f;
+  return a + ab * t;
+}
+
+float Clearance(const Walkable& w, int cell, Vec2 p) {
+  float nearest_m = 1e9f;
+  VisitWalls(w, cell, p, [&](Vec2, float distance_m) { nearest_m = std::min(nearest_m, distance_m); });
+  return nearest_m;
+}
+
+Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {
+  const float way_m = Length(to - from);
+  const int pieces = std::max(1, static_cast<int>(std::ceil(way_m / (0.5f * radius_m))));
+  Vec2 p = from;
+  for (int k = 1; k <= pieces; ++k) {
+    const Vec2 piece = (to - from) * (1 / static_cast<float>(pieces));
+    p = ShortStep(w, p, p + piece, radius_m);
+  }
+  return p;
+}
+
+Vec2 WallPush(const Walkable& w, Vec2 p, float radius_m) {
+  const int cell = CellAt(w, p);
+  if (cell < 0 || NothingNear(w, cell)) return {};
+  Vec2 push;
+  VisitWalls(w, cell, p, [&](Vec2 away, float distance_m) {
+    const float gap_m = distance_m - radius_m;
+    if (gap_m < kWallComfort_m && distance_m > 1e-4f) {
+      push = push + away * (kWallPush_mps2 * (1 - std::max(gap_m, 0.0f) / kWallComfort_m) / distance_m);
+    }
+  });
+  const float length = Length(push);
+  return length > kWallPush_mps2 ? push * (kWallPush_mps2 / length) : push;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,19 @@
+// Moving beside walls and trees without ever entering them.
+#pragma once
+#include "runtime/crowd/walkable.h"
+
+namespace flaneur {
+
+Vec2 NearestOnSegment(Vec2 p, Vec2 a, Vec2 b);
+
+// From p, in or next to `cell`, to the nearest wall or tree; 1e9 where none is near. Not negative inside polygons.
+float Clearance(const Walkable& w, int cell, Vec2 p);
+
+// Where a step from `from` towards `to` ends: along walls where they are in the way, never nearer to one than radius_m (or than
+// `from` is, for somebody who starts closer), never off the ground, and never farther from `from` than `to` is.
+Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m);
+
+// Sum of gentle pushes away from walls within kWallComfort_m beyond touching, metres per second squared.
+Vec2 WallPush(const Walkable& w, Vec2 p, float radius_m);
+
+}  // namespace flaneur
