@@ -63,6 +63,12 @@ void SetUniform(GLuint program, const char* name, int value) {
   glUniform1i(glGetUniformLocation(program, name), value);
 }
 
+bool DrawsInSoftware() {
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return renderer != nullptr && (std::strstr(renderer, "llvmpipe") != nullptr || std::strstr(renderer, "softpipe") != nullptr ||
+                                 std::strstr(renderer, "SwiftShader") != nullptr);
+}
+
 GLuint UploadTexture(const PackImage& image, bool srgb, bool repeat, int most_level) {
   GLuint texture = 0;
   glGenTextures(1, &texture);
@@ -78,7 +84,8 @@ GLuint UploadTexture(const PackImage& image, bool srgb, bool repeat, int most_le
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, most_level);
   const auto* extensions = reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS));
-  if (extensions != nullptr && std::strstr(extensions, "texture_filter_anisotropic") != nullptr) {
+  // In software each anisotropic look-up walks an ellipse of texels: ten times the whole rest of a frame.
+  if (!DrawsInSoftware() && extensions != nullptr && std::strstr(extensions, "texture_filter_anisotropic") != nullptr) {
     glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, 4);
   }
   return texture;

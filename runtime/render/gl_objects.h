@@ -17,6 +17,9 @@ void SetUniform(GLuint program, const char* name, Vec4 value);
 void SetUniform(GLuint program, const char* name, float value);
 void SetUniform(GLuint program, const char* name, int value);
 
+// True where no GPU draws: then detail that a GPU gives away is too dear.
+bool DrawsInSoftware();
+
 // Mipmapped; `repeat` else clamped; `most_level` limits how small mips get used.
 GLuint UploadTexture(const PackImage& image, bool srgb, bool repeat, int most_level);
 GLuint UploadWhite();
