@@ -41,12 +41,12 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, FrameInput* 
     if (Length(s.crowd.velocity[i]) > kStandsBelow_mps) {
       // One clip's length of way for each turn of the walk, so that feet don't slide.
       const float cycle_m = avatar.walk_speed_mps * std::max(avatar.walk.duration_s, 0.1f);
-      person.clip = ClipKind::kWalk;
-      person.phase = Fraction(s.crowd.walked_m[i] / cycle_m);
+      person.moment.clip = ClipKind::kWalk;
+      person.moment.phase = Fraction(s.crowd.walked_m[i] / cycle_m);
     } else {
       const bool talks = s.crowd.activity[i] == Activity::kTalking;
-      person.clip = talks ? ClipKind::kTalk : ClipKind::kIdle;
-      person.phase = Fraction(own_time_s / std::max(talks ? avatar.talk.duration_s : avatar.idle.duration_s, 0.1f));
+      person.moment.clip = talks ? ClipKind::kTalk : ClipKind::kIdle;
+      person.moment.phase = Fraction(own_time_s / std::max(talks ? avatar.talk.duration_s : avatar.idle.duration_s, 0.1f));
     }
     frame->people.push_back(person);
   }

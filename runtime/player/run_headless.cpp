@@ -8,22 +8,29 @@
 #include "runtime/render/renderer.h"
 
 namespace flaneur {
+namespace {
+
+constexpr int kStillSamples = 4;
+
+}  // namespace
 
 Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Simulation* simulation) {
   HeadlessContext context;
   if (Error e = context.Create()) return e;
+  const bool filming = !options.film.empty();
+  // A still alone needs only its last picture drawn, and may take its time for that.
+  const bool draw_all = filming || !options.metrics.empty() || options.screenshot.empty();
+  RenderOptions render_options;
+  if (!draw_all) render_options.samples = kStillSamples;
   Renderer renderer;
-  if (Error e = renderer.Create(pack)) return e;
+  if (Error e = renderer.Create(pack, render_options)) return e;
   Records records;
   records.keep_metrics = !options.metrics.empty();
   records.keep_trajectories = !options.trajectories.empty();
   FilmWriter film;
-  const bool filming = !options.film.empty();
   if (filming) {
     if (Error e = film.Start(options.film, options.width_px, options.height_px, 1 / simulation->step_s)) return e;
   }
-  // A still alone needs only its last picture drawn.
-  const bool draw_all = filming || records.keep_metrics || options.screenshot.empty();
   const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(simulation->step_s) + 0.5);
   FrameInput frame;
   FrameStatistics statistics;

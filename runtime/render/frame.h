@@ -1,6 +1,7 @@
 // What one picture shows. Ground axes (x east, y north, z up), metres, radians.
 #pragma once
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "runtime/base/math.h"
@@ -9,13 +10,22 @@ namespace flaneur {
 
 enum class ClipKind : uint8_t { kWalk, kIdle, kTalk };
 
+struct ClipMoment {
+  ClipKind clip = ClipKind::kWalk;
+  float phase = 0;         // of the clip, [0, 1)
+};
+
+// Somebody who changes from one level to another stands twice in a frame, once with each level, with shares of a dither pattern
+// that complement each other: [0, t) and [t, 1). Who appears or vanishes has [0, t) alone.
 struct DrawnPerson {
   int avatar = 0;
   int level = 0;           // of the mesh; -1: impostor
-  ClipKind clip = ClipKind::kWalk;
-  float phase = 0;         // of the clip, [0, 1)
+  ClipMoment moment;
+  ClipMoment other;        // mixed in by other_share, where a walk ends or begins; an impostor shows the greater share alone
+  float other_share = 0;
   Vec3 position;           // of the feet
   float heading_rad = 0;   // where the person faces
+  float share_from = 0, share_to = 1;
 };
 
 struct FrameInput {
@@ -26,8 +36,8 @@ struct FrameInput {
 };
 
 struct FrameStatistics {
-  int64_t town_triangles = 0, people_triangles = 0;
-  double draw_ms = 0;
+  int64_t town_triangles = 0, people_triangles = 0;  // drawn into the picture, both levels of who changes; not the shadows
+  double draw_ms = 0;      // until the picture is there
 };
 
 }  // namespace flaneur

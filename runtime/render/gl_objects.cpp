@@ -1,7 +1,5 @@
 #include "runtime/render/gl_objects.h"
 
-#include <GLES2/gl2ext.h>
-
 #include <algorithm>
 #include <cstring>
 
@@ -11,7 +9,7 @@
 namespace flaneur {
 namespace {
 
-constexpr int kSamples = 4;
+constexpr GLuint kFrameBinding = 0;
 
 Error Compile(GLenum kind, const std::string& source, GLuint* shader) {
   *shader = glCreateShader(kind);
@@ -25,6 +23,16 @@ Error Compile(GLenum kind, const std::string& source, GLuint* shader) {
   char log[1024] = "";
   glGetShaderInfoLog(*shader, sizeof log, nullptr, log);
   return Fail("the OpenGL driver refuses a shader: " + OneLine(log));
+}
+
+void NamePlaces(GLuint program) {
+  glUseProgram(program);
+  const GLuint block = glGetUniformBlockIndex(program, "Frame");
+  if (block != GL_INVALID_INDEX) glUniformBlockBinding(program, block, kFrameBinding);
+  const struct { const char* name; TextureUnit unit; } samplers[] = {
+      {"u_texture", kColorUnit}, {"u_normals", kNormalsUnit}, {"u_poses", kPosesUnit},
+      {"u_town_shadow_map", kTownShadowUnit}, {"u_people_shadow_map", kPeopleShadowUnit}};
+  for (const auto& s : samplers) glUniform1i(glGetUniformLocation(program, s.name), s.unit);
 }
 
 }  // namespace
@@ -41,15 +49,15 @@ Error BuildProgram(const std::string& vertex, const std::string& fragment, GLuin
   glDeleteShader(f);
   GLint good = 0;
   glGetProgramiv(*program, GL_LINK_STATUS, &good);
-  if (good) return Ok();
+  if (good) {
+    NamePlaces(*program);
+    return Ok();
+  }
   char log[1024] = "";
   glGetProgramInfoLog(*program, sizeof log, nullptr, log);
   return Fail("the OpenGL driver refuses a shader program: " + OneLine(log));
 }
 
-void SetUniform(GLuint program, const char* name, const Mat4& value) {
-  glUniformMatrix4fv(glGetUniformLocation(program, name), 1, GL_FALSE, &value.m[0][0]);
-}
 void SetUniform(GLuint program, const char* name, Vec3 v) {
   glUniform3f(glGetUniformLocation(program, name), v.x, v.y, v.z);
 }
@@ -59,8 +67,10 @@ void SetUniform(GLuint program, const char* name, Vec4 v) {
 void SetUniform(GLuint program, const char* name, float value) {
   glUniform1f(glGetUniformLocation(program, name), value);
 }
-void SetUniform(GLuint program, const char* name, int value) {
-  glUniform1i(glGetUniformLocation(program, name), value);
+void BindFrameBlock(GLuint buffer, const FrameBlock& block) {
+  glBindBuffer(GL_UNIFORM_BUFFER, buffer);
+  glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
+  glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, buffer);
 }
 
 bool DrawsInSoftware() {
@@ -69,83 +79,30 @@ bool DrawsInSoftware() {
                                  std::strstr(renderer, "SwiftShader") != nullptr);
 }
 
-GLuint UploadTexture(const PackImage& image, bool srgb, bool repeat, int most_level) {
-  GLuint texture = 0;
-  glGenTextures(1, &texture);
+GLuint CreateBuffer(GLenum target, const void* data, size_t bytes) {
+  GLuint buffer = 0;
+  glGenBuffers(1, &buffer);
+  glBindBuffer(target, buffer);
+  glBufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
+  return buffer;
+}
+
+void EnableAttribute(GLuint index, GLint size, GLenum type, bool normalized, size_t stride, size_t offset, GLuint divisor) {
+  glEnableVertexAttribArray(index);
+  const void* pointer = reinterpret_cast<const void*>(offset);
+  if (type == GL_FLOAT || normalized) glVertexAttribPointer(index, size, type, normalized, static_cast<GLsizei>(stride), pointer);
+  else glVertexAttribIPointer(index, size, type, static_cast<GLsizei>(stride), pointer);
+  glVertexAttribDivisor(index, divisor);
+}
+
+void BindTexture(TextureUnit unit, GLuint texture) {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   glBindTexture(GL_TEXTURE_2D, texture);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width_px, image.height_px, 0,
-               GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-  glGenerateMipmap(GL_TEXTURE_2D);
-  const GLint wrap = repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, most_level);
-  const auto* extensions = reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS));
-  // In software each anisotropic look-up walks an ellipse of texels: ten times the whole rest of a frame.
-  if (!DrawsInSoftware() && extensions != nullptr && std::strstr(extensions, "texture_filter_anisotropic") != nullptr) {
-    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, 4);
-  }
-  return texture;
 }
 
-GLuint UploadWhite() { return UploadTexture({1, 1, {255, 255, 255, 255}}, false, true, 0); }
-
-ShadowMap CreateShadowMap(int size_px) {
-  ShadowMap map;
-  map.size_px = size_px;
-  glGenTextures(1, &map.texture);
-  glBindTexture(GL_TEXTURE_2D, map.texture);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, size_px, size_px, 0, GL_DEPTH_COMPONENT,
-               GL_UNSIGNED_INT, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  glGenFramebuffers(1, &map.framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, map.framebuffer);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, map.texture, 0);
-  const GLenum none = GL_NONE;
-  glDrawBuffers(1, &none);
-  return map;
-}
-
-void ResizePicture(int width_px, int height_px, Picture* p) {
-  if (p->width_px == width_px && p->height_px == height_px) return;
-  if (p->framebuffer == 0) {
-    glGenRenderbuffers(1, &p->color);
-    glGenRenderbuffers(1, &p->depth);
-    glGenRenderbuffers(1, &p->resolved_color);
-    glGenFramebuffers(1, &p->framebuffer);
-    glGenFramebuffers(1, &p->resolved);
-  }
-  GLint most = 1;
-  glGetIntegerv(GL_MAX_SAMPLES, &most);
-  p->width_px = width_px;
-  p->height_px = height_px;
-  p->samples = std::min<int>(most, kSamples);
-  glBindRenderbuffer(GL_RENDERBUFFER, p->color);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, p->samples, GL_RGBA8, width_px, height_px);
-  glBindRenderbuffer(GL_RENDERBUFFER, p->depth);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, p->samples, GL_DEPTH_COMPONENT24, width_px, height_px);
-  glBindRenderbuffer(GL_RENDERBUFFER, p->resolved_color);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_px, height_px);
-  glBindFramebuffer(GL_FRAMEBUFFER, p->framebuffer);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, p->color);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, p->depth);
-  glBindFramebuffer(GL_FRAMEBUFFER, p->resolved);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, p->resolved_color);
-}
-
-void ResolvePicture(const Picture& p) {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, p.framebuffer);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, p.resolved);
-  glBlitFramebuffer(0, 0, p.width_px, p.height_px, 0, 0, p.width_px, p.height_px, GL_COLOR_BUFFER_BIT,
-                    GL_NEAREST);
+void CullBackFaces(bool cull) {
+  if (cull) glEnable(GL_CULL_FACE);
+  else glDisable(GL_CULL_FACE);
 }
 
 }  // namespace flaneur

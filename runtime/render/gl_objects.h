@@ -1,38 +1,38 @@
-// Small helpers over OpenGL names. Internal to runtime/render.
+// Small helpers over OpenGL names. Internal to runtime/render. All objects live as long as their context.
 #pragma once
 #include <GLES3/gl3.h>
 
+#include <cstddef>
 #include <string>
 
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
-#include "runtime/pack/tour_pack.h"
 
 namespace flaneur {
 
+// Places that all programs share: sampler uniforms get their unit, the block Frame its binding, at linking.
+enum TextureUnit { kColorUnit, kNormalsUnit, kPosesUnit, kTownShadowUnit, kPeopleShadowUnit };
+
+// The uniform block Frame of shaders.h, in its std140 layout.
+struct FrameBlock {
+  Mat4 view_projection, inverse_view_projection, town_shadow, people_shadow;
+  Vec4 eye, to_sun, sun_color, sky_color, ground_color, haze_color, zenith_color;
+};
+void BindFrameBlock(GLuint buffer, const FrameBlock& block);
+
+// Both sources without the header. Errors: what the driver says against them.
 Error BuildProgram(const std::string& vertex, const std::string& fragment, GLuint* program);
-void SetUniform(GLuint program, const char* name, const Mat4& value);
 void SetUniform(GLuint program, const char* name, Vec3 value);
 void SetUniform(GLuint program, const char* name, Vec4 value);
 void SetUniform(GLuint program, const char* name, float value);
-void SetUniform(GLuint program, const char* name, int value);
 
-// True where no GPU draws: then detail that a GPU gives away is too dear.
+// True where no GPU draws: then what a GPU gives away is too dear.
 bool DrawsInSoftware();
 
-// Mipmapped; `repeat` else clamped; `most_level` limits how small mips get used.
-GLuint UploadTexture(const PackImage& image, bool srgb, bool repeat, int most_level);
-GLuint UploadWhite();
-
-struct ShadowMap { GLuint texture = 0, framebuffer = 0; int size_px = 0; };
-ShadowMap CreateShadowMap(int size_px);
-
-// A multisampled picture and its resolved copy, remade when the size changes.
-struct Picture {
-  int width_px = 0, height_px = 0, samples = 0;
-  GLuint color = 0, depth = 0, framebuffer = 0, resolved_color = 0, resolved = 0;
-};
-void ResizePicture(int width_px, int height_px, Picture* picture);
-void ResolvePicture(const Picture& picture);
+GLuint CreateBuffer(GLenum target, const void* data, size_t bytes);
+// `divisor` 1: of an instance. Integers stay integers unless `normalized`.
+void EnableAttribute(GLuint index, GLint size, GLenum type, bool normalized, size_t stride, size_t offset, GLuint divisor);
+void BindTexture(TextureUnit unit, GLuint texture);
+void CullBackFaces(bool cull);
 
 }  // namespace flaneur

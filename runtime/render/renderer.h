@@ -1,7 +1,6 @@
 // Draws a tour pack with OpenGL ES 3.0: town, people as skinned meshes near and relit impostors far, sun with shadows.
 #pragma once
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "runtime/base/error.h"
@@ -10,13 +9,18 @@
 
 namespace flaneur {
 
+struct RenderOptions {
+  int samples = 0;    // of each pixel; 0: four with a GPU, one and a smoothing pass without
+  bool cull = true;   // leave out blocks of the town that the picture cannot show; false only to prove that
+};
+
 // Needs a current context for its whole life.
 class Renderer {
  public:
   Renderer();
   ~Renderer();
-  // Uploads the pack. Errors: a shader that the driver refuses, textures larger than it can hold.
-  Error Create(const TourPack& pack);
+  // Uploads the pack, which is not needed afterwards. Errors: a shader that the driver refuses, textures larger than it can hold.
+  Error Create(const TourPack& pack, const RenderOptions& options = {});
   // Draws into a picture of its own; Read or Present brings it out.
   void Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics);
   // The last picture: RGB, 8 bits a channel, top row first.

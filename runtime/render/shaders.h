@@ -6,35 +6,58 @@ namespace flaneur {
 inline constexpr const char* kHeader =
     "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2DShadow;\n";
 
-// Light: sun with two shadow maps (town, people), sky and ground from all sides, haze.
+// What all programs know of the picture; FrameBlock in frame_block.h mirrors it.
+inline constexpr const char* kFrame = R"(
+layout(std140) uniform Frame {
+  mat4 u_view_projection, u_inverse_view_projection, u_town_shadow, u_people_shadow;
+  vec4 u_eye, u_to_sun, u_sun_color, u_sky_color, u_ground_color, u_haze_color, u_zenith_color;
+};
+)";
+
+// Light: sun with two shadow maps (town, people), sky and ground from all sides, haze. SHADOW_TAPS: 1 or 4 bilinear look-ups.
 inline constexpr const char* kLight = R"(
-uniform vec3 u_eye, u_to_sun, u_sun_color, u_sky_color, u_ground_color, u_haze_color;
-uniform mat4 u_town_shadow, u_people_shadow;
 uniform sampler2DShadow u_town_shadow_map, u_people_shadow_map;
 float shadow_of(sampler2DShadow map, mat4 matrix, vec3 p, float bias) {
-  vec4 q = matrix * vec4(p, 1.0);
-  vec3 c = q.xyz * 0.5 + 0.5;
+  vec3 c = (matrix * vec4(p, 1.0)).xyz * 0.5 + 0.5;
   if (any(lessThan(c, vec3(0.002))) || any(greaterThan(c, vec3(0.998)))) return 1.0;
+#if SHADOW_TAPS == 1
+  return texture(map, vec3(c.xy, c.z - bias));
+#else
   vec2 texel = 1.0 / vec2(textureSize(map, 0));
   float sum = 0.0;
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 2; ++x)
       sum += texture(map, vec3(c.xy + (vec2(x, y) - 0.5) * texel, c.z - bias));
   return sum * 0.25;
+#endif
 }
 vec3 lit(vec3 albedo, vec3 n, vec3 p) {
-  float sun = max(dot(n, u_to_sun), 0.0);
+  float sun = max(dot(n, u_to_sun.xyz), 0.0);
   vec3 lifted = p + n * 0.05;
   if (sun > 0.0) sun *= shadow_of(u_town_shadow_map, u_town_shadow, lifted, 0.0006) *
                         shadow_of(u_people_shadow_map, u_people_shadow, lifted, 0.0012);
-  vec3 around = mix(u_ground_color, u_sky_color, n.y * 0.5 + 0.5);
-  return albedo * (u_sun_color * sun + around);
+  vec3 around = mix(u_ground_color.rgb, u_sky_color.rgb, n.y * 0.5 + 0.5);
+  return albedo * (u_sun_color.rgb * sun + around);
 }
 vec3 shown(vec3 color, vec3 p) {
-  float haze = 1.0 - exp(-distance(p, u_eye) * 0.0035);
-  color = mix(color, u_haze_color, haze);
+  float haze = 1.0 - exp(-distance(p, u_eye.xyz) * 0.0035);
+  color = mix(color, u_haze_color.rgb, haze);
   color = (color * (2.51 * color + 0.03)) / (color * (2.43 * color + 0.59) + 0.14);
   return pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2));
+}
+// Colour pictures are filtered as they are stored, in sRGB, which software does several times faster, and made linear here:
+// a cubic through the curve, off by less than 0.003.
+vec3 linear_from_srgb(vec3 c) { return c * (c * (c * 0.305306 + 0.682171) + 0.012523); }
+)";
+
+// Who is fading shares the pixels of a pattern with whom they fade into: v_share is the part of the pattern that is drawn.
+inline constexpr const char* kFade = R"(
+flat in vec2 v_share;
+void keep_share() {
+  ivec2 p = ivec2(gl_FragCoord.xy) & 3;
+  int a = p.x ^ p.y;
+  float rank = float(((a & 1) << 3) | ((p.y & 1) << 2) | (a & 2) | ((p.y & 2) >> 1)) / 16.0 + 1.0 / 32.0;
+  if (rank < v_share.x || rank >= v_share.y) discard;
 }
 )";
 
@@ -43,21 +66,19 @@ layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in vec2 a_uv;
 layout(location = 3) in vec4 a_color;
-uniform mat4 u_view_projection, u_world;
 out vec3 v_position, v_normal;
 out vec2 v_uv;
 out vec4 v_color;
 void main() {
-  vec4 p = u_world * vec4(a_position, 1.0);
-  v_position = p.xyz;
-  v_normal = mat3(u_world) * a_normal;
+  v_position = a_position;
+  v_normal = a_normal;
   v_uv = a_uv;
   v_color = a_color;
-  gl_Position = u_view_projection * p;
+  gl_Position = u_view_projection * vec4(a_position, 1.0);
 }
 )";
 
-// Every frame of every clip is a row of the joint texture, three texels a joint.
+// Everybody's pose is a row of the pose texture, three texels a joint.
 inline constexpr const char* kPersonVertex = R"(
 layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
@@ -66,26 +87,22 @@ layout(location = 3) in vec4 a_color;
 layout(location = 4) in uvec4 a_joints;
 layout(location = 5) in vec4 a_weights;
 layout(location = 6) in vec4 a_place;  // position, turn about the vertical
-layout(location = 7) in vec3 a_rows;   // two rows of the joint texture and how far between them
-uniform mat4 u_view_projection;
-uniform highp sampler2D u_joint_texture;
+layout(location = 7) in vec3 a_look;   // row of the pose texture, share of the pattern from, to
+uniform highp sampler2D u_poses;
 out vec3 v_position, v_normal;
 out vec2 v_uv;
 out vec4 v_color;
-vec4 joint_row(int joint, int k) {
-  vec4 a = texelFetch(u_joint_texture, ivec2(3 * joint + k, int(a_rows.x)), 0);
-  vec4 b = texelFetch(u_joint_texture, ivec2(3 * joint + k, int(a_rows.y)), 0);
-  return mix(a, b, a_rows.z);
-}
+flat out vec2 v_share;
 void main() {
   vec4 r0 = vec4(0.0), r1 = vec4(0.0), r2 = vec4(0.0);
+  int row = int(a_look.x);
   for (int i = 0; i < 4; ++i) {
     float w = a_weights[i];
     if (w <= 0.0) continue;
-    int j = int(a_joints[i]);
-    r0 += w * joint_row(j, 0);
-    r1 += w * joint_row(j, 1);
-    r2 += w * joint_row(j, 2);
+    int j = 3 * int(a_joints[i]);
+    r0 += w * texelFetch(u_poses, ivec2(j, row), 0);
+    r1 += w * texelFetch(u_poses, ivec2(j + 1, row), 0);
+    r2 += w * texelFetch(u_poses, ivec2(j + 2, row), 0);
   }
   vec4 p = vec4(a_position, 1.0);
   vec3 posed = vec3(dot(r0, p), dot(r1, p), dot(r2, p));
@@ -95,54 +112,66 @@ void main() {
   v_normal = vec3(c * n.x + s * n.z, n.y, c * n.z - s * n.x);
   v_uv = a_uv;
   v_color = a_color;
+  v_share = a_look.yz;
   gl_Position = u_view_projection * vec4(v_position, 1.0);
 }
 )";
 
+// MASKED: cut out by alpha. FADES: draws its share of the pattern. Without either the depth test can go first.
 inline constexpr const char* kSurfaceFragment = R"(
 in vec3 v_position, v_normal;
 in vec2 v_uv;
 in vec4 v_color;
 uniform sampler2D u_texture;
-uniform vec4 u_base_color;
 uniform float u_alpha_cutoff;
 out vec4 o_color;
 void main() {
-  vec4 albedo = texture(u_texture, v_uv) * u_base_color;
+#ifdef FADES
+  keep_share();
+#endif
+  vec4 albedo = texture(u_texture, v_uv);
+#ifdef MASKED
   if (albedo.a * v_color.a < u_alpha_cutoff) discard;
+#endif
   vec3 n = normalize(v_normal);
   if (!gl_FrontFacing) n = -n;
-  o_color = vec4(shown(lit(albedo.rgb * v_color.rgb, n, v_position), v_position), 1.0);
+  o_color = vec4(shown(lit(linear_from_srgb(albedo.rgb) * v_color.rgb, n, v_position), v_position), 1.0);
 }
 )";
 
 inline constexpr const char* kShadowFragment = R"(
 in vec2 v_uv;
+in vec4 v_color;
 uniform sampler2D u_texture;
 uniform float u_alpha_cutoff;
-void main() { if (u_alpha_cutoff > 0.0 && texture(u_texture, v_uv).a < u_alpha_cutoff) discard; }
+void main() {
+#ifdef MASKED
+  if (texture(u_texture, v_uv).a * v_color.a < u_alpha_cutoff) discard;
+#endif
+}
 )";
 
 // A quad that stands upright and turns to the eye (or to the sun, for its shadow).
 inline constexpr const char* kImpostorVertex = R"(
 layout(location = 0) in vec2 a_corner;  // x -1 to 1, y 0 to 1
 layout(location = 6) in vec4 a_place;   // position, turn about the vertical
-layout(location = 7) in vec3 a_cells;   // two columns and how far between them
-layout(location = 8) in float a_row;
+layout(location = 7) in vec3 a_look;    // row of the atlas, share of the pattern from, to
+layout(location = 8) in vec3 a_cells;   // two columns and how far between them
 layout(location = 9) in vec2 a_right;   // on the ground, glTF's x and z
-uniform mat4 u_view_projection;
 uniform vec3 u_window;                  // width, height, bottom in metres
 uniform vec4 u_cell;                    // a cell's size and half a texel, in texture coordinates
 out vec3 v_position;
 out vec2 v_uv0, v_uv1, v_turn;
 out float v_mix;
+flat out vec2 v_share;
 void main() {
+  v_share = a_look.yz;
   vec3 right = vec3(a_right.x, 0.0, a_right.y);
   float up = u_window.z + a_corner.y * u_window.y;
   v_position = a_place.xyz + right * (a_corner.x * 0.5 * u_window.x) + vec3(0.0, up, 0.0);
   vec2 inside = vec2(a_corner.x * 0.5 + 0.5, 1.0 - a_corner.y) * (u_cell.xy - 2.0 * u_cell.zw) + u_cell.zw;
-  v_uv0 = vec2(a_cells.x, a_row) * u_cell.xy + inside;
-  v_uv1 = vec2(a_cells.y, a_row) * u_cell.xy + inside;
+  v_uv0 = vec2(a_cells.x, a_look.x) * u_cell.xy + inside;
+  v_uv1 = vec2(a_cells.y, a_look.x) * u_cell.xy + inside;
   v_mix = a_cells.z;
   v_turn = vec2(cos(a_place.w), sin(a_place.w));
   gl_Position = u_view_projection * vec4(v_position, 1.0);
@@ -156,12 +185,13 @@ in float v_mix;
 uniform sampler2D u_texture, u_normals;
 out vec4 o_color;
 void main() {
+  keep_share();
   vec4 a = texture(u_texture, v_uv0), b = texture(u_texture, v_uv1);
   if (mix(a.a, b.a, v_mix) < 0.45) discard;
   // Where only one of the two pictures shows the person, it alone gives colour and normal.
   float wa = (1.0 - v_mix) * a.a, wb = v_mix * b.a;
   float share = wb / max(wa + wb, 1e-4);
-  vec3 albedo = mix(a.rgb, b.rgb, share);
+  vec3 albedo = linear_from_srgb(mix(a.rgb, b.rgb, share));
   vec3 n = mix(texture(u_normals, v_uv0).rgb, texture(u_normals, v_uv1).rgb, share) * 2.0 - 1.0;
   n = normalize(vec3(v_turn.x * n.x + v_turn.y * n.z, n.y, v_turn.x * n.z - v_turn.y * n.x));
   o_color = vec4(shown(lit(albedo, n, v_position), v_position), 1.0);
@@ -176,7 +206,6 @@ void main() { if (mix(texture(u_texture, v_uv0).a, texture(u_texture, v_uv1).a, 
 )";
 
 inline constexpr const char* kSkyVertex = R"(
-uniform mat4 u_inverse_view_projection;
 out vec3 v_ray;
 void main() {
   vec2 p = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0;
@@ -188,7 +217,6 @@ void main() {
 
 inline constexpr const char* kSkyFragment = R"(
 in vec3 v_ray;
-uniform vec3 u_to_sun, u_sun_color, u_zenith_color, u_haze_color;
 out vec4 o_color;
 float hash(vec2 p) { return fract(sin(dot(p, vec2(41.3, 289.1))) * 43758.5453); }
 float noise(vec2 p) {
@@ -199,14 +227,48 @@ float noise(vec2 p) {
 void main() {
   vec3 d = normalize(v_ray);
   float up = max(d.y, 0.0);
-  vec3 color = mix(u_haze_color, u_zenith_color, pow(up, 0.45));
+  vec3 color = mix(u_haze_color.rgb, u_zenith_color.rgb, pow(up, 0.45));
   vec2 q = d.xz / (up + 0.12) * 1.4;
   float cloud = noise(q) * 0.55 + noise(q * 2.3 + 7.0) * 0.3 + noise(q * 5.1) * 0.15;
   color = mix(color, vec3(1.15, 1.12, 1.07), smoothstep(0.52, 0.85, cloud) * smoothstep(0.02, 0.25, d.y) * 0.65);
-  float glow = max(dot(d, u_to_sun), 0.0);
-  color += u_sun_color * (pow(glow, 500.0) * 4.0 + pow(glow, 12.0) * 0.08);
+  float glow = max(dot(d, u_to_sun.xyz), 0.0);
+  color += u_sun_color.rgb * (pow(glow, 500.0) * 4.0 + pow(glow, 12.0) * 0.08);
   color = (color * (2.51 * color + 0.03)) / (color * (2.43 * color + 0.59) + 0.14);
   o_color = vec4(pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
+}
+)";
+
+// A triangle over the whole picture.
+inline constexpr const char* kWholeVertex = R"(
+void main() {
+  gl_Position = vec4(vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+
+// Smooths stair-steps where the driver's multisampling is too dear: across an edge brighter on one side, two looks along it
+// (after the idea of fast approximate antialiasing, Lottes 2009).
+inline constexpr const char* kSmoothFragment = R"(
+uniform sampler2D u_texture;
+out vec4 o_color;
+float brightness(ivec2 p) { return dot(texelFetch(u_texture, p, 0).rgb, vec3(0.30, 0.59, 0.11)); }
+void main() {
+  ivec2 last = textureSize(u_texture, 0) - 1, p = ivec2(gl_FragCoord.xy);
+  vec3 middle = texelFetch(u_texture, p, 0).rgb;
+  int left = max(p.x - 1, 0), right = min(p.x + 1, last.x), below = max(p.y - 1, 0), above = min(p.y + 1, last.y);
+  float m = dot(middle, vec3(0.30, 0.59, 0.11));
+  float lb = brightness(ivec2(left, below)), rb = brightness(ivec2(right, below));
+  float la = brightness(ivec2(left, above)), ra = brightness(ivec2(right, above));
+  float least = min(m, min(min(lb, rb), min(la, ra))), most = max(m, max(max(lb, rb), max(la, ra)));
+  o_color = vec4(middle, 1.0);
+  if (most - least < max(0.06, most * 0.14)) return;
+  vec2 along = vec2(la + ra - lb - rb, lb + la - rb - ra);  // turned a quarter from the slope of brightness
+  float weaker = min(abs(along.x), abs(along.y)) + max(0.008, (lb + rb + la + ra) * 0.03);
+  along = clamp(along / weaker, -6.0, 6.0) / vec2(last + 1);
+  vec2 at = gl_FragCoord.xy / vec2(last + 1);
+  vec3 near = 0.5 * (textureLod(u_texture, at - along / 6.0, 0.0).rgb + textureLod(u_texture, at + along / 6.0, 0.0).rgb);
+  vec3 far = 0.5 * near + 0.25 * (textureLod(u_texture, at - along * 0.5, 0.0).rgb + textureLod(u_texture, at + along * 0.5, 0.0).rgb);
+  float b = dot(far, vec3(0.30, 0.59, 0.11));
+  o_color.rgb = b < least || b > most ? near : far;
 }
 )";
 

@@ -1,0 +1,20 @@
+// The pack's pictures as textures. Internal to runtime/render.
+#pragma once
+#include <GLES3/gl3.h>
+
+#include <vector>
+
+#include "runtime/pack/tour_pack.h"
+
+namespace flaneur {
+
+// One a pack image. Pictures of surfaces repeat; those of impostor atlases don't, and have few mip levels, for smaller ones
+// would mix neighbouring cells.
+std::vector<GLuint> UploadTextures(const TourPack& pack);
+GLuint UploadWhite();
+
+struct Surface { GLuint texture = 0; float alpha_cutoff = 0; bool masked = false, double_sided = false; };
+// One a pack material; after them the one of primitives without material.
+std::vector<Surface> MakeSurfaces(const TourPack& pack, const std::vector<GLuint>& textures);
+
+}  // namespace flaneur
