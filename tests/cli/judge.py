@@ -63,6 +63,18 @@ def overlaps(frames, tolerance_m=0.05):
     return found
 
 
+def seen_out_of_nothing(frames):
+    """(frame, id) of people who are visible without having been in the boundary, or visible, in the step before."""
+    found = []
+    numbers = list(frames)
+    for before, after in zip(numbers, numbers[1:]):
+        for person, row in frames[after].items():
+            last = frames[before].get(person)
+            if row["view"] == "visible" and (last is None or last["view"] == "outside"):
+                found.append((after, person))
+    return found
+
+
 def inside_ring(x, y, ring):
     inside = False
     for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1]):

@@ -1,0 +1,72 @@
+"""The demo tour from its sources to a walk through every scenario, judged from outside.
+
+Bakes into the folder that ./demo uses, so that neither bakes again what the other has.
+"""
+import json
+import math
+import tomllib
+import unittest
+
+import judge
+from support import SOURCE, ProgramTest, run
+
+TOUR = SOURCE / "assets_src/wolfenbuettel/tour.toml"
+OUT = SOURCE / "build_assets/wolfenbuettel"
+PACK = OUT / "wolfenbuettel.glb"
+SCENARIOS = sorted((SOURCE / "tests/scenario").glob("*.toml"))
+TOP_SPEED_MPS = 1.9
+STEP_S = 1 / 30
+
+
+class DemoTour(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        result = run("flaneur", "bake", TOUR, "-o", OUT)
+        if result.returncode != 0:
+            raise AssertionError(result.stdout + result.stderr)
+        cls.footprints = json.loads((OUT / "footprints.geojson").read_text())
+
+    def play(self, *arguments):
+        """Metrics and trajectories of a run without drawing."""
+        metrics, trajectories = self.folder / "metrics.csv", self.folder / "trajectories.csv"
+        self.assert_succeeds(run("flaneur-player", PACK, "--headless", "--no-draw", "--metrics", metrics,
+                                 "--trajectories", trajectories, *arguments))
+        return (judge.read_table(metrics, judge.METRICS),
+                judge.by_frame(judge.read_table(trajectories, judge.TRAJECTORIES)))
+
+    def assert_believable(self, metrics, frames):
+        self.assertEqual(judge.frames_over_budget(metrics), [])
+        self.assertEqual(judge.jumps(frames, TOP_SPEED_MPS, STEP_S), [])
+        self.assertEqual(judge.overlaps(frames), [])
+        self.assertEqual(judge.inside_obstacles(frames, self.footprints, every=30), [])
+        self.assertEqual(judge.seen_out_of_nothing(frames), [])
+
+    def test_pack_is_valid(self):
+        self.assert_valid(PACK)
+
+    def test_townspeople_are_detailed_and_their_levels_fall(self):
+        stages = json.loads((OUT / "report.json").read_text())["stages"]
+        people = {s["item"]: [level["triangles"] for level in s["levels"]] for s in stages if s["stage"] == "avatar"}
+        self.assertGreaterEqual(len(people), 8)
+        for name, triangles in people.items():
+            with self.subTest(name):
+                self.assertTrue(6000 <= triangles[0] <= 15000, triangles)
+                self.assertEqual(triangles, sorted(set(triangles), reverse=True))
+
+    def test_guided_tour_comes_to_every_stop(self):
+        metrics, frames = self.play("--seconds", 400)
+        self.assert_believable(metrics, frames)
+        way = [(float(r["camera_x_m"]), float(r["camera_y_m"])) for r in metrics]
+        for stop in tomllib.loads(TOUR.read_text())["stop"]:
+            with self.subTest(stop.get("caption", stop["position_m"])):
+                self.assertLess(min(math.dist(stop["position_m"], place) for place in way), 1.0)
+
+    def test_every_scenario_is_believable(self):
+        self.assertTrue(SCENARIOS)
+        for scenario in SCENARIOS:
+            with self.subTest(scenario.stem):
+                self.assert_believable(*self.play("--scenario", scenario))
+
+
+if __name__ == "__main__":
+    unittest.main()
