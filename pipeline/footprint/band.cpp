@@ -4,7 +4,8 @@
 #include <cmath>
 #include <map>
 #include <tuple>
-#include <unordered_map>
+
+#include "pipeline/footprint/segment_grid.h"
 
 namespace flaneur {
 namespace {
@@ -14,7 +15,9 @@ constexpr double kBend_m = 0.005;         // the ground may leave an edge's stra
 constexpr double kShortEdge_m = 0.25;     // shorter edges are not split
 constexpr double kThin_m = 0.002;         // parts thinner than this in plan are drawn as one line
 constexpr double kOvershoot_m = 0.002;    // links run a little past their aim, to cross it for certain
-constexpr double kHashCell_m = 0.5;
+constexpr double kTidy_m = 0.05;          // links to all lines this near, beyond it only to the nearest
+constexpr double kLinkingCell_m = 0.5;
+constexpr double kSnapSlack_m = 0.003;    // ends this near to a line belong on it
 
 bool Before(const Point3& a, const Point3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 bool Before(Point2 a, Point2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
@@ -76,10 +79,10 @@ class BandCutter {
   }
 
   BandParts Finish() {
-    std::sort(parts_.segments.begin(), parts_.segments.end(),
+    std::sort(parts_.walls.begin(), parts_.walls.end(),
               [](const Segment& s, const Segment& t) { return Before(s, t); });
     const auto same = [](const Segment& s, const Segment& t) { return Same(s.a, t.a) && Same(s.b, t.b); };
-    parts_.segments.erase(std::unique(parts_.segments.begin(), parts_.segments.end(), same), parts_.segments.end());
+    parts_.walls.erase(std::unique(parts_.walls.begin(), parts_.walls.end(), same), parts_.walls.end());
     parts_.areas = UnionOfRings(parts_.areas);
     return std::move(parts_);
   }
@@ -125,14 +128,13 @@ class BandCutter {
     double thickness = 0;
     for (const Point2& p : ring) thickness = std::max(thickness, DistanceToSegment(p, ring[first], ring[last]));
     if (thickness <= kThin_m) return Draw(ring[first], ring[last]);
-    for (size_t i = 0; i < ring.size(); ++i) Draw(ring[i], ring[(i + 1) % ring.size()]);
     parts_.areas.push_back(std::move(ring));
   }
 
   void Draw(Point2 a, Point2 b) {
     if (Same(a, b)) return;
     if (Before(b, a)) std::swap(a, b);
-    parts_.segments.push_back({a, b});
+    parts_.walls.push_back({a, b});
   }
 
   const LocalGround& ground_;
@@ -140,48 +142,36 @@ class BandCutter {
   BandParts parts_;
 };
 
-// Segments by the cells of a grid that their boxes touch.
-class SegmentGrid {
- public:
-  explicit SegmentGrid(const std::vector<Segment>& segments, double reach_m) {
-    for (size_t i = 0; i < segments.size(); ++i) {
-      const Segment& s = segments[i];
-      const double length = std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
-      const int steps = std::max(1, static_cast<int>(std::ceil(length / kHashCell_m)));
-      for (int k = 0; k < steps; ++k) {  // box by box along the segment, so that long ones stay cheap
-        const double t0 = static_cast<double>(k) / steps, t1 = static_cast<double>(k + 1) / steps;
-        AddBox(i, {s.a.x + t0 * (s.b.x - s.a.x), s.a.y + t0 * (s.b.y - s.a.y)},
-               {s.a.x + t1 * (s.b.x - s.a.x), s.a.y + t1 * (s.b.y - s.a.y)}, reach_m);
-      }
-    }
-  }
-  const std::vector<size_t>& Near(Point2 p) const {
-    static const std::vector<size_t> none;
-    const auto found = cells_.find(Key(Cell(p.x), Cell(p.y)));
-    return found == cells_.end() ? none : found->second;
-  }
+// The direction in which a segment arrives at its end p.
+Point2 Ahead(Point2 p, const Segment& s) {
+  const Point2 from = Same(p, s.a) ? s.b : s.a;
+  const double length = std::hypot(p.x - from.x, p.y - from.y);
+  return {(p.x - from.x) / length, (p.y - from.y) / length};
+}
 
- private:
-  static int64_t Cell(double v) { return static_cast<int64_t>(std::floor(v / kHashCell_m)); }
-  static int64_t Key(int64_t x, int64_t y) { return x * 73856093 + y; }
-  void AddBox(size_t i, Point2 a, Point2 b, double reach_m) {
-    for (int64_t x = Cell(std::min(a.x, b.x) - reach_m); x <= Cell(std::max(a.x, b.x) + reach_m); ++x) {
-      for (int64_t y = Cell(std::min(a.y, b.y) - reach_m); y <= Cell(std::max(a.y, b.y) + reach_m); ++y) {
-        std::vector<size_t>& cell = cells_[Key(x, y)];
-        if (cell.empty() || cell.back() != i) cell.push_back(i);
-      }
-    }
-  }
-  std::unordered_map<int64_t, std::vector<size_t>> cells_;
-};
-
-Point2 NearestOn(const Segment& s, Point2 p) {
-  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
-  const double t = std::clamp(((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
-  return {s.a.x + t * dx, s.a.y + t * dy};
+// True where p is a loose end: nothing leads on from it.
+bool AllComeFrom(Point2 p, Point2 ahead, const std::vector<size_t>& own, const std::vector<Segment>& segments) {
+  return std::all_of(own.begin(), own.end(), [&](size_t i) {
+    const Point2 other = Ahead(p, segments[i]);
+    return ahead.x * other.x + ahead.y * other.y > 0.9;
+  });
 }
 
 }  // namespace
+
+std::vector<Segment> Outline(const Rings& rings) {
+  std::vector<Segment> lines;
+  for (const Ring& ring : rings)
+    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) lines.push_back({ring[j], ring[i]});
+  return lines;
+}
+
+std::vector<Segment> Lines(const BandParts& parts) {
+  std::vector<Segment> lines = Outside(parts.walls, parts.areas);
+  const std::vector<Segment> outline = Outline(parts.areas);
+  lines.insert(lines.end(), outline.begin(), outline.end());
+  return lines;
+}
 
 BandParts CutToBand(const std::vector<Triangle3>& triangles, const LocalGround& ground,
                     const std::array<double, 2>& band_m) {
@@ -191,37 +181,38 @@ BandParts CutToBand(const std::vector<Triangle3>& triangles, const LocalGround& 
 }
 
 void BridgeLooseEnds(std::vector<Segment>* segments, double reach_m) {
-  std::map<std::pair<double, double>, std::pair<int, size_t>> ends;  // point: how many segments, and one of them
-  for (size_t i = 0; i < segments->size(); ++i) {
-    for (const Point2 p : {(*segments)[i].a, (*segments)[i].b}) {
-      auto& entry = ends[{p.x, p.y}];
-      ++entry.first;
-      entry.second = i;
-    }
-  }
-  const SegmentGrid grid(*segments, reach_m);
+  std::map<std::pair<double, double>, std::vector<size_t>> meeting;  // at each point, the segments that end there
+  for (size_t i = 0; i < segments->size(); ++i)
+    for (const Point2 p : {(*segments)[i].a, (*segments)[i].b}) meeting[{p.x, p.y}].push_back(i);
+  const SegmentGrid grid(*segments, reach_m, kLinkingCell_m);
   std::vector<Segment> links;
-  for (const auto& [point, use] : ends) {
-    if (use.first > 1) continue;
+  for (const auto& [point, own] : meeting) {
     const Point2 p{point.first, point.second};
-    const Segment& own = (*segments)[use.second];
-    for (const size_t other : grid.Near(p)) {
-      if (other == use.second) continue;
-      const Segment& s = (*segments)[other];
-      const Point2 q = NearestOn(s, p);
-      double dx = q.x - p.x, dy = q.y - p.y;
-      const double distance = std::hypot(dx, dy);
-      if (distance > reach_m) continue;
-      if (distance < kGrid_m) {  // touches: run on along its own direction
-        const Point2 from = Same(p, own.a) ? own.b : own.a;
-        dx = p.x - from.x, dy = p.y - from.y;
-      }
-      const double length = std::hypot(dx, dy);
-      const double run = (distance < kGrid_m ? 0 : distance) + kOvershoot_m;
-      const Point2 end = Snap({p.x + dx / length * run, p.y + dy / length * run});
+    const Point2 ahead = Ahead(p, (*segments)[own[0]]);
+    const double reach = AllComeFrom(p, ahead, own, *segments) ? reach_m : std::min(reach_m, kSnapSlack_m);
+    const auto run = [&](Point2 way, double distance) {
+      const Point2 end = Snap({p.x + way.x * distance, p.y + way.y * distance});
       if (!Same(p, end)) links.push_back(Before(p, end) ? Segment{p, end} : Segment{end, p});
+    };
+    // What touches also runs on along its own direction.
+    const auto link = [&](Point2 q, double distance) {
+      if (distance < kGrid_m) run(ahead, kOvershoot_m);
+      if (distance > 0) run({(q.x - p.x) / distance, (q.y - p.y) / distance}, distance + kOvershoot_m);
+    };
+    Point2 nearest;
+    double nearest_m = reach + 1;
+    for (const size_t other : grid.Near(p)) {
+      if (std::find(own.begin(), own.end(), other) != own.end()) continue;
+      const Point2 q = NearestOn((*segments)[other], p);
+      const double distance = std::hypot(q.x - p.x, q.y - p.y);
+      if (distance <= std::min(reach, kTidy_m)) link(q, distance);
+      else if (distance < nearest_m) nearest = q, nearest_m = distance;
     }
+    if (nearest_m <= reach) link(nearest, nearest_m);
   }
+  std::sort(links.begin(), links.end(), [](const Segment& s, const Segment& t) { return Before(s, t); });
+  const auto same = [](const Segment& s, const Segment& t) { return Same(s.a, t.a) && Same(s.b, t.b); };
+  links.erase(std::unique(links.begin(), links.end(), same), links.end());
   segments->insert(segments->end(), links.begin(), links.end());
 }
 

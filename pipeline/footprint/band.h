@@ -10,16 +10,20 @@
 namespace flaneur {
 
 struct BandParts {
-  std::vector<Segment> segments;  // outlines of all parts on a grid of 1 mm, sorted, each once
-  Rings areas;                    // parts that cover ground: sloping and level faces
+  std::vector<Segment> walls;  // upright faces on a grid of 1 mm, sorted, each once
+  Rings areas;                 // parts that cover ground: sloping and level faces, united
 };
+
+// The walls outside the areas, and the areas' outlines.
+std::vector<Segment> Lines(const BandParts& parts);
+std::vector<Segment> Outline(const Rings& rings);
 
 // Triangles are split along edges where the ground bends under them, cut to the band and projected. The result does not
 // depend on the order or orientation of the triangles.
 BandParts CutToBand(const std::vector<Triangle3>& triangles, const LocalGround& ground,
                     const std::array<double, 2>& band_m);
 
-// Adds short links from loose ends to every segment within reach_m, so that walls which miss each other close.
+// Adds short links from loose ends to the segments within reach_m, so that walls which miss each other close.
 void BridgeLooseEnds(std::vector<Segment>* segments, double reach_m);
 
 }  // namespace flaneur

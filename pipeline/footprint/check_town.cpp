@@ -95,7 +95,7 @@ class TownCheck {
       if (object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp) continue;
       double least = 1e300;
       Point2 at;
-      for (const Segment& s : CutToBand(object.triangles, ground, state_.footprints.band_m).segments) {
+      for (const Segment& s : Lines(CutToBand(object.triangles, ground, state_.footprints.band_m))) {
         const double length = std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
         const int steps = std::max(1, static_cast<int>(std::ceil(length / kSampleStep_m)));
         for (int i = 0; i <= steps; ++i) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <map>
 
+#include "pipeline/footprint/segment_grid.h"
+
 namespace flaneur {
 namespace {
 
@@ -116,17 +118,17 @@ Rings TraceSolid(const Triangulation& triangulation, const std::vector<bool>& so
 
 Enclosure EncloseRegions(const std::vector<Segment>& segments, const RegionTest& is_solid) {
   if (segments.empty()) return {};
-  Triangulation triangulation = Triangulate(segments);
-  if (triangulation.dimension() < 2) return {{}, segments};
+  const std::vector<Segment> cut = CutWhereTheyMeet(segments);
+  Triangulation triangulation = Triangulate(cut);
+  if (triangulation.dimension() < 2) return {{}, cut};
   const std::vector<Region> regions = FindRegions(&triangulation);
   std::vector<bool> solid(regions.size(), false);
   for (size_t i = 1; i < regions.size(); ++i) solid[i] = is_solid(regions[i].area_m2, regions[i].samples);
   Enclosure out;
   out.solid = TraceSolid(triangulation, solid);
   for (const auto& [face, i] : triangulation.finite_edges()) {
-    if (!face->is_constrained(i)) continue;
-    if (solid[static_cast<size_t>(face->info())] || solid[static_cast<size_t>(face->neighbor(i)->info())]) continue;
-    out.loose.push_back({ToPoint(face->vertex(Triangulation::ccw(i))), ToPoint(face->vertex(Triangulation::cw(i)))});
+    if (face->is_constrained(i))
+      out.pieces.push_back({ToPoint(face->vertex(Triangulation::ccw(i))), ToPoint(face->vertex(Triangulation::cw(i)))});
   }
   return out;
 }

@@ -19,15 +19,20 @@ namespace {
 constexpr double kBlockReach_m = 0.1;      // houses nearer than this are looked at together
 constexpr double kRoofedShare = 0.5;       // of a region's area must lie under something
 constexpr double kSmallestPiece_m2 = 0.01; // what clipping leaves over that is smaller is dropped
+constexpr double kSliver_m = 0.022;        // strips narrower than this that neighbours leave over are dropped
 constexpr double kSmallestGap_m2 = 0.01;   // of a block that no single house accounts for
 constexpr double kOpenShell_m = 1.0;       // of wall without anything solid beside it, in a building
+constexpr double kCrumb_m = 0.02;          // of lines without area that lead nowhere
+constexpr double kNoWay_m = 0.5;           // nobody passes a gap in a building narrower than this
+constexpr double kOnOutline_m = 0.002;     // lines this near to something solid are its outline
 constexpr double kThinWall_m = 0.001;      // half the thickness of a wall without any, before the clearance
 
 // An object's part in the band.
 struct Shape {
-  std::vector<Segment> segments;
+  int lines = 0;
   Rings solid;
   std::vector<Segment> loose;  // walls without area
+  bool guessed = false;        // a gap wider than those of an untidy model had to be closed
 };
 
 struct Site {
@@ -47,22 +52,78 @@ RegionTest RoofedTest(const Site& site, const Overhead& overhead) {
   };
 }
 
-void Close(const Site& site, std::vector<Segment> segments, const Rings& areas, const Overhead& overhead,
-           Shape* shape) {
-  BridgeLooseEnds(&segments, site.options.bridge_m);
-  Enclosure enclosure = EncloseRegions(segments, RoofedTest(site, overhead));
-  shape->solid = Union(enclosure.solid, areas);
-  shape->loose = Outside(enclosure.loose, Offset(areas, 0.001));
+bool InBlocks(ObstacleKind kind) { return kind == ObstacleKind::kBuilding || kind == ObstacleKind::kWall; }
+
+double Length(const Segment& s) { return std::hypot(s.b.x - s.a.x, s.b.y - s.a.y); }
+
+double LooseLength(const Shape& shape) {
+  double length = 0;
+  for (const Segment& s : shape.loose) length += Length(s);
+  return length;
+}
+
+// Without the crumbs that stick out of an outline by a hair: connected pieces shorter than kCrumb_m together.
+std::vector<Segment> WithoutCrumbs(const std::vector<Segment>& loose) {
+  std::map<std::pair<double, double>, size_t> ends;
+  std::vector<size_t> parent;
+  const auto root = [&](size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  const auto point = [&](Point2 p) {
+    const auto [entry, is_new] = ends.try_emplace({p.x, p.y}, parent.size());
+    if (is_new) parent.push_back(parent.size());
+    return entry->second;
+  };
+  std::vector<size_t> start;
+  for (const Segment& s : loose) {
+    start.push_back(point(s.a));
+    const size_t a = root(start.back()), b = root(point(s.b));
+    parent[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<double> length(parent.size(), 0);
+  for (size_t i = 0; i < loose.size(); ++i) length[root(start[i])] += Length(loose[i]);
+  std::vector<Segment> out;
+  for (size_t i = 0; i < loose.size(); ++i)
+    if (length[root(start[i])] >= kCrumb_m) out.push_back(loose[i]);
+  return out;
+}
+
+// Joins lines that miss each other by up to reach_m and adds what they enclose under a roof.
+void Close(const Site& site, std::vector<Segment> lines, double reach_m, const Overhead& overhead, Shape* shape) {
+  BridgeLooseEnds(&lines, reach_m);
+  const Enclosure enclosure = EncloseRegions(lines, RoofedTest(site, overhead));
+  shape->solid = Union(shape->solid, enclosure.solid);
+  shape->loose = WithoutCrumbs(Outside(enclosure.pieces, Offset(shape->solid, kOnOutline_m)));
+}
+
+std::vector<Segment> Lines(const Shape& shape) {
+  std::vector<Segment> lines = Outline(shape.solid);
+  lines.insert(lines.end(), shape.loose.begin(), shape.loose.end());
+  return lines;
 }
 
 Shape ShapeOf(const Site& site, const TownObject& object) {
-  Shape shape;
   const BandParts parts = CutToBand(object.triangles, site.ground, site.options.band_m);
-  shape.segments = parts.segments;
+  const std::vector<Segment> lines = Lines(parts);
   Overhead overhead;
   overhead.Add(object.triangles);
-  Close(site, parts.segments, parts.areas, overhead, &shape);
+  Shape shape;
+  shape.lines = static_cast<int>(lines.size());
+  shape.solid = parts.areas;
+  Close(site, lines, site.options.bridge_m, overhead, &shape);
+  if (object.kind == ObstacleKind::kBuilding && LooseLength(shape) > kOpenShell_m) {
+    const double before = Area(shape.solid);
+    Close(site, Lines(shape), kNoWay_m, overhead, &shape);
+    shape.guessed = Area(shape.solid) > before + kSmallestGap_m2;
+  }
   return shape;
+}
+
+bool Adjoin(const TownObject& a, const TownObject& b) {
+  const auto apart = [](double a_max, double b_min) { return b_min > a_max + kBlockReach_m; };
+  return !(apart(a.max_m.x, b.min_m.x) || apart(b.max_m.x, a.min_m.x) || apart(a.max_m.y, b.min_m.y) ||
+           apart(b.max_m.y, a.min_m.y));
 }
 
 // Groups of objects whose boxes lie within reach of each other, each in order.
@@ -73,15 +134,11 @@ std::vector<std::vector<size_t>> Blocks(const std::vector<TownObject>& objects) 
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  const auto apart = [](double a_max, double b_min) { return b_min > a_max + kBlockReach_m; };
   for (size_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].kind != ObstacleKind::kBuilding) continue;
+    if (!InBlocks(objects[i].kind)) continue;
     for (size_t j = 0; j < i; ++j) {
-      if (objects[j].kind != ObstacleKind::kBuilding) continue;
-      const TownObject &a = objects[i], &b = objects[j];
-      if (apart(a.max_m.x, b.min_m.x) || apart(b.max_m.x, a.min_m.x) || apart(a.max_m.y, b.min_m.y) ||
-          apart(b.max_m.y, a.min_m.y))
-        continue;
+      if (!InBlocks(objects[j].kind)) continue;
+      if (!Adjoin(objects[i], objects[j])) continue;
       const size_t ri = root(i), rj = root(j);
       parent[std::max(ri, rj)] = std::min(ri, rj);
     }
@@ -93,6 +150,12 @@ std::vector<std::vector<size_t>> Blocks(const std::vector<TownObject>& objects) 
   return blocks;
 }
 
+bool NearBox(const TownObject& object, const Ring& ring) {
+  return std::any_of(ring.begin(), ring.end(), [&](const Point2& p) {
+    return p.x >= object.min_m.x && p.x <= object.max_m.x && p.y >= object.min_m.y && p.y <= object.max_m.y;
+  });
+}
+
 Rings Projection(const TownObject& object) {
   Rings rings;
   for (const Triangle3& t : object.triangles) {
@@ -102,30 +165,53 @@ Rings Projection(const TownObject& object) {
   return UnionOfRings(rings);
 }
 
+// Of a block, the objects that something is missing from, and those beside them.
+std::vector<size_t> OpenOnes(const std::vector<TownObject>& objects, const std::vector<size_t>& block,
+                             const std::vector<Shape>& shapes) {
+  std::vector<size_t> open;
+  for (const size_t i : block) {
+    const bool touched = std::any_of(block.begin(), block.end(), [&](size_t j) {
+      return LooseLength(shapes[j]) > kOpenShell_m && Adjoin(objects[i], objects[j]);
+    });
+    if (touched) open.push_back(i);
+  }
+  return open;
+}
+
 // Houses that lean on each other often lack the wall between them: what only the block as a whole encloses goes to the
 // house that stands over it.
-void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const std::vector<size_t>& block,
+void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const std::vector<size_t>& whole_block,
                 std::vector<Shape>* shapes) {
-  std::vector<Segment> segments;
+  const std::vector<size_t> block = OpenOnes(objects, whole_block, *shapes);
+  if (block.empty()) return;
+  std::vector<Segment> lines;
   Rings known;
   Overhead overhead;
   for (const size_t i : block) {
-    const Shape& shape = (*shapes)[i];
-    segments.insert(segments.end(), shape.segments.begin(), shape.segments.end());
-    known = Union(known, shape.solid);
+    const std::vector<Segment> own = Lines((*shapes)[i]);
+    lines.insert(lines.end(), own.begin(), own.end());
+    known = Union(known, (*shapes)[i].solid);
     overhead.Add(objects[i].triangles);
   }
   Shape whole;
-  Close(site, segments, {}, overhead, &whole);
+  Close(site, lines, site.options.bridge_m, overhead, &whole);
   Rings gap = Difference(whole.solid, known);
-  for (const size_t i : block) {
-    if (Area(gap) < kSmallestGap_m2) return;
-    const Rings mine = Intersection(gap, Projection(objects[i]));
-    if (Area(mine) < kSmallestGap_m2) continue;
-    (*shapes)[i].solid = Union((*shapes)[i].solid, mine);
-    gap = Difference(gap, mine);
+  // A piece goes to the object that most of it lies under.
+  std::vector<Rings> projections(block.size());
+  for (const Polygon& piece : ToPolygons(gap)) {
+    Rings rings{piece.outer};
+    rings.insert(rings.end(), piece.holes.begin(), piece.holes.end());
+    if (Area(rings) < kSmallestGap_m2) continue;
+    size_t owner = block.size();
+    double most = 0;
+    for (size_t k = 0; k < block.size(); ++k) {
+      if (!NearBox(objects[block[k]], piece.outer)) continue;
+      if (projections[k].empty()) projections[k] = Projection(objects[block[k]]);
+      const double under = Area(Intersection(rings, projections[k]));
+      if (under > most) most = under, owner = k;
+    }
+    if (owner < block.size()) (*shapes)[block[owner]].solid = Union((*shapes)[block[owner]].solid, rings);
   }
-  if (Area(gap) >= kSmallestGap_m2) (*shapes)[block[0]].solid = Union((*shapes)[block[0]].solid, gap);
 }
 
 // Never less than the wall: the simplification's tolerance is given beforehand where the clearance does not hold it.
@@ -133,7 +219,7 @@ Rings Enlarged(const Site& site, const Shape& shape) {
   const double clearance = site.options.clearance_m, tolerance = site.options.tolerance_m;
   const double grow = std::max(clearance, tolerance);
   Rings rings = grow > 0 ? Offset(shape.solid, grow) : shape.solid;
-  const std::vector<Segment> thin = Outside(shape.loose, Offset(shape.solid, 0.002));
+  const std::vector<Segment> thin = Outside(shape.loose, Offset(shape.solid, kOnOutline_m));
   if (!thin.empty()) rings = Union(rings, OffsetSegments(thin, std::max(grow, kThinWall_m)));
   return tolerance > 0 ? Simplify(rings, tolerance) : rings;
 }
@@ -155,7 +241,7 @@ bool Apart(const Box& a, const Box& b) {
 
 // Enlarged neighbours overlap by twice the clearance: each keeps clear of the others' walls, and of what the earlier
 // ones have taken.
-void Separate(const std::vector<Shape>& shapes, std::vector<Rings>* enlarged) {
+void Separate(const std::vector<Shape>& shapes, double width_m, std::vector<Rings>* enlarged) {
   std::vector<Box> solid_boxes, boxes;
   for (const Shape& shape : shapes) solid_boxes.push_back(BoxOf(shape.solid));
   for (const Rings& rings : *enlarged) boxes.push_back(BoxOf(rings));
@@ -167,24 +253,26 @@ void Separate(const std::vector<Shape>& shapes, std::vector<Rings>* enlarged) {
       if (j > i && !Apart(boxes[i], solid_boxes[j])) taken = Union(taken, Difference(shapes[j].solid, shapes[i].solid));
     }
     if (!taken.empty()) (*enlarged)[i] = Difference((*enlarged)[i], taken);
+    if (width_m > 0) (*enlarged)[i] = Tidy((*enlarged)[i], width_m);
   }
 }
 
 bool MakeCircle(const Site& site, const TownObject& object, Obstacle* obstacle) {
   const BandParts parts = CutToBand(object.triangles, site.ground, site.options.band_m);
+  const std::vector<Segment> lines = Lines(parts);
   Box box;
-  for (const Segment& s : parts.segments) {
+  for (const Segment& s : lines) {
     box.min = {std::min({box.min.x, s.a.x, s.b.x}), std::min({box.min.y, s.a.y, s.b.y})};
     box.max = {std::max({box.max.x, s.a.x, s.b.x}), std::max({box.max.y, s.a.y, s.b.y})};
   }
-  if (parts.segments.empty()) {
+  if (lines.empty()) {
     if (object.radius_m <= 0) return false;
     box.min = {object.min_m.x, object.min_m.y}, box.max = {object.max_m.x, object.max_m.y};
   }
   obstacle->center = {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2};
   double radius = object.radius_m;
   if (radius <= 0) {
-    for (const Segment& s : parts.segments)
+    for (const Segment& s : lines)
       for (const Point2& p : {s.a, s.b})
         radius = std::max(radius, std::hypot(p.x - obstacle->center.x, p.y - obstacle->center.y));
   }
@@ -222,12 +310,6 @@ Error CheckOptions(const FootprintOptions& options) {
   if (!(options.band_m[0] >= 0 && options.band_m[0] < options.band_m[1]))
     return Fail("the band must be two heights, the lower first, neither negative");
   return Ok();
-}
-
-double LooseLength(const Shape& shape) {
-  double length = 0;
-  for (const Segment& s : Outside(shape.loose, Offset(shape.solid, 0.002))) length += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
-  return length;
 }
 
 void MergeBlock(const std::vector<size_t>& block, std::vector<Shape>* shapes) {
@@ -279,7 +361,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
     counts.triangles += static_cast<int>(town.obstacles[i].triangles.size());
     if (is_round(town.obstacles[i])) continue;
     shapes[i] = ShapeOf(site, town.obstacles[i]);
-    counts.segments += static_cast<int>(shapes[i].segments.size());
+    counts.lines += shapes[i].lines;
   }
   for (const std::vector<size_t>& block : Blocks(town.obstacles)) {
     if (block.size() < 2) continue;
@@ -288,10 +370,11 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   }
   std::vector<Rings> enlarged;
   for (const Shape& shape : shapes) enlarged.push_back(Enlarged(site, shape));
-  Separate(shapes, &enlarged);
+  // Without a clearance thin walls are as thin as slivers.
+  Separate(shapes, options.clearance_m > kSliver_m ? kSliver_m : 0, &enlarged);
 
   for (size_t i = 0; i < shapes.size(); ++i)
-    if (town.obstacles[i].kind == ObstacleKind::kBuilding && LooseLength(shapes[i]) > kOpenShell_m)
+    if (town.obstacles[i].kind == ObstacleKind::kBuilding && (shapes[i].guessed || LooseLength(shapes[i]) > kOpenShell_m))
       counts.open_shells.push_back(town.obstacles[i].name);
 
   NameGiver names;

@@ -23,7 +23,7 @@ struct FootprintOptions {
 struct FootprintStats {
   int objects = 0;            // buildings, walls, trees, ... found in the scene
   int triangles = 0;          // theirs
-  int segments = 0;           // wall lines in the band
+  int lines = 0;              // wall lines in the band
   int obstacles = 0;
   double covered_m2 = 0;      // without circles
   std::vector<std::string> open_shells;  // buildings with walls that enclose nothing: the obstacle may lack something

@@ -9,7 +9,7 @@ namespace flaneur {
 namespace {
 
 namespace cl = ClipperLib;
-constexpr double kUnitsPerMetre = 1e5;
+constexpr double kUnitsPerMetre = 1e4;
 
 cl::Path ToPath(const Ring& ring) {
   cl::Path path;
@@ -165,17 +165,13 @@ Rings OffsetSegments(const std::vector<Segment>& segments, double distance_m) {
 
 std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area) {
   if (area.empty()) return segments;
-  cl::Clipper clipper;
-  for (const Segment& s : segments) clipper.AddPath(ToPath({s.a, s.b}), cl::ptSubject, false);
-  clipper.AddPaths(ToPaths(area), cl::ptClip, true);
-  cl::PolyTree tree;
-  clipper.Execute(cl::ctDifference, tree, cl::pftEvenOdd, cl::pftEvenOdd);
-  cl::Paths open;
-  cl::OpenPathsFromPolyTree(tree, open);
+  const AreaIndex index(area, 0.01);
   std::vector<Segment> out;
-  for (const cl::Path& path : open) {
-    const Ring line = ToRing(path);
-    for (size_t i = 0; i + 1 < line.size(); ++i) out.push_back({line[i], line[i + 1]});
+  for (const Segment& s : segments) {
+    bool inside = true;
+    for (int i = 0; i <= 8 && inside; ++i)
+      inside = index.Inside({s.a.x + i / 8.0 * (s.b.x - s.a.x), s.a.y + i / 8.0 * (s.b.y - s.a.y)});
+    if (!inside) out.push_back(s);
   }
   return out;
 }
@@ -187,6 +183,13 @@ Rings Simplify(const Rings& rings, double tolerance_m) {
     if (simple.size() >= 3) out.push_back(std::move(simple));
   }
   return Union(out, {});
+}
+
+Rings Tidy(const Rings& rings, double width_m) {
+  constexpr double kSharpMiter = 20, kNear_m = 0.0015;
+  cl::Paths paths = ToPaths(Offset(Offset(rings, -width_m / 2, kSharpMiter), width_m / 2, kSharpMiter));
+  cl::CleanPolygons(paths, kNear_m * kUnitsPerMetre);
+  return Union(ToRings(paths), {});
 }
 
 std::vector<Polygon> ToPolygons(const Rings& rings) {

@@ -1,4 +1,4 @@
-// Boolean operations, offsets and simplification of polygons on a grid of 0.01 mm.
+// Boolean operations, offsets and simplification of polygons on a grid of 0.1 mm.
 #pragma once
 #include <cstdint>
 #include <unordered_map>
@@ -29,11 +29,14 @@ Rings Difference(const Rings& a, const Rings& b);
 Rings Offset(const Rings& rings, double distance_m, double miter_limit = 2);
 // All that lies within distance_m of a segment, ends squared.
 Rings OffsetSegments(const std::vector<Segment>& segments, double distance_m);
-// The parts of the segments outside the area.
+// The segments that lie, wholly or in part, outside the area.
 std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area);
 
 // Drops vertices where the boundary moves by at most tolerance_m.
 Rings Simplify(const Rings& rings, double tolerance_m);
+
+// Fit for a file: without slivers thinner than width_m, points nearer than 1 mm, and crossings.
+Rings Tidy(const Rings& rings, double width_m);
 
 // Splits an area into polygons with their holes.
 std::vector<Polygon> ToPolygons(const Rings& rings);
