@@ -120,7 +120,7 @@ def _fill(part, light, buried):
     np.add.at(total, part.face, np.where(buried, 0, light))
     np.add.at(count, part.face, ~buried)
     mean = np.where(count > 0, total / np.maximum(count, 1), 0.3)
-    return np.where(buried, mean[part.face] * 0.75, light)
+    return np.where(buried, mean[part.face] * 0.93, light)
 
 
 def value_noise(x, y, z, cell):

@@ -14,6 +14,7 @@ TREE_SORTS = [("tree_lime", 8.6, 3.0, "8c9a48", 1.5), ("tree_maple", 9.6, 2.8, "
 STALLS = [(-10.0, 6.6, 0.0), (-5.4, 6.9, 0.0), (-0.8, 6.7, 0.0), (3.8, 6.9, 0.0), (8.6, 6.6, 0.0),
           (1.2, -8.2, math.pi), (5.9, -8.4, math.pi), (10.6, -8.1, math.pi)]
 WELL = (-2.5, -1.2)
+CHURCHYARD_TREES = ((36, 16.0), (46, 15.2), (56, 14.2), (68, 14.5), (73, 31), (70, 46), (57, 47.4), (46, 46.8), (35.5, 47))
 SQUARE_TREES = [(-15.8, -9.6), (15.4, 10.2), (15.6, -10.6), (-12.2, -10.4)]
 CARTS = [(13.4, -1.4, 0.5), (-14.6, 3.6, 2.2), (29.6, 38.6, -0.6)]
 
@@ -44,12 +45,12 @@ def lamps(streets, public):
 def trees(public, plots, rng):
     """(x, y, scale, sort) of trees on the square, in the churchyard, in gardens and outside the wall."""
     spots = [(x, y, 0.85, 0) for x, y in SQUARE_TREES]
-    spots += [(x + rng.uniform(-0.6, 0.6), y + rng.uniform(-0.6, 0.6), rng.uniform(0.9, 1.2), 1 if x < 40 else 3)
-              for x, y in ((36, 16.0), (46, 15.2), (56, 14.2), (68, 14.5), (73, 31), (70, 46), (57, 47.4), (46, 46.8), (35.5, 47))]
+    spots += [(x + rng.uniform(-0.6, 0.6), y + rng.uniform(-0.6, 0.6), rng.uniform(0.9, 1.2), 1)
+              for x, y in CHURCHYARD_TREES]
     gardens = []
     for _ in range(2600):
         p = (rng.uniform(-76, 78), rng.uniform(-68, 66))
-        if len(gardens) < 34 and public([p])[0] > 3.6 and plan.distance_to_polygon([p], plan.WALL_RING)[0] < -3.5 \
+        if len(gardens) < 28 and public([p])[0] > 3.6 and plan.distance_to_polygon([p], plan.WALL_RING)[0] < -3.5 \
                 and not any(o.contains([p], 2.6)[0] for o in plots) \
                 and all(math.hypot(p[0] - q[0], p[1] - q[1]) > 4.6 for q in gardens):
             gardens.append(p)
@@ -90,7 +91,8 @@ def graves(rng):
         for i in range(9):
             x = 40 + i * 3.3 + rng.uniform(-0.5, 0.5)
             far = min(plan.distance_to_line([(x, y)], plan.smooth_line(path))[0] for path in plan.CHURCH_PATHS)
-            if rng.random() < 0.75 and far > 1.9 and plan.distance_to_polygon([(x, y)], plan.CHURCHYARD)[0] < -1:
+            free = all(math.dist((x, y), tree) > 1.8 for tree in CHURCHYARD_TREES)
+            if rng.random() < 0.75 and free and far > 1.9 and plan.distance_to_polygon([(x, y)], plan.CHURCHYARD)[0] < -1:
                 places.append((x, y, rng.uniform(-0.15, 0.15)))
     return places
 

@@ -136,7 +136,8 @@ def far_land(rng):
         for i in range(count):
             j = (i + 1) % count
             points = [rings[k][i], rings[k + 1][i], rings[k + 1][j], rings[k][j]]
-            color = shade(srgb("c4bf98"), 0.92 + 0.08 * math.sin(i * 0.9 + k * 1.3))
+            far = k / (len(radii) - 2)
+            color = (0.84 - 0.3 * far, 0.84 - 0.28 * far, 0.76 - 0.3 * far)
             mesh.face("grass", points, [(p[0] * 0.2, p[1] * 0.2) for p in points], color)
     for _ in range(260):
         t, r = rng.uniform(0, 2 * math.pi), rng.choice((rng.uniform(150, 200), rng.uniform(190, 330), rng.uniform(240, 450)))

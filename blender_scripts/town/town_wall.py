@@ -123,8 +123,9 @@ def make_wall_run(index, streets):
     rise = float(max(plan.ground_height(*a), plan.ground_height(*b))) - z
     top = HEIGHT + rise
     # Local x runs along the wall with the town to the left.
-    for wall in (Frame((0, -THICK / 2, 0), (1, 0, 0)), Frame((length, THICK / 2, 0), (-1, 0, 0))):
-        panel(mesh, "stone", wall, 0, length, -1.5, top, WALL_COLOR, step=3.0)
+    for wall, width in ((Frame((0, -THICK / 2, 0), (1, 0, 0)), length), (Frame((length, THICK / 2, 0), (-1, 0, 0)), length),
+                        (Frame((0, THICK / 2, 0), (0, -1, 0)), THICK), (Frame((length, -THICK / 2, 0), (0, 1, 0)), THICK)):
+        panel(mesh, "stone", wall, 0, width, -1.5, top, WALL_COLOR, step=3.0)
     panel(mesh, "stone", Frame((0, -THICK / 2, top), (1, 0, 0), (0, 1, 0)), 0, length, 0, THICK, WALL_COLOR, step=6)
     count = max(1, int(length / 2.3))
     for i in range(count):

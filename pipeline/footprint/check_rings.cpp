@@ -10,6 +10,7 @@ namespace {
 constexpr double kSamePoint_m = 0.001;
 constexpr double kSpikeWidth_m = 0.01;   // what an opening with this radius takes away, and
 constexpr double kSpikeLength_m = 0.1;   // is longer than this, is a spike
+constexpr double kRounding_m = 0.0005;   // the opening's own, along every edge
 constexpr double kSpikeMiter = 20;       // corners down to 6 degrees survive the opening
 constexpr double kHoleSlack_m2 = 1e-4;
 constexpr int kCircleCorners = 32;
@@ -150,7 +151,7 @@ class ObstacleCheck {
 
   void RunSpikes() {
     const Rings whole = Union(rings_, {});
-    const Rings opened = Offset(Offset(whole, -kSpikeWidth_m, kSpikeMiter), kSpikeWidth_m, kSpikeMiter);
+    const Rings opened = Offset(Offset(whole, -kSpikeWidth_m, kSpikeMiter), kSpikeWidth_m + kRounding_m, kSpikeMiter);
     for (const Ring& lost : Difference(whole, opened)) {
       double length = 0;
       Point2 tip = lost[0];

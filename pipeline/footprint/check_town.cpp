@@ -16,7 +16,7 @@ constexpr double kSampleStep_m = 0.2;     // along walls
 constexpr double kMissingShare = 0.5;     // of a building's area uncovered: it has no obstacle
 constexpr double kStrangeShare = 0.05;    // of an obstacle's area on buildings: less, and it has no building
 constexpr double kOverCover_m2 = 0.01;
-constexpr double kSeam_m = 0.002;         // seams between neighbours are welded before distances are measured
+constexpr double kSeam_m = 0.0125;        // cracks between neighbours up to twice this are nobody's way, and welded
 
 Rings AllAreas(const CheckState& state) {
   Rings all;

@@ -20,6 +20,8 @@ constexpr double kBlockReach_m = 0.1;      // houses nearer than this are looked
 constexpr double kRoofedShare = 0.5;       // of a region's area must lie under something
 constexpr double kSmallestPiece_m2 = 0.01; // what clipping leaves over that is smaller is dropped
 constexpr double kSliver_m = 0.022;        // strips narrower than this that neighbours leave over are dropped
+constexpr double kSmallestStrip_m2 = 1e-4; // of those that go to a neighbour instead
+constexpr double kAgainst_m = 0.0005;      // strips nearer than this to a neighbour lie against it
 constexpr double kSmallestGap_m2 = 0.01;   // of a block that no single house accounts for
 constexpr double kOpenShell_m = 1.0;       // of wall without anything solid beside it, in a building
 constexpr double kCrumb_m = 0.02;          // of lines without area that lead nowhere
@@ -94,7 +96,10 @@ void Close(const Site& site, std::vector<Segment> lines, double reach_m, const O
   BridgeLooseEnds(&lines, reach_m);
   const Enclosure enclosure = EncloseRegions(lines, RoofedTest(site, overhead));
   shape->solid = Union(shape->solid, enclosure.solid);
-  shape->loose = WithoutCrumbs(Outside(enclosure.pieces, Offset(shape->solid, kOnOutline_m)));
+  const std::vector<Segment> loose = Outside(enclosure.pieces, Offset(shape->solid, kOnOutline_m));
+  shape->loose = WithoutCrumbs(loose);
+  const std::vector<Segment> apart = Outside(loose, Offset(shape->solid, kCrumb_m));  // nothing covers these as well
+  shape->loose.insert(shape->loose.end(), apart.begin(), apart.end());
 }
 
 std::vector<Segment> Lines(const Shape& shape) {
@@ -239,6 +244,34 @@ bool Apart(const Box& a, const Box& b) {
   return a.max.x < b.min.x || b.max.x < a.min.x || a.max.y < b.min.y || b.max.y < a.min.y;
 }
 
+Rings WithoutSpecks(const Rings& rings) {
+  Rings out;
+  for (const Polygon& polygon : ToPolygons(rings)) {
+    if (SignedArea(polygon.outer) < kSmallestPiece_m2) continue;
+    out.push_back(polygon.outer);
+    out.insert(out.end(), polygon.holes.begin(), polygon.holes.end());
+  }
+  return out;
+}
+
+// A strip or speck too small to stay with its own obstacle goes to the neighbour it lies against, so that no wall loses its clearance.
+void GiveAway(const Rings& strips, size_t from, double width_m, std::vector<Box>* boxes, std::vector<Rings>* enlarged) {
+  for (const Polygon& strip : ToPolygons(strips)) {
+    if (SignedArea(strip.outer) < kSmallestStrip_m2) continue;
+    const Rings grown = Offset({strip.outer}, kAgainst_m);
+    size_t owner = from;
+    double most = 0;
+    for (size_t j = 0; j < enlarged->size(); ++j) {
+      if (j == from || (*enlarged)[j].empty() || Apart((*boxes)[j], BoxOf(grown))) continue;
+      const double shared = Area(Intersection(grown, (*enlarged)[j]));
+      if (shared > most) most = shared, owner = j;
+    }
+    if (owner == from) continue;
+    (*enlarged)[owner] = Tidy(Union((*enlarged)[owner], grown), width_m);
+    (*boxes)[owner] = BoxOf((*enlarged)[owner]);
+  }
+}
+
 // Enlarged neighbours overlap by twice the clearance: each keeps clear of the others' walls, and of what the earlier
 // ones have taken.
 void Separate(const std::vector<Shape>& shapes, double width_m, std::vector<Rings>* enlarged) {
@@ -253,7 +286,11 @@ void Separate(const std::vector<Shape>& shapes, double width_m, std::vector<Ring
       if (j > i && !Apart(boxes[i], solid_boxes[j])) taken = Union(taken, Difference(shapes[j].solid, shapes[i].solid));
     }
     if (!taken.empty()) (*enlarged)[i] = Difference((*enlarged)[i], taken);
-    if (width_m > 0) (*enlarged)[i] = Tidy((*enlarged)[i], width_m);
+    if (width_m <= 0) continue;
+    const Rings kept = WithoutSpecks(Tidy((*enlarged)[i], width_m));
+    const Rings strips = Difference((*enlarged)[i], Offset(kept, kAgainst_m));
+    (*enlarged)[i] = kept;
+    GiveAway(strips, i, width_m, &boxes, enlarged);
   }
 }
 
