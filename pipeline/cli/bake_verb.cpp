@@ -4,6 +4,7 @@
 #include "pipeline/cli/bake.h"
 #include "pipeline/cli/arguments.h"
 #include "pipeline/cli/verbs.h"
+#include "pipeline/core/interruption.h"
 
 namespace flaneur {
 
@@ -15,7 +16,10 @@ int RunBake(const Arguments& args) {
   app.add_option("TOUR", tour, "tour.toml; assets_src/reference/tour.toml explains every setting")->required();
   app.add_option("-o,--output", output, "Folder for the results, made where missing (default: build_assets/NAME)");
   if (const int status = ParseArguments(&app, args); status >= 0) return status;
-  return Report(Bake(tour, output));
+  CatchInterruptions();
+  const int status = Report(Bake(tour, output));
+  EndAsInterrupted();
+  return status;
 }
 
 }  // namespace flaneur

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "pipeline/core/interruption.h"
 #include "pipeline/core/temporary_folder.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
@@ -58,9 +59,25 @@ int Spawn(const std::vector<std::string>& argv, const RunOptions& options, int l
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, log, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, log, STDERR_FILENO);
-  const int code = ::posix_spawnp(child, argv[0].c_str(), &actions, nullptr,
+  posix_spawnattr_t attributes;  // a group of its own, so that it can be ended with all that it started
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  const int code = ::posix_spawnp(child, argv[0].c_str(), &actions, &attributes,
                                   Pointers(&arguments).data(), Pointers(&variables).data());
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
+  return code;
+}
+
+// Waits until it has ended. It stays a zombie until it is reaped, so that its id cannot mean another one meanwhile.
+int AwaitEnd(pid_t child) {
+  siginfo_t ended{};
+  int code = 0;
+  EndWithUs(child);
+  while ((code = ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT)) < 0 && errno == EINTR) {
+  }
+  Forget(child);
   return code;
 }
 
@@ -104,9 +121,10 @@ Error RunProcess(const std::vector<std::string>& argv, const RunOptions& options
   if (code) return Fail(argv[0] + ": cannot run: " + std::strerror(code));
   int status = 0;
   rusage usage{};
-  while (::wait4(child, &status, 0, &usage) < 0) {
-    if (errno != EINTR) return Fail(argv[0] + ": cannot wait for it: " + std::strerror(errno));
+  if (AwaitEnd(child) < 0 || ::wait4(child, &status, 0, &usage) < 0) {
+    return Fail(argv[0] + ": cannot wait for it: " + std::strerror(errno));
   }
+  if (Error e = Interrupted()) return e;
   result->wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result->cpu_s = Seconds(usage.ru_utime) + Seconds(usage.ru_stime);
   result->peak_memory_bytes = static_cast<int64_t>(usage.ru_maxrss) * 1024;
@@ -155,7 +173,7 @@ Error RunBlenderScript(const fs::path& script, const std::string& settings_json,
   // The user's own Python modules and byte code folders stay untouched. A distribution's Blender takes
   // the modules of the first python3 on PATH: let that be the one beside it, not a pyenv's or conda's.
   const char* folders = std::getenv("PATH");
-  run.environment = {"PYTHONDONTWRITEBYTECODE=1",
+  run.environment = {"PYTHONDONTWRITEBYTECODE=1", "TMPDIR=" + folder.path().string(),
                      "PATH=" + blender.parent_path().string() + ":" + (folders ? folders : "")};
   std::vector<std::string> argv = {blender.string(), "--background", "--factory-startup",
                                    "--python-exit-code", "1"};

@@ -23,8 +23,8 @@ struct ProcessResult {
 };
 
 // Runs argv[0] (searched on PATH where it has no slash) to its end. Standard input is empty. A
-// program that ends with a status other than 0 is no error here. Errors: no such program, log file
-// not writable.
+// program that ends with a status other than 0 is no error here. It ends with this process's
+// interruption. Errors: no such program, log file not writable, interrupted.
 Error RunProcess(const std::vector<std::string>& argv, const RunOptions& options,
                  ProcessResult* result);
 

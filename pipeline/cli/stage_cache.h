@@ -1,0 +1,142 @@
+// What a stage made, kept in a file under the fingerprint of all it was made from. The file is no format: the program that wrote
+// it reads it again, on the same machine; anything else in it counts as nothing kept.
+#pragma once
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "pipeline/core/avatar.h"
+#include "pipeline/core/fingerprint.h"
+#include "pipeline/core/footprint.h"
+#include "pipeline/core/impostor.h"
+#include "pipeline/core/report.h"
+#include "runtime/base/file.h"
+
+namespace flaneur {
+
+// The fields of each kind of struct, listed once for writing and reading.
+template <typename A> void Fields(A& a, Image* v) { a(&v->name, &v->mime_type, &v->bytes); }
+template <typename A> void Fields(A& a, Material* v) {
+  a(&v->name, &v->base_color, &v->base_color_image, &v->normal_image, &v->metallic, &v->roughness, &v->double_sided, &v->alpha,
+    &v->alpha_cutoff);
+}
+template <typename A> void Fields(A& a, Mesh* v) {
+  a(&v->name, &v->material, &v->positions, &v->normals, &v->uvs, &v->uvs1, &v->colors, &v->joints, &v->weights, &v->indices);
+}
+template <typename A> void Fields(A& a, Joint* v) { a(&v->name, &v->parent, &v->rest, &v->inverse_bind); }
+template <typename A> void Fields(A& a, Clip* v) { a(&v->name, &v->duration_s, &v->keys, &v->transforms); }
+template <typename A> void Fields(A& a, Avatar* v) {
+  a(&v->name, &v->meshes, &v->materials, &v->images, &v->joints, &v->clips, &v->height_m, &v->radius_m, &v->walk_speed_mps);
+}
+template <typename A> void Fields(A& a, AvatarLevel* v) {
+  a(&v->meshes, &v->triangles, &v->error_mm, &v->posed_error_mm, &v->switch_px);
+}
+template <typename A> void Fields(A& a, AvatarLevels* v) { a(&v->avatar, &v->levels); }
+template <typename A> void Fields(A& a, ImpostorClip* v) { a(&v->name, &v->first_frame, &v->phases); }
+template <typename A> void Fields(A& a, ImpostorAtlas* v) {
+  a(&v->directions, &v->elevations_deg, &v->frames, &v->cell_width_px, &v->cell_height_px, &v->window_width_m,
+    &v->window_height_m, &v->bottom_m, &v->depth_range_m, &v->clips, &v->albedo, &v->normal);
+}
+template <typename A> void Fields(A& a, Obstacle* v) {
+  a(&v->name, &v->kind, &v->source, &v->clearance_m, &v->ground_z_m, &v->outer, &v->holes, &v->center, &v->radius_m);
+}
+template <typename A> void Fields(A& a, Footprints* v) { a(&v->clearance_m, &v->band_m, &v->origin_m, &v->obstacles); }
+template <typename A> void Fields(A& a, GroundRaster* v) {
+  a(&v->min_m, &v->cell_m, &v->columns, &v->rows, &v->height_m, &v->kind);
+}
+template <typename A> void Fields(A& a, ReportFinding* v) {
+  a(&v->code, &v->severity, &v->title, &v->feature, &v->message, &v->advice, &v->at_m);
+}
+template <typename A> void Fields(A& a, StageReport* v) { a(&v->figures, &v->levels, &v->picture_png); }
+template <typename A, typename F, typename S> void Fields(A& a, std::pair<F, S>* v) { a(&v->first, &v->second); }
+
+class StageWriter {
+ public:
+  template <typename... T> void operator()(T*... values) { (Put(values), ...); }
+  const std::string& text() const { return text_; }
+
+ private:
+  template <typename T> void Put(T* value) {
+    if constexpr (std::is_trivially_copyable_v<T>) Raw(value, sizeof(T));
+    else Fields(*this, value);
+  }
+  void Put(std::string* value) { PutSize(value->size()), Raw(value->data(), value->size()); }
+  template <typename T> void Put(std::vector<T>* values) {
+    PutSize(values->size());
+    if constexpr (std::is_trivially_copyable_v<T>) Raw(values->data(), values->size() * sizeof(T));
+    else for (T& value : *values) Put(&value);
+  }
+  void PutSize(uint64_t size) { Raw(&size, sizeof size); }
+  void Raw(const void* data, size_t size) { text_.append(static_cast<const char*>(data), size); }
+
+  std::string text_;
+};
+
+class StageReader {
+ public:
+  explicit StageReader(std::string_view text) : text_(text) {}
+  template <typename... T> void operator()(T*... values) { (Get(values), ...); }
+  bool whole() const { return good_ && text_.empty(); }
+
+ private:
+  template <typename T> void Get(T* value) {
+    if constexpr (std::is_trivially_copyable_v<T>) Raw(value, sizeof(T));
+    else Fields(*this, value);
+  }
+  void Get(std::string* value) {
+    value->resize(Size(1));
+    Raw(value->data(), value->size());
+  }
+  template <typename T> void Get(std::vector<T>* values) {
+    constexpr bool kRaw = std::is_trivially_copyable_v<T>;
+    values->resize(Size(kRaw ? sizeof(T) : 1));
+    if constexpr (kRaw) Raw(values->data(), values->size() * sizeof(T));
+    else for (T& value : *values) Get(&value);
+  }
+  // How many elements of at least so many bytes follow.
+  size_t Size(size_t bytes) {
+    uint64_t size = 0;
+    Raw(&size, sizeof size);
+    good_ = good_ && size <= text_.size() / bytes;
+    return good_ ? static_cast<size_t>(size) : 0;
+  }
+  void Raw(void* data, size_t size) {
+    good_ = good_ && size <= text_.size();
+    if (!good_ || size == 0) return;
+    std::memcpy(data, text_.data(), size);
+    text_.remove_prefix(size);
+  }
+
+  std::string_view text_;
+  bool good_ = true;
+};
+
+// Whether `file` held what was made under this fingerprint; else nothing is changed.
+template <typename... Parts>
+bool ReadKept(const std::filesystem::path& file, const std::string& fingerprint, Parts*... parts) {
+  std::string text;
+  if (ReadTextFile(file, &text) || text.size() < 2 * fingerprint.size()) return false;
+  const std::string_view made(std::string_view(text).substr(2 * fingerprint.size()));
+  if (text.compare(0, 2 * fingerprint.size(), fingerprint + Fingerprint().Add(made).Hex()) != 0) return false;
+  std::tuple<Parts...> read;
+  StageReader reader(made);
+  std::apply([&](Parts&... values) { reader(&values...); }, read);
+  if (!reader.whole()) return false;
+  std::tie(*parts...) = std::move(read);
+  return true;
+}
+
+// Errors: as for WriteFile.
+template <typename... Parts>
+Error WriteKept(const std::filesystem::path& file, const std::string& fingerprint, Parts*... parts) {
+  StageWriter writer;
+  writer(parts...);
+  return WriteTextFile(file, fingerprint + Fingerprint().Add(writer.text()).Hex() + writer.text());
+}
+
+}  // namespace flaneur
