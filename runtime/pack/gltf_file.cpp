@@ -71,6 +71,13 @@ void VisitComponents(const GltfFile& file, int accessor_index, Visit visit) {
 
 }  // namespace
 
+std::string Complaint(const std::exception& e) {
+  const std::string what = e.what();
+  if (dynamic_cast<const Json::exception*>(&e) == nullptr) return what;
+  const size_t end = what.find("] ");  // of the library's own error number
+  return "is broken: in its JSON, " + (end == std::string::npos ? what : what.substr(end + 2));
+}
+
 GltfFile OpenGltf(std::vector<uint8_t> bytes) {
   GltfFile file;
   file.bytes = std::move(bytes);

@@ -17,6 +17,9 @@ struct PackRefused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// What it says, in our words where the JSON library found a member of another type.
+std::string Complaint(const std::exception& e);
+
 struct GltfFile {
   std::vector<uint8_t> bytes;
   Json json;

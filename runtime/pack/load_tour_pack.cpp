@@ -15,6 +15,7 @@
 #include "runtime/pack/read_clip.h"
 #include "runtime/pack/read_mesh.h"
 #include "runtime/pack/settings_fields.h"
+#include "runtime/pack/tour_object.h"
 #include "runtime/pack/tour_pack.h"
 
 namespace flaneur {
@@ -28,43 +29,6 @@ float Finite(const Json& json) {
   if (!std::isfinite(value)) throw PackRefused("has a number that is not finite");
   return value;
 }
-
-float Number(const Json& object, const char* key) { return Finite(Member(object, key)); }
-Vec2 Point(const Json& json) { return {Finite(json.at(0)), Finite(json.at(1))}; }
-
-std::vector<Vec2> Points(const Json& json) {
-  std::vector<Vec2> points;
-  for (const Json& p : json) points.push_back(Point(p));
-  return points;
-}
-
-// Reads the settings that VisitFields lists; a member that is missing keeps its default.
-struct SettingsReader {
-  const Json& json;
-
-  template <typename T>
-  void Number(const char* name, T* value, double least, double most) const {
-    if (!json.contains(name)) return;
-    const double number = json[name].get<double>();
-    if (!(number >= least && number <= most)) throw PackRefused("has '" + std::string(name) + "' out of range");
-    *value = static_cast<T>(number);
-  }
-  void Angle(const char* stem, float* radians, double least_deg, double most_deg) const {
-    const double to_rad = static_cast<double>(kPi) / 180, slack = 1e-3;
-    Number((std::string(stem) + "_rad").c_str(), radians, least_deg * to_rad - slack, most_deg * to_rad + slack);
-  }
-  void Choice(const char* name, std::string* value, std::initializer_list<const char*> allowed) const {
-    if (!json.contains(name)) return;
-    const std::string text = json[name].get<std::string>();
-    for (const char* a : allowed) {
-      if (text == a) {
-        *value = text;
-        return;
-      }
-    }
-    throw PackRefused("has '" + std::string(name) + "' of unknown value '" + text + "'");
-  }
-};
 
 PackImage ReadImage(const GltfFile& file, int index) {
   const Json& json = Element(file.json, "images", index);
@@ -161,31 +125,27 @@ void ReadTown(const GltfFile& file, MeshTable* meshes, TourPack* pack) {
   }
 }
 
-PackImpostor ReadImpostor(const GltfFile& file, const Json& json) {
+PackImpostor ReadImpostor(const TourObject& json, size_t images) {
+  constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
   PackImpostor out;
-  const size_t images = file.json.value("images", Json::array()).size();
-  out.directions = Index(json, "directions", 1025);
-  out.frames = Index(json, "frames", 4097);
-  for (const Json& e : Member(json, "elevations_deg")) out.elevations_deg.push_back(Finite(e));
-  out.cell_width_px = Index(json, "cell_width_px", kMaxImageSide_px);
-  out.cell_height_px = Index(json, "cell_height_px", kMaxImageSide_px);
-  out.window_width_m = Number(json, "window_width_m");
-  out.window_height_m = Number(json, "window_height_m");
-  out.bottom_m = Number(json, "bottom_m");
-  out.depth_range_m = Number(json, "depth_range_m");
-  for (const Json& c : Member(json, "clips")) {
-    const PackImpostorClip clip{Member(c, "name").get<std::string>(), Index(c, "first_frame", 4097),
-                                Index(c, "phases", 4097)};
-    if (clip.phases < 1 || clip.first_frame + clip.phases > out.frames) {
-      throw PackRefused("has an impostor clip '" + clip.name + "' beyond the atlas");
-    }
+  out.directions = json.Whole("directions", 1, 1024);
+  out.frames = json.Whole("frames", 1, 4096);
+  out.elevations_deg = json.Reals("elevations_deg", -90, 90);
+  out.cell_width_px = json.Whole("cell_width_px", 1, kMaxImageSide_px);
+  out.cell_height_px = json.Whole("cell_height_px", 1, kMaxImageSide_px);
+  out.window_width_m = json.Real("window_width_m", kAboveZero, kAnything);
+  out.window_height_m = json.Real("window_height_m", kAboveZero, kAnything);
+  out.bottom_m = json.Real("bottom_m");
+  out.depth_range_m = json.Real("depth_range_m", kAboveZero, kAnything);
+  for (const TourObject& c : json.Objects("clips")) {
+    const PackImpostorClip clip{c.OneOf("name", {"walk", "idle", "talk"}), c.Whole("first_frame", 0, 4095),
+                                c.Whole("phases", 1, 4096)};
+    if (clip.first_frame + clip.phases > out.frames) c.Refuse("reaches beyond the atlas's frames");
     out.clips.push_back(clip);
   }
-  if (out.directions < 1 || out.elevations_deg.empty() || out.clips.empty()) {
-    throw PackRefused("has an impostor without pictures");
-  }
-  out.albedo_image = Index(json, "albedo_image", images);
-  out.normal_image = Index(json, "normal_image", images);
+  if (out.clips.empty()) json.Refuse("has no clips");
+  out.albedo_image = json.Whole("albedo_image", 0, static_cast<double>(images) - 1);
+  out.normal_image = json.Whole("normal_image", 0, static_cast<double>(images) - 1);
   return out;
 }
 
@@ -213,75 +173,71 @@ void CheckJoints(const PackMesh& mesh, int joints) {
   }
 }
 
-PackAvatar ReadAvatar(const GltfFile& file, const Json& json, MeshTable* meshes, const TourPack& pack) {
+PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* meshes, const TourPack& pack) {
+  constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
   PackAvatar avatar;
-  avatar.name = Member(json, "name").get<std::string>();
-  avatar.share = Number(json, "share");
-  avatar.height_m = Number(json, "height_m");
-  avatar.radius_m = Number(json, "radius_m");
-  avatar.walk_speed_mps = Number(json, "walk_speed_mps");
-  if (avatar.share < 0 || avatar.height_m <= 0 || avatar.radius_m <= 0 || avatar.walk_speed_mps <= 0) {
-    throw PackRefused("has an avatar '" + avatar.name + "' with a size or speed that is not positive");
-  }
+  avatar.name = json.Text("name");
+  avatar.share = json.Real("share", 0, kAnything);
+  avatar.height_m = json.Real("height_m", kAboveZero, kAnything);
+  avatar.radius_m = json.Real("radius_m", kAboveZero, kAnything);
+  avatar.walk_speed_mps = json.Real("walk_speed_mps", kAboveZero, kAnything);
   const Json& nodes = Member(file.json, "nodes");
   int skin = -1;
-  for (const Json& level_json : Member(json, "levels")) {
-    const Json& node = nodes[static_cast<size_t>(Index(level_json, "node", nodes.size()))];
+  for (const TourObject& level_json : json.Objects("levels")) {
+    const Json& node = nodes[static_cast<size_t>(level_json.Whole("node", 0, static_cast<double>(nodes.size()) - 1))];
     PackLevel level;
     level.mesh = meshes->Get(Index(node, "mesh", Member(file.json, "meshes").size()));
-    level.triangles = Index(level_json, "triangles", 1000000000);
-    level.error_mm = Number(level_json, "error_mm");
-    level.posed_error_mm = Number(level_json, "posed_error_mm");
-    level.switch_px = Number(level_json, "switch_px");
+    level.triangles = level_json.Whole("triangles", 1, 1e9);
+    level.error_mm = level_json.Real("error_mm", 0, kAnything);
+    level.posed_error_mm = level_json.Real("posed_error_mm", 0, kAnything);
+    level.switch_px = level_json.Real("switch_px", 0, kAnything);
     const int level_skin = Index(node, "skin", Member(file.json, "skins").size());
-    if (skin >= 0 && level_skin != skin) throw PackRefused("has an avatar '" + avatar.name + "' with two skins");
+    if (skin >= 0 && level_skin != skin) level_json.Refuse("has another skin than the level before");
     skin = level_skin;
     avatar.levels.push_back(level);
   }
-  if (avatar.levels.empty()) throw PackRefused("has an avatar '" + avatar.name + "' without levels");
+  if (avatar.levels.empty()) json.Refuse("has no levels");
   avatar.joints = static_cast<int>(Member(Element(file.json, "skins", skin), "joints").size());
   if (avatar.joints < 1 || static_cast<size_t>(avatar.joints) > kMaxJoints) throw PackRefused("has too many joints");
   for (const PackLevel& level : avatar.levels) {
     CheckJoints(pack.meshes[static_cast<size_t>(level.mesh)], avatar.joints);
   }
-  const size_t animations = file.json.value("animations", Json::array()).size();
-  const Json& clips = Member(json, "clips");
-  avatar.walk = ReadClip(file, skin, IndexOrNone(clips, "walk", animations));
-  avatar.idle = ReadClip(file, skin, IndexOrNone(clips, "idle", animations));
-  avatar.talk = clips.contains("talk") ? ReadClip(file, skin, IndexOrNone(clips, "talk", animations)) : avatar.idle;
-  avatar.impostor = ReadImpostor(file, Member(json, "impostor"));
+  const double last = static_cast<double>(file.json.value("animations", Json::array()).size()) - 1;
+  const TourObject clips = json.Object("clips");
+  const auto clip = [&](const char* name) { return ReadClip(file, skin, clips.Whole(name, -1, last)); };
+  avatar.walk = clip("walk");
+  avatar.idle = clips.Has("idle") ? clip("idle") : ReadClip(file, skin, -1);
+  avatar.talk = clips.Has("talk") ? clip("talk") : avatar.idle;
+  avatar.impostor = ReadImpostor(json.Object("impostor"), file.json.value("images", Json::array()).size());
   CheckAtlas(avatar.impostor, pack.images);
   return avatar;
 }
 
-PackObstacle ReadObstacle(const Json& json) {
+PackObstacle ReadObstacle(const TourObject& json) {
   PackObstacle obstacle;
-  obstacle.name = json.value("name", "");
-  obstacle.kind = json.value("kind", "other");
-  if (json.contains("radius_m")) {
-    obstacle.center = Point(Member(json, "center_m"));
-    obstacle.radius_m = Number(json, "radius_m");
-    if (obstacle.radius_m <= 0) throw PackRefused("has an obstacle '" + obstacle.name + "' of no size");
+  obstacle.name = json.Text("name");
+  obstacle.kind = json.OneOf("kind", {"building", "wall", "tree", "lamp", "other"});
+  if (json.Has("radius_m")) {
+    obstacle.center = json.Point("center_m");
+    obstacle.radius_m = json.Real("radius_m", TourObject::kAboveZero, TourObject::kAnything);
     return obstacle;
   }
-  obstacle.outer = Points(Member(json, "outer_m"));
-  for (const Json& hole : json.value("holes_m", Json::array())) obstacle.holes.push_back(Points(hole));
-  if (obstacle.outer.size() < 3) throw PackRefused("has an obstacle '" + obstacle.name + "' of under three points");
+  obstacle.outer = json.Ring("outer_m");
+  if (json.Has("holes_m")) obstacle.holes = json.Rings("holes_m");
   return obstacle;
 }
 
-PackGround ReadGround(const GltfFile& file, const Json& json) {
+PackGround ReadGround(const GltfFile& file, const TourObject& json) {
   PackGround ground;
-  ground.min_m = Point(Member(json, "min_m"));
-  ground.cell_m = Number(json, "cell_m");
-  ground.columns = Index(json, "columns", 100001);
-  ground.rows = Index(json, "rows", 100001);
+  ground.min_m = json.Point("min_m");
+  ground.cell_m = json.Real("cell_m", TourObject::kAboveZero, TourObject::kAnything);
+  ground.columns = json.Whole("columns", 1, 100000);
+  ground.rows = json.Whole("rows", 1, 100000);
   const size_t cells = static_cast<size_t>(ground.columns) * static_cast<size_t>(ground.rows);
-  const auto heights = BufferView(file, Member(json, "height_view").get<int>());
-  const auto kinds = BufferView(file, Member(json, "kind_view").get<int>());
-  if (!(ground.cell_m > 0) || cells == 0 || heights.size() != cells * 4 || kinds.size() != cells) {
-    throw PackRefused("has a ground raster of the wrong size");
-  }
+  const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
+  const auto heights = BufferView(file, json.Whole("height_view", 0, last));
+  const auto kinds = BufferView(file, json.Whole("kind_view", 0, last));
+  if (heights.size() != cells * 4 || kinds.size() != cells) json.Refuse("has views of the wrong size");
   ground.height_m.resize(cells);
   std::memcpy(ground.height_m.data(), heights.data(), heights.size());
   for (float h : ground.height_m) {
@@ -291,20 +247,20 @@ PackGround ReadGround(const GltfFile& file, const Json& json) {
   return ground;
 }
 
-void ReadTour(const Json& tour, TourPack* pack) {
-  pack->name = tour.value("name", "");
-  for (const Json& o : tour.value("obstacles", Json::array())) pack->obstacles.push_back(ReadObstacle(o));
-  for (const Json& p : tour.value("places", Json::array())) {
-    pack->places.push_back({p.value("name", ""), Member(p, "kind").get<std::string>(), Point(Member(p, "position_m")),
-                            p.value("width_m", 1.0f)});
+void ReadTour(const TourObject& tour, TourPack* pack) {
+  pack->name = tour.Text("name");
+  for (const TourObject& o : tour.Objects("obstacles")) pack->obstacles.push_back(ReadObstacle(o));
+  for (const TourObject& p : tour.Objects("places")) {
+    pack->places.push_back({p.Text("name"), p.OneOf("kind", {"door", "exit", "goal", "loiter", "spawn"}), p.Point("position_m"),
+                            p.Real("width_m", TourObject::kAboveZero, TourObject::kAnything)});
   }
-  for (const Json& s : tour.value("path", Json::array())) {
-    pack->path.push_back({Point(Member(s, "position_m")), s.value("yaw_rad", 0.0f), s.value("pause_s", 0.0f),
-                          s.value("caption", "")});
+  for (const TourObject& s : tour.Objects("path")) {
+    pack->path.push_back({s.Point("position_m"), s.Real("yaw_rad"), s.Real("pause_s", 0, TourObject::kAnything),
+                          s.Text("caption")});
   }
-  VisitFields(SettingsReader{tour.value("crowd", Json::object())}, &pack->crowd);
-  VisitFields(SettingsReader{tour.value("control", Json::object())}, &pack->control);
-  VisitFields(SettingsReader{tour.value("light", Json::object())}, &pack->light);
+  VisitFields(tour.Object("crowd"), &pack->crowd);
+  VisitFields(tour.Object("control"), &pack->control);
+  VisitFields(tour.Object("light"), &pack->light);
 }
 
 void Load(std::vector<uint8_t> bytes, const LoadOptions& options, TourPack* pack) {
@@ -314,14 +270,14 @@ void Load(std::vector<uint8_t> bytes, const LoadOptions& options, TourPack* pack
     throw PackRefused(std::string("is a glTF binary but no tour pack: it has no ") + kTourExtension +
                       "; make one with 'flaneur bake'");
   }
-  const Json& tour = extensions[kTourExtension];
-  const int version = Member(tour, "version").get<int>();
+  const TourObject tour(extensions[kTourExtension], kTourExtension);
+  const int version = tour.Whole("version", 0, 1e9);
   if (version != kTourPackVersion) {
     throw PackRefused("is a tour pack of version " + std::to_string(version) + ", this player reads version " +
                       std::to_string(kTourPackVersion));
   }
   ReadTour(tour, pack);
-  pack->ground = ReadGround(file, Member(tour, "ground"));
+  pack->ground = ReadGround(file, tour.Object("ground"));
   if (options.geometry_and_images) {
     const size_t images = file.json.value("images", Json::array()).size();
     for (size_t i = 0; i < images; ++i) pack->images.push_back(ReadImage(file, static_cast<int>(i)));
@@ -329,8 +285,8 @@ void Load(std::vector<uint8_t> bytes, const LoadOptions& options, TourPack* pack
   for (const Json& m : file.json.value("materials", Json::array())) pack->materials.push_back(ReadMaterial(file, m));
   MeshTable meshes(file, options.geometry_and_images, pack);
   ReadTown(file, &meshes, pack);
-  for (const Json& a : Member(tour, "avatars")) pack->avatars.push_back(ReadAvatar(file, a, &meshes, *pack));
-  if (pack->avatars.empty()) throw PackRefused("has no avatars");
+  for (const TourObject& a : tour.Objects("avatars")) pack->avatars.push_back(ReadAvatar(file, a, &meshes, *pack));
+  if (pack->avatars.empty()) tour.Refuse("has no avatars");
 }
 
 }  // namespace
@@ -348,7 +304,7 @@ Error ParseTourPack(std::vector<uint8_t> bytes, const std::string& name, const L
     *pack = std::move(loaded);
     return Ok();
   } catch (const std::exception& e) {
-    return Fail(name + ": " + OneLine(e.what()));
+    return Fail(name + ": " + OneLine(Complaint(e)));
   }
 }
 

@@ -150,7 +150,7 @@ PackMesh ReadMesh(const GltfFile& file, int mesh) {
     for (const Json& primitive : Member(json, "primitives")) out.primitives.push_back(ReadPrimitive(file, primitive));
     return out;
   } catch (const std::exception& e) {
-    throw PackRefused("mesh " + std::to_string(mesh) + " '" + json.value("name", "") + "' " + e.what());
+    throw PackRefused("mesh " + std::to_string(mesh) + " '" + json.value("name", "") + "' " + Complaint(e));
   }
 }
 

@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import shutil
 import struct
 import subprocess
 import tempfile
@@ -43,6 +44,22 @@ def write_glb(path, gltf, binary=b""):
     if binary:
         chunks += struct.pack("<I4s", len(binary), b"BIN\0") + binary
     pathlib.Path(path).write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+
+
+def run_blender_script(script, output, seed, **options):
+    """Runs a script of blender_scripts/ as the pipeline does; a failure shows what Blender said."""
+    blender = os.environ.get("FLANEUR_BLENDER") or shutil.which("blender")
+    if blender is None:
+        raise AssertionError("Blender not found: install the Debian package blender or set FLANEUR_BLENDER")
+    settings = pathlib.Path(output).with_suffix(".settings.json")
+    settings.write_text(json.dumps({"output": str(output), "seed": seed, "options": options}))
+    command = [blender, "--background", "--factory-startup", "--python-exit-code", "1",
+               "--python", str(SOURCE / "blender_scripts" / script), "--", str(settings)]
+    # A distribution's Blender takes its modules from the first python3 on PATH: let that be the one beside it.
+    environment = dict(os.environ, PATH=f"{pathlib.Path(blender).parent}:{os.environ['PATH']}", PYTHONDONTWRITEBYTECODE="1")
+    result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    if result.returncode != 0:
+        raise AssertionError(f"{script} {options} failed:\n{result.stdout[-2000:]}{result.stderr[-2000:]}")
 
 
 class ProgramTest(unittest.TestCase):

@@ -1,28 +1,19 @@
-"""Checks a town that blender_scripts/town/build.py made:  python3 town_test.py TOWN.glb
+"""The demo's town: what its script promises about nodes, tags, meshes and light.
 
-Uses the standard library alone. Prints every broken promise and exits with 1 if there is one.
+python3 town_test.py [TOWN.glb]: of that file, else of a town built now, with little light and small textures.
 """
-
-import json
 import math
+import pathlib
 import struct
 import sys
+import tempfile
+import unittest
+
+from support import run_blender_script, split_glb
 
 KINDS = {"building", "wall", "tree", "lamp", "other", "ground", "door", "exit", "loiter", "none"}
 GROUNDS = {"carriageway", "pavement", "square", "grass"}
 MEGABYTE = 1_000_000
-
-
-def read_glb(path):
-    """The JSON of a GLB, its binary chunk and its size in bytes."""
-    with open(path, "rb") as file:
-        data = file.read()
-    magic, version, length = struct.unpack_from("<III", data, 0)
-    assert magic == 0x46546C67 and version == 2 and length == len(data), "not a whole glTF 2.0 binary"
-    json_length, json_type = struct.unpack_from("<II", data, 12)
-    assert json_type == 0x4E4F534A, "first chunk is not JSON"
-    binary = data[20 + json_length + 8:]
-    return json.loads(data[20:20 + json_length]), binary, len(data)
 
 
 def triangles(gltf, mesh):
@@ -143,21 +134,40 @@ def check_places(gltf, fail):
                 fail("%s and %s stand in each other" % (a["name"], b["name"]))
 
 
-def main():
-    if len(sys.argv) != 2:
-        sys.exit("usage: town_test.py TOWN.glb")
-    gltf, binary, size = read_glb(sys.argv[1])
-    broken = []
-    check_tags(gltf, broken.append)
-    check_counts(gltf, broken.append)
-    check_meshes(gltf, size, broken.append)
-    check_light(gltf, binary, broken.append)
-    check_places(gltf, broken.append)
-    for line in broken:
-        print("town_test:", line)
-    if broken:
-        sys.exit(1)
-    print("town_test: %d nodes, all as promised" % len(gltf["nodes"]))
+class Town(unittest.TestCase):
+    path = None
+
+    @classmethod
+    def setUpClass(cls):
+        if cls.path is None:
+            folder = tempfile.TemporaryDirectory(prefix="flaneur_town_")
+            cls.addClassCleanup(folder.cleanup)
+            cls.path = pathlib.Path(folder.name) / "town.glb"
+            run_blender_script("town/build.py", cls.path, seed=7, ao_samples=4, texture_px=128)
+        cls.gltf, cls.binary = split_glb(cls.path)
+
+    def assert_kept(self, check, *arguments):
+        broken = []
+        check(self.gltf, *arguments, broken.append)
+        self.assertEqual(broken, [])
+
+    def test_tags(self):
+        self.assert_kept(check_tags)
+
+    def test_counts(self):
+        self.assert_kept(check_counts)
+
+    def test_meshes(self):
+        self.assert_kept(check_meshes, pathlib.Path(self.path).stat().st_size)
+
+    def test_light(self):
+        self.assert_kept(check_light, self.binary)
+
+    def test_places(self):
+        self.assert_kept(check_places)
 
 
-main()
+if __name__ == "__main__":
+    files = [argument for argument in sys.argv[1:] if argument.endswith(".glb")]
+    Town.path = files[0] if files else None
+    unittest.main(argv=[argument for argument in sys.argv if argument not in files])

@@ -1,15 +1,19 @@
-#!/usr/bin/env python3
-"""Checks townspeople GLBs: python3 townsperson_test.py FILE.glb...
+"""The demo's townspeople: what a crowd needs from each person.
 
-What a crowd needs from each person: 6,000 to 15,000 triangles, one skin of at most 76 joints,
-weights that sum to 1, the clips walk, idle and talk, a walk that loops exactly and names its speed.
+6,000 to 15,000 triangles, one skin of at most 76 joints, weights that sum to 1, the clips walk, idle and talk, a walk that loops
+exactly and names its speed. python3 townsperson_test.py [FILE.glb ...]: of those files, else of all people, built now.
 """
-
-import json
+import concurrent.futures
 import math
+import os
+import pathlib
+import re
 import struct
 import sys
+import tempfile
 import unittest
+
+from support import SOURCE, run_blender_script, split_glb
 
 COMPONENTS = {
     5120: ("b", 1, 127.0),
@@ -27,16 +31,7 @@ class Glb:
     """The JSON and binary chunk of a GLB."""
 
     def __init__(self, path):
-        with open(path, "rb") as file:
-            data = file.read()
-        magic, version, length = struct.unpack_from("<4sII", data, 0)
-        if magic != b"glTF" or version != 2 or length != len(data):
-            raise ValueError("%s: not a whole glTF 2 binary" % path)
-        json_length, _ = struct.unpack_from("<I4s", data, 12)
-        self.json = json.loads(data[20 : 20 + json_length])
-        start = 20 + json_length
-        binary_length, _ = struct.unpack_from("<I4s", data, start)
-        self.binary = data[start + 8 : start + 8 + binary_length]
+        self.json, self.binary = split_glb(path)
 
     def values(self, accessor_index):
         """An accessor's elements as tuples of floats (normalised integers scaled to 0..1)."""
@@ -57,11 +52,42 @@ class Glb:
         return [primitive for mesh in self.json["meshes"] for primitive in mesh["primitives"]]
 
 
+def people_of_the_demo():
+    """The names in blender_scripts/townspeople/people.py that the demo's tour asks for."""
+    tour = (SOURCE / "assets_src/wolfenbuettel/tour.toml").read_text(encoding="utf-8")
+    return re.findall(r'person = "(\w+)"', tour)
+
+
 class TownspersonTest(unittest.TestCase):
     paths = []
 
+    @classmethod
+    def setUpClass(cls):
+        if cls.paths:
+            return
+        folder = tempfile.TemporaryDirectory(prefix="flaneur_people_")
+        cls.addClassCleanup(folder.cleanup)
+
+        def build(name, file=None):
+            path = pathlib.Path(folder.name) / f"{file or name}.glb"
+            run_blender_script("townspeople/build.py", path, seed=1, person=name)
+            return path
+
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            again = pool.submit(build, "monk", "monk_again")
+            cls.paths = list(pool.map(build, people_of_the_demo()))
+            cls.twice = [next(path for path in cls.paths if path.stem == "monk"), again.result()]
+
+    def test_equal_settings_give_an_equal_file(self):
+        if not hasattr(self, "twice"):
+            self.skipTest("the files were named, not built")
+        self.assertEqual(self.twice[0].read_bytes(), self.twice[1].read_bytes())
+
+    def test_there_are_at_least_eight(self):
+        if hasattr(self, "twice"):
+            self.assertGreaterEqual(len(set(self.paths)), 8)
+
     def each(self):
-        self.assertTrue(self.paths, "name at least one GLB")
         for path in self.paths:
             with self.subTest(path):
                 yield Glb(path)
@@ -143,5 +169,5 @@ class TownspersonTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    TownspersonTest.paths = sys.argv[1:]
-    unittest.main(argv=sys.argv[:1])
+    TownspersonTest.paths = [argument for argument in sys.argv[1:] if argument.endswith(".glb")]
+    unittest.main(argv=[argument for argument in sys.argv if argument not in TownspersonTest.paths])

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "pipeline/core/temporary_folder.h"
@@ -308,6 +309,102 @@ TEST(TourPack, WrongNumbersNeverCrashTheReader) {
   }
 }
 
+using Json = nlohmann::json;
+
+// The pack with other JSON in its first chunk.
+std::vector<uint8_t> WithJson(const std::vector<uint8_t>& pack, const Json& json) {
+  std::string text = json.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  std::vector<uint8_t> bytes = pack;
+  bytes.erase(bytes.begin() + 20, bytes.begin() + 20 + Get(pack, 12));
+  bytes.insert(bytes.begin() + 20, text.begin(), text.end());
+  Put(&bytes, 8, bytes.size());
+  Put(&bytes, 12, text.size());
+  return bytes;
+}
+
+Json JsonOf(const std::vector<uint8_t>& pack) {
+  return Json::parse(pack.begin() + 20, pack.begin() + 20 + Get(pack, 12));
+}
+
+// Pointers to all that stands under `at`, itself included.
+void Places(const Json& json, const Json::json_pointer& at, std::vector<Json::json_pointer>* places) {
+  places->push_back(at);
+  if (!json.is_structured()) return;
+  for (const auto& [key, value] : json.items()) {
+    Places(value, json.is_array() ? at / static_cast<size_t>(std::stoul(key)) : at / key, places);
+  }
+}
+
+// How messages call it: FLANEUR_tour.places[0].kind.
+std::string Called(const Json& json, const Json::json_pointer& at) {
+  if (at.to_string() == "/extensions/FLANEUR_tour") return "FLANEUR_tour";
+  const std::string parent = Called(json, at.parent_pointer());
+  return json.at(at.parent_pointer()).is_array() ? parent + "[" + at.back() + "]" : parent + "." + at.back();
+}
+
+TEST(TourPack, AMemberOfAnotherTypeIsRefusedByItsPlace) {
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  const Json json = JsonOf(whole);
+  const Json::json_pointer root("/extensions/FLANEUR_tour");
+  std::vector<Json::json_pointer> places;
+  Places(json.at(root), root, &places);
+  ASSERT_GT(places.size(), 100u);
+  for (const Json::json_pointer& at : places) {
+    for (const Json& other : {Json(nullptr), Json(true), Json("x"), Json(0.5), Json::array({7}), Json{{"a", 1}}}) {
+      if (other.type_name() == std::string(json.at(at).type_name()) && !json.at(at).is_number_integer()) continue;
+      Json changed = json;
+      changed[at] = other;
+      TourPack pack;
+      const std::string message = ParseTourPack(WithJson(whole, changed), "small.glb", LoadOptions{}, &pack).message;
+      ASSERT_NE(message.find(Called(json, at)), std::string::npos) << at.to_string() << " = " << other << ": " << message;
+    }
+  }
+}
+
+TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  const Json json = JsonOf(whole);
+  for (const char* object : {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/impostor", "/avatars/0/impostor/clips/0",
+                             "/obstacles/1", "/ground", "/places/0", "/path/0"}) {
+    const Json::json_pointer at(std::string("/extensions/FLANEUR_tour") + object);
+    for (const auto& [key, unused] : json.at(at).items()) {
+      Json changed = json;
+      changed.at(at).erase(key);
+      EXPECT_TRUE(Refused(WithJson(whole, changed))) << object << "/" << key;
+    }
+  }
+}
+
+TEST(TourPack, UnknownKindsAreRefusedWithTheKnownOnes) {
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  for (const char* member : {"/places/0/kind", "/obstacles/0/kind", "/control/method", "/avatars/0/impostor/clips/0/name"}) {
+    Json json = JsonOf(whole);
+    json[Json::json_pointer(std::string("/extensions/FLANEUR_tour") + member)] = "portal";
+    TourPack pack;
+    const std::string message = ParseTourPack(WithJson(whole, json), "small.glb", LoadOptions{}, &pack).message;
+    EXPECT_NE(message.find("'portal', it must be one of: "), std::string::npos) << message;
+  }
+}
+
+TEST(TourPack, TheGltfPartOfAnotherTypeIsRefusedInPlainWords) {
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  const Json json = JsonOf(whole);
+  std::vector<Json::json_pointer> places;
+  for (const char* part : {"/nodes", "/meshes", "/accessors", "/skins", "/animations", "/materials", "/textures", "/images"}) {
+    const Json::json_pointer at(part);
+    Places(json.at(at), at, &places);
+  }
+  const std::vector<Json> others{nullptr, "x", -7, Json::array({7}), {{"a", 1}}};
+  for (size_t i = 0; i < places.size(); ++i) {  // one after the other, to be done in a second
+    Json changed = json;
+    changed[places[i]] = others[i % others.size()];
+    TourPack pack;
+    const std::string message = ParseTourPack(WithJson(whole, changed), "small.glb", LoadOptions{}, &pack).message;
+    EXPECT_EQ(message.find("json.exception"), std::string::npos) << message;
+  }
+}
+
 TEST(TourPack, OtherVersionsAreRefusedByNumber) {
   std::vector<uint8_t> bytes = Written(SmallTour());
   const std::string member = "\"version\":1";
@@ -321,15 +418,10 @@ TEST(TourPack, OtherVersionsAreRefusedByNumber) {
 
 TEST(TourPack, AGlbWithoutATourIsNamedSo) {
   TourPack pack;
-  const std::string text = "{\"asset\":{\"version\":\"2.0\"}} ";
-  std::vector<uint8_t> bytes(20);
-  std::memcpy(bytes.data(), "glTF", 4);
-  Put(&bytes, 4, 2);
-  Put(&bytes, 8, 20 + text.size());
-  Put(&bytes, 12, text.size());
-  std::memcpy(bytes.data() + 16, "JSON", 4);
-  bytes.insert(bytes.end(), text.begin(), text.end());
-  const std::string message = ParseTourPack(bytes, "x.glb", LoadOptions{}, &pack).message;
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  Json json = JsonOf(whole);
+  json.erase("extensions");
+  const std::string message = ParseTourPack(WithJson(whole, json), "x.glb", LoadOptions{}, &pack).message;
   EXPECT_NE(message.find("FLANEUR_tour"), std::string::npos) << message;
   EXPECT_NE(message.find("flaneur bake"), std::string::npos) << message;
 }

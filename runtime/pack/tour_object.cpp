@@ -1,0 +1,133 @@
+#include "runtime/pack/tour_object.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace flaneur {
+namespace {
+
+std::string Compact(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
+[[noreturn]] void RefuseMember(const std::string& place, const std::string& why) {
+  throw PackRefused("is broken: " + place + " " + why);
+}
+
+std::string RangeText(double least, double most) {
+  const std::string low = least <= -TourObject::kAnything ? ""
+                          : least == TourObject::kAboveZero ? "above 0" : "at least " + Compact(least);
+  const std::string high = most >= TourObject::kAnything ? "" : "at most " + Compact(most);
+  return low + (low.empty() || high.empty() ? "" : " and ") + high;
+}
+
+std::string Item(const std::string& place, size_t index) { return place + "[" + std::to_string(index) + "]"; }
+
+}  // namespace
+
+TourObject::TourObject(const Json& json, std::string place) : json_(json), place_(std::move(place)) {
+  if (!json_.is_object()) RefuseMember(place_, "must be an object");
+}
+
+void TourObject::Refuse(const std::string& why) const { RefuseMember(place_, why); }
+
+const Json& TourObject::Get(const char* key) const {
+  const auto found = json_.find(key);
+  if (found == json_.end()) RefuseMember(Place(key), "is missing");
+  return *found;
+}
+
+const Json& TourObject::Array(const char* key) const {
+  const Json& json = Get(key);
+  if (!json.is_array()) RefuseMember(Place(key), "must be a list");
+  return json;
+}
+
+double TourObject::Checked(const Json& json, const std::string& place, bool whole, double least, double most) {
+  if (!json.is_number()) RefuseMember(place, "must be a number");
+  const double number = json.get<double>();
+  if (!std::isfinite(number) || (whole && number != std::floor(number))) {
+    RefuseMember(place, std::string("must be a ") + (whole ? "whole" : "finite") + " number");
+  }
+  if (number < least || number > most) RefuseMember(place, "is " + Compact(number) + ", it must be " + RangeText(least, most));
+  return number;
+}
+
+Vec2 TourObject::CheckedPoint(const Json& json, const std::string& place) {
+  if (!json.is_array() || json.size() != 2) RefuseMember(place, "must be [x, y]");
+  return {static_cast<float>(Checked(json[0], Item(place, 0), false, -kAnything, kAnything)),
+          static_cast<float>(Checked(json[1], Item(place, 1), false, -kAnything, kAnything))};
+}
+
+std::vector<Vec2> TourObject::CheckedRing(const Json& json, const std::string& place) {
+  if (!json.is_array() || json.size() < 3) RefuseMember(place, "must be a list of three points or more");
+  std::vector<Vec2> points;
+  for (size_t i = 0; i < json.size(); ++i) points.push_back(CheckedPoint(json[i], Item(place, i)));
+  return points;
+}
+
+float TourObject::Real(const char* key, double least, double most) const {
+  return static_cast<float>(Checked(Get(key), Place(key), false, least, most));
+}
+
+int TourObject::Whole(const char* key, double least, double most) const {
+  return static_cast<int>(Checked(Get(key), Place(key), true, least, most));
+}
+
+std::string TourObject::Text(const char* key) const {
+  const Json& json = Get(key);
+  if (!json.is_string()) RefuseMember(Place(key), "must be text");
+  return json.get<std::string>();
+}
+
+std::string TourObject::OneOf(const char* key, std::initializer_list<const char*> allowed) const {
+  const std::string text = Text(key);
+  if (std::find(allowed.begin(), allowed.end(), text) != allowed.end()) return text;
+  std::string list;
+  for (const char* a : allowed) list += (list.empty() ? "" : ", ") + std::string(a);
+  RefuseMember(Place(key), "is '" + text + "', it must be one of: " + list);
+}
+
+Vec2 TourObject::Point(const char* key) const { return CheckedPoint(Get(key), Place(key)); }
+
+std::vector<Vec2> TourObject::Ring(const char* key) const { return CheckedRing(Get(key), Place(key)); }
+
+std::vector<std::vector<Vec2>> TourObject::Rings(const char* key) const {
+  const Json& json = Array(key);
+  std::vector<std::vector<Vec2>> rings;
+  for (size_t i = 0; i < json.size(); ++i) rings.push_back(CheckedRing(json[i], Item(Place(key), i)));
+  return rings;
+}
+
+std::vector<float> TourObject::Reals(const char* key, double least, double most) const {
+  const Json& json = Array(key);
+  if (json.empty()) RefuseMember(Place(key), "must not be empty");
+  std::vector<float> numbers;
+  for (size_t i = 0; i < json.size(); ++i) {
+    numbers.push_back(static_cast<float>(Checked(json[i], Item(Place(key), i), false, least, most)));
+  }
+  return numbers;
+}
+
+TourObject TourObject::Object(const char* key) const { return {Get(key), Place(key)}; }
+
+std::vector<TourObject> TourObject::Objects(const char* key) const {
+  const Json& json = Array(key);
+  std::vector<TourObject> objects;
+  for (size_t i = 0; i < json.size(); ++i) objects.emplace_back(json[i], Item(Place(key), i));
+  return objects;
+}
+
+void TourObject::Angle(const char* stem, float* radians, double least_deg, double most_deg) const {
+  constexpr double kToRad = static_cast<double>(kPi) / 180, kSlack_rad = 1e-3;  // rounded on the way
+  Number((std::string(stem) + "_rad").c_str(), radians, least_deg * kToRad - kSlack_rad, most_deg * kToRad + kSlack_rad);
+}
+
+void TourObject::Choice(const char* key, std::string* value, std::initializer_list<const char*> allowed) const {
+  if (Has(key)) *value = OneOf(key, allowed);
+}
+
+}  // namespace flaneur

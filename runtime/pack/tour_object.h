@@ -1,0 +1,57 @@
+// One object of the FLANEUR_tour extension, read member by member. What is missing, of another type or out of range is refused by
+// its place, as FLANEUR_tour.places[3].kind. Internal to runtime/pack.
+#pragma once
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "runtime/base/math.h"
+#include "runtime/pack/gltf_file.h"
+
+namespace flaneur {
+
+class TourObject {
+ public:
+  static constexpr double kAnything = std::numeric_limits<float>::max();
+  static constexpr double kAboveZero = std::numeric_limits<double>::min();  // as the least: zero is refused
+
+  // Refuses what is no object. `place` is how messages call it. The JSON must outlive it.
+  TourObject(const Json& json, std::string place);
+
+  bool Has(const char* key) const { return json_.contains(key); }
+  float Real(const char* key, double least = -kAnything, double most = kAnything) const;  // finite
+  int Whole(const char* key, double least, double most) const;
+  std::string Text(const char* key) const;
+  std::string OneOf(const char* key, std::initializer_list<const char*> allowed) const;
+  Vec2 Point(const char* key) const;
+  std::vector<Vec2> Ring(const char* key) const;  // at least three points
+  std::vector<std::vector<Vec2>> Rings(const char* key) const;
+  std::vector<float> Reals(const char* key, double least, double most) const;  // at least one
+  TourObject Object(const char* key) const;
+  std::vector<TourObject> Objects(const char* key) const;
+
+  // For VisitFields: a member that is missing keeps its value.
+  template <typename T>
+  void Number(const char* key, T* value, double least, double most) const {
+    if (Has(key)) *value = static_cast<T>(Checked(Get(key), Place(key), std::is_integral_v<T>, least, most));
+  }
+  void Angle(const char* stem, float* radians, double least_deg, double most_deg) const;
+  void Choice(const char* key, std::string* value, std::initializer_list<const char*> allowed) const;
+
+  [[noreturn]] void Refuse(const std::string& why) const;
+
+ private:
+  const Json& Get(const char* key) const;
+  const Json& Array(const char* key) const;
+  std::string Place(const std::string& key) const { return place_ + "." + key; }
+  static double Checked(const Json& json, const std::string& place, bool whole, double least, double most);
+  static Vec2 CheckedPoint(const Json& json, const std::string& place);
+  static std::vector<Vec2> CheckedRing(const Json& json, const std::string& place);
+
+  const Json& json_;
+  std::string place_;
+};
+
+}  // namespace flaneur
