@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/avatar/decimate.h"
+#include "pipeline/cli/arguments.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/io/gltf.h"
 #include "runtime/base/file.h"
@@ -106,6 +107,10 @@ nlohmann::json Statistics(const AvatarLevels& levels, double seconds) {
 
 Error Run(AvatarArguments a, AvatarLevels* levels, std::vector<std::string>* warnings) {
   const auto start = std::chrono::steady_clock::now();
+  for (const auto* path : {&a.output, &a.json}) {
+    if (path->empty()) continue;
+    if (Error e = CheckWritable(*path)) return e;
+  }
   Avatar avatar;
   if (Error e = ReadAvatar(a.input, a.read, &avatar, warnings)) return e;
   if (Error e = BuildLevels(avatar, a.levels, levels, warnings)) return e;
@@ -142,23 +147,14 @@ int RunAvatar(const Arguments& args) {
   AddPerson(&app, &arguments);
   AddLevels(&app, &arguments);
   AddCompression(&app, &arguments);
-  try {
-    app.parse(Arguments(args.rbegin(), args.rend()));
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "flaneur: error: avatar: %s; see flaneur avatar --help\n", error.what());
-    return 2;
-  }
+  if (const int status = ParseArguments(&app, args); status >= 0) return status;
   AvatarLevels levels;
   std::vector<std::string> warnings;
   const Error error = Run(arguments, &levels, &warnings);
   for (const std::string& warning : warnings) {
     std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
   }
-  if (error) {
-    std::fprintf(stderr, "flaneur: error: %s\n", error.message.c_str());
-    return 2;
-  }
+  if (error) return Report(error);
   PrintSummary(arguments, levels);
   return 0;
 }

@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "pipeline/cli/bake.h"
 #include "pipeline/cli/arguments.h"
+#include "pipeline/cli/bake.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/core/interruption.h"
 

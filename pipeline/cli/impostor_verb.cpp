@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/cli/arguments.h"
 #include "pipeline/cli/verbs.h"
+#include "pipeline/core/interruption.h"
 #include "pipeline/impostor/bake_impostor.h"
 #include "pipeline/io/gltf.h"
+#include "runtime/base/file.h"
 
 namespace flaneur {
 namespace {
@@ -85,6 +88,7 @@ void AddPersonOptions(CLI::App* app, ImpostorArguments* a) {
 
 Error Bake(const ImpostorArguments& a, ImpostorAtlas* atlas, ImpostorStatistics* statistics,
            std::vector<std::string>* warnings) {
+  if (Error error = CheckWritable(a.output / "impostor.json")) return error;
   Avatar avatar;
   if (Error error = ReadAvatar(a.input, a.read, &avatar, warnings)) return error;
   ImpostorOptions options = a.impostor;
@@ -120,14 +124,8 @@ int RunImpostor(const Arguments& args) {
   ImpostorArguments arguments;
   AddOptions(&app, &arguments);
   AddPersonOptions(&app, &arguments);
-  try {
-    app.parse(Arguments(args.rbegin(), args.rend()));
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "flaneur: error: impostor: %s; see flaneur impostor --help\n",
-                 error.what());
-    return 2;
-  }
+  if (const int status = ParseArguments(&app, args); status >= 0) return status;
+  CatchInterruptions();
   ImpostorAtlas atlas;
   ImpostorStatistics statistics;
   std::vector<std::string> warnings;
@@ -136,8 +134,9 @@ int RunImpostor(const Arguments& args) {
     std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
   }
   if (error) {
-    std::fprintf(stderr, "flaneur: error: %s\n", error.message.c_str());
-    return 2;
+    const int status = Report(error);
+    EndAsInterrupted();
+    return status;
   }
   PrintSummary(arguments, atlas, statistics);
   return 0;

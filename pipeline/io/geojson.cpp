@@ -247,7 +247,7 @@ Error ReadGeoJson(const std::filesystem::path& path, const ReadGeoJsonOptions& o
   try {
     return Reader(path.string(), file).Read(Json::parse(text), options);
   } catch (const Json::exception& exception) {
-    return Fail(OneLine(path.string() + ": not valid JSON: " + exception.what()));
+    return Fail(path.string() + ": not valid JSON: " + PlainJsonError(exception.what()));
   }
 }
 

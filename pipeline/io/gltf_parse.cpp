@@ -104,7 +104,7 @@ Error ParseGltf(const std::filesystem::path& path, tinygltf::Model* model) {
   if (error.empty()) error = "broken";
   while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
   return Fail(file + (binary ? ": broken or truncated glTF binary: " : ": not a glTF file: ") +
-              OneLine(error));
+              PlainJsonError(error));
 }
 
 }  // namespace flaneur

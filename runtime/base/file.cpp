@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 
 namespace flaneur {
@@ -44,8 +45,25 @@ bool WriteAll(int fd, const uint8_t* data, size_t size) {
 Error ReadFile(const fs::path& path, std::vector<uint8_t>* bytes) { return ReadInto(path, bytes); }
 Error ReadTextFile(const fs::path& path, std::string* text) { return ReadInto(path, text); }
 
+Error CheckWritable(const fs::path& path) {
+  std::error_code ec;
+  if (fs::is_directory(path, ec)) return Fail(path.string() + ": is a folder, a file is needed");
+  fs::path folder = fs::absolute(path, ec).parent_path();
+  while (!fs::exists(folder, ec) && folder.has_relative_path()) folder = folder.parent_path();
+  std::string name = (folder / ".flaneur_XXXXXX").string();
+  const int fd = ::mkostemp(name.data(), O_CLOEXEC);
+  const bool written = fd >= 0 && ::write(fd, "x", 1) == 1;
+  const int reason = errno;
+  if (fd >= 0) {
+    ::close(fd);
+    ::unlink(name.c_str());
+  }
+  return written ? Ok() : Fail(path.string() + ": cannot be written: " + std::strerror(reason));
+}
+
 Error WriteFile(const fs::path& path, std::span<const uint8_t> bytes) {
   std::error_code ec;
+  if (fs::is_directory(path, ec)) return Fail(path.string() + ": is a folder, a file is needed");
   if (path.has_parent_path()) fs::create_directories(path.parent_path(), ec);
   const std::string temporary = path.string() + ".part-" + std::to_string(::getpid());
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

@@ -42,6 +42,11 @@ std::string DidYouMean(std::string_view name, std::span<const std::string> candi
   return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
 }
 
+std::string PlainJsonError(std::string_view what) {
+  if (what.rfind("[json.exception", 0) == 0) what.remove_prefix(std::min(what.size(), what.find("] ") + 2));
+  return OneLine(what.substr(0, what.find(": syntax error")));
+}
+
 std::string OneLine(std::string_view text) {
   std::string out(text);
   for (char& c : out) {

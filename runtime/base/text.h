@@ -16,4 +16,8 @@ std::string DidYouMean(std::string_view name, std::span<const std::string> candi
 // Line breaks and control characters become spaces, so that any text fits in a one-line message.
 std::string OneLine(std::string_view text);
 
+// What a JSON library complains of, without its error's number and the parser's inner life:
+// "parse error at line 1, column 1".
+std::string PlainJsonError(std::string_view what);
+
 }  // namespace flaneur

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "runtime/base/text.h"
+
 namespace flaneur {
 namespace {
 
@@ -72,10 +74,8 @@ void VisitComponents(const GltfFile& file, int accessor_index, Visit visit) {
 }  // namespace
 
 std::string Complaint(const std::exception& e) {
-  const std::string what = e.what();
-  if (dynamic_cast<const Json::exception*>(&e) == nullptr) return what;
-  const size_t end = what.find("] ");  // of the library's own error number
-  return "is broken: in its JSON, " + (end == std::string::npos ? what : what.substr(end + 2));
+  if (dynamic_cast<const Json::exception*>(&e) == nullptr) return e.what();
+  return "is broken: in its JSON, " + PlainJsonError(e.what());
 }
 
 GltfFile OpenGltf(std::vector<uint8_t> bytes) {

@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "runtime/base/file.h"
 #include "runtime/base/text.h"
 #include "runtime/player/options.h"
 #include "runtime/player/run.h"
@@ -8,7 +9,16 @@
 namespace flaneur {
 namespace {
 
+Error CheckOutputs(const PlayerOptions& options) {
+  for (const auto* path : {&options.metrics, &options.trajectories, &options.screenshot, &options.film}) {
+    if (path->empty()) continue;
+    if (Error e = CheckWritable(*path)) return e;
+  }
+  return Ok();
+}
+
 Error Play(const PlayerOptions& options) {
+  if (Error e = CheckOutputs(options)) return e;
   Scenario scenario;
   if (!options.scenario.empty()) {
     if (Error e = ReadScenario(options.scenario, &scenario)) return e;
