@@ -1,11 +1,12 @@
 """Bad input: one clear line, status 2, nothing half-written, an earlier good file kept."""
 import os
-import shutil
+import pathlib
 import subprocess
+import tempfile
 import unittest
 
-from scenes import write_box_town, write_town
-from support import BIN, ProgramTest, run, shared_data, split_glb, write_glb
+from scenes import write_box_town, write_person, write_town
+from support import BIN, SOURCE, ProgramTest, run, split_glb, write_glb
 
 
 def tour(town, avatar):
@@ -34,7 +35,7 @@ class BadInput(ProgramTest):
         return run("flaneur", "bake", path, "-o", self.folder / "out", **options)
 
     def with_avatar(self):
-        shutil.copy(shared_data("avatars/khronos/RiggedFigure.glb"), self.folder / "avatar.glb")
+        write_person(self.folder / "avatar.glb")
 
     def test_missing_tour(self):
         self.assert_fails(run("flaneur", "bake", self.folder / "none.toml"), "none.toml", "no such file")
@@ -69,9 +70,10 @@ class BadInput(ProgramTest):
         self.assert_fails(run("flaneur", "avatar", statue, "-o", self.folder / "o.glb"), "statue.glb", "skin")
 
     def test_no_walk_clip(self):
-        gltf, binary = split_glb(shared_data("avatars/khronos/RiggedFigure.glb"))
-        gltf.pop("animations")
         still = self.folder / "still.glb"
+        write_person(still)
+        gltf, binary = split_glb(still)
+        gltf.pop("animations")
         write_glb(still, gltf, binary)
         self.assert_fails(run("flaneur", "avatar", still, "-o", self.folder / "o.glb"), "still.glb", "walk")
 
@@ -87,7 +89,8 @@ class BadInput(ProgramTest):
         self.assert_fails(result, "town.glb", "house_4")
 
     def test_blender_not_found(self):
-        figure = shared_data("avatars/khronos/RiggedFigure.glb")
+        figure = self.folder / "avatar.glb"
+        self.with_avatar()
         environment = dict(os.environ, FLANEUR_BLENDER="/no/such/blender")
         result = run("flaneur", "impostor", figure, "-o", self.folder / "o", env=environment)
         self.assert_fails(result, "blender", "install")
@@ -111,11 +114,157 @@ class BadInput(ProgramTest):
         self.assertEqual(self.bake(self.write_tour()).returncode, 2)
         self.assertEqual((out / "small.glb").read_text(), "an earlier good pack")
 
+    def test_every_missing_file_is_named_before_the_work_begins(self):
+        (self.folder / "build.py").write_text("import time\ntime.sleep(600)\n")
+        self.assert_fails(self.bake(self.write_tour(town="build.py")), "avatar.glb", "no such file")
+        self.with_avatar()
+        more = '[[town.part]]\nfile = "gone.gltf"\n'
+        self.assert_fails(self.bake(self.write_tour(town="build.py", more=more)), "gone.gltf", "no such file")
+
+    def test_a_bad_source_stops_the_bake_in_one_line(self):
+        self.with_avatar()
+        write_box_town(self.folder / "town.glb")
+        (self.folder / "text.glb").write_text("no glTF at all")
+        (self.folder / "cut.glb").write_bytes((self.folder / "town.glb").read_bytes()[:-200])
+        for town, avatar, words in (("text.glb", "avatar.glb", "text.glb"), ("cut.glb", "avatar.glb", "cut.glb"),
+                                    ("town.glb", "text.glb", "text.glb"), ("town.glb", "town.glb", "skin")):
+            with self.subTest(f"{town} {avatar}"):
+                self.assert_fails(self.bake(self.write_tour(town, avatar)), words)
+                self.assertEqual([p.name for p in (self.folder / "out").iterdir()], ["cache"])
+
+    def test_a_script_says_what_is_wrong_with_its_options(self):
+        write_box_town(self.folder / "town.glb")
+        script = SOURCE / "blender_scripts/townspeople/build.py"
+        for options, words in (('{ persn = "monk" }', ("persn", "person")), ('{ person = "munk" }', ("munk", "monk"))):
+            with self.subTest(options):
+                path = self.write_tour(avatar=script)
+                path.write_text(path.read_text().replace(f'"{script}"', f'"{script}"\noptions = {options}'))
+                self.assert_fails(self.bake(path), "build.py", *words)
+
+    def test_a_script_that_breaks_is_named(self):
+        self.with_avatar()
+        (self.folder / "build.py").write_text("raise ValueError('no bricks left')\n")
+        self.assert_fails(self.bake(self.write_tour(town="build.py")), "build.py", "no bricks left")
+        (self.folder / "build.py").write_text("print('all done')\n")
+        self.assert_fails(self.bake(self.write_tour(town="build.py")), "town.glb", "no such file")
+
+    def test_outputs_that_cannot_be_written_are_named(self):
+        self.with_avatar()
+        write_box_town(self.folder / "town.glb")
+        for arguments in (("avatar", "avatar.glb", "-o", "."), ("avatar", "avatar.glb", "-o", "town.glb/x.glb"),
+                          ("impostor", "avatar.glb", "-o", "town.glb"), ("footprints", "town.glb", "-o", "."),
+                          ("footprints", "town.glb", "-o", "town.glb/x.geojson")):
+            with self.subTest(arguments):
+                before = sorted(p.name for p in self.folder.iterdir())
+                self.assert_fails(run("flaneur", *arguments, cwd=self.folder), arguments[-1])
+                self.assertEqual(sorted(p.name for p in self.folder.iterdir()), before)
+
+    def test_obstacles_that_are_none(self):
+        for text in ("no JSON", "[]", "{}", '{"type": "FeatureCollection", "features": []}',
+                     '{"type": "FeatureCollection", "features": [{"type": "Feature", "geometry": 3}]}'):
+            with self.subTest(text):
+                (self.folder / "obstacles.geojson").write_text(text)
+                self.assert_fails(run("flaneur", "check", self.folder / "obstacles.geojson"), "obstacles.geojson")
+
     def test_player_names_a_broken_pack(self):
         pack = self.folder / "pack.glb"
         write_box_town(pack)
         self.assert_fails(run("flaneur-player", pack, "--headless", "--no-draw"), "pack.glb", "FLANEUR_tour")
         self.assert_fails(run("flaneur-player", self.folder / "no.glb", "--headless", "--no-draw"), "no.glb")
+
+
+class Playing(ProgramTest):
+    """What can be wrong once there is a good pack."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="flaneur_cli_")
+        cls.addClassCleanup(folder.cleanup)
+        made = pathlib.Path(folder.name)
+        write_box_town(made / "town.glb")
+        write_person(made / "avatar.glb")
+        small = "walk_phases = 1\nheight_px = 32\nsamples = 1\n"
+        place = '[[place]]\nname = "gate"\nkind = "exit"\nposition_m = [20, 20]\n'
+        (made / "tour.toml").write_text(tour("town.glb", "avatar.glb") + small + place)
+        baked = run("flaneur", "bake", made / "tour.toml", "-o", made)
+        if baked.returncode != 0:
+            raise AssertionError(baked.stderr)
+        cls.pack = made / "small.glb"
+
+    def play(self, *arguments, pack=None, draw=False, **options):
+        mode = ["--headless"] if draw else ["--headless", "--no-draw"]
+        return run("flaneur-player", pack or self.pack, *mode, "--seconds", 0.1, *arguments, **options)
+
+    def test_the_pack_itself_is_good(self):
+        self.assert_succeeds(self.play())
+
+    def test_broken_packs(self):
+        def changed(place, value):
+            gltf, binary = split_glb(self.pack)
+            target = gltf["extensions"]["FLANEUR_tour"]
+            for key in place[:-1]:
+                target = target[key]
+            target[place[-1]] = value
+            write_glb(self.folder / "broken.glb", gltf, binary)
+
+        for place, value, words in ((("places", 0, "kind"), "portal", ("places[0].kind", "portal", "exit")),
+                                    (("obstacles", 1, "kind"), "castle", ("obstacles[1].kind", "castle", "building")),
+                                    (("obstacles", 0, "outer_m", 2), ["a", 1], ("obstacles[0].outer_m[2]", "number")),
+                                    (("avatars", 0, "share"), "many", ("avatars[0].share", "number")),
+                                    (("avatars", 0, "levels", 0, "node"), 99999, ("levels[0].node", "99999")),
+                                    (("crowd",), "a lot", ("FLANEUR_tour.crowd", "object")),
+                                    (("version",), 2, ("version 2",))):
+            with self.subTest(place):
+                changed(place, value)
+                for result in (self.play(pack=self.folder / "broken.glb"), run("flaneur", "inspect", self.folder / "broken.glb")):
+                    self.assert_fails(result, "broken.glb", *words)
+
+    def test_truncated_pack(self):
+        whole = self.pack.read_bytes()
+        for size in (0, 11, 19, 500, len(whole) // 2, len(whole) - 1):
+            (self.folder / "cut.glb").write_bytes(whole[:size])
+            self.assert_fails(self.play(pack=self.folder / "cut.glb"), "cut.glb")
+
+    def test_outputs_that_cannot_be_written(self):
+        (self.folder / "file").write_text("")
+        for option, draw in (("--metrics", False), ("--trajectories", False), ("--screenshot", True), ("--film", True)):
+            for target in (self.folder, self.folder / "file/x"):
+                with self.subTest(f"{option} {target.name}"):
+                    self.assert_fails(self.play(option, target, draw=draw), target)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["file"])
+
+    def test_sizes(self):
+        for size in ("64", "x", "64x", "0x0", "64x64x", "64x64.5", "-64x64", "99999x64", "", "axb"):
+            with self.subTest(size):
+                self.assert_fails(self.play("--size", size, draw=True), "--size", "16 to 8192")
+        self.assert_fails(self.play("--size", "65x64", "--film", self.folder / "film.mp4", draw=True), "even", "65x64")
+
+    def test_no_ffmpeg(self):
+        result = self.play("--film", self.folder / "film.mp4", "--size", "64x64", draw=True, env=dict(os.environ, PATH="/none"))
+        self.assert_fails(result, "ffmpeg", "install")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_options_that_contradict(self):
+        self.assert_fails(self.play("--screenshot", self.folder / "a.png"), "--no-draw")
+        self.assert_fails(run("flaneur-player", self.pack, "--screenshot", self.folder / "a.png"), "--headless")
+        self.assert_fails(self.play("--seconds", "soon"), "--seconds")
+
+    def test_scenarios(self):
+        path = self.folder / "scenario.toml"
+        for text, words in (("peeple = 3", ("scenario.toml:1", "people")),
+                            ('seed = 1\npeople = "many"', ("scenario.toml:2", "whole number")),
+                            ("people = ", ("scenario.toml:1", "not TOML")),
+                            ('adaptation = "half"', ("off, paper, full",)),
+                            ("[[camera.leg]]\nspeed_mps = 1", ("camera.leg", "walk_to_m")),
+                            ("[[person]]\ngoals_m = [[1, 2]]", ("position_m",)),
+                            ("[[person]]\nposition_m = [-17, 0]", ("person 1", "obstacle")),
+                            ("[[person]]\nposition_m = [900, 0]", ("person 1", "outside")),
+                            ("[[person]]\nposition_m = [20, 0]\ngoals_m = [[-17, 0]]", ("person 1", "goal 1")),
+                            ("[ground]\nmin_m = [0, 0]\nmax_m = [0, 0]", ("ground", "min_m"))):
+            with self.subTest(text):
+                path.write_text(text)
+                self.assert_fails(self.play("--scenario", path), "scenario.toml", *words)
+        self.assert_fails(self.play("--scenario", self.folder / "none.toml"), "none.toml", "no such file")
 
 
 class Usage(ProgramTest):
