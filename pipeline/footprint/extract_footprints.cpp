@@ -428,7 +428,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
       AddPolygons(site, object, enlarged[i], &names, footprints);
       counts.covered_m2 += Area(enlarged[i]);
     }
-    if (footprints->obstacles.size() == before && warnings && !options.merge_blocks)
+    if (footprints->obstacles.size() == before && shapes[i].lines == 0 && warnings)
       warnings->push_back("'" + object.name + "' leaves nothing in the way: it has no part between " +
                           std::to_string(options.band_m[0]) + " and " + std::to_string(options.band_m[1]) +
                           " m over the ground");
