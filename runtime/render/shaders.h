@@ -40,7 +40,7 @@ vec3 lit(vec3 albedo, vec3 n, vec3 p) {
   return albedo * (u_sun_color.rgb * sun + around);
 }
 vec3 shown(vec3 color, vec3 p) {
-  float haze = 1.0 - exp(-distance(p, u_eye.xyz) * 0.0035);
+  float haze = 1.0 - exp(-distance(p, u_eye.xyz) * 0.0014);
   color = mix(color, u_haze_color.rgb, haze);
   color = (color * (2.51 * color + 0.03)) / (color * (2.43 * color + 0.59) + 0.14);
   return pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2));
