@@ -12,6 +12,7 @@ namespace flaneur {
 void ParallelFor(size_t count, const std::function<void(size_t)>& work) {
   std::atomic<size_t> next{0};
   std::exception_ptr failure;
+  size_t failed = count;
   std::mutex failure_mutex;
   const auto run = [&] {
     for (size_t i = next++; i < count; i = next++) {
@@ -19,8 +20,8 @@ void ParallelFor(size_t count, const std::function<void(size_t)>& work) {
         work(i);
       } catch (...) {
         const std::lock_guard lock(failure_mutex);
-        if (!failure) failure = std::current_exception();
-        next = count;
+        if (i < failed) failure = std::current_exception(), failed = i;
+        next = count;  // earlier ones have begun: the first failure of all is found
       }
     }
   };

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "runtime/base/file.h"
+#include "runtime/base/parallel.h"
 #include "runtime/base/text.h"
 #include "runtime/pack/gltf_file.h"
 #include "runtime/pack/read_clip.h"
@@ -65,22 +66,19 @@ PackMaterial ReadMaterial(const GltfFile& file, const Json& json) {
   return material;
 }
 
-// Meshes are decoded once each, when first asked for.
+// Which of the file's meshes are used, each once, in the order of their first use.
 class MeshTable {
  public:
-  MeshTable(const GltfFile& file, bool decode, TourPack* pack) : file_(file), decode_(decode), pack_(pack) {}
-
   int Get(int gltf_mesh) {
-    const auto [entry, fresh] = indices_.try_emplace(gltf_mesh, static_cast<int>(pack_->meshes.size()));
-    if (fresh) pack_->meshes.push_back(decode_ ? ReadMesh(file_, gltf_mesh) : PackMesh{});
+    const auto [entry, fresh] = indices_.try_emplace(gltf_mesh, static_cast<int>(used_.size()));
+    if (fresh) used_.push_back(gltf_mesh);
     return entry->second;
   }
+  const std::vector<int>& used() const { return used_; }
 
  private:
-  const GltfFile& file_;
-  bool decode_;
-  TourPack* pack_;
   std::map<int, int> indices_;
+  std::vector<int> used_;
 };
 
 Mat4 LocalMatrix(const Json& node) {
@@ -149,9 +147,8 @@ PackImpostor ReadImpostor(const TourObject& json, size_t images) {
   return out;
 }
 
-// Every cell of the atlas lies in both images. Without images there is nothing to check.
+// Every cell of the atlas lies in both images.
 void CheckAtlas(const PackImpostor& impostor, const std::vector<PackImage>& images) {
-  if (images.empty()) return;
   const int64_t width = int64_t{impostor.directions} * impostor.cell_width_px;
   const int64_t height = int64_t{impostor.frames} * static_cast<int64_t>(impostor.elevations_deg.size()) *
                          impostor.cell_height_px;
@@ -173,7 +170,7 @@ void CheckJoints(const PackMesh& mesh, int joints) {
   }
 }
 
-PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* meshes, const TourPack& pack) {
+PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* meshes) {
   constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
   PackAvatar avatar;
   avatar.name = json.Text("name");
@@ -199,9 +196,6 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   if (avatar.levels.empty()) json.Refuse("has no levels");
   avatar.joints = static_cast<int>(Member(Element(file.json, "skins", skin), "joints").size());
   if (avatar.joints < 1 || static_cast<size_t>(avatar.joints) > kMaxJoints) throw PackRefused("has too many joints");
-  for (const PackLevel& level : avatar.levels) {
-    CheckJoints(pack.meshes[static_cast<size_t>(level.mesh)], avatar.joints);
-  }
   const double last = static_cast<double>(file.json.value("animations", Json::array()).size()) - 1;
   const TourObject clips = json.Object("clips");
   const auto clip = [&](const char* name) { return ReadClip(file, skin, clips.Whole(name, -1, last)); };
@@ -209,7 +203,6 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   avatar.idle = clips.Has("idle") ? clip("idle") : ReadClip(file, skin, -1);
   avatar.talk = clips.Has("talk") ? clip("talk") : avatar.idle;
   avatar.impostor = ReadImpostor(json.Object("impostor"), file.json.value("images", Json::array()).size());
-  CheckAtlas(avatar.impostor, pack.images);
   return avatar;
 }
 
@@ -263,6 +256,20 @@ void ReadTour(const TourObject& tour, TourPack* pack) {
   VisitFields(tour.Object("light"), &pack->light);
 }
 
+// The bulk of loading, on all cores.
+void DecodeGeometryAndImages(const GltfFile& file, const std::vector<int>& meshes, TourPack* pack) {
+  pack->images.resize(file.json.value("images", Json::array()).size());
+  const size_t images = pack->images.size();
+  ParallelFor(images + meshes.size(), [&](size_t i) {
+    if (i < images) pack->images[i] = ReadImage(file, static_cast<int>(i));
+    else pack->meshes[i - images] = ReadMesh(file, meshes[i - images]);
+  });
+  for (const PackAvatar& avatar : pack->avatars) {
+    for (const PackLevel& level : avatar.levels) CheckJoints(pack->meshes[static_cast<size_t>(level.mesh)], avatar.joints);
+    CheckAtlas(avatar.impostor, pack->images);
+  }
+}
+
 void Load(std::vector<uint8_t> bytes, const LoadOptions& options, TourPack* pack) {
   const GltfFile file = OpenGltf(std::move(bytes));
   const Json extensions = file.json.value("extensions", Json::object());
@@ -278,15 +285,13 @@ void Load(std::vector<uint8_t> bytes, const LoadOptions& options, TourPack* pack
   }
   ReadTour(tour, pack);
   pack->ground = ReadGround(file, tour.Object("ground"));
-  if (options.geometry_and_images) {
-    const size_t images = file.json.value("images", Json::array()).size();
-    for (size_t i = 0; i < images; ++i) pack->images.push_back(ReadImage(file, static_cast<int>(i)));
-  }
   for (const Json& m : file.json.value("materials", Json::array())) pack->materials.push_back(ReadMaterial(file, m));
-  MeshTable meshes(file, options.geometry_and_images, pack);
+  MeshTable meshes;
   ReadTown(file, &meshes, pack);
-  for (const TourObject& a : tour.Objects("avatars")) pack->avatars.push_back(ReadAvatar(file, a, &meshes, *pack));
+  for (const TourObject& a : tour.Objects("avatars")) pack->avatars.push_back(ReadAvatar(file, a, &meshes));
   if (pack->avatars.empty()) tour.Refuse("has no avatars");
+  pack->meshes.resize(meshes.used().size());
+  if (options.geometry_and_images) DecodeGeometryAndImages(file, meshes.used(), pack);
 }
 
 }  // namespace

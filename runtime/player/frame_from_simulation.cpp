@@ -1,11 +1,13 @@
 #include "runtime/player/frame_from_simulation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flaneur {
 namespace {
 
-constexpr float kStandsBelow_mps = 0.12f;
+constexpr float kStandsBelow_mps = 0.10f, kWalksAbove_mps = 0.18f;
+constexpr float kEdge_m = 0.8f;  // a body, skirts and shadow reach so far beyond its middle into the view
 
 // The sun goes round by day_length_s a turn, and stays between its start height and a low evening.
 Vec3 ToSun(const LightSettings& light, float time_s) {
@@ -17,38 +19,125 @@ Vec3 ToSun(const LightSettings& light, float time_s) {
 
 float Fraction(float x) { return x - std::floor(x); }
 
+bool InViewWithEdge(Vec2 p, const ViewCamera& c) {
+  const float back_m = kEdge_m / std::max(0.1f, std::sin(c.fov_rad / 2));
+  return InWedge(p, c.position - Vec2{std::cos(c.yaw_rad), std::sin(c.yaw_rad)} * back_m, c.yaw_rad, c.fov_rad);
+}
+
+// The level that the control has chosen. It leaves out who stands outside the view: whose middle is just beyond its edge keeps
+// the level in which they left, or comes in as an impostor.
+int LevelToShow(const Simulation& s, size_t i, const PersonLook& look) {
+  const int chosen = s.levels.level[i];
+  if (chosen != kNotDrawn || s.crowd.view[i] == ViewClass::kVisible) return chosen;
+  if (!InViewWithEdge(s.crowd.position[i], s.camera.view)) return kNotDrawn;
+  return look.shown && look.level != kNotDrawn ? look.level : kImpostor;
+}
+
+ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, ClipKind last) {
+  const float speed_mps = Length(s.crowd.velocity[i]);
+  if (speed_mps > (last == ClipKind::kWalk ? kStandsBelow_mps : kWalksAbove_mps)) {
+    // One clip's length of way for each turn of the walk, so that feet don't slide.
+    const float cycle_m = avatar.walk_speed_mps * std::max(avatar.walk.duration_s, 0.1f);
+    return {ClipKind::kWalk, Fraction(s.crowd.walked_m[i] / cycle_m)};
+  }
+  const bool talks = s.crowd.activity[i] == Activity::kTalking;
+  const float own_time_s = static_cast<float>(s.frame) * s.step_s + static_cast<float>(s.crowd.id[i] % 97) * 0.37f;
+  return {talks ? ClipKind::kTalk : ClipKind::kIdle,
+          Fraction(own_time_s / std::max(talks ? avatar.talk.duration_s : avatar.idle.duration_s, 0.1f))};
+}
+
+// One change at a time: who changes again before the last is over has to wait for it.
+void FollowClip(const ClipMoment& now, bool anew, float passed_s, PersonLook* look) {
+  look->clip_s = anew ? kMix_s : look->clip_s + passed_s;
+  if (anew || now.clip == look->moment.clip) {
+    look->moment = now;
+  } else if (look->clip_s >= kMix_s) {
+    look->last_moment = look->moment;
+    look->moment = now;
+    look->clip_s = 0;
+  }
+}
+
+void FollowLevel(int level, bool at_once, float passed_s, PersonLook* look) {
+  look->level_s = at_once ? kFade_s : look->level_s + passed_s;
+  if (at_once) {
+    look->level = look->last_level = level;
+  } else if (level != look->level && look->level_s >= kFade_s) {
+    look->last_level = look->level;
+    look->level = level;
+    look->level_s = 0;
+  }
+}
+
+void Show(const PersonLook& look, FrameInput* frame) {
+  DrawnPerson person;
+  person.avatar = look.avatar;
+  person.moment = look.moment;
+  person.other = look.last_moment;
+  person.other_share = std::max(0.0f, 1 - look.clip_s / kMix_s);
+  person.position = look.position;
+  person.heading_rad = look.heading_rad;
+  const float done = std::min(1.0f, look.level_s / kFade_s);
+  if (look.level != kNotDrawn && done > 0) {
+    person.level = look.level;
+    person.share_to = done;
+    frame->people.push_back(person);
+  }
+  if (look.last_level != kNotDrawn && done < 1) {
+    person.level = look.last_level;
+    person.share_from = done;
+    person.share_to = 1;
+    frame->people.push_back(person);
+  }
+}
+
+bool IsShown(const PersonLook& look) {
+  return look.level != kNotDrawn || (look.last_level != kNotDrawn && look.level_s < kFade_s);
+}
+
+void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, float passed_s, PersonLooks* looks) {
+  PersonLook& look = looks->by_id[static_cast<size_t>(s.crowd.id[i])];
+  const Vec2 p = s.crowd.position[i];
+  const int level = LevelToShow(s, i, look);
+  const bool first = looks->frame < 0, was_in_view = !first && InWedge(p, looks->camera.position, looks->camera.yaw_rad, looks->camera.fov_rad);
+  const bool anew = first || !look.shown;
+  // Who comes into the picture with the view's edge, or leaves with it, needs no fading.
+  const bool leaves_view = level == kNotDrawn && s.crowd.view[i] != ViewClass::kVisible;
+  look.avatar = s.crowd.avatar[i];
+  look.position = {p.x, p.y, HeightAt(s.walkable, p)};
+  look.heading_rad = s.crowd.heading_rad[i];
+  FollowClip(MomentOf(s, i, pack.avatars[static_cast<size_t>(look.avatar)], look.moment.clip), anew, passed_s, &look);
+  FollowLevel(level, leaves_view || (anew && !was_in_view), passed_s, &look);
+  looks->here[static_cast<size_t>(s.crowd.id[i])] = 1;
+}
+
+void FollowPeople(const TourPack& pack, const Simulation& s, PersonLooks* looks) {
+  const float passed_s = looks->frame < 0 ? 0 : static_cast<float>(s.frame - looks->frame) * s.step_s;
+  looks->by_id.resize(std::max(looks->by_id.size(), static_cast<size_t>(s.crowd.next_id)));
+  looks->here.assign(looks->by_id.size(), 0);
+  for (size_t i = 0; i < s.crowd.size(); ++i) FollowPerson(pack, s, i, passed_s, looks);
+  for (size_t id = 0; id < looks->by_id.size(); ++id) {
+    PersonLook& look = looks->by_id[id];
+    if (!looks->here[id] && look.shown) FollowLevel(kNotDrawn, false, passed_s, &look);  // gone: fades where they were
+    look.shown = IsShown(look);
+  }
+  looks->frame = s.frame;
+  looks->camera = s.camera.view;
+}
+
 }  // namespace
 
-void FrameFromSimulation(const TourPack& pack, const Simulation& s, FrameInput* frame) {
-  const float time_s = static_cast<float>(s.frame) * s.step_s;
+void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks* looks, FrameInput* frame) {
   const Vec2 c = s.camera.view.position;
   frame->eye = {c.x, c.y, HeightAt(s.walkable, c) + s.camera.eye_height_m};
   frame->yaw_rad = s.camera.view.yaw_rad;
   frame->pitch_rad = s.camera.pitch_rad;
   frame->fov_rad = s.camera.view.fov_rad;
-  frame->to_sun = ToSun(pack.light, time_s);
+  frame->to_sun = ToSun(pack.light, static_cast<float>(s.frame) * s.step_s);
+  if (s.frame != looks->frame) FollowPeople(pack, s, looks);
   frame->people.clear();
-  for (size_t i = 0; i < s.crowd.size(); ++i) {
-    if (s.levels.level[i] == kNotDrawn) continue;
-    const PackAvatar& avatar = pack.avatars[static_cast<size_t>(s.crowd.avatar[i])];
-    const Vec2 p = s.crowd.position[i];
-    DrawnPerson person;
-    person.avatar = s.crowd.avatar[i];
-    person.level = s.levels.level[i];
-    person.position = {p.x, p.y, HeightAt(s.walkable, p)};
-    person.heading_rad = s.crowd.heading_rad[i];
-    const float own_time_s = time_s + static_cast<float>(s.crowd.id[i] % 97) * 0.37f;
-    if (Length(s.crowd.velocity[i]) > kStandsBelow_mps) {
-      // One clip's length of way for each turn of the walk, so that feet don't slide.
-      const float cycle_m = avatar.walk_speed_mps * std::max(avatar.walk.duration_s, 0.1f);
-      person.moment.clip = ClipKind::kWalk;
-      person.moment.phase = Fraction(s.crowd.walked_m[i] / cycle_m);
-    } else {
-      const bool talks = s.crowd.activity[i] == Activity::kTalking;
-      person.moment.clip = talks ? ClipKind::kTalk : ClipKind::kIdle;
-      person.moment.phase = Fraction(own_time_s / std::max(talks ? avatar.talk.duration_s : avatar.idle.duration_s, 0.1f));
-    }
-    frame->people.push_back(person);
+  for (const PersonLook& look : looks->by_id) {
+    if (look.shown) Show(look, frame);
   }
 }
 

@@ -1,11 +1,38 @@
 // What the simulation looks like now.
 #pragma once
+#include <cstdint>
+#include <vector>
+
+#include "runtime/control/level_control.h"
 #include "runtime/pack/tour_pack.h"
 #include "runtime/player/simulation.h"
 #include "runtime/render/frame.h"
 
 namespace flaneur {
 
-void FrameFromSimulation(const TourPack& pack, const Simulation& simulation, FrameInput* frame);
+// How a person was shown, so that nothing about them changes at once.
+struct PersonLook {
+  bool shown = false;                      // in the last picture, by a level below
+  int avatar = 0;
+  int level = kNotDrawn, last_level = kNotDrawn;
+  float level_s = 0;                       // since the level changed
+  ClipMoment moment, last_moment;          // last_moment: where the clip before stopped
+  float clip_s = 0;                        // since the clip changed
+  Vec3 position;
+  float heading_rad = 0;
+};
+
+struct PersonLooks {
+  std::vector<PersonLook> by_id;
+  int64_t frame = -1;                      // of the last picture; -1: none yet
+  ViewCamera camera;                       // of the last picture
+  std::vector<uint8_t> here;               // scratch, by id
+};
+
+// A change of level, and appearing or vanishing within the view, is faded over kFade_s: both levels are drawn meanwhile. The
+// triangle budget is about the levels that the control has chosen; those that fade out come on top of it, and the renderer's
+// statistics count them. A change of clip is mixed over kMix_s. The same simulation seen twice gives the same picture.
+inline constexpr float kFade_s = 0.3f, kMix_s = 0.2f;
+void FrameFromSimulation(const TourPack& pack, const Simulation& simulation, PersonLooks* looks, FrameInput* frame);
 
 }  // namespace flaneur

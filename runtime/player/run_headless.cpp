@@ -32,13 +32,14 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
     if (Error e = film.Start(options.film, options.width_px, options.height_px, 1 / simulation->step_s)) return e;
   }
   const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(simulation->step_s) + 0.5);
+  PersonLooks looks;
   FrameInput frame;
   FrameStatistics statistics;
   std::vector<uint8_t> rgb;
   for (;;) {
     const bool last = simulation->frame >= steps || simulation->finished;
     if (draw_all || last) {
-      FrameFromSimulation(pack, *simulation, &frame);
+      FrameFromSimulation(pack, *simulation, &looks, &frame);
       renderer.Draw(frame, options.width_px, options.height_px, &statistics);
       if (filming || last) renderer.Read(&rgb);
       if (filming) {

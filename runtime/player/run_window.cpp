@@ -46,6 +46,7 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Simulation
   bool free_walk = s->legs.empty() && s->path.empty();
   double clock_s = Now_s(), owed_s = 0, title_s = clock_s;
   int frames = 0;
+  PersonLooks looks;
   FrameInput frame;
   FrameStatistics statistics;
   for (;;) {
@@ -65,7 +66,7 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Simulation
     int width_px = 0, height_px = 0;
     window.Size(&width_px, &height_px);
     if (width_px > 0 && height_px > 0) {
-      FrameFromSimulation(pack, *s, &frame);
+      FrameFromSimulation(pack, *s, &looks, &frame);
       renderer.Draw(frame, width_px, height_px, &statistics);
       renderer.Present();
     }

@@ -8,7 +8,7 @@
 namespace flaneur {
 namespace {
 
-constexpr float kBlock_m = 16;   // about a house: a street's far side and its back yards part into different blocks
+constexpr float kBlock_m = 12;   // about a house: the two sides of a street and the yards behind part into different blocks
 
 using Cell = std::pair<int, int>;
 
