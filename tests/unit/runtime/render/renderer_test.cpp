@@ -1,0 +1,289 @@
+// Pictures of a small made-up tour: a wall, and a person who is a box, as a mesh and as an impostor.
+#include "runtime/render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/render/context.h"
+#include "runtime/render/people_batches.h"
+#include "runtime/render/projection.h"
+#include "runtime/render/town_geometry.h"
+
+namespace flaneur {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 180;
+
+PackImage Plain(int width, int height, std::array<uint8_t, 4> color) {
+  PackImage image{width, height, {}};
+  for (int i = 0; i < width * height; ++i) image.rgba.insert(image.rgba.end(), color.begin(), color.end());
+  return image;
+}
+
+// A box on the ground (glTF axes), every face a quad with its own normal; skinned to joint 0.
+PackPrimitive BoxPrimitive(Vec3 low, Vec3 high, int material, bool skinned) {
+  PackPrimitive p;
+  p.material = material;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const auto first = static_cast<uint32_t>(p.positions.size());
+      for (int corner = 0; corner < 4; ++corner) {
+        float c[3];
+        c[axis] = static_cast<float>(side);
+        c[(axis + 1) % 3] = corner == 1 || corner == 2 ? 1.0f : 0.0f;
+        c[(axis + 2) % 3] = corner >= 2 ? 1.0f : 0.0f;
+        float n[3] = {0, 0, 0};
+        n[axis] = side == 1 ? 1.0f : -1.0f;
+        p.positions.push_back({low.x + c[0] * (high.x - low.x), low.y + c[1] * (high.y - low.y), low.z + c[2] * (high.z - low.z)});
+        p.normals.push_back({n[0], n[1], n[2]});
+      }
+      const std::array<uint32_t, 6> forward{0, 1, 2, 0, 2, 3}, backward{0, 2, 1, 0, 3, 2};
+      for (uint32_t i : side == 1 ? forward : backward) p.indices.push_back(first + i);
+    }
+  }
+  if (skinned) {
+    p.joints.assign(p.positions.size(), {0, 0, 0, 0});
+    p.weights.assign(p.positions.size(), {1, 0, 0, 0});
+  }
+  return p;
+}
+
+PackAvatar BoxPerson() {
+  PackAvatar a;
+  a.name = "box";
+  a.joints = 1;
+  a.walk = a.idle = a.talk = {1, 1, {Mat4{}}};
+  a.levels = {{0, 12, 0, 0, 100}, {0, 12, 0, 0, 0}};
+  a.impostor.directions = 4;
+  a.impostor.frames = 1;
+  a.impostor.elevations_deg = {0};
+  a.impostor.cell_width_px = 32;
+  a.impostor.cell_height_px = 64;
+  a.impostor.window_width_m = 0.5f;
+  a.impostor.window_height_m = 1.8f;
+  a.impostor.clips = {{"walk", 0, 1}};
+  a.impostor.albedo_image = 0;
+  a.impostor.normal_image = 1;
+  return a;
+}
+
+// `boxes` of the town, each at its place on the ground.
+TourPack MakePack(const std::vector<Vec2>& boxes) {
+  TourPack pack;
+  pack.images = {Plain(128, 64, {200, 60, 60, 255}), Plain(128, 64, {128, 128, 255, 255})};  // normals towards the viewer, +Z
+  pack.materials = {{"red", {0.578f, 0.045f, 0.045f, 1}, -1, false, false, 0.5f}};           // 200, 60, 60 made linear
+  pack.meshes = {{{BoxPrimitive({-0.25f, 0, -0.25f}, {0.25f, 1.8f, 0.25f}, 0, true)}},
+                 {{BoxPrimitive({-1, 0, -1}, {1, 4, 1}, 0, false)}}};
+  for (Vec2 p : boxes) {
+    TownInstance instance{"box", 1, {}};
+    const Vec3 at = GltfFromGround({p.x, p.y, 0});
+    instance.world.m[3] = {at.x, at.y, at.z, 1};
+    pack.town.push_back(instance);
+  }
+  pack.avatars = {BoxPerson()};
+  return pack;
+}
+
+FrameInput LookEast() {
+  FrameInput frame;
+  frame.eye = {0, 0, 1.6f};
+  frame.to_sun = Normalized(Vec3{-1, 0.3f, 0.6f});
+  return frame;
+}
+
+DrawnPerson PersonAt(float x, float y, int level) {
+  DrawnPerson person;
+  person.level = level;
+  person.position = {x, y, 0};
+  person.heading_rad = kPi;  // towards the eye
+  return person;
+}
+
+struct Rgb { int r, g, b; };
+
+class Drawing : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const Error error = context_.Create();
+    if (error) GTEST_SKIP() << error.message;
+  }
+
+  std::vector<uint8_t> Draw(const TourPack& pack, const FrameInput& frame, const RenderOptions& options = {}) {
+    Renderer renderer;
+    EXPECT_EQ(renderer.Create(pack, options).message, "");
+    return DrawWith(frame, &renderer);
+  }
+  std::vector<uint8_t> DrawWith(const FrameInput& frame, Renderer* renderer) {
+    std::vector<uint8_t> rgb;
+    renderer->Draw(frame, kWidth, kHeight, &statistics_);
+    renderer->Read(&rgb);
+    return rgb;
+  }
+
+  HeadlessContext context_;
+  FrameStatistics statistics_;
+};
+
+Rgb Pixel(const std::vector<uint8_t>& rgb, int x, int y) {
+  const size_t i = static_cast<size_t>(y * kWidth + x) * 3;
+  return {rgb[i], rgb[i + 1], rgb[i + 2]};
+}
+
+bool IsRed(Rgb c) { return c.r > c.g + 30 && c.r > c.b + 30; }
+
+struct Patch { int count = 0; double r = 0, g = 0, b = 0; };
+Patch RedPatch(const std::vector<uint8_t>& rgb) {
+  Patch patch;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const Rgb c = Pixel(rgb, x, y);
+      if (!IsRed(c)) continue;
+      ++patch.count;
+      patch.r += c.r, patch.g += c.g, patch.b += c.b;
+    }
+  }
+  patch.r /= patch.count, patch.g /= patch.count, patch.b /= patch.count;
+  return patch;
+}
+
+TEST_F(Drawing, ABoxIsWhereTheProjectionSays) {
+  const std::vector<uint8_t> rgb = Draw(MakePack({{11, 0}}), LookEast());
+  // Its near face is 10 m away, 1 m to each side, up to 4 m: 2.4 m above the eye; the ground 1.6 m below.
+  const float focal_px = kWidth / (2 * std::tan(0.5f));
+  const auto column = [&](float right_m) { return static_cast<int>(kWidth / 2.0f + right_m / 10 * focal_px); };
+  const auto row = [&](float up_m) { return static_cast<int>(kHeight / 2.0f - up_m / 10 * focal_px); };
+  for (float right_m : {-0.9f, 0.9f}) {
+    for (float up_m : {-1.4f, 2.2f}) EXPECT_TRUE(IsRed(Pixel(rgb, column(right_m), row(up_m)))) << right_m << ' ' << up_m;
+  }
+  for (float right_m : {-1.15f, 1.15f}) EXPECT_FALSE(IsRed(Pixel(rgb, column(right_m), row(0)))) << right_m;
+  EXPECT_FALSE(IsRed(Pixel(rgb, column(0), row(2.6f))));
+  EXPECT_FALSE(IsRed(Pixel(rgb, column(0), row(-1.8f))));
+}
+
+TEST_F(Drawing, MeshAndImpostorLookAlike) {
+  const TourPack pack = MakePack({});
+  FrameInput frame = LookEast();
+  frame.people = {PersonAt(6, 0, 0)};
+  const Patch mesh = RedPatch(Draw(pack, frame));
+  frame.people = {PersonAt(6.25f - 0.5f, 0, -1)};  // the picture stands where the box's front is
+  const Patch impostor = RedPatch(Draw(pack, frame));
+  ASSERT_GT(mesh.count, 500);
+  EXPECT_NEAR(impostor.count, mesh.count, 0.1 * mesh.count);
+  EXPECT_NEAR(impostor.r, mesh.r, 12);
+  EXPECT_NEAR(impostor.g, mesh.g, 12);
+  EXPECT_NEAR(impostor.b, mesh.b, 12);
+}
+
+TEST_F(Drawing, TwoSharesOfOneFadeFillThePersonAndNoMore) {
+  const TourPack pack = MakePack({});
+  FrameInput frame = LookEast();
+  frame.people = {PersonAt(6, 0, 0)};
+  const std::vector<uint8_t> whole = Draw(pack, frame);
+  for (float t : {0.1f, 0.5f, 0.9f}) {
+    frame.people = {PersonAt(6, 0, 0), PersonAt(6, 0, 1)};
+    frame.people[0].share_to = t;
+    frame.people[1].share_from = t;
+    EXPECT_EQ(Draw(pack, frame), whole) << t;
+    EXPECT_EQ(statistics_.people_triangles, 24);
+    frame.people.pop_back();
+    const Patch part = RedPatch(Draw(pack, frame, {4, true}));
+    EXPECT_NEAR(part.count, t * RedPatch(whole).count, 0.12 * RedPatch(whole).count) << t;
+  }
+}
+
+TEST_F(Drawing, CullingLeavesOutNothingThatIsSeen) {
+  std::vector<Vec2> boxes;
+  for (int i = -6; i <= 6; ++i) {
+    for (int j = -6; j <= 6; ++j) boxes.push_back({9.0f * static_cast<float>(i) + 4, 9.0f * static_cast<float>(j) + 4});
+  }
+  const TourPack pack = MakePack(boxes);
+  Renderer culling, whole;
+  ASSERT_EQ(culling.Create(pack).message, "");
+  ASSERT_EQ(whole.Create(pack, {0, false}).message, "");
+  for (int k = 0; k < 12; ++k) {
+    FrameInput frame = LookEast();
+    frame.yaw_rad = static_cast<float>(k) * kPi / 6;
+    frame.pitch_rad = 0.2f * static_cast<float>(k % 3 - 1);
+    const std::vector<uint8_t> some = DrawWith(frame, &culling);
+    const int64_t drawn = statistics_.town_triangles;
+    EXPECT_EQ(some, DrawWith(frame, &whole)) << k;
+    EXPECT_LT(drawn, statistics_.town_triangles / 2) << k;
+    EXPECT_EQ(statistics_.town_triangles, static_cast<int64_t>(12 * boxes.size()));
+  }
+}
+
+TEST_F(Drawing, TheSameFrameGivesTheSamePicture) {
+  const TourPack pack = MakePack({{11, 3}, {14, -4}});
+  FrameInput frame = LookEast();
+  frame.people = {PersonAt(6, 1, 0), PersonAt(9, -1, -1)};
+  Renderer renderer;
+  ASSERT_EQ(renderer.Create(pack).message, "");
+  const std::vector<uint8_t> first = DrawWith(frame, &renderer);
+  EXPECT_EQ(DrawWith(frame, &renderer), first);
+  EXPECT_EQ(Draw(pack, frame), first);
+}
+
+TEST_F(Drawing, StatisticsCountWhatIsDrawn) {
+  FrameInput frame = LookEast();
+  frame.people = {PersonAt(6, 1, 0), PersonAt(9, -1, -1), PersonAt(9, -2, -1)};
+  Draw(MakePack({{11, 3}}), frame);
+  EXPECT_EQ(statistics_.town_triangles, 12);
+  EXPECT_EQ(statistics_.people_triangles, 12 + 2 + 2);
+  EXPECT_GT(statistics_.draw_ms, 0);
+}
+
+TEST_F(Drawing, APersonCastsAShadowOnTheGround) {
+  TourPack pack = MakePack({});
+  pack.materials.push_back({"grey", {0.4f, 0.4f, 0.4f, 1}, -1, false, false, 0.5f});
+  pack.meshes.push_back({{BoxPrimitive({-30, -1, -30}, {30, 0, 30}, 1, false)}});
+  pack.town.push_back({"ground", 2, {}});
+  FrameInput frame = LookEast();
+  frame.eye.z = 3;
+  frame.pitch_rad = -0.4f;
+  const std::vector<uint8_t> empty = Draw(pack, frame);
+  for (int level : {0, -1}) {
+    frame.people = {PersonAt(6, 0, level)};
+    const std::vector<uint8_t> with = Draw(pack, frame);
+    int darker = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) darker += !IsRed(Pixel(with, x, y)) && Pixel(with, x, y).g < Pixel(empty, x, y).g - 30;
+    }
+    EXPECT_GT(darker, 100) << level;
+  }
+}
+
+TEST(TownGeometry, EveryTriangleIsInOneBlockAndItsBox) {
+  const TourPack pack = MakePack({{11, 3}, {-14, -4}, {60, 80}});
+  const TownGeometry town = BuildTownGeometry(pack);
+  uint32_t next = 0;
+  int64_t triangles = 0;
+  for (const TownBlock& block : town.blocks) {
+    for (const TownRange& range : block.ranges) {
+      EXPECT_EQ(range.first, next);
+      next += range.count;
+      for (uint32_t i = range.first; i < next; ++i) EXPECT_EQ(Distance(block.box, town.vertices[town.indices[i]].position), 0);
+    }
+    triangles += block.triangles;
+  }
+  EXPECT_EQ(next, town.indices.size());
+  EXPECT_EQ(triangles, 36);
+}
+
+TEST(PeopleBatches, MixedPosesStandBetweenTheirClips) {
+  PackAvatar avatar = BoxPerson();
+  avatar.idle.matrices[0].m[3] = {0, 1, 0, 1};
+  DrawnPerson person = PersonAt(5, 0, 0);
+  person.other.clip = ClipKind::kIdle;
+  person.other_share = 0.25f;
+  PeopleBatches batches;
+  batches.pose_width = 3;
+  SortPeople({person}, {LayoutOf(avatar)}, {0, 1.6f, 0}, {0, 1, 0}, 40, &batches);
+  ASSERT_EQ(batches.pose_rows, 1u);
+  EXPECT_FLOAT_EQ(batches.poses[1].w, 0.25f);  // how far up
+  EXPECT_FLOAT_EQ(batches.poses[1].y, 1);
+}
+
+}  // namespace
+}  // namespace flaneur
