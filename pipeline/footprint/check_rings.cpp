@@ -71,7 +71,8 @@ class ObstacleCheck {
   }
 
   bool Finite(Point2 p) {
-    const double size = std::max(std::abs(p.x), std::abs(p.y)), limit = state_.options.largest_coordinate_m;
+    const double limit = state_.options.largest_coordinate_m;
+    const double size = std::isnan(p.x) ? p.x : std::isnan(p.y) ? p.y : std::max(std::abs(p.x), std::abs(p.y));
     if (size <= limit) return true;
     Add(107, {}, size, limit, std::isfinite(size) ? std::to_string(size) : "not a number");
     return false;

@@ -60,11 +60,17 @@ class TownCheck {
     FindStrange();
     FindOverCover();
     for (const std::string& name : stats.open_shells)
-      state_.Add(306, name, {}, 0, 0, "some walls of '" + name + "' enclose nothing");
+      state_.Add(306, name, MiddleOf(name), 0, 0, "some walls of '" + name + "' enclose nothing");
     return Ok();
   }
 
  private:
+  Point2 MiddleOf(const std::string& name) const {
+    for (const TownObject& o : objects_.obstacles)
+      if (o.name == name) return {(o.min_m.x + o.max_m.x) / 2, (o.min_m.y + o.max_m.y) / 2};
+    return {};
+  }
+
   // 304: buildings of which most is uncovered; their walls are not reported once more.
   void FindMissing() {
     std::map<std::string, std::pair<double, double>> areas;  // by source: all, and covered

@@ -179,14 +179,17 @@ class WaysCheck {
       if (gap < r - state_.options.tolerance_m)
         state_.Add(603, gate.name, p, gap, r, Metres(gap) + " from '" + gate.name + "' to the nearest obstacle");
       regions.back() = RegionNear(walk_, p);
+      if (regions.back() < 0 && gap >= r)
+        state_.Add(604, gate.name, p, 0, 0, "'" + gate.name + "' stands on no ground");
     }
     main_ = MainRegion();
     bool any_exit = false;
-    for (const Gate& gate : gates_) any_exit |= gate.is_exit;
+    for (size_t i = 0; i < gates_.size(); ++i) any_exit |= gates_[i].is_exit && regions[i] >= 0;
     for (size_t i = 0; i < gates_.size(); ++i) {
       if (regions[i] < 0) continue;
       has_gate_.push_back(regions[i]);
       if (gates_[i].is_exit || !any_exit || ReachesExit(regions[i], regions)) continue;
+      cut_off_.push_back(regions[i]);
       state_.Add(604, gates_[i].name, gates_[i].at_m, 0, 0, "no exit can be reached from '" + gates_[i].name + "'");
     }
   }
@@ -210,6 +213,7 @@ class WaysCheck {
     for (size_t i = 0; i < walk_.cells_of.size(); ++i) {
       const double area = walk_.cells_of[i] * cell_area;
       if (static_cast<int>(i) == main_ || area < kSmallestGround_m2) continue;
+      if (std::find(cut_off_.begin(), cut_off_.end(), static_cast<int>(i)) != cut_off_.end()) continue;  // said by 604
       const bool gate = std::find(has_gate_.begin(), has_gate_.end(), static_cast<int>(i)) != has_gate_.end();
       const bool large = walk_.cells_of[i] > kLargeShare * walk_.cells_of[static_cast<size_t>(main_)];
       const bool closed = reach_.region[static_cast<size_t>(walk_.first_of[i])] != main_reach;
@@ -227,7 +231,7 @@ class WaysCheck {
   Rings area_;
   FreeGround walk_, reach_;
   int main_ = -1;
-  std::vector<int> has_gate_;
+  std::vector<int> has_gate_, cut_off_;  // regions
 };
 
 }  // namespace

@@ -215,7 +215,10 @@ void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const 
       const double under = Area(Intersection(rings, projections[k]));
       if (under > most) most = under, owner = k;
     }
-    if (owner < block.size()) (*shapes)[block[owner]].solid = Union((*shapes)[block[owner]].solid, rings);
+    if (owner == block.size()) continue;
+    Shape& shape = (*shapes)[block[owner]];
+    shape.solid = Union(shape.solid, rings);
+    shape.loose = Outside(shape.loose, Offset(shape.solid, kOnOutline_m));
   }
 }
 

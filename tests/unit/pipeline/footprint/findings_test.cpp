@@ -1,0 +1,63 @@
+#include "pipeline/footprint/findings.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+namespace flaneur {
+namespace {
+
+TEST(Findings, CodesAreUniqueAndAscending) {
+  int last = 0;
+  for (const FindingKind& kind : FindingKinds()) {
+    EXPECT_GT(kind.code, last);
+    last = kind.code;
+    EXPECT_EQ(&KindOf(kind.code), &kind);
+  }
+}
+
+// docs/findings.md has a heading "### CODE title (severity)" for each kind, and no other.
+TEST(Findings, AreTheOnesInTheDocumentation) {
+  std::ifstream file(std::filesystem::path(FLANEUR_SOURCE_DIR) / "docs/findings.md");
+  ASSERT_TRUE(file);
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  std::set<std::string> written, expected;
+  const std::regex heading("### ([0-9]+ [^\n]*)");
+  for (std::sregex_iterator match(text.begin(), text.end(), heading), end; match != end; ++match)
+    written.insert((*match)[1]);
+  for (const FindingKind& kind : FindingKinds())
+    expected.insert(std::to_string(kind.code) + " " + kind.title + " (" + SeverityName(kind.severity) + ")");
+  EXPECT_EQ(written, expected);
+}
+
+TEST(Findings, JsonKeepsTheAgreedKeys) {
+  Finding finding;
+  finding.code = 301, finding.feature = "house \"7\"", finding.at_m = {1.5, -2}, finding.value = 0.12, finding.limit = 0.01;
+  finding.message = "wall not covered";
+  Finding warning;
+  warning.code = 403, warning.severity = Severity::kWarning, warning.feature = "a", warning.other = "b";
+  const auto json = nlohmann::json::parse(FindingsJson({finding, warning}));
+  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["errors"], 1);
+  EXPECT_EQ(json["warnings"], 1);
+  ASSERT_EQ(json["findings"].size(), 2u);
+  const auto& first = json["findings"][0];
+  EXPECT_EQ(first["code"], 301);
+  EXPECT_EQ(first["severity"], "error");
+  EXPECT_EQ(first["feature"], "house \"7\"");
+  EXPECT_TRUE(first["other"].is_null());
+  EXPECT_EQ(first["at_m"], nlohmann::json::array({1.5, -2.0}));
+  EXPECT_EQ(first["value"], 0.12);
+  EXPECT_EQ(first["limit"], 0.01);
+  EXPECT_EQ(first["advice"], KindOf(301).advice);
+  EXPECT_EQ(json["findings"][1]["other"], "b");
+  EXPECT_EQ(json["findings"][1]["severity"], "warning");
+}
+
+}  // namespace
+}  // namespace flaneur

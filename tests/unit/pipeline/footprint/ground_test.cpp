@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "pipeline/footprint/overhead.h"
+#include "pipeline/footprint/rasterize_ground.h"
+#include "pipeline/footprint/town_objects.h"
+#include "tests/unit/pipeline/footprint/test_town.h"
+
+namespace flaneur {
+namespace {
+
+size_t CellAt(const GroundRaster& raster, double x, double y) {
+  const int column = static_cast<int>((x - raster.min_m.x) / raster.cell_m);
+  const int row = static_cast<int>((y - raster.min_m.y) / raster.cell_m);
+  return static_cast<size_t>(row * raster.columns + column);
+}
+
+GroundRaster Rasterize(const TestTown& town, const GroundRasterOptions& options = {}) {
+  GroundRaster raster;
+  EXPECT_EQ(RasterizeGround(town.scene, options, &raster).message, "");
+  return raster;
+}
+
+TEST(RasterizeGround, CoversTheGroundAndFollowsItsHeight) {
+  TestTown town;
+  town.Ground(40, 30, 0.1f);
+  const GroundRaster raster = Rasterize(town);
+  EXPECT_EQ(raster.columns, 160);
+  EXPECT_EQ(raster.rows, 120);
+  for (const double x : {1.0, 17.3, 39.0}) {
+    const size_t cell = CellAt(raster, x, 12);
+    EXPECT_EQ(raster.kind[cell], static_cast<uint8_t>(GroundKind::kSquare));
+    EXPECT_NEAR(raster.height_m[cell], 0.1 * x, 0.1 * raster.cell_m);
+  }
+}
+
+TEST(RasterizeGround, TheTopmostGroundWinsWhateverTheOrder) {
+  const auto add_kerb = [](TestTown* town) {
+    town->Node("pavement", NodeKind::kGround);
+    town->scene.nodes.back().ground = GroundKind::kPavement;
+    town->Quad({5, 5, 0.12f}, {10, 5, 0.12f}, {10, 10, 0.12f}, {5, 10, 0.12f});
+  };
+  TestTown below, above;
+  below.Ground(), add_kerb(&below);
+  add_kerb(&above), above.Ground();
+  for (const TestTown* town : {&below, &above}) {
+    const GroundRaster raster = Rasterize(*town);
+    EXPECT_EQ(raster.kind[CellAt(raster, 7, 7)], static_cast<uint8_t>(GroundKind::kPavement));
+    EXPECT_FLOAT_EQ(raster.height_m[CellAt(raster, 7, 7)], 0.12f);
+    EXPECT_EQ(raster.kind[CellAt(raster, 12, 7)], static_cast<uint8_t>(GroundKind::kSquare));
+  }
+}
+
+TEST(RasterizeGround, ATownWithoutGroundStandsOnASquare) {
+  TestTown town;
+  town.Node("house", NodeKind::kBuilding).Box({10, 10, 2}, {18, 16, 8});
+  const GroundRaster raster = Rasterize(town);
+  EXPECT_NE(raster.kind[CellAt(raster, 5, 13)], 0);
+  EXPECT_FLOAT_EQ(raster.height_m[CellAt(raster, 5, 13)], 2);
+}
+
+TEST(RasterizeGround, LargeTownsGetCoarserCells) {
+  TestTown town;
+  town.Ground(400, 300);
+  GroundRasterOptions options;
+  options.max_cells = 10'000;
+  const GroundRaster raster = Rasterize(town, options);
+  EXPECT_LE(raster.columns * raster.rows, 10'000);
+  EXPECT_GT(raster.cell_m, 0.25f);
+}
+
+TEST(RasterizeGround, RefusesNothingAndTheWholeWorld) {
+  GroundRaster raster;
+  EXPECT_NE(RasterizeGround(Scene(), {}, &raster).message, "");
+  TestTown wide;
+  wide.Ground(200'000, 10);
+  EXPECT_NE(RasterizeGround(wide.scene, {}, &raster).message.find("100 km"), std::string::npos);
+}
+
+TEST(LocalGround, GoesOnUnderHousesAndBeyondTheEdge) {
+  TestTown town;
+  town.Node("ground", NodeKind::kGround);
+  town.Quad({0, 0, 1}, {10, 0, 1}, {10, 30, 1}, {0, 30, 1});
+  town.Quad({20, 0, 1}, {40, 0, 1}, {40, 30, 1}, {20, 30, 1});
+  const LocalGround ground(Rasterize(town));
+  EXPECT_NEAR(ground.Height(15, 15), 1, 1e-3) << "in the gap";
+  EXPECT_NEAR(ground.Height(-50, 15), 1, 1e-3);
+}
+
+TEST(Overhead, FindsTheLowestSurfaceAbove) {
+  const std::vector<Triangle3> roof = {{{{0, 0, 3}, {4, 0, 3}, {0, 4, 3}}}, {{{0, 0, 6}, {4, 0, 6}, {0, 4, 6}}}};
+  Overhead overhead;
+  overhead.Add(roof);
+  EXPECT_DOUBLE_EQ(overhead.LowestAbove({1, 1}, 0), 3);
+  EXPECT_DOUBLE_EQ(overhead.LowestAbove({1, 1}, 4), 6);
+  EXPECT_FALSE(overhead.Covers({1, 1}, 7));
+  EXPECT_FALSE(overhead.Covers({3.5, 3.5}, 0)) << "beside the triangles";
+}
+
+TEST(SortTown, TellsUntaggedNodesByNameAndShape) {
+  TestTown town;
+  town.Node("Street_01", NodeKind::kUntagged).Box({0, 0, 0}, {10, 4, 0.5f});
+  town.Node("tree_small", NodeKind::kUntagged).Box({2, 6, 0}, {3, 7, 4});
+  town.Node("slab", NodeKind::kUntagged).Box({20, 0, 0}, {30, 10, 0.1f});
+  town.Node("blacksmith", NodeKind::kUntagged).Box({12, 6, 0}, {16, 9, 5});
+  const TownObjects objects = SortTown(town.scene, 1);
+  EXPECT_EQ(objects.ground.size(), 2u);
+  ASSERT_EQ(objects.obstacles.size(), 2u);
+  EXPECT_EQ(objects.obstacles[0].kind, ObstacleKind::kTree);
+  EXPECT_EQ(objects.obstacles[1].name, "blacksmith");
+  EXPECT_EQ(objects.obstacles[1].kind, ObstacleKind::kBuilding);
+}
+
+TEST(SortTown, PartsOfOneTaggedNodeAreOneObject) {
+  TestTown town;
+  town.Node("house", NodeKind::kBuilding).Box({10, 10, 0}, {18, 16, 8});
+  town.Node("chimney", NodeKind::kBuilding).Box({12, 12, 8}, {13, 13, 10});
+  town.scene.nodes.back().parent = 0;
+  const TownObjects objects = SortTown(town.scene, 1);
+  ASSERT_EQ(objects.obstacles.size(), 1u);
+  EXPECT_EQ(objects.obstacles[0].name, "house");
+  EXPECT_EQ(objects.obstacles[0].triangles.size(), 24u);
+}
+
+}  // namespace
+}  // namespace flaneur
