@@ -1,18 +1,12 @@
-"""The demo tour from its sources to a walk through every scenario, judged from outside.
-
-Bakes into the folder that ./demo uses, so that neither bakes again what the other has.
-"""
+"""The demo tour from its sources to a walk through every scenario, judged from outside."""
 import json
 import math
 import tomllib
 import unittest
 
 import judge
-from support import SOURCE, ProgramTest, run
+from support import DEMO_TOUR, SOURCE, ProgramTest, baked_demo, run
 
-TOUR = SOURCE / "assets_src/wolfenbuettel/tour.toml"
-OUT = SOURCE / "build_assets/wolfenbuettel"
-PACK = OUT / "wolfenbuettel.glb"
 SCENARIOS = sorted((SOURCE / "tests/scenario").glob("*.toml"))
 TOP_SPEED_MPS = 1.9
 STEP_S = 1 / 30
@@ -21,15 +15,14 @@ STEP_S = 1 / 30
 class DemoTour(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        result = run("flaneur", "bake", TOUR, "-o", OUT)
-        if result.returncode != 0:
-            raise AssertionError(result.stdout + result.stderr)
-        cls.footprints = json.loads((OUT / "footprints.geojson").read_text())
+        cls.out = baked_demo()
+        cls.pack = cls.out / "wolfenbuettel.glb"
+        cls.footprints = json.loads((cls.out / "footprints.geojson").read_text())
 
     def play(self, *arguments):
         """Metrics and trajectories of a run without drawing."""
         metrics, trajectories = self.folder / "metrics.csv", self.folder / "trajectories.csv"
-        self.assert_succeeds(run("flaneur-player", PACK, "--headless", "--no-draw", "--metrics", metrics,
+        self.assert_succeeds(run("flaneur-player", self.pack, "--headless", "--no-draw", "--metrics", metrics,
                                  "--trajectories", trajectories, *arguments))
         return (judge.read_table(metrics, judge.METRICS),
                 judge.by_frame(judge.read_table(trajectories, judge.TRAJECTORIES)))
@@ -42,10 +35,10 @@ class DemoTour(ProgramTest):
         self.assertEqual(judge.seen_out_of_nothing(frames), [])
 
     def test_pack_is_valid(self):
-        self.assert_valid(PACK)
+        self.assert_valid(self.pack)
 
     def test_townspeople_are_detailed_and_their_levels_fall(self):
-        stages = json.loads((OUT / "report.json").read_text())["stages"]
+        stages = json.loads((self.out / "report.json").read_text())["stages"]
         people = {s["item"]: [level["triangles"] for level in s["levels"]] for s in stages if s["stage"] == "avatar"}
         self.assertGreaterEqual(len(people), 8)
         for name, triangles in people.items():
@@ -57,7 +50,7 @@ class DemoTour(ProgramTest):
         metrics, frames = self.play("--seconds", 400)
         self.assert_believable(metrics, frames)
         way = [(float(r["camera_x_m"]), float(r["camera_y_m"])) for r in metrics]
-        for stop in tomllib.loads(TOUR.read_text())["stop"]:
+        for stop in tomllib.loads(DEMO_TOUR.read_text())["stop"]:
             with self.subTest(stop.get("caption", stop["position_m"])):
                 self.assertLess(min(math.dist(stop["position_m"], place) for place in way), 1.0)
 

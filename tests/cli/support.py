@@ -46,6 +46,18 @@ def write_glb(path, gltf, binary=b""):
     pathlib.Path(path).write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
 
 
+DEMO_TOUR = SOURCE / "assets_src/wolfenbuettel/tour.toml"
+
+
+def baked_demo():
+    """The folder with the demo tour baked: the one that ./demo uses, so that nobody bakes again what another has."""
+    folder = SOURCE / "build_assets/wolfenbuettel"
+    result = run("flaneur", "bake", DEMO_TOUR, "-o", folder)
+    if result.returncode != 0:
+        raise AssertionError(result.stdout + result.stderr)
+    return folder
+
+
 def run_blender_script(script, output, seed, **options):
     """Runs a script of blender_scripts/ as the pipeline does; a failure shows what Blender said."""
     blender = os.environ.get("FLANEUR_BLENDER") or shutil.which("blender")

@@ -1,15 +1,14 @@
 """The demo's town: what its script promises about nodes, tags, meshes and light.
 
-python3 town_test.py [TOWN.glb]: of that file, else of a town built now, with little light and small textures.
+python3 town_test.py [TOWN.glb]: of that file, else of the demo's own.
 """
 import math
 import pathlib
 import struct
 import sys
-import tempfile
 import unittest
 
-from support import run_blender_script, split_glb
+from support import baked_demo, split_glb
 
 KINDS = {"building", "wall", "tree", "lamp", "other", "ground", "door", "exit", "loiter", "none"}
 GROUNDS = {"carriageway", "pavement", "square", "grass"}
@@ -140,10 +139,7 @@ class Town(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         if cls.path is None:
-            folder = tempfile.TemporaryDirectory(prefix="flaneur_town_")
-            cls.addClassCleanup(folder.cleanup)
-            cls.path = pathlib.Path(folder.name) / "town.glb"
-            run_blender_script("town/build.py", cls.path, seed=7, ao_samples=4, texture_px=128)
+            cls.path = baked_demo() / "cache/town.glb"
         cls.gltf, cls.binary = split_glb(cls.path)
 
     def assert_kept(self, check, *arguments):
