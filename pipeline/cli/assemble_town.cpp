@@ -14,6 +14,25 @@ void Append(std::vector<T>* to, std::vector<T>& from) {
   to->insert(to->end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
+// Whether most things in the town stand over ground. A single meadow of many models is not the ground of the others.
+bool StandsOnGround(const TownObjects& town) {
+  if (town.ground.empty()) return false;
+  Point3 low = town.ground.front().triangles.front()[0], high = low;
+  for (const auto& ground : town.ground) {
+    for (const Triangle3& triangle : ground.triangles) {
+      for (const Point3& p : triangle) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
+      }
+    }
+  }
+  const auto over = std::count_if(town.obstacles.begin(), town.obstacles.end(), [&](const TownObject& o) {
+    const double x = (o.min_m.x + o.max_m.x) / 2, y = (o.min_m.y + o.max_m.y) / 2;
+    return low.x <= x && x <= high.x && low.y <= y && y <= high.y;
+  });
+  return 2 * static_cast<size_t>(over) > town.obstacles.size();
+}
+
 void Shift(int* index, size_t by) {
   if (*index >= 0) *index += static_cast<int>(by);
 }
@@ -57,7 +76,7 @@ std::vector<PackPlace> TaggedPlaces(const Scene& town) {
 
 bool AddGroundWhereNone(float margin_m, Scene* town) {
   const TownObjects objects = SortTown(*town, 1);
-  if (!objects.ground.empty() || objects.obstacles.empty()) return false;
+  if (objects.obstacles.empty() || StandsOnGround(objects)) return false;
   Point3 low = objects.obstacles.front().min_m, high = objects.obstacles.front().max_m;
   for (const TownObject& o : objects.obstacles) {
     low = {std::min(low.x, o.min_m.x), std::min(low.y, o.min_m.y), std::min(low.z, o.min_m.z)};

@@ -117,7 +117,7 @@ Error ReadTown(Baking* baking, Scene* town, std::vector<std::string>* warnings) 
     if (Error e = append(part.file, part.scale, part.yaw_deg, part.position_m)) return e;
   }
   if (AddGroundWhereNone(kBareGroundMargin_m, town)) {
-    warnings->push_back("the town has no ground; it stands on a flat square");
+    warnings->push_back("most of the town has no ground under it; a flat square was added");
   }
   return Ok();
 }
