@@ -19,6 +19,17 @@ Vec3 ToSun(const LightSettings& light, float time_s) {
 
 float Fraction(float x) { return x - std::floor(x); }
 
+// A stop's caption shows while the tour rests there, and only to a visitor who has not walked off.
+void AddCaption(const Simulation& s, FrameInput* frame) {
+  constexpr float kFadeCaption_s = 0.4f, kReach_m = 2.5f;
+  frame->caption.clear();
+  if (!s.legs.empty() || s.leg >= s.path.size() || s.leg_done <= 0) return;
+  const TourStop& stop = s.path[s.leg];
+  if (Length(stop.position_m - s.camera.view.position) > kReach_m) return;
+  frame->caption = stop.caption;
+  frame->caption_share = std::clamp(std::min(s.leg_done, stop.pause_s - s.leg_done) / kFadeCaption_s, 0.0f, 1.0f);
+}
+
 bool InViewWithEdge(Vec2 p, const ViewCamera& c) {
   const float back_m = kEdge_m / std::max(0.1f, std::sin(c.fov_rad / 2));
   return InWedge(p, c.position - Vec2{std::cos(c.yaw_rad), std::sin(c.yaw_rad)} * back_m, c.yaw_rad, c.fov_rad);
@@ -134,6 +145,7 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks*
   frame->pitch_rad = s.camera.pitch_rad;
   frame->fov_rad = s.camera.view.fov_rad;
   frame->to_sun = ToSun(pack.light, static_cast<float>(s.frame) * s.step_s);
+  AddCaption(s, frame);
   if (s.frame != looks->frame) FollowPeople(pack, s, looks);
   frame->people.clear();
   for (const PersonLook& look : looks->by_id) {

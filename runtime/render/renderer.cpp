@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "runtime/render/caption.h"
 #include "runtime/render/light.h"
 #include "runtime/render/people_view.h"
 #include "runtime/render/picture.h"
@@ -56,6 +57,7 @@ struct Renderer::Impl {
   PeopleView people;
   ShadowMaps shadows;
   Picture picture;
+  CaptionView caption;
   GLuint sky_program = 0, empty_array = 0, block_buffer = 0;
 
   void DrawSky() const {
@@ -83,6 +85,7 @@ Error Renderer::Create(const TourPack& pack, const RenderOptions& options) {
   // In software four samples cost three times the whole rest of a frame.
   const int samples = options.samples > 0 ? options.samples : DrawsInSoftware() ? 1 : 4;
   if (Error e = CreatePicture(samples, &r.picture)) return e;
+  if (Error e = CreateCaptionView(&r.caption)) return e;
   CreateShadowMaps(&r.shadows);
   glGenVertexArrays(1, &r.empty_array);
   glGenBuffers(1, &r.block_buffer);
@@ -110,6 +113,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   statistics->town_triangles = DrawTown(block.view_projection, eye, r.options.cull, &r.town);
   r.DrawSky();
   FinishPicture(r.picture);
+  DrawCaption(frame.caption, frame.caption_share, width_px, height_px, &r.caption);
   glFinish();  // so that draw_ms means the picture, not the handing over of commands
   const auto end = std::chrono::steady_clock::now();
   statistics->draw_ms = std::chrono::duration<double, std::milli>(end - start).count();

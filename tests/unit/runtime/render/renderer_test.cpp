@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/render/caption.h"
 #include "runtime/render/context.h"
 #include "runtime/render/people_batches.h"
 #include "runtime/render/projection.h"
@@ -251,6 +252,39 @@ TEST_F(Drawing, APersonCastsAShadowOnTheGround) {
       for (int x = 0; x < kWidth; ++x) darker += !IsRed(Pixel(with, x, y)) && Pixel(with, x, y).g < Pixel(empty, x, y).g - 30;
     }
     EXPECT_GT(darker, 100) << level;
+  }
+}
+
+TEST_F(Drawing, ACaptionStandsAtTheFootAndNowhereElse) {
+  const TourPack pack = MakePack({});
+  FrameInput frame = LookEast();
+  const std::vector<uint8_t> without = Draw(pack, frame);
+  frame.caption = "The well has never run dry, so they say: draw from it and see for yourself.";
+  const std::vector<uint8_t> with = Draw(pack, frame);
+  const size_t upper = static_cast<size_t>(kWidth * kHeight / 2) * 3;
+  EXPECT_TRUE(std::equal(with.begin(), with.begin() + static_cast<std::ptrdiff_t>(upper), without.begin()));
+  int bright = 0, dark = 0;
+  for (int x = 0; x < kWidth; ++x) {
+    for (int y = kHeight - 30; y < kHeight; ++y) {
+      bright += Pixel(with, x, y).g > 200;
+      dark += Pixel(with, x, y).g < Pixel(without, x, y).g / 2 + 20;
+    }
+  }
+  EXPECT_GT(bright, 200);
+  EXPECT_GT(dark, 3000);
+  frame.caption_share = 0;
+  EXPECT_EQ(Draw(pack, frame), without);
+}
+
+TEST(Caption, WrapsWordsOverAsManyLinesAsItNeeds) {
+  EXPECT_EQ(LayOutCaption("", 1280, 720).height_px, 0);
+  EXPECT_EQ(LayOutCaption("well", 40, 30).height_px, 0);
+  const PackImage one = LayOutCaption("Der Marktplatz: \xC3\xBC\xC3\xA4\xC3\x9F \xFF", 1280, 720);
+  const PackImage more = LayOutCaption("The market square. The stalls open at six; the well has never run dry.", 640, 720);
+  EXPECT_EQ(one.width_px, 1280);
+  EXPECT_GT(more.height_px, one.height_px * 3 / 2);
+  for (const PackImage* image : {&one, &more}) {  // no letter touches the sides
+    for (int y = 0; y < image->height_px; ++y) EXPECT_LT(image->rgba[static_cast<size_t>(y * image->width_px) * 4], 64);
   }
 }
 
