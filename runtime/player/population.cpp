@@ -198,7 +198,7 @@ Error PlaceScenarioPeople(const Scenario& scenario, Simulation* s) {
     if (!wanted.avatar.empty()) {
       const auto found = std::find(s->avatar_names.begin(), s->avatar_names.end(), wanted.avatar);
       if (found != s->avatar_names.end()) p.avatar = static_cast<int>(found - s->avatar_names.begin());
-      else if (s->avatar_names.size() > 1) return Fail(name + ": there is no avatar '" + wanted.avatar + "'");
+      else if (s->avatar_names != std::vector<std::string>{kPlainFigure}) return Fail(name + ": there is no avatar '" + wanted.avatar + "'");
     }
     p.radius_m = wanted.radius_m > 0 ? wanted.radius_m : s->avatar_radius_m[static_cast<size_t>(p.avatar)];
     p.preferred_mps = wanted.speed_mps > 0 ? wanted.speed_mps : s->crowd_settings.preferred_speed_mps;

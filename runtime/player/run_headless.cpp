@@ -2,6 +2,7 @@
 
 #include "runtime/player/film.h"
 #include "runtime/player/frame_from_simulation.h"
+#include "runtime/player/interruption.h"
 #include "runtime/player/records.h"
 #include "runtime/player/run.h"
 #include "runtime/render/context.h"
@@ -15,6 +16,7 @@ constexpr int kStillSamples = 4;
 }  // namespace
 
 Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Simulation* simulation) {
+  WatchForInterruption();
   HeadlessContext context;
   if (Error e = context.Create()) return e;
   const bool filming = !options.film.empty();
@@ -37,6 +39,7 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   FrameStatistics statistics;
   std::vector<uint8_t> rgb;
   for (;;) {
+    if (Error e = CheckInterruption()) return e;
     const bool last = simulation->frame >= steps || simulation->finished;
     if (draw_all || last) {
       FrameFromSimulation(pack, *simulation, &looks, &frame);

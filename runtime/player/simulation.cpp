@@ -65,7 +65,7 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
     else s->walkable.polygons.push_back({o.outer, o.holes});
   }
   if (s->avatar_names.empty()) {  // without a pack: one plain figure
-    s->avatar_names = {"person"};
+    s->avatar_names = {kPlainFigure};
     s->avatar_costs = {{{{6000, 60}, {1500, 0}}, 1.75f, 128}};
     s->avatar_share = {1};
     s->avatar_radius_m = {0.25f};
@@ -161,6 +161,9 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   if (BestFreeCell(s.walkable) < 0) return Fail("there is no walkable ground");
   s.random.state = s.crowd_settings.seed;
   PlaceCamera(scenario, &s);
+  if (s.camera.present && InsideObstacle(s.walkable, s.camera.view.position)) {
+    s.warnings.push_back("the camera starts inside an obstacle");
+  }
   DeriveGap(&s);
   if (Error e = PlaceScenarioPeople(scenario, &s)) return e;
   PlaceCrowd(&s);

@@ -15,6 +15,7 @@ namespace flaneur {
 
 inline constexpr float kEyeHeight_m = 1.65f;
 inline constexpr float kCameraRadius_m = 0.3f;
+inline constexpr const char* kPlainFigure = "person";  // everybody's avatar where there is no pack
 
 struct CameraInput {
   bool active = false;      // false: scenario or guided tour moves the camera

@@ -1,11 +1,14 @@
 """The demo tour from its sources to a walk through every scenario, judged from outside."""
 import json
 import math
+import signal
+import subprocess
+import time
 import tomllib
 import unittest
 
 import judge
-from support import DEMO_TOUR, SOURCE, ProgramTest, baked_demo, run
+from support import BIN, DEMO_TOUR, SOURCE, ProgramTest, baked_demo, run
 
 SCENARIOS = sorted((SOURCE / "tests/scenario").glob("*.toml"))
 TOP_SPEED_MPS = 1.9
@@ -53,6 +56,19 @@ class DemoTour(ProgramTest):
         for stop in tomllib.loads(DEMO_TOUR.read_text())["stop"]:
             with self.subTest(stop.get("caption", stop["position_m"])):
                 self.assertLess(min(math.dist(stop["position_m"], place) for place in way), 1.0)
+
+    def test_interrupted_film_leaves_nothing(self):
+        film = subprocess.Popen([BIN / "flaneur-player", self.pack, "--headless", "--seconds", "60", "--size", "160x90",
+                                 "--film", self.folder / "film.mp4"], stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 120
+        while not list(self.folder.iterdir()) and film.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.05)
+        self.assertTrue(list(self.folder.iterdir()), "the film never began")
+        film.send_signal(signal.SIGTERM)
+        complaint = film.communicate(timeout=60)[1]
+        self.assertEqual(film.returncode, 2)
+        self.assertIn("interrupted", complaint)
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_every_scenario_is_believable(self):
         self.assertTrue(SCENARIOS)
