@@ -26,7 +26,7 @@ namespace flaneur {
 FilmWriter::~FilmWriter() {
   if (pipe_ >= 0) ::close(pipe_);
   if (process_ > 0) {
-    ::kill(process_, SIGTERM);
+    ::kill(process_, SIGKILL);  // what it wrote so far is of no use
     ::waitpid(process_, nullptr, 0);
   }
   if (!temporary_.empty()) ::unlink(temporary_.c_str());

@@ -28,7 +28,7 @@ class DemoTour(ProgramTest):
         self.assert_succeeds(run("flaneur-player", self.pack, "--headless", "--no-draw", "--metrics", metrics,
                                  "--trajectories", trajectories, *arguments))
         return (judge.read_table(metrics, judge.METRICS),
-                judge.by_frame(judge.read_table(trajectories, judge.TRAJECTORIES)))
+                judge.read_trajectories(trajectories))
 
     def assert_believable(self, metrics, frames):
         self.assertEqual(judge.frames_over_budget(metrics), [])

@@ -81,7 +81,7 @@ class ForeignTour(ProgramTest):
         self.assert_succeeds(run("flaneur-player", pack, "--headless", "--no-draw", "--seconds", 10, "--metrics",
                                  metrics_file, "--trajectories", trajectories_file))
         metrics = judge.read_table(metrics_file, judge.METRICS)
-        frames = judge.by_frame(judge.read_table(trajectories_file, judge.TRAJECTORIES))
+        frames = judge.read_trajectories(trajectories_file)
         self.assertGreaterEqual(len(metrics), 299)
         self.assertEqual(judge.frames_over_budget(metrics), [])
         self.assertEqual(judge.inside_obstacles(frames, footprints), [])

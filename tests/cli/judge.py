@@ -2,6 +2,7 @@
 import collections
 import csv
 import math
+import sys
 
 METRICS = ("frame,time_s,camera_x_m,camera_y_m,camera_yaw_rad,camera_fov_rad,outer_apex_back_m,asked_speed_mps,"
            "actual_speed_mps,people,visible,boundary,outside,high,low,limit,r_personal_m,r_high_m,r_unimportant_m,"
@@ -18,12 +19,16 @@ def read_table(path, columns):
         return list(reader)
 
 
-def by_frame(rows):
-    """{frame: {id: row}} with numbers as floats."""
+def read_trajectories(path):
+    """{frame: {id: person}} with what the judges need of each person; long runs have millions of rows."""
     frames = collections.defaultdict(dict)
-    for row in rows:
-        row = {**row, **{k: float(row[k]) for k in ("x_m", "y_m", "z_m", "heading_rad", "radius_m")}}
-        frames[int(row["frame"])][int(row["id"])] = row
+    with open(path, encoding="utf-8", newline="") as file:
+        rows = csv.reader(file)
+        header = next(rows)
+        assert header[:len(TRAJECTORIES)] == TRAJECTORIES, header
+        for frame, person, avatar, x, y, _, _, radius, view, *_ in rows:
+            frames[int(frame)][int(person)] = {"avatar": sys.intern(avatar), "x_m": float(x), "y_m": float(y),
+                                               "radius_m": float(radius), "view": sys.intern(view)}
     return dict(sorted(frames.items()))
 
 
@@ -83,20 +88,36 @@ def inside_ring(x, y, ring):
     return inside
 
 
+def boxed_obstacles(footprints):
+    """(name, box, rings or circle) of each obstacle: boxes keep the search over a town short."""
+    obstacles = []
+    for feature in footprints["features"]:
+        geometry, name = feature["geometry"], feature["properties"]["name"]
+        if geometry["type"] == "Point":
+            x, y = geometry["coordinates"][:2]
+            radius = feature["properties"]["radius_m"]
+            obstacles.append((name, (x - radius, y - radius, x + radius, y + radius), (x, y, radius)))
+            continue
+        rings = [[tuple(p[:2]) for p in ring] for ring in geometry["coordinates"]]
+        xs, ys = [p[0] for p in rings[0]], [p[1] for p in rings[0]]
+        obstacles.append((name, (min(xs), min(ys), max(xs), max(ys)), rings))
+    return obstacles
+
+
 def inside_obstacles(frames, footprints, every=10):
     """(frame, id, obstacle) of people whose centre is inside an obstacle of a footprints GeoJSON."""
     found = []
+    obstacles = boxed_obstacles(footprints)
     for frame in list(frames)[::every]:
         for person, row in frames[frame].items():
-            for feature in footprints["features"]:
-                geometry = feature["geometry"]
-                name = feature["properties"]["name"]
-                if geometry["type"] == "Point":
-                    x, y = geometry["coordinates"][:2]
-                    if math.hypot(row["x_m"] - x, row["y_m"] - y) < feature["properties"]["radius_m"]:
-                        found.append((frame, person, name))
+            x, y = row["x_m"], row["y_m"]
+            for name, (west, south, east, north), shape in obstacles:
+                if not (west <= x <= east and south <= y <= north):
                     continue
-                rings = [[tuple(p[:2]) for p in ring] for ring in geometry["coordinates"]]
-                if sum(inside_ring(row["x_m"], row["y_m"], ring) for ring in rings) % 2:
+                if isinstance(shape, tuple):
+                    inside = math.hypot(x - shape[0], y - shape[1]) < shape[2]
+                else:
+                    inside = sum(inside_ring(x, y, ring) for ring in shape) % 2
+                if inside:
                     found.append((frame, person, name))
     return found
