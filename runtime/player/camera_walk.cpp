@@ -15,6 +15,9 @@ constexpr float kLeastFactor = 0.2f;
 constexpr float kReached_m = 0.3f;
 constexpr float kGiveUp_s = 6;                // a leg whose way is barred ends
 constexpr float kTourSpeed_mps = 1.3f;
+constexpr float kSidestep_m = 0.7f;           // looked ahead when walking round people
+constexpr float kPatience_s = 1.5f;           // after which those who stand in the way move on
+constexpr float kStirs_m = 2;
 
 float WrapAngle(float a) {
   while (a > kPi) a -= 2 * kPi;
@@ -58,6 +61,27 @@ float FreeShare(const Simulation& s, Vec2 step) {
     share = std::min(share, std::max(0.0f, (along - std::sqrt(discriminant)) / step2));
   }
   return share;
+}
+
+// The guided visitor walks round people who stand in the way: the direction near `way` in which most of it is free.
+Vec2 RoundPeople(const Simulation& s, Vec2 way) {
+  Vec2 best = way;
+  float most = 0;
+  for (const float turn : {0.0f, -0.5f, 0.5f, -1.0f, 1.0f, -1.5f, 1.5f}) {  // the right first, as people pass
+    const Vec2 direction{way.x * std::cos(turn) - way.y * std::sin(turn), way.x * std::sin(turn) + way.y * std::cos(turn)};
+    if (!IsFree(s.walkable, s.camera.view.position + direction * kSidestep_m)) continue;
+    const float progress_m = FreeShare(s, direction * kSidestep_m) * (std::cos(turn) + 0.2f);
+    if (progress_m > most + 0.01f) most = progress_m, best = direction;
+  }
+  return best;
+}
+
+// Who stands within reach of a visitor that cannot get on soon walks off.
+void StirLoiterers(Simulation* s) {
+  if (s->stuck_s < kPatience_s) return;
+  for (size_t i = 0; i < s->crowd.size(); ++i) {
+    if (Length(s->crowd.position[i] - s->camera.view.position) < kStirs_m) s->crowd.wait_s[i] = 0;
+  }
 }
 
 void Walk(Vec2 direction, float asked_mps, Simulation* s) {
@@ -125,7 +149,7 @@ void FollowTour(Simulation* s) {
   const float way_m = Length(way);
   if (way_m < 1e-3f) return NextLeg(s->path.size(), s);
   TurnTowards(std::atan2(way.y, way.x), kTourYawRate_radps, s);
-  Walk(way * (1 / way_m), kTourSpeed_mps, s);
+  Walk(RoundPeople(*s, way * (1 / way_m)), kTourSpeed_mps, s);
 }
 
 }  // namespace
@@ -144,6 +168,7 @@ void MoveCamera(const CameraInput& input, Simulation* s) {
   if (s->finished) return;
   if (!s->legs.empty()) FollowLegs(s);
   else if (!s->path.empty()) FollowTour(s);
+  StirLoiterers(s);
 }
 
 }  // namespace flaneur

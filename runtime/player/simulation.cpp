@@ -164,6 +164,11 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   if (s.camera.present && InsideObstacle(s.walkable, s.camera.view.position)) {
     s.warnings.push_back("the camera starts inside an obstacle");
   }
+  for (size_t k = 0; k < s.path.size(); ++k) {
+    if (!IsFree(s.walkable, s.path[k].position_m)) {
+      s.warnings.push_back("stop " + std::to_string(k + 1) + " is not on free ground; the tour passes near it");
+    }
+  }
   DeriveGap(&s);
   if (Error e = PlaceScenarioPeople(scenario, &s)) return e;
   PlaceCrowd(&s);
