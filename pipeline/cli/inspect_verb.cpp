@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -11,17 +12,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// As people read them: a float's last digits are noise.
+double Rounded(double value) { return std::round(value * 1000) / 1000; }
+
 Json AvatarSummary(const PackAvatar& avatar) {
   Json levels = Json::array();
   for (const PackLevel& level : avatar.levels) {
-    levels.push_back({{"triangles", level.triangles}, {"posed_error_mm", level.posed_error_mm},
-                      {"switch_px", level.switch_px}});
+    levels.push_back({{"triangles", level.triangles}, {"posed_error_mm", Rounded(level.posed_error_mm)},
+                      {"switch_px", Rounded(level.switch_px)}});
   }
   const PackImpostor& impostor = avatar.impostor;
   return {{"name", avatar.name},
-          {"share", avatar.share},
-          {"height_m", avatar.height_m},
-          {"walk_speed_mps", avatar.walk_speed_mps},
+          {"share", Rounded(avatar.share)},
+          {"height_m", Rounded(avatar.height_m)},
+          {"walk_speed_mps", Rounded(avatar.walk_speed_mps)},
           {"joints", avatar.joints},
           {"levels", levels},
           {"impostor", {{"directions", impostor.directions}, {"frames", impostor.frames},
@@ -43,7 +47,7 @@ Json Summary(const TourPack& pack) {
           {"town", {{"instances", pack.town.size()}, {"triangles", town_triangles}}},
           {"avatars", avatars},
           {"obstacles", pack.obstacles.size()},
-          {"ground", {{"columns", pack.ground.columns}, {"rows", pack.ground.rows}, {"cell_m", pack.ground.cell_m}}},
+          {"ground", {{"columns", pack.ground.columns}, {"rows", pack.ground.rows}, {"cell_m", Rounded(pack.ground.cell_m)}}},
           {"places", places},
           {"path_stops", pack.path.size()},
           {"people", pack.crowd.people},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 
 namespace flaneur {
 namespace {
@@ -10,29 +11,54 @@ namespace {
 // A node no higher than this, and wide, is ground to walk on.
 constexpr double kFlatHeight_m = 0.15;
 constexpr double kFlatWidth_m = 1.0;
+// What is higher than this share of its length is no ground, whatever its name: mountain_grass, Square Tower.
+constexpr double kGroundSteepness = 0.3;
 
-std::string Lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-bool HasAny(const std::string& text, std::initializer_list<const char*> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](const char* word) { return text.find(word) != std::string::npos; });
+// Lower-case words of a name: "hex_grass.001" and "HexGrass" are both hex, grass.
+std::set<std::string> Words(const std::string& name) {
+  std::set<std::string> words;
+  std::string word;
+  const auto end_word = [&] {
+    if (!word.empty()) words.insert(std::move(word));
+    word.clear();
+  };
+  char before = 0;
+  for (const char c : name) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (!std::isalpha(letter) || (std::isupper(letter) && std::islower(static_cast<unsigned char>(before)))) end_word();
+    if (std::isalpha(letter)) word += static_cast<char>(std::tolower(letter));
+    before = c;
+  }
+  end_word();
+  return words;
 }
 
 struct Meaning { NodeKind kind; GroundKind ground = GroundKind::kNone; };
 
+// The first line that shares a word with the name decides: a street lamp is a lamp.
+struct NamedMeaning { std::initializer_list<const char*> words; Meaning meaning; };
+const NamedMeaning kNamedMeanings[] = {
+    {{"tree"}, {NodeKind::kTree}},
+    {{"lamp", "lamppost", "streetlamp", "streetlight", "lantern"}, {NodeKind::kLamp}},
+    {{"road", "street", "lane", "carriageway"}, {NodeKind::kGround, GroundKind::kCarriageway}},
+    {{"grass", "lawn", "meadow"}, {NodeKind::kGround, GroundKind::kGrass}},
+    {{"square", "plaza"}, {NodeKind::kGround, GroundKind::kSquare}},
+    {{"ground", "terrain", "floor", "hex", "path", "pavement", "sidewalk"}, {NodeKind::kGround, GroundKind::kPavement}},
+};
+
 Meaning FromName(const std::string& name, const Point3& min, const Point3& max) {
-  if (name.starts_with("tree")) return {NodeKind::kTree};
-  if (name.starts_with("lamp")) return {NodeKind::kLamp};
-  if (HasAny(name, {"road", "street"})) return {NodeKind::kGround, GroundKind::kCarriageway};
-  if (HasAny(name, {"grass", "lawn"})) return {NodeKind::kGround, GroundKind::kGrass};
-  if (HasAny(name, {"ground", "terrain", "floor", "hex", "path"}))
-    return {NodeKind::kGround, GroundKind::kPavement};
-  const bool flat = max.z - min.z <= kFlatHeight_m &&
-                    std::min(max.x - min.x, max.y - min.y) >= kFlatWidth_m;
-  if (flat) return {NodeKind::kGround, GroundKind::kSquare};
+  const double height_m = max.z - min.z;
+  const double longer_m = std::max(max.x - min.x, max.y - min.y);
+  const double shorter_m = std::min(max.x - min.x, max.y - min.y);
+  const std::set<std::string> words = Words(name);
+  for (const NamedMeaning& named : kNamedMeanings) {
+    const bool matches = std::any_of(named.words.begin(), named.words.end(),
+                                     [&](const char* word) { return words.contains(word); });
+    if (!matches) continue;
+    const bool is_ground = named.meaning.kind == NodeKind::kGround;
+    if (!is_ground || height_m <= kGroundSteepness * longer_m) return named.meaning;
+  }
+  if (height_m <= kFlatHeight_m && shorter_m >= kFlatWidth_m) return {NodeKind::kGround, GroundKind::kSquare};
   return {NodeKind::kBuilding};
 }
 
@@ -97,7 +123,7 @@ TownObjects SortTown(const Scene& scene, double scale) {
     Point3 min = triangles[0][0], max = min;
     Grow(triangles, &min, &max);
     Meaning meaning{node.kind, node.ground};
-    if (node.kind == NodeKind::kUntagged) meaning = FromName(Lower(node.name), min, max);
+    if (node.kind == NodeKind::kUntagged) meaning = FromName(node.name, min, max);
     if (meaning.kind == NodeKind::kGround) {
       if (meaning.ground == GroundKind::kNone) meaning.ground = GroundKind::kPavement;
       town.ground.push_back({meaning.ground, std::move(triangles)});

@@ -28,9 +28,9 @@ struct TownObjects {
   std::vector<GroundPatch> ground;
 };
 
-// Parts of one tagged node are one object. Untagged nodes are told by their names (ground, terrain, road, street,
-// floor, hex, path; tree, lamp), flat ones are ground, and the rest are buildings. Nodes tagged none, door, exit or
-// loiter are left out. `scale` turns the scene's units into metres. Degenerate triangles are kept.
+// Parts of one tagged node are one object. Untagged nodes are told by the words of their names (tree; lamp, lantern;
+// road, street, grass, square, ground, terrain, floor, hex, path and the like, unless too high for ground), flat ones
+// are ground, and the rest are buildings. Nodes tagged none, door, exit or loiter are left out. `scale` turns the scene's units into metres. Degenerate triangles are kept.
 TownObjects SortTown(const Scene& scene, double scale);
 
 }  // namespace flaneur

@@ -153,7 +153,7 @@ Vec2 WayAt(const Walkable& w, const FlowField& field, Vec2 p) {
   }
   if (Dot(sum, sum) > 0.01f) return Unit(sum);
   const int cell = NearestFreeCell(w, p, kGoalReach_m);  // squeezed against a wall: back to where ways are known
-  if (cell < 0) return {};
+  if (cell < 0 || field.direction[static_cast<size_t>(cell)] == kNoWay) return {};
   const Vec2 there = kDirections[field.direction[static_cast<size_t>(cell)]];
   return Unit(Unit(CellCenter(w, cell) - p) + there);
 }

@@ -14,6 +14,7 @@ constexpr float kDenseAhead_pm2 = 2.0f;       // at this density ahead the speed
 constexpr float kLeastFactor = 0.2f;
 constexpr float kReached_m = 0.3f;
 constexpr float kGiveUp_s = 6;                // a leg whose way is barred ends
+constexpr float kGettingOn_m = 0.5f;          // who stays within this is stuck, even if not quite still
 constexpr float kTourSpeed_mps = 1.3f;
 constexpr float kSidestep_m = 0.7f;           // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;           // after which those who stand in the way move on
@@ -96,7 +97,9 @@ void Walk(Vec2 direction, float asked_mps, Simulation* s) {
   else camera.view.position = KeepOffWalls(s->walkable, before, target, kCameraRadius_m);
   camera.velocity = (camera.view.position - before) * (1 / s->step_s);
   camera.actual_mps = Length(camera.velocity);
-  s->stuck_s = camera.actual_mps < 0.05f * asked_mps ? s->stuck_s + s->step_s : 0;
+  const bool got_on = Length(camera.view.position - s->stuck_at) > kGettingOn_m;
+  s->stuck_s = got_on ? 0 : s->stuck_s + s->step_s;
+  if (got_on) s->stuck_at = camera.view.position;
 }
 
 void NextLeg(size_t count, Simulation* s) {

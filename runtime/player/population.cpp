@@ -178,16 +178,22 @@ void Birth(Simulation* s) {
 
 int BestFreeCell(const Walkable& w) {
   const int town = LargestComponent(w);
-  if (town < 0) return -1;
-  // The one nearest to the middle of the area.
+  const auto of_town = [&](size_t cell) { return town >= 0 && w.component[cell] == town; };
   Vec2 sum;
   float count = 0;
   for (size_t c = 0; c < w.component.size(); ++c) {
-    if (w.component[c] != town) continue;
+    if (!of_town(c)) continue;
     sum = sum + CellCenter(w, static_cast<int>(c));
     count += 1;
   }
-  return NearestFreeCell(w, sum * (1 / count), 1000);
+  int best = -1;
+  float best_m = 0;
+  for (size_t c = 0; c < w.component.size(); ++c) {
+    if (!of_town(c)) continue;
+    const float away_m = Length(CellCenter(w, static_cast<int>(c)) - sum * (1 / count));
+    if (best < 0 || away_m < best_m) best = static_cast<int>(c), best_m = away_m;
+  }
+  return best;
 }
 
 Error PlaceScenarioPeople(const Scenario& scenario, Simulation* s) {

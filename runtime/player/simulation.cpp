@@ -11,6 +11,8 @@ namespace flaneur {
 namespace {
 
 constexpr float kFlatCell_m = 0.5f;
+constexpr float kNearStop_m = 3;  // a stop in a wall is visited as near as this
+constexpr float kFarthestView_m = 60;
 
 void TakePack(const TourPack& pack, Simulation* s) {
   for (const PackAvatar& avatar : pack.avatars) {
@@ -92,6 +94,19 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   s->legs = scenario.legs;
 }
 
+// The direction in which one sees farthest at walking height.
+float OpenestView_rad(const Walkable& w, Vec2 p) {
+  constexpr int kDirections = 32;
+  float best_rad = 0, best_m = 0;
+  for (int k = 0; k < kDirections; ++k) {
+    const float yaw_rad = 2 * kPi * static_cast<float>(k) / kDirections;
+    float far_m = 0;
+    while (far_m < kFarthestView_m && IsFree(w, p + Vec2{std::cos(yaw_rad), std::sin(yaw_rad)} * far_m)) far_m += w.cell_m;
+    if (far_m > best_m) best_rad = yaw_rad, best_m = far_m;
+  }
+  return best_rad;
+}
+
 void PlaceCamera(const Scenario& scenario, Simulation* s) {
   if (scenario.has_camera) {
     s->camera.view.position = scenario.camera_position_m;
@@ -102,6 +117,27 @@ void PlaceCamera(const Scenario& scenario, Simulation* s) {
     s->camera.view.yaw_rad = std::atan2(way.y, way.x);
   } else if (const int cell = BestFreeCell(s->walkable); cell >= 0) {
     s->camera.view.position = CellCenter(s->walkable, cell);
+    s->camera.view.yaw_rad = OpenestView_rad(s->walkable, s->camera.view.position);
+  }
+}
+
+// Stops that nobody can stand at move beside the wall they are in.
+void SettleStops(Simulation* s) {
+  const Walkable& w = s->walkable;
+  int of_first = -1;
+  for (size_t k = 0; k < s->path.size(); ++k) {
+    Vec2& stop = s->path[k].position_m;
+    const bool free = IsFree(w, stop);
+    const int cell = free ? CellAt(w, stop) : NearestFreeCell(w, stop, kNearStop_m);
+    const int component = cell < 0 ? -1 : w.component[static_cast<size_t>(cell)];
+    if (k == 0) of_first = component;
+    const std::string name = "stop " + std::to_string(k + 1);
+    if (cell < 0 || component != of_first) {
+      s->warnings.push_back(name + " cannot be reached; the tour passes it by");
+    } else if (!free) {
+      s->warnings.push_back(name + " is not on free ground; the tour passes near it");
+      stop = CellCenter(w, cell);
+    }
   }
 }
 
@@ -160,14 +196,10 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   BuildWalkable(*std::max_element(s.avatar_radius_m.begin(), s.avatar_radius_m.end()) + 0.05f, &s.walkable);
   if (BestFreeCell(s.walkable) < 0) return Fail("there is no walkable ground");
   s.random.state = s.crowd_settings.seed;
+  SettleStops(&s);
   PlaceCamera(scenario, &s);
   if (s.camera.present && InsideObstacle(s.walkable, s.camera.view.position)) {
     s.warnings.push_back("the camera starts inside an obstacle");
-  }
-  for (size_t k = 0; k < s.path.size(); ++k) {
-    if (!IsFree(s.walkable, s.path[k].position_m)) {
-      s.warnings.push_back("stop " + std::to_string(k + 1) + " is not on free ground; the tour passes near it");
-    }
   }
   DeriveGap(&s);
   if (Error e = PlaceScenarioPeople(scenario, &s)) return e;

@@ -61,7 +61,8 @@ struct Simulation {
   int64_t frame = 0;
   size_t leg = 0;                  // of legs or path
   float leg_done = 0;              // seconds waited, or radians turned
-  float stuck_s = 0;
+  float stuck_s = 0;               // since the camera got away from stuck_at
+  Vec2 stuck_at;
   bool finished = false;           // the last leg is over
   double step_ms = 0, control_ms = 0;
   std::vector<std::string> warnings;

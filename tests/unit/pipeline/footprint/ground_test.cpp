@@ -113,6 +113,21 @@ TEST(SortTown, TellsUntaggedNodesByNameAndShape) {
   EXPECT_EQ(objects.obstacles[1].kind, ObstacleKind::kBuilding);
 }
 
+TEST(SortTown, ReadsWholeWordsAndTakesNothingHighForGround) {
+  TestTown town;
+  town.Node("Broadway Inn", NodeKind::kUntagged).Box({0, 0, 0}, {10, 4, 6});
+  town.Node("mountain_A_grass", NodeKind::kUntagged).Box({20, 0, 0}, {30, 10, 8});
+  town.Node("street_lamp.003", NodeKind::kUntagged).Box({2, 6, 0}, {2.2f, 6.2f, 4});
+  town.Node("HexGrass", NodeKind::kUntagged).Box({40, 0, 0}, {50, 10, 2});
+  const TownObjects objects = SortTown(town.scene, 1);
+  ASSERT_EQ(objects.obstacles.size(), 3u);
+  EXPECT_EQ(objects.obstacles[0].kind, ObstacleKind::kBuilding);
+  EXPECT_EQ(objects.obstacles[1].kind, ObstacleKind::kBuilding);
+  EXPECT_EQ(objects.obstacles[2].kind, ObstacleKind::kLamp);
+  ASSERT_EQ(objects.ground.size(), 1u);
+  EXPECT_EQ(objects.ground[0].kind, GroundKind::kGrass);
+}
+
 TEST(SortTown, PartsOfOneTaggedNodeAreOneObject) {
   TestTown town;
   town.Node("house", NodeKind::kBuilding).Box({10, 10, 0}, {18, 16, 8});
