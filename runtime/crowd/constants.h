@@ -24,13 +24,15 @@ inline constexpr float kAttentionBehind = 0.2f;
 // Two who meet head on both step to their right: each sees the other turned this far to the left (radians).
 inline constexpr float kPassOnTheRight_rad = 0.06f;
 // Others farther than this don't matter within the anticipation at usual closing speeds.
-inline constexpr float kNeighbourRadius_m = 3.5f;
+inline constexpr float kNeighbourRadius_m = 3.0f;
 
 // People keep this beyond touching when they have the choice.
 inline constexpr float kComfort_m = 0.12f;
 inline constexpr float kSeparation_mps2 = 5.0f;
 // Contacts are resolved until nothing moves, at most so many times a step.
 inline constexpr int kContactPasses = 6;
+// Pairs that corrections could bring together are watched too.
+inline constexpr float kContactMargin_m = 0.02f;
 
 // Weidmann 1993: v = v0 (1 - exp(-1.913 (1 / rho - 1 / rho_max))), rho_max = 5.4 people/m^2.
 inline constexpr float kWeidmannGamma_pm2 = 1.913f;
@@ -57,8 +59,12 @@ inline constexpr float kNavigationCell_m = 0.35f;
 inline constexpr float kMostNavigationCells = 1.5e6f;  // larger areas get larger cells
 // Walking into a goal's circle counts as arriving.
 inline constexpr float kArrival_m = 0.5f;
-// Ways are looked up, and lines of sight to the goal renewed, once in so many steps.
-inline constexpr int kWayEvery_steps = 4;
-inline constexpr int kSightEvery_steps = 16;
+
+// People decide about ten times a second: reaction times are 0.1 to 0.2 s.
+inline constexpr int kTurnEvery_steps = 3;
+// Lines of sight to the goal are renewed once in so many steps; once in twice as many while it is in sight.
+inline constexpr int kSightEvery_steps = 10 * kTurnEvery_steps;
+// Who is out of sight and far from everything walks straight on for up to so many steps.
+inline constexpr int kMostCoast_steps = 2 * kTurnEvery_steps;
 
 }  // namespace flaneur

@@ -5,119 +5,164 @@
 #include <cstring>
 
 #include "runtime/crowd/constants.h"
+#include "runtime/crowd/contacts.h"
+#include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/steering.h"
 #include "runtime/crowd/walls.h"
 
 namespace flaneur {
 namespace {
 
-float WrapAngle(float a) {
-  while (a > kPi) a -= 2 * kPi;
-  while (a < -kPi) a += 2 * kPi;
-  return a;
+bool IsLost(const Crowd& c, size_t i) { return c.way[i].x == 0 && c.way[i].y == 0; }
+
+// Straight to the goal where it is in sight, else as the flow field says.
+void RenewWay(const Walkable& w, size_t i, bool look, Crowd* c) {
+  const Vec2 goal = c->fields[static_cast<size_t>(c->field[i])].goal;
+  if (look) c->sees_goal[i] = StraightWay(w, c->position[i], goal) ? 1 : 0;
+  if (!c->sees_goal[i]) {
+    c->way[i] = WayToGoal(w, c->field[i], c->position[i], c);
+    return;
+  }
+  const Vec2 way = goal - c->position[i];
+  const float way_m = Length(way);
+  c->way[i] = way_m > 1e-3f ? way * (1 / way_m) : Vec2{};
 }
 
-Vec2 ClampLength(Vec2 v, float most) {
-  const float length = Length(v);
-  return length > most ? v * (most / length) : v;
+// How many steps the person can walk straight on without coming near a wall or somebody's private disc.
+int CoastSteps(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c, size_t i, int cell) {
+  const float step_m = Length(c.wanted[i]) * step_s;
+  const float clear_m = ClearAround_m(w, cell) - c.radius_m[i];
+  for (int steps = kMostCoast_steps; steps >= kTurnEvery_steps; steps -= kTurnEvery_steps) {
+    const float run_m = static_cast<float>(steps) * step_m;
+    if (clear_m < run_m) continue;
+    const bool free = std::none_of(moving.begin(), moving.end(), [&](const MovingObstacle& m) {
+      const float reach_m = m.radius_m + c.radius_m[i] + run_m + Length(m.velocity) * static_cast<float>(steps) * step_s;
+      const Vec2 off = m.center - c.position[i];
+      return m.everyone && Dot(off, off) < reach_m * reach_m;
+    });
+    if (free) return steps;
+  }
+  return 0;
 }
 
-void RenewWays(const Walkable& w, Crowd* c) {
+// People out of sight only follow their way.
+void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, size_t i, Crowd* c) {
+  if (c->coast[i] > 0) {
+    --c->coast[i];
+    return;
+  }
+  const bool walks = c->activity[i] == Activity::kWalking && c->field[i] >= 0;
+  if (!walks) {
+    c->wanted[i] = {};
+    return;
+  }
+  const bool lost = IsLost(*c, i), turn = IsTurn(*c, i);
+  if (!turn && !lost) return;
+  const int64_t phase = (c->step + static_cast<int64_t>(i)) % (2 * kSightEvery_steps);
+  RenewWay(w, i, lost || phase < kMostCoast_steps, c);
+  const int cell = CellAt(w, c->position[i]);
+  const float alone_mps = std::min(c->preferred_mps[i] * c->pace[i], c->top_mps[i]);
+  c->mind[i].push = {};
+  c->wanted[i] = c->way[i] * SpeedOnSlope(w, cell, alone_mps);
+  if (!turn) return;
+  c->coast[i] = static_cast<uint8_t>(std::max(0, CoastSteps(w, moving, step_s, *c, i, cell) - 1));
+  if (c->coast[i] > 0) c->velocity[i] = c->wanted[i];
+}
+
+void RenewWays(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
   for (size_t i = 0; i < c->size(); ++i) {
+    c->cares[i] = c->view[i] != ViewClass::kOutside;
+    if (!c->cares[i]) {
+      FollowWay(w, moving, step_s, i, c);
+      continue;
+    }
+    c->coast[i] = 0;
+    if (IsTurn(*c, i)) {
+      Mind& mind = c->mind[i];
+      mind.alone_mps = c->preferred_mps[i] * c->pace[i];
+      mind.ahead = DirectionOf(c->heading_rad[i]);
+      mind.stands = c->activity[i] != Activity::kWalking;
+      mind.avoids_camera = c->avoids_camera[i] != 0;
+    }
     if (c->field[i] < 0) continue;
-    const int64_t turn = c->step + c->id[i];
-    const bool lost = c->way[i].x == 0 && c->way[i].y == 0;
-    const Vec2 goal = c->fields[static_cast<size_t>(c->field[i])].goal;
-    if (lost || turn % kSightEvery_steps == 0) c->sees_goal[i] = StraightWay(w, c->position[i], goal) ? 1 : 0;
-    if (c->sees_goal[i]) {
-      const Vec2 way = goal - c->position[i];
-      const float way_m = Length(way);
-      c->way[i] = way_m > 1e-3f ? way * (1 / way_m) : Vec2{};
-    } else if (lost || turn % kWayEvery_steps == 0) {
-      c->way[i] = WayToGoal(w, c->field[i], c->position[i], c);
+    const bool lost = IsLost(*c, i);
+    if (lost || IsTurn(*c, i)) {
+      const int64_t every = c->sees_goal[i] ? 2 * kSightEvery_steps : kSightEvery_steps;
+      RenewWay(w, i, lost || (c->step + static_cast<int64_t>(i)) % every == 0, c);
     }
   }
 }
 
-void SortPeople(const Walkable& w, Crowd* c) {
-  c->cares.resize(c->size());
-  for (size_t i = 0; i < c->size(); ++i) c->cares[i] = c->view[i] != ViewClass::kOutside;
-  SortIntoGrid(w, c->position, c->velocity, c->radius_m, c->cares, kNeighbourRadius_m / 2, &c->neighbours);
+bool IsClearFor(const Mind& mind, Vec2 p, float radius_m) {
+  const Vec2 off = p - mind.clear_from;
+  const float reach_m = mind.clear_m - radius_m;
+  return reach_m > 0 && Dot(off, off) < reach_m * reach_m;
 }
 
-// Nobody walks into a disc that is for everyone: a step that would goes along its rim or not at all.
-Vec2 KeepOut(const std::vector<MovingObstacle>& moving, Vec2 from, Vec2 to, float radius_m) {
+bool OutOfDiscs(const std::vector<MovingObstacle>& moving, Vec2 p, float radius_m) {
   for (const MovingObstacle& m : moving) {
-    if (!m.everyone) continue;
-    const float least_m = std::min(m.radius_m + radius_m, Length(from - m.center));
-    const Vec2 off = to - m.center;
-    const float after_m = Length(off);
-    if (after_m >= least_m || after_m < 1e-5f) continue;
-    const Vec2 rim = m.center + off * (least_m / after_m);
-    const Vec2 along = from + ClampLength(rim - from, Length(to - from));
-    to = Length(along - m.center) >= least_m - 1e-4f ? along : from;
+    const Vec2 off = p - m.center;
+    const float reach_m = m.radius_m + radius_m;
+    if (m.everyone && Dot(off, off) < reach_m * reach_m) return false;
   }
-  return to;
-}
-
-// Where person i gets who heads for `to`: off walls, off the visitor, no farther than walking allows.
-Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c, size_t i, Vec2 to) {
-  const Vec2 from = c.position[i];
-  const Vec2 step = ClampLength(to - from, c.top_mps[i] * step_s);
-  const Vec2 off_walls = KeepOffWalls(w, from, from + step, c.radius_m[i]);
-  const Vec2 out = KeepOut(moving, from, off_walls, c.radius_m[i]);
-  const bool turned = out.x != off_walls.x || out.y != off_walls.y;
-  return turned ? KeepOut(moving, from, KeepOffWalls(w, from, out, c.radius_m[i]), c.radius_m[i]) : out;
+  return true;
 }
 
 void Move(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
   for (size_t i = 0; i < c->size(); ++i) {
-    c->moved[i] = WalkTowards(w, moving, step_s, *c, i, c->position[i] + c->wanted[i] * step_s);
+    if (c->cares[i]) ChooseVelocity(step_s, i, c);
+    const Vec2 to = c->position[i] + c->wanted[i] * step_s;
+    const bool free = c->coast[i] > 0 || (IsClearFor(c->mind[i], to, c->radius_m[i]) && OutOfDiscs(moving, to, c->radius_m[i]));
+    c->moved[i] = free ? to : WalkTowards(w, moving, step_s, *c, i, to);
   }
 }
 
-// Pairs that would overlap share the correction (as in Weiss et al. 2019, position-based crowds), within what walking allows.
-void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
-  for (int pass = 0; pass < kContactPasses; ++pass) {
-    bool any = false;
-    for (const auto& [a, b] : c->contacts) {
-      const size_t i = static_cast<size_t>(a), j = static_cast<size_t>(b);
-      const Vec2 apart = c->moved[i] - c->moved[j];
-      const float reach_m = c->radius_m[i] + c->radius_m[j], distance2 = Dot(apart, apart);
-      if (distance2 >= reach_m * reach_m) continue;
-      any = true;
-      const float distance_m = std::sqrt(distance2);
-      const Vec2 normal = distance_m > 1e-5f ? apart * (1 / distance_m) : Vec2{1, 0};
-      const Vec2 half = normal * (0.5f * (reach_m - distance_m) + 1e-4f);
-      const Vec2 before = c->moved[i];
-      c->moved[i] = WalkTowards(w, moving, step_s, *c, i, before + half);
-      const Vec2 rest = half * 2 - (c->moved[i] - before);  // what one cannot give, the other does
-      c->moved[j] = WalkTowards(w, moving, step_s, *c, j, c->moved[j] - rest);
-    }
-    if (!any) return;
-  }
+void TurnTo(Vec2 direction, float most_rad, float* now_rad) {
+  *now_rad = WrapAngle(*now_rad + std::clamp(WrapAngle(AngleOf(direction) - *now_rad), -most_rad, most_rad));
 }
 
-void TurnTo(float heading_rad, float most_rad, float* now_rad) {
-  *now_rad = WrapAngle(*now_rad + std::clamp(WrapAngle(heading_rad - *now_rad), -most_rad, most_rad));
+// The same where the turn is small, from the unit vector of the present heading: without an arc tangent.
+bool TurnALittle(Vec2 direction, float length, Vec2* ahead, float most_rad, float* now_rad) {
+  const Vec2 unit = direction * (1 / length);
+  const float sine = Cross(*ahead, unit);
+  if (Dot(*ahead, unit) < 0.5f || std::abs(sine) > 0.25f) return false;
+  const float turn_rad = sine * (1 + sine * sine * (1.0f / 6 + sine * sine * (3.0f / 40)));
+  if (std::abs(turn_rad) > most_rad) return false;
+  *ahead = unit;
+  *now_rad = WrapAngle(*now_rad + turn_rad);
+  return true;
+}
+
+// The body turns the way it walks; who stands turns to what they look at.
+void Turn(Vec2 step, float walked_m, float step_s, size_t i, Crowd* c) {
+  const float most_rad = kMaxTurnRate_radps * step_s;
+  if (walked_m > kTurnsAbove_mps * step_s) {
+    if (TurnALittle(step, walked_m, &c->mind[i].ahead, most_rad, &c->heading_rad[i])) return;
+    TurnTo(step, most_rad, &c->heading_rad[i]);
+  } else if (c->facing[i].x != 0 || c->facing[i].y != 0) {
+    TurnTo(c->facing[i], 0.5f * most_rad, &c->heading_rad[i]);
+  } else {
+    return;
+  }
+  c->mind[i].ahead = DirectionOf(c->heading_rad[i]);
 }
 
 void Arrive(float step_s, Crowd* c) {
+  const float per_step = 1 / step_s;
   for (size_t i = 0; i < c->size(); ++i) {
     const Vec2 step = c->moved[i] - c->position[i];
-    c->velocity[i] = step * (1 / step_s);
-    c->position[i] = c->moved[i];
     const float walked_m = Length(step);
+    c->position[i] = c->moved[i];
     c->walked_m[i] += walked_m;
-    if (walked_m > kTurnsAbove_mps * step_s) {
-      TurnTo(std::atan2(step.y, step.x), kMaxTurnRate_radps * step_s, &c->heading_rad[i]);
-    } else if (c->facing[i].x != 0 || c->facing[i].y != 0) {
-      TurnTo(std::atan2(c->facing[i].y, c->facing[i].x), 0.5f * kMaxTurnRate_radps * step_s, &c->heading_rad[i]);
-    }
-    const bool there = c->field[i] >= 0 &&
-                       Length(c->fields[static_cast<size_t>(c->field[i])].goal - c->position[i]) < kArrival_m;
-    c->arrived[i] = there ? 1 : 0;
     if (c->wait_s[i] > 0) c->wait_s[i] -= step_s;
+    c->arrived[i] = 0;
+    if (c->coast[i] > 0) continue;  // velocity and heading stay
+    c->velocity[i] = step * per_step;
+    if (c->field[i] >= 0) {
+      const Vec2 left = c->fields[static_cast<size_t>(c->field[i])].goal - c->position[i];
+      c->arrived[i] = Dot(left, left) < kArrival_m * kArrival_m ? 1 : 0;
+    }
+    Turn(step, walked_m, step_s, i, c);
   }
 }
 
@@ -143,6 +188,10 @@ int AddPerson(const Person& p, Crowd* c) {
   c->arrived.push_back(0);
   c->pace.push_back(1);
   c->walked_m.push_back(static_cast<float>(c->next_id % 16) * 0.1f);  // not all on the same foot
+  c->mind.push_back({});
+  c->mind.back().ahead = DirectionOf(p.heading_rad);
+  c->coast.push_back(0);
+  c->cares.push_back(0);
   c->wanted.push_back({});
   c->moved.push_back(p.position);
   return c->next_id++;
@@ -156,13 +205,13 @@ void RemovePerson(size_t i, Crowd* c) {
   drop(&c->id), drop(&c->avatar), drop(&c->position), drop(&c->velocity), drop(&c->heading_rad), drop(&c->radius_m);
   drop(&c->preferred_mps), drop(&c->top_mps), drop(&c->field), drop(&c->way), drop(&c->sees_goal), drop(&c->activity);
   drop(&c->wait_s), drop(&c->facing), drop(&c->view), drop(&c->avoids_camera), drop(&c->arrived), drop(&c->pace);
-  drop(&c->walked_m), drop(&c->wanted), drop(&c->moved);
+  drop(&c->walked_m), drop(&c->mind), drop(&c->coast), drop(&c->cares), drop(&c->wanted), drop(&c->moved);
 }
 
 void SetGoal(size_t i, int field, Crowd* c) {
   c->field[i] = field;
   c->way[i] = {};
-  c->sees_goal[i] = c->arrived[i] = 0;
+  c->sees_goal[i] = c->arrived[i] = c->coast[i] = 0;
   c->activity[i] = field >= 0 ? Activity::kWalking : Activity::kStanding;
 }
 
@@ -181,9 +230,10 @@ Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, Crowd* c) {
 }
 
 void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
-  RenewWays(w, c);
-  SortPeople(w, c);
-  ChooseVelocities(w, moving, step_s, c);
+  RenewWays(w, moving, step_s, c);
+  SortIntoGrid(w, c->position, c->velocity, c->radius_m, c->cares, kNeighbourRadius_m / 2, &c->neighbours);
+  Decide(w, moving, c);
+  FindContacts(step_s, c);
   Move(w, moving, step_s, c);
   ResolveContacts(w, moving, step_s, c);
   Arrive(step_s, c);

@@ -23,6 +23,17 @@ struct MovingObstacle {
   Vec2 velocity{};        // foreseen as it moves
 };
 
+// What a person has in mind between looks around (steering.h says when those are).
+struct Mind {
+  Vec2 ahead;           // unit vector of the heading
+  Vec2 push;            // acceleration that people, walls and discs near ask for
+  float asked_mps = 0;  // speed along the way
+  float alone_mps = 0;  // what it would be without anybody around
+  Vec2 clear_from;      // nothing stops anybody within clear_m of here
+  float clear_m = 0;
+  bool stands = false, avoids_camera = false;
+};
+
 struct Crowd {
   std::vector<int> id, avatar;
   std::vector<Vec2> position, velocity;
@@ -38,6 +49,8 @@ struct Crowd {
   std::vector<uint8_t> arrived;         // reached the goal in the last step
   std::vector<float> pace;              // factor on the preferred speed, set by the control; 1: as they like
   std::vector<float> walked_m;          // since appearing: drives the walk cycle
+  std::vector<Mind> mind;
+  std::vector<uint8_t> coast;           // steps left to walk straight on, out of sight and far from everything
   std::vector<FlowField> fields;        // built when the first person needs one
   int next_id = 0;
   int64_t step = 0;

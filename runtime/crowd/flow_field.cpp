@@ -21,7 +21,7 @@ using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
 // Travel cost of a metre in each cell; isotropic in slope.
 float CostAt(const Walkable& w, int cell) {
-  return w.cost[static_cast<size_t>(cell)] * (1 + kSlopeCost * w.slope[static_cast<size_t>(cell)]);
+  return w.cost[static_cast<size_t>(cell)] * (1 + kSlopeCost * SlopeOf(w, cell));
 }
 
 // The cheaper of two opposite neighbours and where it lies (-1, +1), infinity if neither has a value.
@@ -163,12 +163,19 @@ bool StraightWay(const Walkable& w, Vec2 p, Vec2 q) {
   if (first < 0) return false;
   const float dearest = w.cost[static_cast<size_t>(first)] > 0 ? w.cost[static_cast<size_t>(first)] * kNearWallCost * 1.01f : kGroundCost[1];
   const Vec2 way = q - p;
-  const int steps = static_cast<int>(std::ceil(Length(way) / (w.cell_m * 0.5f)));
-  for (int i = 1; i < steps; ++i) {
-    const int cell = CellAt(w, p + way * (static_cast<float>(i) / static_cast<float>(steps)));
+  const float way_m = Length(way), longer_m = std::max(std::abs(way.x), std::abs(way.y));
+  const float least = 0.5f * w.cell_m / std::max(way_m, 1e-6f), cells = w.cell_m * 0.99f / std::max(longer_m, 1e-6f);
+  bool known = true;  // leaps over what costs the same, and looks at the cost only where it may be another
+  for (float t = 0; t < 1;) {
+    const int cell = CellAt(w, p + way * t);
     if (cell < 0) return false;
-    const float cost = w.cost[static_cast<size_t>(cell)];
-    if (cost <= 0 || cost > dearest) return false;
+    if (!known) {
+      const float cost = w.cost[static_cast<size_t>(cell)];
+      if (cost <= 0 || cost > dearest) return false;
+    }
+    const int same = w.cells[static_cast<size_t>(cell)].same;
+    known = same > 0;
+    t += known ? static_cast<float>(same) * cells : least;
   }
   return true;
 }

@@ -1,7 +1,5 @@
 #include "runtime/crowd/neighbours.h"
 
-#include <algorithm>
-
 namespace flaneur {
 
 void SortIntoGrid(const Walkable& w, const std::vector<Vec2>& position, const std::vector<Vec2>& velocity,
@@ -14,8 +12,8 @@ void SortIntoGrid(const Walkable& w, const std::vector<Vec2>& position, const st
   g->cell_of.resize(position.size());
   for (size_t i = 0; i < position.size(); ++i) {
     if (!include[i]) continue;
-    const int x = std::clamp(static_cast<int>((position[i].x - g->min_m.x) / cell_m), 0, g->columns - 1);
-    const int y = std::clamp(static_cast<int>((position[i].y - g->min_m.y) / cell_m), 0, g->rows - 1);
+    const int x = CellIndex(position[i].x, g->min_m.x, cell_m, g->columns);
+    const int y = CellIndex(position[i].y, g->min_m.y, cell_m, g->rows);
     g->cell_of[i] = y * g->columns + x;
     ++g->start[static_cast<size_t>(g->cell_of[i])];
   }

@@ -30,19 +30,32 @@ struct NeighbourGrid {
 void SortIntoGrid(const Walkable& w, const std::vector<Vec2>& position, const std::vector<Vec2>& velocity,
                   const std::vector<float>& radius_m, const std::vector<uint8_t>& include, float cell_m, NeighbourGrid* grid);
 
+// Column or row of a coordinate, those outside in the outermost.
+inline int CellIndex(float v, float origin, float cell_m, int count) {
+  const int k = static_cast<int>((v - origin) * (1 / cell_m));
+  return k < 0 ? 0 : k >= count ? count - 1 : k;
+}
+
+// Calls visit(first, end) for each row of cells within reach_m of p: the people of a row's cells lie side by side in g.people.
+template <typename Visit>
+void VisitRows(const NeighbourGrid& g, Vec2 p, float reach_m, Visit visit) {
+  const int x0 = CellIndex(p.x - reach_m, g.min_m.x, g.cell_m, g.columns);
+  const int x1 = CellIndex(p.x + reach_m, g.min_m.x, g.cell_m, g.columns);
+  const int y0 = CellIndex(p.y - reach_m, g.min_m.y, g.cell_m, g.rows);
+  const int y1 = CellIndex(p.y + reach_m, g.min_m.y, g.cell_m, g.rows);
+  for (int y = y0; y <= y1; ++y) {
+    const int first = g.start[static_cast<size_t>(y * g.columns + x0)];
+    const int end = g.start[static_cast<size_t>(y * g.columns + x1) + 1];
+    if (first < end) visit(&g.people[static_cast<size_t>(first)], g.people.data() + end);
+  }
+}
+
 // Calls visit(neighbour) for everybody in the cells within reach_m of p, p's own occupant included.
 template <typename Visit>
 void VisitNear(const NeighbourGrid& g, Vec2 p, float reach_m, Visit visit) {
-  const auto cell = [&](float v, float origin, int count) {
-    const int k = static_cast<int>((v - origin) / g.cell_m);
-    return k < 0 ? 0 : k >= count ? count - 1 : k;
-  };
-  const int x0 = cell(p.x - reach_m, g.min_m.x, g.columns), x1 = cell(p.x + reach_m, g.min_m.x, g.columns);
-  const int y0 = cell(p.y - reach_m, g.min_m.y, g.rows), y1 = cell(p.y + reach_m, g.min_m.y, g.rows);
-  for (int y = y0; y <= y1; ++y) {  // the cells of a row lie side by side
-    const int last = g.start[static_cast<size_t>(y * g.columns + x1) + 1];
-    for (int k = g.start[static_cast<size_t>(y * g.columns + x0)]; k < last; ++k) visit(g.people[static_cast<size_t>(k)]);
-  }
+  VisitRows(g, p, reach_m, [&](const Neighbour* first, const Neighbour* end) {
+    for (const Neighbour* n = first; n < end; ++n) visit(*n);
+  });
 }
 
 }  // namespace flaneur

@@ -4,10 +4,14 @@
 #include <cmath>
 
 #include "runtime/crowd/constants.h"
+#include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/walls.h"
 
 namespace flaneur {
 namespace {
+
+constexpr int kBlock = 64;  // people looked at together
+constexpr size_t kFetchAhead = 6;
 
 Vec2 ClampLength(Vec2 v, float most) {
   const float length2 = Dot(v, v);
@@ -15,7 +19,7 @@ Vec2 ClampLength(Vec2 v, float most) {
 }
 
 // exp(-x) for x in [0, 1] to half a percent, without a call.
-float Decay(float x) { return 1 / (1 + x * (1 + x * (0.5f + x * (1.0f / 6)))); }
+float RoughDecay(float x) { return 1 / (1 + x * (1 + x * (0.5f + x * (1.0f / 6)))); }
 
 // Acceleration from a predicted collision: the gradient of k tau^-2 exp(-tau / tau0) over the time to collision tau
 // (Karamouzas, Skinner and Guy 2014, eq. 3). `towards` points from me to the other, `closing` is my velocity less the other's.
@@ -30,51 +34,111 @@ Vec2 Anticipation(Vec2 towards, Vec2 closing, float reach_m) {
   const float tau = std::max((b - root) / a, 0.02f);
   if (tau > kAnticipation_s) return {};
   const float strength =
-      kInteraction_k * Decay(tau / kInteraction_tau0_s) * (2 / tau + 1 / kInteraction_tau0_s) / (a * tau * tau);
+      kInteraction_k * RoughDecay(tau / kInteraction_tau0_s) * (2 / tau + 1 / kInteraction_tau0_s) / (a * tau * tau);
   const Vec2 aside = (closing * b - towards * a) * (1 / root) - closing;
   return ClampLength(aside * strength, kMostPush_mps2);
 }
 
-struct Surroundings { Vec2 push; float density_pm2 = 0; };
+struct Looking {
+  Vec2 position, velocity, ahead;
+  float radius_m = 0;
+  int person = 0;
+};
 
-Surroundings LookAround(const Walkable& w, size_t i, float contact_m, Crowd* c) {
-  Surroundings s;
-  const Vec2 position = c->position[i], velocity = c->velocity[i];
-  const Vec2 ahead{std::cos(c->heading_rad[i]), std::sin(c->heading_rad[i])};
-  const float radius_m = c->radius_m[i];
-  const int self = static_cast<int>(i);
-  float crowding = 0;
-  VisitNear(c->neighbours, position, kNeighbourRadius_m, [&](const Neighbour& other) {
-    const Vec2 towards = other.position - position;
+struct Surroundings { Vec2 push; float crowding = 0; };
+
+// Those of a row of the grid who are within the neighbour radius, as arrays by field.
+struct Block {
+  int count = 0;
+  alignas(32) float x[kBlock], y[kBlock], distance2[kBlock];  // from me to the other
+  alignas(32) float closing_x[kBlock], closing_y[kBlock], reach_m[kBlock];
+  alignas(32) float cosine[kBlock], weight[kBlock], gap_m[kBlock];
+  alignas(32) int meets[kBlock];
+};
+
+// Without branches: who is out of reach is overwritten by the next. Returns whom it did not get to.
+const Neighbour* Gather(const Looking& me, const Neighbour* first, const Neighbour* end, Block* b) {
+  int n = b->count;
+  for (; first < end && n < kBlock; ++first) {
+    const Vec2 towards = first->position - me.position, closing = me.velocity - first->velocity;
     const float distance2 = Dot(towards, towards);
-    if (distance2 > kNeighbourRadius_m * kNeighbourRadius_m || other.person == self) return;
-    const float reach_m = radius_m + other.radius_m;
-    const float distance_m = std::sqrt(std::max(distance2, 1e-8f));
-    const float cosine = Dot(towards, ahead) / distance_m;
-    const float attention = cosine > -0.2f ? 1.0f : kAttentionBehind;
+    b->x[n] = towards.x;
+    b->y[n] = towards.y;
+    b->distance2[n] = distance2;
+    b->closing_x[n] = closing.x;
+    b->closing_y[n] = closing.y;
+    b->reach_m[n] = me.radius_m + first->radius_m;
+    n += (distance2 < kNeighbourRadius_m * kNeighbourRadius_m) & (first->person != me.person);
+  }
+  b->count = n;
+  return first;
+}
+
+// What is cheap for everybody near, side by side: how much they crowd me, and whether they could matter at all.
+void Weigh(const Looking& me, Block* block) {
+  constexpr float kPerRadius2 = 1 / (kDensityRadius_m * kDensityRadius_m);
+  const int rounded = std::min(kBlock, (block->count + 3) & ~3);
+  Block& b = *block;
+  for (int k = b.count; k < rounded; ++k) {
+    b.x[k] = b.y[k] = b.distance2[k] = b.closing_x[k] = b.closing_y[k] = b.reach_m[k] = 0;
+  }
+  for (int k = 0; k < rounded; ++k) {
+    const float x = b.x[k], y = b.y[k], closing_x = b.closing_x[k], closing_y = b.closing_y[k];
+    const float distance2 = b.distance2[k] > 1e-8f ? b.distance2[k] : 1e-8f;
+    const float distance_m = std::sqrt(distance2);
+    const float cosine = (x * me.ahead.x + y * me.ahead.y) / distance_m;
+    const float share = 1 - distance2 * kPerRadius2;
+    const float reach_m = b.reach_m[k] + 0.5f * kComfort_m;
+    const float seen_x = x - kPassOnTheRight_rad * y, seen_y = y + kPassOnTheRight_rad * x;
+    const float along = seen_x * closing_x + seen_y * closing_y;
+    const float closing2 = closing_x * closing_x + closing_y * closing_y;
+    const float room = seen_x * seen_x + seen_y * seen_y - reach_m * reach_m;
+    const float discriminant = along * along - closing2 * room;
+    b.cosine[k] = cosine;
+    b.weight[k] = (share > 0 ? share : 0) * (1 + cosine);
+    b.gap_m[k] = distance_m - b.reach_m[k];
+    b.meets[k] = (along > 0 ? 1 : 0) & (discriminant > 1e-9f ? 1 : 0);
+  }
+}
+
+void Feel(const Looking& me, Block* block, Surroundings* s) {
+  Weigh(me, block);
+  const Block& b = *block;
+  for (int k = 0; k < b.count; ++k) {
+    s->crowding += b.weight[k];
+    if (b.meets[k] == 0 && b.gap_m[k] >= kComfort_m) continue;
+    const Vec2 towards{b.x[k], b.y[k]};
+    const float attention = b.cosine[k] > -0.2f ? 1.0f : kAttentionBehind;
     const Vec2 seen{towards.x - kPassOnTheRight_rad * towards.y, towards.y + kPassOnTheRight_rad * towards.x};
-    s.push = s.push + Anticipation(seen, velocity - other.velocity, reach_m + 0.5f * kComfort_m) * attention;
-    const float gap_m = distance_m - reach_m;
-    if (gap_m < kComfort_m) s.push = s.push - towards * (kSeparation_mps2 * (1 - gap_m / kComfort_m) / distance_m);
-    if (distance2 < kDensityRadius_m * kDensityRadius_m) {
-      crowding += (1 - distance2 / (kDensityRadius_m * kDensityRadius_m)) * (1 + cosine);
+    s->push = s->push + Anticipation(seen, {b.closing_x[k], b.closing_y[k]}, b.reach_m[k] + 0.5f * kComfort_m) * attention;
+    if (b.gap_m[k] < kComfort_m) {
+      const float distance_m = b.gap_m[k] + b.reach_m[k];
+      s->push = s->push - towards * (kSeparation_mps2 * (1 - b.gap_m[k] / kComfort_m) / distance_m);
     }
-    if (gap_m < contact_m && other.person > self) c->contacts.push_back({self, other.person});
+  }
+  block->count = 0;
+}
+
+Surroundings LookAround(const NeighbourGrid& grid, const Looking& me) {
+  Surroundings s;
+  Block block;
+  VisitRows(grid, me.position, kNeighbourRadius_m, [&](const Neighbour* first, const Neighbour* end) {
+    while (first < end) {
+      first = Gather(me, first, end, &block);
+      if (block.count == kBlock) Feel(me, &block, &s);
+    }
   });
-  const int cell = CellAt(w, position);
-  const float open = cell >= 0 ? std::max(0.2f, w.open_share[static_cast<size_t>(cell)]) : 1.0f;
-  // The weights of a full disc sum to half its area.
-  s.density_pm2 = crowding * 2 / (kPi * kDensityRadius_m * kDensityRadius_m * open);
+  Feel(me, &block, &s);
   return s;
 }
 
-Vec2 AvoidMoving(const std::vector<MovingObstacle>& moving, const Crowd& c, size_t i) {
+Vec2 AvoidMoving(const std::vector<MovingObstacle>& moving, const Looking& me, bool avoids_camera) {
   Vec2 push;
   for (const MovingObstacle& m : moving) {
-    if (!m.everyone && !c.avoids_camera[i]) continue;
-    const Vec2 towards = m.center - c.position[i];
-    const float distance_m = std::max(Length(towards), 1e-4f), reach_m = m.radius_m + c.radius_m[i];
-    push = push + Anticipation(towards, c.velocity[i] - m.velocity, reach_m + 2 * kComfort_m);
+    if (!m.everyone && !avoids_camera) continue;
+    const Vec2 towards = m.center - me.position;
+    const float distance_m = std::max(Length(towards), 1e-4f), reach_m = m.radius_m + me.radius_m;
+    push = push + Anticipation(towards, me.velocity - m.velocity, reach_m + 2 * kComfort_m);
     const float gap_m = distance_m - reach_m;
     if (gap_m < 2 * kComfort_m) {
       push = push - towards * (kSeparation_mps2 * std::min(1.0f, 1 - gap_m / (2 * kComfort_m)) / distance_m);
@@ -83,12 +147,23 @@ Vec2 AvoidMoving(const std::vector<MovingObstacle>& moving, const Crowd& c, size
   return ClampLength(push, kMostPush_mps2);
 }
 
-// What the person would do alone: walk on, slower uphill and down.
-Vec2 Preferred(const Walkable& w, const Crowd& c, size_t i) {
-  if (c.activity[i] != Activity::kWalking || c.field[i] < 0) return {};
-  const int cell = CellAt(w, c.position[i]);
-  const float slope = cell >= 0 ? w.slope[static_cast<size_t>(cell)] : 0;
-  return c.way[i] * (c.preferred_mps[i] * c.pace[i] / (1 + kSlopeSlows * slope));
+// The weights of a full disc sum to half its area; walls leave less of it to people.
+float DensityFrom(const Walkable& w, int cell, float crowding) {
+  const float open = cell >= 0 ? std::max(0.2f, static_cast<float>(w.cells[static_cast<size_t>(cell)].open) * (1.0f / 255)) : 1.0f;
+  return crowding * 2 / (kPi * kDensityRadius_m * kDensityRadius_m * open);
+}
+
+void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const Neighbour& self, Crowd* c) {
+  Mind& mind = c->mind[static_cast<size_t>(self.person)];
+  const Looking me{self.position, self.velocity, mind.ahead, self.radius_m, self.person};
+  const Surroundings around = LookAround(c->neighbours, me);
+  const int cell = CellAt(w, me.position);
+  mind.asked_mps = SpeedOnSlope(w, cell, mind.alone_mps) * SpeedInDensity(DensityFrom(w, cell, around.crowding));
+  Vec2 push = around.push + AvoidMoving(moving, me, mind.avoids_camera);
+  if (mind.stands && Dot(push, push) < 1) push = {};  // people who stand give way only when pressed
+  mind.push = push + WallPush(w, me.position, me.radius_m);
+  mind.clear_from = me.position;
+  mind.clear_m = ClearAround_m(w, cell);
 }
 
 }  // namespace
@@ -96,26 +171,28 @@ Vec2 Preferred(const Walkable& w, const Crowd& c, size_t i) {
 float SpeedInDensity(float density_pm2) {
   if (density_pm2 < 0.05f) return 1;
   const float exponent = kWeidmannGamma_pm2 * (1 / density_pm2 - 1 / kWeidmannMostDensity_pm2);
-  return std::clamp(1 - std::exp(-exponent), kLeastDensitySpeed, 1.0f);
+  return exponent > 0 ? std::clamp(1 - DecayOf(exponent), kLeastDensitySpeed, 1.0f) : kLeastDensitySpeed;
 }
 
-void ChooseVelocities(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
-  c->contacts.clear();
-  for (size_t i = 0; i < c->size(); ++i) {
-    const Vec2 preferred = Preferred(w, *c, i);
-    if (c->view[i] == ViewClass::kOutside) {
-      c->wanted[i] = preferred;
-      continue;
-    }
-    const Surroundings around = LookAround(w, i, 2.2f * c->top_mps[i] * step_s + 0.02f, c);
-    const Vec2 goal_pull = (preferred * SpeedInDensity(around.density_pm2) - c->velocity[i]) * (1 / kRelaxation_s);
-    Vec2 push = around.push + AvoidMoving(moving, *c, i);
-    const bool stands = c->activity[i] != Activity::kWalking;
-    if (stands && Dot(push, push) < 1) push = {};  // people who stand give way only when pressed
-    const Vec2 acceleration =
-        ClampLength(goal_pull + push + WallPush(w, c->position[i], c->radius_m[i]), kMaxAcceleration_mps2);
-    c->wanted[i] = ClampLength(c->velocity[i] + acceleration * step_s, c->top_mps[i]);
+float SpeedOnSlope(const Walkable& w, int cell, float level_mps) {
+  return cell >= 0 ? level_mps / (1 + kSlopeSlows * SlopeOf(w, cell)) : level_mps;
+}
+
+void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, Crowd* c) {
+  const std::vector<Neighbour>& people = c->neighbours.people;
+  for (size_t k = 0; k < people.size(); ++k) {
+    const size_t soon = static_cast<size_t>(people[std::min(k + kFetchAhead, people.size() - 1)].person);
+    __builtin_prefetch(&c->mind[soon]);
+    if (IsTurn(*c, static_cast<size_t>(people[k].person))) Decide(w, moving, people[k], c);
   }
+}
+
+void ChooseVelocity(float step_s, size_t i, Crowd* c) {
+  const bool walks = c->activity[i] == Activity::kWalking && c->field[i] >= 0;
+  const Vec2 preferred = walks ? c->way[i] * c->mind[i].asked_mps : Vec2{};
+  const Vec2 goal_pull = (preferred - c->velocity[i]) * (1 / kRelaxation_s);
+  const Vec2 acceleration = ClampLength(goal_pull + c->mind[i].push, kMaxAcceleration_mps2);
+  c->wanted[i] = ClampLength(c->velocity[i] + acceleration * step_s, c->top_mps[i]);
 }
 
 }  // namespace flaneur

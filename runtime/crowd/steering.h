@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "runtime/crowd/constants.h"
 #include "runtime/crowd/crowd.h"
 
 namespace flaneur {
@@ -9,8 +10,18 @@ namespace flaneur {
 // Speed in a crowd over speed alone, by the density around (Weidmann 1993).
 float SpeedInDensity(float density_pm2);
 
-// Fills crowd->wanted with the velocities of this step, and crowd->contacts with the pairs that could touch in it.
-// crowd->neighbours holds everybody who takes care.
-void ChooseVelocities(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* crowd);
+// Speed in this cell of the ground (-1: off it): slower uphill and down.
+float SpeedOnSlope(const Walkable& w, int cell, float level_mps);
+
+// People look around and decide in turn, each every kTurnEvery_steps steps; in between they do what they decided.
+inline bool IsTurn(const Crowd& crowd, size_t i) {
+  return static_cast<uint64_t>(crowd.step + static_cast<int64_t>(i)) % kTurnEvery_steps == 0;
+}
+
+// Those of crowd->neighbours whose turn it is renew what they ask for: the push, the speed and the clearance in crowd->mind.
+void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, Crowd* crowd);
+
+// Fills crowd->wanted[i] from what the person asks for.
+void ChooseVelocity(float step_s, size_t i, Crowd* crowd);
 
 }  // namespace flaneur

@@ -11,7 +11,8 @@ namespace {
 
 // Beyond touching: how far a person steps or feels a wall at most.
 constexpr float kReachBeyondRadius_m = 0.6f;
-constexpr float kMostSlope = 0.6f;
+constexpr float kMostSlope = 255 * Walkable::kSlopeUnit;
+constexpr int kMostSame = 200;
 
 bool InsideRing(Vec2 p, const std::vector<Vec2>& ring) {
   bool inside = false;
@@ -130,14 +131,13 @@ void MeasureOpenShares(const std::vector<char>& covered, Walkable* w) {
       at(x + 1, y + 1) = at(x, y + 1) + at(x + 1, y) - at(x, y) + (open ? 1 : 0);
     }
   }
-  w->open_share.resize(w->cost.size());
-  const float all = static_cast<float>((2 * reach + 1) * (2 * reach + 1));
+  const int all = (2 * reach + 1) * (2 * reach + 1);
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
       const int x0 = std::max(0, x - reach), x1 = std::min(columns, x + reach + 1);
       const int y0 = std::max(0, y - reach), y1 = std::min(rows, y + reach + 1);
-      w->open_share[static_cast<size_t>(y * columns + x)] =
-          static_cast<float>(at(x1, y1) - at(x0, y1) - at(x1, y0) + at(x0, y0)) / all;
+      w->cells[static_cast<size_t>(y * columns + x)].open =
+          static_cast<uint8_t>((at(x1, y1) - at(x0, y1) - at(x1, y0) + at(x0, y0)) * 255 / all);
     }
   }
 }
@@ -166,6 +166,69 @@ void NumberComponents(Walkable* w) {
   }
 }
 
+// How many cells of ground rasters are no ground, by sums over rectangles from the raster's corner.
+struct Holes {
+  const GroundGrid& g;
+  std::vector<int> sum;
+
+  explicit Holes(const GroundGrid& ground)
+      : g(ground), sum((static_cast<size_t>(g.columns) + 1) * (static_cast<size_t>(g.rows) + 1), 0) {
+    for (int y = 0; y < g.rows; ++y) {
+      for (int x = 0; x < g.columns; ++x) {
+        const bool hole = g.kind[static_cast<size_t>(y) * static_cast<size_t>(g.columns) + static_cast<size_t>(x)] == 0;
+        sum[Index(x + 1, y + 1)] = sum[Index(x, y + 1)] + sum[Index(x + 1, y)] - sum[Index(x, y)] + (hole ? 1 : 0);
+      }
+    }
+  }
+  size_t Index(int x, int y) const {
+    return static_cast<size_t>(y) * (static_cast<size_t>(g.columns) + 1) + static_cast<size_t>(x);
+  }
+  // Ground everywhere within reach_m of p, in x and in y.
+  bool NoneAround(Vec2 p, float reach_m) const {
+    const int x0 = static_cast<int>(std::floor((p.x - reach_m - g.min_m.x) / g.cell_m));
+    const int y0 = static_cast<int>(std::floor((p.y - reach_m - g.min_m.y) / g.cell_m));
+    const int x1 = static_cast<int>(std::floor((p.x + reach_m - g.min_m.x) / g.cell_m)) + 1;
+    const int y1 = static_cast<int>(std::floor((p.y + reach_m - g.min_m.y) / g.cell_m)) + 1;
+    if (x0 < 0 || y0 < 0 || x1 > g.columns || y1 > g.rows) return false;
+    return sum[Index(x1, y1)] - sum[Index(x0, y1)] - sum[Index(x1, y0)] + sum[Index(x0, y0)] == 0;
+  }
+};
+
+// Lower bounds: from the cell's centre less half its diagonal.
+void MeasureClearances(const std::vector<char>& covered, float most_m, Walkable* w) {
+  const Holes holes(w->ground);
+  const float half_m = 0.71f * w->cell_m;
+  for (int cell = 0; cell < static_cast<int>(w->cost.size()); ++cell) {
+    if (covered[static_cast<size_t>(cell)]) continue;
+    const Vec2 center = CellCenter(*w, cell);
+    float clear_m = std::min(most_m, Clearance(*w, cell, center) - half_m);
+    while (clear_m > 0.05f && !holes.NoneAround(center, clear_m + half_m)) clear_m *= 0.7f;
+    w->cells[static_cast<size_t>(cell)].clear_cm = clear_m > 0.05f ? static_cast<uint8_t>(clear_m * 100) : uint8_t{0};
+  }
+}
+
+// Distances in kings' moves to the nearest cell of another cost, less one, in two sweeps.
+void MeasureSame(Walkable* w) {
+  const int columns = w->columns, rows = w->rows;
+  const auto sweep = [&](int x, int y, int direction) {
+    const int cell = y * columns + x;
+    int least = direction > 0 ? kMostSame : w->cells[static_cast<size_t>(cell)].same;
+    const int around[4] = {-direction, -direction * columns - 1, -direction * columns, -direction * columns + 1};
+    for (int step : around) {
+      const size_t other = static_cast<size_t>(cell + step);
+      const bool alike = w->cost[other] == w->cost[static_cast<size_t>(cell)];
+      least = std::min(least, alike ? w->cells[other].same + 1 : 0);
+    }
+    w->cells[static_cast<size_t>(cell)].same = static_cast<uint8_t>(least);
+  };
+  for (int y = 1; y + 1 < rows; ++y) {
+    for (int x = 1; x + 1 < columns; ++x) sweep(x, y, 1);
+  }
+  for (int y = rows - 2; y >= 1; --y) {
+    for (int x = columns - 2; x >= 1; --x) sweep(x, y, -1);
+  }
+}
+
 }  // namespace
 
 void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
@@ -174,11 +237,12 @@ void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
   w->person_radius_m = person_radius_m;
   w->cell_m = std::max(kNavigationCell_m, std::sqrt(size.x * size.y / kMostNavigationCells));
   w->min_m = g.min_m;
+  w->cells_per_m = 1 / w->cell_m;
   w->columns = std::max(1, static_cast<int>(std::ceil(size.x / w->cell_m)));
   w->rows = std::max(1, static_cast<int>(std::ceil(size.y / w->cell_m)));
   const size_t cells = static_cast<size_t>(w->columns) * static_cast<size_t>(w->rows);
   w->cost.assign(cells, 0);
-  w->slope.assign(cells, 0);
+  w->cells.assign(cells, {});
   w->edges.clear();
   for (const PolygonObstacle& polygon : w->polygons) {
     AddEdges(polygon.outer, &w->edges);
@@ -194,16 +258,12 @@ void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
     const float clearance_m = Clearance(*w, cell, center) - person_radius_m;
     if (clearance_m < 0) continue;
     w->cost[static_cast<size_t>(cell)] = kGroundCost[kind] * (clearance_m < kNearWall_m ? kNearWallCost : 1.0f);
-    w->slope[static_cast<size_t>(cell)] = SlopeAt(*w, center);
+    w->cells[static_cast<size_t>(cell)].slope = static_cast<uint8_t>(SlopeAt(*w, center) / Walkable::kSlopeUnit);
   }
   NumberComponents(w);
   MeasureOpenShares(covered, w);
-}
-
-int CellAt(const Walkable& w, Vec2 p) {
-  const int x = static_cast<int>(std::floor((p.x - w.min_m.x) / w.cell_m));
-  const int y = static_cast<int>(std::floor((p.y - w.min_m.y) / w.cell_m));
-  return x < 0 || y < 0 || x >= w.columns || y >= w.rows ? -1 : y * w.columns + x;
+  MeasureClearances(covered, std::max(person_radius_m, most_radius_m) + kReachBeyondRadius_m, w);
+  MeasureSame(w);
 }
 
 Vec2 CellCenter(const Walkable& w, int cell) {

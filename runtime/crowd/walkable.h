@@ -30,12 +30,19 @@ struct Walkable {
   // Derived by BuildWalkable: a navigation grid whose cells are free where a person of person_radius_m fits.
   float person_radius_m = 0.3f;
   Vec2 min_m;
-  float cell_m = 0.5f;
+  float cell_m = 0.5f, cells_per_m = 2;
   int columns = 0, rows = 0;
   std::vector<float> cost;        // a metre; 0: not walkable
-  std::vector<float> slope;       // rise over run, not negative
-  std::vector<float> open_share;  // of the disc that density is measured in, the share that is ground: 0..1
   std::vector<int> component;     // connected free cells share a number; -1: not free
+  // What walkers ask of the cell they are in, kept small: people all over a town read it in every step.
+  struct Cell {
+    uint8_t clear_cm = 0;  // from every point of the cell at least so far to anything that stops people
+    uint8_t same = 0;      // so many cells around, in rows and columns, cost the same as this one
+    uint8_t slope = 0;     // rise over run in units of kSlopeUnit, not negative
+    uint8_t open = 0;      // of the disc that density is measured in, the share that is ground, in 1/255
+  };
+  static constexpr float kSlopeUnit = 0.6f / 255;
+  std::vector<Cell> cells;
   struct Edge { Vec2 a, b; };
   std::vector<Edge> edges;        // of all polygons
   // What a person in a cell, or stepping out of it, can touch: ranges [start[cell], start[cell + 1]) of the lists.
@@ -47,7 +54,15 @@ struct Walkable {
 // most_radius_m: of the largest person there will be.
 void BuildWalkable(float person_radius_m, Walkable* walkable, float most_radius_m = 0.5f);
 
-int CellAt(const Walkable& w, Vec2 p);             // -1 outside the grid
+// The cell at p, -1 outside the grid.
+inline int CellAt(const Walkable& w, Vec2 p) {
+  const float fx = (p.x - w.min_m.x) * w.cells_per_m, fy = (p.y - w.min_m.y) * w.cells_per_m;
+  if (!(fx >= 0 && fy >= 0 && fx < static_cast<float>(w.columns) && fy < static_cast<float>(w.rows))) return -1;
+  return static_cast<int>(fy) * w.columns + static_cast<int>(fx);
+}
+inline float SlopeOf(const Walkable& w, int cell) {
+  return static_cast<float>(w.cells[static_cast<size_t>(cell)].slope) * Walkable::kSlopeUnit;
+}
 Vec2 CellCenter(const Walkable& w, int cell);
 bool IsFree(const Walkable& w, Vec2 p);            // the cell at p is walkable
 bool OnGround(const Walkable& w, Vec2 p);          // ground of a kind, whatever stands on it

@@ -100,6 +100,7 @@ float Clearance(const Walkable& w, int cell, Vec2 p) {
 
 Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {
   const float way_m = Length(to - from);
+  if (ClearAround_m(w, CellAt(w, from)) >= radius_m + way_m) return to;
   const int pieces = std::max(1, static_cast<int>(std::ceil(way_m / (0.5f * radius_m))));
   Vec2 p = from;
   for (int k = 1; k <= pieces; ++k) {
@@ -111,7 +112,7 @@ Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {
 
 Vec2 WallPush(const Walkable& w, Vec2 p, float radius_m) {
   const int cell = CellAt(w, p);
-  if (cell < 0 || NothingNear(w, cell)) return {};
+  if (cell < 0 || ClearAround_m(w, cell) >= radius_m + kWallComfort_m || NothingNear(w, cell)) return {};
   Vec2 push;
   VisitWalls(w, cell, p, [&](Vec2 away, float distance_m) {
     const float gap_m = distance_m - radius_m;

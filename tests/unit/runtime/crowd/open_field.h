@@ -1,4 +1,4 @@
-// The open field that crowds are compared on: 0.3 people to the square metre, 36 round obstacles of 1 to 2 m, everybody on the
+// The open field that crowds are compared on: 0.3 people to the square metre, 36 round obstacles of 1 to 2 m radius, everybody on the
 // way from place to place. Shared by tests and benchmarks.
 #pragma once
 #include <cmath>
@@ -17,7 +17,7 @@ struct OpenField {
   std::vector<Vec2> places;
   std::vector<int> fields;  // of the places
   Random random{1};
-  float side_m = 0;
+  float side_m = 0, turn_round_m = 0;
 };
 
 inline int SomePlace(OpenField* f) {
@@ -33,9 +33,10 @@ inline OpenField MakeOpenField(int people, int places_aside = 8, uint64_t seed =
   const size_t all = static_cast<size_t>(cells) * static_cast<size_t>(cells);
   f.walkable.ground = {{0, 0}, 1, cells, cells, std::vector<float>(all, 0), std::vector<uint8_t>(all, 3)};
   for (int k = 0; k < 36; ++k) {
-    f.walkable.circles.push_back({{f.random.Uniform(0, f.side_m), f.random.Uniform(0, f.side_m)}, f.random.Uniform(0.5f, 1)});
+    f.walkable.circles.push_back({{f.random.Uniform(0, f.side_m), f.random.Uniform(0, f.side_m)}, f.random.Uniform(1, 2)});
   }
   BuildWalkable(0.3f, &f.walkable, 0.25f);
+  f.turn_round_m = 0.12f * f.side_m / static_cast<float>(places_aside);
   for (int k = 0; k < places_aside * places_aside; ++k) {
     const float pitch_m = f.side_m / static_cast<float>(places_aside);
     const Vec2 near{(static_cast<float>(k % places_aside) + 0.5f) * pitch_m, (static_cast<float>(k / places_aside) + 0.5f) * pitch_m};
@@ -64,10 +65,13 @@ inline OpenField MakeOpenField(int people, int places_aside = 8, uint64_t seed =
   return f;
 }
 
+// Who comes near a place goes on to another, so that the field stays evenly full.
 inline void StepOpenField(OpenField* f) {
-  StepCrowd(f->walkable, {}, kOpenFieldStep_s, &f->crowd);
-  for (size_t i = 0; i < f->crowd.size(); ++i) {
-    if (f->crowd.arrived[i]) SetGoal(i, SomePlace(f), &f->crowd);
+  Crowd& c = f->crowd;
+  StepCrowd(f->walkable, {}, kOpenFieldStep_s, &c);
+  for (size_t i = 0; i < c.size(); ++i) {
+    const Vec2 left = c.fields[static_cast<size_t>(c.field[i])].goal - c.position[i];
+    if (c.arrived[i] || Dot(left, left) < f->turn_round_m * f->turn_round_m) SetGoal(i, SomePlace(f), &c);
   }
 }
 

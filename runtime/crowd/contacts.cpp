@@ -1,0 +1,91 @@
+#include "runtime/crowd/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/crowd/constants.h"
+#include "runtime/crowd/walls.h"
+
+namespace flaneur {
+namespace {
+
+Vec2 ClampLength(Vec2 v, float most) {
+  const float length2 = Dot(v, v);
+  return length2 > most * most ? v * (most / std::sqrt(length2)) : v;
+}
+
+// Nobody walks into a disc that is for everyone: a step that would goes along its rim or not at all.
+Vec2 KeepOut(const std::vector<MovingObstacle>& moving, Vec2 from, Vec2 to, float radius_m) {
+  for (const MovingObstacle& m : moving) {
+    const Vec2 off = to - m.center;
+    const float after2 = Dot(off, off), reach_m = m.radius_m + radius_m;
+    if (!m.everyone || after2 >= reach_m * reach_m) continue;
+    const float least_m = std::min(reach_m, Length(from - m.center));
+    const float after_m = std::sqrt(after2);
+    if (after_m >= least_m || after_m < 1e-5f) continue;
+    const Vec2 rim = m.center + off * (least_m / after_m);
+    const Vec2 along = from + ClampLength(rim - from, Length(to - from));
+    to = Length(along - m.center) >= least_m - 1e-4f ? along : from;
+  }
+  return to;
+}
+
+}  // namespace
+
+Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c, size_t i, Vec2 to) {
+  const Vec2 from = c.position[i];
+  const Vec2 step = ClampLength(to - from, c.top_mps[i] * step_s);
+  const Vec2 off_walls = KeepOffWalls(w, from, from + step, c.radius_m[i]);
+  const Vec2 out = KeepOut(moving, from, off_walls, c.radius_m[i]);
+  const bool turned = out.x != off_walls.x || out.y != off_walls.y;
+  return turned ? KeepOut(moving, from, KeepOffWalls(w, from, out, c.radius_m[i]), c.radius_m[i]) : out;
+}
+
+void FindContacts(float step_s, Crowd* c) {
+  c->contacts.clear();
+  const NeighbourGrid& g = c->neighbours;
+  float most_mps = 0;
+  for (float top_mps : c->top_mps) most_mps = std::max(most_mps, top_mps);
+  const float margin_m = 2 * most_mps * step_s + kContactMargin_m;
+  const auto test = [&](const Neighbour& a, int first, int end) {
+    for (int k = first; k < end; ++k) {
+      const Neighbour& b = g.people[static_cast<size_t>(k)];
+      const Vec2 apart = a.position - b.position;
+      const float reach_m = a.radius_m + b.radius_m + margin_m;
+      if (Dot(apart, apart) < reach_m * reach_m) c->contacts.push_back({a.person, b.person});
+    }
+  };
+  for (int k = 0; k < static_cast<int>(g.people.size()); ++k) {
+    const Neighbour& a = g.people[static_cast<size_t>(k)];
+    const int x = CellIndex(a.position.x, g.min_m.x, g.cell_m, g.columns);
+    const int y = CellIndex(a.position.y, g.min_m.y, g.cell_m, g.rows);
+    const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, g.columns - 1);
+    test(a, k + 1, g.start[static_cast<size_t>(y * g.columns + x1) + 1]);
+    if (y + 1 == g.rows) continue;
+    const int next = (y + 1) * g.columns;
+    test(a, g.start[static_cast<size_t>(next + x0)], g.start[static_cast<size_t>(next + x1) + 1]);
+  }
+}
+
+void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
+  for (int pass = 0; pass < kContactPasses; ++pass) {
+    bool any = false;
+    for (const auto& [a, b] : c->contacts) {
+      const size_t i = static_cast<size_t>(a), j = static_cast<size_t>(b);
+      const Vec2 apart = c->moved[i] - c->moved[j];
+      const float reach_m = c->radius_m[i] + c->radius_m[j], distance2 = Dot(apart, apart);
+      if (distance2 >= reach_m * reach_m) continue;
+      any = true;
+      const float distance_m = std::sqrt(distance2);
+      const Vec2 normal = distance_m > 1e-5f ? apart * (1 / distance_m) : Vec2{1, 0};
+      const Vec2 half = normal * (0.5f * (reach_m - distance_m) + 1e-4f);
+      const Vec2 before = c->moved[i];
+      c->moved[i] = WalkTowards(w, moving, step_s, *c, i, before + half);
+      const Vec2 rest = half * 2 - (c->moved[i] - before);  // what one cannot give, the other does
+      c->moved[j] = WalkTowards(w, moving, step_s, *c, j, c->moved[j] - rest);
+    }
+    if (!any) return;
+  }
+}
+
+}  // namespace flaneur
