@@ -25,6 +25,7 @@ Error Play(const PlayerOptions& options) {
   }
   if (options.people) scenario.people = *options.people;
   if (options.seed) scenario.seed = *options.seed;
+  if (options.adaptation) scenario.adaptation = *options.adaptation;
 
   TourPack pack;
   if (!options.pack.empty()) {

@@ -41,6 +41,8 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("--size", size, "Picture size in pixels")->capture_default_str();
   app.add_option("--people", o->people, "How many people (default: the scenario's, else the pack's)")->check(CLI::Range(0, 1000000));
   app.add_option("--seed", o->seed, "Seed of the crowd (default: likewise)");
+  app.add_option("--adaptation", o->adaptation, "How the crowd keeps out of the visitor's way: off, paper or full (default: likewise)")
+      ->check(CLI::IsMember({"off", "paper", "full"}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

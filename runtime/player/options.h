@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace flaneur {
 
@@ -12,6 +13,7 @@ struct PlayerOptions {
   std::optional<float> seconds;
   std::optional<int> people;
   std::optional<uint64_t> seed;
+  std::optional<std::string> adaptation;
   int width_px = 1280, height_px = 720;
 };
 

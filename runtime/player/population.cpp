@@ -42,7 +42,24 @@ std::vector<size_t> PlacesWhere(const Simulation& s, bool (*test)(const PackPlac
   return found;
 }
 
-// Places nobody can get to are dropped with a warning; a town without any gets some made up.
+bool IsLoiter(const PackPlace& place) { return place.kind == "loiter"; }
+bool IsGoal(const PackPlace& place) { return place.kind == "goal"; }
+bool IsDestination(const PackPlace& place) { return place.kind != "loiter" && place.kind != "spawn"; }
+bool IsAny(const PackPlace&) { return true; }
+
+// The walkable cells where people may live.
+std::vector<int> HomeCells(const Simulation& s) {
+  const int town = LargestComponent(s.walkable);
+  std::vector<int> cells;
+  for (size_t c = 0; c < s.walkable.component.size(); ++c) {
+    const int cell = static_cast<int>(c);
+    if (s.walkable.component[c] != town) continue;
+    if (!s.crowd_area || Contains(*s.crowd_area, CellCenter(s.walkable, cell))) cells.push_back(cell);
+  }
+  return cells;
+}
+
+// Places nobody can get to are dropped with a warning; a town without any gets some made up, and so does a crowd's own area.
 void PreparePlaces(Simulation* s) {
   const int town = LargestComponent(s->walkable);
   std::vector<PackPlace> kept;
@@ -52,15 +69,13 @@ void PreparePlaces(Simulation* s) {
       s->warnings.push_back("place '" + place.name + "' cannot be reached; it is not used");
       continue;
     }
+    if (s->crowd_area && !Contains(*s->crowd_area, place.position_m)) continue;
     place.position_m = CellCenter(s->walkable, cell);
     kept.push_back(place);
   }
   s->places = std::move(kept);
-  if (!s->places.empty()) return;
-  std::vector<int> cells;
-  for (size_t c = 0; c < s->walkable.component.size(); ++c) {
-    if (s->walkable.component[c] == town) cells.push_back(static_cast<int>(c));
-  }
+  if (s->crowd_area ? !PlacesWhere(*s, IsGoal).empty() : !s->places.empty()) return;
+  const std::vector<int> cells = HomeCells(*s);
   for (int k = 0; k < kMadeUpGoals && !cells.empty(); ++k) {
     const int cell = cells[static_cast<size_t>(s->random.Below(static_cast<int>(cells.size())))];
     s->places.push_back({"goal_" + std::to_string(k + 1), "goal", CellCenter(s->walkable, cell), 1});
@@ -93,9 +108,8 @@ Person NewPerson(Simulation* s) {
 
 int PickDestination(Simulation* s, Vec2 from, bool may_loiter) {
   const bool loiter = may_loiter && s->random.Uniform() < s->crowd_settings.loiter_share * 2;
-  auto choices = PlacesWhere(*s, loiter ? [](const PackPlace& p) { return p.kind == "loiter"; }
-                                        : [](const PackPlace& p) { return p.kind != "loiter" && p.kind != "spawn"; });
-  if (choices.empty()) choices = PlacesWhere(*s, [](const PackPlace&) { return true; });
+  auto choices = PlacesWhere(*s, loiter ? IsLoiter : s->crowd_area ? IsGoal : IsDestination);
+  if (choices.empty()) choices = PlacesWhere(*s, IsAny);
   for (int attempt = 0; attempt < 8; ++attempt) {
     const PackPlace& place = s->places[choices[static_cast<size_t>(s->random.Below(static_cast<int>(choices.size())))]];
     if (Length(place.position_m - from) < 8 && attempt < 7) continue;  // somewhere worth walking to
@@ -234,11 +248,7 @@ void PlaceCrowd(Simulation* s) {
   s->target_people = static_cast<int>(s->crowd.size()) + s->crowd_settings.people;
   if (s->crowd_settings.people == 0) return;
   PreparePlaces(s);
-  const int town = LargestComponent(s->walkable);
-  std::vector<int> cells;
-  for (size_t c = 0; c < s->walkable.component.size(); ++c) {
-    if (s->walkable.component[c] == town) cells.push_back(static_cast<int>(c));
-  }
+  std::vector<int> cells = HomeCells(*s);
   for (size_t k = cells.size(); k > 1; --k) {
     std::swap(cells[k - 1], cells[static_cast<size_t>(s->random.Below(static_cast<int>(k)))]);
   }

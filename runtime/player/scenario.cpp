@@ -208,6 +208,15 @@ void ReadAll(Table root, Scenario* s) {
       throw Refused{&t.table(), "ground must have min_m below max_m, at least 1 m and at most 4 square kilometres"};
     }
   });
+  root.Sub("crowd_area", [&](Table t) {
+    Area area;
+    const bool whole = t.Point("min_m", &area.min_m) & t.Point("max_m", &area.max_m);
+    t.Finish();
+    if (!whole || !(area.max_m.x > area.min_m.x && area.max_m.y > area.min_m.y)) {
+      throw Refused{&t.table(), "crowd_area needs min_m and max_m, min_m below max_m"};
+    }
+    s->crowd_area = area;
+  });
   root.Each("obstacle", [&](Table t) { ReadObstacle(t, s); });
   root.Finish();
 }

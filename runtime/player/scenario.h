@@ -26,6 +26,12 @@ struct ScenarioPerson {
   float speed_mps = 0, top_speed_mps = 0, radius_m = 0;  // 0: the pack's
 };
 
+struct Area { Vec2 min_m, max_m; };
+
+inline bool Contains(const Area& area, Vec2 p) {
+  return p.x >= area.min_m.x && p.y >= area.min_m.y && p.x <= area.max_m.x && p.y <= area.max_m.y;
+}
+
 struct Scenario {
   std::string name;
   std::optional<int> people;
@@ -40,6 +46,7 @@ struct Scenario {
   std::optional<float> fov_deg, r_high_m, eye_height_m, pitch_deg;
   std::vector<CameraLeg> legs;
   std::vector<ScenarioPerson> persons;
+  std::optional<Area> crowd_area;  // in which the `people` start and walk about, without leaving; else they live all over town
   bool has_ground = false;
   Vec2 ground_min_m, ground_max_m;
   std::vector<PackObstacle> obstacles;

@@ -92,6 +92,7 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   s->camera.pitch_rad = scenario.pitch_deg.value_or(0) * kPi / 180;
   s->camera.present = scenario.has_camera || (has_pack && !scenario.has_ground);
   s->legs = scenario.legs;
+  s->crowd_area = scenario.crowd_area;
 }
 
 // The direction in which one sees farthest at walking height.

@@ -1,5 +1,6 @@
 // The tour as it lives: crowd, camera and control, one fixed step at a time. Knows nothing of drawing.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ struct Simulation {
   std::vector<PackPlace> places;
   std::vector<TourStop> path;      // guided tour
   std::vector<CameraLeg> legs;     // of the scenario; empty: the guided tour
+  std::optional<Area> crowd_area;  // of the scenario
   int target_people = 0;           // kept up by people who appear out of sight
 
   Crowd crowd;

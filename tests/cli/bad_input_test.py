@@ -248,6 +248,7 @@ class Playing(ProgramTest):
         self.assert_fails(self.play("--screenshot", self.folder / "a.png"), "--no-draw")
         self.assert_fails(run("flaneur-player", self.pack, "--screenshot", self.folder / "a.png"), "--headless")
         self.assert_fails(self.play("--seconds", "soon"), "--seconds")
+        self.assert_fails(self.play("--adaptation", "half"), "--adaptation", "off", "paper", "full")
 
     def test_scenarios(self):
         path = self.folder / "scenario.toml"

@@ -74,6 +74,7 @@ TEST(Scenario, MistakesAreNamedWithTheirLine) {
   EXPECT_NE(Parse("peple = 5\n", &s).message.find(":1: unknown key 'peple'; did you mean 'people'?"), std::string::npos);
   EXPECT_NE(Parse("\nadaptation = \"ful\"\n", &s).message.find(":2: adaptation must be one of"), std::string::npos);
   EXPECT_NE(Parse("[[camera.leg]]\nspeed_mps = 1\n", &s).message.find("exactly one of"), std::string::npos);
+  EXPECT_NE(Parse("[crowd_area]\nmin_m = [4, 4]\nmax_m = [0, 9]\n", &s).message.find(":1: crowd_area needs"), std::string::npos);
   EXPECT_NE(Parse("seconds = -1\n", &s).message.find("seconds must be a number"), std::string::npos);
 }
 
@@ -100,6 +101,19 @@ TEST(Simulation, WithoutACameraEverybodyIsVisibleAndIdsAreNeverReused) {
     for (ViewClass view : simulation.crowd.view) ASSERT_EQ(view, ViewClass::kVisible);
   }
   for (int id : simulation.crowd.id) EXPECT_NE(id, 0) << "the first person has arrived and left";
+}
+
+TEST(Simulation, ACrowdWithAnAreaOfItsOwnLivesThere) {
+  Scenario scenario;
+  ASSERT_EQ(Parse("people = 30\nseed = 4\n" + std::string(kGround) + "[crowd_area]\nmin_m = [-12, -6]\nmax_m = [4, 9]\n", &scenario).message, "");
+  Simulation s;
+  ASSERT_FALSE(StartSimulation(nullptr, scenario, &s));
+  const Area roomy{{-13, -7}, {5, 10}};  // who walks round others may step out for a moment
+  for (int step = 0; step < 900; ++step) {
+    StepSimulation({}, 0, &s);
+    ASSERT_EQ(s.crowd.size(), 30u);
+    for (const Vec2 p : s.crowd.position) ASSERT_TRUE(Contains(roomy, p)) << step << ": " << p.x << " " << p.y;
+  }
 }
 
 TEST(Simulation, TheSameSeedGivesTheSameTown) {
