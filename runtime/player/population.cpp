@@ -188,6 +188,14 @@ void Birth(Simulation* s) {
   }
 }
 
+// Marks the cell of somebody placed exactly, and those around it, as they need not stand in its middle.
+void TakeAround(const Walkable& w, Vec2 p, std::vector<char>* taken) {
+  for (int k = 0; k < 9; ++k) {
+    const int cell = CellAt(w, p + Vec2{static_cast<float>(k % 3 - 1), static_cast<float>(k / 3 - 1)} * w.cell_m);
+    if (cell >= 0) (*taken)[static_cast<size_t>(cell)] = 1;
+  }
+}
+
 }  // namespace
 
 int BestFreeCell(const Walkable& w) {
@@ -254,6 +262,7 @@ void PlaceCrowd(Simulation* s) {
   }
   // Cells of the navigation grid are apart by half a metre: marking those taken keeps starting linear in people.
   std::vector<char> taken(s->walkable.cost.size(), 0);
+  for (const Vec2 p : s->crowd.position) TakeAround(s->walkable, p, &taken);
   size_t next = 0;
   for (int k = 0; k < s->crowd_settings.people; ++k) {
     Person p = NewPerson(s);

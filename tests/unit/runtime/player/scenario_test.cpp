@@ -116,6 +116,23 @@ TEST(Simulation, ACrowdWithAnAreaOfItsOwnLivesThere) {
   }
 }
 
+TEST(Simulation, TheCrowdStartsClearOfPeoplePlacedExactly) {
+  std::string text = "people = 200\nseed = 4\n" + std::string(kGround);
+  for (int k = 0; k < 20; ++k) {
+    text += "[[person]]\nposition_m = [" + std::to_string(-9.9 + k) + ", " + std::to_string(0.37 * k) + "]\nstay = true\n";
+  }
+  Scenario scenario;
+  ASSERT_EQ(Parse(text, &scenario).message, "");
+  Simulation s;
+  ASSERT_FALSE(StartSimulation(nullptr, scenario, &s));
+  ASSERT_EQ(s.crowd.size(), 220u);
+  for (size_t i = 0; i < s.crowd.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      ASSERT_GE(Length(s.crowd.position[i] - s.crowd.position[j]), s.crowd.radius_m[i] + s.crowd.radius_m[j]) << i << " " << j;
+    }
+  }
+}
+
 TEST(Simulation, TheSameSeedGivesTheSameTown) {
   Scenario s;
   ASSERT_EQ(Parse("people = 60\nseed = 4\n" + std::string(kGround), &s).message, "");
