@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "runtime/control/foresight.h"
 #include "runtime/control/level_control.h"
 
 namespace flaneur {
@@ -12,14 +13,14 @@ struct InfluenceSettings {
   Adaptation adaptation = Adaptation::kFull;
   int high_limit = 12;
   float r_high_m = 10, r_unimportant_m = 40;
+  float r_personal_m = 0.6f;
+  float step_s = 1.0f / 30;
 };
 
-// Marks who avoids the camera and how fast they walk, and adds the camera obstacles: two overlapping circles over the visible
-// high-resolution area, the second over the edge towards which the camera turns. Only low-resolution visible people nearer than
-// r_unimportant are affected, and only while the number of high ones is at its limit.
-// kFull foresees instead: whoever would walk into the high-resolution area within the next seconds slows a little and turns
-// aside early.
+// kPaper marks who avoids the camera and adds the camera obstacles: only low-resolution visible people nearer than r_unimportant
+// avoid them, and only while the number of high ones is at its limit. kFull foresees instead, see foresight.h.
 void InfluenceCrowd(const ViewCamera& camera, Vec2 camera_velocity, float yaw_rate_radps, const LevelState& levels,
-                    const InfluenceSettings& settings, Crowd* crowd, std::vector<MovingObstacle>* obstacles);
+                    const Walkable& walkable, const InfluenceSettings& settings, Crowd* crowd,
+                    std::vector<MovingObstacle>* obstacles, ForesightState* foresight);
 
 }  // namespace flaneur

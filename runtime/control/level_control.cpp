@@ -6,9 +6,11 @@
 namespace flaneur {
 namespace {
 
-constexpr float kBoundarySpeed_mps = 2.0f;   // r_high moves no faster than people walk
-constexpr float kHysteresis_m = 0.8f;        // a mesh stays one until this far beyond r_high
+constexpr float kFall_mps = 2.0f;            // r_high moves no faster than people walk,
+constexpr float kRise_mps = 0.5f;            // and grows slowly: whoever it passes over switches in view
+constexpr float kHysteresis_m = 2.0f;        // a mesh stays one until this far beyond r_high
 constexpr float kStretch = 1.5f;             // in a sparse crowd r_high grows to this times its nominal value
+constexpr float kHeadroom = 2.0f;            // of a newly chosen level: serves up to so many times the pixels
 constexpr float kBudgetGain = 0.02f;         // a step, of the budget's relative error (method 2)
 constexpr float kFastCamera_mps = 2.0f;      // above it fidelity may fall (paper, section 3.2)
 
@@ -29,20 +31,64 @@ void FollowFrameTime(float frame_ms, float camera_speed_mps, const LevelSettings
                                        static_cast<float>(s.budget_triangles));
 }
 
-// People's indices sorted by id, so that last step's level can be found where indices have moved.
-int LastLevel(const LevelState& state, size_t index, int id) {
-  if (index < state.id.size() && state.id[index] == id) return state.last_level[index];
-  for (size_t i = 0; i < state.id.size(); ++i) {
-    if (state.id[i] == id) return state.last_level[i];
-  }
-  return kNotDrawn;
-}
-
-int WantedLevel(const AvatarCosts& avatar, float px) {
+// The coarsest level that serves at `px`.
+int CoarsestAt(const AvatarCosts& avatar, float px) {
   for (size_t k = 0; k + 1 < avatar.levels.size(); ++k) {
     if (px >= avatar.levels[k].switch_px) return static_cast<int>(k);
   }
   return static_cast<int>(avatar.levels.size()) - 1;
+}
+
+// Who comes near starts with the level that serves until half the distance, and keeps it until it is far too fine: every switch
+// is one that could be seen.
+int WantedLevel(const AvatarCosts& avatar, float px, int last) {
+  const int coarsest = CoarsestAt(avatar, px);
+  const int finest = CoarsestAt(avatar, px * kHeadroom);
+  return last < 0 || last > coarsest ? finest : std::clamp(last, finest, coarsest);
+}
+
+// Who is in view and near enough to be drawn, and by how far each is to be preferred: who was a mesh keeps being one until somebody
+// is nearer by kHysteresis_m.
+void ListVisible(const Crowd& crowd, const ViewCamera& camera, float r_far_m, LevelState* state) {
+  state->visible.clear();
+  state->last_level.resize(static_cast<size_t>(crowd.next_id), kNotDrawn);
+  for (size_t i = 0; i < crowd.size(); ++i) {
+    if (crowd.view[i] != ViewClass::kVisible) continue;
+    const Vec2 off = crowd.position[i] - camera.position;
+    const float distance2 = Dot(off, off);
+    if (distance2 > r_far_m * r_far_m) continue;
+    const float distance_m = std::sqrt(distance2);
+    const bool was_mesh = state->last_level[static_cast<size_t>(crowd.id[i])] >= 0;
+    state->visible.push_back({distance_m, distance_m - (was_mesh ? kHysteresis_m : 0), static_cast<int>(i), crowd.id[i]});
+  }
+}
+
+// r_high moves towards the distance that leaves `limit` people inside: soon where there are more, slowly where there are fewer.
+void MoveBoundary(const LevelSettings& s, int limit, float step_s, LevelState* state) {
+  if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
+  float wanted_m = s.r_high_m * kStretch;
+  state->nearest.clear();
+  for (const LevelState::Visible& v : state->visible) {
+    if (v.distance_m < wanted_m) state->nearest.push_back(v.distance_m);
+  }
+  if (static_cast<size_t>(limit) < state->nearest.size()) {
+    const auto next = state->nearest.begin() + limit;
+    std::nth_element(state->nearest.begin(), next, state->nearest.end());
+    wanted_m = *next;
+  }
+  state->r_high_m += std::clamp(wanted_m - state->r_high_m, -kFall_mps * step_s, kRise_mps * step_s);
+}
+
+bool Before(const LevelState::Visible& a, const LevelState::Visible& b) {
+  return a.key_m != b.key_m ? a.key_m < b.key_m : a.id < b.id;
+}
+
+// A level for somebody within r_high that still fits the budget, else kImpostor.
+int AffordableLevel(const AvatarCosts& avatar, int wanted, int64_t budget, int64_t spent) {
+  for (int k = wanted; k < static_cast<int>(avatar.levels.size()); ++k) {
+    if (spent + avatar.levels[static_cast<size_t>(k)].triangles - kImpostorTriangles <= budget) return k;
+  }
+  return kImpostor;
 }
 
 }  // namespace
@@ -50,61 +96,43 @@ int WantedLevel(const AvatarCosts& avatar, float px) {
 void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera,
                   float camera_speed_mps, float frame_ms, const LevelSettings& s, float step_s, LevelState* state) {
   FollowFrameTime(frame_ms, camera_speed_mps, s, state);
-  if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
   const int limit = s.by_frame_time ? static_cast<int>(crowd.size()) : s.high_limit;
+  ListVisible(crowd, camera, s.r_far_m, state);
+  MoveBoundary(s, limit, step_s, state);
 
-  state->last_level = state->level;
+  // Only those who may become meshes need to stand in order; and all, where not even impostors fit.
+  const int64_t budget = static_cast<int64_t>(state->budget_triangles), drawable = budget / kImpostorTriangles;
+  auto& visible = state->visible;
+  const float r_high_m = state->r_high_m;
+  auto far = std::partition(visible.begin(), visible.end(), [&](const auto& v) { return v.key_m < r_high_m; });
+  if (static_cast<int64_t>(visible.size()) > drawable) far = visible.end();
+  std::sort(visible.begin(), far, Before);
+
   state->level.assign(crowd.size(), kNotDrawn);
-  state->order.clear();
-  const auto distance = [&](int i) { return Length(crowd.position[static_cast<size_t>(i)] - camera.position); };
-  for (size_t i = 0; i < crowd.size(); ++i) {
-    if (crowd.view[i] == ViewClass::kVisible && distance(static_cast<int>(i)) <= s.r_far_m) state->order.push_back(static_cast<int>(i));
-  }
-  std::sort(state->order.begin(), state->order.end(), [&](int a, int b) {
-    const float da = distance(a), db = distance(b);
-    return da != db ? da < db : crowd.id[static_cast<size_t>(a)] < crowd.id[static_cast<size_t>(b)];
-  });
-
-  // r_high moves towards the distance that leaves `limit` people inside, smoothly.
-  float wanted_m = s.r_high_m * kStretch;
-  if (static_cast<size_t>(limit) < state->order.size()) {
-    wanted_m = std::min(wanted_m, distance(state->order[static_cast<size_t>(limit)]));
-  }
-  const float most_m = kBoundarySpeed_mps * step_s;
-  state->r_high_m += std::clamp(wanted_m - state->r_high_m, -most_m, most_m);
-
-  const int64_t budget = static_cast<int64_t>(state->budget_triangles);
-  const int64_t drawable = std::min<int64_t>(static_cast<int64_t>(state->order.size()), budget / kImpostorTriangles);
-  state->triangles = drawable * kImpostorTriangles;
+  state->triangles = std::min<int64_t>(static_cast<int64_t>(visible.size()), drawable) * kImpostorTriangles;
   state->high = state->low = state->shortfalls = state->switches_in_view = 0;
   int within_nominal = 0;
-  for (size_t rank = 0; rank < state->order.size(); ++rank) {
-    const size_t i = static_cast<size_t>(state->order[rank]);
-    const float distance_m = distance(static_cast<int>(i));
+  for (size_t rank = 0; rank < visible.size(); ++rank) {
+    const auto& [distance_m, key_m, person, id] = visible[rank];
+    const size_t i = static_cast<size_t>(person);
     if (distance_m < s.r_high_m) ++within_nominal;
     if (static_cast<int64_t>(rank) >= drawable) continue;
     const AvatarCosts& avatar = avatars[static_cast<size_t>(crowd.avatar[i])];
     const float px = PixelsHigh(avatar.height_m, distance_m, camera, s.screen_width_px);
-    const int last = LastLevel(*state, i, crowd.id[i]);
-    const float reach_m = state->r_high_m + (last >= 0 ? kHysteresis_m : 0);
+    const int last = state->last_level[static_cast<size_t>(id)];
+    const bool worth_it = last >= 0 || distance_m < s.r_high_m || px > avatar.impostor_px;
     int level = kImpostor;
-    if (distance_m < reach_m && state->high < limit) {
-      for (int k = WantedLevel(avatar, last >= 0 ? px * 1.1f : px); k < static_cast<int>(avatar.levels.size()); ++k) {
-        const int more = avatar.levels[static_cast<size_t>(k)].triangles - kImpostorTriangles;
-        if (state->triangles + more > budget) continue;
-        level = k;
-        state->triangles += more;
-        break;
-      }
+    if (key_m < r_high_m && state->high < limit && worth_it) {
+      level = AffordableLevel(avatar, WantedLevel(avatar, px, last), budget, state->triangles);
     }
+    if (level >= 0) state->triangles += avatar.levels[static_cast<size_t>(level)].triangles - kImpostorTriangles;
     state->level[i] = level;
-    if (level >= 0) ++state->high;
-    else ++state->low;
+    ++(level >= 0 ? state->high : state->low);
     if (level == kImpostor && px > avatar.impostor_px) ++state->shortfalls;
     if (last != kNotDrawn && last != level) ++state->switches_in_view;
   }
+  for (size_t i = 0; i < crowd.size(); ++i) state->last_level[static_cast<size_t>(crowd.id[i])] = state->level[i];
   state->exceeded = within_nominal > s.high_limit;
-  state->id = crowd.id;
 }
 
 }  // namespace flaneur

@@ -30,12 +30,14 @@ struct LevelState {
   float r_high_m = 0;              // in force; 0 before the first step
   float budget_triangles = 0;      // in force
   std::vector<int> level;          // by person index: a mesh level, kImpostor or kNotDrawn
-  std::vector<int> id;             // whose, in the last step
   int high = 0, low = 0, shortfalls = 0, switches_in_view = 0;
   int64_t triangles = 0;
   bool exceeded = false;
 
-  std::vector<int> order, last_level;  // scratch
+  struct Visible { float distance_m, key_m; int person, id; };
+  std::vector<Visible> visible;    // scratch
+  std::vector<float> nearest;      // scratch
+  std::vector<int> last_level;     // by id: level in the last step
 };
 
 // Chooses everybody's level for this frame. The budget holds whatever happens: who does not fit becomes an impostor, and where

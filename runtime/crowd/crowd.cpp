@@ -47,6 +47,12 @@ int CoastSteps(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
 
 // People out of sight only follow their way.
 void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, size_t i, Crowd* c) {
+  if (c->detour_s[i] > 0) {
+    c->coast[i] = 0;
+    c->mind[i].push = {};
+    c->wanted[i] = c->detour[i];
+    return;
+  }
   if (c->coast[i] > 0) {
     --c->coast[i];
     return;
@@ -61,7 +67,7 @@ void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
   const int64_t phase = (c->step + static_cast<int64_t>(i)) % (2 * kSightEvery_steps);
   RenewWay(w, i, lost || phase < kMostCoast_steps, c);
   const int cell = CellAt(w, c->position[i]);
-  const float alone_mps = std::min(c->preferred_mps[i] * c->pace[i], c->top_mps[i]);
+  const float alone_mps = std::min(c->preferred_mps[i], c->top_mps[i]);
   c->mind[i].push = {};
   c->wanted[i] = c->way[i] * SpeedOnSlope(w, cell, alone_mps);
   if (!turn) return;
@@ -79,9 +85,10 @@ void RenewWays(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
     c->coast[i] = 0;
     if (IsTurn(*c, i)) {
       Mind& mind = c->mind[i];
-      mind.alone_mps = c->preferred_mps[i] * c->pace[i];
+      const bool on_detour = c->detour_s[i] > 0;
+      mind.alone_mps = on_detour ? Length(c->detour[i]) : c->preferred_mps[i];
       mind.ahead = DirectionOf(c->heading_rad[i]);
-      mind.stands = c->activity[i] != Activity::kWalking;
+      mind.stands = c->activity[i] != Activity::kWalking && !on_detour;
       mind.avoids_camera = c->avoids_camera[i] != 0;
     }
     if (c->field[i] < 0) continue;
@@ -155,6 +162,7 @@ void Arrive(float step_s, Crowd* c) {
     c->position[i] = c->moved[i];
     c->walked_m[i] += walked_m;
     if (c->wait_s[i] > 0) c->wait_s[i] -= step_s;
+    if (c->detour_s[i] > 0) c->detour_s[i] -= step_s;
     c->arrived[i] = 0;
     if (c->coast[i] > 0) continue;  // velocity and heading stay
     c->velocity[i] = step * per_step;
@@ -186,7 +194,8 @@ int AddPerson(const Person& p, Crowd* c) {
   c->view.push_back(ViewClass::kOutside);
   c->avoids_camera.push_back(0);
   c->arrived.push_back(0);
-  c->pace.push_back(1);
+  c->detour.push_back({});
+  c->detour_s.push_back(0);
   c->walked_m.push_back(static_cast<float>(c->next_id % 16) * 0.1f);  // not all on the same foot
   c->mind.push_back({});
   c->mind.back().ahead = DirectionOf(p.heading_rad);
@@ -204,7 +213,8 @@ void RemovePerson(size_t i, Crowd* c) {
   };
   drop(&c->id), drop(&c->avatar), drop(&c->position), drop(&c->velocity), drop(&c->heading_rad), drop(&c->radius_m);
   drop(&c->preferred_mps), drop(&c->top_mps), drop(&c->field), drop(&c->way), drop(&c->sees_goal), drop(&c->activity);
-  drop(&c->wait_s), drop(&c->facing), drop(&c->view), drop(&c->avoids_camera), drop(&c->arrived), drop(&c->pace);
+  drop(&c->wait_s), drop(&c->facing), drop(&c->view), drop(&c->avoids_camera), drop(&c->arrived);
+  drop(&c->detour), drop(&c->detour_s);
   drop(&c->walked_m), drop(&c->mind), drop(&c->coast), drop(&c->cares), drop(&c->wanted), drop(&c->moved);
 }
 

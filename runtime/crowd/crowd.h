@@ -47,7 +47,8 @@ struct Crowd {
   std::vector<ViewClass> view;
   std::vector<uint8_t> avoids_camera;   // set by the control
   std::vector<uint8_t> arrived;         // reached the goal in the last step
-  std::vector<float> pace;              // factor on the preferred speed, set by the control; 1: as they like
+  std::vector<Vec2> detour;             // velocity the person prefers for the next detour_s, whatever the goal; set by the control
+  std::vector<float> detour_s;          // 0: none
   std::vector<float> walked_m;          // since appearing: drives the walk cycle
   std::vector<Mind> mind;
   std::vector<uint8_t> coast;           // steps left to walk straight on, out of sight and far from everything

@@ -188,10 +188,12 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, Crowd*
 }
 
 void ChooseVelocity(float step_s, size_t i, Crowd* c) {
-  const bool walks = c->activity[i] == Activity::kWalking && c->field[i] >= 0;
-  const Vec2 preferred = walks ? c->way[i] * c->mind[i].asked_mps : Vec2{};
+  const Mind& mind = c->mind[i];
+  Vec2 preferred;
+  if (c->detour_s[i] > 0) preferred = c->detour[i] * (mind.alone_mps > 0 ? std::min(1.0f, mind.asked_mps / mind.alone_mps) : 1.0f);
+  else if (c->activity[i] == Activity::kWalking && c->field[i] >= 0) preferred = c->way[i] * mind.asked_mps;
   const Vec2 goal_pull = (preferred - c->velocity[i]) * (1 / kRelaxation_s);
-  const Vec2 acceleration = ClampLength(goal_pull + c->mind[i].push, kMaxAcceleration_mps2);
+  const Vec2 acceleration = ClampLength(goal_pull + mind.push, kMaxAcceleration_mps2);
   c->wanted[i] = ClampLength(c->velocity[i] + acceleration * step_s, c->top_mps[i]);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kTourYawRate_radps = 0.9f;    // a calm turn of the head
 constexpr float kLookAhead_m = 3.0f;          // people within this ahead slow the camera
-constexpr float kDenseAhead_pm2 = 2.0f;       // at this density ahead the speed is least
+constexpr float kDenseAhead_pm2 = 5.4f;       // nobody walks at this density (Weidmann 1993)
 constexpr float kLeastFactor = 0.2f;
 constexpr float kReached_m = 0.3f;
 constexpr float kGiveUp_s = 6;                // a leg whose way is barred ends

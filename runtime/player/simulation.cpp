@@ -87,6 +87,8 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   }
   s->influence.high_limit = s->level_settings.high_limit;
   s->influence.r_high_m = s->level_settings.r_high_m;
+  s->influence.r_personal_m = s->r_personal_m;
+  s->influence.step_s = s->step_s;
   if (scenario.fov_deg) s->camera.view.fov_rad = *scenario.fov_deg * kPi / 180;
   s->camera.eye_height_m = scenario.eye_height_m.value_or(kEyeHeight_m);
   s->camera.pitch_rad = scenario.pitch_deg.value_or(0) * kPi / 180;
@@ -175,9 +177,9 @@ void ControlCrowd(float frame_ms, Simulation* s) {
   ChooseLevels(s->crowd, s->avatar_costs, s->camera.view, speed, frame_ms, s->level_settings, s->step_s, &s->levels);
   s->moving.clear();
   if (s->camera.present) {
-    s->moving.push_back({s->camera.view.position, s->r_personal_m, true});
-    InfluenceCrowd(s->camera.view, s->camera.velocity, s->camera.yaw_rate_radps, s->levels, s->influence, &s->crowd,
-                   &s->moving);
+    s->moving.push_back({s->camera.view.position, s->r_personal_m, true, s->camera.velocity});
+    InfluenceCrowd(s->camera.view, s->camera.velocity, s->camera.yaw_rate_radps, s->levels, s->walkable, s->influence,
+                   &s->crowd, &s->moving, &s->foresight);
   }
   s->control_ms = Now_ms() - start_ms;
 }

@@ -59,6 +59,7 @@ struct Simulation {
   CameraState camera;
   LevelState levels;
   std::vector<MovingObstacle> moving;
+  ForesightState foresight;
   Random random;
   int64_t frame = 0;
   size_t leg = 0;                  // of legs or path

@@ -1,0 +1,45 @@
+// Beyond the paper's camera obstacles: people see early where the visitor will look and choose another way, so that the number of
+// high-resolution people stays at its limit without anybody being pushed (paper, section 7).
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "runtime/control/view_volumes.h"
+#include "runtime/crowd/crowd.h"
+
+namespace flaneur {
+
+struct ForesightSettings {
+  int high_limit = 12;
+  float r_high_m = 10;        // nominal
+  float r_personal_m = 0.6f;
+  float step_s = 1.0f / 30;
+};
+
+// Scratch, kept so that a steady step allocates nothing, and what is remembered of the camera.
+struct ForesightState {
+  static constexpr int kMoments = 8;    // looked at ahead
+  static constexpr int kSectors = 24;   // around the camera
+  static constexpr int kTurns = 3;      // of the moments, in which the visitor may look anywhere
+
+  int64_t step = 0;
+  Vec2 velocity;                        // of the camera, smoothed
+  float yaw_rate_radps = 0;             // smoothed
+  std::array<ViewCamera, kMoments> pose{};
+  std::array<int, kMoments> seen{};     // people within the view and r_high then
+  std::array<std::array<int, kSectors>, kTurns> around{};  // people within r_high whose direction lies in the sector
+  std::array<std::array<bool, kSectors>, kTurns> full{};   // a view over the sector would hold too many
+  std::vector<int> near, candidates;
+  struct Choice { float gain = 0; int person = 0; Vec2 velocity; };
+  std::vector<Choice> choices;
+};
+
+// Every few steps: forecasts, with everybody going on as they do, how many people will be within r_high in view, and, for those
+// out of view, how many there would be wherever the visitor turned. Where that comes near the limit, those who can keep out of it
+// with the least change of speed and direction do so for a second: Crowd::detour. People in view change theirs little, people out
+// of view as much as walking allows.
+void Foresee(const ViewCamera& camera, Vec2 camera_velocity, float yaw_rate_radps, const Walkable& walkable,
+             const ForesightSettings& settings, Crowd* crowd, ForesightState* state);
+
+}  // namespace flaneur
