@@ -10,21 +10,22 @@ using State = ForesightState;
 
 constexpr int kPlanEvery_steps = 5;
 constexpr float kMoment_s = 0.5f;          // between the moments looked at
-constexpr int kTurnMoments[State::kTurns] = {1, 3, 5};
+constexpr int kTurnMoments[State::kTurns] = {0, 2, 4};
 constexpr float kReach_m = 8;              // beyond r_high: who may be inside within the foresight
 constexpr float kRim_m = 0.6f;             // the forecast is that uncertain
 constexpr float kReserve = 0.15f;          // share of the limit kept free for surprises
 constexpr float kSettles_s = 0.3f;         // over which the camera's motion is averaged
 constexpr float kTurnLasts_s = 1.0f;       // a turn of the head dies away
+constexpr float kWalksOn_s = 1.2f;         // in the new direction after a turn
 constexpr float kDetour_s = 1.2f;          // a choice holds so long
 constexpr float kAheadFree_s = 1.5f;       // and must be walkable so far
-constexpr float kStep_pace[] = {1.0f, 0.75f, 1.2f, 0.45f};
-constexpr float kStep_turn_rad[] = {0, 0.3f, -0.3f, 0.6f, -0.6f, 1.0f, -1.0f, 1.5f, -1.5f};
+constexpr float kPaces[] = {1.0f, 0.75f, 1.2f, 0.45f};
+constexpr float kTurns_rad[] = {0, 0.3f, -0.3f, 0.6f, -0.6f, 1.0f, -1.0f, 1.5f, -1.5f};
 constexpr float kMostTurnInView_rad = 1.1f;
-constexpr float kCostInView = 1.2f, kCostUnseen = 0.1f;  // moments in the way that one radian is worth
+constexpr float kCostInView = 1.6f, kCostUnseen = 0.1f;  // moments in the way that one radian is worth
 constexpr float kStepsAside_s = 3;         // people make room for the visitor so long before
 constexpr float kRoom_m = 0.15f;
-constexpr int kBlockingCounts = 3;
+constexpr int kBlockingCounts = 2;
 constexpr float kCostOfSettingOff = 1.0f;  // of somebody who stands
 
 Vec2 Direction(float yaw_rad) { return {std::cos(yaw_rad), std::sin(yaw_rad)}; }
@@ -40,27 +41,28 @@ void FollowCamera(const ViewCamera& camera, Vec2 velocity, float yaw_rate_radps,
   const float share = std::min(1.0f, step_s / kSettles_s);
   state->velocity = state->velocity + (velocity - state->velocity) * share;
   state->yaw_rate_radps += (yaw_rate_radps - state->yaw_rate_radps) * share;
+  state->sine = std::sin(camera.fov_rad / 2), state->cosine = std::cos(camera.fov_rad / 2);
   for (int m = 0; m < State::kMoments; ++m) {
     const float t = MomentTime_s(m);
-    ViewCamera& pose = state->pose[static_cast<size_t>(m)];
-    pose = camera;
-    pose.position = camera.position + state->velocity * t;
-    pose.yaw_rad = camera.yaw_rad + state->yaw_rate_radps * kTurnLasts_s * (1 - std::exp(-t / kTurnLasts_s));
+    const Vec2 position = camera.position + state->velocity * t;
+    const Vec2 axis = Direction(camera.yaw_rad + state->yaw_rate_radps * kTurnLasts_s * (1 - std::exp(-t / kTurnLasts_s)));
+    state->moment[static_cast<size_t>(m)] = {position, position - axis * (kRim_m / state->sine), axis};
   }
 }
 
-// Of one forecast position at one moment.
-struct Sight { bool in_view = false; bool in_reach = false; int sector = 0; };
-
-Sight Look(const State& state, int moment, float r_high_m, Vec2 p) {
-  const ViewCamera& pose = state.pose[static_cast<size_t>(moment)];
-  const Vec2 off = p - pose.position;
+// Whether a forecast position is in view and within r_high at that moment.
+bool InView(const State& state, int moment, float r_high_m, Vec2 p) {
+  const State::Moment& m = state.moment[static_cast<size_t>(moment)];
+  const Vec2 off = p - m.position, from_apex = p - m.apex;
   const float reach_m = r_high_m + kRim_m;
-  Sight sight;
-  sight.in_reach = Dot(off, off) < reach_m * reach_m;
-  if (!sight.in_reach) return sight;
-  sight.in_view = InWedge(p, pose.position - Direction(pose.yaw_rad) * (kRim_m / std::sin(pose.fov_rad / 2)), pose.yaw_rad, pose.fov_rad);
-  return sight;
+  return Dot(off, off) < reach_m * reach_m &&
+         Dot(from_apex, m.axis) * state.sine >= std::abs(Cross(m.axis, from_apex)) * state.cosine;
+}
+
+// Near enough to matter if the visitor turns that way, and perhaps walks on there.
+bool InTurningReach(const State& state, float r_high_m, Vec2 off) {
+  const float reach_m = r_high_m + kWalksOn_s * Length(state.velocity);
+  return Dot(off, off) < reach_m * reach_m;
 }
 
 int SectorOf(Vec2 off) {
@@ -68,25 +70,27 @@ int SectorOf(Vec2 off) {
   return static_cast<int>(turn * State::kSectors) % State::kSectors;
 }
 
-Vec2 Desired(const Crowd& c, size_t i) {
-  if (c.detour_s[i] > 0) return c.detour[i];
+Vec2 OwnWay(const Crowd& c, size_t i) {
   return c.activity[i] == Activity::kWalking && c.field[i] >= 0 ? c.way[i] * c.preferred_mps[i] : Vec2{};
 }
+
+Vec2 Desired(const Crowd& c, size_t i) { return c.detour_s[i] > 0 ? c.detour[i] : OwnWay(c, i); }
 
 // Adds `count` to all that the person would be in, walking on at this velocity.
 void Tally(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, int count, State* state) {
   for (int m = 0; m < State::kMoments; ++m) {
-    if (Look(*state, m, r_high_m, c.position[i] + velocity * MomentTime_s(m)).in_view) state->seen[static_cast<size_t>(m)] += count;
+    if (InView(*state, m, r_high_m, c.position[i] + velocity * MomentTime_s(m))) state->seen[static_cast<size_t>(m)] += count;
   }
   for (int k = 0; k < State::kTurns; ++k) {
-    const Vec2 off = c.position[i] + velocity * MomentTime_s(kTurnMoments[k]) - state->pose[static_cast<size_t>(kTurnMoments[k])].position;
-    if (Dot(off, off) > r_high_m * r_high_m) continue;
+    const Vec2 off = c.position[i] + velocity * MomentTime_s(kTurnMoments[k]) - state->moment[static_cast<size_t>(kTurnMoments[k])].position;
+    if (!InTurningReach(*state, r_high_m, off)) continue;
     state->around[static_cast<size_t>(k)][static_cast<size_t>(SectorOf(off))] += count;
   }
 }
 
 void MarkFullSectors(float fov_rad, int capacity, State* state) {
-  const int width = std::clamp(static_cast<int>(std::ceil(fov_rad / (2 * kPi) * State::kSectors)), 1, State::kSectors);
+  // One sector more than the view is wide: it may lie across them anyhow.
+  const int width = std::clamp(static_cast<int>(std::ceil(fov_rad / (2 * kPi) * State::kSectors)) + 1, 1, State::kSectors);
   for (int k = 0; k < State::kTurns; ++k) {
     const auto& around = state->around[static_cast<size_t>(k)];
     auto& full = state->full[static_cast<size_t>(k)];
@@ -102,7 +106,7 @@ void MarkFullSectors(float fov_rad, int capacity, State* state) {
 
 // Whether the visitor would have to stop for the person.
 bool Blocks(const Crowd& c, size_t i, Vec2 velocity, float r_personal_m, const State& state) {
-  const Vec2 apart = c.position[i] - state.pose[0].position, closing = state.velocity - velocity;
+  const Vec2 apart = c.position[i] - state.moment[0].position, closing = state.velocity - velocity;
   const float speed2 = Dot(closing, closing), ahead = Dot(apart, closing);
   if (ahead <= 0 || ahead > kStepsAside_s * speed2) return false;
   const float reach_m = r_personal_m + c.radius_m[i] + kRoom_m;
@@ -115,44 +119,52 @@ int TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const ForesightSettin
   int times = Blocks(c, i, velocity, s.r_personal_m, state) ? kBlockingCounts : 0;
   for (int m = 1; m < State::kMoments; ++m) {
     if (state.seen[static_cast<size_t>(m)] <= capacity) continue;
-    if (Look(state, m, r_high_m, c.position[i] + velocity * MomentTime_s(m)).in_view) ++times;
+    if (InView(state, m, r_high_m, c.position[i] + velocity * MomentTime_s(m))) ++times;
   }
   if (c.view[i] == ViewClass::kVisible) return times;
   for (int k = 0; k < State::kTurns; ++k) {
     const int m = kTurnMoments[k];
-    const Vec2 off = c.position[i] + velocity * MomentTime_s(m) - state.pose[static_cast<size_t>(m)].position;
-    if (Dot(off, off) < r_high_m * r_high_m && state.full[static_cast<size_t>(k)][static_cast<size_t>(SectorOf(off))]) ++times;
+    const Vec2 off = c.position[i] + velocity * MomentTime_s(m) - state.moment[static_cast<size_t>(m)].position;
+    if (InTurningReach(state, r_high_m, off) && state.full[static_cast<size_t>(k)][static_cast<size_t>(SectorOf(off))]) ++times;
   }
   return times;
 }
 
-bool Walkable_m(const Walkable& w, Vec2 from, Vec2 way) {
+bool CanWalk(const Walkable& w, Vec2 from, Vec2 way) {
   return IsFree(w, from + way * 0.5f) && IsFree(w, from + way);
 }
 
-void Consider(const Walkable& w, const Crowd& c, size_t i, const ForesightSettings& s, int capacity, State* state) {
+void Consider(const Walkable& w, const ForesightSettings& s, int capacity, size_t i, Crowd* crowd, State* state) {
+  Crowd& c = *crowd;
   const Vec2 desired = Desired(c, i);
   const int now = TimesInTheWay(c, i, desired, s, capacity, *state);
-  if (now == 0) return;
+  if (now == 0) {  // a detour that goes well ends only when the own way is free again: nobody wavers
+    const bool on_detour = c.detour_s[i] > 0;
+    if (on_detour && TimesInTheWay(c, i, OwnWay(c, i), s, capacity, *state) > 0 &&
+        CanWalk(w, c.position[i], desired * kAheadFree_s)) {
+      c.detour_s[i] = kDetour_s;
+    }
+    return;
+  }
   const bool seen = c.view[i] == ViewClass::kVisible, stands = Dot(desired, desired) < 0.01f;
   const float cost = seen ? kCostInView : kCostUnseen;
-  const Vec2 off = c.position[i] - state->pose[2].position;
+  const Vec2 off = c.position[i] - state->moment[2].position;
   const float off_m = std::max(Length(off), 1e-3f);
   const Vec2 base = stands ? off * (c.preferred_mps[i] / off_m) : desired;  // who stands walks away from where the visitor will be
   State::Choice best{0, static_cast<int>(i), {}};
-  for (const float pace : kStep_pace) {
-    for (const float turn : kStep_turn_rad) {
+  for (const float pace : kPaces) {
+    for (const float turn : kTurns_rad) {
       if (seen && std::abs(turn) > kMostTurnInView_rad) continue;
       const Vec2 velocity = Rotated(base, turn) * std::min(pace, c.top_mps[i] / std::max(c.preferred_mps[i], 0.1f));
       const float gain = static_cast<float>(now - TimesInTheWay(c, i, velocity, s, capacity, *state)) -
                          cost * (std::abs(turn) + 1.5f * std::abs(1 - pace) + (stands ? kCostOfSettingOff : 0));
-      if (gain > best.gain && Walkable_m(w, c.position[i], velocity * kAheadFree_s)) best.gain = gain, best.velocity = velocity;
+      if (gain > best.gain && CanWalk(w, c.position[i], velocity * kAheadFree_s)) best.gain = gain, best.velocity = velocity;
     }
   }
   if (best.gain > 0) state->choices.push_back(best);
 }
 
-void Choose(const ForesightSettings& s, int capacity, Crowd* c, State* state) {
+void Choose(const ForesightSettings& s, float fov_rad, int capacity, Crowd* c, State* state) {
   std::sort(state->choices.begin(), state->choices.end(), [&](const State::Choice& a, const State::Choice& b) {
     return a.gain != b.gain ? a.gain > b.gain : c->id[static_cast<size_t>(a.person)] < c->id[static_cast<size_t>(b.person)];
   });
@@ -164,7 +176,7 @@ void Choose(const ForesightSettings& s, int capacity, Crowd* c, State* state) {
     c->detour[i] = choice.velocity;
     c->detour_s[i] = kDetour_s;
     Tally(*c, i, choice.velocity, s.r_high_m, 1, state);
-    MarkFullSectors(state->pose[0].fov_rad, capacity, state);
+    MarkFullSectors(fov_rad, capacity, state);
   }
 }
 
@@ -188,9 +200,9 @@ void Foresee(const ViewCamera& camera, Vec2 camera_velocity, float yaw_rate_radp
   }
   MarkFullSectors(camera.fov_rad, capacity, state);
   for (const int i : state->near) {
-    if (c->detour_s[static_cast<size_t>(i)] <= 0.5f * kDetour_s) Consider(walkable, *c, static_cast<size_t>(i), s, capacity, state);
+    if (c->detour_s[static_cast<size_t>(i)] <= 0.5f * kDetour_s) Consider(walkable, s, capacity, static_cast<size_t>(i), c, state);
   }
-  Choose(s, capacity, c, state);
+  Choose(s, camera.fov_rad, capacity, c, state);
 }
 
 }  // namespace flaneur

@@ -19,18 +19,20 @@ struct ForesightSettings {
 
 // Scratch, kept so that a steady step allocates nothing, and what is remembered of the camera.
 struct ForesightState {
-  static constexpr int kMoments = 8;    // looked at ahead
+  static constexpr int kMoments = 11;   // looked at ahead, half a second apart
   static constexpr int kSectors = 24;   // around the camera
   static constexpr int kTurns = 3;      // of the moments, in which the visitor may look anywhere
 
   int64_t step = 0;
   Vec2 velocity;                        // of the camera, smoothed
   float yaw_rate_radps = 0;             // smoothed
-  std::array<ViewCamera, kMoments> pose{};
+  struct Moment { Vec2 position, apex, axis; };  // of the camera, and of the view with its rim
+  std::array<Moment, kMoments> moment{};
+  float sine = 0, cosine = 1;           // of half the field of view
   std::array<int, kMoments> seen{};     // people within the view and r_high then
   std::array<std::array<int, kSectors>, kTurns> around{};  // people within r_high whose direction lies in the sector
   std::array<std::array<bool, kSectors>, kTurns> full{};   // a view over the sector would hold too many
-  std::vector<int> near, candidates;
+  std::vector<int> near;
   struct Choice { float gain = 0; int person = 0; Vec2 velocity; };
   std::vector<Choice> choices;
 };

@@ -116,10 +116,11 @@ TEST(CrowdInfluence, OnlyLowResolutionVisiblePeopleAvoidTheCameraAndOnlyAtTheLim
   settings.adaptation = Adaptation::kPaper;
   std::vector<MovingObstacle> obstacles;
   state.high = settings.high_limit - 1;
-  InfluenceCrowd(ViewCamera{}, {}, 0, state, settings, &crowd, &obstacles);
+  ForesightState foresight;
+  InfluenceCrowd(ViewCamera{}, {}, 0, state, Walkable{}, settings, &crowd, &obstacles, &foresight);
   EXPECT_TRUE(obstacles.empty());
   state.high = settings.high_limit;
-  InfluenceCrowd(ViewCamera{}, {}, 0, state, settings, &crowd, &obstacles);
+  InfluenceCrowd(ViewCamera{}, {}, 0, state, Walkable{}, settings, &crowd, &obstacles, &foresight);
   EXPECT_EQ(obstacles.size(), 2u);
   EXPECT_FALSE(crowd.avoids_camera[0]);
   for (size_t i = 1; i < crowd.size(); ++i) {

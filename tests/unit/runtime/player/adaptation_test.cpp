@@ -1,0 +1,88 @@
+// What adaptation is for, over whole runs: fewer frames with too many people near, and nobody hindered by it.
+#include <gtest/gtest.h>
+
+#include "runtime/player/simulation.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kHalf_m = 20;
+constexpr int kSteps = 1500;
+
+// A square with 160 strollers and a visitor who walks across it again and again.
+Scenario Square(const char* adaptation, float speed_mps, uint64_t seed) {
+  Random random{seed};
+  const auto anywhere = [&] { return Vec2{random.Uniform(-kHalf_m + 1, kHalf_m - 1), random.Uniform(-kHalf_m + 1, kHalf_m - 1)}; };
+  Scenario s;
+  s.adaptation = adaptation;
+  s.high_limit = 12;
+  s.r_high_m = 10;
+  s.has_ground = s.has_camera = true;
+  s.ground_min_m = {-kHalf_m, -kHalf_m};
+  s.ground_max_m = {kHalf_m, kHalf_m};
+  s.camera_position_m = {-15, -15};
+  for (int k = 0; k < 12; ++k) {
+    CameraLeg leg;
+    leg.kind = CameraLeg::Kind::kWalk;
+    leg.to_m = anywhere();
+    leg.speed_mps = speed_mps;
+    s.legs.push_back(leg);
+  }
+  for (int row = 0; row < 13; ++row) {
+    for (int column = 0; column < 13; ++column) {
+      ScenarioPerson p;
+      p.position_m = {-kHalf_m + 1.5f + 2.9f * static_cast<float>(column), -kHalf_m + 2.2f + 2.8f * static_cast<float>(row)};
+      if (Length(p.position_m - s.camera_position_m) < 2) continue;
+      for (int g = 0; g < 10; ++g) p.goals_m.push_back(anywhere());
+      p.stay = true;
+      s.persons.push_back(p);
+    }
+  }
+  return s;
+}
+
+struct Outcome { int exceeded = 0, over_budget = 0; float asked_m = 0, walked_m = 0, longest_step = 0; };
+
+Outcome Played(const Scenario& scenario) {
+  Simulation s;
+  const Error e = StartSimulation(nullptr, scenario, &s);
+  EXPECT_FALSE(e) << e.message;
+  Outcome out;
+  std::vector<Vec2> before;
+  for (int step = 0; step < kSteps && !s.finished; ++step) {
+    before = s.crowd.position;
+    StepSimulation({}, 0, &s);
+    out.exceeded += s.levels.exceeded;
+    out.over_budget += s.levels.triangles > static_cast<int64_t>(s.level_settings.budget_triangles);
+    out.asked_m += s.camera.asked_mps * s.step_s;
+    out.walked_m += s.camera.actual_mps * s.step_s;
+    for (size_t i = 0; i < before.size() && i < s.crowd.size(); ++i) {
+      if (s.crowd.view[i] != ViewClass::kVisible) continue;
+      out.longest_step = std::max(out.longest_step, Length(s.crowd.position[i] - before[i]) / (s.crowd.top_mps[i] * s.step_s));
+    }
+  }
+  return out;
+}
+
+class Adaptation : public testing::TestWithParam<float> {};
+
+TEST_P(Adaptation, FewFramesExceedTheLimitAndTheVisitorGetsOn) {
+  int off = 0, full = 0;
+  for (const uint64_t seed : {1, 2, 3}) {
+    off += Played(Square("off", GetParam(), seed)).exceeded;
+    const Outcome o = Played(Square("full", GetParam(), seed));
+    full += o.exceeded;
+    EXPECT_EQ(o.over_budget, 0);
+    EXPECT_LE(o.longest_step, 1.001f);
+    EXPECT_GT(o.walked_m, 0.85f * o.asked_m);
+  }
+  RecordProperty("exceeded_off", off);
+  RecordProperty("exceeded_full", full);
+  EXPECT_GT(off, 100) << "the square is crowded enough to matter";
+  EXPECT_LT(full, off / 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(AtWalkingPaceAndTwiceAsFast, Adaptation, testing::Values(1.9f, 3.8f));
+
+}  // namespace
+}  // namespace flaneur
