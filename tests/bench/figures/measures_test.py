@@ -103,7 +103,8 @@ class Measures(unittest.TestCase):
 
 def run(mode, case, exceeded, rim=1.0):
     return {"group": "walkabout-fast", "mode": mode, "case": case, "figures": {"exceeded": exceeded, "jumps": 0},
-            "speeds": np.arange(10.0), "turns": np.arange(10.0), "rim": rim, "rim_usual": rim}
+            "speeds": np.arange(10.0), "turns": np.arange(10.0), "rim": rim, "rim_usual": rim,
+            "control_ms": 0.25 if mode == "full" else 0.125, "step_ms": 1.0}
 
 
 class Summary(unittest.TestCase):
@@ -117,6 +118,7 @@ class Summary(unittest.TestCase):
         self.assertEqual((full["exceeded"]["median"], full["exceeded"]["worst"]), (0.008, 0.3))
         self.assertEqual(full["exceeded_of_off"]["cases"]["seed 2"], 1.0)
         self.assertEqual(full["bunching"]["median"], 2.0)
+        self.assertEqual(full["adaptation_share"]["median"], 0.125)
         verdict = {v["figure"]: v for v in summary.verdicts(table)}
         self.assertTrue(verdict["exceeded"]["reached"], "the median counts")
         self.assertEqual(verdict["bunching"]["missed_in"], ["walkabout-fast full"])

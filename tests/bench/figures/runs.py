@@ -108,7 +108,7 @@ def run_and_judge(job):
         "time_s": metrics["time_s"], "candidates": measures.candidates(metrics, people, facts["r_high_m"]),
         "limit": float(metrics["limit"][0]), "r_high_m": facts["r_high_m"], "fov_rad": float(metrics["camera_fov_rad"][0]),
         "map": measures.density_map(metrics, people, MAP_HALF_M, MAP_CELL_M),
-        "people": float(metrics["people"].mean()), "visible": float(metrics["visible"].mean()),
+        "control_ms": float(metrics["control_ms"].mean()), "step_ms": float(metrics["step_ms"].mean()),
     }
 
 
@@ -126,6 +126,7 @@ def compare_with_off(runs):
         if base is None or base is run:
             continue
         figures["exceeded_of_off"] = ratio(figures["exceeded"], base["figures"]["exceeded"])
+        figures["adaptation_share"] = (run["control_ms"] - base["control_ms"]) / max(run["step_ms"], 1e-9)
         figures["bunching"] = ratio(run["rim"], base["rim"])
         figures["bunching_usual"] = ratio(run["rim_usual"], base["rim_usual"])
 

@@ -43,6 +43,8 @@ FIGURES = [
            "which makes up to 0.3°"),
     Figure("control_share", "cost of control", "{:.2%}",
            "control_ms over step_ms, sums over the run: choice of levels (needed in any mode) and the crowd's adaptation"),
+    Figure("adaptation_share", "cost of adaptation alone", "{:.2%}",
+           "control_ms beyond that of the same seed with off, means a frame, over step_ms"),
 ]
 
 TARGETS = [
