@@ -65,6 +65,6 @@ inline constexpr int kTurnEvery_steps = 3;
 // Lines of sight to the goal are renewed once in so many steps; once in twice as many while it is in sight.
 inline constexpr int kSightEvery_steps = 10 * kTurnEvery_steps;
 // Who is out of sight and far from everything walks straight on for up to so many steps.
-inline constexpr int kMostCoast_steps = 2 * kTurnEvery_steps;
+inline constexpr int kMostCoast_steps = 4 * kTurnEvery_steps;
 
 }  // namespace flaneur

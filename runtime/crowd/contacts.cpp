@@ -9,6 +9,8 @@
 namespace flaneur {
 namespace {
 
+constexpr size_t kMostContacts = 6;  // pairs a person: as many as fit around
+
 Vec2 ClampLength(Vec2 v, float most) {
   const float length2 = Dot(v, v);
   return length2 > most * most ? v * (most / std::sqrt(length2)) : v;
@@ -43,6 +45,7 @@ Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, f
 
 void FindContacts(float step_s, Crowd* c) {
   c->contacts.clear();
+  c->contacts.reserve(kMostContacts * c->size());
   const NeighbourGrid& g = c->neighbours;
   float most_mps = 0;
   for (float top_mps : c->top_mps) most_mps = std::max(most_mps, top_mps);

@@ -16,11 +16,13 @@ namespace {
 bool IsLost(const Crowd& c, size_t i) { return c.way[i].x == 0 && c.way[i].y == 0; }
 
 // Straight to the goal where it is in sight, else as the flow field says.
-void RenewWay(const Walkable& w, size_t i, bool look, Crowd* c) {
+void RenewWay(const Walkable& w, size_t i, bool look, bool roughly, Crowd* c) {
   const Vec2 goal = c->fields[static_cast<size_t>(c->field[i])].goal;
   if (look) c->sees_goal[i] = StraightWay(w, c->position[i], goal) ? 1 : 0;
   if (!c->sees_goal[i]) {
-    c->way[i] = WayToGoal(w, c->field[i], c->position[i], c);
+    const FlowField& field = c->fields[static_cast<size_t>(c->field[i])];
+    const bool rough = roughly && !field.distance.empty();
+    c->way[i] = rough ? RoughWayAt(w, field, c->position[i]) : WayToGoal(w, c->field[i], c->position[i], c);
     return;
   }
   const Vec2 way = goal - c->position[i];
@@ -28,13 +30,14 @@ void RenewWay(const Walkable& w, size_t i, bool look, Crowd* c) {
   c->way[i] = way_m > 1e-3f ? way * (1 / way_m) : Vec2{};
 }
 
-// How many steps the person can walk straight on without coming near a wall or somebody's private disc.
+// How many steps the person can walk straight on without coming near a wall, the goal or somebody's private disc.
 int CoastSteps(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c, size_t i, int cell) {
   const float step_m = Length(c.wanted[i]) * step_s;
+  const Vec2 left = c.fields[static_cast<size_t>(c.field[i])].goal - c.position[i];
   const float clear_m = ClearAround_m(w, cell) - c.radius_m[i];
   for (int steps = kMostCoast_steps; steps >= kTurnEvery_steps; steps -= kTurnEvery_steps) {
     const float run_m = static_cast<float>(steps) * step_m;
-    if (clear_m < run_m) continue;
+    if (clear_m < run_m || Dot(left, left) < 4 * run_m * run_m) continue;
     const bool free = std::none_of(moving.begin(), moving.end(), [&](const MovingObstacle& m) {
       const float reach_m = m.radius_m + c.radius_m[i] + run_m + Length(m.velocity) * static_cast<float>(steps) * step_s;
       const Vec2 off = m.center - c.position[i];
@@ -65,10 +68,13 @@ void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
   const bool lost = IsLost(*c, i), turn = IsTurn(*c, i);
   if (!turn && !lost) return;
   const int64_t phase = (c->step + static_cast<int64_t>(i)) % (2 * kSightEvery_steps);
-  RenewWay(w, i, lost || phase < kMostCoast_steps, c);
+  RenewWay(w, i, lost || phase < kMostCoast_steps, true, c);
   const int cell = CellAt(w, c->position[i]);
   const float alone_mps = std::min(c->preferred_mps[i], c->top_mps[i]);
-  c->mind[i].push = {};
+  Mind& mind = c->mind[i];
+  mind.push = {};
+  mind.clear_from = c->position[i];
+  mind.clear_m = ClearAround_m(w, cell);
   c->wanted[i] = c->way[i] * SpeedOnSlope(w, cell, alone_mps);
   if (!turn) return;
   c->coast[i] = static_cast<uint8_t>(std::max(0, CoastSteps(w, moving, step_s, *c, i, cell) - 1));
@@ -95,7 +101,7 @@ void RenewWays(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
     const bool lost = IsLost(*c, i);
     if (lost || IsTurn(*c, i)) {
       const int64_t every = c->sees_goal[i] ? 2 * kSightEvery_steps : kSightEvery_steps;
-      RenewWay(w, i, lost || (c->step + static_cast<int64_t>(i)) % every == 0, c);
+      RenewWay(w, i, lost || (c->step + static_cast<int64_t>(i)) % every == 0, false, c);
     }
   }
 }

@@ -158,6 +158,12 @@ Vec2 WayAt(const Walkable& w, const FlowField& field, Vec2 p) {
   return Unit(Unit(CellCenter(w, cell) - p) + there);
 }
 
+Vec2 RoughWayAt(const Walkable& w, const FlowField& field, Vec2 p) {
+  const int cell = CellAt(w, p);
+  const uint8_t direction = cell >= 0 ? field.direction[static_cast<size_t>(cell)] : kNoWay;
+  return direction != kNoWay ? kDirections[direction] : WayAt(w, field, p);
+}
+
 bool StraightWay(const Walkable& w, Vec2 p, Vec2 q) {
   const int first = CellAt(w, p);
   if (first < 0) return false;

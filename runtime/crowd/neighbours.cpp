@@ -19,6 +19,7 @@ void SortIntoGrid(const Walkable& w, const std::vector<Vec2>& position, const st
   }
   int end = 0;  // start[c] becomes the end of cell c, and sinks to its start while people are put in backwards
   for (int& s : g->start) s = end += s;
+  g->people.reserve(position.size());  // once for all: more may take care in the next step
   g->people.resize(static_cast<size_t>(end));
   for (size_t i = position.size(); i-- > 0;) {
     if (!include[i]) continue;

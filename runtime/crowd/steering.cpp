@@ -11,7 +11,7 @@ namespace flaneur {
 namespace {
 
 constexpr int kBlock = 64;  // people looked at together
-constexpr size_t kFetchAhead = 6;
+constexpr size_t kFetchAhead = 9;  // people, whose cells lie anywhere
 
 Vec2 ClampLength(Vec2 v, float most) {
   const float length2 = Dot(v, v);
@@ -181,8 +181,12 @@ float SpeedOnSlope(const Walkable& w, int cell, float level_mps) {
 void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, Crowd* c) {
   const std::vector<Neighbour>& people = c->neighbours.people;
   for (size_t k = 0; k < people.size(); ++k) {
-    const size_t soon = static_cast<size_t>(people[std::min(k + kFetchAhead, people.size() - 1)].person);
-    __builtin_prefetch(&c->mind[soon]);
+    const Neighbour& soon = people[std::min(k + kFetchAhead, people.size() - 1)];
+    if (IsTurn(*c, static_cast<size_t>(soon.person))) {
+      __builtin_prefetch(&c->mind[static_cast<size_t>(soon.person)]);
+      const int cell = CellAt(w, soon.position);
+      if (cell >= 0) __builtin_prefetch(&w.cells[static_cast<size_t>(cell)]);
+    }
     if (IsTurn(*c, static_cast<size_t>(people[k].person))) Decide(w, moving, people[k], c);
   }
 }

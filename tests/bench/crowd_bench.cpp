@@ -2,38 +2,14 @@
 // full behaviour, 36 circles of 1 to 2 m, steps of 1/30 s, one thread.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cmath>
-#include <ctime>
-#include <vector>
-
 #include "runtime/control/level_control.h"
+#include "tests/bench/time_steps.h"
 #include "tests/unit/runtime/crowd/open_field.h"
 
 namespace flaneur {
 namespace {
 
 constexpr int kWarmUp_steps = 150, kSteps = 300;
-
-double ThreadTime_ms() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-// Runs `step` for every iteration; the median and the least of what the iterations took become counters.
-template <typename Step>
-void TimeSteps(benchmark::State& state, Step step) {
-  std::vector<double> took_ms;
-  for (auto _ : state) {
-    const double before_ms = ThreadTime_ms();
-    step();
-    took_ms.push_back(ThreadTime_ms() - before_ms);
-  }
-  std::sort(took_ms.begin(), took_ms.end());
-  state.counters["median_ms"] = took_ms[took_ms.size() / 2];
-  state.counters["least_ms"] = took_ms.front();
-}
 
 // Under way for a while, all ways known.
 OpenField BusyField(int people) {

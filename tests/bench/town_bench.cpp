@@ -1,0 +1,106 @@
+// The demo town with view classes on: most people only follow their ways. A small town cannot hold 100,000 people, so it is
+// enlarged until everybody has their share of the ground at 0.3 people/m^2. FLANEUR_PACK names the tour pack.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "runtime/control/view_volumes.h"
+#include "runtime/pack/tour_pack.h"
+#include "tests/bench/time_steps.h"
+#include "tests/unit/runtime/crowd/open_field.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kDensity_pm2 = 0.3f, kTurn_radps = 0.5f, kOuterApexBack_m = 20;
+constexpr int kWarmUp_steps = 150;
+
+struct Town {
+  Walkable walkable;
+  Crowd crowd;
+  std::vector<int> fields;
+  ViewCamera camera;
+  Random random{1};
+};
+
+float WalkableArea_m2(const Walkable& w) {
+  float cells = 0;
+  for (float cost : w.cost) cells += cost > 0 ? 1.0f : 0.0f;
+  return cells * w.cell_m * w.cell_m;
+}
+
+void TakeTown(const TourPack& pack, float scale, Walkable* w) {
+  const auto scaled = [&](std::vector<Vec2> ring) {
+    for (Vec2& p : ring) p = p * scale;
+    return ring;
+  };
+  *w = {};
+  w->ground = {pack.ground.min_m * scale, pack.ground.cell_m * scale, pack.ground.columns, pack.ground.rows,
+               pack.ground.height_m, pack.ground.kind};
+  for (const PackObstacle& o : pack.obstacles) {
+    if (o.radius_m > 0) {
+      w->circles.push_back({o.center * scale, o.radius_m});
+      continue;
+    }
+    w->polygons.push_back({scaled(o.outer), {}});
+    for (const auto& hole : o.holes) w->polygons.back().holes.push_back(scaled(hole));
+  }
+  BuildWalkable(0.3f, w, 0.25f);
+}
+
+int SomeField(Town* t) { return t->fields[static_cast<size_t>(t->random.Below(static_cast<int>(t->fields.size())))]; }
+
+void Settle(const TourPack& pack, int people, float scale, Town* t) {
+  for (const PackPlace& place : pack.places) {
+    const int cell = NearestFreeCell(t->walkable, place.position_m * scale, 3 * scale);
+    if (cell >= 0) t->fields.push_back(FieldFor(CellCenter(t->walkable, cell), &t->crowd));
+    if (t->fields.size() == 24) break;
+  }
+  for (int f : t->fields) WayToGoal(t->walkable, f, {}, &t->crowd);
+  std::vector<int> cells;
+  for (size_t cell = 0; cell < t->walkable.cost.size(); ++cell) {
+    if (std::isfinite(t->crowd.fields[0].distance[cell])) cells.push_back(static_cast<int>(cell));
+  }
+  for (int k = 0; k < people; ++k) {
+    Person p;
+    p.position = CellCenter(t->walkable, cells[static_cast<size_t>(t->random.Below(static_cast<int>(cells.size())))]);
+    p.preferred_mps = t->random.Uniform(1.1f, 1.5f);
+    p.field = SomeField(t);
+    AddPerson(p, &t->crowd);
+  }
+  t->camera = {CellCenter(t->walkable, cells[cells.size() / 2]), 0, 1.0472f};
+}
+
+void StepTown(Town* t) {
+  t->camera.yaw_rad = std::remainder(t->camera.yaw_rad + kTurn_radps * kOpenFieldStep_s, 2 * kPi);
+  for (size_t i = 0; i < t->crowd.size(); ++i) t->crowd.view[i] = Classify(t->crowd.position[i], t->camera, kOuterApexBack_m);
+  StepCrowd(t->walkable, {{t->camera.position, 0.6f, true, {}}}, kOpenFieldStep_s, &t->crowd);
+  for (size_t i = 0; i < t->crowd.size(); ++i) {
+    if (t->crowd.arrived[i]) SetGoal(i, SomeField(t), &t->crowd);
+  }
+}
+
+void TownStep(benchmark::State& state) {
+  const char* path = std::getenv("FLANEUR_PACK");
+  TourPack pack;
+  if (path == nullptr || LoadTourPack(path, {false}, &pack)) {
+    state.SkipWithError("FLANEUR_PACK names no tour pack");
+    return;
+  }
+  const int people = static_cast<int>(state.range(0));
+  Town town;
+  TakeTown(pack, 1, &town.walkable);
+  const float scale = std::max(1.0f, std::sqrt(static_cast<float>(people) / kDensity_pm2 / WalkableArea_m2(town.walkable)));
+  TakeTown(pack, scale, &town.walkable);
+  Settle(pack, people, scale, &town);
+  for (int i = 0; i < kWarmUp_steps; ++i) StepTown(&town);
+  double shown = 0;
+  TimeSteps(state, [&] { StepTown(&town); });
+  for (ViewClass view : town.crowd.view) shown += view != ViewClass::kOutside ? 1 : 0;
+  state.counters["in_view_or_boundary"] = shown;
+}
+BENCHMARK(TownStep)->Arg(1000)->Arg(10000)->Arg(100000)->Iterations(376)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace flaneur

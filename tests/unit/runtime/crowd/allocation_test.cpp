@@ -1,0 +1,42 @@
+// A steady step of the crowd allocates nothing: operator new is counted in this program.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "tests/unit/runtime/crowd/open_field.h"
+
+namespace {
+long allocations = 0;
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace flaneur {
+namespace {
+
+TEST(Crowd, ASteadyStepAllocatesNothing) {
+  OpenField field = MakeOpenField(1000);
+  for (int f : field.fields) WayToGoal(field.walkable, f, {1, 1}, &field.crowd);
+  const auto mixed_views = [&] {  // people come into view and go out of it
+    for (size_t i = 0; i < field.crowd.size(); ++i) {
+      field.crowd.view[i] = field.crowd.position[i].x < 30 ? ViewClass::kVisible : ViewClass::kOutside;
+    }
+  };
+  for (int step = 0; step < 300; ++step) StepOpenField(&field);
+  const long before = allocations;
+  for (int step = 0; step < 300; ++step) StepOpenField(&field);
+  EXPECT_EQ(allocations - before, 0);
+  for (int step = 0; step < 300; ++step) mixed_views(), StepOpenField(&field);
+  EXPECT_EQ(allocations - before, 0);
+  std::printf("allocations in 600 steady steps: %ld\n", allocations - before);
+}
+
+}  // namespace
+}  // namespace flaneur
