@@ -206,6 +206,7 @@ int AddPerson(const Person& p, Crowd* c) {
   c->mind.push_back({});
   c->mind.back().ahead = DirectionOf(p.heading_rad);
   c->coast.push_back(0);
+  c->group.push_back(-1);
   c->cares.push_back(0);
   c->wanted.push_back({});
   c->moved.push_back(p.position);
@@ -213,6 +214,12 @@ int AddPerson(const Person& p, Crowd* c) {
 }
 
 void RemovePerson(size_t i, Crowd* c) {
+  LeaveGroup(i, c);
+  const int last = static_cast<int>(c->size()) - 1, of_last = c->group.back();
+  if (of_last >= 0) {
+    Group& g = c->groups[static_cast<size_t>(of_last)];
+    std::replace(g.member, g.member + g.size, last, static_cast<int>(i));
+  }
   const auto drop = [i](auto* values) {
     (*values)[i] = values->back();
     values->pop_back();
@@ -221,7 +228,7 @@ void RemovePerson(size_t i, Crowd* c) {
   drop(&c->preferred_mps), drop(&c->top_mps), drop(&c->field), drop(&c->way), drop(&c->sees_goal), drop(&c->activity);
   drop(&c->wait_s), drop(&c->facing), drop(&c->view), drop(&c->avoids_camera), drop(&c->arrived);
   drop(&c->detour), drop(&c->detour_s);
-  drop(&c->walked_m), drop(&c->mind), drop(&c->coast), drop(&c->cares), drop(&c->wanted), drop(&c->moved);
+  drop(&c->walked_m), drop(&c->mind), drop(&c->coast), drop(&c->group), drop(&c->cares), drop(&c->wanted), drop(&c->moved);
 }
 
 void SetGoal(size_t i, int field, Crowd* c) {
@@ -249,6 +256,7 @@ void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
   RenewWays(w, moving, step_s, c);
   SortIntoGrid(w, c->position, c->velocity, c->radius_m, c->cares, kNeighbourRadius_m / 2, &c->neighbours);
   Decide(w, moving, c);
+  WalkTogether(w, c);
   FindContacts(step_s, c);
   Move(w, moving, step_s, c);
   ResolveContacts(w, moving, step_s, c);

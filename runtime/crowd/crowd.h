@@ -6,6 +6,7 @@
 
 #include "runtime/base/random.h"
 #include "runtime/crowd/flow_field.h"
+#include "runtime/crowd/groups.h"
 #include "runtime/crowd/neighbours.h"
 #include "runtime/crowd/walkable.h"
 
@@ -52,7 +53,9 @@ struct Crowd {
   std::vector<float> walked_m;          // since appearing: drives the walk cycle
   std::vector<Mind> mind;
   std::vector<uint8_t> coast;           // steps left to walk straight on, out of sight and far from everything
+  std::vector<int> group;               // index into groups; -1: alone
   std::vector<FlowField> fields;        // built when the first person needs one
+  std::vector<Group> groups;
   int next_id = 0;
   int64_t step = 0;
 

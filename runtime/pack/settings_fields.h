@@ -15,6 +15,7 @@ void VisitFields(Fields&& fields, CrowdSettings* s) {
   fields.Number("speed_spread_mps", &s->speed_spread_mps, 0, 2);
   fields.Number("top_speed_mps", &s->top_speed_mps, 0.1, 10);
   fields.Number("loiter_share", &s->loiter_share, 0, 1);
+  fields.Number("group_share", &s->group_share, 0, 1);
 }
 
 template <typename Fields>

@@ -117,6 +117,7 @@ struct CrowdSettings {
   uint64_t seed = 1;
   float preferred_speed_mps = 1.3f, speed_spread_mps = 0.2f, top_speed_mps = 1.9f;
   float loiter_share = 0.15f;  // of the people, standing at loiter places at any time
+  float group_share = 0.4f;    // of the people, who walk in groups of 2 to 4
 };
 
 struct ControlSettings {

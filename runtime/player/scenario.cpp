@@ -163,6 +163,7 @@ void ReadPerson(Table t, Scenario* s) {
   t.Points("goals_m", &person.goals_m);
   t.Flag("stay", &person.stay);
   t.String("avatar", &person.avatar);
+  t.String("group", &person.group);
   t.Number("speed_mps", 0.05, 10, &person.speed_mps);
   t.Number("top_speed_mps", 0.05, 10, &person.top_speed_mps);
   t.Number("radius_m", 0.05, 2, &person.radius_m);
@@ -186,6 +187,7 @@ void ReadAll(Table root, Scenario* s) {
   root.String("name", &s->name);
   root.Number("people", 0, 1000000, &s->people);
   root.Number("seed", 0, 4294967295.0, &s->seed);
+  root.Number("group_share", 0, 1, &s->group_share);
   root.Number("step_hz", 10, 240, &s->step_hz);
   root.Number("seconds", 0, 1e6, &s->seconds);
   root.Choice("adaptation", {"off", "paper", "full"}, &s->adaptation);

@@ -22,7 +22,7 @@ struct ScenarioPerson {
   Vec2 position_m;
   std::vector<Vec2> goals_m;
   bool stay = false;
-  std::string avatar;
+  std::string avatar, group;  // who names the same group walks together; empty: alone
   float speed_mps = 0, top_speed_mps = 0, radius_m = 0;  // 0: the pack's
 };
 
@@ -36,6 +36,7 @@ struct Scenario {
   std::string name;
   std::optional<int> people;
   std::optional<uint64_t> seed;
+  std::optional<float> group_share;
   std::optional<float> step_hz, seconds;
   std::optional<std::string> adaptation, method;
   std::optional<int> high_limit, budget_triangles;

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "runtime/player/camera_walk.h"
+#include "runtime/player/coming_and_going.h"
+#include "runtime/player/places.h"
 #include "runtime/player/population.h"
 
 namespace flaneur {
@@ -72,9 +74,11 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
     s->avatar_share = {1};
     s->avatar_radius_m = {0.25f};
     s->crowd_settings.people = 0;
+    s->crowd_settings.group_share = 0;
   }
   s->crowd_settings.people = scenario.people.value_or(scenario.has_ground ? 0 : s->crowd_settings.people);
   s->crowd_settings.seed = scenario.seed.value_or(s->crowd_settings.seed);
+  s->crowd_settings.group_share = scenario.group_share.value_or(s->crowd_settings.group_share);
   if (scenario.step_hz) s->step_s = 1 / *scenario.step_hz;
   if (scenario.method) s->level_settings.by_frame_time = *scenario.method == "frame_time";
   s->level_settings.high_limit = scenario.high_limit.value_or(s->level_settings.high_limit);

@@ -37,6 +37,10 @@ struct PersonPlan {         // of one person, by id
   bool stay = false, leaves = true;
 };
 
+struct PlaceLists {         // indices into Simulation::places
+  std::vector<int> gates, goals, loiters, destinations, all;
+};
+
 struct Simulation {
   std::vector<std::string> avatar_names;
   std::vector<AvatarCosts> avatar_costs;
@@ -49,6 +53,7 @@ struct Simulation {
 
   Walkable walkable;
   std::vector<PackPlace> places;
+  PlaceLists place_lists;
   std::vector<TourStop> path;      // guided tour
   std::vector<CameraLeg> legs;     // of the scenario; empty: the guided tour
   std::optional<Area> crowd_area;  // of the scenario

@@ -1,0 +1,116 @@
+#include "runtime/player/places.h"
+
+#include <algorithm>
+
+namespace flaneur {
+namespace {
+
+constexpr int kMadeUpGoals = 24;         // where a town names no places
+constexpr float kReach_m = 2.5f;         // from a place to where people can stand
+constexpr float kWorthWalking_m = 8;
+
+void SortPlaces(Simulation* s) {
+  PlaceLists& lists = s->place_lists;
+  lists = {};
+  for (int k = 0; k < static_cast<int>(s->places.size()); ++k) {
+    const PackPlace& place = s->places[static_cast<size_t>(k)];
+    lists.all.push_back(k);
+    if (IsGate(place)) lists.gates.push_back(k);
+    if (place.kind == "goal") lists.goals.push_back(k);
+    if (place.kind == "loiter") lists.loiters.push_back(k);
+    if (place.kind != "loiter" && place.kind != "spawn") lists.destinations.push_back(k);
+  }
+}
+
+void MakeUpGoals(Simulation* s) {
+  const std::vector<int> cells = HomeCells(*s);
+  for (int k = 0; k < kMadeUpGoals && !cells.empty(); ++k) {
+    const int cell = cells[static_cast<size_t>(s->random.Below(static_cast<int>(cells.size())))];
+    s->places.push_back({"goal_" + std::to_string(k + 1), "goal", CellCenter(s->walkable, cell), 1});
+  }
+}
+
+}  // namespace
+
+int LargestComponent(const Walkable& w) {
+  std::vector<int> size;
+  for (int c : w.component) {
+    if (c < 0) continue;
+    if (static_cast<size_t>(c) >= size.size()) size.resize(static_cast<size_t>(c) + 1, 0);
+    ++size[static_cast<size_t>(c)];
+  }
+  return size.empty() ? -1 : static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
+}
+
+int BestFreeCell(const Walkable& w) {
+  const int town = LargestComponent(w);
+  const auto of_town = [&](size_t cell) { return town >= 0 && w.component[cell] == town; };
+  Vec2 sum;
+  float count = 0;
+  for (size_t c = 0; c < w.component.size(); ++c) {
+    if (!of_town(c)) continue;
+    sum = sum + CellCenter(w, static_cast<int>(c));
+    count += 1;
+  }
+  int best = -1;
+  float best_m = 0;
+  for (size_t c = 0; c < w.component.size(); ++c) {
+    if (!of_town(c)) continue;
+    const float away_m = Length(CellCenter(w, static_cast<int>(c)) - sum * (1 / count));
+    if (best < 0 || away_m < best_m) best = static_cast<int>(c), best_m = away_m;
+  }
+  return best;
+}
+
+std::vector<int> HomeCells(const Simulation& s) {
+  const int town = LargestComponent(s.walkable);
+  std::vector<int> cells;
+  for (size_t c = 0; c < s.walkable.component.size(); ++c) {
+    const int cell = static_cast<int>(c);
+    if (s.walkable.component[c] != town) continue;
+    if (!s.crowd_area || Contains(*s.crowd_area, CellCenter(s.walkable, cell))) cells.push_back(cell);
+  }
+  return cells;
+}
+
+void PreparePlaces(Simulation* s) {
+  const int town = LargestComponent(s->walkable);
+  std::vector<PackPlace> kept;
+  for (PackPlace& place : s->places) {
+    const int cell = NearestFreeCell(s->walkable, place.position_m, kReach_m);
+    if (cell < 0 || s->walkable.component[static_cast<size_t>(cell)] != town) {
+      s->warnings.push_back("place '" + place.name + "' cannot be reached; it is not used");
+      continue;
+    }
+    if (s->crowd_area && !Contains(*s->crowd_area, place.position_m)) continue;
+    place.position_m = CellCenter(s->walkable, cell);
+    kept.push_back(place);
+  }
+  s->places = std::move(kept);
+  SortPlaces(s);
+  if (s->crowd_area ? !s->place_lists.goals.empty() : !s->places.empty()) return;
+  MakeUpGoals(s);
+  SortPlaces(s);
+}
+
+const PackPlace* PlaceAt(const Simulation& s, Vec2 goal) {
+  for (const PackPlace& place : s.places) {
+    if (place.position_m.x == goal.x && place.position_m.y == goal.y) return &place;
+  }
+  return nullptr;
+}
+
+int PickDestination(Vec2 from, bool may_loiter, Simulation* s) {
+  const PlaceLists& lists = s->place_lists;
+  const bool loiter = may_loiter && s->random.Uniform() < s->crowd_settings.loiter_share * 2;
+  const std::vector<int>* choices = loiter ? &lists.loiters : s->crowd_area ? &lists.goals : &lists.destinations;
+  if (choices->empty()) choices = &lists.all;
+  for (int attempt = 0; attempt < 8 && !choices->empty(); ++attempt) {
+    const int chosen = (*choices)[static_cast<size_t>(s->random.Below(static_cast<int>(choices->size())))];
+    const Vec2 position_m = s->places[static_cast<size_t>(chosen)].position_m;
+    if (Length(position_m - from) >= kWorthWalking_m || attempt == 7) return FieldFor(position_m, &s->crowd);
+  }
+  return -1;
+}
+
+}  // namespace flaneur
