@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/crowd/fast_math.h"
 #include "runtime/player/places.h"
 #include "runtime/player/population.h"
 
@@ -14,6 +15,8 @@ constexpr float kBirthGap_m = 0.3f;         // between a newcomer and everybody 
 constexpr int kTries = 40;                  // to find a free spot before giving up for now
 constexpr int kBirths_perStep = 2;
 constexpr float kTalkingDistance_m = 2.5f;
+constexpr int kGateSpots = 9;               // the gate itself, and a ring
+constexpr float kBesideGate_m = 0.95f;
 
 // The people who do what person i does: the group, or i alone.
 struct Company {
@@ -95,21 +98,42 @@ bool NextForArrived(size_t i, Simulation* s) {
   return false;
 }
 
-void Birth(Simulation* s) {
-  const std::vector<int>& gates = s->place_lists.gates;
-  if (gates.empty()) return;
-  for (int attempt = 0; attempt < kTries; ++attempt) {
-    const PackPlace& gate = s->places[static_cast<size_t>(gates[static_cast<size_t>(s->random.Below(static_cast<int>(gates.size())))])];
-    const bool seen = s->camera.present &&
-                      Classify(gate.position_m, s->camera.view, s->outer_apex_back_m) != ViewClass::kOutside;
-    if (seen) continue;
-    Person p = NewPerson(s);
-    if (Crowded(s->crowd, gate.position_m, p.radius_m)) continue;
-    p.position = gate.position_m;
-    p.field = PickDestination(p.position, true, s);
-    AddToTown(p, PersonPlan{{}, false, false}, s);
-    return;
+bool IsUnseen(const Simulation& s, Vec2 p) {
+  return !s.camera.present || Classify(p, s.camera.view, s.outer_apex_back_m) == ViewClass::kOutside;
+}
+
+// Where somebody who comes through the gate can stand; x is NaN where there is no room.
+Vec2 SpotAtGate(const Simulation& s, Vec2 gate, float radius_m) {
+  for (int k = 0; k < kGateSpots; ++k) {
+    const float angle = 2 * kPi * static_cast<float>(k) / (kGateSpots - 1);
+    const Vec2 p = k == 0 ? gate : gate + DirectionOf(angle) * kBesideGate_m;
+    if (IsUnseen(s, p) && !Crowded(s.crowd, p, radius_m) && (k == 0 || (IsFree(s.walkable, p) && StraightWay(s.walkable, gate, p)))) return p;
   }
+  return {std::nanf(""), 0};
+}
+
+// One person or a group, through a gate that is out of sight. False where there is no room for them now.
+bool Birth(int company, Simulation* s) {
+  const std::vector<int>& gates = s->place_lists.gates;
+  if (gates.empty()) return false;
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    const Vec2 gate = s->places[static_cast<size_t>(gates[static_cast<size_t>(s->random.Below(static_cast<int>(gates.size())))])].position_m;
+    if (!IsUnseen(*s, gate)) continue;
+    std::vector<int> members;
+    int field = -1;
+    for (int k = 0; k < company; ++k) {
+      Person p = NewPerson(s);
+      p.position = SpotAtGate(*s, gate, p.radius_m);
+      if (std::isnan(p.position.x)) break;
+      if (k == 0) field = PickDestination(gate, true, s);
+      p.field = field;
+      members.push_back(static_cast<int>(s->crowd.size()));
+      AddToTown(p, PersonPlan{{}, false, false}, s);
+    }
+    if (members.size() > 1) AddGroup(members, &s->crowd);
+    if (!members.empty()) return true;
+  }
+  return false;
 }
 
 bool HasWaited(const Simulation& s, size_t i) {
@@ -129,7 +153,11 @@ void LeaveAndArrive(Simulation* s) {
     }
     ++i;
   }
-  for (int k = 0; k < kBirths_perStep && static_cast<int>(c.size()) < s->target_people; ++k) Birth(s);
+  for (int k = 0; k < kBirths_perStep; ++k) {
+    if (s->next_company == 0) s->next_company = std::min(s->target_people, DrawCompany(kMostInGroup, s));
+    if (static_cast<int>(c.size()) + std::max(1, s->next_company) > s->target_people || !Birth(s->next_company, s)) return;
+    s->next_company = 0;
+  }
 }
 
 }  // namespace flaneur

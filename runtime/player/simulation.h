@@ -58,6 +58,7 @@ struct Simulation {
   std::vector<CameraLeg> legs;     // of the scenario; empty: the guided tour
   std::optional<Area> crowd_area;  // of the scenario
   int target_people = 0;           // kept up by people who appear out of sight
+  int next_company = 0;            // how many come together next, once there is room for them; 0: not drawn yet
 
   Crowd crowd;
   std::vector<PersonPlan> plans;   // by id

@@ -64,7 +64,7 @@ TEST(Groups, APairWalksAbreast) {
   Crowd c;
   AddWalkers(2, {-25, 0}, {25, 3}, &c);
   int steps = 0, close = 0, abreast = 0;
-  while (c.position[0].x < 22 && steps < 3000) {
+  while (c.position[0].x < 18 && steps < 3000) {
     StepCrowd(w, {}, kStep_s, &c);
     const Vec2 apart = c.position[0] - c.position[1], ahead = DirectionOf(c.heading_rad[0]);
     close += Length(apart) < 1.5f ? 1 : 0;

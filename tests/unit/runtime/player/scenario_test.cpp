@@ -69,6 +69,14 @@ radius_m = 0.5
   EXPECT_EQ(s.obstacles.size(), 2u);
 }
 
+TEST(Scenario, TheReferenceRuns) {
+  Scenario s;
+  ASSERT_EQ(ReadScenario(std::filesystem::path(FLANEUR_SOURCE_DIR) / "assets_src/reference/scenario.toml", &s).message, "");
+  Simulation simulation;
+  ASSERT_EQ(StartSimulation(nullptr, s, &simulation).message, "");
+  EXPECT_EQ(simulation.crowd.size(), 52u);
+}
+
 TEST(Scenario, MistakesAreNamedWithTheirLine) {
   Scenario s;
   EXPECT_NE(Parse("peple = 5\n", &s).message.find(":1: unknown key 'peple'; did you mean 'people'?"), std::string::npos);
@@ -88,6 +96,18 @@ TEST(Simulation, ImpossiblePeopleAreNamed) {
   const std::string wall = "[[obstacle]]\npolygon_m = [[0, -21], [1, -21], [1, 21], [0, 21]]\n";
   ASSERT_EQ(Parse(std::string(kGround) + wall + "[[person]]\nposition_m = [-5, 2]\ngoals_m = [[9, 2]]\n", &s).message, "");
   EXPECT_NE(StartSimulation(nullptr, s, &simulation).message.find("nobody can get to goal 1"), std::string::npos);
+}
+
+TEST(Simulation, ImpossibleGroupsAreNamed) {
+  Scenario s;
+  Simulation simulation;
+  const auto person = [](int k, const char* goal) {
+    return "[[person]]\nposition_m = [" + std::to_string(k) + ", 0]\ngoals_m = [" + goal + "]\ngroup = \"us\"\n";
+  };
+  ASSERT_EQ(Parse(kGround + person(1, "[9, 2]"), &s).message, "");
+  EXPECT_EQ(StartSimulation(nullptr, s, &simulation).message, "group 'us' has 1 people; 2 to 4 can walk together");
+  ASSERT_EQ(Parse(kGround + person(1, "[9, 2]") + person(2, "[9, 3]"), &s).message, "");
+  EXPECT_EQ(StartSimulation(nullptr, s, &simulation).message, "group 'us': person 1 and person 2 have different goals_m");
 }
 
 TEST(Simulation, WithoutACameraEverybodyIsVisibleAndIdsAreNeverReused) {
