@@ -6,6 +6,7 @@
 #include "runtime/crowd/fast_math.h"
 #include "runtime/player/places.h"
 #include "runtime/player/population.h"
+#include "runtime/player/ways_out.h"
 
 namespace flaneur {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 constexpr float kLeastWait_s = 15, kMostWait_s = 50;
 constexpr float kBirthGap_m = 0.3f;         // between a newcomer and everybody else, beyond touching
 constexpr int kTries = 40;                  // to find a free spot before giving up for now
+constexpr int kTriesFarAway = 20;           // of them at gates beyond r_unimportant only
 constexpr int kBirths_perStep = 2;
 constexpr float kTalkingDistance_m = 2.5f;
 constexpr int kGateSpots = 9;               // the gate itself, and a ring
@@ -118,7 +120,9 @@ bool Birth(int company, Simulation* s) {
   if (gates.empty()) return false;
   for (int attempt = 0; attempt < kTries; ++attempt) {
     const Vec2 gate = s->places[static_cast<size_t>(gates[static_cast<size_t>(s->random.Below(static_cast<int>(gates.size())))])].position_m;
-    if (!IsUnseen(*s, gate)) continue;
+    if (!IsUnseen(*s, gate) || IsFullNear(*s, gate)) continue;
+    const bool is_near = s->camera.present && Length(gate - s->camera.view.position) < s->influence.r_unimportant_m;
+    if (is_near && attempt < kTriesFarAway) continue;
     std::vector<int> members;
     int field = -1;
     for (int k = 0; k < company; ++k) {
@@ -145,6 +149,7 @@ bool HasWaited(const Simulation& s, size_t i) {
 
 void LeaveAndArrive(Simulation* s) {
   Crowd& c = s->crowd;
+  SendEnclosedOut(s);
   for (size_t i = 0; i < c.size();) {
     if (HasWaited(*s, i)) SendAll(CompanyOf(c, i), PickDestination(c.position[i], false, s), &c);
     if (c.arrived[i] && NextForArrived(i, s)) {

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "runtime/player/ways_out.h"
+
 namespace flaneur {
 namespace {
 
 constexpr int kMadeUpGoals = 24;         // where a town names no places
 constexpr float kReach_m = 2.5f;         // from a place to where people can stand
 constexpr float kWorthWalking_m = 8;
+constexpr int kTries = 8;                // for somewhere worth walking to
 
 void SortPlaces(Simulation* s) {
   PlaceLists& lists = s->place_lists;
@@ -105,10 +108,11 @@ int PickDestination(Vec2 from, bool may_loiter, Simulation* s) {
   const bool loiter = may_loiter && s->random.Uniform() < s->crowd_settings.loiter_share * 2;
   const std::vector<int>* choices = loiter ? &lists.loiters : s->crowd_area ? &lists.goals : &lists.destinations;
   if (choices->empty()) choices = &lists.all;
-  for (int attempt = 0; attempt < 8 && !choices->empty(); ++attempt) {
+  for (int attempt = 0; attempt < kTries && !choices->empty(); ++attempt) {
     const int chosen = (*choices)[static_cast<size_t>(s->random.Below(static_cast<int>(choices->size())))];
     const Vec2 position_m = s->places[static_cast<size_t>(chosen)].position_m;
-    if (Length(position_m - from) >= kWorthWalking_m || attempt == 7) return FieldFor(position_m, &s->crowd);
+    const bool good = Length(position_m - from) >= kWorthWalking_m && !IsFullNear(*s, position_m);
+    if (good || attempt + 1 == kTries) return FieldFor(position_m, &s->crowd);
   }
   return -1;
 }

@@ -47,7 +47,7 @@ struct Scenario {
   std::optional<float> fov_deg, r_high_m, eye_height_m, pitch_deg;
   std::vector<CameraLeg> legs;
   std::vector<ScenarioPerson> persons;
-  std::optional<Area> crowd_area;  // in which the `people` start and walk about, without leaving; else they live all over town
+  std::optional<Area> crowd_area;  // in which the `people` start and walk about; else they live all over town
   bool has_ground = false;
   Vec2 ground_min_m, ground_max_m;
   std::vector<PackObstacle> obstacles;

@@ -6,6 +6,7 @@
 
 #include "runtime/base/error.h"
 #include "runtime/control/crowd_influence.h"
+#include "runtime/control/enclosure.h"
 #include "runtime/control/level_control.h"
 #include "runtime/control/view_volumes.h"
 #include "runtime/crowd/crowd.h"
@@ -66,6 +67,7 @@ struct Simulation {
   LevelState levels;
   std::vector<MovingObstacle> moving;
   ForesightState foresight;
+  Enclosure enclosure;
   Random random;
   int64_t frame = 0;
   size_t leg = 0;                  // of legs or path

@@ -95,5 +95,88 @@ TEST(Life, WhoWalksTogetherComesAndLeavesTogether) {
   EXPECT_GT(seen, 20);
 }
 
+float ToNearestGate_m(const Simulation& s, Vec2 p) {
+  float nearest_m = 1e9f;
+  for (int gate : s.place_lists.gates) nearest_m = std::min(nearest_m, Length(s.places[static_cast<size_t>(gate)].position_m - p));
+  return nearest_m;
+}
+
+struct Sighting { Vec2 position; ViewClass view = ViewClass::kOutside; };
+
+std::map<int, Sighting> Seen(const Simulation& s) {
+  std::map<int, Sighting> seen;
+  for (size_t i = 0; i < s.crowd.size(); ++i) seen[s.crowd.id[i]] = {s.crowd.position[i], s.crowd.view[i]};
+  return seen;
+}
+
+// One step, in which people only come and go at gates, and come out of sight.
+void StepWatched(const CameraInput& input, Simulation* s, int* came, int* went) {
+  const std::map<int, Sighting> before = Seen(*s);
+  StepSimulation(input, 0, s);
+  const std::map<int, Sighting> after = Seen(*s);
+  for (const auto& [id, person] : after) {
+    if (before.count(id)) continue;
+    ++*came;
+    EXPECT_LT(ToNearestGate_m(*s, person.position), 1.2f);
+    EXPECT_EQ(person.view, ViewClass::kOutside) << "came in view";
+  }
+  for (const auto& [id, person] : before) {
+    if (after.count(id)) continue;
+    ++*went;
+    EXPECT_LT(ToNearestGate_m(*s, person.position), 0.6f);
+  }
+}
+
+TEST(Life, PeopleComeAndGoOnlyThroughGatesAndComeOutOfSight) {
+  Scenario scenario;
+  scenario.has_camera = true;
+  scenario.camera_position_m = {0, 10};
+  Simulation s = Started(Square(120), scenario);
+  CameraInput input;
+  input.active = true;
+  int came = 0, went = 0;
+  for (int step = 0; step < 3600; ++step) {
+    input.yaw_rate_radps = step % 300 < 100 ? 1.0f : 0.0f;
+    StepWatched(input, &s, &came, &went);
+    EXPECT_LE(s.crowd.size(), 120u);
+    EXPECT_GE(s.crowd.size(), 100u);
+  }
+  EXPECT_GT(came, 30);
+  EXPECT_GT(went, 30);
+}
+
+// A blind alley, 4 m wide and 22 m long, north of the square; two doors at its end.
+TEST(Life, WhoIsEnclosedInADeadEndAndTooManyGoesIndoors) {
+  TourPack pack = Square(10);
+  for (const float x : {-30.0f, 2.0f}) {
+    PackObstacle block;
+    block.outer = {{x, 5}, {x + 28, 5}, {x + 28, 30}, {x, 30}};
+    pack.obstacles.push_back(block);
+  }
+  pack.places = {{"door_1", "door", {-1.5f, 24}, 1}, {"door_2", "door", {1.5f, 20}, 1}, {"south", "exit", {0, -29}, 3}};
+  pack.control.high_limit = 4;
+  pack.crowd.group_share = 0.4f;
+  Scenario scenario;
+  scenario.crowd_area = Area{{-2, 6}, {2, 28}};
+  scenario.has_camera = true;
+  scenario.camera_position_m = {0, 2};
+  scenario.camera_yaw_deg = 90;
+  CameraLeg walk, wait;
+  walk.kind = CameraLeg::Kind::kWalk;
+  walk.to_m = {0, 14};
+  walk.speed_mps = 0.8f;
+  wait.wait_s = 60;
+  scenario.legs = {walk, wait};
+  int exceeded = 0, came = 0, went = 0;
+  Simulation s = Started(pack, scenario);
+  ASSERT_EQ(s.crowd.size(), 10u);
+  for (int step = 0; step < 1500; ++step) {
+    StepWatched({}, &s, &came, &went);
+    exceeded += step > 600 && s.levels.exceeded ? 1 : 0;
+  }
+  EXPECT_GE(went, 4) << "through the doors";
+  EXPECT_LT(exceeded, 18) << "frames of 900";
+}
+
 }  // namespace
 }  // namespace flaneur
