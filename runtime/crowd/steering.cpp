@@ -45,7 +45,8 @@ struct Looking {
   int person = 0;
 };
 
-struct Surroundings { Vec2 push; float crowding = 0; };
+// Of the predicted collisions only the foremost counts: sums of many pushes stop people who could pass one after the other.
+struct Surroundings { Vec2 foremost, separation; float foremost2 = 0, crowding = 0; };
 
 // Those of a row of the grid who are within the neighbour radius, as arrays by field.
 struct Block {
@@ -74,7 +75,8 @@ const Neighbour* Gather(const Looking& me, const Neighbour* first, const Neighbo
   return first;
 }
 
-// What is cheap for everybody near, side by side: how much they crowd me, and whether they could matter at all.
+// What is cheap for everybody near, side by side: how much they crowd me, and whether they could matter at all. Who walks my way or
+// stands crowds me in full, who crosses half as much, and who comes towards me will be gone.
 void Weigh(const Looking& me, Block* block) {
   constexpr float kPerRadius2 = 1 / (kDensityRadius_m * kDensityRadius_m);
   const int rounded = std::min(kBlock, (block->count + 3) & ~3);
@@ -88,17 +90,31 @@ void Weigh(const Looking& me, Block* block) {
     const float distance_m = std::sqrt(distance2);
     const float cosine = (x * me.ahead.x + y * me.ahead.y) / distance_m;
     const float share = 1 - distance2 * kPerRadius2;
-    const float reach_m = b.reach_m[k] + 0.5f * kComfort_m;
+    const float other_x = me.velocity.x - closing_x, other_y = me.velocity.y - closing_y;
+    const float other_mps = std::sqrt(other_x * other_x + other_y * other_y);
+    const float stays = 1 - 0.5f * (other_mps - other_x * me.ahead.x - other_y * me.ahead.y) / (other_mps + kTurnsAbove_mps);
+    const float reach_m = b.reach_m[k] + kPassing_m;
     const float seen_x = x - kPassOnTheRight_rad * y, seen_y = y + kPassOnTheRight_rad * x;
     const float along = seen_x * closing_x + seen_y * closing_y;
     const float closing2 = closing_x * closing_x + closing_y * closing_y;
     const float room = seen_x * seen_x + seen_y * seen_y - reach_m * reach_m;
     const float discriminant = along * along - closing2 * room;
     b.cosine[k] = cosine;
-    b.weight[k] = (share > 0 ? share : 0) * (1 + cosine);
+    b.weight[k] = (share > 0 ? share : 0) * (1 + cosine) * stays;
     b.gap_m[k] = distance_m - b.reach_m[k];
     b.meets[k] = (along > 0 ? 1 : 0) & (discriminant > 1e-9f ? 1 : 0);
   }
+}
+
+// People pass each other sideways and keep walking: slowing down is left to the density around, but for those who cross from the
+// right.
+Vec2 WithoutBraking(const Looking& me, Vec2 towards, Vec2 other, Vec2 push) {
+  const float along = Dot(push, me.velocity), speed2 = Dot(me.velocity, me.velocity);
+  if (along >= 0 || speed2 <= kTurnsAbove_mps * kTurnsAbove_mps) return push;
+  const float leftwards = Cross(me.ahead, other);
+  const bool crosses = leftwards > 0 && leftwards * leftwards > kCrossing * kCrossing * Dot(other, other);
+  const bool first = crosses && Cross(me.ahead, towards) < 0;
+  return push - me.velocity * ((first ? 1 - kGiveWay : 1) * along / speed2);
 }
 
 void Feel(const Looking& me, Block* block, Surroundings* s) {
@@ -110,10 +126,13 @@ void Feel(const Looking& me, Block* block, Surroundings* s) {
     const Vec2 towards{b.x[k], b.y[k]};
     const float attention = b.cosine[k] > -0.2f ? 1.0f : kAttentionBehind;
     const Vec2 seen{towards.x - kPassOnTheRight_rad * towards.y, towards.y + kPassOnTheRight_rad * towards.x};
-    s->push = s->push + Anticipation(seen, {b.closing_x[k], b.closing_y[k]}, b.reach_m[k] + 0.5f * kComfort_m) * attention;
+    const Vec2 closing{b.closing_x[k], b.closing_y[k]};
+    const Vec2 foreseen = Anticipation(seen, closing, b.reach_m[k] + kPassing_m) * attention;
+    const Vec2 push = WithoutBraking(me, towards, me.velocity - closing, foreseen);
+    if (const float size2 = Dot(push, push); size2 > s->foremost2) s->foremost = push, s->foremost2 = size2;
     if (b.gap_m[k] < kComfort_m) {
       const float distance_m = b.gap_m[k] + b.reach_m[k];
-      s->push = s->push - towards * (kSeparation_mps2 * (1 - b.gap_m[k] / kComfort_m) / distance_m);
+      s->separation = s->separation - towards * (kSeparation_mps2 * (1 - b.gap_m[k] / kComfort_m) / distance_m);
     }
   }
   block->count = 0;
@@ -144,7 +163,7 @@ Vec2 AvoidMoving(const std::vector<MovingObstacle>& moving, const Looking& me, b
       push = push - towards * (kSeparation_mps2 * std::min(1.0f, 1 - gap_m / (2 * kComfort_m)) / distance_m);
     }
   }
-  return ClampLength(push, kMostPush_mps2);
+  return ClampLength(push, kMostPush_mps2) * kDiscMinded;
 }
 
 // The weights of a full disc sum to half its area; walls leave less of it to people.
@@ -159,7 +178,7 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
   const Surroundings around = LookAround(c->neighbours, me);
   const int cell = CellAt(w, me.position);
   mind.asked_mps = SpeedOnSlope(w, cell, mind.alone_mps) * SpeedInDensity(DensityFrom(w, cell, around.crowding));
-  Vec2 push = around.push + AvoidMoving(moving, me, mind.avoids_camera);
+  Vec2 push = around.foremost + around.separation + AvoidMoving(moving, me, mind.avoids_camera);
   if (mind.stands && Dot(push, push) < 1) push = {};  // people who stand give way only when pressed
   mind.push = push + WallPush(w, me.position, me.radius_m);
   mind.clear_from = me.position;
