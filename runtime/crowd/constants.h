@@ -26,7 +26,7 @@ inline constexpr float kPassing_m = 0.02f;
 inline constexpr float kCrossing = 0.5f;
 inline constexpr float kGiveWay = 0.4f;
 // Nobody but people gives way between them and the visitor, or another disc: they mind it so many times as much as each other.
-inline constexpr float kDiscMinded = 2.0f;
+inline constexpr float kDiscMinded = 3.0f;
 // What happens at one's back is felt, not foreseen.
 inline constexpr float kAttentionBehind = 0.2f;
 // Two who meet head on both step to their right: each sees the other turned this far to the left (radians).
@@ -59,6 +59,8 @@ inline constexpr float kNearWallCost = 1.25f;
 inline constexpr float kNearWall_m = 0.35f;
 // A metre up or down a gradient g counts 1 + 4 |g|, near the energy of walking on gentle slopes (Minetti et al. 2002).
 inline constexpr float kSlopeCost = 4.0f;
+// Gentler slopes are level to those who look for a straight way: they cost no more than a wall near by.
+inline constexpr float kLevelSlope = (kNearWallCost - 1) / kSlopeCost;
 // And is walked at 1 / (1 + 2 |g|) of the speed (near Tobler 1993 for the slopes of a town).
 inline constexpr float kSlopeSlows = 2.0f;
 

@@ -207,8 +207,9 @@ void MeasureClearances(const std::vector<char>& covered, float most_m, Walkable*
   }
 }
 
-// Distances in kings' moves to the nearest cell of another cost, less one, in two sweeps.
+// Distances in kings' moves to the nearest cell that is steep or of another cost, less one, in two sweeps.
 void MeasureSame(Walkable* w) {
+  const auto level = [&](size_t cell) { return SlopeOf(*w, static_cast<int>(cell)) <= kLevelSlope; };
   const int columns = w->columns, rows = w->rows;
   const auto sweep = [&](int x, int y, int direction) {
     const int cell = y * columns + x;
@@ -216,7 +217,7 @@ void MeasureSame(Walkable* w) {
     const int around[4] = {-direction, -direction * columns - 1, -direction * columns, -direction * columns + 1};
     for (int step : around) {
       const size_t other = static_cast<size_t>(cell + step);
-      const bool alike = w->cost[other] == w->cost[static_cast<size_t>(cell)];
+      const bool alike = w->cost[other] == w->cost[static_cast<size_t>(cell)] && level(other) && level(static_cast<size_t>(cell));
       least = std::min(least, alike ? w->cells[other].same + 1 : 0);
     }
     w->cells[static_cast<size_t>(cell)].same = static_cast<uint8_t>(least);

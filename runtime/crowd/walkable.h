@@ -37,7 +37,7 @@ struct Walkable {
   // What walkers ask of the cell they are in, kept small: people all over a town read it in every step.
   struct Cell {
     uint8_t clear_cm = 0;  // from every point of the cell at least so far to anything that stops people
-    uint8_t same = 0;      // so many cells around, in rows and columns, cost the same as this one
+    uint8_t same = 0;      // so many cells around, in rows and columns, are level and cost the same as this one
     uint8_t slope = 0;     // rise over run in units of kSlopeUnit, not negative
     uint8_t open = 0;      // of the disc that density is measured in, the share that is ground, in 1/255
   };
