@@ -13,7 +13,7 @@ constexpr float kMoment_s = 0.5f;          // between the moments looked at
 constexpr int kTurnMoments[State::kTurns] = {0, 2, 4};
 constexpr float kReach_m = 8;              // beyond r_high: who may be inside within the foresight
 constexpr float kRim_m = 0.6f;             // the forecast is that uncertain
-constexpr float kReserve = 0.15f;          // share of the limit kept free for surprises
+constexpr float kReserve = 0.2f;          // share of the limit kept free for surprises
 constexpr float kSettles_s = 0.3f;         // over which the camera's motion is averaged
 constexpr float kTurnLasts_s = 1.0f;       // a turn of the head dies away
 constexpr float kWalksOn_s = 1.2f;         // in the new direction after a turn
@@ -21,12 +21,13 @@ constexpr float kDetour_s = 1.2f;          // a choice holds so long
 constexpr float kAheadFree_s = 1.5f;       // and must be walkable so far
 constexpr float kPaces[] = {1.0f, 0.75f, 1.2f, 0.45f};
 constexpr float kTurns_rad[] = {0, 0.3f, -0.3f, 0.6f, -0.6f, 1.0f, -1.0f, 1.5f, -1.5f};
-constexpr float kMostTurnInView_rad = 1.1f;
-constexpr float kCostInView = 1.6f, kCostUnseen = 0.1f;  // moments in the way that one radian is worth
+constexpr float kMostTurnInView_rad = 0.7f;
+constexpr float kCostInView = 2.4f, kCostUnseen = 0.1f;  // moments in the way that one radian is worth
 constexpr float kStepsAside_s = 3;         // people make room for the visitor so long before
 constexpr float kRoom_m = 0.15f;
-constexpr int kBlockingCounts = 2;
-constexpr float kCostOfSettingOff = 1.0f;  // of somebody who stands
+constexpr float kBlockingCounts = 2;       // moments that holding the visitor up is worth
+constexpr float kTurnsInView = 0.25f;      // what the visitor may turn to matters that much to people in view
+constexpr float kCostOfSettingOff = 3.0f;  // moments that it is worth to leave somebody standing
 
 Vec2 Direction(float yaw_rad) { return {std::cos(yaw_rad), std::sin(yaw_rad)}; }
 
@@ -88,18 +89,20 @@ void Tally(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, int count, S
   }
 }
 
-void MarkFullSectors(float fov_rad, int capacity, State* state) {
+void MeasureSectors(float fov_rad, int capacity, State* state) {
   // One sector more than the view is wide: it may lie across them anyhow.
   const int width = std::clamp(static_cast<int>(std::ceil(fov_rad / (2 * kPi) * State::kSectors)) + 1, 1, State::kSectors);
   for (int k = 0; k < State::kTurns; ++k) {
     const auto& around = state->around[static_cast<size_t>(k)];
-    auto& full = state->full[static_cast<size_t>(k)];
-    full.fill(false);
+    auto& excess = state->excess[static_cast<size_t>(k)];
+    excess.fill(0);
     for (int first = 0; first < State::kSectors; ++first) {
       int held = 0;
       for (int j = 0; j < width; ++j) held += around[static_cast<size_t>((first + j) % State::kSectors)];
-      if (held <= capacity) continue;
-      for (int j = 0; j < width; ++j) full[static_cast<size_t>((first + j) % State::kSectors)] = true;
+      for (int j = 0; held > capacity && j < width; ++j) {
+        int& worst = excess[static_cast<size_t>((first + j) % State::kSectors)];
+        worst = std::max(worst, held - capacity);
+      }
     }
   }
 }
@@ -113,19 +116,21 @@ bool Blocks(const Crowd& c, size_t i, Vec2 velocity, float r_personal_m, const S
   return Dot(apart, apart) * speed2 - ahead * ahead < reach_m * reach_m * speed2;
 }
 
-// In how many moments the person would be one too many.
-int TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const ForesightSettings& s, int capacity, const State& state) {
+// In how many moments the person would be one too many. Where every direction is full already, the fullest counts most.
+float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const ForesightSettings& s, int capacity, const State& state) {
   const float r_high_m = s.r_high_m;
-  int times = Blocks(c, i, velocity, s.r_personal_m, state) ? kBlockingCounts : 0;
+  float times = Blocks(c, i, velocity, s.r_personal_m, state) ? kBlockingCounts : 0;
   for (int m = 1; m < State::kMoments; ++m) {
     if (state.seen[static_cast<size_t>(m)] <= capacity) continue;
     if (InView(state, m, r_high_m, c.position[i] + velocity * MomentTime_s(m))) ++times;
   }
-  if (c.view[i] == ViewClass::kVisible) return times;
+  const float share = c.view[i] == ViewClass::kVisible ? kTurnsInView : 1.0f;
   for (int k = 0; k < State::kTurns; ++k) {
     const int m = kTurnMoments[k];
     const Vec2 off = c.position[i] + velocity * MomentTime_s(m) - state.moment[static_cast<size_t>(m)].position;
-    if (InTurningReach(state, r_high_m, off) && state.full[static_cast<size_t>(k)][static_cast<size_t>(SectorOf(off))]) ++times;
+    if (!InTurningReach(state, r_high_m, off)) continue;
+    const int excess = state.excess[static_cast<size_t>(k)][static_cast<size_t>(SectorOf(off))];
+    if (excess > 0) times += share * (1 + static_cast<float>(excess) / static_cast<float>(s.high_limit));
   }
   return times;
 }
@@ -137,7 +142,7 @@ bool CanWalk(const Walkable& w, Vec2 from, Vec2 way) {
 void Consider(const Walkable& w, const ForesightSettings& s, int capacity, size_t i, Crowd* crowd, State* state) {
   Crowd& c = *crowd;
   const Vec2 desired = Desired(c, i);
-  const int now = TimesInTheWay(c, i, desired, s, capacity, *state);
+  const float now = TimesInTheWay(c, i, desired, s, capacity, *state);
   if (now == 0) {  // a detour that goes well ends only when the own way is free again: nobody wavers
     const bool on_detour = c.detour_s[i] > 0;
     if (on_detour && TimesInTheWay(c, i, OwnWay(c, i), s, capacity, *state) > 0 &&
@@ -156,8 +161,8 @@ void Consider(const Walkable& w, const ForesightSettings& s, int capacity, size_
     for (const float turn : kTurns_rad) {
       if (seen && std::abs(turn) > kMostTurnInView_rad) continue;
       const Vec2 velocity = Rotated(base, turn) * std::min(pace, c.top_mps[i] / std::max(c.preferred_mps[i], 0.1f));
-      const float gain = static_cast<float>(now - TimesInTheWay(c, i, velocity, s, capacity, *state)) -
-                         cost * (std::abs(turn) + 1.5f * std::abs(1 - pace) + (stands ? kCostOfSettingOff : 0));
+      const float gain = now - TimesInTheWay(c, i, velocity, s, capacity, *state) -
+                         cost * (std::abs(turn) + 1.5f * std::abs(1 - pace)) - (stands ? kCostOfSettingOff : 0);
       if (gain > best.gain && CanWalk(w, c.position[i], velocity * kAheadFree_s)) best.gain = gain, best.velocity = velocity;
     }
   }
@@ -176,7 +181,7 @@ void Choose(const ForesightSettings& s, float fov_rad, int capacity, Crowd* c, S
     c->detour[i] = choice.velocity;
     c->detour_s[i] = kDetour_s;
     Tally(*c, i, choice.velocity, s.r_high_m, 1, state);
-    MarkFullSectors(fov_rad, capacity, state);
+    MeasureSectors(fov_rad, capacity, state);
   }
 }
 
@@ -198,7 +203,7 @@ void Foresee(const ViewCamera& camera, Vec2 camera_velocity, float yaw_rate_radp
     state->near.push_back(static_cast<int>(i));
     Tally(*c, i, Desired(*c, i), s.r_high_m, 1, state);
   }
-  MarkFullSectors(camera.fov_rad, capacity, state);
+  MeasureSectors(camera.fov_rad, capacity, state);
   for (const int i : state->near) {
     if (c->detour_s[static_cast<size_t>(i)] <= 0.5f * kDetour_s) Consider(walkable, s, capacity, static_cast<size_t>(i), c, state);
   }

@@ -31,7 +31,7 @@ struct ForesightState {
   float sine = 0, cosine = 1;           // of half the field of view
   std::array<int, kMoments> seen{};     // people within the view and r_high then
   std::array<std::array<int, kSectors>, kTurns> around{};  // people within r_high whose direction lies in the sector
-  std::array<std::array<bool, kSectors>, kTurns> full{};   // a view over the sector would hold too many
+  std::array<std::array<int, kSectors>, kTurns> excess{};  // people too many in the fullest view over the sector
   std::vector<int> near;
   struct Choice { float gain = 0; int person = 0; Vec2 velocity; };
   std::vector<Choice> choices;

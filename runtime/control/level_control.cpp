@@ -7,10 +7,10 @@ namespace flaneur {
 namespace {
 
 constexpr float kFall_mps = 2.0f;            // r_high moves no faster than people walk,
-constexpr float kRise_mps = 0.5f;            // and grows slowly: whoever it passes over switches in view
+constexpr float kRise_mps = 0.5f;            // and comes back slowly: whoever it passes over switches in view
 constexpr float kHysteresis_m = 2.0f;        // a mesh stays one until this far beyond r_high
-constexpr float kStretch = 1.5f;             // in a sparse crowd r_high grows to this times its nominal value
-constexpr float kHeadroom = 2.0f;            // of a newly chosen level: serves up to so many times the pixels
+constexpr float kHeadroom = 8.0f;            // of a newly chosen level: serves up to so many times the pixels
+constexpr float kReserve = 0.2f;            // of limit and budget, kept for those who come near
 constexpr float kBudgetGain = 0.02f;         // a step, of the budget's relative error (method 2)
 constexpr float kFastCamera_mps = 2.0f;      // above it fidelity may fall (paper, section 3.2)
 
@@ -47,8 +47,18 @@ int WantedLevel(const AvatarCosts& avatar, float px, int last) {
   return last < 0 || last > coarsest ? finest : std::clamp(last, finest, coarsest);
 }
 
-// Who is in view and near enough to be drawn, and by how far each is to be preferred: who was a mesh keeps being one until somebody
-// is nearer by kHysteresis_m.
+// In which order people are served. Within r_high in force by distance, and who is a mesh keeps being one until somebody is nearer by
+// kHysteresis_m; then who is a mesh anyway, as long as nobody else needs the place; then who comes into view, since nobody sees them
+// change. Whoever was seen as an impostor stays one until r_high reaches them.
+enum Turn : uint8_t { kWithin, kHolds, kAppears, kStays };
+
+LevelState::Visible Seen(const Crowd& crowd, size_t i, float distance_m, float r_high_m, int last) {
+  const float key_m = distance_m - (last >= 0 ? kHysteresis_m : 0);
+  const Turn turn = key_m < r_high_m ? kWithin : last >= 0 ? kHolds : last == kNotDrawn ? kAppears : kStays;
+  return {distance_m, key_m, static_cast<int>(i), crowd.id[i], turn};
+}
+
+// Who is in view and near enough to be drawn; those within r_high stand in `nearest` by distance.
 void ListVisible(const Crowd& crowd, const ViewCamera& camera, float r_far_m, LevelState* state) {
   state->visible.clear();
   state->last_level.resize(static_cast<size_t>(crowd.next_id), kNotDrawn);
@@ -57,16 +67,13 @@ void ListVisible(const Crowd& crowd, const ViewCamera& camera, float r_far_m, Le
     const Vec2 off = crowd.position[i] - camera.position;
     const float distance2 = Dot(off, off);
     if (distance2 > r_far_m * r_far_m) continue;
-    const float distance_m = std::sqrt(distance2);
-    const bool was_mesh = state->last_level[static_cast<size_t>(crowd.id[i])] >= 0;
-    state->visible.push_back({distance_m, distance_m - (was_mesh ? kHysteresis_m : 0), static_cast<int>(i), crowd.id[i]});
+    state->visible.push_back(Seen(crowd, i, std::sqrt(distance2), state->r_high_m, state->last_level[static_cast<size_t>(crowd.id[i])]));
   }
 }
 
 // r_high moves towards the distance that leaves `limit` people inside: soon where there are more, slowly where there are fewer.
 void MoveBoundary(const LevelSettings& s, int limit, float step_s, LevelState* state) {
-  if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
-  float wanted_m = s.r_high_m * kStretch;
+  float wanted_m = s.r_high_m;
   state->nearest.clear();
   for (const LevelState::Visible& v : state->visible) {
     if (v.distance_m < wanted_m) state->nearest.push_back(v.distance_m);
@@ -80,6 +87,7 @@ void MoveBoundary(const LevelSettings& s, int limit, float step_s, LevelState* s
 }
 
 bool Before(const LevelState::Visible& a, const LevelState::Visible& b) {
+  if (a.turn != b.turn) return a.turn < b.turn;
   return a.key_m != b.key_m ? a.key_m < b.key_m : a.id < b.id;
 }
 
@@ -97,14 +105,14 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
                   float camera_speed_mps, float frame_ms, const LevelSettings& s, float step_s, LevelState* state) {
   FollowFrameTime(frame_ms, camera_speed_mps, s, state);
   const int limit = s.by_frame_time ? static_cast<int>(crowd.size()) : s.high_limit;
+  if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
   ListVisible(crowd, camera, s.r_far_m, state);
   MoveBoundary(s, limit, step_s, state);
 
   // Only those who may become meshes need to stand in order; and all, where not even impostors fit.
   const int64_t budget = static_cast<int64_t>(state->budget_triangles), drawable = budget / kImpostorTriangles;
   auto& visible = state->visible;
-  const float r_high_m = state->r_high_m;
-  auto far = std::partition(visible.begin(), visible.end(), [&](const auto& v) { return v.key_m < r_high_m; });
+  auto far = std::partition(visible.begin(), visible.end(), [](const auto& v) { return v.turn < kStays; });
   if (static_cast<int64_t>(visible.size()) > drawable) far = visible.end();
   std::sort(visible.begin(), far, Before);
 
@@ -113,17 +121,17 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
   state->high = state->low = state->shortfalls = state->switches_in_view = 0;
   int within_nominal = 0;
   for (size_t rank = 0; rank < visible.size(); ++rank) {
-    const auto& [distance_m, key_m, person, id] = visible[rank];
+    const auto& [distance_m, key_m, person, id, turn] = visible[rank];
     const size_t i = static_cast<size_t>(person);
     if (distance_m < s.r_high_m) ++within_nominal;
     if (static_cast<int64_t>(rank) >= drawable) continue;
     const AvatarCosts& avatar = avatars[static_cast<size_t>(crowd.avatar[i])];
     const float px = PixelsHigh(avatar.height_m, distance_m, camera, s.screen_width_px);
     const int last = state->last_level[static_cast<size_t>(id)];
-    const bool worth_it = last >= 0 || distance_m < s.r_high_m || px > avatar.impostor_px;
+    const float share = turn == kAppears ? 1 - kReserve : 1.0f;
     int level = kImpostor;
-    if (key_m < r_high_m && state->high < limit && worth_it) {
-      level = AffordableLevel(avatar, WantedLevel(avatar, px, last), budget, state->triangles);
+    if (turn < kStays && static_cast<float>(state->high) < share * static_cast<float>(limit)) {
+      level = AffordableLevel(avatar, WantedLevel(avatar, px, last), static_cast<int64_t>(share * state->budget_triangles), state->triangles);
     }
     if (level >= 0) state->triangles += avatar.levels[static_cast<size_t>(level)].triangles - kImpostorTriangles;
     state->level[i] = level;

@@ -34,7 +34,7 @@ struct LevelState {
   int64_t triangles = 0;
   bool exceeded = false;
 
-  struct Visible { float distance_m, key_m; int person, id; };
+  struct Visible { float distance_m, key_m; int person, id; uint8_t turn; };
   std::vector<Visible> visible;    // scratch
   std::vector<float> nearest;      // scratch
   std::vector<int> last_level;     // by id: level in the last step

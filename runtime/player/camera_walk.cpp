@@ -88,6 +88,7 @@ void StirLoiterers(Simulation* s) {
 void Walk(Vec2 direction, float asked_mps, Simulation* s) {
   CameraState& camera = s->camera;
   camera.asked_mps = asked_mps;
+  camera.asked_velocity = direction * asked_mps;
   const Vec2 before = camera.view.position;
   const float speed = asked_mps * DensityFactor(*s, direction);
   Vec2 step = direction * (speed * s->step_s);
@@ -159,7 +160,7 @@ void FollowTour(Simulation* s) {
 
 void MoveCamera(const CameraInput& input, Simulation* s) {
   CameraState& camera = s->camera;
-  camera.velocity = {};
+  camera.velocity = camera.asked_velocity = {};
   camera.yaw_rate_radps = camera.asked_mps = camera.actual_mps = 0;
   if (!camera.present) return;
   if (input.active) {

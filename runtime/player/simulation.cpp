@@ -181,7 +181,7 @@ void ControlCrowd(float frame_ms, Simulation* s) {
   ChooseLevels(s->crowd, s->avatar_costs, s->camera.view, speed, frame_ms, s->level_settings, s->step_s, &s->levels);
   s->moving.clear();
   if (s->camera.present) {
-    s->moving.push_back({s->camera.view.position, s->r_personal_m, true, s->camera.velocity});
+    s->moving.push_back({s->camera.view.position, s->r_personal_m, true, s->camera.asked_velocity});
     InfluenceCrowd(s->camera.view, s->camera.velocity, s->camera.yaw_rate_radps, s->levels, s->walkable, s->influence,
                    &s->crowd, &s->moving, &s->foresight);
   }

@@ -29,6 +29,7 @@ struct CameraState {
   ViewCamera view;
   float pitch_rad = 0, eye_height_m = kEyeHeight_m;
   Vec2 velocity;
+  Vec2 asked_velocity;  // what the visitor wants: who holds them up sees it
   float yaw_rate_radps = 0, asked_mps = 0, actual_mps = 0;
   bool present = true;      // false: everybody counts as visible
 };

@@ -106,6 +106,36 @@ TEST(LevelControl, NobodyFlickersWhereNothingMoves) {
   }
 }
 
+TEST(LevelControl, WhoComesIntoViewWhileThereIsRoomIsAMeshAndStaysOne) {
+  const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
+  Random random{3};
+  Crowd crowd = PeopleInView(8, &random);
+  LevelState state;
+  for (int step = 0; step < 900; ++step) {  // the visitor walks past all of them and they drop behind
+    const ViewCamera camera{{0.1f * static_cast<float>(step), 0}, 0, kPi / 3};
+    for (size_t i = 0; i < crowd.size(); ++i) {
+      if (crowd.position[i].x < camera.position.x) crowd.view[i] = ViewClass::kOutside;
+    }
+    ChooseLevels(crowd, avatars, camera, 3, 0, LevelSettings{}, 1.0f / 30, &state);
+    ASSERT_EQ(state.switches_in_view, 0);
+    ASSERT_EQ(state.low, 0);
+  }
+}
+
+TEST(LevelControl, InADenseViewTheNearestAreMeshesWhoeverCameFirst) {
+  const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
+  Random random{4};
+  Crowd crowd = PeopleInView(60, &random);
+  LevelState state;
+  for (int step = 0; step < 300; ++step) {
+    ChooseLevels(crowd, avatars, {{0.1f * static_cast<float>(step), 0}, 0, kPi / 3}, 3, 0, LevelSettings{}, 1.0f / 30, &state);
+  }
+  const Vec2 camera{29.9f, 0};
+  for (size_t i = 0; i < crowd.size(); ++i) {
+    if (Length(crowd.position[i] - camera) < state.r_high_m - 2) EXPECT_GE(state.level[i], 0);
+  }
+}
+
 TEST(CrowdInfluence, OnlyLowResolutionVisiblePeopleAvoidTheCameraAndOnlyAtTheLimit) {
   Random random{13};
   Crowd crowd = PeopleInView(60, &random);

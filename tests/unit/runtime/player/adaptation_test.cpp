@@ -74,12 +74,12 @@ TEST_P(Adaptation, FewFramesExceedTheLimitAndTheVisitorGetsOn) {
     full += o.exceeded;
     EXPECT_EQ(o.over_budget, 0);
     EXPECT_LE(o.longest_step, 1.001f);
-    EXPECT_GT(o.walked_m, 0.85f * o.asked_m);
+    EXPECT_GT(o.walked_m, 0.9f * o.asked_m);
   }
   RecordProperty("exceeded_off", off);
   RecordProperty("exceeded_full", full);
   EXPECT_GT(off, 100) << "the square is crowded enough to matter";
-  EXPECT_LT(full, off / 3);
+  EXPECT_LE(full, off / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(AtWalkingPaceAndTwiceAsFast, Adaptation, testing::Values(1.9f, 3.8f));
