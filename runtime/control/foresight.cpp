@@ -27,7 +27,7 @@ constexpr float kStepsAside_s = 3;         // people make room for the visitor s
 constexpr float kRoom_m = 0.15f;
 constexpr float kBlockingCounts = 2;       // moments that holding the visitor up is worth
 constexpr float kTurnsInView = 0.25f;      // what the visitor may turn to matters that much to people in view
-constexpr float kCostOfSettingOff = 3.0f;  // moments that it is worth to leave somebody standing
+constexpr float kCostOfSettingOff = 8.0f;  // moments that it is worth to leave somebody standing
 
 Vec2 Direction(float yaw_rad) { return {std::cos(yaw_rad), std::sin(yaw_rad)}; }
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kBlock = 64;  // people looked at together
 constexpr size_t kFetchAhead = 9;  // people, whose cells lie anywhere
+constexpr float kLeastPull_mps2 = 0.5f;  // a turn ends, and doesn't fade away
 constexpr float kLeastTime_s = 0.3f;  // no stepping aside is quicker
 constexpr float kAsideGain = 4;       // 2 from standing; as much again against the pull of one's own way
 
@@ -232,7 +233,10 @@ void ChooseVelocity(float step_s, size_t i, Crowd* c) {
   Vec2 preferred;
   if (c->detour_s[i] > 0) preferred = c->detour[i] * (mind.alone_mps > 0 ? std::min(1.0f, mind.asked_mps / mind.alone_mps) : 1.0f);
   else if (c->activity[i] == Activity::kWalking && c->field[i] >= 0) preferred = c->way[i] * mind.asked_mps;
-  const Vec2 goal_pull = (preferred - c->velocity[i]) * (1 / kRelaxation_s);
+  const Vec2 change = preferred - c->velocity[i];
+  const float change_mps = Length(change);
+  const float pull_mps2 = std::min(change_mps / step_s, std::max(change_mps / kRelaxation_s, kLeastPull_mps2));
+  const Vec2 goal_pull = change_mps > 0 ? change * (pull_mps2 / change_mps) : Vec2{};
   const Vec2 acceleration = ClampLength(goal_pull + mind.push, kMaxAcceleration_mps2);
   c->wanted[i] = ClampLength(c->velocity[i] + acceleration * step_s, c->top_mps[i]);
 }
