@@ -32,6 +32,8 @@ struct Mind {
   float alone_mps = 0;  // what it would be without anybody around
   Vec2 clear_from;      // nothing stops anybody within clear_m of here
   float clear_m = 0;
+  Vec2 left_line;       // where the person began to make room for the visitor
+  int returns = 0;      // decisions left to go back to that line
   bool stands = false, avoids_camera = false;
 };
 

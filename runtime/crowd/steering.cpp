@@ -12,9 +12,11 @@ namespace {
 
 constexpr int kBlock = 64;  // people looked at together
 constexpr size_t kFetchAhead = 9;  // people, whose cells lie anywhere
-constexpr float kLeastPull_mps2 = 0.5f;  // a turn ends, and doesn't fade away
+constexpr float kLeastAcceleration_mps2 = 0.5f;  // a turn ends, and doesn't fade away
+constexpr int kReturnDecisions = 45;    // after which a line is forgotten;
+constexpr int kPassing = 7;             // and the first of them, while the visitor passes, change nothing
+constexpr float kReturn_s = 1.0f, kMostReturn_mps = 0.5f, kOnLine_m = 0.1f;
 constexpr float kLeastTime_s = 0.3f;  // no stepping aside is quicker
-constexpr float kAsideGain = 4;       // 2 from standing; as much again against the pull of one's own way
 
 Vec2 ClampLength(Vec2 v, float most) {
   const float length2 = Dot(v, v);
@@ -154,7 +156,7 @@ Surroundings LookAround(const NeighbourGrid& grid, const Looking& me) {
   return s;
 }
 
-// Room for somebody who may come faster than people walk: the even acceleration that just clears their way in the time left.
+// Room for somebody who may come faster than people walk: the sideways speed that just clears their way in the time left.
 Vec2 StepAside(Vec2 towards, Vec2 closing, float reach_m) {
   const float speed2 = Dot(closing, closing), along = Dot(towards, closing);
   if (along <= 0 || along > kAnticipation_s * speed2) return {};
@@ -163,7 +165,7 @@ Vec2 StepAside(Vec2 towards, Vec2 closing, float reach_m) {
   const float miss_m = Length(missed);
   if (miss_m >= reach_m) return {};
   const Vec2 side = miss_m > 0.05f ? missed * (1 / miss_m) : Vec2{-closing.y, closing.x} * (-1 / std::sqrt(speed2));
-  return side * (kAsideGain * (reach_m - miss_m) / (time_s * time_s));
+  return side * ((reach_m - miss_m) / (time_s * kRelaxation_s));
 }
 
 Vec2 AvoidMoving(const std::vector<MovingObstacle>& moving, const Looking& me, bool avoids_camera) {
@@ -183,6 +185,20 @@ Vec2 AvoidMoving(const std::vector<MovingObstacle>& moving, const Looking& me, b
   return ClampLength(push, kMostPush_mps2) * kDiscMinded;
 }
 
+// Who made room for the visitor comes back to the line they walked on, so that the crowd closes again behind.
+Vec2 BackToLine(bool pushed, Vec2 position, Vec2 way, Mind* mind) {
+  if (pushed) {
+    if (mind->returns == 0) mind->left_line = position;
+    mind->returns = kReturnDecisions;
+    return {};
+  }
+  if (mind->returns == 0) return {};
+  if (--mind->returns > kReturnDecisions - kPassing) return {};
+  const Vec2 off = mind->left_line - position, aside = off - way * Dot(off, way);
+  if (Dot(aside, aside) < kOnLine_m * kOnLine_m) mind->returns = 0;
+  return ClampLength(aside * (1 / kReturn_s), kMostReturn_mps) * (1 / kRelaxation_s);
+}
+
 // The weights of a full disc sum to half its area; walls leave less of it to people.
 float DensityFrom(const Walkable& w, int cell, float crowding) {
   const float open = cell >= 0 ? std::max(0.2f, static_cast<float>(w.cells[static_cast<size_t>(cell)].open) * (1.0f / 255)) : 1.0f;
@@ -197,7 +213,10 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
   mind.asked_mps = SpeedOnSlope(w, cell, mind.alone_mps) * SpeedInDensity(DensityFrom(w, cell, around.crowding));
   Vec2 push = around.foremost + around.separation;
   if (mind.stands && Dot(push, push) < 1) push = {};  // people who stand give way only when pressed
-  push = push + AvoidMoving(moving, me, mind.avoids_camera);
+  const Vec2 room = AvoidMoving(moving, me, mind.avoids_camera);
+  push = push + room;
+  const size_t i = static_cast<size_t>(self.person);
+  if (!mind.stands) push = push + BackToLine(Dot(room, room) > 0, me.position, c->way[i], &mind);
   mind.push = push + WallPush(w, me.position, me.radius_m);
   mind.clear_from = me.position;
   mind.clear_m = ClearAround_m(w, cell);
@@ -233,11 +252,10 @@ void ChooseVelocity(float step_s, size_t i, Crowd* c) {
   Vec2 preferred;
   if (c->detour_s[i] > 0) preferred = c->detour[i] * (mind.alone_mps > 0 ? std::min(1.0f, mind.asked_mps / mind.alone_mps) : 1.0f);
   else if (c->activity[i] == Activity::kWalking && c->field[i] >= 0) preferred = c->way[i] * mind.asked_mps;
-  const Vec2 change = preferred - c->velocity[i];
+  const Vec2 change = preferred + mind.push * kRelaxation_s - c->velocity[i];
   const float change_mps = Length(change);
-  const float pull_mps2 = std::min(change_mps / step_s, std::max(change_mps / kRelaxation_s, kLeastPull_mps2));
-  const Vec2 goal_pull = change_mps > 0 ? change * (pull_mps2 / change_mps) : Vec2{};
-  const Vec2 acceleration = ClampLength(goal_pull + mind.push, kMaxAcceleration_mps2);
+  const float most_mps2 = std::min(kMaxAcceleration_mps2, std::max(change_mps / kRelaxation_s, kLeastAcceleration_mps2));
+  const Vec2 acceleration = ClampLength(change * (1 / step_s), most_mps2);
   c->wanted[i] = ClampLength(c->velocity[i] + acceleration * step_s, c->top_mps[i]);
 }
 
