@@ -16,6 +16,7 @@ constexpr float kLeastAcceleration_mps2 = 0.5f;  // a turn ends, and doesn't fad
 constexpr int kReturnDecisions = 45;    // after which a line is forgotten;
 constexpr int kPassing = 7;             // and the first of them, while the visitor passes, change nothing
 constexpr float kReturn_s = 1.0f, kMostReturn_mps = 0.5f, kOnLine_m = 0.1f;
+constexpr float kSooner = 1.4f;         // than the last moment
 constexpr float kLeastTime_s = 0.3f;  // no stepping aside is quicker
 
 Vec2 ClampLength(Vec2 v, float most) {
@@ -165,24 +166,23 @@ Vec2 StepAside(Vec2 towards, Vec2 closing, float reach_m) {
   const float miss_m = Length(missed);
   if (miss_m >= reach_m) return {};
   const Vec2 side = miss_m > 0.05f ? missed * (1 / miss_m) : Vec2{-closing.y, closing.x} * (-1 / std::sqrt(speed2));
-  return side * ((reach_m - miss_m) / (time_s * kRelaxation_s));
+  return side * (kSooner * (reach_m - miss_m) / (time_s * kRelaxation_s));
 }
 
 Vec2 AvoidMoving(const std::vector<MovingObstacle>& moving, const Looking& me, bool avoids_camera) {
   Vec2 push;
   for (const MovingObstacle& m : moving) {
     if (!m.everyone && !avoids_camera) continue;
-    const Vec2 towards = m.center - me.position;
+    const Vec2 towards = m.center - me.position, closing = me.velocity - m.velocity;
     const float distance_m = std::max(Length(towards), 1e-4f), reach_m = m.radius_m + me.radius_m;
-    const Vec2 closing = me.velocity - m.velocity;
-    push = push + (m.everyone ? StepAside(towards, closing, reach_m + 2 * kComfort_m)
-                              : Anticipation(towards, closing, reach_m + 2 * kComfort_m));
+    const float room_m = reach_m + 2 * kComfort_m;
+    push = push + (m.everyone ? StepAside(towards, closing, room_m) : Anticipation(towards, closing, room_m) * kDiscMinded);
     const float gap_m = distance_m - reach_m;
     if (gap_m < 2 * kComfort_m) {
-      push = push - towards * (kSeparation_mps2 * std::min(1.0f, 1 - gap_m / (2 * kComfort_m)) / distance_m);
+      push = push - towards * (kDiscMinded * kSeparation_mps2 * std::min(1.0f, 1 - gap_m / (2 * kComfort_m)) / distance_m);
     }
   }
-  return ClampLength(push, kMostPush_mps2) * kDiscMinded;
+  return ClampLength(push, kDiscMinded * kMostPush_mps2);
 }
 
 // Who made room for the visitor comes back to the line they walked on, so that the crowd closes again behind.
