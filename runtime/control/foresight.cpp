@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/crowd/fast_math.h"
+
 namespace flaneur {
 namespace {
 
@@ -29,10 +31,8 @@ constexpr float kBlockingCounts = 2;       // moments that holding the visitor u
 constexpr float kTurnsInView = 0.25f;      // what the visitor may turn to matters that much to people in view
 constexpr float kCostOfSettingOff = 8.0f;  // moments that it is worth to leave somebody standing
 
-Vec2 Direction(float yaw_rad) { return {std::cos(yaw_rad), std::sin(yaw_rad)}; }
-
 Vec2 Rotated(Vec2 v, float by_rad) {
-  const Vec2 d = Direction(by_rad);
+  const Vec2 d = DirectionOf(by_rad);
   return {v.x * d.x - v.y * d.y, v.x * d.y + v.y * d.x};
 }
 
@@ -46,7 +46,7 @@ void FollowCamera(const ViewCamera& camera, Vec2 velocity, float yaw_rate_radps,
   for (int m = 0; m < State::kMoments; ++m) {
     const float t = MomentTime_s(m);
     const Vec2 position = camera.position + state->velocity * t;
-    const Vec2 axis = Direction(camera.yaw_rad + state->yaw_rate_radps * kTurnLasts_s * (1 - std::exp(-t / kTurnLasts_s)));
+    const Vec2 axis = DirectionOf(camera.yaw_rad + state->yaw_rate_radps * kTurnLasts_s * (1 - std::exp(-t / kTurnLasts_s)));
     state->moment[static_cast<size_t>(m)] = {position, position - axis * (kRim_m / state->sine), axis};
   }
 }
@@ -67,8 +67,7 @@ bool InTurningReach(const State& state, float r_high_m, Vec2 off) {
 }
 
 int SectorOf(Vec2 off) {
-  const float turn = std::atan2(off.y, off.x) / (2 * kPi) + 1;
-  return static_cast<int>(turn * State::kSectors) % State::kSectors;
+  return static_cast<int>((AngleOf(off) / (2 * kPi) + 1) * State::kSectors) % State::kSectors;
 }
 
 Vec2 OwnWay(const Crowd& c, size_t i) {
@@ -160,9 +159,10 @@ void Consider(const Walkable& w, const ForesightSettings& s, int capacity, size_
   for (const float pace : kPaces) {
     for (const float turn : kTurns_rad) {
       if (seen && std::abs(turn) > kMostTurnInView_rad) continue;
+      const float at_best = now - cost * (std::abs(turn) + 1.5f * std::abs(1 - pace)) - (stands ? kCostOfSettingOff : 0);
+      if (at_best <= best.gain) continue;
       const Vec2 velocity = Rotated(base, turn) * std::min(pace, c.top_mps[i] / std::max(c.preferred_mps[i], 0.1f));
-      const float gain = now - TimesInTheWay(c, i, velocity, s, capacity, *state) -
-                         cost * (std::abs(turn) + 1.5f * std::abs(1 - pace)) - (stands ? kCostOfSettingOff : 0);
+      const float gain = at_best - TimesInTheWay(c, i, velocity, s, capacity, *state);
       if (gain > best.gain && CanWalk(w, c.position[i], velocity * kAheadFree_s)) best.gain = gain, best.velocity = velocity;
     }
   }
