@@ -17,10 +17,22 @@ bool InWedge(Vec2 p, Vec2 apex, float yaw_rad, float fov_rad) {
   return along * std::sin(fov_rad / 2) >= across * std::cos(fov_rad / 2);
 }
 
-ViewClass Classify(Vec2 p, const ViewCamera& c, float outer_apex_back_m) {
-  if (InWedge(p, c.position, c.yaw_rad, c.fov_rad)) return ViewClass::kVisible;
-  const Vec2 back = c.position - Vec2{std::cos(c.yaw_rad), std::sin(c.yaw_rad)} * outer_apex_back_m;
-  return InWedge(p, back, c.yaw_rad, c.fov_rad) ? ViewClass::kBoundary : ViewClass::kOutside;
+ViewVolumes VolumesOf(const ViewCamera& c, float outer_apex_back_m) {
+  const Vec2 axis{std::cos(c.yaw_rad), std::sin(c.yaw_rad)};
+  return {c.position, c.position - axis * outer_apex_back_m, axis, std::sin(c.fov_rad / 2), std::cos(c.fov_rad / 2)};
+}
+
+ViewClass Classify(Vec2 p, const ViewVolumes& v) {
+  const auto inside = [&](Vec2 apex) {
+    const Vec2 off = p - apex;
+    return Dot(off, v.axis) * v.sine >= std::abs(Cross(v.axis, off)) * v.cosine;
+  };
+  if (inside(v.inner_apex)) return ViewClass::kVisible;
+  return inside(v.outer_apex) ? ViewClass::kBoundary : ViewClass::kOutside;
+}
+
+ViewClass Classify(Vec2 p, const ViewCamera& camera, float outer_apex_back_m) {
+  return Classify(p, VolumesOf(camera, outer_apex_back_m));
 }
 
 }  // namespace flaneur

@@ -35,4 +35,12 @@ float OuterApexBack_m(const MotionLimits& limits, float fov_rad);
 bool InWedge(Vec2 p, Vec2 apex, float yaw_rad, float fov_rad);
 ViewClass Classify(Vec2 p, const ViewCamera& camera, float outer_apex_back_m);
 
+// Both volumes with their sines and cosines, to class many people at once.
+struct ViewVolumes {
+  Vec2 inner_apex, outer_apex, axis;
+  float sine = 0, cosine = 1;  // of half the field of view
+};
+ViewVolumes VolumesOf(const ViewCamera& camera, float outer_apex_back_m);
+ViewClass Classify(Vec2 p, const ViewVolumes& volumes);
+
 }  // namespace flaneur
