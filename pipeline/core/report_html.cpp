@@ -18,10 +18,10 @@ h1{font:600 2rem Georgia,serif;margin:0} h2{font:600 1.25rem Georgia,serif;margi
 .card b{display:block;font-size:1.35rem;font-weight:600} table{border-collapse:collapse;width:100%;background:var(--card)}
 td,th{padding:.35rem .6rem;border-bottom:1px solid var(--line);text-align:left;vertical-align:top}
 th{font-weight:600;color:var(--soft);font-size:.85rem} .n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
-.person{display:grid;grid-template-columns:minmax(0,1fr) 26rem;gap:1rem;background:var(--card);border:1px solid var(--line);
+.person{display:grid;grid-template-columns:minmax(0,1fr) auto;gap:1rem;background:var(--card);border:1px solid var(--line);
 border-radius:8px;padding:.8rem 1rem;margin-bottom:.7rem;align-items:center} .person h3{margin:0;font-size:1.05rem}
 .person img{max-width:100%;background:linear-gradient(#dfe6ea,#c9d3d6);border-radius:4px}
-.person table{background:none;font-size:.88rem} .map svg{width:100%;height:auto;background:#fff;border:1px solid var(--line)}
+.person table{background:none;font-size:.88rem;width:auto} .person th,.person td{padding:.3rem .5rem} .map svg{width:100%;height:auto;background:#fff;border:1px solid var(--line)}
 details{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:.4rem .8rem;margin-bottom:.4rem}
 summary{cursor:pointer} .error{color:#a3271c;font-weight:600} .warning{color:#9a6a00;font-weight:600} li{margin:.15rem 0}
 )";
