@@ -70,6 +70,8 @@ std::vector<PackPlace> TaggedPlaces(const Scene& town) {
     if (!place || !node.meshes.empty()) continue;
     const Vec3 p = GroundFromGltf({node.world.m[3][0], node.world.m[3][1], node.world.m[3][2]});
     places.push_back({node.name, NodeKindName(node.kind), {p.x, p.y}, node.width_m > 0 ? node.width_m : 1});
+    const Vec2 ahead{node.world.m[2][0], -node.world.m[2][2]};  // local +Z
+    if (Length(ahead) > 1e-6f) places.back().yaw_rad = std::atan2(ahead.y, ahead.x);
   }
   return places;
 }

@@ -104,6 +104,9 @@ void ReadPlace(TomlTable table, TourSettings* settings) {
   table.Choice("kind", &place.kind, {"door", "exit", "goal", "loiter", "spawn"});
   table.Point("position_m", &place.position_m);
   table.Number("width_m", &place.width_m, 0.1, 1000);
+  float yaw_rad = 0;
+  table.Angle("yaw", &yaw_rad, -360, 360);
+  if (table.Has("yaw_deg")) place.yaw_rad = yaw_rad;
   if (!table.Has("position_m")) table.Refuse("a [[place]] needs position_m = [x, y]");
   table.Finish();
   settings->places.push_back(place);

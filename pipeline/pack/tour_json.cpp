@@ -128,6 +128,7 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   for (const PackPlace& p : parts.places) {
     tour["places"].push_back({{"name", p.name}, {"kind", p.kind}, {"position_m", PointJson(p.position_m)},
                               {"width_m", Short(p.width_m)}});
+    if (p.yaw_rad) tour["places"].back()["yaw_rad"] = Short(*p.yaw_rad);
   }
   tour["path"] = Json::array();
   for (const TourStop& s : parts.path) {

@@ -76,7 +76,7 @@ bool Gather(Group* g, const Crowd& c, Formation* f) {
   Vec2 way;
   for (int k = 0; k < g->size; ++k) {
     const size_t i = f->person[k] = static_cast<size_t>(g->member[k]);
-    if (!Walks(c, i)) continue;
+    if (!Walks(c, i) || (f->count > 0 && c.field[i] != c.field[f->person[f->who[0]]])) continue;
     f->who[f->count++] = k;
     f->center = f->center + c.position[i];
     way = way + c.way[i];

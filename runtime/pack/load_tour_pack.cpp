@@ -246,6 +246,7 @@ void ReadTour(const TourObject& tour, TourPack* pack) {
   for (const TourObject& p : tour.Objects("places")) {
     pack->places.push_back({p.Text("name"), p.OneOf("kind", {"door", "exit", "goal", "loiter", "spawn"}), p.Point("position_m"),
                             p.Real("width_m", TourObject::kAboveZero, TourObject::kAnything)});
+    if (p.Has("yaw_rad")) pack->places.back().yaw_rad = p.Real("yaw_rad");
   }
   for (const TourObject& s : tour.Objects("path")) {
     pack->path.push_back({s.Point("position_m"), s.Real("yaw_rad"), s.Real("pause_s", 0, TourObject::kAnything),

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,7 @@ struct PackPlace {
   std::string name, kind;
   Vec2 position_m;
   float width_m = 1;
+  std::optional<float> yaw_rad = std::nullopt;  // loiter: where people look; door, exit: the way out of it
 };
 
 struct TourStop { Vec2 position_m; float yaw_rad = 0; float pause_s = 0; std::string caption; };

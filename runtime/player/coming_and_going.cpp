@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "runtime/crowd/fast_math.h"
+#include "runtime/player/company.h"
+#include "runtime/player/loitering.h"
 #include "runtime/player/places.h"
 #include "runtime/player/population.h"
 #include "runtime/player/ways_out.h"
@@ -11,34 +13,12 @@
 namespace flaneur {
 namespace {
 
-constexpr float kLeastWait_s = 15, kMostWait_s = 50;
 constexpr float kBirthGap_m = 0.3f;         // between a newcomer and everybody else, beyond touching
 constexpr int kTries = 40;                  // to find a free spot before giving up for now
 constexpr int kTriesFarAway = 20;           // of them at gates beyond r_unimportant only
 constexpr int kBirths_perStep = 2;
-constexpr float kTalkingDistance_m = 2.5f;
 constexpr int kGateSpots = 9;               // the gate itself, and a ring
 constexpr float kBesideGate_m = 0.95f;
-
-// The people who do what person i does: the group, or i alone.
-struct Company {
-  int size = 1;
-  size_t member[kMostInGroup];
-};
-
-Company CompanyOf(const Crowd& c, size_t i) {
-  Company all;
-  all.member[0] = i;
-  if (c.group[i] < 0) return all;
-  const Group& g = c.groups[static_cast<size_t>(c.group[i])];
-  all.size = g.size;
-  for (int k = 0; k < g.size; ++k) all.member[k] = static_cast<size_t>(g.member[k]);
-  return all;
-}
-
-void SendAll(const Company& company, int field, Crowd* c) {
-  for (int k = 0; k < company.size; ++k) SetGoal(company.member[k], field, c);
-}
 
 bool Crowded(const Crowd& crowd, Vec2 p, float radius_m) {
   for (size_t i = 0; i < crowd.size(); ++i) {
@@ -47,22 +27,6 @@ bool Crowded(const Crowd& crowd, Vec2 p, float radius_m) {
     if (Dot(off, off) < reach_m * reach_m) return true;
   }
   return false;
-}
-
-// Who stands talks with the nearest one who stands there too, and faces them.
-void Loiter(size_t i, Simulation* s) {
-  Crowd& c = s->crowd;
-  SetGoal(i, -1, &c);
-  c.wait_s[i] = s->random.Uniform(kLeastWait_s, kMostWait_s);
-  float nearest_m = kTalkingDistance_m;
-  for (size_t j = 0; j < c.size(); ++j) {
-    const Vec2 way = c.position[j] - c.position[i];
-    if (j == i || c.field[j] >= 0 || Length(way) >= nearest_m || Length(way) < 1e-3f) continue;
-    nearest_m = Length(way);
-    c.facing[i] = way * (1 / nearest_m);
-    c.facing[j] = c.facing[i] * -1;
-    c.activity[i] = c.activity[j] = Activity::kTalking;
-  }
 }
 
 // Where a scenario's person goes next, with whoever is in their group. False where they have nowhere left to go.
@@ -90,13 +54,10 @@ bool NextForArrived(size_t i, Simulation* s) {
     return false;
   }
   if (plan.leaves) return true;
-  const PackPlace* place = PlaceAt(*s, c.fields[static_cast<size_t>(c.field[i])].goal);
-  if (place != nullptr && IsGate(*place)) return true;
-  if (place != nullptr && place->kind == "loiter") {
-    Loiter(i, s);
-    return false;
-  }
-  SendAll(company, PickDestination(c.position[i], true, s), &c);
+  if (plan.loiters) return false;  // loitering.h
+  const int place = PlaceOfField(c.field[i], s);
+  if (place >= 0 && IsGate(s->places[static_cast<size_t>(place)])) return true;
+  SendAll(company, PickDestination(c.position[i], true, s), s);
   return false;
 }
 
@@ -133,6 +94,7 @@ bool Birth(int company, Simulation* s) {
       p.field = field;
       members.push_back(static_cast<int>(s->crowd.size()));
       AddToTown(p, PersonPlan{{}, false, false}, s);
+      Send(s->crowd.size() - 1, field, s);
     }
     if (members.size() > 1) AddGroup(members, &s->crowd);
     if (!members.empty()) return true;
@@ -150,9 +112,11 @@ bool HasWaited(const Simulation& s, size_t i) {
 void LeaveAndArrive(Simulation* s) {
   Crowd& c = s->crowd;
   SendEnclosedOut(s);
+  StepLoitering(s);
   for (size_t i = 0; i < c.size();) {
-    if (HasWaited(*s, i)) SendAll(CompanyOf(c, i), PickDestination(c.position[i], false, s), &c);
+    if (HasWaited(*s, i) && !StaysOn(i, s)) SendAll(CompanyOf(c, i), PickDestination(c.position[i], false, s), s);
     if (c.arrived[i] && NextForArrived(i, s)) {
+      StopLoitering(i, s);
       RemovePerson(i, &c);
       continue;
     }

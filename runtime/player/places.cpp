@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/player/loitering.h"
 #include "runtime/player/ways_out.h"
 
 namespace flaneur {
@@ -96,16 +97,21 @@ void PreparePlaces(Simulation* s) {
   SortPlaces(s);
 }
 
-const PackPlace* PlaceAt(const Simulation& s, Vec2 goal) {
-  for (const PackPlace& place : s.places) {
-    if (place.position_m.x == goal.x && place.position_m.y == goal.y) return &place;
+int PlaceOfField(int field, Simulation* s) {
+  if (field < 0) return -1;
+  for (size_t f = s->place_of_field.size(); f < s->crowd.fields.size(); ++f) {
+    const Vec2 goal = s->crowd.fields[f].goal;
+    const auto found = std::find_if(s->places.begin(), s->places.end(), [&](const PackPlace& place) {
+      return place.position_m.x == goal.x && place.position_m.y == goal.y;
+    });
+    s->place_of_field.push_back(found != s->places.end() ? static_cast<int>(found - s->places.begin()) : -1);
   }
-  return nullptr;
+  return s->place_of_field[static_cast<size_t>(field)];
 }
 
 int PickDestination(Vec2 from, bool may_loiter, Simulation* s) {
   const PlaceLists& lists = s->place_lists;
-  const bool loiter = may_loiter && s->random.Uniform() < s->crowd_settings.loiter_share * 2;
+  const bool loiter = may_loiter && FewLoiter(*s) && s->random.Uniform() < 0.5f;
   const std::vector<int>* choices = loiter ? &lists.loiters : s->crowd_area ? &lists.goals : &lists.destinations;
   if (choices->empty()) choices = &lists.all;
   for (int attempt = 0; attempt < kTries && !choices->empty(); ++attempt) {

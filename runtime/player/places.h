@@ -16,8 +16,8 @@ void PreparePlaces(Simulation* simulation);
 
 inline bool IsGate(const PackPlace& place) { return place.kind == "door" || place.kind == "exit"; }
 
-// The place somebody who goes to `goal` goes to, null for a scenario's own goal.
-const PackPlace* PlaceAt(const Simulation& simulation, Vec2 goal);
+// The place that a field leads to, an index into Simulation::places; -1 for a scenario's own goal and for `field` -1.
+int PlaceOfField(int field, Simulation* simulation);
 // A field of somewhere worth walking to from there, -1 where there is nowhere.
 int PickDestination(Vec2 from, bool may_loiter, Simulation* simulation);
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "runtime/player/company.h"
+#include "runtime/player/loitering.h"
 #include "runtime/player/places.h"
 
 namespace flaneur {
@@ -14,6 +16,7 @@ namespace {
 constexpr float kShareOfTwo = 0.75f, kShareOfThree = 0.21f;
 constexpr float kMeanGroup = 2 * kShareOfTwo + 3 * kShareOfThree + 4 * (1 - kShareOfTwo - kShareOfThree);
 constexpr float kGroupReach_m = 2.5f;  // members start so near each other
+constexpr float kLoiterGap_m = 0.7f;   // between the middles of people who stand about at the start, and everybody else
 constexpr float kWideGap_m = 0.5f, kLeastGap_m = 0.1f;  // between people at the start, beyond touching
 
 int PickAvatar(Simulation* s) {
@@ -101,6 +104,33 @@ void LookAlong(Person* p, const Simulation& s) {
   p->heading_rad = std::atan2(way.y, way.x);
 }
 
+// Company that stands at a loiter place as if it had come a while ago. False where that is not to be.
+bool PlaceLoiterers(int company, Simulation* s) {
+  const std::vector<int>& places = s->place_lists.loiters;
+  if (places.empty()) return false;
+  const int place = places[static_cast<size_t>(s->random.Below(static_cast<int>(places.size())))];
+  int spots[kMostInGroup];
+  if (!FindSpots(*s, place, s->places[static_cast<size_t>(place)].position_m, company, spots)) return false;
+  for (int k = 0; k < company; ++k) {
+    const Vec2 p = s->loiter_spots[static_cast<size_t>(spots[k])].position_m;
+    const auto stands_there = [&](Vec2 other) { return Length(other - p) < kLoiterGap_m; };
+    if (std::any_of(s->crowd.position.begin(), s->crowd.position.end(), stands_there)) return false;
+    if (s->camera.present && Length(p - s->camera.view.position) < s->r_personal_m + kLoiterGap_m) return false;
+  }
+  std::vector<int> members;
+  for (int k = 0; k < company; ++k) {
+    const LoiterSpot& spot = s->loiter_spots[static_cast<size_t>(spots[k])];
+    Person p = NewPerson(s);
+    p.position = spot.position_m;
+    p.heading_rad = std::atan2(spot.look.y, spot.look.x);
+    members.push_back(static_cast<int>(s->crowd.size()));
+    AddToTown(p, PersonPlan{{}, false, false}, s);
+    TakeSpot(s->crowd.size() - 1, spots[k], true, s);
+  }
+  if (members.size() > 1) AddGroup(members, &s->crowd);
+  return true;
+}
+
 // Up to `company` people who belong together; how many found room.
 int PlaceCompany(int company, Spots* spots, Simulation* s) {
   std::vector<int> members;
@@ -116,6 +146,7 @@ int PlaceCompany(int company, Spots* spots, Simulation* s) {
     LookAlong(&p, *s);
     members.push_back(static_cast<int>(s->crowd.size()));
     AddToTown(p, PersonPlan{{}, false, false}, s);
+    Send(s->crowd.size() - 1, field, s);
     Occupy(s->walkable, s->crowd, s->crowd.size() - 1, spots);
   }
   if (members.size() > 1) AddGroup(members, &s->crowd);
@@ -223,8 +254,15 @@ void PlaceCrowd(Simulation* s) {
   s->target_people = static_cast<int>(s->crowd.size()) + wanted;
   if (wanted == 0) return;
   PreparePlaces(s);
+  PrepareLoitering(s);
+  int placed = 0;
+  const int standing = static_cast<int>(s->crowd_settings.loiter_share * static_cast<float>(wanted));
+  for (int tries = 0; tries < 2 * standing && placed < standing; ++tries) {
+    const int company = DrawCompany(standing - placed, s);
+    if (PlaceLoiterers(company, s)) placed += company;
+  }
   Spots spots = MakeSpots(s);
-  for (int placed = 0; placed < wanted;) {
+  while (placed < wanted) {
     const int company = PlaceCompany(DrawCompany(wanted - placed, s), &spots, s);
     placed += company;
     if (company > 0) continue;

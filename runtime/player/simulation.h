@@ -37,6 +37,15 @@ struct CameraState {
 struct PersonPlan {         // of one person, by id
   std::vector<Vec2> goals;  // after the present one, next first
   bool stay = false, leaves = true;
+  bool loiters = false;     // on the way to a loiter place, or there
+  int spot = -1;            // index into Simulation::loiter_spots, of the one that is theirs
+};
+
+struct LoiterSpot {         // where one person can stand at a loiter place
+  Vec2 position_m, look;    // look: unit vector to what there is to see
+  int place = 0;            // index into Simulation::places
+  bool taken = false, there = false;
+  int partner = -1;         // index of the spot whose occupant they talk with
 };
 
 struct PlaceLists {         // indices into Simulation::places
@@ -56,6 +65,9 @@ struct Simulation {
   Walkable walkable;
   std::vector<PackPlace> places;
   PlaceLists place_lists;
+  std::vector<LoiterSpot> loiter_spots;  // by place
+  std::vector<int> place_of_field;       // by index into crowd.fields, -1: no place; see PlaceOfField
+  int loiterers = 0;                     // people whose plan is to loiter
   std::vector<TourStop> path;      // guided tour
   std::vector<CameraLeg> legs;     // of the scenario; empty: the guided tour
   std::optional<Area> crowd_area;  // of the scenario

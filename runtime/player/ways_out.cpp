@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/player/company.h"
 #include "runtime/player/places.h"
 
 namespace flaneur {
@@ -18,10 +19,10 @@ constexpr float kAwayFromHigh_m = 6;   // and this far beyond r_high
 
 bool Adapts(const Simulation& s) { return s.camera.present && s.influence.adaptation == Adaptation::kFull; }
 
-bool GoesToGate(const Simulation& s, size_t i) {
-  if (s.crowd.field[i] < 0) return false;
-  const PackPlace* place = PlaceAt(s, s.crowd.fields[static_cast<size_t>(s.crowd.field[i])].goal);
-  return place != nullptr && IsGate(*place) && IsCutOff(s.walkable, s.enclosure, place->position_m);
+bool GoesToGate(size_t i, Simulation* s) {
+  const int place = PlaceOfField(s->crowd.field[i], s);
+  if (place < 0 || !IsGate(s->places[static_cast<size_t>(place)])) return false;
+  return IsCutOff(s->walkable, s->enclosure, s->places[static_cast<size_t>(place)].position_m);
 }
 
 // The nearest gate on this side of the visitor, -1 where there is none.
@@ -34,13 +35,6 @@ int NearestGate(const Simulation& s, Vec2 p, float* away_m) {
     if (best < 0 || gate_m < *away_m) best = gate, *away_m = gate_m;
   }
   return best;
-}
-
-void SendCompany(size_t i, int field, Crowd* c) {
-  const int group = c->group[i];
-  if (group < 0) return SetGoal(i, field, c);
-  const Group& g = c->groups[static_cast<size_t>(group)];
-  for (int k = 0; k < g.size; ++k) SetGoal(static_cast<size_t>(g.member[k]), field, c);
 }
 
 }  // namespace
@@ -56,7 +50,7 @@ void SendEnclosedOut(Simulation* s) {
   int best = -1, best_gate = -1;
   float best_m = 0;
   for (size_t i = 0; i < s->crowd.size(); ++i) {
-    if (!IsCutOff(s->walkable, s->enclosure, s->crowd.position[i]) || GoesToGate(*s, i)) continue;
+    if (!IsCutOff(s->walkable, s->enclosure, s->crowd.position[i]) || GoesToGate(i, s)) continue;
     --room;
     if (s->plans[static_cast<size_t>(s->crowd.id[i])].leaves) continue;  // a scenario's person has goals of their own
     float away_m = 0;
@@ -64,7 +58,8 @@ void SendEnclosedOut(Simulation* s) {
     if (gate >= 0 && (best < 0 || away_m < best_m)) best = static_cast<int>(i), best_gate = gate, best_m = away_m;
   }
   if (room >= 0 || best < 0) return;
-  SendCompany(static_cast<size_t>(best), FieldFor(s->places[static_cast<size_t>(best_gate)].position_m, &s->crowd), &s->crowd);
+  const int field = FieldFor(s->places[static_cast<size_t>(best_gate)].position_m, &s->crowd);
+  SendAll(CompanyOf(s->crowd, static_cast<size_t>(best)), field, s);
 }
 
 bool IsFullNear(const Simulation& s, Vec2 p) {

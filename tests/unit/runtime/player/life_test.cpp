@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "runtime/player/simulation.h"
@@ -176,6 +177,80 @@ TEST(Life, WhoIsEnclosedInADeadEndAndTooManyGoesIndoors) {
   }
   EXPECT_GE(went, 4) << "through the doors";
   EXPECT_LT(exceeded, 18) << "frames of 900";
+}
+
+// The square with a stall, a well and a corner to talk at.
+TourPack Market(int people) {
+  TourPack pack = Square(people);
+  pack.crowd.loiter_share = 0.25f;
+  PackObstacle stall;
+  stall.outer = {{-12, 6}, {-8, 6}, {-8, 7}, {-12, 7}};
+  pack.obstacles.push_back(stall);
+  PackObstacle well;
+  well.center = {8, 8};
+  well.radius_m = 1.2f;
+  pack.obstacles.push_back(well);
+  pack.places.push_back({"stall", "loiter", {-10, 5}, 1, kPi / 2});
+  pack.places.push_back({"well_west", "loiter", {6, 8}, 1, 0.0f});
+  pack.places.push_back({"well_south", "loiter", {8, 6}, 1, kPi / 2});
+  pack.places.push_back({"corner", "loiter", {0, -10}, 1});
+  return pack;
+}
+
+// Somebody they stand with, or something to see, lies where they look.
+bool LooksAtSomething(const Simulation& s, size_t i) {
+  const Crowd& c = s.crowd;
+  const Vec2 ahead{std::cos(c.heading_rad[i]), std::sin(c.heading_rad[i])};
+  const LoiterSpot& spot = s.loiter_spots[static_cast<size_t>(s.plans[static_cast<size_t>(c.id[i])].spot)];
+  if (Dot(ahead, spot.look) > 0.8f) return true;
+  for (size_t j = 0; j < c.size(); ++j) {
+    const Vec2 way = c.position[j] - c.position[i];
+    if (j != i && Length(way) < 2 && Dot(way, ahead) > 0.8f * Length(way)) return true;
+  }
+  return false;
+}
+
+TEST(Life, PeopleStandAboutEachAtAnotherSpotAndLookAtThingsOrEachOther) {
+  Scenario scenario;
+  scenario.has_camera = true;
+  scenario.camera_position_m = {0, -29};
+  scenario.camera_yaw_deg = 90;
+  scenario.high_limit = 1000;
+  Simulation s = Started(Market(40), scenario);
+  EXPECT_GE(std::count(s.crowd.activity.begin(), s.crowd.activity.end(), Activity::kStanding), 8) << "at once";
+  int standing = 0, talking = 0, looking = 0, wrong = 0;
+  for (int step = 0; step < 3600; ++step) {
+    StepSimulation({}, 0, &s);
+    if (step < 300 || step % 30 != 0) continue;
+    for (size_t i = 0; i < s.crowd.size(); ++i) {
+      const int spot = s.plans[static_cast<size_t>(s.crowd.id[i])].spot;
+      if (spot < 0 || s.crowd.field[i] >= 0 || Length(s.crowd.velocity[i]) > 0.05f) continue;
+      ++standing;
+      talking += s.crowd.activity[i] == Activity::kTalking ? 1 : 0;
+      looking += LooksAtSomething(s, i) ? 1 : 0;
+      for (size_t j = 0; j < i; ++j) wrong += s.plans[static_cast<size_t>(s.crowd.id[j])].spot == spot ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(wrong, 0) << "two at one spot";
+  const float share = static_cast<float>(standing) / (110 * 40);
+  EXPECT_GT(share, 0.15f);
+  EXPECT_LT(share, 0.32f);
+  EXPECT_GT(talking, standing / 5);
+  EXPECT_LT(talking, standing * 9 / 10);
+  EXPECT_GT(looking, standing * 9 / 10);
+}
+
+TEST(Life, WhoStandsSetsOutWhenADetourIsAsked) {
+  Simulation s = Started(Market(40));
+  size_t who = 0;
+  while (s.crowd.field[who] >= 0) ++who;
+  const int id = s.crowd.id[who];
+  s.crowd.detour[who] = {0, -1};
+  s.crowd.detour_s[who] = 1;
+  for (int step = 0; step < 45; ++step) StepSimulation({}, 0, &s);
+  const auto now = std::find(s.crowd.id.begin(), s.crowd.id.end(), id) - s.crowd.id.begin();
+  EXPECT_GE(s.crowd.field[static_cast<size_t>(now)], 0);
+  EXPECT_EQ(s.plans[static_cast<size_t>(id)].spot, -1);
 }
 
 }  // namespace

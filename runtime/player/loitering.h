@@ -1,0 +1,30 @@
+// Standing about: at market stalls, at the well, in talking pairs and threes. Internal to runtime/player.
+#pragma once
+#include "runtime/player/simulation.h"
+
+namespace flaneur {
+
+// Spots around each loiter place: a row and a half before what there is to see, or a circle where nothing is said of that.
+void PrepareLoitering(Simulation* simulation);
+
+// Counts the person among those who loiter, and no longer.
+void PlanToLoiter(size_t person, Simulation* simulation);
+void StopLoitering(size_t person, Simulation* simulation);
+
+// Fewer stand about, or are on their way to it, than should.
+bool FewLoiter(const Simulation& simulation);
+
+// Free spots of one loiter place for so many people, in spots[0 ... count - 1]; those nearest to `from` come first. False where
+// there are not enough.
+bool FindSpots(const Simulation& simulation, int place, Vec2 from, int count, int* spots);
+// The spot is theirs: they stand there (`now`), or walk there from nearby.
+void TakeSpot(size_t person, int spot, bool now, Simulation* simulation);
+
+// True where somebody whose time is over stays on, as too few stand about.
+bool StaysOn(size_t person, Simulation* simulation);
+
+// For everybody: who comes near the loiter place they go to looks for a spot; who stands looks at things and at each other, comes
+// back when pushed aside, and sets out again when a detour is asked of them.
+void StepLoitering(Simulation* simulation);
+
+}  // namespace flaneur
