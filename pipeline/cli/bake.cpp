@@ -64,7 +64,7 @@ Error RequireFiles(const TourSettings& s) {
   for (const AvatarSettings& avatar : s.avatars) {
     if (Error e = RequireFile(avatar.source.file)) return e;
   }
-  return Ok();
+  return s.painting.file.empty() ? Ok() : RequireFile(s.painting.file);
 }
 
 // Where the source's glTF is: the file itself, or what its script makes.
@@ -207,6 +207,11 @@ Error MakeFootprints(Baking* baking) {
                      &parts->footprints, &parts->ground);
 }
 
+Error MakePainting(Baking* baking) {
+  const PaintingSettings& painting = baking->settings.painting;
+  return painting.file.empty() ? Ok() : ReadPainting(painting, baking->parts.ground, &baking->parts.painting);
+}
+
 // The doors and exits of tour.toml; the check finds the town's own by itself.
 std::vector<Gate> GatesOfSettings(const TourSettings& settings) {
   std::vector<Gate> gates;
@@ -280,6 +285,7 @@ Error WritePack(Baking* baking, const fs::path& staging) {
     parts.control = baking->settings.control;
     parts.light = baking->settings.light;
     if (Error e = WriteGeoJson(staging / "footprints.geojson", parts.footprints)) return e;
+    if (Error e = WritePlan(staging / "plan.png", parts.ground, parts.footprints)) return e;
     if (Error e = WriteTourPack(staging / (name + ".glb"), parts, &whole.pack_bytes)) return e;
     whole.pack_path = (baking->output / (name + ".glb")).string();
     report->figures = {{"bytes", static_cast<double>(whole.pack_bytes)}};
@@ -295,7 +301,7 @@ Error WriteResults(Baking* baking) {
   if (Error e = WritePack(baking, staging.path())) return e;
   if (Error e = WriteReport(staging.path(), baking->steps.report)) return e;
   fs::remove(baking->Cache("fingerprint"), ec);
-  for (const std::string& name : {baking->settings.name + ".glb", std::string("footprints.geojson"),
+  for (const std::string& name : {baking->settings.name + ".glb", std::string("footprints.geojson"), std::string("plan.png"),
                                   std::string("report.html"), std::string("report.json")}) {
     fs::rename(staging.path() / name, baking->output / name, ec);
     if (ec) return Fail((baking->output / name).string() + ": cannot be written: " + ec.message());
@@ -316,6 +322,7 @@ bool ReportUnchanged(const Baking& baking, const std::string& inputs) {
   std::error_code ec;
   if (ReadTextFile(baking.Cache("fingerprint"), &known) || known != inputs || !fs::exists(pack, ec) ||
       !fs::exists(output / "report.html", ec) || !fs::exists(output / "footprints.geojson", ec) ||
+      !fs::exists(output / "plan.png", ec) ||
       ReadTextFile(output / "report.json", &text)) {
     return false;
   }
@@ -350,8 +357,9 @@ Error Bake(const fs::path& tour, const fs::path& output) {
   if (ec) return Fail(baking.steps.cache.string() + ": cannot make this folder: " + ec.message());
   if (Error e = MakeSources(&baking)) return e;
   if (Error e = MakeTown(&baking)) return e;
-  if (Error e = MakePeople(&baking)) return e;
   if (Error e = MakeFootprints(&baking)) return e;
+  if (Error e = MakePainting(&baking)) return e;
+  if (Error e = MakePeople(&baking)) return e;
   if (Error e = CheckTown(&baking)) return e;
   if (Error e = WriteResults(&baking)) return e;
   return WriteTextFile(baking.Cache("fingerprint"), inputs);

@@ -86,6 +86,7 @@ std::string TourInputs(const fs::path& tour, const TourSettings& s) {
   print.AddFile(tour).Add(ThisProgram()).AddFile(BlenderScriptsFolder());
   const auto add = [&](const fs::path& file) { print.AddFile(IsScript(file) ? file.parent_path() : file); };
   add(s.town.file);
+  if (!s.painting.file.empty()) print.AddFile(s.painting.file);
   for (const TownPart& part : s.parts) add(part.file);
   for (const AvatarSettings& avatar : s.avatars) add(avatar.source.file);
   return print.Hex();

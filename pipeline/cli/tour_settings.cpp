@@ -112,6 +112,21 @@ void ReadPlace(TomlTable table, TourSettings* settings) {
   settings->places.push_back(place);
 }
 
+void ReadPaintingSettings(TomlTable table, PaintingSettings* painting) {
+  Vec2 min_m, max_m;
+  table.File("file", &painting->file);
+  table.Point("min_m", &min_m);
+  table.Point("max_m", &max_m);
+  table.Finish();
+  if (!table.Has("min_m") && !table.Has("max_m")) return;
+  if (painting->file.empty()) table.Refuse("[painting] needs a file");
+  if (!(table.Has("min_m") && table.Has("max_m") && max_m.x > min_m.x && max_m.y > min_m.y)) {
+    table.Refuse("[painting] needs both min_m and max_m, min_m below max_m");
+  }
+  painting->min_m = min_m;
+  painting->max_m = max_m;
+}
+
 void ReadStop(TomlTable table, TourSettings* settings) {
   TourStop stop;
   table.Point("position_m", &stop.position_m);
@@ -134,6 +149,7 @@ void ReadAll(TomlTable root, TourSettings* settings) {
   ReadFootprints(root.Table("footprints"), &settings->footprints, &settings->ground);
   for (TomlTable& place : root.Tables("place")) ReadPlace(place, settings);
   for (TomlTable& stop : root.Tables("stop")) ReadStop(stop, settings);
+  ReadPaintingSettings(root.Table("painting"), &settings->painting);
   const auto section = [&](const char* name, auto* values) {
     TomlTable table = root.Table(name);
     VisitFields(table, values);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/avatar/decimate.h"
+#include "pipeline/cli/painting.h"
 #include "pipeline/footprint/extract_footprints.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/impostor/bake_impostor.h"
@@ -48,6 +49,7 @@ struct TourSettings {
   FootprintOptions footprints;
   GroundRasterOptions ground;
   std::vector<PackPlace> places;  // besides those tagged in the town
+  PaintingSettings painting;
   std::vector<TourStop> path;
   CrowdSettings crowd;
   ControlSettings control;

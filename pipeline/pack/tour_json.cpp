@@ -130,6 +130,12 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
                               {"width_m", Short(p.width_m)}});
     if (p.yaw_rad) tour["places"].back()["yaw_rad"] = Short(*p.yaw_rad);
   }
+  if (indices.people_view >= 0) {
+    const PackPainting& p = parts.painting;
+    tour["painting"] = {{"min_m", PointJson(p.min_m)},        {"cell_m", Short(p.cell_m)},
+                        {"columns", p.columns},               {"rows", p.rows},
+                        {"people_view", indices.people_view}, {"loiter_view", indices.loiter_view}};
+  }
   tour["path"] = Json::array();
   for (const TourStop& s : parts.path) {
     tour["path"].push_back({{"position_m", PointJson(s.position_m)}, {"yaw_rad", Short(s.yaw_rad)},

@@ -13,6 +13,7 @@ struct TourIndices {
   std::vector<AvatarPart> avatars;
   std::vector<int> albedo_images, normal_images;  // one an avatar
   int height_view = -1, kind_view = -1;
+  int people_view = -1, loiter_view = -1;  // -1: no painting
 };
 
 std::string TourJson(const TourParts& parts, const TourIndices& indices);

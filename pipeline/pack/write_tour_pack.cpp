@@ -123,6 +123,10 @@ Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, s
   indices.height_view = builder.AddBufferView(
       {reinterpret_cast<const uint8_t*>(heights.data()), heights.size() * sizeof(float)});
   indices.kind_view = builder.AddBufferView(parts.ground.kind);
+  if (parts.painting.columns > 0) {
+    indices.people_view = builder.AddBufferView(parts.painting.people);
+    indices.loiter_view = builder.AddBufferView(parts.painting.loiter);
+  }
   builder.SetRootExtension(kTourExtension, TourJson(parts, indices));
   std::vector<uint8_t> glb;
   if (Error e = builder.Finish(&glb)) return e;

@@ -26,6 +26,7 @@ struct TourParts {
   Footprints footprints;
   GroundRaster ground;
   std::vector<PackPlace> places;
+  PackPainting painting;
   std::vector<TourStop> path;
   CrowdSettings crowd;
   ControlSettings control;

@@ -240,7 +240,23 @@ PackGround ReadGround(const GltfFile& file, const TourObject& json) {
   return ground;
 }
 
-void ReadTour(const TourObject& tour, TourPack* pack) {
+PackPainting ReadPainting(const GltfFile& file, const TourObject& json) {
+  PackPainting painting;
+  painting.min_m = json.Point("min_m");
+  painting.cell_m = json.Real("cell_m", TourObject::kAboveZero, TourObject::kAnything);
+  painting.columns = json.Whole("columns", 1, 100000);
+  painting.rows = json.Whole("rows", 1, 100000);
+  const size_t cells = static_cast<size_t>(painting.columns) * static_cast<size_t>(painting.rows);
+  const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
+  const auto people = BufferView(file, json.Whole("people_view", 0, last));
+  const auto loiter = BufferView(file, json.Whole("loiter_view", 0, last));
+  if (people.size() != cells || loiter.size() != cells) json.Refuse("has views of the wrong size");
+  painting.people.assign(people.begin(), people.end());
+  painting.loiter.assign(loiter.begin(), loiter.end());
+  return painting;
+}
+
+void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   pack->name = tour.Text("name");
   for (const TourObject& o : tour.Objects("obstacles")) pack->obstacles.push_back(ReadObstacle(o));
   for (const TourObject& p : tour.Objects("places")) {
@@ -248,6 +264,7 @@ void ReadTour(const TourObject& tour, TourPack* pack) {
                             p.Real("width_m", TourObject::kAboveZero, TourObject::kAnything)});
     if (p.Has("yaw_rad")) pack->places.back().yaw_rad = p.Real("yaw_rad");
   }
+  if (tour.Has("painting")) pack->painting = ReadPainting(file, tour.Object("painting"));
   for (const TourObject& s : tour.Objects("path")) {
     pack->path.push_back({s.Point("position_m"), s.Real("yaw_rad"), s.Real("pause_s", 0, TourObject::kAnything),
                           s.Text("caption")});
@@ -284,7 +301,7 @@ void Load(std::vector<uint8_t> bytes, const LoadOptions& options, TourPack* pack
     throw PackRefused("is a tour pack of version " + std::to_string(version) + ", this player reads version " +
                       std::to_string(kTourPackVersion));
   }
-  ReadTour(tour, pack);
+  ReadTour(file, tour, pack);
   pack->ground = ReadGround(file, tour.Object("ground"));
   for (const Json& m : file.json.value("materials", Json::array())) pack->materials.push_back(ReadMaterial(file, m));
   MeshTable meshes;

@@ -112,6 +112,22 @@ struct PackPlace {
   std::optional<float> yaw_rad = std::nullopt;  // loiter: where people look; door, exit: the way out of it
 };
 
+// Where people are, painted over the town: strengths by cell of the area, row 0 the southernmost. No columns: nothing is painted.
+struct PackPainting {
+  Vec2 min_m;
+  float cell_m = 0;
+  int columns = 0, rows = 0;
+  std::vector<uint8_t> people;  // share of those who start there and go there; all 0: everywhere alike
+  std::vector<uint8_t> loiter;  // where people stand about; all 0: at the loiter places
+};
+
+// The cell at p, -1 outside.
+inline int PaintingCell(const PackPainting& painting, Vec2 p) {
+  const Vec2 off = (p - painting.min_m) * (1 / painting.cell_m);
+  if (!(off.x >= 0 && off.y >= 0 && off.x < static_cast<float>(painting.columns) && off.y < static_cast<float>(painting.rows))) return -1;
+  return static_cast<int>(off.y) * painting.columns + static_cast<int>(off.x);
+}
+
 struct TourStop { Vec2 position_m; float yaw_rad = 0; float pause_s = 0; std::string caption; };
 
 struct CrowdSettings {
@@ -149,6 +165,7 @@ struct TourPack {
   std::vector<PackObstacle> obstacles;
   PackGround ground;
   std::vector<PackPlace> places;
+  PackPainting painting;
   std::vector<TourStop> path;  // guided path, in order; pause 0 and no caption: only a waypoint
   CrowdSettings crowd;
   ControlSettings control;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/player/loitering.h"
+#include "runtime/player/painted.h"
 #include "runtime/player/ways_out.h"
 
 namespace flaneur {
@@ -11,6 +12,7 @@ namespace {
 constexpr int kMadeUpGoals = 24;         // where a town names no places
 constexpr float kReach_m = 2.5f;         // from a place to where people can stand
 constexpr float kWorthWalking_m = 8;
+constexpr float kToPaint = 0.75f;         // of those who go somewhere, where goals are painted; the others leave the town
 constexpr int kTries = 8;                // for somewhere worth walking to
 
 void SortPlaces(Simulation* s) {
@@ -91,6 +93,7 @@ void PreparePlaces(Simulation* s) {
     kept.push_back(place);
   }
   s->places = std::move(kept);
+  AddPaintedPlaces(s);
   SortPlaces(s);
   if (s->crowd_area ? !s->place_lists.goals.empty() : !s->places.empty()) return;
   MakeUpGoals(s);
@@ -113,6 +116,8 @@ int PickDestination(Vec2 from, bool may_loiter, Simulation* s) {
   const PlaceLists& lists = s->place_lists;
   const bool loiter = may_loiter && FewLoiter(*s) && s->random.Uniform() < 0.5f;
   const std::vector<int>* choices = loiter ? &lists.loiters : s->crowd_area ? &lists.goals : &lists.destinations;
+  const bool painted = !lists.goals.empty() && s->painting.columns > 0;
+  if (!loiter && painted && s->random.Uniform() < kToPaint) choices = &lists.goals;
   if (choices->empty()) choices = &lists.all;
   for (int attempt = 0; attempt < kTries && !choices->empty(); ++attempt) {
     const int chosen = (*choices)[static_cast<size_t>(s->random.Below(static_cast<int>(choices->size())))];

@@ -6,6 +6,7 @@
 
 #include "runtime/player/company.h"
 #include "runtime/player/loitering.h"
+#include "runtime/player/painted.h"
 #include "runtime/player/places.h"
 
 namespace flaneur {
@@ -44,10 +45,7 @@ void Occupy(const Walkable& w, const Crowd& c, size_t i, Spots* spots) {
 }
 
 Spots MakeSpots(Simulation* s) {
-  Spots spots{HomeCells(*s), std::vector<int>(s->walkable.cost.size(), -1)};
-  for (size_t k = spots.cells.size(); k > 1; --k) {
-    std::swap(spots.cells[k - 1], spots.cells[static_cast<size_t>(s->random.Below(static_cast<int>(k)))]);
-  }
+  Spots spots{PaintedOrder(s->painting.people, HomeCells(*s), s), std::vector<int>(s->walkable.cost.size(), -1)};
   for (size_t i = 0; i < s->crowd.size(); ++i) Occupy(s->walkable, s->crowd, i, &spots);
   return spots;
 }

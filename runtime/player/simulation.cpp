@@ -38,6 +38,7 @@ void TakePack(const TourPack& pack, Simulation* s) {
   s->max_yaw_rate_radps = c.max_yaw_rate_dps * kPi / 180;
   s->camera.view.fov_rad = c.fov_rad;
   s->places = pack.places;
+  s->painting = pack.painting;
   s->path = pack.path;
   s->walkable.ground = {pack.ground.min_m, pack.ground.cell_m, pack.ground.columns, pack.ground.rows,
                         pack.ground.height_m, pack.ground.kind};
@@ -59,6 +60,7 @@ void TakeGround(const Scenario& scenario, Simulation* s) {
   s->walkable.circles.clear();
   s->walkable.polygons.clear();
   s->places.clear();
+  s->painting = {};
   s->path.clear();
 }
 

@@ -64,6 +64,7 @@ struct Simulation {
 
   Walkable walkable;
   std::vector<PackPlace> places;
+  PackPainting painting;
   PlaceLists place_lists;
   std::vector<LoiterSpot> loiter_spots;  // by place
   std::vector<int> place_of_field;       // by index into crowd.fields, -1: no place; see PlaceOfField

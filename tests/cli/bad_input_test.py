@@ -1,11 +1,12 @@
 """Bad input: one clear line, status 2, nothing half-written, an earlier good file kept."""
+import csv
 import os
 import pathlib
 import subprocess
 import tempfile
 import unittest
 
-from scenes import write_box_town, write_person, write_town
+from scenes import write_png, write_box_town, write_person, write_town
 from support import BIN, SOURCE, ProgramTest, run, split_glb, write_glb
 
 
@@ -121,6 +122,21 @@ class BadInput(ProgramTest):
         more = '[[town.part]]\nfile = "gone.gltf"\n'
         self.assert_fails(self.bake(self.write_tour(town="build.py", more=more)), "gone.gltf", "no such file")
 
+    def test_a_painting_that_says_nothing_stops_the_bake_before_the_people_are_made(self):
+        (self.folder / "avatar.glb").write_text("never read")
+        write_box_town(self.folder / "town.glb")
+        for name, color in (("black.png", (0, 0, 0)), ("red.png", (255, 0, 0))):
+            write_png(self.folder / name, *color)
+        (self.folder / "text.png").write_text("no picture at all")
+        for table, words in (('file = "gone.png"', ("gone.png", "no such file")),
+                             ('file = "text.png"', ("text.png",)),
+                             ('file = "black.png"', ("black.png", "nothing is painted")),
+                             ('file = "red.png"\nmin_m = [0, 0]\nmax_m = [30, 10]', ("red.png", "4 x 4 pixels", "30 x 10 m")),
+                             ('file = "red.png"\nmin_m = [900, 0]\nmax_m = [910, 10]', ("red.png", "off the town's ground")),
+                             ('file = "red.png"\nmin_m = [0, 0]', ("tour.toml:", "min_m and max_m"))):
+            with self.subTest(table):
+                self.assert_fails(self.bake(self.write_tour(more=f"[painting]\n{table}\n")), *words)
+
     def test_a_bad_source_stops_the_bake_in_one_line(self):
         self.with_avatar()
         write_box_town(self.folder / "town.glb")
@@ -185,7 +201,9 @@ class Playing(ProgramTest):
         write_person(made / "avatar.glb")
         small = "walk_phases = 1\nheight_px = 32\nsamples = 1\n"
         place = '[[place]]\nname = "gate"\nkind = "exit"\nposition_m = [20, 20]\n'
-        (made / "tour.toml").write_text(tour("town.glb", "avatar.glb") + small + place)
+        write_png(made / "red.png", 255, 0, 0)
+        paint = '[painting]\nfile = "red.png"\nmin_m = [5, 10]\nmax_m = [25, 30]\n'
+        (made / "tour.toml").write_text(tour("town.glb", "avatar.glb") + small + place + paint)
         baked = run("flaneur", "bake", made / "tour.toml", "-o", made)
         if baked.returncode != 0:
             raise AssertionError(baked.stderr)
@@ -197,6 +215,16 @@ class Playing(ProgramTest):
 
     def test_the_pack_itself_is_good(self):
         self.assert_succeeds(self.play())
+        self.assertTrue((self.pack.parent / "plan.png").exists())
+
+    def test_people_start_where_they_are_painted(self):
+        paths = self.folder / "paths.csv"
+        self.assert_succeeds(self.play("--trajectories", paths))
+        with open(paths, encoding="utf-8", newline="") as file:
+            starts = [(float(r["x_m"]), float(r["y_m"])) for r in csv.DictReader(file) if r["frame"] == "1"]
+        self.assertEqual(len(starts), 8)
+        for x, y in starts:  # who comes along may start beside the paint
+            self.assertTrue(2 < x < 28 and 7 < y < 33, (x, y))
 
     def test_broken_packs(self):
         def changed(place, value):

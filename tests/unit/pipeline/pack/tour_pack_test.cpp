@@ -119,7 +119,8 @@ TourParts SmallTour() {
   parts.footprints = SmallFootprints();
   parts.ground = {{-20, -20}, 10, 4, 3, std::vector<float>(12, 0.25f), std::vector<uint8_t>(12, 3)};
   parts.ground.height_m[5] = -1.5f;
-  parts.places = {{"west", "exit", {-18, 0}, 2}};
+  parts.places = {{"west", "exit", {-18, 0}, 2}, {"stall", "loiter", {3, 0}, 1, 0.5f}};
+  parts.painting = {{-4, -2}, 2, 2, 1, {0, 200}, {30, 0}};
   parts.path = {{{1, 2}, 0.5f, 3, "Grüß Gott"}};
   parts.crowd.people = 17;
   parts.control.method = "frame_time";
@@ -161,7 +162,12 @@ TEST(TourPack, BringsTheTourAcross) {
   EXPECT_EQ(pack.ground.rows, 3);
   EXPECT_EQ(pack.ground.height_m[5], -1.5f);
   EXPECT_EQ(pack.ground.kind, std::vector<uint8_t>(12, 3));
-  ASSERT_EQ(pack.places.size(), 1u);
+  ASSERT_EQ(pack.places.size(), 2u);
+  EXPECT_FALSE(pack.places[0].yaw_rad);
+  EXPECT_FLOAT_EQ(pack.places[1].yaw_rad.value_or(0), 0.5f);
+  EXPECT_EQ(pack.painting.columns, 2);
+  EXPECT_EQ(pack.painting.people, (std::vector<uint8_t>{0, 200}));
+  EXPECT_EQ(pack.painting.loiter, (std::vector<uint8_t>{30, 0}));
   EXPECT_EQ(pack.places[0].kind, "exit");
   ASSERT_EQ(pack.path.size(), 1u);
   EXPECT_EQ(pack.path[0].caption, "Grüß Gott");

@@ -253,5 +253,70 @@ TEST(Life, WhoStandsSetsOutWhenADetourIsAsked) {
   EXPECT_EQ(s.plans[static_cast<size_t>(id)].spot, -1);
 }
 
+// The north-west quarter painted in full, the south-east one by half; people stand about in a strip in the south-west.
+TourPack Painted(int people) {
+  TourPack pack = Square(people);
+  pack.crowd.group_share = 0.3f;
+  PackPainting& p = pack.painting;
+  p.min_m = {-30, -30};
+  p.cell_m = 1;
+  p.columns = p.rows = 60;
+  for (int row = 0; row < 60; ++row) {
+    for (int column = 0; column < 60; ++column) {
+      p.people.push_back(column < 30 && row >= 30 ? 200 : column >= 30 && row < 30 ? 100 : 0);
+      p.loiter.push_back(column < 20 && row >= 5 && row < 10 ? 255 : 0);
+    }
+  }
+  return pack;
+}
+
+TEST(Life, PeopleStartWhereTheyArePainted) {
+  const TourPack pack = Painted(300);
+  const Simulation s = Started(pack);
+  EXPECT_TRUE(s.warnings.empty());
+  int north_west = 0, south_east = 0;
+  for (const Vec2 p : s.crowd.position) {
+    north_west += p.x < 0.5f && p.y > -0.5f ? 1 : 0;
+    south_east += p.x > -0.5f && p.y < 0.5f ? 1 : 0;
+  }
+  EXPECT_GE(north_west + south_east, 295) << "who follows somebody may start beside the paint";
+  EXPECT_NEAR(static_cast<float>(north_west) / 300, 2.0f / 3, 0.08f);
+  EXPECT_EQ(s.place_lists.goals.size(), 24u);
+  for (int goal : s.place_lists.goals) {
+    const int cell = PaintingCell(pack.painting, s.places[static_cast<size_t>(goal)].position_m);
+    ASSERT_GE(cell, 0);
+    EXPECT_GT(pack.painting.people[static_cast<size_t>(cell)], 0);
+  }
+}
+
+TEST(Life, PeopleStandAboutWhereThatIsPainted) {
+  TourPack pack = Painted(100);
+  pack.crowd.loiter_share = 0.3f;
+  pack.places.push_back({"tagged", "loiter", {20, 20}, 1});
+  Simulation s = Started(pack);
+  int standing = 0, off_paint = 0;
+  for (int step = 0; step < 1800; ++step) {
+    StepSimulation({}, 0, &s);
+    if (step % 60 != 0) continue;
+    for (size_t i = 0; i < s.crowd.size(); ++i) {
+      if (s.plans[static_cast<size_t>(s.crowd.id[i])].spot < 0 || s.crowd.field[i] >= 0) continue;
+      const Vec2 p = s.crowd.position[i];
+      ++standing;
+      off_paint += p.x > -8 || p.y < -27 || p.y > -18 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(standing, 30 * 15);
+  EXPECT_EQ(off_paint, 0);
+}
+
+TEST(Life, APaintingBesideAllGroundSaysSo) {
+  TourPack pack = Painted(20);
+  pack.painting.min_m = {100, 100};
+  const Simulation s = Started(pack);
+  ASSERT_EQ(s.warnings.size(), 2u);
+  EXPECT_EQ(s.warnings[0], "the painting has no place of kind goal where people can walk; it is not used");
+  EXPECT_EQ(s.crowd.size(), 20u);
+}
+
 }  // namespace
 }  // namespace flaneur
