@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
-from scenes import write_png, write_box_town, write_person, write_town
+from scenes import write_box_town, write_person, write_png, write_town
 from support import BIN, SOURCE, ProgramTest, run, split_glb, write_glb
 
 
