@@ -24,6 +24,7 @@ void SortPlaces(Simulation* s) {
     if (IsGate(place)) lists.gates.push_back(k);
     if (place.kind == "goal") lists.goals.push_back(k);
     if (place.kind == "loiter") lists.loiters.push_back(k);
+    if (place.kind == "spawn") lists.spawns.push_back(k);
     if (place.kind != "loiter" && place.kind != "spawn") lists.destinations.push_back(k);
   }
 }
@@ -89,6 +90,9 @@ void PreparePlaces(Simulation* s) {
       continue;
     }
     if (s->crowd_area && !Contains(*s->crowd_area, place.position_m)) continue;
+    if (!IsGate(place) && InsideObstacle(s->walkable, place.position_m)) {
+      s->warnings.push_back("place '" + place.name + "' (" + place.kind + ") is inside an obstacle; the nearest free ground is taken");
+    }
     place.position_m = CellCenter(s->walkable, cell);
     kept.push_back(place);
   }

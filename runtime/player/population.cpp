@@ -16,6 +16,7 @@ namespace {
 // distribution of free-forming small group size; Moussaid et al. 2010 for a shopping street).
 constexpr float kShareOfTwo = 0.75f, kShareOfThree = 0.21f;
 constexpr float kMeanGroup = 2 * kShareOfTwo + 3 * kShareOfThree + 4 * (1 - kShareOfTwo - kShareOfThree);
+constexpr float kSpawnReach_m = 8;     // who starts at a place of that kind starts so near it, where there is room
 constexpr float kGroupReach_m = 2.5f;  // members start so near each other
 constexpr float kLoiterGap_m = 0.7f;   // between the middles of people who stand about at the start, and everybody else
 constexpr float kWideGap_m = 0.5f, kLeastGap_m = 0.1f;  // between people at the start, beyond touching
@@ -44,8 +45,17 @@ void Occupy(const Walkable& w, const Crowd& c, size_t i, Spots* spots) {
   if (cell >= 0) spots->occupant[static_cast<size_t>(cell)] = static_cast<int>(i);
 }
 
+bool IsNearSpawn(const Simulation& s, Vec2 p) {
+  return std::any_of(s.place_lists.spawns.begin(), s.place_lists.spawns.end(), [&](int spawn) {
+    return Length(s.places[static_cast<size_t>(spawn)].position_m - p) < kSpawnReach_m;
+  });
+}
+
 Spots MakeSpots(Simulation* s) {
   Spots spots{PaintedOrder(s->painting.people, HomeCells(*s), s), std::vector<int>(s->walkable.cost.size(), -1)};
+  if (!s->place_lists.spawns.empty()) {
+    std::stable_partition(spots.cells.begin(), spots.cells.end(), [&](int cell) { return IsNearSpawn(*s, CellCenter(s->walkable, cell)); });
+  }
   for (size_t i = 0; i < s->crowd.size(); ++i) Occupy(s->walkable, s->crowd, i, &spots);
   return spots;
 }
@@ -161,6 +171,7 @@ Error TakeScenarioPerson(const ScenarioPerson& wanted, const std::string& name, 
   p.radius_m = wanted.radius_m > 0 ? wanted.radius_m : s->avatar_radius_m[static_cast<size_t>(p.avatar)];
   p.preferred_mps = wanted.speed_mps > 0 ? wanted.speed_mps : s->crowd_settings.preferred_speed_mps;
   p.top_mps = wanted.top_speed_mps > 0 ? wanted.top_speed_mps : std::max(s->crowd_settings.top_speed_mps, p.preferred_mps);
+  if (p.top_mps < p.preferred_mps) return Fail(name + ": contradictory limits: speed_mps is above top_speed_mps");
   p.position = wanted.position_m;
   if (InsideObstacle(s->walkable, p.position)) return Fail(name + ": starts inside an obstacle");
   if (CellAt(s->walkable, p.position) < 0) return Fail(name + ": starts outside the ground");

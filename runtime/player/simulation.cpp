@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/player/camera_walk.h"
+#include "runtime/player/check_limits.h"
 #include "runtime/player/coming_and_going.h"
 #include "runtime/player/places.h"
 #include "runtime/player/population.h"
@@ -204,6 +205,7 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   TakeScenario(scenario, pack != nullptr, &s);
   BuildWalkable(*std::max_element(s.avatar_radius_m.begin(), s.avatar_radius_m.end()) + 0.05f, &s.walkable);
   if (BestFreeCell(s.walkable) < 0) return Fail("there is no walkable ground");
+  if (Error e = CheckLimits(scenario, &s)) return e;
   s.random.state = s.crowd_settings.seed;
   SettleStops(&s);
   PlaceCamera(scenario, &s);

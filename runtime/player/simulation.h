@@ -49,7 +49,7 @@ struct LoiterSpot {         // where one person can stand at a loiter place
 };
 
 struct PlaceLists {         // indices into Simulation::places
-  std::vector<int> gates, goals, loiters, destinations, all;
+  std::vector<int> gates, goals, loiters, spawns, destinations, all;
 };
 
 struct Simulation {

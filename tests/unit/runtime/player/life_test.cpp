@@ -318,5 +318,12 @@ TEST(Life, APaintingBesideAllGroundSaysSo) {
   EXPECT_EQ(s.crowd.size(), 20u);
 }
 
+TEST(Life, PeopleStartAtSpawnsWhereThereAreAny) {
+  TourPack pack = Square(30);
+  pack.places.push_back({"camp", "spawn", {18, 18}, 1});
+  const Simulation s = Started(pack);
+  for (const Vec2 p : s.crowd.position) EXPECT_LT(Length(p - Vec2{18, 18}), 8 + 2.5f);
+}
+
 }  // namespace
 }  // namespace flaneur
