@@ -27,8 +27,8 @@ constexpr float kMostTurnInView_rad = 0.7f;
 constexpr float kCostInView = 2.4f, kCostUnseen = 0.1f;  // moments in the way that one radian is worth
 constexpr float kStepsAside_s = 3;         // people make room for the visitor so long before
 constexpr float kRoom_m = 0.15f;
-constexpr float kBlockingCounts = 2;       // moments that holding the visitor up is worth
-constexpr float kTurnsInView = 0.25f;      // what the visitor may turn to matters that much to people in view
+constexpr float kBlockingCounts = 3;       // moments that holding the visitor up is worth
+constexpr float kTurnsInView = 0.5f;      // what the visitor may turn to matters that much to people in view
 constexpr float kCostOfSettingOff = 8.0f;  // moments that it is worth to leave somebody standing
 
 Vec2 Rotated(Vec2 v, float by_rad) {
