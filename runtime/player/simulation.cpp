@@ -168,9 +168,9 @@ void DeriveGap(Simulation* s) {
 }
 
 void ClassifyAll(Simulation* s) {
+  const ViewVolumes volumes = VolumesOf(s->camera.view, s->outer_apex_back_m);
   for (size_t i = 0; i < s->crowd.size(); ++i) {
-    s->crowd.view[i] = s->camera.present ? Classify(s->crowd.position[i], s->camera.view, s->outer_apex_back_m)
-                                         : ViewClass::kVisible;
+    s->crowd.view[i] = s->camera.present ? Classify(s->crowd.position[i], volumes) : ViewClass::kVisible;
   }
 }
 
