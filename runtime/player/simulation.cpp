@@ -191,9 +191,11 @@ void ControlCrowd(float frame_ms, Simulation* s) {
   s->control_ms = Now_ms() - start_ms;
 }
 
-bool InInnerVolume(Vec2 p, const void* volume) {
-  const auto* camera = static_cast<const ViewCamera*>(volume);
-  return InWedge(p, camera->position, camera->yaw_rad, camera->fov_rad);
+// Nobody is put into view, nor where they would come too near to the visitor.
+bool IsKeptFree(Vec2 p, const void* simulation) {
+  const Simulation& s = *static_cast<const Simulation*>(simulation);
+  const ViewCamera& view = s.camera.view;
+  return InWedge(p, view.position, view.yaw_rad, view.fov_rad) || Length(p - view.position) < 2 * s.r_personal_m;
 }
 
 }  // namespace
@@ -227,7 +229,7 @@ void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   StepCrowd(s->walkable, s->moving, s->step_s, &s->crowd);
   LeaveAndArrive(s);
   ClassifyAll(s);
-  if (s->camera.present) SeparateBoundary(s->walkable, InInnerVolume, &s->camera.view, &s->crowd);
+  if (s->camera.present) SeparateBoundary(s->walkable, IsKeptFree, s, &s->crowd);
   ControlCrowd(frame_ms, s);
   ++s->frame;
   s->step_ms = Now_ms() - start_ms;

@@ -84,6 +84,28 @@ TEST_P(Adaptation, FewFramesExceedTheLimitAndTheVisitorGetsOn) {
   EXPECT_GT(walked_m, 0.85f * asked_m);
 }
 
+TEST(PersonalSpace, IsKeptWhereTheVisitorTurnsInADenseSquare) {
+  Scenario scenario = Square("off", 1.9f, 1);
+  scenario.camera_position_m = {0, 0};
+  scenario.legs.assign(1, {});
+  scenario.legs[0].kind = CameraLeg::Kind::kTurn;
+  scenario.legs[0].turn_deg = 3600;
+  scenario.legs[0].rate_dps = 90;
+  for (size_t k = 0; k < scenario.persons.size(); ++k) {
+    Vec2& p = scenario.persons[k].position_m;
+    p = p * 0.3f;
+    if (Length(p) < 1.5f) p = p + Vec2{12, 0.3f};
+    for (Vec2& goal : scenario.persons[k].goals_m) goal = goal * 0.3f;
+  }
+  Simulation s;
+  const Error e = StartSimulation(nullptr, scenario, &s);
+  ASSERT_FALSE(e) << e.message;
+  for (int step = 0; step < 900; ++step) {
+    StepSimulation({}, 0, &s);
+    for (Vec2 p : s.crowd.position) ASSERT_GE(Length(p), s.r_personal_m) << "step " << step;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(AtWalkingPaceAndTwiceAsFast, Adaptation, testing::Values(1.9f, 3.8f));
 
 }  // namespace
