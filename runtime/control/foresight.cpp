@@ -15,7 +15,7 @@ constexpr float kMoment_s = 0.5f;          // between the moments looked at
 constexpr int kTurnMoments[State::kTurns] = {0, 2, 4};
 constexpr float kReach_m = 8;              // beyond r_high: who may be inside within the foresight
 constexpr float kRim_m = 0.6f;             // the forecast is that uncertain
-constexpr float kReserve = 0.2f;          // share of the limit kept free for surprises
+constexpr float kReserve = 0.2f;           // share of the limit kept free for surprises
 constexpr float kSettles_s = 0.3f;         // over which the camera's motion is averaged
 constexpr float kTurnLasts_s = 1.0f;       // a turn of the head dies away
 constexpr float kWalksOn_s = 1.8f;         // in the new direction after a turn
@@ -28,7 +28,7 @@ constexpr float kCostInView = 2.4f, kCostUnseen = 0.1f;  // moments in the way t
 constexpr float kStepsAside_s = 3;         // people make room for the visitor so long before
 constexpr float kRoom_m = 0.15f;
 constexpr float kBlockingCounts = 3;       // moments that holding the visitor up is worth
-constexpr float kTurnsInView = 0.5f;      // what the visitor may turn to matters that much to people in view
+constexpr float kTurnsInView = 0.5f;       // what the visitor may turn to matters that much to people in view
 constexpr float kCostOfSettingOff = 8.0f;  // moments that it is worth to leave somebody standing
 
 Vec2 Rotated(Vec2 v, float by_rad) {

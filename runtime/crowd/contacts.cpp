@@ -4,17 +4,13 @@
 #include <cmath>
 
 #include "runtime/crowd/constants.h"
+#include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/walls.h"
 
 namespace flaneur {
 namespace {
 
 constexpr size_t kMostContacts = 6;  // pairs a person: as many as fit around
-
-Vec2 ClampLength(Vec2 v, float most) {
-  const float length2 = Dot(v, v);
-  return length2 > most * most ? v * (most / std::sqrt(length2)) : v;
-}
 
 // Nobody walks into a disc that is for everyone: a step that would goes along its rim or not at all.
 Vec2 KeepOut(const std::vector<MovingObstacle>& moving, Vec2 from, Vec2 to, float radius_m) {

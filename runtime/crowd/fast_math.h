@@ -15,6 +15,11 @@ inline float WrapAngle(float a) {
   return a;
 }
 
+inline Vec2 ClampLength(Vec2 v, float most) {
+  const float length2 = Dot(v, v);
+  return length2 > most * most ? v * (most / std::sqrt(length2)) : v;
+}
+
 // Anticlockwise from +x, to 2e-6 radians; 0 for the zero vector. By Abramowitz and Stegun's form 4.4.49.
 inline float AngleOf(Vec2 v) {
   const float x = std::abs(v.x), y = std::abs(v.y);

@@ -19,11 +19,6 @@ constexpr float kReturn_s = 1.0f, kMostReturn_mps = 0.5f, kOnLine_m = 0.1f;
 constexpr float kSooner = 1.4f;         // than the last moment
 constexpr float kLeastTime_s = 0.3f;  // no stepping aside is quicker
 
-Vec2 ClampLength(Vec2 v, float most) {
-  const float length2 = Dot(v, v);
-  return length2 > most * most ? v * (most / std::sqrt(length2)) : v;
-}
-
 // exp(-x) for x in [0, 1] to half a percent, without a call.
 float RoughDecay(float x) { return 1 / (1 + x * (1 + x * (0.5f + x * (1.0f / 6)))); }
 

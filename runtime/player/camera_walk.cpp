@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/walls.h"
 
 namespace flaneur {
@@ -19,12 +20,6 @@ constexpr float kTourSpeed_mps = 1.3f;
 constexpr float kSidestep_m = 0.7f;           // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;           // after which those who stand in the way move on
 constexpr float kStirs_m = 2;
-
-float WrapAngle(float a) {
-  while (a > kPi) a -= 2 * kPi;
-  while (a < -kPi) a += 2 * kPi;
-  return a;
-}
 
 void TurnTowards(float yaw_rad, float rate_radps, Simulation* s) {
   const float most = rate_radps * s->step_s;
