@@ -11,6 +11,7 @@ ALLOWED = {
     "runtime/crowd": {BASE},
     "runtime/control": {BASE, "runtime/crowd"},
     "runtime/render": {BASE, "runtime/pack"},
+    "runtime/likeness": {BASE, "runtime/pack", "runtime/render"},
     "runtime/player": {BASE, "runtime/pack", "runtime/crowd", "runtime/control", "runtime/render"},
     "pipeline/core": {BASE},
     "pipeline/io": {BASE, CORE},

@@ -1,5 +1,6 @@
 #include "runtime/render/renderer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -75,8 +76,9 @@ Error Renderer::Create(const TourPack& pack, const RenderOptions& options) {
   Impl& r = *impl_;
   r.options = options;
   if (Error e = CheckImages(pack)) return e;
-  const std::string defines = DrawsInSoftware() ? "#define SHADOW_TAPS 1\n#define SHARPER -0.6\n"
-                                              : "#define SHADOW_TAPS 4\n#define SHARPER 0.0\n";
+  std::string defines = DrawsInSoftware() ? "#define SHADOW_TAPS 1\n#define SHARPER -0.6\n"
+                                        : "#define SHADOW_TAPS 4\n#define SHARPER 0.0\n";
+  if (options.normals) defines += "#define NORMALS\n";
   const std::vector<GLuint> textures = UploadTextures(pack);
   const std::vector<Surface> surfaces = MakeSurfaces(pack, textures);
   if (Error e = CreateTownView(pack, defines, surfaces, &r.town)) return e;
@@ -111,7 +113,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   BindFrameBlock(r.block_buffer, block);
   statistics->people_triangles = DrawPeople(r.people);  // first, for what they hide of the town costs nothing then
   statistics->town_triangles = DrawTown(block.view_projection, eye, r.options.cull, &r.town);
-  r.DrawSky();
+  if (!r.options.normals) r.DrawSky();
   FinishPicture(r.picture);
   DrawCaption(frame.caption, frame.caption_share, width_px, height_px, &r.caption);
   glFinish();  // so that draw_ms means the picture, not the handing over of commands
@@ -119,19 +121,23 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   statistics->draw_ms = std::chrono::duration<double, std::milli>(end - start).count();
 }
 
-void Renderer::Read(std::vector<uint8_t>* rgb) {
+void Renderer::ReadWithAlpha(std::vector<uint8_t>* rgba) {
   const Picture& p = impl_->picture;
-  std::vector<uint8_t> rgba(static_cast<size_t>(p.width_px) * static_cast<size_t>(p.height_px) * 4);
+  const size_t row = static_cast<size_t>(p.width_px) * 4, height = static_cast<size_t>(p.height_px);
+  rgba->resize(row * height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, p.finished);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, p.width_px, p.height_px, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-  rgb->resize(rgba.size() / 4 * 3);
-  const size_t width = static_cast<size_t>(p.width_px), height = static_cast<size_t>(p.height_px);
-  for (size_t y = 0; y < height; ++y) {
-    for (size_t x = 0; x < width; ++x) {
-      std::memcpy(&(*rgb)[(y * width + x) * 3], &rgba[((height - 1 - y) * width + x) * 4], 3);
-    }
+  glReadPixels(0, 0, p.width_px, p.height_px, GL_RGBA, GL_UNSIGNED_BYTE, rgba->data());
+  for (size_t y = 0; y < height / 2; ++y) {
+    std::swap_ranges(&(*rgba)[y * row], &(*rgba)[y * row] + row, &(*rgba)[(height - 1 - y) * row]);
   }
+}
+
+void Renderer::Read(std::vector<uint8_t>* rgb) {
+  std::vector<uint8_t> rgba;
+  ReadWithAlpha(&rgba);
+  rgb->resize(rgba.size() / 4 * 3);
+  for (size_t i = 0; i < rgba.size() / 4; ++i) std::memcpy(&(*rgb)[i * 3], &rgba[i * 4], 3);
 }
 
 void Renderer::Present() {

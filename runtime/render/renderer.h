@@ -12,6 +12,7 @@ namespace flaneur {
 struct RenderOptions {
   int samples = 0;    // of each pixel; 0: four with a GPU, one and a smoothing pass without
   bool cull = true;   // leave out blocks of the town that the picture cannot show; false only to prove that
+  bool normals = false;  // people's normals * 0.5 + 0.5 instead of light, over nothing
 };
 
 // Needs a current context for its whole life.
@@ -25,6 +26,8 @@ class Renderer {
   void Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics);
   // The last picture: RGB, 8 bits a channel, top row first.
   void Read(std::vector<uint8_t>* rgb);
+  // The same as RGBA; alpha is 0 where nothing is drawn.
+  void ReadWithAlpha(std::vector<uint8_t>* rgba);
   void Present();  // onto the window's surface
 
  private:

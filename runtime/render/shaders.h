@@ -45,6 +45,14 @@ vec3 shown(vec3 color, vec3 p) {
   vec3 s = sqrt(mix(color, u_haze_color.rgb, haze));
   return s * (0.3955 + 3.7304 * s) / (1.0 + s * (3.9385 * s - 0.4040));
 }
+// What is drawn of a surface.
+vec4 outcome(vec3 albedo, vec3 n, vec3 p) {
+#ifdef NORMALS
+  return vec4(n * 0.5 + 0.5, 1.0);
+#else
+  return vec4(shown(lit(albedo, n, p), p), 1.0);
+#endif
+}
 // Colour pictures are filtered as they are stored, in sRGB, which software does several times faster, and made linear here:
 // a cubic through the curve, off by less than 0.003.
 vec3 linear_from_srgb(vec3 c) { return c * (c * (c * 0.305306 + 0.682171) + 0.012523); }
@@ -135,7 +143,7 @@ void main() {
 #endif
   vec3 n = normalize(v_normal);
   if (!gl_FrontFacing) n = -n;
-  o_color = vec4(shown(lit(linear_from_srgb(albedo.rgb) * v_color.rgb, n, v_position), v_position), 1.0);
+  o_color = outcome(linear_from_srgb(albedo.rgb) * v_color.rgb, n, v_position);
 }
 )";
 
@@ -194,7 +202,7 @@ void main() {
   vec3 albedo = linear_from_srgb(mix(a.rgb, b.rgb, share));
   vec3 n = mix(texture(u_normals, v_uv0).rgb, texture(u_normals, v_uv1).rgb, share) * 2.0 - 1.0;
   n = normalize(vec3(v_turn.x * n.x + v_turn.y * n.z, n.y, v_turn.x * n.z - v_turn.y * n.x));
-  o_color = vec4(shown(lit(albedo, n, v_position), v_position), 1.0);
+  o_color = outcome(albedo, n, v_position);
 }
 )";
 

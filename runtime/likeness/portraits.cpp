@@ -1,0 +1,79 @@
+#include "runtime/likeness/portraits.h"
+
+#include <cmath>
+
+#include "runtime/render/renderer.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kScreenWidth_px = 1280;
+constexpr float kEyeHeight_m = 1.7f;
+constexpr float kMargin = 1.5f;  // the picture's height in persons
+constexpr int kSamples = 4;
+
+FrameInput FrameOf(const TourPack& pack, const PortraitMoment& m, int level, float person_px, int size_px) {
+  const PackAvatar& avatar = pack.avatars[static_cast<size_t>(m.avatar)];
+  const float focal_px = kScreenWidth_px / (2 * std::tan(pack.control.fov_rad / 2));
+  const float distance_m = avatar.height_m * focal_px / person_px;
+  FrameInput frame;
+  frame.eye = {0, 0, kEyeHeight_m};
+  frame.pitch_rad = std::atan2(avatar.height_m / 2 - kEyeHeight_m, distance_m);
+  frame.fov_rad = 2 * std::atan(static_cast<float>(size_px) / 2 / focal_px);
+  frame.to_sun = m.to_sun;
+  DrawnPerson person;
+  person.avatar = m.avatar;
+  person.level = level;
+  person.moment = m.moment;
+  person.position = {distance_m, 0, 0};
+  person.heading_rad = m.heading_rad;
+  frame.people = {person};
+  return frame;
+}
+
+int PictureSize_px(float person_px) { return 16 * static_cast<int>(std::ceil(person_px * kMargin / 16)); }
+
+}  // namespace
+
+struct PortraitStudio::Impl {
+  TourPack pack;
+  Renderer lit, normals;
+};
+
+PortraitStudio::PortraitStudio() : impl_(std::make_unique<Impl>()) {}
+PortraitStudio::~PortraitStudio() = default;
+
+Error PortraitStudio::Create(TourPack pack) {
+  impl_->pack = std::move(pack);
+  impl_->pack.town.clear();
+  RenderOptions options;
+  options.samples = kSamples;
+  if (Error e = impl_->lit.Create(impl_->pack, options)) return e;
+  options.normals = true;
+  return impl_->normals.Create(impl_->pack, options);
+}
+
+void PortraitStudio::Draw(const PortraitMoment& moment, int level, float person_px, Portrait* portrait) {
+  portrait->size_px = PictureSize_px(person_px);
+  FrameStatistics unused;
+  const FrameInput frame = FrameOf(impl_->pack, moment, level, person_px, portrait->size_px);
+  impl_->normals.Draw(frame, portrait->size_px, portrait->size_px, &unused);
+  impl_->normals.ReadWithAlpha(&portrait->normals);
+  Relight(moment, level, person_px, portrait);
+}
+
+void PortraitStudio::Relight(const PortraitMoment& moment, int level, float person_px, Portrait* portrait) {
+  FrameStatistics unused;
+  const FrameInput frame = FrameOf(impl_->pack, moment, level, person_px, portrait->size_px);
+  impl_->lit.Draw(frame, portrait->size_px, portrait->size_px, &unused);
+  impl_->lit.ReadWithAlpha(&portrait->rgba);
+}
+
+const TourPack& PortraitStudio::pack() const { return impl_->pack; }
+
+float PortraitStudio::ImpostorSwitch_px(int avatar) const {
+  const PackAvatar& a = impl_->pack.avatars[static_cast<size_t>(avatar)];
+  return a.height_m / a.impostor.window_height_m * static_cast<float>(a.impostor.cell_height_px);
+}
+
+}  // namespace flaneur
