@@ -11,7 +11,7 @@
 namespace flaneur {
 namespace {
 
-constexpr int kQuadricPoses = 4;  // of the walk, besides the bind pose
+constexpr int kQuadricPoses = 8;  // of the walk, besides the bind pose
 constexpr float kTargetTolerance = 0.02f;
 constexpr float kEndless_px = 100000;  // switch height where the next level is exact
 
@@ -202,14 +202,6 @@ void SetSwitchHeights(float height_m, std::vector<AvatarLevel>* levels) {
   levels->back().switch_px = 0;
 }
 
-std::vector<std::vector<Mesh>> DecimationPoses(const Avatar& avatar) {
-  std::vector<std::vector<Mesh>> poses{avatar.meshes};
-  for (const auto& matrices : WalkPoses(avatar, kQuadricPoses)) {
-    poses.push_back(Posed(avatar.meshes, matrices));
-  }
-  return poses;
-}
-
 }  // namespace
 
 Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLevels* levels,
@@ -225,7 +217,10 @@ Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLeve
     AvatarLevel level;
     level.meshes = avatar.meshes;
     if (target < original) {
-      if (!decimater) decimater = std::make_unique<QuadricDecimater>(DecimationPoses(avatar));
+      if (!decimater) {
+        decimater = std::make_unique<QuadricDecimater>(avatar.meshes,
+                                                       WalkPoses(avatar, kQuadricPoses));
+      }
       const int most = static_cast<int>((1 + kTargetTolerance) * static_cast<float>(target));
       decimater->DecimateTo(target);
       if (decimater->Triangles() > most) {
@@ -233,7 +228,7 @@ Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLeve
                             std::to_string(decimater->Triangles()) + " triangles instead of " +
                             std::to_string(target) + ", as its parts cannot be simplified further");
       }
-      level.meshes = decimater->Meshes();
+      level.meshes = SplitWedges(decimater->Surface(), avatar.meshes);
       comparison.Measure(&level);
     }
     level.triangles = CountTriangles(level.meshes);

@@ -1,391 +1,621 @@
 #include "pipeline/avatar/quadric_decimater.h"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-// Needs the above first.
-#include <OpenMesh/Core/Geometry/QuadricT.hh>
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModBaseT.hh>
-#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
-#include <tuple>
+#include <cstdlib>
+#include <queue>
+#include <thread>
+#include <unordered_map>
+
+#include "pipeline/avatar/posed_quadric.h"
 
 namespace flaneur {
 namespace {
 
-using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<>;
-using Quadric = OpenMesh::Geometry::Quadricd;
 using Face = WedgeSurface::Face;
+using Wedge = WedgeSurface::Wedge;
 
-constexpr double kSeamWeight = 2;  // of a border's or seam's own planes, against those of faces
-constexpr float kSameUv = 1e-4f;   // uvs nearer than this are no seam
-constexpr float kSameColor = 0.02f;
+constexpr double kBorderWeight = 1;  // of an open border's planes, against those of faces
+constexpr double kSeamWeight = 0.1;  // of a seam's
 constexpr double kStretch = 0.3;  // a picture shifted by a length costs as much as this share of it
-constexpr float kMaxFlip_deg = 80;  // a face that turns further is taken to fold over
+constexpr double kSpring = 1e-3;  // towards the edge, where planes leave a vertex free
+constexpr double kReach = 2;      // of an edge's length: so far may its vertex move from it
+constexpr double kLeastTurn = 0.2;  // cosine; a face that turns further is taken to fold over
+constexpr double kFold = -0.95;     // cosine between faces: a sheet that is seen from both sides
+constexpr float kSameUv = 1e-4f;    // uvs nearer than this are no seam
+constexpr float kSameColor = 0.02f;
+constexpr float kSameWeights = 0.02f;  // sum of differences
+constexpr int kTries = 2000;  // collapses looked at for one that hits the number of triangles
 
-OpenMesh::Vec3d ToDouble(Vec3 v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+double Tunable(const char* name, double value) {
+  const char* text = std::getenv(name);
+  return text ? std::atof(text) : value;
+}
+const double tBorder = Tunable("T_BORDER", kBorderWeight), tSeam = Tunable("T_SEAM", kSeamWeight),
+             tStretch = Tunable("T_STRETCH", kStretch), tSpring = Tunable("T_SPRING", kSpring),
+             tTurn = Tunable("T_TURN", kLeastTurn), tAreaPower = Tunable("T_AREA", 1), tLen = Tunable("T_LEN", 1e-9);
+
+// Wedges at one vertex that only differ by their normal: a crease, but no seam.
+bool NoSeam(const Wedge& a, const Wedge& b) {
+  return a.mesh == b.mesh && Length(a.uv - b.uv) < kSameUv &&
+         std::max({std::abs(a.color.x - b.color.x), std::abs(a.color.y - b.color.y),
+                   std::abs(a.color.z - b.color.z)}) < kSameColor;
 }
 
-// Everything the decimating module needs of the surface; lives as long as the decimater.
-struct Surface {
-  WedgeSurface wedges;                                  // faces by OpenMesh's face index
-  const std::vector<Mesh>* meshes = nullptr;            // the bind pose's
-  std::vector<std::vector<OpenMesh::Vec3d>> positions;  // by pose and vertex
-};
-
-int WedgeAt(const Surface& surface, int face, int vertex) {
-  const Face& f = surface.wedges.faces[static_cast<size_t>(face)];
-  for (size_t k = 0; k < 3; ++k) {
-    if (f.vertices[k] == vertex) return f.wedges[k];
-  }
-  return -1;
+Wedge Mix(const Wedge& a, const Wedge& b, float t) {
+  Wedge out = a;
+  out.normal = Normalized(a.normal * (1 - t) + b.normal * t);
+  if (!(Length(out.normal) > 0.5f)) out.normal = a.normal;
+  out.uv = a.uv * (1 - t) + b.uv * t;
+  out.uv1 = a.uv1 * (1 - t) + b.uv1 * t;
+  out.color = {a.color.x + t * (b.color.x - a.color.x), a.color.y + t * (b.color.y - a.color.y),
+               a.color.z + t * (b.color.z - a.color.z), a.color.w + t * (b.color.w - a.color.w)};
+  return out;
 }
 
-const Mesh& MeshOf(const Surface& surface, int wedge) {
-  return (
-      *surface.meshes)[static_cast<size_t>(surface.wedges.wedges[static_cast<size_t>(wedge)].mesh)];
-}
-
-uint32_t VertexOf(const Surface& surface, int wedge) {
-  return surface.wedges.wedges[static_cast<size_t>(wedge)].vertex;
-}
-
-bool SameMesh(const Surface& surface, int a, int b) {
-  return &MeshOf(surface, a) == &MeshOf(surface, b);
-}
-
-// Both wedges of one mesh.
-float UvShift(const Surface& surface, int a, int b) {
-  const Mesh& mesh = MeshOf(surface, a);
-  if (mesh.uvs.empty()) return 0;
-  return Length(mesh.uvs[VertexOf(surface, a)] - mesh.uvs[VertexOf(surface, b)]);
-}
-
-float ColorShift(const Surface& surface, int a, int b) {
-  const Mesh& mesh = MeshOf(surface, a);
-  if (mesh.colors.empty()) return 0;
-  const Vec4 p = mesh.colors[VertexOf(surface, a)], q = mesh.colors[VertexOf(surface, b)];
-  return std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.z - q.z)});
-}
-
-// Wedges of one vertex that only differ by their normal: a crease, but no seam.
-bool NoSeam(const Surface& surface, int a, int b) {
-  return a == b || (SameMesh(surface, a, b) && UvShift(surface, a, b) < kSameUv &&
-                    ColorShift(surface, a, b) < kSameColor);
-}
-
-float NormalAgreement(const Surface& surface, int a, int b) {
-  const Mesh& mesh = MeshOf(surface, a);
-  if (mesh.normals.empty()) return 1;
-  return Dot(mesh.normals[VertexOf(surface, a)], MeshOf(surface, b).normals[VertexOf(surface, b)]);
-}
-
-// The priority of a collapse is its quadric error over all poses, and the shift of the picture
-// where a corner leaves its uv seam; illegal where a border of materials would tear.
-template <typename MeshType>
-class ModSeamQuadric : public OpenMesh::Decimater::ModBaseT<MeshType> {
- public:
-  DECIMATING_MODULE(ModSeamQuadric, MeshType, SeamQuadric);
-
-  explicit ModSeamQuadric(MeshType& mesh) : Base(mesh, false) {}
-
-  void SetSurface(Surface* surface) { surface_ = surface; }
-
-  void initialize() override {
-    quadrics_.assign(surface_->positions.size(),
-                     std::vector<Quadric>(Base::mesh().n_vertices(), Quadric(0.0)));
-    for (const auto face : Base::mesh().faces()) AddFace(face.idx());
-    for (const auto edge : Base::mesh().edges()) AddSeam(edge);
-  }
-
-  float collapse_priority(const CollapseInfo& info) override {
-    double shift = 0;
-    if (!MapWedges(info, &shift)) return Base::ILLEGAL_COLLAPSE;
-    double cost = 0;
-    const auto v0 = static_cast<size_t>(info.v0.idx()), v1 = static_cast<size_t>(info.v1.idx());
-    for (size_t pose = 0; pose < quadrics_.size(); ++pose) {
-      const Quadric sum = Quadric(quadrics_[pose][v0]) += quadrics_[pose][v1];
-      cost += std::max(sum(surface_->positions[pose][v1]), 0.0);
+float WeightDifference(const WedgeSurface::Vertex& a, const WedgeSurface::Vertex& b) {
+  float sum = 0;
+  for (size_t i = 0; i < 4; ++i) {
+    float in_b = 0;
+    for (size_t k = 0; k < 4; ++k) {
+      if (b.joints[k] == a.joints[i]) in_b += b.weights[k];
     }
-    // Ties, as on flat cloth, go to the shorter edge.
-    const auto edge = surface_->positions[0][v1] - surface_->positions[0][v0];
-    return static_cast<float>(cost + shift + 1e-9 * edge.sqrnorm());
+    sum += std::max(a.weights[i] - in_b, 0.0f);
   }
+  return 2 * sum;
+}
 
-  void preprocess_collapse(const CollapseInfo& info) override {
-    double shift = 0;
-    MapWedges(info, &shift);
-    for (const Move& move : moved_) {
-      Face& f = surface_->wedges.faces[static_cast<size_t>(move.face)];
-      const int wedge = move.place < 0 ? move.wedge : Displaced(move.wedge, move.place);
-      for (size_t k = 0; k < 3; ++k) {
-        if (f.vertices[k] != info.v0.idx()) continue;
-        f.vertices[k] = info.v1.idx();
-        f.wedges[k] = wedge;
-      }
-    }
-  }
-
-  void postprocess_collapse(const CollapseInfo& info) override {
-    for (auto& pose : quadrics_) {
-      pose[static_cast<size_t>(info.v1.idx())] += pose[static_cast<size_t>(info.v0.idx())];
-    }
-  }
-
- private:
-  // What happens to the corner at v0 of a face that stays.
-  struct Move {
-    int face = 0;
-    int wedge = 0;
-    int place = -1;  // a wedge at v1 where only the corner's place changes, not its uv; -1: `wedge`
-                     // has it all
-  };
-
-  // A wedge with the picture of one and the place of another.
-  int Displaced(int wedge, int place) {
-    auto& wedges = surface_->wedges.wedges;
-    WedgeSurface::Wedge displaced = wedges[static_cast<size_t>(wedge)];
-    displaced.place = wedges[static_cast<size_t>(place)].place;
-    wedges.push_back(displaced);
-    return static_cast<int>(wedges.size()) - 1;
-  }
-
-  void AddPlane(size_t pose, OpenMesh::Vec3d normal, OpenMesh::Vec3d point, double weight,
-                std::initializer_list<int> vertices) {
-    const double length = normal.norm();
-    if (!(length > 0)) return;
-    normal /= length;
-    Quadric plane(normal[0], normal[1], normal[2], -(normal | point));
-    plane *= weight;
-    for (const int v : vertices) quadrics_[pose][static_cast<size_t>(v)] += plane;
-  }
-
-  // Weights are lengths: by area the large faces would leave nothing of a hand, with equal ones of
-  // a coat.
-  void AddFace(int face) {
-    const auto& v = surface_->wedges.faces[static_cast<size_t>(face)].vertices;
-    for (size_t pose = 0; pose < quadrics_.size(); ++pose) {
-      const auto& p = surface_->positions[pose];
-      const auto a = p[static_cast<size_t>(v[0])];
-      const auto normal = (p[static_cast<size_t>(v[1])] - a) % (p[static_cast<size_t>(v[2])] - a);
-      AddPlane(pose, normal, a, std::sqrt(normal.norm() / 2), {v[0], v[1], v[2]});
-    }
-  }
-
-  // A plane through each border or seam edge, at right angles to the face, holds its line.
-  void AddSeam(const OpenMesh::SmartEdgeHandle& edge) {
-    const int a = edge.v0().idx(), b = edge.v1().idx();
-    const auto left = edge.h0().face(), right = edge.h1().face();
-    if (left.is_valid() && right.is_valid() &&
-        NoSeam(*surface_, WedgeAt(*surface_, left.idx(), a), WedgeAt(*surface_, right.idx(), a)) &&
-        NoSeam(*surface_, WedgeAt(*surface_, left.idx(), b), WedgeAt(*surface_, right.idx(), b))) {
+// The four heaviest of the two together.
+void MixWeights(const WedgeSurface::Vertex& b, float t, WedgeSurface::Vertex* a) {
+  std::array<std::pair<float, uint16_t>, 8> all{};
+  size_t count = 0;
+  const auto add = [&](uint16_t joint, float weight) {
+    if (!(weight > 0)) return;
+    for (size_t i = 0; i < count; ++i) {
+      if (all[i].second != joint) continue;
+      all[i].first += weight;
       return;
     }
-    for (const auto& face : {left, right}) {
-      if (!face.is_valid()) continue;
-      const auto& v = surface_->wedges.faces[static_cast<size_t>(face.idx())].vertices;
-      for (size_t pose = 0; pose < quadrics_.size(); ++pose) {
-        const auto& p = surface_->positions[pose];
-        const auto at = [&](int i) { return p[static_cast<size_t>(i)]; };
-        const auto normal = (at(v[1]) - at(v[0])) % (at(v[2]) - at(v[0]));
-        const auto along = at(b) - at(a);
-        AddPlane(pose, along % normal, at(a), kSeamWeight * along.norm(), {a, b});
-      }
-    }
+    all[count++] = {weight, joint};
+  };
+  for (size_t i = 0; i < 4; ++i) add(a->joints[i], (1 - t) * a->weights[i]);
+  for (size_t i = 0; i < 4; ++i) add(b.joints[i], t * b.weights[i]);
+  std::stable_sort(all.begin(), all.end(), [](auto x, auto y) {
+    return x.first != y.first ? x.first > y.first : x.second < y.second;
+  });
+  float sum = 0;
+  for (size_t i = 0; i < std::min<size_t>(count, 4); ++i) sum += all[i].first;
+  for (size_t i = 0; i < 4; ++i) {
+    const bool used = i < count && sum > 0;
+    a->weights[i] = used ? all[i].first / sum : 0;
+    a->joints[i] = used ? all[i].second : uint16_t{0};
   }
+}
 
-  // The wedge at v1 that continues `wedge` of v0 across one of the two faces that vanish; -1: none
-  // does.
-  int Continuation(const CollapseInfo& info, int wedge, bool* exact) const {
-    int found = -1;
-    for (const auto& face : {info.fl, info.fr}) {
-      if (!face.is_valid()) continue;
-      const int w0 = WedgeAt(*surface_, face.idx(), info.v0.idx());
-      if (w0 == wedge || (found < 0 && NoSeam(*surface_, w0, wedge))) {
-        found = WedgeAt(*surface_, face.idx(), info.v1.idx());
-        *exact = w0 == wedge;
-        if (*exact) return found;
-      }
-    }
-    return found;
+struct Collapse {
+  double cost = 0;
+  int a = 0, b = 0;  // a stays
+  uint32_t stamp_a = 0, stamp_b = 0;
+  bool operator<(const Collapse& other) const {  // the cheapest is the greatest
+    if (cost != other.cost) return cost > other.cost;
+    return a != other.a ? a > other.a : b > other.b;
   }
+};
 
-  // Of the wedges at v1 the one of the same mesh, without a seam to `like` where given, whose
-  // normal fits best; -1: none.
-  int Nearest(const CollapseInfo& info, int like, int wedge) {
-    int best = -1;
-    float closest = -2;
-    for (const auto face : Base::mesh().vf_range(info.v1)) {
-      const int w1 = WedgeAt(*surface_, face.idx(), info.v1.idx());
-      if (w1 < 0 || !SameMesh(*surface_, w1, wedge)) continue;
-      if (like >= 0 && !NoSeam(*surface_, w1, like)) continue;
-      const float agreement = NormalAgreement(*surface_, w1, wedge);
-      if (agreement <= closest) continue;
-      closest = agreement;
-      best = w1;
-    }
-    return best;
-  }
-
-  // Fills moved_. A corner whose seam does not lead to v1 keeps its uv there, which shifts the
-  // picture a little; the wedges of v1 lie elsewhere in the picture. False where the mesh itself
-  // ends: borders of materials stay.
-  bool MapWedges(const CollapseInfo& info, double* shift) {
-    moved_.clear();
-    bool whole = true;
-    const auto& p = surface_->positions[0];
-    const double edge2 =
-        (p[static_cast<size_t>(info.v1.idx())] - p[static_cast<size_t>(info.v0.idx())]).sqrnorm();
-    for (const auto face : Base::mesh().vf_range(info.v0)) {
-      if (face == info.fl || face == info.fr) continue;
-      const int w0 = WedgeAt(*surface_, face.idx(), info.v0.idx());
-      bool exact = false;
-      const int continued = Continuation(info, w0, &exact);
-      if (continued >= 0) {
-        moved_.push_back({face.idx(), exact ? continued : Nearest(info, continued, w0), -1});
-        continue;
-      }
-      const int place = Nearest(info, -1, w0);
-      // Without a place the corner stays where it was: a neighbour's collapse took the mesh away in
-      // between.
-      moved_.push_back({face.idx(), w0, place});
-      whole = whole && place >= 0;
-      *shift += kStretch * kStretch * edge2 * std::sqrt(FaceArea(face.idx()));
-    }
-    return whole;
-  }
-
-  double FaceArea(int face) const {
-    const auto& v = surface_->wedges.faces[static_cast<size_t>(face)].vertices;
-    const auto& p = surface_->positions[0];
-    const auto a = p[static_cast<size_t>(v[0])];
-    return ((p[static_cast<size_t>(v[1])] - a) % (p[static_cast<size_t>(v[2])] - a)).norm() / 2;
-  }
-
-  Surface* surface_ = nullptr;
-  std::vector<std::vector<Quadric>> quadrics_;  // by pose and vertex
-  std::vector<Move> moved_;
+struct Placement {
+  double cost = 1e300;
+  DVec3 position;
+  double weight_t = 0;  // share of b's weights
 };
 
 }  // namespace
 
 struct QuadricDecimater::Impl {
-  using Decimater = OpenMesh::Decimater::DecimaterT<HalfEdgeMesh>;
+  size_t poses = 1;  // with the bind pose
+  std::vector<std::vector<Mat4>> matrices;
+  WedgeSurface surface;
+  std::vector<DVec3> positions;
+  std::vector<Quadric> quadrics;          // by vertex and pose, in posed space
+  std::vector<Affine> skinning;           // by vertex and pose
+  std::vector<std::vector<int>> faces_of;  // by vertex; none: the vertex is gone
+  std::vector<uint32_t> stamps;
+  std::vector<uint8_t> on_seam;   // wedges at the vertex don't all continue each other
+  std::vector<uint8_t> blocked;   // an edge there could not be collapsed
+  std::vector<uint8_t> gone;      // by face
+  int triangles = 0;
+  bool relaxed = false;
+  std::priority_queue<Collapse> heap;
 
-  Surface surface;
-  std::vector<Mesh> bind;
-  HalfEdgeMesh mesh;
-  std::unique_ptr<Decimater> decimater;
-  ModSeamQuadric<HalfEdgeMesh>::Handle quadric;
-  OpenMesh::Decimater::ModNormalFlippingT<HalfEdgeMesh>::Handle flipping;
+  size_t At(int vertex, size_t pose) const { return static_cast<size_t>(vertex) * poses + pose; }
+  Face& FaceAt(int f) { return surface.faces[static_cast<size_t>(f)]; }
+  const Face& FaceAt(int f) const { return surface.faces[static_cast<size_t>(f)]; }
+  const Wedge& WedgeAt(int w) const { return surface.wedges[static_cast<size_t>(w)]; }
+  const std::vector<int>& FacesOf(int v) const { return faces_of[static_cast<size_t>(v)]; }
 
-  HalfEdgeMesh::VertexHandle AddVertex(int vertex) {
-    const auto p = surface.positions[0][static_cast<size_t>(vertex)];
-    return mesh.add_vertex(HalfEdgeMesh::Point(static_cast<float>(p[0]), static_cast<float>(p[1]),
-                                               static_cast<float>(p[2])));
+  static size_t CornerOf(const Face& face, int vertex) {
+    return face.vertices[0] == vertex ? 0 : face.vertices[1] == vertex ? 1 : 2;
+  }
+  static bool Has(const Face& face, int vertex) {
+    return face.vertices[0] == vertex || face.vertices[1] == vertex || face.vertices[2] == vertex;
   }
 
-  // A face that OpenMesh refuses comes back on vertices of its own.
-  void AddFaceAgain(Face* face) {
-    for (int& v : face->vertices) {
-      for (auto& pose : surface.positions) pose.push_back(pose[static_cast<size_t>(v)]);
-      v = AddVertex(v).idx();
+  DVec3 Posed(int vertex, size_t pose) const {
+    const DVec3 p = positions[static_cast<size_t>(vertex)];
+    return pose == 0 ? p : Apply(skinning[At(vertex, pose)], p);
+  }
+
+  // Across the face, as long as twice its area.
+  DVec3 Across(const Face& face, size_t pose) const {
+    const DVec3 a = Posed(face.vertices[0], pose);
+    return Cross(Posed(face.vertices[1], pose) - a, Posed(face.vertices[2], pose) - a);
+  }
+
+  void SetSkinning(int vertex) {
+    const WedgeSurface::Vertex& v = surface.vertices[static_cast<size_t>(vertex)];
+    for (size_t k = 0; k < poses; ++k) {
+      Affine& out = skinning[At(vertex, k)];
+      out = {};
+      float sum = 0;
+      for (size_t i = 0; k > 0 && i < 4; ++i) {
+        if (!(v.weights[i] > 0)) continue;
+        sum += v.weights[i];
+        const Mat4& m = matrices[k - 1][v.joints[i]];
+        for (size_t r = 0; r < 3; ++r) {
+          for (size_t c = 0; c < 4; ++c) out[4 * r + c] += v.weights[i] * m.m[c][r];
+        }
+      }
+      if (!(sum > 0)) out = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     }
-    mesh.add_face(mesh.vertex_handle(static_cast<unsigned>(face->vertices[0])),
-                  mesh.vertex_handle(static_cast<unsigned>(face->vertices[1])),
-                  mesh.vertex_handle(static_cast<unsigned>(face->vertices[2])));
   }
 
-  void BuildMesh() {
-    const size_t vertices = surface.wedges.wedge_of_vertex.size();
-    for (size_t v = 0; v < vertices; ++v) AddVertex(static_cast<int>(v));
-    for (Face& face : surface.wedges.faces) {
-      const auto handle = [&](size_t k) {
-        return mesh.vertex_handle(static_cast<unsigned>(face.vertices[k]));
+  void AddPlane(const Face& face, size_t pose, DVec3 across, double weight,
+                std::initializer_list<int> vertices) {
+    const double length = std::sqrt(Dot(across, across));
+    if (!(length > 0) || !(weight > 0)) return;
+    const Quadric plane =
+        PlaneQuadric(across * (1 / length), Posed(face.vertices[0], pose), weight);
+    for (const int v : vertices) {
+      Quadric& q = quadrics[At(v, pose)];
+      q = q + plane;
+    }
+  }
+
+  void AddFaceQuadrics() {
+    for (const Face& face : surface.faces) {
+      for (size_t k = 0; k < poses; ++k) {
+        const DVec3 across = Across(face, k);
+        AddPlane(face, k, across, std::pow(std::sqrt(Dot(across, across)) / 2, tAreaPower),
+                 {face.vertices[0], face.vertices[1], face.vertices[2]});
+      }
+    }
+  }
+
+  // A plane through the edge at right angles to the face holds its line.
+  void HoldEdge(const Face& face, int a, int b, double weight) {
+    for (size_t k = 0; k < poses; ++k) {
+      const DVec3 across = Across(face, k), from = Posed(a, k), along = Posed(b, k) - from;
+      const DVec3 normal = Cross(along, across);
+      const double length = std::sqrt(Dot(normal, normal));
+      if (!(length > 0)) continue;
+      const Quadric plane =
+          PlaneQuadric(normal * (1 / length), from, weight * std::pow(std::sqrt(Dot(across, across)) / 2, tAreaPower));
+      for (const int v : {a, b}) {
+        Quadric& q = quadrics[At(v, k)];
+        q = q + plane;
+      }
+    }
+  }
+
+  bool Continues(const Face& f, const Face& g, int vertex) const {
+    return NoSeam(WedgeAt(f.wedges[CornerOf(f, vertex)]), WedgeAt(g.wedges[CornerOf(g, vertex)]));
+  }
+
+  void HoldBordersAndSeams() {
+    for (int f = 0; f < static_cast<int>(surface.faces.size()); ++f) {
+      const Face face = FaceAt(f);
+      for (size_t k = 0; k < 3; ++k) {
+        const int a = face.vertices[k], b = face.vertices[(k + 1) % 3];
+        int others = 0;
+        bool continued = false, folded = false;
+        for (const int g : FacesOf(a)) {
+          const Face& other = FaceAt(g);
+          if (g == f || !Has(other, b)) continue;
+          ++others;
+          continued = continued || (Continues(face, other, a) && Continues(face, other, b));
+          const DVec3 n = Across(face, 0), m = Across(other, 0);
+          folded = folded || Dot(n, m) < kFold * std::sqrt(Dot(n, n) * Dot(m, m));
+        }
+        if (others == 0 || (others == 1 && folded)) HoldEdge(face, a, b, tBorder);
+        else if (!continued) HoldEdge(face, a, b, tSeam);
+      }
+    }
+  }
+
+  void FindSeam(int vertex) {
+    const auto& faces = FacesOf(vertex);
+    bool seam = false;
+    for (size_t i = 1; i < faces.size() && !seam; ++i) {
+      seam = !Continues(FaceAt(faces[0]), FaceAt(faces[i]), vertex);
+    }
+    on_seam[static_cast<size_t>(vertex)] = seam;
+  }
+
+  // What moving a vertex from its seam does to the pictures that meet there.
+  double ShiftCost(int vertex, DVec3 to) const {
+    double area = 0;
+    for (const int f : FacesOf(vertex)) {
+      const DVec3 across = Across(FaceAt(f), 0);
+      area += std::sqrt(Dot(across, across)) / 2;
+    }
+    const DVec3 way = to - positions[static_cast<size_t>(vertex)];
+    return tStretch * tStretch * static_cast<double>(poses) * std::pow(area / 3, tAreaPower) * Dot(way, way);
+  }
+
+  bool AlongSeam(int a, int b) const {
+    const Face* first = nullptr;
+    int count = 0;
+    for (const int f : FacesOf(a)) {
+      const Face& face = FaceAt(f);
+      if (!Has(face, b)) continue;
+      ++count;
+      if (first == nullptr) first = &face;
+      else if (!Continues(*first, face, a) || !Continues(*first, face, b)) return true;
+    }
+    return count == 1;
+  }
+
+  Placement Place(int a, int b) const {
+    const auto va = static_cast<size_t>(a), vb = static_cast<size_t>(b);
+    const DVec3 from = positions[va], along = positions[vb] - from;
+    const double length2 = Dot(along, along);
+    const bool alike =
+        WeightDifference(surface.vertices[va], surface.vertices[vb]) < kSameWeights;
+    Placement best;
+    for (const double t : {0.5, 0.0, 1.0}) {
+      if (alike && t != 0.5) break;
+      Quadric sum = quadrics[At(a, 0)] + quadrics[At(b, 0)];
+      for (size_t k = 1; k < poses; ++k) {
+        Affine m;
+        const Affine &ma = skinning[At(a, k)], &mb = skinning[At(b, k)];
+        const float u = static_cast<float>(t);
+        for (size_t i = 0; i < 12; ++i) m[i] = ma[i] + u * (mb[i] - ma[i]);
+        AddPulledBack(quadrics[At(a, k)] + quadrics[At(b, k)], m, &sum);
+      }
+      const auto consider = [&](DVec3 p) {
+        const double cost = std::max(Evaluate(sum, p), 0.0);
+        if (cost < best.cost) best = {cost, p, t};
       };
-      // OpenMesh numbers faces as they are added, so they keep our order.
-      if (!mesh.add_face(handle(0), handle(1), handle(2)).is_valid()) AddFaceAgain(&face);
+      const DVec3 anchor = from + along * t;
+      const DVec3 p = Minimizer(sum, anchor, tSpring);
+      if (Dot(p - anchor, p - anchor) < kReach * kReach * length2) consider(p);
+      else for (const double s : {0.0, 0.5, 1.0}) consider(from + along * s);
     }
-    mesh.request_face_normals();
-    mesh.update_face_normals();
+    best.cost += tLen * length2;  // ties, as on flat cloth, go to the shorter edge
+    if ((on_seam[va] || on_seam[vb]) && !(on_seam[va] && on_seam[vb] && AlongSeam(a, b))) {
+      if (on_seam[va]) best.cost += ShiftCost(a, best.position);
+      if (on_seam[vb]) best.cost += ShiftCost(b, best.position);
+    }
+    return best;
+  }
+
+  void Push(int a, int b) {
+    if (a > b) std::swap(a, b);
+    heap.push({Place(a, b).cost, a, b, stamps[static_cast<size_t>(a)],
+               stamps[static_cast<size_t>(b)]});
+  }
+
+  std::vector<int> Neighbours(int vertex) const {
+    std::vector<int> out;
+    for (const int f : FacesOf(vertex)) {
+      for (const int v : FaceAt(f).vertices) {
+        if (v != vertex) out.push_back(v);
+      }
+    }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+  }
+
+  void PushAll() {
+    heap = {};
+    std::vector<std::pair<int, int>> edges;
+    for (int v = 0; v < static_cast<int>(faces_of.size()); ++v) {
+      for (const int n : Neighbours(v)) {
+        if (n > v) edges.push_back({v, n});
+      }
+    }
+    std::vector<Collapse> all(edges.size());
+    const auto place = [&](size_t first, size_t step) {
+      for (size_t i = first; i < edges.size(); i += step) {
+        const auto [a, b] = edges[i];
+        all[i] = {Place(a, b).cost, a, b, stamps[static_cast<size_t>(a)],
+                  stamps[static_cast<size_t>(b)]};
+      }
+    };
+    const size_t threads = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
+    std::vector<std::thread> workers;
+    for (size_t i = 1; i < threads; ++i) workers.emplace_back(place, i, threads);
+    place(0, threads);
+    for (std::thread& worker : workers) worker.join();
+    heap = std::priority_queue<Collapse>({}, std::move(all));
+    std::fill(blocked.begin(), blocked.end(), uint8_t{0});
+  }
+
+  // Whether both ends have common neighbours that no face between them explains, or faces that
+  // would lie on each other: the surface would be pinched.
+  bool Pinches(int a, int b) const {
+    std::vector<int> opposite;
+    for (const int f : FacesOf(a)) {
+      if (!Has(FaceAt(f), b)) continue;
+      for (const int v : FaceAt(f).vertices) {
+        if (v != a && v != b) opposite.push_back(v);
+      }
+    }
+    const std::vector<int> of_a = Neighbours(a), of_b = Neighbours(b);
+    std::vector<int> common;
+    std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                          std::back_inserter(common));
+    for (const int v : common) {
+      if (std::find(opposite.begin(), opposite.end(), v) == opposite.end()) return true;
+    }
+    for (const int f : FacesOf(b)) {
+      const Face& face = FaceAt(f);
+      if (Has(face, a)) continue;
+      if (FacesBeneath(a, b, face) > 0) return true;
+    }
+    return false;
+  }
+
+  // Faces of `a` on the same other two corners as this face of `b`.
+  int FacesBeneath(int a, int b, const Face& face) const {
+    const size_t k = CornerOf(face, b);
+    const int x = face.vertices[(k + 1) % 3], y = face.vertices[(k + 2) % 3];
+    int count = 0;
+    for (const int g : FacesOf(a)) count += Has(FaceAt(g), x) && Has(FaceAt(g), y) ? 1 : 0;
+    return count;
+  }
+
+  bool TurnsOver(int a, int b, const Placement& placement) const {
+    const auto va = static_cast<size_t>(a), vb = static_cast<size_t>(b);
+    (void)va;
+    (void)vb;
+    const size_t middle = poses / 2;
+    for (size_t pose = 0; pose <= middle; pose += std::max<size_t>(middle, 1)) {
+      Affine m = skinning[At(a, pose)];
+      const Affine& mb = skinning[At(b, pose)];
+      const float t = static_cast<float>(placement.weight_t);
+      for (size_t i = 0; i < 12; ++i) m[i] += t * (mb[i] - m[i]);
+      const DVec3 to = pose == 0 ? placement.position : Apply(m, placement.position);
+      for (const int end : {a, b}) {
+        for (const int f : FacesOf(end)) {
+          const Face& face = FaceAt(f);
+          if (Has(face, a) && Has(face, b)) continue;
+          const size_t k = CornerOf(face, end);
+          const DVec3 x = Posed(face.vertices[(k + 1) % 3], pose);
+          const DVec3 y = Posed(face.vertices[(k + 2) % 3], pose);
+          const DVec3 before = Cross(y - x, Posed(end, pose) - x), after = Cross(y - x, to - x);
+          const double lengths = std::sqrt(Dot(before, before) * Dot(after, after));
+          if (Dot(before, before) > 0 && Dot(before, after) <= tTurn * lengths) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  // New wedges of the faces at `end` that stay, from the pairs that vanishing faces join.
+  struct Pair {
+    int a, b, joined;
+  };
+  void MoveWedges(int end, int other, bool is_a, const std::vector<Pair>& pairs) {
+    std::vector<std::pair<int, int>> known;
+    for (const int f : FacesOf(end)) {
+      Face& face = FaceAt(f);
+      if (Has(face, other)) continue;
+      int& wedge = face.wedges[CornerOf(face, end)];
+      const auto found = std::find_if(known.begin(), known.end(),
+                                      [&](const auto& k) { return k.first == wedge; });
+      if (found != known.end()) {
+        wedge = found->second;
+        continue;
+      }
+      int moved = wedge;
+      for (const Pair& pair : pairs) {
+        const int own = is_a ? pair.a : pair.b;
+        if (own == wedge) {
+          moved = pair.joined;
+          break;
+        }
+        if (moved != wedge || !NoSeam(WedgeAt(own), WedgeAt(wedge))) continue;
+        Wedge creased = WedgeAt(pair.joined);
+        creased.normal = WedgeAt(wedge).normal;
+        moved = static_cast<int>(surface.wedges.size());
+        surface.wedges.push_back(creased);
+      }
+      known.push_back({wedge, moved});
+      wedge = moved;
+    }
+  }
+
+  // Where the joined wedges lie between those of a (0) and b (1): a seam keeps its picture.
+  float PictureShare(int a, int b, DVec3 to) const {
+    const auto va = static_cast<size_t>(a), vb = static_cast<size_t>(b);
+    if (on_seam[va] != on_seam[vb]) return on_seam[va] ? 0.0f : 1.0f;
+    const DVec3 from = positions[va], along = positions[vb] - from;
+    const double length2 = Dot(along, along);
+    const double t = length2 > 0 ? Dot(to - from, along) / length2 : 0;
+    return static_cast<float>(std::clamp(t, 0.0, 1.0));
+  }
+
+  int Removed(int a, int b) const {
+    int count = 0;
+    for (const int f : FacesOf(a)) count += Has(FaceAt(f), b) ? 1 : 0;
+    return count;
+  }
+
+  void RemoveFace(int f) {
+    gone[static_cast<size_t>(f)] = 1;
+    --triangles;
+    for (const int v : FaceAt(f).vertices) {
+      auto& faces = faces_of[static_cast<size_t>(v)];
+      faces.erase(std::remove(faces.begin(), faces.end(), f), faces.end());
+    }
+  }
+
+  // Faces that fell on each other: opposite ones are a sheet without thickness, equal ones one too
+  // many.
+  void RemoveFlattened(int vertex) {
+    const std::vector<int> faces = FacesOf(vertex);
+    for (size_t i = 0; i < faces.size(); ++i) {
+      for (size_t j = i + 1; j < faces.size(); ++j) {
+        const Face &f = FaceAt(faces[i]), &g = FaceAt(faces[j]);
+        if (gone[static_cast<size_t>(faces[i])] || gone[static_cast<size_t>(faces[j])]) continue;
+        if (!Has(g, f.vertices[0]) || !Has(g, f.vertices[1]) || !Has(g, f.vertices[2])) continue;
+        const size_t k = CornerOf(g, f.vertices[0]);
+        if (g.vertices[(k + 1) % 3] != f.vertices[1]) RemoveFace(faces[i]);
+        RemoveFace(faces[j]);
+      }
+    }
+  }
+
+  void Apply_(int a, int b, const Placement& placement) {
+    const auto va = static_cast<size_t>(a), vb = static_cast<size_t>(b);
+    const float share = PictureShare(a, b, placement.position);
+    std::vector<Pair> pairs;
+    std::vector<int> vanishing;
+    for (const int f : FacesOf(a)) {
+      const Face& face = FaceAt(f);
+      if (!Has(face, b)) continue;
+      vanishing.push_back(f);
+      const int wa = face.wedges[CornerOf(face, a)], wb = face.wedges[CornerOf(face, b)];
+      if (std::any_of(pairs.begin(), pairs.end(),
+                      [&](const Pair& p) { return p.a == wa && p.b == wb; })) {
+        continue;
+      }
+      pairs.push_back({wa, wb, static_cast<int>(surface.wedges.size())});
+      surface.wedges.push_back(Mix(WedgeAt(wa), WedgeAt(wb), share));
+    }
+    MoveWedges(a, b, true, pairs);
+    MoveWedges(b, a, false, pairs);
+    for (const int f : vanishing) RemoveFace(f);
+    for (const int f : FacesOf(b)) {
+      Face& face = FaceAt(f);
+      face.vertices[CornerOf(face, b)] = a;
+      faces_of[va].push_back(f);
+    }
+    faces_of[vb].clear();
+    MixWeights(surface.vertices[vb], static_cast<float>(placement.weight_t),
+               &surface.vertices[va]);
+    positions[va] = placement.position;
+    SetSkinning(a);
+    for (size_t k = 0; k < poses; ++k) {
+      quadrics[At(a, k)] = quadrics[At(a, k)] + quadrics[At(b, k)];
+    }
+    if (relaxed) RemoveFlattened(a);
+    ++stamps[va];
+    ++stamps[vb];
+  }
+
+  void Refresh(int a) {
+    FindSeam(a);
+    const std::vector<int> ring = Neighbours(a);
+    for (const int n : ring) {
+      FindSeam(n);
+      Push(a, n);
+    }
+    for (const int n : ring) {
+      if (!blocked[static_cast<size_t>(n)]) continue;
+      blocked[static_cast<size_t>(n)] = 0;
+      for (const int m : Neighbours(n)) {
+        if (m != a) Push(n, m);
+      }
+    }
+  }
+
+  // False where nothing on the heap can be collapsed any more.
+  bool CollapseOne(int target, std::vector<Collapse>* aside) {
+    while (!heap.empty()) {
+      const Collapse top = heap.top();
+      heap.pop();
+      const auto va = static_cast<size_t>(top.a), vb = static_cast<size_t>(top.b);
+      if (top.stamp_a != stamps[va] || top.stamp_b != stamps[vb]) continue;
+      const int removed = Removed(top.a, top.b);
+      if (removed == 0) continue;
+      if (triangles - removed < target && static_cast<int>(aside->size()) < kTries) {
+        aside->push_back(top);
+        continue;
+      }
+      const Placement placement = Place(top.a, top.b);
+      if (!relaxed && (Pinches(top.a, top.b) || TurnsOver(top.a, top.b, placement))) {
+        blocked[va] = blocked[vb] = 1;
+        continue;
+      }
+      Apply_(top.a, top.b, placement);
+      Refresh(top.a);
+      return true;
+    }
+    return false;
   }
 };
 
-QuadricDecimater::QuadricDecimater(const std::vector<std::vector<Mesh>>& poses)
+QuadricDecimater::QuadricDecimater(const std::vector<Mesh>& meshes,
+                                   const std::vector<std::vector<Mat4>>& poses)
     : impl_(std::make_unique<Impl>()) {
-  Surface& surface = impl_->surface;
-  impl_->bind = poses[0];
-  surface.meshes = &impl_->bind;
-  surface.wedges = JoinWedges(impl_->bind);
-  for (const std::vector<Mesh>& pose : poses) {
-    auto& positions = surface.positions.emplace_back();
-    for (const int wedge : surface.wedges.wedge_of_vertex) {
-      const auto& from = surface.wedges.wedges[static_cast<size_t>(wedge)];
-      positions.push_back(ToDouble(pose[static_cast<size_t>(from.mesh)].positions[from.vertex]));
-    }
+  Impl& impl = *impl_;
+  impl.poses = poses.size() + 1;
+  impl.matrices = poses;
+  impl.surface = JoinWedges(meshes, poses);
+  const size_t vertices = impl.surface.vertices.size();
+  for (const auto& vertex : impl.surface.vertices) {
+    impl.positions.push_back(ToDouble(vertex.position));
   }
-  // Refusals are dealt with; OpenMesh need not tell of each.
-  omerr().disable();
-  impl_->BuildMesh();
-  omerr().enable();
-  impl_->decimater = std::make_unique<Impl::Decimater>(impl_->mesh);
-  impl_->decimater->add(impl_->quadric);
-  impl_->decimater->module(impl_->quadric).SetSurface(&surface);
-  impl_->decimater->add(impl_->flipping);
-  impl_->decimater->module(impl_->flipping).set_max_normal_deviation(kMaxFlip_deg);
-  impl_->decimater->initialize();
+  impl.quadrics.resize(vertices * impl.poses);
+  impl.skinning.resize(vertices * impl.poses);
+  impl.faces_of.resize(vertices);
+  impl.stamps.resize(vertices);
+  impl.on_seam.resize(vertices);
+  impl.blocked.resize(vertices);
+  impl.gone.resize(impl.surface.faces.size());
+  impl.triangles = static_cast<int>(impl.surface.faces.size());
+  for (int v = 0; v < static_cast<int>(vertices); ++v) impl.SetSkinning(v);
+  for (int f = 0; f < impl.triangles; ++f) {
+    for (const int v : impl.FaceAt(f).vertices) impl.faces_of[static_cast<size_t>(v)].push_back(f);
+  }
+  for (int v = 0; v < static_cast<int>(vertices); ++v) impl.FindSeam(v);
+  impl.AddFaceQuadrics();
+  impl.HoldBordersAndSeams();
+  impl.PushAll();
 }
 
 QuadricDecimater::~QuadricDecimater() = default;
 
-int QuadricDecimater::Triangles() const {
-  int count = 0;
-  for (const auto face : impl_->mesh.faces()) count += face.is_valid() ? 1 : 0;
-  return count;
-}
+int QuadricDecimater::Triangles() const { return impl_->triangles; }
 
-void QuadricDecimater::DecimateTo(int triangles) {
-  const int surplus = Triangles() - triangles;
-  if (surplus <= 0) return;
-  // OpenMesh counts faces with the deleted ones of earlier calls.
-  const auto all = static_cast<int>(impl_->mesh.n_faces());
-  impl_->decimater->decimate_to_faces(0, static_cast<size_t>(std::max(all - surplus, 0)));
-}
-
-std::vector<Mesh> QuadricDecimater::Meshes() const {
-  const Surface& surface = impl_->surface;
-  std::vector<Mesh> out;
-  std::map<std::tuple<int, uint32_t, uint32_t>, uint32_t>
-      index;  // of a wedge's mesh, vertex and place
-  for (const Mesh& mesh : impl_->bind) {
-    out.emplace_back();
-    out.back().name = mesh.name;
-    out.back().material = mesh.material;
+void QuadricDecimater::DecimateTo(int target) {
+  Impl& impl = *impl_;
+  std::vector<Collapse> aside;
+  int at_last_push = impl.triangles;
+  while (impl.triangles > target) {
+    if (impl.CollapseOne(target, &aside)) continue;
+    if (!aside.empty()) break;  // only collapses of too many triangles are left
+    if (impl.relaxed && impl.triangles == at_last_push) break;
+    if (impl.triangles == at_last_push) impl.relaxed = true;
+    at_last_push = impl.triangles;
+    impl.PushAll();
   }
-  const auto copy = [](const auto& from, size_t v, auto* to) {
-    if (!from.empty()) to->push_back(from[v]);
-  };
-  for (const auto face : impl_->mesh.faces()) {  // skips deleted ones
-    for (const int wedge : surface.wedges.faces[static_cast<size_t>(face.idx())].wedges) {
-      const WedgeSurface::Wedge from = surface.wedges.wedges[static_cast<size_t>(wedge)];
-      const Mesh& mesh = impl_->bind[static_cast<size_t>(from.mesh)];
-      Mesh& to = out[static_cast<size_t>(from.mesh)];
-      const auto [at, is_new] = index.try_emplace({from.mesh, from.vertex, from.place},
-                                                  static_cast<uint32_t>(to.positions.size()));
-      if (is_new) {
-        copy(mesh.positions, from.place, &to.positions);
-        copy(mesh.joints, from.place, &to.joints);
-        copy(mesh.weights, from.place, &to.weights);
-        copy(mesh.normals, from.vertex, &to.normals);
-        copy(mesh.uvs, from.vertex, &to.uvs);
-        copy(mesh.uvs1, from.vertex, &to.uvs1);
-        copy(mesh.colors, from.vertex, &to.colors);
-      }
-      to.indices.push_back(at->second);
-    }
+  for (const Collapse& collapse : aside) impl.heap.push(collapse);
+}
+
+WedgeSurface QuadricDecimater::Surface() const {
+  const Impl& impl = *impl_;
+  WedgeSurface out;
+  out.vertices = impl.surface.vertices;
+  out.wedges = impl.surface.wedges;
+  for (size_t v = 0; v < out.vertices.size(); ++v) {
+    out.vertices[v].position = ToFloat(impl.positions[v]);
+  }
+  for (size_t f = 0; f < impl.surface.faces.size(); ++f) {
+    if (!impl.gone[f]) out.faces.push_back(impl.surface.faces[f]);
   }
   return out;
 }

@@ -1,29 +1,29 @@
-// Quadric decimation of a wedge surface with OpenMesh: half-edge collapses that keep seams, borders
-// and poses.
+// Decimation of a skinned surface by edge collapses, cheapest first. What is left of an edge stands
+// where its quadric error is least over all poses at once, with the weights that fit there.
 #pragma once
 #include <memory>
 #include <vector>
 
 #include "pipeline/avatar/wedge_surface.h"
 #include "pipeline/core/mesh.h"
+#include "runtime/base/math.h"
 
 namespace flaneur {
 
 class QuadricDecimater {
  public:
-  // `poses`: the same meshes in several poses, the bind pose first; a collapse costs its error in
-  // all of them.
-  explicit QuadricDecimater(const std::vector<std::vector<Mesh>>& poses);
+  // `poses`: skinning matrices that the error is summed over, besides the bind pose.
+  QuadricDecimater(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& poses);
   ~QuadricDecimater();
 
   int Triangles() const;
 
-  // Collapses edges, cheapest first, until at most `triangles` are left or no edge may be
-  // collapsed.
+  // Collapses edges until `triangles` are left. First the surface keeps its topology and no face
+  // turns over; where that ends, closed parts may fall flat and vanish.
   void DecimateTo(int triangles);
 
-  // What is left, as parts of the first pose's meshes: same order, materials and attributes.
-  std::vector<Mesh> Meshes() const;
+  // What is left: vertices of the original that still have a face, and new ones.
+  WedgeSurface Surface() const;
 
  private:
   struct Impl;

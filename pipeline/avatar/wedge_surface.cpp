@@ -1,123 +1,187 @@
 #include "pipeline/avatar/wedge_surface.h"
 
-#include <map>
-#include <numeric>
-#include <tuple>
+#include <algorithm>
+#include <cmath>
+#include <set>
 #include <unordered_map>
+
+#include "pipeline/core/avatar.h"
 
 namespace flaneur {
 namespace {
 
-class Sets {
+constexpr float kSamePlace_m = 2e-5f;
+constexpr float kSamePosedPlace_m = 1e-4f;
+constexpr float kCell_m = 1e-3f;  // much larger than kSamePlace_m: few corners lie near two cells
+
+uint64_t CellKey(int64_t x, int64_t y, int64_t z) {
+  const auto mixed = [](int64_t v, uint64_t prime) { return static_cast<uint64_t>(v) * prime; };
+  return mixed(x, 0x9E3779B97F4A7C15u) ^ mixed(y, 0xC2B2AE3D27D4EB4Fu) ^
+         mixed(z, 0x165667B19E3779F9u);
+}
+
+int64_t Cell(float v) { return static_cast<int64_t>(std::floor(v / kCell_m)); }
+
+// Finds vertices that are at one place in the bind pose and in the others.
+class Joiner {
  public:
-  explicit Sets(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int Find(int i) {
-    while (parent_[static_cast<size_t>(i)] != i) {
-      parent_[static_cast<size_t>(i)] =
-          parent_[static_cast<size_t>(parent_[static_cast<size_t>(i)])];
-      i = parent_[static_cast<size_t>(i)];
+  explicit Joiner(size_t poses) : posed_(poses) {}
+
+  // The vertex at these places, -1: none yet.
+  int Find(Vec3 p, const std::vector<Vec3>& posed) const {
+    const auto first = [](float v) { return Cell(v - kSamePlace_m); };
+    const auto last = [](float v) { return Cell(v + kSamePlace_m); };
+    for (int64_t x = first(p.x); x <= last(p.x); ++x) {
+      for (int64_t y = first(p.y); y <= last(p.y); ++y) {
+        for (int64_t z = first(p.z); z <= last(p.z); ++z) {
+          const auto cell = newest_.find(CellKey(x, y, z));
+          for (int v = cell == newest_.end() ? -1 : cell->second; v >= 0;
+               v = older_[static_cast<size_t>(v)]) {
+            if (Same(static_cast<size_t>(v), p, posed)) return v;
+          }
+        }
+      }
     }
-    return i;
+    return -1;
   }
-  void Join(int a, int b) { parent_[static_cast<size_t>(Find(a))] = Find(b); }
+
+  void Add(Vec3 p, const std::vector<Vec3>& posed) {
+    const auto [cell, is_new] =
+        newest_.try_emplace(CellKey(Cell(p.x), Cell(p.y), Cell(p.z)), -1);
+    older_.push_back(cell->second);
+    cell->second = static_cast<int>(positions_.size());
+    positions_.push_back(p);
+    for (size_t k = 0; k < posed_.size(); ++k) posed_[k].push_back(posed[k]);
+  }
 
  private:
-  std::vector<int> parent_;
+  bool Same(size_t v, Vec3 p, const std::vector<Vec3>& posed) const {
+    if (Length(positions_[v] - p) > kSamePlace_m) return false;
+    for (size_t k = 0; k < posed_.size(); ++k) {
+      if (Length(posed_[k][v] - posed[k]) > kSamePosedPlace_m) return false;
+    }
+    return true;
+  }
+
+  std::unordered_map<uint64_t, int> newest_;  // vertex by cell
+  std::vector<int> older_;                    // the vertex before it in the same cell, -1: none
+  std::vector<Vec3> positions_;
+  std::vector<std::vector<Vec3>> posed_;
 };
 
-// A place for each wedge: equal positions get the same number.
-std::vector<int> Places(const std::vector<Mesh>& meshes) {
-  std::map<std::tuple<float, float, float>, int> numbers;
-  std::vector<int> places;
-  for (const Mesh& mesh : meshes) {
-    for (const Vec3 p : mesh.positions) {
-      // Adding 0 makes -0 equal +0.
-      const std::tuple key{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};
-      places.push_back(numbers.try_emplace(key, static_cast<int>(numbers.size())).first->second);
-    }
-  }
-  return places;
+WedgeSurface::Wedge WedgeOf(const Mesh& mesh, int index, size_t v) {
+  WedgeSurface::Wedge wedge;
+  wedge.mesh = index;
+  if (!mesh.normals.empty()) wedge.normal = mesh.normals[v];
+  if (!mesh.uvs.empty()) wedge.uv = mesh.uvs[v];
+  if (!mesh.uvs1.empty()) wedge.uv1 = mesh.uvs1[v];
+  if (!mesh.colors.empty()) wedge.color = mesh.colors[v];
+  return wedge;
 }
 
-void AddFaces(const std::vector<Mesh>& meshes, const std::vector<int>& places,
-              WedgeSurface* surface) {
-  int base = 0;
+// The vertex of each corner; wedges are the meshes' own vertices, one after the other.
+std::vector<int> AddVertices(const std::vector<Mesh>& meshes,
+                             const std::vector<std::vector<Mat4>>& poses, WedgeSurface* surface) {
+  Joiner joiner(poses.size());
+  std::vector<int> vertices;
+  std::vector<Vec3> posed(poses.size());
   for (size_t m = 0; m < meshes.size(); ++m) {
     const Mesh& mesh = meshes[m];
-    for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
-      surface->wedges.push_back({static_cast<int>(m), v, v});
-    }
-    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-      WedgeSurface::Face face;
-      for (size_t k = 0; k < 3; ++k) {
-        face.wedges[k] = base + static_cast<int>(mesh.indices[i + k]);
-        face.vertices[k] = places[static_cast<size_t>(face.wedges[k])];
+    std::vector<Mesh> skinned;
+    for (const auto& matrices : poses) skinned.push_back(Skinned(mesh, matrices));
+    for (size_t v = 0; v < mesh.positions.size(); ++v) {
+      for (size_t k = 0; k < poses.size(); ++k) posed[k] = skinned[k].positions[v];
+      int vertex = joiner.Find(mesh.positions[v], posed);
+      if (vertex < 0) {
+        vertex = static_cast<int>(surface->vertices.size());
+        joiner.Add(mesh.positions[v], posed);
+        WedgeSurface::Vertex added{mesh.positions[v], {}, {}};
+        if (mesh.joints.size() == mesh.positions.size()) {
+          added.joints = mesh.joints[v];
+          added.weights = mesh.weights[v];
+        }
+        surface->vertices.push_back(added);
       }
-      const auto& v = face.vertices;
-      if (v[0] != v[1] && v[1] != v[2] && v[2] != v[0]) surface->faces.push_back(face);
+      vertices.push_back(vertex);
+      surface->wedges.push_back(WedgeOf(mesh, static_cast<int>(m), v));
     }
-    base += static_cast<int>(mesh.positions.size());
   }
+  return vertices;
 }
 
-struct EdgeUse {
-  int face[2] = {-1, -1};
-  int corner[2] = {0, 0};  // where the edge starts in the face
-  bool forward[2] = {};    // from the lower place to the higher
-  int count = 0;
-};
+bool operator==(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
 
-uint64_t EdgeKey(int a, int b) {
-  return static_cast<uint64_t>(std::min(a, b)) << 32 | static_cast<uint32_t>(std::max(a, b));
+bool Same(const WedgeSurface::Wedge& a, const WedgeSurface::Wedge& b) {
+  return a.mesh == b.mesh && a.uv == b.uv && a.uv1 == b.uv1 && Length(a.normal - b.normal) < 1e-4f &&
+         a.color.x == b.color.x && a.color.y == b.color.y && a.color.z == b.color.z &&
+         a.color.w == b.color.w;
 }
 
-// Joins corners of neighbouring faces across proper edges; each set of corners is a vertex of its
-// own.
-Sets JoinAcrossEdges(const WedgeSurface& surface) {
-  std::unordered_map<uint64_t, EdgeUse> edges;
-  for (size_t f = 0; f < surface.faces.size(); ++f) {
-    const auto& v = surface.faces[f].vertices;
-    for (int k = 0; k < 3; ++k) {
-      const int a = v[static_cast<size_t>(k)], b = v[static_cast<size_t>((k + 1) % 3)];
-      EdgeUse& use = edges[EdgeKey(a, b)];
-      if (use.count < 2) {
-        use.face[use.count] = static_cast<int>(f);
-        use.corner[use.count] = k;
-        use.forward[use.count] = a < b;
-      }
-      ++use.count;
-    }
-  }
-  Sets corners(3 * surface.faces.size());
-  for (const auto& [key, use] : edges) {
-    if (use.count != 2 || use.forward[0] == use.forward[1]) continue;
-    const auto corner = [&](int side, int step) {
-      return 3 * use.face[side] + (use.corner[side] + step) % 3;
-    };
-    corners.Join(corner(0, 0), corner(1, 1));
-    corners.Join(corner(0, 1), corner(1, 0));
-  }
-  return corners;
+template <typename T, typename From>
+void Append(const std::vector<From>& like, T value, std::vector<T>* to) {
+  if (!like.empty()) to->push_back(value);
 }
 
 }  // namespace
 
-WedgeSurface JoinWedges(const std::vector<Mesh>& meshes) {
+WedgeSurface JoinWedges(const std::vector<Mesh>& meshes,
+                        const std::vector<std::vector<Mat4>>& poses) {
   WedgeSurface surface;
-  AddFaces(meshes, Places(meshes), &surface);
-  Sets corners = JoinAcrossEdges(surface);
-  std::vector<int> vertex_of_set(3 * surface.faces.size(), -1);
-  for (size_t f = 0; f < surface.faces.size(); ++f) {
-    for (size_t k = 0; k < 3; ++k) {
-      int& vertex = vertex_of_set[static_cast<size_t>(corners.Find(static_cast<int>(3 * f + k)))];
-      if (vertex < 0) {
-        vertex = static_cast<int>(surface.wedge_of_vertex.size());
-        surface.wedge_of_vertex.push_back(surface.faces[f].wedges[k]);
+  const std::vector<int> vertices = AddVertices(meshes, poses, &surface);
+  std::set<std::array<int, 3>> known;
+  int base = 0;
+  for (const Mesh& mesh : meshes) {
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      WedgeSurface::Face face;
+      for (size_t k = 0; k < 3; ++k) {
+        face.wedges[k] = base + static_cast<int>(mesh.indices[i + k]);
+        face.vertices[k] = vertices[static_cast<size_t>(face.wedges[k])];
       }
-      surface.faces[f].vertices[k] = vertex;
+      std::array<int, 3> turned = face.vertices;
+      if (turned[0] == turned[1] || turned[1] == turned[2] || turned[2] == turned[0]) continue;
+      std::rotate(turned.begin(), std::min_element(turned.begin(), turned.end()), turned.end());
+      if (known.insert(turned).second) surface.faces.push_back(face);
     }
+    base += static_cast<int>(mesh.positions.size());
   }
   return surface;
+}
+
+std::vector<Mesh> SplitWedges(const WedgeSurface& surface, const std::vector<Mesh>& like) {
+  std::vector<Mesh> out(like.size());
+  for (size_t m = 0; m < like.size(); ++m) {
+    out[m].name = like[m].name;
+    out[m].material = like[m].material;
+  }
+  struct Made {
+    int wedge = 0;
+    uint32_t index = 0;
+  };
+  std::vector<std::vector<Made>> made(surface.vertices.size());
+  for (const WedgeSurface::Face& face : surface.faces) {
+    for (size_t k = 0; k < 3; ++k) {
+      const auto vertex = static_cast<size_t>(face.vertices[k]);
+      const WedgeSurface::Wedge& wedge = surface.wedges[static_cast<size_t>(face.wedges[k])];
+      Mesh& to = out[static_cast<size_t>(wedge.mesh)];
+      const Mesh& from = like[static_cast<size_t>(wedge.mesh)];
+      auto found = std::find_if(made[vertex].begin(), made[vertex].end(), [&](const Made& m) {
+        return Same(surface.wedges[static_cast<size_t>(m.wedge)], wedge);
+      });
+      if (found == made[vertex].end()) {
+        made[vertex].push_back({face.wedges[k], static_cast<uint32_t>(to.positions.size())});
+        found = made[vertex].end() - 1;
+        to.positions.push_back(surface.vertices[vertex].position);
+        Append(from.joints, surface.vertices[vertex].joints, &to.joints);
+        Append(from.weights, surface.vertices[vertex].weights, &to.weights);
+        Append(from.normals, wedge.normal, &to.normals);
+        Append(from.uvs, wedge.uv, &to.uvs);
+        Append(from.uvs1, wedge.uv1, &to.uvs1);
+        Append(from.colors, wedge.color, &to.colors);
+      }
+      to.indices.push_back(found->index);
+    }
+  }
+  return out;
 }
 
 }  // namespace flaneur

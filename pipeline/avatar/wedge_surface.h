@@ -1,8 +1,9 @@
-// The meshes of a person as one surface: corners at one place are joined, whatever their uv, normal
-// or material. A wedge is a vertex of the input meshes; several wedges may meet in one vertex of
-// the surface.
+// The meshes of a person as one surface: corners at one place that move alike are one vertex,
+// whatever their uv, normal or material. A wedge is what the corners of some faces at one vertex
+// have in common besides: several wedges may meet in one vertex.
 #pragma once
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "pipeline/core/mesh.h"
@@ -10,24 +11,32 @@
 namespace flaneur {
 
 struct WedgeSurface {
+  struct Vertex {
+    Vec3 position;
+    std::array<uint16_t, 4> joints{};
+    std::array<float, 4> weights{};  // sum to 1, or all 0: never skinned
+  };
   struct Wedge {
     int mesh = 0;
-    uint32_t vertex = 0;  // gives normal, uv and colour
-    uint32_t place =
-        0;  // gives position and weights; the same vertex until a corner leaves its seam
+    Vec3 normal;
+    Vec2 uv, uv1;
+    Vec4 color;
   };
   struct Face {
     std::array<int, 3> vertices{};
     std::array<int, 3> wedges{};
   };
+  std::vector<Vertex> vertices;
   std::vector<Wedge> wedges;
   std::vector<Face> faces;
-  std::vector<int> wedge_of_vertex;  // one of the wedges that meet there
 };
 
-// Joins corners whose positions are equal, but nowhere more than two faces at an edge, turned
-// alike, nor two fans at a vertex: those parts stay apart on vertices of their own, so that none is
-// lost. Triangles without extent go.
-WedgeSurface JoinWedges(const std::vector<Mesh>& meshes);
+// `poses`: skinning matrices; corners must also stay together in these. Triangles without extent
+// go, and so do repeated ones; any number of faces may meet at an edge.
+WedgeSurface JoinWedges(const std::vector<Mesh>& meshes,
+                        const std::vector<std::vector<Mat4>>& poses = {});
+
+// Back to meshes, as many as `like`, with its names, materials and kinds of attributes.
+std::vector<Mesh> SplitWedges(const WedgeSurface& surface, const std::vector<Mesh>& like);
 
 }  // namespace flaneur

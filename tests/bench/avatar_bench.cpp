@@ -211,12 +211,10 @@ Error Measure(const std::vector<std::string>& args) {
 Mesh Welded(const std::vector<Mesh>& meshes) {
   const WedgeSurface surface = JoinWedges(meshes);
   Mesh out;
-  for (const int wedge : surface.wedge_of_vertex) {
-    const auto& from = surface.wedges[static_cast<size_t>(wedge)];
-    const Mesh& mesh = meshes[static_cast<size_t>(from.mesh)];
-    out.positions.push_back(mesh.positions[from.vertex]);
-    out.joints.push_back(mesh.joints[from.vertex]);
-    out.weights.push_back(mesh.weights[from.vertex]);
+  for (const auto& vertex : surface.vertices) {
+    out.positions.push_back(vertex.position);
+    out.joints.push_back(vertex.joints);
+    out.weights.push_back(vertex.weights);
   }
   for (const auto& face : surface.faces) {
     for (const int v : face.vertices) out.indices.push_back(static_cast<uint32_t>(v));

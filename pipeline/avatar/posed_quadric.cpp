@@ -1,0 +1,71 @@
+#include "pipeline/avatar/posed_quadric.h"
+
+namespace flaneur {
+
+Quadric operator+(const Quadric& a, const Quadric& b) {
+  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz,
+          a.zz + b.zz, a.x + b.x,   a.y + b.y,   a.z + b.z,   a.c + b.c};
+}
+
+Quadric PlaneQuadric(DVec3 n, DVec3 point, double weight) {
+  const double d = -Dot(n, point);
+  const DVec3 w = n * weight;
+  return {w.x * n.x, w.x * n.y, w.x * n.z, w.y * n.y, w.y * n.z,
+          w.z * n.z, w.x * d,   w.y * d,   w.z * d,   weight * d * d};
+}
+
+Quadric PointQuadric(DVec3 p, double w) {
+  return {w, 0, 0, w, 0, w, -w * p.x, -w * p.y, -w * p.z, w * Dot(p, p)};
+}
+
+double Evaluate(const Quadric& q, DVec3 p) {
+  const double quadratic = p.x * (q.xx * p.x + 2 * (q.xy * p.y + q.xz * p.z)) +
+                           p.y * (q.yy * p.y + 2 * q.yz * p.z) + p.z * q.zz * p.z;
+  return quadratic + 2 * (q.x * p.x + q.y * p.y + q.z * p.z) + q.c;
+}
+
+void AddPulledBack(const Quadric& q, const Affine& affine, Quadric* sum) {
+  double m[12];
+  for (size_t i = 0; i < 12; ++i) m[i] = static_cast<double>(affine[i]);
+  // Columns of A m, with the shift as the fourth; the linear part joins the latter.
+  double a[3][4];
+  for (size_t c = 0; c < 4; ++c) {
+    a[0][c] = q.xx * m[c] + q.xy * m[4 + c] + q.xz * m[8 + c];
+    a[1][c] = q.xy * m[c] + q.yy * m[4 + c] + q.yz * m[8 + c];
+    a[2][c] = q.xz * m[c] + q.yz * m[4 + c] + q.zz * m[8 + c];
+  }
+  const auto product = [&](size_t r, size_t c) {
+    return m[r] * a[0][c] + m[4 + r] * a[1][c] + m[8 + r] * a[2][c];
+  };
+  const auto linear = [&](size_t c) { return m[c] * q.x + m[4 + c] * q.y + m[8 + c] * q.z; };
+  sum->xx += product(0, 0);
+  sum->xy += product(0, 1);
+  sum->xz += product(0, 2);
+  sum->yy += product(1, 1);
+  sum->yz += product(1, 2);
+  sum->zz += product(2, 2);
+  sum->x += product(0, 3) + linear(0);
+  sum->y += product(1, 3) + linear(1);
+  sum->z += product(2, 3) + linear(2);
+  sum->c += product(3, 3) + 2 * linear(3) + q.c;
+}
+
+DVec3 Minimizer(const Quadric& q, DVec3 anchor, double stiffness) {
+  const double spring = stiffness * (q.xx + q.yy + q.zz) / 3;
+  const double xx = q.xx + spring, yy = q.yy + spring, zz = q.zz + spring;
+  // Solved for the way from the anchor, where the gradient is g.
+  const DVec3 g{q.xx * anchor.x + q.xy * anchor.y + q.xz * anchor.z + q.x,
+                q.xy * anchor.x + q.yy * anchor.y + q.yz * anchor.z + q.y,
+                q.xz * anchor.x + q.yz * anchor.y + q.zz * anchor.z + q.z};
+  const double cxx = yy * zz - q.yz * q.yz, cxy = q.xz * q.yz - q.xy * zz;
+  const double cxz = q.xy * q.yz - q.xz * yy;
+  const double determinant = xx * cxx + q.xy * cxy + q.xz * cxz;
+  if (!(determinant > 0)) return anchor;
+  const double cyy = xx * zz - q.xz * q.xz, cyz = q.xy * q.xz - xx * q.yz;
+  const double czz = xx * yy - q.xy * q.xy;
+  const DVec3 step{cxx * g.x + cxy * g.y + cxz * g.z, cxy * g.x + cyy * g.y + cyz * g.z,
+                   cxz * g.x + cyz * g.y + czz * g.z};
+  return anchor - step * (1 / determinant);
+}
+
+}  // namespace flaneur
