@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "pipeline/avatar/fit_surface.h"
 #include "pipeline/avatar/quadric_decimater.h"
 #include "pipeline/avatar/surface_distance.h"
 #include "runtime/base/text.h"
@@ -11,7 +12,7 @@
 namespace flaneur {
 namespace {
 
-constexpr int kQuadricPoses = 8;  // of the walk, besides the bind pose
+constexpr int kQuadricPoses = 4;  // of the walk, that levels are made for; besides the bind pose
 constexpr float kTargetTolerance = 0.02f;
 constexpr float kEndless_px = 100000;  // switch height where the next level is exact
 
@@ -212,15 +213,13 @@ Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLeve
   levels->levels.clear();
   const int original = CountTriangles(avatar.meshes);
   const Comparison comparison(avatar, options);
+  const std::vector<std::vector<Mat4>> poses = WalkPoses(avatar, kQuadricPoses);
   std::unique_ptr<QuadricDecimater> decimater;
   for (const int target : Targets(options, original)) {
     AvatarLevel level;
     level.meshes = avatar.meshes;
     if (target < original) {
-      if (!decimater) {
-        decimater = std::make_unique<QuadricDecimater>(avatar.meshes,
-                                                       WalkPoses(avatar, kQuadricPoses));
-      }
+      if (!decimater) decimater = std::make_unique<QuadricDecimater>(avatar.meshes, poses);
       const int most = static_cast<int>((1 + kTargetTolerance) * static_cast<float>(target));
       decimater->DecimateTo(target);
       if (decimater->Triangles() > most) {
@@ -228,7 +227,9 @@ Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLeve
                             std::to_string(decimater->Triangles()) + " triangles instead of " +
                             std::to_string(target) + ", as its parts cannot be simplified further");
       }
-      level.meshes = SplitWedges(decimater->Surface(), avatar.meshes);
+      WedgeSurface surface = decimater->Surface();
+      FitSurface(avatar.meshes, poses, {}, &surface);
+      level.meshes = SplitWedges(surface, avatar.meshes);
       comparison.Measure(&level);
     }
     level.triangles = CountTriangles(level.meshes);

@@ -2,28 +2,6 @@
 
 namespace flaneur {
 
-Quadric operator+(const Quadric& a, const Quadric& b) {
-  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz,
-          a.zz + b.zz, a.x + b.x,   a.y + b.y,   a.z + b.z,   a.c + b.c};
-}
-
-Quadric PlaneQuadric(DVec3 n, DVec3 point, double weight) {
-  const double d = -Dot(n, point);
-  const DVec3 w = n * weight;
-  return {w.x * n.x, w.x * n.y, w.x * n.z, w.y * n.y, w.y * n.z,
-          w.z * n.z, w.x * d,   w.y * d,   w.z * d,   weight * d * d};
-}
-
-Quadric PointQuadric(DVec3 p, double w) {
-  return {w, 0, 0, w, 0, w, -w * p.x, -w * p.y, -w * p.z, w * Dot(p, p)};
-}
-
-double Evaluate(const Quadric& q, DVec3 p) {
-  const double quadratic = p.x * (q.xx * p.x + 2 * (q.xy * p.y + q.xz * p.z)) +
-                           p.y * (q.yy * p.y + 2 * q.yz * p.z) + p.z * q.zz * p.z;
-  return quadratic + 2 * (q.x * p.x + q.y * p.y + q.z * p.z) + q.c;
-}
-
 void AddPulledBack(const Quadric& q, const Affine& affine, Quadric* sum) {
   double m[12];
   for (size_t i = 0; i < 12; ++i) m[i] = static_cast<double>(affine[i]);

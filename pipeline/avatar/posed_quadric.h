@@ -44,16 +44,29 @@ struct Quadric {
   double x = 0, y = 0, z = 0, c = 0;
 };
 
-Quadric operator+(const Quadric& a, const Quadric& b);
+inline Quadric operator+(const Quadric& a, const Quadric& b) {
+  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz,
+          a.zz + b.zz, a.x + b.x,   a.y + b.y,   a.z + b.z,   a.c + b.c};
+}
 
-// Squared distance from the plane through `point` across `normal`, times `weight`. The normal has
-// unit length.
-Quadric PlaneQuadric(DVec3 normal, DVec3 point, double weight);
+// Squared distance from the plane through `point` across `n`, times `weight`; n has unit length.
+inline Quadric PlaneQuadric(DVec3 n, DVec3 point, double weight) {
+  const double d = -Dot(n, point);
+  const DVec3 w = n * weight;
+  return {w.x * n.x, w.x * n.y, w.x * n.z, w.y * n.y, w.y * n.z,
+          w.z * n.z, w.x * d,   w.y * d,   w.z * d,   weight * d * d};
+}
 
 // Squared distance from `point`, times `weight`.
-Quadric PointQuadric(DVec3 point, double weight);
+inline Quadric PointQuadric(DVec3 p, double w) {
+  return {w, 0, 0, w, 0, w, -w * p.x, -w * p.y, -w * p.z, w * Dot(p, p)};
+}
 
-double Evaluate(const Quadric& q, DVec3 p);
+inline double Evaluate(const Quadric& q, DVec3 p) {
+  const double quadratic = p.x * (q.xx * p.x + 2 * (q.xy * p.y + q.xz * p.z)) +
+                           p.y * (q.yy * p.y + 2 * q.yz * p.z) + p.z * q.zz * p.z;
+  return quadratic + 2 * (q.x * p.x + q.y * p.y + q.z * p.z) + q.c;
+}
 
 // Adds to `sum` the quadric of p -> q(m p).
 void AddPulledBack(const Quadric& q, const Affine& m, Quadric* sum);

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
+#include <iterator>
 #include <queue>
 #include <thread>
-#include <unordered_map>
 
 #include "pipeline/avatar/posed_quadric.h"
 
@@ -17,9 +16,10 @@ using Face = WedgeSurface::Face;
 using Wedge = WedgeSurface::Wedge;
 
 constexpr double kBorderWeight = 1;  // of an open border's planes, against those of faces
-constexpr double kSeamWeight = 0.1;  // of a seam's
-constexpr double kStretch = 0.3;  // a picture shifted by a length costs as much as this share of it
-constexpr double kSpring = 1e-3;  // towards the edge, where planes leave a vertex free
+constexpr double kSeamWeight = 0.03;  // of a seam's
+constexpr double kStretch = 0.2;  // a picture shifted by a length costs as much as this share of it
+constexpr double kSpring = 1e-6;  // towards the edge, where planes leave a vertex free
+constexpr double kLengthCost = 1e-9;  // of an edge's squared length: decides where all else is equal
 constexpr double kReach = 2;      // of an edge's length: so far may its vertex move from it
 constexpr double kLeastTurn = 0.2;  // cosine; a face that turns further is taken to fold over
 constexpr double kFold = -0.95;     // cosine between faces: a sheet that is seen from both sides
@@ -27,14 +27,6 @@ constexpr float kSameUv = 1e-4f;    // uvs nearer than this are no seam
 constexpr float kSameColor = 0.02f;
 constexpr float kSameWeights = 0.02f;  // sum of differences
 constexpr int kTries = 2000;  // collapses looked at for one that hits the number of triangles
-
-double Tunable(const char* name, double value) {
-  const char* text = std::getenv(name);
-  return text ? std::atof(text) : value;
-}
-const double tBorder = Tunable("T_BORDER", kBorderWeight), tSeam = Tunable("T_SEAM", kSeamWeight),
-             tStretch = Tunable("T_STRETCH", kStretch), tSpring = Tunable("T_SPRING", kSpring),
-             tTurn = Tunable("T_TURN", kLeastTurn), tAreaPower = Tunable("T_AREA", 1), tLen = Tunable("T_LEN", 1e-9);
 
 // Wedges at one vertex that only differ by their normal: a crease, but no seam.
 bool NoSeam(const Wedge& a, const Wedge& b) {
@@ -169,6 +161,11 @@ struct QuadricDecimater::Impl {
     }
   }
 
+  // The bind pose counts as much as all others together.
+  double PoseWeight(size_t pose) const {
+    return pose == 0 ? std::max(1.0, static_cast<double>(poses - 1)) : 1;
+  }
+
   void AddPlane(const Face& face, size_t pose, DVec3 across, double weight,
                 std::initializer_list<int> vertices) {
     const double length = std::sqrt(Dot(across, across));
@@ -185,7 +182,7 @@ struct QuadricDecimater::Impl {
     for (const Face& face : surface.faces) {
       for (size_t k = 0; k < poses; ++k) {
         const DVec3 across = Across(face, k);
-        AddPlane(face, k, across, std::pow(std::sqrt(Dot(across, across)) / 2, tAreaPower),
+        AddPlane(face, k, across, PoseWeight(k) * std::sqrt(Dot(across, across)) / 2,
                  {face.vertices[0], face.vertices[1], face.vertices[2]});
       }
     }
@@ -199,7 +196,7 @@ struct QuadricDecimater::Impl {
       const double length = std::sqrt(Dot(normal, normal));
       if (!(length > 0)) continue;
       const Quadric plane =
-          PlaneQuadric(normal * (1 / length), from, weight * std::pow(std::sqrt(Dot(across, across)) / 2, tAreaPower));
+          PlaneQuadric(normal * (1 / length), from, weight * PoseWeight(k) * std::sqrt(Dot(across, across)) / 2);
       for (const int v : {a, b}) {
         Quadric& q = quadrics[At(v, k)];
         q = q + plane;
@@ -226,8 +223,8 @@ struct QuadricDecimater::Impl {
           const DVec3 n = Across(face, 0), m = Across(other, 0);
           folded = folded || Dot(n, m) < kFold * std::sqrt(Dot(n, n) * Dot(m, m));
         }
-        if (others == 0 || (others == 1 && folded)) HoldEdge(face, a, b, tBorder);
-        else if (!continued) HoldEdge(face, a, b, tSeam);
+        if (others == 0 || (others == 1 && folded)) HoldEdge(face, a, b, kBorderWeight);
+        else if (!continued) HoldEdge(face, a, b, kSeamWeight);
       }
     }
   }
@@ -249,7 +246,7 @@ struct QuadricDecimater::Impl {
       area += std::sqrt(Dot(across, across)) / 2;
     }
     const DVec3 way = to - positions[static_cast<size_t>(vertex)];
-    return tStretch * tStretch * static_cast<double>(poses) * std::pow(area / 3, tAreaPower) * Dot(way, way);
+    return kStretch * kStretch * (PoseWeight(0) + static_cast<double>(poses - 1)) * area / 3 * Dot(way, way);
   }
 
   bool AlongSeam(int a, int b) const {
@@ -287,11 +284,11 @@ struct QuadricDecimater::Impl {
         if (cost < best.cost) best = {cost, p, t};
       };
       const DVec3 anchor = from + along * t;
-      const DVec3 p = Minimizer(sum, anchor, tSpring);
+      const DVec3 p = Minimizer(sum, anchor, kSpring);
       if (Dot(p - anchor, p - anchor) < kReach * kReach * length2) consider(p);
       else for (const double s : {0.0, 0.5, 1.0}) consider(from + along * s);
     }
-    best.cost += tLen * length2;  // ties, as on flat cloth, go to the shorter edge
+    best.cost += kLengthCost * length2;  // ties, as on flat cloth, go to the shorter edge
     if ((on_seam[va] || on_seam[vb]) && !(on_seam[va] && on_seam[vb] && AlongSeam(a, b))) {
       if (on_seam[va]) best.cost += ShiftCost(a, best.position);
       if (on_seam[vb]) best.cost += ShiftCost(b, best.position);
@@ -377,9 +374,6 @@ struct QuadricDecimater::Impl {
   }
 
   bool TurnsOver(int a, int b, const Placement& placement) const {
-    const auto va = static_cast<size_t>(a), vb = static_cast<size_t>(b);
-    (void)va;
-    (void)vb;
     const size_t middle = poses / 2;
     for (size_t pose = 0; pose <= middle; pose += std::max<size_t>(middle, 1)) {
       Affine m = skinning[At(a, pose)];
@@ -396,7 +390,7 @@ struct QuadricDecimater::Impl {
           const DVec3 y = Posed(face.vertices[(k + 2) % 3], pose);
           const DVec3 before = Cross(y - x, Posed(end, pose) - x), after = Cross(y - x, to - x);
           const double lengths = std::sqrt(Dot(before, before) * Dot(after, after));
-          if (Dot(before, before) > 0 && Dot(before, after) <= tTurn * lengths) return true;
+          if (Dot(before, before) > 0 && Dot(before, after) <= kLeastTurn * lengths) return true;
         }
       }
     }
@@ -478,7 +472,7 @@ struct QuadricDecimater::Impl {
     }
   }
 
-  void Apply_(int a, int b, const Placement& placement) {
+  void Perform(int a, int b, const Placement& placement) {
     const auto va = static_cast<size_t>(a), vb = static_cast<size_t>(b);
     const float share = PictureShare(a, b, placement.position);
     std::vector<Pair> pairs;
@@ -550,7 +544,7 @@ struct QuadricDecimater::Impl {
         blocked[va] = blocked[vb] = 1;
         continue;
       }
-      Apply_(top.a, top.b, placement);
+      Perform(top.a, top.b, placement);
       Refresh(top.a);
       return true;
     }

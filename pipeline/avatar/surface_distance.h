@@ -11,10 +11,20 @@ namespace flaneur {
 
 class SurfaceTree {
  public:
+  struct Nearest {
+    float distance = 0;
+    uint32_t triangle = 0;        // as they were given
+    std::array<float, 3> shares;  // of its corners in the nearest point
+  };
+
   // Keeps its own copy of the corners. At least one triangle.
   explicit SurfaceTree(std::vector<std::array<Vec3, 3>> triangles);
 
   float Distance(Vec3 point) const;
+  // `guess`: a triangle that may be near, which makes the search shorter.
+  Nearest Find(Vec3 point, uint32_t guess = 0) const;
+  // The greater of `distance` and the point's own, which is only worked out where it is greater.
+  float AtLeast(Vec3 point, float distance) const;
 
  private:
   struct Box {
@@ -23,9 +33,14 @@ class SurfaceTree {
              count = 0;  // leaf: triangles; inner node: count 0, children at first and first + 1
   };
 
-  void Build(uint32_t box, uint32_t first, uint32_t count);
+  void Build(uint32_t box, uint32_t first, uint32_t count, std::vector<Vec3>* centres);
+  // Squared; ends early at `enough`. `best`: known so far, with `triangle`.
+  float Search(Vec3 point, float best, float enough, uint32_t* triangle) const;
 
-  std::vector<std::array<Vec3, 3>> triangles_;
+
+  std::vector<std::array<Vec3, 3>> triangles_;  // in the leaves' order
+  std::vector<uint32_t> numbers_;               // of each as it was given
+  std::vector<uint32_t> places_;                // where each went, by its number
   std::vector<Box> boxes_;
 };
 

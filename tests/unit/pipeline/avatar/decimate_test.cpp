@@ -21,18 +21,8 @@ int Triangles(const std::vector<Mesh>& meshes) {
   return count;
 }
 
-using Key = std::tuple<float, float, float>;
-
-std::set<Key> Places(const Mesh& mesh) {
-  std::set<Key> keys;
-  for (const Vec3 p : mesh.positions) keys.insert({p.x, p.y, p.z});
-  return keys;
-}
-
 // What holds for the levels of any person.
 void ExpectSoundLevels(const Avatar& avatar, const AvatarLevels& levels) {
-  std::set<Key> original;
-  for (const Mesh& mesh : avatar.meshes) original.merge(Places(mesh));
   for (size_t k = 0; k < levels.levels.size(); ++k) {
     const AvatarLevel& level = levels.levels[k];
     EXPECT_EQ(level.triangles, Triangles(level.meshes));
@@ -50,7 +40,6 @@ void ExpectSoundLevels(const Avatar& avatar, const AvatarLevels& levels) {
         for (const uint16_t joint : mesh.joints[v]) EXPECT_LT(joint, avatar.joints.size());
       }
       for (const uint32_t i : mesh.indices) ASSERT_LT(i, mesh.positions.size());
-      for (const Key& key : Places(mesh)) EXPECT_TRUE(original.count(key) > 0);
     }
   }
   EXPECT_EQ(levels.levels.back().switch_px, 0);
@@ -117,19 +106,27 @@ TEST(BuildLevels, RefusesNonsenseByName) {
   EXPECT_TRUE(BuildLevels(MadePerson(), rising, &levels, &warnings));
 }
 
-// Three leaves on one edge: no two-sided surface, but every leaf must stay.
+// Three leaves on one edge: no two-sided surface, but every leaf must stay, and stay joined.
 TEST(JoinWedges, LosesNoFaceAtACrossedEdge) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}};
   mesh.indices = {0, 1, 2, 0, 1, 3, 0, 1, 4};
   const WedgeSurface surface = JoinWedges({mesh});
   EXPECT_EQ(surface.faces.size(), 3u);
-  std::set<std::pair<int, int>> half_edges;
-  for (const auto& face : surface.faces) {
-    for (size_t k = 0; k < 3; ++k) {
-      EXPECT_TRUE(half_edges.insert({face.vertices[k], face.vertices[(k + 1) % 3]}).second);
-    }
-  }
+  EXPECT_EQ(surface.vertices.size(), 5u);
+}
+
+// Coats lie on bodies: what only touches in the bind pose must not be sewn together.
+TEST(JoinWedges, KeepsApartWhatMovesApart) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, -1, 0}};
+  mesh.joints.assign(6, {0, 0, 0, 0});
+  for (size_t v = 3; v < 6; ++v) mesh.joints[v][0] = 1;
+  mesh.weights.assign(6, {1, 0, 0, 0});
+  mesh.indices = {0, 1, 2, 4, 3, 5};
+  const std::vector<Mat4> still(2), moved{Mat4{}, Moved({0, -0.1f, 0})};
+  EXPECT_EQ(JoinWedges({mesh}, {still}).vertices.size(), 4u);
+  EXPECT_EQ(JoinWedges({mesh}, {moved}).vertices.size(), 6u);
 }
 
 TEST(JoinWedges, JoinsAcrossUvSeamsAndMaterials) {
@@ -139,7 +136,7 @@ TEST(JoinWedges, JoinsAcrossUvSeamsAndMaterials) {
   a.indices = b.indices = {0, 1, 2};
   const WedgeSurface surface = JoinWedges({a, b});
   EXPECT_EQ(surface.wedges.size(), 6u);
-  EXPECT_EQ(surface.wedge_of_vertex.size(), 4u);
+  EXPECT_EQ(surface.vertices.size(), 4u);
 }
 
 TEST(SurfaceTree, AgreesWithAPlainSearchOfKnownDistances) {

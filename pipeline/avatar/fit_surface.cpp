@@ -1,0 +1,339 @@
+#include "pipeline/avatar/fit_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "pipeline/avatar/posed_quadric.h"
+#include "pipeline/avatar/surface_distance.h"
+#include "pipeline/core/avatar.h"
+
+namespace flaneur {
+namespace {
+
+constexpr double kAlong = 0.02;    // of a pull along the surface, against one across it
+constexpr double kInertia = 0.02;  // of what holds a vertex where it is, against the pulls
+constexpr double kWeightInertia = 0.05;  // the same of its weights
+constexpr float kLeastShare = 0.01f;  // of a corner in a place: less pulls at the other corners only
+constexpr float kFarthest = 1.5f;  // of its first ties' greatest length: so far may a vertex move
+constexpr float kStraight = 0.7f;  // cosine; a longer way round has a border or crease between
+constexpr float kSameSide = 0.2f;  // cosine between normals of places that belong together
+constexpr double kLeastTurn = 0.1; // cosine; a face that turns further is taken to fold over
+
+// A surface in one pose.
+using Posed = std::vector<std::array<Vec3, 3>>;
+
+Vec3 NormalOf(const std::array<Vec3, 3>& t) {
+  const Vec3 across = Cross(t[1] - t[0], t[2] - t[0]);
+  const float length = Length(across);
+  return length > 0 ? across * (1 / length) : Vec3{};
+}
+
+Posed PosedOriginal(const std::vector<Mesh>& meshes, const std::vector<Mat4>* pose) {
+  Posed out;
+  for (const Mesh& mesh : meshes) {
+    const Mesh skinned = pose != nullptr ? Skinned(mesh, *pose) : mesh;
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      out.push_back({skinned.positions[mesh.indices[i]], skinned.positions[mesh.indices[i + 1]],
+                     skinned.positions[mesh.indices[i + 2]]});
+    }
+  }
+  return out;
+}
+
+struct Place {
+  uint32_t triangle = 0;
+  std::array<float, 3> shares{};
+};
+
+Vec3 At(const std::array<Vec3, 3>& t, const std::array<float, 3>& shares) {
+  return t[0] * shares[0] + t[1] * shares[1] + t[2] * shares[2];
+}
+
+// Evenly by area, the same every time.
+std::vector<Place> SpreadPlaces(const Posed& triangles, int count) {
+  std::vector<double> sums;
+  double total = 0;
+  for (const auto& t : triangles) {
+    total += static_cast<double>(Length(Cross(t[1] - t[0], t[2] - t[0])));
+    sums.push_back(total);
+  }
+  std::mt19937 random(1);
+  const auto unit = [&random] { return static_cast<double>(random()) / 4294967296.0; };
+  std::vector<Place> places;
+  size_t triangle = 0;
+  for (int i = 0; i < count; ++i) {
+    const double at = (i + unit()) / count * total;  // one in each of equal strips
+    while (triangle + 1 < sums.size() && sums[triangle] < at) ++triangle;
+    const auto root = static_cast<float>(std::sqrt(unit()));
+    const auto share = static_cast<float>(unit());
+    places.push_back({static_cast<uint32_t>(triangle),
+                      {1 - root, root * (1 - share), root * share}});
+  }
+  return places;
+}
+
+// A place of the level that should be where a place of the original is.
+struct Tie {
+  Place on_level, on_original;
+  double along = 0;  // how much a pull along the surface counts, against one across it
+};
+
+class Fitter {
+ public:
+  Fitter(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses,
+         WedgeSurface* level)
+      : poses_(poses), level_(level) {
+    original_.push_back(PosedOriginal(original, nullptr));
+    for (const auto& pose : poses) original_.push_back(PosedOriginal(original, &pose));
+    tree_ = std::make_unique<SurfaceTree>(original_[0]);
+    faces_of_.resize(level->vertices.size());
+    for (size_t f = 0; f < level->faces.size(); ++f) {
+      for (const int v : level->faces[f].vertices) faces_of_[static_cast<size_t>(v)].push_back(f);
+    }
+    skinning_.resize(level->vertices.size() * (poses.size() + 1));
+    posed_.resize(skinning_.size());
+    for (size_t v = 0; v < level->vertices.size(); ++v) Pose(v);
+  }
+
+  // Ties evenly spread places of each surface to the nearest of the other.
+  void TieTo(int samples) {
+    const Posed level = LevelInBindPose();
+    const SurfaceTree level_tree(level);
+    if (on_original_.empty()) {
+      on_original_ = SpreadPlaces(original_[0], samples);
+      on_level_ = SpreadPlaces(level, samples);
+      guesses_.assign(on_original_.size() + on_level_.size(), 0);
+    }
+    ties_.clear();
+    uint32_t* guess = guesses_.data();
+    for (const Place& place : on_original_) {
+      const auto found = level_tree.Find(At(original_[0][place.triangle], place.shares), *guess);
+      *guess++ = found.triangle;
+      AddTie(level, {found.triangle, found.shares}, place);
+    }
+    for (const Place& place : on_level_) {
+      const auto found = tree_->Find(At(level[place.triangle], place.shares), *guess);
+      *guess++ = found.triangle;
+      AddTie(level, place, {found.triangle, found.shares});
+    }
+    SortTies();
+    if (reach_.empty()) FindReach(level);
+  }
+
+  void Solve() {
+    for (size_t v = 0; v < level_->vertices.size(); ++v) {
+      if (ties_of_[v].empty()) continue;
+      Move(v);
+      if (!poses_.empty()) Reweigh(v);
+    }
+  }
+
+ private:
+  struct Target {
+    Vec3 place, normal;
+  };
+
+  Posed LevelInBindPose() const {
+    Posed level;
+    for (const auto& face : level_->faces) {
+      auto& corners = level.emplace_back();
+      for (size_t k = 0; k < 3; ++k) {
+        corners[k] = level_->vertices[static_cast<size_t>(face.vertices[k])].position;
+      }
+    }
+    return level;
+  }
+
+  void AddTie(const Posed& level, const Place& on_level, const Place& on_original) {
+    const auto& corners = level[on_level.triangle];
+    const auto& triangle = original_[0][on_original.triangle];
+    const Vec3 normal = NormalOf(triangle);
+    if (Dot(NormalOf(corners), normal) <= kSameSide) return;
+    // Beyond a border or a crease the nearest place does not lie straight below.
+    const Vec3 way = At(corners, on_level.shares) - At(triangle, on_original.shares);
+    const bool straight = std::abs(Dot(way, normal)) > kStraight * Length(way);
+    ties_.push_back({on_level, on_original, straight ? kAlong : 1});
+  }
+
+  void SortTies() {
+    ties_of_.assign(level_->vertices.size(), {});
+    targets_.clear();
+    for (size_t i = 0; i < ties_.size(); ++i) {
+      const Place& place = ties_[i].on_level;
+      for (size_t k = 0; k < 3; ++k) {
+        if (!(place.shares[k] > kLeastShare)) continue;
+        const int v = level_->faces[place.triangle].vertices[k];
+        ties_of_[static_cast<size_t>(v)].push_back(static_cast<uint32_t>(3 * i + k));
+      }
+      for (const Posed& pose : original_) {
+        const auto& triangle = pose[ties_[i].on_original.triangle];
+        targets_.push_back({At(triangle, ties_[i].on_original.shares), NormalOf(triangle)});
+      }
+    }
+  }
+
+  void FindReach(const Posed& level) {
+    for (const WedgeSurface::Vertex& vertex : level_->vertices) start_.push_back(vertex.position);
+    reach_.assign(start_.size(), 0);
+    for (size_t v = 0; v < start_.size(); ++v) {
+      for (const uint32_t id : ties_of_[v]) {
+        const Tie& tie = ties_[id / 3];
+        const Vec3 way = At(original_[0][tie.on_original.triangle], tie.on_original.shares) -
+                         At(level[tie.on_level.triangle], tie.on_level.shares);
+        reach_[v] = std::max(reach_[v], Length(way));
+      }
+    }
+  }
+
+  size_t Poses() const { return poses_.size() + 1; }
+
+  void Pose(size_t v) {
+    const WedgeSurface::Vertex& vertex = level_->vertices[v];
+    for (size_t k = 0; k < Poses(); ++k) {
+      Affine& m = skinning_[v * Poses() + k];
+      m = {};
+      float sum = 0;
+      for (size_t i = 0; k > 0 && i < 4; ++i) {
+        if (!(vertex.weights[i] > 0)) continue;
+        sum += vertex.weights[i];
+        const Mat4& joint = poses_[k - 1][vertex.joints[i]];
+        for (size_t r = 0; r < 3; ++r) {
+          for (size_t c = 0; c < 4; ++c) m[4 * r + c] += vertex.weights[i] * joint.m[c][r];
+        }
+      }
+      if (!(sum > 0)) m = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+      posed_[v * Poses() + k] = Apply(m, ToDouble(vertex.position));
+    }
+  }
+
+  // What of the tie's pull is left for this corner: the target less the other corners' part.
+  DVec3 Left(const Tie& tie, size_t corner, size_t pose, const Target& target) const {
+    DVec3 left = ToDouble(target.place);
+    for (size_t k = 0; k < 3; ++k) {
+      if (k == corner) continue;
+      const auto v = static_cast<size_t>(level_->faces[tie.on_level.triangle].vertices[k]);
+      left = left - posed_[v * Poses() + pose] * static_cast<double>(tie.on_level.shares[k]);
+    }
+    return left;
+  }
+
+  // The ties' quadric in one pose, of the vertex's posed place.
+  Quadric Pull(size_t v, size_t pose) const {
+    Quadric sum;
+    // The bind pose counts as much as all others together.
+    const double weight = pose == 0 ? std::max(1.0, static_cast<double>(poses_.size())) : 1;
+    for (const uint32_t id : ties_of_[v]) {
+      const Tie& tie = ties_[id / 3];
+      const size_t corner = id % 3;
+      const Target& target = targets_[(id / 3) * Poses() + pose];
+      const double share = static_cast<double>(tie.on_level.shares[corner]);
+      const DVec3 wanted = Left(tie, corner, pose, target) * (1 / share);
+      sum = sum + PlaneQuadric(ToDouble(target.normal), wanted, weight * share * share) +
+            PointQuadric(wanted, weight * tie.along * share * share);
+    }
+    return sum;
+  }
+
+  bool TurnsOver(size_t v, Vec3 to) const {
+    for (const size_t f : faces_of_[v]) {
+      const auto& face = level_->faces[f];
+      size_t k = 0;
+      while (face.vertices[k] != static_cast<int>(v)) ++k;
+      const auto corner = [&](size_t i) {
+        return ToDouble(
+            level_->vertices[static_cast<size_t>(face.vertices[(k + i) % 3])].position);
+      };
+      const DVec3 along = corner(2) - corner(1);
+      const DVec3 before = Cross(along, corner(0) - corner(1));
+      const DVec3 after = Cross(along, ToDouble(to) - corner(1));
+      if (Dot(before, after) <= kLeastTurn * std::sqrt(Dot(before, before) * Dot(after, after))) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void Move(size_t v) {
+    Quadric sum;
+    for (size_t k = 0; k < Poses(); ++k) {
+      AddPulledBack(Pull(v, k), skinning_[v * Poses() + k], &sum);
+    }
+    const Vec3 to =
+        ToFloat(Minimizer(sum, ToDouble(level_->vertices[v].position), kInertia));
+    if (!(Length(to - start_[v]) <= kFarthest * reach_[v]) || TurnsOver(v, to)) return;
+    level_->vertices[v].position = to;
+    Pose(v);
+  }
+
+  // Shifts weight between pairs of the vertex's joints, each time by what serves best.
+  void Reweigh(size_t v) {
+    WedgeSurface::Vertex& vertex = level_->vertices[v];
+    std::vector<Quadric> pulls;
+    double scale = 0;
+    for (size_t k = 1; k < Poses(); ++k) {
+      pulls.push_back(Pull(v, k));
+      scale += pulls.back().xx + pulls.back().yy + pulls.back().zz;
+    }
+    for (size_t i = 0; i < 4; ++i) {
+      for (size_t j = i + 1; j < 4; ++j) {
+        if (!(vertex.weights[i] > 0) || !(vertex.weights[j] > 0)) continue;
+        // Weight s from j to i moves the vertex by s * way in each pose.
+        double slope = 0, curve = 0, way2 = 0;
+        for (size_t k = 1; k < Poses(); ++k) {
+          const auto at = [&](uint16_t joint) {
+            return ToDouble(TransformPoint(poses_[k - 1][joint], vertex.position));
+          };
+          const DVec3 way = at(vertex.joints[i]) - at(vertex.joints[j]);
+          const DVec3 from = posed_[v * Poses() + k];
+          const Quadric& q = pulls[k - 1];
+          const double here = Evaluate(q, from), there = Evaluate(q, from + way);
+          const double half = Evaluate(q, from + way * 0.5);
+          const double bend = 2 * (there - 2 * half + here);  // f(s) = here + b s + bend s^2
+          curve += bend;
+          slope += there - here - bend;
+          way2 += Dot(way, way);
+        }
+        curve += kWeightInertia * scale / 3 * way2 / static_cast<double>(pulls.size());
+        if (!(curve > 0)) continue;
+        const float s = std::clamp(static_cast<float>(-slope / (2 * curve)), -vertex.weights[i],
+                                   vertex.weights[j]);
+        vertex.weights[i] += s;
+        vertex.weights[j] -= s;
+        Pose(v);
+      }
+    }
+  }
+
+  const std::vector<std::vector<Mat4>>& poses_;
+  WedgeSurface* level_;
+  std::vector<Vec3> start_;   // places before all
+  std::vector<float> reach_;  // the greatest distance of a vertex's first ties
+  std::vector<Posed> original_;  // bind pose first
+  std::unique_ptr<SurfaceTree> tree_;
+  std::vector<std::vector<size_t>> faces_of_;
+  std::vector<Affine> skinning_;  // by vertex and pose
+  std::vector<DVec3> posed_;
+  std::vector<Place> on_original_, on_level_;  // that are tied
+  std::vector<uint32_t> guesses_;              // of where each one's nearest place is
+  std::vector<Tie> ties_;
+  std::vector<Target> targets_;  // by tie and pose
+  std::vector<std::vector<uint32_t>> ties_of_;  // by vertex: 3 * tie + corner
+};
+
+}  // namespace
+
+void FitSurface(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses,
+                const FitOptions& options, WedgeSurface* level) {
+  // Fewer places would leave vertices to chance.
+  if (2 * level->faces.size() > static_cast<size_t>(options.samples)) return;
+  Fitter fitter(original, poses, level);
+  for (int round = 0; round < options.rounds; ++round) {
+    fitter.TieTo(options.samples);
+    fitter.Solve();
+    fitter.Solve();
+  }
+}
+
+}  // namespace flaneur
