@@ -5,14 +5,17 @@
 #include <random>
 
 #include "pipeline/avatar/fit_surface.h"
+#include "pipeline/avatar/poses.h"
 #include "pipeline/avatar/quadric_decimater.h"
 #include "pipeline/avatar/surface_distance.h"
+#include "pipeline/avatar/threads.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
 
 constexpr int kQuadricPoses = 4;  // of the walk, that levels are made for; besides the bind pose
+constexpr size_t kMostVertices = 3000;  // that the deviation is measured at
 constexpr float kTargetTolerance = 0.02f;
 constexpr float kEndless_px = 100000;  // switch height where the next level is exact
 
@@ -56,23 +59,6 @@ int CountTriangles(const std::vector<Mesh>& meshes) {
   return count;
 }
 
-std::vector<Mesh> Posed(const std::vector<Mesh>& meshes, const std::vector<Mat4>& matrices) {
-  std::vector<Mesh> posed;
-  for (const Mesh& mesh : meshes) posed.push_back(Skinned(mesh, matrices));
-  return posed;
-}
-
-// Skinning matrices of `count` moments of the walk, evenly spread.
-std::vector<std::vector<Mat4>> WalkPoses(const Avatar& avatar, int count) {
-  std::vector<std::vector<Mat4>> poses;
-  const Clip* walk = FindClip(avatar, "walk");
-  for (int i = 0; walk != nullptr && i < count; ++i) {
-    const float share = static_cast<float>(i) / static_cast<float>(count);
-    poses.push_back(SkinningMatrices(avatar, *walk, share * walk->duration_s));
-  }
-  return poses;
-}
-
 // A point of a surface that moves with it.
 struct Sample {
   size_t mesh = 0, triangle = 0;
@@ -107,24 +93,42 @@ std::vector<Sample> SampleSurface(const std::vector<Mesh>& meshes, int count) {
   return samples;
 }
 
-std::vector<Vec3> Points(const std::vector<Mesh>& meshes, const std::vector<Sample>& samples) {
-  std::vector<Vec3> points;
-  for (const Sample& s : samples) {
-    const Mesh& mesh = meshes[s.mesh];
-    const auto corner = [&](size_t k) { return mesh.positions[mesh.indices[3 * s.triangle + k]]; };
-    points.push_back(corner(0) * (1 - s.u - s.v) + corner(1) * s.u + corner(2) * s.v);
-  }
-  for (const Mesh& mesh : meshes) {
-    std::vector<bool> used(mesh.positions.size(), false);
-    for (const uint32_t i : mesh.indices) used[i] = true;
-    for (size_t v = 0; v < used.size(); ++v) {
-      if (used[v]) points.push_back(mesh.positions[v]);
+// Points that move with the surface: evenly spread ones and vertices, where distances are greatest.
+class Points {
+ public:
+  Points(const std::vector<Mesh>& meshes, int samples)
+      : samples_(SampleSurface(meshes, samples)) {
+    std::vector<std::pair<size_t, size_t>> all;
+    for (size_t m = 0; m < meshes.size(); ++m) {
+      std::vector<bool> used(meshes[m].positions.size(), false);
+      for (const uint32_t i : meshes[m].indices) used[i] = true;
+      for (size_t v = 0; v < used.size(); ++v) {
+        if (used[v]) all.push_back({m, v});
+      }
     }
+    const size_t step = 1 + all.size() / kMostVertices;
+    for (size_t i = 0; i < all.size(); i += step) vertices_.push_back(all[i]);
   }
-  return points;
-}
 
-SurfaceTree Tree(const std::vector<Mesh>& meshes) {
+  std::vector<Vec3> On(const std::vector<Mesh>& meshes) const {
+    std::vector<Vec3> points;
+    for (const Sample& s : samples_) {
+      const Mesh& mesh = meshes[s.mesh];
+      const auto corner = [&](size_t k) {
+        return mesh.positions[mesh.indices[3 * s.triangle + k]];
+      };
+      points.push_back(corner(0) * (1 - s.u - s.v) + corner(1) * s.u + corner(2) * s.v);
+    }
+    for (const auto& [mesh, vertex] : vertices_) points.push_back(meshes[mesh].positions[vertex]);
+    return points;
+  }
+
+ private:
+  std::vector<Sample> samples_;
+  std::vector<std::pair<size_t, size_t>> vertices_;  // mesh and vertex
+};
+
+std::vector<std::array<Vec3, 3>> Triangles(const std::vector<Mesh>& meshes) {
   std::vector<std::array<Vec3, 3>> triangles;
   for (const Mesh& mesh : meshes) {
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -132,45 +136,82 @@ SurfaceTree Tree(const std::vector<Mesh>& meshes) {
                            mesh.positions[mesh.indices[i + 2]]});
     }
   }
-  return SurfaceTree(std::move(triangles));
+  return triangles;
 }
 
 // Measures levels against the original: both surfaces sampled, the greater of the two distances.
 class Comparison {
  public:
   Comparison(const Avatar& avatar, const LevelsOptions& options)
-      : options_(options), poses_(WalkPoses(avatar, options.walk_poses)) {
-    const std::vector<Sample> samples = SampleSurface(avatar.meshes, options.error_samples);
-    Add(avatar.meshes, samples);
-    for (const auto& matrices : poses_) Add(Posed(avatar.meshes, matrices), samples);
-  }
+      : meshes_(Shapes(avatar.meshes)),
+        samples_(options.error_samples),
+        poses_(WalkPoses(avatar, options.walk_poses)),
+        points_(avatar.meshes, options.error_samples),
+        tree_(Triangles(avatar.meshes)) {}
 
-  void Measure(AvatarLevel* level) const {
-    const std::vector<Sample> samples = SampleSurface(level->meshes, options_.error_samples);
-    level->error_mm = 1000 * Deviation(0, level->meshes, samples);
-    for (size_t pose = 0; pose < poses_.size(); ++pose) {
-      const std::vector<Mesh> posed = Posed(level->meshes, poses_[pose]);
-      level->posed_error_mm =
-          std::max(level->posed_error_mm, 1000 * Deviation(pose + 1, posed, samples));
+  // Of every pose, one after the other, so that each one's trees live shortly.
+  void Measure(std::vector<AvatarLevel>* levels) const {
+    std::vector<Shape> shapes;
+    for (const AvatarLevel& level : *levels) {
+      const bool original = level.triangles == CountTriangles(meshes_);
+      shapes.push_back({original, Shapes(level.meshes), Points(level.meshes, samples_),
+                        SurfaceTree(Triangles(level.meshes))});
+    }
+    std::vector<std::vector<float>> errors(1 + poses_.size());
+    const auto measure = [&](size_t first, size_t step) {
+      for (size_t pose = first; pose < errors.size(); pose += step) {
+        errors[pose] = Deviations(pose, shapes);
+      }
+    };
+    RunOnThreads(measure);
+    for (size_t k = 0; k < levels->size(); ++k) {
+      AvatarLevel& level = (*levels)[k];
+      level.error_mm = 1000 * errors[0][k];
+      level.posed_error_mm = 0;
+      for (size_t pose = 1; pose < errors.size(); ++pose) {
+        level.posed_error_mm = std::max(level.posed_error_mm, 1000 * errors[pose][k]);
+      }
     }
   }
 
  private:
-  void Add(const std::vector<Mesh>& meshes, const std::vector<Sample>& samples) {
-    trees_.push_back(Tree(meshes));
-    points_.push_back(Points(meshes, samples));
+  struct Shape {
+    bool original;
+    std::vector<Mesh> meshes;
+    Points points;
+    SurfaceTree tree;
+  };
+
+  std::vector<Mesh> InPose(const std::vector<Mesh>& meshes, size_t pose) const {
+    return pose == 0 ? meshes : Posed(meshes, poses_[pose - 1]);
   }
 
-  float Deviation(size_t pose, const std::vector<Mesh>& meshes,
-                  const std::vector<Sample>& samples) const {
-    return std::max(GreatestDistance(Tree(meshes), points_[pose]),
-                    GreatestDistance(trees_[pose], Points(meshes, samples)));
+  // Of each level in one pose.
+  std::vector<float> Deviations(size_t pose, const std::vector<Shape>& levels) const {
+    const std::vector<Mesh> original = InPose(meshes_, pose);
+    const std::vector<Vec3> on_original = points_.On(original);
+    SurfaceTree original_tree = tree_;
+    original_tree.MoveTo(Triangles(original));
+    std::vector<float> out;
+    for (const Shape& level : levels) {
+      if (level.original) {
+        out.push_back(0);
+        continue;
+      }
+      const std::vector<Mesh> posed = InPose(level.meshes, pose);
+      SurfaceTree level_tree = level.tree;
+      level_tree.MoveTo(Triangles(posed));
+      out.push_back(std::max(GreatestDistance(level_tree, on_original),
+                             GreatestDistance(original_tree, level.points.On(posed))));
+    }
+    return out;
   }
 
-  LevelsOptions options_;
+  std::vector<Mesh> meshes_;
+  int samples_;
   std::vector<std::vector<Mat4>> poses_;
-  std::vector<SurfaceTree> trees_;  // the original's, bind pose first
-  std::vector<std::vector<Vec3>> points_;
+  Points points_;
+  SurfaceTree tree_;  // the bind pose's
 };
 
 std::vector<int> Targets(const LevelsOptions& options, int triangles) {
@@ -212,7 +253,6 @@ Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLeve
   levels->avatar = avatar;
   levels->levels.clear();
   const int original = CountTriangles(avatar.meshes);
-  const Comparison comparison(avatar, options);
   const std::vector<std::vector<Mat4>> poses = WalkPoses(avatar, kQuadricPoses);
   std::unique_ptr<QuadricDecimater> decimater;
   for (const int target : Targets(options, original)) {
@@ -230,11 +270,11 @@ Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLeve
       WedgeSurface surface = decimater->Surface();
       FitSurface(avatar.meshes, poses, {}, &surface);
       level.meshes = SplitWedges(surface, avatar.meshes);
-      comparison.Measure(&level);
     }
     level.triangles = CountTriangles(level.meshes);
     levels->levels.push_back(std::move(level));
   }
+  if (decimater) Comparison(avatar, options).Measure(&levels->levels);
   levels->avatar.meshes = levels->levels[0].meshes;
   SetSwitchHeights(avatar.height_m, &levels->levels);
   return Ok();

@@ -6,7 +6,9 @@
 #include <random>
 
 #include "pipeline/avatar/posed_quadric.h"
+#include "pipeline/avatar/poses.h"
 #include "pipeline/avatar/surface_distance.h"
+#include "pipeline/avatar/threads.h"
 #include "pipeline/core/avatar.h"
 
 namespace flaneur {
@@ -106,17 +108,13 @@ class Fitter {
       on_level_ = SpreadPlaces(level, samples);
       guesses_.assign(on_original_.size() + on_level_.size(), 0);
     }
+    std::vector<Tie> found(guesses_.size());
+    RunOnThreads([&](size_t first, size_t step) {
+      for (size_t i = first; i < found.size(); i += step) found[i] = Tied(level, level_tree, i);
+    });
     ties_.clear();
-    uint32_t* guess = guesses_.data();
-    for (const Place& place : on_original_) {
-      const auto found = level_tree.Find(At(original_[0][place.triangle], place.shares), *guess);
-      *guess++ = found.triangle;
-      AddTie(level, {found.triangle, found.shares}, place);
-    }
-    for (const Place& place : on_level_) {
-      const auto found = tree_->Find(At(level[place.triangle], place.shares), *guess);
-      *guess++ = found.triangle;
-      AddTie(level, place, {found.triangle, found.shares});
+    for (const Tie& tie : found) {
+      if (tie.along > 0) ties_.push_back(tie);
     }
     SortTies();
     if (reach_.empty()) FindReach(level);
@@ -146,15 +144,25 @@ class Fitter {
     return level;
   }
 
-  void AddTie(const Posed& level, const Place& on_level, const Place& on_original) {
-    const auto& corners = level[on_level.triangle];
-    const auto& triangle = original_[0][on_original.triangle];
+  // The i-th tie; one whose ends face different ways does not pull.
+  Tie Tied(const Posed& level, const SurfaceTree& level_tree, size_t i) {
+    Tie tie;
+    const bool from_original = i < on_original_.size();
+    if (from_original) tie.on_original = on_original_[i];
+    else tie.on_level = on_level_[i - on_original_.size()];
+    const Vec3 from = from_original ? At(original_[0][tie.on_original.triangle], tie.on_original.shares)
+                                    : At(level[tie.on_level.triangle], tie.on_level.shares);
+    const auto nearest = (from_original ? level_tree : *tree_).Find(from, guesses_[i]);
+    guesses_[i] = nearest.triangle;
+    (from_original ? tie.on_level : tie.on_original) = {nearest.triangle, nearest.shares};
+    const auto& corners = level[tie.on_level.triangle];
+    const auto& triangle = original_[0][tie.on_original.triangle];
     const Vec3 normal = NormalOf(triangle);
-    if (Dot(NormalOf(corners), normal) <= kSameSide) return;
+    if (Dot(NormalOf(corners), normal) <= kSameSide) return tie;
     // Beyond a border or a crease the nearest place does not lie straight below.
-    const Vec3 way = At(corners, on_level.shares) - At(triangle, on_original.shares);
-    const bool straight = std::abs(Dot(way, normal)) > kStraight * Length(way);
-    ties_.push_back({on_level, on_original, straight ? kAlong : 1});
+    const Vec3 way = At(corners, tie.on_level.shares) - At(triangle, tie.on_original.shares);
+    tie.along = std::abs(Dot(way, normal)) > kStraight * Length(way) ? kAlong : 1;
+    return tie;
   }
 
   void SortTies() {
@@ -328,7 +336,7 @@ void FitSurface(const std::vector<Mesh>& original, const std::vector<std::vector
                 const FitOptions& options, WedgeSurface* level) {
   // Fewer places would leave vertices to chance.
   if (2 * level->faces.size() > static_cast<size_t>(options.samples)) return;
-  Fitter fitter(original, poses, level);
+  Fitter fitter(Shapes(original), poses, level);
   for (int round = 0; round < options.rounds; ++round) {
     fitter.TieTo(options.samples);
     fitter.Solve();

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <iterator>
 #include <queue>
-#include <thread>
 
 #include "pipeline/avatar/posed_quadric.h"
+#include "pipeline/avatar/threads.h"
 
 namespace flaneur {
 namespace {
@@ -330,11 +330,7 @@ struct QuadricDecimater::Impl {
                   stamps[static_cast<size_t>(b)]};
       }
     };
-    const size_t threads = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
-    std::vector<std::thread> workers;
-    for (size_t i = 1; i < threads; ++i) workers.emplace_back(place, i, threads);
-    place(0, threads);
-    for (std::thread& worker : workers) worker.join();
+    RunOnThreads(place);
     heap = std::priority_queue<Collapse>({}, std::move(all));
     std::fill(blocked.begin(), blocked.end(), uint8_t{0});
   }

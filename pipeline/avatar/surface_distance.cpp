@@ -110,6 +110,27 @@ void SurfaceTree::Build(uint32_t box, uint32_t first, uint32_t count, std::vecto
   Build(children + 1, first + half, count - half, centres);
 }
 
+void SurfaceTree::MoveTo(const std::vector<std::array<Vec3, 3>>& triangles) {
+  for (size_t i = 0; i < numbers_.size(); ++i) triangles_[i] = triangles[numbers_[i]];
+  for (size_t b = boxes_.size(); b-- > 0;) {  // children come after their parents
+    Box& box = boxes_[b];
+    if (box.count == 0) {
+      const Box &left = boxes_[box.first], &right = boxes_[box.first + 1];
+      box.min = Min(left.min, right.min);
+      box.max = Max(left.max, right.max);
+      continue;
+    }
+    box.min = {kFar, kFar, kFar};
+    box.max = box.min * -1;
+    for (uint32_t i = box.first; i < box.first + box.count; ++i) {
+      for (const Vec3 p : triangles_[i]) {
+        box.min = Min(box.min, p);
+        box.max = Max(box.max, p);
+      }
+    }
+  }
+}
+
 float SurfaceTree::Search(Vec3 point, float best, float enough, uint32_t* triangle) const {
   std::array<std::pair<float, uint32_t>, 64> stack;  // deep enough: the tree halves at each level
   size_t depth = 0;

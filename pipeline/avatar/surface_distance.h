@@ -20,6 +20,9 @@ class SurfaceTree {
   // Keeps its own copy of the corners. At least one triangle.
   explicit SurfaceTree(std::vector<std::array<Vec3, 3>> triangles);
 
+  // The same triangles, each moved to another place; the tree keeps its shape.
+  void MoveTo(const std::vector<std::array<Vec3, 3>>& triangles);
+
   float Distance(Vec3 point) const;
   // `guess`: a triangle that may be near, which makes the search shorter.
   Nearest Find(Vec3 point, uint32_t guess = 0) const;

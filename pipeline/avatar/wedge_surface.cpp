@@ -87,8 +87,12 @@ std::vector<int> AddVertices(const std::vector<Mesh>& meshes,
   std::vector<Vec3> posed(poses.size());
   for (size_t m = 0; m < meshes.size(); ++m) {
     const Mesh& mesh = meshes[m];
+    Mesh shape;
+    shape.positions = mesh.positions;
+    shape.joints = mesh.joints;
+    shape.weights = mesh.weights;
     std::vector<Mesh> skinned;
-    for (const auto& matrices : poses) skinned.push_back(Skinned(mesh, matrices));
+    for (const auto& matrices : poses) skinned.push_back(Skinned(shape, matrices));
     for (size_t v = 0; v < mesh.positions.size(); ++v) {
       for (size_t k = 0; k < poses.size(); ++k) posed[k] = skinned[k].positions[v];
       int vertex = joiner.Find(mesh.positions[v], posed);

@@ -1,0 +1,20 @@
+// Work in equal strides on all cores.
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+namespace flaneur {
+
+// Calls `work(first, step)` once a thread: each takes first, first + step, first + 2 step, ...
+template <typename Work>
+void RunOnThreads(const Work& work) {
+  const size_t count = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
+  std::vector<std::thread> threads;
+  for (size_t i = 1; i < count; ++i) threads.emplace_back(work, i, count);
+  work(size_t{0}, count);
+  for (std::thread& thread : threads) thread.join();
+}
+
+}  // namespace flaneur
