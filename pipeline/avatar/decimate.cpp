@@ -96,8 +96,7 @@ std::vector<Sample> SampleSurface(const std::vector<Mesh>& meshes, int count) {
 // Points that move with the surface: evenly spread ones and vertices, where distances are greatest.
 class Points {
  public:
-  Points(const std::vector<Mesh>& meshes, int samples)
-      : samples_(SampleSurface(meshes, samples)) {
+  Points(const std::vector<Mesh>& meshes, int samples) : samples_(SampleSurface(meshes, samples)) {
     std::vector<std::pair<size_t, size_t>> all;
     for (size_t m = 0; m < meshes.size(); ++m) {
       std::vector<bool> used(meshes[m].positions.size(), false);

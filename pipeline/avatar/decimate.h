@@ -16,15 +16,15 @@ struct LevelsOptions {
   int min_triangles = 16;           // no level has fewer, unless the original has
   int error_samples = 3000;  // points per surface that the deviation is measured at, besides as
                              // many of its vertices
-  int walk_poses = 8;  // that posed_error_mm is measured over
+  int walk_poses = 8;        // that posed_error_mm is measured over
 };
 
-// Reduces the avatar step by step by edge collapses: vertices move to where the error over bind pose
-// and walk is least, with at most four weights that sum to 1. Borders between materials, uv seams
-// and open edges keep their line; pictures are interpolated along collapsed edges. Every level has
-// its target of triangles within 2 % or a warning says why. The same result on any number of
-// threads. Errors: no triangles, ratios out of order or range, a non-finite position (names the mesh
-// and vertex).
+// Reduces the avatar step by step by edge collapses: vertices move to where the error over bind
+// pose and walk is least, with at most four weights that sum to 1. Borders between materials, uv
+// seams and open edges keep their line; pictures are interpolated along collapsed edges. Every
+// level has its target of triangles within 2 % or a warning says why. The same result on any number
+// of threads. Errors: no triangles, ratios out of order or range, a non-finite position (names the
+// mesh and vertex).
 Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLevels* levels,
                   std::vector<std::string>* warnings);
 

@@ -14,14 +14,15 @@
 namespace flaneur {
 namespace {
 
-constexpr double kAlong = 0.02;    // of a pull along the surface, against one across it
-constexpr double kInertia = 0.02;  // of what holds a vertex where it is, against the pulls
+constexpr double kAlong = 0.02;          // of a pull along the surface, against one across it
+constexpr double kInertia = 0.02;        // of what holds a vertex where it is, against the pulls
 constexpr double kWeightInertia = 0.05;  // the same of its weights
-constexpr float kLeastShare = 0.01f;  // of a corner in a place: less pulls at the other corners only
-constexpr float kFarthest = 1.5f;  // of its first ties' greatest length: so far may a vertex move
-constexpr float kStraight = 0.7f;  // cosine; a longer way round has a border or crease between
-constexpr float kSameSide = 0.2f;  // cosine between normals of places that belong together
-constexpr double kLeastTurn = 0.1; // cosine; a face that turns further is taken to fold over
+constexpr float kLeastShare =
+    0.01f;                          // of a corner in a place: less pulls at the other corners only
+constexpr float kFarthest = 1.5f;   // of its first ties' greatest length: so far may a vertex move
+constexpr float kStraight = 0.7f;   // cosine; a longer way round has a border or crease between
+constexpr float kSameSide = 0.2f;   // cosine between normals of places that belong together
+constexpr double kLeastTurn = 0.1;  // cosine; a face that turns further is taken to fold over
 
 // A surface in one pose.
 using Posed = std::vector<std::array<Vec3, 3>>;
@@ -70,8 +71,8 @@ std::vector<Place> SpreadPlaces(const Posed& triangles, int count) {
     while (triangle + 1 < sums.size() && sums[triangle] < at) ++triangle;
     const auto root = static_cast<float>(std::sqrt(unit()));
     const auto share = static_cast<float>(unit());
-    places.push_back({static_cast<uint32_t>(triangle),
-                      {1 - root, root * (1 - share), root * share}});
+    places.push_back(
+        {static_cast<uint32_t>(triangle), {1 - root, root * (1 - share), root * share}});
   }
   return places;
 }
@@ -148,10 +149,13 @@ class Fitter {
   Tie Tied(const Posed& level, const SurfaceTree& level_tree, size_t i) {
     Tie tie;
     const bool from_original = i < on_original_.size();
-    if (from_original) tie.on_original = on_original_[i];
-    else tie.on_level = on_level_[i - on_original_.size()];
-    const Vec3 from = from_original ? At(original_[0][tie.on_original.triangle], tie.on_original.shares)
-                                    : At(level[tie.on_level.triangle], tie.on_level.shares);
+    if (from_original)
+      tie.on_original = on_original_[i];
+    else
+      tie.on_level = on_level_[i - on_original_.size()];
+    const Vec3 from = from_original
+                          ? At(original_[0][tie.on_original.triangle], tie.on_original.shares)
+                          : At(level[tie.on_level.triangle], tie.on_level.shares);
     const auto nearest = (from_original ? level_tree : *tree_).Find(from, guesses_[i]);
     guesses_[i] = nearest.triangle;
     (from_original ? tie.on_level : tie.on_original) = {nearest.triangle, nearest.shares};
@@ -250,8 +254,7 @@ class Fitter {
       size_t k = 0;
       while (face.vertices[k] != static_cast<int>(v)) ++k;
       const auto corner = [&](size_t i) {
-        return ToDouble(
-            level_->vertices[static_cast<size_t>(face.vertices[(k + i) % 3])].position);
+        return ToDouble(level_->vertices[static_cast<size_t>(face.vertices[(k + i) % 3])].position);
       };
       const DVec3 along = corner(2) - corner(1);
       const DVec3 before = Cross(along, corner(0) - corner(1));
@@ -268,8 +271,7 @@ class Fitter {
     for (size_t k = 0; k < Poses(); ++k) {
       AddPulledBack(Pull(v, k), skinning_[v * Poses() + k], &sum);
     }
-    const Vec3 to =
-        ToFloat(Minimizer(sum, ToDouble(level_->vertices[v].position), kInertia));
+    const Vec3 to = ToFloat(Minimizer(sum, ToDouble(level_->vertices[v].position), kInertia));
     if (!(Length(to - start_[v]) <= kFarthest * reach_[v]) || TurnsOver(v, to)) return;
     level_->vertices[v].position = to;
     Pose(v);
@@ -316,8 +318,8 @@ class Fitter {
 
   const std::vector<std::vector<Mat4>>& poses_;
   WedgeSurface* level_;
-  std::vector<Vec3> start_;   // places before all
-  std::vector<float> reach_;  // the greatest distance of a vertex's first ties
+  std::vector<Vec3> start_;      // places before all
+  std::vector<float> reach_;     // the greatest distance of a vertex's first ties
   std::vector<Posed> original_;  // bind pose first
   std::unique_ptr<SurfaceTree> tree_;
   std::vector<std::vector<size_t>> faces_of_;
@@ -326,7 +328,7 @@ class Fitter {
   std::vector<Place> on_original_, on_level_;  // that are tied
   std::vector<uint32_t> guesses_;              // of where each one's nearest place is
   std::vector<Tie> ties_;
-  std::vector<Target> targets_;  // by tie and pose
+  std::vector<Target> targets_;                 // by tie and pose
   std::vector<std::vector<uint32_t>> ties_of_;  // by vertex: 3 * tie + corner
 };
 

@@ -15,8 +15,8 @@ struct FitOptions {
   int rounds = 2;       // of tying and solving
 };
 
-// `poses`: skinning matrices, besides the bind pose. Faces, wedges and joints of a vertex stay; no face
-// turns over, and none is pulled farther than the surfaces are apart. A level with more than
+// `poses`: skinning matrices, besides the bind pose. Faces, wedges and joints of a vertex stay; no
+// face turns over, and none is pulled farther than the surfaces are apart. A level with more than
 // half as many faces as samples stays as it is.
 void FitSurface(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses,
                 const FitOptions& options, WedgeSurface* level);

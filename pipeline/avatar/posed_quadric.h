@@ -1,6 +1,6 @@
-// Quadric error (Garland and Heckbert 1997) of a skinned vertex over several poses. In each pose the
-// error is a quadric in posed space; as skinning is affine in the bind position, their sum is one
-// quadric in bind space, so that the best place of a vertex for all poses is found at once.
+// Quadric error (Garland and Heckbert 1997) of a skinned vertex over several poses. In each pose
+// the error is a quadric in posed space; as skinning is affine in the bind position, their sum is
+// one quadric in bind space, so that the best place of a vertex for all poses is found at once.
 #pragma once
 #include <array>
 #include <cstddef>

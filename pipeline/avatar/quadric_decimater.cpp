@@ -15,12 +15,13 @@ namespace {
 using Face = WedgeSurface::Face;
 using Wedge = WedgeSurface::Wedge;
 
-constexpr double kBorderWeight = 1;  // of an open border's planes, against those of faces
+constexpr double kBorderWeight = 1;   // of an open border's planes, against those of faces
 constexpr double kSeamWeight = 0.03;  // of a seam's
 constexpr double kStretch = 0.2;  // a picture shifted by a length costs as much as this share of it
 constexpr double kSpring = 1e-6;  // towards the edge, where planes leave a vertex free
-constexpr double kLengthCost = 1e-9;  // of an edge's squared length: decides where all else is equal
-constexpr double kReach = 2;      // of an edge's length: so far may its vertex move from it
+constexpr double kLengthCost =
+    1e-9;                           // of an edge's squared length: decides where all else is equal
+constexpr double kReach = 2;        // of an edge's length: so far may its vertex move from it
 constexpr double kLeastTurn = 0.2;  // cosine; a face that turns further is taken to fold over
 constexpr double kFold = -0.95;     // cosine between faces: a sheet that is seen from both sides
 constexpr float kSameUv = 1e-4f;    // uvs nearer than this are no seam
@@ -108,13 +109,13 @@ struct QuadricDecimater::Impl {
   std::vector<std::vector<Mat4>> matrices;
   WedgeSurface surface;
   std::vector<DVec3> positions;
-  std::vector<Quadric> quadrics;          // by vertex and pose, in posed space
-  std::vector<Affine> skinning;           // by vertex and pose
+  std::vector<Quadric> quadrics;           // by vertex and pose, in posed space
+  std::vector<Affine> skinning;            // by vertex and pose
   std::vector<std::vector<int>> faces_of;  // by vertex; none: the vertex is gone
   std::vector<uint32_t> stamps;
-  std::vector<uint8_t> on_seam;   // wedges at the vertex don't all continue each other
-  std::vector<uint8_t> blocked;   // an edge there could not be collapsed
-  std::vector<uint8_t> gone;      // by face
+  std::vector<uint8_t> on_seam;  // wedges at the vertex don't all continue each other
+  std::vector<uint8_t> blocked;  // an edge there could not be collapsed
+  std::vector<uint8_t> gone;     // by face
   int triangles = 0;
   bool relaxed = false;
   std::priority_queue<Collapse> heap;
@@ -195,8 +196,8 @@ struct QuadricDecimater::Impl {
       const DVec3 normal = Cross(along, across);
       const double length = std::sqrt(Dot(normal, normal));
       if (!(length > 0)) continue;
-      const Quadric plane =
-          PlaneQuadric(normal * (1 / length), from, weight * PoseWeight(k) * std::sqrt(Dot(across, across)) / 2);
+      const Quadric plane = PlaneQuadric(
+          normal * (1 / length), from, weight * PoseWeight(k) * std::sqrt(Dot(across, across)) / 2);
       for (const int v : {a, b}) {
         Quadric& q = quadrics[At(v, k)];
         q = q + plane;
@@ -223,8 +224,10 @@ struct QuadricDecimater::Impl {
           const DVec3 n = Across(face, 0), m = Across(other, 0);
           folded = folded || Dot(n, m) < kFold * std::sqrt(Dot(n, n) * Dot(m, m));
         }
-        if (others == 0 || (others == 1 && folded)) HoldEdge(face, a, b, kBorderWeight);
-        else if (!continued) HoldEdge(face, a, b, kSeamWeight);
+        if (others == 0 || (others == 1 && folded))
+          HoldEdge(face, a, b, kBorderWeight);
+        else if (!continued)
+          HoldEdge(face, a, b, kSeamWeight);
       }
     }
   }
@@ -246,7 +249,8 @@ struct QuadricDecimater::Impl {
       area += std::sqrt(Dot(across, across)) / 2;
     }
     const DVec3 way = to - positions[static_cast<size_t>(vertex)];
-    return kStretch * kStretch * (PoseWeight(0) + static_cast<double>(poses - 1)) * area / 3 * Dot(way, way);
+    return kStretch * kStretch * (PoseWeight(0) + static_cast<double>(poses - 1)) * area / 3 *
+           Dot(way, way);
   }
 
   bool AlongSeam(int a, int b) const {
@@ -256,8 +260,10 @@ struct QuadricDecimater::Impl {
       const Face& face = FaceAt(f);
       if (!Has(face, b)) continue;
       ++count;
-      if (first == nullptr) first = &face;
-      else if (!Continues(*first, face, a) || !Continues(*first, face, b)) return true;
+      if (first == nullptr)
+        first = &face;
+      else if (!Continues(*first, face, a) || !Continues(*first, face, b))
+        return true;
     }
     return count == 1;
   }
@@ -266,8 +272,7 @@ struct QuadricDecimater::Impl {
     const auto va = static_cast<size_t>(a), vb = static_cast<size_t>(b);
     const DVec3 from = positions[va], along = positions[vb] - from;
     const double length2 = Dot(along, along);
-    const bool alike =
-        WeightDifference(surface.vertices[va], surface.vertices[vb]) < kSameWeights;
+    const bool alike = WeightDifference(surface.vertices[va], surface.vertices[vb]) < kSameWeights;
     Placement best;
     for (const double t : {0.5, 0.0, 1.0}) {
       if (alike && t != 0.5) break;
@@ -285,8 +290,10 @@ struct QuadricDecimater::Impl {
       };
       const DVec3 anchor = from + along * t;
       const DVec3 p = Minimizer(sum, anchor, kSpring);
-      if (Dot(p - anchor, p - anchor) < kReach * kReach * length2) consider(p);
-      else for (const double s : {0.0, 0.5, 1.0}) consider(from + along * s);
+      if (Dot(p - anchor, p - anchor) < kReach * kReach * length2)
+        consider(p);
+      else
+        for (const double s : {0.0, 0.5, 1.0}) consider(from + along * s);
     }
     best.cost += kLengthCost * length2;  // ties, as on flat cloth, go to the shorter edge
     if ((on_seam[va] || on_seam[vb]) && !(on_seam[va] && on_seam[vb] && AlongSeam(a, b))) {
@@ -298,8 +305,8 @@ struct QuadricDecimater::Impl {
 
   void Push(int a, int b) {
     if (a > b) std::swap(a, b);
-    heap.push({Place(a, b).cost, a, b, stamps[static_cast<size_t>(a)],
-               stamps[static_cast<size_t>(b)]});
+    heap.push(
+        {Place(a, b).cost, a, b, stamps[static_cast<size_t>(a)], stamps[static_cast<size_t>(b)]});
   }
 
   std::vector<int> Neighbours(int vertex) const {
@@ -403,8 +410,8 @@ struct QuadricDecimater::Impl {
       Face& face = FaceAt(f);
       if (Has(face, other)) continue;
       int& wedge = face.wedges[CornerOf(face, end)];
-      const auto found = std::find_if(known.begin(), known.end(),
-                                      [&](const auto& k) { return k.first == wedge; });
+      const auto found =
+          std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == wedge; });
       if (found != known.end()) {
         wedge = found->second;
         continue;
@@ -494,8 +501,7 @@ struct QuadricDecimater::Impl {
       faces_of[va].push_back(f);
     }
     faces_of[vb].clear();
-    MixWeights(surface.vertices[vb], static_cast<float>(placement.weight_t),
-               &surface.vertices[va]);
+    MixWeights(surface.vertices[vb], static_cast<float>(placement.weight_t), &surface.vertices[va]);
     positions[va] = placement.position;
     SetSkinning(a);
     for (size_t k = 0; k < poses; ++k) {

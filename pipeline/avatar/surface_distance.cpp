@@ -164,8 +164,7 @@ float SurfaceTree::Distance(Vec3 point) const {
 
 SurfaceTree::Nearest SurfaceTree::Find(Vec3 point, uint32_t guess) const {
   uint32_t triangle = guess < places_.size() ? places_[guess] : 0;
-  const float squared =
-      Search(point, SquaredToTriangle(point, triangles_[triangle]), 0, &triangle);
+  const float squared = Search(point, SquaredToTriangle(point, triangles_[triangle]), 0, &triangle);
   return {std::sqrt(squared), numbers_[triangle], SharesOfNearest(point, triangles_[triangle])};
 }
 

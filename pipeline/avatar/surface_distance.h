@@ -40,7 +40,6 @@ class SurfaceTree {
   // Squared; ends early at `enough`. `best`: known so far, with `triangle`.
   float Search(Vec3 point, float best, float enough, uint32_t* triangle) const;
 
-
   std::vector<std::array<Vec3, 3>> triangles_;  // in the leaves' order
   std::vector<uint32_t> numbers_;               // of each as it was given
   std::vector<uint32_t> places_;                // where each went, by its number

@@ -46,8 +46,7 @@ class Joiner {
   }
 
   void Add(Vec3 p, const std::vector<Vec3>& posed) {
-    const auto [cell, is_new] =
-        newest_.try_emplace(CellKey(Cell(p.x), Cell(p.y), Cell(p.z)), -1);
+    const auto [cell, is_new] = newest_.try_emplace(CellKey(Cell(p.x), Cell(p.y), Cell(p.z)), -1);
     older_.push_back(cell->second);
     cell->second = static_cast<int>(positions_.size());
     positions_.push_back(p);
@@ -116,9 +115,9 @@ std::vector<int> AddVertices(const std::vector<Mesh>& meshes,
 bool operator==(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
 
 bool Same(const WedgeSurface::Wedge& a, const WedgeSurface::Wedge& b) {
-  return a.mesh == b.mesh && a.uv == b.uv && a.uv1 == b.uv1 && Length(a.normal - b.normal) < 1e-4f &&
-         a.color.x == b.color.x && a.color.y == b.color.y && a.color.z == b.color.z &&
-         a.color.w == b.color.w;
+  return a.mesh == b.mesh && a.uv == b.uv && a.uv1 == b.uv1 &&
+         Length(a.normal - b.normal) < 1e-4f && a.color.x == b.color.x && a.color.y == b.color.y &&
+         a.color.z == b.color.z && a.color.w == b.color.w;
 }
 
 template <typename T, typename From>

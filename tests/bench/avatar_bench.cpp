@@ -134,8 +134,8 @@ std::vector<Vec3> Sampled(const std::vector<Triangle>& triangles, int count) {
   std::vector<Vec3> points;
   for (int i = 0; i < count; ++i) {
     const auto at = std::upper_bound(sums.begin(), sums.end(), unit(random) * total);
-    const auto& t = triangles[std::min<size_t>(static_cast<size_t>(at - sums.begin()),
-                                               triangles.size() - 1)];
+    const auto& t =
+        triangles[std::min<size_t>(static_cast<size_t>(at - sums.begin()), triangles.size() - 1)];
     const auto root = static_cast<float>(std::sqrt(unit(random)));
     const float b = root * static_cast<float>(unit(random));
     points.push_back(t[0] * (1 - root) + t[1] * (root - b) + t[2] * b);
