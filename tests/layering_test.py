@@ -16,7 +16,7 @@ ALLOWED = {
     "pipeline/core": {BASE},
     "pipeline/io": {BASE, CORE},
     "pipeline/avatar": {BASE, CORE, "pipeline/io"},
-    "pipeline/impostor": {BASE, CORE, "pipeline/io"},
+    "pipeline/impostor": {BASE, CORE, "pipeline/io", "runtime/pack"},
     "pipeline/footprint": {BASE, CORE, "pipeline/io"},
     "pipeline/pack": {BASE, CORE, "pipeline/io", "runtime/pack"},
 }

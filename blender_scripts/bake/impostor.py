@@ -1,26 +1,28 @@
-"""Renders a person's impostor views: each frame once, all directions and elevations side by side.
+"""Renders all views of a person's impostor atlas: every cell one instance, each where it stands.
 
 Run as every script here (see common/settings.py). The settings:
 
-    output          folder (there already) for frame_0000.exr, frame_0001.exr, ...
+    output          folder (there already) for band_0000.exr, band_0001.exr, ... from the top
     seed            of the sample pattern
     geometry        folder with the binary arrays named below
     vertices, triangles, frames     lengths of these arrays
     materials       list of {"texture": file or "", "mask", "cutoff", "double_sided"}
-    directions, elevations_deg, cell_width_px, cell_height_px, window_width_m, window_height_m,
-    bottom_m        as in an impostor atlas
+    directions      around the person
+    cells           list of {"frame", "direction", "elevation_deg", "origin_px": [x, y]}: where in
+                    the atlas the point between the feet is, from the upper left corner
+    width_px, height_px, texel_m    of the atlas
+    band_px         rows rendered at once
     options         samples (a pixel), default 16
 
 Arrays, little-endian, without header, axes as in glTF (Y up, the person faces +Z):
 
-    positions.f32 frames x vertices x 3     normals.f32 frames x vertices x 3
+    positions.f32 frames x vertices x 3     normals.f32, motions.f32 likewise
     uvs.f32 vertices x 2 (v downward)       colors.f32 vertices x 4 (linear, straight alpha)
     indices.u32 triangles x 3               materials.u32 triangles
 
 Each EXR holds float layers: means over all samples of a pixel, so that every value is premultiplied
-with the coverage. They are albedo (linear), normal (avatar's axes), depth (metres from the axis
-towards the camera) and coverage.
-Elevation 0 is the uppermost row of cells, direction 0 the leftmost column.
+with the coverage. They are albedo (linear), normal and motion (avatar's axes), depth (metres from
+the axis towards the camera) and coverage.
 """
 
 import math
@@ -35,9 +37,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.p
 from common.settings import fail, load_settings  # noqa: E402
 
 REQUIRED = ("output", "seed", "geometry", "vertices", "triangles", "frames", "materials",
-            "directions", "elevations_deg", "cell_width_px", "cell_height_px", "window_width_m",
-            "window_height_m", "bottom_m")
-COLOR_LAYERS = ("albedo", "normal")
+            "directions", "cells", "width_px", "height_px", "texel_m", "band_px")
+COLOR_LAYERS = ("albedo", "normal", "motion")
 VALUE_LAYERS = ("depth", "coverage")
 
 
@@ -53,11 +54,12 @@ def read_array(settings, name, kind, shape):
 
 
 def read_geometry(settings):
-    """The arrays by name; positions in Blender's axes, normals in glTF's."""
+    """The arrays by name; positions in Blender's axes, normals and motions in glTF's."""
     frames, vertices, triangles = settings["frames"], settings["vertices"], settings["triangles"]
     arrays = {
         "positions": read_array(settings, "positions.f32", "f4", (frames, vertices, 3)),
         "normals": read_array(settings, "normals.f32", "f4", (frames, vertices, 3)),
+        "motions": read_array(settings, "motions.f32", "f4", (frames, vertices, 3)),
         "uvs": read_array(settings, "uvs.f32", "f4", (vertices, 2)),
         "colors": read_array(settings, "colors.f32", "f4", (vertices, 4)),
         "indices": read_array(settings, "indices.u32", "u4", (triangles, 3)),
@@ -169,15 +171,18 @@ def make_material(description):
     nodes.tree.links.new(depth, split.inputs[0])
     side = nodes.math("SUBTRACT", 1.0, nodes.math("MULTIPLY", geometry.outputs["Backfacing"], 2.0))
     normal = nodes.scale(nodes.attribute("person_normal").outputs["Vector"], side)
+    motion = nodes.attribute("person_motion").outputs["Vector"]
     shader = nodes.node("ShaderNodeBsdfDiffuse").outputs["BSDF"]
     if visible is None:
         nodes.write_layer("albedo", color)
         nodes.write_layer("normal", normal)
+        nodes.write_layer("motion", motion)
         nodes.write_layer("depth", split.outputs["Y"])
         nodes.write_layer("coverage", 1.0)
     else:
         nodes.write_layer("albedo", nodes.scale(color, visible))
         nodes.write_layer("normal", nodes.scale(normal, visible))
+        nodes.write_layer("motion", nodes.scale(motion, visible))
         nodes.write_layer("depth", nodes.math("MULTIPLY", split.outputs["Y"], visible))
         nodes.write_layer("coverage", visible)
         mix = nodes.node("ShaderNodeMixShader")
@@ -204,40 +209,58 @@ def make_mesh(arrays, materials):
     color = mesh.attributes.new("person_color", "FLOAT_COLOR", "POINT")
     color.data.foreach_set("color", arrays["colors"].ravel())
     mesh.attributes.new("person_normal", "FLOAT_VECTOR", "POINT")
+    mesh.attributes.new("person_motion", "FLOAT_VECTOR", "POINT")
     return mesh
 
 
 def pose(mesh, arrays, frame):
     mesh.vertices.foreach_set("co", arrays["positions"][frame].astype(np.float32).ravel())
     mesh.attributes["person_normal"].data.foreach_set("vector", arrays["normals"][frame].ravel())
+    mesh.attributes["person_motion"].data.foreach_set("vector", arrays["motions"][frame].ravel())
     mesh.update()
 
 
-def place_views(settings, mesh):
+def make_frames(arrays, materials, frames):
+    """A mesh a frame."""
+    first = make_mesh(arrays, materials)
+    meshes = [first] + [first.copy() for _ in range(1, frames)]
+    for frame, mesh in enumerate(meshes):
+        pose(mesh, arrays, frame)
+    return meshes
+
+
+def place_views(settings, meshes):
     """One instance a cell, turned as the cell asks before the camera, which looks along +y."""
-    width, height = settings["window_width_m"], settings["window_height_m"]
-    directions, elevations = settings["directions"], settings["elevations_deg"]
-    for row, elevation in enumerate(elevations):
-        for column in range(directions):
-            x = (column - (directions - 1) / 2) * width
-            z = (len(elevations) / 2 - 1 - row) * height - settings["bottom_m"]
-            view = bpy.data.objects.new("view", mesh)
-            view.matrix_world = (Matrix.Translation((x, 0, z)) @
-                                 Matrix.Rotation(math.radians(elevation), 4, "X") @
-                                 Matrix.Rotation(-2 * math.pi * column / directions, 4, "Z"))
-            bpy.context.scene.collection.objects.link(view)
+    texel, middle = settings["texel_m"], (settings["width_px"] / 2, settings["height_px"] / 2)
+    for cell in settings["cells"]:
+        x = (cell["origin_px"][0] - middle[0]) * texel
+        z = (middle[1] - cell["origin_px"][1]) * texel
+        turn = -2 * math.pi * cell["direction"] / settings["directions"]
+        view = bpy.data.objects.new("view", meshes[cell["frame"]])
+        view.matrix_world = (Matrix.Translation((x, 0, z)) @
+                             Matrix.Rotation(math.radians(cell["elevation_deg"]), 4, "X") @
+                             Matrix.Rotation(turn, 4, "Z"))
+        bpy.context.scene.collection.objects.link(view)
 
 
 def place_camera(settings, scene, distance):
     camera = bpy.data.cameras.new("camera")
     camera.type = "ORTHO"
     camera.sensor_fit = "HORIZONTAL"
-    camera.ortho_scale = settings["window_width_m"] * settings["directions"]
+    camera.ortho_scale = settings["width_px"] * settings["texel_m"]
     camera.clip_start, camera.clip_end = 0.01 * distance, 3 * distance
     scene.camera = bpy.data.objects.new("camera", camera)
-    scene.camera.matrix_world = (Matrix.Translation((0, -distance, 0)) @
-                                 Matrix.Rotation(math.pi / 2, 4, "X"))
     scene.collection.objects.link(scene.camera)
+
+
+def show_band(settings, scene, distance, first):
+    """Rows from `first` on; returns how many."""
+    rows = min(settings["band_px"], settings["height_px"] - first)
+    z = (settings["height_px"] / 2 - first - rows / 2) * settings["texel_m"]
+    scene.camera.matrix_world = (Matrix.Translation((0, -distance, z)) @
+                                 Matrix.Rotation(math.pi / 2, 4, "X"))
+    scene.render.resolution_y = rows
+    return rows
 
 
 def set_up_cycles(settings, scene):
@@ -262,8 +285,7 @@ def set_up_cycles(settings, scene):
 
 def set_up_output(settings, scene):
     render = scene.render
-    render.resolution_x = settings["cell_width_px"] * settings["directions"]
-    render.resolution_y = settings["cell_height_px"] * len(settings["elevations_deg"])
+    render.resolution_x = settings["width_px"]
     render.resolution_percentage = 100
     render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
     render.image_settings.color_depth = "32"
@@ -281,15 +303,18 @@ def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     arrays = read_geometry(settings)
-    mesh = make_mesh(arrays, [make_material(each) for each in settings["materials"]])
-    place_views(settings, mesh)
-    place_camera(settings, scene, distance=2 * float(np.abs(arrays["positions"]).max()) + 1)
+    materials = [make_material(each) for each in settings["materials"]]
+    place_views(settings, make_frames(arrays, materials, settings["frames"]))
+    distance = 2 * float(np.abs(arrays["positions"]).max()) + 1
+    place_camera(settings, scene, distance)
     set_up_cycles(settings, scene)
     set_up_output(settings, scene)
-    for frame in range(settings["frames"]):
-        pose(mesh, arrays, frame)
-        scene.render.filepath = os.path.join(settings["output"], "frame_%04d.exr" % frame)
+    first = band = 0
+    while first < settings["height_px"]:
+        first += show_band(settings, scene, distance, first)
+        scene.render.filepath = os.path.join(settings["output"], "band_%04d.exr" % band)
         bpy.ops.render.render(write_still=True)
+        band += 1
 
 
 if __name__ == "__main__":

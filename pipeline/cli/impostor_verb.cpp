@@ -26,7 +26,7 @@ void AddOptions(CLI::App* app, ImpostorArguments* a) {
   app->add_option("IN", a->input, "The person: a glTF file with a skin and a walk clip")
       ->required();
   app->add_option("-o,--output", a->output,
-                  "Folder for albedo.png, normal.png and impostor.json; made where missing")
+                  "Folder for the pictures (KTX2 and PNG) and impostor.json; made where missing")
       ->required();
   app->option_defaults()->always_capture_default();
   const std::string views = "Views";
@@ -51,6 +51,10 @@ void AddOptions(CLI::App* app, ImpostorArguments* a) {
   const std::string picture = "Picture";
   app->add_option("--cell-height", a->impostor.height_px, "Height of a cell in pixels")
       ->check(CLI::Range(16, 1024))
+      ->group(picture);
+  app->add_option("--memory", a->impostor.memory_kb,
+                  "Most kB on the graphics card: where more is needed, cells are lower; 0: no limit")
+      ->check(CLI::Range(0, 1000000))
       ->group(picture);
   app->add_option("--border", a->impostor.border_px, "Pixels left empty around the person")
       ->check(CLI::Range(1, 16))
@@ -102,13 +106,12 @@ Error Bake(const ImpostorArguments& a, ImpostorAtlas* atlas, ImpostorStatistics*
 void PrintSummary(const ImpostorArguments& a, const ImpostorAtlas& atlas,
                   const ImpostorStatistics& statistics) {
   std::printf(
-      "%s: %d directions x %d frames, cells of %d x %d px (%.2f x %.2f m), "
-      "atlas %d x %d px, %.0f %% filled\n",
+      "%s: %d directions x %d frames, %.1f mm a texel, atlas %d x %d px, %.0f %% filled, %.2f MB on "
+      "the graphics card\n",
       a.output.c_str(), atlas.directions,
-      atlas.frames * static_cast<int>(atlas.elevations_deg.size()), atlas.cell_width_px,
-      atlas.cell_height_px, static_cast<double>(atlas.window_width_m),
-      static_cast<double>(atlas.window_height_m), statistics.width_px, statistics.height_px,
-      100 * statistics.fill_rate);
+      atlas.frames * static_cast<int>(atlas.elevations_deg.size()),
+      1000 * static_cast<double>(atlas.texel_m), statistics.width_px, statistics.height_px,
+      100 * statistics.fill_rate, static_cast<double>(statistics.memory_bytes) / 1e6);
   std::printf("%d triangles, Blender: %.1f CPU seconds, %.0f MB\n", statistics.triangles,
               statistics.blender_cpu_s,
               static_cast<double>(statistics.blender_peak_memory_bytes) / 1e6);
@@ -118,8 +121,8 @@ void PrintSummary(const ImpostorArguments& a, const ImpostorAtlas& atlas,
 
 int RunImpostor(const Arguments& args) {
   CLI::App app(
-      "Draws a person from every side at every phase of the walk into two pictures: "
-      "colour with coverage, and normals with depth.",
+      "Draws a person from every side at every phase of the walk into one atlas: colour with "
+      "coverage, normals, depth and motion.",
       "flaneur impostor");
   ImpostorArguments arguments;
   AddOptions(&app, &arguments);

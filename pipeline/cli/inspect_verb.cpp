@@ -29,7 +29,7 @@ Json AvatarSummary(const PackAvatar& avatar) {
           {"joints", avatar.joints},
           {"levels", levels},
           {"impostor", {{"directions", impostor.directions}, {"frames", impostor.frames},
-                        {"cell_px", {impostor.cell_width_px, impostor.cell_height_px}}}}};
+                        {"texel_mm", Rounded(1000.0 * impostor.texel_m)}, {"atlas_px", {impostor.width_px, impostor.height_px}}}}};
 }
 
 Json Summary(const TourPack& pack) {

@@ -39,8 +39,9 @@ template <typename A> void Fields(A& a, AvatarLevel* v) {
 template <typename A> void Fields(A& a, AvatarLevels* v) { a(&v->avatar, &v->levels); }
 template <typename A> void Fields(A& a, ImpostorClip* v) { a(&v->name, &v->first_frame, &v->phases); }
 template <typename A> void Fields(A& a, ImpostorAtlas* v) {
-  a(&v->directions, &v->elevations_deg, &v->frames, &v->cell_width_px, &v->cell_height_px, &v->window_width_m,
-    &v->window_height_m, &v->bottom_m, &v->depth_range_m, &v->clips, &v->albedo, &v->normal);
+  a(&v->directions, &v->elevations_deg, &v->frames, &v->width_px, &v->height_px, &v->texel_m, &v->depth_range_m,
+    &v->motion_range_m, &v->clips, &v->cells, &v->albedo, &v->normal, &v->albedo_ktx2, &v->normal_ktx2, &v->depth_ktx2,
+    &v->motion_ktx2);
 }
 template <typename A> void Fields(A& a, Obstacle* v) {
   a(&v->name, &v->kind, &v->source, &v->clearance_m, &v->ground_z_m, &v->outer, &v->holes, &v->center, &v->radius_m);

@@ -10,6 +10,9 @@ namespace {
 // Of what Blender makes for minutes: changed by hand when it comes out otherwise from the same input.
 constexpr const char* kBlenderStagesVersion = "2";
 
+// The same for impostors alone.
+constexpr const char* kImpostorVersion = "3";
+
 // Of what this program computes in seconds: any other build of it may compute something else.
 const std::string& ThisProgram() {
   static const std::string hex = Fingerprint().AddFile("/proc/self/exe").Hex();
@@ -50,12 +53,12 @@ std::string AvatarInputs(const AvatarSettings& avatar, const fs::path& file, con
 std::string ImpostorInputs(const AvatarSettings& avatar, const fs::path& file, int max_triangles,
                            const ImpostorOptions& impostor) {
   Fingerprint print;
-  print.Add(kBlenderStagesVersion).AddFile(BlenderScriptsFolder() / "bake").AddFile(BlenderScriptsFolder() / "common");
+  print.Add(kImpostorVersion).AddFile(BlenderScriptsFolder() / "bake").AddFile(BlenderScriptsFolder() / "common");
   AddReading(avatar, file, &print);
-  const auto& [directions, elevations_deg, clips, height_px, border_px, samples, seed, threads, log_file] = impostor;
+  const auto& [directions, elevations_deg, clips, height_px, border_px, memory_kb, samples, seed, threads, log_file] = impostor;
   AddAll(elevations_deg, &print);
   for (const ImpostorClipOptions& clip : clips) print.Add(clip.name).Add(clip.phases);
-  return print.Add(max_triangles).Add(directions).Add(height_px).Add(border_px).Add(samples).Add(seed).Hex();
+  return print.Add(max_triangles).Add(directions).Add(height_px).Add(border_px).Add(memory_kb).Add(samples).Add(seed).Hex();
 }
 
 std::string FootprintsInputs(const TourSettings& s, const fs::path& town) {

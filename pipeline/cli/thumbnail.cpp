@@ -25,11 +25,11 @@ Pixels Decoded(const Image& image) {
   return pixels;
 }
 
-void CopyCell(const Pixels& from, int from_x, int width, int to_x, Pixels* to) {
-  for (int y = 0; y < to->height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const auto* in = &from.rgba[static_cast<size_t>(y * from.width + from_x + x) * 4];
-      auto* out = &to->rgba[static_cast<size_t>(y * to->width + to_x + x) * 4];
+void CopyCell(const Pixels& from, const ImpostorCell& cell, int to_x, int to_y, Pixels* to) {
+  for (int y = 0; y < cell.height; ++y) {
+    for (int x = 0; x < cell.width; ++x) {
+      const auto* in = &from.rgba[static_cast<size_t>((cell.y + y) * from.width + cell.x + x) * 4];
+      auto* out = &to->rgba[static_cast<size_t>((to_y + y) * to->width + to_x + x) * 4];
       if (in[3] > 0) std::copy(in, in + 4, out);  // the gutters' fill stays out
     }
   }
@@ -39,12 +39,20 @@ void CopyCell(const Pixels& from, int from_x, int width, int to_x, Pixels* to) {
 
 std::vector<uint8_t> ImpostorThumbnail(const ImpostorAtlas& atlas) {
   const Pixels whole = Decoded(atlas.albedo);
-  const int step = atlas.directions > 8 ? 2 : 1, cells = (atlas.directions + step - 1) / step;
-  if (whole.width < atlas.directions * atlas.cell_width_px || whole.height < atlas.cell_height_px) return {};
-  Pixels strip{cells * atlas.cell_width_px, atlas.cell_height_px, {}};
+  if (whole.width != atlas.width_px || whole.height != atlas.height_px) return {};
+  const int step = atlas.directions > 8 ? 2 : 1;
+  Pixels strip;
+  for (int d = 0; d < atlas.directions; d += step) {
+    const ImpostorCell& cell = atlas.cells[CellIndex(atlas, 0, 0, d)];
+    strip.width += cell.width;
+    strip.height = std::max(strip.height, cell.height);
+  }
   strip.rgba.resize(static_cast<size_t>(strip.width) * static_cast<size_t>(strip.height) * 4);
-  for (int i = 0; i < cells; ++i) {
-    CopyCell(whole, i * step * atlas.cell_width_px, atlas.cell_width_px, i * atlas.cell_width_px, &strip);
+  int left = 0;
+  for (int d = 0; d < atlas.directions; d += step) {
+    const ImpostorCell& cell = atlas.cells[CellIndex(atlas, 0, 0, d)];
+    CopyCell(whole, cell, left, strip.height - cell.height, &strip);
+    left += cell.width;
   }
   Image png;
   if (EncodePng(strip, true, &png)) return {};

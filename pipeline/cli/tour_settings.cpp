@@ -76,6 +76,7 @@ void ReadImpostor(TomlTable table, ImpostorOptions* options) {
   table.Numbers("elevations_deg", &options->elevations_deg, -89, 89);
   table.Number("height_px", &options->height_px, 16, 1024);
   table.Number("border_px", &options->border_px, 1, 16);
+  table.Number("memory_kb", &options->memory_kb, 0, 1e6);
   table.Number("samples", &options->samples, 1, 4096);
   for (ImpostorClipOptions& clip : options->clips) {
     table.Number((clip.name + "_phases").c_str(), &clip.phases, 1, 256);

@@ -7,6 +7,9 @@
 #include "pipeline/core/subprocess.h"
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/impostor/atlas_image.h"
+#include "pipeline/impostor/atlas_layers.h"
+#include "pipeline/impostor/atlas_layout.h"
+#include "pipeline/impostor/compress_atlas.h"
 #include "pipeline/impostor/view_geometry.h"
 #include "runtime/base/file.h"
 
@@ -16,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kMostAtlasPixels = 8192;  // what every desktop graphics card takes
+constexpr int kMostAtlasPixels = 8192;       // what every desktop graphics card takes
+constexpr int kPicturePixels = 1 << 21;      // that Blender renders at once
 
 Error CheckRange(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return Ok();
@@ -32,6 +36,7 @@ Error CheckOptions(const ImpostorOptions& options) {
                            8, 1024)) {
     return e;
   }
+  if (Error e = CheckRange("memory_kb", options.memory_kb, 0, 1e6)) return e;
   if (Error e = CheckRange("samples", options.samples, 1, 4096)) return e;
   if (Error e = CheckRange("seed", options.seed, 0, 0x7FFFFFFF)) return e;
   if (Error e = CheckRange("threads", options.threads, 0, 1024)) return e;
@@ -48,35 +53,46 @@ Error CheckOptions(const ImpostorOptions& options) {
   return Ok();
 }
 
-// Square texels; the border stays free.
-Error LayOut(const ViewGeometry& geometry, const ImpostorOptions& options, ImpostorAtlas* atlas) {
-  const ViewExtent extent = MeasureExtent(geometry, options.directions, options.elevations_deg);
-  const float texel_m = (extent.top_m - extent.bottom_m) /
-                        static_cast<float>(options.height_px - 2 * options.border_px);
-  if (!(texel_m > 0)) return Fail("impostor: the avatar is flat; nothing stands upright in it");
-  const float border_m = texel_m * static_cast<float>(options.border_px);
-  const double width_px = std::ceil(2 * (extent.half_width_m + border_m) / texel_m / 4) * 4;
-  const int rows = geometry.frames * static_cast<int>(options.elevations_deg.size());
-  if (width_px * options.directions > kMostAtlasPixels ||
-      rows * options.height_px > kMostAtlasPixels) {
-    return Fail("impostor: the atlas would be " +
-                std::to_string(static_cast<int64_t>(width_px * options.directions)) + " x " +
-                std::to_string(rows * options.height_px) + " px, more than " +
-                std::to_string(kMostAtlasPixels) +
-                "; ask for fewer directions or phases, or a "
-                "smaller height");
+std::string TooLarge(int most_px) {
+  return "impostor: the atlas would be larger than " + std::to_string(most_px) + " x " +
+         std::to_string(most_px) + " px; ask for fewer directions or phases, or a smaller height";
+}
+
+float HeightOf(const std::vector<ViewBounds>& views) {
+  float bottom_m = 0, top_m = 0;
+  for (const ViewBounds& view : views) {
+    bottom_m = std::min(bottom_m, view.bottom_m);
+    top_m = std::max(top_m, view.top_m);
   }
+  return top_m - bottom_m;
+}
+
+// Square texels, of the wanted size where that fits into the memory, else larger ones.
+Error LayOut(const ViewGeometry& geometry, const ImpostorOptions& options, ImpostorAtlas* atlas) {
   *atlas = {};
   atlas->directions = options.directions;
   atlas->elevations_deg = options.elevations_deg;
   atlas->frames = geometry.frames;
   atlas->clips = geometry.clips;
-  atlas->cell_width_px = static_cast<int>(width_px);
-  atlas->cell_height_px = options.height_px;
-  atlas->window_width_m = texel_m * static_cast<float>(atlas->cell_width_px);
-  atlas->window_height_m = texel_m * static_cast<float>(atlas->cell_height_px);
-  atlas->bottom_m = extent.bottom_m - border_m;
-  atlas->depth_range_m = std::max(extent.depth_m, texel_m);
+  const auto views = MeasureViews(geometry, options.directions, options.elevations_deg);
+  const float height_m = HeightOf(views);
+  if (!(height_m > 0)) return Fail("impostor: the avatar is flat; nothing stands upright in it");
+  const size_t most_bytes = static_cast<size_t>(options.memory_kb) * 1000;
+  const int wanted_px = options.height_px - 2 * options.border_px;
+  for (int inner_px = wanted_px; 2 * inner_px >= wanted_px; --inner_px) {
+    atlas->texel_m = height_m / static_cast<float>(inner_px);
+    if (!LayOutCells(views, options.border_px, atlas)) {
+      if (options.memory_kb == 0) return Fail(TooLarge(kMostAtlasPixels));
+      continue;
+    }
+    if (most_bytes == 0 || TextureMemory(atlas->width_px, atlas->height_px) <= most_bytes) break;
+    atlas->width_px = 0;
+  }
+  if (atlas->width_px == 0) return Fail("impostor: so many pictures do not fit into " + std::to_string(options.memory_kb) +
+                                        " kB; ask for fewer directions or phases, or for more memory");
+  for (const ViewBounds& view : views) atlas->depth_range_m = std::max(atlas->depth_range_m, view.depth_m);
+  atlas->depth_range_m = std::max(atlas->depth_range_m, atlas->texel_m);
+  atlas->motion_range_m = std::max(LongestMotion(geometry), atlas->texel_m);
   return Ok();
 }
 
@@ -89,6 +105,7 @@ Error WriteArray(const fs::path& path, const std::vector<Element>& elements) {
 Error WriteGeometry(const fs::path& folder, const ViewGeometry& geometry) {
   if (Error e = WriteArray(folder / "positions.f32", geometry.positions)) return e;
   if (Error e = WriteArray(folder / "normals.f32", geometry.normals)) return e;
+  if (Error e = WriteArray(folder / "motions.f32", geometry.motions)) return e;
   if (Error e = WriteArray(folder / "uvs.f32", geometry.uvs)) return e;
   if (Error e = WriteArray(folder / "colors.f32", geometry.colors)) return e;
   if (Error e = WriteArray(folder / "indices.u32", geometry.indices)) return e;
@@ -123,6 +140,20 @@ json MaterialSettings(const fs::path& folder, const Avatar& avatar, const ViewMa
           {"double_sided", material.double_sided}};
 }
 
+int BandRows(const ImpostorAtlas& atlas) { return std::clamp(kPicturePixels / atlas.width_px, 1, atlas.height_px); }
+
+json CellSettings(const ImpostorAtlas& atlas) {
+  json cells = json::array();
+  const size_t directions = static_cast<size_t>(atlas.directions), elevations = atlas.elevations_deg.size();
+  for (size_t i = 0; i < atlas.cells.size(); ++i) {
+    cells.push_back({{"frame", i / directions / elevations},
+                     {"direction", i % directions},
+                     {"elevation_deg", atlas.elevations_deg[i / directions % elevations]},
+                     {"origin_px", {atlas.cells[i].origin_x, atlas.cells[i].origin_y}}});
+  }
+  return cells;
+}
+
 json Settings(const fs::path& folder, const Avatar& avatar,
               const std::vector<ViewMaterial>& materials, const ViewGeometry& geometry,
               const ImpostorOptions& options, const ImpostorAtlas& atlas) {
@@ -138,76 +169,76 @@ json Settings(const fs::path& folder, const Avatar& avatar,
           {"frames", geometry.frames},
           {"materials", material_settings},
           {"directions", atlas.directions},
-          {"elevations_deg", atlas.elevations_deg},
-          {"cell_width_px", atlas.cell_width_px},
-          {"cell_height_px", atlas.cell_height_px},
-          {"window_width_m", atlas.window_width_m},
-          {"window_height_m", atlas.window_height_m},
-          {"bottom_m", atlas.bottom_m},
+          {"width_px", atlas.width_px},
+          {"height_px", atlas.height_px},
+          {"band_px", BandRows(atlas)},
+          {"texel_m", atlas.texel_m},
+          {"cells", CellSettings(atlas)},
           {"options", {{"samples", options.samples}}}};
 }
 
-fs::path FramePath(const fs::path& folder, int frame) {
-  std::string digits = std::to_string(frame);
+fs::path BandPath(const fs::path& folder, int band) {
+  std::string digits = std::to_string(band);
   digits.insert(0, 4 - std::min<size_t>(4, digits.size()), '0');
-  return folder / ("frame_" + digits + ".exr");
-}
-
-Pixels EmptyPixels(const ImpostorAtlas& atlas) {
-  Pixels pixels;
-  pixels.width = atlas.directions * atlas.cell_width_px;
-  pixels.height =
-      atlas.frames * static_cast<int>(atlas.elevations_deg.size()) * atlas.cell_height_px;
-  pixels.rgba.assign(4 * static_cast<size_t>(pixels.width) * static_cast<size_t>(pixels.height), 0);
-  return pixels;
+  return folder / ("band_" + digits + ".exr");
 }
 
 Error Assemble(const fs::path& folder, ImpostorAtlas* atlas, ImpostorStatistics* statistics) {
-  AtlasPixels pixels{EmptyPixels(*atlas), EmptyPixels(*atlas)};
-  const int frame_rows = static_cast<int>(atlas->elevations_deg.size()) * atlas->cell_height_px;
-  for (int frame = 0; frame < atlas->frames; ++frame) {
-    if (Error error = ReadLayers(FramePath(folder, frame), frame * frame_rows, atlas->depth_range_m,
-                                 &pixels)) {
-      return error;
-    }
+  AtlasLevel finest{atlas->width_px, atlas->height_px, {}};
+  finest.texels.resize(static_cast<size_t>(finest.width) * static_cast<size_t>(finest.height));
+  const int rows = BandRows(*atlas);
+  for (int first = 0; first < finest.height; first += rows) {
+    if (Error error = ReadLayers(BandPath(folder, first / rows), first, &finest)) return error;
   }
-  statistics->width_px = pixels.albedo.width;
-  statistics->height_px = pixels.albedo.height;
-  statistics->fill_rate = FillRate(pixels.albedo);
-  FillGutters(atlas->cell_width_px, atlas->cell_height_px, &pixels);
-  if (Error error = EncodePng(pixels.albedo, true, &atlas->albedo)) return error;
-  return EncodePng(pixels.normal, false, &atlas->normal);
+  statistics->width_px = finest.width;
+  statistics->height_px = finest.height;
+  statistics->fill_rate = CoveredShare(finest, 1e-6f);
+  statistics->memory_bytes = TextureMemory(finest.width, finest.height);
+  TurnIntoCells(*atlas, &finest);
+  std::vector<AtlasLevel> levels = MakeLevels(std::move(finest));
+  FillGutters(&levels);
+  KeepCoverage(&levels, kAtlasLevels);
+  CompressAtlas(levels, atlas);
+  return EncodeAtlas(levels.front(), atlas);
 }
 
 json Description(const ImpostorAtlas& atlas) {
-  json clips = json::array();
+  json clips = json::array(), cells = json::array();
   for (const ImpostorClip& clip : atlas.clips) {
     clips.push_back(
         {{"name", clip.name}, {"first_frame", clip.first_frame}, {"phases", clip.phases}});
   }
-  return {{"version", 1},
+  for (const ImpostorCell& c : atlas.cells) cells.push_back({c.x, c.y, c.width, c.height, c.origin_x, c.origin_y});
+  return {{"version", 2},
           {"directions", atlas.directions},
           {"elevations_deg", atlas.elevations_deg},
           {"frames", atlas.frames},
-          {"cell_width_px", atlas.cell_width_px},
-          {"cell_height_px", atlas.cell_height_px},
-          {"window_width_m", atlas.window_width_m},
-          {"window_height_m", atlas.window_height_m},
-          {"bottom_m", atlas.bottom_m},
+          {"width_px", atlas.width_px},
+          {"height_px", atlas.height_px},
+          {"texel_m", atlas.texel_m},
           {"depth_range_m", atlas.depth_range_m},
+          {"motion_range_m", atlas.motion_range_m},
           {"clips", clips},
-          {"albedo", "albedo.png"},
-          {"normal", "normal.png"}};
+          {"cells", cells},
+          {"albedo", "albedo.ktx2"},
+          {"normal", "normal.ktx2"},
+          {"depth", "depth.ktx2"},
+          {"motion", "motion.ktx2"}};
 }
 
 Error WriteFiles(const fs::path& folder, const ImpostorAtlas& atlas) {
   TemporaryFolder temporary;
   if (Error error = temporary.Create(".flaneur_impostor_", folder)) return error;
   const fs::path& from = temporary.path();
-  if (Error e = WriteFile(from / "albedo.png", atlas.albedo.bytes)) return e;
-  if (Error e = WriteFile(from / "normal.png", atlas.normal.bytes)) return e;
-  if (Error e = WriteTextFile(from / "impostor.json", Description(atlas).dump(2) + "\n")) return e;
-  for (const char* name : {"albedo.png", "normal.png", "impostor.json"}) {
+  const std::pair<const char*, const std::vector<uint8_t>*> files[] = {
+      {"albedo.png", &atlas.albedo.bytes}, {"normal.png", &atlas.normal.bytes}, {"albedo.ktx2", &atlas.albedo_ktx2},
+      {"normal.ktx2", &atlas.normal_ktx2}, {"depth.ktx2", &atlas.depth_ktx2},   {"motion.ktx2", &atlas.motion_ktx2}};
+  for (const auto& [name, bytes] : files) {
+    if (Error e = WriteFile(from / name, *bytes)) return e;
+  }
+  if (Error e = WriteTextFile(from / "impostor.json", Description(atlas).dump(1) + "\n")) return e;
+  for (const char* name :
+       {"albedo.png", "normal.png", "albedo.ktx2", "normal.ktx2", "depth.ktx2", "motion.ktx2", "impostor.json"}) {
     std::error_code code;
     fs::rename(from / name, folder / name, code);
     if (code) return Fail((folder / name).string() + ": cannot write: " + code.message());

@@ -45,6 +45,44 @@ Error AppendPose(const Avatar& avatar, const Clip& clip, float time_s, ViewGeome
   return Ok();
 }
 
+// Between two moments of the clip.
+void AppendMotion(const Avatar& avatar, const Clip& clip, float from_s, float to_s,
+                  ViewGeometry* geometry) {
+  const std::vector<Mat4> from = SkinningMatrices(avatar, clip, from_s);
+  const std::vector<Mat4> to = SkinningMatrices(avatar, clip, to_s);
+  for (const Mesh& mesh : avatar.meshes) {
+    const Mesh before = Skinned(mesh, from), after = Skinned(mesh, to);
+    for (size_t i = 0; i < before.positions.size(); ++i) {
+      geometry->motions.push_back(after.positions[i] - before.positions[i]);
+    }
+  }
+}
+
+// Vertices of triangles.
+std::vector<size_t> DrawnVertices(const ViewGeometry& geometry) {
+  std::vector<bool> drawn(geometry.uvs.size(), false);
+  for (uint32_t index : geometry.indices) drawn[index] = true;
+  std::vector<size_t> list;
+  for (size_t i = 0; i < drawn.size(); ++i) {
+    if (drawn[i]) list.push_back(i);
+  }
+  return list;
+}
+
+ViewBounds BoundsOf(const Vec3* positions, const std::vector<size_t>& drawn, const ViewAxes& axes) {
+  constexpr float kFar = 1e30f;
+  ViewBounds b{kFar, -kFar, kFar, -kFar, 0};
+  for (size_t i : drawn) {
+    const float right = Dot(positions[i], axes.right), up = Dot(positions[i], axes.up);
+    b.left_m = std::min(b.left_m, right);
+    b.right_m = std::max(b.right_m, right);
+    b.bottom_m = std::min(b.bottom_m, up);
+    b.top_m = std::max(b.top_m, up);
+    b.depth_m = std::max(b.depth_m, std::abs(Dot(positions[i], axes.near)));
+  }
+  return b;
+}
+
 std::string Names(const std::vector<ImpostorClipOptions>& clips) {
   std::string names;
   for (const ImpostorClipOptions& clip : clips) names += (names.empty() ? "" : ", ") + clip.name;
@@ -107,39 +145,45 @@ Error PoseFrames(const Avatar& avatar, const std::vector<ImpostorClipOptions>& c
     for (int phase = 0; phase < wanted.phases; ++phase) {
       const float time_s =
           clip->duration_s * static_cast<float>(phase) / static_cast<float>(wanted.phases);
+      const float half_s = clip->duration_s / static_cast<float>(2 * wanted.phases);
       if (Error error = AppendPose(avatar, *clip, time_s, geometry)) return error;
+      AppendMotion(avatar, *clip, time_s - half_s, time_s + half_s, geometry);
     }
   }
   if (geometry->frames == 0) return Fail(name + " has none of the clips " + Names(clips));
   return Ok();
 }
 
-ViewExtent MeasureExtent(const ViewGeometry& geometry, int directions,
-                         const std::vector<float>& elevations_deg) {
-  std::vector<bool> drawn(geometry.uvs.size(), false);
-  for (uint32_t index : geometry.indices) drawn[index] = true;
-  ViewExtent extent;
-  extent.bottom_m = extent.top_m = 0;
-  for (float elevation_deg : elevations_deg) {
-    const float elevation = elevation_deg * kPi / 180;
-    const float e_cos = std::cos(elevation), e_sin = std::sin(elevation);
-    for (int d = 0; d < directions; ++d) {
-      const float azimuth = 2 * kPi * static_cast<float>(d) / static_cast<float>(directions);
-      const float a_cos = std::cos(azimuth), a_sin = std::sin(azimuth);
-      for (size_t i = 0; i < geometry.positions.size(); ++i) {
-        if (!drawn[i % drawn.size()]) continue;
-        const Vec3 p = geometry.positions[i];
-        const float right = p.x * a_cos - p.z * a_sin;
-        const float near = p.x * a_sin + p.z * a_cos;
-        const float up = p.y * e_cos - near * e_sin;
-        extent.half_width_m = std::max(extent.half_width_m, std::abs(right));
-        extent.bottom_m = std::min(extent.bottom_m, up);
-        extent.top_m = std::max(extent.top_m, up);
-        extent.depth_m = std::max(extent.depth_m, std::abs(near * e_cos + p.y * e_sin));
+ViewAxes AxesOf(int direction, int directions, float elevation_deg) {
+  const float azimuth = 2 * kPi * static_cast<float>(direction) / static_cast<float>(directions);
+  const float elevation = elevation_deg * kPi / 180;
+  const float a_cos = std::cos(azimuth), a_sin = std::sin(azimuth);
+  const float e_cos = std::cos(elevation), e_sin = std::sin(elevation);
+  return {{a_cos, 0, -a_sin}, {-a_sin * e_sin, e_cos, -a_cos * e_sin}, {a_sin * e_cos, e_sin, a_cos * e_cos}};
+}
+
+std::vector<ViewBounds> MeasureViews(const ViewGeometry& geometry, int directions,
+                                     const std::vector<float>& elevations_deg) {
+  const std::vector<size_t> drawn = DrawnVertices(geometry);
+  std::vector<ViewBounds> all;
+  for (int frame = 0; frame < geometry.frames; ++frame) {
+    const Vec3* positions = &geometry.positions[static_cast<size_t>(frame) * geometry.uvs.size()];
+    for (float elevation_deg : elevations_deg) {
+      for (int d = 0; d < directions; ++d) {
+        all.push_back(BoundsOf(positions, drawn, AxesOf(d, directions, elevation_deg)));
       }
     }
   }
-  return extent;
+  return all;
+}
+
+float LongestMotion(const ViewGeometry& geometry) {
+  const std::vector<size_t> drawn = DrawnVertices(geometry);
+  float longest = 0;
+  for (size_t first = 0; first < geometry.motions.size(); first += geometry.uvs.size()) {
+    for (size_t i : drawn) longest = std::max(longest, Length(geometry.motions[first + i]));
+  }
+  return longest;
 }
 
 }  // namespace flaneur

@@ -10,12 +10,12 @@
 
 namespace flaneur {
 
-// Positions and normals stand frame by frame, each frame as long as uvs and colors. glTF axes,
-// metres.
+// Positions, normals and motions stand frame by frame, each frame as long as uvs and colors. glTF
+// axes, metres. A motion is the way from half a phase before the frame to half a phase after it.
 struct ViewGeometry {
   int frames = 0;
   std::vector<ImpostorClip> clips;
-  std::vector<Vec3> positions, normals;
+  std::vector<Vec3> positions, normals, motions;
   std::vector<Vec2> uvs;            // (0, 0) where the mesh has none
   std::vector<Vec4> colors;         // linear; vertex colour x base colour
   std::vector<uint32_t> indices;    // triangles
@@ -29,12 +29,12 @@ struct ViewMaterial {
   bool double_sided = false;
 };
 
-// Extent over all frames, directions and elevations, about the point between the feet.
-struct ViewExtent {
-  float half_width_m = 0;         // to either side of the axis
-  float bottom_m = 0, top_m = 0;  // along the camera's up axis
-  float depth_m = 0;              // towards the camera or away from it
-};
+// What one picture shows, about the point between the feet: to the right, along the camera's up
+// axis, and how far towards the camera or away from it.
+struct ViewBounds { float left_m = 0, right_m = 0, bottom_m = 0, top_m = 0, depth_m = 0; };
+
+// A camera's axes in the avatar's.
+struct ViewAxes { Vec3 right, up, near; };
 
 // One a mesh, in their order. Textures that cannot be used are left out with a warning.
 std::vector<ViewMaterial> ViewMaterials(const Avatar& avatar, std::vector<std::string>* warnings);
@@ -44,7 +44,13 @@ std::vector<ViewMaterial> ViewMaterials(const Avatar& avatar, std::vector<std::s
 Error PoseFrames(const Avatar& avatar, const std::vector<ImpostorClipOptions>& clips,
                  ViewGeometry* geometry);
 
-ViewExtent MeasureExtent(const ViewGeometry& geometry, int directions,
-                         const std::vector<float>& elevations_deg);
+ViewAxes AxesOf(int direction, int directions, float elevation_deg);
+
+// One a cell, in the order of ImpostorAtlas::cells.
+std::vector<ViewBounds> MeasureViews(const ViewGeometry& geometry, int directions,
+                                     const std::vector<float>& elevations_deg);
+
+// The longest motion of a drawn vertex along any axis.
+float LongestMotion(const ViewGeometry& geometry);
 
 }  // namespace flaneur

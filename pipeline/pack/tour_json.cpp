@@ -49,7 +49,7 @@ Json SettingsJson(Settings settings) {
   return json;
 }
 
-Json ImpostorJson(const ImpostorAtlas& atlas, int albedo_image, int normal_image) {
+Json ImpostorJson(const ImpostorAtlas& atlas, const ImpostorViews& views) {
   Json clips = Json::array(), elevations = Json::array();
   for (const ImpostorClip& clip : atlas.clips) {
     clips.push_back({{"name", clip.name}, {"first_frame", clip.first_frame}, {"phases", clip.phases}});
@@ -58,18 +58,20 @@ Json ImpostorJson(const ImpostorAtlas& atlas, int albedo_image, int normal_image
   return {{"directions", atlas.directions},
           {"elevations_deg", elevations},
           {"frames", atlas.frames},
-          {"cell_width_px", atlas.cell_width_px},
-          {"cell_height_px", atlas.cell_height_px},
-          {"window_width_m", Short(atlas.window_width_m)},
-          {"window_height_m", Short(atlas.window_height_m)},
-          {"bottom_m", Short(atlas.bottom_m)},
+          {"width_px", atlas.width_px},
+          {"height_px", atlas.height_px},
+          {"texel_m", Short(atlas.texel_m)},
           {"depth_range_m", Short(atlas.depth_range_m)},
+          {"motion_range_m", Short(atlas.motion_range_m)},
           {"clips", clips},
-          {"albedo_image", albedo_image},
-          {"normal_image", normal_image}};
+          {"cells_view", views.cells},
+          {"albedo_view", views.albedo},
+          {"normal_view", views.normal},
+          {"depth_view", views.depth},
+          {"motion_view", views.motion}};
 }
 
-Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, int albedo_image, int normal_image) {
+Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const ImpostorViews& views) {
   const Avatar& person = avatar.levels.avatar;
   Json levels = Json::array(), clips = Json::object();
   for (size_t i = 0; i < avatar.levels.levels.size(); ++i) {
@@ -92,7 +94,7 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, int albedo_ima
           {"walk_speed_mps", Short(person.walk_speed_mps)},
           {"clips", clips},
           {"levels", levels},
-          {"impostor", ImpostorJson(avatar.impostor, albedo_image, normal_image)}};
+          {"impostor", ImpostorJson(avatar.impostor, views)}};
 }
 
 Json ObstacleJson(const Obstacle& obstacle) {
@@ -116,8 +118,7 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   Json tour{{"version", kTourPackVersion}, {"name", parts.name}};
   tour["avatars"] = Json::array();
   for (size_t i = 0; i < parts.avatars.size(); ++i) {
-    tour["avatars"].push_back(
-        AvatarJson(parts.avatars[i], indices.avatars[i], indices.albedo_images[i], indices.normal_images[i]));
+    tour["avatars"].push_back(AvatarJson(parts.avatars[i], indices.avatars[i], indices.impostors[i]));
   }
   tour["obstacles"] = Json::array();
   for (const Obstacle& o : parts.footprints.obstacles) tour["obstacles"].push_back(ObstacleJson(o));

@@ -98,6 +98,20 @@ Error AddTown(const Scene& town, GltfBuilder* builder) {
   return Ok();
 }
 
+ImpostorViews AddImpostor(const ImpostorAtlas& atlas, GltfBuilder* builder) {
+  std::vector<int16_t> cells;
+  for (const ImpostorCell& c : atlas.cells) {
+    for (int number : {c.x, c.y, c.width, c.height, c.origin_x, c.origin_y}) cells.push_back(static_cast<int16_t>(number));
+  }
+  ImpostorViews views;
+  views.cells = builder->AddBufferView({reinterpret_cast<const uint8_t*>(cells.data()), cells.size() * sizeof(int16_t)});
+  views.albedo = builder->AddBufferView(atlas.albedo_ktx2);
+  views.normal = builder->AddBufferView(atlas.normal_ktx2);
+  views.depth = builder->AddBufferView(atlas.depth_ktx2);
+  views.motion = builder->AddBufferView(atlas.motion_ktx2);
+  return views;
+}
+
 Error AddAvatars(const TourParts& parts, GltfBuilder* builder, TourIndices* indices) {
   for (const TourAvatar& avatar : parts.avatars) {
     const std::string& name = avatar.levels.avatar.name;
@@ -106,8 +120,7 @@ Error AddAvatars(const TourParts& parts, GltfBuilder* builder, TourIndices* indi
     const int roots[] = {part.skeleton_node, part.level_nodes.front()};
     builder->AddScene(name, roots);
     indices->avatars.push_back(std::move(part));
-    indices->albedo_images.push_back(builder->AddImage(avatar.impostor.albedo));
-    indices->normal_images.push_back(builder->AddImage(avatar.impostor.normal));
+    indices->impostors.push_back(AddImpostor(avatar.impostor, builder));
   }
   return Ok();
 }

@@ -13,6 +13,7 @@ struct LikenessArguments {
   std::filesystem::path pack, output;
   std::vector<std::string> avatars;
   std::string clip = "walk";
+  int supersampling = 1;
   MeasureOptions measure;
 };
 
@@ -30,6 +31,9 @@ int Parse(int argc, char** argv, LikenessArguments* a) {
   app.add_option("--phases", a->measure.phases, "Moments of the clip")->check(CLI::Range(1, 256));
   app.add_option("--suns", a->measure.suns, "Directions of the sun")->check(CLI::Range(1, 3));
   app.add_option("--between", a->measure.between, "Moves headings and phases on by so much of their spacing")->check(CLI::Range(0.0, 1.0));
+  app.add_option("--supersampling", a->supersampling, "Pixels a pixel and side: 1 keeps the player's own noise in both pictures")
+      ->check(CLI::Range(1, 8));
+  app.add_flag("--impostors", a->measure.impostors_only, "Leave the coarser levels out");
   app.add_option("--clip", a->clip, "Which clip")->check(CLI::IsMember({"walk", "idle", "talk"}));
   try {
     app.parse(argc, argv);
@@ -75,7 +79,7 @@ Error Run(const LikenessArguments& a) {
   HeadlessContext context;
   if (Error e = context.Create()) return e;
   PortraitStudio studio;
-  if (Error e = studio.Create(std::move(pack))) return e;
+  if (Error e = studio.Create(std::move(pack), a.supersampling)) return e;
   std::printf("avatar         level        px dE mean   worst    whole IoU mean    worst  normal\n");
   std::string csv = "avatar,level,person_px,delta_e_mean,delta_e_worst,delta_e_whole_mean,delta_e_whole_worst,iou_mean,iou_worst,"
                     "normal_deg_mean,normal_deg_worst\n";

@@ -12,6 +12,7 @@ struct MeasureOptions {
   int headings = 32, phases = 8, suns = 3;  // 1 or more each; at most 3 suns
   float between = 0;         // moves every phase and every heading on by so much of their spacing
   ClipKind clip = ClipKind::kWalk;
+  bool impostors_only = false;
   int sheet_columns = 8;
 };
 

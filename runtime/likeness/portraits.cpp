@@ -31,19 +31,42 @@ FrameInput FrameOf(const TourPack& pack, const PortraitMoment& m, int level, flo
   return frame;
 }
 
+// Means of squares of factor x factor pixels.
+std::vector<uint8_t> Reduced(const std::vector<uint8_t>& fine, size_t size_px, size_t factor) {
+  std::vector<uint8_t> out(size_px * size_px * 4);
+  const size_t area = factor * factor, row = size_px * factor * 4;
+  for (size_t i = 0; i < out.size(); ++i) {
+    const size_t x = i / 4 % size_px, y = i / 4 / size_px;
+    size_t sum = area / 2;
+    for (size_t k = 0; k < area; ++k) sum += fine[(y * factor + k / factor) * row + (x * factor + k % factor) * 4 + i % 4];
+    out[i] = static_cast<uint8_t>(sum / area);
+  }
+  return out;
+}
+
 int PictureSize_px(float person_px) { return 16 * static_cast<int>(std::ceil(person_px * kMargin / 16)); }
 
 }  // namespace
 
 struct PortraitStudio::Impl {
   TourPack pack;
+  int supersampling = 1;
   Renderer lit, normals;
+  std::vector<uint8_t> fine;
+
+  void Shoot(const FrameInput& frame, int size_px, Renderer* renderer, std::vector<uint8_t>* rgba) {
+    FrameStatistics unused;
+    renderer->Draw(frame, size_px * supersampling, size_px * supersampling, &unused);
+    renderer->ReadWithAlpha(supersampling > 1 ? &fine : rgba);
+    if (supersampling > 1) *rgba = Reduced(fine, static_cast<size_t>(size_px), static_cast<size_t>(supersampling));
+  }
 };
 
 PortraitStudio::PortraitStudio() : impl_(std::make_unique<Impl>()) {}
 PortraitStudio::~PortraitStudio() = default;
 
-Error PortraitStudio::Create(TourPack pack) {
+Error PortraitStudio::Create(TourPack pack, int supersampling) {
+  impl_->supersampling = supersampling;
   impl_->pack = std::move(pack);
   impl_->pack.town.clear();
   RenderOptions options;
@@ -55,25 +78,20 @@ Error PortraitStudio::Create(TourPack pack) {
 
 void PortraitStudio::Draw(const PortraitMoment& moment, int level, float person_px, Portrait* portrait) {
   portrait->size_px = PictureSize_px(person_px);
-  FrameStatistics unused;
-  const FrameInput frame = FrameOf(impl_->pack, moment, level, person_px, portrait->size_px);
-  impl_->normals.Draw(frame, portrait->size_px, portrait->size_px, &unused);
-  impl_->normals.ReadWithAlpha(&portrait->normals);
+  impl_->Shoot(FrameOf(impl_->pack, moment, level, person_px, portrait->size_px), portrait->size_px, &impl_->normals,
+               &portrait->normals);
   Relight(moment, level, person_px, portrait);
 }
 
 void PortraitStudio::Relight(const PortraitMoment& moment, int level, float person_px, Portrait* portrait) {
-  FrameStatistics unused;
-  const FrameInput frame = FrameOf(impl_->pack, moment, level, person_px, portrait->size_px);
-  impl_->lit.Draw(frame, portrait->size_px, portrait->size_px, &unused);
-  impl_->lit.ReadWithAlpha(&portrait->rgba);
+  impl_->Shoot(FrameOf(impl_->pack, moment, level, person_px, portrait->size_px), portrait->size_px, &impl_->lit, &portrait->rgba);
 }
 
 const TourPack& PortraitStudio::pack() const { return impl_->pack; }
 
 float PortraitStudio::ImpostorSwitch_px(int avatar) const {
   const PackAvatar& a = impl_->pack.avatars[static_cast<size_t>(avatar)];
-  return a.height_m / a.impostor.window_height_m * static_cast<float>(a.impostor.cell_height_px);
+  return a.height_m / a.impostor.texel_m;
 }
 
 }  // namespace flaneur

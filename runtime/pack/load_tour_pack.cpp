@@ -13,6 +13,7 @@
 #include "runtime/base/parallel.h"
 #include "runtime/base/text.h"
 #include "runtime/pack/gltf_file.h"
+#include "runtime/pack/ktx2.h"
 #include "runtime/pack/read_clip.h"
 #include "runtime/pack/read_mesh.h"
 #include "runtime/pack/settings_fields.h"
@@ -123,18 +124,30 @@ void ReadTown(const GltfFile& file, MeshTable* meshes, TourPack* pack) {
   }
 }
 
-PackImpostor ReadImpostor(const TourObject& json, size_t images) {
+std::vector<PackImpostorCell> ReadCells(std::span<const uint8_t> bytes, const PackImpostor& impostor) {
+  const size_t count = static_cast<size_t>(impostor.directions) * static_cast<size_t>(impostor.frames) * impostor.elevations_deg.size();
+  if (bytes.size() != count * sizeof(PackImpostorCell)) throw PackRefused("has an impostor with a wrong number of cells");
+  std::vector<PackImpostorCell> cells(count);
+  std::memcpy(cells.data(), bytes.data(), bytes.size());
+  for (const PackImpostorCell& c : cells) {
+    if (c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x + c.width > impostor.width_px || c.y + c.height > impostor.height_px) {
+      throw PackRefused("has an impostor with a cell outside its atlas");
+    }
+  }
+  return cells;
+}
+
+PackImpostor ReadImpostor(const GltfFile& file, const TourObject& json) {
   constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
   PackImpostor out;
   out.directions = json.Whole("directions", 1, 1024);
   out.frames = json.Whole("frames", 1, 4096);
   out.elevations_deg = json.Reals("elevations_deg", -90, 90);
-  out.cell_width_px = json.Whole("cell_width_px", 1, kMaxImageSide_px);
-  out.cell_height_px = json.Whole("cell_height_px", 1, kMaxImageSide_px);
-  out.window_width_m = json.Real("window_width_m", kAboveZero, kAnything);
-  out.window_height_m = json.Real("window_height_m", kAboveZero, kAnything);
-  out.bottom_m = json.Real("bottom_m");
+  out.width_px = json.Whole("width_px", 1, kMaxImageSide_px);
+  out.height_px = json.Whole("height_px", 1, kMaxImageSide_px);
+  out.texel_m = json.Real("texel_m", kAboveZero, kAnything);
   out.depth_range_m = json.Real("depth_range_m", kAboveZero, kAnything);
+  out.motion_range_m = json.Real("motion_range_m", kAboveZero, kAnything);
   for (const TourObject& c : json.Objects("clips")) {
     const PackImpostorClip clip{c.OneOf("name", {"walk", "idle", "talk"}), c.Whole("first_frame", 0, 4095),
                                 c.Whole("phases", 1, 4096)};
@@ -142,22 +155,27 @@ PackImpostor ReadImpostor(const TourObject& json, size_t images) {
     out.clips.push_back(clip);
   }
   if (out.clips.empty()) json.Refuse("has no clips");
-  out.albedo_image = json.Whole("albedo_image", 0, static_cast<double>(images) - 1);
-  out.normal_image = json.Whole("normal_image", 0, static_cast<double>(images) - 1);
+  const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
+  out.cells = ReadCells(BufferView(file, json.Whole("cells_view", 0, last)), out);
   return out;
 }
 
-// Every cell of the atlas lies in both images.
-void CheckAtlas(const PackImpostor& impostor, const std::vector<PackImage>& images) {
-  const int64_t width = int64_t{impostor.directions} * impostor.cell_width_px;
-  const int64_t height = int64_t{impostor.frames} * static_cast<int64_t>(impostor.elevations_deg.size()) *
-                         impostor.cell_height_px;
-  for (int i : {impostor.albedo_image, impostor.normal_image}) {
-    const PackImage& image = images[static_cast<size_t>(i)];
-    if (width < 1 || height < 1 || width > image.width_px || height > image.height_px) {
-      throw PackRefused("has an impostor whose cells do not fit in image " + std::to_string(i));
-    }
+// `halved`: how often the picture's sides are half the atlas's.
+void ReadAtlasPicture(const GltfFile& file, const TourObject& json, const char* view, TextureFormat format,
+                      const PackImpostor& impostor, int halved, PackTexture* picture) {
+  const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
+  if (Error e = ReadKtx2(BufferView(file, json.Whole(view, 0, last)), picture)) json.Refuse(std::string(view) + " " + e.message);
+  if (picture->format != format || picture->width_px != impostor.width_px >> halved ||
+      picture->height_px != impostor.height_px >> halved) {
+    json.Refuse(std::string(view) + " is a picture of another format or size than the atlas");
   }
+}
+
+void ReadAtlas(const GltfFile& file, const TourObject& json, PackImpostor* impostor) {
+  ReadAtlasPicture(file, json, "albedo_view", TextureFormat::kBc7Srgb, *impostor, 0, &impostor->albedo);
+  ReadAtlasPicture(file, json, "normal_view", TextureFormat::kBc5, *impostor, 0, &impostor->normal);
+  ReadAtlasPicture(file, json, "depth_view", TextureFormat::kBc4, *impostor, 0, &impostor->depth);
+  ReadAtlasPicture(file, json, "motion_view", TextureFormat::kBc5, *impostor, 1, &impostor->motion);
 }
 
 void CheckJoints(const PackMesh& mesh, int joints) {
@@ -170,7 +188,7 @@ void CheckJoints(const PackMesh& mesh, int joints) {
   }
 }
 
-PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* meshes) {
+PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, const LoadOptions& options, MeshTable* meshes) {
   constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
   PackAvatar avatar;
   avatar.name = json.Text("name");
@@ -202,7 +220,8 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   avatar.walk = clip("walk");
   avatar.idle = clips.Has("idle") ? clip("idle") : ReadClip(file, skin, -1);
   avatar.talk = clips.Has("talk") ? clip("talk") : avatar.idle;
-  avatar.impostor = ReadImpostor(json.Object("impostor"), file.json.value("images", Json::array()).size());
+  avatar.impostor = ReadImpostor(file, json.Object("impostor"));
+  if (options.geometry_and_images) ReadAtlas(file, json.Object("impostor"), &avatar.impostor);
   return avatar;
 }
 
@@ -284,7 +303,6 @@ void DecodeGeometryAndImages(const GltfFile& file, const std::vector<int>& meshe
   });
   for (const PackAvatar& avatar : pack->avatars) {
     for (const PackLevel& level : avatar.levels) CheckJoints(pack->meshes[static_cast<size_t>(level.mesh)], avatar.joints);
-    CheckAtlas(avatar.impostor, pack->images);
   }
 }
 
@@ -306,7 +324,7 @@ void Load(std::vector<uint8_t> bytes, const LoadOptions& options, TourPack* pack
   for (const Json& m : file.json.value("materials", Json::array())) pack->materials.push_back(ReadMaterial(file, m));
   MeshTable meshes;
   ReadTown(file, &meshes, pack);
-  for (const TourObject& a : tour.Objects("avatars")) pack->avatars.push_back(ReadAvatar(file, a, &meshes));
+  for (const TourObject& a : tour.Objects("avatars")) pack->avatars.push_back(ReadAvatar(file, a, options, &meshes));
   if (pack->avatars.empty()) tour.Refuse("has no avatars");
   pack->meshes.resize(meshes.used().size());
   if (options.geometry_and_images) DecodeGeometryAndImages(file, meshes.used(), pack);

@@ -11,10 +11,11 @@
 
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
+#include "runtime/pack/texture.h"
 
 namespace flaneur {
 
-inline constexpr int kTourPackVersion = 1;
+inline constexpr int kTourPackVersion = 2;
 inline constexpr const char* kTourExtension = "FLANEUR_tour";
 
 struct PackImage {           // decoded, 8 bits a channel
@@ -65,14 +66,17 @@ struct PackLevel {
 
 struct PackImpostorClip { std::string name; int first_frame = 0, phases = 0; };
 
-// Meaning of the fields: pipeline/core/impostor.h says how an atlas is laid out.
+struct PackImpostorCell { int16_t x = 0, y = 0, width = 0, height = 0, origin_x = 0, origin_y = 0; };
+
+// Meaning of the fields: docs/pack-format.md says how an atlas is laid out.
 struct PackImpostor {
   int directions = 0, frames = 0;
   std::vector<float> elevations_deg;
-  int cell_width_px = 0, cell_height_px = 0;
-  float window_width_m = 0, window_height_m = 0, bottom_m = 0, depth_range_m = 0;
+  int width_px = 0, height_px = 0;
+  float texel_m = 0, depth_range_m = 0, motion_range_m = 0;
   std::vector<PackImpostorClip> clips;
-  int albedo_image = -1, normal_image = -1;  // indices into TourPack::images
+  std::vector<PackImpostorCell> cells;
+  PackTexture albedo, normal, depth, motion;  // without levels where a pack is loaded without its pictures
 };
 
 struct PackAvatar {

@@ -22,8 +22,7 @@ void TakePack(const TourPack& pack, Simulation* s) {
     AvatarCosts costs;
     for (const PackLevel& level : avatar.levels) costs.levels.push_back({level.triangles, level.switch_px});
     costs.height_m = avatar.height_m;
-    costs.impostor_px = static_cast<float>(avatar.impostor.cell_height_px) * avatar.height_m /
-                        std::max(0.1f, avatar.impostor.window_height_m);
+    costs.impostor_px = avatar.height_m / avatar.impostor.texel_m;
     s->avatar_names.push_back(avatar.name);
     s->avatar_costs.push_back(costs);
     s->avatar_share.push_back(avatar.share);

@@ -30,7 +30,7 @@ void NamePlaces(GLuint program) {
   const GLuint block = glGetUniformBlockIndex(program, "Frame");
   if (block != GL_INVALID_INDEX) glUniformBlockBinding(program, block, kFrameBinding);
   const struct { const char* name; TextureUnit unit; } samplers[] = {
-      {"u_texture", kColorUnit}, {"u_normals", kNormalsUnit}, {"u_poses", kPosesUnit},
+      {"u_texture", kColorUnit}, {"u_normals", kNormalsUnit}, {"u_depth", kDepthUnit}, {"u_motion", kMotionUnit}, {"u_poses", kPosesUnit},
       {"u_town_shadow_map", kTownShadowUnit}, {"u_people_shadow_map", kPeopleShadowUnit}};
   for (const auto& s : samplers) glUniform1i(glGetUniformLocation(program, s.name), s.unit);
 }

@@ -11,7 +11,7 @@
 namespace flaneur {
 
 // Places that all programs share: sampler uniforms get their unit, the block Frame its binding, at linking.
-enum TextureUnit { kColorUnit, kNormalsUnit, kPosesUnit, kTownShadowUnit, kPeopleShadowUnit };
+enum TextureUnit { kColorUnit, kNormalsUnit, kDepthUnit, kMotionUnit, kPosesUnit, kTownShadowUnit, kPeopleShadowUnit };
 
 // The uniform block Frame of shaders.h, in its std140 layout.
 struct FrameBlock {

@@ -8,6 +8,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kSunDistance_m = 500;
+constexpr float kMeshShadow_m = 20;  // nearer impostors cast their coarsest mesh's shadow: it does not change when they do
 
 ClipRows RowsOf(const PackClip& clip) {
   ClipRows out;
@@ -49,7 +50,7 @@ size_t AddPose(const DrawnPerson& person, const AvatarLayout& avatar, PeopleBatc
 // A mesh faces glTF's +Z; turned about the vertical by heading + 90 degrees it faces the heading.
 PersonInstance Placed(const DrawnPerson& person, float row) {
   const Vec3 p = GltfFromGround(person.position);
-  return {{p.x, p.y, p.z, person.heading_rad + kPi / 2}, {row, person.share_from, person.share_to}, {}, {}};
+  return {{p.x, p.y, p.z, person.heading_rad + kPi / 2}, {row, person.share_from, person.share_to, 0}, {}, {}, {}, {}, {}};
 }
 
 const PackImpostorClip& ImpostorClip(const PackImpostor& atlas, ClipKind kind) {
@@ -66,20 +67,49 @@ size_t NearestElevation(const PackImpostor& atlas, float elevation_deg) {
   return static_cast<size_t>(nearest - atlas.elevations_deg.begin());
 }
 
+// The view that `direction` (with a fraction) lies before, and the next one.
+void SetViews(const PackImpostor& atlas, size_t first_cell, float direction, PersonInstance* out) {
+  // Beyond the silhouettes of both lie those between them, and what perspective and motion make larger.
+  constexpr float kAround_px = 4;
+  const int d0 = static_cast<int>(direction) % atlas.directions;
+  const int views[2] = {d0, (d0 + 1) % atlas.directions};
+  float origins[4], azimuths[2];
+  Vec4 window{0, 0, 0, 0};
+  for (size_t k = 0; k < 2; ++k) {
+    const PackImpostorCell& cell = atlas.cells[first_cell + static_cast<size_t>(views[k])];
+    const float left = cell.x, top = cell.y, right = left + cell.width, bottom = top + cell.height;
+    out->cells[k] = {left, top, right, bottom};
+    origins[2 * k] = cell.origin_x;
+    origins[2 * k + 1] = cell.origin_y;
+    azimuths[k] = 2 * kPi * static_cast<float>(views[k]) / static_cast<float>(atlas.directions);
+    window.x = std::min(window.x, left - origins[2 * k]);
+    window.y = std::min(window.y, origins[2 * k + 1] - bottom);
+    window.z = std::max(window.z, right - origins[2 * k]);
+    window.w = std::max(window.w, origins[2 * k + 1] - top);
+  }
+  out->origins = {origins[0], origins[1], origins[2], origins[3]};
+  out->views.x = azimuths[0];
+  out->views.y = azimuths[1];
+  out->window = {(window.x - kAround_px) * atlas.texel_m, (window.y - kAround_px) * atlas.texel_m,
+                 (window.z + kAround_px) * atlas.texel_m, (window.w + kAround_px) * atlas.texel_m};
+  out->look.w = direction - std::floor(direction);
+}
+
 PersonInstance AsImpostor(const DrawnPerson& person, const PackImpostor& atlas, Vec3 eye) {
   const Vec3 from = GroundFromGltf(eye) - person.position;
   const float distance = std::max(std::sqrt(from.x * from.x + from.y * from.y), 1e-3f);
   const ClipMoment& moment = person.other_share > 0.5f ? person.other : person.moment;
   const PackImpostorClip& clip = ImpostorClip(atlas, moment.clip);
-  const int phase = static_cast<int>(moment.phase * static_cast<float>(clip.phases) + 0.5f) % clip.phases;
+  const float at = moment.phase * static_cast<float>(clip.phases), nearest = std::floor(at + 0.5f);
+  const int phase = static_cast<int>(nearest) % clip.phases;
   const size_t elevation = NearestElevation(atlas, std::atan2(from.z, distance) * 180 / kPi);
+  const float elevation_rad = atlas.elevations_deg[elevation] * kPi / 180;
   const size_t row = static_cast<size_t>(clip.first_frame + phase) * atlas.elevations_deg.size() + elevation;
 
-  PersonInstance out = Placed(person, static_cast<float>(row));
+  PersonInstance out = Placed(person, at - nearest);
   const float turn = (std::atan2(from.y, from.x) - person.heading_rad) / (2 * kPi);
-  const float direction = (turn - std::floor(turn)) * static_cast<float>(atlas.directions);
-  const int d0 = static_cast<int>(direction) % atlas.directions;
-  out.cells = {static_cast<float>(d0), static_cast<float>((d0 + 1) % atlas.directions), direction - std::floor(direction)};
+  out.views = {0, 0, std::sin(elevation_rad), std::cos(elevation_rad)};
+  SetViews(atlas, row * static_cast<size_t>(atlas.directions), (turn - std::floor(turn)) * static_cast<float>(atlas.directions), &out);
   // Right of the view from the eye: ahead turned clockwise; on the ground (x, y), then glTF's (x, z).
   out.right = {-from.y / distance, -from.x / distance};
   return out;
@@ -104,8 +134,11 @@ void AddBatches(std::vector<PeopleBatches::Entry>* entries, std::vector<PersonIn
 }  // namespace
 
 AvatarLayout LayoutOf(const PackAvatar& avatar) {
-  return {avatar.joints, static_cast<int>(avatar.levels.size()), {RowsOf(avatar.walk), RowsOf(avatar.idle), RowsOf(avatar.talk)},
-          avatar.impostor};
+  AvatarLayout layout{avatar.joints, static_cast<int>(avatar.levels.size()), {RowsOf(avatar.walk), RowsOf(avatar.idle), RowsOf(avatar.talk)},
+                      avatar.impostor};
+  PackImpostor& atlas = layout.impostor;
+  for (PackTexture* picture : {&atlas.albedo, &atlas.normal, &atlas.depth, &atlas.motion}) picture->levels.clear();
+  return layout;
 }
 
 void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<AvatarLayout>& avatars, Vec3 eye, Vec3 to_sun,
@@ -118,7 +151,8 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     const DrawnPerson& person = people[i];
     const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];
     const int level = std::min(person.level, avatar.levels - 1);
-    if (level >= 0) meshes[i] = Placed(person, static_cast<float>(AddPose(person, avatar, out)));
+    const bool near = Length(GltfFromGround(person.position) - eye) < kMeshShadow_m;
+    if (level >= 0 || near) meshes[i] = Placed(person, static_cast<float>(AddPose(person, avatar, out)));
     const bool fades = person.share_from > 0 || person.share_to < 1;
     out->entries.push_back({{person.avatar, level, fades, 0, 0}, level >= 0 ? meshes[i] : AsImpostor(person, avatar.impostor, eye)});
   }
@@ -127,9 +161,12 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     const DrawnPerson& person = people[i];
     const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];
     const bool half = person.share_to - person.share_from >= 0.5f;  // of the two of a fade one casts the shadow
-    if (!half || Length(GltfFromGround(person.position) - eye) > shadow_reach_m) continue;
+    const float distance_m = Length(GltfFromGround(person.position) - eye);
+    if (!half || distance_m > shadow_reach_m) continue;
     // A shadow shows less than the person: the next coarser mesh but the coarsest does.
-    const int level = person.level < 0 ? -1 : std::max(std::min(person.level, avatar.levels - 1), avatar.levels - 2);
+    const int level = person.level >= 0           ? std::max(std::min(person.level, avatar.levels - 1), avatar.levels - 2)
+                      : distance_m < kMeshShadow_m ? avatar.levels - 1
+                                                   : -1;
     out->entries.push_back({{person.avatar, level, false, 0, 0},
                             level >= 0 ? meshes[i] : AsImpostor(person, avatar.impostor, eye + to_sun * kSunDistance_m)});
   }

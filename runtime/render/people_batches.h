@@ -23,9 +23,14 @@ AvatarLayout LayoutOf(const PackAvatar& avatar);
 // Of one person, as a mesh or as an impostor.
 struct PersonInstance {
   Vec4 place;              // position in glTF axes, turn about the vertical
-  Vec3 look;               // row (of the poses, of the atlas), share of the pattern from, to
-  Vec3 cells;              // impostor: two columns and how far between them
-  Vec2 right;              // impostor: to the right on the ground, glTF's x and z
+  Vec4 look;               // mesh: row of the poses; impostor: phases since its picture; share of the pattern from, to; and,
+                           // impostor: how far between its two views
+  // Of an impostor alone.
+  Vec4 views;              // azimuths of its two views, sine and cosine of their elevation
+  std::array<Vec4, 2> cells;  // their cells: left, top, right, bottom, in texels
+  Vec4 origins;            // where in them the point between the feet is: x, y, x, y, in texels
+  Vec4 window;             // what the two show together about that point: left, bottom, right, top, in metres
+  Vec2 right;              // to the right on the ground, glTF's x and z
 };
 
 // One draw: instances first ... first + count - 1 of one avatar at one level (-1: impostor).

@@ -54,25 +54,26 @@ PersonLevel UploadLevel(const TourPack& pack, const PackMesh& mesh, const std::v
   return level;
 }
 
-AvatarView UploadAvatar(const TourPack& pack, const PackAvatar& avatar, const std::vector<GLuint>& textures,
-                        const std::vector<Surface>& surfaces) {
+AvatarView UploadAvatar(const TourPack& pack, const PackAvatar& avatar, const std::vector<Surface>& surfaces) {
   AvatarView view;
   for (const PackLevel& level : avatar.levels) {
     view.levels.push_back(UploadLevel(pack, pack.meshes[static_cast<size_t>(level.mesh)], surfaces));
   }
   const PackImpostor& atlas = avatar.impostor;
-  const PackImage& image = pack.images[static_cast<size_t>(atlas.albedo_image)];
-  view.albedo = textures[static_cast<size_t>(atlas.albedo_image)];
-  view.normals = textures[static_cast<size_t>(atlas.normal_image)];
-  view.window = {atlas.window_width_m, atlas.window_height_m, atlas.bottom_m};
-  const float width = static_cast<float>(image.width_px), height = static_cast<float>(image.height_px);
-  view.cell = {static_cast<float>(atlas.cell_width_px) / width, static_cast<float>(atlas.cell_height_px) / height,
-               0.5f / width, 0.5f / height};
+  const bool decode = DrawsInSoftware();
+  view.albedo = UploadAtlasPicture(atlas.albedo, decode);
+  view.normals = UploadAtlasPicture(atlas.normal, decode);
+  view.depth = UploadAtlasPicture(atlas.depth, decode);
+  view.motion = UploadAtlasPicture(atlas.motion, decode);
+  view.atlas = {1 / (atlas.texel_m * static_cast<float>(atlas.width_px)), 1 / (atlas.texel_m * static_cast<float>(atlas.height_px)),
+                static_cast<float>(atlas.width_px), static_cast<float>(atlas.height_px)};
+  view.ranges = {atlas.depth_range_m, atlas.motion_range_m, 0};
   return view;
 }
 
 Error BuildPrograms(const std::string& defines, PeopleView* people) {
   const std::string vertex = std::string(kFrame) + kPersonVertex, impostor_vertex = std::string(kFrame) + kImpostorVertex;
+  const std::string views = defines + kFrame + kImpostorViews;
   for (int masked = 0; masked < 2; ++masked) {
     const std::string mask = masked ? "#define MASKED\n" : "";
     const std::string lit = mask + defines + kFrame + kLight;
@@ -80,16 +81,17 @@ Error BuildPrograms(const std::string& defines, PeopleView* people) {
     if (Error e = BuildProgram(vertex, "#define FADES\n" + lit + kFade + kSurfaceFragment, &people->programs[masked][1])) return e;
     if (Error e = BuildProgram(vertex, mask + kShadowFragment, &people->shadow_programs[masked])) return e;
   }
-  if (Error e = BuildProgram(impostor_vertex, defines + kFrame + kLight + kFade + kImpostorFragment, &people->impostor_program)) {
+  if (Error e = BuildProgram(impostor_vertex, views + kLight + kFade + kImpostorFragment, &people->impostor_program)) {
     return e;
   }
-  return BuildProgram(impostor_vertex, kImpostorShadowFragment, &people->impostor_shadow_program);
+  return BuildProgram("#define SHADOW\n" + impostor_vertex, "#define SHADOW\n" + views + kImpostorShadowFragment,
+                      &people->impostor_shadow_program);
 }
 
 void CreateQuad(PeopleView* people) {
   glGenVertexArrays(1, &people->quad_array);
   glBindVertexArray(people->quad_array);
-  const float corners[] = {-1, 0, 1, 0, -1, 1, 1, 1};
+  const float corners[] = {0, 0, 1, 0, 0, 1, 1, 1};
   CreateBuffer(GL_ARRAY_BUFFER, corners, sizeof corners);
   EnableAttribute(0, 2, GL_FLOAT, false, 2 * sizeof(float), 0, 0);
 }
@@ -107,23 +109,31 @@ void BindInstances(GLuint buffer, const PeopleBatch& batch, bool impostor) {
   const size_t first = batch.first * stride;
   glBindBuffer(GL_ARRAY_BUFFER, buffer);
   EnableAttribute(6, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, place), 1);
-  EnableAttribute(7, 3, GL_FLOAT, false, stride, first + offsetof(PersonInstance, look), 1);
+  EnableAttribute(7, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, look), 1);
   if (!impostor) return;
-  EnableAttribute(8, 3, GL_FLOAT, false, stride, first + offsetof(PersonInstance, cells), 1);
-  EnableAttribute(9, 2, GL_FLOAT, false, stride, first + offsetof(PersonInstance, right), 1);
+  EnableAttribute(8, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, views), 1);
+  EnableAttribute(9, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, cells), 1);
+  EnableAttribute(10, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, cells) + sizeof(Vec4), 1);
+  EnableAttribute(11, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, origins), 1);
+  EnableAttribute(12, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, window), 1);
+  EnableAttribute(13, 2, GL_FLOAT, false, stride, first + offsetof(PersonInstance, right), 1);
 }
 
 int64_t DrawImpostors(const PeopleView& people, const PeopleBatch& batch, GLuint program) {
   const AvatarView& avatar = people.avatars[static_cast<size_t>(batch.avatar)];
   glUseProgram(program);
-  SetUniform(program, "u_window", avatar.window);
-  SetUniform(program, "u_cell", avatar.cell);
+  SetUniform(program, "u_atlas", avatar.atlas);
+  SetUniform(program, "u_ranges", avatar.ranges);
   BindTexture(kNormalsUnit, avatar.normals);
+  BindTexture(kDepthUnit, avatar.depth);
+  BindTexture(kMotionUnit, avatar.motion);
   BindTexture(kColorUnit, avatar.albedo);
   glBindVertexArray(people.quad_array);
   BindInstances(people.instances, batch, true);
   CullBackFaces(false);
+  if (people.smooth_edges) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(batch.count));
+  if (people.smooth_edges) glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   return 2 * static_cast<int64_t>(batch.count);
 }
 
@@ -146,8 +156,7 @@ int64_t DrawMeshes(const PeopleView& people, const PeopleBatch& batch, GLuint pl
 
 }  // namespace
 
-Error CreatePeopleView(const TourPack& pack, const std::string& defines, const std::vector<GLuint>& textures,
-                       const std::vector<Surface>& surfaces, PeopleView* people) {
+Error CreatePeopleView(const TourPack& pack, const std::string& defines, const std::vector<Surface>& surfaces, PeopleView* people) {
   if (Error e = BuildPrograms(defines, people)) return e;
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
@@ -155,7 +164,7 @@ Error CreatePeopleView(const TourPack& pack, const std::string& defines, const s
     if (3 * avatar.joints > most) return Fail("avatar '" + avatar.name + "' has more joints than this machine's OpenGL can hold");
     people->batches.pose_width = std::max(people->batches.pose_width, 3 * static_cast<size_t>(avatar.joints));
     people->layouts.push_back(LayoutOf(avatar));
-    people->avatars.push_back(UploadAvatar(pack, avatar, textures, surfaces));
+    people->avatars.push_back(UploadAvatar(pack, avatar, surfaces));
   }
   glGenBuffers(1, &people->instances);
   CreateQuad(people);

@@ -15,9 +15,9 @@ struct PersonLevel { GLuint vertex_array = 0; std::vector<PersonRange> ranges; i
 
 struct AvatarView {
   std::vector<PersonLevel> levels;
-  GLuint albedo = 0, normals = 0;  // of the impostor
-  Vec3 window;                     // width, height, bottom in metres
-  Vec4 cell;                       // size and half a texel, in texture coordinates
+  GLuint albedo = 0, normals = 0, depth = 0, motion = 0;  // of the impostor
+  Vec4 atlas;                      // texture coordinates a metre, size in texels
+  Vec3 ranges;                     // of depth and of motion, in metres
 };
 
 struct PeopleView {
@@ -25,6 +25,7 @@ struct PeopleView {
   GLuint shadow_programs[2] = {};  // [masked]
   GLuint impostor_program = 0, impostor_shadow_program = 0;
   GLuint instances = 0, quad_array = 0, poses = 0;
+  bool smooth_edges = false;       // of impostors, by the samples of a pixel
   size_t poses_held = 0;           // rows of the pose texture
   std::vector<AvatarView> avatars;
   std::vector<AvatarLayout> layouts;
@@ -32,8 +33,7 @@ struct PeopleView {
 };
 
 // `defines`: of the lit programs. Errors: a shader that the driver refuses, more joints than a texture is wide.
-Error CreatePeopleView(const TourPack& pack, const std::string& defines, const std::vector<GLuint>& textures,
-                       const std::vector<Surface>& surfaces, PeopleView* people);
+Error CreatePeopleView(const TourPack& pack, const std::string& defines, const std::vector<Surface>& surfaces, PeopleView* people);
 
 // Once a picture: instances and poses of people->batches, for both draws below.
 void UploadPeople(PeopleView* people);

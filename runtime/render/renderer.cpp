@@ -76,16 +76,19 @@ Error Renderer::Create(const TourPack& pack, const RenderOptions& options) {
   Impl& r = *impl_;
   r.options = options;
   if (Error e = CheckImages(pack)) return e;
-  std::string defines = DrawsInSoftware() ? "#define SHADOW_TAPS 1\n#define SHARPER -0.6\n"
-                                        : "#define SHADOW_TAPS 4\n#define SHARPER 0.0\n";
+  const bool software = DrawsInSoftware();
+  // In software four samples cost three times the whole rest of a frame.
+  const int samples = options.samples > 0 ? options.samples : software ? 1 : 4;
+  std::string defines = std::string("#define SHADOW_TAPS ") + (software ? "1" : "4") + "\n#define SHARPER " +
+                        (software && samples == 1 ? "-0.6" : "0.0") + "\n#define STEPS " + (software ? "2" : "3") + "\n";
   if (options.normals) defines += "#define NORMALS\n";
+  r.people.smooth_edges = samples > 1 && !options.normals;
+  if (r.people.smooth_edges) defines += "#define SMOOTH_EDGES\n";
   const std::vector<GLuint> textures = UploadTextures(pack);
   const std::vector<Surface> surfaces = MakeSurfaces(pack, textures);
   if (Error e = CreateTownView(pack, defines, surfaces, &r.town)) return e;
-  if (Error e = CreatePeopleView(pack, defines, textures, surfaces, &r.people)) return e;
+  if (Error e = CreatePeopleView(pack, defines, surfaces, &r.people)) return e;
   if (Error e = BuildProgram(std::string(kFrame) + kSkyVertex, std::string(kFrame) + kSkyFragment, &r.sky_program)) return e;
-  // In software four samples cost three times the whole rest of a frame.
-  const int samples = options.samples > 0 ? options.samples : DrawsInSoftware() ? 1 : 4;
   if (Error e = CreatePicture(samples, &r.picture)) return e;
   if (Error e = CreateCaptionView(&r.caption)) return e;
   CreateShadowMaps(&r.shadows);

@@ -95,7 +95,7 @@ layout(location = 3) in vec4 a_color;
 layout(location = 4) in uvec4 a_joints;
 layout(location = 5) in vec4 a_weights;
 layout(location = 6) in vec4 a_place;  // position, turn about the vertical
-layout(location = 7) in vec3 a_look;   // row of the pose texture, share of the pattern from, to
+layout(location = 7) in vec4 a_look;   // row of the pose texture, share of the pattern from, to
 uniform highp sampler2D u_poses;
 out vec3 v_position, v_normal;
 out vec2 v_uv;
@@ -159,58 +159,138 @@ void main() {
 }
 )";
 
-// A quad that stands upright and turns to the eye (or to the sun, for its shadow).
+// A quad that stands upright and turns to the eye (or, with SHADOW, to the sun).
 inline constexpr const char* kImpostorVertex = R"(
-layout(location = 0) in vec2 a_corner;  // x -1 to 1, y 0 to 1
-layout(location = 6) in vec4 a_place;   // position, turn about the vertical
-layout(location = 7) in vec3 a_look;    // row of the atlas, share of the pattern from, to
-layout(location = 8) in vec3 a_cells;   // two columns and how far between them
-layout(location = 9) in vec2 a_right;   // on the ground, glTF's x and z
-uniform vec3 u_window;                  // width, height, bottom in metres
-uniform vec4 u_cell;                    // a cell's size and half a texel, in texture coordinates
-out vec3 v_position;
-out vec2 v_uv0, v_uv1, v_turn;
-out float v_mix;
+layout(location = 0) in vec2 a_corner;    // 0 to 1
+layout(location = 6) in vec4 a_place;     // position, turn about the vertical
+layout(location = 7) in vec4 a_look;      // phases since the picture, share of the pattern from, to, how far between the views
+layout(location = 8) in vec4 a_views;     // azimuths of the two views, sine and cosine of their elevation
+layout(location = 9) in vec4 a_cell0;     // in texels: left, top, right, bottom
+layout(location = 10) in vec4 a_cell1;
+layout(location = 11) in vec4 a_origins;  // of the point between the feet, in texels
+layout(location = 12) in vec4 a_window;   // left, bottom, right, top in metres
+layout(location = 13) in vec2 a_right;    // on the ground, glTF's x and z
+uniform vec4 u_atlas;                     // texture coordinates a metre, size in texels
+out vec3 v_point, v_ray;                  // in the person's axes
+out vec2 v_texel;                         // of the quad, as large as the atlas's
+flat out vec4 v_place, v_look, v_views, v_cell0, v_cell1, v_origins;
 flat out vec2 v_share;
 void main() {
+  vec2 at = mix(a_window.xy, a_window.zw, a_corner);
+  vec3 offset = vec3(a_right.x * at.x, at.y, a_right.y * at.x);
+  vec3 p = a_place.xyz + offset;
+#ifdef SHADOW
+  vec3 ray = -u_to_sun.xyz;
+#else
+  vec3 ray = p - u_eye.xyz;
+#endif
+  float c = cos(a_place.w), s = sin(a_place.w);
+  v_point = vec3(c * offset.x - s * offset.z, offset.y, s * offset.x + c * offset.z);
+  v_ray = vec3(c * ray.x - s * ray.z, ray.y, s * ray.x + c * ray.z);
+  v_texel = at * u_atlas.xy * u_atlas.zw;
+  v_place = vec4(a_place.xyz, 0.0);
+  v_look = vec4(a_look.x, a_look.w, c, s);
+  v_views = a_views;
+  v_cell0 = a_cell0 / u_atlas.zwzw;
+  v_cell1 = a_cell1 / u_atlas.zwzw;
+  v_origins = a_origins / u_atlas.zwzw;
   v_share = a_look.yz;
-  vec3 right = vec3(a_right.x, 0.0, a_right.y);
-  float up = u_window.z + a_corner.y * u_window.y;
-  v_position = a_place.xyz + right * (a_corner.x * 0.5 * u_window.x) + vec3(0.0, up, 0.0);
-  vec2 inside = vec2(a_corner.x * 0.5 + 0.5, 1.0 - a_corner.y) * (u_cell.xy - 2.0 * u_cell.zw) + u_cell.zw;
-  v_uv0 = vec2(a_cells.x, a_look.x) * u_cell.xy + inside;
-  v_uv1 = vec2(a_cells.y, a_look.x) * u_cell.xy + inside;
-  v_mix = a_cells.z;
-  v_turn = vec2(cos(a_place.w), sin(a_place.w));
-  gl_Position = u_view_projection * vec4(v_position, 1.0);
+  gl_Position = u_view_projection * vec4(p, 1.0);
+}
+)";
+
+// A texel of a view shows a point of the person: so far before the axis, and moved on by so much since the picture's phase. Where
+// the ray through a pixel meets such a point is found by going to and fro: depth and motion at a guessed texel say which texel
+// shows the point of the ray at that depth, and that is the next guess.
+inline constexpr const char* kImpostorViews = R"(
+in vec3 v_point, v_ray;
+in vec2 v_texel;
+flat in vec4 v_place, v_look, v_views, v_cell0, v_cell1, v_origins;
+uniform sampler2D u_texture, u_depth, u_motion;
+uniform vec4 u_atlas;
+uniform vec3 u_ranges;  // of depth, of motion
+struct View { vec3 right, up, near; };
+struct Meeting {
+  vec2 at;       // texture coordinates
+  float alpha;
+  float along;   // the ray, in its length
+};
+View view_from(float azimuth) {
+  float c = cos(azimuth), s = sin(azimuth), se = v_views.z, ce = v_views.w;
+  return View(vec3(c, 0.0, -s), vec3(-s * se, ce, -c * se), vec3(s * ce, se, c * ce));
+}
+float mip_level() {
+  vec2 x = dFdx(v_texel), y = dFdy(v_texel);
+  return max(0.0, 0.5 * log2(max(dot(x, x), dot(y, y))));
+}
+Meeting meet(View view, vec4 cell, vec2 origin, float level) {
+  vec3 q = vec3(dot(v_point, view.right), dot(v_point, view.up), dot(v_point, view.near));
+  vec3 d = vec3(dot(v_ray, view.right), dot(v_ray, view.up), dot(v_ray, view.near));
+  vec2 slope = d.xy / d.z;
+#ifdef SHADOW
+  slope.y = 0.0;  // the sun stands too high for what a view from the side shows of depth
+#endif
+  vec2 base = q.xy - slope * q.z, metre = vec2(u_atlas.x, -u_atlas.y), edge = 0.5 * exp2(ceil(level)) / u_atlas.zw;
+  vec2 low = cell.xy + edge, high = cell.zw - edge, at = origin + base * metre;
+  float depth = 0.0;
+  int steps = level < 1.0 ? STEPS : 1;
+  for (int i = 0; i < steps; ++i) {
+    vec2 guess = clamp(at, low, high);
+    depth = (textureLod(u_depth, guess, level).r * 2.0 - 1.0) * u_ranges.x;
+    vec2 motion = (textureLod(u_motion, guess, max(level - 1.0, 0.0)).rg * 2.0 - 1.0) * (u_ranges.y * v_look.x);
+    at = origin + (base + slope * depth - motion) * metre;
+  }
+  bool inside = all(greaterThanEqual(at, cell.xy)) && all(lessThanEqual(at, cell.zw));
+  at = clamp(at, low, high);
+  return Meeting(at, inside ? textureLod(u_texture, at, level).a : 0.0, (depth - q.z) / d.z);
 }
 )";
 
 inline constexpr const char* kImpostorFragment = R"(
-in vec3 v_position;
-in vec2 v_uv0, v_uv1, v_turn;
-in float v_mix;
-uniform sampler2D u_texture, u_normals;
+uniform sampler2D u_normals;
 out vec4 o_color;
+vec3 normal_at(View view, vec2 at, float level) {
+  vec2 square = textureLod(u_normals, at, level).rg * 2.0 - 1.0;
+  vec2 p = vec2(square.x + square.y, square.x - square.y) * 0.5;
+  return view.right * p.x + view.up * p.y + view.near * (1.0 - abs(p.x) - abs(p.y));
+}
+vec3 turned(vec3 v) { return vec3(v_look.z * v.x + v_look.w * v.z, v.y, v_look.z * v.z - v_look.w * v.x); }
 void main() {
+  float level = mip_level(), between = v_look.y;
+  View view0 = view_from(v_views.x), view1 = view_from(v_views.y);
+  Meeting a = meet(view0, v_cell0, v_origins.xy, level), b = meet(view1, v_cell1, v_origins.zw, level);
+  float alpha = mix(a.alpha, b.alpha, between);
+#ifdef SMOOTH_EDGES
+  o_color.a = alpha;
+  if (o_color.a <= 0.0) discard;
+#else
+  if (alpha < 0.5) discard;
+  o_color.a = 1.0;
+#endif
   keep_share();
-  vec4 a = texture(u_texture, v_uv0), b = texture(u_texture, v_uv1);
-  if (mix(a.a, b.a, v_mix) < 0.45) discard;
-  // Where only one of the two pictures shows the person, it alone gives colour and normal.
-  float wa = (1.0 - v_mix) * a.a, wb = v_mix * b.a;
+  // Where only one of the two shows the person, it alone counts; and where one sees what is hidden from the other, too.
+  float wa = (1.0 - between) * a.alpha, wb = between * b.alpha;
+  if (min(a.alpha, b.alpha) > 0.5) {
+    float apart = (a.along - b.along) * length(v_ray);
+    wa *= 1.0 - smoothstep(0.04, 0.10, apart);
+    wb *= 1.0 - smoothstep(0.04, 0.10, -apart);
+  }
   float share = wb / max(wa + wb, 1e-4);
-  vec3 albedo = linear_from_srgb(mix(a.rgb, b.rgb, share));
-  vec3 n = mix(texture(u_normals, v_uv0).rgb, texture(u_normals, v_uv1).rgb, share) * 2.0 - 1.0;
-  n = normalize(vec3(v_turn.x * n.x + v_turn.y * n.z, n.y, v_turn.x * n.z - v_turn.y * n.x));
-  o_color = outcome(albedo, n, v_position);
+  vec3 albedo = linear_from_srgb(mix(textureLod(u_texture, a.at, level).rgb, textureLod(u_texture, b.at, level).rgb, share));
+  vec3 n = turned(normalize(mix(normal_at(view0, a.at, level), normal_at(view1, b.at, level), share)));
+  vec3 p = v_place.xyz + turned(v_point + v_ray * mix(a.along, b.along, share));
+  vec4 clip = u_view_projection * vec4(p, 1.0);
+  gl_FragDepth = clip.z / clip.w * 0.5 + 0.5;
+  o_color.rgb = outcome(albedo, n, p).rgb;
 }
 )";
 
 inline constexpr const char* kImpostorShadowFragment = R"(
-in vec2 v_uv0, v_uv1;
-in float v_mix;
-uniform sampler2D u_texture;
-void main() { if (mix(texture(u_texture, v_uv0).a, texture(u_texture, v_uv1).a, v_mix) < 0.45) discard; }
+void main() {
+  float level = mip_level();
+  Meeting a = meet(view_from(v_views.x), v_cell0, v_origins.xy, level), b = meet(view_from(v_views.y), v_cell1, v_origins.zw, level);
+  if (mix(a.alpha, b.alpha, v_look.y) < 0.5) discard;
+}
 )";
 
 inline constexpr const char* kSkyVertex = R"(

@@ -33,8 +33,9 @@ DepthMap CreateDepthMap(int size_px) {
   return map;
 }
 
-void BindMap(const DepthMap& map, const Mat4& matrix, GLuint block_buffer, bool clear) {
+void BindMap(const DepthMap& map, const Mat4& matrix, Vec3 to_sun, GLuint block_buffer, bool clear) {
   FrameBlock block{};
+  block.to_sun = {to_sun.x, to_sun.y, to_sun.z, 0};
   block.view_projection = matrix;
   BindFrameBlock(block_buffer, block);
   glBindFramebuffer(GL_FRAMEBUFFER, map.framebuffer);
@@ -43,7 +44,7 @@ void BindMap(const DepthMap& map, const Mat4& matrix, GLuint block_buffer, bool 
 }
 
 void DrawTownSlices(size_t count, GLuint block_buffer, const TownView& town, ShadowMaps* maps) {
-  BindMap(maps->town[1 - maps->shown], maps->next_town_matrix, block_buffer, maps->slices_done == 0);
+  BindMap(maps->town[1 - maps->shown], maps->next_town_matrix, maps->to_sun, block_buffer, maps->slices_done == 0);
   for (; count > 0 && maps->slices_done < kSlices; --count, ++maps->slices_done) {
     DrawTownShadow(maps->next_town_matrix, maps->slices_done, kSlices, town);
   }
@@ -79,7 +80,7 @@ void UpdateShadowMaps(Vec3 eye, Vec3 to_sun, GLuint block_buffer, const TownView
   glPolygonOffset(2, 4);
   UpdateTownMap(eye, to_sun, block_buffer, town, maps);
   maps->people_matrix = ShadowMatrix(eye, to_sun, kPeopleShadow_m, kShadowDepth_m, kPeopleMap_px);
-  BindMap(maps->people, maps->people_matrix, block_buffer, true);
+  BindMap(maps->people, maps->people_matrix, to_sun, block_buffer, true);
   DrawPeopleShadow(people);
   glDisable(GL_POLYGON_OFFSET_FILL);
   BindTexture(kTownShadowUnit, maps->town[maps->shown].texture);

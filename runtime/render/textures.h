@@ -8,9 +8,11 @@
 
 namespace flaneur {
 
-// One a pack image. Pictures of surfaces repeat; those of impostor atlases don't, and have few mip levels, for smaller ones
-// would mix neighbouring cells.
+// One a pack image; they repeat.
 std::vector<GLuint> UploadTextures(const TourPack& pack);
+// Of an impostor atlas: as blocks where OpenGL reads them and `decode` is not asked for, else decoded. Software decodes a block
+// for every look-up.
+GLuint UploadAtlasPicture(const PackTexture& picture, bool decode);
 GLuint UploadWhite();
 
 struct Surface { GLuint texture = 0; float alpha_cutoff = 0; bool masked = false, double_sided = false; };

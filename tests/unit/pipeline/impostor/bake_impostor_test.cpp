@@ -8,8 +8,12 @@
 
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/impostor/atlas_image.h"
+#include "pipeline/impostor/atlas_layers.h"
+#include "pipeline/impostor/block_compression.h"
+#include "pipeline/impostor/compress_atlas.h"
 #include "pipeline/impostor/view_geometry.h"
 #include "runtime/base/file.h"
+#include "runtime/pack/ktx2.h"
 
 namespace flaneur {
 namespace {
@@ -131,10 +135,16 @@ class BoxImpostor : public testing::Test {
 
   // The texel that shows the point `right_m` of the axis and `up_m` above the ground.
   static const uint8_t* At(const Pixels& pixels, int direction, float right_m, float up_m) {
-    const float x = (right_m / atlas_.window_width_m + 0.5f) * float(atlas_.cell_width_px);
-    const float y =
-        (1 - (up_m - atlas_.bottom_m) / atlas_.window_height_m) * float(atlas_.cell_height_px);
-    return Texel(pixels, direction * atlas_.cell_width_px + int(x), int(y));
+    const ImpostorCell& cell = atlas_.cells[static_cast<size_t>(direction)];
+    return Texel(pixels, int(std::floor(float(cell.origin_x) + right_m / atlas_.texel_m)),
+                 int(std::floor(float(cell.origin_y) - up_m / atlas_.texel_m)));
+  }
+
+  static PackTexture Texture(const std::vector<uint8_t>& ktx2) {
+    PackTexture texture;
+    const Error error = ReadKtx2(ktx2, &texture);
+    EXPECT_FALSE(error) << error.message;
+    return texture;
   }
 
   static void ExpectColor(const uint8_t* texel, Rgb color) {
@@ -185,48 +195,72 @@ TEST_F(BoxImpostor, DepthIsMetresFromTheAxisTowardsTheCamera) {
   EXPECT_GE(atlas_.depth_range_m, kHalf.x);
 }
 
-TEST_F(BoxImpostor, LayoutHolds) {
-  EXPECT_EQ(atlas_.directions, 4);
+TEST_F(BoxImpostor, CellsAreCroppedAndApart) {
   EXPECT_EQ(atlas_.frames, 1);
   ASSERT_EQ(atlas_.clips.size(), 1u) << "a clip the avatar does not have is left out";
   EXPECT_EQ(atlas_.clips[0].name, "walk");
-  EXPECT_EQ(atlas_.cell_width_px % 4, 0);
-  EXPECT_EQ(atlas_.cell_height_px, 48);
-  EXPECT_EQ(albedo_.width, 4 * atlas_.cell_width_px);
-  EXPECT_EQ(albedo_.height, atlas_.cell_height_px);
-  EXPECT_EQ(normal_.width, albedo_.width);
-  EXPECT_EQ(normal_.height, albedo_.height);
-  EXPECT_NEAR(atlas_.window_width_m / float(atlas_.cell_width_px),
-              atlas_.window_height_m / float(atlas_.cell_height_px), 1e-6f);
+  EXPECT_EQ(albedo_.width, atlas_.width_px);
+  EXPECT_EQ(normal_.height, atlas_.height_px);
+  ASSERT_EQ(atlas_.cells.size(), 4u);
+  std::vector<int> owners(static_cast<size_t>(atlas_.width_px * atlas_.height_px), 0);
+  for (const ImpostorCell& cell : atlas_.cells) {
+    EXPECT_EQ((cell.x | cell.y | cell.width | cell.height) % 4, 0);
+    EXPECT_LE(cell.height, 48);
+    for (int y = cell.y; y < cell.y + cell.height; ++y) {
+      for (int x = cell.x; x < cell.x + cell.width; ++x) {
+        EXPECT_EQ(++owners[static_cast<size_t>(y * atlas_.width_px + x)], 1);
+        const bool rim = x == cell.x || y == cell.y || x == cell.x + cell.width - 1 || y == cell.y + cell.height - 1;
+        if (!rim) continue;
+        EXPECT_EQ(Texel(albedo_, x, y)[3], 0);
+      }
+    }
+  }
+  EXPECT_LT(atlas_.cells[1].width, atlas_.cells[0].width) << "the box is narrower from the side";
   EXPECT_TRUE(warnings_.empty());
 }
 
-TEST_F(BoxImpostor, SilhouetteFillsTheWindowUpToItsBorder) {
-  const int width = atlas_.cell_width_px, height = atlas_.cell_height_px;
-  int lowest = 0, highest = height;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < albedo_.width; ++x) {
-      if (Texel(albedo_, x, y)[3] == 0) continue;
-      lowest = std::max(lowest, y);
-      highest = std::min(highest, y);
-      EXPECT_GE(x % width, 2);
-      EXPECT_LT(x % width, width - 2);
+TEST_F(BoxImpostor, SilhouettesHaveTheirSize) {
+  for (size_t d = 0; d < 4; ++d) {
+    double covered = 0;
+    const ImpostorCell& cell = atlas_.cells[d];
+    for (int y = cell.y; y < cell.y + cell.height; ++y) {
+      for (int x = cell.x; x < cell.x + cell.width; ++x) covered += Texel(albedo_, x, y)[3] / 255.0;
     }
+    const float width_m = d % 2 == 0 ? 2 * kHalf.x : 2 * kHalf.z;
+    EXPECT_NEAR(covered * double(atlas_.texel_m * atlas_.texel_m), double(width_m * 2 * kHalf.y), 0.02) << d;
   }
-  EXPECT_EQ(highest, 2);
-  EXPECT_EQ(lowest, height - 3);
 }
 
 TEST_F(BoxImpostor, GuttersCarryThePersonsColors) {
-  for (int y = 0; y < albedo_.height; ++y) {
-    for (int x = 0; x < albedo_.width; ++x) {
-      const int d = x / atlas_.cell_width_px;
-      if (d == 0 || Texel(albedo_, x, y)[3] > 0) continue;  // cell 0 has two colours
-      const uint8_t* texel = Texel(albedo_, x, y);
-      EXPECT_NEAR(texel[0], kFaces[d].r, 2);
-      EXPECT_NEAR(texel[1], kFaces[d].g, 2);
-      EXPECT_NEAR(texel[2], kFaces[d].b, 2);
+  for (int d = 1; d < 4; ++d) {  // cell 0 has two colours
+    const ImpostorCell& cell = atlas_.cells[static_cast<size_t>(d)];
+    for (int y = cell.y; y < cell.y + cell.height; ++y) {
+      for (int x = cell.x; x < cell.x + cell.width; ++x) {
+        if (Texel(albedo_, x, y)[3] > 0) continue;
+        EXPECT_NEAR(Texel(albedo_, x, y)[0], kFaces[d].r, 2);
+        EXPECT_NEAR(Texel(albedo_, x, y)[1], kFaces[d].g, 2);
+        EXPECT_NEAR(Texel(albedo_, x, y)[2], kFaces[d].b, 2);
+      }
     }
+  }
+}
+
+TEST_F(BoxImpostor, CompressedPicturesShowTheSame) {
+  const PackTexture albedo = Texture(atlas_.albedo_ktx2), depth = Texture(atlas_.depth_ktx2);
+  const PackTexture normal = Texture(atlas_.normal_ktx2), motion = Texture(atlas_.motion_ktx2);
+  EXPECT_EQ(albedo.format, TextureFormat::kBc7Srgb);
+  EXPECT_EQ(motion.width_px, atlas_.width_px / 2);
+  EXPECT_EQ(TextureBytes(albedo) + TextureBytes(depth) + TextureBytes(normal) + TextureBytes(motion), statistics_.memory_bytes);
+  const int width = atlas_.width_px, height = atlas_.height_px;
+  const Pixels seen{width, height, DecodeLevel(albedo.format, width, height, albedo.levels[0])};
+  for (int d = 0; d < 4; ++d) ExpectColor(At(seen, d, 0, 0.2f), kFaces[d]);
+  const std::vector<uint8_t> depths = DecodeLevel(depth.format, width, height, depth.levels[0]);
+  const std::vector<uint8_t> normals = DecodeLevel(normal.format, width, height, normal.levels[0]);
+  for (size_t i = 0; i < depths.size(); ++i) {
+    if (seen.rgba[4 * i + 3] < 255) continue;
+    EXPECT_NEAR(normals[2 * i], 128, 1) << "every face looks at its camera";
+    EXPECT_NEAR(normals[2 * i + 1], 128, 1);
+    EXPECT_NEAR(depths[i], normal_.rgba[4 * i + 3], 3);
   }
 }
 
@@ -239,9 +273,11 @@ TEST_F(BoxImpostor, IsTheSameAgainOnAnotherNumberOfThreads) {
   ASSERT_FALSE(error) << error.message;
   EXPECT_EQ(again.albedo.bytes, atlas_.albedo.bytes);
   EXPECT_EQ(again.normal.bytes, atlas_.normal.bytes);
+  EXPECT_EQ(again.albedo_ktx2, atlas_.albedo_ktx2);
+  EXPECT_EQ(again.motion_ktx2, atlas_.motion_ktx2);
 }
 
-TEST_F(BoxImpostor, IsWrittenAsThreeFilesAndNothingElse) {
+TEST_F(BoxImpostor, IsWrittenAsSevenFilesAndNothingElse) {
   TemporaryFolder folder;
   ASSERT_FALSE(folder.Create("flaneur_test_"));
   const fs::path target = folder.path() / "new" / "box";
@@ -252,54 +288,97 @@ TEST_F(BoxImpostor, IsWrittenAsThreeFilesAndNothingElse) {
   std::string text;
   ASSERT_FALSE(ReadTextFile(target / "impostor.json", &text));
   EXPECT_NE(text.find("\"directions\": 4"), std::string::npos);
-  EXPECT_EQ(std::distance(fs::directory_iterator(target), fs::directory_iterator()), 3);
+  EXPECT_EQ(std::distance(fs::directory_iterator(target), fs::directory_iterator()), 7);
 }
 
-TEST(FillGuttersTest, ColorsStayInTheirCellAndNearTheirSource) {
-  AtlasPixels atlas;
-  atlas.albedo.width = atlas.normal.width = 16;
-  atlas.albedo.height = atlas.normal.height = 8;
-  atlas.albedo.rgba.assign(4 * 16 * 8, 0);
-  atlas.normal.rgba.assign(4 * 16 * 8, 0);
-  const auto put = [&](int x, int y, Rgb color) {
-    uint8_t* texel = &atlas.albedo.rgba[4 * static_cast<size_t>(y * 16 + x)];
-    texel[0] = static_cast<uint8_t>(color.r);
-    texel[1] = static_cast<uint8_t>(color.g);
-    texel[2] = static_cast<uint8_t>(color.b);
-    texel[3] = 255;
-    atlas.normal.rgba[4 * static_cast<size_t>(y * 16 + x) + 3] = static_cast<uint8_t>(color.r);
-  };
-  put(7, 4, {250, 0, 0});
-  put(8, 4, {0, 250, 0});
-  FillGutters(8, 8, &atlas);
-  for (int y = 0; y < 8; ++y) {
-    for (int x = 0; x < 16; ++x) {
-      EXPECT_EQ(Texel(atlas.albedo, x, y)[0], x < 8 ? 250 : 0);
-      EXPECT_EQ(Texel(atlas.albedo, x, y)[1], x < 8 ? 0 : 250);
-      EXPECT_EQ(Texel(atlas.normal, x, y)[3], x < 8 ? 250 : 0);
-      EXPECT_EQ(Texel(atlas.albedo, x, y)[3], y == 4 && (x == 7 || x == 8) ? 255 : 0);
+// Discs and thin bars of two colours, as heads and limbs are, each a little elsewhere in its square of 64 texels.
+constexpr int kSide = 1024;
+AtlasLevel Figures() {
+  AtlasLevel level{kSide, kSide, std::vector<AtlasTexel>(kSide * kSide)};
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const int figure = y / 64 * (kSide / 64) + x / 64;
+      const float u = float(x % 64) - 31.5f - float(figure * 7 % 31) * 0.61f + 9, v = float(y % 64) - 31.5f - float(figure * 5 % 9) * 0.37f;
+      const float out = std::min({std::hypot(u, v + 16) - 11, std::max(std::abs(u) - 4, std::abs(v - 8) - 20)});
+      AtlasTexel& texel = level.texels[static_cast<size_t>(y * kSide + x)];
+      texel.coverage = std::clamp(0.5f - out, 0.0f, 1.0f);
+      if (texel.coverage > 0) texel.albedo = v < -6 ? std::array<float, 3>{0.8f, 0.5f, 0.4f} : std::array<float, 3>{0.1f, 0.2f, 0.6f};
+    }
+  }
+  return level;
+}
+
+TEST(AtlasLevels, KeepTheirCoverageToWithinAHundredth) {
+  std::vector<AtlasLevel> levels = MakeLevels(Figures());
+  const double share = CoveredShare(levels[0], 0.5f);
+  KeepCoverage(&levels, 6);
+  for (size_t k = 1; k < 6; ++k) EXPECT_NEAR(CoveredShare(levels[k], 0.5f), share, 0.01) << k;
+}
+
+TEST(AtlasLevels, EdgesKeepTheColourOfWhatIsCovered) {
+  std::vector<AtlasLevel> levels = MakeLevels(Figures());
+  FillGutters(&levels);
+  for (size_t k = 1; k < 6; ++k) {
+    const int side = kSide >> k, step = 1 << k;
+    for (int i = 0; i < side * side; ++i) {
+      const AtlasTexel& texel = levels[k].texels[static_cast<size_t>(i)];
+      double red = 0, weight = 0;
+      for (int j = 0; j < step * step; ++j) {
+        const AtlasTexel& fine = levels[0].texels[static_cast<size_t>((i / side * step + j / step) * kSide + i % side * step + j % step)];
+        red += double(fine.coverage) * double(fine.albedo[0]);
+        weight += double(fine.coverage);
+      }
+      if (weight <= 0) continue;
+      EXPECT_NEAR(double(texel.albedo[0]), red / weight, 1e-3) << k;
     }
   }
 }
 
-TEST(FillGuttersTest, EmptyCellStaysEmpty) {
-  AtlasPixels atlas{{4, 4, std::vector<uint8_t>(64, 0)}, {4, 4, std::vector<uint8_t>(64, 0)}};
-  FillGutters(4, 4, &atlas);
-  EXPECT_EQ(atlas.albedo.rgba, std::vector<uint8_t>(64, 0));
+TEST(BlockCompression, ComesNearPersonsColours) {
+  // A cloth's weave with an outline through it, and one colour alone.
+  BlockTexels weave{}, flat{};
+  for (size_t i = 0; i < 16; ++i) {
+    const auto shade = static_cast<uint8_t>(90 + 10 * (i % 3));
+    weave[i] = {shade, static_cast<uint8_t>(shade / 2), 40, static_cast<uint8_t>(i < 8 ? 255 : i < 12 ? 100 : 0)};
+    flat[i] = {10, 128, 255, 255};
+  }
+  std::array<float, 16> weights{};
+  weights.fill(1);
+  for (const BlockTexels& texels : {weave, flat}) {
+    std::vector<uint8_t> block(16);
+    CompressBc7(texels, weights, std::span<uint8_t, 16>(block.data(), 16));
+    const std::vector<uint8_t> decoded = DecodeLevel(TextureFormat::kBc7Srgb, 4, 4, block);
+    for (size_t i = 0; i < 64; ++i) EXPECT_NEAR(decoded[i], texels[i / 4][i % 4], texels[0][0] == 10 ? 1 : 14) << i;
+  }
 }
 
-TEST(ViewGeometryTest, PhasesAreEvenlySpacedAndExtentHoldsForAnyDirection) {
+TEST(NormalSquare, HoldsEveryDirectionTowardsTheCamera) {
+  for (int i = 0; i < 200; ++i) {
+    const float z = float(i) / 199, r = std::sqrt(1 - z * z), a = float(i) * 2.4f;
+    const Vec3 n{r * std::cos(a), r * std::sin(a), z};
+    const Vec2 s = SquareFromNormal(n) * 2 - Vec2{1, 1};
+    const Vec2 p{(s.x + s.y) / 2, (s.x - s.y) / 2};
+    const Vec3 back = Normalized(Vec3{p.x, p.y, 1 - std::abs(p.x) - std::abs(p.y)});
+    EXPECT_GT(Dot(n, back), 0.99999f);
+  }
+}
+
+TEST(ViewGeometryTest, PhasesAreEvenlySpacedAndBoundsHoldForAnyDirection) {
   ViewGeometry geometry;
   ASSERT_FALSE(PoseFrames(BoxAvatar(), {{"idle", 2}, {"walk", 3}}, &geometry));
   EXPECT_EQ(geometry.frames, 3);
   EXPECT_EQ(geometry.positions.size(), 3 * geometry.uvs.size());
-  const ViewExtent front = MeasureExtent(geometry, 1, {0});
-  EXPECT_NEAR(front.half_width_m, kHalf.x, 1e-6f);
-  EXPECT_NEAR(front.top_m, 2 * kHalf.y, 1e-6f);
-  EXPECT_NEAR(front.bottom_m, 0, 1e-6f);
-  EXPECT_NEAR(front.depth_m, kSignZ, 1e-6f);
-  const ViewExtent above = MeasureExtent(geometry, 4, {0, 45});
-  EXPECT_LT(above.bottom_m, -0.2f) << "seen from above, what stands before the axis reaches lower";
+  EXPECT_EQ(geometry.motions.size(), geometry.positions.size());
+  EXPECT_EQ(LongestMotion(geometry), 0) << "it stands still";
+  const std::vector<ViewBounds> front = MeasureViews(geometry, 1, {0});
+  ASSERT_EQ(front.size(), 3u);
+  EXPECT_NEAR(front[0].right_m, kHalf.x, 1e-6f);
+  EXPECT_NEAR(front[0].left_m, -kHalf.x, 1e-6f);
+  EXPECT_NEAR(front[0].top_m, 2 * kHalf.y, 1e-6f);
+  EXPECT_NEAR(front[0].depth_m, kSignZ, 1e-6f);
+  const std::vector<ViewBounds> above = MeasureViews(geometry, 4, {0, 45});
+  ASSERT_EQ(above.size(), 24u);
+  EXPECT_LT(above[4].bottom_m, -0.1f) << "seen from above, what stands before the axis reaches lower";
 }
 
 std::string ErrorOf(const Avatar& avatar, const ImpostorOptions& options) {
@@ -316,6 +395,7 @@ TEST(BakeImpostorErrors, NameWhatIsWrong) {
   options.clips = {{"dance", 4}};
   EXPECT_NE(ErrorOf(BoxAvatar(), options).find("dance"), std::string::npos);
   options.clips = {{"walk", 200}};
+  options.height_px = 1024;
   EXPECT_NE(ErrorOf(BoxAvatar(), options).find("fewer"), std::string::npos);
   Avatar broken = BoxAvatar();
   broken.meshes[0].positions[3].y = NAN;

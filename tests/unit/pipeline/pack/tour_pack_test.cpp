@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -17,6 +19,7 @@
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/pack/write_tour_pack.h"
 #include "runtime/base/file.h"
+#include "runtime/pack/ktx2.h"
 #include "runtime/pack/tour_pack.h"
 #include "tests/unit/pipeline/test_person.h"
 
@@ -68,20 +71,32 @@ Scene SmallTown() {
   return town;
 }
 
+// Two levels of bytes that count up.
+std::vector<uint8_t> Ktx2(TextureFormat format, int width, int height) {
+  PackTexture texture{format, width, height, {}};
+  for (int k = 0; k < 2; ++k) {
+    texture.levels.emplace_back(LevelBytes(format, width >> k, height >> k));
+    std::iota(texture.levels.back().begin(), texture.levels.back().end(), uint8_t{1});
+  }
+  return WriteKtx2(texture);
+}
+
 ImpostorAtlas SmallAtlas() {
   ImpostorAtlas atlas;
   atlas.directions = 4;
   atlas.elevations_deg = {0, 20};
   atlas.frames = 3;
-  atlas.cell_width_px = 4;
-  atlas.cell_height_px = 8;
-  atlas.window_width_m = 1;
-  atlas.window_height_m = 2;
-  atlas.bottom_m = -0.05f;
+  atlas.width_px = 32;
+  atlas.height_px = 64;
+  atlas.texel_m = 0.25f;
   atlas.depth_range_m = 0.5f;
+  atlas.motion_range_m = 0.125f;
   atlas.clips = {{"walk", 0, 2}, {"idle", 2, 1}};
-  atlas.albedo = Png("albedo", 16, 48);
-  atlas.normal = Png("normal!", 16, 48);
+  for (int i = 0; i < 4 * 2 * 3; ++i) atlas.cells.push_back({i % 8 * 4, i / 8 * 8, 4, 8, i % 8 * 4 + 2, i / 8 * 8 + 7});
+  atlas.albedo_ktx2 = Ktx2(TextureFormat::kBc7Srgb, 32, 64);
+  atlas.normal_ktx2 = Ktx2(TextureFormat::kBc5, 32, 64);
+  atlas.depth_ktx2 = Ktx2(TextureFormat::kBc4, 32, 64);
+  atlas.motion_ktx2 = Ktx2(TextureFormat::kBc5, 16, 32);
   return atlas;
 }
 
@@ -211,9 +226,16 @@ TEST(TourPack, BringsAvatarsAcross) {
     }
     EXPECT_EQ(triangles, static_cast<size_t>(level.triangles));
   }
-  const PackImage& albedo = pack.images[static_cast<size_t>(avatar.impostor.albedo_image)];
-  EXPECT_EQ(albedo.width_px, 16);
-  EXPECT_EQ(albedo.height_px, 48);
+  const PackImpostor& impostor = avatar.impostor;
+  EXPECT_EQ(impostor.albedo.format, TextureFormat::kBc7Srgb);
+  EXPECT_EQ(impostor.albedo.width_px, 32);
+  ASSERT_EQ(impostor.albedo.levels.size(), 2u);
+  EXPECT_EQ(impostor.albedo.levels[1].size(), LevelBytes(TextureFormat::kBc7Srgb, 16, 32));
+  EXPECT_EQ(impostor.albedo.levels[1][5], 6);
+  EXPECT_EQ(impostor.motion.height_px, 32);
+  ASSERT_EQ(impostor.cells.size(), 24u);
+  EXPECT_EQ(impostor.cells[9].x, 4);
+  EXPECT_EQ(impostor.cells[9].origin_y, 15);
   ASSERT_EQ(avatar.impostor.clips.size(), 2u);
   EXPECT_EQ(avatar.impostor.clips[1].first_frame, 2);
 }
@@ -414,7 +436,7 @@ TEST(TourPack, TheGltfPartOfAnotherTypeIsRefusedInPlainWords) {
 
 TEST(TourPack, OtherVersionsAreRefusedByNumber) {
   std::vector<uint8_t> bytes = Written(SmallTour());
-  const std::string member = "\"version\":1";
+  const std::string member = "\"version\":2";
   const auto at = std::search(bytes.begin(), bytes.end(), member.begin(), member.end());
   ASSERT_NE(at, bytes.end());
   at[static_cast<std::ptrdiff_t>(member.size()) - 1] = '9';

@@ -17,12 +17,6 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 180;
 
-PackImage Plain(int width, int height, std::array<uint8_t, 4> color) {
-  PackImage image{width, height, {}};
-  for (int i = 0; i < width * height; ++i) image.rgba.insert(image.rgba.end(), color.begin(), color.end());
-  return image;
-}
-
 // A box on the ground (glTF axes), every face a quad with its own normal; skinned to joint 0.
 PackPrimitive BoxPrimitive(Vec3 low, Vec3 high, int material, bool skinned) {
   PackPrimitive p;
@@ -51,29 +45,54 @@ PackPrimitive BoxPrimitive(Vec3 low, Vec3 high, int material, bool skinned) {
   return p;
 }
 
+// A picture of one colour. BC7: even values, by mode 6 with both ends alike.
+PackTexture Flat(TextureFormat format, int width, int height, std::vector<uint8_t> color) {
+  std::vector<uint8_t> block(BlockBytes(format), 0);
+  if (format == TextureFormat::kBc7Srgb) {
+    size_t at = 0;
+    const auto put = [&](int value, int bits) {
+      for (int i = 0; i < bits; ++i, ++at) block[at / 8] |= static_cast<uint8_t>((value >> i & 1) << at % 8);
+    };
+    put(1 << 6, 7);
+    for (uint8_t c : color) put(c >> 1, 7), put(c >> 1, 7);
+  } else {
+    for (size_t c = 0; c < color.size(); ++c) block[8 * c] = block[8 * c + 1] = color[c];
+  }
+  PackTexture texture{format, width, height, {{}}};
+  for (size_t i = 0; i < LevelBytes(format, width, height) / block.size(); ++i) {
+    texture.levels[0].insert(texture.levels[0].end(), block.begin(), block.end());
+  }
+  return texture;
+}
+
 PackAvatar BoxPerson() {
   PackAvatar a;
   a.name = "box";
   a.joints = 1;
   a.walk = a.idle = a.talk = {1, 1, {Mat4{}}};
   a.levels = {{0, 12, 0, 0, 100}, {0, 12, 0, 0, 0}};
-  a.impostor.directions = 4;
-  a.impostor.frames = 1;
-  a.impostor.elevations_deg = {0};
-  a.impostor.cell_width_px = 32;
-  a.impostor.cell_height_px = 64;
-  a.impostor.window_width_m = 0.5f;
-  a.impostor.window_height_m = 1.8f;
-  a.impostor.clips = {{"walk", 0, 1}};
-  a.impostor.albedo_image = 0;
-  a.impostor.normal_image = 1;
+  // Four times the same picture: 0.5 m wide, 1.8 m high, its front 0.25 m before the axis.
+  PackImpostor& atlas = a.impostor;
+  atlas.directions = 4;
+  atlas.frames = 1;
+  atlas.elevations_deg = {0};
+  atlas.width_px = 128;
+  atlas.height_px = 96;
+  atlas.texel_m = 1.8f / 72;
+  atlas.depth_range_m = 0.5f;
+  atlas.motion_range_m = 0.1f;
+  atlas.clips = {{"walk", 0, 1}};
+  for (int16_t d = 0; d < 4; ++d) atlas.cells.push_back({static_cast<int16_t>(32 * d), 0, 20, 72, static_cast<int16_t>(32 * d + 10), 72});
+  atlas.albedo = Flat(TextureFormat::kBc7Srgb, 128, 96, {200, 60, 60, 254});
+  atlas.normal = Flat(TextureFormat::kBc5, 128, 96, {128, 128});
+  atlas.depth = Flat(TextureFormat::kBc4, 128, 96, {191});
+  atlas.motion = Flat(TextureFormat::kBc5, 64, 48, {128, 128});
   return a;
 }
 
 // `boxes` of the town, each at its place on the ground.
 TourPack MakePack(const std::vector<Vec2>& boxes) {
   TourPack pack;
-  pack.images = {Plain(128, 64, {200, 60, 60, 255}), Plain(128, 64, {128, 128, 255, 255})};  // normals towards the viewer, +Z
   pack.materials = {{"red", {0.578f, 0.045f, 0.045f, 1}, -1, false, false, 0.5f}};           // 200, 60, 60 made linear
   pack.meshes = {{{BoxPrimitive({-0.25f, 0, -0.25f}, {0.25f, 1.8f, 0.25f}, 0, true)}},
                  {{BoxPrimitive({-1, 0, -1}, {1, 4, 1}, 0, false)}}};
@@ -168,13 +187,34 @@ TEST_F(Drawing, MeshAndImpostorLookAlike) {
   FrameInput frame = LookEast();
   frame.people = {PersonAt(6, 0, 0)};
   const Patch mesh = RedPatch(Draw(pack, frame));
-  frame.people = {PersonAt(6.25f - 0.5f, 0, -1)};  // the picture stands where the box's front is
+  frame.people = {PersonAt(6, 0, -1)};
   const Patch impostor = RedPatch(Draw(pack, frame));
   ASSERT_GT(mesh.count, 500);
   EXPECT_NEAR(impostor.count, mesh.count, 0.1 * mesh.count);
   EXPECT_NEAR(impostor.r, mesh.r, 12);
   EXPECT_NEAR(impostor.g, mesh.g, 12);
   EXPECT_NEAR(impostor.b, mesh.b, 12);
+}
+
+TEST_F(Drawing, AnImpostorsBlocksLookAsDecoded) {
+  const PackTexture blocks = Flat(TextureFormat::kBc7Srgb, 8, 8, {200, 60, 62, 254});
+  const std::vector<uint8_t> decoded = DecodeLevel(blocks.format, 8, 8, blocks.levels[0]);
+  ASSERT_EQ(decoded.size(), 8u * 8 * 4);
+  for (size_t i = 0; i < decoded.size(); ++i) EXPECT_EQ(decoded[i], (std::array<int, 4>{200, 60, 62, 254})[i % 4]);
+}
+
+// What stands behind the axis but before the picture's own depth must not hide it.
+TEST_F(Drawing, AnImpostorHasItsDepthInThePicture) {
+  TourPack pack = MakePack({{7.05f, 0}});  // its near face 5 cm behind the axis of a person 6 m away
+  FrameInput frame = LookEast();
+  pack.materials[0].base_color = {0.1f, 0.6f, 0.1f, 1};  // the wall's, and the mesh's, which is not drawn
+  frame.people = {PersonAt(6, 0, -1)};
+  const int whole = RedPatch(Draw(pack, frame)).count;
+  EXPECT_GT(whole, 500);
+  pack.town[0].world.m[3][0] = 6.8f;  // now 20 cm before the axis, 5 cm behind the picture's front
+  EXPECT_NEAR(RedPatch(Draw(pack, frame)).count, whole, 0.1 * whole);
+  pack.town[0].world.m[3][0] = 6.7f;  // and before that
+  EXPECT_EQ(RedPatch(Draw(pack, frame)).count, 0);
 }
 
 TEST_F(Drawing, TwoSharesOfOneFadeFillThePersonAndNoMore) {

@@ -1,0 +1,185 @@
+#include "pipeline/impostor/atlas_layers.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+
+#include "pipeline/impostor/view_geometry.h"
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+namespace fs = std::filesystem;
+
+// One sample in 4096 counts; what rounding leaves in Blender's sums does not.
+constexpr float kLeastCoverage = 1e-4f;
+
+enum Layer { kRed, kGreen, kBlue, kNormalX, kNormalY, kNormalZ, kMotionX, kMotionY, kMotionZ, kDepth, kCoverage, kLayers };
+constexpr std::array<const char*, kLayers> kLayerNames = {"albedo.R", "albedo.G", "albedo.B", "normal.R", "normal.G", "normal.B",
+                                                          "motion.R", "motion.G", "motion.B", "depth.",   "coverage."};
+// Versions of Blender name the parts of a vector and of a single value differently.
+constexpr std::array<const char*, kLayers> kOtherNames = {"albedo.X", "albedo.Y", "albedo.Z", "normal.X", "normal.Y", "normal.Z",
+                                                          "motion.X", "motion.Y", "motion.Z", "depth",    "coverage"};
+
+// Channel names are "ViewLayer.albedo.R".
+int FindChannel(const std::vector<std::string>& names, const std::string& wanted) {
+  for (size_t i = 0; i < names.size(); ++i) {
+    const size_t at = names[i].find(wanted);
+    if (at != std::string::npos && (at == 0 || names[i][at - 1] == '.')) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+Error FindChannels(const fs::path& exr, const OIIO::ImageSpec& spec, std::array<int, kLayers>* channels) {
+  for (size_t i = 0; i < kLayers; ++i) {
+    int found = FindChannel(spec.channelnames, kLayerNames[i]);
+    if (found < 0) found = FindChannel(spec.channelnames, kOtherNames[i]);
+    if (found < 0) {
+      return Fail(exr.string() + ": Blender wrote no layer '" + kLayerNames[i] + "'; use Blender 3.4 to 4.x");
+    }
+    (*channels)[i] = found;
+  }
+  return Ok();
+}
+
+// layers: the sums of one texel, premultiplied with the coverage.
+AtlasTexel TexelOf(const std::array<float, kLayers>& layers) {
+  AtlasTexel texel;
+  if (layers[kCoverage] < kLeastCoverage) return texel;
+  const auto mean = [&](Layer layer) { return layers[layer] / layers[kCoverage]; };
+  texel.coverage = std::min(1.0f, layers[kCoverage]);
+  texel.albedo = {mean(kRed), mean(kGreen), mean(kBlue)};
+  texel.normal = {mean(kNormalX), mean(kNormalY), mean(kNormalZ)};
+  texel.depth_m = mean(kDepth);
+  texel.motion_m = {mean(kMotionX), mean(kMotionY), mean(kMotionZ)};
+  return texel;
+}
+
+void AddWeighted(const AtlasTexel& from, float weight, AtlasTexel* sum) {
+  for (size_t c = 0; c < 3; ++c) sum->albedo[c] += weight * from.albedo[c];
+  sum->normal = sum->normal + from.normal * weight;
+  sum->depth_m += weight * from.depth_m;
+  sum->motion_m = sum->motion_m + from.motion_m * weight;
+}
+
+AtlasLevel Half(const AtlasLevel& from) {
+  AtlasLevel to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
+  to.texels.resize(static_cast<size_t>(to.width) * static_cast<size_t>(to.height));
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      AtlasTexel sum;
+      for (int k = 0; k < 4; ++k) {
+        const int u = std::min(2 * x + k % 2, from.width - 1), v = std::min(2 * y + k / 2, from.height - 1);
+        const AtlasTexel& texel = from.texels[static_cast<size_t>(v * from.width + u)];
+        AddWeighted(texel, texel.coverage, &sum);
+        sum.coverage += texel.coverage;
+      }
+      if (sum.coverage <= 0) continue;
+      AtlasTexel& mean = to.texels[static_cast<size_t>(y * to.width + x)];
+      AddWeighted(sum, 1 / sum.coverage, &mean);
+      mean.coverage = sum.coverage / 4;
+    }
+  }
+  return to;
+}
+
+// Where coverage passes `threshold` it comes to pass a half.
+float Stretched(float coverage, float threshold) {
+  return coverage < threshold ? 0.5f * coverage / threshold : 0.5f + 0.5f * (coverage - threshold) / (1 - threshold);
+}
+
+// The coverage that so large a share of the texels reaches.
+float ThresholdFor(const AtlasLevel& level, double share) {
+  std::vector<float> coverages;
+  for (const AtlasTexel& texel : level.texels) coverages.push_back(texel.coverage);
+  const auto rank = static_cast<size_t>(share * static_cast<double>(coverages.size()) + 0.5);
+  if (rank == 0 || rank >= coverages.size()) return 0.5f;
+  std::nth_element(coverages.begin(), coverages.begin() + static_cast<std::ptrdiff_t>(rank - 1), coverages.end(), std::greater<>());
+  return std::clamp(coverages[rank - 1], 0.05f, 0.95f);
+}
+
+}  // namespace
+
+Error ReadLayers(const fs::path& exr, int first_row, AtlasLevel* level) {
+  const auto input = OIIO::ImageInput::open(exr.string());
+  if (!input) return Fail(exr.string() + ": " + OneLine(OIIO::geterror()));
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width != level->width || first_row + spec.height > level->height) {
+    return Fail(exr.string() + ": Blender rendered " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                " pixels, not what it was asked for");
+  }
+  std::array<int, kLayers> channels{};
+  if (Error error = FindChannels(exr, spec, &channels)) return error;
+  const auto stride = static_cast<size_t>(spec.nchannels);
+  std::vector<float> values(stride * static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height));
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) {
+    return Fail(exr.string() + ": " + OneLine(input->geterror()));
+  }
+  const size_t first = static_cast<size_t>(first_row) * static_cast<size_t>(spec.width);
+  for (size_t i = 0; i < values.size() / stride; ++i) {
+    std::array<float, kLayers> layers{};
+    for (size_t c = 0; c < kLayers; ++c) layers[c] = values[i * stride + static_cast<size_t>(channels[c])];
+    level->texels[first + i] = TexelOf(layers);
+  }
+  return Ok();
+}
+
+void TurnIntoCells(const ImpostorAtlas& atlas, AtlasLevel* level) {
+  const size_t elevations = atlas.elevations_deg.size(), directions = static_cast<size_t>(atlas.directions);
+  for (size_t i = 0; i < atlas.cells.size(); ++i) {
+    const ImpostorCell& cell = atlas.cells[i];
+    const ViewAxes axes = AxesOf(static_cast<int>(i % directions), atlas.directions, atlas.elevations_deg[i / directions % elevations]);
+    const auto turned = [&](Vec3 v) { return Vec3{Dot(v, axes.right), Dot(v, axes.up), Dot(v, axes.near)}; };
+    for (int y = cell.y; y < cell.y + cell.height; ++y) {
+      for (int x = cell.x; x < cell.x + cell.width; ++x) {
+        AtlasTexel& texel = level->texels[static_cast<size_t>(y * level->width + x)];
+        texel.normal = turned(texel.normal);
+        texel.motion_m = turned(texel.motion_m);
+      }
+    }
+  }
+}
+
+std::vector<AtlasLevel> MakeLevels(AtlasLevel finest) {
+  std::vector<AtlasLevel> levels;
+  levels.push_back(std::move(finest));
+  while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(Half(levels.back()));
+  return levels;
+}
+
+void FillGutters(std::vector<AtlasLevel>* levels) {
+  for (size_t k = levels->size() - 1; k-- > 0;) {
+    AtlasLevel& level = (*levels)[k];
+    const AtlasLevel& coarser = (*levels)[k + 1];
+    for (int y = 0; y < level.height; ++y) {
+      for (int x = 0; x < level.width; ++x) {
+        AtlasTexel& texel = level.texels[static_cast<size_t>(y * level.width + x)];
+        if (texel.coverage > 0) continue;
+        const int u = std::min(x / 2, coarser.width - 1), v = std::min(y / 2, coarser.height - 1);
+        texel = coarser.texels[static_cast<size_t>(v * coarser.width + u)];
+        texel.coverage = 0;
+      }
+    }
+  }
+}
+
+void KeepCoverage(std::vector<AtlasLevel>* levels, int count) {
+  const double share = CoveredShare(levels->front(), 0.5f);
+  for (size_t k = 1; k < std::min(levels->size(), static_cast<size_t>(count)); ++k) {
+    AtlasLevel& level = (*levels)[k];
+    const float threshold = ThresholdFor(level, share);
+    for (AtlasTexel& texel : level.texels) texel.coverage = Stretched(texel.coverage, threshold);
+  }
+}
+
+double CoveredShare(const AtlasLevel& level, float least) {
+  const auto covered = [&](const AtlasTexel& texel) { return texel.coverage >= least; };
+  return level.texels.empty() ? 0
+                              : static_cast<double>(std::count_if(level.texels.begin(), level.texels.end(), covered)) /
+                                    static_cast<double>(level.texels.size());
+}
+
+}  // namespace flaneur

@@ -1,0 +1,131 @@
+#include "pipeline/impostor/compress_atlas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "pipeline/impostor/atlas_image.h"
+#include "pipeline/impostor/atlas_layout.h"
+#include "pipeline/impostor/block_compression.h"
+#include "pipeline/impostor/view_geometry.h"
+#include "runtime/pack/ktx2.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kUnseenWeight = 0.1f;  // of a gutter's colour
+
+uint8_t Quantized(float value) { return static_cast<uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255)); }
+
+// IEC 61966-2-1.
+float SrgbFromLinear(float value) {
+  return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f;
+}
+
+std::array<uint8_t, 4> AlbedoBytes(const AtlasTexel& texel) {
+  const uint8_t coverage = texel.coverage > 0 ? std::max<uint8_t>(1, Quantized(texel.coverage)) : uint8_t{0};
+  return {Quantized(SrgbFromLinear(texel.albedo[0])), Quantized(SrgbFromLinear(texel.albedo[1])),
+          Quantized(SrgbFromLinear(texel.albedo[2])), coverage};
+}
+
+using Block = std::array<const AtlasTexel*, 16>;
+
+// A level, block by block; at its edge the last texels are repeated.
+std::vector<uint8_t> CompressLevel(const AtlasLevel& level, TextureFormat format,
+                                   const std::function<void(const Block&, uint8_t*)>& compress) {
+  std::vector<uint8_t> out(LevelBytes(format, level.width, level.height));
+  uint8_t* at = out.data();
+  for (int top = 0; top < level.height; top += 4) {
+    for (int left = 0; left < level.width; left += 4, at += BlockBytes(format)) {
+      Block block{};
+      for (int i = 0; i < 16; ++i) {
+        const int x = std::min(left + i % 4, level.width - 1), y = std::min(top + i / 4, level.height - 1);
+        block[static_cast<size_t>(i)] = &level.texels[static_cast<size_t>(y * level.width + x)];
+      }
+      compress(block, at);
+    }
+  }
+  return out;
+}
+
+void CompressAlbedo(const Block& block, uint8_t* out) {
+  BlockTexels texels{};
+  std::array<float, 16> weights{};
+  for (size_t i = 0; i < 16; ++i) {
+    texels[i] = AlbedoBytes(*block[i]);
+    weights[i] = kUnseenWeight + (1 - kUnseenWeight) * std::min(1.0f, 2 * block[i]->coverage);
+  }
+  CompressBc7(texels, weights, std::span<uint8_t, 16>(out, 16));
+}
+
+// value: of a texel, 0 to 1.
+template <typename Value>
+void CompressChannel(const Block& block, Value value, uint8_t* out) {
+  std::array<uint8_t, 16> values{};
+  for (size_t i = 0; i < 16; ++i) values[i] = Quantized(value(*block[i]));
+  CompressBc4(values, std::span<uint8_t, 8>(out, 8));
+}
+
+void CompressNormal(const Block& block, uint8_t* out) {
+  CompressChannel(block, [](const AtlasTexel& t) { return SquareFromNormal(t.normal).x; }, out);
+  CompressChannel(block, [](const AtlasTexel& t) { return SquareFromNormal(t.normal).y; }, out + 8);
+}
+
+std::vector<uint8_t> Ktx2(const std::vector<AtlasLevel>& levels, size_t first, TextureFormat format,
+                          const std::function<void(const Block&, uint8_t*)>& compress) {
+  PackTexture texture{format, levels[first].width, levels[first].height, {}};
+  for (size_t k = first; k < std::min(levels.size(), size_t{kAtlasLevels}); ++k) {
+    texture.levels.push_back(CompressLevel(levels[k], format, compress));
+  }
+  return WriteKtx2(texture);
+}
+
+}  // namespace
+
+Vec2 SquareFromNormal(Vec3 n) {
+  n.z = std::max(n.z, 0.0f);
+  const float sum = std::abs(n.x) + std::abs(n.y) + n.z;
+  if (!(sum > 0)) return {0.5f, 0.5f};
+  return {0.5f + 0.5f * (n.x + n.y) / sum, 0.5f + 0.5f * (n.x - n.y) / sum};
+}
+
+void CompressAtlas(const std::vector<AtlasLevel>& levels, ImpostorAtlas* atlas) {
+  const auto share = [](float value, float range) { return 0.5f + 0.5f * value / range; };
+  atlas->albedo_ktx2 = Ktx2(levels, 0, TextureFormat::kBc7Srgb, CompressAlbedo);
+  atlas->normal_ktx2 = Ktx2(levels, 0, TextureFormat::kBc5, CompressNormal);
+  atlas->depth_ktx2 = Ktx2(levels, 0, TextureFormat::kBc4, [&](const Block& block, uint8_t* out) {
+    CompressChannel(block, [&](const AtlasTexel& t) { return share(t.depth_m, atlas->depth_range_m); }, out);
+  });
+  atlas->motion_ktx2 = Ktx2(levels, 1, TextureFormat::kBc5, [&](const Block& block, uint8_t* out) {
+    CompressChannel(block, [&](const AtlasTexel& t) { return share(t.motion_m.x, atlas->motion_range_m); }, out);
+    CompressChannel(block, [&](const AtlasTexel& t) { return share(t.motion_m.y, atlas->motion_range_m); }, out + 8);
+  });
+}
+
+Error EncodeAtlas(const AtlasLevel& finest, ImpostorAtlas* atlas) {
+  Pixels albedo{finest.width, finest.height, {}}, normal = albedo;
+  for (const AtlasTexel& texel : finest.texels) {
+    const auto bytes = AlbedoBytes(texel);
+    albedo.rgba.insert(albedo.rgba.end(), bytes.begin(), bytes.end());
+  }
+  normal.rgba.assign(albedo.rgba.size(), 128);
+  const size_t directions = static_cast<size_t>(atlas->directions);
+  for (size_t i = 0; i < atlas->cells.size(); ++i) {
+    const ImpostorCell& cell = atlas->cells[i];
+    const ViewAxes axes = AxesOf(static_cast<int>(i % directions), atlas->directions,
+                                 atlas->elevations_deg[i / directions % atlas->elevations_deg.size()]);
+    for (int y = cell.y; y < cell.y + cell.height; ++y) {
+      for (int x = cell.x; x < cell.x + cell.width; ++x) {
+        const auto at = static_cast<size_t>(y * finest.width + x);
+        const AtlasTexel& texel = finest.texels[at];
+        const Vec3 n = Normalized(axes.right * texel.normal.x + axes.up * texel.normal.y + axes.near * texel.normal.z);
+        const float channels[] = {n.x, n.y, n.z, texel.depth_m / atlas->depth_range_m};
+        for (size_t c = 0; c < 4; ++c) normal.rgba[4 * at + c] = Quantized(0.5f + 0.5f * channels[c]);
+      }
+    }
+  }
+  if (Error error = EncodePng(albedo, true, &atlas->albedo)) return error;
+  return EncodePng(normal, false, &atlas->normal);
+}
+
+}  // namespace flaneur

@@ -1,0 +1,105 @@
+#include "runtime/pack/texture.h"
+
+#include <algorithm>
+
+namespace flaneur {
+namespace {
+
+using Texels = std::array<std::array<uint8_t, 4>, 16>;
+
+// Bits of a block from the lowest on.
+class BitReader {
+ public:
+  explicit BitReader(const uint8_t* bytes) : bytes_(bytes) {}
+  int Next(int count) {
+    int value = 0;
+    for (int i = 0; i < count; ++i, ++at_) value |= (bytes_[at_ / 8] >> (at_ % 8) & 1) << i;
+    return value;
+  }
+
+ private:
+  const uint8_t* bytes_;
+  size_t at_ = 0;
+};
+
+uint8_t Between(int a, int b, int weight) { return static_cast<uint8_t>(((64 - weight) * a + weight * b + 32) >> 6); }
+
+void DecodeMode6(BitReader bits, Texels* out) {
+  int ends[4][2];
+  for (auto& channel : ends) {
+    for (int& end : channel) end = bits.Next(7) << 1;
+  }
+  const int last[2] = {bits.Next(1), bits.Next(1)};
+  for (size_t i = 0; i < 16; ++i) {
+    const int weight = kBc7FourBitWeights[static_cast<size_t>(bits.Next(i == 0 ? 3 : 4))];
+    for (size_t c = 0; c < 4; ++c) (*out)[i][c] = Between(ends[c][0] | last[0], ends[c][1] | last[1], weight);
+  }
+}
+
+void DecodeMode5(BitReader bits, Texels* out) {
+  const auto rotation = static_cast<size_t>(bits.Next(2));
+  int ends[4][2];
+  for (size_t c = 0; c < 4; ++c) {
+    for (int& end : ends[c]) {
+      end = bits.Next(c < 3 ? 7 : 8);
+      if (c < 3) end = end << 1 | end >> 6;
+    }
+  }
+  for (size_t i = 0; i < 16; ++i) {
+    const int weight = kBc7TwoBitWeights[static_cast<size_t>(bits.Next(i == 0 ? 1 : 2))];
+    for (size_t c = 0; c < 3; ++c) (*out)[i][c] = Between(ends[c][0], ends[c][1], weight);
+  }
+  for (size_t i = 0; i < 16; ++i) {
+    const int weight = kBc7TwoBitWeights[static_cast<size_t>(bits.Next(i == 0 ? 1 : 2))];
+    (*out)[i][3] = Between(ends[3][0], ends[3][1], weight);
+    if (rotation > 0) std::swap((*out)[i][3], (*out)[i][rotation - 1]);
+  }
+}
+
+void DecodeBc7(const uint8_t* block, Texels* out) {
+  *out = {};
+  BitReader bits(block);
+  int mode = 0;
+  while (mode < 8 && bits.Next(1) == 0) ++mode;
+  if (mode == 6) DecodeMode6(bits, out);
+  if (mode == 5) DecodeMode5(bits, out);
+}
+
+void DecodeBc4(const uint8_t* block, size_t channel, Texels* out) {
+  const int a = block[0], b = block[1];
+  std::array<int, 8> values{a, b};
+  const int steps = a > b ? 7 : 5;
+  for (int i = 1; i < steps; ++i) values[static_cast<size_t>(i + 1)] = ((steps - i) * a + i * b + steps / 2) / steps;
+  if (steps == 5) values[6] = 0, values[7] = 255;
+  BitReader bits(block + 2);
+  for (auto& texel : *out) texel[channel] = static_cast<uint8_t>(values[static_cast<size_t>(bits.Next(3))]);
+}
+
+void DecodeBlock(TextureFormat format, const uint8_t* block, Texels* out) {
+  if (format == TextureFormat::kBc7Srgb) return DecodeBc7(block, out);
+  DecodeBc4(block, 0, out);
+  if (format == TextureFormat::kBc5) DecodeBc4(block + 8, 1, out);
+}
+
+}  // namespace
+
+std::vector<uint8_t> DecodeLevel(TextureFormat format, int width_px, int height_px, const std::vector<uint8_t>& blocks) {
+  const auto channels = static_cast<size_t>(Channels(format));
+  const auto width = static_cast<size_t>(width_px), height = static_cast<size_t>(height_px);
+  std::vector<uint8_t> out(width * height * channels);
+  const uint8_t* block = blocks.data();
+  Texels texels{};
+  for (size_t top = 0; top < height; top += 4) {
+    for (size_t left = 0; left < width; left += 4, block += BlockBytes(format)) {
+      DecodeBlock(format, block, &texels);
+      for (size_t y = top; y < std::min(top + 4, height); ++y) {
+        for (size_t x = left; x < std::min(left + 4, width); ++x) {
+          std::copy_n(texels[4 * (y - top) + x - left].begin(), channels, &out[(y * width + x) * channels]);
+        }
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace flaneur
