@@ -10,7 +10,7 @@
 #include "pipeline/footprint/map.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/io/geojson.h"
-#include "pipeline/io/gltf.h"
+#include "pipeline/io/scene_reader.h"
 
 namespace flaneur {
 namespace {

@@ -10,6 +10,7 @@ namespace flaneur {
 
 // Doubles: towns in a map projection keep millimetres.
 struct Point2 { double x = 0, y = 0; };
+struct Point3 { double x = 0, y = 0, z = 0; };  // z up
 
 enum class ObstacleKind { kBuilding, kWall, kTree, kLamp, kOther };
 const char* ObstacleKindName(ObstacleKind kind);

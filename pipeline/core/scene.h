@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/core/footprint.h"
 #include "pipeline/core/mesh.h"
 #include "runtime/base/math.h"
 
@@ -25,6 +26,9 @@ struct SceneNode {
   GroundKind ground = GroundKind::kNone;    // likewise, where kind is kGround
   float radius_m = 0;         // 0: not given
   float width_m = 0;          // 0: not given
+  // The ground under the parent building as its model has it. Nobody walks on it and it blocks nobody; it tells how high
+  // the local ground lies in a town without terrain.
+  bool is_foundation = false;
 };
 
 struct Scene {
@@ -32,6 +36,8 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
   std::vector<Image> images;
+  Point2 origin_m;               // x east, y north: add to a coordinate to get the source's own
+  std::string reference_system;  // of the source's coordinates: "EPSG:25832"; empty: not known
 };
 
 }  // namespace flaneur

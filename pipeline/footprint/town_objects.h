@@ -9,8 +9,6 @@
 
 namespace flaneur {
 
-// A point of the town: x east, y north, z up, metres.
-struct Point3 { double x = 0, y = 0, z = 0; };
 using Triangle3 = std::array<Point3, 3>;
 
 struct TownObject {

@@ -10,6 +10,7 @@
 #include "pipeline/core/avatar.h"
 #include "pipeline/core/scene.h"
 #include "pipeline/io/gltf_builder.h"
+#include "pipeline/io/scene_reader.h"
 #include "runtime/base/error.h"
 
 namespace flaneur {
@@ -22,8 +23,8 @@ namespace flaneur {
 // is pavement. Only images that a material uses are kept. Errors: unreadable or broken file,
 // unknown required extension, unknown tag value, a non-finite vertex (names node and mesh), no
 // triangle at all.
-Error ReadScene(const std::filesystem::path& path, Scene* scene,
-                std::vector<std::string>* warnings = nullptr);
+Error ReadGltfScene(const std::filesystem::path& path, Scene* scene,
+                    std::vector<std::string>* warnings = nullptr);
 
 struct ReadAvatarOptions {
   std::string name;  // of the avatar; empty: the file's stem

@@ -1,132 +1,40 @@
-#include <array>
+#include "pipeline/io/scene_reader.h"
+
+#include <cstdio>
+#include <memory>
 
 #include "pipeline/io/gltf.h"
-#include "pipeline/io/gltf_document.h"
-#include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
 
-const std::array<NodeKind, 10> kKinds{
-    NodeKind::kBuilding, NodeKind::kWall, NodeKind::kTree, NodeKind::kLamp,   NodeKind::kOther,
-    NodeKind::kGround,   NodeKind::kDoor, NodeKind::kExit, NodeKind::kLoiter, NodeKind::kNone};
-const std::array<GroundKind, 4> kGrounds{GroundKind::kCarriageway, GroundKind::kPavement,
-                                         GroundKind::kSquare, GroundKind::kGrass};
-
-// The value of that name, or an error that lists the known ones.
-template <typename Kind, size_t n>
-Error FromName(const char* tag, const std::string& name, const std::array<Kind, n>& kinds,
-               const char* (*name_of)(Kind), Kind* out) {
-  std::vector<std::string> names;
-  for (const Kind kind : kinds) {
-    names.emplace_back(name_of(kind));
-    if (names.back() != name) continue;
-    *out = kind;
-    return Ok();
-  }
-  std::string known;
-  for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
-  return Fail(std::string(tag) + " '" + OneLine(name) + "' is unknown" + DidYouMean(name, names) +
-              " (known: " + known + ")");
+// Enough of the beginning to tell the format.
+std::string Beginning(const std::filesystem::path& path) {
+  std::string text(64 * 1024, '\0');
+  const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  text.resize(file ? std::fread(text.data(), 1, text.size(), file.get()) : 0);
+  if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
+  return text;
 }
 
-// A node's own tags over its parent's; sizes belong to the tag that they stand beside.
-Error ApplyTags(const NodeTags& tags, const SceneNode* parent, SceneNode* node) {
-  if (parent != nullptr) {
-    node->kind = parent->kind;
-    node->ground = parent->ground;
-    if (tags.kind.empty()) {
-      node->radius_m = parent->radius_m;
-      node->width_m = parent->width_m;
-    }
-  }
-  if (!tags.kind.empty()) {
-    if (Error e = FromName("flaneur_kind", tags.kind, kKinds, NodeKindName, &node->kind)) return e;
-  }
-  if (!tags.ground.empty()) {
-    if (Error e =
-            FromName("flaneur_ground", tags.ground, kGrounds, GroundKindName, &node->ground)) {
-      return e;
-    }
-  }
-  const bool is_ground = node->kind == NodeKind::kGround;
-  if (!is_ground) node->ground = GroundKind::kNone;
-  if (is_ground && node->ground == GroundKind::kNone) node->ground = GroundKind::kPavement;
-  if (tags.radius_m > 0) node->radius_m = tags.radius_m;
-  if (tags.width_m > 0) node->width_m = tags.width_m;
-  return Ok();
+bool IsXml(const std::string& text, char first) {
+  const bool utf16 = text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0;
+  return first == '<' || utf16;
 }
-
-bool Mirrors(const Mat4& m) {
-  const Vec3 x{m.m[0][0], m.m[0][1], m.m[0][2]};
-  const Vec3 y{m.m[1][0], m.m[1][1], m.m[1][2]};
-  const Vec3 z{m.m[2][0], m.m[2][1], m.m[2][2]};
-  return Dot(Cross(x, y), z) < 0;
-}
-
-// Puts each of the document's meshes into the scene when first used, as it is and turned round
-// apart.
-class MeshTable {
- public:
-  MeshTable(GltfDocument* document, Scene* scene)
-      : document_(document),
-        scene_(scene),
-        plain_(document->meshes.size()),
-        mirrored_(document->meshes.size()) {}
-
-  const std::vector<int>& Use(int mesh, bool mirrored) {
-    std::vector<int>& indices = (mirrored ? mirrored_ : plain_)[static_cast<size_t>(mesh)];
-    if (!indices.empty()) return indices;
-    for (const DocumentPrimitive& p : document_->meshes[static_cast<size_t>(mesh)].primitives) {
-      indices.push_back(static_cast<int>(scene_->meshes.size()));
-      scene_->meshes.push_back(p.mesh);
-      if (!mirrored) continue;
-      auto& triangles = scene_->meshes.back().indices;
-      for (size_t i = 0; i < triangles.size(); i += 3) std::swap(triangles[i], triangles[i + 1]);
-    }
-    return indices;
-  }
-
- private:
-  GltfDocument* document_;
-  Scene* scene_;
-  std::vector<std::vector<int>> plain_, mirrored_;
-};
 
 }  // namespace
 
-Error ReadScene(const std::filesystem::path& path, Scene* scene,
-                std::vector<std::string>* warnings) {
-  GltfDocument document;
-  std::vector<std::string> notes;
-  if (Error e = LoadGltf(path, &document, &notes)) return e;
-  if (warnings != nullptr) warnings->insert(warnings->end(), notes.begin(), notes.end());
-  *scene = {};
-  scene->materials = std::move(document.materials);
-  scene->images = std::move(document.images);
-  const std::vector<Mat4> world = WorldMatrices(document);
-  std::vector<int> index(document.nodes.size(), -1);
-  MeshTable meshes(&document, scene);
-  for (const int i : document.order) {
-    const DocumentNode& in = document.nodes[static_cast<size_t>(i)];
-    if (!in.in_scene) continue;
-    SceneNode node;
-    node.name = in.name;
-    node.parent = in.parent < 0 ? -1 : index[static_cast<size_t>(in.parent)];
-    node.world = world[static_cast<size_t>(i)];
-    const SceneNode* parent =
-        node.parent < 0 ? nullptr : &scene->nodes[static_cast<size_t>(node.parent)];
-    if (Error e = ApplyTags(in.tags, parent, &node)) {
-      return Fail(document.path + ": node '" + OneLine(in.name) + "': " + e.message);
-    }
-    if (in.mesh >= 0) node.meshes = meshes.Use(in.mesh, Mirrors(node.world));
-    index[static_cast<size_t>(i)] = static_cast<int>(scene->nodes.size());
-    scene->nodes.push_back(std::move(node));
-  }
-  if (scene->meshes.empty()) {
-    return Fail(document.path + ": its scene shows no triangle; export the town's meshes");
-  }
-  return Ok();
+Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings) {
+  const std::string text = Beginning(path);
+  const size_t start = text.find_first_not_of(" \t\r\n");
+  const char first = start == std::string::npos ? '\0' : text[start];
+  if (IsXml(text, first)) return ReadCityGml(path, scene, warnings);
+  // Members of a JSON object stand in any order: glTF must have "asset" and "version", CityJSON its "type".
+  const bool city = text.find("\"CityJSON\"") != std::string::npos || text.find("\"CityObjects\"") != std::string::npos;
+  if (first == '{' && city) return ReadCityJson(path, scene, warnings);
+  if (path.extension() == ".obj" || path.extension() == ".OBJ") return ReadObj(path, scene, warnings);
+  if (first == '{' && path.extension() != ".gltf" && path.extension() != ".glb") return ReadCityJson(path, scene, warnings);
+  return ReadGltfScene(path, scene, warnings);
 }
 
 }  // namespace flaneur

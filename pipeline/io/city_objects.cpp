@@ -1,0 +1,86 @@
+#include "pipeline/io/city_objects.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace flaneur {
+namespace {
+
+using Feature = std::pair<std::string_view, CityFeature>;
+constexpr auto kNoGround = GroundKind::kNone;
+constexpr std::array<Feature, 36> kFeatures{{
+    {"Building", {NodeKind::kBuilding, kNoGround, false}},
+    {"BuildingPart", {NodeKind::kBuilding, kNoGround, true}},
+    {"BuildingInstallation", {NodeKind::kBuilding, kNoGround, true}},
+    {"BuildingConstructiveElement", {NodeKind::kBuilding, kNoGround, true}},
+    {"Bridge", {NodeKind::kOther, kNoGround, false}},
+    {"BridgePart", {NodeKind::kOther, kNoGround, true}},
+    {"BridgeInstallation", {NodeKind::kOther, kNoGround, true}},
+    {"BridgeConstructionElement", {NodeKind::kOther, kNoGround, true}},
+    {"BridgeConstructiveElement", {NodeKind::kOther, kNoGround, true}},
+    {"OtherConstruction", {NodeKind::kOther, kNoGround, false}},
+    {"CityFurniture", {NodeKind::kOther, kNoGround, false}},
+    {"GenericCityObject", {NodeKind::kOther, kNoGround, false}},
+    {"+GenericCityObject", {NodeKind::kOther, kNoGround, false}},
+    {"SolitaryVegetationObject", {NodeKind::kTree, kNoGround, false}},
+    {"PlantCover", {NodeKind::kNone, kNoGround, false}},
+    {"WaterBody", {NodeKind::kNone, kNoGround, false}},
+    {"Tunnel", {NodeKind::kNone, kNoGround, false}},
+    {"TunnelPart", {NodeKind::kNone, kNoGround, true}},
+    {"TunnelInstallation", {NodeKind::kNone, kNoGround, true}},
+    {"ReliefFeature", {NodeKind::kGround, GroundKind::kPavement, false}},
+    {"TINRelief", {NodeKind::kGround, GroundKind::kPavement, false}},
+    {"BreaklineRelief", {NodeKind::kNone, kNoGround, false}},
+    {"MassPointRelief", {NodeKind::kNone, kNoGround, false}},
+    {"RasterRelief", {NodeKind::kNone, kNoGround, false}},
+    {"LandUse", {NodeKind::kGround, GroundKind::kGrass, false}},
+    {"Road", {NodeKind::kGround, GroundKind::kCarriageway, false}},
+    {"Railway", {NodeKind::kGround, GroundKind::kCarriageway, false}},
+    {"TransportationComplex", {NodeKind::kGround, GroundKind::kCarriageway, false}},
+    {"TransportSquare", {NodeKind::kGround, GroundKind::kSquare, false}},
+    {"Square", {NodeKind::kGround, GroundKind::kSquare, false}},
+    {"Track", {NodeKind::kGround, GroundKind::kPavement, false}},
+    {"Waterway", {NodeKind::kNone, kNoGround, false}},
+    {"CityObjectGroup", {NodeKind::kNone, kNoGround, false}},
+    {"BuildingUnit", {NodeKind::kNone, kNoGround, true}},
+    {"BuildingStorey", {NodeKind::kNone, kNoGround, true}},
+    {"TunnelConstructiveElement", {NodeKind::kNone, kNoGround, true}},
+}};
+
+using Surface = std::pair<std::string_view, CitySurface>;
+constexpr std::array<Surface, 14> kSurfaces{{
+    {"WallSurface", {SurfaceKind::kWall, false, false}},
+    {"RoofSurface", {SurfaceKind::kRoof, false, false}},
+    {"GroundSurface", {SurfaceKind::kGround, false, true}},
+    {"ClosureSurface", {SurfaceKind::kOther, true, false}},
+    {"OuterCeilingSurface", {SurfaceKind::kOther, false, false}},
+    {"OuterFloorSurface", {SurfaceKind::kOther, false, false}},
+    {"InteriorWallSurface", {SurfaceKind::kOther, true, false}},
+    {"FloorSurface", {SurfaceKind::kOther, true, false}},
+    {"CeilingSurface", {SurfaceKind::kOther, true, false}},
+    {"Window", {SurfaceKind::kOther, false, false}},
+    {"Door", {SurfaceKind::kOther, false, false}},
+    {"WaterSurface", {SurfaceKind::kOther, false, false}},
+    {"TrafficArea", {SurfaceKind::kGround, false, false}},
+    {"AuxiliaryTrafficArea", {SurfaceKind::kGround, false, false}},
+}};
+
+template <typename Table>
+auto FindIn(const Table& table, std::string_view type) {
+  const auto found = std::find_if(table.begin(), table.end(), [&](const auto& entry) { return entry.first == type; });
+  return found == table.end() ? nullptr : &found->second;
+}
+
+}  // namespace
+
+const CityFeature* FindCityFeature(std::string_view type) { return FindIn(kFeatures, type); }
+const CitySurface* FindCitySurface(std::string_view type) { return FindIn(kSurfaces, type); }
+
+bool IsIndoors(std::string_view type) {
+  constexpr std::array<std::string_view, 8> kIndoors{"Room",         "BuildingRoom",   "IntBuildingInstallation", "BuildingFurniture",
+                                                     "BridgeRoom",   "IntBridgeInstallation", "TunnelHollow", "HollowSpace"};
+  return std::find(kIndoors.begin(), kIndoors.end(), type) != kIndoors.end();
+}
+
+}  // namespace flaneur

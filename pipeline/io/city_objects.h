@@ -1,0 +1,25 @@
+// What the objects and surfaces of CityGML, and of CityJSON alike, mean for a person on foot.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "pipeline/core/scene.h"
+#include "pipeline/io/town_builder.h"
+
+namespace flaneur {
+
+// A feature that stands for itself: Building, SolitaryVegetationObject, Road, ... BuildingPart and BuildingInstallation are
+// parts of the building that holds them.
+struct CityFeature { NodeKind kind; GroundKind ground; bool is_part; };
+
+// Null for anything else.
+const CityFeature* FindCityFeature(std::string_view type);
+// Rooms and furniture inside of buildings.
+bool IsIndoors(std::string_view type);
+
+struct CitySurface { SurfaceKind surface; bool is_virtual; bool is_foundation; };
+
+// WallSurface, RoofSurface, ...; null for anything else. A ClosureSurface is where the model has no wall.
+const CitySurface* FindCitySurface(std::string_view type);
+
+}  // namespace flaneur

@@ -1,0 +1,361 @@
+#include <expat.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+
+#include "pipeline/io/city_objects.h"
+#include "pipeline/io/scene_reader.h"
+#include "pipeline/io/town_builder.h"
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+using Rings = std::vector<std::vector<Point3>>;
+
+constexpr size_t kDeepest = 256;  // elements within elements; real files have some 25
+constexpr size_t kChunk_bytes = 1 << 20;
+constexpr char kSeparator = '|';  // expat puts it between namespace and name
+
+// A polygon as it stands in the file.
+struct StoredPolygon {
+  int object;   // index of the node it belongs to
+  int feature;  // the building, part or installation in it
+  int lod;
+  SurfaceKind surface;
+  bool is_foundation;
+  Rings rings;
+};
+
+// A reference to polygons that stand elsewhere in the file.
+struct Reference { int object, feature, lod; std::string id; };
+
+struct Range { size_t begin, end; };
+using Matrix = std::array<double, 16>;  // row by row
+
+Point3 Transformed(const Matrix& m, const Point3& p, const Point3& move) {
+  const auto row = [&](size_t i) { return m[i] * p.x + m[i + 1] * p.y + m[i + 2] * p.z + m[i + 3]; };
+  return {row(0) + move.x, row(4) + move.y, row(8) + move.z};
+}
+
+std::string_view LocalName(std::string_view name) {
+  const size_t at = name.rfind(kSeparator);
+  return at == std::string_view::npos ? name : name.substr(at + 1);
+}
+
+// lod2Solid, lod3MultiSurface, tin, ...: the level of what is in it. Curves, outlines and interiors are none.
+std::optional<int> LodOf(std::string_view name) {
+  if (name == "tin") return 1;
+  if (name.size() < 5 || name.substr(0, 3) != "lod" || name[3] < '1' || name[3] > '4') return std::nullopt;
+  const std::string_view what = name.substr(4);
+  constexpr std::array<std::string_view, 5> kSurfaces{"Solid", "MultiSurface", "Geometry", "ImplicitRepresentation", "Surface"};
+  if (std::find(kSurfaces.begin(), kSurfaces.end(), what) == kSurfaces.end()) return std::nullopt;
+  return name[3] - '0';
+}
+
+bool IsPolygon(std::string_view name) {
+  return name == "Polygon" || name == "PolygonPatch" || name == "Triangle" || name == "Rectangle";
+}
+
+bool HoldsCoordinates(std::string_view name) {
+  return name == "posList" || name == "pos" || name == "coordinates" || name == "transformationMatrix";
+}
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& path, std::vector<std::string>* warnings)
+      : path_(path), warnings_(warnings), parser_(XML_ParserCreateNS(nullptr, kSeparator), &XML_ParserFree) {}
+
+  Error Read(Scene* scene) {
+    const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path_.c_str(), "rb"), &std::fclose);
+    if (!file) return Fail(path_.string() + ": cannot be opened");
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(parser_.get(), &Reader::OnStart, &Reader::OnEnd);
+    XML_SetCharacterDataHandler(parser_.get(), &Reader::OnText);
+    XML_SetStartDoctypeDeclHandler(parser_.get(), &Reader::OnDoctype);
+    for (bool last = false; !last;) {
+      void* buffer = XML_GetBuffer(parser_.get(), static_cast<int>(kChunk_bytes));
+      if (!buffer) return Fail(path_.string() + ": out of memory");
+      const size_t count = std::fread(buffer, 1, kChunk_bytes, file.get());
+      last = count < kChunk_bytes;
+      const bool good = XML_ParseBuffer(parser_.get(), static_cast<int>(count), last) == XML_STATUS_OK;
+      if (error_) return error_;
+      if (!good) return Fail(Where() + "not well-formed XML: " + XML_ErrorString(XML_GetErrorCode(parser_.get())));
+    }
+    return Build(scene);
+  }
+
+ private:
+  struct Element {
+    std::string name, id;
+    size_t first_polygon;
+    int object, feature, lod;
+    const CitySurface* surface;
+    bool skipped;
+  };
+
+  static void OnStart(void* self, const char* name, const char** attributes) {
+    static_cast<Reader*>(self)->Start(name, attributes);
+  }
+  static void OnEnd(void* self, const char*) { static_cast<Reader*>(self)->End(); }
+  static void OnText(void* self, const char* text, int length) {
+    auto* reader = static_cast<Reader*>(self);
+    if (reader->collects_) reader->text_.append(text, static_cast<size_t>(length));
+  }
+  static void OnDoctype(void* self, const char*, const char*, const char*, int) {
+    static_cast<Reader*>(self)->Stop("has a DOCTYPE, which CityGML does not need and which can hide an XML bomb; remove it");
+  }
+
+  std::string Where() const {
+    return path_.string() + ":" + std::to_string(XML_GetCurrentLineNumber(parser_.get())) + ": ";
+  }
+  void Stop(const std::string& why) {
+    if (!error_) error_ = Fail(OneLine(Where() + why));
+    XML_StopParser(parser_.get(), XML_FALSE);
+  }
+
+  void Start(std::string_view full_name, const char** attributes) {
+    if (error_) return;
+    const std::string_view name = LocalName(full_name);
+    if (stack_.empty()) CheckRoot(full_name, name);
+    if (stack_.size() >= kDeepest) return Stop("elements stand more than 256 deep; no CityGML does");
+    Element e = stack_.empty() ? Element{{}, {}, 0, -1, -1, 0, nullptr, false} : stack_.back();
+    e.name = name;
+    e.id.clear();
+    e.first_polygon = polygons_.size();
+    std::string reference;
+    for (const char** a = attributes; *a; a += 2) {
+      const std::string_view key = LocalName(a[0]);
+      if (key == "id") e.id = a[1];
+      else if (key == "href") reference = a[1];
+      else if (key == "srsName" && reference_system_.empty()) reference_system_ = a[1];
+    }
+    stack_.push_back(std::move(e));
+    Enter(&stack_.back(), reference);
+  }
+
+  void CheckRoot(std::string_view full_name, std::string_view name) {
+    if (name != "CityModel") return Stop("its outermost element is '" + std::string(name) + "', not CityGML's CityModel");
+    for (const char* version : {"/1.0", "/2.0"})
+      if (full_name.find(std::string("opengis.net/citygml") + version) != std::string_view::npos) return;
+    Stop("CityGML 1.0 and 2.0 are understood, not '" + std::string(full_name.substr(0, full_name.size() - name.size() - 1)) +
+         "'; convert it");
+  }
+
+  void Enter(Element* e, const std::string& reference) {
+    if (e->skipped) return;
+    if (IsIndoors(e->name)) e->skipped = true;
+    else if (const CityFeature* feature = FindCityFeature(e->name)) EnterFeature(*feature, e);
+    else if (const CitySurface* surface = FindCitySurface(e->name)) e->surface = surface;
+    else if (e->name == "exterior" || e->name == "interior" || IsPolygon(e->name)) EnterGeometry(e->name);
+    else if (e->name == "ImplicitGeometry") implicit_ = Implicit{};
+    else if (const std::optional<int> lod = LodOf(e->name)) e->lod = *lod;
+    if (!reference.empty() && e->lod > 0 && e->object >= 0 && reference[0] == '#')
+      references_.push_back({e->object, e->feature, e->lod, reference.substr(1)});
+    if (!HoldsCoordinates(e->name)) return;
+    collects_ = in_polygon_ || implicit_;
+    text_.clear();
+  }
+
+  void EnterFeature(const CityFeature& feature, Element* e) {
+    if (!feature.is_part || e->object < 0) {
+      const std::string name = e->id.empty() ? e->name + "_" + std::to_string(objects_.size()) : e->id;
+      e->object = static_cast<int>(objects_.size());
+      objects_.push_back({name, feature, features_});
+      e->surface = nullptr;
+      e->lod = 0;
+    }
+    e->feature = features_++;
+  }
+
+  void EnterGeometry(const std::string& name) {
+    if (IsPolygon(name)) {
+      const Element& e = stack_.back();
+      in_polygon_ = e.lod > 0 && e.object >= 0 && !(e.surface && e.surface->is_virtual);
+      rings_.clear();
+    } else if (in_polygon_) {
+      rings_.emplace_back();
+    }
+  }
+
+  void End() {
+    if (error_) return;
+    const Element e = std::move(stack_.back());
+    stack_.pop_back();
+    if (collects_ && HoldsCoordinates(e.name)) TakeCoordinates(e);
+    else if (IsPolygon(e.name) && in_polygon_) Store(e);
+    else if (e.name == "ImplicitGeometry" && implicit_) EndImplicit(e);
+    if (!e.id.empty() && e.lod > 0 && polygons_.size() > e.first_polygon) ranges_[e.id] = {e.first_polygon, polygons_.size()};
+  }
+
+  void TakeCoordinates(const Element& e) {
+    collects_ = false;
+    std::vector<double> numbers;
+    const char *at = text_.data(), *end = at + text_.size();
+    while (true) {
+      while (at < end && (static_cast<unsigned char>(*at) <= ' ' || *at == ',')) ++at;
+      if (at == end) break;
+      if (*at == '+') ++at;
+      double value = 0;
+      const auto [next, problem] = std::from_chars(at, end, value);
+      if (problem != std::errc() || !std::isfinite(value))
+        return Stop(Named(e) + ": '" + std::string(at, std::min<size_t>(12, static_cast<size_t>(end - at))) + "' is no coordinate");
+      numbers.push_back(value);
+      at = next;
+    }
+    if (e.name == "transformationMatrix") return TakeMatrix(e, numbers);
+    if (numbers.size() % 3 != 0)
+      return Stop(Named(e) + ": " + std::to_string(numbers.size()) + " numbers do not make points of three coordinates");
+    if (!in_polygon_) return TakeReferencePoint(numbers);
+    if (rings_.empty()) rings_.emplace_back();
+    for (size_t i = 0; i < numbers.size(); i += 3) rings_.back().push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+  }
+
+  std::string Named(const Element& e) const {
+    return e.object < 0 ? e.name : "'" + objects_[static_cast<size_t>(e.object)].name + "'";
+  }
+
+  void TakeMatrix(const Element& e, const std::vector<double>& numbers) {
+    if (numbers.size() != 16) return Stop(Named(e) + ": a transformationMatrix needs 16 numbers");
+    if (implicit_) std::copy(numbers.begin(), numbers.end(), implicit_->matrix.begin());
+  }
+  void TakeReferencePoint(const std::vector<double>& numbers) {
+    if (implicit_ && numbers.size() == 3) implicit_->at = {numbers[0], numbers[1], numbers[2]};
+  }
+
+  void Store(const Element& e) {
+    in_polygon_ = false;
+    for (std::vector<Point3>& ring : rings_) {
+      const auto same = [](const Point3& p, const Point3& q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
+      ring.erase(std::unique(ring.begin(), ring.end(), same), ring.end());
+      if (ring.size() > 1 && same(ring.front(), ring.back())) ring.pop_back();
+    }
+    std::erase_if(rings_, [&](const std::vector<Point3>& ring) { return ring.size() < 3 && &ring != rings_.data(); });
+    const SurfaceKind kind = e.surface ? e.surface->surface : SurfaceKind::kOther;
+    polygons_.push_back({e.object, e.feature, e.lod, kind, e.surface && e.surface->is_foundation, std::move(rings_)});
+    rings_.clear();
+  }
+
+  // The prototype stands in its own coordinates and is moved to its place; others may refer to it as it was.
+  void EndImplicit(const Element& e) {
+    Implicit place = *implicit_;
+    implicit_.reset();
+    place.object = e.object, place.feature = e.feature, place.lod = e.lod;
+    place.prototype = {e.first_polygon, polygons_.size()};
+    if (!references_.empty() && references_.back().object == e.object && place.prototype.begin == place.prototype.end) {
+      place.id = references_.back().id;
+      references_.pop_back();
+    }
+    for (size_t i = place.prototype.begin; i < place.prototype.end; ++i) polygons_[i].lod = 0;  // not where it stands
+    if (place.id.empty() && place.prototype.begin == place.prototype.end) ++without_geometry_;
+    else implicits_.push_back(std::move(place));
+  }
+
+  void PlaceImplicits() {
+    for (const Implicit& place : implicits_) {
+      Range range = place.prototype;
+      if (!place.id.empty()) {
+        const auto found = ranges_.find(place.id);
+        if (found == ranges_.end()) continue;
+        range = found->second;
+      }
+      for (size_t i = range.begin; i < range.end; ++i) {
+        StoredPolygon polygon = polygons_[i];
+        polygon.object = place.object, polygon.feature = place.feature, polygon.lod = place.lod;
+        for (auto& ring : polygon.rings)
+          for (Point3& p : ring) p = Transformed(place.matrix, p, place.at);
+        polygons_.push_back(std::move(polygon));
+      }
+    }
+  }
+
+  // A solid often only lists the polygons of its own building's surfaces; a neighbour's wall is taken over.
+  void TakeReferences() {
+    for (const Reference& r : references_) {
+      const auto found = ranges_.find(r.id);
+      if (found == ranges_.end()) continue;
+      const Range range = found->second;
+      for (size_t i = range.begin; i < range.end; ++i) {
+        if (polygons_[i].object == r.object) continue;
+        StoredPolygon polygon = polygons_[i];
+        polygon.object = r.object, polygon.feature = r.feature, polygon.lod = r.lod;
+        polygons_.push_back(std::move(polygon));
+      }
+    }
+  }
+
+  // Level 4 only where there is no other: it is about interiors.
+  static int Finer(int a, int b) { return b == 4 ? (a == 0 ? 4 : a) : (a == 4 ? b : std::max(a, b)); }
+
+  // Each part has its own finest level; a building's own model gives way to finer ones of its parts.
+  struct Levels { std::vector<int> of_feature, of_object; };
+  Levels FinestLevels() const {
+    Levels levels{std::vector<int>(static_cast<size_t>(features_), 0), std::vector<int>(objects_.size(), 0)};
+    for (const StoredPolygon& p : polygons_) {
+      for (int* finest : {&levels.of_feature[static_cast<size_t>(p.feature)], &levels.of_object[static_cast<size_t>(p.object)]})
+        if (p.lod > 0) *finest = *finest == 0 ? p.lod : Finer(*finest, p.lod);
+    }
+    return levels;
+  }
+
+  Error Build(Scene* scene) {
+    PlaceImplicits();
+    TakeReferences();
+    if (without_geometry_ > 0 && warnings_)
+      warnings_->push_back(path_.string() + ": " + std::to_string(without_geometry_) +
+                           " objects show models in other files; they were left out");
+    const Levels levels = FinestLevels();
+    TownBuilder builder;
+    std::vector<int> node(objects_.size(), -1);
+    for (const StoredPolygon& p : polygons_) {
+      const auto object = static_cast<size_t>(p.object);
+      const int lod = levels.of_feature[static_cast<size_t>(p.feature)];
+      const bool outdone = p.feature == objects_[object].root && lod != levels.of_object[object];
+      if (p.lod == 0 || p.lod != lod || outdone) continue;
+      const Object& o = objects_[object];
+      if (node[object] < 0) node[object] = builder.AddNode(o.name, o.feature.kind, o.feature.ground);
+      const bool foundation = p.is_foundation && o.feature.kind == NodeKind::kBuilding;
+      builder.AddPolygon(foundation ? builder.FoundationOf(node[object]) : node[object], p.surface, p.rings);
+    }
+    polygons_ = {};
+    return builder.Finish(path_.string(), PlainReferenceSystem(reference_system_), scene, warnings_);
+  }
+
+  struct Object { std::string name; CityFeature feature; int root; };
+  struct Implicit {
+    Matrix matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    Point3 at;
+    int object = 0, feature = 0, lod = 0;
+    Range prototype{0, 0};
+    std::string id;
+  };
+
+  std::filesystem::path path_;
+  std::vector<std::string>* warnings_;
+  std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser_;
+  Error error_;
+  std::vector<Element> stack_;
+  std::vector<Object> objects_;
+  int features_ = 0, without_geometry_ = 0;
+  std::string reference_system_, text_;
+  bool in_polygon_ = false, collects_ = false;
+  Rings rings_;
+  std::optional<Implicit> implicit_;
+  std::vector<Implicit> implicits_;
+  std::vector<StoredPolygon> polygons_;
+  std::vector<Reference> references_;
+  std::unordered_map<std::string, Range> ranges_;
+};
+
+}  // namespace
+
+Error ReadCityGml(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings) {
+  return Reader(path, warnings).Read(scene);
+}
+
+}  // namespace flaneur

@@ -1,0 +1,26 @@
+// Towns in: glTF 2.0 (.glb, .gltf), OBJ, CityJSON 1.0 to 2.0, CityJSONSeq, CityGML 1.0 and 2.0.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/core/scene.h"
+#include "runtime/base/error.h"
+
+namespace flaneur {
+
+// Reads a town of any of these formats, told by the content. Coordinates far from zero are moved near it and
+// `scene->origin_m` says by how much. City models: each building with its parts and installations is one node, named by its
+// id; its finest level of detail up to 3 counts; closure surfaces and rooms are left out; ground surfaces become its
+// foundation; terrain and roads are ground, plants trees. OBJ: each `o`, else each `g`, is an untagged node.
+// `warnings` gets one line for each kind of thing left out or guessed.
+// Errors: unreadable or broken file (names the line or element), a number that is none, an index out of range, a document
+// type in XML, degrees instead of metres, nothing to see.
+Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings = nullptr);
+
+// One format each.
+Error ReadObj(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings);
+Error ReadCityJson(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings);
+Error ReadCityGml(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings);
+
+}  // namespace flaneur

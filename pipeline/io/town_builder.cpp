@@ -1,0 +1,125 @@
+#include "pipeline/io/town_builder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <regex>
+
+#include "pipeline/io/triangulate_polygon.h"
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+constexpr double kFarFromOrigin_m = 10'000;  // floats there are coarser than a millimetre
+constexpr double kOriginStep_m = 100;
+
+struct SurfaceLook { const char* name; Vec4 color; };
+constexpr std::array<SurfaceLook, 4> kLooks{{{"other", {0.55f, 0.53f, 0.50f, 1}},
+                                             {"wall", {0.72f, 0.66f, 0.55f, 1}},
+                                             {"roof", {0.36f, 0.13f, 0.08f, 1}},
+                                             {"ground", {0.30f, 0.27f, 0.22f, 1}}}};
+
+std::vector<Material> Looks() {
+  std::vector<Material> materials;
+  for (const SurfaceLook& look : kLooks) {
+    Material material;
+    material.name = look.name;
+    material.base_color = look.color;
+    material.double_sided = true;
+    materials.push_back(material);
+  }
+  return materials;
+}
+
+void AddTriangle(const std::array<Point3, 3>& corners, Point2 origin, Mesh* mesh) {
+  std::array<Vec3, 3> p;
+  for (size_t i = 0; i < 3; ++i)
+    p[i] = GltfFromGround({static_cast<float>(corners[i].x - origin.x), static_cast<float>(corners[i].y - origin.y),
+                           static_cast<float>(corners[i].z)});
+  const Vec3 normal = Normalized(Cross(p[1] - p[0], p[2] - p[0]));
+  for (const Vec3& corner : p) {
+    mesh->indices.push_back(static_cast<uint32_t>(mesh->positions.size()));
+    mesh->positions.push_back(corner);
+    mesh->normals.push_back(Length(normal) > 0 ? normal : Vec3{0, 1, 0});
+  }
+}
+
+double Step(double value) { return std::floor(value / kOriginStep_m) * kOriginStep_m; }
+
+}  // namespace
+
+int TownBuilder::AddNode(const std::string& name, NodeKind kind, GroundKind ground, int parent) {
+  SceneNode node;
+  node.name = name;
+  node.kind = kind;
+  node.ground = ground;
+  node.parent = parent;
+  nodes_.push_back(std::move(node));
+  foundations_.push_back(-1);
+  return static_cast<int>(nodes_.size()) - 1;
+}
+
+int TownBuilder::FoundationOf(int building) {
+  const auto at = static_cast<size_t>(building);
+  if (foundations_[at] >= 0) return foundations_[at];
+  const int node = AddNode(nodes_[at].name, NodeKind::kNone, GroundKind::kNone, building);
+  nodes_.back().is_foundation = true;
+  return foundations_[at] = node;
+}
+
+void TownBuilder::AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings) {
+  std::vector<Point3> points;
+  for (const auto& ring : rings) points.insert(points.end(), ring.begin(), ring.end());
+  const std::vector<std::array<uint32_t, 3>> triangles = TriangulatePolygon(rings);
+  if (triangles.empty()) ++without_area_;
+  for (const auto& [a, b, c] : triangles) triangles_.push_back({node, surface, points[a], points[b], points[c]});
+}
+
+Error TownBuilder::Finish(const std::string& file, const std::string& reference_system, Scene* scene,
+                          std::vector<std::string>* warnings) {
+  if (without_area_ > 0 && warnings)
+    warnings->push_back(file + ": " + std::to_string(without_area_) +
+                        " faces have fewer than three corners or no area; they were left out");
+  if (triangles_.empty()) return Fail(OneLine(file + ": holds no face with an area, so there is no town in it"));
+  *scene = {};
+  scene->reference_system = reference_system;
+  Point2 min{1e300, 1e300}, max{-1e300, -1e300};
+  for (const Triangle& t : triangles_) {
+    min = {std::min(min.x, t.a.x), std::min(min.y, t.a.y)};
+    max = {std::max(max.x, t.a.x), std::max(max.y, t.a.y)};
+  }
+  const Point2 middle{(min.x + max.x) / 2, (min.y + max.y) / 2};
+  if (std::abs(middle.x) > kFarFromOrigin_m || std::abs(middle.y) > kFarFromOrigin_m)
+    scene->origin_m = {Step(middle.x), Step(middle.y)};
+  scene->materials = Looks();
+  scene->nodes = std::move(nodes_);
+  std::stable_sort(triangles_.begin(), triangles_.end(), [](const Triangle& a, const Triangle& b) {
+    return a.node != b.node ? a.node < b.node : a.surface < b.surface;
+  });
+  for (size_t i = 0; i < triangles_.size(); ++i) {
+    const Triangle& t = triangles_[i];
+    if (i == 0 || t.node != triangles_[i - 1].node || t.surface != triangles_[i - 1].surface) {
+      SceneNode& node = scene->nodes[static_cast<size_t>(t.node)];
+      node.meshes.push_back(static_cast<int>(scene->meshes.size()));
+      scene->meshes.emplace_back();
+      scene->meshes.back().name = node.name;
+      scene->meshes.back().material = static_cast<int>(t.surface);
+    }
+    AddTriangle({t.a, t.b, t.c}, scene->origin_m, &scene->meshes.back());
+  }
+  triangles_ = {};
+  return Ok();
+}
+
+std::string PlainReferenceSystem(const std::string& text) {
+  std::smatch found;
+  // EPSG:25832, urn:ogc:def:crs:EPSG::25832, urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783, .../crs/EPSG/0/7415
+  if (std::regex_search(text, found, std::regex("EPSG(?:[:/][0-9.]*)?[:/]([0-9]{4,6})", std::regex::icase)))
+    return "EPSG:" + found[1].str();
+  if (std::regex_search(text, found, std::regex("ETRS89_UTM([0-9]{2})"))) return "EPSG:258" + found[1].str();
+  if (std::regex_search(text, found, std::regex("DE_DHDN_3GK([2-5])"))) return "EPSG:3146" + std::to_string(std::stoi(found[1]) + 4);
+  return OneLine(text);
+}
+
+}  // namespace flaneur

@@ -1,0 +1,40 @@
+// Makes a scene of polygons with coordinates of any size.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "pipeline/core/scene.h"
+#include "runtime/base/error.h"
+
+namespace flaneur {
+
+enum class SurfaceKind { kOther, kWall, kRoof, kGround };  // its colour
+
+class TownBuilder {
+ public:
+  // Returns the node's number. Give the parent first.
+  int AddNode(const std::string& name, NodeKind kind, GroundKind ground = GroundKind::kNone, int parent = -1);
+  // The node below a building that holds its ground surfaces; made when first asked for.
+  int FoundationOf(int building);
+  // Rings without a repeated last point: the outer one, then holes. Points are x east, y north, z up, metres; finite.
+  // Polygons without area are counted and left out.
+  void AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings);
+
+  // Coordinates far from zero are moved by whole hundreds of metres: see Scene::origin_m. Nodes without triangles stay
+  // where something hangs on them. Errors: nothing but polygons without area (names `file`).
+  Error Finish(const std::string& file, const std::string& reference_system, Scene* scene,
+               std::vector<std::string>* warnings);
+
+ private:
+  struct Triangle { int node; SurfaceKind surface; Point3 a, b, c; };
+  std::vector<SceneNode> nodes_;
+  std::vector<int> foundations_;
+  std::vector<Triangle> triangles_;
+  int without_area_ = 0;
+};
+
+// "EPSG:25832" from the ways in which files name a reference system (urn, URL, plain, AdV's urn); the text itself where it
+// is none of them.
+std::string PlainReferenceSystem(const std::string& text);
+
+}  // namespace flaneur
