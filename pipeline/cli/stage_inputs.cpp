@@ -68,7 +68,7 @@ std::string FootprintsInputs(const TourSettings& s, const fs::path& town) {
   for (const TownPart& part : s.parts) {
     print.AddFile(part.file).Add(part.position_m.x).Add(part.position_m.y).Add(part.yaw_deg).Add(part.scale);
   }
-  const auto& [clearance_m, band_m, tolerance_m, bridge_m, open_yard_m2, scale, merge_blocks] = s.footprints;
+  const auto& [clearance_m, band_m, tolerance_m, bridge_m, open_yard_m2, scale, merge_blocks, threads] = s.footprints;
   AddAll(band_m, &print);
   print.Add(clearance_m).Add(tolerance_m).Add(bridge_m).Add(open_yard_m2).Add(scale).Add(merge_blocks);
   const auto& [cell_m, max_cells, ground_scale, bare_margin_m] = s.ground;

@@ -11,7 +11,7 @@ namespace flaneur {
 namespace {
 
 constexpr double kGrid_m = 0.001;
-constexpr double kBend_m = 0.005;         // the ground may leave an edge's straight line by this much
+constexpr double kBend_m = 0.01;          // the ground may leave an edge's straight line by this much
 constexpr double kShortEdge_m = 0.25;     // shorter edges are not split
 constexpr double kThin_m = 0.002;         // parts thinner than this in plan are drawn as one line
 constexpr double kOvershoot_m = 0.002;    // links run a little past their aim, to cross it for certain
@@ -89,6 +89,7 @@ class BandCutter {
 
  private:
   bool GroundBends(const Point3& a, const Point3& b) const {
+    if (ground_.max_height() - ground_.min_height() <= kBend_m) return false;
     const double from = ground_.Height(a.x, a.y), to = ground_.Height(b.x, b.y);
     for (const double t : {0.25, 0.5, 0.75}) {
       const Point3 p = Between(a, b, t);

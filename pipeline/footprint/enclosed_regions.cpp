@@ -2,6 +2,7 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 
 #include <algorithm>
@@ -12,20 +13,27 @@
 namespace flaneur {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_2<Kernel>;
-using FaceBase =
-    CGAL::Triangulation_face_base_with_info_2<int, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_intersections_tag>;
-using Face = Triangulation::Face_handle;
-using Vertex = Triangulation::Vertex_handle;
+// Where segments meet only at their ends nothing has to be constructed, and predicates alone must be exact.
+using Plain = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+
+template <typename Kernel, typename Crossings>
+struct Triangulated {
+  using VertexBase = CGAL::Triangulation_vertex_base_2<Kernel>;
+  using FaceBase =
+      CGAL::Triangulation_face_base_with_info_2<int, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+  using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+  using Type = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, Crossings>;
+};
+using PlainTriangulation = Triangulated<Plain, CGAL::No_constraint_intersection_requiring_constructions_tag>::Type;
+using ExactTriangulation = Triangulated<Exact, CGAL::Exact_intersections_tag>::Type;
 
 // A triangle larger than this is sampled at several points.
 constexpr double kSampleArea_m2 = 0.25;
 
-Triangulation Triangulate(const std::vector<Segment>& segments) {
-  std::vector<Kernel::Point_2> points;
+template <typename Triangulation>
+void Triangulate(const std::vector<Segment>& segments, Triangulation* triangulation) {
+  std::vector<typename Triangulation::Point> points;
   std::vector<std::pair<size_t, size_t>> edges;
   std::map<std::pair<double, double>, size_t> index;
   const auto vertex = [&](Point2 p) {
@@ -37,11 +45,10 @@ Triangulation Triangulate(const std::vector<Segment>& segments) {
     const size_t a = vertex(s.a);
     edges.emplace_back(a, vertex(s.b));
   }
-  Triangulation triangulation;
-  triangulation.insert_constraints(points.begin(), points.end(), edges.begin(), edges.end());
-  return triangulation;
+  triangulation->insert_constraints(points.begin(), points.end(), edges.begin(), edges.end());
 }
 
+template <typename Face>
 void Flood(Face start, int region) {
   std::vector<Face> queue{start};
   start->info() = region;
@@ -57,10 +64,12 @@ void Flood(Face start, int region) {
   }
 }
 
+template <typename Vertex>
 Point2 ToPoint(Vertex v) { return {CGAL::to_double(v->point().x()), CGAL::to_double(v->point().y())}; }
 
 struct Region { double area_m2 = 0; std::vector<RegionSample> samples; };
 
+template <typename Face>
 void AddSamples(Face face, Region* region) {
   const Point2 a = ToPoint(face->vertex(0)), b = ToPoint(face->vertex(1)), c = ToPoint(face->vertex(2));
   const double area = SignedArea({a, b, c});
@@ -72,11 +81,12 @@ void AddSamples(Face face, Region* region) {
 }
 
 // Numbers the regions from 0, the outside.
+template <typename Triangulation>
 std::vector<Region> FindRegions(Triangulation* triangulation) {
-  for (const Face face : triangulation->all_face_handles()) face->info() = -1;
+  for (const typename Triangulation::Face_handle face : triangulation->all_face_handles()) face->info() = -1;
   Flood(triangulation->infinite_face(), 0);
   std::vector<Region> regions(1);
-  for (const Face face : triangulation->finite_face_handles()) {
+  for (const typename Triangulation::Face_handle face : triangulation->finite_face_handles()) {
     if (face->info() == 0) continue;
     if (face->info() < 0) {
       Flood(face, static_cast<int>(regions.size()));
@@ -88,10 +98,12 @@ std::vector<Region> FindRegions(Triangulation* triangulation) {
 }
 
 // Walks along the edges with something solid on their left.
+template <typename Triangulation>
 Rings TraceSolid(const Triangulation& triangulation, const std::vector<bool>& solid) {
+  using Vertex = typename Triangulation::Vertex_handle;
   std::map<Vertex, std::vector<Vertex>> next;
   std::vector<Vertex> starts;
-  for (const Face face : triangulation.finite_face_handles()) {
+  for (const typename Triangulation::Face_handle face : triangulation.finite_face_handles()) {
     if (!solid[static_cast<size_t>(face->info())]) continue;
     for (int i = 0; i < 3; ++i) {
       if (solid[static_cast<size_t>(face->neighbor(i)->info())]) continue;
@@ -114,12 +126,10 @@ Rings TraceSolid(const Triangulation& triangulation, const std::vector<bool>& so
   return Union(rings, {});
 }
 
-}  // namespace
-
-Enclosure EncloseRegions(const std::vector<Segment>& segments, const RegionTest& is_solid) {
-  if (segments.empty()) return {};
-  const std::vector<Segment> cut = CutWhereTheyMeet(segments);
-  Triangulation triangulation = Triangulate(cut);
+template <typename Triangulation>
+Enclosure Enclose(const std::vector<Segment>& cut, const RegionTest& is_solid) {
+  Triangulation triangulation;
+  Triangulate(cut, &triangulation);
   if (triangulation.dimension() < 2) return {{}, cut};
   const std::vector<Region> regions = FindRegions(&triangulation);
   std::vector<bool> solid(regions.size(), false);
@@ -131,6 +141,18 @@ Enclosure EncloseRegions(const std::vector<Segment>& segments, const RegionTest&
       out.pieces.push_back({ToPoint(face->vertex(Triangulation::ccw(i))), ToPoint(face->vertex(Triangulation::cw(i)))});
   }
   return out;
+}
+
+}  // namespace
+
+Enclosure EncloseRegions(const std::vector<Segment>& segments, const RegionTest& is_solid) {
+  if (segments.empty()) return {};
+  const std::vector<Segment> cut = CutWhereTheyMeet(segments);
+  try {
+    return Enclose<PlainTriangulation>(cut, is_solid);
+  } catch (const PlainTriangulation::Intersection_of_constraints_exception&) {
+    return Enclose<ExactTriangulation>(cut, is_solid);
+  }
 }
 
 }  // namespace flaneur

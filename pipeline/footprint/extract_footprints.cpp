@@ -1,16 +1,21 @@
 #include "pipeline/footprint/extract_footprints.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <thread>
 
 #include "pipeline/footprint/band.h"
+#include "pipeline/footprint/base_ground.h"
 #include "pipeline/footprint/enclosed_regions.h"
 #include "pipeline/footprint/overhead.h"
 #include "pipeline/footprint/polygon_sets.h"
 #include "pipeline/footprint/rasterize_ground.h"
+#include "pipeline/footprint/repair_shell.h"
 #include "pipeline/footprint/town_objects.h"
 
 namespace flaneur {
@@ -27,6 +32,7 @@ constexpr double kOpenShell_m = 1.0;       // of wall without anything solid bes
 constexpr double kCrumb_m = 0.02;          // of lines without area that lead nowhere
 constexpr double kNoWay_m = 0.5;           // nobody passes a gap in a building narrower than this
 constexpr double kOnOutline_m = 0.002;     // lines this near to something solid are its outline
+constexpr double kJoint_m = 0.5;         // neighbours that overlap by less are meant to touch
 constexpr double kThinWall_m = 0.001;      // half the thickness of a wall without any, before the clearance
 
 // An object's part in the band.
@@ -39,16 +45,30 @@ struct Shape {
 
 struct Site {
   const FootprintOptions& options;
-  const LocalGround& ground;
+  const LocalGround* ground;  // the town's; null where it has none
 };
 
-RegionTest RoofedTest(const Site& site, const Overhead& overhead) {
-  return [&](double area_m2, const std::vector<RegionSample>& samples) {
+// What an object stands on: one ground, or where it stands on terraces several, the lowest first.
+class Stand {
+ public:
+  Stand(const Site& site, const TownObject& object) : town_(site.ground) {
+    if (!town_) own_ = GroundsUnder(object);
+  }
+  size_t count() const { return town_ ? 1 : own_.size(); }
+  const LocalGround& ground(size_t i) const { return town_ ? *town_ : own_[i]; }
+
+ private:
+  const LocalGround* town_;
+  std::vector<LocalGround> own_;
+};
+
+RegionTest RoofedTest(const Site& site, const LocalGround& ground, const Overhead& overhead) {
+  return [&site, &ground, &overhead](double area_m2, const std::vector<RegionSample>& samples) {
     if (area_m2 < site.options.open_yard_m2) return true;
     double roofed = 0, all = 0;
     for (const auto& [p, weight] : samples) {
       all += weight;
-      if (overhead.Covers(p, site.ground.Height(p.x, p.y) + site.options.band_m[0])) roofed += weight;
+      if (overhead.Covers(p, ground.Height(p.x, p.y) + site.options.band_m[0])) roofed += weight;
     }
     return roofed > kRoofedShare * all;
   };
@@ -92,9 +112,9 @@ std::vector<Segment> WithoutCrumbs(const std::vector<Segment>& loose) {
 }
 
 // Joins lines that miss each other by up to reach_m and adds what they enclose under a roof.
-void Close(const Site& site, std::vector<Segment> lines, double reach_m, const Overhead& overhead, Shape* shape) {
+void Close(std::vector<Segment> lines, double reach_m, const RegionTest& is_solid, Shape* shape) {
   BridgeLooseEnds(&lines, reach_m);
-  const Enclosure enclosure = EncloseRegions(lines, RoofedTest(site, overhead));
+  const Enclosure enclosure = EncloseRegions(lines, is_solid);
   shape->solid = Union(shape->solid, enclosure.solid);
   const std::vector<Segment> loose = Outside(enclosure.pieces, Offset(shape->solid, kOnOutline_m));
   shape->loose = WithoutCrumbs(loose);
@@ -108,19 +128,45 @@ std::vector<Segment> Lines(const Shape& shape) {
   return lines;
 }
 
+BandParts PartsInBand(const Site& site, const Stand& stand, const std::vector<Triangle3>& triangles) {
+  BandParts parts = CutToBand(triangles, stand.ground(0), site.options.band_m);
+  for (size_t i = 1; i < stand.count(); ++i) {
+    const BandParts more = CutToBand(triangles, stand.ground(i), site.options.band_m);
+    parts.walls.insert(parts.walls.end(), more.walls.begin(), more.walls.end());
+    parts.areas = Union(parts.areas, more.areas);
+  }
+  return parts;
+}
+
+// Closes what is missing from a building's shell; whether that is something in the band.
+bool Repair(const Site& site, const Stand& stand, const TownObject& object, std::vector<Triangle3>* triangles) {
+  if (object.kind != ObstacleKind::kBuilding) return false;
+  std::vector<Triangle3> shell = object.triangles;
+  shell.insert(shell.end(), object.foundation.begin(), object.foundation.end());
+  const std::vector<Triangle3> missing = MissingTriangles(shell);
+  if (missing.empty()) return false;
+  triangles->insert(triangles->end(), missing.begin(), missing.end());
+  const BandParts parts = PartsInBand(site, stand, missing);
+  return !parts.walls.empty() || !parts.areas.empty();
+}
+
 Shape ShapeOf(const Site& site, const TownObject& object) {
-  const BandParts parts = CutToBand(object.triangles, site.ground, site.options.band_m);
+  const Stand stand(site, object);
+  Shape shape;
+  std::vector<Triangle3> triangles = object.triangles;
+  shape.guessed = Repair(site, stand, object, &triangles);
+  const BandParts parts = PartsInBand(site, stand, triangles);
   const std::vector<Segment> lines = Lines(parts);
   Overhead overhead;
-  overhead.Add(object.triangles);
-  Shape shape;
+  overhead.Add(triangles);
+  const RegionTest is_solid = RoofedTest(site, stand.ground(0), overhead);
   shape.lines = static_cast<int>(lines.size());
   shape.solid = parts.areas;
-  Close(site, lines, site.options.bridge_m, overhead, &shape);
+  Close(lines, site.options.bridge_m, is_solid, &shape);
   if (object.kind == ObstacleKind::kBuilding && LooseLength(shape) > kOpenShell_m) {
     const double before = Area(shape.solid);
-    Close(site, Lines(shape), kNoWay_m, overhead, &shape);
-    shape.guessed = Area(shape.solid) > before + kSmallestGap_m2;
+    Close(Lines(shape), kNoWay_m, is_solid, &shape);
+    shape.guessed |= Area(shape.solid) > before + kSmallestGap_m2;
   }
   return shape;
 }
@@ -183,6 +229,19 @@ std::vector<size_t> OpenOnes(const std::vector<TownObject>& objects, const std::
   return open;
 }
 
+// One object of several, as far as the ground under them is concerned.
+TownObject Together(const std::vector<TownObject>& objects, const std::vector<size_t>& block) {
+  TownObject all = objects[block[0]];
+  for (size_t k = 1; k < block.size(); ++k) {
+    const TownObject& o = objects[block[k]];
+    all.triangles.insert(all.triangles.end(), o.triangles.begin(), o.triangles.end());
+    all.foundation.insert(all.foundation.end(), o.foundation.begin(), o.foundation.end());
+    all.min_m = {std::min(all.min_m.x, o.min_m.x), std::min(all.min_m.y, o.min_m.y), std::min(all.min_m.z, o.min_m.z)};
+    all.max_m = {std::max(all.max_m.x, o.max_m.x), std::max(all.max_m.y, o.max_m.y), std::max(all.max_m.z, o.max_m.z)};
+  }
+  return all;
+}
+
 // Houses that lean on each other often lack the wall between them: what only the block as a whole encloses goes to the
 // house that stands over it.
 void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const std::vector<size_t>& whole_block,
@@ -199,7 +258,8 @@ void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const 
     overhead.Add(objects[i].triangles);
   }
   Shape whole;
-  Close(site, lines, site.options.bridge_m, overhead, &whole);
+  const Stand stand(site, Together(objects, block));
+  Close(lines, site.options.bridge_m, RoofedTest(site, stand.ground(0), overhead), &whole);
   Rings gap = Difference(whole.solid, known);
   // A piece goes to the object that most of it lies under.
   std::vector<Rings> projections(block.size());
@@ -222,13 +282,11 @@ void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const 
   }
 }
 
-// Never less than the wall: the simplification's tolerance is given beforehand where the clearance does not hold it.
 Rings Enlarged(const Site& site, const Shape& shape) {
   const double clearance = site.options.clearance_m, tolerance = site.options.tolerance_m;
-  const double grow = std::max(clearance, tolerance);
-  Rings rings = grow > 0 ? Offset(shape.solid, grow) : shape.solid;
+  Rings rings = clearance > 0 ? Offset(shape.solid, clearance) : shape.solid;
   const std::vector<Segment> thin = Outside(shape.loose, Offset(shape.solid, kOnOutline_m));
-  if (!thin.empty()) rings = Union(rings, OffsetSegments(thin, std::max(grow, kThinWall_m)));
+  if (!thin.empty()) rings = Union(rings, OffsetSegments(thin, std::max(clearance, kThinWall_m)));
   return tolerance > 0 ? Simplify(rings, tolerance) : rings;
 }
 
@@ -275,6 +333,17 @@ void GiveAway(const Rings& strips, size_t from, double width_m, std::vector<Box>
   }
 }
 
+// Where two houses stand in each other by more than a clumsy joint, both keep what is theirs.
+Rings SharedGround(const Shape& a, const Shape& b) {
+  Rings shared;
+  for (const Polygon& piece : ToPolygons(Intersection(a.solid, b.solid))) {
+    Rings rings{piece.outer};
+    rings.insert(rings.end(), piece.holes.begin(), piece.holes.end());
+    if (!Offset(rings, -kJoint_m / 2).empty()) shared.insert(shared.end(), rings.begin(), rings.end());
+  }
+  return shared;
+}
+
 // Enlarged neighbours overlap by twice the clearance: each keeps clear of the others' walls, and of what the earlier
 // ones have taken.
 void Separate(const std::vector<Shape>& shapes, double width_m, std::vector<Rings>* enlarged) {
@@ -285,7 +354,8 @@ void Separate(const std::vector<Shape>& shapes, double width_m, std::vector<Ring
     Rings taken;
     for (size_t j = 0; j < enlarged->size(); ++j) {
       if (j == i || (*enlarged)[j].empty()) continue;
-      if (j < i && !Apart(boxes[i], boxes[j])) taken = Union(taken, (*enlarged)[j]);
+      if (j < i && !Apart(boxes[i], boxes[j]))
+        taken = Union(taken, Difference((*enlarged)[j], SharedGround(shapes[i], shapes[j])));
       if (j > i && !Apart(boxes[i], solid_boxes[j])) taken = Union(taken, Difference(shapes[j].solid, shapes[i].solid));
     }
     if (!taken.empty()) (*enlarged)[i] = Difference((*enlarged)[i], taken);
@@ -298,8 +368,7 @@ void Separate(const std::vector<Shape>& shapes, double width_m, std::vector<Ring
 }
 
 bool MakeCircle(const Site& site, const TownObject& object, Obstacle* obstacle) {
-  const BandParts parts = CutToBand(object.triangles, site.ground, site.options.band_m);
-  const std::vector<Segment> lines = Lines(parts);
+  const std::vector<Segment> lines = Lines(PartsInBand(site, Stand(site, object), object.triangles));
   Box box;
   for (const Segment& s : lines) {
     box.min = {std::min({box.min.x, s.a.x, s.b.x}), std::min({box.min.y, s.a.y, s.b.y})};
@@ -338,8 +407,21 @@ Obstacle Blank(const Site& site, const TownObject& object) {
   obstacle.source = object.name;
   obstacle.clearance_m = site.options.clearance_m;
   const double x = (object.min_m.x + object.max_m.x) / 2, y = (object.min_m.y + object.max_m.y) / 2;
-  obstacle.ground_z_m = site.ground.Height(x, y);
+  obstacle.ground_z_m = Stand(site, object).ground(0).Height(x, y);
   return obstacle;
+}
+
+// Calls work(0) to work(count - 1), several at a time.
+template <typename Work>
+void ForEach(size_t count, int threads, const Work& work) {
+  const size_t most = threads > 0 ? static_cast<size_t>(threads) : std::max(1u, std::thread::hardware_concurrency());
+  std::atomic<size_t> next{0};
+  const auto worker = [&] {
+    for (size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::jthread> others;
+  for (size_t t = 1; t < std::min(count, most); ++t) others.emplace_back(worker);
+  worker();
 }
 
 Error CheckOptions(const FootprintOptions& options) {
@@ -347,6 +429,7 @@ Error CheckOptions(const FootprintOptions& options) {
   if (!(options.tolerance_m >= 0)) return Fail("the tolerance must not be negative");
   if (!(options.bridge_m >= 0)) return Fail("the bridging distance must not be negative");
   if (!(options.scale > 0) || !std::isfinite(options.scale)) return Fail("the scale must be greater than zero");
+  if (options.threads < 0) return Fail("the number of threads must not be negative");
   if (!(options.band_m[0] >= 0 && options.band_m[0] < options.band_m[1]))
     return Fail("the band must be two heights, the lower first, neither negative");
   return Ok();
@@ -384,23 +467,29 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
                         FootprintStats* stats, std::vector<std::string>* warnings) {
   if (Error error = CheckOptions(options)) return error;
   const TownObjects town = SortTown(scene, options.scale);
+  if (town.ground.empty() && town.obstacles.empty()) return Fail("the town has neither ground nor obstacles");
   GroundRaster raster;
-  if (Error error = RasterizeGround(town, {}, &raster)) return error;
-  const LocalGround ground(raster);
-  const Site site{options, ground};
+  std::optional<LocalGround> ground;
+  if (!town.ground.empty()) {
+    if (Error error = RasterizeGround(town, {}, &raster)) return error;
+    ground.emplace(raster);
+  }
+  const Site site{options, ground ? &*ground : nullptr};
 
   *footprints = {};
   footprints->clearance_m = options.clearance_m;
   footprints->band_m = options.band_m;
+  footprints->origin_m = scene.origin_m;
   FootprintStats counts;
   std::vector<Shape> shapes(town.obstacles.size());
   const auto is_round = [](const TownObject& o) {
     return o.kind == ObstacleKind::kTree || o.kind == ObstacleKind::kLamp;
   };
+  ForEach(shapes.size(), options.threads, [&](size_t i) {
+    if (!is_round(town.obstacles[i])) shapes[i] = ShapeOf(site, town.obstacles[i]);
+  });
   for (size_t i = 0; i < shapes.size(); ++i) {
     counts.triangles += static_cast<int>(town.obstacles[i].triangles.size());
-    if (is_round(town.obstacles[i])) continue;
-    shapes[i] = ShapeOf(site, town.obstacles[i]);
     counts.lines += shapes[i].lines;
   }
   for (const std::vector<size_t>& block : Blocks(town.obstacles)) {
@@ -408,8 +497,8 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
     ShareBlock(site, town.obstacles, block, &shapes);
     if (options.merge_blocks) MergeBlock(block, &shapes);
   }
-  std::vector<Rings> enlarged;
-  for (const Shape& shape : shapes) enlarged.push_back(Enlarged(site, shape));
+  std::vector<Rings> enlarged(shapes.size());
+  ForEach(shapes.size(), options.threads, [&](size_t i) { enlarged[i] = Enlarged(site, shapes[i]); });
   // Without a clearance thin walls are as thin as slivers.
   Separate(shapes, options.clearance_m > kSliver_m ? kSliver_m : 0, &enlarged);
 

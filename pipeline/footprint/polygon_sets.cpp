@@ -52,38 +52,75 @@ Rings Combine(cl::ClipType type, const Rings& a, const Rings& b) {
   return ToRings(out);
 }
 
-void SimplifyChain(const Ring& ring, size_t first, size_t last, double tolerance_m, std::vector<bool>* keep) {
-  double worst = tolerance_m;
-  size_t split = 0;
-  for (size_t i = first + 1; i < last; ++i) {
-    const double d = DistanceToSegment(ring[i % ring.size()], ring[first % ring.size()], ring[last % ring.size()]);
-    if (d > worst) worst = d, split = i;
-  }
-  if (split == 0) return;
-  (*keep)[split % ring.size()] = true;
-  SimplifyChain(ring, first, split, tolerance_m, keep);
-  SimplifyChain(ring, split, last, tolerance_m, keep);
-}
+constexpr double kGrid_m = 1e-4;
 
-// Starts at the south-western vertex, so that the result does not depend on where the ring starts.
-Ring SimplifyRing(const Ring& ring, double tolerance_m) {
-  const size_t n = ring.size();
-  size_t start = 0, far = 0;
-  for (size_t i = 1; i < n; ++i)
-    if (ring[i].x + ring[i].y < ring[start].x + ring[start].y) start = i;
-  const auto distance = [&](size_t i) { return std::hypot(ring[i].x - ring[start].x, ring[i].y - ring[start].y); };
-  for (size_t i = 0; i < n; ++i)
-    if (distance(i) > distance(far) || far == start) far = i;
-  std::vector<bool> keep(n, false);
-  keep[start] = keep[far] = true;
-  const size_t middle = far > start ? far : far + n;
-  SimplifyChain(ring, start, middle, tolerance_m, &keep);
-  SimplifyChain(ring, middle, start + n, tolerance_m, &keep);
-  Ring out;
-  for (size_t i = 0; i < n; ++i)
-    if (keep[i]) out.push_back(ring[i]);
-  return out;
-}
+// A ring with the area on its left, losing vertices. Each vertex knows how far the boundary has moved outwards there and
+// along the edge that follows.
+class Simplifier {
+ public:
+  Simplifier(const Ring& ring, double tolerance_m) : tolerance_m_(tolerance_m) {
+    // Starts at the south-western vertex, so that the result does not depend on where the ring starts.
+    const auto sum = [](Point2 p) { return p.x + p.y; };
+    const auto less = [&](Point2 p, Point2 q) { return sum(p) != sum(q) ? sum(p) < sum(q) : p.x < q.x; };
+    const auto start = std::min_element(ring.begin(), ring.end(), less) - ring.begin();
+    for (size_t i = 0; i < ring.size(); ++i) corners_.push_back({ring[(i + static_cast<size_t>(start)) % ring.size()], 0, 0});
+  }
+
+  Ring Run() {
+    for (bool changed = true; changed && corners_.size() > 3;) {
+      changed = false;
+      for (size_t i = 0; i < corners_.size() && corners_.size() > 3;) {
+        if (DropReflex(i) || CutOffEdge(i)) changed = true;
+        else ++i;
+      }
+    }
+    Ring ring;
+    for (const Corner& corner : corners_) ring.push_back(corner.at);
+    return ring;
+  }
+
+ private:
+  struct Corner { Point2 at; double moved_m, edge_moved_m; };
+
+  Corner& At(size_t i) { return corners_[i % corners_.size()]; }
+  static double Turn(Point2 a, Point2 b, Point2 c) { return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x); }
+
+  // A corner that points into the area, or hardly out of it, goes.
+  bool DropReflex(size_t i) {
+    const size_t n = corners_.size();
+    Corner &a = At(i + n - 1), &v = At(i);
+    const Point2 b = At(i + 1).at;
+    const double aside_m = DistanceToSegment(v.at, a.at, b);
+    const bool outwards = Turn(a.at, v.at, b) <= 0;
+    const double moved_m = aside_m + std::max({a.edge_moved_m, v.moved_m, v.edge_moved_m});
+    if (moved_m > (outwards ? tolerance_m_ : std::min(kGrid_m, tolerance_m_))) return false;
+    a.edge_moved_m = moved_m;
+    corners_.erase(corners_.begin() + static_cast<long>(i));
+    return true;
+  }
+
+  // Of two corners that point out, the edges before and after run on until they meet.
+  bool CutOffEdge(size_t i) {
+    const size_t n = corners_.size();
+    const Corner &a = At(i + n - 1), &d = At(i + 2);
+    Corner &b = At(i), &c = At(i + 1);
+    if (Turn(a.at, b.at, c.at) <= 0 || Turn(b.at, c.at, d.at) <= 0) return false;
+    const Point2 u{b.at.x - a.at.x, b.at.y - a.at.y}, w{c.at.x - d.at.x, c.at.y - d.at.y};
+    const double cross = u.x * w.y - u.y * w.x;
+    if (!(cross < 0)) return false;  // the two would not meet ahead
+    const double t = ((d.at.x - a.at.x) * w.y - (d.at.y - a.at.y) * w.x) / cross;
+    const Point2 p{a.at.x + t * u.x, a.at.y + t * u.y};
+    if (!(t >= 1)) return false;
+    const double moved_m = DistanceToSegment(p, b.at, c.at) + std::max({b.moved_m, b.edge_moved_m, c.moved_m});
+    if (moved_m > tolerance_m_) return false;
+    b = {p, moved_m, c.edge_moved_m};
+    corners_.erase(corners_.begin() + static_cast<long>((i + 1) % n));
+    return true;
+  }
+
+  double tolerance_m_;
+  std::vector<Corner> corners_;
+};
 
 // Of the index, one metre.
 int64_t IndexCell(double v) { return static_cast<int64_t>(std::floor(v)); }
@@ -179,10 +216,9 @@ std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& 
 Rings Simplify(const Rings& rings, double tolerance_m) {
   Rings out;
   for (const Ring& ring : rings) {
-    Ring simple = SimplifyRing(ring, tolerance_m);
-    if (simple.size() >= 3) out.push_back(std::move(simple));
+    if (ring.size() >= 3) out.push_back(Simplifier(ring, tolerance_m).Run());
   }
-  return Union(out, {});
+  return UnionOfAreas(out);
 }
 
 Rings Tidy(const Rings& rings, double width_m) {

@@ -32,7 +32,7 @@ Rings OffsetSegments(const std::vector<Segment>& segments, double distance_m);
 // The segments that lie, wholly or in part, outside the area.
 std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area);
 
-// Drops vertices where the boundary moves by at most tolerance_m.
+// Drops vertices where the boundary moves outwards by at most tolerance_m; inwards by no more than the grid is wide.
 Rings Simplify(const Rings& rings, double tolerance_m);
 
 // Fit for a file: without slivers thinner than width_m, points nearer than 1 mm, and crossings.

@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <limits>
 
+#include "pipeline/footprint/base_ground.h"
+
 namespace flaneur {
 namespace {
 
 constexpr double kLargestExtent_m = 100'000;
 constexpr int kSmoothingRounds = 30;
+constexpr double kStep_m = 0.5;  // higher steps between neighbouring cells are no slope
 
 struct Extent {
   double min_x = std::numeric_limits<double>::max(), min_y = min_x, min_z = min_x;
@@ -91,6 +94,51 @@ void DrawTriangle(const Triangle3& t, GroundKind kind, GroundRaster* raster) {
   }
 }
 
+void SmoothGaps(GroundRaster* raster) {
+  const int columns = raster->columns, rows = raster->rows;
+  for (int round = 0; round < kSmoothingRounds; ++round) {
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const size_t i = static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
+        if (raster->kind[i]) continue;
+        const size_t stride = static_cast<size_t>(columns);
+        const float west = column > 0 ? raster->height_m[i - 1] : raster->height_m[i];
+        const float east = column + 1 < columns ? raster->height_m[i + 1] : raster->height_m[i];
+        const float south = row > 0 ? raster->height_m[i - stride] : raster->height_m[i];
+        const float north = row + 1 < rows ? raster->height_m[i + stride] : raster->height_m[i];
+        raster->height_m[i] = (west + east + south + north) / 4;
+      }
+    }
+  }
+}
+
+// What the feet of buildings, or where there are none of all things, tell of the ground between them.
+void DrawBases(const TownObjects& town, GroundRaster* raster) {
+  const auto is_house = [](const TownObject& o) { return o.kind == ObstacleKind::kBuilding || o.kind == ObstacleKind::kWall; };
+  const bool any_house = std::any_of(town.obstacles.begin(), town.obstacles.end(), is_house);
+  for (const TownObject& object : town.obstacles) {
+    if (any_house && !is_house(object)) continue;
+    const GroundRaster base = BaseOf(object);
+    for (int row = 0; row < base.rows; ++row) {
+      for (int column = 0; column < base.columns; ++column) {
+        const size_t i = static_cast<size_t>(row) * static_cast<size_t>(base.columns) + static_cast<size_t>(column);
+        if (!base.kind[i]) continue;
+        const int c = Column(*raster, base.min_m.x + (column + 0.5) * base.cell_m);
+        const int r = Row(*raster, base.min_m.y + (row + 0.5) * base.cell_m);
+        if (c < 0 || r < 0 || c >= raster->columns || r >= raster->rows) continue;
+        const size_t cell = static_cast<size_t>(r) * static_cast<size_t>(raster->columns) + static_cast<size_t>(c);
+        raster->height_m[cell] = raster->kind[cell] ? std::min(raster->height_m[cell], base.height_m[i]) : base.height_m[i];
+        raster->kind[cell] = static_cast<uint8_t>(GroundKind::kSquare);
+      }
+    }
+  }
+  FillGaps(raster);
+  SmoothGaps(raster);
+  std::fill(raster->kind.begin(), raster->kind.end(), static_cast<uint8_t>(GroundKind::kSquare));
+}
+
+}  // namespace
+
 // Two sweeps each way carry every empty cell the height of a near ground cell.
 void FillGaps(GroundRaster* raster) {
   const int columns = raster->columns, rows = raster->rows;
@@ -124,26 +172,6 @@ void FillGaps(GroundRaster* raster) {
   }
 }
 
-void SmoothGaps(GroundRaster* raster) {
-  const int columns = raster->columns, rows = raster->rows;
-  for (int round = 0; round < kSmoothingRounds; ++round) {
-    for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < columns; ++column) {
-        const size_t i = static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
-        if (raster->kind[i]) continue;
-        const size_t stride = static_cast<size_t>(columns);
-        const float west = column > 0 ? raster->height_m[i - 1] : raster->height_m[i];
-        const float east = column + 1 < columns ? raster->height_m[i + 1] : raster->height_m[i];
-        const float south = row > 0 ? raster->height_m[i - stride] : raster->height_m[i];
-        const float north = row + 1 < rows ? raster->height_m[i + stride] : raster->height_m[i];
-        raster->height_m[i] = (west + east + south + north) / 4;
-      }
-    }
-  }
-}
-
-}  // namespace
-
 Error RasterizeGround(const TownObjects& town, const GroundRasterOptions& options, GroundRaster* raster) {
   if (!(options.cell_m > 0) || options.max_cells <= 0)
     return Fail("the ground's cell size and the most cells must be greater than zero");
@@ -156,10 +184,7 @@ Error RasterizeGround(const TownObjects& town, const GroundRasterOptions& option
     extent.min_y -= options.bare_margin_m, extent.max_y += options.bare_margin_m;
   }
   if (Error error = LayOut(extent, options, raster)) return error;
-  if (bare) {
-    std::fill(raster->height_m.begin(), raster->height_m.end(), static_cast<float>(extent.min_z));
-    std::fill(raster->kind.begin(), raster->kind.end(), static_cast<uint8_t>(GroundKind::kSquare));
-  }
+  if (bare) DrawBases(town, raster);
   for (const GroundPatch& patch : town.ground)
     for (const Triangle3& t : patch.triangles) DrawTriangle(t, patch.kind, raster);
   return Ok();
@@ -170,9 +195,9 @@ Error RasterizeGround(const Scene& scene, const GroundRasterOptions& options, Gr
   return RasterizeGround(SortTown(scene, options.scale), options, raster);
 }
 
-LocalGround::LocalGround(const GroundRaster& raster) : raster_(raster) {
+LocalGround::LocalGround(const GroundRaster& raster, Gaps gaps) : raster_(raster) {
   FillGaps(&raster_);
-  SmoothGaps(&raster_);
+  if (gaps == Gaps::kSmooth) SmoothGaps(&raster_);
   const auto [low, high] = std::minmax_element(raster_.height_m.begin(), raster_.height_m.end());
   min_height_ = *low, max_height_ = *high;
 }
@@ -187,8 +212,13 @@ double LocalGround::Height(double x, double y) const {
                             static_cast<size_t>(column)];
   };
   const double fu = u - c0, fv = v - r0;
-  return (at(c0, r0) * (1 - fu) + at(c1, r0) * fu) * (1 - fv) +
-         (at(c0, r1) * (1 - fu) + at(c1, r1) * fu) * fv;
+  const double nearest = at(fu < 0.5 ? c0 : c1, fv < 0.5 ? r0 : r1);
+  const auto near = [&](int column, int row) {
+    const double height = at(column, row);
+    return std::abs(height - nearest) > kStep_m ? nearest : height;
+  };
+  return (near(c0, r0) * (1 - fu) + near(c1, r0) * fu) * (1 - fv) +
+         (near(c0, r1) * (1 - fu) + near(c1, r1) * fu) * fv;
 }
 
 }  // namespace flaneur

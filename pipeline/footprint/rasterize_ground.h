@@ -14,16 +14,20 @@ struct GroundRasterOptions {
   double bare_margin_m = 10;     // a town without ground gets a flat square this far round it
 };
 
-// Each cell takes the topmost ground triangle over its centre. A town without any ground stands on a flat square at its
-// lowest point. Errors: an option out of range, nothing in the scene, a town wider than 100 km (names the extent).
+// Each cell takes the topmost ground triangle over its centre. A town without any ground stands on a square that joins
+// the feet of its buildings. Errors: an option out of range, nothing in the scene, a town wider than 100 km (names the extent).
 Error RasterizeGround(const Scene& scene, const GroundRasterOptions& options, GroundRaster* raster);
 Error RasterizeGround(const TownObjects& town, const GroundRasterOptions& options, GroundRaster* raster);
 
-// The height of the ground everywhere: between cell centres bilinear, where there is no ground that of the nearest
-// ground, smoothed. The raster must have at least one cell of ground.
+// Carries every cell without ground the height of a near one with ground.
+void FillGaps(GroundRaster* raster);
+
+// The height of the ground everywhere: between cell centres bilinear except across steps, where there is no ground that of
+// the nearest ground, smoothed if so asked. The raster must have at least one cell of ground.
 class LocalGround {
  public:
-  explicit LocalGround(const GroundRaster& raster);
+  enum class Gaps { kNearest, kSmooth };
+  explicit LocalGround(const GroundRaster& raster, Gaps gaps = Gaps::kSmooth);
   double Height(double x, double y) const;
   double min_height() const { return min_height_; }
   double max_height() const { return max_height_; }

@@ -7,7 +7,7 @@
 namespace flaneur {
 namespace {
 
-constexpr double kCuttingCell_m = 0.1;
+constexpr double kLeastCell_m = 0.1, kMostCell_m = 2;  // for cutting: about as long as the segments
 constexpr double kPointGrid_m = 1e-4;
 constexpr double kTouching_m = 0.6e-4;  // a point this near to a segment is on it: rounding may have moved it so far
 constexpr int kRounds = 4;              // rounding may make pieces cross anew; what is left then is cut exactly elsewhere
@@ -69,6 +69,12 @@ void AddPieces(const Segment& s, std::vector<Point2> cuts, std::vector<Segment>*
   }
 }
 
+double CellFor(const std::vector<Segment>& segments) {
+  double length = 0;
+  for (const Segment& s : segments) length += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
+  return std::clamp(length / static_cast<double>(segments.size()), kLeastCell_m, kMostCell_m);
+}
+
 void DropRepeated(std::vector<Segment>* segments) {
   std::sort(segments->begin(), segments->end(), Before);
   const auto same = [](const Segment& s, const Segment& t) { return Same(s.a, t.a) && Same(s.b, t.b); };
@@ -115,8 +121,8 @@ Point2 NearestOn(const Segment& s, Point2 p) {
 std::vector<Segment> CutWhereTheyMeet(std::vector<Segment> segments) {
   for (Segment& s : segments) s = {Rounded(s.a), Rounded(s.b)};
   std::erase_if(segments, [](const Segment& s) { return Same(s.a, s.b); });
-  for (int round = 0; round < kRounds; ++round) {
-    const SegmentGrid grid(segments, kTouching_m, kCuttingCell_m);
+  for (int round = 0; round < kRounds && !segments.empty(); ++round) {
+    const SegmentGrid grid(segments, kTouching_m, CellFor(segments));
     Cuts cuts(segments.size());
     for (const auto& [_, cell] : grid.cells()) {
       for (size_t k = 0; k < cell.size(); ++k) {

@@ -115,11 +115,16 @@ bool ObstacleKindOf(NodeKind kind, ObstacleKind* out) {
 TownObjects SortTown(const Scene& scene, double scale) {
   TownObjects town;
   std::map<int, size_t> object_of_root;
+  std::vector<std::pair<int, std::vector<Triangle3>>> foundations;  // by root
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
     const SceneNode& node = scene.nodes[i];
-    if (node.meshes.empty() || node.kind == NodeKind::kNone) continue;
+    if (node.meshes.empty() || (node.kind == NodeKind::kNone && !node.is_foundation)) continue;
     std::vector<Triangle3> triangles = WorldTriangles(scene, node, scale);
     if (triangles.empty()) continue;
+    if (node.is_foundation) {
+      if (node.parent >= 0) foundations.emplace_back(ObjectRoot(scene, node.parent), std::move(triangles));
+      continue;
+    }
     Point3 min = triangles[0][0], max = min;
     Grow(triangles, &min, &max);
     Meaning meaning{node.kind, node.ground};
@@ -136,11 +141,17 @@ TownObjects SortTown(const Scene& scene, double scale) {
     if (is_new) {
       const SceneNode& top = scene.nodes[static_cast<size_t>(root)];
       const std::string name = top.name.empty() ? "node_" + std::to_string(root) : top.name;
-      town.obstacles.push_back({name, kind, top.radius_m, {}, min, max});
+      town.obstacles.push_back({name, kind, top.radius_m, {}, {}, min, max});
     }
     TownObject& object = town.obstacles[entry->second];
     Grow(triangles, &object.min_m, &object.max_m);
     object.triangles.insert(object.triangles.end(), triangles.begin(), triangles.end());
+  }
+  for (auto& [root, triangles] : foundations) {
+    const auto entry = object_of_root.find(root);
+    if (entry == object_of_root.end()) continue;
+    std::vector<Triangle3>& foundation = town.obstacles[entry->second].foundation;
+    foundation.insert(foundation.end(), triangles.begin(), triangles.end());
   }
   return town;
 }

@@ -16,7 +16,8 @@ struct TownObject {
   ObstacleKind kind = ObstacleKind::kBuilding;
   double radius_m = 0;  // 0: measure it
   std::vector<Triangle3> triangles;
-  Point3 min_m, max_m;
+  std::vector<Triangle3> foundation;  // the ground under it, where the model has that; none of `triangles`
+  Point3 min_m, max_m;  // of `triangles`
 };
 
 struct GroundPatch { GroundKind kind = GroundKind::kPavement; std::vector<Triangle3> triangles; };

@@ -1,0 +1,157 @@
+#include "pipeline/footprint/repair_shell.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+
+#include "pipeline/io/triangulate_polygon.h"
+
+namespace flaneur {
+namespace {
+
+constexpr double kSame_m = 0.001;
+constexpr double kThin_m = 0.02;
+constexpr size_t kLongestHole = 8;  // edges round a hole; longer ones are openings
+
+using Index = uint32_t;
+using Edge = std::pair<Index, Index>;  // the lesser first
+
+struct Welded {
+  std::vector<Point3> points;
+  std::vector<std::array<Index, 3>> triangles;  // corners ascending; sorted, each once
+};
+
+Welded Weld(const std::vector<Triangle3>& shell) {
+  Welded out;
+  std::map<std::array<int64_t, 3>, Index> index;
+  for (const Triangle3& t : shell) {
+    std::array<Index, 3> corners;
+    for (size_t i = 0; i < 3; ++i) {
+      const auto cell = [](double v) { return static_cast<int64_t>(std::llround(v / kSame_m)); };
+      const auto [entry, is_new] = index.try_emplace({cell(t[i].x), cell(t[i].y), cell(t[i].z)}, static_cast<Index>(out.points.size()));
+      if (is_new) out.points.push_back(t[i]);
+      corners[i] = entry->second;
+    }
+    std::sort(corners.begin(), corners.end());
+    if (corners[0] != corners[1] && corners[1] != corners[2]) out.triangles.push_back(corners);
+  }
+  std::sort(out.triangles.begin(), out.triangles.end());
+  out.triangles.erase(std::unique(out.triangles.begin(), out.triangles.end()), out.triangles.end());
+  return out;
+}
+
+// Neighbours of each point along edges that belong to one triangle only.
+using Borders = std::map<Index, std::set<Index>>;
+
+Borders FindBorders(const Welded& shell) {
+  std::map<Edge, int> count;
+  for (const auto& [a, b, c] : shell.triangles) ++count[{a, b}], ++count[{b, c}], ++count[{a, c}];
+  Borders borders;
+  for (const auto& [edge, n] : count)
+    if (n == 1) borders[edge.first].insert(edge.second), borders[edge.second].insert(edge.first);
+  return borders;
+}
+
+void Remove(Index a, Index b, Borders* borders) {
+  for (const auto& [from, to] : {Edge{a, b}, Edge{b, a}}) {
+    const auto entry = borders->find(from);
+    entry->second.erase(to);
+    if (entry->second.empty()) borders->erase(entry);
+  }
+}
+
+double Length(const Point3& a, const Point3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+double Thickness(const Triangle3& t) {
+  const auto& [a, b, c] = t;
+  const double x = (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
+  const double y = (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
+  const double z = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  const double longest = std::max({Length(a, b), Length(b, c), Length(c, a)});
+  return longest > 0 ? std::hypot(x, y, z) / longest : 0;
+}
+
+class Repair {
+ public:
+  explicit Repair(Welded shell) : shell_(std::move(shell)), borders_(FindBorders(shell_)) {}
+
+  std::vector<Triangle3> Run() {
+    FillTriangles();
+    std::vector<std::vector<Index>> holes;
+    if (Closable(&holes))
+      for (const std::vector<Index>& hole : holes) Fill(hole);
+    return std::move(out_);
+  }
+
+ private:
+  void FillTriangles() {
+    std::vector<Index> starts;
+    for (const auto& [a, _] : borders_) starts.push_back(a);
+    for (const Index a : starts)
+      while (FillOneAt(a)) {
+      }
+  }
+
+  bool FillOneAt(Index a) {
+    const auto entry = borders_.find(a);
+    if (entry == borders_.end()) return false;
+    for (const Index b : entry->second) {
+      for (const Index c : entry->second) {
+        if (!(b < c) || !borders_[b].contains(c)) continue;
+        std::array<Index, 3> corners{a, b, c};
+        std::sort(corners.begin(), corners.end());
+        if (std::binary_search(shell_.triangles.begin(), shell_.triangles.end(), corners)) continue;
+        Remove(a, b, &borders_), Remove(b, c, &borders_), Remove(a, c, &borders_);
+        Add(corners);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // Whether all that is left are short loops, each once round.
+  bool Closable(std::vector<std::vector<Index>>* holes) const {
+    std::set<Index> done;
+    for (const auto& [start, neighbours] : borders_) {
+      if (neighbours.size() != 2) return false;
+      if (!done.insert(start).second) continue;
+      std::vector<Index> hole{start};
+      for (Index before = start, at = *neighbours.begin(); at != start;) {
+        if (hole.size() == kLongestHole) return false;
+        hole.push_back(at);
+        done.insert(at);
+        const std::set<Index>& next = borders_.at(at);
+        if (next.size() != 2) return false;
+        const Index to = *next.begin() == before ? *next.rbegin() : *next.begin();
+        before = at, at = to;
+      }
+      holes->push_back(std::move(hole));
+    }
+    return true;
+  }
+
+  void Fill(const std::vector<Index>& hole) {
+    std::vector<Point3> ring;
+    for (const Index i : hole) ring.push_back(shell_.points[i]);
+    for (const auto& [a, b, c] : TriangulatePolygon({ring})) Add({hole[a], hole[b], hole[c]});
+  }
+
+  void Add(const std::array<Index, 3>& corners) {
+    const Triangle3 t{shell_.points[corners[0]], shell_.points[corners[1]], shell_.points[corners[2]]};
+    if (Thickness(t) > kThin_m) out_.push_back(t);
+  }
+
+  Welded shell_;
+  Borders borders_;
+  std::vector<Triangle3> out_;
+};
+
+}  // namespace
+
+std::vector<Triangle3> MissingTriangles(const std::vector<Triangle3>& shell) { return Repair(Weld(shell)).Run(); }
+
+}  // namespace flaneur

@@ -1,0 +1,16 @@
+// Closes small holes in the shell of a building.
+#pragma once
+#include <vector>
+
+#include "pipeline/footprint/town_objects.h"
+
+namespace flaneur {
+
+// Where triangles are missing from a shell, edges are left that belong to one triangle only. Returns triangles for the
+// holes that three such edges bound, and, of a shell that is otherwise closed, for holes of a few edges more: a wall that
+// is missing from a closed house is taken for an error, one that is missing from an open shed is not. Triangles that are
+// thinner than 2 cm are left out. Vertices count as the same when they agree to a millimetre; repeated and turned
+// triangles do not matter.
+std::vector<Triangle3> MissingTriangles(const std::vector<Triangle3>& shell);
+
+}  // namespace flaneur

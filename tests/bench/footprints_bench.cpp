@@ -1,0 +1,135 @@
+// Prints how well and how fast obstacles are found in real city models: bench_footprints [DATA_FOLDER] [--worst]
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+
+#include "tests/unit/pipeline/footprint/figures.h"
+
+namespace flaneur::figures {
+namespace {
+
+constexpr double kExactly = 0;  // clearance and tolerance where outlines are compared
+
+const Spoiling kSpoilings[] = {{.name = "clean"},
+                               {.name = "flipped", .flip = true},
+                               {.name = "doubled", .repeat = true},
+                               {.name = "jittered 1 cm", .jitter = true},
+                               {.name = "each corner jittered 1 cm", .jitter_apart = true},
+                               {.name = "eaves added", .eaves = true},
+                               {.name = "no ground faces", .no_ground = true},
+                               {.name = "5 % of triangles dropped", .drop = true},
+                               {.name = "all but dropping", .flip = true, .repeat = true, .jitter = true, .eaves = true, .no_ground = true}};
+
+double Cpu_s() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+double Peak_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+double Now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+Error PrintFit(const std::vector<Scene>& towns, const Spoiling& how, bool worst) {
+  FootprintOptions exactly;
+  exactly.clearance_m = exactly.tolerance_m = kExactly;
+  std::vector<BuildingFit> all;
+  for (const Scene& town : towns) {
+    Footprints footprints;
+    FootprintStats stats;
+    if (Error e = ExtractFootprints(Spoilt(town, how), exactly, &footprints, &stats)) return e;
+    const std::vector<BuildingFit> fits = Fits(town, footprints, stats);
+    all.insert(all.end(), fits.begin(), fits.end());
+  }
+  const auto count = [&](auto test) { return static_cast<int>(std::count_if(all.begin(), all.end(), test)); };
+  std::printf("%-27s %9.5f %8.1f %% %11d %9d\n", how.name, MeanIou(all), 100 * ShareWithin2cm(all),
+              count([](const BuildingFit& f) { return f.flagged; }),
+              count([](const BuildingFit& f) { return !f.flagged && f.iou < 0.97; }));
+  std::sort(all.begin(), all.end(), [](const BuildingFit& a, const BuildingFit& b) { return a.iou < b.iou; });
+  for (size_t i = 0; worst && i < std::min<size_t>(8, all.size()); ++i)
+    std::printf("    %-20s %7.4f  %8.3f m  %8.1f m2%s\n", all[i].name.c_str(), all[i].iou, all[i].hausdorff_m, all[i].area_m2,
+                all[i].flagged ? "  flagged" : "");
+  return Ok();
+}
+
+Error PrintCover(const std::vector<Scene>& towns) {
+  Cover sum;
+  const FootprintOptions options;
+  for (const Scene& town : towns) {
+    Footprints footprints;
+    if (Error e = ExtractFootprints(town, options, &footprints)) return e;
+    const Cover cover = MeasureCover(town, footprints, options);
+    sum.walls_m += cover.walls_m, sum.uncovered_m += cover.uncovered_m;
+    sum.truth_m2 += cover.truth_m2, sum.over_m2 += cover.over_m2;
+  }
+  std::printf("walls in the band %.0f m, uncovered by more than 1 cm %.2f m\n", sum.walls_m, sum.uncovered_m);
+  std::printf("covered beyond clearance and tolerance %.2f m2 of %.0f m2 = %.3f %%\n", sum.over_m2, sum.truth_m2,
+              100 * sum.over_m2 / sum.truth_m2);
+  return Ok();
+}
+
+Error PrintSpeed(const char* name, const Scene& town) {
+  const double before_mb = Peak_mb(), cpu_s = Cpu_s(), start_s = Now_s();
+  Footprints footprints;
+  FootprintStats stats;
+  if (Error e = ExtractFootprints(town, {}, &footprints, &stats)) return e;
+  const double millions = 1e-6 * stats.triangles;
+  const double wall_s = Now_s() - start_s, used_s = Cpu_s() - cpu_s;
+  std::printf("%s: %d triangles, %.2f s, %.2f CPU s, %.0f MB; of a million triangles %.1f s, %.1f CPU s, %.0f MB\n", name,
+              stats.triangles, wall_s, used_s, Peak_mb() - before_mb, wall_s / millions, used_s / millions,
+              (Peak_mb() - before_mb) / millions);
+  return Ok();
+}
+
+// All towns of a folder as one, some distance apart, several times.
+Scene Large(const std::vector<Scene>& towns, int copies) {
+  Scene all;
+  for (size_t k = 0; k < towns.size(); ++k) {
+    const auto nodes = static_cast<int>(all.nodes.size()), meshes = static_cast<int>(all.meshes.size());
+    for (SceneNode node : towns[k].nodes) {
+      if (node.parent >= 0) node.parent += nodes;
+      for (int& mesh : node.meshes) mesh += meshes;
+      node.world.m[3][0] += static_cast<float>(1200 * k);
+      all.nodes.push_back(node);
+    }
+    all.meshes.insert(all.meshes.end(), towns[k].meshes.begin(), towns[k].meshes.end());
+  }
+  return Copies(all, copies, 1200.0 * static_cast<double>(towns.size()));
+}
+
+Error Run(const std::filesystem::path& data, bool worst) {
+  std::vector<Scene> lod2, lod3;
+  if (Error e = ReadFolder(data / "towns" / "nrw-lod2", &lod2)) return e;
+  if (Error e = ReadFolder(data / "towns" / "ingolstadt-lod3", &lod3)) return e;
+  std::printf("%-27s %9s %10s %11s %9s\n", "LoD2", "mean IoU", "<= 2 cm", "306 flagged", "unflagged");
+  for (const Spoiling& how : kSpoilings)
+    if (Error e = PrintFit(lod2, how, worst)) return e;
+  if (Error e = PrintCover(lod2)) return e;
+  if (Error e = PrintSpeed("LoD2", Large(lod2, 4))) return e;
+  return PrintSpeed("LoD3", Large(lod3, 1));
+}
+
+}  // namespace
+}  // namespace flaneur::figures
+
+int main(int count, char** arguments) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  std::filesystem::path data = flaneur::figures::SharedData();
+  bool worst = false;
+  for (int i = 1; i < count; ++i) {
+    if (std::strcmp(arguments[i], "--worst") == 0) worst = true;
+    else data = arguments[i];
+  }
+  if (data.empty()) {
+    std::fprintf(stderr, "bench_footprints: name the folder that holds towns/nrw-lod2, or set FLANEUR_SHARED_DIR\n");
+    return 1;
+  }
+  const flaneur::Error error = flaneur::figures::Run(data, worst);
+  if (error) std::fprintf(stderr, "bench_footprints: %s\n", error.message.c_str());
+  return error ? 1 : 0;
+}
