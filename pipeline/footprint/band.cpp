@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
 
-#include "pipeline/footprint/segment_grid.h"
 
 namespace flaneur {
 namespace {
@@ -14,10 +12,6 @@ constexpr double kGrid_m = 0.001;
 constexpr double kBend_m = 0.01;          // the ground may leave an edge's straight line by this much
 constexpr double kShortEdge_m = 0.25;     // shorter edges are not split
 constexpr double kThin_m = 0.002;         // parts thinner than this in plan are drawn as one line
-constexpr double kOvershoot_m = 0.002;    // links run a little past their aim, to cross it for certain
-constexpr double kTidy_m = 0.05;          // links to all lines this near, beyond it only to the nearest
-constexpr double kLinkingCell_m = 0.5;
-constexpr double kSnapSlack_m = 0.003;    // ends this near to a line belong on it
 
 bool Before(const Point3& a, const Point3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 bool Before(Point2 a, Point2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
@@ -143,21 +137,6 @@ class BandCutter {
   BandParts parts_;
 };
 
-// The direction in which a segment arrives at its end p.
-Point2 Ahead(Point2 p, const Segment& s) {
-  const Point2 from = Same(p, s.a) ? s.b : s.a;
-  const double length = std::hypot(p.x - from.x, p.y - from.y);
-  return {(p.x - from.x) / length, (p.y - from.y) / length};
-}
-
-// True where p is a loose end: nothing leads on from it.
-bool AllComeFrom(Point2 p, Point2 ahead, const std::vector<size_t>& own, const std::vector<Segment>& segments) {
-  return std::all_of(own.begin(), own.end(), [&](size_t i) {
-    const Point2 other = Ahead(p, segments[i]);
-    return ahead.x * other.x + ahead.y * other.y > 0.9;
-  });
-}
-
 }  // namespace
 
 std::vector<Segment> Outline(const Rings& rings) {
@@ -179,42 +158,6 @@ BandParts CutToBand(const std::vector<Triangle3>& triangles, const LocalGround& 
   BandCutter cutter(ground, band_m);
   for (const Triangle3& t : triangles) cutter.Add(t);
   return cutter.Finish();
-}
-
-void BridgeLooseEnds(std::vector<Segment>* segments, double reach_m) {
-  std::map<std::pair<double, double>, std::vector<size_t>> meeting;  // at each point, the segments that end there
-  for (size_t i = 0; i < segments->size(); ++i)
-    for (const Point2 p : {(*segments)[i].a, (*segments)[i].b}) meeting[{p.x, p.y}].push_back(i);
-  const SegmentGrid grid(*segments, reach_m, kLinkingCell_m);
-  std::vector<Segment> links;
-  for (const auto& [point, own] : meeting) {
-    const Point2 p{point.first, point.second};
-    const Point2 ahead = Ahead(p, (*segments)[own[0]]);
-    const double reach = AllComeFrom(p, ahead, own, *segments) ? reach_m : std::min(reach_m, kSnapSlack_m);
-    const auto run = [&](Point2 way, double distance) {
-      const Point2 end = Snap({p.x + way.x * distance, p.y + way.y * distance});
-      if (!Same(p, end)) links.push_back(Before(p, end) ? Segment{p, end} : Segment{end, p});
-    };
-    // What touches also runs on along its own direction.
-    const auto link = [&](Point2 q, double distance) {
-      if (distance < kGrid_m) run(ahead, kOvershoot_m);
-      if (distance > 0) run({(q.x - p.x) / distance, (q.y - p.y) / distance}, distance + kOvershoot_m);
-    };
-    Point2 nearest;
-    double nearest_m = reach + 1;
-    for (const size_t other : grid.Near(p)) {
-      if (std::find(own.begin(), own.end(), other) != own.end()) continue;
-      const Point2 q = NearestOn((*segments)[other], p);
-      const double distance = std::hypot(q.x - p.x, q.y - p.y);
-      if (distance <= std::min(reach, kTidy_m)) link(q, distance);
-      else if (distance < nearest_m) nearest = q, nearest_m = distance;
-    }
-    if (nearest_m <= reach) link(nearest, nearest_m);
-  }
-  std::sort(links.begin(), links.end(), [](const Segment& s, const Segment& t) { return Before(s, t); });
-  const auto same = [](const Segment& s, const Segment& t) { return Same(s.a, t.a) && Same(s.b, t.b); };
-  links.erase(std::unique(links.begin(), links.end(), same), links.end());
-  segments->insert(segments->end(), links.begin(), links.end());
 }
 
 }  // namespace flaneur

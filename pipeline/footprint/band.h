@@ -23,7 +23,4 @@ std::vector<Segment> Outline(const Rings& rings);
 BandParts CutToBand(const std::vector<Triangle3>& triangles, const LocalGround& ground,
                     const std::array<double, 2>& band_m);
 
-// Adds short links from loose ends to the segments within reach_m, so that walls which miss each other close.
-void BridgeLooseEnds(std::vector<Segment>* segments, double reach_m);
-
 }  // namespace flaneur

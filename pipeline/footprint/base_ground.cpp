@@ -101,6 +101,23 @@ void Filter(GroundRaster* raster, int reach, Better better) {
 constexpr auto kLower = [](float a, float b) { return a < b; };
 constexpr auto kHigher = [](float a, float b) { return a > b; };
 
+GroundRaster Level(float height_m) {
+  GroundRaster raster;
+  raster.columns = raster.rows = 1;
+  raster.height_m = {height_m};
+  raster.kind = {static_cast<uint8_t>(GroundKind::kSquare)};
+  return raster;
+}
+
+bool LevelFoundation(const TownObject& object, GroundRaster* raster) {
+  double lowest = kNothing, highest = -kNothing;
+  for (const Triangle3& t : object.foundation)
+    for (const Point3& p : t) lowest = std::min(lowest, p.z), highest = std::max(highest, p.z);
+  if (object.foundation.empty() || highest - lowest > kLevel_m) return false;
+  *raster = Level(static_cast<float>(lowest));
+  return true;
+}
+
 void Flatten(GroundRaster* raster) {
   float lowest = kNothing, highest = -kNothing;
   for (size_t i = 0; i < raster->kind.size(); ++i) {
@@ -108,10 +125,7 @@ void Flatten(GroundRaster* raster) {
     lowest = std::min(lowest, raster->height_m[i]);
     highest = std::max(highest, raster->height_m[i]);
   }
-  if (highest - lowest > kLevel_m) return;
-  raster->columns = raster->rows = 1;
-  raster->height_m = {lowest};
-  raster->kind = {static_cast<uint8_t>(GroundKind::kSquare)};
+  if (highest - lowest <= kLevel_m) *raster = Level(lowest);
 }
 
 }  // namespace
@@ -134,7 +148,8 @@ GroundRaster BaseOf(const TownObject& object) {
 }
 
 std::vector<LocalGround> GroundsUnder(const TownObject& object) {
-  GroundRaster low = BaseOf(object);
+  GroundRaster low;
+  if (!LevelFoundation(object, &low)) low = BaseOf(object);
   Flatten(&low);
   GroundRaster high = low;
   Filter(&high, 1, kHigher);

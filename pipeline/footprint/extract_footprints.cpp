@@ -16,6 +16,7 @@
 #include "pipeline/footprint/polygon_sets.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/footprint/repair_shell.h"
+#include "pipeline/footprint/segment_grid.h"
 #include "pipeline/footprint/town_objects.h"
 
 namespace flaneur {
@@ -33,6 +34,7 @@ constexpr double kCrumb_m = 0.02;          // of lines without area that lead no
 constexpr double kNoWay_m = 0.5;           // nobody passes a gap in a building narrower than this
 constexpr double kOnOutline_m = 0.002;     // lines this near to something solid are its outline
 constexpr double kJoint_m = 0.5;         // neighbours that overlap by less are meant to touch
+constexpr size_t kSamples = 16;          // of a region, to see whether it is roofed
 constexpr double kThinWall_m = 0.001;      // half the thickness of a wall without any, before the clearance
 
 // An object's part in the band.
@@ -40,6 +42,7 @@ struct Shape {
   int lines = 0;
   Rings solid;
   std::vector<Segment> loose;  // walls without area
+  double open_m = 0;           // length of walls beside nothing solid
   bool guessed = false;        // a gap wider than those of an untidy model had to be closed
 };
 
@@ -62,27 +65,56 @@ class Stand {
   std::vector<LocalGround> own_;
 };
 
-RegionTest RoofedTest(const Site& site, const LocalGround& ground, const Overhead& overhead) {
-  return [&site, &ground, &overhead](double area_m2, const std::vector<RegionSample>& samples) {
-    if (area_m2 < site.options.open_yard_m2) return true;
+// Whether a region is solid: too small for a yard, or most of it under something.
+class Roofs {
+ public:
+  Roofs(const Site& site, const LocalGround& ground, const Overhead& overhead)
+      : site_(site), ground_(ground), overhead_(overhead) {}
+
+  bool operator()(double area_m2, const std::vector<RegionSample>& samples) const {
+    if (area_m2 < site_.options.open_yard_m2) return true;
     double roofed = 0, all = 0;
     for (const auto& [p, weight] : samples) {
       all += weight;
-      if (overhead.Covers(p, ground.Height(p.x, p.y) + site.options.band_m[0])) roofed += weight;
+      if (overhead_.Covers(p, ground_.Height(p.x, p.y) + site_.options.band_m[0])) roofed += weight;
     }
     return roofed > kRoofedShare * all;
-  };
-}
+  }
+
+  bool operator()(const Rings& region) const {
+    const double area_m2 = Area(region);
+    return (*this)(area_m2, area_m2 < site_.options.open_yard_m2 ? std::vector<RegionSample>() : Samples(region));
+  }
+
+ private:
+  // Points of a lattice, finer until enough of them are inside.
+  static std::vector<RegionSample> Samples(const Rings& region) {
+    Point2 min = region[0][0], max = min;
+    for (const Point2& p : region[0]) {
+      min = {std::min(min.x, p.x), std::min(min.y, p.y)};
+      max = {std::max(max.x, p.x), std::max(max.y, p.y)};
+    }
+    std::vector<RegionSample> samples;
+    for (int n = 8; samples.size() < kSamples && n <= 64; n *= 2) {
+      samples.clear();
+      for (int i = 0; i < n; ++i) {
+        for (int k = 0; k < n; ++k) {
+          const Point2 p{min.x + (i + 0.5) / n * (max.x - min.x), min.y + (k + 0.5) / n * (max.y - min.y)};
+          if (Contains(region, p)) samples.emplace_back(p, 1.0);
+        }
+      }
+    }
+    return samples;
+  }
+
+  const Site& site_;
+  const LocalGround& ground_;
+  const Overhead& overhead_;
+};
 
 bool InBlocks(ObstacleKind kind) { return kind == ObstacleKind::kBuilding || kind == ObstacleKind::kWall; }
 
 double Length(const Segment& s) { return std::hypot(s.b.x - s.a.x, s.b.y - s.a.y); }
-
-double LooseLength(const Shape& shape) {
-  double length = 0;
-  for (const Segment& s : shape.loose) length += Length(s);
-  return length;
-}
 
 // Without the crumbs that stick out of an outline by a hair: connected pieces shorter than kCrumb_m together.
 std::vector<Segment> WithoutCrumbs(const std::vector<Segment>& loose) {
@@ -111,21 +143,32 @@ std::vector<Segment> WithoutCrumbs(const std::vector<Segment>& loose) {
   return out;
 }
 
-// Joins lines that miss each other by up to reach_m and adds what they enclose under a roof.
-void Close(std::vector<Segment> lines, double reach_m, const RegionTest& is_solid, Shape* shape) {
-  BridgeLooseEnds(&lines, reach_m);
-  const Enclosure enclosure = EncloseRegions(lines, is_solid);
-  shape->solid = Union(shape->solid, enclosure.solid);
-  const std::vector<Segment> loose = Outside(enclosure.pieces, Offset(shape->solid, kOnOutline_m));
-  shape->loose = WithoutCrumbs(loose);
-  const std::vector<Segment> apart = Outside(loose, Offset(shape->solid, kCrumb_m));  // nothing covers these as well
-  shape->loose.insert(shape->loose.end(), apart.begin(), apart.end());
+// Whether all lines lead on at both ends.
+bool AllMeet(const std::vector<Segment>& lines) {
+  std::map<std::pair<double, double>, int> ends;
+  for (const Segment& s : lines)
+    for (const Point2 p : {s.a, s.b}) ++ends[{p.x, p.y}];
+  return std::all_of(ends.begin(), ends.end(), [](const auto& end) { return end.second > 1; });
 }
 
-std::vector<Segment> Lines(const Shape& shape) {
-  std::vector<Segment> lines = Outline(shape.solid);
-  lines.insert(lines.end(), shape.loose.begin(), shape.loose.end());
-  return lines;
+// Adds what the lines and what is solid already enclose under a roof, together with each other. Lines that all meet are
+// taken exactly; else they are joined where they miss each other by up to reach_m.
+void Close(std::vector<Segment> lines, double reach_m, const Roofs& is_solid, Shape* shape) {
+  if (shape->solid.empty()) lines = CutWhereTheyMeet(lines);
+  if (shape->solid.empty() && AllMeet(lines)) {
+    shape->solid = EncloseRegions(lines, is_solid).solid;
+  } else if (reach_m > 0) {
+    Rings regions = shape->solid;
+    for (const Rings& region : Enclosed(lines, shape->solid, reach_m / 2))
+      if (!region.empty() && is_solid(region)) regions.insert(regions.end(), region.begin(), region.end());
+    shape->solid = UnionOfAreas(regions);
+  }
+  const std::vector<Segment> loose = Outside(lines, Offset(shape->solid, kOnOutline_m));
+  const std::vector<Segment> apart = Outside(loose, Offset(shape->solid, kCrumb_m));  // not covered with what is solid
+  shape->loose = WithoutCrumbs(loose);
+  shape->loose.insert(shape->loose.end(), apart.begin(), apart.end());
+  shape->open_m = 0;
+  for (const Segment& s : apart) shape->open_m += Length(s);
 }
 
 BandParts PartsInBand(const Site& site, const Stand& stand, const std::vector<Triangle3>& triangles) {
@@ -156,16 +199,16 @@ Shape ShapeOf(const Site& site, const TownObject& object) {
   std::vector<Triangle3> triangles = object.triangles;
   shape.guessed = Repair(site, stand, object, &triangles);
   const BandParts parts = PartsInBand(site, stand, triangles);
-  const std::vector<Segment> lines = Lines(parts);
   Overhead overhead;
   overhead.Add(triangles);
-  const RegionTest is_solid = RoofedTest(site, stand.ground(0), overhead);
-  shape.lines = static_cast<int>(lines.size());
+  const Roofs is_solid(site, stand.ground(0), overhead);
+  shape.lines = static_cast<int>(parts.walls.size() + parts.areas.size());
   shape.solid = parts.areas;
+  const std::vector<Segment> lines = Outside(parts.walls, parts.areas);
   Close(lines, site.options.bridge_m, is_solid, &shape);
-  if (object.kind == ObstacleKind::kBuilding && LooseLength(shape) > kOpenShell_m) {
+  if (object.kind == ObstacleKind::kBuilding && shape.open_m > kOpenShell_m) {
     const double before = Area(shape.solid);
-    Close(Lines(shape), kNoWay_m, is_solid, &shape);
+    Close(shape.loose, kNoWay_m, is_solid, &shape);
     shape.guessed |= Area(shape.solid) > before + kSmallestGap_m2;
   }
   return shape;
@@ -222,7 +265,7 @@ std::vector<size_t> OpenOnes(const std::vector<TownObject>& objects, const std::
   std::vector<size_t> open;
   for (const size_t i : block) {
     const bool touched = std::any_of(block.begin(), block.end(), [&](size_t j) {
-      return LooseLength(shapes[j]) > kOpenShell_m && Adjoin(objects[i], objects[j]);
+      return shapes[j].open_m > kOpenShell_m && Adjoin(objects[i], objects[j]);
     });
     if (touched) open.push_back(i);
   }
@@ -252,14 +295,16 @@ void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const 
   Rings known;
   Overhead overhead;
   for (const size_t i : block) {
-    const std::vector<Segment> own = Lines((*shapes)[i]);
-    lines.insert(lines.end(), own.begin(), own.end());
-    known = Union(known, (*shapes)[i].solid);
+    const Shape& own = (*shapes)[i];
+    lines.insert(lines.end(), own.loose.begin(), own.loose.end());
+    known.insert(known.end(), own.solid.begin(), own.solid.end());
     overhead.Add(objects[i].triangles);
   }
+  known = UnionOfAreas(known);
   Shape whole;
+  whole.solid = known;
   const Stand stand(site, Together(objects, block));
-  Close(lines, site.options.bridge_m, RoofedTest(site, stand.ground(0), overhead), &whole);
+  Close(lines, site.options.bridge_m, Roofs(site, stand.ground(0), overhead), &whole);
   Rings gap = Difference(whole.solid, known);
   // A piece goes to the object that most of it lies under.
   std::vector<Rings> projections(block.size());
@@ -279,6 +324,8 @@ void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const 
     Shape& shape = (*shapes)[block[owner]];
     shape.solid = Union(shape.solid, rings);
     shape.loose = Outside(shape.loose, Offset(shape.solid, kOnOutline_m));
+    shape.open_m = 0;
+    for (const Segment& s : shape.loose) shape.open_m += Length(s);
   }
 }
 
@@ -503,7 +550,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   Separate(shapes, options.clearance_m > kSliver_m ? kSliver_m : 0, &enlarged);
 
   for (size_t i = 0; i < shapes.size(); ++i)
-    if (town.obstacles[i].kind == ObstacleKind::kBuilding && (shapes[i].guessed || LooseLength(shapes[i]) > kOpenShell_m))
+    if (town.obstacles[i].kind == ObstacleKind::kBuilding && (shapes[i].guessed || shapes[i].open_m > kOpenShell_m))
       counts.open_shells.push_back(town.obstacles[i].name);
 
   NameGiver names;

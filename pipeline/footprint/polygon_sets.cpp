@@ -200,6 +200,25 @@ Rings OffsetSegments(const std::vector<Segment>& segments, double distance_m) {
   return UnionOfRings(boxes);
 }
 
+std::vector<Rings> Enclosed(const std::vector<Segment>& segments, const Rings& areas, double reach_m) {
+  constexpr double kSharpMiter = 10, kArcTolerance = 0.01;
+  const double reach = reach_m * kUnitsPerMetre;
+  cl::ClipperOffset offset(2, std::max(2.0, kArcTolerance * reach));
+  for (const Segment& s : segments) offset.AddPath(ToPath({s.a, s.b}), cl::jtRound, cl::etOpenRound);
+  offset.AddPaths(ToPaths(areas), cl::jtRound, cl::etClosedPolygon);
+  cl::PolyTree thick;
+  offset.Execute(thick, reach);
+  std::vector<Rings> regions;
+  for (const cl::PolyNode* node = thick.GetFirst(); node; node = node->GetNext()) {
+    if (!node->IsHole()) continue;
+    Rings rings{ToRing(node->Contour)};
+    for (const cl::PolyNode* island : node->Childs) rings.push_back(ToRing(island->Contour));
+    for (Ring& ring : rings) std::reverse(ring.begin(), ring.end());
+    regions.push_back(Offset(rings, reach_m, kSharpMiter));
+  }
+  return regions;
+}
+
 std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area) {
   if (area.empty()) return segments;
   const AreaIndex index(area, 0.01);

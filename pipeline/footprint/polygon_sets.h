@@ -29,6 +29,9 @@ Rings Difference(const Rings& a, const Rings& b);
 Rings Offset(const Rings& rings, double distance_m, double miter_limit = 2);
 // All that lies within distance_m of a segment, ends squared.
 Rings OffsetSegments(const std::vector<Segment>& segments, double distance_m);
+// What is enclosed by segments and areas that reach towards each other over gaps of up to 2 * reach_m: each region up to the
+// segments and areas round it, without the islands in it.
+std::vector<Rings> Enclosed(const std::vector<Segment>& segments, const Rings& areas, double reach_m);
 // The segments that lie, wholly or in part, outside the area.
 std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area);
 

@@ -1,4 +1,4 @@
-// Prints how well and how fast obstacles are found in real city models: bench_footprints [DATA_FOLDER] [--worst]
+// Prints how well and how fast obstacles are found in real city models: bench_footprints [DATA_FOLDER] [--worst] [--only ROW]
 #include <sys/resource.h>
 
 #include <chrono>
@@ -102,13 +102,15 @@ Scene Large(const std::vector<Scene>& towns, int copies) {
   return Copies(all, copies, 1200.0 * static_cast<double>(towns.size()));
 }
 
-Error Run(const std::filesystem::path& data, bool worst) {
+Error Run(const std::filesystem::path& data, bool worst, const std::string& only) {
   std::vector<Scene> lod2, lod3;
   if (Error e = ReadFolder(data / "towns" / "nrw-lod2", &lod2)) return e;
   if (Error e = ReadFolder(data / "towns" / "ingolstadt-lod3", &lod3)) return e;
   std::printf("%-27s %9s %10s %11s %9s\n", "LoD2", "mean IoU", "<= 2 cm", "306 flagged", "unflagged");
   for (const Spoiling& how : kSpoilings)
-    if (Error e = PrintFit(lod2, how, worst)) return e;
+    if (only.empty() || only == how.name)
+      if (Error e = PrintFit(lod2, how, worst)) return e;
+  if (!only.empty() && only != "speed") return Ok();
   if (Error e = PrintCover(lod2)) return e;
   if (Error e = PrintSpeed("LoD2", Large(lod2, 4))) return e;
   return PrintSpeed("LoD3", Large(lod3, 1));
@@ -121,15 +123,17 @@ int main(int count, char** arguments) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   std::filesystem::path data = flaneur::figures::SharedData();
   bool worst = false;
+  std::string only;
   for (int i = 1; i < count; ++i) {
     if (std::strcmp(arguments[i], "--worst") == 0) worst = true;
+    else if (std::strcmp(arguments[i], "--only") == 0 && i + 1 < count) only = arguments[++i];
     else data = arguments[i];
   }
   if (data.empty()) {
     std::fprintf(stderr, "bench_footprints: name the folder that holds towns/nrw-lod2, or set FLANEUR_SHARED_DIR\n");
     return 1;
   }
-  const flaneur::Error error = flaneur::figures::Run(data, worst);
+  const flaneur::Error error = flaneur::figures::Run(data, worst, only);
   if (error) std::fprintf(stderr, "bench_footprints: %s\n", error.message.c_str());
   return error ? 1 : 0;
 }
