@@ -12,6 +12,7 @@ constexpr double kMostCells = 1e6;       // of one object; the cells become larg
 constexpr double kOverhang_m = 3;        // half the width of what may hang over lower parts
 constexpr float kLevel_m = 0.3f;         // what varies by less is taken for level: a band from the lowest point finds all walls
 constexpr float kStep_m = 0.1f;          // lower steps are none
+constexpr double kSteep = 0.3;           // of a wall's normal, what points up
 constexpr float kNothing = std::numeric_limits<float>::max();
 
 GroundRaster Blank(const TownObject& object) {
@@ -45,6 +46,18 @@ void LowerTo(GroundRaster* raster, double x, double y, double z) {
 void MarkKnown(GroundRaster* raster) {
   for (size_t i = 0; i < raster->kind.size(); ++i)
     if (raster->height_m[i] != kNothing) raster->kind[i] = static_cast<uint8_t>(GroundKind::kSquare);
+}
+
+std::vector<Triangle3> Walls(const std::vector<Triangle3>& triangles) {
+  std::vector<Triangle3> walls;
+  for (const Triangle3& t : triangles) {
+    const auto& [a, b, c] = t;
+    const double x = (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
+    const double y = (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
+    const double z = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    if (std::abs(z) < kSteep * std::hypot(x, y, z)) walls.push_back(t);
+  }
+  return walls;
 }
 
 // The lowest point of the triangles' edges in each cell.
@@ -137,7 +150,8 @@ GroundRaster BaseOf(const TownObject& object) {
     MarkKnown(&raster);
   } else {
     // An opening, as of greyscale pictures: narrow heights vanish, wide ones keep their borders.
-    DrawEdges(object.triangles, &raster);
+    const std::vector<Triangle3> walls = Walls(object.triangles);
+    DrawEdges(walls.empty() ? object.triangles : walls, &raster);
     MarkKnown(&raster);
     FillGaps(&raster);
     const int reach = static_cast<int>(std::ceil(kOverhang_m / raster.cell_m));

@@ -137,8 +137,9 @@ Enclosure Enclose(const std::vector<Segment>& cut, const RegionTest& is_solid) {
   Enclosure out;
   out.solid = TraceSolid(triangulation, solid);
   for (const auto& [face, i] : triangulation.finite_edges()) {
-    if (face->is_constrained(i))
-      out.pieces.push_back({ToPoint(face->vertex(Triangulation::ccw(i))), ToPoint(face->vertex(Triangulation::cw(i)))});
+    const auto is_solid_face = [&](const auto& f) { return solid[static_cast<size_t>(f->info())]; };
+    if (face->is_constrained(i) && !is_solid_face(face) && !is_solid_face(face->neighbor(i)))
+      out.loose.push_back({ToPoint(face->vertex(Triangulation::ccw(i))), ToPoint(face->vertex(Triangulation::cw(i)))});
   }
   return out;
 }

@@ -9,7 +9,7 @@ namespace flaneur {
 
 struct Enclosure {
   Rings solid;                  // the regions that `is_solid` took; slivers thinner than 0.1 mm vanish
-  std::vector<Segment> pieces;  // the segments, cut where they meet
+  std::vector<Segment> loose;   // pieces of segments with nothing solid beside them
 };
 
 // A region is enclosed where no way leads to it from outside without crossing a segment. is_solid is asked once for each,

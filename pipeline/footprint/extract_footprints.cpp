@@ -143,6 +143,18 @@ std::vector<Segment> WithoutCrumbs(const std::vector<Segment>& loose) {
   return out;
 }
 
+void SetLoose(const std::vector<Segment>& lines, Shape* shape) {
+  shape->loose.clear();
+  shape->open_m = 0;
+  if (lines.empty()) return;
+  const std::vector<Segment> loose = Outside(lines, Offset(shape->solid, kOnOutline_m));
+  if (loose.empty()) return;
+  const std::vector<Segment> apart = Outside(loose, Offset(shape->solid, kCrumb_m));  // not covered with what is solid
+  shape->loose = WithoutCrumbs(loose);
+  shape->loose.insert(shape->loose.end(), apart.begin(), apart.end());
+  for (const Segment& s : apart) shape->open_m += Length(s);
+}
+
 // Whether all lines lead on at both ends.
 bool AllMeet(const std::vector<Segment>& lines) {
   std::map<std::pair<double, double>, int> ends;
@@ -156,19 +168,16 @@ bool AllMeet(const std::vector<Segment>& lines) {
 void Close(std::vector<Segment> lines, double reach_m, const Roofs& is_solid, Shape* shape) {
   if (shape->solid.empty()) lines = CutWhereTheyMeet(lines);
   if (shape->solid.empty() && AllMeet(lines)) {
-    shape->solid = EncloseRegions(lines, is_solid).solid;
+    Enclosure enclosure = EncloseRegions(lines, is_solid);
+    shape->solid = std::move(enclosure.solid);
+    lines = std::move(enclosure.loose);
   } else if (reach_m > 0) {
     Rings regions = shape->solid;
     for (const Rings& region : Enclosed(lines, shape->solid, reach_m / 2))
       if (!region.empty() && is_solid(region)) regions.insert(regions.end(), region.begin(), region.end());
     shape->solid = UnionOfAreas(regions);
   }
-  const std::vector<Segment> loose = Outside(lines, Offset(shape->solid, kOnOutline_m));
-  const std::vector<Segment> apart = Outside(loose, Offset(shape->solid, kCrumb_m));  // not covered with what is solid
-  shape->loose = WithoutCrumbs(loose);
-  shape->loose.insert(shape->loose.end(), apart.begin(), apart.end());
-  shape->open_m = 0;
-  for (const Segment& s : apart) shape->open_m += Length(s);
+  SetLoose(lines, shape);
 }
 
 BandParts PartsInBand(const Site& site, const Stand& stand, const std::vector<Triangle3>& triangles) {
@@ -323,16 +332,15 @@ void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const 
     if (owner == block.size()) continue;
     Shape& shape = (*shapes)[block[owner]];
     shape.solid = Union(shape.solid, rings);
-    shape.loose = Outside(shape.loose, Offset(shape.solid, kOnOutline_m));
-    shape.open_m = 0;
-    for (const Segment& s : shape.loose) shape.open_m += Length(s);
+    SetLoose(std::vector<Segment>(shape.loose), &shape);
   }
 }
 
 Rings Enlarged(const Site& site, const Shape& shape) {
   const double clearance = site.options.clearance_m, tolerance = site.options.tolerance_m;
   Rings rings = clearance > 0 ? Offset(shape.solid, clearance) : shape.solid;
-  const std::vector<Segment> thin = Outside(shape.loose, Offset(shape.solid, kOnOutline_m));
+  const std::vector<Segment> thin =
+      shape.loose.empty() ? shape.loose : Outside(shape.loose, Offset(shape.solid, kOnOutline_m));
   if (!thin.empty()) rings = Union(rings, OffsetSegments(thin, std::max(clearance, kThinWall_m)));
   return tolerance > 0 ? Simplify(rings, tolerance) : rings;
 }
@@ -406,7 +414,6 @@ void Separate(const std::vector<Shape>& shapes, double width_m, std::vector<Ring
       if (j > i && !Apart(boxes[i], solid_boxes[j])) taken = Union(taken, Difference(shapes[j].solid, shapes[i].solid));
     }
     if (!taken.empty()) (*enlarged)[i] = Difference((*enlarged)[i], taken);
-    if (width_m <= 0) continue;
     const Rings kept = WithoutSpecks(Tidy((*enlarged)[i], width_m));
     const Rings strips = Difference((*enlarged)[i], Offset(kept, kAgainst_m));
     (*enlarged)[i] = kept;
@@ -547,7 +554,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   std::vector<Rings> enlarged(shapes.size());
   ForEach(shapes.size(), options.threads, [&](size_t i) { enlarged[i] = Enlarged(site, shapes[i]); });
   // Without a clearance thin walls are as thin as slivers.
-  Separate(shapes, options.clearance_m > kSliver_m ? kSliver_m : 0, &enlarged);
+  Separate(shapes, options.clearance_m > kSliver_m ? kSliver_m : kThinWall_m, &enlarged);
 
   for (size_t i = 0; i < shapes.size(); ++i)
     if (town.obstacles[i].kind == ObstacleKind::kBuilding && (shapes[i].guessed || shapes[i].open_m > kOpenShell_m))

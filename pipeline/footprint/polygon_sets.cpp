@@ -184,8 +184,7 @@ Rings Offset(const Rings& rings, double distance_m, double miter_limit) {
   offset.AddPaths(ToPaths(rings), cl::jtMiter, cl::etClosedPolygon);
   cl::Paths out;
   offset.Execute(out, distance_m * kUnitsPerMetre);
-  cl::SimplifyPolygons(out, cl::pftEvenOdd);
-  return Union(ToRings(out), {});
+  return ToRings(out);
 }
 
 Rings OffsetSegments(const std::vector<Segment>& segments, double distance_m) {
@@ -241,9 +240,11 @@ Rings Simplify(const Rings& rings, double tolerance_m) {
 }
 
 Rings Tidy(const Rings& rings, double width_m) {
-  constexpr double kSharpMiter = 20, kNear_m = 0.0015;
-  cl::Paths paths = ToPaths(Offset(Offset(rings, -width_m / 2, kSharpMiter), width_m / 2, kSharpMiter));
-  cl::CleanPolygons(paths, kNear_m * kUnitsPerMetre);
+  constexpr double kSharpMiter = 20, kNear_m = 0.0015, kSlit_m = 0.0005;
+  const Rings without_slits = Offset(rings, kSlit_m, kSharpMiter);
+  const Rings without_slivers = Offset(without_slits, -width_m / 2 - kSlit_m, kSharpMiter);
+  cl::Paths paths = ToPaths(Offset(without_slivers, width_m / 2, kSharpMiter));
+  if (width_m > kNear_m) cl::CleanPolygons(paths, kNear_m * kUnitsPerMetre);
   return Union(ToRings(paths), {});
 }
 

@@ -38,7 +38,8 @@ std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& 
 // Drops vertices where the boundary moves outwards by at most tolerance_m; inwards by no more than the grid is wide.
 Rings Simplify(const Rings& rings, double tolerance_m);
 
-// Fit for a file: without slivers thinner than width_m, points nearer than 1 mm, and crossings.
+// Fit for a file: without slivers thinner than width_m, slits thinner than 1 mm, and crossings; where width_m is more than
+// 1.5 mm also without points nearer than that to each other.
 Rings Tidy(const Rings& rings, double width_m);
 
 // Splits an area into polygons with their holes.

@@ -50,10 +50,15 @@ Error PrintFit(const std::vector<Scene>& towns, const Spoiling& how, bool worst)
   std::printf("%-27s %9.5f %8.1f %% %11d %9d\n", how.name, MeanIou(all), 100 * ShareWithin2cm(all),
               count([](const BuildingFit& f) { return f.flagged; }),
               count([](const BuildingFit& f) { return !f.flagged && f.iou < 0.97; }));
+  const auto print = [&](const char* what) {
+    for (size_t i = 0; worst && i < std::min<size_t>(5, all.size()); ++i)
+      std::printf("    %s %-20s %7.4f  %8.3f m  %8.1f m2%s\n", what, all[i].name.c_str(), all[i].iou, all[i].hausdorff_m,
+                  all[i].area_m2, all[i].flagged ? "  flagged" : "");
+  };
   std::sort(all.begin(), all.end(), [](const BuildingFit& a, const BuildingFit& b) { return a.iou < b.iou; });
-  for (size_t i = 0; worst && i < std::min<size_t>(8, all.size()); ++i)
-    std::printf("    %-20s %7.4f  %8.3f m  %8.1f m2%s\n", all[i].name.c_str(), all[i].iou, all[i].hausdorff_m, all[i].area_m2,
-                all[i].flagged ? "  flagged" : "");
+  print("IoU");
+  std::sort(all.begin(), all.end(), [](const BuildingFit& a, const BuildingFit& b) { return a.hausdorff_m > b.hausdorff_m; });
+  print("Hausdorff");
   return Ok();
 }
 
