@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kSame_m = 0.001;
 constexpr double kThin_m = 0.02;
+constexpr double kUpright = 0.02;   // slope of a normal
 constexpr size_t kLongestHole = 8;  // edges round a hole; longer ones are openings
 
 using Index = uint32_t;
@@ -66,13 +67,21 @@ void Remove(Index a, Index b, Borders* borders) {
 
 double Length(const Point3& a, const Point3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-double Thickness(const Triangle3& t) {
+Point3 Normal(const Triangle3& t) {  // as long as twice the area
   const auto& [a, b, c] = t;
-  const double x = (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
-  const double y = (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
-  const double z = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  const double longest = std::max({Length(a, b), Length(b, c), Length(c, a)});
-  return longest > 0 ? std::hypot(x, y, z) / longest : 0;
+  return {(b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y), (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z),
+          (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)};
+}
+
+double Thickness(const Triangle3& t) {
+  const Point3 n = Normal(t);
+  const double longest = std::max({Length(t[0], t[1]), Length(t[1], t[2]), Length(t[2], t[0])});
+  return longest > 0 ? std::hypot(n.x, n.y, n.z) / longest : 0;
+}
+
+bool IsUpright(const Triangle3& t) {
+  const Point3 n = Normal(t);
+  return std::abs(n.z) <= kUpright * std::hypot(n.x, n.y);
 }
 
 class Repair {
@@ -82,7 +91,7 @@ class Repair {
   std::vector<Triangle3> Run() {
     FillTriangles();
     std::vector<std::vector<Index>> holes;
-    if (Closable(&holes))
+    if (Closable(&holes) && !(holes.size() == 1 && out_.empty() && IsWall(holes[0])))
       for (const std::vector<Index>& hole : holes) Fill(hole);
     return std::move(out_);
   }
@@ -132,6 +141,11 @@ class Repair {
       holes->push_back(std::move(hole));
     }
     return true;
+  }
+
+  bool IsWall(const std::vector<Index>& hole) const {
+    const auto point = [&](size_t i) { return shell_.points[hole[i]]; };
+    return hole.size() == 4 && IsUpright({point(0), point(1), point(2)}) && IsUpright({point(0), point(2), point(3)});
   }
 
   void Fill(const std::vector<Index>& hole) {

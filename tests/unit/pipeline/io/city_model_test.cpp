@@ -1,0 +1,228 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "pipeline/io/scene_reader.h"
+#include "pipeline/io/town_builder.h"
+
+namespace flaneur {
+namespace {
+
+class CityModel : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string Read(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    scene_ = {};
+    warnings_.clear();
+    return ReadScene(folder_ / name, &scene_, &warnings_).message;
+  }
+
+  int Triangles(bool foundation) const {
+    size_t indices = 0;
+    for (const SceneNode& node : scene_.nodes)
+      if (node.is_foundation == foundation)
+        for (const int mesh : node.meshes) indices += scene_.meshes[static_cast<size_t>(mesh)].indices.size();
+    return static_cast<int>(indices / 3);
+  }
+
+  // Metres east, north and up of the source.
+  Point3 Highest() const {
+    Point3 highest{0, 0, -1e9};
+    for (const Mesh& mesh : scene_.meshes)
+      for (const Vec3 g : mesh.positions)
+        if (const Vec3 p = GroundFromGltf(g); p.z > highest.z) highest = {p.x + scene_.origin_m.x, p.y + scene_.origin_m.y, p.z};
+    return highest;
+  }
+
+  std::filesystem::path folder_;
+  Scene scene_;
+  std::vector<std::string> warnings_;
+};
+
+// ---- CityGML ----
+
+std::string Polygon(const std::string& coordinates, const std::string& id = "") {
+  return "<gml:Polygon" + (id.empty() ? "" : " gml:id=\"" + id + "\"") + "><gml:exterior><gml:LinearRing><gml:posList>" +
+         coordinates + "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon>";
+}
+std::string Surface(const std::string& type, const std::string& polygon, const std::string& lod = "2") {
+  return "<bldg:boundedBy><bldg:" + type + "><bldg:lod" + lod + "MultiSurface><gml:MultiSurface><gml:surfaceMember>" + polygon +
+         "</gml:surfaceMember></gml:MultiSurface></bldg:lod" + lod + "MultiSurface></bldg:" + type + "></bldg:boundedBy>";
+}
+std::string Gml(const std::string& members, const std::string& version = "2.0", const std::string& before = "") {
+  return "<?xml version=\"1.0\"?>" + before + "<core:CityModel xmlns:core=\"http://www.opengis.net/citygml/" + version +
+         "\" xmlns:bldg=\"http://www.opengis.net/citygml/building/" + version +
+         "\" xmlns:gml=\"http://www.opengis.net/gml\" xmlns:xlink=\"http://www.w3.org/1999/xlink\">"
+         "<gml:boundedBy><gml:Envelope srsName=\"urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783\"/></gml:boundedBy>" +
+         members + "</core:CityModel>";
+}
+std::string Member(const std::string& inner, const std::string& id = "house") {
+  return "<core:cityObjectMember><bldg:Building gml:id=\"" + id + "\">" + inner + "</bldg:Building></core:cityObjectMember>";
+}
+const char* const kWall = "603000 5780000 50 603010 5780000 50 603010 5780000 58 603000 5780000 58 603000 5780000 50";
+const char* const kGround = "603000 5780000 50 603000 5780008 50 603010 5780008 50 603010 5780000 50 603000 5780000 50";
+
+TEST_F(CityModel, CityGmlKeepsNamesAndMovesNearZero) {
+  for (const char* version : {"1.0", "2.0"}) {
+    ASSERT_EQ(Read("town.gml", Gml(Member(Surface("WallSurface", Polygon(kWall)) + Surface("GroundSurface", Polygon(kGround))),
+                                   version)), "");
+    ASSERT_EQ(scene_.nodes.size(), 2u);
+    EXPECT_EQ(scene_.nodes[0].name, "house");
+    EXPECT_EQ(scene_.nodes[0].kind, NodeKind::kBuilding);
+    EXPECT_EQ(scene_.reference_system, "EPSG:25832");
+    EXPECT_EQ(std::fmod(scene_.origin_m.x, 100), 0);
+    EXPECT_NEAR(Highest().y, 5780000, 1e-3);
+    EXPECT_NEAR(Highest().z, 58, 1e-3);
+    EXPECT_EQ(Triangles(false), 2);
+    EXPECT_EQ(Triangles(true), 2) << "the ground surface is the foundation";
+  }
+}
+
+TEST_F(CityModel, CityGmlTakesTheFinestLevelAndNoRooms) {
+  const std::string solid = "<bldg:lod1Solid><gml:Solid><gml:exterior><gml:CompositeSurface><gml:surfaceMember>" + Polygon(kGround) +
+                            "</gml:surfaceMember></gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod1Solid>";
+  const std::string room = "<bldg:interiorRoom><bldg:Room>" + Surface("InteriorWallSurface", Polygon(kWall), "4") +
+                           "</bldg:Room></bldg:interiorRoom>";
+  ASSERT_EQ(Read("town.gml", Gml(Member(solid + Surface("WallSurface", Polygon(kWall)) +
+                                        Surface("WallSurface", Polygon(kWall), "3") + room))), "");
+  EXPECT_EQ(Triangles(false), 2);
+}
+
+TEST_F(CityModel, CityGmlLeavesClosureSurfacesOpen) {
+  ASSERT_EQ(Read("town.gml", Gml(Member(Surface("WallSurface", Polygon(kWall)) + Surface("ClosureSurface", Polygon(kWall))))), "");
+  EXPECT_EQ(Triangles(false), 2);
+}
+
+TEST_F(CityModel, CityGmlReferencesAreTakenOnce) {
+  const std::string solid = "<bldg:lod2Solid><gml:Solid><gml:exterior><gml:CompositeSurface><gml:surfaceMember xlink:href=\"#w\"/>"
+                            "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod2Solid>";
+  ASSERT_EQ(Read("town.gml", Gml(Member(solid + Surface("WallSurface", Polygon(kWall, "w"))) + Member(solid, "neighbour"))), "");
+  EXPECT_EQ(Triangles(false), 4) << "two of the house's own, two that the neighbour shares";
+}
+
+TEST_F(CityModel, XmlBombsAndOtherXmlAreRefused) {
+  const std::string bomb = "<!DOCTYPE b [<!ENTITY a \"xxxxxxxxxx\"><!ENTITY c \"&a;&a;&a;&a;&a;&a;&a;&a;\">]>";
+  EXPECT_NE(Read("bomb.gml", Gml(Member(""), "2.0", bomb)).find("DOCTYPE"), std::string::npos);
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  EXPECT_NE(Read("deep.gml", Gml(deep)).find("deep"), std::string::npos);
+  EXPECT_NE(Read("page.xml", "<html></html>").find("CityModel"), std::string::npos);
+  EXPECT_NE(Read("three.gml", Gml("", "3.0")).find("3.0"), std::string::npos);
+  const std::string whole = Gml(Member(Surface("WallSurface", Polygon(kWall))));
+  EXPECT_NE(Read("cut.gml", whole.substr(0, whole.size() - 40)).find("well-formed"), std::string::npos);
+}
+
+TEST_F(CityModel, BadCityGmlIsNamed) {
+  EXPECT_NE(Read("empty.gml", Gml("")).find("no face"), std::string::npos);
+  EXPECT_NE(Read("nan.gml", Gml(Member(Surface("WallSurface", Polygon("0 0 nan 1 0 0 1 1 0"))))).find("'house'"), std::string::npos);
+  EXPECT_NE(Read("odd.gml", Gml(Member(Surface("WallSurface", Polygon("0 0 0 1 0"))))).find("three coordinates"), std::string::npos);
+  ASSERT_EQ(Read("two.gml", Gml(Member(Surface("WallSurface", Polygon("0 0 0 1 0 0")) + Surface("WallSurface", Polygon(kWall))))), "");
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("fewer than three corners"), std::string::npos);
+}
+
+// ---- CityJSON ----
+
+std::string Json(const std::string& version, const std::string& boundaries, const std::string& extra = "") {
+  return R"({"type":"CityJSON","version":")" + version +
+         R"(","transform":{"scale":[0.001,0.001,0.001],"translate":[603000,5780000,50]},)"
+         R"("metadata":{"referenceSystem":"https://www.opengis.net/def/crs/EPSG/0/7415"},)"
+         R"("vertices":[[0,0,0],[10000,0,0],[10000,0,8000],[0,0,8000],[0,8000,0],[10000,8000,0]],)" + extra +
+         R"("CityObjects":{"house":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2.2","boundaries":)" + boundaries +
+         R"(,"semantics":{"surfaces":[{"type":"WallSurface"},{"type":"GroundSurface"}],"values":[0,1]}}]}}})";
+}
+
+TEST_F(CityModel, CityJsonOfAllVersions) {
+  for (const char* version : {"1.0", "1.1", "2.0"}) {
+    ASSERT_EQ(Read("town.city.json", Json(version, "[[[0,1,2,3]],[[0,4,5,1]]]")), "");
+    EXPECT_EQ(scene_.nodes[0].name, "house");
+    EXPECT_EQ(scene_.reference_system, "EPSG:7415");
+    EXPECT_EQ(Triangles(false), 2);
+    EXPECT_EQ(Triangles(true), 2);
+    EXPECT_NEAR(Highest().z, 58, 1e-3);
+    EXPECT_NEAR(Highest().y, 5780000, 1e-3);
+  }
+}
+
+TEST_F(CityModel, CityJsonPartsBelongToTheirBuilding) {
+  const std::string text =
+      R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},)"
+      R"("vertices":[[0,0,0],[9,0,0],[9,0,8],[0,0,8]],"CityObjects":{)"
+      R"("house":{"type":"Building","children":["part"],"geometry":[{"type":"MultiSurface","lod":"1.2","boundaries":[[[0,1,2,3]]]}]},)"
+      R"("part":{"type":"BuildingPart","parents":["house"],"geometry":[{"type":"Solid","lod":"2.2","boundaries":[[[[0,1,2,3]]]]}]},)"
+      R"("oak":{"type":"SolitaryVegetationObject","geometry":[{"type":"GeometryInstance","template":0,"boundaries":[1],)"
+      R"("transformationMatrix":[1,0,0,5,0,1,0,0,0,0,1,0,0,0,0,1]}]}},)"
+      R"("geometry-templates":{"templates":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]}],)"
+      R"("vertices-templates":[[0,0,0],[1,0,0],[0,0,20]]}})";
+  ASSERT_EQ(Read("town.json", text), "");
+  EXPECT_EQ(Triangles(false), 3) << "the part's two and the tree's one";
+  EXPECT_NEAR(Highest().x, 14, 1e-6);
+  for (const SceneNode& node : scene_.nodes) EXPECT_EQ(node.kind, node.name == "oak" ? NodeKind::kTree : NodeKind::kBuilding);
+}
+
+TEST_F(CityModel, CityJsonSequence) {
+  const std::string head = R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},"CityObjects":{},"vertices":[]})";
+  const auto feature = [](const std::string& id) {
+    return R"({"type":"CityJSONFeature","id":")" + id + R"(","vertices":[[0,0,0],[9,0,0],[9,0,8]],"CityObjects":{")" + id +
+           R"(":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]}]}}})";
+  };
+  ASSERT_EQ(Read("town.city.jsonl", head + "\n" + feature("a") + "\n" + feature("b") + "\n"), "");
+  ASSERT_EQ(scene_.nodes.size(), 2u);
+  EXPECT_EQ(scene_.nodes[1].name, "b");
+  EXPECT_NE(Read("town.city.jsonl", head + "\n{}\n").find("line 2"), std::string::npos);
+  EXPECT_NE(Read("town.city.jsonl", head + "\n" + feature("a") + "\n{\"type\":").find("line 3"), std::string::npos);
+}
+
+TEST_F(CityModel, BadCityJsonIsNamed) {
+  EXPECT_NE(Read("bad.json", Json("2.0", "[[[0,1,99]]]")).find("vertex 99"), std::string::npos);
+  EXPECT_NE(Read("bad.json", Json("2.0", "[[[0,1,-1]]]")).find("'house'"), std::string::npos);
+  EXPECT_NE(Read("bad.json", Json("2.0", "[[[0,1,1.5]]]")).find("vertex 1.5"), std::string::npos);
+  EXPECT_NE(Read("bad.json", Json("3.0", "[[[0,1,2]]]")).find("3.0"), std::string::npos);
+  EXPECT_NE(Read("bad.json", Json("2.0", "7")).find("'house'"), std::string::npos);
+  EXPECT_NE(Read("bad.json", R"({"type":"CityJSON","version":"2.0","CityObjects":{},"vertices":[]})").find("no face"), std::string::npos);
+  EXPECT_NE(Read("bad.json", R"({"type":"CityJSON","version":"2.0",)").find("JSON"), std::string::npos);
+}
+
+// ---- OBJ ----
+
+TEST_F(CityModel, ObjObjectsAreNodes) {
+  const std::string box = "v 0 0 0\nv 40 0 0\nv 40 8 0\nv 0 8 0\nv 0 0 30\n";
+  ASSERT_EQ(Read("town.obj", box + "o church\nf 1 2 3 4\no tower\nf -1/1/1 1/2/2 2//3\n"), "");
+  ASSERT_EQ(scene_.nodes.size(), 2u);
+  EXPECT_EQ(scene_.nodes[0].name, "church");
+  EXPECT_EQ(Triangles(false), 3);
+  EXPECT_NEAR(Highest().z, 8, 1e-6) << "lower than it is long along z: y is up";
+  EXPECT_EQ(warnings_.size(), 1u) << "says so";
+}
+
+TEST_F(CityModel, ObjWithMapCoordinatesHasZUp) {
+  ASSERT_EQ(Read("town.obj", "v 603000.125 5780000 50\nv 603001 5780000 50\nv 603001 5780000 90\nf 1 2 3\n"), "");
+  EXPECT_NEAR(Highest().z, 90, 1e-6);
+  EXPECT_NEAR(Highest().x, 603001, 1e-3);
+}
+
+TEST_F(CityModel, BadObjIsNamedByLine) {
+  EXPECT_NE(Read("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n").find("bad.obj:3"), std::string::npos);
+  EXPECT_NE(Read("bad.obj", "v 0 0 nan\n").find("bad.obj:1"), std::string::npos);
+  EXPECT_NE(Read("bad.obj", "v 0 0\n").find("bad.obj:1"), std::string::npos);
+  EXPECT_NE(Read("bad.obj", "").find("no face"), std::string::npos);
+}
+
+TEST(PlainReferenceSystem, KnowsTheUsualWays) {
+  EXPECT_EQ(PlainReferenceSystem("EPSG:32632"), "EPSG:32632");
+  EXPECT_EQ(PlainReferenceSystem("urn:ogc:def:crs:EPSG::7415"), "EPSG:7415");
+  EXPECT_EQ(PlainReferenceSystem("urn:ogc:def:crs:EPSG:6.12:3068"), "EPSG:3068");
+  EXPECT_EQ(PlainReferenceSystem("urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH*GCG2016"), "EPSG:25832");
+  EXPECT_EQ(PlainReferenceSystem("urn:adv:crs:DE_DHDN_3GK4*DE_DHHN92_NH"), "EPSG:31468");
+  EXPECT_EQ(PlainReferenceSystem("https://www.opengis.net/def/crs/EPSG/0/28992"), "EPSG:28992");
+}
+
+}  // namespace
+}  // namespace flaneur
