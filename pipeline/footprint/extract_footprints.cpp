@@ -33,7 +33,7 @@ constexpr double kOpenShell_m = 1.0;       // of wall without anything solid bes
 constexpr double kCrumb_m = 0.02;          // of lines without area that lead nowhere
 constexpr double kNoWay_m = 0.5;           // nobody passes a gap in a building narrower than this
 constexpr double kOnOutline_m = 0.002;     // lines this near to something solid are its outline
-constexpr double kJoint_m = 0.5;         // neighbours that overlap by less are meant to touch
+constexpr double kJoint_m = 1.5;         // houses that overlap by less are meant to touch
 constexpr size_t kSamples = 16;          // of a region, to see whether it is roofed
 constexpr double kThinWall_m = 0.001;      // half the thickness of a wall without any, before the clearance
 
@@ -401,7 +401,9 @@ Rings SharedGround(const Shape& a, const Shape& b) {
 
 // Enlarged neighbours overlap by twice the clearance: each keeps clear of the others' walls, and of what the earlier
 // ones have taken.
-void Separate(const std::vector<Shape>& shapes, double width_m, std::vector<Rings>* enlarged) {
+void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes, double width_m,
+              std::vector<Rings>* enlarged) {
+  const auto is_house = [&](size_t i) { return objects[i].kind == ObstacleKind::kBuilding; };
   std::vector<Box> solid_boxes, boxes;
   for (const Shape& shape : shapes) solid_boxes.push_back(BoxOf(shape.solid));
   for (const Rings& rings : *enlarged) boxes.push_back(BoxOf(rings));
@@ -410,7 +412,8 @@ void Separate(const std::vector<Shape>& shapes, double width_m, std::vector<Ring
     for (size_t j = 0; j < enlarged->size(); ++j) {
       if (j == i || (*enlarged)[j].empty()) continue;
       if (j < i && !Apart(boxes[i], boxes[j]))
-        taken = Union(taken, Difference((*enlarged)[j], SharedGround(shapes[i], shapes[j])));
+        taken = Union(taken, is_house(i) && is_house(j) ? Difference((*enlarged)[j], SharedGround(shapes[i], shapes[j]))
+                                                        : (*enlarged)[j]);
       if (j > i && !Apart(boxes[i], solid_boxes[j])) taken = Union(taken, Difference(shapes[j].solid, shapes[i].solid));
     }
     if (!taken.empty()) (*enlarged)[i] = Difference((*enlarged)[i], taken);
@@ -554,7 +557,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   std::vector<Rings> enlarged(shapes.size());
   ForEach(shapes.size(), options.threads, [&](size_t i) { enlarged[i] = Enlarged(site, shapes[i]); });
   // Without a clearance thin walls are as thin as slivers.
-  Separate(shapes, options.clearance_m > kSliver_m ? kSliver_m : kThinWall_m, &enlarged);
+  Separate(town.obstacles, shapes, options.clearance_m > kSliver_m ? kSliver_m : kThinWall_m, &enlarged);
 
   for (size_t i = 0; i < shapes.size(); ++i)
     if (town.obstacles[i].kind == ObstacleKind::kBuilding && (shapes[i].guessed || shapes[i].open_m > kOpenShell_m))

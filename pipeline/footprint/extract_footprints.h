@@ -33,7 +33,7 @@ struct FootprintStats {
 // What reaches into the band over the ground below it blocks. Eaves and storeys above the band do not; arcades and
 // passages stay open; what the walls of a building, or of houses that adjoin, enclose is solid where something is
 // overhead and a hole where it is open to the sky. Trees and lamps become circles. Outer rings are anticlockwise, holes
-// clockwise, all simple; names are unique; obstacles do not overlap but where the houses themselves do, wider than half a metre. A town without ground has that
+// clockwise, all simple; names are unique; obstacles do not overlap but where houses themselves do, wider than 1.5 m. A town without ground has that
 // which its buildings' foundations or feet tell. Holes of a few triangles in a building's shell are closed.
 // Independent of the order of triangles and of the number of threads.
 // `warnings` gets one line for each object that leaves nothing in the band.
