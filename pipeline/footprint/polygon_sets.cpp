@@ -27,6 +27,13 @@ cl::Paths ToPaths(const Rings& rings) {
   return paths;
 }
 
+// ClipperOffset takes the ring with the lowest point for an outer one, of several with that point the first.
+cl::Paths OutersFirst(const Rings& rings) {
+  cl::Paths paths = ToPaths(rings);
+  std::stable_partition(paths.begin(), paths.end(), [](const cl::Path& path) { return cl::Orientation(path); });
+  return paths;
+}
+
 Ring ToRing(const cl::Path& path) {
   Ring ring;
   ring.reserve(path.size());
@@ -181,7 +188,7 @@ Rings UnionOfAreas(const Rings& rings) {
 Rings Offset(const Rings& rings, double distance_m, double miter_limit) {
   if (rings.empty()) return {};
   cl::ClipperOffset offset(miter_limit);
-  offset.AddPaths(ToPaths(rings), cl::jtMiter, cl::etClosedPolygon);
+  offset.AddPaths(OutersFirst(rings), cl::jtMiter, cl::etClosedPolygon);
   cl::Paths out;
   offset.Execute(out, distance_m * kUnitsPerMetre);
   return ToRings(out);
@@ -204,7 +211,7 @@ std::vector<Rings> Enclosed(const std::vector<Segment>& segments, const Rings& a
   const double reach = reach_m * kUnitsPerMetre;
   cl::ClipperOffset offset(2, std::max(2.0, kArcTolerance * reach));
   for (const Segment& s : segments) offset.AddPath(ToPath({s.a, s.b}), cl::jtRound, cl::etOpenRound);
-  offset.AddPaths(ToPaths(areas), cl::jtRound, cl::etClosedPolygon);
+  offset.AddPaths(OutersFirst(areas), cl::jtRound, cl::etClosedPolygon);
   cl::PolyTree thick;
   offset.Execute(thick, reach);
   std::vector<Rings> regions;
