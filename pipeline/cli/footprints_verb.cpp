@@ -21,7 +21,7 @@ struct FootprintsArguments {
 };
 
 void AddOptions(CLI::App* app, FootprintsArguments* a) {
-  app->add_option("TOWN", a->town, "The town: a glTF file, tagged by the town convention or not")->required();
+  app->add_option("TOWN", a->town, "The town: glTF, tagged by the town convention or not; OBJ; CityJSON; CityGML")->required();
   app->add_option("-o,--output", a->output, "GeoJSON file to write")->required();
   app->add_option("--map", a->map, "Also draw a plan as SVG");
   app->option_defaults()->always_capture_default();
@@ -30,10 +30,11 @@ void AddOptions(CLI::App* app, FootprintsArguments* a) {
   app->add_option("--band", a->options.band_m,
                   "Heights over the local ground between which things block, in metres: LOW HIGH")
       ->check(CLI::Range(0.0, 100.0));
-  app->add_option("--tolerance-m", a->options.tolerance_m, "Simplification moves outlines by at most this")
+  app->add_option("--tolerance-m", a->options.tolerance_m, "Simplification moves outlines outwards by at most this")
       ->check(CLI::Range(0.0, 1.0));
   app->add_option("--bridge-m", a->options.bridge_m, "Walls that miss each other by less are joined")
       ->check(CLI::Range(0.0, 1.0));
+  app->add_option("--threads", a->options.threads, "0: one a core; the result is the same")->check(CLI::Range(0, 1024));
   app->add_option("--scale", a->options.scale, "Metres per unit of the file")->check(CLI::PositiveNumber);
   app->add_flag("--merge-blocks", a->options.merge_blocks, "Make one obstacle of houses that adjoin");
 }
