@@ -237,10 +237,15 @@ std::vector<std::vector<size_t>> Blocks(const std::vector<TownObject>& objects) 
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  for (size_t i = 0; i < objects.size(); ++i) {
-    if (!InBlocks(objects[i].kind)) continue;
-    for (size_t j = 0; j < i; ++j) {
-      if (!InBlocks(objects[j].kind)) continue;
+  std::vector<size_t> from_west;
+  for (size_t i = 0; i < objects.size(); ++i)
+    if (InBlocks(objects[i].kind)) from_west.push_back(i);
+  std::sort(from_west.begin(), from_west.end(), [&](size_t i, size_t j) { return objects[i].min_m.x < objects[j].min_m.x; });
+  for (size_t k = 0; k < from_west.size(); ++k) {
+    const size_t i = from_west[k];
+    for (size_t l = k + 1; l < from_west.size(); ++l) {
+      const size_t j = from_west[l];
+      if (objects[j].min_m.x > objects[i].max_m.x + kBlockReach_m) break;
       if (!Adjoin(objects[i], objects[j])) continue;
       const size_t ri = root(i), rj = root(j);
       parent[std::max(ri, rj)] = std::min(ri, rj);
@@ -371,14 +376,15 @@ Rings WithoutSpecks(const Rings& rings) {
 }
 
 // A strip or speck too small to stay with its own obstacle goes to the neighbour it lies against, so that no wall loses its clearance.
-void GiveAway(const Rings& strips, size_t from, double width_m, std::vector<Box>* boxes, std::vector<Rings>* enlarged) {
+void GiveAway(const Rings& strips, size_t from, const std::vector<size_t>& neighbours, double width_m,
+              std::vector<Box>* boxes, std::vector<Rings>* enlarged) {
   for (const Polygon& strip : ToPolygons(strips)) {
     if (SignedArea(strip.outer) < kSmallestStrip_m2) continue;
     const Rings grown = Offset({strip.outer}, kAgainst_m);
     size_t owner = from;
     double most = 0;
-    for (size_t j = 0; j < enlarged->size(); ++j) {
-      if (j == from || (*enlarged)[j].empty() || Apart((*boxes)[j], BoxOf(grown))) continue;
+    for (const size_t j : neighbours) {
+      if ((*enlarged)[j].empty() || Apart((*boxes)[j], BoxOf(grown))) continue;
       const double shared = Area(Intersection(grown, (*enlarged)[j]));
       if (shared > most) most = shared, owner = j;
     }
@@ -386,6 +392,25 @@ void GiveAway(const Rings& strips, size_t from, double width_m, std::vector<Box>
     (*enlarged)[owner] = Tidy(Union((*enlarged)[owner], grown), width_m);
     (*boxes)[owner] = BoxOf((*enlarged)[owner]);
   }
+}
+
+// For each box the others within reach, ascending.
+std::vector<std::vector<size_t>> Neighbours(const std::vector<Box>& boxes) {
+  std::vector<size_t> from_west(boxes.size());
+  std::iota(from_west.begin(), from_west.end(), size_t{0});
+  std::sort(from_west.begin(), from_west.end(), [&](size_t i, size_t j) { return boxes[i].min.x < boxes[j].min.x; });
+  std::vector<std::vector<size_t>> neighbours(boxes.size());
+  for (size_t k = 0; k < from_west.size(); ++k) {
+    const size_t i = from_west[k];
+    for (size_t l = k + 1; l < from_west.size(); ++l) {
+      const size_t j = from_west[l];
+      if (boxes[j].min.x > boxes[i].max.x + kBlockReach_m) break;
+      if (boxes[j].min.y > boxes[i].max.y + kBlockReach_m || boxes[i].min.y > boxes[j].max.y + kBlockReach_m) continue;
+      neighbours[i].push_back(j), neighbours[j].push_back(i);
+    }
+  }
+  for (std::vector<size_t>& each : neighbours) std::sort(each.begin(), each.end());
+  return neighbours;
 }
 
 // Where two houses stand in each other by more than a clumsy joint, both keep what is theirs.
@@ -407,10 +432,11 @@ void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& 
   std::vector<Box> solid_boxes, boxes;
   for (const Shape& shape : shapes) solid_boxes.push_back(BoxOf(shape.solid));
   for (const Rings& rings : *enlarged) boxes.push_back(BoxOf(rings));
+  const std::vector<std::vector<size_t>> neighbours = Neighbours(boxes);
   for (size_t i = 0; i < enlarged->size(); ++i) {
     Rings taken;
-    for (size_t j = 0; j < enlarged->size(); ++j) {
-      if (j == i || (*enlarged)[j].empty()) continue;
+    for (const size_t j : neighbours[i]) {
+      if ((*enlarged)[j].empty()) continue;
       if (j < i && !Apart(boxes[i], boxes[j]))
         taken = Union(taken, is_house(i) && is_house(j) ? Difference((*enlarged)[j], SharedGround(shapes[i], shapes[j]))
                                                         : (*enlarged)[j]);
@@ -420,7 +446,7 @@ void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& 
     const Rings kept = WithoutSpecks(Tidy((*enlarged)[i], width_m));
     const Rings strips = Difference((*enlarged)[i], Offset(kept, kAgainst_m));
     (*enlarged)[i] = kept;
-    GiveAway(strips, i, width_m, &boxes, enlarged);
+    GiveAway(strips, i, neighbours[i], width_m, &boxes, enlarged);
   }
 }
 
