@@ -231,18 +231,22 @@ Meeting meet(View view, vec4 cell, vec2 origin, float level) {
   slope.y = 0.0;  // the sun stands too high for what a view from the side shows of depth
 #endif
   vec2 base = q.xy - slope * q.z, metre = vec2(u_atlas.x, -u_atlas.y), edge = 0.5 * exp2(ceil(level)) / u_atlas.zw;
-  vec2 low = cell.xy + edge, high = cell.zw - edge, at = origin + base * metre;
+  vec2 low = cell.xy + edge, high = cell.zw - edge, at = origin + base * metre, guess = at;
   float depth = 0.0;
   int steps = level < 1.0 ? STEPS : 1;
   for (int i = 0; i < steps; ++i) {
-    vec2 guess = clamp(at, low, high);
+    guess = clamp(at, low, high);
     depth = (textureLod(u_depth, guess, level).r * 2.0 - 1.0) * u_ranges.x;
     vec2 motion = (textureLod(u_motion, guess, max(level - 1.0, 0.0)).rg * 2.0 - 1.0) * (u_ranges.y * v_look.x);
     at = origin + (base + slope * depth - motion) * metre;
   }
   bool inside = all(greaterThanEqual(at, cell.xy)) && all(lessThanEqual(at, cell.zw));
   at = clamp(at, low, high);
-  return Meeting(at, inside ? textureLod(u_texture, at, level).a : 0.0, (depth - q.z) / d.z);
+  float alpha = inside ? textureLod(u_texture, at, level).a : 0.0;
+  // A guess beside the person that still leaps onto them was led astray by what fills the gutters.
+  vec2 leap = (at - guess) * u_atlas.zw;
+  if (dot(leap, leap) > exp2(2.0 * level)) alpha = min(alpha, textureLod(u_texture, guess, level).a);
+  return Meeting(at, alpha, (depth - q.z) / d.z);
 }
 )";
 
@@ -260,8 +264,10 @@ void main() {
   View view0 = view_from(v_views.x), view1 = view_from(v_views.y);
   Meeting a = meet(view0, v_cell0, v_origins.xy, level), b = meet(view1, v_cell1, v_origins.zw, level);
   float alpha = mix(a.alpha, b.alpha, between);
+  vec2 texel = dFdx(v_texel);
 #ifdef SMOOTH_EDGES
-  o_color.a = alpha;
+  // Coverage is that of a texel; where a pixel is smaller, its own changes faster.
+  o_color.a = clamp((alpha - 0.5) * max(1.2, 1.2 * inversesqrt(max(dot(texel, texel), 0.01))) + 0.5, 0.0, 1.0);
   if (o_color.a <= 0.0) discard;
 #else
   if (alpha < 0.5) discard;
