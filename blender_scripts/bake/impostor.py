@@ -289,7 +289,7 @@ def set_up_output(settings, scene):
     render.resolution_percentage = 100
     render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
     render.image_settings.color_depth = "32"
-    render.image_settings.exr_codec = "ZIP"
+    render.image_settings.exr_codec = "NONE"  # read once, then gone
     layer = scene.view_layers[0]
     layer.use_pass_z = False
     for names, kind in ((COLOR_LAYERS, "COLOR"), (VALUE_LAYERS, "VALUE")):
