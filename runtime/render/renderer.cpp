@@ -80,7 +80,7 @@ Error Renderer::Create(const TourPack& pack, const RenderOptions& options) {
   // In software four samples cost three times the whole rest of a frame.
   const int samples = options.samples > 0 ? options.samples : software ? 1 : 4;
   std::string defines = std::string("#define SHADOW_TAPS ") + (software ? "1" : "4") + "\n#define SHARPER " +
-                        (software && samples == 1 ? "-0.6" : "0.0") + "\n#define STEPS " + (software ? "2" : "3") + "\n";
+                        (software && samples == 1 ? "-0.6" : "0.0") + "\n#define STEPS " + (software && samples == 1 ? "1" : "3") + "\n";
   if (options.normals) defines += "#define NORMALS\n";
   r.people.smooth_edges = samples > 1 && !options.normals;
   if (r.people.smooth_edges) defines += "#define SMOOTH_EDGES\n";

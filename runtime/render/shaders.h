@@ -212,7 +212,7 @@ uniform vec3 u_ranges;  // of depth, of motion
 struct View { vec3 right, up, near; };
 struct Meeting {
   vec2 at;       // texture coordinates
-  float alpha;
+  vec4 color;    // there; alpha 0: the ray misses the person
   float along;   // the ray, in its length
 };
 View view_from(float azimuth) {
@@ -221,7 +221,11 @@ View view_from(float azimuth) {
 }
 float mip_level() {
   vec2 x = dFdx(v_texel), y = dFdy(v_texel);
-  return max(0.0, 0.5 * log2(max(dot(x, x), dot(y, y))));
+  float level = max(0.0, 0.5 * log2(max(dot(x, x), dot(y, y))));
+#if STEPS == 1
+  level = floor(level + 0.5);  // between two levels software looks up twice as much
+#endif
+  return level;
 }
 Meeting meet(View view, vec4 cell, vec2 origin, float level) {
   vec3 q = vec3(dot(v_point, view.right), dot(v_point, view.up), dot(v_point, view.near));
@@ -242,11 +246,12 @@ Meeting meet(View view, vec4 cell, vec2 origin, float level) {
   }
   bool inside = all(greaterThanEqual(at, cell.xy)) && all(lessThanEqual(at, cell.zw));
   at = clamp(at, low, high);
-  float alpha = inside ? textureLod(u_texture, at, level).a : 0.0;
+  vec4 color = textureLod(u_texture, at, level);
+  if (!inside) color.a = 0.0;
   // A guess beside the person that still leaps onto them was led astray by what fills the gutters.
   vec2 leap = (at - guess) * u_atlas.zw;
-  if (dot(leap, leap) > exp2(2.0 * level)) alpha = min(alpha, textureLod(u_texture, guess, level).a);
-  return Meeting(at, alpha, (depth - q.z) / d.z);
+  if (dot(leap, leap) > exp2(2.0 * level)) color.a = min(color.a, textureLod(u_texture, guess, level).a);
+  return Meeting(at, color, (depth - q.z) / d.z);
 }
 )";
 
@@ -263,7 +268,7 @@ void main() {
   float level = mip_level(), between = v_look.y;
   View view0 = view_from(v_views.x), view1 = view_from(v_views.y);
   Meeting a = meet(view0, v_cell0, v_origins.xy, level), b = meet(view1, v_cell1, v_origins.zw, level);
-  float alpha = mix(a.alpha, b.alpha, between);
+  float alpha = mix(a.color.a, b.color.a, between);
   vec2 texel = dFdx(v_texel);
 #ifdef SMOOTH_EDGES
   // Coverage is that of a texel; where a pixel is smaller, its own changes faster.
@@ -275,14 +280,14 @@ void main() {
 #endif
   keep_share();
   // Where only one of the two shows the person, it alone counts; and where one sees what is hidden from the other, too.
-  float wa = (1.0 - between) * a.alpha, wb = between * b.alpha;
-  if (min(a.alpha, b.alpha) > 0.5) {
+  float wa = (1.0 - between) * a.color.a, wb = between * b.color.a;
+  if (min(a.color.a, b.color.a) > 0.5) {
     float apart = (a.along - b.along) * length(v_ray);
     wa *= 1.0 - smoothstep(0.04, 0.10, apart);
     wb *= 1.0 - smoothstep(0.04, 0.10, -apart);
   }
   float share = wb / max(wa + wb, 1e-4);
-  vec3 albedo = linear_from_srgb(mix(textureLod(u_texture, a.at, level).rgb, textureLod(u_texture, b.at, level).rgb, share));
+  vec3 albedo = linear_from_srgb(mix(a.color.rgb, b.color.rgb, share));
   vec3 n = turned(normalize(mix(normal_at(view0, a.at, level), normal_at(view1, b.at, level), share)));
   vec3 p = v_place.xyz + turned(v_point + v_ray * mix(a.along, b.along, share));
   vec4 clip = u_view_projection * vec4(p, 1.0);
@@ -295,7 +300,7 @@ inline constexpr const char* kImpostorShadowFragment = R"(
 void main() {
   float level = mip_level();
   Meeting a = meet(view_from(v_views.x), v_cell0, v_origins.xy, level), b = meet(view_from(v_views.y), v_cell1, v_origins.zw, level);
-  if (mix(a.alpha, b.alpha, v_look.y) < 0.5) discard;
+  if (mix(a.color.a, b.color.a, v_look.y) < 0.5) discard;
 }
 )";
 
