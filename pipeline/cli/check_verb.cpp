@@ -19,75 +19,133 @@ namespace flaneur {
 namespace {
 
 struct CheckArguments {
-  std::filesystem::path obstacles, town, json, map;
+  std::filesystem::path obstacles, town, json, geojson, map, page;
   CheckOptions options;
-  GeoJsonUnits units = GeoJsonUnits::kAuto;
+  ReadGeoJsonOptions reading;
   bool warnings_as_errors = false;
+  size_t most_listed = 10;
 };
 
 void AddOptions(CLI::App* app, CheckArguments* a) {
   app->add_option("OBSTACLES", a->obstacles, "GeoJSON file of obstacles, Flaneur's or any other")->required();
   app->add_option("--town", a->town, "The town they stand for (glTF): walls, ground, doors and exits are checked too");
   app->add_option("--json", a->json, "Write the findings as JSON");
+  app->add_option("--geojson", a->geojson, "Write the findings as GeoJSON points, in the file's own coordinates");
   app->add_option("--map", a->map, "Draw a plan with the findings as SVG");
+  app->add_option("--html", a->page, "Write a page with a plan that zooms and a list of the findings");
   app->add_flag("--warnings-as-errors", a->warnings_as_errors, "Exit with 1 on warnings too");
   const std::map<std::string, GeoJsonUnits> units{
       {"auto", GeoJsonUnits::kAuto}, {"metres", GeoJsonUnits::kMetres}, {"degrees", GeoJsonUnits::kDegrees}};
-  app->add_option("--units", a->units, "Of the coordinates: auto, metres or degrees")
+  app->add_option("--units", a->reading.units, "Of the coordinates: auto, metres or degrees")
       ->transform(CLI::CheckedTransformer(units, CLI::ignore_case));
+  app->add_option("--crs", a->reading.system, "The coordinates' system, such as EPSG:25832, whatever the file says");
   app->add_option("--clearance-m", a->options.clearance_m, "Least distance from wall to outline [default: the file's]")
       ->check(CLI::Range(0.0, 10.0));
   app->option_defaults()->always_capture_default();
-  app->add_option("--tolerance-m", a->options.tolerance_m, "Distances may be off by this")->check(CLI::PositiveNumber);
-  app->add_option("--person-radius-m", a->options.person_radius_m, "Of the people who are to pass")
-      ->check(CLI::PositiveNumber);
-  app->add_option("--scale", a->options.scale, "Metres per unit of the town's file")->check(CLI::PositiveNumber);
+  app->add_option("--most-points", a->options.most_points, "In a ring; more are reported (108)");
+  for (const CheckNumber& number : CheckNumbers())
+    app->add_option(std::string("--") + number.name, a->options.*number.value, number.help);
+  app->add_option("--most-listed", a->most_listed, "Findings of one kind that are listed on the screen");
 }
 
-void Print(const std::vector<Finding>& findings, int errors) {
-  for (const Finding& f : findings) {
-    std::printf("%s %d at (%.2f, %.2f)%s%s: %s\n", SeverityName(f.severity), f.code, f.at_m.x, f.at_m.y,
-                f.feature.empty() ? "" : " ", f.feature.c_str(), f.message.c_str());
-    std::printf("    %s\n", KindOf(f.code).advice);
+// Kinds one after the other, each with its advice once.
+void Print(const std::vector<Finding>& findings, size_t most_listed) {
+  for (size_t i = 0; i < findings.size();) {
+    size_t end = i;
+    while (end < findings.size() && findings[end].code == findings[i].code) ++end;
+    const FindingKind& kind = KindOf(findings[i].code);
+    std::printf("%d %s: %zu\n    %s\n", kind.code, kind.title, end - i, kind.advice);
+    for (size_t k = i; k < std::min(end, i + most_listed); ++k) {
+      const Finding& f = findings[k];
+      std::printf("  %s at (%.2f, %.2f)%s%s: %s\n", SeverityName(f.severity), f.at_m.x, f.at_m.y,
+                  f.feature.empty() ? "" : " ", f.feature.c_str(), f.message.c_str());
+    }
+    if (end - i > most_listed) std::printf("  and %zu more (--json, --html or --most-listed shows them)\n", end - i - most_listed);
+    i = end;
   }
-  std::printf("%d errors, %d warnings\n", errors, static_cast<int>(findings.size()) - errors);
+  const auto errors = static_cast<size_t>(std::count_if(
+      findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; }));
+  std::printf("%zu errors, %zu warnings\n", errors, findings.size() - errors);
+}
+
+Finding FaultOf(int code, const std::string& feature, const std::string& message) {
+  Finding finding;
+  finding.code = code, finding.severity = KindOf(code).severity, finding.feature = feature;
+  finding.message = std::string(KindOf(code).title) + ": " + message;
+  return finding;
+}
+
+Error WriteFindings(const CheckArguments& a, const GeoJsonFile& file, const std::vector<Finding>& findings) {
+  std::vector<Point2> places;
+  for (const Finding& f : findings) places.push_back(f.at_m);
+  places = ToFileCoordinates(file, places);
+  if (!a.json.empty())
+    if (Error error = WriteTextFile(a.json, FindingsJson(findings, places))) return error;
+  if (a.geojson.empty()) return Ok();
+  return WriteTextFile(a.geojson, FindingsGeoJson(findings, places, !file.system.empty()));
+}
+
+// What makes checking impossible is a finding too.
+Error Give(const CheckArguments& a, int code, const Error& error, std::vector<Finding> findings = {}) {
+  findings.push_back(FaultOf(code, "", error.message));
+  SortFindings(&findings);
+  if (Error e = WriteFindings(a, {}, findings)) return e;
+  return error;
+}
+
+void AddFaults(const GeoJsonFile& file, std::vector<Finding>* findings) {
+  for (const GeoJsonFault& fault : file.faults) {
+    const int code = fault.kind == GeoJsonFaultKind::kBrokenFeature ? 904 : fault.kind == GeoJsonFaultKind::kOtherSystem ? 903 : 906;
+    findings->push_back(FaultOf(code, fault.feature, fault.message));
+  }
 }
 
 Error Run(const CheckArguments& a, int* status) {
+  if (Error error = Validate(a.options)) return Give(a, 905, error);
   GeoJsonFile file;
-  if (Error error = ReadGeoJson(a.obstacles, {a.units}, &file)) return error;
-  if (file.footprints.obstacles.empty()) return Fail(a.obstacles.string() + ": holds no polygon and no circle");
+  if (Error error = ReadGeoJson(a.obstacles, a.reading, &file)) return Give(a, 901, error);
+  std::vector<Finding> faults;
+  AddFaults(file, &faults);
+  if (file.footprints.obstacles.empty()) {
+    const std::string why = faults.empty() ? "" : "; " + faults[0].feature + ": " + faults[0].message;
+    return Give(a, 902, Fail(a.obstacles.string() + ": holds no polygon and no circle" + why), faults);
+  }
   if (file.skipped > 0)
-    std::fprintf(stderr, "flaneur: warning: %s: %d features are neither polygons nor circles; left out\n",
+    std::fprintf(stderr, "flaneur: warning: %s: %d features are neither polygons nor circles nor streets; left out\n",
                  a.obstacles.c_str(), file.skipped);
   const bool with_town = !a.town.empty();
   Scene town;
   GroundRaster ground;
   if (with_town) {
-    if (Error error = ReadScene(a.town, &town)) return error;
+    if (Error error = ReadScene(a.town, &town)) return Give(a, 901, error, faults);
     GroundRasterOptions options;
     options.scale = a.options.scale;
-    if (Error error = RasterizeGround(town, options, &ground)) return error;
+    if (Error error = RasterizeGround(town, options, &ground)) return Give(a, 901, error, faults);
   }
   CheckOptions options = a.options;
   options.open_rings = file.open_rings;
+  for (const Way& way : file.ways) options.streets.push_back({way.name, way.points});
   std::vector<Finding> findings;
-  if (Error error = Check(file.footprints, with_town ? &town : nullptr, options, &findings)) return error;
-  const int errors = static_cast<int>(std::count_if(
-      findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; }));
-  Print(findings, errors);
-  if (!a.json.empty())
-    if (Error error = WriteTextFile(a.json, FindingsJson(findings))) return error;
-  *status = errors > 0 || (a.warnings_as_errors && !findings.empty()) ? 1 : 0;
-  if (a.map.empty()) return Ok();
-  return WriteMap(a.map, file.footprints, {a.obstacles.filename().string(), with_town ? &ground : nullptr, findings});
+  if (Error error = Check(file.footprints, with_town ? &town : nullptr, options, &findings)) return Give(a, 901, error, faults);
+  findings.insert(findings.end(), faults.begin(), faults.end());
+  SortFindings(&findings);
+  Print(findings, a.most_listed);
+  if (Error error = WriteFindings(a, file, findings)) return error;
+  const bool errors = std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; });
+  *status = errors || (a.warnings_as_errors && !findings.empty()) ? 1 : 0;
+  MapOptions map{a.obstacles.filename().string(), with_town ? &ground : nullptr, findings, {}};
+  for (const Way& way : file.ways) map.streets.push_back(way.points);
+  if (!a.map.empty())
+    if (Error error = WriteMap(a.map, file.footprints, map)) return error;
+  return a.page.empty() ? Ok() : WriteMapPage(a.page, file.footprints, map);
 }
 
 }  // namespace
 
 int RunCheck(const Arguments& args) {
-  CLI::App app("Checks obstacles for a crowd: broken rings, overlaps, narrow gaps; against a town also walls, passages "
-               "and ways. Exit status 1 where errors are found.",
+  CLI::App app("Checks obstacles for a crowd: broken rings, overlaps, narrow gaps, dead ends and traps, streets; against a "
+               "town also walls, passages, doors and exits. Exit status 1 where errors are found, 2 where nothing can be "
+               "checked.",
                "flaneur check");
   CheckArguments arguments;
   AddOptions(&app, &arguments);

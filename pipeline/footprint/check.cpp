@@ -1,9 +1,7 @@
 #include "pipeline/footprint/check.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <tuple>
 
 #include "pipeline/footprint/check_parts.h"
 
@@ -22,24 +20,57 @@ std::string Metres(double value) {
   return text;
 }
 
+std::string SquareMetres(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, value < 0.1 ? "%.4f m2" : "%.2f m2", value);
+  return text;
+}
+
+const std::vector<CheckNumber>& CheckNumbers() {
+  using O = CheckOptions;
+  static const std::vector<CheckNumber> numbers = {
+      {"tolerance-m", "Distances may be off by this", &O::tolerance_m, false},
+      {"person-radius-m", "Of the people who are to pass", &O::person_radius_m, false},
+      {"same-point-m", "Neighbours in a ring that are nearer are reported (102)", &O::same_point_m, false},
+      {"least-area-m2", "Of a ring (106), and of what a hole covers wrongly (201, 202)", &O::least_area_m2, true},
+      {"largest-coordinate-m", "Coordinates beyond are reported (107)", &O::largest_coordinate_m, false},
+      {"spike-width-m", "What an opening with this radius takes away is a spike (203),", &O::spike_width_m, false},
+      {"spike-length-m", "where it is longer than this", &O::spike_length_m, false},
+      {"over-cover-share", "Of a footprint's area that may be covered too much (303)", &O::over_cover_share, true},
+      {"headroom-m", "Over a passage (307)", &O::headroom_m, false},
+      {"overlap-m2", "Obstacles may overlap by this (401)", &O::overlap_m2, true},
+      {"least-ground-m2", "Smaller ground out of reach is not reported (501)", &O::least_ground_m2, false},
+      {"dead-end-m", "Deeper dead ends are reported (502)", &O::dead_end_m, false},
+      {"high-resolution-radius-m", "Round the visitor, for traps (503)", &O::high_resolution_radius_m, false},
+      {"scale", "Metres per unit of the town's file", &O::scale, false},
+  };
+  return numbers;
+}
+
+Error Validate(const CheckOptions& options) {
+  for (const CheckNumber& number : CheckNumbers()) {
+    const double value = options.*number.value;
+    if (std::isfinite(value) && (number.may_be_zero ? value >= 0 : value > 0)) continue;
+    return Fail(std::string("the check's ") + number.name + " must be " + (number.may_be_zero ? "at least" : "greater than") + " zero");
+  }
+  if (options.most_points < 3) return Fail("the check's most-points must be at least 3");
+  return Ok();
+}
+
 Error Check(const Footprints& footprints, const Scene* town, const CheckOptions& options,
             std::vector<Finding>* findings) {
-  if (!(options.tolerance_m > 0)) return Fail("the check's tolerance must be greater than zero");
-  if (!(options.person_radius_m > 0)) return Fail("the person's radius must be greater than zero");
-  if (!(options.scale > 0)) return Fail("the scale must be greater than zero");
+  if (Error error = Validate(options)) return error;
   findings->clear();
   const double clearance = options.clearance_m >= 0 ? options.clearance_m : footprints.clearance_m;
   CheckState state{footprints, options, clearance, {}, findings};
-  for (const Obstacle& o : footprints.obstacles) state.obstacles.push_back({&o, false, {}, {}, {}});
+  for (const Obstacle& o : footprints.obstacles) state.obstacles.emplace_back().obstacle = &o;
   CheckRings(&state);
   CheckPairs(&state);
   if (town)
     if (Error error = CheckAgainstTown(*town, &state)) return error;
   if (Error error = CheckWays(town, &state)) return error;
-  std::sort(findings->begin(), findings->end(), [](const Finding& a, const Finding& b) {
-    return std::tie(a.code, a.feature, a.other, a.at_m.x, a.at_m.y) <
-           std::tie(b.code, b.feature, b.other, b.at_m.x, b.at_m.y);
-  });
+  CheckStreets(&state);
+  SortFindings(findings);
   return Ok();
 }
 

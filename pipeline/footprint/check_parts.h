@@ -9,8 +9,12 @@ namespace flaneur {
 
 struct CheckedObstacle {
   const Obstacle* obstacle = nullptr;
-  bool sound = false;  // its rings can be reckoned with
-  Rings rings;         // as area; circles as 32-gons
+  Rings rings;                // its area as well as it can be told; circles as polygons; empty: no telling
+  Rings doubt;                // convex, one a crossing: where a broken ring leaves open what is inside
+  bool sound = true;          // none of 101 to 202
+  bool points_missing = false;  // of the outer ring: its edges mean little
+  bool holes_broken = false;
+  bool duplicate = false;     // of an earlier one
   Point2 min, max;
 };
 
@@ -25,10 +29,20 @@ struct CheckState {
 };
 
 std::string Metres(double value);  // "0.12 m"
+std::string SquareMetres(double value);
 
-void CheckRings(CheckState* state);                       // 101-203; fills sound and rings
+Ring CircleRing(Point2 center, double radius_m);
+
+// Grown by distance_m with round corners, shrunk where negative.
+Rings OffsetRound(const Rings& rings, double distance_m);
+// What a ring encloses, however it winds.
+Rings NonZeroArea(const Ring& ring);
+Ring ConvexHull(Ring points);
+
+void CheckRings(CheckState* state);                       // 101-203; fills the obstacles
 void CheckPairs(CheckState* state);                       // 401-404
 Error CheckAgainstTown(const Scene& town, CheckState* state);  // 301-307
-Error CheckWays(const Scene* town, CheckState* state);    // 501, 601-604
+Error CheckWays(const Scene* town, CheckState* state);    // 501-503, 601-604
+void CheckStreets(CheckState* state);                     // 504
 
 }  // namespace flaneur

@@ -6,39 +6,51 @@
 #include "pipeline/footprint/band.h"
 #include "pipeline/footprint/check_parts.h"
 #include "pipeline/footprint/extract_footprints.h"
-#include "pipeline/footprint/overhead.h"
+#include "pipeline/footprint/passages.h"
 #include "pipeline/footprint/town_objects.h"
 
 namespace flaneur {
 namespace {
 
-constexpr double kSampleStep_m = 0.2;     // along walls
 constexpr double kMissingShare = 0.5;     // of a building's area uncovered: it has no obstacle
 constexpr double kStrangeShare = 0.05;    // of an obstacle's area on buildings: less, and it has no building
-constexpr double kOverCover_m2 = 0.01;
+constexpr double kRounding_m = 0.002;     // of outlines that were offset on a grid
+constexpr double kPiece_m2 = 0.001;       // smaller pieces are rounding
+constexpr double kWallPiece_m = 0.005;    // shorter pieces of a wall likewise
 constexpr double kSeam_m = 0.0125;        // cracks between neighbours up to twice this are nobody's way, and welded
+constexpr double kNear_m = 1;
 
-Rings AllAreas(const CheckState& state) {
-  Rings all;
-  for (const CheckedObstacle& entry : state.obstacles) {
-    const Rings grown = entry.sound ? Offset(entry.rings, kSeam_m) : Rings();
-    all.insert(all.end(), grown.begin(), grown.end());
+struct Box { Point2 min{1e300, 1e300}, max{-1e300, -1e300}; };
+
+Box BoxOf(const Rings& rings) {
+  Box box;
+  for (const Ring& ring : rings) {
+    for (const Point2& p : ring) {
+      box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y)};
+      box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y)};
+    }
   }
-  return Offset(UnionOfAreas(all), -kSeam_m);
+  return box;
 }
 
-Rings RingsOf(const Obstacle& o) {
-  Rings rings{o.outer};
-  rings.insert(rings.end(), o.holes.begin(), o.holes.end());
-  return rings;
+bool Meet(Point2 min, Point2 max, const Box& box, double reach = 0) {
+  return min.x <= box.max.x + reach && box.min.x <= max.x + reach && min.y <= box.max.y + reach && box.min.y <= max.y + reach;
 }
 
-bool BoxesMeet(const CheckedObstacle& entry, const Rings& rings) {
-  Point2 min{1e300, 1e300}, max{-1e300, -1e300};
-  for (const Point2& p : rings[0])
-    min = {std::min(min.x, p.x), std::min(min.y, p.y)}, max = {std::max(max.x, p.x), std::max(max.y, p.y)};
-  return entry.min.x <= max.x && min.x <= entry.max.x && entry.min.y <= max.y && min.y <= entry.max.y;
+double LengthOf(const std::vector<Segment>& segments) {
+  double length = 0;
+  for (const Segment& s : segments) length += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
+  return length;
 }
+
+double Perimeter(const Rings& rings) {
+  double length = 0;
+  for (const Ring& ring : rings) length += LengthOf(Outline({ring}));
+  return length;
+}
+
+// What the town itself says should be covered, by object.
+struct Footprint { const Obstacle* obstacle; Rings rings; Box box; };
 
 class TownCheck {
  public:
@@ -52,9 +64,10 @@ class TownCheck {
     options.scale = state_.options.scale;
     options.tolerance_m = 0;
     FootprintStats stats;
-    if (Error error = ExtractFootprints(scene_, options, &truth_, &stats)) return error;
+    if (Error error = ExtractFootprints(scene_, options, &extracted_, &stats)) return error;
     if (Error error = RasterizeGround(objects_, {}, &raster_)) return error;
-    for (const TownObject& object : objects_.obstacles) overhead_.Add(object.triangles);
+    ListFootprints();
+    if (LieApart()) return Ok();
     FindMissing();
     FindWalls();
     FindStrange();
@@ -65,120 +78,203 @@ class TownCheck {
   }
 
  private:
+  void ListFootprints() {
+    for (const Obstacle& o : extracted_.obstacles) {
+      Rings rings{o.outer};
+      if (o.outer.empty()) rings = {CircleRing(o.center, o.radius_m)};
+      else rings.insert(rings.end(), o.holes.begin(), o.holes.end());
+      truth_.push_back({&o, rings, BoxOf(rings)});
+    }
+  }
+
+  // 907. Then every building would lack its obstacle and every obstacle its building.
+  bool LieApart() {
+    Box town;
+    for (const Footprint& f : truth_) {
+      town.min = {std::min(town.min.x, f.box.min.x), std::min(town.min.y, f.box.min.y)};
+      town.max = {std::max(town.max.x, f.box.max.x), std::max(town.max.y, f.box.max.y)};
+    }
+    size_t usable = 0;
+    const CheckedObstacle* some = nullptr;
+    for (const CheckedObstacle& entry : state_.obstacles) {
+      if (entry.rings.empty()) continue;
+      if (Meet(entry.min, entry.max, town)) return false;
+      ++usable, some = &entry;
+    }
+    if (usable < 2 || truth_.size() < 2) return false;
+    state_.Add(907, "", some->rings[0][0], 0, 0, "no obstacle stands where the town has anything");
+    return true;
+  }
+
   Point2 MiddleOf(const std::string& name) const {
     for (const TownObject& o : objects_.obstacles)
       if (o.name == name) return {(o.min_m.x + o.max_m.x) / 2, (o.min_m.y + o.max_m.y) / 2};
     return {};
   }
 
-  // 304: buildings of which most is uncovered; their walls are not reported once more.
+  // The obstacle that stands for an object has a broken ring, which is said already; what follows from it is not.
+  bool IsBroken(const std::string& source, const Box& box) const {
+    return std::any_of(state_.obstacles.begin(), state_.obstacles.end(), [&](const CheckedObstacle& entry) {
+      if (entry.sound) return false;
+      const Obstacle& o = *entry.obstacle;
+      if (o.source == source || o.name == source) return true;
+      return std::any_of(o.outer.begin(), o.outer.end(), [&](Point2 p) { return Meet(p, p, box); });
+    });
+  }
+
+  // 304: objects of which most is uncovered; their walls are not reported once more.
   void FindMissing() {
-    std::map<std::string, std::pair<double, double>> areas;  // by source: all, and covered
-    std::map<std::string, Point2> places;
-    for (const Obstacle& o : truth_.obstacles) {
-      if (o.outer.empty()) continue;
-      const Rings rings = RingsOf(o);
-      auto& [all, covered] = areas[o.source];
-      all += Area(rings);
+    struct Cover { double all = 0, covered = 0; Point2 at; Box box; };
+    std::map<std::string, Cover> covers;  // by source
+    for (const Footprint& f : truth_) {
+      Cover& cover = covers[f.obstacle->source];
+      if (cover.all == 0) cover.at = f.rings[0][0], cover.box = f.box;
+      cover.all += Area(f.rings);
+      Rings near;
       for (const CheckedObstacle& entry : state_.obstacles)
-        if (entry.sound && BoxesMeet(entry, rings)) covered += Area(Intersection(rings, entry.rings));
-      places.try_emplace(o.source, o.outer[0]);
+        if (!entry.rings.empty() && !entry.duplicate && Meet(entry.min, entry.max, f.box))
+          near.insert(near.end(), entry.rings.begin(), entry.rings.end());
+      if (!near.empty()) cover.covered += Area(Intersection(f.rings, UnionOfAreas(near)));
     }
-    for (const auto& [source, area] : areas) {
-      if (area.second >= kMissingShare * area.first) continue;
+    for (const auto& [source, cover] : covers) {
+      if (cover.covered >= kMissingShare * cover.all) continue;
       missing_.insert(source);
-      state_.Add(304, source, places[source], area.second / area.first, kMissingShare, "'" + source + "'");
+      if (!IsBroken(source, cover.box))
+        state_.Add(304, source, cover.at, cover.covered / cover.all, kMissingShare, "'" + source + "'");
+    }
+  }
+
+  // What obstacles cover in and round a box, cracks welded.
+  Rings CoverNear(const Box& box) const {
+    Rings all;
+    for (const CheckedObstacle& entry : state_.obstacles) {
+      if (entry.rings.empty() || entry.duplicate || !Meet(entry.min, entry.max, box, kNear_m)) continue;
+      const Rings grown = Offset(entry.rings, kSeam_m);
+      all.insert(all.end(), grown.begin(), grown.end());
+    }
+    return Offset(UnionOfAreas(all), -kSeam_m);
+  }
+
+  Rings TruthNear(const Box& box) const {
+    Rings all;
+    for (const Footprint& f : truth_)
+      if (Meet(f.box.min, f.box.max, box, kNear_m)) all.insert(all.end(), f.rings.begin(), f.rings.end());
+    return UnionOfAreas(all);
+  }
+
+  void FindWalls() {
+    const LocalGround ground(raster_);
+    for (const TownObject& object : objects_.obstacles) {
+      if (missing_.contains(object.name)) continue;
+      const Box box{{object.min_m.x, object.min_m.y}, {object.max_m.x, object.max_m.y}};
+      if (IsBroken(object.name, box)) continue;
+      if (object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp) FindTrunk(object, box);
+      else CheckWalls(object, box, Lines(CutToBand(object.triangles, ground, state_.footprints.band_m)));
+    }
+  }
+
+  void FindTrunk(const TownObject& object, const Box& box) {
+    for (const Footprint& f : truth_) {
+      if (f.obstacle->source != object.name || !f.obstacle->outer.empty()) continue;
+      const double radius = f.obstacle->radius_m - std::max(state_.clearance_m, 0.0);
+      if (radius > 0) CheckWalls(object, box, Outline({CircleRing(f.obstacle->center, radius)}));
     }
   }
 
   // 301, 302: once for each object, at the worst place.
-  void FindWalls() {
-    const double tolerance = state_.options.tolerance_m;
-    const AreaIndex cover(AllAreas(state_), 1.0);
-    const LocalGround ground(raster_);
-    for (const TownObject& object : objects_.obstacles) {
-      if (missing_.contains(object.name)) continue;
-      if (object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp) continue;
-      double least = 1e300;
-      Point2 at;
-      for (const Segment& s : Lines(CutToBand(object.triangles, ground, state_.footprints.band_m))) {
-        const double length = std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
-        const int steps = std::max(1, static_cast<int>(std::ceil(length / kSampleStep_m)));
-        for (int i = 0; i <= steps; ++i) {
-          const double t = static_cast<double>(i) / steps;
-          const Point2 p{s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)};
-          const double depth = cover.Depth(p);
-          if (depth < least) least = depth, at = p;
-        }
-      }
-      if (least < -tolerance)
-        state_.Add(301, object.name, at, -least, tolerance, "a wall of '" + object.name + "' stands out by " + Metres(-least));
-      else if (least < state_.clearance_m - tolerance)
-        state_.Add(302, object.name, at, std::max(least, 0.0), state_.clearance_m,
-                   "only " + Metres(std::max(least, 0.0)) + " beside a wall of '" + object.name + "'");
+  void CheckWalls(const TownObject& object, const Box& box, const std::vector<Segment>& walls) {
+    const double tolerance = state_.options.tolerance_m, short_of = state_.clearance_m - tolerance;
+    const Rings cover = CoverNear(box);
+    const AreaIndex index(cover, std::max(1.0, 2 * state_.clearance_m));
+    const std::vector<Segment> bare = Outside(walls, Offset(cover, tolerance));
+    if (LengthOf(bare) > kWallPiece_m) {
+      const auto [depth, at] = Worst(bare, index);
+      state_.Add(301, object.name, at, -depth, tolerance, "a wall of '" + object.name + "' stands out by " + Metres(-depth));
+      return;
     }
+    if (short_of <= 0) return;
+    const std::vector<Segment> near = Outside(walls, Offset(cover, -(short_of - kRounding_m)));
+    if (LengthOf(near) <= kWallPiece_m) return;
+    const auto [depth, at] = Worst(near, index);
+    const double left = std::max(depth, 0.0);
+    if (left < short_of)
+      state_.Add(302, object.name, at, left, state_.clearance_m, "only " + Metres(left) + " beside a wall of '" + object.name + "'");
   }
 
-  // The walls and clearance as they should be, circles included.
-  Rings Truth() const {
-    Rings all;
-    for (const Obstacle& o : truth_.obstacles) {
-      if (o.outer.empty()) {
-        Ring ring;
-        for (int i = 0; i < 32; ++i)
-          ring.push_back({o.center.x + o.radius_m * std::cos(i * 0.19634954), o.center.y + o.radius_m * std::sin(i * 0.19634954)});
-        all.push_back(ring);
-        continue;
+  static std::pair<double, Point2> Worst(const std::vector<Segment>& walls, const AreaIndex& cover) {
+    constexpr int kSamples = 8;  // along each piece
+    std::pair<double, Point2> worst{1e300, {}};
+    for (const Segment& s : walls) {
+      for (int i = 0; i <= kSamples; ++i) {
+        const double t = static_cast<double>(i) / kSamples;
+        const Point2 p{s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)};
+        const double depth = cover.Depth(p);
+        if (depth < worst.first) worst = {depth, p};
       }
-      const Rings rings = RingsOf(o);
-      all.insert(all.end(), rings.begin(), rings.end());
     }
-    return UnionOfAreas(all);
+    return worst;
   }
 
+  // 305
   void FindStrange() {
-    truth_area_ = Truth();
     for (const CheckedObstacle& entry : state_.obstacles) {
-      if (!entry.sound) continue;
-      const double share = Area(Intersection(entry.rings, truth_area_)) / Area(entry.rings);
-      if (share >= kStrangeShare) continue;
+      if (entry.rings.empty() || entry.duplicate || entry.points_missing) continue;
+      const double share = Area(Intersection(entry.rings, TruthNear({entry.min, entry.max}))) / Area(entry.rings);
+      if (share >= (entry.sound ? kStrangeShare : 1e-9)) continue;
       strange_.insert(&entry);
       state_.Add(305, entry.obstacle->name, entry.rings[0][0], share, kStrangeShare, "'" + entry.obstacle->name + "'");
     }
   }
 
-  // 303 and 307, once a piece.
+  // 303 and 307, each once for an obstacle, at its largest piece.
   void FindOverCover() {
-    const Rings allowed = Offset(truth_area_, state_.options.tolerance_m + 0.002);
+    PassageTest::Options options;
+    options.headroom_m = state_.options.headroom_m;
+    options.person_radius_m = state_.options.person_radius_m;
+    options.slack_m = state_.options.tolerance_m + kRounding_m;
+    options.ends_m = state_.clearance_m + 2 * state_.options.tolerance_m;
+    const PassageTest passages(objects_, raster_, options);
     for (const CheckedObstacle& entry : state_.obstacles) {
-      if (!entry.sound || strange_.contains(&entry)) continue;
-      for (const Polygon& piece : ToPolygons(Difference(entry.rings, allowed))) {
+      if (!entry.sound || entry.rings.empty() || entry.duplicate || strange_.contains(&entry)) continue;
+      const Rings truth = TruthNear({entry.min, entry.max});
+      const Rings beyond = Difference(entry.rings, Offset(truth, state_.options.tolerance_m + kRounding_m));
+      double free = 0, blocked = 0, largest_free = 0, largest_blocked = 0;
+      Point2 free_at, blocked_at;
+      for (const Polygon& piece : ToPolygons(beyond)) {
         Rings rings{piece.outer};
         rings.insert(rings.end(), piece.holes.begin(), piece.holes.end());
-        if (Area(rings) < kOverCover_m2) continue;
-        const Rings walkable = Offset(rings, -state_.options.person_radius_m);
-        const std::string& name = entry.obstacle->name;
-        if (!walkable.empty() && Roofed(walkable[0][0]))
-          state_.Add(307, name, walkable[0][0], Area(rings), kOverCover_m2, "'" + name + "' covers a way under a building");
-        else
-          state_.Add(303, name, piece.outer[0], Area(rings), kOverCover_m2,
-                     "'" + name + "' takes " + Metres(Area(rings)) + "2 of free ground");
+        const double area = Area(rings);
+        if (area < kPiece_m2) continue;
+        const PassageParts parts = passages.Sort(rings, truth);
+        free += parts.elsewhere_m2, blocked += parts.passage_m2;
+        if (parts.elsewhere_m2 > largest_free) largest_free = parts.elsewhere_m2, free_at = parts.elsewhere_at;
+        if (parts.passage_m2 > largest_blocked) largest_blocked = parts.passage_m2, blocked_at = parts.passage_at;
       }
+      const std::string& name = entry.obstacle->name;
+      if (blocked > 0) state_.Add(307, name, blocked_at, blocked, 0, "'" + name + "' covers " + SquareMetres(blocked) + " of a way under a building");
+      if (free > 0)
+        state_.Add(303, name, free_at, free, kPiece_m2, "'" + name + "' takes " + SquareMetres(free) + " of free ground");
+      else if (blocked == 0)
+        FindExcess(entry, truth);
     }
   }
 
-  bool Roofed(Point2 p) const {
-    const LocalGround ground(raster_);
-    return overhead_.Covers(p, ground.Height(p.x, p.y) + state_.footprints.band_m[1]);
+  // Within the tolerance everywhere, but all in all too much.
+  void FindExcess(const CheckedObstacle& entry, const Rings& truth) {
+    const double share = state_.options.over_cover_share;
+    const Rings excess = Difference(entry.rings, truth);
+    const double area = Area(excess), right = Area(entry.rings) - area;
+    if (area <= share * right || area <= state_.options.tolerance_m / 2 * Perimeter(entry.rings)) return;
+    const std::string& name = entry.obstacle->name;
+    state_.Add(303, name, excess[0][0], area / right, share, "'" + name + "' takes " + SquareMetres(area) + " all round");
   }
 
   const Scene& scene_;
   CheckState& state_;
   TownObjects objects_;
-  Footprints truth_;
+  Footprints extracted_;
+  std::vector<Footprint> truth_;
   GroundRaster raster_;
-  Overhead overhead_;
-  Rings truth_area_;
   std::set<std::string> missing_;
   std::set<const CheckedObstacle*> strange_;
 };

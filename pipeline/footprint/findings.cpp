@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 namespace flaneur {
 
@@ -10,13 +11,13 @@ const std::vector<FindingKind>& FindingKinds() {
   constexpr Severity kError = Severity::kError, kWarning = Severity::kWarning;
   static const std::vector<FindingKind> kinds = {
       {101, kError, "ring of fewer than three points", "Draw the ring anew or delete the obstacle."},
-      {102, kWarning, "points less than 1 mm apart", "Remove one of the two points."},
+      {102, kError, "points less than 1 mm apart", "Remove one of the two points."},
       {103, kError, "ring not closed", "Repeat the first point at the end of the ring."},
       {104, kError, "ring crosses itself", "Move the points so that no two edges cross, or split the ring."},
       {105, kError, "ring runs the wrong way", "Turn it: outer rings anticlockwise, holes clockwise."},
       {106, kError, "area below 0.01 m2", "Delete it, or check the units of the file."},
       {107, kError, "coordinate not finite or beyond 1000 km", "Correct the coordinate; subtract an origin."},
-      {108, kWarning, "more than 256 points in a ring", "Simplify the ring; see the tolerance option of footprints."},
+      {108, kError, "more than 256 points in a ring", "Simplify the ring; see the tolerance option of footprints."},
       {109, kError, "circle without a radius", "Give radius_m a number greater than zero."},
       {201, kError, "hole outside its ring", "Move the hole inside, or delete it."},
       {202, kError, "holes overlap", "Merge the two holes."},
@@ -33,10 +34,20 @@ const std::vector<FindingKind>& FindingKinds() {
       {403, kWarning, "gap too narrow for a person", "Close the gap or widen it, so that nobody tries."},
       {404, kWarning, "gap too narrow for two", "Widen it where people should pass each other."},
       {501, kError, "ground out of reach", "Open a way at least as wide as a person, or take the ground away."},
+      {502, kError, "dead end", "Open a way out at its end, or look whether people should go there at all."},
+      {503, kError, "trap", "Give the ground a second way out, or a door that people can go in at."},
+      {504, kError, "street crosses an obstacle", "Move the street or the obstacle; cut a passage out where there is one."},
       {601, kError, "entrance inside an obstacle", "Move the door or spawn point to free ground."},
       {602, kError, "exit inside an obstacle", "Move the exit to free ground."},
       {603, kError, "entrance or exit too close to an obstacle", "Move it at least a person's radius away."},
       {604, kError, "exit out of reach", "Open a way from the entrance to the exit."},
+      {901, kError, "file cannot be read", "Correct the file as the message says."},
+      {902, kError, "no obstacles", "Give a file with polygons, or with points that have a radius_m."},
+      {903, kError, "coordinates in another system than stated", "Correct the crs member, or say it: --units, --crs."},
+      {904, kError, "broken feature", "Correct it; it was left out of the check."},
+      {905, kError, "number out of range", "Correct the option as the message says."},
+      {906, kError, "coordinate system not known", "Use a name that PROJ knows, such as EPSG:25832."},
+      {907, kError, "obstacles and town lie apart", "See whether they belong together: --scale, --units, the origin."},
   };
   return kinds;
 }
@@ -48,21 +59,53 @@ const FindingKind& KindOf(int code) {
 
 const char* SeverityName(Severity severity) { return severity == Severity::kError ? "error" : "warning"; }
 
-std::string FindingsJson(const std::vector<Finding>& findings) {
-  using Json = nlohmann::ordered_json;
-  const auto number = [](double v) { return std::isfinite(v) ? Json(std::round(v * 1e6) / 1e6) : Json(); };
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Number(double v) { return std::isfinite(v) ? Json(std::round(v * 1e6) / 1e6) : Json(); }
+Json Place(Point2 p, double grain) {
+  const auto number = [&](double v) { return std::isfinite(v) ? Json(std::round(v / grain) * grain) : Json(); };
+  return Json::array({number(p.x), number(p.y)});
+}
+
+Json Facts(const Finding& f) {
+  return {{"code", f.code}, {"severity", SeverityName(f.severity)}, {"feature", f.feature},
+          {"other", f.other.empty() ? Json() : Json(f.other)}, {"at_m", Json::array({Number(f.at_m.x), Number(f.at_m.y)})},
+          {"value", Number(f.value)}, {"limit", Number(f.limit)}, {"message", f.message}, {"advice", KindOf(f.code).advice}};
+}
+
+std::string Text(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace
+
+std::string FindingsJson(const std::vector<Finding>& findings, const std::vector<Point2>& places) {
   Json list = Json::array();
   int errors = 0;
-  for (const Finding& f : findings) {
-    errors += f.severity == Severity::kError;
-    list.push_back({{"code", f.code}, {"severity", SeverityName(f.severity)}, {"feature", f.feature},
-                    {"other", f.other.empty() ? Json() : Json(f.other)},
-                    {"at_m", Json::array({number(f.at_m.x), number(f.at_m.y)})}, {"value", number(f.value)},
-                    {"limit", number(f.limit)}, {"message", f.message}, {"advice", KindOf(f.code).advice}});
+  for (size_t i = 0; i < findings.size(); ++i) {
+    errors += findings[i].severity == Severity::kError;
+    list.push_back(Facts(findings[i]));
+    if (i < places.size()) list.back()["at_file"] = Place(places[i], 1e-9);
   }
-  const Json root = {{"version", 1}, {"errors", errors}, {"warnings", static_cast<int>(findings.size()) - errors},
-                     {"findings", std::move(list)}};
-  return root.dump(1) + "\n";
+  return Text({{"version", 1}, {"errors", errors}, {"warnings", static_cast<int>(findings.size()) - errors}, {"findings", std::move(list)}});
+}
+
+std::string FindingsGeoJson(const std::vector<Finding>& findings, const std::vector<Point2>& places, bool degrees) {
+  Json features = Json::array();
+  for (size_t i = 0; i < findings.size(); ++i)
+    features.push_back({{"type", "Feature"}, {"properties", Facts(findings[i])},
+                        {"geometry", {{"type", "Point"}, {"coordinates", Place(places[i], degrees ? 1e-9 : 1e-4)}}}});
+  Json root = {{"type", "FeatureCollection"}};
+  if (!degrees) root["flaneur"] = {{"version", 1}, {"units", "m"}};
+  root["features"] = std::move(features);
+  return Text(root);
+}
+
+void SortFindings(std::vector<Finding>* findings) {
+  std::stable_sort(findings->begin(), findings->end(), [](const Finding& a, const Finding& b) {
+    const auto key = [](const Finding& f) { return std::tie(f.code, f.feature, f.other); };
+    return key(a) < key(b);
+  });
 }
 
 }  // namespace flaneur

@@ -33,7 +33,13 @@ const FindingKind& KindOf(int code);
 const char* SeverityName(Severity severity);  // "error", "warning"
 
 // The findings as JSON (version 1): counts, then each with code, severity, feature, other, at_m, value, limit, message
-// and advice.
-std::string FindingsJson(const std::vector<Finding>& findings);
+// and advice; with `places`, the same places in a file's own coordinates, also at_file.
+std::string FindingsJson(const std::vector<Finding>& findings, const std::vector<Point2>& places = {});
+
+// The same as GeoJSON points at `places`: longitudes and latitudes, else metres, which a member says.
+std::string FindingsGeoJson(const std::vector<Finding>& findings, const std::vector<Point2>& places, bool degrees);
+
+// By code, then by obstacle.
+void SortFindings(std::vector<Finding>* findings);
 
 }  // namespace flaneur

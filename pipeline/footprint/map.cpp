@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "runtime/base/file.h"
 
@@ -80,8 +81,7 @@ class Plan {
                   all_width, all_height, all_width, all_height);
     out_ += Format("<text x=\"%.0f\" y=\"30\" font-size=\"20\">", kMargin) + Escaped(options_.title) + "</text>\n";
     out_ += Format("<g transform=\"translate(%.0f %.0f)\">\n", kMargin, kMargin + 10);
-    DrawGround();
-    for (const Obstacle& o : footprints_.obstacles) DrawObstacle(o);
+    DrawTown();
     DrawMarks();
     out_ += "</g>\n";
     DrawLegend();
@@ -89,7 +89,37 @@ class Plan {
     return out_ + "</svg>\n";
   }
 
+  // The town alone, to be moved and zoomed, and the marks' places as JSON: [x, y] or null.
+  std::string DrawForPage(std::string* places) {
+    out_ = Format("<svg id=\"map\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\"><g id=\"town\">\n", width_, height_);
+    DrawTown();
+    *places = "[";
+    for (const Finding& f : options_.findings) {
+      if (places->size() > 1) *places += ",";
+      *places += std::isfinite(f.at_m.x) && std::isfinite(f.at_m.y) ? Format("[%.2f,%.2f]", X(f.at_m.x), Y(f.at_m.y)) : "null";
+    }
+    *places += "]";
+    return out_ + "</g><g id=\"marks\"></g></svg>\n";
+  }
+
+  double pixels_per_metre() const { return scale_; }
+
  private:
+  void DrawTown() {
+    DrawGround();
+    for (const auto& street : options_.streets) DrawStreet(street);
+    for (const Obstacle& o : footprints_.obstacles) DrawObstacle(o);
+  }
+
+  void DrawStreet(const std::vector<Point2>& street) {
+    std::string path;
+    for (const Point2& p : street) {
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) return;
+      path += Format("%s%.2f %.2f", path.empty() ? "M" : "L", X(p.x), Y(p.y));
+    }
+    if (!path.empty()) out_ += "<path fill=\"none\" stroke=\"#b9b2a3\" stroke-width=\"1.5\" d=\"" + path + "\"/>\n";
+  }
+
   void Grow(Point2 p, double by) {
     if (!(std::abs(p.x) < 1e6 && std::abs(p.y) < 1e6) || !std::isfinite(by)) return;
     min_ = {std::min(min_.x, p.x - by), std::min(min_.y, p.y - by)};
@@ -199,10 +229,149 @@ class Plan {
   std::string out_;
 };
 
+constexpr const char* kPageStyle = R"(
+body { margin: 0; font: 13px sans-serif; color: #2b2b2b; background: #fbfaf7; display: flex; height: 100vh; }
+#left { flex: 1; position: relative; overflow: hidden; }
+#map { width: 100%; height: 100%; cursor: grab; display: block; }
+#hover { position: absolute; left: 10px; bottom: 10px; background: #fffd; padding: 4px 8px; border-radius: 4px; }
+#scale { position: absolute; right: 14px; bottom: 10px; border: solid #2b2b2b; border-width: 0 1px 1px; text-align: center; }
+#right { width: 430px; overflow-y: auto; border-left: 1px solid #ddd8cc; padding: 0 12px; }
+h1 { font-size: 17px; } h2 { font-size: 14px; margin: 14px 0 2px; }
+h2 label { cursor: pointer; } .advice { color: #666; margin: 0 0 4px; }
+.item { padding: 2px 4px; cursor: pointer; border-radius: 3px; } .item:hover, .item.on { background: #ece6d6; }
+.error { color: #d02020; } .warning { color: #b06c00; }
+#marks circle { stroke: #fff; stroke-width: 1.5; } #marks .on circle { stroke: #000; stroke-width: 3; }
+#marks text { font-size: 8px; fill: #fff; text-anchor: middle; pointer-events: none; } #marks g { cursor: pointer; }
+)";
+
+// View: what of the plan's pixels is shown; marks keep their size on the screen.
+constexpr const char* kPageScript = R"(
+const map = document.getElementById('map'), marks = document.getElementById('marks');
+const hover = document.getElementById('hover'), list = document.getElementById('list');
+const whole = map.viewBox.baseVal, full = {x: whole.x, y: whole.y, w: whole.width, h: whole.height};
+let view = {...full};
+const make = (name, parent, text) => {
+  const node = name == 'g' || name == 'circle' || name == 'text'
+    ? document.createElementNS('http://www.w3.org/2000/svg', name) : document.createElement(name);
+  if (text !== undefined) node.textContent = text;
+  parent.appendChild(node);
+  return node;
+};
+function show() {
+  map.setAttribute('viewBox', `${view.x} ${view.y} ${view.w} ${view.h}`);
+  const unit = 1 / map.getScreenCTM().a;
+  for (const mark of marks.children) mark.setAttribute('transform', `translate(${mark.at}) scale(${unit})`);
+  let metres = Math.pow(10, Math.floor(Math.log10(150 * unit / pixelsPerMetre)));
+  for (const step of [2, 5]) if (step * metres * pixelsPerMetre / unit < 150) var best = step * metres;
+  metres = best || metres;
+  const bar = document.getElementById('scale');
+  bar.style.width = metres * pixelsPerMetre / unit + 'px';
+  bar.textContent = metres + ' m';
+}
+function zoom(factor, x, y) {
+  view = {x: x + (view.x - x) * factor, y: y + (view.y - y) * factor, w: view.w * factor, h: view.h * factor};
+  show();
+}
+const at = event => new DOMPoint(event.clientX, event.clientY).matrixTransform(map.getScreenCTM().inverse());
+map.addEventListener('wheel', event => {
+  event.preventDefault();
+  const p = at(event);
+  zoom(Math.exp(event.deltaY / 400), p.x, p.y);
+}, {passive: false});
+let grabbed = null;
+map.addEventListener('pointerdown', event => { grabbed = at(event); });
+window.addEventListener('pointerup', () => { grabbed = null; });
+window.addEventListener('pointermove', event => {
+  if (!grabbed) return;
+  const p = at(event);
+  view.x += grabbed.x - p.x, view.y += grabbed.y - p.y;
+  show();
+});
+map.addEventListener('dblclick', () => { view = {...full}; show(); });
+map.addEventListener('mouseover', event => {
+  const title = event.target.querySelector && event.target.querySelector('title');
+  if (title && !event.target.finding) hover.textContent = title.textContent;
+});
+function light(i, on) {
+  for (const node of [items[i], nodes[i]]) if (node) node.classList.toggle('on', on);
+  if (on) hover.textContent = data[i].code + ' ' + data[i].message;
+}
+const items = [], nodes = [], codes = [...new Set(data.map(f => f.code))];
+for (const code of codes) {
+  const all = data.map((f, i) => i).filter(i => data[i].code == code), first = data[all[0]];
+  const head = make('label', make('h2', list)), box = make('input', head), part = make('div', list);
+  box.type = 'checkbox', box.checked = true;
+  make('span', head, `${code} ${first.title} (${all.length})`).className = first.severity;
+  make('p', part, first.advice).className = 'advice';
+  for (const i of all) {
+    items[i] = make('div', part, `${i + 1}. ${data[i].feature} ${data[i].detail}`);
+    items[i].className = 'item';
+    items[i].onmouseenter = () => light(i, true), items[i].onmouseleave = () => light(i, false);
+    items[i].onclick = () => {
+      if (!places[i]) return;
+      const size = Math.min(full.w, 40 * pixelsPerMetre), high = size * full.h / full.w;
+      view = {x: places[i][0] - size / 2, y: places[i][1] - high / 2, w: size, h: high};
+      show();
+    };
+  }
+  box.onchange = () => {
+    part.hidden = !box.checked;
+    for (const i of all) if (nodes[i]) nodes[i].style.display = box.checked ? '' : 'none';
+  };
+}
+for (let i = data.length - 1; i >= 0; --i) {
+  if (!places[i]) continue;
+  const mark = nodes[i] = make('g', marks), dot = make('circle', mark);
+  mark.at = places[i].join(' ');
+  dot.setAttribute('r', 8), dot.setAttribute('fill', data[i].severity == 'error' ? '#d02020' : '#e08a00');
+  make('text', mark, i + 1).setAttribute('y', 3);
+  dot.finding = true;
+  mark.onmouseenter = () => { light(i, true); items[i].scrollIntoView({block: 'nearest'}); };
+  mark.onmouseleave = () => light(i, false);
+}
+window.onresize = show;
+show();
+)";
+
+// JSON inside a script element.
+std::string ForScript(std::string json) {
+  for (size_t i = json.find('<'); i != std::string::npos; i = json.find('<', i + 1)) json.replace(i, 1, "\\u003c");
+  return json;
+}
+
+std::string PageData(const std::vector<Finding>& findings) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Finding& f : findings) {
+    const FindingKind& kind = KindOf(f.code);
+    const std::string title = kind.title;
+    const bool titled = f.message.starts_with(title + ": ");
+    list.push_back({{"code", f.code}, {"severity", SeverityName(f.severity)}, {"feature", f.feature}, {"title", title},
+                    {"message", f.message}, {"detail", titled ? f.message.substr(title.size() + 2) : ""}, {"advice", kind.advice}});
+  }
+  return ForScript(list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
 }  // namespace
 
 Error WriteMap(const std::filesystem::path& path, const Footprints& footprints, const MapOptions& options) {
   return WriteTextFile(path, Plan(footprints, options).Draw());
+}
+
+Error WriteMapPage(const std::filesystem::path& path, const Footprints& footprints, const MapOptions& options) {
+  Plan plan(footprints, options);
+  std::string places;
+  const std::string map = plan.DrawForPage(&places), title = Escaped(options.title);
+  const auto errors = std::count_if(options.findings.begin(), options.findings.end(),
+                                    [](const Finding& f) { return f.severity == Severity::kError; });
+  std::string page = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title + "</title><style>" +
+                     kPageStyle + "</style></head>\n<body><div id=\"left\">" + map +
+                     "<div id=\"hover\">Wheel: zoom. Drag: move. Double click: all.</div><div id=\"scale\"></div></div>\n"
+                     "<div id=\"right\"><h1>" + title + "</h1><p>" + std::to_string(errors) + " errors, " +
+                     std::to_string(static_cast<std::ptrdiff_t>(options.findings.size()) - errors) + " warnings, " +
+                     std::to_string(footprints.obstacles.size()) + " obstacles</p><div id=\"list\"></div></div>\n<script>\n";
+  page += "const data = " + PageData(options.findings) + ";\nconst places = " + places + ";\n" +
+          Format("const pixelsPerMetre = %.9g;", plan.pixels_per_metre()) + kPageScript;
+  return WriteTextFile(path, page + "</script></body></html>\n");
 }
 
 }  // namespace flaneur

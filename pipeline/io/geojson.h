@@ -12,24 +12,39 @@ namespace flaneur {
 enum class GeoJsonUnits { kAuto, kMetres, kDegrees };
 
 struct ReadGeoJsonOptions {
-  // kAuto: metres where the file has our member "flaneur"; else what its "crs" says; else degrees where every
-  // coordinate can be a longitude and latitude, as the standard has it.
+  // kAuto: metres where the file has our member "flaneur"; else what its member "crs" says; else longitude and latitude, as
+  // the standard has it.
   GeoJsonUnits units = GeoJsonUnits::kAuto;
+  std::string system;  // such as "EPSG:25832": of the coordinates, whatever the file says
 };
+
+struct Way { std::string name; std::vector<Point2> points; };
+
+// What is wrong with a file that can be read all the same.
+enum class GeoJsonFaultKind { kBrokenFeature, kOtherSystem, kUnknownSystem };
+struct GeoJsonFault { GeoJsonFaultKind kind; std::string feature, message; };
 
 struct GeoJsonFile {
-  Footprints footprints;
-  // Obstacle i's rings that end without coming back to their first point: 0 the outer one, then the holes.
+  Footprints footprints;           // local metres
+  // Obstacle i's rings that end without coming back to their first point: 0 the outer one, then the holes. A polygon without
+  // any point has ring 0 in it, a circle none.
   std::vector<std::vector<int>> open_rings;
-  bool degrees = false;            // was turned into local metres, x east, y north of origin_m = (longitude, latitude)
-  int skipped = 0;                 // features that are neither polygons nor circles
+  std::vector<Way> ways;           // lines that are streets: all but barriers, waterways, railways, tunnels and the like
+  std::vector<GeoJsonFault> faults;
+  int skipped = 0;                 // features that are neither polygons nor circles nor streets
+  Point2 moved_m;                  // add to a coordinate to get the file's own, where they were only moved
+  std::string system, local_system;  // else: of the file's coordinates, and of ours
 };
 
-// Polygons, multipolygons (one obstacle each part) and points with `radius_m`. Rings come as they stand, only the
+// Polygons, multipolygons (one obstacle each part), points with `radius_m`, and lines. Rings come as they stand, only the
 // repeated last point is dropped: broken rings are for the check to find. Names that are missing are made up, names that
-// repeat get a number. Origins of projected coordinates are moved near zero (`origin_m`).
-// Errors: unreadable, not JSON, not a FeatureCollection, a coordinate that is no number (each names file and feature).
+// repeat get a number. Longitudes and latitudes, and maps that are stretched by more than 0.5 %, become local metres;
+// projected coordinates are moved near zero. Coordinates that cannot be in the system stated are a fault, and read as what
+// they look like. Errors: unreadable, not JSON, no GeoJSON; a system asked for that is not known.
 Error ReadGeoJson(const std::filesystem::path& path, const ReadGeoJsonOptions& options, GeoJsonFile* file);
+
+// Back into the file's own coordinates.
+std::vector<Point2> ToFileCoordinates(const GeoJsonFile& file, std::vector<Point2> points);
 
 // Coordinates to 0.1 mm. Errors: as for WriteFile.
 Error WriteGeoJson(const std::filesystem::path& path, const Footprints& footprints);

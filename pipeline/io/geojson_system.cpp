@@ -1,0 +1,160 @@
+#include "pipeline/io/geojson_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/io/map_projection.h"
+
+namespace flaneur {
+namespace {
+
+constexpr double kFarFromOrigin_m = 10'000;   // coordinates further away are moved near zero
+constexpr double kStretched = 0.005;          // maps whose lengths are off by more are transformed
+constexpr double kNullIsland_deg = 1;         // nobody's town is that near to longitude and latitude zero
+constexpr double kHouse_deg = 5e-4;           // houses are smaller than this (50 m), and no house is in metres
+constexpr double kOutsideOfUse_deg = 3;       // systems are used this far outside of their own area
+
+using Points = std::vector<Point2>;
+
+class Systems {
+ public:
+  Systems(const StatedSystem& stated, GeoJsonFile* file) : stated_(stated), file_(*file) {
+    ForEachPoint([&](Point2& p) { points_.push_back(p); });
+  }
+
+  Error Run() {
+    if (points_.empty()) return Ok();
+    FindMiddle();
+    if (stated_.units == GeoJsonUnits::kDegrees || (stated_.units == GeoJsonUnits::kAuto && stated_.system.empty()))
+      return Degrees(kLongitudeLatitude, "longitude and latitude");
+    if (stated_.units == GeoJsonUnits::kAuto) return Named();
+    if (LooksLikeDegrees()) return Other("metres", "longitudes and latitudes", kLongitudeLatitude);
+    if (!stated_.local) MoveNearZero();
+    return Ok();
+  }
+
+ private:
+  template <typename Function>
+  void ForEachPoint(const Function& function) {
+    for (Obstacle& o : file_.footprints.obstacles) {
+      for (Point2& p : o.outer) function(p);
+      for (auto& hole : o.holes)
+        for (Point2& p : hole) function(p);
+      if (o.outer.empty()) function(o.center);
+    }
+    for (Way& way : file_.ways)
+      for (Point2& p : way.points) function(p);
+  }
+
+  // Of each coordinate by itself, so that a few stray points do not move it.
+  void FindMiddle() {
+    std::vector<double> x, y;
+    for (const Point2& p : points_)
+      if (std::isfinite(p.x) && std::isfinite(p.y)) x.push_back(p.x), y.push_back(p.y);
+    if (x.empty()) return;
+    const auto median = [](std::vector<double>* values) {
+      const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
+      std::nth_element(values->begin(), middle, values->end());
+      return *middle;
+    };
+    middle_ = {median(&x), median(&y)};
+  }
+
+  static bool OnEarth(Point2 p) { return std::abs(p.x) <= 180 && std::abs(p.y) <= 90; }
+
+  bool MostlyOffEarth() const {
+    size_t finite = 0, off = 0;
+    for (const Point2& p : points_)
+      if (std::isfinite(p.x) && std::isfinite(p.y)) ++finite, off += !OnEarth(p);
+    return 2 * off > finite;
+  }
+
+  // Metres would make houses of a tenth of a millimetre.
+  bool LooksLikeDegrees() const {
+    if (std::hypot(middle_.x, middle_.y) < kNullIsland_deg || !OnEarth(middle_)) return false;
+    size_t small = 0, rings = 0;
+    for (const Obstacle& o : file_.footprints.obstacles) {
+      if (o.outer.size() < 3) continue;
+      Point2 min = o.outer[0], max = o.outer[0];
+      for (const Point2& p : o.outer) {
+        min = {std::min(min.x, p.x), std::min(min.y, p.y)};
+        max = {std::max(max.x, p.x), std::max(max.y, p.y)};
+      }
+      ++rings;
+      small += max.x - min.x < kHouse_deg && max.y - min.y < kHouse_deg;
+    }
+    return rings > 0 && 2 * small > rings;
+  }
+
+  Error Other(const std::string& stated, const std::string& seen, const std::string& as) {
+    file_.faults.push_back({GeoJsonFaultKind::kOtherSystem, "", "stated are " + stated + ", but the coordinates are " + seen});
+    if (!as.empty()) return Transform(as);
+    MoveNearZero();
+    return Ok();
+  }
+
+  Error Degrees(const std::string& system, const std::string& stated) {
+    if (MostlyOffEarth()) return Other(stated, "beyond 180 and 90 degrees; read as metres", "");
+    return Transform(system);
+  }
+
+  Error Named() {
+    MapSystem system;
+    if (Error error = FindMapSystem(stated_.system, &system)) {
+      file_.faults.push_back({GeoJsonFaultKind::kUnknownSystem, "", error.message});
+      return MostlyOffEarth() ? (MoveNearZero(), Ok()) : Transform(kLongitudeLatitude);
+    }
+    if (system.degrees) return Degrees(stated_.system, "degrees of " + stated_.system);
+    if (LooksLikeDegrees()) return Other(stated_.system, "longitudes and latitudes", kLongitudeLatitude);
+    Points corner{middle_, {middle_.x + 100, middle_.y}, {middle_.x, middle_.y + 100}};
+    Points place{middle_};
+    if (Error error = TransformPoints(stated_.system, kLongitudeLatitude, &place)) return error;
+    const double slack = kOutsideOfUse_deg;
+    if (!(place[0].x > system.west - slack && place[0].x < system.east + slack && place[0].y > system.south - slack &&
+          place[0].y < system.north + slack))
+      return Other(stated_.system, "outside the area that it is for; read as metres", "");
+    if (Error error = TransformPoints(stated_.system, LocalMapSystem(place[0]), &corner)) return error;
+    const auto length = [&](size_t i) { return std::hypot(corner[i].x - corner[0].x, corner[i].y - corner[0].y) / 100; };
+    if (std::abs(length(1) - 1) > kStretched || std::abs(length(2) - 1) > kStretched) return Transform(stated_.system);
+    MoveNearZero();
+    return Ok();
+  }
+
+  Error Transform(const std::string& system) {
+    Points place{middle_};
+    if (Error error = TransformPoints(system, kLongitudeLatitude, &place)) return error;
+    file_.system = system;
+    file_.local_system = LocalMapSystem(place[0]);
+    if (Error error = TransformPoints(system, file_.local_system, &points_)) return error;
+    size_t next = 0;
+    ForEachPoint([&](Point2& p) { p = points_[next++]; });
+    return Ok();
+  }
+
+  void MoveNearZero() {
+    if (std::abs(middle_.x) < kFarFromOrigin_m && std::abs(middle_.y) < kFarFromOrigin_m) return;
+    if (std::abs(middle_.x) > 1e8 || std::abs(middle_.y) > 1e8) return;
+    const Point2 move{std::floor(middle_.x / 1000) * 1000, std::floor(middle_.y / 1000) * 1000};
+    ForEachPoint([&](Point2& p) { p = {p.x - move.x, p.y - move.y}; });
+    Point2& origin = file_.footprints.origin_m;
+    origin = {origin.x + move.x, origin.y + move.y};
+    file_.moved_m = move;
+  }
+
+  const StatedSystem& stated_;
+  GeoJsonFile& file_;
+  Points points_;
+  Point2 middle_;
+};
+
+}  // namespace
+
+Error ToLocalMetres(const StatedSystem& stated, GeoJsonFile* file) { return Systems(stated, file).Run(); }
+
+std::vector<Point2> ToFileCoordinates(const GeoJsonFile& file, std::vector<Point2> points) {
+  if (!file.system.empty() && !TransformPoints(file.local_system, file.system, &points)) return points;
+  for (Point2& p : points) p = {p.x + file.moved_m.x, p.y + file.moved_m.y};
+  return points;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,65 @@
+#include "pipeline/io/map_projection.h"
+
+#include <proj.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+namespace flaneur {
+namespace {
+
+struct Free {
+  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
+  void operator()(PJ* object) const { proj_destroy(object); }
+};
+using Context = std::unique_ptr<PJ_CONTEXT, Free>;
+using Object = std::unique_ptr<PJ, Free>;
+
+// Quiet: what goes wrong is said by our own errors. No grids from the network.
+Context MakeContext() {
+  Context context(proj_context_create());
+  proj_log_level(context.get(), PJ_LOG_NONE);
+  proj_context_set_enable_network(context.get(), 0);
+  return context;
+}
+
+}  // namespace
+
+std::string LocalMapSystem(Point2 longitude_latitude) {
+  char text[120];
+  std::snprintf(text, sizeof text, "+proj=tmerc +lat_0=%.2f +lon_0=%.2f +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +type=crs",
+                longitude_latitude.y, longitude_latitude.x);
+  return text;
+}
+
+Error TransformPoints(const std::string& from, const std::string& to, std::vector<Point2>* points) {
+  const Context context = MakeContext();
+  const Object raw(proj_create_crs_to_crs(context.get(), from.c_str(), to.c_str(), nullptr));
+  const Object transform(raw ? proj_normalize_for_visualization(context.get(), raw.get()) : nullptr);
+  if (!transform) return Fail("no way from coordinate system '" + from + "' to '" + to + "'");
+  for (Point2& p : *points) {
+    const PJ_COORD out = proj_trans(transform.get(), PJ_FWD, proj_coord(p.x, p.y, 0, HUGE_VAL));
+    const bool found = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(out.xy.x) && std::isfinite(out.xy.y);
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    p = found ? Point2{out.xy.x, out.xy.y} : Point2{kNone, kNone};
+  }
+  return Ok();
+}
+
+Error FindMapSystem(const std::string& name, MapSystem* system) {
+  const Context context = MakeContext();
+  const Object object(proj_create(context.get(), name.c_str()));
+  if (!object || !proj_is_crs(object.get())) return Fail("coordinate system '" + name + "' is not known");
+  *system = {};
+  const PJ_TYPE type = proj_get_type(object.get());
+  system->degrees = type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
+  const char* area = nullptr;
+  double w = 0, s = 0, e = 0, n = 0;
+  if (proj_get_area_of_use(context.get(), object.get(), &w, &s, &e, &n, &area) && w > -1000)
+    system->west = w, system->south = s, system->east = e, system->north = n;
+  return Ok();
+}
+
+}  // namespace flaneur
