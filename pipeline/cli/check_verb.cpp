@@ -111,7 +111,7 @@ Error Run(const CheckArguments& a, int* status) {
     return Give(a, 902, Fail(a.obstacles.string() + ": holds no polygon and no circle" + why), faults);
   }
   if (file.skipped > 0)
-    std::fprintf(stderr, "flaneur: warning: %s: %d features are neither polygons nor circles nor streets; left out\n",
+    std::fprintf(stderr, "flaneur: warning: %s: %d features are no obstacles, streets or doors; left out\n",
                  a.obstacles.c_str(), file.skipped);
   const bool with_town = !a.town.empty();
   Scene town;
@@ -125,6 +125,7 @@ Error Run(const CheckArguments& a, int* status) {
   CheckOptions options = a.options;
   options.open_rings = file.open_rings;
   for (const Way& way : file.ways) options.streets.push_back({way.name, way.points});
+  for (const Place& place : file.places) options.gates.push_back({place.name, place.at, {}, place.is_exit});
   std::vector<Finding> findings;
   if (Error error = Check(file.footprints, with_town ? &town : nullptr, options, &findings)) return Give(a, 901, error, faults);
   findings.insert(findings.end(), faults.begin(), faults.end());

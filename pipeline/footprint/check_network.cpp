@@ -23,35 +23,42 @@ size_t Index(int i) { return static_cast<size_t>(i); }
 class Network {
  public:
   Network(const Rings& ground, double radius, const OpenTest& is_open, const std::vector<Gate>& gates)
-      : graph(BuildWayNetwork(ground, radius - 0.0005, is_open)), safe(graph.nodes.size()), exit(graph.nodes.size()) {
+      : graph(BuildWayNetwork(ground, radius - 0.0005, is_open)), safe(graph.nodes.size()), exit(graph.nodes.size()), gate(graph.nodes.size()) {
     for (size_t i = 0; i < graph.nodes.size(); ++i) safe[i] = exit[i] = graph.nodes[i].open;
-    for (const Gate& gate : gates) AddGate(gate);
+    for (const Gate& place : gates) AddGate(place);
     FindWaysOut(exit, &to_exit, nullptr);
     FindWaysOut(safe, nullptr, &next);
     Search();
   }
 
   WayNetwork graph;
-  std::vector<uint8_t> safe, exit;  // safe: an exit or a door
+  std::vector<uint8_t> safe, exit, gate;  // safe: an exit or a door; gate: not by being open
   std::vector<double> to_exit;      // metres; infinite where there is no way
   std::vector<int> next;            // towards the nearest door or exit; -1: there, or no way
   std::vector<int> parent, order;   // of the search
   std::vector<uint8_t> bridge;      // the way from the parent is the only one
   std::vector<double> deepest;      // in the subtree: to_exit and clearance of its farthest node
   std::vector<int> deepest_node;
+  std::vector<double> size_m2;      // about, of the ground in the subtree
+  double whole_m2 = 0;
 
  private:
   // Whoever comes out can go straight to the ways in whose free circle they stand.
-  void AddGate(const Gate& gate) {
+  void AddGate(const Gate& place) {
     int best = -1;
     double least = kFar;
     for (size_t i = 0; i < graph.nodes.size(); ++i) {
       const WayNode& node = graph.nodes[i];
-      const double d = std::hypot(node.at.x - gate.at_m.x, node.at.y - gate.at_m.y) - node.clearance_m;
-      if (d < kGateReach_m) safe[i] = 1, exit[i] |= gate.is_exit;
+      const double d = std::hypot(node.at.x - place.at_m.x, node.at.y - place.at_m.y) - node.clearance_m;
+      if (d < kGateReach_m) Mark(i, place);
       if (d < least) least = d, best = static_cast<int>(i);
     }
-    if (best >= 0) safe[Index(best)] = 1, exit[Index(best)] |= gate.is_exit;
+    if (best >= 0) Mark(Index(best), place);
+  }
+
+  void Mark(size_t node, const Gate& place) {
+    safe[node] = gate[node] = 1;
+    exit[node] |= place.is_exit;
   }
 
   void FindWaysOut(const std::vector<uint8_t>& goals, std::vector<double>* distance, std::vector<int>* towards) const {
@@ -81,7 +88,11 @@ class Network {
   // Tarjan's bridges, from a node 0 that all exits hang on.
   void Search() {
     const size_t n = graph.nodes.size();
-    parent.assign(n, -1), bridge.assign(n, 0), deepest.assign(n, 0), deepest_node.assign(n, -1);
+    parent.assign(n, -1), bridge.assign(n, 0), deepest.assign(n, 0), deepest_node.assign(n, -1), size_m2.assign(n, 0);
+    for (const WayEdge& way : graph.ways) {
+      const double area = way.length_m * (graph.nodes[Index(way.from)].clearance_m + graph.nodes[Index(way.to)].clearance_m);
+      size_m2[Index(way.from)] += area / 2, size_m2[Index(way.to)] += area / 2;
+    }
     std::vector<int> position(n, 0), low(n, 0), arrived_by(n, -1);
     std::vector<size_t> tried(n, 0);
     std::vector<int> stack;
@@ -93,6 +104,7 @@ class Network {
     };
     for (size_t start = 0; start < n; ++start) {
       if (!exit[start] || position[start] > 0) continue;
+      const size_t first = order.size();
       enter(static_cast<int>(start));
       while (!stack.empty()) {
         const int node = stack.back();
@@ -111,6 +123,8 @@ class Network {
         parent[Index(other)] = node, arrived_by[Index(other)] = way;
         enter(other);
       }
+      for (size_t i = first; i < order.size(); ++i)
+        if (parent[Index(order[i])] < 0) whole_m2 += size_m2[Index(order[i])];
     }
   }
 
@@ -122,13 +136,15 @@ class Network {
     const size_t up = Index(parent[i]);
     bridge[i] = (*low)[i] > position[up];
     (*low)[up] = std::min((*low)[up], (*low)[i]);
+    size_m2[up] += size_m2[i];
     if (deepest[i] > deepest[up]) deepest[up] = deepest[i], deepest_node[up] = deepest_node[i];
   }
 };
 
 class NetworkCheck {
  public:
-  NetworkCheck(const Network& network, CheckState* state) : net_(network), state_(*state) {
+  NetworkCheck(const Network& network, const BrokenPlaces& broken, CheckState* state)
+      : net_(network), broken_(broken), state_(*state) {
     for (size_t i = 0; i < net_.graph.nodes.size(); ++i) cells_[Cell(net_.graph.nodes[i].at)].push_back(static_cast<int>(i));
     mark_.assign(net_.graph.nodes.size(), 0), verdict_.assign(net_.graph.nodes.size(), 0);
   }
@@ -144,7 +160,8 @@ class NetworkCheck {
   Point2 At(int node) const { return net_.graph.nodes[Index(node)].at; }
   double Radius() const { return state_.options.high_resolution_radius_m; }
 
-  // Ground with one mouth that is narrower than the ground is deep, and that the visitor's circle can close.
+  // Ground with one mouth that is narrower than the ground is deep, and that the visitor's circle can close; less than half
+  // of all ground.
   void FindPockets() {
     pocket_.assign(net_.graph.nodes.size(), -1);
     for (const int node : net_.order) {
@@ -157,10 +174,20 @@ class NetworkCheck {
       const int mouth = MouthFrom(node);
       if (Depth(mouth) <= Width(mouth) || Width(mouth) >= 2 * Radius()) continue;
       if (mouth != node) continue;  // told when the search comes to it
+      if (2 * net_.size_m2[Index(node)] > net_.whole_m2) continue;  // the town itself, behind its only gate
       pocket_[Index(node)] = node;
-      if (Depth(node) > state_.options.dead_end_m) ReportDeadEnd(node);
+    }
+    std::unordered_map<int, bool> in_doubt;  // by pocket
+    for (const int node : net_.order)
+      if (pocket_[Index(node)] >= 0) in_doubt[pocket_[Index(node)]] |= InDoubt(node);
+    for (const int node : net_.order) {
+      if (pocket_[Index(node)] < 0) continue;
+      if (in_doubt[pocket_[Index(node)]]) told_pockets_[pocket_[Index(node)]] = true;
+      else if (pocket_[Index(node)] == node && Depth(node) > state_.options.dead_end_m) ReportDeadEnd(node);
     }
   }
+
+  bool InDoubt(int node) const { return broken_.Near(At(node), net_.graph.nodes[Index(node)].clearance_m); }
 
   // On along the only way, as long as it narrows.
   int MouthFrom(int node) const {
@@ -205,24 +232,31 @@ class NetworkCheck {
     }
   }
 
-  // Takes the ways within the radius out and looks at what is left round them.
+  // Takes the ways that the circle covers from wall to wall out, and looks at what is left round them. Inside a pocket the
+  // visitor stands in the middle of the way; elsewhere the way may pass at one side.
   void Stand(int visitor, std::vector<uint8_t>* told) {
     ++stamp_;
+    visitor_ = visitor;
     const Point2 p = At(visitor);
     inside_.clear();
     const auto low_x = static_cast<int64_t>(std::floor((p.x - Radius()) / kCell_m)), high_x = static_cast<int64_t>(std::floor((p.x + Radius()) / kCell_m));
     const auto low_y = static_cast<int64_t>(std::floor((p.y - Radius()) / kCell_m)), high_y = static_cast<int64_t>(std::floor((p.y + Radius()) / kCell_m));
+    const bool in_pocket = pocket_[Index(visitor)] >= 0;
     for (int64_t x = low_x; x <= high_x; ++x) {
       for (int64_t y = low_y; y <= high_y; ++y) {
         const auto cell = cells_.find(CellOf(x, y));
         if (cell == cells_.end()) continue;
-        for (const int node : cell->second)
-          if (std::hypot(At(node).x - p.x, At(node).y - p.y) <= Radius()) mark_[Index(node)] = stamp_, inside_.push_back(node);
+        for (const int node : cell->second) {
+          const double d = std::hypot(At(node).x - p.x, At(node).y - p.y), c = net_.graph.nodes[Index(node)].clearance_m;
+          if ((in_pocket ? std::hypot(d, c) : d + c) > Radius()) continue;
+          if (!in_pocket && net_.gate[Index(node)]) return;  // at a door everybody can be kept out of it
+          mark_[Index(node)] = stamp_, inside_.push_back(node);
+        }
       }
     }
     for (const int node : inside_)
       for (const int way : net_.graph.nodes[Index(node)].ways)
-        if (const int other = net_.graph.Other(way, node); mark_[Index(other)] != stamp_) Judge(visitor, other, told);
+        if (const int other = net_.graph.Other(way, node); mark_[Index(other)] != stamp_) Judge(other, told);
   }
 
   bool Inside(int node) const { return mark_[Index(node)] == stamp_; }
@@ -244,8 +278,7 @@ class NetworkCheck {
     return out;
   }
 
-  void Judge(int visitor, int start, std::vector<uint8_t>* told) {
-    visitor_ = visitor;
+  void Judge(int start, std::vector<uint8_t>* told) {
     if (LeadsOut(start) || (*told)[Index(start)]) return;
     part_.assign(1, start);
     std::vector<uint8_t>& in_part = in_part_;
@@ -268,7 +301,7 @@ class NetworkCheck {
     if (!out) ReportTrap(told);
   }
 
-  // From inside a pocket all that lies beyond the circle counts; from anywhere else only what is deeper than the radius, lest
+  // From inside a pocket all that lies beyond the circle counts, as long as two people can stand there; from anywhere else only what is deeper than the radius, lest
   // every niche and corner that a circle happens to close be a trap.
   void ReportTrap(std::vector<uint8_t>* told) {
     const int pocket = pocket_[Index(visitor_)];
@@ -284,9 +317,9 @@ class NetworkCheck {
     }
     const double width = Width(end);
     area = std::max(area, farthest * width);
-    if (area < state_.options.least_ground_m2 || (!in_pocket && farthest <= Radius())) return;
+    if (area < state_.options.least_ground_m2 || farthest < 4 * state_.options.person_radius_m || (!in_pocket && farthest <= Radius())) return;
     for (const int node : part_)
-      if ((*told)[Index(node)]) return;
+      if ((*told)[Index(node)] || (!in_pocket && InDoubt(node))) return;
     // The whole pocket is one trap.
     if (in_pocket && told_pockets_.count(pocket)) return;
     if (in_pocket) told_pockets_[pocket] = true;
@@ -303,6 +336,7 @@ class NetworkCheck {
   }
 
   const Network& net_;
+  const BrokenPlaces& broken_;
   CheckState& state_;
   std::unordered_map<int64_t, std::vector<int>> cells_;
   std::vector<int> pocket_;  // by node: its outermost pocket's mouth, or -1
@@ -316,9 +350,10 @@ class NetworkCheck {
 
 }  // namespace
 
-void CheckNetwork(const Rings& ground, const OpenTest& is_open, const std::vector<Gate>& gates, CheckState* state) {
+void CheckNetwork(const Rings& ground, const OpenTest& is_open, const std::vector<Gate>& gates,
+                  const BrokenPlaces& broken, CheckState* state) {
   const Network network(ground, state->options.person_radius_m, is_open, gates);
-  if (!network.graph.nodes.empty()) NetworkCheck(network, state).Run();
+  if (!network.graph.nodes.empty()) NetworkCheck(network, broken, state).Run();
 }
 
 }  // namespace flaneur

@@ -9,7 +9,8 @@ namespace flaneur {
 
 struct CheckedObstacle {
   const Obstacle* obstacle = nullptr;
-  Rings rings;                // its area as well as it can be told; circles as polygons; empty: no telling
+  Rings rings;                // its area as well as it can be told, without spikes; circles as polygons; empty: no telling
+  Rings spikes;               // what was taken off
   Rings doubt;                // convex, one a crossing: where a broken ring leaves open what is inside
   bool sound = true;          // none of 101 to 202
   bool points_missing = false;  // of the outer ring: its edges mean little

@@ -10,6 +10,7 @@ namespace {
 constexpr double kTouch_m = 1e-6;        // edges this near touch
 constexpr double kHairline = 1e-4;       // radians: sharper spikes have no area to speak of
 constexpr double kRounding_m = 0.0005;   // the opening's own, along every edge
+constexpr double kSpikeMiter = 20;       // corners down to 6 degrees survive the opening
 constexpr double kTurned = 20;           // a crossing ring runs the wrong way where that many times more of it does
 constexpr size_t kMostCrossings = 64;
 constexpr size_t kManyPoints = 100;      // times most_points: larger rings are only counted
@@ -327,6 +328,7 @@ class ObstacleCheck {
         for (const Ring& ring : hole) entry_.rings.emplace_back(ring.rbegin(), ring.rend());
       return;
     }
+    if (entry_.holes_broken) return;  // where its free ground is cannot be told
     Rings all;
     for (const Rings& hole : holes) all.insert(all.end(), hole.begin(), hole.end());
     entry_.rings = Difference(outer, UnionOfAreas(all));
@@ -334,8 +336,11 @@ class ObstacleCheck {
 
   // Parts that an opening takes away; of holes too, which are slits in the obstacle. What is left is the obstacle.
   void RunSpikes(const std::vector<Rings>& holes) {
-    Rings whole = entry_.rings;
-    if (LosesPart(&whole, "")) entry_.rings = std::move(whole);
+    Rings left = entry_.rings;
+    if (LosesPart(&left, "")) {
+      entry_.spikes = Difference(entry_.rings, left);
+      entry_.rings = std::move(left);
+    }
     for (size_t i = 0; i < holes.size(); ++i) {
       Rings hole = holes[i];
       if (!hole.empty()) LosesPart(&hole, "hole " + std::to_string(i + 1));
@@ -344,16 +349,17 @@ class ObstacleCheck {
 
   bool LosesPart(Rings* area, const std::string& name) {
     const double width = state_.options.spike_width_m, length = state_.options.spike_length_m;
-    const double miter = 1 + length / width;  // sharper corners lose more than `length`
-    const double sharp = 2 * std::asin(1 / miter);
+    const double sharp = 2 * std::asin(1 / kSpikeMiter);
     if (!HasNarrowPart(*area, 2 * width, std::cos(sharp))) return false;
-    const Rings opened = Offset(Offset(*area, -width, miter), width + kRounding_m, miter);
+    const Rings opened = Offset(Offset(*area, -width, kSpikeMiter), width + kRounding_m, kSpikeMiter);
     for (const Ring& lost : Difference(*area, opened)) {
       const Ring hull = ConvexHull(lost);
       double longest = 0;
       for (const Point2& p : hull)
         for (const Point2& q : hull) longest = std::max(longest, Distance(p, q));
       if (longest <= length) continue;
+      if (std::any_of(entry_.doubt.begin(), entry_.doubt.end(), [&](const Ring& doubt) { return Area(Intersection({lost}, {doubt})) > 0; }))
+        continue;  // a crossing's tips
       ReportSpike(lost[0], longest, name.empty() ? "a part" : name);
       *area = Intersection(*area, opened);
       return true;

@@ -133,7 +133,7 @@ class TownCheck {
       Rings near;
       for (const CheckedObstacle& entry : state_.obstacles)
         if (!entry.rings.empty() && !entry.duplicate && Meet(entry.min, entry.max, f.box))
-          near.insert(near.end(), entry.rings.begin(), entry.rings.end());
+          AddWhole(entry, &near);
       if (!near.empty()) cover.covered += Area(Intersection(f.rings, UnionOfAreas(near)));
     }
     for (const auto& [source, cover] : covers) {
@@ -144,12 +144,20 @@ class TownCheck {
     }
   }
 
+  // Spikes cover too.
+  static void AddWhole(const CheckedObstacle& entry, Rings* all) {
+    all->insert(all->end(), entry.rings.begin(), entry.rings.end());
+    all->insert(all->end(), entry.spikes.begin(), entry.spikes.end());
+  }
+
   // What obstacles cover in and round a box, cracks welded.
   Rings CoverNear(const Box& box) const {
     Rings all;
     for (const CheckedObstacle& entry : state_.obstacles) {
       if (entry.rings.empty() || entry.duplicate || !Meet(entry.min, entry.max, box, kNear_m)) continue;
-      const Rings grown = Offset(entry.rings, kSeam_m);
+      Rings whole;
+      AddWhole(entry, &whole);
+      const Rings grown = Offset(UnionOfAreas(whole), kSeam_m);
       all.insert(all.end(), grown.begin(), grown.end());
     }
     return Offset(UnionOfAreas(all), -kSeam_m);

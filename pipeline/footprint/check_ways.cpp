@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <map>
+#include <numeric>
 
 #include "pipeline/footprint/check_parts.h"
 #include "pipeline/footprint/ground_outline.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kMargin_m = 3;          // round the obstacles, where there is no town
 constexpr double kLargeShare = 0.1;      // of all free ground: more, and it is no courtyard
+constexpr double kNook_m2 = 4;           // cut off by narrow gaps, but nobody misses it
 constexpr double kSlack_m = 0.0005;      // a way exactly as wide as a person counts as open
 
 // A stretch of ground that hangs together, for the centre of a person.
@@ -68,39 +70,42 @@ Point2 PlaceIn(const Region& region) {
   return best;
 }
 
+// Obstacles that may close ground in together: their boxes come within `reach` of each other.
+std::vector<std::vector<const CheckedObstacle*>> Clusters(const std::vector<CheckedObstacle>& obstacles, double reach) {
+  std::vector<const CheckedObstacle*> sorted;
+  for (const CheckedObstacle& entry : obstacles)
+    if (!entry.rings.empty()) sorted.push_back(&entry);
+  std::sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) { return a->min.x < b->min.x; });
+  std::vector<size_t> root(sorted.size());
+  std::iota(root.begin(), root.end(), size_t{0});
+  const auto find = [&](size_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (size_t i = 0; i < sorted.size(); ++i)
+    for (size_t j = i + 1; j < sorted.size() && sorted[j]->min.x <= sorted[i]->max.x + reach; ++j)
+      if (sorted[j]->min.y <= sorted[i]->max.y + reach && sorted[i]->min.y <= sorted[j]->max.y + reach) root[find(j)] = find(i);
+  std::map<size_t, std::vector<const CheckedObstacle*>> by_root;
+  for (size_t i = 0; i < sorted.size(); ++i) by_root[find(i)].push_back(sorted[i]);
+  std::vector<std::vector<const CheckedObstacle*>> clusters;
+  for (auto& [first, members] : by_root) clusters.push_back(std::move(members));
+  return clusters;
+}
+
 class WaysCheck {
  public:
-  explicit WaysCheck(CheckState* state) : state_(*state) {}
+  explicit WaysCheck(CheckState* state) : state_(*state), broken_(*state) {}
 
   Error Run(const Scene* town) {
     gates_ = state_.options.gates;
     if (town) {
       const std::vector<Gate> more = GatesOf(*town, state_.options.scale);
       gates_.insert(gates_.end(), more.begin(), more.end());
-    }
-    Rings all;
-    Point2 min{1e300, 1e300}, max{-1e300, -1e300};
-    for (const CheckedObstacle& entry : state_.obstacles) {
-      all.insert(all.end(), entry.rings.begin(), entry.rings.end());
-      if (entry.rings.empty()) continue;
-      min = {std::min(min.x, entry.min.x), std::min(min.y, entry.min.y)};
-      max = {std::max(max.x, entry.max.x), std::max(max.y, entry.max.y)};
-    }
-    if (!town && all.empty()) return Ok();
-    area_ = UnionOfAreas(all);
-    if (town) {
-      GroundRasterOptions options;
-      options.scale = state_.options.scale;
-      GroundRaster raster;
-      if (Error error = RasterizeGround(*town, options, &raster)) return error;
-      ground_ = OutlineOf(raster);
+      if (Error error = LayOutTown(*town)) return error;
     } else {
-      min = {min.x - kMargin_m, min.y - kMargin_m}, max = {max.x + kMargin_m, max.y + kMargin_m};
-      ground_ = {{min, {max.x, min.y}, max, {min.x, max.y}}};
+      LayOutObstacles();
     }
-    regions_ = RegionsOf(Difference(ground_, OffsetRound(area_, state_.options.person_radius_m - kSlack_m)));
-    const Rings open = Difference(ground_, Offset(area_, state_.options.tolerance_m / 2));
-    reach_ = RegionsOf(open);
+    if (ground_.empty()) return Ok();
     CheckGates();
     CheckRegions();
     // Where nothing says how people leave, they leave over the edge.
@@ -108,13 +113,75 @@ class WaysCheck {
     const auto is_open = [&](Point2 a, Point2 b) {
       return !any_exit && DistanceToBoundary(ground_, {(a.x + b.x) / 2, (a.y + b.y) / 2}) < 0.01;
     };
-    std::vector<Gate> outside = gates_;
-    for (Gate& gate : outside) gate.at_m = Outside(gate);
-    CheckNetwork(open, is_open, outside, &state_);
+    CheckNetwork(open_, is_open, usable_, broken_, &state_);
     return Ok();
   }
 
  private:
+  double Thickened() const { return state_.options.person_radius_m - kSlack_m; }
+  double Welded() const { return state_.options.tolerance_m / 2; }  // cracks are nobody's way
+
+  Error LayOutTown(const Scene& town) {
+    GroundRasterOptions options;
+    options.scale = state_.options.scale;
+    GroundRaster raster;
+    if (Error error = RasterizeGround(town, options, &raster)) return error;
+    ground_ = OutlineOf(raster);
+    Rings all;
+    for (const CheckedObstacle& entry : state_.obstacles) all.insert(all.end(), entry.rings.begin(), entry.rings.end());
+    area_ = UnionOfAreas(all);
+    regions_ = RegionsOf(Difference(ground_, OffsetRound(area_, Thickened())));
+    open_ = Difference(ground_, Offset(area_, Welded()));
+    reach_ = RegionsOf(open_);
+    return Ok();
+  }
+
+  // Free ground all round: each cluster of obstacles is looked at by itself, for large plans take long as a whole.
+  void LayOutObstacles() {
+    Point2 min{1e300, 1e300}, max{-1e300, -1e300};
+    for (const auto& cluster : Clusters(state_.obstacles, 2 * state_.options.person_radius_m + 0.1)) {
+      Rings all;
+      Point2 low{1e300, 1e300}, high{-1e300, -1e300};
+      for (const CheckedObstacle* entry : cluster) {
+        all.insert(all.end(), entry->rings.begin(), entry->rings.end());
+        low = {std::min(low.x, entry->min.x), std::min(low.y, entry->min.y)};
+        high = {std::max(high.x, entry->max.x), std::max(high.y, entry->max.y)};
+      }
+      min = {std::min(min.x, low.x), std::min(min.y, low.y)}, max = {std::max(max.x, high.x), std::max(max.y, high.y)};
+      const Rings area = UnionOfAreas(all), welded = Offset(area, Welded());
+      area_.insert(area_.end(), area.begin(), area.end());
+      const Rings box = Box({low.x - kMargin_m, low.y - kMargin_m}, {high.x + kMargin_m, high.y + kMargin_m});
+      AddEnclosed(Difference(box, OffsetRound(area, Thickened())), box[0][0], &regions_);
+      AddEnclosed(Difference(box, welded), box[0][0], &reach_);
+      for (const Ring& ring : welded) open_.emplace_back(ring.rbegin(), ring.rend());
+    }
+    if (area_.empty()) return;
+    for (const Gate& gate : gates_) {
+      min = {std::min(min.x, gate.at_m.x), std::min(min.y, gate.at_m.y)};
+      max = {std::max(max.x, gate.at_m.x), std::max(max.y, gate.at_m.y)};
+    }
+    ground_ = Box({min.x - kMargin_m, min.y - kMargin_m}, {max.x + kMargin_m, max.y + kMargin_m});
+    open_.insert(open_.begin(), ground_[0]);
+    outside_m2_ = std::abs(Area(ground_)) - Area(area_);
+  }
+
+  static Rings Box(Point2 min, Point2 max) { return {{min, {max.x, min.y}, max, {min.x, max.y}}}; }
+
+  // All but the region at the corner of the box, which is all round.
+  static void AddEnclosed(const Rings& free, Point2 corner, std::vector<Region>* regions) {
+    for (Region& region : RegionsOf(free))
+      if (std::hypot(region.min.x - corner.x, region.min.y - corner.y) > 1e-3) regions->push_back(std::move(region));
+  }
+
+  // kOutside: all round; -1: nowhere.
+  static constexpr int kOutside = 1'000'000'000;
+  int RegionAt(Point2 p) const {
+    const double r = state_.options.person_radius_m + state_.options.tolerance_m;
+    const int region = RegionNear(regions_, p, r);
+    return region < 0 && outside_m2_ > 0 && !InClosed(p) ? kOutside : region;
+  }
+  bool InClosed(Point2 p) const { return RegionNear(reach_, p, 1e-3) >= 0; }
+
   // People step out of a door: a door may stand in the wall's clearance, a step ahead of it must be free.
   Point2 Outside(const Gate& gate) const {
     const double step = std::hypot(gate.ahead.x, gate.ahead.y) > 0 ? state_.options.person_radius_m + state_.clearance_m + 0.05 : 0;
@@ -134,7 +201,8 @@ class WaysCheck {
       }
       if (gap < r - state_.options.tolerance_m)
         state_.Add(603, gate.name, p, gap, r, Metres(gap) + " from '" + gate.name + "' to the nearest obstacle");
-      regions.back() = RegionNear(regions_, p, r + state_.options.tolerance_m);
+      regions.back() = RegionAt(p);
+      if (regions.back() >= 0) usable_.push_back({gate.name, p, {}, gate.is_exit});
       if (regions.back() < 0 && gap >= r)
         state_.Add(604, gate.name, p, 0, 0, "'" + gate.name + "' stands on no ground");
     }
@@ -155,31 +223,38 @@ class WaysCheck {
     return false;
   }
 
-  // 501. Ground that even a point cannot get to is a courtyard, unless it is a large part of the town or has a door.
+  // 501. Ground that even a point cannot get to is a courtyard, unless it is a large part of the town or has a door; a nook
+  // is no more.
   void CheckRegions() {
-    if (regions_.empty()) return;
     const auto largest = std::max_element(regions_.begin(), regions_.end(), [](const Region& a, const Region& b) { return a.area_m2 < b.area_m2; });
-    const int main = static_cast<int>(largest - regions_.begin());
-    const int main_reach = RegionNear(reach_, largest->shape.outer[0], 1e-3);
+    if (largest == regions_.end()) return;
+    const bool outside = outside_m2_ > 0;
+    const int main = outside ? kOutside : static_cast<int>(largest - regions_.begin());
+    const int main_reach = outside ? -1 : RegionNear(reach_, largest->shape.outer[0], 1e-3);
+    const double main_m2 = outside ? outside_m2_ : largest->area_m2;
     for (int i = 0; i < static_cast<int>(regions_.size()); ++i) {
       const Region& region = regions_[static_cast<size_t>(i)];
       if (i == main || Has(cut_off_, i)) continue;  // the latter is said by 604
-      const double area = Area(OffsetRound(RingsOf(region.shape), state_.options.person_radius_m));
+      const double area = Area(Offset(RingsOf(region.shape), state_.options.person_radius_m));
       if (area < state_.options.least_ground_m2) continue;
+      const Ring& outline = region.shape.outer;
+      if (std::any_of(outline.begin(), outline.end(), [&](Point2 p) { return broken_.Near(p, 2 * state_.options.person_radius_m); })) continue;
       const bool closed = RegionNear(reach_, region.shape.outer[0], 1e-3) != main_reach;
       const Point2 at = PlaceIn(region);
       state_.Add(501, NearestObstacle(state_, at), at, area, state_.options.least_ground_m2,
                  SquareMetres(area) + (closed ? ", closed all round" : ", cut off by narrow gaps"));
-      const bool large = region.area_m2 > kLargeShare * largest->area_m2;
-      if (closed && !large && !Has(has_gate_, i)) state_.findings->back().severity = Severity::kWarning;
+      const bool large = region.area_m2 > kLargeShare * main_m2;
+      if ((closed || area < kNook_m2) && !large && !Has(has_gate_, i)) state_.findings->back().severity = Severity::kWarning;
     }
   }
 
   static bool Has(const std::vector<int>& list, int i) { return std::find(list.begin(), list.end(), i) != list.end(); }
 
   CheckState& state_;
-  std::vector<Gate> gates_;
-  Rings area_, ground_;
+  BrokenPlaces broken_;
+  std::vector<Gate> gates_, usable_;  // the latter a step ahead, on free ground
+  Rings area_, ground_, open_;  // of obstacles; of all; of all without the obstacles
+  double outside_m2_ = 0;       // of the free ground all round, where there is no town
   std::vector<Region> regions_, reach_;
   std::vector<int> has_gate_, cut_off_;  // regions
 };
@@ -189,6 +264,27 @@ double DistanceToBox(const CheckedObstacle& entry, Point2 p) {
 }
 
 }  // namespace
+
+BrokenPlaces::BrokenPlaces(const CheckState& state) {
+  constexpr double kLost_m = 30, kPointsLost_m = 5, kCrossed_m = 1;  // how far an outline may have gone
+  for (const CheckedObstacle& entry : state.obstacles) {
+    if (entry.sound) continue;
+    const double grow = entry.rings.empty() ? kLost_m : entry.points_missing ? kPointsLost_m : kCrossed_m;
+    Box box{{1e300, 1e300}, {-1e300, -1e300}};
+    for (const Point2& p : entry.obstacle->outer) {
+      if (!(std::max(std::abs(p.x), std::abs(p.y)) <= state.options.largest_coordinate_m)) continue;
+      box.min = {std::min(box.min.x, p.x - grow), std::min(box.min.y, p.y - grow)};
+      box.max = {std::max(box.max.x, p.x + grow), std::max(box.max.y, p.y + grow)};
+    }
+    boxes_.push_back(box);
+  }
+}
+
+bool BrokenPlaces::Near(Point2 p, double reach) const {
+  return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box& b) {
+    return p.x > b.min.x - reach && p.x < b.max.x + reach && p.y > b.min.y - reach && p.y < b.max.y + reach;
+  });
+}
 
 std::string NearestObstacle(const CheckState& state, Point2 p) {
   const CheckedObstacle* nearest = nullptr;

@@ -56,6 +56,9 @@ PassageParts PassageTest::Sort(const Rings& area, const Rings& walls) const {
   }
   const AreaIndex inside(area, step), walk(walkable, step), solid(walls, step);
   std::vector<Point2> roofed, candidates, open;
+  for (const Ring& ring : walkable)  // narrow ones may lie between the samples
+    for (const Point2& p : ring)
+      if (Roofed(p)) candidates.push_back(p);
   for (double y = min.y + step / 2; y < max.y; y += step) {
     for (double x = min.x + step / 2; x < max.x; x += step) {
       const Point2 p{x, y};

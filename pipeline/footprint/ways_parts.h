@@ -11,7 +11,19 @@ namespace flaneur {
 // Its name; empty where there are no obstacles.
 std::string NearestObstacle(const CheckState& state, Point2 p);
 
+// Where obstacles have broken rings: what lies beside them may be other than it seems, and is not reported.
+class BrokenPlaces {
+ public:
+  explicit BrokenPlaces(const CheckState& state);
+  bool Near(Point2 p, double reach) const;
+
+ private:
+  struct Box { Point2 min, max; };
+  std::vector<Box> boxes_;
+};
+
 // 502, 503 on ground without the obstacles.
-void CheckNetwork(const Rings& ground, const OpenTest& is_open, const std::vector<Gate>& gates, CheckState* state);
+void CheckNetwork(const Rings& ground, const OpenTest& is_open, const std::vector<Gate>& gates,
+                  const BrokenPlaces& broken, CheckState* state);
 
 }  // namespace flaneur

@@ -19,6 +19,8 @@ struct ReadGeoJsonOptions {
 };
 
 struct Way { std::string name; std::vector<Point2> points; };
+// A point of kind door, exit or spawn.
+struct Place { std::string name; Point2 at; bool is_exit = false; };
 
 // What is wrong with a file that can be read all the same.
 enum class GeoJsonFaultKind { kBrokenFeature, kOtherSystem, kUnknownSystem };
@@ -30,13 +32,14 @@ struct GeoJsonFile {
   // any point has ring 0 in it, a circle none.
   std::vector<std::vector<int>> open_rings;
   std::vector<Way> ways;           // lines that are streets: all but barriers, waterways, railways, tunnels and the like
+  std::vector<Place> places;
   std::vector<GeoJsonFault> faults;
-  int skipped = 0;                 // features that are neither polygons nor circles nor streets
+  int skipped = 0;                 // features that are nothing of all this
   Point2 moved_m;                  // add to a coordinate to get the file's own, where they were only moved
   std::string system, local_system;  // else: of the file's coordinates, and of ours
 };
 
-// Polygons, multipolygons (one obstacle each part), points with `radius_m`, and lines. Rings come as they stand, only the
+// Polygons, multipolygons (one obstacle each part), points with `radius_m`, lines, and points of kind door, exit, spawn. Rings come as they stand, only the
 // repeated last point is dropped: broken rings are for the check to find. Names that are missing are made up, names that
 // repeat get a number. Longitudes and latitudes, and maps that are stretched by more than 0.5 %, become local metres;
 // projected coordinates are moved near zero. Coordinates that cannot be in the system stated are a fault, and read as what

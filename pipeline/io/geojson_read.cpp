@@ -208,6 +208,12 @@ class Reader {
 
   // A tree or lamp without a radius is an obstacle to be found fault with; any other point is none.
   Error ReadCircle(const Obstacle& blank, const Json& properties, const Json& coordinates) {
+    const std::string kind = TextOf(properties, "kind");
+    if (kind == "door" || kind == "exit" || kind == "spawn") {
+      Place place{blank.name, {}, kind == "exit"};
+      if (!ReadPair(coordinates, &place.at.x, &place.at.y)) return Fail("a point's coordinates must be two numbers");
+      return out_->places.push_back(std::move(place)), Ok();
+    }
     Obstacle o = blank;
     const Json& radius = Member(properties, "radius_m");
     const bool asked = properties.is_object() && properties.contains("radius_m");

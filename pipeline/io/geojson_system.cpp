@@ -42,6 +42,7 @@ class Systems {
         for (Point2& p : hole) function(p);
       if (o.outer.empty()) function(o.center);
     }
+    for (Place& place : file_.places) function(place.at);
     for (Way& way : file_.ways)
       for (Point2& p : way.points) function(p);
   }
