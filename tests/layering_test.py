@@ -21,7 +21,7 @@ ALLOWED = {
     "pipeline/pack": {BASE, CORE, "pipeline/io", "runtime/pack"},
 }
 # Libraries whose types stay inside source files, and that the runtime must not know at all.
-PIPELINE_ONLY = re.compile(r"(CGAL|OpenMesh|OpenImageIO|tiny_gltf|clipper)", re.IGNORECASE)
+PIPELINE_ONLY = re.compile(r"(CGAL|OpenMesh|OpenImageIO|tiny_gltf|clipper|boost|proj\.h)", re.IGNORECASE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 

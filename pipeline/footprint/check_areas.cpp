@@ -9,7 +9,7 @@ namespace {
 
 namespace cl = ClipperLib;
 constexpr double kUnitsPerMetre = 1e4;
-constexpr double kArcTolerance_m = 0.002;  // of round corners
+constexpr double kArcTolerance_m = 0.003;  // of round corners
 constexpr int kCircleCorners = 64;
 
 cl::Paths ToPaths(const Rings& rings) {

@@ -13,7 +13,7 @@ namespace flaneur {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr double kStandEvery_m = 2.5;   // places where a visitor is tried
+constexpr double kStandEvery_m = 4;     // places where a visitor is tried
 constexpr double kGateReach_m = 0.1;    // beyond a way's free circle
 constexpr double kNarrows = 0.1;        // a way that narrows faster than this is still coming to its mouth
 
@@ -24,10 +24,10 @@ class Network {
  public:
   Network(const Rings& ground, double radius, const OpenTest& is_open, const std::vector<Gate>& gates)
       : graph(BuildWayNetwork(ground, radius - 0.0005, is_open)), safe(graph.nodes.size()), exit(graph.nodes.size()), gate(graph.nodes.size()) {
-    for (size_t i = 0; i < graph.nodes.size(); ++i) safe[i] = exit[i] = graph.nodes[i].open;
+    for (size_t i = 0; i < graph.nodes.size(); ++i) safe[i] = exit[i] = graph.nodes[i].open, open |= graph.nodes[i].open;
     for (const Gate& place : gates) AddGate(place);
-    FindWaysOut(exit, &to_exit, nullptr);
-    FindWaysOut(safe, nullptr, &next);
+    FindWaysOut(exit, &to_exit, &next);
+    if (safe != exit) FindWaysOut(safe, nullptr, &next);
     Search();
   }
 
@@ -41,6 +41,7 @@ class Network {
   std::vector<int> deepest_node;
   std::vector<double> size_m2;      // about, of the ground in the subtree
   double whole_m2 = 0;
+  bool open = false;                // people leave over the edge, and there is more ground beyond
 
  private:
   // Whoever comes out can go straight to the ways in whose free circle they stand.
@@ -143,8 +144,8 @@ class Network {
 
 class NetworkCheck {
  public:
-  NetworkCheck(const Network& network, const BrokenPlaces& broken, CheckState* state)
-      : net_(network), broken_(broken), state_(*state) {
+  NetworkCheck(const Network& network, const BrokenPlaces& broken, const std::vector<CheckedObstacle>& obstacles, CheckState* state)
+      : net_(network), broken_(broken), obstacles_(obstacles), state_(*state) {
     for (size_t i = 0; i < net_.graph.nodes.size(); ++i) cells_[Cell(net_.graph.nodes[i].at)].push_back(static_cast<int>(i));
     mark_.assign(net_.graph.nodes.size(), 0), verdict_.assign(net_.graph.nodes.size(), 0);
   }
@@ -160,8 +161,8 @@ class NetworkCheck {
   Point2 At(int node) const { return net_.graph.nodes[Index(node)].at; }
   double Radius() const { return state_.options.high_resolution_radius_m; }
 
-  // Ground with one mouth that is narrower than the ground is deep, and that the visitor's circle can close; less than half
-  // of all ground.
+  // Ground with one mouth that is narrower than the ground is deep, and that the visitor's circle can close; in a walled
+  // town less than half of all ground.
   void FindPockets() {
     pocket_.assign(net_.graph.nodes.size(), -1);
     for (const int node : net_.order) {
@@ -174,7 +175,7 @@ class NetworkCheck {
       const int mouth = MouthFrom(node);
       if (Depth(mouth) <= Width(mouth) || Width(mouth) >= 2 * Radius()) continue;
       if (mouth != node) continue;  // told when the search comes to it
-      if (2 * net_.size_m2[Index(node)] > net_.whole_m2) continue;  // the town itself, behind its only gate
+      if (!net_.open && 2 * net_.size_m2[Index(node)] > net_.whole_m2) continue;  // the town itself, behind its only gate
       pocket_[Index(node)] = node;
     }
     std::unordered_map<int, bool> in_doubt;  // by pocket
@@ -209,7 +210,7 @@ class NetworkCheck {
 
   void ReportDeadEnd(int mouth) {
     const Point2 end = At(net_.deepest_node[Index(mouth)]);
-    state_.Add(502, NearestObstacle(state_, end), end, Depth(mouth), state_.options.dead_end_m,
+    state_.Add(502, NearestObstacle(obstacles_, end), end, Depth(mouth), state_.options.dead_end_m,
                Metres(Depth(mouth)) + " deep, behind a mouth of " + Metres(Width(mouth)));
   }
 
@@ -247,8 +248,9 @@ class NetworkCheck {
         const auto cell = cells_.find(CellOf(x, y));
         if (cell == cells_.end()) continue;
         for (const int node : cell->second) {
-          const double d = std::hypot(At(node).x - p.x, At(node).y - p.y), c = net_.graph.nodes[Index(node)].clearance_m;
-          if ((in_pocket ? std::hypot(d, c) : d + c) > Radius()) continue;
+          const double dx = At(node).x - p.x, dy = At(node).y - p.y, c = net_.graph.nodes[Index(node)].clearance_m;
+          const double d2 = dx * dx + dy * dy, left = Radius() - c;
+          if (in_pocket ? d2 + c * c > Radius() * Radius() : left < 0 || d2 > left * left) continue;
           if (!in_pocket && net_.gate[Index(node)]) return;  // at a door everybody can be kept out of it
           mark_[Index(node)] = stamp_, inside_.push_back(node);
         }
@@ -279,6 +281,7 @@ class NetworkCheck {
   }
 
   void Judge(int start, std::vector<uint8_t>* told) {
+    if (net_.to_exit[Index(start)] == kFar) return;  // out of reach as it is: 501
     if (LeadsOut(start) || (*told)[Index(start)]) return;
     part_.assign(1, start);
     std::vector<uint8_t>& in_part = in_part_;
@@ -324,7 +327,7 @@ class NetworkCheck {
     if (in_pocket && told_pockets_.count(pocket)) return;
     if (in_pocket) told_pockets_[pocket] = true;
     for (const int node : part_) (*told)[Index(node)] = 1;
-    state_.Add(503, NearestObstacle(state_, At(end)), At(end), farthest, 0,
+    state_.Add(503, NearestObstacle(obstacles_, At(end)), At(end), farthest, 0,
                "a visitor at (" + Number(At(visitor_).x) + ", " + Number(At(visitor_).y) + ") cuts off " + Metres(farthest) +
                    " of way without a door or an exit");
   }
@@ -337,6 +340,7 @@ class NetworkCheck {
 
   const Network& net_;
   const BrokenPlaces& broken_;
+  const std::vector<CheckedObstacle>& obstacles_;
   CheckState& state_;
   std::unordered_map<int64_t, std::vector<int>> cells_;
   std::vector<int> pocket_;  // by node: its outermost pocket's mouth, or -1
@@ -351,9 +355,9 @@ class NetworkCheck {
 }  // namespace
 
 void CheckNetwork(const Rings& ground, const OpenTest& is_open, const std::vector<Gate>& gates,
-                  const BrokenPlaces& broken, CheckState* state) {
+                  const BrokenPlaces& broken, const std::vector<CheckedObstacle>& obstacles, CheckState* state) {
   const Network network(ground, state->options.person_radius_m, is_open, gates);
-  if (!network.graph.nodes.empty()) NetworkCheck(network, broken, state).Run();
+  if (!network.graph.nodes.empty()) NetworkCheck(network, broken, obstacles, state).Run();
 }
 
 }  // namespace flaneur

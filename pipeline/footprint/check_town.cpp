@@ -163,10 +163,10 @@ class TownCheck {
     return Offset(UnionOfAreas(all), -kSeam_m);
   }
 
-  Rings TruthNear(const Box& box) const {
+  Rings TruthNear(const Box& box, double reach = kNear_m) const {
     Rings all;
     for (const Footprint& f : truth_)
-      if (Meet(f.box.min, f.box.max, box, kNear_m)) all.insert(all.end(), f.rings.begin(), f.rings.end());
+      if (Meet(f.box.min, f.box.max, box, reach)) all.insert(all.end(), f.rings.begin(), f.rings.end());
     return UnionOfAreas(all);
   }
 
@@ -253,7 +253,7 @@ class TownCheck {
         rings.insert(rings.end(), piece.holes.begin(), piece.holes.end());
         const double area = Area(rings);
         if (area < kPiece_m2) continue;
-        const PassageParts parts = passages.Sort(rings, truth);
+        const PassageParts parts = passages.Sort(rings, TruthNear({entry.min, entry.max}, PassageTest::kFarthestWall_m));
         free += parts.elsewhere_m2, blocked += parts.passage_m2;
         if (parts.elsewhere_m2 > largest_free) largest_free = parts.elsewhere_m2, free_at = parts.elsewhere_at;
         if (parts.passage_m2 > largest_blocked) largest_blocked = parts.passage_m2, blocked_at = parts.passage_at;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <thread>
 
 #include "pipeline/footprint/check_parts.h"
 #include "pipeline/footprint/ground_outline.h"
@@ -25,17 +26,23 @@ Rings RingsOf(const Polygon& polygon) {
   return rings;
 }
 
+Region RegionOf(Polygon polygon) {
+  Region region{std::move(polygon), {1e300, 1e300}, {-1e300, -1e300}, 0};
+  for (const Point2& p : region.shape.outer) {
+    region.min = {std::min(region.min.x, p.x), std::min(region.min.y, p.y)};
+    region.max = {std::max(region.max.x, p.x), std::max(region.max.y, p.y)};
+  }
+  region.area_m2 = Area(RingsOf(region.shape));
+  return region;
+}
+
+bool InBox(const Region& region, Point2 p) {
+  return p.x >= region.min.x && p.x <= region.max.x && p.y >= region.min.y && p.y <= region.max.y;
+}
+
 std::vector<Region> RegionsOf(const Rings& area) {
   std::vector<Region> regions;
-  for (Polygon& polygon : ToPolygons(area)) {
-    Region region{std::move(polygon), {1e300, 1e300}, {-1e300, -1e300}, 0};
-    for (const Point2& p : region.shape.outer) {
-      region.min = {std::min(region.min.x, p.x), std::min(region.min.y, p.y)};
-      region.max = {std::max(region.max.x, p.x), std::max(region.max.y, p.y)};
-    }
-    region.area_m2 = Area(RingsOf(region.shape));
-    regions.push_back(std::move(region));
-  }
+  for (Polygon& polygon : ToPolygons(area)) regions.push_back(RegionOf(std::move(polygon)));
   return regions;
 }
 
@@ -68,6 +75,10 @@ Point2 PlaceIn(const Region& region) {
   for (size_t i = 0; i + 1 < cuts.size(); i += 2)
     if (cuts[i + 1] - cuts[i] > widest) widest = cuts[i + 1] - cuts[i], best = {(cuts[i] + cuts[i + 1]) / 2, y};
   return best;
+}
+
+double DistanceToBox(const CheckedObstacle& entry, Point2 p) {
+  return std::hypot(std::max({entry.min.x - p.x, 0.0, p.x - entry.max.x}), std::max({entry.min.y - p.y, 0.0, p.y - entry.max.y}));
 }
 
 // Obstacles that may close ground in together: their boxes come within `reach` of each other.
@@ -107,13 +118,17 @@ class WaysCheck {
     }
     if (ground_.empty()) return Ok();
     CheckGates();
-    CheckRegions();
     // Where nothing says how people leave, they leave over the edge.
     const bool any_exit = std::any_of(gates_.begin(), gates_.end(), [](const Gate& gate) { return gate.is_exit; });
     const auto is_open = [&](Point2 a, Point2 b) {
       return !any_exit && DistanceToBoundary(ground_, {(a.x + b.x) / 2, (a.y + b.y) / 2}) < 0.01;
     };
-    CheckNetwork(open_, is_open, usable_, broken_, &state_);
+    std::vector<Finding> findings;
+    CheckState beside{state_.footprints, state_.options, state_.clearance_m, {}, &findings};
+    std::thread network([&] { CheckNetwork(open_, is_open, usable_, broken_, state_.obstacles, &beside); });
+    CheckRegions();
+    network.join();
+    state_.findings->insert(state_.findings->end(), findings.begin(), findings.end());
     return Ok();
   }
 
@@ -129,9 +144,8 @@ class WaysCheck {
     ground_ = OutlineOf(raster);
     Rings all;
     for (const CheckedObstacle& entry : state_.obstacles) all.insert(all.end(), entry.rings.begin(), entry.rings.end());
-    area_ = UnionOfAreas(all);
-    regions_ = RegionsOf(Difference(ground_, OffsetRound(area_, Thickened())));
-    open_ = Difference(ground_, Offset(area_, Welded()));
+    regions_ = RegionsOf(Difference(ground_, OffsetRound(all, Thickened())));
+    open_ = Difference(ground_, Offset(all, Welded()));
     reach_ = RegionsOf(open_);
     return Ok();
   }
@@ -139,6 +153,7 @@ class WaysCheck {
   // Free ground all round: each cluster of obstacles is looked at by itself, for large plans take long as a whole.
   void LayOutObstacles() {
     Point2 min{1e300, 1e300}, max{-1e300, -1e300};
+    double covered = 0;
     for (const auto& cluster : Clusters(state_.obstacles, 2 * state_.options.person_radius_m + 0.1)) {
       Rings all;
       Point2 low{1e300, 1e300}, high{-1e300, -1e300};
@@ -148,29 +163,42 @@ class WaysCheck {
         high = {std::max(high.x, entry->max.x), std::max(high.y, entry->max.y)};
       }
       min = {std::min(min.x, low.x), std::min(min.y, low.y)}, max = {std::max(max.x, high.x), std::max(max.y, high.y)};
-      const Rings area = UnionOfAreas(all), welded = Offset(area, Welded());
-      area_.insert(area_.end(), area.begin(), area.end());
-      const Rings box = Box({low.x - kMargin_m, low.y - kMargin_m}, {high.x + kMargin_m, high.y + kMargin_m});
-      AddEnclosed(Difference(box, OffsetRound(area, Thickened())), box[0][0], &regions_);
-      AddEnclosed(Difference(box, welded), box[0][0], &reach_);
-      for (const Ring& ring : welded) open_.emplace_back(ring.rbegin(), ring.rend());
+      AddEnclosed(OffsetRound(all, Thickened()), &regions_);
+      const Rings welded = Simplify(Offset(all, Welded()), Welded());
+      AddEnclosed(welded, &reach_);
+      for (const Ring& ring : welded) {
+        covered += SignedArea(ring);
+        open_.emplace_back(ring.rbegin(), ring.rend());
+      }
     }
-    if (area_.empty()) return;
+    if (open_.empty()) return;
     for (const Gate& gate : gates_) {
       min = {std::min(min.x, gate.at_m.x), std::min(min.y, gate.at_m.y)};
       max = {std::max(max.x, gate.at_m.x), std::max(max.y, gate.at_m.y)};
     }
     ground_ = Box({min.x - kMargin_m, min.y - kMargin_m}, {max.x + kMargin_m, max.y + kMargin_m});
     open_.insert(open_.begin(), ground_[0]);
-    outside_m2_ = std::abs(Area(ground_)) - Area(area_);
+    outside_m2_ = std::abs(Area(ground_)) - covered;
   }
 
   static Rings Box(Point2 min, Point2 max) { return {{min, {max.x, min.y}, max, {min.x, max.y}}}; }
 
-  // All but the region at the corner of the box, which is all round.
-  static void AddEnclosed(const Rings& free, Point2 corner, std::vector<Region>* regions) {
-    for (Region& region : RegionsOf(free))
-      if (std::hypot(region.min.x - corner.x, region.min.y - corner.y) > 1e-3) regions->push_back(std::move(region));
+  // The holes of an area are regions, and what stands in them are theirs.
+  static void AddEnclosed(const Rings& area, std::vector<Region>* regions) {
+    const size_t first = regions->size();
+    for (const Ring& ring : area)
+      if (SignedArea(ring) < 0) regions->push_back(RegionOf({Ring(ring.rbegin(), ring.rend()), {}}));
+    for (const Ring& ring : area) {
+      if (SignedArea(ring) < 0) continue;
+      Region* around = nullptr;
+      for (size_t i = first; i < regions->size(); ++i) {
+        Region& region = (*regions)[i];
+        const bool smaller = !around || region.area_m2 < around->area_m2;
+        if (smaller && InBox(region, ring[0]) && Contains(region.shape.outer, ring[0])) around = &region;
+      }
+      if (around) around->shape.holes.emplace_back(ring.rbegin(), ring.rend());
+    }
+    for (size_t i = first; i < regions->size(); ++i) (*regions)[i].area_m2 = Area(RingsOf((*regions)[i].shape));
   }
 
   // kOutside: all round; -1: nowhere.
@@ -193,9 +221,10 @@ class WaysCheck {
     std::vector<int> regions;
     for (const Gate& gate : gates_) {
       const Point2 p = Outside(gate);
-      const double gap = DistanceToBoundary(area_, p);
+      bool inside = false;
+      const double gap = GapTo(p, &inside);
       regions.push_back(-1);
-      if (Contains(area_, p)) {
+      if (inside) {
         state_.Add(gate.is_exit ? 602 : 601, gate.name, p, gap, 0, "'" + gate.name + "'");
         continue;
       }
@@ -215,6 +244,17 @@ class WaysCheck {
       cut_off_.push_back(regions[i]);
       state_.Add(604, gates_[i].name, gates_[i].at_m, 0, 0, "no exit can be reached from '" + gates_[i].name + "'");
     }
+  }
+
+  // To the nearest obstacle, or how far inside one.
+  double GapTo(Point2 p, bool* inside) const {
+    double least = 1e300;
+    for (const CheckedObstacle& entry : state_.obstacles) {
+      if (entry.rings.empty() || DistanceToBox(entry, p) >= least) continue;
+      least = std::min(least, DistanceToBoundary(entry.rings, p));
+      *inside |= Contains(entry.rings, p);
+    }
+    return least;
   }
 
   bool ReachesExit(int region, const std::vector<int>& regions) const {
@@ -241,7 +281,7 @@ class WaysCheck {
       if (std::any_of(outline.begin(), outline.end(), [&](Point2 p) { return broken_.Near(p, 2 * state_.options.person_radius_m); })) continue;
       const bool closed = RegionNear(reach_, region.shape.outer[0], 1e-3) != main_reach;
       const Point2 at = PlaceIn(region);
-      state_.Add(501, NearestObstacle(state_, at), at, area, state_.options.least_ground_m2,
+      state_.Add(501, NearestObstacle(state_.obstacles, at), at, area, state_.options.least_ground_m2,
                  SquareMetres(area) + (closed ? ", closed all round" : ", cut off by narrow gaps"));
       const bool large = region.area_m2 > kLargeShare * main_m2;
       if ((closed || area < kNook_m2) && !large && !Has(has_gate_, i)) state_.findings->back().severity = Severity::kWarning;
@@ -253,15 +293,11 @@ class WaysCheck {
   CheckState& state_;
   BrokenPlaces broken_;
   std::vector<Gate> gates_, usable_;  // the latter a step ahead, on free ground
-  Rings area_, ground_, open_;  // of obstacles; of all; of all without the obstacles
+  Rings ground_, open_;         // all, and all without the obstacles
   double outside_m2_ = 0;       // of the free ground all round, where there is no town
   std::vector<Region> regions_, reach_;
   std::vector<int> has_gate_, cut_off_;  // regions
 };
-
-double DistanceToBox(const CheckedObstacle& entry, Point2 p) {
-  return std::hypot(std::max({entry.min.x - p.x, 0.0, p.x - entry.max.x}), std::max({entry.min.y - p.y, 0.0, p.y - entry.max.y}));
-}
 
 }  // namespace
 
@@ -286,10 +322,10 @@ bool BrokenPlaces::Near(Point2 p, double reach) const {
   });
 }
 
-std::string NearestObstacle(const CheckState& state, Point2 p) {
+std::string NearestObstacle(const std::vector<CheckedObstacle>& obstacles, Point2 p) {
   const CheckedObstacle* nearest = nullptr;
   double least = 1e300;
-  for (const CheckedObstacle& entry : state.obstacles) {
+  for (const CheckedObstacle& entry : obstacles) {
     if (entry.rings.empty() || DistanceToBox(entry, p) >= least) continue;
     const double d = DistanceToBoundary(entry.rings, p);
     if (d < least) least = d, nearest = &entry;

@@ -10,7 +10,6 @@ namespace {
 constexpr double kStep_m = 0.1;         // of samples in narrow places
 constexpr double kMostSamples = 3000;   // more, and they stand further apart
 constexpr int kDirections = 16;         // of lines through a sample
-constexpr double kFarthestWall_m = 8;
 constexpr int kMostAsked = 60;          // samples asked for walls beside them
 constexpr double kLeastShare = 0.25;    // of them that must have some
 

@@ -23,8 +23,10 @@ class PassageTest {
   // `town` must outlive the test.
   PassageTest(const TownObjects& town, const GroundRaster& raster, const Options& options);
 
+  static constexpr double kFarthestWall_m = 8;  // beside a place under a roof
+
   // Splits free ground that an obstacle covers. A passage is roofed with headroom, wide enough for a person, and has walls
-  // or pillars on two opposite sides: so ground under eaves is none.
+  // or pillars on two opposite sides, among `walls`: so ground under eaves is none.
   PassageParts Sort(const Rings& area, const Rings& walls) const;
 
  private:

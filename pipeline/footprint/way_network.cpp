@@ -12,7 +12,7 @@ namespace {
 namespace bp = boost::polygon;
 constexpr double kFine_m = 200'000;       // ground up to this wide is drawn on a grid of 0.1 mm (32 bits), else of 1 mm
 constexpr double kRowHeight_m = 2;
-constexpr double kStep_m = 2.5;         // between nodes, at most,
+constexpr double kStep_m = 2.5;         // between nodes, at most (more where the way is wide),
 constexpr double kMostSteps = 1000;     // but no more than this many along one edge of the diagram
 
 using GridPoint = bp::point_data<int>;
@@ -123,7 +123,7 @@ class Builder {
       const Point2 at = FromGrid(vertex.x(), vertex.y());
       const auto& cell = *vertex.incident_edge()->cell();
       const double clearance = DistanceTo(cell, at);
-      if (clearance >= least_ && rows.Inside(at)) {
+      if (clearance >= least_ && IsInside(vertex, at, rows)) {
         node_of_[index] = static_cast<int>(network_.nodes.size());
         network_.nodes.push_back({at, clearance, IsOpen(vertex), {}});
       }
@@ -131,11 +131,26 @@ class Builder {
     }
   }
 
+  // Ground lies on the left of every edge.
+  bool IsInside(const Diagram::vertex_type& vertex, Point2 at, const Rows& rows) const {
+    const auto* first = vertex.incident_edge();
+    const auto* edge = first;
+    do {
+      if (!IsCorner(*edge->cell())) {
+        const Edge& e = EdgeOf(*edge->cell());
+        return (e.b.x - e.a.x) * (at.y - e.a.y) - (e.b.y - e.a.y) * (at.x - e.a.x) > 0;
+      }
+      edge = edge->rot_next();
+    } while (edge != first);
+    return rows.Inside(at);
+  }
+
+  bool IsOpen(const Diagram::cell_type& cell) const { return !IsCorner(cell) && EdgeOf(cell).open; }
   bool IsOpen(const Diagram::vertex_type& vertex) const {
     const auto* first = vertex.incident_edge();
     const auto* edge = first;
     do {
-      if (!IsCorner(*edge->cell()) && EdgeOf(*edge->cell()).open) return true;
+      if (IsOpen(*edge->cell())) return true;
       edge = edge->rot_next();
     } while (edge != first);
     return false;
@@ -155,15 +170,15 @@ class Builder {
         AddWay(from, to, cell, other);
         continue;
       }
-      const int middle = AddNode(at, narrowest);
+      const int middle = AddNode(at, narrowest, IsOpen(cell) || IsOpen(other));
       AddWay(from, middle, cell, other), AddWay(middle, to, cell, other);
     }
   }
 
   double ClearanceOf(int node) const { return network_.nodes[static_cast<size_t>(node)].clearance_m; }
 
-  int AddNode(Point2 at, double clearance) {
-    network_.nodes.push_back({at, clearance, false, {}});
+  int AddNode(Point2 at, double clearance, bool open) {
+    network_.nodes.push_back({at, clearance, open, {}});
     return static_cast<int>(network_.nodes.size()) - 1;
   }
 
@@ -171,11 +186,13 @@ class Builder {
   void AddWay(int from, int to, const Diagram::cell_type& cell, const Diagram::cell_type& other) {
     const Point2 a = network_.nodes[static_cast<size_t>(from)].at, b = network_.nodes[static_cast<size_t>(to)].at;
     const double length = std::hypot(b.x - a.x, b.y - a.y);
-    const int steps = static_cast<int>(std::clamp(std::ceil(length / kStep_m), 1.0, kMostSteps));
+    const double step = std::max(kStep_m, std::min(ClearanceOf(from), ClearanceOf(to)) / 2);
+    const int steps = static_cast<int>(std::clamp(std::ceil(length / step), 1.0, kMostSteps));
     int before = from;
     for (int s = 1; s <= steps; ++s) {
       const Point2 at{a.x + (b.x - a.x) * s / steps, a.y + (b.y - a.y) * s / steps};
-      const int next = s == steps ? to : AddNode(at, std::max(least_, std::min(DistanceTo(cell, at), DistanceTo(other, at))));
+      const int next = s == steps ? to : AddNode(at, std::max(least_, std::min(DistanceTo(cell, at), DistanceTo(other, at))),
+                                                       IsOpen(cell) || IsOpen(other));
       const int way = static_cast<int>(network_.ways.size());
       network_.ways.push_back({before, next, length / steps});
       network_.nodes[static_cast<size_t>(before)].ways.push_back(way);

@@ -9,7 +9,7 @@
 namespace flaneur {
 
 // Its name; empty where there are no obstacles.
-std::string NearestObstacle(const CheckState& state, Point2 p);
+std::string NearestObstacle(const std::vector<CheckedObstacle>& obstacles, Point2 p);
 
 // Where obstacles have broken rings: what lies beside them may be other than it seems, and is not reported.
 class BrokenPlaces {
@@ -22,8 +22,8 @@ class BrokenPlaces {
   std::vector<Box> boxes_;
 };
 
-// 502, 503 on ground without the obstacles.
+// 502, 503 on ground without the obstacles. `state` is for its options and findings.
 void CheckNetwork(const Rings& ground, const OpenTest& is_open, const std::vector<Gate>& gates,
-                  const BrokenPlaces& broken, CheckState* state);
+                  const BrokenPlaces& broken, const std::vector<CheckedObstacle>& obstacles, CheckState* state);
 
 }  // namespace flaneur

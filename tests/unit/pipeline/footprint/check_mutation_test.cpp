@@ -19,8 +19,11 @@
 namespace flaneur {
 namespace {
 
-constexpr int kTriesEach = 12;
 constexpr size_t kObstacles = 120;  // of a town, round a place
+int TriesEach() {  // more on request, to look for more
+  const char* asked = std::getenv("FLANEUR_TRIES");
+  return asked ? std::atoi(asked) : 10;
+}
 
 struct Case {
   Footprints footprints;
@@ -201,18 +204,19 @@ void BreakAndCheck(const Case& good, unsigned seed) {
   int broken = 0, missed = 0, more = 0;
   for (const Fault& fault : Faults()) {
     Random random(seed);
-    for (int i = 0, made = 0; i < 10 * kTriesEach && made < kTriesEach; ++i) {
+    for (int i = 0, made = 0; i < 10 * TriesEach() && made < TriesEach(); ++i) {
       Case c = good;
       const size_t at = Below(random, c.footprints.obstacles.size());
       std::string feature = c.footprints.obstacles[at].name;
       if (!fault.make(at, &c, random, &feature)) continue;
       ++made, ++broken;
       const std::multiset<Key> after = KeysOf(RunCheck(c));
-      std::multiset<Key> fresh;
+      std::multiset<Key> fresh, gone;
+      std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::inserter(gone, gone.end()));
       std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::inserter(fresh, fresh.end()));
       const bool found = std::any_of(fresh.begin(), fresh.end(), [&](const Key& k) { return std::get<0>(k) == fault.code && std::get<1>(k) == feature; });
       missed += !found, more += found && fresh.size() > 1;
-      EXPECT_TRUE(found && fresh.size() == 1) << fault.name << " (" << fault.code << ") at " << feature << ", new:\n" << Listed(fresh);
+      EXPECT_TRUE(found && fresh.size() == 1) << fault.name << " (" << fault.code << ") at " << feature << ", new:\n" << Listed(fresh) << " gone:\n" << Listed(gone);
     }
   }
   std::printf("%d faults made, %d not found, %d with more than themselves\n", broken, missed, more);

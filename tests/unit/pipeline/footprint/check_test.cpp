@@ -30,40 +30,21 @@ std::string Listed(const std::vector<Finding>& findings) {
   return text;
 }
 
-fs::path TownOf(const std::string& name) {
-  if (fs::exists(kCases / (name + ".gltf"))) return kCases / (name + ".gltf");
-  return name.starts_with("3") ? kCases / "street.gltf" : fs::path();
-}
-
 std::vector<Finding> CheckCase(const std::string& name) {
   GeoJsonFile file;
   EXPECT_EQ(ReadGeoJson(kCases / (name + ".geojson"), {}, &file).message, "");
   Scene town;
-  const fs::path town_path = TownOf(name);
-  if (!town_path.empty()) {
+  const fs::path town_path = kCases / (name + ".gltf");
+  const bool with_town = fs::exists(town_path);
+  if (with_town) {
     EXPECT_EQ(ReadScene(town_path, &town).message, "");
   }
   CheckOptions options;
   options.open_rings = file.open_rings;
   std::vector<Finding> findings;
-  EXPECT_EQ(Check(file.footprints, town_path.empty() ? nullptr : &town, options, &findings).message, "");
+  EXPECT_EQ(Check(file.footprints, with_town ? &town : nullptr, options, &findings).message, "");
   return findings;
 }
-
-class EachCode : public testing::TestWithParam<FindingKind> {};
-
-std::string NameOf(const testing::TestParamInfo<FindingKind>& kind) { return std::to_string(kind.param.code); }
-
-TEST_P(EachCode, IsRaisedByItsCaseAloneOnce) {
-  const int code = GetParam().code;
-  const std::vector<Finding> findings = CheckCase(std::to_string(code));
-  EXPECT_EQ(CodesOf(findings), std::set<int>{code}) << Listed(findings);
-  ASSERT_EQ(findings.size(), 1u) << Listed(findings);
-  EXPECT_EQ(findings[0].severity, GetParam().severity);
-  EXPECT_NE(findings[0].message.find(GetParam().title), std::string::npos);
-}
-
-INSTANTIATE_TEST_SUITE_P(All, EachCode, testing::ValuesIn(FindingKinds()), NameOf);
 
 TEST(Check, FindsNothingInSoundFiles) {
   for (const char* name : {"sound", "street"}) {
@@ -72,7 +53,7 @@ TEST(Check, FindsNothingInSoundFiles) {
   }
 }
 
-// ---- Either side of each tolerance ----
+// ---- Either side of each tolerance: also in the files of tests/data/check, which tests/cli/check_test.py goes through ----
 
 Obstacle Polygon(const std::string& name, const Ring& outer, const Rings& holes = {}) {
   Obstacle obstacle;

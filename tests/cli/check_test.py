@@ -1,0 +1,231 @@
+"""`flaneur check` from outside: the cases of tests/data/check, what it writes, its exit status, coordinate systems, bad input."""
+import json
+import math
+import re
+import unittest
+
+from support import SOURCE, ProgramTest, run, shared_data
+
+CASES = SOURCE / "tests/data/check"
+DOCUMENTED = re.findall(r"^### (\d+) .* \((error|warning)\)$", (SOURCE / "docs/findings.md").read_text(), re.MULTILINE)
+WITH_STREET = {"301", "302", "303", "304", "305", "307", "907", "street"}
+CANNOT_CHECK = {"901", "902"}
+NO_TOLERANCE = {"306", "901", "902", "903", "904", "905", "906", "907"}
+
+
+def house(x=0.0, y=0.0, name="house"):
+    ring = [[x, y], [x + 8, y], [x + 8, y + 6], [x, y + 6], [x, y]]
+    return {"type": "Feature", "properties": {"name": name}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+
+
+def circle_of(points, radius=50.0):
+    ring = [[radius * math.cos(2 * math.pi * i / points), radius * math.sin(2 * math.pi * i / points)] for i in range(points)]
+    return {"type": "Feature", "properties": {"name": "round"}, "geometry": {"type": "Polygon", "coordinates": [ring + ring[:1]]}}
+
+
+class Check(ProgramTest):
+    def check(self, path, *arguments):
+        out = self.folder / "findings.json"
+        out.unlink(missing_ok=True)
+        result = run("flaneur", "check", path, "--json", out, *arguments)
+        findings = json.loads(out.read_text())["findings"] if out.exists() else None
+        return result, findings
+
+    def check_case(self, name):
+        code = name.split("_")[0]
+        town = CASES / (f"{name}.gltf" if (CASES / f"{name}.gltf").exists() else "street.gltf")
+        with_town = code in WITH_STREET or town.name != "street.gltf"
+        return self.check(CASES / f"{name}.geojson", *(["--town", town] if with_town else []))
+
+    def check_obstacles(self, features, *arguments, members=None):
+        path = self.folder / "obstacles.geojson"
+        collection = {"type": "FeatureCollection", **({"flaneur": {"units": "m"}} if members is None else members)}
+        path.write_text(json.dumps({**collection, "features": features}))
+        return self.check(path, *arguments)
+
+    @staticmethod
+    def codes(findings):
+        return sorted({str(f["code"]) for f in findings})
+
+    def test_each_code_by_its_case_alone_once(self):
+        for code, severity in DOCUMENTED:
+            if code == "905":
+                continue  # of options, not of files
+            with self.subTest(code):
+                result, findings = self.check_case(code)
+                self.assertEqual(self.codes(findings), [code], findings)
+                self.assertEqual(len(findings), 1)
+                self.assertEqual(findings[0]["severity"], severity)
+                status = 2 if code in CANNOT_CHECK else 1 if severity == "error" else 0
+                self.assertEqual(result.returncode, status, result.stderr)
+                self.assertTrue(findings[0]["advice"])
+
+    def test_nothing_where_nothing_is(self):
+        for name in ["sound", "street"] + [f"{code}_none" for code, _ in DOCUMENTED]:
+            if (CASES / f"{name}.geojson").exists():
+                with self.subTest(name):
+                    result, findings = self.check_case(name)
+                    self.assertEqual((result.returncode, findings), (0, []))
+
+    def test_either_side_of_each_tolerance(self):
+        for code, _ in DOCUMENTED:
+            if code in NO_TOLERANCE:
+                continue
+            with self.subTest(code):
+                self.assertIn(code, self.codes(self.check_case(f"{code}_over")[1]))
+                self.assertNotIn(code, self.codes(self.check_case(f"{code}_under")[1]))
+
+    def test_each_number_can_be_set(self):
+        for name, option, value in (
+                ("102", "--same-point-m", 0.0004), ("106", "--least-area-m2", 0.005), ("107_over", "--largest-coordinate-m", 2e6),
+                ("108", "--most-points", 300), ("201", "--least-area-m2", 1), ("203", "--spike-length-m", 1),
+                ("301", "--tolerance-m", 0.5), ("302", "--clearance-m", 0.01), ("307_under", "--person-radius-m", 0.2),
+                ("401", "--overlap-m2", 5), ("403", "--person-radius-m", 0.05), ("501", "--least-ground-m2", 100),
+                ("502", "--dead-end-m", 20), ("503", "--high-resolution-radius-m", 25)):
+            with self.subTest(option):
+                town = ["--town", CASES / "street.gltf"] if name[:3] in WITH_STREET else []
+                _, findings = self.check(CASES / f"{name}.geojson", option, value, *town)
+                expected = "307" if name == "307_under" else None
+                self.assertEqual(expected in self.codes(findings) if expected else name[:3] in self.codes(findings), bool(expected))
+
+    def test_numbers_out_of_range(self):
+        for option in ("--tolerance-m", "--person-radius-m", "--spike-width-m", "--dead-end-m", "--scale"):
+            for value in ("0", "-1", "nan"):
+                with self.subTest(option=option, value=value):
+                    result, findings = self.check(CASES / "sound.geojson", f"{option}={value}")
+                    self.assertEqual(result.returncode, 2)
+                    self.assertEqual(self.codes(findings), ["905"])
+                    self.assertIn(option[2:], result.stderr)
+
+    def test_exit_status(self):
+        self.assertEqual(self.check(CASES / "403.geojson")[0].returncode, 0)
+        self.assertEqual(self.check(CASES / "403.geojson", "--warnings-as-errors")[0].returncode, 1)
+        self.assertEqual(self.check(CASES / "401.geojson")[0].returncode, 1)
+        self.assertEqual(self.check(self.folder / "none.geojson")[0].returncode, 2)
+
+    def test_all_that_is_written(self):
+        paths = {name: self.folder / name for name in ("f.json", "f.geojson", "map.svg", "map.html")}
+        result = run("flaneur", "check", CASES / "401.geojson", "--json", paths["f.json"], "--geojson", paths["f.geojson"],
+                     "--map", paths["map.svg"], "--html", paths["map.html"])
+        self.assertIn("401 obstacles overlap: 1", result.stdout)
+        self.assertIn("1 errors, 0 warnings", result.stdout)
+        finding = json.loads(paths["f.json"].read_text())["findings"][0]
+        self.assertEqual((finding["feature"], finding["other"]), ("house", "neighbour"))
+        feature = json.loads(paths["f.geojson"].read_text())["features"][0]
+        self.assertEqual(feature["geometry"]["coordinates"], finding["at_m"])
+        self.assertEqual(feature["properties"]["code"], 401)
+        page = paths["map.html"].read_text()
+        self.assertNotIn("http", page.replace("http://www.w3.org/2000/svg", ""), "the page must need nothing from elsewhere")
+        for text in (page, paths["map.svg"].read_text()):
+            self.assertIn("house", text)
+            self.assertIn("401", text)
+
+    def test_faults_of_one_ring_are_all_reported(self):
+        ring = [[0, 0], [0, 6], [0, 6.0005], [8, 6], [8, 0]]  # clockwise, open, two points coincide
+        turned = {"type": "Feature", "properties": {"name": "turned"}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+        bow = {"type": "Feature", "properties": {"name": "bow"},
+               "geometry": {"type": "Polygon", "coordinates": [[[20, 0], [28, 6], [28, 0], [20, 6], [20, 0]]]}}
+        _, findings = self.check_obstacles([turned, bow, house(40, 0, "a"), house(47, 0, "b")])
+        self.assertEqual(self.codes(findings), ["102", "103", "104", "105", "401"])
+
+    # ---- Coordinate systems ----
+
+    def test_degrees_become_true_metres(self):
+        # One second of latitude and of longitude at 52 degrees north: 30.904 m and 19.087 m on WGS 84.
+        second = 1 / 3600
+        ring = [[10, 52], [10 + second, 52], [10 + second, 52 + second], [10, 52 + second], [10, 52]]
+        far = [[10 + 2 * second, 52], [10 + 3 * second, 52], [10 + 3 * second, 52 + second], [10 + 2 * second, 52 + second],
+               [10 + 2 * second, 52]]
+        features = [{"type": "Feature", "properties": {"name": str(i)}, "geometry": {"type": "Polygon", "coordinates": [r]}}
+                    for i, r in enumerate((ring, far))]
+        _, findings = self.check_obstacles(features, "--person-radius-m", 8, "--least-ground-m2", 1e9, members={})
+        gap = [f for f in findings if f["code"] == 404][0]
+        self.assertAlmostEqual(gap["value"], 19.087, delta=0.01)
+        self.assertAlmostEqual(gap["at_file"][0], 10 + 1.5 * second, delta=1e-7)
+
+    def test_projected_metres_by_crs_and_by_option(self):
+        crs = {"crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}}
+        features = [house(604000, 5779000, "a"), house(604007, 5779000, "b")]
+        for arguments, members in (([], crs), (["--crs", "EPSG:25832"], {}), (["--units", "metres"], {})):
+            with self.subTest(arguments):
+                _, findings = self.check_obstacles(features, *arguments, members=members)
+                self.assertEqual(self.codes(findings), ["401"])
+                self.assertAlmostEqual(findings[0]["at_file"][0], 604007.5, delta=0.01)
+                self.assertAlmostEqual(findings[0]["value"], 6, delta=0.001)
+
+    def test_a_stretched_map_is_set_right(self):
+        crs = {"crs": {"type": "name", "properties": {"name": "EPSG:3857"}}}
+        _, findings = self.check_obstacles([house(1172000, 6830000, "a"), house(1172007, 6830000, "b")], members=crs)
+        self.assertEqual(self.codes(findings), ["401"])
+        self.assertLess(findings[0]["value"], 3, "6 m2 of the map are less than half of that on the ground, 52 degrees north")
+
+    def test_other_coordinates_than_stated(self):
+        crs = {"crs": {"type": "name", "properties": {"name": "EPSG:25832"}}}
+        degrees = json.loads((CASES / "903_none.geojson").read_text())["features"]
+        metres = [house(604000, 5779000)]
+        for name, features, arguments, members in (
+                ("metres without saying so", metres, [], {}), ("degrees as metres", degrees, ["--units", "metres"], {}),
+                ("degrees in our own file", degrees, [], None), ("degrees in a projection", degrees, [], crs),
+                ("metres as degrees", metres, ["--units", "degrees"], {}),
+                ("a place far from the projection's", [house(604000, 100)], [], crs)):
+            with self.subTest(name):
+                result, findings = self.check_obstacles(features, *arguments, members=members)
+                self.assertEqual((result.returncode, self.codes(findings)), (1, ["903"]))
+
+    # ---- Bad input ----
+
+    def test_bad_files(self):
+        for text, code in (("no JSON", "901"), ("[]", "901"), ('{"type": "Feature', "901"), ('{"type": "FeatureCollection"}', "901"),
+                           ('{"type": "FeatureCollection", "features": []}', "902"), ('{"a":' * 100000, "901"),
+                           ('{"type": "FeatureCollection", "features": [{"type": "Feature", "geometry": null}]}', "902")):
+            with self.subTest(text[:60]):
+                path = self.folder / "obstacles.geojson"
+                path.write_text(text)
+                result, findings = self.check(path)
+                self.assertEqual((result.returncode, self.codes(findings)), (2, [code]))
+                self.assertEqual(len(result.stderr.strip().splitlines()), 1)
+
+    def test_a_broken_feature_hides_no_other(self):
+        torn = house(20, 0, "torn")
+        torn["geometry"]["coordinates"] = [[["a", 1]]]
+        _, findings = self.check_obstacles([torn, house(0, 0, "a"), house(7, 0, "b")])
+        self.assertEqual([(f["code"], f["feature"]) for f in findings], [(401, "a"), (904, "torn")])
+
+    def test_numbers_that_are_none(self):
+        path = self.folder / "obstacles.geojson"
+        for word in ("NaN", "Infinity", "-Infinity", "null"):
+            with self.subTest(word):
+                path.write_text(json.dumps({"type": "FeatureCollection", "flaneur": {}, "features": [house(0, 0, "NaN Infinity")]})
+                                .replace("[8, 6]", f"[8, {word}]"))
+                _, findings = self.check(path)
+                self.assertEqual([(f["code"], f["feature"]) for f in findings], [(107, "NaN Infinity")])
+
+    def test_huge_and_tiny(self):
+        def square(side):
+            ring = [[0, 0], [side, 0], [side, side], [0, side], [0, 0]]
+            return {"type": "Feature", "properties": {"name": "square"}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+        self.assertEqual(self.check_obstacles([square(1000)])[1], [])
+        self.assertEqual(self.codes(self.check_obstacles([square(0.001)])[1]), ["106"])
+        self.assertEqual(self.codes(self.check_obstacles([circle_of(1_000_000)])[1]), ["102", "108"])
+        self.assertEqual(self.codes(self.check_obstacles([circle_of(20_000)])[1]), ["108"])
+        stray = house(0, 0, "stray")
+        stray["geometry"]["coordinates"][0][2] = [8, 900000]
+        self.assertNotIn("107", self.codes(self.check_obstacles([house(20, 0), stray])[1]))
+
+    def test_empty_and_short_rings(self):
+        for rings in ([], [[]], [[[0, 0]]], [[[0, 0], [8, 0]]], [[[0, 0], [8, 0], [0, 0]]], [[[1, 1]] * 6]):
+            with self.subTest(rings):
+                short = {"type": "Feature", "properties": {"name": "short"}, "geometry": {"type": "Polygon", "coordinates": rings}}
+                _, findings = self.check_obstacles([house(20, 0), short])
+                self.assertEqual([(f["code"], f["feature"]) for f in findings], [(101, "short")])
+
+    # ---- A real town ----
+
+    def test_old_town_of_krems(self):
+        _, findings = self.check(shared_data("footprints/krems_old.geojson"))
+        count = {code: sum(f["code"] == code for f in findings) for code in (104, 401, 402)}
+        self.assertEqual(count, {104: 0, 401: 34, 402: 0}, "554 pairs touch, 34 overlap")
+
+
+if __name__ == "__main__":
+    unittest.main()
