@@ -12,7 +12,7 @@
 #include "pipeline/footprint/map.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/io/geojson.h"
-#include "pipeline/io/gltf.h"
+#include "pipeline/io/scene_reader.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {
@@ -28,7 +28,7 @@ struct CheckArguments {
 
 void AddOptions(CLI::App* app, CheckArguments* a) {
   app->add_option("OBSTACLES", a->obstacles, "GeoJSON file of obstacles, Flaneur's or any other")->required();
-  app->add_option("--town", a->town, "The town they stand for (glTF): walls, ground, doors and exits are checked too");
+  app->add_option("--town", a->town, "The town they stand for, in any format that footprints reads: walls, ground, doors and exits are checked too");
   app->add_option("--json", a->json, "Write the findings as JSON");
   app->add_option("--geojson", a->geojson, "Write the findings as GeoJSON points, in the file's own coordinates");
   app->add_option("--map", a->map, "Draw a plan with the findings as SVG");
@@ -93,11 +93,26 @@ Error Give(const CheckArguments& a, int code, const Error& error, std::vector<Fi
   return error;
 }
 
-void AddFaults(const GeoJsonFile& file, std::vector<Finding>* findings) {
-  for (const GeoJsonFault& fault : file.faults) {
-    const int code = fault.kind == GeoJsonFaultKind::kBrokenFeature ? 904 : fault.kind == GeoJsonFaultKind::kOtherSystem ? 903 : 906;
-    findings->push_back(FaultOf(code, fault.feature, fault.message));
+void AddFaults(const std::vector<GeoJsonFault>& faults, std::vector<Finding>* findings) {
+  for (const GeoJsonFault& fault : faults) {
+    const std::map<GeoJsonFaultKind, int> codes{{GeoJsonFaultKind::kBrokenFeature, 904},
+                                                {GeoJsonFaultKind::kOtherSystem, 903},
+                                                {GeoJsonFaultKind::kUnknownSystem, 906},
+                                                {GeoJsonFaultKind::kElsewhere, 907}};
+    findings->push_back(FaultOf(codes.at(fault.kind), fault.feature, fault.message));
   }
+}
+
+// The town, with the obstacles moved to where it stands. `lies_apart`: they cannot be, and the town is of no use.
+Error ReadTown(const CheckArguments& a, GeoJsonFile* file, Scene* town, bool* lies_apart) {
+  std::vector<std::string> warnings;
+  if (Error error = ReadScene(a.town, town, &warnings)) return error;
+  for (const std::string& warning : warnings) std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
+  const Point2 origin{town->origin_m.x * a.options.scale, town->origin_m.y * a.options.scale};
+  const size_t before = file->faults.size();
+  if (Error error = MoveToTown(town->reference_system, origin, file)) return error;
+  *lies_apart = file->faults.size() > before;
+  return Ok();
 }
 
 Error Run(const CheckArguments& a, int* status) {
@@ -105,7 +120,7 @@ Error Run(const CheckArguments& a, int* status) {
   GeoJsonFile file;
   if (Error error = ReadGeoJson(a.obstacles, a.reading, &file)) return Give(a, 901, error);
   std::vector<Finding> faults;
-  AddFaults(file, &faults);
+  AddFaults(file.faults, &faults);
   if (file.footprints.obstacles.empty()) {
     const std::string why = faults.empty() ? "" : "; " + faults[0].feature + ": " + faults[0].message;
     return Give(a, 902, Fail(a.obstacles.string() + ": holds no polygon and no circle" + why), faults);
@@ -113,11 +128,16 @@ Error Run(const CheckArguments& a, int* status) {
   if (file.skipped > 0)
     std::fprintf(stderr, "flaneur: warning: %s: %d features are no obstacles, streets or doors; left out\n",
                  a.obstacles.c_str(), file.skipped);
-  const bool with_town = !a.town.empty();
+  bool with_town = !a.town.empty();
   Scene town;
   GroundRaster ground;
   if (with_town) {
-    if (Error error = ReadScene(a.town, &town)) return Give(a, 901, error, faults);
+    bool lies_apart = false;
+    if (Error error = ReadTown(a, &file, &town, &lies_apart)) return Give(a, 901, error, faults);
+    if (lies_apart) AddFaults({file.faults.back()}, &faults);
+    with_town = !lies_apart;
+  }
+  if (with_town) {
     GroundRasterOptions options;
     options.scale = a.options.scale;
     if (Error error = RasterizeGround(town, options, &ground)) return Give(a, 901, error, faults);

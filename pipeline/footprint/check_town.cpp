@@ -4,6 +4,7 @@
 #include <set>
 
 #include "pipeline/footprint/band.h"
+#include "pipeline/footprint/base_ground.h"
 #include "pipeline/footprint/check_parts.h"
 #include "pipeline/footprint/extract_footprints.h"
 #include "pipeline/footprint/passages.h"
@@ -171,14 +172,25 @@ class TownCheck {
   }
 
   void FindWalls() {
-    const LocalGround ground(raster_);
+    std::vector<LocalGround> terrain;
+    if (!objects_.ground.empty()) terrain.emplace_back(raster_);
     for (const TownObject& object : objects_.obstacles) {
       if (missing_.contains(object.name)) continue;
       const Box box{{object.min_m.x, object.min_m.y}, {object.max_m.x, object.max_m.y}};
       if (IsBroken(object.name, box)) continue;
       if (object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp) FindTrunk(object, box);
-      else CheckWalls(object, box, Lines(CutToBand(object.triangles, ground, state_.footprints.band_m)));
+      else CheckWalls(object, box, terrain.empty() ? WallsInBand(object, GroundsUnder(object)) : WallsInBand(object, terrain));
     }
+  }
+
+  // Over the same ground as the extraction's.
+  std::vector<Segment> WallsInBand(const TownObject& object, const std::vector<LocalGround>& grounds) const {
+    std::vector<Segment> walls;
+    for (const LocalGround& ground : grounds) {
+      const std::vector<Segment> more = Lines(CutToBand(object.triangles, ground, state_.footprints.band_m));
+      walls.insert(walls.end(), more.begin(), more.end());
+    }
+    return walls;
   }
 
   void FindTrunk(const TownObject& object, const Box& box) {

@@ -562,7 +562,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   *footprints = {};
   footprints->clearance_m = options.clearance_m;
   footprints->band_m = options.band_m;
-  footprints->origin_m = scene.origin_m;
+  footprints->origin_m = {scene.origin_m.x * options.scale, scene.origin_m.y * options.scale};
   FootprintStats counts;
   std::vector<Shape> shapes(town.obstacles.size());
   const auto is_round = [](const TownObject& o) {

@@ -23,7 +23,7 @@ struct Way { std::string name; std::vector<Point2> points; };
 struct Place { std::string name; Point2 at; bool is_exit = false; };
 
 // What is wrong with a file that can be read all the same.
-enum class GeoJsonFaultKind { kBrokenFeature, kOtherSystem, kUnknownSystem };
+enum class GeoJsonFaultKind { kBrokenFeature, kOtherSystem, kUnknownSystem, kElsewhere };
 struct GeoJsonFault { GeoJsonFaultKind kind; std::string feature, message; };
 
 struct GeoJsonFile {
@@ -37,6 +37,9 @@ struct GeoJsonFile {
   int skipped = 0;                 // features that are nothing of all this
   Point2 moved_m;                  // add to a coordinate to get the file's own, where they were only moved
   std::string system, local_system;  // else: of the file's coordinates, and of ours
+  Point2 local_origin_m;             // add to our coordinates to get those of local_system
+  std::string map_system;            // of ours with footprints.origin_m added, where that is known
+  bool has_origin = true;            // false: one of our own files that does not say where it lies
 };
 
 // Polygons, multipolygons (one obstacle each part), points with `radius_m`, lines, and points of kind door, exit, spawn. Rings come as they stand, only the
@@ -45,6 +48,11 @@ struct GeoJsonFile {
 // projected coordinates are moved near zero. Coordinates that cannot be in the system stated are a fault, and read as what
 // they look like. Errors: unreadable, not JSON, no GeoJSON; a system asked for that is not known.
 Error ReadGeoJson(const std::filesystem::path& path, const ReadGeoJsonOptions& options, GeoJsonFile* file);
+
+// Into the coordinates of a town that was moved near zero by `origin_m`; `reference_system` of its own ones, empty where not
+// known. Neither known: nothing is moved. What lies in no common system or beyond 100 km is a fault (kElsewhere), and stays
+// where it is. Errors: none but PROJ's own.
+Error MoveToTown(const std::string& reference_system, Point2 origin_m, GeoJsonFile* file);
 
 // Back into the file's own coordinates.
 std::vector<Point2> ToFileCoordinates(const GeoJsonFile& file, std::vector<Point2> points);

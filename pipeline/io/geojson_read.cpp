@@ -93,8 +93,12 @@ class Reader {
     stated.units = options.units, stated.system = options.system;
     if (stated.units == GeoJsonUnits::kAuto && stated.system.empty()) {
       const Json& crs = Member(root, "crs");
-      if (root.contains("flaneur")) stated.units = GeoJsonUnits::kMetres, stated.local = true;
-      else if (crs.is_object()) stated.system = TextOf(Member(crs, "properties"), "name");
+      if (root.contains("flaneur")) {
+        stated.units = GeoJsonUnits::kMetres, stated.local = true;
+        out_->has_origin = Member(root, "flaneur").contains("origin_m");
+      } else if (crs.is_object()) {
+        stated.system = TextOf(Member(crs, "properties"), "name");
+      }
     }
     if (Error error = ToLocalMetres(stated, out_))
       return Fail(OneLine(file_name_ + ": " + error.message));

@@ -14,12 +14,27 @@ constexpr double kNullIsland_deg = 1;         // nobody's town is that near to l
 constexpr double kHouse_deg = 5e-4;           // houses are smaller than this (50 m), and no house is in metres
 constexpr double kOutsideOfUse_deg = 3;       // systems are used this far outside of their own area
 
+constexpr double kElsewhere_m = 100'000;      // no town is as wide as that
+
 using Points = std::vector<Point2>;
+
+template <typename Function>
+void ForEachPoint(GeoJsonFile* file, const Function& function) {
+  for (Obstacle& o : file->footprints.obstacles) {
+    for (Point2& p : o.outer) function(p);
+    for (auto& hole : o.holes)
+      for (Point2& p : hole) function(p);
+    if (o.outer.empty()) function(o.center);
+  }
+  for (Place& place : file->places) function(place.at);
+  for (Way& way : file->ways)
+    for (Point2& p : way.points) function(p);
+}
 
 class Systems {
  public:
   Systems(const StatedSystem& stated, GeoJsonFile* file) : stated_(stated), file_(*file) {
-    ForEachPoint([&](Point2& p) { points_.push_back(p); });
+    ForEachPoint(&file_, [&](Point2& p) { points_.push_back(p); });
   }
 
   Error Run() {
@@ -34,19 +49,6 @@ class Systems {
   }
 
  private:
-  template <typename Function>
-  void ForEachPoint(const Function& function) {
-    for (Obstacle& o : file_.footprints.obstacles) {
-      for (Point2& p : o.outer) function(p);
-      for (auto& hole : o.holes)
-        for (Point2& p : hole) function(p);
-      if (o.outer.empty()) function(o.center);
-    }
-    for (Place& place : file_.places) function(place.at);
-    for (Way& way : file_.ways)
-      for (Point2& p : way.points) function(p);
-  }
-
   // Of each coordinate by itself, so that a few stray points do not move it.
   void FindMiddle() {
     std::vector<double> x, y;
@@ -117,6 +119,7 @@ class Systems {
     if (Error error = TransformPoints(stated_.system, LocalMapSystem(place[0]), &corner)) return error;
     const auto length = [&](size_t i) { return std::hypot(corner[i].x - corner[0].x, corner[i].y - corner[0].y) / 100; };
     if (std::abs(length(1) - 1) > kStretched || std::abs(length(2) - 1) > kStretched) return Transform(stated_.system);
+    file_.map_system = stated_.system;
     MoveNearZero();
     return Ok();
   }
@@ -128,7 +131,7 @@ class Systems {
     file_.local_system = LocalMapSystem(place[0]);
     if (Error error = TransformPoints(system, file_.local_system, &points_)) return error;
     size_t next = 0;
-    ForEachPoint([&](Point2& p) { p = points_[next++]; });
+    ForEachPoint(&file_, [&](Point2& p) { p = points_[next++]; });
     return Ok();
   }
 
@@ -136,7 +139,7 @@ class Systems {
     if (std::abs(middle_.x) < kFarFromOrigin_m && std::abs(middle_.y) < kFarFromOrigin_m) return;
     if (std::abs(middle_.x) > 1e8 || std::abs(middle_.y) > 1e8) return;
     const Point2 move{std::floor(middle_.x / 1000) * 1000, std::floor(middle_.y / 1000) * 1000};
-    ForEachPoint([&](Point2& p) { p = {p.x - move.x, p.y - move.y}; });
+    ForEachPoint(&file_, [&](Point2& p) { p = {p.x - move.x, p.y - move.y}; });
     Point2& origin = file_.footprints.origin_m;
     origin = {origin.x + move.x, origin.y + move.y};
     file_.moved_m = move;
@@ -152,7 +155,46 @@ class Systems {
 
 Error ToLocalMetres(const StatedSystem& stated, GeoJsonFile* file) { return Systems(stated, file).Run(); }
 
+Error MoveToTown(const std::string& reference_system, Point2 origin_m, GeoJsonFile* file) {
+  const bool placed = !reference_system.empty() || origin_m.x != 0 || origin_m.y != 0;
+  if (!placed || !file->has_origin) return Ok();
+  const auto elsewhere = [&](const std::string& why) {
+    file->faults.push_back({GeoJsonFaultKind::kElsewhere, "", why});
+    return Ok();
+  };
+  const bool transformed = !file->system.empty();
+  MapSystem map;
+  const bool named = !reference_system.empty() && !FindMapSystem(reference_system, &map) && !map.degrees;
+  if (transformed && !named)
+    return elsewhere("the obstacles are in " + file->system + ", the town is in " +
+                     (reference_system.empty() ? "a system that it does not name" : "'" + reference_system + "'"));
+  const std::string from = transformed ? file->local_system : file->map_system;
+  const Point2 old = transformed ? file->local_origin_m : file->footprints.origin_m;
+  Points points;
+  ForEachPoint(file, [&](const Point2& p) { points.push_back({p.x + old.x, p.y + old.y}); });
+  const bool other_system = named && !from.empty() && from != reference_system;
+  if (other_system)
+    if (Error error = TransformPoints(from, reference_system, &points)) return error;
+  const auto far = [&](Point2 p) { return std::hypot(p.x - origin_m.x, p.y - origin_m.y) > kElsewhere_m; };
+  if (2 * std::count_if(points.begin(), points.end(), far) > static_cast<std::ptrdiff_t>(points.size()))
+    return elsewhere("most obstacles are more than 100 km from the town");
+  size_t next = 0;
+  ForEachPoint(file, [&](Point2& p) { p = {points[next].x - origin_m.x, points[next].y - origin_m.y}, ++next; });
+  Point2& moved = file->moved_m;
+  if (other_system) {
+    if (!transformed) file->system = from, moved = {moved.x - old.x, moved.y - old.y};
+    file->local_system = reference_system;
+    file->local_origin_m = origin_m;
+  } else {
+    moved = {moved.x + origin_m.x - old.x, moved.y + origin_m.y - old.y};
+  }
+  file->footprints.origin_m = origin_m;
+  file->map_system = reference_system;
+  return Ok();
+}
+
 std::vector<Point2> ToFileCoordinates(const GeoJsonFile& file, std::vector<Point2> points) {
+  for (Point2& p : points) p = {p.x + file.local_origin_m.x, p.y + file.local_origin_m.y};
   if (!file.system.empty() && !TransformPoints(file.local_system, file.system, &points)) return points;
   for (Point2& p : points) p = {p.x + file.moved_m.x, p.y + file.moved_m.y};
   return points;

@@ -23,6 +23,32 @@ def circle_of(points, radius=50.0):
     return {"type": "Feature", "properties": {"name": "round"}, "geometry": {"type": "Polygon", "coordinates": [ring + ring[:1]]}}
 
 
+def city_of_two(path, system="EPSG:25832"):
+    """A CityJSON town without terrain: two houses on a slope, 3 m of height and 4 m of way apart, at 604 km east."""
+    vertices, objects = [], {}
+    for name, x, z in (("upper", 0, 53), ("lower", 12, 50)):
+        first = len(vertices)
+        vertices += [[x + u, v, z + w] for w in (0, 7) for u, v in ((0, 0), (8, 0), (8, 6), (0, 6))]
+        sides = [[0, 3, 2, 1], [4, 5, 6, 7]] + [[i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i] for i in range(4)]
+        faces = [[[first + i for i in side]] for side in sides]
+        semantics = {"surfaces": [{"type": "GroundSurface"}, {"type": "RoofSurface"}, {"type": "WallSurface"}],
+                     "values": [[0, 1, 2, 2, 2, 2]]}
+        solid = {"type": "Solid", "lod": "2", "boundaries": [faces], "semantics": semantics}
+        objects[name] = {"type": "Building", "geometry": [solid]}
+    metadata = {"referenceSystem": f"https://www.opengis.net/def/crs/EPSG/0/{system.split(':')[1]}"} if system else {}
+    path.write_text(json.dumps({"type": "CityJSON", "version": "2.0", "metadata": metadata, "CityObjects": objects, "vertices": vertices,
+                                "transform": {"scale": [1, 1, 1], "translate": [604000, 5779000, 0]}}))
+    return path
+
+
+def moved(features, x, y):
+    """The same polygons elsewhere."""
+    def shift(p):
+        return [p[0] + x, p[1] + y]
+    return [{**f, "geometry": {**f["geometry"], "coordinates": [[shift(p) for p in ring] for ring in f["geometry"]["coordinates"]]}}
+            for f in features]
+
+
 class Check(ProgramTest):
     def check(self, path, *arguments):
         out = self.folder / "findings.json"
@@ -219,7 +245,59 @@ class Check(ProgramTest):
                 _, findings = self.check_obstacles([house(20, 0), short])
                 self.assertEqual([(f["code"], f["feature"]) for f in findings], [(101, "short")])
 
+    # ---- Towns in map coordinates ----
+
+    def extracted(self, town):
+        out = self.folder / "extracted.geojson"
+        self.assert_succeeds(run("flaneur", "footprints", town, "-o", out))
+        return out, json.loads(out.read_text())
+
+    def test_a_city_model_against_its_own_footprints(self):
+        town = city_of_two(self.folder / "town.json")
+        out, _ = self.extracted(town)
+        result, findings = self.check(out, "--town", town)
+        self.assertEqual((result.returncode, findings), (0, []), "each house stands on its own ground")
+
+    def test_origins_are_compared(self):
+        town = city_of_two(self.folder / "town.json")
+        _, made = self.extracted(town)
+        east, north = made["flaneur"]["origin_m"]
+        for name, by, codes in (("moved as it says", (0, 0), []), ("moved by less than it says", (0, 0.2), ["301", "303"]),
+                                ("another town's", (5000, 0), ["907"]), ("another country's", (500000, 0), ["907"])):
+            with self.subTest(name):
+                member = {**made["flaneur"], "origin_m": [east - 37 + by[0], north + 250 + by[1]]}
+                _, findings = self.check_obstacles(moved(made["features"], 37, -250), "--town", town, members={"flaneur": member})
+                self.assertEqual(self.codes(findings), codes)
+                if codes and codes[0] == "301":  # in the file's own coordinates
+                    upper = [f for f in findings if f["code"] == 301 and f["feature"] == "upper"][0]["at_file"]
+                    self.assertAlmostEqual(upper[1], 5779000 - north - 250, delta=0.3)
+
+    def test_projected_obstacles_of_a_city_model(self):
+        town = city_of_two(self.folder / "town.json")
+        _, made = self.extracted(town)
+        projected = moved(made["features"], *made["flaneur"]["origin_m"])
+        crs = {"crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}}
+        for arguments, members in (([], crs), (["--units", "metres"], {})):
+            with self.subTest(arguments):
+                _, findings = self.check_obstacles(projected, "--town", town, "--clearance-m", 0.05, *arguments, members=members)
+                self.assertEqual(findings, [])
+
+    def test_degrees_against_a_town_that_names_no_system(self):
+        town = city_of_two(self.folder / "town.json", system=None)
+        ring = [[10.51, 52.15], [10.5101, 52.15], [10.5101, 52.1501], [10.51, 52.15]]
+        plot = {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+        _, findings = self.check_obstacles([plot], "--town", town, members={})
+        self.assertEqual(self.codes(findings), ["907"])
+
     # ---- A real town ----
+
+    def test_a_tile_against_its_own_footprints(self):
+        for tile in ("LoD2_32_329_5725_1_NW.gml", "LoD2_32_354_5652_1_NW.gml"):
+            with self.subTest(tile):
+                town = shared_data(f"towns/nrw-lod2/{tile}")
+                out, _ = self.extracted(town)
+                _, findings = self.check(out, "--town", town)
+                self.assertEqual([f for f in findings if 300 < f["code"] < 400], [])
 
     def test_old_town_of_krems(self):
         _, findings = self.check(shared_data("footprints/krems_old.geojson"))
