@@ -107,6 +107,10 @@ Error ReadTown(Baking* baking, Scene* town, std::vector<std::string>* warnings) 
   const auto append = [&](const fs::path& file, float scale, float yaw_deg, Vec2 position_m) -> Error {
     Scene part;
     if (Error e = ReadScene(file, &part, warnings)) return e;
+    if (file == baking->sources[0]) {
+      town->origin_m = {part.origin_m.x * scale, part.origin_m.y * scale};
+      town->reference_system = part.reference_system;
+    }
     AppendScene(std::move(part), scale, yaw_deg * kPi / 180, position_m, town);
     return Ok();
   };
@@ -116,6 +120,9 @@ Error ReadTown(Baking* baking, Scene* town, std::vector<std::string>* warnings) 
   for (const TownPart& part : baking->settings.parts) {
     if (Error e = append(part.file, part.scale, part.yaw_deg, part.position_m)) return e;
   }
+  const Georeference& georeference = baking->settings.georeference;
+  if (georeference.crs.empty()) town->reference_system.clear();
+  if (Error e = SetGeoreference(georeference, 1, town, warnings)) return Fail("town.georeference: " + e.message);
   if (AddGroundWhereNone(kBareGroundMargin_m, town)) {
     warnings->push_back("most of the town has no ground under it; a flat square was added");
   }
@@ -278,13 +285,19 @@ Error WritePack(Baking* baking, const fs::path& staging) {
   const std::string& name = baking->settings.name;
   return RunStep(&baking->steps, "pack", name, [&](StageReport* report, std::vector<std::string>*) -> Error {
     TourParts& parts = baking->parts;
+    parts.footprints.origin_m = parts.town.origin_m;  // kept ones may have another
+    parts.footprints.reference_system = parts.town.reference_system;
     BakeReport& whole = baking->steps.report;
     parts.name = name;
     parts.path = baking->settings.path;
     parts.crowd = baking->settings.crowd;
     parts.control = baking->settings.control;
     parts.light = baking->settings.light;
-    if (Error e = WriteGeoJson(staging / "footprints.geojson", parts.footprints)) return e;
+    const fs::path footprints = staging / "footprints.geojson";
+    if (Error e = WriteGeoJson(footprints, parts.footprints)) return e;
+    if (!parts.footprints.reference_system.empty()) {
+      if (Error e = WriteLongitudeLatitude(LongitudeLatitudePath(footprints), parts.footprints)) return e;
+    }
     if (Error e = WritePlan(staging / "plan.png", parts.ground, parts.footprints)) return e;
     if (Error e = WriteTourPack(staging / (name + ".glb"), parts, &whole.pack_bytes)) return e;
     whole.pack_path = (baking->output / (name + ".glb")).string();
@@ -301,8 +314,11 @@ Error WriteResults(Baking* baking) {
   if (Error e = WritePack(baking, staging.path())) return e;
   if (Error e = WriteReport(staging.path(), baking->steps.report)) return e;
   fs::remove(baking->Cache("fingerprint"), ec);
-  for (const std::string& name : {baking->settings.name + ".glb", std::string("footprints.geojson"), std::string("plan.png"),
-                                  std::string("report.html"), std::string("report.json")}) {
+  const std::string on_earth = LongitudeLatitudePath("footprints.geojson");
+  std::vector<std::string> names{baking->settings.name + ".glb", "footprints.geojson", "plan.png", "report.html", "report.json"};
+  if (fs::exists(staging.path() / on_earth, ec)) names.push_back(on_earth);
+  else fs::remove(baking->output / on_earth, ec);  // of a georeference that is gone
+  for (const std::string& name : names) {
     fs::rename(staging.path() / name, baking->output / name, ec);
     if (ec) return Fail((baking->output / name).string() + ": cannot be written: " + ec.message());
   }
@@ -323,6 +339,8 @@ bool ReportUnchanged(const Baking& baking, const std::string& inputs) {
   if (ReadTextFile(baking.Cache("fingerprint"), &known) || known != inputs || !fs::exists(pack, ec) ||
       !fs::exists(output / "report.html", ec) || !fs::exists(output / "footprints.geojson", ec) ||
       !fs::exists(output / "plan.png", ec) ||
+      (!baking.settings.georeference.crs.empty() && baking.settings.georeference.crs != "none" &&
+       !fs::exists(LongitudeLatitudePath(output / "footprints.geojson"), ec)) ||
       ReadTextFile(output / "report.json", &text)) {
     return false;
   }

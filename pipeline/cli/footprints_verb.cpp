@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "pipeline/cli/arguments.h"
+#include "pipeline/cli/georeference.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/footprint/extract_footprints.h"
 #include "pipeline/footprint/map.h"
@@ -18,12 +20,19 @@ namespace {
 struct FootprintsArguments {
   std::filesystem::path town, output, map;
   FootprintOptions options;
+  Georeference georeference;
+  std::array<double, 2> origin_m{};
 };
 
 void AddOptions(CLI::App* app, FootprintsArguments* a) {
   app->add_option("TOWN", a->town, "The town: glTF, tagged by the town convention or not; OBJ; CityJSON; CityGML")->required();
   app->add_option("-o,--output", a->output, "GeoJSON file to write")->required();
   app->add_option("--map", a->map, "Also draw a plan as SVG");
+  app->add_option("--crs", a->georeference.crs,
+                  "Map system of the town's coordinates, in metres, such as EPSG:25832, whatever its file says; where it is known, "
+                  "longitudes and latitudes are written too, beside the output: NAME_wgs84.geojson. none: it is not known");
+  app->add_option("--origin-m", a->origin_m, "Add to the town's coordinates to get those of the map: EAST NORTH; for glTF, "
+                                             "city models have their own");
   app->option_defaults()->always_capture_default();
   app->add_option("--clearance-m", a->options.clearance_m, "Enlarge obstacles by this")
       ->check(CLI::Range(0.0, 10.0));
@@ -45,9 +54,15 @@ Error Run(const FootprintsArguments& a) {
   FootprintStats stats;
   std::vector<std::string> warnings;
   if (Error error = ReadScene(a.town, &scene, &warnings)) return error;
+  Georeference georeference = a.georeference;
+  georeference.origin_m = {a.origin_m[0], a.origin_m[1]};
+  if (Error error = SetGeoreference(georeference, a.options.scale, &scene, &warnings))
+    return Fail(a.town.string() + ": " + error.message);
   if (Error error = ExtractFootprints(scene, a.options, &footprints, &stats, &warnings))
     return Fail(a.town.string() + ": " + error.message);
   for (const std::string& warning : warnings) std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
+  if (!footprints.reference_system.empty())
+    if (Error error = WriteLongitudeLatitude(LongitudeLatitudePath(a.output), footprints)) return error;
   if (Error error = WriteGeoJson(a.output, footprints)) return error;
   std::printf("%s: %d obstacles from %d objects, %d triangles; %.1f m2 covered\n", a.output.c_str(), stats.obstacles,
               stats.objects, stats.triangles, stats.covered_m2);

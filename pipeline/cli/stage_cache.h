@@ -46,7 +46,7 @@ template <typename A> void Fields(A& a, ImpostorAtlas* v) {
 template <typename A> void Fields(A& a, Obstacle* v) {
   a(&v->name, &v->kind, &v->source, &v->clearance_m, &v->ground_z_m, &v->outer, &v->holes, &v->center, &v->radius_m);
 }
-template <typename A> void Fields(A& a, Footprints* v) { a(&v->clearance_m, &v->band_m, &v->origin_m, &v->obstacles); }
+template <typename A> void Fields(A& a, Footprints* v) { a(&v->clearance_m, &v->band_m, &v->origin_m, &v->reference_system, &v->obstacles); }
 template <typename A> void Fields(A& a, GroundRaster* v) {
   a(&v->min_m, &v->cell_m, &v->columns, &v->rows, &v->height_m, &v->kind);
 }

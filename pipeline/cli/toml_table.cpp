@@ -1,12 +1,16 @@
 #include "pipeline/cli/toml_table.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
+
+constexpr double kLargestMap_m = 1e8;  // twice round the earth
 
 std::string Compact(double number) {
   std::ostringstream out;
@@ -123,6 +127,17 @@ void TomlTable::Point(const char* key, Vec2* value) {
   Numbers(key, &numbers, -1e6, 1e6);
   if (numbers.size() != 2) return context_->Refuse(node, Name(key) + " must be [x, y] in metres");
   *value = {numbers[0], numbers[1]};
+}
+
+void TomlTable::MapPoint(const char* key, Point2* value) {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return;
+  const toml::array* array = node->as_array();
+  const auto number = [&](size_t i) { return array && array->size() == 2 ? (*array)[i].value<double>() : std::nullopt; };
+  const auto x = number(0), y = number(1);
+  if (!x || !y || !(std::abs(*x) <= kLargestMap_m && std::abs(*y) <= kLargestMap_m))
+    return context_->Refuse(node, Name(key) + " must be [east, north] in metres of the map");
+  *value = {*x, *y};
 }
 
 void TomlTable::File(const char* key, std::filesystem::path* value) {

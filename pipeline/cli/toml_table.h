@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/core/footprint.h"
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
 
@@ -38,6 +39,7 @@ class TomlTable {
   void Numbers(const char* key, std::vector<float>* values, double least, double most);
   void Texts(const char* key, std::vector<std::string>* values);
   void Point(const char* key, Vec2* value);
+  void MapPoint(const char* key, Point2* value);  // of any size, in full precision
   void File(const char* key, std::filesystem::path* value);  // relative to the file's folder
   void Json(const char* key, std::string* json);             // a table, as a JSON object
   // The table, or array of tables, under the key.

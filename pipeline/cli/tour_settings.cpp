@@ -41,6 +41,10 @@ void ReadPart(TomlTable table, TourSettings* settings) {
 void ReadTown(TomlTable table, TourSettings* settings) {
   ReadSource(&table, &settings->town);
   table.Number("scale", &settings->town_scale, 1e-6, 1e6);
+  TomlTable georeference = table.Table("georeference");
+  georeference.Text("crs", &settings->georeference.crs);
+  georeference.MapPoint("origin_m", &settings->georeference.origin_m);
+  georeference.Finish();
   for (TomlTable& part : table.Tables("part")) ReadPart(part, settings);
   table.Finish();
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/avatar/decimate.h"
+#include "pipeline/cli/georeference.h"
 #include "pipeline/cli/painting.h"
 #include "pipeline/footprint/extract_footprints.h"
 #include "pipeline/footprint/rasterize_ground.h"
@@ -42,6 +43,7 @@ struct TourSettings {
   std::string name;
   SourceSettings town;            // empty file: only parts
   float town_scale = 1;           // metres per unit of the town's file
+  Georeference georeference;      // of the town
   std::vector<TownPart> parts;
   std::vector<AvatarSettings> avatars;
   LevelsOptions levels;

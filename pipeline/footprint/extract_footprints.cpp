@@ -563,6 +563,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   footprints->clearance_m = options.clearance_m;
   footprints->band_m = options.band_m;
   footprints->origin_m = {scene.origin_m.x * options.scale, scene.origin_m.y * options.scale};
+  footprints->reference_system = scene.reference_system;
   FootprintStats counts;
   std::vector<Shape> shapes(town.obstacles.size());
   const auto is_round = [](const TownObject& o) {

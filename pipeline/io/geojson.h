@@ -38,7 +38,6 @@ struct GeoJsonFile {
   Point2 moved_m;                  // add to a coordinate to get the file's own, where they were only moved
   std::string system, local_system;  // else: of the file's coordinates, and of ours
   Point2 local_origin_m;             // add to our coordinates to get those of local_system
-  std::string map_system;            // of ours with footprints.origin_m added, where that is known
   bool has_origin = true;            // false: one of our own files that does not say where it lies
 };
 
@@ -59,5 +58,8 @@ std::vector<Point2> ToFileCoordinates(const GeoJsonFile& file, std::vector<Point
 
 // Coordinates to 0.1 mm. Errors: as for WriteFile.
 Error WriteGeoJson(const std::filesystem::path& path, const Footprints& footprints);
+
+// Longitudes and latitudes on WGS 84, as the standard has it, to 0.1 mm. Errors: as for CheckMapPlace and WriteFile.
+Error WriteLongitudeLatitude(const std::filesystem::path& path, const Footprints& footprints);
 
 }  // namespace flaneur

@@ -94,8 +94,10 @@ class Reader {
     if (stated.units == GeoJsonUnits::kAuto && stated.system.empty()) {
       const Json& crs = Member(root, "crs");
       if (root.contains("flaneur")) {
-        stated.units = GeoJsonUnits::kMetres, stated.local = true;
-        out_->has_origin = Member(root, "flaneur").contains("origin_m");
+        const Json& ours = Member(root, "flaneur");
+        stated.local = TextOf(ours, "units") != "deg";
+        stated.units = stated.local ? GeoJsonUnits::kMetres : GeoJsonUnits::kDegrees;
+        out_->has_origin = !stated.local || ours.contains("origin_m");
       } else if (crs.is_object()) {
         stated.system = TextOf(Member(crs, "properties"), "name");
       }
@@ -124,6 +126,7 @@ class Reader {
       return bad("'band_m' must be two ascending numbers");
     if (ours.contains("origin_m") && !ReadPair(ours["origin_m"], &f.origin_m.x, &f.origin_m.y))
       return bad("'origin_m' must be two numbers");
+    f.reference_system = TextOf(ours, "crs");
     return Ok();
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipeline/io/map_projection.h"
+#include "pipeline/io/town_builder.h"
 
 namespace flaneur {
 namespace {
@@ -12,7 +13,6 @@ constexpr double kFarFromOrigin_m = 10'000;   // coordinates further away are mo
 constexpr double kStretched = 0.005;          // maps whose lengths are off by more are transformed
 constexpr double kNullIsland_deg = 1;         // nobody's town is that near to longitude and latitude zero
 constexpr double kHouse_deg = 5e-4;           // houses are smaller than this (50 m), and no house is in metres
-constexpr double kOutsideOfUse_deg = 3;       // systems are used this far outside of their own area
 
 constexpr double kElsewhere_m = 100'000;      // no town is as wide as that
 
@@ -112,14 +112,12 @@ class Systems {
     Points corner{middle_, {middle_.x + 100, middle_.y}, {middle_.x, middle_.y + 100}};
     Points place{middle_};
     if (Error error = TransformPoints(stated_.system, kLongitudeLatitude, &place)) return error;
-    const double slack = kOutsideOfUse_deg;
-    if (!(place[0].x > system.west - slack && place[0].x < system.east + slack && place[0].y > system.south - slack &&
-          place[0].y < system.north + slack))
+    if (!IsUsedAt(system, place[0]))
       return Other(stated_.system, "outside the area that it is for; read as metres", "");
     if (Error error = TransformPoints(stated_.system, LocalMapSystem(place[0]), &corner)) return error;
     const auto length = [&](size_t i) { return std::hypot(corner[i].x - corner[0].x, corner[i].y - corner[0].y) / 100; };
     if (std::abs(length(1) - 1) > kStretched || std::abs(length(2) - 1) > kStretched) return Transform(stated_.system);
-    file_.map_system = stated_.system;
+    file_.footprints.reference_system = PlainReferenceSystem(stated_.system);
     MoveNearZero();
     return Ok();
   }
@@ -168,7 +166,7 @@ Error MoveToTown(const std::string& reference_system, Point2 origin_m, GeoJsonFi
   if (transformed && !named)
     return elsewhere("the obstacles are in " + file->system + ", the town is in " +
                      (reference_system.empty() ? "a system that it does not name" : "'" + reference_system + "'"));
-  const std::string from = transformed ? file->local_system : file->map_system;
+  const std::string from = transformed ? file->local_system : file->footprints.reference_system;
   const Point2 old = transformed ? file->local_origin_m : file->footprints.origin_m;
   Points points;
   ForEachPoint(file, [&](const Point2& p) { points.push_back({p.x + old.x, p.y + old.y}); });
@@ -189,7 +187,7 @@ Error MoveToTown(const std::string& reference_system, Point2 origin_m, GeoJsonFi
     moved = {moved.x + origin_m.x - old.x, moved.y + origin_m.y - old.y};
   }
   file->footprints.origin_m = origin_m;
-  file->map_system = reference_system;
+  file->footprints.reference_system = reference_system;
   return Ok();
 }
 

@@ -10,6 +10,8 @@
 namespace flaneur {
 namespace {
 
+constexpr double kOutsideOfUse_deg = 3;  // systems are used this far outside of their own area
+
 struct Free {
   void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
   void operator()(PJ* object) const { proj_destroy(object); }
@@ -53,13 +55,39 @@ Error FindMapSystem(const std::string& name, MapSystem* system) {
   const Object object(proj_create(context.get(), name.c_str()));
   if (!object || !proj_is_crs(object.get())) return Fail("coordinate system '" + name + "' is not known");
   *system = {};
-  const PJ_TYPE type = proj_get_type(object.get());
+  // Of a system with heights of its own, the part for the plane.
+  const bool compound = proj_get_type(object.get()) == PJ_TYPE_COMPOUND_CRS;
+  const Object plane(compound ? proj_crs_get_sub_crs(context.get(), object.get(), 0) : nullptr);
+  const PJ_TYPE type = proj_get_type(plane ? plane.get() : object.get());
   system->degrees = type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
   const char* area = nullptr;
   double w = 0, s = 0, e = 0, n = 0;
-  if (proj_get_area_of_use(context.get(), object.get(), &w, &s, &e, &n, &area) && w > -1000)
+  if (proj_get_area_of_use(context.get(), object.get(), &w, &s, &e, &n, &area) && w > -1000) {
+    system->has_area = true;
     system->west = w, system->south = s, system->east = e, system->north = n;
+  }
   return Ok();
+}
+
+bool IsUsedAt(const MapSystem& system, Point2 longitude_latitude) {
+  const auto [x, y] = longitude_latitude;
+  constexpr double kSlack = kOutsideOfUse_deg;
+  return x > system.west - kSlack && x < system.east + kSlack && y > system.south - kSlack && y < system.north + kSlack;
+}
+
+Error CheckMapPlace(const std::string& system, Point2 at_m) {
+  MapSystem map;
+  if (Error error = FindMapSystem(system, &map)) return Fail(error.message + "; use a name such as EPSG:25832");
+  if (map.degrees) return Fail("coordinate system '" + system + "' has degrees; a town needs one in metres, such as EPSG:25832");
+  char at[80];
+  std::snprintf(at, sizeof at, "(%.10g, %.10g)", at_m.x, at_m.y);
+  if (map.has_area && (at_m.x != 0 || at_m.y != 0) && IsUsedAt(map, at_m))
+    return Fail(std::string(at) + " looks like degrees, but '" + system + "' has metres");
+  std::vector<Point2> place{at_m};
+  if (Error error = TransformPoints(system, kLongitudeLatitude, &place)) return error;
+  if (IsUsedAt(map, place[0])) return Ok();
+  return Fail(std::string(at) + " is outside the area that '" + system +
+              "' is for; the coordinates are in another system, or their origin is missing");
 }
 
 }  // namespace flaneur

@@ -22,8 +22,16 @@ Error TransformPoints(const std::string& from, const std::string& to, std::vecto
 
 struct MapSystem {
   bool degrees = false;
+  bool has_area = false;
   double west = -180, south = -90, east = 180, north = 90;  // where it is meant to be used, degrees
 };
 Error FindMapSystem(const std::string& name, MapSystem* system);
+
+// Within the area of use, or up to 3 degrees beside it.
+bool IsUsedAt(const MapSystem& system, Point2 longitude_latitude);
+
+// Whether these can be coordinates of a town in this system. Errors: a name that PROJ does not know, a system of degrees,
+// degrees in a system of metres, a place outside of the area that it is for; each says what to do.
+Error CheckMapPlace(const std::string& system, Point2 at_m);
 
 }  // namespace flaneur

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <regex>
 
 #include "pipeline/io/triangulate_polygon.h"
@@ -13,6 +14,24 @@ namespace {
 
 constexpr double kFarFromOrigin_m = 10'000;  // floats there are coarser than a millimetre
 constexpr double kOriginStep_m = 100;
+
+// A house in degrees is narrower than 50 m are, and yet higher than this; nobody's town lies at longitude and latitude zero.
+constexpr double kHouse_deg = 5e-4, kHouseHeight_m = 0.5, kNullIsland_deg = 1;
+
+struct Extent {
+  Point3 min{1e300, 1e300, 1e300}, max{-1e300, -1e300, -1e300};
+  void Add(const Point3& p) {
+    min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
+    max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
+  }
+  Point2 Middle() const { return {(min.x + max.x) / 2, (min.y + max.y) / 2}; }
+};
+
+bool IsHouseInDegrees(const Extent& e) {
+  const Point2 middle = e.Middle();
+  return e.max.x - e.min.x < kHouse_deg && e.max.y - e.min.y < kHouse_deg && e.max.z - e.min.z > kHouseHeight_m &&
+         std::hypot(middle.x, middle.y) > kNullIsland_deg && std::abs(middle.x) <= 180 && std::abs(middle.y) <= 180;
+}
 
 struct SurfaceLook { const char* name; Vec4 color; };
 constexpr std::array<SurfaceLook, 4> kLooks{{{"other", {0.55f, 0.53f, 0.50f, 1}},
@@ -76,12 +95,22 @@ void TownBuilder::AddPolygon(int node, SurfaceKind surface, const std::vector<st
   for (const auto& [a, b, c] : triangles) triangles_.push_back({node, surface, points[a], points[b], points[c]});
 }
 
+bool TownBuilder::IsInDegrees() const {
+  std::map<int, Extent> extents;  // by node
+  for (const Triangle& t : triangles_)
+    for (const Point3& p : {t.a, t.b, t.c}) extents[t.node].Add(p);
+  const auto in_degrees = std::count_if(extents.begin(), extents.end(), [](const auto& e) { return IsHouseInDegrees(e.second); });
+  return 2 * static_cast<size_t>(in_degrees) > extents.size();
+}
+
 Error TownBuilder::Finish(const std::string& file, const std::string& reference_system, Scene* scene,
                           std::vector<std::string>* warnings) {
   if (without_area_ > 0 && warnings)
     warnings->push_back(file + ": " + std::to_string(without_area_) +
                         " faces have fewer than three corners or no area; they were left out");
   if (triangles_.empty()) return Fail(OneLine(file + ": holds no face with an area, so there is no town in it"));
+  if (IsInDegrees())
+    return Fail(OneLine(file + ": the coordinates are degrees; bring them into a map system in metres, such as EPSG:25832, first"));
   *scene = {};
   scene->reference_system = reference_system;
   Point2 min{1e300, 1e300}, max{-1e300, -1e300};

@@ -21,11 +21,12 @@ class TownBuilder {
   void AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings);
 
   // Coordinates far from zero are moved by whole hundreds of metres: see Scene::origin_m. Nodes without triangles stay
-  // where something hangs on them. Errors: nothing but polygons without area (names `file`).
+  // where something hangs on them. Errors: nothing but polygons without area, degrees; each names `file`.
   Error Finish(const std::string& file, const std::string& reference_system, Scene* scene,
                std::vector<std::string>* warnings);
 
  private:
+  bool IsInDegrees() const;  // most nodes
   struct Triangle { int node; SurfaceKind surface; Point3 a, b, c; };
   std::vector<SceneNode> nodes_;
   std::vector<int> foundations_;

@@ -120,6 +120,23 @@ TEST(TourSettings, TheReferenceFileNamesEveryKnownSetting) {
   EXPECT_EQ(named, std::set<std::string>(known.begin(), known.end()));
 }
 
+TEST(TourSettings, AGeoreferenceKeepsItsDigits) {
+  const auto with = [](const std::string& more) {
+    return "[town]\nfile = \"town.glb\"\n" + more + "\n[[avatar]]\nfile = \"person.glb\"\n";
+  };
+  TourSettings s;
+  ASSERT_EQ(Read(with("georeference = { crs = \"EPSG:25832\", origin_m = [603900.125, 5780000] }"), &s), "");
+  EXPECT_EQ(s.georeference.crs, "EPSG:25832");
+  EXPECT_EQ(s.georeference.origin_m.x, 603900.125);
+  EXPECT_EQ(s.georeference.origin_m.y, 5780000);
+  for (const char* origin : {"[1]", "[1, 2, 3]", "5", "[1, \"b\"]", "[nan, 0]", "[1e9, 0]"}) {
+    const std::string message = Refusal(with(std::string("georeference = { origin_m = ") + origin + " }"));
+    EXPECT_EQ(message.find(":3: town.georeference.origin_m must be"), 0u) << message;
+  }
+  EXPECT_NE(Refusal(with("georeference = { srs = \"EPSG:25832\" }")).find("unknown key 'srs' in [town.georeference]"),
+            std::string::npos);
+}
+
 TEST(TourSettings, TheDemoTourIsUnderstood) {
   TourSettings demo;
   ASSERT_EQ(ReadTourSettings(std::filesystem::path(FLANEUR_SOURCE_DIR) / "assets_src/wolfenbuettel/tour.toml", &demo).message,
