@@ -44,7 +44,7 @@ template <typename A> void Fields(A& a, ImpostorAtlas* v) {
     &v->motion_ktx2);
 }
 template <typename A> void Fields(A& a, Obstacle* v) {
-  a(&v->name, &v->kind, &v->source, &v->clearance_m, &v->ground_z_m, &v->outer, &v->holes, &v->center, &v->radius_m);
+  a(&v->name, &v->kind, &v->source, &v->clearance_m, &v->ground_z_m, &v->open_shell, &v->outer, &v->holes, &v->center, &v->radius_m);
 }
 template <typename A> void Fields(A& a, Footprints* v) { a(&v->clearance_m, &v->band_m, &v->origin_m, &v->reference_system, &v->obstacles); }
 template <typename A> void Fields(A& a, GroundRaster* v) {

@@ -22,6 +22,7 @@ struct Obstacle {
   std::string source;                      // node or object id it was made from
   double clearance_m = 0;
   double ground_z_m = 0;
+  bool open_shell = false;                 // its walls do not close, or had to be closed: the outline is a guess (306)
   std::vector<Point2> outer;               // anticlockwise, first point not repeated
   std::vector<std::vector<Point2>> holes;  // clockwise
   Point2 center;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "pipeline/footprint/check_parts.h"
 
@@ -57,6 +58,18 @@ Error Validate(const CheckOptions& options) {
   return Ok();
 }
 
+namespace {
+
+// 306, as the extraction has noted it; once for each building.
+void AddOpenShells(CheckState* state) {
+  std::set<std::string> told;
+  for (const Obstacle& o : state->footprints.obstacles)
+    if (o.open_shell && told.insert(o.source.empty() ? o.name : o.source).second)
+      state->Add(306, o.name, o.outer.empty() ? o.center : o.outer[0], 0, 0, "the extraction had to guess at '" + o.name + "'");
+}
+
+}  // namespace
+
 Error Check(const Footprints& footprints, const Scene* town, const CheckOptions& options,
             std::vector<Finding>* findings) {
   if (Error error = Validate(options)) return error;
@@ -66,8 +79,11 @@ Error Check(const Footprints& footprints, const Scene* town, const CheckOptions&
   for (const Obstacle& o : footprints.obstacles) state.obstacles.emplace_back().obstacle = &o;
   CheckRings(&state);
   CheckPairs(&state);
-  if (town)
+  if (town) {
     if (Error error = CheckAgainstTown(*town, &state)) return error;
+  } else {
+    AddOpenShells(&state);
+  }
   if (Error error = CheckWays(town, &state)) return error;
   CheckStreets(&state);
   SortFindings(findings);

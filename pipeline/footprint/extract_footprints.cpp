@@ -518,6 +518,10 @@ Error CheckOptions(const FootprintOptions& options) {
   return Ok();
 }
 
+bool IsOpen(const TownObject& object, const Shape& shape) {
+  return object.kind == ObstacleKind::kBuilding && (shape.guessed || shape.open_m > kOpenShell_m);
+}
+
 void MergeBlock(const std::vector<size_t>& block, std::vector<Shape>* shapes) {
   Shape& first = (*shapes)[block[0]];
   for (size_t k = 1; k < block.size(); ++k) {
@@ -576,10 +580,14 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
     counts.triangles += static_cast<int>(town.obstacles[i].triangles.size());
     counts.lines += shapes[i].lines;
   }
+  std::set<size_t> merged_open;  // blocks by their first object
   for (const std::vector<size_t>& block : Blocks(town.obstacles)) {
     if (block.size() < 2) continue;
     ShareBlock(site, town.obstacles, block, &shapes);
-    if (options.merge_blocks) MergeBlock(block, &shapes);
+    if (!options.merge_blocks) continue;
+    if (std::any_of(block.begin(), block.end(), [&](size_t i) { return IsOpen(town.obstacles[i], shapes[i]); }))
+      merged_open.insert(block[0]);
+    MergeBlock(block, &shapes);
   }
   std::vector<Rings> enlarged(shapes.size());
   ForEach(shapes.size(), options.threads, [&](size_t i) { enlarged[i] = Enlarged(site, shapes[i]); });
@@ -587,7 +595,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   Separate(town.obstacles, shapes, options.clearance_m > kSliver_m ? kSliver_m : kThinWall_m, &enlarged);
 
   for (size_t i = 0; i < shapes.size(); ++i)
-    if (town.obstacles[i].kind == ObstacleKind::kBuilding && (shapes[i].guessed || shapes[i].open_m > kOpenShell_m))
+    if (IsOpen(town.obstacles[i], shapes[i]))
       counts.open_shells.push_back(town.obstacles[i].name);
 
   NameGiver names;
@@ -602,6 +610,8 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
       }
     } else {
       AddPolygons(site, object, enlarged[i], &names, footprints);
+      for (size_t k = before; k < footprints->obstacles.size(); ++k)
+        footprints->obstacles[k].open_shell = IsOpen(object, shapes[i]) || merged_open.contains(i);
       counts.covered_m2 += Area(enlarged[i]);
     }
     if (footprints->obstacles.size() == before && shapes[i].lines == 0 && warnings)

@@ -39,6 +39,7 @@ std::string FeatureText(const Obstacle& o, int decimals) {
   std::string out = R"({"type":"Feature","properties":{"name":)" + Json(o.name).dump() + R"(,"kind":")" +
                     ObstacleKindName(o.kind) + R"(","source":)" + Json(o.source).dump() + R"(,"clearance_m":)" +
                     Number(o.clearance_m) + R"(,"ground_z_m":)" + Number(o.ground_z_m);
+  if (o.open_shell) out += R"(,"open_shell":true)";
   if (circle) {
     out += R"(,"radius_m":)" + Number(o.radius_m) + R"(},"geometry":{"type":"Point","coordinates":)";
     return out + Coordinates(o.center, decimals) + "}}";

@@ -177,6 +177,7 @@ class Reader {
     for (const auto& [key, value] : {std::pair{"clearance_m", &o->clearance_m}, {"ground_z_m", &o->ground_z_m}})
       if (!Member(properties, key).is_null() && !ReadNumber(properties[key], value))
         return Fail(std::string("'") + key + "' must be a number");
+    o->open_shell = Member(properties, "open_shell") == true;
     const std::string kind = TextOf(properties, "kind");
     for (const ObstacleKind k : {ObstacleKind::kBuilding, ObstacleKind::kWall, ObstacleKind::kTree,
                                  ObstacleKind::kLamp, ObstacleKind::kOther})

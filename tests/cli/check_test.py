@@ -258,6 +258,15 @@ class Check(ProgramTest):
         result, findings = self.check(out, "--town", town)
         self.assertEqual((result.returncode, findings), (0, []), "each house stands on its own ground")
 
+    def test_open_shells_are_told_by_the_file_too(self):
+        out, made = self.extracted(CASES / "306.gltf")
+        self.assertTrue(any(f["properties"].get("open_shell") is True for f in made["features"]))
+        for arguments in ([], ["--town", CASES / "306.gltf"]):
+            _, findings = self.check(out, *arguments)
+            self.assertEqual([f["code"] for f in findings if f["code"] < 400], [306])
+        _, made = self.extracted(city_of_two(self.folder / "town.json"))
+        self.assertFalse(any("open_shell" in f["properties"] for f in made["features"]))
+
     def test_origins_are_compared(self):
         town = city_of_two(self.folder / "town.json")
         _, made = self.extracted(town)
