@@ -72,9 +72,11 @@ inline constexpr float kArrival_m = 0.5f;
 
 // People decide about ten times a second: reaction times are 0.1 to 0.2 s.
 inline constexpr int kTurnEvery_steps = 3;
+// Half as often where nobody can see what they do.
+inline constexpr int kFarTurnEvery_steps = 2 * kTurnEvery_steps;
 // Lines of sight to the goal are renewed once in so many steps; once in twice as many while it is in sight.
 inline constexpr int kSightEvery_steps = 10 * kTurnEvery_steps;
 // Who is out of sight and far from everything walks straight on for up to so many steps.
-inline constexpr int kMostCoast_steps = 4 * kTurnEvery_steps;
+inline constexpr int kMostCoast_steps = 8 * kTurnEvery_steps;
 
 }  // namespace flaneur

@@ -44,7 +44,7 @@ void FindContacts(float step_s, Crowd* c) {
   c->contacts.reserve(kMostContacts * c->size());
   const NeighbourGrid& g = c->neighbours;
   float most_mps = 0;
-  for (float top_mps : c->top_mps) most_mps = std::max(most_mps, top_mps);
+  for (int i : c->caring) most_mps = std::max(most_mps, c->top_mps[static_cast<size_t>(i)]);
   const float margin_m = 2 * most_mps * step_s + kContactMargin_m;
   const auto test = [&](const Neighbour& a, int first, int end) {
     for (int k = first; k < end; ++k) {

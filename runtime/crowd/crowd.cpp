@@ -13,6 +13,8 @@
 namespace flaneur {
 namespace {
 
+constexpr size_t kFetchAhead = 16;  // people
+
 bool IsLost(const Crowd& c, size_t i) { return c.way[i].x == 0 && c.way[i].y == 0; }
 
 // Straight to the goal where it is in sight, else as the flow field says.
@@ -48,48 +50,46 @@ int CoastSteps(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
   return 0;
 }
 
-// People out of sight only follow their way.
+// What people out of sight want: along their way, or as the control asks.
 void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, size_t i, Crowd* c) {
-  if (c->detour_s[i] > 0) {
-    c->coast[i] = 0;
-    c->mind[i].push = {};
-    c->wanted[i] = c->detour[i];
-    return;
-  }
-  if (c->coast[i] > 0) {
-    --c->coast[i];
-    return;
-  }
-  const bool walks = c->activity[i] == Activity::kWalking && c->field[i] >= 0;
-  if (!walks) {
-    c->wanted[i] = {};
-    return;
-  }
-  const bool lost = IsLost(*c, i), turn = IsTurn(*c, i);
-  if (!turn && !lost) return;
-  const int64_t phase = (c->step + static_cast<int64_t>(i)) % (2 * kSightEvery_steps);
-  RenewWay(w, i, lost || phase < kMostCoast_steps, true, c);
-  const int cell = CellAt(w, c->position[i]);
-  const float alone_mps = std::min(c->preferred_mps[i], c->top_mps[i]);
   Mind& mind = c->mind[i];
   mind.push = {};
+  if (c->detour_s[i] > 0 || c->activity[i] != Activity::kWalking || c->field[i] < 0) {
+    c->wanted[i] = c->detour_s[i] > 0 ? c->detour[i] : Vec2{};
+    return;
+  }
+  const bool lost = IsLost(*c, i);
+  if (!c->turn[i] && !lost) return;
+  c->sees_goal[i] = 0;
+  RenewWay(w, i, false, true, c);
+  const int cell = CellAt(w, c->position[i]);
+  const float alone_mps = std::min(c->preferred_mps[i], c->top_mps[i]);
   mind.clear_from = c->position[i];
   mind.clear_m = ClearAround_m(w, cell);
   c->wanted[i] = c->way[i] * SpeedOnSlope(w, cell, alone_mps);
-  if (!turn) return;
+  if (!c->turn[i]) return;
   c->coast[i] = static_cast<uint8_t>(std::max(0, CoastSteps(w, moving, step_s, *c, i, cell) - 1));
   if (c->coast[i] > 0) c->velocity[i] = c->wanted[i];
 }
 
-void RenewWays(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
-  for (size_t i = 0; i < c->size(); ++i) {
-    c->cares[i] = c->view[i] != ViewClass::kOutside;
-    if (!c->cares[i]) {
-      FollowWay(w, moving, step_s, i, c);
-      continue;
-    }
+// Those who decide soon ask for ground all over the town.
+void FetchGround(const Walkable& w, size_t i, const Crowd& c) {
+  if (c.field[i] < 0) return;
+  const FlowField& field = c.fields[static_cast<size_t>(c.field[i])];
+  const int cell = CellAt(w, c.position[i]);
+  if (cell < 0 || field.direction.empty()) return;
+  __builtin_prefetch(&w.cells[static_cast<size_t>(cell)]);
+  __builtin_prefetch(&field.direction[static_cast<size_t>(cell)]);
+}
+
+// Where those who take care go next, and what they have in mind; some of them look around in this step.
+void RenewWays(const Walkable& w, Crowd* c) {
+  for (size_t k = 0; k < c->caring.size(); ++k) {
+    const size_t i = static_cast<size_t>(c->caring[k]);
+    const size_t soon = static_cast<size_t>(c->caring[std::min(k + kFetchAhead, c->caring.size() - 1)]);
+    if (c->turn[soon]) FetchGround(w, soon, *c);
     c->coast[i] = 0;
-    if (IsTurn(*c, i)) {
+    if (c->turn[i]) {
       Mind& mind = c->mind[i];
       const bool on_detour = c->detour_s[i] > 0;
       mind.alone_mps = on_detour ? Length(c->detour[i]) : c->preferred_mps[i];
@@ -99,7 +99,7 @@ void RenewWays(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
     }
     if (c->field[i] < 0) continue;
     const bool lost = IsLost(*c, i);
-    if (lost || IsTurn(*c, i)) {
+    if (lost || c->turn[i]) {
       const int64_t every = c->sees_goal[i] ? 2 * kSightEvery_steps : kSightEvery_steps;
       RenewWay(w, i, lost || (c->step + static_cast<int64_t>(i)) % every == 0, false, c);
     }
@@ -121,12 +121,18 @@ bool OutOfDiscs(const std::vector<MovingObstacle>& moving, Vec2 p, float radius_
   return true;
 }
 
+// Where the step that the person wants takes them.
+Vec2 Stepped(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, size_t i, const Crowd& c) {
+  const Vec2 to = c.position[i] + c.wanted[i] * step_s;
+  const bool free = IsClearFor(c.mind[i], to, c.radius_m[i]) && OutOfDiscs(moving, to, c.radius_m[i]);
+  return free ? to : WalkTowards(w, moving, step_s, c, i, to);
+}
+
 void Move(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
-  for (size_t i = 0; i < c->size(); ++i) {
-    if (c->cares[i]) ChooseVelocity(step_s, i, c);
-    const Vec2 to = c->position[i] + c->wanted[i] * step_s;
-    const bool free = c->coast[i] > 0 || (IsClearFor(c->mind[i], to, c->radius_m[i]) && OutOfDiscs(moving, to, c->radius_m[i]));
-    c->moved[i] = free ? to : WalkTowards(w, moving, step_s, *c, i, to);
+  for (int who : c->caring) {
+    const size_t i = static_cast<size_t>(who);
+    ChooseVelocity(step_s, i, c);
+    c->moved[i] = Stepped(w, moving, step_s, i, *c);
   }
 }
 
@@ -160,23 +166,56 @@ void Turn(Vec2 step, float walked_m, float step_s, size_t i, Crowd* c) {
   c->mind[i].ahead = DirectionOf(c->heading_rad[i]);
 }
 
-void Arrive(float step_s, Crowd* c) {
-  const float per_step = 1 / step_s;
+// The person is now at `to`.
+void Arrive(Vec2 to, float step_s, size_t i, Crowd* c) {
+  const Vec2 step = to - c->position[i];
+  const float walked_m = Length(step);
+  c->position[i] = to;
+  c->walked_m[i] += walked_m;
+  if (c->wait_s[i] > 0) c->wait_s[i] -= step_s;
+  if (c->detour_s[i] > 0) c->detour_s[i] -= step_s;
+  c->arrived[i] = 0;
+  if (c->coast[i] > 0) return;  // velocity and heading stay
+  c->velocity[i] = step * (1 / step_s);
+  if (c->field[i] >= 0) {
+    const Vec2 left = c->fields[static_cast<size_t>(c->field[i])].goal - to;
+    c->arrived[i] = Dot(left, left) < kArrival_m * kArrival_m ? 1 : 0;
+  }
+  Turn(step, walked_m, step_s, i, c);
+}
+
+// People decide one after the other, each in a step of their own.
+bool IsTurn(const Crowd& c, size_t i, int every_steps) {
+  return static_cast<uint64_t>(c.step + static_cast<int64_t>(i)) % static_cast<uint64_t>(every_steps) == 0;
+}
+
+// The whole step of those who take no care of anybody, and a list of those who do.
+void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
+  const float far2_m2 = c->r_far_m * c->r_far_m, unimportant2_m2 = c->r_unimportant_m * c->r_unimportant_m;
+  c->caring.clear();
+  c->caring.reserve(c->size());
   for (size_t i = 0; i < c->size(); ++i) {
-    const Vec2 step = c->moved[i] - c->position[i];
-    const float walked_m = Length(step);
-    c->position[i] = c->moved[i];
-    c->walked_m[i] += walked_m;
-    if (c->wait_s[i] > 0) c->wait_s[i] -= step_s;
-    if (c->detour_s[i] > 0) c->detour_s[i] -= step_s;
-    c->arrived[i] = 0;
-    if (c->coast[i] > 0) continue;  // velocity and heading stay
-    c->velocity[i] = step * per_step;
-    if (c->field[i] >= 0) {
-      const Vec2 left = c->fields[static_cast<size_t>(c->field[i])].goal - c->position[i];
-      c->arrived[i] = Dot(left, left) < kArrival_m * kArrival_m ? 1 : 0;
+    if (const size_t soon = i + kFetchAhead; soon < c->size() && c->coast[soon] == 0 && IsTurn(*c, soon, kTurnEvery_steps)) {
+      FetchGround(w, soon, *c);
     }
-    Turn(step, walked_m, step_s, i, c);
+    const Vec2 off = c->position[i] - c->viewer;
+    const float distance2_m2 = Dot(off, off);
+    c->cares[i] = c->view[i] != ViewClass::kOutside && distance2_m2 <= far2_m2;
+    if (c->cares[i]) {
+      c->turn[i] = IsTurn(*c, i, distance2_m2 > unimportant2_m2 ? kFarTurnEvery_steps : kTurnEvery_steps);
+      c->caring.push_back(static_cast<int>(i));
+    } else if (c->coast[i] > 0 && c->detour_s[i] <= 0) {
+      const Vec2 step = c->wanted[i] * step_s;
+      c->position[i] = c->position[i] + step;
+      c->walked_m[i] += Length(step);
+      --c->coast[i];
+    } else {
+      c->turn[i] = IsTurn(*c, i, kTurnEvery_steps);
+      c->coast[i] = 0;
+      FollowWay(w, moving, step_s, i, c);
+      const bool coasts = c->coast[i] > 0;
+      Arrive(coasts ? c->position[i] + c->wanted[i] * step_s : Stepped(w, moving, step_s, i, *c), step_s, i, c);
+    }
   }
 }
 
@@ -208,6 +247,7 @@ int AddPerson(const Person& p, Crowd* c) {
   c->coast.push_back(0);
   c->group.push_back(-1);
   c->cares.push_back(0);
+  c->turn.push_back(0);
   c->wanted.push_back({});
   c->moved.push_back(p.position);
   return c->next_id++;
@@ -228,7 +268,7 @@ void RemovePerson(size_t i, Crowd* c) {
   drop(&c->preferred_mps), drop(&c->top_mps), drop(&c->field), drop(&c->way), drop(&c->sees_goal), drop(&c->activity);
   drop(&c->wait_s), drop(&c->facing), drop(&c->view), drop(&c->avoids_camera), drop(&c->arrived);
   drop(&c->detour), drop(&c->detour_s);
-  drop(&c->walked_m), drop(&c->mind), drop(&c->coast), drop(&c->group), drop(&c->cares), drop(&c->wanted), drop(&c->moved);
+  drop(&c->walked_m), drop(&c->mind), drop(&c->coast), drop(&c->group), drop(&c->cares), drop(&c->turn), drop(&c->wanted), drop(&c->moved);
 }
 
 void SetGoal(size_t i, int field, Crowd* c) {
@@ -253,14 +293,15 @@ Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, Crowd* c) {
 }
 
 void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
-  RenewWays(w, moving, step_s, c);
-  SortIntoGrid(w, c->position, c->velocity, c->radius_m, c->cares, kNeighbourRadius_m / 2, &c->neighbours);
+  FollowOrCare(w, moving, step_s, c);
+  RenewWays(w, c);
+  SortIntoGrid(c->caring, c->position, c->velocity, c->radius_m, kNeighbourRadius_m / 2, &c->neighbours);
   Decide(w, moving, c);
   WalkTogether(w, c);
   FindContacts(step_s, c);
   Move(w, moving, step_s, c);
   ResolveContacts(w, moving, step_s, c);
-  Arrive(step_s, c);
+  for (int who : c->caring) Arrive(c->moved[static_cast<size_t>(who)], step_s, static_cast<size_t>(who), c);
   ++c->step;
 }
 

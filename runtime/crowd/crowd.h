@@ -60,10 +60,14 @@ struct Crowd {
   std::vector<Group> groups;
   int next_id = 0;
   int64_t step = 0;
+  // Farther than these from the viewer people decide half as often, and only follow their ways.
+  Vec2 viewer;
+  float r_unimportant_m = 1e9f, r_far_m = 1e9f;
 
   // Scratch of the passes, kept so that a steady step allocates nothing.
   std::vector<Vec2> wanted, moved;
-  std::vector<uint8_t> cares;
+  std::vector<uint8_t> cares, turn;     // turn: looks around and decides in this step
+  std::vector<int> caring;              // who cares, by index
   NeighbourGrid neighbours;
   std::vector<std::pair<int, int>> contacts;
   std::vector<int> displaced;
@@ -87,8 +91,8 @@ int FieldFor(Vec2 goal, Crowd* crowd);
 // The way from p to the goal of a field, which is built if it wasn't yet.
 Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, Crowd* crowd);
 
-// One step of step_s. The same on every machine. Visible and boundary people avoid each other; others only follow
-// their way. Nobody's centre comes nearer to an obstacle than radius_m, nobody moves farther than top_mps * step_s.
+// One step of step_s. The same on every machine. Visible and boundary people within r_far_m of the viewer avoid each
+// other; others only follow their way. Nobody's centre comes nearer to an obstacle than radius_m, nobody moves farther than top_mps * step_s.
 void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* crowd);
 
 // Boundary people who overlap are moved apart at once, none of them into the inner volume (paper, section 4.3.1).

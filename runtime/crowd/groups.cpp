@@ -214,7 +214,7 @@ void WalkTogether(const Walkable& w, Crowd* c) {
     Group& g = c->groups[which];
     for (int k = 0; k < g.size; ++k) {
       const size_t i = static_cast<size_t>(g.member[k]);
-      if (!IsTurn(*c, i)) continue;
+      if (!c->turn[i]) continue;
       const int64_t turn = c->step / kTurnEvery_steps + static_cast<int64_t>(which);
       if (k == 0) Plan(w, turn % kLookEvery_turns == 0, &g, c);
       if (g.pace[k] <= 0 || !Walks(*c, i)) continue;

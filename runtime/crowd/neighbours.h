@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "runtime/base/math.h"
-#include "runtime/crowd/walkable.h"
 
 namespace flaneur {
 
@@ -26,9 +25,9 @@ struct NeighbourGrid {
   std::vector<int> cell_of;         // scratch
 };
 
-// Sorts everybody with include[i] != 0 (counting sort, stable).
-void SortIntoGrid(const Walkable& w, const std::vector<Vec2>& position, const std::vector<Vec2>& velocity,
-                  const std::vector<float>& radius_m, const std::vector<uint8_t>& include, float cell_m, NeighbourGrid* grid);
+// Sorts these people, by their index (counting sort, stable). The grid spans them and no more.
+void SortIntoGrid(const std::vector<int>& people, const std::vector<Vec2>& position, const std::vector<Vec2>& velocity,
+                  const std::vector<float>& radius_m, float cell_m, NeighbourGrid* grid);
 
 // Column or row of a coordinate, those outside in the outermost.
 inline int CellIndex(float v, float origin, float cell_m, int count) {

@@ -48,14 +48,15 @@ bool Fits(const Spot& s, const Crowd& c, size_t i, Vec2 p) {
 
 void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, const void*), const void* volume, Crowd* c) {
   Spot spot{&w, keep_out, volume, 0};
-  c->cares.resize(c->size());
   c->displaced.clear();
+  c->caring.clear();
   for (size_t i = 0; i < c->size(); ++i) {
-    c->cares[i] = c->view[i] != ViewClass::kOutside;
+    if (c->view[i] != ViewClass::kOutside) c->caring.push_back(static_cast<int>(i));
     spot.most_radius_m = std::max(spot.most_radius_m, c->radius_m[i]);
   }
-  SortIntoGrid(w, c->position, c->velocity, c->radius_m, c->cares, kNeighbourRadius_m / 2, &c->neighbours);
-  for (size_t i = 0; i < c->size(); ++i) {
+  SortIntoGrid(c->caring, c->position, c->velocity, c->radius_m, kNeighbourRadius_m / 2, &c->neighbours);
+  for (int who : c->caring) {
+    const size_t i = static_cast<size_t>(who);
     if (c->view[i] != ViewClass::kBoundary || !Overlaps(spot, *c, i, c->position[i])) continue;
     bool placed = false;
     for (int ring = 1; ring <= kRings && !placed; ++ring) {  // the nearest free spot on growing rings

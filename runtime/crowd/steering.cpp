@@ -233,12 +233,12 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, Crowd*
   const std::vector<Neighbour>& people = c->neighbours.people;
   for (size_t k = 0; k < people.size(); ++k) {
     const Neighbour& soon = people[std::min(k + kFetchAhead, people.size() - 1)];
-    if (IsTurn(*c, static_cast<size_t>(soon.person))) {
+    if (c->turn[static_cast<size_t>(soon.person)]) {
       __builtin_prefetch(&c->mind[static_cast<size_t>(soon.person)]);
       const int cell = CellAt(w, soon.position);
       if (cell >= 0) __builtin_prefetch(&w.cells[static_cast<size_t>(cell)]);
     }
-    if (IsTurn(*c, static_cast<size_t>(people[k].person))) Decide(w, moving, people[k], c);
+    if (c->turn[static_cast<size_t>(people[k].person)]) Decide(w, moving, people[k], c);
   }
 }
 

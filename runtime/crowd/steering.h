@@ -13,11 +13,6 @@ float SpeedInDensity(float density_pm2);
 // Speed in this cell of the ground (-1: off it): slower uphill and down.
 float SpeedOnSlope(const Walkable& w, int cell, float level_mps);
 
-// People look around and decide in turn, each every kTurnEvery_steps steps; in between they do what they decided.
-inline bool IsTurn(const Crowd& crowd, size_t i) {
-  return static_cast<uint64_t>(crowd.step + static_cast<int64_t>(i)) % kTurnEvery_steps == 0;
-}
-
 // Those of crowd->neighbours whose turn it is renew what they ask for: the push, the speed and the clearance in crowd->mind.
 void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, Crowd* crowd);
 

@@ -207,6 +207,10 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   BuildWalkable(*std::max_element(s.avatar_radius_m.begin(), s.avatar_radius_m.end()) + 0.05f, &s.walkable);
   if (BestFreeCell(s.walkable) < 0) return Fail("there is no walkable ground");
   if (Error e = CheckLimits(scenario, &s)) return e;
+  if (s.camera.present) {
+    s.crowd.r_unimportant_m = s.influence.r_unimportant_m;
+    s.crowd.r_far_m = s.level_settings.r_far_m;
+  }
   s.random.state = s.crowd_settings.seed;
   SettleStops(&s);
   PlaceCamera(scenario, &s);
@@ -225,6 +229,7 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
 void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   const double start_ms = Now_ms();
   MoveCamera(input, s);
+  s->crowd.viewer = s->camera.view.position;
   StepCrowd(s->walkable, s->moving, s->step_s, &s->crowd);
   LeaveAndArrive(s);
   ClassifyAll(s);
