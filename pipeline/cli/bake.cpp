@@ -1,6 +1,7 @@
 #include "pipeline/cli/bake.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/footprint/check.h"
 #include "pipeline/footprint/map.h"
+#include "pipeline/footprint/polygon_sets.h"
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/geojson.h"
 #include "pipeline/pack/write_tour_pack.h"
@@ -200,6 +202,25 @@ Error MakePeople(Baking* baking) {
   return RunParallel(count, [&](size_t i) { return MakeImpostor(baking, i); });
 }
 
+bool Covers(const Obstacle& o, Point2 p) {
+  if (o.outer.empty()) return std::hypot(p.x - o.center.x, p.y - o.center.y) <= o.radius_m;
+  return Contains(o.outer, p) && std::none_of(o.holes.begin(), o.holes.end(), [&](const auto& hole) { return Contains(hole, p); });
+}
+
+// Somewhere there must be ground that nothing stands on.
+bool AnywhereToWalk(const GroundRaster& ground, const Footprints& footprints) {
+  const double cell_m = static_cast<double>(ground.cell_m);
+  for (size_t k = 0; k < ground.kind.size(); ++k) {
+    if (ground.kind[k] == 0) continue;
+    const size_t columns = static_cast<size_t>(ground.columns);
+    const Point2 p{static_cast<double>(ground.min_m.x) + (static_cast<double>(k % columns) + 0.5) * cell_m,
+                   static_cast<double>(ground.min_m.y) + (static_cast<double>(k / columns) + 0.5) * cell_m};
+    const auto& obstacles = footprints.obstacles;
+    if (std::none_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& o) { return Covers(o, p); })) return true;
+  }
+  return false;
+}
+
 Error MakeFootprints(Baking* baking) {
   const TourSettings& s = baking->settings;
   TourParts* parts = &baking->parts;
@@ -207,6 +228,9 @@ Error MakeFootprints(Baking* baking) {
     if (Error e = RasterizeGround(parts->town, s.ground, &parts->ground)) return e;
     FootprintStats stats;
     if (Error e = ExtractFootprints(parts->town, s.footprints, &parts->footprints, &stats, warnings)) return e;
+    if (!AnywhereToWalk(parts->ground, parts->footprints)) {
+      return Fail("the town has no walkable ground: obstacles cover all of it; mark the ground's nodes with flaneur_kind \"ground\"");
+    }
     report->figures = {{"obstacles", stats.obstacles}, {"covered_m2", stats.covered_m2}};
     return Ok();
   };

@@ -11,8 +11,12 @@ constexpr float kRise_mps = 0.5f;            // and comes back slowly: whoever i
 constexpr float kHysteresis_m = 2.0f;        // a mesh stays one until this far beyond r_high
 constexpr float kHeadroom = 8.0f;            // of a newly chosen level: serves up to so many times the pixels
 constexpr float kReserve = 0.2f;            // of limit and budget, kept for those who come near
-constexpr float kBudgetGain = 0.02f;         // a step, of the budget's relative error (method 2)
-constexpr float kFastCamera_mps = 2.0f;      // above it fidelity may fall (paper, section 3.2)
+constexpr float kFallGain = 0.08f, kRiseGain = 0.02f;  // a step, of the relative error of the frame time (method 2)
+constexpr float kUsed = 0.8f;                // share of the budget from which on it is in use
+constexpr float kSettles = 0.03f;             // a step, of what a person in high resolution costs
+constexpr float kLeastBudget = 1000;
+constexpr float kFastCamera_mps = 2.0f;      // above it fidelity may fall,
+constexpr float kFastShare = 0.85f;          // to so much of the target
 
 float PixelsHigh(float height_m, float distance_m, const ViewCamera& camera, int screen_width_px) {
   const float focal_px = static_cast<float>(screen_width_px) / (2 * std::tan(camera.fov_rad / 2));
@@ -20,15 +24,14 @@ float PixelsHigh(float height_m, float distance_m, const ViewCamera& camera, int
 }
 
 void FollowFrameTime(float frame_ms, float camera_speed_mps, const LevelSettings& s, LevelState* state) {
-  if (state->budget_triangles <= 0) state->budget_triangles = static_cast<float>(s.budget_triangles);
-  if (!s.by_frame_time || frame_ms <= 0) {
-    state->budget_triangles = static_cast<float>(s.budget_triangles);
-    return;
-  }
-  const float target_ms = camera_speed_mps > kFastCamera_mps ? s.target_ms * 0.85f : s.target_ms;
+  const float most = static_cast<float>(s.budget_triangles);
+  if (state->budget_triangles <= 0 || !s.by_frame_time) state->budget_triangles = most;
+  if (!s.by_frame_time || frame_ms <= 0) return;
+  const float target_ms = camera_speed_mps > kFastCamera_mps ? s.target_ms * kFastShare : s.target_ms;
   const float error = std::clamp((target_ms - frame_ms) / target_ms, -1.0f, 1.0f);
-  state->budget_triangles = std::clamp(state->budget_triangles * (1 + kBudgetGain * error), 1000.0f,
-                                       static_cast<float>(s.budget_triangles));
+  // A budget that nobody uses says nothing about the frame time, and must not grow on it.
+  if (error > 0 && static_cast<float>(state->triangles) < kUsed * state->budget_triangles) return;
+  state->budget_triangles = std::clamp(state->budget_triangles * (1 + (error < 0 ? kFallGain : kRiseGain) * error), std::min(kLeastBudget, most), most);
 }
 
 // The coarsest level that serves at `px`.
@@ -37,6 +40,20 @@ int CoarsestAt(const AvatarCosts& avatar, float px) {
     if (px >= avatar.levels[k].switch_px) return static_cast<int>(k);
   }
   return static_cast<int>(avatar.levels.size()) - 1;
+}
+
+// How many people in high resolution the budget affords, all others in view as impostors: each costs what they did of late.
+int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
+  if (state->high > 0) {
+    const float meshes = static_cast<float>(state->triangles - int64_t{kImpostorTriangles} * state->low);
+    state->triangles_a_person += kSettles * (meshes / static_cast<float>(state->high) - state->triangles_a_person);
+  } else if (state->triangles_a_person <= 0) {
+    for (const AvatarCosts& avatar : avatars) {
+      state->triangles_a_person = std::max(state->triangles_a_person, static_cast<float>(avatar.levels.front().triangles));
+    }
+  }
+  const float left = state->budget_triangles - static_cast<float>(kImpostorTriangles) * static_cast<float>(state->visible.size());
+  return std::max(1, static_cast<int>(left / std::max(state->triangles_a_person, 1.0f)));
 }
 
 // Who comes near starts with the level that serves until half the distance, and keeps it until it is far too fine: every switch
@@ -104,9 +121,9 @@ int AffordableLevel(const AvatarCosts& avatar, int wanted, int64_t budget, int64
 void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera,
                   float camera_speed_mps, float frame_ms, const LevelSettings& s, float step_s, LevelState* state) {
   FollowFrameTime(frame_ms, camera_speed_mps, s, state);
-  const int limit = s.by_frame_time ? static_cast<int>(crowd.size()) : s.high_limit;
   if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
   ListVisible(crowd, camera, s.r_far_m, state);
+  const int limit = state->limit = s.by_frame_time ? PeopleAfforded(avatars, state) : s.high_limit;
   MoveBoundary(s, limit, step_s, state);
 
   // Only those who may become meshes need to stand in order; and all, where not even impostors fit.
@@ -140,7 +157,7 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
     if (last != kNotDrawn && last != level) ++state->switches_in_view;
   }
   for (size_t i = 0; i < crowd.size(); ++i) state->last_level[static_cast<size_t>(crowd.id[i])] = state->level[i];
-  state->exceeded = within_nominal > s.high_limit;
+  state->exceeded = within_nominal > limit;
 }
 
 }  // namespace flaneur

@@ -29,6 +29,8 @@ struct LevelSettings {
 struct LevelState {
   float r_high_m = 0;              // in force; 0 before the first step
   float budget_triangles = 0;      // in force
+  float triangles_a_person = 0;    // in high resolution, averaged over the last while; method 2
+  int limit = 0;                   // most people in high resolution, in force
   std::vector<int> level;          // by person index: a mesh level, kImpostor or kNotDrawn
   int high = 0, low = 0, shortfalls = 0, switches_in_view = 0;
   int64_t triangles = 0;
@@ -40,7 +42,8 @@ struct LevelState {
   std::vector<int> last_level;     // by id: level in the last step
 };
 
-// Chooses everybody's level for this frame. The budget holds whatever happens: who does not fit becomes an impostor, and where
+// Chooses everybody's level for this frame. Method 1 keeps high_limit; with method 2 the budget follows the frame time towards
+// target_ms, or 0.85 of it while the camera moves fast (paper, section 3.2), and the limit is what the budget affords. The budget holds whatever happens: who does not fit becomes an impostor, and where
 // even those do not fit, the farthest are not drawn. frame_ms: what the last frame took, for method 2.
 void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera,
                   float camera_speed_mps, float frame_ms, const LevelSettings& settings, float step_s, LevelState* state);

@@ -13,6 +13,7 @@
 namespace flaneur {
 namespace {
 
+constexpr int kSharedGoal = 8;  // people with the same goal are worth a field
 constexpr size_t kFetchAhead = 16;  // people
 
 bool IsLost(const Crowd& c, size_t i) { return c.way[i].x == 0 && c.way[i].y == 0; }
@@ -23,8 +24,10 @@ void RenewWay(const Walkable& w, size_t i, bool look, bool roughly, Crowd* c) {
   if (look) c->sees_goal[i] = StraightWay(w, c->position[i], goal) ? 1 : 0;
   if (!c->sees_goal[i]) {
     const FlowField& field = c->fields[static_cast<size_t>(c->field[i])];
-    const bool rough = roughly && !field.distance.empty();
-    c->way[i] = rough ? RoughWayAt(w, field, c->position[i]) : WayToGoal(w, c->field[i], c->position[i], c);
+    const bool rough = roughly && IsBuilt(field);
+    const bool sight = (c->step + static_cast<int64_t>(i)) % kSightEvery_steps == 0;
+    c->way[i] = rough ? RoughWayAt(w, field, c->position[i])
+                      : WayToGoal(w, c->field[i], c->position[i], sight, &c->corner[i], c);
     return;
   }
   const Vec2 way = goal - c->position[i];
@@ -233,6 +236,7 @@ int AddPerson(const Person& p, Crowd* c) {
   c->field.push_back(p.field);
   c->way.push_back({});
   c->sees_goal.push_back(0);
+  c->corner.push_back({});
   c->activity.push_back(p.field >= 0 ? Activity::kWalking : Activity::kStanding);
   c->wait_s.push_back(0);
   c->facing.push_back({});
@@ -265,7 +269,7 @@ void RemovePerson(size_t i, Crowd* c) {
     values->pop_back();
   };
   drop(&c->id), drop(&c->avatar), drop(&c->position), drop(&c->velocity), drop(&c->heading_rad), drop(&c->radius_m);
-  drop(&c->preferred_mps), drop(&c->top_mps), drop(&c->field), drop(&c->way), drop(&c->sees_goal), drop(&c->activity);
+  drop(&c->preferred_mps), drop(&c->top_mps), drop(&c->field), drop(&c->way), drop(&c->sees_goal), drop(&c->corner), drop(&c->activity);
   drop(&c->wait_s), drop(&c->facing), drop(&c->view), drop(&c->avoids_camera), drop(&c->arrived);
   drop(&c->detour), drop(&c->detour_s);
   drop(&c->walked_m), drop(&c->mind), drop(&c->coast), drop(&c->group), drop(&c->cares), drop(&c->turn), drop(&c->wanted), drop(&c->moved);
@@ -274,6 +278,7 @@ void RemovePerson(size_t i, Crowd* c) {
 void SetGoal(size_t i, int field, Crowd* c) {
   c->field[i] = field;
   c->way[i] = {};
+  c->corner[i] = {};
   c->sees_goal[i] = c->arrived[i] = c->coast[i] = 0;
   c->activity[i] = field >= 0 ? Activity::kWalking : Activity::kStanding;
 }
@@ -282,14 +287,20 @@ int FieldFor(Vec2 goal, Crowd* c) {
   for (size_t f = 0; f < c->fields.size(); ++f) {
     if (c->fields[f].goal.x == goal.x && c->fields[f].goal.y == goal.y) return static_cast<int>(f);
   }
-  c->fields.push_back({goal, {}, {}});
+  c->fields.push_back({goal, {}, {}, 0});
   return static_cast<int>(c->fields.size()) - 1;
 }
 
-Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, Crowd* c) {
+void BuildField(const Walkable& w, int field, Crowd* c) {
   FlowField& f = c->fields[static_cast<size_t>(field)];
-  if (f.distance.empty()) f = BuildFlowField(w, f.goal);
-  return WayAt(w, f, p);
+  if (!IsBuilt(f)) f = BuildFlowField(w, f.goal);
+}
+
+Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, Crowd* c) {
+  FlowField& f = c->fields[static_cast<size_t>(field)];
+  if (!IsBuilt(f) && !corner->known && ++f.questions >= kSharedGoal) BuildField(w, field, c);
+  if (IsBuilt(f)) return WayAt(w, f, p);
+  return WayByCorners(w, p, f.goal, look, corner, &c->search);
 }
 
 void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {

@@ -9,6 +9,7 @@
 #include "runtime/crowd/groups.h"
 #include "runtime/crowd/neighbours.h"
 #include "runtime/crowd/walkable.h"
+#include "runtime/crowd/way_search.h"
 
 namespace flaneur {
 
@@ -44,6 +45,7 @@ struct Crowd {
   std::vector<int> field;               // index into fields: where the person goes; -1: stays
   std::vector<Vec2> way;                // unit vector along the way there, zero: none; renewed now and then
   std::vector<uint8_t> sees_goal;       // walks straight to it; renewed now and then
+  std::vector<Corner> corner;           // else, as long as the field isn't built: where the way leads first
   std::vector<Activity> activity;
   std::vector<float> wait_s;            // left to stand
   std::vector<Vec2> facing;             // where to look while standing; zero: as before
@@ -56,7 +58,7 @@ struct Crowd {
   std::vector<Mind> mind;
   std::vector<uint8_t> coast;           // steps left to walk straight on, out of sight and far from everything
   std::vector<int> group;               // index into groups; -1: alone
-  std::vector<FlowField> fields;        // built when the first person needs one
+  std::vector<FlowField> fields;        // built where enough people have the same goal
   std::vector<Group> groups;
   int next_id = 0;
   int64_t step = 0;
@@ -71,6 +73,7 @@ struct Crowd {
   NeighbourGrid neighbours;
   std::vector<std::pair<int, int>> contacts;
   std::vector<int> displaced;
+  WaySearch search;
 
   size_t size() const { return id.size(); }
 };
@@ -88,11 +91,15 @@ void RemovePerson(size_t index, Crowd* crowd);      // the last one takes the pl
 void SetGoal(size_t index, int field, Crowd* crowd);
 // The field for this goal; added, still to be built, where there is none yet.
 int FieldFor(Vec2 goal, Crowd* crowd);
-// The way from p to the goal of a field, which is built if it wasn't yet.
-Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, Crowd* crowd);
+// Builds the field now, not only when enough people ask for their way.
+void BuildField(const Walkable& w, int field, Crowd* crowd);
+// The way from p to the goal of a field: looked up where it is built, and it is for the eighth who asks; else searched for
+// (way_search.h), so that any number of new goals in a step is no burden. `corner` is the asker's own.
+Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, Crowd* crowd);
 
 // One step of step_s. The same on every machine. Visible and boundary people within r_far_m of the viewer avoid each
-// other; others only follow their way. Nobody's centre comes nearer to an obstacle than radius_m, nobody moves farther than top_mps * step_s.
+// other; others only follow their way. Nobody's centre comes nearer to an obstacle than radius_m, nobody moves farther than
+// top_mps * step_s.
 void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* crowd);
 
 // Boundary people who overlap are moved apart at once, none of them into the inner volume (paper, section 4.3.1).

@@ -19,11 +19,6 @@ constexpr uint8_t kNoWay = 255;
 using Entry = std::pair<float, int>;  // ties by cell: the same everywhere
 using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
-// Travel cost of a metre in each cell; isotropic in slope.
-float CostAt(const Walkable& w, int cell) {
-  return w.cost[static_cast<size_t>(cell)] * (1 + kSlopeCost * SlopeOf(w, cell));
-}
-
 // The cheaper of two opposite neighbours and where it lies (-1, +1), infinity if neither has a value.
 struct Upwind { float value = kInfinity; int side = 0; };
 
@@ -64,7 +59,7 @@ void SeedAroundGoal(const Walkable& w, Vec2 goal, int start, FlowField* field, Q
       const float distance_m = Length(center - goal);
       if (w.cost[static_cast<size_t>(cell)] <= 0 || distance_m > kExactAround_m) continue;
       if (cell != start && !(StraightWay(w, center, goal) && StraightWay(w, goal, center))) continue;
-      field->distance[static_cast<size_t>(cell)] = distance_m * CostAt(w, cell);
+      field->distance[static_cast<size_t>(cell)] = distance_m * CostOfGround(w, cell);
       open->push({field->distance[static_cast<size_t>(cell)], cell});
     }
   }
@@ -81,7 +76,7 @@ void March(const Walkable& w, FlowField* field, Queue* open) {
                          y + 1 < w.rows ? cell + w.columns : -1};
     for (int n : next) {
       if (n < 0 || w.cost[static_cast<size_t>(n)] <= 0 || t[static_cast<size_t>(n)] <= value) continue;
-      const float better = Solve(Look(w, t, n), CostAt(w, n) * w.cell_m);
+      const float better = Solve(Look(w, t, n), CostOfGround(w, n) * w.cell_m);
       if (better >= t[static_cast<size_t>(n)]) continue;
       t[static_cast<size_t>(n)] = better;
       open->push({better, n});
@@ -119,6 +114,10 @@ Vec2 Unit(Vec2 v) {
 }
 
 }  // namespace
+
+float CostOfGround(const Walkable& w, int cell) {
+  return w.cost[static_cast<size_t>(cell)] * (1 + kSlopeCost * SlopeOf(w, cell));
+}
 
 FlowField BuildFlowField(const Walkable& w, Vec2 goal) {
   FlowField field{goal, std::vector<float>(w.cost.size(), kInfinity), std::vector<uint8_t>(w.cost.size(), kNoWay)};
@@ -167,7 +166,7 @@ Vec2 RoughWayAt(const Walkable& w, const FlowField& field, Vec2 p) {
 bool StraightWay(const Walkable& w, Vec2 p, Vec2 q) {
   const int first = CellAt(w, p);
   if (first < 0) return false;
-  const float dearest = w.cost[static_cast<size_t>(first)] > 0 ? CostAt(w, first) * kNearWallCost * 1.01f : kGroundCost[1];
+  const float dearest = w.cost[static_cast<size_t>(first)] > 0 ? CostOfGround(w, first) * kNearWallCost * 1.01f : kGroundCost[1];
   const Vec2 way = q - p;
   const float way_m = Length(way), longer_m = std::max(std::abs(way.x), std::abs(way.y));
   const float least = 0.5f * w.cell_m / std::max(way_m, 1e-6f), cells = w.cell_m * 0.99f / std::max(longer_m, 1e-6f);
@@ -176,7 +175,7 @@ bool StraightWay(const Walkable& w, Vec2 p, Vec2 q) {
     const int cell = CellAt(w, p + way * t);
     if (cell < 0) return false;
     if (!known) {
-      const float cost = CostAt(w, cell);
+      const float cost = CostOfGround(w, cell);
       if (cost <= 0 || cost > dearest) return false;
     }
     const int same = w.cells[static_cast<size_t>(cell)].same;

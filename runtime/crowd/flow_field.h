@@ -7,11 +7,17 @@
 
 namespace flaneur {
 
+// Of a metre there, whichever way one walks; 0 where nobody can.
+float CostOfGround(const Walkable& w, int cell);
+
 struct FlowField {
   Vec2 goal;
   std::vector<float> distance;      // weighted metres by cell; infinity where there is no way; empty until built
   std::vector<uint8_t> direction;   // of the best way, in 1/255 turns anticlockwise from +x; 255: none
+  int questions = 0;                // asked for ways before it was built
 };
+
+inline bool IsBuilt(const FlowField& field) { return !field.distance.empty(); }
 
 // Solves |grad T| = cost by fast marching (Sethian 1996), exact around the goal. Slopes cost more (constants.h). The goal's
 // nearest free cell within 3 m is the destination.

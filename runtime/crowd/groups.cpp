@@ -66,7 +66,8 @@ float RoomAhead_m(const Walkable& w, const Formation& f, Crowd* c) {
     if (IsFree(w, p)) least_m = std::min(least_m, Room_m(w, p, left) + Room_m(w, p, left * -1));
     if (Length(goal - p) < kLook_m) break;
     p = p + way * kLook_m;
-    way = c->sees_goal[leader] ? Unit(goal - p) : WayToGoal(w, c->field[leader], p, c);
+    const FlowField& field = c->fields[static_cast<size_t>(c->field[leader])];
+    way = c->sees_goal[leader] ? Unit(goal - p) : IsBuilt(field) ? WayAt(w, field, p) : Unit(c->corner[leader].point - p);
     if (way.x == 0 && way.y == 0) break;
   }
   return least_m;

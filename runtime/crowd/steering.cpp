@@ -16,7 +16,7 @@ constexpr float kLeastAcceleration_mps2 = 0.5f;  // a turn ends, and doesn't fad
 constexpr int kReturnDecisions = 45;    // after which a line is forgotten;
 constexpr int kPassing = 7;             // and the first of them, while the visitor passes, change nothing
 constexpr float kReturn_s = 1.0f, kMostReturn_mps = 0.5f, kOnLine_m = 0.1f;
-constexpr float kSooner = 1.4f;         // than the last moment
+constexpr float kSooner = 2.4f;         // than the last moment
 constexpr float kLeastTime_s = 0.3f;  // no stepping aside is quicker
 
 // exp(-x) for x in [0, 1] to half a percent, without a call.

@@ -243,6 +243,7 @@ void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
   w->rows = std::max(1, static_cast<int>(std::ceil(size.y / w->cell_m)));
   const size_t cells = static_cast<size_t>(w->columns) * static_cast<size_t>(w->rows);
   w->cost.assign(cells, 0);
+  w->least_cost = *std::max_element(std::begin(kGroundCost), std::end(kGroundCost));
   w->cells.assign(cells, {});
   w->edges.clear();
   for (const PolygonObstacle& polygon : w->polygons) {
@@ -259,6 +260,7 @@ void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
     const float clearance_m = Clearance(*w, cell, center) - person_radius_m;
     if (clearance_m < 0) continue;
     w->cost[static_cast<size_t>(cell)] = kGroundCost[kind] * (clearance_m < kNearWall_m ? kNearWallCost : 1.0f);
+    w->least_cost = std::min(w->least_cost, kGroundCost[kind]);
     w->cells[static_cast<size_t>(cell)].slope = static_cast<uint8_t>(SlopeAt(*w, center) / Walkable::kSlopeUnit);
   }
   NumberComponents(w);

@@ -33,6 +33,7 @@ struct Walkable {
   float cell_m = 0.5f, cells_per_m = 2;
   int columns = 0, rows = 0;
   std::vector<float> cost;        // a metre; 0: not walkable
+  float least_cost = 1;           // of all that are walkable
   std::vector<int> component;     // connected free cells share a number; -1: not free
   // What walkers ask of the cell they are in, kept small: people all over a town read it in every step.
   struct Cell {

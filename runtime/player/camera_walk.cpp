@@ -101,6 +101,7 @@ void Walk(Vec2 direction, float asked_mps, Simulation* s) {
 void NextLeg(size_t count, Simulation* s) {
   s->leg_done = 0;
   s->stuck_s = 0;
+  s->camera.corner = {};
   if (++s->leg >= count) s->finished = true;
 }
 
@@ -144,7 +145,7 @@ void FollowTour(Simulation* s) {
   const int field = FieldFor(stop.position_m, &s->crowd);
   const Vec2 way = StraightWay(s->walkable, s->camera.view.position, stop.position_m)
                        ? stop.position_m - s->camera.view.position
-                       : WayToGoal(s->walkable, field, s->camera.view.position, &s->crowd);
+                       : WayToGoal(s->walkable, field, s->camera.view.position, true, &s->camera.corner, &s->crowd);
   const float way_m = Length(way);
   if (way_m < 1e-3f) return NextLeg(s->path.size(), s);
   TurnTowards(std::atan2(way.y, way.x), kTourYawRate_radps, s);

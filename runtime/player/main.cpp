@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
@@ -33,15 +35,19 @@ Error Play(const PlayerOptions& options) {
   } else if (!options.no_draw) {
     return Fail("nothing to draw without a pack; add --headless --no-draw or name a pack");
   }
-  Simulation simulation;
-  if (Error e = StartSimulation(options.pack.empty() ? nullptr : &pack, scenario, &simulation)) {
-    const auto& source = options.scenario.empty() ? options.pack : options.scenario;
-    return Fail(source.string() + ": " + e.message);
+  std::vector<Simulation> simulations(std::max<size_t>(1, options.compare.size()));
+  for (size_t k = 0; k < simulations.size(); ++k) {
+    if (!options.compare.empty()) scenario.adaptation = options.compare[k];
+    if (Error e = StartSimulation(options.pack.empty() ? nullptr : &pack, scenario, &simulations[k])) {
+      const auto& source = options.scenario.empty() ? options.pack : options.scenario;
+      return Fail(source.string() + ": " + e.message);
+    }
   }
+  Simulation& simulation = simulations.front();
   for (const std::string& warning : simulation.warnings) std::fprintf(stderr, "flaneur-player: warning: %s\n", warning.c_str());
   const float seconds = RunLength_s(options, scenario, simulation);
   if (options.no_draw) return RunWithoutDrawing(options, seconds, &simulation);
-  if (options.headless) return RunHeadless(options, seconds, pack, &simulation);
+  if (options.headless) return RunHeadless(options, seconds, pack, &simulations);
   return RunInWindow(options, pack, &simulation);
 }
 

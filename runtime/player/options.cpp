@@ -43,6 +43,8 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("--seed", o->seed, "Seed of the crowd (default: likewise)");
   app.add_option("--adaptation", o->adaptation, "How the crowd keeps out of the visitor's way: off, paper or full (default: likewise)")
       ->check(CLI::IsMember({"off", "paper", "full"}));
+  app.add_option("--compare", o->compare, "Two adaptations on the same walk, side by side in one film or picture, such as: off full")
+      ->expected(2)->check(CLI::IsMember({"off", "paper", "full"}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -54,6 +56,12 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   if (o->no_draw && !o->headless) return Refuse("--no-draw needs --headless");
   if (o->no_draw && (!o->screenshot.empty() || !o->film.empty())) return Refuse("--no-draw makes no pictures; leave it out");
   if (!o->headless && (!o->screenshot.empty() || !o->film.empty())) return Refuse("--screenshot and --film need --headless");
+  if (o->compare.empty()) return -1;
+  if (o->screenshot.empty() && o->film.empty()) return Refuse("--compare is for --film and --screenshot");
+  if (o->adaptation || !o->metrics.empty() || !o->trajectories.empty()) {
+    return Refuse("--compare plays two runs; leave out --adaptation, --metrics and --trajectories, which are of one");
+  }
+  if (o->width_px % 2 != 0) return Refuse("--compare needs an even width");
   return -1;
 }
 

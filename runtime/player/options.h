@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace flaneur {
 
@@ -14,6 +15,7 @@ struct PlayerOptions {
   std::optional<int> people;
   std::optional<uint64_t> seed;
   std::optional<std::string> adaptation;
+  std::vector<std::string> compare;  // adaptations side by side: two, or none
   int width_px = 1280, height_px = 720;
 };
 

@@ -34,7 +34,7 @@ void RecordMetrics(const Simulation& s, const FrameCosts& costs, std::string* te
          static_cast<double>(s.frame) * D(s.step_s), D(c.view.position.x), D(c.view.position.y), D(c.view.yaw_rad),
          D(c.view.fov_rad), D(s.outer_apex_back_m), D(c.asked_mps), D(c.actual_mps));
   Append(text, "%zu,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.4f,%d,%d,", s.crowd.size(), count[2], count[1], count[0], s.levels.high,
-         s.levels.low, s.level_settings.high_limit, D(s.r_personal_m), D(s.levels.r_high_m),
+         s.levels.low, s.levels.limit, D(s.r_personal_m), D(s.levels.r_high_m),
          D(s.influence.r_unimportant_m), s.levels.exceeded ? 1 : 0, s.levels.shortfalls);
   Append(text, "%lld,%lld,%.0f,%d,%.4f,%.4f,%.4f\n", static_cast<long long>(s.levels.triangles),
          static_cast<long long>(costs.town_triangles), D(s.levels.budget_triangles), s.levels.switches_in_view, s.step_ms,

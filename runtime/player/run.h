@@ -1,5 +1,7 @@
 // The ways to play: the simulation alone, into pictures, or in a window.
 #pragma once
+#include <vector>
+
 #include "runtime/base/error.h"
 #include "runtime/pack/tour_pack.h"
 #include "runtime/player/options.h"
@@ -11,7 +13,8 @@ namespace flaneur {
 float RunLength_s(const PlayerOptions& options, const Scenario& scenario, const Simulation& simulation);
 
 Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation* simulation);
-Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Simulation* simulation);
+// Several simulations, as many as options.compare names, are drawn side by side; records are of the first.
+Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, std::vector<Simulation>* simulations);
 Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Simulation* simulation);
 
 }  // namespace flaneur

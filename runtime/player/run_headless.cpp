@@ -1,4 +1,7 @@
-#include <cstdio>
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <vector>
 
 #include "runtime/player/film.h"
 #include "runtime/player/frame_from_simulation.h"
@@ -12,10 +15,46 @@ namespace flaneur {
 namespace {
 
 constexpr int kStillSamples = 4;
+constexpr size_t kDivider_px = 2;
+
+// One simulation's part of the picture, as wide as every other's.
+struct Pane {
+  Simulation* simulation;
+  std::string label;  // instead of the tour's captions; empty: those
+  PersonLooks looks;
+  FrameInput frame;
+  FrameStatistics statistics;
+  std::vector<uint8_t> rgb;
+};
+
+void DrawPane(const PlayerOptions& options, const TourPack& pack, int width_px, bool read, Renderer* renderer, Pane* pane) {
+  FrameFromSimulation(pack, *pane->simulation, &pane->looks, &pane->frame);
+  if (!pane->label.empty()) {
+    pane->frame.caption = pane->label;
+    pane->frame.caption_share = 1;
+  }
+  renderer->Draw(pane->frame, width_px, options.height_px, &pane->statistics);
+  if (read) renderer->Read(&pane->rgb);
+}
+
+// Side by side, a white line between them.
+std::vector<uint8_t> Joined(const std::vector<Pane>& panes, int height_px) {
+  if (panes.size() == 1) return panes[0].rgb;
+  const size_t rows = static_cast<size_t>(height_px), row = panes[0].rgb.size() / rows;
+  std::vector<uint8_t> rgb(panes.size() * panes[0].rgb.size());
+  for (size_t y = 0; y < rows; ++y) {
+    for (size_t k = 0; k < panes.size(); ++k) {
+      uint8_t* to = &rgb[(y * panes.size() + k) * row];
+      std::memcpy(to, &panes[k].rgb[y * row], row);
+      if (k > 0) std::memset(to, 255, kDivider_px * 3);
+    }
+  }
+  return rgb;
+}
 
 }  // namespace
 
-Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Simulation* simulation) {
+Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, std::vector<Simulation>* simulations) {
   WatchForInterruption();
   HeadlessContext context;
   if (Error e = context.Create()) return e;
@@ -26,35 +65,38 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   if (!draw_all) render_options.samples = kStillSamples;
   Renderer renderer;
   if (Error e = renderer.Create(pack, render_options)) return e;
+  std::vector<Pane> panes;
+  for (size_t k = 0; k < simulations->size(); ++k) {
+    panes.push_back({&(*simulations)[k], options.compare.empty() ? "" : "adaptation: " + options.compare[k], {}, {}, {}, {}});
+  }
+  Simulation& first = simulations->front();
   Records records;
   records.keep_metrics = !options.metrics.empty();
   records.keep_trajectories = !options.trajectories.empty();
   FilmWriter film;
   if (filming) {
-    if (Error e = film.Start(options.film, options.width_px, options.height_px, 1 / simulation->step_s)) return e;
+    if (Error e = film.Start(options.film, options.width_px, options.height_px, 1 / first.step_s)) return e;
   }
-  const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(simulation->step_s) + 0.5);
-  PersonLooks looks;
-  FrameInput frame;
-  FrameStatistics statistics;
-  std::vector<uint8_t> rgb;
+  const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(first.step_s) + 0.5);
+  const auto over = [&](const Simulation& s) { return s.frame >= steps || s.finished; };
   for (;;) {
     if (Error e = CheckInterruption()) return e;
-    const bool last = simulation->frame >= steps || simulation->finished;
+    const bool last = std::all_of(simulations->begin(), simulations->end(), over);
     if (draw_all || last) {
-      FrameFromSimulation(pack, *simulation, &looks, &frame);
-      renderer.Draw(frame, options.width_px, options.height_px, &statistics);
-      if (filming || last) renderer.Read(&rgb);
+      const int width_px = options.width_px / static_cast<int>(panes.size());
+      for (Pane& pane : panes) DrawPane(options, pack, width_px, filming || last, &renderer, &pane);
       if (filming) {
-        if (Error e = film.Add(rgb)) return e;
+        if (Error e = film.Add(Joined(panes, options.height_px))) return e;
       }
     }
-    Record(*simulation, {statistics.town_triangles, statistics.draw_ms}, &records);
+    Record(first, {panes[0].statistics.town_triangles, panes[0].statistics.draw_ms}, &records);
     if (last) break;
-    StepSimulation({}, static_cast<float>(statistics.draw_ms), simulation);
+    for (Pane& pane : panes) {
+      if (!over(*pane.simulation)) StepSimulation({}, static_cast<float>(pane.statistics.draw_ms), pane.simulation);
+    }
   }
   if (!options.screenshot.empty()) {
-    if (Error e = WritePng(options.screenshot, options.width_px, options.height_px, rgb)) return e;
+    if (Error e = WritePng(options.screenshot, options.width_px, options.height_px, Joined(panes, options.height_px))) return e;
   }
   if (filming) {
     if (Error e = film.Finish()) return e;

@@ -196,6 +196,8 @@ void ReadAll(Table root, Scenario* s) {
     t.Number("high", 0, 100000, &s->high_limit);
     t.Number("target_ms", 1, 1000, &s->target_ms);
     t.Number("budget_triangles", 0, 1e9, &s->budget_triangles);
+    t.Number("draw_base_ms", 0, 1000, &s->draw_base_ms);
+    t.Number("draw_ms_per_million_triangles", 0, 1e6, &s->draw_ms_per_million_triangles);
     t.Finish();
   });
   root.Sub("camera", [&](Table t) { ReadCamera(t, s); });

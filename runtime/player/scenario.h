@@ -40,7 +40,7 @@ struct Scenario {
   std::optional<float> step_hz, seconds;
   std::optional<std::string> adaptation, method;
   std::optional<int> high_limit, budget_triangles;
-  std::optional<float> target_ms;
+  std::optional<float> target_ms, draw_base_ms, draw_ms_per_million_triangles;
   bool has_camera = false;
   Vec2 camera_position_m;
   float camera_yaw_deg = 0;

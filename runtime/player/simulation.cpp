@@ -86,12 +86,13 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   s->level_settings.high_limit = scenario.high_limit.value_or(s->level_settings.high_limit);
   s->level_settings.budget_triangles = scenario.budget_triangles.value_or(s->level_settings.budget_triangles);
   s->level_settings.target_ms = scenario.target_ms.value_or(s->level_settings.target_ms);
+  s->draw_base_ms = scenario.draw_base_ms.value_or(0);
+  s->draw_ms_per_million_triangles = scenario.draw_ms_per_million_triangles.value_or(0);
   s->level_settings.r_high_m = scenario.r_high_m.value_or(s->level_settings.r_high_m);
   if (scenario.adaptation) {
     s->influence.adaptation = *scenario.adaptation == "off" ? Adaptation::kOff
                               : *scenario.adaptation == "paper" ? Adaptation::kPaper : Adaptation::kFull;
   }
-  s->influence.high_limit = s->level_settings.high_limit;
   s->influence.r_high_m = s->level_settings.r_high_m;
   s->influence.r_personal_m = s->r_personal_m;
   s->influence.step_s = s->step_s;
@@ -181,6 +182,7 @@ void ControlCrowd(float frame_ms, Simulation* s) {
   const double start_ms = Now_ms();
   const float speed = Length(s->camera.velocity);
   ChooseLevels(s->crowd, s->avatar_costs, s->camera.view, speed, frame_ms, s->level_settings, s->step_s, &s->levels);
+  s->influence.high_limit = s->levels.limit;
   s->moving.clear();
   if (s->camera.present) {
     s->moving.push_back({s->camera.view.position, s->r_personal_m, true, s->camera.asked_velocity});
@@ -224,6 +226,10 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   ControlCrowd(0, &s);
   *out = std::move(s);
   return Ok();
+}
+
+float FrameTimeByModel_ms(const Simulation& s) {
+  return s.draw_base_ms + 1e-6f * s.draw_ms_per_million_triangles * static_cast<float>(s.levels.triangles);
 }
 
 void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {

@@ -31,6 +31,7 @@ struct CameraState {
   Vec2 velocity;
   Vec2 asked_velocity;  // what the visitor wants: who holds them up sees it
   float yaw_rate_radps = 0, asked_mps = 0, actual_mps = 0;
+  Corner corner;            // of the guided tour's way
   bool present = true;      // false: everybody counts as visible
 };
 
@@ -60,6 +61,7 @@ struct Simulation {
   LevelSettings level_settings;
   InfluenceSettings influence;
   float step_s = 1.0f / 30, r_personal_m = 0.6f;
+  float draw_base_ms = 0, draw_ms_per_million_triangles = 0;
   float outer_apex_back_m = 0, max_yaw_rate_radps = 2.1f;
 
   Walkable walkable;
@@ -97,6 +99,9 @@ struct Simulation {
 // with a goal nobody can reach, an unknown avatar, no ground at all; each names the person. More people than fit: as many as do,
 // and a warning.
 Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation* simulation);
+
+// What drawing this frame takes by the scenario's model of a machine, for runs that draw nothing; 0 without one.
+float FrameTimeByModel_ms(const Simulation& simulation);
 
 // frame_ms: what the last frame took, for the frame-time method; 0: unknown.
 void StepSimulation(const CameraInput& input, float frame_ms, Simulation* simulation);

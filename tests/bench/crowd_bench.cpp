@@ -14,7 +14,7 @@ constexpr int kWarmUp_steps = 150, kSteps = 300;
 // Under way for a while, all ways known.
 OpenField BusyField(int people) {
   OpenField field = MakeOpenField(people, people > 10000 ? 4 : 8);
-  for (int f : field.fields) WayToGoal(field.walkable, f, {1, 1}, &field.crowd);
+  for (int f : field.fields) BuildField(field.walkable, f, &field.crowd);
   for (int i = 0; i < kWarmUp_steps; ++i) StepOpenField(&field);
   return field;
 }

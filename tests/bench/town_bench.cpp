@@ -57,7 +57,7 @@ void Settle(const TourPack& pack, int people, float scale, Town* t) {
     if (cell >= 0) t->fields.push_back(FieldFor(CellCenter(t->walkable, cell), &t->crowd));
     if (t->fields.size() == 24) break;
   }
-  for (int f : t->fields) WayToGoal(t->walkable, f, {}, &t->crowd);
+  for (int f : t->fields) BuildField(t->walkable, f, &t->crowd);
   std::vector<int> cells;
   for (size_t cell = 0; cell < t->walkable.cost.size(); ++cell) {
     if (std::isfinite(t->crowd.fields[0].distance[cell])) cells.push_back(static_cast<int>(cell));
@@ -83,22 +83,27 @@ void StepTown(Town* t) {
   }
 }
 
-void TownStep(benchmark::State& state) {
+// A town that is large enough, with everybody under way; false where there is no pack.
+bool BusyTown(int people, benchmark::State& state, Town* town) {
   const char* path = std::getenv("FLANEUR_PACK");
   TourPack pack;
   if (path == nullptr || LoadTourPack(path, {false}, &pack)) {
     state.SkipWithError("FLANEUR_PACK names no tour pack");
-    return;
+    return false;
   }
-  const int people = static_cast<int>(state.range(0));
+  TakeTown(pack, 1, &town->walkable);
+  const float scale = std::max(1.0f, std::sqrt(static_cast<float>(people) / kDensity_pm2 / WalkableArea_m2(town->walkable)));
+  TakeTown(pack, scale, &town->walkable);
+  Settle(pack, people, scale, town);
+  town->crowd.r_unimportant_m = pack.control.r_unimportant_m;
+  town->crowd.r_far_m = pack.control.r_far_m;
+  for (int i = 0; i < kWarmUp_steps; ++i) StepTown(town);
+  return true;
+}
+
+void TownStep(benchmark::State& state) {
   Town town;
-  TakeTown(pack, 1, &town.walkable);
-  const float scale = std::max(1.0f, std::sqrt(static_cast<float>(people) / kDensity_pm2 / WalkableArea_m2(town.walkable)));
-  TakeTown(pack, scale, &town.walkable);
-  Settle(pack, people, scale, &town);
-  town.crowd.r_unimportant_m = pack.control.r_unimportant_m;
-  town.crowd.r_far_m = pack.control.r_far_m;
-  for (int i = 0; i < kWarmUp_steps; ++i) StepTown(&town);
+  if (!BusyTown(static_cast<int>(state.range(0)), state, &town)) return;
   double shown = 0;
   TimeSteps(state, [&] {
     StepTown(&town);
@@ -107,6 +112,29 @@ void TownStep(benchmark::State& state) {
   state.counters["full_behaviour"] = shown / static_cast<double>(state.iterations());
 }
 BENCHMARK(TownStep)->Arg(1000)->Arg(10000)->Arg(100000)->Iterations(376)->Unit(benchmark::kMillisecond);
+
+// So many people are sent somewhere in the same frame, each to a goal that nobody else has; with the step in which they set out.
+// `granted`: the share of them who know their way after it.
+void TownNewGoals(benchmark::State& state) {
+  Town town;
+  if (!BusyTown(10000, state, &town)) return;
+  std::vector<int> cells;
+  for (size_t cell = 0; cell < town.walkable.cost.size(); ++cell) {
+    if (std::isfinite(town.crowd.fields[0].distance[cell])) cells.push_back(static_cast<int>(cell));
+  }
+  const size_t sent = static_cast<size_t>(state.range(0));
+  double granted = 0;
+  TimeSteps(state, [&] {
+    for (size_t i = 0; i < sent; ++i) {
+      const int cell = cells[static_cast<size_t>(town.random.Below(static_cast<int>(cells.size())))];
+      SetGoal(i, FieldFor(CellCenter(town.walkable, cell), &town.crowd), &town.crowd);
+    }
+    StepTown(&town);
+    for (size_t i = 0; i < sent; ++i) granted += Length(town.crowd.way[i]) > 0 ? 1 : 0;
+  });
+  state.counters["granted"] = granted / static_cast<double>(state.iterations()) / static_cast<double>(sent);
+}
+BENCHMARK(TownNewGoals)->Arg(1000)->Iterations(5)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace flaneur

@@ -2,11 +2,12 @@
 import csv
 import os
 import pathlib
+import struct
 import subprocess
 import tempfile
 import unittest
 
-from scenes import write_box_town, write_person, write_png, write_town
+from scenes import box, quad, write_box_town, write_person, write_png, write_town
 from support import BIN, SOURCE, ProgramTest, run, split_glb, write_glb
 
 
@@ -82,6 +83,13 @@ class BadInput(ProgramTest):
         empty = self.folder / "empty.glb"
         write_glb(empty, {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "n"}]})
         self.assert_fails(run("flaneur", "footprints", empty, "-o", self.folder / "o.geojson"), "empty.glb")
+
+    def test_a_town_without_walkable_ground_stops_the_bake(self):
+        self.with_avatar()
+        ground = ("ground", {"flaneur_kind": "ground"}, *quad(10.0))
+        write_town(self.folder / "town.glb", [ground, ("keep", {"flaneur_kind": "building"}, *box(-12.0, -12.0, 24.0, 24.0, 9.0))])
+        self.assert_fails(self.bake(self.write_tour()), "no walkable ground", "flaneur_kind")
+        self.assertFalse((self.folder / "out/small.glb").exists())
 
     def test_non_finite_vertices_name_the_house(self):
         town = self.folder / "town.glb"
@@ -277,6 +285,21 @@ class Playing(ProgramTest):
         self.assert_fails(run("flaneur-player", self.pack, "--screenshot", self.folder / "a.png"), "--headless")
         self.assert_fails(self.play("--seconds", "soon"), "--seconds")
         self.assert_fails(self.play("--adaptation", "half"), "--adaptation", "off", "paper", "full")
+        still = ("--screenshot", self.folder / "a.png", "--size", "64x32")
+        self.assert_fails(self.play("--compare", "off", "full", draw=True), "--compare", "--film")
+        self.assert_fails(self.play("--compare", "off", *still, draw=True), "--compare", "2")
+        self.assert_fails(self.play("--compare", "off", "half", *still, draw=True), "--compare", "paper")
+        self.assert_fails(self.play("--compare", "off", "full", *still, "--metrics", self.folder / "m.csv", draw=True), "--metrics")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_two_adaptations_stand_side_by_side(self):
+        pictures = {}
+        for name, size, options in (("one", "64x64", ()), ("two", "128x64", ("--compare", "off", "full"))):
+            pictures[name] = self.folder / f"{name}.png"
+            self.assert_succeeds(self.play("--screenshot", pictures[name], "--size", size, *options, draw=True))
+        width, height = struct.unpack(">II", pictures["two"].read_bytes()[16:24])
+        self.assertEqual((width, height), (128, 64))
+        self.assertNotEqual(pictures["one"].read_bytes(), pictures["two"].read_bytes())
 
     def test_scenarios(self):
         path = self.folder / "scenario.toml"

@@ -142,6 +142,46 @@ TEST(LevelControl, InADenseViewTheNearestAreMeshesWhoeverCameFirst) {
   }
 }
 
+// A machine that takes 5 ms, and 100 ms for a million triangles of people.
+float FrameTime_ms(const LevelState& state) { return 5 + 1e-4f * static_cast<float>(state.triangles); }
+
+TEST(LevelControl, TheSecondMethodSettlesAtTheFrameTimeAskedForAndLowerWhileTheCameraRuns) {
+  const std::vector<AvatarCosts> avatars{{{{9000, 300}, {4000, 120}, {900, 0}}, 1.75f, 128}};
+  Random random{6};
+  Crowd crowd = PeopleInView(120, &random);
+  LevelSettings settings;
+  settings.by_frame_time = true;
+  LevelState state;
+  for (const float speed_mps : {0.0f, 3.0f, 1.4f}) {
+    const float target_ms = speed_mps > 2 ? 0.85f * settings.target_ms : settings.target_ms;
+    float least_ms = 1e9f, most_ms = 0;
+    for (int step = 0; step < 600; ++step) {
+      ChooseLevels(crowd, avatars, ViewCamera{}, speed_mps, FrameTime_ms(state), settings, 1.0f / 30, &state);
+      ASSERT_LE(state.triangles, settings.budget_triangles);
+      if (step < 300) continue;
+      least_ms = std::min(least_ms, FrameTime_ms(state)), most_ms = std::max(most_ms, FrameTime_ms(state));
+    }
+    const float one_person_ms = 1e-4f * static_cast<float>(avatars[0].levels[0].triangles);
+    EXPECT_LE(most_ms, target_ms + one_person_ms) << speed_mps;
+    EXPECT_GE(least_ms, target_ms - 2 * one_person_ms) << speed_mps;
+    EXPECT_LE(state.high, state.limit);
+  }
+}
+
+TEST(LevelControl, ABudgetThatNobodyUsesDoesNotGrow) {
+  const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
+  Random random{6};
+  Crowd crowd = PeopleInView(120, &random);
+  LevelSettings settings;
+  settings.by_frame_time = true;
+  LevelState state;
+  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, 0, FrameTime_ms(state), settings, 1.0f / 30, &state);
+  const float settled = state.budget_triangles;
+  std::fill(crowd.view.begin(), crowd.view.end(), ViewClass::kOutside);
+  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, 0, FrameTime_ms(state), settings, 1.0f / 30, &state);
+  EXPECT_NEAR(state.budget_triangles / settled, 1, 0.01f);
+}
+
 TEST(CrowdInfluence, OnlyLowResolutionVisiblePeopleAvoidTheCameraAndOnlyAtTheLimit) {
   Random random{13};
   Crowd crowd = PeopleInView(60, &random);

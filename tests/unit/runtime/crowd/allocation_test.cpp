@@ -23,7 +23,7 @@ namespace {
 
 TEST(Crowd, ASteadyStepAllocatesNothing) {
   OpenField field = MakeOpenField(1000);
-  for (int f : field.fields) WayToGoal(field.walkable, f, {1, 1}, &field.crowd);
+  for (int f : field.fields) BuildField(field.walkable, f, &field.crowd);
   const auto mixed_views = [&] {  // people come into view and go out of it
     for (size_t i = 0; i < field.crowd.size(); ++i) {
       field.crowd.view[i] = field.crowd.position[i].x < 30 ? ViewClass::kVisible : ViewClass::kOutside;

@@ -1,0 +1,118 @@
+// Ways of people with goals of their own: they get there, about as quickly as by the field, however many ask at once.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/crowd/crowd.h"
+#include "runtime/crowd/walls.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kStep_s = 1.0f / 30;
+
+// 60 x 60 m of pavement, a carriageway across it, and walls with gaps at alternating ends: a labyrinth.
+Walkable Labyrinth() {
+  Walkable w;
+  w.ground.columns = w.ground.rows = 60;
+  w.ground.height_m.assign(3600, 0);
+  w.ground.kind.assign(3600, 2);
+  for (int y = 28; y < 32; ++y) std::fill_n(w.ground.kind.begin() + y * 60, 60, uint8_t{1});
+  for (int k = 0; k < 5; ++k) {
+    const float x = 10 + 10 * static_cast<float>(k), low = k % 2 ? 3.0f : 0.0f;
+    w.polygons.push_back({{{x, low}, {x + 1, low}, {x + 1, low + 57}, {x, low + 57}}, {}});
+  }
+  w.circles.push_back({{5, 30}, 1.5f});
+  BuildWalkable(0.3f, &w);
+  return w;
+}
+
+// Metres walked along the ways from p until the goal is as good as reached; infinity where it never is.
+template <typename Way>
+float Walked_m(const Walkable& w, Vec2 p, Vec2 goal, Way way) {
+  for (int step = 0; step < 20000; ++step) {
+    if (Length(goal - p) < 0.4f) return 0.05f * static_cast<float>(step);
+    p = KeepOffWalls(w, p, p + way(p, step) * 0.05f, 0.25f);
+  }
+  return INFINITY;
+}
+
+TEST(WaySearch, LeadsThereAndIsHardlyLongerThanTheBestWay) {
+  const Walkable w = Labyrinth();
+  Random random{4};
+  WaySearch search;
+  float searched_m = 0, best_m = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const auto somewhere = [&] {
+      for (;;) {
+        const Vec2 p{random.Uniform(1, 59), random.Uniform(1, 59)};
+        if (IsFree(w, p)) return p;
+      }
+    };
+    const Vec2 from = somewhere(), goal = somewhere();
+    const FlowField field = BuildFlowField(w, goal);
+    Corner corner;
+    const float searched = Walked_m(w, from, goal, [&](Vec2 p, int step) {
+      return WayByCorners(w, p, goal, step % 30 == 0, &corner, &search);
+    });
+    ASSERT_TRUE(std::isfinite(searched)) << from.x << ' ' << from.y << " to " << goal.x << ' ' << goal.y;
+    searched_m += searched;
+    best_m += Walked_m(w, from, goal, [&](Vec2 p, int) { return StraightWay(w, p, goal) ? (goal - p) * (1 / Length(goal - p)) : WayAt(w, field, p); });
+  }
+  EXPECT_LT(searched_m, 1.15f * best_m);
+}
+
+TEST(WaySearch, SaysWhereThereIsNoWay) {
+  Walkable w = Labyrinth();
+  w.polygons.push_back({{{30, 0}, {31, 0}, {31, 60}, {30, 60}}, {}});
+  BuildWalkable(0.3f, &w);
+  WaySearch search;
+  Corner corner;
+  const Vec2 way = WayByCorners(w, {2, 2}, {58, 58}, true, &corner, &search);
+  EXPECT_EQ(way.x, 0);
+  EXPECT_EQ(way.y, 0);
+}
+
+TEST(WaySearch, AThousandNewGoalsAreGrantedInTheSameStepAndReached) {
+  const Walkable w = Labyrinth();
+  Random random{8};
+  Crowd crowd;
+  for (int k = 0; k < 1000;) {
+    Person p;
+    p.position = {random.Uniform(1, 59), random.Uniform(1, 59)};
+    const Vec2 goal{random.Uniform(1, 59), random.Uniform(1, 59)};
+    if (!IsFree(w, p.position) || !IsFree(w, goal)) continue;
+    p.field = FieldFor(goal, &crowd);
+    AddPerson(p, &crowd);
+    ++k;
+  }
+  std::fill(crowd.view.begin(), crowd.view.end(), ViewClass::kOutside);
+  StepCrowd(w, {}, kStep_s, &crowd);
+  for (size_t i = 0; i < crowd.size(); ++i) EXPECT_GT(Length(crowd.way[i]), 0.5f);
+  std::vector<char> reached(crowd.size(), 0);
+  for (int step = 0; step < 30 * 300; ++step) {
+    StepCrowd(w, {}, kStep_s, &crowd);
+    for (size_t i = 0; i < crowd.size(); ++i) {
+      if (crowd.arrived[i]) reached[i] = 1, SetGoal(i, -1, &crowd);
+    }
+  }
+  EXPECT_EQ(std::count(reached.begin(), reached.end(), 1), 1000);
+  for (const FlowField& field : crowd.fields) EXPECT_FALSE(IsBuilt(field)) << "a field of its own for one person";
+}
+
+TEST(WaySearch, AGoalThatManyShareGetsAField) {
+  const Walkable w = Labyrinth();
+  Crowd crowd;
+  for (int k = 0; k < 20; ++k) {
+    Person p;
+    p.position = {2, 2 + static_cast<float>(k)};
+    p.field = FieldFor({57, 57}, &crowd);
+    AddPerson(p, &crowd);
+  }
+  StepCrowd(w, {}, kStep_s, &crowd);
+  EXPECT_TRUE(IsBuilt(crowd.fields[0]));
+}
+
+}  // namespace
+}  // namespace flaneur
