@@ -25,6 +25,7 @@ constexpr float kPaces[] = {1.0f, 0.75f, 1.2f, 0.45f};
 constexpr float kTurns_rad[] = {0, 0.3f, -0.3f, 0.6f, -0.6f, 1.0f, -1.0f, 1.5f, -1.5f};
 constexpr float kMostTurnInView_rad = 0.7f;
 constexpr float kCostInView = 2.4f, kCostUnseen = 0.1f;  // moments in the way that one radian is worth
+constexpr float kCostOfPace = 1.5f;        // of doubling the pace, in radians
 constexpr float kStepsAside_s = 3;         // people make room for the visitor so long before
 constexpr float kRoom_m = 0.15f;
 constexpr float kBlockingCounts = 3;       // moments that holding the visitor up is worth
@@ -154,14 +155,17 @@ void Consider(const Walkable& w, const ForesightSettings& s, int capacity, size_
   const float cost = seen ? kCostInView : kCostUnseen;
   const Vec2 off = c.position[i] - state->moment[2].position;
   const float off_m = std::max(Length(off), 1e-3f);
-  const Vec2 base = stands ? off * (c.preferred_mps[i] / off_m) : desired;  // who stands walks away from where the visitor will be
+  const Vec2 ahead = stands ? off * (1 / off_m) : desired * (1 / Length(desired));  // who stands walks away from where the visitor will be
+  const float now_mps = stands ? c.preferred_mps[i] : Length(desired), preferred_mps = std::max(c.preferred_mps[i], 0.1f);
   State::Choice best{0, static_cast<int>(i), {}};
   for (const float pace : kPaces) {
+    const float speed_mps = std::min(pace * preferred_mps, c.top_mps[i]);
+    const float change = kCostOfPace * std::abs(speed_mps - now_mps) / preferred_mps;
     for (const float turn : kTurns_rad) {
       if (seen && std::abs(turn) > kMostTurnInView_rad) continue;
-      const float at_best = now - cost * (std::abs(turn) + 1.5f * std::abs(1 - pace)) - (stands ? kCostOfSettingOff : 0);
+      const float at_best = now - cost * (std::abs(turn) + change) - (stands ? kCostOfSettingOff : 0);
       if (at_best <= best.gain) continue;
-      const Vec2 velocity = Rotated(base, turn) * std::min(pace, c.top_mps[i] / std::max(c.preferred_mps[i], 0.1f));
+      const Vec2 velocity = Rotated(ahead, turn) * speed_mps;
       const float gain = at_best - TimesInTheWay(c, i, velocity, s, capacity, *state);
       if (gain > best.gain && CanWalk(w, c.position[i], velocity * kAheadFree_s)) best.gain = gain, best.velocity = velocity;
     }
