@@ -70,8 +70,9 @@ void AddCompression(CLI::App* app, AvatarArguments* a) {
   const std::string compression = "Compression";
   app->add_flag("--no-draco", a->plain, "Write plain meshes, for programs without Draco")
       ->group(compression);
-  app->add_option("--position-bits", a->draco.position_bits, "Bits of a position's component")
-      ->check(CLI::Range(8, 24))
+  app->add_option("--position-bits", a->draco.position_bits,
+                  "Bits of a position's component, 8 to 24; 0: 14, in coarser levels by their error")
+      ->check(CLI::IsMember({0}) | CLI::Range(8, 24))
       ->group(compression);
   app->add_option("--normal-bits", a->draco.normal_bits, "Bits of a normal")
       ->check(CLI::Range(4, 16))

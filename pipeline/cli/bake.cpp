@@ -258,7 +258,7 @@ std::vector<Gate> GatesOfSettings(const TourSettings& settings) {
 void SummarizeErrors(const std::vector<Finding>& findings, std::vector<std::string>* warnings) {
   std::map<int, std::pair<int, const Finding*>> by_code;
   for (const Finding& f : findings) {
-    if (KindOf(f.code).severity != Severity::kError) continue;
+    if (f.severity != Severity::kError) continue;
     auto& [count, first] = by_code[f.code];
     if (count++ == 0) first = &f;
   }
@@ -275,8 +275,8 @@ void ReportFindings(const std::vector<Finding>& findings, StageReport* stage, Ba
   double errors = 0;
   for (const Finding& f : findings) {
     const FindingKind& kind = KindOf(f.code);
-    errors += kind.severity == Severity::kError ? 1 : 0;
-    report->findings.push_back({f.code, SeverityName(kind.severity), kind.title, f.feature, f.message, kind.advice,
+    errors += f.severity == Severity::kError ? 1 : 0;
+    report->findings.push_back({f.code, SeverityName(f.severity), kind.title, f.feature, f.message, kind.advice,
                                 {static_cast<float>(f.at_m.x), static_cast<float>(f.at_m.y)}});
   }
   stage->figures = {{"errors", errors}, {"warnings", static_cast<double>(findings.size()) - errors}};

@@ -11,6 +11,8 @@
 namespace flaneur {
 namespace {
 
+constexpr int kPositionBits = 14;  // 0.12 mm over 2 m
+
 // Decodes without exceptions reaching the caller: Draco itself has none, but allocates what a
 // broken header asks for.
 Error DecodeMesh(std::span<const uint8_t> bytes, std::unique_ptr<draco::Mesh>* mesh) {
@@ -171,8 +173,8 @@ Error EncodeDraco(const Mesh& in, const DracoOptions& options, const PositionGri
   draco::ExpertEncoder encoder(mesh);
   encoder.SetSpeedOptions(options.speed, options.speed);
   const float origin[3] = {grid.min.x, grid.min.y, grid.min.z};
-  encoder.SetAttributeExplicitQuantization(out->position, options.position_bits, 3, origin,
-                                           grid.size_m);
+  const int position_bits = options.position_bits > 0 ? options.position_bits : kPositionBits;
+  encoder.SetAttributeExplicitQuantization(out->position, position_bits, 3, origin, grid.size_m);
   if (out->normal >= 0) encoder.SetAttributeQuantization(out->normal, options.normal_bits);
   for (const int id : {out->uv, out->uv1}) {
     if (id >= 0) encoder.SetAttributeQuantization(id, options.uv_bits);

@@ -1,5 +1,8 @@
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/io/clip_keys.h"
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_builder.h"
 #include "runtime/base/file.h"
@@ -10,6 +13,29 @@ namespace {
 // MSFT_lod's thresholds are shares of the screen's height; ours are pixels, taken on a screen this
 // high.
 constexpr float kScreenHeight_px = 1080;
+constexpr float kRoundedShare = 0.02f;  // of a level's error, that a position may be rounded by
+
+// Rounding stays well below the level's own error.
+int PositionBits(const AvatarLevel& level, float height_m) {
+  const float error_m = std::max(level.error_mm, level.posed_error_mm) / 1000;
+  if (!(error_m > 0)) return 0;
+  const float bits = std::ceil(std::log2(height_m / (kRoundedShare * error_m)));
+  return static_cast<int>(std::clamp(bits, 12.0f, 16.0f));
+}
+
+// Without the uvs of materials that have no picture.
+std::vector<Mesh> WithoutIdleUvs(std::vector<Mesh> meshes, const std::vector<Material>& materials) {
+  for (Mesh& mesh : meshes) {
+    const Material* material =
+        mesh.material >= 0 ? &materials[static_cast<size_t>(mesh.material)] : nullptr;
+    const bool pictured =
+        material != nullptr && (material->base_color_image >= 0 || material->normal_image >= 0);
+    if (pictured) continue;
+    mesh.uvs.clear();
+    mesh.uvs1.clear();
+  }
+  return meshes;
+}
 
 std::string LevelExtras(const AvatarLevel& level) {
   const nlohmann::json extras = {{"flaneur_triangles", level.triangles},
@@ -53,8 +79,13 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
     node.name = prefix + "level" + std::to_string(k);
     node.skin = part->skin;
     node.extras = LevelExtras(levels.levels[k]);
+    DracoOptions rounding = draco;
+    if (rounding.position_bits == 0) {
+      rounding.position_bits = PositionBits(levels.levels[k], avatar.height_m);
+    }
     if (Error e =
-            builder->AddMesh(node.name, levels.levels[k].meshes, materials, draco, &node.mesh)) {
+            builder->AddMesh(node.name, WithoutIdleUvs(levels.levels[k].meshes, avatar.materials),
+                             materials, rounding, &node.mesh)) {
       return e;
     }
     part->level_nodes.push_back(builder->AddNode(node));
@@ -64,9 +95,10 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
     builder->SetLevels(part->level_nodes[0], std::span(part->level_nodes).subspan(1),
                        switch_shares);
   }
+  const std::vector<float> reaches_m = JointReaches(avatar.joints, levels.levels[0].meshes);
   for (const Clip& clip : avatar.clips) {
-    part->animations.push_back(
-        builder->AddAnimation(prefix + clip.name, clip, avatar.joints, part->joint_nodes));
+    part->animations.push_back(builder->AddAnimation(prefix + clip.name, clip, avatar.joints,
+                                                     reaches_m, part->joint_nodes));
   }
   return Ok();
 }

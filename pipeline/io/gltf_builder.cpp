@@ -1,11 +1,13 @@
 #include "pipeline/io/gltf_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "pipeline/io/clip_keys.h"
 #include "pipeline/io/draco_codec.h"
 #include "runtime/base/text.h"
 
@@ -15,7 +17,9 @@ namespace {
 using nlohmann::json;
 
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // glTF component types
-constexpr int kVertices = 34962, kIndices = 34963;                      // glTF bufferView targets
+constexpr int kSignedShort = 5122;
+constexpr float kKeyError_m = 0.0005f;  // by which left out keys may move what hangs on a joint
+constexpr int kVertices = 34962, kIndices = 34963;  // glTF bufferView targets
 
 json Numbers(Vec3 v) { return {v.x, v.y, v.z}; }
 json Numbers(Vec4 v) { return {v.x, v.y, v.z, v.w}; }
@@ -128,7 +132,9 @@ struct GltfBuilder::Impl {
   std::map<std::string, int> images;  // by their bytes
   std::map<std::pair<int, bool>, int> textures;
   FloatPool binds, key_times, key_values;
-  Error problem;  // the first broken JSON given, reported by Finish
+  std::vector<int16_t> key_rotations;
+  std::vector<int> waiting_rotations;  // accessors whose bufferView is still to come
+  Error problem;                       // the first broken JSON given, reported by Finish
 
   int Add(const char* list, json item) {
     root[list].push_back(std::move(item));
@@ -181,6 +187,14 @@ struct GltfBuilder::Impl {
     pool->waiting.clear();
   }
 
+  void FlushRotations() {
+    if (waiting_rotations.empty()) return;
+    const int view = AddView(Bytes(key_rotations), 0);
+    for (const int accessor : waiting_rotations) {
+      root["accessors"][static_cast<size_t>(accessor)]["bufferView"] = view;
+    }
+  }
+
   // An accessor whose numbers are in the Draco data, or in `view`.
   int AddAttribute(int view, int component, const char* type, size_t count, bool normalized) {
     json accessor = {{"componentType", component}, {"count", count}, {"type", type}};
@@ -198,8 +212,7 @@ struct GltfBuilder::Impl {
   Error AddCompressed(const Mesh& mesh, const DracoOptions& options, const PositionGrid& grid,
                       bool byte_joints, json* primitive);
   void AddPlain(const Mesh& mesh, bool byte_joints, json* primitive);
-  json Channel(const Clip& clip, size_t joint, size_t joints, const Transform& rest, int node,
-               const char* path, json* samplers);
+  int AddKeyValues(const KeyChannel& channel);
 };
 
 Error GltfBuilder::Impl::AddCompressed(const Mesh& mesh, const DracoOptions& options,
@@ -269,6 +282,29 @@ void GltfBuilder::Impl::AddPlain(const Mesh& mesh, bool byte_joints, json* primi
   const std::vector<uint16_t> indices(mesh.indices.begin(), mesh.indices.end());
   (*primitive)["indices"] =
       AddAttribute(AddView(Bytes(indices), kIndices), kShort, "SCALAR", indices.size(), false);
+}
+
+// Rotations as 16-bit integers, vectors as floats.
+int GltfBuilder::Impl::AddKeyValues(const KeyChannel& channel) {
+  if (channel.path != "rotation") {
+    std::vector<float> values;
+    for (const Vec4& v : channel.values) values.insert(values.end(), {v.x, v.y, v.z});
+    return AddFloats(&key_values, values, "VEC3", 3, false);
+  }
+  json accessor = {{"byteOffset", key_rotations.size() * sizeof(int16_t)},
+                   {"componentType", kSignedShort},
+                   {"normalized", true},
+                   {"count", channel.values.size()},
+                   {"type", "VEC4"}};
+  for (const Vec4& v : channel.values) {
+    for (const float x : {v.x, v.y, v.z, v.w}) {
+      key_rotations.push_back(
+          static_cast<int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767)));
+    }
+  }
+  const int index = Add("accessors", std::move(accessor));
+  waiting_rotations.push_back(index);
+  return index;
 }
 
 GltfBuilder::GltfBuilder() : impl_(std::make_unique<Impl>()) {}
@@ -400,124 +436,17 @@ int GltfBuilder::AddSkin(const std::string& name, std::span<const int> joint_nod
   return impl_->Add("skins", std::move(item));
 }
 
-namespace {
-
-// Tolerances of a dropped key: invisible, and far below Draco's rounding of the vertices it moves.
-constexpr float kTranslationTolerance_m = 0.0002f;
-constexpr float kRotationTolerance = 0.0005f;  // of a quaternion's components, about 0.06 degrees
-constexpr float kScaleTolerance = 0.0002f;
-
-struct Track {
-  size_t width = 3;
-  float tolerance = 0;
-  std::vector<Vec4> keys;
-};
-
-Track MakeTrack(const Clip& clip, size_t joint, size_t joints, const std::string& path) {
-  Track track;
-  track.tolerance = path == "translation" ? kTranslationTolerance_m
-                    : path == "rotation"  ? kRotationTolerance
-                                          : kScaleTolerance;
-  if (path == "rotation") track.width = 4;
-  for (size_t k = 0; k < static_cast<size_t>(clip.keys); ++k) {
-    const Transform& t = clip.transforms[k * joints + joint];
-    const Vec3 v = path == "translation" ? t.translation : t.scale;
-    Vec4 key{v.x, v.y, v.z, 0};
-    if (path == "rotation") {
-      key = {t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w};
-      // The shorter way round, also for players that interpolate by component.
-      if (k > 0) {
-        const Vec4 b = track.keys.back();
-        if (key.x * b.x + key.y * b.y + key.z * b.z + key.w * b.w < 0) {
-          key = {-key.x, -key.y, -key.z, -key.w};
-        }
-      }
-    }
-    track.keys.push_back(key);
-  }
-  return track;
-}
-
-float Difference(Vec4 a, Vec4 b) {
-  return std::max(
-      {std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z), std::abs(a.w - b.w)});
-}
-
-Vec4 Interpolated(const Track& track, size_t first, size_t last, size_t k) {
-  const float t = static_cast<float>(k - first) / static_cast<float>(last - first);
-  const Vec4 a = track.keys[first], b = track.keys[last];
-  if (track.width == 4) {
-    const Quat q = Slerp({a.x, a.y, a.z, a.w}, {b.x, b.y, b.z, b.w}, t);
-    return {q.x, q.y, q.z, q.w};
-  }
-  return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, 0};
-}
-
-// The keys to keep: the greatest misfit splits a run, as Ramer, Douglas and Peucker do for lines.
-void KeepKeys(const Track& track, size_t first, size_t last, std::vector<bool>* keep) {
-  (*keep)[first] = (*keep)[last] = true;
-  float worst = track.tolerance;
-  size_t split = 0;
-  for (size_t k = first + 1; k < last; ++k) {
-    const float misfit = Difference(Interpolated(track, first, last, k), track.keys[k]);
-    if (misfit > worst) {
-      worst = misfit;
-      split = k;
-    }
-  }
-  if (split == 0) return;
-  KeepKeys(track, first, split, keep);
-  KeepKeys(track, split, last, keep);
-}
-
-Vec4 RestKey(const Transform& rest, const std::string& path) {
-  if (path == "rotation") {
-    return {rest.rotation.x, rest.rotation.y, rest.rotation.z, rest.rotation.w};
-  }
-  const Vec3 v = path == "translation" ? rest.translation : rest.scale;
-  return {v.x, v.y, v.z, 0};
-}
-
-}  // namespace
-
-json GltfBuilder::Impl::Channel(const Clip& clip, size_t joint, size_t joints,
-                                const Transform& rest, int node, const char* path, json* samplers) {
-  const Track track = MakeTrack(clip, joint, joints, path);
-  const Vec4 still = RestKey(rest, path), opposite{-still.x, -still.y, -still.z, -still.w};
-  bool moves = false;
-  for (const Vec4 key : track.keys) {
-    const float from_rest = track.width == 4
-                                ? std::min(Difference(key, still), Difference(key, opposite))
-                                : Difference(key, still);
-    moves = moves || from_rest > track.tolerance / 2;
-  }
-  if (!moves) return nullptr;
-  const size_t keys = track.keys.size();
-  std::vector<bool> keep(keys, false);
-  KeepKeys(track, 0, keys - 1, &keep);
-  std::vector<float> times, values;
-  for (size_t k = 0; k < keys; ++k) {
-    if (!keep[k]) continue;
-    const float share = keys > 1 ? static_cast<float>(k) / static_cast<float>(keys - 1) : 0.0f;
-    times.push_back(share * clip.duration_s);
-    const float* v = &track.keys[k].x;
-    values.insert(values.end(), v, v + track.width);
-  }
-  samplers->push_back({{"input", AddFloats(&key_times, times, "SCALAR", 1, true)},
-                       {"output", AddFloats(&key_values, values, track.width == 4 ? "VEC4" : "VEC3",
-                                            track.width, false)}});
-  return {{"sampler", samplers->size() - 1}, {"target", {{"node", node}, {"path", path}}}};
-}
-
 int GltfBuilder::AddAnimation(const std::string& name, const Clip& clip,
-                              std::span<const Joint> joints, std::span<const int> joint_nodes) {
+                              std::span<const Joint> joints, std::span<const float> reaches_m,
+                              std::span<const int> joint_nodes) {
   json channels = json::array(), samplers = json::array();
-  for (size_t j = 0; j < joints.size(); ++j) {
-    for (const char* path : {"translation", "rotation", "scale"}) {
-      json channel =
-          impl_->Channel(clip, j, joints.size(), joints[j].rest, joint_nodes[j], path, &samplers);
-      if (!channel.is_null()) channels.push_back(std::move(channel));
-    }
+  for (const KeyChannel& channel : ReduceKeys(clip, joints, reaches_m, kKeyError_m)) {
+    channels.push_back(
+        {{"sampler", samplers.size()},
+         {"target", {{"node", joint_nodes[channel.joint]}, {"path", channel.path}}}});
+    samplers.push_back(
+        {{"input", impl_->AddFloats(&impl_->key_times, channel.times, "SCALAR", 1, true)},
+         {"output", impl_->AddKeyValues(channel)}});
   }
   if (channels.empty()) return -1;
   json item = {{"channels", std::move(channels)}, {"samplers", std::move(samplers)}};
@@ -568,6 +497,7 @@ void GltfBuilder::SetLevels(int node, std::span<const int> coarser,
 Error GltfBuilder::Finish(std::vector<uint8_t>* glb) {
   Impl& impl = *impl_;
   for (FloatPool* pool : {&impl.binds, &impl.key_times, &impl.key_values}) impl.FlushPool(pool);
+  impl.FlushRotations();
   if (!impl.used.empty()) impl.root["extensionsUsed"] = impl.used;
   if (!impl.required.empty()) impl.root["extensionsRequired"] = impl.required;
   if (!impl.binary.empty()) {

@@ -18,12 +18,12 @@ namespace flaneur {
 // Bits each component is rounded to, over the extent of the mesh. Joints and weights are lossless:
 // weights are stored as bytes that sum to 255.
 struct DracoOptions {
-  bool compress = true;    // false: plain accessors, nothing rounded but weights
-  int position_bits = 14;  // 0.12 mm over 2 m
+  bool compress = true;   // false: plain accessors, nothing rounded but weights
+  int position_bits = 0;  // 0: for a level of detail by its error, 12 to 16; else 14
   int normal_bits = 10;
   int uv_bits = 12;
   int color_bits = 10;
-  int speed = 3;  // 0: smallest, 10: fastest
+  int speed = 0;  // 0: smallest, 10: fastest
 };
 
 struct GltfNode {
@@ -62,11 +62,11 @@ class GltfBuilder {
   int AddNode(const GltfNode& node);
   int AddSkin(const std::string& name, std::span<const int> joint_nodes,
               std::span<const Mat4> inverse_binds, int skeleton_node);
-  // Keys that interpolation restores within 0.2 mm and 0.03 degrees are left out, and so are
-  // channels that only hold the joint's rest transform. Returns -1, and adds nothing, where no
-  // channel is left.
+  // Keys that interpolation restores are left out (see ReduceKeys; 0.5 mm a joint), and so are
+  // channels that only hold the joint's rest transform; rotations become 16-bit integers. Returns
+  // -1, and adds nothing, where no channel is left.
   int AddAnimation(const std::string& name, const Clip& clip, std::span<const Joint> joints,
-                   std::span<const int> joint_nodes);
+                   std::span<const float> reaches_m, std::span<const int> joint_nodes);
   int AddScene(const std::string& name,
                std::span<const int> root_nodes);  // the first is the default scene
 
