@@ -21,20 +21,7 @@ constexpr double kWallPiece_m = 0.005;    // shorter pieces of a wall likewise
 constexpr double kSeam_m = 0.0125;        // cracks between neighbours up to twice this are nobody's way, and welded
 constexpr double kNear_m = 1;
 
-struct Box { Point2 min{1e300, 1e300}, max{-1e300, -1e300}; };
-
-Box BoxOf(const Rings& rings) {
-  Box box;
-  for (const Ring& ring : rings) {
-    for (const Point2& p : ring) {
-      box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y)};
-      box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y)};
-    }
-  }
-  return box;
-}
-
-bool Meet(Point2 min, Point2 max, const Box& box, double reach = 0) {
+bool Meet(Point2 min, Point2 max, const BoundingBox& box, double reach = 0) {
   return min.x <= box.max.x + reach && box.min.x <= max.x + reach && min.y <= box.max.y + reach && box.min.y <= max.y + reach;
 }
 
@@ -51,7 +38,7 @@ double Perimeter(const Rings& rings) {
 }
 
 // What the town itself says should be covered, by object.
-struct Footprint { const Obstacle* obstacle; Rings rings; Box box; };
+struct Footprint { const Obstacle* obstacle; Rings rings; BoundingBox box; };
 
 class TownCheck {
  public:
@@ -84,13 +71,13 @@ class TownCheck {
       Rings rings{o.outer};
       if (o.outer.empty()) rings = {CircleRing(o.center, o.radius_m)};
       else rings.insert(rings.end(), o.holes.begin(), o.holes.end());
-      truth_.push_back({&o, rings, BoxOf(rings)});
+      truth_.push_back({&o, rings, BoundingBoxOf(rings)});
     }
   }
 
   // 907. Then every building would lack its obstacle and every obstacle its building.
   bool LieApart() {
-    Box town;
+    BoundingBox town;
     for (const Footprint& f : truth_) {
       town.min = {std::min(town.min.x, f.box.min.x), std::min(town.min.y, f.box.min.y)};
       town.max = {std::max(town.max.x, f.box.max.x), std::max(town.max.y, f.box.max.y)};
@@ -114,7 +101,7 @@ class TownCheck {
   }
 
   // The obstacle that stands for an object has a broken ring, which is said already; what follows from it is not.
-  bool IsBroken(const std::string& source, const Box& box) const {
+  bool IsBroken(const std::string& source, const BoundingBox& box) const {
     return std::any_of(state_.obstacles.begin(), state_.obstacles.end(), [&](const CheckedObstacle& entry) {
       if (entry.sound) return false;
       const Obstacle& o = *entry.obstacle;
@@ -125,7 +112,7 @@ class TownCheck {
 
   // 304: objects of which most is uncovered; their walls are not reported once more.
   void FindMissing() {
-    struct Cover { double all = 0, covered = 0; Point2 at; Box box; };
+    struct Cover { double all = 0, covered = 0; Point2 at; BoundingBox box; };
     std::map<std::string, Cover> covers;  // by source
     for (const Footprint& f : truth_) {
       Cover& cover = covers[f.obstacle->source];
@@ -152,7 +139,7 @@ class TownCheck {
   }
 
   // What obstacles cover in and round a box, cracks welded.
-  Rings CoverNear(const Box& box) const {
+  Rings CoverNear(const BoundingBox& box) const {
     Rings all;
     for (const CheckedObstacle& entry : state_.obstacles) {
       if (entry.rings.empty() || entry.duplicate || !Meet(entry.min, entry.max, box, kNear_m)) continue;
@@ -164,7 +151,7 @@ class TownCheck {
     return Offset(UnionOfAreas(all), -kSeam_m);
   }
 
-  Rings TruthNear(const Box& box, double reach = kNear_m) const {
+  Rings TruthNear(const BoundingBox& box, double reach = kNear_m) const {
     Rings all;
     for (const Footprint& f : truth_)
       if (Meet(f.box.min, f.box.max, box, reach)) all.insert(all.end(), f.rings.begin(), f.rings.end());
@@ -176,7 +163,7 @@ class TownCheck {
     if (!objects_.ground.empty()) terrain.emplace_back(raster_);
     for (const TownObject& object : objects_.obstacles) {
       if (missing_.contains(object.name)) continue;
-      const Box box{{object.min_m.x, object.min_m.y}, {object.max_m.x, object.max_m.y}};
+      const BoundingBox box{{object.min_m.x, object.min_m.y}, {object.max_m.x, object.max_m.y}};
       if (IsBroken(object.name, box)) continue;
       if (object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp) FindTrunk(object, box);
       else CheckWalls(object, box, terrain.empty() ? WallsInBand(object, GroundsUnder(object)) : WallsInBand(object, terrain));
@@ -193,7 +180,7 @@ class TownCheck {
     return walls;
   }
 
-  void FindTrunk(const TownObject& object, const Box& box) {
+  void FindTrunk(const TownObject& object, const BoundingBox& box) {
     for (const Footprint& f : truth_) {
       if (f.obstacle->source != object.name || !f.obstacle->outer.empty()) continue;
       const double radius = f.obstacle->radius_m - std::max(state_.clearance_m, 0.0);
@@ -202,7 +189,7 @@ class TownCheck {
   }
 
   // 301, 302: once for each object, at the worst place.
-  void CheckWalls(const TownObject& object, const Box& box, const std::vector<Segment>& walls) {
+  void CheckWalls(const TownObject& object, const BoundingBox& box, const std::vector<Segment>& walls) {
     const double tolerance = state_.options.tolerance_m, short_of = state_.clearance_m - tolerance;
     const Rings cover = CoverNear(box);
     const AreaIndex index(cover, std::max(1.0, 2 * state_.clearance_m));

@@ -350,18 +350,7 @@ Rings Enlarged(const Site& site, const Shape& shape) {
   return tolerance > 0 ? Simplify(rings, tolerance) : rings;
 }
 
-struct Box { Point2 min{1e300, 1e300}, max{-1e300, -1e300}; };
-Box BoxOf(const Rings& rings) {
-  Box box;
-  for (const Ring& ring : rings) {
-    for (const Point2& p : ring) {
-      box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y)};
-      box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y)};
-    }
-  }
-  return box;
-}
-bool Apart(const Box& a, const Box& b) {
+bool Apart(const BoundingBox& a, const BoundingBox& b) {
   return a.max.x < b.min.x || b.max.x < a.min.x || a.max.y < b.min.y || b.max.y < a.min.y;
 }
 
@@ -377,25 +366,25 @@ Rings WithoutSpecks(const Rings& rings) {
 
 // A strip or speck too small to stay with its own obstacle goes to the neighbour it lies against, so that no wall loses its clearance.
 void GiveAway(const Rings& strips, size_t from, const std::vector<size_t>& neighbours, double width_m,
-              std::vector<Box>* boxes, std::vector<Rings>* enlarged) {
+              std::vector<BoundingBox>* boxes, std::vector<Rings>* enlarged) {
   for (const Polygon& strip : ToPolygons(strips)) {
     if (SignedArea(strip.outer) < kSmallestStrip_m2) continue;
     const Rings grown = Offset({strip.outer}, kAgainst_m);
     size_t owner = from;
     double most = 0;
     for (const size_t j : neighbours) {
-      if ((*enlarged)[j].empty() || Apart((*boxes)[j], BoxOf(grown))) continue;
+      if ((*enlarged)[j].empty() || Apart((*boxes)[j], BoundingBoxOf(grown))) continue;
       const double shared = Area(Intersection(grown, (*enlarged)[j]));
       if (shared > most) most = shared, owner = j;
     }
     if (owner == from) continue;
     (*enlarged)[owner] = Tidy(Union((*enlarged)[owner], grown), width_m);
-    (*boxes)[owner] = BoxOf((*enlarged)[owner]);
+    (*boxes)[owner] = BoundingBoxOf((*enlarged)[owner]);
   }
 }
 
 // For each box the others within reach, ascending.
-std::vector<std::vector<size_t>> Neighbours(const std::vector<Box>& boxes) {
+std::vector<std::vector<size_t>> Neighbours(const std::vector<BoundingBox>& boxes) {
   std::vector<size_t> from_west(boxes.size());
   std::iota(from_west.begin(), from_west.end(), size_t{0});
   std::sort(from_west.begin(), from_west.end(), [&](size_t i, size_t j) { return boxes[i].min.x < boxes[j].min.x; });
@@ -429,9 +418,9 @@ Rings SharedGround(const Shape& a, const Shape& b) {
 void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes, double width_m,
               std::vector<Rings>* enlarged) {
   const auto is_house = [&](size_t i) { return objects[i].kind == ObstacleKind::kBuilding; };
-  std::vector<Box> solid_boxes, boxes;
-  for (const Shape& shape : shapes) solid_boxes.push_back(BoxOf(shape.solid));
-  for (const Rings& rings : *enlarged) boxes.push_back(BoxOf(rings));
+  std::vector<BoundingBox> solid_boxes, boxes;
+  for (const Shape& shape : shapes) solid_boxes.push_back(BoundingBoxOf(shape.solid));
+  for (const Rings& rings : *enlarged) boxes.push_back(BoundingBoxOf(rings));
   const std::vector<std::vector<size_t>> neighbours = Neighbours(boxes);
   for (size_t i = 0; i < enlarged->size(); ++i) {
     Rings taken;
@@ -452,7 +441,7 @@ void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& 
 
 bool MakeCircle(const Site& site, const TownObject& object, Obstacle* obstacle) {
   const std::vector<Segment> lines = Lines(PartsInBand(site, Stand(site, object), object.triangles));
-  Box box;
+  BoundingBox box;
   for (const Segment& s : lines) {
     box.min = {std::min({box.min.x, s.a.x, s.b.x}), std::min({box.min.y, s.a.y, s.b.y})};
     box.max = {std::max({box.max.x, s.a.x, s.b.x}), std::max({box.max.y, s.a.y, s.b.y})};

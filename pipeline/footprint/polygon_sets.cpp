@@ -160,6 +160,17 @@ double Area(const Rings& rings) {
   return area;
 }
 
+BoundingBox BoundingBoxOf(const Rings& rings) {
+  BoundingBox box;
+  for (const Ring& ring : rings) {
+    for (const Point2& p : ring) {
+      box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y)};
+      box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y)};
+    }
+  }
+  return box;
+}
+
 Rings Union(const Rings& a, const Rings& b) { return Combine(cl::ctUnion, a, b); }
 Rings Intersection(const Rings& a, const Rings& b) { return Combine(cl::ctIntersection, a, b); }
 Rings Difference(const Rings& a, const Rings& b) { return Combine(cl::ctDifference, a, b); }

@@ -16,6 +16,8 @@ struct Polygon { Ring outer; Rings holes; };
 
 double SignedArea(const Ring& ring);  // square metres, positive where anticlockwise
 double Area(const Rings& rings);
+struct BoundingBox { Point2 min{1e300, 1e300}, max{-1e300, -1e300}; };  // of nothing: min above max
+BoundingBox BoundingBoxOf(const Rings& rings);
 
 Rings Union(const Rings& a, const Rings& b);
 // The union of rings that overlap, each filled whatever its orientation.

@@ -20,6 +20,12 @@ inline Vec2 ClampLength(Vec2 v, float most) {
   return length2 > most * most ? v * (most / std::sqrt(length2)) : v;
 }
 
+// Of length 1; zero for what is as good as zero.
+inline Vec2 Unit(Vec2 v) {
+  const float length = Length(v);
+  return length > 1e-6f ? v * (1 / length) : Vec2{};
+}
+
 // Anticlockwise from +x, to 2e-6 radians; 0 for the zero vector. By Abramowitz and Stegun's form 4.4.49.
 inline float AngleOf(Vec2 v) {
   const float x = std::abs(v.x), y = std::abs(v.y);

@@ -7,11 +7,11 @@
 #include <queue>
 
 #include "runtime/crowd/constants.h"
+#include "runtime/crowd/fast_math.h"
 
 namespace flaneur {
 namespace {
 
-constexpr float kGoalReach_m = 3;
 constexpr float kExactAround_m = 3;  // straight lines instead of marching: marching is least exact near its source
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr uint8_t kNoWay = 255;
@@ -108,11 +108,6 @@ std::array<Vec2, 256> MakeDirections() {
 
 const std::array<Vec2, 256> kDirections = MakeDirections();
 
-Vec2 Unit(Vec2 v) {
-  const float length = Length(v);
-  return length > 1e-6f ? v * (1 / length) : Vec2{};
-}
-
 }  // namespace
 
 float CostOfGround(const Walkable& w, int cell) {
@@ -121,7 +116,7 @@ float CostOfGround(const Walkable& w, int cell) {
 
 FlowField BuildFlowField(const Walkable& w, Vec2 goal) {
   FlowField field{goal, std::vector<float>(w.cost.size(), kInfinity), std::vector<uint8_t>(w.cost.size(), kNoWay)};
-  const int start = IsFree(w, goal) ? CellAt(w, goal) : NearestFreeCell(w, goal, kGoalReach_m);
+  const int start = FreeCellFor(w, goal);
   if (start < 0) return field;
   Queue open;
   SeedAroundGoal(w, goal, start, &field, &open);
@@ -133,8 +128,8 @@ FlowField BuildFlowField(const Walkable& w, Vec2 goal) {
 }
 
 bool Reachable(const Walkable& w, const FlowField& field, Vec2 from) {
-  const int a = IsFree(w, from) ? CellAt(w, from) : NearestFreeCell(w, from, kGoalReach_m);
-  const int b = IsFree(w, field.goal) ? CellAt(w, field.goal) : NearestFreeCell(w, field.goal, kGoalReach_m);
+  const int a = FreeCellFor(w, from);
+  const int b = FreeCellFor(w, field.goal);
   return a >= 0 && b >= 0 && w.component[static_cast<size_t>(a)] == w.component[static_cast<size_t>(b)];
 }
 
@@ -151,7 +146,7 @@ Vec2 WayAt(const Walkable& w, const FlowField& field, Vec2 p) {
     sum = sum + kDirections[field.direction[static_cast<size_t>(y * w.columns + x)]] * share;
   }
   if (Dot(sum, sum) > 0.01f) return Unit(sum);
-  const int cell = NearestFreeCell(w, p, kGoalReach_m);  // squeezed against a wall: back to where ways are known
+  const int cell = NearestFreeCell(w, p, kPlaceReach_m);  // squeezed against a wall: back to where ways are known
   if (cell < 0 || field.direction[static_cast<size_t>(cell)] == kNoWay) return {};
   const Vec2 there = kDirections[field.direction[static_cast<size_t>(cell)]];
   return Unit(Unit(CellCenter(w, cell) - p) + there);

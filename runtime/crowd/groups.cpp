@@ -5,6 +5,7 @@
 
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/crowd.h"
+#include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/steering.h"
 
 namespace flaneur {
@@ -33,11 +34,6 @@ struct Formation {
   Vec2 place[kMostInGroup];  // x ahead, y to the left of the centre
   Vec2 center, ahead, left;
 };
-
-Vec2 Unit(Vec2 v) {
-  const float length = Length(v);
-  return length > 1e-6f ? v * (1 / length) : Vec2{};
-}
 
 bool Walks(const Crowd& c, size_t i) {
   return c.activity[i] == Activity::kWalking && c.field[i] >= 0 && c.cares[i] && c.detour_s[i] <= 0;

@@ -336,4 +336,6 @@ int NearestFreeCell(const Walkable& w, Vec2 p, float reach_m) {
   return best;
 }
 
+int FreeCellFor(const Walkable& w, Vec2 p) { return IsFree(w, p) ? CellAt(w, p) : NearestFreeCell(w, p, kPlaceReach_m); }
+
 }  // namespace flaneur

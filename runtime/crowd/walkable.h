@@ -71,5 +71,8 @@ float HeightAt(const Walkable& w, Vec2 p);         // bilinear; 0 where there is
 bool InsideObstacle(const Walkable& w, Vec2 p);    // exact, by the shapes
 // The free cell nearest to p within reach_m, -1 if none.
 int NearestFreeCell(const Walkable& w, Vec2 p, float reach_m);
+// The cell where somebody who starts or ends at p walks: the one at p if free, else the nearest free one within kPlaceReach_m.
+inline constexpr float kPlaceReach_m = 3;
+int FreeCellFor(const Walkable& w, Vec2 p);
 
 }  // namespace flaneur

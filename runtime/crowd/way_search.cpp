@@ -9,7 +9,6 @@
 namespace flaneur {
 namespace {
 
-constexpr float kGoalReach_m = 3;
 constexpr float kGreed = 1.2f;       // weight of what is still estimated: ways get a little longer, searches much smaller
 constexpr float kDiagonal = 1.41421356f;
 constexpr float kAtCorner_m = 0.4f;
@@ -103,11 +102,9 @@ size_t InSight(const Walkable& w, Vec2 p, const std::vector<Vec2>& points) {
   return seen;
 }
 
-int CellFor(const Walkable& w, Vec2 p) { return IsFree(w, p) ? CellAt(w, p) : NearestFreeCell(w, p, kGoalReach_m); }
-
 // Over the cells to a point that is near but round a corner.
 Vec2 CornerNear(const Walkable& w, Vec2 p, int start, Vec2 to, WaySearch* s) {
-  const int end = CellFor(w, to);
+  const int end = FreeCellFor(w, to);
   if (end < 0 || !SearchCells(w, start, end, &s->near)) return p;
   s->points.clear();
   for (size_t k = 1; k < s->near.way.size(); ++k) s->points.push_back(CellCenter(w, s->near.way[k]));
@@ -117,7 +114,7 @@ Vec2 CornerNear(const Walkable& w, Vec2 p, int start, Vec2 to, WaySearch* s) {
 }
 
 Vec2 FirstCorner(const Walkable& w, Vec2 p, Vec2 goal, WaySearch* s) {
-  const int start = CellFor(w, p), end = CellFor(w, goal);
+  const int start = FreeCellFor(w, p), end = FreeCellFor(w, goal);
   if (start < 0 || end < 0 || w.component[static_cast<size_t>(start)] != w.component[static_cast<size_t>(end)]) return p;
   const Regions& r = s->regions;
   if (!SearchRegions(w, r.region_of[static_cast<size_t>(start)], r.region_of[static_cast<size_t>(end)], s)) return p;

@@ -1,17 +1,8 @@
 #include "runtime/likeness/contact_sheet.h"
 
 #include <algorithm>
-#include <cstdlib>
 
-#include "runtime/base/file.h"
-
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#include <stb/stb_image_write.h>
-#pragma GCC diagnostic pop
+#include "runtime/base/png.h"
 
 namespace flaneur {
 namespace {
@@ -61,13 +52,7 @@ Error WriteContactSheet(const std::filesystem::path& path, const std::vector<std
     }
     top += 3 * size;
   }
-  int bytes = 0;
-  const int width = static_cast<int>(sheet.width), height = static_cast<int>(sheet.height);
-  unsigned char* png = stbi_write_png_to_mem(sheet.rgb.data(), 3 * width, width, height, 3, &bytes);
-  if (png == nullptr) return Fail(path.string() + ": the picture cannot be encoded");
-  const Error error = WriteFile(path, {png, static_cast<size_t>(bytes)});
-  std::free(png);
-  return error;
+  return WritePng(path, static_cast<int>(sheet.width), static_cast<int>(sheet.height), sheet.rgb);
 }
 
 }  // namespace flaneur

@@ -239,13 +239,19 @@ PackObstacle ReadObstacle(const TourObject& json) {
   return obstacle;
 }
 
+// Where a raster lies; how many cells it has.
+template <typename Raster>
+size_t ReadRasterFrame(const TourObject& json, Raster* raster) {
+  raster->min_m = json.Point("min_m");
+  raster->cell_m = json.Real("cell_m", TourObject::kAboveZero, TourObject::kAnything);
+  raster->columns = json.Whole("columns", 1, 100000);
+  raster->rows = json.Whole("rows", 1, 100000);
+  return static_cast<size_t>(raster->columns) * static_cast<size_t>(raster->rows);
+}
+
 PackGround ReadGround(const GltfFile& file, const TourObject& json) {
   PackGround ground;
-  ground.min_m = json.Point("min_m");
-  ground.cell_m = json.Real("cell_m", TourObject::kAboveZero, TourObject::kAnything);
-  ground.columns = json.Whole("columns", 1, 100000);
-  ground.rows = json.Whole("rows", 1, 100000);
-  const size_t cells = static_cast<size_t>(ground.columns) * static_cast<size_t>(ground.rows);
+  const size_t cells = ReadRasterFrame(json, &ground);
   const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
   const auto heights = BufferView(file, json.Whole("height_view", 0, last));
   const auto kinds = BufferView(file, json.Whole("kind_view", 0, last));
@@ -261,11 +267,7 @@ PackGround ReadGround(const GltfFile& file, const TourObject& json) {
 
 PackPainting ReadPainting(const GltfFile& file, const TourObject& json) {
   PackPainting painting;
-  painting.min_m = json.Point("min_m");
-  painting.cell_m = json.Real("cell_m", TourObject::kAboveZero, TourObject::kAnything);
-  painting.columns = json.Whole("columns", 1, 100000);
-  painting.rows = json.Whole("rows", 1, 100000);
-  const size_t cells = static_cast<size_t>(painting.columns) * static_cast<size_t>(painting.rows);
+  const size_t cells = ReadRasterFrame(json, &painting);
   const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
   const auto people = BufferView(file, json.Whole("people_view", 0, last));
   const auto loiter = BufferView(file, json.Whole("loiter_view", 0, last));

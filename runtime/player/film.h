@@ -1,4 +1,4 @@
-// Films and still images.
+// Films.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -26,8 +26,5 @@ class FilmWriter {
   int pipe_ = -1;
   int process_ = -1;
 };
-
-// RGB, 8 bits a channel, top row first. Errors: as for WriteFile.
-Error WritePng(const std::filesystem::path& path, int width_px, int height_px, const std::vector<uint8_t>& rgb);
 
 }  // namespace flaneur

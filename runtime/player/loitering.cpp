@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/crowd/fast_math.h"
 #include "runtime/player/company.h"
 #include "runtime/player/places.h"
 #include "runtime/player/ways_out.h"
@@ -24,11 +25,6 @@ constexpr float kLeastApart_m = 0.75f;   // between spots
 // Along the look and to its left.
 constexpr Vec2 kBeforeThing[] = {{0, 0}, {0, 0.85f}, {0, -0.85f}, {-0.85f, 0.45f}, {-0.85f, -0.45f}};
 constexpr Vec2 kCircle[] = {{0.62f, 0}, {0, 0.62f}, {-0.62f, 0}, {0, -0.62f}};
-
-Vec2 Unit(Vec2 v) {
-  const float length = Length(v);
-  return length > 1e-6f ? v * (1 / length) : Vec2{};
-}
 
 // Something stands there to look at.
 bool HasAhead(const Walkable& w, Vec2 p, Vec2 look) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/png.h"
 #include "runtime/player/film.h"
 #include "runtime/player/frame_from_simulation.h"
 #include "runtime/player/interruption.h"

@@ -2,15 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "runtime/player/simulation.h"
+#include "tests/unit/runtime/player/box_obstacle.h"
 
 namespace flaneur {
 namespace {
-
-PackObstacle Box(Vec2 min, Vec2 max) {
-  PackObstacle o;
-  o.outer = {min, {max.x, min.y}, max, {min.x, max.y}};
-  return o;
-}
 
 // A square of 20 m with a house in its middle.
 TourPack Town() {

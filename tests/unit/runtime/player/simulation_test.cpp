@@ -2,14 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/runtime/player/box_obstacle.h"
+
 namespace flaneur {
 namespace {
-
-PackObstacle Box(Vec2 min, Vec2 max) {
-  PackObstacle o;
-  o.outer = {min, {max.x, min.y}, max, {min.x, max.y}};
-  return o;
-}
 
 // A square of 40 m with a solid house, and a yard that walls close off.
 TourPack SmallTown() {

@@ -1,0 +1,14 @@
+// Still images.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "runtime/base/error.h"
+
+namespace flaneur {
+
+// RGB, 8 bits a channel, top row first. Errors: as for WriteFile.
+Error WritePng(const std::filesystem::path& path, int width_px, int height_px, const std::vector<uint8_t>& rgb);
+
+}  // namespace flaneur
