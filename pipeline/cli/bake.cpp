@@ -314,6 +314,7 @@ Error WritePack(Baking* baking, const fs::path& staging) {
     BakeReport& whole = baking->steps.report;
     parts.name = name;
     parts.path = baking->settings.path;
+    parts.guide = baking->settings.guide;
     parts.crowd = baking->settings.crowd;
     parts.control = baking->settings.control;
     parts.light = baking->settings.light;

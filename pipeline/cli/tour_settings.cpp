@@ -146,6 +146,7 @@ void ReadStop(TomlTable table, TourSettings* settings) {
 void ReadAll(TomlTable root, TourSettings* settings) {
   TomlTable tour = root.Table("tour");
   ReadName(&tour, &settings->name);
+  tour.Text("guide", &settings->guide);
   tour.Finish();
   ReadTown(root.Table("town"), settings);
   for (TomlTable& avatar : root.Tables("avatar")) ReadAvatarSettings(avatar, settings);
@@ -170,6 +171,10 @@ void CheckWhole(TomlContext* context, const TourSettings& s) {
   const auto refuse = [&](const std::string& why) { context->Refuse(nullptr, why); };
   if (s.town.file.empty() && s.parts.empty()) refuse("no town: give [town] a file, or [[town.part]]s");
   if (s.avatars.empty()) refuse("nobody to populate the town: add an [[avatar]] with a file");
+  const auto is_guide = [&](const AvatarSettings& a) { return a.name == s.guide; };
+  if (!s.guide.empty() && std::none_of(s.avatars.begin(), s.avatars.end(), is_guide)) {
+    refuse("tour.guide is '" + OneLine(s.guide) + "', but no [[avatar]] has that name");
+  }
   const ControlSettings& c = s.control;
   if (!(c.r_personal_m < c.r_high_m && c.r_high_m < c.r_unimportant_m && c.r_unimportant_m < c.r_far_m)) {
     refuse("control: r_personal_m < r_high_m < r_unimportant_m < r_far_m must hold");

@@ -53,6 +53,7 @@ struct TourSettings {
   std::vector<PackPlace> places;  // besides those tagged in the town
   PaintingSettings painting;
   std::vector<TourStop> path;
+  std::string guide;              // name of the avatar who leads the way along it; empty: nobody
   CrowdSettings crowd;
   ControlSettings control;
   LightSettings light;

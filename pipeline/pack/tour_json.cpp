@@ -142,6 +142,7 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
     tour["path"].push_back({{"position_m", PointJson(s.position_m)}, {"yaw_rad", Short(s.yaw_rad)},
                             {"pause_s", Short(s.pause_s)}, {"caption", s.caption}});
   }
+  if (!parts.guide.empty()) tour["guide"] = parts.guide;
   tour["crowd"] = SettingsJson(parts.crowd);
   tour["control"] = SettingsJson(parts.control);
   tour["light"] = SettingsJson(parts.light);

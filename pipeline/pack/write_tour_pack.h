@@ -28,6 +28,7 @@ struct TourParts {
   std::vector<PackPlace> places;
   PackPainting painting;
   std::vector<TourStop> path;
+  std::string guide;  // name of an avatar; empty: nobody
   CrowdSettings crowd;
   ControlSettings control;
   LightSettings light;

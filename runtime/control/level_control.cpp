@@ -69,14 +69,15 @@ int WantedLevel(const AvatarCosts& avatar, float px, int last) {
 // change. Whoever was seen as an impostor stays one until r_high reaches them.
 enum Turn : uint8_t { kWithin, kHolds, kAppears, kStays };
 
-LevelState::Visible Seen(const Crowd& crowd, size_t i, float distance_m, float r_high_m, int last) {
+LevelState::Visible Seen(const Crowd& crowd, size_t i, float distance_m, float r_high_m, int last, bool first) {
+  if (first) return {distance_m, -1e9f, static_cast<int>(i), crowd.id[i], kWithin};
   const float key_m = distance_m - (last >= 0 ? kHysteresis_m : 0);
   const Turn turn = key_m < r_high_m ? kWithin : last >= 0 ? kHolds : last == kNotDrawn ? kAppears : kStays;
   return {distance_m, key_m, static_cast<int>(i), crowd.id[i], turn};
 }
 
 // Who is in view and near enough to be drawn; those within r_high stand in `nearest` by distance.
-void ListVisible(const Crowd& crowd, const ViewCamera& camera, float r_far_m, LevelState* state) {
+void ListVisible(const Crowd& crowd, const ViewCamera& camera, float r_far_m, int first_id, LevelState* state) {
   state->visible.clear();
   state->last_level.resize(static_cast<size_t>(crowd.next_id), kNotDrawn);
   for (size_t i = 0; i < crowd.size(); ++i) {
@@ -84,7 +85,8 @@ void ListVisible(const Crowd& crowd, const ViewCamera& camera, float r_far_m, Le
     const Vec2 off = crowd.position[i] - camera.position;
     const float distance2 = Dot(off, off);
     if (distance2 > r_far_m * r_far_m) continue;
-    state->visible.push_back(Seen(crowd, i, std::sqrt(distance2), state->r_high_m, state->last_level[static_cast<size_t>(crowd.id[i])]));
+    const int last = state->last_level[static_cast<size_t>(crowd.id[i])];
+    state->visible.push_back(Seen(crowd, i, std::sqrt(distance2), state->r_high_m, last, crowd.id[i] == first_id));
   }
 }
 
@@ -122,7 +124,7 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
                   float camera_speed_mps, float frame_ms, const LevelSettings& s, float step_s, LevelState* state) {
   FollowFrameTime(frame_ms, camera_speed_mps, s, state);
   if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
-  ListVisible(crowd, camera, s.r_far_m, state);
+  ListVisible(crowd, camera, s.r_far_m, s.first_id, state);
   const int limit = state->limit = s.by_frame_time ? PeopleAfforded(avatars, state) : s.high_limit;
   MoveBoundary(s, limit, step_s, state);
 

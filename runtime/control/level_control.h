@@ -24,6 +24,7 @@ struct LevelSettings {
   int budget_triangles = 200000;
   float r_high_m = 10, r_far_m = 200;
   int screen_width_px = 1280;  // that pixel sizes are meant for
+  int first_id = -1;           // who is served before all others, and so is no impostor while anybody is a mesh; -1: nobody
 };
 
 struct LevelState {

@@ -5,6 +5,7 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -290,6 +291,7 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
     pack->path.push_back({s.Point("position_m"), s.Real("yaw_rad"), s.Real("pause_s", 0, TourObject::kAnything),
                           s.Text("caption")});
   }
+  if (tour.Has("guide")) pack->guide = tour.Text("guide");
   VisitFields(tour.Object("crowd"), &pack->crowd);
   VisitFields(tour.Object("control"), &pack->control);
   VisitFields(tour.Object("light"), &pack->light);
@@ -328,6 +330,10 @@ void Load(std::vector<uint8_t> bytes, const LoadOptions& options, TourPack* pack
   ReadTown(file, &meshes, pack);
   for (const TourObject& a : tour.Objects("avatars")) pack->avatars.push_back(ReadAvatar(file, a, options, &meshes));
   if (pack->avatars.empty()) tour.Refuse("has no avatars");
+  const auto is_guide = [&](const PackAvatar& a) { return a.name == pack->guide; };
+  if (!pack->guide.empty() && std::none_of(pack->avatars.begin(), pack->avatars.end(), is_guide)) {
+    tour.Refuse("has a guide '" + pack->guide + "' who is none of its avatars");
+  }
   pack->meshes.resize(meshes.used().size());
   if (options.geometry_and_images) DecodeGeometryAndImages(file, meshes.used(), pack);
 }

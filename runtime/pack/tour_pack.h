@@ -88,6 +88,7 @@ struct PackAvatar {
   PackClip walk, idle, talk; // always present: a missing talk is the idle, a missing idle a standing pose
   std::vector<PackLevel> levels;  // finest first, at least one
   PackImpostor impostor;
+  int impostor_of = -1;      // index of the avatar whose impostor stands for this one too, which brings none; -1: its own
 };
 
 struct PackObstacle {        // a polygon with holes, or a circle where radius_m > 0
@@ -171,6 +172,7 @@ struct TourPack {
   std::vector<PackPlace> places;
   PackPainting painting;
   std::vector<TourStop> path;  // guided path, in order; pause 0 and no caption: only a waypoint
+  std::string guide;           // name of the avatar who leads the way along the path; empty: nobody does
   CrowdSettings crowd;
   ControlSettings control;
   LightSettings light;

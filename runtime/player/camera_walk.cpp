@@ -17,6 +17,9 @@ constexpr float kReached_m = 0.3f;
 constexpr float kGiveUp_s = 6;                // a leg whose way is barred ends
 constexpr float kGettingOn_m = 0.5f;          // who stays within this is stuck, even if not quite still
 constexpr float kTourSpeed_mps = 1.3f;
+constexpr float kLooksAhead_m = 2.5f;         // along the tour's route
+constexpr float kAtHalt_m = 1;
+constexpr float kStands = 0.05f;              // share of the pace
 constexpr float kSidestep_m = 0.7f;           // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;           // after which those who stand in the way move on
 constexpr float kStirs_m = 2;
@@ -98,11 +101,10 @@ void Walk(Vec2 direction, float asked_mps, Simulation* s) {
   if (got_on) s->stuck_at = camera.view.position;
 }
 
-void NextLeg(size_t count, Simulation* s) {
+void NextLeg(Simulation* s) {
   s->leg_done = 0;
   s->stuck_s = 0;
-  s->camera.corner = {};
-  if (++s->leg >= count) s->finished = true;
+  if (++s->leg >= s->legs.size()) s->finished = true;
 }
 
 void FollowLegs(Simulation* s) {
@@ -110,7 +112,7 @@ void FollowLegs(Simulation* s) {
   switch (leg.kind) {
     case CameraLeg::Kind::kWait:
       s->leg_done += s->step_s;
-      if (s->leg_done >= leg.wait_s) NextLeg(s->legs.size(), s);
+      if (s->leg_done >= leg.wait_s) NextLeg(s);
       return;
     case CameraLeg::Kind::kTurn: {
       const float left = std::abs(leg.turn_deg * kPi / 180) - s->leg_done;
@@ -119,13 +121,13 @@ void FollowLegs(Simulation* s) {
       const float signed_turn = leg.turn_deg >= 0 ? turn : -turn;
       s->camera.view.yaw_rad = WrapAngle(s->camera.view.yaw_rad + signed_turn);
       s->camera.yaw_rate_radps = signed_turn / s->step_s;
-      if (left - turn <= 1e-6f) NextLeg(s->legs.size(), s);
+      if (left - turn <= 1e-6f) NextLeg(s);
       return;
     }
     case CameraLeg::Kind::kWalk: {
       const Vec2 way = leg.to_m - s->camera.view.position;
       const float way_m = Length(way);
-      if (way_m < kReached_m || s->stuck_s > kGiveUp_s) return NextLeg(s->legs.size(), s);
+      if (way_m < kReached_m || s->stuck_s > kGiveUp_s) return NextLeg(s);
       TurnTowards(std::atan2(way.y, way.x), s->max_yaw_rate_radps * 0.75f, s);
       Walk(way * (1 / way_m), leg.speed_mps, s);
       return;
@@ -133,23 +135,33 @@ void FollowLegs(Simulation* s) {
   }
 }
 
-void FollowTour(Simulation* s) {
-  const TourStop& stop = s->path[s->leg];
-  if (s->leg_done > 0 || Length(stop.position_m - s->camera.view.position) < kReached_m * 3) {
-    if (stop.pause_s > 0) TurnTowards(stop.yaw_rad, kTourYawRate_radps, s);
-    s->leg_done += s->step_s;
-    if (s->leg_done >= stop.pause_s) NextLeg(s->path.size(), s);
-    return;
-  }
-  if (s->stuck_s > kGiveUp_s) return NextLeg(s->path.size(), s);
-  const int field = FieldFor(stop.position_m, &s->crowd);
-  const Vec2 way = StraightWay(s->walkable, s->camera.view.position, stop.position_m)
-                       ? stop.position_m - s->camera.view.position
-                       : WayToGoal(s->walkable, field, s->camera.view.position, true, &s->camera.corner, &s->crowd);
-  const float way_m = Length(way);
-  if (way_m < 1e-3f) return NextLeg(s->path.size(), s);
+// For somebody who walked about while the tour rests.
+void ReturnToHalt(Simulation* s) {
+  const Vec2 p = s->camera.view.position;
+  const Vec2 way = WayStraightOrRound(s->walkable, p, s->tour.stops[HaltOf(s->tour)].position_m, &s->tour.corner, &s->crowd.search);
+  if (Length(way) < 0.5f) return;
   TurnTowards(std::atan2(way.y, way.x), kTourYawRate_radps, s);
-  Walk(RoundPeople(*s, way * (1 / way_m)), kTourSpeed_mps, s);
+  Walk(RoundPeople(*s, way), kTourSpeed_mps, s);
+}
+
+void FollowTour(Simulation* s) {
+  Tour& t = s->tour;
+  const Vec2 p = s->camera.view.position;
+  if (t.resting && Length(t.stops[HaltOf(t)].position_m - p) < kAtHalt_m) {
+    return TurnTowards(t.stops[HaltOf(t)].yaw_rad, kTourYawRate_radps, s);
+  }
+  if (t.paused || t.over) return;
+  if (t.resting) return ReturnToHalt(s);
+  const Vec2 way = WayAlong(s->walkable, t.route, t.visitor_m, p, &t.corner, &s->crowd.search);
+  if (s->stuck_s > kGiveUp_s || Length(way) < 0.5f) {
+    s->stuck_s = 0;
+    return GiveUpStop(s);
+  }
+  const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
+  if (Length(look) > kReached_m) TurnTowards(std::atan2(look.y, look.x), kTourYawRate_radps, s);
+  const float pace = ShareOfPace(*s);
+  if (pace > kStands) Walk(RoundPeople(*s, way), kTourSpeed_mps * pace, s);
+  else s->stuck_s = 0;
 }
 
 }  // namespace
@@ -167,7 +179,7 @@ void MoveCamera(const CameraInput& input, Simulation* s) {
   }
   if (s->finished) return;
   if (!s->legs.empty()) FollowLegs(s);
-  else if (!s->path.empty()) FollowTour(s);
+  else if (!s->tour.stops.empty()) FollowTour(s);
   StirLoiterers(s);
 }
 

@@ -23,11 +23,11 @@ float Fraction(float x) { return x - std::floor(x); }
 void AddCaption(const Simulation& s, FrameInput* frame) {
   constexpr float kFadeCaption_s = 0.4f, kReach_m = 2.5f;
   frame->caption.clear();
-  if (!s.legs.empty() || s.leg >= s.path.size() || s.leg_done <= 0) return;
-  const TourStop& stop = s.path[s.leg];
+  if (!s.tour.resting) return;
+  const TourStop& stop = s.tour.stops[HaltOf(s.tour)];
   if (Length(stop.position_m - s.camera.view.position) > kReach_m) return;
   frame->caption = stop.caption;
-  frame->caption_share = std::clamp(std::min(s.leg_done, stop.pause_s - s.leg_done) / kFadeCaption_s, 0.0f, 1.0f);
+  frame->caption_share = std::clamp(std::min(s.tour.rested_s, RestOf_s(stop) - s.tour.rested_s) / kFadeCaption_s, 0.0f, 1.0f);
 }
 
 bool InViewWithEdge(Vec2 p, const ViewCamera& c) {

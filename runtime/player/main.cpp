@@ -4,6 +4,7 @@
 
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
+#include "runtime/player/guide_figure.h"
 #include "runtime/player/options.h"
 #include "runtime/player/run.h"
 #include "runtime/player/scenario.h"
@@ -32,6 +33,7 @@ Error Play(const PlayerOptions& options) {
   TourPack pack;
   if (!options.pack.empty()) {
     if (Error e = LoadTourPack(options.pack, LoadOptions{!options.no_draw}, &pack)) return e;
+    AddGuideFigure(&pack);
   } else if (!options.no_draw) {
     return Fail("nothing to draw without a pack; add --headless --no-draw or name a pack");
   }

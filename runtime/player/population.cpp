@@ -259,7 +259,7 @@ Error PlaceScenarioPeople(const Scenario& scenario, Simulation* s) {
 }
 
 void PlaceCrowd(Simulation* s) {
-  const int wanted = s->crowd_settings.people;
+  const int wanted = s->crowd_settings.people - (s->guide.id >= 0 ? 1 : 0);  // the guide is one of them
   s->target_people = static_cast<int>(s->crowd.size()) + wanted;
   if (wanted == 0) return;
   PreparePlaces(s);

@@ -13,7 +13,7 @@ constexpr float kLongest_s = 1e6f;
 float RunLength_s(const PlayerOptions& options, const Scenario& scenario, const Simulation& simulation) {
   if (options.seconds) return *options.seconds;
   if (scenario.seconds) return *scenario.seconds;
-  const bool ends_by_itself = !simulation.legs.empty() || !simulation.path.empty();
+  const bool ends_by_itself = !simulation.legs.empty() || !simulation.tour.stops.empty();
   return ends_by_itself ? kLongest_s : kDefaultLength_s;
 }
 

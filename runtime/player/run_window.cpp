@@ -43,7 +43,7 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Simulation
   Records records;
   records.keep_metrics = !options.metrics.empty();
   records.keep_trajectories = !options.trajectories.empty();
-  bool free_walk = s->legs.empty() && s->path.empty();
+  bool free_walk = s->legs.empty() && s->tour.stops.empty();
   double clock_s = Now_s(), owed_s = 0, title_s = clock_s;
   int frames = 0;
   PersonLooks looks;

@@ -14,7 +14,6 @@ namespace flaneur {
 namespace {
 
 constexpr float kFlatCell_m = 0.5f;
-constexpr float kNearStop_m = 3;  // a stop in a wall is visited as near as this
 constexpr float kFarthestView_m = 60;
 
 void TakePack(const TourPack& pack, Simulation* s) {
@@ -39,7 +38,10 @@ void TakePack(const TourPack& pack, Simulation* s) {
   s->camera.view.fov_rad = c.fov_rad;
   s->places = pack.places;
   s->painting = pack.painting;
-  s->path = pack.path;
+  s->tour.stops = pack.path;
+  for (size_t k = 0; !pack.guide.empty() && k < pack.avatars.size(); ++k) {
+    if (pack.avatars[k].name == pack.guide) s->guide.avatar = static_cast<int>(k);
+  }
   s->walkable.ground = {pack.ground.min_m, pack.ground.cell_m, pack.ground.columns, pack.ground.rows,
                         pack.ground.height_m, pack.ground.kind};
   for (const PackObstacle& o : pack.obstacles) {
@@ -61,7 +63,7 @@ void TakeGround(const Scenario& scenario, Simulation* s) {
   s->walkable.polygons.clear();
   s->places.clear();
   s->painting = {};
-  s->path.clear();
+  s->tour.stops.clear();
 }
 
 void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
@@ -101,6 +103,7 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   s->camera.pitch_rad = scenario.pitch_deg.value_or(0) * kPi / 180;
   s->camera.present = scenario.has_camera || (has_pack && !scenario.has_ground);
   s->legs = scenario.legs;
+  if (!s->legs.empty()) s->tour.stops.clear();
   s->crowd_area = scenario.crowd_area;
 }
 
@@ -121,33 +124,13 @@ void PlaceCamera(const Scenario& scenario, Simulation* s) {
   if (scenario.has_camera) {
     s->camera.view.position = scenario.camera_position_m;
     s->camera.view.yaw_rad = scenario.camera_yaw_deg * kPi / 180;
-  } else if (!s->path.empty()) {
-    s->camera.view.position = s->path.front().position_m;
-    const Vec2 way = s->path.size() > 1 ? s->path[1].position_m - s->path[0].position_m : Vec2{1, 0};
+  } else if (const std::vector<TourStop>& stops = s->tour.stops; !stops.empty()) {
+    s->camera.view.position = stops.front().position_m;
+    const Vec2 way = stops.size() > 1 ? stops[1].position_m - stops[0].position_m : Vec2{1, 0};
     s->camera.view.yaw_rad = std::atan2(way.y, way.x);
   } else if (const int cell = BestFreeCell(s->walkable); cell >= 0) {
     s->camera.view.position = CellCenter(s->walkable, cell);
     s->camera.view.yaw_rad = OpenestView_rad(s->walkable, s->camera.view.position);
-  }
-}
-
-// Stops that nobody can stand at move beside the wall they are in.
-void SettleStops(Simulation* s) {
-  const Walkable& w = s->walkable;
-  int of_first = -1;
-  for (size_t k = 0; k < s->path.size(); ++k) {
-    Vec2& stop = s->path[k].position_m;
-    const bool free = IsFree(w, stop);
-    const int cell = free ? CellAt(w, stop) : NearestFreeCell(w, stop, kNearStop_m);
-    const int component = cell < 0 ? -1 : w.component[static_cast<size_t>(cell)];
-    if (k == 0) of_first = component;
-    const std::string name = "stop " + std::to_string(k + 1);
-    if (cell < 0 || component != of_first) {
-      s->warnings.push_back(name + " cannot be reached; the tour passes it by");
-    } else if (!free) {
-      s->warnings.push_back(name + " is not on free ground; the tour passes near it");
-      stop = CellCenter(w, cell);
-    }
   }
 }
 
@@ -160,6 +143,7 @@ void DeriveGap(Simulation* s) {
   limits.yaw_rate_radps = s->max_yaw_rate_radps;
   limits.camera_speed_mps = 3;
   limits.person_speed_mps = s->crowd_settings.top_speed_mps;
+  if (s->guide.id >= 0) limits.person_speed_mps = std::max(limits.person_speed_mps, kGuideTop_mps);
   for (const CameraLeg& leg : s->legs) {
     limits.yaw_rate_radps = std::max(limits.yaw_rate_radps, leg.rate_dps * kPi / 180);
     limits.camera_speed_mps = std::max(limits.camera_speed_mps, leg.speed_mps);
@@ -186,8 +170,10 @@ void ControlCrowd(float frame_ms, Simulation* s) {
   s->moving.clear();
   if (s->camera.present) {
     s->moving.push_back({s->camera.view.position, s->r_personal_m, true, s->camera.asked_velocity});
+    ShieldGuide(s);
     InfluenceCrowd(s->camera.view, s->camera.velocity, s->camera.yaw_rate_radps, s->levels, s->walkable, s->influence,
                    &s->crowd, &s->moving, &s->foresight);
+    UnshieldGuide(s);
   }
   s->control_ms = Now_ms() - start_ms;
 }
@@ -214,13 +200,15 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
     s.crowd.r_far_m = s.level_settings.r_far_m;
   }
   s.random.state = s.crowd_settings.seed;
-  SettleStops(&s);
+  SettleTour(&s);
   PlaceCamera(scenario, &s);
   if (s.camera.present && InsideObstacle(s.walkable, s.camera.view.position)) {
     s.warnings.push_back("the camera starts inside an obstacle");
   }
-  DeriveGap(&s);
   if (Error e = PlaceScenarioPeople(scenario, &s)) return e;
+  BeginTour(&s);
+  PlaceGuide(&s);
+  DeriveGap(&s);
   PlaceCrowd(&s);
   ClassifyAll(&s);
   ControlCrowd(0, &s);
@@ -234,7 +222,9 @@ float FrameTimeByModel_ms(const Simulation& s) {
 
 void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   const double start_ms = Now_ms();
+  if (s->camera.present) StepTour(input.tour, !input.active, s);
   MoveCamera(input, s);
+  LeadOn(s);
   s->crowd.viewer = s->camera.view.position;
   StepCrowd(s->walkable, s->moving, s->step_s, &s->crowd);
   LeaveAndArrive(s);

@@ -11,7 +11,9 @@
 #include "runtime/control/view_volumes.h"
 #include "runtime/crowd/crowd.h"
 #include "runtime/pack/tour_pack.h"
+#include "runtime/player/guide.h"
 #include "runtime/player/scenario.h"
+#include "runtime/player/tour.h"
 
 namespace flaneur {
 
@@ -23,6 +25,7 @@ struct CameraInput {
   bool active = false;      // false: scenario or guided tour moves the camera
   Vec2 direction;           // asked way, unit or zero
   float speed_mps = 0, yaw_rate_radps = 0;
+  TourWish tour;            // active or not
 };
 
 struct CameraState {
@@ -31,7 +34,6 @@ struct CameraState {
   Vec2 velocity;
   Vec2 asked_velocity;  // what the visitor wants: who holds them up sees it
   float yaw_rate_radps = 0, asked_mps = 0, actual_mps = 0;
-  Corner corner;            // of the guided tour's way
   bool present = true;      // false: everybody counts as visible
 };
 
@@ -71,7 +73,8 @@ struct Simulation {
   std::vector<LoiterSpot> loiter_spots;  // by place
   std::vector<int> place_of_field;       // by index into crowd.fields, -1: no place; see PlaceOfField
   int loiterers = 0;                     // people whose plan is to loiter
-  std::vector<TourStop> path;      // guided tour
+  Tour tour;
+  Guide guide;
   std::vector<CameraLeg> legs;     // of the scenario; empty: the guided tour
   std::optional<Area> crowd_area;  // of the scenario
   int target_people = 0;           // kept up by people who appear out of sight
@@ -86,7 +89,7 @@ struct Simulation {
   Enclosure enclosure;
   Random random;
   int64_t frame = 0;
-  size_t leg = 0;                  // of legs or path
+  size_t leg = 0;
   float leg_done = 0;              // seconds waited, or radians turned
   float stuck_s = 0;               // since the camera got away from stuck_at
   Vec2 stuck_at;

@@ -60,15 +60,23 @@ AvatarView UploadAvatar(const TourPack& pack, const PackAvatar& avatar, const st
     view.levels.push_back(UploadLevel(pack, pack.meshes[static_cast<size_t>(level.mesh)], surfaces));
   }
   const PackImpostor& atlas = avatar.impostor;
+  view.atlas = {1 / (atlas.texel_m * static_cast<float>(atlas.width_px)), 1 / (atlas.texel_m * static_cast<float>(atlas.height_px)),
+                static_cast<float>(atlas.width_px), static_cast<float>(atlas.height_px)};
+  view.ranges = {atlas.depth_range_m, atlas.motion_range_m, 0};
+  if (avatar.impostor_of >= 0) return view;
   const bool decode = DrawsInSoftware();
   view.albedo = UploadAtlasPicture(atlas.albedo, decode);
   view.normals = UploadAtlasPicture(atlas.normal, decode);
   view.depth = UploadAtlasPicture(atlas.depth, decode);
   view.motion = UploadAtlasPicture(atlas.motion, decode);
-  view.atlas = {1 / (atlas.texel_m * static_cast<float>(atlas.width_px)), 1 / (atlas.texel_m * static_cast<float>(atlas.height_px)),
-                static_cast<float>(atlas.width_px), static_cast<float>(atlas.height_px)};
-  view.ranges = {atlas.depth_range_m, atlas.motion_range_m, 0};
   return view;
+}
+
+void ShareImpostor(const AvatarView& from, AvatarView* view) {
+  view->albedo = from.albedo;
+  view->normals = from.normals;
+  view->depth = from.depth;
+  view->motion = from.motion;
 }
 
 Error BuildPrograms(const std::string& defines, PeopleView* people) {
@@ -165,6 +173,7 @@ Error CreatePeopleView(const TourPack& pack, const std::string& defines, const s
     people->batches.pose_width = std::max(people->batches.pose_width, 3 * static_cast<size_t>(avatar.joints));
     people->layouts.push_back(LayoutOf(avatar));
     people->avatars.push_back(UploadAvatar(pack, avatar, surfaces));
+    if (avatar.impostor_of >= 0) ShareImpostor(people->avatars[static_cast<size_t>(avatar.impostor_of)], &people->avatars.back());
   }
   glGenBuffers(1, &people->instances);
   CreateQuad(people);

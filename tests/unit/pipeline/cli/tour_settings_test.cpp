@@ -180,6 +180,7 @@ TEST(TourSettings, RefusalsNameTheLineAndWhatToDo) {
       {"[[avatar]]\nname = \"person\"\nfile = \"other.glb\"\n", ":5:", {"person", "own name"}},
       {"[[avatar]]\nshare = 1\n", ":5:", {"avatar", "file"}},
       {"[[avatar]]\nname = \"../up\"\nfile = \"x.glb\"\n", ":5:", {"../up", "file name"}},
+      {"[tour]\nguide = \"monk\"\n", ":", {"tour.guide", "monk", "[[avatar]]"}},
       {"[control\n", ":5:", {"TOML"}},
   };
   for (const Case& c : cases) {

@@ -137,6 +137,7 @@ TourParts SmallTour() {
   parts.places = {{"west", "exit", {-18, 0}, 2}, {"stall", "loiter", {3, 0}, 1, 0.5f}};
   parts.painting = {{-4, -2}, 2, 2, 1, {0, 200}, {30, 0}};
   parts.path = {{{1, 2}, 0.5f, 3, "Grüß Gott"}};
+  parts.guide = parts.avatars[0].levels.avatar.name;
   parts.crowd.people = 17;
   parts.control.method = "frame_time";
   parts.light.day_length_s = 0;
@@ -186,6 +187,7 @@ TEST(TourPack, BringsTheTourAcross) {
   EXPECT_EQ(pack.places[0].kind, "exit");
   ASSERT_EQ(pack.path.size(), 1u);
   EXPECT_EQ(pack.path[0].caption, "Grüß Gott");
+  EXPECT_EQ(pack.guide, "made");
   EXPECT_EQ(pack.crowd.people, 17);
   EXPECT_EQ(pack.control.method, "frame_time");
   EXPECT_EQ(pack.control.r_high_m, ControlSettings{}.r_high_m);
@@ -399,7 +401,7 @@ TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
     for (const auto& [key, unused] : json.at(at).items()) {
       Json changed = json;
       changed.at(at).erase(key);
-      if (key == "painting") continue;  // there need not be one
+      if (key == "painting" || key == "guide") continue;  // there need not be one
       EXPECT_TRUE(Refused(WithJson(whole, changed))) << object << "/" << key;
     }
   }

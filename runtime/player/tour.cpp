@@ -1,0 +1,180 @@
+#include "runtime/player/tour.h"
+
+#include <algorithm>
+
+#include "runtime/player/simulation.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kNearStop_m = 3;          // a stop in a wall is visited as near as this
+constexpr float kPassed_m = 0.5f;         // before a stop that is only on the way
+constexpr float kThere_m = 0.35f, kThereFreely_m = 1.8f;  // from a halt: for a visitor whom the tour leads, and who walks freely
+constexpr float kHears_m = 6;             // who is farther from a halt has left it for now
+constexpr float kStrays_m = 3;            // from the route
+constexpr float kReroute_s = 1;
+constexpr float kBackwards_m = 2, kForwards_m = 4;  // along the route: the visitor is looked for so near where they were
+constexpr float kAgain_s = 3;             // back within this goes to the halt before, later to this one's beginning
+constexpr float kLeastReading_s = 2, kReading_sPerLetter = 0.065f;  // about 15 letters a second, an unhurried reader
+
+bool IsHalt(const TourStop& stop) { return RestOf_s(stop) > 0; }
+
+// The halt after `stop`, else the last stop.
+size_t HaltFrom(const Tour& t, size_t stop) {
+  while (stop + 1 < t.stops.size() && !IsHalt(t.stops[stop])) ++stop;
+  return stop;
+}
+
+// The halt before `stop`, else the first stop.
+size_t HaltBefore(const Tour& t, size_t stop) {
+  while (stop > 0 && !IsHalt(t.stops[--stop])) {
+  }
+  return stop;
+}
+
+// Both ends count; the second may be the lower.
+std::vector<size_t> StopsBetween(size_t first, size_t last) {
+  std::vector<size_t> stops;
+  for (size_t k = first;; k += first <= last ? 1 : size_t(-1)) {
+    stops.push_back(k);
+    if (k == last) return stops;
+  }
+}
+
+void Plan(const std::vector<size_t>& stops, Simulation* s) {
+  Tour& t = s->tour;
+  t.stage.clear();
+  t.stop_m.clear();
+  t.route = {{s->camera.view.position}, {0}};
+  for (size_t k : stops) {
+    if (!ExtendRoute(s->walkable, t.stops[k].position_m, &s->crowd.search, &t.route) && k != stops.back()) continue;
+    t.stage.push_back(k);
+    t.stop_m.push_back(LengthOf_m(t.route));
+  }
+  t.passed = 0;
+  t.visitor_m = t.rested_s = 0;
+  t.resting = t.over = false;
+  t.corner = {};
+  t.reroute_s = kReroute_s;
+  ++t.plans;
+}
+
+void LeaveHalt(Simulation* s) {
+  Tour& t = s->tour;
+  const size_t next = HaltOf(t) + 1;
+  if (next < t.stops.size()) return Plan(StopsBetween(next, HaltFrom(t, next)), s);
+  t.resting = false;
+  t.over = s->finished = true;
+}
+
+void GoToNext(Simulation* s) {
+  Tour& t = s->tour;
+  if (t.over) return;
+  if (t.resting) return LeaveHalt(s);
+  const size_t halt = HaltOf(t), here = t.stage[std::min(t.passed, t.stage.size() - 1)];
+  if (halt + 1 < t.stops.size()) Plan(StopsBetween(std::min(here, halt), HaltFrom(t, halt + 1)), s);
+}
+
+void GoBack(Simulation* s) {
+  Tour& t = s->tour;
+  if (t.resting && t.rested_s > kAgain_s) {
+    t.rested_s = 0;
+    return;
+  }
+  s->finished = false;
+  if (t.over) {
+    const size_t last = t.stops.size() - 1, halt = IsHalt(t.stops[last]) ? last : HaltBefore(t, last);
+    return Plan(StopsBetween(last, halt), s);
+  }
+  const size_t halt = HaltOf(t), here = t.stage[std::min(t.passed, t.stage.size() - 1)];
+  const size_t before = HaltBefore(t, std::min(halt, here));
+  Plan(StopsBetween(std::max(before, here > 0 ? here - 1 : 0), before), s);
+}
+
+float FromVisitor_m(const Simulation& s, Vec2 p) { return Length(p - s.camera.view.position); }
+
+void Rest(Simulation* s) {
+  Tour& t = s->tour;
+  const TourStop& stop = t.stops[HaltOf(t)];
+  if (!t.paused && FromVisitor_m(*s, stop.position_m) < kHears_m) t.rested_s += s->step_s;
+  if (t.rested_s >= RestOf_s(stop)) LeaveHalt(s);
+}
+
+// A visitor who comes back to the tour from elsewhere is led on from there.
+void Reroute(Simulation* s) {
+  Tour& t = s->tour;
+  t.reroute_s -= s->step_s;
+  if (t.reroute_s > 0) return;
+  const std::vector<size_t> left(t.stage.begin() + static_cast<std::ptrdiff_t>(std::min(t.passed, t.stage.size() - 1)), t.stage.end());
+  Plan(left, s);
+}
+
+void WalkOn(Simulation* s) {
+  Tour& t = s->tour;
+  const Vec2 p = s->camera.view.position;
+  t.visitor_m = WayTo(t.route, p, t.visitor_m - kBackwards_m, t.visitor_m + kForwards_m);
+  while (t.passed + 1 < t.stage.size() && t.visitor_m > t.stop_m[t.passed] - kPassed_m) ++t.passed;
+  if (FromVisitor_m(*s, t.stops[HaltOf(t)].position_m) < (t.follows ? kThere_m : kThereFreely_m)) {
+    t.resting = true;
+    if (RestOf_s(t.stops[HaltOf(t)]) <= 0) LeaveHalt(s);
+    return;
+  }
+  const bool strays = Length(PointAt(t.route, t.visitor_m) - p) > kStrays_m;
+  const bool is_back = t.follows || s->guide.id < 0 || FromVisitor_m(*s, s->crowd.position[s->guide.index]) < kHears_m;
+  if (strays && is_back) Reroute(s);
+}
+
+}  // namespace
+
+float RestOf_s(const TourStop& stop) {
+  if (stop.pause_s > 0 || stop.caption.empty()) return stop.pause_s;
+  return kLeastReading_s + kReading_sPerLetter * static_cast<float>(stop.caption.size());
+}
+
+void SettleTour(Simulation* s) {
+  const Walkable& w = s->walkable;
+  int of_first = -1;
+  std::vector<TourStop> kept;
+  for (size_t k = 0; k < s->tour.stops.size(); ++k) {
+    TourStop stop = s->tour.stops[k];
+    const bool free = IsFree(w, stop.position_m);
+    const int cell = free ? CellAt(w, stop.position_m) : NearestFreeCell(w, stop.position_m, kNearStop_m);
+    const int component = cell < 0 ? -1 : w.component[static_cast<size_t>(cell)];
+    if (of_first < 0) of_first = component;
+    const std::string name = "stop " + std::to_string(k + 1);
+    if (cell < 0 || component != of_first) {
+      s->warnings.push_back(name + " cannot be reached; the tour passes it by");
+      continue;
+    }
+    if (!free) {
+      s->warnings.push_back(name + " is not on free ground; the tour passes near it");
+      stop.position_m = CellCenter(w, cell);
+    }
+    kept.push_back(std::move(stop));
+  }
+  s->tour.stops = std::move(kept);
+}
+
+void BeginTour(Simulation* s) {
+  if (!s->tour.stops.empty()) Plan(StopsBetween(0, HaltFrom(s->tour, 0)), s);
+}
+
+void StepTour(const TourWish& wish, bool follows, Simulation* s) {
+  Tour& t = s->tour;
+  if (t.stops.empty()) return;
+  t.follows = follows;
+  if (wish.toggle_pause) t.paused = !t.paused;
+  if (wish.next) GoToNext(s);
+  if (wish.back) GoBack(s);
+  if (t.over) return;
+  if (t.resting) Rest(s);
+  else WalkOn(s);
+}
+
+void GiveUpStop(Simulation* s) {
+  Tour& t = s->tour;
+  if (t.passed + 1 >= t.stage.size()) return LeaveHalt(s);
+  Plan({t.stage.begin() + static_cast<std::ptrdiff_t>(t.passed) + 1, t.stage.end()}, s);
+}
+
+}  // namespace flaneur

@@ -1,0 +1,49 @@
+// The guided tour: which stop is next, the way there, and how long the visitor rests. Internal to runtime/player.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "runtime/pack/tour_pack.h"
+#include "runtime/player/route.h"
+
+namespace flaneur {
+
+struct Simulation;
+
+struct Tour {
+  std::vector<TourStop> stops;
+  // The way to the next halt, which is a stop to rest at, or the last stop: indices of the stops on it, and a line over the ground.
+  std::vector<size_t> stage;
+  size_t passed = 0;           // of the stage
+  std::vector<float> stop_m;   // by stop of the stage: where it is on the route
+  Route route;
+  float visitor_m = 0;         // how far along the route the visitor is
+  bool resting = false, paused = false, over = false;
+  bool follows = true;         // the tour leads the visitor, who does not walk about freely
+  float rested_s = 0;
+  float reroute_s = 0;         // until a visitor who strayed is thought of again
+  Corner corner;               // of the visitor's way back to the route
+  int plans = 0;               // stages and routes so far
+};
+
+// What the visitor asks the tour for.
+struct TourWish { bool next = false, back = false, toggle_pause = false; };
+
+inline bool HasTour(const Tour& tour) { return !tour.stops.empty() && !tour.over; }
+// The stop where the visitor rests, or to which the present way leads.
+inline size_t HaltOf(const Tour& tour) { return tour.stage.empty() ? 0 : tour.stage.back(); }
+// How long one rests there: as long as the tour says, else as it takes to read the caption.
+float RestOf_s(const TourStop& stop);
+
+// Stops that nobody can stand at move beside the wall they are in, those that cannot be reached are left out; both with a warning.
+void SettleTour(Simulation* simulation);
+// The first stage, from where the visitor stands.
+void BeginTour(Simulation* simulation);
+
+// The tour goes on to where the visitor is now.
+void StepTour(const TourWish& wish, bool follows, Simulation* simulation);
+
+// The way to the next stop is barred: the tour passes it by.
+void GiveUpStop(Simulation* simulation);
+
+}  // namespace flaneur

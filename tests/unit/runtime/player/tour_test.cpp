@@ -1,0 +1,139 @@
+#include "runtime/player/tour.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/unit/runtime/player/tour_town.h"
+
+namespace flaneur {
+namespace {
+
+void Step(Simulation* s, int steps) {
+  for (int k = 0; k < steps; ++k) StepSimulation({}, 0, s);
+}
+
+void Ask(const TourWish& wish, Simulation* s) {
+  CameraInput input;
+  input.tour = wish;
+  StepSimulation(input, 0, s);
+}
+
+// The stop that the visitor comes to next; the number of stops where none.
+size_t NextRest(Simulation* s) {
+  for (int step = 0; step < 30 * 120 && !s->finished; ++step) {
+    StepSimulation({}, 0, s);
+    if (s->tour.resting) return HaltOf(s->tour);
+  }
+  return s->tour.stops.size();
+}
+
+class Tours : public ::testing::TestWithParam<const char*> {
+ protected:
+  TourPack Town() const {
+    TourPack pack = TourTown(30);
+    pack.guide = GetParam();
+    return pack;
+  }
+};
+
+TEST_P(Tours, RestAtEveryHaltForItsTime) {
+  Simulation s = Started(Town());
+  std::vector<size_t> halts;
+  int resting = 0;
+  for (int step = 0; step < 30 * 300 && !s.finished; ++step) {
+    StepSimulation({}, 0, &s);
+    if (!s.tour.resting) continue;
+    ++resting;
+    EXPECT_LT(Length(s.camera.view.position - s.tour.stops[HaltOf(s.tour)].position_m), 0.5f);
+    if (halts.empty() || halts.back() != HaltOf(s.tour)) halts.push_back(HaltOf(s.tour));
+  }
+  EXPECT_EQ(halts, (std::vector<size_t>{1, 3, 5}));
+  EXPECT_NEAR(static_cast<float>(resting) / 30, 9, 0.3f);
+}
+
+TEST_P(Tours, APauseHoldsEverythingUntilItEnds) {
+  Simulation s = Started(Town());
+  ASSERT_EQ(NextRest(&s), 1u);
+  Ask({false, false, true}, &s);
+  Step(&s, 300);
+  EXPECT_TRUE(s.tour.resting);
+  EXPECT_LT(s.tour.rested_s, 1);
+  Ask({false, false, true}, &s);
+  Step(&s, 150);
+  EXPECT_FALSE(s.tour.resting);
+  Ask({false, false, true}, &s);
+  Step(&s, 60);
+  const Vec2 here = s.camera.view.position;
+  Step(&s, 60);
+  EXPECT_LT(Length(s.camera.view.position - here), 0.05f) << "walks on though paused";
+}
+
+TEST_P(Tours, NextLeavesAHaltAndPassesOneBy) {
+  Simulation s = Started(Town());
+  ASSERT_EQ(NextRest(&s), 1u);
+  Ask({true, false, false}, &s);
+  EXPECT_FALSE(s.tour.resting);
+  EXPECT_EQ(HaltOf(s.tour), 3u);
+  Ask({true, false, false}, &s);
+  EXPECT_EQ(NextRest(&s), 5u);
+  Ask({true, false, false}, &s);
+  EXPECT_TRUE(s.finished);
+  Ask({true, false, false}, &s);
+  EXPECT_TRUE(s.finished);
+}
+
+TEST_P(Tours, BackLeadsToTheHaltBeforeOrToThisOnesBeginning) {
+  Simulation s = Started(Town());
+  ASSERT_EQ(NextRest(&s), 1u);
+  ASSERT_FALSE(s.finished);
+  Step(&s, 95);
+  ASSERT_EQ(NextRest(&s), 3u);
+  Ask({false, true, false}, &s);
+  EXPECT_EQ(HaltOf(s.tour), 1u);
+  EXPECT_EQ(NextRest(&s), 1u);
+  EXPECT_EQ(NextRest(&s), 1u);
+  for (int step = 0; step < 30 * 60 && !(s.tour.resting && HaltOf(s.tour) == 3); ++step) Step(&s, 1);
+  EXPECT_EQ(HaltOf(s.tour), 3u) << "goes on afterwards";
+}
+
+TEST_P(Tours, BackAfterTheEndReturnsToTheLastHalt) {
+  Simulation s = Started(Town());
+  for (int step = 0; step < 30 * 300 && !s.finished; ++step) Step(&s, 1);
+  ASSERT_TRUE(s.finished);
+  Ask({false, true, false}, &s);
+  EXPECT_FALSE(s.finished);
+  EXPECT_EQ(NextRest(&s), 5u);
+}
+
+TEST_P(Tours, AVisitorWhoLeftAndComesBackIsLedOn) {
+  TourPack pack = Town();
+  pack.path[1].pause_s = 8;
+  Simulation s = Started(pack);
+  ASSERT_EQ(NextRest(&s), 1u);
+  CameraInput away;
+  away.active = true;
+  away.direction = {-0.8f, -0.6f};
+  away.speed_mps = 1.5f;
+  for (int step = 0; step < 240; ++step) StepSimulation(away, 0, &s);
+  EXPECT_TRUE(s.tour.resting);
+  EXPECT_LT(s.tour.rested_s, 6) << "the halt does not run out while the visitor is away";
+  for (int step = 0; step < 30 * 200 && !s.finished; ++step) Step(&s, 1);
+  EXPECT_TRUE(s.finished);
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutGuide, Tours, ::testing::Values("monk", ""),
+                         [](const auto& which) { return std::string(which.param).empty() ? "alone" : "guided"; });
+
+TEST(Tour, ACaptionWithoutAPauseStaysAsLongAsReadingTakes) {
+  TourStop stop;
+  EXPECT_EQ(RestOf_s(stop), 0);
+  stop.caption = std::string(150, 'a');
+  EXPECT_GT(RestOf_s(stop), 8);
+  EXPECT_LT(RestOf_s(stop), 20);
+  stop.pause_s = 3;
+  EXPECT_EQ(RestOf_s(stop), 3);
+}
+
+}  // namespace
+}  // namespace flaneur
