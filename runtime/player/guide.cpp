@@ -10,7 +10,7 @@
 namespace flaneur {
 namespace {
 
-constexpr float kLead_m = 3.2f;            // along the route, before the visitor
+constexpr float kLead_m = 3.6f;            // along the route, before the visitor
 constexpr float kCatchesUp_ps = 0.9f;      // metres a second for each metre that the lead is short of that
 constexpr float kSetsOff_mps = 0.4f, kStops_mps = 0.15f;
 constexpr float kWaits_m = 7;              // a visitor farther than this has to come first
@@ -20,7 +20,7 @@ constexpr float kToPlace_mps = 1.3f;
 constexpr float kAhead_m = 0.8f, kFullPace_m = 2.0f;     // lead with which the visitor begins to walk, and walks as usual
 constexpr float kPatience_s = 4;           // of a visitor who waits for the guide to get ahead
 constexpr float kBesideView_rad = 0.32f;   // to the side of what there is to see at a halt
-constexpr float kClears_m = 0.15f;         // people keep so much more than touching from a guide who walks
+constexpr float kClears_m = 0.15f;         // people keep so much more than touching from the guide
 constexpr float kStuck_s = 1.5f, kGetsOn_m = 0.5f, kStirs_m = 1.6f;
 constexpr float kFarthest_m = 20;          // of a new route the guide is looked for so far
 
@@ -40,7 +40,7 @@ bool CanStand(const Simulation& s, Vec2 stop, Vec2 p) {
 Vec2 PlaceAt(const Simulation& s, const TourStop& stop) {
   const float least_m = s.r_personal_m + s.avatar_radius_m[static_cast<size_t>(s.guide.avatar)] + 0.3f;
   for (const float wider : {1.0f, 1.8f, 3.0f, 5.0f, 0.0f, 7.0f}) {
-    for (const float far_m : {std::max(2.2f, least_m), std::max(1.6f, least_m), least_m}) {
+    for (const float far_m : {std::max(2.8f, least_m), std::max(2.0f, least_m), least_m}) {
       for (const float side : {-1.0f, 1.0f}) {
         const Vec2 p = stop.position_m + DirectionOf(stop.yaw_rad + side * wider * kBesideView_rad) * far_m;
         if (CanStand(s, stop.position_m, p)) return p;
@@ -75,7 +75,7 @@ float LeadingSpeed_mps(const Simulation& s, Vec2 p) {
   const Vec2 ahead = PointAt(s.tour.route, s.tour.visitor_m + 1) - PointAt(s.tour.route, s.tour.visitor_m);
   const float ahead_m = Length(ahead);
   const float visitor_mps = ahead_m > 1e-3f ? std::max(0.0f, Dot(s.camera.velocity, ahead) / ahead_m) : 0;
-  return std::clamp(visitor_mps + kCatchesUp_ps * (kLead_m - lead_m), 0.0f, kGuideTop_mps);
+  return std::clamp(visitor_mps + kCatchesUp_ps * (kLead_m - lead_m), 0.0f, s.crowd_settings.top_speed_mps);
 }
 
 Vec2 Wanted(Vec2 p, Simulation* s) {
@@ -145,7 +145,7 @@ void PlaceGuide(Simulation* s) {
   p.avatar = g.avatar;
   p.radius_m = s->avatar_radius_m[static_cast<size_t>(g.avatar)];
   p.preferred_mps = s->crowd_settings.preferred_speed_mps;
-  p.top_mps = kGuideTop_mps;
+  p.top_mps = s->crowd_settings.top_speed_mps;
   const Vec2 to_visitor = s->camera.view.position - p.position;
   p.heading_rad = AngleOf(to_visitor);
   g.index = s->crowd.size();
@@ -165,7 +165,7 @@ void LeadOn(Simulation* s) {
   StirLoiterers(p, s);
   g.waited_s = OwnShareOfPace(*s) < 0.3f ? g.waited_s + s->step_s : 0;
   const Vec2 to_visitor = s->camera.view.position - p;
-  c.facing[g.index] = to_visitor * (1 / std::max(Length(to_visitor), 1e-3f));
+  c.facing[g.index] = Unit(to_visitor);
   const bool talks = s->tour.resting && !s->tour.paused;
   c.activity[g.index] = g.walks ? Activity::kWalking : talks ? Activity::kTalking : Activity::kStanding;
   c.detour[g.index] = g.velocity;
@@ -179,7 +179,7 @@ void ShieldGuide(Simulation* s) {
   // Who is on a fresh detour is not sent on another.
   s->crowd.detour[i] = s->guide.velocity;
   s->crowd.detour_s[i] = 1e3f;
-  if (s->guide.walks) s->moving.push_back({s->crowd.position[i], s->crowd.radius_m[i] + kClears_m, true, s->guide.velocity});
+  s->moving.push_back({s->crowd.position[i], s->crowd.radius_m[i] + kClears_m, true, s->guide.velocity});
 }
 
 void UnshieldGuide(Simulation* s) {

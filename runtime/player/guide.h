@@ -19,8 +19,6 @@ struct Guide {
   float waited_s = 0;      // how long the visitor has waited for the guide to get ahead
 };
 
-inline constexpr float kGuideTop_mps = 2.2f;  // faster than visitors walk, to get ahead of them
-
 // In the crowd, on the way that the tour begins with.
 void PlaceGuide(Simulation* simulation);
 

@@ -9,7 +9,7 @@ namespace {
 
 // Shares of the person's height.
 constexpr float kStrapLow = 0.66f, kStrapHigh = 0.80f;  // the pole is tied to the back between these
-constexpr float kPoleFoot = 0.52f, kPoleTop = 1.50f, kBar = 1.45f, kTails = 1.14f, kNotch = 1.20f, kHalfWidth = 0.135f;
+constexpr float kPoleFoot = 0.52f, kPoleTop = 1.38f, kBar = 1.34f, kTails = 1.12f, kNotch = 1.165f, kHalfWidth = 0.10f;
 constexpr float kPole_m = 0.014f, kBar_m = 0.011f, kCloth_m = 0.008f;  // half as thick
 constexpr float kOffBack_m = 0.03f;
 constexpr Vec4 kWood{0.10f, 0.05f, 0.02f, 1}, kRed{0.42f, 0.015f, 0.02f, 1}, kGold{0.80f, 0.48f, 0.06f, 1};

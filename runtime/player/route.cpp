@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/flow_field.h"
 #include "runtime/crowd/walls.h"
 
@@ -69,18 +70,15 @@ bool FreeLine(const Walkable& w, Vec2 p, Vec2 q) {
 Vec2 WayStraightOrRound(const Walkable& w, Vec2 p, Vec2 point, Corner* corner, WaySearch* search) {
   if (!FreeLine(w, p, point)) return WayByCorners(w, p, point, true, corner, search);
   *corner = {};
-  const Vec2 way = point - p;
-  const float way_m = Length(way);
-  return way_m > 1e-3f ? way * (1 / way_m) : Vec2{};
+  return Unit(point - p);
 }
 
 Vec2 WayAlong(const Walkable& w, const Route& route, float way_m, Vec2 p, Corner* corner, WaySearch* search) {
   for (const float ahead_m : kAhead_m) {
     const Vec2 way = PointAt(route, way_m + ahead_m) - p;
-    const float far_m = Length(way);
-    if (far_m > kLeastCorner_m && FreeLine(w, p, p + way)) {
+    if (Length(way) > kLeastCorner_m && FreeLine(w, p, p + way)) {
       *corner = {};
-      return way * (1 / far_m);
+      return Unit(way);
     }
   }
   return WayStraightOrRound(w, p, PointAt(route, way_m + kAhead_m[1]), corner, search);

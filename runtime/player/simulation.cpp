@@ -143,7 +143,6 @@ void DeriveGap(Simulation* s) {
   limits.yaw_rate_radps = s->max_yaw_rate_radps;
   limits.camera_speed_mps = 3;
   limits.person_speed_mps = s->crowd_settings.top_speed_mps;
-  if (s->guide.id >= 0) limits.person_speed_mps = std::max(limits.person_speed_mps, kGuideTop_mps);
   for (const CameraLeg& leg : s->legs) {
     limits.yaw_rate_radps = std::max(limits.yaw_rate_radps, leg.rate_dps * kPi / 180);
     limits.camera_speed_mps = std::max(limits.camera_speed_mps, leg.speed_mps);

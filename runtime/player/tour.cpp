@@ -7,7 +7,6 @@
 namespace flaneur {
 namespace {
 
-constexpr float kNearStop_m = 3;          // a stop in a wall is visited as near as this
 constexpr float kPassed_m = 0.5f;         // before a stop that is only on the way
 constexpr float kThere_m = 0.35f, kThereFreely_m = 1.8f;  // from a halt: for a visitor whom the tour leads, and who walks freely
 constexpr float kHears_m = 6;             // who is farther from a halt has left it for now
@@ -138,7 +137,7 @@ void SettleTour(Simulation* s) {
   for (size_t k = 0; k < s->tour.stops.size(); ++k) {
     TourStop stop = s->tour.stops[k];
     const bool free = IsFree(w, stop.position_m);
-    const int cell = free ? CellAt(w, stop.position_m) : NearestFreeCell(w, stop.position_m, kNearStop_m);
+    const int cell = FreeCellFor(w, stop.position_m);
     const int component = cell < 0 ? -1 : w.component[static_cast<size_t>(cell)];
     if (of_first < 0) of_first = component;
     const std::string name = "stop " + std::to_string(k + 1);

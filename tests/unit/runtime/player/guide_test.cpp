@@ -88,7 +88,7 @@ TEST(Guide, FacesTheVisitorAtEveryHaltAndIsSeen) {
     Step(&s, 1);
     if (!s.tour.resting || s.tour.rested_s < 2.5f) continue;
     if (s.tour.rested_s < 2.55f) ++halts;
-    EXPECT_LT(OffVisitor_rad(s), 0.3f);
+    EXPECT_LT(OffVisitor_rad(s), 0.4f);
     EXPECT_GT(Apart_m(s), 1);
     EXPECT_LT(Apart_m(s), 4);
     EXPECT_EQ(s.crowd.view[s.guide.index], ViewClass::kVisible);

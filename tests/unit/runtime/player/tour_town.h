@@ -6,14 +6,9 @@
 #include <vector>
 
 #include "runtime/player/simulation.h"
+#include "tests/unit/runtime/player/box_obstacle.h"
 
 namespace flaneur {
-
-inline PackObstacle Box(Vec2 min, Vec2 max) {
-  PackObstacle o;
-  o.outer = {min, {max.x, min.y}, max, {min.x, max.y}};
-  return o;
-}
 
 inline PackAvatar Figure(const char* name, float share) {
   PackAvatar avatar;
