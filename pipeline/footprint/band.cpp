@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
+#include "pipeline/footprint/segment_grid.h"
 
 namespace flaneur {
 namespace {
@@ -12,6 +14,8 @@ constexpr double kGrid_m = 0.001;
 constexpr double kBend_m = 0.01;          // the ground may leave an edge's straight line by this much
 constexpr double kShortEdge_m = 0.25;     // shorter edges are not split
 constexpr double kThin_m = 0.002;         // parts thinner than this in plan are drawn as one line
+constexpr double kOnLine_m = 0.001;       // lines this near to longer ones belong to them
+constexpr double kLeastOverlap_m = 0.003; // of two lines that are parts of one
 
 bool Before(const Point3& a, const Point3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 bool Before(Point2 a, Point2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
@@ -48,6 +52,89 @@ std::vector<Point3> CutAt(const std::vector<Point3>& polygon, double level, doub
   return out;
 }
 
+double Length(const Segment& s) { return std::hypot(s.b.x - s.a.x, s.b.y - s.a.y); }
+
+// Merges segments that overlap along one line, as do the parts in the band of triangles of one wall: each becomes longer
+// by those that overlap its ends, and takes in what lies beside it.
+class LineMerger {
+ public:
+  explicit LineMerger(const std::vector<Segment>& segments)
+      : segments_(segments), grid_(segments, kOnLine_m, CellFor(segments)), gone_(segments.size(), false) {}
+
+  std::vector<Segment> Run() {
+    std::vector<size_t> order(segments_.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::vector<double> length;
+    for (const Segment& s : segments_) length.push_back(Length(s));
+    std::stable_sort(order.begin(), order.end(), [&](size_t i, size_t j) { return length[i] > length[j]; });
+    std::vector<Segment> out;
+    for (const size_t i : order) {
+      if (gone_[i]) continue;
+      gone_[i] = true;
+      out.push_back(Merge(segments_[i]));
+    }
+    return out;
+  }
+
+ private:
+  Segment Merge(Segment s) {
+    members_ = {s};
+    while (Grow(&s)) {
+    }
+    const double length = Length(s);
+    const int steps = static_cast<int>(std::ceil(length / grid_.cell_m()));
+    for (int k = 0; k <= steps; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      for (const size_t j : grid_.Near({s.a.x + share * (s.b.x - s.a.x), s.a.y + share * (s.b.y - s.a.y)}))
+        if (!gone_[j] && IsBeside(segments_[j], s)) gone_[j] = true;
+    }
+    return s;
+  }
+
+  bool Grow(Segment* s) {
+    for (const Point2 end : {s->a, s->b}) {
+      for (const size_t j : grid_.Near(end)) {
+        const Segment& t = segments_[j];
+        if (gone_[j] || DistanceToSegment(end, t.a, t.b) > kOnLine_m) continue;
+        const Segment longer = Together(*s, t);
+        if (Length(longer) > Length(*s) + Length(t) - kLeastOverlap_m || !IsBeside(t, longer)) continue;
+        if (!std::all_of(members_.begin(), members_.end(), [&](const Segment& m) { return IsBeside(m, longer); })) continue;
+        gone_[j] = true;
+        members_.push_back(t);
+        *s = longer;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  static bool IsBeside(const Segment& t, const Segment& s) {
+    return DistanceToSegment(t.a, s.a, s.b) <= kOnLine_m && DistanceToSegment(t.b, s.a, s.b) <= kOnLine_m;
+  }
+
+  // The two ends furthest apart.
+  static Segment Together(const Segment& s, const Segment& t) {
+    Segment longest = s;
+    for (const Segment& other : {t, Segment{s.a, t.a}, Segment{s.a, t.b}, Segment{s.b, t.a}, Segment{s.b, t.b}})
+      if (Length(other) > Length(longest)) longest = other;
+    return longest;
+  }
+
+  const std::vector<Segment>& segments_;
+  const SegmentGrid grid_;
+  std::vector<bool> gone_;
+  std::vector<Segment> members_;  // of the line that grows
+};
+
+std::vector<Segment> Merged(const std::vector<Segment>& segments) {
+  if (segments.size() < 2) return segments;
+  std::vector<Segment> merged = LineMerger(segments).Run();
+  for (Segment& s : merged)
+    if (Before(s.b, s.a)) std::swap(s.a, s.b);
+  std::sort(merged.begin(), merged.end(), [](const Segment& s, const Segment& t) { return Before(s, t); });
+  return merged;
+}
+
 class BandCutter {
  public:
   BandCutter(const LocalGround& ground, const std::array<double, 2>& band_m) : ground_(ground), band_m_(band_m) {}
@@ -77,6 +164,7 @@ class BandCutter {
               [](const Segment& s, const Segment& t) { return Before(s, t); });
     const auto same = [](const Segment& s, const Segment& t) { return Same(s.a, t.a) && Same(s.b, t.b); };
     parts_.walls.erase(std::unique(parts_.walls.begin(), parts_.walls.end(), same), parts_.walls.end());
+    parts_.walls = Merged(parts_.walls);
     parts_.areas = UnionOfRings(parts_.areas);
     return std::move(parts_);
   }

@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <map>
 
-#include "pipeline/footprint/segment_grid.h"
-
 namespace flaneur {
 namespace {
 
@@ -148,11 +146,10 @@ Enclosure Enclose(const std::vector<Segment>& cut, const RegionTest& is_solid) {
 
 Enclosure EncloseRegions(const std::vector<Segment>& segments, const RegionTest& is_solid) {
   if (segments.empty()) return {};
-  const std::vector<Segment> cut = CutWhereTheyMeet(segments);
   try {
-    return Enclose<PlainTriangulation>(cut, is_solid);
+    return Enclose<PlainTriangulation>(segments, is_solid);
   } catch (const PlainTriangulation::Intersection_of_constraints_exception&) {
-    return Enclose<ExactTriangulation>(cut, is_solid);
+    return Enclose<ExactTriangulation>(segments, is_solid);
   }
 }
 

@@ -43,6 +43,7 @@ struct Shape {
   Rings solid;
   std::vector<Segment> loose;  // walls without area
   double open_m = 0;           // length of walls beside nothing solid
+  double ground_z_m = 0;       // in the middle
   bool guessed = false;        // a gap wider than those of an untidy model had to be closed
 };
 
@@ -155,19 +156,36 @@ void SetLoose(const std::vector<Segment>& lines, Shape* shape) {
   for (const Segment& s : apart) shape->open_m += Length(s);
 }
 
-// Whether all lines lead on at both ends.
-bool AllMeet(const std::vector<Segment>& lines) {
+// How many lines end at each point.
+std::map<std::pair<double, double>, int> Ends(const std::vector<Segment>& lines) {
   std::map<std::pair<double, double>, int> ends;
   for (const Segment& s : lines)
     for (const Point2 p : {s.a, s.b}) ++ends[{p.x, p.y}];
-  return std::all_of(ends.begin(), ends.end(), [](const auto& end) { return end.second > 1; });
+  return ends;
+}
+
+// Drops crumbs that lead nowhere; whether all other lines lead on at both ends. If not, the lines stay as they are.
+bool AllMeet(std::vector<Segment>* lines) {
+  std::vector<Segment> kept = *lines;
+  for (bool dropped = true; dropped;) {
+    const auto ends = Ends(kept);
+    bool dangling = false;
+    dropped = std::erase_if(kept, [&](const Segment& s) {
+      if (ends.at({s.a.x, s.a.y}) > 1 && ends.at({s.b.x, s.b.y}) > 1) return false;
+      dangling |= Length(s) >= kCrumb_m;
+      return Length(s) < kCrumb_m;
+    }) > 0;
+    if (dangling) return false;
+  }
+  *lines = std::move(kept);
+  return true;
 }
 
 // Adds what the lines and what is solid already enclose under a roof, together with each other. Lines that all meet are
 // taken exactly; else they are joined where they miss each other by up to reach_m.
 void Close(std::vector<Segment> lines, double reach_m, const Roofs& is_solid, Shape* shape) {
-  if (shape->solid.empty()) lines = CutWhereTheyMeet(lines);
-  if (shape->solid.empty() && AllMeet(lines)) {
+  if (shape->solid.empty()) lines = CutWhereTheyMeet(std::move(lines));
+  if (shape->solid.empty() && AllMeet(&lines)) {
     Enclosure enclosure = EncloseRegions(lines, is_solid);
     shape->solid = std::move(enclosure.solid);
     lines = std::move(enclosure.loose);
@@ -202,14 +220,18 @@ bool Repair(const Site& site, const Stand& stand, const TownObject& object, std:
   return !parts.walls.empty() || !parts.areas.empty();
 }
 
+double GroundInTheMiddle(const Stand& stand, const TownObject& object) {
+  return stand.ground(0).Height((object.min_m.x + object.max_m.x) / 2, (object.min_m.y + object.max_m.y) / 2);
+}
+
 Shape ShapeOf(const Site& site, const TownObject& object) {
   const Stand stand(site, object);
   Shape shape;
+  shape.ground_z_m = GroundInTheMiddle(stand, object);
   std::vector<Triangle3> triangles = object.triangles;
   shape.guessed = Repair(site, stand, object, &triangles);
   const BandParts parts = PartsInBand(site, stand, triangles);
-  Overhead overhead;
-  overhead.Add(triangles);
+  const Overhead overhead({&triangles});
   const Roofs is_solid(site, stand.ground(0), overhead);
   shape.lines = static_cast<int>(parts.walls.size() + parts.areas.size());
   shape.solid = parts.areas;
@@ -307,17 +329,18 @@ void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const 
   if (block.empty()) return;
   std::vector<Segment> lines;
   Rings known;
-  Overhead overhead;
+  std::vector<const std::vector<Triangle3>*> triangles;
   for (const size_t i : block) {
     const Shape& own = (*shapes)[i];
     lines.insert(lines.end(), own.loose.begin(), own.loose.end());
     known.insert(known.end(), own.solid.begin(), own.solid.end());
-    overhead.Add(objects[i].triangles);
+    triangles.push_back(&objects[i].triangles);
   }
   known = UnionOfAreas(known);
   Shape whole;
   whole.solid = known;
   const Stand stand(site, Together(objects, block));
+  const Overhead overhead(triangles);
   Close(lines, site.options.bridge_m, Roofs(site, stand.ground(0), overhead), &whole);
   Rings gap = Difference(whole.solid, known);
   // A piece goes to the object that most of it lies under.
@@ -364,6 +387,35 @@ Rings WithoutSpecks(const Rings& rings) {
   return out;
 }
 
+// Whether nothing is thin or short about an outline, so that there is nothing to tidy. May say no too often.
+bool IsTidy(const Rings& rings, double width_m) {
+  constexpr size_t kMostPoints = 64;  // looking at each pair of more takes longer than to tidy
+  constexpr double kBluntest = -0.9;  // cosine; sharper corners are looked at more closely
+  size_t points = 0;
+  for (const Ring& ring : rings) {
+    points += ring.size();
+    if (std::abs(SignedArea(ring)) < kSmallestPiece_m2) return false;
+  }
+  if (points > kMostPoints) return false;
+  const std::vector<Segment> edges = Outline(rings);
+  const auto same = [](Point2 p, Point2 q) { return p.x == q.x && p.y == q.y; };
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const Segment& s = edges[i];
+    if (Length(s) < width_m) return false;
+    for (size_t j = 0; j < edges.size(); ++j) {
+      const Segment& t = edges[j];
+      if (i == j || same(t.b, s.a)) continue;
+      if (same(t.a, s.b)) {
+        const double along = (s.b.x - s.a.x) * (t.b.x - t.a.x) + (s.b.y - s.a.y) * (t.b.y - t.a.y);
+        if (along < kBluntest * Length(s) * Length(t)) return false;
+      } else if (DistanceToSegment(s.a, t.a, t.b) < 2 * width_m || DistanceToSegment(s.b, t.a, t.b) < 2 * width_m) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 // A strip or speck too small to stay with its own obstacle goes to the neighbour it lies against, so that no wall loses its clearance.
 void GiveAway(const Rings& strips, size_t from, const std::vector<size_t>& neighbours, double width_m,
               std::vector<BoundingBox>* boxes, std::vector<Rings>* enlarged) {
@@ -403,7 +455,10 @@ std::vector<std::vector<size_t>> Neighbours(const std::vector<BoundingBox>& boxe
 }
 
 // Where two houses stand in each other by more than a clumsy joint, both keep what is theirs.
-Rings SharedGround(const Shape& a, const Shape& b) {
+Rings SharedGround(const Shape& a, const BoundingBox& box_a, const Shape& b, const BoundingBox& box_b) {
+  if (std::min(box_a.max.x, box_b.max.x) - std::max(box_a.min.x, box_b.min.x) < kJoint_m ||
+      std::min(box_a.max.y, box_b.max.y) - std::max(box_a.min.y, box_b.min.y) < kJoint_m)
+    return {};
   Rings shared;
   for (const Polygon& piece : ToPolygons(Intersection(a.solid, b.solid))) {
     Rings rings{piece.outer};
@@ -418,20 +473,24 @@ Rings SharedGround(const Shape& a, const Shape& b) {
 void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes, double width_m,
               std::vector<Rings>* enlarged) {
   const auto is_house = [&](size_t i) { return objects[i].kind == ObstacleKind::kBuilding; };
+  const auto append = [](const Rings& more, Rings* to) { to->insert(to->end(), more.begin(), more.end()); };
   std::vector<BoundingBox> solid_boxes, boxes;
   for (const Shape& shape : shapes) solid_boxes.push_back(BoundingBoxOf(shape.solid));
   for (const Rings& rings : *enlarged) boxes.push_back(BoundingBoxOf(rings));
   const std::vector<std::vector<size_t>> neighbours = Neighbours(boxes);
   for (size_t i = 0; i < enlarged->size(); ++i) {
-    Rings taken;
+    Rings taken, later;
     for (const size_t j : neighbours[i]) {
       if ((*enlarged)[j].empty()) continue;
-      if (j < i && !Apart(boxes[i], boxes[j]))
-        taken = Union(taken, is_house(i) && is_house(j) ? Difference((*enlarged)[j], SharedGround(shapes[i], shapes[j]))
-                                                        : (*enlarged)[j]);
-      if (j > i && !Apart(boxes[i], solid_boxes[j])) taken = Union(taken, Difference(shapes[j].solid, shapes[i].solid));
+      if (j < i && !Apart(boxes[i], boxes[j])) {
+        const Rings shared = is_house(i) && is_house(j) ? SharedGround(shapes[i], solid_boxes[i], shapes[j], solid_boxes[j]) : Rings();
+        append(shared.empty() ? (*enlarged)[j] : Difference((*enlarged)[j], shared), &taken);
+      }
+      if (j > i && !Apart(boxes[i], solid_boxes[j])) append(shapes[j].solid, &later);
     }
-    if (!taken.empty()) (*enlarged)[i] = Difference((*enlarged)[i], taken);
+    append(DifferenceOfAreas(later, shapes[i].solid), &taken);
+    (*enlarged)[i] = DifferenceOfAreas((*enlarged)[i], taken);
+    if (IsTidy((*enlarged)[i], width_m)) continue;
     const Rings kept = WithoutSpecks(Tidy((*enlarged)[i], width_m));
     const Rings strips = Difference((*enlarged)[i], Offset(kept, kAgainst_m));
     (*enlarged)[i] = kept;
@@ -440,7 +499,9 @@ void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& 
 }
 
 bool MakeCircle(const Site& site, const TownObject& object, Obstacle* obstacle) {
-  const std::vector<Segment> lines = Lines(PartsInBand(site, Stand(site, object), object.triangles));
+  const Stand stand(site, object);
+  obstacle->ground_z_m = GroundInTheMiddle(stand, object);
+  const std::vector<Segment> lines = Lines(PartsInBand(site, stand, object.triangles));
   BoundingBox box;
   for (const Segment& s : lines) {
     box.min = {std::min({box.min.x, s.a.x, s.b.x}), std::min({box.min.y, s.a.y, s.b.y})};
@@ -478,8 +539,6 @@ Obstacle Blank(const Site& site, const TownObject& object) {
   obstacle.kind = object.kind;
   obstacle.source = object.name;
   obstacle.clearance_m = site.options.clearance_m;
-  const double x = (object.min_m.x + object.max_m.x) / 2, y = (object.min_m.y + object.max_m.y) / 2;
-  obstacle.ground_z_m = Stand(site, object).ground(0).Height(x, y);
   return obstacle;
 }
 
@@ -521,7 +580,7 @@ void MergeBlock(const std::vector<size_t>& block, std::vector<Shape>* shapes) {
   }
 }
 
-void AddPolygons(const Site& site, const TownObject& object, const Rings& rings, NameGiver* names,
+void AddPolygons(const Site& site, const TownObject& object, double ground_z_m, const Rings& rings, NameGiver* names,
                  Footprints* footprints) {
   std::vector<Polygon> polygons = ToPolygons(rings);
   std::sort(polygons.begin(), polygons.end(),
@@ -530,6 +589,7 @@ void AddPolygons(const Site& site, const TownObject& object, const Rings& rings,
     if (SignedArea(polygon.outer) < kSmallestPiece_m2) continue;
     Obstacle obstacle = Blank(site, object);
     obstacle.name = names->Unique(object.name);
+    obstacle.ground_z_m = ground_z_m;
     obstacle.outer = polygon.outer;
     for (const Ring& hole : polygon.holes)
       if (-SignedArea(hole) >= kSmallestPiece_m2) obstacle.holes.push_back(hole);
@@ -598,7 +658,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
         footprints->obstacles.push_back(std::move(circle));
       }
     } else {
-      AddPolygons(site, object, enlarged[i], &names, footprints);
+      AddPolygons(site, object, shapes[i].ground_z_m, enlarged[i], &names, footprints);
       for (size_t k = before; k < footprints->obstacles.size(); ++k)
         footprints->obstacles[k].open_shell = IsOpen(object, shapes[i]) || merged_open.contains(i);
       counts.covered_m2 += Area(enlarged[i]);

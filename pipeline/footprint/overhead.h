@@ -1,7 +1,7 @@
 // Answers what stands over a place.
 #pragma once
 #include <cstdint>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "pipeline/footprint/polygon_sets.h"
@@ -9,17 +9,19 @@
 
 namespace flaneur {
 
-// Holds pointers to the triangles given to Add: they must outlive it.
+// Holds pointers to the triangles: they must outlive it.
 class Overhead {
  public:
-  void Add(const std::vector<Triangle3>& triangles);
+  explicit Overhead(const std::vector<const std::vector<Triangle3>*>& objects);
   // True where a triangle lies over p, higher than z.
   bool Covers(Point2 p, double z) const;
   // The lowest surface over p that is higher than z, else infinity.
   double LowestAbove(Point2 p, double z) const;
 
  private:
-  std::unordered_map<int64_t, std::vector<const Triangle3*>> cells_;
+  using Entry = std::pair<int64_t, const Triangle3*>;  // a cell, and one of the triangles over it
+  double cell_m_ = 1;
+  std::vector<Entry> entries_;  // by cell
 };
 
 }  // namespace flaneur

@@ -13,12 +13,16 @@ constexpr int kDirections = 16;         // of lines through a sample
 constexpr int kMostAsked = 60;          // samples asked for walls beside them
 constexpr double kLeastShare = 0.25;    // of them that must have some
 
+std::vector<const std::vector<Triangle3>*> TrianglesOf(const TownObjects& town) {
+  std::vector<const std::vector<Triangle3>*> all;
+  for (const TownObject& object : town.obstacles) all.push_back(&object.triangles);
+  return all;
+}
+
 }  // namespace
 
 PassageTest::PassageTest(const TownObjects& town, const GroundRaster& raster, const Options& options)
-    : options_(options), ground_(raster) {
-  for (const TownObject& object : town.obstacles) overhead_.Add(object.triangles);
-}
+    : options_(options), ground_(raster), overhead_(TrianglesOf(town)) {}
 
 bool PassageTest::Roofed(Point2 p) const { return overhead_.Covers(p, ground_.Height(p.x, p.y) + options_.headroom_m); }
 

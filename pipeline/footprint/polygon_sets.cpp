@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 #include <clipper.hpp>
 
 namespace flaneur {
@@ -49,15 +51,75 @@ Rings ToRings(const cl::Paths& paths) {
   return rings;
 }
 
-Rings Combine(cl::ClipType type, const Rings& a, const Rings& b) {
+Rings Combine(cl::ClipType type, const Rings& a, const Rings& b, cl::PolyFillType fill = cl::pftEvenOdd) {
   cl::Clipper clipper;
   clipper.StrictlySimple(true);
   clipper.AddPaths(ToPaths(a), cl::ptSubject, true);
   clipper.AddPaths(ToPaths(b), cl::ptClip, true);
   cl::Paths out;
-  clipper.Execute(type, out, cl::pftEvenOdd, cl::pftEvenOdd);
+  clipper.Execute(type, out, fill, fill);
   return ToRings(out);
 }
+
+// How many paths are united at once. The time that takes grows with the square of those that overlap.
+constexpr size_t kAtOnce = 64;
+
+cl::Paths UnionAtOnce(const cl::Paths& paths) {
+  cl::Clipper clipper;
+  clipper.StrictlySimple(true);
+  clipper.AddPaths(paths, cl::ptSubject, true);
+  cl::Paths out;
+  clipper.Execute(cl::ctUnion, out, cl::pftNonZero, cl::pftNonZero);
+  return out;
+}
+
+// The bits of x and y in turn: near places mostly have near numbers.
+uint64_t AlongCurve(uint64_t x, uint64_t y) {
+  const auto spread = [](uint64_t v) {
+    v &= 0xffffffff;
+    for (const auto& [shift, mask] : {std::pair{16, 0x0000ffff0000ffff}, {8, 0x00ff00ff00ff00ff}, {4, 0x0f0f0f0f0f0f0f0f},
+                                      {2, 0x3333333333333333}, {1, 0x5555555555555555}})
+      v = (v | v << shift) & static_cast<uint64_t>(mask);
+    return v;
+  };
+  return spread(x) | spread(y) << 1;
+}
+
+// Each path once, sorted so that those near each other come one after the other, whatever order they came in.
+cl::Paths Neighbouring(cl::Paths paths) {
+  std::erase_if(paths, [](const cl::Path& path) { return path.size() < 3; });
+  if (paths.size() <= kAtOnce) return paths;
+  cl::IntPoint low = paths[0][0];
+  for (const cl::Path& path : paths)
+    for (const cl::IntPoint& p : path) low = {std::min(low.X, p.X), std::min(low.Y, p.Y)};
+  constexpr int kPerCell = 8;  // a power of two of units: the finest difference that counts
+  std::vector<std::pair<uint64_t, size_t>> order;
+  for (size_t i = 0; i < paths.size(); ++i) {
+    cl::IntPoint least = paths[i][0];
+    for (const cl::IntPoint& p : paths[i]) least = {std::min(least.X, p.X), std::min(least.Y, p.Y)};
+    order.emplace_back(AlongCurve(static_cast<uint64_t>(least.X - low.X) >> kPerCell, static_cast<uint64_t>(least.Y - low.Y) >> kPerCell), i);
+  }
+  const auto before = [](const cl::IntPoint& p, const cl::IntPoint& q) { return std::tie(p.X, p.Y) < std::tie(q.X, q.Y); };
+  std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) {
+    if (a.first != b.first) return a.first < b.first;
+    const cl::Path &p = paths[a.second], &q = paths[b.second];
+    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end(), before);
+  });
+  cl::Paths sorted;
+  for (const auto& [_, i] : order)
+    if (sorted.empty() || sorted.back() != paths[i]) sorted.push_back(std::move(paths[i]));
+  return sorted;
+}
+
+cl::Paths UnionByHalves(const cl::Paths& paths, size_t from, size_t to) {
+  if (to - from <= kAtOnce) return UnionAtOnce(cl::Paths(paths.begin() + static_cast<long>(from), paths.begin() + static_cast<long>(to)));
+  const size_t middle = from + (to - from) / 2;
+  cl::Paths both = UnionByHalves(paths, from, middle);
+  const cl::Paths other = UnionByHalves(paths, middle, to);
+  both.insert(both.end(), other.begin(), other.end());
+  return UnionAtOnce(both);
+}
+cl::Paths UnionByHalves(const cl::Paths& paths) { return UnionByHalves(paths, 0, paths.size()); }
 
 constexpr double kGrid_m = 1e-4;
 
@@ -175,19 +237,21 @@ Rings Union(const Rings& a, const Rings& b) { return Combine(cl::ctUnion, a, b);
 Rings Intersection(const Rings& a, const Rings& b) { return Combine(cl::ctIntersection, a, b); }
 Rings Difference(const Rings& a, const Rings& b) { return Combine(cl::ctDifference, a, b); }
 
+Rings DifferenceOfAreas(const Rings& a, const Rings& b) {
+  if (a.empty() || b.empty()) return a;
+  return Combine(cl::ctDifference, a, b, cl::pftNonZero);
+}
+
 Rings UnionOfRings(const Rings& rings) {
+  if (rings.empty()) return {};
   cl::Paths paths = ToPaths(rings);
   for (cl::Path& path : paths)
     if (!cl::Orientation(path)) cl::ReversePath(path);
-  cl::Clipper clipper;
-  clipper.StrictlySimple(true);
-  clipper.AddPaths(paths, cl::ptSubject, true);
-  cl::Paths out;
-  clipper.Execute(cl::ctUnion, out, cl::pftNonZero, cl::pftNonZero);
-  return ToRings(out);
+  return ToRings(UnionByHalves(Neighbouring(std::move(paths))));
 }
 
 Rings UnionOfAreas(const Rings& rings) {
+  if (rings.empty()) return {};
   cl::Clipper clipper;
   clipper.StrictlySimple(true);
   clipper.AddPaths(ToPaths(rings), cl::ptSubject, true);

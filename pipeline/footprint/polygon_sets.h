@@ -26,6 +26,8 @@ Rings UnionOfRings(const Rings& rings);
 Rings UnionOfAreas(const Rings& rings);
 Rings Intersection(const Rings& a, const Rings& b);
 Rings Difference(const Rings& a, const Rings& b);
+// The first areas less the second; either lists rings as UnionOfAreas takes them.
+Rings DifferenceOfAreas(const Rings& a, const Rings& b);
 
 // Grown by distance_m (shrunk where negative). Corners are mitred up to miter_limit * distance_m, sharper ones cut.
 Rings Offset(const Rings& rings, double distance_m, double miter_limit = 2);

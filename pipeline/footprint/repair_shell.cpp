@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 #include <tuple>
-#include <unordered_map>
 
 #include "pipeline/io/triangulate_polygon.h"
 
@@ -26,19 +25,32 @@ struct Welded {
   std::vector<std::array<Index, 3>> triangles;  // corners ascending; sorted, each once
 };
 
+bool Before(const Point3& a, const Point3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+
 Welded Weld(const std::vector<Triangle3>& shell) {
-  Welded out;
-  std::map<std::array<int64_t, 3>, Index> index;
+  using Cell = std::array<int64_t, 3>;
+  std::vector<std::pair<Cell, Index>> corners;  // of all triangles, one after the other
+  corners.reserve(3 * shell.size());
   for (const Triangle3& t : shell) {
-    std::array<Index, 3> corners;
-    for (size_t i = 0; i < 3; ++i) {
+    for (const Point3& p : t) {
       const auto cell = [](double v) { return static_cast<int64_t>(std::llround(v / kSame_m)); };
-      const auto [entry, is_new] = index.try_emplace({cell(t[i].x), cell(t[i].y), cell(t[i].z)}, static_cast<Index>(out.points.size()));
-      if (is_new) out.points.push_back(t[i]);
-      corners[i] = entry->second;
+      corners.emplace_back(Cell{cell(p.x), cell(p.y), cell(p.z)}, static_cast<Index>(corners.size()));
     }
-    std::sort(corners.begin(), corners.end());
-    if (corners[0] != corners[1] && corners[1] != corners[2]) out.triangles.push_back(corners);
+  }
+  std::sort(corners.begin(), corners.end());
+  Welded out;
+  std::vector<Index> point_of(corners.size());
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Index corner = corners[i].second;
+    const Point3& at = shell[corner / 3][corner % 3];
+    if (i == 0 || corners[i].first != corners[i - 1].first) out.points.push_back(at);
+    else if (Before(at, out.points.back())) out.points.back() = at;
+    point_of[corner] = static_cast<Index>(out.points.size() - 1);
+  }
+  for (size_t i = 0; i < shell.size(); ++i) {
+    std::array<Index, 3> t{point_of[3 * i], point_of[3 * i + 1], point_of[3 * i + 2]};
+    std::sort(t.begin(), t.end());
+    if (t[0] != t[1] && t[1] != t[2]) out.triangles.push_back(t);
   }
   std::sort(out.triangles.begin(), out.triangles.end());
   out.triangles.erase(std::unique(out.triangles.begin(), out.triangles.end()), out.triangles.end());
@@ -49,11 +61,15 @@ Welded Weld(const std::vector<Triangle3>& shell) {
 using Borders = std::map<Index, std::set<Index>>;
 
 Borders FindBorders(const Welded& shell) {
-  std::map<Edge, int> count;
-  for (const auto& [a, b, c] : shell.triangles) ++count[{a, b}], ++count[{b, c}], ++count[{a, c}];
+  std::vector<Edge> edges;
+  edges.reserve(3 * shell.triangles.size());
+  for (const auto& [a, b, c] : shell.triangles) edges.insert(edges.end(), {{a, b}, {b, c}, {a, c}});
+  std::sort(edges.begin(), edges.end());
   Borders borders;
-  for (const auto& [edge, n] : count)
-    if (n == 1) borders[edge.first].insert(edge.second), borders[edge.second].insert(edge.first);
+  for (size_t i = 0, next; i < edges.size(); i = next) {
+    for (next = i + 1; next < edges.size() && edges[next] == edges[i];) ++next;
+    if (next == i + 1) borders[edges[i].first].insert(edges[i].second), borders[edges[i].second].insert(edges[i].first);
+  }
   return borders;
 }
 

@@ -69,12 +69,6 @@ void AddPieces(const Segment& s, std::vector<Point2> cuts, std::vector<Segment>*
   }
 }
 
-double CellFor(const std::vector<Segment>& segments) {
-  double length = 0;
-  for (const Segment& s : segments) length += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
-  return std::clamp(length / static_cast<double>(segments.size()), kLeastCell_m, kMostCell_m);
-}
-
 void DropRepeated(std::vector<Segment>* segments) {
   std::sort(segments->begin(), segments->end(), Before);
   const auto same = [](const Segment& s, const Segment& t) { return Same(s.a, t.a) && Same(s.b, t.b); };
@@ -94,6 +88,12 @@ SegmentGrid::SegmentGrid(const std::vector<Segment>& segments, double reach_m, d
              {s.a.x + t1 * (s.b.x - s.a.x), s.a.y + t1 * (s.b.y - s.a.y)}, reach_m);
     }
   }
+}
+
+double CellFor(const std::vector<Segment>& segments) {
+  double length = 0;
+  for (const Segment& s : segments) length += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
+  return std::clamp(length / static_cast<double>(segments.size()), kLeastCell_m, kMostCell_m);
 }
 
 int64_t SegmentGrid::Cell(double v) const { return static_cast<int64_t>(std::floor(v / cell_m_)); }

@@ -14,6 +14,7 @@ class SegmentGrid {
   SegmentGrid(const std::vector<Segment>& segments, double reach_m, double cell_m);
   // Indices of the segments within reach_m of p, and some farther ones; ascending.
   const std::vector<size_t>& Near(Point2 p) const;
+  double cell_m() const { return cell_m_; }
   // The lists of all cells, in no particular order.
   const std::unordered_map<int64_t, std::vector<size_t>>& cells() const { return cells_; }
 
@@ -23,6 +24,9 @@ class SegmentGrid {
   double cell_m_;
   std::unordered_map<int64_t, std::vector<size_t>> cells_;
 };
+
+// A cell about as long as the segments, for a grid of which each cell holds few of them.
+double CellFor(const std::vector<Segment>& segments);
 
 Point2 NearestOn(const Segment& s, Point2 p);
 

@@ -76,7 +76,6 @@ class Reader {
     if (!file) return Fail(path_.string() + ": cannot be opened");
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), &Reader::OnStart, &Reader::OnEnd);
-    XML_SetCharacterDataHandler(parser_.get(), &Reader::OnText);
     XML_SetStartDoctypeDeclHandler(parser_.get(), &Reader::OnDoctype);
     for (bool last = false; !last;) {
       void* buffer = XML_GetBuffer(parser_.get(), static_cast<int>(kChunk_bytes));
@@ -104,8 +103,7 @@ class Reader {
   }
   static void OnEnd(void* self, const char*) { static_cast<Reader*>(self)->End(); }
   static void OnText(void* self, const char* text, int length) {
-    auto* reader = static_cast<Reader*>(self);
-    if (reader->collects_) reader->text_.append(text, static_cast<size_t>(length));
+    static_cast<Reader*>(self)->text_.append(text, static_cast<size_t>(length));
   }
   static void OnDoctype(void* self, const char*, const char*, const char*, int) {
     static_cast<Reader*>(self)->Stop("has a DOCTYPE, which CityGML does not need and which can hide an XML bomb; remove it");
@@ -124,10 +122,12 @@ class Reader {
     const std::string_view name = LocalName(full_name);
     if (stack_.empty()) CheckRoot(full_name, name);
     if (stack_.size() >= kDeepest) return Stop("elements stand more than 256 deep; no CityGML does");
-    Element e = stack_.empty() ? Element{{}, {}, 0, -1, -1, 0, nullptr, false} : stack_.back();
-    e.name = name;
-    e.id.clear();
-    e.first_polygon = polygons_.size();
+    Element e{std::string(name), {}, polygons_.size(), -1, -1, 0, nullptr, false};
+    if (!stack_.empty()) {
+      const Element& parent = stack_.back();
+      e.object = parent.object, e.feature = parent.feature, e.lod = parent.lod;
+      e.surface = parent.surface, e.skipped = parent.skipped;
+    }
     std::string reference;
     for (const char** a = attributes; *a; a += 2) {
       const std::string_view key = LocalName(a[0]);
@@ -158,8 +158,13 @@ class Reader {
     if (!reference.empty() && e->lod > 0 && e->object >= 0 && reference[0] == '#')
       references_.push_back({e->object, e->feature, e->lod, reference.substr(1)});
     if (!HoldsCoordinates(e->name)) return;
-    collects_ = in_polygon_ || implicit_;
+    Collect(in_polygon_ || implicit_);
     text_.clear();
+  }
+
+  void Collect(bool on) {
+    collects_ = on;
+    XML_SetCharacterDataHandler(parser_.get(), on ? &Reader::OnText : nullptr);
   }
 
   void EnterFeature(const CityFeature& feature, Element* e) {
@@ -194,7 +199,7 @@ class Reader {
   }
 
   void TakeCoordinates(const Element& e) {
-    collects_ = false;
+    Collect(false);
     std::vector<double> numbers;
     const char *at = text_.data(), *end = at + text_.size();
     while (true) {

@@ -27,6 +27,27 @@ Context MakeContext() {
   return context;
 }
 
+// Finding the way between two systems takes longer than to transform a town's points, so the last ones are kept.
+class Ways {
+ public:
+  // Null where there is none.
+  PJ* Find(const std::string& from, const std::string& to) {
+    for (const Way& way : ways_)
+      if (way.from == from && way.to == to) return way.transform.get();
+    const Object raw(proj_create_crs_to_crs(context_.get(), from.c_str(), to.c_str(), nullptr));
+    Object transform(raw ? proj_normalize_for_visualization(context_.get(), raw.get()) : nullptr);
+    if (ways_.size() == kMost) ways_.erase(ways_.begin());
+    ways_.push_back({from, to, std::move(transform)});
+    return ways_.back().transform.get();
+  }
+
+ private:
+  static constexpr size_t kMost = 8;
+  struct Way { std::string from, to; Object transform; };
+  Context context_ = MakeContext();  // outlives the ways
+  std::vector<Way> ways_;
+};
+
 }  // namespace
 
 std::string LocalMapSystem(Point2 longitude_latitude) {
@@ -37,12 +58,11 @@ std::string LocalMapSystem(Point2 longitude_latitude) {
 }
 
 Error TransformPoints(const std::string& from, const std::string& to, std::vector<Point2>* points) {
-  const Context context = MakeContext();
-  const Object raw(proj_create_crs_to_crs(context.get(), from.c_str(), to.c_str(), nullptr));
-  const Object transform(raw ? proj_normalize_for_visualization(context.get(), raw.get()) : nullptr);
+  thread_local Ways ways;
+  PJ* const transform = ways.Find(from, to);
   if (!transform) return Fail("no way from coordinate system '" + from + "' to '" + to + "'");
   for (Point2& p : *points) {
-    const PJ_COORD out = proj_trans(transform.get(), PJ_FWD, proj_coord(p.x, p.y, 0, HUGE_VAL));
+    const PJ_COORD out = proj_trans(transform, PJ_FWD, proj_coord(p.x, p.y, 0, HUGE_VAL));
     const bool found = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(out.xy.x) && std::isfinite(out.xy.y);
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     p = found ? Point2{out.xy.x, out.xy.y} : Point2{kNone, kNone};

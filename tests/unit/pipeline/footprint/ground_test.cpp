@@ -91,8 +91,7 @@ TEST(LocalGround, GoesOnUnderHousesAndBeyondTheEdge) {
 
 TEST(Overhead, FindsTheLowestSurfaceAbove) {
   const std::vector<Triangle3> roof = {{{{0, 0, 3}, {4, 0, 3}, {0, 4, 3}}}, {{{0, 0, 6}, {4, 0, 6}, {0, 4, 6}}}};
-  Overhead overhead;
-  overhead.Add(roof);
+  const Overhead overhead({&roof});
   EXPECT_DOUBLE_EQ(overhead.LowestAbove({1, 1}, 0), 3);
   EXPECT_DOUBLE_EQ(overhead.LowestAbove({1, 1}, 4), 6);
   EXPECT_FALSE(overhead.Covers({1, 1}, 7));
