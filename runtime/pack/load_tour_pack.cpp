@@ -33,19 +33,34 @@ float Finite(const Json& json) {
   return value;
 }
 
-PackImage ReadImage(const GltfFile& file, int index) {
-  const Json& json = Element(file.json, "images", index);
-  const auto bytes = BufferView(file, Member(json, "bufferView").get<int>());
-  int width = 0, height = 0, channels = 0;
-  const int size = static_cast<int>(bytes.size());
-  if (!stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) || width > kMaxImageSide_px ||
-      height > kMaxImageSide_px) {
-    throw PackRefused("has image " + std::to_string(index) + " that is neither PNG nor JPEG, or too large");
+std::string NameOf(const GltfFile& file, int image) {
+  const Json& json = Element(file.json, "images", image);
+  const std::string name = json.value("name", "");
+  return "image " + std::to_string(image) + (name.empty() ? "" : " '" + name + "'");
+}
+
+std::span<const uint8_t> ImageBytes(const GltfFile& file, int image) {
+  return BufferView(file, Member(Element(file.json, "images", image), "bufferView").get<int>());
+}
+
+PackImage ReadImageSize(const GltfFile& file, int index) {
+  const auto bytes = ImageBytes(file, index);
+  PackImage image;
+  int channels = 0;
+  if (!stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &image.width_px, &image.height_px, &channels) ||
+      image.width_px > kMaxImageSide_px || image.height_px > kMaxImageSide_px) {
+    throw PackRefused("has " + NameOf(file, index) + " that is neither PNG nor JPEG, or too large");
   }
-  stbi_uc* pixels = stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4);
-  if (pixels == nullptr) throw PackRefused("has image " + std::to_string(index) + " that cannot be decoded");
-  PackImage image{width, height, {}};
-  image.rgba.assign(pixels, pixels + static_cast<size_t>(width) * static_cast<size_t>(height) * 4);
+  return image;
+}
+
+PackImage ReadImage(const GltfFile& file, int index) {
+  const auto bytes = ImageBytes(file, index);
+  PackImage image = ReadImageSize(file, index);
+  int channels = 0;
+  stbi_uc* pixels = stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &image.width_px, &image.height_px, &channels, 4);
+  if (pixels == nullptr) throw PackRefused("has " + NameOf(file, index) + " that cannot be decoded; bake the tour again");
+  image.rgba.assign(pixels, pixels + static_cast<size_t>(image.width_px) * static_cast<size_t>(image.height_px) * 4);
   stbi_image_free(pixels);
   return image;
 }
@@ -189,7 +204,7 @@ void CheckJoints(const PackMesh& mesh, int joints) {
   }
 }
 
-PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, const LoadOptions& options, MeshTable* meshes) {
+PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* meshes) {
   constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
   PackAvatar avatar;
   avatar.name = json.Text("name");
@@ -222,7 +237,6 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, const LoadOp
   avatar.idle = clips.Has("idle") ? clip("idle") : ReadClip(file, skin, -1);
   avatar.talk = clips.Has("talk") ? clip("talk") : avatar.idle;
   avatar.impostor = ReadImpostor(file, json.Object("impostor"));
-  if (options.geometry_and_images) ReadAtlas(file, json.Object("impostor"), &avatar.impostor);
   return avatar;
 }
 
@@ -297,48 +311,127 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   VisitFields(tour.Object("light"), &pack->light);
 }
 
-// The bulk of loading, on all cores.
-void DecodeGeometryAndImages(const GltfFile& file, const std::vector<int>& meshes, TourPack* pack) {
-  pack->images.resize(file.json.value("images", Json::array()).size());
-  const size_t images = pack->images.size();
-  ParallelFor(images + meshes.size(), [&](size_t i) {
-    if (i < images) pack->images[i] = ReadImage(file, static_cast<int>(i));
-    else pack->meshes[i - images] = ReadMesh(file, meshes[i - images]);
-  });
-  for (const PackAvatar& avatar : pack->avatars) {
-    for (const PackLevel& level : avatar.levels) CheckJoints(pack->meshes[static_cast<size_t>(level.mesh)], avatar.joints);
+// The materials alone.
+PackMesh ReadOutline(const GltfFile& file, int mesh) {
+  PackMesh out;
+  for (const Json& json : Member(Element(file.json, "meshes", mesh), "primitives")) {
+    PackPrimitive primitive;
+    primitive.material = IndexOrNone(json, "material", Member(file.json, "materials").size());
+    out.primitives.push_back(std::move(primitive));
   }
+  return out;
 }
 
-void Load(std::vector<uint8_t> bytes, const LoadOptions& options, TourPack* pack) {
-  const GltfFile file = OpenGltf(std::move(bytes));
-  const Json extensions = file.json.value("extensions", Json::object());
-  if (!extensions.contains(kTourExtension)) {
+TourObject TourOf(const GltfFile& file) {
+  const auto extensions = file.json.find("extensions");
+  if (extensions == file.json.end() || !extensions->contains(kTourExtension)) {
     throw PackRefused(std::string("is a glTF binary but no tour pack: it has no ") + kTourExtension +
                       "; make one with 'flaneur bake'");
   }
-  const TourObject tour(extensions[kTourExtension], kTourExtension);
+  return TourObject((*extensions)[kTourExtension], kTourExtension);
+}
+
+void CheckVersion(const TourObject& tour) {
   const int version = tour.Whole("version", 0, 1e9);
-  if (version != kTourPackVersion) {
-    throw PackRefused("is a tour pack of version " + std::to_string(version) + ", this player reads version " +
-                      std::to_string(kTourPackVersion));
-  }
-  ReadTour(file, tour, pack);
-  pack->ground = ReadGround(file, tour.Object("ground"));
-  for (const Json& m : file.json.value("materials", Json::array())) pack->materials.push_back(ReadMaterial(file, m));
-  MeshTable meshes;
-  ReadTown(file, &meshes, pack);
-  for (const TourObject& a : tour.Objects("avatars")) pack->avatars.push_back(ReadAvatar(file, a, options, &meshes));
-  if (pack->avatars.empty()) tour.Refuse("has no avatars");
-  const auto is_guide = [&](const PackAvatar& a) { return a.name == pack->guide; };
-  if (!pack->guide.empty() && std::none_of(pack->avatars.begin(), pack->avatars.end(), is_guide)) {
-    tour.Refuse("has a guide '" + pack->guide + "' who is none of its avatars");
-  }
-  pack->meshes.resize(meshes.used().size());
-  if (options.geometry_and_images) DecodeGeometryAndImages(file, meshes.used(), pack);
+  if (version == kTourPackVersion) return;
+  throw PackRefused("is a tour pack of version " + std::to_string(version) + ", this player reads version " + std::to_string(kTourPackVersion) +
+                    (version > kTourPackVersion ? "; use a newer player" : "; bake the tour again"));
 }
 
 }  // namespace
+
+struct PackFile::Impl {
+  GltfFile file;
+  std::string name;
+  std::vector<int> meshes;       // of the file, by mesh of the pack
+  std::vector<TourObject> impostors;  // by avatar
+  std::vector<PackImpostor> atlases;  // their sizes
+  std::vector<int> joints;       // by mesh; 0: of the town
+
+  void Read(TourPack* pack) {
+    const TourObject tour = TourOf(file);
+    CheckVersion(tour);
+    ReadTour(file, tour, pack);
+    pack->ground = ReadGround(file, tour.Object("ground"));
+    for (const Json& m : file.json.value("materials", Json::array())) pack->materials.push_back(ReadMaterial(file, m));
+    MeshTable table;
+    ReadTown(file, &table, pack);
+    for (const TourObject& a : tour.Objects("avatars")) {
+      pack->avatars.push_back(ReadAvatar(file, a, &table));
+      impostors.push_back(a.Object("impostor"));
+      atlases.push_back(pack->avatars.back().impostor);
+    }
+    if (pack->avatars.empty()) tour.Refuse("has no avatars");
+    const auto is_guide = [&](const PackAvatar& a) { return a.name == pack->guide; };
+    if (!pack->guide.empty() && std::none_of(pack->avatars.begin(), pack->avatars.end(), is_guide)) {
+      tour.Refuse("has a guide '" + pack->guide + "' who is none of its avatars");
+    }
+    meshes = table.used();
+    joints.resize(meshes.size());
+    for (int mesh : meshes) pack->meshes.push_back(ReadOutline(file, mesh));
+    for (const PackAvatar& avatar : pack->avatars) {
+      for (const PackLevel& level : avatar.levels) joints[static_cast<size_t>(level.mesh)] = avatar.joints;
+    }
+    const size_t images = file.json.value("images", Json::array()).size();
+    for (size_t i = 0; i < images; ++i) pack->images.push_back(ReadImageSize(file, static_cast<int>(i)));
+  }
+};
+
+namespace {
+
+Error Caught(const std::string& name, auto read) {
+  try {
+    read();
+    return Ok();
+  } catch (const std::exception& e) {
+    return Fail(name + ": " + OneLine(Complaint(e)));
+  }
+}
+
+}  // namespace
+
+PackFile::PackFile() = default;
+PackFile::~PackFile() = default;
+
+Error PackFile::Open(const std::filesystem::path& path, TourPack* pack) {
+  std::vector<uint8_t> bytes;
+  if (Error e = ReadFile(path, &bytes)) return e;
+  return Open(std::move(bytes), path.string(), pack);
+}
+
+Error PackFile::Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack) {
+  return Caught(name, [&] {
+    auto impl = std::make_unique<Impl>();
+    impl->file = OpenGltf(std::move(bytes));
+    impl->name = name;
+    TourPack read;
+    impl->Read(&read);
+    impl_ = std::move(impl);
+    *pack = std::move(read);
+  });
+}
+
+Error PackFile::ReadImage(int image, PackImage* out) const {
+  return Caught(impl_->name, [&] { *out = flaneur::ReadImage(impl_->file, image); });
+}
+
+Error PackFile::ReadMesh(int mesh, PackMesh* out) const {
+  return Caught(impl_->name, [&] {
+    const auto index = static_cast<size_t>(mesh);
+    PackMesh read = flaneur::ReadMesh(impl_->file, impl_->meshes[index]);
+    if (impl_->joints[index] > 0) CheckJoints(read, impl_->joints[index]);
+    *out = std::move(read);
+  });
+}
+
+Error PackFile::ReadAtlas(int avatar, PackImpostor* out) const {
+  return Caught(impl_->name, [&] {
+    const auto index = static_cast<size_t>(avatar);
+    PackImpostor read = impl_->atlases[index];
+    flaneur::ReadAtlas(impl_->file, impl_->impostors[index], &read);
+    *out = std::move(read);
+  });
+}
 
 Error LoadTourPack(const std::filesystem::path& path, const LoadOptions& options, TourPack* pack) {
   std::vector<uint8_t> bytes;
@@ -347,14 +440,23 @@ Error LoadTourPack(const std::filesystem::path& path, const LoadOptions& options
 }
 
 Error ParseTourPack(std::vector<uint8_t> bytes, const std::string& name, const LoadOptions& options, TourPack* pack) {
-  try {
-    TourPack loaded;
-    Load(std::move(bytes), options, &loaded);
-    *pack = std::move(loaded);
-    return Ok();
-  } catch (const std::exception& e) {
-    return Fail(name + ": " + OneLine(Complaint(e)));
+  PackFile file;
+  TourPack loaded;
+  if (Error e = file.Open(std::move(bytes), name, &loaded)) return e;
+  if (options.geometry_and_images) {
+    const size_t images = loaded.images.size(), meshes = loaded.meshes.size(), count = images + meshes + loaded.avatars.size();
+    std::vector<Error> errors(count);
+    ParallelFor(count, [&](size_t i) {
+      if (i < images) errors[i] = file.ReadImage(static_cast<int>(i), &loaded.images[i]);
+      else if (i < images + meshes) errors[i] = file.ReadMesh(static_cast<int>(i - images), &loaded.meshes[i - images]);
+      else errors[i] = file.ReadAtlas(static_cast<int>(i - images - meshes), &loaded.avatars[i - images - meshes].impostor);
+    });
+    for (const Error& e : errors) {
+      if (e) return e;
+    }
   }
+  *pack = std::move(loaded);
+  return Ok();
 }
 
 }  // namespace flaneur

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ inline constexpr const char* kTourExtension = "FLANEUR_tour";
 
 struct PackImage {           // decoded, 8 bits a channel
   int width_px = 0, height_px = 0;
-  std::vector<uint8_t> rgba; // top row first
+  std::vector<uint8_t> rgba; // top row first; empty where only the size has been read
 };
 
 struct PackMaterial {
@@ -176,6 +177,24 @@ struct TourPack {
   CrowdSettings crowd;
   ControlSettings control;
   LightSettings light;
+};
+
+// A tour pack that stands open. Everything but its bulk is read at once, which is enough for a run without drawing; of images the
+// sizes and of meshes the primitives' materials are there as well. The bulk is read piece by piece, in any order, from any thread.
+// Errors: those of LoadTourPack, each of the piece that it is about.
+class PackFile {
+ public:
+  PackFile();
+  ~PackFile();
+  Error Open(const std::filesystem::path& path, TourPack* pack);
+  Error Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack);
+  Error ReadImage(int image, PackImage* out) const;
+  Error ReadMesh(int mesh, PackMesh* out) const;
+  Error ReadAtlas(int avatar, PackImpostor* out) const;  // with its pictures
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 struct LoadOptions { bool geometry_and_images = true; };  // false: enough for a run without drawing

@@ -3,6 +3,7 @@
 #define EGL_EGLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <GLES3/gl3.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -69,6 +70,11 @@ Error HeadlessContext::Create() {
     return Fail("OpenGL ES 3.0 is not available on this machine; add --no-draw");
   }
   return Ok();
+}
+
+std::string HeadlessContext::Renderer() const {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name != nullptr ? name : "unknown";
 }
 
 struct Window::Impl {

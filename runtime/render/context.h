@@ -1,6 +1,7 @@
 // An OpenGL ES 3.0 context: without a display through EGL, or with a window.
 #pragma once
 #include <memory>
+#include <string>
 
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
@@ -14,6 +15,7 @@ class HeadlessContext {
   ~HeadlessContext();
   // Errors: no EGL display or no OpenGL ES 3 on this machine.
   Error Create();
+  std::string Renderer() const;  // what draws, in OpenGL's words
 
  private:
   struct Impl;

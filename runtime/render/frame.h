@@ -39,6 +39,10 @@ struct FrameInput {
 
 struct FrameStatistics {
   int64_t town_triangles = 0, people_triangles = 0;  // drawn into the picture, both levels of who changes; not the shadows
+  int64_t shadow_triangles = 0;
+  int draw_calls = 0;      // of the whole picture, shadows included
+  int people_drawn = 0, people_hidden = 0;  // hidden: behind walls or above or below the view
+  double people_ms = 0;    // of it, on the CPU: choosing who can be seen, poses, the upload
   double draw_ms = 0;      // until the picture is there
 };
 

@@ -31,7 +31,8 @@ void NamePlaces(GLuint program) {
   if (block != GL_INVALID_INDEX) glUniformBlockBinding(program, block, kFrameBinding);
   const struct { const char* name; TextureUnit unit; } samplers[] = {
       {"u_texture", kColorUnit}, {"u_normals", kNormalsUnit}, {"u_depth", kDepthUnit}, {"u_motion", kMotionUnit}, {"u_poses", kPosesUnit},
-      {"u_town_shadow_map", kTownShadowUnit}, {"u_people_shadow_map", kPeopleShadowUnit}};
+      {"u_town_shadow_map", kTownShadowUnit}, {"u_people_shadow_map", kPeopleShadowUnit},
+      {"u_textures", kArrayUnit}, {"u_cells", kCellsUnit}};
   for (const auto& s : samplers) glUniform1i(glGetUniformLocation(program, s.name), s.unit);
 }
 
@@ -98,6 +99,11 @@ void EnableAttribute(GLuint index, GLint size, GLenum type, bool normalized, siz
 void BindTexture(TextureUnit unit, GLuint texture) {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   glBindTexture(GL_TEXTURE_2D, texture);
+}
+
+void BindTextureArray(TextureUnit unit, GLuint texture) {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
 }
 
 void CullBackFaces(bool cull) {

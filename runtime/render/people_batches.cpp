@@ -2,26 +2,51 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace flaneur {
 namespace {
 
-constexpr float kSunDistance_m = 500;
-constexpr float kMeshShadow_m = 20;  // nearer impostors cast their coarsest mesh's shadow: it does not change when they do
+constexpr float kAround_m = 0.35f;     // arms, skirts and props reach so far beyond a person's radius
+constexpr float kLongestShadow_m = 12;  // as far as one may fall into view
+constexpr float kFarImpostor_m = 22;   // all nearer ones are drawn before all farther ones
+constexpr int kNoLevel = -2;
 
-ClipRows RowsOf(const PackClip& clip) {
+// The largest numbers of all clips, so that 16 bits hold them with the finest steps.
+void SetSteps(const PackAvatar& avatar, AvatarLayout* layout) {
+  float turn = 1e-6f, shift_m = 1e-6f;
+  for (const PackClip* clip : {&avatar.walk, &avatar.idle, &avatar.talk}) {
+    for (const Mat4& m : clip->matrices) {
+      for (size_t r = 0; r < 3; ++r) {
+        for (size_t c = 0; c < 3; ++c) turn = std::max(turn, std::abs(m.m[c][r]));
+        shift_m = std::max(shift_m, std::abs(m.m[3][r]));
+      }
+    }
+  }
+  layout->turn_step = turn / 32767;
+  layout->shift_step_m = shift_m / 32767;
+}
+
+ClipRows RowsOf(const PackClip& clip, const AvatarLayout& layout) {
   ClipRows out;
   out.frames = std::max(1, clip.frames);
+  out.rows.reserve(clip.matrices.size() * 3);
+  const auto steps = [](float value, float step) { return static_cast<int16_t>(std::lround(std::clamp(value / step, -32767.0f, 32767.0f))); };
   for (const Mat4& m : clip.matrices) {
-    for (size_t r = 0; r < 3; ++r) out.rows.push_back({m.m[0][r], m.m[1][r], m.m[2][r], m.m[3][r]});
+    for (size_t r = 0; r < 3; ++r) {
+      out.rows.push_back({steps(m.m[0][r], layout.turn_step), steps(m.m[1][r], layout.turn_step), steps(m.m[2][r], layout.turn_step),
+                          steps(m.m[3][r], layout.shift_step_m)});
+    }
   }
   return out;
 }
 
-void AddScaled(const Vec4* from, float scale, size_t count, Vec4* to) {
+void AddScaled(const PoseRow* from, float turn, float shift, size_t count, Vec4* to) {
   for (size_t i = 0; i < count; ++i) {
-    to[i] = {to[i].x + scale * from[i].x, to[i].y + scale * from[i].y, to[i].z + scale * from[i].z, to[i].w + scale * from[i].w};
+    const PoseRow& r = from[i];
+    to[i].x += turn * static_cast<float>(r[0]);
+    to[i].y += turn * static_cast<float>(r[1]);
+    to[i].z += turn * static_cast<float>(r[2]);
+    to[i].w += shift * static_cast<float>(r[3]);
   }
 }
 
@@ -33,13 +58,16 @@ void AddMoment(const AvatarLayout& avatar, const ClipMoment& moment, float share
   const float at = moment.phase * static_cast<float>(clip.frames);
   const int a = std::clamp(static_cast<int>(at), 0, clip.frames - 1), b = (a + 1) % clip.frames;
   const float between = at - static_cast<float>(a);
-  AddScaled(&clip.rows[static_cast<size_t>(a) * width], share * (1 - between), width, row);
-  AddScaled(&clip.rows[static_cast<size_t>(b) * width], share * between, width, row);
+  const auto add = [&](int frame, float part) {
+    AddScaled(&clip.rows[static_cast<size_t>(frame) * width], part * avatar.turn_step, part * avatar.shift_step_m, width, row);
+  };
+  add(a, share * (1 - between));
+  add(b, share * between);
 }
 
 size_t AddPose(const DrawnPerson& person, const AvatarLayout& avatar, PeopleBatches* out) {
   const size_t row = out->pose_rows++;
-  out->poses.resize(out->pose_rows * out->pose_width);
+  out->poses.resize(std::max(out->poses.size(), out->pose_rows * out->pose_width));
   Vec4* texels = &out->poses[row * out->pose_width];
   std::fill_n(texels, out->pose_width, Vec4{});
   AddMoment(avatar, person.moment, 1 - person.other_share, texels);
@@ -48,9 +76,9 @@ size_t AddPose(const DrawnPerson& person, const AvatarLayout& avatar, PeopleBatc
 }
 
 // A mesh faces glTF's +Z; turned about the vertical by heading + 90 degrees it faces the heading.
-PersonInstance Placed(const DrawnPerson& person, float row) {
+PersonInstance Placed(const DrawnPerson& person, float row, float phases) {
   const Vec3 p = GltfFromGround(person.position);
-  return {{p.x, p.y, p.z, person.heading_rad + kPi / 2}, {row, person.share_from, person.share_to, 0}, {}, {}, {}, {}, {}};
+  return {{p.x, p.y, p.z, person.heading_rad + kPi / 2}, {row, person.share_from, person.share_to, phases}};
 }
 
 const PackImpostorClip& ImpostorClip(const PackImpostor& atlas, ClipKind kind) {
@@ -60,117 +88,171 @@ const PackImpostorClip& ImpostorClip(const PackImpostor& atlas, ClipKind kind) {
   return found != atlas.clips.end() ? *found : atlas.clips.front();
 }
 
-size_t NearestElevation(const PackImpostor& atlas, float elevation_deg) {
+const ClipMoment& MainMoment(const DrawnPerson& person) { return person.other_share > 0.5f ? person.other : person.moment; }
+
+size_t NearestElevation(const PackImpostor& atlas, const DrawnPerson& person, Vec3 eye) {
+  if (atlas.elevations_deg.size() == 1) return 0;
+  const Vec3 from = GroundFromGltf(eye) - person.position;
+  const float elevation_deg = std::atan2(from.z, std::max(Length(Vec2{from.x, from.y}), 1e-3f)) * 180 / kPi;
   const auto nearest = std::min_element(atlas.elevations_deg.begin(), atlas.elevations_deg.end(), [&](float a, float b) {
     return std::abs(a - elevation_deg) < std::abs(b - elevation_deg);
   });
   return static_cast<size_t>(nearest - atlas.elevations_deg.begin());
 }
 
-// The view that `direction` (with a fraction) lies before, and the next one.
-void SetViews(const PackImpostor& atlas, size_t first_cell, float direction, PersonInstance* out) {
-  // Beyond the silhouettes of both lie those between them, and what perspective and motion make larger.
-  constexpr float kAround_px = 4;
-  const int d0 = static_cast<int>(direction) % atlas.directions;
-  const int views[2] = {d0, (d0 + 1) % atlas.directions};
-  float origins[4], azimuths[2];
-  Vec4 window{0, 0, 0, 0};
-  for (size_t k = 0; k < 2; ++k) {
-    const PackImpostorCell& cell = atlas.cells[first_cell + static_cast<size_t>(views[k])];
-    const float left = cell.x, top = cell.y, right = left + cell.width, bottom = top + cell.height;
-    out->cells[k] = {left, top, right, bottom};
-    origins[2 * k] = cell.origin_x;
-    origins[2 * k + 1] = cell.origin_y;
-    azimuths[k] = 2 * kPi * static_cast<float>(views[k]) / static_cast<float>(atlas.directions);
-    window.x = std::min(window.x, left - origins[2 * k]);
-    window.y = std::min(window.y, origins[2 * k + 1] - bottom);
-    window.z = std::max(window.z, right - origins[2 * k]);
-    window.w = std::max(window.w, origins[2 * k + 1] - top);
-  }
-  out->origins = {origins[0], origins[1], origins[2], origins[3]};
-  out->views.x = azimuths[0];
-  out->views.y = azimuths[1];
-  out->window = {(window.x - kAround_px) * atlas.texel_m, (window.y - kAround_px) * atlas.texel_m,
-                 (window.z + kAround_px) * atlas.texel_m, (window.w + kAround_px) * atlas.texel_m};
-  out->look.w = direction - std::floor(direction);
-}
-
-PersonInstance AsImpostor(const DrawnPerson& person, const PackImpostor& atlas, Vec3 eye) {
-  const Vec3 from = GroundFromGltf(eye) - person.position;
-  const float distance = std::max(std::sqrt(from.x * from.x + from.y * from.y), 1e-3f);
-  const ClipMoment& moment = person.other_share > 0.5f ? person.other : person.moment;
+// Which of the directions is left to the vertex shader.
+PersonInstance AsImpostor(const DrawnPerson& person, const AvatarLayout& avatar, Vec3 eye) {
+  const PackImpostor& atlas = avatar.impostor;
+  const ClipMoment& moment = MainMoment(person);
   const PackImpostorClip& clip = ImpostorClip(atlas, moment.clip);
   const float at = moment.phase * static_cast<float>(clip.phases), nearest = std::floor(at + 0.5f);
-  const int phase = static_cast<int>(nearest) % clip.phases;
-  const size_t elevation = NearestElevation(atlas, std::atan2(from.z, distance) * 180 / kPi);
-  const float elevation_rad = atlas.elevations_deg[elevation] * kPi / 180;
-  const size_t row = static_cast<size_t>(clip.first_frame + phase) * atlas.elevations_deg.size() + elevation;
+  const size_t frame = static_cast<size_t>(clip.first_frame + static_cast<int>(nearest) % clip.phases);
+  const size_t row = frame * atlas.elevations_deg.size() + NearestElevation(atlas, person, eye);
+  const size_t cell = static_cast<size_t>(avatar.first_cell) + row * static_cast<size_t>(atlas.directions);
+  return Placed(person, static_cast<float>(cell), at - nearest);
+}
 
-  PersonInstance out = Placed(person, at - nearest);
-  const float turn = (std::atan2(from.y, from.x) - person.heading_rad) / (2 * kPi);
-  out.views = {0, 0, std::sin(elevation_rad), std::cos(elevation_rad)};
-  SetViews(atlas, row * static_cast<size_t>(atlas.directions), (turn - std::floor(turn)) * static_cast<float>(atlas.directions), &out);
-  // Right of the view from the eye: ahead turned clockwise; on the ground (x, y), then glTF's (x, z).
-  out.right = {-from.y / distance, -from.x / distance};
+PersonInstance AsShadow(const DrawnPerson& person, const AvatarLayout& avatar) {
+  const ClipMoment& moment = MainMoment(person);
+  const auto clip = static_cast<size_t>(moment.clip);
+  const int rows = avatar.shadow_rows[clip];
+  const int row = std::clamp(static_cast<int>(moment.phase * static_cast<float>(rows)), 0, rows - 1);
+  return Placed(person, static_cast<float>(avatar.first_shadow_row[clip] + row), 0);
+}
+
+Box BoxOf(const DrawnPerson& person, const AvatarLayout& avatar) {
+  const Vec3 p = GltfFromGround(person.position);
+  const float around_m = avatar.radius_m + kAround_m;
+  return {{p.x - around_m, p.y - 0.1f, p.z - around_m}, {p.x + around_m, p.y + avatar.height_m * 1.15f + 0.1f, p.z + around_m}};
+}
+
+// The person and the shadow on level ground.
+Box WithShadow(const Box& box, Vec3 to_sun) {
+  const float along = std::min((box.high.y - box.low.y) / std::max(to_sun.y, 0.01f), kLongestShadow_m / std::max(0.01f, Length(Vec2{to_sun.x, to_sun.z})));
+  Box out = box;
+  Include({box.low.x - to_sun.x * along, box.low.y, box.low.z - to_sun.z * along}, &out);
+  Include({box.high.x - to_sun.x * along, box.low.y, box.high.z - to_sun.z * along}, &out);
   return out;
 }
 
-void AddBatches(std::vector<PeopleBatches::Entry>* entries, std::vector<PersonInstance>* instances,
-                std::vector<PeopleBatch>* batches) {
-  const auto key = [](const PeopleBatch& b) { return std::tuple(b.level < 0, b.avatar, b.level, b.fades); };
-  std::stable_sort(entries->begin(), entries->end(), [&](const auto& a, const auto& b) { return key(a.batch) < key(b.batch); });
-  batches->clear();
-  for (const PeopleBatches::Entry& e : *entries) {
-    if (batches->empty() || key(batches->back()) != key(e.batch)) {
-      batches->push_back(e.batch);
-      batches->back().first = instances->size();
-    }
-    ++batches->back().count;
-    instances->push_back(e.instance);
+// The level that can be drawn and is nearest to the wished one.
+int ReadyLevel(int level, int levels, const AvatarReady& ready) {
+  const int wished = std::min(level, levels - 1);
+  if (wished >= 0 && ready.levels[static_cast<size_t>(wished)]) return wished;
+  for (int k = std::max(0, wished); k < levels && wished >= 0; ++k) {
+    if (ready.levels[static_cast<size_t>(k)]) return k;
   }
-  entries->clear();
+  if (ready.impostor) return -1;
+  return levels > 0 && ready.levels.back() ? levels - 1 : kNoLevel;
 }
+
+// Who is nearer hides others, and is drawn before them: by steps of so much within a batch.
+constexpr float kStep_m = 1.5f;
+constexpr int kSteps = 64;
+
+// Batches in the order of their keys, and their instances one after the other, nearest first.
+void Gather(int keys, auto batch_of, auto instance_of, PeopleBatches* out, std::vector<PeopleBatch>* batches) {
+  out->counts.assign(static_cast<size_t>(keys * kSteps) + 1, 0);
+  const auto slot = [](const PeopleBatches::Entry& e) { return static_cast<size_t>(e.key * kSteps + e.step); };
+  for (const PeopleBatches::Entry& e : out->entries) ++out->counts[slot(e) + 1];
+  batches->clear();
+  size_t first = out->instances.size();
+  for (int key = 0; key < keys; ++key) {
+    const size_t before = first;
+    for (int step = 0; step < kSteps; ++step) {
+      const auto at = static_cast<size_t>(key * kSteps + step);
+      const size_t count = out->counts[at + 1];
+      out->counts[at] = first;
+      first += count;
+    }
+    if (first == before) continue;
+    batches->push_back(batch_of(key));
+    batches->back().first = before;
+    batches->back().count = first - before;
+  }
+  out->instances.resize(first);
+  for (const PeopleBatches::Entry& e : out->entries) out->instances[out->counts[slot(e)]++] = instance_of(e);
+  out->entries.clear();
+}
+
+int StepOf(float distance_m) { return std::min(kSteps - 1, static_cast<int>(distance_m / kStep_m)); }
 
 }  // namespace
 
 AvatarLayout LayoutOf(const PackAvatar& avatar) {
-  AvatarLayout layout{avatar.joints, static_cast<int>(avatar.levels.size()), {RowsOf(avatar.walk), RowsOf(avatar.idle), RowsOf(avatar.talk)},
-                      avatar.impostor};
-  PackImpostor& atlas = layout.impostor;
-  for (PackTexture* picture : {&atlas.albedo, &atlas.normal, &atlas.depth, &atlas.motion}) picture->levels.clear();
+  AvatarLayout layout;
+  layout.joints = avatar.joints;
+  layout.levels = static_cast<int>(avatar.levels.size());
+  layout.height_m = avatar.height_m;
+  layout.radius_m = avatar.radius_m;
+  SetSteps(avatar, &layout);
+  layout.clips = {RowsOf(avatar.walk, layout), RowsOf(avatar.idle, layout), RowsOf(avatar.talk, layout)};
+  for (size_t k = 0; k < layout.clips.size(); ++k) layout.shadow_rows[k] = std::min(layout.clips[k].frames, kMostShadowRows);
+  const PackImpostor& i = avatar.impostor;
+  layout.impostor = {i.directions, i.frames, i.elevations_deg, i.width_px, i.height_px, i.texel_m, i.depth_range_m, i.motion_range_m,
+                     i.clips, i.cells, {}, {}, {}, {}};
   return layout;
 }
 
-void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<AvatarLayout>& avatars, Vec3 eye, Vec3 to_sun,
-                float shadow_reach_m, PeopleBatches* out) {
+size_t ClipBytes(const AvatarLayout& layout) {
+  size_t bytes = 0;
+  for (size_t k = 0; k < layout.clips.size(); ++k) {
+    bytes += layout.clips[k].rows.size() * sizeof(PoseRow);
+    bytes += static_cast<size_t>(layout.shadow_rows[k] * layout.joints) * 3 * sizeof(Vec4);
+  }
+  return bytes;
+}
+
+int ShadowFrame(const ClipRows& clip, int shadow_row, int shadow_rows) { return shadow_row * clip.frames / shadow_rows; }
+
+void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<AvatarLayout>& avatars, const std::vector<AvatarReady>& ready,
+                const PeopleSight& sight, PeopleBatches* out) {
   out->instances.clear();
+  out->entries.clear();
   out->pose_rows = 0;
-  std::vector<PersonInstance>& meshes = out->mesh_instances;
-  meshes.assign(people.size(), {});
+  out->hidden = 0;
+  int levels = 1;
+  for (const AvatarLayout& avatar : avatars) levels = std::max(levels, avatar.levels);
+  const int count = static_cast<int>(avatars.size()), meshes = count * levels * 2;
+  // Keys: meshes by avatar, level and fading, then near and far impostors by avatar.
+  const auto batch_of = [&](int key) {
+    if (key >= meshes) return PeopleBatch{(key - meshes) % count, -1, true, 0, 0};
+    return PeopleBatch{key / (2 * levels), key / 2 % levels, key % 2 == 1, 0, 0};
+  };
   for (size_t i = 0; i < people.size(); ++i) {
     const DrawnPerson& person = people[i];
-    const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];
-    const int level = std::min(person.level, avatar.levels - 1);
-    const bool near = Length(GltfFromGround(person.position) - eye) < kMeshShadow_m;
-    if (level >= 0 || near) meshes[i] = Placed(person, static_cast<float>(AddPose(person, avatar, out)));
-    const bool fades = person.share_from > 0 || person.share_to < 1;
-    out->entries.push_back({{person.avatar, level, fades, 0, 0}, level >= 0 ? meshes[i] : AsImpostor(person, avatar.impostor, eye)});
+    const auto index = static_cast<size_t>(person.avatar);
+    const Box box = BoxOf(person, avatars[index]);
+    if (!MayTouch(sight.frustum, box) || (sight.walls != nullptr && !MayBeSeen(*sight.walls, box, true))) {
+      ++out->hidden;
+      continue;
+    }
+    const int level = ReadyLevel(person.level, avatars[index].levels, ready[index]);
+    if (level == kNoLevel) continue;
+    const int fades = person.share_from > 0 || person.share_to < 1 ? 1 : 0;
+    const float distance_m = Length(GltfFromGround(person.position) - sight.eye);
+    const int far = distance_m > kFarImpostor_m ? count : 0;
+    out->entries.push_back({static_cast<uint32_t>(i), level < 0 ? meshes + far + person.avatar : (person.avatar * levels + level) * 2 + fades,
+                            StepOf(distance_m)});
   }
-  AddBatches(&out->entries, &out->instances, &out->seen);
+  Gather(meshes + 2 * count, batch_of, [&](const PeopleBatches::Entry& e) {
+    const DrawnPerson& person = people[e.person];
+    const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];
+    if (e.key >= meshes) return AsImpostor(person, avatar, sight.eye);
+    return Placed(person, static_cast<float>(AddPose(person, avatar, out)), 0);
+  }, out, &out->seen);
+
   for (size_t i = 0; i < people.size(); ++i) {
     const DrawnPerson& person = people[i];
-    const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];
+    const auto index = static_cast<size_t>(person.avatar);
     const bool half = person.share_to - person.share_from >= 0.5f;  // of the two of a fade one casts the shadow
-    const float distance_m = Length(GltfFromGround(person.position) - eye);
-    if (!half || distance_m > shadow_reach_m) continue;
-    // A shadow shows less than the person: the next coarser mesh but the coarsest does.
-    const int level = person.level >= 0           ? std::max(std::min(person.level, avatar.levels - 1), avatar.levels - 2)
-                      : distance_m < kMeshShadow_m ? avatar.levels - 1
-                                                   : -1;
-    out->entries.push_back({{person.avatar, level, false, 0, 0},
-                            level >= 0 ? meshes[i] : AsImpostor(person, avatar.impostor, eye + to_sun * kSunDistance_m)});
+    if (!half || !ready[index].shadow || Length(GltfFromGround(person.position) - sight.eye) > sight.shadow_reach_m) continue;
+    if (!MayTouch(sight.frustum, WithShadow(BoxOf(person, avatars[index]), sight.to_sun))) continue;
+    out->entries.push_back({static_cast<uint32_t>(i), person.avatar, 0});
   }
-  AddBatches(&out->entries, &out->instances, &out->shadows);
+  Gather(count, [](int key) { return PeopleBatch{key, 0, false, 0, 0}; }, [&](const PeopleBatches::Entry& e) {
+    return AsShadow(people[e.person], avatars[static_cast<size_t>(people[e.person].avatar)]);
+  }, out, &out->shadows);
 }
 
 }  // namespace flaneur

@@ -2,35 +2,49 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "runtime/pack/tour_pack.h"
 #include "runtime/render/frame.h"
+#include "runtime/render/occlusion.h"
 
 namespace flaneur {
 
-// A clip's skinning matrices as the upper three rows, joint by joint and frame by frame.
-struct ClipRows { int frames = 1; std::vector<Vec4> rows; };
+// A clip's skinning matrices as the upper three rows, joint by joint and frame by frame, in 16 bits: turns and scalings times
+// AvatarLayout::turn_step, shifts times shift_step_m.
+using PoseRow = std::array<int16_t, 4>;
+struct ClipRows { int frames = 1; std::vector<PoseRow> rows; };
 
 struct AvatarLayout {
   int joints = 0, levels = 0;
+  float turn_step = 0, shift_step_m = 0;
   std::array<ClipRows, 3> clips;  // by ClipKind
-  PackImpostor impostor;
+  std::array<int, 3> first_shadow_row{}, shadow_rows{};  // in the texture of poses for shadows
+  float height_m = 0, radius_m = 0;
+  PackImpostor impostor;          // without its pictures
+  int first_cell = 0;             // of its cells in the texture of all cells
 };
 
+// Sets all but first_shadow_row and first_cell.
 AvatarLayout LayoutOf(const PackAvatar& avatar);
+size_t ClipBytes(const AvatarLayout& layout);  // what animating it takes
 
-// Of one person, as a mesh or as an impostor.
+// Frames of a clip that shadows know.
+inline constexpr int kMostShadowRows = 24;
+int ShadowFrame(const ClipRows& clip, int shadow_row, int shadow_rows);
+
+// What can be drawn of an avatar: pictures and meshes may still be on their way.
+struct AvatarReady {
+  std::vector<bool> levels;
+  bool impostor = false, shadow = false;
+};
+
+// Of one person.
 struct PersonInstance {
   Vec4 place;              // position in glTF axes, turn about the vertical
-  Vec4 look;               // mesh: row of the poses; impostor: phases since its picture; share of the pattern from, to; and,
-                           // impostor: how far between its two views
-  // Of an impostor alone.
-  Vec4 views;              // azimuths of its two views, sine and cosine of their elevation
-  std::array<Vec4, 2> cells;  // their cells: left, top, right, bottom, in texels
-  Vec4 origins;            // where in them the point between the feet is: x, y, x, y, in texels
-  Vec4 window;             // what the two show together about that point: left, bottom, right, top, in metres
-  Vec2 right;              // to the right on the ground, glTF's x and z
+  Vec4 look;               // mesh: row of the poses; impostor: first cell of its picture; shadow: row of the poses for shadows; then
+                           // share of the pattern from, to; and, impostor: phases since its picture
 };
 
 // One draw: instances first ... first + count - 1 of one avatar at one level (-1: impostor).
@@ -39,18 +53,26 @@ struct PeopleBatch { int avatar = 0, level = 0; bool fades = false; size_t first
 struct PeopleBatches {
   std::vector<PersonInstance> instances;
   std::vector<PeopleBatch> seen;     // from the eye
-  std::vector<PeopleBatch> shadows;  // from the sun, around the eye
+  std::vector<PeopleBatch> shadows;  // from the sun, around the eye; level 0
   std::vector<Vec4> poses;           // pose_width texels a row
   size_t pose_width = 0, pose_rows = 0;
+  int hidden = 0;                    // left out because the picture cannot show them
 
-  struct Entry { PeopleBatch batch; PersonInstance instance; };
+  struct Entry { uint32_t person = 0; int key = 0, step = 0; };
   std::vector<Entry> entries;        // scratch
-  std::vector<PersonInstance> mesh_instances;
+  std::vector<size_t> counts;
 };
 
-// eye, to_sun in glTF axes; shadow_reach_m: who is farther from the eye casts no shadow. pose_width of `out` must be set: three
-// times the most joints.
-void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<AvatarLayout>& avatars, Vec3 eye, Vec3 to_sun,
-                float shadow_reach_m, PeopleBatches* out);
+// From where people are seen, and what hides them. Without a map nothing does.
+struct PeopleSight {
+  Vec3 eye, to_sun;                  // glTF axes; to_sun: unit
+  Frustum frustum{};
+  const OcclusionMap* walls = nullptr;
+  float shadow_reach_m = 0;          // who is farther from the eye casts no shadow
+};
+
+// pose_width of `out` must be set: three times the most joints.
+void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<AvatarLayout>& avatars, const std::vector<AvatarReady>& ready,
+                const PeopleSight& sight, PeopleBatches* out);
 
 }  // namespace flaneur

@@ -4,41 +4,49 @@
 #include <vector>
 
 #include "runtime/base/error.h"
+#include "runtime/render/asset_content.h"
 #include "runtime/render/gl_objects.h"
 #include "runtime/render/people_batches.h"
-#include "runtime/render/textures.h"
 
 namespace flaneur {
 
-struct PersonRange { Surface surface; size_t first = 0; GLsizei count = 0; };  // of the level's indices
-struct PersonLevel { GLuint vertex_array = 0; std::vector<PersonRange> ranges; int64_t triangles = 0; };
+struct PersonMesh { GLuint vertex_array = 0; std::vector<PersonRange> ranges; int64_t triangles = 0; };
 
 struct AvatarView {
-  std::vector<PersonLevel> levels;
+  std::vector<PersonMesh> levels;
+  PersonMesh shadow;
   GLuint albedo = 0, normals = 0, depth = 0, motion = 0;  // of the impostor
   Vec4 atlas;                      // texture coordinates a metre, size in texels
   Vec3 ranges;                     // of depth and of motion, in metres
+  float directions = 1;
+  int impostor_of = -1;            // the avatar whose pictures these are; -1: its own
 };
 
 struct PeopleView {
   GLuint programs[2][2] = {};      // [masked][fades]
-  GLuint shadow_programs[2] = {};  // [masked]
-  GLuint impostor_program = 0, impostor_shadow_program = 0;
-  GLuint instances = 0, quad_array = 0, poses = 0;
+  GLuint impostor_program = 0, shadow_program = 0;
+  GLuint instances = 0, quad_array = 0, poses = 0, shadow_poses = 0, cells = 0;
   bool smooth_edges = false;       // of impostors, by the samples of a pixel
   size_t poses_held = 0;           // rows of the pose texture
   std::vector<AvatarView> avatars;
   std::vector<AvatarLayout> layouts;
+  std::vector<AvatarReady> ready;
+  std::vector<SurfaceGroup> groups;
+  std::vector<GLuint> arrays;
   PeopleBatches batches;
 };
 
-// `defines`: of the lit programs. Errors: a shader that the driver refuses, more joints than a texture is wide.
-Error CreatePeopleView(const TourPack& pack, const std::string& defines, const std::vector<Surface>& surfaces, PeopleView* people);
+// Of the pack without its bulk. `defines`: of the lit programs. Errors: a shader that the driver refuses, more joints than a
+// texture is wide.
+Error CreatePeopleView(const TourPack& pack, const std::string& defines, const SurfacePlan& plan, const std::vector<GLuint>& arrays,
+                       PeopleView* people);
+void AddLevel(int avatar, int level, const PersonGeometry& person, const PersonGeometry& shadow, PeopleView* people);
+void AddAtlas(int avatar, const std::array<AtlasPicture, 4>& pictures, PeopleView* people);
 
 // Once a picture: instances and poses of people->batches, for both draws below.
 void UploadPeople(PeopleView* people);
-// Return the triangles drawn. The frame block must be bound.
-int64_t DrawPeople(const PeopleView& people);
-int64_t DrawPeopleShadow(const PeopleView& people);
+// The frame block must be bound.
+DrawCost DrawPeople(const PeopleView& people, bool impostors);  // else the meshes
+DrawCost DrawPeopleShadow(const PeopleView& people);
 
 }  // namespace flaneur

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "runtime/base/parallel.h"
+#include "runtime/render/asset_content.h"
 #include "runtime/render/caption.h"
 #include "runtime/render/light.h"
 #include "runtime/render/people_view.h"
@@ -18,28 +20,35 @@ namespace {
 
 constexpr float kNear_m = 0.1f, kFar_m = 900;
 
-Error CheckImages(const TourPack& pack) {
+// In software larger pictures cost memory and time that nobody sees at the sizes drawn there.
+PictureLimits LimitsOfThisMachine() {
   GLint most_px = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
-  for (size_t i = 0; i < pack.images.size(); ++i) {
-    if (pack.images[i].width_px > most_px || pack.images[i].height_px > most_px) {
-      return Fail("image " + std::to_string(i) + " is larger than this machine's OpenGL can hold (" + std::to_string(most_px) + " px)");
-    }
-  }
-  return Ok();
+  PictureLimits limits;
+  if (DrawsInSoftware()) limits = {1024, 512};
+  return {std::min<int>(limits.town_px, most_px), std::min<int>(limits.people_px, most_px)};
+}
+
+double Now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Vec3 Ahead(const FrameInput& frame) {
+  const float cp = std::cos(frame.pitch_rad);
+  return GltfFromGround({std::cos(frame.yaw_rad) * cp, std::sin(frame.yaw_rad) * cp, std::sin(frame.pitch_rad)});
 }
 
 Vec4 Wide(Vec3 v) { return {v.x, v.y, v.z, 0}; }
 
-FrameBlock MakeFrameBlock(const FrameInput& frame, float aspect, Vec3 eye, Vec3 to_sun, const ShadowMaps& shadows) {
-  const float cp = std::cos(frame.pitch_rad);
-  const Vec3 ahead = GltfFromGround({std::cos(frame.yaw_rad) * cp, std::sin(frame.yaw_rad) * cp, std::sin(frame.pitch_rad)});
+FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, Vec3 to_sun, const ShadowMaps& shadows) {
   const Light light = LightFor(to_sun);
   FrameBlock block;
-  block.view_projection = Perspective(frame.fov_rad, aspect, kNear_m, kFar_m) * LookMatrix(eye, ahead, {0, 1, 0});
-  block.inverse_view_projection = Inverse(block.view_projection);
-  block.town_shadow = shadows.town_matrix;
+  block.view_projection = view_projection;
+  block.inverse_view_projection = Inverse(view_projection);
+  block.near_shadow = shadows.near.matrix;
+  block.far_shadow = shadows.far.matrix;
   block.people_shadow = shadows.people_matrix;
+  block.shadow_layers = {static_cast<float>(shadows.near.layer + shadows.near.shown), static_cast<float>(shadows.far.layer + shadows.far.shown), 0, 0};
   block.eye = Wide(eye);
   block.to_sun = Wide(to_sun);
   block.sun_color = Wide(light.sun);
@@ -59,6 +68,9 @@ struct Renderer::Impl {
   ShadowMaps shadows;
   Picture picture;
   CaptionView caption;
+  SurfacePlan plan;
+  AtlasFormats formats;
+  std::vector<GLuint> arrays;
   GLuint sky_program = 0, empty_array = 0, block_buffer = 0;
 
   void DrawSky() const {
@@ -73,21 +85,31 @@ Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
 Renderer::~Renderer() = default;  // the context goes with everything in it
 
 Error Renderer::Create(const TourPack& pack, const RenderOptions& options) {
+  if (Error e = Begin(pack, options)) return e;
+  const std::vector<AssetId> ids = AssetsOf(pack);
+  std::vector<Asset> assets(ids.size());
+  ParallelFor(ids.size(), [&](size_t i) { assets[i] = PrepareAsset(pack, ids[i], surfaces(), formats()); });
+  for (Asset& asset : assets) Add(std::move(asset));
+  return Ok();
+}
+
+Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   Impl& r = *impl_;
   r.options = options;
-  if (Error e = CheckImages(pack)) return e;
   const bool software = DrawsInSoftware();
   // In software four samples cost three times the whole rest of a frame.
   const int samples = options.samples > 0 ? options.samples : software ? 1 : 4;
   std::string defines = std::string("#define SHADOW_TAPS ") + (software ? "1" : "4") + "\n#define SHARPER " +
                         (software && samples == 1 ? "-0.6" : "0.0") + "\n#define STEPS " + (software && samples == 1 ? "1" : "3") + "\n";
+  if (software && samples == 1) defines += "#define FLAT_DEPTH 0.35\n";
   if (options.normals) defines += "#define NORMALS\n";
   r.people.smooth_edges = samples > 1 && !options.normals;
   if (r.people.smooth_edges) defines += "#define SMOOTH_EDGES\n";
-  const std::vector<GLuint> textures = UploadTextures(pack);
-  const std::vector<Surface> surfaces = MakeSurfaces(pack, textures);
-  if (Error e = CreateTownView(pack, defines, surfaces, &r.town)) return e;
-  if (Error e = CreatePeopleView(pack, defines, surfaces, &r.people)) return e;
+  r.plan = PlanSurfaces(pack, LimitsOfThisMachine());
+  r.formats = FormatsOfThisMachine();
+  r.arrays = CreateTextureArrays(r.plan);
+  if (Error e = CreateTownView(defines, r.plan, r.arrays, &r.town)) return e;
+  if (Error e = CreatePeopleView(pack, defines, r.plan, r.arrays, &r.people)) return e;
   if (Error e = BuildProgram(std::string(kFrame) + kSkyVertex, std::string(kFrame) + kSkyFragment, &r.sky_program)) return e;
   if (Error e = CreatePicture(samples, &r.picture)) return e;
   if (Error e = CreateCaptionView(&r.caption)) return e;
@@ -97,13 +119,40 @@ Error Renderer::Create(const TourPack& pack, const RenderOptions& options) {
   return Ok();
 }
 
-void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics) {
-  const auto start = std::chrono::steady_clock::now();
+const SurfacePlan& Renderer::surfaces() const { return impl_->plan; }
+const AtlasFormats& Renderer::formats() const { return impl_->formats; }
+
+void Renderer::Add(Asset asset) {
   Impl& r = *impl_;
-  const Vec3 eye = GltfFromGround(frame.eye), to_sun = Normalized(GltfFromGround(frame.to_sun));
-  SortPeople(frame.people, r.people.layouts, eye, to_sun, kPeopleShadow_m * 1.5f, &r.people.batches);
+  Asset::Content& content = *asset.content;
+  switch (asset.id.kind) {
+    case AssetKind::kTown:
+      AddTown(std::move(content.town), &r.town);
+      ForgetTownShadows(&r.shadows);
+      break;
+    case AssetKind::kPicture: {
+      const PicturePlace& place = r.plan.pictures[static_cast<size_t>(asset.id.index)];
+      if (place.array >= 0) UploadLayer(r.arrays[static_cast<size_t>(place.array)], place.layer, content.picture);
+      break;
+    }
+    case AssetKind::kLevel: AddLevel(asset.id.index, asset.id.level, content.person, content.shadow, &r.people); break;
+    case AssetKind::kAtlas: AddAtlas(asset.id.index, content.atlas, &r.people); break;
+  }
+}
+
+void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics) {
+  const double start_ms = Now_ms();
+  Impl& r = *impl_;
+  const Vec3 eye = GltfFromGround(frame.eye), to_sun = Normalized(GltfFromGround(frame.to_sun)), ahead = Ahead(frame);
+  const float aspect = static_cast<float>(width_px) / static_cast<float>(height_px);
+  const Mat4 view_projection = Perspective(frame.fov_rad, aspect, kNear_m, kFar_m) * LookMatrix(eye, ahead, {0, 1, 0});
+  FindVisibleBlocks(view_projection, eye, r.options.cull, &r.town);
+  const double people_ms = Now_ms();
+  const PeopleSight sight{eye, to_sun, FrustumOf(view_projection), r.options.cull ? &r.town.walls : nullptr, 2 * kPeopleShadow_m};
+  SortPeople(frame.people, r.people.layouts, r.people.ready, sight, &r.people.batches);
   UploadPeople(&r.people);
-  UpdateShadowMaps(eye, to_sun, r.block_buffer, r.town, r.people, &r.shadows);
+  statistics->people_ms = Now_ms() - people_ms;
+  const DrawCost shadows = UpdateShadowMaps(eye, ahead, to_sun, r.block_buffer, r.town, r.people, &r.shadows);
 
   ResizePicture(width_px, height_px, &r.picture);
   glBindFramebuffer(GL_FRAMEBUFFER, r.picture.framebuffer);
@@ -111,17 +160,23 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   glClear(GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  const float aspect = static_cast<float>(width_px) / static_cast<float>(height_px);
-  const FrameBlock block = MakeFrameBlock(frame, aspect, eye, to_sun, r.shadows);
-  BindFrameBlock(r.block_buffer, block);
-  statistics->people_triangles = DrawPeople(r.people);  // first, for what they hide of the town costs nothing then
-  statistics->town_triangles = DrawTown(block.view_projection, eye, r.options.cull, &r.town);
+  BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, to_sun, r.shadows));
+  // Whatever is drawn hides what comes after it at no cost: the dearest comes last, the nearest first.
+  DrawCost people = DrawPeople(r.people, false);
+  const DrawCost town = DrawTown(&r.town);
+  people += DrawPeople(r.people, true);
   if (!r.options.normals) r.DrawSky();
   FinishPicture(r.picture);
   DrawCaption(frame.caption, frame.caption_share, width_px, height_px, &r.caption);
   glFinish();  // so that draw_ms means the picture, not the handing over of commands
-  const auto end = std::chrono::steady_clock::now();
-  statistics->draw_ms = std::chrono::duration<double, std::milli>(end - start).count();
+  constexpr int kWholePictures = 3;  // sky, smoothing, caption
+  statistics->town_triangles = town.triangles;
+  statistics->people_triangles = people.triangles;
+  statistics->shadow_triangles = shadows.triangles;
+  statistics->draw_calls = people.calls + town.calls + shadows.calls + kWholePictures;
+  statistics->people_hidden = r.people.batches.hidden;
+  statistics->people_drawn = static_cast<int>(frame.people.size()) - statistics->people_hidden;
+  statistics->draw_ms = Now_ms() - start_ms;
 }
 
 void Renderer::ReadWithAlpha(std::vector<uint8_t>* rgba) {

@@ -5,9 +5,13 @@
 
 #include "runtime/base/error.h"
 #include "runtime/pack/tour_pack.h"
+#include "runtime/render/assets.h"
 #include "runtime/render/frame.h"
 
 namespace flaneur {
+
+struct SurfacePlan;
+struct AtlasFormats;
 
 struct RenderOptions {
   int samples = 0;    // of each pixel; 0: four with a GPU, one and a smoothing pass without
@@ -20,8 +24,15 @@ class Renderer {
  public:
   Renderer();
   ~Renderer();
-  // Uploads the pack, which is not needed afterwards. Errors: a shader that the driver refuses, textures larger than it can hold.
+  // Uploads the pack, which is not needed afterwards. Errors: a shader that the driver refuses, a machine that cannot hold an avatar.
   Error Create(const TourPack& pack, const RenderOptions& options = {});
+  // The same in pieces, in any order: `pack` without its bulk first, then one asset after the other. What has not come yet is
+  // drawn by the nearest level that has, or not at all.
+  Error Begin(const TourPack& pack, const RenderOptions& options = {});
+  void Add(Asset asset);
+  // For PrepareAsset, from any thread, after Begin.
+  const SurfacePlan& surfaces() const;
+  const AtlasFormats& formats() const;
   // Draws into a picture of its own; Read or Present brings it out.
   void Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics);
   // The last picture: RGB, 8 bits a channel, top row first.

@@ -4,53 +4,78 @@
 namespace flaneur {
 
 inline constexpr const char* kHeader =
-    "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2DShadow;\n";
+    "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2DShadow;\n"
+    "precision highp sampler2DArray;\nprecision highp sampler2DArrayShadow;\n";
 
 // What all programs know of the picture; FrameBlock in frame_block.h mirrors it.
 inline constexpr const char* kFrame = R"(
 layout(std140) uniform Frame {
-  mat4 u_view_projection, u_inverse_view_projection, u_town_shadow, u_people_shadow;
+  mat4 u_view_projection, u_inverse_view_projection, u_near_shadow, u_far_shadow, u_people_shadow;
   vec4 u_eye, u_to_sun, u_sun_color, u_sky_color, u_ground_color, u_haze_color, u_zenith_color;
+  vec4 u_shadow_layers;  // of the near and the far map
 };
 )";
 
-// Light: sun with two shadow maps (town, people), sky and ground from all sides, haze. SHADOW_TAPS: 1 or 4 bilinear look-ups.
+// How much of the colour at p the air on the way to the eye replaces: little enough to be mixed between the corners of a triangle.
+inline constexpr const char* kHaze = R"(
+float haze_at(vec3 p) { return 1.0 - exp(-distance(p, u_eye.xyz) * 0.0014); }
+)";
+
+// Light: sun with shadow maps (town near and far, people), sky and ground from all sides, haze. SHADOW_TAPS: 1 or 4 bilinear
+// look-ups.
 inline constexpr const char* kLight = R"(
-uniform sampler2DShadow u_town_shadow_map, u_people_shadow_map;
-float shadow_of(sampler2DShadow map, mat4 matrix, vec3 p, float bias) {
-  vec3 c = (matrix * vec4(p, 1.0)).xyz * 0.5 + 0.5;
-  if (any(lessThan(c, vec3(0.002))) || any(greaterThan(c, vec3(0.998)))) return 1.0;
+uniform sampler2DArrayShadow u_town_shadow_map;
+uniform sampler2DShadow u_people_shadow_map;
+const vec2 k_taps[4] = vec2[4](vec2(-0.5, -0.5), vec2(0.5, -0.5), vec2(-0.5, 0.5), vec2(0.5, 0.5));
+float town_shadow(vec3 p) {
+  vec3 near = (u_near_shadow * vec4(p, 1.0)).xyz * 0.5 + 0.5, far = (u_far_shadow * vec4(p, 1.0)).xyz * 0.5 + 0.5;
+  vec3 off = abs(near - 0.5);
+  bool in_near = max(off.x, max(off.y, off.z)) < 0.497;
+  vec4 c = in_near ? vec4(near.xy, u_shadow_layers.x, near.z - 0.0006) : vec4(far.xy, u_shadow_layers.y, far.z - 0.0012);
+  vec3 beyond = abs(c.xyw - 0.5);
+  if (max(beyond.x, max(beyond.y, beyond.z)) > 0.499) return 1.0;
 #if SHADOW_TAPS == 1
-  return texture(map, vec3(c.xy, c.z - bias));
+  return texture(u_town_shadow_map, c);
 #else
-  vec2 texel = 1.0 / vec2(textureSize(map, 0));
+  vec2 texel = 1.0 / vec2(textureSize(u_town_shadow_map, 0).xy);
   float sum = 0.0;
-  for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < 2; ++x)
-      sum += texture(map, vec3(c.xy + (vec2(x, y) - 0.5) * texel, c.z - bias));
+  for (int i = 0; i < 4; ++i) sum += texture(u_town_shadow_map, vec4(c.xy + k_taps[i] * texel, c.zw));
   return sum * 0.25;
 #endif
+}
+// Fades out towards the map's rim, so that nobody's shadow vanishes at once.
+float people_shadow(vec3 p) {
+  vec3 c = (u_people_shadow * vec4(p, 1.0)).xyz * 0.5 + 0.5;
+  vec3 off = abs(c - 0.5);
+  float rim = max(off.x, max(off.y, off.z));
+  if (rim > 0.499) return 1.0;
+#if SHADOW_TAPS == 1
+  float sum = texture(u_people_shadow_map, vec3(c.xy, c.z - 0.0012));
+#else
+  vec2 texel = 1.0 / vec2(textureSize(u_people_shadow_map, 0));
+  float sum = 0.0;
+  for (int i = 0; i < 4; ++i) sum += 0.25 * texture(u_people_shadow_map, vec3(c.xy + k_taps[i] * texel, c.z - 0.0012));
+#endif
+  return mix(sum, 1.0, smoothstep(0.42, 0.49, rim));
 }
 vec3 lit(vec3 albedo, vec3 n, vec3 p) {
   float sun = max(dot(n, u_to_sun.xyz), 0.0);
   vec3 lifted = p + n * 0.05;
-  if (sun > 0.0) sun *= shadow_of(u_town_shadow_map, u_town_shadow, lifted, 0.0006) *
-                        shadow_of(u_people_shadow_map, u_people_shadow, lifted, 0.0012);
+  if (sun > 0.0) sun *= town_shadow(lifted) * people_shadow(lifted);
   vec3 around = mix(u_ground_color.rgb, u_sky_color.rgb, n.y * 0.5 + 0.5);
   return albedo * (u_sun_color.rgb * sun + around);
 }
-vec3 shown(vec3 color, vec3 p) {
-  float haze = 1.0 - exp(-distance(p, u_eye.xyz) * 0.0014);
+vec3 shown(vec3 color, float haze) {
   // Filmic tone curve (Narkowicz's fit of ACES) and the display's 1 / 2.2 in one, fitted on [0, 5], off by at most 0.006.
   vec3 s = sqrt(mix(color, u_haze_color.rgb, haze));
   return s * (0.3955 + 3.7304 * s) / (1.0 + s * (3.9385 * s - 0.4040));
 }
 // What is drawn of a surface.
-vec4 outcome(vec3 albedo, vec3 n, vec3 p) {
+vec4 outcome(vec3 albedo, vec3 n, vec3 p, float haze) {
 #ifdef NORMALS
   return vec4(n * 0.5 + 0.5, 1.0);
 #else
-  return vec4(shown(lit(albedo, n, p), p), 1.0);
+  return vec4(shown(lit(albedo, n, p), haze), 1.0);
 #endif
 }
 // Colour pictures are filtered as they are stored, in sRGB, which software does several times faster, and made linear here:
@@ -71,41 +96,54 @@ void keep_share() {
 
 inline constexpr const char* kTownVertex = R"(
 layout(location = 0) in vec3 a_position;
-layout(location = 1) in vec3 a_normal;
+layout(location = 1) in vec4 a_normal;    // and the picture's layer
 layout(location = 2) in vec2 a_uv;
 layout(location = 3) in vec4 a_color;
 out vec3 v_position, v_normal;
 out vec2 v_uv;
 out vec4 v_color;
+out float v_haze;
+flat out float v_layer;
 void main() {
+  v_haze = haze_at(a_position);
   v_position = a_position;
-  v_normal = a_normal;
+  v_normal = a_normal.xyz;
+  v_layer = floor(a_normal.w * 127.0 + 0.5);
   v_uv = a_uv;
   v_color = a_color;
   gl_Position = u_view_projection * vec4(a_position, 1.0);
 }
 )";
 
-// Everybody's pose is a row of the pose texture, three texels a joint.
+// Everybody's pose is a row of the pose texture, three texels a joint. SHADOW: the rows are those of the clips' moments.
 inline constexpr const char* kPersonVertex = R"(
 layout(location = 0) in vec3 a_position;
-layout(location = 1) in vec3 a_normal;
+layout(location = 1) in vec4 a_normal;    // and the picture's layer
 layout(location = 2) in vec2 a_uv;
 layout(location = 3) in vec4 a_color;
 layout(location = 4) in uvec4 a_joints;
 layout(location = 5) in vec4 a_weights;
-layout(location = 6) in vec4 a_place;  // position, turn about the vertical
-layout(location = 7) in vec4 a_look;   // row of the pose texture, share of the pattern from, to
+layout(location = 6) in vec4 a_place;     // position, turn about the vertical
+layout(location = 7) in vec4 a_look;      // row of the pose texture, share of the pattern from, to
 uniform highp sampler2D u_poses;
+#ifndef SHADOW
 out vec3 v_position, v_normal;
 out vec2 v_uv;
 out vec4 v_color;
+out float v_haze;
+flat out float v_layer;
 flat out vec2 v_share;
+#endif
 void main() {
   vec4 r0 = vec4(0.0), r1 = vec4(0.0), r2 = vec4(0.0);
   int row = int(a_look.x);
-  for (int i = 0; i < 4; ++i) {
-    float w = a_weights[i];
+#ifdef SHADOW
+  const int most = 1;
+#else
+  const int most = 4;
+#endif
+  for (int i = 0; i < most; ++i) {
+    float w = most == 1 ? 1.0 : a_weights[i];
     if (w <= 0.0) continue;
     int j = 3 * int(a_joints[i]);
     r0 += w * texelFetch(u_poses, ivec2(j, row), 0);
@@ -114,14 +152,19 @@ void main() {
   }
   vec4 p = vec4(a_position, 1.0);
   vec3 posed = vec3(dot(r0, p), dot(r1, p), dot(r2, p));
-  vec3 n = vec3(dot(r0.xyz, a_normal), dot(r1.xyz, a_normal), dot(r2.xyz, a_normal));
   float c = cos(a_place.w), s = sin(a_place.w);
-  v_position = vec3(c * posed.x + s * posed.z, posed.y, c * posed.z - s * posed.x) + a_place.xyz;
+  vec3 place = vec3(c * posed.x + s * posed.z, posed.y, c * posed.z - s * posed.x) + a_place.xyz;
+  gl_Position = u_view_projection * vec4(place, 1.0);
+#ifndef SHADOW
+  vec3 n = vec3(dot(r0.xyz, a_normal.xyz), dot(r1.xyz, a_normal.xyz), dot(r2.xyz, a_normal.xyz));
+  v_position = place;
+  v_haze = haze_at(place);
   v_normal = vec3(c * n.x + s * n.z, n.y, c * n.z - s * n.x);
+  v_layer = floor(a_normal.w * 127.0 + 0.5);
   v_uv = a_uv;
   v_color = a_color;
   v_share = a_look.yz;
-  gl_Position = u_view_projection * vec4(v_position, 1.0);
+#endif
 }
 )";
 
@@ -130,72 +173,89 @@ inline constexpr const char* kSurfaceFragment = R"(
 in vec3 v_position, v_normal;
 in vec2 v_uv;
 in vec4 v_color;
-uniform sampler2D u_texture;
+in float v_haze;
+flat in float v_layer;
+uniform sampler2DArray u_textures;
 uniform float u_alpha_cutoff;
 out vec4 o_color;
 void main() {
 #ifdef FADES
   keep_share();
 #endif
-  vec4 albedo = texture(u_texture, v_uv, SHARPER);
+  vec4 albedo = texture(u_textures, vec3(v_uv, v_layer), SHARPER);
+  if (v_layer < 0.0) albedo = vec4(1.0);
 #ifdef MASKED
   if (albedo.a * v_color.a < u_alpha_cutoff) discard;
 #endif
   vec3 n = normalize(v_normal);
   if (!gl_FrontFacing) n = -n;
-  o_color = outcome(linear_from_srgb(albedo.rgb) * v_color.rgb, n, v_position);
+  o_color = outcome(linear_from_srgb(albedo.rgb) * v_color.rgb, n, v_position, v_haze);
 }
 )";
 
 inline constexpr const char* kShadowFragment = R"(
+#ifdef MASKED
 in vec2 v_uv;
 in vec4 v_color;
-uniform sampler2D u_texture;
+flat in float v_layer;
+uniform sampler2DArray u_textures;
 uniform float u_alpha_cutoff;
+#endif
 void main() {
 #ifdef MASKED
-  if (texture(u_texture, v_uv).a * v_color.a < u_alpha_cutoff) discard;
+  if (v_layer >= 0.0 && texture(u_textures, vec3(v_uv, v_layer)).a * v_color.a < u_alpha_cutoff) discard;
 #endif
 }
 )";
 
-// A quad that stands upright and turns to the eye (or, with SHADOW, to the sun).
+// A quad that stands upright and turns to the eye, with the two pictures between whose directions the eye is.
 inline constexpr const char* kImpostorVertex = R"(
 layout(location = 0) in vec2 a_corner;    // 0 to 1
 layout(location = 6) in vec4 a_place;     // position, turn about the vertical
-layout(location = 7) in vec4 a_look;      // phases since the picture, share of the pattern from, to, how far between the views
-layout(location = 8) in vec4 a_views;     // azimuths of the two views, sine and cosine of their elevation
-layout(location = 9) in vec4 a_cell0;     // in texels: left, top, right, bottom
-layout(location = 10) in vec4 a_cell1;
-layout(location = 11) in vec4 a_origins;  // of the point between the feet, in texels
-layout(location = 12) in vec4 a_window;   // left, bottom, right, top in metres
-layout(location = 13) in vec2 a_right;    // on the ground, glTF's x and z
+layout(location = 7) in vec4 a_look;      // first cell of the picture's directions, share of the pattern from, to, phases since it
+// Two texels a cell: left, top, right, bottom; the point between the feet, sine and cosine of the elevation. All in texels.
+uniform highp sampler2D u_cells;
 uniform vec4 u_atlas;                     // texture coordinates a metre, size in texels
+uniform float u_directions;
 out vec3 v_point, v_ray;                  // in the person's axes
 out vec2 v_texel;                         // of the quad, as large as the atlas's
 flat out vec4 v_place, v_look, v_views, v_cell0, v_cell1, v_origins;
 flat out vec2 v_share;
+flat out float v_haze;
+const float k_around_px = 4.0;  // beyond both silhouettes lie those between them, and what perspective and motion make larger
+vec4 cell_texel(int i) { return texelFetch(u_cells, ivec2(i % CELLS_WIDTH, i / CELLS_WIDTH), 0); }
 void main() {
-  vec2 at = mix(a_window.xy, a_window.zw, a_corner);
-  vec3 offset = vec3(a_right.x * at.x, at.y, a_right.y * at.x);
-  vec3 p = a_place.xyz + offset;
-#ifdef SHADOW
-  vec3 ray = -u_to_sun.xyz;
-#else
-  vec3 ray = p - u_eye.xyz;
-#endif
+  vec3 from = u_eye.xyz - a_place.xyz;
+  float turn = (atan(-from.z, from.x) - a_place.w) / 6.28318531 + 0.25;
+  float direction = fract(turn) * u_directions;
+  int first = int(a_look.x), d0 = int(direction) % int(u_directions), d1 = (d0 + 1) % int(u_directions);
+  vec4 cell0 = cell_texel(2 * (first + d0)), cell1 = cell_texel(2 * (first + d1));
+  vec4 origin0 = cell_texel(2 * (first + d0) + 1), origin1 = cell_texel(2 * (first + d1) + 1);
+  vec2 low = min(min(vec2(cell0.x - origin0.x, origin0.y - cell0.w), vec2(cell1.x - origin1.x, origin1.y - cell1.w)), vec2(0.0));
+  vec2 high = max(max(vec2(cell0.z - origin0.x, origin0.y - cell0.y), vec2(cell1.z - origin1.x, origin1.y - cell1.y)), vec2(0.0));
+  float texel_m = 1.0 / (u_atlas.x * u_atlas.z);
+  vec2 at = mix(low - k_around_px, high + k_around_px, a_corner) * texel_m;
+  float distance = max(length(from.xz), 1e-3);
+  vec3 offset = vec3(from.z / distance * at.x, at.y, -from.x / distance * at.x);
+  vec3 p = a_place.xyz + offset, ray = p - u_eye.xyz;
   float c = cos(a_place.w), s = sin(a_place.w);
   v_point = vec3(c * offset.x - s * offset.z, offset.y, s * offset.x + c * offset.z);
   v_ray = vec3(c * ray.x - s * ray.z, ray.y, s * ray.x + c * ray.z);
   v_texel = at * u_atlas.xy * u_atlas.zw;
   v_place = vec4(a_place.xyz, 0.0);
-  v_look = vec4(a_look.x, a_look.w, c, s);
-  v_views = a_views;
-  v_cell0 = a_cell0 / u_atlas.zwzw;
-  v_cell1 = a_cell1 / u_atlas.zwzw;
-  v_origins = a_origins / u_atlas.zwzw;
+  v_look = vec4(a_look.w, fract(direction), c, s);
+  v_views = vec4(vec2(d0, d1) * 6.28318531 / u_directions, origin0.zw);
+  v_cell0 = cell0 / u_atlas.zwzw;
+  v_cell1 = cell1 / u_atlas.zwzw;
+  v_origins = vec4(origin0.xy, origin1.xy) / u_atlas.zwzw;
   v_share = a_look.yz;
+  v_haze = haze_at(a_place.xyz);
   gl_Position = u_view_projection * vec4(p, 1.0);
+#ifdef FLAT_DEPTH
+  // As deep as the person's front: so the ground leaves the feet, and the depth test can go before all that follows.
+  vec4 front = u_view_projection * vec4(p - normalize(vec3(ray.x, 0.0, ray.z)) * FLAT_DEPTH, 1.0);
+  gl_Position.z = front.z / front.w * gl_Position.w;
+#endif
 }
 )";
 
@@ -231,9 +291,6 @@ Meeting meet(View view, vec4 cell, vec2 origin, float level) {
   vec3 q = vec3(dot(v_point, view.right), dot(v_point, view.up), dot(v_point, view.near));
   vec3 d = vec3(dot(v_ray, view.right), dot(v_ray, view.up), dot(v_ray, view.near));
   vec2 slope = d.xy / d.z;
-#ifdef SHADOW
-  slope.y = 0.0;  // the sun stands too high for what a view from the side shows of depth
-#endif
   vec2 base = q.xy - slope * q.z, metre = vec2(u_atlas.x, -u_atlas.y), edge = 0.5 * exp2(ceil(level)) / u_atlas.zw;
   vec2 low = cell.xy + edge, high = cell.zw - edge, at = origin + base * metre, guess = at;
   float depth = 0.0;
@@ -250,13 +307,16 @@ Meeting meet(View view, vec4 cell, vec2 origin, float level) {
   if (!inside) color.a = 0.0;
   // A guess beside the person that still leaps onto them was led astray by what fills the gutters.
   vec2 leap = (at - guess) * u_atlas.zw;
+#if STEPS > 1
   if (dot(leap, leap) > exp2(2.0 * level)) color.a = min(color.a, textureLod(u_texture, guess, level).a);
+#endif
   return Meeting(at, color, (depth - q.z) / d.z);
 }
 )";
 
 inline constexpr const char* kImpostorFragment = R"(
 uniform sampler2D u_normals;
+flat in float v_haze;
 out vec4 o_color;
 vec3 normal_at(View view, vec2 at, float level) {
   vec2 square = textureLod(u_normals, at, level).rg * 2.0 - 1.0;
@@ -266,6 +326,13 @@ vec3 normal_at(View view, vec2 at, float level) {
 vec3 turned(vec3 v) { return vec3(v_look.z * v.x + v_look.w * v.z, v.y, v_look.z * v.z - v_look.w * v.x); }
 void main() {
   float level = mip_level(), between = v_look.y;
+#if STEPS == 1
+  // Most of a quad shows nobody: far from both silhouettes no more needs to be looked up.
+  vec2 metre = vec2(u_atlas.x, -u_atlas.y), flat_at = v_texel / u_atlas.zw / u_atlas.xy * metre;
+  float cover = textureLod(u_texture, clamp(v_origins.xy + flat_at, v_cell0.xy, v_cell0.zw), 3.0).a +
+                textureLod(u_texture, clamp(v_origins.zw + flat_at, v_cell1.xy, v_cell1.zw), 3.0).a;
+  if (cover < 0.02) discard;
+#endif
   View view0 = view_from(v_views.x), view1 = view_from(v_views.y);
   Meeting a = meet(view0, v_cell0, v_origins.xy, level), b = meet(view1, v_cell1, v_origins.zw, level);
   float alpha = mix(a.color.a, b.color.a, between);
@@ -290,17 +357,11 @@ void main() {
   vec3 albedo = linear_from_srgb(mix(a.color.rgb, b.color.rgb, share));
   vec3 n = turned(normalize(mix(normal_at(view0, a.at, level), normal_at(view1, b.at, level), share)));
   vec3 p = v_place.xyz + turned(v_point + v_ray * mix(a.along, b.along, share));
+#ifndef FLAT_DEPTH
   vec4 clip = u_view_projection * vec4(p, 1.0);
   gl_FragDepth = clip.z / clip.w * 0.5 + 0.5;
-  o_color.rgb = outcome(albedo, n, p).rgb;
-}
-)";
-
-inline constexpr const char* kImpostorShadowFragment = R"(
-void main() {
-  float level = mip_level();
-  Meeting a = meet(view_from(v_views.x), v_cell0, v_origins.xy, level), b = meet(view_from(v_views.y), v_cell1, v_origins.zw, level);
-  if (mix(a.color.a, b.color.a, v_look.y) < 0.5) discard;
+#endif
+  o_color.rgb = outcome(albedo, n, p, v_haze).rgb;
 }
 )";
 

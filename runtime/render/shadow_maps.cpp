@@ -1,90 +1,122 @@
 #include "runtime/render/shadow_maps.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flaneur {
 namespace {
 
 constexpr int kTownMap_px = 2048, kPeopleMap_px = 1024;
-constexpr float kTownShadow_m = 60;      // half the width that the map of the town covers
+constexpr float kNear_m = 55, kMostFar_m = 400;  // half the widths that the maps of the town cover
 constexpr float kShadowDepth_m = 140;
-constexpr float kEyeStep_m = 8;          // the town's map is drawn anew when the eye has gone so far
-constexpr float kJump_m = 25;            // farther than anybody walks meanwhile: draw it at once
+constexpr float kNearStep_m = 8;
 constexpr float kSunStep = 0.004f;       // or when the sun has turned by so much, in radians: hardly a texel on the ground
+constexpr float kSunJump = 0.1f;         // so much of a turn is not waited for, nor three steps of the eye
 constexpr size_t kSlices = 16;           // pictures over which that work is spread, so that no frame stumbles
 
-DepthMap CreateDepthMap(int size_px) {
-  DepthMap map;
-  map.size_px = size_px;
-  glGenTextures(1, &map.texture);
-  glBindTexture(GL_TEXTURE_2D, map.texture);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, size_px, size_px, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  glGenFramebuffers(1, &map.framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, map.framebuffer);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, map.texture, 0);
-  const GLenum none = GL_NONE;
-  glDrawBuffers(1, &none);
-  return map;
+void SetUpMap(GLenum target) {
+  glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(target, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTexParameteri(target, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 }
 
-void BindMap(const DepthMap& map, const Mat4& matrix, Vec3 to_sun, GLuint block_buffer, bool clear) {
+GLuint NewFramebuffer() {
+  GLuint framebuffer = 0;
+  glGenFramebuffers(1, &framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  const GLenum none = GL_NONE;
+  glDrawBuffers(1, &none);
+  return framebuffer;
+}
+
+void CreateTownMap(GLuint texture, int layer, TownMap* map) {
+  map->layer = layer;
+  map->slices_done = kSlices;
+  for (int k = 0; k < 2; ++k) {
+    map->framebuffers[static_cast<size_t>(k)] = NewFramebuffer();
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, texture, 0, layer + k);
+  }
+}
+
+void BindMap(GLuint framebuffer, int size_px, const Mat4& matrix, Vec3 to_sun, GLuint block_buffer, bool clear) {
   FrameBlock block{};
   block.to_sun = {to_sun.x, to_sun.y, to_sun.z, 0};
   block.view_projection = matrix;
   BindFrameBlock(block_buffer, block);
-  glBindFramebuffer(GL_FRAMEBUFFER, map.framebuffer);
-  glViewport(0, 0, map.size_px, map.size_px);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, size_px, size_px);
   if (clear) glClear(GL_DEPTH_BUFFER_BIT);
 }
 
-void DrawTownSlices(size_t count, GLuint block_buffer, const TownView& town, ShadowMaps* maps) {
-  BindMap(maps->town[1 - maps->shown], maps->next_town_matrix, maps->to_sun, block_buffer, maps->slices_done == 0);
-  for (; count > 0 && maps->slices_done < kSlices; --count, ++maps->slices_done) {
-    DrawTownShadow(maps->next_town_matrix, maps->slices_done, kSlices, town);
-  }
-  if (maps->slices_done < kSlices) return;
-  maps->shown = 1 - maps->shown;
-  maps->town_matrix = maps->next_town_matrix;
+DrawCost DrawSlices(size_t count, GLuint block_buffer, const TownView& town, TownMap* map) {
+  BindMap(map->framebuffers[static_cast<size_t>(1 - map->shown)], kTownMap_px, map->next_matrix, map->to_sun, block_buffer,
+          map->slices_done == 0);
+  const float slices = kSlices, from = static_cast<float>(map->slices_done);
+  map->slices_done = std::min(kSlices, map->slices_done + count);
+  const DrawCost cost = DrawTownShadow(map->next_matrix, from / slices, static_cast<float>(map->slices_done) / slices, town);
+  if (map->slices_done < kSlices) return cost;
+  map->shown = 1 - map->shown;
+  map->matrix = map->next_matrix;
+  return cost;
 }
 
-void UpdateTownMap(Vec3 eye, Vec3 to_sun, GLuint block_buffer, const TownView& town, ShadowMaps* maps) {
-  const bool jumped = !maps->valid || Length(eye - maps->center) > kJump_m || Length(to_sun - maps->to_sun) > 0.1f;
-  const bool moved = Length(eye - maps->center) > kEyeStep_m || Length(to_sun - maps->to_sun) > kSunStep;
-  if (jumped || (moved && maps->slices_done >= kSlices)) {
-    maps->center = eye;
-    maps->to_sun = to_sun;
-    maps->next_town_matrix = ShadowMatrix(eye, to_sun, kTownShadow_m, kShadowDepth_m, kTownMap_px);
-    maps->slices_done = 0;
+DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, GLuint block_buffer, const TownView& town, TownMap* map) {
+  const float moved_m = Length(center - map->center), turned = Length(to_sun - map->to_sun);
+  const bool jumped = !map->valid || moved_m > 3 * map->step_m || turned > kSunJump;
+  if (jumped || ((moved_m > map->step_m || turned > kSunStep) && map->slices_done >= kSlices)) {
+    map->center = center;
+    map->to_sun = to_sun;
+    map->next_matrix = ShadowMatrix(center, to_sun, map->half_width_m, std::max(kShadowDepth_m, map->half_width_m * 1.5f), kTownMap_px);
+    map->slices_done = 0;
   }
-  if (maps->slices_done < kSlices) DrawTownSlices(jumped ? kSlices : 1, block_buffer, town, maps);
-  maps->valid = true;
+  map->valid = true;
+  return map->slices_done < kSlices ? DrawSlices(jumped ? kSlices : 1, block_buffer, town, map) : DrawCost{};
 }
 
 }  // namespace
 
 void CreateShadowMaps(ShadowMaps* maps) {
-  for (DepthMap& map : maps->town) map = CreateDepthMap(kTownMap_px);
-  maps->people = CreateDepthMap(kPeopleMap_px);
-  maps->slices_done = kSlices;
+  glGenTextures(1, &maps->town_texture);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, maps->town_texture);
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT16, kTownMap_px, kTownMap_px, 4);
+  SetUpMap(GL_TEXTURE_2D_ARRAY);
+  CreateTownMap(maps->town_texture, 0, &maps->near);
+  CreateTownMap(maps->town_texture, 2, &maps->far);
+  glGenTextures(1, &maps->people_texture);
+  glBindTexture(GL_TEXTURE_2D, maps->people_texture);
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT16, kPeopleMap_px, kPeopleMap_px);
+  SetUpMap(GL_TEXTURE_2D);
+  maps->people_framebuffer = NewFramebuffer();
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, maps->people_texture, 0);
 }
 
-void UpdateShadowMaps(Vec3 eye, Vec3 to_sun, GLuint block_buffer, const TownView& town, const PeopleView& people, ShadowMaps* maps) {
+void ForgetTownShadows(ShadowMaps* maps) { maps->near.valid = maps->far.valid = false; }
+
+DrawCost UpdateShadowMaps(Vec3 eye, Vec3 ahead, Vec3 to_sun, GLuint block_buffer, const TownView& town, const PeopleView& people, ShadowMaps* maps) {
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2, 4);
-  UpdateTownMap(eye, to_sun, block_buffer, town, maps);
-  maps->people_matrix = ShadowMatrix(eye, to_sun, kPeopleShadow_m, kShadowDepth_m, kPeopleMap_px);
-  BindMap(maps->people, maps->people_matrix, to_sun, block_buffer, true);
-  DrawPeopleShadow(people);
+  maps->near.half_width_m = kNear_m;
+  maps->near.step_m = kNearStep_m;
+  DrawCost cost = UpdateTownMap(eye, to_sun, block_buffer, town, &maps->near);
+  // The coarse map stands still over a town that it covers, and else follows the eye.
+  const Vec3 middle = (town.box.low + town.box.high) * 0.5f;
+  const float reach_m = town.geometry.blocks.empty() ? 1 : Length(town.box.high - middle);
+  const bool covered = reach_m <= kMostFar_m;
+  maps->far.half_width_m = covered ? reach_m : kMostFar_m;
+  maps->far.step_m = kMostFar_m / 8;
+  cost += UpdateTownMap(covered ? middle : eye, to_sun, block_buffer, town, &maps->far);
+  const Vec3 level_ahead = Normalized(Vec3{ahead.x, 0, ahead.z});
+  maps->people_matrix = ShadowMatrix(eye + level_ahead * (kPeopleShadow_m - 4), to_sun, kPeopleShadow_m, kShadowDepth_m, kPeopleMap_px);
+  BindMap(maps->people_framebuffer, kPeopleMap_px, maps->people_matrix, to_sun, block_buffer, true);
+  cost += DrawPeopleShadow(people);
   glDisable(GL_POLYGON_OFFSET_FILL);
-  BindTexture(kTownShadowUnit, maps->town[maps->shown].texture);
-  BindTexture(kPeopleShadowUnit, maps->people.texture);
+  BindTextureArray(kTownShadowUnit, maps->town_texture);
+  BindTexture(kPeopleShadowUnit, maps->people_texture);
+  return cost;
 }
 
 }  // namespace flaneur

@@ -1,26 +1,37 @@
-// The sun's shadows around the eye: a wide map of the town, renewed bit by bit as eye and sun move, and a fine map of people,
-// drawn in every picture. Internal to runtime/render.
+// The sun's shadows: of the town a fine map around the eye and a coarse one of all of it, renewed bit by bit as eye and sun move,
+// and a fine map of the people ahead, drawn in every picture. Internal to runtime/render.
 #pragma once
+#include <array>
+
 #include "runtime/render/people_view.h"
 #include "runtime/render/town_view.h"
 
 namespace flaneur {
 
-inline constexpr float kPeopleShadow_m = 28;  // half the width that the map of people covers
+inline constexpr float kPeopleShadow_m = 36;  // half the width that the map of people covers; it begins at the eye
 
-struct DepthMap { GLuint texture = 0, framebuffer = 0; int size_px = 0; };
-
-struct ShadowMaps {
-  DepthMap town[2], people;
-  Mat4 town_matrix, next_town_matrix, people_matrix;
-  int shown = 0;               // of town; the other one is being drawn
-  size_t slices_done = 0;      // of the one being drawn
-  Vec3 center, to_sun;         // of the newest map of the town
+// One map of the town: a layer that is shown and one that is being drawn.
+struct TownMap {
+  float half_width_m = 0, step_m = 0;  // step_m: drawn anew when the eye has gone so far
+  int layer = 0;                       // the first of its two
+  std::array<GLuint, 2> framebuffers{};
+  Mat4 matrix, next_matrix;
+  int shown = 0;
+  size_t slices_done = 0;              // of the one being drawn
+  Vec3 center, to_sun;                 // of the newest
   bool valid = false;
 };
 
+struct ShadowMaps {
+  GLuint town_texture = 0, people_texture = 0, people_framebuffer = 0;
+  TownMap near, far;
+  Mat4 people_matrix;
+};
+
 void CreateShadowMaps(ShadowMaps* maps);
-// eye, to_sun: glTF axes. Leaves the maps bound to their units; `block_buffer` is overwritten.
-void UpdateShadowMaps(Vec3 eye, Vec3 to_sun, GLuint block_buffer, const TownView& town, const PeopleView& people, ShadowMaps* maps);
+// After another town has come: all of it is drawn anew.
+void ForgetTownShadows(ShadowMaps* maps);
+// eye, ahead, to_sun: glTF axes. Leaves the maps bound to their units; `block_buffer` is overwritten.
+DrawCost UpdateShadowMaps(Vec3 eye, Vec3 ahead, Vec3 to_sun, GLuint block_buffer, const TownView& town, const PeopleView& people, ShadowMaps* maps);
 
 }  // namespace flaneur

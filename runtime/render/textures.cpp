@@ -5,46 +5,25 @@
 #include <algorithm>
 #include <cstring>
 
-#include "runtime/base/parallel.h"
 #include "runtime/render/gl_objects.h"
-#include "runtime/render/mip_chain.h"
 
 namespace flaneur {
 namespace {
 
-constexpr int kMostLevel = 16;
 constexpr int kImpostorMostLevel = 3;  // in coarser ones several cells share a texel
 
-void UploadLevel(int level, const PackImage& image) {
-  glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA8, image.width_px, image.height_px, 0, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-}
-
-void SetFilters(GLint wrap, GLint most_level) {
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, most_level);
+void SetFilters(GLenum target, GLint wrap, GLint most_level) {
+  glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
+  glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
+  // In software a look-up between two levels costs twice as much.
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, DrawsInSoftware() ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, most_level);
 }
 
 bool HasExtension(const char* name) {
   const auto* extensions = reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS));
   return extensions != nullptr && std::strstr(extensions, name) != nullptr;
-}
-
-GLuint UploadTexture(const PackImage& image, const std::vector<PackImage>& smaller) {
-  GLuint texture = 0;
-  glGenTextures(1, &texture);
-  glBindTexture(GL_TEXTURE_2D, texture);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  UploadLevel(0, image);
-  for (size_t k = 0; k < smaller.size(); ++k) UploadLevel(static_cast<int>(k) + 1, smaller[k]);
-  SetFilters(GL_REPEAT, static_cast<GLint>(smaller.size()));
-  // In software each anisotropic look-up walks an ellipse of texels: ten times the whole rest of a frame.
-  if (!DrawsInSoftware() && HasExtension("texture_filter_anisotropic")) {
-    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, 4);
-  }
-  return texture;
 }
 
 struct BlockFormat { GLenum compressed, internal, format; const char* extension; };
@@ -58,55 +37,78 @@ BlockFormat FormatOf(TextureFormat format) {
   return {GL_COMPRESSED_RGBA_BPTC_UNORM_EXT, GL_RGBA8, GL_RGBA, "GL_EXT_texture_compression_bptc"};
 }
 
+GLint LevelsOf(int side_px) {
+  GLint levels = 1;
+  while (side_px >> levels > 0) ++levels;
+  return levels;
+}
+
+bool ReadsBlocks(TextureFormat format, const AtlasFormats& formats) {
+  return format == TextureFormat::kBc7Srgb ? formats.bc7_blocks : formats.rgtc_blocks;
+}
+
 }  // namespace
 
-std::vector<GLuint> UploadTextures(const TourPack& pack) {
-  std::vector<std::vector<PackImage>> smaller(pack.images.size());
-  ParallelFor(pack.images.size(), [&](size_t i) { smaller[i] = MakeMipChain(pack.images[i], true, kMostLevel); });
-  std::vector<GLuint> textures;
-  for (size_t i = 0; i < pack.images.size(); ++i) textures.push_back(UploadTexture(pack.images[i], smaller[i]));
+std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan) {
+  std::vector<GLuint> textures(plan.arrays.size());
+  glGenTextures(static_cast<GLsizei>(textures.size()), textures.data());
+  for (size_t k = 0; k < textures.size(); ++k) {
+    const TextureArrayPlan& a = plan.arrays[k];
+    glBindTexture(GL_TEXTURE_2D_ARRAY, textures[k]);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, LevelsOf(a.side_px), GL_RGBA8, a.side_px, a.side_px, std::max(1, a.layers));
+    SetFilters(GL_TEXTURE_2D_ARRAY, GL_REPEAT, LevelsOf(a.side_px) - 1);
+    // In software each anisotropic look-up walks an ellipse of texels: ten times the whole rest of a frame.
+    if (!DrawsInSoftware() && HasExtension("texture_filter_anisotropic")) {
+      glTexParameterf(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_ANISOTROPY_EXT, 4);
+    }
+  }
   return textures;
 }
 
-GLuint UploadWhite() { return UploadTexture({1, 1, {255, 255, 255, 255}}, {}); }
+void UploadLayer(GLuint array, int layer, const std::vector<PackImage>& levels) {
+  glBindTexture(GL_TEXTURE_2D_ARRAY, array);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  for (size_t k = 0; k < levels.size(); ++k) {
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, static_cast<GLint>(k), 0, 0, layer, levels[k].width_px, levels[k].height_px, 1, GL_RGBA,
+                    GL_UNSIGNED_BYTE, levels[k].rgba.data());
+  }
+}
 
-GLuint UploadAtlasPicture(const PackTexture& picture, bool decode) {
+AtlasFormats FormatsOfThisMachine() {
+  if (DrawsInSoftware()) return {};
+  return {HasExtension(FormatOf(TextureFormat::kBc7Srgb).extension), HasExtension(FormatOf(TextureFormat::kBc5).extension)};
+}
+
+AtlasPicture PrepareAtlasPicture(PackTexture picture, const AtlasFormats& formats) {
+  AtlasPicture out{picture.format, picture.width_px, picture.height_px, ReadsBlocks(picture.format, formats), std::move(picture.levels)};
+  out.levels.resize(std::min(out.levels.size(), size_t{kImpostorMostLevel} + 1));
+  if (out.blocks) return out;
+  for (size_t k = 0; k < out.levels.size(); ++k) {
+    out.levels[k] = DecodeLevel(out.format, std::max(1, out.width_px >> k), std::max(1, out.height_px >> k), out.levels[k]);
+  }
+  return out;
+}
+
+GLuint UploadAtlasPicture(const AtlasPicture& picture) {
   GLuint texture = 0;
   glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D, texture);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   const BlockFormat f = FormatOf(picture.format);
-  const bool blocks = !decode && HasExtension(f.extension);
-  const size_t levels = std::min(picture.levels.size(), size_t{kImpostorMostLevel} + 1);
-  std::vector<std::vector<uint8_t>> texels(levels);
-  if (!blocks) {
-    ParallelFor(levels, [&](size_t k) {
-      texels[k] = DecodeLevel(picture.format, std::max(1, picture.width_px >> k), std::max(1, picture.height_px >> k), picture.levels[k]);
-    });
-  }
-  for (size_t k = 0; k < levels; ++k) {
+  glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(picture.levels.size()), picture.blocks ? f.compressed : f.internal,
+                 picture.width_px, picture.height_px);
+  for (size_t k = 0; k < picture.levels.size(); ++k) {
     const GLsizei width = std::max(1, picture.width_px >> k), height = std::max(1, picture.height_px >> k);
     const auto level = static_cast<GLint>(k);
-    if (blocks) {
-      glCompressedTexImage2D(GL_TEXTURE_2D, level, f.compressed, width, height, 0, static_cast<GLsizei>(picture.levels[k].size()),
-                             picture.levels[k].data());
+    const std::vector<uint8_t>& bytes = picture.levels[k];
+    if (picture.blocks) {
+      glCompressedTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, width, height, f.compressed, static_cast<GLsizei>(bytes.size()), bytes.data());
     } else {
-      glTexImage2D(GL_TEXTURE_2D, level, static_cast<GLint>(f.internal), width, height, 0, f.format, GL_UNSIGNED_BYTE, texels[k].data());
+      glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, width, height, f.format, GL_UNSIGNED_BYTE, bytes.data());
     }
   }
-  SetFilters(GL_CLAMP_TO_EDGE, static_cast<GLint>(levels) - 1);
+  SetFilters(GL_TEXTURE_2D, GL_CLAMP_TO_EDGE, static_cast<GLint>(picture.levels.size()) - 1);
   return texture;
-}
-
-std::vector<Surface> MakeSurfaces(const TourPack& pack, const std::vector<GLuint>& textures) {
-  const GLuint white = UploadWhite();
-  std::vector<Surface> surfaces;
-  for (const PackMaterial& m : pack.materials) {
-    surfaces.push_back({m.base_color_image >= 0 ? textures[static_cast<size_t>(m.base_color_image)] : white, m.alpha_cutoff,
-                        m.alpha_mask, m.double_sided});
-  }
-  surfaces.push_back({white, 0, false, false});
-  return surfaces;
 }
 
 }  // namespace flaneur

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
 
 namespace flaneur {
 namespace {
 
 constexpr float kBlock_m = 12;   // about a house: the two sides of a street and the yards behind part into different blocks
 
-using Cell = std::pair<int, int>;
+constexpr float kLeastWall_m2 = 0.4f;  // of what hides other blocks
 
 int8_t SignedByte(float v) { return static_cast<int8_t>(std::lround(std::clamp(v, -1.0f, 1.0f) * 127)); }
 uint8_t Byte(float v) { return static_cast<uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f); }
@@ -27,39 +26,54 @@ Vec3 TurnNormal(const Mat4& inverse, Vec3 n) {
                          inverse.m[2][0] * n.x + inverse.m[2][1] * n.y + inverse.m[2][2] * n.z});
 }
 
-struct Triangle { int material; std::array<uint32_t, 3> corners; };
+struct Triangle { int group; std::array<uint32_t, 3> corners; };
 
-void AppendVertices(const PackPrimitive& p, const Mat4& world, const Vec4& base, TownGeometry* town) {
+void AppendVertices(const PackPrimitive& p, const Mat4& world, const Vec4& base, int layer, TownGeometry* town) {
   const Mat4 inverse = Inverse(world);
   for (size_t i = 0; i < p.positions.size(); ++i) {
     const Vec3 n = TurnNormal(inverse, p.normals[i]);
     const Vec4 c = p.colors.empty() ? Vec4{1, 1, 1, 1} : p.colors[i];
     town->vertices.push_back({TransformPoint(world, p.positions[i]),
-                              {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), 0},
+                              {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), static_cast<int8_t>(layer)},
                               p.uvs.empty() ? Vec2{} : p.uvs[i],
                               {Byte(c.x * base.x), Byte(c.y * base.y), Byte(c.z * base.z), Byte(c.w * base.w)}});
   }
 }
 
-Cell CellOf(const std::array<uint32_t, 3>& corners, const TownGeometry& town) {
+// A block's place on a curve that keeps neighbours together (Morton's).
+uint64_t CellOf(const std::array<uint32_t, 3>& corners, const TownGeometry& town) {
   Vec3 sum;
   for (uint32_t c : corners) sum = sum + town.vertices[c].position;
-  return {static_cast<int>(std::floor(sum.x / 3 / kBlock_m)), static_cast<int>(std::floor(sum.z / 3 / kBlock_m))};
+  const auto spread = [](float meters) {
+    constexpr float kMiddle = 32768;  // blocks before zero
+    const auto cell = static_cast<uint64_t>(std::clamp(std::floor(meters / 3 / kBlock_m) + kMiddle, 0.0f, 65535.0f));
+    uint64_t bits = 0;
+    for (unsigned i = 0; i < 16; ++i) bits |= (cell >> i & 1) << (2 * i);
+    return bits;
+  };
+  return spread(sum.x) | spread(sum.z) << 1;
 }
 
-// The index array in order of block and material; vertices in order of their first use, so that a block's lie together.
-void PackBlocks(std::map<Cell, std::vector<Triangle>>* cells, TownGeometry* town) {
+bool HidesWhatIsBehind(const Triangle& t, const SurfacePlan& plan, const std::vector<TownVertex>& vertices) {
+  if (plan.groups[static_cast<size_t>(t.group)].masked) return false;
+  const Vec3 a = vertices[t.corners[0]].position, b = vertices[t.corners[1]].position, c = vertices[t.corners[2]].position;
+  return Length(Cross(b - a, c - a)) / 2 > kLeastWall_m2;
+}
+
+// The index array in order of block and group; vertices in order of their first use, so that a block's lie together.
+void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle>>* cells, TownGeometry* town) {
   const std::vector<TownVertex> all = std::move(town->vertices);
   std::vector<uint32_t> place(all.size(), UINT32_MAX);
   town->vertices.clear();
   town->vertices.reserve(all.size());
   for (auto& [cell, triangles] : *cells) {
-    std::stable_sort(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) { return a.material < b.material; });
+    std::stable_sort(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) { return a.group < b.group; });
     TownBlock block;
     block.triangles = static_cast<int64_t>(triangles.size());
+    block.first_wall = town->walls.size();
     for (const Triangle& t : triangles) {
-      if (block.ranges.empty() || block.ranges.back().material != t.material) {
-        block.ranges.push_back({t.material, static_cast<uint32_t>(town->indices.size()), 0});
+      if (block.ranges.empty() || block.ranges.back().group != t.group) {
+        block.ranges.push_back({t.group, static_cast<uint32_t>(town->indices.size()), 0});
       }
       for (uint32_t corner : t.corners) {
         if (place[corner] == UINT32_MAX) {
@@ -70,30 +84,36 @@ void PackBlocks(std::map<Cell, std::vector<Triangle>>* cells, TownGeometry* town
         Include(all[corner].position, &block.box);
       }
       block.ranges.back().count += 3;
+      if (!HidesWhatIsBehind(t, plan, all)) continue;
+      for (uint32_t corner : t.corners) town->walls.push_back(all[corner].position);
+      if (!plan.groups[static_cast<size_t>(t.group)].double_sided) continue;
+      for (size_t k : {2, 1, 0}) town->walls.push_back(all[t.corners[k]].position);
     }
+    block.walls = town->walls.size() - block.first_wall;
     town->blocks.push_back(std::move(block));
   }
 }
 
 }  // namespace
 
-TownGeometry BuildTownGeometry(const TourPack& pack) {
+TownGeometry BuildTownGeometry(const TourPack& pack, const SurfacePlan& plan) {
   TownGeometry town;
-  std::map<Cell, std::vector<Triangle>> cells;
+  std::map<uint64_t, std::vector<Triangle>> cells;
   for (const TownInstance& instance : pack.town) {
     const bool mirrored = Mirrors(instance.world);
     for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(instance.mesh)].primitives) {
       const auto base = static_cast<uint32_t>(town.vertices.size());
+      const Surface& surface = SurfaceOf(p.material, plan);
       const Vec4 color = p.material >= 0 ? pack.materials[static_cast<size_t>(p.material)].base_color : Vec4{1, 1, 1, 1};
-      AppendVertices(p, instance.world, color, &town);
+      AppendVertices(p, instance.world, color, surface.layer, &town);
       for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
-        Triangle t{p.material, {base + p.indices[i], base + p.indices[i + 1], base + p.indices[i + 2]}};
+        Triangle t{surface.group, {base + p.indices[i], base + p.indices[i + 1], base + p.indices[i + 2]}};
         if (mirrored) std::swap(t.corners[1], t.corners[2]);
         cells[CellOf(t.corners, town)].push_back(t);
       }
     }
   }
-  PackBlocks(&cells, &town);
+  PackBlocks(plan, &cells, &town);
   return town;
 }
 

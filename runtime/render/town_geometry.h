@@ -1,4 +1,4 @@
-// The town as one vertex and one index array, cut into square blocks that are drawn or left out as wholes.
+// The town as one vertex array and one list of triangles, cut into square blocks that are drawn or left out as wholes.
 // Internal to runtime/render; no OpenGL.
 #pragma once
 #include <cstdint>
@@ -6,30 +6,33 @@
 
 #include "runtime/pack/tour_pack.h"
 #include "runtime/render/projection.h"
+#include "runtime/render/surface_plan.h"
 
 namespace flaneur {
 
 struct TownVertex {         // as the vertex shader reads it
   Vec3 position;            // world, glTF axes
-  std::array<int8_t, 4> normal;    // normalized; the fourth is padding
+  std::array<int8_t, 4> normal;    // normalized; the fourth is the layer of the picture
   Vec2 uv;
   std::array<uint8_t, 4> color;    // normalized; the material's base colour is in it
 };
 
-struct TownRange { int material = -1; uint32_t first = 0, count = 0; };  // of the indices
+struct TownRange { int group = 0; uint32_t first = 0, count = 0; };  // of the indices; group: index into SurfacePlan::groups
 
 struct TownBlock {
   Box box;
-  std::vector<TownRange> ranges;  // one a material, following each other in the index array
+  std::vector<TownRange> ranges;  // one a group, following each other in the index array
+  size_t first_wall = 0, walls = 0;  // corners in TownGeometry::walls
   int64_t triangles = 0;
 };
 
 struct TownGeometry {
   std::vector<TownVertex> vertices;
   std::vector<uint32_t> indices;
-  std::vector<TownBlock> blocks;
+  std::vector<Vec3> walls;        // corners of the triangles that are large and opaque enough to hide what is behind them
+  std::vector<TownBlock> blocks;  // neighbours near each other
 };
 
-TownGeometry BuildTownGeometry(const TourPack& pack);
+TownGeometry BuildTownGeometry(const TourPack& pack, const SurfacePlan& plan);
 
 }  // namespace flaneur

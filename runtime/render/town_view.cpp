@@ -8,11 +8,10 @@
 namespace flaneur {
 namespace {
 
-void UploadGeometry(const TownGeometry& geometry, TownView* town) {
-  glGenVertexArrays(1, &town->vertex_array);
-  glBindVertexArray(town->vertex_array);
-  CreateBuffer(GL_ARRAY_BUFFER, geometry.vertices.data(), geometry.vertices.size() * sizeof(TownVertex));
-  CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, geometry.indices.data(), geometry.indices.size() * sizeof(uint32_t));
+constexpr size_t kMostWalls = 14000;      // triangles a picture: the nearest walls hide most
+constexpr uint32_t kJoined = 30000;       // indices that a shadow draws in vain rather than in another call
+
+void EnableVertices() {
   constexpr size_t stride = sizeof(TownVertex);
   EnableAttribute(0, 3, GL_FLOAT, false, stride, offsetof(TownVertex, position), 0);
   EnableAttribute(1, 4, GL_BYTE, true, stride, offsetof(TownVertex, normal), 0);
@@ -20,64 +19,148 @@ void UploadGeometry(const TownGeometry& geometry, TownView* town) {
   EnableAttribute(3, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(TownVertex, color), 0);
 }
 
-void DrawBlock(const TownBlock& block, const SurfacePrograms& programs, const TownView& town) {
-  for (const TownRange& range : block.ranges) {
-    BindSurface(programs, SurfaceOf(range.material, town.surfaces));
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(size_t{range.first} * sizeof(uint32_t)));
+void BindGroup(const SurfaceGroup& group, const GLuint* programs, const TownView& town) {
+  const GLuint program = programs[group.masked];
+  glUseProgram(program);
+  if (group.masked) SetUniform(program, "u_alpha_cutoff", group.alpha_cutoff);
+  if (group.array >= 0) BindTextureArray(kArrayUnit, town.arrays[static_cast<size_t>(group.array)]);
+  CullBackFaces(!group.double_sided);
+}
+
+void DrawIndices(uint32_t first, uint32_t count) {
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, reinterpret_cast<const void*>(size_t{first} * sizeof(uint32_t)));
+}
+
+// Indices of the visible blocks, by group and within it nearest first.
+void GatherIndices(TownView* town) {
+  town->counts.assign(town->groups.size(), 0);
+  town->indices.clear();
+  for (size_t g = 0; g < town->groups.size(); ++g) {
+    const size_t before = town->indices.size();
+    for (uint32_t b : town->visible) {
+      for (const TownRange& range : town->geometry.blocks[b].ranges) {
+        if (range.group != static_cast<int>(g)) continue;
+        const auto first = town->geometry.indices.begin() + range.first;
+        town->indices.insert(town->indices.end(), first, first + range.count);
+      }
+    }
+    town->counts[g] = static_cast<uint32_t>(town->indices.size() - before);
   }
 }
 
 }  // namespace
 
-const Surface& SurfaceOf(int material, const std::vector<Surface>& surfaces) {
-  return material >= 0 ? surfaces[static_cast<size_t>(material)] : surfaces.back();
-}
-
-void BindSurface(const SurfacePrograms& programs, const Surface& surface) {
-  const GLuint program = surface.masked ? programs.masked : programs.plain;
-  glUseProgram(program);
-  if (surface.masked) SetUniform(program, "u_alpha_cutoff", surface.alpha_cutoff);
-  BindTexture(kColorUnit, surface.texture);
-  CullBackFaces(!surface.double_sided);
-}
-
-Error CreateTownView(const TourPack& pack, const std::string& defines, const std::vector<Surface>& surfaces, TownView* town) {
-  const std::string vertex = std::string(kFrame) + kTownVertex, masked = "#define MASKED\n";
+Error CreateTownView(const std::string& defines, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town) {
+  const std::string vertex = std::string(kFrame) + kHaze + kTownVertex, masked = "#define MASKED\n";
   const std::string lit = defines + kFrame + kLight + kSurfaceFragment;
-  if (Error e = BuildProgram(vertex, lit, &town->lit.plain)) return e;
-  if (Error e = BuildProgram(vertex, masked + lit, &town->lit.masked)) return e;
-  if (Error e = BuildProgram(vertex, kShadowFragment, &town->shadow.plain)) return e;
-  if (Error e = BuildProgram(vertex, masked + kShadowFragment, &town->shadow.masked)) return e;
-  TownGeometry geometry = BuildTownGeometry(pack);
-  UploadGeometry(geometry, town);
-  town->blocks = std::move(geometry.blocks);
-  town->surfaces = surfaces;
+  if (Error e = BuildProgram(vertex, lit, &town->lit[0])) return e;
+  if (Error e = BuildProgram(vertex, masked + lit, &town->lit[1])) return e;
+  if (Error e = BuildProgram(vertex, kShadowFragment, &town->shadow[0])) return e;
+  if (Error e = BuildProgram(vertex, masked + kShadowFragment, &town->shadow[1])) return e;
+  town->groups = plan.groups;
+  town->arrays = arrays;
   return Ok();
 }
 
-int64_t DrawTown(const Mat4& view_projection, Vec3 eye, bool cull, TownView* town) {
-  const Frustum frustum = FrustumOf(view_projection);
-  town->order.clear();
-  for (const TownBlock& block : town->blocks) {
-    if (!cull || MayTouch(frustum, block.box)) town->order.push_back({Distance(block.box, eye), &block});
-  }
-  std::stable_sort(town->order.begin(), town->order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+void AddTown(TownGeometry geometry, TownView* town) {
+  glGenVertexArrays(1, &town->shadow_array);
+  glBindVertexArray(town->shadow_array);
+  const GLuint vertices = CreateBuffer(GL_ARRAY_BUFFER, geometry.vertices.data(), geometry.vertices.size() * sizeof(TownVertex));
+  CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, geometry.indices.data(), geometry.indices.size() * sizeof(uint32_t));
+  EnableVertices();
+  glGenVertexArrays(1, &town->vertex_array);
   glBindVertexArray(town->vertex_array);
-  int64_t triangles = 0;
-  for (const auto& [distance_m, block] : town->order) {
-    DrawBlock(*block, town->lit, *town);
-    triangles += block->triangles;
+  glBindBuffer(GL_ARRAY_BUFFER, vertices);
+  EnableVertices();
+  town->visible_indices = CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, nullptr, geometry.indices.size() * sizeof(uint32_t));
+  geometry.vertices = {};
+  town->geometry = std::move(geometry);
+  for (const TownBlock& block : town->geometry.blocks) {
+    Include(block.box.low, &town->box);
+    Include(block.box.high, &town->box);
   }
-  return triangles;
+  town->order.reserve(town->geometry.blocks.size());
+  town->visible.reserve(town->geometry.blocks.size());
+  town->indices.reserve(town->geometry.indices.size());
 }
 
-void DrawTownShadow(const Mat4& light_projection, size_t first, size_t step, const TownView& town) {
-  const Frustum frustum = FrustumOf(light_projection);
-  glBindVertexArray(town.vertex_array);
-  for (size_t i = first; i < town.blocks.size(); i += step) {
-    if (MayTouch(frustum, town.blocks[i].box)) DrawBlock(town.blocks[i], town.shadow, town);
+void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownView* town) {
+  const Frustum frustum = FrustumOf(view_projection);
+  const std::vector<TownBlock>& blocks = town->geometry.blocks;
+  town->order.clear();
+  for (size_t b = 0; b < blocks.size(); ++b) {
+    if (!cull || MayTouch(frustum, blocks[b].box)) town->order.push_back({Distance(blocks[b].box, eye), static_cast<uint32_t>(b)});
   }
+  std::sort(town->order.begin(), town->order.end());
+  ClearOcclusion(view_projection, &town->walls);
+  town->visible.clear();
+  size_t walls = 0;
+  for (const auto& [distance_m, b] : town->order) {
+    const TownBlock& block = blocks[b];
+    if (cull && !MayBeSeen(town->walls, block.box, false)) continue;
+    town->visible.push_back(b);
+    if (!cull || walls + block.walls > 3 * kMostWalls) continue;
+    walls += block.walls;
+    AddWalls({&town->geometry.walls[block.first_wall], block.walls}, &town->walls);
+  }
+  FinishOcclusion(&town->walls);
+}
+
+DrawCost DrawTown(TownView* town) {
+  DrawCost cost;
+  if (town->vertex_array == 0) return cost;
+  GatherIndices(town);
+  glBindVertexArray(town->vertex_array);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, town->visible_indices);
+  const size_t all = town->geometry.indices.size() * sizeof(uint32_t);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all), nullptr, GL_STREAM_DRAW);
+  glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(town->indices.size() * sizeof(uint32_t)), town->indices.data());
+  uint32_t first = 0;
+  for (size_t g = 0; g < town->groups.size(); ++g) {
+    const uint32_t count = town->counts[g];
+    if (count == 0) continue;
+    BindGroup(town->groups[g], town->lit, *town);
+    DrawIndices(first, count);
+    cost += {count / 3, 1};
+    first += count;
+  }
+  return cost;
+}
+
+DrawCost DrawTownShadow(const Mat4& light_projection, float from, float to, const TownView& town) {
+  DrawCost cost;
+  if (town.shadow_array == 0) return cost;
+  const Frustum frustum = FrustumOf(light_projection);
+  const std::vector<TownBlock>& blocks = town.geometry.blocks;
+  const float count = static_cast<float>(blocks.size());
+  const auto first = static_cast<size_t>(from * count), last = static_cast<size_t>(to * count);
+  const bool any_masked = std::any_of(town.groups.begin(), town.groups.end(), [](const SurfaceGroup& g) { return g.masked; });
+  const uint32_t most_in_vain = any_masked ? 0 : kJoined;
+  glBindVertexArray(town.shadow_array);
+  // Whatever lies one after the other, opaque and of two sides or one, casts its shadow in one call.
+  struct Run { uint32_t first = 0, count = 0; int group = -1; } run;
+  const auto draw = [&] {
+    if (run.count == 0) return;
+    BindGroup(town.groups[static_cast<size_t>(run.group)], town.shadow, town);
+    CullBackFaces(false);
+    DrawIndices(run.first, run.count);
+    cost += {run.count / 3, 1};
+  };
+  for (size_t b = first; b < last; ++b) {
+    if (!MayTouch(frustum, blocks[b].box)) continue;
+    for (const TownRange& range : blocks[b].ranges) {
+      const bool masked = town.groups[static_cast<size_t>(range.group)].masked;
+      const bool joins = run.count > 0 && !masked && !town.groups[static_cast<size_t>(run.group)].masked &&
+                         range.first - (run.first + run.count) <= most_in_vain;
+      if (!joins) {
+        draw();
+        run = {range.first, 0, range.group};
+      }
+      run.count = range.first + range.count - run.first;
+    }
+  }
+  draw();
+  return cost;
 }
 
 }  // namespace flaneur

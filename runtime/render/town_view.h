@@ -1,35 +1,41 @@
 // Draws the town. Internal to runtime/render.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "runtime/base/error.h"
 #include "runtime/render/gl_objects.h"
-#include "runtime/render/textures.h"
+#include "runtime/render/occlusion.h"
 #include "runtime/render/town_geometry.h"
 
 namespace flaneur {
 
-struct SurfacePrograms { GLuint plain = 0, masked = 0; };  // masked: cut out by the surface's alpha
-
 struct TownView {
-  SurfacePrograms lit, shadow;
-  GLuint vertex_array = 0;
-  std::vector<TownBlock> blocks;
-  std::vector<Surface> surfaces;                       // by material; the last one of none
-  std::vector<std::pair<float, const TownBlock*>> order;  // scratch: distance and block
+  GLuint lit[2] = {}, shadow[2] = {};      // programs: [masked]
+  GLuint vertex_array = 0, shadow_array = 0, visible_indices = 0;
+  TownGeometry geometry;                   // without its vertices
+  std::vector<SurfaceGroup> groups;
+  std::vector<GLuint> arrays;
+  Box box;                                 // of all blocks
+  // Of the last picture.
+  OcclusionMap walls;
+  std::vector<std::pair<float, uint32_t>> order;        // scratch: distance and block
+  std::vector<uint32_t> visible;           // blocks, nearest first
+  std::vector<uint32_t> indices;           // of them, group by group
+  std::vector<uint32_t> counts;            // of indices, by group
 };
 
 // `defines`: of the lit programs.
-Error CreateTownView(const TourPack& pack, const std::string& defines, const std::vector<Surface>& surfaces, TownView* town);
+Error CreateTownView(const std::string& defines, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town);
+void AddTown(TownGeometry geometry, TownView* town);
 
-// Near blocks first, so that hidden pixels cost little. Returns the triangles drawn. The frame block must be bound.
-int64_t DrawTown(const Mat4& view_projection, Vec3 eye, bool cull, TownView* town);
+// Fills visible and walls: blocks within the view that no nearer walls hide. Without `cull` all blocks and no walls.
+void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownView* town);
 
-// Depth only: the blocks of index first, first + step, ... that the light's view touches.
-void DrawTownShadow(const Mat4& light_projection, size_t first, size_t step, const TownView& town);
+// Near blocks first, so that hidden pixels cost little. The frame block must be bound.
+DrawCost DrawTown(TownView* town);
 
-// Binds the surface's program, texture and culling.
-void BindSurface(const SurfacePrograms& programs, const Surface& surface);
-const Surface& SurfaceOf(int material, const std::vector<Surface>& surfaces);
+// Depth only: of all blocks the part from `from` to `to` (0 to 1), as far as the light's view touches them.
+DrawCost DrawTownShadow(const Mat4& light_projection, float from, float to, const TownView& town);
 
 }  // namespace flaneur

@@ -8,7 +8,9 @@
 
 #include "runtime/render/caption.h"
 #include "runtime/render/context.h"
+#include "runtime/render/occlusion.h"
 #include "runtime/render/people_batches.h"
+#include "runtime/render/person_geometry.h"
 #include "runtime/render/projection.h"
 #include "runtime/render/town_geometry.h"
 
@@ -203,18 +205,18 @@ TEST_F(Drawing, AnImpostorsBlocksLookAsDecoded) {
   for (size_t i = 0; i < decoded.size(); ++i) EXPECT_EQ(decoded[i], (std::array<int, 4>{200, 60, 62, 254})[i % 4]);
 }
 
-// What stands behind the axis but before the picture's own depth must not hide it.
+// What stands behind the axis but before the picture's own depth must not hide it: to the centimetre with several samples a pixel.
 TEST_F(Drawing, AnImpostorHasItsDepthInThePicture) {
   TourPack pack = MakePack({{7.05f, 0}});  // its near face 5 cm behind the axis of a person 6 m away
   FrameInput frame = LookEast();
   pack.materials[0].base_color = {0.1f, 0.6f, 0.1f, 1};  // the wall's, and the mesh's, which is not drawn
   frame.people = {PersonAt(6, 0, -1)};
-  const int whole = RedPatch(Draw(pack, frame)).count;
+  const int whole = RedPatch(Draw(pack, frame, {4, true, false})).count;
   EXPECT_GT(whole, 500);
   pack.town[0].world.m[3][0] = 6.8f;  // now 20 cm before the axis, 5 cm behind the picture's front
-  EXPECT_NEAR(RedPatch(Draw(pack, frame)).count, whole, 0.1 * whole);
+  EXPECT_NEAR(RedPatch(Draw(pack, frame, {4, true, false})).count, whole, 0.1 * whole);
   pack.town[0].world.m[3][0] = 6.7f;  // and before that
-  EXPECT_EQ(RedPatch(Draw(pack, frame)).count, 0);
+  EXPECT_EQ(RedPatch(Draw(pack, frame, {4, true, false})).count, 0);
 }
 
 TEST_F(Drawing, TwoSharesOfOneFadeFillThePersonAndNoMore) {
@@ -272,6 +274,12 @@ TEST_F(Drawing, StatisticsCountWhatIsDrawn) {
   Draw(MakePack({{11, 3}}), frame);
   EXPECT_EQ(statistics_.town_triangles, 12);
   EXPECT_EQ(statistics_.people_triangles, 12 + 2 + 2);
+  EXPECT_EQ(statistics_.people_drawn, 3);
+  EXPECT_LE(statistics_.draw_calls, 10);
+  frame.people = {PersonAt(6, 1, 0), PersonAt(19, 5.2f, -1), PersonAt(-3, 0, -1)};  // seen, behind the box, behind the eye
+  Draw(MakePack({{11, 3}}), frame);
+  EXPECT_EQ(statistics_.people_drawn, 1);
+  EXPECT_EQ(statistics_.people_hidden, 2);
   EXPECT_GT(statistics_.draw_ms, 0);
 }
 
@@ -328,9 +336,90 @@ TEST(Caption, WrapsWordsOverAsManyLinesAsItNeeds) {
   }
 }
 
+// A wall of 8 x 4 m, 10 m before the eye, and boxes of 1 m beside, above, behind and before it.
+TEST(Occlusion, HidesWhatIsBehindAWallAndNothingElse) {
+  const Mat4 view = Perspective(1.2f, 16.0f / 9, 0.1f, 500) * LookMatrix({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
+  const auto box = [](float x, float y, float z) { return Box{{x - 0.5f, y - 0.5f, z - 0.5f}, {x + 0.5f, y + 0.5f, z + 0.5f}}; };
+  const std::vector<Vec3> wall{{-4, -2, -10}, {4, -2, -10}, {4, 2, -10}, {-4, -2, -10}, {4, 2, -10}, {-4, 2, -10}};
+  const std::vector<Vec3> from_behind(wall.rbegin(), wall.rend());
+  OcclusionMap map;
+  ClearOcclusion(view, &map);
+  AddWalls(from_behind, &map);  // not drawn, hides nothing
+  FinishOcclusion(&map);
+  EXPECT_TRUE(MayBeSeen(map, box(0, 0, -20), true));
+  AddWalls(wall, &map);
+  FinishOcclusion(&map);
+  for (bool finished : {false, true}) {
+    EXPECT_FALSE(MayBeSeen(map, box(0, 0, -20), finished));
+    EXPECT_FALSE(MayBeSeen(map, box(5, 2, -20), finished));
+    EXPECT_TRUE(MayBeSeen(map, box(8, 0, -20), finished));   // looks out at the side: the wall ends at 8 m there
+    EXPECT_TRUE(MayBeSeen(map, box(0, 4, -20), finished));   // above it
+    EXPECT_TRUE(MayBeSeen(map, box(0, 0, -9), finished));    // before it
+    EXPECT_TRUE(MayBeSeen(map, box(0, 0, -10), finished));   // in it
+    EXPECT_TRUE(MayBeSeen(map, box(0, 0, 0), finished));     // around the eye
+  }
+}
+
+TEST(Occlusion, AWallThatTheEyeStandsBesideHidesToo) {
+  const Mat4 view = Perspective(1.2f, 16.0f / 9, 0.1f, 500) * LookMatrix({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
+  OcclusionMap map;
+  ClearOcclusion(view, &map);
+  // From 5 m behind the eye to 40 m ahead, 1 m to the left, seen from the right.
+  AddWalls(std::vector<Vec3>{{-1, -30, 5}, {-1, -30, -40}, {-1, 30, -40}, {-1, -30, 5}, {-1, 30, -40}, {-1, 30, 5}}, &map);
+  FinishOcclusion(&map);
+  EXPECT_FALSE(MayBeSeen(map, {{-9, -1, -20}, {-8, 1, -19}}, true));
+  EXPECT_TRUE(MayBeSeen(map, {{1, -1, -20}, {2, 1, -19}}, true));
+}
+
+TEST(SurfacePlan, PicturesOfOneSizeShareAnArrayAndSurfacesOfOneKindAGroup) {
+  TourPack pack = MakePack({{11, 3}});
+  pack.images = {{512, 512, {}}, {300, 512, {}}, {1024, 7, {}}, {9000, 9000, {}}};
+  for (int i = 0; i < 4; ++i) {
+    pack.materials.push_back({"m", {1, 1, 1, 1}, i, false, false, 0.5f});
+    pack.meshes[1].primitives.push_back(BoxPrimitive({0, 0, 0}, {1, 1, 1}, i + 1, false));
+  }
+  const SurfacePlan plan = PlanSurfaces(pack, {1024, 512});
+  ASSERT_EQ(plan.arrays.size(), 2u);
+  EXPECT_EQ(plan.arrays[0].side_px, 512);
+  EXPECT_EQ(plan.arrays[0].layers, 2);
+  EXPECT_EQ(plan.arrays[1].side_px, 1024);
+  EXPECT_EQ(plan.groups.size(), 2u);
+  EXPECT_NE(plan.pictures[0].layer, plan.pictures[1].layer);
+  EXPECT_EQ(SurfaceOf(-1, plan).layer, -1);
+  const PackImage wide{2, 1, {0, 0, 0, 255, 255, 255, 255, 255}};
+  const std::vector<PackImage> levels = PreparePicture(wide, 64);
+  ASSERT_EQ(levels.size(), 7u);
+  EXPECT_LT(levels[0].rgba[static_cast<size_t>(32 * 64 + 16) * 4], 40);
+  EXPECT_GT(levels[0].rgba[static_cast<size_t>(32 * 64 + 48) * 4], 215);
+  EXPECT_EQ(levels.back().width_px, 1);
+}
+
+TEST(ShadowGeometry, IsMuchSmallerAndStaysInShape) {
+  TourPack pack = MakePack({});
+  PackPrimitive& p = pack.meshes[0].primitives[0];
+  p = {};
+  const int around = 64, up = 40;
+  for (int j = 0; j <= up; ++j) {
+    for (int i = 0; i < around; ++i) {
+      const float a = 2 * kPi * static_cast<float>(i) / around;
+      p.positions.push_back({0.3f * std::cos(a), 1.8f * static_cast<float>(j) / up, 0.3f * std::sin(a)});
+      p.normals.push_back({std::cos(a), 0, std::sin(a)});
+      if (j == up) continue;
+      const auto at = [&](int x, int y) { return static_cast<uint32_t>(y * around + x % around); };
+      for (uint32_t corner : {at(i, j), at(i + 1, j), at(i, j + 1), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)}) p.indices.push_back(corner);
+    }
+  }
+  const PersonGeometry whole = BuildPersonGeometry(pack, 0, PlanSurfaces(pack, {})), shadow = ShadowGeometry(whole, 0.16f);
+  EXPECT_LT(shadow.indices.size(), whole.indices.size() / 10);
+  Box box;
+  for (uint32_t i : shadow.indices) Include(shadow.vertices[i].position, &box);
+  EXPECT_NEAR(box.high.y, 1.8f, 0.1f);
+  EXPECT_NEAR(box.high.x - box.low.x, 0.6f, 0.1f);
+}
+
 TEST(TownGeometry, EveryTriangleIsInOneBlockAndItsBox) {
   const TourPack pack = MakePack({{11, 3}, {-14, -4}, {60, 80}});
-  const TownGeometry town = BuildTownGeometry(pack);
+  const TownGeometry town = BuildTownGeometry(pack, PlanSurfaces(pack, {}));
   uint32_t next = 0;
   int64_t triangles = 0;
   for (const TownBlock& block : town.blocks) {
@@ -345,6 +434,33 @@ TEST(TownGeometry, EveryTriangleIsInOneBlockAndItsBox) {
   EXPECT_EQ(triangles, 36);
 }
 
+PeopleSight EverywhereSeen() {
+  PeopleSight sight;
+  sight.eye = {0, 1.6f, 0};
+  sight.to_sun = {0, 1, 0};
+  for (Vec4& plane : sight.frustum) plane = {0, 0, 0, 1};
+  sight.shadow_reach_m = 40;
+  return sight;
+}
+
+TEST(PeopleBatches, WhatHasNotComeYetIsDrawnByTheNearestLevelThatHas) {
+  const AvatarLayout avatar = LayoutOf(BoxPerson());
+  const std::vector<DrawnPerson> people{PersonAt(5, 0, 0), PersonAt(9, 0, -1)};
+  const auto levels_with = [&](bool fine, bool coarse, bool impostor) {
+    PeopleBatches batches;
+    batches.pose_width = 3;
+    SortPeople(people, {avatar}, {{{fine, coarse}, impostor, false}}, EverywhereSeen(), &batches);
+    std::vector<int> levels;
+    for (const PeopleBatch& b : batches.seen) levels.insert(levels.end(), b.count, b.level);
+    return levels;
+  };
+  EXPECT_EQ(levels_with(true, true, true), (std::vector<int>{0, -1}));
+  EXPECT_EQ(levels_with(false, true, true), (std::vector<int>{1, -1}));
+  EXPECT_EQ(levels_with(false, true, false), (std::vector<int>{1, 1}));
+  EXPECT_EQ(levels_with(false, false, true), (std::vector<int>{-1, -1}));
+  EXPECT_TRUE(levels_with(false, false, false).empty());
+}
+
 TEST(PeopleBatches, MixedPosesStandBetweenTheirClips) {
   PackAvatar avatar = BoxPerson();
   avatar.idle.matrices[0].m[3] = {0, 1, 0, 1};
@@ -353,10 +469,10 @@ TEST(PeopleBatches, MixedPosesStandBetweenTheirClips) {
   person.other_share = 0.25f;
   PeopleBatches batches;
   batches.pose_width = 3;
-  SortPeople({person}, {LayoutOf(avatar)}, {0, 1.6f, 0}, {0, 1, 0}, 40, &batches);
+  SortPeople({person}, {LayoutOf(avatar)}, {{{true, true}, true, true}}, EverywhereSeen(), &batches);
   ASSERT_EQ(batches.pose_rows, 1u);
-  EXPECT_FLOAT_EQ(batches.poses[1].w, 0.25f);  // how far up
-  EXPECT_FLOAT_EQ(batches.poses[1].y, 1);
+  EXPECT_NEAR(batches.poses[1].w, 0.25f, 1e-4f);  // how far up
+  EXPECT_NEAR(batches.poses[1].y, 1, 1e-4f);
 }
 
 }  // namespace

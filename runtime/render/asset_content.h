@@ -1,0 +1,19 @@
+// What an asset holds between its preparation and its upload. Internal to runtime/render.
+#pragma once
+#include <array>
+
+#include "runtime/render/assets.h"
+#include "runtime/render/person_geometry.h"
+#include "runtime/render/textures.h"
+#include "runtime/render/town_geometry.h"
+
+namespace flaneur {
+
+struct Asset::Content {
+  TownGeometry town;
+  std::vector<PackImage> picture;
+  PersonGeometry person, shadow;          // shadow: with the coarsest level alone
+  std::array<AtlasPicture, 4> atlas;      // albedo, normals, depth, motion
+};
+
+}  // namespace flaneur

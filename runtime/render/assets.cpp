@@ -1,0 +1,110 @@
+#include "runtime/render/assets.h"
+
+#include <algorithm>
+
+#include "runtime/render/asset_content.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kShadowCell_m = 0.16f;
+
+std::vector<bool> ImagesOfTown(const TourPack& pack) {
+  std::vector<bool> of_town(pack.images.size(), false);
+  for (const TownInstance& instance : pack.town) {
+    for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(instance.mesh)].primitives) {
+      const int image = p.material < 0 ? -1 : pack.materials[static_cast<size_t>(p.material)].base_color_image;
+      if (image >= 0) of_town[static_cast<size_t>(image)] = true;
+    }
+  }
+  return of_town;
+}
+
+}  // namespace
+
+Asset::Asset() = default;
+Asset::Asset(Asset&&) noexcept = default;
+Asset& Asset::operator=(Asset&&) noexcept = default;
+Asset::~Asset() = default;
+
+std::vector<AssetId> AssetsOf(const TourPack& pack) {
+  std::vector<AssetId> ids{{AssetKind::kTown, 0, 0}};
+  const std::vector<bool> of_town = ImagesOfTown(pack);
+  const auto add_pictures = [&](bool town) {
+    for (size_t i = 0; i < of_town.size(); ++i) {
+      if (of_town[i] == town) ids.push_back({AssetKind::kPicture, static_cast<int>(i), 0});
+    }
+  };
+  const int avatars = static_cast<int>(pack.avatars.size());
+  const auto add_level = [&](int avatar, size_t from_coarsest) {
+    const size_t levels = pack.avatars[static_cast<size_t>(avatar)].levels.size();
+    if (from_coarsest < levels) ids.push_back({AssetKind::kLevel, avatar, static_cast<int>(levels - 1 - from_coarsest)});
+  };
+  add_pictures(true);
+  for (int a = 0; a < avatars; ++a) {
+    if (pack.avatars[static_cast<size_t>(a)].impostor_of < 0) ids.push_back({AssetKind::kAtlas, a, 0});
+    add_level(a, 0);
+  }
+  add_pictures(false);
+  size_t most = 0;
+  for (const PackAvatar& avatar : pack.avatars) most = std::max(most, avatar.levels.size());
+  for (size_t k = 1; k < most; ++k) {
+    for (int a = 0; a < avatars; ++a) add_level(a, k);
+  }
+  return ids;
+}
+
+AssetStages StagesOf(const std::vector<AssetId>& assets) {
+  const auto first = [&](AssetKind kind) {
+    return static_cast<size_t>(std::find_if(assets.begin(), assets.end(), [&](const AssetId& a) { return a.kind == kind; }) - assets.begin());
+  };
+  size_t likenesses = first(AssetKind::kAtlas);
+  const size_t town = likenesses;
+  while (likenesses < assets.size() && assets[likenesses].kind != AssetKind::kPicture) ++likenesses;
+  return {town, likenesses};
+}
+
+std::vector<int> MeshesOf(const AssetId& asset, const TourPack& pack) {
+  std::vector<int> meshes;
+  if (asset.kind == AssetKind::kLevel) {
+    meshes.push_back(pack.avatars[static_cast<size_t>(asset.index)].levels[static_cast<size_t>(asset.level)].mesh);
+  }
+  if (asset.kind == AssetKind::kTown) {
+    for (const TownInstance& instance : pack.town) meshes.push_back(instance.mesh);
+    std::sort(meshes.begin(), meshes.end());
+    meshes.erase(std::unique(meshes.begin(), meshes.end()), meshes.end());
+  }
+  return meshes;
+}
+
+Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& plan, const AtlasFormats& formats) {
+  Asset asset;
+  asset.id = id;
+  asset.content = std::make_unique<Asset::Content>();
+  const auto index = static_cast<size_t>(id.index);
+  switch (id.kind) {
+    case AssetKind::kTown: asset.content->town = BuildTownGeometry(pack, plan); break;
+    case AssetKind::kPicture:
+      if (plan.pictures[index].array >= 0) {
+        const int side_px = plan.arrays[static_cast<size_t>(plan.pictures[index].array)].side_px;
+        asset.content->picture = PreparePicture(pack.images[index], side_px);
+      }
+      break;
+    case AssetKind::kLevel: {
+      const PackAvatar& avatar = pack.avatars[index];
+      asset.content->person = BuildPersonGeometry(pack, avatar.levels[static_cast<size_t>(id.level)].mesh, plan);
+      const bool coarsest = static_cast<size_t>(id.level) + 1 == avatar.levels.size();
+      if (coarsest) asset.content->shadow = ShadowGeometry(asset.content->person, kShadowCell_m);
+      break;
+    }
+    case AssetKind::kAtlas: {
+      const PackImpostor& atlas = pack.avatars[index].impostor;
+      const PackTexture* pictures[] = {&atlas.albedo, &atlas.normal, &atlas.depth, &atlas.motion};
+      for (size_t k = 0; k < 4; ++k) asset.content->atlas[k] = PrepareAtlasPicture(*pictures[k], formats);
+      break;
+    }
+  }
+  return asset;
+}
+
+}  // namespace flaneur

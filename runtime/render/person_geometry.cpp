@@ -1,0 +1,83 @@
+#include "runtime/render/person_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace flaneur {
+namespace {
+
+int8_t SignedByte(float v) { return static_cast<int8_t>(std::lround(std::clamp(v, -1.0f, 1.0f) * 127)); }
+uint8_t Byte(float v) { return static_cast<uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f); }
+uint16_t Word(float v) { return static_cast<uint16_t>(std::clamp(v, 0.0f, 1.0f) * 65535 + 0.5f); }
+
+void AppendVertices(const PackPrimitive& p, Vec4 base, int layer, std::vector<PersonVertex>* vertices) {
+  for (size_t i = 0; i < p.positions.size(); ++i) {
+    const Vec4 c = p.colors.empty() ? Vec4{1, 1, 1, 1} : p.colors[i];
+    const Vec3 n = p.normals[i];
+    PersonVertex v{p.positions[i], {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), static_cast<int8_t>(layer)},
+                   p.uvs.empty() ? Vec2{} : p.uvs[i],
+                   {Byte(c.x * base.x), Byte(c.y * base.y), Byte(c.z * base.z), Byte(c.w * base.w)}, {}, {65535, 0, 0, 0}};
+    if (!p.joints.empty()) {
+      v.joints = p.joints[i];
+      for (size_t k = 0; k < 4; ++k) v.weights[k] = Word(p.weights[i][k]);
+    }
+    vertices->push_back(v);
+  }
+}
+
+}  // namespace
+
+PersonGeometry BuildPersonGeometry(const TourPack& pack, int mesh, const SurfacePlan& plan) {
+  PersonGeometry out;
+  std::vector<const PackPrimitive*> primitives;
+  for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(mesh)].primitives) primitives.push_back(&p);
+  std::stable_sort(primitives.begin(), primitives.end(), [&](const PackPrimitive* a, const PackPrimitive* b) {
+    return SurfaceOf(a->material, plan).group < SurfaceOf(b->material, plan).group;
+  });
+  for (const PackPrimitive* p : primitives) {
+    const Surface& surface = SurfaceOf(p->material, plan);
+    if (out.ranges.empty() || out.ranges.back().group != surface.group) {
+      out.ranges.push_back({surface.group, static_cast<uint32_t>(out.indices.size()), 0});
+    }
+    out.ranges.back().count += static_cast<uint32_t>(p->indices.size());
+    const auto base = static_cast<uint32_t>(out.vertices.size());
+    AppendVertices(*p, p->material >= 0 ? pack.materials[static_cast<size_t>(p->material)].base_color : Vec4{1, 1, 1, 1}, surface.layer,
+                   &out.vertices);
+    for (uint32_t i : p->indices) out.indices.push_back(base + i);
+  }
+  return out;
+}
+
+PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m) {
+  PersonGeometry out;
+  std::map<std::array<int, 3>, uint32_t> cells;
+  std::vector<uint32_t> place(of.vertices.size());
+  std::vector<float> shared;
+  for (size_t i = 0; i < of.vertices.size(); ++i) {
+    const Vec3 p = of.vertices[i].position;
+    const auto cell = [cell_m](float v) { return static_cast<int>(std::floor(v / cell_m)); };
+    const auto [found, fresh] = cells.try_emplace({cell(p.x), cell(p.y), cell(p.z)}, static_cast<uint32_t>(out.vertices.size()));
+    place[i] = found->second;
+    if (fresh) {
+      PersonVertex v = of.vertices[i];  // follows the heaviest joint alone
+      v.joints[0] = v.joints[static_cast<size_t>(std::max_element(v.weights.begin(), v.weights.end()) - v.weights.begin())];
+      v.weights = {65535, 0, 0, 0};
+      out.vertices.push_back(v);
+      shared.push_back(1);
+    } else {  // the middle of all in the cell
+      float& n = shared[place[i]];
+      Vec3& middle = out.vertices[place[i]].position;
+      middle = middle + (p - middle) * (1 / ++n);
+    }
+  }
+  for (size_t i = 0; i + 2 < of.indices.size(); i += 3) {
+    const uint32_t a = place[of.indices[i]], b = place[of.indices[i + 1]], c = place[of.indices[i + 2]];
+    if (a == b || b == c || c == a) continue;
+    out.indices.insert(out.indices.end(), {a, b, c});
+  }
+  out.ranges = {{0, 0, static_cast<uint32_t>(out.indices.size())}};
+  return out;
+}
+
+}  // namespace flaneur

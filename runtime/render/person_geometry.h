@@ -1,0 +1,35 @@
+// People's meshes as the vertex shader reads them, and a plain one for shadows. Internal to runtime/render; no OpenGL.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "runtime/pack/tour_pack.h"
+#include "runtime/render/surface_plan.h"
+
+namespace flaneur {
+
+struct PersonVertex {
+  Vec3 position;
+  std::array<int8_t, 4> normal;     // normalized; the fourth is the layer of the picture
+  Vec2 uv;
+  std::array<uint8_t, 4> color;     // normalized; the material's base colour is in it
+  std::array<uint16_t, 4> joints;
+  std::array<uint16_t, 4> weights;  // normalized
+};
+
+struct PersonRange { int group = 0; uint32_t first = 0, count = 0; };  // of the indices
+
+struct PersonGeometry {
+  std::vector<PersonVertex> vertices;
+  std::vector<uint32_t> indices;
+  std::vector<PersonRange> ranges;  // one a group
+};
+
+PersonGeometry BuildPersonGeometry(const TourPack& pack, int mesh, const SurfacePlan& plan);
+
+// The shape alone, with all vertices within a cell of `cell_m` as one that follows the first of its joints: a few hundred
+// triangles, enough for a shadow.
+PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m);
+
+}  // namespace flaneur

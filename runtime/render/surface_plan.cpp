@@ -1,0 +1,109 @@
+#include "runtime/render/surface_plan.h"
+
+#include <algorithm>
+
+#define STB_IMAGE_RESIZE_IMPLEMENTATION
+#define STB_IMAGE_RESIZE_STATIC
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wsign-compare"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#include <stb/stb_image_resize.h>
+#pragma GCC diagnostic pop
+
+#include "runtime/render/mip_chain.h"
+
+namespace flaneur {
+namespace {
+
+constexpr int kMostLayers = 127;  // a vertex holds its layer in a signed byte
+constexpr int kLeastSide_px = 64;
+constexpr int kMostLevel = 16;
+
+int Side_px(const PackImage& image, int most_px) {
+  const int longest = std::max(image.width_px, image.height_px);
+  int side = kLeastSide_px;
+  while (side < longest && side * 2 <= most_px) side *= 2;
+  return side;
+}
+
+// By material: whether people alone show it.
+std::vector<bool> MaterialsOfPeople(const TourPack& pack) {
+  std::vector<bool> of_people(pack.materials.size(), false);
+  const auto mark = [&](int mesh, bool people) {
+    for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(mesh)].primitives) {
+      if (p.material >= 0) of_people[static_cast<size_t>(p.material)] = people;
+    }
+  };
+  for (const PackAvatar& avatar : pack.avatars) {
+    for (const PackLevel& level : avatar.levels) mark(level.mesh, true);
+  }
+  for (const TownInstance& instance : pack.town) mark(instance.mesh, false);
+  return of_people;
+}
+
+int ArrayFor(int side_px, std::vector<TextureArrayPlan>* arrays) {
+  for (size_t k = 0; k < arrays->size(); ++k) {
+    if ((*arrays)[k].side_px == side_px && (*arrays)[k].layers < kMostLayers) return static_cast<int>(k);
+  }
+  arrays->push_back({side_px, 0});
+  return static_cast<int>(arrays->size()) - 1;
+}
+
+int GroupFor(const SurfaceGroup& group, std::vector<SurfaceGroup>* groups) {
+  const auto found = std::find(groups->begin(), groups->end(), group);
+  if (found != groups->end()) return static_cast<int>(found - groups->begin());
+  groups->push_back(group);
+  return static_cast<int>(groups->size()) - 1;
+}
+
+}  // namespace
+
+SurfacePlan PlanSurfaces(const TourPack& pack, const PictureLimits& limits) {
+  SurfacePlan plan;
+  plan.pictures.resize(pack.images.size());
+  const std::vector<bool> of_people = MaterialsOfPeople(pack);
+  std::vector<int> most_px(pack.images.size(), 0);
+  for (size_t m = 0; m < pack.materials.size(); ++m) {
+    const int image = pack.materials[m].base_color_image;
+    if (image < 0) continue;
+    int& most = most_px[static_cast<size_t>(image)];
+    most = std::max(most, of_people[m] ? limits.people_px : limits.town_px);
+  }
+  for (size_t i = 0; i < pack.images.size(); ++i) {
+    if (most_px[i] == 0) continue;
+    const int array = ArrayFor(Side_px(pack.images[i], most_px[i]), &plan.arrays);
+    plan.pictures[i] = {array, plan.arrays[static_cast<size_t>(array)].layers++};
+  }
+  // Surfaces without a picture are drawn along with those of the first array.
+  const int any = plan.arrays.empty() ? -1 : 0;
+  for (const PackMaterial& m : pack.materials) {
+    const PicturePlace place = m.base_color_image >= 0 ? plan.pictures[static_cast<size_t>(m.base_color_image)] : PicturePlace{any, -1};
+    const int group = GroupFor({place.array, m.alpha_mask, m.double_sided, m.alpha_mask ? m.alpha_cutoff : 0}, &plan.groups);
+    plan.surfaces.push_back({group, place.layer});
+  }
+  plan.surfaces.push_back({GroupFor({any, false, false, 0}, &plan.groups), -1});
+  return plan;
+}
+
+const Surface& SurfaceOf(int material, const SurfacePlan& plan) {
+  return material >= 0 ? plan.surfaces[static_cast<size_t>(material)] : plan.surfaces.back();
+}
+
+std::vector<PackImage> PreparePicture(const PackImage& image, int side_px) {
+  std::vector<PackImage> levels;
+  if (image.width_px == side_px && image.height_px == side_px) {
+    levels.push_back(image);
+  } else {
+    levels.push_back({side_px, side_px, std::vector<uint8_t>(static_cast<size_t>(side_px) * static_cast<size_t>(side_px) * 4)});
+    stbir_resize_uint8_srgb_edgemode(image.rgba.data(), image.width_px, image.height_px, 0, levels[0].rgba.data(), side_px, side_px, 0, 4,
+                                     3, 0, STBIR_EDGE_WRAP);
+  }
+  std::vector<PackImage> smaller = MakeMipChain(levels[0], true, kMostLevel);
+  for (PackImage& level : smaller) levels.push_back(std::move(level));
+  return levels;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,147 @@
+// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT]]]
+//
+// Plays the scenario and draws its frames twice, right after each other: as control decides, and with everybody who is drawn as
+// their finest mesh. Prints medians and 99th percentiles, and their ratio. Processor times are those of all threads: on a machine
+// that does other work as well they say more than the clock.
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "runtime/player/frame_from_simulation.h"
+#include "runtime/player/scenario.h"
+#include "runtime/player/simulation.h"
+#include "runtime/render/context.h"
+#include "runtime/render/people_batches.h"
+#include "runtime/render/renderer.h"
+
+namespace flaneur {
+namespace {
+
+constexpr int kWarm = 3;       // frames before the first that counts
+constexpr int kFullEvery = 6;  // of the frames one in so many is drawn in full geometry: that takes seconds
+
+double Clock_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+double Processor_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
+}
+
+struct Series {
+  std::vector<double> values;
+  double At(double share) const {
+    if (values.empty()) return 0;
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[std::min(sorted.size() - 1, static_cast<size_t>(share * static_cast<double>(sorted.size())))];
+  }
+};
+
+void Print(const char* what, const Series& s, const char* unit) {
+  std::printf("%-44s %9.2f %9.2f %9.2f  %s\n", what, s.At(0), s.At(0.5), s.At(0.99), unit);
+}
+
+struct Costs {
+  Series clock_ms, processor_ms, town_triangles, people_triangles, shadow_triangles, calls, drawn, hidden, people_ms;
+};
+
+void Draw(const FrameInput& frame, int width_px, int height_px, Renderer* renderer, Costs* costs) {
+  FrameStatistics s;
+  const double clock = Clock_ms(), processor = Processor_ms();
+  renderer->Draw(frame, width_px, height_px, &s);
+  costs->processor_ms.values.push_back(Processor_ms() - processor);
+  costs->clock_ms.values.push_back(Clock_ms() - clock);
+  costs->town_triangles.values.push_back(static_cast<double>(s.town_triangles));
+  costs->people_triangles.values.push_back(static_cast<double>(s.people_triangles));
+  costs->shadow_triangles.values.push_back(static_cast<double>(s.shadow_triangles));
+  costs->calls.values.push_back(s.draw_calls);
+  costs->drawn.values.push_back(s.people_drawn);
+  costs->hidden.values.push_back(s.people_hidden);
+  costs->people_ms.values.push_back(s.people_ms);
+}
+
+FrameInput AllFinest(FrameInput frame) {
+  for (DrawnPerson& p : frame.people) p.level = 0;
+  return frame;
+}
+
+Error Run(int argc, char** argv) {
+  if (argc < 3) return Fail("usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT]]]");
+  int width_px = 1280, height_px = 720;
+  if (argc > 5) std::sscanf(argv[5], "%dx%d", &width_px, &height_px);
+  const int frames = argc > 4 ? std::atoi(argv[4]) : 60;
+  TourPack pack;
+  if (Error e = LoadTourPack(argv[1], {}, &pack)) return e;
+  Scenario scenario;
+  if (Error e = ReadScenario(argv[2], &scenario)) return e;
+  if (argc > 3 && std::atoi(argv[3]) > 0) scenario.people = std::atoi(argv[3]);
+  Simulation s;
+  if (Error e = StartSimulation(&pack, scenario, &s)) return e;
+  HeadlessContext context;
+  if (Error e = context.Create()) return e;
+  Renderer renderer, full_renderer;  // each with the shadows of its own frames before
+  if (Error e = renderer.Create(pack)) return e;
+  if (Error e = full_renderer.Create(pack)) return e;
+
+  size_t clip_bytes = 0;
+  for (const PackAvatar& avatar : pack.avatars) clip_bytes = std::max(clip_bytes, ClipBytes(LayoutOf(avatar)));
+  Costs as_decided, full;
+  Series compared_ms, compared_clock_ms, people_ms;
+  PersonLooks looks;
+  FrameInput frame;
+  for (int k = 0; k < frames + kWarm && !s.finished; ++k) {
+    const double before = Clock_ms();
+    FrameFromSimulation(pack, s, &looks, &frame);
+    const double looks_ms = Clock_ms() - before;
+    Costs unused;
+    Costs* costs = k < kWarm ? &unused : &as_decided;
+    Draw(frame, width_px, height_px, &renderer, costs);
+    people_ms.values.push_back(s.control_ms + looks_ms + costs->people_ms.values.back());
+    if (k >= kWarm && k % kFullEvery == 0) {
+      compared_ms.values.push_back(as_decided.processor_ms.values.back());
+      compared_clock_ms.values.push_back(as_decided.clock_ms.values.back());
+      Draw(AllFinest(frame), width_px, height_px, &full_renderer, &full);
+    }
+    StepSimulation({}, 0, &s);
+  }
+  std::printf("%s, %zu people, %d x %d pixels\n%-44s %9s %9s %9s\n", context.Renderer().c_str(), s.crowd.size(), width_px, height_px, "", "least",
+              "median", "99th perc.");
+  Print("frame time, clock", as_decided.clock_ms, "ms");
+  Print("frame time, processor, all threads", as_decided.processor_ms, "ms");
+  Print("town", as_decided.town_triangles, "triangles");
+  Print("people", as_decided.people_triangles, "triangles");
+  Print("shadows", as_decided.shadow_triangles, "triangles");
+  Print("drawn people, both levels of who changes", as_decided.drawn, "");
+  Print("hidden people", as_decided.hidden, "");
+  Print("draw calls", as_decided.calls, "");
+  Print("people on the CPU: levels, looks, cull, upload", people_ms, "ms");
+  Print("  of it cull, sort, poses, upload", as_decided.people_ms, "ms");
+  Print("everybody as finest mesh: clock", full.clock_ms, "ms");
+  Print("everybody as finest mesh: processor", full.processor_ms, "ms");
+  Print("everybody as finest mesh: people", full.people_triangles, "triangles");
+  if (!full.clock_ms.values.empty()) {
+    std::printf("full geometry to as decided, medians of the same frames: %.1f by the clock, %.1f by processor time\n",
+                full.clock_ms.At(0.5) / compared_clock_ms.At(0.5), full.processor_ms.At(0.5) / compared_ms.At(0.5));
+  }
+  std::printf("99th percentile over median: %.2f by the clock, %.2f by processor time\n", as_decided.clock_ms.At(0.99) / as_decided.clock_ms.At(0.5),
+              as_decided.processor_ms.At(0.99) / as_decided.processor_ms.At(0.5));
+  std::printf("animation memory, the largest of all avatars: %.0f KB\n", static_cast<double>(clip_bytes) / 1024);
+  return Ok();
+}
+
+}  // namespace
+}  // namespace flaneur
+
+int main(int argc, char** argv) {
+  const flaneur::Error error = flaneur::Run(argc, argv);
+  if (!error) return 0;
+  std::fprintf(stderr, "bench_drawing: error: %s\n", error.message.c_str());
+  return 2;
+}
