@@ -264,7 +264,7 @@ TEST(TourPack, ItsPersonMovesAsTheEditableOneDid) {
 
 TEST(TourPack, WithoutGeometryTheCrowdHasAllItNeeds) {
   const TourPack pack = Read(Written(SmallTour()), LoadOptions{false});
-  EXPECT_TRUE(pack.images.empty());
+  for (const PackImage& image : pack.images) EXPECT_TRUE(image.rgba.empty());
   EXPECT_EQ(pack.obstacles.size(), 2u);
   EXPECT_EQ(pack.ground.height_m.size(), 12u);
   EXPECT_EQ(pack.avatars.at(0).levels.size(), 2u);
