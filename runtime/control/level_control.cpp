@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/crowd/fast_math.h"
+
 namespace flaneur {
 namespace {
 
@@ -10,7 +12,9 @@ constexpr float kFall_mps = 2.0f;            // r_high moves no faster than peop
 constexpr float kRise_mps = 0.5f;            // and comes back slowly: whoever it passes over switches in view
 constexpr float kHysteresis_m = 2.0f;        // a mesh stays one until this far beyond r_high
 constexpr float kHeadroom = 8.0f;            // of a newly chosen level: serves up to so many times the pixels
-constexpr float kReserve = 0.2f;            // of limit and budget, kept for those who come near
+constexpr float kWorthwhile_s = 3.0f;         // who leaves the view sooner is not worth a switch any more
+constexpr float kMotionSettles_s = 0.3f;      // over which the camera's motion is averaged
+constexpr float kLong_s = 1e3f;
 constexpr float kFallGain = 0.08f, kRiseGain = 0.02f;  // a step, of the relative error of the frame time (method 2)
 constexpr float kUsed = 0.8f;                // share of the budget from which on it is in use
 constexpr float kSettles = 0.03f;             // a step, of what a person in high resolution costs
@@ -64,29 +68,57 @@ int WantedLevel(const AvatarCosts& avatar, float px, int last) {
   return last < 0 || last > coarsest ? finest : std::clamp(last, finest, coarsest);
 }
 
+// Where the view's two edges have people on their inner side.
+struct View { Vec2 inward[2]; };
+
+View ViewOf(const ViewCamera& camera) {
+  const float half_rad = camera.fov_rad / 2;
+  const Vec2 left = DirectionOf(camera.yaw_rad + half_rad), right = DirectionOf(camera.yaw_rad - half_rad);
+  return {{{left.y, -left.x}, {-right.y, right.x}}};
+}
+
 // In which order people are served. Within r_high in force by distance, and who is a mesh keeps being one until somebody is nearer by
 // kHysteresis_m; then who is a mesh anyway, as long as nobody else needs the place; then who comes into view, since nobody sees them
-// change. Whoever was seen as an impostor stays one until r_high reaches them.
+// change. Whoever was seen as an impostor stays one until r_high reaches them, and beyond that where they leave the view soon.
 enum Turn : uint8_t { kWithin, kHolds, kAppears, kStays };
 
-LevelState::Visible Seen(const Crowd& crowd, size_t i, float distance_m, float r_high_m, int last, bool first) {
+// How long somebody stays in view if the camera and they go on as they do.
+float StaysInView_s(Vec2 off, Vec2 velocity, const ViewMotion& motion, const View& view) {
+  const Vec2 drift = velocity - motion.velocity + Vec2{off.y, -off.x} * motion.yaw_rate_radps;  // as seen from a camera that turns
+  float stays_s = kLong_s;
+  for (const Vec2 inward : view.inward) {
+    const float outward_mps = -Dot(inward, drift);
+    if (outward_mps > 0) stays_s = std::min(stays_s, std::max(Dot(inward, off), 0.0f) / outward_mps);
+  }
+  return stays_s;
+}
+
+LevelState::Visible Seen(const Crowd& crowd, size_t i, Vec2 off, const View& view, bool first, const LevelState& state) {
+  const int last = state.last_level[static_cast<size_t>(crowd.id[i])];
+  const float distance_m = Length(off), key_m = distance_m - (last >= 0 ? kHysteresis_m : 0);
   if (first) return {distance_m, -1e9f, static_cast<int>(i), crowd.id[i], kWithin};
-  const float key_m = distance_m - (last >= 0 ? kHysteresis_m : 0);
-  const Turn turn = key_m < r_high_m ? kWithin : last >= 0 ? kHolds : last == kNotDrawn ? kAppears : kStays;
+  Turn turn = key_m < state.r_high_m ? kWithin : last >= 0 ? kHolds : last == kNotDrawn ? kAppears : kStays;
+  if (turn == kWithin && last == kImpostor && StaysInView_s(off, crowd.velocity[i], state.motion, view) < kWorthwhile_s) turn = kStays;
   return {distance_m, key_m, static_cast<int>(i), crowd.id[i], turn};
+}
+
+void FollowMotion(const ViewMotion& motion, float step_s, LevelState* state) {
+  const float share = std::min(1.0f, step_s / kMotionSettles_s);
+  state->motion.velocity = state->motion.velocity + (motion.velocity - state->motion.velocity) * share;
+  state->motion.yaw_rate_radps += (motion.yaw_rate_radps - state->motion.yaw_rate_radps) * share;
 }
 
 // Who is in view and near enough to be drawn; those within r_high stand in `nearest` by distance.
 void ListVisible(const Crowd& crowd, const ViewCamera& camera, float r_far_m, int first_id, LevelState* state) {
   state->visible.clear();
   state->last_level.resize(static_cast<size_t>(crowd.next_id), kNotDrawn);
+  const View view = ViewOf(camera);
   for (size_t i = 0; i < crowd.size(); ++i) {
     if (crowd.view[i] != ViewClass::kVisible) continue;
     const Vec2 off = crowd.position[i] - camera.position;
     const float distance2 = Dot(off, off);
     if (distance2 > r_far_m * r_far_m) continue;
-    const int last = state->last_level[static_cast<size_t>(crowd.id[i])];
-    state->visible.push_back(Seen(crowd, i, std::sqrt(distance2), state->r_high_m, last, crowd.id[i] == first_id));
+    state->visible.push_back(Seen(crowd, i, off, view, crowd.id[i] == first_id, *state));
   }
 }
 
@@ -121,8 +153,9 @@ int AffordableLevel(const AvatarCosts& avatar, int wanted, int64_t budget, int64
 }  // namespace
 
 void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera,
-                  float camera_speed_mps, float frame_ms, const LevelSettings& s, float step_s, LevelState* state) {
-  FollowFrameTime(frame_ms, camera_speed_mps, s, state);
+                  const ViewMotion& motion, float frame_ms, const LevelSettings& s, float step_s, LevelState* state) {
+  FollowFrameTime(frame_ms, Length(motion.velocity), s, state);
+  FollowMotion(motion, step_s, state);
   if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
   ListVisible(crowd, camera, s.r_far_m, s.first_id, state);
   const int limit = state->limit = s.by_frame_time ? PeopleAfforded(avatars, state) : s.high_limit;
@@ -147,10 +180,9 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
     const AvatarCosts& avatar = avatars[static_cast<size_t>(crowd.avatar[i])];
     const float px = PixelsHigh(avatar.height_m, distance_m, camera, s.screen_width_px);
     const int last = state->last_level[static_cast<size_t>(id)];
-    const float share = turn == kAppears ? 1 - kReserve : 1.0f;
     int level = kImpostor;
-    if (turn < kStays && static_cast<float>(state->high) < share * static_cast<float>(limit)) {
-      level = AffordableLevel(avatar, WantedLevel(avatar, px, last), static_cast<int64_t>(share * state->budget_triangles), state->triangles);
+    if (turn < kStays && state->high < limit) {
+      level = AffordableLevel(avatar, WantedLevel(avatar, px, last), budget, state->triangles);
     }
     if (level >= 0) state->triangles += avatar.levels[static_cast<size_t>(level)].triangles - kImpostorTriangles;
     state->level[i] = level;

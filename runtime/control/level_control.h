@@ -37,6 +37,8 @@ struct LevelState {
   int64_t triangles = 0;
   bool exceeded = false;
 
+  ViewMotion motion;               // the camera's, averaged over a moment
+
   struct Visible { float distance_m, key_m; int person, id; uint8_t turn; };
   std::vector<Visible> visible;    // scratch
   std::vector<float> nearest;      // scratch
@@ -44,9 +46,10 @@ struct LevelState {
 };
 
 // Chooses everybody's level for this frame. Method 1 keeps high_limit; with method 2 the budget follows the frame time towards
-// target_ms, or 0.85 of it while the camera moves fast (paper, section 3.2), and the limit is what the budget affords. The budget holds whatever happens: who does not fit becomes an impostor, and where
-// even those do not fit, the farthest are not drawn. frame_ms: what the last frame took, for method 2.
+// target_ms, or 0.85 of it while the camera moves fast (paper, section 3.2), and the limit is what the budget affords. The budget
+// holds whatever happens: who does not fit becomes an impostor, and where even those do not fit, the farthest are not drawn.
+// motion: the camera's in this step. frame_ms: what the last frame took, for method 2.
 void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera,
-                  float camera_speed_mps, float frame_ms, const LevelSettings& settings, float step_s, LevelState* state);
+                  const ViewMotion& motion, float frame_ms, const LevelSettings& settings, float step_s, LevelState* state);
 
 }  // namespace flaneur

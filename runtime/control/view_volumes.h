@@ -13,6 +13,8 @@ struct ViewCamera {
   float fov_rad = 1.0472f;  // horizontal, below pi
 };
 
+struct ViewMotion { Vec2 velocity; float yaw_rate_radps = 0; };
+
 struct MotionLimits {
   float yaw_rate_radps = 2.1f;
   float camera_speed_mps = 3;

@@ -163,8 +163,8 @@ double Now_ms() {
 
 void ControlCrowd(float frame_ms, Simulation* s) {
   const double start_ms = Now_ms();
-  const float speed = Length(s->camera.velocity);
-  ChooseLevels(s->crowd, s->avatar_costs, s->camera.view, speed, frame_ms, s->level_settings, s->step_s, &s->levels);
+  const ViewMotion motion{s->camera.velocity, s->camera.yaw_rate_radps};
+  ChooseLevels(s->crowd, s->avatar_costs, s->camera.view, motion, frame_ms, s->level_settings, s->step_s, &s->levels);
   s->influence.high_limit = s->levels.limit;
   s->moving.clear();
   if (s->camera.present) {

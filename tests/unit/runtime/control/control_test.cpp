@@ -84,7 +84,7 @@ TEST(LevelControl, TheBudgetAlwaysHoldsAndCountsAgree) {
     settings.budget_triangles = random.Below(150000);
     LevelState state;
     for (int step = 0; step < 5; ++step) {
-      ChooseLevels(crowd, avatars, ViewCamera{}, 0, 0, settings, 1.0f / 30, &state);
+      ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, settings, 1.0f / 30, &state);
       int64_t triangles = 0;
       int high = 0;
       for (int level : state.level) {
@@ -104,9 +104,9 @@ TEST(LevelControl, NobodyFlickersWhereNothingMoves) {
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
   Crowd crowd = PeopleInView(100, &random);
   LevelState state;
-  for (int step = 0; step < 600; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, 0, 0, LevelSettings{}, 1.0f / 30, &state);
+  for (int step = 0; step < 600; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, LevelSettings{}, 1.0f / 30, &state);
   for (int step = 0; step < 100; ++step) {
-    ChooseLevels(crowd, avatars, ViewCamera{}, 0, 0, LevelSettings{}, 1.0f / 30, &state);
+    ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, LevelSettings{}, 1.0f / 30, &state);
     ASSERT_EQ(state.switches_in_view, 0);
   }
 }
@@ -121,24 +121,50 @@ TEST(LevelControl, WhoComesIntoViewWhileThereIsRoomIsAMeshAndStaysOne) {
     for (size_t i = 0; i < crowd.size(); ++i) {
       if (crowd.position[i].x < camera.position.x) crowd.view[i] = ViewClass::kOutside;
     }
-    ChooseLevels(crowd, avatars, camera, 3, 0, LevelSettings{}, 1.0f / 30, &state);
+    ChooseLevels(crowd, avatars, camera, {{3, 0}}, 0, LevelSettings{}, 1.0f / 30, &state);
     ASSERT_EQ(state.switches_in_view, 0);
     ASSERT_EQ(state.low, 0);
   }
 }
 
+// People whom the visitor walks past stay as they are; once the visitor stands still, the nearest become meshes.
 TEST(LevelControl, InADenseViewTheNearestAreMeshesWhoeverCameFirst) {
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
   Random random{4};
   Crowd crowd = PeopleInView(60, &random);
   LevelState state;
-  for (int step = 0; step < 300; ++step) {
-    ChooseLevels(crowd, avatars, {{0.1f * static_cast<float>(step), 0}, 0, kPi / 3}, 3, 0, LevelSettings{}, 1.0f / 30, &state);
-  }
-  const Vec2 camera{29.9f, 0};
+  const auto step = [&](Vec2 position, Vec2 velocity) {
+    const ViewCamera camera{position, 0, kPi / 3};
+    for (size_t i = 0; i < crowd.size(); ++i) {
+      crowd.view[i] = InWedge(crowd.position[i], position, 0, camera.fov_rad) ? ViewClass::kVisible : ViewClass::kOutside;
+    }
+    ChooseLevels(crowd, avatars, camera, {velocity}, 0, LevelSettings{}, 1.0f / 30, &state);
+  };
+  Vec2 position;
+  for (; position.x < 30; position.x += 0.1f) step(position, {3, 0});
+  for (int k = 0; k < 60; ++k) step(position, {});
   for (size_t i = 0; i < crowd.size(); ++i) {
-    if (Length(crowd.position[i] - camera) > state.r_high_m - 2) continue;
-    EXPECT_GE(state.level[i], 0);
+    const bool near = crowd.view[i] == ViewClass::kVisible && Length(crowd.position[i] - position) < state.r_high_m - 2;
+    EXPECT_TRUE(!near || state.level[i] >= 0);
+  }
+}
+
+TEST(LevelControl, WhoIsAboutToLeaveTheViewIsNotSwitchedAnyMore) {
+  const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
+  for (const bool passes : {true, false}) {
+    Crowd crowd;
+    AddPerson({}, &crowd);
+    crowd.view[0] = ViewClass::kVisible;
+    LevelSettings settings;
+    settings.high_limit = 0;
+    LevelState state;
+    for (int k = 0; k < 30; ++k) {  // until then seen as an impostor
+      crowd.position[0] = {9, 4};
+      crowd.velocity[0] = passes ? Vec2{0, 1.4f} : Vec2{};
+      ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, settings, 1.0f / 30, &state);
+      settings.high_limit = k < 20 ? 0 : 12;
+    }
+    EXPECT_EQ(state.level[0] == kImpostor, passes);
   }
 }
 
@@ -156,7 +182,7 @@ TEST(LevelControl, TheSecondMethodSettlesAtTheFrameTimeAskedForAndLowerWhileTheC
     const float target_ms = speed_mps > 2 ? 0.85f * settings.target_ms : settings.target_ms;
     float least_ms = 1e9f, most_ms = 0;
     for (int step = 0; step < 600; ++step) {
-      ChooseLevels(crowd, avatars, ViewCamera{}, speed_mps, FrameTime_ms(state), settings, 1.0f / 30, &state);
+      ChooseLevels(crowd, avatars, ViewCamera{}, {{speed_mps, 0}}, FrameTime_ms(state), settings, 1.0f / 30, &state);
       ASSERT_LE(state.triangles, settings.budget_triangles);
       if (step < 300) continue;
       least_ms = std::min(least_ms, FrameTime_ms(state)), most_ms = std::max(most_ms, FrameTime_ms(state));
@@ -175,10 +201,10 @@ TEST(LevelControl, ABudgetThatNobodyUsesDoesNotGrow) {
   LevelSettings settings;
   settings.by_frame_time = true;
   LevelState state;
-  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, 0, FrameTime_ms(state), settings, 1.0f / 30, &state);
+  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, {}, FrameTime_ms(state), settings, 1.0f / 30, &state);
   const float settled = state.budget_triangles;
   std::fill(crowd.view.begin(), crowd.view.end(), ViewClass::kOutside);
-  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, 0, FrameTime_ms(state), settings, 1.0f / 30, &state);
+  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, {}, FrameTime_ms(state), settings, 1.0f / 30, &state);
   EXPECT_NEAR(state.budget_triangles / settled, 1, 0.01f);
 }
 
