@@ -77,8 +77,9 @@ Point2 PlaceIn(const Region& region) {
   return best;
 }
 
-double DistanceToBox(const CheckedObstacle& entry, Point2 p) {
-  return std::hypot(std::max({entry.min.x - p.x, 0.0, p.x - entry.max.x}), std::max({entry.min.y - p.y, 0.0, p.y - entry.max.y}));
+bool IsFarther(const CheckedObstacle& entry, Point2 p, double distance) {
+  const double dx = std::max({entry.min.x - p.x, 0.0, p.x - entry.max.x}), dy = std::max({entry.min.y - p.y, 0.0, p.y - entry.max.y});
+  return dx * dx + dy * dy >= distance * distance;
 }
 
 // Obstacles that may close ground in together: their boxes come within `reach` of each other.
@@ -117,15 +118,15 @@ class WaysCheck {
       LayOutObstacles();
     }
     if (ground_.empty()) return Ok();
-    CheckGates();
-    // Where nothing says how people leave, they leave over the edge.
-    const bool any_exit = std::any_of(gates_.begin(), gates_.end(), [](const Gate& gate) { return gate.is_exit; });
-    const auto is_open = [&](Point2 a, Point2 b) {
-      return !any_exit && DistanceToBoundary(ground_, {(a.x + b.x) / 2, (a.y + b.y) / 2}) < 0.01;
-    };
+    // Doors and exits stand in regions; without any, the network needs none.
     std::vector<Finding> findings;
     CheckState beside{state_.footprints, state_.options, state_.clearance_m, {}, &findings};
-    std::thread network([&] { CheckNetwork(open_, is_open, usable_, broken_, state_.obstacles, &beside); });
+    std::jthread network;
+    const auto start_network = [&] { network = std::jthread([&] { CheckNetworkOfWays(&beside); }); };
+    if (gates_.empty()) start_network();
+    if (!town) LayOutRegions();
+    CheckGates();
+    if (!gates_.empty()) start_network();
     CheckRegions();
     network.join();
     state_.findings->insert(state_.findings->end(), findings.begin(), findings.end());
@@ -152,23 +153,19 @@ class WaysCheck {
 
   // Free ground all round: each cluster of obstacles is looked at by itself, for large plans take long as a whole.
   void LayOutObstacles() {
+    clusters_ = Clusters(state_.obstacles, 2 * state_.options.person_radius_m + 0.1);
     Point2 min{1e300, 1e300}, max{-1e300, -1e300};
     double covered = 0;
-    for (const auto& cluster : Clusters(state_.obstacles, 2 * state_.options.person_radius_m + 0.1)) {
-      Rings all;
-      Point2 low{1e300, 1e300}, high{-1e300, -1e300};
+    for (const auto& cluster : clusters_) {
       for (const CheckedObstacle* entry : cluster) {
-        all.insert(all.end(), entry->rings.begin(), entry->rings.end());
-        low = {std::min(low.x, entry->min.x), std::min(low.y, entry->min.y)};
-        high = {std::max(high.x, entry->max.x), std::max(high.y, entry->max.y)};
+        min = {std::min(min.x, entry->min.x), std::min(min.y, entry->min.y)};
+        max = {std::max(max.x, entry->max.x), std::max(max.y, entry->max.y)};
       }
-      min = {std::min(min.x, low.x), std::min(min.y, low.y)}, max = {std::max(max.x, high.x), std::max(max.y, high.y)};
-      AddEnclosed(OffsetRound(all, Thickened()), &regions_);
-      const Rings welded = Simplify(Offset(all, Welded()), Welded());
+      const Rings welded = Simplify(Offset(RingsOfAll(cluster), Welded()), Welded());
       AddEnclosed(welded, &reach_);
       for (const Ring& ring : welded) {
         covered += SignedArea(ring);
-        open_.emplace_back(ring.rbegin(), ring.rend());
+        if (!IsYard(ring)) open_.emplace_back(ring.rbegin(), ring.rend());
       }
     }
     if (open_.empty()) return;
@@ -179,6 +176,36 @@ class WaysCheck {
     ground_ = Box({min.x - kMargin_m, min.y - kMargin_m}, {max.x + kMargin_m, max.y + kMargin_m});
     open_.insert(open_.begin(), ground_[0]);
     outside_m2_ = std::abs(Area(ground_)) - covered;
+  }
+
+  void LayOutRegions() {
+    for (const auto& cluster : clusters_) AddEnclosed(OffsetRound(RingsOfAll(cluster), Thickened()), &regions_);
+  }
+
+  static Rings RingsOfAll(const std::vector<const CheckedObstacle*>& cluster) {
+    Rings all;
+    for (const CheckedObstacle* entry : cluster) all.insert(all.end(), entry->rings.begin(), entry->rings.end());
+    return all;
+  }
+
+  // Closed all round, with neither a door nor anything else in it: no part of the network of ways.
+  bool IsYard(const Ring& ring) const {
+    if (SignedArea(ring) >= 0) return false;
+    const BoundingBox box = BoundingBoxOf({ring});
+    const auto inside = [&](Point2 p) { return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y; };
+    return std::none_of(gates_.begin(), gates_.end(), [&](const Gate& gate) { return inside(gate.at_m); }) &&
+           std::none_of(state_.obstacles.begin(), state_.obstacles.end(), [&](const CheckedObstacle& entry) {
+             return !entry.rings.empty() && inside(entry.min) && inside(entry.max);
+           });
+  }
+
+  // Where nothing says how people leave, they leave over the edge.
+  void CheckNetworkOfWays(CheckState* beside) const {
+    const bool any_exit = std::any_of(gates_.begin(), gates_.end(), [](const Gate& gate) { return gate.is_exit; });
+    const auto is_open = [&](Point2 a, Point2 b) {
+      return !any_exit && DistanceToBoundary(ground_, {(a.x + b.x) / 2, (a.y + b.y) / 2}) < 0.01;
+    };
+    CheckNetwork(open_, is_open, usable_, broken_, state_.obstacles, beside);
   }
 
   static Rings Box(Point2 min, Point2 max) { return {{min, {max.x, min.y}, max, {min.x, max.y}}}; }
@@ -248,9 +275,9 @@ class WaysCheck {
 
   // To the nearest obstacle, or how far inside one.
   double GapTo(Point2 p, bool* inside) const {
-    double least = 1e300;
+    double least = 1e100;
     for (const CheckedObstacle& entry : state_.obstacles) {
-      if (entry.rings.empty() || DistanceToBox(entry, p) >= least) continue;
+      if (entry.rings.empty() || IsFarther(entry, p, least)) continue;
       least = std::min(least, DistanceToBoundary(entry.rings, p));
       *inside |= Contains(entry.rings, p);
     }
@@ -293,6 +320,7 @@ class WaysCheck {
   CheckState& state_;
   BrokenPlaces broken_;
   std::vector<Gate> gates_, usable_;  // the latter a step ahead, on free ground
+  std::vector<std::vector<const CheckedObstacle*>> clusters_;  // of obstacles, without a town
   Rings ground_, open_;         // all, and all without the obstacles
   double outside_m2_ = 0;       // of the free ground all round, where there is no town
   std::vector<Region> regions_, reach_;
@@ -324,9 +352,9 @@ bool BrokenPlaces::Near(Point2 p, double reach) const {
 
 std::string NearestObstacle(const std::vector<CheckedObstacle>& obstacles, Point2 p) {
   const CheckedObstacle* nearest = nullptr;
-  double least = 1e300;
+  double least = 1e100;
   for (const CheckedObstacle& entry : obstacles) {
-    if (entry.rings.empty() || DistanceToBox(entry, p) >= least) continue;
+    if (entry.rings.empty() || IsFarther(entry, p, least)) continue;
     const double d = DistanceToBoundary(entry.rings, p);
     if (d < least) least = d, nearest = &entry;
   }
