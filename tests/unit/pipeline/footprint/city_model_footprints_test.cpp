@@ -1,6 +1,7 @@
 // Footprints of real city models, where they are at hand.
 #include <gtest/gtest.h>
 
+#include "pipeline/footprint/check.h"
 #include "tests/unit/pipeline/footprint/figures.h"
 #include "tests/unit/pipeline/footprint/test_town.h"
 
@@ -68,6 +69,33 @@ TEST_F(CityModelFootprints, AreTheSameForAnyNumberOfThreads) {
       EXPECT_EQ(a.obstacles[i].outer[k].y, b.obstacles[i].outer[k].y);
     }
   }
+}
+
+// Looked at on the map, one by one: three houses stand in others on the same level, as the cadastre's ground surfaces do;
+// two yards open to one side only; three are closed all round.
+TEST_F(CityModelFootprints, TheCheckFindsInACleanTownOnlyWhatIsThere) {
+  Scene town;
+  ASSERT_EQ(ReadScene(figures::SharedData() / "towns/nrw-lod2/LoD2_32_354_5652_1_NW.gml", &town).message, "");
+  Footprints footprints;
+  ASSERT_EQ(ExtractFootprints(town, {}, &footprints).message, "");
+  CheckOptions options;
+  options.open_rings.resize(footprints.obstacles.size());
+  std::vector<Finding> findings;
+  ASSERT_EQ(Check(footprints, &town, options, &findings).message, "");
+  std::map<int, int> count;
+  for (const Finding& f : findings) {
+    ++count[f.code];
+    if (f.code == 401) {
+      const Rings shared = Intersection(figures::GroundSurface(town, f.feature), figures::GroundSurface(town, f.other));
+      EXPECT_GT(Area(shared), 0.9 * f.value) << f.message;
+    } else if (f.code == 501) {
+      EXPECT_EQ(f.severity, Severity::kWarning) << f.message;
+    } else {
+      const bool north = std::hypot(f.at_m.x - 358.5, f.at_m.y - 227.4) < 1, south = std::hypot(f.at_m.x - 372.5, f.at_m.y - 206.8) < 1;
+      EXPECT_TRUE(north || south) << f.message;
+    }
+  }
+  EXPECT_EQ(count, (std::map<int, int>{{401, 3}, {501, 3}, {502, 2}, {503, 2}}));
 }
 
 // Listed by looking at the model: pillars stand, the ways between and behind them are open.
