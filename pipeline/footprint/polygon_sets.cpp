@@ -301,13 +301,20 @@ std::vector<Rings> Enclosed(const std::vector<Segment>& segments, const Rings& a
 }
 
 std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area) {
-  if (area.empty()) return segments;
+  if (area.empty() || segments.empty()) return segments;
+  constexpr double kLeast_m = 0.001;  // shorter pieces outside do not count
   const AreaIndex index(area, 0.01);
   std::vector<Segment> out;
   for (const Segment& s : segments) {
+    std::vector<double> cuts = index.Crossings(s);
+    cuts.insert(cuts.end(), {0.0, 1.0});
+    std::sort(cuts.begin(), cuts.end());
+    const double least = kLeast_m / std::max(kLeast_m, std::hypot(s.b.x - s.a.x, s.b.y - s.a.y));
     bool inside = true;
-    for (int i = 0; i <= 8 && inside; ++i)
-      inside = index.Inside({s.a.x + i / 8.0 * (s.b.x - s.a.x), s.a.y + i / 8.0 * (s.b.y - s.a.y)});
+    for (size_t i = 0; i + 1 < cuts.size() && inside; ++i) {
+      const double t = (cuts[i] + cuts[i + 1]) / 2;
+      if (cuts[i + 1] - cuts[i] >= least) inside = index.Inside({s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)});
+    }
     if (!inside) out.push_back(s);
   }
   return out;
@@ -394,6 +401,24 @@ bool AreaIndex::Inside(Point2 p) const {
   for (const auto& [a, b] : found->second)
     if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
   return inside;
+}
+
+std::vector<double> AreaIndex::Crossings(const Segment& s) const {
+  const Point2 u{s.b.x - s.a.x, s.b.y - s.a.y};
+  const auto [low, high] = std::minmax(s.a.y, s.b.y);
+  std::vector<double> shares;
+  for (int64_t row = IndexCell(low); row <= IndexCell(high); ++row) {
+    const auto found = rows_.find(row);
+    if (found == rows_.end()) continue;
+    for (const auto& [a, b] : found->second) {
+      const Point2 v{b.x - a.x, b.y - a.y}, w{a.x - s.a.x, a.y - s.a.y};
+      const double cross = u.x * v.y - u.y * v.x;
+      if (cross == 0) continue;
+      const double along_s = (w.x * v.y - w.y * v.x) / cross, along_edge = (w.x * u.y - w.y * u.x) / cross;
+      if (along_s > 0 && along_s < 1 && along_edge >= 0 && along_edge <= 1) shares.push_back(along_s);
+    }
+  }
+  return shares;
 }
 
 double AreaIndex::Depth(Point2 p) const {

@@ -61,6 +61,8 @@ class AreaIndex {
   AreaIndex(Rings rings, double reach_m);
   const Rings& rings() const { return rings_; }
   bool Inside(Point2 p) const;
+  // Where the segment passes an edge, as shares of its length, in no particular order.
+  std::vector<double> Crossings(const Segment& s) const;
   // The distance to the boundary, at most reach_m; negative outside.
   double Depth(Point2 p) const;
 
