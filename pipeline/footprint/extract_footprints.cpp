@@ -12,6 +12,7 @@
 #include "pipeline/footprint/band.h"
 #include "pipeline/footprint/base_ground.h"
 #include "pipeline/footprint/enclosed_regions.h"
+#include "pipeline/footprint/one_mouth.h"
 #include "pipeline/footprint/overhead.h"
 #include "pipeline/footprint/polygon_sets.h"
 #include "pipeline/footprint/rasterize_ground.h"
@@ -243,6 +244,22 @@ Shape ShapeOf(const Site& site, const TownObject& object) {
     shape.guessed |= Area(shape.solid) > before + kSmallestGap_m2;
   }
   return shape;
+}
+
+// What neither the building's own walls nor its block's have closed.
+void CloseRooms(const Site& site, const TownObject& object, Shape* shape) {
+  if (object.kind != ObstacleKind::kBuilding || shape->open_m <= kOpenShell_m) return;
+  const Stand stand(site, object);
+  const Overhead overhead({&object.triangles});
+  const Roofs is_solid(site, stand.ground(0), overhead);
+  Rings rooms = RoomsWithOneMouth(shape->loose, shape->solid, std::max(site.options.bridge_m, kCrumb_m), is_solid);
+  if (rooms.empty()) rooms = RoomsWithOneMouth(shape->loose, shape->solid, kNoWay_m, is_solid);
+  if (rooms.empty()) return;
+  Rings all = shape->solid;
+  all.insert(all.end(), rooms.begin(), rooms.end());
+  shape->solid = UnionOfAreas(all);
+  shape->guessed = true;
+  SetLoose(std::vector<Segment>(shape->loose), shape);
 }
 
 bool Adjoin(const TownObject& a, const TownObject& b) {
@@ -629,11 +646,13 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
     counts.triangles += static_cast<int>(town.obstacles[i].triangles.size());
     counts.lines += shapes[i].lines;
   }
+  const std::vector<std::vector<size_t>> blocks = Blocks(town.obstacles);
+  for (const std::vector<size_t>& block : blocks)
+    if (block.size() > 1) ShareBlock(site, town.obstacles, block, &shapes);
+  ForEach(shapes.size(), options.threads, [&](size_t i) { CloseRooms(site, town.obstacles[i], &shapes[i]); });
   std::set<size_t> merged_open;  // blocks by their first object
-  for (const std::vector<size_t>& block : Blocks(town.obstacles)) {
-    if (block.size() < 2) continue;
-    ShareBlock(site, town.obstacles, block, &shapes);
-    if (!options.merge_blocks) continue;
+  for (const std::vector<size_t>& block : blocks) {
+    if (block.size() < 2 || !options.merge_blocks) continue;
     if (std::any_of(block.begin(), block.end(), [&](size_t i) { return IsOpen(town.obstacles[i], shapes[i]); }))
       merged_open.insert(block[0]);
     MergeBlock(block, &shapes);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSame_m = 0.001;
 constexpr double kThin_m = 0.02;
-constexpr double kUpright = 0.02;   // slope of a normal
+constexpr double kFoot_m = 0.3;     // how far a wall's foot may go up and down
 constexpr size_t kLongestHole = 8;  // edges round a hole; longer ones are openings
 
 using Index = uint32_t;
@@ -95,11 +95,6 @@ double Thickness(const Triangle3& t) {
   return longest > 0 ? std::hypot(n.x, n.y, n.z) / longest : 0;
 }
 
-bool IsUpright(const Triangle3& t) {
-  const Point3 n = Normal(t);
-  return std::abs(n.z) <= kUpright * std::hypot(n.x, n.y);
-}
-
 class Repair {
  public:
   explicit Repair(Welded shell) : shell_(std::move(shell)), borders_(FindBorders(shell_)) {}
@@ -159,9 +154,19 @@ class Repair {
     return true;
   }
 
+  // An upright rectangle on the bottom, alone or together with a floor.
   bool IsWall(const std::vector<Index>& hole) const {
-    const auto point = [&](size_t i) { return shell_.points[hole[i]]; };
-    return hole.size() == 4 && IsUpright({point(0), point(1), point(2)}) && IsUpright({point(0), point(2), point(3)});
+    const size_t n = hole.size();
+    const auto point = [&](size_t i) { return shell_.points[hole[i % n]]; };
+    double lowest = point(0).z;
+    for (size_t i = 1; i < n; ++i) lowest = std::min(lowest, point(i).z);
+    const auto is_high = [&](size_t i) { return point(i).z > lowest + kFoot_m; };
+    const auto is_over = [&](size_t i, size_t below) { return std::hypot(point(i).x - point(below).x, point(i).y - point(below).y) < kThin_m; };
+    size_t high = 0;
+    for (size_t i = 0; i < n; ++i) high += is_high(i);
+    for (size_t i = 0; i < n && high == 2; ++i)
+      if (is_high(i) && is_high(i + 1)) return n >= 4 && is_over(i, i + n - 1) && is_over(i + 1, i + 2);
+    return false;
   }
 
   void Fill(const std::vector<Index>& hole) {

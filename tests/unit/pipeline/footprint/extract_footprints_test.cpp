@@ -159,6 +159,25 @@ TEST(ExtractFootprints, AHouseWithoutOneWallIsOpenOnThatSideAndNamed) {
   EXPECT_EQ(stats.open_shells, std::vector<std::string>{"house"});
 }
 
+TEST(ExtractFootprints, AHouseBehindOneDoorwayIsSolidAndNamed) {
+  TestTown town = House({Side::kSouth});
+  town.Quad({10, 10, 0}, {13, 10, 0}, {13, 10, 8}, {10, 10, 8}).Quad({14, 10, 0}, {18, 10, 0}, {18, 10, 8}, {14, 10, 8});
+  FootprintStats stats;
+  const Footprints f = Extract(town, {}, &stats);
+  EXPECT_LT(Differ(AreaOf(f), HouseArea()), kSlack_m2);
+  EXPECT_EQ(stats.open_shells, std::vector<std::string>{"house"});
+}
+
+TEST(ExtractFootprints, AWayNoWiderThanItsMouthIsNoRoom) {
+  TestTown town;
+  town.Ground().Node("passage", NodeKind::kBuilding).Quad({10, 10, 3}, {12, 10, 3}, {12, 16, 3}, {10, 16, 3});
+  town.Quad({10, 10, 0}, {10, 16, 0}, {10, 16, 3}, {10, 10, 3}).Quad({12, 10, 0}, {12, 16, 0}, {12, 16, 3}, {12, 10, 3});
+  town.Quad({10, 16, 0}, {12, 16, 0}, {12, 16, 3}, {10, 16, 3});
+  const Footprints f = Extract(town);
+  for (double y = 9; y < 15.8; y += 0.25) EXPECT_FALSE(Blocked(f, {11, y})) << y;
+  EXPECT_TRUE(Blocked(f, {11, 16}));
+}
+
 TEST(ExtractFootprints, AClosedHouseIsNoOpenShell) {
   FootprintStats stats;
   Extract(House(), {}, &stats);
@@ -422,6 +441,53 @@ TEST(ExtractFootprints, TheOrderOfTrianglesDoesNotMatter) {
     for (const auto& t : triangles) mesh->indices.insert(mesh->indices.end(), t.begin(), t.end());
   });
   EXPECT_TRUE(SameFootprints(before, Extract(town)));
+}
+
+// Several times what takes minutes where every triangle is compared with every other.
+TEST(ExtractFootprints, AMillionTrianglesInOneHouseAreTheSameHouse) {
+  constexpr int kSquares = 354;
+  TestTown town;
+  town.Ground().Node("house", NodeKind::kBuilding);
+  Mesh mesh;
+  const auto sheet = [&](Vec3 corner, Vec3 along) {  // 8 m high
+    const auto first = static_cast<uint32_t>(mesh.positions.size()), row = static_cast<uint32_t>(kSquares + 1);
+    for (int i = 0; i <= kSquares; ++i)
+      for (int k = 0; k <= kSquares; ++k)
+        mesh.positions.push_back(GltfFromGround(corner + along * (static_cast<float>(i) / kSquares) + Vec3{0, 0, 8.0f * static_cast<float>(k) / kSquares}));
+    for (uint32_t i = 0; i + 1 < row; ++i)
+      for (uint32_t k = 0; k + 1 < row; ++k)
+        for (const uint32_t step : {0u, row, row + 1, 0u, row + 1, 1u}) mesh.indices.push_back(first + i * row + k + step);
+  };
+  sheet({10, 10, 0}, {8, 0, 0}), sheet({18, 10, 0}, {0, 6, 0}), sheet({18, 16, 0}, {-8, 0, 0}), sheet({10, 16, 0}, {0, -6, 0});
+  town.Quad({10, 10, 8}, {18, 10, 8}, {18, 16, 8}, {10, 16, 8});
+  town.scene.nodes.back().meshes.push_back(static_cast<int>(town.scene.meshes.size()));
+  town.scene.meshes.push_back(std::move(mesh));
+  FootprintStats stats;
+  const Footprints f = Extract(town, {}, &stats);
+  EXPECT_GT(stats.triangles, 1'000'000);
+  ASSERT_EQ(f.obstacles.size(), 1u);
+  EXPECT_LT(Differ(AreaOf(f), HouseArea()), 0.05);
+}
+
+TEST(ExtractFootprints, AHeapOfTrianglesIsOneObstacle) {
+  std::mt19937 random(5);
+  const auto in = [&](float from, float to) { return from + (to - from) * static_cast<float>(random() % 10'000) / 10'000; };
+  Mesh mesh;
+  for (int i = 0; i < 30'000; ++i) {
+    const Vec3 at{in(10, 18), in(10, 16), in(0, 3)};
+    for (uint32_t k = 0; k < 3; ++k) {
+      mesh.indices.push_back(static_cast<uint32_t>(mesh.positions.size()));
+      mesh.positions.push_back(GltfFromGround(at + Vec3{in(-0.5f, 0.5f), in(-0.5f, 0.5f), in(-0.5f, 0.5f)}));
+    }
+  }
+  TestTown town;
+  town.Ground().Node("heap", NodeKind::kOther);
+  town.scene.nodes.back().meshes.push_back(static_cast<int>(town.scene.meshes.size()));
+  town.scene.meshes.push_back(std::move(mesh));
+  const Footprints f = Extract(town);
+  ASSERT_EQ(f.obstacles.size(), 1u);
+  EXPECT_TRUE(f.obstacles[0].holes.empty());
+  EXPECT_LT(Area(Difference({Rectangle(10, 10, 18, 16)}, AreaOf(f))), 0.01);
 }
 
 TEST(ExtractFootprints, ScalesMiniatures) {

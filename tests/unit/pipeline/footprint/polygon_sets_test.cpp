@@ -109,6 +109,14 @@ TEST(PolygonSets, TheIndexAgreesWithThePlainAnswers) {
   }
 }
 
+TEST(Outside, SeesAShortPieceThatSticksOut) {
+  const Rings strip{Ring{{0, 0}, {10, 0}, {10, 0.1}, {0, 0.1}}};
+  EXPECT_TRUE(Outside({{{1, 0.05}, {9, 0.05}}}, strip).empty());
+  EXPECT_EQ(Outside({{{1, 0.05}, {10.02, 0.05}}}, strip).size(), 1u) << "beyond the end";
+  const Rings gap{Ring{{0, 0}, {4, 0}, {4, 0.1}, {0, 0.1}}, Ring{{4.03, 0}, {10, 0}, {10, 0.1}, {4.03, 0.1}}};
+  EXPECT_EQ(Outside({{{1, 0.05}, {9, 0.05}}}, gap).size(), 1u) << "between two areas";
+}
+
 // ---- Arrangements ----
 
 double Length(const std::vector<Segment>& segments) {
