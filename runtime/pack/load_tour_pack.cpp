@@ -391,6 +391,8 @@ Error Caught(const std::string& name, auto read) {
 }  // namespace
 
 PackFile::PackFile() = default;
+PackFile::PackFile(PackFile&&) noexcept = default;
+PackFile& PackFile::operator=(PackFile&&) noexcept = default;
 PackFile::~PackFile() = default;
 
 Error PackFile::Open(const std::filesystem::path& path, TourPack* pack) {

@@ -185,6 +185,8 @@ struct TourPack {
 class PackFile {
  public:
   PackFile();
+  PackFile(PackFile&&) noexcept;
+  PackFile& operator=(PackFile&&) noexcept;
   ~PackFile();
   Error Open(const std::filesystem::path& path, TourPack* pack);
   Error Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack);

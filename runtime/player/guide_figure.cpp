@@ -85,6 +85,11 @@ PackPrimitive Banner(float height_m, const Back& back) {
 
 }  // namespace
 
+PackMesh GuideMesh(PackMesh level, const PackMesh& finest, float height_m) {
+  if (!level.primitives.empty()) level.primitives.push_back(Banner(height_m, FindBack(finest, height_m)));
+  return level;
+}
+
 void AddGuideFigure(TourPack* pack) {
   const auto found = std::find_if(pack->avatars.begin(), pack->avatars.end(), [&](const PackAvatar& a) { return a.name == pack->guide; });
   if (pack->guide.empty() || found == pack->avatars.end()) return;
@@ -95,12 +100,11 @@ void AddGuideFigure(TourPack* pack) {
     picture->levels.clear();
   }
   const auto mesh_of = [&](const PackLevel& level) { return static_cast<size_t>(level.mesh); };
-  const Back back = mesh_of(figure.levels.front()) < pack->meshes.size() ? FindBack(pack->meshes[mesh_of(figure.levels.front())], figure.height_m) : Back{};
+  const PackMesh finest = mesh_of(figure.levels.front()) < pack->meshes.size() ? pack->meshes[mesh_of(figure.levels.front())] : PackMesh{};
   for (PackLevel& level : figure.levels) {
     level.triangles += kTriangles;
     if (mesh_of(level) >= pack->meshes.size()) continue;
-    PackMesh mesh = pack->meshes[mesh_of(level)];
-    if (!mesh.primitives.empty()) mesh.primitives.push_back(Banner(figure.height_m, back));
+    PackMesh mesh = GuideMesh(pack->meshes[mesh_of(level)], finest, figure.height_m);
     level.mesh = static_cast<int>(pack->meshes.size());
     pack->meshes.push_back(std::move(mesh));
   }

@@ -5,6 +5,9 @@
 
 namespace flaneur {
 
+// The figure's mesh, of those of whom the guide is like: one of the levels, and the finest, at whose back the pole is.
+PackMesh GuideMesh(PackMesh level, const PackMesh& finest, float height_m);
+
 // One more avatar, of the guide's name and last in the pack: with the banner, and in nobody's share. Its triangles count it. A pack
 // without a guide stays as it is.
 void AddGuideFigure(TourPack* pack);

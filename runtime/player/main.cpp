@@ -5,6 +5,7 @@
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
 #include "runtime/player/guide_figure.h"
+#include "runtime/player/loading.h"
 #include "runtime/player/options.h"
 #include "runtime/player/run.h"
 #include "runtime/player/scenario.h"
@@ -31,9 +32,12 @@ Error Play(const PlayerOptions& options) {
   if (options.adaptation) scenario.adaptation = *options.adaptation;
 
   TourPack pack;
+  Loader loader;
   if (!options.pack.empty()) {
-    if (Error e = LoadTourPack(options.pack, LoadOptions{!options.no_draw}, &pack)) return e;
+    PackFile file;
+    if (Error e = file.Open(options.pack, &pack)) return e;
     AddGuideFigure(&pack);
+    if (!options.no_draw) loader.Start(std::move(file), pack);
   } else if (!options.no_draw) {
     return Fail("nothing to draw without a pack; add --headless --no-draw or name a pack");
   }
@@ -49,8 +53,8 @@ Error Play(const PlayerOptions& options) {
   for (const std::string& warning : simulation.warnings) std::fprintf(stderr, "flaneur-player: warning: %s\n", warning.c_str());
   const float seconds = RunLength_s(options, scenario, simulation);
   if (options.no_draw) return RunWithoutDrawing(options, seconds, &simulation);
-  if (options.headless) return RunHeadless(options, seconds, pack, &simulations);
-  return RunInWindow(options, pack, &simulation);
+  if (options.headless) return RunHeadless(options, seconds, pack, &loader, &simulations);
+  return RunInWindow(options, pack, &loader, &simulation);
 }
 
 }  // namespace

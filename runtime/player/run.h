@@ -4,6 +4,7 @@
 
 #include "runtime/base/error.h"
 #include "runtime/pack/tour_pack.h"
+#include "runtime/player/loading.h"
 #include "runtime/player/options.h"
 #include "runtime/player/simulation.h"
 
@@ -14,7 +15,8 @@ float RunLength_s(const PlayerOptions& options, const Scenario& scenario, const 
 
 Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation* simulation);
 // Several simulations, as many as options.compare names, are drawn side by side; records are of the first.
-Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, std::vector<Simulation>* simulations);
-Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Simulation* simulation);
+// `loader` has been started with the pack.
+Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader, std::vector<Simulation>* simulations);
+Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* loader, Simulation* simulation);
 
 }  // namespace flaneur

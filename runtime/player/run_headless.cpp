@@ -55,7 +55,8 @@ std::vector<uint8_t> Joined(const std::vector<Pane>& panes, int height_px) {
 
 }  // namespace
 
-Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, std::vector<Simulation>* simulations) {
+Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader,
+                  std::vector<Simulation>* simulations) {
   WatchForInterruption();
   HeadlessContext context;
   if (Error e = context.Create()) return e;
@@ -65,7 +66,9 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   RenderOptions render_options;
   if (!draw_all) render_options.samples = kStillSamples;
   Renderer renderer;
-  if (Error e = renderer.Create(pack, render_options)) return e;
+  if (Error e = renderer.Begin(pack, render_options)) return e;
+  loader->PrepareFor(renderer);
+  if (Error e = loader->UploadAll(&renderer)) return e;
   std::vector<Pane> panes;
   for (size_t k = 0; k < simulations->size(); ++k) {
     panes.push_back({&(*simulations)[k], options.compare.empty() ? "" : "adaptation: " + options.compare[k], {}, {}, {}, {}});

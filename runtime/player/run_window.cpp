@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <thread>
 
 #include "runtime/player/frame_from_simulation.h"
 #include "runtime/player/records.h"
@@ -13,6 +14,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kWalkSpeed_mps = 1.5f;
+constexpr double kLongUpload_ms = 50, kUpload_ms = 3;  // of what has been loaded: before the first picture, and in each later one
 constexpr float kMostPitch_rad = 1.2f;
 constexpr int kMostStepsAFrame = 4;  // a machine that can't keep up slows the town down rather than freeze
 
@@ -35,11 +37,17 @@ CameraInput ToCameraInput(const WindowInput& input, bool free_walk, const Simula
 
 }  // namespace
 
-Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Simulation* s) {
+Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* loader, Simulation* s) {
   Window window;
   if (Error e = window.Create(options.width_px, options.height_px, pack.name.c_str())) return e;
   Renderer renderer;
-  if (Error e = renderer.Create(pack)) return e;
+  if (Error e = renderer.Begin(pack)) return e;
+  loader->PrepareFor(renderer);
+  while (!loader->TownIsThere()) {
+    if (Error e = loader->Upload(kLongUpload_ms, &renderer)) return e;
+    if (window.Poll().close) return Ok();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
   Records records;
   records.keep_metrics = !options.metrics.empty();
   records.keep_trajectories = !options.trajectories.empty();
@@ -50,6 +58,7 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Simulation
   FrameInput frame;
   FrameStatistics statistics;
   for (;;) {
+    if (Error e = loader->Upload(kUpload_ms, &renderer)) return e;
     WindowInput input = window.Poll();
     if (input.close || (options.seconds && static_cast<float>(s->frame) * s->step_s >= *options.seconds)) break;
     if (input.toggle_tour || input.walk.x != 0 || input.walk.y != 0) free_walk = input.toggle_tour ? !free_walk : true;

@@ -185,10 +185,15 @@ Error CreatePeopleView(const TourPack& pack, const std::string& defines, const S
 void AddLevel(int avatar, int level, const PersonGeometry& person, const PersonGeometry& shadow, PeopleView* people) {
   const auto index = static_cast<size_t>(avatar);
   people->avatars[index].levels[static_cast<size_t>(level)] = UploadMesh(person);
-  people->ready[index].levels[static_cast<size_t>(level)] = true;
   if (shadow.indices.empty()) return;
   people->avatars[index].shadow = UploadMesh(shadow);
   people->ready[index].shadow = true;
+}
+
+void ShowLevels(PeopleView* people) {
+  for (size_t a = 0; a < people->avatars.size(); ++a) {
+    for (size_t k = 0; k < people->avatars[a].levels.size(); ++k) people->ready[a].levels[k] = people->avatars[a].levels[k].vertex_array != 0;
+  }
 }
 
 void AddAtlas(int avatar, const std::array<AtlasPicture, 4>& pictures, PeopleView* people) {

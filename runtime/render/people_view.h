@@ -41,6 +41,7 @@ struct PeopleView {
 Error CreatePeopleView(const TourPack& pack, const std::string& defines, const SurfacePlan& plan, const std::vector<GLuint>& arrays,
                        PeopleView* people);
 void AddLevel(int avatar, int level, const PersonGeometry& person, const PersonGeometry& shadow, PeopleView* people);
+void ShowLevels(PeopleView* people);  // all that have been added, from now on
 void AddAtlas(int avatar, const std::array<AtlasPicture, 4>& pictures, PeopleView* people);
 
 // Once a picture: instances and poses of people->batches, for both draws below.

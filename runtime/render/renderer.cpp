@@ -21,11 +21,11 @@ namespace {
 constexpr float kNear_m = 0.1f, kFar_m = 900;
 
 // In software larger pictures cost memory and time that nobody sees at the sizes drawn there.
-PictureLimits LimitsOfThisMachine() {
+PictureLimits LimitsOfThisMachine(bool fast) {
   GLint most_px = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
   PictureLimits limits;
-  if (DrawsInSoftware()) limits = {1024, 512};
+  if (fast) limits = {1024, 512};
   return {std::min<int>(limits.town_px, most_px), std::min<int>(limits.people_px, most_px)};
 }
 
@@ -69,6 +69,7 @@ struct Renderer::Impl {
   Picture picture;
   CaptionView caption;
   SurfacePlan plan;
+  size_t pictures_left = 0;  // to come
   AtlasFormats formats;
   std::vector<GLuint> arrays;
   GLuint sky_program = 0, empty_array = 0, block_buffer = 0;
@@ -99,15 +100,18 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   const bool software = DrawsInSoftware();
   // In software four samples cost three times the whole rest of a frame.
   const int samples = options.samples > 0 ? options.samples : software ? 1 : 4;
+  const bool fast = software && samples == 1;  // for a picture many times a second; stills may take their time
   std::string defines = std::string("#define SHADOW_TAPS ") + (software ? "1" : "4") + "\n#define SHARPER " +
-                        (software && samples == 1 ? "-0.6" : "0.0") + "\n#define STEPS " + (software && samples == 1 ? "1" : "3") + "\n";
-  if (software && samples == 1) defines += "#define FLAT_DEPTH 0.35\n";
+                        (fast ? "-0.6" : "0.0") + "\n#define STEPS " + (fast ? "1" : "3") + "\n";
+  r.formats = FormatsOfThisMachine(fast);
+  defines += std::string("#define DETAIL_LEVEL ") + (r.formats.halve_details ? "1.0" : "0.0") + "\n";
+  if (fast) defines += "#define FLAT_DEPTH 0.35\n";
   if (options.normals) defines += "#define NORMALS\n";
   r.people.smooth_edges = samples > 1 && !options.normals;
   if (r.people.smooth_edges) defines += "#define SMOOTH_EDGES\n";
-  r.plan = PlanSurfaces(pack, LimitsOfThisMachine());
-  r.formats = FormatsOfThisMachine();
-  r.arrays = CreateTextureArrays(r.plan);
+  r.pictures_left = pack.images.size();
+  r.plan = PlanSurfaces(pack, LimitsOfThisMachine(fast));
+  r.arrays = CreateTextureArrays(r.plan, fast);
   if (Error e = CreateTownView(defines, r.plan, r.arrays, &r.town)) return e;
   if (Error e = CreatePeopleView(pack, defines, r.plan, r.arrays, &r.people)) return e;
   if (Error e = BuildProgram(std::string(kFrame) + kSkyVertex, std::string(kFrame) + kSkyFragment, &r.sky_program)) return e;
@@ -133,9 +137,13 @@ void Renderer::Add(Asset asset) {
     case AssetKind::kPicture: {
       const PicturePlace& place = r.plan.pictures[static_cast<size_t>(asset.id.index)];
       if (place.array >= 0) UploadLayer(r.arrays[static_cast<size_t>(place.array)], place.layer, content.picture);
+      if (--r.pictures_left == 0) ShowLevels(&r.people);
       break;
     }
-    case AssetKind::kLevel: AddLevel(asset.id.index, asset.id.level, content.person, content.shadow, &r.people); break;
+    case AssetKind::kLevel:
+      AddLevel(asset.id.index, asset.id.level, content.person, content.shadow, &r.people);
+      if (r.pictures_left == 0) ShowLevels(&r.people);  // never without their clothes
+      break;
     case AssetKind::kAtlas: AddAtlas(asset.id.index, content.atlas, &r.people); break;
   }
 }

@@ -297,8 +297,8 @@ Meeting meet(View view, vec4 cell, vec2 origin, float level) {
   int steps = level < 1.0 ? STEPS : 1;
   for (int i = 0; i < steps; ++i) {
     guess = clamp(at, low, high);
-    depth = (textureLod(u_depth, guess, level).r * 2.0 - 1.0) * u_ranges.x;
-    vec2 motion = (textureLod(u_motion, guess, max(level - 1.0, 0.0)).rg * 2.0 - 1.0) * (u_ranges.y * v_look.x);
+    depth = (textureLod(u_depth, guess, max(level - DETAIL_LEVEL, 0.0)).r * 2.0 - 1.0) * u_ranges.x;
+    vec2 motion = (textureLod(u_motion, guess, max(level - 1.0 - DETAIL_LEVEL, 0.0)).rg * 2.0 - 1.0) * (u_ranges.y * v_look.x);
     at = origin + (base + slope * depth - motion) * metre;
   }
   bool inside = all(greaterThanEqual(at, cell.xy)) && all(lessThanEqual(at, cell.zw));
@@ -319,7 +319,7 @@ uniform sampler2D u_normals;
 flat in float v_haze;
 out vec4 o_color;
 vec3 normal_at(View view, vec2 at, float level) {
-  vec2 square = textureLod(u_normals, at, level).rg * 2.0 - 1.0;
+  vec2 square = textureLod(u_normals, at, max(level - DETAIL_LEVEL, 0.0)).rg * 2.0 - 1.0;
   vec2 p = vec2(square.x + square.y, square.x - square.y) * 0.5;
   return view.right * p.x + view.up * p.y + view.near * (1.0 - abs(p.x) - abs(p.y));
 }

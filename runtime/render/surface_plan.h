@@ -26,6 +26,11 @@ struct SurfacePlan {
   std::vector<Surface> surfaces;                // by material; the last one of primitives without material
 };
 
+struct AtlasFormats {
+  bool bc7_blocks = false, rgtc_blocks = false;  // that OpenGL reads
+  bool halve_details = false;  // impostors' normals, depth and motion half as large: they look the same, and take a quarter
+};
+
 struct PictureLimits { int town_px = 4096, people_px = 1024; };  // longest sides; larger pictures are made smaller
 
 // Pictures become squares of a power of two, at least as large as they were within the limits, so that few arrays hold all of them.

@@ -12,11 +12,10 @@ namespace {
 
 constexpr int kImpostorMostLevel = 3;  // in coarser ones several cells share a texel
 
-void SetFilters(GLenum target, GLint wrap, GLint most_level) {
+void SetFilters(GLenum target, GLint wrap, GLint most_level, bool between_levels) {
   glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
   glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
-  // In software a look-up between two levels costs twice as much.
-  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, DrawsInSoftware() ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, between_levels ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST);
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, most_level);
 }
@@ -49,14 +48,14 @@ bool ReadsBlocks(TextureFormat format, const AtlasFormats& formats) {
 
 }  // namespace
 
-std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan) {
+std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast) {
   std::vector<GLuint> textures(plan.arrays.size());
   glGenTextures(static_cast<GLsizei>(textures.size()), textures.data());
   for (size_t k = 0; k < textures.size(); ++k) {
     const TextureArrayPlan& a = plan.arrays[k];
     glBindTexture(GL_TEXTURE_2D_ARRAY, textures[k]);
     glTexStorage3D(GL_TEXTURE_2D_ARRAY, LevelsOf(a.side_px), GL_RGBA8, a.side_px, a.side_px, std::max(1, a.layers));
-    SetFilters(GL_TEXTURE_2D_ARRAY, GL_REPEAT, LevelsOf(a.side_px) - 1);
+    SetFilters(GL_TEXTURE_2D_ARRAY, GL_REPEAT, LevelsOf(a.side_px) - 1, !fast);
     // In software each anisotropic look-up walks an ellipse of texels: ten times the whole rest of a frame.
     if (!DrawsInSoftware() && HasExtension("texture_filter_anisotropic")) {
       glTexParameterf(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_ANISOTROPY_EXT, 4);
@@ -74,13 +73,19 @@ void UploadLayer(GLuint array, int layer, const std::vector<PackImage>& levels) 
   }
 }
 
-AtlasFormats FormatsOfThisMachine() {
-  if (DrawsInSoftware()) return {};
-  return {HasExtension(FormatOf(TextureFormat::kBc7Srgb).extension), HasExtension(FormatOf(TextureFormat::kBc5).extension)};
+AtlasFormats FormatsOfThisMachine(bool fast) {
+  if (DrawsInSoftware()) return {false, false, fast};
+  return {HasExtension(FormatOf(TextureFormat::kBc7Srgb).extension), HasExtension(FormatOf(TextureFormat::kBc5).extension), false};
 }
 
 AtlasPicture PrepareAtlasPicture(PackTexture picture, const AtlasFormats& formats) {
   AtlasPicture out{picture.format, picture.width_px, picture.height_px, ReadsBlocks(picture.format, formats), std::move(picture.levels)};
+  const bool details = picture.format != TextureFormat::kBc7Srgb;
+  if (formats.halve_details && details && out.levels.size() > 1) {
+    out.levels.erase(out.levels.begin());
+    out.width_px = std::max(1, out.width_px / 2);
+    out.height_px = std::max(1, out.height_px / 2);
+  }
   out.levels.resize(std::min(out.levels.size(), size_t{kImpostorMostLevel} + 1));
   if (out.blocks) return out;
   for (size_t k = 0; k < out.levels.size(); ++k) {
@@ -107,7 +112,7 @@ GLuint UploadAtlasPicture(const AtlasPicture& picture) {
       glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, width, height, f.format, GL_UNSIGNED_BYTE, bytes.data());
     }
   }
-  SetFilters(GL_TEXTURE_2D, GL_CLAMP_TO_EDGE, static_cast<GLint>(picture.levels.size()) - 1);
+  SetFilters(GL_TEXTURE_2D, GL_CLAMP_TO_EDGE, static_cast<GLint>(picture.levels.size()) - 1, true);
   return texture;
 }
 

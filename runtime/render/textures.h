@@ -11,7 +11,8 @@
 namespace flaneur {
 
 // One a planned array, grey until its layers arrive; they repeat.
-std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan);
+// fast: from one mip level, for a look-up between two costs software twice as much.
+std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast);
 void UploadLayer(GLuint array, int layer, const std::vector<PackImage>& levels);
 
 // An impostor's picture as it is uploaded: blocks where OpenGL reads them and `decode` is not asked for, else texels.
@@ -21,8 +22,7 @@ struct AtlasPicture {
   bool blocks = false;
   std::vector<std::vector<uint8_t>> levels;
 };
-struct AtlasFormats { bool bc7_blocks = false, rgtc_blocks = false; };  // that OpenGL reads
-AtlasFormats FormatsOfThisMachine();  // needs a context; in software none: there a block is decoded for every look-up
+AtlasFormats FormatsOfThisMachine(bool fast);  // needs a context; in software no blocks: there one is decoded for every look-up
 AtlasPicture PrepareAtlasPicture(PackTexture picture, const AtlasFormats& formats);
 GLuint UploadAtlasPicture(const AtlasPicture& picture);
 

@@ -1,0 +1,34 @@
+// Reads the bulk of a pack on threads of its own, while the tour is set up and already plays.
+#pragma once
+#include <memory>
+
+#include "runtime/base/error.h"
+#include "runtime/pack/tour_pack.h"
+#include "runtime/render/renderer.h"
+
+namespace flaneur {
+
+class Loader {
+ public:
+  Loader();
+  ~Loader();  // leaves what has not been read
+
+  // `pack`: of this file, without its bulk; AddGuideFigure may have added to it.
+  void Start(PackFile file, const TourPack& pack);
+  // After the renderer has begun with the same pack: from now on pieces are made ready for it.
+  void PrepareFor(const Renderer& renderer);
+
+  // Hands over what is ready, for about `most_ms`. Errors: of a piece that cannot be read.
+  Error Upload(double most_ms, Renderer* renderer);
+  Error UploadAll(Renderer* renderer);
+
+  bool TownIsThere() const;        // with its pictures
+  bool LikenessesAreThere() const; // and everybody can be drawn somehow
+  bool Done() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace flaneur
