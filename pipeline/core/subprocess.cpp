@@ -151,7 +151,10 @@ Error FindBlender(fs::path* program) {
 
 fs::path BlenderScriptsFolder() {
   const char* named = std::getenv("FLANEUR_BLENDER_SCRIPTS");
-  return named && *named ? fs::path(named) : fs::path(FLANEUR_BLENDER_SCRIPTS_FOLDER);
+  if (named && *named) return named;
+  std::error_code ec;
+  const fs::path installed = fs::read_symlink("/proc/self/exe", ec).parent_path().parent_path() / "share/flaneur/blender_scripts";
+  return fs::is_directory(installed, ec) ? installed : fs::path(FLANEUR_BLENDER_SCRIPTS_FOLDER);
 }
 
 Error RunBlenderScript(const fs::path& script, const std::string& settings_json,

@@ -31,8 +31,8 @@ Error RunProcess(const std::vector<std::string>& argv, const RunOptions& options
 // The program FLANEUR_BLENDER names, else `blender` on PATH. Errors: neither is there.
 Error FindBlender(std::filesystem::path* program);
 
-// The folder of the scripts that run inside Blender: FLANEUR_BLENDER_SCRIPTS, else that of the
-// source tree.
+// The folder of the scripts that run inside Blender: FLANEUR_BLENDER_SCRIPTS, else that installed with this program, else that
+// of the source tree.
 std::filesystem::path BlenderScriptsFolder();
 
 struct BlenderOptions {

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "runtime/base/text.h"
+#include "runtime/render/all_shaders.h"
 #include "runtime/render/shaders.h"
 
 namespace flaneur {
@@ -11,9 +12,13 @@ namespace {
 
 constexpr GLuint kFrameBinding = 0;
 
+bool keeps_sources = false;
+std::vector<ShaderSource> kept_sources;
+
 Error Compile(GLenum kind, const std::string& source, GLuint* shader) {
   *shader = glCreateShader(kind);
   const std::string whole = kHeader + source;
+  if (keeps_sources) kept_sources.push_back({kind == GL_VERTEX_SHADER, whole});
   const char* text = whole.c_str();
   glShaderSource(*shader, 1, &text, nullptr);
   glCompileShader(*shader);
@@ -37,6 +42,9 @@ void NamePlaces(GLuint program) {
 }
 
 }  // namespace
+
+void KeepShaderSources(bool on) { keeps_sources = on; }
+const std::vector<ShaderSource>& KeptShaderSources() { return kept_sources; }
 
 Error BuildProgram(const std::string& vertex, const std::string& fragment, GLuint* program) {
   GLuint v = 0, f = 0;
