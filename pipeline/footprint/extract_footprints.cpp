@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -23,6 +24,8 @@
 namespace flaneur {
 namespace {
 
+constexpr double kLargestObject_m = 100'000;
+constexpr double kNarrowestHouse_m = 0.5, kWidestHouse_m = 500;  // of most of a town
 constexpr double kBlockReach_m = 0.1;      // houses nearer than this are looked at together
 constexpr double kRoofedShare = 0.5;       // of a region's area must lie under something
 constexpr double kSmallestPiece_m2 = 0.01; // what clipping leaves over that is smaller is dropped
@@ -583,6 +586,30 @@ Error CheckOptions(const FootprintOptions& options) {
   return Ok();
 }
 
+Error CheckExtents(const TownObjects& town) {
+  for (const TownObject& o : town.obstacles) {
+    const double width = std::max(o.max_m.x - o.min_m.x, o.max_m.y - o.min_m.y);
+    if (!(width <= kLargestObject_m))
+      return Fail("'" + o.name + "' is " + std::to_string(static_cast<int64_t>(std::min(width / 1000, 1e15))) + " km wide, more than 100 km; are its units metres? See the option for the scale");
+  }
+  return Ok();
+}
+
+// Houses as wide as villages or as narrow as boxes: the units are likely others.
+void WarnOfUnits(const TownObjects& town, std::vector<std::string>* warnings) {
+  std::vector<double> widths;
+  for (const TownObject& o : town.obstacles)
+    if (o.kind == ObstacleKind::kBuilding) widths.push_back(std::max(o.max_m.x - o.min_m.x, o.max_m.y - o.min_m.y));
+  if (widths.empty()) return;
+  std::nth_element(widths.begin(), widths.begin() + static_cast<long>(widths.size() / 2), widths.end());
+  const double middle = widths[widths.size() / 2];
+  if (middle > kNarrowestHouse_m && middle < kWidestHouse_m) return;
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g", middle);
+  warnings->push_back("half of the buildings are " + std::string(middle < 1 ? "narrower" : "wider") + " than " + text +
+                      " m; are the units metres? See the option for the scale");
+}
+
 bool IsOpen(const TownObject& object, const Shape& shape) {
   return object.kind == ObstacleKind::kBuilding && (shape.guessed || shape.open_m > kOpenShell_m);
 }
@@ -621,6 +648,8 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   if (Error error = CheckOptions(options)) return error;
   const TownObjects town = SortTown(scene, options.scale);
   if (town.ground.empty() && town.obstacles.empty()) return Fail("the town has neither ground nor obstacles");
+  if (Error error = CheckExtents(town)) return error;
+  if (warnings) WarnOfUnits(town, warnings);
   GroundRaster raster;
   std::optional<LocalGround> ground;
   if (!town.ground.empty()) {

@@ -36,8 +36,8 @@ struct FootprintStats {
 // clockwise, all simple; names are unique; obstacles do not overlap but where houses themselves do, wider than 1.5 m. A town without ground has that
 // which its buildings' foundations or feet tell. Holes of a few triangles in a building's shell are closed.
 // Independent of the order of triangles and of the number of threads.
-// `warnings` gets one line for each object that leaves nothing in the band.
-// Errors: an option out of range, a scene without anything in it.
+// `warnings` gets one line for each object that leaves nothing in the band, and one where the units seem to be no metres.
+// Errors: an option out of range, a scene without anything in it, an object or ground wider than 100 km.
 Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Footprints* footprints,
                         FootprintStats* stats = nullptr, std::vector<std::string>* warnings = nullptr);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <clipper.hpp>
@@ -191,8 +192,12 @@ class Simplifier {
   std::vector<Corner> corners_;
 };
 
-// Of the index, one metre.
-int64_t IndexCell(double v) { return static_cast<int64_t>(std::floor(v)); }
+std::vector<Segment> EdgesOf(const Rings& rings) {
+  std::vector<Segment> edges;
+  for (const Ring& ring : rings)
+    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) edges.push_back({ring[j], ring[i]});
+  return edges;
+}
 
 void AddPolygons(const cl::PolyNode& node, std::vector<Polygon>* out) {
   for (const cl::PolyNode* outer : node.Childs) {
@@ -380,22 +385,35 @@ double DistanceToBoundary(const Rings& rings, Point2 p) {
 }
 
 AreaIndex::AreaIndex(Rings rings, double reach_m) : rings_(std::move(rings)), reach_m_(reach_m) {
-  for (const Ring& ring : rings_) {
-    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-      const Segment s{ring[j], ring[i]};
-      const auto [low, high] = std::minmax(s.a.y, s.b.y);
-      const auto [left, right] = std::minmax(s.a.x, s.b.x);
-      for (int64_t y = IndexCell(low - reach_m_); y <= IndexCell(high + reach_m_); ++y) {
-        rows_[y].push_back(s);
-        for (int64_t x = IndexCell(left - reach_m_); x <= IndexCell(right + reach_m_); ++x)
-          cells_[x * 1'000'003 + y].push_back(s);
-      }
-    }
+  constexpr double kLeastCell_m = 1, kMostCells = 1e6;
+  double length = 0;
+  for (const Segment& s : EdgesOf(rings_)) length += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
+  cell_m_ = std::max(kLeastCell_m, length / kMostCells);
+  for (const Segment& s : EdgesOf(rings_)) Add(s);
+}
+
+void AreaIndex::Add(const Segment& s) {
+  const auto [low, high] = std::minmax(s.a.y, s.b.y);
+  for (int64_t y = Cell(low - reach_m_); y <= Cell(high + reach_m_); ++y) rows_[y].push_back(s);
+  // Box by box along the segment, so that long ones stay cheap.
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::hypot(s.b.x - s.a.x, s.b.y - s.a.y) / (4 * cell_m_))));
+  std::set<std::pair<int64_t, int64_t>> done;
+  for (int k = 0; k < steps; ++k) {
+    const auto at = [&](int step) {
+      const double t = static_cast<double>(step) / steps;
+      return Point2{s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)};
+    };
+    const Point2 a = at(k), b = at(k + 1);
+    for (int64_t x = Cell(std::min(a.x, b.x) - reach_m_); x <= Cell(std::max(a.x, b.x) + reach_m_); ++x)
+      for (int64_t y = Cell(std::min(a.y, b.y) - reach_m_); y <= Cell(std::max(a.y, b.y) + reach_m_); ++y)
+        if (steps == 1 || done.emplace(x, y).second) cells_[x * 1'000'003 + y].push_back(s);
   }
 }
 
+int64_t AreaIndex::Cell(double v) const { return static_cast<int64_t>(std::floor(v / cell_m_)); }
+
 bool AreaIndex::Inside(Point2 p) const {
-  const auto found = rows_.find(IndexCell(p.y));
+  const auto found = rows_.find(Cell(p.y));
   if (found == rows_.end()) return false;
   bool inside = false;
   for (const auto& [a, b] : found->second)
@@ -407,7 +425,7 @@ std::vector<double> AreaIndex::Crossings(const Segment& s) const {
   const Point2 u{s.b.x - s.a.x, s.b.y - s.a.y};
   const auto [low, high] = std::minmax(s.a.y, s.b.y);
   std::vector<double> shares;
-  for (int64_t row = IndexCell(low); row <= IndexCell(high); ++row) {
+  for (int64_t row = Cell(low); row <= Cell(high); ++row) {
     const auto found = rows_.find(row);
     if (found == rows_.end()) continue;
     for (const auto& [a, b] : found->second) {
@@ -423,7 +441,7 @@ std::vector<double> AreaIndex::Crossings(const Segment& s) const {
 
 double AreaIndex::Depth(Point2 p) const {
   double nearest = reach_m_;
-  const auto found = cells_.find(IndexCell(p.x) * 1'000'003 + IndexCell(p.y));
+  const auto found = cells_.find(Cell(p.x) * 1'000'003 + Cell(p.y));
   if (found != cells_.end())
     for (const Segment& s : found->second) nearest = std::min(nearest, DistanceToSegment(p, s.a, s.b));
   return Inside(p) ? nearest : -nearest;

@@ -67,8 +67,10 @@ class AreaIndex {
   double Depth(Point2 p) const;
 
  private:
+  void Add(const Segment& s);
+  int64_t Cell(double v) const;
   Rings rings_;
-  double reach_m_;
+  double reach_m_, cell_m_ = 1;
   std::unordered_map<int64_t, std::vector<Segment>> rows_, cells_;
 };
 

@@ -10,7 +10,7 @@
 namespace flaneur {
 namespace {
 
-constexpr double kOutsideOfUse_deg = 3;  // systems are used this far outside of their own area
+constexpr double kBesideUse_deg = 0.25;  // towns may reach this far over the border of a system's area
 
 struct Free {
   void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
@@ -25,6 +25,15 @@ Context MakeContext() {
   proj_log_level(context.get(), PJ_LOG_NONE);
   proj_context_set_enable_network(context.get(), 0);
   return context;
+}
+
+// The unit's name where it is neither metre nor an angle.
+std::string OtherUnit(PJ_CONTEXT* context, const PJ* plane) {
+  const Object axes(proj_crs_get_coordinate_system(context, plane));
+  double metres = 1;
+  const char* name = nullptr;
+  if (!axes || !proj_cs_get_axis_info(context, axes.get(), 0, nullptr, nullptr, nullptr, &metres, &name, nullptr, nullptr)) return {};
+  return std::abs(metres - 1) < 1e-9 || !name ? "" : name;
 }
 
 // Finding the way between two systems takes longer than to transform a town's points, so the last ones are kept.
@@ -80,6 +89,7 @@ Error FindMapSystem(const std::string& name, MapSystem* system) {
   const Object plane(compound ? proj_crs_get_sub_crs(context.get(), object.get(), 0) : nullptr);
   const PJ_TYPE type = proj_get_type(plane ? plane.get() : object.get());
   system->degrees = type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
+  if (!system->degrees) system->other_unit = OtherUnit(context.get(), plane ? plane.get() : object.get());
   const char* area = nullptr;
   double w = 0, s = 0, e = 0, n = 0;
   if (proj_get_area_of_use(context.get(), object.get(), &w, &s, &e, &n, &area) && w > -1000) {
@@ -89,25 +99,32 @@ Error FindMapSystem(const std::string& name, MapSystem* system) {
   return Ok();
 }
 
-bool IsUsedAt(const MapSystem& system, Point2 longitude_latitude) {
+bool IsUsedAt(const MapSystem& system, Point2 longitude_latitude, double slack_deg) {
   const auto [x, y] = longitude_latitude;
-  constexpr double kSlack = kOutsideOfUse_deg;
-  return x > system.west - kSlack && x < system.east + kSlack && y > system.south - kSlack && y < system.north + kSlack;
+  return x > system.west - slack_deg && x < system.east + slack_deg && y > system.south - slack_deg && y < system.north + slack_deg;
 }
 
-Error CheckMapPlace(const std::string& system, Point2 at_m) {
+Error CheckMapPlace(const std::string& system, Point2 at_m, std::vector<std::string>* warnings) {
   MapSystem map;
   if (Error error = FindMapSystem(system, &map)) return Fail(error.message + "; use a name such as EPSG:25832");
-  if (map.degrees) return Fail("coordinate system '" + system + "' has degrees; a town needs one in metres, such as EPSG:25832");
+  const std::string unit = map.degrees ? "degrees" : map.other_unit;
+  if (!unit.empty()) return Fail("coordinate system '" + system + "' has " + unit + "; a town needs one in metres, such as EPSG:25832");
   char at[80];
   std::snprintf(at, sizeof at, "(%.10g, %.10g)", at_m.x, at_m.y);
   if (map.has_area && (at_m.x != 0 || at_m.y != 0) && IsUsedAt(map, at_m))
     return Fail(std::string(at) + " looks like degrees, but '" + system + "' has metres");
   std::vector<Point2> place{at_m};
   if (Error error = TransformPoints(system, kLongitudeLatitude, &place)) return error;
-  if (IsUsedAt(map, place[0])) return Ok();
-  return Fail(std::string(at) + " is outside the area that '" + system +
-              "' is for; the coordinates are in another system, or their origin is missing");
+  if (!IsUsedAt(map, place[0]))
+    return Fail(std::string(at) + " is outside the area that '" + system +
+                "' is for; the coordinates are in another system, or their origin is missing");
+  if (warnings && !IsUsedAt(map, place[0], kBesideUse_deg)) {
+    char text[160];
+    std::snprintf(text, sizeof text, " is at %.2f degrees east, %.2f north, beside the area that '%s' is for (%g to %g east, %g to %g north)",
+                  place[0].x, place[0].y, system.c_str(), map.west, map.east, map.south, map.north);
+    warnings->push_back(at + std::string(text) + "; are these a neighbouring zone's coordinates?");
+  }
+  return Ok();
 }
 
 }  // namespace flaneur

@@ -22,16 +22,18 @@ Error TransformPoints(const std::string& from, const std::string& to, std::vecto
 
 struct MapSystem {
   bool degrees = false;
+  std::string other_unit;  // "US survey foot": of coordinates that are neither degrees nor metres
   bool has_area = false;
   double west = -180, south = -90, east = 180, north = 90;  // where it is meant to be used, degrees
 };
 Error FindMapSystem(const std::string& name, MapSystem* system);
 
-// Within the area of use, or up to 3 degrees beside it.
-bool IsUsedAt(const MapSystem& system, Point2 longitude_latitude);
+// Within the area of use, or up to `slack_deg` beside it.
+bool IsUsedAt(const MapSystem& system, Point2 longitude_latitude, double slack_deg = 3);
 
-// Whether these can be coordinates of a town in this system. Errors: a name that PROJ does not know, a system of degrees,
-// degrees in a system of metres, a place outside of the area that it is for; each says what to do.
-Error CheckMapPlace(const std::string& system, Point2 at_m);
+// Whether these can be coordinates of a town in this system. A place a little beside the area that it is for gives a warning:
+// they may be a neighbouring zone's. Errors: a name that PROJ does not know, a system of degrees or feet, degrees in a system
+// of metres, a place far outside of the area; each says what to do.
+Error CheckMapPlace(const std::string& system, Point2 at_m, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace flaneur

@@ -13,6 +13,7 @@ namespace flaneur {
 namespace {
 
 constexpr double kFarFromOrigin_m = 10'000;  // floats there are coarser than a millimetre
+constexpr double kFarthest_m = 1e8;
 constexpr double kOriginStep_m = 100;
 
 // A house in degrees is narrower than 50 m are, and yet higher than this; nobody's town lies at longitude and latitude zero.
@@ -109,6 +110,10 @@ Error TownBuilder::Finish(const std::string& file, const std::string& reference_
     warnings->push_back(file + ": " + std::to_string(without_area_) +
                         " faces have fewer than three corners or no area; they were left out");
   if (triangles_.empty()) return Fail(OneLine(file + ": holds no face with an area, so there is no town in it"));
+  for (const Triangle& t : triangles_)
+    for (const Point3& p : {t.a, t.b, t.c})
+      if (!(std::abs(p.x) < kFarthest_m && std::abs(p.y) < kFarthest_m && std::abs(p.z) < kFarthest_m))
+        return Fail(OneLine(file + ": '" + nodes_[static_cast<size_t>(t.node)].name + "' reaches farther than any map: a coordinate is beyond 100,000 km"));
   if (IsInDegrees())
     return Fail(OneLine(file + ": the coordinates are degrees; bring them into a map system in metres, such as EPSG:25832, first"));
   *scene = {};

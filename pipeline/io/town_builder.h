@@ -21,7 +21,8 @@ class TownBuilder {
   void AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings);
 
   // Coordinates far from zero are moved by whole hundreds of metres: see Scene::origin_m. Nodes without triangles stay
-  // where something hangs on them. Errors: nothing but polygons without area, degrees; each names `file`.
+  // where something hangs on them. Errors: nothing but polygons without area, degrees, a coordinate beyond 100,000 km; each
+  // names `file`.
   Error Finish(const std::string& file, const std::string& reference_system, Scene* scene,
                std::vector<std::string>* warnings);
 

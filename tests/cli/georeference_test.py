@@ -110,7 +110,7 @@ class Georeference(ProgramTest):
     def test_wrong_systems(self):
         town = city(self.folder / "town.json", (500000, 5760000))
         for arguments, words in ((["--crs", "EPSG:4326"], ["degrees", "EPSG:25832"]), (["--crs", "EPSG:99999"], ["not known"]),
-                                 (["--crs", "EPSG:28992"], ["outside the area"]),
+                                 (["--crs", "EPSG:28992"], ["outside the area"]), (["--crs", "EPSG:2263"], ["foot", "metres"]),
                                  (["--origin-m", 7, 7], ["origin", "(500000, 5760000)"])):
             with self.subTest(arguments):
                 self.assert_fails(self.footprints(town, *arguments), *words)
@@ -119,6 +119,17 @@ class Georeference(ProgramTest):
         write_box_town(bare)
         self.assert_fails(self.footprints(bare, "--crs", "EPSG:25832"), "origin is missing")
         self.assert_fails(self.footprints(bare, "--crs", "EPSG:25832", "--origin-m", 10.5, 52.1), "looks like degrees")
+
+    def test_coordinates_that_may_be_a_neighbouring_zones(self):
+        for east, warned in ((192000, True), (270000, True), (290000, False), (340000, False), (603900, False), (709000, False), (800000, True)):
+            with self.subTest(east):
+                result = self.footprints(city(self.folder / "town.json", (east, 5780000)))
+                self.assert_succeeds(result)
+                self.assertEqual(["neighbouring zone" in line for line in result.stderr.splitlines()], [True] if warned else [])
+
+    def test_feet_for_metres(self):
+        feet = 1 / 0.3048
+        self.assert_fails(self.footprints(city(self.folder / "town.json", (603900 * feet, 5780000 * feet))), "EPSG:25832", "outside the area")
 
     def test_degrees_in_a_city_model(self):
         for system in ("EPSG:4326", "EPSG:25832", None):
