@@ -31,6 +31,7 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("PACK", o->pack, "Tour pack (.glb); not needed where the scenario brings its own ground");
   app.add_flag("--headless", o->headless, "No window: run by itself, as fast as it goes");
   app.add_flag("--no-draw", o->no_draw, "With --headless: the simulation alone, without OpenGL");
+  app.add_flag("--views", o->views, "Show the plan of the town and graphs over the picture (in the window: F1; F2 switches the adaptation)");
   app.add_option("--seconds", o->seconds, "End after so much simulated time (default: the scenario's, else the guided tour's end, else 60)")
       ->check(CLI::Range(0.0, 1e6));
   app.add_option("--scenario", o->scenario, "Scenario file (TOML)");
@@ -54,6 +55,8 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   if (!ParseSize(size, o)) return Refuse("--size must be WIDTHxHEIGHT in pixels, 16 to 8192 each, not '" + size + "'");
   if (o->pack.empty() && o->scenario.empty()) return Refuse("a pack is missing");
   if (o->no_draw && !o->headless) return Refuse("--no-draw needs --headless");
+  if (o->no_draw && o->views) return Refuse("--no-draw makes no pictures for --views; leave one out");
+  if (o->views && !o->compare.empty()) return Refuse("--views is for one run; leave out --compare");
   if (o->no_draw && (!o->screenshot.empty() || !o->film.empty())) return Refuse("--no-draw makes no pictures; leave it out");
   if (!o->headless && (!o->screenshot.empty() || !o->film.empty())) return Refuse("--screenshot and --film need --headless");
   if (o->compare.empty()) return -1;

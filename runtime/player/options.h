@@ -10,7 +10,7 @@ namespace flaneur {
 
 struct PlayerOptions {
   std::filesystem::path pack, scenario, metrics, trajectories, screenshot, film;
-  bool headless = false, no_draw = false;
+  bool headless = false, no_draw = false, views = false;
   std::optional<float> seconds;
   std::optional<int> people;
   std::optional<uint64_t> seed;

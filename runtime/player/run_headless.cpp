@@ -9,7 +9,9 @@
 #include "runtime/player/interruption.h"
 #include "runtime/player/records.h"
 #include "runtime/player/run.h"
+#include "runtime/player/views.h"
 #include "runtime/render/context.h"
+#include "runtime/render/overlay.h"
 #include "runtime/render/renderer.h"
 
 namespace flaneur {
@@ -26,15 +28,21 @@ struct Pane {
   FrameInput frame;
   FrameStatistics statistics;
   std::vector<uint8_t> rgb;
+  Views views;
 };
 
-void DrawPane(const PlayerOptions& options, const TourPack& pack, int width_px, bool read, Renderer* renderer, Pane* pane) {
+void DrawPane(const PlayerOptions& options, const TourPack& pack, int width_px, bool read, Renderer* renderer, Overlay* overlay, Pane* pane) {
   FrameFromSimulation(pack, *pane->simulation, &pane->looks, &pane->frame);
   if (!pane->label.empty()) {
     pane->frame.caption = pane->label;
     pane->frame.caption_share = 1;
   }
   renderer->Draw(pane->frame, width_px, options.height_px, &pane->statistics);
+  if (overlay != nullptr) {
+    overlay->Begin(width_px, options.height_px, {});
+    ShowViews(pane->statistics, width_px, options.height_px, &pane->views, pane->simulation);
+    overlay->Draw();
+  }
   if (read) renderer->Read(&pane->rgb);
 }
 
@@ -69,9 +77,13 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   if (Error e = renderer.Begin(pack, render_options)) return e;
   loader->PrepareFor(renderer);
   if (Error e = loader->UploadAll(&renderer)) return e;
+  Overlay overlay;
+  if (options.views) {
+    if (Error e = overlay.Create()) return e;
+  }
   std::vector<Pane> panes;
   for (size_t k = 0; k < simulations->size(); ++k) {
-    panes.push_back({&(*simulations)[k], options.compare.empty() ? "" : "adaptation: " + options.compare[k], {}, {}, {}, {}});
+    panes.push_back({&(*simulations)[k], options.compare.empty() ? "" : "adaptation: " + options.compare[k], {}, {}, {}, {}, {}});
   }
   Simulation& first = simulations->front();
   Records records;
@@ -88,12 +100,13 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
     const bool last = std::all_of(simulations->begin(), simulations->end(), over);
     if (draw_all || last) {
       const int width_px = options.width_px / static_cast<int>(panes.size());
-      for (Pane& pane : panes) DrawPane(options, pack, width_px, filming || last, &renderer, &pane);
+      for (Pane& pane : panes) DrawPane(options, pack, width_px, filming || last, &renderer, options.views ? &overlay : nullptr, &pane);
       if (filming) {
         if (Error e = film.Add(Joined(panes, options.height_px))) return e;
       }
     }
     Record(first, {panes[0].statistics.town_triangles, panes[0].statistics.draw_ms}, &records);
+    RememberFrame(first, panes[0].statistics, static_cast<float>(panes[0].statistics.draw_ms), &panes[0].views.history);
     if (last) break;
     for (Pane& pane : panes) {
       if (!over(*pane.simulation)) StepSimulation({}, static_cast<float>(pane.statistics.draw_ms), pane.simulation);

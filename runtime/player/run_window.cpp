@@ -7,7 +7,9 @@
 #include "runtime/player/frame_from_simulation.h"
 #include "runtime/player/records.h"
 #include "runtime/player/run.h"
+#include "runtime/player/views.h"
 #include "runtime/render/context.h"
+#include "runtime/render/overlay.h"
 #include "runtime/render/renderer.h"
 
 namespace flaneur {
@@ -48,6 +50,10 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* lo
     if (window.Poll().close) return Ok();
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
+  Overlay overlay;
+  if (Error e = overlay.Create()) return e;
+  Views views;
+  views.shown = options.views;
   Records records;
   records.keep_metrics = !options.metrics.empty();
   records.keep_trajectories = !options.trajectories.empty();
@@ -60,6 +66,8 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* lo
   for (;;) {
     if (Error e = loader->Upload(kUpload_ms, &renderer)) return e;
     WindowInput input = window.Poll();
+    if (window.WasPressed("f1")) views.shown = !views.shown;
+    if (window.WasPressed("f2")) SwitchAdaptation(s);
     if (input.close || (options.seconds && static_cast<float>(s->frame) * s->step_s >= *options.seconds)) break;
     if (input.toggle_tour || input.walk.x != 0 || input.walk.y != 0) free_walk = input.toggle_tour ? !free_walk : true;
     s->camera.pitch_rad = std::clamp(s->camera.pitch_rad + input.pitch_rad, -kMostPitch_rad, kMostPitch_rad);
@@ -77,7 +85,13 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* lo
     if (width_px > 0 && height_px > 0) {
       FrameFromSimulation(pack, *s, &looks, &frame);
       renderer.Draw(frame, width_px, height_px, &statistics);
+      if (views.shown) {
+        overlay.Begin(width_px, height_px, {{-1, -1}, false, static_cast<float>(frame_s)});
+        ShowViews(statistics, width_px, height_px, &views, s);
+        overlay.Draw();
+      }
       renderer.Present();
+      RememberFrame(*s, statistics, static_cast<float>(frame_s * 1000), &views.history);
     }
     window.Show();
     ++frames;

@@ -7,6 +7,9 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <cstring>
 
 namespace flaneur {
@@ -81,6 +84,12 @@ struct Window::Impl {
   GLFWwindow* window = nullptr;
   double last_x = 0, last_y = 0;
   bool tab_down = false;
+  std::array<bool, 13> function_presses{};  // not asked for yet
+
+  static void OnKey(GLFWwindow* window, int key, int, int action, int) {
+    auto* impl = static_cast<Impl*>(glfwGetWindowUserPointer(window));
+    if (action == GLFW_PRESS && key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) impl->function_presses[static_cast<size_t>(key - GLFW_KEY_F1 + 1)] = true;
+  }
 };
 
 Window::Window() : impl_(std::make_unique<Impl>()) {}
@@ -100,6 +109,8 @@ Error Window::Create(int width_px, int height_px, const char* title) {
   if (impl_->window == nullptr) return Fail("no window with OpenGL ES 3.0 could be opened; add --headless");
   glfwMakeContextCurrent(impl_->window);
   glfwSwapInterval(1);
+  glfwSetWindowUserPointer(impl_->window, impl_.get());
+  glfwSetKeyCallback(impl_->window, Impl::OnKey);
   glfwSetInputMode(impl_->window, GLFW_CURSOR, GLFW_CURSOR_DISABLED);
   glfwGetCursorPos(impl_->window, &impl_->last_x, &impl_->last_y);
   return Ok();
@@ -128,6 +139,12 @@ WindowInput Window::Poll() {
 
 void Window::Size(int* width_px, int* height_px) const { glfwGetFramebufferSize(impl_->window, width_px, height_px); }
 void Window::Show() { glfwSwapBuffers(impl_->window); }
+bool Window::WasPressed(const std::string& function_key) {
+  const auto number = static_cast<size_t>(std::clamp(std::atoi(function_key.c_str() + 1), 1, 12));
+  const bool pressed = impl_->function_presses[number];
+  impl_->function_presses[number] = false;
+  return pressed;
+}
 void Window::SetTitle(const char* title) { glfwSetWindowTitle(impl_->window, title); }
 
 }  // namespace flaneur

@@ -39,6 +39,7 @@ class Window {
   void Size(int* width_px, int* height_px) const;
   void Show();             // what was drawn; waits for the display
   void SetTitle(const char* title);
+  bool WasPressed(const std::string& function_key);  // "f1" to "f12"; once for each time
 
  private:
   struct Impl;

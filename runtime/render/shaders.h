@@ -444,4 +444,26 @@ void main() {
 }
 )";
 
+// Dear ImGui's triangles: places in pixels from the upper left corner, colours as they are shown.
+inline constexpr const char* kOverlayVertex = R"(
+layout(location = 0) in vec2 a_place;
+layout(location = 1) in vec2 a_uv;
+layout(location = 2) in vec4 a_color;
+uniform vec3 u_size;
+out vec2 v_uv;
+out vec4 v_color;
+void main() {
+  v_uv = a_uv;
+  v_color = a_color;
+  gl_Position = vec4(a_place.x / u_size.x * 2.0 - 1.0, 1.0 - a_place.y / u_size.y * 2.0, 0.0, 1.0);
+}
+)";
+inline constexpr const char* kOverlayFragment = R"(
+in vec2 v_uv;
+in vec4 v_color;
+uniform sampler2D u_texture;
+out vec4 o_color;
+void main() { o_color = vec4(v_color.rgb, v_color.a * texture(u_texture, v_uv).r); }
+)";
+
 }  // namespace flaneur

@@ -79,6 +79,9 @@ class Window(unittest.TestCase):
             display.do("keydown", "w")
             time.sleep(3)
             display.do("keyup", "w")
+            display.do("key", "F1")  # the plan and the graphs
+            time.sleep(1)
+            display.do("key", "F2")
             for _ in range(10):
                 display.do("mousemove_relative", "--", -20, 0)
             time.sleep(1)
