@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 import textures
+from common import gltf
 
 
 def make_materials(names, pixels, seed, folder):
@@ -113,16 +114,9 @@ def add_object(name, data, extras, location=(0, 0, 0), yaw=0.0, scale=1.0):
 
 
 def write_glb(path):
-    """Exports the scene; options that this Blender's exporter does not know are left out."""
-    if not hasattr(np, "bool"):   # the exporter of Blender 3.4 still uses this name, numpy 1.24 dropped it
-        np.bool = bool
-    wish = {"filepath": path, "export_format": "GLB", "export_extras": True, "export_yup": True, "export_apply": False,
-            "export_colors": True, "export_vertex_color": "ACTIVE", "export_all_vertex_colors": False,
-            "export_active_vertex_color_when_no_material": True, "export_animations": False, "export_skins": False,
-            "export_morph": False, "export_image_format": "AUTO", "export_lights": False, "export_cameras": False,
-            "export_tangents": False}
-    known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
-    bpy.ops.export_scene.gltf(**{key: value for key, value in wish.items() if key in known})
+    """Exports the scene."""
+    gltf.export_glb(path, export_apply=False, export_active_vertex_color_when_no_material=True, export_animations=False,
+                    export_skins=False, export_tangents=False)
     _snap_normals(path)
 
 

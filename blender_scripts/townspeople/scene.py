@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
+from common import gltf
 from townspeople import skeleton as sk
 from townspeople.body import WALK_FRAMES_PER_SECOND
 
@@ -123,14 +124,9 @@ def _curve(action, path, axis, group, frames, values):
 
 
 def export_glb(path):
-    """Everything in the scene as one GLB, with the options that this Blender's exporter knows."""
-    for name, kind in (("bool", bool), ("int", int), ("float", float), ("object", object)):
-        if name not in np.__dict__:  # Blender 3.4's exporter uses names that numpy 1.24 dropped
-            setattr(np, name, kind)
-    wanted = dict(
-        filepath=path,
-        export_format="GLB",
-        export_yup=True,
+    """Everything in the scene as one GLB."""
+    gltf.export_glb(
+        path,
         export_apply=False,
         export_animations=True,
         export_frame_range=False,
@@ -140,22 +136,8 @@ def export_glb(path):
         export_def_bones=True,
         export_skins=True,
         export_all_influences=False,
-        export_extras=True,
-        export_colors=True,
-        export_vertex_color="ACTIVE",
-        export_all_vertex_colors=False,
-        export_image_format="AUTO",
-        export_morph=False,
-        export_lights=False,
-        export_cameras=False,
         export_optimize_animation_size=True,
         export_optimize_animation_keep_anim_armature=False,
         export_anim_single_armature=True,
         export_reset_pose_bones=True,
     )
-    known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
-    result = bpy.ops.export_scene.gltf(
-        **{key: value for key, value in wanted.items() if key in known}
-    )
-    if "FINISHED" not in result:
-        raise RuntimeError("the glTF export failed")

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "pipeline/io/avatar_normalize.h"
+#include "pipeline/io/blender_import.h"
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_document.h"
 #include "pipeline/io/gltf_pose.h"
@@ -552,7 +553,13 @@ Error AvatarReader::Read() {
 Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& options,
                  Avatar* avatar, std::vector<std::string>* warnings) {
   GltfDocument document;
-  if (Error e = LoadGltf(path, &document, warnings)) return e;
+  TemporaryFolder folder;
+  std::filesystem::path gltf = path;
+  if (NeedsBlender(path) || path.extension() == ".obj") {
+    if (Error e = ConvertToGltf(path, &folder, &gltf)) return e;
+  }
+  if (Error e = LoadGltf(gltf, &document, warnings)) return e;
+  document.path = path.string();
   *avatar = {};
   avatar->name = options.name.empty() ? path.stem().string() : options.name;
   std::vector<std::string> notes;

@@ -37,7 +37,7 @@ struct ReadAvatarOptions {
   int max_joints = 256;
 };
 
-// Reads a person: every mesh of the default scene, on one joint list, in metres, feet at y = 0,
+// Reads a person from glTF, or .blend, .fbx, .dae and .obj by Blender (blender_import.h): every mesh of the default scene, on one joint list, in metres, feet at y = 0,
 // centred at x = z = 0. The figure is taken to face +Z. Rigid meshes that hang on bones get one
 // weight of 1, weights are reduced to the four heaviest and made to sum to 1, clips are resampled
 // at 30 Hz, made to loop and to walk on the spot. The walk's speed is `flaneur_walk_speed_mps` in

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "pipeline/io/blender_import.h"
 #include "pipeline/io/gltf.h"
 
 namespace flaneur {
@@ -25,6 +26,12 @@ bool IsXml(const std::string& text, char first) {
 }  // namespace
 
 Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings) {
+  if (NeedsBlender(path)) {
+    TemporaryFolder folder;
+    std::filesystem::path gltf;
+    if (Error e = ConvertToGltf(path, &folder, &gltf)) return e;
+    return ReadGltfScene(gltf, scene, warnings);
+  }
   const std::string text = Beginning(path);
   const size_t start = text.find_first_not_of(" \t\r\n");
   const char first = start == std::string::npos ? '\0' : text[start];

@@ -1,4 +1,4 @@
-// Towns in: glTF 2.0 (.glb, .gltf), OBJ, CityJSON 1.0 to 2.0, CityJSONSeq, CityGML 1.0 and 2.0.
+// Towns in: glTF 2.0 (.glb, .gltf), OBJ, CityJSON 1.0 to 2.0, CityJSONSeq, CityGML 1.0 and 2.0; .blend, .fbx and .dae by Blender.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace flaneur {
 
-// Reads a town of any of these formats, told by the content. Coordinates far from zero are moved near it and
+// Reads a town of any of these formats, told by the content, Blender's by the name. Coordinates far from zero are moved near it and
 // `scene->origin_m` says by how much. City models: each building with its parts and installations is one node, named by its
 // id; its finest level of detail up to 3 counts; closure surfaces and rooms are left out; ground surfaces become its
 // foundation; terrain and roads are ground, plants trees. OBJ: each `o`, else each `g`, is an untagged node.

@@ -1,0 +1,84 @@
+"""Opens or imports a file that glTF tools don't read, and writes it as a GLB.
+
+    blender --background --factory-startup --python-exit-code 1 --python to_gltf.py -- SETTINGS.json
+
+SETTINGS.json: {"output": "person.glb", "options": {"input": "person.fbx"}}. The input is a .blend, .fbx, .dae or
+.obj file. Custom properties become extras, every action of a rig a clip; what is hidden stays out.
+"""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+import bpy  # noqa: E402
+
+from common import gltf  # noqa: E402
+from common.settings import fail, load_settings, write_atomically  # noqa: E402
+
+
+def import_obj(path):
+    if hasattr(bpy.ops.wm, "obj_import"):
+        bpy.ops.wm.obj_import(filepath=path)
+    else:
+        bpy.ops.import_scene.obj(filepath=path)
+
+
+def import_dae(path):
+    if not hasattr(bpy.ops.wm, "collada_import"):
+        raise RuntimeError("this Blender no longer reads Collada; save the model as FBX or glTF")
+    bpy.ops.wm.collada_import(filepath=path)
+
+
+def import_fbx(path):
+    bpy.ops.import_scene.fbx(filepath=path, use_custom_props=True)
+
+
+IMPORTERS = {".obj": import_obj, ".dae": import_dae, ".fbx": import_fbx}
+
+
+def open_input(path):
+    kind = os.path.splitext(path)[1].lower()
+    if kind == ".blend":
+        bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
+        return
+    if kind not in IMPORTERS:
+        fail("%s: neither .blend, .fbx, .dae nor .obj" % path)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    IMPORTERS[kind](path)
+
+
+def only_clips_of_rigs():
+    """Every action that moves bones gets a track of its own on its rig, so that all of them become clips."""
+    rigs = [thing for thing in bpy.context.scene.objects if thing.type == "ARMATURE"]
+    for action in bpy.data.actions:
+        bones = {path.split('"')[1] for path in (curve.data_path for curve in action.fcurves) if path.startswith("pose.bones")}
+        owners = [rig for rig in rigs if bones & set(rig.data.bones.keys())]
+        for rig in owners[:1]:
+            rig.animation_data_create()
+            strips = [strip.action for track in rig.animation_data.nla_tracks for strip in track.strips]
+            if action not in strips:
+                track = rig.animation_data.nla_tracks.new()
+                track.name = action.name
+                track.strips.new(action.name, int(action.frame_range[0]), action)
+    for rig in rigs:
+        if rig.animation_data:
+            rig.animation_data.action = None
+
+
+def main():
+    settings = load_settings(required=("output",), options={"input": ""})
+    path = settings["options"]["input"]
+    try:
+        open_input(path)
+    except RuntimeError as error:
+        fail("%s: %s" % (path, str(error).replace("Error: ", "")))
+    if not any(thing.type == "MESH" for thing in bpy.context.scene.objects):
+        fail("%s: holds no mesh" % path)
+    only_clips_of_rigs()
+    write_atomically(settings["output"], lambda out: gltf.export_glb(
+        out, use_visible=True, export_apply=True, export_animations=True, export_nla_strips=True,
+        export_animation_mode="NLA_TRACKS", export_frame_range=False, export_force_sampling=True, export_skins=True))
+
+
+main()

@@ -1,0 +1,90 @@
+"""Makes a rigged figure of four ellipsoids that walks and stands, as .blend, .fbx, .dae and .obj, and a town of one house as .blend.
+
+    blender --background --factory-startup --python-exit-code 1 --python figure_in_blender.py -- FOLDER
+"""
+import math
+import pathlib
+import sys
+
+import bpy
+
+BONES = {  # head, tail, parent
+    "hips": ((0, 0, 0.9), (0, 0, 1.2), None),
+    "head": ((0, 0, 1.4), (0, 0, 1.75), "hips"),
+    "leg_l": ((0.1, 0, 0.9), (0.1, 0, 0.05), "hips"),
+    "leg_r": ((-0.1, 0, 0.9), (-0.1, 0, 0.05), "hips"),
+}
+PARTS = {  # centre, half size
+    "hips": ((0, 0, 1.15), (0.2, 0.12, 0.3)),
+    "head": ((0, 0, 1.6), (0.11, 0.12, 0.15)),
+    "leg_l": ((0.1, 0, 0.45), (0.08, 0.1, 0.45)),
+    "leg_r": ((-0.1, 0, 0.45), (0.08, 0.1, 0.45)),
+}
+
+
+def make_rig():
+    rig = bpy.data.objects.new("rig", bpy.data.armatures.new("rig"))
+    bpy.context.scene.collection.objects.link(rig)
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    for name, (head, tail, parent) in BONES.items():
+        bone = rig.data.edit_bones.new(name)
+        bone.head, bone.tail = head, tail
+        bone.parent = rig.data.edit_bones[parent] if parent else None
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return rig
+
+
+def hang_part(rig, name, center, half_size):
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=12, location=center)
+    part = bpy.context.object
+    part.name, part.scale, part.parent = name, half_size, rig
+    bpy.ops.object.transform_apply(location=True, scale=True)
+    part.vertex_groups.new(name=name).add(range(len(part.data.vertices)), 1, "REPLACE")
+    part.modifiers.new("armature", "ARMATURE").object = rig
+
+
+def add_action(rig, name, swing_rad):
+    rig.animation_data_create()
+    rig.animation_data.action = bpy.data.actions.new(name)
+    rig.animation_data.action.use_fake_user = True
+    for frame in range(1, 26, 3):
+        for side, sign in (("l", 1), ("r", -1)):
+            bone = rig.pose.bones["leg_" + side]
+            half = sign * swing_rad * math.sin((frame - 1) / 24 * 2 * math.pi) / 2
+            bone.rotation_quaternion = (math.cos(half), math.sin(half), 0, 0)
+            bone.keyframe_insert("rotation_quaternion", frame=frame)
+
+
+def make_figure(folder):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    rig = make_rig()
+    for name, (center, half_size) in PARTS.items():
+        hang_part(rig, name, center, half_size)
+    add_action(rig, "idle", 0.03)
+    add_action(rig, "walk", 0.6)
+    bpy.context.scene.frame_end = 25
+    bpy.ops.mesh.primitive_cube_add(location=(5, 0, 0))
+    bpy.context.object.hide_set(True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "figure.blend"))
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    bpy.ops.export_scene.fbx(filepath=str(folder / "figure.fbx"), add_leaf_bones=False, bake_anim_use_all_actions=True)
+    bpy.ops.wm.obj_export(filepath=str(folder / "figure.obj"))
+    if hasattr(bpy.ops.wm, "collada_export"):
+        bpy.ops.wm.collada_export(filepath=str(folder / "figure.dae"))
+
+
+def make_town(folder):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.mesh.primitive_plane_add(size=60)
+    bpy.context.object.name = "square"
+    bpy.context.object["flaneur_kind"] = "ground"
+    bpy.ops.mesh.primitive_cube_add(location=(3, 4, 3), scale=(4, 2, 3))
+    bpy.context.object.name = "house"
+    bpy.context.object["flaneur_kind"] = "building"
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "town.blend"))
+
+
+target = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
+make_figure(target)
+make_town(target)

@@ -1,0 +1,77 @@
+"""People and towns in the formats that Blender reads."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+from support import run
+
+SCRIPT = pathlib.Path(__file__).resolve().parent / "figure_in_blender.py"
+TRIANGLES = 4 * 528  # of the figure; the hidden cube is not part of it
+
+
+class Formats(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.keep.name)
+        blender = os.environ.get("FLANEUR_BLENDER", "blender")
+        made = subprocess.run([blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python", SCRIPT, "--", cls.folder],
+                              capture_output=True, text=True, timeout=600)
+        if made.returncode != 0:
+            raise AssertionError(made.stdout + made.stderr)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.keep.cleanup()
+
+    def levels_of(self, name):
+        facts = self.folder / "levels.json"
+        result = run("flaneur", "avatar", self.folder / name, "-o", self.folder / "out.glb", "--json", facts)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(facts.read_text())
+
+    def test_the_same_figure_in_every_format_is_the_same_person(self):
+        for name in ("figure.blend", "figure.fbx", "figure.dae"):
+            if not (self.folder / name).exists():
+                continue  # a Blender without Collada
+            with self.subTest(name):
+                facts = self.levels_of(name)
+                self.assertEqual(facts["levels"][0]["triangles"], TRIANGLES)
+                self.assertEqual(facts["joints"], len(("hips", "head", "leg_l", "leg_r")))
+                self.assertAlmostEqual(facts["height_m"], 1.75, delta=0.01)
+                self.assertAlmostEqual(facts["walk_speed_mps"], 2.06, delta=0.1)
+                if name != "figure.dae":  # Collada holds one clip
+                    self.assertEqual({clip["name"] for clip in facts["clips"]}, {"walk", "idle"})
+
+    def test_a_figure_without_bones_is_refused(self):
+        result = run("flaneur", "avatar", self.folder / "figure.obj", "-o", self.folder / "none.glb")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("no skin", result.stderr)
+        self.assertFalse((self.folder / "none.glb").exists())
+
+    def test_what_blender_cannot_read_is_one_line(self):
+        for name in ("bad.fbx", "bad.blend", "bad.dae"):
+            with self.subTest(name):
+                (self.folder / name).write_text("not a model")
+                result = run("flaneur", "avatar", self.folder / name, "-o", self.folder / "none.glb")
+                self.assertEqual(result.returncode, 2)
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                self.assertIn(name, result.stderr)
+                self.assertFalse((self.folder / "none.glb").exists())
+
+    def test_a_town_may_be_a_blend_file(self):
+        out = self.folder / "town.geojson"
+        result = run("flaneur", "footprints", self.folder / "town.blend", "-o", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        (house,) = json.loads(out.read_text())["features"]
+        self.assertEqual(house["properties"]["kind"], "building")
+        ring = house["geometry"]["coordinates"][0]
+        self.assertAlmostEqual(min(x for x, _ in ring), 3 - 4 - 0.05, delta=0.01)
+        self.assertAlmostEqual(max(y for _, y in ring), 4 + 2 + 0.05, delta=0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()
