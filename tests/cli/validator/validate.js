@@ -1,24 +1,26 @@
 // node validate.js [--schema FILE.json] PACK.glb ...
-// Exits 1 when the Khronos validator finds an error or a warning, or when the root extension FLANEUR_tour does not
-// follow the JSON Schema.
+// Exits 1 when the Khronos validator finds an error or a warning, when the root extension FLANEUR_tour does not
+// follow the JSON Schema, or when an impostor's picture is no sound KTX2.
 'use strict';
 const fs = require('fs');
 const validator = require('gltf-validator');
+const {ktxFindings} = require('./ktx.js');
 
 const SEVERITIES = ['error', 'warning'];
 
-function tourExtension(bytes) {
+function chunks(bytes) {
   const jsonLength = bytes.readUInt32LE(12);
-  const gltf = JSON.parse(bytes.subarray(20, 20 + jsonLength).toString('utf8'));
-  return gltf.extensions && gltf.extensions.FLANEUR_tour;
+  return {gltf: JSON.parse(bytes.subarray(20, 20 + jsonLength).toString('utf8')), binary: bytes.subarray(20 + jsonLength + 8)};
 }
 
-function schemaFindings(bytes, schemaFile) {
+async function tourFindings(bytes, schemaFile) {
   const Ajv = require('ajv/dist/2020');
   const validate = new Ajv({allErrors: true, strict: true}).compile(JSON.parse(fs.readFileSync(schemaFile, 'utf8')));
-  const extension = tourExtension(bytes);
+  const {gltf, binary} = chunks(bytes);
+  const extension = gltf.extensions && gltf.extensions.FLANEUR_tour;
   if (!extension) return ['no root extension FLANEUR_tour'];
-  return validate(extension) ? [] : validate.errors.map((e) => `schema: ${e.instancePath} ${e.message}`);
+  const found = validate(extension) ? [] : validate.errors.map((e) => `schema: ${e.instancePath} ${e.message}`);
+  return found.concat(await ktxFindings(gltf, binary));
 }
 
 async function findings(file, schemaFile) {
@@ -26,7 +28,7 @@ async function findings(file, schemaFile) {
   const report = await validator.validateBytes(new Uint8Array(bytes), {uri: file, maxIssues: 1000});
   const found = report.issues.messages.filter((m) => m.severity < SEVERITIES.length)
       .map((m) => `${SEVERITIES[m.severity]} ${m.code} ${m.pointer || ''}: ${m.message}`);
-  return schemaFile ? found.concat(schemaFindings(bytes, schemaFile)) : found;
+  return schemaFile ? found.concat(await tourFindings(bytes, schemaFile)) : found;
 }
 
 async function main(argv) {
