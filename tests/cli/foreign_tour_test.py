@@ -1,4 +1,5 @@
 """Avatars and a town that are not ours, from their files to a walking crowd, judged from outside."""
+import csv
 import json
 import unittest
 
@@ -64,7 +65,23 @@ class ForeignTour(ProgramTest):
         self.check_report(json.loads((out / "report.json").read_text()))
         self.assert_succeeds(run("flaneur", "inspect", pack, "--json"))
         self.check_walk(pack, json.loads((out / "footprints.geojson").read_text()))
+        self.check_likeness(pack)
         self.check_second_bake(out, pack)
+
+    def check_likeness(self, pack):
+        sheets = self.folder / "sheets"
+        self.assert_fails(run("flaneur-likeness", pack, "-o", sheets, "--avatar", "nobody"), "nobody")
+        self.assert_succeeds(run("flaneur-likeness", pack, "-o", sheets, "--headings", 4, "--phases", 2, "--suns", 1))
+        with open(sheets / "likeness.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        for avatar in ("knight", "mage", "man"):
+            levels = {row["level"] for row in rows if row["avatar"] == avatar}
+            self.assertIn("impostor", levels)
+            self.assertGreaterEqual(len(levels), 3)
+            self.assertTrue((sheets / f"{avatar}.png").read_bytes().startswith(b"\x89PNG"))
+        for row in rows:  # these impostors have 64 px and eight directions only
+            self.assertGreater(float(row["iou_mean"]), 0.85, row)
+            self.assertLess(float(row["delta_e_mean"]), 10, row)
 
     def check_report(self, report):
         self.assertEqual(report["version"], 1)
