@@ -233,6 +233,7 @@ constexpr const char* kPageStyle = R"(
 body { margin: 0; font: 13px sans-serif; color: #2b2b2b; background: #fbfaf7; display: flex; height: 100vh; }
 #left { flex: 1; position: relative; overflow: hidden; }
 #map { width: 100%; height: 100%; cursor: grab; display: block; }
+#map path, #map circle { vector-effect: non-scaling-stroke; }
 #hover { position: absolute; left: 10px; bottom: 10px; background: #fffd; padding: 4px 8px; border-radius: 4px; }
 #scale { position: absolute; right: 14px; bottom: 10px; border: solid #2b2b2b; border-width: 0 1px 1px; text-align: center; }
 #right { width: 430px; overflow-y: auto; border-left: 1px solid #ddd8cc; padding: 0 12px; }
