@@ -36,6 +36,7 @@ constexpr double kSmallestGap_m2 = 0.01;   // of a block that no single house ac
 constexpr double kOpenShell_m = 1.0;       // of wall without anything solid beside it, in a building
 constexpr double kCrumb_m = 0.02;          // of lines without area that lead nowhere
 constexpr double kNoWay_m = 0.5;           // nobody passes a gap in a building narrower than this
+constexpr double kSlit_m = 0.4;            // narrower yards are none
 constexpr double kOnOutline_m = 0.002;     // lines this near to something solid are its outline
 constexpr double kJoint_m = 1.5;         // houses that overlap by less are meant to touch
 constexpr size_t kSamples = 16;          // of a region, to see whether it is roofed
@@ -384,12 +385,20 @@ void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const 
   }
 }
 
+// Hollow walls and slits between houses: yards that nobody can stand in are none.
+Rings WithoutSlits(Rings rings) {
+  std::erase_if(rings, [](const Ring& ring) {
+    return SignedArea(ring) < 0 && Offset({Ring(ring.rbegin(), ring.rend())}, -kSlit_m / 2).empty();
+  });
+  return rings;
+}
+
 Rings Enlarged(const Site& site, const Shape& shape) {
   const double clearance = site.options.clearance_m, tolerance = site.options.tolerance_m;
-  Rings rings = clearance > 0 ? Offset(shape.solid, clearance) : shape.solid;
+  Rings rings = WithoutSlits(clearance > 0 ? Offset(shape.solid, clearance) : shape.solid);
   const std::vector<Segment> thin =
       shape.loose.empty() ? shape.loose : Outside(shape.loose, Offset(shape.solid, kOnOutline_m));
-  if (!thin.empty()) rings = Union(rings, OffsetSegments(thin, std::max(clearance, kThinWall_m)));
+  if (!thin.empty()) rings = WithoutSlits(Union(rings, OffsetSegments(thin, std::max(clearance, kThinWall_m))));
   return tolerance > 0 ? Simplify(rings, tolerance) : rings;
 }
 

@@ -274,6 +274,14 @@ TEST(ExtractFootprints, AnAirShaftIsFilledWhereItIsSmallerThanAsked) {
   EXPECT_FALSE(Blocked(Extract(town, options), {13.3, 12.3}));
 }
 
+TEST(ExtractFootprints, AHollowWallIsSolid) {
+  TestTown town;
+  town.Ground().Node("wall", NodeKind::kBuilding).Box({10, 10, -1}, {20, 10.3f, 4}, {Side::kTop, Side::kBottom});
+  const Footprints f = Extract(town);
+  ASSERT_EQ(f.obstacles.size(), 1u);
+  EXPECT_TRUE(f.obstacles[0].holes.empty()) << "nobody can stand in it";
+}
+
 TEST(ExtractFootprints, AWallWithoutThicknessBlocks) {
   TestTown town;
   town.Ground().Node("fence", NodeKind::kWall).Quad({5, 10, 0}, {15, 10, 0}, {15, 10, 1.2f}, {5, 10, 1.2f});
