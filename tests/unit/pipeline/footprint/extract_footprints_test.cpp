@@ -451,6 +451,34 @@ TEST(ExtractFootprints, TheOrderOfTrianglesDoesNotMatter) {
   EXPECT_TRUE(SameFootprints(before, Extract(town)));
 }
 
+TEST(ExtractFootprints, AHouseAKilometreWideIsThatWide) {
+  TestTown town;
+  town.Node("hall", NodeKind::kBuilding).Box({0, 0, 0}, {1000, 1000, 50});
+  const Footprints f = Extract(town);
+  ASSERT_EQ(f.obstacles.size(), 1u);
+  EXPECT_LT(Differ(AreaOf(f), {Rectangle(-0.05, -0.05, 1000.05, 1000.05)}), 0.5);
+}
+
+TEST(ExtractFootprints, HousesOfOddSizesAreAskedAboutOnce) {
+  for (const float size : {0.001f, 0.2f, 20.0f, 8000.0f}) {
+    TestTown town;
+    for (int i = 0; i < 5; ++i) {
+      const float x = 3 * size * static_cast<float>(i);
+      town.Node("house_" + std::to_string(i), NodeKind::kBuilding).Box({x, 0, 0}, {x + size, size, 5});
+    }
+    Footprints footprints;
+    std::vector<std::string> warnings;
+    ASSERT_EQ(ExtractFootprints(town.scene, {}, &footprints, nullptr, &warnings).message, "") << size;
+    const auto asked = std::count_if(warnings.begin(), warnings.end(), [](const std::string& w) { return w.find("units") != std::string::npos; });
+    EXPECT_EQ(asked, size == 20 ? 0 : 1) << size;
+  }
+  TestTown far;
+  far.Node("house", NodeKind::kBuilding).Box({0, 0, 0}, {600'000, 8, 5});
+  Footprints footprints;
+  const std::string refused = ExtractFootprints(far.scene, {}, &footprints).message;
+  EXPECT_NE(refused.find("'house' is 600 km wide"), std::string::npos) << refused;
+}
+
 // Several times what takes minutes where every triangle is compared with every other.
 TEST(ExtractFootprints, AMillionTrianglesInOneHouseAreTheSameHouse) {
   constexpr int kSquares = 354;
