@@ -49,7 +49,7 @@ int CoarsestAt(const AvatarCosts& avatar, float px) {
 // How many people in high resolution the budget affords, all others in view as impostors: each costs what they did of late.
 int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
   if (state->high > 0) {
-    const float meshes = static_cast<float>(state->triangles - int64_t{kImpostorTriangles} * state->low);
+    const float meshes = static_cast<float>(state->triangles - state->fades.triangles - int64_t{kImpostorTriangles} * state->low);
     state->triangles_a_person += kSettles * (meshes / static_cast<float>(state->high) - state->triangles_a_person);
   } else if (state->triangles_a_person <= 0) {
     for (const AvatarCosts& avatar : avatars) {
@@ -162,14 +162,16 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
   MoveBoundary(s, limit, step_s, state);
 
   // Only those who may become meshes need to stand in order; and all, where not even impostors fit.
-  const int64_t budget = static_cast<int64_t>(state->budget_triangles), drawable = budget / kImpostorTriangles;
+  const int64_t budget = static_cast<int64_t>(state->budget_triangles);
+  PassFades(step_s, budget, crowd.next_id, &state->fades);
+  const int64_t drawable = (budget - state->fades.triangles) / kImpostorTriangles;
   auto& visible = state->visible;
   auto far = std::partition(visible.begin(), visible.end(), [](const auto& v) { return v.turn < kStays; });
   if (static_cast<int64_t>(visible.size()) > drawable) far = visible.end();
   std::sort(visible.begin(), far, Before);
 
   state->level.assign(crowd.size(), kNotDrawn);
-  state->triangles = std::min<int64_t>(static_cast<int64_t>(visible.size()), drawable) * kImpostorTriangles;
+  state->triangles = std::min<int64_t>(static_cast<int64_t>(visible.size()), drawable) * kImpostorTriangles + state->fades.triangles;
   state->high = state->low = state->shortfalls = state->switches_in_view = 0;
   int within_nominal = 0;
   for (size_t rank = 0; rank < visible.size(); ++rank) {
@@ -188,7 +190,10 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
     state->level[i] = level;
     ++(level >= 0 ? state->high : state->low);
     if (level == kImpostor && px > avatar.impostor_px) ++state->shortfalls;
-    if (last != kNotDrawn && last != level) ++state->switches_in_view;
+    if (last == kNotDrawn || last == level) continue;
+    ++state->switches_in_view;
+    const int before = last >= 0 ? avatar.levels[static_cast<size_t>(last)].triangles : kImpostorTriangles;
+    state->triangles += BeginFade(id, before, budget - state->triangles, &state->fades);
   }
   for (size_t i = 0; i < crowd.size(); ++i) state->last_level[static_cast<size_t>(crowd.id[i])] = state->level[i];
   state->exceeded = within_nominal > limit;

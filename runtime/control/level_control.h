@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "runtime/control/fades.h"
 #include "runtime/control/view_volumes.h"
 
 namespace flaneur {
@@ -34,7 +35,8 @@ struct LevelState {
   int limit = 0;                   // most people in high resolution, in force
   std::vector<int> level;          // by person index: a mesh level, kImpostor or kNotDrawn
   int high = 0, low = 0, shortfalls = 0, switches_in_view = 0;
-  int64_t triangles = 0;
+  int64_t triangles = 0;           // of everybody in view, with the levels that fade out
+  Fades fades;
   bool exceeded = false;
 
   ViewMotion motion;               // the camera's, averaged over a moment

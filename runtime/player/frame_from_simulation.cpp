@@ -118,7 +118,9 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, float pas
   look.position = {p.x, p.y, HeightAt(s.walkable, p)};
   look.heading_rad = s.crowd.heading_rad[i];
   FollowClip(MomentOf(s, i, pack.avatars[static_cast<size_t>(look.avatar)], look.moment.clip), anew, passed_s, &look);
-  FollowLevel(level, leaves_view || (anew && !was_in_view), passed_s, &look);
+  const auto id = static_cast<size_t>(s.crowd.id[i]);
+  const bool no_budget = id < s.levels.fades.at_once.size() && s.levels.fades.at_once[id] != 0;
+  FollowLevel(level, leaves_view || no_budget || (anew && !was_in_view), passed_s, &look);
   looks->here[static_cast<size_t>(s.crowd.id[i])] = 1;
 }
 

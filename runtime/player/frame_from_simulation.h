@@ -29,10 +29,9 @@ struct PersonLooks {
   std::vector<uint8_t> here;               // scratch, by id
 };
 
-// A change of level, and appearing or vanishing within the view, is faded over kFade_s: both levels are drawn meanwhile. The
-// triangle budget is about the levels that the control has chosen; those that fade out come on top of it, and the renderer's
-// statistics count them. A change of clip is mixed over kMix_s. The same simulation seen twice gives the same picture.
-inline constexpr float kFade_s = 0.3f, kMix_s = 0.2f;
+// A change of level, and appearing or vanishing within the view, is faded over kFade_s: both levels are drawn meanwhile, and the
+// triangle budget holds for both; a change for which it has no room is not faded. A change of clip is mixed over kMix_s. The same simulation seen twice gives the same picture.
+inline constexpr float kMix_s = 0.2f;
 void FrameFromSimulation(const TourPack& pack, const Simulation& simulation, PersonLooks* looks, FrameInput* frame);
 
 }  // namespace flaneur

@@ -390,7 +390,7 @@ void main() {
   vec3 color = mix(u_haze_color.rgb, u_zenith_color.rgb, pow(up, 0.45));
   vec2 q = d.xz / (up + 0.12) * 1.4;
   float cloud = noise(q) * 0.55 + noise(q * 2.3 + 7.0) * 0.3 + noise(q * 5.1) * 0.15;
-  color = mix(color, vec3(1.15, 1.12, 1.07), smoothstep(0.52, 0.85, cloud) * smoothstep(0.02, 0.25, d.y) * 0.65);
+  color = mix(color, 0.35 * u_haze_color.rgb + 0.85 * u_sky_color.rgb + 0.06 * u_sun_color.rgb, smoothstep(0.52, 0.85, cloud) * smoothstep(0.02, 0.25, d.y) * 0.65);
   float glow = max(dot(d, u_to_sun.xyz), 0.0);
   color += u_sun_color.rgb * (pow(glow, 500.0) * 4.0 + pow(glow, 12.0) * 0.08);
   color = (color * (2.51 * color + 0.03)) / (color * (2.43 * color + 0.59) + 0.14);

@@ -74,6 +74,24 @@ Crowd PeopleInView(int count, Random* random) {
   return crowd;
 }
 
+TEST(LevelControl, WhoChangesTakesTheTrianglesOfBothLevelsWhileTheyFade) {
+  Fades fades;
+  PassFades(0, 10000, 8, &fades);
+  EXPECT_EQ(BeginFade(3, 9000, 9500, &fades), 9000);
+  EXPECT_EQ(BeginFade(4, 900, 500, &fades), 0);  // no room: goes at once
+  EXPECT_EQ(fades.at_once[3], 0);
+  EXPECT_EQ(fades.at_once[4], 1);
+  PassFades(kFade_s / 2, 10000, 8, &fades);
+  EXPECT_EQ(fades.triangles, 9000);
+  EXPECT_EQ(fades.at_once[4], 0);
+  PassFades(kFade_s, 10000, 8, &fades);
+  EXPECT_EQ(fades.triangles, 0);
+  BeginFade(5, 9000, 9500, &fades);
+  PassFades(kFade_s / 2, 5000, 8, &fades);  // the budget has fallen: it holds all the same
+  EXPECT_EQ(fades.triangles, 0);
+  EXPECT_EQ(fades.at_once[5], 1);
+}
+
 TEST(LevelControl, TheBudgetAlwaysHoldsAndCountsAgree) {
   Random random{5};
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {4000, 120}, {900, 0}}, 1.75f, 128}};
@@ -91,6 +109,7 @@ TEST(LevelControl, TheBudgetAlwaysHoldsAndCountsAgree) {
         if (level >= 0) ++high;
         triangles += level >= 0 ? avatars[0].levels[static_cast<size_t>(level)].triangles : level == kImpostor ? 2 : 0;
       }
+      triangles += state.fades.triangles;
       ASSERT_LE(triangles, settings.budget_triangles);
       ASSERT_EQ(triangles, state.triangles);
       ASSERT_LE(high, settings.high_limit);
