@@ -81,8 +81,7 @@ class LineMerger {
     members_ = {s};
     while (Grow(&s)) {
     }
-    const double length = Length(s);
-    const int steps = static_cast<int>(std::ceil(length / grid_.cell_m()));
+    const int steps = grid_.one_cell() ? 1 : static_cast<int>(std::ceil(Length(s) / grid_.cell_m()));
     for (int k = 0; k <= steps; ++k) {
       const double share = static_cast<double>(k) / steps;
       for (const size_t j : grid_.Near({s.a.x + share * (s.b.x - s.a.x), s.a.y + share * (s.b.y - s.a.y)}))

@@ -266,6 +266,19 @@ void CloseRooms(const Site& site, const TownObject& object, Shape* shape) {
   SetLoose(std::vector<Segment>(shape->loose), shape);
 }
 
+// Calls work(0) to work(count - 1), several at a time.
+template <typename Work>
+void ForEach(size_t count, int threads, const Work& work) {
+  const size_t most = threads > 0 ? static_cast<size_t>(threads) : std::max(1u, std::thread::hardware_concurrency());
+  std::atomic<size_t> next{0};
+  const auto worker = [&] {
+    for (size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::jthread> others;
+  for (size_t t = 1; t < std::min(count, most); ++t) others.emplace_back(worker);
+  worker();
+}
+
 bool Adjoin(const TownObject& a, const TownObject& b) {
   const auto apart = [](double a_max, double b_min) { return b_min > a_max + kBlockReach_m; };
   return !(apart(a.max_m.x, b.min_m.x) || apart(b.max_m.x, a.min_m.x) || apart(a.max_m.y, b.min_m.y) ||
@@ -483,6 +496,27 @@ std::vector<std::vector<size_t>> Neighbours(const std::vector<BoundingBox>& boxe
   return neighbours;
 }
 
+// Those that hang together by neighbours, each group ascending.
+std::vector<std::vector<size_t>> Groups(const std::vector<std::vector<size_t>>& neighbours) {
+  std::vector<std::vector<size_t>> groups;
+  std::vector<bool> done(neighbours.size(), false);
+  for (size_t first = 0; first < neighbours.size(); ++first) {
+    if (done[first]) continue;
+    done[first] = true;
+    std::vector<size_t> group{first};
+    for (size_t k = 0; k < group.size(); ++k) {
+      for (const size_t other : neighbours[group[k]]) {
+        if (done[other]) continue;
+        done[other] = true;
+        group.push_back(other);
+      }
+    }
+    std::sort(group.begin(), group.end());
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
 // Where two houses stand in each other by more than a clumsy joint, both keep what is theirs.
 Rings SharedGround(const Shape& a, const BoundingBox& box_a, const Shape& b, const BoundingBox& box_b) {
   if (std::min(box_a.max.x, box_b.max.x) - std::max(box_a.min.x, box_b.min.x) < kJoint_m ||
@@ -499,7 +533,7 @@ Rings SharedGround(const Shape& a, const BoundingBox& box_a, const Shape& b, con
 
 // Enlarged neighbours overlap by twice the clearance: each keeps clear of the others' walls, and of what the earlier
 // ones have taken.
-void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes, double width_m,
+void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes, double width_m, int threads,
               std::vector<Rings>* enlarged) {
   const auto is_house = [&](size_t i) { return objects[i].kind == ObstacleKind::kBuilding; };
   const auto append = [](const Rings& more, Rings* to) { to->insert(to->end(), more.begin(), more.end()); };
@@ -507,7 +541,7 @@ void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& 
   for (const Shape& shape : shapes) solid_boxes.push_back(BoundingBoxOf(shape.solid));
   for (const Rings& rings : *enlarged) boxes.push_back(BoundingBoxOf(rings));
   const std::vector<std::vector<size_t>> neighbours = Neighbours(boxes);
-  for (size_t i = 0; i < enlarged->size(); ++i) {
+  const auto separate = [&](size_t i) {
     Rings taken, later;
     for (const size_t j : neighbours[i]) {
       if ((*enlarged)[j].empty()) continue;
@@ -519,12 +553,14 @@ void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& 
     }
     append(DifferenceOfAreas(later, shapes[i].solid), &taken);
     (*enlarged)[i] = DifferenceOfAreas((*enlarged)[i], taken);
-    if (IsTidy((*enlarged)[i], width_m)) continue;
+    if (IsTidy((*enlarged)[i], width_m)) return;
     const Rings kept = WithoutSpecks(Tidy((*enlarged)[i], width_m));
     const Rings strips = Difference((*enlarged)[i], Offset(kept, kAgainst_m));
     (*enlarged)[i] = kept;
     GiveAway(strips, i, neighbours[i], width_m, &boxes, enlarged);
-  }
+  };
+  const std::vector<std::vector<size_t>> groups = Groups(neighbours);
+  ForEach(groups.size(), threads, [&](size_t k) { std::for_each(groups[k].begin(), groups[k].end(), separate); });
 }
 
 bool MakeCircle(const Site& site, const TownObject& object, Obstacle* obstacle) {
@@ -569,19 +605,6 @@ Obstacle Blank(const Site& site, const TownObject& object) {
   obstacle.source = object.name;
   obstacle.clearance_m = site.options.clearance_m;
   return obstacle;
-}
-
-// Calls work(0) to work(count - 1), several at a time.
-template <typename Work>
-void ForEach(size_t count, int threads, const Work& work) {
-  const size_t most = threads > 0 ? static_cast<size_t>(threads) : std::max(1u, std::thread::hardware_concurrency());
-  std::atomic<size_t> next{0};
-  const auto worker = [&] {
-    for (size_t i = next++; i < count; i = next++) work(i);
-  };
-  std::vector<std::jthread> others;
-  for (size_t t = 1; t < std::min(count, most); ++t) others.emplace_back(worker);
-  worker();
 }
 
 Error CheckOptions(const FootprintOptions& options) {
@@ -698,7 +721,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   std::vector<Rings> enlarged(shapes.size());
   ForEach(shapes.size(), options.threads, [&](size_t i) { enlarged[i] = Enlarged(site, shapes[i]); });
   // Without a clearance thin walls are as thin as slivers.
-  Separate(town.obstacles, shapes, options.clearance_m > kSliver_m ? kSliver_m : kThinWall_m, &enlarged);
+  Separate(town.obstacles, shapes, options.clearance_m > kSliver_m ? kSliver_m : kThinWall_m, options.threads, &enlarged);
 
   for (size_t i = 0; i < shapes.size(); ++i)
     if (IsOpen(town.obstacles[i], shapes[i]))

@@ -8,6 +8,7 @@ namespace flaneur {
 namespace {
 
 constexpr double kLeastCell_m = 0.1, kMostCell_m = 2;  // for cutting: about as long as the segments
+constexpr size_t kFew = 40;  // segments: looking at all is faster than to sort them into cells
 constexpr double kPointGrid_m = 1e-4;
 constexpr double kTouching_m = 0.6e-4;  // a point this near to a segment is on it: rounding may have moved it so far
 constexpr int kRounds = 4;              // rounding may make pieces cross anew; what is left then is cut exactly elsewhere
@@ -77,7 +78,13 @@ void DropRepeated(std::vector<Segment>* segments) {
 
 }  // namespace
 
-SegmentGrid::SegmentGrid(const std::vector<Segment>& segments, double reach_m, double cell_m) : cell_m_(cell_m) {
+SegmentGrid::SegmentGrid(const std::vector<Segment>& segments, double reach_m, double cell_m)
+    : cell_m_(cell_m), one_cell_(segments.size() <= kFew) {
+  if (one_cell_) {
+    std::vector<size_t>& all = cells_[Key(0, 0)];
+    for (size_t i = 0; i < segments.size(); ++i) all.push_back(i);
+    return;
+  }
   for (size_t i = 0; i < segments.size(); ++i) {
     const Segment& s = segments[i];
     const double length = std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
@@ -96,7 +103,7 @@ double CellFor(const std::vector<Segment>& segments) {
   return std::clamp(length / static_cast<double>(segments.size()), kLeastCell_m, kMostCell_m);
 }
 
-int64_t SegmentGrid::Cell(double v) const { return static_cast<int64_t>(std::floor(v / cell_m_)); }
+int64_t SegmentGrid::Cell(double v) const { return one_cell_ ? 0 : static_cast<int64_t>(std::floor(v / cell_m_)); }
 
 void SegmentGrid::AddBox(size_t i, Point2 a, Point2 b, double reach_m) {
   for (int64_t x = Cell(std::min(a.x, b.x) - reach_m); x <= Cell(std::max(a.x, b.x) + reach_m); ++x) {

@@ -15,6 +15,7 @@ class SegmentGrid {
   // Indices of the segments within reach_m of p, and some farther ones; ascending.
   const std::vector<size_t>& Near(Point2 p) const;
   double cell_m() const { return cell_m_; }
+  bool one_cell() const { return one_cell_; }  // few segments: all are near each other
   // The lists of all cells, in no particular order.
   const std::unordered_map<int64_t, std::vector<size_t>>& cells() const { return cells_; }
 
@@ -22,6 +23,7 @@ class SegmentGrid {
   int64_t Cell(double v) const;
   void AddBox(size_t i, Point2 a, Point2 b, double reach_m);
   double cell_m_;
+  bool one_cell_;
   std::unordered_map<int64_t, std::vector<size_t>> cells_;
 };
 
