@@ -1,24 +1,25 @@
 #include "pipeline/footprint/extract_footprints.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include "pipeline/footprint/band.h"
 #include "pipeline/footprint/base_ground.h"
 #include "pipeline/footprint/enclosed_regions.h"
+#include "pipeline/footprint/for_each.h"
 #include "pipeline/footprint/one_mouth.h"
 #include "pipeline/footprint/overhead.h"
 #include "pipeline/footprint/polygon_sets.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/footprint/repair_shell.h"
 #include "pipeline/footprint/segment_grid.h"
+#include "pipeline/footprint/separate_obstacles.h"
+#include "pipeline/footprint/shape.h"
 #include "pipeline/footprint/town_objects.h"
 
 namespace flaneur {
@@ -26,31 +27,16 @@ namespace {
 
 constexpr double kLargestObject_m = 100'000;
 constexpr double kNarrowestHouse_m = 0.5, kWidestHouse_m = 500;  // of most of a town
-constexpr double kBlockReach_m = 0.1;      // houses nearer than this are looked at together
 constexpr double kRoofedShare = 0.5;       // of a region's area must lie under something
-constexpr double kSmallestPiece_m2 = 0.01; // what clipping leaves over that is smaller is dropped
 constexpr double kSliver_m = 0.022;        // strips narrower than this that neighbours leave over are dropped
-constexpr double kSmallestStrip_m2 = 1e-4; // of those that go to a neighbour instead
-constexpr double kAgainst_m = 0.0005;      // strips nearer than this to a neighbour lie against it
 constexpr double kSmallestGap_m2 = 0.01;   // of a block that no single house accounts for
 constexpr double kOpenShell_m = 1.0;       // of wall without anything solid beside it, in a building
 constexpr double kCrumb_m = 0.02;          // of lines without area that lead nowhere
 constexpr double kNoWay_m = 0.5;           // nobody passes a gap in a building narrower than this
 constexpr double kSlit_m = 0.4;            // narrower yards are none
 constexpr double kOnOutline_m = 0.002;     // lines this near to something solid are its outline
-constexpr double kJoint_m = 1.5;         // houses that overlap by less are meant to touch
 constexpr size_t kSamples = 16;          // of a region, to see whether it is roofed
 constexpr double kThinWall_m = 0.001;      // half the thickness of a wall without any, before the clearance
-
-// An object's part in the band.
-struct Shape {
-  int lines = 0;
-  Rings solid;
-  std::vector<Segment> loose;  // walls without area
-  double open_m = 0;           // length of walls beside nothing solid
-  double ground_z_m = 0;       // in the middle
-  bool guessed = false;        // a gap wider than those of an untidy model had to be closed
-};
 
 struct Site {
   const FootprintOptions& options;
@@ -266,19 +252,6 @@ void CloseRooms(const Site& site, const TownObject& object, Shape* shape) {
   SetLoose(std::vector<Segment>(shape->loose), shape);
 }
 
-// Calls work(0) to work(count - 1), several at a time.
-template <typename Work>
-void ForEach(size_t count, int threads, const Work& work) {
-  const size_t most = threads > 0 ? static_cast<size_t>(threads) : std::max(1u, std::thread::hardware_concurrency());
-  std::atomic<size_t> next{0};
-  const auto worker = [&] {
-    for (size_t i = next++; i < count; i = next++) work(i);
-  };
-  std::vector<std::jthread> others;
-  for (size_t t = 1; t < std::min(count, most); ++t) others.emplace_back(worker);
-  worker();
-}
-
 bool Adjoin(const TownObject& a, const TownObject& b) {
   const auto apart = [](double a_max, double b_min) { return b_min > a_max + kBlockReach_m; };
   return !(apart(a.max_m.x, b.min_m.x) || apart(b.max_m.x, a.min_m.x) || apart(a.max_m.y, b.min_m.y) ||
@@ -413,154 +386,6 @@ Rings Enlarged(const Site& site, const Shape& shape) {
       shape.loose.empty() ? shape.loose : Outside(shape.loose, Offset(shape.solid, kOnOutline_m));
   if (!thin.empty()) rings = WithoutSlits(Union(rings, OffsetSegments(thin, std::max(clearance, kThinWall_m))));
   return tolerance > 0 ? Simplify(rings, tolerance) : rings;
-}
-
-bool Apart(const BoundingBox& a, const BoundingBox& b) {
-  return a.max.x < b.min.x || b.max.x < a.min.x || a.max.y < b.min.y || b.max.y < a.min.y;
-}
-
-Rings WithoutSpecks(const Rings& rings) {
-  Rings out;
-  for (const Polygon& polygon : ToPolygons(rings)) {
-    if (SignedArea(polygon.outer) < kSmallestPiece_m2) continue;
-    out.push_back(polygon.outer);
-    out.insert(out.end(), polygon.holes.begin(), polygon.holes.end());
-  }
-  return out;
-}
-
-// Whether nothing is thin or short about an outline, so that there is nothing to tidy. May say no too often.
-bool IsTidy(const Rings& rings, double width_m) {
-  constexpr size_t kMostPoints = 64;  // looking at each pair of more takes longer than to tidy
-  constexpr double kBluntest = -0.9;  // cosine; sharper corners are looked at more closely
-  size_t points = 0;
-  for (const Ring& ring : rings) {
-    points += ring.size();
-    if (std::abs(SignedArea(ring)) < kSmallestPiece_m2) return false;
-  }
-  if (points > kMostPoints) return false;
-  const std::vector<Segment> edges = Outline(rings);
-  const auto same = [](Point2 p, Point2 q) { return p.x == q.x && p.y == q.y; };
-  for (size_t i = 0; i < edges.size(); ++i) {
-    const Segment& s = edges[i];
-    if (Length(s) < width_m) return false;
-    for (size_t j = 0; j < edges.size(); ++j) {
-      const Segment& t = edges[j];
-      if (i == j || same(t.b, s.a)) continue;
-      if (same(t.a, s.b)) {
-        const double along = (s.b.x - s.a.x) * (t.b.x - t.a.x) + (s.b.y - s.a.y) * (t.b.y - t.a.y);
-        if (along < kBluntest * Length(s) * Length(t)) return false;
-      } else if (DistanceToSegment(s.a, t.a, t.b) < 2 * width_m || DistanceToSegment(s.b, t.a, t.b) < 2 * width_m) {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
-// A strip or speck too small to stay with its own obstacle goes to the neighbour it lies against, so that no wall loses its clearance.
-void GiveAway(const Rings& strips, size_t from, const std::vector<size_t>& neighbours, double width_m,
-              std::vector<BoundingBox>* boxes, std::vector<Rings>* enlarged) {
-  for (const Polygon& strip : ToPolygons(strips)) {
-    if (SignedArea(strip.outer) < kSmallestStrip_m2) continue;
-    const Rings grown = Offset({strip.outer}, kAgainst_m);
-    size_t owner = from;
-    double most = 0;
-    for (const size_t j : neighbours) {
-      if ((*enlarged)[j].empty() || Apart((*boxes)[j], BoundingBoxOf(grown))) continue;
-      const double shared = Area(Intersection(grown, (*enlarged)[j]));
-      if (shared > most) most = shared, owner = j;
-    }
-    if (owner == from) continue;
-    (*enlarged)[owner] = Tidy(Union((*enlarged)[owner], grown), width_m);
-    (*boxes)[owner] = BoundingBoxOf((*enlarged)[owner]);
-  }
-}
-
-// For each box the others within reach, ascending.
-std::vector<std::vector<size_t>> Neighbours(const std::vector<BoundingBox>& boxes) {
-  std::vector<size_t> from_west(boxes.size());
-  std::iota(from_west.begin(), from_west.end(), size_t{0});
-  std::sort(from_west.begin(), from_west.end(), [&](size_t i, size_t j) { return boxes[i].min.x < boxes[j].min.x; });
-  std::vector<std::vector<size_t>> neighbours(boxes.size());
-  for (size_t k = 0; k < from_west.size(); ++k) {
-    const size_t i = from_west[k];
-    for (size_t l = k + 1; l < from_west.size(); ++l) {
-      const size_t j = from_west[l];
-      if (boxes[j].min.x > boxes[i].max.x + kBlockReach_m) break;
-      if (boxes[j].min.y > boxes[i].max.y + kBlockReach_m || boxes[i].min.y > boxes[j].max.y + kBlockReach_m) continue;
-      neighbours[i].push_back(j), neighbours[j].push_back(i);
-    }
-  }
-  for (std::vector<size_t>& each : neighbours) std::sort(each.begin(), each.end());
-  return neighbours;
-}
-
-// Those that hang together by neighbours, each group ascending.
-std::vector<std::vector<size_t>> Groups(const std::vector<std::vector<size_t>>& neighbours) {
-  std::vector<std::vector<size_t>> groups;
-  std::vector<bool> done(neighbours.size(), false);
-  for (size_t first = 0; first < neighbours.size(); ++first) {
-    if (done[first]) continue;
-    done[first] = true;
-    std::vector<size_t> group{first};
-    for (size_t k = 0; k < group.size(); ++k) {
-      for (const size_t other : neighbours[group[k]]) {
-        if (done[other]) continue;
-        done[other] = true;
-        group.push_back(other);
-      }
-    }
-    std::sort(group.begin(), group.end());
-    groups.push_back(std::move(group));
-  }
-  return groups;
-}
-
-// Where two houses stand in each other by more than a clumsy joint, both keep what is theirs.
-Rings SharedGround(const Shape& a, const BoundingBox& box_a, const Shape& b, const BoundingBox& box_b) {
-  if (std::min(box_a.max.x, box_b.max.x) - std::max(box_a.min.x, box_b.min.x) < kJoint_m ||
-      std::min(box_a.max.y, box_b.max.y) - std::max(box_a.min.y, box_b.min.y) < kJoint_m)
-    return {};
-  Rings shared;
-  for (const Polygon& piece : ToPolygons(Intersection(a.solid, b.solid))) {
-    Rings rings{piece.outer};
-    rings.insert(rings.end(), piece.holes.begin(), piece.holes.end());
-    if (!Offset(rings, -kJoint_m / 2).empty()) shared.insert(shared.end(), rings.begin(), rings.end());
-  }
-  return shared;
-}
-
-// Enlarged neighbours overlap by twice the clearance: each keeps clear of the others' walls, and of what the earlier
-// ones have taken.
-void Separate(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes, double width_m, int threads,
-              std::vector<Rings>* enlarged) {
-  const auto is_house = [&](size_t i) { return objects[i].kind == ObstacleKind::kBuilding; };
-  const auto append = [](const Rings& more, Rings* to) { to->insert(to->end(), more.begin(), more.end()); };
-  std::vector<BoundingBox> solid_boxes, boxes;
-  for (const Shape& shape : shapes) solid_boxes.push_back(BoundingBoxOf(shape.solid));
-  for (const Rings& rings : *enlarged) boxes.push_back(BoundingBoxOf(rings));
-  const std::vector<std::vector<size_t>> neighbours = Neighbours(boxes);
-  const auto separate = [&](size_t i) {
-    Rings taken, later;
-    for (const size_t j : neighbours[i]) {
-      if ((*enlarged)[j].empty()) continue;
-      if (j < i && !Apart(boxes[i], boxes[j])) {
-        const Rings shared = is_house(i) && is_house(j) ? SharedGround(shapes[i], solid_boxes[i], shapes[j], solid_boxes[j]) : Rings();
-        append(shared.empty() ? (*enlarged)[j] : Difference((*enlarged)[j], shared), &taken);
-      }
-      if (j > i && !Apart(boxes[i], solid_boxes[j])) append(shapes[j].solid, &later);
-    }
-    append(DifferenceOfAreas(later, shapes[i].solid), &taken);
-    (*enlarged)[i] = DifferenceOfAreas((*enlarged)[i], taken);
-    if (IsTidy((*enlarged)[i], width_m)) return;
-    const Rings kept = WithoutSpecks(Tidy((*enlarged)[i], width_m));
-    const Rings strips = Difference((*enlarged)[i], Offset(kept, kAgainst_m));
-    (*enlarged)[i] = kept;
-    GiveAway(strips, i, neighbours[i], width_m, &boxes, enlarged);
-  };
-  const std::vector<std::vector<size_t>> groups = Groups(neighbours);
-  ForEach(groups.size(), threads, [&](size_t k) { std::for_each(groups[k].begin(), groups[k].end(), separate); });
 }
 
 bool MakeCircle(const Site& site, const TownObject& object, Obstacle* obstacle) {
@@ -721,7 +546,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   std::vector<Rings> enlarged(shapes.size());
   ForEach(shapes.size(), options.threads, [&](size_t i) { enlarged[i] = Enlarged(site, shapes[i]); });
   // Without a clearance thin walls are as thin as slivers.
-  Separate(town.obstacles, shapes, options.clearance_m > kSliver_m ? kSliver_m : kThinWall_m, options.threads, &enlarged);
+  SeparateObstacles(town.obstacles, shapes, options.clearance_m > kSliver_m ? kSliver_m : kThinWall_m, options.threads, &enlarged);
 
   for (size_t i = 0; i < shapes.size(); ++i)
     if (IsOpen(town.obstacles[i], shapes[i]))
