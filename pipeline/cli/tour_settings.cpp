@@ -4,9 +4,9 @@
 #include <cmath>
 #include <set>
 
-#include "pipeline/cli/toml_table.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
+#include "runtime/base/toml_table.h"
 #include "runtime/pack/settings_fields.h"
 
 namespace flaneur {
@@ -43,7 +43,7 @@ void ReadTown(TomlTable table, TourSettings* settings) {
   table.Number("scale", &settings->town_scale, 1e-6, 1e6);
   TomlTable georeference = table.Table("georeference");
   georeference.Text("crs", &settings->georeference.crs);
-  georeference.MapPoint("origin_m", &settings->georeference.origin_m);
+  georeference.MapPoint("origin_m", &settings->georeference.origin_m.x, &settings->georeference.origin_m.y);
   georeference.Finish();
   for (TomlTable& part : table.Tables("part")) ReadPart(part, settings);
   table.Finish();
@@ -187,23 +187,17 @@ void CheckWhole(TomlContext* context, const TourSettings& s) {
 }  // namespace
 
 Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings) {
-  std::string text;
-  if (Error e = ReadTextFile(path, &text)) return e;
-  try {
-    const toml::table root = toml::parse(text, path.string());
-    TomlContext context{path, {}, {}};
-    TourSettings read;
-    read.name = path.stem().string() == "tour" ? std::filesystem::absolute(path).parent_path().filename().string()
-                                               : path.stem().string();
-    ReadAll(TomlTable(&context, &root, ""), &read);
-    CheckWhole(&context, read);
-    if (context.error) return context.error;
-    *settings = std::move(read);
-    return Ok();
-  } catch (const toml::parse_error& e) {
-    return Fail(path.string() + ":" + std::to_string(e.source().begin.line) + ": not TOML: " +
-                OneLine(e.description()));
-  }
+  toml::table root;
+  if (Error e = ReadToml(path, &root)) return e;
+  TomlContext context{path, {}, {}};
+  TourSettings read;
+  read.name = path.stem().string() == "tour" ? std::filesystem::absolute(path).parent_path().filename().string()
+                                             : path.stem().string();
+  ReadAll(TomlTable(&context, &root, ""), &read);
+  CheckWhole(&context, read);
+  if (context.error) return context.error;
+  *settings = std::move(read);
+  return Ok();
 }
 
 std::vector<std::string> KnownSettings() {

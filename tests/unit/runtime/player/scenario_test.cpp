@@ -80,10 +80,10 @@ TEST(Scenario, TheReferenceRuns) {
 TEST(Scenario, MistakesAreNamedWithTheirLine) {
   Scenario s;
   EXPECT_NE(Parse("peple = 5\n", &s).message.find(":1: unknown key 'peple'; did you mean 'people'?"), std::string::npos);
-  EXPECT_NE(Parse("\nadaptation = \"ful\"\n", &s).message.find(":2: adaptation must be one of"), std::string::npos);
+  EXPECT_NE(Parse("\nadaptation = \"ful\"\n", &s).message.find(":2: adaptation is 'ful', it must be one of: off, paper, full"), std::string::npos);
   EXPECT_NE(Parse("[[camera.leg]]\nspeed_mps = 1\n", &s).message.find("exactly one of"), std::string::npos);
   EXPECT_NE(Parse("[crowd_area]\nmin_m = [4, 4]\nmax_m = [0, 9]\n", &s).message.find(":1: crowd_area needs"), std::string::npos);
-  EXPECT_NE(Parse("seconds = -1\n", &s).message.find("seconds must be a number"), std::string::npos);
+  EXPECT_NE(Parse("seconds = -1\n", &s).message.find("seconds is -1, it must be from 0 to"), std::string::npos);
 }
 
 TEST(Simulation, ImpossiblePeopleAreNamed) {

@@ -1,15 +1,17 @@
-#include "pipeline/cli/toml_table.h"
+#include "runtime/base/toml_table.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
 
+#include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
 
+constexpr double kLargest_m = 1e6;
 constexpr double kLargestMap_m = 1e8;  // twice round the earth
 
 std::string Compact(double number) {
@@ -26,6 +28,17 @@ void TomlContext::Refuse(const toml::node* node, const std::string& why) {
                                ? ":" + std::to_string(node->source().begin.line)
                                : "";
   error = Fail(path.string() + line + ": " + why);
+}
+
+Error ReadToml(const std::filesystem::path& path, toml::table* root) {
+  std::string text;
+  if (Error e = ReadTextFile(path, &text)) return e;
+  try {
+    *root = toml::parse(text, path.string());
+    return Ok();
+  } catch (const toml::parse_error& e) {
+    return Fail(path.string() + ":" + std::to_string(e.source().begin.line) + ": not TOML: " + OneLine(e.description()));
+  }
 }
 
 TomlTable::TomlTable(TomlContext* context, const toml::table* table, std::string name)
@@ -65,18 +78,23 @@ void TomlTable::Angle(const char* stem, float* radians, double least_deg, double
   }
 }
 
-void TomlTable::Choice(const char* key, std::string* value, std::initializer_list<const char*> allowed) {
-  std::string text = *value;
+void TomlTable::Choice(const char* key, std::optional<std::string>* value, std::initializer_list<const char*> allowed) {
+  std::string text;
   const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
   Text(key, &text);
-  const std::vector<std::string> names(allowed.begin(), allowed.end());
-  if (std::find(names.begin(), names.end(), text) != names.end()) {
-    *value = text;
-    return;
-  }
+  if (node == nullptr || !node->is_string()) return;
   std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  context_->Refuse(node, Name(key) + " is '" + text + "', it must be one of: " + list);
+  for (const char* a : allowed) {
+    if (text == a) *value = text;
+    list += (list.empty() ? "" : ", ") + std::string(a);
+  }
+  if (*value != text) context_->Refuse(node, Name(key) + " is '" + OneLine(text) + "', it must be one of: " + list);
+}
+
+void TomlTable::Choice(const char* key, std::string* value, std::initializer_list<const char*> allowed) {
+  std::optional<std::string> choice;
+  Choice(key, &choice, allowed);
+  if (choice) *value = *choice;
 }
 
 void TomlTable::Text(const char* key, std::string* value) {
@@ -129,7 +147,21 @@ void TomlTable::Point(const char* key, Vec2* value) {
   *value = {numbers[0], numbers[1]};
 }
 
-void TomlTable::MapPoint(const char* key, Point2* value) {
+void TomlTable::Points(const char* key, std::vector<Vec2>* values) {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return;
+  const toml::array* points = node->as_array();
+  for (size_t i = 0; points != nullptr && i < points->size(); ++i) {
+    const toml::array* point = (*points)[i].as_array();
+    const auto number = [&](size_t k) { return point && point->size() == 2 ? (*point)[k].value<double>() : std::nullopt; };
+    const auto x = number(0), y = number(1);
+    if (!x || !y || !(std::abs(*x) <= kLargest_m && std::abs(*y) <= kLargest_m)) points = nullptr;
+    else values->push_back({static_cast<float>(*x), static_cast<float>(*y)});
+  }
+  if (points == nullptr) context_->Refuse(node, Name(key) + " must be a list of [x, y] in metres");
+}
+
+void TomlTable::MapPoint(const char* key, double* east_m, double* north_m) {
   const toml::node* node = Find(key);
   if (node == nullptr) return;
   const toml::array* array = node->as_array();
@@ -137,7 +169,7 @@ void TomlTable::MapPoint(const char* key, Point2* value) {
   const auto x = number(0), y = number(1);
   if (!x || !y || !(std::abs(*x) <= kLargestMap_m && std::abs(*y) <= kLargestMap_m))
     return context_->Refuse(node, Name(key) + " must be [east, north] in metres of the map");
-  *value = {*x, *y};
+  *east_m = *x, *north_m = *y;
 }
 
 void TomlTable::File(const char* key, std::filesystem::path* value) {

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "pipeline/core/footprint.h"
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
 
@@ -22,6 +22,9 @@ struct TomlContext {
   void Refuse(const toml::node* node, const std::string& why);  // keeps the first
 };
 
+// Errors: unreadable, not TOML; FILE:LINE in front.
+Error ReadToml(const std::filesystem::path& path, toml::table* root);
+
 class TomlTable {
  public:
   // `table` may be null: then every field keeps its default. `name` is how messages call it.
@@ -32,14 +35,21 @@ class TomlTable {
     double number = static_cast<double>(*value);
     if (ReadNumber(key, std::is_integral_v<T>, least, most, &number)) *value = static_cast<T>(number);
   }
+  template <typename T>
+  void Number(const char* key, std::optional<T>* value, double least, double most) {
+    double number = 0;
+    if (ReadNumber(key, std::is_integral_v<T>, least, most, &number)) *value = static_cast<T>(number);
+  }
   void Angle(const char* stem, float* radians, double least_deg, double most_deg);
   void Choice(const char* key, std::string* value, std::initializer_list<const char*> allowed);
+  void Choice(const char* key, std::optional<std::string>* value, std::initializer_list<const char*> allowed);
   void Text(const char* key, std::string* value);
   void Flag(const char* key, bool* value);
   void Numbers(const char* key, std::vector<float>* values, double least, double most);
   void Texts(const char* key, std::vector<std::string>* values);
   void Point(const char* key, Vec2* value);
-  void MapPoint(const char* key, Point2* value);  // of any size, in full precision
+  void Points(const char* key, std::vector<Vec2>* values);
+  void MapPoint(const char* key, double* east_m, double* north_m);  // of any size, in full precision
   void File(const char* key, std::filesystem::path* value);  // relative to the file's folder
   void Json(const char* key, std::string* json);             // a table, as a JSON object
   // The table, or array of tables, under the key.
