@@ -1,4 +1,4 @@
-"""The player's Debian package: small, complete, and with nothing of the pipeline in it."""
+"""The player's Debian package: small, complete, and with nothing of the pipeline in it. The pipeline, installed."""
 import pathlib
 import shutil
 import subprocess
@@ -42,6 +42,16 @@ class Package(unittest.TestCase):
         for library in PIPELINE:
             self.assertNotIn("lib" + library.lower(), linked)
         self.assertTrue((root / "usr/share/doc/flaneur-player/copyright").is_file())
+
+
+class Installation(unittest.TestCase):
+    def test_the_pipeline_works_from_where_it_is_installed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            output("cmake", "--install", BIN.parent, "--prefix", folder, "--component", "pipeline")
+            flaneur = pathlib.Path(folder) / "bin/flaneur"
+            self.assertIn("footprint", output(flaneur, "footprints", "--help").lower())
+            self.assertIn("levels", output(flaneur, "avatar", "--help").lower())  # a program of its own beside it
+            self.assertTrue((pathlib.Path(folder) / "share/flaneur/blender_scripts/convert/to_gltf.py").is_file())
 
 
 if __name__ == "__main__":
