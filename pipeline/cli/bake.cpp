@@ -19,6 +19,7 @@
 #include "pipeline/footprint/polygon_sets.h"
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/geojson.h"
+#include "pipeline/io/sound_file.h"
 #include "pipeline/pack/write_tour_pack.h"
 #include "runtime/base/file.h"
 
@@ -243,6 +244,27 @@ Error MakePainting(Baking* baking) {
   return painting.file.empty() ? Ok() : ReadPainting(painting, baking->parts.ground, &baking->parts.painting);
 }
 
+// Each file once, however many stops name it.
+Error MakeSounds(Baking* baking) {
+  const TourSettings& s = baking->settings;
+  TourParts& parts = baking->parts;
+  parts.path = s.path;
+  std::map<fs::path, StopSound> known;
+  for (size_t k = 0; k < s.sounds.size(); ++k) {
+    for (const auto& [language, file] : s.sounds[k]) {
+      const auto [entry, fresh] = known.try_emplace(file, StopSound{static_cast<int>(parts.sounds.size()), 0});
+      if (fresh) {
+        SoundFile sound;
+        if (Error e = ReadSoundFile(file, &sound)) return e;
+        entry->second.duration_s = sound.duration_s;
+        parts.sounds.push_back(std::move(sound.bytes));
+      }
+      parts.path[k].sounds[language] = entry->second;
+    }
+  }
+  return Ok();
+}
+
 // The doors and exits of tour.toml; the check finds the town's own by itself.
 std::vector<Gate> GatesOfSettings(const TourSettings& settings) {
   std::vector<Gate> gates;
@@ -313,7 +335,7 @@ Error WritePack(Baking* baking, const fs::path& staging) {
     parts.footprints.reference_system = parts.town.reference_system;
     BakeReport& whole = baking->steps.report;
     parts.name = name;
-    parts.path = baking->settings.path;
+    parts.language = baking->settings.language;
     parts.guide = baking->settings.guide;
     parts.crowd = baking->settings.crowd;
     parts.control = baking->settings.control;
@@ -398,6 +420,7 @@ Error Bake(const fs::path& tour, const fs::path& output) {
   std::error_code ec;
   fs::create_directories(baking.steps.cache, ec);
   if (ec) return Fail(baking.steps.cache.string() + ": cannot make this folder: " + ec.message());
+  if (Error e = MakeSounds(&baking)) return e;
   if (Error e = MakeSources(&baking)) return e;
   if (Error e = MakeTown(&baking)) return e;
   if (Error e = MakeFootprints(&baking)) return e;

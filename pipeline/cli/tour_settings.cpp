@@ -137,15 +137,30 @@ void ReadStop(TomlTable table, TourSettings* settings) {
   table.Point("position_m", &stop.position_m);
   table.Angle("yaw", &stop.yaw_rad, -360, 360);
   table.Number("pause_s", &stop.pause_s, 0, 3600);
-  table.Text("caption", &stop.caption);
+  table.Translations("caption", settings->language, &stop.captions);
+  if (const auto own = stop.captions.find(settings->language); own != stop.captions.end()) {
+    stop.caption = own->second;
+    stop.captions.erase(own);
+  } else if (!stop.captions.empty()) {
+    table.Refuse("the caption has no text in the tour's own language, '" + settings->language + "'; add one, or change tour.language");
+  }
+  std::map<std::string, std::string> sounds;
+  table.Translations("sound", settings->language, &sounds);
+  std::map<std::string, std::filesystem::path> files;
+  for (const auto& [language, file] : sounds) {
+    if (!file.empty()) files[language] = table.Beside(file);
+  }
   if (!table.Has("position_m")) table.Refuse("a [[stop]] needs position_m = [x, y]");
   table.Finish();
   settings->path.push_back(stop);
+  settings->sounds.push_back(std::move(files));
 }
 
 void ReadAll(TomlTable root, TourSettings* settings) {
   TomlTable tour = root.Table("tour");
   ReadName(&tour, &settings->name);
+  tour.Text("language", &settings->language);
+  if (settings->language.empty()) tour.Refuse("tour.language must not be empty; such as \"en\"");
   tour.Text("guide", &settings->guide);
   tour.Finish();
   ReadTown(root.Table("town"), settings);

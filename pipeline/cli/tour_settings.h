@@ -1,6 +1,7 @@
 // tour.toml: the one file that a user writes. assets_src/reference/tour.toml explains every setting.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,8 @@ struct TourSettings {
   std::vector<PackPlace> places;  // besides those tagged in the town
   PaintingSettings painting;
   std::vector<TourStop> path;
+  std::string language = "en";    // of captions and sounds for which no other is named
+  std::vector<std::map<std::string, std::filesystem::path>> sounds;  // by stop of the path and language
   std::string guide;              // name of the avatar who leads the way along it; empty: nobody
   CrowdSettings crowd;
   ControlSettings control;

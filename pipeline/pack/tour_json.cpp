@@ -112,6 +112,16 @@ Json ObstacleJson(const Obstacle& obstacle) {
   return json;
 }
 
+Json StopJson(const TourStop& stop, const TourIndices& indices) {
+  Json json{{"position_m", PointJson(stop.position_m)}, {"yaw_rad", Short(stop.yaw_rad)},
+            {"pause_s", Short(stop.pause_s)}, {"caption", stop.caption}};
+  for (const auto& [language, caption] : stop.captions) json["captions"][language] = caption;
+  for (const auto& [language, sound] : stop.sounds) {
+    json["sounds"][language] = {{"view", indices.sounds[static_cast<size_t>(sound.sound)]}, {"duration_s", Short(sound.duration_s)}};
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string TourJson(const TourParts& parts, const TourIndices& indices) {
@@ -138,10 +148,8 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
                         {"people_view", indices.people_view}, {"loiter_view", indices.loiter_view}};
   }
   tour["path"] = Json::array();
-  for (const TourStop& s : parts.path) {
-    tour["path"].push_back({{"position_m", PointJson(s.position_m)}, {"yaw_rad", Short(s.yaw_rad)},
-                            {"pause_s", Short(s.pause_s)}, {"caption", s.caption}});
-  }
+  for (const TourStop& s : parts.path) tour["path"].push_back(StopJson(s, indices));
+  tour["language"] = parts.language;
   if (!parts.guide.empty()) tour["guide"] = parts.guide;
   tour["crowd"] = SettingsJson(parts.crowd);
   tour["control"] = SettingsJson(parts.control);

@@ -17,6 +17,7 @@ struct TourIndices {
   std::vector<ImpostorViews> impostors;    // one an avatar
   int height_view = -1, kind_view = -1;
   int people_view = -1, loiter_view = -1;  // -1: no painting
+  std::vector<int> sounds;                 // views, by sound
 };
 
 std::string TourJson(const TourParts& parts, const TourIndices& indices);

@@ -140,6 +140,7 @@ Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, s
     indices.people_view = builder.AddBufferView(parts.painting.people);
     indices.loiter_view = builder.AddBufferView(parts.painting.loiter);
   }
+  for (const auto& sound : parts.sounds) indices.sounds.push_back(builder.AddBufferView(sound));
   builder.SetRootExtension(kTourExtension, TourJson(parts, indices));
   std::vector<uint8_t> glb;
   if (Error e = builder.Finish(&glb)) return e;

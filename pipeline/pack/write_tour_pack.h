@@ -28,6 +28,8 @@ struct TourParts {
   std::vector<PackPlace> places;
   PackPainting painting;
   std::vector<TourStop> path;
+  std::string language = "en";               // of the stops' captions
+  std::vector<std::vector<uint8_t>> sounds;  // files, as the stops number them
   std::string guide;  // name of an avatar; empty: nobody
   CrowdSettings crowd;
   ControlSettings control;

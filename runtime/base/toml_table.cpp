@@ -175,7 +175,26 @@ void TomlTable::MapPoint(const char* key, double* east_m, double* north_m) {
 void TomlTable::File(const char* key, std::filesystem::path* value) {
   std::string text;
   Text(key, &text);
-  if (!text.empty()) *value = (context_->path.parent_path() / text).lexically_normal();
+  if (!text.empty()) *value = Beside(text);
+}
+
+std::filesystem::path TomlTable::Beside(const std::string& file) const {
+  return (context_->path.parent_path() / file).lexically_normal();
+}
+
+void TomlTable::Translations(const char* key, const std::string& own, std::map<std::string, std::string>* texts) {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return;
+  const char* const wanted = " must be text in quotes, or a table of texts by language such as { en = \"...\", de = \"...\" }";
+  if (node->is_string()) {
+    (*texts)[own] = *node->value<std::string>();
+    return;
+  }
+  if (!node->is_table()) return context_->Refuse(node, Name(key) + wanted);
+  for (const auto& [language, text] : *node->as_table()) {
+    if (!text.is_string() || language.str().empty()) return context_->Refuse(&text, Name(key) + wanted);
+    (*texts)[std::string(language.str())] = *text.value<std::string>();
+  }
 }
 
 void TomlTable::Json(const char* key, std::string* json) {

@@ -292,6 +292,24 @@ PackPainting ReadPainting(const GltfFile& file, const TourObject& json) {
   return painting;
 }
 
+TourStop ReadStop(const GltfFile& file, const TourObject& json, TourPack* pack) {
+  TourStop stop{json.Point("position_m"), json.Real("yaw_rad"), json.Real("pause_s", 0, TourObject::kAnything), json.Text("caption")};
+  if (json.Has("captions")) {
+    const TourObject captions = json.Object("captions");
+    for (const std::string& language : captions.Keys()) stop.captions[language] = captions.Text(language.c_str());
+  }
+  if (!json.Has("sounds")) return stop;
+  const TourObject sounds = json.Object("sounds");
+  for (const std::string& language : sounds.Keys()) {
+    const TourObject sound = sounds.Object(language.c_str());
+    const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
+    const auto bytes = BufferView(file, sound.Whole("view", 0, last));
+    stop.sounds[language] = {static_cast<int>(pack->sounds.size()), sound.Real("duration_s", 0, 36000)};
+    pack->sounds.emplace_back(bytes.begin(), bytes.end());
+  }
+  return stop;
+}
+
 void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   pack->name = tour.Text("name");
   for (const TourObject& o : tour.Objects("obstacles")) pack->obstacles.push_back(ReadObstacle(o));
@@ -301,10 +319,8 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
     if (p.Has("yaw_rad")) pack->places.back().yaw_rad = p.Real("yaw_rad");
   }
   if (tour.Has("painting")) pack->painting = ReadPainting(file, tour.Object("painting"));
-  for (const TourObject& s : tour.Objects("path")) {
-    pack->path.push_back({s.Point("position_m"), s.Real("yaw_rad"), s.Real("pause_s", 0, TourObject::kAnything),
-                          s.Text("caption")});
-  }
+  for (const TourObject& s : tour.Objects("path")) pack->path.push_back(ReadStop(file, s, pack));
+  if (tour.Has("language")) pack->language = tour.Text("language");
   if (tour.Has("guide")) pack->guide = tour.Text("guide");
   VisitFields(tour.Object("crowd"), &pack->crowd);
   VisitFields(tour.Object("control"), &pack->control);

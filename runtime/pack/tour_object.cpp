@@ -69,6 +69,12 @@ std::vector<Vec2> TourObject::CheckedRing(const Json& json, const std::string& p
   return points;
 }
 
+std::vector<std::string> TourObject::Keys() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, unused] : json_.items()) keys.push_back(key);
+  return keys;
+}
+
 float TourObject::Real(const char* key, double least, double most) const {
   return static_cast<float>(Checked(Get(key), Place(key), false, least, most));
 }

@@ -21,6 +21,7 @@ class TourObject {
   TourObject(const Json& json, std::string place);
 
   bool Has(const char* key) const { return json_.contains(key); }
+  std::vector<std::string> Keys() const;
   float Real(const char* key, double least = -kAnything, double most = kAnything) const;  // finite
   int Whole(const char* key, double least, double most) const;
   std::string Text(const char* key) const;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -134,7 +135,15 @@ inline int PaintingCell(const PackPainting& painting, Vec2 p) {
   return static_cast<int>(off.y) * painting.columns + static_cast<int>(off.x);
 }
 
-struct TourStop { Vec2 position_m; float yaw_rad = 0; float pause_s = 0; std::string caption; };
+struct StopSound { int sound = 0; float duration_s = 0; };  // sound: index into TourPack::sounds
+
+struct TourStop {
+  Vec2 position_m;
+  float yaw_rad = 0, pause_s = 0;
+  std::string caption = {};                         // in the pack's language
+  std::map<std::string, std::string> captions = {};  // by language, in all others
+  std::map<std::string, StopSound> sounds = {};      // by language, what is said there
+};
 
 struct CrowdSettings {
   int people = 200;
@@ -173,6 +182,8 @@ struct TourPack {
   std::vector<PackPlace> places;
   PackPainting painting;
   std::vector<TourStop> path;  // guided path, in order; pause 0 and no caption: only a waypoint
+  std::string language = "en"; // of the stops' captions, where nothing else is said
+  std::vector<std::vector<uint8_t>> sounds;  // files: WAV, FLAC, Ogg Vorbis or Opus, MP3
   std::string guide;           // name of the avatar who leads the way along the path; empty: nobody does
   CrowdSettings crowd;
   ControlSettings control;

@@ -19,6 +19,9 @@ constexpr float kGettingOn_m = 0.5f;          // who stays within this is stuck,
 constexpr float kTourSpeed_mps = 1.3f;
 constexpr float kLooksAhead_m = 2.5f;         // along the tour's route
 constexpr float kAtHalt_m = 1;
+constexpr float kGentleYawRate_radps = 0.35f, kGentleSpeed_mps = 1.0f;
+constexpr float kLooksAbout_s = 2.5f;         // after looking to the side, until the tour turns the view again
+constexpr float kGiveUpPoint_s = 3;
 constexpr float kStands = 0.05f;              // share of the pace
 constexpr float kSidestep_m = 0.7f;           // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;           // after which those who stand in the way move on
@@ -135,20 +138,58 @@ void FollowLegs(Simulation* s) {
   }
 }
 
+float TourSpeed_mps(const Simulation& s) { return s.gentle ? kGentleSpeed_mps : kTourSpeed_mps; }
+
+// Unless the visitor looks elsewhere just now.
+void TurnForTour(float yaw_rad, Simulation* s) {
+  if (s->looks_about_s <= 0) TurnTowards(yaw_rad, s->gentle ? kGentleYawRate_radps : kTourYawRate_radps, s);
+}
+
+void Turn(float yaw_rate_radps, Simulation* s) {
+  CameraState& camera = s->camera;
+  camera.yaw_rate_radps = std::clamp(yaw_rate_radps, -s->max_yaw_rate_radps, s->max_yaw_rate_radps);
+  camera.view.yaw_rad = WrapAngle(camera.view.yaw_rad + camera.yaw_rate_radps * s->step_s);
+}
+
+// The visitor looks to the side while the tour leads on.
+void LookAbout(const CameraInput& input, Simulation* s) {
+  s->looks_about_s -= s->step_s;
+  if (input.yaw_rate_radps == 0) return;
+  s->looks_about_s = kLooksAbout_s;
+  Turn(input.yaw_rate_radps, s);
+}
+
+// On the way to where the visitor pointed.
+void FollowPoint(float speed_mps, bool turns, Simulation* s) {
+  PointWalk& walk = s->point_walk;
+  const Vec2 p = s->camera.view.position;
+  walk.way_m = WayTo(walk.route, p, walk.way_m - 1, walk.way_m + 2);
+  const bool there = LengthOf_m(walk.route) - walk.way_m < kReached_m;
+  const Vec2 way = WayAlong(s->walkable, walk.route, walk.way_m, p, &walk.corner, &s->crowd.search);
+  if (there || Length(way) < 0.5f || s->stuck_s > kGiveUpPoint_s) {
+    walk = {};
+    return;
+  }
+  const Vec2 look = PointAt(walk.route, walk.way_m + kLooksAhead_m) - p;
+  if (!turns && Length(look) > kReached_m) TurnForTour(std::atan2(look.y, look.x), s);
+  Walk(RoundPeople(*s, way), speed_mps, s);
+}
+
 // For somebody who walked about while the tour rests.
 void ReturnToHalt(Simulation* s) {
   const Vec2 p = s->camera.view.position;
   const Vec2 way = WayStraightOrRound(s->walkable, p, s->tour.stops[HaltOf(s->tour)].position_m, &s->tour.corner, &s->crowd.search);
   if (Length(way) < 0.5f) return;
-  TurnTowards(std::atan2(way.y, way.x), kTourYawRate_radps, s);
-  Walk(RoundPeople(*s, way), kTourSpeed_mps, s);
+  TurnForTour(std::atan2(way.y, way.x), s);
+  Walk(RoundPeople(*s, way), TourSpeed_mps(*s), s);
 }
 
-void FollowTour(Simulation* s) {
+void FollowTour(const CameraInput& input, Simulation* s) {
   Tour& t = s->tour;
   const Vec2 p = s->camera.view.position;
+  LookAbout(input, s);
   if (t.resting && Length(t.stops[HaltOf(t)].position_m - p) < kAtHalt_m) {
-    return TurnTowards(t.stops[HaltOf(t)].yaw_rad, kTourYawRate_radps, s);
+    return TurnForTour(t.stops[HaltOf(t)].yaw_rad, s);
   }
   if (t.paused || t.over) return;
   if (t.resting) return ReturnToHalt(s);
@@ -158,9 +199,9 @@ void FollowTour(Simulation* s) {
     return GiveUpStop(s);
   }
   const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
-  if (Length(look) > kReached_m) TurnTowards(std::atan2(look.y, look.x), kTourYawRate_radps, s);
+  if (Length(look) > kReached_m) TurnForTour(std::atan2(look.y, look.x), s);
   const float pace = ShareOfPace(*s);
-  if (pace > kStands) Walk(RoundPeople(*s, way), kTourSpeed_mps * pace, s);
+  if (pace > kStands) Walk(RoundPeople(*s, way), TourSpeed_mps(*s) * pace, s);
   else s->stuck_s = 0;
 }
 
@@ -171,15 +212,19 @@ void MoveCamera(const CameraInput& input, Simulation* s) {
   camera.velocity = camera.asked_velocity = {};
   camera.yaw_rate_radps = camera.asked_mps = camera.actual_mps = 0;
   if (!camera.present) return;
+  if (input.pitch_rad) camera.pitch_rad = *input.pitch_rad;
+  if (input.walk_to) SetOut(*input.walk_to, s);
+  if (!input.active || input.speed_mps > 0) s->point_walk = {};
   if (input.active) {
-    camera.yaw_rate_radps = std::clamp(input.yaw_rate_radps, -s->max_yaw_rate_radps, s->max_yaw_rate_radps);
-    camera.view.yaw_rad = WrapAngle(camera.view.yaw_rad + camera.yaw_rate_radps * s->step_s);
+    s->looks_about_s = 0;
+    Turn(input.yaw_rate_radps, s);
     if (input.speed_mps > 0) Walk(input.direction, input.speed_mps, s);
+    else if (!s->point_walk.route.points.empty()) FollowPoint(input.walk_to_mps, input.yaw_rate_radps != 0, s);
     return;
   }
   if (s->finished) return;
   if (!s->legs.empty()) FollowLegs(s);
-  else if (!s->tour.stops.empty()) FollowTour(s);
+  else if (!s->tour.stops.empty()) FollowTour(input, s);
   StirLoiterers(s);
 }
 

@@ -26,8 +26,8 @@ void AddCaption(const Simulation& s, FrameInput* frame) {
   if (!s.tour.resting) return;
   const TourStop& stop = s.tour.stops[HaltOf(s.tour)];
   if (Length(stop.position_m - s.camera.view.position) > kReach_m) return;
-  frame->caption = stop.caption;
-  frame->caption_share = std::clamp(std::min(s.tour.rested_s, RestOf_s(stop) - s.tour.rested_s) / kFadeCaption_s, 0.0f, 1.0f);
+  frame->caption = s.tour.words[HaltOf(s.tour)].caption;
+  frame->caption_share = s.gentle ? 1 : std::clamp(std::min(s.tour.rested_s, RestOf_s(s.tour, HaltOf(s.tour)) - s.tour.rested_s) / kFadeCaption_s, 0.0f, 1.0f);
 }
 
 bool InViewWithEdge(Vec2 p, const ViewCamera& c) {

@@ -24,8 +24,10 @@ bool ParseSize(const std::string& text, PlayerOptions* o) {
 
 int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   CLI::App app{"Plays a tour pack: a walk through a historic town among its townspeople.\n"
-               "In the window: W A S D or arrows walk, the mouse looks, Tab changes between guided tour and free walk, "
-               "Esc ends.\nExit status: 0 done, 2 bad usage or input.",
+               "In the window: W A S D or arrows walk and the mouse looks; a click walks to where it points. Tab: guided tour or "
+               "free walk; space pauses the tour, N goes to the next stop, B back; L changes the language, M frees the pointer, "
+               "- and = change the field of view, Esc ends. Gamepads work too. docs/player.md says how to change all that.\n"
+               "Exit status: 0 done, 2 bad usage or input.",
                "flaneur-player"};
   std::string size = "1280x720";
   app.add_option("PACK", o->pack, "Tour pack (.glb); not needed where the scenario brings its own ground");
@@ -44,6 +46,11 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("--seed", o->seed, "Seed of the crowd (default: likewise)");
   app.add_option("--adaptation", o->adaptation, "How the crowd keeps out of the visitor's way: off, paper or full (default: likewise)")
       ->check(CLI::IsMember({"off", "paper", "full"}));
+  app.add_option("--language", o->language, "Of the guided tour's captions and sounds, such as en (default: the tour's own)");
+  app.add_option("--settings", o->settings, "Settings file (default: $XDG_CONFIG_HOME/flaneur/player.toml)");
+  app.add_option("--set", o->set, "SETTING=VALUE instead of what the settings file says, such as snap_turn_deg=30 or keys.pause=p,pad_a")
+      ->allow_extra_args(false);
+  app.add_flag("--save-settings", o->save_settings, "Write the settings as they are now, with --set, and end");
   app.add_option("--compare", o->compare, "Two adaptations on the same walk, side by side in one film or picture, such as: off full")
       ->expected(2)->check(CLI::IsMember({"off", "paper", "full"}));
   try {
@@ -53,7 +60,7 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
     return Refuse(e.what());
   }
   if (!ParseSize(size, o)) return Refuse("--size must be WIDTHxHEIGHT in pixels, 16 to 8192 each, not '" + size + "'");
-  if (o->pack.empty() && o->scenario.empty()) return Refuse("a pack is missing");
+  if (o->pack.empty() && o->scenario.empty() && !o->save_settings) return Refuse("a pack is missing");
   if (o->no_draw && !o->headless) return Refuse("--no-draw needs --headless");
   if (o->no_draw && o->views) return Refuse("--no-draw makes no pictures for --views; leave one out");
   if (o->views && !o->compare.empty()) return Refuse("--views is for one run; leave out --compare");

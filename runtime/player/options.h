@@ -11,10 +11,13 @@ namespace flaneur {
 struct PlayerOptions {
   std::filesystem::path pack, scenario, metrics, trajectories, screenshot, film;
   bool headless = false, no_draw = false, views = false;
+  std::filesystem::path settings;          // empty: the user's own
+  std::vector<std::string> set;            // SETTING=VALUE, over those of the file
+  bool save_settings = false;
   std::optional<float> seconds;
   std::optional<int> people;
   std::optional<uint64_t> seed;
-  std::optional<std::string> adaptation;
+  std::optional<std::string> adaptation, language;
   std::vector<std::string> compare;  // adaptations side by side: two, or none
   int width_px = 1280, height_px = 720;
 };

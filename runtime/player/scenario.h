@@ -39,6 +39,7 @@ struct Scenario {
   std::optional<float> group_share;
   std::optional<float> step_hz, seconds;
   std::optional<std::string> adaptation, method;
+  std::optional<std::string> language;  // of the guided tour; not from the file
   std::optional<int> high_limit, budget_triangles;
   std::optional<float> target_ms, draw_base_ms, draw_ms_per_million_triangles;
   bool has_camera = false;

@@ -38,7 +38,7 @@ void TakePack(const TourPack& pack, Simulation* s) {
   s->camera.view.fov_rad = c.fov_rad;
   s->places = pack.places;
   s->painting = pack.painting;
-  s->tour.stops = pack.path;
+  TakeTour(pack.path, pack.language, &s->tour);
   for (size_t k = 0; !pack.guide.empty() && k < pack.avatars.size(); ++k) {
     if (pack.avatars[k].name == pack.guide) s->guide.avatar = static_cast<int>(k);
   }
@@ -134,6 +134,15 @@ void PlaceCamera(const Scenario& scenario, Simulation* s) {
   }
 }
 
+void ChooseLanguage(const std::string& language, Simulation* s) {
+  std::string list;
+  for (const std::string& known : s->tour.languages) {
+    if (known == language) return SetLanguage(language, &s->tour);
+    list += (list.empty() ? "" : ", ") + known;
+  }
+  if (!s->tour.stops.empty()) s->warnings.push_back("the tour has nothing in the language '" + language + "'; there is: " + list);
+}
+
 void DeriveGap(Simulation* s) {
   const Walkable& w = s->walkable;
   const Vec2 size{static_cast<float>(w.columns) * w.cell_m, static_cast<float>(w.rows) * w.cell_m};
@@ -200,6 +209,7 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   }
   s.random.state = s.crowd_settings.seed;
   SettleTour(&s);
+  if (scenario.language) ChooseLanguage(*scenario.language, &s);
   PlaceCamera(scenario, &s);
   if (s.camera.present && InsideObstacle(s.walkable, s.camera.view.position)) {
     s.warnings.push_back("the camera starts inside an obstacle");
@@ -213,6 +223,11 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   ControlCrowd(0, &s);
   *out = std::move(s);
   return Ok();
+}
+
+void SetFieldOfView(float fov_rad, Simulation* s) {
+  s->camera.view.fov_rad = fov_rad;
+  DeriveGap(s);
 }
 
 float FrameTimeByModel_ms(const Simulation& s) {

@@ -12,6 +12,7 @@
 #include "runtime/crowd/crowd.h"
 #include "runtime/pack/tour_pack.h"
 #include "runtime/player/guide.h"
+#include "runtime/player/point_walk.h"
 #include "runtime/player/scenario.h"
 #include "runtime/player/tour.h"
 
@@ -25,6 +26,9 @@ struct CameraInput {
   bool active = false;      // false: scenario or guided tour moves the camera
   Vec2 direction;           // asked way, unit or zero
   float speed_mps = 0, yaw_rate_radps = 0;
+  std::optional<Vec2> walk_to;  // sets out for there; a direction ends it
+  float walk_to_mps = 1.4f;
+  std::optional<float> pitch_rad;
   TourWish tour;            // active or not
 };
 
@@ -75,6 +79,9 @@ struct Simulation {
   int loiterers = 0;                     // people whose plan is to loiter
   Tour tour;
   Guide guide;
+  PointWalk point_walk;
+  float looks_about_s = 0;         // left until the tour turns the view again
+  bool gentle = false;             // the tour turns the view slowly, and walks slowly
   std::vector<CameraLeg> legs;     // of the scenario; empty: the guided tour
   std::optional<Area> crowd_area;  // of the scenario
   int target_people = 0;           // kept up by people who appear out of sight
@@ -102,6 +109,9 @@ struct Simulation {
 // with a goal nobody can reach, an unknown avatar, no ground at all; each names the person. More people than fit: as many as do,
 // and a warning.
 Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation* simulation);
+
+// Horizontal; the outer volume follows.
+void SetFieldOfView(float fov_rad, Simulation* simulation);
 
 // What drawing this frame takes by the scenario's model of a machine, for runs that draw nothing; 0 without one.
 float FrameTimeByModel_ms(const Simulation& simulation);

@@ -14,19 +14,20 @@ constexpr float kStrays_m = 3;            // from the route
 constexpr float kReroute_s = 1;
 constexpr float kBackwards_m = 2, kForwards_m = 4;  // along the route: the visitor is looked for so near where they were
 constexpr float kAgain_s = 3;             // back within this goes to the halt before, later to this one's beginning
+constexpr float kAfterSound_s = 0.7f;
 constexpr float kLeastReading_s = 2, kReading_sPerLetter = 0.065f;  // about 15 letters a second, an unhurried reader
 
-bool IsHalt(const TourStop& stop) { return RestOf_s(stop) > 0; }
+bool IsHalt(const Tour& t, size_t stop) { return RestOf_s(t, stop) > 0; }
 
 // The halt after `stop`, else the last stop.
 size_t HaltFrom(const Tour& t, size_t stop) {
-  while (stop + 1 < t.stops.size() && !IsHalt(t.stops[stop])) ++stop;
+  while (stop + 1 < t.stops.size() && !IsHalt(t, stop)) ++stop;
   return stop;
 }
 
 // The halt before `stop`, else the first stop.
 size_t HaltBefore(const Tour& t, size_t stop) {
-  while (stop > 0 && !IsHalt(t.stops[--stop])) {
+  while (stop > 0 && !IsHalt(t, --stop)) {
   }
   return stop;
 }
@@ -82,12 +83,12 @@ void GoBack(Simulation* s) {
   }
   s->finished = false;
   if (t.over) {
-    const size_t last = t.stops.size() - 1, halt = IsHalt(t.stops[last]) ? last : HaltBefore(t, last);
+    const size_t last = t.stops.size() - 1, halt = IsHalt(t, last) ? last : HaltBefore(t, last);
     return Plan(StopsBetween(last, halt), s);
   }
   const size_t halt = HaltOf(t), here = t.stage[std::min(t.passed, t.stage.size() - 1)];
-  const size_t before = HaltBefore(t, std::min(halt, here));
-  Plan(StopsBetween(std::max(before, here > 0 ? here - 1 : 0), before), s);
+  const size_t before = HaltBefore(t, halt);
+  Plan(StopsBetween(before < here ? here - 1 : here, before), s);
 }
 
 float FromVisitor_m(const Simulation& s, Vec2 p) { return Length(p - s.camera.view.position); }
@@ -95,8 +96,9 @@ float FromVisitor_m(const Simulation& s, Vec2 p) { return Length(p - s.camera.vi
 void Rest(Simulation* s) {
   Tour& t = s->tour;
   const TourStop& stop = t.stops[HaltOf(t)];
-  if (!t.paused && FromVisitor_m(*s, stop.position_m) < kHears_m) t.rested_s += s->step_s;
-  if (t.rested_s >= RestOf_s(stop)) LeaveHalt(s);
+  t.holds = t.paused || FromVisitor_m(*s, stop.position_m) > kHears_m;
+  if (!t.holds) t.rested_s += s->step_s;
+  if (t.rested_s >= RestOf_s(t, HaltOf(t))) LeaveHalt(s);
 }
 
 // A visitor who comes back to the tour from elsewhere is led on from there.
@@ -115,7 +117,7 @@ void WalkOn(Simulation* s) {
   while (t.passed + 1 < t.stage.size() && t.visitor_m > t.stop_m[t.passed] - kPassed_m) ++t.passed;
   if (FromVisitor_m(*s, t.stops[HaltOf(t)].position_m) < (t.follows ? kThere_m : kThereFreely_m)) {
     t.resting = true;
-    if (RestOf_s(t.stops[HaltOf(t)]) <= 0) LeaveHalt(s);
+    if (RestOf_s(t, HaltOf(t)) <= 0) LeaveHalt(s);
     return;
   }
   const bool strays = Length(PointAt(t.route, t.visitor_m) - p) > kStrays_m;
@@ -123,14 +125,46 @@ void WalkOn(Simulation* s) {
   if (strays && is_back) Reroute(s);
 }
 
+StopWords WordsOf(const TourStop& stop, const std::string& language, const std::string& own) {
+  StopWords words;
+  const auto caption = stop.captions.find(language);
+  const bool translated = caption != stop.captions.end();
+  words.caption = translated ? caption->second : stop.caption;
+  auto sound = stop.sounds.find(language);
+  if (sound == stop.sounds.end() && !translated) sound = stop.sounds.find(own);  // one language at a time
+  words.rest_s = stop.pause_s;
+  if (stop.pause_s <= 0 && !words.caption.empty()) {
+    words.rest_s = kLeastReading_s + kReading_sPerLetter * static_cast<float>(words.caption.size());
+  }
+  if (sound == stop.sounds.end()) return words;
+  words.sound = sound->second.sound;
+  words.rest_s = std::max(words.rest_s, sound->second.duration_s + kAfterSound_s);
+  return words;
+}
+
 }  // namespace
 
-float RestOf_s(const TourStop& stop) {
-  if (stop.pause_s > 0 || stop.caption.empty()) return stop.pause_s;
-  return kLeastReading_s + kReading_sPerLetter * static_cast<float>(stop.caption.size());
+void TakeTour(const std::vector<TourStop>& stops, const std::string& own_language, Tour* t) {
+  t->stops = stops;
+  t->languages = {own_language};
+  const auto add = [&](const std::string& language) {
+    if (std::find(t->languages.begin(), t->languages.end(), language) == t->languages.end()) t->languages.push_back(language);
+  };
+  for (const TourStop& stop : stops) {
+    for (const auto& [language, caption] : stop.captions) add(language);
+    for (const auto& [language, sound] : stop.sounds) add(language);
+  }
+  SetLanguage(own_language, t);
+}
+
+void SetLanguage(const std::string& language, Tour* t) {
+  t->language = language;
+  t->words.clear();
+  for (const TourStop& stop : t->stops) t->words.push_back(WordsOf(stop, language, t->languages.front()));
 }
 
 void SettleTour(Simulation* s) {
+  if (s->tour.stops.empty()) return;
   const Walkable& w = s->walkable;
   int of_first = -1;
   std::vector<TourStop> kept;
@@ -151,7 +185,7 @@ void SettleTour(Simulation* s) {
     }
     kept.push_back(std::move(stop));
   }
-  s->tour.stops = std::move(kept);
+  TakeTour(kept, std::string(s->tour.languages.front()), &s->tour);
 }
 
 void BeginTour(Simulation* s) {

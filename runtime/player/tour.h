@@ -1,6 +1,7 @@
 // The guided tour: which stop is next, the way there, and how long the visitor rests. Internal to runtime/player.
 #pragma once
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "runtime/pack/tour_pack.h"
@@ -10,8 +11,18 @@ namespace flaneur {
 
 struct Simulation;
 
+// What is shown and said at a stop, in the visitor's language.
+struct StopWords {
+  std::string caption;
+  int sound = -1;    // index into TourPack::sounds; -1: none
+  float rest_s = 0;  // how long one stays; 0: passes by
+};
+
 struct Tour {
   std::vector<TourStop> stops;
+  std::vector<StopWords> words;         // by stop
+  std::vector<std::string> languages;   // that there are, the tour's own first
+  std::string language;                 // that words are in, as far as there are any
   // The way to the next halt, which is a stop to rest at, or the last stop: indices of the stops on it, and a line over the ground.
   std::vector<size_t> stage;
   size_t passed = 0;           // of the stage
@@ -19,6 +30,7 @@ struct Tour {
   Route route;
   float visitor_m = 0;         // how far along the route the visitor is
   bool resting = false, paused = false, over = false;
+  bool holds = false;          // nothing goes on: paused, or the visitor has left the halt
   bool follows = true;         // the tour leads the visitor, who does not walk about freely
   float rested_s = 0;
   float reroute_s = 0;         // until a visitor who strayed is thought of again
@@ -32,8 +44,13 @@ struct TourWish { bool next = false, back = false, toggle_pause = false; };
 inline bool HasTour(const Tour& tour) { return !tour.stops.empty() && !tour.over; }
 // The stop where the visitor rests, or to which the present way leads.
 inline size_t HaltOf(const Tour& tour) { return tour.stage.empty() ? 0 : tour.stage.back(); }
-// How long one rests there: as long as the tour says, else as it takes to read the caption.
-float RestOf_s(const TourStop& stop);
+// How long one rests there: as long as the tour says, else as it takes to read the caption; and until the sound is over.
+inline float RestOf_s(const Tour& tour, size_t stop) { return tour.words[stop].rest_s; }
+
+// The tour's stops and languages. own_language: of the stops' `caption`.
+void TakeTour(const std::vector<TourStop>& stops, const std::string& own_language, Tour* tour);
+// Words of a stop that has none in this language are in the tour's own.
+void SetLanguage(const std::string& language, Tour* tour);
 
 // Stops that nobody can stand at move beside the wall they are in, those that cannot be reached are left out; both with a warning.
 void SettleTour(Simulation* simulation);

@@ -28,9 +28,9 @@ extern "C" const unsigned char flaneur_caption_font[];
 namespace flaneur {
 namespace {
 
-constexpr float kLetterShare = 1 / 24.0f, kTextWidthShare = 0.84f, kLineGap = 1.25f;
+constexpr float kLetterShare = 1 / 20.0f, kTextWidthShare = 0.84f, kLineGap = 1.25f;
 constexpr int kLeastLetter_px = 12, kLeastPicture_px = 64;
-constexpr float kStripShare = 0.62f;  // how much of the picture the empty strip hides
+constexpr float kStripShare = 0.72f;  // how much of the picture the empty strip hides
 constexpr uint8_t kStripColor = 18;
 
 const stbtt_fontinfo& Font() {

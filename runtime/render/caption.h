@@ -10,7 +10,7 @@
 namespace flaneur {
 
 // A dark translucent strip as wide as the picture, with the text (UTF-8) wrapped and centred on it. Letters are about a
-// twenty-fourth of the picture's height. No text, or a picture under 64 pixels: an empty image.
+// twentieth of the picture's height. No text, or a picture under 64 pixels: an empty image.
 PackImage LayOutCaption(const std::string& text, int width_px, int height_px);
 
 struct CaptionView {

@@ -8,9 +8,9 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
 #include <cstring>
+
+#include "runtime/render/gamepad_codes.h"
 
 namespace flaneur {
 
@@ -80,16 +80,34 @@ std::string HeadlessContext::Renderer() const {
   return name != nullptr ? name : "unknown";
 }
 
+namespace {
+
+constexpr double kStillAClick_px = 8;  // of the mouse, or a finger, between press and release
+
+Vec2 Cursor(GLFWwindow* w) {
+  double x = 0, y = 0;
+  glfwGetCursorPos(w, &x, &y);
+  return {static_cast<float>(x), static_cast<float>(y)};
+}
+
+void ReadGamepad(WindowInput* input) {
+  GLFWgamepadstate pad;
+  int joystick = GLFW_JOYSTICK_1;
+  while (joystick < GLFW_JOYSTICK_LAST && !glfwJoystickIsGamepad(joystick)) ++joystick;
+  if (!glfwGetGamepadState(joystick, &pad)) return;
+  input->left_stick = {pad.axes[GLFW_GAMEPAD_AXIS_LEFT_X], -pad.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]};
+  input->right_stick = {pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_X], -pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]};
+  for (int button = 0; button <= GLFW_GAMEPAD_BUTTON_LAST; ++button) {
+    if (pad.buttons[button] == GLFW_PRESS) input->down.set(static_cast<size_t>(PadCode(button)));
+  }
+}
+
+}  // namespace
+
 struct Window::Impl {
   GLFWwindow* window = nullptr;
-  double last_x = 0, last_y = 0;
-  bool tab_down = false;
-  std::array<bool, 13> function_presses{};  // not asked for yet
-
-  static void OnKey(GLFWwindow* window, int key, int, int action, int) {
-    auto* impl = static_cast<Impl*>(glfwGetWindowUserPointer(window));
-    if (action == GLFW_PRESS && key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) impl->function_presses[static_cast<size_t>(key - GLFW_KEY_F1 + 1)] = true;
-  }
+  Vec2 last, pressed_at;       // of the cursor
+  bool focused = false, held = false, dragged = false, free_pointer = false;
 };
 
 Window::Window() : impl_(std::make_unique<Impl>()) {}
@@ -109,42 +127,55 @@ Error Window::Create(int width_px, int height_px, const char* title) {
   if (impl_->window == nullptr) return Fail("no window with OpenGL ES 3.0 could be opened; add --headless");
   glfwMakeContextCurrent(impl_->window);
   glfwSwapInterval(1);
-  glfwSetWindowUserPointer(impl_->window, impl_.get());
-  glfwSetKeyCallback(impl_->window, Impl::OnKey);
   glfwSetInputMode(impl_->window, GLFW_CURSOR, GLFW_CURSOR_DISABLED);
-  glfwGetCursorPos(impl_->window, &impl_->last_x, &impl_->last_y);
+  // Whoever taps shorter than a picture lasts is heard as well.
+  glfwSetInputMode(impl_->window, GLFW_STICKY_KEYS, GLFW_TRUE);
+  glfwSetInputMode(impl_->window, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
+  impl_->last = Cursor(impl_->window);
   return Ok();
 }
 
+void Window::FreePointer(bool free) {
+  if (free == impl_->free_pointer) return;
+  impl_->free_pointer = free;
+  glfwSetInputMode(impl_->window, GLFW_CURSOR, free ? GLFW_CURSOR_NORMAL : GLFW_CURSOR_DISABLED);
+  impl_->last = Cursor(impl_->window);
+}
+
 WindowInput Window::Poll() {
-  constexpr double kRadiansPerPixel = 0.0025;
   glfwPollEvents();
   GLFWwindow* w = impl_->window;
-  const auto down = [w](int key) { return glfwGetKey(w, key) == GLFW_PRESS; };
   WindowInput input;
-  input.walk.y = static_cast<float>((down(GLFW_KEY_W) || down(GLFW_KEY_UP)) - (down(GLFW_KEY_S) || down(GLFW_KEY_DOWN)));
-  input.walk.x = static_cast<float>((down(GLFW_KEY_D) || down(GLFW_KEY_RIGHT)) - (down(GLFW_KEY_A) || down(GLFW_KEY_LEFT)));
-  double x = 0, y = 0;
-  glfwGetCursorPos(w, &x, &y);
-  input.turn_rad = static_cast<float>((impl_->last_x - x) * kRadiansPerPixel);
-  input.pitch_rad = static_cast<float>((impl_->last_y - y) * kRadiansPerPixel);
-  impl_->last_x = x;
-  impl_->last_y = y;
-  const bool tab = down(GLFW_KEY_TAB);
-  input.toggle_tour = tab && !impl_->tab_down;
-  impl_->tab_down = tab;
-  input.close = glfwWindowShouldClose(w) || down(GLFW_KEY_ESCAPE);
+  for (int key = GLFW_KEY_SPACE; key <= GLFW_KEY_LAST; ++key) {
+    if (glfwGetKey(w, key) == GLFW_PRESS) input.down.set(static_cast<size_t>(key));
+  }
+  ReadGamepad(&input);
+  const Vec2 cursor = Cursor(w);
+  // A window that comes to the front has its cursor put elsewhere: nobody moved the mouse.
+  const bool focused = glfwGetWindowAttrib(w, GLFW_FOCUSED);
+  if (focused != impl_->focused || !focused) impl_->last = cursor;
+  impl_->focused = focused;
+  const bool held = glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
+  if (held && !impl_->held) impl_->pressed_at = impl_->last = cursor, impl_->dragged = false;
+  if (Length(cursor - impl_->pressed_at) > static_cast<float>(kStillAClick_px)) impl_->dragged = true;
+  if (!impl_->free_pointer || (held && impl_->dragged)) input.turned_px = cursor - impl_->last;
+  if (impl_->held && !held && (!impl_->free_pointer || !impl_->dragged)) input.clicks.push_back(PlaceOf(cursor));
+  impl_->held = held;
+  impl_->last = cursor;
+  input.close = glfwWindowShouldClose(w);
   return input;
+}
+
+// In the picture, 0 to 1.
+Vec2 Window::PlaceOf(Vec2 cursor) const {
+  if (!impl_->free_pointer) return {0.5f, 0.5f};
+  int width = 0, height = 0;
+  glfwGetWindowSize(impl_->window, &width, &height);
+  return {cursor.x / static_cast<float>(std::max(1, width)), cursor.y / static_cast<float>(std::max(1, height))};
 }
 
 void Window::Size(int* width_px, int* height_px) const { glfwGetFramebufferSize(impl_->window, width_px, height_px); }
 void Window::Show() { glfwSwapBuffers(impl_->window); }
-bool Window::WasPressed(const std::string& function_key) {
-  const auto number = static_cast<size_t>(std::clamp(std::atoi(function_key.c_str() + 1), 1, 12));
-  const bool pressed = impl_->function_presses[number];
-  impl_->function_presses[number] = false;
-  return pressed;
-}
 void Window::SetTitle(const char* title) { glfwSetWindowTitle(impl_->window, title); }
 
 }  // namespace flaneur

@@ -5,6 +5,7 @@
 
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
+#include "runtime/render/window_input.h"
 
 namespace flaneur {
 
@@ -22,12 +23,6 @@ class HeadlessContext {
   std::unique_ptr<Impl> impl_;
 };
 
-struct WindowInput {
-  Vec2 walk;               // x to the right, y ahead, each -1 to 1
-  float turn_rad = 0, pitch_rad = 0;  // since the last call
-  bool toggle_tour = false, close = false;
-};
-
 // A window with its context, current in this thread for as long as it lives.
 class Window {
  public:
@@ -36,12 +31,14 @@ class Window {
   // Errors: no display, no OpenGL ES 3.
   Error Create(int width_px, int height_px, const char* title);
   WindowInput Poll();
+  void FreePointer(bool free);  // to point at things with; else the mouse is caught, and turns the view
   void Size(int* width_px, int* height_px) const;
   void Show();             // what was drawn; waits for the display
   void SetTitle(const char* title);
-  bool WasPressed(const std::string& function_key);  // "f1" to "f12"; once for each time
 
  private:
+  Vec2 PlaceOf(Vec2 cursor) const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <set>
 
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/pack/write_tour_pack.h"
@@ -137,6 +138,10 @@ TourParts SmallTour() {
   parts.places = {{"west", "exit", {-18, 0}, 2}, {"stall", "loiter", {3, 0}, 1, 0.5f}};
   parts.painting = {{-4, -2}, 2, 2, 1, {0, 200}, {30, 0}};
   parts.path = {{{1, 2}, 0.5f, 3, "Grüß Gott"}};
+  parts.language = "de";
+  parts.path[0].captions["en"] = "Good day";
+  parts.sounds = {{'O', 'g', 'g', 'S'}, {1, 2, 3}};
+  parts.path[0].sounds = {{"de", {1, 2.5f}}, {"en", {0, 3.5f}}};
   parts.guide = parts.avatars[0].levels.avatar.name;
   parts.crowd.people = 17;
   parts.control.method = "frame_time";
@@ -188,6 +193,11 @@ TEST(TourPack, BringsTheTourAcross) {
   ASSERT_EQ(pack.path.size(), 1u);
   EXPECT_EQ(pack.path[0].caption, "Grüß Gott");
   EXPECT_EQ(pack.guide, "made");
+  EXPECT_EQ(pack.language, "de");
+  EXPECT_EQ(pack.path[0].captions.at("en"), "Good day");
+  ASSERT_EQ(pack.path[0].sounds.size(), 2u);
+  EXPECT_FLOAT_EQ(pack.path[0].sounds.at("de").duration_s, 2.5f);
+  EXPECT_EQ(pack.sounds[static_cast<size_t>(pack.path[0].sounds.at("de").sound)], (std::vector<uint8_t>{1, 2, 3}));
   EXPECT_EQ(pack.crowd.people, 17);
   EXPECT_EQ(pack.control.method, "frame_time");
   EXPECT_EQ(pack.control.r_high_m, ControlSettings{}.r_high_m);
@@ -401,7 +411,7 @@ TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
     for (const auto& [key, unused] : json.at(at).items()) {
       Json changed = json;
       changed.at(at).erase(key);
-      if (key == "painting" || key == "guide") continue;  // there need not be one
+      if (std::set<std::string>{"painting", "guide", "language", "captions", "sounds"}.contains(key)) continue;  // there need not be any
       EXPECT_TRUE(Refused(WithJson(whole, changed))) << object << "/" << key;
     }
   }

@@ -125,14 +125,57 @@ TEST_P(Tours, AVisitorWhoLeftAndComesBackIsLedOn) {
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutGuide, Tours, ::testing::Values("monk", ""),
                          [](const auto& which) { return std::string(which.param).empty() ? "alone" : "guided"; });
 
-TEST(Tour, ACaptionWithoutAPauseStaysAsLongAsReadingTakes) {
+TourStop Spoken() {
   TourStop stop;
-  EXPECT_EQ(RestOf_s(stop), 0);
-  stop.caption = std::string(150, 'a');
-  EXPECT_GT(RestOf_s(stop), 8);
-  EXPECT_LT(RestOf_s(stop), 20);
-  stop.pause_s = 3;
-  EXPECT_EQ(RestOf_s(stop), 3);
+  stop.caption = "The well has never run dry.";
+  stop.captions = {{"de", "Der Brunnen ist nie versiegt."}, {"fr", "Le puits."}};
+  stop.sounds = {{"en", {0, 9}}, {"de", {1, 12}}};
+  return stop;
+}
+
+TEST(Tour, SpeaksTheVisitorsLanguageOrElseItsOwn) {
+  Tour tour;
+  TakeTour({Spoken()}, "en", &tour);
+  EXPECT_EQ(tour.languages, (std::vector<std::string>{"en", "de", "fr"}));
+  EXPECT_EQ(tour.words[0].caption, "The well has never run dry.");
+  EXPECT_EQ(tour.words[0].sound, 0);
+  SetLanguage("de", &tour);
+  EXPECT_EQ(tour.words[0].caption, "Der Brunnen ist nie versiegt.");
+  EXPECT_EQ(tour.words[0].sound, 1);
+  SetLanguage("fr", &tour);
+  EXPECT_EQ(tour.words[0].caption, "Le puits.");
+  EXPECT_EQ(tour.words[0].sound, -1) << "not two languages at once";
+  SetLanguage("it", &tour);
+  EXPECT_EQ(tour.words[0].caption, "The well has never run dry.");
+  EXPECT_EQ(tour.words[0].sound, 0);
+}
+
+TEST(Tour, RestsUntilEverythingIsReadAndHeard) {
+  Tour tour;
+  TourStop waypoint, read = Spoken(), paused = Spoken();
+  read.sounds.clear();
+  paused.pause_s = 20;
+  TakeTour({waypoint, read, Spoken(), paused}, "en", &tour);
+  EXPECT_EQ(RestOf_s(tour, 0), 0);
+  EXPECT_GT(RestOf_s(tour, 1), 3);
+  EXPECT_LT(RestOf_s(tour, 1), 6);
+  EXPECT_GT(RestOf_s(tour, 2), 9);
+  EXPECT_EQ(RestOf_s(tour, 3), 20);
+}
+
+TEST(Tour, AnUnknownLanguageIsNamedWithTheKnownOnes) {
+  TourPack pack = TourTown(5);
+  pack.path[1].captions["de"] = "Etwas.";
+  Scenario scenario;
+  scenario.language = "nl";
+  Simulation s;
+  ASSERT_EQ(StartSimulation(&pack, scenario, &s).message, "");
+  ASSERT_EQ(s.warnings.size(), 1u);
+  EXPECT_NE(s.warnings[0].find("'nl'; there is: en, de"), std::string::npos) << s.warnings[0];
+  scenario.language = "de";
+  ASSERT_EQ(StartSimulation(&pack, scenario, &s).message, "");
+  EXPECT_TRUE(s.warnings.empty());
+  EXPECT_EQ(s.tour.words[1].caption, "Etwas.");
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+// Spoken audio for the stops of a guided tour.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "runtime/base/error.h"
+
+namespace flaneur {
+
+struct SoundFile {
+  std::vector<uint8_t> bytes;  // as in the file
+  float duration_s = 0;
+};
+
+// WAV, FLAC, Ogg Vorbis or Opus, MP3. The sound is decoded to its end.
+// Errors: unreadable, none of these, broken, silent for want of samples, longer than an hour.
+Error ReadSoundFile(const std::filesystem::path& path, SoundFile* sound);
+
+}  // namespace flaneur

@@ -1,0 +1,36 @@
+// From keys, mouse, gamepad and taps to what the visitor wants.
+#pragma once
+#include <array>
+#include <bitset>
+#include <vector>
+
+#include "runtime/player/player_settings.h"
+#include "runtime/player/simulation.h"
+#include "runtime/render/window_input.h"
+
+namespace flaneur {
+
+// The settings' keys by number, and what has been asked for so far.
+struct Controls {
+  PlayerSettings settings;
+  std::array<std::vector<int>, kActions> codes;
+  std::bitset<kActions> was_down;
+  bool follows_tour = true;   // else the visitor walks about
+  bool points = false;        // the pointer is free: drag to turn, click to walk there
+  bool quits = false, changed = false;  // changed: the settings, to be saved
+  bool toggles_views = false, switches_adaptation = false;  // taken once
+  bool applies = false;       // changed settings have still to be heeded
+  float to_turn_rad = 0, to_look_rad = 0;  // that the mouse or a snap asked for, and the simulation has still to do
+  float turn_radps = 0;       // of keys and sticks
+  bool snap_ready = true;     // since a turning key or stick was let go
+};
+
+Controls MakeControls(const PlayerSettings& settings, const Simulation& simulation);
+
+// What the hands did since the last picture, passed_s ago. aspect: of the picture, width over height.
+void TakeInput(const WindowInput& input, float passed_s, float aspect, const Simulation& simulation, Controls* controls, CameraInput* camera);
+
+// For the next step. Wishes are fulfilled once.
+CameraInput NextStep(const CameraInput& camera, const Simulation& simulation, Controls* controls);
+
+}  // namespace flaneur

@@ -1,0 +1,30 @@
+// Spoken audio. Without an audio device it is silent, and says so once.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "runtime/player/tour.h"
+
+namespace flaneur {
+
+class Speaker {
+ public:
+  Speaker();
+  ~Speaker();
+  // From its beginning, instead of what is playing. The file's bytes (WAV, FLAC, Ogg, MP3) are decoded meanwhile, in another thread.
+  void Play(std::vector<uint8_t> sound);
+  void Stop();
+  void SetPaused(bool paused);
+  void Update();  // once a picture
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// What the tour says where it rests now.
+struct Narration { size_t stop = 0; int sound = -1; float rested_s = 0; };
+void Narrate(const Tour& tour, const std::vector<std::vector<uint8_t>>& sounds, Narration* last, Speaker* speaker);
+
+}  // namespace flaneur

@@ -1,0 +1,26 @@
+// What a visitor's hands do, as a window sees it. Keys and gamepad buttons have names, for settings that people write.
+#pragma once
+#include <bitset>
+#include <string>
+#include <vector>
+
+#include "runtime/base/math.h"
+
+namespace flaneur {
+
+inline constexpr int kInputCodes = 512;  // of keys and gamepad buttons
+
+struct WindowInput {
+  std::bitset<kInputCodes> down;  // or pressed since the last call, however shortly
+  Vec2 turned_px;                 // by the mouse: x to the right, y down; where the pointer is free, while its left button is held
+  Vec2 left_stick, right_stick;   // of the first gamepad: x to the right, y up, each -1 to 1
+  std::vector<Vec2> clicks;       // 0 to 1 from the picture's upper left corner; its middle where the pointer is caught
+  bool close = false;
+};
+
+// Such as "w", "left_shift", "page_up" or "pad_a"; -1 for others.
+int InputCode(const std::string& name);
+std::string InputName(int code);  // empty where there is none
+std::vector<std::string> InputNames();
+
+}  // namespace flaneur
