@@ -7,6 +7,7 @@ import signal
 import subprocess
 import tempfile
 import time
+import tomllib
 import unittest
 
 from support import BIN, SOURCE
@@ -93,6 +94,38 @@ class Window(unittest.TestCase):
             moved = max(abs(float(last[c]) - float(first[c])) for c in ("camera_x_m", "camera_y_m"))
             self.assertGreater(moved, 0.5)
             self.assertGreater(len({row["camera_yaw_rad"] for row in rows}), 3)
+
+    def test_holds_the_tour_and_keeps_what_is_changed(self):
+        with Display() as display, tempfile.TemporaryDirectory() as folder:
+            settings = pathlib.Path(folder) / "player.toml"
+            program = display.play("--settings", settings, "--set", "keys.pause=p", "--set", "reduced_motion=true")
+            display.wait_for_window(program)
+            display.do("search", "--name", "frames/s", "windowfocus")
+            display.do("key", "p")
+            time.sleep(3)
+            display.do("search", "--name", "tour paused")
+            display.do("key", "m")
+            display.do("key", "equal")
+            time.sleep(1)
+            display.do("keydown", "Escape")
+            code, errors = self.end(program)
+            self.assertEqual((code, errors), (0, ""))
+            kept = tomllib.loads(settings.read_text())
+        self.assertEqual(kept["pointer"], "point")
+        self.assertGreater(kept["field_of_view_deg"], 0)
+        self.assertFalse(kept["reduced_motion"], "only what was changed in the window")
+        self.assertIn("space", kept["keys"]["pause"])
+
+    def test_a_wrong_setting_is_named_and_the_file_left_alone(self):
+        with Display() as display, tempfile.TemporaryDirectory() as folder:
+            settings = pathlib.Path(folder) / "player.toml"
+            settings.write_text("walk_speed_mps = \"fast\"  # my own note\n")
+            program = display.play("--settings", settings, "--seconds", "0.2")
+            code, errors = self.end(program)
+            self.assertEqual(code, 0)
+            self.assertEqual(len(errors.splitlines()), 1)
+            self.assertIn("player.toml:1: walk_speed_mps must be a number", errors)
+            self.assertIn("my own note", settings.read_text())
 
     def test_closed_while_loading(self):
         for wait_s in (0.1, 0.5, 1.0):

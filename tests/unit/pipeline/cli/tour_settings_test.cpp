@@ -180,6 +180,8 @@ TEST(TourSettings, RefusalsNameTheLineAndWhatToDo) {
       {"[[avatar]]\nname = \"person\"\nfile = \"other.glb\"\n", ":5:", {"person", "own name"}},
       {"[[avatar]]\nshare = 1\n", ":5:", {"avatar", "file"}},
       {"[[avatar]]\nname = \"../up\"\nfile = \"x.glb\"\n", ":5:", {"../up", "file name"}},
+      {"[[stop]]\nposition_m = [0, 0]\ncaption = 3\n", ":7:", {"stop.caption", "by language"}},
+      {"[[stop]]\nposition_m = [0, 0]\ncaption = { de = \"Hier\" }\n", ":5:", {"'en'", "tour.language"}},
       {"[tour]\nguide = \"monk\"\n", ":", {"tour.guide", "monk", "[[avatar]]"}},
       {"[control\n", ":5:", {"TOML"}},
   };
