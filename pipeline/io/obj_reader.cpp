@@ -13,6 +13,8 @@ namespace {
 
 // A town this much wider than high along one axis has that axis upright.
 constexpr double kFlatter = 0.5;
+// A face stands upright where its normal's share along the axis is below this.
+constexpr double kUpright = 0.02;
 // Map coordinates: eastings and northings are far larger than heights.
 constexpr double kMapCoordinate_m = 10'000;
 
@@ -90,6 +92,24 @@ class Reader {
     return Ok();
   }
 
+  // Of the faces that stand along each axis: walls stand along the axis that is up, roofs and floors along none or another.
+  Point3 StandingArea_m2() const {
+    Point3 standing{};
+    size_t corner = 0;
+    for (const uint32_t size : sizes_) {
+      Point3 normal{};  // twice the area long
+      for (uint32_t i = 0; i < size; ++i) {
+        const Point3 &a = points_[corners_[corner + i]], &b = points_[corners_[corner + (i + 1) % size]];
+        normal = {normal.x + (a.y - b.y) * (a.z + b.z), normal.y + (a.z - b.z) * (a.x + b.x), normal.z + (a.x - b.x) * (a.y + b.y)};
+      }
+      corner += size;
+      const double length = std::sqrt(normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
+      if (std::abs(normal.y) < kUpright * length) standing.y += length / 2;
+      if (std::abs(normal.z) < kUpright * length) standing.z += length / 2;
+    }
+    return standing;
+  }
+
   // OBJ does not say which axis is up.
   bool YIsUp(std::vector<std::string>* warnings) const {
     Point3 min{1e300, 1e300, 1e300}, max{-1e300, -1e300, -1e300};
@@ -101,10 +121,14 @@ class Reader {
     const double y = max.y - min.y, z = max.z - min.z;
     const auto far = [](double low, double high) { return std::abs(low + high) / 2 > kMapCoordinate_m; };
     const bool on_map = far(min.x, max.x) && far(min.y, max.y) && !far(min.z, max.z);
-    const bool y_up = !on_map && !(z < kFlatter * y);
+    const bool by_extents = z < kFlatter * y || y < kFlatter * z;
+    const Point3 standing = StandingArea_m2();
+    const bool y_up = !on_map && (by_extents ? y < z : standing.y >= standing.z);
     if (warnings)
       warnings->push_back(path_.string() + ": OBJ does not say which way is up; taken for " + (y_up ? "y" : "z") +
-                          (on_map ? ", as x and y are map coordinates" : ", judging by the extents"));
+                          (on_map       ? ", as x and y are map coordinates"
+                           : by_extents ? ", judging by the extents"
+                                        : ", judging by the walls"));
     return y_up;
   }
 

@@ -208,6 +208,21 @@ TEST_F(CityModel, ObjWithMapCoordinatesHasZUp) {
   EXPECT_NEAR(Highest().x, 603001, 1e-3);
 }
 
+// A gabled house of 12 x 9 m, 8 m high, is neither flat nor tall: its walls tell.
+TEST_F(CityModel, ObjWallsTellWhichWayIsUp) {
+  const double corners[][3] = {{0, 0, 0}, {12, 0, 0}, {12, 9, 0}, {0, 9, 0}, {0, 0, 5},
+                               {12, 0, 5}, {12, 9, 5}, {0, 9, 5}, {0, 4.5, 8}, {12, 4.5, 8}};
+  const std::string faces = "f 1 2 6 5\nf 3 4 8 7\nf 2 3 7 10 6\nf 4 1 5 9 8\nf 5 6 10 9\nf 7 8 9 10\nf 4 3 2 1\n";
+  for (const bool y_up : {false, true}) {
+    std::string text;
+    for (const auto& [x, y, z] : corners) {
+      text += "v " + std::to_string(x) + " " + std::to_string(y_up ? z : y) + " " + std::to_string(y_up ? -y : z) + "\n";
+    }
+    ASSERT_EQ(Read("house.obj", text + faces), "");
+    EXPECT_NEAR(Highest().z, 8, 0.01) << y_up;
+  }
+}
+
 TEST_F(CityModel, BadObjIsNamedByLine) {
   EXPECT_NE(Read("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n").find("bad.obj:3"), std::string::npos);
   EXPECT_NE(Read("bad.obj", "v 0 0 nan\n").find("bad.obj:1"), std::string::npos);
