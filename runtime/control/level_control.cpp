@@ -12,6 +12,7 @@ constexpr float kFall_mps = 2.0f;            // r_high moves no faster than peop
 constexpr float kRise_mps = 0.5f;            // and comes back slowly: whoever it passes over switches in view
 constexpr float kHysteresis_m = 2.0f;        // a mesh stays one until this far beyond r_high
 constexpr float kHeadroom = 8.0f;            // of a newly chosen level: serves up to so many times the pixels
+constexpr float kReserve = 0.2f;             // of limit and budget, kept for those who come into view near
 constexpr float kWorthwhile_s = 3.0f;         // who leaves the view sooner is not worth a switch any more
 constexpr float kMotionSettles_s = 0.3f;      // over which the camera's motion is averaged
 constexpr float kLong_s = 1e3f;
@@ -183,8 +184,9 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
     const float px = PixelsHigh(avatar.height_m, distance_m, camera, s.screen_width_px);
     const int last = state->last_level[static_cast<size_t>(id)];
     int level = kImpostor;
-    if (turn < kStays && state->high < limit) {
-      level = AffordableLevel(avatar, WantedLevel(avatar, px, last), budget, state->triangles);
+    const float share = turn == kAppears ? 1 - kReserve : 1.0f;
+    if (turn < kStays && static_cast<float>(state->high) < share * static_cast<float>(limit)) {
+      level = AffordableLevel(avatar, WantedLevel(avatar, px, last), static_cast<int64_t>(share * state->budget_triangles), state->triangles);
     }
     if (level >= 0) state->triangles += avatar.levels[static_cast<size_t>(level)].triangles - kImpostorTriangles;
     state->level[i] = level;

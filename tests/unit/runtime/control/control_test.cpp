@@ -194,6 +194,7 @@ TEST(LevelControl, TheSecondMethodSettlesAtTheFrameTimeAskedForAndLowerWhileTheC
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {4000, 120}, {900, 0}}, 1.75f, 128}};
   Random random{6};
   Crowd crowd = PeopleInView(120, &random);
+  for (Vec2& p : crowd.position) p = {3 + p.x * 0.11f, p.y * 0.08f};  // within r_high
   LevelSettings settings;
   settings.by_frame_time = true;
   LevelState state;
