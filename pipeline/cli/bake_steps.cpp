@@ -4,20 +4,16 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdio>
 #include <thread>
 
 #include "pipeline/core/interruption.h"
+#include "runtime/base/clock.h"
 
 namespace flaneur {
 namespace {
 
 constexpr size_t kMostWarningsShown = 8;  // of a step on the terminal; the report has all
-
-double Now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 double PeakMemory_mb() {
   rusage usage{};

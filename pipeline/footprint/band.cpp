@@ -52,7 +52,6 @@ std::vector<Point3> CutAt(const std::vector<Point3>& polygon, double level, doub
   return out;
 }
 
-double Length(const Segment& s) { return std::hypot(s.b.x - s.a.x, s.b.y - s.a.y); }
 
 // Merges segments that overlap along one line, as do the parts in the band of triangles of one wall: each becomes longer
 // by those that overlap its ends, and takes in what lies beside it.
@@ -225,13 +224,6 @@ class BandCutter {
 };
 
 }  // namespace
-
-std::vector<Segment> Outline(const Rings& rings) {
-  std::vector<Segment> lines;
-  for (const Ring& ring : rings)
-    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) lines.push_back({ring[j], ring[i]});
-  return lines;
-}
 
 std::vector<Segment> Lines(const BandParts& parts) {
   std::vector<Segment> lines = Outside(parts.walls, parts.areas);

@@ -16,7 +16,6 @@ struct BandParts {
 
 // The walls outside the areas, and the areas' outlines.
 std::vector<Segment> Lines(const BandParts& parts);
-std::vector<Segment> Outline(const Rings& rings);
 
 // Triangles are split along edges where the ground bends under them, cut to the band and projected. The result does not
 // depend on the order or orientation of the triangles.

@@ -25,18 +25,6 @@ bool Meet(Point2 min, Point2 max, const BoundingBox& box, double reach = 0) {
   return min.x <= box.max.x + reach && box.min.x <= max.x + reach && min.y <= box.max.y + reach && box.min.y <= max.y + reach;
 }
 
-double LengthOf(const std::vector<Segment>& segments) {
-  double length = 0;
-  for (const Segment& s : segments) length += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
-  return length;
-}
-
-double Perimeter(const Rings& rings) {
-  double length = 0;
-  for (const Ring& ring : rings) length += LengthOf(Outline({ring}));
-  return length;
-}
-
 // What the town itself says should be covered, by object.
 struct Footprint { const Obstacle* obstacle; Rings rings; BoundingBox box; };
 
@@ -194,14 +182,14 @@ class TownCheck {
     const Rings cover = CoverNear(box);
     const AreaIndex index(cover, std::max(1.0, 2 * state_.clearance_m));
     const std::vector<Segment> bare = Outside(walls, Offset(cover, tolerance));
-    if (LengthOf(bare) > kWallPiece_m) {
+    if (Length(bare) > kWallPiece_m) {
       const auto [depth, at] = Worst(bare, index);
       state_.Add(301, object.name, at, -depth, tolerance, "a wall of '" + object.name + "' stands out by " + Metres(-depth));
       return;
     }
     if (short_of <= 0) return;
     const std::vector<Segment> near = Outside(walls, Offset(cover, -(short_of - kRounding_m)));
-    if (LengthOf(near) <= kWallPiece_m) return;
+    if (Length(near) <= kWallPiece_m) return;
     const auto [depth, at] = Worst(near, index);
     const double left = std::max(depth, 0.0);
     if (left < short_of)
@@ -271,7 +259,7 @@ class TownCheck {
     const double share = state_.options.over_cover_share;
     const Rings excess = Difference(entry.rings, truth);
     const double area = Area(excess), right = Area(entry.rings) - area;
-    if (area <= share * right || area <= state_.options.tolerance_m / 2 * Perimeter(entry.rings)) return;
+    if (area <= share * right || area <= state_.options.tolerance_m / 2 * Length(Outline(entry.rings))) return;
     const std::string& name = entry.obstacle->name;
     state_.Add(303, name, excess[0][0], area / right, share, "'" + name + "' takes " + SquareMetres(area) + " all round");
   }

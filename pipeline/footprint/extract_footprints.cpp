@@ -106,8 +106,6 @@ class Roofs {
 
 bool InBlocks(ObstacleKind kind) { return kind == ObstacleKind::kBuilding || kind == ObstacleKind::kWall; }
 
-double Length(const Segment& s) { return std::hypot(s.b.x - s.a.x, s.b.y - s.a.y); }
-
 // Without the crumbs that stick out of an outline by a hair: connected pieces shorter than kCrumb_m together.
 std::vector<Segment> WithoutCrumbs(const std::vector<Segment>& loose) {
   std::map<std::pair<double, double>, size_t> ends;

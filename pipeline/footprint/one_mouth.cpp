@@ -16,7 +16,6 @@ constexpr double kWider = 1.1;          // than its gap, a room
 constexpr size_t kMostEnds = 40;        // of walls that lead nowhere; with more nobody knows which belong together
 constexpr double kOnLine_m = 0.01;
 
-double Length(const Segment& s) { return std::hypot(s.b.x - s.a.x, s.b.y - s.a.y); }
 bool Same(Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }
 
 std::vector<Point2> LooseEnds(const std::vector<Segment>& walls, const Rings& solid, double reach_m) {
@@ -47,7 +46,7 @@ std::vector<Segment> Gaps(const std::vector<Segment>& walls, const Rings& solid,
   std::vector<std::tuple<double, size_t, size_t>> pairs;
   for (size_t i = 0; i < ends.size(); ++i)
     for (size_t j = i + 1; j < ends.size(); ++j)
-      if (const double length = Length({ends[i], ends[j]}); length <= kWidestGap_m) pairs.emplace_back(length, i, j);
+      if (const double length = Length(Segment{ends[i], ends[j]}); length <= kWidestGap_m) pairs.emplace_back(length, i, j);
   std::sort(pairs.begin(), pairs.end());
   std::vector<bool> taken(ends.size(), false);
   std::vector<Segment> gaps;
@@ -61,13 +60,6 @@ std::vector<Segment> Gaps(const std::vector<Segment>& walls, const Rings& solid,
   return gaps;
 }
 
-double Perimeter(const Rings& rings) {
-  double sum = 0;
-  for (const Ring& ring : rings)
-    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) sum += Length({ring[j], ring[i]});
-  return sum;
-}
-
 bool IsRoom(const Rings& region, const std::vector<Segment>& gaps, double reach_m) {
   int count = 0;
   double width = 0;
@@ -77,7 +69,7 @@ bool IsRoom(const Rings& region, const std::vector<Segment>& gaps, double reach_
     ++count;
     width = Length(gap);
   }
-  return count == 1 && width <= kMostOfOutline * Perimeter(region) && !Offset(region, -kWider * width / 2).empty();
+  return count == 1 && width <= kMostOfOutline * Length(Outline(region)) && !Offset(region, -kWider * width / 2).empty();
 }
 
 }  // namespace

@@ -192,13 +192,6 @@ class Simplifier {
   std::vector<Corner> corners_;
 };
 
-std::vector<Segment> EdgesOf(const Rings& rings) {
-  std::vector<Segment> edges;
-  for (const Ring& ring : rings)
-    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) edges.push_back({ring[j], ring[i]});
-  return edges;
-}
-
 void AddPolygons(const cl::PolyNode& node, std::vector<Polygon>* out) {
   for (const cl::PolyNode* outer : node.Childs) {
     Polygon polygon{ToRing(outer->Contour), {}};
@@ -211,6 +204,21 @@ void AddPolygons(const cl::PolyNode& node, std::vector<Polygon>* out) {
 }
 
 }  // namespace
+
+double Length(const Segment& s) { return std::hypot(s.b.x - s.a.x, s.b.y - s.a.y); }
+
+double Length(const std::vector<Segment>& segments) {
+  double length = 0;
+  for (const Segment& s : segments) length += Length(s);
+  return length;
+}
+
+std::vector<Segment> Outline(const Rings& rings) {
+  std::vector<Segment> lines;
+  for (const Ring& ring : rings)
+    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) lines.push_back({ring[j], ring[i]});
+  return lines;
+}
 
 double SignedArea(const Ring& ring) {
   if (ring.empty()) return 0;
@@ -257,12 +265,7 @@ Rings UnionOfRings(const Rings& rings) {
 
 Rings UnionOfAreas(const Rings& rings) {
   if (rings.empty()) return {};
-  cl::Clipper clipper;
-  clipper.StrictlySimple(true);
-  clipper.AddPaths(ToPaths(rings), cl::ptSubject, true);
-  cl::Paths out;
-  clipper.Execute(cl::ctUnion, out, cl::pftNonZero, cl::pftNonZero);
-  return ToRings(out);
+  return ToRings(UnionAtOnce(ToPaths(rings)));
 }
 
 Rings Offset(const Rings& rings, double distance_m, double miter_limit) {
@@ -386,10 +389,9 @@ double DistanceToBoundary(const Rings& rings, Point2 p) {
 
 AreaIndex::AreaIndex(Rings rings, double reach_m) : rings_(std::move(rings)), reach_m_(reach_m) {
   constexpr double kLeastCell_m = 1, kMostCells = 1e6;
-  double length = 0;
-  for (const Segment& s : EdgesOf(rings_)) length += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
-  cell_m_ = std::max(kLeastCell_m, length / kMostCells);
-  for (const Segment& s : EdgesOf(rings_)) Add(s);
+  const std::vector<Segment> outline = Outline(rings_);
+  cell_m_ = std::max(kLeastCell_m, Length(outline) / kMostCells);
+  for (const Segment& s : outline) Add(s);
 }
 
 void AreaIndex::Add(const Segment& s) {

@@ -14,6 +14,10 @@ using Rings = std::vector<Ring>;
 struct Segment { Point2 a, b; };
 struct Polygon { Ring outer; Rings holes; };
 
+double Length(const Segment& segment);
+double Length(const std::vector<Segment>& segments);  // of all together
+std::vector<Segment> Outline(const Rings& rings);
+
 double SignedArea(const Ring& ring);  // square metres, positive where anticlockwise
 double Area(const Rings& rings);
 struct BoundingBox { Point2 min{1e300, 1e300}, max{-1e300, -1e300}; };  // of nothing: min above max

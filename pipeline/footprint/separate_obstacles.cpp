@@ -14,8 +14,6 @@ constexpr double kSmallestStrip_m2 = 1e-4; // of those that go to a neighbour in
 constexpr double kAgainst_m = 0.0005;      // strips nearer than this to a neighbour lie against it
 constexpr double kJoint_m = 1.5;         // houses that overlap by less are meant to touch
 
-double Length(const Segment& s) { return std::hypot(s.b.x - s.a.x, s.b.y - s.a.y); }
-
 bool Apart(const BoundingBox& a, const BoundingBox& b) {
   return a.max.x < b.min.x || b.max.x < a.min.x || a.max.y < b.min.y || b.max.y < a.min.y;
 }

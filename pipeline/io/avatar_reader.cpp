@@ -7,6 +7,7 @@
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_document.h"
 #include "pipeline/io/gltf_pose.h"
+#include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -555,7 +556,7 @@ Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& opt
   GltfDocument document;
   TemporaryFolder folder;
   std::filesystem::path gltf = path;
-  if (NeedsBlender(path) || path.extension() == ".obj") {
+  if (NeedsBlender(path) || HasExtension(path, ".obj")) {
     if (Error e = ConvertToGltf(path, &folder, &gltf)) return e;
   }
   if (Error e = LoadGltf(gltf, &document, warnings)) return e;

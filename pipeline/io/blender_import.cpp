@@ -1,19 +1,16 @@
 #include "pipeline/io/blender_import.h"
 
-#include <algorithm>
-#include <cctype>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "pipeline/core/subprocess.h"
+#include "runtime/base/file.h"
 
 namespace flaneur {
 namespace fs = std::filesystem;
 
 bool NeedsBlender(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension == ".blend" || extension == ".fbx" || extension == ".dae";
+  return HasExtension(path, ".blend") || HasExtension(path, ".fbx") || HasExtension(path, ".dae");
 }
 
 Error ConvertToGltf(const fs::path& path, TemporaryFolder* folder, fs::path* gltf) {

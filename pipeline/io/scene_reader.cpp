@@ -5,6 +5,7 @@
 
 #include "pipeline/io/blender_import.h"
 #include "pipeline/io/gltf.h"
+#include "runtime/base/file.h"
 
 namespace flaneur {
 namespace {
@@ -39,7 +40,7 @@ Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std
   // Members of a JSON object stand in any order: glTF must have "asset" and "version", CityJSON its "type".
   const bool city = text.find("\"CityJSON\"") != std::string::npos || text.find("\"CityObjects\"") != std::string::npos;
   if (first == '{' && city) return ReadCityJson(path, scene, warnings);
-  if (path.extension() == ".obj" || path.extension() == ".OBJ") return ReadObj(path, scene, warnings);
+  if (HasExtension(path, ".obj")) return ReadObj(path, scene, warnings);
   if (first == '{' && path.extension() != ".gltf" && path.extension() != ".glb") return ReadCityJson(path, scene, warnings);
   return ReadGltfScene(path, scene, warnings);
 }

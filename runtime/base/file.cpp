@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -41,6 +43,12 @@ bool WriteAll(int fd, const uint8_t* data, size_t size) {
 }
 
 }  // namespace
+
+bool HasExtension(const fs::path& path, std::string_view extension) {
+  const std::string own = path.extension().string();
+  return std::equal(own.begin(), own.end(), extension.begin(), extension.end(),
+                    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+}
 
 Error ReadFile(const fs::path& path, std::vector<uint8_t>* bytes) { return ReadInto(path, bytes); }
 Error ReadTextFile(const fs::path& path, std::string* text) { return ReadInto(path, text); }

@@ -11,6 +11,9 @@
 
 namespace flaneur {
 
+// `extension` in small letters, as ".obj"; the file's may be in either.
+bool HasExtension(const std::filesystem::path& path, std::string_view extension);
+
 // Errors: missing, a directory, unreadable; each names the path.
 Error ReadFile(const std::filesystem::path& path, std::vector<uint8_t>* bytes);
 Error ReadTextFile(const std::filesystem::path& path, std::string* text);

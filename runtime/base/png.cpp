@@ -14,13 +14,19 @@
 
 namespace flaneur {
 
-Error WritePng(const std::filesystem::path& path, int width_px, int height_px, const std::vector<uint8_t>& rgb) {
+std::vector<uint8_t> EncodePng(int width_px, int height_px, int channels, const std::vector<uint8_t>& pixels) {
   int size = 0;
-  unsigned char* png = stbi_write_png_to_mem(rgb.data(), width_px * 3, width_px, height_px, 3, &size);
-  if (png == nullptr) return Fail(path.string() + ": the picture cannot be encoded");
-  const Error error = WriteFile(path, {png, static_cast<size_t>(size)});
+  unsigned char* png = stbi_write_png_to_mem(pixels.data(), width_px * channels, width_px, height_px, channels, &size);
+  if (png == nullptr) return {};
+  std::vector<uint8_t> bytes(png, png + size);
   std::free(png);
-  return error;
+  return bytes;
+}
+
+Error WritePng(const std::filesystem::path& path, int width_px, int height_px, const std::vector<uint8_t>& rgb) {
+  const std::vector<uint8_t> png = EncodePng(width_px, height_px, 3, rgb);
+  if (png.empty()) return Fail(path.string() + ": the picture cannot be encoded");
+  return WriteFile(path, png);
 }
 
 }  // namespace flaneur

@@ -8,6 +8,9 @@
 
 namespace flaneur {
 
+// 8 bits a channel, top row first; empty where there is not enough memory.
+std::vector<uint8_t> EncodePng(int width_px, int height_px, int channels, const std::vector<uint8_t>& pixels);
+
 // RGB, 8 bits a channel, top row first. Errors: as for WriteFile.
 Error WritePng(const std::filesystem::path& path, int width_px, int height_px, const std::vector<uint8_t>& rgb);
 

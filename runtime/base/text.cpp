@@ -1,6 +1,7 @@
 #include "runtime/base/text.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 #include <vector>
 
@@ -40,6 +41,12 @@ std::string NearestName(std::string_view name, std::span<const std::string> cand
 std::string DidYouMean(std::string_view name, std::span<const std::string> candidates) {
   const std::string nearest = NearestName(name, candidates);
   return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+}
+
+std::string Compact(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
 }
 
 std::string PlainJsonError(std::string_view what) {

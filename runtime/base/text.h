@@ -16,6 +16,9 @@ std::string DidYouMean(std::string_view name, std::span<const std::string> candi
 // Line breaks and control characters become spaces, so that any text fits in a one-line message.
 std::string OneLine(std::string_view text);
 
+// At most six digits: "0.25", "1e+06".
+std::string Compact(double number);
+
 // What a JSON library complains of, without its error's number and the parser's inner life:
 // "parse error at line 1, column 1".
 std::string PlainJsonError(std::string_view what);

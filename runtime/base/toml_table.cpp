@@ -14,10 +14,14 @@ namespace {
 constexpr double kLargest_m = 1e6;
 constexpr double kLargestMap_m = 1e8;  // twice round the earth
 
-std::string Compact(double number) {
-  std::ostringstream out;
-  out << number;
-  return out.str();
+// Two numbers in brackets, neither beyond `largest`; else false, and nothing is changed.
+bool ReadPair(const toml::node& node, double largest, double* x, double* y) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != 2) return false;
+  const auto first = (*array)[0].value<double>(), second = (*array)[1].value<double>();
+  if (!first || !second || !(std::abs(*first) <= largest && std::abs(*second) <= largest)) return false;
+  *x = *first, *y = *second;
+  return true;
 }
 
 }  // namespace
@@ -142,7 +146,7 @@ void TomlTable::Texts(const char* key, std::vector<std::string>* values) {
 void TomlTable::Point(const char* key, Vec2* value) {
   std::vector<float> numbers{value->x, value->y};
   const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
-  Numbers(key, &numbers, -1e6, 1e6);
+  Numbers(key, &numbers, -kLargest_m, kLargest_m);
   if (numbers.size() != 2) return context_->Refuse(node, Name(key) + " must be [x, y] in metres");
   *value = {numbers[0], numbers[1]};
 }
@@ -151,25 +155,19 @@ void TomlTable::Points(const char* key, std::vector<Vec2>* values) {
   const toml::node* node = Find(key);
   if (node == nullptr) return;
   const toml::array* points = node->as_array();
-  for (size_t i = 0; points != nullptr && i < points->size(); ++i) {
-    const toml::array* point = (*points)[i].as_array();
-    const auto number = [&](size_t k) { return point && point->size() == 2 ? (*point)[k].value<double>() : std::nullopt; };
-    const auto x = number(0), y = number(1);
-    if (!x || !y || !(std::abs(*x) <= kLargest_m && std::abs(*y) <= kLargest_m)) points = nullptr;
-    else values->push_back({static_cast<float>(*x), static_cast<float>(*y)});
+  bool sound = points != nullptr;
+  for (size_t i = 0; sound && i < points->size(); ++i) {
+    double x = 0, y = 0;
+    sound = ReadPair((*points)[i], kLargest_m, &x, &y);
+    if (sound) values->push_back({static_cast<float>(x), static_cast<float>(y)});
   }
-  if (points == nullptr) context_->Refuse(node, Name(key) + " must be a list of [x, y] in metres");
+  if (!sound) context_->Refuse(node, Name(key) + " must be a list of [x, y] in metres");
 }
 
 void TomlTable::MapPoint(const char* key, double* east_m, double* north_m) {
   const toml::node* node = Find(key);
-  if (node == nullptr) return;
-  const toml::array* array = node->as_array();
-  const auto number = [&](size_t i) { return array && array->size() == 2 ? (*array)[i].value<double>() : std::nullopt; };
-  const auto x = number(0), y = number(1);
-  if (!x || !y || !(std::abs(*x) <= kLargestMap_m && std::abs(*y) <= kLargestMap_m))
-    return context_->Refuse(node, Name(key) + " must be [east, north] in metres of the map");
-  *east_m = *x, *north_m = *y;
+  if (node == nullptr || ReadPair(*node, kLargestMap_m, east_m, north_m)) return;
+  context_->Refuse(node, Name(key) + " must be [east, north] in metres of the map");
 }
 
 void TomlTable::File(const char* key, std::filesystem::path* value) {

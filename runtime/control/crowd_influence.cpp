@@ -24,14 +24,14 @@ void AddCameraObstacles(const ViewCamera& camera, float yaw_rate_radps, const Le
 
 }  // namespace
 
-void InfluenceCrowd(const ViewCamera& camera, Vec2 camera_velocity, float yaw_rate_radps, const LevelState& levels,
+void InfluenceCrowd(const ViewCamera& camera, const ViewMotion& motion, const LevelState& levels,
                     const Walkable& walkable, const InfluenceSettings& s, Crowd* crowd, std::vector<MovingObstacle>* obstacles,
                     ForesightState* foresight) {
   if (s.adaptation == Adaptation::kFull) {
-    Foresee(camera, camera_velocity, yaw_rate_radps, walkable, {s.high_limit, s.r_high_m, s.r_personal_m, s.step_s}, crowd, foresight);
+    Foresee(camera, motion, walkable, {s.high_limit, s.r_high_m, s.r_personal_m, s.step_s}, crowd, foresight);
   } else if (s.adaptation == Adaptation::kPaper) {
     std::fill(crowd->avoids_camera.begin(), crowd->avoids_camera.end(), uint8_t{0});
-    AddCameraObstacles(camera, yaw_rate_radps, levels, s, crowd, obstacles);
+    AddCameraObstacles(camera, motion.yaw_rate_radps, levels, s, crowd, obstacles);
   }
 }
 

@@ -19,7 +19,7 @@ struct InfluenceSettings {
 
 // kPaper marks who avoids the camera and adds the camera obstacles: only low-resolution visible people nearer than r_unimportant
 // avoid them, and only while the number of high ones is at its limit. kFull foresees instead, see foresight.h.
-void InfluenceCrowd(const ViewCamera& camera, Vec2 camera_velocity, float yaw_rate_radps, const LevelState& levels,
+void InfluenceCrowd(const ViewCamera& camera, const ViewMotion& motion, const LevelState& levels,
                     const Walkable& walkable, const InfluenceSettings& settings, Crowd* crowd,
                     std::vector<MovingObstacle>* obstacles, ForesightState* foresight);
 

@@ -16,7 +16,6 @@ constexpr int kTurnMoments[State::kTurns] = {0, 2, 4};
 constexpr float kReach_m = 8;              // beyond r_high: who may be inside within the foresight
 constexpr float kRim_m = 0.6f;             // the forecast is that uncertain
 constexpr float kReserve = 0.2f;           // share of the limit kept free for surprises
-constexpr float kSettles_s = 0.3f;         // over which the camera's motion is averaged
 constexpr float kTurnLasts_s = 1.0f;       // a turn of the head dies away
 constexpr float kWalksOn_s = 1.8f;         // in the new direction after a turn
 constexpr float kDetour_s = 1.2f;          // a choice holds so long
@@ -39,15 +38,13 @@ Vec2 Rotated(Vec2 v, float by_rad) {
 
 float MomentTime_s(int moment) { return static_cast<float>(moment) * kMoment_s; }
 
-void FollowCamera(const ViewCamera& camera, Vec2 velocity, float yaw_rate_radps, float step_s, State* state) {
-  const float share = std::min(1.0f, step_s / kSettles_s);
-  state->velocity = state->velocity + (velocity - state->velocity) * share;
-  state->yaw_rate_radps += (yaw_rate_radps - state->yaw_rate_radps) * share;
+void FollowCamera(const ViewCamera& camera, const ViewMotion& motion, float step_s, State* state) {
+  Settle(motion, step_s, &state->motion);
   state->sine = std::sin(camera.fov_rad / 2), state->cosine = std::cos(camera.fov_rad / 2);
   for (int m = 0; m < State::kMoments; ++m) {
     const float t = MomentTime_s(m);
-    const Vec2 position = camera.position + state->velocity * t;
-    const Vec2 axis = DirectionOf(camera.yaw_rad + state->yaw_rate_radps * kTurnLasts_s * (1 - std::exp(-t / kTurnLasts_s)));
+    const Vec2 position = camera.position + state->motion.velocity * t;
+    const Vec2 axis = DirectionOf(camera.yaw_rad + state->motion.yaw_rate_radps * kTurnLasts_s * (1 - std::exp(-t / kTurnLasts_s)));
     state->moment[static_cast<size_t>(m)] = {position, position - axis * (kRim_m / state->sine), axis};
   }
 }
@@ -63,7 +60,7 @@ bool InView(const State& state, int moment, float r_high_m, Vec2 p) {
 
 // Near enough to matter if the visitor turns that way, and perhaps walks on there.
 bool InTurningReach(const State& state, float r_high_m, Vec2 off) {
-  const float reach_m = r_high_m + kWalksOn_s * Length(state.velocity);
+  const float reach_m = r_high_m + kWalksOn_s * Length(state.motion.velocity);
   return Dot(off, off) < reach_m * reach_m;
 }
 
@@ -109,7 +106,7 @@ void MeasureSectors(float fov_rad, int capacity, State* state) {
 
 // Whether the visitor would have to stop for the person.
 bool Blocks(const Crowd& c, size_t i, Vec2 velocity, float r_personal_m, const State& state) {
-  const Vec2 apart = c.position[i] - state.moment[0].position, closing = state.velocity - velocity;
+  const Vec2 apart = c.position[i] - state.moment[0].position, closing = state.motion.velocity - velocity;
   const float speed2 = Dot(closing, closing), ahead = Dot(apart, closing);
   if (ahead <= 0 || ahead > kStepsAside_s * speed2) return false;
   const float reach_m = r_personal_m + c.radius_m[i] + kRoom_m;
@@ -191,12 +188,12 @@ void Choose(const ForesightSettings& s, float fov_rad, int capacity, Crowd* c, S
 
 }  // namespace
 
-void Foresee(const ViewCamera& camera, Vec2 camera_velocity, float yaw_rate_radps, const Walkable& walkable,
-             const ForesightSettings& s, Crowd* c, State* state) {
-  FollowCamera(camera, camera_velocity, yaw_rate_radps, s.step_s, state);
+void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable& walkable, const ForesightSettings& s,
+             Crowd* c, State* state) {
+  FollowCamera(camera, motion, s.step_s, state);
   if (state->step++ % kPlanEvery_steps != 0) return;
   const int capacity = s.high_limit - std::max(1, static_cast<int>(std::lround(kReserve * static_cast<float>(s.high_limit))));
-  const float reach_m = s.r_high_m + kReach_m + Length(state->velocity) * MomentTime_s(State::kMoments - 1);
+  const float reach_m = s.r_high_m + kReach_m + Length(state->motion.velocity) * MomentTime_s(State::kMoments - 1);
   state->near.clear();
   state->choices.clear();
   state->seen.fill(0);

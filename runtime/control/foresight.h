@@ -24,8 +24,7 @@ struct ForesightState {
   static constexpr int kTurns = 3;      // of the moments, in which the visitor may look anywhere
 
   int64_t step = 0;
-  Vec2 velocity;                        // of the camera, smoothed
-  float yaw_rate_radps = 0;             // smoothed
+  ViewMotion motion;                    // of the camera, settled
   struct Moment { Vec2 position, apex, axis; };  // of the camera, and of the view with its rim
   std::array<Moment, kMoments> moment{};
   float sine = 0, cosine = 1;           // of half the field of view
@@ -41,7 +40,7 @@ struct ForesightState {
 // out of view, how many there would be wherever the visitor turned. Where that comes near the limit, those who can keep out of it
 // with the least change of speed and direction do so for a second: Crowd::detour. People in view change theirs little, people out
 // of view as much as walking allows.
-void Foresee(const ViewCamera& camera, Vec2 camera_velocity, float yaw_rate_radps, const Walkable& walkable,
-             const ForesightSettings& settings, Crowd* crowd, ForesightState* state);
+void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable& walkable, const ForesightSettings& settings,
+             Crowd* crowd, ForesightState* state);
 
 }  // namespace flaneur

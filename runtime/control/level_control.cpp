@@ -14,7 +14,6 @@ constexpr float kHysteresis_m = 2.0f;        // a mesh stays one until this far 
 constexpr float kHeadroom = 8.0f;            // of a newly chosen level: serves up to so many times the pixels
 constexpr float kReserve = 0.2f;             // of limit and budget, kept for those who come into view near
 constexpr float kWorthwhile_s = 3.0f;         // who leaves the view sooner is not worth a switch any more
-constexpr float kMotionSettles_s = 0.3f;      // over which the camera's motion is averaged
 constexpr float kLong_s = 1e3f;
 constexpr float kFallGain = 0.08f, kRiseGain = 0.02f;  // a step, of the relative error of the frame time (method 2)
 constexpr float kUsed = 0.8f;                // share of the budget from which on it is in use
@@ -103,12 +102,6 @@ LevelState::Visible Seen(const Crowd& crowd, size_t i, Vec2 off, const View& vie
   return {distance_m, key_m, static_cast<int>(i), crowd.id[i], turn};
 }
 
-void FollowMotion(const ViewMotion& motion, float step_s, LevelState* state) {
-  const float share = std::min(1.0f, step_s / kMotionSettles_s);
-  state->motion.velocity = state->motion.velocity + (motion.velocity - state->motion.velocity) * share;
-  state->motion.yaw_rate_radps += (motion.yaw_rate_radps - state->motion.yaw_rate_radps) * share;
-}
-
 // Who is in view and near enough to be drawn; those within r_high stand in `nearest` by distance.
 void ListVisible(const Crowd& crowd, const ViewCamera& camera, float r_far_m, int first_id, LevelState* state) {
   state->visible.clear();
@@ -156,7 +149,7 @@ int AffordableLevel(const AvatarCosts& avatar, int wanted, int64_t budget, int64
 void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera,
                   const ViewMotion& motion, float frame_ms, const LevelSettings& s, float step_s, LevelState* state) {
   FollowFrameTime(frame_ms, Length(motion.velocity), s, state);
-  FollowMotion(motion, step_s, state);
+  Settle(motion, step_s, &state->motion);
   if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
   ListVisible(crowd, camera, s.r_far_m, s.first_id, state);
   const int limit = state->limit = s.by_frame_time ? PeopleAfforded(avatars, state) : s.high_limit;
@@ -183,8 +176,8 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
     const AvatarCosts& avatar = avatars[static_cast<size_t>(crowd.avatar[i])];
     const float px = PixelsHigh(avatar.height_m, distance_m, camera, s.screen_width_px);
     const int last = state->last_level[static_cast<size_t>(id)];
-    int level = kImpostor;
     const float share = turn == kAppears ? 1 - kReserve : 1.0f;
+    int level = kImpostor;
     if (turn < kStays && static_cast<float>(state->high) < share * static_cast<float>(limit)) {
       level = AffordableLevel(avatar, WantedLevel(avatar, px, last), static_cast<int64_t>(share * state->budget_triangles), state->triangles);
     }

@@ -1,5 +1,6 @@
 #include "runtime/control/view_volumes.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flaneur {
@@ -33,6 +34,13 @@ ViewClass Classify(Vec2 p, const ViewVolumes& v) {
 
 ViewClass Classify(Vec2 p, const ViewCamera& camera, float outer_apex_back_m) {
   return Classify(p, VolumesOf(camera, outer_apex_back_m));
+}
+
+void Settle(const ViewMotion& motion, float step_s, ViewMotion* settled) {
+  constexpr float kSettles_s = 0.3f;
+  const float share = std::min(1.0f, step_s / kSettles_s);
+  settled->velocity = settled->velocity + (motion.velocity - settled->velocity) * share;
+  settled->yaw_rate_radps += (motion.yaw_rate_radps - settled->yaw_rate_radps) * share;
 }
 
 }  // namespace flaneur

@@ -13,7 +13,11 @@ struct ViewCamera {
   float fov_rad = 1.0472f;  // horizontal, below pi
 };
 
+// Of a camera.
 struct ViewMotion { Vec2 velocity; float yaw_rate_radps = 0; };
+
+// Brings `settled` nearer to the motion in this step: an average over about 0.3 s.
+void Settle(const ViewMotion& motion, float step_s, ViewMotion* settled);
 
 struct MotionLimits {
   float yaw_rate_radps = 2.1f;

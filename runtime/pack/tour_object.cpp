@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
-
-std::string Compact(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", number);
-  return text;
-}
 
 [[noreturn]] void RefuseMember(const std::string& place, const std::string& why) {
   throw PackRefused("is broken: " + place + " " + why);

@@ -5,6 +5,7 @@
 
 #include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/walls.h"
+#include "runtime/player/loitering.h"
 
 namespace flaneur {
 namespace {
@@ -76,14 +77,6 @@ Vec2 RoundPeople(const Simulation& s, Vec2 way) {
     if (progress_m > most + 0.01f) most = progress_m, best = direction;
   }
   return best;
-}
-
-// Who stands within reach of a visitor that cannot get on soon walks off.
-void StirLoiterers(Simulation* s) {
-  if (s->stuck_s < kPatience_s) return;
-  for (size_t i = 0; i < s->crowd.size(); ++i) {
-    if (Length(s->crowd.position[i] - s->camera.view.position) < kStirs_m) s->crowd.wait_s[i] = 0;
-  }
 }
 
 void Walk(Vec2 direction, float asked_mps, Simulation* s) {
@@ -225,7 +218,7 @@ void MoveCamera(const CameraInput& input, Simulation* s) {
   if (s->finished) return;
   if (!s->legs.empty()) FollowLegs(s);
   else if (!s->tour.stops.empty()) FollowTour(input, s);
-  StirLoiterers(s);
+  if (s->stuck_s >= kPatience_s) StirLoiterers(camera.view.position, kStirs_m, s);
 }
 
 }  // namespace flaneur

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/crowd/fast_math.h"
+#include "runtime/player/loitering.h"
 #include "runtime/player/population.h"
 #include "runtime/player/simulation.h"
 
@@ -93,15 +94,12 @@ Vec2 Wanted(Vec2 p, Simulation* s) {
 }
 
 // Who stands in the way of a guide who cannot get on walks off.
-void StirLoiterers(Vec2 p, Simulation* s) {
+void GetOn(Vec2 p, Simulation* s) {
   Guide& g = s->guide;
   const bool got_on = !g.walks || Length(p - g.stuck_at) > kGetsOn_m;
   g.stuck_s = got_on ? 0 : g.stuck_s + s->step_s;
   if (got_on) g.stuck_at = p;
-  if (g.stuck_s < kStuck_s) return;
-  for (size_t i = 0; i < s->crowd.size(); ++i) {
-    if (Length(s->crowd.position[i] - p) < kStirs_m) s->crowd.wait_s[i] = 0;
-  }
+  if (g.stuck_s >= kStuck_s) StirLoiterers(p, kStirs_m, s);
 }
 
 float OwnShareOfPace(const Simulation& s) {
@@ -162,7 +160,7 @@ void LeadOn(Simulation* s) {
   const Vec2 p = c.position[g.index];
   FollowPlan(p, s);
   g.velocity = Wanted(p, s);
-  StirLoiterers(p, s);
+  GetOn(p, s);
   g.waited_s = OwnShareOfPace(*s) < 0.3f ? g.waited_s + s->step_s : 0;
   const Vec2 to_visitor = s->camera.view.position - p;
   c.facing[g.index] = Unit(to_visitor);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -13,15 +12,12 @@
 #include <malloc.h>
 #endif
 
+#include "runtime/base/clock.h"
 #include "runtime/player/guide_figure.h"
 #include "runtime/render/surface_plan.h"
 
 namespace flaneur {
 namespace {
-
-double Now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // The pieces on their way are large and soon gone: what they took goes back to the system at once, not into the allocator's stock.
 void KeepNoStock() {

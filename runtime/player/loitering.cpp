@@ -157,6 +157,12 @@ bool FewLoiter(const Simulation& s) {
   return static_cast<float>(s.loiterers) < kOnTheWay * wanted && Standing(s) < wanted;
 }
 
+void StirLoiterers(Vec2 p, float reach_m, Simulation* s) {
+  for (size_t i = 0; i < s->crowd.size(); ++i) {
+    if (Length(s->crowd.position[i] - p) < reach_m) s->crowd.wait_s[i] = 0;
+  }
+}
+
 bool StaysOn(size_t i, Simulation* s) {
   const LoiterSpot* spot = SpotOf(i, s);
   if (spot == nullptr || !spot->there || s->crowd.detour_s[i] > 0 || IsFullNear(*s, spot->position_m)) return false;

@@ -20,6 +20,9 @@ bool FindSpots(const Simulation& simulation, int place, Vec2 from, int count, in
 // The spot is theirs: they stand there (`now`), or walk there from nearby.
 void TakeSpot(size_t person, int spot, bool now, Simulation* simulation);
 
+// Whoever stands within reach of p sets out again.
+void StirLoiterers(Vec2 p, float reach_m, Simulation* simulation);
+
 // True where somebody whose time is over stays on, as too few stand about.
 bool StaysOn(size_t person, Simulation* simulation);
 

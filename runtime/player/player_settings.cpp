@@ -1,14 +1,12 @@
 #include "runtime/player/player_settings.h"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <sstream>
 
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
+#include "runtime/base/toml_table.h"
 #include "runtime/render/window_input.h"
 
 namespace flaneur {
@@ -43,12 +41,6 @@ std::vector<std::string> KnownNames() {
   return names;
 }
 
-std::string Plain(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", number);
-  return text;
-}
-
 // Takes one value; says what is wrong with it.
 struct Taker {
   std::string name;
@@ -80,7 +72,7 @@ struct Taker {
     if (!IsIt(setting)) return;
     const auto number = node->is_number() ? node->value<double>() : std::nullopt;
     if (number && *number >= least && *number <= most) *value = static_cast<float>(*number);
-    else *wrong = "must be a number from " + Plain(least) + " to " + Plain(most);
+    else *wrong = "must be a number from " + Compact(least) + " to " + Compact(most);
   }
   void Flag(const char* setting, bool* value, const char*) const {
     if (!IsIt(setting)) return;
@@ -131,7 +123,7 @@ struct Writer {
   void Choice(const char* name, const std::string* value, std::initializer_list<const char*>, const char* about) const {
     Line(name, Quoted(*value), about);
   }
-  void Number(const char* name, const float* value, double, double, const char* about) const { Line(name, Plain(static_cast<double>(*value)), about); }
+  void Number(const char* name, const float* value, double, double, const char* about) const { Line(name, Compact(static_cast<double>(*value)), about); }
   void Flag(const char* name, const bool* value, const char* about) const { Line(name, *value ? "true" : "false", about); }
 };
 
@@ -154,24 +146,19 @@ std::filesystem::path PlayerSettingsPath() {
 Error ReadPlayerSettings(const std::filesystem::path& path, PlayerSettings* settings, std::vector<std::string>* warnings) {
   std::error_code ec;
   if (path.empty() || !std::filesystem::exists(path, ec)) return Ok();
-  std::string text;
-  if (Error e = ReadTextFile(path, &text)) return e;
-  const auto at = [&](const toml::source_region& source) { return path.string() + ":" + std::to_string(source.begin.line) + ": "; };
-  try {
-    const toml::table root = toml::parse(text, path.string());
-    const auto take = [&](const std::string& name, const toml::node& node) {
-      const std::string wrong = Take(name, node, settings);
-      if (!wrong.empty()) warnings->push_back(at(node.source()) + OneLine(name) + " " + wrong);
-    };
-    for (const auto& [key, node] : root) {
-      const toml::table* table = node.as_table();
-      if (table == nullptr || key.str() != "keys") take(std::string(key.str()), node);
-      else for (const auto& [action, keys] : *table) take("keys." + std::string(action.str()), keys);
-    }
-    return Ok();
-  } catch (const toml::parse_error& e) {
-    return Fail(at(e.source()) + "not TOML: " + OneLine(e.description()));
+  toml::table root;
+  if (Error e = ReadToml(path, &root)) return e;
+  const auto take = [&](const std::string& name, const toml::node& node) {
+    const std::string wrong = Take(name, node, settings);
+    if (wrong.empty()) return;
+    warnings->push_back(path.string() + ":" + std::to_string(node.source().begin.line) + ": " + OneLine(name) + " " + wrong);
+  };
+  for (const auto& [key, node] : root) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr || key.str() != "keys") take(std::string(key.str()), node);
+    else for (const auto& [action, keys] : *table) take("keys." + std::string(action.str()), keys);
   }
+  return Ok();
 }
 
 Error SetPlayerSetting(const std::string& assignment, PlayerSettings* settings) {

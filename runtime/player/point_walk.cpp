@@ -10,7 +10,6 @@ namespace {
 
 constexpr float kFarthest_m = 80;
 constexpr float kMarch_m = 0.15f;
-constexpr float kSearch_m = 3;   // from what was pointed at to where one can stand
 
 }  // namespace
 
@@ -41,7 +40,7 @@ std::optional<Vec2> GroundAt(const Simulation& s, Vec2 place, float aspect) {
 void SetOut(Vec2 place, Simulation* s) {
   PointWalk& walk = s->point_walk;
   walk = {};
-  const int cell = NearestFreeCell(s->walkable, place, kSearch_m);
+  const int cell = FreeCellFor(s->walkable, place);
   if (cell < 0) return;
   walk.route = {{s->camera.view.position}, {0}};
   s->stuck_s = 0;

@@ -4,6 +4,7 @@
 #include <string>
 #include <thread>
 
+#include "runtime/base/clock.h"
 #include "runtime/player/frame_from_simulation.h"
 #include "runtime/player/records.h"
 #include "runtime/player/run.h"
@@ -18,10 +19,6 @@ namespace {
 
 constexpr double kLongUpload_ms = 50, kUpload_ms = 3;  // of what has been loaded: before the first picture, and in each later one
 constexpr int kMostStepsAFrame = 4;  // a machine that can't keep up slows the town down rather than freeze
-
-double Now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // What the settings ask of the simulation, now and whenever they change.
 void ApplySettings(const PlayerSettings& settings, float own_fov_rad, Simulation* s) {

@@ -1,9 +1,9 @@
 #include "runtime/player/simulation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "runtime/base/clock.h"
 #include "runtime/player/camera_walk.h"
 #include "runtime/player/check_limits.h"
 #include "runtime/player/coming_and_going.h"
@@ -15,6 +15,17 @@ namespace {
 
 constexpr float kFlatCell_m = 0.5f;
 constexpr float kFarthestView_m = 60;
+
+Adaptation AdaptationNamed(const std::string& name) {
+  return name == "off" ? Adaptation::kOff : name == "paper" ? Adaptation::kPaper : Adaptation::kFull;
+}
+
+void TakeObstacles(const std::vector<PackObstacle>& obstacles, Walkable* w) {
+  for (const PackObstacle& o : obstacles) {
+    if (o.radius_m > 0) w->circles.push_back({o.center, o.radius_m});
+    else w->polygons.push_back({o.outer, o.holes});
+  }
+}
 
 void TakePack(const TourPack& pack, Simulation* s) {
   for (const PackAvatar& avatar : pack.avatars) {
@@ -31,7 +42,7 @@ void TakePack(const TourPack& pack, Simulation* s) {
   const ControlSettings& c = pack.control;
   s->level_settings = {c.method == "frame_time", c.high_limit, c.target_ms, c.budget_triangles, c.r_high_m, c.r_far_m, 1280};
   s->influence.r_unimportant_m = c.r_unimportant_m;
-  s->influence.adaptation = c.adaptation == "off" ? Adaptation::kOff : c.adaptation == "paper" ? Adaptation::kPaper : Adaptation::kFull;
+  s->influence.adaptation = AdaptationNamed(c.adaptation);
   s->r_personal_m = c.r_personal_m;
   s->step_s = 1 / c.step_hz;
   s->max_yaw_rate_radps = c.max_yaw_rate_dps * kPi / 180;
@@ -44,10 +55,7 @@ void TakePack(const TourPack& pack, Simulation* s) {
   }
   s->walkable.ground = {pack.ground.min_m, pack.ground.cell_m, pack.ground.columns, pack.ground.rows,
                         pack.ground.height_m, pack.ground.kind};
-  for (const PackObstacle& o : pack.obstacles) {
-    if (o.radius_m > 0) s->walkable.circles.push_back({o.center, o.radius_m});
-    else s->walkable.polygons.push_back({o.outer, o.holes});
-  }
+  TakeObstacles(pack.obstacles, &s->walkable);
 }
 
 void TakeGround(const Scenario& scenario, Simulation* s) {
@@ -68,10 +76,7 @@ void TakeGround(const Scenario& scenario, Simulation* s) {
 
 void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   if (scenario.has_ground) TakeGround(scenario, s);
-  for (const PackObstacle& o : scenario.obstacles) {
-    if (o.radius_m > 0) s->walkable.circles.push_back({o.center, o.radius_m});
-    else s->walkable.polygons.push_back({o.outer, o.holes});
-  }
+  TakeObstacles(scenario.obstacles, &s->walkable);
   if (s->avatar_names.empty()) {  // without a pack: one plain figure
     s->avatar_names = {kPlainFigure};
     s->avatar_costs = {{{{6000, 60}, {1500, 0}}, 1.75f, 128}};
@@ -91,10 +96,7 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   s->draw_base_ms = scenario.draw_base_ms.value_or(0);
   s->draw_ms_per_million_triangles = scenario.draw_ms_per_million_triangles.value_or(0);
   s->level_settings.r_high_m = scenario.r_high_m.value_or(s->level_settings.r_high_m);
-  if (scenario.adaptation) {
-    s->influence.adaptation = *scenario.adaptation == "off" ? Adaptation::kOff
-                              : *scenario.adaptation == "paper" ? Adaptation::kPaper : Adaptation::kFull;
-  }
+  if (scenario.adaptation) s->influence.adaptation = AdaptationNamed(*scenario.adaptation);
   s->influence.r_high_m = s->level_settings.r_high_m;
   s->influence.r_personal_m = s->r_personal_m;
   s->influence.step_s = s->step_s;
@@ -166,10 +168,6 @@ void ClassifyAll(Simulation* s) {
   }
 }
 
-double Now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 void ControlCrowd(float frame_ms, Simulation* s) {
   const double start_ms = Now_ms();
   const ViewMotion motion{s->camera.velocity, s->camera.yaw_rate_radps};
@@ -179,8 +177,7 @@ void ControlCrowd(float frame_ms, Simulation* s) {
   if (s->camera.present) {
     s->moving.push_back({s->camera.view.position, s->r_personal_m, true, s->camera.asked_velocity});
     ShieldGuide(s);
-    InfluenceCrowd(s->camera.view, s->camera.velocity, s->camera.yaw_rate_radps, s->levels, s->walkable, s->influence,
-                   &s->crowd, &s->moving, &s->foresight);
+    InfluenceCrowd(s->camera.view, motion, s->levels, s->walkable, s->influence, &s->crowd, &s->moving, &s->foresight);
     UnshieldGuide(s);
   }
   s->control_ms = Now_ms() - start_ms;

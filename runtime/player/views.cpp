@@ -144,7 +144,6 @@ void ShowGraphs(const FrameStatistics& statistics, int width_px, const ViewsHist
 
 void RememberFrame(const Simulation& s, const FrameStatistics& statistics, float frame_ms, ViewsHistory* h) {
   h->high[h->next] = static_cast<float>(s.levels.high);
-  h->limit[h->next] = static_cast<float>(s.levels.limit);
   h->triangles[h->next] = static_cast<float>(statistics.people_triangles);
   h->frame_ms[h->next] = frame_ms;
   h->next = (h->next + 1) % ViewsHistory::kFrames;

@@ -11,7 +11,7 @@ namespace flaneur {
 // The last frames, oldest at `next`.
 struct ViewsHistory {
   static constexpr size_t kFrames = 300;
-  std::array<float, kFrames> high{}, limit{}, triangles{}, frame_ms{};
+  std::array<float, kFrames> high{}, triangles{}, frame_ms{};
   size_t next = 0;
 };
 

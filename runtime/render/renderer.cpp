@@ -1,10 +1,10 @@
 #include "runtime/render/renderer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
+#include "runtime/base/clock.h"
 #include "runtime/base/parallel.h"
 #include "runtime/render/asset_content.h"
 #include "runtime/render/caption.h"
@@ -27,10 +27,6 @@ PictureLimits LimitsOfThisMachine(bool fast) {
   PictureLimits limits;
   if (fast) limits = {1024, 512};
   return {std::min<int>(limits.town_px, most_px), std::min<int>(limits.people_px, most_px)};
-}
-
-double Now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 Vec3 Ahead(const FrameInput& frame) {

@@ -1,11 +1,11 @@
 // Prints how well and how fast obstacles are found in real city models: bench_footprints [DATA_FOLDER] [--worst] [--only ROW]
 #include <sys/resource.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 
+#include "runtime/base/clock.h"
 #include "tests/unit/pipeline/footprint/figures.h"
 
 namespace flaneur::figures {
@@ -37,7 +37,6 @@ double Peak_mb() {
   return 0;
 }
 void ForgetPeak() { std::ofstream("/proc/self/clear_refs") << "5"; }
-double Now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 Error PrintFit(const std::vector<Scene>& towns, const Spoiling& how, bool worst) {
   FootprintOptions exactly;

@@ -119,12 +119,6 @@ TEST(Outside, SeesAShortPieceThatSticksOut) {
 
 // ---- Arrangements ----
 
-double Length(const std::vector<Segment>& segments) {
-  double sum = 0;
-  for (const Segment& s : segments) sum += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
-  return sum;
-}
-
 TEST(CutWhereTheyMeet, CrossingSegmentsMeetInOnePoint) {
   const std::vector<Segment> pieces = CutWhereTheyMeet({{{0, 0}, {2, 2}}, {{0, 2}, {2, 0}}});
   ASSERT_EQ(pieces.size(), 4u);

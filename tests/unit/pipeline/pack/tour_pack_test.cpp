@@ -1,12 +1,4 @@
 // Packs written and read again: both halves of the contract at once, and what a reader does with broken bytes.
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#include <stb/stb_image_write.h>
-#pragma GCC diagnostic pop
-
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -20,6 +12,7 @@
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/pack/write_tour_pack.h"
 #include "runtime/base/file.h"
+#include "runtime/base/png.h"
 #include "runtime/pack/ktx2.h"
 #include "runtime/pack/tour_pack.h"
 #include "tests/unit/pipeline/test_person.h"
@@ -30,14 +23,7 @@ namespace {
 Image Png(const std::string& name, int width, int height) {
   std::vector<uint8_t> pixels(static_cast<size_t>(width * height) * 4);
   for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<uint8_t>(i * 7 + name.size());
-  Image image{name, "image/png", {}};
-  stbi_write_png_to_func(
-      [](void* context, void* data, int size) {
-        auto* bytes = static_cast<std::vector<uint8_t>*>(context);
-        bytes->insert(bytes->end(), static_cast<uint8_t*>(data), static_cast<uint8_t*>(data) + size);
-      },
-      &image.bytes, width, height, 4, pixels.data(), 4 * width);
-  return image;
+  return {name, "image/png", EncodePng(width, height, 4, pixels)};
 }
 
 Mesh Quad() {

@@ -239,10 +239,10 @@ TEST(CrowdInfluence, OnlyLowResolutionVisiblePeopleAvoidTheCameraAndOnlyAtTheLim
   std::vector<MovingObstacle> obstacles;
   state.high = settings.high_limit - 1;
   ForesightState foresight;
-  InfluenceCrowd(ViewCamera{}, {}, 0, state, Walkable{}, settings, &crowd, &obstacles, &foresight);
+  InfluenceCrowd(ViewCamera{}, {}, state, Walkable{}, settings, &crowd, &obstacles, &foresight);
   EXPECT_TRUE(obstacles.empty());
   state.high = settings.high_limit;
-  InfluenceCrowd(ViewCamera{}, {}, 0, state, Walkable{}, settings, &crowd, &obstacles, &foresight);
+  InfluenceCrowd(ViewCamera{}, {}, state, Walkable{}, settings, &crowd, &obstacles, &foresight);
   EXPECT_EQ(obstacles.size(), 2u);
   EXPECT_FALSE(crowd.avoids_camera[0]);
   for (size_t i = 1; i < crowd.size(); ++i) {

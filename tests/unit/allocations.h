@@ -1,0 +1,14 @@
+// Counts what operator new gives out in the program that includes this; for one source file of a program.
+#pragma once
+#include <cstdlib>
+#include <new>
+
+inline long allocations = 0;
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
