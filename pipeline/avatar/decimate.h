@@ -10,13 +10,16 @@
 namespace flaneur {
 
 struct LevelsOptions {
-  std::vector<float> ratios{1.0f, 0.5f, 0.25f,
-                            0.1f};  // of the original's triangles, falling, in (0, 1]
-  int max_triangles = 0;            // of level 0; 0: no limit
-  int min_triangles = 16;           // no level has fewer, unless the original has
-  int error_samples = 3000;  // points per surface that the deviation is measured at, besides as
-                             // many of its vertices
-  int walk_poses = 8;        // that posed_error_mm is measured over
+  // Of the original's triangles, falling, in (0, 1]. Empty: the chain follows from the errors. It
+  // has 1, 0.5, 0.25, 0.1, 0.05, ... of the triangles without the levels that no size on screen
+  // needs, and ends where impostors are better or so few triangles save nothing.
+  std::vector<float> ratios;
+  float error_px = 1;      // on the screen: that much of a level's error may show
+  int max_triangles = 0;   // of level 0; 0: no limit
+  int min_triangles = 16;  // no level has fewer, unless the original has
+  // Points per surface that the deviation is measured at, besides as many of its vertices.
+  int error_samples = 3000;
+  int walk_poses = 8;  // that posed_error_mm is measured over
 };
 
 // Reduces the avatar step by step by edge collapses: vertices move to where the error over bind

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <random>
 
 #include "pipeline/avatar/posed_quadric.h"
 #include "pipeline/avatar/poses.h"
 #include "pipeline/avatar/surface_distance.h"
+#include "pipeline/avatar/surface_places.h"
 #include "pipeline/avatar/threads.h"
-#include "pipeline/core/avatar.h"
 
 namespace flaneur {
 namespace {
@@ -24,57 +23,10 @@ constexpr float kStraight = 0.7f;   // cosine; a longer way round has a border o
 constexpr float kSameSide = 0.2f;   // cosine between normals of places that belong together
 constexpr double kLeastTurn = 0.1;  // cosine; a face that turns further is taken to fold over
 
-// A surface in one pose.
-using Posed = std::vector<std::array<Vec3, 3>>;
-
 Vec3 NormalOf(const std::array<Vec3, 3>& t) {
   const Vec3 across = Cross(t[1] - t[0], t[2] - t[0]);
   const float length = Length(across);
   return length > 0 ? across * (1 / length) : Vec3{};
-}
-
-Posed PosedOriginal(const std::vector<Mesh>& meshes, const std::vector<Mat4>* pose) {
-  Posed out;
-  for (const Mesh& mesh : meshes) {
-    const Mesh skinned = pose != nullptr ? Skinned(mesh, *pose) : mesh;
-    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-      out.push_back({skinned.positions[mesh.indices[i]], skinned.positions[mesh.indices[i + 1]],
-                     skinned.positions[mesh.indices[i + 2]]});
-    }
-  }
-  return out;
-}
-
-struct Place {
-  uint32_t triangle = 0;
-  std::array<float, 3> shares{};
-};
-
-Vec3 At(const std::array<Vec3, 3>& t, const std::array<float, 3>& shares) {
-  return t[0] * shares[0] + t[1] * shares[1] + t[2] * shares[2];
-}
-
-// Evenly by area, the same every time.
-std::vector<Place> SpreadPlaces(const Posed& triangles, int count) {
-  std::vector<double> sums;
-  double total = 0;
-  for (const auto& t : triangles) {
-    total += static_cast<double>(Length(Cross(t[1] - t[0], t[2] - t[0])));
-    sums.push_back(total);
-  }
-  std::mt19937 random(1);
-  const auto unit = [&random] { return static_cast<double>(random()) / 4294967296.0; };
-  std::vector<Place> places;
-  size_t triangle = 0;
-  for (int i = 0; i < count; ++i) {
-    const double at = (i + unit()) / count * total;  // one in each of equal strips
-    while (triangle + 1 < sums.size() && sums[triangle] < at) ++triangle;
-    const auto root = static_cast<float>(std::sqrt(unit()));
-    const auto share = static_cast<float>(unit());
-    places.push_back(
-        {static_cast<uint32_t>(triangle), {1 - root, root * (1 - share), root * share}});
-  }
-  return places;
 }
 
 // A place of the level that should be where a place of the original is.
@@ -83,29 +35,39 @@ struct Tie {
   double along = 0;  // how much a pull along the surface counts, against one across it
 };
 
+}  // namespace
+
+struct FitOriginal {
+  const std::vector<std::vector<Mat4>>& poses;
+  std::vector<Triangles> triangles;  // by pose, the bind pose first
+  std::vector<Place> places;         // that are tied
+  std::unique_ptr<SurfaceTree> tree;
+};
+
+namespace {
+
 class Fitter {
  public:
-  Fitter(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses,
-         WedgeSurface* level)
-      : poses_(poses), level_(level) {
-    original_.push_back(PosedOriginal(original, nullptr));
-    for (const auto& pose : poses) original_.push_back(PosedOriginal(original, &pose));
-    tree_ = std::make_unique<SurfaceTree>(original_[0]);
+  Fitter(const FitOriginal& original, WedgeSurface* level)
+      : poses_(original.poses),
+        level_(level),
+        original_(original.triangles),
+        on_original_(original.places),
+        tree_(*original.tree) {
     faces_of_.resize(level->vertices.size());
     for (size_t f = 0; f < level->faces.size(); ++f) {
       for (const int v : level->faces[f].vertices) faces_of_[static_cast<size_t>(v)].push_back(f);
     }
-    skinning_.resize(level->vertices.size() * (poses.size() + 1));
+    skinning_.resize(level->vertices.size() * (poses_.size() + 1));
     posed_.resize(skinning_.size());
     for (size_t v = 0; v < level->vertices.size(); ++v) Pose(v);
   }
 
   // Ties evenly spread places of each surface to the nearest of the other.
   void TieTo(int samples) {
-    const Posed level = LevelInBindPose();
+    const Triangles level = LevelInBindPose();
     const SurfaceTree level_tree(level);
-    if (on_original_.empty()) {
-      on_original_ = SpreadPlaces(original_[0], samples);
+    if (on_level_.empty()) {
       on_level_ = SpreadPlaces(level, samples);
       guesses_.assign(on_original_.size() + on_level_.size(), 0);
     }
@@ -134,8 +96,8 @@ class Fitter {
     Vec3 place, normal;
   };
 
-  Posed LevelInBindPose() const {
-    Posed level;
+  Triangles LevelInBindPose() const {
+    Triangles level;
     for (const auto& face : level_->faces) {
       auto& corners = level.emplace_back();
       for (size_t k = 0; k < 3; ++k) {
@@ -146,7 +108,7 @@ class Fitter {
   }
 
   // The i-th tie; one whose ends face different ways does not pull.
-  Tie Tied(const Posed& level, const SurfaceTree& level_tree, size_t i) {
+  Tie Tied(const Triangles& level, const SurfaceTree& level_tree, size_t i) {
     Tie tie;
     const bool from_original = i < on_original_.size();
     if (from_original)
@@ -156,7 +118,7 @@ class Fitter {
     const Vec3 from = from_original
                           ? At(original_[0][tie.on_original.triangle], tie.on_original.shares)
                           : At(level[tie.on_level.triangle], tie.on_level.shares);
-    const auto nearest = (from_original ? level_tree : *tree_).Find(from, guesses_[i]);
+    const auto nearest = (from_original ? level_tree : tree_).Find(from, guesses_[i]);
     guesses_[i] = nearest.triangle;
     (from_original ? tie.on_level : tie.on_original) = {nearest.triangle, nearest.shares};
     const auto& corners = level[tie.on_level.triangle];
@@ -179,14 +141,14 @@ class Fitter {
         const int v = level_->faces[place.triangle].vertices[k];
         ties_of_[static_cast<size_t>(v)].push_back(static_cast<uint32_t>(3 * i + k));
       }
-      for (const Posed& pose : original_) {
+      for (const Triangles& pose : original_) {
         const auto& triangle = pose[ties_[i].on_original.triangle];
         targets_.push_back({At(triangle, ties_[i].on_original.shares), NormalOf(triangle)});
       }
     }
   }
 
-  void FindReach(const Posed& level) {
+  void FindReach(const Triangles& level) {
     for (const WedgeSurface::Vertex& vertex : level_->vertices) start_.push_back(vertex.position);
     reach_.assign(start_.size(), 0);
     for (size_t v = 0; v < start_.size(); ++v) {
@@ -318,15 +280,16 @@ class Fitter {
 
   const std::vector<std::vector<Mat4>>& poses_;
   WedgeSurface* level_;
-  std::vector<Vec3> start_;      // places before all
-  std::vector<float> reach_;     // the greatest distance of a vertex's first ties
-  std::vector<Posed> original_;  // bind pose first
-  std::unique_ptr<SurfaceTree> tree_;
+  std::vector<Vec3> start_;                 // places before all
+  std::vector<float> reach_;                // the greatest distance of a vertex's first ties
+  const std::vector<Triangles>& original_;  // bind pose first
+  const std::vector<Place>& on_original_;   // that are tied
+  const SurfaceTree& tree_;
   std::vector<std::vector<size_t>> faces_of_;
   std::vector<Affine> skinning_;  // by vertex and pose
   std::vector<DVec3> posed_;
-  std::vector<Place> on_original_, on_level_;  // that are tied
-  std::vector<uint32_t> guesses_;              // of where each one's nearest place is
+  std::vector<Place> on_level_;
+  std::vector<uint32_t> guesses_;  // of where each one's nearest place is
   std::vector<Tie> ties_;
   std::vector<Target> targets_;                 // by tie and pose
   std::vector<std::vector<uint32_t>> ties_of_;  // by vertex: 3 * tie + corner
@@ -334,13 +297,24 @@ class Fitter {
 
 }  // namespace
 
-void FitSurface(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses,
-                const FitOptions& options, WedgeSurface* level) {
+SurfaceFitter::SurfaceFitter(const std::vector<Mesh>& original,
+                             const std::vector<std::vector<Mat4>>& poses, const FitOptions& options)
+    : options_(options), original_(new FitOriginal{poses, {}, {}, nullptr}) {
+  const std::vector<Mesh> shapes = Shapes(original);
+  original_->triangles.push_back(PosedTriangles(shapes, nullptr));
+  for (const auto& pose : poses) original_->triangles.push_back(PosedTriangles(shapes, &pose));
+  original_->places = SpreadPlaces(original_->triangles[0], options.samples);
+  original_->tree = std::make_unique<SurfaceTree>(original_->triangles[0]);
+}
+
+SurfaceFitter::~SurfaceFitter() = default;
+
+void SurfaceFitter::Fit(WedgeSurface* level) const {
   // Fewer places would leave vertices to chance.
-  if (2 * level->faces.size() > static_cast<size_t>(options.samples)) return;
-  Fitter fitter(Shapes(original), poses, level);
-  for (int round = 0; round < options.rounds; ++round) {
-    fitter.TieTo(options.samples);
+  if (2 * level->faces.size() > static_cast<size_t>(options_.samples)) return;
+  Fitter fitter(*original_, level);
+  for (int round = 0; round < options_.rounds; ++round) {
+    fitter.TieTo(options_.samples);
     fitter.Solve();
     fitter.Solve();
   }

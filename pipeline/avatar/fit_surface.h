@@ -2,6 +2,7 @@
 // can to the original in all poses (after Hoppe and others 1993, Mesh Optimization: points of the
 // original, each tied to the nearest place of the level, and least squares).
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "pipeline/avatar/wedge_surface.h"
@@ -15,10 +16,23 @@ struct FitOptions {
   int rounds = 2;       // of tying and solving
 };
 
-// `poses`: skinning matrices, besides the bind pose. Faces, wedges and joints of a vertex stay; no
-// face turns over, and none is pulled farther than the surfaces are apart. A level with more than
-// half as many faces as samples stays as it is.
-void FitSurface(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses,
-                const FitOptions& options, WedgeSurface* level);
+struct FitOriginal;
+
+// Keeps what all levels of one original have in common.
+class SurfaceFitter {
+ public:
+  // `poses`: skinning matrices, besides the bind pose; they must outlive this.
+  SurfaceFitter(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses,
+                const FitOptions& options = {});
+  ~SurfaceFitter();
+
+  // Faces, wedges and joints of a vertex stay; no face turns over, and none is pulled farther than
+  // the surfaces are apart. A level with more than half as many faces as samples stays as it is.
+  void Fit(WedgeSurface* level) const;
+
+ private:
+  FitOptions options_;
+  std::unique_ptr<FitOriginal> original_;
+};
 
 }  // namespace flaneur

@@ -168,15 +168,13 @@ SurfaceTree::Nearest SurfaceTree::Find(Vec3 point, uint32_t guess) const {
   return {std::sqrt(squared), numbers_[triangle], SharesOfNearest(point, triangles_[triangle])};
 }
 
-float GreatestDistance(const SurfaceTree& surface, std::span<const Vec3> points) {
-  float greatest = 0;
-  for (const Vec3 p : points) greatest = surface.AtLeast(p, greatest);
-  return greatest;
-}
-
-float SurfaceTree::AtLeast(Vec3 point, float distance) const {
-  uint32_t triangle = 0;
-  const float squared = Search(point, kFar, distance * distance, &triangle);
+float SurfaceTree::AtLeast(Vec3 point, float distance, uint32_t* guess) const {
+  uint32_t triangle = places_[*guess];
+  const float enough = distance * distance,
+              guessed = SquaredToTriangle(point, triangles_[triangle]);
+  if (guessed <= enough) return distance;
+  const float squared = Search(point, guessed, enough, &triangle);
+  *guess = numbers_[triangle];
   return std::max(std::sqrt(squared), distance);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "runtime/base/math.h"
@@ -27,7 +26,8 @@ class SurfaceTree {
   // `guess`: a triangle that may be near, which makes the search shorter.
   Nearest Find(Vec3 point, uint32_t guess = 0) const;
   // The greater of `distance` and the point's own, which is only worked out where it is greater.
-  float AtLeast(Vec3 point, float distance) const;
+  // `guess`: a triangle that may be near; out: one that is nearer.
+  float AtLeast(Vec3 point, float distance, uint32_t* guess) const;
 
  private:
   struct Box {
@@ -45,8 +45,5 @@ class SurfaceTree {
   std::vector<uint32_t> places_;                // where each went, by its number
   std::vector<Box> boxes_;
 };
-
-// The greatest distance of the points from the surface.
-float GreatestDistance(const SurfaceTree& surface, std::span<const Vec3> points);
 
 }  // namespace flaneur

@@ -53,9 +53,14 @@ void AddPerson(CLI::App* app, AvatarArguments* a) {
 void AddLevels(CLI::App* app, AvatarArguments* a) {
   const std::string levels = "Levels";
   app->add_option("--ratios", a->levels.ratios,
-                  "Share of the triangles in each level, falling, separated by commas")
+                  "Share of the triangles in each level, falling, separated by commas; empty: as "
+                  "the levels' errors say")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1.0))
+      ->group(levels);
+  app->add_option("--error-px", a->levels.error_px,
+                  "Pixels that a level's error may span on the screen where it is shown")
+      ->check(CLI::PositiveNumber)
       ->group(levels);
   app->add_option("--max-triangles", a->levels.max_triangles,
                   "Most triangles of the finest level; 0: no limit")
@@ -70,8 +75,9 @@ void AddCompression(CLI::App* app, AvatarArguments* a) {
   const std::string compression = "Compression";
   app->add_flag("--no-draco", a->plain, "Write plain meshes, for programs without Draco")
       ->group(compression);
-  app->add_option("--position-bits", a->draco.position_bits,
-                  "Bits of a position's component, 8 to 24; 0: 14, in coarser levels by their error")
+  app->add_option(
+         "--position-bits", a->draco.position_bits,
+         "Bits of a position's component, 8 to 24; 0: 14, in coarser levels by their error")
       ->check(CLI::IsMember({0}) | CLI::Range(8, 24))
       ->group(compression);
   app->add_option("--normal-bits", a->draco.normal_bits, "Bits of a normal")

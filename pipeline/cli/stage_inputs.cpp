@@ -45,9 +45,9 @@ std::string AvatarInputs(const AvatarSettings& avatar, const fs::path& file, con
   Fingerprint print;
   print.Add(ThisProgram()).Add(avatar.name);
   AddReading(avatar, file, &print);
-  const auto& [ratios, max_triangles, min_triangles, error_samples, walk_poses] = levels;
+  const auto& [ratios, error_px, max_triangles, min_triangles, error_samples, walk_poses] = levels;
   AddAll(ratios, &print);
-  return print.Add(max_triangles).Add(min_triangles).Add(error_samples).Add(walk_poses).Hex();
+  return print.Add(error_px).Add(max_triangles).Add(min_triangles).Add(error_samples).Add(walk_poses).Hex();
 }
 
 std::string ImpostorInputs(const AvatarSettings& avatar, const fs::path& file, int max_triangles,

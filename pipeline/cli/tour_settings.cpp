@@ -70,6 +70,7 @@ void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
 
 void ReadLevels(TomlTable table, LevelsOptions* options) {
   table.Numbers("ratios", &options->ratios, 0.001, 1);
+  table.Number("error_px", &options->error_px, 0.05, 100);
   table.Number("max_triangles", &options->max_triangles, 0, 1e8);
   table.Number("min_triangles", &options->min_triangles, 1, 1e6);
   table.Finish();

@@ -27,11 +27,12 @@ void FindKey(const Clip& clip, float time_s, int* key, float* share) {
 Mat4 Blend(const std::array<uint16_t, 4>& joints, const std::array<float, 4>& weights,
            const std::vector<Mat4>& matrices) {
   Mat4 out;
-  for (size_t c = 0; c < 4; ++c) {
-    for (size_t r = 0; r < 4; ++r) {
-      float sum = 0;
-      for (size_t i = 0; i < 4; ++i) sum += weights[i] * matrices[joints[i]].m[c][r];
-      out.m[c][r] = sum;
+  for (auto& column : out.m) column = {};
+  for (size_t i = 0; i < 4; ++i) {
+    if (weights[i] == 0) continue;
+    const Mat4& matrix = matrices[joints[i]];
+    for (size_t c = 0; c < 4; ++c) {
+      for (size_t r = 0; r < 4; ++r) out.m[c][r] += weights[i] * matrix.m[c][r];
     }
   }
   return out;
@@ -64,6 +65,15 @@ std::vector<Mat4> SkinningMatrices(const Avatar& avatar, const Clip& clip, float
   }
   for (size_t j = 0; j < joints; ++j) matrices[j] = matrices[j] * avatar.joints[j].inverse_bind;
   return matrices;
+}
+
+std::vector<Vec3> SkinnedPositions(const Mesh& mesh, const std::vector<Mat4>& matrices) {
+  std::vector<Vec3> out = mesh.positions;
+  if (mesh.joints.size() != mesh.positions.size()) return out;
+  for (size_t i = 0; i < out.size(); ++i) {
+    out[i] = TransformPoint(Blend(mesh.joints[i], mesh.weights[i], matrices), out[i]);
+  }
+  return out;
 }
 
 Mesh Skinned(const Mesh& mesh, const std::vector<Mat4>& matrices) {

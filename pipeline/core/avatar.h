@@ -58,6 +58,9 @@ struct AvatarLevels {
 // Skinning matrices (global * inverse bind), one a joint, at `time_s` of the clip (wrapped into its duration).
 std::vector<Mat4> SkinningMatrices(const Avatar& avatar, const Clip& clip, float time_s);
 
+// The mesh's positions under these matrices; those of a mesh without joints come back unchanged.
+std::vector<Vec3> SkinnedPositions(const Mesh& mesh, const std::vector<Mat4>& matrices);
+
 // The mesh's positions and normals under these matrices; a mesh without joints comes back unchanged.
 Mesh Skinned(const Mesh& mesh, const std::vector<Mat4>& matrices);
 

@@ -127,7 +127,7 @@ void TomlTable::Numbers(const char* key, std::vector<float>* values, double leas
     }
     read.push_back(static_cast<float>(*number));
   }
-  if (read.empty()) return context_->Refuse(node, Name(key) + " must be a list of numbers");
+  if (array == nullptr) return context_->Refuse(node, Name(key) + " must be a list of numbers");
   *values = std::move(read);
 }
 

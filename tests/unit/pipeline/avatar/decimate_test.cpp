@@ -48,16 +48,17 @@ void ExpectSoundLevels(const Avatar& avatar, const AvatarLevels& levels) {
 TEST(BuildLevels, HitsItsTargetsAndMeasuresThem) {
   const Avatar avatar = MadePerson();
   const int original = Triangles(avatar.meshes);
+  LevelsOptions options;
+  options.ratios = {1, 0.5f, 0.25f, 0.1f};
   AvatarLevels levels;
   std::vector<std::string> warnings;
-  ASSERT_EQ(BuildLevels(avatar, {}, &levels, &warnings).message, "");
+  ASSERT_EQ(BuildLevels(avatar, options, &levels, &warnings).message, "");
   EXPECT_TRUE(warnings.empty());
   ASSERT_EQ(levels.levels.size(), 4u);
   EXPECT_EQ(levels.levels[0].triangles, original);
   EXPECT_EQ(levels.levels[0].error_mm, 0);
-  const float ratios[] = {1, 0.5f, 0.25f, 0.1f};
   for (size_t k = 1; k < 4; ++k) {
-    const float target = std::max(ratios[k] * static_cast<float>(original), 200.0f);
+    const float target = std::max(options.ratios[k] * static_cast<float>(original), 200.0f);
     EXPECT_NEAR(static_cast<float>(levels.levels[k].triangles), target, 0.02f * target + 2);
     // Round tubes lose little: the section of 16 corners can always become one of 8.
     EXPECT_LT(levels.levels[k].error_mm, 80);
@@ -77,6 +78,48 @@ TEST(BuildLevels, SwitchesWhereTheNextErrorIsAPixel) {
   const float error_mm = std::max(last.error_mm, last.posed_error_mm);
   ASSERT_GT(error_mm, 0);
   EXPECT_NEAR(levels.levels[levels.levels.size() - 2].switch_px * error_mm, 1800, 1);
+}
+
+// The chain that makes itself, for tubes of so many rings: 96 triangles a ring.
+AvatarLevels OwnChain(int rings) {
+  Avatar avatar = MadePerson();
+  Mesh& mesh = avatar.meshes[0];
+  mesh = {};
+  mesh.name = "body";
+  mesh.material = 0;
+  AddTube(0, 0.9f, 1.8f, 0.2f, rings, 0, &mesh);
+  AddTube(0.1f, 0, 0.9f, 0.08f, rings, 1, &mesh);
+  AddTube(-0.1f, 0, 0.9f, 0.08f, rings, 2, &mesh);
+  AvatarLevels levels;
+  std::vector<std::string> warnings;
+  EXPECT_EQ(BuildLevels(avatar, {}, &levels, &warnings).message, "");
+  ExpectSoundLevels(avatar, levels);
+  return levels;
+}
+
+TEST(BuildLevels, MakesAsManyLevelsAsTheErrorsAskFor) {
+  // Rings of straight tubes are worth nothing: whatever their number, one level without most of
+  // them serves every size on screen, and the few triangles of the last serve no one any better.
+  const AvatarLevels few = OwnChain(4), many = OwnChain(300);
+  EXPECT_EQ(few.levels.size(), 1u);
+  ASSERT_GE(many.levels.size(), 2u);
+  EXPECT_LT(many.levels[1].triangles, many.levels[0].triangles / 9);
+  for (size_t k = 1; k < many.levels.size(); ++k) {
+    EXPECT_GT(many.levels[k].triangles, 240);
+    EXPECT_LT(many.levels[k].triangles, many.levels[k - 1].triangles);
+  }
+}
+
+TEST(BuildLevels, SwitchesNearerWhereMorePixelsMayShow) {
+  const Avatar avatar = MadePerson();
+  LevelsOptions fine, coarse;
+  fine.ratios = coarse.ratios = {1, 0.02f};
+  coarse.error_px = 2;
+  AvatarLevels a, b;
+  std::vector<std::string> warnings;
+  ASSERT_EQ(BuildLevels(avatar, fine, &a, &warnings).message, "");
+  ASSERT_EQ(BuildLevels(avatar, coarse, &b, &warnings).message, "");
+  EXPECT_NEAR(b.levels[0].switch_px, 2 * a.levels[0].switch_px, 0.01f * b.levels[0].switch_px);
 }
 
 TEST(BuildLevels, LimitsTheFinestLevel) {
@@ -165,6 +208,7 @@ TEST(BuildLevels, HandlesRealPeople) {
     AvatarLevels levels;
     warnings.clear();
     LevelsOptions options;
+    options.ratios = {1, 0.5f, 0.25f, 0.1f};
     options.walk_poses = 2;
     ASSERT_EQ(BuildLevels(avatar, options, &levels, &warnings).message, "");
     EXPECT_TRUE(warnings.empty());

@@ -60,6 +60,7 @@ TEST(TourSettings, TheReferenceFileHoldsTheDefaults) {
   EXPECT_EQ(Dumped(reference.light), Dumped(LightSettings{}));
   const LevelsOptions levels;
   EXPECT_EQ(reference.levels.ratios, levels.ratios);
+  EXPECT_EQ(reference.levels.error_px, levels.error_px);
   EXPECT_EQ(reference.levels.max_triangles, levels.max_triangles);
   EXPECT_EQ(reference.levels.min_triangles, levels.min_triangles);
   const ImpostorOptions impostor;
