@@ -96,7 +96,15 @@ void Press(const Held& held, const Simulation& s, Controls* c, CameraInput* came
   c->toggles_views = c->toggles_views || held.Pressed(Action::kViews);
   c->switches_adaptation = c->switches_adaptation || held.Pressed(Action::kAdaptation);
   ChangeView(held, s, c);
+  c->opens_pages = c->opens_pages || held.Pressed(Action::kMenu);
   c->quits = c->quits || held.input.close || held.Pressed(Action::kQuit);
+}
+
+void TakeCodes(Controls* c) {
+  for (size_t k = 0; k < kActions; ++k) {
+    c->codes[k].clear();
+    for (const std::string& key : c->settings.keys[k]) c->codes[k].push_back(InputCode(key));
+  }
 }
 
 }  // namespace
@@ -106,21 +114,43 @@ Controls MakeControls(const PlayerSettings& settings, const Simulation& s) {
   c.settings = settings;
   c.points = settings.pointer == "point";
   c.follows_tour = !s.legs.empty() || !s.tour.stops.empty();
-  for (size_t k = 0; k < kActions; ++k) {
-    for (const std::string& key : settings.keys[k]) c.codes[k].push_back(InputCode(key));
-  }
+  TakeCodes(&c);
   return c;
 }
 
-void TakeInput(const WindowInput& input, float passed_s, float aspect, const Simulation& s, Controls* c, CameraInput* camera) {
+bool Rebind(Action action, int code, Controls* c) {
+  const std::string name = InputName(code);
+  const auto& of_pages = c->codes[static_cast<size_t>(Action::kMenu)];
+  if (name.empty() || std::find(of_pages.begin(), of_pages.end(), code) != of_pages.end()) return false;
+  for (auto& keys : c->settings.keys) std::erase(keys, name);
+  auto& keys = c->settings.keys[static_cast<size_t>(action)];
+  std::erase_if(keys, [&](const std::string& key) { return IsGamepadCode(InputCode(key)) == IsGamepadCode(code); });
+  keys.push_back(name);
+  TakeCodes(c);
+  c->changed = true;
+  return true;
+}
+
+void ResetKeys(Controls* c) {
+  c->settings.keys = PlayerSettings().keys;
+  TakeCodes(c);
+  c->changed = true;
+}
+
+void TakeInput(const WindowInput& input, float passed_s, float aspect, bool pages, const Simulation& s, Controls* c, CameraInput* camera) {
   const Held held{input, c};
-  Press(held, s, c, camera);
-  TurnAndLook(held, passed_s, c);
-  Walk(held, s.camera.view.yaw_rad, c, camera);
+  if (pages) {
+    c->quits = c->quits || input.close;
+  } else {
+    Press(held, s, c, camera);
+    TurnAndLook(held, passed_s, c);
+    Walk(held, s.camera.view.yaw_rad, c, camera);
+  }
   for (const Vec2& click : input.clicks) {
     camera->walk_to = GroundAt(s, click, aspect);
     if (camera->walk_to) c->follows_tour = false;
   }
+  c->acted = c->acted || camera->speed_mps > 0 || Length(input.turned_px) > 0 || c->turn_radps != 0 || !input.clicks.empty();
   for (size_t k = 0; k < kActions; ++k) c->was_down[k] = held.Down(static_cast<Action>(k));
 }
 

@@ -18,7 +18,8 @@ struct Controls {
   bool follows_tour = true;   // else the visitor walks about
   bool points = false;        // the pointer is free: drag to turn, click to walk there
   bool quits = false, changed = false;  // changed: the settings, to be saved
-  bool toggles_views = false, switches_adaptation = false;  // taken once
+  bool toggles_views = false, switches_adaptation = false, opens_pages = false;  // taken once
+  bool acted = false;         // the visitor has walked, turned or clicked by now
   bool applies = false;       // changed settings have still to be heeded
   float to_turn_rad = 0, to_look_rad = 0;  // that the mouse or a snap asked for, and the simulation has still to do
   float turn_radps = 0;       // of keys and sticks
@@ -27,8 +28,16 @@ struct Controls {
 
 Controls MakeControls(const PlayerSettings& settings, const Simulation& simulation);
 
-// What the hands did since the last picture, passed_s ago. aspect: of the picture, width over height.
-void TakeInput(const WindowInput& input, float passed_s, float aspect, const Simulation& simulation, Controls* controls, CameraInput* camera);
+// The key or button becomes the action's only one of its kind, keyboard or gamepad, and nobody else's. False, and nothing done, where
+// it has no name or opens the pages.
+bool Rebind(Action action, int code, Controls* controls);
+// The keys as they were delivered.
+void ResetKeys(Controls* controls);
+
+// What the hands did since the last picture, passed_s ago. aspect: of the picture, width over height. pages: a page is open, and all but
+// ending is meant for it.
+void TakeInput(const WindowInput& input, float passed_s, float aspect, bool pages, const Simulation& simulation, Controls* controls,
+               CameraInput* camera);
 
 // For the next step. Wishes are fulfilled once.
 CameraInput NextStep(const CameraInput& camera, const Simulation& simulation, Controls* controls);

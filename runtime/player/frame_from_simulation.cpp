@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/player/ground_mark.h"
+
 namespace flaneur {
 namespace {
 
@@ -148,6 +150,7 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks*
   frame->fov_rad = s.camera.view.fov_rad;
   frame->to_sun = ToSun(pack.light, static_cast<float>(s.frame) * s.step_s);
   AddCaption(s, frame);
+  RingWherePointed(s, &frame->ground_mark);
   if (s.frame != looks->frame) FollowPeople(pack, s, looks);
   frame->people.clear();
   for (const PersonLook& look : looks->by_id) {

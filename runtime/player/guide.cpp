@@ -153,6 +153,15 @@ void PlaceGuide(Simulation* s) {
   FollowPlan(p.position, s);
 }
 
+void BringGuide(Simulation* s) {
+  if (!Find(s)) return;
+  Vec2 place;
+  if (!FindStart(*s, &place)) return;  // then the guide comes on foot
+  s->crowd.position[s->guide.index] = place;
+  s->crowd.velocity[s->guide.index] = {};
+  FollowPlan(place, s);
+}
+
 void LeadOn(Simulation* s) {
   if (!Find(s)) return;
   Guide& g = s->guide;

@@ -22,6 +22,9 @@ struct Guide {
 // In the crowd, on the way that the tour begins with.
 void PlaceGuide(Simulation* simulation);
 
+// To the visitor, who is elsewhere all of a sudden.
+void BringGuide(Simulation* simulation);
+
 // Before the crowd's step: where the guide wants to walk now.
 void LeadOn(Simulation* simulation);
 

@@ -7,9 +7,10 @@
 #include "runtime/player/guide_figure.h"
 #include "runtime/player/loading.h"
 #include "runtime/player/options.h"
-#include "runtime/player/player_settings.h"
 #include "runtime/player/run.h"
 #include "runtime/player/scenario.h"
+#include "runtime/player/user_settings.h"
+#include "runtime/player/warn.h"
 
 namespace flaneur {
 namespace {
@@ -22,59 +23,17 @@ Error CheckOutputs(const PlayerOptions& options) {
   return Ok();
 }
 
-void Warn(const std::string& what) { std::fprintf(stderr, "flaneur-player: warning: %s\n", OneLine(what).c_str()); }
-
-// A file with something wrong in it is used as far as it goes, and never written to.
-struct UserSettings {
-  std::filesystem::path path;
-  PlayerSettings in_file, settings;  // settings: with what the command line says
-  bool may_save = false;
-};
-
-Error ReadUserSettings(const PlayerOptions& options, UserSettings* user) {
-  user->path = options.settings.empty() ? PlayerSettingsPath() : options.settings;
-  std::vector<std::string> wrong;
-  if (Error e = ReadPlayerSettings(user->path, &user->in_file, &wrong)) wrong = {e.message};
-  user->settings = user->in_file;
-  user->may_save = wrong.empty() && !user->path.empty();
-  if (!wrong.empty()) {
-    const std::string more = wrong.size() > 1 ? " (and " + std::to_string(wrong.size() - 1) + " more)" : "";
-    Warn(wrong.front() + more + "; the default is used, and the file stays as it is");
-  }
-  for (const std::string& assignment : options.set) {
-    if (Error e = SetPlayerSetting(assignment, &user->settings)) return Fail("--set: " + e.message);
-  }
-  if (options.language) user->settings.language = *options.language;
-  return Ok();
-}
-
-Error SaveSettings(const UserSettings& user, const PlayerSettings& settings) {
-  if (user.may_save) return WritePlayerSettings(user.path, settings);
-  return user.path.empty() ? Fail("there is no folder for settings: neither XDG_CONFIG_HOME nor HOME is set; name a file with --settings")
-                           : Fail(user.path.string() + ": has something wrong in it, so nothing is saved over it; mend or remove it");
-}
-
 Error PlayInWindow(const PlayerOptions& options, const TourPack& pack, Loader* loader, Simulation* simulation) {
   UserSettings user;
   if (Error e = ReadUserSettings(options, &user)) return e;
-  Controls controls = MakeControls(user.settings, *simulation);
-  if (Error e = RunInWindow(options, pack, loader, &controls, simulation)) return e;
-  if (!controls.changed) return Ok();
-  // What was changed in the window, and not what only the command line said.
-  PlayerSettings kept = user.in_file;
-  const PlayerSettings &before = user.settings, &now = controls.settings;
-  if (now.language != before.language) kept.language = now.language;
-  if (now.pointer != before.pointer) kept.pointer = now.pointer;
-  if (now.field_of_view_deg != before.field_of_view_deg) kept.field_of_view_deg = now.field_of_view_deg;
-  if (Error e = SaveSettings(user, kept)) Warn(e.message);
-  return Ok();
+  return RunInWindow(options, pack, loader, &user, simulation);
 }
 
 Error Play(const PlayerOptions& options) {
   if (options.save_settings) {
     UserSettings user;
     if (Error e = ReadUserSettings(options, &user)) return e;
-    return SaveSettings(user, user.settings);
+    return SaveUserSettings(user.settings, user);
   }
   if (Error e = CheckOutputs(options)) return e;
   Scenario scenario;

@@ -24,6 +24,8 @@ void VisitSettings(Settings* s, Visit visit) {
   visit.Number("snap_turn_deg", &s->snap_turn_deg, 0, 90, "keys and gamepad turn by so much at a time; 0: smoothly");
   visit.Flag("invert_look", &s->invert_look, "pushing the mouse or stick up looks down");
   visit.Flag("reduced_motion", &s->reduced_motion, "the tour turns the view gently and walks slowly, nothing fades");
+  visit.Number("sound_volume", &s->sound_volume, 0, 1, "of what is spoken; 1: as recorded");
+  visit.Flag("kiosk", &s->kiosk, "for exhibitions: begins with the pages, comes back to them, and cannot be ended there");
 }
 
 std::vector<std::string> KnownNames() {
@@ -39,6 +41,26 @@ std::vector<std::string> KnownNames() {
   VisitSettings(&settings, Names{&names});
   for (const char* action : kActionNames) names.push_back(std::string("keys.") + action);
   return names;
+}
+
+// Where all but the keys stands.
+struct Fields {
+  std::vector<std::string*> texts;
+  std::vector<float*> numbers;
+  std::vector<bool*> flags;
+};
+
+Fields FieldsOf(PlayerSettings* settings) {
+  struct Finder {
+    Fields* out;
+    void Text(const char*, std::string* value, const char*) const { out->texts.push_back(value); }
+    void Choice(const char*, std::string* value, std::initializer_list<const char*>, const char*) const { out->texts.push_back(value); }
+    void Number(const char*, float* value, double, double, const char*) const { out->numbers.push_back(value); }
+    void Flag(const char*, bool* value, const char*) const { out->flags.push_back(value); }
+  };
+  Fields fields;
+  VisitSettings(settings, Finder{&fields});
+  return fields;
 }
 
 // Takes one value; says what is wrong with it.
@@ -132,7 +154,7 @@ struct Writer {
 PlayerSettings::PlayerSettings()
     : keys{{{"w", "up"}, {"s", "down"}, {"a"}, {"d"}, {"left", "q"}, {"right", "e"}, {"r"}, {"f"},
             {"tab", "pad_y"}, {"space", "pad_a"}, {"n", "page_down", "pad_right_bumper"}, {"b", "page_up", "pad_left_bumper"},
-            {"l", "pad_x"}, {"m"}, {"minus", "keypad_subtract"}, {"equal", "keypad_add"}, {"f1"}, {"f2"}, {"escape"}}} {}
+            {"l", "pad_x"}, {"m"}, {"minus", "keypad_subtract"}, {"equal", "keypad_add"}, {"f1"}, {"f2"}, {"escape", "pad_start"}, {"f10"}}} {}
 
 std::filesystem::path PlayerSettingsPath() {
   const char* config = std::getenv("XDG_CONFIG_HOME");
@@ -180,6 +202,22 @@ Error SetPlayerSetting(const std::string& assignment, PlayerSettings* settings) 
   }
   const std::string wrong = parsed.contains("value") ? Take(name, *parsed.get("value"), settings) : "needs a value";
   return wrong.empty() ? Ok() : Fail(OneLine(name) + " " + wrong);
+}
+
+void KeepChanges(const PlayerSettings& before, const PlayerSettings& now, PlayerSettings* kept) {
+  PlayerSettings was = before, is = now;
+  const Fields old = FieldsOf(&was), fresh = FieldsOf(&is), target = FieldsOf(kept);
+  const auto keep = [](const auto& from, const auto& to, const auto& out) {
+    for (size_t k = 0; k < to.size(); ++k) {
+      if (*from[k] != *to[k]) *out[k] = *to[k];
+    }
+  };
+  keep(old.texts, fresh.texts, target.texts);
+  keep(old.numbers, fresh.numbers, target.numbers);
+  keep(old.flags, fresh.flags, target.flags);
+  for (size_t k = 0; k < kActions; ++k) {
+    if (was.keys[k] != is.keys[k]) kept->keys[k] = is.keys[k];
+  }
 }
 
 std::string PlayerSettingsText(const PlayerSettings& settings) {

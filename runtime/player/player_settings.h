@@ -12,13 +12,13 @@ namespace flaneur {
 // In the order of kActionNames.
 enum class Action {
   kWalkAhead, kWalkBack, kWalkLeft, kWalkRight, kTurnLeft, kTurnRight, kLookUp, kLookDown,
-  kTour, kPause, kNext, kBack, kLanguage, kPointer, kWider, kNarrower, kViews, kAdaptation, kQuit, kCount
+  kTour, kPause, kNext, kBack, kLanguage, kPointer, kWider, kNarrower, kViews, kAdaptation, kMenu, kQuit, kCount
 };
 inline constexpr size_t kActions = static_cast<size_t>(Action::kCount);
 inline constexpr const char* kActionNames[kActions] = {
     "walk_ahead", "walk_back", "walk_left", "walk_right", "turn_left", "turn_right", "look_up", "look_down",
     "tour", "pause", "next", "back", "language", "pointer", "wider", "narrower", "views",
-    "adaptation", "quit"};
+    "adaptation", "menu", "quit"};
 
 struct PlayerSettings {
   std::string language;          // of the guided tour; empty: the tour's own
@@ -30,6 +30,8 @@ struct PlayerSettings {
   float snap_turn_deg = 0;       // turns by keys and gamepad go so far at once; 0: smoothly
   bool invert_look = false;
   bool reduced_motion = false;   // the tour turns the view gently and walks slowly, nothing fades
+  float sound_volume = 1;        // of what is spoken; 1: as recorded
+  bool kiosk = false;            // for exhibitions: begins with the pages, comes back to them, and cannot be ended there
   std::array<std::vector<std::string>, kActions> keys;
 
   PlayerSettings();              // with the default keys
@@ -44,6 +46,9 @@ Error ReadPlayerSettings(const std::filesystem::path& path, PlayerSettings* sett
 
 // "walk_speed_mps=1.2" or "keys.pause=p,pad_x". Errors: no such setting (names the nearest), a value out of range.
 Error SetPlayerSetting(const std::string& assignment, PlayerSettings* settings);
+
+// Puts into `kept` what differs between `before` and `now`.
+void KeepChanges(const PlayerSettings& before, const PlayerSettings& now, PlayerSettings* kept);
 
 // The whole file, with a word about each setting.
 std::string PlayerSettingsText(const PlayerSettings& settings);

@@ -4,10 +4,10 @@
 
 #include "runtime/base/error.h"
 #include "runtime/pack/tour_pack.h"
-#include "runtime/player/controls.h"
 #include "runtime/player/loading.h"
 #include "runtime/player/options.h"
 #include "runtime/player/simulation.h"
+#include "runtime/player/user_settings.h"
 
 namespace flaneur {
 
@@ -18,6 +18,7 @@ Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation*
 // Several simulations, as many as options.compare names, are drawn side by side; records are of the first.
 // `loader` has been started with the pack.
 Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader, std::vector<Simulation>* simulations);
-Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* loader, Controls* controls, Simulation* simulation);
+// Settings that the visitor changes are saved.
+Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* loader, UserSettings* user, Simulation* simulation);
 
 }  // namespace flaneur

@@ -83,6 +83,7 @@ struct Speaker::Impl {
   ALCcontext* context = nullptr;
   ALuint source = 0, buffer = 0;
   bool tried = false, paused = false, playing = false;
+  float volume = 1;
   std::future<Samples> decoding;
 
   // True once there is a device; opens it where that has not been tried.
@@ -116,6 +117,7 @@ struct Speaker::Impl {
     alBufferData(buffer, samples.channels == 2 ? AL_FORMAT_STEREO16 : AL_FORMAT_MONO16, samples.values.data(),
                  static_cast<ALsizei>(samples.values.size() * sizeof(int16_t)), samples.rate_hz);
     alSourcei(source, AL_BUFFER, static_cast<ALint>(buffer));
+    alSourcef(source, AL_GAIN, volume);
     playing = true;
     if (!paused) alSourcePlay(source);
   }
@@ -154,18 +156,23 @@ void Speaker::SetPaused(bool paused) {
   else alSourcePlay(impl_->source);
 }
 
+void Speaker::SetVolume(float share) {
+  impl_->volume = share;
+  if (impl_->playing) alSourcef(impl_->source, AL_GAIN, share);
+}
+
 void Speaker::Update() {
   if (!impl_->decoding.valid() || impl_->decoding.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   impl_->Begin(impl_->decoding.get());
 }
 
-void Narrate(const Tour& tour, const std::vector<std::vector<uint8_t>>& sounds, Narration* last, Speaker* speaker) {
+void Narrate(const Tour& tour, bool holds, const std::vector<std::vector<uint8_t>>& sounds, Narration* last, Speaker* speaker) {
   Narration now{tour.resting ? HaltOf(tour) : 0, tour.resting ? tour.words[HaltOf(tour)].sound : -1, tour.rested_s};
   if (now.sound >= static_cast<int>(sounds.size())) now.sound = -1;
   const bool anew = now.sound != last->sound || now.stop != last->stop || now.rested_s < last->rested_s;
   if (now.sound < 0 && last->sound >= 0) speaker->Stop();
   if (now.sound >= 0 && anew) speaker->Play(sounds[static_cast<size_t>(now.sound)]);
-  speaker->SetPaused(tour.holds);
+  speaker->SetPaused(holds || tour.holds);
   speaker->Update();
   *last = now;
 }

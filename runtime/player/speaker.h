@@ -16,6 +16,7 @@ class Speaker {
   void Play(std::vector<uint8_t> sound);
   void Stop();
   void SetPaused(bool paused);
+  void SetVolume(float share);  // 1: as recorded
   void Update();  // once a picture
 
  private:
@@ -23,8 +24,8 @@ class Speaker {
   std::unique_ptr<Impl> impl_;
 };
 
-// What the tour says where it rests now.
+// What the tour says where it rests now. holds: everything stands still.
 struct Narration { size_t stop = 0; int sound = -1; float rested_s = 0; };
-void Narrate(const Tour& tour, const std::vector<std::vector<uint8_t>>& sounds, Narration* last, Speaker* speaker);
+void Narrate(const Tour& tour, bool holds, const std::vector<std::vector<uint8_t>>& sounds, Narration* last, Speaker* speaker);
 
 }  // namespace flaneur

@@ -204,6 +204,18 @@ void StepTour(const TourWish& wish, bool follows, Simulation* s) {
   else WalkOn(s);
 }
 
+void JumpToStop(size_t stop, Simulation* s) {
+  Tour& t = s->tour;
+  if (stop >= t.stops.size()) return;
+  s->camera.view.position = s->stuck_at = t.stops[stop].position_m;
+  s->camera.view.yaw_rad = t.stops[stop].yaw_rad;
+  s->camera.pitch_rad = s->looks_about_s = s->stuck_s = 0;
+  s->point_walk = {};
+  s->finished = t.paused = t.holds = false;
+  Plan(StopsBetween(stop, HaltFrom(t, stop)), s);
+  BringGuide(s);
+}
+
 void GiveUpStop(Simulation* s) {
   Tour& t = s->tour;
   if (t.passed + 1 >= t.stage.size()) return LeaveHalt(s);

@@ -60,6 +60,9 @@ void BeginTour(Simulation* simulation);
 // The tour goes on to where the visitor is now.
 void StepTour(const TourWish& wish, bool follows, Simulation* simulation);
 
+// The visitor, and the guide with them, is at that stop from now on, and the tour goes on from there.
+void JumpToStop(size_t stop, Simulation* simulation);
+
 // The way to the next stop is barred: the tour passes it by.
 void GiveUpStop(Simulation* simulation);
 

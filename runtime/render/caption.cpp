@@ -11,22 +11,9 @@
 #pragma GCC diagnostic ignored "-Wshadow"
 #include <stb/stb_truetype.h>
 #pragma GCC diagnostic pop
-#include <stb/stb_image.h>
 
+#include "runtime/render/font.h"
 #include "runtime/render/shaders.h"
-
-// The font file as gzip leaves it, built into the program.
-__asm__(
-    ".section .rodata\n"
-    ".balign 16\n"
-    ".global flaneur_caption_font\n"
-    "flaneur_caption_font:\n"
-    ".incbin \"" FLANEUR_CAPTION_FONT "\"\n"
-    "flaneur_caption_font_end:\n"
-    ".global flaneur_caption_font_end\n"
-    ".byte 0\n"
-    ".previous\n");
-extern "C" const char flaneur_caption_font[], flaneur_caption_font_end[];
 
 namespace flaneur {
 namespace {
@@ -36,15 +23,10 @@ constexpr int kLeastLetter_px = 12, kLeastPicture_px = 64;
 constexpr float kStripShare = 0.72f;  // how much of the picture the empty strip hides
 constexpr uint8_t kStripColor = 18;
 
-constexpr int kGzipHead_bytes = 10, kGzipTail_bytes = 8;  // around the deflated data (RFC 1952, no name given)
-
 const stbtt_fontinfo& Font() {
   static const stbtt_fontinfo font = [] {
-    const int packed_bytes = static_cast<int>(flaneur_caption_font_end - flaneur_caption_font) - kGzipHead_bytes - kGzipTail_bytes;
-    // Needed as long as the program runs.
-    const char* file = stbi_zlib_decode_noheader_malloc(flaneur_caption_font + kGzipHead_bytes, packed_bytes, nullptr);
     stbtt_fontinfo f;
-    stbtt_InitFont(&f, reinterpret_cast<const unsigned char*>(file), 0);
+    stbtt_InitFont(&f, FontFile().data(), 0);
     return f;
   }();
   return font;

@@ -160,6 +160,8 @@ WindowInput Window::Poll() {
   if (Length(cursor - impl_->pressed_at) > static_cast<float>(kStillAClick_px)) impl_->dragged = true;
   if (!impl_->free_pointer || (held && impl_->dragged)) input.turned_px = cursor - impl_->last;
   if (impl_->held && !held && (!impl_->free_pointer || !impl_->dragged)) input.clicks.push_back(PlaceOf(cursor));
+  if (impl_->free_pointer) input.pointer = PlaceOf(cursor);
+  input.pressed = held;
   impl_->held = held;
   impl_->last = cursor;
   input.close = glfwWindowShouldClose(w);

@@ -33,6 +33,7 @@ struct FrameInput {
   float yaw_rad = 0, pitch_rad = 0, fov_rad = 1;  // horizontal
   Vec3 to_sun{0, 0, 1};    // unit
   std::vector<DrawnPerson> people;
+  std::vector<Vec3> ground_mark;  // a strip of triangles over the ground; empty: none
   std::string caption;     // UTF-8, at the foot of the picture; empty: none
   float caption_share = 1; // how much of it is seen, 0 to 1
 };

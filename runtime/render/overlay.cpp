@@ -2,8 +2,11 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
+#include "runtime/render/font.h"
 #include "runtime/render/gl_objects.h"
 #include "runtime/render/shaders.h"
 
@@ -11,6 +14,9 @@ namespace flaneur {
 
 struct Overlay::Impl {
   GLuint program = 0, font = 0, array = 0, vertices = 0, indices = 0;
+  float letter_px = 0;
+  std::string texts;
+  ImVector<ImWchar> letters;  // that the large font has; ImGui reads them later
 
   ~Impl() {
     if (ImGui::GetCurrentContext() != nullptr) ImGui::DestroyContext();
@@ -20,11 +26,10 @@ struct Overlay::Impl {
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
-    glGenTextures(1, &font);
-    glBindTexture(GL_TEXTURE_2D, font);
+    if (font == 0) glGenTextures(1, &font);
+    BindTexture(kColorUnit, font);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexStorage2D(GL_TEXTURE_2D, 1, GL_R8, width, height);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_UNSIGNED_BYTE, pixels);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, pixels);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   }
@@ -61,6 +66,9 @@ Overlay::~Overlay() = default;
 Error Overlay::Create() {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
+  ImGui::GetIO().KeyRepeatDelay = 0.6f;  // where pictures are slow, a key tapped looks like one held
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
+  ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_HasGamepad;
   ImGui::StyleColorsDark();
   if (Error e = BuildProgram(kOverlayVertex, kOverlayFragment, &impl_->program)) return e;
   impl_->CreateFont();
@@ -68,12 +76,42 @@ Error Overlay::Create() {
   return Ok();
 }
 
+void Overlay::PrepareText(float letter_px, const std::string& texts) {
+  Impl& o = *impl_;
+  letter_px = std::max(4.0f, std::round(letter_px));
+  if (letter_px == o.letter_px && texts == o.texts) return;
+  o.letter_px = letter_px;
+  o.texts = texts;
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  ImFontGlyphRangesBuilder builder;
+  builder.AddRanges(fonts.GetGlyphRangesDefault());
+  builder.AddText(texts.c_str());
+  o.letters.clear();
+  builder.BuildRanges(&o.letters);
+  fonts.Clear();
+  fonts.AddFontDefault();
+  ImFontConfig config;
+  config.FontDataOwnedByAtlas = false;
+  const auto file = FontFile();
+  // ImGui only reads the file, though it does not say so.
+  fonts.AddFontFromMemoryTTF(const_cast<unsigned char*>(file.data()), static_cast<int>(file.size()), letter_px, &config, o.letters.Data);
+  o.CreateFont();
+}
+
+bool Overlay::HasPointer() const { return ImGui::GetIO().WantCaptureMouse; }
+
 void Overlay::Begin(int width_px, int height_px, const OverlayInput& input) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(width_px), static_cast<float>(height_px)};
   io.DeltaTime = input.passed_s > 0 ? input.passed_s : 1.0f / 60;
   io.MousePos = input.pointer_px.x >= 0 ? ImVec2{input.pointer_px.x, input.pointer_px.y} : ImVec2{-1e30f, -1e30f};
   io.MouseDown[0] = input.pressed;
+  const auto hold = [&io](ImGuiNavInput_ which, bool held) { io.NavInputs[which] = held ? 1.0f : 0.0f; };
+  hold(ImGuiNavInput_DpadUp, input.up);
+  hold(ImGuiNavInput_DpadDown, input.down);
+  hold(ImGuiNavInput_DpadLeft, input.left);
+  hold(ImGuiNavInput_DpadRight, input.right);
+  hold(ImGuiNavInput_Activate, input.activate);
   ImGui::NewFrame();
 }
 
@@ -94,5 +132,8 @@ void Overlay::Draw() {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
 }
+
+LargeText::LargeText() { ImGui::PushFont(ImGui::GetIO().Fonts->Fonts.back()); }
+LargeText::~LargeText() { ImGui::PopFont(); }
 
 }  // namespace flaneur

@@ -8,6 +8,7 @@
 #include "runtime/base/parallel.h"
 #include "runtime/render/asset_content.h"
 #include "runtime/render/caption.h"
+#include "runtime/render/ground_mark.h"
 #include "runtime/render/light.h"
 #include "runtime/render/people_view.h"
 #include "runtime/render/picture.h"
@@ -64,6 +65,7 @@ struct Renderer::Impl {
   ShadowMaps shadows;
   Picture picture;
   CaptionView caption;
+  GroundMarkView ground_mark;
   SurfacePlan plan;
   size_t pictures_left = 0;  // to come
   AtlasFormats formats;
@@ -113,6 +115,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   if (Error e = BuildProgram(std::string(kFrame) + kSkyVertex, std::string(kFrame) + kSkyFragment, &r.sky_program)) return e;
   if (Error e = CreatePicture(samples, &r.picture)) return e;
   if (Error e = CreateCaptionView(&r.caption)) return e;
+  if (Error e = CreateGroundMark(&r.ground_mark)) return e;
   CreateShadowMaps(&r.shadows);
   glGenVertexArrays(1, &r.empty_array);
   glGenBuffers(1, &r.block_buffer);
@@ -170,6 +173,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   const DrawCost town = DrawTown(&r.town);
   people += DrawPeople(r.people, true);
   if (!r.options.normals) r.DrawSky();
+  const DrawCost mark = DrawGroundMark(frame.ground_mark, r.ground_mark);
   FinishPicture(r.picture);
   DrawCaption(frame.caption, frame.caption_share, width_px, height_px, &r.caption);
   glFinish();  // so that draw_ms means the picture, not the handing over of commands
@@ -177,7 +181,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   statistics->town_triangles = town.triangles;
   statistics->people_triangles = people.triangles;
   statistics->shadow_triangles = shadows.triangles;
-  statistics->draw_calls = people.calls + town.calls + shadows.calls + kWholePictures;
+  statistics->draw_calls = people.calls + town.calls + shadows.calls + mark.calls + kWholePictures;
   statistics->people_hidden = r.people.batches.hidden;
   statistics->people_drawn = static_cast<int>(frame.people.size()) - statistics->people_hidden;
   statistics->draw_ms = Now_ms() - start_ms;

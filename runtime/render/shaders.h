@@ -444,6 +444,16 @@ void main() {
 }
 )";
 
+// A mark on the ground, in ground axes, as if it shone.
+inline constexpr const char* kGroundMarkVertex = R"(
+layout(location = 0) in vec3 a_place;
+void main() { gl_Position = u_view_projection * vec4(a_place.x, a_place.z, -a_place.y, 1.0); }
+)";
+inline constexpr const char* kGroundMarkFragment = R"(
+out vec4 o_color;
+void main() { o_color = vec4(1.0, 0.82, 0.40, 0.8); }
+)";
+
 // Dear ImGui's triangles: places in pixels from the upper left corner, colours as they are shown.
 inline constexpr const char* kOverlayVertex = R"(
 layout(location = 0) in vec2 a_place;

@@ -33,6 +33,25 @@ constexpr Named kNamed[] = {
     {"pad_down", PadCode(GLFW_GAMEPAD_BUTTON_DPAD_DOWN)}, {"pad_left", PadCode(GLFW_GAMEPAD_BUTTON_DPAD_LEFT)},
 };
 
+constexpr Named kLabels[] = {{"←", GLFW_KEY_LEFT}, {"→", GLFW_KEY_RIGHT}, {"↑", GLFW_KEY_UP}, {"↓", GLFW_KEY_DOWN}, {"Esc", GLFW_KEY_ESCAPE}};
+
+template <typename Range>
+const char* Find(const Range& range, int code) {
+  const auto* const found = std::find_if(std::begin(range), std::end(range), [&](const Named& n) { return n.code == code; });
+  return found != std::end(range) ? found->name : nullptr;
+}
+
+// "page_up" to "Page Up".
+std::string Capitalized(std::string name) {
+  bool begins = true;
+  for (char& c : name) {
+    if (c == '_') c = ' ';
+    if (begins && c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    begins = c == ' ';
+  }
+  return name;
+}
+
 }  // namespace
 
 int InputCode(const std::string& name) {
@@ -47,8 +66,18 @@ std::string InputName(int code) {
   if (code >= GLFW_KEY_A && code <= GLFW_KEY_Z) return std::string(1, static_cast<char>(code - 'A' + 'a'));
   if (code >= GLFW_KEY_F1 && code <= GLFW_KEY_F25) return "f" + std::to_string(code - GLFW_KEY_F1 + 1);
   if (code >= GLFW_KEY_KP_0 && code <= GLFW_KEY_KP_9) return "keypad_" + std::to_string(code - GLFW_KEY_KP_0);
-  const auto* const found = std::find_if(std::begin(kNamed), std::end(kNamed), [&](const Named& n) { return n.code == code; });
-  return found != std::end(kNamed) ? found->name : "";
+  const char* name = Find(kNamed, code);
+  return name != nullptr ? name : "";
+}
+
+bool IsGamepadCode(int code) { return code >= kFirstPadCode; }
+
+std::string InputLabel(int code) {
+  if (const char* label = Find(kLabels, code)) return label;
+  const std::string name = InputName(code);
+  if (IsGamepadCode(code)) return Capitalized(name.substr(std::string("pad_").size()));
+  const char* printed = name.rfind("keypad", 0) == 0 ? nullptr : glfwGetKeyName(code, 0);
+  return Capitalized(printed != nullptr ? printed : name);
 }
 
 std::vector<std::string> InputNames() {

@@ -15,6 +15,8 @@ struct WindowInput {
   Vec2 turned_px;                 // by the mouse: x to the right, y down; where the pointer is free, while its left button is held
   Vec2 left_stick, right_stick;   // of the first gamepad: x to the right, y up, each -1 to 1
   std::vector<Vec2> clicks;       // 0 to 1 from the picture's upper left corner; its middle where the pointer is caught
+  Vec2 pointer{-1, -1};           // likewise; negative where it is caught
+  bool pressed = false;           // its left button
   bool close = false;
 };
 
@@ -22,5 +24,8 @@ struct WindowInput {
 int InputCode(const std::string& name);
 std::string InputName(int code);  // empty where there is none
 std::vector<std::string> InputNames();
+// What stands on the key or button, for people to read: "W", "Page Up"; letters by the keyboard's own layout, once a window is open.
+std::string InputLabel(int code);
+bool IsGamepadCode(int code);
 
 }  // namespace flaneur

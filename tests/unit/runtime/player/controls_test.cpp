@@ -30,7 +30,7 @@ struct Visitor {
   }
   void Do(const WindowInput& input, int steps = 1) {
     for (int k = 0; k < steps; ++k) {
-      TakeInput(input, s.step_s, kAspect, s, &controls, &wishes);
+      TakeInput(input, s.step_s, kAspect, false, s, &controls, &wishes);
       StepSimulation(NextStep(wishes, s, &controls), 0, &s);
       wishes.tour = {};
       wishes.walk_to.reset();

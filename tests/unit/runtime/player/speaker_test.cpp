@@ -57,7 +57,7 @@ TEST(Speaker, FollowsATourThatStopsAndGoes) {
     tour.resting = step > 10 && step < 50;
     tour.rested_s = tour.resting ? static_cast<float>(step - 10) / 30 : 0;
     tour.holds = step > 20 && step < 30;
-    Narrate(tour, sounds, &last, &speaker);
+    Narrate(tour, false, sounds, &last, &speaker);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(last.sound, -1);

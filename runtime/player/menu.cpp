@@ -1,0 +1,375 @@
+#include "runtime/player/menu.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "runtime/player/phrases.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kLettersHigh = 22, kLettersWide = 30;  // how many the picture has room for
+constexpr float kRow = 1.55f, kPageWidth = 24, kFooter = 2.2f;  // in letters
+constexpr float kStickPushed = 0.5f;
+constexpr float kRadians = kPi / 180;
+
+struct PageView {
+  const Simulation& s;
+  Menu* menu;
+  Controls* controls;
+  std::string language;
+  float letter_px, width_px;
+  size_t rows;                // that fit on a page beside its head and foot
+  bool appears = false;       // its first button gets the focus
+  MenuChoice choice;
+
+  const char* Words(Phrase phrase) const { return Say(phrase, language); }
+  float row_px() const { return kRow * letter_px; }
+};
+
+// Cuts off after the first sentence.
+std::string FirstSentence(const std::string& text) {
+  const size_t end = text.find_first_of(".!?:\n");
+  return end == std::string::npos || end < 3 ? text : text.substr(0, end);
+}
+
+std::string NameOfStop(const Tour& tour, size_t stop, size_t number) {
+  return std::to_string(number) + "   " + FirstSentence(tour.words[stop].caption);
+}
+
+std::vector<size_t> Halts(const Tour& tour) {
+  std::vector<size_t> halts;
+  for (size_t k = 0; k < tour.stops.size(); ++k) {
+    if (RestOf_s(tour, k) > 0) halts.push_back(k);
+  }
+  return halts;
+}
+
+// The tour's languages and the player's own.
+std::vector<std::string> Languages(const Simulation& s) {
+  std::vector<std::string> all;
+  if (!s.tour.stops.empty()) all = s.tour.languages;
+  for (const std::string& own : PhraseLanguages()) {
+    if (std::find(all.begin(), all.end(), own) == all.end()) all.push_back(own);
+  }
+  return all;
+}
+
+// `###` keeps a button the same whatever is written on it.
+bool Row(const PageView& v, const std::string& text, const char* id) {
+  return ImGui::Button((text + "###" + id).c_str(), {v.width_px, v.row_px()});
+}
+
+void Changed(PageView* v) { v->controls->changed = v->controls->applies = true; }
+
+// Less and more; by how many steps it shall change.
+int Amount(const PageView& v, const char* text, const std::string& value) {
+  const float button_px = 1.3f * v.row_px(), value_px = 6.2f * v.letter_px;
+  ImGui::PushID(text);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine(v.width_px - 2 * button_px - value_px);
+  ImGui::PushButtonRepeat(true);
+  ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0.5f, 0.5f});
+  const bool less = ImGui::Button("-", {button_px, v.row_px()});
+  const float text_px = ImGui::CalcTextSize(value.c_str()).x;
+  ImGui::SameLine(v.width_px - button_px - value_px / 2 - text_px / 2);
+  ImGui::TextUnformatted(value.c_str());
+  ImGui::SameLine(v.width_px - button_px);
+  const bool more = ImGui::Button("+", {button_px, v.row_px()});
+  ImGui::PopStyleVar();
+  ImGui::PopButtonRepeat();
+  ImGui::PopID();
+  return static_cast<int>(more) - static_cast<int>(less);
+}
+
+std::string Number(const char* format, float value) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, static_cast<double>(value));
+  return text;
+}
+
+void Step(int steps, float step, float least, float most, float* value, PageView* v) {
+  if (steps == 0) return;
+  *value = std::clamp((std::round(*value / step) + static_cast<float>(steps)) * step, least, most);
+  Changed(v);
+}
+
+void Switch(const char* text, bool* value, PageView* v) {
+  if (!Row(*v, std::string(text) + ": " + v->Words(*value ? Phrase::kYes : Phrase::kNo), text)) return;
+  *value = !*value;
+  Changed(v);
+}
+
+// The rows that fit, and a button for more where there are more.
+template <typename ShowRow>
+void PagedRows(size_t count, PageView* v, ShowRow show) {
+  const bool all_fit = count <= v->rows;
+  const size_t shown = all_fit ? count : v->rows - 1;
+  if (v->menu->first >= count) v->menu->first = 0;
+  for (size_t k = v->menu->first; k < std::min(count, v->menu->first + shown); ++k) show(k);
+  if (!all_fit && Row(*v, v->Words(Phrase::kMore), "more")) v->menu->first += shown;
+}
+
+void FollowTour(PageView* v) {
+  v->controls->follows_tour = true;
+  OpenPage(Page::kNone, v->menu);
+  if (v->s.finished) v->choice.stop = 0;
+}
+
+void ShowMain(PageView* v) {
+  const Tour& tour = v->s.tour;
+  Controls* c = v->controls;
+  if (Row(*v, v->Words(Phrase::kContinue), "continue")) OpenPage(Page::kNone, v->menu);
+  if (!tour.stops.empty()) {
+    const bool led = c->follows_tour && !v->s.finished;
+    if (Row(*v, v->Words(led ? Phrase::kFreeWalk : Phrase::kTour), "tour")) {
+      if (!led) FollowTour(v);
+      else c->follows_tour = false, OpenPage(Page::kNone, v->menu);
+    }
+    if (!Halts(tour).empty() && Row(*v, v->Words(Phrase::kStops), "stops")) OpenPage(Page::kStops, v->menu);
+  }
+  const std::vector<std::string> languages = Languages(v->s);
+  if (Row(*v, std::string(v->Words(Phrase::kLanguage)) + ": " + LanguageName(v->language), "language")) {
+    const auto now = std::find(languages.begin(), languages.end(), v->language) - languages.begin();
+    c->settings.language = languages[static_cast<size_t>(now + 1) % languages.size()];
+    Changed(v);
+  }
+  if (Row(*v, v->Words(Phrase::kSettings), "settings")) OpenPage(Page::kSettings, v->menu);
+  if (Row(*v, v->Words(Phrase::kKeys), "keys")) OpenPage(Page::kKeys, v->menu);
+  if (!c->settings.kiosk && Row(*v, v->Words(Phrase::kEnd), "end")) v->choice.ends = true;
+}
+
+void ShowStops(PageView* v) {
+  const std::vector<size_t> halts = Halts(v->s.tour);
+  const bool led = v->controls->follows_tour && !v->s.tour.over;
+  PagedRows(halts.size(), v, [&](size_t k) {
+    std::string text = NameOfStop(v->s.tour, halts[k], k + 1);
+    if (led && halts[k] == HaltOf(v->s.tour)) text += std::string("   (") + v->Words(Phrase::kNow) + ")";
+    if (!Row(*v, text, std::to_string(k).c_str())) return;
+    v->choice.stop = halts[k];
+    v->controls->follows_tour = true;
+    OpenPage(Page::kNone, v->menu);
+  });
+}
+
+void ShowSetting(size_t row, PageView* v) {
+  PlayerSettings& s = v->controls->settings;
+  const float view_deg = v->s.camera.view.fov_rad / kRadians;
+  switch (row) {
+    case 0: return Step(Amount(*v, v->Words(Phrase::kWalkSpeed), Number("%.1f m/s", s.walk_speed_mps)), 0.1f, 0.3f, 3, &s.walk_speed_mps, v);
+    case 1: return Step(Amount(*v, v->Words(Phrase::kTurnSpeed), Number("%.0f°/s", s.turn_speed_dps)), 10, 10, 360, &s.turn_speed_dps, v);
+    case 2: {
+      const std::string value = s.snap_turn_deg > 0 ? Number("%.0f°", s.snap_turn_deg) : v->Words(Phrase::kSmoothly);
+      return Step(Amount(*v, v->Words(Phrase::kSnapTurn), value), 15, 0, 90, &s.snap_turn_deg, v);
+    }
+    case 3: return Step(Amount(*v, v->Words(Phrase::kMouseSpeed), Number("%.1f", s.mouse_speed)), 0.1f, 0.1f, 10, &s.mouse_speed, v);
+    case 4: {
+      const int steps = Amount(*v, v->Words(Phrase::kFieldOfView), Number("%.0f°", view_deg));
+      if (steps != 0) s.field_of_view_deg = view_deg;
+      return Step(steps, 5, 30, 120, &s.field_of_view_deg, v);
+    }
+    case 5: return Step(Amount(*v, v->Words(Phrase::kVolume), Number("%.0f %%", 100 * s.sound_volume)), 0.1f, 0, 1, &s.sound_volume, v);
+    case 6: return Switch(v->Words(Phrase::kReducedMotion), &s.reduced_motion, v);
+    case 7: return Switch(v->Words(Phrase::kInvertLook), &s.invert_look, v);
+    default: break;
+  }
+  const std::string how = v->Words(v->controls->points ? Phrase::kMousePoints : Phrase::kMouseLooks);
+  if (!Row(*v, std::string(v->Words(Phrase::kMouse)) + ": " + how, "mouse")) return;
+  v->controls->points = !v->controls->points;
+  s.pointer = v->controls->points ? "point" : "look";
+  Changed(v);
+}
+
+std::string KeysOf(const PageView& v, Action action, bool pad) {
+  std::string list;
+  for (int code : v.controls->codes[static_cast<size_t>(action)]) {
+    if (IsGamepadCode(code) == pad) list += (list.empty() ? "" : ", ") + KeyName(InputLabel(code), v.language);
+  }
+  if (!list.empty()) return list;
+  return v.Words(pad && action <= Action::kLookDown ? Phrase::kStick : Phrase::kNothing);
+}
+
+void KeyButton(Action action, bool pad, PageView* v) {
+  Menu* menu = v->menu;
+  const bool waits = menu->rebinds == action && menu->rebinds_pad == pad;
+  const std::string text = waits ? v->Words(pad ? Phrase::kPressButton : Phrase::kPressKey) : KeysOf(*v, action, pad);
+  const std::string id = std::string(kActionNames[static_cast<size_t>(action)]) + (pad ? "pad" : "key");
+  if (!ImGui::Button((text + "###" + id).c_str(), {0.29f * v->width_px, v->row_px()})) return;
+  menu->rebinds = action;
+  menu->rebinds_pad = pad;
+}
+
+void ShowKeys(PageView* v) {
+  std::vector<Action> actions;
+  for (size_t k = 0; k < kActions; ++k) {
+    const auto action = static_cast<Action>(k);
+    if (action != Action::kMenu && (action != Action::kQuit || !v->controls->settings.kiosk)) actions.push_back(action);
+  }
+  PagedRows(actions.size() + 1, v, [&](size_t k) {
+    if (k == actions.size()) {
+      if (Row(*v, v->Words(Phrase::kDefaults), "defaults")) ResetKeys(v->controls);
+      return;
+    }
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(NameOf(actions[k], v->language));
+    for (const bool pad : {false, true}) {
+      ImGui::SameLine(v->width_px * (pad ? 0.71f : 0.41f));
+      KeyButton(actions[k], pad, v);
+    }
+  });
+}
+
+void ShowRows(PageView* v) {
+  switch (v->menu->page) {
+    case Page::kNone: return;
+    case Page::kMain: return ShowMain(v);
+    case Page::kStops: return ShowStops(v);
+    case Page::kSettings: return PagedRows(9, v, [&](size_t row) { ShowSetting(row, v); });
+    case Page::kKeys: return ShowKeys(v);
+  }
+}
+
+Phrase TitleOf(Page page) {
+  return page == Page::kStops ? Phrase::kStops : page == Page::kSettings ? Phrase::kSettings : Phrase::kKeys;
+}
+
+// Dark, warm and large, with the button that is meant clearly brighter.
+struct PageStyle {
+  explicit PageStyle(float letter_px) {
+    const auto color = [](ImGuiCol which, float r, float g, float b, float a) { ImGui::PushStyleColor(which, {r, g, b, a}); };
+    color(ImGuiCol_WindowBg, 0.07f, 0.06f, 0.05f, 0.86f);
+    color(ImGuiCol_Border, 0, 0, 0, 0);
+    color(ImGuiCol_Text, 0.97f, 0.95f, 0.90f, 1);
+    color(ImGuiCol_Button, 0.24f, 0.20f, 0.16f, 0.9f);
+    color(ImGuiCol_ButtonHovered, 0.66f, 0.42f, 0.14f, 1);
+    color(ImGuiCol_ButtonActive, 0.80f, 0.54f, 0.20f, 1);
+    color(ImGuiCol_NavHighlight, 0.98f, 0.80f, 0.42f, 1);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.8f * letter_px, 0.6f * letter_px});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.6f * letter_px, 0.25f * letter_px});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.4f * letter_px, 0.28f * letter_px});
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, 0.25f * letter_px);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * letter_px);
+    ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
+  }
+  ~PageStyle() {
+    ImGui::PopStyleVar(6);
+    ImGui::PopStyleColor(7);
+  }
+  PageStyle(const PageStyle&) = delete;
+  PageStyle& operator=(const PageStyle&) = delete;
+};
+
+constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+
+size_t RowsThatFit(int height_px, float letter_px) {
+  const float row_px = (kRow + 0.28f) * letter_px, rest_px = static_cast<float>(height_px) - 6.5f * letter_px;
+  return static_cast<size_t>(std::max(3.0f, std::floor(rest_px / row_px)));
+}
+
+}  // namespace
+
+void OpenPage(Page page, Menu* menu) {
+  menu->page = page;
+  menu->first = 0;
+  menu->rebinds.reset();
+}
+
+std::string PageLanguage(const Controls& c, const Simulation& s) {
+  return c.settings.language.empty() ? s.tour.language : c.settings.language;
+}
+
+float PageLetter_px(int width_px, int height_px) {
+  return std::min(static_cast<float>(height_px) / kLettersHigh, static_cast<float>(width_px) / kLettersWide);
+}
+
+std::string PageTexts(const Controls& c, const Simulation& s) {
+  std::string all = "–°←→↑↓";
+  for (const std::string& language : Languages(s)) all += LanguageName(language);
+  for (const StopWords& words : s.tour.words) all += FirstSentence(words.caption);
+  for (const auto& codes : c.codes) {
+    for (int code : codes) all += InputLabel(code);
+  }
+  return all;
+}
+
+OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, int width_px, int height_px, float passed_s) {
+  OverlayInput out;
+  out.pointer_px = {input.pointer.x * static_cast<float>(width_px), input.pointer.y * static_cast<float>(height_px)};
+  out.pressed = input.pressed;
+  out.passed_s = passed_s;
+  if (menu.page == Page::kNone || menu.lets_go) return out;
+  const auto down = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(), [&](const char* name) { return input.down[static_cast<size_t>(InputCode(name))]; });
+  };
+  out.up = down({"up", "pad_up"}) || input.left_stick.y > kStickPushed;
+  out.down = down({"down", "pad_down"}) || input.left_stick.y < -kStickPushed;
+  out.left = down({"left", "pad_left"}) || input.left_stick.x < -kStickPushed;
+  out.right = down({"right", "pad_right"}) || input.left_stick.x > kStickPushed;
+  out.activate = down({"enter", "keypad_enter", "space", "pad_a"});
+  return out;
+}
+
+void TakePageInput(const WindowInput& input, Menu* menu, Controls* c) {
+  const std::bitset<kInputCodes> pressed = input.down & ~menu->was_down;
+  menu->was_down = input.down;
+  menu->lets_go = menu->rebinds || (menu->lets_go && input.down.any());
+  if (menu->page == Page::kNone) return;
+  const auto& of_pages = c->codes[static_cast<size_t>(Action::kMenu)];
+  const bool back = std::any_of(of_pages.begin(), of_pages.end(), [&](int code) { return pressed[static_cast<size_t>(code)]; });
+  if (menu->rebinds) {
+    if (back) menu->rebinds.reset();
+    for (int code = 0; code < kInputCodes && menu->rebinds; ++code) {
+      const bool fits = pressed[static_cast<size_t>(code)] && IsGamepadCode(code) == menu->rebinds_pad;
+      if (fits && Rebind(*menu->rebinds, code, c)) menu->rebinds.reset();
+    }
+    return;
+  }
+  if (back || pressed[static_cast<size_t>(InputCode("pad_b"))]) OpenPage(menu->page == Page::kMain ? Page::kNone : Page::kMain, menu);
+}
+
+MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px, int height_px, Menu* menu, Controls* c) {
+  if (menu->page == Page::kNone) return {};
+  const Page page = menu->page;
+  const ImVec2 picture{static_cast<float>(width_px), static_cast<float>(height_px)};
+  const float letter_px = PageLetter_px(width_px, height_px);
+  PageView view{s, menu, c, PageLanguage(*c, s), letter_px, std::min(kPageWidth * letter_px, picture.x - 2 * letter_px), RowsThatFit(height_px, letter_px), false, {}};
+  const LargeText large;
+  const PageStyle style(letter_px);
+  ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, picture, IM_COL32(0, 0, 0, 110));
+  ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  const std::string name = "page " + std::to_string(static_cast<int>(page));
+  if (ImGui::Begin(name.c_str(), nullptr, kPlain | ImGuiWindowFlags_AlwaysAutoResize)) {
+    if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+    ImGui::TextUnformatted(page == Page::kMain ? title.c_str() : view.Words(TitleOf(page)));
+    ImGui::PushTextWrapPos(0);
+    ShowRows(&view);
+    ImGui::PopTextWrapPos();
+    if (page != Page::kMain && Row(view, view.Words(Phrase::kBackToPages), "back")) OpenPage(Page::kMain, menu);
+  }
+  ImGui::End();
+  return view.choice;
+}
+
+bool ShowMenuButton(int width_px, int height_px) {
+  const float letter_px = PageLetter_px(width_px, height_px), side_px = 2 * letter_px;
+  const PageStyle style(letter_px);
+  ImGui::SetNextWindowPos({static_cast<float>(width_px) - side_px - letter_px / 2, letter_px / 2});
+  ImGui::SetNextWindowSize({side_px, side_px});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::Begin("menu button", nullptr, kPlain | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const bool pressed = ImGui::Button("###menu", {side_px, side_px});
+  for (int line = 0; line < 3; ++line) {
+    const float y = low.y + side_px * (0.3f + 0.2f * static_cast<float>(line));
+    ImGui::GetWindowDrawList()->AddLine({low.x + side_px * 0.25f, y}, {low.x + side_px * 0.75f, y}, IM_COL32(247, 242, 230, 255), side_px / 14);
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+  return pressed;
+}
+
+}  // namespace flaneur
