@@ -19,6 +19,14 @@ Vec3 ToSun(const LightSettings& light, float time_s) {
   return {std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation), std::sin(elevation)};
 }
 
+// Where the sun stands in early summer over the middle of Europe, by the hour of its own time: at 12 it is highest, in the south.
+Vec3 SunAt(float hour) {
+  constexpr float kLatitude_rad = 52 * kPi / 180, kDeclination_rad = 20 * kPi / 180;
+  const float turned_rad = (hour - 12) * kPi / 12;
+  const float sin_l = std::sin(kLatitude_rad), cos_l = std::cos(kLatitude_rad), sin_d = std::sin(kDeclination_rad), cos_d = std::cos(kDeclination_rad);
+  return {-cos_d * std::sin(turned_rad), cos_l * sin_d - sin_l * cos_d * std::cos(turned_rad), sin_l * sin_d + cos_l * cos_d * std::cos(turned_rad)};
+}
+
 float Fraction(float x) { return x - std::floor(x); }
 
 // A stop's caption shows while the tour rests there, and only to a visitor who has not walked off.
@@ -148,7 +156,8 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks*
   frame->yaw_rad = s.camera.view.yaw_rad;
   frame->pitch_rad = s.camera.pitch_rad;
   frame->fov_rad = s.camera.view.fov_rad;
-  frame->to_sun = ToSun(pack.light, static_cast<float>(s.frame) * s.step_s);
+  const float time_s = static_cast<float>(s.frame) * s.step_s;
+  frame->to_sun = s.hour ? SunAt(*s.hour + time_s / 3600) : ToSun(pack.light, time_s);
   AddCaption(s, frame);
   RingWherePointed(s, &frame->ground_mark);
   if (s.frame != looks->frame) FollowPeople(pack, s, looks);

@@ -42,6 +42,7 @@ Error Play(const PlayerOptions& options) {
   }
   if (options.people) scenario.people = *options.people;
   if (options.seed) scenario.seed = *options.seed;
+  if (options.hour) scenario.hour = *options.hour;
   if (options.adaptation) scenario.adaptation = *options.adaptation;
   scenario.language = options.language;
 

@@ -26,7 +26,7 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   CLI::App app{"Plays a tour pack: a walk through a historic town among its townspeople.\n"
                "In the window: W A S D or arrows walk and the mouse looks; a click walks to where it points. Tab: guided tour or "
                "free walk; space pauses the tour, N goes to the next stop, B back; L changes the language, M frees the pointer, "
-               "- and = change the field of view, Esc ends. Gamepads work too. docs/player.md says how to change all that.\n"
+               "- and = change the field of view, Esc opens the pages with all settings. Gamepads work too. docs/player.md says how to change all that.\n"
                "Exit status: 0 done, 2 bad usage or input.",
                "flaneur-player"};
   std::string size = "1280x720";
@@ -44,6 +44,8 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("--size", size, "Picture size in pixels")->capture_default_str();
   app.add_option("--people", o->people, "How many people (default: the scenario's, else the pack's)")->check(CLI::Range(0, 1000000));
   app.add_option("--seed", o->seed, "Seed of the crowd (default: likewise)");
+  app.add_option("--hour", o->hour, "Hour of the day at the start, such as 19.5 (default: likewise); it sets sun and sky")
+      ->check(CLI::Range(0.0, 24.0));
   app.add_option("--adaptation", o->adaptation, "How the crowd keeps out of the visitor's way: off, paper or full (default: likewise)")
       ->check(CLI::IsMember({"off", "paper", "full"}));
   app.add_option("--language", o->language, "Of the guided tour's captions and sounds, such as en (default: the tour's own)");

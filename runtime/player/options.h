@@ -14,7 +14,7 @@ struct PlayerOptions {
   std::filesystem::path settings;          // empty: the user's own
   std::vector<std::string> set;            // SETTING=VALUE, over those of the file
   bool save_settings = false;
-  std::optional<float> seconds;
+  std::optional<float> seconds, hour;
   std::optional<int> people;
   std::optional<uint64_t> seed;
   std::optional<std::string> adaptation, language;

@@ -100,6 +100,7 @@ void ReadAll(TomlTable root, Scenario* s) {
   root.Number("group_share", &s->group_share, 0, 1);
   root.Number("step_hz", &s->step_hz, 10, 240);
   root.Number("seconds", &s->seconds, 0, 1e6);
+  root.Number("hour", &s->hour, 0, 24);
   root.Choice("adaptation", &s->adaptation, {"off", "paper", "full"});
   ReadLimit(root.Table("limit"), s);
   // These mean something by being there.

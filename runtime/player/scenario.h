@@ -38,6 +38,7 @@ struct Scenario {
   std::optional<uint64_t> seed;
   std::optional<float> group_share;
   std::optional<float> step_hz, seconds;
+  std::optional<float> hour;  // of the day, at the start, 0 to 24; none: the light of the pack
   std::optional<std::string> adaptation, method;
   std::optional<std::string> language;  // of the guided tour; not from the file
   std::optional<int> high_limit, budget_triangles;

@@ -107,6 +107,7 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   s->legs = scenario.legs;
   if (!s->legs.empty()) s->tour.stops.clear();
   s->crowd_area = scenario.crowd_area;
+  s->hour = scenario.hour;
 }
 
 // The direction in which one sees farthest at walking height.

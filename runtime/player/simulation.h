@@ -68,6 +68,7 @@ struct Simulation {
   InfluenceSettings influence;
   float step_s = 1.0f / 30, r_personal_m = 0.6f;
   float draw_base_ms = 0, draw_ms_per_million_triangles = 0;
+  std::optional<float> hour;       // of the day at the start; none: the light of the pack
   float outer_apex_back_m = 0, max_yaw_rate_radps = 2.1f;
 
   Walkable walkable;

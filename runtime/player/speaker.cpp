@@ -3,69 +3,17 @@
 #include <AL/al.h>
 #include <AL/alc.h>
 #include <dlfcn.h>
-#include <sndfile.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <future>
 #include <string>
 
+#include "runtime/player/sound.h"
+
 namespace flaneur {
 namespace {
-
-constexpr sf_count_t kMost_frames = 48000 * 3600;
-
-struct Samples {
-  std::vector<int16_t> values;  // one or two channels
-  int channels = 0, rate_hz = 0;
-};
-
-// The bytes as a file for libsndfile.
-struct Memory { const std::vector<uint8_t>* bytes; sf_count_t at = 0; };
-
-sf_count_t SizeOf(void* memory) { return static_cast<sf_count_t>(static_cast<Memory*>(memory)->bytes->size()); }
-
-sf_count_t Seek(sf_count_t offset, int whence, void* memory) {
-  auto* m = static_cast<Memory*>(memory);
-  const sf_count_t from = whence == SEEK_CUR ? m->at : whence == SEEK_END ? SizeOf(memory) : 0;
-  m->at = std::clamp<sf_count_t>(from + offset, 0, SizeOf(memory));
-  return m->at;
-}
-
-sf_count_t Read(void* to, sf_count_t count, void* memory) {
-  auto* m = static_cast<Memory*>(memory);
-  const sf_count_t n = std::clamp<sf_count_t>(SizeOf(memory) - m->at, 0, count);
-  std::memcpy(to, m->bytes->data() + m->at, static_cast<size_t>(n));
-  m->at += n;
-  return n;
-}
-
-sf_count_t Write(const void*, sf_count_t, void*) { return 0; }
-sf_count_t Tell(void* memory) { return static_cast<Memory*>(memory)->at; }
-
-// Empty where the bytes are no sound. Of more than two channels the first is heard.
-Samples Decode(const std::vector<uint8_t>& bytes) {
-  Memory memory{&bytes};
-  SF_VIRTUAL_IO io{SizeOf, Seek, Read, Write, Tell};
-  SF_INFO info{};
-  const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open_virtual(&io, SFM_READ, &info, &memory), &sf_close);
-  Samples out;
-  if (file == nullptr || info.channels < 1 || info.frames < 1 || info.frames > kMost_frames) return out;
-  out.channels = info.channels == 2 ? 2 : 1;
-  out.rate_hz = info.samplerate;
-  std::vector<int16_t> block(static_cast<size_t>(info.channels) * 4096);
-  sf_count_t read = 0;
-  while ((read = sf_readf_short(file.get(), block.data(), 4096)) > 0) {
-    for (size_t frame = 0; frame < static_cast<size_t>(read); ++frame) {
-      const int16_t* first = &block[frame * static_cast<size_t>(info.channels)];
-      out.values.insert(out.values.end(), first, first + out.channels);
-    }
-  }
-  return out;
-}
 
 void SayNothing(const char*, int, const char*, int, const char*, ...) {}
 
@@ -84,7 +32,7 @@ struct Speaker::Impl {
   ALuint source = 0, buffer = 0;
   bool tried = false, paused = false, playing = false;
   float volume = 1;
-  std::future<Samples> decoding;
+  std::future<Sound> decoding;
 
   // True once there is a device; opens it where that has not been tried.
   bool Open() {
@@ -110,12 +58,12 @@ struct Speaker::Impl {
     buffer = 0;
   }
 
-  void Begin(const Samples& samples) {
+  void Begin(const Sound& sound) {
     Silence();
-    if (context == nullptr || samples.values.empty()) return;
+    if (context == nullptr || sound.samples.empty()) return;
     alGenBuffers(1, &buffer);
-    alBufferData(buffer, samples.channels == 2 ? AL_FORMAT_STEREO16 : AL_FORMAT_MONO16, samples.values.data(),
-                 static_cast<ALsizei>(samples.values.size() * sizeof(int16_t)), samples.rate_hz);
+    alBufferData(buffer, sound.channels == 2 ? AL_FORMAT_STEREO16 : AL_FORMAT_MONO16, sound.samples.data(),
+                 static_cast<ALsizei>(sound.samples.size() * sizeof(int16_t)), sound.rate_hz);
     alSourcei(source, AL_BUFFER, static_cast<ALint>(buffer));
     alSourcef(source, AL_GAIN, volume);
     playing = true;
@@ -140,7 +88,7 @@ void Speaker::Play(std::vector<uint8_t> sound) {
   Impl* impl = impl_.get();
   if (impl->tried && impl->context == nullptr) return;
   if (impl->decoding.valid()) impl->decoding.wait();
-  impl->decoding = std::async(std::launch::async, [impl, bytes = std::move(sound)] { return impl->Open() ? Decode(bytes) : Samples{}; });
+  impl->decoding = std::async(std::launch::async, [impl, bytes = std::move(sound)] { return impl->Open() ? DecodeSound(bytes) : Sound{}; });
 }
 
 void Speaker::Stop() {

@@ -133,5 +133,23 @@ TEST(FrameFromSimulation, TheSameMomentTwiceIsTheSamePicture) {
   for (size_t i = 0; i < people.size(); ++i) EXPECT_EQ(stage.frame.people[i].share_to, people[i].share_to);
 }
 
+TEST(FrameFromSimulation, TheSunRisesInTheEastStandsHighInTheSouthAndSetsInTheWest) {
+  Stage stage;
+  const auto sun_at = [&](float hour) {
+    stage.s.hour = hour;
+    stage.Next();
+    EXPECT_NEAR(Length(stage.frame.to_sun), 1, 1e-4f);
+    return stage.frame.to_sun;
+  };
+  const Vec3 morning = sun_at(7), noon = sun_at(12), evening = sun_at(17), night = sun_at(0);
+  EXPECT_GT(morning.x, 0.5f);
+  EXPECT_LT(evening.x, -0.5f);
+  EXPECT_NEAR(morning.z, evening.z, 0.01f);
+  EXPECT_LT(noon.y, -0.4f);
+  EXPECT_GT(noon.z, morning.z + 0.2f);
+  EXPECT_GT(morning.z, 0.1f);
+  EXPECT_LT(night.z, -0.1f);
+}
+
 }  // namespace
 }  // namespace flaneur

@@ -102,6 +102,22 @@ TEST_F(Settings, CanBeSetByAssignment) {
   }
 }
 
+TEST_F(Settings, KeepOnlyWhatWasChanged) {
+  PlayerSettings kept, before, now;
+  kept.mouse_speed = 2;
+  before.reduced_motion = now.reduced_motion = true;  // by the command line
+  now.language = "de";
+  now.sound_volume = 0.4f;
+  now.keys[static_cast<size_t>(Action::kNext)] = {"x"};
+  KeepChanges(before, now, &kept);
+  EXPECT_EQ(kept.language, "de");
+  EXPECT_EQ(kept.sound_volume, 0.4f);
+  EXPECT_EQ(kept.mouse_speed, 2);
+  EXPECT_FALSE(kept.reduced_motion);
+  EXPECT_EQ(kept.keys[static_cast<size_t>(Action::kNext)], std::vector<std::string>{"x"});
+  EXPECT_EQ(kept.keys[static_cast<size_t>(Action::kBack)], before.keys[static_cast<size_t>(Action::kBack)]);
+}
+
 TEST_F(Settings, StandWhereTheBaseDirectorySpecificationSays) {
   ::setenv("HOME", "/home/visitor", 1);
   ::setenv("XDG_CONFIG_HOME", "/etc/kiosk", 1);
