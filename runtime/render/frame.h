@@ -1,6 +1,8 @@
 // What one picture shows. Ground axes (x east, y north, z up), metres, radians.
 #pragma once
+#include <array>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,11 @@ struct FrameInput {
   float caption_share = 1; // how much of it is seen, 0 to 1
 };
 
+// The parts of a picture in the order in which they are drawn.
+enum class DrawPass : uint8_t { kCull, kPeopleShadow, kTownShadow, kMeshes, kTown, kImpostors, kSky, kFinish };
+inline constexpr const char* kDrawPassNames[] = {"cull, sort, upload", "shadows of people", "shadows of the town", "people's meshes",
+                                                 "town", "impostors", "sky", "smoothing, caption"};
+
 struct FrameStatistics {
   int64_t town_triangles = 0, people_triangles = 0;  // drawn into the picture, both levels of who changes; not the shadows
   int64_t shadow_triangles = 0;
@@ -45,6 +52,7 @@ struct FrameStatistics {
   int people_drawn = 0, people_hidden = 0;  // hidden: behind walls or above or below the view
   double people_ms = 0;    // of it, on the CPU: choosing who can be seen, poses, the upload
   double draw_ms = 0;      // until the picture is there
+  std::array<double, std::size(kDrawPassNames)> pass_ms{};  // by DrawPass: processor time of all threads, with RenderOptions::time_passes
 };
 
 }  // namespace flaneur

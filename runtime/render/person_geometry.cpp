@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace flaneur {
 namespace {
@@ -71,10 +72,12 @@ PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m) {
       middle = middle + (p - middle) * (1 / ++n);
     }
   }
+  std::set<std::array<uint32_t, 3>> seen;  // layers of cloth fall together
   for (size_t i = 0; i + 2 < of.indices.size(); i += 3) {
-    const uint32_t a = place[of.indices[i]], b = place[of.indices[i + 1]], c = place[of.indices[i + 2]];
-    if (a == b || b == c || c == a) continue;
-    out.indices.insert(out.indices.end(), {a, b, c});
+    std::array<uint32_t, 3> t{place[of.indices[i]], place[of.indices[i + 1]], place[of.indices[i + 2]]};
+    std::sort(t.begin(), t.end());  // a shadow has no front
+    if (t[0] == t[1] || t[1] == t[2] || !seen.insert(t).second) continue;
+    out.indices.insert(out.indices.end(), t.begin(), t.end());
   }
   out.ranges = {{0, 0, static_cast<uint32_t>(out.indices.size())}};
   return out;

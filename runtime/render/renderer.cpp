@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 
 #include "runtime/base/clock.h"
 #include "runtime/base/parallel.h"
@@ -29,6 +30,24 @@ PictureLimits LimitsOfThisMachine(bool fast) {
   if (fast) limits = {1024, 512};
   return {std::min<int>(limits.town_px, most_px), std::min<int>(limits.people_px, most_px)};
 }
+
+// By the processor's time of all threads: software draws on several, and others use the machine too.
+class PassTimer {
+ public:
+  PassTimer(bool on, std::array<double, std::size(kDrawPassNames)>* pass_ms) : pass_ms_(on ? pass_ms : nullptr), last_ms_(Processor_ms()) {}
+  void Passed(DrawPass pass) {
+    if (pass_ms_ == nullptr) return;
+    glFinish();
+    const double now_ms = Processor_ms();
+    (*pass_ms_)[static_cast<size_t>(pass)] = now_ms - last_ms_;
+    last_ms_ = now_ms;
+  }
+
+ private:
+  static double Processor_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+  std::array<double, std::size(kDrawPassNames)>* pass_ms_;
+  double last_ms_;
+};
 
 Vec3 Ahead(const FrameInput& frame) {
   const float cp = std::cos(frame.pitch_rad);
@@ -153,13 +172,18 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   const Vec3 eye = GltfFromGround(frame.eye), to_sun = Normalized(GltfFromGround(frame.to_sun)), ahead = Ahead(frame);
   const float aspect = static_cast<float>(width_px) / static_cast<float>(height_px);
   const Mat4 view_projection = Perspective(frame.fov_rad, aspect, kNear_m, kFar_m) * LookMatrix(eye, ahead, {0, 1, 0});
+  PassTimer timer(r.options.time_passes, &statistics->pass_ms);
   FindVisibleBlocks(view_projection, eye, r.options.cull, &r.town);
   const double people_ms = Now_ms();
   const PeopleSight sight{eye, to_sun, FrustumOf(view_projection), r.options.cull ? &r.town.walls : nullptr, 2 * kPeopleShadow_m};
   SortPeople(frame.people, r.people.layouts, r.people.ready, sight, &r.people.batches);
   UploadPeople(&r.people);
   statistics->people_ms = Now_ms() - people_ms;
-  const DrawCost shadows = UpdateShadowMaps(eye, ahead, to_sun, r.block_buffer, r.town, r.people, &r.shadows);
+  timer.Passed(DrawPass::kCull);
+  DrawCost shadows = DrawPeopleShadows(eye, ahead, to_sun, r.block_buffer, r.people, &r.shadows);
+  timer.Passed(DrawPass::kPeopleShadow);
+  shadows += UpdateTownShadows(eye, to_sun, r.block_buffer, r.town, &r.shadows);
+  timer.Passed(DrawPass::kTownShadow);
 
   ResizePicture(width_px, height_px, &r.picture);
   glBindFramebuffer(GL_FRAMEBUFFER, r.picture.framebuffer);
@@ -170,12 +194,17 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, to_sun, r.shadows));
   // Whatever is drawn hides what comes after it at no cost: the dearest comes last, the nearest first.
   DrawCost people = DrawPeople(r.people, false);
+  timer.Passed(DrawPass::kMeshes);
   const DrawCost town = DrawTown(&r.town);
+  timer.Passed(DrawPass::kTown);
   people += DrawPeople(r.people, true);
+  timer.Passed(DrawPass::kImpostors);
   if (!r.options.normals) r.DrawSky();
   const DrawCost mark = DrawGroundMark(frame.ground_mark, r.ground_mark);
+  timer.Passed(DrawPass::kSky);
   FinishPicture(r.picture);
   DrawCaption(frame.caption, frame.caption_share, width_px, height_px, &r.caption);
+  timer.Passed(DrawPass::kFinish);
   glFinish();  // so that draw_ms means the picture, not the handing over of commands
   constexpr int kWholePictures = 3;  // sky, smoothing, caption
   statistics->town_triangles = town.triangles;

@@ -17,6 +17,7 @@ struct RenderOptions {
   int samples = 0;    // of each pixel; 0: four with a GPU, one and a smoothing pass without
   bool cull = true;   // leave out blocks of the town that the picture cannot show; false only to prove that
   bool normals = false;  // people's normals * 0.5 + 0.5 instead of light, over nothing
+  bool time_passes = false;  // FrameStatistics::pass_ms; waits for each pass, so that the whole takes longer
 };
 
 // Needs a current context for its whole life.

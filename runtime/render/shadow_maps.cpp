@@ -51,6 +51,12 @@ void BindMap(GLuint framebuffer, int size_px, const Mat4& matrix, Vec3 to_sun, G
   if (clear) glClear(GL_DEPTH_BUFFER_BIT);
 }
 
+void BeginMaps() {
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(2, 4);
+}
+
 DrawCost DrawSlices(size_t count, GLuint block_buffer, const TownView& town, TownMap* map) {
   BindMap(map->framebuffers[static_cast<size_t>(1 - map->shown)], kTownMap_px, map->next_matrix, map->to_sun, block_buffer,
           map->slices_done == 0);
@@ -95,10 +101,8 @@ void CreateShadowMaps(ShadowMaps* maps) {
 
 void ForgetTownShadows(ShadowMaps* maps) { maps->near.valid = maps->far.valid = false; }
 
-DrawCost UpdateShadowMaps(Vec3 eye, Vec3 ahead, Vec3 to_sun, GLuint block_buffer, const TownView& town, const PeopleView& people, ShadowMaps* maps) {
-  glEnable(GL_DEPTH_TEST);
-  glEnable(GL_POLYGON_OFFSET_FILL);
-  glPolygonOffset(2, 4);
+DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, GLuint block_buffer, const TownView& town, ShadowMaps* maps) {
+  BeginMaps();
   maps->near.half_width_m = kNear_m;
   maps->near.step_m = kNearStep_m;
   DrawCost cost = UpdateTownMap(eye, to_sun, block_buffer, town, &maps->near);
@@ -109,12 +113,18 @@ DrawCost UpdateShadowMaps(Vec3 eye, Vec3 ahead, Vec3 to_sun, GLuint block_buffer
   maps->far.half_width_m = covered ? reach_m : kMostFar_m;
   maps->far.step_m = kMostFar_m / 8;
   cost += UpdateTownMap(covered ? middle : eye, to_sun, block_buffer, town, &maps->far);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  BindTextureArray(kTownShadowUnit, maps->town_texture);
+  return cost;
+}
+
+DrawCost DrawPeopleShadows(Vec3 eye, Vec3 ahead, Vec3 to_sun, GLuint block_buffer, const PeopleView& people, ShadowMaps* maps) {
+  BeginMaps();
   const Vec3 level_ahead = Normalized(Vec3{ahead.x, 0, ahead.z});
   maps->people_matrix = ShadowMatrix(eye + level_ahead * (kPeopleShadow_m - 4), to_sun, kPeopleShadow_m, kShadowDepth_m, kPeopleMap_px);
   BindMap(maps->people_framebuffer, kPeopleMap_px, maps->people_matrix, to_sun, block_buffer, true);
-  cost += DrawPeopleShadow(people);
+  const DrawCost cost = DrawPeopleShadow(people);
   glDisable(GL_POLYGON_OFFSET_FILL);
-  BindTextureArray(kTownShadowUnit, maps->town_texture);
   BindTexture(kPeopleShadowUnit, maps->people_texture);
   return cost;
 }

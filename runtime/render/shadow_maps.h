@@ -31,7 +31,8 @@ struct ShadowMaps {
 void CreateShadowMaps(ShadowMaps* maps);
 // After another town has come: all of it is drawn anew.
 void ForgetTownShadows(ShadowMaps* maps);
-// eye, ahead, to_sun: glTF axes. Leaves the maps bound to their units; `block_buffer` is overwritten.
-DrawCost UpdateShadowMaps(Vec3 eye, Vec3 ahead, Vec3 to_sun, GLuint block_buffer, const TownView& town, const PeopleView& people, ShadowMaps* maps);
+// eye, ahead, to_sun: glTF axes. Both leave their map bound to its unit; `block_buffer` is overwritten.
+DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, GLuint block_buffer, const TownView& town, ShadowMaps* maps);
+DrawCost DrawPeopleShadows(Vec3 eye, Vec3 ahead, Vec3 to_sun, GLuint block_buffer, const PeopleView& people, ShadowMaps* maps);
 
 }  // namespace flaneur

@@ -7,7 +7,7 @@
 namespace flaneur {
 namespace {
 
-constexpr float kBlock_m = 12;   // about a house: the two sides of a street and the yards behind part into different blocks
+constexpr float kBlock_m = 4;   // about a house: the two sides of a street and the yards behind part into different blocks
 
 constexpr float kLeastWall_m2 = 0.4f;  // of what hides other blocks
 

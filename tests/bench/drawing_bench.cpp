@@ -1,11 +1,12 @@
-// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT]]]
+// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT [passes]]]]
 //
 // Plays the scenario and draws its frames twice, right after each other: as control decides, and with everybody who is drawn as
 // their finest mesh. Prints medians and 99th percentiles, and their ratio. Processor times are those of all threads: on a machine
-// that does other work as well they say more than the clock.
+// that does other work as well they say more than the clock. With `passes` what each pass of our pictures takes instead of the comparison.
 #include <time.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -50,6 +51,7 @@ void Print(const char* what, const Series& s, const char* unit) {
 
 struct Costs {
   Series clock_ms, processor_ms, town_triangles, people_triangles, shadow_triangles, calls, drawn, hidden, people_ms;
+  std::array<Series, std::size(kDrawPassNames)> pass_ms;
 };
 
 void Draw(const FrameInput& frame, int width_px, int height_px, Renderer* renderer, Costs* costs) {
@@ -65,6 +67,7 @@ void Draw(const FrameInput& frame, int width_px, int height_px, Renderer* render
   costs->drawn.values.push_back(s.people_drawn);
   costs->hidden.values.push_back(s.people_hidden);
   costs->people_ms.values.push_back(s.people_ms);
+  for (size_t k = 0; k < costs->pass_ms.size(); ++k) costs->pass_ms[k].values.push_back(s.pass_ms[k]);
 }
 
 FrameInput AllFinest(FrameInput frame) {
@@ -73,9 +76,10 @@ FrameInput AllFinest(FrameInput frame) {
 }
 
 Error Run(int argc, char** argv) {
-  if (argc < 3) return Fail("usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT]]]");
+  if (argc < 3) return Fail("usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT [passes]]]]");
   int width_px = 1280, height_px = 720;
   if (argc > 5) std::sscanf(argv[5], "%dx%d", &width_px, &height_px);
+  const bool passes = argc > 6 && std::string(argv[6]) == "passes";
   const int frames = argc > 4 ? std::atoi(argv[4]) : 60;
   TourPack pack;
   if (Error e = LoadTourPack(argv[1], {}, &pack)) return e;
@@ -87,8 +91,10 @@ Error Run(int argc, char** argv) {
   HeadlessContext context;
   if (Error e = context.Create()) return e;
   Renderer renderer, full_renderer;  // each with the shadows of its own frames before
-  if (Error e = renderer.Create(pack)) return e;
-  if (Error e = full_renderer.Create(pack)) return e;
+  if (Error e = renderer.Create(pack, {.time_passes = passes})) return e;
+  if (!passes) {
+    if (Error e = full_renderer.Create(pack)) return e;
+  }
 
   size_t clip_bytes = 0;
   for (const PackAvatar& avatar : pack.avatars) clip_bytes = std::max(clip_bytes, ClipBytes(LayoutOf(avatar)));
@@ -104,7 +110,7 @@ Error Run(int argc, char** argv) {
     Costs* costs = k < kWarm ? &unused : &as_decided;
     Draw(frame, width_px, height_px, &renderer, costs);
     people_ms.values.push_back(s.control_ms + looks_ms + costs->people_ms.values.back());
-    if (k >= kWarm && k % kFullEvery == 0) {
+    if (!passes && k >= kWarm && k % kFullEvery == 0) {
       compared_ms.values.push_back(as_decided.processor_ms.values.back());
       compared_clock_ms.values.push_back(as_decided.clock_ms.values.back());
       Draw(AllFinest(frame), width_px, height_px, &full_renderer, &full);
@@ -115,6 +121,9 @@ Error Run(int argc, char** argv) {
               "median", "99th perc.");
   Print("frame time, clock", as_decided.clock_ms, "ms");
   Print("frame time, processor, all threads", as_decided.processor_ms, "ms");
+  for (size_t k = 0; k < std::size(kDrawPassNames) && passes; ++k) {
+    Print((std::string("  ") + kDrawPassNames[k]).c_str(), as_decided.pass_ms[k], "ms");
+  }
   Print("town", as_decided.town_triangles, "triangles");
   Print("people", as_decided.people_triangles, "triangles");
   Print("shadows", as_decided.shadow_triangles, "triangles");
