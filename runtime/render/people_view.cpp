@@ -32,12 +32,12 @@ Error BuildPrograms(const std::string& defines, PeopleView* people) {
   const std::string vertex = std::string(kFrame) + kHaze + kPersonVertex;
   const std::string impostor_vertex = "#define CELLS_WIDTH " + std::to_string(kCellsWidth) + "\n" + defines + kFrame + kHaze + kImpostorVertex;
   for (int masked = 0; masked < 2; ++masked) {
-    const std::string lit = (masked ? "#define MASKED\n" : "") + defines + kFrame + kLight;
+    const std::string lit = (masked ? "#define MASKED\n" : "") + defines + kFrame + kLight + kOutcome;
     if (Error e = BuildProgram(vertex, lit + kSurfaceFragment, &people->programs[masked][0])) return e;
     if (Error e = BuildProgram(vertex, "#define FADES\n" + lit + kFade + kSurfaceFragment, &people->programs[masked][1])) return e;
   }
   if (Error e = BuildProgram("#define SHADOW\n" + vertex, kShadowFragment, &people->shadow_program)) return e;
-  return BuildProgram(impostor_vertex, defines + kFrame + kImpostorViews + kLight + kFade + kImpostorFragment, &people->impostor_program);
+  return BuildProgram(impostor_vertex, defines + kFrame + kImpostorViews + kLight + kOutcome + kFade + kImpostorFragment, &people->impostor_program);
 }
 
 void CreateQuad(PeopleView* people) {

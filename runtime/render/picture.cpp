@@ -5,21 +5,84 @@
 #include "runtime/render/shaders.h"
 
 namespace flaneur {
+namespace {
 
-Error CreatePicture(int samples, Picture* p) {
+GLuint NewTexture(GLint filter) {
+  GLuint texture = 0;
+  glGenTextures(1, &texture);
+  glBindTexture(GL_TEXTURE_2D, texture);
+  for (GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, name, filter);
+  for (GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) glTexParameteri(GL_TEXTURE_2D, name, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+void Attach(GLenum attachment, GLuint texture) { glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture, 0); }
+
+void ResizeTexture(GLuint texture, const Picture& p) {
+  BindTexture(kColorUnit, texture);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, p.width_px, p.height_px, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+}
+
+void ResizeDeferred(const Picture& p) {
+  for (GLuint texture : {p.color, p.normals, p.lit_color}) ResizeTexture(texture, p);
+  BindTexture(kColorUnit, p.depth);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, p.width_px, p.height_px, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  glBindFramebuffer(GL_FRAMEBUFFER, p.framebuffer);
+  Attach(GL_COLOR_ATTACHMENT0, p.color);
+  Attach(GL_COLOR_ATTACHMENT1, p.normals);
+  Attach(GL_DEPTH_ATTACHMENT, p.depth);
+  const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  glDrawBuffers(2, both);
+  glBindFramebuffer(GL_FRAMEBUFFER, p.lit);
+  Attach(GL_COLOR_ATTACHMENT0, p.lit_color);
+  glBindFramebuffer(GL_FRAMEBUFFER, p.lit_behind);
+  Attach(GL_COLOR_ATTACHMENT0, p.lit_color);
+  Attach(GL_DEPTH_ATTACHMENT, p.depth);
+}
+
+void ResizeForward(const Picture& p) {
+  glBindFramebuffer(GL_FRAMEBUFFER, p.framebuffer);
+  const GLsizei samples = p.samples > 1 ? p.samples : 0;
+  if (samples > 0) {
+    glBindRenderbuffer(GL_RENDERBUFFER, p.color);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, p.width_px, p.height_px);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, p.color);
+  } else {
+    ResizeTexture(p.color, p);
+    Attach(GL_COLOR_ATTACHMENT0, p.color);
+  }
+  glBindRenderbuffer(GL_RENDERBUFFER, p.depth);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, p.width_px, p.height_px);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, p.depth);
+}
+
+void DrawWhole(GLuint program, const Picture& p) {
+  glUseProgram(program);
+  CullBackFaces(false);
+  glBindVertexArray(p.empty_array);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace
+
+Error CreatePicture(int samples, bool deferred, const std::string& defines, Picture* p) {
   GLint most = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
   p->samples = std::clamp(samples, 1, std::max<int>(most, 1));
-  glGenTextures(1, &p->color);
-  glBindTexture(GL_TEXTURE_2D, p->color);
-  for (GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
-  for (GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+  p->deferred = deferred;
+  p->color = NewTexture(GL_LINEAR);
   if (p->samples > 1) glGenRenderbuffers(1, &p->color);
   glGenRenderbuffers(1, &p->depth);
   glGenRenderbuffers(1, &p->finished_color);
-  glGenFramebuffers(1, &p->framebuffer);
-  glGenFramebuffers(1, &p->finished);
+  for (GLuint* framebuffer : {&p->framebuffer, &p->lit, &p->lit_behind, &p->finished}) glGenFramebuffers(1, framebuffer);
   glGenVertexArrays(1, &p->empty_array);
+  if (deferred) {
+    p->depth = NewTexture(GL_NEAREST);
+    p->normals = NewTexture(GL_NEAREST);
+    p->lit_color = NewTexture(GL_LINEAR);
+    const std::string fragment = defines + kFrame + kHaze + kLight + kLightFragment;
+    if (Error e = BuildProgram(std::string(kFrame) + kLightVertex, fragment, &p->light_program)) return e;
+  }
   return BuildProgram(kWholeVertex, kSmoothFragment, &p->smooth_program);
 }
 
@@ -27,24 +90,25 @@ void ResizePicture(int width_px, int height_px, Picture* p) {
   if (p->width_px == width_px && p->height_px == height_px) return;
   p->width_px = width_px;
   p->height_px = height_px;
-  glBindFramebuffer(GL_FRAMEBUFFER, p->framebuffer);
-  const GLsizei samples = p->samples > 1 ? p->samples : 0;
-  if (samples > 0) {
-    glBindRenderbuffer(GL_RENDERBUFFER, p->color);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, width_px, height_px);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, p->color);
-  } else {
-    BindTexture(kColorUnit, p->color);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width_px, height_px, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, p->color, 0);
-  }
-  glBindRenderbuffer(GL_RENDERBUFFER, p->depth);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width_px, height_px);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, p->depth);
+  if (p->deferred) ResizeDeferred(*p);
+  else ResizeForward(*p);
   glBindRenderbuffer(GL_RENDERBUFFER, p->finished_color);
   glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_px, height_px);
   glBindFramebuffer(GL_FRAMEBUFFER, p->finished);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, p->finished_color);
+}
+
+void LightPicture(const Picture& p) {
+  if (!p.deferred) return;
+  glBindFramebuffer(GL_FRAMEBUFFER, p.lit);
+  glDisable(GL_DEPTH_TEST);
+  BindTexture(kColorUnit, p.color);
+  BindTexture(kNormalsUnit, p.normals);
+  BindTexture(kDepthUnit, p.depth);
+  DrawWhole(p.light_program, p);
+  BindTexture(kDepthUnit, 0);  // it is drawn into again
+  glEnable(GL_DEPTH_TEST);
+  glBindFramebuffer(GL_FRAMEBUFFER, p.lit_behind);
 }
 
 void FinishPicture(const Picture& p) {
@@ -56,11 +120,8 @@ void FinishPicture(const Picture& p) {
   }
   glBindFramebuffer(GL_FRAMEBUFFER, p.finished);
   glDisable(GL_DEPTH_TEST);
-  CullBackFaces(false);
-  glUseProgram(p.smooth_program);
-  BindTexture(kColorUnit, p.color);
-  glBindVertexArray(p.empty_array);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  BindTexture(kColorUnit, p.deferred ? p.lit_color : p.color);
+  DrawWhole(p.smooth_program, p);
 }
 
 }  // namespace flaneur

@@ -1,5 +1,7 @@
 // What is drawn into, and the finished picture. Internal to runtime/render.
 #pragma once
+#include <string>
+
 #include "runtime/base/error.h"
 #include "runtime/render/gl_objects.h"
 
@@ -8,14 +10,20 @@ namespace flaneur {
 // With several samples a pixel edges are smoothed by resolving them; with one, by a pass over the picture.
 struct Picture {
   int samples = 1, width_px = 0, height_px = 0;
+  bool deferred = false;                             // light comes after the surfaces, in a pass over the picture
   GLuint color = 0, depth = 0, framebuffer = 0;      // drawn into; color is a texture where samples is 1
+  GLuint normals = 0;                                // where deferred, and depth is a texture then
+  GLuint lit_color = 0, lit = 0, lit_behind = 0;     // where deferred; lit_behind: with the depths, for what lies behind all
   GLuint finished_color = 0, finished = 0;           // framebuffer of the finished picture
-  GLuint smooth_program = 0, empty_array = 0;
+  GLuint light_program = 0, smooth_program = 0, empty_array = 0;
 };
 
-// samples: wished for; the driver may have fewer. Errors: a shader that the driver refuses.
-Error CreatePicture(int samples, Picture* picture);
+// samples: wished for; the driver may have fewer. `defines`: of the lit programs; deferred needs one sample. Errors: a shader that
+// the driver refuses.
+Error CreatePicture(int samples, bool deferred, const std::string& defines, Picture* picture);
 void ResizePicture(int width_px, int height_px, Picture* picture);
+// Lights the surfaces where that has been deferred, and leaves bound what the sky is drawn into. The frame block must be bound.
+void LightPicture(const Picture& picture);
 // Leaves the finished picture bound for drawing.
 void FinishPicture(const Picture& picture);
 

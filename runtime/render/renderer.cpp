@@ -123,6 +123,8 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   r.formats = FormatsOfThisMachine(fast);
   defines += std::string("#define DETAIL_LEVEL ") + (r.formats.halve_details ? "1.0" : "0.0") + "\n";
   if (fast) defines += "#define FLAT_DEPTH 0.35\n";
+  const bool deferred = fast && !options.normals;
+  if (deferred) defines += "#define DEFERRED\n";
   if (options.normals) defines += "#define NORMALS\n";
   r.people.smooth_edges = samples > 1 && !options.normals;
   if (r.people.smooth_edges) defines += "#define SMOOTH_EDGES\n";
@@ -132,7 +134,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   if (Error e = CreateTownView(defines, r.plan, r.arrays, &r.town)) return e;
   if (Error e = CreatePeopleView(pack, defines, r.plan, r.arrays, &r.people)) return e;
   if (Error e = BuildProgram(std::string(kFrame) + kSkyVertex, std::string(kFrame) + kSkyFragment, &r.sky_program)) return e;
-  if (Error e = CreatePicture(samples, &r.picture)) return e;
+  if (Error e = CreatePicture(samples, deferred, defines, &r.picture)) return e;
   if (Error e = CreateCaptionView(&r.caption)) return e;
   if (Error e = CreateGroundMark(&r.ground_mark)) return e;
   CreateShadowMaps(&r.shadows);
@@ -199,6 +201,8 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   timer.Passed(DrawPass::kTown);
   people += DrawPeople(r.people, true);
   timer.Passed(DrawPass::kImpostors);
+  LightPicture(r.picture);
+  timer.Passed(DrawPass::kLight);
   if (!r.options.normals) r.DrawSky();
   const DrawCost mark = DrawGroundMark(frame.ground_mark, r.ground_mark);
   timer.Passed(DrawPass::kSky);
@@ -206,7 +210,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   DrawCaption(frame.caption, frame.caption_share, width_px, height_px, &r.caption);
   timer.Passed(DrawPass::kFinish);
   glFinish();  // so that draw_ms means the picture, not the handing over of commands
-  constexpr int kWholePictures = 3;  // sky, smoothing, caption
+  constexpr int kWholePictures = 4;  // light, sky, smoothing, caption
   statistics->town_triangles = town.triangles;
   statistics->people_triangles = people.triangles;
   statistics->shadow_triangles = shadows.triangles;

@@ -70,17 +70,31 @@ vec3 shown(vec3 color, float haze) {
   vec3 s = sqrt(mix(color, u_haze_color.rgb, haze));
   return s * (0.3955 + 3.7304 * s) / (1.0 + s * (3.9385 * s - 0.4040));
 }
-// What is drawn of a surface.
-vec4 outcome(vec3 albedo, vec3 n, vec3 p, float haze) {
-#ifdef NORMALS
-  return vec4(n * 0.5 + 0.5, 1.0);
-#else
-  return vec4(shown(lit(albedo, n, p), haze), 1.0);
-#endif
-}
 // Colour pictures are filtered as they are stored, in sRGB, which software does several times faster, and made linear here:
 // a cubic through the curve, off by less than 0.003.
 vec3 linear_from_srgb(vec3 c) { return c * (c * (c * 0.305306 + 0.682171) + 0.012523); }
+)";
+
+// What a fragment shader leaves of a surface. DEFERRED: its colour and normal, and the light follows in a pass over the picture, where
+// every pixel is lit once; small triangles shade many times their own pixels in software.
+inline constexpr const char* kOutcome = R"(
+#ifdef DEFERRED
+layout(location = 0) out vec4 o_color;    // square roots, for the sake of dark colours
+layout(location = 1) out vec4 o_normal;
+void leave(vec3 albedo, vec3 n, vec3 p, float haze) {
+  o_color = vec4(sqrt(albedo), 1.0);
+  o_normal = vec4(n * 0.5 + 0.5, 1.0);
+}
+#else
+out vec4 o_color;
+void leave(vec3 albedo, vec3 n, vec3 p, float haze) {
+#ifdef NORMALS
+  o_color = vec4(n * 0.5 + 0.5, 1.0);
+#else
+  o_color = vec4(shown(lit(albedo, n, p), haze), 1.0);
+#endif
+}
+#endif
 )";
 
 // Who is fading shares the pixels of a pattern with whom they fade into: v_share is the part of the pattern that is drawn.
@@ -177,7 +191,6 @@ in float v_haze;
 flat in float v_layer;
 uniform sampler2DArray u_textures;
 uniform float u_alpha_cutoff;
-out vec4 o_color;
 void main() {
 #ifdef FADES
   keep_share();
@@ -189,7 +202,7 @@ void main() {
 #endif
   vec3 n = normalize(v_normal);
   if (!gl_FrontFacing) n = -n;
-  o_color = outcome(linear_from_srgb(albedo.rgb) * v_color.rgb, n, v_position, v_haze);
+  leave(linear_from_srgb(albedo.rgb) * v_color.rgb, n, v_position, v_haze);
 }
 )";
 
@@ -317,7 +330,6 @@ Meeting meet(View view, vec4 cell, vec2 origin, float level) {
 inline constexpr const char* kImpostorFragment = R"(
 uniform sampler2D u_normals;
 flat in float v_haze;
-out vec4 o_color;
 vec3 normal_at(View view, vec2 at, float level) {
   vec2 square = textureLod(u_normals, at, max(level - DETAIL_LEVEL, 0.0)).rg * 2.0 - 1.0;
   vec2 p = vec2(square.x + square.y, square.x - square.y) * 0.5;
@@ -337,13 +349,13 @@ void main() {
   Meeting a = meet(view0, v_cell0, v_origins.xy, level), b = meet(view1, v_cell1, v_origins.zw, level);
   float alpha = mix(a.color.a, b.color.a, between);
   vec2 texel = dFdx(v_texel);
+  float coverage = 1.0;
 #ifdef SMOOTH_EDGES
   // Coverage is that of a texel; where a pixel is smaller, its own changes faster.
-  o_color.a = clamp((alpha - 0.5) * max(1.2, 1.2 * inversesqrt(max(dot(texel, texel), 0.01))) + 0.5, 0.0, 1.0);
-  if (o_color.a <= 0.0) discard;
+  coverage = clamp((alpha - 0.5) * max(1.2, 1.2 * inversesqrt(max(dot(texel, texel), 0.01))) + 0.5, 0.0, 1.0);
+  if (coverage <= 0.0) discard;
 #else
   if (alpha < 0.5) discard;
-  o_color.a = 1.0;
 #endif
   keep_share();
   // Where only one of the two shows the person, it alone counts; and where one sees what is hidden from the other, too.
@@ -361,7 +373,8 @@ void main() {
   vec4 clip = u_view_projection * vec4(p, 1.0);
   gl_FragDepth = clip.z / clip.w * 0.5 + 0.5;
 #endif
-  o_color.rgb = outcome(albedo, n, p, v_haze).rgb;
+  leave(albedo, n, p, v_haze);
+  o_color.a = coverage;
 }
 )";
 
@@ -395,6 +408,30 @@ void main() {
   color += u_sun_color.rgb * (pow(glow, 500.0) * 4.0 + pow(glow, 12.0) * 0.08);
   color = (color * (2.51 * color + 0.03)) / (color * (2.43 * color + 0.59) + 0.14);
   o_color = vec4(pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
+}
+)";
+
+// The light of every pixel, from what DEFERRED left of it.
+inline constexpr const char* kLightVertex = R"(
+out vec4 v_near, v_far;  // ends of the ray through a pixel, homogeneous: the depth divides it evenly
+void main() {
+  vec2 p = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0;
+  gl_Position = vec4(p, 0.0, 1.0);
+  v_near = u_inverse_view_projection * vec4(p, -1.0, 1.0);
+  v_far = u_inverse_view_projection * vec4(p, 1.0, 1.0);
+}
+)";
+inline constexpr const char* kLightFragment = R"(
+in vec4 v_near, v_far;
+uniform sampler2D u_texture, u_normals;
+uniform highp sampler2D u_depth;
+out vec4 o_color;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec3 root = texelFetch(u_texture, at, 0).rgb, n = normalize(texelFetch(u_normals, at, 0).xyz * 2.0 - 1.0);
+  vec4 p = mix(v_near, v_far, texelFetch(u_depth, at, 0).r);
+  p.xyz /= p.w;
+  o_color = vec4(shown(lit(root * root, n, p.xyz), haze_at(p.xyz)), 1.0);
 }
 )";
 

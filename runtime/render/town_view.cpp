@@ -52,7 +52,7 @@ void GatherIndices(TownView* town) {
 
 Error CreateTownView(const std::string& defines, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town) {
   const std::string vertex = std::string(kFrame) + kHaze + kTownVertex, masked = "#define MASKED\n";
-  const std::string lit = defines + kFrame + kLight + kSurfaceFragment;
+  const std::string lit = defines + kFrame + kLight + kOutcome + kSurfaceFragment;
   if (Error e = BuildProgram(vertex, lit, &town->lit[0])) return e;
   if (Error e = BuildProgram(vertex, masked + lit, &town->lit[1])) return e;
   if (Error e = BuildProgram(vertex, kShadowFragment, &town->shadow[0])) return e;
