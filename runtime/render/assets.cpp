@@ -7,7 +7,7 @@
 namespace flaneur {
 namespace {
 
-constexpr float kShadowCell_m = 0.16f;
+constexpr float kShadowCell_m = 0.22f;
 
 std::vector<bool> ImagesOfTown(const TourPack& pack) {
   std::vector<bool> of_town(pack.images.size(), false);

@@ -5,11 +5,11 @@
 #include <map>
 #include <set>
 
+#include "runtime/render/vertex_bytes.h"
+
 namespace flaneur {
 namespace {
 
-int8_t SignedByte(float v) { return static_cast<int8_t>(std::lround(std::clamp(v, -1.0f, 1.0f) * 127)); }
-uint8_t Byte(float v) { return static_cast<uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f); }
 uint16_t Word(float v) { return static_cast<uint16_t>(std::clamp(v, 0.0f, 1.0f) * 65535 + 0.5f); }
 
 void AppendVertices(const PackPrimitive& p, Vec4 base, int layer, std::vector<PersonVertex>* vertices) {
@@ -18,7 +18,7 @@ void AppendVertices(const PackPrimitive& p, Vec4 base, int layer, std::vector<Pe
     const Vec3 n = p.normals[i];
     PersonVertex v{p.positions[i], {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), static_cast<int8_t>(layer)},
                    p.uvs.empty() ? Vec2{} : p.uvs[i],
-                   {Byte(c.x * base.x), Byte(c.y * base.y), Byte(c.z * base.z), Byte(c.w * base.w)}, {}, {65535, 0, 0, 0}};
+                   {SrgbByte(c.x * base.x), SrgbByte(c.y * base.y), SrgbByte(c.z * base.z), Byte(c.w * base.w)}, {}, {65535, 0, 0, 0}};
     if (!p.joints.empty()) {
       v.joints = p.joints[i];
       for (size_t k = 0; k < 4; ++k) v.weights[k] = Word(p.weights[i][k]);

@@ -80,10 +80,10 @@ Error CreatePicture(int samples, bool deferred, const std::string& defines, Pict
     p->depth = NewTexture(GL_NEAREST);
     p->normals = NewTexture(GL_NEAREST);
     p->lit_color = NewTexture(GL_LINEAR);
-    const std::string fragment = defines + kFrame + kHaze + kLight + kLightFragment;
+    const std::string fragment = defines + kFrame + kHaze + kLight + kFinished + kLightFragment;
     if (Error e = BuildProgram(std::string(kFrame) + kLightVertex, fragment, &p->light_program)) return e;
   }
-  return BuildProgram(kWholeVertex, kSmoothFragment, &p->smooth_program);
+  return BuildProgram(kWholeVertex, defines + kSmoothFragment, &p->smooth_program);
 }
 
 void ResizePicture(int width_px, int height_px, Picture* p) {

@@ -133,7 +133,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   r.arrays = CreateTextureArrays(r.plan, fast);
   if (Error e = CreateTownView(defines, r.plan, r.arrays, &r.town)) return e;
   if (Error e = CreatePeopleView(pack, defines, r.plan, r.arrays, &r.people)) return e;
-  if (Error e = BuildProgram(std::string(kFrame) + kSkyVertex, std::string(kFrame) + kSkyFragment, &r.sky_program)) return e;
+  if (Error e = BuildProgram(std::string(kFrame) + kSkyVertex, defines + kFrame + kFinished + kSkyFragment, &r.sky_program)) return e;
   if (Error e = CreatePicture(samples, deferred, defines, &r.picture)) return e;
   if (Error e = CreateCaptionView(&r.caption)) return e;
   if (Error e = CreateGroundMark(&r.ground_mark)) return e;

@@ -58,7 +58,8 @@ float people_shadow(vec3 p) {
 #endif
   return mix(sum, 1.0, smoothstep(0.42, 0.49, rim));
 }
-vec3 lit(vec3 albedo, vec3 n, vec3 p) {
+vec3 lit(vec3 albedo, vec3 towards, vec3 p) {
+  vec3 n = normalize(towards);
   float sun = max(dot(n, u_to_sun.xyz), 0.0);
   vec3 lifted = p + n * 0.05;
   if (sun > 0.0) sun *= town_shadow(lifted) * people_shadow(lifted);
@@ -79,19 +80,19 @@ vec3 linear_from_srgb(vec3 c) { return c * (c * (c * 0.305306 + 0.682171) + 0.01
 // every pixel is lit once; small triangles shade many times their own pixels in software.
 inline constexpr const char* kOutcome = R"(
 #ifdef DEFERRED
-layout(location = 0) out vec4 o_color;    // square roots, for the sake of dark colours
+layout(location = 0) out vec4 o_color;    // as it is stored, in sRGB
 layout(location = 1) out vec4 o_normal;
-void leave(vec3 albedo, vec3 n, vec3 p, float haze) {
-  o_color = vec4(sqrt(albedo), 1.0);
+void leave(vec3 color, vec3 n, vec3 p, float haze) {
+  o_color = vec4(color, 1.0);
   o_normal = vec4(n * 0.5 + 0.5, 1.0);
 }
 #else
 out vec4 o_color;
-void leave(vec3 albedo, vec3 n, vec3 p, float haze) {
+void leave(vec3 color, vec3 n, vec3 p, float haze) {
 #ifdef NORMALS
-  o_color = vec4(n * 0.5 + 0.5, 1.0);
+  o_color = vec4(normalize(n) * 0.5 + 0.5, 1.0);
 #else
-  o_color = vec4(shown(lit(albedo, n, p), haze), 1.0);
+  o_color = vec4(shown(lit(linear_from_srgb(color), n, p), haze), 1.0);
 #endif
 }
 #endif
@@ -200,9 +201,8 @@ void main() {
 #ifdef MASKED
   if (albedo.a * v_color.a < u_alpha_cutoff) discard;
 #endif
-  vec3 n = normalize(v_normal);
-  if (!gl_FrontFacing) n = -n;
-  leave(linear_from_srgb(albedo.rgb) * v_color.rgb, n, v_position, v_haze);
+  vec3 n = gl_FrontFacing ? v_normal : -v_normal;
+  leave(albedo.rgb * v_color.rgb, n, v_position, v_haze);
 }
 )";
 
@@ -217,6 +217,17 @@ uniform float u_alpha_cutoff;
 void main() {
 #ifdef MASKED
   if (v_layer >= 0.0 && texture(u_textures, vec3(v_uv, v_layer)).a * v_color.a < u_alpha_cutoff) discard;
+#endif
+}
+)";
+
+// A colour of the picture before it is smoothed. DEFERRED: with its brightness, which the smoothing needs of every neighbour.
+inline constexpr const char* kFinished = R"(
+vec4 finished(vec3 color) {
+#ifdef DEFERRED
+  return vec4(color, dot(color, vec3(0.30, 0.59, 0.11)));
+#else
+  return vec4(color, 1.0);
 #endif
 }
 )";
@@ -366,14 +377,14 @@ void main() {
     wb *= 1.0 - smoothstep(0.04, 0.10, -apart);
   }
   float share = wb / max(wa + wb, 1e-4);
-  vec3 albedo = linear_from_srgb(mix(a.color.rgb, b.color.rgb, share));
+  vec3 color = mix(a.color.rgb, b.color.rgb, share);
   vec3 n = turned(normalize(mix(normal_at(view0, a.at, level), normal_at(view1, b.at, level), share)));
   vec3 p = v_place.xyz + turned(v_point + v_ray * mix(a.along, b.along, share));
 #ifndef FLAT_DEPTH
   vec4 clip = u_view_projection * vec4(p, 1.0);
   gl_FragDepth = clip.z / clip.w * 0.5 + 0.5;
 #endif
-  leave(albedo, n, p, v_haze);
+  leave(color, n, p, v_haze);
   o_color.a = coverage;
 }
 )";
@@ -407,7 +418,7 @@ void main() {
   float glow = max(dot(d, u_to_sun.xyz), 0.0);
   color += u_sun_color.rgb * (pow(glow, 500.0) * 4.0 + pow(glow, 12.0) * 0.08);
   color = (color * (2.51 * color + 0.03)) / (color * (2.43 * color + 0.59) + 0.14);
-  o_color = vec4(pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
+  o_color = finished(pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2)));
 }
 )";
 
@@ -428,10 +439,10 @@ uniform highp sampler2D u_depth;
 out vec4 o_color;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
-  vec3 root = texelFetch(u_texture, at, 0).rgb, n = normalize(texelFetch(u_normals, at, 0).xyz * 2.0 - 1.0);
+  vec3 color = texelFetch(u_texture, at, 0).rgb, n = texelFetch(u_normals, at, 0).xyz * 2.0 - 1.0;
   vec4 p = mix(v_near, v_far, texelFetch(u_depth, at, 0).r);
   p.xyz /= p.w;
-  o_color = vec4(shown(lit(root * root, n, p.xyz), haze_at(p.xyz)), 1.0);
+  o_color = finished(shown(lit(linear_from_srgb(color), n, p.xyz), haze_at(p.xyz)));
 }
 )";
 
@@ -443,29 +454,35 @@ void main() {
 )";
 
 // Smooths stair-steps where the driver's multisampling is too dear: across an edge brighter on one side, two looks along it
-// (after the idea of fast approximate antialiasing, Lottes 2009).
+// (after the idea of fast approximate antialiasing, Lottes 2009). DEFERRED: alpha is the brightness.
 inline constexpr const char* kSmoothFragment = R"(
 uniform sampler2D u_texture;
 out vec4 o_color;
-float brightness(ivec2 p) { return dot(texelFetch(u_texture, p, 0).rgb, vec3(0.30, 0.59, 0.11)); }
+float brightness_of(vec4 c) {
+#ifdef DEFERRED
+  return c.a;
+#else
+  return dot(c.rgb, vec3(0.30, 0.59, 0.11));
+#endif
+}
+float brightness(ivec2 p) { return brightness_of(texelFetch(u_texture, p, 0)); }
 void main() {
   ivec2 last = textureSize(u_texture, 0) - 1, p = ivec2(gl_FragCoord.xy);
-  vec3 middle = texelFetch(u_texture, p, 0).rgb;
+  vec4 middle = texelFetch(u_texture, p, 0);
   int left = max(p.x - 1, 0), right = min(p.x + 1, last.x), below = max(p.y - 1, 0), above = min(p.y + 1, last.y);
-  float m = dot(middle, vec3(0.30, 0.59, 0.11));
+  float m = brightness_of(middle);
   float lb = brightness(ivec2(left, below)), rb = brightness(ivec2(right, below));
   float la = brightness(ivec2(left, above)), ra = brightness(ivec2(right, above));
   float least = min(m, min(min(lb, rb), min(la, ra))), most = max(m, max(max(lb, rb), max(la, ra)));
-  o_color = vec4(middle, 1.0);
-  if (most - least < max(0.06, most * 0.14)) return;
   vec2 along = vec2(la + ra - lb - rb, lb + la - rb - ra);  // turned a quarter from the slope of brightness
   float weaker = min(abs(along.x), abs(along.y)) + max(0.008, (lb + rb + la + ra) * 0.03);
   along = clamp(along / weaker, -6.0, 6.0) / vec2(last + 1);
   vec2 at = gl_FragCoord.xy / vec2(last + 1);
-  vec3 near = 0.5 * (textureLod(u_texture, at - along / 6.0, 0.0).rgb + textureLod(u_texture, at + along / 6.0, 0.0).rgb);
-  vec3 far = 0.5 * near + 0.25 * (textureLod(u_texture, at - along * 0.5, 0.0).rgb + textureLod(u_texture, at + along * 0.5, 0.0).rgb);
-  float b = dot(far, vec3(0.30, 0.59, 0.11));
-  o_color.rgb = b < least || b > most ? near : far;
+  vec4 near = 0.5 * (texture(u_texture, at - along / 6.0) + texture(u_texture, at + along / 6.0));
+  vec4 far = 0.5 * near + 0.25 * (texture(u_texture, at - along * 0.5) + texture(u_texture, at + along * 0.5));
+  float b = brightness_of(far);
+  vec3 smoothed = b < least || b > most ? near.rgb : far.rgb;
+  o_color = vec4(most - least < max(0.06, most * 0.14) ? middle.rgb : smoothed, 1.0);
 }
 )";
 

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <map>
 
+#include "runtime/render/vertex_bytes.h"
+
 namespace flaneur {
 namespace {
 
-constexpr float kBlock_m = 4;   // about a house: the two sides of a street and the yards behind part into different blocks
-
+constexpr float kBlock_m = 4;  // small enough that walls hide most of what they hide; smaller ones take the CPU longer
 constexpr float kLeastWall_m2 = 0.4f;  // of what hides other blocks
-
-int8_t SignedByte(float v) { return static_cast<int8_t>(std::lround(std::clamp(v, -1.0f, 1.0f) * 127)); }
-uint8_t Byte(float v) { return static_cast<uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f); }
 
 bool Mirrors(const Mat4& m) {
   const auto column = [&](size_t c) { return Vec3{m.m[c][0], m.m[c][1], m.m[c][2]}; };
@@ -36,7 +34,7 @@ void AppendVertices(const PackPrimitive& p, const Mat4& world, const Vec4& base,
     town->vertices.push_back({TransformPoint(world, p.positions[i]),
                               {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), static_cast<int8_t>(layer)},
                               p.uvs.empty() ? Vec2{} : p.uvs[i],
-                              {Byte(c.x * base.x), Byte(c.y * base.y), Byte(c.z * base.z), Byte(c.w * base.w)}});
+                              {SrgbByte(c.x * base.x), SrgbByte(c.y * base.y), SrgbByte(c.z * base.z), Byte(c.w * base.w)}});
   }
 }
 
@@ -48,10 +46,10 @@ uint64_t CellOf(const std::array<uint32_t, 3>& corners, const TownGeometry& town
     constexpr float kMiddle = 32768;  // blocks before zero
     const auto cell = static_cast<uint64_t>(std::clamp(std::floor(meters / 3 / kBlock_m) + kMiddle, 0.0f, 65535.0f));
     uint64_t bits = 0;
-    for (unsigned i = 0; i < 16; ++i) bits |= (cell >> i & 1) << (2 * i);
+    for (unsigned i = 0; i < 16; ++i) bits |= (cell >> i & 1) << (3 * i);
     return bits;
   };
-  return spread(sum.x) | spread(sum.z) << 1;
+  return spread(sum.x) | spread(sum.z) << 1 | spread(sum.y) << 2;
 }
 
 bool HidesWhatIsBehind(const Triangle& t, const SurfacePlan& plan, const std::vector<TownVertex>& vertices) {
