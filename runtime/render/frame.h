@@ -43,7 +43,7 @@ struct FrameInput {
 // The parts of a picture in the order in which they are drawn.
 enum class DrawPass : uint8_t { kCull, kPeopleShadow, kTownShadow, kMeshes, kTown, kImpostors, kLight, kSky, kFinish };
 inline constexpr const char* kDrawPassNames[] = {"cull, sort, upload", "shadows of people", "shadows of the town", "people's meshes",
-                                                 "town", "impostors", "light", "sky", "smoothing, caption"};
+                                                 "town", "impostors", "light", "sky, mark", "smoothing, caption"};
 
 struct FrameStatistics {
   int64_t town_triangles = 0, people_triangles = 0;  // drawn into the picture, both levels of who changes; not the shadows

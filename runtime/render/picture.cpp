@@ -35,7 +35,7 @@ void ResizeDeferred(const Picture& p) {
   glDrawBuffers(2, both);
   glBindFramebuffer(GL_FRAMEBUFFER, p.lit);
   Attach(GL_COLOR_ATTACHMENT0, p.lit_color);
-  glBindFramebuffer(GL_FRAMEBUFFER, p.lit_behind);
+  glBindFramebuffer(GL_FRAMEBUFFER, p.lit_with_depth);
   Attach(GL_COLOR_ATTACHMENT0, p.lit_color);
   Attach(GL_DEPTH_ATTACHMENT, p.depth);
 }
@@ -74,7 +74,7 @@ Error CreatePicture(int samples, bool deferred, const std::string& defines, Pict
   if (p->samples > 1) glGenRenderbuffers(1, &p->color);
   glGenRenderbuffers(1, &p->depth);
   glGenRenderbuffers(1, &p->finished_color);
-  for (GLuint* framebuffer : {&p->framebuffer, &p->lit, &p->lit_behind, &p->finished}) glGenFramebuffers(1, framebuffer);
+  for (GLuint* framebuffer : {&p->framebuffer, &p->lit, &p->lit_with_depth, &p->finished}) glGenFramebuffers(1, framebuffer);
   glGenVertexArrays(1, &p->empty_array);
   if (deferred) {
     p->depth = NewTexture(GL_NEAREST);
@@ -108,7 +108,7 @@ void LightPicture(const Picture& p) {
   DrawWhole(p.light_program, p);
   BindTexture(kDepthUnit, 0);  // it is drawn into again
   glEnable(GL_DEPTH_TEST);
-  glBindFramebuffer(GL_FRAMEBUFFER, p.lit_behind);
+  glBindFramebuffer(GL_FRAMEBUFFER, p.lit_with_depth);
 }
 
 void FinishPicture(const Picture& p) {
