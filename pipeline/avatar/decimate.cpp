@@ -6,6 +6,8 @@
 
 #include "pipeline/avatar/fit_surface.h"
 #include "pipeline/avatar/level_error.h"
+#include "pipeline/avatar/material_atlas.h"
+#include "pipeline/avatar/merge_joints.h"
 #include "pipeline/avatar/poses.h"
 #include "pipeline/avatar/quadric_decimater.h"
 #include "runtime/base/text.h"
@@ -15,7 +17,10 @@ namespace {
 
 constexpr int kQuadricPoses = 4;  // of the walk, that levels are made for; besides the bind pose
 constexpr float kTargetTolerance = 0.02f;
-constexpr float kEndless_px = 100000;  // switch height where the next level is exact
+constexpr float kSameJoint_m = 1e-4f;  // a joint that moves nothing farther from its parent is none
+constexpr float kJointShare = 0.1f;    // of a level's error, that merged joints may add
+constexpr float kLeastJointGain_m = 2e-4f;  // below it hardly any joint could merge
+constexpr float kEndless_px = 100000;       // switch height where the next level is exact
 // Of a chain that makes itself, heights of the person on screen:
 constexpr float kFinest_px = 2000;    // larger than anybody is ever seen
 constexpr float kCoarsest_px = 64;    // half of an impostor's height: below it nobody is a mesh
@@ -124,12 +129,31 @@ void SetSwitchHeights(const Avatar& avatar, float error_px, std::vector<AvatarLe
   levels->back().switch_px = 0;
 }
 
+// Each level in the number of joints that its error hides.
+void SpareJoints(const Avatar& avatar, std::vector<AvatarLevel>* levels) {
+  for (AvatarLevel& level : *levels) {
+    const float bound_m = kJointShare * Error_mm(level) / 1000;
+    if (bound_m > kLeastJointGain_m) {
+      level.posed_error_mm += 1000 * MergeJoints(avatar, bound_m, &level.meshes);
+    }
+    level.joints = CountJoints(level.meshes);
+  }
+}
+
+// The avatar without joints that never move otherwise than their parents.
+Avatar WithoutIdleJoints(Avatar avatar) {
+  MergeJoints(avatar, kSameJoint_m, &avatar.meshes);
+  DropIdleJoints(&avatar);
+  return avatar;
+}
+
 }  // namespace
 
-Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLevels* levels,
+Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLevels* levels,
                   std::vector<std::string>* warnings) {
   if (Error e = CheckOptions(options)) return e;
-  if (Error e = CheckMeshes(avatar)) return e;
+  if (Error e = CheckMeshes(source)) return e;
+  const Avatar avatar = WithoutIdleJoints(source);
   levels->avatar = avatar;
   levels->levels.clear();
   const int original = CountTriangles(avatar.meshes);
@@ -160,8 +184,10 @@ Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLeve
     MeasureLevels(avatar, options.error_samples, options.walk_poses, &levels->levels);
   }
   if (options.ratios.empty()) ChooseLevels(avatar, options.error_px, &levels->levels);
+  SpareJoints(avatar, &levels->levels);
   levels->avatar.meshes = levels->levels[0].meshes;
   SetSwitchHeights(avatar, options.error_px, &levels->levels);
+  MergeMaterials(levels, warnings);
   return Ok();
 }
 

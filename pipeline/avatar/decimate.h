@@ -26,9 +26,11 @@ struct LevelsOptions {
 // pose and walk is least, with at most four weights that sum to 1. Borders between materials, uv
 // seams and open edges keep their line; pictures are interpolated along collapsed edges. Every
 // level has its target of triangles within 2 % or a warning says why. The same result on any number
-// of threads. Errors: no triangles, ratios out of order or range, a non-finite position (names the
+// of threads. Joints that never move otherwise than their parents go; in coarser levels so do those
+// whose own motion the level's error hides, and several materials become one (material_atlas.h).
+// Errors: no triangles, ratios out of order or range, a non-finite position (names the
 // mesh and vertex).
-Error BuildLevels(const Avatar& avatar, const LevelsOptions& options, AvatarLevels* levels,
+Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLevels* levels,
                   std::vector<std::string>* warnings);
 
 }  // namespace flaneur

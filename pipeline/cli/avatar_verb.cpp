@@ -94,7 +94,9 @@ nlohmann::json Statistics(const AvatarLevels& levels, double seconds) {
     list.push_back({{"triangles", level.triangles},
                     {"error_mm", level.error_mm},
                     {"posed_error_mm", level.posed_error_mm},
-                    {"switch_px", level.switch_px}});
+                    {"switch_px", level.switch_px},
+                    {"joints", level.joints},
+                    {"draws", level.meshes.size()}});
   }
   const Avatar& avatar = levels.avatar;
   nlohmann::json clips = nlohmann::json::array();
@@ -133,10 +135,11 @@ void PrintSummary(const AvatarArguments& a, const AvatarLevels& levels) {
   std::printf("%s: %.2f m high, %zu joints, walks at %.2f m/s\n", a.output.c_str(),
               static_cast<double>(avatar.height_m), avatar.joints.size(),
               static_cast<double>(avatar.walk_speed_mps));
-  std::printf("level  triangles  error mm  posed mm  needed from px\n");
+  std::printf("level  triangles  draws  joints  error mm  posed mm  needed from px\n");
   for (size_t k = 0; k < levels.levels.size(); ++k) {
     const AvatarLevel& level = levels.levels[k];
-    std::printf("%5zu  %9d  %8.2f  %8.2f  %14.0f\n", k, level.triangles,
+    std::printf("%5zu  %9d  %5zu  %6d  %8.2f  %8.2f  %14.0f\n", k, level.triangles,
+                level.meshes.size(), level.joints,
                 static_cast<double>(level.error_mm), static_cast<double>(level.posed_error_mm),
                 static_cast<double>(level.switch_px));
   }

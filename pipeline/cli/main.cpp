@@ -22,7 +22,7 @@ struct Verb {
 
 const std::map<std::string, Verb> kVerbs{
     {"bake", {kInBake, "TOUR.toml [-o DIR]", "all stages, from tour.toml to a tour pack"}},
-    {"avatar", {kInBake, "IN.glb -o OUT.glb", "levels of detail of a rigged character"}},
+    {"avatar", {flaneur::RunAvatar, "IN.glb -o OUT.glb", "levels of detail of a rigged character"}},
     {"impostor", {kInBake, "IN.glb -o DIR", "impostor atlas of a rigged character"}},
     {"footprints", {flaneur::RunFootprints, "TOWN.glb -o OUT.geojson", "obstacles from a town model"}},
     {"check", {flaneur::RunCheck, "OUT.geojson [--town TOWN.glb]", "whether obstacles are fit for a crowd"}},

@@ -45,7 +45,8 @@ struct AvatarLevel {
   std::vector<Mesh> meshes;
   int triangles = 0;
   float error_mm = 0;        // greatest surface deviation from the original in the bind pose
-  float posed_error_mm = 0;  // the same over poses of the walk
+  float posed_error_mm = 0;  // the same over poses of the walk, and what joints left out may add
+  int joints = 0;            // that move a vertex
   float switch_px = 0;       // person's height on screen in pixels at or above which this level is needed
 };
 

@@ -21,7 +21,8 @@ Json LevelJson(const AvatarLevel& level) {
   return {{"triangles", level.triangles},
           {"error_mm", Rounded(static_cast<double>(level.error_mm))},
           {"posed_error_mm", Rounded(static_cast<double>(level.posed_error_mm))},
-          {"switch_px", Rounded(static_cast<double>(level.switch_px))}};
+          {"switch_px", Rounded(static_cast<double>(level.switch_px))},
+          {"joints", level.joints}};
 }
 
 Json StageJson(const StageReport& stage) {

@@ -13,6 +13,7 @@ constexpr float kDefaultSpeed_mps = 1.3f;  // of an adult, where nothing tells
 constexpr float kLeastSpeed_mps = 0.2f;    // slower is not a walk
 constexpr float kTravel = 0.05f;           // of the height: more than sway, so the root travels
 constexpr float kSole = 0.015f;            // of the height: how near the ground a standing sole is
+constexpr size_t kMostBodyVertices = 16000;  // at a millimetre or two from one another's height
 constexpr float kBlendedShare = 0.25f;     // of a clip that does not loop
 
 std::string Metres(float value) {
@@ -164,7 +165,7 @@ std::vector<std::vector<Vec3>> BodyOverClip(const Avatar& avatar, const Clip& cl
                                             const Mesh& body) {
   std::vector<std::vector<Vec3>> keys;
   for (int k = 0; k + 1 < clip.keys; ++k) {
-    keys.push_back(Skinned(body, SkinningMatrices(avatar, clip, TimeOf(clip, k))).positions);
+    keys.push_back(SkinnedPositions(body, SkinningMatrices(avatar, clip, TimeOf(clip, k))));
   }
   return keys;
 }
@@ -302,6 +303,18 @@ void SetWalkSpeed(float told_mps, Vec3 walk_mps, Avatar* avatar,
                       Metres(avatar->walk_speed_mps) + " m/s is taken");
 }
 
+// Skin alone, of no more vertices than tell where soles and trunk are.
+Mesh Thinned(const Mesh& mesh) {
+  const size_t step = 1 + mesh.positions.size() / kMostBodyVertices;
+  Mesh thin;
+  for (size_t v = 0; v < mesh.positions.size(); v += step) {
+    thin.positions.push_back(mesh.positions[v]);
+    thin.joints.push_back(mesh.joints[v]);
+    thin.weights.push_back(mesh.weights[v]);
+  }
+  return thin;
+}
+
 }  // namespace
 
 Vec3 MeasureWalk(const Avatar& avatar, const Clip& walk, const Mesh& body) {
@@ -325,8 +338,9 @@ Vec3 MeasureWalk(const Avatar& avatar, const Clip& walk, const Mesh& body) {
   return MedianOf(votes);
 }
 
-Error NormalizeAvatar(const NormalizeOptions& options, Mesh body, Avatar* avatar,
+Error NormalizeAvatar(const NormalizeOptions& options, const Mesh& whole_body, Avatar* avatar,
                       std::vector<std::string>* warnings) {
+  Mesh body = Thinned(whole_body);
   float scale = 1;
   if (Error e = ScaleToHeight(options, avatar, &body, &scale, warnings)) return e;
   Vec3 walk_mps;

@@ -18,7 +18,7 @@ struct NormalizeOptions {
 // = 0, then measures height, radius and walking speed. `body`: the part of the surface that can
 // touch the ground and that gives the trunk's width, without what is carried; on the avatar's
 // joints. Errors: a figure without height, numbers beyond reason.
-Error NormalizeAvatar(const NormalizeOptions& options, Mesh body, Avatar* avatar,
+Error NormalizeAvatar(const NormalizeOptions& options, const Mesh& body, Avatar* avatar,
                       std::vector<std::string>* warnings);
 
 // Velocity over the ground, m/s, at which the soles of a walk on the spot do not slide: against the

@@ -50,7 +50,7 @@ class Installation(unittest.TestCase):
             output("cmake", "--install", BIN.parent, "--prefix", folder, "--component", "pipeline")
             flaneur = pathlib.Path(folder) / "bin/flaneur"
             self.assertIn("footprint", output(flaneur, "footprints", "--help").lower())
-            self.assertIn("levels", output(flaneur, "avatar", "--help").lower())  # a program of its own beside it
+            self.assertIn("directions", output(flaneur, "impostor", "--help").lower())  # a program of its own beside it
             self.assertTrue((pathlib.Path(folder) / "share/flaneur/blender_scripts/convert/to_gltf.py").is_file())
 
 
