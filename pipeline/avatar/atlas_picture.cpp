@@ -25,7 +25,7 @@
 namespace flaneur {
 namespace {
 
-constexpr int kJpegQuality = 95;
+constexpr int kJpegQuality = 97;
 
 size_t Index(const Picture& pixels, int x, int y) {
   return 4 * (static_cast<size_t>(y) * static_cast<size_t>(pixels.width) + static_cast<size_t>(x));
@@ -97,8 +97,9 @@ std::optional<Picture> Decoded(const Image& image) {
 Picture Resized(const Picture& from, int width_px, int height_px) {
   if (from.width == width_px && from.height == height_px) return from;
   Picture to = Blank(width_px, height_px);
-  stbir_resize_uint8_srgb_edgemode(from.rgba.data(), from.width, from.height, 0, to.rgba.data(),
-                                   to.width, to.height, 0, 4, 3, 0, STBIR_EDGE_WRAP);
+  stbir_resize(from.rgba.data(), from.width, from.height, 0, to.rgba.data(), to.width, to.height, 0,
+               STBIR_TYPE_UINT8, 4, 3, 0, STBIR_EDGE_WRAP, STBIR_EDGE_WRAP, STBIR_FILTER_BOX,
+               STBIR_FILTER_BOX, STBIR_COLORSPACE_SRGB, nullptr);
   return to;
 }
 

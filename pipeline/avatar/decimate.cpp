@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <memory>
 
 #include "pipeline/avatar/fit_surface.h"
@@ -147,6 +148,46 @@ Avatar WithoutIdleJoints(Avatar avatar) {
   return avatar;
 }
 
+std::string Missed(const Avatar& avatar, int triangles, int target) {
+  return "avatar '" + OneLine(avatar.name) + "': a level has " + std::to_string(triangles) +
+         " triangles instead of " + std::to_string(target) +
+         ", as its parts cannot be simplified further";
+}
+
+// Levels of so many triangles; while one is fitted the next is decimated.
+std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const std::vector<int>& targets,
+                                         std::vector<std::string>* warnings) {
+  const int original = CountTriangles(avatar.meshes);
+  const std::vector<std::vector<Mat4>> poses = WalkPoses(avatar, kQuadricPoses);
+  std::unique_ptr<QuadricDecimater> decimater;
+  std::unique_ptr<SurfaceFitter> fitter;
+  std::vector<std::future<std::vector<Mesh>>> meshes;
+  for (const int target : targets) {
+    if (target >= original) {
+      meshes.push_back(std::async(std::launch::deferred, [&] { return avatar.meshes; }));
+      continue;
+    }
+    if (!decimater) decimater = std::make_unique<QuadricDecimater>(avatar.meshes, poses);
+    if (!fitter) fitter = std::make_unique<SurfaceFitter>(avatar.meshes, poses);
+    decimater->DecimateTo(target);
+    const float most = (1 + kTargetTolerance) * static_cast<float>(target);
+    if (static_cast<float>(decimater->Triangles()) > most) {
+      warnings->push_back(Missed(avatar, decimater->Triangles(), target));
+    }
+    const auto fit = [&avatar, &fitter](WedgeSurface surface) {
+      fitter->Fit(&surface);
+      return SplitWedges(surface, avatar.meshes);
+    };
+    meshes.push_back(std::async(std::launch::async, fit, decimater->Surface()));
+  }
+  std::vector<AvatarLevel> levels(meshes.size());
+  for (size_t k = 0; k < levels.size(); ++k) {
+    levels[k].meshes = meshes[k].get();
+    levels[k].triangles = CountTriangles(levels[k].meshes);
+  }
+  return levels;
+}
+
 }  // namespace
 
 Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLevels* levels,
@@ -155,34 +196,9 @@ Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLeve
   if (Error e = CheckMeshes(source)) return e;
   const Avatar avatar = WithoutIdleJoints(source);
   levels->avatar = avatar;
-  levels->levels.clear();
-  const int original = CountTriangles(avatar.meshes);
-  const std::vector<std::vector<Mat4>> poses = WalkPoses(avatar, kQuadricPoses);
-  std::unique_ptr<QuadricDecimater> decimater;
-  std::unique_ptr<SurfaceFitter> fitter;
-  for (const int target : Targets(options, original)) {
-    AvatarLevel level;
-    level.meshes = avatar.meshes;
-    if (target < original) {
-      if (!decimater) decimater = std::make_unique<QuadricDecimater>(avatar.meshes, poses);
-      const int most = static_cast<int>((1 + kTargetTolerance) * static_cast<float>(target));
-      decimater->DecimateTo(target);
-      if (decimater->Triangles() > most) {
-        warnings->push_back("avatar '" + OneLine(avatar.name) + "': a level has " +
-                            std::to_string(decimater->Triangles()) + " triangles instead of " +
-                            std::to_string(target) + ", as its parts cannot be simplified further");
-      }
-      WedgeSurface surface = decimater->Surface();
-      if (!fitter) fitter = std::make_unique<SurfaceFitter>(avatar.meshes, poses);
-      fitter->Fit(&surface);
-      level.meshes = SplitWedges(surface, avatar.meshes);
-    }
-    level.triangles = CountTriangles(level.meshes);
-    levels->levels.push_back(std::move(level));
-  }
-  if (decimater) {
-    MeasureLevels(avatar, options.error_samples, options.walk_poses, &levels->levels);
-  }
+  levels->levels =
+      DecimatedLevels(avatar, Targets(options, CountTriangles(avatar.meshes)), warnings);
+  MeasureLevels(avatar, options.error_samples, options.walk_poses, &levels->levels);
   if (options.ratios.empty()) ChooseLevels(avatar, options.error_px, &levels->levels);
   SpareJoints(avatar, &levels->levels);
   levels->avatar.meshes = levels->levels[0].meshes;

@@ -17,10 +17,12 @@ constexpr double kAlong = 0.02;          // of a pull along the surface, against
 constexpr double kInertia = 0.02;        // of what holds a vertex where it is, against the pulls
 constexpr double kWeightInertia = 0.05;  // the same of its weights
 constexpr float kLeastShare =
-    0.01f;                          // of a corner in a place: less pulls at the other corners only
-constexpr float kFarthest = 1.5f;   // of its first ties' greatest length: so far may a vertex move
-constexpr float kStraight = 0.7f;   // cosine; a longer way round has a border or crease between
-constexpr float kSameSide = 0.2f;   // cosine between normals of places that belong together
+    0.01f;                         // of a corner in a place: less pulls at the other corners only
+constexpr float kFarthest = 1.5f;  // of its first ties' greatest length: so far may a vertex move
+constexpr float kStraight = 0.7f;  // cosine; a longer way round has a border or crease between
+constexpr float kSameSide = 0.2f;  // cosine between normals of places that belong together
+constexpr size_t kBlock = 256;     // places on one thread
+constexpr size_t kSamplesAFace = 5, kFewestSamples = 5000;
 constexpr double kLeastTurn = 0.1;  // cosine; a face that turns further is taken to fold over
 
 Vec3 NormalOf(const std::array<Vec3, 3>& t) {
@@ -48,12 +50,14 @@ namespace {
 
 class Fitter {
  public:
-  Fitter(const FitOriginal& original, WedgeSurface* level)
+  Fitter(const FitOriginal& original, size_t samples, WedgeSurface* level)
       : poses_(original.poses),
         level_(level),
         original_(original.triangles),
-        on_original_(original.places),
         tree_(*original.tree) {
+    for (size_t i = 0; i < samples; ++i) {
+      on_original_.push_back(original.places[i * original.places.size() / samples]);
+    }
     faces_of_.resize(level->vertices.size());
     for (size_t f = 0; f < level->faces.size(); ++f) {
       for (const int v : level->faces[f].vertices) faces_of_[static_cast<size_t>(v)].push_back(f);
@@ -64,16 +68,23 @@ class Fitter {
   }
 
   // Ties evenly spread places of each surface to the nearest of the other.
-  void TieTo(int samples) {
+  void TieAll() {
     const Triangles level = LevelInBindPose();
     const SurfaceTree level_tree(level);
-    if (on_level_.empty()) {
-      on_level_ = SpreadPlaces(level, samples);
+    const bool first_time = guesses_.empty();
+    if (first_time) {
+      on_level_ = SpreadPlaces(level, static_cast<int>(on_original_.size()));
       guesses_.assign(on_original_.size() + on_level_.size(), 0);
     }
     std::vector<Tie> found(guesses_.size());
     RunOnThreads([&](size_t first, size_t step) {
-      for (size_t i = first; i < found.size(); i += step) found[i] = Tied(level, level_tree, i);
+      // In blocks that do not depend on the number of threads: of equal distances a guess decides.
+      for (size_t start = first * kBlock; start < found.size(); start += step * kBlock) {
+        for (size_t i = start; i < std::min(start + kBlock, found.size()); ++i) {
+          if (first_time && i > start) guesses_[i] = guesses_[i - 1];
+          found[i] = Tied(level, level_tree, i);
+        }
+      }
     });
     ties_.clear();
     for (const Tie& tie : found) {
@@ -283,7 +294,7 @@ class Fitter {
   std::vector<Vec3> start_;                 // places before all
   std::vector<float> reach_;                // the greatest distance of a vertex's first ties
   const std::vector<Triangles>& original_;  // bind pose first
-  const std::vector<Place>& on_original_;   // that are tied
+  std::vector<Place> on_original_;          // that are tied
   const SurfaceTree& tree_;
   std::vector<std::vector<size_t>> faces_of_;
   std::vector<Affine> skinning_;  // by vertex and pose
@@ -312,9 +323,11 @@ SurfaceFitter::~SurfaceFitter() = default;
 void SurfaceFitter::Fit(WedgeSurface* level) const {
   // Fewer places would leave vertices to chance.
   if (2 * level->faces.size() > static_cast<size_t>(options_.samples)) return;
-  Fitter fitter(*original_, level);
+  const size_t samples = std::clamp(kSamplesAFace * level->faces.size(), kFewestSamples,
+                                    static_cast<size_t>(options_.samples));
+  Fitter fitter(*original_, samples, level);
   for (int round = 0; round < options_.rounds; ++round) {
-    fitter.TieTo(options_.samples);
+    fitter.TieAll();
     fitter.Solve();
     fitter.Solve();
   }

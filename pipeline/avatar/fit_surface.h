@@ -12,7 +12,7 @@
 namespace flaneur {
 
 struct FitOptions {
-  int samples = 20000;  // of each of the two surfaces
+  int samples = 20000;  // of each of the two surfaces at most; five a face are enough
   int rounds = 2;       // of tying and solving
 };
 

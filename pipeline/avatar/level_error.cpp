@@ -109,9 +109,13 @@ int CountTriangles(const Avatar& avatar) {
 
 void MeasureLevels(const Avatar& original, int samples, int walk_poses,
                    std::vector<AvatarLevel>* levels) {
+  const int triangles = CountTriangles(original);
+  if (std::all_of(levels->begin(), levels->end(),
+                  [&](const AvatarLevel& level) { return level.triangles == triangles; })) {
+    return;
+  }
   const Surface whole(original.meshes, samples);
   const std::vector<std::vector<Mat4>> poses = WalkPoses(original, walk_poses);
-  const int triangles = CountTriangles(original);
   std::vector<std::unique_ptr<Surface>> surfaces;  // none: it is the original
   for (const AvatarLevel& level : *levels) {
     surfaces.push_back(

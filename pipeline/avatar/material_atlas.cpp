@@ -13,12 +13,11 @@ namespace {
 
 constexpr float kMerged_px =
     600;  // height of the person; larger ones show more than an atlas holds
-constexpr float kMostRepeats = 4;      // of a picture, in each direction
-constexpr float kTexelsAPixel = 1.5f;  // where a picture is stretched most
-constexpr float kSparse = 0.1f;        // of the surface: so much may be stretched more
-constexpr int kGutter_px = 8;          // stays clean down to the mip level of an eighth
+constexpr float kMostRepeats = 4;  // of a picture, in each direction
+constexpr float kSparse = 0.1f;    // of the surface: so much may be stretched more
+constexpr int kGutter_px = 16;     // stays clean down to the mip level of a sixteenth
+constexpr int kAlign_px = 16;      // so that mip levels stay what they were
 constexpr int kLeastSide_px = 64, kMostSide_px = 1024;
-constexpr float kShrink = 0.9f;     // of all pictures where they do not fit
 constexpr float kSameTile = 1e-3f;  // uvs so little below 0 still count as the tile above
 
 struct Rect {
@@ -31,6 +30,7 @@ struct Member {
   Material material;
   std::optional<Picture> picture;                // none: the base colour alone
   Rect used;                                     // of the picture, uv
+  int halvings = 0;                              // as a mip level
   float texels_per_m = 0;                        // of the picture, where it is stretched most
   int width_px = 1, height_px = 1;               // of the whole picture as it goes into the atlas
   int left = 0, top = 0, columns = 1, rows = 1;  // of the part used; left and top in the picture
@@ -73,22 +73,34 @@ void Include(const Mesh& mesh, Rect* rect) {
   }
 }
 
-// Texels a metre where only the share kSparse of the surface has fewer.
+// Texels a metre of the triangle's surface in the direction that it has fewest in; its sides in
+// metres and in texels.
+float FewestTexelsPerMetre(Vec3 p, Vec3 q, Vec2 a, Vec2 b) {
+  const float along = Length(p), height = Length(Cross(p, q)) / along, shift = Dot(p, q) / along;
+  // Texels by metres along the first side and across it.
+  const Vec2 x = a * (1 / along), y = (b - x * shift) * (1 / height);
+  const float sum = Dot(x, x) + Dot(y, y), area = x.x * y.y - x.y * y.x;
+  const float greatest2 = (sum + std::sqrt(std::max(sum * sum - 4 * area * area, 0.0f))) / 2;
+  return greatest2 > 0 ? std::abs(area) / std::sqrt(greatest2) : 0;
+}
+
+// The same where only the share kSparse of the surface has fewer.
 float TexelsPerMetre(const Mesh& mesh, const Picture& picture) {
   std::vector<std::pair<float, float>> by_density;  // with the area
   float total = 0;
   const Vec2 size{static_cast<float>(picture.width), static_cast<float>(picture.height)};
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const auto at = [&](size_t k) { return mesh.positions[mesh.indices[i + k]]; };
-    const auto texel = [&](size_t k) {
-      const Vec2 uv = mesh.uvs[mesh.indices[i + k]];
+    const uint32_t* corner = &mesh.indices[i];
+    const auto side = [&](size_t k) {
+      return mesh.positions[corner[k]] - mesh.positions[corner[0]];
+    };
+    const auto texels = [&](size_t k) {
+      const Vec2 uv = mesh.uvs[corner[k]] - mesh.uvs[corner[0]];
       return Vec2{uv.x * size.x, uv.y * size.y};
     };
-    const float area = Length(Cross(at(1) - at(0), at(2) - at(0)));
-    const Vec2 a = texel(1) - texel(0), b = texel(2) - texel(0);
-    const float texels = std::abs(a.x * b.y - a.y * b.x);
+    const float area = Length(Cross(side(1), side(2)));
     if (!(area > 0)) continue;
-    by_density.push_back({std::sqrt(texels / area), area});
+    by_density.push_back({FewestTexelsPerMetre(side(1), side(2), texels(1), texels(2)), area});
     total += area;
   }
   std::sort(by_density.begin(), by_density.end());
@@ -118,13 +130,7 @@ class Merger {
       if (fits && Anything(m) && Prepare(&member)) members_.push_back(std::move(member));
     }
     if (members_.size() < 2) return;
-    int side_px = kLeastSide_px;
-    for (float share = 1; !Pack(side_px, share);) {
-      if (side_px < kMostSide_px)
-        side_px *= 2;
-      else
-        share *= kShrink;
-    }
+    const int side_px = FitIn();
     const int material = AddMaterial(Painted(side_px));
     for (size_t k = first_; k < levels_->levels.size(); ++k) {
       Join(material, side_px, &levels_->levels[k].meshes);
@@ -167,41 +173,71 @@ class Merger {
   }
 
   float WantedTexelsPerMetre() const {
-    return kTexelsAPixel * std::min(levels_->levels[first_ - 1].switch_px, kMerged_px) /
-           levels_->avatar.height_m;
+    return std::min(levels_->levels[first_ - 1].switch_px, kMerged_px) / levels_->avatar.height_m;
   }
 
-  void Scale(float share, Member* member) const {
-    if (!member->picture) return;
-    const float wanted = WantedTexelsPerMetre();
-    const float scale =
-        share * (member->texels_per_m > wanted ? wanted / member->texels_per_m : 1.0f);
-    const auto scaled = [scale](int px) {
-      return std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(px))));
-    };
-    member->width_px = scaled(member->picture->width);
-    member->height_px = scaled(member->picture->height);
-    const auto w = static_cast<float>(member->width_px), h = static_cast<float>(member->height_px);
-    member->left = static_cast<int>(std::floor(member->used.min.x * w));
-    member->top = static_cast<int>(std::floor(member->used.min.y * h));
-    member->columns = static_cast<int>(std::ceil(member->used.max.x * w)) - member->left;
-    member->rows = static_cast<int>(std::ceil(member->used.max.y * h)) - member->top;
-    member->columns = std::max(member->columns, 1);
-    member->rows = std::max(member->rows, 1);
+  // Texels a pixel where the picture is stretched most.
+  float Excess(const Member& member) const {
+    return std::ldexp(member.texels_per_m / WantedTexelsPerMetre(), -member.halvings);
   }
+
+  // As large as wanted or, where that is too much, as there is room for; returns the side.
+  int FitIn() {
+    for (Member& member : members_) {
+      while (member.picture && Excess(member) > 2) ++member.halvings;
+    }
+    int side_px = kLeastSide_px;
+    while (!Pack(side_px) && side_px < kMostSide_px) side_px *= 2;
+    while (!Pack(side_px)) {
+      ++std::max_element(members_.begin(), members_.end(), [&](const Member& a, const Member& b) {
+          return std::pair(a.columns > 1, Excess(a)) < std::pair(b.columns > 1, Excess(b));
+        })->halvings;
+    }
+    for (Member& member : members_) {  // what room is left makes them finer
+      while (member.halvings > 0) {
+        --member.halvings;
+        if (Pack(side_px)) continue;
+        ++member.halvings;
+        break;
+      }
+    }
+    Pack(side_px);
+    return side_px;
+  }
+
+  // Its size, and which part is used; from multiples of kAlign_px, so that mip levels stay the
+  // same.
+  static void Measure(Member* member) {
+    if (!member->picture) return;
+    member->width_px = std::max(1, member->picture->width >> member->halvings);
+    member->height_px = std::max(1, member->picture->height >> member->halvings);
+    const auto w = static_cast<float>(member->width_px), h = static_cast<float>(member->height_px);
+    member->left = Down(member->used.min.x * w);
+    member->top = Down(member->used.min.y * h);
+    member->columns =
+        std::max(1, static_cast<int>(std::ceil(member->used.max.x * w)) - member->left);
+    member->rows = std::max(1, static_cast<int>(std::ceil(member->used.max.y * h)) - member->top);
+  }
+
+  static int Down(float px) {
+    return kAlign_px * static_cast<int>(std::floor(px / static_cast<float>(kAlign_px)));
+  }
+
+  static int Up(int px) { return (px + kAlign_px - 1) / kAlign_px * kAlign_px; }
 
   // On shelves, the highest first. False where the side is too small.
-  bool Pack(int side_px, float share) {
+  bool Pack(int side_px) {
     std::vector<Member*> order;
     for (Member& member : members_) {
-      Scale(share, &member);
+      Measure(&member);
       order.push_back(&member);
     }
     std::stable_sort(order.begin(), order.end(),
                      [](const Member* a, const Member* b) { return a->rows > b->rows; });
     int x = 0, y = 0, shelf = 0;
     for (Member* member : order) {
-      const int width = member->columns + 2 * kGutter_px, height = member->rows + 2 * kGutter_px;
+      const int width = Up(member->columns + 2 * kGutter_px);
+      const int height = Up(member->rows + 2 * kGutter_px);
       if (x + width > side_px) {
         x = 0;
         y += shelf;
@@ -217,11 +253,17 @@ class Merger {
   }
 
   Picture Painted(int side_px) const {
-    Picture atlas = Blank(side_px, side_px);
+    std::vector<Picture> parts;
     for (const Member& m : members_) {
       const Picture whole = Tinted(m.picture ? *m.picture : Blank(1, 1), m.material);
-      CopyRepeated(Resized(whole, m.width_px, m.height_px),
-                   {m.left - kGutter_px, m.top - kGutter_px}, {m.x - kGutter_px, m.y - kGutter_px},
+      parts.push_back(Resized(whole, m.width_px, m.height_px));
+    }
+    // The coarsest mip levels reach beyond the gutters: nothing there may stand out.
+    Picture atlas = Resized(Resized(parts[0], 1, 1), side_px, side_px);
+    for (size_t i = 0; i < parts.size(); ++i) {
+      const Member& m = members_[i];
+      CopyRepeated(parts[i], {m.left - kGutter_px, m.top - kGutter_px},
+                   {m.x - kGutter_px, m.y - kGutter_px},
                    {m.columns + 2 * kGutter_px, m.rows + 2 * kGutter_px}, &atlas);
     }
     return atlas;

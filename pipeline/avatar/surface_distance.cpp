@@ -16,7 +16,7 @@ Vec3 Max(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::
 
 float Axis(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-float SquaredToBox(Vec3 p, Vec3 min, Vec3 max) {
+inline float SquaredToBox(Vec3 p, Vec3 min, Vec3 max) {
   const Vec3 outside = Max(Max(min - p, p - max), Vec3{});
   return Dot(outside, outside);
 }
@@ -151,8 +151,8 @@ float SurfaceTree::Search(Vec3 point, float best, float enough, uint32_t* triang
       child->first = SquaredToBox(point, boxes_[child->second].min, boxes_[child->second].max);
     }
     if (far.first < near.first) std::swap(near, far);
-    stack[depth++] = far;
-    stack[depth++] = near;
+    if (far.first < best) stack[depth++] = far;
+    if (near.first < best) stack[depth++] = near;
   }
   return best;
 }

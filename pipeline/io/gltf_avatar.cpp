@@ -13,6 +13,7 @@ namespace {
 // MSFT_lod's thresholds are shares of the screen's height; ours are pixels, taken on a screen this
 // high.
 constexpr float kScreenHeight_px = 1080;
+constexpr int kManyTriangles = 30000;   // whose closest compression takes longer than all the rest
 constexpr float kRoundedShare = 0.02f;  // of a level's error, that a position may be rounded by
 
 // Rounding stays well below the level's own error.
@@ -83,6 +84,7 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
     if (rounding.position_bits == 0) {
       rounding.position_bits = PositionBits(levels.levels[k], avatar.height_m);
     }
+    if (levels.levels[k].triangles > kManyTriangles) rounding.speed = std::max(rounding.speed, 2);
     if (Error e =
             builder->AddMesh(node.name, WithoutIdleUvs(levels.levels[k].meshes, avatar.materials),
                              materials, rounding, &node.mesh)) {

@@ -75,8 +75,7 @@ class Bench:
         levels = [i for i, node in enumerate(gltf["nodes"]) if node.get("name", "").startswith("level")]
         skeleton = [n for n in gltf["scenes"][0]["nodes"] if n not in levels]
         if len(levels) != len(self.args.ratios) + 1:
-            sys.exit(f"avatar_levels: status {done.returncode}: {' '.join(map(str, command))}\n"
-                 f"{done.stdout[-800:]}{done.stderr[-800:]}")
+            sys.exit(f"avatar_levels: {source}: {len(levels) - 1} levels instead of {len(self.args.ratios)}")
         outputs = []
         for level, ratio in zip(levels[1:], self.args.ratios):
             gltf["scenes"][0]["nodes"] = skeleton + [level]
