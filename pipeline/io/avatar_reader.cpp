@@ -515,6 +515,11 @@ void AvatarReader::DropUnusedMaterials() {
   for (Mesh& mesh : avatar_->meshes) {
     if (mesh.material < 0) continue;
     Material material = document_.materials[static_cast<size_t>(mesh.material)];
+    if (mesh.uvs.empty() && material.base_color_image >= 0) {
+      notes_->push_back("material " + Quoted(material.name) +
+                        ": its picture is left out, as its surface has no uvs");
+      material.base_color_image = material.normal_image = -1;
+    }
     use_image(&material.base_color_image);
     use_image(&material.normal_image);
     mesh.material = static_cast<int>(avatar_->materials.size());

@@ -1,0 +1,118 @@
+"""People whose files leave something out or get it wrong: levels all the same, with a warning, or one clear error."""
+import json
+import unittest
+
+from odd_person import OddPerson
+from support import ProgramTest, run
+
+
+class OddPeople(ProgramTest):
+    def made(self, person, *words):
+        """The facts of the levels made of the person; the words stand in a warning."""
+        facts = self.folder / "facts.json"
+        result = self.bake(person, "--json", facts)
+        self.assert_succeeds(result)
+        warnings = [line for line in result.stderr.lower().splitlines() if "warning:" in line]
+        if words:
+            self.assertTrue(any(all(word in line for word in words) for line in warnings), result.stderr)
+        self.assert_valid(self.folder / "out.glb")
+        return json.loads(facts.read_text())
+
+    def bake(self, person, *options):
+        return run("flaneur", "avatar", person.write(self.folder / "odd.gltf"), "-o", self.folder / "out.glb", *options)
+
+    def triangles(self, facts):
+        return [level["triangles"] for level in facts["levels"]]
+
+    def test_a_plain_person_is_no_news(self):
+        facts = self.made(OddPerson())
+        self.assertEqual(self.triangles(facts)[0], 704)
+        self.assertEqual(facts["joints"], 3)
+
+    def test_without_uvs(self):
+        person = OddPerson()
+        person.uvs, person.image = [], "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNkYPhfDwAChwGA60e6kgAAAABJRU5ErkJggg=="
+        self.made(person, "uv")
+
+    def test_without_normals(self):
+        person = OddPerson()
+        person.normals = []
+        self.made(person)
+
+    def test_degenerate_triangles_go(self):
+        person = OddPerson()
+        person.indices += [0, 0, 1, 5, 5, 5, 2, 3, 2] * 20
+        facts = self.made(person)
+        self.assertLess(facts["levels"][-1]["posed_error_mm"], 60)
+
+    def test_leaves_on_one_edge_stay(self):
+        person = OddPerson()
+        for k in range(5):  # five faces on the edge between two vertices
+            person.positions.append((0.5, 1.0 + 0.1 * k, 0.3))
+            person.normals.append((0.0, 0.0, 1.0))
+            person.uvs.append((0.0, 0.0))
+            person.joints.append((0, 0, 0, 0))
+            person.weights.append((1.0, 0.0, 0.0, 0.0))
+            person.indices += [176, 177, len(person.positions) - 1]
+        self.assertEqual(self.triangles(self.made(person))[0], 709)
+
+    def test_weights_that_do_not_sum_to_one(self):
+        person = OddPerson()
+        person.weights = [(3.0, 0.0, 0.0, 0.0)] * len(person.weights)
+        self.made(person, "weights", "sum to 1")
+
+    def test_vertices_without_weight(self):
+        person = OddPerson()
+        person.weights[:10] = [(0.0, 0.0, 0.0, 0.0)] * 10
+        self.made(person, "no weight")
+
+    def test_more_than_four_weights(self):
+        person = OddPerson()
+        person.weights = [(0.4, 0.3, 0.0, 0.0)] * len(person.weights)
+        person.more_influences = True
+        self.made(person)
+
+    def test_bones_without_weights_go(self):
+        person = OddPerson()
+        person.bones = 60
+        self.assertEqual(self.made(person)["joints"], 3)
+
+    def test_no_bones(self):
+        person = OddPerson()
+        person.bones, person.joints = 0, []
+        self.assert_fails(self.bake(person), "odd.gltf")
+
+    def test_five_hundred_bones(self):
+        person = OddPerson(rings=40)
+        person.bones = 500
+        self.assertEqual(self.made(person)["joints"], 3)
+        person.joints = [(k % 500, 0, 0, 0) for k in range(len(person.joints))]
+        self.assert_fails(self.bake(person), "joints", "256")
+
+    def test_mirrored_scale(self):
+        person = OddPerson()
+        person.scale = [-1, 1, 1]
+        facts = self.made(person)
+        self.assertAlmostEqual(facts["height_m"], 1.75, places=3)
+
+    def test_a_picture_that_is_not_there(self):
+        person = OddPerson()
+        person.image = "nowhere.png"
+        result = self.bake(person)
+        self.assertIn("nowhere.png", result.stderr)
+        self.assertIn(result.returncode, (0, 2))
+
+    def test_two_triangles(self):
+        person = OddPerson(rings=2, sides=4)
+        person.indices = [0, 4, 1, 1, 4, 5]
+        self.assertEqual(self.triangles(self.made(person)), [2])
+
+    def test_very_many_triangles(self):
+        facts = self.made(OddPerson(rings=800, sides=100))
+        self.assertEqual(self.triangles(facts)[0], 319600)
+        self.assertLess(self.triangles(facts)[-1], 1000)
+        self.assertLess(facts["levels"][1]["posed_error_mm"], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
