@@ -20,7 +20,8 @@ std::vector<float> JointReaches(std::span<const Joint> joints, std::span<const M
 
 // Leaves out keys that interpolation restores, and channels that only hold the joint's rest
 // transform: what the joint moves, as far as `reaches_m`, moves wrong by at most `error_m` for
-// that. Busy channels share their times where that takes fewer bytes.
+// that. As few keys as that allows, at values fitted to all that are left out; the first and the last
+// stay. Busy channels share their times where that takes fewer bytes.
 std::vector<KeyChannel> ReduceKeys(const Clip& clip, std::span<const Joint> joints,
                                    std::span<const float> reaches_m, float error_m);
 

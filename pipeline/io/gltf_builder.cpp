@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // glTF component types
 constexpr int kSignedShort = 5122;
-constexpr float kKeyError_m = 0.0005f;  // by which left out keys may move what hangs on a joint
+constexpr float kKeyError_m = 0.001f;  // by which left out keys may move what hangs on a joint
 constexpr int kVertices = 34962, kIndices = 34963;  // glTF bufferView targets
 
 json Numbers(Vec3 v) { return {v.x, v.y, v.z}; }

@@ -62,7 +62,7 @@ class GltfBuilder {
   int AddNode(const GltfNode& node);
   int AddSkin(const std::string& name, std::span<const int> joint_nodes,
               std::span<const Mat4> inverse_binds, int skeleton_node);
-  // Keys that interpolation restores are left out (see ReduceKeys; 0.5 mm a joint), and so are
+  // Keys that interpolation restores are left out (see ReduceKeys; 1 mm a joint), and so are
   // channels that only hold the joint's rest transform; rotations become 16-bit integers. Returns
   // -1, and adds nothing, where no channel is left.
   int AddAnimation(const std::string& name, const Clip& clip, std::span<const Joint> joints,
