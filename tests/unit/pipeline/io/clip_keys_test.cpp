@@ -23,7 +23,7 @@ Clip Restless(const Avatar& avatar, int keys) {
     for (size_t j = 0; j < avatar.joints.size(); ++j) {
       Transform t = avatar.joints[j].rest;
       const float own = static_cast<float>(j + 1);
-      const float half = 0.2f * std::sin(own * turn) + 0.001f * std::sin(17 * turn + own);
+      const float half = 0.2f * std::sin(own * turn) + 0.0005f * std::sin(7 * turn + own);
       t.rotation = {std::sin(half), 0, 0, std::cos(half)};
       t.translation.y += 0.02f * std::cos(2 * turn);
       clip.transforms.push_back(t);
@@ -76,8 +76,8 @@ TEST(ReduceKeys, LeavesOutWhatInterpolationRestores) {
         ASSERT_LE(off_m, 1.05f * kError_m + 5e-4f * reaches[channel.joint]);  // acos near 1
       }
     }
-    if (keys > 3) {
-      EXPECT_LT(kept, channels.size() * static_cast<size_t>(keys) * 3 / 4);
+    if (keys > 100) {
+      EXPECT_LT(kept, channels.size() * static_cast<size_t>(keys) / 2);
     }
   }
 }
