@@ -40,17 +40,15 @@ void AddCaption(const Simulation& s, FrameInput* frame) {
   frame->caption_share = s.gentle ? 1 : std::clamp(std::min(s.tour.rested_s, RestOf_s(s.tour, HaltOf(s.tour)) - s.tour.rested_s) / kFadeCaption_s, 0.0f, 1.0f);
 }
 
-bool InViewWithEdge(Vec2 p, const ViewCamera& c) {
-  const float back_m = kEdge_m / std::max(0.1f, std::sin(c.fov_rad / 2));
-  return InWedge(p, c.position - Vec2{std::cos(c.yaw_rad), std::sin(c.yaw_rad)} * back_m, c.yaw_rad, c.fov_rad);
-}
+// The outer one with whoever reaches into the view.
+ViewVolumes WithEdge(const ViewCamera& c) { return VolumesOf(c, kEdge_m / std::max(0.1f, std::sin(c.fov_rad / 2))); }
 
 // The level that the control has chosen. It leaves out who stands outside the view: whose middle is just beyond its edge keeps
 // the level in which they left, or comes in as an impostor.
-int LevelToShow(const Simulation& s, size_t i, const PersonLook& look) {
+int LevelToShow(const Simulation& s, size_t i, const ViewVolumes& view, const PersonLook& look) {
   const int chosen = s.levels.level[i];
   if (chosen != kNotDrawn || s.crowd.view[i] == ViewClass::kVisible) return chosen;
-  if (!InViewWithEdge(s.crowd.position[i], s.camera.view)) return kNotDrawn;
+  if (Classify(s.crowd.position[i], view) == ViewClass::kOutside) return kNotDrawn;
   return look.shown && look.level != kNotDrawn ? look.level : kImpostor;
 }
 
@@ -116,33 +114,49 @@ bool IsShown(const PersonLook& look) {
   return look.level != kNotDrawn || (look.last_level != kNotDrawn && look.level_s < kFade_s);
 }
 
-void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, float passed_s, PersonLooks* looks) {
+// What is the same for everybody in one picture.
+struct Moment {
+  float passed_s = 0;               // since the last one
+  ViewVolumes view, last_view;
+};
+
+void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, const Moment& moment, PersonLooks* looks) {
   PersonLook& look = looks->by_id[static_cast<size_t>(s.crowd.id[i])];
+  look.here = true;
   const Vec2 p = s.crowd.position[i];
-  const int level = LevelToShow(s, i, look);
-  const bool first = looks->frame < 0, was_in_view = !first && InWedge(p, looks->camera.position, looks->camera.yaw_rad, looks->camera.fov_rad);
+  const int level = LevelToShow(s, i, moment.view, look);
+  if (level == kNotDrawn && !look.shown) return;
+  const bool first = looks->frame < 0, was_in_view = !first && Classify(p, moment.last_view) == ViewClass::kVisible;
   const bool anew = first || !look.shown;
   // Who comes into the picture with the view's edge, or leaves with it, needs no fading.
   const bool leaves_view = level == kNotDrawn && s.crowd.view[i] != ViewClass::kVisible;
   look.avatar = s.crowd.avatar[i];
   look.position = {p.x, p.y, HeightAt(s.walkable, p)};
   look.heading_rad = s.crowd.heading_rad[i];
-  FollowClip(MomentOf(s, i, pack.avatars[static_cast<size_t>(look.avatar)], look.moment.clip), anew, passed_s, &look);
+  FollowClip(MomentOf(s, i, pack.avatars[static_cast<size_t>(look.avatar)], look.moment.clip), anew, moment.passed_s, &look);
   const auto id = static_cast<size_t>(s.crowd.id[i]);
   const bool no_budget = id < s.levels.fades.at_once.size() && s.levels.fades.at_once[id] != 0;
-  FollowLevel(level, leaves_view || no_budget || (anew && !was_in_view), passed_s, &look);
-  looks->here[static_cast<size_t>(s.crowd.id[i])] = 1;
+  FollowLevel(level, leaves_view || no_budget || (anew && !was_in_view), moment.passed_s, &look);
+  look.shown = IsShown(look);
+  if (look.shown) looks->shown.push_back(s.crowd.id[i]);
 }
 
 void FollowPeople(const TourPack& pack, const Simulation& s, PersonLooks* looks) {
-  const float passed_s = looks->frame < 0 ? 0 : static_cast<float>(s.frame - looks->frame) * s.step_s;
+  Moment moment;
+  moment.passed_s = looks->frame < 0 ? 0 : static_cast<float>(s.frame - looks->frame) * s.step_s;
+  moment.view = WithEdge(s.camera.view);
+  moment.last_view = VolumesOf(looks->camera, 0);
   looks->by_id.resize(std::max(looks->by_id.size(), static_cast<size_t>(s.crowd.next_id)));
-  looks->here.assign(looks->by_id.size(), 0);
-  for (size_t i = 0; i < s.crowd.size(); ++i) FollowPerson(pack, s, i, passed_s, looks);
-  for (size_t id = 0; id < looks->by_id.size(); ++id) {
-    PersonLook& look = looks->by_id[id];
-    if (!looks->here[id] && look.shown) FollowLevel(kNotDrawn, false, passed_s, &look);  // gone: fades where they were
+  std::swap(looks->shown, looks->shown_before);
+  looks->shown.clear();
+  for (int id : looks->shown_before) looks->by_id[static_cast<size_t>(id)].here = false;
+  for (size_t i = 0; i < s.crowd.size(); ++i) FollowPerson(pack, s, i, moment, looks);
+  for (int id : looks->shown_before) {
+    PersonLook& look = looks->by_id[static_cast<size_t>(id)];
+    if (look.here) continue;
+    FollowLevel(kNotDrawn, false, moment.passed_s, &look);  // gone: fades where they were
     look.shown = IsShown(look);
+    if (look.shown) looks->shown.push_back(id);
   }
   looks->frame = s.frame;
   looks->camera = s.camera.view;
@@ -162,9 +176,7 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks*
   RingWherePointed(s, &frame->ground_mark);
   if (s.frame != looks->frame) FollowPeople(pack, s, looks);
   frame->people.clear();
-  for (const PersonLook& look : looks->by_id) {
-    if (look.shown) Show(look, frame);
-  }
+  for (int id : looks->shown) Show(looks->by_id[static_cast<size_t>(id)], frame);
 }
 
 }  // namespace flaneur

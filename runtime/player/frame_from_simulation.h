@@ -13,6 +13,7 @@ namespace flaneur {
 // How a person was shown, so that nothing about them changes at once.
 struct PersonLook {
   bool shown = false;                      // in the last picture, by a level below
+  bool here = false;                       // scratch: walks in the town still
   int avatar = 0;
   int level = kNotDrawn, last_level = kNotDrawn;
   float level_s = 0;                       // since the level changed
@@ -24,9 +25,9 @@ struct PersonLook {
 
 struct PersonLooks {
   std::vector<PersonLook> by_id;
+  std::vector<int> shown, shown_before;    // ids: of the last picture, and scratch
   int64_t frame = -1;                      // of the last picture; -1: none yet
   ViewCamera camera;                       // of the last picture
-  std::vector<uint8_t> here;               // scratch, by id
 };
 
 // A change of level, and appearing or vanishing within the view, is faded over kFade_s: both levels are drawn meanwhile, and the

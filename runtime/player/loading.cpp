@@ -20,9 +20,10 @@ namespace flaneur {
 namespace {
 
 // The pieces on their way are large and soon gone: what they took goes back to the system at once, not into the allocator's stock.
+// Smaller ones would cost more time in the system than their reading.
 void KeepNoStock() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 128 * 1024);
+  mallopt(M_MMAP_THRESHOLD, 1024 * 1024);
 #endif
 }
 void GiveBackMemory() {
@@ -48,7 +49,7 @@ struct Loader::Impl {
 
   std::mutex mutex;
   std::condition_variable changed;
-  bool may_prepare = false;
+  bool may_prepare = false, may_go_on = false;
   SurfacePlan plan;              // of the renderer
   AtlasFormats formats;
   std::deque<Asset> ready;
@@ -63,7 +64,7 @@ struct Loader::Impl {
   Error ReadMesh(int mesh);
   Error ReadLevel(const AssetId& id);
   void Clear(const AssetId& id);
-  bool WaitForRenderer();
+  bool WaitUntil(const bool& may);
   void Prepare(size_t asset);
   bool AreUploaded(size_t first_assets) const;
 };
@@ -111,14 +112,15 @@ void Loader::Impl::Clear(const AssetId& id) {
   }
 }
 
-bool Loader::Impl::WaitForRenderer() {
+// `may`: guarded by the mutex. False where there is nothing to wait for any more.
+bool Loader::Impl::WaitUntil(const bool& may) {
   std::unique_lock lock(mutex);
-  changed.wait(lock, [&] { return may_prepare || stop; });
+  changed.wait(lock, [&] { return may || stop; });
   return !stop;
 }
 
 void Loader::Impl::Prepare(size_t index) {
-  if (!WaitForRenderer()) return;
+  if (!WaitUntil(may_prepare)) return;
   Asset asset = PrepareAsset(pack, assets[index], plan, formats);
   Clear(assets[index]);
   const std::lock_guard lock(mutex);
@@ -129,6 +131,7 @@ void Loader::Impl::Prepare(size_t index) {
 void Loader::Impl::Run() {
   for (size_t t = next_task++; t < tasks.size() && !stop; t = next_task++) {
     const Task& task = tasks[t];
+    if (task.asset >= stages.town && !WaitUntil(may_go_on)) break;
     try {
       if (Error e = Read(task)) return Give(std::move(e));
       const bool whole = assets[task.asset].kind != AssetKind::kTown || --town_meshes_left == 0;
@@ -194,6 +197,13 @@ void Loader::PrepareFor(const Renderer& renderer) {
   impl_->changed.notify_all();
 }
 
+void Loader::GoOn() {
+  const std::lock_guard lock(impl_->mutex);
+  if (impl_->may_go_on) return;
+  impl_->may_go_on = true;
+  impl_->changed.notify_all();
+}
+
 Error Loader::Upload(double most_ms, Renderer* renderer) {
   Impl& l = *impl_;
   const double start_ms = Now_ms();
@@ -219,6 +229,7 @@ Error Loader::Upload(double most_ms, Renderer* renderer) {
 }
 
 Error Loader::UploadAll(Renderer* renderer) {
+  GoOn();
   while (!Done()) {
     if (Error e = Upload(1e9, renderer)) return e;
     std::unique_lock lock(impl_->mutex);

@@ -18,6 +18,9 @@ class Loader {
   // After the renderer has begun with the same pack: from now on pieces are made ready for it.
   void PrepareFor(const Renderer& renderer);
 
+  // After the first picture: until then nothing is read that it does not show.
+  void GoOn();
+
   // Hands over what is ready, for about `most_ms`. Errors: of a piece that cannot be read.
   Error Upload(double most_ms, Renderer* renderer);
   Error UploadAll(Renderer* renderer);

@@ -210,6 +210,7 @@ Error Visit::Play() {
     if (controls.quits) break;
     StepTown(passed_s);
     Draw(passed_s);
+    loader->GoOn();
     ++pictures;
     if (now_s - title_s > 1) {
       window.SetTitle(Title(pack.name, pictures / (now_s - title_s), *s, statistics).c_str());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flaneur {
 namespace {
@@ -12,7 +13,7 @@ constexpr float kShadowDepth_m = 140;
 constexpr float kNearStep_m = 8;
 constexpr float kSunStep = 0.004f;       // or when the sun has turned by so much, in radians: hardly a texel on the ground
 constexpr float kSunJump = 0.1f;         // so much of a turn is not waited for, nor three steps of the eye
-constexpr size_t kSlices = 16;           // pictures over which that work is spread, so that no frame stumbles
+constexpr int64_t kTrianglesAPicture = 10000;  // the work is spread over many pictures, so that no frame stumbles
 
 void SetUpMap(GLenum target) {
   glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -34,7 +35,6 @@ GLuint NewFramebuffer() {
 
 void CreateTownMap(GLuint texture, int layer, TownMap* map) {
   map->layer = layer;
-  map->slices_done = kSlices;
   for (int k = 0; k < 2; ++k) {
     map->framebuffers[static_cast<size_t>(k)] = NewFramebuffer();
     glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, texture, 0, layer + k);
@@ -57,13 +57,12 @@ void BeginMaps() {
   glPolygonOffset(2, 4);
 }
 
-DrawCost DrawSlices(size_t count, GLuint block_buffer, const TownView& town, TownMap* map) {
+DrawCost DrawSome(int64_t triangles, GLuint block_buffer, const TownView& town, TownMap* map) {
   BindMap(map->framebuffers[static_cast<size_t>(1 - map->shown)], kTownMap_px, map->next_matrix, map->to_sun, block_buffer,
-          map->slices_done == 0);
-  const float slices = kSlices, from = static_cast<float>(map->slices_done);
-  map->slices_done = std::min(kSlices, map->slices_done + count);
-  const DrawCost cost = DrawTownShadow(map->next_matrix, from / slices, static_cast<float>(map->slices_done) / slices, town);
-  if (map->slices_done < kSlices) return cost;
+          map->next_block == 0);
+  const DrawCost cost = DrawTownShadow(map->next_matrix, triangles, town, &map->next_block);
+  if (map->next_block < town.geometry.blocks.size()) return cost;
+  map->draws = false;
   map->shown = 1 - map->shown;
   map->matrix = map->next_matrix;
   return cost;
@@ -72,14 +71,16 @@ DrawCost DrawSlices(size_t count, GLuint block_buffer, const TownView& town, Tow
 DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, GLuint block_buffer, const TownView& town, TownMap* map) {
   const float moved_m = Length(center - map->center), turned = Length(to_sun - map->to_sun);
   const bool jumped = !map->valid || moved_m > 3 * map->step_m || turned > kSunJump;
-  if (jumped || ((moved_m > map->step_m || turned > kSunStep) && map->slices_done >= kSlices)) {
+  if (jumped || ((moved_m > map->step_m || turned > kSunStep) && !map->draws)) {
     map->center = center;
     map->to_sun = to_sun;
     map->next_matrix = ShadowMatrix(center, to_sun, map->half_width_m, std::max(kShadowDepth_m, map->half_width_m * 1.5f), kTownMap_px);
-    map->slices_done = 0;
+    map->draws = true;
+    map->next_block = 0;
   }
   map->valid = true;
-  return map->slices_done < kSlices ? DrawSlices(jumped ? kSlices : 1, block_buffer, town, map) : DrawCost{};
+  if (!map->draws) return {};
+  return DrawSome(jumped ? std::numeric_limits<int64_t>::max() : kTrianglesAPicture, block_buffer, town, map);
 }
 
 }  // namespace

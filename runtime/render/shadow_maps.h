@@ -17,7 +17,8 @@ struct TownMap {
   std::array<GLuint, 2> framebuffers{};
   Mat4 matrix, next_matrix;
   int shown = 0;
-  size_t slices_done = 0;              // of the one being drawn
+  bool draws = false;                  // the other one
+  size_t next_block = 0;               // of the town: what is to be drawn still
   Vec3 center, to_sun;                 // of the newest
   bool valid = false;
 };

@@ -9,7 +9,7 @@ namespace flaneur {
 namespace {
 
 constexpr size_t kMostWalls = 14000;      // triangles a picture: the nearest walls hide most
-constexpr uint32_t kJoined = 30000;       // indices that a shadow draws in vain rather than in another call
+constexpr uint32_t kJoined = 12000;       // indices that a shadow draws in vain rather than in another call
 
 void EnableVertices() {
   constexpr size_t stride = sizeof(TownVertex);
@@ -127,13 +127,11 @@ DrawCost DrawTown(TownView* town) {
   return cost;
 }
 
-DrawCost DrawTownShadow(const Mat4& light_projection, float from, float to, const TownView& town) {
+DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const TownView& town, size_t* next_block) {
   DrawCost cost;
   if (town.shadow_array == 0) return cost;
   const Frustum frustum = FrustumOf(light_projection);
   const std::vector<TownBlock>& blocks = town.geometry.blocks;
-  const float count = static_cast<float>(blocks.size());
-  const auto first = static_cast<size_t>(from * count), last = static_cast<size_t>(to * count);
   const bool any_masked = std::any_of(town.groups.begin(), town.groups.end(), [](const SurfaceGroup& g) { return g.masked; });
   const uint32_t most_in_vain = any_masked ? 0 : kJoined;
   glBindVertexArray(town.shadow_array);
@@ -146,7 +144,8 @@ DrawCost DrawTownShadow(const Mat4& light_projection, float from, float to, cons
     DrawIndices(run.first, run.count);
     cost += {run.count / 3, 1};
   };
-  for (size_t b = first; b < last; ++b) {
+  size_t& b = *next_block;
+  for (; b < blocks.size() && cost.triangles + run.count / 3 < triangles; ++b) {
     if (!MayTouch(frustum, blocks[b].box)) continue;
     for (const TownRange& range : blocks[b].ranges) {
       const bool masked = town.groups[static_cast<size_t>(range.group)].masked;

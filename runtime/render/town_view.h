@@ -35,7 +35,7 @@ void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownVie
 // Near blocks first, so that hidden pixels cost little. The frame block must be bound.
 DrawCost DrawTown(TownView* town);
 
-// Depth only: of all blocks the part from `from` to `to` (0 to 1), as far as the light's view touches them.
-DrawCost DrawTownShadow(const Mat4& light_projection, float from, float to, const TownView& town);
+// Depth only: the blocks from *next_block on that the light's view touches, until `triangles` are drawn. *next_block: where to go on.
+DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const TownView& town, size_t* next_block);
 
 }  // namespace flaneur

@@ -54,5 +54,27 @@ TEST(SteadyFrame, AllocatesNothingAndTakesFewDrawCallsForTenThousandPeople) {
   std::printf("allocations in 4 steady pictures: %ld; draw calls: %d\n", allocations - before, statistics.draw_calls);
 }
 
+TEST(SteadyFrame, OfTheSimulationIsPutTogetherWithoutAllocating) {
+  const std::filesystem::path path = std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": bake the demo tour with ./demo";
+  TourPack pack;
+  ASSERT_EQ(LoadTourPack(path, {}, &pack).message, "");
+  Scenario scenario;
+  ASSERT_EQ(ReadScenario(std::filesystem::path(FLANEUR_SOURCE_DIR) / "assets_src/wolfenbuettel/film.toml", &scenario).message, "");
+  Simulation simulation;
+  ASSERT_EQ(StartSimulation(&pack, scenario, &simulation).message, "");
+  PersonLooks looks;
+  FrameInput frame;
+  long allocated = 0;
+  for (int k = 0; k < 200; ++k) {
+    StepSimulation({}, 0, &simulation);
+    const long before = allocations;
+    FrameFromSimulation(pack, simulation, &looks, &frame);
+    if (k >= 120) allocated += allocations - before;
+  }
+  EXPECT_GT(frame.people.size(), 10u);
+  EXPECT_EQ(allocated, 0);
+}
+
 }  // namespace
 }  // namespace flaneur
