@@ -20,10 +20,10 @@ namespace flaneur {
 namespace {
 
 // The pieces on their way are large and soon gone: what they took goes back to the system at once, not into the allocator's stock.
-// Smaller ones would cost more time in the system than their reading.
+// Those that many pieces need for a moment (a mesh's tables take 4 MB) would cost more time in the system than their reading.
 void KeepNoStock() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 1024 * 1024);
+  mallopt(M_MMAP_THRESHOLD, 6 * 1024 * 1024);
 #endif
 }
 void GiveBackMemory() {

@@ -72,7 +72,7 @@ void AddTown(TownGeometry geometry, TownView* town) {
   glBindVertexArray(town->vertex_array);
   glBindBuffer(GL_ARRAY_BUFFER, vertices);
   EnableVertices();
-  town->visible_indices = CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, nullptr, geometry.indices.size() * sizeof(uint32_t));
+  glGenBuffers(1, &town->visible_indices);
   geometry.vertices = {};
   town->geometry = std::move(geometry);
   for (const TownBlock& block : town->geometry.blocks) {
@@ -112,9 +112,7 @@ DrawCost DrawTown(TownView* town) {
   GatherIndices(town);
   glBindVertexArray(town->vertex_array);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, town->visible_indices);
-  const size_t all = town->geometry.indices.size() * sizeof(uint32_t);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all), nullptr, GL_STREAM_DRAW);
-  glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(town->indices.size() * sizeof(uint32_t)), town->indices.data());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(town->indices.size() * sizeof(uint32_t)), town->indices.data(), GL_STREAM_DRAW);
   uint32_t first = 0;
   for (size_t g = 0; g < town->groups.size(); ++g) {
     const uint32_t count = town->counts[g];
