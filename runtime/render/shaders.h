@@ -114,9 +114,9 @@ layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec4 a_normal;    // and the picture's layer
 layout(location = 2) in vec2 a_uv;
 layout(location = 3) in vec4 a_color;
-out vec3 v_position, v_normal;
-out vec2 v_uv;
-out vec4 v_color;
+centroid out vec3 v_position, v_normal;
+centroid out vec2 v_uv;
+centroid out vec4 v_color;
 out float v_haze;
 flat out float v_layer;
 void main() {
@@ -142,9 +142,9 @@ layout(location = 6) in vec4 a_place;     // position, turn about the vertical
 layout(location = 7) in vec4 a_look;      // row of the pose texture, share of the pattern from, to
 uniform highp sampler2D u_poses;
 #ifndef SHADOW
-out vec3 v_position, v_normal;
-out vec2 v_uv;
-out vec4 v_color;
+centroid out vec3 v_position, v_normal;
+centroid out vec2 v_uv;
+centroid out vec4 v_color;
 out float v_haze;
 flat out float v_layer;
 flat out vec2 v_share;
@@ -185,9 +185,9 @@ void main() {
 
 // SHARPER: mip levels towards the finer, where ground seen flat would blur without anisotropic filtering. MASKED: cut out by alpha. FADES: draws its share of the pattern. Without either the depth test can go first.
 inline constexpr const char* kSurfaceFragment = R"(
-in vec3 v_position, v_normal;
-in vec2 v_uv;
-in vec4 v_color;
+centroid in vec3 v_position, v_normal;
+centroid in vec2 v_uv;
+centroid in vec4 v_color;
 in float v_haze;
 flat in float v_layer;
 uniform sampler2DArray u_textures;
@@ -294,9 +294,17 @@ uniform sampler2D u_texture, u_depth, u_motion;
 uniform vec4 u_atlas;
 uniform vec3 u_ranges;  // of depth, of motion
 struct View { vec3 right, up, near; };
+// Coverage at a pixel's four samples, where graphics cards take them, or at its middle.
+#ifdef SMOOTH_EDGES
+#define COVER vec4
+const vec2 k_samples[4] = vec2[4](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
+#else
+#define COVER float
+#endif
 struct Meeting {
   vec2 at;       // texture coordinates
-  vec4 color;    // there; alpha 0: the ray misses the person
+  vec3 color;    // there
+  COVER cover;   // 0: the ray misses the person
   float along;   // the ray, in its length
 };
 View view_from(float azimuth) {
@@ -311,7 +319,16 @@ float mip_level() {
 #endif
   return level;
 }
-Meeting meet(View view, vec4 cell, vec2 origin, float level) {
+COVER cover_at(vec2 at, float level, mat2 pixel) {
+#ifdef SMOOTH_EDGES
+  vec4 cover;
+  for (int i = 0; i < 4; ++i) cover[i] = textureLod(u_texture, at + pixel * k_samples[i], level).a;
+  return cover;
+#else
+  return textureLod(u_texture, at, level).a;
+#endif
+}
+Meeting meet(View view, vec4 cell, vec2 origin, float level, mat2 pixel) {
   vec3 q = vec3(dot(v_point, view.right), dot(v_point, view.up), dot(v_point, view.near));
   vec3 d = vec3(dot(v_ray, view.right), dot(v_ray, view.up), dot(v_ray, view.near));
   vec2 slope = d.xy / d.z;
@@ -328,13 +345,18 @@ Meeting meet(View view, vec4 cell, vec2 origin, float level) {
   bool inside = all(greaterThanEqual(at, cell.xy)) && all(lessThanEqual(at, cell.zw));
   at = clamp(at, low, high);
   vec4 color = textureLod(u_texture, at, level);
-  if (!inside) color.a = 0.0;
+#ifdef SMOOTH_EDGES
+  vec4 cover = cover_at(at, level, pixel);
+#else
+  float cover = color.a;
+#endif
+  if (!inside) cover = COVER(0.0);
   // A guess beside the person that still leaps onto them was led astray by what fills the gutters.
   vec2 leap = (at - guess) * u_atlas.zw;
 #if STEPS > 1
-  if (dot(leap, leap) > exp2(2.0 * level)) color.a = min(color.a, textureLod(u_texture, guess, level).a);
+  if (dot(leap, leap) > exp2(2.0 * level)) cover = min(cover, cover_at(guess, level, pixel));
 #endif
-  return Meeting(at, color, (depth - q.z) / d.z);
+  return Meeting(at, color.rgb, cover, (depth - q.z) / d.z);
 }
 )";
 
@@ -357,27 +379,32 @@ void main() {
   if (cover < 0.02) discard;
 #endif
   View view0 = view_from(v_views.x), view1 = view_from(v_views.y);
-  Meeting a = meet(view0, v_cell0, v_origins.xy, level), b = meet(view1, v_cell1, v_origins.zw, level);
-  float alpha = mix(a.color.a, b.color.a, between);
-  vec2 texel = dFdx(v_texel);
+  vec2 across = dFdx(v_texel), texel = vec2(1.0, -1.0) / u_atlas.zw;
+  mat2 pixel = mat2(across * texel, dFdy(v_texel) * texel);
+  Meeting a = meet(view0, v_cell0, v_origins.xy, level, pixel), b = meet(view1, v_cell1, v_origins.zw, level, pixel);
+  COVER cover_ab = mix(a.cover, b.cover, between);
   float coverage = 1.0;
 #ifdef SMOOTH_EDGES
-  // Coverage is that of a texel; where a pixel is smaller, its own changes faster.
-  coverage = clamp((alpha - 0.5) * max(1.2, 1.2 * inversesqrt(max(dot(texel, texel), 0.01))) + 0.5, 0.0, 1.0);
+  // A sample is covered as a geometry's edge covers it, fully or not; what is thinner than a texel covers some of them. As many
+  // samples are written, by an alpha that drivers which round it and those which round it up take for the same number.
+  vec4 covered = clamp((cover_ab - 0.5) * 2.0 * max(1.0, inversesqrt(max(dot(across, across), 0.01))) + 0.5, 0.0, 1.0);
+  coverage = (floor(dot(covered, vec4(1.0)) + 0.5) - 0.3) * 0.25;
   if (coverage <= 0.0) discard;
+  float a_cover = dot(a.cover, vec4(0.25)), b_cover = dot(b.cover, vec4(0.25));
 #else
-  if (alpha < 0.5) discard;
+  if (cover_ab < 0.5) discard;
+  float a_cover = a.cover, b_cover = b.cover;
 #endif
   keep_share();
   // Where only one of the two shows the person, it alone counts; and where one sees what is hidden from the other, too.
-  float wa = (1.0 - between) * a.color.a, wb = between * b.color.a;
-  if (min(a.color.a, b.color.a) > 0.5) {
+  float wa = (1.0 - between) * a_cover, wb = between * b_cover;
+  if (min(a_cover, b_cover) > 0.5) {
     float apart = (a.along - b.along) * length(v_ray);
     wa *= 1.0 - smoothstep(0.04, 0.10, apart);
     wb *= 1.0 - smoothstep(0.04, 0.10, -apart);
   }
   float share = wb / max(wa + wb, 1e-4);
-  vec3 color = mix(a.color.rgb, b.color.rgb, share);
+  vec3 color = mix(a.color, b.color, share);
   vec3 n = turned(normalize(mix(normal_at(view0, a.at, level), normal_at(view1, b.at, level), share)));
   vec3 p = v_place.xyz + turned(v_point + v_ray * mix(a.along, b.along, share));
 #ifndef FLAT_DEPTH
