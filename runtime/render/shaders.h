@@ -115,7 +115,7 @@ layout(location = 1) in vec4 a_normal;    // and the picture's layer
 layout(location = 2) in vec2 a_uv;
 layout(location = 3) in vec4 a_color;
 centroid out vec3 v_position, v_normal;
-centroid out vec2 v_uv;
+out vec2 v_uv;
 centroid out vec4 v_color;
 out float v_haze;
 flat out float v_layer;
@@ -143,7 +143,7 @@ layout(location = 7) in vec4 a_look;      // row of the pose texture, share of t
 uniform highp sampler2D u_poses;
 #ifndef SHADOW
 centroid out vec3 v_position, v_normal;
-centroid out vec2 v_uv;
+out vec2 v_uv;
 centroid out vec4 v_color;
 out float v_haze;
 flat out float v_layer;
@@ -186,7 +186,7 @@ void main() {
 // SHARPER: mip levels towards the finer, where ground seen flat would blur without anisotropic filtering. MASKED: cut out by alpha. FADES: draws its share of the pattern. Without either the depth test can go first.
 inline constexpr const char* kSurfaceFragment = R"(
 centroid in vec3 v_position, v_normal;
-centroid in vec2 v_uv;
+in vec2 v_uv;
 centroid in vec4 v_color;
 in float v_haze;
 flat in float v_layer;
