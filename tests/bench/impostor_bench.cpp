@@ -1,0 +1,149 @@
+// What an impostor costs to bake and how exact its pictures are:
+//
+//   impostor_bench PERSON.glb [SAMPLES] [REFERENCE_SAMPLES]
+//
+// Bakes 16 directions x 8 phases of the walk at 128 px, once as by default (or with SAMPLES a pixel) and once with REFERENCE_SAMPLES
+// (64; 0: without), then the whole impostor's mip levels after compression against exact means of the finest.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "pipeline/impostor/atlas_layers.h"
+#include "pipeline/impostor/bake_impostor.h"
+#include "pipeline/io/gltf.h"
+#include "runtime/pack/ktx2.h"
+
+namespace flaneur {
+namespace {
+
+struct Rgba {
+  int width = 0, height = 0;
+  std::vector<uint8_t> bytes;
+};
+
+Rgba Decoded(const Image& image) {
+  OIIO::Filesystem::IOMemReader memory(const_cast<uint8_t*>(image.bytes.data()), image.bytes.size());
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  Rgba out;
+  const auto input = OIIO::ImageInput::open("atlas.png", &config, &memory);
+  if (!input) return out;
+  out.width = input->spec().width, out.height = input->spec().height;
+  out.bytes.resize(size_t{4} * static_cast<size_t>(out.width) * static_cast<size_t>(out.height));
+  input->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, out.bytes.data());
+  return out;
+}
+
+Vec3 NormalOf(const uint8_t* texel) {
+  const auto axis = [](uint8_t value) { return static_cast<float>(value) / 127.5f - 1; };
+  return Normalized(Vec3{axis(texel[0]), axis(texel[1]), axis(texel[2])});
+}
+
+void CompareSamples(const ImpostorAtlas& few, const ImpostorAtlas& many) {
+  const Rgba a = Decoded(few.albedo), b = Decoded(many.albedo), m = Decoded(few.normal), n = Decoded(many.normal);
+  double squares = 0, edge_squares = 0, degrees = 0;
+  size_t edges = 0, covered = 0;
+  for (size_t i = 0; i + 3 < a.bytes.size(); i += 4) {
+    const double off = a.bytes[i + 3] - b.bytes[i + 3];
+    squares += off * off;
+    if (b.bytes[i + 3] > 0 && b.bytes[i + 3] < 255) edge_squares += off * off, ++edges;
+    if (a.bytes[i + 3] < 128 || b.bytes[i + 3] < 128) continue;
+    const Vec3 u = NormalOf(&m.bytes[i]), v = NormalOf(&n.bytes[i]);
+    degrees += std::atan2(static_cast<double>(Length(Cross(u, v))), static_cast<double>(Dot(u, v))) * 180 / 3.14159265358979;
+    ++covered;
+  }
+  std::printf("alpha off by %.2f of 255 (root mean square; on edges alone %.2f), normals by %.2f degrees\n",
+              std::sqrt(4 * squares / static_cast<double>(a.bytes.size())), std::sqrt(edge_squares / static_cast<double>(edges)),
+              degrees / static_cast<double>(covered));
+}
+
+float Linear(uint8_t srgb) {
+  const float value = static_cast<float>(srgb) / 255;
+  return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
+double Srgb(float value) {
+  const double v = std::clamp(static_cast<double>(value), 0.0, 1.0);
+  return 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055);
+}
+
+AtlasLevel Finest(const Rgba& albedo) {
+  AtlasLevel level{albedo.width, albedo.height, {}};
+  for (size_t i = 0; i + 3 < albedo.bytes.size(); i += 4) {
+    const uint8_t* t = &albedo.bytes[i];
+    level.texels.push_back({static_cast<float>(t[3]) / 255, {Linear(t[0]), Linear(t[1]), Linear(t[2])}, {}, 0, {}});
+  }
+  return level;
+}
+
+void CompareLevels(const ImpostorAtlas& atlas) {
+  PackTexture texture;
+  if (ReadKtx2(atlas.albedo_ktx2, &texture)) return;
+  const std::vector<AtlasLevel> levels = MakeLevels(Finest(Decoded(atlas.albedo)));
+  const double share = CoveredShare(levels[0], 0.5f);
+  std::printf("level  covered  colour off by: edges (mean, root mean square)  inside (root mean square), of 255\n");
+  for (size_t k = 0; k < texture.levels.size(); ++k) {
+    const std::vector<uint8_t> seen = DecodeLevel(texture.format, levels[k].width, levels[k].height, texture.levels[k]);
+    double off[2] = {}, squares[2] = {};
+    size_t count[2] = {}, covered = 0;
+    for (size_t i = 0; i < levels[k].texels.size(); ++i) {
+      const AtlasTexel& texel = levels[k].texels[i];
+      covered += seen[4 * i + 3] >= 128;
+      if (texel.coverage <= 0) continue;
+      const size_t inside = texel.coverage >= 0.999f;
+      for (size_t c = 0; c < 3; ++c) {
+        const double d = seen[4 * i + c] - Srgb(texel.albedo[c]);
+        off[inside] += std::abs(d), squares[inside] += d * d, ++count[inside];
+      }
+    }
+    const auto n = [&](size_t inside) { return static_cast<double>(std::max<size_t>(1, count[inside])); };
+    std::printf("%5zu  %+.2f %%  %.2f %.2f  %.2f\n", k,
+                100 * (static_cast<double>(covered) / static_cast<double>(levels[k].texels.size()) - share), off[0] / n(0),
+                std::sqrt(squares[0] / n(0)), std::sqrt(squares[1] / n(1)));
+  }
+}
+
+Error Bake(const Avatar& avatar, const ImpostorOptions& options, ImpostorAtlas* atlas) {
+  ImpostorStatistics s;
+  if (Error e = BakeImpostor(avatar, options, atlas, &s)) return e;
+  std::printf("%d samples: Blender %.1f CPU seconds, %.0f MB; atlas %d x %d px, %.1f %% of its texels show the person, %.2f MB\n",
+              options.samples, s.blender_cpu_s, static_cast<double>(s.blender_peak_memory_bytes) / 1e6, s.width_px, s.height_px,
+              100 * s.fill_rate, static_cast<double>(s.memory_bytes) / 1e6);
+  std::fflush(stdout);
+  return Ok();
+}
+
+Error Run(int argc, char** argv) {
+  Avatar avatar;
+  std::vector<std::string> warnings;
+  if (Error e = ReadAvatar(argv[1], {}, &avatar, &warnings)) return e;
+  ImpostorOptions options, walk;
+  if (argc > 2) options.samples = std::atoi(argv[2]);
+  walk.samples = options.samples;
+  walk.clips = {{"walk", 8}};
+  ImpostorAtlas few, many, whole;
+  if (Error e = Bake(avatar, walk, &few)) return e;
+  walk.samples = argc > 3 ? std::atoi(argv[3]) : 64;
+  if (walk.samples > 0) {
+    if (Error e = Bake(avatar, walk, &many)) return e;
+    CompareSamples(few, many);
+  }
+  CompareLevels(few);
+  if (Error e = Bake(avatar, options, &whole)) return e;
+  return Ok();
+}
+
+}  // namespace
+}  // namespace flaneur
+
+int main(int argc, char** argv) {
+  if (argc < 2) return std::fprintf(stderr, "usage: impostor_bench PERSON.glb [SAMPLES] [REFERENCE_SAMPLES]\n"), 2;
+  const flaneur::Error error = flaneur::Run(argc, argv);
+  if (!error) return 0;
+  std::fprintf(stderr, "impostor_bench: error: %s\n", error.message.c_str());
+  return 1;
+}
