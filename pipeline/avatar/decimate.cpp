@@ -5,6 +5,7 @@
 #include <future>
 #include <memory>
 
+#include "pipeline/avatar/fit_look.h"
 #include "pipeline/avatar/fit_surface.h"
 #include "pipeline/avatar/level_error.h"
 #include "pipeline/avatar/material_atlas.h"
@@ -176,6 +177,7 @@ std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const std::vector
     }
     const auto fit = [&avatar, &fitter](WedgeSurface surface) {
       fitter->Fit(&surface);
+      FitLook(avatar.meshes, {}, &surface);
       return SplitWedges(surface, avatar.meshes);
     };
     meshes.push_back(std::async(std::launch::async, fit, decimater->Surface()));

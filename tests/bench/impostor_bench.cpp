@@ -59,6 +59,7 @@ void CompareSamples(const ImpostorAtlas& few, const ImpostorAtlas& many) {
   std::printf("alpha off by %.2f of 255 (root mean square; on edges alone %.2f), normals by %.2f degrees\n",
               std::sqrt(4 * squares / static_cast<double>(a.bytes.size())), std::sqrt(edge_squares / static_cast<double>(edges)),
               degrees / static_cast<double>(covered));
+  std::fflush(stdout);
 }
 
 float Linear(uint8_t srgb) {

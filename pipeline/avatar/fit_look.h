@@ -1,0 +1,20 @@
+// Turns the normals and mixes the vertex colours of a decimated surface so that it looks, between its corners, as the original does
+// there: least squares over points of the level, each tied to the nearest place of the original that faces the same way.
+#pragma once
+#include <vector>
+
+#include "pipeline/avatar/wedge_surface.h"
+#include "pipeline/core/mesh.h"
+
+namespace flaneur {
+
+struct LookOptions {
+  int samples = 20000;  // of the level
+  int rounds = 12;      // of solving
+};
+
+// In the bind pose. Wedges that meet in one vertex with the same normal or colour keep one in common. A level with more than half as
+// many faces as samples stays as it is.
+void FitLook(const std::vector<Mesh>& original, const LookOptions& options, WedgeSurface* level);
+
+}  // namespace flaneur
