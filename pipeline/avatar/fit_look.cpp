@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <random>
 
 #include "pipeline/avatar/surface_distance.h"
+#include "pipeline/avatar/surface_places.h"
 #include "pipeline/avatar/threads.h"
 
 namespace flaneur {
@@ -22,22 +22,18 @@ Vec4 operator+(Vec4 a, Vec4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + 
 Vec4 operator-(Vec4 a, Vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
 Vec4 operator*(Vec4 a, float s) { return {a.x * s, a.y * s, a.z * s, a.w * s}; }
 
-// One mesh of the original; levels look at places of the same mesh only.
+// One mesh of the original; points of the level look at the same mesh only.
 struct Original {
   const Mesh* mesh = nullptr;
-  std::vector<std::array<Vec3, 3>> triangles;
-  SurfaceTree tree;
+  Triangles triangles;
+  std::unique_ptr<SurfaceTree> tree;  // none without triangles
 };
 
-std::vector<std::unique_ptr<Original>> OriginalsOf(const std::vector<Mesh>& meshes) {
-  std::vector<std::unique_ptr<Original>> out;
+std::vector<Original> OriginalsOf(const std::vector<Mesh>& meshes) {
+  std::vector<Original> out;
   for (const Mesh& mesh : meshes) {
-    std::vector<std::array<Vec3, 3>> triangles;
-    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-      triangles.push_back({mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]], mesh.positions[mesh.indices[i + 2]]});
-    }
-    if (triangles.empty()) out.push_back(nullptr);
-    else out.push_back(std::make_unique<Original>(Original{&mesh, triangles, SurfaceTree(triangles)}));
+    Original& one = out.emplace_back(Original{&mesh, PosedTriangles({mesh}, nullptr), nullptr});
+    if (!one.triangles.empty()) one.tree = std::make_unique<SurfaceTree>(one.triangles);
   }
   return out;
 }
@@ -51,31 +47,13 @@ struct Tie {
   bool counts = false;
 };
 
-std::array<Vec3, 3> CornersOf(const WedgeSurface& level, const WedgeSurface::Face& face) {
-  std::array<Vec3, 3> corners;
-  for (size_t k = 0; k < 3; ++k) corners[k] = level.vertices[static_cast<size_t>(face.vertices[k])].position;
-  return corners;
-}
-
-// Points of the level, one in each of equal strips of its area, the same every time.
-std::vector<std::pair<size_t, std::array<float, 3>>> SpreadPoints(const WedgeSurface& level, int count) {
-  std::vector<double> sums;
-  double total = 0;
+Triangles TrianglesOf(const WedgeSurface& level) {
+  Triangles triangles;
   for (const auto& face : level.faces) {
-    const auto t = CornersOf(level, face);
-    sums.push_back(total += static_cast<double>(Length(Cross(t[1] - t[0], t[2] - t[0]))));
+    auto& corners = triangles.emplace_back();
+    for (size_t k = 0; k < 3; ++k) corners[k] = level.vertices[static_cast<size_t>(face.vertices[k])].position;
   }
-  std::mt19937 random(1);
-  const auto unit = [&random] { return static_cast<double>(random()) / 4294967296.0; };
-  std::vector<std::pair<size_t, std::array<float, 3>>> points;
-  size_t face = 0;
-  for (int i = 0; i < count; ++i) {
-    const double at = (i + unit()) / count * total;
-    while (face + 1 < sums.size() && sums[face] < at) ++face;
-    const auto root = static_cast<float>(std::sqrt(unit())), share = static_cast<float>(unit());
-    points.push_back({face, {1 - root, root * (1 - share), root * share}});
-  }
-  return points;
+  return triangles;
 }
 
 template <typename Value>
@@ -83,18 +61,17 @@ Value Mixed(const std::vector<Value>& values, const uint32_t* corners, const std
   return values[corners[0]] * shares[0] + values[corners[1]] * shares[1] + values[corners[2]] * shares[2];
 }
 
-Tie TieOf(const WedgeSurface& level, const std::vector<std::unique_ptr<Original>>& originals, size_t face_index,
-          const std::array<float, 3>& shares) {
-  const WedgeSurface::Face& face = level.faces[face_index];
-  Tie tie{face.wedges, shares, {}, {}, false};
-  const auto& original = originals[static_cast<size_t>(level.wedges[static_cast<size_t>(face.wedges[0])].mesh)];
-  if (!original) return tie;
-  const auto corners = CornersOf(level, face);
-  const auto found = original->tree.Find(corners[0] * shares[0] + corners[1] * shares[1] + corners[2] * shares[2]);
-  if (!(Dot(FaceNormal(original->triangles[found.triangle]), FaceNormal(corners)) > kSameSide)) return tie;
-  const uint32_t* there = &original->mesh->indices[size_t{3} * found.triangle];
-  if (!original->mesh->normals.empty()) tie.normal = Normalized(Mixed(original->mesh->normals, there, found.shares));
-  if (!original->mesh->colors.empty()) tie.color = Mixed(original->mesh->colors, there, found.shares);
+// `there`: the triangle that the place is in.
+Tie TieOf(const WedgeSurface& level, const std::vector<Original>& originals, const Place& place, const std::array<Vec3, 3>& there) {
+  const WedgeSurface::Face& face = level.faces[place.triangle];
+  Tie tie{face.wedges, place.shares, {}, {}, false};
+  const Original& original = originals[static_cast<size_t>(level.wedges[static_cast<size_t>(face.wedges[0])].mesh)];
+  if (!original.tree) return tie;
+  const auto found = original.tree->Find(At(there, place.shares));
+  if (!(Dot(FaceNormal(original.triangles[found.triangle]), FaceNormal(there)) > kSameSide)) return tie;
+  const uint32_t* corners = &original.mesh->indices[size_t{3} * found.triangle];
+  if (!original.mesh->normals.empty()) tie.normal = Normalized(Mixed(original.mesh->normals, corners, found.shares));
+  if (!original.mesh->colors.empty()) tie.color = Mixed(original.mesh->colors, corners, found.shares);
   tie.counts = true;
   return tie;
 }
@@ -168,11 +145,12 @@ std::vector<Value> ValuesOf(const WedgeSurface& level, const std::vector<int>& n
 
 void FitLook(const std::vector<Mesh>& original, const LookOptions& options, WedgeSurface* level) {
   if (2 * level->faces.size() > static_cast<size_t>(options.samples)) return;
-  const auto originals = OriginalsOf(original);
-  const auto points = SpreadPoints(*level, options.samples);
-  std::vector<Tie> ties(points.size());
+  const std::vector<Original> originals = OriginalsOf(original);
+  const Triangles triangles = TrianglesOf(*level);
+  const std::vector<Place> places = SpreadPlaces(triangles, options.samples);
+  std::vector<Tie> ties(places.size());
   RunOnThreads([&](size_t first, size_t step) {
-    for (size_t i = first; i < ties.size(); i += step) ties[i] = TieOf(*level, originals, points[i].first, points[i].second);
+    for (size_t i = first; i < ties.size(); i += step) ties[i] = TieOf(*level, originals, places[i], triangles[places[i].triangle]);
   });
   using Wedge = WedgeSurface::Wedge;
   const std::vector<int> normal_of = Alike(*level, [](const Wedge& a, const Wedge& b) { return Dot(a.normal, b.normal) > kSameNormal; });

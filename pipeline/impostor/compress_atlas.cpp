@@ -13,7 +13,7 @@
 namespace flaneur {
 namespace {
 
-constexpr float kUnseenWeight = 0.1f;  // of a gutter's colour
+constexpr float kUnseenWeight = 0.06f;  // of a gutter's colour
 
 uint8_t Quantized(float value) { return static_cast<uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255)); }
 

@@ -56,11 +56,39 @@ void DecodeMode5(BitReader bits, Texels* out) {
   }
 }
 
+// Modes 1 and 7: two pairs of ends. An end has `bits` bits and a last one: of the pair or of its own.
+void DecodePairs(BitReader bits, bool with_alpha, Texels* out) {
+  const auto partition = static_cast<size_t>(bits.Next(6));
+  const size_t channels = with_alpha ? 4 : 3;
+  const int width = with_alpha ? 5 : 6;
+  int ends[4][4];
+  for (size_t c = 0; c < channels; ++c) {
+    for (int& end : ends[c]) end = bits.Next(width) << 1;
+  }
+  int last[4];
+  for (size_t e = 0; e < 4; ++e) last[e] = with_alpha || e % 2 == 0 ? bits.Next(1) : last[e - 1];
+  for (size_t c = 0; c < channels; ++c) {
+    for (size_t e = 0; e < 4; ++e) {
+      const int value = ends[c][e] | last[e];
+      ends[c][e] = value << (7 - width) | value >> (2 * width - 6);
+    }
+  }
+  for (size_t i = 0; i < 16; ++i) {
+    const size_t pair = kBc7Partitions[partition] >> i & 1u;
+    const int less = i == 0 || i == kBc7Anchors[partition] ? 1 : 0;
+    const int weight = with_alpha ? kBc7TwoBitWeights[static_cast<size_t>(bits.Next(2 - less))]
+                                  : kBc7ThreeBitWeights[static_cast<size_t>(bits.Next(3 - less))];
+    (*out)[i][3] = 255;
+    for (size_t c = 0; c < channels; ++c) (*out)[i][c] = Between(ends[c][2 * pair], ends[c][2 * pair + 1], weight);
+  }
+}
+
 void DecodeBc7(const uint8_t* block, Texels* out) {
   *out = {};
   BitReader bits(block);
   int mode = 0;
   while (mode < 8 && bits.Next(1) == 0) ++mode;
+  if (mode == 1 || mode == 7) DecodePairs(bits, mode == 7, out);
   if (mode == 6) DecodeMode6(bits, out);
   if (mode == 5) DecodeMode5(bits, out);
 }

@@ -4,7 +4,6 @@
 //
 // Bakes 16 directions x 8 phases of the walk at 128 px, once as by default (or with SAMPLES a pixel) and once with REFERENCE_SAMPLES
 // (64; 0: without), then the whole impostor's mip levels after compression against exact means of the finest.
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -12,9 +11,11 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "pipeline/core/temporary_folder.h"
 #include "pipeline/impostor/atlas_layers.h"
 #include "pipeline/impostor/bake_impostor.h"
 #include "pipeline/io/gltf.h"
+#include "runtime/base/file.h"
 #include "runtime/pack/ktx2.h"
 
 namespace flaneur {
@@ -25,17 +26,18 @@ struct Rgba {
   std::vector<uint8_t> bytes;
 };
 
-Rgba Decoded(const Image& image) {
-  OIIO::Filesystem::IOMemReader memory(const_cast<uint8_t*>(image.bytes.data()), image.bytes.size());
+Error Decode(const Image& image, Rgba* out) {
+  TemporaryFolder folder;
+  if (Error e = folder.Create("flaneur_bench_")) return e;
+  const std::filesystem::path file = folder.path() / "atlas.png";
+  if (Error e = WriteFile(file, image.bytes)) return e;
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
-  Rgba out;
-  const auto input = OIIO::ImageInput::open("atlas.png", &config, &memory);
-  if (!input) return out;
-  out.width = input->spec().width, out.height = input->spec().height;
-  out.bytes.resize(size_t{4} * static_cast<size_t>(out.width) * static_cast<size_t>(out.height));
-  input->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, out.bytes.data());
-  return out;
+  const auto input = OIIO::ImageInput::open(file.string(), &config);
+  if (!input) return Fail(OIIO::geterror());
+  out->width = input->spec().width, out->height = input->spec().height;
+  out->bytes.resize(size_t{4} * static_cast<size_t>(out->width) * static_cast<size_t>(out->height));
+  return input->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, out->bytes.data()) ? Ok() : Fail(input->geterror());
 }
 
 Vec3 NormalOf(const uint8_t* texel) {
@@ -43,8 +45,12 @@ Vec3 NormalOf(const uint8_t* texel) {
   return Normalized(Vec3{axis(texel[0]), axis(texel[1]), axis(texel[2])});
 }
 
-void CompareSamples(const ImpostorAtlas& few, const ImpostorAtlas& many) {
-  const Rgba a = Decoded(few.albedo), b = Decoded(many.albedo), m = Decoded(few.normal), n = Decoded(many.normal);
+Error CompareSamples(const ImpostorAtlas& few, const ImpostorAtlas& many) {
+  Rgba a, b, m, n;
+  if (Error e = Decode(few.albedo, &a)) return e;
+  if (Error e = Decode(many.albedo, &b)) return e;
+  if (Error e = Decode(few.normal, &m)) return e;
+  if (Error e = Decode(many.normal, &n)) return e;
   double squares = 0, edge_squares = 0, degrees = 0;
   size_t edges = 0, covered = 0;
   for (size_t i = 0; i + 3 < a.bytes.size(); i += 4) {
@@ -60,6 +66,7 @@ void CompareSamples(const ImpostorAtlas& few, const ImpostorAtlas& many) {
               std::sqrt(4 * squares / static_cast<double>(a.bytes.size())), std::sqrt(edge_squares / static_cast<double>(edges)),
               degrees / static_cast<double>(covered));
   std::fflush(stdout);
+  return Ok();
 }
 
 float Linear(uint8_t srgb) {
@@ -81,10 +88,12 @@ AtlasLevel Finest(const Rgba& albedo) {
   return level;
 }
 
-void CompareLevels(const ImpostorAtlas& atlas) {
+Error CompareLevels(const ImpostorAtlas& atlas) {
   PackTexture texture;
-  if (ReadKtx2(atlas.albedo_ktx2, &texture)) return;
-  const std::vector<AtlasLevel> levels = MakeLevels(Finest(Decoded(atlas.albedo)));
+  Rgba albedo;
+  if (Error e = ReadKtx2(atlas.albedo_ktx2, &texture)) return e;
+  if (Error e = Decode(atlas.albedo, &albedo)) return e;
+  const std::vector<AtlasLevel> levels = MakeLevels(Finest(albedo));
   const double share = CoveredShare(levels[0], 0.5f);
   std::printf("level  covered  colour off by: edges (mean, root mean square)  inside (root mean square), of 255\n");
   for (size_t k = 0; k < texture.levels.size(); ++k) {
@@ -106,6 +115,7 @@ void CompareLevels(const ImpostorAtlas& atlas) {
                 100 * (static_cast<double>(covered) / static_cast<double>(levels[k].texels.size()) - share), off[0] / n(0),
                 std::sqrt(squares[0] / n(0)), std::sqrt(squares[1] / n(1)));
   }
+  return Ok();
 }
 
 Error Bake(const Avatar& avatar, const ImpostorOptions& options, ImpostorAtlas* atlas) {
@@ -131,11 +141,10 @@ Error Run(int argc, char** argv) {
   walk.samples = argc > 3 ? std::atoi(argv[3]) : 64;
   if (walk.samples > 0) {
     if (Error e = Bake(avatar, walk, &many)) return e;
-    CompareSamples(few, many);
+    if (Error e = CompareSamples(few, many)) return e;
   }
-  CompareLevels(few);
-  if (Error e = Bake(avatar, options, &whole)) return e;
-  return Ok();
+  if (Error e = CompareLevels(few)) return e;
+  return Bake(avatar, options, &whole);
 }
 
 }  // namespace

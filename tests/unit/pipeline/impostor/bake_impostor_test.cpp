@@ -352,6 +352,46 @@ TEST(BlockCompression, ComesNearPersonsColours) {
   }
 }
 
+// Two cloths that meet within a block, each woven of two shades; with an outline beside them, and without.
+TEST(BlockCompression, HoldsTwoClothsInOneBlock) {
+  std::array<float, 16> weights{};
+  weights.fill(1);
+  for (const bool outline : {false, true}) {
+    BlockTexels texels{};
+    for (size_t i = 0; i < 16; ++i) {
+      const auto shade = static_cast<uint8_t>(i % 2 * 12);
+      texels[i] = i % 4 < 2 ? std::array<uint8_t, 4>{static_cast<uint8_t>(200 - shade), 40, 30, 255}
+                            : std::array<uint8_t, 4>{20, 60, static_cast<uint8_t>(150 + shade), 255};
+      if (outline && i < 4) texels[i][3] = 60;
+    }
+    std::vector<uint8_t> block(16);
+    CompressBc7(texels, weights, std::span<uint8_t, 16>(block.data(), 16));
+    const std::vector<uint8_t> decoded = DecodeLevel(TextureFormat::kBc7Srgb, 4, 4, block);
+    double squares = 0;
+    for (size_t i = 0; i < 64; ++i) squares += std::pow(decoded[i] - texels[i / 4][i % 4], 2);
+    EXPECT_LT(std::sqrt(squares / 64), outline ? 8 : 2);
+  }
+}
+
+// Blocks with two pairs of ends, and what another program (Pillow) decodes them to.
+TEST(BlockCompression, IsReadAsOthersReadIt) {
+  const std::vector<uint8_t> opaque{0x06, 0xc6, 0x03, 0x41, 0xc4, 0x30, 0x18, 0xc2, 0x30, 0x18, 0x87, 0x3d, 0x50, 0xc6, 0xe5, 0x3f};
+  const std::vector<uint8_t> edge{0x80, 0x0e, 0x5a, 0x27, 0x89, 0x11, 0x84, 0x18, 0x41, 0x7c, 0xfb, 0x3f, 0x83, 0xa9, 0xa9, 0x2a};
+  const std::vector<uint8_t> a = DecodeLevel(TextureFormat::kBc7Srgb, 4, 4, opaque);
+  const std::vector<uint8_t> b = DecodeLevel(TextureFormat::kBc7Srgb, 4, 4, edge);
+  const auto texel = [](const std::vector<uint8_t>& all, size_t i) {
+    return std::vector<uint8_t>(all.begin() + static_cast<std::ptrdiff_t>(4 * i), all.begin() + static_cast<std::ptrdiff_t>(4 * i + 4));
+  };
+  EXPECT_EQ(texel(a, 0), (std::vector<uint8_t>{31, 17, 11, 255}));
+  EXPECT_EQ(texel(a, 3), (std::vector<uint8_t>{66, 26, 26, 255}));
+  EXPECT_EQ(texel(a, 12), (std::vector<uint8_t>{62, 14, 14, 255}));
+  EXPECT_EQ(texel(a, 15), (std::vector<uint8_t>{66, 14, 14, 255}));
+  EXPECT_EQ(texel(b, 0), (std::vector<uint8_t>{65, 16, 16, 251}));
+  EXPECT_EQ(texel(b, 3), (std::vector<uint8_t>{89, 24, 24, 178}));
+  EXPECT_EQ(texel(b, 7), (std::vector<uint8_t>{77, 20, 20, 255}));
+  EXPECT_EQ(texel(b, 15), (std::vector<uint8_t>{60, 12, 12, 255}));
+}
+
 TEST(NormalSquare, HoldsEveryDirectionTowardsTheCamera) {
   for (int i = 0; i < 200; ++i) {
     const float z = float(i) / 199, r = std::sqrt(1 - z * z), a = float(i) * 2.4f;
