@@ -147,11 +147,11 @@ class BoxImpostor : public testing::Test {
     return texture;
   }
 
-  static void ExpectColor(const uint8_t* texel, Rgb color) {
+  static void ExpectColor(const uint8_t* texel, Rgb color, int least_alpha = 255) {
     EXPECT_NEAR(texel[0], color.r, 1);
     EXPECT_NEAR(texel[1], color.g, 1);
     EXPECT_NEAR(texel[2], color.b, 1);
-    EXPECT_EQ(texel[3], 255);
+    EXPECT_GE(texel[3], least_alpha);
   }
 
   static inline Error error_;
@@ -253,11 +253,11 @@ TEST_F(BoxImpostor, CompressedPicturesShowTheSame) {
   EXPECT_EQ(TextureBytes(albedo) + TextureBytes(depth) + TextureBytes(normal) + TextureBytes(motion), statistics_.memory_bytes);
   const int width = atlas_.width_px, height = atlas_.height_px;
   const Pixels seen{width, height, DecodeLevel(albedo.format, width, height, albedo.levels[0])};
-  for (int d = 0; d < 4; ++d) ExpectColor(At(seen, d, 0, 0.2f), kFaces[d]);
+  for (int d = 0; d < 4; ++d) ExpectColor(At(seen, d, 0, 0.2f), kFaces[d], 253);
   const std::vector<uint8_t> depths = DecodeLevel(depth.format, width, height, depth.levels[0]);
   const std::vector<uint8_t> normals = DecodeLevel(normal.format, width, height, normal.levels[0]);
   for (size_t i = 0; i < depths.size(); ++i) {
-    if (seen.rgba[4 * i + 3] < 255) continue;
+    if (seen.rgba[4 * i + 3] < 253) continue;
     EXPECT_NEAR(normals[2 * i], 128, 1) << "every face looks at its camera";
     EXPECT_NEAR(normals[2 * i + 1], 128, 1);
     EXPECT_NEAR(depths[i], normal_.rgba[4 * i + 3], 3);
