@@ -186,6 +186,7 @@ Error MakeImpostor(Baking* baking, size_t i) {
     report->peak_mb = static_cast<double>(statistics.blender_peak_memory_bytes) / 1e6;
     report->figures = {{"cells", statistics.cells},
                        {"fill_rate", statistics.fill_rate},
+                       {"texture_mb", static_cast<double>(statistics.memory_bytes) / 1e6},
                        {"blender_cpu_s", statistics.blender_cpu_s}};
     report->picture_png = ImpostorThumbnail(avatar->impostor);
     return Ok();
