@@ -17,7 +17,7 @@ struct LevelsOptions {
   float error_px = 1;      // on the screen: that much of a level's error may show
   int max_triangles = 0;   // of level 0; 0: no limit
   int min_triangles = 16;  // no level has fewer, unless the original has
-  // Points per surface that the deviation is measured at, besides as many of its vertices.
+  // Points per surface that the deviation is measured at, besides its vertices.
   int error_samples = 3000;
   int walk_poses = 8;  // that posed_error_mm is measured over
 };

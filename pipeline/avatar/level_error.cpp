@@ -11,6 +11,8 @@
 namespace flaneur {
 namespace {
 
+constexpr size_t kMostCorners = 6000;
+
 // Points that move with a surface: evenly spread ones and corners, where distances are greatest.
 std::vector<Place> PlacesOn(const std::vector<Mesh>& meshes, const Triangles& triangles,
                             int samples) {
@@ -28,7 +30,7 @@ std::vector<Place> PlacesOn(const std::vector<Mesh>& meshes, const Triangles& tr
       }
     }
   }
-  const size_t step = 1 + corners.size() / static_cast<size_t>(std::max(samples, 1));
+  const size_t step = 1 + corners.size() / kMostCorners;
   for (size_t i = 0; i < corners.size(); i += step) places.push_back(corners[i]);
   return places;
 }
@@ -57,9 +59,11 @@ class Follower {
 
   // The greatest distance of its points from the other surface. `guesses`: one a point.
   float FarthestFrom(const Follower& other, std::vector<uint32_t>* guesses) const {
+    const bool first_time = guesses->empty();
     guesses->resize(surface_.places.size(), 0);
     float greatest = 0;
     for (size_t i = 0; i < guesses->size(); ++i) {
+      if (first_time && i > 0) (*guesses)[i] = (*guesses)[i - 1];  // most lie beside the one before
       const Place& place = surface_.places[i];
       const Vec3 point = At(triangles_[place.triangle], place.shares);
       greatest = other.tree_.AtLeast(point, greatest, &(*guesses)[i]);

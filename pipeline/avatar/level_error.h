@@ -7,8 +7,8 @@
 namespace flaneur {
 
 // Sets error_mm and posed_error_mm of each level: the greatest of the distances of `samples` points
-// and as many vertices of each surface from the other, over `walk_poses` moments of the walk. The
-// same result on any number of threads.
+// and up to 6,000 vertices of each surface from the other, over `walk_poses` moments of the walk.
+// The same result on any number of threads.
 void MeasureLevels(const Avatar& original, int samples, int walk_poses,
                    std::vector<AvatarLevel>* levels);
 
