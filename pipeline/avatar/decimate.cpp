@@ -162,6 +162,7 @@ std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const std::vector
   const std::vector<std::vector<Mat4>> poses = WalkPoses(avatar, kQuadricPoses);
   std::unique_ptr<QuadricDecimater> decimater;
   std::unique_ptr<SurfaceFitter> fitter;
+  std::unique_ptr<LookFitter> look;
   std::vector<std::future<std::vector<Mesh>>> meshes;
   for (const int target : targets) {
     if (target >= original) {
@@ -170,14 +171,15 @@ std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const std::vector
     }
     if (!decimater) decimater = std::make_unique<QuadricDecimater>(avatar.meshes, poses);
     if (!fitter) fitter = std::make_unique<SurfaceFitter>(avatar.meshes, poses);
+    if (!look) look = std::make_unique<LookFitter>(avatar.meshes);
     decimater->DecimateTo(target);
     const float most = (1 + kTargetTolerance) * static_cast<float>(target);
     if (static_cast<float>(decimater->Triangles()) > most) {
       warnings->push_back(Missed(avatar, decimater->Triangles(), target));
     }
-    const auto fit = [&avatar, &fitter](WedgeSurface surface) {
+    const auto fit = [&avatar, &fitter, &look](WedgeSurface surface) {
       fitter->Fit(&surface);
-      FitLook(avatar.meshes, {}, &surface);
+      look->Fit(&surface);
       return SplitWedges(surface, avatar.meshes);
     };
     meshes.push_back(std::async(std::launch::async, fit, decimater->Surface()));

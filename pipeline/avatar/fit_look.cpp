@@ -9,6 +9,14 @@
 #include "pipeline/avatar/threads.h"
 
 namespace flaneur {
+
+// One mesh of the original; points of the level look at the same mesh only.
+struct LookOriginal {
+  const Mesh* mesh = nullptr;
+  Triangles triangles;
+  std::unique_ptr<SurfaceTree> tree;  // none without triangles
+};
+
 namespace {
 
 constexpr float kSameSide = 0.3f;     // cosine between normals of places that belong together
@@ -21,22 +29,6 @@ Vec3 FaceNormal(const std::array<Vec3, 3>& t) { return Normalized(Cross(t[1] - t
 Vec4 operator+(Vec4 a, Vec4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
 Vec4 operator-(Vec4 a, Vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
 Vec4 operator*(Vec4 a, float s) { return {a.x * s, a.y * s, a.z * s, a.w * s}; }
-
-// One mesh of the original; points of the level look at the same mesh only.
-struct Original {
-  const Mesh* mesh = nullptr;
-  Triangles triangles;
-  std::unique_ptr<SurfaceTree> tree;  // none without triangles
-};
-
-std::vector<Original> OriginalsOf(const std::vector<Mesh>& meshes) {
-  std::vector<Original> out;
-  for (const Mesh& mesh : meshes) {
-    Original& one = out.emplace_back(Original{&mesh, PosedTriangles({mesh}, nullptr), nullptr});
-    if (!one.triangles.empty()) one.tree = std::make_unique<SurfaceTree>(one.triangles);
-  }
-  return out;
-}
 
 // What a point of the level should look like.
 struct Tie {
@@ -62,10 +54,10 @@ Value Mixed(const std::vector<Value>& values, const uint32_t* corners, const std
 }
 
 // `there`: the triangle that the place is in.
-Tie TieOf(const WedgeSurface& level, const std::vector<Original>& originals, const Place& place, const std::array<Vec3, 3>& there) {
+Tie TieOf(const WedgeSurface& level, const std::vector<LookOriginal>& originals, const Place& place, const std::array<Vec3, 3>& there) {
   const WedgeSurface::Face& face = level.faces[place.triangle];
   Tie tie{face.wedges, place.shares, {}, {}, false};
-  const Original& original = originals[static_cast<size_t>(level.wedges[static_cast<size_t>(face.wedges[0])].mesh)];
+  const LookOriginal& original = originals[static_cast<size_t>(level.wedges[static_cast<size_t>(face.wedges[0])].mesh)];
   if (!original.tree) return tie;
   const auto found = original.tree->Find(At(there, place.shares));
   if (!(Dot(FaceNormal(original.triangles[found.triangle]), FaceNormal(there)) > kSameSide)) return tie;
@@ -143,25 +135,33 @@ std::vector<Value> ValuesOf(const WedgeSurface& level, const std::vector<int>& n
 
 }  // namespace
 
-void FitLook(const std::vector<Mesh>& original, const LookOptions& options, WedgeSurface* level) {
-  if (2 * level->faces.size() > static_cast<size_t>(options.samples)) return;
-  const std::vector<Original> originals = OriginalsOf(original);
+LookFitter::LookFitter(const std::vector<Mesh>& original, const LookOptions& options) : options_(options) {
+  for (const Mesh& mesh : original) {
+    LookOriginal& one = originals_.emplace_back(LookOriginal{&mesh, PosedTriangles({mesh}, nullptr), nullptr});
+    if (!one.triangles.empty()) one.tree = std::make_unique<SurfaceTree>(one.triangles);
+  }
+}
+
+LookFitter::~LookFitter() = default;
+
+void LookFitter::Fit(WedgeSurface* level) const {
+  if (2 * level->faces.size() > static_cast<size_t>(options_.samples)) return;
   const Triangles triangles = TrianglesOf(*level);
-  const std::vector<Place> places = SpreadPlaces(triangles, options.samples);
+  const std::vector<Place> places = SpreadPlaces(triangles, options_.samples);
   std::vector<Tie> ties(places.size());
   RunOnThreads([&](size_t first, size_t step) {
-    for (size_t i = first; i < ties.size(); i += step) ties[i] = TieOf(*level, originals, places[i], triangles[places[i].triangle]);
+    for (size_t i = first; i < ties.size(); i += step) ties[i] = TieOf(*level, originals_, places[i], triangles[places[i].triangle]);
   });
   using Wedge = WedgeSurface::Wedge;
   const std::vector<int> normal_of = Alike(*level, [](const Wedge& a, const Wedge& b) { return Dot(a.normal, b.normal) > kSameNormal; });
   std::vector<Vec3> normals = ValuesOf(*level, normal_of, &Wedge::normal);
-  Solve(ties, normal_of, &Tie::normal, options.rounds, &normals);
+  Solve(ties, normal_of, &Tie::normal, options_.rounds, &normals);
   const std::vector<int> color_of = Alike(*level, [](const Wedge& a, const Wedge& b) {
     const Vec4 d = a.color - b.color;
     return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z), std::abs(d.w)}) < kSameColor;
   });
   std::vector<Vec4> colors = ValuesOf(*level, color_of, &Wedge::color);
-  Solve(ties, color_of, &Tie::color, options.rounds, &colors);
+  Solve(ties, color_of, &Tie::color, options_.rounds, &colors);
   for (size_t w = 0; w < level->wedges.size(); ++w) {
     if (normal_of[w] < 0) continue;
     Wedge& wedge = level->wedges[w];

@@ -13,8 +13,21 @@ struct LookOptions {
   int rounds = 12;      // of solving
 };
 
-// In the bind pose. Wedges that meet in one vertex with the same normal or colour keep one in common. A level with more than half as
-// many faces as samples stays as it is.
-void FitLook(const std::vector<Mesh>& original, const LookOptions& options, WedgeSurface* level);
+struct LookOriginal;
+
+// Keeps what all levels of one original, which must outlive this, have in common.
+class LookFitter {
+ public:
+  explicit LookFitter(const std::vector<Mesh>& original, const LookOptions& options = {});
+  ~LookFitter();
+
+  // In the bind pose. Wedges that meet in one vertex with the same normal or colour keep one in common. A level with more than half as
+  // many faces as samples stays as it is.
+  void Fit(WedgeSurface* level) const;
+
+ private:
+  LookOptions options_;
+  std::vector<LookOriginal> originals_;  // one a mesh
+};
 
 }  // namespace flaneur

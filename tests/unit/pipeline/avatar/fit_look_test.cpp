@@ -46,10 +46,10 @@ std::pair<double, double> Off(const WedgeSurface& surface) {
   return {degrees / corners, off / corners};
 }
 
-TEST(FitLook, CoarseSurfaceTakesTheOriginalsNormalsAndColours) {
+TEST(LookFitter, CoarseSurfaceTakesTheOriginalsNormalsAndColours) {
   WedgeSurface level = JoinWedges({Ball(8, 0.3f)});
   const auto before = Off(level);
-  FitLook({Ball(40, 0)}, {}, &level);
+  LookFitter(std::vector<Mesh>{Ball(40, 0)}).Fit(&level);
   const auto after = Off(level);
   EXPECT_GT(before.first, 15);
   EXPECT_LT(after.first, 1.5);
@@ -57,23 +57,23 @@ TEST(FitLook, CoarseSurfaceTakesTheOriginalsNormalsAndColours) {
   EXPECT_LT(after.second, 0.02);
 }
 
-TEST(FitLook, CreaseStays) {
+TEST(LookFitter, CreaseStays) {
   // Two walls of a corner: each keeps its own normal where they meet.
   Mesh corner;
   corner.positions = {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}};
   for (int i = 0; i < 8; ++i) corner.normals.push_back(i < 4 ? Vec3{0, 0, -1} : Vec3{-1, 0, 0});
   corner.indices = {0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6};
   WedgeSurface level = JoinWedges({corner});
-  FitLook({corner}, {}, &level);
+  LookFitter(std::vector<Mesh>{corner}).Fit(&level);
   for (const auto& wedge : level.wedges) EXPECT_GT(std::max(-wedge.normal.x, -wedge.normal.z), 0.999f);
 }
 
-TEST(FitLook, WithoutNormalsNothingChanges) {
+TEST(LookFitter, WithoutNormalsNothingChanges) {
   Mesh bare = Ball(6, 0);
   bare.normals.clear();
   bare.colors.clear();
   WedgeSurface level = JoinWedges({bare});
-  FitLook({bare}, {}, &level);
+  LookFitter(std::vector<Mesh>{bare}).Fit(&level);
   for (const auto& wedge : level.wedges) EXPECT_EQ(Length(wedge.normal), 0);
 }
 
