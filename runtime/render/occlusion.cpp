@@ -114,9 +114,18 @@ void FinishOcclusion(OcclusionMap* map) {
 
 bool MayBeSeen(const OcclusionMap& map, const Box& box, bool finished) {
   float left = 1e30f, right = -1e30f, low = 1e30f, high = -1e30f, nearness = 0;
+  const Clip corner = ToClip(map.view_projection, box.low);
+  const Vec3 size = box.high - box.low;
+  const auto edge = [&](size_t axis, float length) {
+    const auto& column = map.view_projection.m[axis];
+    return Clip{column[0] * length, column[1] * length, column[3] * length};
+  };
+  const Clip edges[] = {edge(0, size.x), edge(1, size.y), edge(2, size.z)};
   for (int k = 0; k < 8; ++k) {
-    const Vec3 p{k & 1 ? box.high.x : box.low.x, k & 2 ? box.high.y : box.low.y, k & 4 ? box.high.z : box.low.z};
-    const Clip c = ToClip(map.view_projection, p);
+    Clip c = corner;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (k >> axis & 1) c = {c.x + edges[axis].x, c.y + edges[axis].y, c.w + edges[axis].w};
+    }
     if (c.w < kNear_m) return true;
     const Corner s = OnScreen(c);
     left = std::min(left, s.x), right = std::max(right, s.x), low = std::min(low, s.y), high = std::max(high, s.y);

@@ -219,10 +219,17 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     if (key >= meshes) return PeopleBatch{(key - meshes) % count, -1, true, 0, 0};
     return PeopleBatch{key / (2 * levels), key / 2 % levels, key % 2 == 1, 0, 0};
   };
+  out->shadow_entries.clear();
   for (size_t i = 0; i < people.size(); ++i) {
     const DrawnPerson& person = people[i];
     const auto index = static_cast<size_t>(person.avatar);
+    const auto number = static_cast<uint32_t>(i);
     const Box box = BoxOf(person, avatars[index]);
+    const float distance_m = Length(GltfFromGround(person.position) - sight.eye);
+    const bool half = person.share_to - person.share_from >= 0.5f;  // of the two of a fade one casts the shadow
+    if (half && ready[index].shadow && distance_m < sight.shadow_reach_m && MayTouch(sight.frustum, WithShadow(box, sight.to_sun))) {
+      out->shadow_entries.push_back({number, person.avatar, 0});
+    }
     if (!MayTouch(sight.frustum, box) || (sight.walls != nullptr && !MayBeSeen(*sight.walls, box, true))) {
       ++out->hidden;
       continue;
@@ -230,10 +237,8 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     const int level = ReadyLevel(person.level, avatars[index].levels, ready[index]);
     if (level == kNoLevel) continue;
     const int fades = person.share_from > 0 || person.share_to < 1 ? 1 : 0;
-    const float distance_m = Length(GltfFromGround(person.position) - sight.eye);
     const int far = distance_m > kFarImpostor_m ? count : 0;
-    out->entries.push_back({static_cast<uint32_t>(i), level < 0 ? meshes + far + person.avatar : (person.avatar * levels + level) * 2 + fades,
-                            StepOf(distance_m)});
+    out->entries.push_back({number, level < 0 ? meshes + far + person.avatar : (person.avatar * levels + level) * 2 + fades, StepOf(distance_m)});
   }
   Gather(meshes + 2 * count, batch_of, [&](const PeopleBatches::Entry& e) {
     const DrawnPerson& person = people[e.person];
@@ -241,15 +246,7 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     if (e.key >= meshes) return AsImpostor(person, avatar, sight.eye);
     return Placed(person, static_cast<float>(AddPose(person, avatar, out)), 0);
   }, out, &out->seen);
-
-  for (size_t i = 0; i < people.size(); ++i) {
-    const DrawnPerson& person = people[i];
-    const auto index = static_cast<size_t>(person.avatar);
-    const bool half = person.share_to - person.share_from >= 0.5f;  // of the two of a fade one casts the shadow
-    if (!half || !ready[index].shadow || Length(GltfFromGround(person.position) - sight.eye) > sight.shadow_reach_m) continue;
-    if (!MayTouch(sight.frustum, WithShadow(BoxOf(person, avatars[index]), sight.to_sun))) continue;
-    out->entries.push_back({static_cast<uint32_t>(i), person.avatar, 0});
-  }
+  std::swap(out->entries, out->shadow_entries);
   Gather(count, [](int key) { return PeopleBatch{key, 0, false, 0, 0}; }, [&](const PeopleBatches::Entry& e) {
     return AsShadow(people[e.person], avatars[static_cast<size_t>(people[e.person].avatar)]);
   }, out, &out->shadows);

@@ -59,7 +59,7 @@ struct PeopleBatches {
   int hidden = 0;                    // left out because the picture cannot show them
 
   struct Entry { uint32_t person = 0; int key = 0, step = 0; };
-  std::vector<Entry> entries;        // scratch
+  std::vector<Entry> entries, shadow_entries;  // scratch
   std::vector<size_t> counts;
 };
 
