@@ -1,0 +1,42 @@
+// One visit: what stands behind a window, picture by picture, whatever the hands do.
+#pragma once
+#include <memory>
+
+#include "runtime/base/error.h"
+#include "runtime/player/loading.h"
+#include "runtime/player/records.h"
+#include "runtime/player/user_settings.h"
+#include "runtime/player/simulation.h"
+#include "runtime/render/frame.h"
+#include "runtime/render/window_input.h"
+
+namespace flaneur {
+
+// Needs a current OpenGL context for its whole life, and what it is given as long.
+class Visit {
+ public:
+  Visit(const TourPack& pack, Loader* loader, UserSettings* user, Simulation* simulation);
+  ~Visit();
+  // Errors: those of Renderer::Begin.
+  Error Begin();
+  // Uploads some of what has been loaded; `there` becomes true once there is enough for a picture. Errors: those of the pack.
+  Error Load(bool* there);
+  // Once after Load. views: the plan and the graphs are shown.
+  Error Enter(bool views);
+
+  // The next picture, of a window of this size, passed_s after the one before; 0 pixels: the window is hidden. Each step of the
+  // simulation goes into `records`. Errors: those of the pack, which still streams in.
+  Error Picture(const WindowInput& input, int width_px, int height_px, float passed_s, Records* records);
+  void Present();               // onto the window's surface
+  void Leave();                 // saves what the visitor has changed
+  bool ends() const;            // the visitor wants to
+  bool frees_pointer() const;   // to point at things with; else the mouse is caught
+  bool shows_pages() const;
+  const FrameStatistics& statistics() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace flaneur
