@@ -28,6 +28,10 @@ def shared_data(path):
     return full
 
 
+def has_tools(*tools):
+    return all(shutil.which(tool) for tool in tools)
+
+
 def split_glb(path):
     """A GLB's JSON as a dict, and its binary chunk."""
     data = pathlib.Path(path).read_bytes()
