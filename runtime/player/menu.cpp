@@ -318,8 +318,11 @@ void TakePageInput(const WindowInput& input, Menu* menu, Controls* c) {
   menu->was_down = input.down;
   menu->lets_go = menu->rebinds || (menu->lets_go && input.down.any());
   if (menu->page == Page::kNone) return;
-  const auto& of_pages = c->codes[static_cast<size_t>(Action::kMenu)];
-  const bool back = std::any_of(of_pages.begin(), of_pages.end(), [&](int code) { return pressed[static_cast<size_t>(code)]; });
+  const auto is_pressed = [&](Action action) {
+    const auto& codes = c->codes[static_cast<size_t>(action)];
+    return std::any_of(codes.begin(), codes.end(), [&](int code) { return pressed[static_cast<size_t>(code)]; });
+  };
+  const bool back = is_pressed(Action::kMenu);
   if (menu->rebinds) {
     if (back) menu->rebinds.reset();
     for (int code = 0; code < kInputCodes && menu->rebinds; ++code) {
@@ -328,6 +331,7 @@ void TakePageInput(const WindowInput& input, Menu* menu, Controls* c) {
     }
     return;
   }
+  c->quits = c->quits || is_pressed(Action::kQuit);
   if (back || pressed[static_cast<size_t>(InputCode("pad_b"))]) OpenPage(menu->page == Page::kMain ? Page::kNone : Page::kMain, menu);
 }
 

@@ -1,5 +1,6 @@
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <thread>
 
@@ -14,10 +15,16 @@ namespace {
 
 std::string Title(const std::string& name, double frames_per_s, const Simulation& s, const FrameStatistics& statistics) {
   char title[200];
-  std::snprintf(title, sizeof title, "%s%s - %.0f frames/s, %zu people, %lld triangles", name.c_str(),
-                s.tour.paused && HasTour(s.tour) ? " - tour paused" : "", frames_per_s, s.crowd.size(),
+  const char* tour = s.tour.over ? " - tour over" : s.tour.paused && HasTour(s.tour) ? " - tour paused" : "";
+  std::snprintf(title, sizeof title, "%s%s - %.0f frames/s, %zu people, %lld triangles", name.c_str(), tour, frames_per_s, s.crowd.size(),
                 static_cast<long long>(statistics.people_triangles + statistics.town_triangles));
   return title;
+}
+
+// Nothing can be tidied up in here: what the visitor changed was saved when the pages closed.
+void EndWithoutWindow(const char* why) {
+  std::fprintf(stderr, "flaneur-player: error: %s\n", why);
+  std::_Exit(2);
 }
 
 // Until there is enough for a picture; `closed`: the window was, meanwhile.
@@ -34,7 +41,7 @@ Error WaitForTown(Window* window, Visit* visit, bool* closed) {
 
 Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* loader, UserSettings* user, Simulation* s) {
   Window window;
-  if (Error e = window.Create(options.width_px, options.height_px, pack.name.c_str())) return e;
+  if (Error e = window.Create(options.width_px, options.height_px, pack.name.c_str(), EndWithoutWindow)) return e;
   Visit visit(pack, loader, user, s);
   if (Error e = visit.Begin()) return e;
   bool closed = false;

@@ -7,7 +7,10 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <dlfcn.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 #include "runtime/render/gamepad_codes.h"
@@ -29,6 +32,9 @@ HeadlessContext::~HeadlessContext() {
 }
 
 namespace {
+
+// What is wrong is said in one line of ours.
+void KeepEglQuiet() { ::setenv("EGL_LOG_LEVEL", "fatal", 0); }
 
 EGLDisplay OpenDisplay() {
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -57,6 +63,7 @@ EGLDisplay OpenDisplay() {
 }  // namespace
 
 Error HeadlessContext::Create() {
+  KeepEglQuiet();
   impl_->display = OpenDisplay();
   if (impl_->display == EGL_NO_DISPLAY) {
     return Fail("no OpenGL without a display on this machine: install the Debian package libgl1-mesa-dri, or add --no-draw");
@@ -70,7 +77,7 @@ Error HeadlessContext::Create() {
   impl_->context = eglCreateContext(impl_->display, count > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, context_attributes);
   if (impl_->context == EGL_NO_CONTEXT ||
       !eglMakeCurrent(impl_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, impl_->context)) {
-    return Fail("OpenGL ES 3.0 is not available on this machine; add --no-draw");
+    return Fail("this machine's graphics driver has no OpenGL ES 3.0: update it, or draw in software with LIBGL_ALWAYS_SOFTWARE=1");
   }
   return Ok();
 }
@@ -102,6 +109,22 @@ void ReadGamepad(WindowInput* input) {
   }
 }
 
+void (*on_loss)(const char* why) = nullptr;
+
+// Xlib ends the program by itself when its server or one of our windows is gone, and says so in its own words. It is there only
+// where GLFW brings it along.
+void NoticeLoss(void (*lost)(const char* why)) {
+  on_loss = lost;
+  using SetHandler = void (*)(int (*)(void*));
+  using SetErrorHandler = void (*)(int (*)(void*, void*));
+  if (void* set = ::dlsym(RTLD_DEFAULT, "XSetIOErrorHandler")) {
+    reinterpret_cast<SetHandler>(set)([](void*) { return on_loss("the connection to the display was lost"), 0; });
+  }
+  if (void* set = ::dlsym(RTLD_DEFAULT, "XSetErrorHandler")) {
+    reinterpret_cast<SetErrorHandler>(set)([](void*, void*) { return on_loss("the window was taken away"), 0; });
+  }
+}
+
 }  // namespace
 
 struct Window::Impl {
@@ -117,14 +140,19 @@ Window::~Window() {
   glfwTerminate();
 }
 
-Error Window::Create(int width_px, int height_px, const char* title) {
+Error Window::Create(int width_px, int height_px, const char* title, void (*lost)(const char* why)) {
+  KeepEglQuiet();
   if (!glfwInit()) return Fail("there is no display for a window; add --headless");
   glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_ES_API);
   glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
   impl_->window = glfwCreateWindow(width_px, height_px, title, nullptr, nullptr);
-  if (impl_->window == nullptr) return Fail("no window with OpenGL ES 3.0 could be opened; add --headless");
+  if (impl_->window == nullptr) {
+    return Fail("no window with OpenGL ES 3.0 can be opened: update the graphics driver or install the Debian package libgl1-mesa-dri, "
+                "or draw in software with LIBGL_ALWAYS_SOFTWARE=1");
+  }
+  NoticeLoss(lost);
   glfwMakeContextCurrent(impl_->window);
   glfwSwapInterval(1);
   glfwSetInputMode(impl_->window, GLFW_CURSOR, GLFW_CURSOR_DISABLED);
@@ -177,7 +205,13 @@ Vec2 Window::PlaceOf(Vec2 cursor) const {
 }
 
 void Window::Size(int* width_px, int* height_px) const { glfwGetFramebufferSize(impl_->window, width_px, height_px); }
-void Window::Show() { glfwSwapBuffers(impl_->window); }
+
+void Window::Show() {
+  int width = 0, height = 0;
+  Size(&width, &height);  // asks the display: where it is gone we end here, Mesa would crash
+  glfwSwapBuffers(impl_->window);
+}
+
 void Window::SetTitle(const char* title) { glfwSetWindowTitle(impl_->window, title); }
 
 }  // namespace flaneur

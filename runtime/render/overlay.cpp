@@ -66,7 +66,6 @@ Overlay::~Overlay() = default;
 Error Overlay::Create() {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
-  ImGui::GetIO().KeyRepeatDelay = 0.6f;  // where pictures are slow, a key tapped looks like one held
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
   ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_HasGamepad;
   ImGui::StyleColorsDark();
@@ -104,6 +103,7 @@ void Overlay::Begin(int width_px, int height_px, const OverlayInput& input) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(width_px), static_cast<float>(height_px)};
   io.DeltaTime = input.passed_s > 0 ? input.passed_s : 1.0f / 60;
+  io.KeyRepeatDelay = 0.6f + 4 * io.DeltaTime;  // where pictures are slow, a key tapped looks like one held
   io.MousePos = input.pointer_px.x >= 0 ? ImVec2{input.pointer_px.x, input.pointer_px.y} : ImVec2{-1e30f, -1e30f};
   io.MouseDown[0] = input.pressed;
   const auto hold = [&io](ImGuiNavInput_ which, bool held) { io.NavInputs[which] = held ? 1.0f : 0.0f; };
