@@ -23,7 +23,6 @@ struct PageView {
   std::string language;
   float letter_px, width_px;
   size_t rows;                // that fit on a page beside its head and foot
-  bool appears = false;       // its first button gets the focus
   MenuChoice choice;
 
   const char* Words(Phrase phrase) const { return Say(phrase, language); }
@@ -340,7 +339,7 @@ MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px,
   const Page page = menu->page;
   const ImVec2 picture{static_cast<float>(width_px), static_cast<float>(height_px)};
   const float letter_px = PageLetter_px(width_px, height_px);
-  PageView view{s, menu, c, PageLanguage(*c, s), letter_px, std::min(kPageWidth * letter_px, picture.x - 2 * letter_px), RowsThatFit(height_px, letter_px), false, {}};
+  PageView view{s, menu, c, PageLanguage(*c, s), letter_px, std::min(kPageWidth * letter_px, picture.x - 2 * letter_px), RowsThatFit(height_px, letter_px), {}};
   const LargeText large;
   const PageStyle style(letter_px);
   ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, picture, IM_COL32(0, 0, 0, 110));

@@ -214,9 +214,7 @@ class GuidedTour(WindowTest):
             program = display.play(pack=self.short_tour())
             display.wait_for_window(program)
             display.tap("Escape")
-            for key in ("Down", "Down", "Down", "Return"):  # the first shows where one is
-                display.tap(key)
-            for key in ("Down", "Down", "Return"):
+            for key in ("Down", "Down", "Return", "Down", "Return"):  # the stops; the second of them
                 display.tap(key)
             display.wait_for("tour over", program)
             self.assert_ends(display, program)
@@ -244,7 +242,7 @@ class PagesInTheWindow(WindowTest):
             program = display.play("--settings", self.settings)
             display.wait_for_window(program)
             display.tap("Escape")
-            for key in ("Down", "Down", "Down", "Down", "Return", "Escape"):
+            for key in ("Down", "Down", "Down", "Return", "Escape"):
                 display.tap(key)
             end = time.monotonic() + PATIENCE_S
             while not self.settings.exists() and time.monotonic() < end:
