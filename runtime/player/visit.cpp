@@ -71,6 +71,10 @@ void Visit::Impl::ApplySettings() {
   const bool spoken = std::find(known.begin(), known.end(), settings.language) != known.end();
   const std::string language = spoken ? settings.language : known.empty() ? s->tour.language : known.front();
   if (language != s->tour.language) SetLanguage(language, &s->tour);
+  if (!notices.is_hint) return;
+  const float left_s = notices.left_s;
+  BeginHint(controls, *s, &notices);  // in the language that is chosen now
+  notices.left_s = left_s;
 }
 
 void Visit::Impl::Save() {
