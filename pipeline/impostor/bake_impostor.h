@@ -19,7 +19,7 @@ struct ImpostorClipOptions {
 
 struct ImpostorOptions {
   int directions = 16;                   // 1 to 64
-  std::vector<float> elevations_deg{0};  // 1 to 8 of them, -89 to 89
+  std::vector<float> elevations_deg{3};  // 1 to 8 of them, -89 to 89: a grown-up sees a person 15 m away from 3 above
   std::vector<ImpostorClipOptions> clips{{"walk", 8}, {"idle", 2}, {"talk", 2}};
   int height_px = 128;             // of the highest cell, 16 to 1024
   int border_px = 1;               // left empty around the silhouette in each cell, 1 to 16

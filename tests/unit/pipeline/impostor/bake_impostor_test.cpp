@@ -91,6 +91,7 @@ Avatar BoxAvatar() {
 ImpostorOptions SmallOptions() {
   ImpostorOptions options;
   options.directions = 4;
+  options.elevations_deg = {0};
   options.clips = {{"walk", 1}, {"talk", 2}};
   options.height_px = 48;
   options.samples = 4;
