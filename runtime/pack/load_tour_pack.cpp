@@ -204,6 +204,13 @@ void CheckJoints(const PackMesh& mesh, int joints) {
   }
 }
 
+// Whoever cannot stand but walk: the joints' rest pose would stretch out the arms.
+PackClip FirstFrame(const PackClip& clip, int joints) {
+  PackClip still{0, 1, clip.matrices};
+  still.matrices.resize(std::min(still.matrices.size(), static_cast<size_t>(joints)));
+  return still;
+}
+
 PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* meshes) {
   constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
   PackAvatar avatar;
@@ -234,7 +241,7 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   const TourObject clips = json.Object("clips");
   const auto clip = [&](const char* name) { return ReadClip(file, skin, clips.Whole(name, -1, last)); };
   avatar.walk = clip("walk");
-  avatar.idle = clips.Has("idle") ? clip("idle") : ReadClip(file, skin, -1);
+  avatar.idle = clips.Has("idle") ? clip("idle") : FirstFrame(avatar.walk, avatar.joints);
   avatar.talk = clips.Has("talk") ? clip("talk") : avatar.idle;
   avatar.impostor = ReadImpostor(file, json.Object("impostor"));
   return avatar;

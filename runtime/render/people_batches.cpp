@@ -81,11 +81,13 @@ PersonInstance Placed(const DrawnPerson& person, float row, float phases) {
   return {{p.x, p.y, p.z, person.heading_rad + kPi / 2}, {row, person.share_from, person.share_to, phases}};
 }
 
-const PackImpostorClip& ImpostorClip(const PackImpostor& atlas, ClipKind kind) {
+// Null without pictures of it. Without a clip for it people talk as they stand.
+const PackImpostorClip* ImpostorClip(const PackImpostor& atlas, ClipKind kind) {
   static constexpr const char* kNames[] = {"walk", "idle", "talk"};
   const auto found = std::find_if(atlas.clips.begin(), atlas.clips.end(),
                                   [&](const PackImpostorClip& c) { return c.name == kNames[static_cast<size_t>(kind)]; });
-  return found != atlas.clips.end() ? *found : atlas.clips.front();
+  if (found != atlas.clips.end()) return &*found;
+  return kind == ClipKind::kTalk ? ImpostorClip(atlas, ClipKind::kIdle) : nullptr;
 }
 
 const ClipMoment& MainMoment(const DrawnPerson& person) { return person.other_share > 0.5f ? person.other : person.moment; }
@@ -104,8 +106,10 @@ size_t NearestElevation(const PackImpostor& atlas, const DrawnPerson& person, Ve
 PersonInstance AsImpostor(const DrawnPerson& person, const AvatarLayout& avatar, Vec3 eye) {
   const PackImpostor& atlas = avatar.impostor;
   const ClipMoment& moment = MainMoment(person);
-  const PackImpostorClip& clip = ImpostorClip(atlas, moment.clip);
-  const float at = moment.phase * static_cast<float>(clip.phases), nearest = std::floor(at + 0.5f);
+  const PackImpostorClip* own = ImpostorClip(atlas, moment.clip);
+  const PackImpostorClip& clip = own != nullptr ? *own : atlas.clips.front();
+  // Who cannot stand but walk stands still at the first step, as their mesh does.
+  const float at = own != nullptr ? moment.phase * static_cast<float>(clip.phases) : 0, nearest = std::floor(at + 0.5f);
   const size_t frame = static_cast<size_t>(clip.first_frame + static_cast<int>(nearest) % clip.phases);
   const size_t row = frame * atlas.elevations_deg.size() + NearestElevation(atlas, person, eye);
   const size_t cell = static_cast<size_t>(avatar.first_cell) + row * static_cast<size_t>(atlas.directions);

@@ -461,6 +461,30 @@ TEST(PeopleBatches, WhatHasNotComeYetIsDrawnByTheNearestLevelThatHas) {
   EXPECT_TRUE(levels_with(false, false, false).empty());
 }
 
+TEST(PeopleBatches, ImpostorsShowTheClipThatThePersonIsIn) {
+  PackAvatar avatar = BoxPerson();
+  avatar.impostor.directions = 4;
+  avatar.impostor.elevations_deg = {0};
+  avatar.impostor.clips = {{"walk", 0, 8}, {"idle", 8, 2}};
+  const auto frame_of = [&](const ClipMoment& moment, const ClipMoment& other, float other_share) {
+    DrawnPerson person = PersonAt(9, 0, -1);
+    person.moment = moment;
+    person.other = other;
+    person.other_share = other_share;
+    PeopleBatches batches;
+    batches.pose_width = 3;
+    SortPeople({person}, {LayoutOf(avatar)}, {{{true, true}, true, true}}, EverywhereSeen(), &batches);
+    return static_cast<int>(batches.instances.at(0).look.x) / avatar.impostor.directions;
+  };
+  const ClipMoment walking{ClipKind::kWalk, 0.25f}, standing{ClipKind::kIdle, 0.5f}, talking{ClipKind::kTalk, 0.5f};
+  EXPECT_EQ(frame_of(walking, standing, 0.4f), 2) << "walks on until it stands more than walks";
+  EXPECT_EQ(frame_of(walking, standing, 0.6f), 9);
+  EXPECT_EQ(frame_of(standing, walking, 0), 9);
+  EXPECT_EQ(frame_of(talking, walking, 0), 9) << "talks as it stands";
+  avatar.impostor.clips.pop_back();
+  EXPECT_EQ(frame_of(standing, walking, 0), 0) << "does not walk on the spot";
+}
+
 TEST(PeopleBatches, MixedPosesStandBetweenTheirClips) {
   PackAvatar avatar = BoxPerson();
   avatar.idle.matrices[0].m[3] = {0, 1, 0, 1};
