@@ -75,7 +75,7 @@ float SlideSpeed(const std::vector<Vec3>& before, const std::vector<Vec3>& now, 
   return speeds.empty() ? -1 : Median(speeds);
 }
 
-TEST(Feet, StandStillWhileTheirOwnerWalks) {
+TEST(FeetOfTheDemo, StandStillWhileTheirOwnerWalks) {
   const std::filesystem::path path = std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "the demo tour is not baked";
   TourPack pack;

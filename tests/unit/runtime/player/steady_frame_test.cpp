@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMostDrawCalls = 64;
 
-TEST(SteadyFrame, AllocatesNothingAndTakesFewDrawCallsForTenThousandPeople) {
+TEST(SteadyFrameOfTheDemo, AllocatesNothingAndTakesFewDrawCallsForTenThousandPeople) {
   const std::filesystem::path path = std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": bake the demo tour with ./demo";
   HeadlessContext context;
@@ -54,7 +54,7 @@ TEST(SteadyFrame, AllocatesNothingAndTakesFewDrawCallsForTenThousandPeople) {
   std::printf("allocations in 4 steady pictures: %ld; draw calls: %d\n", allocations - before, statistics.draw_calls);
 }
 
-TEST(SteadyFrame, OfTheSimulationIsPutTogetherWithoutAllocating) {
+TEST(SteadyFrameOfTheDemo, OfTheSimulationIsPutTogetherWithoutAllocating) {
   const std::filesystem::path path = std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": bake the demo tour with ./demo";
   TourPack pack;
