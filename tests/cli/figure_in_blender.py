@@ -44,13 +44,13 @@ def hang_part(rig, name, center, half_size):
     part.modifiers.new("armature", "ARMATURE").object = rig
 
 
-def add_action(rig, name, swing_rad):
+def add_action(rig, action, swing_rad):
     rig.animation_data_create()
-    rig.animation_data.action = bpy.data.actions.new(name)
+    rig.animation_data.action = bpy.data.actions.new(action)
     rig.animation_data.action.use_fake_user = True
     for frame in range(1, 26, 3):
-        for side, sign in (("l", 1), ("r", -1)):
-            bone = rig.pose.bones["leg_" + side]
+        for name, sign in (("leg_l", 1), ("leg_r", -1), ("head", 0.3)):  # a joint that never moves would be left out
+            bone = rig.pose.bones[name]
             half = sign * swing_rad * math.sin((frame - 1) / 24 * 2 * math.pi) / 2
             bone.rotation_quaternion = (math.cos(half), math.sin(half), 0, 0)
             bone.keyframe_insert("rotation_quaternion", frame=frame)
