@@ -12,7 +12,10 @@ PIPELINE = ("OpenMesh", "OpenImageIO", "tinygltf", "polyclipping", "gmp", "expat
 
 
 def output(*command):
-    return subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout
+    result = subprocess.run(list(map(str, command)), check=False, capture_output=True, text=True)
+    if result.returncode != 0:
+        raise AssertionError(f"{command[0]} failed:\n{result.stdout}{result.stderr}")
+    return result.stdout
 
 
 class Package(unittest.TestCase):
