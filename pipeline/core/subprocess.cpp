@@ -90,6 +90,19 @@ bool IsProgram(const fs::path& path) {
   return fs::is_regular_file(path, ignored) && ::access(path.c_str(), X_OK) == 0;
 }
 
+// Half of Blender's start is compiling its own Python scripts, which a distribution does not do beforehand: a folder of our own
+// keeps them, and folders named __pycache__ appear nowhere.
+void AddByteCodeCache(std::vector<std::string>* environment) {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  fs::path folder;  // the base directory specification has relative paths ignored
+  if (cache && cache[0] == '/') folder = cache;
+  else if (home && home[0] == '/') folder = fs::path(home) / ".cache";
+  if (folder.empty()) return environment->push_back("PYTHONDONTWRITEBYTECODE=1");
+  environment->push_back("PYTHONDONTWRITEBYTECODE=");
+  environment->push_back("PYTHONPYCACHEPREFIX=" + (folder / "flaneur" / "python").string());
+}
+
 // Blender's own last words are about its exit; a Python exception says more.
 std::string Reason(const fs::path& log_file) {
   std::string text, line, last, exception, ours;
@@ -173,11 +186,11 @@ Error RunBlenderScript(const fs::path& script, const std::string& settings_json,
   if (Error error = WriteTextFile(settings, settings_json)) return error;
   RunOptions run;
   run.log_file = options.log_file.empty() ? folder.path() / "log.txt" : options.log_file;
-  // The user's own Python modules and byte code folders stay untouched. A distribution's Blender takes
-  // the modules of the first python3 on PATH: let that be the one beside it, not a pyenv's or conda's.
+  // A distribution's Blender takes the modules of the first python3 on PATH: let that be the one beside it, not a pyenv's or
+  // conda's.
   const char* folders = std::getenv("PATH");
-  run.environment = {"PYTHONDONTWRITEBYTECODE=1", "TMPDIR=" + folder.path().string(),
-                     "PATH=" + blender.parent_path().string() + ":" + (folders ? folders : "")};
+  run.environment = {"TMPDIR=" + folder.path().string(), "PATH=" + blender.parent_path().string() + ":" + (folders ? folders : "")};
+  AddByteCodeCache(&run.environment);
   std::vector<std::string> argv = {blender.string(), "--background", "--factory-startup",
                                    "--python-exit-code", "1"};
   if (options.threads > 0) argv.insert(argv.end(), {"--threads", std::to_string(options.threads)});

@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 
 // One sample in 4096 counts; what rounding leaves in Blender's sums does not.
 constexpr float kLeastCoverage = 1e-4f;
+// How far coverage keeps from a half, for each halving: compression is off by more the smaller a person gets in a block.
+constexpr float kClearOfHalf = 0.02f;
 
 enum Layer { kRed, kGreen, kBlue, kNormalX, kNormalY, kNormalZ, kMotionX, kMotionY, kMotionZ, kDepth, kCoverage, kLayers };
 constexpr std::array<const char*, kLayers> kLayerNames = {"albedo.R", "albedo.G", "albedo.B", "normal.R", "normal.G", "normal.B",
@@ -86,9 +88,10 @@ AtlasLevel Half(const AtlasLevel& from) {
   return to;
 }
 
-// Where coverage passes `threshold` it comes to pass a half.
-float Stretched(float coverage, float threshold) {
-  return coverage < threshold ? 0.5f * coverage / threshold : 0.5f + 0.5f * (coverage - threshold) / (1 - threshold);
+// Where coverage passes `threshold` it comes to pass a half, clear of it by at least so much.
+float Stretched(float coverage, float threshold, float clear) {
+  const float share = 0.5f - clear;
+  return coverage < threshold ? share * coverage / threshold : 1 - share * (1 - coverage) / (1 - threshold);
 }
 
 // The coverage that so large a share of the texels reaches.
@@ -171,7 +174,7 @@ void KeepCoverage(std::vector<AtlasLevel>* levels, int count) {
   for (size_t k = 1; k < std::min(levels->size(), static_cast<size_t>(count)); ++k) {
     AtlasLevel& level = (*levels)[k];
     const float threshold = ThresholdFor(level, share);
-    for (AtlasTexel& texel : level.texels) texel.coverage = Stretched(texel.coverage, threshold);
+    for (AtlasTexel& texel : level.texels) texel.coverage = Stretched(texel.coverage, threshold, kClearOfHalf * static_cast<float>(k));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "pipeline/impostor/atlas_layout.h"
 #include "pipeline/impostor/block_compression.h"
 #include "pipeline/impostor/view_geometry.h"
+#include "runtime/base/srgb.h"
 #include "runtime/pack/ktx2.h"
 
 namespace flaneur {
@@ -16,11 +17,6 @@ namespace {
 constexpr float kUnseenWeight = 0.06f;  // of a gutter's colour
 
 uint8_t Quantized(float value) { return static_cast<uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255)); }
-
-// IEC 61966-2-1.
-float SrgbFromLinear(float value) {
-  return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f;
-}
 
 std::array<uint8_t, 4> AlbedoBytes(const AtlasTexel& texel) {
   const uint8_t coverage = texel.coverage > 0 ? std::max<uint8_t>(1, Quantized(texel.coverage)) : uint8_t{0};

@@ -16,6 +16,7 @@
 #include "pipeline/impostor/bake_impostor.h"
 #include "pipeline/io/gltf.h"
 #include "runtime/base/file.h"
+#include "runtime/base/srgb.h"
 #include "runtime/pack/ktx2.h"
 
 namespace flaneur {
@@ -70,13 +71,11 @@ Error CompareSamples(const ImpostorAtlas& few, const ImpostorAtlas& many) {
 }
 
 float Linear(uint8_t srgb) {
-  const float value = static_cast<float>(srgb) / 255;
-  return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+  return LinearFromSrgb(static_cast<float>(srgb) / 255);
 }
 
 double Srgb(float value) {
-  const double v = std::clamp(static_cast<double>(value), 0.0, 1.0);
-  return 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055);
+  return 255 * SrgbFromLinear(std::clamp(static_cast<double>(value), 0.0, 1.0));
 }
 
 AtlasLevel Finest(const Rgba& albedo) {
@@ -95,10 +94,10 @@ Error CompareLevels(const ImpostorAtlas& atlas) {
   if (Error e = Decode(atlas.albedo, &albedo)) return e;
   const std::vector<AtlasLevel> levels = MakeLevels(Finest(albedo));
   const double share = CoveredShare(levels[0], 0.5f);
-  std::printf("level  covered  colour off by: edges (mean, root mean square)  inside (root mean square), of 255\n");
+  std::printf("level  covered  colour off by: edges (mean with sign, mean, root mean square)  inside (root mean square), of 255\n");
   for (size_t k = 0; k < texture.levels.size(); ++k) {
     const std::vector<uint8_t> seen = DecodeLevel(texture.format, levels[k].width, levels[k].height, texture.levels[k]);
-    double off[2] = {}, squares[2] = {};
+    double bled = 0, off[2] = {}, squares[2] = {};  // bled: signed, on edges
     size_t count[2] = {}, covered = 0;
     for (size_t i = 0; i < levels[k].texels.size(); ++i) {
       const AtlasTexel& texel = levels[k].texels[i];
@@ -107,13 +106,13 @@ Error CompareLevels(const ImpostorAtlas& atlas) {
       const size_t inside = texel.coverage >= 0.999f;
       for (size_t c = 0; c < 3; ++c) {
         const double d = seen[4 * i + c] - Srgb(texel.albedo[c]);
-        off[inside] += std::abs(d), squares[inside] += d * d, ++count[inside];
+        bled += inside ? 0 : d, off[inside] += std::abs(d), squares[inside] += d * d, ++count[inside];
       }
     }
     const auto n = [&](size_t inside) { return static_cast<double>(std::max<size_t>(1, count[inside])); };
-    std::printf("%5zu  %+.2f %%  %.2f %.2f  %.2f\n", k,
-                100 * (static_cast<double>(covered) / static_cast<double>(levels[k].texels.size()) - share), off[0] / n(0),
-                std::sqrt(squares[0] / n(0)), std::sqrt(squares[1] / n(1)));
+    std::printf("%5zu  %+.2f %%  %+.2f %.2f %.2f  %.2f\n", k,
+                100 * (static_cast<double>(covered) / static_cast<double>(levels[k].texels.size()) - share), bled / n(0),
+                off[0] / n(0), std::sqrt(squares[0] / n(0)), std::sqrt(squares[1] / n(1)));
   }
   return Ok();
 }
