@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
 #define STB_IMAGE_RESIZE_IMPLEMENTATION
 #define STB_IMAGE_RESIZE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -17,26 +15,20 @@
 #pragma GCC diagnostic ignored "-Wsign-compare"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#include <stb/stb_image.h>
 #include <stb/stb_image_resize.h>
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
+
+#include "runtime/base/png.h"
+#include "runtime/base/srgb.h"
 
 namespace flaneur {
 namespace {
 
 constexpr int kJpegQuality = 97;
 
-size_t Index(const Picture& pixels, int x, int y) {
+size_t Index(const Pixels& pixels, int x, int y) {
   return 4 * (static_cast<size_t>(y) * static_cast<size_t>(pixels.width) + static_cast<size_t>(x));
-}
-
-float Linear(float srgb) {
-  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
-}
-
-float Srgb(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
 uint8_t Byte(float share) {
@@ -49,7 +41,7 @@ using Curve = std::array<uint8_t, 256>;
 Curve ColorCurve(float factor) {
   Curve curve;
   for (size_t i = 0; i < curve.size(); ++i) {
-    curve[i] = Byte(Srgb(factor * Linear(static_cast<float>(i) / 255)));
+    curve[i] = Byte(SrgbFromLinear(factor * LinearFromSrgb(static_cast<float>(i) / 255)));
   }
   return curve;
 }
@@ -76,34 +68,22 @@ void Append(void* bytes, void* data, int size) {
 
 }  // namespace
 
-Picture Blank(int width_px, int height_px) {
+Pixels Blank(int width_px, int height_px) {
   return {width_px, height_px,
           std::vector<uint8_t>(4 * static_cast<size_t>(width_px) * static_cast<size_t>(height_px),
                                255)};
 }
 
-std::optional<Picture> Decoded(const Image& image) {
-  Picture pixels;
-  int channels = 0;
-  stbi_uc* data = stbi_load_from_memory(image.bytes.data(), static_cast<int>(image.bytes.size()),
-                                        &pixels.width, &pixels.height, &channels, 4);
-  if (data == nullptr) return std::nullopt;
-  pixels.rgba.assign(
-      data, data + 4 * static_cast<size_t>(pixels.width) * static_cast<size_t>(pixels.height));
-  stbi_image_free(data);
-  return pixels;
-}
-
-Picture Resized(const Picture& from, int width_px, int height_px) {
+Pixels Resized(const Pixels& from, int width_px, int height_px) {
   if (from.width == width_px && from.height == height_px) return from;
-  Picture to = Blank(width_px, height_px);
+  Pixels to = Blank(width_px, height_px);
   stbir_resize(from.rgba.data(), from.width, from.height, 0, to.rgba.data(), to.width, to.height, 0,
                STBIR_TYPE_UINT8, 4, 3, 0, STBIR_EDGE_WRAP, STBIR_EDGE_WRAP, STBIR_FILTER_BOX,
                STBIR_FILTER_BOX, STBIR_COLORSPACE_SRGB, nullptr);
   return to;
 }
 
-Picture Tinted(Picture pixels, const Material& material) {
+Pixels Tinted(Pixels pixels, const Material& material) {
   const std::array<Curve, 4> curves{ColorCurve(material.base_color.x),
                                     ColorCurve(material.base_color.y),
                                     ColorCurve(material.base_color.z), AlphaCurve(material)};
@@ -111,8 +91,8 @@ Picture Tinted(Picture pixels, const Material& material) {
   return pixels;
 }
 
-void CopyRepeated(const Picture& from, PixelPlace first, PixelPlace to, PixelPlace size,
-                  Picture* atlas) {
+void CopyRepeated(const Pixels& from, PixelPlace first, PixelPlace to, PixelPlace size,
+                  Pixels* atlas) {
   const auto wrapped = [](int at, int length) { return ((at % length) + length) % length; };
   for (int y = 0; y < size.y; ++y) {
     for (int x = 0; x < size.x; ++x) {
@@ -123,12 +103,11 @@ void CopyRepeated(const Picture& from, PixelPlace first, PixelPlace to, PixelPla
   }
 }
 
-Image Encoded(const Picture& pixels, bool alpha) {
+Image Encoded(const Pixels& pixels, bool alpha) {
   Image image;
   if (alpha) {
     image.mime_type = "image/png";
-    stbi_write_png_to_func(Append, &image.bytes, pixels.width, pixels.height, 4, pixels.rgba.data(),
-                           0);
+    image.bytes = EncodePng(pixels.width, pixels.height, 4, pixels.rgba);
   } else {
     image.mime_type = "image/jpeg";
     stbi_write_jpg_to_func(Append, &image.bytes, pixels.width, pixels.height, 4, pixels.rgba.data(),

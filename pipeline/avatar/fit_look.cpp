@@ -24,12 +24,6 @@ constexpr float kSameNormal = 0.98f;  // cosine; nearer ones at one vertex are o
 constexpr float kSameColor = 0.01f;
 constexpr float kInertia = 0.03f;     // of what a corner has, against what it is tied to
 
-Vec3 FaceNormal(const std::array<Vec3, 3>& t) { return Normalized(Cross(t[1] - t[0], t[2] - t[0])); }
-
-Vec4 operator+(Vec4 a, Vec4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
-Vec4 operator-(Vec4 a, Vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
-Vec4 operator*(Vec4 a, float s) { return {a.x * s, a.y * s, a.z * s, a.w * s}; }
-
 // What a point of the level should look like.
 struct Tie {
   std::array<int, 3> wedges{};
@@ -38,15 +32,6 @@ struct Tie {
   Vec4 color;
   bool counts = false;
 };
-
-Triangles TrianglesOf(const WedgeSurface& level) {
-  Triangles triangles;
-  for (const auto& face : level.faces) {
-    auto& corners = triangles.emplace_back();
-    for (size_t k = 0; k < 3; ++k) corners[k] = level.vertices[static_cast<size_t>(face.vertices[k])].position;
-  }
-  return triangles;
-}
 
 template <typename Value>
 Value Mixed(const std::vector<Value>& values, const uint32_t* corners, const std::array<float, 3>& shares) {
@@ -146,7 +131,7 @@ LookFitter::~LookFitter() = default;
 
 void LookFitter::Fit(WedgeSurface* level) const {
   if (2 * level->faces.size() > static_cast<size_t>(options_.samples)) return;
-  const Triangles triangles = TrianglesOf(*level);
+  const Triangles triangles = BindTriangles(*level);
   const std::vector<Place> places = SpreadPlaces(triangles, options_.samples);
   std::vector<Tie> ties(places.size());
   RunOnThreads([&](size_t first, size_t step) {

@@ -25,12 +25,6 @@ constexpr size_t kBlock = 256;     // places on one thread
 constexpr size_t kSamplesAFace = 5, kFewestSamples = 5000;
 constexpr double kLeastTurn = 0.1;  // cosine; a face that turns further is taken to fold over
 
-Vec3 NormalOf(const std::array<Vec3, 3>& t) {
-  const Vec3 across = Cross(t[1] - t[0], t[2] - t[0]);
-  const float length = Length(across);
-  return length > 0 ? across * (1 / length) : Vec3{};
-}
-
 // A place of the level that should be where a place of the original is.
 struct Tie {
   Place on_level, on_original;
@@ -69,7 +63,7 @@ class Fitter {
 
   // Ties evenly spread places of each surface to the nearest of the other.
   void TieAll() {
-    const Triangles level = LevelInBindPose();
+    const Triangles level = BindTriangles(*level_);
     const SurfaceTree level_tree(level);
     const bool first_time = guesses_.empty();
     if (first_time) {
@@ -107,17 +101,6 @@ class Fitter {
     Vec3 place, normal;
   };
 
-  Triangles LevelInBindPose() const {
-    Triangles level;
-    for (const auto& face : level_->faces) {
-      auto& corners = level.emplace_back();
-      for (size_t k = 0; k < 3; ++k) {
-        corners[k] = level_->vertices[static_cast<size_t>(face.vertices[k])].position;
-      }
-    }
-    return level;
-  }
-
   // The i-th tie; one whose ends face different ways does not pull.
   Tie Tied(const Triangles& level, const SurfaceTree& level_tree, size_t i) {
     Tie tie;
@@ -134,8 +117,8 @@ class Fitter {
     (from_original ? tie.on_level : tie.on_original) = {nearest.triangle, nearest.shares};
     const auto& corners = level[tie.on_level.triangle];
     const auto& triangle = original_[0][tie.on_original.triangle];
-    const Vec3 normal = NormalOf(triangle);
-    if (Dot(NormalOf(corners), normal) <= kSameSide) return tie;
+    const Vec3 normal = FaceNormal(triangle);
+    if (Dot(FaceNormal(corners), normal) <= kSameSide) return tie;
     // Beyond a border or a crease the nearest place does not lie straight below.
     const Vec3 way = At(corners, tie.on_level.shares) - At(triangle, tie.on_original.shares);
     tie.along = std::abs(Dot(way, normal)) > kStraight * Length(way) ? kAlong : 1;
@@ -154,7 +137,7 @@ class Fitter {
       }
       for (const Triangles& pose : original_) {
         const auto& triangle = pose[ties_[i].on_original.triangle];
-        targets_.push_back({At(triangle, ties_[i].on_original.shares), NormalOf(triangle)});
+        targets_.push_back({At(triangle, ties_[i].on_original.shares), FaceNormal(triangle)});
       }
     }
   }

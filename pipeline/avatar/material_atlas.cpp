@@ -28,7 +28,7 @@ struct Rect {
 struct Member {
   size_t mesh = 0;
   Material material;
-  std::optional<Picture> picture;                // none: the base colour alone
+  std::optional<Pixels> picture;                // none: the base colour alone
   Rect used;                                     // of the picture, uv
   int halvings = 0;                              // as a mip level
   float texels_per_m = 0;                        // of the picture, where it is stretched most
@@ -85,7 +85,7 @@ float FewestTexelsPerMetre(Vec3 p, Vec3 q, Vec2 a, Vec2 b) {
 }
 
 // The same where only the share kSparse of the surface has fewer.
-float TexelsPerMetre(const Mesh& mesh, const Picture& picture) {
+float TexelsPerMetre(const Mesh& mesh, const Pixels& picture) {
   std::vector<std::pair<float, float>> by_density;  // with the area
   float total = 0;
   const Vec2 size{static_cast<float>(picture.width), static_cast<float>(picture.height)};
@@ -252,14 +252,14 @@ class Merger {
     return true;
   }
 
-  Picture Painted(int side_px) const {
-    std::vector<Picture> parts;
+  Pixels Painted(int side_px) const {
+    std::vector<Pixels> parts;
     for (const Member& m : members_) {
-      const Picture whole = Tinted(m.picture ? *m.picture : Blank(1, 1), m.material);
+      const Pixels whole = Tinted(m.picture ? *m.picture : Blank(1, 1), m.material);
       parts.push_back(Resized(whole, m.width_px, m.height_px));
     }
     // The coarsest mip levels reach beyond the gutters: nothing there may stand out.
-    Picture atlas = Resized(Resized(parts[0], 1, 1), side_px, side_px);
+    Pixels atlas = Resized(Resized(parts[0], 1, 1), side_px, side_px);
     for (size_t i = 0; i < parts.size(); ++i) {
       const Member& m = members_[i];
       CopyRepeated(parts[i], {m.left - kGutter_px, m.top - kGutter_px},
@@ -269,7 +269,7 @@ class Merger {
     return atlas;
   }
 
-  int AddMaterial(const Picture& atlas) {
+  int AddMaterial(const Pixels& atlas) {
     Avatar& avatar = levels_->avatar;
     Material merged;
     merged.name = "atlas";

@@ -127,6 +127,7 @@ float MergeJoints(const Avatar& avatar, float bound_m, std::vector<Mesh>* meshes
 
 void DropIdleJoints(Avatar* avatar) {
   const size_t count = avatar->joints.size();
+  if (count == 0) return;
   std::vector<bool> busy(count, false);
   for (const Mesh& mesh : avatar->meshes) {
     for (size_t v = 0; v < mesh.joints.size(); ++v) {

@@ -23,6 +23,18 @@ Triangles PosedTriangles(const std::vector<Mesh>& meshes, const std::vector<Mat4
   return triangles;
 }
 
+Triangles BindTriangles(const WedgeSurface& surface) {
+  Triangles triangles;
+  triangles.reserve(surface.faces.size());
+  for (const auto& face : surface.faces) {
+    auto& corners = triangles.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      corners[k] = surface.vertices[static_cast<size_t>(face.vertices[k])].position;
+    }
+  }
+  return triangles;
+}
+
 std::vector<Place> SpreadPlaces(const Triangles& triangles, int count) {
   std::vector<double> sums;
   double total = 0;

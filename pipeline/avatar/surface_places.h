@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/avatar/wedge_surface.h"
 #include "pipeline/core/mesh.h"
 #include "runtime/base/math.h"
 
@@ -13,6 +14,12 @@ using Triangles = std::vector<std::array<Vec3, 3>>;
 
 // Of all meshes, one after the other; without a pose in the bind pose.
 Triangles PosedTriangles(const std::vector<Mesh>& meshes, const std::vector<Mat4>* pose);
+
+// Of all faces, one after the other, in the bind pose.
+Triangles BindTriangles(const WedgeSurface& surface);
+
+// Of length 1; zero where the triangle has no extent.
+inline Vec3 FaceNormal(const std::array<Vec3, 3>& t) { return Normalized(Cross(t[1] - t[0], t[2] - t[0])); }
 
 struct Place {
   uint32_t triangle = 0;

@@ -26,10 +26,7 @@ Vec4 Value(const Transform& t, const std::string& path) {
   return {v.x, v.y, v.z, 0};
 }
 
-Vec4 operator+(Vec4 a, Vec4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
-Vec4 operator*(Vec4 a, float s) { return {a.x * s, a.y * s, a.z * s, a.w * s}; }
 float Dot(Vec4 a, Vec4 b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
-Vec4 operator-(Vec4 a, Vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
 Vec4 operator-(Vec4 a) { return {-a.x, -a.y, -a.z, -a.w}; }
 
 float Misfit(const Track& track, Vec4 a, Vec4 b) {

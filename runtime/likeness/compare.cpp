@@ -5,16 +5,12 @@
 #include <cmath>
 
 #include "runtime/base/math.h"
+#include "runtime/base/srgb.h"
 
 namespace flaneur {
 namespace {
 
 struct Lab { double l, a, b; };
-
-double LinearFromSrgb(uint8_t value) {
-  const double c = value / 255.0;
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
 
 double LabCurve(double t) {
   constexpr double kEdge = 6.0 / 29;
@@ -24,7 +20,7 @@ double LabCurve(double t) {
 Lab LabFromSrgb(const uint8_t* rgb) {
   static const auto kLinear = [] {
     std::array<double, 256> table{};
-    for (size_t i = 0; i < table.size(); ++i) table[i] = LinearFromSrgb(static_cast<uint8_t>(i));
+    for (size_t i = 0; i < table.size(); ++i) table[i] = LinearFromSrgb(static_cast<double>(i) / 255);
     return table;
   }();
   const double r = kLinear[rgb[0]], g = kLinear[rgb[1]], b = kLinear[rgb[2]];

@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "pipeline/avatar/surface_distance.h"
+#include "pipeline/avatar/surface_places.h"
 #include "pipeline/avatar/wedge_surface.h"
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_document.h"
@@ -107,25 +108,10 @@ Error MapJoints(const Person& original, Person* level) {
   return Ok();
 }
 
-using Triangle = std::array<Vec3, 3>;
-
-std::vector<Triangle> PosedTriangles(const std::vector<Mesh>& meshes,
-                                     const std::vector<Mat4>& pose) {
-  std::vector<Triangle> triangles;
-  for (const Mesh& mesh : meshes) {
-    const Mesh posed = Skinned(mesh, pose);
-    for (size_t i = 0; i + 2 < posed.indices.size(); i += 3) {
-      triangles.push_back({posed.positions[posed.indices[i]], posed.positions[posed.indices[i + 1]],
-                           posed.positions[posed.indices[i + 2]]});
-    }
-  }
-  return triangles;
-}
-
-std::vector<Vec3> Sampled(const std::vector<Triangle>& triangles, int count) {
+std::vector<Vec3> Sampled(const Triangles& triangles, int count) {
   std::vector<double> sums;
   double total = 0;
-  for (const Triangle& t : triangles) {
+  for (const auto& t : triangles) {
     total += static_cast<double>(Length(Cross(t[1] - t[0], t[2] - t[0])));
     sums.push_back(total);
   }
@@ -148,7 +134,7 @@ struct Distances {
 };
 
 // Of both directions: the mean of the means, the greatest of all.
-Distances Between(const std::vector<Triangle>& a, const std::vector<Triangle>& b, int samples) {
+Distances Between(const Triangles& a, const Triangles& b, int samples) {
   Distances out;
   for (const auto& [from, to] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
     const SurfaceTree tree(*to);
@@ -168,8 +154,8 @@ nlohmann::json Measured(const Person& original, const std::vector<std::vector<Ma
   std::vector<Distances> all(poses.size());
   const auto measure = [&](size_t first, size_t step) {
     for (size_t k = first; k < poses.size(); k += step) {
-      all[k] = Between(PosedTriangles(original.meshes, poses[k]),
-                       PosedTriangles(level.meshes, poses[k]), samples);
+      all[k] = Between(PosedTriangles(original.meshes, &poses[k]),
+                       PosedTriangles(level.meshes, &poses[k]), samples);
     }
   };
   const size_t threads = std::max(1u, std::thread::hardware_concurrency());

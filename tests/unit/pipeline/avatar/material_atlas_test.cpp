@@ -14,7 +14,7 @@ using Rgba = std::array<int, 4>;
 
 // A square picture of one colour on its left half and another on its right.
 Image TwoColors(Rgba left, Rgba right) {
-  Picture picture = Blank(64, 64);
+  Pixels picture = Blank(64, 64);
   for (size_t i = 0; i < picture.rgba.size(); ++i) {
     picture.rgba[i] = static_cast<uint8_t>(((i / 4) % 64 < 32 ? left : right)[i % 4]);
   }
@@ -57,7 +57,7 @@ Material Pictured(int image) {
 // The colour that a mesh of the coarser level shows at its first vertices' middle, shares from 0.
 Rgba Shown(const AvatarLevels& levels, const Mesh& mesh, size_t first, float u, float v) {
   const Material& material = levels.avatar.materials[static_cast<size_t>(mesh.material)];
-  const Picture picture =
+  const Pixels picture =
       *Decoded(levels.avatar.images[static_cast<size_t>(material.base_color_image)]);
   const Vec2 a = mesh.uvs[first], b = mesh.uvs[first + 2];
   const float x = (a.x + u * (b.x - a.x)) * static_cast<float>(picture.width);

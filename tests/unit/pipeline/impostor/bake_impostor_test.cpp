@@ -1,11 +1,11 @@
 #include "pipeline/impostor/bake_impostor.h"
 
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
+#include "pipeline/core/pixels.h"
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/impostor/atlas_image.h"
 #include "pipeline/impostor/atlas_layers.h"
@@ -98,24 +98,6 @@ ImpostorOptions SmallOptions() {
   return options;
 }
 
-Pixels Decoded(const Image& image) {
-  Pixels pixels;
-  TemporaryFolder folder;
-  EXPECT_FALSE(folder.Create("flaneur_test_"));
-  const fs::path file = folder.path() / "atlas.png";
-  EXPECT_FALSE(WriteFile(file, image.bytes));
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  const auto input = OIIO::ImageInput::open(file.string(), &config);
-  if (!input) return pixels;
-  pixels.width = input->spec().width;
-  pixels.height = input->spec().height;
-  pixels.rgba.resize(4 * static_cast<size_t>(pixels.width) * static_cast<size_t>(pixels.height));
-  EXPECT_EQ(input->spec().nchannels, 4);
-  input->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, pixels.rgba.data());
-  return pixels;
-}
-
 const uint8_t* Texel(const Pixels& pixels, int x, int y) {
   return &pixels.rgba[4 * static_cast<size_t>(y * pixels.width + x)];
 }
@@ -125,8 +107,8 @@ class BoxImpostor : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     error_ = BakeImpostor(BoxAvatar(), SmallOptions(), &atlas_, &statistics_, &warnings_);
-    albedo_ = Decoded(atlas_.albedo);
-    normal_ = Decoded(atlas_.normal);
+    albedo_ = Decoded(atlas_.albedo).value();
+    normal_ = Decoded(atlas_.normal).value();
   }
   void SetUp() override {
     ASSERT_FALSE(error_) << error_.message;
