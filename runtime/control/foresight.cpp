@@ -17,7 +17,8 @@ constexpr float kReach_m = 8;              // beyond r_high: who may be inside w
 constexpr float kRim_m = 0.6f;             // the forecast is that uncertain
 constexpr float kReserve = 0.2f;           // share of the limit kept free for surprises
 constexpr float kTurnLasts_s = 1.0f;       // a turn of the head dies away
-constexpr float kWalksOn_s = 1.8f;         // in the new direction after a turn
+constexpr float kWalksOn_s = 2.6f;         // in the new direction after a turn,
+constexpr float kWalksOn_m = 8;            // at most so far
 constexpr float kDetour_s = 1.2f;          // a choice holds so long
 constexpr float kAheadFree_s = 1.5f;       // and must be walkable so far
 constexpr float kPaces[] = {1.0f, 0.75f, 1.2f, 0.45f};
@@ -60,7 +61,7 @@ bool InView(const State& state, int moment, float r_high_m, Vec2 p) {
 
 // Near enough to matter if the visitor turns that way, and perhaps walks on there.
 bool InTurningReach(const State& state, float r_high_m, Vec2 off) {
-  const float reach_m = r_high_m + kWalksOn_s * Length(state.motion.velocity);
+  const float reach_m = r_high_m + std::min(kWalksOn_s * Length(state.motion.velocity), kWalksOn_m);
   return Dot(off, off) < reach_m * reach_m;
 }
 

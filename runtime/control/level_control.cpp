@@ -13,7 +13,9 @@ constexpr float kRise_mps = 0.5f;            // and comes back slowly: whoever i
 constexpr float kHysteresis_m = 2.0f;        // a mesh stays one until this far beyond r_high
 constexpr float kHeadroom = 8.0f;            // of a newly chosen level: serves up to so many times the pixels
 constexpr float kReserve = 0.2f;             // of limit and budget, kept for those who come into view near
-constexpr float kWorthwhile_s = 3.0f;         // who leaves the view sooner is not worth a switch any more
+constexpr float kWorthwhile_s = 4.0f;         // who leaves the view sooner is not worth a switch any more,
+constexpr float kPasses_m = 1.8f;             // but for those who pass so near
+constexpr float kSoon_s = 8.0f;               // who comes near by then is served first when they come into view
 constexpr float kLong_s = 1e3f;
 constexpr float kFallGain = 0.08f, kRiseGain = 0.02f;  // a step, of the relative error of the frame time (method 2)
 constexpr float kUsed = 0.8f;                // share of the budget from which on it is in use
@@ -79,7 +81,8 @@ View ViewOf(const ViewCamera& camera) {
 
 // In which order people are served. Within r_high in force by distance, and who is a mesh keeps being one until somebody is nearer by
 // kHysteresis_m; then who is a mesh anyway, as long as nobody else needs the place; then who comes into view, since nobody sees them
-// change. Whoever was seen as an impostor stays one until r_high reaches them, and beyond that where they leave the view soon.
+// change, by how near they will come. Whoever was seen as an impostor stays one until r_high reaches them, and beyond that where they
+// leave the view soon and do not pass close.
 enum Turn : uint8_t { kWithin, kHolds, kAppears, kStays };
 
 // How long somebody stays in view if the camera and they go on as they do.
@@ -93,12 +96,31 @@ float StaysInView_s(Vec2 off, Vec2 velocity, const ViewMotion& motion, const Vie
   return stays_s;
 }
 
+// How near somebody comes within kSoon_s, walking on as they mean to.
+float ComesWithin_m(const Crowd& c, size_t i, Vec2 off, const ViewMotion& motion) {
+  Vec2 way;
+  if (c.activity[i] == Activity::kWalking && c.field[i] >= 0) {
+    const bool known = c.way[i].x != 0 || c.way[i].y != 0;  // not before the first step
+    way = known ? c.way[i] : Unit(c.fields[static_cast<size_t>(c.field[i])].goal - c.position[i]);
+  }
+  const Vec2 drift = way * c.preferred_mps[i] - motion.velocity;
+  const float speed2 = Dot(drift, drift);
+  const float nearest_s = speed2 > 1e-4f ? std::clamp(-Dot(off, drift) / speed2, 0.0f, kSoon_s) : 0;
+  return Length(off + drift * nearest_s);
+}
+
 LevelState::Visible Seen(const Crowd& crowd, size_t i, Vec2 off, const View& view, bool first, const LevelState& state) {
   const int last = state.last_level[static_cast<size_t>(crowd.id[i])];
-  const float distance_m = Length(off), key_m = distance_m - (last >= 0 ? kHysteresis_m : 0);
+  const float distance_m = Length(off);
+  float key_m = distance_m - (last >= 0 ? kHysteresis_m : 0);
   if (first) return {distance_m, -1e9f, static_cast<int>(i), crowd.id[i], kWithin};
   Turn turn = key_m < state.r_high_m ? kWithin : last >= 0 ? kHolds : last == kNotDrawn ? kAppears : kStays;
-  if (turn == kWithin && last == kImpostor && StaysInView_s(off, crowd.velocity[i], state.motion, view) < kWorthwhile_s) turn = kStays;
+  if (turn == kWithin && last == kImpostor) {
+    const float stays_s = StaysInView_s(off, crowd.velocity[i], state.motion, view);
+    const Vec2 leaves = off + (crowd.velocity[i] - state.motion.velocity) * stays_s;
+    if (stays_s < kWorthwhile_s && Length(leaves) > kPasses_m) turn = kStays;
+  }
+  if (turn == kAppears) key_m = ComesWithin_m(crowd, i, off, state.motion);
   return {distance_m, key_m, static_cast<int>(i), crowd.id[i], turn};
 }
 

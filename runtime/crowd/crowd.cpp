@@ -241,6 +241,7 @@ int AddPerson(const Person& p, Crowd* c) {
   c->wait_s.push_back(0);
   c->facing.push_back({});
   c->view.push_back(ViewClass::kOutside);
+  c->was_visible.push_back(0);
   c->avoids_camera.push_back(0);
   c->arrived.push_back(0);
   c->detour.push_back({});
@@ -270,7 +271,7 @@ void RemovePerson(size_t i, Crowd* c) {
   };
   drop(&c->id), drop(&c->avatar), drop(&c->position), drop(&c->velocity), drop(&c->heading_rad), drop(&c->radius_m);
   drop(&c->preferred_mps), drop(&c->top_mps), drop(&c->field), drop(&c->way), drop(&c->sees_goal), drop(&c->corner), drop(&c->activity);
-  drop(&c->wait_s), drop(&c->facing), drop(&c->view), drop(&c->avoids_camera), drop(&c->arrived);
+  drop(&c->wait_s), drop(&c->facing), drop(&c->view), drop(&c->was_visible), drop(&c->avoids_camera), drop(&c->arrived);
   drop(&c->detour), drop(&c->detour_s);
   drop(&c->walked_m), drop(&c->mind), drop(&c->coast), drop(&c->group), drop(&c->cares), drop(&c->turn), drop(&c->wanted), drop(&c->moved);
 }

@@ -50,6 +50,7 @@ struct Crowd {
   std::vector<float> wait_s;            // left to stand
   std::vector<Vec2> facing;             // where to look while standing; zero: as before
   std::vector<ViewClass> view;
+  std::vector<uint8_t> was_visible;    // one step ago
   std::vector<uint8_t> avoids_camera;   // set by the control
   std::vector<uint8_t> arrived;         // reached the goal in the last step
   std::vector<Vec2> detour;             // velocity the person prefers for the next detour_s, whatever the goal; set by the control
@@ -102,7 +103,8 @@ Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, 
 // top_mps * step_s.
 void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* crowd);
 
-// Boundary people who overlap are moved apart at once, none of them into the inner volume (paper, section 4.3.1).
+// Boundary people who overlap are moved apart at once, none of them into the inner volume (paper, section 4.3.1). Whoever was visible
+// one step ago stays where they are: the others make room.
 // keep_out(p) is true for points of the inner volume.
 void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2 p, const void* volume), const void* volume, Crowd* crowd);
 

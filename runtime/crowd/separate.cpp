@@ -57,7 +57,7 @@ void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, const void*), co
   SortIntoGrid(c->caring, c->position, c->velocity, c->radius_m, kNeighbourRadius_m / 2, &c->neighbours);
   for (int who : c->caring) {
     const size_t i = static_cast<size_t>(who);
-    if (c->view[i] != ViewClass::kBoundary || !Overlaps(spot, *c, i, c->position[i])) continue;
+    if (c->view[i] != ViewClass::kBoundary || c->was_visible[i] || !Overlaps(spot, *c, i, c->position[i])) continue;
     bool placed = false;
     for (int ring = 1; ring <= kRings && !placed; ++ring) {  // the nearest free spot on growing rings
       const float reach_m = kRing_m * static_cast<float>(ring);

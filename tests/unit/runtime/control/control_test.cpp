@@ -168,22 +168,55 @@ TEST(LevelControl, InADenseViewTheNearestAreMeshesWhoeverCameFirst) {
   }
 }
 
-TEST(LevelControl, WhoIsAboutToLeaveTheViewIsNotSwitchedAnyMore) {
+// Those who are seen as impostors when r_high reaches them, 9 m away, and walk on like this.
+int LevelOfWhoWalks(Vec2 position, Vec2 velocity) {
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
-  for (const bool passes : {true, false}) {
+  Crowd crowd;
+  AddPerson({}, &crowd);
+  crowd.view[0] = ViewClass::kVisible;
+  LevelSettings settings;
+  settings.high_limit = 0;
+  LevelState state;
+  for (int k = 0; k < 30; ++k) {
+    crowd.position[0] = position;
+    crowd.velocity[0] = velocity;
+    ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, settings, 1.0f / 30, &state);
+    settings.high_limit = k < 20 ? 0 : 12;
+  }
+  return state.level[0];
+}
+
+TEST(LevelControl, WhoIsAboutToLeaveTheViewIsNotSwitchedAnyMoreUnlessTheyPassClose) {
+  EXPECT_GE(LevelOfWhoWalks({9, 4}, {}), 0);
+  EXPECT_EQ(LevelOfWhoWalks({9, 4}, {0, 1.4f}), kImpostor);
+  EXPECT_GE(LevelOfWhoWalks({9, 0.7f}, {-3, 0}), 0);      // soon past the visitor's shoulder
+  EXPECT_EQ(LevelOfWhoWalks({9, 3}, {-3, 0}), kImpostor);  // on the other side of the street
+}
+
+// The place in high resolution goes to the one who comes here, though the other, who walks away, is nearer yet: nobody has to change.
+TEST(LevelControl, WhoComesNearHasAPlaceBeforeWhoLeaves) {
+  const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
+  for (const bool known : {true, false}) {  // in the first step nobody has a way yet
     Crowd crowd;
-    AddPerson({}, &crowd);
-    crowd.view[0] = ViewClass::kVisible;
-    LevelSettings settings;
-    settings.high_limit = 0;
-    LevelState state;
-    for (int k = 0; k < 30; ++k) {  // until then seen as an impostor
-      crowd.position[0] = {9, 4};
-      crowd.velocity[0] = passes ? Vec2{0, 1.4f} : Vec2{};
-      ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, settings, 1.0f / 30, &state);
-      settings.high_limit = k < 20 ? 0 : 12;
+    const Vec2 goals[] = {{60, 0}, {2, 0}};
+    for (int k = 0; k < 2; ++k) {
+      Person p;
+      p.position = {k == 0 ? 13.0f : 16.0f, k == 0 ? 1.0f : -1.0f};
+      p.preferred_mps = 1.3f;
+      p.field = FieldFor(goals[k], &crowd);
+      const size_t i = static_cast<size_t>(AddPerson(p, &crowd));
+      crowd.view[i] = ViewClass::kVisible;
+      if (known) crowd.way[i] = {k == 0 ? 1.0f : -1.0f, 0};
     }
-    EXPECT_EQ(state.level[0] == kImpostor, passes);
+    LevelSettings settings;
+    settings.high_limit = 1;
+    LevelState state;
+    for (int step = 0; step < 300; ++step) {
+      ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, settings, 1.0f / 30, &state);
+      ASSERT_EQ(state.switches_in_view, 0);
+      ASSERT_GE(state.level[1], 0);
+      for (size_t i = 0; i < 2; ++i) crowd.position[i].x += (i == 0 ? 1.0f : -1.0f) * 1.3f / 30;
+    }
   }
 }
 

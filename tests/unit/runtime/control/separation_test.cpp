@@ -67,5 +67,26 @@ TEST(Separation, IsAtOnceAndNeverIntoViewNorIntoWalls) {
   EXPECT_GT(moved, 1000);
 }
 
+// Who is just out of view was drawn a moment ago: a leap from there could be told.
+TEST(Separation, WhoWasVisibleAMomentAgoStaysAndOthersMakeRoom) {
+  const Walkable w = Square();
+  const ViewCamera camera{{0, -15}, kPi / 2, 1.05f};
+  for (const size_t seen : {0, 1}) {
+    Crowd crowd;
+    for (int k = 0; k < 2; ++k) {
+      Person p;
+      p.position = {-6 + 0.2f * static_cast<float>(k), -8};
+      p.radius_m = 0.25f;
+      AddPerson(p, &crowd);
+      crowd.view.back() = ViewClass::kBoundary;
+    }
+    crowd.was_visible[seen] = 1;
+    const Crowd before = crowd;
+    SeparateBoundary(w, InView, &camera, &crowd);
+    EXPECT_EQ(Length(crowd.position[seen] - before.position[seen]), 0);
+    EXPECT_FALSE(InTheWay(crowd, 0, 1));
+  }
+}
+
 }  // namespace
 }  // namespace flaneur
