@@ -98,9 +98,7 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
       break;
     }
     case AssetKind::kAtlas: {
-      const PackImpostor& atlas = pack.avatars[index].impostor;
-      const PackTexture* pictures[] = {&atlas.albedo, &atlas.normal, &atlas.depth, &atlas.motion};
-      for (size_t k = 0; k < 4; ++k) asset.content->atlas[k] = PrepareAtlasPicture(*pictures[k], formats);
+      asset.content->atlas = PrepareAtlas(pack.avatars[index].impostor, formats);
       break;
     }
   }

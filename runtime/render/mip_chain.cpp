@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "runtime/base/srgb.h"
+
 namespace flaneur {
 namespace {
 
@@ -15,13 +17,11 @@ struct SrgbTables {
   SrgbTables() {
     for (size_t i = 0; i < to_linear.size(); ++i) {
       const double c = static_cast<double>(i) / 255;
-      const double linear = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-      to_linear[i] = static_cast<uint16_t>(linear * (kLinearSteps - 1) + 0.5);
+      to_linear[i] = static_cast<uint16_t>(LinearFromSrgb(c) * (kLinearSteps - 1) + 0.5);
     }
     for (size_t i = 0; i < from_linear.size(); ++i) {
       const double l = static_cast<double>(i) / (kLinearSteps - 1);
-      const double c = l <= 0.0031308 ? l * 12.92 : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
-      from_linear[i] = static_cast<uint8_t>(c * 255 + 0.5);
+      from_linear[i] = static_cast<uint8_t>(SrgbFromLinear(l) * 255 + 0.5);
     }
   }
 };

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kAround_m = 0.35f;     // arms, skirts and props reach so far beyond a person's radius
 constexpr float kLongestShadow_m = 12;  // as far as one may fall into view
-constexpr float kFarImpostor_m = 22;   // all nearer ones are drawn before all farther ones
+constexpr float kFarImpostor_m = 15;   // all nearer ones are drawn before all farther ones
 constexpr int kNoLevel = -2;
 
 // The largest numbers of all clips, so that 16 bits hold them with the finest steps.

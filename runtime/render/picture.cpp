@@ -13,6 +13,7 @@ GLuint NewTexture(GLint filter) {
   glBindTexture(GL_TEXTURE_2D, texture);
   for (GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, name, filter);
   for (GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) glTexParameteri(GL_TEXTURE_2D, name, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   return texture;
 }
 
@@ -34,8 +35,6 @@ void ResizeDeferred(const Picture& p) {
   const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   glDrawBuffers(2, both);
   glBindFramebuffer(GL_FRAMEBUFFER, p.lit);
-  Attach(GL_COLOR_ATTACHMENT0, p.lit_color);
-  glBindFramebuffer(GL_FRAMEBUFFER, p.lit_with_depth);
   Attach(GL_COLOR_ATTACHMENT0, p.lit_color);
   Attach(GL_DEPTH_ATTACHMENT, p.depth);
 }
@@ -74,7 +73,7 @@ Error CreatePicture(int samples, bool deferred, const std::string& defines, Pict
   if (p->samples > 1) glGenRenderbuffers(1, &p->color);
   glGenRenderbuffers(1, &p->depth);
   glGenRenderbuffers(1, &p->finished_color);
-  for (GLuint* framebuffer : {&p->framebuffer, &p->lit, &p->lit_with_depth, &p->finished}) glGenFramebuffers(1, framebuffer);
+  for (GLuint* framebuffer : {&p->framebuffer, &p->lit, &p->finished}) glGenFramebuffers(1, framebuffer);
   glGenVertexArrays(1, &p->empty_array);
   if (deferred) {
     p->depth = NewTexture(GL_NEAREST);
@@ -101,14 +100,17 @@ void ResizePicture(int width_px, int height_px, Picture* p) {
 void LightPicture(const Picture& p) {
   if (!p.deferred) return;
   glBindFramebuffer(GL_FRAMEBUFFER, p.lit);
-  glDisable(GL_DEPTH_TEST);
+  // Only where there is a surface. The depth is looked up and tested alike, and not written: software, which alone defers light, does
+  // not mind.
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_GREATER);
   BindTexture(kColorUnit, p.color);
   BindTexture(kNormalsUnit, p.normals);
   BindTexture(kDepthUnit, p.depth);
   DrawWhole(p.light_program, p);
   BindTexture(kDepthUnit, 0);  // it is drawn into again
-  glEnable(GL_DEPTH_TEST);
-  glBindFramebuffer(GL_FRAMEBUFFER, p.lit_with_depth);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
 }
 
 void FinishPicture(const Picture& p) {

@@ -13,7 +13,7 @@ struct Picture {
   bool deferred = false;                             // light comes after the surfaces, in a pass over the picture
   GLuint color = 0, depth = 0, framebuffer = 0;      // drawn into; color is a texture where samples is 1
   GLuint normals = 0;                                // where deferred, and depth is a texture then
-  GLuint lit_color = 0, lit = 0, lit_with_depth = 0;     // where deferred; lit_with_depth: for what lies behind all or on the ground
+  GLuint lit_color = 0, lit = 0;                     // where deferred
   GLuint finished_color = 0, finished = 0;           // framebuffer of the finished picture
   GLuint light_program = 0, smooth_program = 0, empty_array = 0;
 };

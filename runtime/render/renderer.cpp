@@ -56,7 +56,8 @@ Vec3 Ahead(const FrameInput& frame) {
 
 Vec4 Wide(Vec3 v) { return {v.x, v.y, v.z, 0}; }
 
-FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, Vec3 to_sun, const ShadowMaps& shadows) {
+// focal_px: pixels that a metre takes at a distance of one.
+FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px, Vec3 to_sun, const ShadowMaps& shadows) {
   const Light light = LightFor(to_sun);
   FrameBlock block;
   block.view_projection = view_projection;
@@ -65,7 +66,7 @@ FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, Vec3 to_sun, co
   block.far_shadow = shadows.far.matrix;
   block.people_shadow = shadows.people_matrix;
   block.shadow_layers = {static_cast<float>(shadows.near.layer + shadows.near.shown), static_cast<float>(shadows.far.layer + shadows.far.shown), 0, 0};
-  block.eye = Wide(eye);
+  block.eye = {eye.x, eye.y, eye.z, focal_px};
   block.to_sun = Wide(to_sun);
   block.sun_color = Wide(light.sun);
   block.sky_color = Wide(light.sky);
@@ -119,10 +120,9 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   const int samples = options.samples > 0 ? options.samples : software ? 1 : 4;
   const bool fast = software && samples == 1;  // for a picture many times a second; stills may take their time
   std::string defines = std::string("#define SHADOW_TAPS ") + (software ? "1" : "4") + "\n#define SHARPER " +
-                        (fast ? "-0.6" : "0.0") + "\n#define STEPS " + (fast ? "1" : "3") + "\n";
+                        (fast ? "-0.6" : "0.0") + "\n";
   r.formats = FormatsOfThisMachine(fast);
-  defines += std::string("#define DETAIL_LEVEL ") + (r.formats.halve_details ? "1.0" : "0.0") + "\n";
-  if (fast) defines += "#define FLAT_DEPTH 0.35\n";
+  if (fast) defines += "#define FAST\n";
   const bool deferred = fast && !options.normals;
   if (deferred) defines += "#define DEFERRED\n";
   if (options.normals) defines += "#define NORMALS\n";
@@ -193,7 +193,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   glClear(GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, to_sun, r.shadows));
+  BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, static_cast<float>(width_px) / 2 / std::tan(frame.fov_rad / 2), to_sun, r.shadows));
   // Whatever is drawn hides what comes after it at no cost: the dearest comes last, the nearest first.
   DrawCost people = DrawPeople(r.people, false);
   timer.Passed(DrawPass::kMeshes);

@@ -12,7 +12,7 @@ inline constexpr const char* kFrame = R"(
 layout(std140) uniform Frame {
   mat4 u_view_projection, u_inverse_view_projection, u_near_shadow, u_far_shadow, u_people_shadow;
   vec4 u_eye, u_to_sun, u_sun_color, u_sky_color, u_ground_color, u_haze_color, u_zenith_color;
-  vec4 u_shadow_layers;  // of the near and the far map
+  vec4 u_shadow_layers;  // of the near and the far map; u_eye.w: pixels that a metre takes at a distance of one
 };
 )";
 
@@ -241,13 +241,21 @@ layout(location = 7) in vec4 a_look;      // first cell of the picture's directi
 uniform highp sampler2D u_cells;
 uniform vec4 u_atlas;                     // texture coordinates a metre, size in texels
 uniform float u_directions;
-out vec3 v_point, v_ray;                  // in the person's axes
+out vec3 v_ray;                           // from the eye to the quad
+out vec3 v_point0, v_point1, v_ray0, v_ray1;  // the quad's points and v_ray in the two pictures' axes: right, up, towards whoever looks
 out vec2 v_texel;                         // of the quad, as large as the atlas's
-flat out vec4 v_place, v_look, v_views, v_cell0, v_cell1, v_origins;
+flat out vec4 v_turns;                    // cosine and sine of the two pictures' azimuths
+flat out vec4 v_cell0, v_cell1, v_origins;
+flat out vec4 v_look;                     // phases since the picture, share of the second one, sine and cosine of the elevation
 flat out vec2 v_share;
-flat out float v_haze;
+flat out float v_haze, v_level;           // v_level: mip level, whose texels are as large as pixels
+flat out int v_pictures;                  // how many of the two count
 const float k_around_px = 4.0;  // beyond both silhouettes lie those between them, and what perspective and motion make larger
 vec4 cell_texel(int i) { return texelFetch(u_cells, ivec2(i % CELLS_WIDTH, i / CELLS_WIDTH), 0); }
+vec3 in_axes_of(vec2 turn, vec2 elevation, vec3 v) {
+  float out_m = dot(v.xz, turn.yx);
+  return vec3(turn.x * v.x - turn.y * v.z, elevation.y * v.y - elevation.x * out_m, elevation.x * v.y + elevation.y * out_m);
+}
 void main() {
   vec3 from = u_eye.xyz - a_place.xyz;
   float turn = (atan(-from.z, from.x) - a_place.w) / 6.28318531 + 0.25;
@@ -261,25 +269,43 @@ void main() {
   vec2 at = mix(low - k_around_px, high + k_around_px, a_corner) * texel_m;
   float distance = max(length(from.xz), 1e-3);
   vec3 offset = vec3(from.z / distance * at.x, at.y, -from.x / distance * at.x);
-  vec3 p = a_place.xyz + offset, ray = p - u_eye.xyz;
-  float c = cos(a_place.w), s = sin(a_place.w);
-  v_point = vec3(c * offset.x - s * offset.z, offset.y, s * offset.x + c * offset.z);
-  v_ray = vec3(c * ray.x - s * ray.z, ray.y, s * ray.x + c * ray.z);
+  vec3 p = a_place.xyz + offset;
+  v_ray = p - u_eye.xyz;
+  vec2 azimuths = vec2(d0, d1) * 6.28318531 / u_directions + a_place.w;
+  v_turns = vec4(cos(azimuths.x), sin(azimuths.x), cos(azimuths.y), sin(azimuths.y));
+  v_point0 = in_axes_of(v_turns.xy, origin0.zw, offset);
+  v_point1 = in_axes_of(v_turns.zw, origin0.zw, offset);
+  v_ray0 = in_axes_of(v_turns.xy, origin0.zw, v_ray);
+  v_ray1 = in_axes_of(v_turns.zw, origin0.zw, v_ray);
   v_texel = at * u_atlas.xy * u_atlas.zw;
-  v_place = vec4(a_place.xyz, 0.0);
-  v_look = vec4(a_look.w, fract(direction), c, s);
-  v_views = vec4(vec2(d0, d1) * 6.28318531 / u_directions, origin0.zw);
   v_cell0 = cell0 / u_atlas.zwzw;
   v_cell1 = cell1 / u_atlas.zwzw;
   v_origins = vec4(origin0.xy, origin1.xy) / u_atlas.zwzw;
   v_share = a_look.yz;
   v_haze = haze_at(a_place.xyz);
   gl_Position = u_view_projection * vec4(p, 1.0);
-#ifdef FLAT_DEPTH
+  v_level = max(0.0, log2(max((u_view_projection * vec4(a_place.xyz, 1.0)).w, 0.1) / (u_eye.w * texel_m)));
+  float between = fract(direction);
+  v_pictures = 2;
+#ifdef FAST
+  // The smaller they are drawn, the narrower is the range of directions in which both pictures are looked up.
+  v_level = floor(v_level + 0.5);  // between two levels software looks up twice as much
+  between = clamp((between - 0.5) * 2.0 * exp2(v_level) + 0.5, 0.0, 1.0);
+  if (between <= 0.0) v_pictures = 1;
+  if (between >= 1.0) {
+    v_pictures = 1;
+    between = 0.0;
+    v_point0 = v_point1;
+    v_ray0 = v_ray1;
+    v_turns.xy = v_turns.zw;
+    v_cell0 = v_cell1;
+    v_origins.xy = v_origins.zw;
+  }
   // As deep as the person's front: so the ground leaves the feet, and the depth test can go before all that follows.
-  vec4 front = u_view_projection * vec4(p - normalize(vec3(ray.x, 0.0, ray.z)) * FLAT_DEPTH, 1.0);
+  vec4 front = u_view_projection * vec4(p - normalize(vec3(v_ray.x, 0.0, v_ray.z)) * 0.35, 1.0);
   gl_Position.z = front.z / front.w * gl_Position.w;
 #endif
+  v_look = vec4(a_look.w, between, origin0.zw);
 }
 )";
 
@@ -287,19 +313,23 @@ void main() {
 // the ray through a pixel meets such a point is found by going to and fro: depth and motion at a guessed texel say which texel
 // shows the point of the ray at that depth, and that is the next guess.
 inline constexpr const char* kImpostorViews = R"(
-in vec3 v_point, v_ray;
+in vec3 v_ray, v_point0, v_point1, v_ray0, v_ray1;
 in vec2 v_texel;
-flat in vec4 v_place, v_look, v_views, v_cell0, v_cell1, v_origins;
+flat in vec4 v_turns, v_cell0, v_cell1, v_origins, v_look;
+flat in float v_haze, v_level;
+flat in int v_pictures;
 uniform sampler2D u_texture, u_depth, u_motion;
 uniform vec4 u_atlas;
 uniform vec3 u_ranges;  // of depth, of motion
-struct View { vec3 right, up, near; };
+struct View { vec3 point, ray; vec4 cell; vec2 origin, turn; };
 // Coverage at a pixel's four samples, where graphics cards take them, or at its middle.
 #ifdef SMOOTH_EDGES
 #define COVER vec4
 const vec2 k_samples[4] = vec2[4](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
+float mean_of(vec4 cover) { return dot(cover, vec4(0.25)); }
 #else
 #define COVER float
+float mean_of(float cover) { return cover; }
 #endif
 struct Meeting {
   vec2 at;       // texture coordinates
@@ -307,111 +337,114 @@ struct Meeting {
   COVER cover;   // 0: the ray misses the person
   float along;   // the ray, in its length
 };
-View view_from(float azimuth) {
-  float c = cos(azimuth), s = sin(azimuth), se = v_views.z, ce = v_views.w;
-  return View(vec3(c, 0.0, -s), vec3(-s * se, ce, -c * se), vec3(s * ce, se, c * ce));
-}
-float mip_level() {
-  vec2 x = dFdx(v_texel), y = dFdy(v_texel);
-  float level = max(0.0, 0.5 * log2(max(dot(x, x), dot(y, y))));
-#if STEPS == 1
-  level = floor(level + 0.5);  // between two levels software looks up twice as much
-#endif
-  return level;
-}
-COVER cover_at(vec2 at, float level, mat2 pixel) {
+COVER cover_at(vec2 at, mat2 pixel) {
 #ifdef SMOOTH_EDGES
   vec4 cover;
-  for (int i = 0; i < 4; ++i) cover[i] = textureLod(u_texture, at + pixel * k_samples[i], level).a;
+  for (int i = 0; i < 4; ++i) cover[i] = textureLod(u_texture, at + pixel * k_samples[i], v_level).a;
   return cover;
 #else
-  return textureLod(u_texture, at, level).a;
+  return textureLod(u_texture, at, v_level).a;
 #endif
 }
-Meeting meet(View view, vec4 cell, vec2 origin, float level, mat2 pixel) {
-  vec3 q = vec3(dot(v_point, view.right), dot(v_point, view.up), dot(v_point, view.near));
-  vec3 d = vec3(dot(v_ray, view.right), dot(v_ray, view.up), dot(v_ray, view.near));
-  vec2 slope = d.xy / d.z;
-  vec2 base = q.xy - slope * q.z, metre = vec2(u_atlas.x, -u_atlas.y), edge = 0.5 * exp2(ceil(level)) / u_atlas.zw;
-  vec2 low = cell.xy + edge, high = cell.zw - edge, at = origin + base * metre, guess = at;
+vec3 depth_and_motion(vec2 at) {
+#ifdef FAST
+  return textureLod(u_depth, at, max(v_level - 1.0, 0.0)).rgb;  // in one picture of half the size
+#else
+  return vec3(textureLod(u_depth, at, v_level).r, textureLod(u_motion, at, max(v_level - 1.0, 0.0)).rg);
+#endif
+}
+Meeting meet(View view, mat2 pixel) {
+  vec3 q = view.point;
+  vec2 slope = view.ray.xy / view.ray.z, base = q.xy - slope * q.z, metre = vec2(u_atlas.x, -u_atlas.y);
+  vec2 edge = 0.5 * exp2(ceil(v_level)) / u_atlas.zw, low = view.cell.xy + edge, high = view.cell.zw - edge;
+  vec2 at = view.origin + base * metre, guess = at;
   float depth = 0.0;
-  int steps = level < 1.0 ? STEPS : 1;
+#ifdef FAST
+  const int steps = 1;
+#else
+  int steps = v_level < 1.0 ? 3 : 1;
+#endif
   for (int i = 0; i < steps; ++i) {
     guess = clamp(at, low, high);
-    depth = (textureLod(u_depth, guess, max(level - DETAIL_LEVEL, 0.0)).r * 2.0 - 1.0) * u_ranges.x;
-    vec2 motion = (textureLod(u_motion, guess, max(level - 1.0 - DETAIL_LEVEL, 0.0)).rg * 2.0 - 1.0) * (u_ranges.y * v_look.x);
-    at = origin + (base + slope * depth - motion) * metre;
+    vec3 shown = depth_and_motion(guess) * 2.0 - 1.0;
+    depth = shown.r * u_ranges.x;
+    at = view.origin + (base + slope * depth - shown.gb * (u_ranges.y * v_look.x)) * metre;
   }
-  bool inside = all(greaterThanEqual(at, cell.xy)) && all(lessThanEqual(at, cell.zw));
+  bool inside = all(greaterThanEqual(at, view.cell.xy)) && all(lessThanEqual(at, view.cell.zw));
   at = clamp(at, low, high);
-  vec4 color = textureLod(u_texture, at, level);
+  vec4 color = textureLod(u_texture, at, v_level);
 #ifdef SMOOTH_EDGES
-  vec4 cover = cover_at(at, level, pixel);
+  vec4 cover = cover_at(at, pixel);
 #else
   float cover = color.a;
 #endif
   if (!inside) cover = COVER(0.0);
+#ifndef FAST
   // A guess beside the person that still leaps onto them was led astray by what fills the gutters.
   vec2 leap = (at - guess) * u_atlas.zw;
-#if STEPS > 1
-  if (dot(leap, leap) > exp2(2.0 * level)) cover = min(cover, cover_at(guess, level, pixel));
+  if (dot(leap, leap) > exp2(2.0 * v_level)) cover = min(cover, cover_at(guess, pixel));
 #endif
-  return Meeting(at, color.rgb, cover, (depth - q.z) / d.z);
+  return Meeting(at, color.rgb, cover, (depth - q.z) / view.ray.z);
 }
 )";
 
 inline constexpr const char* kImpostorFragment = R"(
 uniform sampler2D u_normals;
-flat in float v_haze;
-vec3 normal_at(View view, vec2 at, float level) {
-  vec2 square = textureLod(u_normals, at, max(level - DETAIL_LEVEL, 0.0)).rg * 2.0 - 1.0;
-  vec2 p = vec2(square.x + square.y, square.x - square.y) * 0.5;
-  return view.right * p.x + view.up * p.y + view.near * (1.0 - abs(p.x) - abs(p.y));
-}
-vec3 turned(vec3 v) { return vec3(v_look.z * v.x + v_look.w * v.z, v.y, v_look.z * v.z - v_look.w * v.x); }
-void main() {
-  float level = mip_level(), between = v_look.y;
-#if STEPS == 1
-  // Most of a quad shows nobody: far from both silhouettes no more needs to be looked up.
-  vec2 metre = vec2(u_atlas.x, -u_atlas.y), flat_at = v_texel / u_atlas.zw / u_atlas.xy * metre;
-  float cover = textureLod(u_texture, clamp(v_origins.xy + flat_at, v_cell0.xy, v_cell0.zw), 3.0).a +
-                textureLod(u_texture, clamp(v_origins.zw + flat_at, v_cell1.xy, v_cell1.zw), 3.0).a;
-  if (cover < 0.02) discard;
+const float k_hides = 0.999;  // not all: straight from a picture's direction it alone has a share
+vec3 normal_at(View view, vec2 at) {
+#ifdef FAST
+  float level = max(v_level - 1.0, 0.0);
+#else
+  float level = v_level;
 #endif
-  View view0 = view_from(v_views.x), view1 = view_from(v_views.y);
+  vec2 square = textureLod(u_normals, at, level).rg * 2.0 - 1.0, p = vec2(square.x + square.y, square.x - square.y) * 0.5;
+  float near = 1.0 - abs(p.x) - abs(p.y), out_m = v_look.w * near - v_look.z * p.y;
+  return vec3(view.turn.x * p.x + view.turn.y * out_m, v_look.w * p.y + v_look.z * near, view.turn.x * out_m - view.turn.y * p.x);
+}
+void main() {
   vec2 across = dFdx(v_texel), texel = vec2(1.0, -1.0) / u_atlas.zw;
   mat2 pixel = mat2(across * texel, dFdy(v_texel) * texel);
-  Meeting a = meet(view0, v_cell0, v_origins.xy, level, pixel), b = meet(view1, v_cell1, v_origins.zw, level, pixel);
-  COVER cover_ab = mix(a.cover, b.cover, between);
+  View view = View(v_point0, v_ray0, v_cell0, v_origins.xy, v_turns.xy);
+  COVER cover = COVER(0.0);
+  vec3 color = vec3(0.0), n = vec3(0.0);
+  float along = 0.0, weight = 0.0, other_cover = 0.0, other_along = 0.0;
+  // A loop of as many turns as there are pictures, for it is what software can leave early.
+  for (int k = 0; k < v_pictures; ++k) {
+    Meeting m = meet(view, pixel);
+    float part = k == 0 ? 1.0 - v_look.y : v_look.y, own_cover = mean_of(m.cover), own = part * own_cover;
+    // Where only one of the two shows the person, it alone counts; and where one sees what is hidden from the other, too.
+    if (min(own_cover, other_cover) > 0.5) {
+      float apart = (other_along - m.along) * length(v_ray), others = 1.0 - k_hides * smoothstep(0.04, 0.10, apart);
+      color *= others, n *= others, along *= others, weight *= others;
+      own *= 1.0 - k_hides * smoothstep(0.04, 0.10, -apart);
+    }
+    cover += part * m.cover;
+    color += own * m.color;
+    n += own * normal_at(view, m.at);
+    along += own * m.along;
+    weight += own;
+    other_cover = own_cover;
+    other_along = m.along;
+    view = View(v_point1, v_ray1, v_cell1, v_origins.zw, v_turns.zw);
+  }
   float coverage = 1.0;
 #ifdef SMOOTH_EDGES
   // A sample is covered as a geometry's edge covers it, fully or not; what is thinner than a texel covers some of them. As many
   // samples are written, by an alpha that drivers which round it and those which round it up take for the same number.
-  vec4 covered = clamp((cover_ab - 0.5) * 2.0 * max(1.0, inversesqrt(max(dot(across, across), 0.01))) + 0.5, 0.0, 1.0);
+  vec4 covered = clamp((cover - 0.5) * 2.0 * max(1.0, inversesqrt(max(dot(across, across), 0.01))) + 0.5, 0.0, 1.0);
   coverage = (floor(dot(covered, vec4(1.0)) + 0.5) - 0.3) * 0.25;
   if (coverage <= 0.0) discard;
-  float a_cover = dot(a.cover, vec4(0.25)), b_cover = dot(b.cover, vec4(0.25));
 #else
-  if (cover_ab < 0.5) discard;
-  float a_cover = a.cover, b_cover = b.cover;
+  if (cover < 0.5) discard;
 #endif
   keep_share();
-  // Where only one of the two shows the person, it alone counts; and where one sees what is hidden from the other, too.
-  float wa = (1.0 - between) * a_cover, wb = between * b_cover;
-  if (min(a_cover, b_cover) > 0.5) {
-    float apart = (a.along - b.along) * length(v_ray);
-    wa *= 1.0 - smoothstep(0.04, 0.10, apart);
-    wb *= 1.0 - smoothstep(0.04, 0.10, -apart);
-  }
-  float share = wb / max(wa + wb, 1e-4);
-  vec3 color = mix(a.color, b.color, share);
-  vec3 n = turned(normalize(mix(normal_at(view0, a.at, level), normal_at(view1, b.at, level), share)));
-  vec3 p = v_place.xyz + turned(v_point + v_ray * mix(a.along, b.along, share));
-#ifndef FLAT_DEPTH
+  float whole = 1.0 / max(weight, 1e-4);
+  vec3 p = u_eye.xyz + v_ray * (1.0 + along * whole);
+#ifndef FAST
   vec4 clip = u_view_projection * vec4(p, 1.0);
   gl_FragDepth = clip.z / clip.w * 0.5 + 0.5;
 #endif
-  leave(color, n, p, v_haze);
+  leave(color * whole, normalize(n), p, v_haze);
   o_color.a = coverage;
 }
 )";
@@ -454,7 +487,7 @@ inline constexpr const char* kLightVertex = R"(
 out vec4 v_near, v_far;  // ends of the ray through a pixel, homogeneous: the depth divides it evenly
 void main() {
   vec2 p = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0;
-  gl_Position = vec4(p, 0.0, 1.0);
+  gl_Position = vec4(p, 1.0, 1.0);  // behind everything
   v_near = u_inverse_view_projection * vec4(p, -1.0, 1.0);
   v_far = u_inverse_view_projection * vec4(p, 1.0, 1.0);
 }

@@ -28,7 +28,9 @@ struct SurfacePlan {
 
 struct AtlasFormats {
   bool bc7_blocks = false, rgtc_blocks = false;  // that OpenGL reads
-  bool halve_details = false;  // impostors' normals, depth and motion half as large: they look the same, and take a quarter
+  // Impostors' normals half as large, depth and motion together in one picture half as large: they look the same, take less memory
+  // and are looked up faster.
+  bool pack_details = false;
 };
 
 struct PictureLimits { int town_px = 4096, people_px = 1024; };  // longest sides; larger pictures are made smaller

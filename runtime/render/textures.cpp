@@ -10,7 +10,7 @@
 namespace flaneur {
 namespace {
 
-constexpr int kImpostorMostLevel = 3;  // in coarser ones several cells share a texel
+constexpr size_t kImpostorMostLevel = 3;  // in coarser ones several cells share a texel
 
 void SetFilters(GLenum target, GLint wrap, GLint most_level, bool between_levels) {
   glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
@@ -46,6 +46,39 @@ bool ReadsBlocks(TextureFormat format, const AtlasFormats& formats) {
   return format == TextureFormat::kBc7Srgb ? formats.bc7_blocks : formats.rgtc_blocks;
 }
 
+// From mip level `first` on, or the last one before that is there.
+AtlasPicture Prepare(const PackTexture& picture, size_t first, const AtlasFormats& formats) {
+  first = std::min(first, picture.levels.size() - 1);
+  AtlasPicture out{picture.format, std::max(1, picture.width_px >> first), std::max(1, picture.height_px >> first),
+                   ReadsBlocks(picture.format, formats), {}};
+  const size_t end = std::min(picture.levels.size(), first + kImpostorMostLevel + 1);
+  for (size_t k = first; k < end; ++k) {
+    const std::vector<uint8_t>& blocks = picture.levels[k];
+    const int width_px = std::max(1, picture.width_px >> k), height_px = std::max(1, picture.height_px >> k);
+    out.levels.push_back(out.blocks ? blocks : DecodeLevel(picture.format, width_px, height_px, blocks));
+  }
+  return out;
+}
+
+// Decoded depth in red, motion in green and blue.
+AtlasPicture Packed(const AtlasPicture& depth, const AtlasPicture& motion) {
+  AtlasPicture out{TextureFormat::kBc7Srgb, depth.width_px, depth.height_px, false, {}};
+  const auto side = [](int px, size_t level) { return static_cast<size_t>(std::max(1, px >> level)); };
+  for (size_t level = 0; level < std::min(depth.levels.size(), motion.levels.size()); ++level) {
+    const size_t width = side(out.width_px, level), height = side(out.height_px, level);
+    const size_t motion_width = side(motion.width_px, level), motion_height = side(motion.height_px, level);
+    std::vector<uint8_t>& texels = out.levels.emplace_back(width * height * 4);
+    for (size_t y = 0; y < height; ++y) {
+      for (size_t x = 0; x < width; ++x) {
+        const uint8_t* moved = &motion.levels[level][2 * (y * motion_height / height * motion_width + x * motion_width / width)];
+        uint8_t* to = &texels[4 * (y * width + x)];
+        to[0] = depth.levels[level][y * width + x], to[1] = moved[0], to[2] = moved[1];
+      }
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast) {
@@ -56,8 +89,8 @@ std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, textures[k]);
     glTexStorage3D(GL_TEXTURE_2D_ARRAY, LevelsOf(a.side_px), GL_RGBA8, a.side_px, a.side_px, std::max(1, a.layers));
     SetFilters(GL_TEXTURE_2D_ARRAY, GL_REPEAT, LevelsOf(a.side_px) - 1, !fast);
-    // In software each anisotropic look-up walks an ellipse of texels: ten times the whole rest of a frame.
-    if (!DrawsInSoftware() && HasExtension("texture_filter_anisotropic")) {
+    // In software each anisotropic look-up walks an ellipse of texels: too dear for many pictures a second.
+    if (!fast && HasExtension("texture_filter_anisotropic")) {
       glTexParameterf(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_ANISOTROPY_EXT, 4);
     }
   }
@@ -78,24 +111,20 @@ AtlasFormats FormatsOfThisMachine(bool fast) {
   return {HasExtension(FormatOf(TextureFormat::kBc7Srgb).extension), HasExtension(FormatOf(TextureFormat::kBc5).extension), false};
 }
 
-AtlasPicture PrepareAtlasPicture(PackTexture picture, const AtlasFormats& formats) {
-  AtlasPicture out{picture.format, picture.width_px, picture.height_px, ReadsBlocks(picture.format, formats), std::move(picture.levels)};
-  const bool details = picture.format != TextureFormat::kBc7Srgb;
-  if (formats.halve_details && details && out.levels.size() > 1) {
-    out.levels.erase(out.levels.begin());
-    out.width_px = std::max(1, out.width_px / 2);
-    out.height_px = std::max(1, out.height_px / 2);
-  }
-  out.levels.resize(std::min(out.levels.size(), size_t{kImpostorMostLevel} + 1));
-  if (out.blocks) return out;
-  for (size_t k = 0; k < out.levels.size(); ++k) {
-    out.levels[k] = DecodeLevel(out.format, std::max(1, out.width_px >> k), std::max(1, out.height_px >> k), out.levels[k]);
+std::array<AtlasPicture, 4> PrepareAtlas(const PackImpostor& atlas, const AtlasFormats& formats) {
+  const bool pack = formats.pack_details;
+  std::array<AtlasPicture, 4> out{Prepare(atlas.albedo, 0, formats), Prepare(atlas.normal, pack ? 1 : 0, formats),
+                                  Prepare(atlas.depth, pack ? 1 : 0, formats), Prepare(atlas.motion, 0, formats)};
+  if (pack) {
+    out[2] = Packed(out[2], out[3]);
+    out[3] = {};
   }
   return out;
 }
 
 GLuint UploadAtlasPicture(const AtlasPicture& picture) {
   GLuint texture = 0;
+  if (picture.levels.empty()) return texture;
   glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D, texture);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

@@ -23,7 +23,8 @@ struct AtlasPicture {
   std::vector<std::vector<uint8_t>> levels;
 };
 AtlasFormats FormatsOfThisMachine(bool fast);  // needs a context; in software no blocks: there one is decoded for every look-up
-AtlasPicture PrepareAtlasPicture(PackTexture picture, const AtlasFormats& formats);
-GLuint UploadAtlasPicture(const AtlasPicture& picture);
+// Albedo, normals, depth, motion. Where details are packed motion is with the depth, as colour, and its own picture is empty.
+std::array<AtlasPicture, 4> PrepareAtlas(const PackImpostor& atlas, const AtlasFormats& formats);
+GLuint UploadAtlasPicture(const AtlasPicture& picture);  // 0 where it is empty
 
 }  // namespace flaneur

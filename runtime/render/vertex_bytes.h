@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "runtime/base/srgb.h"
+
 namespace flaneur {
 
 inline int8_t SignedByte(float v) { return static_cast<int8_t>(std::lround(std::clamp(v, -1.0f, 1.0f) * 127)); }
@@ -11,9 +13,6 @@ inline uint8_t Byte(float v) { return static_cast<uint8_t>(std::clamp(v, 0.0f, 1
 
 // Of a linear tint, as the display shows it. Pictures are multiplied by it before they are made linear: once a pixel instead of for
 // every surface, and off by at most 3 of 255.
-inline uint8_t SrgbByte(float linear) {
-  const float c = std::clamp(linear, 0.0f, 1.0f);
-  return Byte(c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f);
-}
+inline uint8_t SrgbByte(float linear) { return Byte(SrgbFromLinear(std::clamp(linear, 0.0f, 1.0f))); }
 
 }  // namespace flaneur

@@ -1,8 +1,9 @@
-// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT [passes]]]]
+// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT [passes [PICTURE]]]]]
 //
 // Plays the scenario and draws its frames twice, right after each other: as control decides, and with everybody who is drawn as
 // their finest mesh. Prints medians and 99th percentiles, and their ratio. Processor times are those of all threads: on a machine
-// that does other work as well they say more than the clock. With `passes` what each pass of our pictures takes instead of the comparison.
+// that does other work as well they say more than the clock. With `passes` what each pass of our pictures takes instead of the comparison;
+// PICTURE: the last of them, as PNG.
 #include <time.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/png.h"
 #include "runtime/player/frame_from_simulation.h"
 #include "runtime/player/scenario.h"
 #include "runtime/player/simulation.h"
@@ -76,7 +78,7 @@ FrameInput AllFinest(FrameInput frame) {
 }
 
 Error Run(int argc, char** argv) {
-  if (argc < 3) return Fail("usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT [passes]]]]");
+  if (argc < 3) return Fail("usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT [passes [PICTURE]]]]]");
   int width_px = 1280, height_px = 720;
   if (argc > 5) std::sscanf(argv[5], "%dx%d", &width_px, &height_px);
   const bool passes = argc > 6 && std::string(argv[6]) == "passes";
@@ -116,6 +118,11 @@ Error Run(int argc, char** argv) {
       Draw(AllFinest(frame), width_px, height_px, &full_renderer, &full);
     }
     StepSimulation({}, 0, &s);
+  }
+  if (argc > 7) {
+    std::vector<uint8_t> rgb;
+    renderer.Read(&rgb);
+    if (Error e = WritePng(argv[7], width_px, height_px, rgb)) return e;
   }
   std::printf("%s, %zu people, %d x %d pixels\n%-44s %9s %9s %9s\n", context.Renderer().c_str(), s.crowd.size(), width_px, height_px, "", "least",
               "median", "99th perc.");
