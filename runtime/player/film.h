@@ -22,9 +22,12 @@ class FilmWriter {
   Error Finish();
 
  private:
+  Error Failed() const;  // with what ffmpeg says about it
+
   std::filesystem::path path_, temporary_;
   int pipe_ = -1;
   int process_ = -1;
+  int complaints_ = -1;  // a file in memory
 };
 
 }  // namespace flaneur

@@ -38,12 +38,14 @@ bool CanStand(const Simulation& s, Vec2 stop, Vec2 p) {
 }
 
 // Where the guide stands at a halt: beside what there is to see, near enough to be heard, never in the visitor's way.
-Vec2 PlaceAt(const Simulation& s, const TourStop& stop) {
+Vec2 PlaceAt(const Simulation& s, size_t halt) {
+  const TourStop& stop = s.tour.stops[halt];
+  const float looks_rad = LookAt_rad(s.tour, halt);
   const float least_m = s.r_personal_m + s.avatar_radius_m[static_cast<size_t>(s.guide.avatar)] + 0.3f;
   for (const float wider : {1.0f, 1.8f, 3.0f, 5.0f, 0.0f, 7.0f}) {
     for (const float far_m : {std::max(2.8f, least_m), std::max(2.0f, least_m), least_m}) {
       for (const float side : {-1.0f, 1.0f}) {
-        const Vec2 p = stop.position_m + DirectionOf(stop.yaw_rad + side * wider * kBesideView_rad) * far_m;
+        const Vec2 p = stop.position_m + DirectionOf(looks_rad + side * wider * kBesideView_rad) * far_m;
         if (CanStand(s, stop.position_m, p)) return p;
       }
     }
@@ -59,7 +61,7 @@ void FollowPlan(Vec2 p, Simulation* s) {
     return;
   }
   g.plans = t.plans;
-  g.place = PlaceAt(*s, t.stops[HaltOf(t)]);
+  g.place = PlaceAt(*s, HaltOf(t));
   g.way_m = WayTo(t.route, p, 0, kFarthest_m);
   g.waited_s = 0;
 }
@@ -123,7 +125,7 @@ bool FindStart(const Simulation& s, Vec2* start) {
     *start = PointAt(s.tour.route, ahead_m);
     if (fits(*start)) return true;
   }
-  *start = PlaceAt(s, s.tour.stops[HaltOf(s.tour)]);
+  *start = PlaceAt(s, HaltOf(s.tour));
   if (Length(*start - visitor) < kWaits_m && fits(*start)) return true;
   const int cell = NearestFreeCell(s.walkable, visitor + DirectionOf(s.camera.view.yaw_rad) * kLead_m, kLead_m);
   if (cell >= 0) *start = CellCenter(s.walkable, cell);

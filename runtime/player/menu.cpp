@@ -12,7 +12,9 @@ namespace flaneur {
 namespace {
 
 constexpr float kLettersHigh = 22, kLettersWide = 30;  // how many the picture has room for
-constexpr float kRow = 1.55f, kPageWidth = 24, kFooter = 2.2f;  // in letters
+constexpr float kRow = 1.55f, kPageWidth = 24, kKeysWidth = 28;  // in letters
+constexpr float kKeyNames = 0.39f, kKeyButton = 0.295f;  // of that
+constexpr const char* kCutShort = "…";
 constexpr float kStickPushed = 0.5f;
 constexpr float kRadians = kPi / 180;
 
@@ -29,14 +31,14 @@ struct PageView {
   float row_px() const { return kRow * letter_px; }
 };
 
-// Cuts off after the first sentence.
-std::string FirstSentence(const std::string& text) {
-  const size_t end = text.find_first_of(".!?:\n");
-  return end == std::string::npos || end < 3 ? text : text.substr(0, end);
-}
-
-std::string NameOfStop(const Tour& tour, size_t stop, size_t number) {
-  return std::to_string(number) + "   " + FirstSentence(tour.words[stop].caption);
+// As much of the text as has room.
+std::string Fitted(const std::string& text, float most_px) {
+  std::string fitted = text;
+  for (size_t end = text.size(); end > 0 && ImGui::CalcTextSize(fitted.c_str()).x > most_px; fitted = text.substr(0, end) + kCutShort) {
+    while (--end > 0 && (text[end] & 0xC0) == 0x80) {  // within a letter of several bytes
+    }
+  }
+  return fitted;
 }
 
 std::vector<size_t> Halts(const Tour& tour) {
@@ -58,9 +60,12 @@ std::vector<std::string> Languages(const Simulation& s) {
 }
 
 // `###` keeps a button the same whatever is written on it.
-bool Row(const PageView& v, const std::string& text, const char* id) {
-  return ImGui::Button((text + "###" + id).c_str(), {v.width_px, v.row_px()});
+bool Button(const PageView& v, const std::string& text, const std::string& id, float width_px) {
+  const std::string fitted = Fitted(text, width_px - 2 * ImGui::GetStyle().FramePadding.x);
+  return ImGui::Button((fitted + "###" + id).c_str(), {width_px, v.row_px()});
 }
+
+bool Row(const PageView& v, const std::string& text, const std::string& id) { return Button(v, text, id, v.width_px); }
 
 void Changed(PageView* v) { v->controls->changed = v->controls->applies = true; }
 
@@ -69,7 +74,7 @@ int Amount(const PageView& v, const char* text, const std::string& value) {
   const float button_px = 1.3f * v.row_px(), value_px = 6.2f * v.letter_px;
   ImGui::PushID(text);
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text);
+  ImGui::TextUnformatted(Fitted(text, v.width_px - 2 * button_px - value_px - 0.4f * v.letter_px).c_str());
   ImGui::SameLine(v.width_px - 2 * button_px - value_px);
   ImGui::PushButtonRepeat(true);
   ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0.5f, 0.5f});
@@ -85,10 +90,12 @@ int Amount(const PageView& v, const char* text, const std::string& value) {
   return static_cast<int>(more) - static_cast<int>(less);
 }
 
-std::string Number(const char* format, float value) {
+std::string Number(const PageView& v, const char* format, float value) {
   char text[32];
   std::snprintf(text, sizeof text, format, static_cast<double>(value));
-  return text;
+  std::string number = text;
+  if (const size_t point = number.find('.'); point != std::string::npos) number.replace(point, 1, v.Words(Phrase::kDecimalPoint));
+  return number;
 }
 
 void Step(int steps, float step, float least, float most, float* value, PageView* v) {
@@ -122,7 +129,7 @@ void FollowTour(PageView* v) {
 void ShowMain(PageView* v) {
   const Tour& tour = v->s.tour;
   Controls* c = v->controls;
-  if (Row(*v, v->Words(Phrase::kContinue), "continue")) OpenPage(Page::kNone, v->menu);
+  if (Row(*v, v->Words(v->menu->begins ? Phrase::kBegin : Phrase::kContinue), "continue")) OpenPage(Page::kNone, v->menu);
   if (!tour.stops.empty()) {
     const bool led = c->follows_tour && !v->s.finished;
     if (Row(*v, v->Words(led ? Phrase::kFreeWalk : Phrase::kTour), "tour")) {
@@ -146,9 +153,9 @@ void ShowStops(PageView* v) {
   const std::vector<size_t> halts = Halts(v->s.tour);
   const bool led = v->controls->follows_tour && !v->s.tour.over;
   PagedRows(halts.size(), v, [&](size_t k) {
-    std::string text = NameOfStop(v->s.tour, halts[k], k + 1);
-    if (led && halts[k] == HaltOf(v->s.tour)) text += std::string("   (") + v->Words(Phrase::kNow) + ")";
-    if (!Row(*v, text, std::to_string(k).c_str())) return;
+    std::string text = std::to_string(k + 1) + "   " + NameOfStop(v->s.tour, halts[k]);
+    if (led && halts[k] == HaltOf(v->s.tour)) text += std::string("   (") + v->Words(v->s.tour.resting ? Phrase::kNow : Phrase::kNext) + ")";
+    if (!Row(*v, text, std::to_string(k))) return;
     v->choice.stop = halts[k];
     v->controls->follows_tour = true;
     OpenPage(Page::kNone, v->menu);
@@ -159,19 +166,19 @@ void ShowSetting(size_t row, PageView* v) {
   PlayerSettings& s = v->controls->settings;
   const float view_deg = v->s.camera.view.fov_rad / kRadians;
   switch (row) {
-    case 0: return Step(Amount(*v, v->Words(Phrase::kWalkSpeed), Number("%.1f m/s", s.walk_speed_mps)), 0.1f, 0.3f, 3, &s.walk_speed_mps, v);
-    case 1: return Step(Amount(*v, v->Words(Phrase::kTurnSpeed), Number("%.0f°/s", s.turn_speed_dps)), 10, 10, 360, &s.turn_speed_dps, v);
+    case 0: return Step(Amount(*v, v->Words(Phrase::kWalkSpeed), Number(*v, "%.1f m/s", s.walk_speed_mps)), 0.1f, 0.3f, 3, &s.walk_speed_mps, v);
+    case 1: return Step(Amount(*v, v->Words(Phrase::kTurnSpeed), Number(*v, "%.0f°/s", s.turn_speed_dps)), 10, 10, 360, &s.turn_speed_dps, v);
     case 2: {
-      const std::string value = s.snap_turn_deg > 0 ? Number("%.0f°", s.snap_turn_deg) : v->Words(Phrase::kSmoothly);
+      const std::string value = s.snap_turn_deg > 0 ? Number(*v, "%.0f°", s.snap_turn_deg) : v->Words(Phrase::kSmoothly);
       return Step(Amount(*v, v->Words(Phrase::kSnapTurn), value), 15, 0, 90, &s.snap_turn_deg, v);
     }
-    case 3: return Step(Amount(*v, v->Words(Phrase::kMouseSpeed), Number("%.1f", s.mouse_speed)), 0.1f, 0.1f, 10, &s.mouse_speed, v);
+    case 3: return Step(Amount(*v, v->Words(Phrase::kMouseSpeed), Number(*v, "%.1f", s.mouse_speed)), 0.1f, 0.1f, 10, &s.mouse_speed, v);
     case 4: {
-      const int steps = Amount(*v, v->Words(Phrase::kFieldOfView), Number("%.0f°", view_deg));
+      const int steps = Amount(*v, v->Words(Phrase::kFieldOfView), Number(*v, "%.0f°", view_deg));
       if (steps != 0) s.field_of_view_deg = view_deg;
       return Step(steps, 5, 30, 120, &s.field_of_view_deg, v);
     }
-    case 5: return Step(Amount(*v, v->Words(Phrase::kVolume), Number("%.0f %%", 100 * s.sound_volume)), 0.1f, 0, 1, &s.sound_volume, v);
+    case 5: return Step(Amount(*v, v->Words(Phrase::kVolume), Number(*v, "%.0f %%", 100 * s.sound_volume)), 0.1f, 0, 1, &s.sound_volume, v);
     case 6: return Switch(v->Words(Phrase::kReducedMotion), &s.reduced_motion, v);
     case 7: return Switch(v->Words(Phrase::kInvertLook), &s.invert_look, v);
     default: break;
@@ -197,7 +204,7 @@ void KeyButton(Action action, bool pad, PageView* v) {
   const bool waits = menu->rebinds == action && menu->rebinds_pad == pad;
   const std::string text = waits ? v->Words(pad ? Phrase::kPressButton : Phrase::kPressKey) : KeysOf(*v, action, pad);
   const std::string id = std::string(kActionNames[static_cast<size_t>(action)]) + (pad ? "pad" : "key");
-  if (!ImGui::Button((text + "###" + id).c_str(), {0.29f * v->width_px, v->row_px()})) return;
+  if (!Button(*v, text, id, kKeyButton * v->width_px)) return;
   menu->rebinds = action;
   menu->rebinds_pad = pad;
 }
@@ -214,9 +221,9 @@ void ShowKeys(PageView* v) {
       return;
     }
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(NameOf(actions[k], v->language));
+    ImGui::TextUnformatted(Fitted(NameOf(actions[k], v->language), (kKeyNames - 0.01f) * v->width_px).c_str());
     for (const bool pad : {false, true}) {
-      ImGui::SameLine(v->width_px * (pad ? 0.71f : 0.41f));
+      ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + v->width_px * (pad ? 1 - kKeyButton : kKeyNames));
       KeyButton(actions[k], pad, v);
     }
   });
@@ -271,10 +278,22 @@ size_t RowsThatFit(int height_px, float letter_px) {
 
 }  // namespace
 
+std::string NameOfStop(const Tour& tour, size_t stop) {
+  const std::string& caption = tour.words[stop].caption;
+  const size_t end = caption.find_first_of(".!?:\n");
+  return end == std::string::npos || end < 3 ? caption : caption.substr(0, end);
+}
+
 void OpenPage(Page page, Menu* menu) {
   menu->page = page;
+  menu->begins = menu->begins && page != Page::kNone;
   menu->first = 0;
   menu->rebinds.reset();
+}
+
+void MeetSomebodyNew(Menu* menu) {
+  OpenPage(Page::kMain, menu);
+  menu->begins = true;
 }
 
 std::string PageLanguage(const Controls& c, const Simulation& s) {
@@ -286,9 +305,9 @@ float PageLetter_px(int width_px, int height_px) {
 }
 
 std::string PageTexts(const Controls& c, const Simulation& s) {
-  std::string all = "–°←→↑↓";
+  std::string all = std::string("–°←→↑↓") + kCutShort;
   for (const std::string& language : Languages(s)) all += LanguageName(language);
-  for (const StopWords& words : s.tour.words) all += FirstSentence(words.caption);
+  for (size_t k = 0; k < s.tour.words.size(); ++k) all += NameOfStop(s.tour, k);
   for (const auto& codes : c.codes) {
     for (int code : codes) all += InputLabel(code);
   }
@@ -339,7 +358,7 @@ MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px,
   const Page page = menu->page;
   const ImVec2 picture{static_cast<float>(width_px), static_cast<float>(height_px)};
   const float letter_px = PageLetter_px(width_px, height_px);
-  PageView view{s, menu, c, PageLanguage(*c, s), letter_px, std::min(kPageWidth * letter_px, picture.x - 2 * letter_px), RowsThatFit(height_px, letter_px), {}};
+  PageView view{s, menu, c, PageLanguage(*c, s), letter_px, std::min((page == Page::kKeys ? kKeysWidth : kPageWidth) * letter_px, picture.x - 2 * letter_px), RowsThatFit(height_px, letter_px), {}};
   const LargeText large;
   const PageStyle style(letter_px);
   ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, picture, IM_COL32(0, 0, 0, 110));
@@ -347,7 +366,7 @@ MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px,
   const std::string name = "page " + std::to_string(static_cast<int>(page));
   if (ImGui::Begin(name.c_str(), nullptr, kPlain | ImGuiWindowFlags_AlwaysAutoResize)) {
     if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
-    ImGui::TextUnformatted(page == Page::kMain ? title.c_str() : view.Words(TitleOf(page)));
+    ImGui::TextUnformatted(Fitted(page == Page::kMain ? title : view.Words(TitleOf(page)), view.width_px).c_str());
     ImGui::PushTextWrapPos(0);
     ShowRows(&view);
     ImGui::PopTextWrapPos();

@@ -15,6 +15,7 @@ enum class Page { kNone, kMain, kStops, kSettings, kKeys };
 
 struct Menu {
   Page page = Page::kNone;
+  bool begins = false;             // somebody new meets the pages before the town
   size_t first = 0;                // of the rows, where not all fit
   std::optional<Action> rebinds;   // whose new key is waited for
   bool rebinds_pad = false;        // a button, not a key
@@ -28,9 +29,14 @@ struct MenuChoice {
 };
 
 void OpenPage(Page page, Menu* menu);
+// The first page, as whoever comes to an exhibition meets it.
+void MeetSomebodyNew(Menu* menu);
 
 // Of the player's own words: the visitor's, else the tour's.
 std::string PageLanguage(const Controls& controls, const Simulation& simulation);
+
+// What a stop is called: its caption's first sentence. Empty where it has none.
+std::string NameOfStop(const Tour& tour, size_t stop);
 
 // Height of the pages' letters, for readers 2 m away.
 float PageLetter_px(int width_px, int height_px);

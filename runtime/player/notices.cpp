@@ -22,10 +22,41 @@ std::string FirstKey(const Controls& c, Action action, const std::string& langua
   return codes.empty() ? "" : KeyName(InputLabel(codes.front()), language);
 }
 
+// Who has no keys has a button that leads to the pages, and there on.
+std::string HowTo(const Controls& c, Action action, const std::string& language) {
+  return c.points ? Say(Phrase::kCornerButton, language) : FirstKey(c, action, language);
+}
+
 void Tell(const std::string& text, Notices* n) {
   n->text = text;
   n->left_s = kNotice_s;
-  n->is_hint = false;
+  n->is_hint = n->gives_way = false;
+}
+
+void Remember(const Controls& c, const Simulation& s, Notices* n) {
+  n->paused = s.tour.paused;
+  n->follows = c.follows_tour;
+  n->over = s.tour.over;
+  n->halt = HaltOf(s.tour);
+  n->language = s.tour.language;
+}
+
+Phrase HintFor(const Controls& c, const Simulation& s) {
+  const bool led = c.follows_tour && HasTour(s.tour);
+  if (c.points) return led ? Phrase::kHintLedTouch : Phrase::kHintTouch;
+  return led ? Phrase::kHintLedKeys : Phrase::kHintKeys;
+}
+
+void TellOfTour(const Controls& c, const Simulation& s, const std::string& language, Notices* n) {
+  const Tour& t = s.tour;
+  if (t.paused && !n->paused) Tell(Fill(Say(Phrase::kTourPaused, language), FirstKey(c, Action::kPause, language)), n);
+  if (n->paused && !t.paused && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
+  if (n->follows && !c.follows_tour) Tell(Fill(Say(Phrase::kTourLeft, language), HowTo(c, Action::kTour, language)), n);
+  if (!n->follows && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
+  const std::string next = NameOfStop(t, HaltOf(t));
+  if (n->halt == HaltOf(t) || !c.follows_tour || next.empty()) return;
+  Tell(Fill(Say(Phrase::kNextStop, language), next), n);
+  n->gives_way = true;
 }
 
 }  // namespace
@@ -37,34 +68,26 @@ void BeginHint(const Controls& c, const Simulation& s, Notices* n) {
     const std::string key = FirstKey(c, action, language);
     if (!key.empty()) keys += (keys.empty() ? "" : ", ") + key;
   }
-  n->text = c.points ? Say(Phrase::kHintTouch, language) : Fill(Say(Phrase::kHintKeys, language), keys);
+  n->text = Fill(Say(HintFor(c, s), language), keys);
   const std::string pages = FirstKey(c, Action::kMenu, language);
   if (!c.points && !pages.empty()) n->text += " " + Fill(Say(Phrase::kHintMenu, language), pages);
   n->left_s = kHint_s;
-  n->is_hint = true;
-  n->follows = c.follows_tour;
-  n->paused = s.tour.paused;
-  n->over = s.tour.over;
+  n->is_hint = n->gives_way = true;
+  Remember(c, s, n);
 }
 
 void FollowNotices(const Controls& c, const Simulation& s, float passed_s, Notices* n) {
   n->left_s = std::max(0.0f, n->left_s - passed_s);
   if (n->is_hint && c.acted) n->left_s = std::min(n->left_s, kHintOnceWalking_s);
   const std::string language = PageLanguage(c, s);
-  if (HasTour(s.tour)) {
-    if (s.tour.paused && !n->paused) Tell(Fill(Say(Phrase::kTourPaused, language), FirstKey(c, Action::kPause, language)), n);
-    if (n->paused && !s.tour.paused && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
-    if (n->follows && !c.follows_tour) Tell(Fill(Say(Phrase::kTourLeft, language), FirstKey(c, Action::kTour, language)), n);
-    if (!n->follows && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
-  }
+  if (HasTour(s.tour)) TellOfTour(c, s, language, n);
   if (s.tour.over && !n->over) Tell(Say(Phrase::kTourOver, language), n);
-  n->paused = s.tour.paused;
-  n->follows = c.follows_tour;
-  n->over = s.tour.over;
+  if (s.tour.language != n->language && !n->is_hint) Tell(Say(Phrase::kLanguage, language) + (": " + LanguageName(language)), n);
+  Remember(c, s, n);
 }
 
 void ShowNotice(const Notices& n, bool fades, FrameInput* frame) {
-  if (n.left_s <= 0 || (n.is_hint && !frame->caption.empty())) return;
+  if (n.left_s <= 0 || (n.gives_way && !frame->caption.empty())) return;
   frame->caption = n.text;
   frame->caption_share = fades ? std::min(1.0f, n.left_s / kLeaves_s) : 1;
 }

@@ -33,7 +33,9 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("PACK", o->pack, "Tour pack (.glb); not needed where the scenario brings its own ground");
   app.add_flag("--headless", o->headless, "No window: run by itself, as fast as it goes");
   app.add_flag("--no-draw", o->no_draw, "With --headless: the simulation alone, without OpenGL");
-  app.add_flag("--views", o->views, "Show the plan of the town and graphs over the picture (in the window: F1; F2 switches the adaptation)");
+  app.add_flag("--views", o->views,
+               "Show the plan of the town and graphs over the picture (in the window: F1; F2 switches the adaptation), and say when a "
+               "window's first picture was there");
   app.add_option("--seconds", o->seconds, "End after so much simulated time (default: the scenario's, else the guided tour's end, else 60)")
       ->check(CLI::Range(0.0, 1e6));
   app.add_option("--scenario", o->scenario, "Scenario file (TOML)");

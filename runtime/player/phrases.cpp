@@ -11,6 +11,7 @@ struct Words { const char *en, *de; };
 // In the order of Phrase.
 constexpr std::array<Words, static_cast<size_t>(Phrase::kCount)> kPhrases{{
     {"Continue", "Weiter"},
+    {"Begin", "Beginnen"},
     {"Guided tour", "Führung"},
     {"Walk on your own", "Allein umhergehen"},
     {"Stops of the tour", "Stationen der Führung"},
@@ -21,6 +22,7 @@ constexpr std::array<Words, static_cast<size_t>(Phrase::kCount)> kPhrases{{
     {"Back", "Zurück"},
     {"More", "Mehr"},
     {"here", "hier"},
+    {"next", "als Nächstes"},
     {"Mouse", "Maus"},
     {"looks", "blickt"},
     {"points", "zeigt"},
@@ -35,6 +37,7 @@ constexpr std::array<Words, static_cast<size_t>(Phrase::kCount)> kPhrases{{
     {"Volume", "Lautstärke"},
     {"yes", "ja"},
     {"no", "nein"},
+    {".", ","},
     {"As it was delivered", "Wie ausgeliefert"},
     {"What", "Was"},
     {"Keyboard", "Tastatur"},
@@ -45,11 +48,15 @@ constexpr std::array<Words, static_cast<size_t>(Phrase::kCount)> kPhrases{{
     {"stick", "Stick"},
     {"%s walk, the mouse looks around, a click leads you there.", "%s: gehen. Die Maus blickt umher, ein Klick führt dorthin."},
     {"Tap where you want to go, drag to look around.", "Tippen Sie an, wohin Sie möchten; ziehen Sie, um sich umzusehen."},
+    {"The guided tour leads you. The mouse looks around; %s: walk on your own.", "Die Führung geht voran. Die Maus blickt umher; %s: selbst gehen."},
+    {"The guided tour leads you. Drag to look around, tap to walk on your own.", "Die Führung geht voran. Ziehen Sie, um sich umzusehen, tippen Sie, um selbst zu gehen."},
     {"More: %s", "Mehr: %s"},
     {"The tour waits. %s goes on.", "Die Führung wartet. Weiter: %s"},
     {"The tour goes on.", "Die Führung geht weiter."},
     {"You walk on your own. Back to the tour: %s", "Sie gehen allein umher. Zurück zur Führung: %s"},
     {"The tour is over. Walk about as you like.", "Die Führung ist zu Ende. Gehen Sie umher, wie Sie mögen."},
+    {"Next: %s", "Als Nächstes: %s"},
+    {"the button in the corner", "der Knopf in der Ecke"},
 }};
 
 constexpr std::array<Words, kActions> kActionWords{{
@@ -83,6 +90,8 @@ constexpr std::pair<const char*, const char*> kGermanKeys[] = {
     {"Left Bumper", "Schulter links"}, {"Right Bumper", "Schulter rechts"}, {"Left Stick", "Stick links"}, {"Right Stick", "Stick rechts"},
     {"Back", "Zurück"}, {"Up", "oben"}, {"Down", "unten"}, {"Left", "links"}, {"Right", "rechts"}, {"Enter", "Eingabe"}};
 
+constexpr const char* kKeypad = "Keypad ";
+
 constexpr std::pair<const char*, const char*> kLanguageNames[] = {
     {"bg", "Български"}, {"cs", "Čeština"}, {"da", "Dansk"}, {"de", "Deutsch"}, {"el", "Ελληνικά"}, {"en", "English"}, {"es", "Español"},
     {"et", "Eesti"}, {"fi", "Suomi"}, {"fr", "Français"}, {"hr", "Hrvatski"}, {"hu", "Magyar"}, {"it", "Italiano"}, {"la", "Latina"},
@@ -99,6 +108,10 @@ const char* Say(Phrase phrase, const std::string& language) { return In(kPhrases
 const char* NameOf(Action action, const std::string& language) { return In(kActionWords[static_cast<size_t>(action)], language); }
 
 std::string KeyName(const std::string& label, const std::string& language) {
+  if (label.rfind(kKeypad, 0) == 0) {
+    const std::string key = label.substr(std::string(kKeypad).size());
+    return "Num " + (key == "Subtract" ? "-" : key == "Add" ? "+" : KeyName(key, language));
+  }
   if (!IsGerman(language)) return label;
   for (const auto& [en, de] : kGermanKeys) {
     if (label == en) return de;

@@ -8,16 +8,16 @@
 namespace flaneur {
 
 enum class Phrase {
-  kContinue, kTour, kFreeWalk, kStops, kLanguage, kSettings, kKeys, kEnd, kBackToPages, kMore, kNow,
+  kContinue, kBegin, kTour, kFreeWalk, kStops, kLanguage, kSettings, kKeys, kEnd, kBackToPages, kMore, kNow, kNext,
   kMouse, kMouseLooks, kMousePoints, kWalkSpeed, kTurnSpeed, kMouseSpeed, kFieldOfView, kSnapTurn, kSmoothly, kInvertLook,
-  kReducedMotion, kVolume, kYes, kNo, kDefaults, kAction, kKeyboard, kGamepad, kPressKey, kPressButton, kNothing, kStick,
-  kHintKeys, kHintTouch, kHintMenu, kTourPaused, kTourGoesOn, kTourLeft, kTourOver, kCount
+  kReducedMotion, kVolume, kYes, kNo, kDecimalPoint, kDefaults, kAction, kKeyboard, kGamepad, kPressKey, kPressButton, kNothing, kStick,
+  kHintKeys, kHintTouch, kHintLedKeys, kHintLedTouch, kHintMenu, kTourPaused, kTourGoesOn, kTourLeft, kTourOver, kNextStop, kCornerButton, kCount
 };
 
 // In English where there is nothing in this language, such as "de" or "de-AT".
 const char* Say(Phrase phrase, const std::string& language);
 const char* NameOf(Action action, const std::string& language);
-// As it stands on a keyboard of that language: "Space", "Leertaste".
+// As it stands on a keyboard of that language: "Space", "Leertaste"; those of the keypad as "Num 5".
 std::string KeyName(const std::string& label, const std::string& language);
 
 // Of the player's own words.

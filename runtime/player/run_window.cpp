@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <thread>
 
@@ -12,6 +13,13 @@
 
 namespace flaneur {
 namespace {
+
+const double program_start_s = Now_s();
+
+void TellStart() {
+  std::fprintf(stderr, "flaneur-player: first picture after %.2f s, %.2f s of processor time\n", Now_s() - program_start_s,
+               static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
+}
 
 std::string Title(const std::string& name, double frames_per_s, const Simulation& s, const FrameStatistics& statistics) {
   char title[200];
@@ -53,6 +61,7 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* lo
   records.keep_trajectories = !options.trajectories.empty();
   double clock_s = Now_s(), title_s = clock_s;
   int pictures = 0;
+  bool shown = false;
   while (!visit.ends() && !(options.seconds && static_cast<float>(s->frame) * s->step_s >= *options.seconds)) {
     const WindowInput input = window.Poll();
     const double now_s = Now_s(), passed_s = now_s - clock_s;
@@ -63,6 +72,8 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* lo
     visit.Present();
     window.FreePointer(visit.frees_pointer());
     window.Show();
+    if (!shown && options.views) TellStart();
+    shown = true;
     ++pictures;
     if (now_s - title_s <= 1) continue;
     window.SetTitle(Title(pack.name, pictures / (now_s - title_s), *s, visit.statistics()).c_str());

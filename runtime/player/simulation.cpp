@@ -129,8 +129,7 @@ void PlaceCamera(const Scenario& scenario, Simulation* s) {
     s->camera.view.yaw_rad = scenario.camera_yaw_deg * kPi / 180;
   } else if (const std::vector<TourStop>& stops = s->tour.stops; !stops.empty()) {
     s->camera.view.position = stops.front().position_m;
-    const Vec2 way = stops.size() > 1 ? stops[1].position_m - stops[0].position_m : Vec2{1, 0};
-    s->camera.view.yaw_rad = std::atan2(way.y, way.x);
+    s->camera.view.yaw_rad = LookAt_rad(s->tour, 0);
   } else if (const int cell = BestFreeCell(s->walkable); cell >= 0) {
     s->camera.view.position = CellCenter(s->walkable, cell);
     s->camera.view.yaw_rad = OpenestView_rad(s->walkable, s->camera.view.position);
@@ -165,6 +164,7 @@ void DeriveGap(Simulation* s) {
 void ClassifyAll(Simulation* s) {
   const ViewVolumes volumes = VolumesOf(s->camera.view, s->outer_apex_back_m);
   for (size_t i = 0; i < s->crowd.size(); ++i) {
+    s->crowd.was_visible[i] = s->crowd.view[i] == ViewClass::kVisible ? 1 : 0;
     s->crowd.view[i] = s->camera.present ? Classify(s->crowd.position[i], volumes) : ViewClass::kVisible;
   }
 }

@@ -8,9 +8,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <future>
+#include <set>
 #include <string>
 
 #include "runtime/player/sound.h"
+#include "runtime/player/warn.h"
 
 namespace flaneur {
 namespace {
@@ -33,6 +35,8 @@ struct Speaker::Impl {
   bool tried = false, paused = false, playing = false;
   float volume = 1;
   std::future<Sound> decoding;
+  std::string name;                    // of the sound that plays or is decoded
+  std::set<std::string> undecodable;   // of which that has been said
 
   // True once there is a device; opens it where that has not been tried.
   bool Open() {
@@ -60,7 +64,11 @@ struct Speaker::Impl {
 
   void Begin(const Sound& sound) {
     Silence();
-    if (context == nullptr || sound.samples.empty()) return;
+    if (context == nullptr) return;
+    if (sound.samples.empty()) {
+      if (undecodable.insert(name).second) Warn("the sound of " + name + " cannot be decoded; nothing is heard there");
+      return;
+    }
     alGenBuffers(1, &buffer);
     alBufferData(buffer, sound.channels == 2 ? AL_FORMAT_STEREO16 : AL_FORMAT_MONO16, sound.samples.data(),
                  static_cast<ALsizei>(sound.samples.size() * sizeof(int16_t)), sound.rate_hz);
@@ -84,10 +92,11 @@ Speaker::~Speaker() {
   if (impl_->device != nullptr) alcCloseDevice(impl_->device);
 }
 
-void Speaker::Play(std::vector<uint8_t> sound) {
+void Speaker::Play(std::vector<uint8_t> sound, std::string name) {
   Impl* impl = impl_.get();
   if (impl->tried && impl->context == nullptr) return;
   if (impl->decoding.valid()) impl->decoding.wait();
+  impl->name = std::move(name);
   impl->decoding = std::async(std::launch::async, [impl, bytes = std::move(sound)] { return impl->Open() ? DecodeSound(bytes) : Sound{}; });
 }
 
@@ -119,7 +128,7 @@ void Narrate(const Tour& tour, bool holds, const std::vector<std::vector<uint8_t
   if (now.sound >= static_cast<int>(sounds.size())) now.sound = -1;
   const bool anew = now.sound != last->sound || now.stop != last->stop || now.rested_s < last->rested_s;
   if (now.sound < 0 && last->sound >= 0) speaker->Stop();
-  if (now.sound >= 0 && anew) speaker->Play(sounds[static_cast<size_t>(now.sound)]);
+  if (now.sound >= 0 && anew) speaker->Play(sounds[static_cast<size_t>(now.sound)], "stop " + std::to_string(now.stop + 1));
   speaker->SetPaused(holds || tour.holds);
   speaker->Update();
   *last = now;

@@ -1,7 +1,8 @@
-// Spoken audio. Without an audio device it is silent, and says so once.
+// Spoken audio. Without an audio device it is silent, and says so once; as it does of a sound that cannot be decoded.
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "runtime/player/tour.h"
@@ -13,7 +14,8 @@ class Speaker {
   Speaker();
   ~Speaker();
   // From its beginning, instead of what is playing. The file's bytes (WAV, FLAC, Ogg, MP3) are decoded meanwhile, in another thread.
-  void Play(std::vector<uint8_t> sound);
+  // name: for a warning.
+  void Play(std::vector<uint8_t> sound, std::string name);
   void Stop();
   void SetPaused(bool paused);
   void SetVolume(float share);  // 1: as recorded

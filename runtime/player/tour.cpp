@@ -1,6 +1,7 @@
 #include "runtime/player/tour.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/player/simulation.h"
 
@@ -144,6 +145,13 @@ StopWords WordsOf(const TourStop& stop, const std::string& language, const std::
 
 }  // namespace
 
+float LookAt_rad(const Tour& t, size_t stop) {
+  if (IsHalt(t, stop) || t.stops.size() < 2) return t.stops[stop].yaw_rad;
+  const size_t from = std::min(stop, t.stops.size() - 2);
+  const Vec2 way = t.stops[from + 1].position_m - t.stops[from].position_m;
+  return Length(way) > 0 ? std::atan2(way.y, way.x) : t.stops[stop].yaw_rad;
+}
+
 void TakeTour(const std::vector<TourStop>& stops, const std::string& own_language, Tour* t) {
   t->stops = stops;
   t->languages = {own_language};
@@ -208,7 +216,7 @@ void JumpToStop(size_t stop, Simulation* s) {
   Tour& t = s->tour;
   if (stop >= t.stops.size()) return;
   s->camera.view.position = s->stuck_at = t.stops[stop].position_m;
-  s->camera.view.yaw_rad = t.stops[stop].yaw_rad;
+  s->camera.view.yaw_rad = LookAt_rad(t, stop);
   s->camera.pitch_rad = s->looks_about_s = s->stuck_s = 0;
   s->point_walk = {};
   s->finished = t.paused = t.holds = false;

@@ -47,6 +47,9 @@ inline size_t HaltOf(const Tour& tour) { return tour.stage.empty() ? 0 : tour.st
 // How long one rests there: as long as the tour says, else as it takes to read the caption; and until the sound is over.
 inline float RestOf_s(const Tour& tour, size_t stop) { return tour.words[stop].rest_s; }
 
+// Where the visitor looks there: what there is to see at a halt, else the way on, or at the tour's end the way they came.
+float LookAt_rad(const Tour& tour, size_t stop);
+
 // The tour's stops and languages. own_language: of the stops' `caption`.
 void TakeTour(const std::vector<TourStop>& stops, const std::string& own_language, Tour* tour);
 // Words of a stop that has none in this language are in the tour's own.

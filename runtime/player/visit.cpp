@@ -94,7 +94,7 @@ void Visit::Impl::BeginAnew() {
   controls = MakeControls(user->settings, *s);
   ApplySettings();
   Jump(0);
-  OpenPage(Page::kMain, &menu);
+  MeetSomebodyNew(&menu);
 }
 
 void Visit::Impl::TakeHands(const WindowInput& input, float passed_s) {
@@ -179,7 +179,7 @@ Error Visit::Enter(bool views) {
   v.controls = MakeControls(v.user->settings, *v.s);
   v.ApplySettings();
   BeginHint(v.controls, *v.s, &v.notices);
-  if (v.user->settings.kiosk) OpenPage(Page::kMain, &v.menu);
+  if (v.user->settings.kiosk) MeetSomebodyNew(&v.menu);
   return Ok();
 }
 
@@ -200,6 +200,7 @@ void Visit::Present() {
   if (!impl_->hidden()) impl_->renderer.Present();
 }
 
+void Visit::Read(std::vector<uint8_t>* rgb) { impl_->renderer.Read(rgb); }
 void Visit::Leave() { impl_->Save(); }
 bool Visit::ends() const { return impl_->controls.quits; }
 bool Visit::frees_pointer() const { return impl_->controls.points || impl_->pages(); }

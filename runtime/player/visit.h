@@ -1,6 +1,8 @@
 // One visit: what stands behind a window, picture by picture, whatever the hands do.
 #pragma once
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "runtime/base/error.h"
 #include "runtime/player/loading.h"
@@ -28,6 +30,7 @@ class Visit {
   // simulation goes into `records`. Errors: those of the pack, which still streams in.
   Error Picture(const WindowInput& input, int width_px, int height_px, float passed_s, Records* records);
   void Present();               // onto the window's surface
+  void Read(std::vector<uint8_t>* rgb);  // the last picture: RGB, 8 bits a channel, top row first
   void Leave();                 // saves what the visitor has changed
   bool ends() const;            // the visitor wants to
   bool frees_pointer() const;   // to point at things with; else the mouse is caught

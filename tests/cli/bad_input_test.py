@@ -219,7 +219,8 @@ class Playing(ProgramTest):
 
     def play(self, *arguments, pack=None, draw=False, **options):
         mode = ["--headless"] if draw else ["--headless", "--no-draw"]
-        return run("flaneur-player", pack or self.pack, *mode, "--seconds", 0.1, *arguments, **options)
+        length = [] if "--seconds" in arguments else ["--seconds", 0.1]
+        return run("flaneur-player", pack or self.pack, *mode, *length, *arguments, **options)
 
     def test_the_pack_itself_is_good(self):
         self.assert_succeeds(self.play())
@@ -279,6 +280,31 @@ class Playing(ProgramTest):
         result = self.play("--film", self.folder / "film.mp4", "--size", "64x64", draw=True, env=dict(os.environ, PATH="/none"))
         self.assert_fails(result, "ffmpeg", "install")
         self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_full_disk_leaves_no_half_film(self):
+        """Found at once or at the very end, where ffmpeg has the rest of its file still to write."""
+        film = ("--seconds", 4, "--size", "320x180", "--film")
+        self.assert_succeeds(self.play(*film, self.folder / "film.mp4", draw=True))
+        small = self.folder / "small"
+        small.mkdir()
+        for kilobytes in (4, (self.folder / "film.mp4").stat().st_size // 4096 * 4):
+            with self.subTest(kilobytes):
+                mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kilobytes}k", "tmpfs", str(small)], capture_output=True, check=False)
+                if mounted.returncode != 0:
+                    self.skipTest("mounting a small file system is not permitted here")
+                try:
+                    result = self.play(*film, small / "film.mp4", draw=True)
+                    self.assert_fails(result, "film.mp4", "cannot be written", "no space left")
+                    self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                    self.assertEqual(list(small.iterdir()), [])
+                finally:
+                    subprocess.run(["umount", str(small)], check=True)
+
+    def test_packs_damaged_at_random_are_refused_in_one_line_or_played(self):
+        result = run("broken_packs", self.pack, 300)
+        if result.returncode == 77:
+            self.skipTest(result.stdout)
+        self.assert_succeeds(result)
 
     def test_options_that_contradict(self):
         self.assert_fails(self.play("--screenshot", self.folder / "a.png"), "--no-draw")

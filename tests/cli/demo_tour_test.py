@@ -1,4 +1,5 @@
 """The demo tour from its sources to a walk through every scenario, judged from outside."""
+import csv
 import json
 import math
 import signal
@@ -36,6 +37,19 @@ class DemoTour(ProgramTest):
         self.assertEqual(judge.overlaps(frames), [])
         self.assertEqual(judge.inside_obstacles(frames, self.footprints, every=30), [])
         self.assertEqual(judge.seen_out_of_nothing(frames), [])
+
+    def test_people_look_like_themselves_as_impostors(self):
+        """Straight from directions of the atlas's pictures, where a picture's neighbour has no share at all."""
+        for avatar in ("merchant", "townswoman"):
+            sheets = self.folder / avatar
+            self.assert_succeeds(run("flaneur-likeness", self.pack, "-o", sheets, "--avatar", avatar, "--impostors",
+                                     "--headings", 8, "--phases", 2, "--suns", 1))
+            with open(sheets / "likeness.csv", encoding="utf-8") as file:
+                row, = csv.DictReader(file)
+            self.assertLess(float(row["delta_e_mean"]), 4, row)
+            self.assertLess(float(row["delta_e_worst"]), 6, row)
+            self.assertGreater(float(row["iou_mean"]), 0.97, row)
+            self.assertGreater(float(row["iou_worst"]), 0.93, row)
 
     def test_pack_is_valid(self):
         self.assert_valid(self.pack)

@@ -100,6 +100,19 @@ TEST(Guide, FacesTheVisitorAtEveryHaltAndIsSeen) {
   EXPECT_LT(turned_away, steps / 4);
 }
 
+// Which is a place that nobody rests at: what a visitor looks at there is the way they came along.
+TEST(Guide, IsSeenAtTheToursEndAndFacesTheVisitor) {
+  TourPack pack = TourTown(60);
+  pack.path.push_back(Waypoint({38, 10}));
+  Simulation s = Started(pack);
+  for (int step = 0; step < kMostSteps && !s.finished; ++step) Step(&s, 1);
+  ASSERT_TRUE(s.tour.over);
+  Step(&s, 60, Walking({}));
+  EXPECT_EQ(s.crowd.view[s.guide.index], ViewClass::kVisible);
+  EXPECT_LT(Apart_m(s), 4);
+  EXPECT_LT(OffVisitor_rad(s), 0.4f);
+}
+
 // By every person but those out of sight, who meet nobody.
 TEST(Guide, TouchesNobodyAndNothing) {
   for (const int people : {120, 300}) {

@@ -9,6 +9,7 @@
 #include "runtime/player/frame_from_simulation.h"
 #include "runtime/player/notices.h"
 #include "runtime/player/phrases.h"
+#include "runtime/render/context.h"
 #include "tests/unit/runtime/player/tour_town.h"
 
 namespace flaneur {
@@ -202,6 +203,64 @@ TEST(Pages, ShowEveryWordInEveryLanguage) {
   EXPECT_STREQ(Say(Phrase::kEnd, "de-AT"), Say(Phrase::kEnd, "de"));
 }
 
+// What the pages write, as a visitor reads it.
+std::string WrittenOn(Page page, int width_px, int height_px, Overlay* overlay, Controls* controls, const Simulation& s) {
+  Menu menu;
+  std::string written;
+  OpenPage(page, &menu);
+  overlay->PrepareText(PageLetter_px(width_px, height_px), PageTexts(*controls, s));
+  for (size_t first = 0; first < kActions; first += 3) {
+    OpenPage(page, &menu);
+    menu.first = first;
+    overlay->Begin(width_px, height_px, {});
+    ImGui::LogToClipboard();
+    ShowMenu("Town", s, width_px, height_px, &menu, controls);
+    ImGui::LogFinish();
+    overlay->Draw();
+    written += ImGui::GetClipboardText();
+  }
+  return written;
+}
+
+TEST(Pages, CutNothingShortInAnyLanguageOrWindowButNamesThatAreTooLong) {
+  HeadlessContext context;
+  if (const Error error = context.Create()) GTEST_SKIP() << error.message;
+  Overlay overlay;
+  ASSERT_EQ(overlay.Create().message, "");
+  TourPack pack = TourTown(0);
+  pack.path[1].captions["de"] = "Etwas zu sehen.";
+  Simulation s = Started(pack);
+  const int sizes[][2] = {{1280, 720}, {1920, 1080}, {800, 600}, {1080, 1920}, {320, 180}};
+  for (const std::string& language : PhraseLanguages()) {
+    PlayerSettings settings;
+    settings.language = language;
+    Controls controls = MakeControls(settings, s);
+    for (const auto& size : sizes) {
+      for (const Page page : {Page::kMain, Page::kStops, Page::kSettings, Page::kKeys}) {
+        const std::string written = WrittenOn(page, size[0], size[1], &overlay, &controls, s);
+        EXPECT_GT(written.size(), 40u);
+        EXPECT_EQ(written.find("…"), std::string::npos) << language << ", " << size[0] << " px: " << written;
+      }
+    }
+  }
+  s.tour.words[1].caption = "Something that is worth a great many words, and then a few more than anybody would read in passing by";
+  Controls controls = MakeControls({}, s);
+  EXPECT_NE(WrittenOn(Page::kStops, 1280, 720, &overlay, &controls, s).find("…"), std::string::npos);
+}
+
+TEST(Pages, WriteNumbersAsTheLanguageDoes) {
+  HeadlessContext context;
+  if (const Error error = context.Create()) GTEST_SKIP() << error.message;
+  Overlay overlay;
+  ASSERT_EQ(overlay.Create().message, "");
+  const Simulation s = Started(TourTown(0));
+  PlayerSettings settings;
+  Controls controls = MakeControls(settings, s);
+  EXPECT_NE(WrittenOn(Page::kSettings, 1280, 720, &overlay, &controls, s).find("1.5 m/s"), std::string::npos);
+  controls.settings.language = "de";
+  EXPECT_NE(WrittenOn(Page::kSettings, 1280, 720, &overlay, &controls, s).find("1,5 m/s"), std::string::npos);
+}
+
 TEST(Jump, BringsVisitorAndGuideToTheStopAndTheTourOn) {
   Simulation s = Started(TourTown(60));
   for (int k = 0; k < 60; ++k) StepSimulation({}, 0, &s);
@@ -254,6 +313,72 @@ TEST(Notices, TellThatTheTourWaitsAndHowToComeBack) {
   FollowNotices(c, s, 0.03f, &n);
   ShowNotice(n, false, &frame);
   EXPECT_NE(frame.caption.find("Leertaste"), std::string::npos) << frame.caption;
+}
+
+std::string Shown(const Notices& n) {
+  FrameInput frame;
+  ShowNotice(n, false, &frame);
+  return frame.caption;
+}
+
+TEST(Notices, TellWhoLeadsAndWhatIsNext) {
+  Simulation s = Started(TourTown(0));
+  Controls c = MakeControls({}, s);
+  Notices n;
+  BeginHint(c, s, &n);
+  EXPECT_NE(Shown(n).find("tour leads you"), std::string::npos) << Shown(n);
+  c.follows_tour = false;
+  BeginHint(c, s, &n);
+  EXPECT_EQ(Shown(n).find("tour leads you"), std::string::npos) << Shown(n);
+  c.follows_tour = true;
+  s.tour.words[3].caption = "The gate. It was shut at night.";
+  BeginHint(c, s, &n);
+  StepTour({true, false, false}, true, &s);
+  ASSERT_EQ(HaltOf(s.tour), 3u);
+  FollowNotices(c, s, 0.03f, &n);
+  EXPECT_EQ(Shown(n), "Next: The gate");
+  FrameInput frame;
+  frame.caption = "What stands here.";
+  ShowNotice(n, false, &frame);
+  EXPECT_EQ(frame.caption, "What stands here.") << "a caption is more";
+}
+
+TEST(Notices, NameNoKeyToWhomHasNone) {
+  Simulation s = Started(TourTown(0));
+  PlayerSettings settings;
+  settings.pointer = "point";
+  Controls c = MakeControls(settings, s);
+  Notices n;
+  BeginHint(c, s, &n);
+  EXPECT_EQ(Shown(n).find("Esc"), std::string::npos) << Shown(n);
+  c.follows_tour = false;
+  FollowNotices(c, s, 0.03f, &n);
+  EXPECT_EQ(Shown(n), "You walk on your own. Back to the tour: the button in the corner");
+}
+
+TEST(Pages, BeginForSomebodyNewAndGoOnLater) {
+  Menu menu;
+  MeetSomebodyNew(&menu);
+  OpenPage(Page::kSettings, &menu);
+  OpenPage(Page::kMain, &menu);
+  EXPECT_TRUE(menu.begins) << "whoever looks at the settings first is still new";
+  OpenPage(Page::kNone, &menu);
+  OpenPage(Page::kMain, &menu);
+  EXPECT_FALSE(menu.begins);
+}
+
+TEST(Notices, NameTheLanguageThatWasChosen) {
+  TourPack pack = TourTown(0);
+  pack.path[1].captions["de"] = "Etwas zu sehen.";
+  Simulation s = Started(pack);
+  Controls c = MakeControls({}, s);
+  Notices n;
+  BeginHint(c, s, &n);
+  for (int k = 0; k < 30 * 20; ++k) FollowNotices(c, s, 1.0f / 30, &n);
+  n.is_hint = false;
+  SetLanguage("de", &s.tour);
+  FollowNotices(c, s, 0.03f, &n);
+  EXPECT_EQ(Shown(n), "Sprache: Deutsch");
 }
 
 TEST(GroundMark, StandsWhereOneIsOnTheWayToAndGoesOnArrival) {

@@ -123,12 +123,29 @@ TEST(Speaker, PlaysBrokenSoundsWithoutHarm) {
     std::vector<uint8_t> sound = tone;
     for (int k = 0; k < 4; ++k) sound[random() % 44] = static_cast<uint8_t>(random());
     sound.resize(random() % sound.size());
-    speaker.Play(sound);
+    speaker.Play(sound, "a stop");
     speaker.SetPaused(round % 3 == 0);
     speaker.Update();
     if (round % 5 == 0) speaker.Stop();
   }
-  speaker.Play({});
+  speaker.Play({}, "a stop");
+}
+
+TEST(Speaker, SaysOnceThatASoundCannotBeDecoded) {
+  testing::internal::CaptureStderr();
+  {
+    Speaker speaker;
+    for (int round = 0; round < 3; ++round) {
+      speaker.Play(std::vector<uint8_t>(5000, 7), "stop 4");
+      for (int k = 0; k < 200; ++k) {
+        speaker.Update();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    }
+  }
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  EXPECT_NE(said.find("stop 4 cannot be decoded"), std::string::npos) << said;
 }
 
 TEST(Speaker, IsHeardAsLoudAsAskedFor) {
@@ -136,7 +153,7 @@ TEST(Speaker, IsHeardAsLoudAsAskedFor) {
     {
       Speaker speaker;
       speaker.SetVolume(volume);
-      speaker.Play(Encoded(kFormats[1], 1));
+      speaker.Play(Encoded(kFormats[1], 1), "a stop");
       for (int k = 0; k < 60; ++k) {
         speaker.Update();
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
