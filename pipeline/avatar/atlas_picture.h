@@ -1,7 +1,7 @@
 // Picture of a material atlas. Colours are sRGB.
 #pragma once
 #include "pipeline/core/mesh.h"
-#include "pipeline/core/pixels.h"
+#include "runtime/base/pixels.h"
 
 namespace flaneur {
 

@@ -149,7 +149,7 @@ class Merger {
   bool Prepare(Member* member) {
     const int image = member->material.base_color_image;
     if (image < 0 || levels_->avatar.meshes[member->mesh].uvs.empty()) return true;
-    member->picture = Decoded(levels_->avatar.images[static_cast<size_t>(image)]);
+    member->picture = Decoded(levels_->avatar.images[static_cast<size_t>(image)].bytes);
     if (!member->picture) return Refuse(*member, "has a picture that cannot be decoded");
     for (size_t k = first_; k < levels_->levels.size(); ++k) {
       Mesh shifted = levels_->levels[k].meshes[member->mesh];

@@ -20,7 +20,7 @@ void CopyCell(const Pixels& from, const ImpostorCell& cell, int to_x, int to_y, 
 }  // namespace
 
 std::vector<uint8_t> ImpostorThumbnail(const ImpostorAtlas& atlas) {
-  const std::optional<Pixels> whole = Decoded(atlas.albedo);
+  const std::optional<Pixels> whole = Decoded(atlas.albedo.bytes);
   if (!whole || whole->width != atlas.width_px || whole->height != atlas.height_px) return {};
   const int step = atlas.directions > 8 ? 2 : 1;
   Pixels strip;

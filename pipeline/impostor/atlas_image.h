@@ -1,7 +1,8 @@
 // Pictures of 8 bits a channel.
 #pragma once
-#include "pipeline/core/pixels.h"
+#include "pipeline/core/mesh.h"
 #include "runtime/base/error.h"
+#include "runtime/base/pixels.h"
 
 namespace flaneur {
 

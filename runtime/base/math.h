@@ -28,13 +28,14 @@ inline Vec3 Cross(Vec3 a, Vec3 b) {
 }
 inline float Length(Vec3 a) { return std::sqrt(Dot(a, a)); }
 // The zero vector stays zero.
-inline Vec4 operator+(Vec4 a, Vec4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
-inline Vec4 operator-(Vec4 a, Vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
-inline Vec4 operator*(Vec4 a, float s) { return {a.x * s, a.y * s, a.z * s, a.w * s}; }
 inline Vec3 Normalized(Vec3 a) {
   const float length = Length(a);
   return length > 0 ? a * (1 / length) : a;
 }
+
+inline Vec4 operator+(Vec4 a, Vec4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
+inline Vec4 operator-(Vec4 a, Vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
+inline Vec4 operator*(Vec4 a, float s) { return {a.x * s, a.y * s, a.z * s, a.w * s}; }
 
 // m[column][row].
 struct Mat4 {

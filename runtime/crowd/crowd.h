@@ -50,7 +50,7 @@ struct Crowd {
   std::vector<float> wait_s;            // left to stand
   std::vector<Vec2> facing;             // where to look while standing; zero: as before
   std::vector<ViewClass> view;
-  std::vector<uint8_t> was_visible;    // one step ago
+  std::vector<uint8_t> was_visible;     // one step ago
   std::vector<uint8_t> avoids_camera;   // set by the control
   std::vector<uint8_t> arrived;         // reached the goal in the last step
   std::vector<Vec2> detour;             // velocity the person prefers for the next detour_s, whatever the goal; set by the control

@@ -1,10 +1,3 @@
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -12,6 +5,7 @@
 
 #include "runtime/base/file.h"
 #include "runtime/base/parallel.h"
+#include "runtime/base/pixels.h"
 #include "runtime/base/text.h"
 #include "runtime/pack/gltf_file.h"
 #include "runtime/pack/ktx2.h"
@@ -44,24 +38,21 @@ std::span<const uint8_t> ImageBytes(const GltfFile& file, int image) {
 }
 
 PackImage ReadImageSize(const GltfFile& file, int index) {
-  const auto bytes = ImageBytes(file, index);
-  PackImage image;
-  int channels = 0;
-  if (!stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &image.width_px, &image.height_px, &channels) ||
-      image.width_px > kMaxImageSide_px || image.height_px > kMaxImageSide_px) {
+  const auto size = DecodedSize(ImageBytes(file, index));
+  if (!size || size->width > kMaxImageSide_px || size->height > kMaxImageSide_px) {
     throw PackRefused("has " + NameOf(file, index) + " that is neither PNG nor JPEG, or too large");
   }
+  PackImage image;
+  image.width_px = size->width;
+  image.height_px = size->height;
   return image;
 }
 
 PackImage ReadImage(const GltfFile& file, int index) {
-  const auto bytes = ImageBytes(file, index);
   PackImage image = ReadImageSize(file, index);
-  int channels = 0;
-  stbi_uc* pixels = stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &image.width_px, &image.height_px, &channels, 4);
-  if (pixels == nullptr) throw PackRefused("has " + NameOf(file, index) + " that cannot be decoded; bake the tour again");
-  image.rgba.assign(pixels, pixels + static_cast<size_t>(image.width_px) * static_cast<size_t>(image.height_px) * 4);
-  stbi_image_free(pixels);
+  auto pixels = Decoded(ImageBytes(file, index));
+  if (!pixels) throw PackRefused("has " + NameOf(file, index) + " that cannot be decoded; bake the tour again");
+  image.rgba = std::move(pixels->rgba);
   return image;
 }
 

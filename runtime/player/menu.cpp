@@ -278,12 +278,6 @@ size_t RowsThatFit(int height_px, float letter_px) {
 
 }  // namespace
 
-std::string NameOfStop(const Tour& tour, size_t stop) {
-  const std::string& caption = tour.words[stop].caption;
-  const size_t end = caption.find_first_of(".!?:\n");
-  return end == std::string::npos || end < 3 ? caption : caption.substr(0, end);
-}
-
 void OpenPage(Page page, Menu* menu) {
   menu->page = page;
   menu->begins = menu->begins && page != Page::kNone;

@@ -35,9 +35,6 @@ void MeetSomebodyNew(Menu* menu);
 // Of the player's own words: the visitor's, else the tour's.
 std::string PageLanguage(const Controls& controls, const Simulation& simulation);
 
-// What a stop is called: its caption's first sentence. Empty where it has none.
-std::string NameOfStop(const Tour& tour, size_t stop);
-
 // Height of the pages' letters, for readers 2 m away.
 float PageLetter_px(int width_px, int height_px);
 // All that ShowMenu may write, for Overlay::PrepareText.

@@ -145,6 +145,12 @@ StopWords WordsOf(const TourStop& stop, const std::string& language, const std::
 
 }  // namespace
 
+std::string NameOfStop(const Tour& tour, size_t stop) {
+  const std::string& caption = tour.words[stop].caption;
+  const size_t end = caption.find_first_of(".!?:\n");
+  return end == std::string::npos || end < 3 ? caption : caption.substr(0, end);
+}
+
 float LookAt_rad(const Tour& t, size_t stop) {
   if (IsHalt(t, stop) || t.stops.size() < 2) return t.stops[stop].yaw_rad;
   const size_t from = std::min(stop, t.stops.size() - 2);

@@ -16,8 +16,7 @@
 #include "runtime/player/scenario.h"
 #include "runtime/player/visit.h"
 #include "runtime/render/context.h"
-
-extern "C" int dlclose(void*) noexcept { return 0; }  // drivers stay loaded, so that the leak checker knows them
+#include "tests/soak/drivers_stay_loaded.h"
 
 namespace flaneur {
 namespace {

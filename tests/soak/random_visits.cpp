@@ -10,10 +10,8 @@
 #include "runtime/player/scenario.h"
 #include "runtime/player/visit.h"
 #include "runtime/render/context.h"
+#include "tests/soak/drivers_stay_loaded.h"
 #include "tests/soak/random_hands.h"
-
-// Drivers stay loaded, so that the leak checker can tell whose memory is left at the end.
-extern "C" int dlclose(void*) noexcept { return 0; }
 
 namespace flaneur {
 namespace {

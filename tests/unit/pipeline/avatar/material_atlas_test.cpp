@@ -58,7 +58,7 @@ Material Pictured(int image) {
 Rgba Shown(const AvatarLevels& levels, const Mesh& mesh, size_t first, float u, float v) {
   const Material& material = levels.avatar.materials[static_cast<size_t>(mesh.material)];
   const Pixels picture =
-      *Decoded(levels.avatar.images[static_cast<size_t>(material.base_color_image)]);
+      *Decoded(levels.avatar.images[static_cast<size_t>(material.base_color_image)].bytes);
   const Vec2 a = mesh.uvs[first], b = mesh.uvs[first + 2];
   const float x = (a.x + u * (b.x - a.x)) * static_cast<float>(picture.width);
   const float y = (a.y + v * (b.y - a.y)) * static_cast<float>(picture.height);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "pipeline/core/pixels.h"
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/impostor/atlas_image.h"
 #include "pipeline/impostor/atlas_layers.h"
@@ -107,8 +106,8 @@ class BoxImpostor : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     error_ = BakeImpostor(BoxAvatar(), SmallOptions(), &atlas_, &statistics_, &warnings_);
-    albedo_ = Decoded(atlas_.albedo).value();
-    normal_ = Decoded(atlas_.normal).value();
+    albedo_ = Decoded(atlas_.albedo.bytes).value();
+    normal_ = Decoded(atlas_.normal.bytes).value();
   }
   void SetUp() override {
     ASSERT_FALSE(error_) << error_.message;

@@ -19,6 +19,7 @@ constexpr int kWidth_px = 320, kHeight_px = 180;
 constexpr float kLongest_s = 400, kStep_s = 1.0f / 30;
 constexpr float kFreeView_m = 5;     // at a halt there is more to see than a wall
 constexpr float kLongestWait_s = 6;  // on the way
+constexpr float kLooks_s = 1;        // before a halt's end: whoever arrives with their back to it has turned by then
 
 struct Window {
   explicit Window(const std::filesystem::path& path) {
@@ -104,7 +105,7 @@ TEST(VisitOfTheDemo, FollowsTheGuideToTheToursEndAndBeginsAnew) {
     farthest_m = std::max(farthest_m, FromVisitor_m(s, s.crowd.position[s.guide.index]));
     waited_s = s.tour.resting || s.camera.actual_mps > 0.05f ? 0 : waited_s + kStep_s;
     longest_wait_s = std::max(longest_wait_s, waited_s);
-    const bool looks = s.tour.resting && s.tour.rested_s > RestOf_s(s.tour, HaltOf(s.tour)) / 2;
+    const bool looks = s.tour.resting && s.tour.rested_s > RestOf_s(s.tour, HaltOf(s.tour)) - kLooks_s;
     if (!looks || (!seen.empty() && seen.back() == HaltOf(s.tour))) continue;
     seen.push_back(HaltOf(s.tour));
     ExpectHalt(&w);
