@@ -8,6 +8,7 @@
 #include <GLFW/glfw3.h>
 
 #include <dlfcn.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -113,17 +114,47 @@ void (*on_loss)(const char* why) = nullptr;
 
 // Xlib ends the program by itself when its server or one of our windows is gone, and says so in its own words. It is there only
 // where GLFW brings it along.
-void NoticeLoss(void (*lost)(const char* why)) {
-  on_loss = lost;
+void NoticeLostDisplay() {
   using SetHandler = void (*)(int (*)(void*));
-  using SetErrorHandler = void (*)(int (*)(void*, void*));
   if (void* set = ::dlsym(RTLD_DEFAULT, "XSetIOErrorHandler")) {
     reinterpret_cast<SetHandler>(set)([](void*) { return on_loss("the connection to the display was lost"), 0; });
   }
+}
+
+// GLFW expects some errors while it makes a window: only later they mean this.
+void NoticeLostWindow() {
+  using SetHandler = void (*)(int (*)(void*, void*));
   if (void* set = ::dlsym(RTLD_DEFAULT, "XSetErrorHandler")) {
-    reinterpret_cast<SetErrorHandler>(set)([](void*, void*) { return on_loss("the window was taken away"), 0; });
+    reinterpret_cast<SetHandler>(set)([](void*, void*) { return on_loss("the window was taken away"), 0; });
   }
 }
+
+thread_local bool opens_window = false;
+
+void TellOfDriver(int) {
+  if (opens_window) on_loss("the display was lost, or its graphics driver crashed, while the window was opened; try LIBGL_ALWAYS_SOFTWARE=1");
+  ::signal(SIGSEGV, SIG_DFL);  // another thread's, and no driver's: it crashes as it would have
+}
+
+// Mesa 22.3 crashes where the display is lost while a context is made; so may drivers that are broken.
+class CrashOfDriver {
+ public:
+  CrashOfDriver() {
+    struct sigaction tell {};
+    tell.sa_handler = TellOfDriver;
+    ::sigaction(SIGSEGV, &tell, &before_);
+    opens_window = true;
+  }
+  ~CrashOfDriver() {
+    opens_window = false;
+    ::sigaction(SIGSEGV, &before_, nullptr);
+  }
+  CrashOfDriver(const CrashOfDriver&) = delete;
+  CrashOfDriver& operator=(const CrashOfDriver&) = delete;
+
+ private:
+  struct sigaction before_ {};
+};
 
 }  // namespace
 
@@ -142,17 +173,23 @@ Window::~Window() {
 
 Error Window::Create(int width_px, int height_px, const char* title, void (*lost)(const char* why)) {
   KeepEglQuiet();
+  on_loss = lost;
+  NoticeLostDisplay();
   if (!glfwInit()) return Fail("there is no display for a window; add --headless");
   glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_ES_API);
   glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
-  impl_->window = glfwCreateWindow(width_px, height_px, title, nullptr, nullptr);
+  {
+    const CrashOfDriver crash;
+    impl_->window = glfwCreateWindow(width_px, height_px, title, nullptr, nullptr);
+  }
   if (impl_->window == nullptr) {
+    glfwPollEvents();  // a display that is gone is noticed here
     return Fail("no window with OpenGL ES 3.0 can be opened: update the graphics driver or install the Debian package libgl1-mesa-dri, "
                 "or draw in software with LIBGL_ALWAYS_SOFTWARE=1");
   }
-  NoticeLoss(lost);
+  NoticeLostWindow();
   glfwMakeContextCurrent(impl_->window);
   glfwSwapInterval(1);
   glfwSetInputMode(impl_->window, GLFW_CURSOR, GLFW_CURSOR_DISABLED);

@@ -28,8 +28,8 @@ class Window {
  public:
   Window();
   ~Window();
-  // lost: called, and must not return, when the display or the window is taken away later on, with a line that says so; what draws
-  // cannot go on then. Errors: no display, no OpenGL ES 3.
+  // lost: called, and must not return, when the display or the window is taken away, now or later on, or the driver crashes over it,
+  // with a line that says so; what draws cannot go on then. Errors: no display, no OpenGL ES 3.
   Error Create(int width_px, int height_px, const char* title, void (*lost)(const char* why));
   WindowInput Poll();
   void FreePointer(bool free);  // to point at things with; else the mouse is caught, and turns the view
