@@ -1,6 +1,7 @@
 #include "runtime/control/foresight.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "runtime/crowd/fast_math.h"
@@ -9,10 +10,11 @@ namespace flaneur {
 namespace {
 
 using State = ForesightState;
+using Forecast = State::Forecast;
 
 constexpr int kPlanEvery_steps = 5;
 constexpr float kMoment_s = 0.5f;          // between the moments looked at
-constexpr int kTurnMoments[State::kTurns] = {0, 2, 4};
+constexpr int kTurnMoments[State::kTurns] = {0, 2, 4};  // the first is now
 constexpr float kReach_m = 8;              // beyond r_high: who may be inside within the foresight
 constexpr float kRim_m = 0.6f;             // the forecast is that uncertain
 constexpr float kReserve = 0.2f;           // share of the limit kept free for surprises
@@ -30,6 +32,7 @@ constexpr float kStepsAside_s = 3;         // people make room for the visitor s
 constexpr float kRoom_m = 0.15f;
 constexpr float kBlockingCounts = 3;       // moments that holding the visitor up is worth
 constexpr float kTurnsInView = 0.5f;       // what the visitor may turn to matters that much to people in view
+constexpr float kAny = 1e-4f;              // of times in the way; they cannot differ by less
 constexpr float kCostOfSettingOff = 8.0f;  // moments that it is worth to leave somebody standing
 
 Vec2 Rotated(Vec2 v, float by_rad) {
@@ -75,32 +78,61 @@ Vec2 OwnWay(const Crowd& c, size_t i) {
 
 Vec2 Desired(const Crowd& c, size_t i) { return c.detour_s[i] > 0 ? c.detour[i] : OwnWay(c, i); }
 
-// Adds `count` to all that the person would be in, walking on at this velocity.
-void Tally(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, int count, State* state) {
-  for (int m = 0; m < State::kMoments; ++m) {
-    if (InView(*state, m, r_high_m, c.position[i] + velocity * MomentTime_s(m))) state->seen[static_cast<size_t>(m)] += count;
+bool WouldBeInView(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, int moment, const State& state) {
+  return InView(state, moment, r_high_m, c.position[i] + velocity * MomentTime_s(moment));
+}
+
+// Where around the visitor the person would be, should the visitor turn; -1 out of reach.
+int WouldBeInSector(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, int turn, const State& state) {
+  const int m = kTurnMoments[turn];
+  const Vec2 off = c.position[i] + velocity * MomentTime_s(m) - state.moment[static_cast<size_t>(m)].position;
+  return InTurningReach(state, r_high_m, off) ? SectorOf(off) : -1;
+}
+
+// The first moment in which the person could be within r_high, both walking towards each other.
+int SoonestMoment(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, const State& state) {
+  const float closing_mps = Length(velocity) + Length(state.motion.velocity) + 1e-3f;
+  const float soonest_s = (Length(c.position[i] - state.moment[0].position) - r_high_m - 2 * kRim_m) / closing_mps;
+  return std::clamp(static_cast<int>(soonest_s / kMoment_s), 0, State::kMoments);
+}
+
+Forecast Forecasted(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, const State& state) {
+  Forecast f;
+  for (int m = SoonestMoment(c, i, velocity, r_high_m, state); m < State::kMoments; ++m) {
+    if (WouldBeInView(c, i, velocity, r_high_m, m, state)) f.in_view |= 1u << m;
   }
-  for (int k = 0; k < State::kTurns; ++k) {
-    const Vec2 off = c.position[i] + velocity * MomentTime_s(kTurnMoments[k]) - state->moment[static_cast<size_t>(kTurnMoments[k])].position;
-    if (!InTurningReach(*state, r_high_m, off)) continue;
-    state->around[static_cast<size_t>(k)][static_cast<size_t>(SectorOf(off))] += count;
+  for (int k = 0; k < State::kTurns; ++k) f.sector[static_cast<size_t>(k)] = static_cast<int8_t>(WouldBeInSector(c, i, velocity, r_high_m, k, state));
+  return f;
+}
+
+void Tally(const Forecast& f, int count, State* state) {
+  for (int m = 0; m < State::kMoments; ++m) state->seen[static_cast<size_t>(m)] += f.in_view >> m & 1 ? count : 0;
+  for (size_t k = 0; k < State::kTurns; ++k) {
+    if (f.sector[k] >= 0) state->around[k][static_cast<size_t>(f.sector[k])] += count;
   }
 }
 
-void MeasureSectors(float fov_rad, int capacity, State* state) {
+// Finds where there would be too many.
+void MeasureExcess(float fov_rad, int capacity, State* state) {
+  state->overfull_moments = state->overfull_turns = 0;
+  for (int m = 1; m < State::kMoments; ++m) {
+    if (state->seen[static_cast<size_t>(m)] > capacity) state->overfull_moments |= 1u << m;
+  }
   // One sector more than the view is wide: it may lie across them anyhow.
   const int width = std::clamp(static_cast<int>(std::ceil(fov_rad / (2 * kPi) * State::kSectors)) + 1, 1, State::kSectors);
   for (int k = 0; k < State::kTurns; ++k) {
     const auto& around = state->around[static_cast<size_t>(k)];
     auto& excess = state->excess[static_cast<size_t>(k)];
     excess.fill(0);
+    int held = 0;
+    for (int j = 0; j < width; ++j) held += around[static_cast<size_t>(j)];
     for (int first = 0; first < State::kSectors; ++first) {
-      int held = 0;
-      for (int j = 0; j < width; ++j) held += around[static_cast<size_t>((first + j) % State::kSectors)];
+      if (held > capacity) state->overfull_turns |= 1u << k;
       for (int j = 0; held > capacity && j < width; ++j) {
         int& worst = excess[static_cast<size_t>((first + j) % State::kSectors)];
         worst = std::max(worst, held - capacity);
       }
+      held += around[static_cast<size_t>((first + width) % State::kSectors)] - around[static_cast<size_t>(first)];
     }
   }
 }
@@ -114,21 +146,32 @@ bool Blocks(const Crowd& c, size_t i, Vec2 velocity, float r_personal_m, const S
   return Dot(apart, apart) * speed2 - ahead * ahead < reach_m * reach_m * speed2;
 }
 
-// In how many moments the person would be one too many. Where every direction is full already, the fullest counts most.
-float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const ForesightSettings& s, int capacity, const State& state) {
-  const float r_high_m = s.r_high_m;
-  float times = Blocks(c, i, velocity, s.r_personal_m, state) ? kBlockingCounts : 0;
-  for (int m = 1; m < State::kMoments; ++m) {
-    if (state.seen[static_cast<size_t>(m)] <= capacity) continue;
-    if (InView(state, m, r_high_m, c.position[i] + velocity * MomentTime_s(m))) ++times;
-  }
+// How much one person too many in this sector counts. Where every direction is full already, the fullest counts most.
+float ExcessCounts(const Crowd& c, size_t i, int high_limit, size_t turn, int sector, const State& state) {
+  const int excess = sector < 0 ? 0 : state.excess[turn][static_cast<size_t>(sector)];
+  if (excess <= 0) return 0;
   const float share = c.view[i] == ViewClass::kVisible ? kTurnsInView : 1.0f;
-  for (int k = 0; k < State::kTurns; ++k) {
-    const int m = kTurnMoments[k];
-    const Vec2 off = c.position[i] + velocity * MomentTime_s(m) - state.moment[static_cast<size_t>(m)].position;
-    if (!InTurningReach(state, r_high_m, off)) continue;
-    const int excess = state.excess[static_cast<size_t>(k)][static_cast<size_t>(SectorOf(off))];
-    if (excess > 0) times += share * (1 + static_cast<float>(excess) / static_cast<float>(s.high_limit));
+  return share * (1 + static_cast<float>(excess) / static_cast<float>(high_limit));
+}
+
+// In how many instants the person would be one too many.
+float TimesInTheWay(const Crowd& c, size_t i, const Forecast& f, bool blocks, int high_limit, const State& state) {
+  float times = blocks ? kBlockingCounts : 0;
+  times += static_cast<float>(std::popcount(f.in_view & state.overfull_moments));
+  for (size_t k = 0; k < State::kTurns; ++k) times += ExcessCounts(c, i, high_limit, k, f.sector[k], state);
+  return times;
+}
+
+// The same with another velocity, counted no further than `enough`. Where the person is now they are with any velocity.
+float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, const ForesightSettings& s, float enough, const State& state) {
+  float times = Blocks(c, i, velocity, s.r_personal_m, state) ? kBlockingCounts : 0;
+  for (uint32_t left = state.overfull_moments; left != 0 && times < enough; left &= left - 1) {
+    if (WouldBeInView(c, i, velocity, s.r_high_m, std::countr_zero(left), state)) ++times;
+  }
+  for (int k = 0; k < State::kTurns && times < enough; ++k) {
+    if (!(state.overfull_turns >> k & 1)) continue;
+    const int sector = k == 0 ? f.sector[0] : WouldBeInSector(c, i, velocity, s.r_high_m, k, state);
+    times += ExcessCounts(c, i, s.high_limit, static_cast<size_t>(k), sector, state);
   }
   return times;
 }
@@ -137,13 +180,13 @@ bool CanWalk(const Walkable& w, Vec2 from, Vec2 way) {
   return IsFree(w, from + way * 0.5f) && IsFree(w, from + way);
 }
 
-void Consider(const Walkable& w, const ForesightSettings& s, int capacity, size_t i, Crowd* crowd, State* state) {
+void Consider(const Walkable& w, const ForesightSettings& s, size_t i, const Forecast& forecast, Crowd* crowd, State* state) {
   Crowd& c = *crowd;
   const Vec2 desired = Desired(c, i);
-  const float now = TimesInTheWay(c, i, desired, s, capacity, *state);
+  const float now = TimesInTheWay(c, i, forecast, Blocks(c, i, desired, s.r_personal_m, *state), s.high_limit, *state);
   if (now == 0) {  // a detour that goes well ends only when the own way is free again: nobody wavers
     const bool on_detour = c.detour_s[i] > 0;
-    if (on_detour && TimesInTheWay(c, i, OwnWay(c, i), s, capacity, *state) > 0 &&
+    if (on_detour && TimesInTheWay(c, i, OwnWay(c, i), forecast, s, kAny, *state) > 0 &&
         CanWalk(w, c.position[i], desired * kAheadFree_s)) {
       c.detour_s[i] = kDetour_s;
     }
@@ -164,7 +207,7 @@ void Consider(const Walkable& w, const ForesightSettings& s, int capacity, size_
       const float at_best = now - cost * (std::abs(turn) + change) - (stands ? kCostOfSettingOff : 0);
       if (at_best <= best.gain) continue;
       const Vec2 velocity = Rotated(ahead, turn) * speed_mps;
-      const float gain = at_best - TimesInTheWay(c, i, velocity, s, capacity, *state);
+      const float gain = at_best - TimesInTheWay(c, i, velocity, forecast, s, at_best - best.gain + kAny, *state);
       if (gain > best.gain && CanWalk(w, c.position[i], velocity * kAheadFree_s)) best.gain = gain, best.velocity = velocity;
     }
   }
@@ -178,12 +221,14 @@ void Choose(const ForesightSettings& s, float fov_rad, int capacity, Crowd* c, S
   for (const State::Choice& choice : state->choices) {
     const size_t i = static_cast<size_t>(choice.person);
     const Vec2 desired = Desired(*c, i);
-    if (TimesInTheWay(*c, i, desired, s, capacity, *state) == 0) continue;  // others have made room
-    Tally(*c, i, desired, s.r_high_m, -1, state);
+    const Forecast forecast = Forecasted(*c, i, desired, s.r_high_m, *state);
+    const bool blocks = Blocks(*c, i, desired, s.r_personal_m, *state);
+    if (TimesInTheWay(*c, i, forecast, blocks, s.high_limit, *state) == 0) continue;  // others have made room
+    Tally(forecast, -1, state);
     c->detour[i] = choice.velocity;
     c->detour_s[i] = kDetour_s;
-    Tally(*c, i, choice.velocity, s.r_high_m, 1, state);
-    MeasureSectors(fov_rad, capacity, state);
+    Tally(Forecasted(*c, i, choice.velocity, s.r_high_m, *state), 1, state);
+    MeasureExcess(fov_rad, capacity, state);
   }
 }
 
@@ -202,12 +247,14 @@ void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable&
   for (size_t i = 0; i < c->size(); ++i) {
     const Vec2 off = c->position[i] - camera.position;
     if (Dot(off, off) > reach_m * reach_m) continue;
-    state->near.push_back(static_cast<int>(i));
-    Tally(*c, i, Desired(*c, i), s.r_high_m, 1, state);
+    const Forecast forecast = Forecasted(*c, i, Desired(*c, i), s.r_high_m, *state);
+    state->near.push_back({static_cast<int>(i), forecast});
+    Tally(forecast, 1, state);
   }
-  MeasureSectors(camera.fov_rad, capacity, state);
-  for (const int i : state->near) {
-    if (c->detour_s[static_cast<size_t>(i)] <= 0.5f * kDetour_s) Consider(walkable, s, capacity, static_cast<size_t>(i), c, state);
+  MeasureExcess(camera.fov_rad, capacity, state);
+  for (const State::Near& n : state->near) {
+    const size_t i = static_cast<size_t>(n.person);
+    if (c->detour_s[i] <= 0.5f * kDetour_s) Consider(walkable, s, i, n.forecast, c, state);
   }
   Choose(s, camera.fov_rad, capacity, c, state);
 }

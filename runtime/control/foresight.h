@@ -31,7 +31,13 @@ struct ForesightState {
   std::array<int, kMoments> seen{};     // people within the view and r_high then
   std::array<std::array<int, kSectors>, kTurns> around{};  // people within r_high whose direction lies in the sector
   std::array<std::array<int, kSectors>, kTurns> excess{};  // people too many in the fullest view over the sector
-  std::vector<int> near;
+  uint32_t overfull_moments = 0, overfull_turns = 0;       // a bit for each with too many people in some view
+  struct Forecast {                     // of one person
+    uint32_t in_view = 0;               // a bit for every moment
+    std::array<int8_t, kTurns> sector{-1, -1, -1};           // none where they are out of reach then
+  };
+  struct Near { int person = 0; Forecast forecast; };
+  std::vector<Near> near;
   struct Choice { float gain = 0; int person = 0; Vec2 velocity; };
   std::vector<Choice> choices;
 };
