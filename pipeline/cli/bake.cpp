@@ -336,6 +336,7 @@ Error WritePack(Baking* baking, const fs::path& staging) {
     parts.footprints.reference_system = parts.town.reference_system;
     BakeReport& whole = baking->steps.report;
     parts.name = name;
+    parts.titles = baking->settings.titles;
     parts.language = baking->settings.language;
     parts.guide = baking->settings.guide;
     parts.crowd = baking->settings.crowd;

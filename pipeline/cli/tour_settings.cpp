@@ -162,6 +162,11 @@ void ReadAll(TomlTable root, TourSettings* settings) {
   ReadName(&tour, &settings->name);
   tour.Text("language", &settings->language);
   if (settings->language.empty()) tour.Refuse("tour.language must not be empty; such as \"en\"");
+  tour.Translations("title", settings->language, &settings->titles);
+  std::erase_if(settings->titles, [](const auto& title) { return title.second.empty(); });
+  if (!settings->titles.empty() && !settings->titles.contains(settings->language)) {
+    tour.Refuse("tour.title has no text in the tour's own language, '" + settings->language + "'; add one, or change tour.language");
+  }
   tour.Text("guide", &settings->guide);
   tour.Finish();
   ReadTown(root.Table("town"), settings);

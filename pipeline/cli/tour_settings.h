@@ -54,7 +54,8 @@ struct TourSettings {
   std::vector<PackPlace> places;  // besides those tagged in the town
   PaintingSettings painting;
   std::vector<TourStop> path;
-  std::string language = "en";    // of captions and sounds for which no other is named
+  std::string language = "en";    // of titles, captions and sounds for which no other is named
+  std::map<std::string, std::string> titles;  // by language; none: the name
   std::vector<std::map<std::string, std::filesystem::path>> sounds;  // by stop of the path and language
   std::string guide;              // name of the avatar who leads the way along it; empty: nobody
   CrowdSettings crowd;

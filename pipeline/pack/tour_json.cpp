@@ -149,6 +149,7 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   }
   tour["path"] = Json::array();
   for (const TourStop& s : parts.path) tour["path"].push_back(StopJson(s, indices));
+  for (const auto& [language, title] : parts.titles) tour["titles"][language] = title;
   tour["language"] = parts.language;
   if (!parts.guide.empty()) tour["guide"] = parts.guide;
   tour["crowd"] = SettingsJson(parts.crowd);

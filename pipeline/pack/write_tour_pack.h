@@ -1,6 +1,7 @@
 // Everything a bake made, written as one tour pack: a glTF binary that any viewer opens, with the tour in its root extension.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct TourParts {
   std::vector<PackPlace> places;
   PackPainting painting;
   std::vector<TourStop> path;
+  std::map<std::string, std::string> titles; // by language; none: the name
   std::string language = "en";               // of the stops' captions
   std::vector<std::vector<uint8_t>> sounds;  // files, as the stops number them
   std::string guide;  // name of an avatar; empty: nobody

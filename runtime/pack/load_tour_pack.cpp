@@ -290,12 +290,18 @@ PackPainting ReadPainting(const GltfFile& file, const TourObject& json) {
   return painting;
 }
 
+// By language; empty where there are none.
+std::map<std::string, std::string> ReadTranslations(const TourObject& json, const char* key) {
+  std::map<std::string, std::string> texts;
+  if (!json.Has(key)) return texts;
+  const TourObject object = json.Object(key);
+  for (const std::string& language : object.Keys()) texts[language] = object.Text(language.c_str());
+  return texts;
+}
+
 TourStop ReadStop(const GltfFile& file, const TourObject& json, TourPack* pack) {
   TourStop stop{json.Point("position_m"), json.Real("yaw_rad"), json.Real("pause_s", 0, TourObject::kAnything), json.Text("caption")};
-  if (json.Has("captions")) {
-    const TourObject captions = json.Object("captions");
-    for (const std::string& language : captions.Keys()) stop.captions[language] = captions.Text(language.c_str());
-  }
+  stop.captions = ReadTranslations(json, "captions");
   if (!json.Has("sounds")) return stop;
   const TourObject sounds = json.Object("sounds");
   for (const std::string& language : sounds.Keys()) {
@@ -310,6 +316,7 @@ TourStop ReadStop(const GltfFile& file, const TourObject& json, TourPack* pack) 
 
 void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   pack->name = tour.Text("name");
+  pack->titles = ReadTranslations(tour, "titles");
   for (const TourObject& o : tour.Objects("obstacles")) pack->obstacles.push_back(ReadObstacle(o));
   for (const TourObject& p : tour.Objects("places")) {
     pack->places.push_back({p.Text("name"), p.OneOf("kind", {"door", "exit", "goal", "loiter", "spawn"}), p.Point("position_m"),

@@ -182,6 +182,7 @@ struct TourPack {
   std::vector<PackPlace> places;
   PackPainting painting;
   std::vector<TourStop> path;  // guided path, in order; pause 0 and no caption: only a waypoint
+  std::map<std::string, std::string> titles;  // what visitors read, by language; empty: the name
   std::string language = "en"; // of the stops' captions, where nothing else is said
   std::vector<std::vector<uint8_t>> sounds;  // files: WAV, FLAC, Ogg Vorbis or Opus, MP3
   std::string guide;           // name of the avatar who leads the way along the path; empty: nobody does

@@ -145,6 +145,14 @@ StopWords WordsOf(const TourStop& stop, const std::string& language, const std::
 
 }  // namespace
 
+std::string TitleOf(const TourPack& pack, const std::string& language) {
+  for (const std::string& wished : {language, pack.language}) {
+    const auto title = pack.titles.find(wished);
+    if (title != pack.titles.end() && !title->second.empty()) return title->second;
+  }
+  return pack.name;
+}
+
 std::string NameOfStop(const Tour& tour, size_t stop) {
   const std::string& caption = tour.words[stop].caption;
   const size_t end = caption.find_first_of(".!?:\n");

@@ -44,6 +44,8 @@ struct TourWish { bool next = false, back = false, toggle_pause = false; };
 inline bool HasTour(const Tour& tour) { return !tour.stops.empty() && !tour.over; }
 // The stop where the visitor rests, or to which the present way leads.
 inline size_t HaltOf(const Tour& tour) { return tour.stage.empty() ? 0 : tour.stage.back(); }
+// What visitors read: the title in this language, else in the pack's own, else its name.
+std::string TitleOf(const TourPack& pack, const std::string& language);
 // What a stop is called: its caption's first sentence. Empty where it has none.
 std::string NameOfStop(const Tour& tour, size_t stop);
 // How long one rests there: as long as the tour says, else as it takes to read the caption; and until the sound is over.

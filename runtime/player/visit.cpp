@@ -122,9 +122,10 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
   for_pages = pages();
   TakePageInput(input, &menu, &controls);
   if (hidden()) return;
-  overlay.PrepareText(PageLetter_px(width_px, height_px), pages() ? PageTexts(controls, *s) : "");
+  const std::string title = TitleOf(pack, PageLanguage(controls, *s));
+  overlay.PrepareText(PageLetter_px(width_px, height_px), pages() ? title + PageTexts(controls, *s) : "");
   overlay.Begin(width_px, height_px, OverlayInputFrom(input, menu, width_px, height_px, passed_s));
-  const MenuChoice choice = ShowMenu(pack.name, *s, width_px, height_px, &menu, &controls);
+  const MenuChoice choice = ShowMenu(title, *s, width_px, height_px, &menu, &controls);
   if (views.shown && !pages()) ShowViews(statistics, width_px, height_px, &views, s);
   if (controls.points && !pages() && ShowMenuButton(width_px, height_px)) OpenPage(Page::kMain, &menu);
   controls.quits = controls.quits || choice.ends;

@@ -183,6 +183,7 @@ TEST(TourSettings, RefusalsNameTheLineAndWhatToDo) {
       {"[[avatar]]\nname = \"../up\"\nfile = \"x.glb\"\n", ":5:", {"../up", "file name"}},
       {"[[stop]]\nposition_m = [0, 0]\ncaption = 3\n", ":7:", {"stop.caption", "by language"}},
       {"[[stop]]\nposition_m = [0, 0]\ncaption = { de = \"Hier\" }\n", ":5:", {"'en'", "tour.language"}},
+      {"[tour]\ntitle = { de = \"Markt\" }\n", ":", {"tour.title", "'en'", "tour.language"}},
       {"[tour]\nguide = \"monk\"\n", ":", {"tour.guide", "monk", "[[avatar]]"}},
       {"[control\n", ":5:", {"TOML"}},
   };

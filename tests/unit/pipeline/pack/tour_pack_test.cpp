@@ -125,6 +125,7 @@ TourParts SmallTour() {
   parts.painting = {{-4, -2}, 2, 2, 1, {0, 200}, {30, 0}};
   parts.path = {{{1, 2}, 0.5f, 3, "Grüß Gott"}};
   parts.language = "de";
+  parts.titles = {{"de", "Kleiner Markt"}, {"en", "Little market"}};
   parts.path[0].captions["en"] = "Good day";
   parts.sounds = {{'O', 'g', 'g', 'S'}, {1, 2, 3}};
   parts.path[0].sounds = {{"de", {1, 2.5f}}, {"en", {0, 3.5f}}};
@@ -180,6 +181,7 @@ TEST(TourPack, BringsTheTourAcross) {
   EXPECT_EQ(pack.path[0].caption, "Grüß Gott");
   EXPECT_EQ(pack.guide, "made");
   EXPECT_EQ(pack.language, "de");
+  EXPECT_EQ(pack.titles.at("en"), "Little market");
   EXPECT_EQ(pack.path[0].captions.at("en"), "Good day");
   ASSERT_EQ(pack.path[0].sounds.size(), 2u);
   EXPECT_FLOAT_EQ(pack.path[0].sounds.at("de").duration_s, 2.5f);
@@ -397,7 +399,7 @@ TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
     for (const auto& [key, unused] : json.at(at).items()) {
       Json changed = json;
       changed.at(at).erase(key);
-      if (std::set<std::string>{"painting", "guide", "language", "captions", "sounds"}.contains(key)) continue;  // there need not be any
+      if (std::set<std::string>{"painting", "guide", "titles", "language", "captions", "sounds"}.contains(key)) continue;  // there need not be any
       EXPECT_TRUE(Refused(WithJson(whole, changed))) << object << "/" << key;
     }
   }

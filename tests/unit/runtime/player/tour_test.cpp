@@ -133,6 +133,15 @@ TourStop Spoken() {
   return stop;
 }
 
+TEST(Tour, IsCalledByItsTitleInTheVisitorsLanguageOrElseItsOwn) {
+  TourPack pack;
+  pack.name = "markt", pack.language = "de";
+  EXPECT_EQ(TitleOf(pack, "en"), "markt");
+  pack.titles = {{"de", "Der Markt"}, {"en", "The Market"}};
+  EXPECT_EQ(TitleOf(pack, "en"), "The Market");
+  EXPECT_EQ(TitleOf(pack, "fr"), "Der Markt");
+}
+
 TEST(Tour, SpeaksTheVisitorsLanguageOrElseItsOwn) {
   Tour tour;
   TakeTour({Spoken()}, "en", &tour);
