@@ -67,6 +67,8 @@ Error Play(const std::filesystem::path& path, Counts* counts) {
   scenario.people = 20;
   Simulation s;
   if (Error e = StartSimulation(&pack, scenario, &s)) return e;
+  HeadlessContext context;  // one a pack: what was drawn with goes with it
+  if (Error e = context.Create()) return e;
   UserSettings user;
   Loader loader;
   loader.Start(std::move(file), pack);
@@ -89,8 +91,7 @@ bool IsOneLine(const std::string& text) {
 }
 
 int Run(const std::filesystem::path& pack, int how_often, uint64_t seed) {
-  HeadlessContext context;
-  if (Error e = context.Create()) {
+  if (HeadlessContext context; Error e = context.Create()) {
     std::printf("%s\n", e.message.c_str());
     return kSkipped;
   }
