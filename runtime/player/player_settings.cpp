@@ -25,6 +25,8 @@ void VisitSettings(Settings* s, Visit visit) {
   visit.Flag("invert_look", &s->invert_look, "pushing the mouse or stick up looks down");
   visit.Flag("reduced_motion", &s->reduced_motion, "the tour turns the view gently and walks slowly, nothing fades");
   visit.Number("sound_volume", &s->sound_volume, 0, 1, "of what is spoken; 1: as recorded");
+  visit.Number("frames_per_s", &s->frames_per_s, 5, 240, "wished for: a machine that draws fewer draws more coarsely instead");
+  visit.Number("least_resolution_scale", &s->least_resolution_scale, 0.25, 1, "as coarsely as that, of width and height; 1: never");
   visit.Flag("kiosk", &s->kiosk, "for exhibitions: begins with the pages, comes back to them, and cannot be ended there");
 }
 

@@ -31,6 +31,8 @@ struct PlayerSettings {
   bool invert_look = false;
   bool reduced_motion = false;   // the tour turns the view gently and walks slowly, nothing fades
   float sound_volume = 1;        // of what is spoken; 1: as recorded
+  float frames_per_s = 25;       // where a machine draws fewer, the window's picture is drawn more coarsely
+  float least_resolution_scale = 0.5f;  // but not below this share of its width and height; 1: never
   bool kiosk = false;            // for exhibitions: begins with the pages, comes back to them, and cannot be ended there
   std::array<std::vector<std::string>, kActions> keys;
 

@@ -24,7 +24,8 @@ void TellStart() {
 std::string Title(const std::string& name, double frames_per_s, const Simulation& s, const FrameStatistics& statistics) {
   char title[200];
   const char* tour = s.tour.over ? " - tour over" : s.tour.paused && HasTour(s.tour) ? " - tour paused" : "";
-  std::snprintf(title, sizeof title, "%s%s - %.0f frames/s, %zu people, %lld triangles", name.c_str(), tour, frames_per_s, s.crowd.size(),
+  std::snprintf(title, sizeof title, "%s%s - %.0f frames/s at %.0f %%, %zu people, %lld triangles", name.c_str(), tour, frames_per_s,
+                100 * static_cast<double>(statistics.resolution_scale), s.crowd.size(),
                 static_cast<long long>(statistics.people_triangles + statistics.town_triangles));
   return title;
 }
@@ -71,7 +72,9 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* lo
     if (Error e = visit.Picture(input, width_px, height_px, static_cast<float>(passed_s), &records)) return e;
     visit.Present();
     window.FreePointer(visit.frees_pointer());
+    const double ready_s = Now_s();
     window.Show();
+    visit.TellTime(static_cast<float>(1000 * ((window.ShowWaits() ? ready_s : Now_s()) - now_s)));
     if (!shown && options.views) TellStart();
     shown = true;
     ++pictures;

@@ -121,7 +121,7 @@ void Graph(const char* name, const std::array<float, ViewsHistory::kFrames>& val
 void ShowGraphs(const FrameStatistics& statistics, int width_px, const ViewsHistory& h, Simulation* s) {
   constexpr float kWidth_px = 290;
   ImGui::SetNextWindowPos({static_cast<float>(width_px) - kWidth_px - 8, 8}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize({kWidth_px, 330}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize({kWidth_px, 347}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowBgAlpha(0.92f);
   if (ImGui::Begin("figures")) {
     Graph("people as meshes", h.high, h.next, static_cast<float>(s->levels.limit) * 1.3f);
@@ -130,6 +130,7 @@ void ShowGraphs(const FrameStatistics& statistics, int width_px, const ViewsHist
     ImGui::Text("limit %d, budget %.0f triangles", s->levels.limit, static_cast<double>(s->levels.budget_triangles));
     ImGui::Text("%zu people, %d drawn, %d hidden", s->crowd.size(), statistics.people_drawn, statistics.people_hidden);
     ImGui::Text("%d draw calls, town %lld triangles", statistics.draw_calls, static_cast<long long>(statistics.town_triangles));
+    ImGui::Text("drawn at %.0f %% of width and height", 100 * static_cast<double>(statistics.resolution_scale));
     ImGui::Text("adaptation (F2)");
     for (int k = 0; k < 3; ++k) {
       if (k > 0) ImGui::SameLine();

@@ -6,6 +6,7 @@
 #include "runtime/player/frame_from_simulation.h"
 #include "runtime/player/menu.h"
 #include "runtime/player/notices.h"
+#include "runtime/player/resolution.h"
 #include "runtime/player/speaker.h"
 #include "runtime/player/views.h"
 #include "runtime/player/warn.h"
@@ -43,6 +44,7 @@ struct Visit::Impl {
   CameraInput wishes{};
   FrameStatistics statistics{};
   Narration narration{};
+  Resolution resolution{};
   float own_fov_rad = 0;
   double owed_s = 0;           // of simulated time
   float unused_s = 0;          // since the visitor's hands did anything
@@ -152,6 +154,7 @@ void Visit::Impl::Draw(float passed_s) {
   FrameFromSimulation(pack, *s, &looks, &frame);
   if (pages()) frame.caption.clear();
   else ShowNotice(notices, !controls.settings.reduced_motion, &frame);
+  frame.resolution_scale = resolution.scale;
   renderer.Draw(frame, width_px, height_px, &statistics);
   overlay.Draw();
   RememberFrame(*s, statistics, passed_s * 1000, &views.history);
@@ -195,6 +198,12 @@ Error Visit::Picture(const WindowInput& input, int width_px, int height_px, floa
   v.Draw(passed_s);
   v.loader->GoOn();
   return Ok();
+}
+
+void Visit::TellTime(float took_ms) {
+  Impl& v = *impl_;
+  const PlayerSettings& settings = v.controls.settings;
+  if (!v.hidden()) FollowPictureTime(took_ms, ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, v.s->level_settings), &v.resolution);
 }
 
 void Visit::Present() {

@@ -15,6 +15,7 @@
 #include <cstring>
 
 #include "runtime/render/gamepad_codes.h"
+#include "runtime/render/gl_objects.h"
 
 namespace flaneur {
 
@@ -162,6 +163,7 @@ struct Window::Impl {
   GLFWwindow* window = nullptr;
   Vec2 last, pressed_at;       // of the cursor
   bool focused = false, held = false, dragged = false, free_pointer = false;
+  bool software = false;       // no graphics card draws
 };
 
 Window::Window() : impl_(std::make_unique<Impl>()) {}
@@ -192,6 +194,7 @@ Error Window::Create(int width_px, int height_px, const char* title, void (*lost
   NoticeLostWindow();
   glfwMakeContextCurrent(impl_->window);
   glfwSwapInterval(1);
+  impl_->software = DrawsInSoftware();
   glfwSetInputMode(impl_->window, GLFW_CURSOR, GLFW_CURSOR_DISABLED);
   // Whoever taps shorter than a picture lasts is heard as well.
   glfwSetInputMode(impl_->window, GLFW_STICKY_KEYS, GLFW_TRUE);
@@ -248,6 +251,8 @@ void Window::Show() {
   Size(&width, &height);  // asks the display: where it is gone we end here, Mesa would crash
   glfwSwapBuffers(impl_->window);
 }
+
+bool Window::ShowWaits() const { return !impl_->software; }
 
 void Window::SetTitle(const char* title) { glfwSetWindowTitle(impl_->window, title); }
 

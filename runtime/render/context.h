@@ -35,6 +35,7 @@ class Window {
   void FreePointer(bool free);  // to point at things with; else the mouse is caught, and turns the view
   void Size(int* width_px, int* height_px) const;
   void Show();             // what was drawn; waits for the display
+  bool ShowWaits() const;  // rather than to work: a graphics card's does
   void SetTitle(const char* title);
 
  private:

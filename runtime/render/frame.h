@@ -38,16 +38,20 @@ struct FrameInput {
   std::vector<Vec3> ground_mark;  // a strip of triangles over the ground; empty: none
   std::string caption;     // UTF-8, at the foot of the picture; empty: none
   float caption_share = 1; // how much of it is seen, 0 to 1
+  // Of the picture's width and height, 0.1 to 1: all but the caption is drawn so coarsely, and enlarged. Below 1 people are drawn
+  // by the coarser levels that serve at that size.
+  float resolution_scale = 1;
 };
 
 // The parts of a picture in the order in which they are drawn.
 enum class DrawPass : uint8_t { kCull, kPeopleShadow, kTownShadow, kMeshes, kTown, kImpostors, kLight, kSky, kFinish };
 inline constexpr const char* kDrawPassNames[] = {"cull, sort, upload", "shadows of people", "shadows of the town", "people's meshes",
-                                                 "town", "impostors", "light", "sky, mark", "smoothing, caption"};
+                                                 "town", "impostors", "light", "sky, mark", "smoothing, enlarging, caption"};
 
 struct FrameStatistics {
   int64_t town_triangles = 0, people_triangles = 0;  // drawn into the picture, both levels of who changes; not the shadows
   int64_t shadow_triangles = 0;
+  float resolution_scale = 1;  // the frame's
   int draw_calls = 0;      // of the whole picture, shadows included
   int people_drawn = 0, people_hidden = 0;  // hidden: behind walls or above or below the view
   double people_ms = 0;    // of it, on the CPU: choosing who can be seen, poses, the upload

@@ -139,6 +139,15 @@ Box WithShadow(const Box& box, Vec3 to_sun) {
   return out;
 }
 
+// In a coarse picture a coarser mesh serves.
+int LevelAt(float distance_m, const DrawnPerson& person, const AvatarLayout& avatar, float focal_px) {
+  int level = person.level;
+  if (focal_px <= 0 || level < 0) return level;
+  const float high_px = avatar.height_m * focal_px / std::max(distance_m, 0.1f);
+  while (level + 1 < avatar.levels && high_px < avatar.switch_px[static_cast<size_t>(level)]) ++level;
+  return level;
+}
+
 // The level that can be drawn and is nearest to the wished one.
 int ReadyLevel(int level, int levels, const AvatarReady& ready) {
   const int wished = std::min(level, levels - 1);
@@ -189,6 +198,7 @@ AvatarLayout LayoutOf(const PackAvatar& avatar) {
   layout.levels = static_cast<int>(avatar.levels.size());
   layout.height_m = avatar.height_m;
   layout.radius_m = avatar.radius_m;
+  for (const PackLevel& level : avatar.levels) layout.switch_px.push_back(level.switch_px);
   SetSteps(avatar, &layout);
   layout.clips = {RowsOf(avatar.walk, layout), RowsOf(avatar.idle, layout), RowsOf(avatar.talk, layout)};
   for (size_t k = 0; k < layout.clips.size(); ++k) layout.shadow_rows[k] = std::min(layout.clips[k].frames, kMostShadowRows);
@@ -238,7 +248,7 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
       ++out->hidden;
       continue;
     }
-    const int level = ReadyLevel(person.level, avatars[index].levels, ready[index]);
+    const int level = ReadyLevel(LevelAt(distance_m, person, avatars[index], sight.focal_px), avatars[index].levels, ready[index]);
     if (level == kNoLevel) continue;
     const int fades = person.share_from > 0 || person.share_to < 1 ? 1 : 0;
     const int far = distance_m > kFarImpostor_m ? count : 0;

@@ -22,6 +22,7 @@ struct AvatarLayout {
   std::array<ClipRows, 3> clips;  // by ClipKind
   std::array<int, 3> first_shadow_row{}, shadow_rows{};  // in the texture of poses for shadows
   float height_m = 0, radius_m = 0;
+  std::vector<float> switch_px;   // by level, PackLevel's
   PackImpostor impostor;          // without its pictures
   int first_cell = 0;             // of its cells in the texture of all cells
 };
@@ -69,6 +70,7 @@ struct PeopleSight {
   Frustum frustum{};
   const OcclusionMap* walls = nullptr;
   float shadow_reach_m = 0;          // who is farther from the eye casts no shadow
+  float focal_px = 0;                // of a coarse picture: pixels that a metre takes at a distance of one; 0: levels as they are
 };
 
 // pose_width of `out` must be set: three times the most joints.

@@ -1,6 +1,7 @@
 #include "runtime/render/picture.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/render/shaders.h"
 
@@ -55,11 +56,52 @@ void ResizeForward(const Picture& p) {
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, p.depth);
 }
 
+bool IsCoarse(const Picture& p) { return p.drawn_width_px < p.width_px || p.drawn_height_px < p.height_px; }
+
+// As large as the picture, whatever the scale.
+void ResizeCoarse(Picture* p) {
+  if (p->coarse == 0) glGenFramebuffers(1, &p->coarse);
+  if (p->coarse_color == 0) p->coarse_color = NewTexture(GL_LINEAR);
+  ResizeTexture(p->coarse_color, *p);
+  glBindFramebuffer(GL_FRAMEBUFFER, p->coarse);
+  Attach(GL_COLOR_ATTACHMENT0, p->coarse_color);
+}
+
 void DrawWhole(GLuint program, const Picture& p) {
   glUseProgram(program);
   CullBackFaces(false);
   glBindVertexArray(p.empty_array);
   glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// Of what is drawn: its size over its texture's, and the last place to look up there.
+void SetDrawnSize(GLuint program, const Picture& p) {
+  const float width = static_cast<float>(p.drawn_width_px), height = static_cast<float>(p.drawn_height_px);
+  const float whole_width = static_cast<float>(p.width_px), whole_height = static_cast<float>(p.height_px);
+  glUseProgram(program);
+  SetUniform(program, "u_drawn", Vec4{width / whole_width, height / whole_height, (width - 0.5f) / whole_width, (height - 0.5f) / whole_height});
+}
+
+// Into `framebuffer`, as large as it was drawn.
+void Smooth(GLuint framebuffer, GLuint program, const Picture& p) {
+  if (p.samples > 1) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, p.framebuffer);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    glBlitFramebuffer(0, 0, p.drawn_width_px, p.drawn_height_px, 0, 0, p.drawn_width_px, p.drawn_height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    return;
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  BindTexture(kColorUnit, p.deferred ? p.lit_color : p.color);
+  if (program == p.sharpen_program) SetDrawnSize(program, p);
+  DrawWhole(program, p);
+}
+
+void Enlarge(const Picture& p) {
+  glBindFramebuffer(GL_FRAMEBUFFER, p.finished);
+  glViewport(0, 0, p.width_px, p.height_px);
+  BindTexture(kColorUnit, p.coarse_color);
+  SetDrawnSize(p.enlarge_program, p);
+  DrawWhole(p.enlarge_program, p);
 }
 
 }  // namespace
@@ -79,22 +121,39 @@ Error CreatePicture(int samples, bool deferred, const std::string& defines, Pict
     p->depth = NewTexture(GL_NEAREST);
     p->normals = NewTexture(GL_NEAREST);
     p->lit_color = NewTexture(GL_LINEAR);
+    p->coarse_color = p->color;  // which nobody needs once the light is done
     const std::string fragment = defines + kFrame + kHaze + kLight + kFinished + kLightFragment;
     if (Error e = BuildProgram(std::string(kFrame) + kLightVertex, fragment, &p->light_program)) return e;
   }
-  return BuildProgram(kWholeVertex, defines + kSmoothFragment, &p->smooth_program);
+  if (Error e = BuildProgram(kWholeVertex, defines + kSmoothFragment, &p->smooth_program)) return e;
+  if (Error e = BuildProgram(kWholeVertex, defines + "#define SHARPEN\n" + kSmoothFragment, &p->sharpen_program)) return e;
+  return BuildProgram(kEnlargeVertex, kEnlargeFragment, &p->enlarge_program);
 }
 
-void ResizePicture(int width_px, int height_px, Picture* p) {
-  if (p->width_px == width_px && p->height_px == height_px) return;
+void ResizePicture(int width_px, int height_px, float scale, Picture* p) {
+  const auto drawn = [scale](int whole_px) { return std::clamp(static_cast<int>(std::lround(static_cast<float>(whole_px) * scale)), 1, whole_px); };
+  p->drawn_width_px = drawn(width_px);
+  p->drawn_height_px = drawn(height_px);
+  const bool resized = p->width_px != width_px || p->height_px != height_px;
   p->width_px = width_px;
   p->height_px = height_px;
+  if (IsCoarse(*p) && (resized || p->coarse == 0)) ResizeCoarse(p);
+  if (!resized) return;
   if (p->deferred) ResizeDeferred(*p);
   else ResizeForward(*p);
   glBindRenderbuffer(GL_RENDERBUFFER, p->finished_color);
   glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_px, height_px);
   glBindFramebuffer(GL_FRAMEBUFFER, p->finished);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, p->finished_color);
+}
+
+void BeginPicture(const Picture& p) {
+  glBindFramebuffer(GL_FRAMEBUFFER, p.framebuffer);
+  glViewport(0, 0, p.drawn_width_px, p.drawn_height_px);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, p.drawn_width_px, p.drawn_height_px);
+  glClear(GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void LightPicture(const Picture& p) {
@@ -114,16 +173,10 @@ void LightPicture(const Picture& p) {
 }
 
 void FinishPicture(const Picture& p) {
-  if (p.samples > 1) {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, p.framebuffer);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, p.finished);
-    glBlitFramebuffer(0, 0, p.width_px, p.height_px, 0, 0, p.width_px, p.height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    return;
-  }
-  glBindFramebuffer(GL_FRAMEBUFFER, p.finished);
   glDisable(GL_DEPTH_TEST);
-  BindTexture(kColorUnit, p.deferred ? p.lit_color : p.color);
-  DrawWhole(p.smooth_program, p);
+  const bool coarse = IsCoarse(p);
+  Smooth(coarse ? p.coarse : p.finished, coarse ? p.sharpen_program : p.smooth_program, p);
+  if (coarse) Enlarge(p);
 }
 
 }  // namespace flaneur

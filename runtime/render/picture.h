@@ -7,24 +7,30 @@
 
 namespace flaneur {
 
-// With several samples a pixel edges are smoothed by resolving them; with one, by a pass over the picture.
+// With several samples a pixel edges are smoothed by resolving them; with one, by a pass over the picture. What is drawn more coarsely than
+// the finished picture takes the lower left corner of the same targets, so that a change of scale costs nothing.
 struct Picture {
-  int samples = 1, width_px = 0, height_px = 0;
+  int samples = 1, width_px = 0, height_px = 0;      // of the finished picture
+  int drawn_width_px = 0, drawn_height_px = 0;
   bool deferred = false;                             // light comes after the surfaces, in a pass over the picture
   GLuint color = 0, depth = 0, framebuffer = 0;      // drawn into; color is a texture where samples is 1
   GLuint normals = 0;                                // where deferred, and depth is a texture then
   GLuint lit_color = 0, lit = 0;                     // where deferred
+  GLuint coarse_color = 0, coarse = 0;               // smooth but not yet enlarged
   GLuint finished_color = 0, finished = 0;           // framebuffer of the finished picture
-  GLuint light_program = 0, smooth_program = 0, empty_array = 0;
+  GLuint light_program = 0, smooth_program = 0, sharpen_program = 0, enlarge_program = 0, empty_array = 0;
 };
 
 // samples: wished for; the driver may have fewer. `defines`: of the lit programs; deferred needs one sample. Errors: a shader that
 // the driver refuses.
 Error CreatePicture(int samples, bool deferred, const std::string& defines, Picture* picture);
-void ResizePicture(int width_px, int height_px, Picture* picture);
+// scale: FrameInput::resolution_scale.
+void ResizePicture(int width_px, int height_px, float scale, Picture* picture);
+// Empties what is drawn into, and leaves it bound.
+void BeginPicture(const Picture& picture);
 // Lights the surfaces where that has been deferred, and leaves bound what the sky is drawn into. The frame block must be bound.
 void LightPicture(const Picture& picture);
-// Leaves the finished picture bound for drawing.
+// Leaves the finished picture bound for drawing, all of it.
 void FinishPicture(const Picture& picture);
 
 }  // namespace flaneur

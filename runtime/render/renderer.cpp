@@ -177,7 +177,10 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   PassTimer timer(r.options.time_passes, &statistics->pass_ms);
   FindVisibleBlocks(view_projection, eye, r.options.cull, &r.town);
   const double people_ms = Now_ms();
-  const PeopleSight sight{eye, to_sun, FrustumOf(view_projection), r.options.cull ? &r.town.walls : nullptr, 2 * kPeopleShadow_m};
+  ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
+  const float focal_px = static_cast<float>(r.picture.drawn_width_px) / 2 / std::tan(frame.fov_rad / 2);
+  const PeopleSight sight{eye, to_sun, FrustumOf(view_projection), r.options.cull ? &r.town.walls : nullptr, 2 * kPeopleShadow_m,
+                          frame.resolution_scale < 1 ? focal_px : 0};
   SortPeople(frame.people, r.people.layouts, r.people.ready, sight, &r.people.batches);
   UploadPeople(&r.people);
   statistics->people_ms = Now_ms() - people_ms;
@@ -187,16 +190,14 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   shadows += UpdateTownShadows(eye, to_sun, r.block_buffer, r.town, &r.shadows);
   timer.Passed(DrawPass::kTownShadow);
 
-  ResizePicture(width_px, height_px, &r.picture);
-  glBindFramebuffer(GL_FRAMEBUFFER, r.picture.framebuffer);
-  glViewport(0, 0, width_px, height_px);
-  glClear(GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT);
+  BeginPicture(r.picture);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, static_cast<float>(width_px) / 2 / std::tan(frame.fov_rad / 2), to_sun, r.shadows));
+  BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, focal_px, to_sun, r.shadows));
   // Whatever is drawn hides what comes after it at no cost: the dearest comes last, the nearest first.
   DrawCost people = DrawPeople(r.people, false);
   timer.Passed(DrawPass::kMeshes);
+  if (r.picture.deferred) glFlush();  // software fills these pixels while it goes through the town's triangles
   const DrawCost town = DrawTown(&r.town);
   timer.Passed(DrawPass::kTown);
   people += DrawPeople(r.people, true);
@@ -215,6 +216,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   statistics->people_triangles = people.triangles;
   statistics->shadow_triangles = shadows.triangles;
   statistics->draw_calls = people.calls + town.calls + shadows.calls + mark.calls + kWholePictures;
+  statistics->resolution_scale = frame.resolution_scale;
   statistics->people_hidden = r.people.batches.hidden;
   statistics->people_drawn = static_cast<int>(frame.people.size()) - statistics->people_hidden;
   statistics->draw_ms = Now_ms() - start_ms;

@@ -514,10 +514,18 @@ void main() {
 )";
 
 // Smooths stair-steps where the driver's multisampling is too dear: across an edge brighter on one side, two looks along it
-// (after the idea of fast approximate antialiasing, Lottes 2009). DEFERRED: alpha is the brightness.
+// (after the idea of fast approximate antialiasing, Lottes 2009). DEFERRED: alpha is the brightness. SHARPEN: what
+// is enlarged afterwards.
 inline constexpr const char* kSmoothFragment = R"(
 uniform sampler2D u_texture;
 out vec4 o_color;
+#ifdef SHARPEN
+#define SHARPNESS 0.6
+uniform vec4 u_drawn;  // the drawn part over the whole texture; the last place to look up
+vec4 look(vec2 at) { return texture(u_texture, min(at, u_drawn.zw)); }
+#else
+vec4 look(vec2 at) { return texture(u_texture, at); }
+#endif
 float brightness_of(vec4 c) {
 #ifdef DEFERRED
   return c.a;
@@ -527,7 +535,11 @@ float brightness_of(vec4 c) {
 }
 float brightness(ivec2 p) { return brightness_of(texelFetch(u_texture, p, 0)); }
 void main() {
-  ivec2 last = textureSize(u_texture, 0) - 1, p = ivec2(gl_FragCoord.xy);
+#ifdef SHARPEN
+  ivec2 whole = textureSize(u_texture, 0), last = ivec2(u_drawn.zw * vec2(whole)), p = ivec2(gl_FragCoord.xy);
+#else
+  ivec2 last = textureSize(u_texture, 0) - 1, whole = last + 1, p = ivec2(gl_FragCoord.xy);
+#endif
   vec4 middle = texelFetch(u_texture, p, 0);
   int left = max(p.x - 1, 0), right = min(p.x + 1, last.x), below = max(p.y - 1, 0), above = min(p.y + 1, last.y);
   float m = brightness_of(middle);
@@ -536,14 +548,38 @@ void main() {
   float least = min(m, min(min(lb, rb), min(la, ra))), most = max(m, max(max(lb, rb), max(la, ra)));
   vec2 along = vec2(la + ra - lb - rb, lb + la - rb - ra);  // turned a quarter from the slope of brightness
   float weaker = min(abs(along.x), abs(along.y)) + max(0.008, (lb + rb + la + ra) * 0.03);
-  along = clamp(along / weaker, -6.0, 6.0) / vec2(last + 1);
-  vec2 at = gl_FragCoord.xy / vec2(last + 1);
-  vec4 near = 0.5 * (texture(u_texture, at - along / 6.0) + texture(u_texture, at + along / 6.0));
-  vec4 far = 0.5 * near + 0.25 * (texture(u_texture, at - along * 0.5) + texture(u_texture, at + along * 0.5));
+  along = clamp(along / weaker, -6.0, 6.0) / vec2(whole);
+  vec2 at = gl_FragCoord.xy / vec2(whole);
+  vec4 near = 0.5 * (look(at - along / 6.0) + look(at + along / 6.0));
+  vec4 far = 0.5 * near + 0.25 * (look(at - along * 0.5) + look(at + along * 0.5));
   float b = brightness_of(far);
   vec3 smoothed = b < least || b > most ? near.rgb : far.rgb;
-  o_color = vec4(most - least < max(0.06, most * 0.14) ? middle.rgb : smoothed, 1.0);
+  bool edge = most - least >= max(0.06, most * 0.14);
+#ifdef SHARPEN
+  // Enlarging blurs: brightness is set off against the neighbours', but never beyond theirs.
+  float sharp = clamp(m + SHARPNESS * (m - 0.25 * (lb + rb + la + ra)), least, most);
+  middle.rgb *= sharp / max(m, 0.004);
+#endif
+  o_color = vec4(edge ? smoothed : middle.rgb, 1.0);
 }
+)";
+
+// From the drawn part of a texture to the whole picture.
+inline constexpr const char* kEnlargeVertex = R"(
+uniform vec4 u_drawn;
+out vec2 v_at;
+void main() {
+  vec2 p = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
+  v_at = p * u_drawn.xy;
+  gl_Position = vec4(p * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+inline constexpr const char* kEnlargeFragment = R"(
+in vec2 v_at;
+uniform sampler2D u_texture;
+uniform vec4 u_drawn;  // the drawn part over the whole texture; the last place to look up
+out vec4 o_color;
+void main() { o_color = texture(u_texture, min(v_at, u_drawn.zw)); }
 )";
 
 // A strip of text at the foot of the picture, pixel by pixel.

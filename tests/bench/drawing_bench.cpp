@@ -1,9 +1,9 @@
-// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT [passes [PICTURE]]]]]
+// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE] [passes|alone [PICTURE]]]]]
 //
 // Plays the scenario and draws its frames twice, right after each other: as control decides, and with everybody who is drawn as
 // their finest mesh. Prints medians and 99th percentiles, and their ratio. Processor times are those of all threads: on a machine
-// that does other work as well they say more than the clock. With `passes` what each pass of our pictures takes instead of the comparison;
-// PICTURE: the last of them, as PNG.
+// that does other work as well they say more than the clock. SCALE: FrameInput::resolution_scale. With `alone` our pictures without the
+// comparison, with `passes` what each pass of them takes. PICTURE: the last of them, as PNG.
 #include <time.h>
 
 #include <algorithm>
@@ -78,10 +78,11 @@ FrameInput AllFinest(FrameInput frame) {
 }
 
 Error Run(int argc, char** argv) {
-  if (argc < 3) return Fail("usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT [passes [PICTURE]]]]]");
+  if (argc < 3) return Fail("usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE] [passes|alone [PICTURE]]]]]");
   int width_px = 1280, height_px = 720;
-  if (argc > 5) std::sscanf(argv[5], "%dx%d", &width_px, &height_px);
-  const bool passes = argc > 6 && std::string(argv[6]) == "passes";
+  float scale = 1;
+  if (argc > 5) std::sscanf(argv[5], "%dx%d@%f", &width_px, &height_px, &scale);
+  const bool passes = argc > 6 && std::string(argv[6]) == "passes", compares = !passes && (argc <= 6 || std::string(argv[6]) != "alone");
   const int frames = argc > 4 ? std::atoi(argv[4]) : 60;
   TourPack pack;
   if (Error e = LoadTourPack(argv[1], {}, &pack)) return e;
@@ -94,7 +95,7 @@ Error Run(int argc, char** argv) {
   if (Error e = context.Create()) return e;
   Renderer renderer, full_renderer;  // each with the shadows of its own frames before
   if (Error e = renderer.Create(pack, {.time_passes = passes})) return e;
-  if (!passes) {
+  if (compares) {
     if (Error e = full_renderer.Create(pack)) return e;
   }
 
@@ -107,12 +108,13 @@ Error Run(int argc, char** argv) {
   for (int k = 0; k < frames + kWarm && !s.finished; ++k) {
     const double before = Clock_ms();
     FrameFromSimulation(pack, s, &looks, &frame);
+    frame.resolution_scale = scale;
     const double looks_ms = Clock_ms() - before;
     Costs unused;
     Costs* costs = k < kWarm ? &unused : &as_decided;
     Draw(frame, width_px, height_px, &renderer, costs);
     people_ms.values.push_back(s.control_ms + looks_ms + costs->people_ms.values.back());
-    if (!passes && k >= kWarm && k % kFullEvery == 0) {
+    if (compares && k >= kWarm && k % kFullEvery == 0) {
       compared_ms.values.push_back(as_decided.processor_ms.values.back());
       compared_clock_ms.values.push_back(as_decided.clock_ms.values.back());
       Draw(AllFinest(frame), width_px, height_px, &full_renderer, &full);
