@@ -42,6 +42,7 @@ TEST(SteadyFrameOfTheDemo, AllocatesNothingAndTakesFewDrawCallsForTenThousandPeo
   const auto draw = [&](int first, int last) {
     for (int k = first; k < last; ++k) {
       frame.yaw_rad = 0.17f + 0.01f * static_cast<float>(k);
+      frame.resolution_scale = k % 4 == 3 ? 1.0f : 0.5f + 0.1f * static_cast<float>(k % 4);  // it may change at any time
       renderer.Draw(frame, 160, 90, &statistics);
       EXPECT_LE(statistics.draw_calls, kMostDrawCalls) << k;
       EXPECT_GT(statistics.people_drawn, 1000);

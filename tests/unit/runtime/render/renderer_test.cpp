@@ -268,6 +268,62 @@ TEST_F(Drawing, TheSameFrameGivesTheSamePicture) {
   EXPECT_EQ(Draw(pack, frame), first);
 }
 
+double MeanDifference(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
+  return sum / static_cast<double>(a.size());
+}
+
+TEST_F(Drawing, ACoarsePictureShowsTheSameAndKeepsTheCaptionSharp) {
+  const TourPack pack = MakePack({{11, 3}, {14, -4}});
+  for (int samples : {1, 4}) {
+    Renderer renderer;
+    ASSERT_EQ(renderer.Create(pack, {.samples = samples}).message, "");
+    FrameInput frame = LookEast();
+    frame.people = {PersonAt(6, 1, 0), PersonAt(9, -1, -1)};
+    const std::vector<uint8_t> fine = DrawWith(frame, &renderer);
+    FrameInput elsewhere = frame;
+    elsewhere.yaw_rad = 0.3f;
+    double least = 100;
+    for (float scale : {0.35f, 0.5f, 0.77f}) {  // from coarse to fine
+      frame.resolution_scale = scale;
+      const std::vector<uint8_t> coarse = DrawWith(frame, &renderer);
+      ASSERT_EQ(coarse.size(), fine.size());
+      const double difference = MeanDifference(coarse, fine);
+      EXPECT_LT(difference, 4) << samples << ' ' << scale;
+      EXPECT_LT(difference, least) << samples << ' ' << scale;
+      EXPECT_LT(difference, MeanDifference(DrawWith(elsewhere, &renderer), fine) / 3);
+      least = difference;
+    }
+    frame.caption = elsewhere.caption = "A well.";
+    const std::vector<uint8_t> coarse = DrawWith(frame, &renderer);
+    frame.resolution_scale = 1;
+    const std::vector<uint8_t> sharp = DrawWith(frame, &renderer);
+    for (int x = 0; x < kWidth; ++x) {  // white letters on what is nearly black
+      for (int y = kHeight - 12; y < kHeight - 4; ++y) ASSERT_NEAR(Pixel(coarse, x, y).g, Pixel(sharp, x, y).g, 40) << x << ' ' << y;
+    }
+  }
+}
+
+TEST_F(Drawing, APictureAfterCoarserOnesIsTheSameAsBefore) {
+  const TourPack pack = MakePack({{11, 3}, {14, -4}});
+  for (int samples : {1, 4}) {
+    Renderer renderer;
+    ASSERT_EQ(renderer.Create(pack, {.samples = samples}).message, "");
+    FrameInput frame = LookEast();
+    frame.people = {PersonAt(6, 1, 0), PersonAt(9, -1, -1)};
+    const std::vector<uint8_t> whole = DrawWith(frame, &renderer);
+    frame.resolution_scale = 0.6f;
+    const std::vector<uint8_t> coarse = DrawWith(frame, &renderer);
+    frame.resolution_scale = 0.3f;
+    DrawWith(frame, &renderer);
+    frame.resolution_scale = 0.6f;
+    EXPECT_EQ(DrawWith(frame, &renderer), coarse);
+    frame.resolution_scale = 1;
+    EXPECT_EQ(DrawWith(frame, &renderer), whole);
+  }
+}
+
 TEST_F(Drawing, StatisticsCountWhatIsDrawn) {
   FrameInput frame = LookEast();
   frame.people = {PersonAt(6, 1, 0), PersonAt(9, -1, -1), PersonAt(9, -2, -1)};
@@ -459,6 +515,26 @@ TEST(PeopleBatches, WhatHasNotComeYetIsDrawnByTheNearestLevelThatHas) {
   EXPECT_EQ(levels_with(false, true, false), (std::vector<int>{1, 1}));
   EXPECT_EQ(levels_with(false, false, true), (std::vector<int>{-1, -1}));
   EXPECT_TRUE(levels_with(false, false, false).empty());
+}
+
+TEST(PeopleBatches, InACoarsePictureTheMeshThatServesAtItsSizeIsEnough) {
+  AvatarLayout avatar = LayoutOf(BoxPerson());
+  avatar.height_m = 1.8f;
+  avatar.switch_px = {100, 0};
+  const std::vector<DrawnPerson> people{PersonAt(5, 0, 0), PersonAt(9, 0, 1), PersonAt(12, 0, -1)};
+  const auto levels_at = [&](float focal_px) {
+    PeopleSight sight = EverywhereSeen();
+    sight.focal_px = focal_px;
+    PeopleBatches batches;
+    batches.pose_width = 3;
+    SortPeople(people, {avatar}, {{{true, true}, true, false}}, sight, &batches);
+    std::vector<int> levels;
+    for (const PeopleBatch& b : batches.seen) levels.insert(levels.end(), b.count, b.level);
+    return levels;
+  };
+  EXPECT_EQ(levels_at(0), (std::vector<int>{0, 1, -1}));
+  EXPECT_EQ(levels_at(400), (std::vector<int>{0, 1, -1})) << "144 px high";
+  EXPECT_EQ(levels_at(200), (std::vector<int>{1, 1, -1})) << "72 px high";
 }
 
 TEST(PeopleBatches, ImpostorsShowTheClipThatThePersonIsIn) {
