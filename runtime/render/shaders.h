@@ -522,9 +522,13 @@ out vec4 o_color;
 #ifdef SHARPEN
 #define SHARPNESS 0.6
 uniform vec4 u_drawn;  // the drawn part over the whole texture; the last place to look up
-vec4 look(vec2 at) { return texture(u_texture, min(at, u_drawn.zw)); }
+#define LOOK(at) texture(u_texture, min(at, u_drawn.zw))
+#define WHOLE textureSize(u_texture, 0)
+#define LAST ivec2(u_drawn.zw * vec2(WHOLE))
 #else
-vec4 look(vec2 at) { return texture(u_texture, at); }
+#define LOOK(at) texture(u_texture, at)
+#define WHOLE (last + 1)
+#define LAST textureSize(u_texture, 0) - 1
 #endif
 float brightness_of(vec4 c) {
 #ifdef DEFERRED
@@ -535,11 +539,7 @@ float brightness_of(vec4 c) {
 }
 float brightness(ivec2 p) { return brightness_of(texelFetch(u_texture, p, 0)); }
 void main() {
-#ifdef SHARPEN
-  ivec2 whole = textureSize(u_texture, 0), last = ivec2(u_drawn.zw * vec2(whole)), p = ivec2(gl_FragCoord.xy);
-#else
-  ivec2 last = textureSize(u_texture, 0) - 1, whole = last + 1, p = ivec2(gl_FragCoord.xy);
-#endif
+  ivec2 last = LAST, p = ivec2(gl_FragCoord.xy);
   vec4 middle = texelFetch(u_texture, p, 0);
   int left = max(p.x - 1, 0), right = min(p.x + 1, last.x), below = max(p.y - 1, 0), above = min(p.y + 1, last.y);
   float m = brightness_of(middle);
@@ -548,19 +548,18 @@ void main() {
   float least = min(m, min(min(lb, rb), min(la, ra))), most = max(m, max(max(lb, rb), max(la, ra)));
   vec2 along = vec2(la + ra - lb - rb, lb + la - rb - ra);  // turned a quarter from the slope of brightness
   float weaker = min(abs(along.x), abs(along.y)) + max(0.008, (lb + rb + la + ra) * 0.03);
-  along = clamp(along / weaker, -6.0, 6.0) / vec2(whole);
-  vec2 at = gl_FragCoord.xy / vec2(whole);
-  vec4 near = 0.5 * (look(at - along / 6.0) + look(at + along / 6.0));
-  vec4 far = 0.5 * near + 0.25 * (look(at - along * 0.5) + look(at + along * 0.5));
+  along = clamp(along / weaker, -6.0, 6.0) / vec2(WHOLE);
+  vec2 at = gl_FragCoord.xy / vec2(WHOLE);
+  vec4 near = 0.5 * (LOOK(at - along / 6.0) + LOOK(at + along / 6.0));
+  vec4 far = 0.5 * near + 0.25 * (LOOK(at - along * 0.5) + LOOK(at + along * 0.5));
   float b = brightness_of(far);
   vec3 smoothed = b < least || b > most ? near.rgb : far.rgb;
-  bool edge = most - least >= max(0.06, most * 0.14);
 #ifdef SHARPEN
   // Enlarging blurs: brightness is set off against the neighbours', but never beyond theirs.
   float sharp = clamp(m + SHARPNESS * (m - 0.25 * (lb + rb + la + ra)), least, most);
   middle.rgb *= sharp / max(m, 0.004);
 #endif
-  o_color = vec4(edge ? smoothed : middle.rgb, 1.0);
+  o_color = vec4(most - least < max(0.06, most * 0.14) ? middle.rgb : smoothed, 1.0);
 }
 )";
 
