@@ -21,6 +21,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kNear_m = 0.1f, kFar_m = 900;
+constexpr float kLeastShadowShare = 0.25f;  // of the town's shadows that a picture usually renews; so near the visitor they are up to date
 
 // In software larger pictures cost memory and time that nobody sees at the sizes drawn there.
 PictureLimits LimitsOfThisMachine(bool fast) {
@@ -187,7 +188,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   timer.Passed(DrawPass::kCull);
   DrawCost shadows = DrawPeopleShadows(eye, ahead, to_sun, r.block_buffer, r.people, &r.shadows);
   timer.Passed(DrawPass::kPeopleShadow);
-  shadows += UpdateTownShadows(eye, to_sun, r.block_buffer, r.town, &r.shadows);
+  shadows += UpdateTownShadows(eye, to_sun, std::max(kLeastShadowShare, frame.resolution_scale * frame.resolution_scale), r.block_buffer, r.town, &r.shadows);
   timer.Passed(DrawPass::kTownShadow);
 
   BeginPicture(r.picture);
@@ -198,7 +199,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   DrawCost people = DrawPeople(r.people, false);
   timer.Passed(DrawPass::kMeshes);
   if (r.picture.deferred) glFlush();  // software fills these pixels while it goes through the town's triangles
-  const DrawCost town = DrawTown(&r.town);
+  const DrawCost town = DrawTown(eye, r.options.cull, &r.town);
   timer.Passed(DrawPass::kTown);
   people += DrawPeople(r.people, true);
   timer.Passed(DrawPass::kImpostors);

@@ -13,7 +13,7 @@ constexpr float kShadowDepth_m = 140;
 constexpr float kNearStep_m = 8;
 constexpr float kSunStep = 0.004f;       // or when the sun has turned by so much, in radians: hardly a texel on the ground
 constexpr float kSunJump = 0.3f;         // so much of a turn is not waited for, nor three steps of the eye
-constexpr int64_t kTrianglesAPicture = 10000;  // the work is spread over many pictures, so that no frame stumbles
+constexpr float kTrianglesAPicture = 10000;  // the work is spread over many pictures, so that no frame stumbles
 
 void SetUpMap(GLenum target) {
   glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -69,7 +69,7 @@ DrawCost DrawSome(int64_t triangles, GLuint block_buffer, const TownView& town, 
 }
 
 // `waits`: for the other map, so that one picture draws parts of one only.
-DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, bool waits, GLuint block_buffer, const TownView& town, TownMap* map) {
+DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, bool waits, float share, GLuint block_buffer, const TownView& town, TownMap* map) {
   const float moved_m = Length(center - map->center), turned = Length(to_sun - map->to_sun);
   const bool jumped = !map->valid || moved_m > 3 * map->step_m || turned > kSunJump;
   if (waits && !jumped) return {};
@@ -82,7 +82,7 @@ DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, bool waits, GLuint block_buffer
   }
   map->valid = true;
   if (!map->draws) return {};
-  return DrawSome(jumped ? std::numeric_limits<int64_t>::max() : kTrianglesAPicture, block_buffer, town, map);
+  return DrawSome(jumped ? std::numeric_limits<int64_t>::max() : static_cast<int64_t>(share * kTrianglesAPicture), block_buffer, town, map);
 }
 
 }  // namespace
@@ -104,18 +104,18 @@ void CreateShadowMaps(ShadowMaps* maps) {
 
 void ForgetTownShadows(ShadowMaps* maps) { maps->near.valid = maps->far.valid = false; }
 
-DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, GLuint block_buffer, const TownView& town, ShadowMaps* maps) {
+DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town, ShadowMaps* maps) {
   BeginMaps();
   maps->near.half_width_m = kNear_m;
   maps->near.step_m = kNearStep_m;
-  DrawCost cost = UpdateTownMap(eye, to_sun, maps->far.draws, block_buffer, town, &maps->near);
+  DrawCost cost = UpdateTownMap(eye, to_sun, maps->far.draws, share, block_buffer, town, &maps->near);
   // The coarse map stands still over a town that it covers, and else follows the eye.
   const Vec3 middle = (town.box.low + town.box.high) * 0.5f;
   const float reach_m = town.geometry.blocks.empty() ? 1 : Length(town.box.high - middle);
   const bool covered = reach_m <= kMostFar_m;
   maps->far.half_width_m = covered ? reach_m : kMostFar_m;
   maps->far.step_m = kMostFar_m / 8;
-  cost += UpdateTownMap(covered ? middle : eye, to_sun, maps->near.draws, block_buffer, town, &maps->far);
+  cost += UpdateTownMap(covered ? middle : eye, to_sun, maps->near.draws, share, block_buffer, town, &maps->far);
   glDisable(GL_POLYGON_OFFSET_FILL);
   BindTextureArray(kTownShadowUnit, maps->town_texture);
   return cost;

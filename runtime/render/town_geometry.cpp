@@ -58,6 +58,16 @@ bool HidesWhatIsBehind(const Triangle& t, const SurfacePlan& plan, const std::ve
   return Length(Cross(b - a, c - a)) / 2 > kLeastWall_m2;
 }
 
+// The eye must be clearly behind a triangle before it is left out: what is looked at from its edge is left to OpenGL.
+constexpr float kBehind_m = 0.002f;
+
+Vec4 PlaneOf(const Triangle& t, const SurfacePlan& plan, const std::vector<TownVertex>& vertices) {
+  if (plan.groups[static_cast<size_t>(t.group)].double_sided) return {0, 0, 0, 0};
+  const Vec3 a = vertices[t.corners[0]].position, b = vertices[t.corners[1]].position, c = vertices[t.corners[2]].position;
+  const Vec3 n = Normalized(Cross(b - a, c - a));
+  return {n.x, n.y, n.z, kBehind_m - Dot(n, a)};
+}
+
 // The index array in order of block and group; vertices in order of their first use, so that a block's lie together.
 void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle>>* cells, TownGeometry* town) {
   const std::vector<TownVertex> all = std::move(town->vertices);
@@ -82,6 +92,7 @@ void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle
         Include(all[corner].position, &block.box);
       }
       block.ranges.back().count += 3;
+      town->planes.push_back(PlaneOf(t, plan, all));
       if (!HidesWhatIsBehind(t, plan, all)) continue;
       for (uint32_t corner : t.corners) town->walls.push_back(all[corner].position);
       if (!plan.groups[static_cast<size_t>(t.group)].double_sided) continue;

@@ -31,21 +31,33 @@ void DrawIndices(uint32_t first, uint32_t count) {
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, reinterpret_cast<const void*>(size_t{first} * sizeof(uint32_t)));
 }
 
-// Indices of the visible blocks, by group and within it nearest first.
-void GatherIndices(TownView* town) {
+// Of the triangles that turn their front to the eye. Returns the end of what was written, and writes up to three indices beyond it.
+uint32_t* GatherFronts(const TownGeometry& geometry, const TownRange& range, Vec3 eye, uint32_t* to) {
+  const uint32_t* from = &geometry.indices[range.first];
+  const Vec4* planes = &geometry.planes[range.first / 3];
+  for (uint32_t i = 0; i < range.count / 3; ++i) {
+    const Vec4& plane = planes[i];
+    std::copy_n(from + 3 * i, 3, to);  // whoever is behind is written over
+    to += plane.x * eye.x + plane.y * eye.y + plane.z * eye.z + plane.w >= 0 ? 3 : 0;
+  }
+  return to;
+}
+
+// Indices of the visible blocks, by group and within it nearest first. Returns how many.
+size_t GatherIndices(Vec3 eye, bool cull, TownView* town) {
   town->counts.assign(town->groups.size(), 0);
-  town->indices.clear();
+  uint32_t* to = town->indices.data();
   for (size_t g = 0; g < town->groups.size(); ++g) {
-    const size_t before = town->indices.size();
+    const uint32_t* before = to;
     for (uint32_t b : town->visible) {
       for (const TownRange& range : town->geometry.blocks[b].ranges) {
         if (range.group != static_cast<int>(g)) continue;
-        const auto first = town->geometry.indices.begin() + range.first;
-        town->indices.insert(town->indices.end(), first, first + range.count);
+        to = cull ? GatherFronts(town->geometry, range, eye, to) : std::copy_n(&town->geometry.indices[range.first], range.count, to);
       }
     }
-    town->counts[g] = static_cast<uint32_t>(town->indices.size() - before);
+    town->counts[g] = static_cast<uint32_t>(to - before);
   }
+  return static_cast<size_t>(to - town->indices.data());
 }
 
 }  // namespace
@@ -81,7 +93,7 @@ void AddTown(TownGeometry geometry, TownView* town) {
   }
   town->order.reserve(town->geometry.blocks.size());
   town->visible.reserve(town->geometry.blocks.size());
-  town->indices.reserve(town->geometry.indices.size());
+  town->indices.resize(town->geometry.indices.size() + 3);
 }
 
 void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownView* town) {
@@ -106,13 +118,13 @@ void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownVie
   FinishOcclusion(&town->walls);
 }
 
-DrawCost DrawTown(TownView* town) {
+DrawCost DrawTown(Vec3 eye, bool cull, TownView* town) {
   DrawCost cost;
   if (town->vertex_array == 0) return cost;
-  GatherIndices(town);
+  const size_t indices = GatherIndices(eye, cull, town);
   glBindVertexArray(town->vertex_array);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, town->visible_indices);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(town->indices.size() * sizeof(uint32_t)), town->indices.data(), GL_STREAM_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices * sizeof(uint32_t)), town->indices.data(), GL_STREAM_DRAW);
   uint32_t first = 0;
   for (size_t g = 0; g < town->groups.size(); ++g) {
     const uint32_t count = town->counts[g];

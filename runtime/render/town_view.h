@@ -21,7 +21,7 @@ struct TownView {
   OcclusionMap walls;
   std::vector<std::pair<float, uint32_t>> order;        // scratch: distance and block
   std::vector<uint32_t> visible;           // blocks, nearest first
-  std::vector<uint32_t> indices;           // of them, group by group
+  std::vector<uint32_t> indices;           // of them, group by group; room for all
   std::vector<uint32_t> counts;            // of indices, by group
 };
 
@@ -32,8 +32,9 @@ void AddTown(TownGeometry geometry, TownView* town);
 // Fills visible and walls: blocks within the view that no nearer walls hide. Without `cull` all blocks and no walls.
 void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownView* town);
 
-// Near blocks first, so that hidden pixels cost little. The frame block must be bound.
-DrawCost DrawTown(TownView* town);
+// Near blocks first, so that hidden pixels cost little, without what turns its back to the eye: software would shade its
+// corners. Without `cull` all of the blocks. The frame block must be bound.
+DrawCost DrawTown(Vec3 eye, bool cull, TownView* town);
 
 // Depth only: the blocks from *next_block on that the light's view touches, until `triangles` are drawn. *next_block: where to go on.
 DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const TownView& town, size_t* next_block);
