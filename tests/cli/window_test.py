@@ -32,7 +32,8 @@ class Display:
     def starts(self):
         """Whether it is there: servers that start at the same time may take each other's number."""
         reading, writing = os.pipe()
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "640x480x24"],
+        # -noreset: else it starts anew, and refuses whoever comes meanwhile, as soon as its only client has gone.
+        self.server = subprocess.Popen(["Xvfb", "-noreset", "-displayfd", str(writing), "-screen", "0", "640x480x24"],
                                        pass_fds=[writing], stderr=subprocess.DEVNULL)
         os.close(writing)
         with os.fdopen(reading) as number:
