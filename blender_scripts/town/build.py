@@ -20,6 +20,7 @@ import bpy  # noqa: E402
 import ambient_occlusion as light  # noqa: E402
 import export  # noqa: E402
 import furnish  # noqa: E402
+import gardens as backs  # noqa: E402
 import layout  # noqa: E402
 import nature  # noqa: E402
 import plan  # noqa: E402
@@ -67,8 +68,8 @@ def check_options(options):
             fail("options: '%s' must lie between %s and %s" % (key, low, high))
 
 
-def add_ground(town, streets, public, rng):
-    for kind, mesh in make_ground(streets, public, rng).items():
+def add_ground(town, streets, public, gardens, rng):
+    for kind, mesh in make_ground(streets, public, gardens, rng).items():
         if kind in GROUND_KINDS:
             town.parts.append(("ground_" + kind, mesh, {"flaneur_kind": "ground", "flaneur_ground": kind}, 0.16))
         else:
@@ -76,19 +77,33 @@ def add_ground(town, streets, public, rng):
     town.add("far_land", far_land(rng), "none", 0.15)
 
 
+def build_on(plot, rng):
+    """The house of a plot, where along its front its door is, and where it would be if nobody walked through the house.
+
+    A gateway draws from `rng` what the closed house would: it changes no other house and nothing in the streets.
+    """
+    again = random.Random()
+    again.setstate(rng.getstate())
+    gateway, plot.gateway = plot.gateway, False
+    mesh, entries = build_house(plot, rng)
+    plot.gateway, u_closed = gateway, entries[0][0]
+    if gateway:
+        mesh, entries = build_house(plot, again)
+    return mesh, entries[0][0], u_closed
+
+
 def add_houses(town, plots, rng):
-    """All houses; returns where along its front each has its doors."""
+    """All houses; returns where along its front each would have its door if none were a gateway."""
     doors, number = [], 0
     for plot in plots:
         if plot.kind not in ("house", "passage"):
             doors.append([0.0])
             continue
         number += 1
-        mesh, entries = build_house(plot, rng)
-        u = entries[0][0]
-        doors.append([u])
+        mesh, u, u_closed = build_on(plot, rng)
+        doors.append([u_closed])
         spot = plot.at(u, -0.35)
-        lean = 0.0 if plot.kind == "passage" else 1.0
+        lean = 0.0 if plot.kind == "passage" or plot.gateway else 1.0
         z = float(plan.pavement_height(*plot.at(u, 0)))
         placed = mesh.moved(plot.origin[0], plot.origin[1], z, plot.yaw, lean * rng.uniform(-0.006, 0.006),
                             lean * rng.uniform(-0.007, 0.003))
@@ -105,7 +120,7 @@ def add_landmarks(town, rng):
             town.door(x + 0.35 * nx, y + 0.35 * ny, nx, ny)
 
 
-def add_walls(town, streets, garden_lines, rng):
+def add_walls(town, streets, garden_lines, gardens, rng):
     for index in range(len(plan.WALL_RING)):
         town.add("town_wall_%02d" % (index + 1), town_wall.make_wall_run(index, streets), "wall")
         if index in plan.WALL_GATES:
@@ -125,6 +140,8 @@ def add_walls(town, streets, garden_lines, rng):
             if math.dist(a, b) > 1.6 and rng.random() < 0.55:
                 low, high = float(plan.pavement_height(*a)), float(plan.pavement_height(*b))
                 nature.add_ivy(mesh, (a, b), lambda t: low + (high - low) * t, lambda t: low + (high - low) * t + height, rng)
+        if index in gardens.openings:
+            mesh = town_wall.opened_wall(*backs.cut(line, gardens.openings[index]), height, color)
         town.add("garden_wall_%02d" % (index + 1), mesh, "wall")
     town.add("churchyard_wall", town_wall.churchyard_wall(), "wall")
 
@@ -142,10 +159,11 @@ def add_furniture(town, streets, public, plots, doors, rng):
     for i, (x, y, yaw) in enumerate(furnish.CARTS):
         put("cart_%d" % (i + 1), square.make_cart(rng), x, y, yaw)
     counts = {"bench": 0, "pile": 0}
-    for kind, x, y, yaw in furnish.along_fronts(plots, doors, streets, public, rng):
-        counts[kind] += 1
-        put("%s_%02d" % ("goods" if kind == "pile" else kind, counts[kind]),
-            (square.make_bench if kind == "bench" else square.make_pile)(rng), x, y, yaw)
+    for kind, x, y, yaw, free in furnish.along_fronts(plots, doors, streets, public, rng):
+        mesh = (square.make_bench if kind == "bench" else square.make_pile)(rng)
+        if free:
+            counts[kind] += 1
+            put("%s_%02d" % ("goods" if kind == "pile" else kind, counts[kind]), mesh, x, y, yaw)
     for i, (x, y, yaw) in enumerate(furnish.graves(rng)):
         put("grave_%02d" % (i + 1), square.make_grave(rng), x, y, yaw)
     for i, (x, y, yaw) in enumerate(furnish.loiter_spots()):
@@ -153,11 +171,29 @@ def add_furniture(town, streets, public, plots, doors, rng):
                              (x, y, float(plan.ground_height(x, y))), yaw))
 
 
-def add_copies(town, streets, public, plots, rng):
+def add_gardens(town, gardens):
+    rng, counts = gardens.rng, {}
+    makers = {"bed": lambda: backs.make_bed(4.6, rng), "hedge": lambda: backs.make_hedge(rng.uniform(4.0, 5.5), rng),
+              "linen": lambda: backs.make_linen(6.5, rng), "bench": lambda: square.make_bench(rng)}
+    for kind, x, y, yaw in backs.places(gardens):
+        counts[kind] = counts.get(kind, 0) + 1
+        name, z = "garden_%s_%02d" % (kind, counts[kind]), float(plan.pavement_height(x, y))
+        if kind == "tree":
+            scale = rng.uniform(0.7, 0.95)
+            extras = {"flaneur_kind": "tree", "flaneur_radius_m": round(nature.TRUNK_RADIUS_M * scale, 3)}
+            sort = furnish.TREE_SORTS[rng.randrange(2, 4)][0]
+            town.copies.append((name, sort, extras, (x, y, z - 0.1), rng.uniform(0, 2 * math.pi), scale))
+        elif kind == "loiter":
+            town.empties.append((name, {"flaneur_kind": "loiter"}, (x, y, z), yaw))
+        else:
+            town.add(name, makers[kind]().moved(x, y, z, yaw), "other")
+
+
+def add_copies(town, streets, public, rng):
     for name, height, crown, tint, detail in furnish.TREE_SORTS:
         town.shared[name] = nature.make_tree(rng, height, crown, tint, detail)
     town.shared["lamp"] = nature.make_lamp()
-    for i, (x, y, scale, sort) in enumerate(furnish.trees(public, plots, rng)):
+    for i, (x, y, scale, sort) in enumerate(furnish.trees(public, rng)):
         z = float(plan.pavement_height(x, y)) - (0.1 if public([(x, y)])[0] < 0 else 0.15)
         outside = plan.distance_to_polygon([(x, y)], plan.WALL_RING)[0] > 0
         extras = {"flaneur_kind": "none" if outside else "tree"}
@@ -218,12 +254,14 @@ def gather(seed, options):
     rng = random.Random(seed)
     town = Town()
     streets, public, plots, garden_lines = layout.make_layout(rng, options["house_width_m"])
-    add_ground(town, streets, public, rng)
+    gardens = backs.Gardens(streets, public, plots, garden_lines, random.Random("gardens %d" % seed))
+    add_ground(town, streets, public, gardens, rng)
     doors = add_houses(town, plots, rng)
     add_landmarks(town, rng)
-    add_walls(town, streets, garden_lines, rng)
+    add_walls(town, streets, garden_lines, gardens, rng)
     add_furniture(town, streets, public, plots, doors, rng)
-    add_copies(town, streets, public, plots, rng)
+    add_copies(town, streets, public, rng)
+    add_gardens(town, gardens)
     return town
 
 

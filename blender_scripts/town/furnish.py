@@ -42,19 +42,11 @@ def lamps(streets, public):
     return places
 
 
-def trees(public, plots, rng):
-    """(x, y, scale, sort) of trees on the square, in the churchyard, in gardens and outside the wall."""
+def trees(public, rng):
+    """(x, y, scale, sort) of trees on the square, in the churchyard and outside the wall."""
     spots = [(x, y, 0.85, 0) for x, y in SQUARE_TREES]
     spots += [(x + rng.uniform(-0.6, 0.6), y + rng.uniform(-0.6, 0.6), rng.uniform(0.9, 1.2), 1)
               for x, y in CHURCHYARD_TREES]
-    gardens = []
-    for _ in range(2600):
-        p = (rng.uniform(-76, 78), rng.uniform(-68, 66))
-        if len(gardens) < 28 and public([p])[0] > 3.6 and plan.distance_to_polygon([p], plan.WALL_RING)[0] < -3.5 \
-                and not any(o.contains([p], 2.6)[0] for o in plots) \
-                and all(math.hypot(p[0] - q[0], p[1] - q[1]) > 4.6 for q in gardens):
-            gardens.append(p)
-    spots += [(x, y, rng.uniform(0.7, 1.0), rng.randrange(2, 4)) for x, y in gardens]
     for i in range(46):
         a = 2 * math.pi * (i + rng.uniform(-0.3, 0.3)) / 46
         for r in np.arange(60, 120, 2.0):
@@ -68,7 +60,7 @@ def trees(public, plots, rng):
 
 
 def along_fronts(plots, doors, streets, public, rng):
-    """Benches and piles of goods against house fronts: ('bench' or 'pile', x, y, yaw)."""
+    """Benches and piles of goods against house fronts: ('bench' or 'pile', x, y, yaw, whether nobody has to pass there)."""
     places = []
     for plot, entries in zip(plots, doors):
         if plot.kind != "house" or rng.random() < 0.45:
@@ -80,7 +72,7 @@ def along_fronts(plots, doors, streets, public, rng):
             continue
         if float(plan.carriage_distance([plot.at(u, -0.9)], streets)[0]) < 0.1:
             continue
-        places.append(("bench" if rng.random() < 0.45 else "pile", float(p[0]), float(p[1]), plot.yaw))
+        places.append(("bench" if rng.random() < 0.45 else "pile", float(p[0]), float(p[1]), plot.yaw, not plot.gateway))
     return places
 
 

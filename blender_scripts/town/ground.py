@@ -1,4 +1,4 @@
-"""The ground: carriageways, square, pavements with kerbs, lawns, back gardens and the land outside.
+"""The ground: carriageways, square, pavements with kerbs, lawns, gardens with their paths and the land outside.
 
 One constrained triangulation carries the kerb lines, the edges of lawns and the feet of the walls, so that nothing
 overlaps and the baked light has vertices where it changes.
@@ -10,24 +10,26 @@ import numpy as np
 from mathutils import Vector, geometry
 
 import plan
+from gardens import EARTH, UNDER_WALLS_M as UNDER_GARDEN_WALLS_M
 from layout import Field, contour, simplify
 from mesh import Mesh, lathe, shade, srgb
 
 UNDER_WALLS_M = 0.5     # the walkable ground goes on this far under the walls
 KERB_STONE_M = 0.2
 MATERIAL = {"carriageway": "cobble", "square": "setts", "pavement": "paving", "grass": "grass", "kerb": "stone",
-            "garden": "grass"}
+            "garden": "grass", "path": "plaster"}
 TINT = {"carriageway": (0.95, 0.94, 0.92), "square": (1.0, 0.98, 0.95), "pavement": (0.96, 0.94, 0.9),
-        "grass": (0.97, 0.95, 0.88), "kerb": (0.78, 0.76, 0.73), "garden": (0.88, 0.88, 0.8)}
+        "grass": (0.97, 0.95, 0.88), "kerb": (0.78, 0.76, 0.73), "garden": (0.97, 0.95, 0.88), "path": EARTH}
 
 
-def _lines(streets, public):
+def _lines(streets, public, gardens):
     """Lines that the triangulation has to keep."""
     carriage = Field(lambda p: plan.carriage_distance(p, streets))
     grass = Field(plan.grass_distance)
     square = Field(plan.square_distance)
     fields = [(carriage, 0.0, 0.02), (carriage, KERB_STONE_M, 0.03), (grass, 0.0, 0.04), (square, 0.0, 0.04),
-              (public, 0.0, 0.05), (public, -0.7, 0.06), (public, UNDER_WALLS_M, 0.06)]
+              (public, 0.0, 0.05), (public, -0.7, 0.06), (public, UNDER_WALLS_M, 0.06),
+              (gardens.room, -UNDER_GARDEN_WALLS_M, 0.06), (gardens.path, 0.0, 0.06)]
     kept = []
     for field, level, tolerance in fields:
         for line in contour(field.values, field.xs, field.ys, level):
@@ -55,9 +57,9 @@ def _scattered(public, rng):
     return np.vstack([fine, coarse[public(coarse) > 2.0]])
 
 
-def make_ground(streets, public, rng):
-    """Meshes by kind: carriageway, square, pavement (with kerbs), grass and garden."""
-    lines, carriage_field = _lines(streets, public)
+def make_ground(streets, public, gardens, rng):
+    """Meshes by kind: carriageway, square, pavement (with kerbs and garden paths), grass, and garden where nobody walks."""
+    lines, carriage_field = _lines(streets, public, gardens)
     points, edges = [], []
     for line in lines:
         first = len(points)
@@ -71,15 +73,13 @@ def make_ground(streets, public, rng):
     a, b, c = xy[tri[:, 0]], xy[tri[:, 1]], xy[tri[:, 2]]
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     tri = np.where((area < 0)[:, None], tri[:, ::-1], tri)
-    kinds = _classify(middle, streets, public)
+    kinds = _classify(middle, streets, public, gardens)
     kinds[np.abs(area) < 1e-5] = "none"
     meshes = {}
-    for kind in ("carriageway", "square", "pavement", "grass", "garden", "kerb"):
-        mesh = meshes.setdefault("pavement" if kind == "kerb" else kind, Mesh())
+    for kind in ("carriageway", "square", "pavement", "grass", "garden", "kerb", "path"):
+        mesh = meshes.setdefault("pavement" if kind in ("kerb", "path") else kind, Mesh())
         chosen = tri[kinds == kind]
         height = plan.ground_height(xy[:, 0], xy[:, 1]) + (0.0 if kind in ("carriageway", "square") else plan.KERB_M)
-        if kind == "garden":
-            height = height - 0.03
         spots = [(p[0], p[1], z) for p, z in zip(xy.tolist(), height.tolist())]
         for t in chosen.tolist():
             corners = [spots[i] for i in t]
@@ -89,7 +89,7 @@ def make_ground(streets, public, rng):
     return meshes
 
 
-def _classify(middle, streets, public):
+def _classify(middle, streets, public, gardens):
     d_public = public(middle)
     d_carriage = plan.carriage_distance(middle, streets)
     outside = plan.distance_to_polygon(middle, plan.WALL_RING)
@@ -99,7 +99,11 @@ def _classify(middle, streets, public):
     carriage = d_carriage < 0
     kinds[carriage] = "carriageway"
     kinds[carriage & (plan.square_distance(middle) < 0)] = "square"
-    kinds[d_public > UNDER_WALLS_M] = "garden"
+    behind = d_public > UNDER_WALLS_M
+    kinds[behind] = "garden"
+    walked = behind & (gardens.room(middle) > -UNDER_GARDEN_WALLS_M)
+    kinds[walked] = "grass"
+    kinds[walked & (gardens.path(middle) < 0)] = "path"
     kinds[outside > 13.0] = "none"
     return kinds
 

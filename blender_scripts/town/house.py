@@ -39,7 +39,7 @@ class House:
         self.width, self.depth = plot.width, plot.depth
         self.left_open, self.right_open, self.back_open = plot.left_open, plot.right_open, plot.back_open
         self.left_seen, self.right_seen = plot.left_seen, plot.right_seen
-        self.passage = plot.kind == "passage"
+        self.passage = plot.kind == "passage" or plot.gateway
         self.colors = pick_colors(rng)
         self.heights = [rng.uniform(2.75, 3.15)] + [rng.uniform(2.5, 2.75) for _ in range(storeys - 1)]
         if self.passage:
@@ -63,7 +63,7 @@ def build_house(plot, rng):
     if plot.width < 5.4 and storeys == 4:
         storeys = 3
     roof = "gable" if rng.random() < (0.42 if plot.width < 7.6 else 0.18) else "eaves"
-    if plot.kind == "passage":
+    if plot.kind == "passage" or plot.gateway:
         storeys, roof = 3, "eaves"
     house = House(plot, rng, storeys, roof)
     ground_floor(house)

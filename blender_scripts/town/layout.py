@@ -43,6 +43,7 @@ class Plot:
         self.left_open = self.right_open = self.back_open = True    # no other house stands against it
         self.left_seen = self.right_seen = True                     # and it can be seen from a street
         self.middle = self.at(width / 2, depth / 2)
+        self.gateway = False                                        # people walk through it into the garden behind
 
     @property
     def yaw(self):
@@ -151,7 +152,7 @@ def special_plots():
 def place_houses(streets, public, rng, width_m):
     """Plots in the order of their frontages; `width_m` is the mean width."""
     plots = special_plots()
-    inside = Field(lambda p: plan.distance_to_polygon(p, plan.WALL_RING), 1.0)
+    inside = Field(lambda p: plan.distance_to_polygon(p, plan.BUILT_RING), 1.0)
     for points in frontages(streets):
         line = _Line(points)
         s = 0.0
@@ -266,7 +267,7 @@ def grid_field(function, step):
 
 def garden_walls(public, plots):
     """Lines along the edge of the public space where no house closes it, lengthened a little into the houses."""
-    ring = np.array(plan.WALL_RING)
+    ring = np.array(plan.BUILT_RING)
     hall = plan.TOWN_HALL
     runs = []
     for line in contour(public.values, public.xs, public.ys, 0.12):

@@ -102,8 +102,8 @@ def _gate_top(mesh, w, d, top, rng):
         lathe(mesh, "iron", p, [(0.06, -0.1), (0.12, 0.35), (0.03, 0.6), (0.0, 1.3)], 6, (0.05, 0.045, 0.04))
 
 
-def make_wall_run(index, streets):
-    """The town wall between two corners of the ring, shortened where a gate stands."""
+def run_ends(index, streets):
+    """Where a stretch of the town wall begins and ends: at corners of the ring, or beside a gate's tower."""
     ring = plan.WALL_RING
     nxt = (index + 1) % len(ring)
     ends = []
@@ -115,7 +115,12 @@ def make_wall_run(index, streets):
             ends.append(point + side * math.copysign(GATE_WIDTH / 2 - 0.3, side @ toward))
         else:
             ends.append(np.array(ring[i], float))
-    a, b = ends
+    return ends
+
+
+def make_wall_run(index, streets):
+    """The town wall between two corners of the ring, shortened where a gate stands."""
+    a, b = run_ends(index, streets)
     length = float(np.linalg.norm(b - a))
     way = (b - a) / length
     mesh = Mesh()
@@ -205,6 +210,26 @@ def _strip(mesh, a, b, low, high, along, color):
             mesh.face("stone", [c[0] for c in corners], uvs, color)
 
 
+def opened_wall(pieces, ends, height, color):
+    """A garden wall with ways through it: what is left of it, and a post at each end."""
+    mesh = Mesh()
+    for piece in pieces:
+        mesh.add(make_line_wall(piece, height, 0.4, color))
+    for x, y, yaw in ends:
+        mesh.add(_post(2.0).moved(x, y, float(plan.pavement_height(x, y)), yaw))
+    return mesh
+
+
+def _post(height):
+    """A square gate post with a cap."""
+    mesh = Mesh()
+    box(mesh, "stone", (-0.32, -0.32, -0.5), (0.32, 0.32, height), LIMESTONE, skip="z")
+    ring = [(-0.4, -0.4, height), (0.4, -0.4, height), (0.4, 0.4, height), (-0.4, 0.4, height)]
+    pyramid(mesh, "stone", ring, (0, 0, height + 0.35), SLATE, 1)
+    mesh.face("stone", ring[::-1], [(0, 0), (1, 0), (1, 1), (0, 1)], LIMESTONE)
+    return mesh
+
+
 def churchyard_wall():
     """The low wall between the church's plaza and its lawn, open before the portal and the paths."""
     mesh = Mesh()
@@ -212,10 +237,5 @@ def churchyard_wall():
     for y0, y1 in ((12.6, 20.4), (23.2, 26.2), (36.8, 39.6), (42.8, 49.4)):
         mesh.add(make_line_wall(np.array([(x, y0), (x, y1)]), 0.85, 0.45, srgb("d5c8b0")))
     for y in (20.4, 23.2, 26.2, 36.8, 39.6, 42.8):
-        z = float(plan.pavement_height(x, y))
-        box(mesh, "stone", (x - 0.1, y - 0.32, z - 0.5), (x + 0.6, y + 0.32, z + 1.25), LIMESTONE, skip="z")
-        ring = [(x - 0.18, y - 0.4, z + 1.25), (x + 0.68, y - 0.4, z + 1.25), (x + 0.68, y + 0.4, z + 1.25),
-                (x - 0.18, y + 0.4, z + 1.25)]
-        pyramid(mesh, "stone", ring, (x + 0.25, y, z + 1.6), SLATE, 1)
-        mesh.face("stone", ring[::-1], [(0, 0), (1, 0), (1, 1), (0, 1)], LIMESTONE)
+        mesh.add(_post(1.25).moved(x + 0.25, y, float(plan.pavement_height(x, y))))
     return mesh

@@ -84,6 +84,20 @@ class DemoTour(ProgramTest):
         self.assertIn("interrupted", complaint)
         self.assertEqual(list(self.folder.iterdir()), [])
 
+    def test_ten_thousand_people_have_room(self):
+        metrics = self.folder / "metrics.csv"
+        result = run("flaneur-player", self.pack, "--headless", "--no-draw", "--scenario", SOURCE / "tests/scenario/ten-thousand.toml",
+                     "--metrics", metrics)
+        self.assert_succeeds(result)
+        self.assertEqual(result.stderr, "")
+        self.assertEqual(int(judge.read_table(metrics, judge.METRICS)[0]["people"]), 10000)
+
+    def test_nobody_is_trapped_but_in_the_blind_alley(self):
+        """Gardens and streets have two ways out; the alley is a dead end on purpose (dead-end.toml)."""
+        warnings = json.loads((self.out / "report.json").read_text())["warnings"]
+        self.assertEqual([w for w in warnings if " at (-47.8, 23.8)" not in w and " at (-49.0, 23.9)" not in w], [])
+        self.assertLessEqual(len(warnings), 2, warnings)
+
     def test_every_scenario_is_believable(self):
         self.assertTrue(SCENARIOS)
         for scenario in SCENARIOS:

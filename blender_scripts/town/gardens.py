@@ -1,0 +1,289 @@
+"""The ground between the backs of the houses and the town wall: orchards, kitchen gardens and bleaching greens to walk in.
+
+What is drawn at random here has a sequence of its own, so that houses and streets stay the same.
+"""
+
+import math
+
+import numpy as np
+
+import plan
+from layout import Field, grid_axes
+from mesh import Mesh, box, shade, srgb
+from openings import leaf_tuft
+from town_wall import GATE_DEPTH, GATE_WIDTH, THICK, gate_axis, run_ends
+
+ROOM_M = 0.65             # people walk wherever a circle of this radius fits
+UNDER_WALLS_M = 0.45      # the ground goes on this far
+STEP_M = 0.25
+LEAST_M2 = 300.0          # smaller yards stay closed
+OPENING_M, LEAST_OPENING_M = 2.6, 1.8      # in a garden wall
+OPENING_EVERY_M = 36.0
+APART_M = 25.0            # ways into a garden: farther than whoever stands in one can close another
+GATEWAYS = 3              # houses with a way through them, at most so many a garden
+GATEWAY_WIDTH_M = 3.0
+LEAST_HOUSE_M = 6.9       # for a gateway
+PATH_M = 1.0              # half the width
+EARTH = srgb("a08c6c")
+HEDGE = srgb("66803c")
+
+
+class Gardens:
+    """Where people may walk behind the houses, and how they get there."""
+
+    def __init__(self, streets, public, plots, lines, rng):
+        self.public, self.plots = public, plots
+        _, self.yards = _region(streets, public, plots)
+        self.openings = {}                              # index of a garden wall -> lengths along it
+        self.ways = []                                  # (x, y) just inside each
+        self._open_walls(streets, lines)
+        self._make_gateways(streets)
+        self.room, self.yards = _region(streets, public, plots)
+        self.path = Field(self._path_distance, 0.5)
+        self.rng = rng
+
+
+    def _open_walls(self, streets, lines):
+        for index, line in enumerate(lines):
+            spots, s, width = _contacts(line, self.yards)
+            blind = plan.distance_to_line(spots, streets[-1].axis) < streets[-1].width_m / 2 + 2.5
+            stretch = s[width & ~blind]
+            if len(stretch) == 0 or stretch[-1] - stretch[0] < LEAST_OPENING_M:
+                continue
+            count = round((stretch[-1] - stretch[0]) / OPENING_EVERY_M)
+            inner = (stretch[0] + 4, stretch[-1] - 4)                       # so that little ground lies beyond the last ones
+            for at in np.linspace(*inner, count + 1) if count > 0 else [(stretch[0] + stretch[-1]) / 2]:
+                spot = spots[int(np.argmin(np.abs(s - at)))]
+                if self._is_apart(spot):
+                    self.openings.setdefault(index, []).append(float(at))
+                    self.ways.append(tuple(spot))
+
+    def _is_apart(self, spot):
+        return self._to_next_way(spot) > APART_M
+
+    def _to_next_way(self, spot):
+        """Distance to the nearest other way into the same garden."""
+        yard = self.yards(spot)
+        return min((math.dist(spot, way) for way in self.ways if self.yards(way) == yard), default=1e9)
+
+    def _make_gateways(self, streets):
+        """The house that stands farthest from its garden's path, then those farthest from all ways in."""
+        suited = {}
+        for plot in self.plots:
+            middle = plot.width / 2
+            front, back = plot.at(middle, 0), plot.at(middle, plot.depth + 1.6)
+            yards = {self.yards(plot.at(middle + du, plot.depth + 1.2)) for du in (-1.2, 0, 1.2)}
+            on_square = plan.distance_to_box([front], *plan.SQUARE)[0] < 3.0
+            blind = plan.distance_to_line([front], streets[-1].axis)[0] < 12.0
+            if plot.kind == "house" and plot.width >= LEAST_HOUSE_M and len(yards) == 1 and 0 not in yards and not on_square and not blind:
+                suited.setdefault(yards.pop(), []).append((plot, back))
+        for houses in suited.values():
+            paths = [plan.smooth_line(line) for line in plan.GARDEN_PATHS]
+            trodden = min(paths, key=lambda path: plan.distance_to_line([houses[0][1]], path)[0])
+            plot, back = max(houses, key=lambda h: float(plan.distance_to_line([h[1]], trodden).min()))
+            for _ in range(GATEWAYS):
+                if self._is_apart(back):
+                    plot.gateway = True
+                    self.ways.append(tuple(back))
+                plot, back = max(houses, key=lambda h: self._to_next_way(h[1]))
+
+    def _path_distance(self, points):
+        spines = [plan.smooth_line(line) for line in plan.GARDEN_PATHS]
+        d = np.full(len(points), 1e9)
+        for spine in spines:
+            d = np.minimum(d, plan.distance_to_line(points, spine))
+        for plot in self.plots:
+            if plot.gateway:
+                d = np.minimum(d, plan.distance_to_line(points, [plot.at(plot.width / 2, -0.5), plot.at(plot.width / 2, plot.depth + 1.6)]))
+        for way in self.ways:
+            nearest = min((p for spine in spines for p in spine), key=lambda p: math.dist(p, way))
+            d = np.minimum(d, plan.distance_to_line(points, [way, nearest]))
+        return d - PATH_M
+
+
+def _room(points, streets, plots):
+    """Distance to the nearest house, gate or town wall, negative in them."""
+    ring = [tuple(p) for i in range(len(plan.WALL_RING)) for p in run_ends(i, streets)]
+    d = -plan.distance_to_polygon(points, [p for i, p in enumerate(ring) if p != ring[i - 1]]) - THICK / 2
+    for index, corner in enumerate(plan.WALL_RING):
+        if index in plan.WALL_GATES:
+            spot, way = gate_axis(index, streets)
+            d = np.minimum(d, _box_distance(points, spot - way * GATE_DEPTH / 2, way, GATE_DEPTH, -GATE_WIDTH / 2, GATE_WIDTH / 2))
+        else:
+            d = np.minimum(d, np.hypot(*(points - corner).T) - 2.75)
+    for plot in plots:
+        house = _box_distance(points, plot.origin, plot.along, plot.width, 0, plot.depth)
+        if plot.gateway:
+            house = np.maximum(house, GATEWAY_WIDTH_M / 2 - np.abs((points - plot.origin) @ plot.along - plot.width / 2))
+        d = np.minimum(d, house)
+    return d
+
+
+def _box_distance(points, origin, along, length, low, high):
+    q = points - origin
+    u, v = q @ along, q @ np.array((-along[1], along[0]))
+    dx, dy = np.maximum(-u, u - length), np.maximum(low - v, v - high)
+    return np.where((dx > 0) & (dy > 0), np.hypot(dx, dy), np.maximum(dx, dy))
+
+
+def _region(streets, public, plots):
+    """A field, positive where a circle of ROOM_M fits inside a large yard, and a function from place to the number of its yard, 0: none."""
+    field = Field(lambda p: _room(p, streets, plots), STEP_M)
+    xs, ys = grid_axes(STEP_M)
+    behind = public(np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)).reshape(field.values.shape) > 0.6
+    yards = _label((field.values >= ROOM_M) & behind)
+    field.values = _opened(field.values, yards > 0)
+
+    def number(place):
+        i, j = round((place[0] - xs[0]) / STEP_M), round((place[1] - ys[0]) / STEP_M)
+        return int(yards[j, i]) if 0 <= i < len(xs) and 0 <= j < len(ys) else 0
+
+    return field, number
+
+
+def _opened(room, kept):
+    """How deep each cell lies in a circle of free ground about one of the cells `kept`; -1: not near one."""
+    reach = math.ceil((ROOM_M + 1) / STEP_M)
+    padded = np.pad(np.where(kept, room, -9.0), reach, constant_values=-9.0)
+    ny, nx = room.shape
+    best = np.full(room.shape, -1.0)
+    for j in range(-reach, reach + 1):
+        for i in range(-reach, reach + 1):
+            best = np.maximum(best, padded[reach + j:reach + j + ny, reach + i:reach + i + nx] - STEP_M * math.hypot(i, j))
+    return best
+
+
+def _label(cells):
+    """Numbers of the connected parts of at least LEAST_M2, from 1; 0 elsewhere."""
+    labels, number = np.zeros(cells.shape, int), 0
+    left = cells.copy()
+    for start in zip(*np.nonzero(cells)):
+        if not left[start]:
+            continue
+        part, stack = [], [start]
+        left[start] = False
+        while stack:
+            j, i = stack.pop()
+            part.append((j, i))
+            for c in ((j + 1, i), (j - 1, i), (j, i + 1), (j, i - 1)):
+                if 0 <= c[0] < cells.shape[0] and 0 <= c[1] < cells.shape[1] and left[c]:
+                    left[c] = False
+                    stack.append(c)
+        if len(part) * STEP_M ** 2 >= LEAST_M2:
+            number += 1
+            labels[tuple(np.array(part).T)] = number
+    return labels
+
+
+def _contacts(line, yards):
+    """Places a metre behind a garden wall, their lengths along it, and whether each lies in a yard."""
+    cum = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    s = np.arange(0.05, cum[-1], 0.1)
+    p = np.stack([np.interp(s, cum, line[:, 0]), np.interp(s, cum, line[:, 1])], axis=1)
+    way = np.gradient(p, axis=0) if len(p) > 1 else np.ones((len(p), 2))
+    way /= np.maximum(1e-9, np.linalg.norm(way, axis=1))[:, None]
+    behind = p + 1.2 * np.stack([way[:, 1], -way[:, 0]], axis=1)
+    return behind, s, np.array([yards(q) > 0 for q in behind], bool)
+
+
+def cut(line, places):
+    """The pieces of a wall's line between the openings, each at a length along it; and (x, y, yaw) of the openings' ends."""
+    cum = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+
+    def at(s):
+        return np.array([np.interp(s, cum, line[:, 0]), np.interp(s, cum, line[:, 1])])
+
+    ends, start, pieces = [], 0.0, []
+    for place in sorted(places) + [None]:
+        low, high = (cum[-1], cum[-1]) if place is None else (place - OPENING_M / 2, place + OPENING_M / 2)
+        low, high = (0.0 if low < 0.8 else low), (cum[-1] if high > cum[-1] - 0.8 else high)
+        if low - start > 0.3:
+            inner = line[(cum > start + 0.02) & (cum < low - 0.02)]
+            pieces.append(np.vstack([at(start), inner, at(low)]))
+        if place is not None:
+            for s in (low, high):
+                if 0 < s < cum[-1]:
+                    way = at(min(s + 0.1, cum[-1])) - at(max(s - 0.1, 0))
+                    way /= np.linalg.norm(way)
+                    ends.append((*(at(s) + 0.25 * np.array((way[1], -way[0]))).tolist(), plan.yaw_of(way)))
+        start = high
+    return pieces, ends
+
+
+def places(gardens):
+    """('tree', 'bed', 'linen', 'hedge', 'bench' or 'loiter', x, y, yaw), each clear of walls, paths, ways and all before it."""
+    rng, taken = gardens.rng, []
+
+    def put(kind, x, y, yaw, radius, off_path=0.4):
+        p = np.array([(x, y)])
+        if gardens.room(p)[0] < radius + 0.9 or gardens.public(p)[0] < radius + 1.5 or gardens.path(p)[0] < radius + off_path:
+            return
+        if any(math.dist((x, y), way) < radius + 3.0 for way in gardens.ways):
+            return
+        if all(math.dist((x, y), t[:2]) > radius + t[2] for t in taken):
+            taken.append((x, y, radius))
+            out.append((kind, x, y, yaw))
+
+    out = []
+    for line in plan.GARDEN_PATHS:
+        spine = plan.smooth_line(line)
+        for k in range(8, len(spine) - 6, 17):
+            ahead = spine[k + 1] - spine[k - 1]
+            side = np.array((-ahead[1], ahead[0])) / np.linalg.norm(ahead) * (1 if k % 2 else -1)
+            x, y = spine[k] + side * (PATH_M + 0.9)
+            put("bench" if k % 3 == 0 else "loiter", float(x), float(y), math.atan2(-side[1], -side[0]) + math.pi / 2, 0.8, -0.4)
+    for kind, (x0, x1, y0, y1), yaw, (du, dv), radius in plan.GARDEN_BEDS:
+        c, s = math.cos(yaw), math.sin(yaw)
+        reach = math.hypot(x1 - x0, y1 - y0) / 2
+        for u in np.arange(-reach, reach, du):
+            for v in np.arange(-reach, reach, dv):
+                x, y = (x0 + x1) / 2 + c * u - s * v, (y0 + y1) / 2 + s * u + c * v
+                wobble = 0.5 if kind == "tree" else 0.0
+                x, y = x + rng.uniform(-wobble, wobble), y + rng.uniform(-wobble, wobble)
+                if x0 < x < x1 and y0 < y < y1:
+                    put(kind, x, y, yaw, radius)
+    return out
+
+
+def make_hedge(length, rng):
+    """A clipped hedge along x, 0.85 m high, its top a little uneven."""
+    mesh = Mesh()
+    count = max(2, round(length / 0.9))
+    xs = [length * (i / count - 0.5) for i in range(count + 1)]
+    tops = [0.85 + rng.uniform(-0.05, 0.05) for _ in xs]
+    half = [0.3 + rng.uniform(-0.04, 0.04) for _ in xs]
+    green = shade(HEDGE, rng.uniform(0.85, 1.05))
+    for (a, za, ha), (b, zb, hb) in zip(zip(xs, tops, half), zip(xs[1:], tops[1:], half[1:])):
+        mesh.face("leaves", [(a, -ha, -0.2), (b, -hb, -0.2), (b, -hb, zb), (a, -ha, za)], [(a, 0), (b, 0), (b, zb), (a, za)],
+                  shade(green, 0.9))
+        mesh.face("leaves", [(b, hb, -0.2), (a, ha, -0.2), (a, ha, za), (b, hb, zb)], [(b, 0), (a, 0), (a, za), (b, zb)],
+                  shade(green, 0.9))
+        mesh.face("leaves", [(a, -ha, za), (b, -hb, zb), (b, hb, zb), (a, ha, za)], [(a, 0), (b, 0), (b, 0.6), (a, 0.6)], green)
+    for x, h, z, order in ((xs[0], half[0], tops[0], -1), (xs[-1], half[-1], tops[-1], 1)):
+        mesh.face("leaves", [(x, -h, -0.2), (x, h, -0.2), (x, h, z), (x, -h, z)][::order],
+                  [(0, 0), (0.6, 0), (0.6, z), (0, z)][::order], shade(green, 0.85))
+    return mesh
+
+
+def make_bed(length, rng):
+    """A raised bed along x: boards, earth, a row of cabbages or herbs."""
+    mesh, half = Mesh(), length / 2
+    box(mesh, "planks", (-half, -0.6, -0.3), (half, 0.6, 0.24), srgb("6b5138"), skip="zZ")
+    mesh.face("plaster", [(-half, -0.6, 0.2), (half, -0.6, 0.2), (half, 0.6, 0.2), (-half, 0.6, 0.2)],
+              [(-half, 0), (half, 0), (half, 1.2), (-half, 1.2)], srgb("5a4632"))
+    green = rng.choice((srgb("7f9a52"), srgb("92a85e"), srgb("5f7a3a")))
+    for i in range(2 * int(length / 0.42)):
+        place = (-half + 0.25 + 0.42 * (i // 2) + rng.uniform(-0.05, 0.05), 0.28 * (1 if i % 2 else -1) + rng.uniform(-0.06, 0.06), 0.2)
+        leaf_tuft(mesh, place, 0.3, shade(green, rng.uniform(0.85, 1.1)), rng, 5)
+    return mesh
+
+
+def make_linen(length, rng):
+    """Linen stretched over a low frame along x, to bleach in the sun."""
+    mesh, half = Mesh(), length / 2
+    white = shade((0.86, 0.85, 0.8), rng.uniform(0.92, 1.0))
+    box(mesh, "cloth", (-half, -0.55, 0.27), (half, 0.55, 0.3), white, step=1.6)
+    for x in (0.1 - half, 0, half - 0.1):
+        for y in (-0.5, 0.5):
+            box(mesh, "planks", (x - 0.04, y - 0.04, -0.2), (x + 0.04, y + 0.04, 0.34), srgb("6b5138"), skip="z")
+    return mesh
