@@ -15,6 +15,7 @@ struct LookOriginal {
   const Mesh* mesh = nullptr;
   Triangles triangles;
   std::unique_ptr<SurfaceTree> tree;  // none without triangles
+  std::vector<int> charts;            // by vertex
 };
 
 namespace {
@@ -22,6 +23,8 @@ namespace {
 constexpr float kSameSide = 0.3f;     // cosine between normals of places that belong together
 constexpr float kSameNormal = 0.98f;  // cosine; nearer ones at one vertex are one normal
 constexpr float kSameColor = 0.01f;
+constexpr float kSameUv = 1e-4f;
+constexpr float kFarthest_m = 0.06f;  // of where a picture has drifted to; farther off is beyond a seam
 constexpr float kInertia = 0.03f;     // of what a corner has, against what it is tied to
 
 // What a point of the level should look like.
@@ -30,7 +33,8 @@ struct Tie {
   std::array<float, 3> shares{};
   Vec3 normal;
   Vec4 color;
-  bool counts = false;
+  Vec2 uv;
+  bool counts = false, has_uv = false;
 };
 
 template <typename Value>
@@ -38,11 +42,22 @@ Value Mixed(const std::vector<Value>& values, const uint32_t* corners, const std
   return values[corners[0]] * shares[0] + values[corners[1]] * shares[1] + values[corners[2]] * shares[2];
 }
 
+// The longest way on the triangle, per length of uv.
+float MetresOfUv(const std::array<Vec3, 3>& triangle, const std::vector<Vec2>& uvs, const uint32_t* corners) {
+  float metres = 0, uv = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    metres = std::max(metres, Length(triangle[(k + 1) % 3] - triangle[k]));
+    uv = std::max(uv, Length(uvs[corners[(k + 1) % 3]] - uvs[corners[k]]));
+  }
+  return uv > 0 ? metres / uv : 0;
+}
+
 // `there`: the triangle that the place is in.
 Tie TieOf(const WedgeSurface& level, const std::vector<LookOriginal>& originals, const Place& place, const std::array<Vec3, 3>& there) {
   const WedgeSurface::Face& face = level.faces[place.triangle];
-  Tie tie{face.wedges, place.shares, {}, {}, false};
-  const LookOriginal& original = originals[static_cast<size_t>(level.wedges[static_cast<size_t>(face.wedges[0])].mesh)];
+  Tie tie{face.wedges, place.shares, {}, {}, {}, false, false};
+  const auto wedge = [&](size_t k) -> const WedgeSurface::Wedge& { return level.wedges[static_cast<size_t>(face.wedges[k])]; };
+  const LookOriginal& original = originals[static_cast<size_t>(wedge(0).mesh)];
   if (!original.tree) return tie;
   const auto found = original.tree->Find(At(there, place.shares));
   if (!(Dot(FaceNormal(original.triangles[found.triangle]), FaceNormal(there)) > kSameSide)) return tie;
@@ -50,6 +65,10 @@ Tie TieOf(const WedgeSurface& level, const std::vector<LookOriginal>& originals,
   if (!original.mesh->normals.empty()) tie.normal = Normalized(Mixed(original.mesh->normals, corners, found.shares));
   if (!original.mesh->colors.empty()) tie.color = Mixed(original.mesh->colors, corners, found.shares);
   tie.counts = true;
+  if (original.mesh->uvs.empty() || original.charts[corners[0]] != wedge(0).chart) return tie;
+  tie.uv = Mixed(original.mesh->uvs, corners, found.shares);
+  const Vec2 now = wedge(0).uv * place.shares[0] + wedge(1).uv * place.shares[1] + wedge(2).uv * place.shares[2];
+  tie.has_uv = Length(tie.uv - now) * MetresOfUv(original.triangles[found.triangle], original.mesh->uvs, corners) < kFarthest_m;
   return tie;
 }
 
@@ -76,14 +95,15 @@ std::vector<int> Alike(const WedgeSurface& level, auto alike) {
 
 // Values at the corners that, mixed by their shares, come nearest to the ties' wanted ones: solved one after the other, in rounds.
 template <typename Value>
-void Solve(const std::vector<Tie>& ties, const std::vector<int>& numbers, Value Tie::* wanted, int rounds, std::vector<Value>* values) {
+void Solve(const std::vector<Tie>& ties, bool Tie::* counts, const std::vector<int>& numbers, Value Tie::* wanted, int rounds,
+           std::vector<Value>* values) {
   std::vector<std::vector<std::pair<uint32_t, uint32_t>>> pulls(values->size());  // tie and corner
   std::vector<Value> left(ties.size());
   const auto value_of = [&](const Tie& tie, size_t k) -> Value& {
     return (*values)[static_cast<size_t>(numbers[static_cast<size_t>(tie.wedges[k])])];
   };
   for (size_t i = 0; i < ties.size(); ++i) {
-    if (!ties[i].counts) continue;
+    if (!(ties[i].*counts)) continue;
     left[i] = ties[i].*wanted;
     for (uint32_t k = 0; k < 3; ++k) {
       left[i] = left[i] - value_of(ties[i], k) * ties[i].shares[k];
@@ -118,12 +138,28 @@ std::vector<Value> ValuesOf(const WedgeSurface& level, const std::vector<int>& n
   return values;
 }
 
+Vec2 Within(const ChartBounds& bounds, Vec2 uv) {
+  return {std::max(bounds.min.x, std::min(uv.x, bounds.max.x)), std::max(bounds.min.y, std::min(uv.y, bounds.max.y))};
+}
+
 }  // namespace
 
 LookFitter::LookFitter(const std::vector<Mesh>& original, const LookOptions& options) : options_(options) {
+  const std::vector<int> charts = ChartsOf(original);
+  bounds_.resize(charts.size());
+  auto first = charts.begin();
   for (const Mesh& mesh : original) {
-    LookOriginal& one = originals_.emplace_back(LookOriginal{&mesh, PosedTriangles({mesh}, nullptr), nullptr});
+    LookOriginal& one = originals_.emplace_back(LookOriginal{&mesh, PosedTriangles({mesh}, nullptr), nullptr, {}});
     if (!one.triangles.empty()) one.tree = std::make_unique<SurfaceTree>(one.triangles);
+    const auto end = first + static_cast<std::ptrdiff_t>(mesh.positions.size());
+    one.charts.assign(first, end);
+    first = end;
+    for (size_t v = 0; v < mesh.uvs.size(); ++v) {
+      ChartBounds& bounds = bounds_[static_cast<size_t>(one.charts[v])];
+      const Vec2 uv = mesh.uvs[v];
+      bounds.min = {std::min(bounds.min.x, uv.x), std::min(bounds.min.y, uv.y)};
+      bounds.max = {std::max(bounds.max.x, uv.x), std::max(bounds.max.y, uv.y)};
+    }
   }
 }
 
@@ -140,13 +176,17 @@ void LookFitter::Fit(WedgeSurface* level) const {
   using Wedge = WedgeSurface::Wedge;
   const std::vector<int> normal_of = Alike(*level, [](const Wedge& a, const Wedge& b) { return Dot(a.normal, b.normal) > kSameNormal; });
   std::vector<Vec3> normals = ValuesOf(*level, normal_of, &Wedge::normal);
-  Solve(ties, normal_of, &Tie::normal, options_.rounds, &normals);
+  Solve(ties, &Tie::counts, normal_of, &Tie::normal, options_.rounds, &normals);
   const std::vector<int> color_of = Alike(*level, [](const Wedge& a, const Wedge& b) {
     const Vec4 d = a.color - b.color;
     return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z), std::abs(d.w)}) < kSameColor;
   });
   std::vector<Vec4> colors = ValuesOf(*level, color_of, &Wedge::color);
-  Solve(ties, color_of, &Tie::color, options_.rounds, &colors);
+  Solve(ties, &Tie::counts, color_of, &Tie::color, options_.rounds, &colors);
+  const std::vector<int> uv_of =
+      Alike(*level, [](const Wedge& a, const Wedge& b) { return a.chart == b.chart && Length(a.uv - b.uv) < kSameUv; });
+  std::vector<Vec2> uvs = ValuesOf(*level, uv_of, &Wedge::uv);
+  Solve(ties, &Tie::has_uv, uv_of, &Tie::uv, options_.rounds, &uvs);
   for (size_t w = 0; w < level->wedges.size(); ++w) {
     if (normal_of[w] < 0) continue;
     Wedge& wedge = level->wedges[w];
@@ -154,6 +194,7 @@ void LookFitter::Fit(WedgeSurface* level) const {
     if (Length(wedge.normal) > 0 && Length(normal) > 0) wedge.normal = normal;
     const Vec4 c = colors[static_cast<size_t>(color_of[w])];
     const auto unit = [](float v) { return std::clamp(v, 0.0f, 1.0f); };
+    if (wedge.chart >= 0) wedge.uv = Within(bounds_[static_cast<size_t>(wedge.chart)], uvs[static_cast<size_t>(uv_of[w])]);
     wedge.color = {unit(c.x), unit(c.y), unit(c.z), unit(c.w)};
   }
 }

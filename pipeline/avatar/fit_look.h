@@ -14,6 +14,7 @@ struct LookOptions {
 };
 
 struct LookOriginal;
+struct ChartBounds { Vec2 min{1e30f, 1e30f}, max{-1e30f, -1e30f}; };  // uvs
 
 // Keeps what all levels of one original, which must outlive this, have in common.
 class LookFitter {
@@ -28,6 +29,7 @@ class LookFitter {
  private:
   LookOptions options_;
   std::vector<LookOriginal> originals_;  // one a mesh
+  std::vector<ChartBounds> bounds_;      // by chart
 };
 
 }  // namespace flaneur

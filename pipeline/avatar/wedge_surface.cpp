@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <unordered_map>
 
@@ -131,6 +132,8 @@ WedgeSurface JoinWedges(const std::vector<Mesh>& meshes,
                         const std::vector<std::vector<Mat4>>& poses) {
   WedgeSurface surface;
   const std::vector<int> vertices = AddVertices(meshes, poses, &surface);
+  const std::vector<int> charts = ChartsOf(meshes);
+  for (size_t w = 0; w < charts.size(); ++w) surface.wedges[w].chart = charts[w];
   std::set<std::array<int, 3>> known;
   int base = 0;
   for (const Mesh& mesh : meshes) {
@@ -148,6 +151,35 @@ WedgeSurface JoinWedges(const std::vector<Mesh>& meshes,
     base += static_cast<int>(mesh.positions.size());
   }
   return surface;
+}
+
+std::vector<int> ChartsOf(const std::vector<Mesh>& meshes) {
+  std::vector<int> charts;
+  for (const Mesh& mesh : meshes) {
+    const auto base = static_cast<int>(charts.size());
+    for (size_t v = 0; v < mesh.positions.size(); ++v) charts.push_back(base + static_cast<int>(v));
+    const auto root = [&](uint32_t vertex) {
+      auto v = static_cast<size_t>(base) + vertex;
+      while (charts[v] != static_cast<int>(v)) {
+        charts[v] = charts[static_cast<size_t>(charts[v])];
+        v = static_cast<size_t>(charts[v]);
+      }
+      return static_cast<int>(v);
+    };
+    const auto join = [&](uint32_t v, uint32_t w) { charts[static_cast<size_t>(root(v))] = root(w); };
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      join(mesh.indices[i], mesh.indices[i + 1]);
+      join(mesh.indices[i + 1], mesh.indices[i + 2]);
+    }
+    std::map<std::array<float, 5>, uint32_t> known;  // vertices that differ by their normal alone go on
+    for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
+      const Vec3 p = mesh.positions[v];
+      const Vec2 uv = mesh.uvs.empty() ? Vec2{} : mesh.uvs[v];
+      join(v, known.try_emplace({p.x, p.y, p.z, uv.x, uv.y}, v).first->second);
+    }
+    for (uint32_t v = 0; v < mesh.positions.size(); ++v) charts[static_cast<size_t>(base) + v] = root(v);
+  }
+  return charts;
 }
 
 std::vector<Mesh> SplitWedges(const WedgeSurface& surface, const std::vector<Mesh>& like) {

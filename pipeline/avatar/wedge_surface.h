@@ -21,6 +21,7 @@ struct WedgeSurface {
     Vec3 normal;
     Vec2 uv, uv1;
     Vec4 color;
+    int chart = -1;  // part of the mesh whose uvs go on without a seam
   };
   struct Face {
     std::array<int, 3> vertices{};
@@ -35,6 +36,9 @@ struct WedgeSurface {
 // go, and so do repeated ones; any number of faces may meet at an edge.
 WedgeSurface JoinWedges(const std::vector<Mesh>& meshes,
                         const std::vector<std::vector<Mat4>>& poses = {});
+
+// A number for each vertex of each mesh, one mesh after the other: the same where uvs go on without a seam.
+std::vector<int> ChartsOf(const std::vector<Mesh>& meshes);
 
 // Back to meshes, as many as `like`, with its names, materials and kinds of attributes.
 std::vector<Mesh> SplitWedges(const WedgeSurface& surface, const std::vector<Mesh>& like);
