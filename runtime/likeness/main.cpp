@@ -31,6 +31,8 @@ int Parse(int argc, char** argv, LikenessArguments* a) {
   app.add_option("--phases", a->measure.phases, "Moments of the clip")->check(CLI::Range(1, 256));
   app.add_option("--suns", a->measure.suns, "Directions of the sun")->check(CLI::Range(1, 3));
   app.add_option("--between", a->measure.between, "Moves headings and phases on by so much of their spacing")->check(CLI::Range(0.0, 1.0));
+  app.add_option("--person-px", a->measure.person_px, "Height on screen where all are compared; 0: each at its switch distance")
+      ->check(CLI::Range(0.0, 2000.0));
   app.add_option("--supersampling", a->supersampling, "Pixels a pixel and side: 1 keeps the player's own noise in both pictures")
       ->check(CLI::Range(1, 8));
   app.add_flag("--impostors", a->measure.impostors_only, "Leave the coarser levels out");

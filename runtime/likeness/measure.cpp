@@ -76,9 +76,10 @@ AvatarLikeness Measure(const MeasureOptions& options, int avatar, PortraitStudio
   out.name = a.name;
   for (int level = 1; level <= static_cast<int>(a.levels.size()); ++level) {
     const bool impostor = level == static_cast<int>(a.levels.size());
-    const float person_px = impostor ? studio->ImpostorSwitch_px(avatar) : a.levels[static_cast<size_t>(level) - 1].switch_px;
+    const float switch_px = impostor ? studio->ImpostorSwitch_px(avatar) : a.levels[static_cast<size_t>(level) - 1].switch_px;
     if (options.impostors_only && !impostor) continue;
-    if (!(person_px >= 1)) continue;  // the level before serves at any distance
+    if (!(switch_px >= 1)) continue;  // the level before serves at any distance
+    const float person_px = options.person_px > 0 ? options.person_px : switch_px;
     out.sheet.emplace_back();
     out.levels.push_back(MeasureLevel(options, avatar, impostor ? -1 : level, person_px, studio, &out.sheet.back()));
   }

@@ -13,6 +13,7 @@ struct MeasureOptions {
   float between = 0;         // moves every phase and every heading on by so much of their spacing
   ClipKind clip = ClipKind::kWalk;
   bool impostors_only = false;
+  float person_px = 0;       // height on screen where all are compared; 0: each at its switch distance
   int sheet_columns = 8;
 };
 
