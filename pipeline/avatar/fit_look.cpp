@@ -22,10 +22,11 @@ namespace {
 
 constexpr float kSameSide = 0.3f;     // cosine between normals of places that belong together
 constexpr float kSameNormal = 0.98f;  // cosine; nearer ones at one vertex are one normal
+constexpr size_t kSamplesAFace = 7, kFewestSamples = 6000;
 constexpr float kSameColor = 0.01f;
 constexpr float kSameUv = 1e-4f;
 constexpr float kFarthest_m = 0.06f;  // of where a picture has drifted to; farther off is beyond a seam
-constexpr float kInertia = 0.03f;     // of what a corner has, against what it is tied to
+constexpr float kInertia = 0.01f;     // of what a corner has, against what it is tied to
 
 // What a point of the level should look like.
 struct Tie {
@@ -168,7 +169,8 @@ LookFitter::~LookFitter() = default;
 void LookFitter::Fit(WedgeSurface* level) const {
   if (2 * level->faces.size() > static_cast<size_t>(options_.samples)) return;
   const Triangles triangles = BindTriangles(*level);
-  const std::vector<Place> places = SpreadPlaces(triangles, options_.samples);
+  const size_t samples = std::min(std::max(kSamplesAFace * triangles.size(), kFewestSamples), static_cast<size_t>(options_.samples));
+  const std::vector<Place> places = SpreadPlaces(triangles, static_cast<int>(samples));
   std::vector<Tie> ties(places.size());
   RunOnThreads([&](size_t first, size_t step) {
     for (size_t i = first; i < ties.size(); i += step) ties[i] = TieOf(*level, originals_, places[i], triangles[places[i].triangle]);

@@ -1,5 +1,5 @@
-// Turns the normals and mixes the vertex colours of a decimated surface so that it looks, between its corners, as the original does
-// there: least squares over points of the level, each tied to the nearest place of the original that faces the same way.
+// Turns the normals, mixes the vertex colours and shifts the pictures of a decimated surface so that it looks, between its corners, as
+// the original does there: least squares over points of the level, each tied to the nearest place of the original that faces the same way.
 #pragma once
 #include <vector>
 
@@ -9,8 +9,8 @@
 namespace flaneur {
 
 struct LookOptions {
-  int samples = 20000;  // of the level
-  int rounds = 12;      // of solving
+  int samples = 40000;  // of the level at most; seven a face are enough
+  int rounds = 24;      // of solving
 };
 
 struct LookOriginal;
@@ -22,7 +22,8 @@ class LookFitter {
   explicit LookFitter(const std::vector<Mesh>& original, const LookOptions& options = {});
   ~LookFitter();
 
-  // In the bind pose. Wedges that meet in one vertex with the same normal or colour keep one in common. A level with more than half as
+  // In the bind pose. Wedges that meet in one vertex with the same normal, colour or uv keep one in common; uvs stay within the bounds of
+  // the original's part that they belong to. A level with more than half as
   // many faces as samples stays as it is.
   void Fit(WedgeSurface* level) const;
 

@@ -68,6 +68,31 @@ TEST(LookFitter, CreaseStays) {
   for (const auto& wedge : level.wedges) EXPECT_GT(std::max(-wedge.normal.x, -wedge.normal.z), 0.999f);
 }
 
+// A tube of radius 0.1 whose picture is wrapped around it once.
+Mesh Tube() {
+  Mesh mesh;
+  for (int ring = 0; ring <= 20; ++ring) {
+    for (int step = 0; step <= 24; ++step) {
+      const float u = static_cast<float>(step) / 24, v = static_cast<float>(ring) / 20, turn = 2 * kPi * u;
+      mesh.positions.push_back({0.1f * std::sin(turn), v, 0.1f * std::cos(turn)});
+      mesh.normals.push_back({std::sin(turn), 0, std::cos(turn)});
+      mesh.uvs.push_back({u, v});
+    }
+  }
+  for (uint32_t i = 0; i < 20 * 25; ++i) {
+    if (i % 25 != 24) mesh.indices.insert(mesh.indices.end(), {i, i + 1, i + 26, i, i + 26, i + 25});
+  }
+  return mesh;
+}
+
+TEST(LookFitter, DriftedPictureComesBackAlsoBesideItsSeam) {
+  const Mesh tube = Tube();
+  WedgeSurface level = JoinWedges({tube});
+  for (auto& wedge : level.wedges) wedge.uv = wedge.uv + Vec2{0.03f, 0.02f * std::sin(9 * wedge.uv.y)};
+  LookFitter(std::vector<Mesh>{tube}).Fit(&level);
+  for (size_t v = 0; v < tube.uvs.size(); ++v) EXPECT_LT(Length(level.wedges[v].uv - tube.uvs[v]), 0.006f) << v;
+}
+
 TEST(LookFitter, WithoutNormalsNothingChanges) {
   Mesh bare = Ball(6, 0);
   bare.normals.clear();
