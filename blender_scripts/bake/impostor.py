@@ -17,11 +17,11 @@ Run as every script here (see common/settings.py). The settings:
 Arrays, little-endian, without header, axes as in glTF (Y up, the person faces +Z):
 
     positions.f32 frames x vertices x 3     normals.f32, motions.f32 likewise
-    uvs.f32 vertices x 2 (v downward)       colors.f32 vertices x 4 (linear, straight alpha)
+    uvs.f32 vertices x 2 (v downward)       colors.f32 vertices x 4 (sRGB, straight alpha)
     indices.u32 triangles x 3               materials.u32 triangles
 
 Each EXR holds float layers: means over all samples of a pixel, so that every value is premultiplied
-with the coverage. They are albedo (linear), normal and motion (avatar's axes), depth (metres from
+with the coverage. They are albedo (sRGB), normal and motion (avatar's axes), depth (metres from
 the axis towards the camera) and coverage.
 """
 
@@ -125,13 +125,13 @@ def load_texture(path):
         fail("%s: cannot read the texture: %s" % (path, error))
     if not image.has_data and not image.size[0]:
         fail("%s: cannot read the texture" % path)
-    image.colorspace_settings.name = "sRGB"
+    image.colorspace_settings.name = "Non-Color"  # stays as it is stored, which is how players multiply and filter it
     image.alpha_mode = "CHANNEL_PACKED"  # colour stays what the file says where alpha is 0.
     return image
 
 
 def base_color(nodes, texture):
-    """Linear colour and alpha: the vertex colour times the texture."""
+    """Colour as it is stored and alpha: the vertex colour times the texture."""
     vertex = nodes.attribute("person_color")
     if not texture:
         return vertex.outputs["Color"], vertex.outputs["Alpha"]

@@ -13,7 +13,7 @@ namespace flaneur {
 // Means over the covered part of a texel.
 struct AtlasTexel {
   float coverage = 0;
-  std::array<float, 3> albedo{};  // linear
+  std::array<float, 3> albedo{};  // sRGB: averaged as pictures on the screen are, whose samples are mixed as they are shown
   Vec3 normal;                    // not normalized; axes as motion_m
   float depth_m = 0;              // towards the camera
   Vec3 motion_m;                  // from phase to phase; in the cell's axes: right, up, towards the camera

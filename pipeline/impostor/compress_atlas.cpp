@@ -8,7 +8,6 @@
 #include "pipeline/impostor/atlas_layout.h"
 #include "pipeline/impostor/block_compression.h"
 #include "pipeline/impostor/view_geometry.h"
-#include "runtime/base/srgb.h"
 #include "runtime/pack/ktx2.h"
 
 namespace flaneur {
@@ -20,8 +19,7 @@ uint8_t Quantized(float value) { return static_cast<uint8_t>(std::lround(std::cl
 
 std::array<uint8_t, 4> AlbedoBytes(const AtlasTexel& texel) {
   const uint8_t coverage = texel.coverage > 0 ? std::max<uint8_t>(1, Quantized(texel.coverage)) : uint8_t{0};
-  return {Quantized(SrgbFromLinear(texel.albedo[0])), Quantized(SrgbFromLinear(texel.albedo[1])),
-          Quantized(SrgbFromLinear(texel.albedo[2])), coverage};
+  return {Quantized(texel.albedo[0]), Quantized(texel.albedo[1]), Quantized(texel.albedo[2]), coverage};
 }
 
 using Block = std::array<const AtlasTexel*, 16>;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/srgb.h"
+
 namespace flaneur {
 namespace {
 
@@ -13,6 +15,11 @@ Vec4 BaseColor(const Avatar& avatar, const Mesh& mesh) {
 
 Vec4 Product(Vec4 a, Vec4 b) { return {a.x * b.x, a.y * b.y, a.z * b.z, a.w * b.w}; }
 
+Vec4 Stored(Vec4 linear) {
+  const auto stored = [](float v) { return SrgbFromLinear(std::clamp(v, 0.0f, 1.0f)); };
+  return {stored(linear.x), stored(linear.y), stored(linear.z), linear.w};
+}
+
 // What stays the same in all frames.
 void AppendSurface(const Avatar& avatar, const Mesh& mesh, uint32_t material,
                    ViewGeometry* geometry) {
@@ -20,7 +27,7 @@ void AppendSurface(const Avatar& avatar, const Mesh& mesh, uint32_t material,
   const Vec4 base = BaseColor(avatar, mesh);
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     geometry->uvs.push_back(mesh.uvs.empty() ? Vec2{} : mesh.uvs[i]);
-    geometry->colors.push_back(mesh.colors.empty() ? base : Product(base, mesh.colors[i]));
+    geometry->colors.push_back(Stored(mesh.colors.empty() ? base : Product(base, mesh.colors[i])));
   }
   for (uint32_t index : mesh.indices) geometry->indices.push_back(first + index);
   geometry->materials.resize(geometry->indices.size() / 3, material);

@@ -17,7 +17,7 @@ struct ViewGeometry {
   std::vector<ImpostorClip> clips;
   std::vector<Vec3> positions, normals, motions;
   std::vector<Vec2> uvs;            // (0, 0) where the mesh has none
-  std::vector<Vec4> colors;         // linear; vertex colour x base colour
+  std::vector<Vec4> colors;         // sRGB; vertex colour x base colour
   std::vector<uint32_t> indices;    // triangles
   std::vector<uint32_t> materials;  // one a triangle, index into ViewMaterials' result
 };
