@@ -3,8 +3,11 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <array>
+#include <cmath>
 #include <string>
 
+#include "runtime/base/srgb.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -15,6 +18,29 @@ double FillRate(const Pixels& albedo) {
   return albedo.rgba.empty()
              ? 0
              : 4 * static_cast<double>(covered) / static_cast<double>(albedo.rgba.size());
+}
+
+Pixels Halved(const Pixels& from) {
+  static const auto kLinear = [] {
+    std::array<float, 256> table{};
+    for (size_t i = 0; i < table.size(); ++i) table[i] = LinearFromSrgb(static_cast<float>(i) / 255);
+    return table;
+  }();
+  Pixels to{from.width / 2, from.height / 2, {}};
+  const auto at = [&](int x, int y, size_t c) {
+    const uint8_t v = from.rgba[4 * (static_cast<size_t>(y) * static_cast<size_t>(from.width) + static_cast<size_t>(x)) + c];
+    return c < 3 ? kLinear[v] : static_cast<float>(v) / 255;
+  };
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      for (size_t c = 0; c < 4; ++c) {
+        float sum = 0;
+        for (int k = 0; k < 4; ++k) sum += at(2 * x + k % 2, 2 * y + k / 2, c) / 4;
+        to.rgba.push_back(static_cast<uint8_t>(std::lround(255 * (c < 3 ? SrgbFromLinear(sum) : sum))));
+      }
+    }
+  }
+  return to;
 }
 
 Error EncodePng(const Pixels& pixels, bool srgb, Image* image) {

@@ -21,6 +21,7 @@ using nlohmann::json;
 
 constexpr int kMostAtlasPixels = 8192;       // what every desktop graphics card takes
 constexpr int kPicturePixels = 1 << 21;      // that Blender renders at once
+constexpr float kMostTexels = 3;             // of a person's picture, a texel of the atlas: players filter as much where the impostor takes over
 
 Error CheckRange(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return Ok();
@@ -112,29 +113,33 @@ Error WriteGeometry(const fs::path& folder, const ViewGeometry& geometry) {
   return WriteArray(folder / "materials.u32", geometry.materials);
 }
 
-fs::path TexturePath(const fs::path& folder, const Image& image, int index) {
-  const size_t slash = image.mime_type.find('/');
-  const std::string kind = slash == std::string::npos ? "png" : image.mime_type.substr(slash + 1);
-  return folder / ("texture_" + std::to_string(index) + (kind == "jpeg" ? ".jpg" : "." + kind));
+fs::path TexturePath(const fs::path& folder, size_t mesh) { return folder / ("texture_" + std::to_string(mesh)); }
+
+// As fine as a mesh's picture is looked up where the impostor takes over.
+Error ReduceToSeen(const Mesh& mesh, float texel_m, Image* image) {
+  std::optional<Pixels> pixels = Decoded(image->bytes);
+  if (!pixels) return Ok();  // Blender says why
+  float excess = TexelsPerMetre(mesh, pixels->width, pixels->height) * texel_m;
+  if (!(excess > kMostTexels)) return Ok();
+  for (; excess > kMostTexels && std::min(pixels->width, pixels->height) > 1; excess /= 2) pixels = Halved(*pixels);
+  return EncodePng(*pixels, true, image);
 }
 
-Error WriteTextures(const fs::path& folder, const Avatar& avatar,
-                    const std::vector<ViewMaterial>& materials) {
-  for (const ViewMaterial& material : materials) {
-    if (material.image < 0) continue;
-    const Image& image = avatar.images[static_cast<size_t>(material.image)];
-    if (Error e = WriteFile(TexturePath(folder, image, material.image), image.bytes)) return e;
+// One a mesh that has one.
+Error WriteTextures(const fs::path& folder, const Avatar& avatar, const std::vector<ViewMaterial>& materials, float texel_m) {
+  for (size_t m = 0; m < materials.size(); ++m) {
+    if (materials[m].image < 0) continue;
+    Image image = avatar.images[static_cast<size_t>(materials[m].image)];
+    if (!materials[m].mask) {
+      if (Error e = ReduceToSeen(avatar.meshes[m], texel_m, &image)) return e;
+    }
+    if (Error e = WriteFile(TexturePath(folder, m), image.bytes)) return e;
   }
   return Ok();
 }
 
-json MaterialSettings(const fs::path& folder, const Avatar& avatar, const ViewMaterial& material) {
-  std::string texture;
-  if (material.image >= 0) {
-    const Image& image = avatar.images[static_cast<size_t>(material.image)];
-    texture = TexturePath(folder, image, material.image).string();
-  }
-  return {{"texture", texture},
+json MaterialSettings(const fs::path& folder, size_t mesh, const ViewMaterial& material) {
+  return {{"texture", material.image >= 0 ? TexturePath(folder, mesh).string() : ""},
           {"mask", material.mask},
           {"cutoff", material.cutoff},
           {"double_sided", material.double_sided}};
@@ -154,13 +159,10 @@ json CellSettings(const ImpostorAtlas& atlas) {
   return cells;
 }
 
-json Settings(const fs::path& folder, const Avatar& avatar,
-              const std::vector<ViewMaterial>& materials, const ViewGeometry& geometry,
+json Settings(const fs::path& folder, const std::vector<ViewMaterial>& materials, const ViewGeometry& geometry,
               const ImpostorOptions& options, const ImpostorAtlas& atlas) {
   json material_settings = json::array();
-  for (const ViewMaterial& material : materials) {
-    material_settings.push_back(MaterialSettings(folder, avatar, material));
-  }
+  for (size_t m = 0; m < materials.size(); ++m) material_settings.push_back(MaterialSettings(folder, m, materials[m]));
   return {{"output", folder.string()},
           {"seed", options.seed},
           {"geometry", folder.string()},
@@ -261,9 +263,9 @@ Error BakeImpostor(const Avatar& avatar, const ImpostorOptions& options, Imposto
   TemporaryFolder folder;
   if (Error error = folder.Create("flaneur_impostor_")) return error;
   if (Error error = WriteGeometry(folder.path(), geometry)) return error;
-  if (Error error = WriteTextures(folder.path(), avatar, materials)) return error;
+  if (Error error = WriteTextures(folder.path(), avatar, materials, made.texel_m)) return error;
   ProcessResult process;
-  const json settings = Settings(folder.path(), avatar, materials, geometry, options, made);
+  const json settings = Settings(folder.path(), materials, geometry, options, made);
   if (Error error = RunBlenderScript("bake/impostor.py", settings.dump(1),
                                      {options.log_file, options.threads}, &process)) {
     return Fail("avatar '" + avatar.name + "': " + error.message);

@@ -132,6 +132,17 @@ std::vector<ViewMaterial> ViewMaterials(const Avatar& avatar, std::vector<std::s
   return all;
 }
 
+float TexelsPerMetre(const Mesh& mesh, int width_px, int height_px) {
+  float area_m2 = 0, area_uv = 0;  // twice
+  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const uint32_t* v = &mesh.indices[i];
+    area_m2 += Length(Cross(mesh.positions[v[1]] - mesh.positions[v[0]], mesh.positions[v[2]] - mesh.positions[v[0]]));
+    const Vec2 a = mesh.uvs[v[1]] - mesh.uvs[v[0]], b = mesh.uvs[v[2]] - mesh.uvs[v[0]];
+    area_uv += std::abs(a.x * b.y - a.y * b.x);
+  }
+  return area_m2 > 0 ? std::sqrt(area_uv * static_cast<float>(width_px) * static_cast<float>(height_px) / area_m2) : 0;
+}
+
 Error PoseFrames(const Avatar& avatar, const std::vector<ImpostorClipOptions>& clips,
                  ViewGeometry* geometry) {
   *geometry = {};

@@ -39,6 +39,9 @@ struct ViewAxes { Vec3 right, up, near; };
 // One a mesh, in their order. Textures that cannot be used are left out with a warning.
 std::vector<ViewMaterial> ViewMaterials(const Avatar& avatar, std::vector<std::string>* warnings);
 
+// Of a picture of this size on the mesh, the root of the mean square over its surface.
+float TexelsPerMetre(const Mesh& mesh, int width_px, int height_px);
+
 // Errors: none of the clips, no triangles, a mesh without normals, a non-finite vertex (names mesh,
 // clip and vertex).
 Error PoseFrames(const Avatar& avatar, const std::vector<ImpostorClipOptions>& clips,

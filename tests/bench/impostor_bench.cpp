@@ -16,7 +16,6 @@
 #include "pipeline/impostor/bake_impostor.h"
 #include "pipeline/io/gltf.h"
 #include "runtime/base/file.h"
-#include "runtime/base/srgb.h"
 #include "runtime/pack/ktx2.h"
 
 namespace flaneur {
@@ -70,19 +69,13 @@ Error CompareSamples(const ImpostorAtlas& few, const ImpostorAtlas& many) {
   return Ok();
 }
 
-float Linear(uint8_t srgb) {
-  return LinearFromSrgb(static_cast<float>(srgb) / 255);
-}
-
-double Srgb(float value) {
-  return 255 * SrgbFromLinear(std::clamp(static_cast<double>(value), 0.0, 1.0));
-}
+float Share(uint8_t byte) { return static_cast<float>(byte) / 255; }
 
 AtlasLevel Finest(const Rgba& albedo) {
   AtlasLevel level{albedo.width, albedo.height, {}};
   for (size_t i = 0; i + 3 < albedo.bytes.size(); i += 4) {
     const uint8_t* t = &albedo.bytes[i];
-    level.texels.push_back({static_cast<float>(t[3]) / 255, {Linear(t[0]), Linear(t[1]), Linear(t[2])}, {}, 0, {}});
+    level.texels.push_back({Share(t[3]), {Share(t[0]), Share(t[1]), Share(t[2])}, {}, 0, {}});
   }
   return level;
 }
@@ -105,7 +98,7 @@ Error CompareLevels(const ImpostorAtlas& atlas) {
       if (texel.coverage <= 0) continue;
       const size_t inside = texel.coverage >= 0.999f;
       for (size_t c = 0; c < 3; ++c) {
-        const double d = seen[4 * i + c] - Srgb(texel.albedo[c]);
+        const double d = seen[4 * i + c] - 255 * static_cast<double>(texel.albedo[c]);
         bled += inside ? 0 : d, off[inside] += std::abs(d), squares[inside] += d * d, ++count[inside];
       }
     }
