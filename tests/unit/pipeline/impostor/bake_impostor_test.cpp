@@ -156,6 +156,51 @@ TEST_F(BoxImpostor, TextureIsExactAndItsHolesAreOpen) {
   ExpectColor(At(albedo_, 0, 0.12f, 1), kFaces[0]);
 }
 
+// A wall half black, half white along its diagonal, and above it one with a picture of black and white pixels in turn, much finer than
+// the impostor's.
+Avatar BlackAndWhiteAvatar() {
+  Avatar avatar = BoxAvatar();
+  for (Mesh& mesh : avatar.meshes) mesh = {};
+  Mesh& halves = avatar.meshes[0];
+  for (const Rgb color : {Rgb{0, 0, 0}, Rgb{255, 255, 255}}) AddWall(0, 0, 0.3f, 0, 0.9f, color, &halves);
+  halves.indices = {0, 1, 2, 4, 6, 7};
+  AddWall(0, 0, 0.3f, 0.9f, 1.8f, {255, 255, 255}, &avatar.meshes[1]);
+  avatar.meshes[1].material = 0;
+  avatar.materials[0].alpha = Material::Alpha::kOpaque;
+  Pixels pixels{128, 128, {}};
+  for (int i = 0; i < 128 * 128; ++i) {
+    const uint8_t v = (i % 128 + i / 128) % 2 == 0 ? 255 : 0;
+    pixels.rgba.insert(pixels.rgba.end(), {v, v, v, 255});
+  }
+  EXPECT_FALSE(EncodePng(pixels, true, &avatar.images[0]));
+  return avatar;
+}
+
+TEST(BakeImpostor, EdgesAreMixedAsOnAScreenAndPicturesAsInMipLevels) {
+  ImpostorOptions options = SmallOptions();
+  options.directions = 1;
+  ImpostorAtlas atlas;
+  ImpostorStatistics statistics;
+  ASSERT_EQ(BakeImpostor(BlackAndWhiteAvatar(), options, &atlas, &statistics).message, "");
+  const Pixels albedo = Decoded(atlas.albedo.bytes).value();
+  int mixed = 0;
+  for (int y = 0; y < albedo.height; ++y) {
+    for (int x = 0; x < albedo.width; ++x) {
+      const uint8_t* texel = Texel(albedo, x, y);
+      const float up_m = static_cast<float>(atlas.cells[0].origin_y - y) * atlas.texel_m;
+      if (texel[3] < 255 || std::abs(up_m - 0.9f) < 0.1f) continue;
+      if (up_m > 0.9f) {
+        EXPECT_NEAR(texel[0], 188, 2);  // as bright as black and white in turn, far off
+      } else {
+        const int quarters = (texel[0] + 32) / 64;  // four samples
+        EXPECT_NEAR(texel[0], 63.75 * quarters, 2);
+        mixed += quarters > 0 && quarters < 4;
+      }
+    }
+  }
+  EXPECT_GT(mixed, 10);
+}
+
 TEST_F(BoxImpostor, NormalsAreTheAvatarsOwn) {
   const Rgb expected[4] = {{128, 128, 255}, {255, 128, 128}, {128, 128, 0}, {0, 128, 128}};
   for (int d = 0; d < 4; ++d) {
