@@ -44,6 +44,7 @@ float MomentTime_s(int moment) { return static_cast<float>(moment) * kMoment_s; 
 
 void FollowCamera(const ViewCamera& camera, const ViewMotion& motion, float step_s, State* state) {
   Settle(motion, step_s, &state->motion);
+  state->speed_mps = Length(state->motion.velocity);
   state->sine = std::sin(camera.fov_rad / 2), state->cosine = std::cos(camera.fov_rad / 2);
   for (int m = 0; m < State::kMoments; ++m) {
     const float t = MomentTime_s(m);
@@ -64,7 +65,7 @@ bool InView(const State& state, int moment, float r_high_m, Vec2 p) {
 
 // Near enough to matter if the visitor turns that way, and perhaps walks on there.
 bool InTurningReach(const State& state, float r_high_m, Vec2 off) {
-  const float reach_m = r_high_m + std::min(kWalksOn_s * Length(state.motion.velocity), kWalksOn_m);
+  const float reach_m = r_high_m + std::min(kWalksOn_s * state.speed_mps, kWalksOn_m);
   return Dot(off, off) < reach_m * reach_m;
 }
 
@@ -91,7 +92,7 @@ int WouldBeInSector(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, int
 
 // The first moment in which the person could be within r_high, both walking towards each other.
 int SoonestMoment(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, const State& state) {
-  const float closing_mps = Length(velocity) + Length(state.motion.velocity) + 1e-3f;
+  const float closing_mps = Length(velocity) + state.speed_mps + 1e-3f;
   const float soonest_s = (Length(c.position[i] - state.moment[0].position) - r_high_m - 2 * kRim_m) / closing_mps;
   return std::clamp(static_cast<int>(soonest_s / kMoment_s), 0, State::kMoments);
 }
@@ -239,7 +240,7 @@ void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable&
   FollowCamera(camera, motion, s.step_s, state);
   if (state->step++ % kPlanEvery_steps != 0) return;
   const int capacity = s.high_limit - std::max(1, static_cast<int>(std::lround(kReserve * static_cast<float>(s.high_limit))));
-  const float reach_m = s.r_high_m + kReach_m + Length(state->motion.velocity) * MomentTime_s(State::kMoments - 1);
+  const float reach_m = s.r_high_m + kReach_m + state->speed_mps * MomentTime_s(State::kMoments - 1);
   state->near.clear();
   state->choices.clear();
   state->seen.fill(0);

@@ -25,6 +25,7 @@ struct ForesightState {
 
   int64_t step = 0;
   ViewMotion motion;                    // of the camera, settled
+  float speed_mps = 0;                  // likewise
   struct Moment { Vec2 position, apex, axis; };  // of the camera, and of the view with its rim
   std::array<Moment, kMoments> moment{};
   float sine = 0, cosine = 1;           // of half the field of view

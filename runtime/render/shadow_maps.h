@@ -32,7 +32,8 @@ struct ShadowMaps {
 void CreateShadowMaps(ShadowMaps* maps);
 // After another town has come: all of it is drawn anew.
 void ForgetTownShadows(ShadowMaps* maps);
-// eye, ahead, to_sun: glTF axes. share: of the work that a picture usually does, for one that has less time. Both leave their map bound to its unit; `block_buffer` is overwritten.
+// eye, ahead, to_sun: glTF axes. share: of the work that a picture usually does, for one that has less time. Both leave their map
+// bound to its unit; `block_buffer` is overwritten.
 DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town, ShadowMaps* maps);
 DrawCost DrawPeopleShadows(Vec3 eye, Vec3 ahead, Vec3 to_sun, GLuint block_buffer, const PeopleView& people, ShadowMaps* maps);
 

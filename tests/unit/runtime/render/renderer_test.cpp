@@ -257,10 +257,15 @@ TEST_F(Drawing, CullingLeavesOutNothingThatIsSeen) {
   }
 }
 
-TEST_F(Drawing, TheSameFrameGivesTheSamePicture) {
-  const TourPack pack = MakePack({{11, 3}, {14, -4}});
+FrameInput TwoInTheEast() {
   FrameInput frame = LookEast();
   frame.people = {PersonAt(6, 1, 0), PersonAt(9, -1, -1)};
+  return frame;
+}
+
+TEST_F(Drawing, TheSameFrameGivesTheSamePicture) {
+  const TourPack pack = MakePack({{11, 3}, {14, -4}});
+  const FrameInput frame = TwoInTheEast();
   Renderer renderer;
   ASSERT_EQ(renderer.Create(pack).message, "");
   const std::vector<uint8_t> first = DrawWith(frame, &renderer);
@@ -279,8 +284,7 @@ TEST_F(Drawing, ACoarsePictureShowsTheSameAndKeepsTheCaptionSharp) {
   for (int samples : {1, 4}) {
     Renderer renderer;
     ASSERT_EQ(renderer.Create(pack, {.samples = samples}).message, "");
-    FrameInput frame = LookEast();
-    frame.people = {PersonAt(6, 1, 0), PersonAt(9, -1, -1)};
+    FrameInput frame = TwoInTheEast();
     const std::vector<uint8_t> fine = DrawWith(frame, &renderer);
     FrameInput elsewhere = frame;
     elsewhere.yaw_rad = 0.3f;
@@ -310,8 +314,7 @@ TEST_F(Drawing, APictureAfterCoarserOnesIsTheSameAsBefore) {
   for (int samples : {1, 4}) {
     Renderer renderer;
     ASSERT_EQ(renderer.Create(pack, {.samples = samples}).message, "");
-    FrameInput frame = LookEast();
-    frame.people = {PersonAt(6, 1, 0), PersonAt(9, -1, -1)};
+    FrameInput frame = TwoInTheEast();
     const std::vector<uint8_t> whole = DrawWith(frame, &renderer);
     frame.resolution_scale = 0.6f;
     const std::vector<uint8_t> coarse = DrawWith(frame, &renderer);
