@@ -229,6 +229,7 @@ Error Loader::Upload(double most_ms, Renderer* renderer) {
       if (a.kind != id.kind || a.index != id.index || a.level != id.level) continue;
       l.uploaded[k] = true;
       if (++l.uploads < l.assets.size()) continue;
+      l.pack = TourPack();  // no thread reads it any more
       GiveBackMemory();
       KeepForPictures();
     }

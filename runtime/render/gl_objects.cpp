@@ -54,8 +54,10 @@ Error BuildProgram(const std::string& vertex, const std::string& fragment, GLuin
   glAttachShader(*program, v);
   glAttachShader(*program, f);
   glLinkProgram(*program);
-  glDeleteShader(v);
-  glDeleteShader(f);
+  for (GLuint shader : {v, f}) {  // drivers keep what they made of it as long as it is attached
+    glDetachShader(*program, shader);
+    glDeleteShader(shader);
+  }
   GLint good = 0;
   glGetProgramiv(*program, GL_LINK_STATUS, &good);
   if (good) {

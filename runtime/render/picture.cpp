@@ -22,13 +22,14 @@ void Attach(GLenum attachment, GLuint texture) { glFramebufferTexture2D(GL_FRAME
 
 void ResizeTexture(GLuint texture, const Picture& p) {
   BindTexture(kColorUnit, texture);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, p.width_px, p.height_px, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, p.drawn_width_px, p.drawn_height_px, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
 }
 
 void ResizeDeferred(const Picture& p) {
   for (GLuint texture : {p.color, p.normals, p.lit_color}) ResizeTexture(texture, p);
   BindTexture(kColorUnit, p.depth);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, p.width_px, p.height_px, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, p.drawn_width_px, p.drawn_height_px, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
+               nullptr);
   glBindFramebuffer(GL_FRAMEBUFFER, p.framebuffer);
   Attach(GL_COLOR_ATTACHMENT0, p.color);
   Attach(GL_COLOR_ATTACHMENT1, p.normals);
@@ -45,20 +46,19 @@ void ResizeForward(const Picture& p) {
   const GLsizei samples = p.samples > 1 ? p.samples : 0;
   if (samples > 0) {
     glBindRenderbuffer(GL_RENDERBUFFER, p.color);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, p.width_px, p.height_px);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, p.drawn_width_px, p.drawn_height_px);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, p.color);
   } else {
     ResizeTexture(p.color, p);
     Attach(GL_COLOR_ATTACHMENT0, p.color);
   }
   glBindRenderbuffer(GL_RENDERBUFFER, p.depth);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, p.width_px, p.height_px);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, p.drawn_width_px, p.drawn_height_px);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, p.depth);
 }
 
 bool IsCoarse(const Picture& p) { return p.drawn_width_px < p.width_px || p.drawn_height_px < p.height_px; }
 
-// As large as the picture, whatever the scale.
 void ResizeCoarse(Picture* p) {
   if (p->coarse == 0) glGenFramebuffers(1, &p->coarse);
   if (p->coarse_color == 0) p->coarse_color = NewTexture(GL_LINEAR);
@@ -74,14 +74,6 @@ void DrawWhole(GLuint program, const Picture& p) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-// Of what is drawn: its size over its texture's, and the last place to look up there.
-void SetDrawnSize(GLuint program, const Picture& p) {
-  const float width = static_cast<float>(p.drawn_width_px), height = static_cast<float>(p.drawn_height_px);
-  const float whole_width = static_cast<float>(p.width_px), whole_height = static_cast<float>(p.height_px);
-  glUseProgram(program);
-  SetUniform(program, "u_drawn", Vec4{width / whole_width, height / whole_height, (width - 0.5f) / whole_width, (height - 0.5f) / whole_height});
-}
-
 // Into `framebuffer`, as large as it was drawn.
 void Smooth(GLuint framebuffer, GLuint program, const Picture& p) {
   if (p.samples > 1) {
@@ -92,7 +84,6 @@ void Smooth(GLuint framebuffer, GLuint program, const Picture& p) {
   }
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   BindTexture(kColorUnit, p.deferred ? p.lit_color : p.color);
-  if (program == p.sharpen_program) SetDrawnSize(program, p);
   DrawWhole(program, p);
 }
 
@@ -100,7 +91,6 @@ void Enlarge(const Picture& p) {
   glBindFramebuffer(GL_FRAMEBUFFER, p.finished);
   glViewport(0, 0, p.width_px, p.height_px);
   BindTexture(kColorUnit, p.coarse_color);
-  SetDrawnSize(p.enlarge_program, p);
   DrawWhole(p.enlarge_program, p);
 }
 
@@ -132,15 +122,16 @@ Error CreatePicture(int samples, bool deferred, const std::string& defines, Pict
 
 void ResizePicture(int width_px, int height_px, float scale, Picture* p) {
   const auto drawn = [scale](int whole_px) { return std::clamp(static_cast<int>(std::lround(static_cast<float>(whole_px) * scale)), 1, whole_px); };
-  p->drawn_width_px = drawn(width_px);
-  p->drawn_height_px = drawn(height_px);
   const bool resized = p->width_px != width_px || p->height_px != height_px;
+  const bool redrawn = p->drawn_width_px != drawn(width_px) || p->drawn_height_px != drawn(height_px);
   p->width_px = width_px;
   p->height_px = height_px;
-  if (IsCoarse(*p) && (resized || p->coarse == 0)) ResizeCoarse(p);
+  p->drawn_width_px = drawn(width_px);
+  p->drawn_height_px = drawn(height_px);
+  if (redrawn && p->deferred) ResizeDeferred(*p);
+  else if (redrawn) ResizeForward(*p);
+  if (redrawn && IsCoarse(*p)) ResizeCoarse(p);
   if (!resized) return;
-  if (p->deferred) ResizeDeferred(*p);
-  else ResizeForward(*p);
   glBindRenderbuffer(GL_RENDERBUFFER, p->finished_color);
   glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_px, height_px);
   glBindFramebuffer(GL_FRAMEBUFFER, p->finished);
@@ -150,10 +141,7 @@ void ResizePicture(int width_px, int height_px, float scale, Picture* p) {
 void BeginPicture(const Picture& p) {
   glBindFramebuffer(GL_FRAMEBUFFER, p.framebuffer);
   glViewport(0, 0, p.drawn_width_px, p.drawn_height_px);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(0, 0, p.drawn_width_px, p.drawn_height_px);
   glClear(GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT);
-  glDisable(GL_SCISSOR_TEST);
 }
 
 void LightPicture(const Picture& p) {

@@ -8,7 +8,7 @@
 namespace flaneur {
 
 // With several samples a pixel edges are smoothed by resolving them; with one, by a pass over the picture. What is drawn more coarsely than
-// the finished picture takes the lower left corner of the same targets, so that a change of scale costs nothing.
+// the finished picture is smoothed as it is, then enlarged. A change of size or scale makes the targets anew.
 struct Picture {
   int samples = 1, width_px = 0, height_px = 0;      // of the finished picture
   int drawn_width_px = 0, drawn_height_px = 0;

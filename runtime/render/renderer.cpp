@@ -66,7 +66,7 @@ FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px,
   block.near_shadow = shadows.near.matrix;
   block.far_shadow = shadows.far.matrix;
   block.people_shadow = shadows.people_matrix;
-  block.shadow_layers = {static_cast<float>(shadows.near.layer + shadows.near.shown), static_cast<float>(shadows.far.layer + shadows.far.shown), 0, 0};
+  block.shadow_layers = {static_cast<float>(shadows.near.layer), static_cast<float>(shadows.far.layer), 0, 0};
   block.eye = {eye.x, eye.y, eye.z, focal_px};
   block.to_sun = Wide(to_sun);
   block.sun_color = Wide(light.sun);

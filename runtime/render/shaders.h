@@ -521,14 +521,6 @@ uniform sampler2D u_texture;
 out vec4 o_color;
 #ifdef SHARPEN
 #define SHARPNESS 0.6
-uniform vec4 u_drawn;  // the drawn part over the whole texture; the last place to look up
-#define LOOK(at) texture(u_texture, min(at, u_drawn.zw))
-#define WHOLE textureSize(u_texture, 0)
-#define LAST ivec2(u_drawn.zw * vec2(WHOLE))
-#else
-#define LOOK(at) texture(u_texture, at)
-#define WHOLE (last + 1)
-#define LAST textureSize(u_texture, 0) - 1
 #endif
 float brightness_of(vec4 c) {
 #ifdef DEFERRED
@@ -539,7 +531,7 @@ float brightness_of(vec4 c) {
 }
 float brightness(ivec2 p) { return brightness_of(texelFetch(u_texture, p, 0)); }
 void main() {
-  ivec2 last = LAST, p = ivec2(gl_FragCoord.xy);
+  ivec2 last = textureSize(u_texture, 0) - 1, p = ivec2(gl_FragCoord.xy);
   vec4 middle = texelFetch(u_texture, p, 0);
   int left = max(p.x - 1, 0), right = min(p.x + 1, last.x), below = max(p.y - 1, 0), above = min(p.y + 1, last.y);
   float m = brightness_of(middle);
@@ -548,10 +540,10 @@ void main() {
   float least = min(m, min(min(lb, rb), min(la, ra))), most = max(m, max(max(lb, rb), max(la, ra)));
   vec2 along = vec2(la + ra - lb - rb, lb + la - rb - ra);  // turned a quarter from the slope of brightness
   float weaker = min(abs(along.x), abs(along.y)) + max(0.008, (lb + rb + la + ra) * 0.03);
-  along = clamp(along / weaker, -6.0, 6.0) / vec2(WHOLE);
-  vec2 at = gl_FragCoord.xy / vec2(WHOLE);
-  vec4 near = 0.5 * (LOOK(at - along / 6.0) + LOOK(at + along / 6.0));
-  vec4 far = 0.5 * near + 0.25 * (LOOK(at - along * 0.5) + LOOK(at + along * 0.5));
+  along = clamp(along / weaker, -6.0, 6.0) / vec2(last + 1);
+  vec2 at = gl_FragCoord.xy / vec2(last + 1);
+  vec4 near = 0.5 * (texture(u_texture, at - along / 6.0) + texture(u_texture, at + along / 6.0));
+  vec4 far = 0.5 * near + 0.25 * (texture(u_texture, at - along * 0.5) + texture(u_texture, at + along * 0.5));
   float b = brightness_of(far);
   vec3 smoothed = b < least || b > most ? near.rgb : far.rgb;
 #ifdef SHARPEN
@@ -563,22 +555,19 @@ void main() {
 }
 )";
 
-// From the drawn part of a texture to the whole picture.
+// The same, with places in the texture that fills it.
 inline constexpr const char* kEnlargeVertex = R"(
-uniform vec4 u_drawn;
 out vec2 v_at;
 void main() {
-  vec2 p = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
-  v_at = p * u_drawn.xy;
-  gl_Position = vec4(p * 2.0 - 1.0, 0.0, 1.0);
+  v_at = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
+  gl_Position = vec4(v_at * 2.0 - 1.0, 0.0, 1.0);
 }
 )";
 inline constexpr const char* kEnlargeFragment = R"(
 in vec2 v_at;
 uniform sampler2D u_texture;
-uniform vec4 u_drawn;  // the drawn part over the whole texture; the last place to look up
 out vec4 o_color;
-void main() { o_color = texture(u_texture, min(v_at, u_drawn.zw)); }
+void main() { o_color = texture(u_texture, v_at); }
 )";
 
 // A strip of text at the foot of the picture, pixel by pixel.

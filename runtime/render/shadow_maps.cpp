@@ -33,14 +33,6 @@ GLuint NewFramebuffer() {
   return framebuffer;
 }
 
-void CreateTownMap(GLuint texture, int layer, TownMap* map) {
-  map->layer = layer;
-  for (int k = 0; k < 2; ++k) {
-    map->framebuffers[static_cast<size_t>(k)] = NewFramebuffer();
-    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, texture, 0, layer + k);
-  }
-}
-
 void BindMap(GLuint framebuffer, int size_px, const Mat4& matrix, Vec3 to_sun, GLuint block_buffer, bool clear) {
   FrameBlock block{};
   block.to_sun = {to_sun.x, to_sun.y, to_sun.z, 0};
@@ -57,22 +49,24 @@ void BeginMaps() {
   glPolygonOffset(2, 4);
 }
 
-DrawCost DrawSome(int64_t triangles, GLuint block_buffer, const TownView& town, TownMap* map) {
-  BindMap(map->framebuffers[static_cast<size_t>(1 - map->shown)], kTownMap_px, map->next_matrix, map->to_sun, block_buffer,
+DrawCost DrawSome(int64_t triangles, GLuint block_buffer, const TownView& town, ShadowMaps* maps, TownMap* map) {
+  BindMap(maps->town_framebuffers[static_cast<size_t>(maps->spare_layer)], kTownMap_px, map->next_matrix, map->to_sun, block_buffer,
           map->next_block == 0);
   const DrawCost cost = DrawTownShadow(map->next_matrix, triangles, town, &map->next_block);
   if (map->next_block < town.geometry.blocks.size()) return cost;
   map->draws = false;
-  map->shown = 1 - map->shown;
+  std::swap(map->layer, maps->spare_layer);
   map->matrix = map->next_matrix;
   return cost;
 }
 
-// `waits`: for the other map, so that one picture draws parts of one only.
-DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, bool waits, float share, GLuint block_buffer, const TownView& town, TownMap* map) {
+// One map waits for the other, so that one picture draws parts of one only and both share the spare layer.
+DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town, ShadowMaps* maps, TownMap* map) {
+  TownMap& other = map == &maps->near ? maps->far : maps->near;
   const float moved_m = Length(center - map->center), turned = Length(to_sun - map->to_sun);
   const bool jumped = !map->valid || moved_m > 3 * map->step_m || turned > kSunJump;
-  if (waits && !jumped) return {};
+  if (other.draws && !jumped) return {};
+  other.next_block = 0;  // from its beginning where this one takes the layer away
   if (jumped || ((moved_m > map->step_m || turned > kSunStep) && !map->draws)) {
     map->center = center;
     map->to_sun = to_sun;
@@ -82,7 +76,8 @@ DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, bool waits, float share, GLuint
   }
   map->valid = true;
   if (!map->draws) return {};
-  return DrawSome(jumped ? std::numeric_limits<int64_t>::max() : static_cast<int64_t>(share * kTrianglesAPicture), block_buffer, town, map);
+  return DrawSome(jumped ? std::numeric_limits<int64_t>::max() : static_cast<int64_t>(share * kTrianglesAPicture), block_buffer, town,
+                  maps, map);
 }
 
 }  // namespace
@@ -90,10 +85,13 @@ DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, bool waits, float share, GLuint
 void CreateShadowMaps(ShadowMaps* maps) {
   glGenTextures(1, &maps->town_texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, maps->town_texture);
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT16, kTownMap_px, kTownMap_px, 4);
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT16, kTownMap_px, kTownMap_px, static_cast<GLsizei>(maps->town_framebuffers.size()));
   SetUpMap(GL_TEXTURE_2D_ARRAY);
-  CreateTownMap(maps->town_texture, 0, &maps->near);
-  CreateTownMap(maps->town_texture, 2, &maps->far);
+  for (size_t k = 0; k < maps->town_framebuffers.size(); ++k) {
+    maps->town_framebuffers[k] = NewFramebuffer();
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps->town_texture, 0, static_cast<GLint>(k));
+  }
+  maps->far.layer = 1;
   glGenTextures(1, &maps->people_texture);
   glBindTexture(GL_TEXTURE_2D, maps->people_texture);
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT16, kPeopleMap_px, kPeopleMap_px);
@@ -108,14 +106,14 @@ DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buff
   BeginMaps();
   maps->near.half_width_m = kNear_m;
   maps->near.step_m = kNearStep_m;
-  DrawCost cost = UpdateTownMap(eye, to_sun, maps->far.draws, share, block_buffer, town, &maps->near);
+  DrawCost cost = UpdateTownMap(eye, to_sun, share, block_buffer, town, maps, &maps->near);
   // The coarse map stands still over a town that it covers, and else follows the eye.
   const Vec3 middle = (town.box.low + town.box.high) * 0.5f;
   const float reach_m = town.geometry.blocks.empty() ? 1 : Length(town.box.high - middle);
   const bool covered = reach_m <= kMostFar_m;
   maps->far.half_width_m = covered ? reach_m : kMostFar_m;
   maps->far.step_m = kMostFar_m / 8;
-  cost += UpdateTownMap(covered ? middle : eye, to_sun, maps->near.draws, share, block_buffer, town, &maps->far);
+  cost += UpdateTownMap(covered ? middle : eye, to_sun, share, block_buffer, town, maps, &maps->far);
   glDisable(GL_POLYGON_OFFSET_FILL);
   BindTextureArray(kTownShadowUnit, maps->town_texture);
   return cost;

@@ -10,14 +10,12 @@ namespace flaneur {
 
 inline constexpr float kPeopleShadow_m = 36;  // half the width that the map of people covers; it begins at the eye
 
-// One map of the town: a layer that is shown and one that is being drawn.
+// One map of the town: a layer that is shown; the next one is drawn into the layer that is spare.
 struct TownMap {
   float half_width_m = 0, step_m = 0;  // step_m: drawn anew when the eye has gone so far
-  int layer = 0;                       // the first of its two
-  std::array<GLuint, 2> framebuffers{};
+  int layer = 0;
   Mat4 matrix, next_matrix;
-  int shown = 0;
-  bool draws = false;                  // the other one
+  bool draws = false;                  // the next one
   size_t next_block = 0;               // of the town: what is to be drawn still
   Vec3 center, to_sun;                 // of the newest
   bool valid = false;
@@ -25,7 +23,9 @@ struct TownMap {
 
 struct ShadowMaps {
   GLuint town_texture = 0, people_texture = 0, people_framebuffer = 0;
+  std::array<GLuint, 3> town_framebuffers{};  // by layer
   TownMap near, far;
+  int spare_layer = 2;
   Mat4 people_matrix;
 };
 

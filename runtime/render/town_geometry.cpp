@@ -74,6 +74,10 @@ void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle
   std::vector<uint32_t> place(all.size(), UINT32_MAX);
   town->vertices.clear();
   town->vertices.reserve(all.size());
+  size_t count = 0;
+  for (const auto& [cell, triangles] : *cells) count += triangles.size();
+  town->indices.reserve(3 * count);
+  town->planes.reserve(count);
   for (auto& [cell, triangles] : *cells) {
     std::stable_sort(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) { return a.group < b.group; });
     TownBlock block;
@@ -99,8 +103,11 @@ void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle
       for (size_t k : {2, 1, 0}) town->walls.push_back(all[t.corners[k]].position);
     }
     block.walls = town->walls.size() - block.first_wall;
+    block.ranges.shrink_to_fit();
     town->blocks.push_back(std::move(block));
   }
+  town->walls.shrink_to_fit();
+  town->blocks.shrink_to_fit();
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ uint32_t* GatherFronts(const TownGeometry& geometry, const TownRange& range, Vec
 // Indices of the visible blocks, by group and within it nearest first. Returns how many.
 size_t GatherIndices(Vec3 eye, bool cull, TownView* town) {
   town->counts.assign(town->groups.size(), 0);
-  uint32_t* to = town->indices.data();
+  uint32_t* to = town->indices.get();
   for (size_t g = 0; g < town->groups.size(); ++g) {
     const uint32_t* before = to;
     for (uint32_t b : town->visible) {
@@ -57,7 +57,7 @@ size_t GatherIndices(Vec3 eye, bool cull, TownView* town) {
     }
     town->counts[g] = static_cast<uint32_t>(to - before);
   }
-  return static_cast<size_t>(to - town->indices.data());
+  return static_cast<size_t>(to - town->indices.get());
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ void AddTown(TownGeometry geometry, TownView* town) {
   glBindBuffer(GL_ARRAY_BUFFER, vertices);
   EnableVertices();
   glGenBuffers(1, &town->visible_indices);
-  geometry.vertices = {};
+  std::vector<TownVertex>().swap(geometry.vertices);  // its memory too
   town->geometry = std::move(geometry);
   for (const TownBlock& block : town->geometry.blocks) {
     Include(block.box.low, &town->box);
@@ -93,7 +93,7 @@ void AddTown(TownGeometry geometry, TownView* town) {
   }
   town->order.reserve(town->geometry.blocks.size());
   town->visible.reserve(town->geometry.blocks.size());
-  town->indices.resize(town->geometry.indices.size() + 3);
+  town->indices = std::make_unique_for_overwrite<uint32_t[]>(town->geometry.indices.size() + 3);
 }
 
 void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownView* town) {
@@ -124,7 +124,7 @@ DrawCost DrawTown(Vec3 eye, bool cull, TownView* town) {
   const size_t indices = GatherIndices(eye, cull, town);
   glBindVertexArray(town->vertex_array);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, town->visible_indices);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices * sizeof(uint32_t)), town->indices.data(), GL_STREAM_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices * sizeof(uint32_t)), town->indices.get(), GL_STREAM_DRAW);
   uint32_t first = 0;
   for (size_t g = 0; g < town->groups.size(); ++g) {
     const uint32_t count = town->counts[g];

@@ -1,5 +1,6 @@
 // Draws the town. Internal to runtime/render.
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct TownView {
   OcclusionMap walls;
   std::vector<std::pair<float, uint32_t>> order;        // scratch: distance and block
   std::vector<uint32_t> visible;           // blocks, nearest first
-  std::vector<uint32_t> indices;           // of them, group by group; room for all
+  std::unique_ptr<uint32_t[]> indices;     // of them, group by group; room for all, of which no more is touched than pictures need
   std::vector<uint32_t> counts;            // of indices, by group
 };
 
