@@ -38,6 +38,8 @@ void KeepForPictures() {
 #endif
 }
 
+constexpr size_t kMostReady = 4;  // pieces that wait for their upload; faster threads wait too, for people's pictures take 10 MB each
+
 // What a thread does at a time: reads one mesh of the town, or all of another asset.
 struct Task { size_t asset = 0; int town_mesh = -1; };
 
@@ -71,6 +73,7 @@ struct Loader::Impl {
   Error ReadLevel(const AssetId& id);
   void Clear(const AssetId& id);
   bool WaitUntil(const bool& may);
+  bool WaitForRoom();
   void Prepare(size_t asset);
   bool AreUploaded(size_t first_assets) const;
 };
@@ -125,8 +128,14 @@ bool Loader::Impl::WaitUntil(const bool& may) {
   return !stop;
 }
 
+bool Loader::Impl::WaitForRoom() {
+  std::unique_lock lock(mutex);
+  changed.wait(lock, [&] { return ready.size() < kMostReady || stop; });
+  return !stop;
+}
+
 void Loader::Impl::Prepare(size_t index) {
-  if (!WaitUntil(may_prepare)) return;
+  if (!WaitUntil(may_prepare) || !WaitForRoom()) return;
   Asset asset = PrepareAsset(pack, assets[index], plan, formats);
   Clear(assets[index]);
   const std::lock_guard lock(mutex);
@@ -221,6 +230,7 @@ Error Loader::Upload(double most_ms, Renderer* renderer) {
       if (l.ready.empty()) return Ok();
       asset = std::move(l.ready.front());
       l.ready.pop_front();
+      l.changed.notify_all();
     }
     const AssetId id = asset.id;
     renderer->Add(std::move(asset));

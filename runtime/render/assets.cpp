@@ -86,8 +86,7 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
     case AssetKind::kTown: asset.content->town = BuildTownGeometry(pack, plan); break;
     case AssetKind::kPicture:
       if (plan.pictures[index].array >= 0) {
-        const int side_px = plan.arrays[static_cast<size_t>(plan.pictures[index].array)].side_px;
-        asset.content->picture = PreparePicture(pack.images[index], side_px);
+        asset.content->picture = PrepareLayer(pack.images[index], plan.arrays[static_cast<size_t>(plan.pictures[index].array)]);
       }
       break;
     case AssetKind::kLevel: {

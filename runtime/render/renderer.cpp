@@ -23,13 +23,13 @@ namespace {
 constexpr float kNear_m = 0.1f, kFar_m = 900;
 constexpr float kLeastShadowShare = 0.25f;  // of the town's shadows that a picture usually renews; so near the visitor they are up to date
 
-// In software larger pictures cost memory and time that nobody sees at the sizes drawn there.
+// In software larger pictures cost memory and time that nobody sees at the sizes drawn there, and texels eight times a block's memory.
 PictureLimits LimitsOfThisMachine(bool fast) {
   GLint most_px = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
   PictureLimits limits;
-  if (fast) limits = {1024, 512};
-  return {std::min<int>(limits.town_px, most_px), std::min<int>(limits.people_px, most_px)};
+  if (fast) limits = {1024, 512, ReadsBc1()};
+  return {std::min<int>(limits.town_px, most_px), std::min<int>(limits.people_px, most_px), limits.blocks};
 }
 
 // By the processor's time of all threads: software draws on several, and others use the machine too.
@@ -141,6 +141,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   CreateShadowMaps(&r.shadows);
   glGenVertexArrays(1, &r.empty_array);
   glGenBuffers(1, &r.block_buffer);
+  glReleaseShaderCompiler();  // some MB; it comes back by itself where it is needed again
   return Ok();
 }
 
@@ -157,7 +158,10 @@ void Renderer::Add(Asset asset) {
       break;
     case AssetKind::kPicture: {
       const PicturePlace& place = r.plan.pictures[static_cast<size_t>(asset.id.index)];
-      if (place.array >= 0) UploadLayer(r.arrays[static_cast<size_t>(place.array)], place.layer, content.picture);
+      if (place.array >= 0) {
+        const auto array = static_cast<size_t>(place.array);
+        UploadLayer(r.arrays[array], r.plan.arrays[array], place.layer, content.picture);
+      }
       if (--r.pictures_left == 0) ShowLevels(&r.people);
       break;
     }

@@ -13,6 +13,7 @@
 #include <stb/stb_image_resize.h>
 #pragma GCC diagnostic pop
 
+#include "runtime/render/block_picture.h"
 #include "runtime/render/mip_chain.h"
 
 namespace flaneur {
@@ -44,11 +45,12 @@ std::vector<bool> MaterialsOfPeople(const TourPack& pack) {
   return of_people;
 }
 
-int ArrayFor(int side_px, std::vector<TextureArrayPlan>* arrays) {
+int ArrayFor(int side_px, bool blocks, std::vector<TextureArrayPlan>* arrays) {
   for (size_t k = 0; k < arrays->size(); ++k) {
-    if ((*arrays)[k].side_px == side_px && (*arrays)[k].layers < kMostLayers) return static_cast<int>(k);
+    const TextureArrayPlan& a = (*arrays)[k];
+    if (a.side_px == side_px && a.blocks == blocks && a.layers < kMostLayers) return static_cast<int>(k);
   }
-  arrays->push_back({side_px, 0});
+  arrays->push_back({side_px, 0, blocks});
   return static_cast<int>(arrays->size()) - 1;
 }
 
@@ -66,15 +68,17 @@ SurfacePlan PlanSurfaces(const TourPack& pack, const PictureLimits& limits) {
   plan.pictures.resize(pack.images.size());
   const std::vector<bool> of_people = MaterialsOfPeople(pack);
   std::vector<int> most_px(pack.images.size(), 0);
+  std::vector<bool> cuts_out(pack.images.size(), false);
   for (size_t m = 0; m < pack.materials.size(); ++m) {
     const int image = pack.materials[m].base_color_image;
     if (image < 0) continue;
+    if (pack.materials[m].alpha_mask) cuts_out[static_cast<size_t>(image)] = true;
     int& most = most_px[static_cast<size_t>(image)];
     most = std::max(most, of_people[m] ? limits.people_px : limits.town_px);
   }
   for (size_t i = 0; i < pack.images.size(); ++i) {
     if (most_px[i] == 0) continue;
-    const int array = ArrayFor(Side_px(pack.images[i], most_px[i]), &plan.arrays);
+    const int array = ArrayFor(Side_px(pack.images[i], most_px[i]), limits.blocks && !cuts_out[i], &plan.arrays);
     plan.pictures[i] = {array, plan.arrays[static_cast<size_t>(array)].layers++};
   }
   // Surfaces without a picture are drawn along with those of the first array.
@@ -104,6 +108,12 @@ std::vector<PackImage> PreparePicture(const PackImage& image, int side_px) {
   std::vector<PackImage> smaller = MakeMipChain(levels[0], true, kMostLevel);
   for (PackImage& level : smaller) levels.push_back(std::move(level));
   return levels;
+}
+
+std::vector<std::vector<uint8_t>> PrepareLayer(const PackImage& image, const TextureArrayPlan& array) {
+  std::vector<std::vector<uint8_t>> bytes;
+  for (PackImage& level : PreparePicture(image, array.side_px)) bytes.push_back(array.blocks ? Bc1Blocks(level) : std::move(level.rgba));
+  return bytes;
 }
 
 }  // namespace flaneur

@@ -6,7 +6,7 @@
 
 namespace flaneur {
 
-struct TextureArrayPlan { int side_px = 1, layers = 0; };
+struct TextureArrayPlan { int side_px = 1, layers = 0; bool blocks = false; };  // blocks: Bc1Blocks instead of texels
 
 // Surfaces that differ in nothing but the layer of one texture array.
 struct SurfaceGroup {
@@ -33,7 +33,10 @@ struct AtlasFormats {
   bool pack_details = false;
 };
 
-struct PictureLimits { int town_px = 4096, people_px = 1024; };  // longest sides; larger pictures are made smaller
+struct PictureLimits {
+  int town_px = 4096, people_px = 1024;  // longest sides; larger pictures are made smaller
+  bool blocks = false;                   // of pictures whose alpha nothing is cut out by
+};
 
 // Pictures become squares of a power of two, at least as large as they were within the limits, so that few arrays hold all of them.
 // Only the images' sizes are looked at.
@@ -43,5 +46,7 @@ const Surface& SurfaceOf(int material, const SurfacePlan& plan);
 
 // A picture as its array holds it: side_px square, then half of that, down to one pixel.
 std::vector<PackImage> PreparePicture(const PackImage& image, int side_px);
+// By level the bytes that are uploaded.
+std::vector<std::vector<uint8_t>> PrepareLayer(const PackImage& image, const TextureArrayPlan& array);
 
 }  // namespace flaneur

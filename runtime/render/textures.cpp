@@ -87,7 +87,7 @@ std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast) {
   for (size_t k = 0; k < textures.size(); ++k) {
     const TextureArrayPlan& a = plan.arrays[k];
     glBindTexture(GL_TEXTURE_2D_ARRAY, textures[k]);
-    glTexStorage3D(GL_TEXTURE_2D_ARRAY, LevelsOf(a.side_px), GL_RGBA8, a.side_px, a.side_px, std::max(1, a.layers));
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, LevelsOf(a.side_px), a.blocks ? GL_COMPRESSED_RGB_S3TC_DXT1_EXT : GL_RGBA8, a.side_px, a.side_px, std::max(1, a.layers));
     SetFilters(GL_TEXTURE_2D_ARRAY, GL_REPEAT, LevelsOf(a.side_px) - 1, !fast);
     // In software each anisotropic look-up walks an ellipse of texels: too dear for many pictures a second.
     if (!fast && HasExtension("texture_filter_anisotropic")) {
@@ -97,14 +97,23 @@ std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast) {
   return textures;
 }
 
-void UploadLayer(GLuint array, int layer, const std::vector<PackImage>& levels) {
-  glBindTexture(GL_TEXTURE_2D_ARRAY, array);
+void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer, const std::vector<std::vector<uint8_t>>& levels) {
+  glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   for (size_t k = 0; k < levels.size(); ++k) {
-    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, static_cast<GLint>(k), 0, 0, layer, levels[k].width_px, levels[k].height_px, 1, GL_RGBA,
-                    GL_UNSIGNED_BYTE, levels[k].rgba.data());
+    const GLsizei side = std::max(1, array.side_px >> k);
+    const auto level = static_cast<GLint>(k);
+    const std::vector<uint8_t>& bytes = levels[k];
+    if (array.blocks) {
+      glCompressedTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, layer, side, side, 1, GL_COMPRESSED_RGB_S3TC_DXT1_EXT,
+                                static_cast<GLsizei>(bytes.size()), bytes.data());
+    } else {
+      glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, layer, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+    }
   }
 }
+
+bool ReadsBc1() { return HasExtension("GL_EXT_texture_compression_s3tc") || HasExtension("GL_EXT_texture_compression_dxt1"); }
 
 AtlasFormats FormatsOfThisMachine(bool fast) {
   if (DrawsInSoftware()) return {false, false, fast};

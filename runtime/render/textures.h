@@ -13,7 +13,8 @@ namespace flaneur {
 // One a planned array, grey until its layers arrive; they repeat.
 // fast: from one mip level, for a look-up between two costs software twice as much.
 std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast);
-void UploadLayer(GLuint array, int layer, const std::vector<PackImage>& levels);
+void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer, const std::vector<std::vector<uint8_t>>& levels);
+bool ReadsBc1();  // needs a context
 
 // An impostor's picture as it is uploaded: blocks where OpenGL reads them and `decode` is not asked for, else texels.
 struct AtlasPicture {

@@ -9,6 +9,7 @@
 #include "runtime/render/caption.h"
 #include "runtime/render/context.h"
 #include "runtime/render/occlusion.h"
+#include "runtime/render/block_picture.h"
 #include "runtime/render/people_batches.h"
 #include "runtime/render/person_geometry.h"
 #include "runtime/render/projection.h"
@@ -451,6 +452,42 @@ TEST(SurfacePlan, PicturesOfOneSizeShareAnArrayAndSurfacesOfOneKindAGroup) {
   EXPECT_LT(levels[0].rgba[static_cast<size_t>(32 * 64 + 16) * 4], 40);
   EXPECT_GT(levels[0].rgba[static_cast<size_t>(32 * 64 + 48) * 4], 215);
   EXPECT_EQ(levels.back().width_px, 1);
+}
+
+TEST(SurfacePlan, PicturesThatCutOutKeepTheirAlphaWhereOthersAreBlocks) {
+  TourPack pack = MakePack({});
+  pack.images = {{512, 512, {}}, {512, 512, {}}};
+  for (int i = 0; i < 2; ++i) pack.materials.push_back({"m", {1, 1, 1, 1}, i, false, i == 1, 0.5f});
+  const SurfacePlan plan = PlanSurfaces(pack, {1024, 512, true});
+  EXPECT_TRUE(plan.arrays[static_cast<size_t>(plan.pictures[0].array)].blocks);
+  EXPECT_FALSE(plan.arrays[static_cast<size_t>(plan.pictures[1].array)].blocks);
+}
+
+// A block by its definition: two ends of 5, 6 and 5 bits, and which of four mixtures of them each texel is.
+std::array<double, 3> TexelOfBc1(const uint8_t* block, size_t texel) {
+  const auto end = [&](size_t k) {
+    const int bits = block[2 * k] | block[2 * k + 1] << 8;
+    return std::array<double, 3>{(bits >> 11) * 255.0 / 31, (bits >> 5 & 63) * 255.0 / 63, (bits & 31) * 255.0 / 31};
+  };
+  constexpr double kSecond[] = {0, 1, 1.0 / 3, 2.0 / 3};
+  const double second = kSecond[block[4 + texel / 4] >> 2 * (texel % 4) & 3];
+  const std::array<double, 3> a = end(0), b = end(1);
+  return {a[0] + second * (b[0] - a[0]), a[1] + second * (b[1] - a[1]), a[2] + second * (b[2] - a[2])};
+}
+
+TEST(BlockPicture, ColoursStayWithinAFewSteps) {
+  PackImage image{6, 5, {}};  // blocks reach beyond it
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 6; ++x) image.rgba.insert(image.rgba.end(), {static_cast<uint8_t>(90 + 12 * x), static_cast<uint8_t>(60 + 8 * x), 40, 255});
+  }
+  const std::vector<uint8_t> blocks = Bc1Blocks(image);
+  ASSERT_EQ(blocks.size(), 4u * 8);
+  for (size_t y = 0; y < 5; ++y) {
+    for (size_t x = 0; x < 6; ++x) {
+      const std::array<double, 3> texel = TexelOfBc1(&blocks[8 * (2 * (y / 4) + x / 4)], 4 * (y % 4) + x % 4);
+      for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(texel[c], image.rgba[4 * (6 * y + x) + c], 8) << x << ", " << y;
+    }
+  }
 }
 
 TEST(ShadowGeometry, IsMuchSmallerAndStaysInShape) {
