@@ -162,6 +162,8 @@ void ShowStops(PageView* v) {
   });
 }
 
+constexpr size_t kSettingRows = 11;
+
 void ShowSetting(size_t row, PageView* v) {
   PlayerSettings& s = v->controls->settings;
   const float view_deg = v->s.camera.view.fov_rad / kRadians;
@@ -181,6 +183,11 @@ void ShowSetting(size_t row, PageView* v) {
     case 5: return Step(Amount(*v, v->Words(Phrase::kVolume), Number(*v, "%.0f %%", 100 * s.sound_volume)), 0.1f, 0, 1, &s.sound_volume, v);
     case 6: return Switch(v->Words(Phrase::kReducedMotion), &s.reduced_motion, v);
     case 7: return Switch(v->Words(Phrase::kInvertLook), &s.invert_look, v);
+    case 8: return Step(Amount(*v, v->Words(Phrase::kFramesPerSecond), Number(*v, "%.0f", s.frames_per_s)), 5, 5, 240, &s.frames_per_s, v);
+    case 9: {
+      const std::string value = Number(*v, "%.0f %%", 100 * s.least_resolution_scale);
+      return Step(Amount(*v, v->Words(Phrase::kLeastResolution), value), 0.05f, 0.25f, 1, &s.least_resolution_scale, v);
+    }
     default: break;
   }
   const std::string how = v->Words(v->controls->points ? Phrase::kMousePoints : Phrase::kMouseLooks);
@@ -234,7 +241,7 @@ void ShowRows(PageView* v) {
     case Page::kNone: return;
     case Page::kMain: return ShowMain(v);
     case Page::kStops: return ShowStops(v);
-    case Page::kSettings: return PagedRows(9, v, [&](size_t row) { ShowSetting(row, v); });
+    case Page::kSettings: return PagedRows(kSettingRows, v, [&](size_t row) { ShowSetting(row, v); });
     case Page::kKeys: return ShowKeys(v);
   }
 }

@@ -35,6 +35,8 @@ constexpr std::array<Words, static_cast<size_t>(Phrase::kCount)> kPhrases{{
     {"Look upside down", "Blick umgekehrt"},
     {"Less motion", "Weniger Bewegung"},
     {"Volume", "Lautstärke"},
+    {"Pictures a second", "Bilder je Sekunde"},
+    {"Coarsest picture", "Gröbstes Bild"},
     {"yes", "ja"},
     {"no", "nein"},
     {".", ","},

@@ -10,7 +10,7 @@ namespace flaneur {
 enum class Phrase {
   kContinue, kBegin, kTour, kFreeWalk, kStops, kLanguage, kSettings, kKeys, kEnd, kBackToPages, kMore, kNow, kNext,
   kMouse, kMouseLooks, kMousePoints, kWalkSpeed, kTurnSpeed, kMouseSpeed, kFieldOfView, kSnapTurn, kSmoothly, kInvertLook,
-  kReducedMotion, kVolume, kYes, kNo, kDecimalPoint, kDefaults, kAction, kKeyboard, kGamepad, kPressKey, kPressButton, kNothing, kStick,
+  kReducedMotion, kVolume, kFramesPerSecond, kLeastResolution, kYes, kNo, kDecimalPoint, kDefaults, kAction, kKeyboard, kGamepad, kPressKey, kPressButton, kNothing, kStick,
   kHintKeys, kHintTouch, kHintLedKeys, kHintLedTouch, kHintMenu, kTourPaused, kTourGoesOn, kTourLeft, kTourOver, kNextStop, kCornerButton, kCount
 };
 

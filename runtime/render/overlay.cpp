@@ -70,6 +70,7 @@ Error Overlay::Create() {
   ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_HasGamepad;
   ImGui::StyleColorsDark();
   if (Error e = BuildProgram(kOverlayVertex, kOverlayFragment, &impl_->program)) return e;
+  glReleaseShaderCompiler();
   impl_->CreateFont();
   impl_->CreateArrays();
   return Ok();
