@@ -69,6 +69,10 @@ inline constexpr float kNavigationCell_m = 0.35f;
 inline constexpr float kMostNavigationCells = 1.5e6f;  // larger areas get larger cells
 // Walking into a goal's circle counts as arriving.
 inline constexpr float kArrival_m = 0.5f;
+// Where many have the same goal, those who come and those who leave would block each other for good: who is this near and gets on at
+// less than such a share of their speed is there as well as anybody can be.
+inline constexpr float kNearArrival_m = 3;
+inline constexpr float kHeldUp = 0.4f;
 
 // People decide about ten times a second: reaction times are 0.1 to 0.2 s.
 inline constexpr int kTurnEvery_steps = 3;

@@ -169,6 +169,15 @@ void Turn(Vec2 step, float walked_m, float step_s, size_t i, Crowd* c) {
   c->mind[i].ahead = DirectionOf(c->heading_rad[i]);
 }
 
+Arrival ArrivalAt(Vec2 goal, size_t i, const Crowd& c) {
+  const Vec2 left = goal - c.position[i];
+  const float left2_m2 = Dot(left, left);
+  if (left2_m2 < kArrival_m * kArrival_m) return Arrival::kThere;
+  const float slow_mps = kHeldUp * c.preferred_mps[i];
+  const bool held_up = left2_m2 < kNearArrival_m * kNearArrival_m && Dot(c.velocity[i], c.velocity[i]) < slow_mps * slow_mps;
+  return held_up ? Arrival::kNear : Arrival::kNot;
+}
+
 // The person is now at `to`.
 void Arrive(Vec2 to, float step_s, size_t i, Crowd* c) {
   const Vec2 step = to - c->position[i];
@@ -177,12 +186,11 @@ void Arrive(Vec2 to, float step_s, size_t i, Crowd* c) {
   c->walked_m[i] += walked_m;
   if (c->wait_s[i] > 0) c->wait_s[i] -= step_s;
   if (c->detour_s[i] > 0) c->detour_s[i] -= step_s;
-  c->arrived[i] = 0;
+  c->arrived[i] = Arrival::kNot;
   if (c->coast[i] > 0) return;  // velocity and heading stay
   c->velocity[i] = step * (1 / step_s);
   if (c->field[i] >= 0) {
-    const Vec2 left = c->fields[static_cast<size_t>(c->field[i])].goal - to;
-    c->arrived[i] = Dot(left, left) < kArrival_m * kArrival_m ? 1 : 0;
+    c->arrived[i] = ArrivalAt(c->fields[static_cast<size_t>(c->field[i])].goal, i, *c);
   }
   Turn(step, walked_m, step_s, i, c);
 }
@@ -243,7 +251,7 @@ int AddPerson(const Person& p, Crowd* c) {
   c->view.push_back(ViewClass::kOutside);
   c->was_visible.push_back(0);
   c->avoids_camera.push_back(0);
-  c->arrived.push_back(0);
+  c->arrived.push_back(Arrival::kNot);
   c->detour.push_back({});
   c->detour_s.push_back(0);
   c->walked_m.push_back(static_cast<float>(c->next_id % 16) * 0.1f);  // not all on the same foot
@@ -270,8 +278,8 @@ void RemovePerson(size_t i, Crowd* c) {
     values->pop_back();
   };
   drop(&c->id), drop(&c->avatar), drop(&c->position), drop(&c->velocity), drop(&c->heading_rad), drop(&c->radius_m);
-  drop(&c->preferred_mps), drop(&c->top_mps), drop(&c->field), drop(&c->way), drop(&c->sees_goal), drop(&c->corner), drop(&c->activity);
-  drop(&c->wait_s), drop(&c->facing), drop(&c->view), drop(&c->was_visible), drop(&c->avoids_camera), drop(&c->arrived);
+  drop(&c->preferred_mps), drop(&c->top_mps), drop(&c->field), drop(&c->way), drop(&c->sees_goal), drop(&c->corner);
+  drop(&c->activity), drop(&c->wait_s), drop(&c->facing), drop(&c->view), drop(&c->was_visible), drop(&c->avoids_camera), drop(&c->arrived);
   drop(&c->detour), drop(&c->detour_s);
   drop(&c->walked_m), drop(&c->mind), drop(&c->coast), drop(&c->group), drop(&c->cares), drop(&c->turn), drop(&c->wanted), drop(&c->moved);
 }
@@ -280,7 +288,8 @@ void SetGoal(size_t i, int field, Crowd* c) {
   c->field[i] = field;
   c->way[i] = {};
   c->corner[i] = {};
-  c->sees_goal[i] = c->arrived[i] = c->coast[i] = 0;
+  c->sees_goal[i] = c->coast[i] = 0;
+  c->arrived[i] = Arrival::kNot;
   c->activity[i] = field >= 0 ? Activity::kWalking : Activity::kStanding;
 }
 

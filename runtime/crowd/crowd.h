@@ -15,6 +15,8 @@ namespace flaneur {
 
 // How a person stands to the camera (paper, section 3.1). The values order by how much care is taken.
 enum class ViewClass : uint8_t { kOutside, kBoundary, kVisible };
+// kNear: within kNearArrival_m of the goal, and held up by others.
+enum class Arrival : uint8_t { kNot, kNear, kThere };
 enum class Activity : uint8_t { kWalking, kStanding, kTalking };
 
 // A disc that some people keep out of: the visitor, or the paper's camera obstacles.
@@ -52,7 +54,7 @@ struct Crowd {
   std::vector<ViewClass> view;
   std::vector<uint8_t> was_visible;     // one step ago
   std::vector<uint8_t> avoids_camera;   // set by the control
-  std::vector<uint8_t> arrived;         // reached the goal in the last step
+  std::vector<Arrival> arrived;         // in the last step
   std::vector<Vec2> detour;             // velocity the person prefers for the next detour_s, whatever the goal; set by the control
   std::vector<float> detour_s;          // 0: none
   std::vector<float> walked_m;          // since appearing: drives the walk cycle

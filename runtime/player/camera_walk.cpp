@@ -5,6 +5,7 @@
 
 #include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/walls.h"
+#include "runtime/player/guide.h"
 #include "runtime/player/loitering.h"
 
 namespace flaneur {
@@ -184,7 +185,8 @@ void FollowTour(const CameraInput& input, Simulation* s) {
   if (t.resting && Length(t.stops[HaltOf(t)].position_m - p) < kAtHalt_m) {
     return TurnForTour(t.stops[HaltOf(t)].yaw_rad, s);
   }
-  if (t.paused || t.over) return;
+  if (t.over) return TurnForTour(LookOfLeave_rad(s->camera.view.yaw_rad, s), s);
+  if (t.paused) return;
   if (t.resting) return ReturnToHalt(s);
   const Vec2 way = WayAlong(s->walkable, t.route, t.visitor_m, p, &t.corner, &s->crowd.search);
   if (s->stuck_s > kGiveUp_s || Length(way) < 0.5f) {
@@ -215,7 +217,7 @@ void MoveCamera(const CameraInput& input, Simulation* s) {
     else if (!s->point_walk.route.points.empty()) FollowPoint(input.walk_to_mps, input.yaw_rate_radps != 0, s);
     return;
   }
-  if (s->finished) return;
+  if (s->finished && !s->tour.over) return;
   if (!s->legs.empty()) FollowLegs(s);
   else if (!s->tour.stops.empty()) FollowTour(input, s);
   if (s->stuck_s >= kPatience_s) StirLoiterers(camera.view.position, kStirs_m, s);

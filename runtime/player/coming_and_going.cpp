@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/crowd/constants.h"
 #include "runtime/crowd/fast_math.h"
 #include "runtime/player/company.h"
 #include "runtime/player/loitering.h"
@@ -16,6 +17,9 @@ namespace {
 constexpr float kBirthGap_m = 0.3f;         // between a newcomer and everybody else, beyond touching
 constexpr int kTries = 40;                  // to find a free spot before giving up for now
 constexpr int kTriesFarAway = 20;           // of them at gates beyond r_unimportant only
+constexpr int kThinkEvery_steps = 30;       // held up in a crowd of so many people a square metre,
+constexpr float kThinksFrom_pm2 = 1.2f;
+constexpr float kThinksAgain = 0.15f;       // this share decides to go somewhere else
 constexpr int kBirths_perStep = 2;
 constexpr int kGateSpots = 9;               // the gate itself, and a ring
 constexpr float kBesideGate_m = 0.95f;
@@ -43,6 +47,21 @@ bool NextGoal(const Company& company, Simulation* s) {
   return any;
 }
 
+// On the way to somewhere that they chose themselves and only pass.
+bool Strolls(size_t i, const Simulation& s) {
+  const PersonPlan& plan = s.plans[static_cast<size_t>(s.crowd.id[i])];
+  return s.crowd.field[i] >= 0 && plan.goals.empty() && !plan.stay && !plan.leaves && !plan.loiters;
+}
+
+// Near is as good as there, but for a door, a place to stand at and what a scenario asks for.
+bool HasArrived(size_t i, Simulation* s) {
+  const Crowd& c = s->crowd;
+  if (c.arrived[i] != Arrival::kNear) return c.arrived[i] == Arrival::kThere;
+  if (!Strolls(i, *s)) return false;
+  const int place = PlaceOfField(c.field[i], s);
+  return place < 0 || !IsGate(s->places[static_cast<size_t>(place)]);
+}
+
 // True where the person is done and leaves the scene.
 bool NextForArrived(size_t i, Simulation* s) {
   Crowd& c = s->crowd;
@@ -59,6 +78,14 @@ bool NextForArrived(size_t i, Simulation* s) {
   if (place >= 0 && IsGate(s->places[static_cast<size_t>(place)])) return true;
   SendAll(company, PickDestination(c.position[i], true, s), s);
   return false;
+}
+
+// Whoever is held up in a crowd thinks again, now and then, about where to go.
+bool ThinksAgain(size_t i, Simulation* s) {
+  const Crowd& c = s->crowd;
+  if ((s->frame + static_cast<int64_t>(i)) % kThinkEvery_steps != 0 || c.activity[i] != Activity::kWalking) return false;
+  if (c.detour_s[i] > 0 || Length(c.velocity[i]) > kHeldUp * c.preferred_mps[i] || !Strolls(i, *s)) return false;
+  return DensityAt_pm2(s->density, c.position[i]) > kThinksFrom_pm2 && s->random.Uniform() < kThinksAgain;
 }
 
 bool IsUnseen(const Simulation& s, Vec2 p) {
@@ -111,11 +138,13 @@ bool HasWaited(const Simulation& s, size_t i) {
 
 void LeaveAndArrive(Simulation* s) {
   Crowd& c = s->crowd;
+  if (s->frame % kThinkEvery_steps == 0) CountPeople(s->walkable, c.position, &s->density);
   SendEnclosedOut(s);
   StepLoitering(s);
   for (size_t i = 0; i < c.size();) {
     if (HasWaited(*s, i) && !StaysOn(i, s)) SendAll(CompanyOf(c, i), PickDestination(c.position[i], false, s), s);
-    if (c.arrived[i] && NextForArrived(i, s)) {
+    if (ThinksAgain(i, s)) SendAll(CompanyOf(c, i), PickDestination(c.position[i], false, s), s);
+    if (HasArrived(i, s) && NextForArrived(i, s)) {
       StopLoitering(i, s);
       RemovePerson(i, &c);
       continue;

@@ -156,7 +156,7 @@ void TakeInput(const WindowInput& input, float passed_s, float aspect, bool page
 
 CameraInput NextStep(const CameraInput& camera, const Simulation& s, Controls* c) {
   CameraInput step = camera;
-  step.active = !c->follows_tour || s.finished;
+  step.active = !c->follows_tour || (s.finished && !s.tour.over);
   const float most_rad = s.max_yaw_rate_radps * s.step_s;
   const float held_rad = std::clamp(c->turn_radps * s.step_s, -most_rad, most_rad);
   const float turn_rad = std::clamp(c->to_turn_rad + held_rad, -most_rad, most_rad);

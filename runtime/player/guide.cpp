@@ -164,6 +164,10 @@ void BringGuide(Simulation* s) {
   FollowPlan(place, s);
 }
 
+float LookOfLeave_rad(float now_rad, Simulation* s) {
+  return Find(s) ? AngleOf(s->crowd.position[s->guide.index] - s->camera.view.position) : now_rad;
+}
+
 void LeadOn(Simulation* s) {
   if (!Find(s)) return;
   Guide& g = s->guide;

@@ -25,6 +25,9 @@ void PlaceGuide(Simulation* simulation);
 // To the visitor, who is elsewhere all of a sudden.
 void BringGuide(Simulation* simulation);
 
+// Where the visitor looks who takes leave of the guide; `now_rad` without one.
+float LookOfLeave_rad(float now_rad, Simulation* simulation);
+
 // Before the crowd's step: where the guide wants to walk now.
 void LeadOn(Simulation* simulation);
 

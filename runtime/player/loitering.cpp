@@ -203,7 +203,7 @@ void StepLoitering(Simulation* s) {
   for (size_t i = static_cast<size_t>(s->frame % kLookEvery_steps); i < c.size(); i += kLookEvery_steps) {
     if (!s->plans[static_cast<size_t>(c.id[i])].loiters) continue;
     LoiterSpot* spot = SpotOf(i, s);
-    if (spot != nullptr && c.field[i] >= 0 && c.arrived[i]) StandAt(i, spot, s);
+    if (spot != nullptr && c.field[i] >= 0 && c.arrived[i] == Arrival::kThere) StandAt(i, spot, s);
     if (spot != nullptr && c.field[i] < 0) Stand(i, spot, s);
     if (spot != nullptr || c.field[i] < 0) continue;
     const Vec2 goal = c.fields[static_cast<size_t>(c.field[i])].goal;

@@ -51,7 +51,7 @@ void TellOfTour(const Controls& c, const Simulation& s, const std::string& langu
   const Tour& t = s.tour;
   if (t.paused && !n->paused) Tell(Fill(Say(Phrase::kTourPaused, language), FirstKey(c, Action::kPause, language)), n);
   if (n->paused && !t.paused && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
-  if (n->follows && !c.follows_tour) Tell(Fill(Say(Phrase::kTourLeft, language), HowTo(c, Action::kTour, language)), n);
+  if (n->follows && !c.follows_tour && !t.over) Tell(Fill(Say(Phrase::kTourLeft, language), HowTo(c, Action::kTour, language)), n);
   if (!n->follows && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
   const std::string next = NameOfStop(t, HaltOf(t));
   if (n->halt == HaltOf(t) || !c.follows_tour || next.empty()) return;

@@ -12,7 +12,9 @@ namespace {
 constexpr int kMadeUpGoals = 24;         // where a town names no places
 constexpr float kReach_m = 2.5f;         // from a place to where people can stand
 constexpr float kWorthWalking_m = 8;
+constexpr float kPacked_pm2 = 1.4f;       // nobody chooses a way through such a crowd who has the choice
 constexpr float kToPaint = 0.75f;         // of those who go somewhere, where goals are painted; the others leave the town
+constexpr float kWorseThanCrowds = 100;
 constexpr int kTries = 8;                // for somewhere worth walking to
 
 void SortPlaces(Simulation* s) {
@@ -35,6 +37,14 @@ void MakeUpGoals(Simulation* s) {
     const int cell = cells[static_cast<size_t>(s->random.Below(static_cast<int>(cells.size())))];
     s->places.push_back({"goal_" + std::to_string(k + 1), "goal", CellCenter(s->walkable, cell), 1});
   }
+}
+
+// 0 for a goal that is worth walking to now.
+float DrawbackOf(Vec2 from, Vec2 goal, const Simulation& s) {
+  const float crowd_pm2 = MostDensityBetween_pm2(s.density, from, goal);
+  const float crowded = crowd_pm2 < kPacked_pm2 ? 0 : crowd_pm2;
+  if (IsFullNear(s, goal)) return crowded + kWorseThanCrowds;
+  return Length(goal - from) < kWorthWalking_m ? crowded + 2 * kWorseThanCrowds : crowded;
 }
 
 }  // namespace
@@ -123,13 +133,15 @@ int PickDestination(Vec2 from, bool may_loiter, Simulation* s) {
   const bool painted = !lists.goals.empty() && s->painting.columns > 0;
   if (!loiter && painted && s->random.Uniform() < kToPaint) choices = &lists.goals;
   if (choices->empty()) choices = &lists.all;
+  int best = -1;
+  float least = 0;
   for (int attempt = 0; attempt < kTries && !choices->empty(); ++attempt) {
     const int chosen = (*choices)[static_cast<size_t>(s->random.Below(static_cast<int>(choices->size())))];
-    const Vec2 position_m = s->places[static_cast<size_t>(chosen)].position_m;
-    const bool good = Length(position_m - from) >= kWorthWalking_m && !IsFullNear(*s, position_m);
-    if (good || attempt + 1 == kTries) return FieldFor(position_m, &s->crowd);
+    const float drawback = DrawbackOf(from, s->places[static_cast<size_t>(chosen)].position_m, *s);
+    if (best < 0 || drawback < least) best = chosen, least = drawback;
+    if (least <= 0) break;
   }
-  return -1;
+  return best < 0 ? -1 : FieldFor(s->places[static_cast<size_t>(best)].position_m, &s->crowd);
 }
 
 }  // namespace flaneur

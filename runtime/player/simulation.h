@@ -10,6 +10,7 @@
 #include "runtime/control/level_control.h"
 #include "runtime/control/view_volumes.h"
 #include "runtime/crowd/crowd.h"
+#include "runtime/crowd/density_map.h"
 #include "runtime/pack/tour_pack.h"
 #include "runtime/player/guide.h"
 #include "runtime/player/point_walk.h"
@@ -95,6 +96,7 @@ struct Simulation {
   std::vector<MovingObstacle> moving;
   ForesightState foresight;
   Enclosure enclosure;
+  DensityMap density;              // of everybody, once a second
   Random random;
   int64_t frame = 0;
   size_t leg = 0;

@@ -79,7 +79,7 @@ void StepTown(Town* t) {
   t->crowd.viewer = t->camera.position;
   StepCrowd(t->walkable, {{t->camera.position, 0.6f, true, {}}}, kOpenFieldStep_s, &t->crowd);
   for (size_t i = 0; i < t->crowd.size(); ++i) {
-    if (t->crowd.arrived[i]) SetGoal(i, SomeField(t), &t->crowd);
+    if (t->crowd.arrived[i] == Arrival::kThere) SetGoal(i, SomeField(t), &t->crowd);
   }
 }
 

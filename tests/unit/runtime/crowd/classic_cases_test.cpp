@@ -91,7 +91,7 @@ Outcome Play(const Case& c) {
       }
     }
     for (size_t i = crowd.size(); i-- > 0;) {
-      if (!crowd.arrived[i]) continue;
+      if (crowd.arrived[i] != Arrival::kThere) continue;
       const size_t id = static_cast<size_t>(crowd.id[i]);
       outcome.time += step * kStep_s / ideal_s[id] / people;
       outcome.effort += effort[id] / (Power(c.walkers[id].preferred_mps) * ideal_s[id]) / people;

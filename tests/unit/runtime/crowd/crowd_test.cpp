@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "runtime/crowd/constants.h"
+
 namespace flaneur {
 namespace {
 
@@ -65,11 +67,27 @@ TEST(Crowd, OnePersonGoesRoundTheHouseToTheGoal) {
   p.field = FieldFor({15, 0}, &crowd);
   AddPerson(p, &crowd);
   int step = 0;
-  while (!crowd.arrived[0] && step < 3000) {
+  while (crowd.arrived[0] != Arrival::kThere && step < 3000) {
     StepCrowd(w, {}, kStep_s, &crowd);
     ++step;
   }
   EXPECT_LT(static_cast<float>(step) * kStep_s, 1.25f * 31 / 1.3f) << "the way round is about 31 m at 1.3 m/s";
+}
+
+TEST(Crowd, WhoIsHeldUpBesideTheGoalIsNearIt) {
+  const Walkable w = Field();
+  const Vec2 goal{12, 0};
+  Crowd crowd;
+  Person p;
+  p.position = {12, -12};
+  p.field = FieldFor(goal, &crowd);
+  AddPerson(p, &crowd);
+  int step = 0;
+  while (crowd.arrived[0] == Arrival::kNot && ++step < 900) StepCrowd(w, {{goal, 1.5f, true}}, kStep_s, &crowd);
+  EXPECT_EQ(crowd.arrived[0], Arrival::kNear) << "the visitor stands there";
+  EXPECT_LE(Length(crowd.position[0] - goal), kNearArrival_m);
+  while (crowd.arrived[0] != Arrival::kThere && ++step < 1200) StepCrowd(w, {}, kStep_s, &crowd);
+  EXPECT_EQ(crowd.arrived[0], Arrival::kThere) << "the visitor has left";
 }
 
 TEST(Crowd, AGoalBehindWallsIsUnreachable) {

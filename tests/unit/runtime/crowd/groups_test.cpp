@@ -124,7 +124,7 @@ TEST(Groups, MeetOthersWithoutTouching) {
   for (int step = 0; step < 1500; ++step) {
     StepCrowd(w, {}, kStep_s, &c);
     ExpectNobodyTouches(c);
-    for (size_t i = 0; i < c.size(); ++i) arrived[i] |= c.arrived[i];
+    for (size_t i = 0; i < c.size(); ++i) arrived[i] |= c.arrived[i] == Arrival::kThere ? 1 : 0;
   }
   EXPECT_EQ(std::count(arrived.begin(), arrived.end(), 1), static_cast<int>(c.size()));
 }

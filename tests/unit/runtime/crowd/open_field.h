@@ -71,7 +71,7 @@ inline void StepOpenField(OpenField* f) {
   StepCrowd(f->walkable, {}, kOpenFieldStep_s, &c);
   for (size_t i = 0; i < c.size(); ++i) {
     const Vec2 left = c.fields[static_cast<size_t>(c.field[i])].goal - c.position[i];
-    if (c.arrived[i] || Dot(left, left) < f->turn_round_m * f->turn_round_m) SetGoal(i, SomePlace(f), &c);
+    if (c.arrived[i] == Arrival::kThere || Dot(left, left) < f->turn_round_m * f->turn_round_m) SetGoal(i, SomePlace(f), &c);
   }
 }
 

@@ -73,7 +73,7 @@ float Empty_s(const Walkable& w, float most_s, Crowd* c, Look look) {
     time_s += kStep_s;
     look();
     for (size_t i = c->size(); i-- > 0;) {
-      if (c->arrived[i]) RemovePerson(i, c);
+      if (c->arrived[i] == Arrival::kThere) RemovePerson(i, c);
     }
   }
   return time_s;
@@ -208,7 +208,7 @@ TEST(Rimea, Case10EverybodyLeavesByTheExitGivenThem) {
   int by_main = 0, by_other = 0;
   Empty_s(w, 120, &c, [&] {
     for (size_t i = 0; i < c.size(); ++i) {
-      if (!c.arrived[i]) continue;
+      if (c.arrived[i] != Arrival::kThere) continue;
       const bool for_main = c.id[i] % 12 % 6 < 4;
       EXPECT_EQ(c.position[i].x < 0, for_main) << "person " << c.id[i];
       (for_main ? by_main : by_other) += 1;

@@ -94,7 +94,7 @@ TEST(WaySearch, AThousandNewGoalsAreGrantedInTheSameStepAndReached) {
   for (int step = 0; step < 30 * 300; ++step) {
     StepCrowd(w, {}, kStep_s, &crowd);
     for (size_t i = 0; i < crowd.size(); ++i) {
-      if (crowd.arrived[i]) reached[i] = 1, SetGoal(i, -1, &crowd);
+      if (crowd.arrived[i] == Arrival::kThere) reached[i] = 1, SetGoal(i, -1, &crowd);
     }
   }
   EXPECT_EQ(std::count(reached.begin(), reached.end(), 1), 1000);

@@ -327,5 +327,29 @@ TEST(Life, PeopleStartAtSpawnsWhereThereAreAny) {
   for (const Vec2 p : s.crowd.position) EXPECT_LT(Length(p - Vec2{18, 18}), 8 + 2.5f);
 }
 
+float MeanSpeed_mps(int steps, Simulation* s) {
+  double sum_mps = 0;
+  for (int step = 0; step < steps; ++step) {
+    StepSimulation({}, 0, s);
+    for (const Vec2 v : s->crowd.velocity) sum_mps += static_cast<double>(Length(v));
+  }
+  return static_cast<float>(sum_mps / (static_cast<double>(steps) * static_cast<double>(s->crowd.size())));
+}
+
+// Two people on three square metres, who share 24 goals: those who came and those who wanted to leave stood before each other for good.
+TEST(Life, ADenseCrowdKeepsMovingRoundTheGoalsItShares) {
+  Scenario scenario;
+  scenario.has_ground = true;
+  scenario.ground_min_m = {-15, -15};
+  scenario.ground_max_m = {15, 15};
+  scenario.people = 600;
+  Simulation s;
+  const Error e = StartSimulation(nullptr, scenario, &s);
+  ASSERT_FALSE(e) << e.message;
+  ASSERT_GT(s.crowd.size(), 590u);
+  MeanSpeed_mps(900, &s);
+  EXPECT_GT(MeanSpeed_mps(300, &s), 0.85f);
+}
+
 }  // namespace
 }  // namespace flaneur
