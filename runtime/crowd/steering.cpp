@@ -164,14 +164,37 @@ Vec2 StepAside(Vec2 towards, Vec2 closing, float reach_m) {
   return side * (kSooner * (reach_m - miss_m) / (time_s * kRelaxation_s));
 }
 
-Vec2 AvoidMoving(const std::vector<MovingObstacle>& moving, const Looking& me, bool avoids_camera) {
+// Between walls and the disc, at once and a step on.
+bool HasRoom(const Walkable& w, const Looking& me, const MovingObstacle& m, Vec2 direction) {
+  const float least_m = std::min(m.radius_m + me.radius_m, Length(m.center - me.position)) - 0.001f;
+  for (const float probe_m : {0.05f, 0.15f}) {
+    const Vec2 to = KeepOffWalls(w, me.position, me.position + direction * probe_m, me.radius_m);
+    if (Dot(to - me.position, direction) < 0.7f * probe_m || Length(to - m.center) < least_m) return false;
+  }
+  return true;
+}
+
+// Whoever cannot get through on that side goes round the disc on the other: nobody is pinned to a wall.
+Vec2 WhereThereIsRoom(const Walkable& w, const Looking& me, const MovingObstacle& m, Vec2 aside) {
+  const float size = Length(aside);
+  if (size <= 0) return aside;
+  const Vec2 towards = Unit(m.center - me.position), left{-towards.y, towards.x};
+  const Vec2 other = left * (Dot(left, aside) > 0 ? -1.0f : 1.0f);
+  const bool pressed = Length(m.center - me.position) < m.radius_m + me.radius_m + 2 * kComfort_m;
+  const bool turned = pressed && Dot(me.velocity, other) > kTurnsAbove_mps;
+  if (!turned && HasRoom(w, me, m, aside * (1 / size))) return aside;
+  return HasRoom(w, me, m, other) ? other * size : aside;
+}
+
+Vec2 AvoidMoving(const Walkable& w, const std::vector<MovingObstacle>& moving, const Looking& me, bool avoids_camera) {
   Vec2 push;
   for (const MovingObstacle& m : moving) {
     if (!m.everyone && !avoids_camera) continue;
     const Vec2 towards = m.center - me.position, closing = me.velocity - m.velocity;
     const float distance_m = std::max(Length(towards), 1e-4f), reach_m = m.radius_m + me.radius_m;
     const float room_m = reach_m + 2 * kComfort_m;
-    push = push + (m.everyone ? StepAside(towards, closing, room_m) : Anticipation(towards, closing, room_m) * kDiscMinded);
+    push = push + (m.everyone ? WhereThereIsRoom(w, me, m, StepAside(towards, closing, room_m))
+                              : Anticipation(towards, closing, room_m) * kDiscMinded);
     const float gap_m = distance_m - reach_m;
     if (gap_m < 2 * kComfort_m) {
       push = push - towards * (kDiscMinded * kSeparation_mps2 * std::min(1.0f, 1 - gap_m / (2 * kComfort_m)) / distance_m);
@@ -208,7 +231,7 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
   mind.asked_mps = SpeedOnSlope(w, cell, mind.alone_mps) * SpeedInDensity(DensityFrom(w, cell, around.crowding));
   Vec2 push = around.foremost + around.separation;
   if (mind.stands && Dot(push, push) < 1) push = {};  // people who stand give way only when pressed
-  const Vec2 room = AvoidMoving(moving, me, mind.avoids_camera);
+  const Vec2 room = AvoidMoving(w, moving, me, mind.avoids_camera);
   push = push + room;
   const size_t i = static_cast<size_t>(self.person);
   if (!mind.stands) push = push + BackToLine(Dot(room, room) > 0, me.position, c->way[i], &mind);

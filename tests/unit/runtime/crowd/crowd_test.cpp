@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/crowd/constants.h"
+#include "runtime/crowd/fast_math.h"
 
 namespace flaneur {
 namespace {
@@ -88,6 +89,30 @@ TEST(Crowd, WhoIsHeldUpBesideTheGoalIsNearIt) {
   EXPECT_LE(Length(crowd.position[0] - goal), kNearArrival_m);
   while (crowd.arrived[0] != Arrival::kThere && ++step < 1200) StepCrowd(w, {}, kStep_s, &crowd);
   EXPECT_EQ(crowd.arrived[0], Arrival::kThere) << "the visitor has left";
+}
+
+// A visitor who wants to pass had somebody between them and a tree, who stood there for seconds.
+TEST(Crowd, NobodyIsPinnedBetweenTheVisitorAndATree) {
+  Walkable w;
+  w.ground = {{-10, -10}, 0.5f, 40, 40, std::vector<float>(1600, 0), std::vector<uint8_t>(1600, 3)};
+  w.circles.push_back({{0, 0}, 0.3f});
+  BuildWalkable(0.3f, &w);
+  Random random{5};
+  for (int k = 0; k < 300; ++k) {
+    const float from_tree_rad = random.Uniform(-kPi, kPi), to_visitor_rad = from_tree_rad + random.Uniform(-0.5f, 0.5f);
+    Crowd crowd;
+    Person p;
+    p.position = DirectionOf(from_tree_rad) * 0.551f;
+    p.field = FieldFor(DirectionOf(random.Uniform(-kPi, kPi)) * 8, &crowd);
+    AddPerson(p, &crowd);
+    crowd.view[0] = ViewClass::kVisible;
+    const Vec2 wish = DirectionOf(to_visitor_rad + kPi + random.Uniform(-0.7f, 0.7f)) * 3.8f;
+    const MovingObstacle visitor{p.position + DirectionOf(to_visitor_rad) * 0.851f, 0.6f, true, wish};
+    for (int step = 0; step < 90; ++step) StepCrowd(w, {visitor}, kStep_s, &crowd);
+    const Vec2 off = crowd.position[0] - visitor.center;
+    const bool bars_the_way = Length(off) < 1 && Dot(off, wish) > 0.5f * Length(wish);
+    EXPECT_FALSE(bars_the_way) << "case " << k;
+  }
 }
 
 TEST(Crowd, AGoalBehindWallsIsUnreachable) {
