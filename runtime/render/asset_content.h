@@ -12,7 +12,8 @@ namespace flaneur {
 struct Asset::Content {
   TownGeometry town;
   std::vector<std::vector<uint8_t>> picture;  // by level
-  PersonGeometry person, shadow;          // shadow: with the coarsest level alone
+  PersonGeometry person;
+  ShadowLevels shadows;                   // with the coarsest level alone
   std::array<AtlasPicture, 4> atlas;      // albedo, normals, depth, motion
 };
 

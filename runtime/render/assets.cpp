@@ -1,13 +1,14 @@
 #include "runtime/render/assets.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "runtime/render/asset_content.h"
 
 namespace flaneur {
 namespace {
 
-constexpr float kShadowCell_m = 0.22f;
+constexpr float kShadowCells_m[] = {0.22f, 0.34f};
 
 std::vector<bool> ImagesOfTown(const TourPack& pack) {
   std::vector<bool> of_town(pack.images.size(), false);
@@ -93,7 +94,9 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
       const PackAvatar& avatar = pack.avatars[index];
       asset.content->person = BuildPersonGeometry(pack, avatar.levels[static_cast<size_t>(id.level)].mesh, plan);
       const bool coarsest = static_cast<size_t>(id.level) + 1 == avatar.levels.size();
-      if (coarsest) asset.content->shadow = ShadowGeometry(asset.content->person, kShadowCell_m);
+      for (size_t k = 0; k < std::size(kShadowCells_m) && coarsest; ++k) {
+        asset.content->shadows[k] = ShadowGeometry(asset.content->person, kShadowCells_m[k]);
+      }
       break;
     }
     case AssetKind::kAtlas: {

@@ -41,6 +41,7 @@ struct FrameInput {
   // Of the picture's width and height, 0.1 to 1: all but the caption is drawn so coarsely, and enlarged. Below 1 people are drawn
   // by the coarser levels that serve at that size.
   float resolution_scale = 1;
+  bool keeps_levels = false;  // draws people by their levels even so
 };
 
 // The parts of a picture in the order in which they are drawn.

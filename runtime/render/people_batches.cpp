@@ -9,6 +9,7 @@ namespace {
 constexpr float kAround_m = 0.35f;     // arms, skirts and props reach so far beyond a person's radius
 constexpr float kLongestShadow_m = 12;  // as far as one may fall into view
 constexpr float kFarImpostor_m = 15;   // all nearer ones are drawn before all farther ones
+constexpr float kFarShadow_m = 12;     // beyond it a coarser figure casts the shadow
 constexpr int kNoLevel = -2;
 
 // The largest numbers of all clips, so that 16 bits hold them with the finest steps.
@@ -242,7 +243,7 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     const float distance_m = Length(GltfFromGround(person.position) - sight.eye);
     const bool half = person.share_to - person.share_from >= 0.5f;  // of the two of a fade one casts the shadow
     if (half && ready[index].shadow && distance_m < sight.shadow_reach_m && MayTouch(sight.frustum, WithShadow(box, sight.to_sun))) {
-      out->shadow_entries.push_back({number, person.avatar, 0});
+      out->shadow_entries.push_back({number, 2 * person.avatar + (distance_m > kFarShadow_m ? 1 : 0), 0});
     }
     if (!MayTouch(sight.frustum, box) || (sight.walls != nullptr && !MayBeSeen(*sight.walls, box, true))) {
       ++out->hidden;
@@ -261,7 +262,7 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     return Placed(person, static_cast<float>(AddPose(person, avatar, out)), 0);
   }, out, &out->seen);
   std::swap(out->entries, out->shadow_entries);
-  Gather(count, [](int key) { return PeopleBatch{key, 0, false, 0, 0}; }, [&](const PeopleBatches::Entry& e) {
+  Gather(2 * count, [](int key) { return PeopleBatch{key / 2, key % 2, false, 0, 0}; }, [&](const PeopleBatches::Entry& e) {
     return AsShadow(people[e.person], avatars[static_cast<size_t>(people[e.person].avatar)]);
   }, out, &out->shadows);
 }

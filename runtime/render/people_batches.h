@@ -54,7 +54,7 @@ struct PeopleBatch { int avatar = 0, level = 0; bool fades = false; size_t first
 struct PeopleBatches {
   std::vector<PersonInstance> instances;
   std::vector<PeopleBatch> seen;     // from the eye
-  std::vector<PeopleBatch> shadows;  // from the sun, around the eye; level 0
+  std::vector<PeopleBatch> shadows;  // from the sun, around the eye; level: of the ShadowLevels
   std::vector<Vec4> poses;           // pose_width texels a row
   size_t pose_width = 0, pose_rows = 0;
   int hidden = 0;                    // left out because the picture cannot show them

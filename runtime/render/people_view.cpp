@@ -183,11 +183,11 @@ Error CreatePeopleView(const TourPack& pack, const std::string& defines, const S
   return Ok();
 }
 
-void AddLevel(int avatar, int level, const PersonGeometry& person, const PersonGeometry& shadow, PeopleView* people) {
+void AddLevel(int avatar, int level, const PersonGeometry& person, const ShadowLevels& shadows, PeopleView* people) {
   const auto index = static_cast<size_t>(avatar);
   people->avatars[index].levels[static_cast<size_t>(level)] = UploadMesh(person);
-  if (shadow.indices.empty()) return;
-  people->avatars[index].shadow = UploadMesh(shadow);
+  if (shadows[0].indices.empty()) return;
+  for (size_t k = 0; k < shadows.size(); ++k) people->avatars[index].shadows[k] = UploadMesh(shadows[k]);
   people->ready[index].shadow = true;
 }
 
@@ -239,7 +239,7 @@ DrawCost DrawPeopleShadow(const PeopleView& people) {
   BindTexture(kPosesUnit, people.shadow_poses);
   CullBackFaces(false);
   for (const PeopleBatch& b : people.batches.shadows) {
-    const PersonMesh& mesh = people.avatars[static_cast<size_t>(b.avatar)].shadow;
+    const PersonMesh& mesh = people.avatars[static_cast<size_t>(b.avatar)].shadows[static_cast<size_t>(b.level)];
     glBindVertexArray(mesh.vertex_array);
     BindInstances(people.instances, b);
     DrawRange(mesh.ranges[0], b.count);

@@ -14,7 +14,7 @@ struct PersonMesh { GLuint vertex_array = 0; std::vector<PersonRange> ranges; in
 
 struct AvatarView {
   std::vector<PersonMesh> levels;
-  PersonMesh shadow;
+  std::array<PersonMesh, 2> shadows;  // as in ShadowLevels
   GLuint albedo = 0, normals = 0, depth = 0, motion = 0;  // of the impostor
   Vec4 atlas;                      // texture coordinates a metre, size in texels
   Vec3 ranges;                     // of depth and of motion, in metres
@@ -40,7 +40,7 @@ struct PeopleView {
 // texture is wide.
 Error CreatePeopleView(const TourPack& pack, const std::string& defines, const SurfacePlan& plan, const std::vector<GLuint>& arrays,
                        PeopleView* people);
-void AddLevel(int avatar, int level, const PersonGeometry& person, const PersonGeometry& shadow, PeopleView* people);
+void AddLevel(int avatar, int level, const PersonGeometry& person, const ShadowLevels& shadows, PeopleView* people);
 void ShowLevels(PeopleView* people);  // all that have been added, from now on
 void AddAtlas(int avatar, const std::array<AtlasPicture, 4>& pictures, PeopleView* people);
 

@@ -32,4 +32,6 @@ PersonGeometry BuildPersonGeometry(const TourPack& pack, int mesh, const Surface
 // triangles, enough for a shadow.
 PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m);
 
+using ShadowLevels = std::array<PersonGeometry, 2>;  // for shadows near the eye, and farther off
+
 }  // namespace flaneur

@@ -166,7 +166,7 @@ void Renderer::Add(Asset asset) {
       break;
     }
     case AssetKind::kLevel:
-      AddLevel(asset.id.index, asset.id.level, content.person, content.shadow, &r.people);
+      AddLevel(asset.id.index, asset.id.level, content.person, content.shadows, &r.people);
       if (r.pictures_left == 0) ShowLevels(&r.people);  // never without their clothes
       break;
     case AssetKind::kAtlas: AddAtlas(asset.id.index, content.atlas, &r.people); break;
@@ -185,7 +185,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
   const float focal_px = static_cast<float>(r.picture.drawn_width_px) / 2 / std::tan(frame.fov_rad / 2);
   const PeopleSight sight{eye, to_sun, FrustumOf(view_projection), r.options.cull ? &r.town.walls : nullptr, 2 * kPeopleShadow_m,
-                          frame.resolution_scale < 1 ? focal_px : 0};
+                          frame.resolution_scale < 1 && !frame.keeps_levels ? focal_px : 0};
   SortPeople(frame.people, r.people.layouts, r.people.ready, sight, &r.people.batches);
   UploadPeople(&r.people);
   statistics->people_ms = Now_ms() - people_ms;

@@ -1,9 +1,10 @@
-// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE] [passes|alone [PICTURE]]]]]
+// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE|@rule] [passes|alone [PICTURE]]]]]
 //
 // Plays the scenario and draws its frames twice, right after each other: as control decides, and with everybody who is drawn as
 // their finest mesh. Prints medians and 99th percentiles, and their ratio. Processor times are those of all threads: on a machine
-// that does other work as well they say more than the clock. SCALE: FrameInput::resolution_scale. With `alone` our pictures without the
-// comparison, with `passes` what each pass of them takes. PICTURE: the last of them, as PNG.
+// that does other work as well they say more than the clock. SCALE: FrameInput::resolution_scale of both, or `rule`: each side's is what the
+// window would choose for it, with the settings' defaults. With `alone` our pictures without the comparison, with `passes` what each pass
+// of them takes. PICTURE: the last of them, as PNG.
 #include <time.h>
 
 #include <algorithm>
@@ -16,6 +17,8 @@
 
 #include "runtime/base/png.h"
 #include "runtime/player/frame_from_simulation.h"
+#include "runtime/player/player_settings.h"
+#include "runtime/player/resolution.h"
 #include "runtime/player/scenario.h"
 #include "runtime/player/simulation.h"
 #include "runtime/render/context.h"
@@ -26,6 +29,7 @@ namespace flaneur {
 namespace {
 
 constexpr int kWarm = 3;       // frames before the first that counts
+constexpr int kRulePictures = 25;
 constexpr int kFullEvery = 6;  // of the frames one in so many is drawn in full geometry: that takes seconds
 
 double Clock_ms() {
@@ -74,14 +78,30 @@ void Draw(const FrameInput& frame, int width_px, int height_px, Renderer* render
 
 FrameInput AllFinest(FrameInput frame) {
   for (DrawnPerson& p : frame.people) p.level = 0;
+  frame.keeps_levels = true;
   return frame;
 }
 
+// As the window finds it while it shows `frame`.
+float ScaleByRule(FrameInput frame, int width_px, int height_px, const LevelSettings& levels, Renderer* renderer) {
+  const PlayerSettings settings;
+  const ResolutionSettings wished = ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, levels);
+  Resolution resolution;
+  for (int k = 0; k < kRulePictures; ++k) {
+    Costs costs;
+    frame.resolution_scale = resolution.scale;
+    Draw(frame, width_px, height_px, renderer, &costs);
+    FollowPictureTime(static_cast<float>(costs.clock_ms.values[0]), wished, &resolution);
+  }
+  return resolution.scale;
+}
+
 Error Run(int argc, char** argv) {
-  if (argc < 3) return Fail("usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE] [passes|alone [PICTURE]]]]]");
+  if (argc < 3) return Fail("usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE|@rule] [passes|alone [PICTURE]]]]]");
   int width_px = 1280, height_px = 720;
-  float scale = 1;
+  float scale = 1, full_scale = 1;
   if (argc > 5) std::sscanf(argv[5], "%dx%d@%f", &width_px, &height_px, &scale);
+  const bool by_rule = argc > 5 && std::string(argv[5]).ends_with("@rule");
   const bool passes = argc > 6 && std::string(argv[6]) == "passes", compares = !passes && (argc <= 6 || std::string(argv[6]) != "alone");
   const int frames = argc > 4 ? std::atoi(argv[4]) : 60;
   TourPack pack;
@@ -105,6 +125,9 @@ Error Run(int argc, char** argv) {
   Series compared_ms, compared_clock_ms, people_ms;
   PersonLooks looks;
   FrameInput frame;
+  FrameFromSimulation(pack, s, &looks, &frame);
+  if (by_rule) scale = ScaleByRule(frame, width_px, height_px, s.level_settings, &renderer);
+  full_scale = by_rule && compares ? ScaleByRule(AllFinest(frame), width_px, height_px, s.level_settings, &full_renderer) : scale;
   for (int k = 0; k < frames + kWarm && !s.finished; ++k) {
     const double before = Clock_ms();
     FrameFromSimulation(pack, s, &looks, &frame);
@@ -117,6 +140,7 @@ Error Run(int argc, char** argv) {
     if (compares && k >= kWarm && k % kFullEvery == 0) {
       compared_ms.values.push_back(as_decided.processor_ms.values.back());
       compared_clock_ms.values.push_back(as_decided.clock_ms.values.back());
+      frame.resolution_scale = full_scale;
       Draw(AllFinest(frame), width_px, height_px, &full_renderer, &full);
     }
     StepSimulation({}, 0, &s);
@@ -126,7 +150,8 @@ Error Run(int argc, char** argv) {
     renderer.Read(&rgb);
     if (Error e = WritePng(argv[7], width_px, height_px, rgb)) return e;
   }
-  std::printf("%s, %zu people, %d x %d pixels\n%-44s %9s %9s %9s\n", context.Renderer().c_str(), s.crowd.size(), width_px, height_px, "", "least",
+  std::printf("%s, %zu people, %d x %d pixels, scale %.1f, of full geometry %.1f\n%-44s %9s %9s %9s\n", context.Renderer().c_str(), s.crowd.size(), width_px, height_px,
+              static_cast<double>(scale), static_cast<double>(full_scale), "", "least",
               "median", "99th perc.");
   Print("frame time, clock", as_decided.clock_ms, "ms");
   Print("frame time, processor, all threads", as_decided.processor_ms, "ms");
