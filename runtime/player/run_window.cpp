@@ -52,7 +52,7 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* lo
   Window window;
   if (Error e = window.Create(options.width_px, options.height_px, pack.name.c_str(), EndWithoutWindow)) return e;
   Visit visit(pack, loader, user, s);
-  if (Error e = visit.Begin()) return e;
+  if (Error e = visit.Begin(true)) return e;
   bool closed = false;
   if (Error e = WaitForTown(&window, &visit, &closed)) return e;
   if (closed) return Ok();

@@ -164,8 +164,8 @@ Visit::Visit(const TourPack& pack, Loader* loader, UserSettings* user, Simulatio
     : impl_(new Impl{pack, loader, user, simulation}) {}
 Visit::~Visit() = default;
 
-Error Visit::Begin() {
-  if (Error e = impl_->renderer.Begin(impl_->pack)) return e;
+Error Visit::Begin(bool onto_window) {
+  if (Error e = impl_->renderer.Begin(impl_->pack, {.onto_window = onto_window})) return e;
   impl_->loader->PrepareFor(impl_->renderer);
   return Ok();
 }

@@ -19,8 +19,8 @@ class Visit {
  public:
   Visit(const TourPack& pack, Loader* loader, UserSettings* user, Simulation* simulation);
   ~Visit();
-  // Errors: those of Renderer::Begin.
-  Error Begin();
+  // onto_window: RenderOptions::onto_window. Errors: those of Renderer::Begin.
+  Error Begin(bool onto_window = false);
   // Uploads some of what has been loaded; `there` becomes true once there is enough for a picture. Errors: those of the pack.
   Error Load(bool* there);
   // Once after Load. views: the plan and the graphs are shown.

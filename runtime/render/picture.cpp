@@ -96,7 +96,7 @@ void Enlarge(const Picture& p) {
 
 }  // namespace
 
-Error CreatePicture(int samples, bool deferred, const std::string& defines, Picture* p) {
+Error CreatePicture(int samples, bool deferred, bool onto_window, const std::string& defines, Picture* p) {
   GLint most = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
   p->samples = std::clamp(samples, 1, std::max<int>(most, 1));
@@ -104,8 +104,11 @@ Error CreatePicture(int samples, bool deferred, const std::string& defines, Pict
   p->color = NewTexture(GL_LINEAR);
   if (p->samples > 1) glGenRenderbuffers(1, &p->color);
   glGenRenderbuffers(1, &p->depth);
-  glGenRenderbuffers(1, &p->finished_color);
-  for (GLuint* framebuffer : {&p->framebuffer, &p->lit, &p->finished}) glGenFramebuffers(1, framebuffer);
+  for (GLuint* framebuffer : {&p->framebuffer, &p->lit}) glGenFramebuffers(1, framebuffer);
+  if (p->samples > 1 || !onto_window) {
+    glGenRenderbuffers(1, &p->finished_color);
+    glGenFramebuffers(1, &p->finished);
+  }
   glGenVertexArrays(1, &p->empty_array);
   if (deferred) {
     p->depth = NewTexture(GL_NEAREST);
@@ -131,7 +134,7 @@ void ResizePicture(int width_px, int height_px, float scale, Picture* p) {
   if (redrawn && p->deferred) ResizeDeferred(*p);
   else if (redrawn) ResizeForward(*p);
   if (redrawn && IsCoarse(*p)) ResizeCoarse(p);
-  if (!resized) return;
+  if (!resized || p->finished == 0) return;
   glBindRenderbuffer(GL_RENDERBUFFER, p->finished_color);
   glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_px, height_px);
   glBindFramebuffer(GL_FRAMEBUFFER, p->finished);

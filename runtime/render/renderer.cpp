@@ -135,7 +135,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   if (Error e = CreateTownView(defines, r.plan, r.arrays, &r.town)) return e;
   if (Error e = CreatePeopleView(pack, defines, r.plan, r.arrays, &r.people)) return e;
   if (Error e = BuildProgram(std::string(kFrame) + kSkyVertex, defines + kFrame + kFinished + kSkyFragment, &r.sky_program)) return e;
-  if (Error e = CreatePicture(samples, deferred, defines, &r.picture)) return e;
+  if (Error e = CreatePicture(samples, deferred, options.onto_window, defines, &r.picture)) return e;
   if (Error e = CreateCaptionView(&r.caption)) return e;
   if (Error e = CreateGroundMark(&r.ground_mark)) return e;
   CreateShadowMaps(&r.shadows);
@@ -248,6 +248,7 @@ void Renderer::Read(std::vector<uint8_t>* rgb) {
 
 void Renderer::Present() {
   const Picture& p = impl_->picture;
+  if (p.finished == 0) return;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, p.finished);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
   glBlitFramebuffer(0, 0, p.width_px, p.height_px, 0, 0, p.width_px, p.height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);

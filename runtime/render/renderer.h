@@ -17,6 +17,7 @@ struct RenderOptions {
   int samples = 0;    // of each pixel; 0: four with a GPU, one and a smoothing pass without
   bool cull = true;   // leave out blocks of the town that the picture cannot show; false only to prove that
   bool normals = false;  // people's normals * 0.5 + 0.5 instead of light, over nothing
+  bool onto_window = false;  // where a pass finishes the picture it does so on the window's surface, and Read does not bring it out
   bool time_passes = false;  // FrameStatistics::pass_ms; waits for each pass, so that the whole takes longer
 };
 
@@ -40,7 +41,7 @@ class Renderer {
   void Read(std::vector<uint8_t>* rgb);
   // The same as RGBA; alpha is 0 where nothing is drawn.
   void ReadWithAlpha(std::vector<uint8_t>* rgba);
-  void Present();  // onto the window's surface
+  void Present();  // onto the window's surface, where it is not there already
 
  private:
   struct Impl;
