@@ -8,6 +8,7 @@
 #include "runtime/player/scenario.h"
 #include "runtime/render/context.h"
 #include "runtime/render/renderer.h"
+#include "tests/soak/drivers_stay_loaded.h"
 #include "tests/unit/allocations.h"
 
 namespace flaneur {

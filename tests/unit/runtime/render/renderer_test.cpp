@@ -14,6 +14,7 @@
 #include "runtime/render/person_geometry.h"
 #include "runtime/render/projection.h"
 #include "runtime/render/town_geometry.h"
+#include "tests/soak/drivers_stay_loaded.h"
 
 namespace flaneur {
 namespace {
