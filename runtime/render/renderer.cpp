@@ -130,6 +130,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   r.people.smooth_edges = samples > 1 && !options.normals;
   if (r.people.smooth_edges) defines += "#define SMOOTH_EDGES\n";
   r.pictures_left = pack.images.size();
+  r.town.in_pieces = deferred;
   r.plan = PlanSurfaces(pack, LimitsOfThisMachine(fast));
   r.arrays = CreateTextureArrays(r.plan, fast);
   if (Error e = CreateTownView(defines, r.plan, r.arrays, &r.town)) return e;

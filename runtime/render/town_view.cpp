@@ -9,6 +9,7 @@ namespace flaneur {
 namespace {
 
 constexpr size_t kMostWalls = 14000;      // triangles a picture: the nearest walls hide most
+constexpr uint32_t kPiece = 3 * 15000;    // indices
 constexpr uint32_t kJoined = 12000;       // indices that a shadow draws in vain rather than in another call
 
 void EnableVertices() {
@@ -130,9 +131,14 @@ DrawCost DrawTown(Vec3 eye, bool cull, TownView* town) {
     const uint32_t count = town->counts[g];
     if (count == 0) continue;
     BindGroup(town->groups[g], town->lit, *town);
-    DrawIndices(first, count);
-    cost += {count / 3, 1};
-    first += count;
+    for (uint32_t left = count; left > 0;) {
+      const uint32_t some = town->in_pieces ? std::min(left, kPiece) : left;
+      DrawIndices(first, some);
+      if (town->in_pieces && some == kPiece) glFlush();
+      cost += {some / 3, 1};
+      first += some;
+      left -= some;
+    }
   }
   return cost;
 }

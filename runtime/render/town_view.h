@@ -18,6 +18,7 @@ struct TownView {
   std::vector<SurfaceGroup> groups;
   std::vector<GLuint> arrays;
   Box box;                                 // of all blocks
+  bool in_pieces = false;                  // software keeps all triangles on their way until they are filled: some at a time
   // Of the last picture.
   OcclusionMap walls;
   std::vector<std::pair<float, uint32_t>> order;        // scratch: distance and block
