@@ -129,6 +129,18 @@ def compare_with_off(runs):
         figures["adaptation_share"] = (run["control_ms"] - base["control_ms"]) / max(run["step_ms"], 1e-9)
         figures["bunching"] = ratio(run["rim"], base["rim"])
         figures["bunching_usual"] = ratio(run["rim_usual"], base["rim_usual"])
+    compare_together(runs)
+
+
+def compare_together(runs):
+    """The distances over all seeds at once: where few people are in view, one seed's distance is mostly chance."""
+    off = [run for run in runs if run["mode"] == "off"]
+    for mode in {run["mode"] for run in runs if off and run["mode"] != "off"}:
+        chosen = [run for run in runs if run["mode"] == mode]
+        for key, name in (("speeds", "speeds_ks_together"), ("turns", "turns_ks_together")):
+            distance = measures.kolmogorov_smirnov(*(np.concatenate([run[key] for run in some]) for some in (chosen, off)))
+            for run in chosen:
+                run["figures"][name] = distance
 
 
 def ratio(value, base):

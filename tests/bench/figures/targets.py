@@ -35,6 +35,8 @@ FIGURES = [
            "two-sample Kolmogorov–Smirnov distance of visible people's speeds to the same seed with off; for off itself: to the "
            "next seed with off, which is what chance alone makes"),
     Figure("turns_ks", "turn rates, distance", "{:.3f}", "likewise of the amount of their turn rates"),
+    Figure("speeds_ks_together", "speeds, all seeds together", "{:.3f}", "the distance of all seeds' speeds to all seeds' with off"),
+    Figure("turns_ks_together", "turn rates, all seeds together", "{:.3f}", "likewise of their turn rates"),
     Figure("switches", "level switches", "{:.2f}", "changes of level in view per visible person and minute"),
     Figure("shortfalls", "shortfalls", "{:.2f}", "people drawn as impostors nearer than adequate, mean a frame"),
     Figure("speed_ratio", "user's speed", "{:.2f}", "the visitor's way made over the way asked for"),
