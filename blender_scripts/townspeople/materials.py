@@ -14,7 +14,7 @@ import numpy as np
 from common.settings import fail
 
 ATLAS_PX = 512
-GUTTER_PX = 3
+GUTTER_PX = 8  # keeps the edges of cells clean down to the mip level of an eighth
 HEM_DIRT = np.array([0.30, 0.25, 0.19])
 
 
@@ -187,28 +187,29 @@ def shrunk(picture, width, height):
 
 
 def pack_cells(pictures):
-    """Shelf-packs {name: picture} into one atlas; returns it with {name: (x, y, width, height)}
-    in px.
+    """Packs {name: picture} into one atlas, each where it comes to lie highest; returns it with
+    {name: (x, y, width, height)} in px. Around each cell its picture goes on: mirrored across, as u
+    is on the body, and as it ends up and down.
     """
     atlas = np.full((ATLAS_PX, ATLAS_PX, 3), 0.4)
-    places, x, y, shelf = {}, 0, 0, 0
+    places, taken = {}, np.zeros(ATLAS_PX, int)  # rows, by column
     for name in sorted(pictures, key=lambda key: (-pictures[key].shape[0], key)):
-        h, w = pictures[name].shape[:2]
-        if x + w > ATLAS_PX:
-            x, y, shelf = 0, y + shelf, 0
+        across = np.pad(pictures[name], ((0, 0), (GUTTER_PX, GUTTER_PX), (0, 0)), "symmetric")
+        picture = np.pad(across, ((GUTTER_PX, GUTTER_PX), (0, 0), (0, 0)), "edge")
+        h, w = picture.shape[:2]
+        y, x = min((int(taken[x : x + w].max()), x) for x in range(ATLAS_PX - w + 1))
         if y + h > ATLAS_PX:
             fail("people.py: the texture cells do not fit into %d px (at '%s')" % (ATLAS_PX, name))
-        atlas[y : y + h, x : x + w] = pictures[name]
-        places[name] = (x, y, w, h)
-        x, shelf = x + w, max(shelf, h)
+        atlas[y : y + h, x : x + w] = picture
+        taken[x : x + w] = y + h
+        places[name] = (x + GUTTER_PX, y + GUTTER_PX, w - 2 * GUTTER_PX, h - 2 * GUTTER_PX)
     return atlas, places
 
 
 def atlas_uv(corner_uv, place):
     """glTF texture coordinates (v down from the top) in the atlas of coordinates in a cell."""
     x, y, w, h = place
-    inner = np.array([w - 2 * GUTTER_PX, h - 2 * GUTTER_PX])
-    return (np.array([x, y]) + GUTTER_PX + np.clip(corner_uv, 0, 1) * inner) / ATLAS_PX
+    return (np.array([x, y]) + np.clip(corner_uv, 0, 1) * np.array([w, h])) / ATLAS_PX
 
 
 def skin_picture(source, places, tint, smooth, rouge=0.0):

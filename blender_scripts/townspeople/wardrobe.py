@@ -4,9 +4,9 @@ people.py).
 
 # Texture cells: the material that holds them and their size in the atlas, px.
 CELLS = {
-    "upper": ("cloth", (192, 192)), "sleeve": ("cloth", (128, 192)), "skirt": ("cloth", (192, 256)),
-    "overskirt": ("cloth", (128, 128)), "apron": ("cloth", (128, 160)),
-    "cape": ("cloth", (128, 192)),
+    "upper": ("cloth", (176, 184)), "sleeve": ("cloth", (128, 184)), "skirt": ("cloth", (208, 184)),
+    "overskirt": ("cloth", (128, 128)), "apron": ("cloth", (120, 144)),
+    "cape": ("cloth", (128, 184)),
     "lining": ("cloth", (64, 64)), "trousers": ("cloth", (128, 128)), "hose": ("cloth", (64, 128)),
     "coif": ("cloth", (96, 96)), "collar": ("cloth", (96, 64)), "hood": ("cloth", (96, 128)),
     "hat": ("cloth", (160, 96)), "hair": ("trim", (160, 96)), "belt": ("trim", (96, 64)),

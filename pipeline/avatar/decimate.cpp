@@ -26,6 +26,7 @@ constexpr float kEndless_px = 100000;       // switch height where the next leve
 // Of a chain that makes itself, heights of the person on screen:
 constexpr float kFinest_px = 2000;    // larger than anybody is ever seen
 constexpr float kCoarsest_px = 64;    // half of an impostor's height: below it nobody is a mesh
+constexpr float kHardlyWorse = 0.85f;  // of the height at which the finer level takes over
 constexpr float kFewestUseful = 250;  // triangles: fewer save nothing beside the rest of a frame
 
 Error CheckMeshes(const Avatar& avatar) {
@@ -68,11 +69,11 @@ int CountTriangles(const std::vector<Mesh>& meshes) {
   return count;
 }
 
-// 1, 0.5, 0.25, 0.1, 0.05, ... as long as so few triangles save anything.
+// 1, 0.5, 0.4, 0.2, 0.1, 0.05, ... as long as so few triangles save anything.
 std::vector<float> Ladder(int triangles) {
   std::vector<float> ratios{1};
   for (float decade = 1;; decade /= 10) {
-    for (const float step : {0.5f, 0.25f, 0.1f}) {
+    for (const float step : {0.5f, 0.4f, 0.2f, 0.1f}) {
       if (step * decade * static_cast<float>(triangles) < kFewestUseful) return ratios;
       ratios.push_back(step * decade);
     }
@@ -110,13 +111,13 @@ void ChooseLevels(const Avatar& avatar, float error_px, std::vector<AvatarLevel>
   std::vector<AvatarLevel> chosen;
   for (AvatarLevel& level : *levels) {
     const float limit_px = Limit_px(level, avatar, error_px);
-    // Finer ones go where this one serves everybody, or no worse.
+    // Finer ones go where this one serves everybody, or hardly worse.
     while (chosen.size() > 1 &&
-           (limit_px > kFinest_px || limit_px >= Limit_px(chosen.back(), avatar, error_px))) {
+           (limit_px > kFinest_px || limit_px >= kHardlyWorse * Limit_px(chosen.back(), avatar, error_px))) {
       chosen.pop_back();
     }
-    chosen.push_back(std::move(level));
     if (chosen.size() > 1 && limit_px <= kCoarsest_px) break;
+    chosen.push_back(std::move(level));
   }
   *levels = std::move(chosen);
 }

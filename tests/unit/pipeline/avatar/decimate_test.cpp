@@ -110,6 +110,40 @@ TEST(BuildLevels, MakesAsManyLevelsAsTheErrorsAskFor) {
   }
 }
 
+// A dome's levels lose a little of its shape each: 0.4 m wide on a person of 1.8 m, of 2 n^2 triangles.
+AvatarLevels DomesChain(int n) {
+  Avatar avatar = MadePerson();
+  Mesh& mesh = avatar.meshes[0];
+  mesh = {};
+  mesh.name = "body";
+  mesh.material = 0;
+  for (int k = 0; k < (n + 1) * (n + 1); ++k) {
+    const float x = static_cast<float>(k % (n + 1)) / static_cast<float>(n), y = static_cast<float>(k / (n + 1)) / static_cast<float>(n);
+    const Vec3 p{0.4f * (x - 0.5f), 0.4f * (y - 0.5f), 0.15f * std::cos(7 * kPi * (x - 0.5f)) * std::cos(7 * kPi * (y - 0.5f))};
+    mesh.positions.push_back(p + Vec3{0, 0.9f, 0});
+    mesh.normals.push_back({0, 0, 1});
+    mesh.joints.push_back({});
+    mesh.weights.push_back({1, 0, 0, 0});
+  }
+  for (uint32_t k = 0; k < static_cast<uint32_t>(n * n); ++k) {
+    const auto width = static_cast<uint32_t>(n);
+    const uint32_t a = k / width * (width + 1) + k % width;
+    mesh.indices.insert(mesh.indices.end(), {a, a + 1, a + width + 2, a, a + width + 2, a + width + 1});
+  }
+  AvatarLevels levels;
+  std::vector<std::string> warnings;
+  EXPECT_EQ(BuildLevels(avatar, {}, &levels, &warnings).message, "");
+  return levels;
+}
+
+TEST(BuildLevels, MakesNoLevelForSizesThatImpostorsHave) {
+  const AvatarLevels levels = DomesChain(50);
+  ASSERT_GE(levels.levels.size(), 3u);
+  for (size_t k = 1; k + 1 < levels.levels.size(); ++k) EXPECT_GT(levels.levels[k].switch_px, 64) << "level " << k + 1;
+  // And none beside another that is hardly worse.
+  for (size_t k = 1; k + 1 < levels.levels.size(); ++k) EXPECT_LT(levels.levels[k].switch_px, 0.85f * levels.levels[k - 1].switch_px);
+}
+
 TEST(BuildLevels, SwitchesNearerWhereMorePixelsMayShow) {
   const Avatar avatar = MadePerson();
   LevelsOptions fine, coarse;
