@@ -25,8 +25,11 @@ constexpr float kLeastJointGain_m = 2e-4f;  // below it hardly any joint could m
 constexpr float kEndless_px = 100000;       // switch height where the next level is exact
 // Of a chain that makes itself, heights of the person on screen:
 constexpr float kFinest_px = 2000;    // larger than anybody is ever seen
-constexpr float kCoarsest_px = 64;    // half of an impostor's height: below it nobody is a mesh
-constexpr float kHardlyWorse = 0.85f;  // of the height at which the finer level takes over
+constexpr float kImpostor_px = 128;   // below it most people are impostors
+constexpr float kCoarsest_px = 64;    // half of it: below it nobody is a mesh
+constexpr float kTurned_deg = 2.5f;   // of normals: a level that is further off is none for people higher than impostors
+constexpr float kHardlyWorse = 0.85f;  // of the height on screen up to which a finer level serves,
+constexpr float kHardlyFewer = 0.7f;   // which has so many triangles
 constexpr float kFewestUseful = 250;  // triangles: fewer save nothing beside the rest of a frame
 
 Error CheckMeshes(const Avatar& avatar) {
@@ -98,12 +101,12 @@ std::vector<int> Targets(const LevelsOptions& options, int triangles) {
 
 float Error_mm(const AvatarLevel& level) { return std::max(level.error_mm, level.posed_error_mm); }
 
-// The person's height on screen from which on a level's error spans error_px.
+// The person's height on screen from which on a level's error spans error_px, or its light would look unlike the original's.
 float Limit_px(const AvatarLevel& level, const Avatar& avatar, float error_px) {
   const float height_mm = 1000 * avatar.height_m;
-  return Error_mm(level) * kEndless_px > error_px * height_mm
-             ? error_px * height_mm / Error_mm(level)
-             : kEndless_px;
+  const float limit_px =
+      Error_mm(level) * kEndless_px > error_px * height_mm ? error_px * height_mm / Error_mm(level) : kEndless_px;
+  return level.normal_deg > kTurned_deg ? std::min(limit_px, error_px * kImpostor_px) : limit_px;
 }
 
 // Of candidates from fine to coarse those that some size on screen needs.
@@ -111,11 +114,13 @@ void ChooseLevels(const Avatar& avatar, float error_px, std::vector<AvatarLevel>
   std::vector<AvatarLevel> chosen;
   for (AvatarLevel& level : *levels) {
     const float limit_px = Limit_px(level, avatar, error_px);
-    // Finer ones go where this one serves everybody, or hardly worse.
-    while (chosen.size() > 1 &&
-           (limit_px > kFinest_px || limit_px >= kHardlyWorse * Limit_px(chosen.back(), avatar, error_px))) {
-      chosen.pop_back();
-    }
+    // Finer ones go where this one serves everybody, or no worse, or where impostors serve as well hardly worse with hardly fewer triangles.
+    const auto spares = [&](const AvatarLevel& finer) {
+      const bool alike = limit_px < kImpostor_px &&
+                         static_cast<float>(level.triangles) > kHardlyFewer * static_cast<float>(finer.triangles);
+      return limit_px > kFinest_px || limit_px >= (alike ? kHardlyWorse : 1) * Limit_px(finer, avatar, error_px);
+    };
+    while (chosen.size() > 1 && spares(chosen.back())) chosen.pop_back();
     if (chosen.size() > 1 && limit_px <= kCoarsest_px) break;
     chosen.push_back(std::move(level));
   }
@@ -204,7 +209,10 @@ Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLeve
   levels->levels =
       DecimatedLevels(avatar, Targets(options, CountTriangles(avatar.meshes)), warnings);
   MeasureLevels(avatar, options.error_samples, options.walk_poses, &levels->levels);
-  if (options.ratios.empty()) ChooseLevels(avatar, options.error_px, &levels->levels);
+  if (options.ratios.empty()) {
+    MeasureNormals(avatar, options.error_samples, &levels->levels);
+    ChooseLevels(avatar, options.error_px, &levels->levels);
+  }
   SpareJoints(avatar, &levels->levels);
   levels->avatar.meshes = levels->levels[0].meshes;
   SetSwitchHeights(avatar, options.error_px, &levels->levels);

@@ -1,6 +1,7 @@
 #include "pipeline/avatar/level_error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "pipeline/avatar/poses.h"
@@ -12,6 +13,7 @@ namespace flaneur {
 namespace {
 
 constexpr size_t kMostCorners = 6000;
+constexpr float kSameSide = 0.3f;  // cosine between normals of places that belong together
 
 // Points that move with a surface: evenly spread ones and corners, where distances are greatest.
 std::vector<Place> PlacesOn(const std::vector<Mesh>& meshes, const Triangles& triangles,
@@ -109,7 +111,48 @@ int CountTriangles(const Avatar& avatar) {
   return count;
 }
 
+// The normals of each triangle's corners, zero where the mesh has none.
+Triangles CornerNormals(const std::vector<Mesh>& meshes) {
+  Triangles normals;
+  for (const Mesh& mesh : meshes) {
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      auto& corners = normals.emplace_back();
+      for (size_t k = 0; k < 3 && !mesh.normals.empty(); ++k) corners[k] = mesh.normals[mesh.indices[i + k]];
+    }
+  }
+  return normals;
+}
+
+float MeanAngle_deg(const SurfaceTree& original, const Triangles& original_normals, const std::vector<Mesh>& meshes, int samples) {
+  const Triangles triangles = PosedTriangles(meshes, nullptr), normals = CornerNormals(meshes);
+  double sum = 0;
+  int count = 0;
+  uint32_t guess = 0;
+  for (const Place& place : SpreadPlaces(triangles, samples)) {
+    const auto found = original.Find(At(triangles[place.triangle], place.shares), guess);
+    guess = found.triangle;
+    const Vec3 a = Normalized(At(normals[place.triangle], place.shares)), b = Normalized(At(original_normals[found.triangle], found.shares));
+    if (!(Dot(a, b) > kSameSide)) continue;
+    sum += std::atan2(static_cast<double>(Length(Cross(a, b))), static_cast<double>(Dot(a, b)));
+    ++count;
+  }
+  return count > 0 ? static_cast<float>(sum / count * 180 / static_cast<double>(kPi)) : 0;
+}
+
 }  // namespace
+
+void MeasureNormals(const Avatar& original, int samples, std::vector<AvatarLevel>* levels) {
+  const Triangles triangles = PosedTriangles(original.meshes, nullptr), normals = CornerNormals(original.meshes);
+  if (triangles.empty() || samples <= 0) return;
+  const SurfaceTree tree(triangles);
+  RunOnThreads([&](size_t first, size_t step) {
+    for (size_t k = first; k < levels->size(); k += step) {
+      AvatarLevel& level = (*levels)[k];
+      const bool whole = level.triangles == static_cast<int>(triangles.size());
+      level.normal_deg = whole ? 0 : MeanAngle_deg(tree, normals, level.meshes, samples);
+    }
+  });
+}
 
 void MeasureLevels(const Avatar& original, int samples, int walk_poses,
                    std::vector<AvatarLevel>* levels) {

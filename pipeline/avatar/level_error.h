@@ -12,4 +12,7 @@ namespace flaneur {
 void MeasureLevels(const Avatar& original, int samples, int walk_poses,
                    std::vector<AvatarLevel>* levels);
 
+// Sets normal_deg of each level, at `samples` places of it whose nearest place of the original faces the same way.
+void MeasureNormals(const Avatar& original, int samples, std::vector<AvatarLevel>* levels);
+
 }  // namespace flaneur

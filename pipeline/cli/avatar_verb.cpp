@@ -95,6 +95,7 @@ nlohmann::json Statistics(const AvatarLevels& levels, double seconds) {
                     {"error_mm", level.error_mm},
                     {"posed_error_mm", level.posed_error_mm},
                     {"switch_px", level.switch_px},
+                    {"normal_deg", level.normal_deg},
                     {"joints", level.joints},
                     {"draws", level.meshes.size()}});
   }

@@ -34,7 +34,7 @@ template <typename A> void Fields(A& a, Avatar* v) {
   a(&v->name, &v->meshes, &v->materials, &v->images, &v->joints, &v->clips, &v->height_m, &v->radius_m, &v->walk_speed_mps);
 }
 template <typename A> void Fields(A& a, AvatarLevel* v) {
-  a(&v->meshes, &v->triangles, &v->error_mm, &v->posed_error_mm, &v->joints, &v->switch_px);
+  a(&v->meshes, &v->triangles, &v->error_mm, &v->posed_error_mm, &v->normal_deg, &v->joints, &v->switch_px);
 }
 template <typename A> void Fields(A& a, AvatarLevels* v) { a(&v->avatar, &v->levels); }
 template <typename A> void Fields(A& a, ImpostorClip* v) { a(&v->name, &v->first_frame, &v->phases); }

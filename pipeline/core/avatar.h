@@ -46,6 +46,7 @@ struct AvatarLevel {
   int triangles = 0;
   float error_mm = 0;        // greatest surface deviation from the original in the bind pose
   float posed_error_mm = 0;  // the same over poses of the walk, and what joints left out may add
+  float normal_deg = 0;      // mean angle between the normals and the original's in the bind pose; 0: not measured
   int joints = 0;            // that move a vertex
   float switch_px = 0;       // person's height on screen in pixels at or above which this level is needed
 };

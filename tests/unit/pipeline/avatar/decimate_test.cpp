@@ -121,7 +121,8 @@ AvatarLevels DomesChain(int n) {
     const float x = static_cast<float>(k % (n + 1)) / static_cast<float>(n), y = static_cast<float>(k / (n + 1)) / static_cast<float>(n);
     const Vec3 p{0.4f * (x - 0.5f), 0.4f * (y - 0.5f), 0.15f * std::cos(7 * kPi * (x - 0.5f)) * std::cos(7 * kPi * (y - 0.5f))};
     mesh.positions.push_back(p + Vec3{0, 0.9f, 0});
-    mesh.normals.push_back({0, 0, 1});
+    const float a = 7 * kPi * (x - 0.5f), b = 7 * kPi * (y - 0.5f), slope = 0.15f * 7 * kPi / 0.4f;
+    mesh.normals.push_back(Normalized(Vec3{slope * std::sin(a) * std::cos(b), slope * std::cos(a) * std::sin(b), 1}));
     mesh.joints.push_back({});
     mesh.weights.push_back({1, 0, 0, 0});
   }
@@ -140,8 +141,18 @@ TEST(BuildLevels, MakesNoLevelForSizesThatImpostorsHave) {
   const AvatarLevels levels = DomesChain(50);
   ASSERT_GE(levels.levels.size(), 3u);
   for (size_t k = 1; k + 1 < levels.levels.size(); ++k) EXPECT_GT(levels.levels[k].switch_px, 64) << "level " << k + 1;
-  // And none beside another that is hardly worse.
-  for (size_t k = 1; k + 1 < levels.levels.size(); ++k) EXPECT_LT(levels.levels[k].switch_px, 0.85f * levels.levels[k - 1].switch_px);
+}
+
+TEST(BuildLevels, ShowsNoLevelLargeWhoseLightLooksUnlikeTheOriginals) {
+  const AvatarLevels levels = DomesChain(50);
+  ASSERT_GE(levels.levels.size(), 3u);
+  EXPECT_GT(levels.levels.back().normal_deg, 2.5f);
+  for (size_t k = 1; k < levels.levels.size(); ++k) {
+    EXPECT_GT(levels.levels[k].normal_deg, levels.levels[k - 1].normal_deg);
+    if (levels.levels[k].normal_deg > 2.5f) {
+      EXPECT_LE(levels.levels[k - 1].switch_px, 128) << "level " << k;
+    }
+  }
 }
 
 TEST(BuildLevels, SwitchesNearerWhereMorePixelsMayShow) {
