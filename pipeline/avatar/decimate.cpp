@@ -30,6 +30,7 @@ constexpr float kCoarsest_px = 64;    // half of it: below it nobody is a mesh
 constexpr float kTurned_deg = 2.5f;   // of normals: a level that is further off is none for people higher than impostors
 constexpr float kHardlyWorse = 0.85f;  // of the height on screen up to which a finer level serves,
 constexpr float kHardlyFewer = 0.7f;   // which has so many triangles
+constexpr size_t kFewestLevels = 3;   // where triangles allow: for tight budgets
 constexpr float kFewestUseful = 250;  // triangles: fewer save nothing beside the rest of a frame
 
 Error CheckMeshes(const Avatar& avatar) {
@@ -114,14 +115,17 @@ void ChooseLevels(const Avatar& avatar, float error_px, std::vector<AvatarLevel>
   std::vector<AvatarLevel> chosen;
   for (AvatarLevel& level : *levels) {
     const float limit_px = Limit_px(level, avatar, error_px);
-    // Finer ones go where this one serves everybody, or no worse, or where impostors serve as well hardly worse with hardly fewer triangles.
+    const auto hardly_fewer = [&](const AvatarLevel& finer) {
+      return static_cast<float>(level.triangles) > kHardlyFewer * static_cast<float>(finer.triangles);
+    };
+    // Finer ones go where this one serves everybody, or no worse, or, where impostors serve as well, hardly worse.
     const auto spares = [&](const AvatarLevel& finer) {
-      const bool alike = limit_px < kImpostor_px &&
-                         static_cast<float>(level.triangles) > kHardlyFewer * static_cast<float>(finer.triangles);
+      const bool alike = limit_px < kImpostor_px && hardly_fewer(finer);
       return limit_px > kFinest_px || limit_px >= (alike ? kHardlyWorse : 1) * Limit_px(finer, avatar, error_px);
     };
     while (chosen.size() > 1 && spares(chosen.back())) chosen.pop_back();
-    if (chosen.size() > 1 && limit_px <= kCoarsest_px) break;
+    if (chosen.size() >= kFewestLevels && limit_px <= kCoarsest_px) break;
+    if (chosen.size() > 1 && limit_px <= kCoarsest_px && hardly_fewer(chosen.back())) continue;
     chosen.push_back(std::move(level));
   }
   *levels = std::move(chosen);
