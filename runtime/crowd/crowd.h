@@ -40,6 +40,9 @@ struct Mind {
   bool stands = false, avoids_camera = false;
 };
 
+// Who was moved apart in this step, and no longer is where the grid has them: lists by cell of the grid they are in now; -1 ends one.
+struct Displaced { std::vector<int> first, next; };
+
 struct Crowd {
   std::vector<int> id, avatar;
   std::vector<Vec2> position, velocity;
@@ -75,7 +78,7 @@ struct Crowd {
   std::vector<int> caring;              // who cares, by index
   NeighbourGrid neighbours;
   std::vector<std::pair<int, int>> contacts;
-  std::vector<int> displaced;
+  Displaced displaced;
   WaySearch search;
 
   size_t size() const { return id.size(); }

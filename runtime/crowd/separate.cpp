@@ -1,6 +1,7 @@
 // Separation in the boundary: nobody sees it, so it happens at once.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/crowd.h"
@@ -26,51 +27,89 @@ bool Touches(const Crowd& c, size_t i, Vec2 p, size_t j) {
   return j != i && Dot(apart, apart) < reach_m * reach_m;
 }
 
-bool Overlaps(const Spot& s, const Crowd& c, size_t i, Vec2 p) {
-  for (int j : c.displaced) {  // no longer where the grid has them
-    if (Touches(c, i, p, static_cast<size_t>(j))) return true;
+size_t CellOf(const NeighbourGrid& g, Vec2 p) {
+  const int x = CellIndex(p.x, g.min_m.x, g.cell_m, g.columns), y = CellIndex(p.y, g.min_m.y, g.cell_m, g.rows);
+  return static_cast<size_t>(y * g.columns + x);
+}
+
+bool OverlapsDisplaced(const Crowd& c, size_t i, Vec2 p, float reach_m) {
+  const NeighbourGrid& g = c.neighbours;
+  const size_t first = CellOf(g, p - Vec2{reach_m, reach_m}), last = CellOf(g, p + Vec2{reach_m, reach_m});
+  const size_t columns = static_cast<size_t>(g.columns), x0 = first % columns, x1 = last % columns;
+  for (size_t y = first / columns; y <= last / columns; ++y) {
+    for (size_t x = x0; x <= x1; ++x) {
+      for (int j = c.displaced.first[y * columns + x]; j >= 0; j = c.displaced.next[static_cast<size_t>(j)]) {
+        if (Touches(c, i, p, static_cast<size_t>(j))) return true;
+      }
+    }
   }
+  return false;
+}
+
+bool Overlaps(const Spot& s, const Crowd& c, size_t i, Vec2 p) {
+  const float reach_m = c.radius_m[i] + s.most_radius_m;
+  if (OverlapsDisplaced(c, i, p, reach_m)) return true;
   bool any = false;
-  VisitNear(c.neighbours, p, c.radius_m[i] + s.most_radius_m,
-            [&](const Neighbour& other) { any = any || Touches(c, i, p, static_cast<size_t>(other.person)); });
+  VisitNear(c.neighbours, p, reach_m, [&](const Neighbour& other) { any = any || Touches(c, i, p, static_cast<size_t>(other.person)); });
   return any;
 }
 
 // Fits there without touching anything, on the same side of all walls.
-bool Fits(const Spot& s, const Crowd& c, size_t i, Vec2 p) {
-  if (s.keep_out(p, s.volume) || !IsFree(*s.w, p) || Overlaps(s, c, i, p)) return false;
-  const int there = CellAt(*s.w, p), here = NearestFreeCell(*s.w, c.position[i], 1.0f);
-  return here >= 0 && s.w->component[static_cast<size_t>(there)] == s.w->component[static_cast<size_t>(here)] &&
-         Clearance(*s.w, there, p) >= c.radius_m[i];
+bool Fits(const Spot& s, const Crowd& c, size_t i, int component, Vec2 p) {
+  if (s.keep_out(p, s.volume) || !IsFree(*s.w, p)) return false;
+  const int there = CellAt(*s.w, p);
+  if (s.w->component[static_cast<size_t>(there)] != component || Overlaps(s, c, i, p)) return false;
+  return Clearance(*s.w, there, p) >= c.radius_m[i];
+}
+
+// Offsets of the spots looked at, nearest first: rings that grow.
+std::vector<Vec2> MakeRings() {
+  std::vector<Vec2> offsets;
+  for (int ring = 1; ring <= kRings; ++ring) {
+    const float reach_m = kRing_m * static_cast<float>(ring);
+    const int spots = 8 + 4 * ring;
+    for (int k = 0; k < spots; ++k) {
+      const float angle = 2 * kPi * static_cast<float>(k) / static_cast<float>(spots);
+      offsets.push_back(Vec2{std::cos(angle), std::sin(angle)} * reach_m);
+    }
+  }
+  return offsets;
+}
+
+const std::vector<Vec2> kOffsets = MakeRings();
+
+void Displace(const Spot& s, size_t i, Crowd* c) {
+  const int here = NearestFreeCell(*s.w, c->position[i], 1.0f);
+  if (here < 0) return;
+  const int component = s.w->component[static_cast<size_t>(here)];
+  for (const Vec2 offset : kOffsets) {
+    const Vec2 p = c->position[i] + offset;
+    if (!Fits(s, *c, i, component, p)) continue;
+    c->position[i] = p;
+    int& first = c->displaced.first[CellOf(c->neighbours, p)];
+    c->displaced.next[i] = first;
+    first = static_cast<int>(i);
+    return;
+  }
 }
 
 }  // namespace
 
 void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, const void*), const void* volume, Crowd* c) {
   Spot spot{&w, keep_out, volume, 0};
-  c->displaced.clear();
   c->caring.clear();
   for (size_t i = 0; i < c->size(); ++i) {
     if (c->view[i] != ViewClass::kOutside) c->caring.push_back(static_cast<int>(i));
     spot.most_radius_m = std::max(spot.most_radius_m, c->radius_m[i]);
   }
   SortIntoGrid(c->caring, c->position, c->velocity, c->radius_m, kNeighbourRadius_m / 2, &c->neighbours);
+  c->displaced.first.reserve(c->neighbours.start.capacity());
+  c->displaced.first.assign(c->neighbours.start.size(), -1);
+  c->displaced.next.resize(c->size());
   for (int who : c->caring) {
     const size_t i = static_cast<size_t>(who);
     if (c->view[i] != ViewClass::kBoundary || c->was_visible[i] || !Overlaps(spot, *c, i, c->position[i])) continue;
-    bool placed = false;
-    for (int ring = 1; ring <= kRings && !placed; ++ring) {  // the nearest free spot on growing rings
-      const float reach_m = kRing_m * static_cast<float>(ring);
-      const int spots = 8 + 4 * ring;
-      for (int k = 0; k < spots && !placed; ++k) {
-        const float angle = 2 * kPi * static_cast<float>(k) / static_cast<float>(spots);
-        const Vec2 p = c->position[i] + Vec2{std::cos(angle), std::sin(angle)} * reach_m;
-        placed = Fits(spot, *c, i, p);
-        if (!placed) continue;
-        c->position[i] = p;
-        c->displaced.push_back(static_cast<int>(i));
-      }
-    }
+    Displace(spot, i, c);
   }
 }
 

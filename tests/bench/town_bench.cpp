@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kDensity_pm2 = 0.3f, kTurn_radps = 0.5f, kOuterApexBack_m = 20;
 constexpr int kWarmUp_steps = 150;
+constexpr size_t kGoals = 24;
 
 struct Town {
   Walkable walkable;
@@ -52,10 +53,10 @@ void TakeTown(const TourPack& pack, float scale, Walkable* w) {
 int SomeField(Town* t) { return t->fields[static_cast<size_t>(t->random.Below(static_cast<int>(t->fields.size())))]; }
 
 void Settle(const TourPack& pack, int people, float scale, Town* t) {
-  for (const PackPlace& place : pack.places) {
-    const int cell = NearestFreeCell(t->walkable, place.position_m * scale, 3 * scale);
+  const size_t every = std::max<size_t>(1, pack.places.size() / kGoals);  // all over the town, as people's destinations are
+  for (size_t k = 0; k < pack.places.size(); k += every) {
+    const int cell = NearestFreeCell(t->walkable, pack.places[k].position_m * scale, 3 * scale);
     if (cell >= 0) t->fields.push_back(FieldFor(CellCenter(t->walkable, cell), &t->crowd));
-    if (t->fields.size() == 24) break;
   }
   for (int f : t->fields) BuildField(t->walkable, f, &t->crowd);
   std::vector<int> cells;
@@ -79,7 +80,7 @@ void StepTown(Town* t) {
   t->crowd.viewer = t->camera.position;
   StepCrowd(t->walkable, {{t->camera.position, 0.6f, true, {}}}, kOpenFieldStep_s, &t->crowd);
   for (size_t i = 0; i < t->crowd.size(); ++i) {
-    if (t->crowd.arrived[i] == Arrival::kThere) SetGoal(i, SomeField(t), &t->crowd);
+    if (t->crowd.arrived[i] != Arrival::kNot) SetGoal(i, SomeField(t), &t->crowd);
   }
 }
 
