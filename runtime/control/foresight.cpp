@@ -18,6 +18,7 @@ constexpr int kTurnMoments[State::kTurns] = {0, 2, 4};  // the first is now
 constexpr float kReach_m = 8;              // beyond r_high: who may be inside within the foresight
 constexpr float kRim_m = 0.6f;             // the forecast is that uncertain
 constexpr float kReserve = 0.2f;           // share of the limit kept free for surprises
+constexpr int kReservesFrom = 5;           // people; of a smaller limit everybody is needed
 constexpr float kTurnLasts_s = 1.0f;       // a turn of the head dies away
 constexpr float kWalksOn_s = 2.6f;         // in the new direction after a turn,
 constexpr float kWalksOn_m = 8;            // at most so far
@@ -26,8 +27,7 @@ constexpr float kAheadFree_s = 1.5f;       // and must be walkable so far
 constexpr float kPaces[] = {1.0f, 0.75f, 1.2f, 0.45f};
 constexpr float kTurns_rad[] = {0, 0.3f, -0.3f, 0.6f, -0.6f, 1.0f, -1.0f, 1.5f, -1.5f};
 constexpr float kMostTurnInView_rad = 1.1f;
-constexpr float kLeastPaceInView = 0.7f;
-constexpr float kCostInView = 1.2f;
+constexpr float kCostInView = 1.35f;
 constexpr float kCostUnseen = 0.1f;  // moments in the way that one radian is worth
 constexpr float kCostOfPace = 1.5f;        // of doubling the pace, in radians
 constexpr float kStepsAside_s = 3;         // people make room for the visitor so long before
@@ -204,7 +204,7 @@ void Consider(const Walkable& w, const ForesightSettings& s, size_t i, const For
   State::Choice best{0, static_cast<int>(i), {}};
   for (const float pace : kPaces) {
     const float speed_mps = std::min(pace * preferred_mps, c.top_mps[i]);
-    if (seen && pace < kLeastPaceInView) continue;
+    if (seen && pace < 1) continue;  // who dawdles is noticed
     const float change = kCostOfPace * std::abs(speed_mps - now_mps) / preferred_mps;
     for (const float turn : kTurns_rad) {
       if (seen && std::abs(turn) > kMostTurnInView_rad) continue;
@@ -242,7 +242,8 @@ void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable&
              Crowd* c, State* state) {
   FollowCamera(camera, motion, s.step_s, state);
   if (state->step++ % kPlanEvery_steps != 0) return;
-  const int capacity = s.high_limit - std::max(1, static_cast<int>(std::lround(kReserve * static_cast<float>(s.high_limit))));
+  const int reserve = s.high_limit < kReservesFrom ? 0 : static_cast<int>(std::lround(kReserve * static_cast<float>(s.high_limit)));
+  const int capacity = s.high_limit - reserve;
   const float reach_m = s.r_high_m + kReach_m + state->speed_mps * MomentTime_s(State::kMoments - 1);
   state->near.clear();
   state->choices.clear();
