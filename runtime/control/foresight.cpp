@@ -24,9 +24,10 @@ constexpr float kWalksOn_s = 2.6f;         // in the new direction after a turn,
 constexpr float kWalksOn_m = 8;            // at most so far
 constexpr float kDetour_s = 2.0f;          // a choice holds so long
 constexpr float kAheadFree_s = 1.5f;       // and must be walkable so far
-constexpr float kPaces[] = {1.0f, 0.75f, 1.2f, 0.45f};
+constexpr float kPaces[] = {1.0f, 0.85f, 1.2f, 0.75f, 0.45f};
 constexpr float kTurns_rad[] = {0, 0.3f, -0.3f, 0.6f, -0.6f, 1.0f, -1.0f, 1.5f, -1.5f};
 constexpr float kMostTurnInView_rad = 1.1f;
+constexpr float kLeastPaceInView = 0.8f;  // who dawdles is noticed
 constexpr float kCostInView = 1.35f;
 constexpr float kCostUnseen = 0.1f;  // moments in the way that one radian is worth
 constexpr float kCostOfPace = 1.5f;        // of doubling the pace, in radians
@@ -204,7 +205,7 @@ void Consider(const Walkable& w, const ForesightSettings& s, size_t i, const For
   State::Choice best{0, static_cast<int>(i), {}};
   for (const float pace : kPaces) {
     const float speed_mps = std::min(pace * preferred_mps, c.top_mps[i]);
-    if (seen && pace < 1) continue;  // who dawdles is noticed
+    if (seen && pace < kLeastPaceInView) continue;
     const float change = kCostOfPace * std::abs(speed_mps - now_mps) / preferred_mps;
     for (const float turn : kTurns_rad) {
       if (seen && std::abs(turn) > kMostTurnInView_rad) continue;
