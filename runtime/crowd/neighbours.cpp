@@ -30,10 +30,7 @@ void SortIntoGrid(const std::vector<int>& people, const std::vector<Vec2>& posit
   g->cell_of.reserve(position.size());
   g->cell_of.resize(people.size());
   for (size_t k = 0; k < people.size(); ++k) {
-    const Vec2 p = position[static_cast<size_t>(people[k])];
-    const int x = CellIndex(p.x, g->min_m.x, cell_m, g->columns);
-    const int y = CellIndex(p.y, g->min_m.y, cell_m, g->rows);
-    g->cell_of[k] = y * g->columns + x;
+    g->cell_of[k] = CellOf(*g, position[static_cast<size_t>(people[k])]);
     ++g->start[static_cast<size_t>(g->cell_of[k])];
   }
   int end = 0;  // start[c] becomes the end of cell c, and sinks to its start while people are put in backwards

@@ -35,16 +35,25 @@ inline int CellIndex(float v, float origin, float cell_m, int count) {
   return k < 0 ? 0 : k >= count ? count - 1 : k;
 }
 
+inline int CellOf(const NeighbourGrid& g, Vec2 p) {
+  return CellIndex(p.y, g.min_m.y, g.cell_m, g.rows) * g.columns + CellIndex(p.x, g.min_m.x, g.cell_m, g.columns);
+}
+
+struct CellRange { int x0 = 0, x1 = 0, y0 = 0, y1 = 0; };  // columns x0 to x1 of the rows y0 to y1
+
+// The cells within reach_m of p.
+inline CellRange CellsNear(const NeighbourGrid& g, Vec2 p, float reach_m) {
+  return {CellIndex(p.x - reach_m, g.min_m.x, g.cell_m, g.columns), CellIndex(p.x + reach_m, g.min_m.x, g.cell_m, g.columns),
+          CellIndex(p.y - reach_m, g.min_m.y, g.cell_m, g.rows), CellIndex(p.y + reach_m, g.min_m.y, g.cell_m, g.rows)};
+}
+
 // Calls visit(first, end) for each row of cells within reach_m of p: the people of a row's cells lie side by side in g.people.
 template <typename Visit>
 void VisitRows(const NeighbourGrid& g, Vec2 p, float reach_m, Visit visit) {
-  const int x0 = CellIndex(p.x - reach_m, g.min_m.x, g.cell_m, g.columns);
-  const int x1 = CellIndex(p.x + reach_m, g.min_m.x, g.cell_m, g.columns);
-  const int y0 = CellIndex(p.y - reach_m, g.min_m.y, g.cell_m, g.rows);
-  const int y1 = CellIndex(p.y + reach_m, g.min_m.y, g.cell_m, g.rows);
-  for (int y = y0; y <= y1; ++y) {
-    const int first = g.start[static_cast<size_t>(y * g.columns + x0)];
-    const int end = g.start[static_cast<size_t>(y * g.columns + x1) + 1];
+  const CellRange near = CellsNear(g, p, reach_m);
+  for (int y = near.y0; y <= near.y1; ++y) {
+    const int first = g.start[static_cast<size_t>(y * g.columns + near.x0)];
+    const int end = g.start[static_cast<size_t>(y * g.columns + near.x1) + 1];
     if (first < end) visit(&g.people[static_cast<size_t>(first)], g.people.data() + end);
   }
 }

@@ -27,18 +27,12 @@ bool Touches(const Crowd& c, size_t i, Vec2 p, size_t j) {
   return j != i && Dot(apart, apart) < reach_m * reach_m;
 }
 
-size_t CellOf(const NeighbourGrid& g, Vec2 p) {
-  const int x = CellIndex(p.x, g.min_m.x, g.cell_m, g.columns), y = CellIndex(p.y, g.min_m.y, g.cell_m, g.rows);
-  return static_cast<size_t>(y * g.columns + x);
-}
-
 bool OverlapsDisplaced(const Crowd& c, size_t i, Vec2 p, float reach_m) {
-  const NeighbourGrid& g = c.neighbours;
-  const size_t first = CellOf(g, p - Vec2{reach_m, reach_m}), last = CellOf(g, p + Vec2{reach_m, reach_m});
-  const size_t columns = static_cast<size_t>(g.columns), x0 = first % columns, x1 = last % columns;
-  for (size_t y = first / columns; y <= last / columns; ++y) {
-    for (size_t x = x0; x <= x1; ++x) {
-      for (int j = c.displaced.first[y * columns + x]; j >= 0; j = c.displaced.next[static_cast<size_t>(j)]) {
+  const CellRange near = CellsNear(c.neighbours, p, reach_m);
+  for (int y = near.y0; y <= near.y1; ++y) {
+    for (int x = near.x0; x <= near.x1; ++x) {
+      int j = c.displaced.first[static_cast<size_t>(y * c.neighbours.columns + x)];
+      for (; j >= 0; j = c.displaced.next[static_cast<size_t>(j)]) {
         if (Touches(c, i, p, static_cast<size_t>(j))) return true;
       }
     }
@@ -86,7 +80,7 @@ void Displace(const Spot& s, size_t i, Crowd* c) {
     const Vec2 p = c->position[i] + offset;
     if (!Fits(s, *c, i, component, p)) continue;
     c->position[i] = p;
-    int& first = c->displaced.first[CellOf(c->neighbours, p)];
+    int& first = c->displaced.first[static_cast<size_t>(CellOf(c->neighbours, p))];
     c->displaced.next[i] = first;
     first = static_cast<int>(i);
     return;

@@ -80,19 +80,30 @@ TEST(BuildLevels, SwitchesWhereTheNextErrorIsAPixel) {
   EXPECT_NEAR(levels.levels[levels.levels.size() - 2].switch_px * error_mm, 1800, 1);
 }
 
-// The chain that makes itself, for tubes of so many rings: 96 triangles a ring.
-AvatarLevels OwnChain(int rings) {
+Avatar PersonWithoutBody() {
   Avatar avatar = MadePerson();
-  Mesh& mesh = avatar.meshes[0];
-  mesh = {};
-  mesh.name = "body";
-  mesh.material = 0;
-  AddTube(0, 0.9f, 1.8f, 0.2f, rings, 0, &mesh);
-  AddTube(0.1f, 0, 0.9f, 0.08f, rings, 1, &mesh);
-  AddTube(-0.1f, 0, 0.9f, 0.08f, rings, 2, &mesh);
+  avatar.meshes[0] = {};
+  avatar.meshes[0].name = "body";
+  avatar.meshes[0].material = 0;
+  return avatar;
+}
+
+// The chain that makes itself.
+AvatarLevels ChainOf(const Avatar& avatar) {
   AvatarLevels levels;
   std::vector<std::string> warnings;
   EXPECT_EQ(BuildLevels(avatar, {}, &levels, &warnings).message, "");
+  return levels;
+}
+
+// For tubes of so many rings: 96 triangles a ring.
+AvatarLevels OwnChain(int rings) {
+  Avatar avatar = PersonWithoutBody();
+  Mesh& mesh = avatar.meshes[0];
+  AddTube(0, 0.9f, 1.8f, 0.2f, rings, 0, &mesh);
+  AddTube(0.1f, 0, 0.9f, 0.08f, rings, 1, &mesh);
+  AddTube(-0.1f, 0, 0.9f, 0.08f, rings, 2, &mesh);
+  const AvatarLevels levels = ChainOf(avatar);
   ExpectSoundLevels(avatar, levels);
   return levels;
 }
@@ -112,11 +123,8 @@ TEST(BuildLevels, MakesAsManyLevelsAsTheErrorsAskFor) {
 
 // A dome's levels lose a little of its shape each: 0.4 m wide on a person of 1.8 m, of 2 n^2 triangles.
 AvatarLevels DomesChain(int n) {
-  Avatar avatar = MadePerson();
+  Avatar avatar = PersonWithoutBody();
   Mesh& mesh = avatar.meshes[0];
-  mesh = {};
-  mesh.name = "body";
-  mesh.material = 0;
   for (int k = 0; k < (n + 1) * (n + 1); ++k) {
     const float x = static_cast<float>(k % (n + 1)) / static_cast<float>(n), y = static_cast<float>(k / (n + 1)) / static_cast<float>(n);
     const Vec3 p{0.4f * (x - 0.5f), 0.4f * (y - 0.5f), 0.15f * std::cos(7 * kPi * (x - 0.5f)) * std::cos(7 * kPi * (y - 0.5f))};
@@ -131,10 +139,7 @@ AvatarLevels DomesChain(int n) {
     const uint32_t a = k / width * (width + 1) + k % width;
     mesh.indices.insert(mesh.indices.end(), {a, a + 1, a + width + 2, a, a + width + 2, a + width + 1});
   }
-  AvatarLevels levels;
-  std::vector<std::string> warnings;
-  EXPECT_EQ(BuildLevels(avatar, {}, &levels, &warnings).message, "");
-  return levels;
+  return ChainOf(avatar);
 }
 
 TEST(BuildLevels, MakesNoLevelForSizesThatImpostorsHave) {
