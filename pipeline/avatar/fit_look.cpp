@@ -23,6 +23,7 @@ namespace {
 constexpr float kSameSide = 0.3f;     // cosine between normals of places that belong together
 constexpr float kSameNormal = 0.98f;  // cosine; nearer ones at one vertex are one normal
 constexpr size_t kSamplesAFace = 7, kFewestSamples = 6000;
+constexpr size_t kBlock = 256;  // places on one thread
 constexpr float kSameColor = 0.01f;
 constexpr float kSameUv = 1e-4f;
 constexpr float kFarthest_m = 0.06f;  // of where a picture has drifted to; farther off is beyond a seam
@@ -53,14 +54,17 @@ float MetresOfUv(const std::array<Vec3, 3>& triangle, const std::vector<Vec2>& u
   return uv > 0 ? metres / uv : 0;
 }
 
-// `there`: the triangle that the place is in.
-Tie TieOf(const WedgeSurface& level, const std::vector<LookOriginal>& originals, const Place& place, const std::array<Vec3, 3>& there) {
+// `there`: the triangle that the place is in. `guesses`: by mesh, of where the nearest place is.
+Tie TieOf(const WedgeSurface& level, const std::vector<LookOriginal>& originals, const Place& place, const std::array<Vec3, 3>& there,
+          std::vector<uint32_t>* guesses) {
   const WedgeSurface::Face& face = level.faces[place.triangle];
   Tie tie{face.wedges, place.shares, {}, {}, {}, false, false};
   const auto wedge = [&](size_t k) -> const WedgeSurface::Wedge& { return level.wedges[static_cast<size_t>(face.wedges[k])]; };
   const LookOriginal& original = originals[static_cast<size_t>(wedge(0).mesh)];
   if (!original.tree) return tie;
-  const auto found = original.tree->Find(At(there, place.shares));
+  uint32_t& guess = (*guesses)[static_cast<size_t>(wedge(0).mesh)];
+  const auto found = original.tree->Find(At(there, place.shares), guess);
+  guess = found.triangle;
   if (!(Dot(FaceNormal(original.triangles[found.triangle]), FaceNormal(there)) > kSameSide)) return tie;
   const uint32_t* corners = &original.mesh->indices[size_t{3} * found.triangle];
   if (!original.mesh->normals.empty()) tie.normal = Normalized(Mixed(original.mesh->normals, corners, found.shares));
@@ -94,21 +98,46 @@ std::vector<int> Alike(const WedgeSurface& level, auto alike) {
   return numbers;
 }
 
+// The corners of ties that pull at each value, one value after the other.
+struct Pulls {
+  struct Corner {
+    uint32_t tie;
+    float share;
+  };
+  std::vector<size_t> first;  // by value, and the end
+  std::vector<Corner> corners;
+};
+
+Pulls PullsOf(const std::vector<Tie>& ties, bool Tie::* counts, const std::vector<int>& numbers) {
+  Pulls pulls;
+  pulls.first.resize(numbers.size() + 2);
+  const auto each = [&](auto visit) {
+    for (size_t i = 0; i < ties.size(); ++i) {
+      for (size_t k = 0; k < 3 && ties[i].*counts; ++k) {
+        visit(i, k, static_cast<size_t>(numbers[static_cast<size_t>(ties[i].wedges[k])]));
+      }
+    }
+  };
+  each([&](size_t, size_t, size_t value) { ++pulls.first[value + 2]; });
+  for (size_t v = 2; v < pulls.first.size(); ++v) pulls.first[v] += pulls.first[v - 1];
+  pulls.corners.resize(pulls.first.back());
+  each([&](size_t i, size_t k, size_t value) {
+    pulls.corners[pulls.first[value + 1]++] = {static_cast<uint32_t>(i), ties[i].shares[k]};
+  });
+  return pulls;
+}
+
 // Values at the corners that, mixed by their shares, come nearest to the ties' wanted ones: solved one after the other, in rounds.
 template <typename Value>
 void Solve(const std::vector<Tie>& ties, bool Tie::* counts, const std::vector<int>& numbers, Value Tie::* wanted, int rounds,
            std::vector<Value>* values) {
-  std::vector<std::vector<std::pair<uint32_t, uint32_t>>> pulls(values->size());  // tie and corner
+  const Pulls pulls = PullsOf(ties, counts, numbers);
   std::vector<Value> left(ties.size());
-  const auto value_of = [&](const Tie& tie, size_t k) -> Value& {
-    return (*values)[static_cast<size_t>(numbers[static_cast<size_t>(tie.wedges[k])])];
-  };
-  for (size_t i = 0; i < ties.size(); ++i) {
-    if (!(ties[i].*counts)) continue;
-    left[i] = ties[i].*wanted;
-    for (uint32_t k = 0; k < 3; ++k) {
-      left[i] = left[i] - value_of(ties[i], k) * ties[i].shares[k];
-      pulls[static_cast<size_t>(numbers[static_cast<size_t>(ties[i].wedges[k])])].push_back({static_cast<uint32_t>(i), k});
+  for (size_t i = 0; i < ties.size(); ++i) left[i] = ties[i].*wanted;
+  for (size_t v = 0; v < values->size(); ++v) {
+    for (size_t p = pulls.first[v]; p < pulls.first[v + 1]; ++p) {
+      const auto [i, share] = pulls.corners[p];
+      left[i] = left[i] - (*values)[v] * share;
     }
   }
   const std::vector<Value> before = *values;
@@ -116,8 +145,8 @@ void Solve(const std::vector<Tie>& ties, bool Tie::* counts, const std::vector<i
     for (size_t v = 0; v < values->size(); ++v) {
       float weight = 0;
       Value sum{};
-      for (const auto& [i, k] : pulls[v]) {
-        const float share = ties[i].shares[k];
+      for (size_t p = pulls.first[v]; p < pulls.first[v + 1]; ++p) {
+        const auto [i, share] = pulls.corners[p];
         sum = sum + left[i] * share;
         weight += share * share;
       }
@@ -125,7 +154,10 @@ void Solve(const std::vector<Tie>& ties, bool Tie::* counts, const std::vector<i
       const float inertia = kInertia * weight;
       const Value step = (sum + (before[v] - (*values)[v]) * inertia) * (1 / (weight + inertia));
       (*values)[v] = (*values)[v] + step;
-      for (const auto& [i, k] : pulls[v]) left[i] = left[i] - step * ties[i].shares[k];
+      for (size_t p = pulls.first[v]; p < pulls.first[v + 1]; ++p) {
+        const auto [i, share] = pulls.corners[p];
+        left[i] = left[i] - step * share;
+      }
     }
   }
 }
@@ -151,6 +183,7 @@ LookFitter::LookFitter(const std::vector<Mesh>& original, const LookOptions& opt
   auto first = charts.begin();
   for (const Mesh& mesh : original) {
     LookOriginal& one = originals_.emplace_back(LookOriginal{&mesh, PosedTriangles({mesh}, nullptr), nullptr, {}});
+    colored_ = colored_ || !mesh.colors.empty();
     if (!one.triangles.empty()) one.tree = std::make_unique<SurfaceTree>(one.triangles);
     const auto end = first + static_cast<std::ptrdiff_t>(mesh.positions.size());
     one.charts.assign(first, end);
@@ -173,7 +206,13 @@ void LookFitter::Fit(WedgeSurface* level) const {
   const std::vector<Place> places = SpreadPlaces(triangles, static_cast<int>(samples));
   std::vector<Tie> ties(places.size());
   RunOnThreads([&](size_t first, size_t step) {
-    for (size_t i = first; i < ties.size(); i += step) ties[i] = TieOf(*level, originals_, places[i], triangles[places[i].triangle]);
+    // In blocks that do not depend on the number of threads: of equal distances a guess decides.
+    for (size_t start = first * kBlock; start < ties.size(); start += step * kBlock) {
+      std::vector<uint32_t> guesses(originals_.size(), 0);
+      for (size_t i = start; i < std::min(start + kBlock, ties.size()); ++i) {
+        ties[i] = TieOf(*level, originals_, places[i], triangles[places[i].triangle], &guesses);
+      }
+    }
   });
   using Wedge = WedgeSurface::Wedge;
   const std::vector<int> normal_of = Alike(*level, [](const Wedge& a, const Wedge& b) { return Dot(a.normal, b.normal) > kSameNormal; });
@@ -184,7 +223,7 @@ void LookFitter::Fit(WedgeSurface* level) const {
     return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z), std::abs(d.w)}) < kSameColor;
   });
   std::vector<Vec4> colors = ValuesOf(*level, color_of, &Wedge::color);
-  Solve(ties, &Tie::counts, color_of, &Tie::color, options_.rounds, &colors);
+  if (colored_) Solve(ties, &Tie::counts, color_of, &Tie::color, options_.rounds, &colors);
   const std::vector<int> uv_of =
       Alike(*level, [](const Wedge& a, const Wedge& b) { return a.chart == b.chart && Length(a.uv - b.uv) < kSameUv; });
   std::vector<Vec2> uvs = ValuesOf(*level, uv_of, &Wedge::uv);

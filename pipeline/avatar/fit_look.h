@@ -31,6 +31,7 @@ class LookFitter {
   LookOptions options_;
   std::vector<LookOriginal> originals_;  // one a mesh
   std::vector<ChartBounds> bounds_;      // by chart
+  bool colored_ = false;                 // some mesh has colours at its vertices
 };
 
 }  // namespace flaneur

@@ -58,6 +58,7 @@ class Fitter {
     }
     skinning_.resize(level->vertices.size() * (poses_.size() + 1));
     posed_.resize(skinning_.size());
+    pulls_.resize(Poses());
     for (size_t v = 0; v < level->vertices.size(); ++v) Pose(v);
   }
 
@@ -91,6 +92,7 @@ class Fitter {
   void Solve() {
     for (size_t v = 0; v < level_->vertices.size(); ++v) {
       if (ties_of_[v].empty()) continue;
+      for (size_t k = 0; k < Poses(); ++k) pulls_[k] = Pull(v, k);
       Move(v);
       if (!poses_.empty()) Reweigh(v);
     }
@@ -126,8 +128,10 @@ class Fitter {
   }
 
   void SortTies() {
-    ties_of_.assign(level_->vertices.size(), {});
+    ties_of_.resize(level_->vertices.size());
+    for (auto& ties : ties_of_) ties.clear();
     targets_.clear();
+    targets_.reserve(ties_.size() * Poses());
     for (size_t i = 0; i < ties_.size(); ++i) {
       const Place& place = ties_[i].on_level;
       for (size_t k = 0; k < 3; ++k) {
@@ -225,7 +229,7 @@ class Fitter {
   void Move(size_t v) {
     Quadric sum;
     for (size_t k = 0; k < Poses(); ++k) {
-      AddPulledBack(Pull(v, k), skinning_[v * Poses() + k], &sum);
+      AddPulledBack(pulls_[k], skinning_[v * Poses() + k], &sum);
     }
     const Vec3 to = ToFloat(Minimizer(sum, ToDouble(level_->vertices[v].position), kInertia));
     if (!(Length(to - start_[v]) <= kFarthest * reach_[v]) || TurnsOver(v, to)) return;
@@ -236,12 +240,8 @@ class Fitter {
   // Shifts weight between pairs of the vertex's joints, each time by what serves best.
   void Reweigh(size_t v) {
     WedgeSurface::Vertex& vertex = level_->vertices[v];
-    std::vector<Quadric> pulls;
     double scale = 0;
-    for (size_t k = 1; k < Poses(); ++k) {
-      pulls.push_back(Pull(v, k));
-      scale += pulls.back().xx + pulls.back().yy + pulls.back().zz;
-    }
+    for (size_t k = 1; k < Poses(); ++k) scale += pulls_[k].xx + pulls_[k].yy + pulls_[k].zz;
     for (size_t i = 0; i < 4; ++i) {
       for (size_t j = i + 1; j < 4; ++j) {
         if (!(vertex.weights[i] > 0) || !(vertex.weights[j] > 0)) continue;
@@ -253,7 +253,7 @@ class Fitter {
           };
           const DVec3 way = at(vertex.joints[i]) - at(vertex.joints[j]);
           const DVec3 from = posed_[v * Poses() + k];
-          const Quadric& q = pulls[k - 1];
+          const Quadric& q = pulls_[k];
           const double here = Evaluate(q, from), there = Evaluate(q, from + way);
           const double half = Evaluate(q, from + way * 0.5);
           const double bend = 2 * (there - 2 * half + here);  // f(s) = here + b s + bend s^2
@@ -261,7 +261,7 @@ class Fitter {
           slope += there - here - bend;
           way2 += Dot(way, way);
         }
-        curve += kWeightInertia * scale / 3 * way2 / static_cast<double>(pulls.size());
+        curve += kWeightInertia * scale / 3 * way2 / static_cast<double>(poses_.size());
         if (!(curve > 0)) continue;
         const float s = std::clamp(static_cast<float>(-slope / (2 * curve)), -vertex.weights[i],
                                    vertex.weights[j]);
@@ -282,6 +282,7 @@ class Fitter {
   std::vector<std::vector<size_t>> faces_of_;
   std::vector<Affine> skinning_;  // by vertex and pose
   std::vector<DVec3> posed_;
+  std::vector<Quadric> pulls_;  // by pose, of the vertex in hand: they hang on other vertices alone
   std::vector<Place> on_level_;
   std::vector<uint32_t> guesses_;  // of where each one's nearest place is
   std::vector<Tie> ties_;

@@ -59,11 +59,10 @@ class Follower {
     tree_.MoveTo(triangles_);
   }
 
-  // The greatest distance of its points from the other surface. `guesses`: one a point.
-  float FarthestFrom(const Follower& other, std::vector<uint32_t>* guesses) const {
+  // The greatest distance of its points from the other surface, or `greatest` where that is more. `guesses`: one a point.
+  float FarthestFrom(const Follower& other, float greatest, std::vector<uint32_t>* guesses) const {
     const bool first_time = guesses->empty();
     guesses->resize(surface_.places.size(), 0);
-    float greatest = 0;
     for (size_t i = 0; i < guesses->size(); ++i) {
       if (first_time && i > 0) (*guesses)[i] = (*guesses)[i - 1];  // most lie beside the one before
       const Place& place = surface_.places[i];
@@ -79,7 +78,7 @@ class Follower {
   Triangles triangles_;
 };
 
-// Of each level in some of the poses; 0 is the bind pose.
+// Of each level in some of the poses, or what it was in one before; 0 is the bind pose, which stands for itself.
 void MeasurePoses(const Surface& original, const std::vector<std::unique_ptr<Surface>>& levels,
                   const std::vector<std::vector<Mat4>>& poses, size_t first, size_t step,
                   std::vector<std::vector<float>>* errors) {
@@ -99,8 +98,10 @@ void MeasurePoses(const Surface& original, const std::vector<std::unique_ptr<Sur
     for (size_t k = 0; k < levels.size(); ++k) {
       if (!followers[k]) continue;
       followers[k]->MoveTo(matrices);
-      (*errors)[pose][k] = std::max(whole.FarthestFrom(*followers[k], &guesses[k].on_level),
-                                    followers[k]->FarthestFrom(whole, &guesses[k].on_original));
+      float& greatest = (*errors)[pose][k];
+      greatest = pose > step ? (*errors)[pose - step][k] : 0;
+      greatest = whole.FarthestFrom(*followers[k], greatest, &guesses[k].on_level);
+      greatest = followers[k]->FarthestFrom(whole, greatest, &guesses[k].on_original);
     }
   }
 }

@@ -8,18 +8,13 @@
 namespace flaneur {
 namespace {
 
-constexpr uint32_t kLeafTriangles = 4;
+constexpr uint32_t kLeafTriangles = 2;
 constexpr float kFar = 1e30f;
 
 Vec3 Min(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3 Max(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
 float Axis(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-inline float SquaredToBox(Vec3 p, Vec3 min, Vec3 max) {
-  const Vec3 outside = Max(Max(min - p, p - max), Vec3{});
-  return Dot(outside, outside);
-}
 
 // The triangle's point nearest to p, by the region of its plane that p is above (Ericson 2005,
 // Real-Time Collision Detection, 5.1.5).
@@ -65,10 +60,11 @@ SurfaceTree::SurfaceTree(std::vector<std::array<Vec3, 3>> triangles)
     : triangles_(std::move(triangles)), numbers_(triangles_.size()) {
   std::iota(numbers_.begin(), numbers_.end(), 0u);
   std::vector<Vec3> centres;
+  centres.reserve(triangles_.size());
   for (const auto& t : triangles_) centres.push_back(t[0] + t[1] + t[2]);
-  boxes_.reserve(triangles_.size());
-  boxes_.emplace_back();
-  Build(0, 0, static_cast<uint32_t>(triangles_.size()), &centres);
+  nodes_.reserve(triangles_.size() / kLeafTriangles + 1);
+  nodes_.emplace_back();
+  Build(0, {0, static_cast<uint32_t>(triangles_.size())}, centres);
   std::vector<std::array<Vec3, 3>> ordered;
   ordered.reserve(triangles_.size());
   places_.resize(numbers_.size());
@@ -77,82 +73,120 @@ SurfaceTree::SurfaceTree(std::vector<std::array<Vec3, 3>> triangles)
     ordered.push_back(triangles_[i]);
   }
   triangles_ = std::move(ordered);
+  BoundAll();
 }
 
-// Halves the triangles by their centres along the longest side.
-void SurfaceTree::Build(uint32_t box, uint32_t first, uint32_t count, std::vector<Vec3>* centres) {
-  Vec3 min{1e30f, 1e30f, 1e30f}, max{-1e30f, -1e30f, -1e30f};
+uint32_t SurfaceTree::Halve(Range range, const std::vector<Vec3>& centres) {
+  const auto begin = numbers_.begin() + range.first;
+  Vec3 min{kFar, kFar, kFar}, max = min * -1;
+  for (uint32_t i = 0; i < range.count; ++i) {
+    min = Min(min, centres[begin[i]]);
+    max = Max(max, centres[begin[i]]);
+  }
+  const Vec3 size = max - min;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const uint32_t half = range.count / 2;
+  std::nth_element(begin, begin + half, begin + range.count, [&](uint32_t a, uint32_t b) {
+    const float x = Axis(centres[a], axis), y = Axis(centres[b], axis);
+    return x != y ? x < y : a < b;
+  });
+  return half;
+}
+
+void SurfaceTree::Build(uint32_t node, Range range, const std::vector<Vec3>& centres) {
+  std::array<Range, 4> parts{range};
+  size_t count = 1;
+  while (count < 4) {
+    const auto largest = std::max_element(parts.begin(), parts.begin() + count,
+                                          [](Range a, Range b) { return a.count < b.count; });
+    if (largest->count <= kLeafTriangles) break;
+    const uint32_t half = Halve(*largest, centres);
+    parts[count++] = {largest->first + half, largest->count - half};
+    largest->count = half;
+  }
+  for (size_t i = 0; i < count; ++i) {
+    if (parts[i].count <= kLeafTriangles) {
+      nodes_[node].first[i] = parts[i].first;
+      nodes_[node].count[i] = parts[i].count;
+      continue;
+    }
+    const auto child = static_cast<uint32_t>(nodes_.size());
+    nodes_[node].first[i] = child;
+    nodes_.emplace_back();
+    Build(child, parts[i], centres);
+  }
+}
+
+// Part `part` of the node; parts of later nodes must be bounded already.
+void SurfaceTree::Bound(Node* node, size_t part) const {
+  Vec3 min{kFar, kFar, kFar}, max = min * -1;
+  const uint32_t first = node->first[part], count = node->count[part];
   for (uint32_t i = first; i < first + count; ++i) {
-    for (const Vec3 p : triangles_[numbers_[i]]) {
+    for (const Vec3 p : triangles_[i]) {
       min = Min(min, p);
       max = Max(max, p);
     }
   }
-  boxes_[box].min = min;
-  boxes_[box].max = max;
-  if (count <= kLeafTriangles) {
-    boxes_[box].first = first;
-    boxes_[box].count = count;
-    return;
+  if (count == 0 && first > 0) {
+    const Node& child = nodes_[first];
+    for (size_t i = 0; i < 4; ++i) {
+      min = Min(min, {child.min[0][i], child.min[1][i], child.min[2][i]});
+      max = Max(max, {child.max[0][i], child.max[1][i], child.max[2][i]});
+    }
   }
-  const Vec3 size = max - min;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const auto begin = numbers_.begin() + first;
-  const uint32_t half = count / 2;
-  std::nth_element(begin, begin + half, begin + count, [&](uint32_t a, uint32_t b) {
-    const float x = Axis((*centres)[a], axis), y = Axis((*centres)[b], axis);
-    return x != y ? x < y : a < b;
-  });
-  const uint32_t children = static_cast<uint32_t>(boxes_.size());
-  boxes_[box].first = children;
-  boxes_.resize(boxes_.size() + 2);
-  Build(children, first, half, centres);
-  Build(children + 1, first + half, count - half, centres);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    node->min[axis][part] = Axis(min, static_cast<int>(axis));
+    node->max[axis][part] = Axis(max, static_cast<int>(axis));
+  }
+}
+
+void SurfaceTree::BoundAll() {
+  for (size_t n = nodes_.size(); n-- > 0;) {
+    for (size_t part = 0; part < 4; ++part) Bound(&nodes_[n], part);
+  }
 }
 
 void SurfaceTree::MoveTo(const std::vector<std::array<Vec3, 3>>& triangles) {
   for (size_t i = 0; i < numbers_.size(); ++i) triangles_[i] = triangles[numbers_[i]];
-  for (size_t b = boxes_.size(); b-- > 0;) {  // children come after their parents
-    Box& box = boxes_[b];
-    if (box.count == 0) {
-      const Box &left = boxes_[box.first], &right = boxes_[box.first + 1];
-      box.min = Min(left.min, right.min);
-      box.max = Max(left.max, right.max);
-      continue;
-    }
-    box.min = {kFar, kFar, kFar};
-    box.max = box.min * -1;
-    for (uint32_t i = box.first; i < box.first + box.count; ++i) {
-      for (const Vec3 p : triangles_[i]) {
-        box.min = Min(box.min, p);
-        box.max = Max(box.max, p);
-      }
-    }
-  }
+  BoundAll();
 }
 
 float SurfaceTree::Search(Vec3 point, float best, float enough, uint32_t* triangle) const {
-  std::array<std::pair<float, uint32_t>, 64> stack;  // deep enough: the tree halves at each level
+  struct Part {
+    float squared;
+    uint32_t first, count;
+  };
+  std::array<Part, 64> stack;  // three are left waiting a level; the tree quarters at each
   size_t depth = 0;
-  stack[depth++] = {SquaredToBox(point, boxes_[0].min, boxes_[0].max), 0};
+  stack[depth++] = {0, 0, 0};
   while (depth > 0 && best > enough) {
-    const auto [squared, index] = stack[--depth];
-    if (squared >= best) continue;
-    const Box& box = boxes_[index];
-    for (uint32_t i = box.first; i < box.first + box.count; ++i) {
+    const Part part = stack[--depth];
+    if (part.squared >= best) continue;
+    for (uint32_t i = part.first; i < part.first + part.count; ++i) {
       const float found = SquaredToTriangle(point, triangles_[i]);
       if (found >= best) continue;
       best = found;
       *triangle = i;
     }
-    if (box.count > 0) continue;
-    std::pair<float, uint32_t> near{0, box.first}, far{0, box.first + 1};
-    for (auto* child : {&near, &far}) {
-      child->first = SquaredToBox(point, boxes_[child->second].min, boxes_[child->second].max);
+    if (part.count > 0) continue;
+    const Node& node = nodes_[part.first];
+    Four squared{};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const float at = Axis(point, static_cast<int>(axis));
+      const Four below = node.min[axis] - at, above = at - node.max[axis];
+      Four outside = below > above ? below : above;
+      outside = outside > 0 ? outside : Four{};
+      squared += outside * outside;
     }
-    if (far.first < near.first) std::swap(near, far);
-    if (far.first < best) stack[depth++] = far;
-    if (near.first < best) stack[depth++] = near;
+    // The nearest part comes last, to be taken first.
+    const auto near = squared < best;
+    const size_t bottom = depth;
+    for (size_t i = 0; i < 4; ++i) {
+      if (near[i] == 0) continue;
+      size_t at = depth++;
+      for (; at > bottom && stack[at - 1].squared < squared[i]; --at) stack[at] = stack[at - 1];
+      stack[at] = {squared[i], node.first[i], node.count[i]};
+    }
   }
   return best;
 }

@@ -1,4 +1,4 @@
-// Distance from points to a triangle surface: a tree of bounding boxes over the triangles.
+// Distance from points to a triangle surface: a tree of bounding boxes, four a node, over the triangles.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -30,20 +30,30 @@ class SurfaceTree {
   float AtLeast(Vec3 point, float distance, uint32_t* guess) const;
 
  private:
-  struct Box {
-    Vec3 min, max;
-    uint32_t first = 0,
-             count = 0;  // leaf: triangles; inner node: count 0, children at first and first + 1
+  using Four [[gnu::vector_size(16)]] = float;
+
+  // Up to four parts, their bounds side by side so that all are looked at in one go.
+  struct Node {
+    std::array<Four, 3> min, max;     // by axis, one a part; nothing is near an unused one
+    std::array<uint32_t, 4> first{};  // triangle of a leaf, else a node, which comes later
+    std::array<uint32_t, 4> count{};  // triangles of a leaf, else 0
+  };
+  struct Range {
+    uint32_t first = 0, count = 0;
   };
 
-  void Build(uint32_t box, uint32_t first, uint32_t count, std::vector<Vec3>* centres);
+  // Halves the triangles by their centres along the longest side; returns the lower half's number.
+  uint32_t Halve(Range range, const std::vector<Vec3>& centres);
+  void Build(uint32_t node, Range range, const std::vector<Vec3>& centres);
+  void Bound(Node* node, size_t part) const;
+  void BoundAll();
   // Squared; ends early at `enough`. `best`: known so far, with `triangle`.
   float Search(Vec3 point, float best, float enough, uint32_t* triangle) const;
 
   std::vector<std::array<Vec3, 3>> triangles_;  // in the leaves' order
   std::vector<uint32_t> numbers_;               // of each as it was given
   std::vector<uint32_t> places_;                // where each went, by its number
-  std::vector<Box> boxes_;
+  std::vector<Node> nodes_;
 };
 
 }  // namespace flaneur
