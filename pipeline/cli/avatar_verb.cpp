@@ -73,7 +73,7 @@ void AddLevels(CLI::App* app, AvatarArguments* a) {
 
 void AddCompression(CLI::App* app, AvatarArguments* a) {
   const std::string compression = "Compression";
-  app->add_flag("--no-draco", a->plain, "Write plain meshes, for programs without Draco")
+  app->add_flag("--no-draco", a->plain, "Write plain meshes and clips, for programs that know no compression")
       ->group(compression);
   app->add_option(
          "--position-bits", a->draco.position_bits,

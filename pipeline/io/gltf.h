@@ -1,5 +1,5 @@
 // glTF 2.0 files in (.glb, and .gltf with external or embedded buffers and images) and avatars out.
-// Understood beyond the core: KHR_draco_mesh_compression, KHR_mesh_quantization,
+// Understood beyond the core: KHR_draco_mesh_compression, EXT_meshopt_compression, KHR_mesh_quantization,
 // KHR_texture_transform (baked into the uvs), KHR_materials_pbrSpecularGlossiness (its diffuse
 // part). A file that requires anything else is refused by name.
 #pragma once

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/io/clip_keys.h"
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_builder.h"
 #include "runtime/base/file.h"
@@ -97,10 +96,10 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
     builder->SetLevels(part->level_nodes[0], std::span(part->level_nodes).subspan(1),
                        switch_shares);
   }
-  const std::vector<float> reaches_m = JointReaches(avatar.joints, levels.levels[0].meshes);
   for (const Clip& clip : avatar.clips) {
     part->animations.push_back(builder->AddAnimation(prefix + clip.name, clip, avatar.joints,
-                                                     reaches_m, part->joint_nodes));
+                                                     levels.levels[0].meshes, part->joint_nodes,
+                                                     draco.compress));
   }
   return Ok();
 }

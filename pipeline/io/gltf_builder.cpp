@@ -9,6 +9,7 @@
 
 #include "pipeline/io/clip_keys.h"
 #include "pipeline/io/draco_codec.h"
+#include "pipeline/io/meshopt_codec.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -18,7 +19,9 @@ using nlohmann::json;
 
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // glTF component types
 constexpr int kSignedShort = 5122;
-constexpr float kKeyError_m = 0.001f;  // by which left out keys may move what hangs on a joint
+constexpr float kKeyError_m = 0.001f;  // by which a clip's rounding may move any vertex
+constexpr int kTimeExponent = -15;     // keys' times are rounded to that power of two, 31 us
+constexpr float kMostTime_s = 250;     // that 24 bits hold so; longer clips keep floats
 constexpr int kVertices = 34962, kIndices = 34963;  // glTF bufferView targets
 
 json Numbers(Vec3 v) { return {v.x, v.y, v.z}; }
@@ -29,6 +32,14 @@ template <typename T>
 std::span<const uint8_t> Bytes(const std::vector<T>& values) {
   return {reinterpret_cast<const uint8_t*>(values.data()), values.size() * sizeof(T)};
 }
+
+// Keys rounded for one of EXT_meshopt_compression's filters, compressed together.
+struct KeyStream {
+  const char* filter = "";
+  size_t stride = 0;
+  std::vector<uint8_t> bytes;
+  std::map<std::string, int> accessors;  // by their bytes: equal arrays are stored once
+};
 
 // Floats that share one bufferView: the validator wants one kind of use each.
 struct FloatPool {
@@ -132,9 +143,10 @@ struct GltfBuilder::Impl {
   std::map<std::string, int> images;  // by their bytes
   std::map<std::pair<int, bool>, int> textures;
   FloatPool binds, key_times, key_values;
-  std::vector<int16_t> key_rotations;
-  std::vector<int> waiting_rotations;  // accessors whose bufferView is still to come
-  Error problem;                       // the first broken JSON given, reported by Finish
+  KeyStream rounded_times{"EXPONENTIAL", 4, {}, {}};
+  KeyStream rounded_rotations{"QUATERNION", 8, {}, {}}, rounded_vectors{"EXPONENTIAL", 12, {}, {}};
+  size_t fallback_bytes = 0;  // of the buffer that compressed views stand for
+  Error problem;              // the first broken JSON given, reported by Finish
 
   int Add(const char* list, json item) {
     root[list].push_back(std::move(item));
@@ -187,12 +199,36 @@ struct GltfBuilder::Impl {
     pool->waiting.clear();
   }
 
-  void FlushRotations() {
-    if (waiting_rotations.empty()) return;
-    const int view = AddView(Bytes(key_rotations), 0);
-    for (const int accessor : waiting_rotations) {
+  // Returns the accessor, whose bufferView is still to come.
+  int AddRounded(KeyStream* stream, std::span<const uint8_t> bytes, json accessor) {
+    const auto [it, is_new] =
+        stream->accessors.try_emplace(std::string(bytes.begin(), bytes.end()), -1);
+    if (!is_new) return it->second;
+    accessor["byteOffset"] = stream->bytes.size();
+    accessor["count"] = bytes.size() / stream->stride;
+    stream->bytes.insert(stream->bytes.end(), bytes.begin(), bytes.end());
+    return it->second = Add("accessors", std::move(accessor));
+  }
+
+  void FlushStream(const KeyStream& stream) {
+    if (stream.accessors.empty()) return;
+    const int view = AddView(EncodeMeshopt(stream.bytes, stream.stride), 0);
+    json& item = root["bufferViews"][static_cast<size_t>(view)];
+    json packed = item;
+    packed["byteStride"] = stream.stride;
+    packed["count"] = stream.bytes.size() / stream.stride;
+    packed["mode"] = "ATTRIBUTES";
+    packed["filter"] = stream.filter;
+    item = {{"buffer", 1},
+            {"byteOffset", fallback_bytes},
+            {"byteLength", stream.bytes.size()},
+            {"extensions", {{kMeshoptExtension, std::move(packed)}}}};
+    fallback_bytes += stream.bytes.size();
+    for (const auto& [bytes, accessor] : stream.accessors) {
       root["accessors"][static_cast<size_t>(accessor)]["bufferView"] = view;
     }
+    used.insert(kMeshoptExtension);
+    required.insert(kMeshoptExtension);
   }
 
   // An accessor whose numbers are in the Draco data, or in `view`.
@@ -212,6 +248,7 @@ struct GltfBuilder::Impl {
   Error AddCompressed(const Mesh& mesh, const DracoOptions& options, const PositionGrid& grid,
                       bool byte_joints, json* primitive);
   void AddPlain(const Mesh& mesh, bool byte_joints, json* primitive);
+  int AddKeyTimes(const KeyChannel& channel);
   int AddKeyValues(const KeyChannel& channel);
 };
 
@@ -284,27 +321,33 @@ void GltfBuilder::Impl::AddPlain(const Mesh& mesh, bool byte_joints, json* primi
       AddAttribute(AddView(Bytes(indices), kIndices), kShort, "SCALAR", indices.size(), false);
 }
 
-// Rotations as 16-bit integers, vectors as floats.
+int GltfBuilder::Impl::AddKeyTimes(const KeyChannel& channel) {
+  if (channel.rounded.empty() || channel.times.back() > kMostTime_s) {
+    return AddFloats(&key_times, channel.times, "SCALAR", 1, true);
+  }
+  std::vector<uint32_t> rounded;
+  for (const float time : channel.times) rounded.push_back(FilteredNumber(time, kTimeExponent));
+  return AddRounded(&rounded_times, Bytes(rounded),
+                    {{"componentType", kFloat},
+                     {"type", "SCALAR"},
+                     {"min", {Unfiltered(rounded.front())}},
+                     {"max", {Unfiltered(rounded.back())}}});
+}
+
 int GltfBuilder::Impl::AddKeyValues(const KeyChannel& channel) {
-  if (channel.path != "rotation") {
+  const bool rotates = channel.path == "rotation";
+  const char* type = rotates ? "VEC4" : "VEC3";
+  if (channel.rounded.empty()) {
     std::vector<float> values;
-    for (const Vec4& v : channel.values) values.insert(values.end(), {v.x, v.y, v.z});
-    return AddFloats(&key_values, values, "VEC3", 3, false);
-  }
-  json accessor = {{"byteOffset", key_rotations.size() * sizeof(int16_t)},
-                   {"componentType", kSignedShort},
-                   {"normalized", true},
-                   {"count", channel.values.size()},
-                   {"type", "VEC4"}};
-  for (const Vec4& v : channel.values) {
-    for (const float x : {v.x, v.y, v.z, v.w}) {
-      key_rotations.push_back(
-          static_cast<int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767)));
+    for (const Vec4& v : channel.values) {
+      values.insert(values.end(), &v.x, &v.x + (rotates ? 4 : 3));
     }
+    return AddFloats(&key_values, values, type, rotates ? 4 : 3, false);
   }
-  const int index = Add("accessors", std::move(accessor));
-  waiting_rotations.push_back(index);
-  return index;
+  json accessor = {{"componentType", rotates ? kSignedShort : kFloat}, {"type", type}};
+  if (rotates) accessor["normalized"] = true;
+  return AddRounded(rotates ? &rounded_rotations : &rounded_vectors, channel.rounded,
+                    std::move(accessor));
 }
 
 GltfBuilder::GltfBuilder() : impl_(std::make_unique<Impl>()) {}
@@ -437,16 +480,18 @@ int GltfBuilder::AddSkin(const std::string& name, std::span<const int> joint_nod
 }
 
 int GltfBuilder::AddAnimation(const std::string& name, const Clip& clip,
-                              std::span<const Joint> joints, std::span<const float> reaches_m,
-                              std::span<const int> joint_nodes) {
+                              std::span<const Joint> joints, std::span<const Mesh> meshes,
+                              std::span<const int> joint_nodes, bool compress) {
   json channels = json::array(), samplers = json::array();
-  for (const KeyChannel& channel : ReduceKeys(clip, joints, reaches_m, kKeyError_m)) {
+  const std::vector<KeyChannel> kept =
+      compress ? ReduceKeysTogether(clip, joints, meshes, kKeyError_m)
+               : AllKeys(clip, joints);
+  for (const KeyChannel& channel : kept) {
     channels.push_back(
         {{"sampler", samplers.size()},
          {"target", {{"node", joint_nodes[channel.joint]}, {"path", channel.path}}}});
     samplers.push_back(
-        {{"input", impl_->AddFloats(&impl_->key_times, channel.times, "SCALAR", 1, true)},
-         {"output", impl_->AddKeyValues(channel)}});
+        {{"input", impl_->AddKeyTimes(channel)}, {"output", impl_->AddKeyValues(channel)}});
   }
   if (channels.empty()) return -1;
   json item = {{"channels", std::move(channels)}, {"samplers", std::move(samplers)}};
@@ -497,11 +542,18 @@ void GltfBuilder::SetLevels(int node, std::span<const int> coarser,
 Error GltfBuilder::Finish(std::vector<uint8_t>* glb) {
   Impl& impl = *impl_;
   for (FloatPool* pool : {&impl.binds, &impl.key_times, &impl.key_values}) impl.FlushPool(pool);
-  impl.FlushRotations();
+  for (const KeyStream* stream :
+       {&impl.rounded_times, &impl.rounded_rotations, &impl.rounded_vectors}) {
+    impl.FlushStream(*stream);
+  }
   if (!impl.used.empty()) impl.root["extensionsUsed"] = impl.used;
   if (!impl.required.empty()) impl.root["extensionsRequired"] = impl.required;
   if (!impl.binary.empty()) {
     impl.root["buffers"] = json::array({{{"byteLength", impl.binary.size()}}});
+  }
+  if (impl.fallback_bytes > 0) {
+    impl.root["buffers"].push_back({{"byteLength", impl.fallback_bytes},
+                                    {"extensions", {{kMeshoptExtension, {{"fallback", true}}}}}});
   }
   const Error problem = impl.problem;
   std::string text;

@@ -62,11 +62,12 @@ class GltfBuilder {
   int AddNode(const GltfNode& node);
   int AddSkin(const std::string& name, std::span<const int> joint_nodes,
               std::span<const Mat4> inverse_binds, int skeleton_node);
-  // Keys that interpolation restores are left out (see ReduceKeys; 1 mm a joint), and so are
-  // channels that only hold the joint's rest transform; rotations become 16-bit integers. Returns
-  // -1, and adds nothing, where no channel is left.
+  // `compress`: with as few and as rough keys as keep every vertex of `meshes` within 1 mm (see
+  // ReduceKeysTogether), packed by EXT_meshopt_compression; else every key of whatever moves as
+  // floats. Channels that only hold the joint's rest transform are left out. Returns -1, and adds
+  // nothing, where no channel is left.
   int AddAnimation(const std::string& name, const Clip& clip, std::span<const Joint> joints,
-                   std::span<const float> reaches_m, std::span<const int> joint_nodes);
+                   std::span<const Mesh> meshes, std::span<const int> joint_nodes, bool compress);
   int AddScene(const std::string& name,
                std::span<const int> root_nodes);  // the first is the default scene
 

@@ -21,6 +21,7 @@ using tinygltf::Value;
 // Extensions that this reader either understands or that change nothing about geometry and base
 // colour.
 const std::set<std::string> kKnownExtensions{"KHR_draco_mesh_compression",
+                                             "EXT_meshopt_compression",
                                              "KHR_mesh_quantization",
                                              "KHR_texture_transform",
                                              "KHR_materials_pbrSpecularGlossiness",

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/io/meshopt_codec.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
@@ -53,8 +54,36 @@ void DropDracoIndices(json* root) {
   }
 }
 
-// Rewrites the JSON within the file where it uses Draco. Broken JSON stays, for tinygltf to report.
-void PrepareDraco(bool binary, std::vector<uint8_t>* bytes) {
+bool IsObjectWith(const json& item, const char* key) {
+  return item.is_object() && item.contains(key) && item[key].is_object();
+}
+
+// A bufferView that EXT_meshopt_compression made smaller becomes its compressed bytes; the buffer
+// that it would otherwise lie in has no bytes in the file, which tinygltf would refuse.
+void FindMeshoptBytes(json* root) {
+  const auto each = [&](const char* list, auto visit) {
+    if (!root->is_object() || !root->contains(list) || !(*root)[list].is_array()) return;
+    for (json& item : (*root)[list]) {
+      if (IsObjectWith(item, "extensions") && IsObjectWith(item["extensions"], kMeshoptExtension)) {
+        visit(&item, item["extensions"][kMeshoptExtension]);
+      }
+    }
+  };
+  each("bufferViews", [](json* view, const json& compressed) {
+    for (const char* key : {"buffer", "byteOffset", "byteLength"}) {
+      if (compressed.contains(key)) (*view)[key] = compressed[key];
+    }
+    if (!compressed.contains("byteOffset")) view->erase("byteOffset");
+  });
+  each("buffers", [](json* buffer, const json& compressed) {
+    if (compressed.value("fallback", json(false)) != json(true)) return;
+    *buffer = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
+  });
+}
+
+// Rewrites the JSON within the file for what tinygltf does not know. Broken JSON stays, for
+// tinygltf to report.
+void PrepareExtensions(bool binary, std::vector<uint8_t>* bytes) {
   const size_t begin = binary ? kJsonOffset : 0;
   size_t end = bytes->size();
   if (binary) {
@@ -62,10 +91,13 @@ void PrepareDraco(bool binary, std::vector<uint8_t>* bytes) {
     end = kJsonOffset + GetU32(*bytes, 12);
   }
   const std::string_view text(reinterpret_cast<const char*>(bytes->data()) + begin, end - begin);
-  if (text.find(kDraco) == std::string_view::npos) return;
+  const bool draco = text.find(kDraco) != std::string_view::npos;
+  const bool meshopt = text.find(kMeshoptExtension) != std::string_view::npos;
+  if (!draco && !meshopt) return;
   json root = json::parse(text, nullptr, false);
   if (root.is_discarded()) return;
-  DropDracoIndices(&root);
+  if (draco) DropDracoIndices(&root);
+  if (meshopt) FindMeshoptBytes(&root);
   std::string changed = root.dump(-1, ' ', false, json::error_handler_t::replace);
   changed.resize((changed.size() + 3) / 4 * 4, ' ');
   const auto at = [&](size_t i) { return bytes->begin() + static_cast<std::ptrdiff_t>(i); };
@@ -87,7 +119,7 @@ Error ParseGltf(const std::filesystem::path& path, tinygltf::Model* model) {
   std::string error, warning;
   bool ok = false;
   try {
-    PrepareDraco(binary, &bytes);
+    PrepareExtensions(binary, &bytes);
     if (bytes.size() > 0xffffffffu) return Fail(file + ": larger than 4 GiB; split it");
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(KeepImageBytes, nullptr);
@@ -100,7 +132,10 @@ Error ParseGltf(const std::filesystem::path& path, tinygltf::Model* model) {
   } catch (const std::exception& e) {
     error = e.what();
   }
-  if (ok) return Ok();
+  if (ok) {
+    Error decoded = DecodeMeshoptViews(model);
+    return decoded ? Fail(file + ": " + decoded.message) : Ok();
+  }
   if (error.empty()) error = "broken";
   while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
   return Fail(file + (binary ? ": broken or truncated glTF binary: " : ": not a glTF file: ") +

@@ -3,10 +3,12 @@
 #include <cstring>
 
 #include "runtime/base/text.h"
+#include "runtime/pack/meshopt_view.h"
 
 namespace flaneur {
 namespace {
 
+constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
 constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
 uint32_t Word(std::span<const uint8_t> bytes, size_t offset) {
@@ -71,6 +73,31 @@ void VisitComponents(const GltfFile& file, int accessor_index, Visit visit) {
   }
 }
 
+// A range of the binary chunk, as a buffer view or an extension of one gives it.
+std::span<const uint8_t> Range(const GltfFile& file, const Json& range, int view) {
+  const size_t offset = range.value("byteOffset", size_t{0});
+  const size_t length = Member(range, "byteLength").get<size_t>();
+  if (range.value("buffer", 0) != 0 || offset > file.binary.size() || length > file.binary.size() - offset) {
+    throw PackRefused("has buffer view " + std::to_string(view) + " that reaches beyond the file");
+  }
+  return file.binary.subspan(offset, length);
+}
+
+void DecodeViews(GltfFile* file) {
+  if (!file->json.contains("bufferViews")) return;
+  int index = 0;
+  for (const Json& view : file->json["bufferViews"]) {
+    const auto extensions = view.find("extensions");
+    if (extensions != view.end() && extensions->contains(kMeshoptExtension)) {
+      const Json& packed = (*extensions)[kMeshoptExtension];
+      if (packed.value("mode", "") != "ATTRIBUTES") throw PackRefused("has a buffer view compressed in an unknown way");
+      file->decoded[index] = DecodeMeshoptView(Range(*file, packed, index), Member(packed, "count").get<size_t>(),
+                                               Member(packed, "byteStride").get<size_t>(), packed.value("filter", "NONE"));
+    }
+    ++index;
+  }
+}
+
 }  // namespace
 
 std::string Complaint(const std::exception& e) {
@@ -96,6 +123,7 @@ GltfFile OpenGltf(std::vector<uint8_t> bytes) {
     if (binary_size > all.size() - chunk - 8) throw PackRefused("is truncated");
     file.binary = all.subspan(chunk + 8, binary_size);
   }
+  DecodeViews(&file);
   return file;
 }
 
@@ -129,12 +157,8 @@ const Json& Element(const Json& root, const char* array, int index) {
 
 std::span<const uint8_t> BufferView(const GltfFile& file, int index) {
   const Json& view = Element(file.json, "bufferViews", index);
-  const size_t offset = view.value("byteOffset", size_t{0});
-  const size_t length = Member(view, "byteLength").get<size_t>();
-  if (view.value("buffer", 0) != 0 || offset > file.binary.size() || length > file.binary.size() - offset) {
-    throw PackRefused("has buffer view " + std::to_string(index) + " that reaches beyond the file");
-  }
-  return file.binary.subspan(offset, length);
+  const auto decoded = file.decoded.find(index);
+  return decoded != file.decoded.end() ? std::span<const uint8_t>(decoded->second) : Range(file, view, index);
 }
 
 int ComponentCount(const std::string& type) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -24,9 +25,10 @@ struct GltfFile {
   std::vector<uint8_t> bytes;
   Json json;
   std::span<const uint8_t> binary;  // into bytes
+  std::map<int, std::vector<uint8_t>> decoded;  // by buffer view, those that were compressed
 };
 
-// Splits the container and parses the JSON. Throws PackRefused.
+// Splits the container, parses the JSON and decodes what EXT_meshopt_compression packed. Throws PackRefused.
 GltfFile OpenGltf(std::vector<uint8_t> bytes);
 
 // Member access that names what is missing or of the wrong type.

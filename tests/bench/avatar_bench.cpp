@@ -193,6 +193,52 @@ Error Measure(const std::vector<std::string>& args) {
   return Ok();
 }
 
+// By name, the clip's pose of the person's joints at a time.
+std::vector<Mat4> PoseByName(const Person& person, const Person& names, const DocumentClip& clip,
+                             float time_s) {
+  const std::vector<Mat4> world = PoseAt(person.document, clip, time_s);
+  std::map<std::string, size_t> node;
+  for (size_t i = 0; i < world.size(); ++i) node.try_emplace(person.document.nodes[i].name, i);
+  std::vector<Mat4> pose;
+  for (size_t j = 0; j < names.joint_names.size(); ++j) {
+    const auto found = node.find(names.joint_names[j]);
+    const Mat4 joint = found == node.end() ? Mat4{} : world[found->second];
+    pose.push_back(joint * names.document.skins[0].inverse_binds[j]);
+  }
+  return pose;
+}
+
+// How far the original's vertices are from where they should be, over all clips at 60 Hz.
+Error MeasureClips(const std::vector<std::string>& args) {
+  if (args.size() != 2) return Fail("clips ORIGINAL FILE");
+  Person original, other;
+  if (Error e = LoadPerson(args[0], &original)) return e;
+  if (Error e = LoadPerson(args[1], &other)) return e;
+  double sum = 0, count = 0, greatest = 0;
+  for (const DocumentClip& clip : original.document.clips) {
+    const auto& clips = other.document.clips;
+    const auto found = std::find_if(clips.begin(), clips.end(),
+                                    [&](const auto& c) { return c.name == clip.name; });
+    if (found == clips.end()) return Fail(args[1] + ": no clip '" + clip.name + "'");
+    const float duration_s = SpanOf(clip).end_s;
+    const int steps = static_cast<int>(duration_s * 60);
+    for (int i = 0; i <= steps; ++i) {
+      const float time_s = duration_s * static_cast<float>(i) / static_cast<float>(steps);
+      const auto wanted = PoseByName(original, original, clip, time_s);
+      const auto is = PoseByName(other, original, *found, time_s);
+      for (const Mesh& mesh : original.meshes) {
+        const auto a = SkinnedPositions(mesh, wanted), b = SkinnedPositions(mesh, is);
+        for (size_t v = 0; v < a.size(); ++v) {
+          const double mm = 1000 * static_cast<double>(Length(a[v] - b[v]));
+          sum += mm, count += 1, greatest = std::max(greatest, mm);
+        }
+      }
+    }
+  }
+  std::printf("{\"mean_mm\": %.4f, \"greatest_mm\": %.4f}\n", sum / std::max(count, 1.0), greatest);
+  return Ok();
+}
+
 // Vertices joined by position; corner attributes left behind.
 Mesh Welded(const std::vector<Mesh>& meshes) {
   const WedgeSurface surface = JoinWedges(meshes);
@@ -270,8 +316,9 @@ Error Run(std::vector<std::string> args) {
   const std::string command = args.empty() ? "" : args[0];
   if (!args.empty()) args.erase(args.begin());
   if (command == "measure") return Measure(args);
+  if (command == "clips") return MeasureClips(args);
   if (command == "decimate") return Decimate(args);
-  return Fail("a command is needed: measure or decimate");
+  return Fail("a command is needed: measure, clips or decimate");
 }
 
 }  // namespace

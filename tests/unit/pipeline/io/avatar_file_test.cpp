@@ -194,10 +194,14 @@ TEST_F(AvatarFile, NamesTheNodeOfANonFiniteVertex) {
 }
 
 TEST_F(AvatarFile, RefusesWhatItCannotDecode) {
-  const fs::path path =
-      Changed(Write(MadePerson()), "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]",
-              "\"extensionsRequired\":[\"EXT_meshopt_compression\"]");
-  EXPECT_NE(Read(path).find("EXT_meshopt_compression"), std::string::npos);
+  const fs::path path = Changed(Write(MadePerson()), "\"KHR_draco_mesh_compression\"]",
+                                "\"KHR_meshopt_compression\"]");
+  EXPECT_NE(Read(path).find("KHR_meshopt_compression"), std::string::npos);
+}
+
+TEST_F(AvatarFile, RefusesABrokenCompressedClip) {
+  const fs::path path = Changed(Write(MadePerson()), "\"mode\":\"ATTRIBUTES\"", "\"mode\":\"TRIANGLES\"");
+  EXPECT_NE(Read(path).find("broken compressed data"), std::string::npos);
 }
 
 TEST_F(AvatarFile, WithoutASkinIsRefused) {
