@@ -23,15 +23,6 @@ ViewVolumes VolumesOf(const ViewCamera& c, float outer_apex_back_m) {
   return {c.position, c.position - axis * outer_apex_back_m, axis, std::sin(c.fov_rad / 2), std::cos(c.fov_rad / 2)};
 }
 
-ViewClass Classify(Vec2 p, const ViewVolumes& v) {
-  const auto inside = [&](Vec2 apex) {
-    const Vec2 off = p - apex;
-    return Dot(off, v.axis) * v.sine >= std::abs(Cross(v.axis, off)) * v.cosine;
-  };
-  if (inside(v.inner_apex)) return ViewClass::kVisible;
-  return inside(v.outer_apex) ? ViewClass::kBoundary : ViewClass::kOutside;
-}
-
 ViewClass Classify(Vec2 p, const ViewCamera& camera, float outer_apex_back_m) {
   return Classify(p, VolumesOf(camera, outer_apex_back_m));
 }

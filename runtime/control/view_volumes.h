@@ -1,5 +1,6 @@
 // Inner and outer view volume on the ground plane (paper, section 3.1).
 #pragma once
+#include <cmath>
 #include <vector>
 
 #include "runtime/base/math.h"
@@ -47,6 +48,14 @@ struct ViewVolumes {
   float sine = 0, cosine = 1;  // of half the field of view
 };
 ViewVolumes VolumesOf(const ViewCamera& camera, float outer_apex_back_m);
-ViewClass Classify(Vec2 p, const ViewVolumes& volumes);
+
+inline bool InWedge(Vec2 p, Vec2 apex, const ViewVolumes& v) {
+  const Vec2 off = p - apex;
+  return Dot(off, v.axis) * v.sine >= std::abs(Cross(v.axis, off)) * v.cosine;
+}
+// The inner volume lies within the outer one.
+inline ViewClass Classify(Vec2 p, const ViewVolumes& v) {
+  return static_cast<ViewClass>(InWedge(p, v.inner_apex, v) + InWedge(p, v.outer_apex, v));
+}
 
 }  // namespace flaneur

@@ -33,6 +33,8 @@ inline constexpr float kAttentionBehind = 0.2f;
 inline constexpr float kPassOnTheRight_rad = 0.06f;
 // Others farther than this don't matter within the anticipation at usual closing speeds.
 inline constexpr float kNeighbourRadius_m = 3.0f;
+// Cells of the grid in which people find each other.
+inline constexpr float kGridCell_m = kNeighbourRadius_m / 2;
 
 // People keep this beyond touching when they have the choice.
 inline constexpr float kComfort_m = 0.12f;
@@ -76,10 +78,12 @@ inline constexpr float kHeldUp = 0.4f;
 
 // People decide about ten times a second: reaction times are 0.1 to 0.2 s.
 inline constexpr int kTurnEvery_steps = 3;
-// Half as often where nobody can see what they do.
-inline constexpr int kFarTurnEvery_steps = 2 * kTurnEvery_steps;
+// Half as often, and at twice the distance a quarter as often, where nobody can see what they do.
+inline constexpr int kFarTurnEvery_steps = 2 * kTurnEvery_steps, kFarthestTurnEvery_steps = 4 * kTurnEvery_steps;
 // Lines of sight to the goal are renewed once in so many steps; once in twice as many while it is in sight.
 inline constexpr int kSightEvery_steps = 10 * kTurnEvery_steps;
+// People who were near each other so many steps ago mostly still are.
+inline constexpr int kSortEvery_steps = 256;
 // Who is out of sight and far from everything walks straight on for up to so many steps.
 inline constexpr int kMostCoast_steps = 8 * kTurnEvery_steps;
 

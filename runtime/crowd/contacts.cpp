@@ -67,14 +67,17 @@ void FindContacts(float step_s, Crowd* c) {
 }
 
 void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
-  for (int pass = 0; pass < kContactPasses; ++pass) {
+  c->pushed_in.assign(c->size(), 0);
+  for (uint8_t pass = 1; pass <= kContactPasses; ++pass) {
     bool any = false;
     for (const auto& [a, b] : c->contacts) {
       const size_t i = static_cast<size_t>(a), j = static_cast<size_t>(b);
+      if (std::max(c->pushed_in[i], c->pushed_in[j]) + 1 < pass) continue;  // neither was moved since they were last looked at
       const Vec2 apart = c->moved[i] - c->moved[j];
       const float reach_m = c->radius_m[i] + c->radius_m[j], distance2 = Dot(apart, apart);
       if (distance2 >= reach_m * reach_m) continue;
       any = true;
+      c->pushed_in[i] = c->pushed_in[j] = pass;
       const float distance_m = std::sqrt(distance2);
       const Vec2 normal = distance_m > 1e-5f ? apart * (1 / distance_m) : Vec2{1, 0};
       const Vec2 half = normal * (0.5f * (reach_m - distance_m) + 1e-4f);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/contacts.h"
@@ -14,7 +15,55 @@ namespace flaneur {
 namespace {
 
 constexpr int kSharedGoal = 8;  // people with the same goal are worth a field
-constexpr size_t kFetchAhead = 16;  // people
+constexpr size_t kFetchAhead = 96;  // people
+constexpr float kCurveCell_m = 2;
+
+// Every array that has an element a person.
+template <typename Visit>
+void VisitPersonArrays(Crowd* c, Visit visit) {
+  visit(&c->id), visit(&c->avatar), visit(&c->position), visit(&c->velocity), visit(&c->heading_rad), visit(&c->radius_m);
+  visit(&c->preferred_mps), visit(&c->top_mps), visit(&c->field), visit(&c->way), visit(&c->sees_goal), visit(&c->corner);
+  visit(&c->activity), visit(&c->wait_s), visit(&c->facing), visit(&c->view), visit(&c->was_visible), visit(&c->avoids_camera);
+  visit(&c->arrived), visit(&c->detour), visit(&c->detour_s), visit(&c->walked_m), visit(&c->mind), visit(&c->coast);
+  visit(&c->group), visit(&c->cares), visit(&c->turn), visit(&c->wanted), visit(&c->moved);
+}
+
+// The bits of a number below 65,536, each followed by a zero.
+uint64_t Spread(uint64_t bits) {
+  bits = (bits | bits << 8) & 0x00ff00ff;
+  bits = (bits | bits << 4) & 0x0f0f0f0f;
+  bits = (bits | bits << 2) & 0x33333333;
+  return (bits | bits << 1) & 0x55555555;
+}
+
+size_t IndexIn(uint64_t order) { return static_cast<size_t>(order & 0xffffffff); }
+
+// Along Morton's curve; who shares a cell of it, by index.
+void OrderAlongCurve(Crowd* c) {
+  Vec2 min = c->position.empty() ? Vec2{} : c->position[0];
+  for (Vec2 p : c->position) min = {std::min(min.x, p.x), std::min(min.y, p.y)};
+  const auto cell = [](float v_m) { return Spread(static_cast<uint64_t>(std::min(v_m * (1 / kCurveCell_m), 65535.0f))); };
+  c->order.resize(c->size());
+  for (size_t i = 0; i < c->size(); ++i) {
+    const Vec2 off = c->position[i] - min;
+    c->order[i] = (cell(off.x) | cell(off.y) << 1) << 32 | i;
+  }
+  std::sort(c->order.begin(), c->order.end());
+}
+
+template <typename T>
+void Permute(const std::vector<uint64_t>& order, std::vector<T>* values, std::vector<std::byte>* spare) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  spare->resize(std::max(spare->size(), order.size() * sizeof(T)));
+  for (size_t k = 0; k < order.size(); ++k) std::memcpy(spare->data() + k * sizeof(T), &(*values)[IndexIn(order[k])], sizeof(T));
+  std::memcpy(values->data(), spare->data(), order.size() * sizeof(T));
+}
+
+// People decide one after the other, each in a step of their own; neighbours, who often have ids in a row, in no regular pattern.
+bool IsTurn(const Crowd& c, size_t i, int every_steps) {
+  const uint32_t phase = static_cast<uint32_t>(c.id[i]) * 2654435769u >> 16;
+  return (static_cast<uint32_t>(c.step) + phase) % static_cast<uint32_t>(every_steps) == 0;
+}
 
 bool IsLost(const Crowd& c, size_t i) { return c.way[i].x == 0 && c.way[i].y == 0; }
 
@@ -25,7 +74,7 @@ void RenewWay(const Walkable& w, size_t i, bool look, bool roughly, Crowd* c) {
   if (!c->sees_goal[i]) {
     const FlowField& field = c->fields[static_cast<size_t>(c->field[i])];
     const bool rough = roughly && IsBuilt(field);
-    const bool sight = (c->step + static_cast<int64_t>(i)) % kSightEvery_steps == 0;
+    const bool sight = IsTurn(*c, i, kSightEvery_steps);
     c->way[i] = rough ? RoughWayAt(w, field, c->position[i])
                       : WayToGoal(w, c->field[i], c->position[i], sight, &c->corner[i], c);
     return;
@@ -36,21 +85,20 @@ void RenewWay(const Walkable& w, size_t i, bool look, bool roughly, Crowd* c) {
 }
 
 // How many steps the person can walk straight on without coming near a wall, the goal or somebody's private disc.
-int CoastSteps(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c, size_t i, int cell) {
+int CoastSteps(const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c, size_t i) {
   const float step_m = Length(c.wanted[i]) * step_s;
-  const Vec2 left = c.fields[static_cast<size_t>(c.field[i])].goal - c.position[i];
-  const float clear_m = ClearAround_m(w, cell) - c.radius_m[i];
-  for (int steps = kMostCoast_steps; steps >= kTurnEvery_steps; steps -= kTurnEvery_steps) {
-    const float run_m = static_cast<float>(steps) * step_m;
-    if (clear_m < run_m || Dot(left, left) < 4 * run_m * run_m) continue;
-    const bool free = std::none_of(moving.begin(), moving.end(), [&](const MovingObstacle& m) {
-      const float reach_m = m.radius_m + c.radius_m[i] + run_m + Length(m.velocity) * static_cast<float>(steps) * step_s;
-      const Vec2 off = m.center - c.position[i];
-      return m.everyone && Dot(off, off) < reach_m * reach_m;
-    });
-    if (free) return steps;
-  }
-  return 0;
+  const float clear_m = std::min(c.mind[i].clear_m - c.radius_m[i],
+                                 0.5f * Length(c.fields[static_cast<size_t>(c.field[i])].goal - c.position[i]));
+  const float most = std::min(clear_m / std::max(step_m, 1e-6f), static_cast<float>(kMostCoast_steps));
+  const int steps = static_cast<int>(most) / kTurnEvery_steps * kTurnEvery_steps;
+  if (steps <= 0) return 0;
+  const float run_s = static_cast<float>(steps) * step_s;
+  const bool free = std::none_of(moving.begin(), moving.end(), [&](const MovingObstacle& m) {
+    const float reach_m = m.radius_m + c.radius_m[i] + (Length(c.wanted[i]) + Length(m.velocity)) * run_s;
+    const Vec2 off = m.center - c.position[i];
+    return m.everyone && Dot(off, off) < reach_m * reach_m;
+  });
+  return free ? steps : 0;
 }
 
 // What people out of sight want: along their way, or as the control asks.
@@ -71,7 +119,7 @@ void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
   mind.clear_m = ClearAround_m(w, cell);
   c->wanted[i] = c->way[i] * SpeedOnSlope(w, cell, alone_mps);
   if (!c->turn[i]) return;
-  c->coast[i] = static_cast<uint8_t>(std::max(0, CoastSteps(w, moving, step_s, *c, i, cell) - 1));
+  c->coast[i] = static_cast<uint8_t>(std::max(0, CoastSteps(moving, step_s, *c, i) - 1));
   if (c->coast[i] > 0) c->velocity[i] = c->wanted[i];
 }
 
@@ -79,10 +127,10 @@ void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
 void FetchGround(const Walkable& w, size_t i, const Crowd& c) {
   if (c.field[i] < 0) return;
   const FlowField& field = c.fields[static_cast<size_t>(c.field[i])];
-  const int cell = CellAt(w, c.position[i]);
-  if (cell < 0 || field.direction.empty()) return;
-  __builtin_prefetch(&w.cells[static_cast<size_t>(cell)]);
-  __builtin_prefetch(&field.direction[static_cast<size_t>(cell)]);
+  const GridPlace at = PlaceAt(w, c.position[i]);
+  if (at.x < 0 || !IsBuilt(field)) return;
+  __builtin_prefetch(&w.cells[static_cast<size_t>(at.y * w.columns + at.x)]);
+  __builtin_prefetch(&DirectionAt(field, DirectionIndex(w, at.x, at.y)));
 }
 
 // Where those who take care go next, and what they have in mind; some of them look around in this step.
@@ -103,8 +151,8 @@ void RenewWays(const Walkable& w, Crowd* c) {
     if (c->field[i] < 0) continue;
     const bool lost = IsLost(*c, i);
     if (lost || c->turn[i]) {
-      const int64_t every = c->sees_goal[i] ? 2 * kSightEvery_steps : kSightEvery_steps;
-      RenewWay(w, i, lost || (c->step + static_cast<int64_t>(i)) % every == 0, false, c);
+      const int every = c->sees_goal[i] ? 2 * kSightEvery_steps : kSightEvery_steps;
+      RenewWay(w, i, lost || IsTurn(*c, i, every), false, c);
     }
   }
 }
@@ -186,18 +234,10 @@ void Arrive(Vec2 to, float step_s, size_t i, Crowd* c) {
   c->walked_m[i] += walked_m;
   if (c->wait_s[i] > 0) c->wait_s[i] -= step_s;
   if (c->detour_s[i] > 0) c->detour_s[i] -= step_s;
-  c->arrived[i] = Arrival::kNot;
-  if (c->coast[i] > 0) return;  // velocity and heading stay
-  c->velocity[i] = step * (1 / step_s);
-  if (c->field[i] >= 0) {
-    c->arrived[i] = ArrivalAt(c->fields[static_cast<size_t>(c->field[i])].goal, i, *c);
-  }
+  if (c->coast[i] == 0) c->velocity[i] = step * (1 / step_s);
+  c->arrived[i] = c->field[i] >= 0 ? ArrivalAt(c->fields[static_cast<size_t>(c->field[i])].goal, i, *c) : Arrival::kNot;
+  if (c->coast[i] > 0) return;  // the heading stays
   Turn(step, walked_m, step_s, i, c);
-}
-
-// People decide one after the other, each in a step of their own.
-bool IsTurn(const Crowd& c, size_t i, int every_steps) {
-  return static_cast<uint64_t>(c.step + static_cast<int64_t>(i)) % static_cast<uint64_t>(every_steps) == 0;
 }
 
 // The whole step of those who take no care of anybody, and a list of those who do.
@@ -213,7 +253,10 @@ void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, 
     const float distance2_m2 = Dot(off, off);
     c->cares[i] = c->view[i] != ViewClass::kOutside && distance2_m2 <= far2_m2;
     if (c->cares[i]) {
-      c->turn[i] = IsTurn(*c, i, distance2_m2 > unimportant2_m2 ? kFarTurnEvery_steps : kTurnEvery_steps);
+      const int every = distance2_m2 <= unimportant2_m2       ? kTurnEvery_steps
+                        : distance2_m2 <= 4 * unimportant2_m2 ? kFarTurnEvery_steps
+                                                              : kFarthestTurnEvery_steps;
+      c->turn[i] = IsTurn(*c, i, every);
       c->caring.push_back(static_cast<int>(i));
     } else if (c->coast[i] > 0 && c->detour_s[i] <= 0) {
       const Vec2 step = c->wanted[i] * step_s;
@@ -273,15 +316,20 @@ void RemovePerson(size_t i, Crowd* c) {
     Group& g = c->groups[static_cast<size_t>(of_last)];
     std::replace(g.member, g.member + g.size, last, static_cast<int>(i));
   }
-  const auto drop = [i](auto* values) {
+  VisitPersonArrays(c, [i](auto* values) {
     (*values)[i] = values->back();
     values->pop_back();
-  };
-  drop(&c->id), drop(&c->avatar), drop(&c->position), drop(&c->velocity), drop(&c->heading_rad), drop(&c->radius_m);
-  drop(&c->preferred_mps), drop(&c->top_mps), drop(&c->field), drop(&c->way), drop(&c->sees_goal), drop(&c->corner);
-  drop(&c->activity), drop(&c->wait_s), drop(&c->facing), drop(&c->view), drop(&c->was_visible), drop(&c->avoids_camera), drop(&c->arrived);
-  drop(&c->detour), drop(&c->detour_s);
-  drop(&c->walked_m), drop(&c->mind), drop(&c->coast), drop(&c->group), drop(&c->cares), drop(&c->turn), drop(&c->wanted), drop(&c->moved);
+  });
+}
+
+void SortBySpace(Crowd* c) {
+  OrderAlongCurve(c);
+  VisitPersonArrays(c, [c](auto* values) { Permute(c->order, values, &c->spare); });
+  c->number.resize(c->size());
+  for (size_t k = 0; k < c->size(); ++k) c->number[IndexIn(c->order[k])] = static_cast<int>(k);
+  for (Group& g : c->groups) {
+    for (int m = 0; m < g.size; ++m) g.member[m] = c->number[static_cast<size_t>(g.member[m])];
+  }
 }
 
 void SetGoal(size_t i, int field, Crowd* c) {
@@ -316,7 +364,7 @@ Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, 
 void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
   FollowOrCare(w, moving, step_s, c);
   RenewWays(w, c);
-  SortIntoGrid(c->caring, c->position, c->velocity, c->radius_m, kNeighbourRadius_m / 2, &c->neighbours);
+  SortIntoGrid(c->caring, c->position, c->velocity, c->radius_m, kGridCell_m, &c->neighbours);
   Decide(w, moving, c);
   WalkTogether(w, c);
   FindContacts(step_s, c);

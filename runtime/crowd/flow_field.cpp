@@ -115,14 +115,18 @@ float CostOfGround(const Walkable& w, int cell) {
 }
 
 FlowField BuildFlowField(const Walkable& w, Vec2 goal) {
-  FlowField field{goal, std::vector<float>(w.cost.size(), kInfinity), std::vector<uint8_t>(w.cost.size(), kNoWay)};
+  FlowField field{goal, std::vector<float>(w.cost.size(), kInfinity), {}};
+  const size_t squares = static_cast<size_t>((w.columns + 63) / 64) * static_cast<size_t>((w.rows + 63) / 64);
+  field.tiles.resize(64 * squares);
+  for (DirectionTile& tile : field.tiles) std::fill(std::begin(tile.direction), std::end(tile.direction), kNoWay);
   const int start = FreeCellFor(w, goal);
   if (start < 0) return field;
   Queue open;
   SeedAroundGoal(w, goal, start, &field, &open);
   March(w, &field, &open);
   for (int cell = 0; cell < static_cast<int>(w.cost.size()); ++cell) {
-    field.direction[static_cast<size_t>(cell)] = Descent(w, field, cell);
+    const size_t k = DirectionIndex(w, cell % w.columns, cell / w.columns);
+    field.tiles[k >> 6].direction[k & 63] = Descent(w, field, cell);
   }
   return field;
 }
@@ -143,18 +147,20 @@ Vec2 WayAt(const Walkable& w, const FlowField& field, Vec2 p) {
     const int x = x0 + (k & 1), y = y0 + (k >> 1);
     if (x < 0 || y < 0 || x >= w.columns || y >= w.rows) continue;
     const float share = ((k & 1) ? tx : 1 - tx) * ((k >> 1) ? ty : 1 - ty);
-    sum = sum + kDirections[field.direction[static_cast<size_t>(y * w.columns + x)]] * share;
+    sum = sum + kDirections[DirectionAt(field, DirectionIndex(w, x, y))] * share;
   }
   if (Dot(sum, sum) > 0.01f) return Unit(sum);
   const int cell = NearestFreeCell(w, p, kPlaceReach_m);  // squeezed against a wall: back to where ways are known
-  if (cell < 0 || field.direction[static_cast<size_t>(cell)] == kNoWay) return {};
-  const Vec2 there = kDirections[field.direction[static_cast<size_t>(cell)]];
+  if (cell < 0) return {};
+  const uint8_t direction = DirectionAt(field, DirectionIndex(w, cell % w.columns, cell / w.columns));
+  if (direction == kNoWay) return {};
+  const Vec2 there = kDirections[direction];
   return Unit(Unit(CellCenter(w, cell) - p) + there);
 }
 
 Vec2 RoughWayAt(const Walkable& w, const FlowField& field, Vec2 p) {
-  const int cell = CellAt(w, p);
-  const uint8_t direction = cell >= 0 ? field.direction[static_cast<size_t>(cell)] : kNoWay;
+  const GridPlace at = PlaceAt(w, p);
+  const uint8_t direction = at.x >= 0 ? DirectionAt(field, DirectionIndex(w, at.x, at.y)) : kNoWay;
   return direction != kNoWay ? kDirections[direction] : WayAt(w, field, p);
 }
 

@@ -96,7 +96,7 @@ void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, const void*), co
     if (c->view[i] != ViewClass::kOutside) c->caring.push_back(static_cast<int>(i));
     spot.most_radius_m = std::max(spot.most_radius_m, c->radius_m[i]);
   }
-  SortIntoGrid(c->caring, c->position, c->velocity, c->radius_m, kNeighbourRadius_m / 2, &c->neighbours);
+  SortIntoGrid(c->caring, c->position, c->velocity, c->radius_m, kGridCell_m, &c->neighbours);
   c->displaced.first.reserve(c->neighbours.start.capacity());
   c->displaced.first.assign(c->neighbours.start.size(), -1);
   c->displaced.next.resize(c->size());

@@ -16,6 +16,8 @@ constexpr float kLeastAcceleration_mps2 = 0.5f;  // a turn ends, and doesn't fad
 constexpr int kReturnDecisions = 45;    // after which a line is forgotten;
 constexpr int kPassing = 7;             // and the first of them, while the visitor passes, change nothing
 constexpr float kReturn_s = 1.0f, kMostReturn_mps = 0.5f, kOnLine_m = 0.1f;
+constexpr float kStuck = 0.05f, kStuckDensity_pm2 = 2.5f, kLetGo = 0.7f;
+constexpr int kLetsGo_steps = 30;
 constexpr float kSooner = 2.4f;         // than the last moment
 constexpr float kLeastTime_s = 0.3f;  // no stepping aside is quicker
 
@@ -223,17 +225,30 @@ float DensityFrom(const Walkable& w, int cell, float crowding) {
   return crowding * 2 / (kPi * kDensityRadius_m * kDensityRadius_m * open);
 }
 
+// Where a dense crowd stands before a door, every second another seven in ten of those who are stuck let the others go: else arches of
+// people who all want through at once hold for a minute.
+bool LetsOthersGo(float density_pm2, Vec2 velocity, float alone_mps, int id, int64_t step) {
+  const float stuck_mps = kStuck * alone_mps;
+  if (density_pm2 < kStuckDensity_pm2 || Dot(velocity, velocity) > stuck_mps * stuck_mps) return false;
+  uint32_t hash = static_cast<uint32_t>(id) * 0x9e3779b9u ^ static_cast<uint32_t>(step / kLetsGo_steps) * 0x85ebca6bu;
+  hash = (hash ^ hash >> 15) * 0x2c1b3c6du;
+  hash = (hash ^ hash >> 12) * 0x297a2d39u;
+  return static_cast<float>(hash >> 16) < kLetGo * 65536;
+}
+
 void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const Neighbour& self, Crowd* c) {
-  Mind& mind = c->mind[static_cast<size_t>(self.person)];
+  const size_t i = static_cast<size_t>(self.person);
+  Mind& mind = c->mind[i];
   const Looking me{self.position, self.velocity, mind.ahead, self.radius_m, self.person};
   const Surroundings around = LookAround(c->neighbours, me);
   const int cell = CellAt(w, me.position);
-  mind.asked_mps = SpeedOnSlope(w, cell, mind.alone_mps) * SpeedInDensity(DensityFrom(w, cell, around.crowding));
+  const float density_pm2 = DensityFrom(w, cell, around.crowding);
+  const bool lets_go = LetsOthersGo(density_pm2, me.velocity, mind.alone_mps, c->id[i], c->step);
+  mind.asked_mps = lets_go ? 0 : SpeedOnSlope(w, cell, mind.alone_mps) * SpeedInDensity(density_pm2);
   Vec2 push = around.foremost + around.separation;
   if (mind.stands && Dot(push, push) < 1) push = {};  // people who stand give way only when pressed
   const Vec2 room = AvoidMoving(w, moving, me, mind.avoids_camera);
   push = push + room;
-  const size_t i = static_cast<size_t>(self.person);
   if (!mind.stands) push = push + BackToLine(Dot(room, room) > 0, me.position, c->way[i], &mind);
   mind.push = push + WallPush(w, me.position, me.radius_m);
   mind.clear_from = me.position;

@@ -55,11 +55,17 @@ struct Walkable {
 // most_radius_m: of the largest person there will be.
 void BuildWalkable(float person_radius_m, Walkable* walkable, float most_radius_m = 0.5f);
 
+// Column and row of the navigation grid; x is -1 outside of it.
+struct GridPlace { int x = -1, y = -1; };
+inline GridPlace PlaceAt(const Walkable& w, Vec2 p) {
+  const float fx = (p.x - w.min_m.x) * w.cells_per_m, fy = (p.y - w.min_m.y) * w.cells_per_m;
+  if (!(fx >= 0 && fy >= 0 && fx < static_cast<float>(w.columns) && fy < static_cast<float>(w.rows))) return {};
+  return {static_cast<int>(fx), static_cast<int>(fy)};
+}
 // The cell at p, -1 outside the grid.
 inline int CellAt(const Walkable& w, Vec2 p) {
-  const float fx = (p.x - w.min_m.x) * w.cells_per_m, fy = (p.y - w.min_m.y) * w.cells_per_m;
-  if (!(fx >= 0 && fy >= 0 && fx < static_cast<float>(w.columns) && fy < static_cast<float>(w.rows))) return -1;
-  return static_cast<int>(fy) * w.columns + static_cast<int>(fx);
+  const GridPlace at = PlaceAt(w, p);
+  return at.x < 0 ? -1 : at.y * w.columns + at.x;
 }
 inline float SlopeOf(const Walkable& w, int cell) {
   return static_cast<float>(w.cells[static_cast<size_t>(cell)].slope) * Walkable::kSlopeUnit;

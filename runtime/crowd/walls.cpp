@@ -66,6 +66,7 @@ Vec2 ShortStep(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {
     if (grounded({to.x, from.y})) return {to.x, from.y};
     return grounded({from.x, to.y}) ? Vec2{from.x, to.y} : from;
   }
+  if (Clearance(w, cell, to) >= radius_m && grounded(to)) return to;  // as below, by one look
   const float least_m = std::min(radius_m - kTolerance_m, Clearance(w, cell, from));
   const float asked_m = Length(to - from);
   Vec2 p = to;

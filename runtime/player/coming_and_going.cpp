@@ -83,7 +83,7 @@ bool NextForArrived(size_t i, Simulation* s) {
 // Whoever is held up in a crowd thinks again, now and then, about where to go.
 bool ThinksAgain(size_t i, Simulation* s) {
   const Crowd& c = s->crowd;
-  if ((s->frame + static_cast<int64_t>(i)) % kThinkEvery_steps != 0 || c.activity[i] != Activity::kWalking) return false;
+  if ((s->frame + c.id[i]) % kThinkEvery_steps != 0 || c.activity[i] != Activity::kWalking) return false;
   if (c.detour_s[i] > 0 || Length(c.velocity[i]) > kHeldUp * c.preferred_mps[i] || !Strolls(i, *s)) return false;
   return DensityAt_pm2(s->density, c.position[i]) > kThinksFrom_pm2 && s->random.Uniform() < kThinksAgain;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/base/clock.h"
+#include "runtime/crowd/constants.h"
 #include "runtime/player/camera_walk.h"
 #include "runtime/player/check_limits.h"
 #include "runtime/player/coming_and_going.h"
@@ -238,6 +239,7 @@ void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   MoveCamera(input, s);
   LeadOn(s);
   s->crowd.viewer = s->camera.view.position;
+  if (s->frame % kSortEvery_steps == 0) SortBySpace(&s->crowd);
   StepCrowd(s->walkable, s->moving, s->step_s, &s->crowd);
   LeaveAndArrive(s);
   ClassifyAll(s);

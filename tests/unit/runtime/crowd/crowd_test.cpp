@@ -133,6 +133,51 @@ TEST(Crowd, TheSameRunGivesTheSameState) {
   EXPECT_EQ(StateHash(a), StateHash(b));
 }
 
+// How far people lie apart who follow each other in memory.
+float ApartInMemory_m(const Crowd& crowd) {
+  float sum_m = 0;
+  for (size_t i = 1; i < crowd.size(); ++i) sum_m += Length(crowd.position[i] - crowd.position[i - 1]);
+  return sum_m / static_cast<float>(crowd.size() - 1);
+}
+
+TEST(Crowd, WhoeverIsOutOfSightArrivesAsWell) {
+  const Walkable w = Field();
+  for (int k = 0; k < 60; ++k) {
+    Crowd crowd;
+    Person p;
+    p.position = {10 + 0.11f * static_cast<float>(k % 10), 0.07f * static_cast<float>(k)};
+    p.preferred_mps = 0.8f + 0.01f * static_cast<float>(k);
+    p.field = FieldFor({14, 2}, &crowd);
+    AddPerson(p, &crowd);  // seen by nobody
+    BuildField(w, p.field, &crowd);
+    int steps = 0;
+    while (crowd.arrived[0] != Arrival::kThere && steps < 600) StepCrowd(w, {}, kStep_s, &crowd), ++steps;
+    EXPECT_LT(steps, 600) << "from " << p.position.x << ' ' << p.position.y;
+  }
+}
+
+TEST(Crowd, SortedBySpaceEverybodyStaysWhoTheyAre) {
+  const Walkable w = Field();
+  Crowd crowd = PeopleWhoCross(w, 200);
+  for (int k = 20; k < 80; k += 3) AddGroup({k, k + 1, k + 2}, &crowd);
+  for (int step = 0; step < 30; ++step) StepCrowd(w, {}, kStep_s, &crowd);
+  const Crowd before = crowd;
+  SortBySpace(&crowd);
+  EXPECT_LT(ApartInMemory_m(crowd), 0.25f * ApartInMemory_m(before));
+  for (size_t i = 0; i < crowd.size(); ++i) {
+    const size_t was = static_cast<size_t>(crowd.id[i]);  // nobody has left
+    EXPECT_EQ(Length(crowd.position[i] - before.position[was]), 0);
+    EXPECT_EQ(Length(crowd.velocity[i] - before.velocity[was]), 0);
+    EXPECT_EQ(crowd.field[i], before.field[was]);
+    EXPECT_EQ(crowd.walked_m[i], before.walked_m[was]);
+    EXPECT_EQ(crowd.mind[i].asked_mps, before.mind[was].asked_mps);
+    ASSERT_EQ(crowd.group[i], before.group[was]);
+    if (crowd.group[i] < 0) continue;
+    const Group &now = crowd.groups[static_cast<size_t>(crowd.group[i])], &then = before.groups[static_cast<size_t>(crowd.group[i])];
+    for (int m = 0; m < now.size; ++m) EXPECT_EQ(crowd.id[static_cast<size_t>(now.member[m])], then.member[m]);
+  }
+}
+
 TEST(Crowd, NobodyEntersTheVisitorsPersonalSpace) {
   const Walkable w = Field();
   Crowd crowd = PeopleWhoCross(w, 80);

@@ -175,8 +175,15 @@ float HallEmpty_s(bool four_doors) {
   Crowd c;
   const auto nearest_door = [&](Vec2 p) { return Vec2{p.x < 15 ? 7.5f : 22.5f, four_doors && p.y < 10 ? -3.0f : 23.0f}; };
   Spread({0.5f, 0.5f}, {29.5f, 19.5f}, 1000, kUsual_mps, nearest_door, &c);
-  const float time_s = Empty_s(w, 1200, &c, [] {});
+  size_t inside = c.size();
+  int still_steps = 0, longest_steps = 0;  // in which nobody gets out, though many want to
+  const float time_s = Empty_s(w, 1200, &c, [&] {
+    still_steps = c.size() < inside || inside < 100 ? 0 : still_steps + 1;
+    longest_steps = std::max(longest_steps, still_steps);
+    inside = c.size();
+  });
   EXPECT_EQ(c.size(), 0u);
+  EXPECT_LT(static_cast<float>(longest_steps) * kStep_s, 10) << "people before the doors block each other";
   return time_s;
 }
 

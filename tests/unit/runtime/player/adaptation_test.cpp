@@ -48,17 +48,18 @@ Outcome Played(const Scenario& scenario) {
   const Error e = StartSimulation(nullptr, scenario, &s);
   EXPECT_FALSE(e) << e.message;
   Outcome out;
-  std::vector<Vec2> before;
+  std::map<int, Vec2> before;  // by id
   for (int step = 0; step < kSteps && !s.finished; ++step) {
-    before = s.crowd.position;
+    for (size_t i = 0; i < s.crowd.size(); ++i) before[s.crowd.id[i]] = s.crowd.position[i];
     StepSimulation({}, 0, &s);
     out.exceeded += s.levels.exceeded;
     out.over_budget += s.levels.triangles > static_cast<int64_t>(s.level_settings.budget_triangles);
     out.asked_m += s.camera.asked_mps * s.step_s;
     out.walked_m += s.camera.actual_mps * s.step_s;
-    for (size_t i = 0; i < before.size() && i < s.crowd.size(); ++i) {
+    for (size_t i = 0; i < s.crowd.size(); ++i) {
       if (s.crowd.view[i] != ViewClass::kVisible) continue;
-      out.longest_step = std::max(out.longest_step, Length(s.crowd.position[i] - before[i]) / (s.crowd.top_mps[i] * s.step_s));
+      const float step_m = Length(s.crowd.position[i] - before[s.crowd.id[i]]);
+      out.longest_step = std::max(out.longest_step, step_m / (s.crowd.top_mps[i] * s.step_s));
     }
   }
   return out;
