@@ -140,14 +140,16 @@ float ApartInMemory_m(const Crowd& crowd) {
   return sum_m / static_cast<float>(crowd.size() - 1);
 }
 
+// Also where the way leads to and fro across the border of the goal's cell.
 TEST(Crowd, WhoeverIsOutOfSightArrivesAsWell) {
   const Walkable w = Field();
+  const Vec2 goal = CellCenter(w, CellAt(w, {14, 2}));
   for (int k = 0; k < 60; ++k) {
     Crowd crowd;
     Person p;
-    p.position = {10 + 0.11f * static_cast<float>(k % 10), 0.07f * static_cast<float>(k)};
-    p.preferred_mps = 0.8f + 0.01f * static_cast<float>(k);
-    p.field = FieldFor({14, 2}, &crowd);
+    p.position = goal + Vec2{1 + 0.013f * static_cast<float>(k), 0.16f};
+    p.preferred_mps = 0.88f;
+    p.field = FieldFor(goal, &crowd);
     AddPerson(p, &crowd);  // seen by nobody
     BuildField(w, p.field, &crowd);
     int steps = 0;
