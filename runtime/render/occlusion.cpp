@@ -84,10 +84,10 @@ void ClearOcclusion(const Mat4& view_projection, OcclusionMap* map) {
   map->farthest.assign(static_cast<size_t>(kTilesAcross) * kTilesUp, 0);
 }
 
-void AddWalls(std::span<const Vec3> corners, OcclusionMap* map) {
+void AddWalls(std::span<const Vec3> positions, std::span<const uint32_t> corners, OcclusionMap* map) {
   for (size_t i = 0; i + 2 < corners.size(); i += 3) {
     std::array<Clip, 3> clip;
-    for (size_t k = 0; k < 3; ++k) clip[k] = ToClip(map->view_projection, corners[i + k]);
+    for (size_t k = 0; k < 3; ++k) clip[k] = ToClip(map->view_projection, positions[corners[i + k]]);
     const auto all = [&](auto outside) { return outside(clip[0]) && outside(clip[1]) && outside(clip[2]); };
     if (!FacesTheEye(clip[0], clip[1], clip[2])) continue;
     if (all([](const Clip& c) { return c.w < kNear_m; }) || all([](const Clip& c) { return c.x < -c.w; }) ||

@@ -1,6 +1,7 @@
 // What stands behind walls: a small picture of depths, drawn on the CPU with the walls nearest to the eye. Internal to
 // runtime/render; no OpenGL.
 #pragma once
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,8 +20,8 @@ inline constexpr int kOcclusionWidth = 256, kOcclusionHeight = 144, kTile = 8;
 
 void ClearOcclusion(const Mat4& view_projection, OcclusionMap* map);
 
-// Three corners a triangle, seen from the side from which they go round anticlockwise.
-void AddWalls(std::span<const Vec3> corners, OcclusionMap* map);
+// Three corners a triangle, as indices of positions, seen from the side from which they go round anticlockwise.
+void AddWalls(std::span<const Vec3> positions, std::span<const uint32_t> corners, OcclusionMap* map);
 
 // After all walls.
 void FinishOcclusion(OcclusionMap* map);

@@ -130,7 +130,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   r.people.smooth_edges = samples > 1 && !options.normals;
   if (r.people.smooth_edges) defines += "#define SMOOTH_EDGES\n";
   r.pictures_left = pack.images.size();
-  r.town.in_pieces = deferred;
+  r.town.triangle_by_triangle = fast;
   r.plan = PlanSurfaces(pack, LimitsOfThisMachine(fast));
   r.arrays = CreateTextureArrays(r.plan, fast);
   if (Error e = CreateTownView(defines, r.plan, r.arrays, &r.town)) return e;
@@ -204,7 +204,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   DrawCost people = DrawPeople(r.people, false);
   timer.Passed(DrawPass::kMeshes);
   if (r.picture.deferred) glFlush();  // software fills these pixels while it goes through the town's triangles
-  const DrawCost town = DrawTown(eye, r.options.cull, &r.town);
+  const DrawCost town = DrawTown(eye, r.picture.drawn_width_px, r.picture.drawn_height_px, r.options.cull, &r.town);
   timer.Passed(DrawPass::kTown);
   people += DrawPeople(r.people, true);
   timer.Passed(DrawPass::kImpostors);

@@ -58,16 +58,6 @@ bool HidesWhatIsBehind(const Triangle& t, const SurfacePlan& plan, const std::ve
   return Length(Cross(b - a, c - a)) / 2 > kLeastWall_m2;
 }
 
-// The eye must be clearly behind a triangle before it is left out: what is looked at from its edge is left to OpenGL.
-constexpr float kBehind_m = 0.002f;
-
-Vec4 PlaneOf(const Triangle& t, const SurfacePlan& plan, const std::vector<TownVertex>& vertices) {
-  if (plan.groups[static_cast<size_t>(t.group)].double_sided) return {0, 0, 0, 0};
-  const Vec3 a = vertices[t.corners[0]].position, b = vertices[t.corners[1]].position, c = vertices[t.corners[2]].position;
-  const Vec3 n = Normalized(Cross(b - a, c - a));
-  return {n.x, n.y, n.z, kBehind_m - Dot(n, a)};
-}
-
 // The index array in order of block and group; vertices in order of their first use, so that a block's lie together.
 void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle>>* cells, TownGeometry* town) {
   const std::vector<TownVertex> all = std::move(town->vertices);
@@ -77,7 +67,6 @@ void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle
   size_t count = 0;
   for (const auto& [cell, triangles] : *cells) count += triangles.size();
   town->indices.reserve(3 * count);
-  town->planes.reserve(count);
   for (auto& [cell, triangles] : *cells) {
     std::stable_sort(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) { return a.group < b.group; });
     TownBlock block;
@@ -96,16 +85,17 @@ void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle
         Include(all[corner].position, &block.box);
       }
       block.ranges.back().count += 3;
-      town->planes.push_back(PlaneOf(t, plan, all));
       if (!HidesWhatIsBehind(t, plan, all)) continue;
-      for (uint32_t corner : t.corners) town->walls.push_back(all[corner].position);
+      for (uint32_t corner : t.corners) town->walls.push_back(place[corner]);
       if (!plan.groups[static_cast<size_t>(t.group)].double_sided) continue;
-      for (size_t k : {2, 1, 0}) town->walls.push_back(all[t.corners[k]].position);
+      for (size_t k : {2, 1, 0}) town->walls.push_back(place[t.corners[k]]);
     }
     block.walls = town->walls.size() - block.first_wall;
     block.ranges.shrink_to_fit();
     town->blocks.push_back(std::move(block));
   }
+  town->positions.reserve(town->vertices.size());
+  for (const TownVertex& v : town->vertices) town->positions.push_back(v.position);
   town->walls.shrink_to_fit();
   town->blocks.shrink_to_fit();
 }

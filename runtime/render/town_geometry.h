@@ -29,8 +29,8 @@ struct TownBlock {
 struct TownGeometry {
   std::vector<TownVertex> vertices;
   std::vector<uint32_t> indices;
-  std::vector<Vec4> planes;       // of each triangle: a point p is behind it where dot(xyz, p) + w < 0; all zero where both sides are drawn
-  std::vector<Vec3> walls;        // corners of the triangles that are large and opaque enough to hide what is behind them
+  std::vector<Vec3> positions;    // of the vertices
+  std::vector<uint32_t> walls;    // indices of the triangles that are large and opaque enough to hide what is behind them
   std::vector<TownBlock> blocks;  // neighbours near each other
 };
 

@@ -4,12 +4,13 @@
 #include <cstddef>
 
 #include "runtime/render/shaders.h"
+#include "runtime/render/visible_triangles.h"
 
 namespace flaneur {
 namespace {
 
 constexpr size_t kMostWalls = 14000;      // triangles a picture: the nearest walls hide most
-constexpr uint32_t kPiece = 3 * 15000;    // indices
+constexpr uint32_t kPiece = 3 * 15000;    // indices; software keeps all triangles on their way until they are filled
 constexpr uint32_t kJoined = 12000;       // indices that a shadow draws in vain rather than in another call
 
 void EnableVertices() {
@@ -32,20 +33,19 @@ void DrawIndices(uint32_t first, uint32_t count) {
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, reinterpret_cast<const void*>(size_t{first} * sizeof(uint32_t)));
 }
 
-// Of the triangles that turn their front to the eye. Returns the end of what was written, and writes up to three indices beyond it.
-uint32_t* GatherFronts(const TownGeometry& geometry, const TownRange& range, Vec3 eye, uint32_t* to) {
+// Of the triangles that turn their front to the eye and, where there is a sight, may be seen. Writes up to three indices beyond them.
+uint32_t* GatherSeen(const TownRange& range, bool both_sides, Vec3 eye, const TriangleSight* sight, const TownGeometry& geometry, uint32_t* to) {
   const uint32_t* from = &geometry.indices[range.first];
-  const Vec4* planes = &geometry.planes[range.first / 3];
-  for (uint32_t i = 0; i < range.count / 3; ++i) {
-    const Vec4& plane = planes[i];
-    std::copy_n(from + 3 * i, 3, to);  // whoever is behind is written over
-    to += plane.x * eye.x + plane.y * eye.y + plane.z * eye.z + plane.w >= 0 ? 3 : 0;
+  for (uint32_t i = 0; i < range.count; i += 3, from += 3) {
+    const std::array<Vec3, 3> corners{geometry.positions[from[0]], geometry.positions[from[1]], geometry.positions[from[2]]};
+    std::copy_n(from, 3, to);  // what is not seen is written over
+    to += (both_sides || !TurnsItsBack(corners, eye)) && (sight == nullptr || MayBeSeen(corners, *sight)) ? 3 : 0;
   }
   return to;
 }
 
 // Indices of the visible blocks, by group and within it nearest first. Returns how many.
-size_t GatherIndices(Vec3 eye, bool cull, TownView* town) {
+size_t GatherIndices(Vec3 eye, const TriangleSight* sight, bool cull, TownView* town) {
   town->counts.assign(town->groups.size(), 0);
   uint32_t* to = town->indices.get();
   for (size_t g = 0; g < town->groups.size(); ++g) {
@@ -53,7 +53,8 @@ size_t GatherIndices(Vec3 eye, bool cull, TownView* town) {
     for (uint32_t b : town->visible) {
       for (const TownRange& range : town->geometry.blocks[b].ranges) {
         if (range.group != static_cast<int>(g)) continue;
-        to = cull ? GatherFronts(town->geometry, range, eye, to) : std::copy_n(&town->geometry.indices[range.first], range.count, to);
+        to = cull ? GatherSeen(range, town->groups[g].double_sided, eye, sight, town->geometry, to)
+                  : std::copy_n(&town->geometry.indices[range.first], range.count, to);
       }
     }
     town->counts[g] = static_cast<uint32_t>(to - before);
@@ -114,15 +115,16 @@ void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownVie
     town->visible.push_back(b);
     if (!cull || walls + block.walls > 3 * kMostWalls) continue;
     walls += block.walls;
-    AddWalls({&town->geometry.walls[block.first_wall], block.walls}, &town->walls);
+    AddWalls(town->geometry.positions, {&town->geometry.walls[block.first_wall], block.walls}, &town->walls);
   }
   FinishOcclusion(&town->walls);
 }
 
-DrawCost DrawTown(Vec3 eye, bool cull, TownView* town) {
+DrawCost DrawTown(Vec3 eye, int width_px, int height_px, bool cull, TownView* town) {
   DrawCost cost;
   if (town->vertex_array == 0) return cost;
-  const size_t indices = GatherIndices(eye, cull, town);
+  const TriangleSight sight{width_px, height_px, &town->walls};
+  const size_t indices = GatherIndices(eye, town->triangle_by_triangle ? &sight : nullptr, cull, town);
   glBindVertexArray(town->vertex_array);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, town->visible_indices);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices * sizeof(uint32_t)), town->indices.get(), GL_STREAM_DRAW);
@@ -132,9 +134,9 @@ DrawCost DrawTown(Vec3 eye, bool cull, TownView* town) {
     if (count == 0) continue;
     BindGroup(town->groups[g], town->lit, *town);
     for (uint32_t left = count; left > 0;) {
-      const uint32_t some = town->in_pieces ? std::min(left, kPiece) : left;
+      const uint32_t some = town->triangle_by_triangle ? std::min(left, kPiece) : left;
       DrawIndices(first, some);
-      if (town->in_pieces && some == kPiece) glFlush();
+      if (town->triangle_by_triangle && some == kPiece) glFlush();
       cost += {some / 3, 1};
       first += some;
       left -= some;

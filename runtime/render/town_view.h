@@ -18,7 +18,7 @@ struct TownView {
   std::vector<SurfaceGroup> groups;
   std::vector<GLuint> arrays;
   Box box;                                 // of all blocks
-  bool in_pieces = false;                  // software keeps all triangles on their way until they are filled: some at a time
+  bool triangle_by_triangle = false;       // software, where a triangle costs more than a look at it, and pictures have one sample a pixel
   // Of the last picture.
   OcclusionMap walls;
   std::vector<std::pair<float, uint32_t>> order;        // scratch: distance and block
@@ -35,8 +35,8 @@ void AddTown(TownGeometry geometry, TownView* town);
 void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownView* town);
 
 // Near blocks first, so that hidden pixels cost little, without what turns its back to the eye: software would shade its
-// corners. Without `cull` all of the blocks. The frame block must be bound.
-DrawCost DrawTown(Vec3 eye, bool cull, TownView* town);
+// corners. Without `cull` all of the blocks. width_px, height_px: of what is drawn. The frame block must be bound.
+DrawCost DrawTown(Vec3 eye, int width_px, int height_px, bool cull, TownView* town);
 
 // Depth only: the blocks from *next_block on that the light's view touches, until `triangles` are drawn. *next_block: where to go on.
 DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const TownView& town, size_t* next_block);
