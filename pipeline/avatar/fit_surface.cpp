@@ -14,6 +14,7 @@ namespace flaneur {
 namespace {
 
 constexpr double kAlong = 0.02;          // of a pull along the surface, against one across it
+constexpr double kBindShare = 1.25;      // of the bind pose, against all others together
 constexpr double kInertia = 0.02;        // of what holds a vertex where it is, against the pulls
 constexpr double kWeightInertia = 0.05;  // the same of its weights
 constexpr float kLeastShare =
@@ -22,7 +23,14 @@ constexpr float kFarthest = 1.5f;  // of its first ties' greatest length: so far
 constexpr float kStraight = 0.7f;  // cosine; a longer way round has a border or crease between
 constexpr float kSameSide = 0.2f;  // cosine between normals of places that belong together
 constexpr size_t kBlock = 256;     // places on one thread
-constexpr size_t kSamplesAFace = 5, kFewestSamples = 5000;
+// Places a face and at most: small originals, whose levels are seen from nearer, can afford more.
+struct Density {
+  size_t a_face, most;
+};
+constexpr Density kSmallOriginal{12, 30000}, kLargeOriginal{5, 20000};
+constexpr size_t kLargeOriginalFaces = 20000, kFewestSamples = 5000;
+constexpr size_t kMostFaces = 10000;  // of a level: of larger ones too few places would be left for a vertex
+constexpr int kRounds = 2;  // of tying and solving
 constexpr double kLeastTurn = 0.1;  // cosine; a face that turns further is taken to fold over
 
 // A place of the level that should be where a place of the original is.
@@ -194,8 +202,8 @@ class Fitter {
   // The ties' quadric in one pose, of the vertex's posed place.
   Quadric Pull(size_t v, size_t pose) const {
     Quadric sum;
-    // The bind pose counts as much as all others together.
-    const double weight = pose == 0 ? std::max(1.0, static_cast<double>(poses_.size())) : 1;
+    const auto others = static_cast<double>(poses_.size());
+    const double weight = pose == 0 ? std::max(1.0, kBindShare * others) : 1;
     for (const uint32_t id : ties_of_[v]) {
       const Tie& tie = ties_[id / 3];
       const size_t corner = id % 3;
@@ -290,27 +298,32 @@ class Fitter {
   std::vector<std::vector<uint32_t>> ties_of_;  // by vertex: 3 * tie + corner
 };
 
+Density DensityFor(const FitOriginal& original) {
+  return original.triangles[0].size() > kLargeOriginalFaces ? kLargeOriginal : kSmallOriginal;
+}
+
 }  // namespace
 
 SurfaceFitter::SurfaceFitter(const std::vector<Mesh>& original,
-                             const std::vector<std::vector<Mat4>>& poses, const FitOptions& options)
-    : options_(options), original_(new FitOriginal{poses, {}, {}, nullptr}) {
+                             const std::vector<std::vector<Mat4>>& poses)
+    : original_(new FitOriginal{poses, {}, {}, nullptr}) {
   const std::vector<Mesh> shapes = Shapes(original);
   original_->triangles.push_back(PosedTriangles(shapes, nullptr));
   for (const auto& pose : poses) original_->triangles.push_back(PosedTriangles(shapes, &pose));
-  original_->places = SpreadPlaces(original_->triangles[0], options.samples);
+  original_->places = SpreadPlaces(original_->triangles[0],
+                                   static_cast<int>(DensityFor(*original_).most));
   original_->tree = std::make_unique<SurfaceTree>(original_->triangles[0]);
 }
 
 SurfaceFitter::~SurfaceFitter() = default;
 
 void SurfaceFitter::Fit(WedgeSurface* level) const {
-  // Fewer places would leave vertices to chance.
-  if (2 * level->faces.size() > static_cast<size_t>(options_.samples)) return;
-  const size_t samples = std::clamp(kSamplesAFace * level->faces.size(), kFewestSamples,
-                                    static_cast<size_t>(options_.samples));
+  if (level->faces.size() > kMostFaces) return;
+  const Density density = DensityFor(*original_);
+  const size_t samples =
+      std::clamp(density.a_face * level->faces.size(), kFewestSamples, density.most);
   Fitter fitter(*original_, samples, level);
-  for (int round = 0; round < options_.rounds; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     fitter.TieAll();
     fitter.Solve();
     fitter.Solve();

@@ -11,27 +11,20 @@
 
 namespace flaneur {
 
-struct FitOptions {
-  int samples = 20000;  // of each of the two surfaces at most; five a face are enough
-  int rounds = 2;       // of tying and solving
-};
-
 struct FitOriginal;
 
 // Keeps what all levels of one original have in common.
 class SurfaceFitter {
  public:
   // `poses`: skinning matrices, besides the bind pose; they must outlive this.
-  SurfaceFitter(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses,
-                const FitOptions& options = {});
+  SurfaceFitter(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses);
   ~SurfaceFitter();
 
   // Faces, wedges and joints of a vertex stay; no face turns over, and none is pulled farther than
-  // the surfaces are apart. A level with more than half as many faces as samples stays as it is.
+  // the surfaces are apart. A level of more than 10,000 faces stays as it is.
   void Fit(WedgeSurface* level) const;
 
  private:
-  FitOptions options_;
   std::unique_ptr<FitOriginal> original_;
 };
 

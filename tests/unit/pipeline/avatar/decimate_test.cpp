@@ -8,6 +8,7 @@
 #include <set>
 
 #include "pipeline/avatar/surface_distance.h"
+#include "pipeline/avatar/threads.h"
 #include "pipeline/avatar/wedge_surface.h"
 #include "pipeline/io/gltf.h"
 #include "tests/unit/pipeline/test_person.h"
@@ -245,6 +246,46 @@ TEST(SurfaceTree, AgreesWithAPlainSearchOfKnownDistances) {
   // Far beside the trunk the nearest point is its wall.
   EXPECT_NEAR(tree.Distance({1.2f, 1.4f, 0}), 1.0f, 1e-4f);
   EXPECT_NEAR(tree.Distance({0.2f, 2.8f, 0}), 1.0f, 1e-4f);
+}
+
+// Every bit of what a level is drawn by.
+std::vector<uint8_t> BytesOf(const AvatarLevels& levels) {
+  std::vector<uint8_t> bytes;
+  const auto add = [&](const auto& values) {
+    const auto* first = reinterpret_cast<const uint8_t*>(values.data());
+    bytes.insert(bytes.end(), first, first + values.size() * sizeof values[0]);
+  };
+  for (const AvatarLevel& level : levels.levels) {
+    add(std::array{level.error_mm, level.posed_error_mm, level.normal_deg, level.switch_px});
+    for (const Mesh& mesh : level.meshes) {
+      add(mesh.positions);
+      add(mesh.normals);
+      add(mesh.uvs);
+      add(mesh.colors);
+      add(mesh.joints);
+      add(mesh.weights);
+      add(mesh.indices);
+    }
+  }
+  return bytes;
+}
+
+TEST(BuildLevels, AreTheSameOnAnyNumberOfThreads) {
+  Avatar avatar = MadePerson();
+  std::vector<std::string> warnings;
+  if (!SharedData().empty()) {
+    const auto man = SharedData() / "avatars/khronos/CesiumMan.glb";
+    ASSERT_EQ(ReadAvatar(man, {}, &avatar, &warnings).message, "");
+  }
+  std::vector<uint8_t> first;
+  for (const unsigned threads : {1, 2, 3, 7}) {
+    thread_count = threads;
+    AvatarLevels levels;
+    EXPECT_EQ(BuildLevels(avatar, {}, &levels, &warnings).message, "");
+    thread_count = 0;
+    if (first.empty()) first = BytesOf(levels);
+    EXPECT_EQ(BytesOf(levels), first) << threads;
+  }
 }
 
 TEST(BuildLevels, HandlesRealPeople) {
