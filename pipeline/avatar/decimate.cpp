@@ -165,40 +165,50 @@ std::string Missed(const Avatar& avatar, int triangles, int target) {
          ", as its parts cannot be simplified further";
 }
 
-// Levels of so many triangles; while one is fitted the next is decimated.
-std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const std::vector<int>& targets,
-                                         std::vector<std::string>* warnings) {
+// What all levels of one original are fitted to and measured against.
+struct Reference {
+  Reference(const Avatar& avatar, const std::vector<std::vector<Mat4>>& poses, const LevelsOptions& options)
+      : surface(avatar.meshes, poses), look(avatar.meshes), meter(avatar, options.error_samples, options.walk_poses) {}
+  SurfaceFitter surface;
+  LookFitter look;
+  LevelMeter meter;
+};
+
+AvatarLevel FinishedLevel(const Avatar& avatar, const LevelsOptions& options, const Reference& reference, WedgeSurface surface) {
+  reference.surface.Fit(&surface);
+  reference.look.Fit(&surface);
+  AvatarLevel level;
+  level.meshes = SplitWedges(surface, avatar.meshes);
+  level.triangles = CountTriangles(level.meshes);
+  reference.meter.MeasureDistance(&level);
+  if (options.ratios.empty()) reference.meter.MeasureNormals(&level);
+  return level;
+}
+
+// Levels of so many triangles; while some are fitted and measured the next is decimated.
+std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const LevelsOptions& options, std::vector<std::string>* warnings) {
   const int original = CountTriangles(avatar.meshes);
+  const std::vector<int> targets = Targets(options, original);
+  std::vector<AvatarLevel> levels(targets.size());
+  size_t first = 0;  // that is decimated
+  for (; first < targets.size() && targets[first] >= original; ++first) {
+    levels[first].meshes = avatar.meshes;
+    levels[first].triangles = original;
+  }
+  if (first == targets.size()) return levels;
   const std::vector<std::vector<Mat4>> poses = WalkPoses(avatar, kQuadricPoses);
-  std::unique_ptr<QuadricDecimater> decimater;
-  std::unique_ptr<SurfaceFitter> fitter;
-  std::unique_ptr<LookFitter> look;
-  std::vector<std::future<std::vector<Mesh>>> meshes;
-  for (const int target : targets) {
-    if (target >= original) {
-      meshes.push_back(std::async(std::launch::deferred, [&] { return avatar.meshes; }));
-      continue;
-    }
-    if (!decimater) decimater = std::make_unique<QuadricDecimater>(avatar.meshes, poses);
-    if (!fitter) fitter = std::make_unique<SurfaceFitter>(avatar.meshes, poses);
-    if (!look) look = std::make_unique<LookFitter>(avatar.meshes);
-    decimater->DecimateTo(target);
-    const float most = (1 + kTargetTolerance) * static_cast<float>(target);
-    if (static_cast<float>(decimater->Triangles()) > most) {
-      warnings->push_back(Missed(avatar, decimater->Triangles(), target));
-    }
-    const auto fit = [&avatar, &fitter, &look](WedgeSurface surface) {
-      fitter->Fit(&surface);
-      look->Fit(&surface);
-      return SplitWedges(surface, avatar.meshes);
-    };
-    meshes.push_back(std::async(std::launch::async, fit, decimater->Surface()));
+  const auto make = [&] { return std::make_unique<const Reference>(avatar, poses, options); };
+  const std::shared_future<std::unique_ptr<const Reference>> reference = std::async(std::launch::async, make);
+  QuadricDecimater decimater(avatar.meshes, poses);
+  std::vector<std::future<AvatarLevel>> waiting;
+  for (size_t k = first; k < targets.size(); ++k) {
+    decimater.DecimateTo(targets[k]);
+    const float most = (1 + kTargetTolerance) * static_cast<float>(targets[k]);
+    if (static_cast<float>(decimater.Triangles()) > most) warnings->push_back(Missed(avatar, decimater.Triangles(), targets[k]));
+    const auto finish = [&](WedgeSurface surface) { return FinishedLevel(avatar, options, *reference.get(), std::move(surface)); };
+    waiting.push_back(std::async(std::launch::async, finish, decimater.Surface()));
   }
-  std::vector<AvatarLevel> levels(meshes.size());
-  for (size_t k = 0; k < levels.size(); ++k) {
-    levels[k].meshes = meshes[k].get();
-    levels[k].triangles = CountTriangles(levels[k].meshes);
-  }
+  for (size_t k = first; k < targets.size(); ++k) levels[k] = waiting[k - first].get();
   return levels;
 }
 
@@ -210,13 +220,8 @@ Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLeve
   if (Error e = CheckMeshes(source)) return e;
   const Avatar avatar = WithoutIdleJoints(source);
   levels->avatar = avatar;
-  levels->levels =
-      DecimatedLevels(avatar, Targets(options, CountTriangles(avatar.meshes)), warnings);
-  MeasureLevels(avatar, options.error_samples, options.walk_poses, &levels->levels);
-  if (options.ratios.empty()) {
-    MeasureNormals(avatar, options.error_samples, &levels->levels);
-    ChooseLevels(avatar, options.error_px, &levels->levels);
-  }
+  levels->levels = DecimatedLevels(avatar, options, warnings);
+  if (options.ratios.empty()) ChooseLevels(avatar, options.error_px, &levels->levels);
   SpareJoints(avatar, &levels->levels);
   levels->avatar.meshes = levels->levels[0].meshes;
   SetSwitchHeights(avatar, options.error_px, &levels->levels);

@@ -37,79 +37,38 @@ std::vector<Place> PlacesOn(const std::vector<Mesh>& meshes, const Triangles& tr
   return places;
 }
 
-struct Surface {
-  Surface(const std::vector<Mesh>& of, int samples)
-      : meshes(Shapes(of)),
-        bind(PosedTriangles(meshes, nullptr)),
-        places(PlacesOn(meshes, bind, samples)),
-        tree(bind) {}
-  std::vector<Mesh> meshes;
-  Triangles bind;
-  std::vector<Place> places;
-  SurfaceTree tree;  // the bind pose's
+// Points of a surface and the surface itself, in one pose.
+struct PosedSurface {
+  std::vector<Vec3> points;
+  SurfaceTree tree;
 };
 
-// Follows both surfaces from pose to pose: where a point was nearest it mostly still is.
-class Follower {
- public:
-  explicit Follower(const Surface& surface) : surface_(surface), tree_(surface.tree) {}
-
-  void MoveTo(const std::vector<Mat4>* pose) {
-    triangles_ = pose != nullptr ? PosedTriangles(surface_.meshes, pose) : surface_.bind;
-    tree_.MoveTo(triangles_);
-  }
-
-  // The greatest distance of its points from the other surface, or `greatest` where that is more. `guesses`: one a point.
-  float FarthestFrom(const Follower& other, float greatest, std::vector<uint32_t>* guesses) const {
-    const bool first_time = guesses->empty();
-    guesses->resize(surface_.places.size(), 0);
-    for (size_t i = 0; i < guesses->size(); ++i) {
-      if (first_time && i > 0) (*guesses)[i] = (*guesses)[i - 1];  // most lie beside the one before
-      const Place& place = surface_.places[i];
-      const Vec3 point = At(triangles_[place.triangle], place.shares);
-      greatest = other.tree_.AtLeast(point, greatest, &(*guesses)[i]);
+// A surface in all poses, the bind pose first.
+std::vector<PosedSurface> InAllPoses(const std::vector<Mesh>& of, const std::vector<std::vector<Mat4>>& poses, int samples) {
+  const std::vector<Mesh> meshes = Shapes(of);
+  const Triangles bind = PosedTriangles(meshes, nullptr);
+  const std::vector<Place> places = PlacesOn(meshes, bind, samples);
+  std::vector<PosedSurface> all(1 + poses.size(), PosedSurface{{}, SurfaceTree(bind)});
+  RunOnThreads([&](size_t first, size_t step) {
+    for (size_t pose = first; pose < all.size(); pose += step) {
+      const Triangles posed = pose > 0 ? PosedTriangles(meshes, &poses[pose - 1]) : bind;
+      if (pose > 0) all[pose].tree.MoveTo(posed);
+      for (const Place& place : places) all[pose].points.push_back(At(posed[place.triangle], place.shares));
     }
-    return greatest;
-  }
-
- private:
-  const Surface& surface_;
-  SurfaceTree tree_;
-  Triangles triangles_;
-};
-
-// Of each level in some of the poses, or what it was in one before; 0 is the bind pose, which stands for itself.
-void MeasurePoses(const Surface& original, const std::vector<std::unique_ptr<Surface>>& levels,
-                  const std::vector<std::vector<Mat4>>& poses, size_t first, size_t step,
-                  std::vector<std::vector<float>>* errors) {
-  if (first > poses.size()) return;
-  struct Guesses {
-    std::vector<uint32_t> on_level, on_original;
-  };
-  std::vector<Guesses> guesses(levels.size());
-  std::vector<std::unique_ptr<Follower>> followers;
-  for (const auto& level : levels) {
-    followers.push_back(level ? std::make_unique<Follower>(*level) : nullptr);
-  }
-  Follower whole(original);
-  for (size_t pose = first; pose <= poses.size(); pose += step) {
-    const std::vector<Mat4>* matrices = pose > 0 ? &poses[pose - 1] : nullptr;
-    whole.MoveTo(matrices);
-    for (size_t k = 0; k < levels.size(); ++k) {
-      if (!followers[k]) continue;
-      followers[k]->MoveTo(matrices);
-      float& greatest = (*errors)[pose][k];
-      greatest = pose > step ? (*errors)[pose - step][k] : 0;
-      greatest = whole.FarthestFrom(*followers[k], greatest, &guesses[k].on_level);
-      greatest = followers[k]->FarthestFrom(whole, greatest, &guesses[k].on_original);
-    }
-  }
+  });
+  return all;
 }
 
-int CountTriangles(const Avatar& avatar) {
-  int count = 0;
-  for (const Mesh& mesh : avatar.meshes) count += TriangleCount(mesh);
-  return count;
+// The greatest distance of the points from the surface, or `greatest` where that is more. `guesses`, one a point, of where each is
+// nearest: mostly where it was in another pose.
+float Farthest(const std::vector<Vec3>& points, const SurfaceTree& surface, float greatest, std::vector<uint32_t>* guesses) {
+  const bool first_time = guesses->empty();
+  guesses->resize(points.size(), 0);
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (first_time && i > 0) (*guesses)[i] = (*guesses)[i - 1];  // most lie beside the one before
+    greatest = surface.AtLeast(points[i], greatest, &(*guesses)[i]);
+  }
+  return greatest;
 }
 
 // The normals of each triangle's corners, zero where the mesh has none.
@@ -142,45 +101,42 @@ float MeanAngle_deg(const SurfaceTree& original, const Triangles& original_norma
 
 }  // namespace
 
-void MeasureNormals(const Avatar& original, int samples, std::vector<AvatarLevel>* levels) {
-  const Triangles triangles = PosedTriangles(original.meshes, nullptr), normals = CornerNormals(original.meshes);
-  if (triangles.empty() || samples <= 0) return;
-  const SurfaceTree tree(triangles);
-  RunOnThreads([&](size_t first, size_t step) {
-    for (size_t k = first; k < levels->size(); k += step) {
-      AvatarLevel& level = (*levels)[k];
-      const bool whole = level.triangles == static_cast<int>(triangles.size());
-      level.normal_deg = whole ? 0 : MeanAngle_deg(tree, normals, level.meshes, samples);
-    }
-  });
+struct MeasuredOriginal {
+  const Avatar& avatar;
+  int samples;
+  std::vector<std::vector<Mat4>> walk;
+  std::vector<PosedSurface> poses;
+  Triangles normals;  // of corners
+};
+
+LevelMeter::LevelMeter(const Avatar& original, int samples, int walk_poses)
+    : original_(new MeasuredOriginal{original, samples, WalkPoses(original, walk_poses), {}, {}}) {
+  original_->poses = InAllPoses(original.meshes, original_->walk, samples);
+  original_->normals = CornerNormals(original.meshes);
 }
 
-void MeasureLevels(const Avatar& original, int samples, int walk_poses,
-                   std::vector<AvatarLevel>* levels) {
-  const int triangles = CountTriangles(original);
-  if (std::all_of(levels->begin(), levels->end(),
-                  [&](const AvatarLevel& level) { return level.triangles == triangles; })) {
-    return;
-  }
-  const Surface whole(original.meshes, samples);
-  const std::vector<std::vector<Mat4>> poses = WalkPoses(original, walk_poses);
-  std::vector<std::unique_ptr<Surface>> surfaces;  // none: it is the original
-  for (const AvatarLevel& level : *levels) {
-    surfaces.push_back(
-        level.triangles == triangles ? nullptr : std::make_unique<Surface>(level.meshes, samples));
-  }
-  std::vector<std::vector<float>> errors(1 + poses.size(), std::vector<float>(levels->size()));
+LevelMeter::~LevelMeter() = default;
+
+void LevelMeter::MeasureDistance(AvatarLevel* level) const {
+  const std::vector<PosedSurface> poses = InAllPoses(level->meshes, original_->walk, original_->samples);
+  std::vector<float> errors_m(poses.size());
   RunOnThreads([&](size_t first, size_t step) {
-    MeasurePoses(whole, surfaces, poses, first, step, &errors);
-  });
-  for (size_t k = 0; k < levels->size(); ++k) {
-    AvatarLevel& level = (*levels)[k];
-    level.error_mm = 1000 * errors[0][k];
-    level.posed_error_mm = 0;
-    for (size_t pose = 1; pose < errors.size(); ++pose) {
-      level.posed_error_mm = std::max(level.posed_error_mm, 1000 * errors[pose][k]);
+    std::vector<uint32_t> on_level, on_original;
+    for (size_t pose = first; pose < poses.size(); pose += step) {
+      // The walk's poses go on from the greatest so far; the bind pose stands for itself.
+      float greatest = pose > step ? errors_m[pose - step] : 0;
+      greatest = Farthest(original_->poses[pose].points, poses[pose].tree, greatest, &on_level);
+      errors_m[pose] = Farthest(poses[pose].points, original_->poses[pose].tree, greatest, &on_original);
     }
-  }
+  });
+  level->error_mm = 1000 * errors_m[0];
+  level->posed_error_mm = 0;
+  for (size_t pose = 1; pose < errors_m.size(); ++pose) level->posed_error_mm = std::max(level->posed_error_mm, 1000 * errors_m[pose]);
+}
+
+void LevelMeter::MeasureNormals(AvatarLevel* level) const {
+  if (original_->samples <= 0) return;
+  level->normal_deg = MeanAngle_deg(original_->poses[0].tree, original_->normals, level->meshes, original_->samples);
 }
 
 }  // namespace flaneur

@@ -1,18 +1,29 @@
 // How far levels of detail lie from the original, in the bind pose and walking.
 #pragma once
-#include <vector>
+#include <memory>
 
 #include "pipeline/core/avatar.h"
 
 namespace flaneur {
 
-// Sets error_mm and posed_error_mm of each level: the greatest of the distances of `samples` points
-// and up to 6,000 vertices of each surface from the other, over `walk_poses` moments of the walk.
-// The same result on any number of threads.
-void MeasureLevels(const Avatar& original, int samples, int walk_poses,
-                   std::vector<AvatarLevel>* levels);
+struct MeasuredOriginal;
 
-// Sets normal_deg of each level, at `samples` places of it whose nearest place of the original faces the same way.
-void MeasureNormals(const Avatar& original, int samples, std::vector<AvatarLevel>* levels);
+// Keeps what all levels of one original, which must outlive this, are measured against. Any number of levels may be measured at once.
+class LevelMeter {
+ public:
+  // `samples` points and up to 6,000 vertices of each surface; `walk_poses` moments of the walk.
+  LevelMeter(const Avatar& original, int samples, int walk_poses);
+  ~LevelMeter();
+
+  // Sets error_mm and posed_error_mm: the greatest of the distances of either surface's points from the other. The same result on any
+  // number of threads.
+  void MeasureDistance(AvatarLevel* level) const;
+
+  // Sets normal_deg, at `samples` places of the level whose nearest place of the original faces the same way.
+  void MeasureNormals(AvatarLevel* level) const;
+
+ private:
+  std::unique_ptr<MeasuredOriginal> original_;
+};
 
 }  // namespace flaneur
