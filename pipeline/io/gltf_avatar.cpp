@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/io/gltf.h"
@@ -45,6 +47,12 @@ std::string LevelExtras(const AvatarLevel& level) {
   return extras.dump();
 }
 
+std::shared_ptr<const EncodedMesh> EncodedLevel(const Avatar& avatar, const AvatarLevel& level, DracoOptions draco) {
+  if (draco.position_bits == 0) draco.position_bits = PositionBits(level, avatar.height_m);
+  if (level.triangles > kManyTriangles) draco.speed = std::max(draco.speed, 2);
+  return EncodeMesh(WithoutIdleUvs(level.meshes, avatar.materials), draco);
+}
+
 void AddSkeleton(GltfBuilder* builder, const Avatar& avatar, const std::string& prefix,
                  AvatarPart* part) {
   GltfNode skeleton;
@@ -73,33 +81,28 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
   *part = {};
   AddSkeleton(builder, avatar, prefix, part);
   const std::vector<int> materials = builder->AddMaterials(avatar.materials, avatar.images);
+  std::vector<std::future<std::shared_ptr<const EncodedMesh>>> meshes;
+  for (const AvatarLevel& level : levels.levels) {
+    meshes.push_back(std::async(std::launch::async, [&] { return EncodedLevel(avatar, level, draco); }));
+  }
+  for (const Clip& clip : avatar.clips) {
+    part->animations.push_back(builder->AddAnimation(prefix + clip.name, clip, avatar.joints,
+                                                     levels.levels[0].meshes, part->joint_nodes,
+                                                     draco.compress));
+  }
   std::vector<float> switch_shares;
   for (size_t k = 0; k < levels.levels.size(); ++k) {
     GltfNode node;
     node.name = prefix + "level" + std::to_string(k);
     node.skin = part->skin;
     node.extras = LevelExtras(levels.levels[k]);
-    DracoOptions rounding = draco;
-    if (rounding.position_bits == 0) {
-      rounding.position_bits = PositionBits(levels.levels[k], avatar.height_m);
-    }
-    if (levels.levels[k].triangles > kManyTriangles) rounding.speed = std::max(rounding.speed, 2);
-    if (Error e =
-            builder->AddMesh(node.name, WithoutIdleUvs(levels.levels[k].meshes, avatar.materials),
-                             materials, rounding, &node.mesh)) {
-      return e;
-    }
+    if (Error e = builder->AddMesh(node.name, *meshes[k].get(), materials, &node.mesh)) return e;
     part->level_nodes.push_back(builder->AddNode(node));
     switch_shares.push_back(std::min(levels.levels[k].switch_px / kScreenHeight_px, 1.0f));
   }
   if (part->level_nodes.size() > 1) {
     builder->SetLevels(part->level_nodes[0], std::span(part->level_nodes).subspan(1),
                        switch_shares);
-  }
-  for (const Clip& clip : avatar.clips) {
-    part->animations.push_back(builder->AddAnimation(prefix + clip.name, clip, avatar.joints,
-                                                     levels.levels[0].meshes, part->joint_nodes,
-                                                     draco.compress));
   }
   return Ok();
 }

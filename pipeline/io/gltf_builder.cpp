@@ -62,7 +62,7 @@ PositionGrid GridAround(std::span<const Mesh> parts) {
   return {min, largest > 0 ? largest : 1.0f};
 }
 
-Error CheckPart(const Mesh& mesh, std::span<const int> materials) {
+Error CheckPart(const Mesh& mesh) {
   const size_t n = mesh.positions.size();
   const auto fits = [n](size_t size) { return size == 0 || size == n; };
   if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.uvs1.size()) ||
@@ -72,9 +72,6 @@ Error CheckPart(const Mesh& mesh, std::span<const int> materials) {
   if (mesh.indices.size() % 3 != 0) return Fail("its indices are not triangles");
   for (const uint32_t i : mesh.indices) {
     if (i >= n) return Fail("an index is out of range");
-  }
-  if (mesh.material >= static_cast<int>(materials.size())) {
-    return Fail("its material is out of range");
   }
   return Ok();
 }
@@ -135,6 +132,36 @@ void PutChunk(uint32_t type, std::span<const uint8_t> bytes, uint8_t padding,
 }
 
 }  // namespace
+
+struct EncodedMesh {
+  struct Part {
+    Mesh mesh;        // compact
+    DracoMesh draco;  // where it is compressed
+  };
+  Error problem;
+  bool compressed = false, byte_joints = false;
+  std::vector<Part> parts;
+};
+
+std::shared_ptr<const EncodedMesh> EncodeMesh(std::span<const Mesh> parts,
+                                              const DracoOptions& draco) {
+  auto out = std::make_shared<EncodedMesh>();
+  for (const Mesh& part : parts) {
+    if ((out->problem = CheckPart(part))) return out;
+  }
+  const PositionGrid grid = GridAround(parts);
+  out->compressed = draco.compress;
+  out->byte_joints = JointsFitBytes(parts);
+  for (const Mesh& part : parts) {
+    if (part.indices.empty()) continue;
+    EncodedMesh::Part& to = out->parts.emplace_back();
+    to.mesh = Compact(part);
+    if (!draco.compress) continue;
+    out->problem = EncodeDraco(to.mesh, draco, grid, out->byte_joints, &to.draco);
+    if (out->problem) return out;
+  }
+  return out;
+}
 
 struct GltfBuilder::Impl {
   json root = {{"asset", {{"version", "2.0"}, {"generator", "Flaneur"}}}};
@@ -245,18 +272,13 @@ struct GltfBuilder::Impl {
     a["max"] = Numbers(max);
   }
 
-  Error AddCompressed(const Mesh& mesh, const DracoOptions& options, const PositionGrid& grid,
-                      bool byte_joints, json* primitive);
+  void AddCompressed(const DracoMesh& draco, bool byte_joints, json* primitive);
   void AddPlain(const Mesh& mesh, bool byte_joints, json* primitive);
   int AddKeyTimes(const KeyChannel& channel);
   int AddKeyValues(const KeyChannel& channel);
 };
 
-Error GltfBuilder::Impl::AddCompressed(const Mesh& mesh, const DracoOptions& options,
-                                       const PositionGrid& grid, bool byte_joints,
-                                       json* primitive) {
-  DracoMesh draco;
-  if (Error e = EncodeDraco(mesh, options, grid, byte_joints, &draco)) return e;
+void GltfBuilder::Impl::AddCompressed(const DracoMesh& draco, bool byte_joints, json* primitive) {
   json ids = json::object();
   json& attributes = (*primitive)["attributes"];
   const auto add = [&](int id, const char* name, int component, const char* type, bool normalized) {
@@ -279,7 +301,6 @@ Error GltfBuilder::Impl::AddCompressed(const Mesh& mesh, const DracoOptions& opt
       {"bufferView", AddView(draco.bytes, 0)}, {"attributes", ids}};
   used.insert("KHR_draco_mesh_compression");
   required.insert("KHR_draco_mesh_compression");
-  return Ok();
 }
 
 void GltfBuilder::Impl::AddPlain(const Mesh& mesh, bool byte_joints, json* primitive) {
@@ -415,27 +436,29 @@ std::vector<int> GltfBuilder::AddMaterials(std::span<const Material> materials,
 
 Error GltfBuilder::AddMesh(const std::string& name, std::span<const Mesh> parts,
                            std::span<const int> materials, const DracoOptions& draco, int* mesh) {
-  for (const Mesh& part : parts) {
-    if (Error e = CheckPart(part, materials)) {
-      return Fail("mesh '" + OneLine(name) + "': " + e.message);
-    }
-  }
-  const PositionGrid grid = GridAround(parts);
-  const bool byte_joints = JointsFitBytes(parts);
+  return AddMesh(name, *EncodeMesh(parts, draco), materials, mesh);
+}
+
+Error GltfBuilder::AddMesh(const std::string& name, const EncodedMesh& encoded,
+                           std::span<const int> materials, int* mesh) {
+  const std::string quoted = "mesh '" + OneLine(name) + "'";
+  if (encoded.problem) return Fail(quoted + ": " + encoded.problem.message);
   json primitives = json::array();
-  for (const Mesh& part : parts) {
-    if (part.indices.empty()) continue;
-    const Mesh compact = Compact(part);
+  for (const EncodedMesh::Part& part : encoded.parts) {
     json primitive = json::object();
-    if (part.material >= 0) primitive["material"] = materials[static_cast<size_t>(part.material)];
-    if (!draco.compress) {
-      impl_->AddPlain(compact, byte_joints, &primitive);
-    } else if (Error e = impl_->AddCompressed(compact, draco, grid, byte_joints, &primitive)) {
-      return Fail("mesh '" + OneLine(name) + "': " + e.message);
+    const int material = part.mesh.material;
+    if (material >= static_cast<int>(materials.size())) {
+      return Fail(quoted + ": its material is out of range");
+    }
+    if (material >= 0) primitive["material"] = materials[static_cast<size_t>(material)];
+    if (encoded.compressed) {
+      impl_->AddCompressed(part.draco, encoded.byte_joints, &primitive);
+    } else {
+      impl_->AddPlain(part.mesh, encoded.byte_joints, &primitive);
     }
     primitives.push_back(std::move(primitive));
   }
-  if (primitives.empty()) return Fail("mesh '" + OneLine(name) + "' has no triangle");
+  if (primitives.empty()) return Fail(quoted + " has no triangle");
   json item = {{"primitives", std::move(primitives)}};
   if (!name.empty()) item["name"] = name;
   *mesh = impl_->Add("meshes", std::move(item));

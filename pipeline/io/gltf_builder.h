@@ -35,6 +35,10 @@ struct GltfNode {
   std::string extras;  // a JSON object, or empty
 };
 
+// A mesh's parts as AddMesh stores them. Most of the work, and apart from the builder, so that several can be made at once.
+struct EncodedMesh;
+std::shared_ptr<const EncodedMesh> EncodeMesh(std::span<const Mesh> parts, const DracoOptions& draco);
+
 class GltfBuilder {
  public:
   GltfBuilder();
@@ -58,6 +62,8 @@ class GltfBuilder {
   // the mesh.
   Error AddMesh(const std::string& name, std::span<const Mesh> parts,
                 std::span<const int> materials, const DracoOptions& draco, int* mesh);
+  Error AddMesh(const std::string& name, const EncodedMesh& encoded, std::span<const int> materials,
+                int* mesh);
 
   int AddNode(const GltfNode& node);
   int AddSkin(const std::string& name, std::span<const int> joint_nodes,
