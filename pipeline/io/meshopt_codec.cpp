@@ -22,6 +22,7 @@ struct Compressed {
 };
 
 Error ReadCompressed(const tinygltf::Value& extension, size_t bytes, Compressed* out) {
+  if (!extension.IsObject()) return Fail("has a broken extension");
   const auto number = [&](const char* key) {
     const auto& value = extension.Get(key);
     return value.IsNumber() ? value.GetNumberAsDouble() : -1;

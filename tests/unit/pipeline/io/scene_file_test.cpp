@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <limits>
@@ -142,6 +143,40 @@ TEST_F(SceneFile, ReadsStripsFansAndQuantisedText) {
   for (const Vec3 n : scene_.meshes[0].normals) EXPECT_NEAR(n.z, 1, 1e-6f) << "strip";
   fs::remove(folder_ / "corners of it.bin");
   EXPECT_NE(ReadScene(folder_ / "town.gltf", &scene_).message.find("town.gltf"), std::string::npos);
+}
+
+// As `gltfpack -c` writes them: the buffer that the views name is not there.
+TEST_F(SceneFile, ReadsWhatMeshoptimizerCompressed) {
+  std::vector<uint8_t> bytes(1000), indices(1000);
+  bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), quad_.positions.data(), 4, 12));
+  indices.resize(meshopt_encodeIndexBuffer(indices.data(), indices.size(), quad_.indices.data(), 6));
+  const size_t first = bytes.size(), second = indices.size();
+  bytes.insert(bytes.end(), indices.begin(), indices.end());
+  const auto view = [](size_t at, size_t length, const std::string& numbers) {
+    return R"("extensions": {"EXT_meshopt_compression": {"buffer": 0, "byteOffset": )" + std::to_string(at) +
+           ", \"byteLength\": " + std::to_string(length) + ", " + numbers + "}}}";
+  };
+  const std::string text = R"({"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_meshopt_compression"],
+    "extensionsRequired": ["EXT_meshopt_compression"], "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 1, "byteLength": 48, "byteStride": 12, )" +
+                           view(0, first, R"("byteStride": 12, "count": 4, "mode": "ATTRIBUTES")") +
+                           R"(, {"buffer": 1, "byteOffset": 48, "byteLength": 12, )" +
+                           view(first, second, R"("byteStride": 2, "count": 6, "mode": "TRIANGLES")") +
+                           R"(], "buffers": [{"byteLength": )" + std::to_string(bytes.size()) +
+                           R"(, "uri": "quad.bin"}, {"byteLength": 60, "extensions": {"EXT_meshopt_compression": {"fallback": true}}}]})";
+  ASSERT_EQ(WriteFile(folder_ / "quad.bin", bytes).message, "");
+  ASSERT_EQ(WriteTextFile(folder_ / "town.gltf", text).message, "");
+  ASSERT_EQ(ReadScene(folder_ / "town.gltf", &scene_).message, "");
+  ASSERT_EQ(scene_.meshes.size(), 1u);
+  EXPECT_EQ(TriangleCount(scene_.meshes[0]), 2);
+  for (const Vec3 n : scene_.meshes[0].normals) EXPECT_NEAR(n.z, 1, 1e-6f);
+  bytes[0] = 0;
+  ASSERT_EQ(WriteFile(folder_ / "quad.bin", bytes).message, "");
+  const std::string message = ReadScene(folder_ / "town.gltf", &scene_).message;
+  EXPECT_NE(message.find("bufferView 0 holds broken compressed data"), std::string::npos) << message;
 }
 
 TEST_F(SceneFile, ReadsARealBuilding) {
