@@ -356,7 +356,9 @@ void BuildField(const Walkable& w, int field, Crowd* c) {
 
 Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, Crowd* c) {
   FlowField& f = c->fields[static_cast<size_t>(field)];
-  if (!IsBuilt(f) && !corner->known && ++f.questions >= kSharedGoal) BuildField(w, field, c);
+  if (!IsBuilt(f) && !corner->known && ++f.questions == kSharedGoal) {
+    c->fields_come_later ? c->asked_fields.push_back(field) : BuildField(w, field, c);
+  }
   if (IsBuilt(f)) return WayAt(w, f, p);
   return WayByCorners(w, p, f.goal, look, corner, &c->search);
 }

@@ -66,6 +66,8 @@ struct Crowd {
   std::vector<uint8_t> coast;           // steps left to walk straight on, out of sight and far from everything
   std::vector<int> group;               // index into groups; -1: alone
   std::vector<FlowField> fields;        // built where enough people have the same goal
+  bool fields_come_later = false;       // true: a FieldBuilder builds those in asked_fields, not the step that asks
+  std::vector<int> asked_fields;        // indices into fields
   std::vector<Group> groups;
   int next_id = 0;
   int64_t step = 0;
@@ -107,7 +109,7 @@ void SetGoal(size_t index, int field, Crowd* crowd);
 int FieldFor(Vec2 goal, Crowd* crowd);
 // Builds the field now, not only when enough people ask for their way.
 void BuildField(const Walkable& w, int field, Crowd* crowd);
-// The way from p to the goal of a field: looked up where it is built, and it is for the eighth who asks; else searched for
+// The way from p to the goal of a field: looked up where it is built, and it is, or is asked for, for the eighth who asks; else searched for
 // (way_search.h), so that any number of new goals in a step is no burden. `corner` is the asker's own.
 Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, Crowd* crowd);
 

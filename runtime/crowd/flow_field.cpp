@@ -93,7 +93,7 @@ uint8_t Descent(const Walkable& w, const FlowField& field, int cell) {
     way = {a.x.value < t ? static_cast<float>(a.x.side) * (t - a.x.value) : 0.0f,
            a.y.value < t ? static_cast<float>(a.y.side) * (t - a.y.value) : 0.0f};
   }
-  const float turn = std::atan2(way.y, way.x) / (2 * kPi);
+  const float turn = AngleOf(way) / (2 * kPi);
   return static_cast<uint8_t>(static_cast<int>(std::lround(turn * 255.0f) + 255) % 255);
 }
 

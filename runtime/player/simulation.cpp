@@ -206,6 +206,7 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
     s.crowd.r_unimportant_m = s.influence.r_unimportant_m;
     s.crowd.r_far_m = s.level_settings.r_far_m;
   }
+  s.crowd.fields_come_later = true;
   s.random.state = s.crowd_settings.seed;
   SettleTour(&s);
   if (scenario.language) ChooseLanguage(*scenario.language, &s);
@@ -240,6 +241,7 @@ void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   LeadOn(s);
   s->crowd.viewer = s->camera.view.position;
   if (s->frame % kSortEvery_steps == 0) SortBySpace(&s->crowd);
+  s->field_builder.Step(s->walkable, &s->crowd);
   StepCrowd(s->walkable, s->moving, s->step_s, &s->crowd);
   LeaveAndArrive(s);
   ClassifyAll(s);

@@ -11,6 +11,7 @@
 #include "runtime/control/view_volumes.h"
 #include "runtime/crowd/crowd.h"
 #include "runtime/crowd/density_map.h"
+#include "runtime/crowd/field_builder.h"
 #include "runtime/pack/tour_pack.h"
 #include "runtime/player/guide.h"
 #include "runtime/player/point_walk.h"
@@ -90,6 +91,7 @@ struct Simulation {
   int next_company = 0;            // how many come together next, once there is room for them; 0: not drawn yet
 
   Crowd crowd;
+  FieldBuilder field_builder;
   std::vector<PersonPlan> plans;   // by id
   CameraState camera;
   LevelState levels;
@@ -110,7 +112,7 @@ struct Simulation {
 
 // `pack` may be null where the scenario has its own ground. Errors: no walkable ground, a scenario's person inside an obstacle or
 // with a goal nobody can reach, an unknown avatar, no ground at all; each names the person. More people than fit: as many as do,
-// and a warning.
+// and a warning. `simulation` stays where it is from the first step on.
 Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation* simulation);
 
 // Horizontal; the outer volume follows.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/crowd/crowd.h"
+#include "runtime/crowd/field_builder.h"
 #include "runtime/crowd/walls.h"
 
 namespace flaneur {
@@ -112,6 +113,38 @@ TEST(WaySearch, AGoalThatManyShareGetsAField) {
   }
   StepCrowd(w, {}, kStep_s, &crowd);
   EXPECT_TRUE(IsBuilt(crowd.fields[0]));
+}
+
+// The first step after which each field is there.
+std::vector<int> BuiltAfter(const Walkable& w, uint64_t* state) {
+  Crowd crowd;
+  crowd.fields_come_later = true;
+  for (int k = 0; k < 60; ++k) {
+    Person p;
+    p.position = {2 + static_cast<float>(k / 20), 2 + static_cast<float>(k % 20)};
+    p.field = FieldFor({57, 50 + static_cast<float>(k / 20)}, &crowd);
+    AddPerson(p, &crowd);
+  }
+  FieldBuilder builder;
+  std::vector<int> built(crowd.fields.size(), -1);
+  for (int step = 0; step < 30; ++step) {
+    builder.Step(w, &crowd);
+    StepCrowd(w, {}, kStep_s, &crowd);
+    for (size_t f = 0; f < built.size(); ++f) built[f] = built[f] < 0 && IsBuilt(crowd.fields[f]) ? step : built[f];
+    for (size_t i = 0; i < crowd.size(); ++i) EXPECT_GT(Length(crowd.way[i]), 0.5f) << "everybody knows their way all the time";
+  }
+  *state = StateHash(crowd);
+  return built;
+}
+
+TEST(WaySearch, FieldsThatComeLaterComeOneAfterTheOtherInTheSameSteps) {
+  const Walkable w = Labyrinth();
+  uint64_t first = 0, second = 1;
+  const std::vector<int> built = BuiltAfter(w, &first);
+  ASSERT_EQ(built.size(), 3u);
+  for (size_t f = 0; f < built.size(); ++f) EXPECT_GT(built[f], f == 0 ? 0 : built[f - 1]);
+  EXPECT_EQ(BuiltAfter(w, &second), built);
+  EXPECT_EQ(first, second);
 }
 
 }  // namespace
