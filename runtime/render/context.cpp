@@ -163,6 +163,7 @@ struct Window::Impl {
   GLFWwindow* window = nullptr;
   Vec2 last, pressed_at;       // of the cursor
   bool focused = false, held = false, dragged = false, free_pointer = false;
+  bool entered = false;        // the cursor came into the window or left it since the last look
   bool software = false;       // no graphics card draws
 };
 
@@ -196,6 +197,8 @@ Error Window::Create(int width_px, int height_px, const char* title, void (*lost
   glfwSwapInterval(1);
   impl_->software = DrawsInSoftware();
   glfwSetInputMode(impl_->window, GLFW_CURSOR, GLFW_CURSOR_DISABLED);
+  glfwSetWindowUserPointer(impl_->window, impl_.get());
+  glfwSetCursorEnterCallback(impl_->window, [](GLFWwindow* w, int) { static_cast<Impl*>(glfwGetWindowUserPointer(w))->entered = true; });
   // Whoever taps shorter than a picture lasts is heard as well.
   glfwSetInputMode(impl_->window, GLFW_STICKY_KEYS, GLFW_TRUE);
   glfwSetInputMode(impl_->window, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
@@ -219,10 +222,11 @@ WindowInput Window::Poll() {
   }
   ReadGamepad(&input);
   const Vec2 cursor = Cursor(w);
-  // A window that comes to the front has its cursor put elsewhere: nobody moved the mouse.
+  // A window that comes to the front has its cursor put elsewhere, as has one that catches a cursor from beside it: nobody moved the mouse.
   const bool focused = glfwGetWindowAttrib(w, GLFW_FOCUSED);
-  if (focused != impl_->focused || !focused) impl_->last = cursor;
+  if (focused != impl_->focused || !focused || impl_->entered) impl_->last = cursor;
   impl_->focused = focused;
+  impl_->entered = false;
   const bool held = glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
   if (held && !impl_->held) impl_->pressed_at = impl_->last = cursor, impl_->dragged = false;
   if (Length(cursor - impl_->pressed_at) > static_cast<float>(kStillAClick_px)) impl_->dragged = true;

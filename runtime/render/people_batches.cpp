@@ -9,7 +9,6 @@ namespace {
 constexpr float kAround_m = 0.35f;     // arms, skirts and props reach so far beyond a person's radius
 constexpr float kLongestShadow_m = 12;  // as far as one may fall into view
 constexpr float kFarImpostor_m = 15;   // all nearer ones are drawn before all farther ones
-constexpr float kFarShadow_m = 12;     // beyond it a coarser figure casts the shadow
 constexpr int kNoLevel = -2;
 
 // The largest numbers of all clips, so that 16 bits hold them with the finest steps.
@@ -234,6 +233,9 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     if (key >= meshes) return PeopleBatch{(key - meshes) % count, -1, true, 0, 0};
     return PeopleBatch{key / (2 * levels), key / 2 % levels, key % 2 == 1, 0, 0};
   };
+  const auto in_sight = [&](const Box& box) {
+    return MayTouch(sight.frustum, box) && (sight.walls == nullptr || MayBeSeen(*sight.walls, box, true));
+  };
   out->shadow_entries.clear();
   for (size_t i = 0; i < people.size(); ++i) {
     const DrawnPerson& person = people[i];
@@ -242,10 +244,10 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     const Box box = BoxOf(person, avatars[index]);
     const float distance_m = Length(GltfFromGround(person.position) - sight.eye);
     const bool half = person.share_to - person.share_from >= 0.5f;  // of the two of a fade one casts the shadow
-    if (half && ready[index].shadow && distance_m < sight.shadow_reach_m && MayTouch(sight.frustum, WithShadow(box, sight.to_sun))) {
-      out->shadow_entries.push_back({number, 2 * person.avatar + (distance_m > kFarShadow_m ? 1 : 0), 0});
+    if (half && ready[index].shadow && distance_m < sight.shadow_reach_m && in_sight(WithShadow(box, sight.to_sun))) {
+      out->shadow_entries.push_back({number, 2 * person.avatar + (distance_m > sight.fine_shadow_m ? 1 : 0), 0});
     }
-    if (!MayTouch(sight.frustum, box) || (sight.walls != nullptr && !MayBeSeen(*sight.walls, box, true))) {
+    if (!in_sight(box)) {
       ++out->hidden;
       continue;
     }

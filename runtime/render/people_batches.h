@@ -71,6 +71,7 @@ struct PeopleSight {
   const OcclusionMap* walls = nullptr;
   float shadow_reach_m = 0;          // who is farther from the eye casts no shadow
   float focal_px = 0;                // of a coarse picture: pixels that a metre takes at a distance of one; 0: levels as they are
+  float fine_shadow_m = 0;           // who is farther casts the shadow of a coarser figure
 };
 
 // pose_width of `out` must be set: three times the most joints.

@@ -21,6 +21,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kNear_m = 0.1f, kFar_m = 900;
+constexpr float kFineShadow_m = 12;  // at all pixels
 constexpr float kLeastShadowShare = 0.25f;  // of the town's shadows that a picture usually renews; so near the visitor they are up to date
 
 // In software larger pictures cost memory and time that nobody sees at the sizes drawn there, and texels eight times a block's memory.
@@ -186,7 +187,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
   const float focal_px = static_cast<float>(r.picture.drawn_width_px) / 2 / std::tan(frame.fov_rad / 2);
   const PeopleSight sight{eye, to_sun, FrustumOf(view_projection), r.options.cull ? &r.town.walls : nullptr, 2 * kPeopleShadow_m,
-                          frame.resolution_scale < 1 && !frame.keeps_levels ? focal_px : 0};
+                          frame.resolution_scale < 1 && !frame.keeps_levels ? focal_px : 0, kFineShadow_m * frame.resolution_scale};
   SortPeople(frame.people, r.people.layouts, r.people.ready, sight, &r.people.batches);
   UploadPeople(&r.people);
   statistics->people_ms = Now_ms() - people_ms;

@@ -263,6 +263,21 @@ class GuidedTour(WindowTest):
 
 
 class PagesInTheWindow(WindowTest):
+    def test_leave_the_view_where_it_was_wherever_the_pointer_is(self):
+        with Display() as display:
+            metrics = self.folder / "metrics.csv"
+            program = display.play("--metrics", metrics, people=0)
+            display.wait_for_window(program)
+            display.tap("Tab")  # off the tour
+            display.open_pages()
+            display.do("mousemove", 2 * WIDTH_PX - 20, 2 * HEIGHT_PX + 60)  # beside the window
+            time.sleep(0.5)
+            display.tap("Escape")
+            time.sleep(1)
+            self.assert_ends(display, program)
+        yaws = [float(row["camera_yaw_rad"]) for row in self.rows(metrics)]
+        self.assertLess(max(yaws) - min(yaws), 0.5)
+
     def test_change_the_language_by_keyboard_and_save_it_when_they_close(self):
         with Display() as display:
             program = display.play("--settings", self.settings)
