@@ -635,6 +635,29 @@ TEST(PeopleBatches, InACoarsePictureTheMeshThatServesAtItsSizeIsEnough) {
   EXPECT_EQ(levels_at(200), (std::vector<int>{1, 1, -1})) << "72 px high";
 }
 
+TEST(PeopleBatches, ShadowsAreThoseOfWhoCanBeSeenOrTheirShadowAndCoarserBeyondTheFineOnes) {
+  OcclusionMap map;
+  const Mat4 view = Perspective(1.2f, 16.0f / 9, 0.1f, 500) * LookMatrix({0, 1.6f, 0}, {1, 0, 0}, {0, 1, 0});
+  ClearOcclusion(view, &map);
+  AddWalls(std::vector<Vec3>{{10, 0, -4}, {10, 0, 4}, {10, 5, 4}, {10, 5, -4}}, std::vector<uint32_t>{0, 1, 2, 0, 2, 3}, &map);
+  FinishOcclusion(&map);
+  PeopleSight sight{{0, 1.6f, 0}, {0, 1, 0}, FrustumOf(view), &map, 50, 0, 6};
+  PeopleBatches batches;
+  batches.pose_width = 3;
+  const std::vector<DrawnPerson> people{PersonAt(4, 0, 0), PersonAt(8, 0, 0), PersonAt(14, 0, 0)};
+  const auto shadows = [&] {
+    SortPeople(people, {LayoutOf(BoxPerson())}, {{{true, true}, true, true}}, sight, &batches);
+    std::vector<int> levels;
+    for (const PeopleBatch& b : batches.shadows) levels.insert(levels.end(), b.count, b.level);
+    return levels;
+  };
+  EXPECT_EQ(shadows(), (std::vector<int>{0, 1})) << "the third is behind the wall";
+  sight.to_sun = Normalized(Vec3{1, 0.3f, 0});
+  EXPECT_EQ(shadows(), (std::vector<int>{0, 1, 1})) << "but now throws a shadow before it";
+  sight.fine_shadow_m = 12;
+  EXPECT_EQ(shadows(), (std::vector<int>{0, 0, 1}));
+}
+
 TEST(PeopleBatches, ImpostorsShowTheClipThatThePersonIsIn) {
   PackAvatar avatar = BoxPerson();
   avatar.impostor.directions = 4;
