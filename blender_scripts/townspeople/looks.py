@@ -19,8 +19,9 @@ def paint_cells(figure, person, seed, cells):
             pictures["trim"][cell] = materials.shrunk(figure.images["eye"][::-1], 64, 64)
         elif cell == "shoes":
             leather = materials.shrunk(figure.images["shoes"][::-1], 128, 128)
+            leather = 0.6 * leather + 0.4 * np.median(leather, axis=(0, 1))
             pictures["trim"][cell] = np.clip(
-                leather * np.asarray(person.get("shoe_tint", (0.55, 0.5, 0.5))), 0, 1
+                leather * np.asarray(person.get("shoe_tint", (0.52, 0.52, 0.54))), 0, 1
             )
         else:
             material, size = CELLS[cell]

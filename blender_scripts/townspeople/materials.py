@@ -38,8 +38,8 @@ def _mottled(random, h, w, amount):
 
 
 def _wool(random, h, w):
-    fibres = value_noise(random, h, w, max(h // 12, 2), w // 2)
-    return 1.0 + _mottled(random, h, w, 0.06) + 0.05 * fibres + 0.05 * random.uniform(-1, 1, (h, w))
+    fibres = value_noise(random, h, w, max(h // 6, 2), w // 2)
+    return 1.0 + _mottled(random, h, w, 0.06) + 0.03 * fibres + 0.05 * random.uniform(-1, 1, (h, w))
 
 
 def _linen(random, h, w):
@@ -54,16 +54,16 @@ def _linen(random, h, w):
 
 
 def _velvet(random, h, w):
-    sheen = value_noise(random, h, w, 2, 9)
-    return 1.0 + 0.16 * sheen + _mottled(random, h, w, 0.08) + 0.03 * random.uniform(-1, 1, (h, w))
+    sheen = value_noise(random, h, w, 2, 5)
+    return 1.0 + 0.14 * sheen + _mottled(random, h, w, 0.06) + 0.03 * random.uniform(-1, 1, (h, w))
 
 
 def _leather(random, h, w):
     creases = np.abs(value_noise(random, h, w, h // 6, w // 6))
     return (
         1.0
-        + _mottled(random, h, w, 0.20)
-        - 0.12 * (creases < 0.06)
+        + _mottled(random, h, w, 0.13)
+        - 0.09 * (creases < 0.06)
         + 0.05 * random.uniform(-1, 1, (h, w))
     )
 
@@ -71,15 +71,22 @@ def _leather(random, h, w):
 def _metal(random, h, w):
     v = np.linspace(0, 1, h)[:, None]
     scratches = value_noise(random, h, w, h // 3, max(w // 20, 2))
-    return 1.0 + 0.10 * np.cos(5 * v) + 0.10 * scratches + _mottled(random, h, w, 0.15)
+    return (
+        1.0
+        + 0.10 * np.cos(5 * v)
+        + 0.05 * scratches
+        + _mottled(random, h, w, 0.13)
+        + 0.03 * random.uniform(-1, 1, (h, w))
+    )
 
 
 def _hair(random, h, w):
-    locks = value_noise(random, h, w, 3, w // 5)
+    locks = value_noise(random, h, w, 3, w // 16)
     return (
         1.0
-        + 0.30 * locks
-        + 0.22 * value_noise(random, h, w, 4, w // 2)
+        + 0.20 * locks
+        + 0.10 * value_noise(random, h, w, 3, w // 5)
+        + 0.16 * value_noise(random, h, w, 4, w // 2)
         + 0.05 * random.uniform(-1, 1, (h, w))
     )
 
@@ -93,7 +100,7 @@ def _straw(random, h, w):
 def _rope(random, h, w):
     y, x = np.mgrid[0:h, 0:w]
     return (
-        1.0 + 0.22 * np.sin((x / w * 4 + y / h * 22) * np.pi) + 0.08 * random.uniform(-1, 1, (h, w))
+        1.0 + 0.14 * np.sin((x / w * 4 + y / h * 22) * np.pi) + 0.08 * random.uniform(-1, 1, (h, w))
     )
 
 
@@ -130,8 +137,11 @@ def paint(
     """One cell's picture.
 
     hem: strength of the dirt at the lower edge. folds: strength of painted folds. trim: list of
-    [v from, v to, colour]. placket: [width in u, colour, number of buttons, button colour].
-    damask: colour of a woven pattern. stripes: [number, colour].
+    [v from, v to (1: to the end), colour]. placket: [width in u, colour, number of buttons, button
+    colour]. damask: colour of a woven pattern. stripes: [number from front to back, colour].
+
+    From afar a pixel is 1.5 cm wide: stripes narrower than 5 cm, and what is fine and strong in
+    contrast, would flicker there.
     """
     w, h = size_px
     if weave not in WEAVES:
@@ -143,18 +153,20 @@ def paint(
         motif = np.sin(a) * np.sin(b) + 0.6 * np.sin(2 * a + np.sin(b)) * np.sin(b * 0.5)
         picture = _blend(picture, 0.8 * (np.clip(motif * 3, 0, 1)), damask)
     if stripes is not None:
-        picture = _blend(picture, (np.sin(u * 2 * np.pi * stripes[0]) > 0.35) * 1.0, stripes[1])
+        wave = np.sin(u * 2 * np.pi * stripes[0]) - 0.2
+        picture = _blend(picture, (0.5 + 2 * wave) * np.ones_like(v), stripes[1])
     for start, end, trim_colour in trim:
-        picture = _blend(picture, (v >= start) * (v <= end) * np.ones_like(u), trim_colour)
+        inside = np.minimum(v - start, (end - v) if end < 1 else 1.0)
+        picture = _blend(picture, (0.5 + inside * h / 2) * np.ones_like(u), trim_colour)
     if placket is not None:
         picture = _placket(picture, u, v, placket)
     light = WEAVES[weave](random, h, w)
     if folds:
         bent = u + 0.04 * value_noise(random, h, w, 4, 3)
-        light = light - 0.5 * folds * (0.5 + 0.5 * np.sin(bent * 2 * np.pi * 9)) ** 3 * v
+        light = light - 0.5 * folds * (0.5 + 0.5 * np.sin(bent * 2 * np.pi * 7)) ** 2 * v
     if seams:
         light = (
-            light - 0.10 * np.exp(-(((v - 1.0) / 0.02) ** 2)) - 0.08 * np.exp(-((v / 0.015) ** 2))
+            light - 0.06 * np.exp(-(((v - 1.0) / 0.02) ** 2)) - 0.05 * np.exp(-((v / 0.015) ** 2))
         )
     picture = picture * light[..., None]
     if hem:
@@ -167,7 +179,7 @@ def _placket(picture, u, v, placket):
     width, colour, buttons, button_colour = placket
     picture = _blend(picture, (u < width) * np.ones_like(v), colour)
     edge = np.exp(-(((u - width) / 0.008) ** 2)) * np.ones_like(v)
-    picture = picture * (1 - 0.35 * edge[..., None])
+    picture = picture * (1 - 0.15 * edge[..., None])
     if buttons:
         place = (v * buttons) % 1.0 - 0.5
         dot = (u / 0.016) ** 2 + (place / (0.11)) ** 2 < 1.0
