@@ -8,7 +8,7 @@
 namespace flaneur {
 namespace {
 
-constexpr float kShadowCells_m[] = {0.22f, 0.34f};
+constexpr float kShadowCells_m[] = {0.07f, 0.34f};
 
 std::vector<bool> ImagesOfTown(const TourPack& pack) {
   std::vector<bool> of_town(pack.images.size(), false);

@@ -27,6 +27,21 @@ void AppendVertices(const PackPrimitive& p, Vec4 base, int layer, std::vector<Pe
   }
 }
 
+Vec3 MiddleOf(const std::vector<PersonVertex>& vertices) {
+  Vec3 low{1e9f, 1e9f, 1e9f}, high{-1e9f, -1e9f, -1e9f};
+  for (const PersonVertex& v : vertices) {
+    low = {std::min(low.x, v.position.x), std::min(low.y, v.position.y), std::min(low.z, v.position.z)};
+    high = {std::max(high.x, v.position.x), std::max(high.y, v.position.y), std::max(high.z, v.position.z)};
+  }
+  return (low + high) * 0.5f;
+}
+
+PersonVertex OnHeaviestJoint(PersonVertex v) {
+  v.joints[0] = v.joints[static_cast<size_t>(std::max_element(v.weights.begin(), v.weights.end()) - v.weights.begin())];
+  v.weights = {65535, 0, 0, 0};
+  return v;
+}
+
 }  // namespace
 
 PersonGeometry BuildPersonGeometry(const TourPack& pack, int mesh, const SurfacePlan& plan) {
@@ -54,23 +69,16 @@ PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m) {
   PersonGeometry out;
   std::map<std::array<int, 3>, uint32_t> cells;
   std::vector<uint32_t> place(of.vertices.size());
-  std::vector<float> shared;
+  const Vec3 middle = MiddleOf(of.vertices);
   for (size_t i = 0; i < of.vertices.size(); ++i) {
     const Vec3 p = of.vertices[i].position;
     const auto cell = [cell_m](float v) { return static_cast<int>(std::floor(v / cell_m)); };
     const auto [found, fresh] = cells.try_emplace({cell(p.x), cell(p.y), cell(p.z)}, static_cast<uint32_t>(out.vertices.size()));
     place[i] = found->second;
-    if (fresh) {
-      PersonVertex v = of.vertices[i];  // follows the heaviest joint alone
-      v.joints[0] = v.joints[static_cast<size_t>(std::max_element(v.weights.begin(), v.weights.end()) - v.weights.begin())];
-      v.weights = {65535, 0, 0, 0};
-      out.vertices.push_back(v);
-      shared.push_back(1);
-    } else {  // the middle of all in the cell
-      float& n = shared[place[i]];
-      Vec3& middle = out.vertices[place[i]].position;
-      middle = middle + (p - middle) * (1 / ++n);
-    }
+    if (fresh) out.vertices.push_back(OnHeaviestJoint(of.vertices[i]));
+    // The outermost stands for all in the cell, so that hats and hems keep their size.
+    PersonVertex& kept = out.vertices[place[i]];
+    if (Length(p - middle) > Length(kept.position - middle)) kept = OnHeaviestJoint(of.vertices[i]);
   }
   std::set<std::array<uint32_t, 3>> seen;  // layers of cloth fall together
   for (size_t i = 0; i + 2 < of.indices.size(); i += 3) {

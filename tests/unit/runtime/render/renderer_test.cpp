@@ -571,6 +571,28 @@ TEST(ShadowGeometry, IsMuchSmallerAndStaysInShape) {
   EXPECT_NEAR(box.high.x - box.low.x, 0.6f, 0.1f);
 }
 
+TEST(ShadowGeometry, KeepsTheBrimOfAHat) {
+  TourPack pack = MakePack({});
+  PackPrimitive& p = pack.meshes[0].primitives[0];
+  p = {};
+  const int around = 48, rings = 9;  // from the middle of the crown to a brim of 20 cm
+  for (int j = 0; j < rings; ++j) {
+    for (int i = 0; i < around; ++i) {
+      const float a = 2 * kPi * static_cast<float>(i) / around, radius_m = 0.025f * static_cast<float>(j);
+      p.positions.push_back({radius_m * std::cos(a), 1.7f + (radius_m < 0.09f ? 0.1f : 0), radius_m * std::sin(a)});
+      p.normals.push_back({0, 1, 0});
+      if (j + 1 == rings) continue;
+      const auto at = [&](int x, int y) { return static_cast<uint32_t>(y * around + x % around); };
+      for (uint32_t corner : {at(i, j), at(i + 1, j), at(i, j + 1), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)}) p.indices.push_back(corner);
+    }
+  }
+  const PersonGeometry shadow = ShadowGeometry(BuildPersonGeometry(pack, 0, PlanSurfaces(pack, {})), 0.1f);
+  Box box;
+  for (uint32_t i : shadow.indices) Include(shadow.vertices[i].position, &box);
+  EXPECT_GT(box.high.x - box.low.x, 0.38f);
+  EXPECT_GT(box.high.z - box.low.z, 0.38f);
+}
+
 TEST(TownGeometry, EveryTriangleIsInOneBlockAndItsBox) {
   const TourPack pack = MakePack({{11, 3}, {-14, -4}, {60, 80}});
   const TownGeometry town = BuildTownGeometry(pack, PlanSurfaces(pack, {}));
