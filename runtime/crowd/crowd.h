@@ -109,8 +109,8 @@ void SetGoal(size_t index, int field, Crowd* crowd);
 int FieldFor(Vec2 goal, Crowd* crowd);
 // Builds the field now, not only when enough people ask for their way.
 void BuildField(const Walkable& w, int field, Crowd* crowd);
-// The way from p to the goal of a field: looked up where it is built, and it is, or is asked for, for the eighth who asks; else searched for
-// (way_search.h), so that any number of new goals in a step is no burden. `corner` is the asker's own.
+// The way from p to the goal of a field: looked up where it is built, and it is, or is asked for, for the eighth who asks; else searched
+// for (way_search.h), so that any number of new goals in a step is no burden. `corner` is the asker's own.
 Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, Crowd* crowd);
 
 // One step of step_s. The same on every machine. Visible and boundary people within r_far_m of the viewer avoid each
