@@ -49,22 +49,28 @@ Vec3 TransformNormal(const Mat4& m, Vec3 n) {
 
 }  // namespace
 
+std::vector<Mat4> SkinningMatrices(std::span<const Joint> joints, std::span<const Transform> transforms) {
+  std::vector<Mat4> matrices(joints.size());
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const Transform& local = transforms[j];
+    const Mat4 matrix =
+        FromTranslationRotationScale(local.translation, local.rotation, local.scale);
+    const int parent = joints[j].parent;
+    matrices[j] = parent < 0 ? matrix : matrices[static_cast<size_t>(parent)] * matrix;
+  }
+  for (size_t j = 0; j < joints.size(); ++j) matrices[j] = matrices[j] * joints[j].inverse_bind;
+  return matrices;
+}
+
 std::vector<Mat4> SkinningMatrices(const Avatar& avatar, const Clip& clip, float time_s) {
   const size_t joints = avatar.joints.size();
   int key = 0;
   float share = 0;
   FindKey(clip, time_s, &key, &share);
   const Transform* first = clip.transforms.data() + static_cast<size_t>(key) * joints;
-  std::vector<Mat4> matrices(joints);
-  for (size_t j = 0; j < joints; ++j) {
-    const Transform local = share > 0 ? Mix(first[j], first[joints + j], share) : first[j];
-    const Mat4 matrix =
-        FromTranslationRotationScale(local.translation, local.rotation, local.scale);
-    const int parent = avatar.joints[j].parent;
-    matrices[j] = parent < 0 ? matrix : matrices[static_cast<size_t>(parent)] * matrix;
-  }
-  for (size_t j = 0; j < joints; ++j) matrices[j] = matrices[j] * avatar.joints[j].inverse_bind;
-  return matrices;
+  std::vector<Transform> local(first, first + joints);
+  for (size_t j = 0; share > 0 && j < joints; ++j) local[j] = Mix(first[j], first[joints + j], share);
+  return SkinningMatrices(avatar.joints, local);
 }
 
 std::vector<Vec3> SkinnedPositions(const Mesh& mesh, const std::vector<Mat4>& matrices) {

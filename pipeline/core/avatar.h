@@ -1,5 +1,6 @@
 // An editable person: skinned meshes, one skeleton, clips. Metres, glTF axes, feet at the origin, facing +Z.
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,7 +58,10 @@ struct AvatarLevels {
   std::vector<AvatarLevel> levels;
 };
 
-// Skinning matrices (global * inverse bind), one a joint, at `time_s` of the clip (wrapped into its duration).
+// Skinning matrices (global * inverse bind) of joints, parents first, whose local transforms these are.
+std::vector<Mat4> SkinningMatrices(std::span<const Joint> joints, std::span<const Transform> transforms);
+
+// The same, one a joint, at `time_s` of the clip (wrapped into its duration).
 std::vector<Mat4> SkinningMatrices(const Avatar& avatar, const Clip& clip, float time_s);
 
 // The mesh's positions under these matrices; those of a mesh without joints come back unchanged.

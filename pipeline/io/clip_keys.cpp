@@ -312,18 +312,6 @@ std::vector<Watched> VerticesToWatch(std::span<const Joint> joints, std::span<co
   return watched;
 }
 
-std::vector<Mat4> Matrices(std::span<const Joint> joints, std::span<const Transform> transforms) {
-  std::vector<Mat4> world, skin;
-  for (size_t j = 0; j < joints.size(); ++j) {
-    const Transform& t = transforms[j];
-    const Mat4 local = FromTranslationRotationScale(t.translation, t.rotation, t.scale);
-    const int parent = joints[j].parent;
-    world.push_back(parent < 0 ? local : world[static_cast<size_t>(parent)] * local);
-    skin.push_back(world[j] * joints[j].inverse_bind);
-  }
-  return skin;
-}
-
 // The clip's key as the channels leave it.
 std::vector<Transform> Restored(std::span<const Joint> joints,
                                 const std::vector<KeyChannel>& channels, size_t key) {
@@ -344,8 +332,8 @@ float WorstMoved(const Clip& clip, std::span<const Joint> joints,
                  const std::vector<KeyChannel>& channels, const std::vector<Watched>& watched) {
   float worst = 0;
   for (size_t k = 0; k < static_cast<size_t>(clip.keys); ++k) {
-    const auto wanted = Matrices(joints, std::span(clip.transforms).subspan(k * joints.size(), joints.size()));
-    const auto is = Matrices(joints, Restored(joints, channels, k));
+    const auto wanted = SkinningMatrices(joints, std::span(clip.transforms).subspan(k * joints.size(), joints.size()));
+    const auto is = SkinningMatrices(joints, Restored(joints, channels, k));
     for (const Watched& vertex : watched) {
       Vec3 off;
       for (size_t i = 0; i < 4; ++i) {

@@ -11,12 +11,7 @@ float OuterApexBack_m(const MotionLimits& m, float fov_rad) {
   return motion_m / std::sin(fov_rad / 2);
 }
 
-bool InWedge(Vec2 p, Vec2 apex, float yaw_rad, float fov_rad) {
-  const Vec2 off = p - apex;
-  const Vec2 axis{std::cos(yaw_rad), std::sin(yaw_rad)};
-  const float along = Dot(off, axis), across = std::abs(Cross(axis, off));
-  return along * std::sin(fov_rad / 2) >= across * std::cos(fov_rad / 2);
-}
+bool InWedge(Vec2 p, Vec2 apex, float yaw_rad, float fov_rad) { return InWedge(p, apex, VolumesOf({apex, yaw_rad, fov_rad}, 0)); }
 
 ViewVolumes VolumesOf(const ViewCamera& c, float outer_apex_back_m) {
   const Vec2 axis{std::cos(c.yaw_rad), std::sin(c.yaw_rad)};

@@ -11,26 +11,20 @@ constexpr float kNear_m = 0.05f;
 constexpr int kTilesAcross = kOcclusionWidth / kTile, kTilesUp = kOcclusionHeight / kTile;
 constexpr float kWidth = kOcclusionWidth, kHeight = kOcclusionHeight;
 
-struct Clip { float x, y, w; };                // depth is not needed: 1 / w tells which is nearer
 struct Corner { float x, y, nearness; };       // in pixels
 
-Clip ToClip(const Mat4& m, Vec3 p) {
-  const auto row = [&](size_t r) { return m.m[0][r] * p.x + m.m[1][r] * p.y + m.m[2][r] * p.z + m.m[3][r]; };
-  return {row(0), row(1), row(3)};
-}
-
-Corner OnScreen(const Clip& c) {
+Corner OnScreen(const ClipPoint& c) {
   const float nearness = 1 / c.w;
   return {(c.x * nearness + 1) * 0.5f * kWidth, (c.y * nearness + 1) * 0.5f * kHeight, nearness};
 }
 
-Clip Between(const Clip& a, const Clip& b) {
+ClipPoint Between(const ClipPoint& a, const ClipPoint& b) {
   const float t = (kNear_m - a.w) / (b.w - a.w);
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), kNear_m};
 }
 
 // Whose corners go round anticlockwise: the others are not drawn.
-bool FacesTheEye(const Clip& a, const Clip& b, const Clip& c) {
+bool FacesTheEye(const ClipPoint& a, const ClipPoint& b, const ClipPoint& c) {
   return a.x * (b.y * c.w - b.w * c.y) + b.x * (c.y * a.w - c.w * a.y) + c.x * (a.y * b.w - a.w * b.y) > 0;
 }
 
@@ -62,11 +56,11 @@ void Fill(Corner a, Corner b, Corner c, OcclusionMap* map) {
   }
 }
 
-void AddWall(const Clip* corners, OcclusionMap* map) {
-  std::array<Clip, 4> kept;
+void AddWall(const ClipPoint* corners, OcclusionMap* map) {
+  std::array<ClipPoint, 4> kept;
   size_t count = 0;
   for (size_t i = 0; i < 3; ++i) {
-    const Clip &a = corners[i], &b = corners[(i + 1) % 3];
+    const ClipPoint &a = corners[i], &b = corners[(i + 1) % 3];
     if (a.w >= kNear_m) kept[count++] = a;
     if ((a.w >= kNear_m) != (b.w >= kNear_m)) kept[count++] = Between(a, b);
   }
@@ -86,15 +80,10 @@ void ClearOcclusion(const Mat4& view_projection, OcclusionMap* map) {
 
 void AddWalls(std::span<const Vec3> positions, std::span<const uint32_t> corners, OcclusionMap* map) {
   for (size_t i = 0; i + 2 < corners.size(); i += 3) {
-    std::array<Clip, 3> clip;
+    std::array<ClipPoint, 3> clip;
     for (size_t k = 0; k < 3; ++k) clip[k] = ToClip(map->view_projection, positions[corners[i + k]]);
-    const auto all = [&](auto outside) { return outside(clip[0]) && outside(clip[1]) && outside(clip[2]); };
     if (!FacesTheEye(clip[0], clip[1], clip[2])) continue;
-    if (all([](const Clip& c) { return c.w < kNear_m; }) || all([](const Clip& c) { return c.x < -c.w; }) ||
-        all([](const Clip& c) { return c.x > c.w; }) || all([](const Clip& c) { return c.y < -c.w; }) ||
-        all([](const Clip& c) { return c.y > c.w; })) {
-      continue;
-    }
+    if (std::max({clip[0].w, clip[1].w, clip[2].w}) < kNear_m || IsBesideTheView(clip)) continue;
     AddWall(clip.data(), map);
   }
 }
@@ -114,15 +103,15 @@ void FinishOcclusion(OcclusionMap* map) {
 
 bool MayBeSeen(const OcclusionMap& map, const Box& box, bool finished) {
   float left = 1e30f, right = -1e30f, low = 1e30f, high = -1e30f, nearness = 0;
-  const Clip corner = ToClip(map.view_projection, box.low);
+  const ClipPoint corner = ToClip(map.view_projection, box.low);
   const Vec3 size = box.high - box.low;
   const auto edge = [&](size_t axis, float length) {
     const auto& column = map.view_projection.m[axis];
-    return Clip{column[0] * length, column[1] * length, column[3] * length};
+    return ClipPoint{column[0] * length, column[1] * length, column[3] * length};
   };
-  const Clip edges[] = {edge(0, size.x), edge(1, size.y), edge(2, size.z)};
+  const ClipPoint edges[] = {edge(0, size.x), edge(1, size.y), edge(2, size.z)};
   for (int k = 0; k < 8; ++k) {
-    Clip c = corner;
+    ClipPoint c = corner;
     for (int axis = 0; axis < 3; ++axis) {
       if (k >> axis & 1) c = {c.x + edges[axis].x, c.y + edges[axis].y, c.w + edges[axis].w};
     }

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "runtime/render/projection.h"
 #include "runtime/render/vertex_bytes.h"
 
 namespace flaneur {
@@ -25,15 +26,6 @@ void AppendVertices(const PackPrimitive& p, Vec4 base, int layer, std::vector<Pe
     }
     vertices->push_back(v);
   }
-}
-
-Vec3 MiddleOf(const std::vector<PersonVertex>& vertices) {
-  Vec3 low{1e9f, 1e9f, 1e9f}, high{-1e9f, -1e9f, -1e9f};
-  for (const PersonVertex& v : vertices) {
-    low = {std::min(low.x, v.position.x), std::min(low.y, v.position.y), std::min(low.z, v.position.z)};
-    high = {std::max(high.x, v.position.x), std::max(high.y, v.position.y), std::max(high.z, v.position.z)};
-  }
-  return (low + high) * 0.5f;
 }
 
 PersonVertex OnHeaviestJoint(PersonVertex v) {
@@ -69,7 +61,9 @@ PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m) {
   PersonGeometry out;
   std::map<std::array<int, 3>, uint32_t> cells;
   std::vector<uint32_t> place(of.vertices.size());
-  const Vec3 middle = MiddleOf(of.vertices);
+  Box box;
+  for (const PersonVertex& v : of.vertices) Include(v.position, &box);
+  const Vec3 middle = (box.low + box.high) * 0.5f;
   for (size_t i = 0; i < of.vertices.size(); ++i) {
     const Vec3 p = of.vertices[i].position;
     const auto cell = [cell_m](float v) { return static_cast<int>(std::floor(v / cell_m)); };

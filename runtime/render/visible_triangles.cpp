@@ -13,25 +13,9 @@ constexpr float kSlack_px = 1.0f / 32;  // corners are rounded before they are d
 constexpr float kNearer = 1.004f;       // what lies on a wall is not behind it
 constexpr int kFewPixels = 6;           // so many are looked at one by one
 
-using Clip = std::array<float, 4>;
 struct Corner { float x, y, nearness; };  // in pixels; nearness: 1 / w
 using Corners = std::array<Corner, 3>;
 struct Area { int left, right, low, high; };  // of pixels, the last included
-
-Clip ToClip(const Mat4& m, Vec3 p) {
-  Clip out;
-  for (size_t r = 0; r < 4; ++r) out[r] = m.m[0][r] * p.x + m.m[1][r] * p.y + m.m[2][r] * p.z + m.m[3][r];
-  return out;
-}
-
-// Beyond one side of the view with all corners.
-bool IsOutside(const std::array<Clip, 3>& t) {
-  for (size_t k = 0; k < 2; ++k) {
-    if (t[0][k] < -t[0][3] && t[1][k] < -t[1][3] && t[2][k] < -t[2][3]) return true;
-    if (t[0][k] > t[0][3] && t[1][k] > t[1][3] && t[2][k] > t[2][3]) return true;
-  }
-  return false;
-}
 
 // The last pixel whose middle is not beyond `at`. The library's rounding is a call for every number.
 int LastMiddle(float at) {
@@ -93,14 +77,14 @@ bool TurnsItsBack(const std::array<Vec3, 3>& corners, Vec3 eye) {
 
 bool MayBeSeen(const std::array<Vec3, 3>& corners, const TriangleSight& sight) {
   const Mat4& m = sight.walls->view_projection;
-  const std::array<Clip, 3> clip{ToClip(m, corners[0]), ToClip(m, corners[1]), ToClip(m, corners[2])};
-  if (IsOutside(clip)) return false;
-  if (std::min({clip[0][3], clip[1][3], clip[2][3]}) < kNear_m) return true;
+  const std::array<ClipPoint, 3> clip{ToClip(m, corners[0]), ToClip(m, corners[1]), ToClip(m, corners[2])};
+  if (IsBesideTheView(clip)) return false;
+  if (std::min({clip[0].w, clip[1].w, clip[2].w}) < kNear_m) return true;
   const float half_width = 0.5f * static_cast<float>(sight.width_px), half_height = 0.5f * static_cast<float>(sight.height_px);
   Corners t;
   for (size_t k = 0; k < 3; ++k) {
-    const float nearness = 1 / clip[k][3];
-    t[k] = {(clip[k][0] * nearness + 1) * half_width, (clip[k][1] * nearness + 1) * half_height, nearness};
+    const float nearness = 1 / clip[k].w;
+    t[k] = {(clip[k].x * nearness + 1) * half_width, (clip[k].y * nearness + 1) * half_height, nearness};
   }
   const Area pixels = PixelsIn(t);
   if (pixels.left > pixels.right || pixels.low > pixels.high || IsHidden(t, sight)) return false;
