@@ -310,8 +310,8 @@ void main() {
 )";
 
 // A texel of a view shows a point of the person: so far before the axis, and moved on by so much since the picture's phase. Where
-// the ray through a pixel meets such a point is found by going to and fro: depth and motion at a guessed texel say which texel
-// shows the point of the ray at that depth, and that is the next guess.
+// the ray through a pixel meets such a point is searched for in each of the two pictures (relief mapping: Policarpo, Oliveira and
+// Comba 2005); a find counts as far as the other picture does not see through there.
 inline constexpr const char* kImpostorViews = R"(
 in vec3 v_ray, v_point0, v_point1, v_ray0, v_ray1;
 in vec2 v_texel;
@@ -321,6 +321,7 @@ flat in int v_pictures;
 uniform sampler2D u_texture, u_depth, u_motion;
 uniform vec4 u_atlas;
 uniform vec3 u_ranges;  // of depth, of motion
+const float k_counts = 4.0;  // a picture whose share is a quarter counts fully in what covers and hides
 struct View { vec3 point, ray; vec4 cell; vec2 origin, turn; };
 // Coverage at a pixel's four samples, where graphics cards take them, or at its middle.
 #ifdef SMOOTH_EDGES
@@ -336,6 +337,7 @@ struct Meeting {
   vec3 color;    // there
   COVER cover;   // 0: the ray misses the person
   float along;   // the ray, in its length
+  float trust;   // less than 1: a guess, where other parts of the person hide what the ray meets
 };
 COVER cover_at(vec2 at, mat2 pixel) {
 #ifdef SMOOTH_EDGES
@@ -353,39 +355,80 @@ vec3 depth_and_motion(vec2 at) {
   return vec3(textureLod(u_depth, at, v_level).r, textureLod(u_motion, at, max(v_level - 1.0, 0.0)).rg);
 #endif
 }
-Meeting meet(View view, mat2 pixel) {
-  vec3 q = view.point;
-  vec2 slope = view.ray.xy / view.ray.z, base = q.xy - slope * q.z, metre = vec2(u_atlas.x, -u_atlas.y);
-  vec2 edge = 0.5 * exp2(ceil(v_level)) / u_atlas.zw, low = view.cell.xy + edge, high = view.cell.zw - edge;
-  vec2 at = view.origin + base * metre, guess = at;
-  float depth = 0.0;
-#ifdef FAST
-  const int steps = 1;
-#else
-  int steps = v_level < 1.0 ? 3 : 1;
-#endif
-  for (int i = 0; i < steps; ++i) {
-    guess = clamp(at, low, high);
-    vec3 shown = depth_and_motion(guess) * 2.0 - 1.0;
-    depth = shown.r * u_ranges.x;
-    at = view.origin + (base + slope * depth - shown.gb * (u_ranges.y * v_look.x)) * metre;
-  }
-  bool inside = all(greaterThanEqual(at, view.cell.xy)) && all(lessThanEqual(at, view.cell.zw));
-  at = clamp(at, low, high);
-  vec4 color = textureLod(u_texture, at, v_level);
-#ifdef SMOOTH_EDGES
-  vec4 cover = cover_at(at, pixel);
-#else
-  float cover = color.a;
-#endif
-  if (!inside) cover = COVER(0.0);
-#ifndef FAST
-  // A guess beside the person that still leaps onto them was led astray by what fills the gutters.
-  vec2 leap = (at - guess) * u_atlas.zw;
-  if (dot(leap, leap) > exp2(2.0 * v_level)) cover = min(cover, cover_at(guess, pixel));
-#endif
-  return Meeting(at, color.rgb, cover, (depth - q.z) / view.ray.z);
+vec2 within(View view, vec2 at) {
+  vec2 edge = 0.5 * exp2(ceil(v_level)) / u_atlas.zw;
+  return clamp(at, view.cell.xy + edge, view.cell.zw - edge);
 }
+bool is_within(View view, vec2 at) { return all(greaterThanEqual(at, view.cell.xy)) && all(lessThanEqual(at, view.cell.zw)); }
+// Where the picture shows the ray's point at a depth, had that point moved by so much.
+vec2 place_at(View view, float depth, vec2 moved) {
+  vec2 p = view.point.xy + view.ray.xy / view.ray.z * (depth - view.point.z) - moved;
+  return view.origin + p * vec2(u_atlas.x, -u_atlas.y);
+}
+// What a texel shows: motion until now, and depth.
+vec3 moved_and_depth(vec2 at) {
+  vec3 shown = depth_and_motion(at) * 2.0 - 1.0;
+  return vec3(shown.gb * (u_ranges.y * v_look.x), shown.r * u_ranges.x);
+}
+#ifdef FAST
+// Depth and motion where the ray crosses the quad say where to look.
+Meeting meet(View view, View other, float others_part, mat2 pixel) {
+  vec3 guess = moved_and_depth(within(view, place_at(view, 0.0, vec2(0.0))));
+  vec2 at = place_at(view, guess.z, guess.xy);
+  vec4 color = textureLod(u_texture, within(view, at), v_level);
+  return Meeting(within(view, at), color.rgb, is_within(view, at) ? color.a : 0.0, (guess.z - view.point.z) / view.ray.z, 1.0);
+}
+#else
+const float k_most_steps = 24.0;
+const float k_solid = 0.1;         // coverage of a texel that can be met
+const float k_thickness_m = 0.06;  // behind the surface by more than this and a step, the ray passes behind the person's part
+const float k_exact_m = 0.03;      // between two guesses of the depth
+const float k_near_m = 0.1;        // of a surface that the ray comes out beneath
+COVER cover_from(View view, float along, mat2 pixel) {
+  vec3 p = view.point + along * view.ray;
+  vec2 at = place_at(view, p.z, moved_and_depth(within(view, place_at(view, p.z, vec2(0.0)))).xy);
+  return is_within(view, at) ? cover_at(within(view, at), pixel) : COVER(0.0);
+}
+// Follows the ray from the person's front to the back, a texel a step, to the first surface that it comes upon. The one return at
+// the end is meant: Mesa 22.3 draws some pixels wrongly in software after an early one.
+Meeting meet(View view, View other, float others_part, mat2 pixel) {
+  float range = u_ranges.x, texels = length((place_at(view, range, vec2(0.0)) - place_at(view, -range, vec2(0.0))) * u_atlas.zw);
+  float steps = clamp(ceil(texels * exp2(-v_level)), 1.0, k_most_steps), step_m = 2.0 * range / steps;
+  float gap = range, least_gap = k_near_m;
+  vec3 shown = vec3(0.0), found = vec3(0.0);  // motion and depth
+  bool met = false;
+  for (float i = 0.0; i <= steps && !met; ++i) {
+    float depth = range - i * step_m, gap_before = gap;
+    vec2 at = place_at(view, depth, shown.xy);
+    shown = moved_and_depth(within(view, at));
+    gap = depth - shown.z;
+    if (is_within(view, at) && textureLod(u_texture, within(view, at), v_level).a >= k_solid) {
+      if (abs(gap) < least_gap) {
+        least_gap = abs(gap);
+        found = shown;
+      }
+      if (gap <= 0.0 && gap > -step_m - k_thickness_m) {
+        vec3 guess = vec3(shown.xy, gap_before > 0.0 && i > 0.0 ? depth + step_m * gap / (gap - gap_before) : shown.z);
+        for (int k = 0; k < 3; ++k) {
+          vec3 next = moved_and_depth(within(view, place_at(view, guess.z, guess.xy)));
+          met = abs(next.z - guess.z) < k_exact_m;
+          guess = next;
+        }
+        if (met) found = guess;
+      }
+    } else {
+      gap = -1.0;  // what comes next is entered from the side
+    }
+  }
+  vec2 at = within(view, place_at(view, found.z, found.xy));
+  float along = (found.z - view.point.z) / view.ray.z;
+  COVER cover = COVER(0.0);
+  if (met || least_gap < k_near_m) {
+    cover = min(cover_at(at, pixel), max(cover_from(other, along, pixel), COVER(1.0 - k_counts * others_part)));
+  }
+  return Meeting(at, textureLod(u_texture, at, v_level).rgb, cover, along, met ? 1.0 : 0.02);
+}
+#endif
 )";
 
 inline constexpr const char* kImpostorFragment = R"(
@@ -404,28 +447,36 @@ vec3 normal_at(View view, vec2 at) {
 void main() {
   vec2 across = dFdx(v_texel), texel = vec2(1.0, -1.0) / u_atlas.zw;
   mat2 pixel = mat2(across * texel, dFdy(v_texel) * texel);
-  View view = View(v_point0, v_ray0, v_cell0, v_origins.xy, v_turns.xy);
+  View view = View(v_point0, v_ray0, v_cell0, v_origins.xy, v_turns.xy), other = View(v_point1, v_ray1, v_cell1, v_origins.zw, v_turns.zw);
   COVER cover = COVER(0.0);
   vec3 color = vec3(0.0), n = vec3(0.0);
   float along = 0.0, weight = 0.0, other_cover = 0.0, other_along = 0.0;
   // A loop of as many turns as there are pictures, for it is what software can leave early.
   for (int k = 0; k < v_pictures; ++k) {
-    Meeting m = meet(view, pixel);
-    float part = k == 0 ? 1.0 - v_look.y : v_look.y, own_cover = mean_of(m.cover), own = part * own_cover;
+    float part = k == 0 ? 1.0 - v_look.y : v_look.y;
+    Meeting m = meet(view, other, 1.0 - part, pixel);
+    float own_cover = m.trust * mean_of(m.cover), own = part * own_cover;
     // Where only one of the two shows the person, it alone counts; and where one sees what is hidden from the other, too.
     if (min(own_cover, other_cover) > 0.5) {
-      float apart = (other_along - m.along) * length(v_ray), others = 1.0 - k_hides * smoothstep(0.04, 0.10, apart);
+      float apart = (other_along - m.along) * length(v_ray), hides = k_hides * min(1.0, k_counts * part);
+      float others = 1.0 - hides * smoothstep(0.04, 0.10, apart);
       color *= others, n *= others, along *= others, weight *= others;
-      own *= 1.0 - k_hides * smoothstep(0.04, 0.10, -apart);
+      own *= 1.0 - k_hides * min(1.0, k_counts * (1.0 - part)) * smoothstep(0.04, 0.10, -apart);
     }
+#ifdef FAST
     cover += part * m.cover;
+#else
+    cover = max(cover, min(1.0, k_counts * part) * m.cover);
+#endif
     color += own * m.color;
     n += own * normal_at(view, m.at);
     along += own * m.along;
     weight += own;
     other_cover = own_cover;
     other_along = m.along;
-    view = View(v_point1, v_ray1, v_cell1, v_origins.zw, v_turns.zw);
+    View swapped = view;
+    view = other;
+    other = swapped;
   }
   float coverage = 1.0;
 #ifdef SMOOTH_EDGES
