@@ -16,13 +16,13 @@ Run as every script here (see common/settings.py). The settings:
 
 Arrays, little-endian, without header, axes as in glTF (Y up, the person faces +Z):
 
-    positions.f32 frames x vertices x 3     normals.f32, motions.f32 likewise
+    positions.f32 frames x vertices x 3     normals.f32, motions.f32, bends.f32 likewise
     uvs.f32 vertices x 2 (v downward)       colors.f32 vertices x 4 (sRGB, straight alpha)
     indices.u32 triangles x 3               materials.u32 triangles
 
 Each EXR holds float layers: means over all samples of a pixel, so that every value is premultiplied
-with the coverage. They are albedo (sRGB), normal and motion (avatar's axes), depth (metres from
-the axis towards the camera) and coverage.
+with the coverage. They are albedo (sRGB), normal, motion and bend (avatar's axes), depth (metres
+from the axis towards the camera) and coverage.
 """
 
 import math
@@ -38,7 +38,7 @@ from common.settings import fail, load_settings  # noqa: E402
 
 REQUIRED = ("output", "seed", "geometry", "vertices", "triangles", "frames", "materials",
             "directions", "cells", "width_px", "height_px", "texel_m", "band_px")
-COLOR_LAYERS = ("albedo", "normal", "motion")
+COLOR_LAYERS = ("albedo", "normal", "motion", "bend")
 VALUE_LAYERS = ("depth", "coverage")
 PATTERN = 32  # of 40 patterns of 16 samples the one that comes nearest to 64 samples on edges
 
@@ -55,12 +55,13 @@ def read_array(settings, name, kind, shape):
 
 
 def read_geometry(settings):
-    """The arrays by name; positions in Blender's axes, normals and motions in glTF's."""
+    """The arrays by name; positions in Blender's axes, normals, motions and bends in glTF's."""
     frames, vertices, triangles = settings["frames"], settings["vertices"], settings["triangles"]
     arrays = {
         "positions": read_array(settings, "positions.f32", "f4", (frames, vertices, 3)),
         "normals": read_array(settings, "normals.f32", "f4", (frames, vertices, 3)),
         "motions": read_array(settings, "motions.f32", "f4", (frames, vertices, 3)),
+        "bends": read_array(settings, "bends.f32", "f4", (frames, vertices, 3)),
         "uvs": read_array(settings, "uvs.f32", "f4", (vertices, 2)),
         "colors": read_array(settings, "colors.f32", "f4", (vertices, 4)),
         "indices": read_array(settings, "indices.u32", "u4", (triangles, 3)),
@@ -177,17 +178,20 @@ def make_material(description):
     side = nodes.math("SUBTRACT", 1.0, nodes.math("MULTIPLY", geometry.outputs["Backfacing"], 2.0))
     normal = nodes.scale(nodes.attribute("person_normal").outputs["Vector"], side)
     motion = nodes.attribute("person_motion").outputs["Vector"]
+    bend = nodes.attribute("person_bend").outputs["Vector"]
     shader = nodes.node("ShaderNodeEmission").outputs["Emission"]
     if visible is None:
         nodes.write_layer("albedo", color)
         nodes.write_layer("normal", normal)
         nodes.write_layer("motion", motion)
+        nodes.write_layer("bend", bend)
         nodes.write_layer("depth", split.outputs["Y"])
         nodes.write_layer("coverage", 1.0)
     else:
         nodes.write_layer("albedo", nodes.scale(color, visible))
         nodes.write_layer("normal", nodes.scale(normal, visible))
         nodes.write_layer("motion", nodes.scale(motion, visible))
+        nodes.write_layer("bend", nodes.scale(bend, visible))
         nodes.write_layer("depth", nodes.math("MULTIPLY", split.outputs["Y"], visible))
         nodes.write_layer("coverage", visible)
         mix = nodes.node("ShaderNodeMixShader")
@@ -215,6 +219,7 @@ def make_mesh(arrays, materials):
     color.data.foreach_set("color", arrays["colors"].ravel())
     mesh.attributes.new("person_normal", "FLOAT_VECTOR", "POINT")
     mesh.attributes.new("person_motion", "FLOAT_VECTOR", "POINT")
+    mesh.attributes.new("person_bend", "FLOAT_VECTOR", "POINT")
     return mesh
 
 
@@ -222,6 +227,7 @@ def pose(mesh, arrays, frame):
     mesh.vertices.foreach_set("co", arrays["positions"][frame].astype(np.float32).ravel())
     mesh.attributes["person_normal"].data.foreach_set("vector", arrays["normals"][frame].ravel())
     mesh.attributes["person_motion"].data.foreach_set("vector", arrays["motions"][frame].ravel())
+    mesh.attributes["person_bend"].data.foreach_set("vector", arrays["bends"][frame].ravel())
     mesh.update()
 
 

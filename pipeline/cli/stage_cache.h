@@ -40,7 +40,7 @@ template <typename A> void Fields(A& a, AvatarLevels* v) { a(&v->avatar, &v->lev
 template <typename A> void Fields(A& a, ImpostorClip* v) { a(&v->name, &v->first_frame, &v->phases); }
 template <typename A> void Fields(A& a, ImpostorAtlas* v) {
   a(&v->directions, &v->elevations_deg, &v->frames, &v->width_px, &v->height_px, &v->texel_m, &v->depth_range_m,
-    &v->motion_range_m, &v->clips, &v->cells, &v->albedo, &v->normal, &v->albedo_ktx2, &v->normal_ktx2, &v->depth_ktx2,
+    &v->motion_range_m, &v->bend_range_m, &v->clips, &v->cells, &v->albedo, &v->normal, &v->albedo_ktx2, &v->normal_ktx2, &v->depth_ktx2,
     &v->motion_ktx2);
 }
 template <typename A> void Fields(A& a, Obstacle* v) {

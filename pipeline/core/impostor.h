@@ -30,13 +30,14 @@ struct ImpostorAtlas {
   float texel_m = 0;
   float depth_range_m = 0;   // depth 0..1 = -range..+range towards the camera from the axis
   float motion_range_m = 0;  // motion 0..1 = -range..+range
+  float bend_range_m = 0;    // bend 0..1 = -range..+range
   std::vector<ImpostorClip> clips;
   std::vector<ImpostorCell> cells;
   Image albedo;  // PNG: sRGB albedo, alpha = coverage
   Image normal;  // PNG: linear, avatar-space normal * 0.5 + 0.5 (glTF axes), alpha = depth
   // The same for graphics cards, KTX2 with mip levels: albedo as above (BC7); the normal in the cell's own axes (right, up,
   // towards the camera) on half an octahedron (BC5); depth (BC4); and, at half the size, how far the surface moves to the right
-  // and up from one phase to the next (BC5).
+  // and up from half a phase before to half a phase after, and how far to the right and up that way's middle lies (BC7).
   std::vector<uint8_t> albedo_ktx2, normal_ktx2, depth_ktx2, motion_ktx2;
 };
 

@@ -19,12 +19,12 @@ constexpr float kLeastCoverage = 1e-4f;
 // How far coverage keeps from a half, for each halving: compression is off by more the smaller a person gets in a block.
 constexpr float kClearOfHalf = 0.02f;
 
-enum Layer { kRed, kGreen, kBlue, kNormalX, kNormalY, kNormalZ, kMotionX, kMotionY, kMotionZ, kDepth, kCoverage, kLayers };
+enum Layer { kRed, kGreen, kBlue, kNormalX, kNormalY, kNormalZ, kMotionX, kMotionY, kMotionZ, kBendX, kBendY, kBendZ, kDepth, kCoverage, kLayers };
 constexpr std::array<const char*, kLayers> kLayerNames = {"albedo.R", "albedo.G", "albedo.B", "normal.R", "normal.G", "normal.B",
-                                                          "motion.R", "motion.G", "motion.B", "depth.",   "coverage."};
+                                                          "motion.R", "motion.G", "motion.B", "bend.R", "bend.G", "bend.B", "depth.",   "coverage."};
 // Versions of Blender name the parts of a vector and of a single value differently.
 constexpr std::array<const char*, kLayers> kOtherNames = {"albedo.X", "albedo.Y", "albedo.Z", "normal.X", "normal.Y", "normal.Z",
-                                                          "motion.X", "motion.Y", "motion.Z", "depth",    "coverage"};
+                                                          "motion.X", "motion.Y", "motion.Z", "bend.X", "bend.Y", "bend.Z", "depth",    "coverage"};
 
 // Channel names are "ViewLayer.albedo.R".
 int FindChannel(const std::vector<std::string>& names, const std::string& wanted) {
@@ -57,6 +57,7 @@ AtlasTexel TexelOf(const std::array<float, kLayers>& layers) {
   texel.normal = {mean(kNormalX), mean(kNormalY), mean(kNormalZ)};
   texel.depth_m = mean(kDepth);
   texel.motion_m = {mean(kMotionX), mean(kMotionY), mean(kMotionZ)};
+  texel.bend_m = {mean(kBendX), mean(kBendY), mean(kBendZ)};
   return texel;
 }
 
@@ -65,6 +66,7 @@ void AddWeighted(const AtlasTexel& from, float weight, AtlasTexel* sum) {
   sum->normal = sum->normal + from.normal * weight;
   sum->depth_m += weight * from.depth_m;
   sum->motion_m = sum->motion_m + from.motion_m * weight;
+  sum->bend_m = sum->bend_m + from.bend_m * weight;
 }
 
 AtlasLevel Half(const AtlasLevel& from) {
@@ -141,6 +143,7 @@ void TurnIntoCells(const ImpostorAtlas& atlas, AtlasLevel* level) {
         AtlasTexel& texel = level->texels[static_cast<size_t>(y * level->width + x)];
         texel.normal = turned(texel.normal);
         texel.motion_m = turned(texel.motion_m);
+        texel.bend_m = turned(texel.bend_m);
       }
     }
   }

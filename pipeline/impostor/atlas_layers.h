@@ -16,7 +16,8 @@ struct AtlasTexel {
   std::array<float, 3> albedo{};  // sRGB: averaged as pictures on the screen are, whose samples are mixed as they are shown
   Vec3 normal;                    // not normalized; axes as motion_m
   float depth_m = 0;              // towards the camera
-  Vec3 motion_m;                  // from phase to phase; in the cell's axes: right, up, towards the camera
+  Vec3 motion_m;                  // from half a phase before to half a phase after; in the cell's axes: right, up, towards the camera
+  Vec3 bend_m;                    // of that way: its ends' middle lies so far beside the surface
 };
 
 struct AtlasLevel {
@@ -24,11 +25,11 @@ struct AtlasLevel {
   std::vector<AtlasTexel> texels;  // rows from the top
 };
 
-// One picture's layers as Blender wrote them, into the level from row `first_row` on. Normals and motions are still in the
+// One picture's layers as Blender wrote them, into the level from row `first_row` on. Normals, motions and bends are still in the
 // avatar's axes. Errors: unreadable file, another width than the level, a missing layer.
 Error ReadLayers(const std::filesystem::path& exr, int first_row, AtlasLevel* level);
 
-// Turns normals and motions into each cell's own axes.
+// Turns normals, motions and bends into each cell's own axes.
 void TurnIntoCells(const ImpostorAtlas& atlas, AtlasLevel* level);
 
 // All mip levels down to a texel: means weighted with coverage, so that what is covered keeps its colour however small it gets.

@@ -93,7 +93,8 @@ Error LayOut(const ViewGeometry& geometry, const ImpostorOptions& options, Impos
                                         " kB; ask for fewer directions or phases, or for more memory");
   for (const ViewBounds& view : views) atlas->depth_range_m = std::max(atlas->depth_range_m, view.depth_m);
   atlas->depth_range_m = std::max(atlas->depth_range_m, atlas->texel_m);
-  atlas->motion_range_m = std::max(LongestMotion(geometry), atlas->texel_m);
+  atlas->motion_range_m = std::max(Longest(geometry.motions, geometry), atlas->texel_m);
+  atlas->bend_range_m = std::max(Longest(geometry.bends, geometry), atlas->texel_m);
   return Ok();
 }
 
@@ -107,6 +108,7 @@ Error WriteGeometry(const fs::path& folder, const ViewGeometry& geometry) {
   if (Error e = WriteArray(folder / "positions.f32", geometry.positions)) return e;
   if (Error e = WriteArray(folder / "normals.f32", geometry.normals)) return e;
   if (Error e = WriteArray(folder / "motions.f32", geometry.motions)) return e;
+  if (Error e = WriteArray(folder / "bends.f32", geometry.bends)) return e;
   if (Error e = WriteArray(folder / "uvs.f32", geometry.uvs)) return e;
   if (Error e = WriteArray(folder / "colors.f32", geometry.colors)) return e;
   if (Error e = WriteArray(folder / "indices.u32", geometry.indices)) return e;
@@ -211,7 +213,7 @@ json Description(const ImpostorAtlas& atlas) {
         {{"name", clip.name}, {"first_frame", clip.first_frame}, {"phases", clip.phases}});
   }
   for (const ImpostorCell& c : atlas.cells) cells.push_back({c.x, c.y, c.width, c.height, c.origin_x, c.origin_y});
-  return {{"version", 2},
+  return {{"version", 3},
           {"directions", atlas.directions},
           {"elevations_deg", atlas.elevations_deg},
           {"frames", atlas.frames},
@@ -220,6 +222,7 @@ json Description(const ImpostorAtlas& atlas) {
           {"texel_m", atlas.texel_m},
           {"depth_range_m", atlas.depth_range_m},
           {"motion_range_m", atlas.motion_range_m},
+          {"bend_range_m", atlas.bend_range_m},
           {"clips", clips},
           {"cells", cells},
           {"albedo", "albedo.ktx2"},

@@ -13,7 +13,7 @@
 namespace flaneur {
 namespace {
 
-constexpr float kUnseenWeight = 0.06f;  // of a gutter's colour
+constexpr float kUnseenWeight = 0.06f;  // of what fills a gutter
 
 uint8_t Quantized(float value) { return static_cast<uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255)); }
 
@@ -42,11 +42,12 @@ std::vector<uint8_t> CompressLevel(const AtlasLevel& level, TextureFormat format
   return out;
 }
 
-void CompressAlbedo(const Block& block, uint8_t* out) {
+template <typename Color>
+void CompressColors(const Block& block, Color color, uint8_t* out) {
   BlockTexels texels{};
   std::array<float, 16> weights{};
   for (size_t i = 0; i < 16; ++i) {
-    texels[i] = AlbedoBytes(*block[i]);
+    texels[i] = color(*block[i]);
     weights[i] = kUnseenWeight + (1 - kUnseenWeight) * std::min(1.0f, 2 * block[i]->coverage);
   }
   CompressBc7(texels, weights, std::span<uint8_t, 16>(out, 16));
@@ -85,14 +86,17 @@ Vec2 SquareFromNormal(Vec3 n) {
 
 void CompressAtlas(const std::vector<AtlasLevel>& levels, ImpostorAtlas* atlas) {
   const auto share = [](float value, float range) { return 0.5f + 0.5f * value / range; };
-  atlas->albedo_ktx2 = Ktx2(levels, 0, TextureFormat::kBc7Srgb, CompressAlbedo);
+  atlas->albedo_ktx2 = Ktx2(levels, 0, TextureFormat::kBc7Srgb, [](const Block& block, uint8_t* out) { CompressColors(block, AlbedoBytes, out); });
   atlas->normal_ktx2 = Ktx2(levels, 0, TextureFormat::kBc5, CompressNormal);
   atlas->depth_ktx2 = Ktx2(levels, 0, TextureFormat::kBc4, [&](const Block& block, uint8_t* out) {
     CompressChannel(block, [&](const AtlasTexel& t) { return share(t.depth_m, atlas->depth_range_m); }, out);
   });
-  atlas->motion_ktx2 = Ktx2(levels, 1, TextureFormat::kBc5, [&](const Block& block, uint8_t* out) {
-    CompressChannel(block, [&](const AtlasTexel& t) { return share(t.motion_m.x, atlas->motion_range_m); }, out);
-    CompressChannel(block, [&](const AtlasTexel& t) { return share(t.motion_m.y, atlas->motion_range_m); }, out + 8);
+  atlas->motion_ktx2 = Ktx2(levels, 1, TextureFormat::kBc7, [&](const Block& block, uint8_t* out) {
+    const float motion_m = atlas->motion_range_m, bend_m = atlas->bend_range_m;
+    CompressColors(block, [&](const AtlasTexel& t) {
+      return BlockTexels::value_type{Quantized(share(t.motion_m.x, motion_m)), Quantized(share(t.motion_m.y, motion_m)),
+                                     Quantized(share(t.bend_m.x, bend_m)), Quantized(share(t.bend_m.y, bend_m))};
+    }, out);
   });
 }
 

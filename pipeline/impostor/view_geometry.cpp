@@ -52,7 +52,7 @@ Error AppendPose(const Avatar& avatar, const Clip& clip, float time_s, ViewGeome
   return Ok();
 }
 
-// Between two moments of the clip.
+// Between two moments of the clip, whose middle is the frame that was appended last.
 void AppendMotion(const Avatar& avatar, const Clip& clip, float from_s, float to_s,
                   ViewGeometry* geometry) {
   const std::vector<Mat4> from = SkinningMatrices(avatar, clip, from_s);
@@ -60,7 +60,9 @@ void AppendMotion(const Avatar& avatar, const Clip& clip, float from_s, float to
   for (const Mesh& mesh : avatar.meshes) {
     const Mesh before = Skinned(mesh, from), after = Skinned(mesh, to);
     for (size_t i = 0; i < before.positions.size(); ++i) {
+      const Vec3 middle = geometry->positions[geometry->motions.size()];
       geometry->motions.push_back(after.positions[i] - before.positions[i]);
+      geometry->bends.push_back((before.positions[i] + after.positions[i]) * 0.5f - middle);
     }
   }
 }
@@ -195,11 +197,11 @@ std::vector<ViewBounds> MeasureViews(const ViewGeometry& geometry, int direction
   return all;
 }
 
-float LongestMotion(const ViewGeometry& geometry) {
+float Longest(const std::vector<Vec3>& ways, const ViewGeometry& geometry) {
   const std::vector<size_t> drawn = DrawnVertices(geometry);
   float longest = 0;
-  for (size_t first = 0; first < geometry.motions.size(); first += geometry.uvs.size()) {
-    for (size_t i : drawn) longest = std::max(longest, Length(geometry.motions[first + i]));
+  for (size_t first = 0; first < ways.size(); first += geometry.uvs.size()) {
+    for (size_t i : drawn) longest = std::max(longest, Length(ways[first + i]));
   }
   return longest;
 }

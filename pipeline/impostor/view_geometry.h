@@ -10,12 +10,13 @@
 
 namespace flaneur {
 
-// Positions, normals and motions stand frame by frame, each frame as long as uvs and colors. glTF
-// axes, metres. A motion is the way from half a phase before the frame to half a phase after it.
+// Positions, normals, motions and bends stand frame by frame, each frame as long as uvs and colors.
+// glTF axes, metres. A motion is the way from half a phase before the frame to half a phase after it;
+// the middle of the two lies beside the frame's position by the bend.
 struct ViewGeometry {
   int frames = 0;
   std::vector<ImpostorClip> clips;
-  std::vector<Vec3> positions, normals, motions;
+  std::vector<Vec3> positions, normals, motions, bends;
   std::vector<Vec2> uvs;            // (0, 0) where the mesh has none
   std::vector<Vec4> colors;         // sRGB; vertex colour x base colour
   std::vector<uint32_t> indices;    // triangles
@@ -53,7 +54,7 @@ ViewAxes AxesOf(int direction, int directions, float elevation_deg);
 std::vector<ViewBounds> MeasureViews(const ViewGeometry& geometry, int directions,
                                      const std::vector<float>& elevations_deg);
 
-// The longest motion of a drawn vertex along any axis.
-float LongestMotion(const ViewGeometry& geometry);
+// The length of a drawn vertex's longest motion or bend.
+float Longest(const std::vector<Vec3>& ways, const ViewGeometry& geometry);
 
 }  // namespace flaneur

@@ -63,6 +63,7 @@ Json ImpostorJson(const ImpostorAtlas& atlas, const ImpostorViews& views) {
           {"texel_m", Short(atlas.texel_m)},
           {"depth_range_m", Short(atlas.depth_range_m)},
           {"motion_range_m", Short(atlas.motion_range_m)},
+          {"bend_range_m", Short(atlas.bend_range_m)},
           {"clips", clips},
           {"cells_view", views.cells},
           {"albedo_view", views.albedo},

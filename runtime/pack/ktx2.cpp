@@ -117,8 +117,8 @@ Error ReadKtx2(std::span<const uint8_t> bytes, PackTexture* texture) {
   enum : size_t { kFormat, kTypeSize, kWidth, kHeight, kDepth, kLayers, kFaces, kLevels, kScheme };
   const uint32_t format = Word(bytes, kFormat), width = Word(bytes, kWidth), height = Word(bytes, kHeight);
   if (format != static_cast<uint32_t>(TextureFormat::kBc4) && format != static_cast<uint32_t>(TextureFormat::kBc5) &&
-      format != static_cast<uint32_t>(TextureFormat::kBc7Srgb)) {
-    return Fail("is a KTX2 picture of format " + std::to_string(format) + ", not BC4, BC5 or BC7 in sRGB");
+      format != static_cast<uint32_t>(TextureFormat::kBc7) && format != static_cast<uint32_t>(TextureFormat::kBc7Srgb)) {
+    return Fail("is a KTX2 picture of format " + std::to_string(format) + ", not BC4, BC5 or BC7");
   }
   if (Word(bytes, kDepth) != 0 || Word(bytes, kLayers) != 0 || Word(bytes, kFaces) != 1 || Word(bytes, kScheme) != 0) {
     return Fail("is a KTX2 picture that is no plain 2D picture");

@@ -155,6 +155,7 @@ PackImpostor ReadImpostor(const GltfFile& file, const TourObject& json) {
   out.texel_m = json.Real("texel_m", kAboveZero, kAnything);
   out.depth_range_m = json.Real("depth_range_m", kAboveZero, kAnything);
   out.motion_range_m = json.Real("motion_range_m", kAboveZero, kAnything);
+  out.bend_range_m = json.Real("bend_range_m", kAboveZero, kAnything);
   for (const TourObject& c : json.Objects("clips")) {
     const PackImpostorClip clip{c.OneOf("name", {"walk", "idle", "talk"}), c.Whole("first_frame", 0, 4095),
                                 c.Whole("phases", 1, 4096)};
@@ -182,7 +183,7 @@ void ReadAtlas(const GltfFile& file, const TourObject& json, PackImpostor* impos
   ReadAtlasPicture(file, json, "albedo_view", TextureFormat::kBc7Srgb, *impostor, 0, &impostor->albedo);
   ReadAtlasPicture(file, json, "normal_view", TextureFormat::kBc5, *impostor, 0, &impostor->normal);
   ReadAtlasPicture(file, json, "depth_view", TextureFormat::kBc4, *impostor, 0, &impostor->depth);
-  ReadAtlasPicture(file, json, "motion_view", TextureFormat::kBc5, *impostor, 1, &impostor->motion);
+  ReadAtlasPicture(file, json, "motion_view", TextureFormat::kBc7, *impostor, 1, &impostor->motion);
 }
 
 void CheckJoints(const PackMesh& mesh, int joints) {

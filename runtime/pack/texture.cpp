@@ -104,7 +104,7 @@ void DecodeBc4(const uint8_t* block, size_t channel, Texels* out) {
 }
 
 void DecodeBlock(TextureFormat format, const uint8_t* block, Texels* out) {
-  if (format == TextureFormat::kBc7Srgb) return DecodeBc7(block, out);
+  if (format == TextureFormat::kBc7 || format == TextureFormat::kBc7Srgb) return DecodeBc7(block, out);
   DecodeBc4(block, 0, out);
   if (format == TextureFormat::kBc5) DecodeBc4(block + 8, 1, out);
 }

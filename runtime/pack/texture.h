@@ -7,8 +7,8 @@
 
 namespace flaneur {
 
-// Vulkan's numbers, which KTX2 uses: one channel, two channels, colour with alpha in sRGB.
-enum class TextureFormat : uint32_t { kBc4 = 139, kBc5 = 141, kBc7Srgb = 146 };
+// Vulkan's numbers, which KTX2 uses: one channel, two channels, four channels, colour with alpha in sRGB.
+enum class TextureFormat : uint32_t { kBc4 = 139, kBc5 = 141, kBc7 = 145, kBc7Srgb = 146 };
 
 // Levels from the largest on, each half the size before, rounded down, at least 1 px. A level is rows of 4 x 4 blocks, top row
 // first.

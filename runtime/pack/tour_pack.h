@@ -17,7 +17,7 @@
 
 namespace flaneur {
 
-inline constexpr int kTourPackVersion = 2;
+inline constexpr int kTourPackVersion = 3;
 inline constexpr const char* kTourExtension = "FLANEUR_tour";
 
 struct PackImage {           // decoded, 8 bits a channel
@@ -75,7 +75,7 @@ struct PackImpostor {
   int directions = 0, frames = 0;
   std::vector<float> elevations_deg;
   int width_px = 0, height_px = 0;
-  float texel_m = 0, depth_range_m = 0, motion_range_m = 0;
+  float texel_m = 0, depth_range_m = 0, motion_range_m = 0, bend_range_m = 0;
   std::vector<PackImpostorClip> clips;
   std::vector<PackImpostorCell> cells;
   PackTexture albedo, normal, depth, motion;  // without levels where a pack is loaded without its pictures

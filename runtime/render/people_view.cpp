@@ -169,7 +169,7 @@ Error CreatePeopleView(const TourPack& pack, const std::string& defines, const S
     AvatarView view;
     view.levels.resize(avatar.levels.size());
     view.atlas = {1 / (atlas.texel_m * width_px), 1 / (atlas.texel_m * height_px), width_px, height_px};
-    view.ranges = {atlas.depth_range_m, atlas.motion_range_m, 0};
+    view.ranges = {atlas.depth_range_m, atlas.motion_range_m, atlas.bend_range_m};
     view.directions = static_cast<float>(atlas.directions);
     view.impostor_of = avatar.impostor_of;
     people->avatars.push_back(std::move(view));

@@ -17,7 +17,7 @@ struct AvatarView {
   std::array<PersonMesh, 2> shadows;  // as in ShadowLevels
   GLuint albedo = 0, normals = 0, depth = 0, motion = 0;  // of the impostor
   Vec4 atlas;                      // texture coordinates a metre, size in texels
-  Vec3 ranges;                     // of depth and of motion, in metres
+  Vec3 ranges;                     // of depth, motion and its bend, in metres
   float directions = 1;
   int impostor_of = -1;            // the avatar whose pictures these are; -1: its own
 };

@@ -241,6 +241,7 @@ layout(location = 7) in vec4 a_look;      // first cell of the picture's directi
 uniform highp sampler2D u_cells;
 uniform vec4 u_atlas;                     // texture coordinates a metre, size in texels
 uniform float u_directions;
+uniform vec3 u_ranges;
 out vec3 v_ray;                           // from the eye to the quad
 out vec3 v_point0, v_point1, v_ray0, v_ray1;  // the quad's points and v_ray in the two pictures' axes: right, up, towards whoever looks
 out vec2 v_texel;                         // of the quad, as large as the atlas's
@@ -266,7 +267,12 @@ void main() {
   vec2 low = min(min(vec2(cell0.x - origin0.x, origin0.y - cell0.w), vec2(cell1.x - origin1.x, origin1.y - cell1.w)), vec2(0.0));
   vec2 high = max(max(vec2(cell0.z - origin0.x, origin0.y - cell0.y), vec2(cell1.z - origin1.x, origin1.y - cell1.y)), vec2(0.0));
   float texel_m = 1.0 / (u_atlas.x * u_atlas.z);
-  vec2 at = mix(low - k_around_px, high + k_around_px, a_corner) * texel_m;
+#ifdef FAST
+  float around_px = k_around_px;
+#else
+  float around_px = k_around_px + min(u_ranges.y * abs(a_look.w) / texel_m, 16.0);
+#endif
+  vec2 at = mix(low - around_px, high + around_px, a_corner) * texel_m;
   float distance = max(length(from.xz), 1e-3);
   vec3 offset = vec3(from.z / distance * at.x, at.y, -from.x / distance * at.x);
   vec3 p = a_place.xyz + offset;
@@ -320,7 +326,7 @@ flat in float v_haze, v_level;
 flat in int v_pictures;
 uniform sampler2D u_texture, u_depth, u_motion;
 uniform vec4 u_atlas;
-uniform vec3 u_ranges;  // of depth, of motion
+uniform vec3 u_ranges;  // of depth, motion and its bend
 const float k_counts = 4.0;  // a picture whose share is a quarter counts fully in what covers and hides
 struct View { vec3 point, ray; vec4 cell; vec2 origin, turn; };
 // Coverage at a pixel's four samples, where graphics cards take them, or at its middle.
@@ -348,13 +354,6 @@ COVER cover_at(vec2 at, mat2 pixel) {
   return textureLod(u_texture, at, v_level).a;
 #endif
 }
-vec3 depth_and_motion(vec2 at) {
-#ifdef FAST
-  return textureLod(u_depth, at, max(v_level - 1.0, 0.0)).rgb;  // in one picture of half the size
-#else
-  return vec3(textureLod(u_depth, at, v_level).r, textureLod(u_motion, at, max(v_level - 1.0, 0.0)).rg);
-#endif
-}
 vec2 within(View view, vec2 at) {
   vec2 edge = 0.5 * exp2(ceil(v_level)) / u_atlas.zw;
   return clamp(at, view.cell.xy + edge, view.cell.zw - edge);
@@ -365,10 +364,17 @@ vec2 place_at(View view, float depth, vec2 moved) {
   vec2 p = view.point.xy + view.ray.xy / view.ray.z * (depth - view.point.z) - moved;
   return view.origin + p * vec2(u_atlas.x, -u_atlas.y);
 }
-// What a texel shows: motion until now, and depth.
+// What a texel shows: its motion since the picture's phase, and depth.
 vec3 moved_and_depth(vec2 at) {
-  vec3 shown = depth_and_motion(at) * 2.0 - 1.0;
-  return vec3(shown.gb * (u_ranges.y * v_look.x), shown.r * u_ranges.x);
+  float since = v_look.x, half_level = max(v_level - 1.0, 0.0);
+#ifdef FAST
+  vec3 shown = textureLod(u_depth, at, half_level).rgb * 2.0 - 1.0;  // in one picture of half the size
+  return vec3(shown.gb * (u_ranges.y * since), shown.r * u_ranges.x);
+#else
+  vec4 way = textureLod(u_motion, at, half_level) * 2.0 - 1.0;
+  float depth = textureLod(u_depth, at, v_level).r * 2.0 - 1.0;
+  return vec3(way.rg * (u_ranges.y * since) + way.ba * (u_ranges.z * 4.0 * since * since), depth * u_ranges.x);
+#endif
 }
 #ifdef FAST
 // Depth and motion where the ray crosses the quad say where to look.
@@ -420,10 +426,10 @@ Meeting meet(View view, View other, float others_part, mat2 pixel) {
       gap = -1.0;  // what comes next is entered from the side
     }
   }
-  vec2 at = within(view, place_at(view, found.z, found.xy));
+  vec2 ends = place_at(view, found.z, found.xy), at = within(view, ends);
   float along = (found.z - view.point.z) / view.ray.z;
   COVER cover = COVER(0.0);
-  if (met || least_gap < k_near_m) {
+  if (is_within(view, ends) && (met || least_gap < k_near_m)) {
     cover = min(cover_at(at, pixel), max(cover_from(other, along, pixel), COVER(1.0 - k_counts * others_part)));
   }
   return Meeting(at, textureLod(u_texture, at, v_level).rgb, cover, along, met ? 1.0 : 0.02);

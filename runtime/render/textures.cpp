@@ -31,6 +31,7 @@ BlockFormat FormatOf(TextureFormat format) {
   switch (format) {
     case TextureFormat::kBc4: return {GL_COMPRESSED_RED_RGTC1_EXT, GL_R8, GL_RED, "GL_EXT_texture_compression_rgtc"};
     case TextureFormat::kBc5: return {GL_COMPRESSED_RED_GREEN_RGTC2_EXT, GL_RG8, GL_RG, "GL_EXT_texture_compression_rgtc"};
+    case TextureFormat::kBc7:
     case TextureFormat::kBc7Srgb: break;  // made linear in the shader, like all colours
   }
   return {GL_COMPRESSED_RGBA_BPTC_UNORM_EXT, GL_RGBA8, GL_RGBA, "GL_EXT_texture_compression_bptc"};
@@ -43,7 +44,7 @@ GLint LevelsOf(int side_px) {
 }
 
 bool ReadsBlocks(TextureFormat format, const AtlasFormats& formats) {
-  return format == TextureFormat::kBc7Srgb ? formats.bc7_blocks : formats.rgtc_blocks;
+  return FormatOf(format).internal == GL_RGBA8 ? formats.bc7_blocks : formats.rgtc_blocks;
 }
 
 // From mip level `first` on, or the last one before that is there.
@@ -60,7 +61,7 @@ AtlasPicture Prepare(const PackTexture& picture, size_t first, const AtlasFormat
   return out;
 }
 
-// Decoded depth in red, motion in green and blue.
+// Decoded depth in red, motion in green and blue; its bend is left out.
 AtlasPicture Packed(const AtlasPicture& depth, const AtlasPicture& motion) {
   AtlasPicture out{TextureFormat::kBc7Srgb, depth.width_px, depth.height_px, false, {}};
   const auto side = [](int px, size_t level) { return static_cast<size_t>(std::max(1, px >> level)); };
@@ -70,7 +71,7 @@ AtlasPicture Packed(const AtlasPicture& depth, const AtlasPicture& motion) {
     std::vector<uint8_t>& texels = out.levels.emplace_back(width * height * 4);
     for (size_t y = 0; y < height; ++y) {
       for (size_t x = 0; x < width; ++x) {
-        const uint8_t* moved = &motion.levels[level][2 * (y * motion_height / height * motion_width + x * motion_width / width)];
+        const uint8_t* moved = &motion.levels[level][4 * (y * motion_height / height * motion_width + x * motion_width / width)];
         uint8_t* to = &texels[4 * (y * width + x)];
         to[0] = depth.levels[level][y * width + x], to[1] = moved[0], to[2] = moved[1];
       }

@@ -430,13 +430,35 @@ TEST(NormalSquare, HoldsEveryDirectionTowardsTheCamera) {
   }
 }
 
+TEST(ViewGeometryTest, MotionAndBendLeadToThePosesHalfAPhaseAway) {
+  Avatar avatar = BoxAvatar();
+  avatar.joints.resize(1);
+  for (Mesh& mesh : avatar.meshes) {
+    mesh.joints.assign(mesh.positions.size(), {0, 0, 0, 0});
+    mesh.weights.assign(mesh.positions.size(), {1, 0, 0, 0});
+  }
+  // Goes aside at an even pace, up and down again.
+  avatar.clips = {{"walk", 1.0f, 3, {{{0, 0, 0}, {}, {1, 1, 1}}, {{1, 1, 0}, {}, {1, 1, 1}}, {{2, 0, 0}, {}, {1, 1, 1}}}}};
+  ViewGeometry geometry;
+  ASSERT_FALSE(PoseFrames(avatar, {{"walk", 2}}, &geometry));
+  for (size_t i = geometry.uvs.size(); i < geometry.positions.size(); ++i) {  // the picture half way, at the top
+    const Vec3 before = geometry.bends[i] - geometry.motions[i] * 0.5f, after = geometry.bends[i] + geometry.motions[i] * 0.5f;
+    EXPECT_NEAR(before.x, -0.5f, 1e-5f);
+    EXPECT_NEAR(after.x, 0.5f, 1e-5f);
+    EXPECT_NEAR(before.y, -0.5f, 1e-5f);
+    EXPECT_NEAR(after.y, -0.5f, 1e-5f);
+  }
+}
+
 TEST(ViewGeometryTest, PhasesAreEvenlySpacedAndBoundsHoldForAnyDirection) {
   ViewGeometry geometry;
   ASSERT_FALSE(PoseFrames(BoxAvatar(), {{"idle", 2}, {"walk", 3}}, &geometry));
   EXPECT_EQ(geometry.frames, 3);
   EXPECT_EQ(geometry.positions.size(), 3 * geometry.uvs.size());
   EXPECT_EQ(geometry.motions.size(), geometry.positions.size());
-  EXPECT_EQ(LongestMotion(geometry), 0) << "it stands still";
+  EXPECT_EQ(geometry.bends.size(), geometry.positions.size());
+  EXPECT_EQ(Longest(geometry.motions, geometry), 0) << "it stands still";
+  EXPECT_EQ(Longest(geometry.bends, geometry), 0);
   const std::vector<ViewBounds> front = MeasureViews(geometry, 1, {0});
   ASSERT_EQ(front.size(), 3u);
   EXPECT_NEAR(front[0].right_m, kHalf.x, 1e-6f);

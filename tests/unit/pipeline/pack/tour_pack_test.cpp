@@ -77,13 +77,13 @@ ImpostorAtlas SmallAtlas() {
   atlas.height_px = 64;
   atlas.texel_m = 0.25f;
   atlas.depth_range_m = 0.5f;
-  atlas.motion_range_m = 0.125f;
+  atlas.motion_range_m = atlas.bend_range_m = 0.125f;
   atlas.clips = {{"walk", 0, 2}, {"idle", 2, 1}};
   for (int i = 0; i < 4 * 2 * 3; ++i) atlas.cells.push_back({i % 8 * 4, i / 8 * 8, 4, 8, i % 8 * 4 + 2, i / 8 * 8 + 7});
   atlas.albedo_ktx2 = Ktx2(TextureFormat::kBc7Srgb, 32, 64);
   atlas.normal_ktx2 = Ktx2(TextureFormat::kBc5, 32, 64);
   atlas.depth_ktx2 = Ktx2(TextureFormat::kBc4, 32, 64);
-  atlas.motion_ktx2 = Ktx2(TextureFormat::kBc5, 16, 32);
+  atlas.motion_ktx2 = Ktx2(TextureFormat::kBc7, 16, 32);
   return atlas;
 }
 

@@ -54,7 +54,7 @@ PackPrimitive BoxPrimitive(Vec3 low, Vec3 high, int material, bool skinned) {
 // A picture of one colour. BC7: even values, by mode 6 with both ends alike.
 PackTexture Flat(TextureFormat format, int width, int height, std::vector<uint8_t> color) {
   std::vector<uint8_t> block(BlockBytes(format), 0);
-  if (format == TextureFormat::kBc7Srgb) {
+  if (format == TextureFormat::kBc7 || format == TextureFormat::kBc7Srgb) {
     size_t at = 0;
     const auto put = [&](int value, int bits) {
       for (int i = 0; i < bits; ++i, ++at) block[at / 8] |= static_cast<uint8_t>((value >> i & 1) << at % 8);
@@ -86,13 +86,13 @@ PackAvatar BoxPerson() {
   atlas.height_px = 96;
   atlas.texel_m = 1.8f / 72;
   atlas.depth_range_m = 0.5f;
-  atlas.motion_range_m = 0.1f;
+  atlas.motion_range_m = atlas.bend_range_m = 0.1f;
   atlas.clips = {{"walk", 0, 1}};
   for (int16_t d = 0; d < 4; ++d) atlas.cells.push_back({static_cast<int16_t>(32 * d), 0, 20, 72, static_cast<int16_t>(32 * d + 10), 72});
   atlas.albedo = Flat(TextureFormat::kBc7Srgb, 128, 96, {200, 60, 60, 254});
   atlas.normal = Flat(TextureFormat::kBc5, 128, 96, {128, 128});
   atlas.depth = Flat(TextureFormat::kBc4, 128, 96, {191});
-  atlas.motion = Flat(TextureFormat::kBc5, 64, 48, {128, 128});
+  atlas.motion = Flat(TextureFormat::kBc7, 64, 48, {128, 128, 128, 128});
   return a;
 }
 

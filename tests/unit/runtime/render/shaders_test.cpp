@@ -21,7 +21,7 @@ TourPack OnePerson() {
   avatar.walk = avatar.idle = avatar.talk = {1, 1, {Mat4{}}};
   avatar.impostor.directions = avatar.impostor.frames = avatar.impostor.width_px = avatar.impostor.height_px = 1;
   avatar.impostor.elevations_deg = {0};
-  avatar.impostor.texel_m = avatar.impostor.depth_range_m = avatar.impostor.motion_range_m = 1;
+  avatar.impostor.texel_m = avatar.impostor.depth_range_m = avatar.impostor.motion_range_m = avatar.impostor.bend_range_m = 1;
   avatar.impostor.clips = {{"walk", 0, 1}};
   avatar.impostor.cells.resize(1);
   pack.avatars = {avatar};
