@@ -436,7 +436,7 @@ TEST(TourPack, TheGltfPartOfAnotherTypeIsRefusedInPlainWords) {
 
 TEST(TourPack, OtherVersionsAreRefusedByNumber) {
   std::vector<uint8_t> bytes = Written(SmallTour());
-  const std::string member = "\"version\":2";
+  const std::string member = "\"version\":" + std::to_string(kTourPackVersion);
   const auto at = std::search(bytes.begin(), bytes.end(), member.begin(), member.end());
   ASSERT_NE(at, bytes.end());
   at[static_cast<std::ptrdiff_t>(member.size()) - 1] = '9';
