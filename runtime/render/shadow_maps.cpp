@@ -12,7 +12,8 @@ constexpr float kNear_m = 55, kMostFar_m = 400;  // half the widths that the map
 constexpr float kShadowDepth_m = 140;
 constexpr float kNearStep_m = 8;
 constexpr float kSunStep = 0.004f;       // or when the sun has turned by so much, in radians: hardly a texel on the ground
-constexpr float kSunJump = 0.3f;         // so much of a turn is not waited for, nor three steps of the eye
+constexpr float kSunJump = 0.3f;         // so much of a turn is not waited for, nor so many steps of the eye, which leave the near map before it
+constexpr float kFarthestSteps = 5;
 constexpr float kTrianglesAPicture = 10000;  // the work is spread over many pictures, so that no frame stumbles
 
 void SetUpMap(GLenum target) {
@@ -64,7 +65,7 @@ DrawCost DrawSome(int64_t triangles, GLuint block_buffer, const TownView& town, 
 DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town, ShadowMaps* maps, TownMap* map) {
   TownMap& other = map == &maps->near ? maps->far : maps->near;
   const float moved_m = Length(center - map->center), turned = Length(to_sun - map->to_sun);
-  const bool jumped = !map->valid || moved_m > 3 * map->step_m || turned > kSunJump;
+  const bool jumped = !map->valid || moved_m > kFarthestSteps * map->step_m || turned > kSunJump;
   if (other.draws && !jumped) return {};
   other.next_block = 0;  // from its beginning where this one takes the layer away
   if (jumped || ((moved_m > map->step_m || turned > kSunStep) && !map->draws)) {

@@ -223,6 +223,28 @@ TEST_F(Drawing, AnImpostorHasItsDepthInThePicture) {
   EXPECT_EQ(RedPatch(Draw(pack, frame, {4, true, false})).count, 0);
 }
 
+// Both maps of the town were due again and again, and the near one waited for the far one until it was drawn at once.
+TEST_F(Drawing, NoPictureDrawsAllShadowsOfALargeTownOfWhoRunsWhileTheSunTurns) {
+  std::vector<Vec2> boxes;
+  for (int i = 0; i < 34000; ++i) boxes.push_back({-3 - 0.8f * static_cast<float>(i % 185), 0.8f * static_cast<float>(i / 185) - 75});
+  const TourPack pack = MakePack(boxes);
+  Renderer renderer;
+  ASSERT_EQ(renderer.Create(pack, {}).message, "");
+  FrameInput frame = LookEast();  // they lie behind the eye
+  frame.resolution_scale = 0.5f;
+  int64_t most = 0;
+  for (int i = 0; i < 400; ++i) {
+    const float time_s = static_cast<float>(i) / 27, turn = 0.0075f * time_s;
+    frame.eye.y = 3.8f * time_s - 30;
+    frame.to_sun = Normalized(Vec3{-std::cos(turn), -std::sin(turn), 0.6f});
+    renderer.Draw(frame, kWidth, kHeight, &statistics_);
+    if (i == 0) EXPECT_GT(statistics_.shadow_triangles, 400000) << "all of it, before the first picture";
+    else most = std::max(most, statistics_.shadow_triangles);
+  }
+  EXPECT_GT(most, 0);
+  EXPECT_LT(most, 12000);
+}
+
 TEST_F(Drawing, TwoSharesOfOneFadeFillThePersonAndNoMore) {
   const TourPack pack = MakePack({});
   FrameInput frame = LookEast();
