@@ -19,12 +19,16 @@ constexpr float kLeastCoverage = 1e-4f;
 // How far coverage keeps from a half, for each halving: compression is off by more the smaller a person gets in a block.
 constexpr float kClearOfHalf = 0.02f;
 
-enum Layer { kRed, kGreen, kBlue, kNormalX, kNormalY, kNormalZ, kMotionX, kMotionY, kMotionZ, kBendX, kBendY, kBendZ, kDepth, kCoverage, kLayers };
-constexpr std::array<const char*, kLayers> kLayerNames = {"albedo.R", "albedo.G", "albedo.B", "normal.R", "normal.G", "normal.B",
-                                                          "motion.R", "motion.G", "motion.B", "bend.R", "bend.G", "bend.B", "depth.",   "coverage."};
+enum Layer {
+  kRed, kGreen, kBlue, kNormalX, kNormalY, kNormalZ, kMotionX, kMotionY, kMotionZ, kBendX, kBendY, kBendZ, kDepth, kCoverage, kLayers
+};
+constexpr std::array<const char*, kLayers> kLayerNames = {
+    "albedo.R", "albedo.G", "albedo.B", "normal.R", "normal.G", "normal.B", "motion.R",
+    "motion.G", "motion.B", "bend.R",   "bend.G",   "bend.B",   "depth.",   "coverage."};
 // Versions of Blender name the parts of a vector and of a single value differently.
-constexpr std::array<const char*, kLayers> kOtherNames = {"albedo.X", "albedo.Y", "albedo.Z", "normal.X", "normal.Y", "normal.Z",
-                                                          "motion.X", "motion.Y", "motion.Z", "bend.X", "bend.Y", "bend.Z", "depth",    "coverage"};
+constexpr std::array<const char*, kLayers> kOtherNames = {
+    "albedo.X", "albedo.Y", "albedo.Z", "normal.X", "normal.Y", "normal.Z", "motion.X",
+    "motion.Y", "motion.Z", "bend.X",   "bend.Y",   "bend.Z",   "depth",    "coverage"};
 
 // Channel names are "ViewLayer.albedo.R".
 int FindChannel(const std::vector<std::string>& names, const std::string& wanted) {

@@ -86,7 +86,8 @@ Vec2 SquareFromNormal(Vec3 n) {
 
 void CompressAtlas(const std::vector<AtlasLevel>& levels, ImpostorAtlas* atlas) {
   const auto share = [](float value, float range) { return 0.5f + 0.5f * value / range; };
-  atlas->albedo_ktx2 = Ktx2(levels, 0, TextureFormat::kBc7Srgb, [](const Block& block, uint8_t* out) { CompressColors(block, AlbedoBytes, out); });
+  const auto compress_albedo = [](const Block& block, uint8_t* out) { CompressColors(block, AlbedoBytes, out); };
+  atlas->albedo_ktx2 = Ktx2(levels, 0, TextureFormat::kBc7Srgb, compress_albedo);
   atlas->normal_ktx2 = Ktx2(levels, 0, TextureFormat::kBc5, CompressNormal);
   atlas->depth_ktx2 = Ktx2(levels, 0, TextureFormat::kBc4, [&](const Block& block, uint8_t* out) {
     CompressChannel(block, [&](const AtlasTexel& t) { return share(t.depth_m, atlas->depth_range_m); }, out);

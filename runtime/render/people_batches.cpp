@@ -203,8 +203,8 @@ AvatarLayout LayoutOf(const PackAvatar& avatar) {
   layout.clips = {RowsOf(avatar.walk, layout), RowsOf(avatar.idle, layout), RowsOf(avatar.talk, layout)};
   for (size_t k = 0; k < layout.clips.size(); ++k) layout.shadow_rows[k] = std::min(layout.clips[k].frames, kMostShadowRows);
   const PackImpostor& i = avatar.impostor;
-  layout.impostor = {i.directions, i.frames, i.elevations_deg, i.width_px, i.height_px, i.texel_m, i.depth_range_m, i.motion_range_m, i.bend_range_m,
-                     i.clips, i.cells, {}, {}, {}, {}};
+  layout.impostor = {i.directions, i.frames, i.elevations_deg, i.width_px, i.height_px, i.texel_m, i.depth_range_m,
+                     i.motion_range_m, i.bend_range_m, i.clips, i.cells, {}, {}, {}, {}};
   return layout;
 }
 

@@ -22,7 +22,8 @@ namespace {
 
 constexpr float kNear_m = 0.1f, kFar_m = 900;
 constexpr float kFineShadow_m = 12;  // at all pixels
-constexpr float kLeastShadowShare = 0.5f;  // of the town's shadows that a picture usually renews: with less, one map waits for the other while the visitor runs out of it
+// Of the town's shadows that a picture usually renews: with less, one map waits for the other while the visitor runs out of it.
+constexpr float kLeastShadowShare = 0.5f;
 
 // In software larger pictures cost memory and time that nobody sees at the sizes drawn there, and texels eight times a block's memory.
 PictureLimits LimitsOfThisMachine(bool fast) {

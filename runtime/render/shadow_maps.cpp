@@ -12,8 +12,8 @@ constexpr float kNear_m = 55, kMostFar_m = 400;  // half the widths that the map
 constexpr float kShadowDepth_m = 140;
 constexpr float kNearStep_m = 8;
 constexpr float kSunStep = 0.004f;       // or when the sun has turned by so much, in radians: hardly a texel on the ground
-constexpr float kSunJump = 0.3f;         // so much of a turn is not waited for, nor so many steps of the eye, which leave the near map before it
-constexpr float kFarthestSteps = 5;
+constexpr float kSunJump = 0.3f;         // so much of a turn is not waited for,
+constexpr float kFarthestSteps = 5;      // nor so many steps of the eye, which leave some of the near map before it
 constexpr float kTrianglesAPicture = 10000;  // the work is spread over many pictures, so that no frame stumbles
 
 void SetUpMap(GLenum target) {
