@@ -38,7 +38,8 @@ from common.settings import fail, load_settings  # noqa: E402
 
 REQUIRED = ("output", "seed", "geometry", "vertices", "triangles", "frames", "materials",
             "directions", "cells", "width_px", "height_px", "texel_m", "band_px")
-COLOR_LAYERS = ("albedo", "normal", "motion", "bend")
+VECTORS = ("normal", "motion", "bend")  # of a vertex; they differ from frame to frame
+COLOR_LAYERS = ("albedo",) + VECTORS
 VALUE_LAYERS = ("depth", "coverage")
 PATTERN = 32  # of 40 patterns of 16 samples the one that comes nearest to 64 samples on edges
 
@@ -177,21 +178,16 @@ def make_material(description):
     nodes.tree.links.new(depth, split.inputs[0])
     side = nodes.math("SUBTRACT", 1.0, nodes.math("MULTIPLY", geometry.outputs["Backfacing"], 2.0))
     normal = nodes.scale(nodes.attribute("person_normal").outputs["Vector"], side)
-    motion = nodes.attribute("person_motion").outputs["Vector"]
-    bend = nodes.attribute("person_bend").outputs["Vector"]
+    layers = {"albedo": color, "normal": normal}
+    for name in ("motion", "bend"):
+        layers[name] = nodes.attribute("person_" + name).outputs["Vector"]
+    for name, vector in layers.items():
+        nodes.write_layer(name, vector if visible is None else nodes.scale(vector, visible))
     shader = nodes.node("ShaderNodeEmission").outputs["Emission"]
     if visible is None:
-        nodes.write_layer("albedo", color)
-        nodes.write_layer("normal", normal)
-        nodes.write_layer("motion", motion)
-        nodes.write_layer("bend", bend)
         nodes.write_layer("depth", split.outputs["Y"])
         nodes.write_layer("coverage", 1.0)
     else:
-        nodes.write_layer("albedo", nodes.scale(color, visible))
-        nodes.write_layer("normal", nodes.scale(normal, visible))
-        nodes.write_layer("motion", nodes.scale(motion, visible))
-        nodes.write_layer("bend", nodes.scale(bend, visible))
         nodes.write_layer("depth", nodes.math("MULTIPLY", split.outputs["Y"], visible))
         nodes.write_layer("coverage", visible)
         mix = nodes.node("ShaderNodeMixShader")
@@ -217,17 +213,15 @@ def make_mesh(arrays, materials):
     uv.data.foreach_set("vector", uvs.ravel())
     color = mesh.attributes.new("person_color", "FLOAT_COLOR", "POINT")
     color.data.foreach_set("color", arrays["colors"].ravel())
-    mesh.attributes.new("person_normal", "FLOAT_VECTOR", "POINT")
-    mesh.attributes.new("person_motion", "FLOAT_VECTOR", "POINT")
-    mesh.attributes.new("person_bend", "FLOAT_VECTOR", "POINT")
+    for name in VECTORS:
+        mesh.attributes.new("person_" + name, "FLOAT_VECTOR", "POINT")
     return mesh
 
 
 def pose(mesh, arrays, frame):
     mesh.vertices.foreach_set("co", arrays["positions"][frame].astype(np.float32).ravel())
-    mesh.attributes["person_normal"].data.foreach_set("vector", arrays["normals"][frame].ravel())
-    mesh.attributes["person_motion"].data.foreach_set("vector", arrays["motions"][frame].ravel())
-    mesh.attributes["person_bend"].data.foreach_set("vector", arrays["bends"][frame].ravel())
+    for name in VECTORS:
+        mesh.attributes["person_" + name].data.foreach_set("vector", arrays[name + "s"][frame].ravel())
     mesh.update()
 
 

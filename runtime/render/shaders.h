@@ -241,7 +241,7 @@ layout(location = 7) in vec4 a_look;      // first cell of the picture's directi
 uniform highp sampler2D u_cells;
 uniform vec4 u_atlas;                     // texture coordinates a metre, size in texels
 uniform float u_directions;
-uniform vec3 u_ranges;
+uniform vec3 u_ranges;                    // as below
 out vec3 v_ray;                           // from the eye to the quad
 out vec3 v_point0, v_point1, v_ray0, v_ray1;  // the quad's points and v_ray in the two pictures' axes: right, up, towards whoever looks
 out vec2 v_texel;                         // of the quad, as large as the atlas's
@@ -390,6 +390,7 @@ const float k_solid = 0.1;         // coverage of a texel that can be met
 const float k_thickness_m = 0.06;  // behind the surface by more than this and a step, the ray passes behind the person's part
 const float k_exact_m = 0.03;      // between two guesses of the depth
 const float k_near_m = 0.1;        // of a surface that the ray comes out beneath
+// What another picture shows where a point of the ray lies: nothing if it sees through there.
 COVER cover_from(View view, float along, mat2 pixel) {
   vec3 p = view.point + along * view.ray;
   vec2 at = place_at(view, p.z, moved_and_depth(within(view, place_at(view, p.z, vec2(0.0)))).xy);
