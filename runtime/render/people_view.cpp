@@ -30,14 +30,14 @@ PersonMesh UploadMesh(const PersonGeometry& person) {
 
 Error BuildPrograms(const std::string& defines, PeopleView* people) {
   const std::string vertex = std::string(kFrame) + kHaze + kPersonVertex;
-  const std::string impostor_vertex = "#define CELLS_WIDTH " + std::to_string(kCellsWidth) + "\n" + defines + kFrame + kHaze + kImpostorVertex;
+  const std::string cells = "#define CELLS_WIDTH " + std::to_string(kCellsWidth) + "\n" + kImpostorCells, impostor_vertex = defines + kFrame + kHaze + cells + kImpostorVertex;
   for (int masked = 0; masked < 2; ++masked) {
     const std::string lit = (masked ? "#define MASKED\n" : "") + defines + kFrame + kLight + kOutcome;
     if (Error e = BuildProgram(vertex, lit + kSurfaceFragment, &people->programs[masked][0])) return e;
     if (Error e = BuildProgram(vertex, "#define FADES\n" + lit + kFade + kSurfaceFragment, &people->programs[masked][1])) return e;
   }
   if (Error e = BuildProgram("#define SHADOW\n" + vertex, kShadowFragment, &people->shadow_program)) return e;
-  return BuildProgram(impostor_vertex, defines + kFrame + kImpostorViews + kLight + kOutcome + kFade + kImpostorFragment, &people->impostor_program);
+  return BuildProgram(impostor_vertex, defines + kFrame + cells + kImpostorViews + kLight + kOutcome + kFade + kImpostorFragment, &people->impostor_program);
 }
 
 void CreateQuad(PeopleView* people) {
@@ -81,11 +81,23 @@ void CreateShadowPoses(PeopleView* people) {
   people->shadow_poses = CreateTable(static_cast<GLsizei>(width), static_cast<GLsizei>(texels.size() / std::max<size_t>(1, width)), texels.data());
 }
 
+// The same direction's in the next phase and in the previous one; -1: the clip has one phase alone.
+Vec4 CellsBeside(const AvatarLayout& layout, int cell) {
+  const int row = static_cast<int>(layout.impostor.elevations_deg.size()) * layout.impostor.directions, frame = cell / row;
+  for (const PackImpostorClip& clip : layout.impostor.clips) {
+    const int phase = frame - clip.first_frame, cell_of_first = layout.first_cell + cell - phase * row;
+    if (phase < 0 || phase >= clip.phases || clip.phases == 1) continue;
+    const int next = (phase + 1) % clip.phases, previous = (phase + clip.phases - 1) % clip.phases;
+    return {static_cast<float>(cell_of_first + next * row), static_cast<float>(cell_of_first + previous * row), 0, 0};
+  }
+  return {-1, -1, 0, 0};
+}
+
 void CreateCells(PeopleView* people) {
   std::vector<Vec4> texels;
   for (AvatarLayout& layout : people->layouts) {
     const PackImpostor& atlas = layout.impostor;
-    layout.first_cell = static_cast<int>(texels.size() / 2);
+    layout.first_cell = static_cast<int>(texels.size() / 3);
     for (size_t i = 0; i < atlas.cells.size(); ++i) {
       const PackImpostorCell& c = atlas.cells[i];
       const size_t elevation = i / static_cast<size_t>(atlas.directions) % atlas.elevations_deg.size();
@@ -93,6 +105,7 @@ void CreateCells(PeopleView* people) {
       const float left = c.x, top = c.y;
       texels.push_back({left, top, left + static_cast<float>(c.width), top + static_cast<float>(c.height)});
       texels.push_back({static_cast<float>(c.origin_x), static_cast<float>(c.origin_y), std::sin(elevation_rad), std::cos(elevation_rad)});
+      texels.push_back(CellsBeside(layout, static_cast<int>(i)));
     }
   }
   texels.resize((texels.size() + kCellsWidth) / kCellsWidth * kCellsWidth);

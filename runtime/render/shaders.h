@@ -232,13 +232,22 @@ vec4 finished(vec3 color) {
 }
 )";
 
+// What is known of a picture's cell.
+inline constexpr const char* kImpostorCells = R"(
+// Three texels a cell: left, top, right, bottom; the point between the feet, sine and cosine of the elevation; the cells of the
+// next and of the previous phase, -1 where there is one alone. All in texels.
+uniform highp sampler2D u_cells;
+vec4 cell_texel(int cell, int k) {
+  int i = 3 * cell + k;
+  return texelFetch(u_cells, ivec2(i % CELLS_WIDTH, i / CELLS_WIDTH), 0);
+}
+)";
+
 // A quad that stands upright and turns to the eye, with the two pictures between whose directions the eye is.
 inline constexpr const char* kImpostorVertex = R"(
 layout(location = 0) in vec2 a_corner;    // 0 to 1
 layout(location = 6) in vec4 a_place;     // position, turn about the vertical
 layout(location = 7) in vec4 a_look;      // first cell of the picture's directions, share of the pattern from, to, phases since it
-// Two texels a cell: left, top, right, bottom; the point between the feet, sine and cosine of the elevation. All in texels.
-uniform highp sampler2D u_cells;
 uniform vec4 u_atlas;                     // texture coordinates a metre, size in texels
 uniform float u_directions;
 uniform vec3 u_ranges;                    // as below
@@ -251,8 +260,8 @@ flat out vec4 v_look;                     // phases since the picture, share of 
 flat out vec2 v_share;
 flat out float v_haze, v_level;           // v_level: mip level, whose texels are as large as pixels
 flat out int v_pictures;                  // how many of the two count
+flat out ivec2 v_beside;                  // cells of the same directions in the phase next to the picture's, -1: none
 const float k_around_px = 4.0;  // beyond both silhouettes lie those between them, and what perspective and motion make larger
-vec4 cell_texel(int i) { return texelFetch(u_cells, ivec2(i % CELLS_WIDTH, i / CELLS_WIDTH), 0); }
 vec3 in_axes_of(vec2 turn, vec2 elevation, vec3 v) {
   float out_m = dot(v.xz, turn.yx);
   return vec3(turn.x * v.x - turn.y * v.z, elevation.y * v.y - elevation.x * out_m, elevation.x * v.y + elevation.y * out_m);
@@ -262,8 +271,7 @@ void main() {
   float turn = (atan(-from.z, from.x) - a_place.w) / 6.28318531 + 0.25;
   float direction = fract(turn) * u_directions;
   int first = int(a_look.x), d0 = int(direction) % int(u_directions), d1 = (d0 + 1) % int(u_directions);
-  vec4 cell0 = cell_texel(2 * (first + d0)), cell1 = cell_texel(2 * (first + d1));
-  vec4 origin0 = cell_texel(2 * (first + d0) + 1), origin1 = cell_texel(2 * (first + d1) + 1);
+  vec4 cell0 = cell_texel(first + d0, 0), cell1 = cell_texel(first + d1, 0), origin0 = cell_texel(first + d0, 1), origin1 = cell_texel(first + d1, 1);
   vec2 low = min(min(vec2(cell0.x - origin0.x, origin0.y - cell0.w), vec2(cell1.x - origin1.x, origin1.y - cell1.w)), vec2(0.0));
   vec2 high = max(max(vec2(cell0.z - origin0.x, origin0.y - cell0.y), vec2(cell1.z - origin1.x, origin1.y - cell1.y)), vec2(0.0));
   float texel_m = 1.0 / (u_atlas.x * u_atlas.z);
@@ -293,6 +301,8 @@ void main() {
   v_level = max(0.0, log2(max((u_view_projection * vec4(a_place.xyz, 1.0)).w, 0.1) / (u_eye.w * texel_m)));
   float between = fract(direction);
   v_pictures = 2;
+  vec2 beside0 = cell_texel(first + d0, 2).xy, beside1 = cell_texel(first + d1, 2).xy;
+  v_beside = a_look.w < 0.0 ? ivec2(beside0.y, beside1.y) : ivec2(beside0.x, beside1.x);
 #ifdef FAST
   // The smaller they are drawn, the narrower is the range of directions in which both pictures are looked up.
   v_level = floor(v_level + 0.5);  // between two levels software looks up twice as much
@@ -317,18 +327,21 @@ void main() {
 
 // A texel of a view shows a point of the person: so far before the axis, and moved on by so much since the picture's phase. Where
 // the ray through a pixel meets such a point is searched for in each of the two pictures (relief mapping: Policarpo, Oliveira and
-// Comba 2005); a find counts as far as the other picture does not see through there.
+// Comba 2005); a find counts as far as the other picture does not see through there. Both of the phase beside join in the nearer the
+// moment is to it, for what one phase's pictures hide the other's show.
 inline constexpr const char* kImpostorViews = R"(
 in vec3 v_ray, v_point0, v_point1, v_ray0, v_ray1;
 in vec2 v_texel;
 flat in vec4 v_turns, v_cell0, v_cell1, v_origins, v_look;
 flat in float v_haze, v_level;
 flat in int v_pictures;
+flat in ivec2 v_beside;
 uniform sampler2D u_texture, u_depth, u_motion;
 uniform vec4 u_atlas;
 uniform vec3 u_ranges;  // of depth, motion and its bend
 const float k_counts = 4.0;  // a picture whose share is a quarter counts fully in what covers and hides
-struct View { vec3 point, ray; vec4 cell; vec2 origin, turn; };
+const float k_phase_counts = 8.0, k_beside = 0.1;  // an eighth, for phases; nearer than this to its picture, a phase has no other beside
+struct View { vec3 point, ray; vec4 cell; vec2 origin, turn; float since; };  // since: phases
 // Coverage at a pixel's four samples, where graphics cards take them, or at its middle.
 #ifdef SMOOTH_EDGES
 #define COVER vec4
@@ -365,8 +378,8 @@ vec2 place_at(View view, float depth, vec2 moved) {
   return view.origin + p * vec2(u_atlas.x, -u_atlas.y);
 }
 // What a texel shows: its motion since the picture's phase, and depth.
-vec3 moved_and_depth(vec2 at) {
-  float since = v_look.x, half_level = max(v_level - 1.0, 0.0);
+vec3 moved_and_depth(View view, vec2 at) {
+  float since = view.since, half_level = max(v_level - 1.0, 0.0);
 #ifdef FAST
   vec3 shown = textureLod(u_depth, at, half_level).rgb * 2.0 - 1.0;  // in one picture of half the size
   return vec3(shown.gb * (u_ranges.y * since), shown.r * u_ranges.x);
@@ -379,21 +392,31 @@ vec3 moved_and_depth(vec2 at) {
 #ifdef FAST
 // Depth and motion where the ray crosses the quad say where to look.
 Meeting meet(View view, View other, float others_part, mat2 pixel) {
-  vec3 guess = moved_and_depth(within(view, place_at(view, 0.0, vec2(0.0))));
+  vec3 guess = moved_and_depth(view, within(view, place_at(view, 0.0, vec2(0.0))));
   vec2 at = place_at(view, guess.z, guess.xy);
   vec4 color = textureLod(u_texture, within(view, at), v_level);
   return Meeting(within(view, at), color.rgb, is_within(view, at) ? color.a : 0.0, (guess.z - view.point.z) / view.ray.z, 1.0);
 }
 #else
+// Of the phase beside, by the square of its nearness, as what motion leaves unsaid grows.
+float part_beside() {
+  float near = abs(v_look.x), far = 1.0 - near;
+  return v_beside.x >= 0 && near > k_beside ? near * near / (near * near + far * far) : 0.0;
+}
+View beside(View view, int cell) {
+  float since = view.since < 0.0 ? view.since + 1.0 : view.since - 1.0;
+  return View(view.point, view.ray, cell_texel(cell, 0) / u_atlas.zwzw, cell_texel(cell, 1).xy / u_atlas.zw, view.turn, since);
+}
 const float k_most_steps = 24.0;
 const float k_solid = 0.1;         // coverage of a texel that can be met
 const float k_thickness_m = 0.06;  // behind the surface by more than this and a step, the ray passes behind the person's part
 const float k_exact_m = 0.03;      // between two guesses of the depth
-const float k_near_m = 0.1;        // of a surface that the ray comes out beneath
+const float k_near_m = 0.05;       // of a surface that the ray comes out beneath
 // What another picture shows where a point of the ray lies: nothing if it sees through there.
 COVER cover_from(View view, float along, mat2 pixel) {
   vec3 p = view.point + along * view.ray;
-  vec2 at = place_at(view, p.z, moved_and_depth(within(view, place_at(view, p.z, vec2(0.0)))).xy);
+  vec2 at = place_at(view, p.z, vec2(0.0));
+  for (int k = 0; k < 3; ++k) at = place_at(view, p.z, moved_and_depth(view, within(view, at)).xy);
   return is_within(view, at) ? cover_at(within(view, at), pixel) : COVER(0.0);
 }
 // Follows the ray from the person's front to the back, a texel a step, to the first surface that it comes upon. The one return at
@@ -407,7 +430,7 @@ Meeting meet(View view, View other, float others_part, mat2 pixel) {
   for (float i = 0.0; i <= steps && !met; ++i) {
     float depth = range - i * step_m, gap_before = gap;
     vec2 at = place_at(view, depth, shown.xy);
-    shown = moved_and_depth(within(view, at));
+    shown = moved_and_depth(view, within(view, at));
     gap = depth - shown.z;
     if (is_within(view, at) && textureLod(u_texture, within(view, at), v_level).a >= k_solid) {
       if (abs(gap) < least_gap) {
@@ -417,7 +440,7 @@ Meeting meet(View view, View other, float others_part, mat2 pixel) {
       if (gap <= 0.0 && gap > -step_m - k_thickness_m) {
         vec3 guess = vec3(shown.xy, gap_before > 0.0 && i > 0.0 ? depth + step_m * gap / (gap - gap_before) : shown.z);
         for (int k = 0; k < 3; ++k) {
-          vec3 next = moved_and_depth(within(view, place_at(view, guess.z, guess.xy)));
+          vec3 next = moved_and_depth(view, within(view, place_at(view, guess.z, guess.xy)));
           met = abs(next.z - guess.z) < k_exact_m;
           guess = next;
         }
@@ -431,7 +454,8 @@ Meeting meet(View view, View other, float others_part, mat2 pixel) {
   float along = (found.z - view.point.z) / view.ray.z;
   COVER cover = COVER(0.0);
   if (is_within(view, ends) && (met || least_gap < k_near_m)) {
-    cover = min(cover_at(at, pixel), max(cover_from(other, along, pixel), COVER(1.0 - k_counts * others_part)));
+    cover = cover_at(at, pixel);
+    if (others_part > 0.0) cover = min(cover, max(cover_from(other, along, pixel), COVER(1.0 - k_counts * others_part)));
   }
   return Meeting(at, textureLod(u_texture, at, v_level).rgb, cover, along, met ? 1.0 : 0.02);
 }
@@ -454,33 +478,47 @@ vec3 normal_at(View view, vec2 at) {
 void main() {
   vec2 across = dFdx(v_texel), texel = vec2(1.0, -1.0) / u_atlas.zw;
   mat2 pixel = mat2(across * texel, dFdy(v_texel) * texel);
-  View view = View(v_point0, v_ray0, v_cell0, v_origins.xy, v_turns.xy), other = View(v_point1, v_ray1, v_cell1, v_origins.zw, v_turns.zw);
+  View view = View(v_point0, v_ray0, v_cell0, v_origins.xy, v_turns.xy, v_look.x);
+  View other = View(v_point1, v_ray1, v_cell1, v_origins.zw, v_turns.zw, v_look.x);
   COVER cover = COVER(0.0);
   vec3 color = vec3(0.0), n = vec3(0.0);
-  float along = 0.0, weight = 0.0, other_cover = 0.0, other_along = 0.0;
+  float along = 0.0, weight = 0.0, covered_before = 0.0, parts_before = 0.0, phase_part = 1.0;
+  int pictures = v_pictures;
+#ifndef FAST
+  float beside_part = part_beside();
+  phase_part -= beside_part;
+  if (beside_part > 0.0) pictures *= 2;
+#endif
   // A loop of as many turns as there are pictures, for it is what software can leave early.
-  for (int k = 0; k < v_pictures; ++k) {
-    float part = k == 0 ? 1.0 - v_look.y : v_look.y;
-    Meeting m = meet(view, other, 1.0 - part, pixel);
+  for (int k = 0; k < pictures; ++k) {
+#ifndef FAST
+    if (k == 2) {
+      view = beside(view, v_beside.x);
+      other = beside(other, v_beside.y);
+      phase_part = beside_part;
+    }
+#endif
+    float direction_part = (k & 1) == 0 ? 1.0 - v_look.y : v_look.y, part = direction_part * phase_part;
+    Meeting m = meet(view, other, 1.0 - direction_part, pixel);
     float own_cover = m.trust * mean_of(m.cover), own = part * own_cover;
-    // Where only one of the two shows the person, it alone counts; and where one sees what is hidden from the other, too.
-    if (min(own_cover, other_cover) > 0.5) {
-      float apart = (other_along - m.along) * length(v_ray), hides = k_hides * min(1.0, k_counts * part);
+    // Where only one of them shows the person, it alone counts; and where one sees what is hidden from the others, too.
+    if (min(own_cover, covered_before) > 0.5) {
+      float apart = (along / weight - m.along) * length(v_ray), hides = k_hides * min(1.0, k_counts * part);
       float others = 1.0 - hides * smoothstep(0.04, 0.10, apart);
       color *= others, n *= others, along *= others, weight *= others;
-      own *= 1.0 - k_hides * min(1.0, k_counts * (1.0 - part)) * smoothstep(0.04, 0.10, -apart);
+      own *= 1.0 - k_hides * min(1.0, k_counts * parts_before) * smoothstep(0.04, 0.10, -apart);
     }
 #ifdef FAST
     cover += part * m.cover;
 #else
-    cover = max(cover, min(1.0, k_counts * part) * m.cover);
+    cover = max(cover, min(1.0, k_counts * direction_part) * min(1.0, k_phase_counts * phase_part) * m.cover);
 #endif
     color += own * m.color;
     n += own * normal_at(view, m.at);
     along += own * m.along;
     weight += own;
-    other_cover = own_cover;
-    other_along = m.along;
+    covered_before = max(covered_before, own_cover);
+    parts_before += part;
     View swapped = view;
     view = other;
     other = swapped;
