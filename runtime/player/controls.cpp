@@ -169,4 +169,13 @@ CameraInput NextStep(const CameraInput& camera, const Simulation& s, Controls* c
   return step;
 }
 
+float TurnUntil(float share, const Simulation& s, const Controls& c) {
+  const float most_rad = s.max_yaw_rate_radps * s.step_s * share;
+  return std::clamp(c.to_turn_rad, -most_rad, most_rad);
+}
+
+float LookUntilNow(const Simulation& s, const Controls& c) {
+  return std::clamp(s.camera.pitch_rad + c.to_look_rad, -kMostPitch_rad, kMostPitch_rad) - s.camera.pitch_rad;
+}
+
 }  // namespace flaneur

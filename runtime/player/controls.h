@@ -42,4 +42,9 @@ void TakeInput(const WindowInput& input, float passed_s, float aspect, bool page
 // For the next step. Wishes are fulfilled once.
 CameraInput NextStep(const CameraInput& camera, const Simulation& simulation, Controls* controls);
 
+// What a picture can show already of what the mouse or a snap asked for, a share of a step after the last one: as much as the next step
+// will do of it by then. Looking up and down needs no readiness of anybody and is done whole.
+float TurnUntil(float share, const Simulation& simulation, const Controls& controls);
+float LookUntilNow(const Simulation& simulation, const Controls& controls);
+
 }  // namespace flaneur

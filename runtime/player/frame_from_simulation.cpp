@@ -1,14 +1,17 @@
 #include "runtime/player/frame_from_simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "runtime/crowd/fast_math.h"
 #include "runtime/player/ground_mark.h"
 
 namespace flaneur {
 namespace {
 
 constexpr float kStandsBelow_mps = 0.10f, kWalksAbove_mps = 0.18f;
+constexpr float kLeaps_m = 2;    // whoever moves by more between two pictures was put there
 constexpr float kEdge_m = 0.8f;  // a body, skirts and shadow reach so far beyond its middle into the view
 
 // The sun goes round by day_length_s a turn, and stays between its start height and a low evening.
@@ -43,12 +46,22 @@ void AddCaption(const Simulation& s, FrameInput* frame) {
 // The outer one with whoever reaches into the view.
 ViewVolumes WithEdge(const ViewCamera& c) { return VolumesOf(c, kEdge_m / std::max(0.1f, std::sin(c.fov_rad / 2))); }
 
+// What pictures until the next step can show: between the step before and the last one, and as the hand turns the view on.
+using Views = std::array<ViewVolumes, 3>;
+
+Views ViewsUntilNextStep(const Simulation& s, const PersonLooks& looks) {
+  ViewCamera next = s.camera.view;
+  next.yaw_rad = WrapAngle(next.yaw_rad + s.camera.yaw_rate_radps * s.step_s);
+  return {WithEdge(s.camera.view), WithEdge(looks.frame < 0 ? s.camera.view : looks.camera), WithEdge(next)};
+}
+
 // The level that the control has chosen. It leaves out who stands outside the view: whose middle is just beyond its edge keeps
 // the level in which they left, or comes in as an impostor.
-int LevelToShow(const Simulation& s, size_t i, const ViewVolumes& view, const PersonLook& look) {
+int LevelToShow(const Simulation& s, size_t i, const Views& views, const PersonLook& look) {
   const int chosen = s.levels.level[i];
   if (chosen != kNotDrawn || s.crowd.view[i] == ViewClass::kVisible) return chosen;
-  if (Classify(s.crowd.position[i], view) == ViewClass::kOutside) return kNotDrawn;
+  const auto hides = [&](const ViewVolumes& view) { return Classify(s.crowd.position[i], view) == ViewClass::kOutside; };
+  if (std::all_of(views.begin(), views.end(), hides)) return kNotDrawn;
   return look.shown && look.level != kNotDrawn ? look.level : kImpostor;
 }
 
@@ -88,14 +101,16 @@ void FollowLevel(int level, bool at_once, float passed_s, PersonLook* look) {
   }
 }
 
-void Show(const PersonLook& look, FrameInput* frame) {
+float Mix_rad(float a, float b, float share) { return WrapAngle(a + share * WrapAngle(b - a)); }
+
+void Show(const PersonLook& look, float share, FrameInput* frame) {
   DrawnPerson person;
   person.avatar = look.avatar;
-  person.moment = look.moment;
+  person.moment = {look.moment.clip, Fraction(look.moment.phase - (1 - share) * look.phase_step)};
   person.other = look.last_moment;
   person.other_share = std::max(0.0f, 1 - look.clip_s / kMix_s);
-  person.position = look.position;
-  person.heading_rad = look.heading_rad;
+  person.position = look.before + (look.position - look.before) * share;
+  person.heading_rad = Mix_rad(look.heading_before_rad, look.heading_rad, share);
   const float done = std::min(1.0f, look.level_s / kFade_s);
   if (look.level != kNotDrawn && done > 0) {
     person.level = look.level;
@@ -117,23 +132,39 @@ bool IsShown(const PersonLook& look) {
 // What is the same for everybody in one picture.
 struct Moment {
   float passed_s = 0;               // since the last one
-  ViewVolumes view, last_view;
+  Views views;
+  ViewVolumes last_view;
 };
+
+void Move(Vec3 position, float heading_rad, bool leaps, PersonLook* look) {
+  leaps = leaps || Length(position - look->position) > kLeaps_m;
+  look->before = leaps ? position : look->position;
+  look->heading_before_rad = leaps ? heading_rad : look->heading_rad;
+  look->position = position;
+  look->heading_rad = heading_rad;
+}
+
+// How far the same clip has gone on since.
+float PhaseStep(const ClipMoment& before, const ClipMoment& now) {
+  const float step = Fraction(now.phase - before.phase);
+  return before.clip == now.clip && step < 0.5f ? step : 0;
+}
 
 void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, const Moment& moment, PersonLooks* looks) {
   PersonLook& look = looks->by_id[static_cast<size_t>(s.crowd.id[i])];
   look.here = true;
   const Vec2 p = s.crowd.position[i];
-  const int level = LevelToShow(s, i, moment.view, look);
+  const int level = LevelToShow(s, i, moment.views, look);
   if (level == kNotDrawn && !look.shown) return;
   const bool first = looks->frame < 0, was_in_view = !first && Classify(p, moment.last_view) == ViewClass::kVisible;
   const bool anew = first || !look.shown;
   // Who comes into the picture with the view's edge, or leaves with it, needs no fading.
   const bool leaves_view = level == kNotDrawn && s.crowd.view[i] != ViewClass::kVisible;
   look.avatar = s.crowd.avatar[i];
-  look.position = {p.x, p.y, HeightAt(s.walkable, p)};
-  look.heading_rad = s.crowd.heading_rad[i];
+  Move({p.x, p.y, HeightAt(s.walkable, p)}, s.crowd.heading_rad[i], anew, &look);
+  const ClipMoment before = look.moment;
   FollowClip(MomentOf(s, i, pack.avatars[static_cast<size_t>(look.avatar)], look.moment.clip), anew, moment.passed_s, &look);
+  look.phase_step = anew ? 0 : PhaseStep(before, look.moment);
   const auto id = static_cast<size_t>(s.crowd.id[i]);
   const bool no_budget = id < s.levels.fades.at_once.size() && s.levels.fades.at_once[id] != 0;
   FollowLevel(level, leaves_view || no_budget || (anew && !was_in_view), moment.passed_s, &look);
@@ -144,7 +175,7 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, const Mom
 void FollowPeople(const TourPack& pack, const Simulation& s, PersonLooks* looks) {
   Moment moment;
   moment.passed_s = looks->frame < 0 ? 0 : static_cast<float>(s.frame - looks->frame) * s.step_s;
-  moment.view = WithEdge(s.camera.view);
+  moment.views = ViewsUntilNextStep(s, *looks);
   moment.last_view = VolumesOf(looks->camera, 0);
   looks->by_id.resize(std::max(looks->by_id.size(), static_cast<size_t>(s.crowd.next_id)));
   std::swap(looks->shown, looks->shown_before);
@@ -155,28 +186,43 @@ void FollowPeople(const TourPack& pack, const Simulation& s, PersonLooks* looks)
     PersonLook& look = looks->by_id[static_cast<size_t>(id)];
     if (look.here) continue;
     FollowLevel(kNotDrawn, false, moment.passed_s, &look);  // gone: fades where they were
+    Move(look.position, look.heading_rad, true, &look);
+    look.phase_step = 0;
     look.shown = IsShown(look);
     if (look.shown) looks->shown.push_back(id);
   }
+}
+
+// Everything on to the last step, from where the last picture before it stood.
+void Follow(const TourPack& pack, const Simulation& s, PersonLooks* looks) {
+  FollowPeople(pack, s, looks);
+  const Vec2 c = s.camera.view.position;
+  const EyeLook eye = {{c.x, c.y, HeightAt(s.walkable, c) + s.camera.eye_height_m}, s.camera.view.yaw_rad};
+  const bool leaps = looks->frame < 0 || Length(eye.position - looks->eye.position) > kLeaps_m;
+  looks->eye_before = leaps ? eye : looks->eye;
+  looks->eye = eye;
+  looks->steps = leaps ? 0 : s.frame - looks->frame;
   looks->frame = s.frame;
   looks->camera = s.camera.view;
 }
 
 }  // namespace
 
-void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks* looks, FrameInput* frame) {
-  const Vec2 c = s.camera.view.position;
-  frame->eye = {c.x, c.y, HeightAt(s.walkable, c) + s.camera.eye_height_m};
-  frame->yaw_rad = s.camera.view.yaw_rad;
-  frame->pitch_rad = s.camera.pitch_rad;
+void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks* looks, FrameInput* frame, const BetweenSteps& between) {
+  if (s.frame != looks->frame) Follow(pack, s, looks);
+  const float share = looks->steps > 0 ? 1 - (1 - between.share) / static_cast<float>(looks->steps) : 1;
+  frame->eye = looks->eye_before.position + (looks->eye.position - looks->eye_before.position) * share;
+  // The way between the steps, but the hand's part of it at once.
+  const float own_yaw_rad = WrapAngle(looks->eye.yaw_rad - between.turned_rad);
+  frame->yaw_rad = WrapAngle(Mix_rad(looks->eye_before.yaw_rad, own_yaw_rad, share) + between.turned_rad + between.turn_rad);
+  frame->pitch_rad = s.camera.pitch_rad + between.look_rad;
   frame->fov_rad = s.camera.view.fov_rad;
   const float time_s = static_cast<float>(s.frame) * s.step_s;
   frame->to_sun = s.hour ? SunAt(*s.hour + time_s / 3600) : ToSun(pack.light, time_s);
   AddCaption(s, frame);
   RingWherePointed(s, &frame->ground_mark);
-  if (s.frame != looks->frame) FollowPeople(pack, s, looks);
   frame->people.clear();
-  for (int id : looks->shown) Show(looks->by_id[static_cast<size_t>(id)], frame);
+  for (int id : looks->shown) Show(looks->by_id[static_cast<size_t>(id)], share, frame);
 }
 
 }  // namespace flaneur

@@ -47,6 +47,7 @@ struct Visit::Impl {
   Resolution resolution{};
   float own_fov_rad = 0;
   double owed_s = 0;           // of simulated time
+  float turned_rad = 0;        // by the hand, in the last picture's steps
   float unused_s = 0;          // since the visitor's hands did anything
   int width_px = 0, height_px = 0;
   bool for_pages = false;      // what the hands do in this picture, even where that closes them
@@ -60,6 +61,7 @@ struct Visit::Impl {
   void TakeHands(const WindowInput& input, float passed_s);
   void ShowPages(const WindowInput& input, float passed_s);
   void StepTown(float passed_s, Records* records);
+  BetweenSteps Between() const;
   void Draw(float passed_s);
 };
 
@@ -137,9 +139,12 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
 
 void Visit::Impl::StepTown(float passed_s, Records* records) {
   const double step_s = static_cast<double>(s->step_s);
-  owed_s = pages() ? 0 : std::min(owed_s + static_cast<double>(passed_s), step_s * kMostStepsAFrame);
+  if (!pages()) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMostStepsAFrame);
+  if (owed_s >= step_s) turned_rad = 0;
   while (owed_s >= step_s) {
+    const float to_turn_rad = controls.to_turn_rad;
     StepSimulation(NextStep(wishes, *s, &controls), passed_s * 1000, s);
+    turned_rad += to_turn_rad - controls.to_turn_rad;
     Record(*s, {statistics.town_triangles, statistics.draw_ms}, records);
     wishes.tour = {};
     wishes.walk_to.reset();
@@ -149,9 +154,14 @@ void Visit::Impl::StepTown(float passed_s, Records* records) {
   if (!pages()) FollowNotices(controls, *s, passed_s, &notices);
 }
 
+BetweenSteps Visit::Impl::Between() const {
+  const float share = static_cast<float>(owed_s) / s->step_s;
+  return {share, TurnUntil(share, *s, controls), turned_rad, LookUntilNow(*s, controls)};
+}
+
 void Visit::Impl::Draw(float passed_s) {
   if (hidden()) return;
-  FrameFromSimulation(pack, *s, &looks, &frame);
+  FrameFromSimulation(pack, *s, &looks, &frame, Between());
   if (pages()) frame.caption.clear();
   else ShowNotice(notices, !controls.settings.reduced_motion, &frame);
   frame.resolution_scale = resolution.scale;

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/crowd/fast_math.h"
+#include "runtime/player/controls.h"
+
 namespace flaneur {
 namespace {
 
@@ -89,6 +92,7 @@ TEST(FrameFromSimulation, WhoAppearsWithinTheViewFadesInAndWhoComesFromOutsideIs
   stage.s.camera.view.yaw_rad = kPi;  // looks the other way, and back
   stage.s.crowd.view = {ViewClass::kOutside, ViewClass::kOutside};
   stage.s.levels.level = {kNotDrawn, kNotDrawn};
+  stage.Next();  // on the way there
   EXPECT_TRUE(stage.Next().empty());
   stage.s.camera.view.yaw_rad = 0;
   stage.s.crowd.view = {ViewClass::kVisible, ViewClass::kVisible};
@@ -131,6 +135,93 @@ TEST(FrameFromSimulation, TheSameMomentTwiceIsTheSamePicture) {
   FrameFromSimulation(stage.pack, stage.s, &stage.looks, &stage.frame);
   ASSERT_EQ(stage.frame.people.size(), people.size());
   for (size_t i = 0; i < people.size(); ++i) EXPECT_EQ(stage.frame.people[i].share_to, people[i].share_to);
+}
+
+TEST(FrameFromSimulation, BetweenTwoStepsEverythingIsOnItsWay) {
+  Stage stage;
+  stage.s.crowd.velocity = {{1.3f, 0}};
+  stage.s.camera.view.yaw_rad = 3.1f;
+  stage.s.crowd.position = {{-10, 0}};
+  stage.Next();
+  const FrameInput before = stage.frame;
+  stage.s.crowd.position = {{-9.95f, 0.02f}};
+  stage.s.crowd.heading_rad = {-0.2f};
+  stage.s.crowd.walked_m = {0.05f};
+  stage.s.camera.view.position = {0.06f, 0.03f};
+  stage.s.camera.view.yaw_rad = -3.12f;
+  stage.Next();
+  const FrameInput now = stage.frame;
+  ASSERT_EQ(now.people.size(), 1u);
+  for (const float share : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f}) {
+    FrameFromSimulation(stage.pack, stage.s, &stage.looks, &stage.frame, {share});
+    const auto mix = [share](float a, float b) { return a + share * (b - a); };
+    EXPECT_NEAR(stage.frame.eye.x, mix(before.eye.x, now.eye.x), 1e-5f);
+    EXPECT_NEAR(stage.frame.eye.y, mix(before.eye.y, now.eye.y), 1e-5f);
+    EXPECT_NEAR(std::remainder(stage.frame.yaw_rad - mix(3.1f, 2 * kPi - 3.12f), 2 * kPi), 0, 1e-5f);
+    const DrawnPerson &p = stage.frame.people[0], &p0 = before.people[0], &p1 = now.people[0];
+    EXPECT_NEAR(p.position.x, mix(p0.position.x, p1.position.x), 1e-5f);
+    EXPECT_NEAR(p.heading_rad, mix(p0.heading_rad, p1.heading_rad), 1e-5f);
+    EXPECT_NEAR(p.moment.phase, mix(p0.moment.phase, p1.moment.phase), 1e-5f) << "feet don't slide";
+  }
+}
+
+// Two steps in one picture, as on a slow machine: pictures go on evenly from where the last one's step stood.
+TEST(FrameFromSimulation, AfterTwoStepsAtOnceTheWayIsAsLong) {
+  Stage stage;
+  stage.Next();
+  ++stage.s.frame;
+  stage.s.crowd.position = {{10.1f, 0}};
+  stage.Next();
+  FrameFromSimulation(stage.pack, stage.s, &stage.looks, &stage.frame, {0.5f});
+  EXPECT_NEAR(stage.frame.people[0].position.x, 10.075f, 1e-5f);
+}
+
+TEST(FrameFromSimulation, WhoIsPutElsewhereDoesNotFly) {
+  Stage stage;
+  stage.Next();
+  stage.s.crowd.position = {{20, 5}};
+  stage.s.camera.view.position = {8, 0};
+  stage.Next();
+  FrameFromSimulation(stage.pack, stage.s, &stage.looks, &stage.frame, {0.5f});
+  EXPECT_EQ(stage.frame.people[0].position.x, 20);
+  EXPECT_EQ(stage.frame.eye.x, 8);
+}
+
+// The hand turns evenly; the simulation does it in steps of 33 ms, pictures come every 7 ms.
+TEST(FrameFromSimulation, TheViewFollowsTheHandAtOnceAndEvenly) {
+  Stage stage;
+  Controls controls;
+  controls.follows_tour = false;
+  constexpr float kRate_radps = 1.2f, kPicture_s = 0.007f;
+  float owed_s = 0, turned_rad = 0, hand_rad = 0;
+  for (int picture = 0; picture < 300; ++picture) {
+    controls.to_turn_rad += kRate_radps * kPicture_s;
+    hand_rad += kRate_radps * kPicture_s;
+    owed_s += kPicture_s;
+    if (owed_s >= stage.s.step_s) {
+      const float to_turn_rad = controls.to_turn_rad;
+      const CameraInput step = NextStep({}, stage.s, &controls);
+      turned_rad = to_turn_rad - controls.to_turn_rad;
+      stage.s.camera.view.yaw_rad = WrapAngle(stage.s.camera.view.yaw_rad + step.yaw_rate_radps * stage.s.step_s);
+      ++stage.s.frame;
+      owed_s -= stage.s.step_s;
+    }
+    const float share = owed_s / stage.s.step_s;
+    FrameFromSimulation(stage.pack, stage.s, &stage.looks, &stage.frame, {share, TurnUntil(share, stage.s, controls), turned_rad, 0});
+    EXPECT_NEAR(std::remainder(stage.frame.yaw_rad - hand_rad, 2 * kPi), 0, 0.02f) << picture;
+  }
+}
+
+// Whom the view leaves with the last step is in the pictures on the way there.
+TEST(FrameFromSimulation, NobodyIsMissingBetweenTheSteps) {
+  Stage stage;
+  stage.Next();
+  const float half_rad = stage.s.camera.view.fov_rad / 2;
+  stage.s.camera.view.yaw_rad = half_rad + 0.2f;
+  stage.s.crowd.view = {ViewClass::kBoundary};
+  stage.s.levels.level = {kNotDrawn};
+  EXPECT_EQ(stage.Next().size(), 1u);
+  EXPECT_TRUE(stage.Next().empty());
 }
 
 TEST(FrameFromSimulation, TheSunRisesInTheEastStandsHighInTheSouthAndSetsInTheWest) {
