@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <type_traits>
 
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/contacts.h"
@@ -16,48 +15,6 @@ namespace {
 
 constexpr int kSharedGoal = 8;  // people with the same goal are worth a field
 constexpr size_t kFetchAhead = 24;  // people
-constexpr float kCurveCell_m = 2;
-
-// Every array that has an element a person.
-template <typename Visit>
-void VisitPersonArrays(Crowd* c, Visit visit) {
-  visit(&c->id), visit(&c->avatar), visit(&c->position), visit(&c->velocity), visit(&c->heading_rad), visit(&c->radius_m);
-  visit(&c->preferred_mps), visit(&c->top_mps), visit(&c->field), visit(&c->way), visit(&c->sees_goal), visit(&c->corner);
-  visit(&c->activity), visit(&c->wait_s), visit(&c->facing), visit(&c->view), visit(&c->was_visible), visit(&c->avoids_camera);
-  visit(&c->arrived), visit(&c->detour), visit(&c->detour_s), visit(&c->walked_m), visit(&c->mind), visit(&c->coast);
-  visit(&c->group), visit(&c->cares), visit(&c->turn), visit(&c->wanted), visit(&c->moved);
-}
-
-// The bits of a number below 65,536, each followed by a zero.
-uint64_t Spread(uint64_t bits) {
-  bits = (bits | bits << 8) & 0x00ff00ff;
-  bits = (bits | bits << 4) & 0x0f0f0f0f;
-  bits = (bits | bits << 2) & 0x33333333;
-  return (bits | bits << 1) & 0x55555555;
-}
-
-size_t IndexIn(uint64_t order) { return static_cast<size_t>(order & 0xffffffff); }
-
-// Along Morton's curve; who shares a cell of it, by index.
-void OrderAlongCurve(Crowd* c) {
-  Vec2 min = c->position.empty() ? Vec2{} : c->position[0];
-  for (Vec2 p : c->position) min = {std::min(min.x, p.x), std::min(min.y, p.y)};
-  const auto cell = [](float v_m) { return Spread(static_cast<uint64_t>(std::min(v_m * (1 / kCurveCell_m), 65535.0f))); };
-  c->order.resize(c->size());
-  for (size_t i = 0; i < c->size(); ++i) {
-    const Vec2 off = c->position[i] - min;
-    c->order[i] = (cell(off.x) | cell(off.y) << 1) << 32 | i;
-  }
-  std::sort(c->order.begin(), c->order.end());
-}
-
-template <typename T>
-void Permute(const std::vector<uint64_t>& order, std::vector<T>* values, std::vector<std::byte>* spare) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  spare->resize(std::max(spare->size(), order.size() * sizeof(T)));
-  for (size_t k = 0; k < order.size(); ++k) std::memcpy(spare->data() + k * sizeof(T), &(*values)[IndexIn(order[k])], sizeof(T));
-  std::memcpy(values->data(), spare->data(), order.size() * sizeof(T));
-}
 
 // People decide one after the other, each in a step of their own; neighbours, who often have ids in a row, in no regular pattern.
 bool IsTurn(const Crowd& c, size_t i, int every_steps) {
@@ -274,63 +231,6 @@ void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, 
 }
 
 }  // namespace
-
-int AddPerson(const Person& p, Crowd* c) {
-  c->id.push_back(c->next_id);
-  c->avatar.push_back(p.avatar);
-  c->position.push_back(p.position);
-  c->velocity.push_back({});
-  c->heading_rad.push_back(p.heading_rad);
-  c->radius_m.push_back(p.radius_m);
-  c->preferred_mps.push_back(p.preferred_mps);
-  c->top_mps.push_back(p.top_mps);
-  c->field.push_back(p.field);
-  c->way.push_back({});
-  c->sees_goal.push_back(0);
-  c->corner.push_back({});
-  c->activity.push_back(p.field >= 0 ? Activity::kWalking : Activity::kStanding);
-  c->wait_s.push_back(0);
-  c->facing.push_back({});
-  c->view.push_back(ViewClass::kOutside);
-  c->was_visible.push_back(0);
-  c->avoids_camera.push_back(0);
-  c->arrived.push_back(Arrival::kNot);
-  c->detour.push_back({});
-  c->detour_s.push_back(0);
-  c->walked_m.push_back(static_cast<float>(c->next_id % 16) * 0.1f);  // not all on the same foot
-  c->mind.push_back({});
-  c->mind.back().ahead = DirectionOf(p.heading_rad);
-  c->coast.push_back(0);
-  c->group.push_back(-1);
-  c->cares.push_back(0);
-  c->turn.push_back(0);
-  c->wanted.push_back({});
-  c->moved.push_back(p.position);
-  return c->next_id++;
-}
-
-void RemovePerson(size_t i, Crowd* c) {
-  LeaveGroup(i, c);
-  const int last = static_cast<int>(c->size()) - 1, of_last = c->group.back();
-  if (of_last >= 0) {
-    Group& g = c->groups[static_cast<size_t>(of_last)];
-    std::replace(g.member, g.member + g.size, last, static_cast<int>(i));
-  }
-  VisitPersonArrays(c, [i](auto* values) {
-    (*values)[i] = values->back();
-    values->pop_back();
-  });
-}
-
-void SortBySpace(Crowd* c) {
-  OrderAlongCurve(c);
-  VisitPersonArrays(c, [c](auto* values) { Permute(c->order, values, &c->spare); });
-  c->number.resize(c->size());
-  for (size_t k = 0; k < c->size(); ++k) c->number[IndexIn(c->order[k])] = static_cast<int>(k);
-  for (Group& g : c->groups) {
-    for (int m = 0; m < g.size; ++m) g.member[m] = c->number[static_cast<size_t>(g.member[m])];
-  }
-}
 
 void SetGoal(size_t i, int field, Crowd* c) {
   c->field[i] = field;
