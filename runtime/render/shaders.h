@@ -259,8 +259,7 @@ flat out vec4 v_cell0, v_cell1, v_origins;
 flat out vec4 v_look;                     // phases since the picture, share of the second one, sine and cosine of the elevation
 flat out vec2 v_share;
 flat out float v_haze, v_level;           // v_level: mip level, whose texels are as large as pixels
-flat out int v_pictures;                  // how many of the two count
-flat out ivec2 v_beside;                  // cells of the same directions in the phase next to the picture's, -1: none
+flat out ivec3 v_pictures;                // how many of the two count; their directions' cells in the phase beside, -1: none
 const float k_around_px = 4.0;  // beyond both silhouettes lie those between them, and what perspective and motion make larger
 vec3 in_axes_of(vec2 turn, vec2 elevation, vec3 v) {
   float out_m = dot(v.xz, turn.yx);
@@ -300,16 +299,15 @@ void main() {
   gl_Position = u_view_projection * vec4(p, 1.0);
   v_level = max(0.0, log2(max((u_view_projection * vec4(a_place.xyz, 1.0)).w, 0.1) / (u_eye.w * texel_m)));
   float between = fract(direction);
-  v_pictures = 2;
   vec2 beside0 = cell_texel(first + d0, 2).xy, beside1 = cell_texel(first + d1, 2).xy;
-  v_beside = a_look.w < 0.0 ? ivec2(beside0.y, beside1.y) : ivec2(beside0.x, beside1.x);
+  v_pictures = ivec3(2, a_look.w < 0.0 ? vec2(beside0.y, beside1.y) : vec2(beside0.x, beside1.x));
 #ifdef FAST
   // The smaller they are drawn, the narrower is the range of directions in which both pictures are looked up.
   v_level = floor(v_level + 0.5);  // between two levels software looks up twice as much
   between = clamp((between - 0.5) * 2.0 * exp2(v_level) + 0.5, 0.0, 1.0);
-  if (between <= 0.0) v_pictures = 1;
+  if (between <= 0.0) v_pictures.x = 1;
   if (between >= 1.0) {
-    v_pictures = 1;
+    v_pictures.x = 1;
     between = 0.0;
     v_point0 = v_point1;
     v_ray0 = v_ray1;
@@ -334,8 +332,7 @@ in vec3 v_ray, v_point0, v_point1, v_ray0, v_ray1;
 in vec2 v_texel;
 flat in vec4 v_turns, v_cell0, v_cell1, v_origins, v_look;
 flat in float v_haze, v_level;
-flat in int v_pictures;
-flat in ivec2 v_beside;
+flat in ivec3 v_pictures;
 uniform sampler2D u_texture, u_depth, u_motion;
 uniform vec4 u_atlas;
 uniform vec3 u_ranges;  // of depth, motion and its bend
@@ -401,7 +398,7 @@ Meeting meet(View view, View other, float others_part, mat2 pixel) {
 // Of the phase beside, by the square of its nearness, as what motion leaves unsaid grows.
 float part_beside() {
   float near = abs(v_look.x), far = 1.0 - near;
-  return v_beside.x >= 0 && near > k_beside ? near * near / (near * near + far * far) : 0.0;
+  return v_pictures.y >= 0 && near > k_beside ? near * near / (near * near + far * far) : 0.0;
 }
 View beside(View view, int cell) {
   float since = view.since < 0.0 ? view.since + 1.0 : view.since - 1.0;
@@ -483,7 +480,7 @@ void main() {
   COVER cover = COVER(0.0);
   vec3 color = vec3(0.0), n = vec3(0.0);
   float along = 0.0, weight = 0.0, covered_before = 0.0, parts_before = 0.0, phase_part = 1.0;
-  int pictures = v_pictures;
+  int pictures = v_pictures.x;
 #ifndef FAST
   float beside_part = part_beside();
   phase_part -= beside_part;
@@ -493,8 +490,8 @@ void main() {
   for (int k = 0; k < pictures; ++k) {
 #ifndef FAST
     if (k == 2) {
-      view = beside(view, v_beside.x);
-      other = beside(other, v_beside.y);
+      view = beside(view, v_pictures.y);
+      other = beside(other, v_pictures.z);
       phase_part = beside_part;
     }
 #endif
