@@ -72,7 +72,7 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   // A still alone needs only its last picture drawn, and may take its time for that.
   const bool draw_all = filming || !options.metrics.empty() || options.screenshot.empty();
   RenderOptions render_options;
-  if (!draw_all) render_options.samples = kStillSamples;
+  if (options.samples || !draw_all) render_options.samples = options.samples.value_or(kStillSamples);
   Renderer renderer;
   if (Error e = renderer.Begin(pack, render_options)) return e;
   loader->PrepareFor(renderer);

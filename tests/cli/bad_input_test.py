@@ -316,6 +316,8 @@ class Playing(ProgramTest):
         self.assert_fails(self.play("--compare", "off", *still, draw=True), "--compare", "2")
         self.assert_fails(self.play("--compare", "off", "half", *still, draw=True), "--compare", "paper")
         self.assert_fails(self.play("--compare", "off", "full", *still, "--metrics", self.folder / "m.csv", draw=True), "--metrics")
+        self.assert_fails(self.play("--samples", 4, draw=True), "--samples", "--film")
+        self.assert_fails(self.play("--samples", 3, *still, draw=True), "--samples", "4")
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_two_adaptations_stand_side_by_side(self):

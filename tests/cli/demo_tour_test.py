@@ -2,6 +2,7 @@
 import csv
 import json
 import math
+import re
 import signal
 import subprocess
 import time
@@ -103,6 +104,15 @@ class DemoTour(ProgramTest):
         self.assertEqual(film.returncode, 2)
         self.assertIn("interrupted", complaint)
         self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_film_is_as_fine_as_a_still_where_that_is_asked_for(self):
+        """Without a graphics card films have one sample a pixel and simpler impostors otherwise."""
+        still, of_film = self.folder / "still.png", self.folder / "of_film.png"
+        view = (self.pack, "--headless", "--seconds", 0.5, "--people", 300, "--size", "320x180", "--screenshot")
+        self.assert_succeeds(run("flaneur-player", *view, still))
+        self.assert_succeeds(run("flaneur-player", *view, of_film, "--film", self.folder / "film.mp4", "--samples", 4))
+        told = subprocess.run(["ffmpeg", "-i", still, "-i", of_film, "-lavfi", "psnr", "-f", "null", "-"], capture_output=True, text=True, check=True)
+        self.assertGreater(float(re.search(r"average:([0-9.]+|inf)", told.stderr)[1]), 38, "dB")
 
     def test_ten_thousand_people_have_room(self):
         metrics = self.folder / "metrics.csv"
