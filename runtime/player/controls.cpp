@@ -161,6 +161,7 @@ CameraInput NextStep(const CameraInput& camera, const Simulation& s, Controls* c
   const float held_rad = std::clamp(c->turn_radps * s.step_s, -most_rad, most_rad);
   const float turn_rad = std::clamp(c->to_turn_rad + held_rad, -most_rad, most_rad);
   c->to_turn_rad -= turn_rad - held_rad;
+  c->turned_rad += turn_rad - held_rad;
   // What is turned faster than people can be readied for is caught up with, but not for long.
   c->to_turn_rad = std::clamp(c->to_turn_rad, -kPi / 2, kPi / 2);
   step.yaw_rate_radps = turn_rad / s.step_s;

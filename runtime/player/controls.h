@@ -22,6 +22,7 @@ struct Controls {
   bool acted = false;         // the visitor has walked, turned or clicked by now
   bool applies = false;       // changed settings have still to be heeded
   float to_turn_rad = 0, to_look_rad = 0;  // that the mouse or a snap asked for, and the simulation has still to do
+  float turned_rad = 0;       // of it, what the last picture's steps did
   float turn_radps = 0;       // of keys and sticks
   bool snap_ready = true;     // since a turning key or stick was let go
 };
@@ -39,7 +40,7 @@ void ResetKeys(Controls* controls);
 void TakeInput(const WindowInput& input, float passed_s, float aspect, bool pages, const Simulation& simulation, Controls* controls,
                CameraInput* camera);
 
-// For the next step. Wishes are fulfilled once.
+// For the next step. Wishes are fulfilled once; turned_rad grows by what the step will do.
 CameraInput NextStep(const CameraInput& camera, const Simulation& simulation, Controls* controls);
 
 // What a picture can show already of what the mouse or a snap asked for, a share of a step after the last one: as much as the next step

@@ -47,7 +47,6 @@ struct Visit::Impl {
   Resolution resolution{};
   float own_fov_rad = 0;
   double owed_s = 0;           // of simulated time
-  float turned_rad = 0;        // by the hand, in the last picture's steps
   float unused_s = 0;          // since the visitor's hands did anything
   int width_px = 0, height_px = 0;
   bool for_pages = false;      // what the hands do in this picture, even where that closes them
@@ -140,11 +139,9 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
 void Visit::Impl::StepTown(float passed_s, Records* records) {
   const double step_s = static_cast<double>(s->step_s);
   if (!pages()) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMostStepsAFrame);
-  if (owed_s >= step_s) turned_rad = 0;
+  if (owed_s >= step_s) controls.turned_rad = 0;
   while (owed_s >= step_s) {
-    const float to_turn_rad = controls.to_turn_rad;
     StepSimulation(NextStep(wishes, *s, &controls), passed_s * 1000, s);
-    turned_rad += to_turn_rad - controls.to_turn_rad;
     Record(*s, {statistics.town_triangles, statistics.draw_ms}, records);
     wishes.tour = {};
     wishes.walk_to.reset();
@@ -156,7 +153,7 @@ void Visit::Impl::StepTown(float passed_s, Records* records) {
 
 BetweenSteps Visit::Impl::Between() const {
   const float share = static_cast<float>(owed_s) / s->step_s;
-  return {share, TurnUntil(share, *s, controls), turned_rad, LookUntilNow(*s, controls)};
+  return {share, TurnUntil(share, *s, controls), controls.turned_rad, LookUntilNow(*s, controls)};
 }
 
 void Visit::Impl::Draw(float passed_s) {
