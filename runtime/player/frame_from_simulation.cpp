@@ -57,12 +57,14 @@ Views ViewsUntilNextStep(const Simulation& s, const PersonLooks& looks) {
 
 // The level that the control has chosen. It leaves out who stands outside the view: whose middle is just beyond its edge keeps
 // the level in which they left, or comes in as an impostor.
-int LevelToShow(const Simulation& s, size_t i, const Views& views, const PersonLook& look) {
+int LevelToShow(const Simulation& s, size_t i, const Views& views, const PersonLooks& looks) {
   const int chosen = s.levels.level[i];
-  if (chosen != kNotDrawn || s.crowd.view[i] == ViewClass::kVisible) return chosen;
+  // Who is outside the outer view volume can't have been in view at the step before, nor be at the next.
+  if (chosen != kNotDrawn || s.crowd.view[i] != ViewClass::kBoundary) return chosen;
   const auto hides = [&](const ViewVolumes& view) { return Classify(s.crowd.position[i], view) == ViewClass::kOutside; };
   if (std::all_of(views.begin(), views.end(), hides)) return kNotDrawn;
-  return look.shown && look.level != kNotDrawn ? look.level : kImpostor;
+  const auto id = static_cast<size_t>(s.crowd.id[i]);
+  return looks.is_shown[id] && looks.by_id[id].level != kNotDrawn ? looks.by_id[id].level : kImpostor;
 }
 
 ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, ClipKind last) {
@@ -125,8 +127,11 @@ void Show(const PersonLook& look, float share, FrameInput* frame) {
   }
 }
 
-bool IsShown(const PersonLook& look) {
-  return look.level != kNotDrawn || (look.last_level != kNotDrawn && look.level_s < kFade_s);
+void KeepIfShown(int id, PersonLooks* looks) {
+  const PersonLook& look = looks->by_id[static_cast<size_t>(id)];
+  const bool shown = look.level != kNotDrawn || (look.last_level != kNotDrawn && look.level_s < kFade_s);
+  looks->is_shown[static_cast<size_t>(id)] = shown;
+  if (shown) looks->shown.push_back(id);
 }
 
 // What is the same for everybody in one picture.
@@ -151,13 +156,15 @@ float PhaseStep(const ClipMoment& before, const ClipMoment& now) {
 }
 
 void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, const Moment& moment, PersonLooks* looks) {
-  PersonLook& look = looks->by_id[static_cast<size_t>(s.crowd.id[i])];
-  look.here = true;
+  const auto id = static_cast<size_t>(s.crowd.id[i]);
   const Vec2 p = s.crowd.position[i];
-  const int level = LevelToShow(s, i, moment.views, look);
-  if (level == kNotDrawn && !look.shown) return;
+  const int level = LevelToShow(s, i, moment.views, *looks);
+  const bool was_shown = looks->is_shown[id];
+  if (level == kNotDrawn && !was_shown) return;
+  PersonLook& look = looks->by_id[id];
+  look.here = true;
   const bool first = looks->frame < 0, was_in_view = !first && Classify(p, moment.last_view) == ViewClass::kVisible;
-  const bool anew = first || !look.shown;
+  const bool anew = first || !was_shown;
   // Who comes into the picture with the view's edge, or leaves with it, needs no fading.
   const bool leaves_view = level == kNotDrawn && s.crowd.view[i] != ViewClass::kVisible;
   look.avatar = s.crowd.avatar[i];
@@ -165,11 +172,9 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, const Mom
   const ClipMoment before = look.moment;
   FollowClip(MomentOf(s, i, pack.avatars[static_cast<size_t>(look.avatar)], look.moment.clip), anew, moment.passed_s, &look);
   look.phase_step = anew ? 0 : PhaseStep(before, look.moment);
-  const auto id = static_cast<size_t>(s.crowd.id[i]);
   const bool no_budget = id < s.levels.fades.at_once.size() && s.levels.fades.at_once[id] != 0;
   FollowLevel(level, leaves_view || no_budget || (anew && !was_in_view), moment.passed_s, &look);
-  look.shown = IsShown(look);
-  if (look.shown) looks->shown.push_back(s.crowd.id[i]);
+  KeepIfShown(s.crowd.id[i], looks);
 }
 
 void FollowPeople(const TourPack& pack, const Simulation& s, PersonLooks* looks) {
@@ -178,6 +183,7 @@ void FollowPeople(const TourPack& pack, const Simulation& s, PersonLooks* looks)
   moment.views = ViewsUntilNextStep(s, *looks);
   moment.last_view = VolumesOf(looks->camera, 0);
   looks->by_id.resize(std::max(looks->by_id.size(), static_cast<size_t>(s.crowd.next_id)));
+  looks->is_shown.resize(looks->by_id.size());
   std::swap(looks->shown, looks->shown_before);
   looks->shown.clear();
   for (int id : looks->shown_before) looks->by_id[static_cast<size_t>(id)].here = false;
@@ -188,8 +194,7 @@ void FollowPeople(const TourPack& pack, const Simulation& s, PersonLooks* looks)
     FollowLevel(kNotDrawn, false, moment.passed_s, &look);  // gone: fades where they were
     Move(look.position, look.heading_rad, true, &look);
     look.phase_step = 0;
-    look.shown = IsShown(look);
-    if (look.shown) looks->shown.push_back(id);
+    KeepIfShown(id, looks);
   }
 }
 

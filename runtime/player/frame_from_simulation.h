@@ -12,7 +12,6 @@ namespace flaneur {
 
 // How a person was shown, so that nothing about them changes at once.
 struct PersonLook {
-  bool shown = false;                      // in the last picture, by a level below
   bool here = false;                       // scratch: walks in the town still
   int avatar = 0;
   int level = kNotDrawn, last_level = kNotDrawn;
@@ -28,6 +27,7 @@ struct EyeLook { Vec3 position; float yaw_rad = 0; };
 
 struct PersonLooks {
   std::vector<PersonLook> by_id;
+  std::vector<uint8_t> is_shown;           // by id, 1: in the last picture; apart, since nothing else is read of most people
   std::vector<int> shown, shown_before;    // ids: of the last picture, and scratch
   int64_t frame = -1;                      // of the last picture; -1: none yet
   ViewCamera camera;                       // of the last picture

@@ -122,7 +122,7 @@ Error Run(int argc, char** argv) {
   size_t clip_bytes = 0;
   for (const PackAvatar& avatar : pack.avatars) clip_bytes = std::max(clip_bytes, ClipBytes(LayoutOf(avatar)));
   Costs as_decided, full;
-  Series compared_ms, compared_clock_ms, people_ms;
+  Series compared_ms, compared_clock_ms, people_ms, levels_ms, all_looks_ms;
   PersonLooks looks;
   FrameInput frame;
   FrameFromSimulation(pack, s, &looks, &frame);
@@ -136,6 +136,8 @@ Error Run(int argc, char** argv) {
     Costs unused;
     Costs* costs = k < kWarm ? &unused : &as_decided;
     Draw(frame, width_px, height_px, &renderer, costs);
+    levels_ms.values.push_back(s.control_ms);
+    all_looks_ms.values.push_back(looks_ms);
     people_ms.values.push_back(s.control_ms + looks_ms + costs->people_ms.values.back());
     if (compares && k >= kWarm && k % kFullEvery == 0) {
       compared_ms.values.push_back(as_decided.processor_ms.values.back());
@@ -165,6 +167,8 @@ Error Run(int argc, char** argv) {
   Print("hidden people", as_decided.hidden, "");
   Print("draw calls", as_decided.calls, "");
   Print("people on the CPU: levels, looks, cull, upload", people_ms, "ms");
+  Print("  of it levels", levels_ms, "ms");
+  Print("  of it looks", all_looks_ms, "ms");
   Print("  of it cull, sort, poses, upload", as_decided.people_ms, "ms");
   Print("everybody as finest mesh: clock", full.clock_ms, "ms");
   Print("everybody as finest mesh: processor", full.processor_ms, "ms");
