@@ -83,7 +83,7 @@ Pixels Resized(const Pixels& from, int width_px, int height_px) {
   return to;
 }
 
-Pixels Tinted(Pixels pixels, const Material& material) {
+Pixels TimesBaseColor(Pixels pixels, const Material& material) {
   const std::array<Curve, 4> curves{ColorCurve(material.base_color.x),
                                     ColorCurve(material.base_color.y),
                                     ColorCurve(material.base_color.z), AlphaCurve(material)};

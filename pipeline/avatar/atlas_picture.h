@@ -17,7 +17,7 @@ Pixels Resized(const Pixels& from, int width_px, int height_px);
 
 // Times the material's base colour. Alpha is 1 where the material is opaque, and passes 0.5 where a
 // mask's passes its cutoff.
-Pixels Tinted(Pixels pixels, const Material& material);
+Pixels TimesBaseColor(Pixels pixels, const Material& material);
 
 // Copies `size` pixels that start at `first` of the picture, which repeats in all directions.
 void CopyRepeated(const Pixels& from, PixelPlace first, PixelPlace to, PixelPlace size,

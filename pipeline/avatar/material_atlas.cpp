@@ -255,7 +255,7 @@ class Merger {
   Pixels Painted(int side_px) const {
     std::vector<Pixels> parts;
     for (const Member& m : members_) {
-      const Pixels whole = Tinted(m.picture ? *m.picture : Blank(1, 1), m.material);
+      const Pixels whole = TimesBaseColor(m.picture ? *m.picture : Blank(1, 1), m.material);
       parts.push_back(Resized(whole, m.width_px, m.height_px));
     }
     // The coarsest mip levels reach beyond the gutters: nothing there may stand out.

@@ -11,6 +11,7 @@
 #include "pipeline/cli/bake_steps.h"
 #include "pipeline/cli/stage_inputs.h"
 #include "pipeline/cli/thumbnail.h"
+#include "pipeline/cli/tint_reach.h"
 #include "pipeline/cli/tour_settings.h"
 #include "pipeline/core/subprocess.h"
 #include "pipeline/core/temporary_folder.h"
@@ -21,6 +22,7 @@
 #include "pipeline/io/geojson.h"
 #include "pipeline/io/sound_file.h"
 #include "pipeline/pack/write_tour_pack.h"
+#include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {
@@ -28,6 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr float kBareGroundMargin_m = 15;
+constexpr float kLeastTintShare = 0.005f;  // of the surface
 
 struct Baking {
   TourSettings settings;
@@ -196,11 +199,35 @@ Error MakeImpostor(Baking* baking, size_t i) {
   return RunKeptStep(&baking->steps, "impostor", settings.name, inputs, make, &avatar->impostor);
 }
 
+// What each tint reaches, so that nobody has to guess.
+Error CheckTints(Baking* baking, size_t i) {
+  const TourAvatar& avatar = baking->parts.avatars[i];
+  const std::string& name = baking->settings.avatars[i].name;
+  if (avatar.tints.empty()) return Ok();
+  return RunStep(&baking->steps, "tint", name, [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
+    std::vector<float> shares;
+    if (Error e = TintReach(avatar.levels.avatar, avatar.tints, &shares)) return e;
+    for (size_t t = 0; t < shares.size(); ++t) {
+      const std::string color = TextFromColor(avatar.tints[t].color);
+      report->figures.push_back({color + "_surface_share", std::round(static_cast<double>(shares[t]) * 1e3) / 1e3});
+      if (shares[t] >= kLeastTintShare) continue;
+      warnings->push_back("tint " + color + " reaches almost nothing of the avatar; take the cloth's colour from its picture, or give the tint more reach");
+    }
+    return Ok();
+  });
+}
+
 Error MakePeople(Baking* baking) {
   const size_t count = baking->settings.avatars.size();
   baking->parts.avatars.resize(count);
-  for (size_t i = 0; i < count; ++i) baking->parts.avatars[i].share = baking->settings.avatars[i].share;
+  for (size_t i = 0; i < count; ++i) {
+    baking->parts.avatars[i].share = baking->settings.avatars[i].share;
+    baking->parts.avatars[i].tints = baking->settings.avatars[i].tints;
+  }
   if (Error e = RunParallel(count, [&](size_t i) { return MakeAvatar(baking, i); })) return e;
+  for (size_t i = 0; i < count; ++i) {
+    if (Error e = CheckTints(baking, i)) return e;
+  }
   return RunParallel(count, [&](size_t i) { return MakeImpostor(baking, i); });
 }
 
@@ -375,9 +402,9 @@ Error WriteResults(Baking* baking) {
 }
 
 int CountSteps(const TourSettings& s) {
-  int scripts = IsScript(s.town.file) ? 1 : 0;
-  for (const AvatarSettings& avatar : s.avatars) scripts += IsScript(avatar.source.file) ? 1 : 0;
-  return scripts + 2 * static_cast<int>(s.avatars.size()) + 4;  // town, footprints, check, pack
+  int more = IsScript(s.town.file) ? 1 : 0;  // scripts and tints
+  for (const AvatarSettings& avatar : s.avatars) more += (IsScript(avatar.source.file) ? 1 : 0) + (avatar.tints.empty() ? 0 : 1);
+  return more + 2 * static_cast<int>(s.avatars.size()) + 4;  // town, footprints, check, pack
 }
 
 // Nothing changed since the last bake: the report says so, nothing else is touched.

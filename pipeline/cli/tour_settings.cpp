@@ -49,6 +49,18 @@ void ReadTown(TomlTable table, TourSettings* settings) {
   table.Finish();
 }
 
+void ReadTint(TomlTable table, AvatarSettings* avatar) {
+  PackTint tint;
+  table.Color("color", &tint.color);
+  table.Number("reach", &tint.reach, static_cast<double>(kLeastTintReach), 1);
+  table.Colors("colors", &tint.colors);
+  if (!table.Has("color") || tint.colors.empty() || tint.colors.size() > kMostTintColors) {
+    table.Refuse("an [[avatar.tint]] needs the color of a cloth, and colors, one to eight, that others wear it in");
+  }
+  table.Finish();
+  avatar->tints.push_back(std::move(tint));
+}
+
 void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
   AvatarSettings avatar;
   ReadName(&table, &avatar.name);
@@ -59,6 +71,8 @@ void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
   table.Text("idle", &avatar.idle);
   table.Text("talk", &avatar.talk);
   table.Texts("hide", &avatar.hide);
+  for (TomlTable& tint : table.Tables("tint")) ReadTint(tint, &avatar);
+  if (avatar.tints.size() > kMostTints) table.Refuse("an [[avatar]] has three [[avatar.tint]] at most");
   if (avatar.source.file.empty()) table.Refuse("an [[avatar]] needs a file");
   if (avatar.name.empty()) avatar.name = avatar.source.file.stem().string();
   for (const AvatarSettings& other : settings->avatars) {
@@ -223,7 +237,7 @@ Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings
 
 std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
-  const toml::table root = toml::parse("[[avatar]]\n[[place]]\n[[stop]]\n[[town.part]]\n");
+  const toml::table root = toml::parse("[[avatar]]\n[[avatar.tint]]\n[[place]]\n[[stop]]\n[[town.part]]\n");
   TomlContext context;
   TourSettings settings;
   ReadAll(TomlTable(&context, &root, ""), &settings);

@@ -38,6 +38,7 @@ struct AvatarSettings {
   float height_m = 0;  // 0: as in the file, see ReadAvatarOptions
   std::string walk, idle, talk;
   std::vector<std::string> hide;
+  std::vector<PackTint> tints;  // at most kMostTints
 };
 
 struct TourSettings {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "runtime/base/color_text.h"
 #include "runtime/pack/settings_fields.h"
 
 namespace flaneur {
@@ -72,6 +73,12 @@ Json ImpostorJson(const ImpostorAtlas& atlas, const ImpostorViews& views) {
           {"motion_view", views.motion}};
 }
 
+Json TintJson(const PackTint& tint) {
+  Json colors = Json::array();
+  for (Vec3 color : tint.colors) colors.push_back(TextFromColor(color));
+  return {{"color", TextFromColor(tint.color)}, {"reach", Short(tint.reach)}, {"colors", colors}};
+}
+
 Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const ImpostorViews& views) {
   const Avatar& person = avatar.levels.avatar;
   Json levels = Json::array(), clips = Json::object();
@@ -88,7 +95,7 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
       if (person.clips[c].name == name) clips[name] = part.animations[c];
     }
   }
-  return {{"name", person.name},
+  Json json{{"name", person.name},
           {"share", Short(avatar.share)},
           {"height_m", Short(person.height_m)},
           {"radius_m", Short(person.radius_m)},
@@ -96,6 +103,8 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
           {"clips", clips},
           {"levels", levels},
           {"impostor", ImpostorJson(avatar.impostor, views)}};
+  for (const PackTint& tint : avatar.tints) json["tints"].push_back(TintJson(tint));
+  return json;
 }
 
 Json ObstacleJson(const Obstacle& obstacle) {

@@ -18,6 +18,7 @@ struct TourAvatar {
   AvatarLevels levels;
   ImpostorAtlas impostor;
   float share = 1;
+  std::vector<PackTint> tints = {};
 };
 
 struct TourParts {

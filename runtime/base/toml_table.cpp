@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "runtime/base/file.h"
+#include "runtime/base/color_text.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -140,6 +141,25 @@ void TomlTable::Texts(const char* key, std::vector<std::string>* values) {
   for (const toml::node& element : *array) {
     if (!element.is_string()) return context_->Refuse(&element, Name(key) + " must be a list of texts");
     values->push_back(*element.value<std::string>());
+  }
+}
+
+void TomlTable::Color(const char* key, Vec3* value) {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return;
+  const auto color = node->is_string() ? ColorFromText(*node->value<std::string>()) : std::nullopt;
+  if (!color) return context_->Refuse(node, Name(key) + " must be a colour such as \"#2f4f8f\"");
+  *value = *color;
+}
+
+void TomlTable::Colors(const char* key, std::vector<Vec3>* values) {
+  std::vector<std::string> texts;
+  Texts(key, &texts);
+  values->clear();
+  for (const std::string& text : texts) {
+    const auto color = ColorFromText(text);
+    if (!color) return context_->Refuse(table_->get(key), Name(key) + ": '" + OneLine(text) + "' must be a colour such as \"#2f4f8f\"");
+    values->push_back(*color);
   }
 }
 

@@ -48,6 +48,8 @@ class TomlTable {
   void Flag(const char* key, bool* value);
   void Numbers(const char* key, std::vector<float>* values, double least, double most);
   void Texts(const char* key, std::vector<std::string>* values);
+  void Color(const char* key, Vec3* value);  // "#rrggbb"; sRGB, 0 to 1
+  void Colors(const char* key, std::vector<Vec3>* values);
   void Point(const char* key, Vec2* value);
   void Points(const char* key, std::vector<Vec2>* values);
   void MapPoint(const char* key, double* east_m, double* north_m);  // of any size, in full precision

@@ -203,6 +203,15 @@ PackClip FirstFrame(const PackClip& clip, int joints) {
   return still;
 }
 
+PackTint ReadTint(const TourObject& json) {
+  PackTint tint;
+  tint.color = json.Color("color");
+  tint.reach = json.Real("reach", kLeastTintReach, 1);
+  tint.colors = json.Colors("colors");
+  if (tint.colors.size() > kMostTintColors) json.Refuse("has more than eight colors");
+  return tint;
+}
+
 PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* meshes) {
   constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
   PackAvatar avatar;
@@ -236,6 +245,10 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   avatar.idle = clips.Has("idle") ? clip("idle") : FirstFrame(avatar.walk, avatar.joints);
   avatar.talk = clips.Has("talk") ? clip("talk") : avatar.idle;
   avatar.impostor = ReadImpostor(file, json.Object("impostor"));
+  if (json.Has("tints")) {
+    for (const TourObject& tint : json.Objects("tints")) avatar.tints.push_back(ReadTint(tint));
+    if (avatar.tints.size() > kMostTints) json.Refuse("has more than three tints");
+  }
   return avatar;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/color_text.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -101,6 +102,22 @@ std::vector<std::vector<Vec2>> TourObject::Rings(const char* key) const {
   std::vector<std::vector<Vec2>> rings;
   for (size_t i = 0; i < json.size(); ++i) rings.push_back(CheckedRing(json[i], Item(Place(key), i)));
   return rings;
+}
+
+Vec3 TourObject::CheckedColor(const Json& json, const std::string& place) {
+  const auto color = json.is_string() ? ColorFromText(json.get<std::string>()) : std::nullopt;
+  if (!color) RefuseMember(place, "must be a colour such as \"#2f4f8f\"");
+  return *color;
+}
+
+Vec3 TourObject::Color(const char* key) const { return CheckedColor(Get(key), Place(key)); }
+
+std::vector<Vec3> TourObject::Colors(const char* key) const {
+  const Json& json = Array(key);
+  if (json.empty()) RefuseMember(Place(key), "must not be empty");
+  std::vector<Vec3> colors;
+  for (size_t i = 0; i < json.size(); ++i) colors.push_back(CheckedColor(json[i], Item(Place(key), i)));
+  return colors;
 }
 
 std::vector<float> TourObject::Reals(const char* key, double least, double most) const {

@@ -30,6 +30,8 @@ class TourObject {
   std::vector<Vec2> Ring(const char* key) const;  // at least three points
   std::vector<std::vector<Vec2>> Rings(const char* key) const;
   std::vector<float> Reals(const char* key, double least, double most) const;  // at least one
+  Vec3 Color(const char* key) const;                // "#rrggbb"
+  std::vector<Vec3> Colors(const char* key) const;  // at least one
   TourObject Object(const char* key) const;
   std::vector<TourObject> Objects(const char* key) const;
 
@@ -49,6 +51,7 @@ class TourObject {
   std::string Place(const std::string& key) const { return place_ + "." + key; }
   static double Checked(const Json& json, const std::string& place, bool whole, double least, double most);
   static Vec2 CheckedPoint(const Json& json, const std::string& place);
+  static Vec3 CheckedColor(const Json& json, const std::string& place);
   static std::vector<Vec2> CheckedRing(const Json& json, const std::string& place);
 
   const Json& json_;

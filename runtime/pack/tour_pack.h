@@ -14,6 +14,7 @@
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
 #include "runtime/pack/texture.h"
+#include "runtime/pack/tint.h"
 
 namespace flaneur {
 
@@ -89,6 +90,7 @@ struct PackAvatar {
   int joints = 0;
   PackClip walk, idle, talk; // always present: a missing talk is the idle, a missing idle a standing pose
   std::vector<PackLevel> levels;  // finest first, at least one
+  std::vector<PackTint> tints;    // at most kMostTints
   PackImpostor impostor;
   int impostor_of = -1;      // index of the avatar whose impostor stands for this one too, which brings none; -1: its own
 };

@@ -103,11 +103,23 @@ void FollowLevel(int level, bool at_once, float passed_s, PersonLook* look) {
   }
 }
 
+// The same person wears the same all day, and people who came one after the other, as those of a group, wear different colours.
+std::array<uint8_t, 4> TintsOf(const PackAvatar& avatar, int id) {
+  constexpr float kApart[] = {0.618034f, 0.754878f, 0.569840f};  // fractions whose multiples spread evenly (Roberts 2018)
+  std::array<uint8_t, 4> tints{};
+  for (size_t t = 0; t < std::min(avatar.tints.size(), kMostTints); ++t) {
+    const auto count = static_cast<float>(avatar.tints[t].colors.size() + 1);
+    tints[t] = static_cast<uint8_t>(Fraction(static_cast<float>(id % 4096 + 1) * kApart[t]) * count);
+  }
+  return tints;
+}
+
 float Mix_rad(float a, float b, float share) { return WrapAngle(a + share * WrapAngle(b - a)); }
 
 void Show(const PersonLook& look, float share, FrameInput* frame) {
   DrawnPerson person;
   person.avatar = look.avatar;
+  person.tints = look.tints;
   person.moment = {look.moment.clip, Fraction(look.moment.phase - (1 - share) * look.phase_step)};
   person.other = look.last_moment;
   person.other_share = std::max(0.0f, 1 - look.clip_s / kMix_s);
@@ -168,6 +180,7 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, const Mom
   // Who comes into the picture with the view's edge, or leaves with it, needs no fading.
   const bool leaves_view = level == kNotDrawn && s.crowd.view[i] != ViewClass::kVisible;
   look.avatar = s.crowd.avatar[i];
+  look.tints = TintsOf(pack.avatars[static_cast<size_t>(look.avatar)], s.crowd.id[i]);
   Move({p.x, p.y, HeightAt(s.walkable, p)}, s.crowd.heading_rad[i], anew, &look);
   const ClipMoment before = look.moment;
   FollowClip(MomentOf(s, i, pack.avatars[static_cast<size_t>(look.avatar)], look.moment.clip), anew, moment.passed_s, &look);

@@ -1,5 +1,6 @@
 // What the simulation looks like now.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct PersonLook {
   Vec3 position, before;                   // before: where the picture stood before the last step
   float heading_rad = 0, heading_before_rad = 0;
   float phase_step = 0;                    // of the clip, since before
+  std::array<uint8_t, 4> tints{};          // DrawnPerson's
 };
 
 struct EyeLook { Vec3 position; float yaw_rad = 0; };

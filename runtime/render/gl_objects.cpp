@@ -78,6 +78,10 @@ void SetUniform(GLuint program, const char* name, Vec4 v) {
 void SetUniform(GLuint program, const char* name, float value) {
   glUniform1f(glGetUniformLocation(program, name), value);
 }
+void SetUniform(GLuint program, const char* name, std::span<const Vec4> values) {
+  glUniform4fv(glGetUniformLocation(program, name), static_cast<GLsizei>(values.size()), &values[0].x);
+}
+
 void BindFrameBlock(GLuint buffer, const FrameBlock& block) {
   glBindBuffer(GL_UNIFORM_BUFFER, buffer);
   glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);

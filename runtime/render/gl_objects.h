@@ -3,6 +3,7 @@
 #include <GLES3/gl3.h>
 
 #include <cstddef>
+#include <span>
 #include <string>
 
 #include "runtime/base/error.h"
@@ -25,6 +26,7 @@ Error BuildProgram(const std::string& vertex, const std::string& fragment, GLuin
 void SetUniform(GLuint program, const char* name, Vec3 value);
 void SetUniform(GLuint program, const char* name, Vec4 value);
 void SetUniform(GLuint program, const char* name, float value);
+void SetUniform(GLuint program, const char* name, std::span<const Vec4> values);  // an array of the shader's
 
 // What draws have taken.
 struct DrawCost {

@@ -78,7 +78,7 @@ size_t AddPose(const DrawnPerson& person, const AvatarLayout& avatar, PeopleBatc
 // A mesh faces glTF's +Z; turned about the vertical by heading + 90 degrees it faces the heading.
 PersonInstance Placed(const DrawnPerson& person, float row, float phases) {
   const Vec3 p = GltfFromGround(person.position);
-  return {{p.x, p.y, p.z, person.heading_rad + kPi / 2}, {row, person.share_from, person.share_to, phases}};
+  return {{p.x, p.y, p.z, person.heading_rad + kPi / 2}, {row, person.share_from, person.share_to, phases}, person.tints};
 }
 
 // Null without pictures of it. Without a clip for it people talk as they stand.

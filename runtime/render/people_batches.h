@@ -46,6 +46,7 @@ struct PersonInstance {
   Vec4 place;              // position in glTF axes, turn about the vertical
   Vec4 look;               // mesh: row of the poses; impostor: first cell of its picture; shadow: row of the poses for shadows; then
                            // share of the pattern from, to; and, impostor: phases since its picture
+  std::array<uint8_t, 4> tints{};  // DrawnPerson's
 };
 
 // One draw: instances first ... first + count - 1 of one avatar at one level (-1: impostor).

@@ -29,15 +29,15 @@ PersonMesh UploadMesh(const PersonGeometry& person) {
 }
 
 Error BuildPrograms(const std::string& defines, PeopleView* people) {
-  const std::string vertex = std::string(kFrame) + kHaze + kPersonVertex;
-  const std::string cells = "#define CELLS_WIDTH " + std::to_string(kCellsWidth) + "\n" + kImpostorCells, impostor_vertex = defines + kFrame + kHaze + cells + kImpostorVertex;
+  const std::string vertex = std::string(kFrame) + kHaze + kTintVertex + kPersonVertex;
+  const std::string cells = "#define CELLS_WIDTH " + std::to_string(kCellsWidth) + "\n" + kImpostorCells, impostor_vertex = defines + kFrame + kHaze + cells + kTintVertex + kImpostorVertex;
   for (int masked = 0; masked < 2; ++masked) {
-    const std::string lit = (masked ? "#define MASKED\n" : "") + defines + kFrame + kLight + kOutcome;
+    const std::string lit = (masked ? "#define TINTS\n#define MASKED\n" : "#define TINTS\n") + defines + kFrame + kLight + kOutcome + kTintFragment;
     if (Error e = BuildProgram(vertex, lit + kSurfaceFragment, &people->programs[masked][0])) return e;
     if (Error e = BuildProgram(vertex, "#define FADES\n" + lit + kFade + kSurfaceFragment, &people->programs[masked][1])) return e;
   }
   if (Error e = BuildProgram("#define SHADOW\n" + vertex, kShadowFragment, &people->shadow_program)) return e;
-  return BuildProgram(impostor_vertex, defines + kFrame + cells + kImpostorViews + kLight + kOutcome + kFade + kImpostorFragment, &people->impostor_program);
+  return BuildProgram(impostor_vertex, defines + kFrame + cells + kImpostorViews + kLight + kOutcome + kTintFragment + kFade + kImpostorFragment, &people->impostor_program);
 }
 
 void CreateQuad(PeopleView* people) {
@@ -119,6 +119,12 @@ void BindInstances(GLuint buffer, const PeopleBatch& batch) {
   glBindBuffer(GL_ARRAY_BUFFER, buffer);
   EnableAttribute(6, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, place), 1);
   EnableAttribute(7, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, look), 1);
+  EnableAttribute(8, 4, GL_UNSIGNED_BYTE, false, stride, first + offsetof(PersonInstance, tints), 1);
+}
+
+void SetTints(GLuint program, const AvatarView& avatar) {
+  SetUniform(program, "u_tints", avatar.tints);
+  SetUniform(program, "u_tint_shifts", avatar.tint_shifts);
 }
 
 DrawCost DrawImpostors(const PeopleView& people, const PeopleBatch& batch) {
@@ -128,6 +134,7 @@ DrawCost DrawImpostors(const PeopleView& people, const PeopleBatch& batch) {
   SetUniform(program, "u_atlas", avatar.atlas);
   SetUniform(program, "u_ranges", avatar.ranges);
   SetUniform(program, "u_directions", avatar.directions);
+  SetTints(program, avatar);
   BindTexture(kNormalsUnit, avatar.normals);
   BindTexture(kDepthUnit, avatar.depth);
   BindTexture(kMotionUnit, avatar.motion);
@@ -148,7 +155,8 @@ void DrawRange(const PersonRange& range, size_t instances) {
 }
 
 DrawCost DrawMeshes(const PeopleView& people, const PeopleBatch& batch) {
-  const PersonMesh& mesh = people.avatars[static_cast<size_t>(batch.avatar)].levels[static_cast<size_t>(batch.level)];
+  const AvatarView& avatar = people.avatars[static_cast<size_t>(batch.avatar)];
+  const PersonMesh& mesh = avatar.levels[static_cast<size_t>(batch.level)];
   glBindVertexArray(mesh.vertex_array);
   BindInstances(people.instances, batch);
   BindTexture(kPosesUnit, people.poses);
@@ -156,12 +164,25 @@ DrawCost DrawMeshes(const PeopleView& people, const PeopleBatch& batch) {
     const SurfaceGroup& group = people.groups[static_cast<size_t>(range.group)];
     const GLuint program = people.programs[group.masked][batch.fades];
     glUseProgram(program);
+    SetTints(program, avatar);
     if (group.masked) SetUniform(program, "u_alpha_cutoff", group.alpha_cutoff);
     if (group.array >= 0) BindTextureArray(kArrayUnit, people.arrays[static_cast<size_t>(group.array)]);
     CullBackFaces(!group.double_sided);
     DrawRange(range, batch.count);
   }
   return {mesh.triangles * static_cast<int64_t>(batch.count), static_cast<int>(mesh.ranges.size())};
+}
+
+void AddTints(const std::vector<PackTint>& tints, AvatarView* view) {
+  for (size_t t = 0; t < std::min(tints.size(), kMostTints); ++t) {
+    const PackTint& tint = tints[t];
+    const Vec3 color = WithHalfLightness(tint.color);
+    view->tints[t] = {color.x, color.y, color.z, 1 / (tint.reach * tint.reach)};
+    for (size_t k = 0; k < std::min(tint.colors.size(), kMostTintColors); ++k) {
+      const Vec3 shift = tint.colors[k] - tint.color;
+      view->tint_shifts[t * kMostTintColors + k] = {shift.x, shift.y, shift.z, 0};
+    }
+  }
 }
 
 }  // namespace
@@ -185,6 +206,7 @@ Error CreatePeopleView(const TourPack& pack, const std::string& defines, const S
     view.ranges = {atlas.depth_range_m, atlas.motion_range_m, atlas.bend_range_m};
     view.directions = static_cast<float>(atlas.directions);
     view.impostor_of = avatar.impostor_of;
+    AddTints(avatar.tints, &view);
     people->avatars.push_back(std::move(view));
     people->ready.push_back({std::vector<bool>(avatar.levels.size(), false), false, false});
   }

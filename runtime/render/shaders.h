@@ -109,6 +109,36 @@ void keep_share() {
 }
 )";
 
+// Of people: how far each of the avatar's tints moves its cloth's colour (runtime/pack/tint.h).
+inline constexpr const char* kTintVertex = R"(
+#ifndef SHADOW
+layout(location = 8) in uvec4 a_tints;    // by tint: 0 its own colour, k the k-th of its others
+uniform vec4 u_tint_shifts[3 * 8];
+flat out vec3 v_tint0, v_tint1, v_tint2;
+vec3 tint_shift(uint tint, uint chosen) { return chosen == 0u ? vec3(0.0) : u_tint_shifts[tint * 8u + chosen - 1u].rgb; }
+void choose_tints() {
+  v_tint0 = tint_shift(0u, a_tints.x);
+  v_tint1 = tint_shift(1u, a_tints.y);
+  v_tint2 = tint_shift(2u, a_tints.z);
+}
+#endif
+)";
+inline constexpr const char* kTintFragment = R"(
+flat in vec3 v_tint0, v_tint1, v_tint2;
+uniform vec4 u_tints[3];  // colour, with half its lightness taken off, and 1 / reach squared
+float tint_share(vec3 half_light, vec4 tint) {
+  vec3 off = half_light - tint.rgb;
+  return clamp(2.0 - 2.0 * dot(off, off) * tint.w, 0.0, 1.0);
+}
+vec3 tinted(vec3 color) {
+  vec3 half_light = color - 0.5 * dot(color, vec3(0.30, 0.59, 0.11));
+  float share0 = tint_share(half_light, u_tints[0]);
+  float share1 = min(1.0 - share0, tint_share(half_light, u_tints[1]));
+  float share2 = min(1.0 - share0 - share1, tint_share(half_light, u_tints[2]));
+  return clamp(color + share0 * v_tint0 + share1 * v_tint1 + share2 * v_tint2, 0.0, 1.0);
+}
+)";
+
 inline constexpr const char* kTownVertex = R"(
 layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec4 a_normal;    // and the picture's layer
@@ -179,6 +209,7 @@ void main() {
   v_uv = a_uv;
   v_color = a_color;
   v_share = a_look.yz;
+  choose_tints();
 #endif
 }
 )";
@@ -202,7 +233,11 @@ void main() {
   if (albedo.a * v_color.a < u_alpha_cutoff) discard;
 #endif
   vec3 n = gl_FrontFacing ? v_normal : -v_normal;
-  leave(albedo.rgb * v_color.rgb, n, v_position, v_haze);
+  vec3 color = albedo.rgb * v_color.rgb;
+#ifdef TINTS
+  color = tinted(color);
+#endif
+  leave(color, n, v_position, v_haze);
 }
 )";
 
@@ -295,6 +330,7 @@ void main() {
   v_cell1 = cell1 / u_atlas.zwzw;
   v_origins = vec4(origin0.xy, origin1.xy) / u_atlas.zwzw;
   v_share = a_look.yz;
+  choose_tints();
   v_haze = haze_at(a_place.xyz);
   gl_Position = u_view_projection * vec4(p, 1.0);
   v_level = max(0.0, log2(max((u_view_projection * vec4(a_place.xyz, 1.0)).w, 0.1) / (u_eye.w * texel_m)));
@@ -537,7 +573,7 @@ void main() {
   vec4 clip = u_view_projection * vec4(p, 1.0);
   gl_FragDepth = clip.z / clip.w * 0.5 + 0.5;
 #endif
-  leave(color * whole, normalize(n), p, v_haze);
+  leave(tinted(color * whole), normalize(n), p, v_haze);
   o_color.a = coverage;
 }
 )";

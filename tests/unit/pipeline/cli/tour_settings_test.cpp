@@ -85,6 +85,23 @@ TEST(TourSettings, TheReferenceFileHoldsTheDefaults) {
   EXPECT_EQ(reference.town.seed, least.town.seed);
 }
 
+TEST(TourSettings, TintsAreColoursAndSaySoWhereTheyAreNot) {
+  const std::string tint = std::string(kLeast) + "[[avatar.tint]]\n";
+  TourSettings settings;
+  ASSERT_EQ(Read(tint + "color = \"#336699\"\ncolors = [\"#ff0000\", \"#00ff00\"]\n", &settings), "");
+  ASSERT_EQ(settings.avatars[0].tints.size(), 1u);
+  EXPECT_NEAR(settings.avatars[0].tints[0].color.y, 0.4f, 1e-6f);
+  EXPECT_EQ(settings.avatars[0].tints[0].colors.size(), 2u);
+  const auto has = [](const std::string& message, const char* what) { return message.find(what) != std::string::npos; };
+  EXPECT_TRUE(has(Refusal(tint + "color = \"blue\"\ncolors = [\"#ff0000\"]\n"), "must be a colour such as \"#2f4f8f\""));
+  EXPECT_TRUE(has(Refusal(tint + "color = \"#336699\"\ncolors = [\"#ff0000\", \"red\"]\n"), "'red' must be a colour"));
+  EXPECT_TRUE(has(Refusal(tint + "color = \"#336699\"\n"), "needs the color of a cloth"));
+  EXPECT_TRUE(has(Refusal(tint + "color = \"#336699\"\ncolors = [\"#ff0000\"]\nreach = 0\n"), "reach"));
+  std::string four = kLeast;
+  for (int k = 0; k < 4; ++k) four += "[[avatar.tint]]\ncolor = \"#336699\"\ncolors = [\"#ff0000\"]\n";
+  EXPECT_TRUE(has(Refusal(four), "three [[avatar.tint]] at most"));
+}
+
 TEST(TourSettings, TheReferenceFileHoldsTheDefaultsOfEveryList) {
   TourSettings reference, least;
   ASSERT_EQ(ReadTourSettings(kReference, &reference).message, "");

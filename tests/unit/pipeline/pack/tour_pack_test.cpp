@@ -117,7 +117,7 @@ TourParts SmallTour() {
   TourParts parts;
   parts.name = "small";
   parts.town = SmallTown();
-  parts.avatars = {{TwoLevels(), SmallAtlas(), 2.5f}};
+  parts.avatars = {{TwoLevels(), SmallAtlas(), 2.5f, {{{0.2f, 0.4f, 0.6f}, 0.1f, {{1, 0, 0}, {0, 0.6f, 0}}}}}};
   parts.footprints = SmallFootprints();
   parts.ground = {{-20, -20}, 10, 4, 3, std::vector<float>(12, 0.25f), std::vector<uint8_t>(12, 3)};
   parts.ground.height_m[5] = -1.5f;
@@ -215,6 +215,11 @@ TEST(TourPack, BringsAvatarsAcross) {
   EXPECT_EQ(avatar.name, "made");
   EXPECT_EQ(avatar.share, 2.5f);
   EXPECT_EQ(avatar.walk_speed_mps, 1.2f);
+  ASSERT_EQ(avatar.tints.size(), 1u);
+  EXPECT_EQ(avatar.tints[0].reach, 0.1f);
+  EXPECT_NEAR(avatar.tints[0].color.z, 0.6f, 1e-6f);
+  ASSERT_EQ(avatar.tints[0].colors.size(), 2u);
+  EXPECT_NEAR(avatar.tints[0].colors[1].y, 0.6f, 1e-6f);
   ASSERT_EQ(avatar.levels.size(), 2u);
   EXPECT_EQ(avatar.levels[0].switch_px, 90);
   EXPECT_EQ(avatar.levels[1].posed_error_mm, 12.5f);
@@ -393,13 +398,13 @@ TEST(TourPack, AMemberOfAnotherTypeIsRefusedByItsPlace) {
 TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
-  for (const char* object : {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/impostor", "/avatars/0/impostor/clips/0",
+  for (const char* object : {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/impostor", "/avatars/0/impostor/clips/0",
                              "/obstacles/1", "/ground", "/places/0", "/painting", "/path/0"}) {
     const Json::json_pointer at(std::string("/extensions/FLANEUR_tour") + object);
     for (const auto& [key, unused] : json.at(at).items()) {
       Json changed = json;
       changed.at(at).erase(key);
-      if (std::set<std::string>{"painting", "guide", "titles", "language", "captions", "sounds"}.contains(key)) continue;  // there need not be any
+      if (std::set<std::string>{"painting", "guide", "titles", "language", "captions", "sounds", "tints"}.contains(key)) continue;  // there need not be any
       EXPECT_TRUE(Refused(WithJson(whole, changed))) << object << "/" << key;
     }
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "runtime/crowd/fast_math.h"
 #include "runtime/player/controls.h"
@@ -41,6 +42,32 @@ float WholeShare(const std::vector<DrawnPerson>& people) {
   float sum = 0;
   for (const DrawnPerson& p : people) sum += p.share_to - p.share_from;
   return sum;
+}
+
+TEST(FrameFromSimulation, PeopleOfOneModelWearDifferentColoursAndKeepThem) {
+  Stage stage;
+  stage.pack.avatars[0].tints = {{{0, 0, 1}, 0.1f, {{1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}, {{1, 1, 1}, 0.1f, {{0, 0, 0}}}};
+  constexpr int kPeople = 400;
+  for (int k = 1; k < kPeople; ++k) {
+    Person person;
+    person.position = {10, static_cast<float>(k) * 0.1f};
+    AddPerson(person, &stage.s.crowd);
+  }
+  stage.s.crowd.view.assign(kPeople, ViewClass::kVisible);
+  stage.s.levels.level.assign(kPeople, -1);
+  const auto people = stage.Next();
+  ASSERT_EQ(people.size(), static_cast<size_t>(kPeople));
+  std::map<std::array<uint8_t, 4>, int> wearers;
+  int like_the_one_before = 0;
+  for (size_t k = 0; k < people.size(); ++k) {
+    ++wearers[people[k].tints];
+    if (k > 0 && people[k].tints == people[k - 1].tints) ++like_the_one_before;
+  }
+  EXPECT_EQ(wearers.size(), 8u) << "every colour of the one with every colour of the other";
+  for (const auto& [tints, count] : wearers) EXPECT_NEAR(count, kPeople / 8, kPeople / 16);
+  EXPECT_EQ(like_the_one_before, 0) << "of who came one after the other, as the members of a group";
+  const auto later = stage.Next();
+  for (size_t k = 0; k < people.size(); ++k) EXPECT_EQ(later[k].tints, people[k].tints);
 }
 
 TEST(FrameFromSimulation, ALevelIsExchangedBitByBit) {

@@ -188,6 +188,37 @@ TEST_F(Drawing, ABoxIsWhereTheProjectionSays) {
   EXPECT_FALSE(IsRed(Pixel(rgb, column(0), row(-1.8f))));
 }
 
+// The red of BoxPerson's pictures is dyed blue or left as it is, and every other colour stays.
+TEST_F(Drawing, ATintDyesMeshAndImpostorOfWhoWearsItAlone) {
+  TourPack pack = MakePack({});
+  pack.avatars[0].tints = {{{200 / 255.0f, 60 / 255.0f, 60 / 255.0f}, 0.2f, {{0.2f, 0.3f, 0.8f}, {0.2f, 0.7f, 0.3f}}}};
+  for (const int samples : {4, 1}) {
+    for (int level : {0, -1}) {
+      FrameInput frame = LookEast();
+      frame.people = {PersonAt(6, 1, level), PersonAt(6, -1, level)};
+      frame.people[0].tints = {1};
+      const std::vector<uint8_t> rgb = Draw(pack, frame, {.samples = samples});
+      int blue = 0, red = 0;
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+          const Rgb c = Pixel(rgb, x, y);
+          const bool is_blue = c.b > c.r + 60;
+          if (is_blue && x < kWidth / 2 && y > kHeight / 3) ++blue;
+          if (IsRed(c) && x > kWidth / 2) ++red;
+        }
+      }
+      EXPECT_GT(red, 300) << "level " << level;
+      EXPECT_NEAR(blue, red, 0.15 * red) << "level " << level;
+    }
+  }
+  pack.avatars[0].tints[0].color = {0.1f, 0.9f, 0.1f};
+  FrameInput frame = LookEast();
+  frame.people = {PersonAt(6, 0, 0)};
+  const std::vector<uint8_t> own = Draw(pack, frame);
+  frame.people[0].tints = {1};
+  EXPECT_EQ(Draw(pack, frame), own) << "nobody wears that colour";
+}
+
 TEST_F(Drawing, MeshAndImpostorLookAlike) {
   const TourPack pack = MakePack({});
   FrameInput frame = LookEast();

@@ -1,0 +1,29 @@
+#include "runtime/pack/tint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flaneur {
+
+Vec3 WithHalfLightness(Vec3 color) {
+  const float half = 0.5f * Dot(color, {0.30f, 0.59f, 0.11f});
+  return color - Vec3{half, half, half};
+}
+
+float TintShare(const PackTint& tint, Vec3 color) {
+  const float distance = Length(WithHalfLightness(color) - WithHalfLightness(tint.color)) / tint.reach;
+  return std::clamp(2 - 2 * distance * distance, 0.0f, 1.0f);
+}
+
+Vec3 Tinted(const std::vector<PackTint>& tints, const std::vector<size_t>& chosen, Vec3 color) {
+  Vec3 out = color;
+  float left = 1;
+  for (size_t k = 0; k < tints.size() && k < chosen.size(); ++k) {
+    const float share = std::min(left, TintShare(tints[k], color));
+    left -= share;
+    if (chosen[k] > 0) out = out + (tints[k].colors[chosen[k] - 1] - tints[k].color) * share;
+  }
+  return {std::clamp(out.x, 0.0f, 1.0f), std::clamp(out.y, 0.0f, 1.0f), std::clamp(out.z, 0.0f, 1.0f)};
+}
+
+}  // namespace flaneur
