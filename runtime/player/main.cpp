@@ -9,6 +9,7 @@
 #include "runtime/player/options.h"
 #include "runtime/player/run.h"
 #include "runtime/player/scenario.h"
+#include "runtime/player/stills.h"
 #include "runtime/player/user_settings.h"
 #include "runtime/player/warn.h"
 
@@ -16,9 +17,12 @@ namespace flaneur {
 namespace {
 
 Error CheckOutputs(const PlayerOptions& options) {
-  for (const auto* path : {&options.metrics, &options.trajectories, &options.screenshot, &options.film}) {
+  for (const auto* path : {&options.metrics, &options.trajectories, &options.film}) {
     if (path->empty()) continue;
     if (Error e = CheckWritable(*path)) return e;
+  }
+  for (const Still& still : StillsOf(options, 1)) {
+    if (Error e = CheckWritable(still.path)) return e;
   }
   return Ok();
 }

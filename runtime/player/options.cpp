@@ -42,6 +42,8 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("--metrics", o->metrics, "Write one row a frame (CSV)");
   app.add_option("--trajectories", o->trajectories, "Write one row a person a frame (CSV)");
   app.add_option("--screenshot", o->screenshot, "Write the last picture (PNG)");
+  app.add_option("--at", o->at_s, "Moments of --screenshot in seconds, such as 10,25.5: a still each, FILE_10s.png and FILE_25.5s.png")
+      ->delimiter(',')->check(CLI::Range(0.0, 1e6));
   app.add_option("--film", o->film, "Write a film (MP4, H.264)");
   app.add_option("--samples", o->samples, "Samples a pixel of --screenshot and --film (default: 4, but 1 for films without a graphics card)")
       ->check(CLI::IsMember({1, 2, 4, 8}));
@@ -72,6 +74,7 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   if (o->views && !o->compare.empty()) return Refuse("--views is for one run; leave out --compare");
   if (o->no_draw && (!o->screenshot.empty() || !o->film.empty())) return Refuse("--no-draw makes no pictures; leave it out");
   if (!o->headless && (!o->screenshot.empty() || !o->film.empty())) return Refuse("--screenshot and --film need --headless");
+  if (!o->at_s.empty() && o->screenshot.empty()) return Refuse("--at is for --screenshot");
   if (o->samples && o->screenshot.empty() && o->film.empty()) return Refuse("--samples is for --film and --screenshot");
   if (o->compare.empty()) return -1;
   if (o->screenshot.empty() && o->film.empty()) return Refuse("--compare is for --film and --screenshot");

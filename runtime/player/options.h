@@ -15,6 +15,7 @@ struct PlayerOptions {
   std::vector<std::string> set;            // SETTING=VALUE, over those of the file
   bool save_settings = false;
   std::optional<float> seconds, hour;
+  std::vector<float> at_s;           // moments of the stills; empty: the last picture
   std::optional<int> people;
   std::optional<uint64_t> seed;
   std::optional<std::string> adaptation, language;

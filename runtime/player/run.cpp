@@ -1,5 +1,7 @@
 #include "runtime/player/run.h"
 
+#include <algorithm>
+
 #include "runtime/player/records.h"
 
 namespace flaneur {
@@ -12,6 +14,7 @@ constexpr float kLongest_s = 1e6f;
 
 float RunLength_s(const PlayerOptions& options, const Scenario& scenario, const Simulation& simulation) {
   if (options.seconds) return *options.seconds;
+  if (!options.at_s.empty()) return *std::max_element(options.at_s.begin(), options.at_s.end());
   if (scenario.seconds) return *scenario.seconds;
   const bool ends_by_itself = !simulation.legs.empty() || !simulation.tour.stops.empty();
   return ends_by_itself ? kLongest_s : kDefaultLength_s;

@@ -4,11 +4,13 @@
 #include <vector>
 
 #include "runtime/base/png.h"
+#include "runtime/base/text.h"
 #include "runtime/player/film.h"
 #include "runtime/player/frame_from_simulation.h"
 #include "runtime/player/interruption.h"
 #include "runtime/player/records.h"
 #include "runtime/player/run.h"
+#include "runtime/player/stills.h"
 #include "runtime/player/views.h"
 #include "runtime/render/context.h"
 #include "runtime/render/overlay.h"
@@ -61,6 +63,17 @@ std::vector<uint8_t> Joined(const std::vector<Pane>& panes, int height_px) {
   return rgb;
 }
 
+// Writes those that are due; `ended`: this is the last picture.
+Error WriteDue(const std::vector<Pane>& panes, const PlayerOptions& options, int64_t frame, bool ended, std::vector<Still>* stills) {
+  while (!stills->empty() && (stills->front().frame == frame || (ended && stills->front().frame < 0))) {
+    if (Error e = WritePng(stills->front().path, options.width_px, options.height_px, Joined(panes, options.height_px))) return e;
+    stills->erase(stills->begin());
+  }
+  if (!ended || stills->empty()) return Ok();
+  const double ends_s = static_cast<double>(frame) * static_cast<double>(panes[0].simulation->step_s);
+  return Fail("the walk ends after " + Compact(ends_s) + " s, so " + stills->front().path.string() + " is not written; --at must be earlier");
+}
+
 }  // namespace
 
 Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader,
@@ -69,7 +82,7 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   HeadlessContext context;
   if (Error e = context.Create()) return e;
   const bool filming = !options.film.empty();
-  // A still alone needs only its last picture drawn, and may take its time for that.
+  // Stills alone need only their own pictures drawn, and may take their time for that.
   const bool draw_all = filming || !options.metrics.empty() || options.screenshot.empty();
   RenderOptions render_options;
   if (options.samples || !draw_all) render_options.samples = options.samples.value_or(kStillSamples);
@@ -86,6 +99,7 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
     panes.push_back({&(*simulations)[k], options.compare.empty() ? "" : "adaptation: " + options.compare[k], {}, {}, {}, {}, {}});
   }
   Simulation& first = simulations->front();
+  std::vector<Still> stills = StillsOf(options, first.step_s);
   Records records;
   records.keep_metrics = !options.metrics.empty();
   records.keep_trajectories = !options.trajectories.empty();
@@ -94,16 +108,27 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
     if (Error e = film.Start(options.film, options.width_px, options.height_px, 1 / first.step_s)) return e;
   }
   const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(first.step_s) + 0.5);
+  if (!stills.empty() && stills.back().frame > steps) {
+    return Fail("the run ends after " + Compact(static_cast<double>(seconds)) + " s, before " + stills.back().path.string() + "; --at must be earlier");
+  }
   const auto over = [&](const Simulation& s) { return s.frame >= steps || s.finished; };
   for (;;) {
     if (Error e = CheckInterruption()) return e;
     const bool last = std::all_of(simulations->begin(), simulations->end(), over);
-    if (draw_all || last) {
+    const bool still = !stills.empty() && (stills.front().frame == first.frame || last);
+    if (still && !draw_all) {
+      renderer.StartAnew();
+      for (Pane& pane : panes) pane.looks = {};
+    }
+    if (draw_all || still) {
       const int width_px = options.width_px / static_cast<int>(panes.size());
-      for (Pane& pane : panes) DrawPane(options, pack, width_px, filming || last, &renderer, options.views ? &overlay : nullptr, &pane);
+      for (Pane& pane : panes) DrawPane(options, pack, width_px, filming || still, &renderer, options.views ? &overlay : nullptr, &pane);
       if (filming) {
         if (Error e = film.Add(Joined(panes, options.height_px))) return e;
       }
+    }
+    if (still) {
+      if (Error e = WriteDue(panes, options, first.frame, last, &stills)) return e;
     }
     Record(first, {panes[0].statistics.town_triangles, panes[0].statistics.draw_ms}, &records);
     RememberFrame(first, panes[0].statistics, static_cast<float>(panes[0].statistics.draw_ms), &panes[0].views.history);
@@ -111,9 +136,6 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
     for (Pane& pane : panes) {
       if (!over(*pane.simulation)) StepSimulation({}, static_cast<float>(pane.statistics.draw_ms), pane.simulation);
     }
-  }
-  if (!options.screenshot.empty()) {
-    if (Error e = WritePng(options.screenshot, options.width_px, options.height_px, Joined(panes, options.height_px))) return e;
   }
   if (filming) {
     if (Error e = film.Finish()) return e;

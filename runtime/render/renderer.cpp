@@ -176,6 +176,8 @@ void Renderer::Add(Asset asset) {
   }
 }
 
+void Renderer::StartAnew() { ForgetTownShadows(&impl_->shadows); }
+
 void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics) {
   const double start_ms = Now_ms();
   Impl& r = *impl_;

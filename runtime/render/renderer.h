@@ -35,6 +35,8 @@ class Renderer {
   // For PrepareAsset, from any thread, after Begin.
   const SurfacePlan& surfaces() const;
   const AtlasFormats& formats() const;
+  // The next picture is drawn as if it were the first, whatever has changed since the last one.
+  void StartAnew();
   // Draws into a picture of its own; Read or Present brings it out.
   void Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics);
   // The last picture: RGB, 8 bits a channel, top row first.

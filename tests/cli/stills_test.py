@@ -73,6 +73,13 @@ class Stills(ProgramTest):
                 draw_still(name, picture)
                 self.assert_alike(STILLS / f"{name}.png", picture)
 
+    def test_a_still_of_several_is_that_of_a_run_which_ends_there(self):
+        run = [str(BIN / "flaneur-player"), str(PACK), "--headless", "--people", "100", "--size", SIZE]
+        subprocess.run([*run, "--at", "12.5,2", "--screenshot", str(self.folder / "walk.png")], check=True, capture_output=True)
+        for moment in ("2", "12.5"):
+            subprocess.run([*run, "--seconds", moment, "--screenshot", str(self.folder / "one.png")], check=True, capture_output=True)
+            self.assertEqual((self.folder / f"walk_{moment}s.png").read_bytes(), (self.folder / "one.png").read_bytes(), moment)
+
     def test_another_rasterizer_makes_no_difference(self):
         picture = self.folder / "shadow.png"
         draw_still("shadow", picture, environment={"GALLIUM_DRIVER": "softpipe", "LIBGL_ALWAYS_SOFTWARE": "1"})
