@@ -7,7 +7,7 @@
 
 namespace flaneur {
 
-struct FrameCosts { int64_t town_triangles = 0; double draw_ms = 0; };
+struct FrameCosts { int64_t town_triangles = 0, shadow_triangles = 0; double draw_ms = 0; };
 
 struct Records {
   std::string metrics, trajectories;  // text so far; written at the end, whole

@@ -24,7 +24,7 @@ Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation*
   Records records;
   records.keep_metrics = !options.metrics.empty();
   records.keep_trajectories = !options.trajectories.empty();
-  const auto record = [&] { Record(*simulation, {0, static_cast<double>(FrameTimeByModel_ms(*simulation))}, &records); };
+  const auto record = [&] { Record(*simulation, {0, 0, static_cast<double>(FrameTimeByModel_ms(*simulation))}, &records); };
   record();
   const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(simulation->step_s) + 0.5);
   while (simulation->frame < steps && !simulation->finished) {

@@ -130,7 +130,7 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
     if (still) {
       if (Error e = WriteDue(panes, options, first.frame, last, &stills)) return e;
     }
-    Record(first, {panes[0].statistics.town_triangles, panes[0].statistics.draw_ms}, &records);
+    Record(first, {panes[0].statistics.town_triangles, panes[0].statistics.shadow_triangles, panes[0].statistics.draw_ms}, &records);
     RememberFrame(first, panes[0].statistics, static_cast<float>(panes[0].statistics.draw_ms), &panes[0].views.history);
     if (last) break;
     for (Pane& pane : panes) {

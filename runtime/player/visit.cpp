@@ -142,7 +142,7 @@ void Visit::Impl::StepTown(float passed_s, Records* records) {
   if (owed_s >= step_s) controls.turned_rad = 0;
   while (owed_s >= step_s) {
     StepSimulation(NextStep(wishes, *s, &controls), passed_s * 1000, s);
-    Record(*s, {statistics.town_triangles, statistics.draw_ms}, records);
+    Record(*s, {statistics.town_triangles, statistics.shadow_triangles, statistics.draw_ms}, records);
     wishes.tour = {};
     wishes.walk_to.reset();
     owed_s -= step_s;
