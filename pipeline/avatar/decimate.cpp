@@ -31,6 +31,7 @@ constexpr float kTurned_deg = 2.5f;   // of normals: a level that is further off
 constexpr float kHardlyWorse = 0.85f;  // of the height on screen up to which a finer level serves,
 constexpr float kHardlyFewer = 0.7f;   // which has so many triangles
 constexpr size_t kFewestLevels = 3;   // where triangles allow: for tight budgets
+constexpr int kMostPropTriangles = 300;
 constexpr float kFewestUseful = 250;  // triangles: fewer save nothing beside the rest of a frame
 
 Error CheckMeshes(const Avatar& avatar) {
@@ -212,6 +213,18 @@ std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const LevelsOptio
   return levels;
 }
 
+// To few enough triangles that it may be drawn beside an impostor.
+void ReduceProp(const Avatar& avatar, std::vector<std::string>* warnings, AvatarProp* prop) {
+  const int triangles = CountTriangles(prop->meshes);
+  if (triangles <= kMostPropTriangles) return;
+  Avatar alone = avatar;
+  alone.name = avatar.name + "', prop '" + prop->name;
+  alone.meshes = prop->meshes;
+  LevelsOptions options;
+  options.ratios = {static_cast<float>(kMostPropTriangles) / static_cast<float>(triangles)};
+  prop->meshes = DecimatedLevels(alone, options, warnings)[0].meshes;
+}
+
 }  // namespace
 
 Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLevels* levels,
@@ -224,6 +237,7 @@ Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLeve
   if (options.ratios.empty()) ChooseLevels(avatar, options.error_px, &levels->levels);
   SpareJoints(avatar, &levels->levels);
   levels->avatar.meshes = levels->levels[0].meshes;
+  for (AvatarProp& prop : levels->avatar.props) ReduceProp(avatar, warnings, &prop);
   SetSwitchHeights(avatar, options.error_px, &levels->levels);
   MergeMaterials(levels, warnings);
   return Ok();

@@ -129,10 +129,15 @@ void DropIdleJoints(Avatar* avatar) {
   const size_t count = avatar->joints.size();
   if (count == 0) return;
   std::vector<bool> busy(count, false);
-  for (const Mesh& mesh : avatar->meshes) {
-    for (size_t v = 0; v < mesh.joints.size(); ++v) {
+  std::vector<Mesh*> meshes;
+  for (Mesh& mesh : avatar->meshes) meshes.push_back(&mesh);
+  for (AvatarProp& prop : avatar->props) {
+    for (Mesh& mesh : prop.meshes) meshes.push_back(&mesh);
+  }
+  for (const Mesh* mesh : meshes) {
+    for (size_t v = 0; v < mesh->joints.size(); ++v) {
       for (size_t i = 0; i < 4; ++i) {
-        if (mesh.weights[v][i] > 0) busy[mesh.joints[v][i]] = true;
+        if (mesh->weights[v][i] > 0) busy[mesh->joints[v][i]] = true;
       }
     }
   }
@@ -157,8 +162,8 @@ void DropIdleJoints(Avatar* avatar) {
     }
     clip.transforms = std::move(transforms);
   }
-  for (Mesh& mesh : avatar->meshes) {
-    for (auto& joints : mesh.joints) {
+  for (Mesh* mesh : meshes) {
+    for (auto& joints : mesh->joints) {
       for (uint16_t& joint : joints) joint = to[joint];
     }
   }

@@ -163,6 +163,7 @@ Error MakeAvatar(Baking* baking, size_t i) {
     read.talk = settings.talk;
     read.height_m = settings.height_m;
     read.hide = settings.hide;
+    for (const PropSettings& prop : settings.props) read.props.push_back(prop.node);
     Avatar avatar;
     if (Error e = ReadAvatar(file, read, &avatar, warnings)) return e;
     if (Error e = BuildLevels(avatar, baking->settings.levels, levels, warnings)) return e;
@@ -223,6 +224,7 @@ Error MakePeople(Baking* baking) {
   for (size_t i = 0; i < count; ++i) {
     baking->parts.avatars[i].share = baking->settings.avatars[i].share;
     baking->parts.avatars[i].tints = baking->settings.avatars[i].tints;
+    for (const PropSettings& prop : baking->settings.avatars[i].props) baking->parts.avatars[i].props.push_back({prop.share, prop.slot});
   }
   if (Error e = RunParallel(count, [&](size_t i) { return MakeAvatar(baking, i); })) return e;
   for (size_t i = 0; i < count; ++i) {

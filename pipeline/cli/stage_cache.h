@@ -30,8 +30,9 @@ template <typename A> void Fields(A& a, Mesh* v) {
 }
 template <typename A> void Fields(A& a, Joint* v) { a(&v->name, &v->parent, &v->rest, &v->inverse_bind); }
 template <typename A> void Fields(A& a, Clip* v) { a(&v->name, &v->duration_s, &v->keys, &v->transforms); }
+template <typename A> void Fields(A& a, AvatarProp* v) { a(&v->name, &v->meshes); }
 template <typename A> void Fields(A& a, Avatar* v) {
-  a(&v->name, &v->meshes, &v->materials, &v->images, &v->joints, &v->clips, &v->height_m, &v->radius_m, &v->walk_speed_mps);
+  a(&v->name, &v->meshes, &v->materials, &v->images, &v->joints, &v->clips, &v->props, &v->height_m, &v->radius_m, &v->walk_speed_mps);
 }
 template <typename A> void Fields(A& a, AvatarLevel* v) {
   a(&v->meshes, &v->triangles, &v->error_mm, &v->posed_error_mm, &v->normal_deg, &v->joints, &v->switch_px);

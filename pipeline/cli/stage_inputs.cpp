@@ -28,6 +28,7 @@ void AddAll(const Values& values, Fingerprint* print) {
 void AddReading(const AvatarSettings& a, const fs::path& file, Fingerprint* print) {
   print->AddFile(file).Add(a.walk).Add(a.idle).Add(a.talk).Add(a.height_m);
   AddAll(a.hide, print);
+  for (const PropSettings& prop : a.props) print->Add(prop.node);
 }
 
 }  // namespace

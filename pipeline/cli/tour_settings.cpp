@@ -61,6 +61,22 @@ void ReadTint(TomlTable table, AvatarSettings* avatar) {
   avatar->tints.push_back(std::move(tint));
 }
 
+void ReadProp(TomlTable table, AvatarSettings* avatar) {
+  PropSettings prop;
+  table.Text("node", &prop.node);
+  table.Number("share", &prop.share, 0, 1);
+  table.Text("slot", &prop.slot);
+  if (prop.node.empty()) table.Refuse("an [[avatar.prop]] needs the node of the avatar's file that shows it");
+  float of_slot = prop.share;
+  for (const PropSettings& other : avatar->props) {
+    if (other.node == prop.node) table.Refuse("two props are the node '" + OneLine(prop.node) + "'");
+    if (!prop.slot.empty() && other.slot == prop.slot) of_slot += other.share;
+  }
+  if (of_slot > 1.0001f) table.Refuse("the props of slot '" + OneLine(prop.slot) + "' have shares of more than 1 together");
+  table.Finish();
+  avatar->props.push_back(std::move(prop));
+}
+
 void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
   AvatarSettings avatar;
   ReadName(&table, &avatar.name);
@@ -72,6 +88,8 @@ void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
   table.Text("talk", &avatar.talk);
   table.Texts("hide", &avatar.hide);
   for (TomlTable& tint : table.Tables("tint")) ReadTint(tint, &avatar);
+  for (TomlTable& prop : table.Tables("prop")) ReadProp(prop, &avatar);
+  if (avatar.props.size() > kMostProps) table.Refuse("an [[avatar]] has seven [[avatar.prop]] at most");
   if (avatar.tints.size() > kMostTints) table.Refuse("an [[avatar]] has three [[avatar.tint]] at most");
   if (avatar.source.file.empty()) table.Refuse("an [[avatar]] needs a file");
   if (avatar.name.empty()) avatar.name = avatar.source.file.stem().string();
@@ -237,7 +255,7 @@ Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings
 
 std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
-  const toml::table root = toml::parse("[[avatar]]\n[[avatar.tint]]\n[[place]]\n[[stop]]\n[[town.part]]\n");
+  const toml::table root = toml::parse("[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[place]]\n[[stop]]\n[[town.part]]\n");
   TomlContext context;
   TourSettings settings;
   ReadAll(TomlTable(&context, &root, ""), &settings);

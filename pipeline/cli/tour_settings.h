@@ -31,6 +31,13 @@ struct TownPart {
   float scale = 1;    // metres per unit of the file
 };
 
+// What some people of an avatar have: a node of its file.
+struct PropSettings {
+  std::string node;
+  float share = 0.5f;  // of the people
+  std::string slot;    // nobody has two of one slot; empty: one of its own
+};
+
 struct AvatarSettings {
   std::string name;
   SourceSettings source;
@@ -39,6 +46,7 @@ struct AvatarSettings {
   std::string walk, idle, talk;
   std::vector<std::string> hide;
   std::vector<PackTint> tints;  // at most kMostTints
+  std::vector<PropSettings> props;
 };
 
 struct TourSettings {

@@ -30,14 +30,21 @@ struct Clip {
   std::vector<Transform> transforms; // keys x joints, key by key, relative to the parent
 };
 
+// What some people of an avatar carry or wear and others don't, on the avatar's own joints and materials.
+struct AvatarProp {
+  std::string name;
+  std::vector<Mesh> meshes;
+};
+
 struct Avatar {
   std::string name;
-  std::vector<Mesh> meshes;          // one a material
+  std::vector<Mesh> meshes;          // one a material; what everybody has
   std::vector<Material> materials;
   std::vector<Image> images;
   std::vector<Joint> joints;         // parents before children
   std::vector<Clip> clips;           // among them "walk"; "idle" and "talk" where the source has them
-  float height_m = 0;                // of the bind pose
+  std::vector<AvatarProp> props;
+  float height_m = 0;                // of the bind pose, without props
   float radius_m = 0;                // of the circle that stands for the person on the ground
   float walk_speed_mps = 0;          // at which the walk's stance foot does not slide
 };

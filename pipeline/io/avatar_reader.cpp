@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <utility>
 
 #include "pipeline/io/avatar_normalize.h"
 #include "pipeline/io/blender_import.h"
@@ -95,18 +96,22 @@ Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options
 }
 
 // Nodes to draw: in the scene and not beneath a hidden one.
-Error VisibleNodes(const GltfDocument& document, const std::vector<std::string>& hide,
+Error VisibleNodes(const GltfDocument& document, const ReadAvatarOptions& options,
                    std::vector<bool>* visible) {
   std::vector<std::string> names;
   for (const DocumentNode& node : document.nodes) names.push_back(node.name);
-  for (const std::string& name : hide) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    return Fail("no node " + Quoted(name) + " to hide" + DidYouMean(name, names));
-  }
+  const auto find = [&](const std::vector<std::string>& wanted, const char* what) {
+    for (const std::string& name : wanted) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) return Fail("no node " + Quoted(name) + what + DidYouMean(name, names));
+    }
+    return Ok();
+  };
+  if (Error e = find(options.hide, " to hide")) return e;
+  if (Error e = find(options.props, " for the prop of that name")) return e;
   visible->assign(document.nodes.size(), false);
   for (const int i : document.order) {
     const DocumentNode& node = document.nodes[static_cast<size_t>(i)];
-    const bool hidden = std::find(hide.begin(), hide.end(), node.name) != hide.end();
+    const bool hidden = std::find(options.hide.begin(), options.hide.end(), node.name) != options.hide.end();
     const bool parent_seen = node.parent < 0 || !document.nodes[node.parent].in_scene ||
                              (*visible)[static_cast<size_t>(node.parent)];
     (*visible)[static_cast<size_t>(i)] = node.in_scene && parent_seen && !hidden;
@@ -119,6 +124,7 @@ struct Part {
   int node = 0;
   bool skinned = false;
   int anchor = -1;
+  int prop = -1;  // of the avatar's props; -1: everybody has it
 };
 
 bool HasInfluences(const DocumentMesh& mesh) {
@@ -148,7 +154,8 @@ class AvatarReader {
   Error AddPart(const Part& part);
   Error SkinVertices(const Part& part, const DocumentPrimitive& primitive, Mesh* mesh);
   void AttachVertices(const Part& part, Mesh* mesh) const;
-  Mesh* MergedMesh(int material);
+  int PropOf(int node) const;
+  Mesh* MergedMesh(int material, std::vector<Mesh>* meshes) const;
   void AddClip(const ChosenClip& chosen);
   void DropUnusedMaterials();
 
@@ -170,9 +177,18 @@ class AvatarReader {
   int weightless_ = 0;
 };
 
+// Of the nearest of the node and those above it that bears a prop's name.
+int AvatarReader::PropOf(int node) const {
+  for (int a = node; a >= 0; a = Node(a).parent) {
+    const auto found = std::find(options_.props.begin(), options_.props.end(), Node(a).name);
+    if (found != options_.props.end()) return static_cast<int>(found - options_.props.begin());
+  }
+  return -1;
+}
+
 Error AvatarReader::FindParts() {
   std::vector<bool> visible;
-  if (Error e = VisibleNodes(document_, options_.hide, &visible)) return e;
+  if (Error e = VisibleNodes(document_, options_, &visible)) return e;
   std::vector<bool> moves(document_.nodes.size(), false);
   for (const DocumentSkin& skin : document_.skins) {
     for (const int joint : skin.joints) moves[static_cast<size_t>(joint)] = true;
@@ -183,13 +199,14 @@ Error AvatarReader::FindParts() {
     }
   }
   bool any_skinned = false;
+  for (const std::string& name : options_.props) avatar_->props.push_back({name, {}});
   for (const int i : document_.order) {
     const DocumentNode& node = Node(i);
     if (!visible[static_cast<size_t>(i)] || node.mesh < 0) continue;
     const DocumentMesh& mesh = document_.meshes[static_cast<size_t>(node.mesh)];
     if (mesh.primitives.empty()) continue;
     if (mesh.morphs) notes_->push_back("mesh " + Quoted(mesh.name) + ": morph targets are ignored");
-    Part part{i, node.skin >= 0 && HasInfluences(mesh), -1};
+    Part part{i, node.skin >= 0 && HasInfluences(mesh), -1, PropOf(i)};
     for (int a = i; a >= 0 && part.anchor < 0; a = Node(a).parent) {
       if (moves[static_cast<size_t>(a)]) part.anchor = a;
     }
@@ -197,7 +214,7 @@ Error AvatarReader::FindParts() {
       notes_->push_back("node " + Quoted(node.name) + " hangs on no bone and is left out");
       continue;
     }
-    any_skinned = any_skinned || part.skinned;
+    any_skinned = any_skinned || (part.skinned && part.prop < 0);
     parts_.push_back(part);
   }
   if (!any_skinned) {
@@ -428,15 +445,15 @@ void AppendFilled(const std::vector<T>& from, size_t from_count, size_t to_count
   to->resize(to_count + from_count, missing);
 }
 
-Mesh* AvatarReader::MergedMesh(int material) {
-  for (Mesh& mesh : avatar_->meshes) {
+Mesh* AvatarReader::MergedMesh(int material, std::vector<Mesh>* meshes) const {
+  for (Mesh& mesh : *meshes) {
     if (mesh.material == material) return &mesh;
   }
-  avatar_->meshes.emplace_back();
-  avatar_->meshes.back().material = material;
-  avatar_->meshes.back().name =
+  meshes->emplace_back();
+  meshes->back().material = material;
+  meshes->back().name =
       material < 0 ? "plain" : document_.materials[static_cast<size_t>(material)].name;
-  return &avatar_->meshes.back();
+  return &meshes->back();
 }
 
 void AppendMesh(const Mesh& part, Mesh* mesh) {
@@ -465,8 +482,9 @@ Error AvatarReader::AddPart(const Part& part) {
       on_skin.anchor = document_.skins[static_cast<size_t>(Node(part.node).skin)].joints[0];
       AttachVertices(on_skin, &mesh);
     }
-    AppendMesh(mesh, MergedMesh(mesh.material));
-    if (part.skinned) AppendMesh(mesh, &body_);
+    std::vector<Mesh>& meshes = part.prop < 0 ? avatar_->meshes : avatar_->props[static_cast<size_t>(part.prop)].meshes;
+    AppendMesh(mesh, MergedMesh(mesh.material, &meshes));
+    if (part.skinned && part.prop < 0) AppendMesh(mesh, &body_);
   }
   return Ok();
 }
@@ -512,9 +530,13 @@ void AvatarReader::DropUnusedMaterials() {
     }
     *image = to;
   };
-  for (Mesh& mesh : avatar_->meshes) {
-    if (mesh.material < 0) continue;
-    Material material = document_.materials[static_cast<size_t>(mesh.material)];
+  std::map<std::pair<int, bool>, int> known;  // a material of the file, and whether there are uvs for its picture -> ours
+  const auto use_material = [&](Mesh& mesh) {
+    if (mesh.material < 0) return;
+    const auto [entry, fresh] = known.try_emplace({mesh.material, mesh.uvs.empty()}, static_cast<int>(avatar_->materials.size()));
+    const int source = std::exchange(mesh.material, entry->second);
+    if (!fresh) return;
+    Material material = document_.materials[static_cast<size_t>(source)];
     if (mesh.uvs.empty() && material.base_color_image >= 0) {
       notes_->push_back("material " + Quoted(material.name) +
                         ": its picture is left out, as its surface has no uvs");
@@ -522,8 +544,11 @@ void AvatarReader::DropUnusedMaterials() {
     }
     use_image(&material.base_color_image);
     use_image(&material.normal_image);
-    mesh.material = static_cast<int>(avatar_->materials.size());
     avatar_->materials.push_back(std::move(material));
+  };
+  for (Mesh& mesh : avatar_->meshes) use_material(mesh);
+  for (AvatarProp& prop : avatar_->props) {
+    for (Mesh& mesh : prop.meshes) use_material(mesh);
   }
 }
 
@@ -535,6 +560,9 @@ Error AvatarReader::Read() {
   FindBindPose();
   for (const Part& part : parts_) {
     if (Error e = AddPart(part)) return e;
+  }
+  for (const AvatarProp& prop : avatar_->props) {
+    if (prop.meshes.empty()) return Fail("prop " + Quoted(prop.name) + " shows no mesh that hangs on a bone");
   }
   DropUnusedMaterials();
   for (const ChosenClip& clip : clips_) AddClip(clip);

@@ -34,6 +34,7 @@ struct ReadAvatarOptions {
   std::string walk, idle, talk;
   float height_m = 0;             // 0: as in the file where 0.5 to 2.3 m, else 1.75
   std::vector<std::string> hide;  // names of nodes left out, with what hangs on them
+  std::vector<std::string> props; // names of nodes that become AvatarProps, each with what hangs on it
   int max_joints = 256;
 };
 
@@ -43,8 +44,8 @@ struct ReadAvatarOptions {
 // at 30 Hz, made to loop and to walk on the spot. The walk's speed is `flaneur_walk_speed_mps` in
 // any node's extras (metres of the file), else that of the root's travel, else that of the sole on
 // the ground. `warnings` gets one line for each thing left out or guessed. Errors: as for a scene,
-// and no skin, no walk clip (lists the clips), a named clip or hidden node that is not there, too
-// many joints.
+// and no skin, no walk clip (lists the clips), a named clip, hidden node or prop that is not there, too
+// many joints, a prop without a mesh.
 Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& options,
                  Avatar* avatar, std::vector<std::string>* warnings);
 

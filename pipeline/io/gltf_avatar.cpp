@@ -85,9 +85,11 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
   for (const AvatarLevel& level : levels.levels) {
     meshes.push_back(std::async(std::launch::async, [&] { return EncodedLevel(avatar, level, draco); }));
   }
+  std::vector<Mesh> moved = levels.levels[0].meshes;  // that tell how exact a clip must be
+  for (const AvatarProp& prop : avatar.props) moved.insert(moved.end(), prop.meshes.begin(), prop.meshes.end());
   for (const Clip& clip : avatar.clips) {
     part->animations.push_back(builder->AddAnimation(prefix + clip.name, clip, avatar.joints,
-                                                     levels.levels[0].meshes, part->joint_nodes,
+                                                     moved, part->joint_nodes,
                                                      draco.compress));
   }
   std::vector<float> switch_shares;
@@ -99,6 +101,14 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
     if (Error e = builder->AddMesh(node.name, *meshes[k].get(), materials, &node.mesh)) return e;
     part->level_nodes.push_back(builder->AddNode(node));
     switch_shares.push_back(std::min(levels.levels[k].switch_px / kScreenHeight_px, 1.0f));
+  }
+  for (const AvatarProp& prop : avatar.props) {
+    GltfNode node;
+    node.name = prefix + prop.name;
+    node.skin = part->skin;
+    const auto mesh = EncodeMesh(WithoutIdleUvs(prop.meshes, avatar.materials), draco);
+    if (Error e = builder->AddMesh(node.name, *mesh, materials, &node.mesh)) return e;
+    part->prop_nodes.push_back(builder->AddNode(node));
   }
   if (part->level_nodes.size() > 1) {
     builder->SetLevels(part->level_nodes[0], std::span(part->level_nodes).subspan(1),
@@ -114,7 +124,8 @@ Error WriteAvatarGlb(const std::filesystem::path& path, const AvatarLevels& leve
   if (Error e = AddAvatar(&builder, levels, "", draco, &part)) {
     return Fail(path.string() + ": " + e.message);
   }
-  const int roots[] = {part.level_nodes[0], part.skeleton_node};
+  std::vector<int> roots{part.level_nodes[0], part.skeleton_node};
+  roots.insert(roots.end(), part.prop_nodes.begin(), part.prop_nodes.end());
   builder.AddScene(levels.avatar.name, roots);
   std::vector<uint8_t> glb;
   if (Error e = builder.Finish(&glb)) return Fail(path.string() + ": " + e.message);

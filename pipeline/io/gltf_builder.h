@@ -105,11 +105,12 @@ struct AvatarPart {
   int skeleton_node = -1;        // parent of the root joints; a root of the scene
   std::vector<int> joint_nodes;  // as Avatar::joints
   std::vector<int> level_nodes;  // finest first; the first is a root of the scene
+  std::vector<int> prop_nodes;   // as Avatar::props
   std::vector<int> animations;   // as Avatar::clips; -1: a clip without motion
 };
 
 // Adds skeleton, skin, levels (chained by MSFT_lod) and clips; names of nodes and animations start
-// with `prefix`. The caller puts `skeleton_node` and `level_nodes[0]` into a scene. Errors: as
+// with `prefix`. The caller puts `skeleton_node`, `level_nodes[0]` and `prop_nodes` into a scene. Errors: as
 // AddMesh.
 Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix,
                 const DracoOptions& draco, AvatarPart* part);

@@ -104,6 +104,12 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
           {"levels", levels},
           {"impostor", ImpostorJson(avatar.impostor, views)}};
   for (const PackTint& tint : avatar.tints) json["tints"].push_back(TintJson(tint));
+  for (size_t k = 0; k < person.props.size(); ++k) {
+    int triangles = 0;
+    for (const Mesh& mesh : person.props[k].meshes) triangles += TriangleCount(mesh);
+    json["props"].push_back({{"name", person.props[k].name}, {"node", part.prop_nodes[k]}, {"triangles", triangles},
+                             {"share", Short(avatar.props[k].share)}, {"slot", avatar.props[k].slot}});
+  }
   return json;
 }
 

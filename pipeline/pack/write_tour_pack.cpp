@@ -117,7 +117,8 @@ Error AddAvatars(const TourParts& parts, GltfBuilder* builder, TourIndices* indi
     const std::string& name = avatar.levels.avatar.name;
     AvatarPart part;
     if (Error e = AddAvatar(builder, avatar.levels, name + "_", DracoOptions{}, &part)) return e;
-    const int roots[] = {part.skeleton_node, part.level_nodes.front()};
+    std::vector<int> roots{part.skeleton_node, part.level_nodes.front()};
+    roots.insert(roots.end(), part.prop_nodes.begin(), part.prop_nodes.end());
     builder->AddScene(name, roots);
     indices->avatars.push_back(std::move(part));
     indices->impostors.push_back(AddImpostor(avatar.impostor, builder));

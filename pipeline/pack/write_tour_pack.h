@@ -19,6 +19,8 @@ struct TourAvatar {
   ImpostorAtlas impostor;
   float share = 1;
   std::vector<PackTint> tints = {};
+  struct Prop { float share = 0; std::string slot; };
+  std::vector<Prop> props = {};  // one for each of the avatar's
 };
 
 struct TourParts {

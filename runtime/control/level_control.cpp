@@ -19,6 +19,7 @@ constexpr float kSoon_s = 8.0f;               // who comes near by then is serve
 constexpr float kLong_s = 1e3f;
 constexpr float kFallGain = 0.08f, kRiseGain = 0.02f;  // a step, of the relative error of the frame time (method 2)
 constexpr float kUsed = 0.8f;                // share of the budget from which on it is in use
+constexpr float kPropShare = 0.1f;            // of the budget, that props may take
 constexpr float kSettles = 0.03f;             // a step, of what a person in high resolution costs
 constexpr float kLeastBudget = 1000;
 constexpr float kFastCamera_mps = 2.0f;      // above it fidelity may fall,
@@ -51,7 +52,7 @@ int CoarsestAt(const AvatarCosts& avatar, float px) {
 // How many people in high resolution the budget affords, all others in view as impostors: each costs what they did of late.
 int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
   if (state->high > 0) {
-    const float meshes = static_cast<float>(state->triangles - state->fades.triangles - int64_t{kImpostorTriangles} * state->low);
+    const float meshes = static_cast<float>(state->triangles - state->fades.triangles - state->props.triangles - int64_t{kImpostorTriangles} * state->low);
     state->triangles_a_person += kSettles * (meshes / static_cast<float>(state->high) - state->triangles_a_person);
   } else if (state->triangles_a_person <= 0) {
     for (const AvatarCosts& avatar : avatars) {
@@ -138,6 +139,14 @@ void ListVisible(const Crowd& crowd, const ViewCamera& camera, float r_far_m, in
   }
 }
 
+void ListPropBearers(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, LevelState* state) {
+  state->props.bearers.clear();
+  for (const LevelState::Visible& v : state->visible) {
+    const std::vector<PropCost>& props = avatars[static_cast<size_t>(crowd.avatar[static_cast<size_t>(v.person)])].props;
+    if (!props.empty() && v.distance_m < kPropReach_m) state->props.bearers.push_back({v.id, &props, v.distance_m});
+  }
+}
+
 // r_high moves towards the distance that leaves `limit` people inside: soon where there are more, slowly where there are fewer.
 void MoveBoundary(const LevelSettings& s, int limit, float step_s, LevelState* state) {
   float wanted_m = s.r_high_m;
@@ -180,14 +189,17 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
   // Only those who may become meshes need to stand in order; and all, where not even impostors fit.
   const int64_t budget = static_cast<int64_t>(state->budget_triangles);
   PassFades(step_s, budget, crowd.next_id, &state->fades);
-  const int64_t drawable = (budget - state->fades.triangles) / kImpostorTriangles;
+  ListPropBearers(crowd, avatars, state);
+  ChooseProps(static_cast<int64_t>(kPropShare * state->budget_triangles), crowd.next_id, &state->props);
+  const int64_t besides = state->fades.triangles + state->props.triangles;
+  const int64_t drawable = std::max<int64_t>(0, budget - besides) / kImpostorTriangles;
   auto& visible = state->visible;
   auto far = std::partition(visible.begin(), visible.end(), [](const auto& v) { return v.turn < kStays; });
   if (static_cast<int64_t>(visible.size()) > drawable) far = visible.end();
   std::sort(visible.begin(), far, Before);
 
   state->level.assign(crowd.size(), kNotDrawn);
-  state->triangles = std::min<int64_t>(static_cast<int64_t>(visible.size()), drawable) * kImpostorTriangles + state->fades.triangles;
+  state->triangles = std::min<int64_t>(static_cast<int64_t>(visible.size()), drawable) * kImpostorTriangles + besides;
   state->high = state->low = state->shortfalls = state->switches_in_view = 0;
   int within_nominal = 0;
   for (size_t rank = 0; rank < visible.size(); ++rank) {

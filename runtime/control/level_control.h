@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "runtime/control/fades.h"
+#include "runtime/control/props.h"
 #include "runtime/control/view_volumes.h"
 
 namespace flaneur {
@@ -16,6 +17,7 @@ struct AvatarCosts {
   std::vector<LevelCost> levels;  // finest first
   float height_m = 1.75f;
   float impostor_px = 128;        // height of its picture: adequate below one screen pixel per texel
+  std::vector<PropCost> props = {};
 };
 
 struct LevelSettings {
@@ -35,8 +37,9 @@ struct LevelState {
   int limit = 0;                   // most people in high resolution, in force
   std::vector<int> level;          // by person index: a mesh level, kImpostor or kNotDrawn
   int high = 0, low = 0, shortfalls = 0, switches_in_view = 0;
-  int64_t triangles = 0;           // of everybody in view, with the levels that fade out
+  int64_t triangles = 0;           // of everybody in view, with props and the levels that fade out
   Fades fades;
+  Props props;
   bool exceeded = false;
 
   ViewMotion motion;               // the camera's, averaged over a moment

@@ -245,6 +245,20 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   avatar.idle = clips.Has("idle") ? clip("idle") : FirstFrame(avatar.walk, avatar.joints);
   avatar.talk = clips.Has("talk") ? clip("talk") : avatar.idle;
   avatar.impostor = ReadImpostor(file, json.Object("impostor"));
+  if (json.Has("props")) {
+    for (const TourObject& prop_json : json.Objects("props")) {
+      const Json& node = nodes[static_cast<size_t>(prop_json.Whole("node", 0, static_cast<double>(nodes.size()) - 1))];
+      PackProp prop;
+      prop.name = prop_json.Text("name");
+      prop.mesh = meshes->Get(Index(node, "mesh", Member(file.json, "meshes").size()));
+      prop.triangles = prop_json.Whole("triangles", 1, 1e6);
+      prop.share = prop_json.Real("share", 0, 1);
+      prop.slot = prop_json.Text("slot");
+      if (Index(node, "skin", Member(file.json, "skins").size()) != skin) prop_json.Refuse("has another skin than the levels");
+      avatar.props.push_back(prop);
+    }
+    if (avatar.props.size() > kMostProps) json.Refuse("has more than seven props");
+  }
   if (json.Has("tints")) {
     for (const TourObject& tint : json.Objects("tints")) avatar.tints.push_back(ReadTint(tint));
     if (avatar.tints.size() > kMostTints) json.Refuse("has more than three tints");
@@ -406,6 +420,7 @@ struct PackFile::Impl {
     for (int mesh : meshes) pack->meshes.push_back(ReadOutline(file, mesh));
     for (const PackAvatar& avatar : pack->avatars) {
       for (const PackLevel& level : avatar.levels) joints[static_cast<size_t>(level.mesh)] = avatar.joints;
+      for (const PackProp& prop : avatar.props) joints[static_cast<size_t>(prop.mesh)] = avatar.joints;
     }
     const size_t images = file.json.value("images", Json::array()).size();
     for (size_t i = 0; i < images; ++i) pack->images.push_back(ReadImageSize(file, static_cast<int>(i)));

@@ -67,6 +67,15 @@ struct PackLevel {
   float error_mm = 0, posed_error_mm = 0, switch_px = 0;
 };
 
+// What some people of an avatar have: a mesh on the avatar's joints, drawn beside any of its levels and its impostor.
+struct PackProp {
+  std::string name;
+  int mesh = 0, triangles = 0;
+  float share = 0;           // of the people
+  std::string slot;          // of those with the same one a person has one at most; empty: its own
+};
+inline constexpr size_t kMostProps = 7;
+
 struct PackImpostorClip { std::string name; int first_frame = 0, phases = 0; };
 
 struct PackImpostorCell { int16_t x = 0, y = 0, width = 0, height = 0, origin_x = 0, origin_y = 0; };
@@ -91,6 +100,7 @@ struct PackAvatar {
   PackClip walk, idle, talk; // always present: a missing talk is the idle, a missing idle a standing pose
   std::vector<PackLevel> levels;  // finest first, at least one
   std::vector<PackTint> tints;    // at most kMostTints
+  std::vector<PackProp> props;    // at most kMostProps
   PackImpostor impostor;
   int impostor_of = -1;      // index of the avatar whose impostor stands for this one too, which brings none; -1: its own
 };

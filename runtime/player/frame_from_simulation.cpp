@@ -116,6 +116,12 @@ std::array<uint8_t, 4> TintsOf(const PackAvatar& avatar, int id) {
 
 float Mix_rad(float a, float b, float share) { return WrapAngle(a + share * WrapAngle(b - a)); }
 
+// The part of a person that is drawn with any level, and less of it the farther they are.
+float PropsShare(const PersonLook& look, float done, float distance_m) {
+  const float drawn = (look.level != kNotDrawn ? done : 0) + (look.last_level != kNotDrawn ? 1 - done : 0);
+  return drawn * std::clamp((kPropReach_m - distance_m) / kPropFade_m, 0.0f, 1.0f);
+}
+
 void Show(const PersonLook& look, float share, FrameInput* frame) {
   DrawnPerson person;
   person.avatar = look.avatar;
@@ -126,10 +132,13 @@ void Show(const PersonLook& look, float share, FrameInput* frame) {
   person.position = look.before + (look.position - look.before) * share;
   person.heading_rad = Mix_rad(look.heading_before_rad, look.heading_rad, share);
   const float done = std::min(1.0f, look.level_s / kFade_s);
+  person.props_share = PropsShare(look, done, Length(person.position - frame->eye));
+  person.props = person.props_share > 0 ? look.props : 0;
   if (look.level != kNotDrawn && done > 0) {
     person.level = look.level;
     person.share_to = done;
     frame->people.push_back(person);
+    person.props = 0;  // once is enough
   }
   if (look.last_level != kNotDrawn && done < 1) {
     person.level = look.last_level;
@@ -185,6 +194,7 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, const Mom
   const ClipMoment before = look.moment;
   FollowClip(MomentOf(s, i, pack.avatars[static_cast<size_t>(look.avatar)], look.moment.clip), anew, moment.passed_s, &look);
   look.phase_step = anew ? 0 : PhaseStep(before, look.moment);
+  look.props = id < s.levels.props.shown.size() ? s.levels.props.shown[id] : 0;
   const bool no_budget = id < s.levels.fades.at_once.size() && s.levels.fades.at_once[id] != 0;
   FollowLevel(level, leaves_view || no_budget || (anew && !was_in_view), moment.passed_s, &look);
   KeepIfShown(s.crowd.id[i], looks);

@@ -22,7 +22,8 @@ struct PersonLook {
   Vec3 position, before;                   // before: where the picture stood before the last step
   float heading_rad = 0, heading_before_rad = 0;
   float phase_step = 0;                    // of the clip, since before
-  std::array<uint8_t, 4> tints{};          // DrawnPerson's
+  std::array<uint8_t, 4> tints{};          // DrawnPerson's,
+  uint8_t props = 0;                       // and these
 };
 
 struct EyeLook { Vec3 position; float yaw_rad = 0; };

@@ -96,6 +96,7 @@ void AddGuideFigure(TourPack* pack) {
   PackAvatar figure = *found;
   figure.share = 0;
   figure.tints.clear();  // known by the own colours
+  figure.props.clear();
   figure.impostor_of = static_cast<int>(found - pack->avatars.begin());
   for (PackTexture* picture : {&figure.impostor.albedo, &figure.impostor.normal, &figure.impostor.depth, &figure.impostor.motion}) {
     picture->levels.clear();

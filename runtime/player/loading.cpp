@@ -84,7 +84,7 @@ Error Loader::Impl::ReadMesh(int mesh) { return file.ReadMesh(mesh, &pack.meshes
 Error Loader::Impl::ReadLevel(const AssetId& id) {
   const PackAvatar& avatar = pack.avatars[static_cast<size_t>(id.index)];
   const auto level = static_cast<size_t>(id.level);
-  if (avatar.impostor_of < 0) return ReadMesh(avatar.levels[level].mesh);
+  if (avatar.impostor_of < 0) return ReadMesh(MeshesOf(id, pack).front());
   const PackAvatar& like = pack.avatars[static_cast<size_t>(avatar.impostor_of)];
   PackMesh mesh, finest;
   if (Error e = file.ReadMesh(like.levels[level].mesh, &mesh)) return e;

@@ -28,12 +28,23 @@ void TakeObstacles(const std::vector<PackObstacle>& obstacles, Walkable* w) {
   }
 }
 
+std::vector<PropCost> CostsOf(const std::vector<PackProp>& props) {
+  std::vector<PropCost> costs;
+  for (size_t k = 0; k < props.size(); ++k) {
+    const auto same = [&](const PackProp& other) { return !props[k].slot.empty() && other.slot == props[k].slot; };
+    const auto first = std::find_if(props.begin(), props.begin() + static_cast<std::ptrdiff_t>(k), same);
+    costs.push_back({props[k].triangles, props[k].share, static_cast<int>(first - props.begin())});
+  }
+  return costs;
+}
+
 void TakePack(const TourPack& pack, Simulation* s) {
   for (const PackAvatar& avatar : pack.avatars) {
     AvatarCosts costs;
     for (const PackLevel& level : avatar.levels) costs.levels.push_back({level.triangles, level.switch_px});
     costs.height_m = avatar.height_m;
     costs.impostor_px = avatar.height_m / avatar.impostor.texel_m;
+    costs.props = CostsOf(avatar.props);
     s->avatar_names.push_back(avatar.name);
     s->avatar_costs.push_back(costs);
     s->avatar_share.push_back(avatar.share);

@@ -21,6 +21,11 @@ std::vector<bool> ImagesOfTown(const TourPack& pack) {
   return of_town;
 }
 
+int MeshOf(const PackAvatar& avatar, int level) {
+  const auto index = static_cast<size_t>(level);
+  return index < avatar.levels.size() ? avatar.levels[index].mesh : avatar.props[index - avatar.levels.size()].mesh;
+}
+
 }  // namespace
 
 Asset::Asset() = default;
@@ -47,6 +52,10 @@ std::vector<AssetId> AssetsOf(const TourPack& pack) {
     add_level(a, 0);
   }
   add_pictures(false);
+  for (int a = 0; a < avatars; ++a) {
+    const PackAvatar& avatar = pack.avatars[static_cast<size_t>(a)];
+    for (size_t k = 0; k < avatar.props.size(); ++k) ids.push_back({AssetKind::kLevel, a, static_cast<int>(avatar.levels.size() + k)});
+  }
   size_t most = 0;
   for (const PackAvatar& avatar : pack.avatars) most = std::max(most, avatar.levels.size());
   for (size_t k = 1; k < most; ++k) {
@@ -68,7 +77,7 @@ AssetStages StagesOf(const std::vector<AssetId>& assets) {
 std::vector<int> MeshesOf(const AssetId& asset, const TourPack& pack) {
   std::vector<int> meshes;
   if (asset.kind == AssetKind::kLevel) {
-    meshes.push_back(pack.avatars[static_cast<size_t>(asset.index)].levels[static_cast<size_t>(asset.level)].mesh);
+    meshes.push_back(MeshOf(pack.avatars[static_cast<size_t>(asset.index)], asset.level));
   }
   if (asset.kind == AssetKind::kTown) {
     for (const TownInstance& instance : pack.town) meshes.push_back(instance.mesh);
@@ -92,7 +101,7 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
       break;
     case AssetKind::kLevel: {
       const PackAvatar& avatar = pack.avatars[index];
-      asset.content->person = BuildPersonGeometry(pack, avatar.levels[static_cast<size_t>(id.level)].mesh, plan);
+      asset.content->person = BuildPersonGeometry(pack, MeshOf(avatar, id.level), plan);
       const bool coarsest = static_cast<size_t>(id.level) + 1 == avatar.levels.size();
       for (size_t k = 0; k < std::size(kShadowCells_m) && coarsest; ++k) {
         asset.content->shadows[k] = ShadowGeometry(asset.content->person, kShadowCells_m[k]);

@@ -10,7 +10,8 @@ namespace flaneur {
 struct SurfacePlan;
 struct AtlasFormats;
 
-// kTown: all of the town's meshes. kPicture: an image. kLevel: a level of an avatar. kAtlas: an avatar's impostor.
+// kTown: all of the town's meshes. kPicture: an image. kLevel: a level of an avatar, or
+// behind them one of its props. kAtlas: an avatar's impostor.
 enum class AssetKind { kTown, kPicture, kLevel, kAtlas };
 struct AssetId { AssetKind kind = AssetKind::kTown; int index = 0, level = 0; };
 

@@ -28,6 +28,8 @@ struct DrawnPerson {
   Vec3 position;           // of the feet
   float heading_rad = 0;   // where the person faces
   float share_from = 0, share_to = 1;
+  uint8_t props = 0;       // bit k: the k-th of the avatar's is drawn too,
+  float props_share = 1;   // [0, props_share) of the pattern
   std::array<uint8_t, 4> tints{};  // by tint of the avatar, the last unused: 0 its own colour, k the k-th of its others
 };
 

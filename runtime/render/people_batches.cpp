@@ -75,6 +75,13 @@ size_t AddPose(const DrawnPerson& person, const AvatarLayout& avatar, PeopleBatc
   return row;
 }
 
+// Once a person, however much is drawn of them.
+float RowOfPose(uint32_t number, const DrawnPerson& person, const AvatarLayout& avatar, PeopleBatches* out) {
+  int& row = out->pose_rows_of[number];
+  if (row < 0) row = static_cast<int>(AddPose(person, avatar, out));
+  return static_cast<float>(row);
+}
+
 // A mesh faces glTF's +Z; turned about the vertical by heading + 90 degrees it faces the heading.
 PersonInstance Placed(const DrawnPerson& person, float row, float phases) {
   const Vec3 p = GltfFromGround(person.position);
@@ -156,7 +163,7 @@ int ReadyLevel(int level, int levels, const AvatarReady& ready) {
     if (ready.levels[static_cast<size_t>(k)]) return k;
   }
   if (ready.impostor) return -1;
-  return levels > 0 && ready.levels.back() ? levels - 1 : kNoLevel;
+  return levels > 0 && ready.levels[static_cast<size_t>(levels) - 1] ? levels - 1 : kNoLevel;
 }
 
 // Who is nearer hides others, and is drawn before them: by steps of so much within a batch.
@@ -196,6 +203,7 @@ AvatarLayout LayoutOf(const PackAvatar& avatar) {
   AvatarLayout layout;
   layout.joints = avatar.joints;
   layout.levels = static_cast<int>(avatar.levels.size());
+  layout.props = static_cast<int>(avatar.props.size());
   layout.height_m = avatar.height_m;
   layout.radius_m = avatar.radius_m;
   for (const PackLevel& level : avatar.levels) layout.switch_px.push_back(level.switch_px);
@@ -226,7 +234,7 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
   out->pose_rows = 0;
   out->hidden = 0;
   int levels = 1;
-  for (const AvatarLayout& avatar : avatars) levels = std::max(levels, avatar.levels);
+  for (const AvatarLayout& avatar : avatars) levels = std::max(levels, avatar.levels + avatar.props);
   const int count = static_cast<int>(avatars.size()), meshes = count * levels * 2;
   // Keys: meshes by avatar, level and fading, then near and far impostors by avatar.
   const auto batch_of = [&](int key) {
@@ -237,6 +245,7 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     return MayTouch(sight.frustum, box) && (sight.walls == nullptr || MayBeSeen(*sight.walls, box, true));
   };
   out->shadow_entries.clear();
+  out->pose_rows_of.assign(people.size(), -1);
   for (size_t i = 0; i < people.size(); ++i) {
     const DrawnPerson& person = people[i];
     const auto index = static_cast<size_t>(person.avatar);
@@ -256,12 +265,20 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     const int fades = person.share_from > 0 || person.share_to < 1 ? 1 : 0;
     const int far = distance_m > kFarImpostor_m ? count : 0;
     out->entries.push_back({number, level < 0 ? meshes + far + person.avatar : (person.avatar * levels + level) * 2 + fades, StepOf(distance_m)});
+    for (int k = 0; person.props >> k != 0; ++k) {
+      const int prop = avatars[index].levels + k;
+      if ((person.props >> k & 1) == 0 || !ready[index].levels[static_cast<size_t>(prop)]) continue;
+      const int prop_fades = person.props_share < 1 ? 1 : 0;
+      out->entries.push_back({number, (person.avatar * levels + prop) * 2 + prop_fades, StepOf(distance_m), level < 0});
+    }
   }
   Gather(meshes + 2 * count, batch_of, [&](const PeopleBatches::Entry& e) {
     const DrawnPerson& person = people[e.person];
     const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];
     if (e.key >= meshes) return AsImpostor(person, avatar, sight.eye);
-    return Placed(person, static_cast<float>(AddPose(person, avatar, out)), 0);
+    PersonInstance instance = Placed(person, RowOfPose(e.person, person, avatar, out), e.on_impostor ? 1.0f : 0.0f);
+    if (e.key / 2 % levels >= avatar.levels) instance.look.y = 0, instance.look.z = person.props_share;
+    return instance;
   }, out, &out->seen);
   std::swap(out->entries, out->shadow_entries);
   Gather(2 * count, [](int key) { return PeopleBatch{key / 2, key % 2, false, 0, 0}; }, [&](const PeopleBatches::Entry& e) {

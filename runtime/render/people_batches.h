@@ -17,7 +17,7 @@ using PoseRow = std::array<int16_t, 4>;
 struct ClipRows { int frames = 1; std::vector<PoseRow> rows; };
 
 struct AvatarLayout {
-  int joints = 0, levels = 0;
+  int joints = 0, levels = 0, props = 0;
   float turn_step = 0, shift_step_m = 0;
   std::array<ClipRows, 3> clips;  // by ClipKind
   std::array<int, 3> first_shadow_row{}, shadow_rows{};  // in the texture of poses for shadows
@@ -37,7 +37,7 @@ int ShadowFrame(const ClipRows& clip, int shadow_row, int shadow_rows);
 
 // What can be drawn of an avatar: pictures and meshes may still be on their way.
 struct AvatarReady {
-  std::vector<bool> levels;
+  std::vector<bool> levels;  // behind them the props
   bool impostor = false, shadow = false;
 };
 
@@ -45,11 +45,11 @@ struct AvatarReady {
 struct PersonInstance {
   Vec4 place;              // position in glTF axes, turn about the vertical
   Vec4 look;               // mesh: row of the poses; impostor: first cell of its picture; shadow: row of the poses for shadows; then
-                           // share of the pattern from, to; and, impostor: phases since its picture
+                           // share of the pattern from, to; and, impostor: phases since its picture, prop: 1 on an impostor
   std::array<uint8_t, 4> tints{};  // DrawnPerson's
 };
 
-// One draw: instances first ... first + count - 1 of one avatar at one level (-1: impostor).
+// One draw: instances first ... first + count - 1 of one avatar at one level (-1: impostor; behind the last one: a prop).
 struct PeopleBatch { int avatar = 0, level = 0; bool fades = false; size_t first = 0, count = 0; };
 
 struct PeopleBatches {
@@ -60,9 +60,10 @@ struct PeopleBatches {
   size_t pose_width = 0, pose_rows = 0;
   int hidden = 0;                    // left out because the picture cannot show them
 
-  struct Entry { uint32_t person = 0; int key = 0, step = 0; };
+  struct Entry { uint32_t person = 0; int key = 0, step = 0; bool on_impostor = false; };  // of a prop
   std::vector<Entry> entries, shadow_entries;  // scratch
   std::vector<size_t> counts;
+  std::vector<int> pose_rows_of;     // by person: their row of the poses; -1: none yet
 };
 
 // From where people are seen, and what hides them. Without a map nothing does.

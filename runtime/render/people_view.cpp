@@ -29,7 +29,7 @@ PersonMesh UploadMesh(const PersonGeometry& person) {
 }
 
 Error BuildPrograms(const std::string& defines, PeopleView* people) {
-  const std::string vertex = std::string(kFrame) + kHaze + kTintVertex + kPersonVertex;
+  const std::string vertex = defines + kFrame + kHaze + kTintVertex + kPersonVertex;
   const std::string cells = "#define CELLS_WIDTH " + std::to_string(kCellsWidth) + "\n" + kImpostorCells, impostor_vertex = defines + kFrame + kHaze + cells + kTintVertex + kImpostorVertex;
   for (int masked = 0; masked < 2; ++masked) {
     const std::string lit = (masked ? "#define TINTS\n#define MASKED\n" : "#define TINTS\n") + defines + kFrame + kLight + kOutcome + kTintFragment;
@@ -201,14 +201,14 @@ Error CreatePeopleView(const TourPack& pack, const std::string& defines, const S
     const PackImpostor& atlas = avatar.impostor;
     const float width_px = static_cast<float>(atlas.width_px), height_px = static_cast<float>(atlas.height_px);
     AvatarView view;
-    view.levels.resize(avatar.levels.size());
+    view.levels.resize(avatar.levels.size() + avatar.props.size());
     view.atlas = {1 / (atlas.texel_m * width_px), 1 / (atlas.texel_m * height_px), width_px, height_px};
     view.ranges = {atlas.depth_range_m, atlas.motion_range_m, atlas.bend_range_m};
     view.directions = static_cast<float>(atlas.directions);
     view.impostor_of = avatar.impostor_of;
     AddTints(avatar.tints, &view);
+    people->ready.push_back({std::vector<bool>(view.levels.size(), false), false, false});
     people->avatars.push_back(std::move(view));
-    people->ready.push_back({std::vector<bool>(avatar.levels.size(), false), false, false});
   }
   CreateQuad(people);
   people->poses = CreateTable(0, 0, nullptr);

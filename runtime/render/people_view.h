@@ -13,7 +13,7 @@ namespace flaneur {
 struct PersonMesh { GLuint vertex_array = 0; std::vector<PersonRange> ranges; int64_t triangles = 0; };
 
 struct AvatarView {
-  std::vector<PersonMesh> levels;
+  std::vector<PersonMesh> levels;     // behind them the props
   std::array<PersonMesh, 2> shadows;  // as in ShadowLevels
   GLuint albedo = 0, normals = 0, depth = 0, motion = 0;  // of the impostor
   Vec4 atlas;                      // texture coordinates a metre, size in texels

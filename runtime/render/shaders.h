@@ -169,7 +169,7 @@ layout(location = 3) in vec4 a_color;
 layout(location = 4) in uvec4 a_joints;
 layout(location = 5) in vec4 a_weights;
 layout(location = 6) in vec4 a_place;     // position, turn about the vertical
-layout(location = 7) in vec4 a_look;      // row of the pose texture, share of the pattern from, to
+layout(location = 7) in vec4 a_look;      // row of the pose texture, share of the pattern from, to, and 1: a prop on an impostor
 uniform highp sampler2D u_poses;
 #ifndef SHADOW
 centroid out vec3 v_position, v_normal;
@@ -210,6 +210,15 @@ void main() {
   v_color = a_color;
   v_share = a_look.yz;
   choose_tints();
+#ifdef FAST
+  // A prop before the person's axis stands before their impostor, which is as deep as its front.
+  vec2 to_eye = normalize(u_eye.xz - a_place.xz);
+  float before_m = dot(place.xz - a_place.xz, to_eye);
+  if (a_look.w > 0.5 && before_m > -0.02) {
+    vec4 front = u_view_projection * vec4(place + vec3(to_eye.x, 0.0, to_eye.y) * (0.36 - 0.9 * before_m), 1.0);
+    gl_Position.z = front.z / front.w * gl_Position.w;
+  }
+#endif
 #endif
 }
 )";

@@ -40,6 +40,7 @@ std::vector<bool> MaterialsOfPeople(const TourPack& pack) {
   };
   for (const PackAvatar& avatar : pack.avatars) {
     for (const PackLevel& level : avatar.levels) mark(level.mesh, true);
+    for (const PackProp& prop : avatar.props) mark(prop.mesh, true);
   }
   for (const TownInstance& instance : pack.town) mark(instance.mesh, false);
   return of_people;

@@ -288,6 +288,25 @@ TEST(BuildLevels, AreTheSameOnAnyNumberOfThreads) {
   }
 }
 
+TEST(BuildLevels, PropsKeepTheirJointsAndHaveFewTriangles) {
+  if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
+  Avatar avatar;
+  std::vector<std::string> warnings;
+  ReadAvatarOptions read;
+  read.props = {"Spike_Shield", "Knight_Helmet", "Round_Shield"};
+  ASSERT_EQ(ReadAvatar(SharedData() / "avatars/kaykit/Knight.glb", read, &avatar, &warnings).message, "");
+  const auto joint_of = [](const Avatar& a, size_t prop) { return a.joints[a.props[prop].meshes[0].joints[0][0]].name; };
+  AvatarLevels levels;
+  ASSERT_EQ(BuildLevels(avatar, {}, &levels, &warnings).message, "");
+  ASSERT_EQ(levels.avatar.props.size(), 3u);
+  for (size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(joint_of(levels.avatar, k), joint_of(avatar, k));
+    EXPECT_LE(Triangles(levels.avatar.props[k].meshes), 306);
+    EXPECT_GE(Triangles(levels.avatar.props[k].meshes), 280);
+  }
+  EXPECT_EQ(Triangles(levels.levels[0].meshes), Triangles(avatar.meshes)) << "they are in no level";
+}
+
 TEST(BuildLevels, HandlesRealPeople) {
   if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
   for (const char* file : {"kaykit/Knight.glb", "kaykit/Mage.glb", "khronos/CesiumMan.glb"}) {

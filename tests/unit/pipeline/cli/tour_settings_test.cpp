@@ -102,6 +102,21 @@ TEST(TourSettings, TintsAreColoursAndSaySoWhereTheyAreNot) {
   EXPECT_TRUE(has(Refusal(four), "three [[avatar.tint]] at most"));
 }
 
+TEST(TourSettings, PropsNameTheirNodeAndShareASlotAtMostOnce) {
+  const std::string prop = std::string(kLeast) + "[[avatar.prop]]\n";
+  TourSettings settings;
+  ASSERT_EQ(Read(prop + "node = \"basket\"\nslot = \"hand\"\n[[avatar.prop]]\nnode = \"jug\"\nslot = \"hand\"\n", &settings), "");
+  ASSERT_EQ(settings.avatars[0].props.size(), 2u);
+  EXPECT_EQ(settings.avatars[0].props[1].node, "jug");
+  const auto has = [](const std::string& message, const char* what) { return message.find(what) != std::string::npos; };
+  EXPECT_TRUE(has(Refusal(prop + "share = 0.5\n"), "needs the node"));
+  EXPECT_TRUE(has(Refusal(prop + "node = \"a\"\n[[avatar.prop]]\nnode = \"a\"\n"), "two props are the node 'a'"));
+  EXPECT_TRUE(has(Refusal(prop + "node = \"a\"\nslot = \"s\"\n[[avatar.prop]]\nnode = \"b\"\nshare = 0.6\nslot = \"s\"\n"), "more than 1 together"));
+  std::string eight = kLeast;
+  for (int k = 0; k < 8; ++k) eight += "[[avatar.prop]]\nnode = \"p" + std::to_string(k) + "\"\n";
+  EXPECT_TRUE(has(Refusal(eight), "seven [[avatar.prop]] at most"));
+}
+
 TEST(TourSettings, TheReferenceFileHoldsTheDefaultsOfEveryList) {
   TourSettings reference, least;
   ASSERT_EQ(ReadTourSettings(kReference, &reference).message, "");

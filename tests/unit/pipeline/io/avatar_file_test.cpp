@@ -246,6 +246,51 @@ TEST_F(AvatarFile, BrokenBytesDoNotCrash) {
   }
 }
 
+// A flag high above the head, on the last joint.
+Avatar WithFlag(Avatar person) {
+  Mesh flag;
+  flag.positions = {{0, 3, 0}, {1, 3, 0}, {0, 4, 0}};
+  flag.normals.assign(3, {0, 0, 1});
+  flag.joints.assign(3, {static_cast<uint16_t>(person.joints.size() - 1), 0, 0, 0});
+  flag.weights.assign(3, {1, 0, 0, 0});
+  flag.indices = {0, 1, 2};
+  person.props = {{"flag", {flag}}};
+  return person;
+}
+
+TEST_F(AvatarFile, PropsStandApartAndDoNotMakeThePersonHigher) {
+  const fs::path path = Write(WithFlag(MadePerson()));
+  const int own = [&] {
+    int triangles = 0;
+    for (const Mesh& mesh : MadePerson().meshes) triangles += TriangleCount(mesh);
+    return triangles;
+  }();
+  const auto triangles = [&] {
+    int count = 0;
+    for (const Mesh& mesh : avatar_.meshes) count += TriangleCount(mesh);
+    return count;
+  };
+  ReadAvatarOptions options;
+  options.props = {"flag"};
+  ASSERT_EQ(Read(path, options), "");
+  EXPECT_EQ(triangles(), own);
+  EXPECT_NEAR(avatar_.height_m, MadePerson().height_m, 0.02f);
+  ASSERT_EQ(avatar_.props.size(), 1u);
+  ASSERT_EQ(avatar_.props[0].meshes.size(), 1u);
+  EXPECT_EQ(TriangleCount(avatar_.props[0].meshes[0]), 1);
+  for (const auto& joints : avatar_.props[0].meshes[0].joints) EXPECT_LT(joints[0], avatar_.joints.size());
+  float highest = 0;
+  for (const Vec3 p : avatar_.props[0].meshes[0].positions) highest = std::max(highest, p.y);
+  EXPECT_NEAR(highest, 4, 0.1f);
+  ASSERT_EQ(Read(path), "") << "nobody says that it is a prop";
+  EXPECT_EQ(triangles(), own + 1);
+  options.props = {"flg"};
+  EXPECT_NE(Read(path, options).find("no node 'flg' for the prop of that name; did you mean 'flag'?"), std::string::npos);
+  options.props = {"flag"};
+  options.hide = {"flag"};
+  EXPECT_NE(Read(path, options).find("prop 'flag' shows no mesh"), std::string::npos);
+}
+
 TEST_F(AvatarFile, ReadsRealPeople) {
   if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
   const fs::path people = SharedData() / "avatars";
@@ -263,6 +308,15 @@ TEST_F(AvatarFile, ReadsRealPeople) {
   ASSERT_EQ(Read(people / "kaykit/Knight.glb", options), "");
   EXPECT_EQ(avatar_.meshes.size(), 1u) << "one a material";
   EXPECT_LT(TriangleCount(avatar_.meshes[0]), 6952);
+  EXPECT_TRUE(avatar_.props.empty());
+  const float height_m = avatar_.height_m;
+  options.props = {"Round_Shield", "1H_Sword"};
+  ASSERT_EQ(Read(people / "kaykit/Knight.glb", options), "");
+  ASSERT_EQ(avatar_.props.size(), 2u);
+  EXPECT_EQ(TriangleCount(avatar_.props[0].meshes[0]), 284);
+  EXPECT_EQ(TriangleCount(avatar_.props[1].meshes[0]), 300);
+  EXPECT_EQ(avatar_.props[0].meshes[0].material, avatar_.meshes[0].material) << "one picture for all";
+  EXPECT_EQ(avatar_.height_m, height_m);
   EXPECT_EQ(avatar_.clips.size(), 2u);
   EXPECT_NEAR(FindClip(avatar_, "walk")->duration_s, 1.0667f, 0.001f) << "Walking_A";
   ASSERT_EQ(Read(people / "khronos/RiggedFigure.glb"), "");

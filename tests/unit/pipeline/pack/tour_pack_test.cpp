@@ -96,6 +96,9 @@ AvatarLevels TwoLevels() {
   coarse.posed_error_mm = 12.5f;
   levels.levels[0].switch_px = 90;
   levels.levels.push_back(coarse);
+  Mesh stick = coarse.meshes[0];
+  stick.indices.resize(3);
+  levels.avatar.props = {{"stick", {stick}}};
   return levels;
 }
 
@@ -117,7 +120,7 @@ TourParts SmallTour() {
   TourParts parts;
   parts.name = "small";
   parts.town = SmallTown();
-  parts.avatars = {{TwoLevels(), SmallAtlas(), 2.5f, {{{0.2f, 0.4f, 0.6f}, 0.1f, {{1, 0, 0}, {0, 0.6f, 0}}}}}};
+  parts.avatars = {{TwoLevels(), SmallAtlas(), 2.5f, {{{0.2f, 0.4f, 0.6f}, 0.1f, {{1, 0, 0}, {0, 0.6f, 0}}}}, {{0.5f, "hand"}}}};
   parts.footprints = SmallFootprints();
   parts.ground = {{-20, -20}, 10, 4, 3, std::vector<float>(12, 0.25f), std::vector<uint8_t>(12, 3)};
   parts.ground.height_m[5] = -1.5f;
@@ -215,6 +218,12 @@ TEST(TourPack, BringsAvatarsAcross) {
   EXPECT_EQ(avatar.name, "made");
   EXPECT_EQ(avatar.share, 2.5f);
   EXPECT_EQ(avatar.walk_speed_mps, 1.2f);
+  ASSERT_EQ(avatar.props.size(), 1u);
+  EXPECT_EQ(avatar.props[0].name, "stick");
+  EXPECT_EQ(avatar.props[0].slot, "hand");
+  EXPECT_EQ(avatar.props[0].share, 0.5f);
+  EXPECT_EQ(avatar.props[0].triangles, 1);
+  EXPECT_EQ(pack.meshes[static_cast<size_t>(avatar.props[0].mesh)].primitives[0].indices.size(), 3u);
   ASSERT_EQ(avatar.tints.size(), 1u);
   EXPECT_EQ(avatar.tints[0].reach, 0.1f);
   EXPECT_NEAR(avatar.tints[0].color.z, 0.6f, 1e-6f);
@@ -398,13 +407,13 @@ TEST(TourPack, AMemberOfAnotherTypeIsRefusedByItsPlace) {
 TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
-  for (const char* object : {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/impostor", "/avatars/0/impostor/clips/0",
+  for (const char* object : {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0", "/avatars/0/impostor", "/avatars/0/impostor/clips/0",
                              "/obstacles/1", "/ground", "/places/0", "/painting", "/path/0"}) {
     const Json::json_pointer at(std::string("/extensions/FLANEUR_tour") + object);
     for (const auto& [key, unused] : json.at(at).items()) {
       Json changed = json;
       changed.at(at).erase(key);
-      if (std::set<std::string>{"painting", "guide", "titles", "language", "captions", "sounds", "tints"}.contains(key)) continue;  // there need not be any
+      if (std::set<std::string>{"painting", "guide", "titles", "language", "captions", "sounds", "tints", "props"}.contains(key)) continue;  // there need not be any
       EXPECT_TRUE(Refused(WithJson(whole, changed))) << object << "/" << key;
     }
   }

@@ -18,6 +18,78 @@ bool InWedgeByAngle(Vec2 p, Vec2 apex, float yaw_rad, float fov_rad) {
   return std::abs(angle) <= fov_rad / 2;
 }
 
+TEST(Props, AreSpreadByTheirSharesAndNobodyHasTwoOfASlot) {
+  const std::vector<PropCost> props{{100, 0.25f, 0}, {60, 0.5f, 0}, {80, 0.3f, 2}};
+  int count[3] = {0, 0, 0}, both = 0;
+  constexpr int kPeople = 20000;
+  for (int id = 0; id < kPeople; ++id) {
+    const uint8_t chosen = PropsOf(props, id);
+    for (int k = 0; k < 3; ++k) count[k] += chosen >> k & 1;
+    EXPECT_NE(chosen & 3, 3) << "two of one slot";
+    both += (chosen & 3) != 0 && (chosen & 4) != 0 ? 1 : 0;
+    EXPECT_EQ(chosen, PropsOf(props, id));
+  }
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<float>(count[k]) / kPeople, props[static_cast<size_t>(k)].share, 0.02f) << k;
+  EXPECT_NEAR(static_cast<float>(both) / kPeople, 0.75f * 0.3f, 0.02f) << "slots don't know each other";
+}
+
+TEST(Props, StayWithinTheirRoomAndNeitherComeNorGoInView) {
+  const std::vector<PropCost> props{{100, 1, 0}};
+  Props state;
+  const auto step = [&](const std::vector<int>& ids, int64_t room) {
+    state.bearers.clear();
+    for (int id : ids) state.bearers.push_back({id, &props, static_cast<float>(id)});
+    ChooseProps(room, 10, &state);
+    std::vector<int> shown;
+    for (int id = 0; id < 10; ++id) {
+      if (state.shown[static_cast<size_t>(id)] != 0) shown.push_back(id);
+    }
+    EXPECT_EQ(state.triangles, 100 * static_cast<int64_t>(shown.size()));
+    EXPECT_LE(state.triangles, room);
+    return shown;
+  };
+  EXPECT_EQ(step({5, 6, 7}, 250), (std::vector<int>{5, 6})) << "the nearest";
+  EXPECT_EQ(step({3, 5, 6, 7}, 250), (std::vector<int>{5, 6})) << "who has them keeps them";
+  EXPECT_EQ(step({3, 6, 7}, 250), (std::vector<int>{6})) << "nothing appears on who is in view";
+  EXPECT_EQ(step({3, 4, 6, 7}, 250), (std::vector<int>{4, 6})) << "but who comes has what is left";
+  EXPECT_EQ(step({3, 4, 6, 7}, 150), (std::vector<int>{4})) << "less room";
+  EXPECT_EQ(step({4}, 150), (std::vector<int>{4}));
+  EXPECT_EQ(step({3, 4}, 250), (std::vector<int>{3, 4})) << "was out of view and is back";
+}
+
+TEST(ChooseLevels, TheBudgetHoldsForPropsAsWell) {
+  Random random{5};
+  for (int budget : {40, 300, 2000, 20000, 200000}) {
+    std::vector<AvatarCosts> avatars{{{{9000, 400}, {3000, 200}, {700, 0}}, 1.75f, 128, {{250, 0.7f, 0}, {90, 0.3f, 1}}}, {{{500, 0}}, 1.75f, 128}};
+    Crowd crowd;
+    for (int k = 0; k < 300; ++k) {
+      Person person;
+      person.position = {random.Uniform(1, 60), random.Uniform(-30, 30)};
+      person.avatar = k % 2;
+      AddPerson(person, &crowd);
+    }
+    LevelSettings settings;
+    settings.budget_triangles = budget;
+    LevelState state;
+    for (int step = 0; step < 120; ++step) {
+      for (size_t i = 0; i < crowd.size(); ++i) {
+        crowd.position[i] = crowd.position[i] + Vec2{random.Uniform(-0.3f, 0.3f), random.Uniform(-0.3f, 0.3f)};
+        crowd.view[i] = Classify(crowd.position[i], ViewCamera{}, 3);
+      }
+      ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, settings, 1.0f / 30, &state);
+      ASSERT_LE(state.triangles, budget);
+      ASSERT_LE(state.props.triangles, budget / 10);
+      int64_t drawn = state.fades.triangles + state.props.triangles;
+      for (size_t i = 0; i < crowd.size(); ++i) {
+        const int level = state.level[i];
+        if (level != kNotDrawn) drawn += level < 0 ? kImpostorTriangles : avatars[static_cast<size_t>(crowd.avatar[i])].levels[static_cast<size_t>(level)].triangles;
+      }
+      ASSERT_EQ(state.triangles, drawn);
+    }
+    EXPECT_GT(state.props.triangles, budget >= 20000 ? 0 : -1);
+  }
+}
+
 TEST(ViewVolumes, AgreeWithTheDefinitionByAngles) {
   Random random{3};
   for (int i = 0; i < 100000; ++i) {

@@ -70,6 +70,31 @@ TEST(FrameFromSimulation, PeopleOfOneModelWearDifferentColoursAndKeepThem) {
   for (size_t k = 0; k < people.size(); ++k) EXPECT_EQ(later[k].tints, people[k].tints);
 }
 
+TEST(FrameFromSimulation, PropsAreDrawnOnceAndFadeWithTheirBearerAndFarOff) {
+  Stage stage;
+  stage.s.levels.props.shown = {3};
+  const auto share = [&] {
+    float sum = 0;
+    for (const DrawnPerson& p : stage.frame.people) sum += p.props != 0 ? p.props_share : 0;
+    return sum;
+  };
+  const auto next_share = [&] {
+    stage.Next();
+    return share();
+  };
+  EXPECT_EQ(next_share(), 1);
+  EXPECT_EQ(stage.frame.people[0].props, 3);
+  stage.s.levels.level = {-1};
+  for (int k = 0; k < 15; ++k) EXPECT_NEAR(next_share(), 1, 1e-5f) << "while the level changes";
+  const auto at = [&](float x) {
+    stage.s.crowd.position[0].x = x;
+    return next_share();
+  };
+  EXPECT_EQ(at(kPropReach_m - kPropFade_m - 0.5f), 1);
+  EXPECT_NEAR(at(kPropReach_m - kPropFade_m / 2), 0.5f, 0.05f);
+  EXPECT_EQ(at(kPropReach_m + 0.5f), 0);
+}
+
 TEST(FrameFromSimulation, ALevelIsExchangedBitByBit) {
   Stage stage;
   ASSERT_EQ(stage.Next().size(), 1u);

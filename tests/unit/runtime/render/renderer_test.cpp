@@ -188,6 +188,42 @@ TEST_F(Drawing, ABoxIsWhereTheProjectionSays) {
   EXPECT_FALSE(IsRed(Pixel(rgb, column(0), row(-1.8f))));
 }
 
+// A blue plate that hangs before the chest, or behind the back: on meshes and impostors, fine and fast.
+TEST_F(Drawing, APropIsDrawnBeforeThePersonOrHiddenBehindThem) {
+  for (const bool in_front : {true, false}) {
+    TourPack pack = MakePack({});
+    pack.materials.push_back({"blue", {0.05f, 0.05f, 0.6f, 1}, -1, false, false, 0.5f});
+    const float z = in_front ? 0.30f : -0.34f;  // the person faces +Z, their front is at 0.25
+    pack.meshes.push_back({{BoxPrimitive({-0.15f, 0.9f, z - 0.02f}, {0.15f, 1.3f, z + 0.02f}, 1, true)}});
+    pack.avatars[0].props = {{"plate", static_cast<int>(pack.meshes.size()) - 1, 12, 1, ""}};
+    for (const int samples : {4, 1}) {
+      for (const int level : {0, -1}) {
+        FrameInput frame = LookEast();
+        frame.people = {PersonAt(5, 0, level)};
+        const auto blue = [&](uint8_t props, float share) {
+          frame.people[0].props = props;
+          frame.people[0].props_share = share;
+          const std::vector<uint8_t> rgb = Draw(pack, frame, {.samples = samples});
+          int count = 0;
+          for (int y = kHeight / 3; y < kHeight; ++y) {
+            for (int x = kWidth * 2 / 5; x < kWidth * 3 / 5; ++x) count += Pixel(rgb, x, y).b > Pixel(rgb, x, y).r + 40 ? 1 : 0;
+          }
+          return count;
+        };
+        SCOPED_TRACE(testing::Message() << "in front " << in_front << ", samples " << samples << ", level " << level);
+        EXPECT_EQ(blue(0, 1), 0);
+        const int whole = blue(1, 1);
+        if (!in_front) {
+          EXPECT_LT(whole, 10);
+          continue;
+        }
+        EXPECT_GT(whole, 100);
+        EXPECT_NEAR(blue(1, 0.5f), 0.5 * whole, 0.25 * whole) << "fades";
+      }
+    }
+  }
+}
+
 // The red of BoxPerson's pictures is dyed blue or left as it is, and every other colour stays.
 TEST_F(Drawing, ATintDyesMeshAndImpostorOfWhoWearsItAlone) {
   TourPack pack = MakePack({});
