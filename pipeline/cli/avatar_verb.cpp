@@ -8,8 +8,10 @@
 
 #include "pipeline/avatar/decimate.h"
 #include "pipeline/cli/arguments.h"
+#include "pipeline/cli/tint_reach.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/io/gltf.h"
+#include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {
@@ -88,7 +90,7 @@ void AddCompression(CLI::App* app, AvatarArguments* a) {
       ->group(compression);
 }
 
-nlohmann::json Statistics(const AvatarLevels& levels, double seconds) {
+nlohmann::json Statistics(const AvatarLevels& levels, const std::vector<MainColor>& colors, double seconds) {
   nlohmann::json list = nlohmann::json::array();
   for (const AvatarLevel& level : levels.levels) {
     list.push_back({{"triangles", level.triangles},
@@ -99,6 +101,8 @@ nlohmann::json Statistics(const AvatarLevels& levels, double seconds) {
                     {"joints", level.joints},
                     {"draws", level.meshes.size()}});
   }
+  nlohmann::json main_colors = nlohmann::json::array();
+  for (const MainColor& c : colors) main_colors.push_back({{"color", TextFromColor(c.color)}, {"share", c.share}});
   const Avatar& avatar = levels.avatar;
   nlohmann::json clips = nlohmann::json::array();
   for (const Clip& clip : avatar.clips) {
@@ -112,10 +116,11 @@ nlohmann::json Statistics(const AvatarLevels& levels, double seconds) {
           {"walk_speed_mps", avatar.walk_speed_mps},
           {"joints", avatar.joints.size()},
           {"clips", clips},
+          {"colors", main_colors},
           {"levels", list}};
 }
 
-Error Run(AvatarArguments a, AvatarLevels* levels, std::vector<std::string>* warnings) {
+Error Run(AvatarArguments a, AvatarLevels* levels, std::vector<MainColor>* colors, std::vector<std::string>* warnings) {
   const auto start = std::chrono::steady_clock::now();
   for (const auto* path : {&a.output, &a.json}) {
     if (path->empty()) continue;
@@ -124,19 +129,22 @@ Error Run(AvatarArguments a, AvatarLevels* levels, std::vector<std::string>* war
   Avatar avatar;
   if (Error e = ReadAvatar(a.input, a.read, &avatar, warnings)) return e;
   if (Error e = BuildLevels(avatar, a.levels, levels, warnings)) return e;
+  if (Error e = MainColors(avatar, colors)) return e;
   a.draco.compress = !a.plain;
   if (Error e = WriteAvatarGlb(a.output, *levels, a.draco)) return e;
   if (a.json.empty()) return Ok();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  return WriteTextFile(a.json, Statistics(*levels, seconds.count()).dump(2) + "\n");
+  return WriteTextFile(a.json, Statistics(*levels, *colors, seconds.count()).dump(2) + "\n");
 }
 
-void PrintSummary(const AvatarArguments& a, const AvatarLevels& levels) {
+void PrintSummary(const AvatarArguments& a, const AvatarLevels& levels, const std::vector<MainColor>& colors) {
   const Avatar& avatar = levels.avatar;
   std::printf("%s: %.2f m high, %zu joints, walks at %.2f m/s\n", a.output.c_str(),
               static_cast<double>(avatar.height_m), avatar.joints.size(),
               static_cast<double>(avatar.walk_speed_mps));
-  std::printf("level  triangles  draws  joints  error mm  posed mm  needed from px\n");
+  std::printf("colours for tints, and their share of the surface:");
+  for (const MainColor& c : colors) std::printf(" %s %.0f %%", TextFromColor(c.color).c_str(), 100 * static_cast<double>(c.share));
+  std::printf("\nlevel  triangles  draws  joints  error mm  posed mm  needed from px\n");
   for (size_t k = 0; k < levels.levels.size(); ++k) {
     const AvatarLevel& level = levels.levels[k];
     std::printf("%5zu  %9d  %5zu  %6d  %8.2f  %8.2f  %14.0f\n", k, level.triangles,
@@ -160,13 +168,14 @@ int RunAvatar(const Arguments& args) {
   AddCompression(&app, &arguments);
   if (const int status = ParseArguments(&app, args); status >= 0) return status;
   AvatarLevels levels;
+  std::vector<MainColor> colors;
   std::vector<std::string> warnings;
-  const Error error = Run(arguments, &levels, &warnings);
+  const Error error = Run(arguments, &levels, &colors, &warnings);
   for (const std::string& warning : warnings) {
     std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
   }
   if (error) return Report(error);
-  PrintSummary(arguments, levels);
+  PrintSummary(arguments, levels, colors);
   return 0;
 }
 

@@ -1,6 +1,7 @@
 #include "pipeline/cli/tint_reach.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -12,6 +13,12 @@ namespace flaneur {
 namespace {
 
 constexpr int kPlaces = 4;  // a triangle
+constexpr float kOneCloth = 0.1f;  // apart, as tints measure it
+constexpr float kBoxes = 12;       // along each side of the colours
+constexpr int kRounds = 3;
+constexpr size_t kMostMainColors = 6;
+constexpr int kMostTries = 30;     // many of small parts of the surface
+constexpr float kLeastShare = 1.0f / 30;
 
 Vec3 Texel(const Pixels& picture, Vec2 uv) {
   const auto at = [](float t, int size) { return std::min(size - 1, static_cast<int>((t - std::floor(t)) * static_cast<float>(size))); };
@@ -49,11 +56,8 @@ void AddPlaces(const Mesh& mesh, const Material& material, const Pixels* picture
   }
 }
 
-}  // namespace
-
-Error TintReach(const Avatar& avatar, const std::vector<PackTint>& tints, std::vector<float>* shares) {
+Error PlacesOf(const Avatar& avatar, std::vector<Place>* places) {
   std::map<int, Pixels> pictures;
-  std::vector<Place> places;
   for (const Mesh& mesh : avatar.meshes) {
     const Material material = mesh.material >= 0 ? avatar.materials[static_cast<size_t>(mesh.material)] : Material{};
     const int image = material.base_color_image;
@@ -62,15 +66,71 @@ Error TintReach(const Avatar& avatar, const std::vector<PackTint>& tints, std::v
       if (!decoded) return Fail("avatar '" + avatar.name + "': image '" + avatar.images[static_cast<size_t>(image)].name + "' cannot be decoded");
       pictures[image] = std::move(*decoded);
     }
-    AddPlaces(mesh, material, image >= 0 ? &pictures[image] : nullptr, &places);
+    AddPlaces(mesh, material, image >= 0 ? &pictures[image] : nullptr, places);
   }
+  return Ok();
+}
+
+float AreaOf(const std::vector<Place>& places) {
   float whole = 0;
+  for (const Place& place : places) whole += place.area;
+  return std::max(whole, 1e-9f);
+}
+
+bool IsNear(Vec3 a, Vec3 b) { return Length(WithHalfLightness(a) - WithHalfLightness(b)) < kOneCloth; }
+
+// The middle of the most crowded box of colours.
+Vec3 Densest(const std::vector<Place>& places) {
+  std::map<std::array<int, 3>, float> boxes;
+  const auto box = [](float v) { return static_cast<int>(v * kBoxes); };
+  for (const Place& p : places) boxes[{box(p.color.x), box(p.color.y), box(p.color.z)}] += p.area;
+  const auto most = std::max_element(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto middle = [](int k) { return (static_cast<float>(k) + 0.5f) / kBoxes; };
+  return {middle(most->first[0]), middle(most->first[1]), middle(most->first[2])};
+}
+
+// Of all near it; its share is their area.
+MainColor Mean(const std::vector<Place>& places, Vec3 near) {
+  MainColor mean;
+  for (const Place& p : places) {
+    if (!IsNear(p.color, near)) continue;
+    mean.color = mean.color + p.color * p.area;
+    mean.share += p.area;
+  }
+  mean.color = mean.color * (1 / std::max(mean.share, 1e-9f));
+  return mean;
+}
+
+}  // namespace
+
+Error MainColors(const Avatar& avatar, std::vector<MainColor>* colors) {
+  std::vector<Place> places;
+  if (Error e = PlacesOf(avatar, &places)) return e;
+  const float whole = AreaOf(places);
+  colors->clear();
+  for (int k = 0; k < kMostTries && !places.empty() && colors->size() < kMostMainColors; ++k) {
+    MainColor found = Mean(places, Densest(places));
+    for (int round = 0; round < kRounds; ++round) found = Mean(places, found.color);
+    const Vec3 color = found.color;
+    const auto rest = std::remove_if(places.begin(), places.end(), [&](const Place& p) { return IsNear(p.color, color); });
+    if (rest == places.end()) break;
+    places.erase(rest, places.end());
+    found.share /= whole;
+    if (found.share >= kLeastShare) colors->push_back(found);
+  }
+  std::sort(colors->begin(), colors->end(), [](const MainColor& a, const MainColor& b) { return a.share > b.share; });
+  return Ok();
+}
+
+Error TintReach(const Avatar& avatar, const std::vector<PackTint>& tints, std::vector<float>* shares) {
+  std::vector<Place> places;
+  if (Error e = PlacesOf(avatar, &places)) return e;
+  const float whole = AreaOf(places);
   shares->assign(tints.size(), 0);
   for (const Place& place : places) {
-    whole += place.area;
     for (size_t t = 0; t < tints.size(); ++t) (*shares)[t] += place.area * TintShare(tints[t], place.color);
   }
-  for (float& share : *shares) share /= std::max(whole, 1e-9f);
+  for (float& share : *shares) share /= whole;
   return Ok();
 }
 

@@ -34,6 +34,22 @@ TEST(TintReach, IsTheShareOfTheSurfaceWithTheColour) {
   EXPECT_EQ(shares[2], 0) << "nobody wears it";
 }
 
+TEST(TintReach, MainColoursAreThoseOfTheClothsAndTheLargestComesFirst) {
+  const Vec3 blue{0.2f, 0.3f, 0.5f}, linen{0.8f, 0.78f, 0.7f};
+  Avatar avatar;
+  avatar.materials = {Plain(blue), Plain(linen), Plain(blue + Vec3{0.02f, 0.02f, 0.02f}), Plain({0.9f, 0.1f, 0.1f})};
+  for (int k = 0; k < 12; ++k) avatar.meshes.push_back(Square(k < 4 ? 0 : k < 8 ? 2 : 1, static_cast<float>(k)));
+  Mesh button = Square(3, 20);
+  for (Vec3& p : button.positions) p = p * 0.2f;
+  avatar.meshes.push_back(button);
+  std::vector<MainColor> colors;
+  ASSERT_EQ(MainColors(avatar, &colors).message, "");
+  ASSERT_EQ(colors.size(), 2u) << "a button is no cloth";
+  EXPECT_NEAR(colors[0].share, 0.66f, 0.01f);
+  EXPECT_NEAR(colors[0].color.x, 0.21f, 0.005f) << "both blues";
+  EXPECT_NEAR(colors[1].color.z, 0.7f, 0.005f);
+}
+
 TEST(TintReach, CountsVertexColours) {
   Avatar avatar;
   avatar.materials = {Plain({1, 1, 1})};
