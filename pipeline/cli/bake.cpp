@@ -212,7 +212,7 @@ Error CheckTints(Baking* baking, size_t i) {
       const std::string color = TextFromColor(avatar.tints[t].color);
       report->figures.push_back({color + "_surface_share", std::round(static_cast<double>(shares[t]) * 1e3) / 1e3});
       if (shares[t] >= kLeastTintShare) continue;
-      warnings->push_back("tint " + color + " reaches almost nothing of the avatar; take the cloth's colour from its picture, or give the tint more reach");
+      warnings->push_back("tint " + color + " reaches almost nothing of the avatar; `flaneur avatar` lists the colours that it has");
     }
     return Ok();
   });

@@ -22,7 +22,8 @@ constexpr float kLeastShare = 1.0f / 30;
 
 Vec3 Texel(const Pixels& picture, Vec2 uv) {
   const auto at = [](float t, int size) { return std::min(size - 1, static_cast<int>((t - std::floor(t)) * static_cast<float>(size))); };
-  const size_t first = 4 * (static_cast<size_t>(at(uv.y, picture.height)) * static_cast<size_t>(picture.width) + static_cast<size_t>(at(uv.x, picture.width)));
+  const auto row = static_cast<size_t>(at(uv.y, picture.height)), column = static_cast<size_t>(at(uv.x, picture.width));
+  const size_t first = 4 * (row * static_cast<size_t>(picture.width) + column);
   const auto channel = [&](size_t k) { return static_cast<float>(picture.rgba[first + k]) / 255; };
   return {channel(0), channel(1), channel(2)};
 }

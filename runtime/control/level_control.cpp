@@ -52,7 +52,8 @@ int CoarsestAt(const AvatarCosts& avatar, float px) {
 // How many people in high resolution the budget affords, all others in view as impostors: each costs what they did of late.
 int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
   if (state->high > 0) {
-    const float meshes = static_cast<float>(state->triangles - state->fades.triangles - state->props.triangles - int64_t{kImpostorTriangles} * state->low);
+    const int64_t besides = state->fades.triangles + state->props.triangles + int64_t{kImpostorTriangles} * state->low;
+    const float meshes = static_cast<float>(state->triangles - besides);
     state->triangles_a_person += kSettles * (meshes / static_cast<float>(state->high) - state->triangles_a_person);
   } else if (state->triangles_a_person <= 0) {
     for (const AvatarCosts& avatar : avatars) {

@@ -212,6 +212,19 @@ PackTint ReadTint(const TourObject& json) {
   return tint;
 }
 
+PackProp ReadProp(const GltfFile& file, int skin, const TourObject& json, MeshTable* meshes) {
+  const Json& nodes = Member(file.json, "nodes");
+  const Json& node = nodes[static_cast<size_t>(json.Whole("node", 0, static_cast<double>(nodes.size()) - 1))];
+  if (Index(node, "skin", Member(file.json, "skins").size()) != skin) json.Refuse("has another skin than the levels");
+  PackProp prop;
+  prop.name = json.Text("name");
+  prop.mesh = meshes->Get(Index(node, "mesh", Member(file.json, "meshes").size()));
+  prop.triangles = json.Whole("triangles", 1, 1e6);
+  prop.share = json.Real("share", 0, 1);
+  prop.slot = json.Text("slot");
+  return prop;
+}
+
 PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* meshes) {
   constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
   PackAvatar avatar;
@@ -246,17 +259,7 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   avatar.talk = clips.Has("talk") ? clip("talk") : avatar.idle;
   avatar.impostor = ReadImpostor(file, json.Object("impostor"));
   if (json.Has("props")) {
-    for (const TourObject& prop_json : json.Objects("props")) {
-      const Json& node = nodes[static_cast<size_t>(prop_json.Whole("node", 0, static_cast<double>(nodes.size()) - 1))];
-      PackProp prop;
-      prop.name = prop_json.Text("name");
-      prop.mesh = meshes->Get(Index(node, "mesh", Member(file.json, "meshes").size()));
-      prop.triangles = prop_json.Whole("triangles", 1, 1e6);
-      prop.share = prop_json.Real("share", 0, 1);
-      prop.slot = prop_json.Text("slot");
-      if (Index(node, "skin", Member(file.json, "skins").size()) != skin) prop_json.Refuse("has another skin than the levels");
-      avatar.props.push_back(prop);
-    }
+    for (const TourObject& prop : json.Objects("props")) avatar.props.push_back(ReadProp(file, skin, prop, meshes));
     if (avatar.props.size() > kMostProps) json.Refuse("has more than seven props");
   }
   if (json.Has("tints")) {

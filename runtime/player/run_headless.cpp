@@ -71,7 +71,7 @@ Error WriteDue(const std::vector<Pane>& panes, const PlayerOptions& options, int
   }
   if (!ended || stills->empty()) return Ok();
   const double ends_s = static_cast<double>(frame) * static_cast<double>(panes[0].simulation->step_s);
-  return Fail("the walk ends after " + Compact(ends_s) + " s, so " + stills->front().path.string() + " is not written; --at must be earlier");
+  return Fail("the walk ends after " + Compact(ends_s) + " s, before " + stills->front().path.string() + "; --at must be earlier");
 }
 
 }  // namespace
@@ -109,7 +109,8 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   }
   const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(first.step_s) + 0.5);
   if (!stills.empty() && stills.back().frame > steps) {
-    return Fail("the run ends after " + Compact(static_cast<double>(seconds)) + " s, before " + stills.back().path.string() + "; --at must be earlier");
+    return Fail("the run ends after " + Compact(static_cast<double>(seconds)) + " s, before " + stills.back().path.string() +
+                "; --at must be earlier");
   }
   const auto over = [&](const Simulation& s) { return s.frame >= steps || s.finished; };
   for (;;) {

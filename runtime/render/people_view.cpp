@@ -30,14 +30,16 @@ PersonMesh UploadMesh(const PersonGeometry& person) {
 
 Error BuildPrograms(const std::string& defines, PeopleView* people) {
   const std::string vertex = defines + kFrame + kHaze + kTintVertex + kPersonVertex;
-  const std::string cells = "#define CELLS_WIDTH " + std::to_string(kCellsWidth) + "\n" + kImpostorCells, impostor_vertex = defines + kFrame + kHaze + cells + kTintVertex + kImpostorVertex;
+  const std::string cells = "#define CELLS_WIDTH " + std::to_string(kCellsWidth) + "\n" + kImpostorCells;
   for (int masked = 0; masked < 2; ++masked) {
     const std::string lit = (masked ? "#define TINTS\n#define MASKED\n" : "#define TINTS\n") + defines + kFrame + kLight + kOutcome + kTintFragment;
     if (Error e = BuildProgram(vertex, lit + kSurfaceFragment, &people->programs[masked][0])) return e;
     if (Error e = BuildProgram(vertex, "#define FADES\n" + lit + kFade + kSurfaceFragment, &people->programs[masked][1])) return e;
   }
   if (Error e = BuildProgram("#define SHADOW\n" + vertex, kShadowFragment, &people->shadow_program)) return e;
-  return BuildProgram(impostor_vertex, defines + kFrame + cells + kImpostorViews + kLight + kOutcome + kTintFragment + kFade + kImpostorFragment, &people->impostor_program);
+  return BuildProgram(defines + kFrame + kHaze + cells + kTintVertex + kImpostorVertex,
+                      defines + kFrame + cells + kImpostorViews + kLight + kOutcome + kTintFragment + kFade + kImpostorFragment,
+                      &people->impostor_program);
 }
 
 void CreateQuad(PeopleView* people) {

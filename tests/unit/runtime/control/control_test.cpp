@@ -82,7 +82,8 @@ TEST(ChooseLevels, TheBudgetHoldsForPropsAsWell) {
       int64_t drawn = state.fades.triangles + state.props.triangles;
       for (size_t i = 0; i < crowd.size(); ++i) {
         const int level = state.level[i];
-        if (level != kNotDrawn) drawn += level < 0 ? kImpostorTriangles : avatars[static_cast<size_t>(crowd.avatar[i])].levels[static_cast<size_t>(level)].triangles;
+        const auto& levels = avatars[static_cast<size_t>(crowd.avatar[i])].levels;
+        if (level != kNotDrawn) drawn += level < 0 ? kImpostorTriangles : levels[static_cast<size_t>(level)].triangles;
       }
       ASSERT_EQ(state.triangles, drawn);
     }
