@@ -27,12 +27,13 @@ def _frames(normals):
     return tangents, np.cross(normals, tangents)
 
 
-def with_shade(surface, lightest_for):
+def with_shade(surface, lightest_for, beside=()):
     """The surface with `shade` filled in: DARKEST where everything is hidden, 1 in the open.
 
-    lightest_for: {texture cell: least shade}, for parts that would look too dark.
+    lightest_for: {texture cell: least shade}, for parts that would look too dark. beside: other
+    surfaces that hide something of this one.
     """
-    tree = sf.tree_of([surface])
+    tree = sf.tree_of([surface, *beside])
     normals = sf.vertex_normals(surface)
     tangents, bitangents = _frames(normals)
     hidden = np.zeros(len(surface.vertices))

@@ -4,6 +4,7 @@
 (build.py), the rest are its settings. `cloth` says how each texture cell looks (materials.paint).
 `proportions` are scales in x, y, z (to the left, to the back, up) of body regions; `bulges` push
 the trunk or the face in or out before anything is sewn; `manner` is how they move (clips.py).
+`props` are meshes of their own, for some of the people of one model (props.py).
 """
 
 from townspeople.wardrobe import (BAND, BEARD, BELLY, CHILD_FACE, CHILD_SHAPE, CLOSE_SLEEVE, COIF,
@@ -38,6 +39,10 @@ PEOPLE = {
                                          [1.0, 0.045, -0.004], [1.0, 0.072, 0.002],
                                          [1.0, 0.070, -0.006],
                                          [1.0, 0.02, -0.012]], "wave": 0.006},
+        ],
+        "props": [
+            {"piece": "book", "name": "book", "cover": ["collar", (0.32, 0.11, 0.07)],
+             "pages": ["collar", (1.0, 0.94, 0.80)]},
         ],
         "cloth": {
             "upper": dyed("velvet", (0.35, 0.10, 0.11),
@@ -77,6 +82,10 @@ PEOPLE = {
             {"piece": "cape", "name": "hood", "top_deg": 68, "bottom_deg": 12, "ease": 0.026,
              "point": 0.03},
         ],
+        "props": [
+            {"piece": "sack", "name": "sack", "cloth": ["skirt", (1.0, 0.88, 0.68)],
+             "strap": ["belt", (1.0, 1.0, 1.0)]},
+        ],
         "cloth": {
             "upper": dyed("wool", (0.47, 0.40, 0.29)), "sleeve": dyed("wool", (0.47, 0.40, 0.29)),
             "skirt": dyed("wool", (0.47, 0.40, 0.29), hem=0.55, folds=0.2),
@@ -112,6 +121,10 @@ PEOPLE = {
                 [1.0, 0.010, 0.006], [1.0, 0.006, -0.014],
                 [0.96, 0, -0.018]]},
         ],
+        "props": [
+            {"piece": "satchel", "name": "satchel", "leather": ["belt", (1.0, 0.9, 0.8)],
+             "flap": ["belt", (0.75, 0.62, 0.5)], "strap": ["belt", (0.75, 0.62, 0.5)]},
+        ],
         "cloth": {
             "upper": dyed("linen", (0.63, 0.575, 0.475), placket=[0.012, (0.66, 0.61, 0.50), 0, None]),
             "sleeve": dyed("linen", (0.63, 0.575, 0.475)), "skirt": dyed("linen", (0.63, 0.575, 0.475)),
@@ -138,6 +151,10 @@ PEOPLE = {
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.03, "thickness": 0.008},
             {"piece": "brows"}, dict(WOMAN_HAIR), dict(COIF),
             dict(BAND),
+        ],
+        "props": [
+            {"piece": "back basket", "name": "back_basket", "wicker": ["hair", (1.0, 0.95, 0.8)],
+             "filling": ["coif", (0.35, 0.55, 0.16)], "strap": ["hair", (0.6, 0.5, 0.4)]},
         ],
         "cloth": {
             "upper": dyed("wool", (0.20, 0.27, 0.38),
@@ -217,6 +234,10 @@ PEOPLE = {
             {"piece": "roll", "thickness": 0.018},
         ],
         "bare_arm_from": 1.25,
+        "props": [
+            {"piece": "head basket", "name": "basket", "wicker": ["hair", (1.0, 0.95, 0.8)],
+             "filling": ["coif", (1.0, 1.0, 1.0)], "pad": ["coif", (0.8, 0.75, 0.7)]},
+        ],
         "cloth": {
             "upper": dyed("wool", (0.44, 0.20, 0.13)), "sleeve": dyed("linen", (0.70, 0.66, 0.59)),
             "skirt": dyed("wool", (0.50, 0.36, 0.17), hem=0.55, folds=0.25),
@@ -282,6 +303,10 @@ PEOPLE = {
                 [1.0, 0.010, -0.012]]},
         ],
         "shoe_tint": (0.42, 0.36, 0.33),
+        "props": [
+            {"piece": "sword", "name": "sword", "scabbard": ["belt", (0.7, 0.6, 0.5)],
+             "metal": ["plate", (0.9, 0.9, 0.9)], "grip": ["belt", (0.4, 0.3, 0.25)]},
+        ],
         "cloth": {
             "upper": dyed("wool", (0.49, 0.37, 0.155)),
             "sleeve": dyed("wool", (0.49, 0.37, 0.155), stripes=[2, (0.20, 0.24, 0.315)]),
@@ -377,6 +402,9 @@ PEOPLE = {
                 [0, 0, 0.088], [0.6, 0, 0.085], [1.0, 0.024, 0.060], [1.0, 0.036, 0.026],
                 [1.0, 0.010, 0.004], [1.0, 0.008, -0.016],
                 [0.96, 0, -0.02]]},
+        ],
+        "props": [
+            {"piece": "staff", "name": "staff", "wood": ["hair", (0.33, 0.19, 0.10)]},
         ],
         "cloth": {
             "upper": dyed("wool", (0.26, 0.24, 0.27)), "sleeve": dyed("wool", (0.26, 0.24, 0.27)),

@@ -48,16 +48,17 @@ def _onward(skeleton, joint):
     return way / np.linalg.norm(way) * 0.04
 
 
-def make_mesh(surface, materials, material_of_cell, uv, armature):
-    """The skinned mesh object; `uv` are glTF texture coordinates of the corners.
+def make_mesh(name, surface, materials, material_of_cell, uv, armature, tint=1.0):
+    """A skinned mesh object; `uv` are glTF texture coordinates of the corners, `tint` colours the
+    ambient light.
 
     It is no child of the armature: a skinned mesh below another node draws a validator's warning.
     """
-    mesh = bpy.data.meshes.new("person_mesh")
+    mesh = bpy.data.meshes.new(name)
     mesh.from_pydata([tuple(v) for v in surface.vertices], [], surface.faces)
     names = list(materials)
-    for name in names:
-        mesh.materials.append(materials[name])
+    for material in materials.values():
+        mesh.materials.append(material)
     mesh.polygons.foreach_set(
         "material_index", [names.index(material_of_cell[c]) for c in surface.cells]
     )
@@ -67,13 +68,11 @@ def make_mesh(surface, materials, material_of_cell, uv, armature):
     layer.data.foreach_set("uv", flipped.astype(np.float32).ravel())
     colours = mesh.color_attributes.new("COLOR", "BYTE_COLOR", "POINT")
     values = np.ones((len(surface.vertices), 4), np.float32)
-    values[:, :3] = surface.shade[:, None]
+    values[:, :3] = surface.shade[:, None] * tint
     colours.data.foreach_set("color", values.ravel())
-    thing = bpy.data.objects.new("person_mesh", mesh)
+    thing = bpy.data.objects.new(name, mesh)
     bpy.context.scene.collection.objects.link(thing)
-    groups = [
-        thing.vertex_groups.new(name=name) for name in [bone.name for bone in armature.data.bones]
-    ]
+    groups = [thing.vertex_groups.new(name=bone.name) for bone in armature.data.bones]
     index = {group.name: group for group in groups}
     for vertex, joint in np.argwhere(surface.weights > 0):
         index[sk.KEPT[joint]].add([int(vertex)], float(surface.weights[vertex, joint]), "REPLACE")
