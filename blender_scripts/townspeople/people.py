@@ -153,8 +153,8 @@ PEOPLE = {
             dict(BAND),
         ],
         "props": [
-            {"piece": "back basket", "name": "back_basket", "wicker": ["hair", (1.0, 0.95, 0.8)],
-             "filling": ["coif", (0.35, 0.55, 0.16)], "strap": ["hair", (0.6, 0.5, 0.4)]},
+            {"piece": "back basket", "name": "back_basket", "wicker": ["coif", (0.46, 0.26, 0.11)],
+             "filling": ["coif", (0.20, 0.29, 0.07)], "strap": ["coif", (0.13, 0.06, 0.03)]},
         ],
         "cloth": {
             "upper": dyed("wool", (0.20, 0.27, 0.38),
@@ -235,8 +235,8 @@ PEOPLE = {
         ],
         "bare_arm_from": 1.25,
         "props": [
-            {"piece": "head basket", "name": "basket", "wicker": ["hair", (1.0, 0.95, 0.8)],
-             "filling": ["coif", (1.0, 1.0, 1.0)], "pad": ["coif", (0.8, 0.75, 0.7)]},
+            {"piece": "head basket", "name": "basket", "wicker": ["coif", (0.50, 0.30, 0.13)],
+             "filling": ["coif", (1.0, 1.0, 1.0)], "pad": ["coif", (0.62, 0.35, 0.25)]},
         ],
         "cloth": {
             "upper": dyed("wool", (0.44, 0.20, 0.13)), "sleeve": dyed("linen", (0.70, 0.66, 0.59)),
@@ -304,8 +304,8 @@ PEOPLE = {
         ],
         "shoe_tint": (0.42, 0.36, 0.33),
         "props": [
-            {"piece": "sword", "name": "sword", "scabbard": ["belt", (0.7, 0.6, 0.5)],
-             "metal": ["plate", (0.9, 0.9, 0.9)], "grip": ["belt", (0.4, 0.3, 0.25)]},
+            {"piece": "shield", "name": "shield", "boards": ["belt", (1.0, 0.85, 0.7)],
+             "metal": ["plate", (0.9, 0.9, 0.9)], "strap": ["belt", (0.5, 0.42, 0.35)]},
         ],
         "cloth": {
             "upper": dyed("wool", (0.49, 0.37, 0.155)),

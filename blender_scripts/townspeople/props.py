@@ -64,7 +64,7 @@ def _lathe(rings, weights, stuff, top=True, bottom=True, across=False):
     return sf.joined(parts), tint
 
 
-def _box(centre, halves, weights_of, stuff):
+def _box(tailor, joint, centre, halves, stuff):
     """A box with sharp edges about `centre`; `halves` are its three half axes, right-handed."""
     cell, tint = stuff
     points, faces, uv = [], [], []
@@ -73,10 +73,11 @@ def _box(centre, halves, weights_of, stuff):
         for sign in (1.0, -1.0):
             faces.append(tuple(range(len(points), len(points) + 4)))
             for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
-                points.append(centre + sign * a + s * sign * b + t * c)
+                points.append(centre + sign * (a + s * b) + t * c)
                 uv.append((0.5 + 0.4 * s, 0.5 + 0.4 * t))
     points = np.array(points)
-    return sf.Surface(points, faces, weights_of(points), np.array(uv), [cell] * 6), tint
+    weights = _held(tailor, points, joint)
+    return sf.Surface(points, faces, weights, np.array(uv), [cell] * 6), tint
 
 
 def _ring(centre, side, front, angles):
@@ -110,38 +111,33 @@ def _strap(tailor, high, low, angles_deg, closed, stuff, width=0.035, thickness=
     return band, tint
 
 
-def head_basket(tailor, wicker, filling, pad, radius=0.19, height=0.15, sit=0.012):
+def head_basket(tailor, wicker, filling, pad, radius=0.19, height=0.14, sit=0.030):
     """A round basket of linen, borne on the head on a ring of cloth."""
-    size, head = tailor.size, tailor.figure.landmarks["head"]
+    size, head, angles = tailor.size, tailor.figure.landmarks["head"], tl.angles_of(9)
     tree = sf.tree_of([worn for name, worn in tailor.worn.items() if name.startswith("hair")])
     top = head[2] + sf.outermost(tree, head, (0.0, 0.0, 1.0), 0.5)
-    middle = np.array([head[0], head[1] + 0.005 * size, top - sit * size])
-    angles = tl.angles_of(10)
+    middle = np.array([head[0], head[1] + 0.008 * size, top - sit * size])
 
-    def turned(profile, wave=0.0):
-        """Rings of (height, radius); wave: how uneven they are."""
-        bumps = 1.0 + wave * np.cos(3 * angles + 0.7)
-        return np.array(
+    def part(profile, stuff, wave=0.0, **settings):
+        """Of (height, radius) from the top; wave: how uneven it is."""
+        bumps = 1.0 + wave * np.cos(2 * angles + 0.7)
+        rings = np.array(
             [
                 middle + [0, 0, z * size] + tl.direction(angles) * (r * size * bumps)[:, None]
                 for z, r in profile
             ]
         )
+        return _lathe(rings, _held(tailor, rings, "head"), stuff, **settings)
 
-    def part(profile, stuff, wave=0.0, **ends):
-        rings = turned(profile, wave)
-        return _lathe(rings, _held(tailor, rings, "head"), stuff, **ends)
-
-    floor = 0.030
+    floor = 0.036
     return _prop(
         [
-            part([(floor, 0.070), (0.010, 0.100), (-0.014, 0.085), (-0.002, 0.06)], pad,
-                 top=False, bottom=False),
+            part([(floor, 0.085), (0.012, 0.105), (-0.012, 0.090)], pad, top=False, bottom=False),
             part([(floor + 0.75 * height, 0.90 * radius), (floor + height, 0.97 * radius),
                   (floor + 0.93 * height, 1.04 * radius), (floor, 0.66 * radius)], wicker,
                  top=False, across=True),
-            part([(floor + 1.32 * height, 0.35 * radius), (floor + 1.14 * height, 0.75 * radius),
-                  (floor + 0.80 * height, 0.93 * radius)], filling, wave=0.07, bottom=False),
+            part([(floor + 1.34 * height, 0.38 * radius), (floor + 1.16 * height, 0.78 * radius),
+                  (floor + 0.80 * height, 0.93 * radius)], filling, wave=0.06, bottom=False),
         ]
     )
 
@@ -158,7 +154,7 @@ def back_basket(tailor, wicker, filling, strap, height=0.44, width=0.17, depth=0
     """A tall basket on the back with a strap about each shoulder: a Kiepe."""
     size = tailor.size
     low, high = tailor.height(("waist", 0.0)), tailor.height(("waist", height))
-    angles = tl.angles_of(10)
+    angles = tl.angles_of(9)
     back = max(_back_of(tailor, z) for z in np.linspace(low, tailor.height("shoulder"), 6))
 
     def ring(t, scale):
@@ -180,16 +176,16 @@ def back_basket(tailor, wicker, filling, strap, height=0.44, width=0.17, depth=0
         top, pit = tailor.height("shoulder"), tailor.height(("chest", -0.02))
         over = np.array([sign * 0.075 * size, tl.axis_y(tailor, top), top])
         under = np.array([sign * 0.165 * size, tl.axis_y(tailor, pit), pit])
-        parts.append(_strap(tailor, over, under, np.linspace(-110, 130, 7), False, strap))
+        parts.append(_strap(tailor, over, under, np.linspace(-100, 130, 6), False, strap))
     return _prop(parts)
 
 
-def _shoulder_to_hip(tailor, sign, low=0.0):
-    """Two points for a strap over one shoulder (sign 1: the left) down to the other hip."""
-    top, hip = tailor.height(("shoulder", 0.03)), tailor.height(("hip", low))
+def _shoulder_to_side(tailor, sign, low=("waist", 0.0)):
+    """Two points for a strap over one shoulder (sign 1: the left) down to the other side."""
+    top, side = tailor.height(("shoulder", 0.03)), tailor.height(low)
     return (
         np.array([sign * 0.09 * tailor.size, tl.axis_y(tailor, top), top]),
-        np.array([-sign * 0.15 * tailor.size, tl.axis_y(tailor, hip), hip]),
+        np.array([-sign * 0.14 * tailor.size, tl.axis_y(tailor, side), side]),
     )
 
 
@@ -212,11 +208,11 @@ def sack(tailor, cloth, strap, height=0.50, width=0.17, depth=0.12, lean_deg=14)
                      np.array([0, -depth * deep * size, 0]), angles) * uneven[:, None])
         )
     rings = np.array(rings)
-    high, hip = _shoulder_to_hip(tailor, -1.0)
+    high, under = _shoulder_to_side(tailor, -1.0)
     return _prop(
         [
             _lathe(rings, _held(tailor, rings, "spine01"), cloth),
-            _strap(tailor, high, hip, np.linspace(0, 360, 10)[:-1], True, strap, width=0.026),
+            _strap(tailor, high, under, np.linspace(0, 360, 10)[:-1], True, strap, width=0.026),
         ]
     )
 
@@ -249,51 +245,39 @@ def satchel(tailor, leather, flap, strap, angle_deg=150, width=0.26, height=0.20
         rings = np.array(rings)
         return _lathe(rings, _held(tailor, rings, "root"), stuff)
 
-    high, hip = _shoulder_to_hip(tailor, -np.sign(ray[0]), 0.06)
+    high, under = _shoulder_to_side(tailor, -np.sign(ray[0]), ("hip", 0.08))
     return _prop(
         [
             bag([(0.0, 0.90, 0.55), (0.55, 1.0, 1.0), (1.0, 0.86, 0.72)], leather),
             bag([(-0.03, 0.94, 0.66), (0.08, 1.02, 0.98), (0.58, 1.04, 1.10)], flap, 0.004),
-            _strap(tailor, high, hip, np.linspace(0, 360, 11)[:-1], True, strap),
+            _strap(tailor, high, under, np.linspace(0, 360, 11)[:-1], True, strap),
         ]
     )
 
 
-def sword(tailor, scabbard, metal, grip, angle_deg=84, length=0.74):
-    """A short sword in its scabbard on the belt, hilt forward."""
-    size, angles = tailor.size, tl.angles_of(6)
-    z = tailor.height(("waist", -0.06))
-    ray = tl.direction(np.radians(angle_deg))
-    tree = tl.trunk_tree(tailor, arms=False)
-    reach = max(
-        sf.outermost(tree, (0.0, tl.axis_y(tailor, y), y), ray, 0.6) or 0.15
-        for y in (z, z - 0.12 * size, z - 0.24 * size)
-    )
-    way = np.array([0.06, 0.58, -0.80])  # of the blade
-    way /= np.linalg.norm(way)
-    flat = np.cross(way, ray) / np.linalg.norm(np.cross(way, ray))
-    thick = np.cross(flat, way)
-    mouth = np.array([0.0, tl.axis_y(tailor, z), z]) + ray * (reach + 0.012 * size) - way * 0.05 * size
+def shield(tailor, boards, metal, strap, radius=0.23, bulge=0.045):
+    """A round shield slung on the back, with a boss and a rim of metal."""
+    size, angles = tailor.size, tl.angles_of(10)
+    z = tailor.height(("chest", 0.03))
+    places = [(z + dz * size, dx * size) for dz in (-0.15, 0.0, 0.10) for dx in (-0.12, 0.0, 0.12)]
+    middle = np.array([0.0, max(_back_of(tailor, *place) for place in places) + 0.008 * size, z])
+    around = np.stack([-np.sin(angles), np.zeros_like(angles), np.cos(angles)], axis=1)
 
-    def tube(profile, stuff):
-        """(distance along the blade from the scabbard's mouth, half width, half thickness)."""
+    def part(profile, stuff, **ends):
+        """Of (distance from the back, radius), the outermost first."""
         rings = np.array(
-            [
-                _ring(mouth + way * d * size, flat * a * size, thick * b * size, angles)
-                for d, a, b in profile
-            ]
+            [middle + (around * r + [0.0, out, 0.0]) * size for out, r in profile]
         )
-        return _lathe(rings, _held(tailor, rings, "root"), stuff)
+        return _lathe(rings, _held(tailor, rings, "spine01"), stuff, **ends)
 
-    hold = lambda points: _held(tailor, points, "root")  # noqa: E731
+    high, under = _shoulder_to_side(tailor, -1.0)
     return _prop(
         [
-            tube([(0.0, 0.030, 0.013), (0.82 * length, 0.022, 0.010), (length, 0.006, 0.005)],
-                 scabbard),
-            _box(mouth - way * 0.008 * size,
-                 (way * 0.009 * size, flat * 0.085 * size, thick * 0.010 * size), hold, metal),
-            tube([(-0.125, 0.015, 0.013), (-0.012, 0.016, 0.014)], grip),
-            tube([(-0.160, 0.010, 0.009), (-0.142, 0.024, 0.021), (-0.122, 0.012, 0.011)], metal),
+            part([(bulge + 0.055, 0.025), (bulge + 0.035, 0.06), (bulge - 0.01, 0.075)], metal,
+                 bottom=False),
+            part([(bulge, 0.06), (0.022, radius - 0.03)], boards, top=False, bottom=False),
+            part([(0.026, radius - 0.035), (0.020, radius), (0.0, radius - 0.004)], metal, top=False),
+            _strap(tailor, high, under, np.linspace(0, 360, 10)[:-1], True, strap),
         ]
     )
 
@@ -312,34 +296,34 @@ def _hand(tailor, side):
     return 0.5 * (wrist + knuckle), fingers, thumb, palm * np.sign(palm[0] * inward)
 
 
-def book(tailor, cover, pages, side="_L", width=0.135, height=0.19, thickness=0.042):
-    """A book in the hand, its lower edge on the bent fingers, its face on the palm."""
-    size = tailor.size
+def book(tailor, cover, pages, side="_L", width=0.115, height=0.165, thickness=0.034):
+    """A book in the hand, its spine towards the fingertips, its face on the palm."""
     palm, fingers, thumb, out = _hand(tailor, side)
-    thumb = np.cross(out, fingers) * np.sign(np.cross(out, fingers) @ thumb)
-    centre = palm + (out * (0.5 * thickness + 0.020) + fingers * 0.0) * size
-    hold = lambda points: _held(tailor, points, "wrist" + side)  # noqa: E731
-    across, along, thick = fingers * width, thumb * height, out * thickness
-    if np.cross(across, along) @ thick < 0:
-        along = -along
-    across, along, thick = (0.5 * size * axis for axis in (across, along, thick))
-    board = 0.14
+    half = 0.5 * tailor.size
+    across, thick = fingers * width * half, out * thickness * half
+    along = np.cross(out, fingers) * height * half
+    centre = palm + out * 0.016 * tailor.size + thick
+
+    def box(shift, halves, stuff):
+        return _box(tailor, "wrist" + side, centre + shift, halves, stuff)
+
     return _prop(
         [
-            _box(centre + thick * (1 - board), (across, along, thick * board), hold, cover),
-            _box(centre - thick * (1 - board), (across, along, thick * board), hold, cover),
-            _box(centre + across * 0.92, (across * 0.08, along, thick), hold, cover),
-            _box(centre - across * 0.06, (across * 0.88, along * 0.95, thick * 0.8), hold, pages),
+            box(thick * 0.85, (across, along, thick * 0.15), cover),
+            box(thick * -0.85, (across, along, thick * 0.15), cover),
+            box(across * 0.92, (across * 0.08, along, thick), cover),
+            box(across * -0.06, (across * 0.88, along * 0.95, thick * 0.8), pages),
         ]
     )
 
 
-def staff(tailor, wood, side="_R", radius=0.013, above=0.10):
+def staff(tailor, wood, side="_R", radius=0.013, above=0.10, spread=0.16, ahead=0.06):
     """A walking stick: the hand holds its upper end, its foot goes with the opposite leg."""
     size, angles = tailor.size, tl.angles_of(6)
     palm, fingers, thumb, out = _hand(tailor, side)
     hold = palm + (out * 0.028 + fingers * 0.015) * size
-    foot = np.array([hold[0] + np.sign(hold[0]) * 0.06 * size, tailor.joint("foot_L")[1], 0.012])
+    foot = np.array([hold[0] + np.sign(hold[0]) * spread * size,
+                     tailor.joint("foot_L")[1] - ahead * size, 0.012])
     way = (hold - foot) / np.linalg.norm(hold - foot)
     across = np.cross(way, [0.0, 1.0, 0.0])
     across /= np.linalg.norm(across)
@@ -358,7 +342,7 @@ def staff(tailor, wood, side="_R", radius=0.013, above=0.10):
 
 PIECES = {
     "head basket": head_basket, "back basket": back_basket, "sack": sack, "satchel": satchel,
-    "sword": sword, "book": book, "staff": staff,
+    "shield": shield, "book": book, "staff": staff,
 }
 
 
