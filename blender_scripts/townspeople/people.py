@@ -236,7 +236,7 @@ PEOPLE = {
         "bare_arm_from": 1.25,
         "props": [
             {"piece": "head basket", "name": "basket", "wicker": ["coif", (0.50, 0.30, 0.13)],
-             "filling": ["coif", (1.0, 1.0, 1.0)], "pad": ["coif", (0.62, 0.35, 0.25)]},
+             "filling": ["coif", (1.0, 1.0, 1.0)], "pad": ["coif", (0.28, 0.33, 0.40)]},
         ],
         "cloth": {
             "upper": dyed("wool", (0.44, 0.20, 0.13)), "sleeve": dyed("linen", (0.70, 0.66, 0.59)),

@@ -85,29 +85,36 @@ def _ring(centre, side, front, angles):
     return centre + np.cos(angles)[:, None] * front + np.sin(angles)[:, None] * side
 
 
-def _strap(tailor, high, low, angles_deg, closed, stuff, width=0.035, thickness=0.010):
+def _strap(tailor, high, low, angles_deg, stuff, columns=8, width=0.035, thickness=0.010):
     """A leather band about the trunk in the plane that holds the points `high` and `low` and
-    the forward direction; the angles go from forward (0) by `high` (90) round.
+    the forward direction; the angles go from forward (0) by `high` (90) to the back; both ends
+    slip under the garments.
     """
     cell, tint = stuff
-    size, angles = tailor.size, np.radians(angles_deg)
+    size = tailor.size
     up = (high - low) / np.linalg.norm(high - low)
     ahead = np.array([0.0, -1.0, 0.0]) + up * up[1]
     ahead /= np.linalg.norm(ahead)
     across = np.cross(ahead, up)
-    centre, tree = 0.5 * (high + low), tl.trunk_tree(tailor, arms=False)
+    centre = 0.5 * (high + low)
+    below_arms, over_sleeves = (tl.trunk_tree(tailor, arms=arms) for arms in (False, True))
     around = tl.angles_of(48)
-    fine = np.cos(around)[:, None] * ahead + np.sin(around)[:, None] * up
-    reach = np.array([sf.outermost(tree, centre, ray, 0.5 * size) or 0.02 for ray in fine])
-    flat = reach[:, None] * np.stack([np.sin(around), -np.cos(around)], axis=1)
-    taut = sf.hull_radii(flat, angles)[:, None]
+    reach = []
+    for c, s in zip(np.cos(around), np.sin(around)):
+        tree = over_sleeves if s > 0.5 else below_arms
+        reach.append(sf.outermost(tree, centre, c * ahead + s * up, 0.5 * size) or 0.02)
+    flat = np.array(reach)[:, None] * np.stack([np.sin(around), -np.cos(around)], axis=1)
+    angles = np.linspace(*np.radians(angles_deg), columns)
+    corner = np.cos(0.5 * (angles[1] - angles[0]))  # the sides touch the trunk, not the corners
+    taut = sf.hull_radii(flat, angles)[:, None] / corner
+    taut[[0, -1]] *= 0.88
     rays = np.cos(angles)[:, None] * ahead + np.sin(angles)[:, None] * up
     outside = centre + rays * (taut + thickness * size)
     edge = 0.5 * width * size * across
-    inside = centre + rays * (taut - 0.5 * thickness * size)
+    inside = centre + rays * (taut - thickness * size)
     points = np.array([outside + edge, outside - edge, inside, outside + edge])
     weights = tl.trunk_weights(tailor, points.reshape(-1, 3)).reshape(points.shape[:2] + (-1,))
-    band = sf.grid(points, weights, cell, np.linspace(0.0, 1.0, len(angles)), closed=closed)
+    band = sf.grid(points, weights, cell, np.linspace(0.0, 1.0, columns), closed=False)
     return band, tint
 
 
@@ -116,7 +123,7 @@ def head_basket(tailor, wicker, filling, pad, radius=0.19, height=0.14, sit=0.03
     size, head, angles = tailor.size, tailor.figure.landmarks["head"], tl.angles_of(9)
     tree = sf.tree_of([worn for name, worn in tailor.worn.items() if name.startswith("hair")])
     top = head[2] + sf.outermost(tree, head, (0.0, 0.0, 1.0), 0.5)
-    middle = np.array([head[0], head[1] + 0.008 * size, top - sit * size])
+    middle = np.array([head[0], head[1] + 0.024 * size, top - sit * size])
 
     def part(profile, stuff, wave=0.0, **settings):
         """Of (height, radius) from the top; wave: how uneven it is."""
@@ -132,7 +139,7 @@ def head_basket(tailor, wicker, filling, pad, radius=0.19, height=0.14, sit=0.03
     floor = 0.036
     return _prop(
         [
-            part([(floor, 0.085), (0.012, 0.105), (-0.012, 0.090)], pad, top=False, bottom=False),
+            part([(floor, 0.085), (0.012, 0.110), (-0.014, 0.100)], pad, top=False, bottom=False),
             part([(floor + 0.75 * height, 0.90 * radius), (floor + height, 0.97 * radius),
                   (floor + 0.93 * height, 1.04 * radius), (floor, 0.66 * radius)], wicker,
                  top=False, across=True),
@@ -159,10 +166,11 @@ def back_basket(tailor, wicker, filling, strap, height=0.44, width=0.17, depth=0
 
     def ring(t, scale):
         """At the share t of the height; the side towards the back stands upright."""
-        half = depth * scale * size
-        centre = np.array([0.0, back + half - 0.01 * size, low + t * (high - low)])
-        side, front = np.array([width * scale * size, 0, 0]), np.array([0, -half, 0])
-        return _ring(centre, side, front, angles)
+        outermost = 0.66 + 0.37 * t
+        away = (depth * outermost - 0.01) * size
+        centre = np.array([0.0, back + away, low + t * (high - low)])
+        side = np.array([width * scale * size, 0, 0])
+        return _ring(centre, side, np.array([0, -depth * scale * size, 0]), angles)
 
     def part(profile, stuff, **ends):
         rings = np.array([ring(t, scale) for t, scale in profile])
@@ -176,8 +184,11 @@ def back_basket(tailor, wicker, filling, strap, height=0.44, width=0.17, depth=0
         top, pit = tailor.height("shoulder"), tailor.height(("chest", -0.02))
         over = np.array([sign * 0.075 * size, tl.axis_y(tailor, top), top])
         under = np.array([sign * 0.165 * size, tl.axis_y(tailor, pit), pit])
-        parts.append(_strap(tailor, over, under, np.linspace(-100, 130, 6), False, strap))
+        parts.append(_strap(tailor, over, under, (-100, 130), strap, columns=6))
     return _prop(parts)
+
+
+STRAP_DEG = (-50, 230)  # of a strap from the front, over the shoulder, to the back
 
 
 def _shoulder_to_side(tailor, sign, low=("waist", 0.0)):
@@ -212,12 +223,12 @@ def sack(tailor, cloth, strap, height=0.50, width=0.17, depth=0.12, lean_deg=14)
     return _prop(
         [
             _lathe(rings, _held(tailor, rings, "spine01"), cloth),
-            _strap(tailor, high, under, np.linspace(0, 360, 10)[:-1], True, strap, width=0.026),
+            _strap(tailor, high, under, STRAP_DEG, strap, width=0.026),
         ]
     )
 
 
-def satchel(tailor, leather, flap, strap, angle_deg=150, width=0.26, height=0.20, depth=0.085):
+def satchel(tailor, leather, flap, strap, angle_deg=146, width=0.25, height=0.20, depth=0.085):
     """A bag behind the hip, on a strap over the other shoulder."""
     size = tailor.size
     ray = tl.direction(np.radians(angle_deg))
@@ -228,7 +239,7 @@ def satchel(tailor, leather, flap, strap, angle_deg=150, width=0.26, height=0.20
         sf.outermost(tree, (0.0, tl.axis_y(tailor, z), z), ray, 0.6) or 0.15
         for z in (top, top - 0.5 * height * size, top - height * size)
     )
-    middle = np.array([0.0, tl.axis_y(tailor, top), 0.0]) + ray * (reach + 0.42 * depth * size)
+    middle = np.array([0.0, tl.axis_y(tailor, top), 0.0]) + ray * (reach + 0.34 * depth * size)
     angles = tl.angles_of(10)
 
     def bag(profile, stuff, shift=0.0):
@@ -245,22 +256,22 @@ def satchel(tailor, leather, flap, strap, angle_deg=150, width=0.26, height=0.20
         rings = np.array(rings)
         return _lathe(rings, _held(tailor, rings, "root"), stuff)
 
-    high, under = _shoulder_to_side(tailor, -np.sign(ray[0]), ("hip", 0.08))
+    high, under = _shoulder_to_side(tailor, -np.sign(ray[0]), ("hip", 0.16))
     return _prop(
         [
             bag([(0.0, 0.90, 0.55), (0.55, 1.0, 1.0), (1.0, 0.86, 0.72)], leather),
             bag([(-0.03, 0.94, 0.66), (0.08, 1.02, 0.98), (0.58, 1.04, 1.10)], flap, 0.004),
-            _strap(tailor, high, under, np.linspace(0, 360, 11)[:-1], True, strap),
+            _strap(tailor, high, under, (-50, 246), strap),
         ]
     )
 
 
-def shield(tailor, boards, metal, strap, radius=0.23, bulge=0.045):
+def shield(tailor, boards, metal, strap, radius=0.215, bulge=0.045):
     """A round shield slung on the back, with a boss and a rim of metal."""
     size, angles = tailor.size, tl.angles_of(10)
     z = tailor.height(("chest", 0.03))
     places = [(z + dz * size, dx * size) for dz in (-0.15, 0.0, 0.10) for dx in (-0.12, 0.0, 0.12)]
-    middle = np.array([0.0, max(_back_of(tailor, *place) for place in places) + 0.008 * size, z])
+    middle = np.array([0.0, max(_back_of(tailor, *place) for place in places) + 0.026 * size, z])
     around = np.stack([-np.sin(angles), np.zeros_like(angles), np.cos(angles)], axis=1)
 
     def part(profile, stuff, **ends):
@@ -277,7 +288,7 @@ def shield(tailor, boards, metal, strap, radius=0.23, bulge=0.045):
                  bottom=False),
             part([(bulge, 0.06), (0.022, radius - 0.03)], boards, top=False, bottom=False),
             part([(0.026, radius - 0.035), (0.020, radius), (0.0, radius - 0.004)], metal, top=False),
-            _strap(tailor, high, under, np.linspace(0, 360, 10)[:-1], True, strap),
+            _strap(tailor, high, under, STRAP_DEG, strap),
         ]
     )
 
@@ -317,7 +328,7 @@ def book(tailor, cover, pages, side="_L", width=0.115, height=0.165, thickness=0
     )
 
 
-def staff(tailor, wood, side="_R", radius=0.013, above=0.10, spread=0.16, ahead=0.06):
+def staff(tailor, wood, side="_R", radius=0.015, above=0.10, spread=0.16, ahead=0.06):
     """A walking stick: the hand holds its upper end, its foot goes with the opposite leg."""
     size, angles = tailor.size, tl.angles_of(6)
     palm, fingers, thumb, out = _hand(tailor, side)
