@@ -294,7 +294,7 @@ def shield(tailor, boards, metal, strap, radius=0.215, bulge=0.045):
 
 
 def _hand(tailor, side):
-    """Frame of a hand at rest: middle of the palm, way of the fingers, way of the thumb, and out
+    """Frame of a hand at rest: middle of the palm, way of the fingers, and way out
     of the palm.
     """
     wrist, knuckle = tailor.joint("wrist" + side), tailor.joint("finger3-1" + side)
@@ -304,12 +304,12 @@ def _hand(tailor, side):
     thumb /= np.linalg.norm(thumb)
     palm = np.cross(fingers, thumb)
     inward = -1.0 if side == "_L" else 1.0
-    return 0.5 * (wrist + knuckle), fingers, thumb, palm * np.sign(palm[0] * inward)
+    return 0.5 * (wrist + knuckle), fingers, palm * np.sign(palm[0] * inward)
 
 
 def book(tailor, cover, pages, side="_L", width=0.115, height=0.165, thickness=0.034):
     """A book in the hand, its spine towards the fingertips, its face on the palm."""
-    palm, fingers, thumb, out = _hand(tailor, side)
+    palm, fingers, out = _hand(tailor, side)
     half = 0.5 * tailor.size
     across, thick = fingers * width * half, out * thickness * half
     along = np.cross(out, fingers) * height * half
@@ -331,7 +331,7 @@ def book(tailor, cover, pages, side="_L", width=0.115, height=0.165, thickness=0
 def staff(tailor, wood, side="_R", radius=0.015, above=0.10, spread=0.16, ahead=0.06):
     """A walking stick: the hand holds its upper end, its foot goes with the opposite leg."""
     size, angles = tailor.size, tl.angles_of(6)
-    palm, fingers, thumb, out = _hand(tailor, side)
+    palm, fingers, out = _hand(tailor, side)
     hold = palm + (out * 0.028 + fingers * 0.015) * size
     foot = np.array([hold[0] + np.sign(hold[0]) * spread * size,
                      tailor.joint("foot_L")[1] - ahead * size, 0.012])
