@@ -8,7 +8,8 @@ namespace {
 
 constexpr float kAround_m = 0.35f;     // arms, skirts and props reach so far beyond a person's radius
 constexpr float kLongestShadow_m = 12;  // as far as one may fall into view
-constexpr float kFarImpostor_m = 15;   // all nearer ones are drawn before all farther ones
+constexpr float kFarImpostor_m = 15;   // nearer ones are drawn before all farther ones,
+constexpr size_t kNearBatches = 5;     // of the avatars that have most of them
 constexpr int kNoLevel = -2;
 
 // The largest numbers of all clips, so that 16 bits hold them with the finest steps.
@@ -195,6 +196,27 @@ void Gather(int keys, auto batch_of, auto instance_of, PeopleBatches* out, std::
   out->entries.clear();
 }
 
+// Impostors have keys from `first` on, near ones by avatar and then far ones: most near ones keep their own draws.
+void JoinFewNear(int first, int avatars, PeopleBatches* out) {
+  out->counts.assign(static_cast<size_t>(avatars), 0);
+  const auto is_near = [&](const PeopleBatches::Entry& e) { return e.key >= first && e.key < first + avatars; };
+  for (const PeopleBatches::Entry& e : out->entries) {
+    if (is_near(e)) ++out->counts[static_cast<size_t>(e.key - first)];
+  }
+  const auto keeps = [&](int avatar) {
+    const size_t own = out->counts[static_cast<size_t>(avatar)];
+    size_t more = 0;
+    for (int k = 0; k < avatars; ++k) {
+      const size_t other = out->counts[static_cast<size_t>(k)];
+      more += other > own || (other == own && k < avatar) ? 1 : 0;
+    }
+    return more < kNearBatches;
+  };
+  for (PeopleBatches::Entry& e : out->entries) {
+    if (is_near(e) && !keeps(e.key - first)) e.key += avatars;
+  }
+}
+
 int StepOf(float distance_m) { return std::min(kSteps - 1, static_cast<int>(distance_m / kStep_m)); }
 
 }  // namespace
@@ -268,10 +290,11 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     for (int k = 0; person.props >> k != 0; ++k) {
       const int prop = avatars[index].levels + k;
       if ((person.props >> k & 1) == 0 || !ready[index].levels[static_cast<size_t>(prop)]) continue;
-      const int prop_fades = person.props_share < 1 ? 1 : 0;
-      out->entries.push_back({number, (person.avatar * levels + prop) * 2 + prop_fades, StepOf(distance_m), level < 0});
+      // All in one draw, whether somebody fades or not.
+      out->entries.push_back({number, (person.avatar * levels + prop) * 2 + 1, StepOf(distance_m), level < 0});
     }
   }
+  JoinFewNear(meshes, count, out);
   Gather(meshes + 2 * count, batch_of, [&](const PeopleBatches::Entry& e) {
     const DrawnPerson& person = people[e.person];
     const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];

@@ -793,6 +793,29 @@ TEST(PeopleBatches, ImpostorsShowTheClipThatThePersonIsIn) {
   EXPECT_EQ(frame_of(standing, walking, 0), 0) << "does not walk on the spot";
 }
 
+TEST(PeopleBatches, OnlyTheAvatarsWithMostNearImpostorsHaveDrawsOfTheirOwnForThem) {
+  constexpr int kAvatars = 11;
+  std::vector<AvatarLayout> avatars(kAvatars, LayoutOf(BoxPerson()));
+  const std::vector<AvatarReady> ready(kAvatars, {{true, true}, true, false});
+  std::vector<DrawnPerson> people;
+  for (int a = 0; a < kAvatars; ++a) {
+    for (int k = 0; k <= a + 1; ++k) {
+      people.push_back(PersonAt(k < a + 1 ? 9 : 30, static_cast<float>(k) * 0.1f, -1));  // one far, a + 1 near
+      people.back().avatar = a;
+    }
+  }
+  PeopleBatches batches;
+  batches.pose_width = 3;
+  SortPeople(people, avatars, ready, EverywhereSeen(), &batches);
+  ASSERT_EQ(batches.seen.size(), static_cast<size_t>(5 + kAvatars));
+  size_t drawn = 0;
+  for (size_t k = 0; k < batches.seen.size(); ++k) {
+    drawn += batches.seen[k].count;
+    EXPECT_EQ(batches.seen[k].avatar, static_cast<int>(k < 5 ? k + 6 : k - 5)) << "those of 6 to 10, then all";
+  }
+  EXPECT_EQ(drawn, people.size());
+}
+
 TEST(PeopleBatches, MixedPosesStandBetweenTheirClips) {
   PackAvatar avatar = BoxPerson();
   avatar.idle.matrices[0].m[3] = {0, 1, 0, 1};
