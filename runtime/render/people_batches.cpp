@@ -300,7 +300,10 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];
     if (e.key >= meshes) return AsImpostor(person, avatar, sight.eye);
     PersonInstance instance = Placed(person, RowOfPose(e.person, person, avatar, out), e.on_impostor ? 1.0f : 0.0f);
-    if (e.key / 2 % levels >= avatar.levels) instance.look.y = 0, instance.look.z = person.props_share;
+    if (e.key / 2 % levels >= avatar.levels) {
+      instance.look.y = 0, instance.look.z = person.props_share;
+      instance.tints = {};  // a basket is no cloth, though it may have a cloth's colour
+    }
     return instance;
   }, out, &out->seen);
   std::swap(out->entries, out->shadow_entries);

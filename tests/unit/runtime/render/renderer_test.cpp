@@ -196,10 +196,12 @@ TEST_F(Drawing, APropIsDrawnBeforeThePersonOrHiddenBehindThem) {
     const float z = in_front ? 0.30f : -0.34f;  // the person faces +Z, their front is at 0.25
     pack.meshes.push_back({{BoxPrimitive({-0.15f, 0.9f, z - 0.02f}, {0.15f, 1.3f, z + 0.02f}, 1, true)}});
     pack.avatars[0].props = {{"plate", static_cast<int>(pack.meshes.size()) - 1, 12, 1, ""}};
+    pack.avatars[0].tints = {{{0.25f, 0.25f, 0.8f}, 0.3f, {{0.1f, 0.8f, 0.1f}}}};  // the plate's blue, which is no cloth
     for (const int samples : {4, 1}) {
       for (const int level : {0, -1}) {
         FrameInput frame = LookEast();
         frame.people = {PersonAt(5, 0, level)};
+        frame.people[0].tints = {1};
         const auto blue = [&](uint8_t props, float share) {
           frame.people[0].props = props;
           frame.people[0].props_share = share;
