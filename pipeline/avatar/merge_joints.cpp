@@ -129,11 +129,7 @@ void DropIdleJoints(Avatar* avatar) {
   const size_t count = avatar->joints.size();
   if (count == 0) return;
   std::vector<bool> busy(count, false);
-  std::vector<Mesh*> meshes;
-  for (Mesh& mesh : avatar->meshes) meshes.push_back(&mesh);
-  for (AvatarProp& prop : avatar->props) {
-    for (Mesh& mesh : prop.meshes) meshes.push_back(&mesh);
-  }
+  const std::vector<Mesh*> meshes = AllMeshes(avatar);
   for (const Mesh* mesh : meshes) {
     for (size_t v = 0; v < mesh->joints.size(); ++v) {
       for (size_t i = 0; i < 4; ++i) {

@@ -49,6 +49,15 @@ Vec3 TransformNormal(const Mat4& m, Vec3 n) {
 
 }  // namespace
 
+std::vector<Mesh*> AllMeshes(Avatar* avatar) {
+  std::vector<Mesh*> meshes;
+  for (Mesh& mesh : avatar->meshes) meshes.push_back(&mesh);
+  for (AvatarProp& prop : avatar->props) {
+    for (Mesh& mesh : prop.meshes) meshes.push_back(&mesh);
+  }
+  return meshes;
+}
+
 std::vector<Mat4> SkinningMatrices(std::span<const Joint> joints, std::span<const Transform> transforms) {
   std::vector<Mat4> matrices(joints.size());
   for (size_t j = 0; j < joints.size(); ++j) {

@@ -65,6 +65,9 @@ struct AvatarLevels {
   std::vector<AvatarLevel> levels;
 };
 
+// What everybody has, then the props' meshes.
+std::vector<Mesh*> AllMeshes(Avatar* avatar);
+
 // Skinning matrices (global * inverse bind) of joints, parents first, whose local transforms these are.
 std::vector<Mat4> SkinningMatrices(std::span<const Joint> joints, std::span<const Transform> transforms);
 

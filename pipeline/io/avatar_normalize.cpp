@@ -140,13 +140,6 @@ struct Extent {
   }
 };
 
-void ForEachMesh(Avatar* avatar, auto change) {
-  for (Mesh& mesh : avatar->meshes) change(&mesh);
-  for (AvatarProp& prop : avatar->props) {
-    for (Mesh& mesh : prop.meshes) change(&mesh);
-  }
-}
-
 // Every length of the figure times `scale`, the bind pose also moved. Joint frames keep unit scale.
 void ScaleAvatar(float scale, Vec3 bind_offset, Avatar* avatar, Mesh* body) {
   const Mat4 to_new = FromTranslationRotationScale(bind_offset, {}, {scale, scale, scale});
@@ -155,7 +148,7 @@ void ScaleAvatar(float scale, Vec3 bind_offset, Avatar* avatar, Mesh* body) {
   const auto move = [&](Mesh* mesh) {
     for (Vec3& p : mesh->positions) p = TransformPoint(to_new, p);
   };
-  ForEachMesh(avatar, move);
+  for (Mesh* mesh : AllMeshes(avatar)) move(mesh);
   move(body);
   for (Joint& joint : avatar->joints) {
     joint.rest.translation = joint.rest.translation * scale;
@@ -279,7 +272,7 @@ void TurnToFace(Vec3 walk_mps, Avatar* avatar, Mesh* body, std::vector<std::stri
     for (Vec3& p : mesh->positions) p = TransformPoint(matrix, p);
     for (Vec3& n : mesh->normals) n = TransformDirection(matrix, n);
   };
-  ForEachMesh(avatar, turn_mesh);
+  for (Mesh* mesh : AllMeshes(avatar)) turn_mesh(mesh);
   turn_mesh(body);
   const auto turn_root = [&](Transform* t) {
     t->translation = TransformPoint(matrix, t->translation);

@@ -531,11 +531,12 @@ void AvatarReader::DropUnusedMaterials() {
     *image = to;
   };
   std::map<std::pair<int, bool>, int> known;  // a material of the file, and whether there are uvs for its picture -> ours
-  const auto use_material = [&](Mesh& mesh) {
-    if (mesh.material < 0) return;
+  for (Mesh* const each : AllMeshes(avatar_)) {
+    Mesh& mesh = *each;
+    if (mesh.material < 0) continue;
     const auto [entry, fresh] = known.try_emplace({mesh.material, mesh.uvs.empty()}, static_cast<int>(avatar_->materials.size()));
     const int source = std::exchange(mesh.material, entry->second);
-    if (!fresh) return;
+    if (!fresh) continue;
     Material material = document_.materials[static_cast<size_t>(source)];
     if (mesh.uvs.empty() && material.base_color_image >= 0) {
       notes_->push_back("material " + Quoted(material.name) +
@@ -545,10 +546,6 @@ void AvatarReader::DropUnusedMaterials() {
     use_image(&material.base_color_image);
     use_image(&material.normal_image);
     avatar_->materials.push_back(std::move(material));
-  };
-  for (Mesh& mesh : avatar_->meshes) use_material(mesh);
-  for (AvatarProp& prop : avatar_->props) {
-    for (Mesh& mesh : prop.meshes) use_material(mesh);
   }
 }
 

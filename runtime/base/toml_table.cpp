@@ -5,8 +5,8 @@
 #include <optional>
 #include <sstream>
 
-#include "runtime/base/file.h"
 #include "runtime/base/color_text.h"
+#include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {

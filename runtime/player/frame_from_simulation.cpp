@@ -189,7 +189,7 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, const Mom
   // Who comes into the picture with the view's edge, or leaves with it, needs no fading.
   const bool leaves_view = level == kNotDrawn && s.crowd.view[i] != ViewClass::kVisible;
   look.avatar = s.crowd.avatar[i];
-  look.tints = TintsOf(pack.avatars[static_cast<size_t>(look.avatar)], s.crowd.id[i]);
+  if (anew) look.tints = TintsOf(pack.avatars[static_cast<size_t>(look.avatar)], s.crowd.id[i]);
   Move({p.x, p.y, HeightAt(s.walkable, p)}, s.crowd.heading_rad[i], anew, &look);
   const ClipMoment before = look.moment;
   FollowClip(MomentOf(s, i, pack.avatars[static_cast<size_t>(look.avatar)], look.moment.clip), anew, moment.passed_s, &look);

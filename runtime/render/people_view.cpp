@@ -175,6 +175,8 @@ DrawCost DrawMeshes(const PeopleView& people, const PeopleBatch& batch) {
   return {mesh.triangles * static_cast<int64_t>(batch.count), static_cast<int>(mesh.ranges.size())};
 }
 
+static_assert(kMostTints == 3 && kMostTintColors == 8, "kTintVertex and kTintFragment have as many");
+
 void AddTints(const std::vector<PackTint>& tints, AvatarView* view) {
   for (size_t t = 0; t < std::min(tints.size(), kMostTints); ++t) {
     const PackTint& tint = tints[t];

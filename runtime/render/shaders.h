@@ -212,11 +212,11 @@ void main() {
   choose_tints();
 #ifdef FAST
   // A prop before the person's axis stands before their impostor, which is as deep as its front.
-  vec2 to_eye = normalize(u_eye.xz - a_place.xz);
-  float before_m = dot(place.xz - a_place.xz, to_eye);
-  if (a_look.w > 0.5 && before_m > -0.02) {
+  if (a_look.w > 0.5) {
+    vec2 to_eye = normalize(u_eye.xz - a_place.xz);
+    float before_m = dot(place.xz - a_place.xz, to_eye);
     vec4 front = u_view_projection * vec4(place + vec3(to_eye.x, 0.0, to_eye.y) * (0.36 - 0.9 * before_m), 1.0);
-    gl_Position.z = front.z / front.w * gl_Position.w;
+    if (before_m > -0.02) gl_Position.z = front.z / front.w * gl_Position.w;
   }
 #endif
 #endif
