@@ -19,7 +19,9 @@ constexpr float kSoon_s = 8.0f;               // who comes near by then is serve
 constexpr float kLong_s = 1e3f;
 constexpr float kFallGain = 0.08f, kRiseGain = 0.02f;  // a step, of the relative error of the frame time (method 2)
 constexpr float kUsed = 0.8f;                // share of the budget from which on it is in use
-constexpr float kPropShare = 0.1f;            // of the budget, that props may take
+constexpr float kPropShare = 0.1f;            // of the budget, that props may take,
+constexpr float kShadowShare = 0.2f;          // and shadows,
+constexpr float kShadowEdge_m = 1.0f;         // even of those who stand so near the view
 constexpr float kSettles = 0.03f;             // a step, of what a person in high resolution costs
 constexpr float kLeastBudget = 1000;
 constexpr float kFastCamera_mps = 2.0f;      // above it fidelity may fall,
@@ -37,7 +39,7 @@ void FollowFrameTime(float frame_ms, float camera_speed_mps, const LevelSettings
   const float target_ms = camera_speed_mps > kFastCamera_mps ? s.target_ms * kFastShare : s.target_ms;
   const float error = std::clamp((target_ms - frame_ms) / target_ms, -1.0f, 1.0f);
   // A budget that nobody uses says nothing about the frame time, and must not grow on it.
-  if (error > 0 && static_cast<float>(state->triangles) < kUsed * state->budget_triangles) return;
+  if (error > 0 && static_cast<float>(state->triangles + state->shadows.triangles) < kUsed * state->budget_triangles) return;
   state->budget_triangles = std::clamp(state->budget_triangles * (1 + (error < 0 ? kFallGain : kRiseGain) * error), std::min(kLeastBudget, most), most);
 }
 
@@ -60,7 +62,8 @@ int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
       state->triangles_a_person = std::max(state->triangles_a_person, static_cast<float>(avatar.levels.front().triangles));
     }
   }
-  const float left = state->budget_triangles - static_cast<float>(kImpostorTriangles) * static_cast<float>(state->visible.size());
+  const float left = state->budget_triangles - static_cast<float>(state->shadows.triangles) -
+                     static_cast<float>(kImpostorTriangles) * static_cast<float>(state->visible.size());
   return std::max(1, static_cast<int>(left / std::max(state->triangles_a_person, 1.0f)));
 }
 
@@ -148,6 +151,20 @@ void ListPropBearers(const Crowd& crowd, const std::vector<AvatarCosts>& avatars
   }
 }
 
+// Who is in view, or so near it that their shadow may be.
+void ListShadowCasters(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera, LevelState* state) {
+  state->shadows.casters.clear();
+  state->casts_shadow.assign(crowd.size(), 0);
+  const ViewVolumes around = VolumesOf(camera, kShadowEdge_m / std::max(0.1f, std::sin(camera.fov_rad / 2)));
+  for (size_t i = 0; i < crowd.size(); ++i) {
+    if (crowd.view[i] == ViewClass::kOutside) continue;
+    const Vec2 off = crowd.position[i] - camera.position;
+    if (Dot(off, off) >= kShadowReach_m * kShadowReach_m || Classify(crowd.position[i], around) == ViewClass::kOutside) continue;
+    state->casts_shadow[i] = 1;
+    state->shadows.casters.push_back({Length(off), avatars[static_cast<size_t>(crowd.avatar[i])].shadow});
+  }
+}
+
 // r_high moves towards the distance that leaves `limit` people inside: soon where there are more, slowly where there are fewer.
 void MoveBoundary(const LevelSettings& s, int limit, float step_s, LevelState* state) {
   float wanted_m = s.r_high_m;
@@ -184,11 +201,14 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
   Settle(motion, step_s, &state->motion);
   if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
   ListVisible(crowd, camera, s.r_far_m, s.first_id, state);
+  ListShadowCasters(crowd, avatars, camera, state);
+  const int64_t all = static_cast<int64_t>(state->budget_triangles), as_impostors = int64_t{kImpostorTriangles} * static_cast<int64_t>(state->visible.size());
+  ChooseShadows(std::clamp<int64_t>(all - as_impostors, 0, static_cast<int64_t>(kShadowShare * state->budget_triangles)), step_s, &state->shadows);
   const int limit = state->limit = s.by_frame_time ? PeopleAfforded(avatars, state) : s.high_limit;
   MoveBoundary(s, limit, step_s, state);
 
   // Only those who may become meshes need to stand in order; and all, where not even impostors fit.
-  const int64_t budget = static_cast<int64_t>(state->budget_triangles);
+  const int64_t budget = all - state->shadows.triangles;
   PassFades(step_s, budget, crowd.next_id, &state->fades);
   ListPropBearers(crowd, avatars, state);
   ChooseProps(static_cast<int64_t>(kPropShare * state->budget_triangles), crowd.next_id, &state->props);
@@ -214,7 +234,7 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
     const float share = turn == kAppears ? 1 - kReserve : 1.0f;
     int level = kImpostor;
     if (turn < kStays && static_cast<float>(state->high) < share * static_cast<float>(limit)) {
-      level = AffordableLevel(avatar, WantedLevel(avatar, px, last), static_cast<int64_t>(share * state->budget_triangles), state->triangles);
+      level = AffordableLevel(avatar, WantedLevel(avatar, px, last), static_cast<int64_t>(share * static_cast<float>(budget)), state->triangles);
     }
     if (level >= 0) state->triangles += avatar.levels[static_cast<size_t>(level)].triangles - kImpostorTriangles;
     state->level[i] = level;

@@ -4,6 +4,7 @@
 
 #include "runtime/control/fades.h"
 #include "runtime/control/props.h"
+#include "runtime/control/shadows.h"
 #include "runtime/control/view_volumes.h"
 
 namespace flaneur {
@@ -18,6 +19,7 @@ struct AvatarCosts {
   float height_m = 1.75f;
   float impostor_px = 128;        // height of its picture: adequate below one screen pixel per texel
   std::vector<PropCost> props = {};
+  ShadowCost shadow = {};
 };
 
 struct LevelSettings {
@@ -36,10 +38,12 @@ struct LevelState {
   float triangles_a_person = 0;    // in high resolution, averaged over the last while; method 2
   int limit = 0;                   // most people in high resolution, in force
   std::vector<int> level;          // by person index: a mesh level, kImpostor or kNotDrawn
+  std::vector<uint8_t> casts_shadow;  // by person index; how far it reaches is in `shadows`
   int high = 0, low = 0, shortfalls = 0, switches_in_view = 0;
-  int64_t triangles = 0;           // of everybody in view, with props and the levels that fade out
+  int64_t triangles = 0;           // of everybody in view, with props and the levels that fade out, but without shadows
   Fades fades;
   Props props;
+  Shadows shadows;
   bool exceeded = false;
 
   ViewMotion motion;               // the camera's, averaged over a moment
@@ -52,6 +56,7 @@ struct LevelState {
 
 // Chooses everybody's level for this frame. Method 1 keeps high_limit; with method 2 the budget follows the frame time towards
 // target_ms, or 0.85 of it while the camera moves fast (paper, section 3.2), and the limit is what the budget affords. The budget
+// is for all triangles together, shadows included, and
 // holds whatever happens: who does not fit becomes an impostor, and where even those do not fit, the farthest are not drawn.
 // motion: the camera's in this step. frame_ms: what the last frame took, for method 2.
 void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera,

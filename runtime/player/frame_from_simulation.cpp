@@ -132,6 +132,7 @@ void Show(const PersonLook& look, float share, FrameInput* frame) {
   person.position = look.before + (look.position - look.before) * share;
   person.heading_rad = Mix_rad(look.heading_before_rad, look.heading_rad, share);
   const float done = std::min(1.0f, look.level_s / kFade_s);
+  person.casts_shadow = look.casts_shadow;
   person.props_share = PropsShare(look, done, Length(person.position - frame->eye));
   person.props = person.props_share > 0 ? look.props : 0;
   if (look.level != kNotDrawn && done > 0) {
@@ -184,6 +185,7 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, const Mom
   if (level == kNotDrawn && !was_shown) return;
   PersonLook& look = looks->by_id[id];
   look.here = true;
+  look.casts_shadow = s.levels.casts_shadow[i] != 0;
   const bool first = looks->frame < 0, was_in_view = !first && Classify(p, moment.last_view) == ViewClass::kVisible;
   const bool anew = first || !was_shown;
   // Who comes into the picture with the view's edge, or leaves with it, needs no fading.
@@ -214,6 +216,7 @@ void FollowPeople(const TourPack& pack, const Simulation& s, PersonLooks* looks)
   for (int id : looks->shown_before) {
     PersonLook& look = looks->by_id[static_cast<size_t>(id)];
     if (look.here) continue;
+    look.casts_shadow = false;
     FollowLevel(kNotDrawn, false, moment.passed_s, &look);  // gone: fades where they were
     Move(look.position, look.heading_rad, true, &look);
     look.phase_step = 0;
@@ -247,6 +250,8 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks*
   frame->fov_rad = s.camera.view.fov_rad;
   const float time_s = static_cast<float>(s.frame) * s.step_s;
   frame->to_sun = s.hour ? SunAt(*s.hour + time_s / 3600) : ToSun(pack.light, time_s);
+  frame->fine_shadow_m = s.levels.shadows.fine_m;
+  frame->shadow_reach_m = s.levels.shadows.reach_m;
   AddCaption(s, frame);
   RingWherePointed(s, &frame->ground_mark);
   frame->people.clear();

@@ -17,6 +17,7 @@ struct PersonLook {
   int avatar = 0;
   int level = kNotDrawn, last_level = kNotDrawn;
   float level_s = 0;                       // since the level changed
+  bool casts_shadow = false;
   ClipMoment moment, last_moment;          // last_moment: where the clip before stopped
   float clip_s = 0;                        // since the clip changed
   Vec3 position, before;                   // before: where the picture stood before the last step

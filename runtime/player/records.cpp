@@ -11,7 +11,8 @@ namespace {
 constexpr const char* kMetricsHeader =
     "frame,time_s,camera_x_m,camera_y_m,camera_yaw_rad,camera_fov_rad,outer_apex_back_m,asked_speed_mps,actual_speed_mps,"
     "people,visible,boundary,outside,high,low,limit,r_personal_m,r_high_m,r_unimportant_m,exceeded,shortfalls,"
-    "triangles_people,triangles_town,budget_triangles,level_switches_in_view,step_ms,control_ms,draw_ms,triangles_shadows\n";
+    "triangles_people,triangles_town,budget_triangles,level_switches_in_view,step_ms,control_ms,draw_ms,triangles_shadows,"
+    "triangles_people_shadows\n";
 constexpr const char* kTrajectoriesHeader = "frame,id,avatar,x_m,y_m,z_m,heading_rad,radius_m,view,level\n";
 constexpr const char* kViewNames[] = {"outside", "boundary", "visible"};
 
@@ -36,9 +37,10 @@ void RecordMetrics(const Simulation& s, const FrameCosts& costs, std::string* te
   Append(text, "%zu,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.4f,%d,%d,", s.crowd.size(), count[2], count[1], count[0], s.levels.high,
          s.levels.low, s.levels.limit, D(s.r_personal_m), D(s.levels.r_high_m),
          D(s.influence.r_unimportant_m), s.levels.exceeded ? 1 : 0, s.levels.shortfalls);
-  Append(text, "%lld,%lld,%.0f,%d,%.4f,%.4f,%.4f,%lld\n", static_cast<long long>(s.levels.triangles),
+  Append(text, "%lld,%lld,%.0f,%d,%.4f,%.4f,%.4f,%lld,%lld\n", static_cast<long long>(s.levels.triangles),
          static_cast<long long>(costs.town_triangles), D(s.levels.budget_triangles), s.levels.switches_in_view, s.step_ms,
-         s.control_ms, costs.draw_ms, static_cast<long long>(costs.shadow_triangles));
+         s.control_ms, costs.draw_ms, static_cast<long long>(costs.shadow_triangles),
+         static_cast<long long>(s.levels.shadows.triangles));
 }
 
 void RecordTrajectories(const Simulation& s, std::string* text) {

@@ -10,6 +10,7 @@
 #include "runtime/player/coming_and_going.h"
 #include "runtime/player/places.h"
 #include "runtime/player/population.h"
+#include "runtime/render/frame.h"
 
 namespace flaneur {
 namespace {
@@ -38,6 +39,12 @@ std::vector<PropCost> CostsOf(const std::vector<PackProp>& props) {
   return costs;
 }
 
+// What the renderer draws at most.
+ShadowCost ShadowCostOf(const PackAvatar& avatar) {
+  const int coarsest = avatar.levels.back().triangles;
+  return {std::min(coarsest, kMostShadowTriangles[0]), std::min(coarsest, kMostShadowTriangles[1])};
+}
+
 void TakePack(const TourPack& pack, Simulation* s) {
   for (const PackAvatar& avatar : pack.avatars) {
     AvatarCosts costs;
@@ -45,6 +52,7 @@ void TakePack(const TourPack& pack, Simulation* s) {
     costs.height_m = avatar.height_m;
     costs.impostor_px = avatar.height_m / avatar.impostor.texel_m;
     costs.props = CostsOf(avatar.props);
+    costs.shadow = ShadowCostOf(avatar);
     s->avatar_names.push_back(avatar.name);
     s->avatar_costs.push_back(costs);
     s->avatar_share.push_back(avatar.share);

@@ -28,16 +28,23 @@ struct DrawnPerson {
   Vec3 position;           // of the feet
   float heading_rad = 0;   // where the person faces
   float share_from = 0, share_to = 1;
+  bool casts_shadow = true;
   uint8_t props = 0;       // bit k: the k-th of the avatar's is drawn too,
   float props_share = 1;   // [0, props_share) of the pattern
   std::array<uint8_t, 4> tints{};  // by tint of the avatar, the last unused: 0 its own colour, k the k-th of its others
 };
+
+// The most triangles of the figures that cast people's shadows: the fine one, which has no more than the coarsest level either, and the coarse.
+inline constexpr int kMostShadowTriangles[] = {1600, 96};
 
 struct FrameInput {
   Vec3 eye;
   float yaw_rad = 0, pitch_rad = 0, fov_rad = 1;  // horizontal
   Vec3 to_sun{0, 0, 1};    // unit
   std::vector<DrawnPerson> people;
+  // Who is farther from the eye casts the shadow of a coarser figure, and who is beyond the reach none. In a picture of a smaller
+  // scale coarser figures begin nearer.
+  float fine_shadow_m = 12, shadow_reach_m = 72;
   std::vector<Vec3> ground_mark;  // a strip of triangles over the ground; empty: none
   std::string caption;     // UTF-8, at the foot of the picture; empty: none
   float caption_share = 1; // how much of it is seen, 0 to 1
@@ -54,7 +61,7 @@ inline constexpr const char* kDrawPassNames[] = {"cull, sort, upload", "shadows 
 
 struct FrameStatistics {
   int64_t town_triangles = 0, people_triangles = 0;  // drawn into the picture, both levels of who changes; not the shadows
-  int64_t shadow_triangles = 0;
+  int64_t shadow_triangles = 0, people_shadow_triangles = 0;  // of all, and of people alone
   float resolution_scale = 1;  // the frame's
   int draw_calls = 0;      // of the whole picture, shadows included
   int people_drawn = 0, people_hidden = 0;  // hidden: behind walls or above or below the view

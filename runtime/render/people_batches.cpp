@@ -275,8 +275,8 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     const Box box = BoxOf(person, avatars[index]);
     const float distance_m = Length(GltfFromGround(person.position) - sight.eye);
     const bool half = person.share_to - person.share_from >= 0.5f;  // of the two of a fade one casts the shadow
-    if (half && ready[index].shadow && distance_m < sight.shadow_reach_m && in_sight(WithShadow(box, sight.to_sun))) {
-      out->shadow_entries.push_back({number, 2 * person.avatar + (distance_m > sight.fine_shadow_m ? 1 : 0), 0});
+    if (half && person.casts_shadow && ready[index].shadow && distance_m < sight.shadow_reach_m && in_sight(WithShadow(box, sight.to_sun))) {
+      out->shadow_entries.push_back({number, 2 * person.avatar + (distance_m < sight.fine_shadow_m ? 0 : 1), 0});
     }
     if (!in_sight(box)) {
       ++out->hidden;

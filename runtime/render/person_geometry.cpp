@@ -11,6 +11,8 @@
 namespace flaneur {
 namespace {
 
+constexpr float kLargerCells = 1.2f;
+
 uint16_t Word(float v) { return static_cast<uint16_t>(std::clamp(v, 0.0f, 1.0f) * 65535 + 0.5f); }
 
 void AppendVertices(const PackPrimitive& p, Vec4 base, int layer, std::vector<PersonVertex>* vertices) {
@@ -32,6 +34,34 @@ PersonVertex OnHeaviestJoint(PersonVertex v) {
   v.joints[0] = v.joints[static_cast<size_t>(std::max_element(v.weights.begin(), v.weights.end()) - v.weights.begin())];
   v.weights = {65535, 0, 0, 0};
   return v;
+}
+
+PersonGeometry WithinCells(const PersonGeometry& of, float cell_m) {
+  PersonGeometry out;
+  std::map<std::array<int, 3>, uint32_t> cells;
+  std::vector<uint32_t> place(of.vertices.size());
+  Box box;
+  for (const PersonVertex& v : of.vertices) Include(v.position, &box);
+  const Vec3 middle = (box.low + box.high) * 0.5f;
+  for (size_t i = 0; i < of.vertices.size(); ++i) {
+    const Vec3 p = of.vertices[i].position;
+    const auto cell = [cell_m](float v) { return static_cast<int>(std::floor(v / cell_m)); };
+    const auto [found, fresh] = cells.try_emplace({cell(p.x), cell(p.y), cell(p.z)}, static_cast<uint32_t>(out.vertices.size()));
+    place[i] = found->second;
+    if (fresh) out.vertices.push_back(OnHeaviestJoint(of.vertices[i]));
+    // The outermost stands for all in the cell, so that hats and hems keep their size.
+    PersonVertex& kept = out.vertices[place[i]];
+    if (Length(p - middle) > Length(kept.position - middle)) kept = OnHeaviestJoint(of.vertices[i]);
+  }
+  std::set<std::array<uint32_t, 3>> seen;  // layers of cloth fall together
+  for (size_t i = 0; i + 2 < of.indices.size(); i += 3) {
+    std::array<uint32_t, 3> t{place[of.indices[i]], place[of.indices[i + 1]], place[of.indices[i + 2]]};
+    std::sort(t.begin(), t.end());  // a shadow has no front
+    if (t[0] == t[1] || t[1] == t[2] || !seen.insert(t).second) continue;
+    out.indices.insert(out.indices.end(), t.begin(), t.end());
+  }
+  out.ranges = {{0, 0, static_cast<uint32_t>(out.indices.size())}};
+  return out;
 }
 
 }  // namespace
@@ -57,31 +87,9 @@ PersonGeometry BuildPersonGeometry(const TourPack& pack, int mesh, const Surface
   return out;
 }
 
-PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m) {
-  PersonGeometry out;
-  std::map<std::array<int, 3>, uint32_t> cells;
-  std::vector<uint32_t> place(of.vertices.size());
-  Box box;
-  for (const PersonVertex& v : of.vertices) Include(v.position, &box);
-  const Vec3 middle = (box.low + box.high) * 0.5f;
-  for (size_t i = 0; i < of.vertices.size(); ++i) {
-    const Vec3 p = of.vertices[i].position;
-    const auto cell = [cell_m](float v) { return static_cast<int>(std::floor(v / cell_m)); };
-    const auto [found, fresh] = cells.try_emplace({cell(p.x), cell(p.y), cell(p.z)}, static_cast<uint32_t>(out.vertices.size()));
-    place[i] = found->second;
-    if (fresh) out.vertices.push_back(OnHeaviestJoint(of.vertices[i]));
-    // The outermost stands for all in the cell, so that hats and hems keep their size.
-    PersonVertex& kept = out.vertices[place[i]];
-    if (Length(p - middle) > Length(kept.position - middle)) kept = OnHeaviestJoint(of.vertices[i]);
-  }
-  std::set<std::array<uint32_t, 3>> seen;  // layers of cloth fall together
-  for (size_t i = 0; i + 2 < of.indices.size(); i += 3) {
-    std::array<uint32_t, 3> t{place[of.indices[i]], place[of.indices[i + 1]], place[of.indices[i + 2]]};
-    std::sort(t.begin(), t.end());  // a shadow has no front
-    if (t[0] == t[1] || t[1] == t[2] || !seen.insert(t).second) continue;
-    out.indices.insert(out.indices.end(), t.begin(), t.end());
-  }
-  out.ranges = {{0, 0, static_cast<uint32_t>(out.indices.size())}};
+PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m, size_t most_triangles) {
+  PersonGeometry out = WithinCells(of, cell_m);
+  while (out.indices.size() / 3 > most_triangles) out = WithinCells(of, cell_m *= kLargerCells);
   return out;
 }
 

@@ -29,8 +29,8 @@ struct PersonGeometry {
 PersonGeometry BuildPersonGeometry(const TourPack& pack, int mesh, const SurfacePlan& plan);
 
 // The shape alone: of all vertices within a cell of `cell_m` the one farthest from the figure's middle, so that hats and hems keep their
-// size, on the heaviest of its joints. A few hundred triangles, enough for a shadow.
-PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m);
+// size, on the heaviest of its joints. Cells are larger where there were more than `most_triangles` else.
+PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m, size_t most_triangles);
 
 using ShadowLevels = std::array<PersonGeometry, 2>;  // for shadows near the eye, and farther off
 

@@ -21,7 +21,6 @@ namespace flaneur {
 namespace {
 
 constexpr float kNear_m = 0.1f, kFar_m = 900;
-constexpr float kFineShadow_m = 12;  // at all pixels
 // Of the town's shadows that a picture usually renews: with less, one map waits for the other while the visitor runs out of it.
 constexpr float kLeastShadowShare = 0.5f;
 
@@ -60,7 +59,7 @@ Vec3 Ahead(const FrameInput& frame) {
 Vec4 Wide(Vec3 v) { return {v.x, v.y, v.z, 0}; }
 
 // focal_px: pixels that a metre takes at a distance of one.
-FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px, Vec3 to_sun, const ShadowMaps& shadows) {
+FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px, Vec3 to_sun, float shadow_reach_m, const ShadowMaps& shadows) {
   const Light light = LightFor(to_sun);
   FrameBlock block;
   block.view_projection = view_projection;
@@ -68,7 +67,7 @@ FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px,
   block.near_shadow = shadows.near.matrix;
   block.far_shadow = shadows.far.matrix;
   block.people_shadow = shadows.people_matrix;
-  block.shadow_layers = {static_cast<float>(shadows.near.layer), static_cast<float>(shadows.far.layer), 0, 0};
+  block.shadow_layers = {static_cast<float>(shadows.near.layer), static_cast<float>(shadows.far.layer), shadow_reach_m, 0};
   block.eye = {eye.x, eye.y, eye.z, focal_px};
   block.to_sun = Wide(to_sun);
   block.sun_color = Wide(light.sun);
@@ -189,13 +188,14 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   const double people_ms = Now_ms();
   ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
   const float focal_px = static_cast<float>(r.picture.drawn_width_px) / 2 / std::tan(frame.fov_rad / 2);
-  const PeopleSight sight{eye, to_sun, FrustumOf(view_projection), r.options.cull ? &r.town.walls : nullptr, 2 * kPeopleShadow_m,
-                          frame.resolution_scale < 1 && !frame.keeps_levels ? focal_px : 0, kFineShadow_m * frame.resolution_scale};
+  const PeopleSight sight{eye, to_sun, FrustumOf(view_projection), r.options.cull ? &r.town.walls : nullptr, std::min(2 * kPeopleShadow_m, frame.shadow_reach_m),
+                          frame.resolution_scale < 1 && !frame.keeps_levels ? focal_px : 0, frame.fine_shadow_m * frame.resolution_scale};
   SortPeople(frame.people, r.people.layouts, r.people.ready, sight, &r.people.batches);
   UploadPeople(&r.people);
   statistics->people_ms = Now_ms() - people_ms;
   timer.Passed(DrawPass::kCull);
   DrawCost shadows = DrawPeopleShadows(eye, ahead, to_sun, r.block_buffer, r.people, &r.shadows);
+  statistics->people_shadow_triangles = shadows.triangles;
   timer.Passed(DrawPass::kPeopleShadow);
   shadows += UpdateTownShadows(eye, to_sun, std::max(kLeastShadowShare, frame.resolution_scale * frame.resolution_scale), r.block_buffer, r.town, &r.shadows);
   timer.Passed(DrawPass::kTownShadow);
@@ -203,7 +203,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   BeginPicture(r.picture);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, focal_px, to_sun, r.shadows));
+  BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, focal_px, to_sun, std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
   // Whatever is drawn hides what comes after it at no cost: the dearest comes last, the nearest first.
   DrawCost people = DrawPeople(r.people, false);
   timer.Passed(DrawPass::kMeshes);

@@ -12,7 +12,7 @@ inline constexpr const char* kFrame = R"(
 layout(std140) uniform Frame {
   mat4 u_view_projection, u_inverse_view_projection, u_near_shadow, u_far_shadow, u_people_shadow;
   vec4 u_eye, u_to_sun, u_sun_color, u_sky_color, u_ground_color, u_haze_color, u_zenith_color;
-  vec4 u_shadow_layers;  // of the near and the far map; u_eye.w: pixels that a metre takes at a distance of one
+  vec4 u_shadow_layers;  // of the near and the far map, and how far from the eye people's shadows reach; u_eye.w: pixels that a metre takes at a distance of one
 };
 )";
 
@@ -43,7 +43,7 @@ float town_shadow(vec3 p) {
   return sum * 0.25;
 #endif
 }
-// Fades out towards the map's rim, so that nobody's shadow vanishes at once.
+// Fades out towards the map's rim and the end of its reach, so that nobody's shadow vanishes at once.
 float people_shadow(vec3 p) {
   vec3 c = (u_people_shadow * vec4(p, 1.0)).xyz * 0.5 + 0.5;
   vec3 off = abs(c - 0.5);
@@ -56,7 +56,7 @@ float people_shadow(vec3 p) {
   float sum = 0.0;
   for (int i = 0; i < 4; ++i) sum += 0.25 * texture(u_people_shadow_map, vec3(c.xy + k_taps[i] * texel, c.z - 0.0012));
 #endif
-  return mix(sum, 1.0, smoothstep(0.42, 0.49, rim));
+  return mix(sum, 1.0, max(smoothstep(0.42, 0.49, rim), smoothstep(0.8, 1.0, distance(p, u_eye.xyz) / u_shadow_layers.z)));
 }
 vec3 lit(vec3 albedo, vec3 towards, vec3 p) {
   vec3 n = normalize(towards);

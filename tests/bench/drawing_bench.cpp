@@ -56,7 +56,7 @@ void Print(const char* what, const Series& s, const char* unit) {
 }
 
 struct Costs {
-  Series clock_ms, processor_ms, town_triangles, people_triangles, shadow_triangles, calls, drawn, hidden, people_ms;
+  Series clock_ms, processor_ms, town_triangles, people_triangles, shadow_triangles, people_shadow_triangles, calls, drawn, hidden, people_ms;
   std::array<Series, std::size(kDrawPassNames)> pass_ms;
 };
 
@@ -69,6 +69,7 @@ void Draw(const FrameInput& frame, int width_px, int height_px, Renderer* render
   costs->town_triangles.values.push_back(static_cast<double>(s.town_triangles));
   costs->people_triangles.values.push_back(static_cast<double>(s.people_triangles));
   costs->shadow_triangles.values.push_back(static_cast<double>(s.shadow_triangles));
+  costs->people_shadow_triangles.values.push_back(static_cast<double>(s.people_shadow_triangles));
   costs->calls.values.push_back(s.draw_calls);
   costs->drawn.values.push_back(s.people_drawn);
   costs->hidden.values.push_back(s.people_hidden);
@@ -122,7 +123,7 @@ Error Run(int argc, char** argv) {
   size_t clip_bytes = 0;
   for (const PackAvatar& avatar : pack.avatars) clip_bytes = std::max(clip_bytes, ClipBytes(LayoutOf(avatar)));
   Costs as_decided, full;
-  Series compared_ms, compared_clock_ms, people_ms, levels_ms, all_looks_ms;
+  Series compared_ms, compared_clock_ms, people_ms, levels_ms, all_looks_ms, known_shadow_triangles;
   PersonLooks looks;
   FrameInput frame;
   FrameFromSimulation(pack, s, &looks, &frame);
@@ -137,6 +138,7 @@ Error Run(int argc, char** argv) {
     Costs* costs = k < kWarm ? &unused : &as_decided;
     Draw(frame, width_px, height_px, &renderer, costs);
     levels_ms.values.push_back(s.control_ms);
+    known_shadow_triangles.values.push_back(static_cast<double>(s.levels.shadows.triangles));
     all_looks_ms.values.push_back(looks_ms);
     people_ms.values.push_back(s.control_ms + looks_ms + costs->people_ms.values.back());
     if (compares && k >= kWarm && k % kFullEvery == 0) {
@@ -163,6 +165,8 @@ Error Run(int argc, char** argv) {
   Print("town", as_decided.town_triangles, "triangles");
   Print("people", as_decided.people_triangles, "triangles");
   Print("shadows", as_decided.shadow_triangles, "triangles");
+  Print("  of them people's", as_decided.people_shadow_triangles, "triangles");
+  Print("  as the budget counts them", known_shadow_triangles, "triangles");
   Print("drawn people, both levels of who changes", as_decided.drawn, "");
   Print("hidden people", as_decided.hidden, "");
   Print("draw calls", as_decided.calls, "");

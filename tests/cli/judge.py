@@ -7,7 +7,7 @@ import sys
 METRICS = ("frame,time_s,camera_x_m,camera_y_m,camera_yaw_rad,camera_fov_rad,outer_apex_back_m,asked_speed_mps,"
            "actual_speed_mps,people,visible,boundary,outside,high,low,limit,r_personal_m,r_high_m,r_unimportant_m,"
            "exceeded,shortfalls,triangles_people,triangles_town,budget_triangles,level_switches_in_view,step_ms,"
-           "control_ms,draw_ms").split(",")
+           "control_ms,draw_ms,triangles_shadows,triangles_people_shadows").split(",")
 TRAJECTORIES = "frame,id,avatar,x_m,y_m,z_m,heading_rad,radius_m,view,level".split(",")
 
 
@@ -33,7 +33,8 @@ def read_trajectories(path):
 
 
 def frames_over_budget(metrics):
-    return [r["frame"] for r in metrics if float(r["triangles_people"]) > float(r["budget_triangles"])]
+    return [r["frame"] for r in metrics
+            if float(r["triangles_people"]) + float(r["triangles_people_shadows"]) > float(r["budget_triangles"])]
 
 
 def jumps(frames, top_speed_mps, step_s):

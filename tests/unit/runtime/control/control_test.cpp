@@ -57,10 +57,43 @@ TEST(Props, StayWithinTheirRoomAndNeitherComeNorGoInView) {
   EXPECT_EQ(step({3, 4}, 250), (std::vector<int>{3, 4})) << "was out of view and is back";
 }
 
-TEST(ChooseLevels, TheBudgetHoldsForPropsAsWell) {
+TEST(Shadows, TakeNoMoreThanTheirRoomFromTheFarthestFirstAndComeBackSlowly) {
+  Shadows state;
+  const auto step = [&](int64_t room) {
+    state.casters.clear();
+    for (int k = 0; k < 60; ++k) state.casters.push_back({static_cast<float>(k) + 0.3f, {1000, 100}});
+    ChooseShadows(room, 1.0f / 30, &state);
+    int64_t triangles = 0;
+    for (const ShadowCaster& c : state.casters) {
+      triangles += c.distance_m < state.fine_m ? c.cost.fine_triangles : c.distance_m < state.reach_m ? c.cost.coarse_triangles : 0;
+    }
+    EXPECT_EQ(state.triangles, triangles);
+    EXPECT_LE(state.triangles, room);
+  };
+  step(100000);
+  EXPECT_EQ(state.fine_m, kFineShadow_m);
+  EXPECT_EQ(state.reach_m, kShadowReach_m);
+  step(10000);
+  EXPECT_EQ(state.reach_m, kShadowReach_m) << "everybody's coarse shadow before anybody's fine one";
+  EXPECT_NEAR(state.fine_m, 4, 0.5f);
+  step(2000);
+  EXPECT_NEAR(state.reach_m, 20, 0.5f);
+  EXPECT_LT(state.fine_m, 0.5f);
+  float before_m = state.reach_m;
+  for (int k = 0; k < 3000 && state.fine_m < kFineShadow_m; ++k) {
+    step(100000);
+    EXPECT_LT(state.reach_m, before_m + 0.05f);
+    before_m = state.reach_m;
+  }
+  EXPECT_EQ(state.fine_m, kFineShadow_m);
+  step(0);
+  EXPECT_EQ(state.triangles, 0);
+}
+
+TEST(ChooseLevels, TheBudgetHoldsForPropsAndShadowsAsWell) {
   Random random{5};
   for (int budget : {40, 300, 2000, 20000, 200000}) {
-    std::vector<AvatarCosts> avatars{{{{9000, 400}, {3000, 200}, {700, 0}}, 1.75f, 128, {{250, 0.7f, 0}, {90, 0.3f, 1}}}, {{{500, 0}}, 1.75f, 128}};
+    std::vector<AvatarCosts> avatars{{{{9000, 400}, {3000, 200}, {700, 0}}, 1.75f, 128, {{250, 0.7f, 0}, {90, 0.3f, 1}}, {700, 90}}, {{{500, 0}}, 1.75f, 128, {}, {500, 50}}};
     Crowd crowd;
     for (int k = 0; k < 300; ++k) {
       Person person;
@@ -77,17 +110,26 @@ TEST(ChooseLevels, TheBudgetHoldsForPropsAsWell) {
         crowd.view[i] = Classify(crowd.position[i], ViewCamera{}, 3);
       }
       ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, settings, 1.0f / 30, &state);
-      ASSERT_LE(state.triangles, budget);
+      ASSERT_LE(state.triangles + state.shadows.triangles, budget);
       ASSERT_LE(state.props.triangles, budget / 10);
+      ASSERT_LE(state.shadows.triangles, budget / 5);
+      int64_t shadows = 0;
       int64_t drawn = state.fades.triangles + state.props.triangles;
       for (size_t i = 0; i < crowd.size(); ++i) {
         const int level = state.level[i];
         const auto& levels = avatars[static_cast<size_t>(crowd.avatar[i])].levels;
         if (level != kNotDrawn) drawn += level < 0 ? kImpostorTriangles : levels[static_cast<size_t>(level)].triangles;
+        const ShadowCost& shadow = avatars[static_cast<size_t>(crowd.avatar[i])].shadow;
+        const float distance_m = Length(crowd.position[i]);
+        EXPECT_TRUE(state.casts_shadow[i] != 0 || crowd.view[i] != ViewClass::kVisible || distance_m >= kShadowReach_m);
+        if (state.casts_shadow[i] == 0) continue;
+        shadows += distance_m < state.shadows.fine_m ? shadow.fine_triangles : distance_m < state.shadows.reach_m ? shadow.coarse_triangles : 0;
       }
       ASSERT_EQ(state.triangles, drawn);
+      ASSERT_EQ(state.shadows.triangles, shadows);
     }
     EXPECT_GT(state.props.triangles, budget >= 20000 ? 0 : -1);
+    EXPECT_GT(state.shadows.triangles, budget >= 2000 ? 0 : -1);
   }
 }
 

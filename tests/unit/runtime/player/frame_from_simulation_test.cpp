@@ -24,6 +24,7 @@ struct Stage {
     AddPerson(person, &s.crowd);
     s.crowd.view = {ViewClass::kVisible};
     s.levels.level = {0};
+    s.levels.casts_shadow = {1};
   }
   // The pictures so far have been at 30 a second.
   std::vector<DrawnPerson> Next() {
@@ -55,6 +56,7 @@ TEST(FrameFromSimulation, PeopleOfOneModelWearDifferentColoursAndKeepThem) {
   }
   stage.s.crowd.view.assign(kPeople, ViewClass::kVisible);
   stage.s.levels.level.assign(kPeople, -1);
+  stage.s.levels.casts_shadow.assign(kPeople, 1);
   const auto people = stage.Next();
   ASSERT_EQ(people.size(), static_cast<size_t>(kPeople));
   std::map<std::array<uint8_t, 4>, int> wearers;
@@ -139,6 +141,7 @@ TEST(FrameFromSimulation, WhoAppearsWithinTheViewFadesInAndWhoComesFromOutsideIs
   AddPerson(person, &stage.s.crowd);
   stage.s.crowd.view = {ViewClass::kVisible, ViewClass::kVisible};
   stage.s.levels.level = {0, 0};
+  stage.s.levels.casts_shadow = {1, 1};
   EXPECT_NEAR(WholeShare(stage.Next()), 1, 1e-5f);
   EXPECT_LT(WholeShare(stage.Next()), 1.2f);
   stage.s.camera.view.yaw_rad = kPi;  // looks the other way, and back
@@ -158,7 +161,10 @@ TEST(FrameFromSimulation, WhoseMiddleIsBeyondTheViewsEdgeIsStillDrawn) {
   stage.s.crowd.position = {{5 * std::cos(half_rad + 0.05f), 5 * std::sin(half_rad + 0.05f)}};
   stage.s.crowd.view = {ViewClass::kBoundary};
   stage.s.levels.level = {kNotDrawn};
-  EXPECT_EQ(stage.Next().size(), 1u);
+  stage.s.levels.casts_shadow = {0};
+  const auto people = stage.Next();
+  ASSERT_EQ(people.size(), 1u);
+  EXPECT_FALSE(people[0].casts_shadow);
   stage.s.crowd.position = {{5 * std::cos(half_rad + 0.5f), 5 * std::sin(half_rad + 0.5f)}};
   EXPECT_TRUE(stage.Next().empty());
 }

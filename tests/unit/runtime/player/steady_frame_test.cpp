@@ -78,5 +78,31 @@ TEST(SteadyFrameOfTheDemo, OfTheSimulationIsPutTogetherWithoutAllocating) {
   EXPECT_EQ(allocated, 0);
 }
 
+TEST(SteadyFrameOfTheDemo, PeopleCastNoMoreShadowThanTheBudgetCounts) {
+  const std::filesystem::path path = std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": bake the demo tour with ./demo";
+  TourPack pack;
+  ASSERT_EQ(LoadTourPack(path, {}, &pack).message, "");
+  Scenario scenario;
+  ASSERT_EQ(ReadScenario(std::filesystem::path(FLANEUR_SOURCE_DIR) / "tests/scenario/turn-dense.toml", &scenario).message, "");
+  Simulation simulation;
+  ASSERT_EQ(StartSimulation(&pack, scenario, &simulation).message, "");
+  HeadlessContext context;
+  if (const Error error = context.Create()) GTEST_SKIP() << error.message;
+  Renderer renderer;
+  ASSERT_EQ(renderer.Create(pack).message, "");
+  PersonLooks looks;
+  FrameInput frame;
+  FrameStatistics statistics;
+  for (int k = 0; k < 60; ++k) {
+    StepSimulation({}, 0, &simulation);
+    FrameFromSimulation(pack, simulation, &looks, &frame);
+    renderer.Draw(frame, 160, 90, &statistics);
+    EXPECT_LE(statistics.people_shadow_triangles, simulation.levels.shadows.triangles) << k;
+    EXPECT_LE(simulation.levels.triangles + simulation.levels.shadows.triangles, simulation.level_settings.budget_triangles) << k;
+  }
+  EXPECT_GT(statistics.people_shadow_triangles, 1000);
+}
+
 }  // namespace
 }  // namespace flaneur

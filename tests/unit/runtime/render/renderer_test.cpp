@@ -457,6 +457,21 @@ TEST_F(Drawing, APersonCastsAShadowOnTheGround) {
   }
 }
 
+TEST_F(Drawing, WhoIsBeyondTheReachOfShadowsCastsNone) {
+  const TourPack pack = MakePack({});
+  FrameInput frame = LookEast();
+  frame.people = {PersonAt(6, 0, 0), PersonAt(20, 0, 0)};
+  Draw(pack, frame);
+  const int64_t both = statistics_.people_shadow_triangles;
+  frame.shadow_reach_m = 12;
+  Draw(pack, frame);
+  EXPECT_GT(statistics_.people_shadow_triangles, 0);
+  EXPECT_LT(statistics_.people_shadow_triangles, both);
+  frame.shadow_reach_m = 0;
+  Draw(pack, frame);
+  EXPECT_EQ(statistics_.people_shadow_triangles, 0);
+}
+
 TEST_F(Drawing, ACaptionStandsAtTheFootAndNowhereElse) {
   const TourPack pack = MakePack({});
   FrameInput frame = LookEast();
@@ -654,8 +669,9 @@ TEST(ShadowGeometry, IsMuchSmallerAndStaysInShape) {
       for (uint32_t corner : {at(i, j), at(i + 1, j), at(i, j + 1), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)}) p.indices.push_back(corner);
     }
   }
-  const PersonGeometry whole = BuildPersonGeometry(pack, 0, PlanSurfaces(pack, {})), shadow = ShadowGeometry(whole, 0.16f);
+  const PersonGeometry whole = BuildPersonGeometry(pack, 0, PlanSurfaces(pack, {})), shadow = ShadowGeometry(whole, 0.16f, 1000);
   EXPECT_LT(shadow.indices.size(), whole.indices.size() / 10);
+  EXPECT_LE(ShadowGeometry(whole, 0.01f, 100).indices.size() / 3, 100u) << "whatever the cells";
   Box box;
   for (uint32_t i : shadow.indices) Include(shadow.vertices[i].position, &box);
   EXPECT_NEAR(box.high.y, 1.8f, 0.1f);
@@ -677,7 +693,7 @@ TEST(ShadowGeometry, KeepsTheBrimOfAHat) {
       for (uint32_t corner : {at(i, j), at(i + 1, j), at(i, j + 1), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)}) p.indices.push_back(corner);
     }
   }
-  const PersonGeometry shadow = ShadowGeometry(BuildPersonGeometry(pack, 0, PlanSurfaces(pack, {})), 0.1f);
+  const PersonGeometry shadow = ShadowGeometry(BuildPersonGeometry(pack, 0, PlanSurfaces(pack, {})), 0.1f, 1000);
   Box box;
   for (uint32_t i : shadow.indices) Include(shadow.vertices[i].position, &box);
   EXPECT_GT(box.high.x - box.low.x, 0.38f);
