@@ -191,7 +191,7 @@ def add_gardens(town, gardens):
 
 def add_copies(town, streets, public, rng):
     for name, height, crown, tint, detail in furnish.TREE_SORTS:
-        town.shared[name] = nature.make_tree(rng, height, crown, tint, detail)
+        town.shared[name] = nature.make_tree(random.Random(name), height, crown, tint, detail)  # however many leaves, the town stays
     town.shared["lamp"] = nature.make_lamp()
     for i, (x, y, scale, sort) in enumerate(furnish.trees(public, rng)):
         z = float(plan.pavement_height(x, y)) - (0.1 if public([(x, y)])[0] < 0 else 0.15)

@@ -18,13 +18,16 @@ def make_materials(names, pixels, seed, folder):
     for name in names:
         material = bpy.data.materials.new(name)
         material.use_nodes = True
-        material.use_backface_culling = name != "leaves"
+        material.use_backface_culling = name not in ("leaves", "twigs")
         shader = material.node_tree.nodes["Principled BSDF"]
         if name in textures.TEXTURES:
             image = _image(name, pixels, seed, folder)
             node = material.node_tree.nodes.new("ShaderNodeTexImage")
             node.image = image
             material.node_tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
+            if image.depth == 32:
+                material.node_tree.links.new(node.outputs["Alpha"], shader.inputs["Alpha"])
+                material.blend_method, material.alpha_threshold = "CLIP", 0.4
             shader.inputs["Roughness"].default_value = textures.TEXTURES[name][2]
         else:
             shader.inputs["Base Color"].default_value = (1, 1, 1, 1)
@@ -35,16 +38,17 @@ def make_materials(names, pixels, seed, folder):
 
 
 def _image(name, pixels, seed, folder):
-    """The texture as a JPEG file, which the exporter embeds as it is."""
+    """The texture as a file, which the exporter embeds as it is: JPEG, or PNG where it is cut out."""
     values = textures.make(name, pixels, seed)
     size = values.shape[0]
-    image = bpy.data.images.new(name, size, size)
+    cut_out = values.shape[2] == 4
+    image = bpy.data.images.new(name, size, size, alpha=cut_out)
     rgba = np.ones((size, size, 4), np.float32)
-    rgba[..., :3] = values
+    rgba[..., :values.shape[2]] = values
     image.pixels.foreach_set(rgba.ravel())
-    path = os.path.join(folder, name + ".jpg")
+    path = os.path.join(folder, name + (".png" if cut_out else ".jpg"))
     image.filepath_raw = path
-    image.file_format = "JPEG"
+    image.file_format = "PNG" if cut_out else "JPEG"
     bpy.context.scene.render.image_settings.quality = 82
     image.save()
     bpy.data.images.remove(image)

@@ -9,7 +9,7 @@ from layout import offset_line
 
 # Name of the shared mesh, height, crown radius, colour, detail.
 TREE_SORTS = [("tree_lime", 8.6, 3.0, "8c9a48", 1.5), ("tree_maple", 9.6, 2.8, "7a8f45", 1.2),
-              ("tree_apple", 6.4, 2.6, "9aa04f", 0.45), ("tree_elm", 8.8, 3.1, "7f9148", 0.45),
+              ("tree_apple", 6.4, 2.6, "9aa04f", 0.75), ("tree_elm", 8.8, 3.1, "7f9148", 0.75),
               ("tree_far", 9.5, 3.4, "7f8c50", 0.25)]
 STALLS = [(-10.0, 6.6, 0.0), (-5.4, 6.9, 0.0), (-0.8, 6.7, 0.0), (3.8, 6.9, 0.0), (8.6, 6.6, 0.0),
           (1.2, -8.2, math.pi), (5.9, -8.4, math.pi), (10.6, -8.1, math.pi)]

@@ -11,7 +11,7 @@ import numpy as np
 # How many metres one repetition of a material's texture spans.
 TILE_M = {
     "plaster": 4.0, "timber": 1.6, "roof_tile": 3.2, "stone": 3.0, "cobble": 3.6, "paving": 4.0, "setts": 4.0,
-    "grass": 5.0, "bark": 1.5, "leaves": 1.6, "glass": 0.72, "iron": 1.0, "planks": 1.2, "cloth": 1.0,
+    "grass": 5.0, "bark": 1.5, "leaves": 1.6, "twigs": 1.0, "glass": 0.72, "iron": 1.0, "planks": 1.2, "cloth": 1.0,
 }
 
 

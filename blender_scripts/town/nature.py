@@ -37,7 +37,7 @@ def _unit(a):
 
 
 def make_tree(rng, height, crown, tint, detail=1.0):
-    """A broad-leaved tree: forked trunk, clumps of foliage, loose leaf sprays that break the outline.
+    """A broad-leaved tree: forked trunk, clumps of foliage, twigs that break the outline.
 
     detail: 1 to be seen from nearby, less for gardens and the far side of the wall.
     """
@@ -50,7 +50,7 @@ def make_tree(rng, height, crown, tint, detail=1.0):
     top = (lean[0], lean[1], fork)
     _limb(mesh, (0, 0, fork * 0.6 - 0.12), top, 0.226, 0.2, 9, bark)
     clumps = []
-    arms = 6 if detail > 0.6 else 4
+    arms = 6 if detail > 0.8 else 4
     for i in range(arms):
         yaw = 2 * math.pi * (i + rng.uniform(-0.25, 0.25)) / arms
         out = crown * rng.uniform(0.5, 0.72)
@@ -66,55 +66,87 @@ def make_tree(rng, height, crown, tint, detail=1.0):
                        crown * rng.uniform(0.4, 0.48)))
     middle = (lean[0], lean[1], height * 0.62)
     green = srgb(tint)
-    for center, radius in clumps:
-        _clump(mesh, center, radius, middle, height, green, rng, detail)
+    clumps = [Clump(center, radius, [rng.uniform(0, 2 * math.pi) for _ in range(6)]) for center, radius in clumps]
+    for clump in clumps:
+        others = [other for other in clumps if other is not clump]
+        _foliage(mesh, clump, others, middle, green, detail)
+        _twigs(mesh, clump, others, middle, green, rng, int(28 * min(1, 1.3 * detail)))
     return mesh
 
 
-def _clump(mesh, center, radius, middle, height, green, rng, detail):
-    """A lumpy ball of foliage, and leaf sprays around it."""
-    sides, bands = (8, 5) if detail > 0.6 else (6, 4)
-    offset = [[1 + rng.uniform(-0.2, 0.2) for _ in range(sides)] for _ in range(bands + 1)]
+class Clump:
+    """A lumpy ball of foliage, a little flat."""
+
+    def __init__(self, center, radius, phases):
+        self.center, self.radius, self.phases = center, radius, phases
+
+    def spot(self, d, share=1.0):
+        """The place on its surface in a direction, or that share of the way to it."""
+        a, b, c, e, f, g = self.phases
+        lumps = (math.sin(3 * d[0] + a) * math.sin(3 * d[1] + b) + math.sin(3 * d[2] + c) * math.sin(3 * d[0] + e)
+                 + 0.6 * math.sin(7 * d[1] + f) * math.sin(7 * d[2] + 5 * d[0] + g))
+        r = self.radius * (1 + 0.13 * lumps) * share
+        return tuple(self.center[m] + d[m] * r * (1.0, 1.0, 0.82)[m] for m in range(3))
+
+    def holds(self, p, share):
+        """Whether a place lies within that share of it."""
+        off = (p[0] - self.center[0], p[1] - self.center[1], (p[2] - self.center[2]) / 0.82)
+        surface = self.spot(_unit(off))
+        out = (surface[0] - self.center[0], surface[1] - self.center[1], (surface[2] - self.center[2]) / 0.82)
+        return sum(c * c for c in off) < share * share * sum(c * c for c in out)
+
+    def normal(self, p, middle):
+        """Soft: half its own, half the whole crown's."""
+        away = _unit(tuple(p[m] - self.center[m] for m in range(3)))
+        broad = _unit(tuple(p[m] - middle[m] for m in range(3)))
+        return _unit(tuple(away[m] + broad[m] for m in range(3)))
+
+
+def _foliage(mesh, clump, others, middle, green, detail):
+    """The surface of a clump, but for what lies within others."""
+    sides, bands = (9, 5) if detail > 0.3 else (6, 4)
 
     def spot(k, i):
-        t = math.pi * k / bands
-        r = radius * offset[k][i % sides] * (1.0 if 0 < k < bands else 0.9)
-        a = 2 * math.pi * (i + 0.5 * (k % 2)) / sides
-        return (center[0] + math.sin(t) * math.cos(a) * r, center[1] + math.sin(t) * math.sin(a) * r,
-                center[2] - math.cos(t) * r * 0.82)
-
-    def soft(p):
-        away = _unit(tuple(p[m] - center[m] for m in range(3)))
-        broad = _unit(tuple(p[m] - middle[m] for m in range(3)))
-        return _unit(tuple(0.6 * away[m] + 0.6 * broad[m] for m in range(3)))
+        t, a = math.pi * k / bands, 2 * math.pi * (i + 0.5 * (k % 2)) / sides
+        return clump.spot((math.sin(t) * math.cos(a), math.sin(t) * math.sin(a), -math.cos(t)))
 
     for k in range(bands):
+        shades = shade(green, 0.68 + 0.27 * k / bands)
         for i in range(sides):
             points = [spot(k, i), spot(k, i + 1), spot(k + 1, i + 1), spot(k + 1, i)]
-            wide, tall = radius * 0.78, radius * 0.55
-            uvs = [(i * wide, k * tall), ((i + 1) * wide, k * tall), ((i + 1) * wide, (k + 1) * tall), (i * wide, (k + 1) * tall)]
             if k == 0:
-                points, uvs = [points[0], points[2], points[3]], [uvs[0], uvs[2], uvs[3]]
+                points = [points[0], points[2], points[3]]
             elif k == bands - 1:
-                points, uvs = points[:3], uvs[:3]
-            inner = 0.62 + 0.3 * k / bands
-            mesh.face("leaves", points, uvs, shade(green, inner * rng.uniform(0.9, 1.05)), [soft(p) for p in points])
-    for _ in range(int(46 * detail)):
-        a, b = rng.uniform(0, 2 * math.pi), math.acos(rng.uniform(-0.75, 1.0))
-        d = (math.sin(b) * math.cos(a), math.sin(b) * math.sin(a), math.cos(b))
-        p = tuple(center[m] + d[m] * radius * (0.94 if m < 2 else 0.8) for m in range(3))
-        side = _unit(_cross(d, (rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1))))
-        fall = _cross(d, side)
-        long, wide = rng.uniform(0.2, 0.34), rng.uniform(0.08, 0.13)
-        tip = [0.55 * d[m] + 0.8 * fall[m] for m in range(3)]
-        points = [p, tuple(p[m] + tip[m] * long * 0.5 + side[m] * wide for m in range(3)),
-                  tuple(p[m] + tip[m] * long for m in range(3)),
-                  tuple(p[m] + tip[m] * long * 0.5 - side[m] * wide for m in range(3))]
-        shift = (rng.random() * 2, rng.random() * 2)
-        uvs = [(shift[0], shift[1]), (shift[0] + wide, shift[1] + long / 2), (shift[0], shift[1] + long),
-               (shift[0] - wide, shift[1] + long / 2)]
-        light = 0.7 + 0.35 * (p[2] / height)
-        mesh.face("leaves", points, uvs, shade(green, light * rng.uniform(0.9, 1.15)), [soft(p)] * 4)
+                points = points[:3]
+            if any(all(other.holds(p, 0.93) for p in points) for other in others):
+                continue
+            # Leaves as wide on every side: seen along the axis that the face looks along most.
+            flat = max(range(3), key=lambda m: abs(sum(p[m] for p in points) / len(points) - clump.center[m]))
+            u, v = [m for m in range(3) if m != flat]
+            mesh.face("leaves", points, [(p[u], p[v]) for p in points], shades, [clump.normal(p, middle) for p in points])
+
+
+def _twigs(mesh, clump, others, middle, green, rng, count):
+    """Cards of leaves, cut out, that cover a clump and break its outline."""
+    tries = 0
+    while count > 0 and tries < 600:
+        tries += 1
+        a, up = rng.uniform(0, 2 * math.pi), rng.uniform(-1.0, 1.0)
+        d = (math.sqrt(1 - up * up) * math.cos(a), math.sqrt(1 - up * up) * math.sin(a), up)
+        p = clump.spot(d, rng.uniform(0.95, 1.03))
+        if any(other.holds(p, 0.97) for other in others):
+            continue
+        count -= 1
+        faces = _unit(tuple(d[m] + rng.uniform(-0.7, 0.7) for m in range(3)))
+        side = _unit(_cross(faces, (rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1))))
+        fall = _cross(faces, side)
+        half = clump.radius * rng.uniform(0.3, 0.42)
+        corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+        points = [tuple(p[m] + half * (x * side[m] + y * fall[m]) for m in range(3)) for x, y in corners]
+        column, row = rng.randrange(2), rng.randrange(2)
+        uvs = [((column + (x + 1) / 2) / 2, (row + (y + 1) / 2) / 2) for x, y in corners]
+        light = 0.72 + 0.3 * max(0.0, up) + 0.06 * rng.uniform(-1, 1)
+        mesh.face("twigs", points, uvs, shade(green, light), [clump.normal(q, middle) for q in points])
 
 
 def make_lamp():

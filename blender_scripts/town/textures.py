@@ -301,6 +301,30 @@ def leaves(size, seed):
     return np.clip(image * 1.25, 0, 1)
 
 
+def twigs(size, seed):
+    """Four twigs, two by two, cut out: leaves that point outwards from the middle. Bright, to be tinted."""
+    rng = _rng(seed, "twigs")
+    x, y = _grid(size)
+    image = np.zeros((size, size, 4))
+    image[..., :3] = (0.50, 0.53, 0.38)
+    for quarter in range(4):
+        mx, my = 0.25 + 0.5 * (quarter % 2), 0.25 + 0.5 * (quarter // 2)
+        for leaf in range(46):
+            out, around = 0.185 * np.sqrt((45 - leaf + rng.rand()) / 46), 2 * np.pi * rng.rand()
+            cx, cy = mx + out * np.cos(around), my + out * np.sin(around)
+            way = around + rng.uniform(-0.9, 0.9)
+            long, wide = rng.uniform(0.036, 0.05), rng.uniform(0.017, 0.024)
+            u = ((x - cx) * np.cos(way) + (y - cy) * np.sin(way)) / long
+            v = (-(x - cx) * np.sin(way) + (y - cy) * np.cos(way)) / wide
+            inside = np.abs(v) < 1 - u * u
+            tone = (0.62 + 0.38 * rng.rand()) * (0.78 + 0.22 * leaf / 45)
+            color = np.array([0.80, 0.84, 0.60]) * tone
+            shade = (0.86 + 0.14 * u) * np.where(np.abs(v) < 0.09, 1.14, 1.0) * np.where(v > 0, 1.0, 0.92)
+            image[..., :3] = np.where(inside[..., None], color * shade[..., None], image[..., :3])
+            image[..., 3] = np.where(inside, 1.0, image[..., 3])
+    return np.clip(image, 0, 1)
+
+
 def glass(size, seed):
     """Small panes in lead, each a little differently tilted to the sky; a curtain glimmers in a few."""
     rng = _rng(seed, "glass")
@@ -335,11 +359,12 @@ TEXTURES = {
     "plaster": (plaster, 1.0, 0.95), "timber": (timber, 0.5, 0.85), "roof_tile": (roof_tile, 1.0, 0.85),
     "stone": (stone, 1.0, 0.92), "cobble": (cobble, 1.0, 0.85), "paving": (paving, 1.0, 0.88),
     "setts": (setts, 1.0, 0.85), "grass": (grass, 0.5, 1.0), "bark": (bark, 0.5, 0.95), "leaves": (leaves, 0.5, 0.8),
+    "twigs": (twigs, 0.5, 0.8),
     "glass": (glass, 0.5, 0.15), "planks": (planks, 0.5, 0.75), "cloth": (cloth, 0.5, 0.95),
 }
 
 
 def make(name, size, seed):
-    """sRGB values from 0 to 1, shape (pixels, pixels, 3)."""
+    """sRGB values from 0 to 1, shape (pixels, pixels, 3), or with alpha where it is cut out (pixels, pixels, 4)."""
     function, share, _ = TEXTURES[name]
     return np.clip(function(max(64, int(size * share)), seed), 0.0, 1.0)
