@@ -52,9 +52,9 @@ void BeginMaps() {
 
 DrawCost DrawSome(int64_t triangles, GLuint block_buffer, const TownView& town, ShadowMaps* maps, TownMap* map) {
   BindMap(maps->town_framebuffers[static_cast<size_t>(maps->spare_layer)], kTownMap_px, map->next_matrix, map->to_sun, block_buffer,
-          map->next_block == 0);
-  const DrawCost cost = DrawTownShadow(map->next_matrix, triangles, town, &map->next_block);
-  if (map->next_block < town.geometry.blocks.size()) return cost;
+          map->next_step == 0);
+  const DrawCost cost = DrawTownShadow(map->next_matrix, triangles, town, &map->next_step);
+  if (map->next_step < ShadowSteps(town)) return cost;
   map->draws = false;
   std::swap(map->layer, maps->spare_layer);
   map->matrix = map->next_matrix;
@@ -67,13 +67,13 @@ DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, float share, GLuint block_buffe
   const float moved_m = Length(center - map->center), turned = Length(to_sun - map->to_sun);
   const bool jumped = !map->valid || moved_m > kFarthestSteps * map->step_m || turned > kSunJump;
   if (other.draws && !jumped) return {};
-  other.next_block = 0;  // from its beginning where this one takes the layer away
+  other.next_step = 0;  // from its beginning where this one takes the layer away
   if (jumped || ((moved_m > map->step_m || turned > kSunStep) && !map->draws)) {
     map->center = center;
     map->to_sun = to_sun;
     map->next_matrix = ShadowMatrix(center, to_sun, map->half_width_m, std::max(kShadowDepth_m, map->half_width_m * 1.5f), kTownMap_px);
     map->draws = true;
-    map->next_block = 0;
+    map->next_step = 0;
   }
   map->valid = true;
   if (!map->draws) return {};

@@ -16,7 +16,7 @@ struct TownMap {
   int layer = 0;
   Mat4 matrix, next_matrix;
   bool draws = false;                  // the next one
-  size_t next_block = 0;               // of the town: what is to be drawn still
+  size_t next_step = 0;                // of ShadowSteps: what is to be drawn still
   Vec3 center, to_sun;                 // of the newest
   bool valid = false;
 };

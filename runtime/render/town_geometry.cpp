@@ -58,6 +58,21 @@ bool HidesWhatIsBehind(const Triangle& t, const SurfacePlan& plan, const std::ve
   return Length(Cross(b - a, c - a)) / 2 > kLeastWall_m2;
 }
 
+// Behind the opaque ones, so that a block's ranges are where the index array has them in the end.
+void AppendMasked(const std::vector<std::vector<uint32_t>>& masked, TownGeometry* town) {
+  std::vector<uint32_t> first(masked.size());
+  for (size_t g = 0; g < masked.size(); ++g) {
+    first[g] = static_cast<uint32_t>(town->indices.size());
+    town->indices.insert(town->indices.end(), masked[g].begin(), masked[g].end());
+  }
+  for (TownBlock& block : town->blocks) {
+    for (TownRange& range : block.ranges) {
+      const auto g = static_cast<size_t>(range.group);
+      if (!masked[g].empty()) range.first += first[g];
+    }
+  }
+}
+
 // The index array in order of block and group; vertices in order of their first use, so that a block's lie together.
 void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle>>* cells, TownGeometry* town) {
   const std::vector<TownVertex> all = std::move(town->vertices);
@@ -67,33 +82,37 @@ void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle
   size_t count = 0;
   for (const auto& [cell, triangles] : *cells) count += triangles.size();
   town->indices.reserve(3 * count);
+  std::vector<std::vector<uint32_t>> masked(plan.groups.size());
   for (auto& [cell, triangles] : *cells) {
     std::stable_sort(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) { return a.group < b.group; });
     TownBlock block;
     block.triangles = static_cast<int64_t>(triangles.size());
     block.first_wall = town->walls.size();
     for (const Triangle& t : triangles) {
+      const auto group = static_cast<size_t>(t.group);
+      std::vector<uint32_t>& indices = plan.groups[group].masked ? masked[group] : town->indices;
       if (block.ranges.empty() || block.ranges.back().group != t.group) {
-        block.ranges.push_back({t.group, static_cast<uint32_t>(town->indices.size()), 0});
+        block.ranges.push_back({t.group, static_cast<uint32_t>(indices.size()), 0});
       }
       for (uint32_t corner : t.corners) {
         if (place[corner] == UINT32_MAX) {
           place[corner] = static_cast<uint32_t>(town->vertices.size());
           town->vertices.push_back(all[corner]);
         }
-        town->indices.push_back(place[corner]);
+        indices.push_back(place[corner]);
         Include(all[corner].position, &block.box);
       }
       block.ranges.back().count += 3;
       if (!HidesWhatIsBehind(t, plan, all)) continue;
       for (uint32_t corner : t.corners) town->walls.push_back(place[corner]);
-      if (!plan.groups[static_cast<size_t>(t.group)].double_sided) continue;
+      if (!plan.groups[group].double_sided) continue;
       for (size_t k : {2, 1, 0}) town->walls.push_back(place[t.corners[k]]);
     }
     block.walls = town->walls.size() - block.first_wall;
     block.ranges.shrink_to_fit();
     town->blocks.push_back(std::move(block));
   }
+  AppendMasked(masked, town);
   town->positions.reserve(town->vertices.size());
   for (const TownVertex& v : town->vertices) town->positions.push_back(v.position);
   town->walls.shrink_to_fit();

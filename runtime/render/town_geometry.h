@@ -21,14 +21,14 @@ struct TownRange { int group = 0; uint32_t first = 0, count = 0; };  // of the i
 
 struct TownBlock {
   Box box;
-  std::vector<TownRange> ranges;  // one a group, following each other in the index array
+  std::vector<TownRange> ranges;  // one a group
   size_t first_wall = 0, walls = 0;  // corners in TownGeometry::walls
   int64_t triangles = 0;
 };
 
 struct TownGeometry {
   std::vector<TownVertex> vertices;
-  std::vector<uint32_t> indices;
+  std::vector<uint32_t> indices;  // of all blocks what is opaque, and after it each group that is cut out: shadows draw those one by one
   std::vector<Vec3> positions;    // of the vertices
   std::vector<uint32_t> walls;    // indices of the triangles that are large and opaque enough to hide what is behind them
   std::vector<TownBlock> blocks;  // neighbours near each other

@@ -89,6 +89,11 @@ void AddTown(TownGeometry geometry, TownView* town) {
   glGenBuffers(1, &town->visible_indices);
   std::vector<TownVertex>().swap(geometry.vertices);  // its memory too
   town->geometry = std::move(geometry);
+  for (size_t g = 0; g < town->groups.size(); ++g) {
+    const auto of_group = [&](const TownRange& range) { return range.group == static_cast<int>(g); };
+    const auto has = [&](const TownBlock& block) { return std::any_of(block.ranges.begin(), block.ranges.end(), of_group); };
+    if (town->groups[g].masked && std::any_of(town->geometry.blocks.begin(), town->geometry.blocks.end(), has)) town->masked_groups.push_back(static_cast<int>(g));
+  }
   for (const TownBlock& block : town->geometry.blocks) {
     Include(block.box.low, &town->box);
     Include(block.box.high, &town->box);
@@ -145,15 +150,15 @@ DrawCost DrawTown(Vec3 eye, int width_px, int height_px, bool cull, TownView* to
   return cost;
 }
 
-DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const TownView& town, size_t* next_block) {
+size_t ShadowSteps(const TownView& town) { return town.geometry.blocks.size() * (1 + town.masked_groups.size()); }
+
+DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const TownView& town, size_t* next_step) {
   DrawCost cost;
   if (town.shadow_array == 0) return cost;
   const Frustum frustum = FrustumOf(light_projection);
   const std::vector<TownBlock>& blocks = town.geometry.blocks;
-  const bool any_masked = std::any_of(town.groups.begin(), town.groups.end(), [](const SurfaceGroup& g) { return g.masked; });
-  const uint32_t most_in_vain = any_masked ? 0 : kJoined;
   glBindVertexArray(town.shadow_array);
-  // Whatever lies one after the other, opaque and of two sides or one, casts its shadow in one call.
+  // Whatever lies one after the other casts its shadow in one call: all that is opaque, then each group that is cut out.
   struct Run { uint32_t first = 0, count = 0; int group = -1; } run;
   const auto draw = [&] {
     if (run.count == 0) return;
@@ -162,13 +167,16 @@ DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const T
     DrawIndices(run.first, run.count);
     cost += {run.count / 3, 1};
   };
-  size_t& b = *next_block;
-  for (; b < blocks.size() && cost.triangles + run.count / 3 < triangles; ++b) {
-    if (!MayTouch(frustum, blocks[b].box)) continue;
-    for (const TownRange& range : blocks[b].ranges) {
+  size_t& step = *next_step;
+  for (; step < ShadowSteps(town) && cost.triangles + run.count / 3 < triangles; ++step) {
+    const TownBlock& block = blocks[step % blocks.size()];
+    const size_t part = step / blocks.size();
+    if (!MayTouch(frustum, block.box)) continue;
+    for (const TownRange& range : block.ranges) {
       const bool masked = town.groups[static_cast<size_t>(range.group)].masked;
-      const bool joins = run.count > 0 && !masked && !town.groups[static_cast<size_t>(run.group)].masked &&
-                         range.first - (run.first + run.count) <= most_in_vain;
+      if (part == 0 ? masked : range.group != town.masked_groups[part - 1]) continue;
+      const bool joins = run.count > 0 && (masked ? run.group == range.group : !town.groups[static_cast<size_t>(run.group)].masked) &&
+                         range.first - (run.first + run.count) <= kJoined;
       if (!joins) {
         draw();
         run = {range.first, 0, range.group};

@@ -16,6 +16,7 @@ struct TownView {
   GLuint vertex_array = 0, shadow_array = 0, visible_indices = 0;
   TownGeometry geometry;                   // without its vertices
   std::vector<SurfaceGroup> groups;
+  std::vector<int> masked_groups;          // that the town has, in the order in which they stand in the index array
   std::vector<GLuint> arrays;
   Box box;                                 // of all blocks
   bool triangle_by_triangle = false;       // software, where a triangle costs more than a look at it, and pictures have one sample a pixel
@@ -38,7 +39,9 @@ void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownVie
 // corners. Without `cull` all of the blocks. width_px, height_px: of what is drawn. The frame block must be bound.
 DrawCost DrawTown(Vec3 eye, int width_px, int height_px, bool cull, TownView* town);
 
-// Depth only: the blocks from *next_block on that the light's view touches, until `triangles` are drawn. *next_block: where to go on.
-DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const TownView& town, size_t* next_block);
+// Depth only, step by step: all blocks' opaque triangles, then of each group that is cut out all blocks' again. From *next_step on what the
+// light's view touches, until `triangles` are drawn. *next_step: where to go on.
+size_t ShadowSteps(const TownView& town);
+DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const TownView& town, size_t* next_step);
 
 }  // namespace flaneur

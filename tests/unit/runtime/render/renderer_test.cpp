@@ -717,6 +717,51 @@ TEST(TownGeometry, EveryTriangleIsInOneBlockAndItsBox) {
   EXPECT_EQ(triangles, 36);
 }
 
+// Opaque houses and trees that are cut out, side by side.
+TourPack HousesAndTrees() {
+  std::vector<Vec2> houses;
+  for (int k = 0; k < 144; ++k) houses.push_back({10.0f * static_cast<float>(k % 12), 10.0f * static_cast<float>(k / 12) - 60});
+  TourPack pack = MakePack(houses);
+  pack.materials.push_back({"leaves", {0.2f, 0.6f, 0.2f, 1}, -1, true, true, 0.5f});
+  pack.meshes.push_back({{BoxPrimitive({4, 0, 4}, {6, 3, 6}, static_cast<int>(pack.materials.size()) - 1, false)}});
+  for (size_t k = 0, count = pack.town.size(); k < count; ++k) pack.town.push_back({"tree", static_cast<int>(pack.meshes.size()) - 1, pack.town[k].world});
+  return pack;
+}
+
+TEST(TownGeometry, WhatIsCutOutStandsTogetherBehindWhatIsOpaque) {
+  const TourPack pack = HousesAndTrees();
+  const SurfacePlan plan = PlanSurfaces(pack, {});
+  const TownGeometry town = BuildTownGeometry(pack, plan);
+  std::vector<int> group_of(town.indices.size(), -1);
+  for (const TownBlock& block : town.blocks) {
+    for (const TownRange& range : block.ranges) {
+      for (uint32_t i = range.first; i < range.first + range.count; ++i) {
+        EXPECT_EQ(group_of[i], -1) << "twice";
+        group_of[i] = range.group;
+        EXPECT_EQ(Distance(block.box, town.vertices[town.indices[i]].position), 0);
+      }
+    }
+  }
+  bool masked = false;
+  int last = -1;
+  for (int group : group_of) {
+    ASSERT_GE(group, 0) << "left out";
+    const bool is_masked = plan.groups[static_cast<size_t>(group)].masked;
+    EXPECT_TRUE(is_masked || !masked) << "opaque behind what is cut out";
+    EXPECT_TRUE(!masked || group >= last);
+    masked = is_masked;
+    last = group;
+  }
+  EXPECT_TRUE(masked);
+}
+
+TEST_F(Drawing, ATownWithManyTreesThatAreCutOutTakesFewDrawCalls) {
+  FrameInput frame = LookEast();
+  frame.to_sun = Normalized(Vec3{-0.5f, 0.4f, 0.6f});
+  Draw(HousesAndTrees(), frame);
+  EXPECT_LE(statistics_.draw_calls, 64) << "all shadows among them";
+}
+
 PeopleSight EverywhereSeen() {
   PeopleSight sight;
   sight.eye = {0, 1.6f, 0};
