@@ -9,6 +9,8 @@ namespace flaneur {
 namespace {
 
 constexpr float kStep = 0.1f;
+constexpr float kMomentStep = 0.1f;
+constexpr float kCoarsest = 0.25f;     // at any moment
 constexpr int kSoon = 10;              // pictures that tell that it takes too long
 constexpr float kTooLong = 1.05f, kFits = 0.95f, kSpare = 0.9f;  // of the time that a picture may take
 constexpr float kMistrust = 1.25f;     // what pixels seem to cost, times this
@@ -35,9 +37,18 @@ float Finer(float scale) { return std::min(1.0f, (std::floor(scale / kStep + 1e-
 // As if the whole picture's time went with its pixels: too little for a coarser scale, too much for a finer one.
 float InProportion_ms(float took_ms, float scale, float other) { return took_ms * (other * other) / (scale * scale); }
 
-float Finer_ms(float took_ms, const Resolution& r, float finer) {
-  const float most_ms = InProportion_ms(took_ms, r.scale, finer);
-  return r.pixels_ms < 0 ? most_ms : std::min(most_ms, took_ms + r.pixels_ms * (finer * finer - r.scale * r.scale));
+// What took so long at a scale, at a finer one.
+float Finer_ms(float took_ms, const Resolution& r, float scale, float finer) {
+  const float most_ms = InProportion_ms(took_ms, scale, finer);
+  return r.pixels_ms < 0 ? most_ms : std::min(most_ms, took_ms + r.pixels_ms * (finer * finer - scale * scale));
+}
+
+// Coarser at once, finer again step by step.
+void FollowMoment(bool moves, float frame_ms, Resolution* r) {
+  const float took_ms = r->took_ms[static_cast<size_t>((r->next + Resolution::kTimes - 1) % Resolution::kTimes)];
+  const float fits = moves && took_ms > frame_ms ? std::sqrt(frame_ms / took_ms) : 1;
+  const float wished = std::max(kLeastMoment, std::round(fits / kMomentStep) * kMomentStep);
+  r->moment = std::min(wished, r->moment + kMomentStep);
 }
 
 // By the first pictures at another scale.
@@ -62,12 +73,16 @@ void Change(float scale, float usual_ms, Resolution* r) {
 
 }  // namespace
 
-void FollowPictureTime(float took_ms, const ResolutionSettings& s, Resolution* r) {
+float ScaleNow(const Resolution& r) { return std::max(std::min(r.scale, kCoarsest), r.scale * r.moment); }
+
+void FollowPictureTime(float took_ms, bool moves, const ResolutionSettings& s, Resolution* r) {
+  took_ms = Finer_ms(took_ms, *r, ScaleNow(*r), r->scale);
   r->scale = std::clamp(r->scale, s.least_scale, 1.0f);
   r->took_ms[static_cast<size_t>(r->next)] = took_ms;
   r->next = (r->next + 1) % Resolution::kTimes;
   r->times = std::min(r->times + 1, Resolution::kTimes);
   r->steady_s += took_ms / 1000;
+  FollowMoment(moves, s.frame_ms, r);
   if (r->times < kSoon) return;
   const float usual_ms = Quantile(*r, kSoon, 0.5f);
   if (r->times == kSoon) LearnFromChange(usual_ms, r);
@@ -78,7 +93,7 @@ void FollowPictureTime(float took_ms, const ResolutionSettings& s, Resolution* r
   }
   if (r->scale >= 1 || r->times < Resolution::kTimes || r->steady_s < r->patience_s) return;
   const float finer = Finer(r->scale);
-  if (Finer_ms(Quantile(*r, Resolution::kTimes, 0.9f), *r, finer) <= kSpare * s.frame_ms) Change(finer, usual_ms, r);
+  if (Finer_ms(Quantile(*r, Resolution::kTimes, 0.9f), *r, r->scale, finer) <= kSpare * s.frame_ms) Change(finer, usual_ms, r);
 }
 
 ResolutionSettings ResolutionFor(float frames_per_s, float least_scale, const LevelSettings& levels) {

@@ -161,7 +161,7 @@ void Visit::Impl::Draw(float passed_s) {
   FrameFromSimulation(pack, *s, &looks, &frame, Between());
   if (pages()) frame.caption.clear();
   else ShowNotice(notices, !controls.settings.reduced_motion, &frame);
-  frame.resolution_scale = resolution.scale;
+  frame.resolution_scale = ScaleNow(resolution);
   renderer.Draw(frame, width_px, height_px, &statistics);
   overlay.Draw();
   RememberFrame(*s, statistics, passed_s * 1000, &views.history);
@@ -210,7 +210,10 @@ Error Visit::Picture(const WindowInput& input, int width_px, int height_px, floa
 void Visit::TellTime(float took_ms) {
   Impl& v = *impl_;
   const PlayerSettings& settings = v.controls.settings;
-  if (!v.hidden()) FollowPictureTime(took_ms, ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, v.s->level_settings), &v.resolution);
+  constexpr float kMoves_mps = 0.3f, kTurns_radps = 0.2f;
+  const CameraState& camera = v.s->camera;
+  const bool moves = camera.actual_mps > kMoves_mps || std::abs(camera.yaw_rate_radps) > kTurns_radps;
+  if (!v.hidden()) FollowPictureTime(took_ms, moves, ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, v.s->level_settings), &v.resolution);
 }
 
 void Visit::Present() {

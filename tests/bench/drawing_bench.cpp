@@ -92,7 +92,7 @@ float ScaleByRule(FrameInput frame, int width_px, int height_px, const LevelSett
     Costs costs;
     frame.resolution_scale = resolution.scale;
     Draw(frame, width_px, height_px, renderer, &costs);
-    FollowPictureTime(static_cast<float>(costs.clock_ms.values[0]), wished, &resolution);
+    FollowPictureTime(static_cast<float>(costs.clock_ms.values[0]), false, wished, &resolution);
   }
   return resolution.scale;
 }

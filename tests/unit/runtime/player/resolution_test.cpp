@@ -23,10 +23,11 @@ float Took_ms(const Machine& m, float scale, std::mt19937* random) {
 }
 
 // The scale of every picture.
-std::vector<float> Play(const Machine& machine, const ResolutionSettings& settings, int pictures, Resolution* r, std::mt19937* random) {
+std::vector<float> Play(const Machine& machine, const ResolutionSettings& settings, int pictures, Resolution* r, std::mt19937* random,
+                        bool moves = false) {
   std::vector<float> scales;
   for (int k = 0; k < pictures; ++k) {
-    FollowPictureTime(Took_ms(machine, r->scale, random), settings, r);
+    FollowPictureTime(Took_ms(machine, ScaleNow(*r), random), moves, settings, r);
     scales.push_back(r->scale);
   }
   return scales;
@@ -52,6 +53,40 @@ float Settled(const Machine& machine, const ResolutionSettings& settings) {
   Resolution r;
   std::mt19937 random(7);
   return Play(machine, settings, 3000, &r, &random).back();
+}
+
+TEST(ResolutionRule, WhereTheViewMovesIntoADearSightThePicturesAreCoarserAtOnceAndFineAgainAfterIt) {
+  const Machine usual{5, 110, 0}, dear{5, 190, 0};
+  const ResolutionSettings settings{40, 0.5f};
+  for (const bool moves : {true, false}) {
+    SCOPED_TRACE(moves);
+    Resolution r;
+    std::mt19937 random(3);
+    Play(usual, settings, 300, &r, &random, moves);
+    const float scale = r.scale;
+    EXPECT_EQ(ScaleNow(r), scale);
+    Play(dear, settings, 2, &r, &random, moves);
+    const float took_ms = Took_ms(dear, ScaleNow(r), &random);
+    if (moves) EXPECT_LT(took_ms, 1.1f * settings.frame_ms);
+    else EXPECT_EQ(ScaleNow(r), scale);
+    EXPECT_EQ(r.scale, scale) << "two pictures are not for long";
+    Play(usual, settings, 6, &r, &random, moves);
+    EXPECT_EQ(ScaleNow(r), scale);
+  }
+}
+
+TEST(ResolutionRule, NoMomentIsCoarserThanItMay) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> fixed_ms(1, 200), pixels_ms(1, 900), least(0.25f, 1);
+  for (int k = 0; k < 300; ++k) {
+    const ResolutionSettings settings{40, least(random)};
+    Resolution r;
+    for (int picture = 0; picture < 60; ++picture) {
+      Play({fixed_ms(random), pixels_ms(random)}, settings, 1, &r, &random, random() % 3 != 0);
+      ASSERT_GE(ScaleNow(r), std::max(0.25f, kLeastMoment * settings.least_scale) - 1e-5f);
+      ASSERT_LE(ScaleNow(r), r.scale);
+    }
+  }
 }
 
 TEST(ResolutionRule, HoldsTheTimeOrIsAtItsLeastAndComesToRest) {
