@@ -62,8 +62,8 @@ int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
       state->triangles_a_person = std::max(state->triangles_a_person, static_cast<float>(avatar.levels.front().triangles));
     }
   }
-  const float left = state->budget_triangles - static_cast<float>(state->shadows.triangles) -
-                     static_cast<float>(kImpostorTriangles) * static_cast<float>(state->visible.size());
+  // Room for all shadows that there may be, so that the limit does not sway with whose shadow is in view.
+  const float left = (1 - kShadowShare) * state->budget_triangles - static_cast<float>(kImpostorTriangles) * static_cast<float>(state->visible.size());
   return std::max(1, static_cast<int>(left / std::max(state->triangles_a_person, 1.0f)));
 }
 
