@@ -22,7 +22,7 @@ constexpr float kUsed = 0.8f;                // share of the budget from which o
 constexpr float kPropShare = 0.1f;            // of the budget, that props may take,
 constexpr float kShadowShare = 0.2f;          // and shadows,
 constexpr float kShadowEdge_m = 1.0f;         // even of those who stand so near the view
-constexpr float kSettles = 0.03f;             // a step, of what a person in high resolution costs
+constexpr float kSettles = 0.03f;             // a step, of what a person in high resolution and all shadows cost
 constexpr float kLeastBudget = 1000;
 constexpr float kFastCamera_mps = 2.0f;      // above it fidelity may fall,
 constexpr float kFastShare = 0.85f;          // to so much of the target
@@ -62,8 +62,9 @@ int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
       state->triangles_a_person = std::max(state->triangles_a_person, static_cast<float>(avatar.levels.front().triangles));
     }
   }
-  // Room for all shadows that there may be, so that the limit does not sway with whose shadow is in view.
-  const float left = (1 - kShadowShare) * state->budget_triangles - static_cast<float>(kImpostorTriangles) * static_cast<float>(state->visible.size());
+  // As many shadows as of late, so that the limit does not sway with whose is in view.
+  state->shadow_triangles += kSettles * (static_cast<float>(state->shadows.triangles) - state->shadow_triangles);
+  const float left = state->budget_triangles - state->shadow_triangles - static_cast<float>(kImpostorTriangles) * static_cast<float>(state->visible.size());
   return std::max(1, static_cast<int>(left / std::max(state->triangles_a_person, 1.0f)));
 }
 

@@ -36,6 +36,7 @@ struct LevelState {
   float r_high_m = 0;              // in force; 0 before the first step
   float budget_triangles = 0;      // in force
   float triangles_a_person = 0;    // in high resolution, averaged over the last while; method 2
+  float shadow_triangles = 0;      // of everybody, likewise
   int limit = 0;                   // most people in high resolution, in force
   std::vector<int> level;          // by person index: a mesh level, kImpostor or kNotDrawn
   std::vector<uint8_t> casts_shadow;  // by person index; how far it reaches is in `shadows`
