@@ -203,7 +203,8 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
   if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
   ListVisible(crowd, camera, s.r_far_m, s.first_id, state);
   ListShadowCasters(crowd, avatars, camera, state);
-  const int64_t all = static_cast<int64_t>(state->budget_triangles), as_impostors = int64_t{kImpostorTriangles} * static_cast<int64_t>(state->visible.size());
+  const int64_t all = static_cast<int64_t>(state->budget_triangles);
+  const int64_t as_impostors = kImpostorTriangles * static_cast<int64_t>(state->visible.size());
   ChooseShadows(std::clamp<int64_t>(all - as_impostors, 0, static_cast<int64_t>(kShadowShare * state->budget_triangles)), step_s, &state->shadows);
   const int limit = state->limit = s.by_frame_time ? PeopleAfforded(avatars, state) : s.high_limit;
   MoveBoundary(s, limit, step_s, state);

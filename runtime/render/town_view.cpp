@@ -44,6 +44,19 @@ uint32_t* GatherSeen(const TownRange& range, bool both_sides, Vec3 eye, const Tr
   return to;
 }
 
+// Those that some block has.
+std::vector<int> MaskedGroups(const TownGeometry& geometry, const std::vector<SurfaceGroup>& groups) {
+  std::vector<bool> found(groups.size());
+  for (const TownBlock& block : geometry.blocks) {
+    for (const TownRange& range : block.ranges) found[static_cast<size_t>(range.group)] = groups[static_cast<size_t>(range.group)].masked;
+  }
+  std::vector<int> masked;
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (found[g]) masked.push_back(static_cast<int>(g));
+  }
+  return masked;
+}
+
 // Indices of the visible blocks, by group and within it nearest first. Returns how many.
 size_t GatherIndices(Vec3 eye, const TriangleSight* sight, bool cull, TownView* town) {
   town->counts.assign(town->groups.size(), 0);
@@ -89,11 +102,7 @@ void AddTown(TownGeometry geometry, TownView* town) {
   glGenBuffers(1, &town->visible_indices);
   std::vector<TownVertex>().swap(geometry.vertices);  // its memory too
   town->geometry = std::move(geometry);
-  for (size_t g = 0; g < town->groups.size(); ++g) {
-    const auto of_group = [&](const TownRange& range) { return range.group == static_cast<int>(g); };
-    const auto has = [&](const TownBlock& block) { return std::any_of(block.ranges.begin(), block.ranges.end(), of_group); };
-    if (town->groups[g].masked && std::any_of(town->geometry.blocks.begin(), town->geometry.blocks.end(), has)) town->masked_groups.push_back(static_cast<int>(g));
-  }
+  town->masked_groups = MaskedGroups(town->geometry, town->groups);
   for (const TownBlock& block : town->geometry.blocks) {
     Include(block.box.low, &town->box);
     Include(block.box.high, &town->box);
