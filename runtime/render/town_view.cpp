@@ -184,8 +184,7 @@ DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const T
     for (const TownRange& range : block.ranges) {
       const bool masked = town.groups[static_cast<size_t>(range.group)].masked;
       if (part == 0 ? masked : range.group != town.masked_groups[part - 1]) continue;
-      const bool joins = run.count > 0 && (masked ? run.group == range.group : !town.groups[static_cast<size_t>(run.group)].masked) &&
-                         range.first - (run.first + run.count) <= kJoined;
+      const bool joins = run.count > 0 && (part == 0 || run.group == range.group) && range.first - (run.first + run.count) <= kJoined;
       if (!joins) {
         draw();
         run = {range.first, 0, range.group};

@@ -16,13 +16,27 @@ namespace {
 
 constexpr int kMostDrawCalls = 64;
 
-TEST(SteadyFrameOfTheDemo, AllocatesNothingAndTakesFewDrawCallsForTenThousandPeople) {
-  const std::filesystem::path path = std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": bake the demo tour with ./demo";
+class SteadyFrameOfTheDemo : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::filesystem::path path = source / "build_assets/wolfenbuettel/wolfenbuettel.glb";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": bake the demo tour with ./demo";
+    ASSERT_EQ(LoadTourPack(path, {}, &pack).message, "");
+  }
+  void Start(const char* scenario_file) {
+    Scenario scenario;
+    ASSERT_EQ(ReadScenario(source / scenario_file, &scenario).message, "");
+    ASSERT_EQ(StartSimulation(&pack, scenario, &simulation).message, "");
+  }
+
+  const std::filesystem::path source = FLANEUR_SOURCE_DIR;
+  TourPack pack;
+  Simulation simulation;
+};
+
+TEST_F(SteadyFrameOfTheDemo, AllocatesNothingAndTakesFewDrawCallsForTenThousandPeople) {
   HeadlessContext context;
   if (const Error error = context.Create()) GTEST_SKIP() << error.message;
-  TourPack pack;
-  ASSERT_EQ(LoadTourPack(path, {}, &pack).message, "");
   Renderer renderer;
   ASSERT_EQ(renderer.Create(pack).message, "");
   FrameInput frame;
@@ -56,15 +70,8 @@ TEST(SteadyFrameOfTheDemo, AllocatesNothingAndTakesFewDrawCallsForTenThousandPeo
   std::printf("allocations in 4 steady pictures: %ld; draw calls: %d\n", allocations - before, statistics.draw_calls);
 }
 
-TEST(SteadyFrameOfTheDemo, OfTheSimulationIsPutTogetherWithoutAllocating) {
-  const std::filesystem::path path = std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": bake the demo tour with ./demo";
-  TourPack pack;
-  ASSERT_EQ(LoadTourPack(path, {}, &pack).message, "");
-  Scenario scenario;
-  ASSERT_EQ(ReadScenario(std::filesystem::path(FLANEUR_SOURCE_DIR) / "assets_src/wolfenbuettel/film.toml", &scenario).message, "");
-  Simulation simulation;
-  ASSERT_EQ(StartSimulation(&pack, scenario, &simulation).message, "");
+TEST_F(SteadyFrameOfTheDemo, OfTheSimulationIsPutTogetherWithoutAllocating) {
+  ASSERT_NO_FATAL_FAILURE(Start("assets_src/wolfenbuettel/film.toml"));
   PersonLooks looks;
   FrameInput frame;
   long allocated = 0;
@@ -78,15 +85,8 @@ TEST(SteadyFrameOfTheDemo, OfTheSimulationIsPutTogetherWithoutAllocating) {
   EXPECT_EQ(allocated, 0);
 }
 
-TEST(SteadyFrameOfTheDemo, PeopleCastNoMoreShadowThanTheBudgetCounts) {
-  const std::filesystem::path path = std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": bake the demo tour with ./demo";
-  TourPack pack;
-  ASSERT_EQ(LoadTourPack(path, {}, &pack).message, "");
-  Scenario scenario;
-  ASSERT_EQ(ReadScenario(std::filesystem::path(FLANEUR_SOURCE_DIR) / "tests/scenario/turn-dense.toml", &scenario).message, "");
-  Simulation simulation;
-  ASSERT_EQ(StartSimulation(&pack, scenario, &simulation).message, "");
+TEST_F(SteadyFrameOfTheDemo, PeopleCastNoMoreShadowThanTheBudgetCounts) {
+  ASSERT_NO_FATAL_FAILURE(Start("tests/scenario/turn-dense.toml"));
   HeadlessContext context;
   if (const Error error = context.Create()) GTEST_SKIP() << error.message;
   Renderer renderer;
