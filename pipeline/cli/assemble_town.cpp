@@ -63,8 +63,8 @@ void AppendScene(Scene part, float scale, float yaw_rad, Vec2 position_m, Scene*
   Append(&town->images, part.images);
 }
 
-std::vector<PackPlace> TaggedPlaces(const Scene& town) {
-  std::vector<PackPlace> places;
+std::vector<Place> TaggedPlaces(const Scene& town) {
+  std::vector<Place> places;
   for (const SceneNode& node : town.nodes) {
     const bool place = node.kind == NodeKind::kDoor || node.kind == NodeKind::kExit || node.kind == NodeKind::kLoiter;
     if (!place || !node.meshes.empty()) continue;

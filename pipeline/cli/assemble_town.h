@@ -11,7 +11,7 @@ namespace flaneur {
 void AppendScene(Scene part, float scale, float yaw_rad, Vec2 position_m, Scene* town);
 
 // Door, exit and loiter nodes.
-std::vector<PackPlace> TaggedPlaces(const Scene& town);
+std::vector<Place> TaggedPlaces(const Scene& town);
 
 // Gives a town that has no ground under most of its things a flat square at their lowest point, `margin_m` wider than the town;
 // else does nothing. Returns whether it did.

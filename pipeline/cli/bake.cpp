@@ -70,7 +70,7 @@ Error RequireFiles(const TourSettings& s) {
   for (const AvatarSettings& avatar : s.avatars) {
     if (Error e = RequireFile(avatar.source.file)) return e;
   }
-  return s.painting.file.empty() ? Ok() : RequireFile(s.painting.file);
+  return s.painting_file.file.empty() ? Ok() : RequireFile(s.painting_file.file);
 }
 
 // Where the source's glTF is: the file itself, or what its script makes.
@@ -163,7 +163,7 @@ Error MakeAvatar(Baking* baking, size_t i) {
     read.talk = settings.talk;
     read.height_m = settings.height_m;
     read.hide = settings.hide;
-    for (const PropSettings& prop : settings.props) read.props.push_back(prop.node);
+    for (const Prop& prop : settings.props) read.props.push_back(prop.name);
     Avatar avatar;
     if (Error e = ReadAvatar(file, read, &avatar, warnings)) return e;
     if (Error e = BuildLevels(avatar, baking->settings.levels, levels, warnings)) return e;
@@ -224,7 +224,7 @@ Error MakePeople(Baking* baking) {
   for (size_t i = 0; i < count; ++i) {
     baking->parts.avatars[i].share = baking->settings.avatars[i].share;
     baking->parts.avatars[i].tints = baking->settings.avatars[i].tints;
-    for (const PropSettings& prop : baking->settings.avatars[i].props) baking->parts.avatars[i].props.push_back({prop.share, prop.slot});
+    baking->parts.avatars[i].props = baking->settings.avatars[i].props;
   }
   if (Error e = RunParallel(count, [&](size_t i) { return MakeAvatar(baking, i); })) return e;
   for (size_t i = 0; i < count; ++i) {
@@ -270,7 +270,7 @@ Error MakeFootprints(Baking* baking) {
 }
 
 Error MakePainting(Baking* baking) {
-  const PaintingSettings& painting = baking->settings.painting;
+  const PaintingSettings& painting = baking->settings.painting_file;
   return painting.file.empty() ? Ok() : ReadPainting(painting, baking->parts.ground, &baking->parts.painting);
 }
 
@@ -278,7 +278,6 @@ Error MakePainting(Baking* baking) {
 Error MakeSounds(Baking* baking) {
   const TourSettings& s = baking->settings;
   TourParts& parts = baking->parts;
-  parts.path = s.path;
   std::map<fs::path, StopSound> known;
   for (size_t k = 0; k < s.sounds.size(); ++k) {
     for (const auto& [language, file] : s.sounds[k]) {
@@ -298,7 +297,7 @@ Error MakeSounds(Baking* baking) {
 // The doors and exits of tour.toml; the check finds the town's own by itself.
 std::vector<Gate> GatesOfSettings(const TourSettings& settings) {
   std::vector<Gate> gates;
-  for (const PackPlace& place : settings.places) {
+  for (const Place& place : settings.places) {
     if (place.kind != "door" && place.kind != "exit") continue;
     const Point2 at{static_cast<double>(place.position_m.x), static_cast<double>(place.position_m.y)};
     gates.push_back({place.name, at, {}, place.kind == "exit"});
@@ -364,13 +363,6 @@ Error WritePack(Baking* baking, const fs::path& staging) {
     parts.footprints.origin_m = parts.town.origin_m;  // kept ones may have another
     parts.footprints.reference_system = parts.town.reference_system;
     BakeReport& whole = baking->steps.report;
-    parts.name = name;
-    parts.titles = baking->settings.titles;
-    parts.language = baking->settings.language;
-    parts.guide = baking->settings.guide;
-    parts.crowd = baking->settings.crowd;
-    parts.control = baking->settings.control;
-    parts.light = baking->settings.light;
     const fs::path footprints = staging / "footprints.geojson";
     if (Error e = WriteGeoJson(footprints, parts.footprints)) return e;
     if (!parts.footprints.reference_system.empty()) {
@@ -451,6 +443,7 @@ Error Bake(const fs::path& tour, const fs::path& output) {
   std::error_code ec;
   fs::create_directories(baking.steps.cache, ec);
   if (ec) return Fail(baking.steps.cache.string() + ": cannot make this folder: " + ec.message());
+  static_cast<TourData&>(baking.parts) = baking.settings;
   if (Error e = MakeSounds(&baking)) return e;
   if (Error e = MakeSources(&baking)) return e;
   if (Error e = MakeTown(&baking)) return e;

@@ -35,7 +35,7 @@ Json AvatarSummary(const PackAvatar& avatar) {
 Json Summary(const TourPack& pack) {
   Json avatars = Json::array(), places = Json::object();
   for (const PackAvatar& avatar : pack.avatars) avatars.push_back(AvatarSummary(avatar));
-  for (const PackPlace& place : pack.places) places[place.kind] = places.value(place.kind, 0) + 1;
+  for (const Place& place : pack.places) places[place.kind] = places.value(place.kind, 0) + 1;
   int64_t town_triangles = 0;
   for (const TownInstance& instance : pack.town) {
     for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(instance.mesh)].primitives) {
@@ -46,7 +46,7 @@ Json Summary(const TourPack& pack) {
           {"version", kTourPackVersion},
           {"town", {{"instances", pack.town.size()}, {"triangles", town_triangles}}},
           {"avatars", avatars},
-          {"obstacles", pack.obstacles.size()},
+          {"obstacles", pack.obstacles.polygons.size() + pack.obstacles.circles.size()},
           {"ground", {{"columns", pack.ground.columns}, {"rows", pack.ground.rows}, {"cell_m", Rounded(pack.ground.cell_m)}}},
           {"places", places},
           {"path_stops", pack.path.size()},

@@ -70,7 +70,7 @@ uint8_t MeanOver(const std::vector<uint8_t>& values, const Picture& picture, int
   return static_cast<uint8_t>((sum + count - 1) / count);
 }
 
-void Resample(const Picture& picture, PackPainting* p) {
+void Resample(const Picture& picture, Painting* p) {
   const auto range = [](int cell, int cells, int pixels) {
     const int first = static_cast<int>(static_cast<int64_t>(cell) * pixels / cells);
     return std::pair{first, std::max(first + 1, static_cast<int>(static_cast<int64_t>(cell + 1) * pixels / cells))};
@@ -85,7 +85,7 @@ void Resample(const Picture& picture, PackPainting* p) {
   }
 }
 
-bool AnyOnGround(const PackPainting& p, const GroundRaster& ground) {
+bool AnyOnGround(const Painting& p, const GroundRaster& ground) {
   for (int row = 0; row < ground.rows; ++row) {
     for (int column = 0; column < ground.columns; ++column) {
       if (ground.kind[static_cast<size_t>(row) * static_cast<size_t>(ground.columns) + static_cast<size_t>(column)] == 0) continue;
@@ -123,12 +123,12 @@ void FillRow(const Obstacle& o, const GroundRaster& g, int row, Visit visit) {
 
 }  // namespace
 
-Error ReadPainting(const PaintingSettings& settings, const GroundRaster& ground, PackPainting* out) {
+Error ReadPainting(const PaintingSettings& settings, const GroundRaster& ground, Painting* out) {
   const std::string name = settings.file.string() + ": ";
   Picture picture;
   if (Error e = ReadPicture(settings.file, &picture)) return e;
   const Vec2 ground_size_m{static_cast<float>(ground.columns) * ground.cell_m, static_cast<float>(ground.rows) * ground.cell_m};
-  PackPainting p;
+  Painting p;
   p.min_m = settings.min_m.value_or(ground.min_m);
   const Vec2 size_m = settings.max_m.value_or(ground.min_m + ground_size_m) - p.min_m;
   const float shape = static_cast<float>(picture.width) / static_cast<float>(picture.height) * size_m.y / size_m.x;

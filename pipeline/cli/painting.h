@@ -16,7 +16,7 @@ struct PaintingSettings {
 
 // How much redder or greener a pixel is than grey counts, times its opacity: grey pixels, as of the plan itself, say nothing. The
 // picture's top is north. Errors: unreadable, no red and no green, shaped otherwise than its area, no paint on any ground.
-Error ReadPainting(const PaintingSettings& settings, const GroundRaster& ground, PackPainting* painting);
+Error ReadPainting(const PaintingSettings& settings, const GroundRaster& ground, Painting* painting);
 
 // The town from above in shades of grey, a pixel for each cell of the ground, to paint on: dark where something stands, white off
 // the ground. A PNG file.

@@ -28,7 +28,7 @@ void AddAll(const Values& values, Fingerprint* print) {
 void AddReading(const AvatarSettings& a, const fs::path& file, Fingerprint* print) {
   print->AddFile(file).Add(a.walk).Add(a.idle).Add(a.talk).Add(a.height_m);
   AddAll(a.hide, print);
-  for (const PropSettings& prop : a.props) print->Add(prop.node);
+  for (const Prop& prop : a.props) print->Add(prop.name);
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ std::string FootprintsInputs(const TourSettings& s, const fs::path& town) {
 std::string CheckInputs(const TourSettings& s, const std::string& footprints_inputs) {
   Fingerprint print;
   print.Add(footprints_inputs).Add(s.name);
-  for (const PackPlace& place : s.places) {
+  for (const Place& place : s.places) {
     print.Add(place.name).Add(place.kind).Add(place.position_m.x).Add(place.position_m.y).Add(place.width_m);
   }
   return print.Hex();
@@ -90,7 +90,7 @@ std::string TourInputs(const fs::path& tour, const TourSettings& s) {
   print.AddFile(tour).Add(ThisProgram()).AddFile(BlenderScriptsFolder());
   const auto add = [&](const fs::path& file) { print.AddFile(IsScript(file) ? file.parent_path() : file); };
   add(s.town.file);
-  if (!s.painting.file.empty()) print.AddFile(s.painting.file);
+  if (!s.painting_file.file.empty()) print.AddFile(s.painting_file.file);
   for (const TownPart& part : s.parts) add(part.file);
   for (const AvatarSettings& avatar : s.avatars) add(avatar.source.file);
   return print.Hex();

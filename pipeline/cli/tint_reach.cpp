@@ -123,7 +123,7 @@ Error MainColors(const Avatar& avatar, std::vector<MainColor>* colors) {
   return Ok();
 }
 
-Error TintReach(const Avatar& avatar, const std::vector<PackTint>& tints, std::vector<float>* shares) {
+Error TintReach(const Avatar& avatar, const std::vector<Tint>& tints, std::vector<float>* shares) {
   std::vector<Place> places;
   if (Error e = PlacesOf(avatar, &places)) return e;
   const float whole = AreaOf(places);

@@ -10,7 +10,7 @@ namespace flaneur {
 
 // By tint: its share of the surface in the avatar's own pictures, materials and vertex colours, 0 to 1.
 // Errors: a picture that cannot be decoded.
-Error TintReach(const Avatar& avatar, const std::vector<PackTint>& tints, std::vector<float>* shares);
+Error TintReach(const Avatar& avatar, const std::vector<Tint>& tints, std::vector<float>* shares);
 
 struct MainColor { Vec3 color; float share = 0; };  // sRGB, of the surface
 

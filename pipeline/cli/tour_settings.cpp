@@ -7,7 +7,7 @@
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
 #include "runtime/base/toml_table.h"
-#include "runtime/pack/settings_fields.h"
+#include "runtime/tour_data/settings.h"
 
 namespace flaneur {
 namespace {
@@ -50,11 +50,11 @@ void ReadTown(TomlTable table, TourSettings* settings) {
 }
 
 void ReadTint(TomlTable table, AvatarSettings* avatar) {
-  PackTint tint;
+  Tint tint;
   table.Color("color", &tint.color);
-  table.Number("reach", &tint.reach, static_cast<double>(kLeastTintReach), 1);
+  table.Number("reach", &tint.reach, static_cast<double>(kMinTintReach), 1);
   table.Colors("colors", &tint.colors);
-  if (!table.Has("color") || tint.colors.empty() || tint.colors.size() > kMostTintColors) {
+  if (!table.Has("color") || tint.colors.empty() || tint.colors.size() > kMaxTintColors) {
     table.Refuse("an [[avatar.tint]] needs the color of a cloth, and colors, one to eight, that others wear it in");
   }
   table.Finish();
@@ -62,14 +62,14 @@ void ReadTint(TomlTable table, AvatarSettings* avatar) {
 }
 
 void ReadProp(TomlTable table, AvatarSettings* avatar) {
-  PropSettings prop;
-  table.Text("node", &prop.node);
+  Prop prop;
+  table.Text("node", &prop.name);
   table.Number("share", &prop.share, 0, 1);
   table.Text("slot", &prop.slot);
-  if (prop.node.empty()) table.Refuse("an [[avatar.prop]] needs the node of the avatar's file that shows it");
+  if (prop.name.empty()) table.Refuse("an [[avatar.prop]] needs the node of the avatar's file that shows it");
   float of_slot = prop.share;
-  for (const PropSettings& other : avatar->props) {
-    if (other.node == prop.node) table.Refuse("two props are the node '" + OneLine(prop.node) + "'");
+  for (const Prop& other : avatar->props) {
+    if (other.name == prop.name) table.Refuse("two props are the node '" + OneLine(prop.name) + "'");
     if (!prop.slot.empty() && other.slot == prop.slot) of_slot += other.share;
   }
   if (of_slot > 1.0001f) table.Refuse("the props of slot '" + OneLine(prop.slot) + "' have shares of more than 1 together");
@@ -89,8 +89,8 @@ void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
   table.Texts("hide", &avatar.hide);
   for (TomlTable& tint : table.Tables("tint")) ReadTint(tint, &avatar);
   for (TomlTable& prop : table.Tables("prop")) ReadProp(prop, &avatar);
-  if (avatar.props.size() > kMostProps) table.Refuse("an [[avatar]] has seven [[avatar.prop]] at most");
-  if (avatar.tints.size() > kMostTints) table.Refuse("an [[avatar]] has three [[avatar.tint]] at most");
+  if (avatar.props.size() > kMaxProps) table.Refuse("an [[avatar]] has seven [[avatar.prop]] at most");
+  if (avatar.tints.size() > kMaxTints) table.Refuse("an [[avatar]] has three [[avatar.tint]] at most");
   if (avatar.source.file.empty()) table.Refuse("an [[avatar]] needs a file");
   if (avatar.name.empty()) avatar.name = avatar.source.file.stem().string();
   for (const AvatarSettings& other : settings->avatars) {
@@ -136,7 +136,7 @@ void ReadFootprints(TomlTable table, FootprintOptions* options, GroundRasterOpti
 }
 
 void ReadPlace(TomlTable table, TourSettings* settings) {
-  PackPlace place;
+  Place place;
   place.kind = "goal";
   table.Text("name", &place.name);
   table.Choice("kind", &place.kind, {"door", "exit", "goal", "loiter", "spawn"});
@@ -208,7 +208,7 @@ void ReadAll(TomlTable root, TourSettings* settings) {
   ReadFootprints(root.Table("footprints"), &settings->footprints, &settings->ground);
   for (TomlTable& place : root.Tables("place")) ReadPlace(place, settings);
   for (TomlTable& stop : root.Tables("stop")) ReadStop(stop, settings);
-  ReadPaintingSettings(root.Table("painting"), &settings->painting);
+  ReadPaintingSettings(root.Table("painting"), &settings->painting_file);
   const auto section = [&](const char* name, auto* values) {
     TomlTable table = root.Table(name);
     VisitFields(table, values);

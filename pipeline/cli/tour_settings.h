@@ -31,13 +31,6 @@ struct TownPart {
   float scale = 1;    // metres per unit of the file
 };
 
-// What some people of an avatar have: a node of its file.
-struct PropSettings {
-  std::string node;
-  float share = 0.5f;  // of the people
-  std::string slot;    // nobody has two of one slot; empty: one of its own
-};
-
 struct AvatarSettings {
   std::string name;
   SourceSettings source;
@@ -45,12 +38,12 @@ struct AvatarSettings {
   float height_m = 0;  // 0: as in the file, see ReadAvatarOptions
   std::string walk, idle, talk;
   std::vector<std::string> hide;
-  std::vector<PackTint> tints;  // at most kMostTints
-  std::vector<PropSettings> props;
+  std::vector<Tint> tints;  // at most kMaxTints
+  std::vector<Prop> props;
 };
 
-struct TourSettings {
-  std::string name;
+// places: besides those tagged in the town.
+struct TourSettings : TourData {
   SourceSettings town;            // empty file: only parts
   float town_scale = 1;           // metres per unit of the town's file
   Georeference georeference;      // of the town
@@ -60,16 +53,8 @@ struct TourSettings {
   ImpostorOptions impostor;
   FootprintOptions footprints;
   GroundRasterOptions ground;
-  std::vector<PackPlace> places;  // besides those tagged in the town
-  PaintingSettings painting;
-  std::vector<TourStop> path;
-  std::string language = "en";    // of titles, captions and sounds for which no other is named
-  std::map<std::string, std::string> titles;  // by language; none: the name
+  PaintingSettings painting_file;
   std::vector<std::map<std::string, std::filesystem::path>> sounds;  // by stop of the path and language
-  std::string guide;              // name of the avatar who leads the way along it; empty: nobody
-  CrowdSettings crowd;
-  ControlSettings control;
-  LightSettings light;
 };
 
 // Errors: unreadable, not TOML, an unknown key (with the nearest known one), a wrong type, a value out of range, no town, no

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/base/math.h"
+#include "runtime/tour_data/tour_data.h"
 
 namespace flaneur {
 
@@ -35,16 +36,6 @@ struct Footprints {
   Point2 origin_m;                         // add to a coordinate to get the source's own
   std::string reference_system;            // of the source's coordinates: "EPSG:25832"; empty: not known
   std::vector<Obstacle> obstacles;
-};
-
-// Walkable surface as a regular raster; cell (column, row) covers
-// [min.x + column * cell, ...) x [min.y + row * cell, ...); row 0 is the southernmost.
-struct GroundRaster {
-  Vec2 min_m;
-  float cell_m = 0.25f;
-  int columns = 0, rows = 0;
-  std::vector<float> height_m;   // columns * rows, z at the cell's centre
-  std::vector<uint8_t> kind;     // GroundKind; 0: no ground
 };
 
 }  // namespace flaneur

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/color_text.h"
-#include "runtime/pack/settings_fields.h"
+#include "runtime/tour_data/settings.h"
 
 namespace flaneur {
 namespace {
@@ -73,7 +73,7 @@ Json ImpostorJson(const ImpostorAtlas& atlas, const ImpostorViews& views) {
           {"motion_view", views.motion}};
 }
 
-Json TintJson(const PackTint& tint) {
+Json TintJson(const Tint& tint) {
   Json colors = Json::array();
   for (Vec3 color : tint.colors) colors.push_back(TextFromColor(color));
   return {{"color", TextFromColor(tint.color)}, {"reach", Short(tint.reach)}, {"colors", colors}};
@@ -103,7 +103,7 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
           {"clips", clips},
           {"levels", levels},
           {"impostor", ImpostorJson(avatar.impostor, views)}};
-  for (const PackTint& tint : avatar.tints) json["tints"].push_back(TintJson(tint));
+  for (const Tint& tint : avatar.tints) json["tints"].push_back(TintJson(tint));
   for (size_t k = 0; k < person.props.size(); ++k) {
     int triangles = 0;
     for (const Mesh& mesh : person.props[k].meshes) triangles += TriangleCount(mesh);
@@ -152,13 +152,13 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
                     {"columns", parts.ground.columns},        {"rows", parts.ground.rows},
                     {"height_view", indices.height_view},     {"kind_view", indices.kind_view}};
   tour["places"] = Json::array();
-  for (const PackPlace& p : parts.places) {
+  for (const Place& p : parts.places) {
     tour["places"].push_back({{"name", p.name}, {"kind", p.kind}, {"position_m", PointJson(p.position_m)},
                               {"width_m", Short(p.width_m)}});
     if (p.yaw_rad) tour["places"].back()["yaw_rad"] = Short(*p.yaw_rad);
   }
   if (indices.people_view >= 0) {
-    const PackPainting& p = parts.painting;
+    const Painting& p = parts.painting;
     tour["painting"] = {{"min_m", PointJson(p.min_m)},        {"cell_m", Short(p.cell_m)},
                         {"columns", p.columns},               {"rows", p.rows},
                         {"people_view", indices.people_view}, {"loiter_view", indices.loiter_view}};

@@ -1,8 +1,6 @@
 // Everything a bake made, written as one tour pack: a glTF binary that any viewer opens, with the tour in its root extension.
 #pragma once
 #include <filesystem>
-#include <map>
-#include <string>
 #include <vector>
 
 #include "pipeline/core/avatar.h"
@@ -18,27 +16,16 @@ struct TourAvatar {
   AvatarLevels levels;
   ImpostorAtlas impostor;
   float share = 1;
-  std::vector<PackTint> tints = {};
-  struct Prop { float share = 0; std::string slot; };
+  std::vector<Tint> tints = {};
   std::vector<Prop> props = {};  // one for each of the avatar's
 };
 
-struct TourParts {
-  std::string name;
+struct TourParts : TourData {
   Scene town;
   std::vector<TourAvatar> avatars;
   Footprints footprints;
   GroundRaster ground;
-  std::vector<PackPlace> places;
-  PackPainting painting;
-  std::vector<TourStop> path;
-  std::map<std::string, std::string> titles; // by language; none: the name
-  std::string language = "en";               // of the stops' captions
   std::vector<std::vector<uint8_t>> sounds;  // files, as the stops number them
-  std::string guide;  // name of an avatar; empty: nobody
-  CrowdSettings crowd;
-  ControlSettings control;
-  LightSettings light;
 };
 
 // Scene 0 is the town; one scene more holds each avatar. The same parts give the same bytes.

@@ -9,9 +9,9 @@ namespace {
 Vec2 Direction(float yaw_rad) { return {std::cos(yaw_rad), std::sin(yaw_rad)}; }
 
 // Two overlapping circles over the visible high-resolution area, the second over the edge towards which the camera turns.
-void AddCameraObstacles(const ViewCamera& camera, float yaw_rate_radps, const LevelState& levels, const InfluenceSettings& s,
+void AddCameraObstacles(const ViewCamera& camera, float yaw_rate_radps, const LevelState& levels, const ControlSettings& s,
                         Crowd* crowd, std::vector<MovingObstacle>* obstacles) {
-  if (levels.high < s.high_limit) return;
+  if (levels.high < levels.limit) return;
   const float r = s.r_high_m / 2;
   const float side = yaw_rate_radps >= 0 ? 1.0f : -1.0f;
   obstacles->push_back({camera.position + Direction(camera.yaw_rad) * r, r, false});
@@ -25,10 +25,10 @@ void AddCameraObstacles(const ViewCamera& camera, float yaw_rate_radps, const Le
 }  // namespace
 
 void InfluenceCrowd(const ViewCamera& camera, const ViewMotion& motion, const LevelState& levels,
-                    const Walkable& walkable, const InfluenceSettings& s, Crowd* crowd, std::vector<MovingObstacle>* obstacles,
+                    const Walkable& walkable, const ControlSettings& s, Crowd* crowd, std::vector<MovingObstacle>* obstacles,
                     ForesightState* foresight) {
   if (s.adaptation == Adaptation::kFull) {
-    Foresee(camera, motion, walkable, {s.high_limit, s.r_high_m, s.r_personal_m, s.step_s}, crowd, foresight);
+    Foresee(camera, motion, walkable, s, levels.limit, crowd, foresight);
   } else if (s.adaptation == Adaptation::kPaper) {
     std::fill(crowd->avoids_camera.begin(), crowd->avoids_camera.end(), uint8_t{0});
     AddCameraObstacles(camera, motion.yaw_rate_radps, levels, s, crowd, obstacles);

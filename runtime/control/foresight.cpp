@@ -46,7 +46,7 @@ Vec2 Rotated(Vec2 v, float by_rad) {
 float MomentTime_s(int moment) { return static_cast<float>(moment) * kMoment_s; }
 
 void FollowCamera(const ViewCamera& camera, const ViewMotion& motion, float step_s, State* state) {
-  Settle(motion, step_s, &state->motion);
+  Smooth(motion, step_s, &state->motion);
   state->speed_mps = Length(state->motion.velocity);
   state->sine = std::sin(camera.fov_rad / 2), state->cosine = std::cos(camera.fov_rad / 2);
   for (int m = 0; m < State::kMoments; ++m) {
@@ -151,23 +151,23 @@ bool Blocks(const Crowd& c, size_t i, Vec2 velocity, float r_personal_m, const S
 }
 
 // How much one person too many in this sector counts. Where every direction is full already, the fullest counts most.
-float ExcessCounts(const Crowd& c, size_t i, int high_limit, size_t turn, int sector, const State& state) {
+float ExcessCounts(const Crowd& c, size_t i, size_t turn, int sector, const State& state) {
   const int excess = sector < 0 ? 0 : state.excess[turn][static_cast<size_t>(sector)];
   if (excess <= 0) return 0;
   const float share = c.view[i] == ViewClass::kVisible ? kTurnsInView : 1.0f;
-  return share * (1 + static_cast<float>(excess) / static_cast<float>(high_limit));
+  return share * (1 + static_cast<float>(excess) / static_cast<float>(state.high_limit));
 }
 
 // In how many instants the person would be one too many.
-float TimesInTheWay(const Crowd& c, size_t i, const Forecast& f, bool blocks, int high_limit, const State& state) {
+float TimesInTheWay(const Crowd& c, size_t i, const Forecast& f, bool blocks, const State& state) {
   float times = blocks ? kBlockingCounts : 0;
   times += static_cast<float>(std::popcount(f.in_view & state.overfull_moments));
-  for (size_t k = 0; k < State::kTurns; ++k) times += ExcessCounts(c, i, high_limit, k, f.sector[k], state);
+  for (size_t k = 0; k < State::kTurns; ++k) times += ExcessCounts(c, i, k, f.sector[k], state);
   return times;
 }
 
 // The same with another velocity, counted no further than `enough`. Where the person is now they are with any velocity.
-float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, const ForesightSettings& s, float enough, const State& state) {
+float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, const ControlSettings& s, float enough, const State& state) {
   float times = Blocks(c, i, velocity, s.r_personal_m, state) ? kBlockingCounts : 0;
   for (uint32_t left = state.overfull_moments; left != 0 && times < enough; left &= left - 1) {
     if (WouldBeInView(c, i, velocity, s.r_high_m, std::countr_zero(left), state)) ++times;
@@ -175,7 +175,7 @@ float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, 
   for (int k = 0; k < State::kTurns && times < enough; ++k) {
     if (!(state.overfull_turns >> k & 1)) continue;
     const int sector = k == 0 ? f.sector[0] : WouldBeInSector(c, i, velocity, s.r_high_m, k, state);
-    times += ExcessCounts(c, i, s.high_limit, static_cast<size_t>(k), sector, state);
+    times += ExcessCounts(c, i, static_cast<size_t>(k), sector, state);
   }
   return times;
 }
@@ -184,10 +184,10 @@ bool CanWalk(const Walkable& w, Vec2 from, Vec2 way) {
   return IsFree(w, from + way * 0.5f) && IsFree(w, from + way);
 }
 
-void Consider(const Walkable& w, const ForesightSettings& s, size_t i, const Forecast& forecast, Crowd* crowd, State* state) {
+void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forecast& forecast, Crowd* crowd, State* state) {
   Crowd& c = *crowd;
   const Vec2 desired = Desired(c, i);
-  const float now = TimesInTheWay(c, i, forecast, Blocks(c, i, desired, s.r_personal_m, *state), s.high_limit, *state);
+  const float now = TimesInTheWay(c, i, forecast, Blocks(c, i, desired, s.r_personal_m, *state), *state);
   if (now == 0) {  // a detour that goes well ends only when the own way is free again: nobody wavers
     const bool on_detour = c.detour_s[i] > 0;
     if (on_detour && TimesInTheWay(c, i, OwnWay(c, i), forecast, s, kAny, *state) > 0 &&
@@ -219,7 +219,7 @@ void Consider(const Walkable& w, const ForesightSettings& s, size_t i, const For
   if (best.gain > 0) state->choices.push_back(best);
 }
 
-void Choose(const ForesightSettings& s, float fov_rad, int capacity, Crowd* c, State* state) {
+void Choose(const ControlSettings& s, float fov_rad, int capacity, Crowd* c, State* state) {
   std::sort(state->choices.begin(), state->choices.end(), [&](const State::Choice& a, const State::Choice& b) {
     return a.gain != b.gain ? a.gain > b.gain : c->id[static_cast<size_t>(a.person)] < c->id[static_cast<size_t>(b.person)];
   });
@@ -228,7 +228,7 @@ void Choose(const ForesightSettings& s, float fov_rad, int capacity, Crowd* c, S
     const Vec2 desired = Desired(*c, i);
     const Forecast forecast = Forecasted(*c, i, desired, s.r_high_m, *state);
     const bool blocks = Blocks(*c, i, desired, s.r_personal_m, *state);
-    if (TimesInTheWay(*c, i, forecast, blocks, s.high_limit, *state) == 0) continue;  // others have made room
+    if (TimesInTheWay(*c, i, forecast, blocks, *state) == 0) continue;  // others have made room
     Tally(forecast, -1, state);
     c->detour[i] = choice.velocity;
     c->detour_s[i] = kDetour_s;
@@ -239,12 +239,13 @@ void Choose(const ForesightSettings& s, float fov_rad, int capacity, Crowd* c, S
 
 }  // namespace
 
-void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable& walkable, const ForesightSettings& s,
-             Crowd* c, State* state) {
-  FollowCamera(camera, motion, s.step_s, state);
+void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable& walkable, const ControlSettings& s,
+             int high_limit, Crowd* c, State* state) {
+  FollowCamera(camera, motion, Step_s(s), state);
+  state->high_limit = high_limit;
   if (state->step++ % kPlanEvery_steps != 0) return;
-  const int reserve = s.high_limit < kReservesFrom ? 0 : static_cast<int>(std::lround(kReserve * static_cast<float>(s.high_limit)));
-  const int capacity = s.high_limit - reserve;
+  const int reserve = high_limit < kReservesFrom ? 0 : static_cast<int>(std::lround(kReserve * static_cast<float>(high_limit)));
+  const int capacity = high_limit - reserve;
   const float reach_m = s.r_high_m + kReach_m + state->speed_mps * MomentTime_s(State::kMoments - 1);
   state->near.clear();
   state->choices.clear();

@@ -7,15 +7,9 @@
 
 #include "runtime/control/view_volumes.h"
 #include "runtime/crowd/crowd.h"
+#include "runtime/tour_data/settings.h"
 
 namespace flaneur {
-
-struct ForesightSettings {
-  int high_limit = 12;
-  float r_high_m = 10;        // nominal
-  float r_personal_m = 0.6f;
-  float step_s = 1.0f / 30;
-};
 
 // Scratch, kept so that a steady step allocates nothing, and what is remembered of the camera.
 struct ForesightState {
@@ -24,6 +18,7 @@ struct ForesightState {
   static constexpr int kTurns = 3;      // of the moments, in which the visitor may look anywhere
 
   int64_t step = 0;
+  int high_limit = 0;                   // in force
   ViewMotion motion;                    // of the camera, settled
   float speed_mps = 0;                  // likewise
   struct Moment { Vec2 position, apex, axis; };  // of the camera, and of the view with its rim
@@ -47,7 +42,8 @@ struct ForesightState {
 // out of view, how many there would be wherever the visitor turned. Where that comes near the limit, those who can keep out of it
 // with the least change of speed and direction do so for a second: Crowd::detour. People in view change theirs little, people out
 // of view as much as walking allows.
-void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable& walkable, const ForesightSettings& settings,
-             Crowd* crowd, ForesightState* state);
+// high_limit: in force.
+void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable& walkable, const ControlSettings& settings,
+             int high_limit, Crowd* crowd, ForesightState* state);
 
 }  // namespace flaneur

@@ -32,10 +32,10 @@ float PixelsHigh(float height_m, float distance_m, const ViewCamera& camera, int
   return height_m * focal_px / std::max(distance_m, 0.1f);
 }
 
-void FollowFrameTime(float frame_ms, float camera_speed_mps, const LevelSettings& s, LevelState* state) {
+void FollowFrameTime(float frame_ms, float camera_speed_mps, const ControlSettings& s, LevelState* state) {
   const float most = static_cast<float>(s.budget_triangles);
-  if (state->budget_triangles <= 0 || !s.by_frame_time) state->budget_triangles = most;
-  if (!s.by_frame_time || frame_ms <= 0) return;
+  if (state->budget_triangles <= 0 || s.method != LimitMethod::kFrameTime) state->budget_triangles = most;
+  if (s.method != LimitMethod::kFrameTime || frame_ms <= 0) return;
   const float target_ms = camera_speed_mps > kFastCamera_mps ? s.target_ms * kFastShare : s.target_ms;
   const float error = std::clamp((target_ms - frame_ms) / target_ms, -1.0f, 1.0f);
   // A budget that nobody uses says nothing about the frame time, and must not grow on it.
@@ -167,7 +167,7 @@ void ListShadowCasters(const Crowd& crowd, const std::vector<AvatarCosts>& avata
 }
 
 // r_high moves towards the distance that leaves `limit` people inside: soon where there are more, slowly where there are fewer.
-void MoveBoundary(const LevelSettings& s, int limit, float step_s, LevelState* state) {
+void MoveBoundary(const ControlSettings& s, int limit, float step_s, LevelState* state) {
   float wanted_m = s.r_high_m;
   state->nearest.clear();
   for (const LevelState::Visible& v : state->visible) {
@@ -196,17 +196,19 @@ int AffordableLevel(const AvatarCosts& avatar, int wanted, int64_t budget, int64
 
 }  // namespace
 
-void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera,
-                  const ViewMotion& motion, float frame_ms, const LevelSettings& s, float step_s, LevelState* state) {
-  FollowFrameTime(frame_ms, Length(motion.velocity), s, state);
-  Settle(motion, step_s, &state->motion);
+void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ControlSettings& s,
+                  const LevelQuery& query, LevelState* state) {
+  const ViewCamera& camera = query.camera;
+  const float step_s = Step_s(s);
+  FollowFrameTime(query.frame_ms, Length(query.motion.velocity), s, state);
+  Smooth(query.motion, step_s, &state->motion);
   if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
-  ListVisible(crowd, camera, s.r_far_m, s.first_id, state);
+  ListVisible(crowd, camera, s.r_far_m, query.first_id, state);
   ListShadowCasters(crowd, avatars, camera, state);
   const int64_t all = static_cast<int64_t>(state->budget_triangles);
   const int64_t as_impostors = kImpostorTriangles * static_cast<int64_t>(state->visible.size());
   ChooseShadows(std::clamp<int64_t>(all - as_impostors, 0, static_cast<int64_t>(kShadowShare * state->budget_triangles)), step_s, &state->shadows);
-  const int limit = state->limit = s.by_frame_time ? PeopleAfforded(avatars, state) : s.high_limit;
+  const int limit = state->limit = s.method == LimitMethod::kFrameTime ? PeopleAfforded(avatars, state) : s.high_limit;
   MoveBoundary(s, limit, step_s, state);
 
   // Only those who may become meshes need to stand in order; and all, where not even impostors fit.
@@ -231,7 +233,7 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
     if (distance_m < s.r_high_m) ++within_nominal;
     if (static_cast<int64_t>(rank) >= drawable) continue;
     const AvatarCosts& avatar = avatars[static_cast<size_t>(crowd.avatar[i])];
-    const float px = PixelsHigh(avatar.height_m, distance_m, camera, s.screen_width_px);
+    const float px = PixelsHigh(avatar.height_m, distance_m, camera, query.screen_width_px);
     const int last = state->last_level[static_cast<size_t>(id)];
     const float share = turn == kAppears ? 1 - kReserve : 1.0f;
     int level = kImpostor;

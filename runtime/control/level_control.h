@@ -22,12 +22,11 @@ struct AvatarCosts {
   ShadowCost shadow = {};
 };
 
-struct LevelSettings {
-  bool by_frame_time = false;  // method 2, else method 1
-  int high_limit = 12;
-  float target_ms = 16.7f;
-  int budget_triangles = 200000;
-  float r_high_m = 10, r_far_m = 200;
+// What levels are chosen for in this step.
+struct LevelQuery {
+  ViewCamera camera;
+  ViewMotion motion;           // of the camera, in this step
+  float frame_ms = 0;          // what the last frame took, for LimitMethod::kFrameTime; 0: not known
   int screen_width_px = 1280;  // that pixel sizes are meant for
   int first_id = -1;           // who is served before all others, and so is no impostor while anybody is a mesh; -1: nobody
 };
@@ -55,12 +54,11 @@ struct LevelState {
   std::vector<int> last_level;     // by id: level in the last step
 };
 
-// Chooses everybody's level for this frame. Method 1 keeps high_limit; with method 2 the budget follows the frame time towards
+// Chooses everybody's level for this frame. LimitMethod::kCount keeps high_limit; with kFrameTime the budget follows the frame time towards
 // target_ms, or 0.85 of it while the camera moves fast (paper, section 3.2), and the limit is what the budget affords. The budget
 // is for all triangles together, shadows included, and
 // holds whatever happens: who does not fit becomes an impostor, and where even those do not fit, the farthest are not drawn.
-// motion: the camera's in this step. frame_ms: what the last frame took, for method 2.
-void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera,
-                  const ViewMotion& motion, float frame_ms, const LevelSettings& settings, float step_s, LevelState* state);
+void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ControlSettings& settings,
+                  const LevelQuery& query, LevelState* state);
 
 }  // namespace flaneur

@@ -3,10 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace flaneur {
+#include "runtime/tour_data/shadow_limits.h"
 
-inline constexpr float kFineShadow_m = 12;   // nearer people cast the shadow of their coarsest mesh,
-inline constexpr float kShadowReach_m = 72;  // those beyond of a much coarser figure, and nobody from here on
+namespace flaneur {
 
 // The most triangles of the two figures.
 struct ShadowCost { int fine_triangles = 0, coarse_triangles = 0; };

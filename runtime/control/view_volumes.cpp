@@ -22,11 +22,11 @@ ViewClass Classify(Vec2 p, const ViewCamera& camera, float outer_apex_back_m) {
   return Classify(p, VolumesOf(camera, outer_apex_back_m));
 }
 
-void Settle(const ViewMotion& motion, float step_s, ViewMotion* settled) {
-  constexpr float kSettles_s = 0.3f;
-  const float share = std::min(1.0f, step_s / kSettles_s);
-  settled->velocity = settled->velocity + (motion.velocity - settled->velocity) * share;
-  settled->yaw_rate_radps += (motion.yaw_rate_radps - settled->yaw_rate_radps) * share;
+void Smooth(const ViewMotion& motion, float step_s, ViewMotion* smoothed) {
+  constexpr float kSmoothing_s = 0.3f;
+  const float share = std::min(1.0f, step_s / kSmoothing_s);
+  smoothed->velocity = smoothed->velocity + (motion.velocity - smoothed->velocity) * share;
+  smoothed->yaw_rate_radps += (motion.yaw_rate_radps - smoothed->yaw_rate_radps) * share;
 }
 
 }  // namespace flaneur

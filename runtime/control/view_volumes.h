@@ -17,8 +17,8 @@ struct ViewCamera {
 // Of a camera.
 struct ViewMotion { Vec2 velocity; float yaw_rate_radps = 0; };
 
-// Brings `settled` nearer to the motion in this step: an average over about 0.3 s.
-void Settle(const ViewMotion& motion, float step_s, ViewMotion* settled);
+// Brings `smoothed` nearer to the motion in this step: an average over about 0.3 s.
+void Smooth(const ViewMotion& motion, float step_s, ViewMotion* smoothed);
 
 struct MotionLimits {
   float yaw_rate_radps = 2.1f;

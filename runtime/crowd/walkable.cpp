@@ -101,7 +101,7 @@ std::vector<char> Covered(const Walkable& w) {
   return covered;
 }
 
-int GroundCell(const GroundGrid& g, Vec2 p) {
+int GroundCell(const GroundRaster& g, Vec2 p) {
   const int x = static_cast<int>(std::floor((p.x - g.min_m.x) / g.cell_m));
   const int y = static_cast<int>(std::floor((p.y - g.min_m.y) / g.cell_m));
   return x < 0 || y < 0 || x >= g.columns || y >= g.rows ? -1 : y * g.columns + x;
@@ -168,10 +168,10 @@ void NumberComponents(Walkable* w) {
 
 // How many cells of ground rasters are no ground, by sums over rectangles from the raster's corner.
 struct Holes {
-  const GroundGrid& g;
+  const GroundRaster& g;
   std::vector<int> sum;
 
-  explicit Holes(const GroundGrid& ground)
+  explicit Holes(const GroundRaster& ground)
       : g(ground), sum((static_cast<size_t>(g.columns) + 1) * (static_cast<size_t>(g.rows) + 1), 0) {
     for (int y = 0; y < g.rows; ++y) {
       for (int x = 0; x < g.columns; ++x) {
@@ -233,7 +233,7 @@ void MeasureSame(Walkable* w) {
 }  // namespace
 
 void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
-  const GroundGrid& g = w->ground;
+  const GroundRaster& g = w->ground;
   const Vec2 size{static_cast<float>(g.columns) * g.cell_m, static_cast<float>(g.rows) * g.cell_m};
   w->person_radius_m = person_radius_m;
   w->cell_m = std::max(kNavigationCell_m, std::sqrt(size.x * size.y / kMostNavigationCells));
@@ -285,7 +285,7 @@ bool OnGround(const Walkable& w, Vec2 p) {
 }
 
 float HeightAt(const Walkable& w, Vec2 p) {
-  const GroundGrid& g = w.ground;
+  const GroundRaster& g = w.ground;
   if (g.height_m.empty()) return 0;
   const float fx = std::clamp((p.x - g.min_m.x) / g.cell_m - 0.5f, 0.0f, static_cast<float>(g.columns - 1));
   const float fy = std::clamp((p.y - g.min_m.y) / g.cell_m - 0.5f, 0.0f, static_cast<float>(g.rows - 1));

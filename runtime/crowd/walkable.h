@@ -4,28 +4,12 @@
 #include <vector>
 
 #include "runtime/base/math.h"
+#include "runtime/tour_data/tour_data.h"
 
 namespace flaneur {
 
-struct CircleObstacle { Vec2 center; float radius_m = 0; };
-struct PolygonObstacle {
-  std::vector<Vec2> outer;               // either orientation
-  std::vector<std::vector<Vec2>> holes;  // inside a hole is outside the obstacle
-};
-
-// A raster of heights and ground kinds (0: none); layout as in the tour pack.
-struct GroundGrid {
-  Vec2 min_m;
-  float cell_m = 1;
-  int columns = 0, rows = 0;
-  std::vector<float> height_m;
-  std::vector<uint8_t> kind;
-};
-
-struct Walkable {
-  GroundGrid ground;
-  std::vector<CircleObstacle> circles;
-  std::vector<PolygonObstacle> polygons;
+struct Walkable : Obstacles {
+  GroundRaster ground;
 
   // Derived by BuildWalkable: a navigation grid whose cells are free where a person of person_radius_m fits.
   float person_radius_m = 0.3f;

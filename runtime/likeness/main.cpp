@@ -4,7 +4,7 @@
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
 #include "runtime/likeness/measure.h"
-#include "runtime/render/context.h"
+#include "runtime/desktop/context.h"
 
 namespace flaneur {
 namespace {

@@ -11,7 +11,7 @@
 #include "runtime/pack/ktx2.h"
 #include "runtime/pack/read_clip.h"
 #include "runtime/pack/read_mesh.h"
-#include "runtime/pack/settings_fields.h"
+#include "runtime/tour_data/settings.h"
 #include "runtime/pack/tour_object.h"
 #include "runtime/pack/tour_pack.h"
 
@@ -131,12 +131,12 @@ void ReadTown(const GltfFile& file, MeshTable* meshes, TourPack* pack) {
   }
 }
 
-std::vector<PackImpostorCell> ReadCells(std::span<const uint8_t> bytes, const PackImpostor& impostor) {
+std::vector<ImpostorCell> ReadCells(std::span<const uint8_t> bytes, const PackImpostor& impostor) {
   const size_t count = static_cast<size_t>(impostor.directions) * static_cast<size_t>(impostor.frames) * impostor.elevations_deg.size();
-  if (bytes.size() != count * sizeof(PackImpostorCell)) throw PackRefused("has an impostor with a wrong number of cells");
-  std::vector<PackImpostorCell> cells(count);
+  if (bytes.size() != count * sizeof(ImpostorCell)) throw PackRefused("has an impostor with a wrong number of cells");
+  std::vector<ImpostorCell> cells(count);
   std::memcpy(cells.data(), bytes.data(), bytes.size());
-  for (const PackImpostorCell& c : cells) {
+  for (const ImpostorCell& c : cells) {
     if (c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x + c.width > impostor.width_px || c.y + c.height > impostor.height_px) {
       throw PackRefused("has an impostor with a cell outside its atlas");
     }
@@ -157,7 +157,7 @@ PackImpostor ReadImpostor(const GltfFile& file, const TourObject& json) {
   out.motion_range_m = json.Real("motion_range_m", kAboveZero, kAnything);
   out.bend_range_m = json.Real("bend_range_m", kAboveZero, kAnything);
   for (const TourObject& c : json.Objects("clips")) {
-    const PackImpostorClip clip{c.OneOf("name", {"walk", "idle", "talk"}), c.Whole("first_frame", 0, 4095),
+    const ImpostorClip clip{c.OneOf("name", {"walk", "idle", "talk"}), c.Whole("first_frame", 0, 4095),
                                 c.Whole("phases", 1, 4096)};
     if (clip.first_frame + clip.phases > out.frames) c.Refuse("reaches beyond the atlas's frames");
     out.clips.push_back(clip);
@@ -203,12 +203,12 @@ PackClip FirstFrame(const PackClip& clip, int joints) {
   return still;
 }
 
-PackTint ReadTint(const TourObject& json) {
-  PackTint tint;
+Tint ReadTint(const TourObject& json) {
+  Tint tint;
   tint.color = json.Color("color");
-  tint.reach = json.Real("reach", kLeastTintReach, 1);
+  tint.reach = json.Real("reach", kMinTintReach, 1);
   tint.colors = json.Colors("colors");
-  if (tint.colors.size() > kMostTintColors) json.Refuse("has more than eight colors");
+  if (tint.colors.size() > kMaxTintColors) json.Refuse("has more than eight colors");
   return tint;
 }
 
@@ -260,27 +260,26 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   avatar.impostor = ReadImpostor(file, json.Object("impostor"));
   if (json.Has("props")) {
     for (const TourObject& prop : json.Objects("props")) avatar.props.push_back(ReadProp(file, skin, prop, meshes));
-    if (avatar.props.size() > kMostProps) json.Refuse("has more than seven props");
+    if (avatar.props.size() > kMaxProps) json.Refuse("has more than seven props");
   }
   if (json.Has("tints")) {
     for (const TourObject& tint : json.Objects("tints")) avatar.tints.push_back(ReadTint(tint));
-    if (avatar.tints.size() > kMostTints) json.Refuse("has more than three tints");
+    if (avatar.tints.size() > kMaxTints) json.Refuse("has more than three tints");
   }
   return avatar;
 }
 
-PackObstacle ReadObstacle(const TourObject& json) {
-  PackObstacle obstacle;
-  obstacle.name = json.Text("name");
-  obstacle.kind = json.OneOf("kind", {"building", "wall", "tree", "lamp", "other"});
+void ReadObstacle(const TourObject& json, Obstacles* obstacles) {
+  json.Text("name");
+  json.OneOf("kind", {"building", "wall", "tree", "lamp", "other"});
   if (json.Has("radius_m")) {
-    obstacle.center = json.Point("center_m");
-    obstacle.radius_m = json.Real("radius_m", TourObject::kAboveZero, TourObject::kAnything);
-    return obstacle;
+    const float radius_m = json.Real("radius_m", TourObject::kAboveZero, TourObject::kAnything);
+    obstacles->circles.push_back({json.Point("center_m"), radius_m});
+    return;
   }
-  obstacle.outer = json.Ring("outer_m");
-  if (json.Has("holes_m")) obstacle.holes = json.Rings("holes_m");
-  return obstacle;
+  PolygonObstacle polygon{json.Ring("outer_m"), {}};
+  if (json.Has("holes_m")) polygon.holes = json.Rings("holes_m");
+  obstacles->polygons.push_back(std::move(polygon));
 }
 
 // Where a raster lies; how many cells it has.
@@ -293,8 +292,8 @@ size_t ReadRasterFrame(const TourObject& json, Raster* raster) {
   return static_cast<size_t>(raster->columns) * static_cast<size_t>(raster->rows);
 }
 
-PackGround ReadGround(const GltfFile& file, const TourObject& json) {
-  PackGround ground;
+GroundRaster ReadGround(const GltfFile& file, const TourObject& json) {
+  GroundRaster ground;
   const size_t cells = ReadRasterFrame(json, &ground);
   const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
   const auto heights = BufferView(file, json.Whole("height_view", 0, last));
@@ -309,8 +308,8 @@ PackGround ReadGround(const GltfFile& file, const TourObject& json) {
   return ground;
 }
 
-PackPainting ReadPainting(const GltfFile& file, const TourObject& json) {
-  PackPainting painting;
+Painting ReadPainting(const GltfFile& file, const TourObject& json) {
+  Painting painting;
   const size_t cells = ReadRasterFrame(json, &painting);
   const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
   const auto people = BufferView(file, json.Whole("people_view", 0, last));
@@ -348,7 +347,7 @@ TourStop ReadStop(const GltfFile& file, const TourObject& json, TourPack* pack) 
 void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   pack->name = tour.Text("name");
   pack->titles = ReadTranslations(tour, "titles");
-  for (const TourObject& o : tour.Objects("obstacles")) pack->obstacles.push_back(ReadObstacle(o));
+  for (const TourObject& o : tour.Objects("obstacles")) ReadObstacle(o, &pack->obstacles);
   for (const TourObject& p : tour.Objects("places")) {
     pack->places.push_back({p.Text("name"), p.OneOf("kind", {"door", "exit", "goal", "loiter", "spawn"}), p.Point("position_m"),
                             p.Real("width_m", TourObject::kAboveZero, TourObject::kAnything)});

@@ -10,12 +10,12 @@ Vec3 WithHalfLightness(Vec3 color) {
   return color - Vec3{half, half, half};
 }
 
-float TintShare(const PackTint& tint, Vec3 color) {
+float TintShare(const Tint& tint, Vec3 color) {
   const float distance = Length(WithHalfLightness(color) - WithHalfLightness(tint.color)) / tint.reach;
   return std::clamp(2 - 2 * distance * distance, 0.0f, 1.0f);
 }
 
-Vec3 Tinted(const std::vector<PackTint>& tints, const std::vector<size_t>& chosen, Vec3 color) {
+Vec3 Tinted(const std::vector<Tint>& tints, const std::vector<size_t>& chosen, Vec3 color) {
   Vec3 out = color;
   float left = 1;
   for (size_t k = 0; k < tints.size() && k < chosen.size(); ++k) {

@@ -4,28 +4,18 @@
 #include <cstddef>
 #include <vector>
 
-#include "runtime/base/math.h"
+#include "runtime/tour_data/avatar_data.h"
 
 namespace flaneur {
-
-inline constexpr size_t kMostTints = 3;        // of an avatar
-inline constexpr size_t kMostTintColors = 8;   // of a tint, besides its own
-inline constexpr float kLeastTintReach = 0.01f;
-
-struct PackTint {
-  Vec3 color;                // of the cloth in the avatar's own pictures
-  float reach = 0.2f;        // kLeastTintReach to 1: colours farther off than this are not dyed
-  std::vector<Vec3> colors;  // in which others wear it; at least one
-};
 
 // Colours are compared as points without half of their lightness, since folds and dirt darken a cloth.
 Vec3 WithHalfLightness(Vec3 color);
 
 // How much of a colour is the tint's cloth: 1 within 0.7 of its reach from its colour, falling to 0 at its reach.
-float TintShare(const PackTint& tint, Vec3 color);
+float TintShare(const Tint& tint, Vec3 color);
 
 // The colour after each tint has moved its share by the way from its own colour to another, which keeps weave and folds.
 // `chosen`, by tint: 0 its own colour, k the k-th of its others. A share that an earlier tint has taken is not taken again.
-Vec3 Tinted(const std::vector<PackTint>& tints, const std::vector<size_t>& chosen, Vec3 color);
+Vec3 Tinted(const std::vector<Tint>& tints, const std::vector<size_t>& chosen, Vec3 color);
 
 }  // namespace flaneur

@@ -14,7 +14,8 @@
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
 #include "runtime/pack/texture.h"
-#include "runtime/pack/tint.h"
+#include "runtime/tour_data/avatar_data.h"
+#include "runtime/tour_data/tour_data.h"
 
 namespace flaneur {
 
@@ -67,28 +68,13 @@ struct PackLevel {
   float error_mm = 0, posed_error_mm = 0, switch_px = 0;
 };
 
-// What some people of an avatar have: a mesh on the avatar's joints, drawn beside any of its levels and its impostor.
-struct PackProp {
-  std::string name;
-  int mesh = 0, triangles = 0;
-  float share = 0;           // of the people
-  std::string slot;          // of those with the same one a person has one at most; empty: its own
-};
-inline constexpr size_t kMostProps = 7;
-
-struct PackImpostorClip { std::string name; int first_frame = 0, phases = 0; };
-
-struct PackImpostorCell { int16_t x = 0, y = 0, width = 0, height = 0, origin_x = 0, origin_y = 0; };
-
-// Meaning of the fields: docs/pack-format.md says how an atlas is laid out.
-struct PackImpostor {
-  int directions = 0, frames = 0;
-  std::vector<float> elevations_deg;
-  int width_px = 0, height_px = 0;
-  float texel_m = 0, depth_range_m = 0, motion_range_m = 0, bend_range_m = 0;
-  std::vector<PackImpostorClip> clips;
-  std::vector<PackImpostorCell> cells;
+// docs/pack-format.md says how an atlas is laid out.
+struct PackImpostor : ImpostorLayout {
   PackTexture albedo, normal, depth, motion;  // without levels where a pack is loaded without its pictures
+};
+
+struct PackProp : Prop {
+  int mesh = 0;  // index into TourPack::meshes
 };
 
 struct PackAvatar {
@@ -99,108 +85,21 @@ struct PackAvatar {
   int joints = 0;
   PackClip walk, idle, talk; // always present: a missing talk is the idle, a missing idle a standing pose
   std::vector<PackLevel> levels;  // finest first, at least one
-  std::vector<PackTint> tints;    // at most kMostTints
-  std::vector<PackProp> props;    // at most kMostProps
+  std::vector<Tint> tints;        // at most kMaxTints
+  std::vector<PackProp> props;    // at most kMaxProps
   PackImpostor impostor;
   int impostor_of = -1;      // index of the avatar whose impostor stands for this one too, which brings none; -1: its own
 };
 
-struct PackObstacle {        // a polygon with holes, or a circle where radius_m > 0
-  std::string name, kind;
-  std::vector<Vec2> outer;   // anticlockwise
-  std::vector<std::vector<Vec2>> holes;
-  Vec2 center;
-  float radius_m = 0;
-};
-
-// Raster of the walkable surface; the layout is GroundRaster's (pipeline/core/footprint.h).
-// kind: 0 none, 1 carriageway, 2 pavement, 3 square, 4 grass.
-struct PackGround {
-  Vec2 min_m;
-  float cell_m = 0;
-  int columns = 0, rows = 0;
-  std::vector<float> height_m;
-  std::vector<uint8_t> kind;
-};
-
-// Where people come from and go to. kind: door, exit, goal (go there), loiter (stand there a while), spawn (start there).
-struct PackPlace {
-  std::string name, kind;
-  Vec2 position_m;
-  float width_m = 1;
-  std::optional<float> yaw_rad = std::nullopt;  // loiter: where people look; door, exit: the way out of it
-};
-
-// Where people are, painted over the town: strengths by cell of the area, row 0 the southernmost. No columns: nothing is painted.
-struct PackPainting {
-  Vec2 min_m;
-  float cell_m = 0;
-  int columns = 0, rows = 0;
-  std::vector<uint8_t> people;  // share of those who start there and go there; all 0: everywhere alike
-  std::vector<uint8_t> loiter;  // where people stand about; all 0: at the loiter places
-};
-
-// The cell at p, -1 outside.
-inline int PaintingCell(const PackPainting& painting, Vec2 p) {
-  const Vec2 off = (p - painting.min_m) * (1 / painting.cell_m);
-  if (!(off.x >= 0 && off.y >= 0 && off.x < static_cast<float>(painting.columns) && off.y < static_cast<float>(painting.rows))) return -1;
-  return static_cast<int>(off.y) * painting.columns + static_cast<int>(off.x);
-}
-
-struct StopSound { int sound = 0; float duration_s = 0; };  // sound: index into TourPack::sounds
-
-struct TourStop {
-  Vec2 position_m;
-  float yaw_rad = 0, pause_s = 0;
-  std::string caption = {};                         // in the pack's language
-  std::map<std::string, std::string> captions = {};  // by language, in all others
-  std::map<std::string, StopSound> sounds = {};      // by language, what is said there
-};
-
-struct CrowdSettings {
-  int people = 200;
-  uint64_t seed = 1;
-  float preferred_speed_mps = 1.3f, speed_spread_mps = 0.2f, top_speed_mps = 1.9f;
-  float loiter_share = 0.15f;  // of the people, standing at loiter places at any time
-  float group_share = 0.4f;    // of the people, who walk in groups of 2 to 4
-};
-
-struct ControlSettings {
-  std::string method = "count";   // count | frame_time
-  std::string adaptation = "full"; // off | paper | full
-  int high_limit = 12;
-  float target_ms = 16.7f;
-  int budget_triangles = 200000;  // for all visible people together
-  float r_personal_m = 0.6f, r_high_m = 10, r_unimportant_m = 40, r_far_m = 200;
-  float fov_rad = kPi / 3;        // horizontal
-  float step_hz = 30;
-  float max_yaw_rate_dps = 120, camera_speed_mps = 1.4f;
-};
-
-struct LightSettings {
-  float sun_azimuth_rad = 0.75f * kPi, sun_elevation_rad = kPi / 4.5f;  // direction to the sun at the start
-  float day_length_s = 600;  // time for the sun's way across the sky; 0: it stands still
-};
-
-struct TourPack {
-  std::string name;
+struct TourPack : TourData {
   std::vector<PackImage> images;
   std::vector<PackMaterial> materials;
   std::vector<PackMesh> meshes;
   std::vector<TownInstance> town;
   std::vector<PackAvatar> avatars;
-  std::vector<PackObstacle> obstacles;
-  PackGround ground;
-  std::vector<PackPlace> places;
-  PackPainting painting;
-  std::vector<TourStop> path;  // guided path, in order; pause 0 and no caption: only a waypoint
-  std::map<std::string, std::string> titles;  // what visitors read, by language; empty: the name
-  std::string language = "en"; // of the stops' captions, where nothing else is said
+  Obstacles obstacles;
+  GroundRaster ground;
   std::vector<std::vector<uint8_t>> sounds;  // files: WAV, FLAC, Ogg Vorbis or Opus, MP3
-  std::string guide;           // name of the avatar who leads the way along the path; empty: nobody does
-  CrowdSettings crowd;
-  ControlSettings control;
-  LightSettings light;
 };
 
 // A tour pack that stands open. Everything but its bulk is read at once, which is enough for a run without drawing; of images the

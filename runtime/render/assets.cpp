@@ -105,7 +105,7 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
       asset.content->person = BuildPersonGeometry(pack, MeshOf(avatar, id.level), plan);
       const bool coarsest = static_cast<size_t>(id.level) + 1 == avatar.levels.size();
       for (size_t k = 0; k < std::size(kShadowCells_m) && coarsest; ++k) {
-        asset.content->shadows[k] = ShadowGeometry(asset.content->person, kShadowCells_m[k], static_cast<size_t>(kMostShadowTriangles[k]));
+        asset.content->shadows[k] = ShadowGeometry(asset.content->person, kShadowCells_m[k], static_cast<size_t>(kMaxShadowTriangles[k]));
       }
       break;
     }

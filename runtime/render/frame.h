@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/base/math.h"
+#include "runtime/tour_data/shadow_limits.h"
 
 namespace flaneur {
 
@@ -34,9 +35,6 @@ struct DrawnPerson {
   std::array<uint8_t, 4> tints{};  // by tint of the avatar, the last unused: 0 its own colour, k the k-th of its others
 };
 
-// The most triangles of the figures that cast people's shadows: the fine one, which has no more than the coarsest level either, and the coarse.
-inline constexpr int kMostShadowTriangles[] = {1600, 96};
-
 struct FrameInput {
   Vec3 eye;
   float yaw_rad = 0, pitch_rad = 0, fov_rad = 1;  // horizontal
@@ -44,7 +42,7 @@ struct FrameInput {
   std::vector<DrawnPerson> people;
   // Who is farther from the eye casts the shadow of a coarser figure, and who is beyond the reach none. In a picture of a smaller
   // scale coarser figures begin nearer.
-  float fine_shadow_m = 12, shadow_reach_m = 72;
+  float fine_shadow_m = kFineShadow_m, shadow_reach_m = kShadowReach_m;
   std::vector<Vec3> ground_mark;  // a strip of triangles over the ground; empty: none
   std::string caption;     // UTF-8, at the foot of the picture; empty: none
   float caption_share = 1; // how much of it is seen, 0 to 1

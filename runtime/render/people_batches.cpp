@@ -90,12 +90,12 @@ PersonInstance Placed(const DrawnPerson& person, float row, float phases) {
 }
 
 // Null without pictures of it. Without a clip for it people talk as they stand.
-const PackImpostorClip* ImpostorClip(const PackImpostor& atlas, ClipKind kind) {
+const ImpostorClip* FindImpostorClip(const PackImpostor& atlas, ClipKind kind) {
   static constexpr const char* kNames[] = {"walk", "idle", "talk"};
   const auto found = std::find_if(atlas.clips.begin(), atlas.clips.end(),
-                                  [&](const PackImpostorClip& c) { return c.name == kNames[static_cast<size_t>(kind)]; });
+                                  [&](const ImpostorClip& c) { return c.name == kNames[static_cast<size_t>(kind)]; });
   if (found != atlas.clips.end()) return &*found;
-  return kind == ClipKind::kTalk ? ImpostorClip(atlas, ClipKind::kIdle) : nullptr;
+  return kind == ClipKind::kTalk ? FindImpostorClip(atlas, ClipKind::kIdle) : nullptr;
 }
 
 const ClipMoment& MainMoment(const DrawnPerson& person) { return person.other_share > 0.5f ? person.other : person.moment; }
@@ -114,8 +114,8 @@ size_t NearestElevation(const PackImpostor& atlas, const DrawnPerson& person, Ve
 PersonInstance AsImpostor(const DrawnPerson& person, const AvatarLayout& avatar, Vec3 eye) {
   const PackImpostor& atlas = avatar.impostor;
   const ClipMoment& moment = MainMoment(person);
-  const PackImpostorClip* own = ImpostorClip(atlas, moment.clip);
-  const PackImpostorClip& clip = own != nullptr ? *own : atlas.clips.front();
+  const ImpostorClip* own = FindImpostorClip(atlas, moment.clip);
+  const ImpostorClip& clip = own != nullptr ? *own : atlas.clips.front();
   // Who cannot stand but walk stands still at the first step, as their mesh does.
   const float at = own != nullptr ? moment.phase * static_cast<float>(clip.phases) : 0, nearest = std::floor(at + 0.5f);
   const size_t frame = static_cast<size_t>(clip.first_frame + static_cast<int>(nearest) % clip.phases);
@@ -232,9 +232,7 @@ AvatarLayout LayoutOf(const PackAvatar& avatar) {
   SetSteps(avatar, &layout);
   layout.clips = {RowsOf(avatar.walk, layout), RowsOf(avatar.idle, layout), RowsOf(avatar.talk, layout)};
   for (size_t k = 0; k < layout.clips.size(); ++k) layout.shadow_rows[k] = std::min(layout.clips[k].frames, kMostShadowRows);
-  const PackImpostor& i = avatar.impostor;
-  layout.impostor = {i.directions, i.frames, i.elevations_deg, i.width_px, i.height_px, i.texel_m, i.depth_range_m,
-                     i.motion_range_m, i.bend_range_m, i.clips, i.cells, {}, {}, {}, {}};
+  static_cast<ImpostorLayout&>(layout.impostor) = avatar.impostor;
   return layout;
 }
 

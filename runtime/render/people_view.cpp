@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "runtime/pack/tint.h"
 #include "runtime/render/shaders.h"
 
 namespace flaneur {
@@ -86,7 +87,7 @@ void CreateShadowPoses(PeopleView* people) {
 // The same direction's in the next phase and in the previous one; -1: the clip has one phase alone.
 Vec4 CellsBeside(const AvatarLayout& layout, int cell) {
   const int row = static_cast<int>(layout.impostor.elevations_deg.size()) * layout.impostor.directions, frame = cell / row;
-  for (const PackImpostorClip& clip : layout.impostor.clips) {
+  for (const ImpostorClip& clip : layout.impostor.clips) {
     const int phase = frame - clip.first_frame, cell_of_first = layout.first_cell + cell - phase * row;
     if (phase < 0 || phase >= clip.phases || clip.phases == 1) continue;
     const int next = (phase + 1) % clip.phases, previous = (phase + clip.phases - 1) % clip.phases;
@@ -101,7 +102,7 @@ void CreateCells(PeopleView* people) {
     const PackImpostor& atlas = layout.impostor;
     layout.first_cell = static_cast<int>(texels.size() / 3);
     for (size_t i = 0; i < atlas.cells.size(); ++i) {
-      const PackImpostorCell& c = atlas.cells[i];
+      const ImpostorCell& c = atlas.cells[i];
       const size_t elevation = i / static_cast<size_t>(atlas.directions) % atlas.elevations_deg.size();
       const float elevation_rad = atlas.elevations_deg[elevation] * kPi / 180;
       const float left = c.x, top = c.y;
@@ -175,16 +176,16 @@ DrawCost DrawMeshes(const PeopleView& people, const PeopleBatch& batch) {
   return {mesh.triangles * static_cast<int64_t>(batch.count), static_cast<int>(mesh.ranges.size())};
 }
 
-static_assert(kMostTints == 3 && kMostTintColors == 8, "kTintVertex and kTintFragment have as many");
+static_assert(kMaxTints == 3 && kMaxTintColors == 8, "kTintVertex and kTintFragment have as many");
 
-void AddTints(const std::vector<PackTint>& tints, AvatarView* view) {
-  for (size_t t = 0; t < std::min(tints.size(), kMostTints); ++t) {
-    const PackTint& tint = tints[t];
+void AddTints(const std::vector<Tint>& tints, AvatarView* view) {
+  for (size_t t = 0; t < std::min(tints.size(), kMaxTints); ++t) {
+    const Tint& tint = tints[t];
     const Vec3 color = WithHalfLightness(tint.color);
     view->tints[t] = {color.x, color.y, color.z, 1 / (tint.reach * tint.reach)};
-    for (size_t k = 0; k < std::min(tint.colors.size(), kMostTintColors); ++k) {
+    for (size_t k = 0; k < std::min(tint.colors.size(), kMaxTintColors); ++k) {
       const Vec3 shift = tint.colors[k] - tint.color;
-      view->tint_shifts[t * kMostTintColors + k] = {shift.x, shift.y, shift.z, 0};
+      view->tint_shifts[t * kMaxTintColors + k] = {shift.x, shift.y, shift.z, 0};
     }
   }
 }

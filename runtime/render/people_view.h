@@ -19,8 +19,8 @@ struct AvatarView {
   Vec4 atlas;                      // texture coordinates a metre, size in texels
   Vec3 ranges;                     // of depth, motion and its bend, in metres
   float directions = 1;
-  std::array<Vec4, kMostTints> tints{};  // WithHalfLightness, 1 / reach squared; 0: none
-  std::array<Vec4, kMostTints * kMostTintColors> tint_shifts{};  // from it to each of the others
+  std::array<Vec4, kMaxTints> tints{};  // WithHalfLightness, 1 / reach squared; 0: none
+  std::array<Vec4, kMaxTints * kMaxTintColors> tint_shifts{};  // from it to each of the others
   int impostor_of = -1;            // the avatar whose pictures these are; -1: its own
 };
 

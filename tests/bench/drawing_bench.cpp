@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "runtime/base/png.h"
-#include "runtime/player/frame_from_simulation.h"
-#include "runtime/player/player_settings.h"
-#include "runtime/player/resolution.h"
-#include "runtime/player/scenario.h"
-#include "runtime/player/simulation.h"
-#include "runtime/render/context.h"
+#include "runtime/show/frame_from_simulation.h"
+#include "runtime/visit/player_settings.h"
+#include "runtime/visit/resolution.h"
+#include "runtime/simulation/scenario.h"
+#include "runtime/simulation/simulation.h"
+#include "runtime/desktop/context.h"
 #include "runtime/render/people_batches.h"
 #include "runtime/render/renderer.h"
 
@@ -107,9 +107,9 @@ Error Run(int argc, char** argv) {
   const int frames = argc > 4 ? std::atoi(argv[4]) : 60;
   TourPack pack;
   if (Error e = LoadTourPack(argv[1], {}, &pack)) return e;
-  Scenario scenario;
+  Scenario scenario = ScenarioOf(pack);
   if (Error e = ReadScenario(argv[2], &scenario)) return e;
-  if (argc > 3 && std::atoi(argv[3]) > 0) scenario.people = std::atoi(argv[3]);
+  if (argc > 3 && std::atoi(argv[3]) > 0) scenario.crowd.people = std::atoi(argv[3]);
   Simulation s;
   if (Error e = StartSimulation(&pack, scenario, &s)) return e;
   HeadlessContext context;
@@ -127,9 +127,9 @@ Error Run(int argc, char** argv) {
   PersonLooks looks;
   FrameInput frame;
   FrameFromSimulation(pack, s, &looks, &frame);
-  if (by_rule) scale = ScaleByRule(frame, width_px, height_px, s.level_settings, &renderer);
-  full_scale = by_rule && compares ? ScaleByRule(AllFinest(frame), width_px, height_px, s.level_settings, &full_renderer) : scale;
-  for (int k = 0; k < frames + kWarm && !s.finished; ++k) {
+  if (by_rule) scale = ScaleByRule(frame, width_px, height_px, s.control.settings, &renderer);
+  full_scale = by_rule && compares ? ScaleByRule(AllFinest(frame), width_px, height_px, s.control.settings, &full_renderer) : scale;
+  for (int k = 0; k < frames + kWarm && !s.visitor.finished; ++k) {
     const double before = Clock_ms();
     FrameFromSimulation(pack, s, &looks, &frame);
     frame.resolution_scale = scale;
@@ -138,7 +138,7 @@ Error Run(int argc, char** argv) {
     Costs* costs = k < kWarm ? &unused : &as_decided;
     Draw(frame, width_px, height_px, &renderer, costs);
     levels_ms.values.push_back(s.control_ms);
-    known_shadow_triangles.values.push_back(static_cast<double>(s.levels.shadows.triangles));
+    known_shadow_triangles.values.push_back(static_cast<double>(s.control.levels.shadows.triangles));
     all_looks_ms.values.push_back(looks_ms);
     people_ms.values.push_back(s.control_ms + looks_ms + costs->people_ms.values.back());
     if (compares && k >= kWarm && k % kFullEvery == 0) {
@@ -154,7 +154,7 @@ Error Run(int argc, char** argv) {
     renderer.Read(&rgb);
     if (Error e = WritePng(argv[7], width_px, height_px, rgb)) return e;
   }
-  std::printf("%s, %zu people, %d x %d pixels, scale %.1f, of full geometry %.1f\n%-44s %9s %9s %9s\n", context.Renderer().c_str(), s.crowd.size(), width_px, height_px,
+  std::printf("%s, %zu people, %d x %d pixels, scale %.1f, of full geometry %.1f\n%-44s %9s %9s %9s\n", context.Renderer().c_str(), s.town.crowd.size(), width_px, height_px,
               static_cast<double>(scale), static_cast<double>(full_scale), "", "least",
               "median", "99th perc.");
   Print("frame time, clock", as_decided.clock_ms, "ms");

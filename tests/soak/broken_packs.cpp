@@ -12,10 +12,10 @@
 #include <random>
 #include <string>
 
-#include "runtime/player/guide_figure.h"
-#include "runtime/player/scenario.h"
-#include "runtime/player/visit.h"
-#include "runtime/render/context.h"
+#include "runtime/show/guide_figure.h"
+#include "runtime/simulation/scenario.h"
+#include "runtime/visit/visit.h"
+#include "runtime/desktop/context.h"
 #include "tests/soak/drivers_stay_loaded.h"
 
 namespace flaneur {
@@ -63,8 +63,8 @@ Error Play(const std::filesystem::path& path, Counts* counts) {
   PackFile file;
   if (Error e = file.Open(path, &pack)) return e;
   AddGuideFigure(&pack);
-  Scenario scenario;
-  scenario.people = 20;
+  Scenario scenario = ScenarioOf(pack);
+  scenario.crowd.people = 20;
   Simulation s;
   if (Error e = StartSimulation(&pack, scenario, &s)) return e;
   HeadlessContext context;  // one a pack: what was drawn with goes with it

@@ -3,8 +3,8 @@
 #include <random>
 #include <string>
 
-#include "runtime/player/player_settings.h"
-#include "runtime/render/window_input.h"
+#include "runtime/visit/player_settings.h"
+#include "runtime/visit/window_input.h"
 
 namespace flaneur {
 

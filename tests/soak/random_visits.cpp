@@ -6,10 +6,10 @@
 #include <string>
 
 #include "runtime/base/clock.h"
-#include "runtime/player/guide_figure.h"
-#include "runtime/player/scenario.h"
-#include "runtime/player/visit.h"
-#include "runtime/render/context.h"
+#include "runtime/show/guide_figure.h"
+#include "runtime/simulation/scenario.h"
+#include "runtime/visit/visit.h"
+#include "runtime/desktop/context.h"
 #include "tests/soak/drivers_stay_loaded.h"
 #include "tests/soak/random_hands.h"
 
@@ -23,15 +23,15 @@ struct Counts { long visits = 0, unfinished = 0, pictures = 0, of_pages = 0, ste
 
 // What must hold whatever anybody does; empty: it does.
 std::string Wrong(const Simulation& s, const std::filesystem::path& settings) {
-  const CameraState& c = s.camera;
+  const CameraState& c = s.visitor.camera;
   for (float value : {c.view.position.x, c.view.position.y, c.view.yaw_rad, c.pitch_rad, c.velocity.x, c.velocity.y, c.view.fov_rad}) {
     if (!std::isfinite(value)) return "the camera's state is not finite";
   }
-  if (InsideObstacle(s.walkable, c.view.position)) return "the visitor stands in an obstacle";
-  if (std::abs(c.yaw_rate_radps) > s.max_yaw_rate_radps * 1.001f) return "the view turns faster than the crowd allows";
+  if (InsideObstacle(s.town.walkable, c.view.position)) return "the visitor stands in an obstacle";
+  if (std::abs(c.yaw_rate_radps) > MaxYawRate_radps(s.control.settings) * 1.001f) return "the view turns faster than the crowd allows";
   if (c.view.fov_rad < 0.3f || c.view.fov_rad > 2.2f) return "the field of view left its range";
-  for (size_t i = 0; i < s.crowd.size(); ++i) {
-    if (!std::isfinite(s.crowd.position[i].x) || !std::isfinite(s.crowd.position[i].y)) return "a person is nowhere";
+  for (size_t i = 0; i < s.town.crowd.size(); ++i) {
+    if (!std::isfinite(s.town.crowd.position[i].x) || !std::isfinite(s.town.crowd.position[i].y)) return "a person is nowhere";
   }
   PlayerSettings read;
   std::vector<std::string> warnings;
@@ -44,9 +44,9 @@ Error Play(const std::filesystem::path& path, double until_s, const std::filesys
   PackFile file;
   if (Error e = file.Open(path, &pack)) return e;
   AddGuideFigure(&pack);
-  Scenario scenario;
-  scenario.people = hands->Below(kMostPeople);
-  scenario.seed = static_cast<uint64_t>(hands->Below(1000));
+  Scenario scenario = ScenarioOf(pack);
+  scenario.crowd.people = hands->Below(kMostPeople);
+  scenario.crowd.seed = static_cast<uint64_t>(hands->Below(1000));
   if (hands->Share() < 0.5) scenario.hour = static_cast<float>(24 * hands->Share());
   if (hands->Share() < 0.2) pack.path.clear();
   Simulation s;
@@ -79,7 +79,7 @@ Error Play(const std::filesystem::path& path, double until_s, const std::filesys
     if (const std::string wrong = Wrong(s, settings); !wrong.empty()) return Fail(wrong);
   }
   visit.Leave();
-  counts->steps += static_cast<long>(s.frame);
+  counts->steps += static_cast<long>(s.town.step);
   return Ok();
 }
 

@@ -43,7 +43,7 @@ class Painting : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  PackPainting painting_;
+  Painting painting_;
 };
 
 using Rgba = std::array<uint8_t, 4>;

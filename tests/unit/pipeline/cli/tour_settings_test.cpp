@@ -9,7 +9,7 @@
 
 #include "pipeline/core/temporary_folder.h"
 #include "runtime/base/file.h"
-#include "runtime/pack/settings_fields.h"
+#include "runtime/tour_data/settings.h"
 
 namespace flaneur {
 namespace {
@@ -134,7 +134,7 @@ TEST(TourSettings, TheReferenceFileHoldsTheDefaultsOfEveryList) {
   EXPECT_EQ(reference.parts[0].scale, least.parts[0].scale);
   EXPECT_EQ(reference.parts[0].yaw_deg, least.parts[0].yaw_deg);
   ASSERT_EQ(reference.places.size(), 1u);
-  EXPECT_EQ(reference.places[0].width_m, PackPlace{}.width_m);
+  EXPECT_EQ(reference.places[0].width_m, Place{}.width_m);
   ASSERT_EQ(reference.path.size(), 1u);
   EXPECT_EQ(reference.path[0].pause_s, TourStop{}.pause_s);
 }

@@ -7,7 +7,7 @@
 namespace flaneur {
 namespace {
 
-const PackTint kBlue{{0.22f, 0.29f, 0.38f}, 0.15f, {{0.43f, 0.19f, 0.18f}, {0.29f, 0.36f, 0.22f}}};
+const Tint kBlue{{0.22f, 0.29f, 0.38f}, 0.15f, {{0.43f, 0.19f, 0.18f}, {0.29f, 0.36f, 0.22f}}};
 
 TEST(Tint, ItsOwnColourIsWhollyDyedAndOthersAreNot) {
   EXPECT_EQ(TintShare(kBlue, kBlue.color), 1);
@@ -33,7 +33,7 @@ TEST(Tint, ChangesLittleWhereTheColourChangesLittle) {
 }
 
 TEST(Tint, WhereTwoReachOneColourItIsDyedOnce) {
-  PackTint second = kBlue;
+  Tint second = kBlue;
   second.colors = {{0.9f, 0.9f, 0.9f}};
   const Vec3 both = Tinted({kBlue, second}, {2, 1}, kBlue.color);
   EXPECT_NEAR(both.y, 0.36f, 1e-6f);

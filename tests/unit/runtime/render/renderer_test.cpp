@@ -8,7 +8,7 @@
 #include <random>
 
 #include "runtime/render/caption.h"
-#include "runtime/render/context.h"
+#include "runtime/desktop/context.h"
 #include "runtime/render/occlusion.h"
 #include "runtime/render/block_picture.h"
 #include "runtime/render/people_batches.h"

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "runtime/render/all_shaders.h"
-#include "runtime/render/context.h"
+#include "runtime/desktop/context.h"
 #include "runtime/render/renderer.h"
 
 namespace flaneur {

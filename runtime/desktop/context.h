@@ -1,0 +1,51 @@
+// An OpenGL ES 3.0 context: without a display through EGL, or with a window.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "runtime/base/error.h"
+#include "runtime/base/math.h"
+#include "runtime/visit/window_input.h"
+
+namespace flaneur {
+
+// A context without any window, current in this thread for as long as it lives.
+class HeadlessContext {
+ public:
+  HeadlessContext();
+  ~HeadlessContext();
+  // Errors: no EGL display or no OpenGL ES 3 on this machine.
+  Error Create();
+  std::string Renderer() const;  // what draws, in OpenGL's words
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// What stands on a key by the keyboard's own layout, once a window is open; empty where nothing does.
+std::string PrintedKey(int code);
+
+// A window with its context, current in this thread for as long as it lives.
+class Window {
+ public:
+  Window();
+  ~Window();
+  // lost: called, and must not return, when the display or the window is taken away, now or later on, or the driver crashes over it,
+  // with a line that says so; what draws cannot go on then. Errors: no display, no OpenGL ES 3.
+  Error Create(int width_px, int height_px, const char* title, void (*lost)(const char* why));
+  WindowInput Poll();
+  void FreePointer(bool free);  // to point at things with; else the mouse is caught, and turns the view
+  void Size(int* width_px, int* height_px) const;
+  void Show();             // what was drawn; waits for the display
+  bool ShowWaits() const;  // rather than to work: a graphics card's does
+  void SetTitle(const char* title);
+
+ private:
+  Vec2 PlaceOf(Vec2 cursor) const;
+
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace flaneur

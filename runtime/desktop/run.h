@@ -1,0 +1,24 @@
+// The ways to play: the simulation alone, into pictures, or in a window.
+#pragma once
+#include <vector>
+
+#include "runtime/base/error.h"
+#include "runtime/pack/tour_pack.h"
+#include "runtime/visit/loading.h"
+#include "runtime/desktop/options.h"
+#include "runtime/simulation/simulation.h"
+#include "runtime/desktop/user_settings.h"
+
+namespace flaneur {
+
+// How long a run lasts in simulated seconds; it also ends with the last leg or the tour's end.
+float RunLength_s(const PlayerOptions& options, const Scenario& scenario, const Simulation& simulation);
+
+Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation* simulation);
+// Several simulations, as many as options.compare names, are drawn side by side; records are of the first.
+// `loader` has been started with the pack.
+Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader, std::vector<Simulation>* simulations);
+// Settings that the visitor changes are saved.
+Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* loader, UserSettings* user, Simulation* simulation);
+
+}  // namespace flaneur

@@ -1,0 +1,40 @@
+#include "runtime/desktop/user_settings.h"
+
+#include "runtime/desktop/warn.h"
+
+namespace flaneur {
+
+Error ReadUserSettings(const PlayerOptions& options, UserSettings* user) {
+  user->path = options.settings.empty() ? PlayerSettingsPath() : options.settings;
+  std::vector<std::string> wrong;
+  if (Error e = ReadPlayerSettings(user->path, &user->in_file, &wrong)) wrong = {e.message};
+  user->settings = user->in_file;
+  user->may_save = wrong.empty() && !user->path.empty();
+  if (!wrong.empty()) {
+    const std::string more = wrong.size() > 1 ? " (and " + std::to_string(wrong.size() - 1) + " more)" : "";
+    Warn(wrong.front() + more + "; the default is used, and the file stays as it is");
+  }
+  for (const std::string& assignment : options.set) {
+    if (Error e = SetPlayerSetting(assignment, &user->settings)) return Fail("--set: " + e.message);
+  }
+  if (options.language) user->settings.language = *options.language;
+  return Ok();
+}
+
+Error SaveUserSettings(const PlayerSettings& settings, const UserSettings& user) {
+  if (user.may_save) return WritePlayerSettings(user.path, settings);
+  return user.path.empty() ? Fail("there is no folder for settings: neither XDG_CONFIG_HOME nor HOME is set; name a file with --settings")
+                           : Fail(user.path.string() + ": has something wrong in it, so nothing is saved over it; mend or remove it");
+}
+
+Error SaveChanges(const PlayerSettings& now, UserSettings* user) {
+  PlayerSettings kept = user->in_file;
+  KeepChanges(user->settings, now, &kept);
+  if (PlayerSettingsText(kept) == PlayerSettingsText(user->in_file)) return Ok();
+  if (Error e = SaveUserSettings(kept, *user)) return e;
+  user->in_file = kept;
+  user->settings = now;
+  return Ok();
+}
+
+}  // namespace flaneur

@@ -1,0 +1,116 @@
+#include "runtime/show/guide_figure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace flaneur {
+namespace {
+
+// Shares of the person's height.
+constexpr float kStrapLow = 0.66f, kStrapHigh = 0.80f;  // the pole is tied to the back between these
+constexpr float kPoleFoot = 0.52f, kPoleTop = 1.38f, kBar = 1.34f, kTails = 1.12f, kNotch = 1.165f, kHalfWidth = 0.10f;
+constexpr float kPole_m = 0.014f, kBar_m = 0.011f, kCloth_m = 0.008f;  // half as thick
+constexpr float kOffBack_m = 0.03f;
+constexpr Vec4 kWood{0.10f, 0.05f, 0.02f, 1}, kRed{0.42f, 0.015f, 0.02f, 1}, kGold{0.80f, 0.48f, 0.06f, 1};
+constexpr int kTriangles = 36;  // 12 a box, 12 the cloth
+
+// A vertex of the person's back, whose joints carry the pole.
+struct Back {
+  Vec3 point{0, 0, 1e9f};
+  std::array<uint16_t, 4> joints{};
+  std::array<float, 4> weights{1, 0, 0, 0};
+};
+
+Back FindBack(const PackMesh& mesh, float height_m) {
+  Back back;
+  for (const PackPrimitive& p : mesh.primitives) {
+    for (size_t i = 0; i < p.positions.size() && i < p.joints.size(); ++i) {
+      const Vec3 v = p.positions[i];
+      const bool strap = v.y > kStrapLow * height_m && v.y < kStrapHigh * height_m && std::abs(v.x) < 0.06f * height_m;
+      if (strap && v.z < back.point.z) back = {v, p.joints[i], p.weights[i]};
+    }
+  }
+  if (back.point.z > 1e8f) back.point.z = 0;
+  return back;
+}
+
+// Avatar axes: x to the left, y up, z ahead. Corners anticlockwise as seen from outside.
+void AddQuad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec4 color, const Back& back, PackPrimitive* out) {
+  const auto first = static_cast<uint32_t>(out->positions.size());
+  const Vec3 normal = Normalized(Cross(b - a, c - a));
+  for (const Vec3& corner : {a, b, c, d}) {
+    out->positions.push_back(corner);
+    out->normals.push_back(normal);
+    out->colors.push_back(color);
+    out->joints.push_back(back.joints);
+    out->weights.push_back(back.weights);
+  }
+  for (const uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) out->indices.push_back(first + k);
+}
+
+void AddBox(Vec3 low, Vec3 high, Vec4 color, const Back& back, PackPrimitive* out) {
+  const auto at = [&](int corner) {
+    return Vec3{corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z};
+  };
+  constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  for (const auto& f : kFaces) AddQuad(at(f[0]), at(f[1]), at(f[2]), at(f[3]), color, back, out);
+}
+
+// Three stripes, and a notch between the tails; seen from the front and from behind.
+void AddCloth(float height_m, float z, const Back& back, PackPrimitive* out) {
+  const float xs[] = {-kHalfWidth, -kHalfWidth / 3, kHalfWidth / 3, kHalfWidth};
+  const float feet[] = {kTails, kNotch, kNotch, kTails};
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec4 color = k == 1 ? kGold : kRed;
+    const float left = xs[k] * height_m, right = xs[k + 1] * height_m, top = kBar * height_m;
+    for (const float side : {-1.0f, 1.0f}) {
+      const float at = z + side * kCloth_m;
+      const Vec3 a{left, feet[k] * height_m, at}, b{right, feet[k + 1] * height_m, at}, c{right, top, at}, d{left, top, at};
+      if (side > 0) AddQuad(a, b, c, d, color, back, out);
+      else AddQuad(d, c, b, a, color, back, out);
+    }
+  }
+}
+
+PackPrimitive Banner(float height_m, const Back& back) {
+  PackPrimitive out;
+  const float z = back.point.z - kOffBack_m, bar_m = kHalfWidth * height_m + 0.02f;
+  AddBox({-kPole_m, kPoleFoot * height_m, z - kPole_m}, {kPole_m, kPoleTop * height_m, z + kPole_m}, kWood, back, &out);
+  const float hang = z - kPole_m - kBar_m;
+  AddBox({-bar_m, kBar * height_m - kBar_m, hang - kBar_m}, {bar_m, kBar * height_m + kBar_m, hang + kBar_m}, kWood, back, &out);
+  AddCloth(height_m, hang, back, &out);
+  return out;
+}
+
+}  // namespace
+
+PackMesh GuideMesh(PackMesh level, const PackMesh& finest, float height_m) {
+  if (!level.primitives.empty()) level.primitives.push_back(Banner(height_m, FindBack(finest, height_m)));
+  return level;
+}
+
+void AddGuideFigure(TourPack* pack) {
+  const auto found = std::find_if(pack->avatars.begin(), pack->avatars.end(), [&](const PackAvatar& a) { return a.name == pack->guide; });
+  if (pack->guide.empty() || found == pack->avatars.end()) return;
+  PackAvatar figure = *found;
+  figure.share = 0;
+  figure.tints.clear();  // known by the own colours
+  figure.props.clear();
+  figure.impostor_of = static_cast<int>(found - pack->avatars.begin());
+  for (PackTexture* picture : {&figure.impostor.albedo, &figure.impostor.normal, &figure.impostor.depth, &figure.impostor.motion}) {
+    picture->levels.clear();
+  }
+  const auto mesh_of = [&](const PackLevel& level) { return static_cast<size_t>(level.mesh); };
+  const PackMesh finest = mesh_of(figure.levels.front()) < pack->meshes.size() ? pack->meshes[mesh_of(figure.levels.front())] : PackMesh{};
+  for (PackLevel& level : figure.levels) {
+    level.triangles += kTriangles;
+    if (mesh_of(level) >= pack->meshes.size()) continue;
+    PackMesh mesh = GuideMesh(pack->meshes[mesh_of(level)], finest, figure.height_m);
+    level.mesh = static_cast<int>(pack->meshes.size());
+    pack->meshes.push_back(std::move(mesh));
+  }
+  pack->avatars.push_back(std::move(figure));
+}
+
+}  // namespace flaneur

@@ -1,0 +1,255 @@
+#include "runtime/simulation/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "runtime/base/clock.h"
+#include "runtime/control/crowd_influence.h"
+#include "runtime/crowd/constants.h"
+#include "runtime/walk/camera_walk.h"
+#include "runtime/simulation/check_limits.h"
+#include "runtime/town/coming_and_going.h"
+#include "runtime/town/places.h"
+#include "runtime/town/population.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kFlatCell_m = 0.5f;
+constexpr float kFarthestView_m = 60;
+
+std::vector<PropCost> CostsOf(const std::vector<PackProp>& props) {
+  std::vector<PropCost> costs;
+  for (size_t k = 0; k < props.size(); ++k) {
+    const auto same = [&](const PackProp& other) { return !props[k].slot.empty() && other.slot == props[k].slot; };
+    const auto first = std::find_if(props.begin(), props.begin() + static_cast<std::ptrdiff_t>(k), same);
+    costs.push_back({props[k].triangles, props[k].share, static_cast<int>(first - props.begin())});
+  }
+  return costs;
+}
+
+// What the renderer draws at most.
+ShadowCost ShadowCostOf(const PackAvatar& avatar) {
+  const int coarsest = avatar.levels.back().triangles;
+  return {std::min(coarsest, kMaxShadowTriangles[0]), std::min(coarsest, kMaxShadowTriangles[1])};
+}
+
+void TakeAvatar(const PackAvatar& avatar, Simulation* s) {
+  AvatarCosts costs;
+  for (const PackLevel& level : avatar.levels) costs.levels.push_back({level.triangles, level.switch_px});
+  costs.height_m = avatar.height_m;
+  costs.impostor_px = avatar.height_m / avatar.impostor.texel_m;
+  costs.props = CostsOf(avatar.props);
+  costs.shadow = ShadowCostOf(avatar);
+  s->control.avatars.push_back(costs);
+  s->town.residents.push_back({avatar.name, avatar.share, avatar.radius_m});
+}
+
+void TakePack(const TourPack& pack, Simulation* s) {
+  for (const PackAvatar& avatar : pack.avatars) TakeAvatar(avatar, s);
+  TakeStops(pack.path, pack.language, &s->visitor.tour);
+  for (size_t k = 0; !pack.guide.empty() && k < pack.avatars.size(); ++k) {
+    if (pack.avatars[k].name == pack.guide) s->visitor.guide.avatar = static_cast<int>(k);
+  }
+  s->town.places = pack.places;
+  s->town.painting = pack.painting;
+  s->town.walkable.ground = pack.ground;
+  static_cast<Obstacles&>(s->town.walkable) = pack.obstacles;
+}
+
+void TakeGround(const Scenario& scenario, Simulation* s) {
+  GroundRaster& g = s->town.walkable.ground;
+  const Vec2 size = scenario.ground_max_m - scenario.ground_min_m;
+  g.min_m = scenario.ground_min_m;
+  g.cell_m = kFlatCell_m;
+  g.columns = static_cast<int>(size.x / kFlatCell_m);
+  g.rows = static_cast<int>(size.y / kFlatCell_m);
+  g.height_m.assign(static_cast<size_t>(g.columns) * static_cast<size_t>(g.rows), 0);
+  g.kind.assign(g.height_m.size(), 3);
+  static_cast<Obstacles&>(s->town.walkable) = {};
+  s->town.places.clear();
+  s->town.painting = {};
+  s->visitor.tour.stops.clear();
+}
+
+void AddObstacles(const Obstacles& more, Obstacles* obstacles) {
+  obstacles->circles.insert(obstacles->circles.end(), more.circles.begin(), more.circles.end());
+  obstacles->polygons.insert(obstacles->polygons.end(), more.polygons.begin(), more.polygons.end());
+}
+
+void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
+  if (scenario.has_ground) TakeGround(scenario, s);
+  AddObstacles(scenario.obstacles, &s->town.walkable);
+  if (!has_pack) {  // one plain figure
+    s->control.avatars = {{{{6000, 60}, {1500, 0}}, 1.75f, 128}};
+    s->town.residents = {{kPlainFigure, 1, 0.25f}};
+  }
+  s->town.settings = scenario.crowd;
+  s->control.settings = scenario.control;
+  s->drawing = scenario.drawing;
+  CameraState& camera = s->visitor.camera;
+  camera.view.fov_rad = scenario.control.fov_rad;
+  camera.eye_height_m = scenario.eye_height_m;
+  camera.pitch_rad = scenario.pitch_deg * kPi / 180;
+  camera.present = scenario.has_camera || (has_pack && !scenario.has_ground);
+  s->visitor.legs = scenario.legs;
+  if (!scenario.legs.empty()) s->visitor.tour.stops.clear();
+  s->town.crowd_area = scenario.crowd_area;
+  s->hour = scenario.hour;
+}
+
+// The direction in which one sees farthest at walking height.
+float OpenestView_rad(const Walkable& w, Vec2 p) {
+  constexpr int kDirections = 32;
+  float best_rad = 0, best_m = 0;
+  for (int k = 0; k < kDirections; ++k) {
+    const float yaw_rad = 2 * kPi * static_cast<float>(k) / kDirections;
+    float far_m = 0;
+    while (far_m < kFarthestView_m && IsFree(w, p + Vec2{std::cos(yaw_rad), std::sin(yaw_rad)} * far_m)) far_m += w.cell_m;
+    if (far_m > best_m) best_rad = yaw_rad, best_m = far_m;
+  }
+  return best_rad;
+}
+
+void PlaceCamera(const Scenario& scenario, Simulation* s) {
+  if (scenario.has_camera) {
+    s->visitor.camera.view.position = scenario.camera_position_m;
+    s->visitor.camera.view.yaw_rad = scenario.camera_yaw_deg * kPi / 180;
+  } else if (const std::vector<TourStop>& stops = s->visitor.tour.stops; !stops.empty()) {
+    s->visitor.camera.view.position = stops.front().position_m;
+    s->visitor.camera.view.yaw_rad = LookAt_rad(s->visitor.tour, 0);
+  } else if (const int cell = BestFreeCell(s->town.walkable); cell >= 0) {
+    s->visitor.camera.view.position = CellCenter(s->town.walkable, cell);
+    s->visitor.camera.view.yaw_rad = OpenestView_rad(s->town.walkable, s->visitor.camera.view.position);
+  }
+}
+
+void ChooseLanguage(const std::string& language, Simulation* s) {
+  std::string list;
+  for (const std::string& known : s->visitor.tour.languages) {
+    if (known == language) return SetLanguage(language, &s->visitor.tour);
+    list += (list.empty() ? "" : ", ") + known;
+  }
+  if (!s->visitor.tour.stops.empty()) s->town.warnings.push_back("the tour has nothing in the language '" + language + "'; there is: " + list);
+}
+
+void DeriveGap(Simulation* s) {
+  const Walkable& w = s->town.walkable;
+  const Vec2 size{static_cast<float>(w.columns) * w.cell_m, static_cast<float>(w.rows) * w.cell_m};
+  MotionLimits limits;
+  limits.step_s = Step_s(*s);
+  limits.reach_m = Length(size);
+  limits.yaw_rate_radps = MaxYawRate_radps(s->control.settings);
+  limits.camera_speed_mps = 3;
+  limits.person_speed_mps = s->town.settings.top_speed_mps;
+  for (const CameraLeg& leg : s->visitor.legs) {
+    limits.yaw_rate_radps = std::max(limits.yaw_rate_radps, leg.rate_dps * kPi / 180);
+    limits.camera_speed_mps = std::max(limits.camera_speed_mps, leg.speed_mps);
+  }
+  s->control.outer_apex_back_m = OuterApexBack_m(limits, s->visitor.camera.view.fov_rad);
+}
+
+void ClassifyAll(Simulation* s) {
+  const ViewVolumes volumes = VolumesOf(s->visitor.camera.view, s->control.outer_apex_back_m);
+  for (size_t i = 0; i < s->town.crowd.size(); ++i) {
+    s->town.crowd.was_visible[i] = s->town.crowd.view[i] == ViewClass::kVisible ? 1 : 0;
+    s->town.crowd.view[i] = s->visitor.camera.present ? Classify(s->town.crowd.position[i], volumes) : ViewClass::kVisible;
+  }
+}
+
+Viewer ViewerOf(const Simulation& s) {
+  const LevelState& levels = s.control.levels;
+  const bool counted = levels.r_high_m > 0;  // not before the first step: nothing is full then
+  return {s.control.settings, s.visitor.camera.present, s.visitor.camera.view, s.visitor.camera.velocity, s.control.outer_apex_back_m,
+          levels.high, counted ? levels.limit : std::numeric_limits<int>::max()};
+}
+
+void ControlCrowd(float frame_ms, Simulation* s) {
+  const double start_ms = Now_ms();
+  const CameraState& camera = s->visitor.camera;
+  Control& control = s->control;
+  const ViewMotion motion{camera.velocity, camera.yaw_rate_radps};
+  ChooseLevels(s->town.crowd, control.avatars, control.settings, {camera.view, motion, frame_ms, 1280, s->visitor.guide.id}, &control.levels);
+  s->moving.clear();
+  if (camera.present) {
+    s->moving.push_back({camera.view.position, control.settings.r_personal_m, true, camera.asked_velocity});
+    ShieldGuide(InTown(s), &s->moving);
+    InfluenceCrowd(camera.view, motion, control.levels, s->town.walkable, control.settings, &s->town.crowd, &s->moving, &control.foresight);
+    UnshieldGuide(InTown(s));
+  }
+  s->control_ms = Now_ms() - start_ms;
+}
+
+// Nobody is put into view, nor where they would come too near to the visitor.
+bool IsKeptFree(Vec2 p, const void* simulation) {
+  const Simulation& s = *static_cast<const Simulation*>(simulation);
+  const ViewCamera& view = s.visitor.camera.view;
+  return InWedge(p, view.position, view.yaw_rad, view.fov_rad) || Length(p - view.position) < 2 * s.control.settings.r_personal_m;
+}
+
+}  // namespace
+
+Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation* out) {
+  Simulation s;
+  if (pack == nullptr && !scenario.has_ground) return Fail("no pack and no [ground] in the scenario; give one of them");
+  if (pack != nullptr) TakePack(*pack, &s);
+  TakeScenario(scenario, pack != nullptr, &s);
+  Town& town = s.town;
+  float max_radius_m = 0;
+  for (const Resident& resident : town.residents) max_radius_m = std::max(max_radius_m, resident.radius_m);
+  BuildWalkable(max_radius_m + 0.05f, &town.walkable);
+  if (BestFreeCell(town.walkable) < 0) return Fail("there is no walkable ground");
+  if (Error e = CheckLimits(&s)) return e;
+  if (s.visitor.camera.present) {
+    town.crowd.r_unimportant_m = s.control.settings.r_unimportant_m;
+    town.crowd.r_far_m = s.control.settings.r_far_m;
+  }
+  town.crowd.fields_come_later = true;
+  town.random.state = town.settings.seed;
+  PlaceStops(InTown(&s));
+  if (scenario.language) ChooseLanguage(*scenario.language, &s);
+  PlaceCamera(scenario, &s);
+  if (s.visitor.camera.present && InsideObstacle(town.walkable, s.visitor.camera.view.position)) {
+    town.warnings.push_back("the camera starts inside an obstacle");
+  }
+  if (Error e = PlaceScenarioPeople(scenario.persons, &town)) return e;
+  BeginTour(InTown(&s));
+  PlaceGuide(InTown(&s));
+  DeriveGap(&s);
+  PlaceCrowd(town.settings.people - (s.visitor.guide.id >= 0 ? 1 : 0), ViewerOf(s), &town);  // the guide is one of them
+  ClassifyAll(&s);
+  ControlCrowd(0, &s);
+  *out = std::move(s);
+  return Ok();
+}
+
+void SetFieldOfView(float fov_rad, Simulation* s) {
+  s->visitor.camera.view.fov_rad = fov_rad;
+  DeriveGap(s);
+}
+
+float FrameTimeByModel_ms(const Simulation& s) {
+  return s.drawing.base_ms + 1e-6f * s.drawing.ms_per_million_triangles * static_cast<float>(s.control.levels.triangles);
+}
+
+void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
+  const double start_ms = Now_ms();
+  Town& town = s->town;
+  const CameraState& camera = s->visitor.camera;
+  if (camera.present) StepTour(input.tour, !input.active, InTown(s));
+  MoveCamera(input, InTown(s));
+  LeadOn(InTown(s));
+  town.crowd.viewer = camera.view.position;
+  if (town.step % kSortEvery_steps == 0) SortBySpace(&town.crowd);
+  town.field_builder.Step(town.walkable, &town.crowd);
+  StepCrowd(town.walkable, s->moving, Step_s(*s), &town.crowd);
+  LeaveAndArrive(ViewerOf(*s), &town);
+  ClassifyAll(s);
+  if (camera.present) SeparateBoundary(town.walkable, IsKeptFree, s, &town.crowd);
+  ControlCrowd(frame_ms, s);
+  ++town.step;
+  s->step_ms = Now_ms() - start_ms;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,89 @@
+// One description of a tour, used by tour.toml's reader, the pack's writer and reader, the simulation and the picture. Structs alone.
+// Everything stands on the ground plane (x east, y north, z up). Metres, seconds, radians.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/base/math.h"
+#include "runtime/tour_data/settings.h"
+
+namespace flaneur {
+
+struct CircleObstacle {
+  Vec2 center;
+  float radius_m = 0;
+};
+struct PolygonObstacle {
+  std::vector<Vec2> outer;               // either orientation, first point not repeated
+  std::vector<std::vector<Vec2>> holes;  // inside a hole is outside the obstacle
+};
+struct Obstacles {
+  std::vector<CircleObstacle> circles;
+  std::vector<PolygonObstacle> polygons;
+};
+
+// The walkable surface. Cell (column, row) covers [min_m.x + column * cell_m, ...) x [min_m.y + row * cell_m, ...); row 0 is the
+// southernmost.
+struct GroundRaster {
+  Vec2 min_m;
+  float cell_m = 0.25f;
+  int columns = 0, rows = 0;
+  std::vector<float> height_m;  // columns * rows, z at the cell's centre
+  std::vector<uint8_t> kind;    // 0 none, 1 carriageway, 2 pavement, 3 square, 4 grass
+};
+
+// Where people come from and go to. kind: door, exit, goal (go there), loiter (stand there a while), spawn (start there).
+struct Place {
+  std::string name, kind;
+  Vec2 position_m;
+  float width_m = 1;
+  std::optional<float> yaw_rad = std::nullopt;  // loiter: where people look; door, exit: the way out of it
+};
+
+// Where people are, painted over the town: strengths by cell of the area, row 0 the southernmost. No columns: nothing is painted.
+struct Painting {
+  Vec2 min_m;
+  float cell_m = 0;
+  int columns = 0, rows = 0;
+  std::vector<uint8_t> people;  // share of those who start there and go there; all 0: everywhere alike
+  std::vector<uint8_t> loiter;  // where people stand about; all 0: at the loiter places
+};
+
+// The cell at p, -1 outside.
+inline int PaintingCell(const Painting& painting, Vec2 p) {
+  const Vec2 off = (p - painting.min_m) * (1 / painting.cell_m);
+  if (!(off.x >= 0 && off.y >= 0 && off.x < static_cast<float>(painting.columns) && off.y < static_cast<float>(painting.rows))) return -1;
+  return static_cast<int>(off.y) * painting.columns + static_cast<int>(off.x);
+}
+
+struct StopSound {
+  int sound = 0;  // index into the tour's sounds
+  float duration_s = 0;
+};
+
+struct TourStop {
+  Vec2 position_m;
+  float yaw_rad = 0, pause_s = 0;
+  std::string caption = {};                          // in the tour's own language
+  std::map<std::string, std::string> captions = {};  // by language, in all others
+  std::map<std::string, StopSound> sounds = {};      // by language, what is said there
+};
+
+// What tour.toml says of the tour itself and the pack carries on, whatever town and avatars are made of.
+struct TourData {
+  std::string name;
+  std::vector<Place> places;
+  Painting painting;
+  std::vector<TourStop> path;                 // guided path, in order; pause 0 and no caption: only a waypoint
+  std::map<std::string, std::string> titles;  // what visitors read, by language; empty: the name
+  std::string language = "en";                // of titles, captions and sounds for which no other is named
+  std::string guide;                          // name of the avatar who leads the way along the path; empty: nobody does
+  CrowdSettings crowd;
+  ControlSettings control;
+  LightSettings light;
+};
+
+}  // namespace flaneur

@@ -1,0 +1,94 @@
+// The town as it lives: its ground and places, its people, and what they have in mind. Knows nothing of who looks at it but what a
+// Viewer says, and nothing of drawing.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/base/random.h"
+#include "runtime/control/enclosure.h"
+#include "runtime/control/view_volumes.h"
+#include "runtime/crowd/crowd.h"
+#include "runtime/crowd/density_map.h"
+#include "runtime/crowd/field_builder.h"
+#include "runtime/tour_data/tour_data.h"
+
+namespace flaneur {
+
+struct Area { Vec2 min_m, max_m; };
+
+inline bool Contains(const Area& area, Vec2 p) {
+  return p.x >= area.min_m.x && p.y >= area.min_m.y && p.x <= area.max_m.x && p.y <= area.max_m.y;
+}
+
+// Somebody whom a scenario names.
+struct ScenarioPerson {
+  Vec2 position_m;
+  std::vector<Vec2> goals_m;
+  bool stay = false;
+  std::string avatar, group;  // who names the same group walks together; empty: alone
+  float speed_mps = 0, top_speed_mps = 0, radius_m = 0;  // 0: the pack's
+};
+
+struct PersonPlan {         // of one person, by id
+  std::vector<Vec2> goals;  // after the present one, next first
+  bool stay = false, leaves = true;
+  bool loiters = false;     // on the way to a loiter place, or there
+  int spot = -1;            // index into Town::loiter_spots, of the one that is theirs
+};
+
+struct LoiterSpot {         // where one person can stand at a loiter place
+  Vec2 position_m, look;    // look: unit vector to what there is to see
+  int place = 0;            // index into Town::places
+  bool taken = false, there = false;
+  int partner = -1;         // index of the spot whose occupant they talk with
+};
+
+struct PlaceLists {         // indices into Town::places
+  std::vector<int> gates, goals, loiters, spawns, destinations, all;
+};
+
+// Of an avatar, as far as whom it may be and how much room they take.
+struct Resident {
+  std::string avatar;      // its name
+  float share = 1;         // of the crowd, relative to the others'
+  float radius_m = 0.25f;
+};
+
+inline constexpr const char* kPlainFigure = "person";  // everybody's avatar where there is no pack
+
+struct Town {
+  std::vector<Resident> residents;       // by avatar
+  CrowdSettings settings;
+  Walkable walkable;
+  std::vector<Place> places;
+  Painting painting;
+  PlaceLists place_lists;
+  std::vector<LoiterSpot> loiter_spots;  // by place
+  std::vector<int> place_of_field;       // by index into crowd.fields, -1: no place; see PlaceOfField
+  std::optional<Area> crowd_area;        // in which people start and walk about; none: all over town
+  int target_people = 0;                 // kept up by people who appear out of sight
+  int next_company = 0;                  // how many come together next, once there is room for them; 0: not drawn yet
+  int loiterers = 0;                     // people whose plan is to loiter
+
+  Crowd crowd;
+  FieldBuilder field_builder;
+  std::vector<PersonPlan> plans;         // by id
+  Enclosure enclosure;
+  DensityMap density;                    // of everybody, once a second
+  Random random;
+  int64_t step = 0;                      // so many are over
+  std::vector<std::string> warnings;     // of what cannot be as the tour says
+};
+
+// What the townspeople's comings and goings heed of the visitor and of the control.
+struct Viewer {
+  const ControlSettings& settings;
+  bool present = true;          // false: everybody counts as visible, and nobody has to be kept out of the way
+  ViewCamera camera;
+  Vec2 velocity;
+  float outer_apex_back_m = 0;
+  int high = 0, limit = 0;      // people in high resolution now, and the most there may be
+};
+
+}  // namespace flaneur

@@ -1,0 +1,54 @@
+// The visitor's pages over the picture: go on, tour or free walk, the tour's stops, language, settings, keys. By mouse, touch, keyboard
+// and gamepad; what is chosen counts at once.
+#pragma once
+#include <bitset>
+#include <optional>
+#include <string>
+
+#include "runtime/visit/controls.h"
+#include "runtime/simulation/simulation.h"
+#include "runtime/render/overlay.h"
+
+namespace flaneur {
+
+enum class Page { kNone, kMain, kStops, kSettings, kKeys };
+
+struct Menu {
+  Page page = Page::kNone;
+  bool begins = false;             // somebody new meets the pages before the town
+  size_t first = 0;                // of the rows, where not all fit
+  std::optional<Action> rebinds;   // whose new key is waited for
+  bool rebinds_pad = false;        // a button, not a key
+  bool lets_go = false;            // whatever is held now was meant for that
+  std::bitset<kInputCodes> was_down;
+};
+
+struct MenuChoice {
+  bool ends = false;
+  std::optional<size_t> stop;      // of the tour, to go to now
+};
+
+void OpenPage(Page page, Menu* menu);
+// The first page, as whoever comes to an exhibition meets it.
+void MeetSomebodyNew(Menu* menu);
+
+// Of the player's own words: the visitor's, else the tour's.
+std::string PageLanguage(const Controls& controls, const Simulation& simulation);
+
+// Height of the pages' letters, for readers 2 m away.
+float PageLetter_px(int width_px, int height_px);
+// All that ShowMenu may write, for Overlay::PrepareText.
+std::string PageTexts(const Controls& controls, const Simulation& simulation);
+
+// The hands, for Overlay::Begin.
+OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, int width_px, int height_px, float passed_s);
+
+// Back to the page before, and the key that is waited for. Once a picture.
+void TakePageInput(const WindowInput& input, Menu* menu, Controls* controls);
+
+// These between an Overlay's Begin and Draw. The page that is open, or nothing.
+MenuChoice ShowMenu(const std::string& title, const Simulation& simulation, int width_px, int height_px, Menu* menu, Controls* controls);
+// In the picture's corner, for who has no keys. True when it is pressed.
+bool ShowMenuButton(int width_px, int height_px);
+
+}  // namespace flaneur

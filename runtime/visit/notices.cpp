@@ -1,0 +1,95 @@
+#include "runtime/visit/notices.h"
+
+#include <algorithm>
+
+#include "runtime/visit/menu.h"
+#include "runtime/visit/phrases.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kHint_s = 14, kHintOnceWalking_s = 2.5f;
+constexpr float kNotice_s = 4, kLeaves_s = 0.4f;
+
+std::string Fill(const char* format, const std::string& text) {
+  std::string filled = format;
+  if (const size_t at = filled.find("%s"); at != std::string::npos) filled.replace(at, 2, text);
+  return filled;
+}
+
+std::string FirstKey(const Controls& c, Action action, const std::string& language) {
+  const auto& codes = c.codes[static_cast<size_t>(action)];
+  return codes.empty() ? "" : KeyName(InputLabel(codes.front(), c.layout), language);
+}
+
+// Who has no keys has a button that leads to the pages, and there on.
+std::string HowTo(const Controls& c, Action action, const std::string& language) {
+  return c.points ? Say(Phrase::kCornerButton, language) : FirstKey(c, action, language);
+}
+
+void Tell(const std::string& text, Notices* n) {
+  n->text = text;
+  n->left_s = kNotice_s;
+  n->is_hint = n->gives_way = false;
+}
+
+void Remember(const Controls& c, const Simulation& s, Notices* n) {
+  n->paused = s.visitor.tour.paused;
+  n->follows = c.follows_tour;
+  n->over = s.visitor.tour.over;
+  n->halt = HaltOf(s.visitor.tour);
+  n->language = s.visitor.tour.language;
+}
+
+Phrase HintFor(const Controls& c, const Simulation& s) {
+  const bool led = c.follows_tour && HasTour(s.visitor.tour);
+  if (c.points) return led ? Phrase::kHintLedTouch : Phrase::kHintTouch;
+  return led ? Phrase::kHintLedKeys : Phrase::kHintKeys;
+}
+
+void TellOfTour(const Controls& c, const Simulation& s, const std::string& language, Notices* n) {
+  const GuidedTour& t = s.visitor.tour;
+  if (t.paused && !n->paused) Tell(Fill(Say(Phrase::kTourPaused, language), FirstKey(c, Action::kPause, language)), n);
+  if (n->paused && !t.paused && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
+  if (n->follows && !c.follows_tour && !t.over) Tell(Fill(Say(Phrase::kTourLeft, language), HowTo(c, Action::kTour, language)), n);
+  if (!n->follows && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
+  const std::string next = NameOfStop(t, HaltOf(t));
+  if (n->halt == HaltOf(t) || !c.follows_tour || next.empty()) return;
+  Tell(Fill(Say(Phrase::kNextStop, language), next), n);
+  n->gives_way = true;
+}
+
+}  // namespace
+
+void BeginHint(const Controls& c, const Simulation& s, Notices* n) {
+  const std::string language = PageLanguage(c, s);
+  std::string keys;
+  for (Action action : {Action::kWalkAhead, Action::kWalkLeft, Action::kWalkBack, Action::kWalkRight}) {
+    const std::string key = FirstKey(c, action, language);
+    if (!key.empty()) keys += (keys.empty() ? "" : ", ") + key;
+  }
+  n->text = Fill(Say(HintFor(c, s), language), keys);
+  const std::string pages = FirstKey(c, Action::kMenu, language);
+  if (!c.points && !pages.empty()) n->text += " " + Fill(Say(Phrase::kHintMenu, language), pages);
+  n->left_s = kHint_s;
+  n->is_hint = n->gives_way = true;
+  Remember(c, s, n);
+}
+
+void FollowNotices(const Controls& c, const Simulation& s, float passed_s, Notices* n) {
+  n->left_s = std::max(0.0f, n->left_s - passed_s);
+  if (n->is_hint && c.acted) n->left_s = std::min(n->left_s, kHintOnceWalking_s);
+  const std::string language = PageLanguage(c, s);
+  if (HasTour(s.visitor.tour)) TellOfTour(c, s, language, n);
+  if (s.visitor.tour.over && !n->over) Tell(Say(Phrase::kTourOver, language), n);
+  if (s.visitor.tour.language != n->language && !n->is_hint) Tell(Say(Phrase::kLanguage, language) + (": " + LanguageName(language)), n);
+  Remember(c, s, n);
+}
+
+void ShowNotice(const Notices& n, bool fades, FrameInput* frame) {
+  if (n.left_s <= 0 || (n.gives_way && !frame->caption.empty())) return;
+  frame->caption = n.text;
+  frame->caption_share = fades ? std::min(1.0f, n.left_s / kLeaves_s) : 1;
+}
+
+}  // namespace flaneur

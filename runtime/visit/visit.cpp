@@ -1,0 +1,229 @@
+#include "runtime/visit/visit.h"
+
+#include <algorithm>
+
+#include "runtime/visit/controls.h"
+#include "runtime/show/frame_from_simulation.h"
+#include "runtime/visit/menu.h"
+#include "runtime/visit/narration.h"
+#include "runtime/visit/notices.h"
+#include "runtime/visit/resolution.h"
+#include "runtime/visit/developer_views.h"
+#include "runtime/render/overlay.h"
+#include "runtime/render/renderer.h"
+
+namespace flaneur {
+namespace {
+
+constexpr double kLongUpload_ms = 50, kUpload_ms = 3;  // of what has been loaded: before the first picture, and in each later one
+constexpr int kMostStepsAFrame = 4;  // a machine that can't keep up slows the town down rather than freeze
+constexpr float kNobodyThere_s = 90;  // without a key, a click or a move, in an exhibition
+
+bool IsUsed(const WindowInput& input) {
+  constexpr float kMoved = 0.3f;
+  return input.down.any() || input.pressed || Length(input.turned_px) > 0 || Length(input.left_stick) > kMoved || Length(input.right_stick) > kMoved;
+}
+
+}  // namespace
+
+struct Visit::Impl {
+  const TourPack& pack;
+  Loader* loader;
+  PlayerSettings settings;  // as the visit begins
+  Shell shell;
+  Simulation* s;
+  Renderer renderer{};
+  Overlay overlay{};
+  Controls controls{};
+  Views views{};
+  Menu menu{};
+  Notices notices{};
+  PersonLooks looks{};
+  FrameInput frame{};
+  CameraInput wishes{};
+  FrameStatistics statistics{};
+  Narration narration{};
+  Resolution resolution{};
+  float own_fov_rad = 0;
+  double owed_s = 0;           // of simulated time
+  float unused_s = 0;          // since the visitor's hands did anything
+  int width_px = 0, height_px = 0;
+  bool for_pages = false;      // what the hands do in this picture, even where that closes them
+
+  bool pages() const { return menu.page != Page::kNone; }
+  bool hidden() const { return width_px <= 0 || height_px <= 0; }
+  void ApplySettings();
+  void Save();
+  void Jump(size_t stop);
+  void BeginAnew();
+  void TakeHands(const WindowInput& input, float passed_s);
+  void ShowPages(const WindowInput& input, float passed_s);
+  void StepTown(float passed_s, Records* records);
+  BetweenSteps Between() const;
+  void Draw(float passed_s);
+};
+
+// What the settings ask for, now and whenever they change.
+void Visit::Impl::ApplySettings() {
+  const PlayerSettings& chosen = controls.settings;
+  s->visitor.gentle = chosen.reduced_motion;
+  SetFieldOfView(chosen.field_of_view_deg > 0 ? chosen.field_of_view_deg * kPi / 180 : own_fov_rad, s);
+  shell.sound.SetVolume(chosen.sound_volume);
+  const std::vector<std::string>& known = s->visitor.tour.languages;
+  const bool spoken = std::find(known.begin(), known.end(), chosen.language) != known.end();
+  const std::string language = spoken ? chosen.language : known.empty() ? s->visitor.tour.language : known.front();
+  if (language != s->visitor.tour.language) SetLanguage(language, &s->visitor.tour);
+  if (!notices.is_hint) return;
+  const float left_s = notices.left_s;
+  BeginHint(controls, *s, &notices);  // in the language that is chosen now
+  notices.left_s = left_s;
+}
+
+void Visit::Impl::Save() {
+  if (!controls.changed) return;
+  controls.changed = false;
+  if (settings.kiosk) return;  // the next visitor finds everything as it was
+  if (Error e = shell.settings.Save(controls.settings)) shell.warnings.Warn(e.message);
+}
+
+void Visit::Impl::Jump(size_t stop) {
+  JumpToStop(stop, InTown(s));
+  looks = {};
+}
+
+// For the next visitor of an exhibition.
+void Visit::Impl::BeginAnew() {
+  controls = MakeControls(settings, shell.layout, *s);
+  ApplySettings();
+  Jump(0);
+  MeetSomebodyNew(&menu);
+}
+
+void Visit::Impl::TakeHands(const WindowInput& input, float passed_s) {
+  const bool is_led = controls.follows_tour && HasTour(s->visitor.tour) && !pages();
+  unused_s = is_led || IsUsed(input) ? 0 : unused_s + passed_s;
+  WindowInput walking = input;
+  if (for_pages) walking = {input.down, {}, {}, {}, {}, {-1, -1}, false, input.close};
+  if (!hidden() && overlay.HasPointer()) walking.clicks.clear();
+  const float aspect = static_cast<float>(std::max(1, width_px)) / static_cast<float>(std::max(1, height_px));
+  TakeInput(walking, passed_s, aspect, for_pages, *s, &controls, &wishes);
+  if (controls.toggles_views) views.shown = !views.shown;
+  if (controls.switches_adaptation) SwitchAdaptation(s);
+  if (controls.opens_pages) OpenPage(Page::kMain, &menu);
+  controls.toggles_views = controls.switches_adaptation = controls.opens_pages = false;
+  if (controls.applies) ApplySettings();
+  controls.applies = false;
+  if (settings.kiosk && unused_s > kNobodyThere_s) {
+    unused_s = 0;
+    BeginAnew();
+  }
+}
+
+// Before the hands' wishes for the walk: what is pressed here is not meant for the town.
+void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
+  for_pages = pages();
+  TakePageInput(input, &menu, &controls);
+  if (hidden()) return;
+  const std::string title = TitleOf(pack, PageLanguage(controls, *s));
+  overlay.PrepareText(PageLetter_px(width_px, height_px), pages() ? title + PageTexts(controls, *s) : "");
+  overlay.Begin(width_px, height_px, OverlayInputFrom(input, menu, width_px, height_px, passed_s));
+  const MenuChoice choice = ShowMenu(title, *s, width_px, height_px, &menu, &controls);
+  if (views.shown && !pages()) ShowViews(statistics, width_px, height_px, &views, s);
+  if (controls.points && !pages() && ShowMenuButton(width_px, height_px)) OpenPage(Page::kMain, &menu);
+  controls.quits = controls.quits || choice.ends;
+  if (choice.stop) Jump(*choice.stop);
+  if (for_pages && !pages()) Save();
+}
+
+void Visit::Impl::StepTown(float passed_s, Records* records) {
+  const double step_s = static_cast<double>(Step_s(*s));
+  if (!pages()) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMostStepsAFrame);
+  if (owed_s >= step_s) controls.turned_rad = 0;
+  while (owed_s >= step_s) {
+    StepSimulation(NextStep(wishes, *s, &controls), passed_s * 1000, s);
+    Record(*s, {statistics.town_triangles, statistics.shadow_triangles, statistics.draw_ms}, records);
+    wishes.tour = {};
+    wishes.walk_to.reset();
+    owed_s -= step_s;
+  }
+  Narrate(s->visitor.tour, pages(), pack.sounds, &narration, &shell.sound);
+  if (!pages()) FollowNotices(controls, *s, passed_s, &notices);
+}
+
+BetweenSteps Visit::Impl::Between() const {
+  const float share = static_cast<float>(owed_s) / Step_s(*s);
+  return {share, TurnUntil(share, *s, controls), controls.turned_rad, LookUntilNow(*s, controls)};
+}
+
+void Visit::Impl::Draw(float passed_s) {
+  if (hidden()) return;
+  FrameFromSimulation(pack, *s, &looks, &frame, Between());
+  if (pages()) frame.caption.clear();
+  else ShowNotice(notices, !controls.settings.reduced_motion, &frame);
+  frame.resolution_scale = ScaleNow(resolution);
+  renderer.Draw(frame, width_px, height_px, &statistics);
+  overlay.Draw();
+  RememberFrame(*s, statistics, passed_s * 1000, &views.history);
+}
+
+Visit::Visit(const TourPack& pack, Loader* loader, const PlayerSettings& settings, const Shell& shell, Simulation* simulation)
+    : impl_(new Impl{pack, loader, settings, shell, simulation}) {}
+Visit::~Visit() = default;
+
+Error Visit::Begin(bool onto_window) {
+  if (Error e = impl_->renderer.Begin(impl_->pack, {.onto_window = onto_window})) return e;
+  impl_->loader->PrepareFor(impl_->renderer);
+  return Ok();
+}
+
+Error Visit::Load(bool* there) {
+  *there = impl_->loader->TownIsThere();
+  return *there ? Ok() : impl_->loader->Upload(kLongUpload_ms, &impl_->renderer);
+}
+
+Error Visit::Enter(bool views) {
+  Impl& v = *impl_;
+  if (Error e = v.overlay.Create()) return e;
+  v.views.shown = views;
+  v.own_fov_rad = v.s->visitor.camera.view.fov_rad;
+  v.controls = MakeControls(v.settings, v.shell.layout, *v.s);
+  v.ApplySettings();
+  BeginHint(v.controls, *v.s, &v.notices);
+  if (v.settings.kiosk) MeetSomebodyNew(&v.menu);
+  return Ok();
+}
+
+Error Visit::Picture(const WindowInput& input, int width_px, int height_px, float passed_s, Records* records) {
+  Impl& v = *impl_;
+  if (Error e = v.loader->Upload(kUpload_ms, &v.renderer)) return e;
+  v.width_px = width_px;
+  v.height_px = height_px;
+  v.ShowPages(input, passed_s);
+  v.TakeHands(input, passed_s);
+  v.StepTown(passed_s, records);
+  v.Draw(passed_s);
+  v.loader->GoOn();
+  return Ok();
+}
+
+void Visit::TellTime(float took_ms) {
+  Impl& v = *impl_;
+  const PlayerSettings& settings = v.controls.settings;
+  constexpr float kMoves_mps = 0.3f, kTurns_radps = 0.2f;
+  const CameraState& camera = v.s->visitor.camera;
+  const bool moves = camera.actual_mps > kMoves_mps || std::abs(camera.yaw_rate_radps) > kTurns_radps;
+  if (!v.hidden()) FollowPictureTime(took_ms, moves, ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, v.s->control.settings), &v.resolution);
+}
+
+void Visit::Present() {
+  if (!impl_->hidden()) impl_->renderer.Present();
+}
+
+void Visit::Read(std::vector<uint8_t>* rgb) { impl_->renderer.Read(rgb); }
+void Visit::Leave() { impl_->Save(); }
+bool Visit::ends() const { return impl_->controls.quits; }
+bool Visit::frees_pointer() const { return impl_->controls.points || impl_->pages(); }
+bool Visit::shows_pages() const { return impl_->pages(); }
+const FrameStatistics& Visit::statistics() const { return impl_->statistics; }
+
+}  // namespace flaneur

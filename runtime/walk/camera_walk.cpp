@@ -1,0 +1,226 @@
+#include "runtime/walk/camera_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/crowd/fast_math.h"
+#include "runtime/crowd/walls.h"
+#include "runtime/walk/guide.h"
+#include "runtime/town/loitering.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kTourYawRate_radps = 0.9f;    // a calm turn of the head
+constexpr float kLookAhead_m = 3.0f;          // people within this ahead slow the camera
+constexpr float kDenseAhead_pm2 = 5.4f;       // nobody walks at this density (Weidmann 1993)
+constexpr float kLeastFactor = 0.2f;
+constexpr float kReached_m = 0.3f;
+constexpr float kGiveUp_s = 6;                // a leg whose way is barred ends
+constexpr float kGettingOn_m = 0.5f;          // who stays within this is stuck, even if not quite still
+constexpr float kTourSpeed_mps = 1.3f;
+constexpr float kLooksAhead_m = 2.5f;         // along the tour's route
+constexpr float kAtHalt_m = 1;
+constexpr float kGentleYawRate_radps = 0.35f, kGentleSpeed_mps = 1.0f;
+constexpr float kLooksAbout_s = 2.5f;         // after looking to the side, until the tour turns the view again
+constexpr float kGiveUpPoint_s = 3;
+constexpr float kStands = 0.05f;              // share of the pace
+constexpr float kSidestep_m = 0.7f;           // looked ahead when walking round people
+constexpr float kPatience_s = 1.5f;           // after which those who stand in the way move on
+constexpr float kStirs_m = 2;
+
+void TurnTowards(float yaw_rad, float rate_radps, const VisitorInTown& v) {
+  const float most = rate_radps * Step_s(v.settings);
+  const float turn = std::clamp(WrapAngle(yaw_rad - v.visitor.camera.view.yaw_rad), -most, most);
+  v.visitor.camera.view.yaw_rad = WrapAngle(v.visitor.camera.view.yaw_rad + turn);
+  v.visitor.camera.yaw_rate_radps = turn / Step_s(v.settings);
+}
+
+// The user's speed falls in proportion to the density of the crowd ahead.
+float DensityFactor(const VisitorInTown& v, Vec2 direction) {
+  float people = 0;
+  for (size_t i = 0; i < v.town.crowd.size(); ++i) {
+    const Vec2 off = v.town.crowd.position[i] - v.visitor.camera.view.position;
+    const float distance_m = Length(off);
+    if (distance_m < kLookAhead_m && Dot(off, direction) > 0.7071f * distance_m) people += 1;
+  }
+  const float density = people / (kPi / 4 * kLookAhead_m * kLookAhead_m);
+  return std::clamp(1 - density / kDenseAhead_pm2, kLeastFactor, 1.0f);
+}
+
+// How far the camera may go along the step without anybody coming within r_personal who was not already.
+float FreeShare(const VisitorInTown& v, Vec2 step) {
+  float share = 1;
+  const float step2 = Dot(step, step);
+  if (step2 <= 0) return 0;
+  for (size_t i = 0; i < v.town.crowd.size(); ++i) {
+    const Vec2 off = v.town.crowd.position[i] - v.visitor.camera.view.position;
+    const float reach_m = v.settings.r_personal_m + v.town.crowd.radius_m[i] + 0.06f;  // room for the person's own next step
+    const float along = Dot(off, step);
+    if (along <= 0) continue;
+    const float gap2 = Dot(off, off) - reach_m * reach_m;
+    if (gap2 <= 0) return 0;
+    const float discriminant = along * along - step2 * gap2;
+    if (discriminant <= 0) continue;
+    share = std::min(share, std::max(0.0f, (along - std::sqrt(discriminant)) / step2));
+  }
+  return share;
+}
+
+// The guided visitor walks round people who stand in the way: the direction near `way` in which most of it is free.
+Vec2 RoundPeople(const VisitorInTown& v, Vec2 way) {
+  Vec2 best = way;
+  float most = 0;
+  for (const float turn : {0.0f, -0.5f, 0.5f, -1.0f, 1.0f, -1.5f, 1.5f}) {  // the right first, as people pass
+    const Vec2 direction{way.x * std::cos(turn) - way.y * std::sin(turn), way.x * std::sin(turn) + way.y * std::cos(turn)};
+    if (!IsFree(v.town.walkable, v.visitor.camera.view.position + direction * kSidestep_m)) continue;
+    const float progress_m = FreeShare(v, direction * kSidestep_m) * (std::cos(turn) + 0.2f);
+    if (progress_m > most + 0.01f) most = progress_m, best = direction;
+  }
+  return best;
+}
+
+void Walk(Vec2 direction, float asked_mps, const VisitorInTown& v) {
+  CameraState& camera = v.visitor.camera;
+  camera.asked_mps = asked_mps;
+  camera.asked_velocity = direction * asked_mps;
+  const Vec2 before = camera.view.position;
+  const float speed = asked_mps * DensityFactor(v, direction);
+  Vec2 step = direction * (speed * Step_s(v.settings));
+  step = step * FreeShare(v, step);
+  const Vec2 target = before + step;
+  if (InsideObstacle(v.town.walkable, before)) camera.view.position = target;  // let a camera out that a scenario put in a wall
+  else camera.view.position = KeepOffWalls(v.town.walkable, before, target, kCameraRadius_m);
+  camera.velocity = (camera.view.position - before) * (1 / Step_s(v.settings));
+  camera.actual_mps = Length(camera.velocity);
+  const bool got_on = Length(camera.view.position - v.visitor.stuck_at) > kGettingOn_m;
+  v.visitor.stuck_s = got_on ? 0 : v.visitor.stuck_s + Step_s(v.settings);
+  if (got_on) v.visitor.stuck_at = camera.view.position;
+}
+
+void NextLeg(const VisitorInTown& v) {
+  v.visitor.leg_done = 0;
+  v.visitor.stuck_s = 0;
+  if (++v.visitor.leg >= v.visitor.legs.size()) v.visitor.finished = true;
+}
+
+void FollowLegs(const VisitorInTown& v) {
+  const CameraLeg& leg = v.visitor.legs[v.visitor.leg];
+  switch (leg.kind) {
+    case CameraLeg::Kind::kWait:
+      v.visitor.leg_done += Step_s(v.settings);
+      if (v.visitor.leg_done >= leg.wait_s) NextLeg(v);
+      return;
+    case CameraLeg::Kind::kTurn: {
+      const float left = std::abs(leg.turn_deg * kPi / 180) - v.visitor.leg_done;
+      const float turn = std::min(left, leg.rate_dps * kPi / 180 * Step_s(v.settings));
+      v.visitor.leg_done += turn;
+      const float signed_turn = leg.turn_deg >= 0 ? turn : -turn;
+      v.visitor.camera.view.yaw_rad = WrapAngle(v.visitor.camera.view.yaw_rad + signed_turn);
+      v.visitor.camera.yaw_rate_radps = signed_turn / Step_s(v.settings);
+      if (left - turn <= 1e-6f) NextLeg(v);
+      return;
+    }
+    case CameraLeg::Kind::kWalk: {
+      const Vec2 way = leg.to_m - v.visitor.camera.view.position;
+      const float way_m = Length(way);
+      if (way_m < kReached_m || v.visitor.stuck_s > kGiveUp_s) return NextLeg(v);
+      TurnTowards(std::atan2(way.y, way.x), MaxYawRate_radps(v.settings) * 0.75f, v);
+      Walk(way * (1 / way_m), leg.speed_mps, v);
+      return;
+    }
+  }
+}
+
+float TourSpeed_mps(const VisitorInTown& v) { return v.visitor.gentle ? kGentleSpeed_mps : kTourSpeed_mps; }
+
+// Unless the visitor looks elsewhere just now.
+void TurnForTour(float yaw_rad, const VisitorInTown& v) {
+  if (v.visitor.looks_about_s <= 0) TurnTowards(yaw_rad, v.visitor.gentle ? kGentleYawRate_radps : kTourYawRate_radps, v);
+}
+
+void TurnCamera(float yaw_rate_radps, const VisitorInTown& v) {
+  CameraState& camera = v.visitor.camera;
+  camera.yaw_rate_radps = std::clamp(yaw_rate_radps, -MaxYawRate_radps(v.settings), MaxYawRate_radps(v.settings));
+  camera.view.yaw_rad = WrapAngle(camera.view.yaw_rad + camera.yaw_rate_radps * Step_s(v.settings));
+}
+
+// The visitor looks to the side while the tour leads on.
+void LookAbout(const CameraInput& input, const VisitorInTown& v) {
+  v.visitor.looks_about_s -= Step_s(v.settings);
+  if (input.yaw_rate_radps == 0) return;
+  v.visitor.looks_about_s = kLooksAbout_s;
+  TurnCamera(input.yaw_rate_radps, v);
+}
+
+// On the way to where the visitor pointed.
+void FollowPoint(float speed_mps, bool turns, const VisitorInTown& v) {
+  PointWalk& walk = v.visitor.point_walk;
+  const Vec2 p = v.visitor.camera.view.position;
+  walk.way_m = WayTo(walk.route, p, walk.way_m - 1, walk.way_m + 2);
+  const bool there = LengthOf_m(walk.route) - walk.way_m < kReached_m;
+  const Vec2 way = WayAlong(v.town.walkable, walk.route, walk.way_m, p, &walk.corner, &v.town.crowd.search);
+  if (there || Length(way) < 0.5f || v.visitor.stuck_s > kGiveUpPoint_s) {
+    walk = {};
+    return;
+  }
+  const Vec2 look = PointAt(walk.route, walk.way_m + kLooksAhead_m) - p;
+  if (!turns && Length(look) > kReached_m) TurnForTour(std::atan2(look.y, look.x), v);
+  Walk(RoundPeople(v, way), speed_mps, v);
+}
+
+// For somebody who walked about while the tour rests.
+void ReturnToHalt(const VisitorInTown& v) {
+  const Vec2 p = v.visitor.camera.view.position;
+  const Vec2 way = WayStraightOrRound(v.town.walkable, p, v.visitor.tour.stops[HaltOf(v.visitor.tour)].position_m, &v.visitor.tour.corner, &v.town.crowd.search);
+  if (Length(way) < 0.5f) return;
+  TurnForTour(std::atan2(way.y, way.x), v);
+  Walk(RoundPeople(v, way), TourSpeed_mps(v), v);
+}
+
+void FollowTour(const CameraInput& input, const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  const Vec2 p = v.visitor.camera.view.position;
+  LookAbout(input, v);
+  if (t.resting && Length(t.stops[HaltOf(t)].position_m - p) < kAtHalt_m) {
+    return TurnForTour(t.stops[HaltOf(t)].yaw_rad, v);
+  }
+  if (t.over) return TurnForTour(LookOfLeave_rad(v.visitor.camera.view.yaw_rad, v), v);
+  if (t.paused) return;
+  if (t.resting) return ReturnToHalt(v);
+  const Vec2 way = WayAlong(v.town.walkable, t.route, t.visitor_m, p, &t.corner, &v.town.crowd.search);
+  if (v.visitor.stuck_s > kGiveUp_s || Length(way) < 0.5f) {
+    v.visitor.stuck_s = 0;
+    return GiveUpStop(v);
+  }
+  const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
+  if (Length(look) > kReached_m) TurnForTour(std::atan2(look.y, look.x), v);
+  const float pace = ShareOfPace(v);
+  if (pace > kStands) Walk(RoundPeople(v, way), TourSpeed_mps(v) * pace, v);
+  else v.visitor.stuck_s = 0;
+}
+
+}  // namespace
+
+void MoveCamera(const CameraInput& input, const VisitorInTown& v) {
+  CameraState& camera = v.visitor.camera;
+  camera.velocity = camera.asked_velocity = {};
+  camera.yaw_rate_radps = camera.asked_mps = camera.actual_mps = 0;
+  if (!camera.present) return;
+  if (input.pitch_rad) camera.pitch_rad = *input.pitch_rad;
+  if (input.walk_to) SetOut(*input.walk_to, v);
+  if (!input.active || input.speed_mps > 0) v.visitor.point_walk = {};
+  if (input.active) {
+    v.visitor.looks_about_s = 0;
+    TurnCamera(input.yaw_rate_radps, v);
+    if (input.speed_mps > 0) Walk(input.direction, input.speed_mps, v);
+    else if (!v.visitor.point_walk.route.points.empty()) FollowPoint(input.walk_to_mps, input.yaw_rate_radps != 0, v);
+    return;
+  }
+  if (v.visitor.finished && !v.visitor.tour.over) return;
+  if (!v.visitor.legs.empty()) FollowLegs(v);
+  else if (!v.visitor.tour.stops.empty()) FollowTour(input, v);
+  if (v.visitor.stuck_s >= kPatience_s) StirLoiterers(camera.view.position, kStirs_m, &v.town);
+}
+
+}  // namespace flaneur

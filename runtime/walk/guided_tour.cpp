@@ -1,0 +1,247 @@
+#include "runtime/walk/guided_tour.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/walk/visitor.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kPassed_m = 0.5f;         // before a stop that is only on the way
+constexpr float kThere_m = 0.35f, kThereFreely_m = 1.8f;  // from a halt: for a visitor whom the tour leads, and who walks freely
+constexpr float kHears_m = 6;             // who is farther from a halt has left it for now
+constexpr float kStrays_m = 3;            // from the route
+constexpr float kReroute_s = 1;
+constexpr float kBackwards_m = 2, kForwards_m = 4;  // along the route: the visitor is looked for so near where they were
+constexpr float kAgain_s = 3;             // back within this goes to the halt before, later to this one's beginning
+constexpr float kAfterSound_s = 0.7f;
+constexpr float kLeastReading_s = 2, kReading_sPerLetter = 0.065f;  // about 15 letters a second, an unhurried reader
+
+bool IsHalt(const GuidedTour& t, size_t stop) { return RestOf_s(t, stop) > 0; }
+
+// The halt after `stop`, else the last stop.
+size_t HaltFrom(const GuidedTour& t, size_t stop) {
+  while (stop + 1 < t.stops.size() && !IsHalt(t, stop)) ++stop;
+  return stop;
+}
+
+// The halt before `stop`, else the first stop.
+size_t HaltBefore(const GuidedTour& t, size_t stop) {
+  while (stop > 0 && !IsHalt(t, --stop)) {
+  }
+  return stop;
+}
+
+// Both ends count; the second may be the lower.
+std::vector<size_t> StopsBetween(size_t first, size_t last) {
+  std::vector<size_t> stops;
+  for (size_t k = first;; k += first <= last ? 1 : size_t(-1)) {
+    stops.push_back(k);
+    if (k == last) return stops;
+  }
+}
+
+void Plan(const std::vector<size_t>& stops, const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  t.stage.clear();
+  t.stop_m.clear();
+  t.route = {{v.visitor.camera.view.position}, {0}};
+  for (size_t k : stops) {
+    if (!ExtendRoute(v.town.walkable, t.stops[k].position_m, &v.town.crowd.search, &t.route) && k != stops.back()) continue;
+    t.stage.push_back(k);
+    t.stop_m.push_back(LengthOf_m(t.route));
+  }
+  t.passed = 0;
+  t.visitor_m = t.rested_s = 0;
+  t.resting = t.over = false;
+  t.corner = {};
+  t.reroute_s = kReroute_s;
+  ++t.plans;
+}
+
+void LeaveHalt(const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  const size_t next = HaltOf(t) + 1;
+  if (next < t.stops.size()) return Plan(StopsBetween(next, HaltFrom(t, next)), v);
+  t.resting = false;
+  t.over = v.visitor.finished = true;
+}
+
+void GoToNext(const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  if (t.over) return;
+  if (t.resting) return LeaveHalt(v);
+  const size_t halt = HaltOf(t), here = t.stage[std::min(t.passed, t.stage.size() - 1)];
+  if (halt + 1 < t.stops.size()) Plan(StopsBetween(std::min(here, halt), HaltFrom(t, halt + 1)), v);
+}
+
+void GoBack(const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  if (t.resting && t.rested_s > kAgain_s) {
+    t.rested_s = 0;
+    return;
+  }
+  v.visitor.finished = false;
+  if (t.over) {
+    const size_t last = t.stops.size() - 1, halt = IsHalt(t, last) ? last : HaltBefore(t, last);
+    return Plan(StopsBetween(last, halt), v);
+  }
+  const size_t halt = HaltOf(t), here = t.stage[std::min(t.passed, t.stage.size() - 1)];
+  const size_t before = HaltBefore(t, halt);
+  Plan(StopsBetween(before < here ? here - 1 : here, before), v);
+}
+
+float FromVisitor_m(const VisitorInTown& v, Vec2 p) { return Length(p - v.visitor.camera.view.position); }
+
+void Rest(const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  const TourStop& stop = t.stops[HaltOf(t)];
+  t.holds = t.paused || FromVisitor_m(v, stop.position_m) > kHears_m;
+  if (!t.holds) t.rested_s += Step_s(v.settings);
+  if (t.rested_s >= RestOf_s(t, HaltOf(t))) LeaveHalt(v);
+}
+
+// A visitor who comes back to the tour from elsewhere is led on from there.
+void Reroute(const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  t.reroute_s -= Step_s(v.settings);
+  if (t.reroute_s > 0) return;
+  const std::vector<size_t> left(t.stage.begin() + static_cast<std::ptrdiff_t>(std::min(t.passed, t.stage.size() - 1)), t.stage.end());
+  Plan(left, v);
+}
+
+void WalkOn(const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  const Vec2 p = v.visitor.camera.view.position;
+  t.visitor_m = WayTo(t.route, p, t.visitor_m - kBackwards_m, t.visitor_m + kForwards_m);
+  while (t.passed + 1 < t.stage.size() && t.visitor_m > t.stop_m[t.passed] - kPassed_m) ++t.passed;
+  if (FromVisitor_m(v, t.stops[HaltOf(t)].position_m) < (t.follows ? kThere_m : kThereFreely_m)) {
+    t.resting = true;
+    if (RestOf_s(t, HaltOf(t)) <= 0) LeaveHalt(v);
+    return;
+  }
+  const bool strays = Length(PointAt(t.route, t.visitor_m) - p) > kStrays_m;
+  const bool is_back = t.follows || v.visitor.guide.id < 0 || FromVisitor_m(v, v.town.crowd.position[v.visitor.guide.index]) < kHears_m;
+  if (strays && is_back) Reroute(v);
+}
+
+StopWords WordsOf(const TourStop& stop, const std::string& language, const std::string& own) {
+  StopWords words;
+  const auto caption = stop.captions.find(language);
+  const bool translated = caption != stop.captions.end();
+  words.caption = translated ? caption->second : stop.caption;
+  auto sound = stop.sounds.find(language);
+  if (sound == stop.sounds.end() && !translated) sound = stop.sounds.find(own);  // one language at a time
+  words.rest_s = stop.pause_s;
+  if (stop.pause_s <= 0 && !words.caption.empty()) {
+    words.rest_s = kLeastReading_s + kReading_sPerLetter * static_cast<float>(words.caption.size());
+  }
+  if (sound == stop.sounds.end()) return words;
+  words.sound = sound->second.sound;
+  words.rest_s = std::max(words.rest_s, sound->second.duration_s + kAfterSound_s);
+  return words;
+}
+
+}  // namespace
+
+std::string TitleOf(const TourData& tour, const std::string& language) {
+  for (const std::string& wished : {language, tour.language}) {
+    const auto title = tour.titles.find(wished);
+    if (title != tour.titles.end() && !title->second.empty()) return title->second;
+  }
+  return tour.name;
+}
+
+std::string NameOfStop(const GuidedTour& tour, size_t stop) {
+  const std::string& caption = tour.words[stop].caption;
+  const size_t end = caption.find_first_of(".!?:\n");
+  return end == std::string::npos || end < 3 ? caption : caption.substr(0, end);
+}
+
+float LookAt_rad(const GuidedTour& t, size_t stop) {
+  if (IsHalt(t, stop) || t.stops.size() < 2) return t.stops[stop].yaw_rad;
+  const size_t from = std::min(stop, t.stops.size() - 2);
+  const Vec2 way = t.stops[from + 1].position_m - t.stops[from].position_m;
+  return Length(way) > 0 ? std::atan2(way.y, way.x) : t.stops[stop].yaw_rad;
+}
+
+void TakeStops(const std::vector<TourStop>& stops, const std::string& own_language, GuidedTour* t) {
+  t->stops = stops;
+  t->languages = {own_language};
+  const auto add = [&](const std::string& language) {
+    if (std::find(t->languages.begin(), t->languages.end(), language) == t->languages.end()) t->languages.push_back(language);
+  };
+  for (const TourStop& stop : stops) {
+    for (const auto& [language, caption] : stop.captions) add(language);
+    for (const auto& [language, sound] : stop.sounds) add(language);
+  }
+  SetLanguage(own_language, t);
+}
+
+void SetLanguage(const std::string& language, GuidedTour* t) {
+  t->language = language;
+  t->words.clear();
+  for (const TourStop& stop : t->stops) t->words.push_back(WordsOf(stop, language, t->languages.front()));
+}
+
+void PlaceStops(const VisitorInTown& v) {
+  if (v.visitor.tour.stops.empty()) return;
+  const Walkable& w = v.town.walkable;
+  int of_first = -1;
+  std::vector<TourStop> kept;
+  for (size_t k = 0; k < v.visitor.tour.stops.size(); ++k) {
+    TourStop stop = v.visitor.tour.stops[k];
+    const bool free = IsFree(w, stop.position_m);
+    const int cell = FreeCellFor(w, stop.position_m);
+    const int component = cell < 0 ? -1 : w.component[static_cast<size_t>(cell)];
+    if (of_first < 0) of_first = component;
+    const std::string name = "stop " + std::to_string(k + 1);
+    if (cell < 0 || component != of_first) {
+      v.town.warnings.push_back(name + " cannot be reached; the tour passes it by");
+      continue;
+    }
+    if (!free) {
+      v.town.warnings.push_back(name + " is not on free ground; the tour passes near it");
+      stop.position_m = CellCenter(w, cell);
+    }
+    kept.push_back(std::move(stop));
+  }
+  TakeStops(kept, std::string(v.visitor.tour.languages.front()), &v.visitor.tour);
+}
+
+void BeginTour(const VisitorInTown& v) {
+  if (!v.visitor.tour.stops.empty()) Plan(StopsBetween(0, HaltFrom(v.visitor.tour, 0)), v);
+}
+
+void StepTour(const TourWish& wish, bool follows, const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  if (t.stops.empty()) return;
+  t.follows = follows;
+  if (wish.toggle_pause) t.paused = !t.paused;
+  if (wish.next) GoToNext(v);
+  if (wish.back) GoBack(v);
+  if (t.over) return;
+  if (t.resting) Rest(v);
+  else WalkOn(v);
+}
+
+void JumpToStop(size_t stop, const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  if (stop >= t.stops.size()) return;
+  v.visitor.camera.view.position = v.visitor.stuck_at = t.stops[stop].position_m;
+  v.visitor.camera.view.yaw_rad = LookAt_rad(t, stop);
+  v.visitor.camera.pitch_rad = v.visitor.looks_about_s = v.visitor.stuck_s = 0;
+  v.visitor.point_walk = {};
+  v.visitor.finished = t.paused = t.holds = false;
+  Plan(StopsBetween(stop, HaltFrom(t, stop)), v);
+  BringGuide(v);
+}
+
+void GiveUpStop(const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  if (t.passed + 1 >= t.stage.size()) return LeaveHalt(v);
+  Plan({t.stage.begin() + static_cast<std::ptrdiff_t>(t.passed) + 1, t.stage.end()}, v);
+}
+
+}  // namespace flaneur

@@ -1,0 +1,87 @@
+#include "runtime/walk/route.h"
+
+#include <algorithm>
+
+#include "runtime/crowd/fast_math.h"
+#include "runtime/crowd/flow_field.h"
+#include "runtime/crowd/walls.h"
+
+namespace flaneur {
+namespace {
+
+constexpr int kMostCorners = 400;   // of one part: more than any town has
+constexpr float kLeastCorner_m = 0.05f;
+constexpr float kAhead_m[] = {1.2f, 0.6f, 0.3f};  // of the route, walked towards: shorter where the line there cuts a corner
+
+void Append(Vec2 p, Route* route) {
+  route->at_m.push_back(route->points.empty() ? 0 : route->at_m.back() + Length(p - route->points.back()));
+  route->points.push_back(p);
+}
+
+}  // namespace
+
+bool ExtendRoute(const Walkable& w, Vec2 goal, WaySearch* search, Route* route) {
+  const size_t before = route->points.size();
+  for (int corners = 0; corners < kMostCorners; ++corners) {
+    const Vec2 p = route->points.back();
+    if (Length(goal - p) < kLeastCorner_m) return true;
+    if (StraightWay(w, p, goal)) {
+      Append(goal, route);
+      return true;
+    }
+    Corner corner;
+    WayByCorners(w, p, goal, true, &corner, search);
+    if (!corner.known || Length(corner.point - p) < kLeastCorner_m) break;
+    Append(corner.point, route);
+  }
+  route->points.resize(before);
+  route->at_m.resize(before);
+  return false;
+}
+
+Vec2 PointAt(const Route& route, float way_m) {
+  const auto next = std::upper_bound(route.at_m.begin(), route.at_m.end(), std::max(way_m, 0.0f));
+  if (next == route.at_m.end()) return route.points.back();
+  const size_t k = static_cast<size_t>(next - route.at_m.begin());
+  const float share = (std::max(way_m, 0.0f) - route.at_m[k - 1]) / (route.at_m[k] - route.at_m[k - 1]);
+  return route.points[k - 1] + (route.points[k] - route.points[k - 1]) * share;
+}
+
+float WayTo(const Route& route, Vec2 p, float least_m, float most_m) {
+  float best_m = std::clamp(least_m, 0.0f, LengthOf_m(route)), away_m = Length(PointAt(route, best_m) - p);
+  for (size_t k = 0; k + 1 < route.points.size(); ++k) {
+    if (route.at_m[k + 1] < least_m || route.at_m[k] > most_m) continue;
+    const Vec2 on = NearestOnSegment(p, route.points[k], route.points[k + 1]);
+    const float at_m = std::clamp(route.at_m[k] + Length(on - route.points[k]), least_m, most_m);
+    const float off_m = Length(PointAt(route, at_m) - p);
+    if (off_m < away_m) best_m = at_m, away_m = off_m;
+  }
+  return best_m;
+}
+
+bool FreeLine(const Walkable& w, Vec2 p, Vec2 q) {
+  const int steps = 1 + static_cast<int>(Length(q - p) / (0.5f * w.cell_m));
+  for (int k = 0; k <= steps; ++k) {
+    if (!IsFree(w, p + (q - p) * (static_cast<float>(k) / static_cast<float>(steps)))) return false;
+  }
+  return true;
+}
+
+Vec2 WayStraightOrRound(const Walkable& w, Vec2 p, Vec2 point, Corner* corner, WaySearch* search) {
+  if (!FreeLine(w, p, point)) return WayByCorners(w, p, point, true, corner, search);
+  *corner = {};
+  return Unit(point - p);
+}
+
+Vec2 WayAlong(const Walkable& w, const Route& route, float way_m, Vec2 p, Corner* corner, WaySearch* search) {
+  for (const float ahead_m : kAhead_m) {
+    const Vec2 way = PointAt(route, way_m + ahead_m) - p;
+    if (Length(way) > kLeastCorner_m && FreeLine(w, p, p + way)) {
+      *corner = {};
+      return Unit(way);
+    }
+  }
+  return WayStraightOrRound(w, p, PointAt(route, way_m + kAhead_m[1]), corner, search);
+}
+
+}  // namespace flaneur

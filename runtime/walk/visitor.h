@@ -1,0 +1,68 @@
+// Who looks at the town: the camera, and what moves it - hands, a scenario's legs or the guided tour.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "runtime/control/view_volumes.h"
+#include "runtime/town/town.h"
+#include "runtime/walk/guide.h"
+#include "runtime/walk/guided_tour.h"
+#include "runtime/walk/point_walk.h"
+
+namespace flaneur {
+
+inline constexpr float kEyeHeight_m = 1.65f;
+inline constexpr float kCameraRadius_m = 0.3f;
+
+// What the visitor asks for in a step.
+struct CameraInput {
+  bool active = false;      // false: scenario or guided tour moves the camera
+  Vec2 direction;           // asked way, unit or zero
+  float speed_mps = 0, yaw_rate_radps = 0;
+  std::optional<Vec2> walk_to;  // sets out for there; a direction ends it
+  float walk_to_mps = 1.4f;
+  std::optional<float> pitch_rad;
+  TourWish tour;            // active or not
+};
+
+struct CameraState {
+  ViewCamera view;
+  float pitch_rad = 0, eye_height_m = kEyeHeight_m;
+  Vec2 velocity;
+  Vec2 asked_velocity;  // what the visitor wants: who holds them up sees it
+  float yaw_rate_radps = 0, asked_mps = 0, actual_mps = 0;
+  bool present = true;      // false: everybody counts as visible
+};
+
+// A part of a scenario's way.
+struct CameraLeg {
+  enum class Kind { kWalk, kTurn, kWait } kind = Kind::kWait;
+  Vec2 to_m;
+  float speed_mps = 1.4f;
+  float turn_deg = 0, rate_dps = 60;
+  float wait_s = 0;
+};
+
+struct Visitor {
+  CameraState camera;
+  GuidedTour tour;
+  Guide guide;
+  PointWalk point_walk;
+  float looks_about_s = 0;      // left until the tour turns the view again
+  bool gentle = false;          // the tour turns the view slowly, and walks slowly
+  std::vector<CameraLeg> legs;  // of the scenario; empty: the guided tour
+  size_t leg = 0;
+  float leg_done = 0;           // seconds waited, or radians turned
+  float stuck_s = 0;            // since the camera got away from stuck_at
+  Vec2 stuck_at;
+  bool finished = false;        // the last leg is over
+};
+
+// What a visitor's step works on.
+struct VisitorInTown {
+  const ControlSettings& settings;
+  Town& town;
+  Visitor& visitor;
+};
+
+}  // namespace flaneur

@@ -1,0 +1,113 @@
+// What adaptation is for, over whole runs: fewer frames with too many people near, and nobody hindered by it.
+#include <gtest/gtest.h>
+
+#include "runtime/simulation/simulation.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kHalf_m = 20;
+constexpr int kSteps = 1500;
+
+// A square with 160 strollers and a visitor who walks across it again and again.
+Scenario Square(const char* adaptation, float speed_mps, uint64_t seed) {
+  Random random{seed};
+  const auto anywhere = [&] { return Vec2{random.Uniform(-kHalf_m + 1, kHalf_m - 1), random.Uniform(-kHalf_m + 1, kHalf_m - 1)}; };
+  Scenario s;
+  s.adaptation = adaptation;
+  s.high_limit = 12;
+  s.r_high_m = 10;
+  s.has_ground = s.has_camera = true;
+  s.ground_min_m = {-kHalf_m, -kHalf_m};
+  s.ground_max_m = {kHalf_m, kHalf_m};
+  s.camera_position_m = {-15, -15};
+  for (int k = 0; k < 12; ++k) {
+    CameraLeg leg;
+    leg.kind = CameraLeg::Kind::kWalk;
+    leg.to_m = anywhere();
+    leg.speed_mps = speed_mps;
+    s.legs.push_back(leg);
+  }
+  for (int row = 0; row < 13; ++row) {
+    for (int column = 0; column < 13; ++column) {
+      ScenarioPerson p;
+      p.position_m = {-kHalf_m + 1.5f + 2.9f * static_cast<float>(column), -kHalf_m + 2.2f + 2.8f * static_cast<float>(row)};
+      if (Length(p.position_m - s.camera_position_m) < 2) continue;
+      for (int g = 0; g < 10; ++g) p.goals_m.push_back(anywhere());
+      p.stay = true;
+      s.persons.push_back(p);
+    }
+  }
+  return s;
+}
+
+struct Outcome { int exceeded = 0, over_budget = 0; float asked_m = 0, walked_m = 0, longest_step = 0; };
+
+Outcome Played(const Scenario& scenario) {
+  Simulation s;
+  const Error e = StartSimulation(nullptr, scenario, &s);
+  EXPECT_FALSE(e) << e.message;
+  Outcome out;
+  std::map<int, Vec2> before;  // by id
+  for (int step = 0; step < kSteps && !s.visitor.finished; ++step) {
+    for (size_t i = 0; i < s.town.crowd.size(); ++i) before[s.town.crowd.id[i]] = s.town.crowd.position[i];
+    StepSimulation({}, 0, &s);
+    out.exceeded += s.control.levels.exceeded;
+    out.over_budget += s.control.levels.triangles > static_cast<int64_t>(s.control.settings.budget_triangles);
+    out.asked_m += s.visitor.camera.asked_mps * Step_s(s);
+    out.walked_m += s.visitor.camera.actual_mps * Step_s(s);
+    for (size_t i = 0; i < s.town.crowd.size(); ++i) {
+      if (s.town.crowd.view[i] != ViewClass::kVisible) continue;
+      const float step_m = Length(s.town.crowd.position[i] - before[s.town.crowd.id[i]]);
+      out.longest_step = std::max(out.longest_step, step_m / (s.town.crowd.top_mps[i] * Step_s(s)));
+    }
+  }
+  return out;
+}
+
+class Adaptation : public testing::TestWithParam<float> {};
+
+TEST_P(Adaptation, FewFramesExceedTheLimitAndTheVisitorGetsOn) {
+  int off = 0, full = 0;
+  float asked_m = 0, walked_m = 0;
+  for (const uint64_t seed : {1, 2, 3, 4, 5}) {
+    off += Played(Square("off", GetParam(), seed)).exceeded;
+    const Outcome o = Played(Square("full", GetParam(), seed));
+    full += o.exceeded;
+    EXPECT_EQ(o.over_budget, 0);
+    EXPECT_LE(o.longest_step, 1.001f);
+    asked_m += o.asked_m, walked_m += o.walked_m;
+  }
+  RecordProperty("exceeded_off", off);
+  RecordProperty("exceeded_full", full);
+  EXPECT_GT(off, 100) << "the square is crowded enough to matter";
+  EXPECT_LE(full, off / 6);
+  EXPECT_GT(walked_m, 0.85f * asked_m);
+}
+
+TEST(PersonalSpace, IsKeptWhereTheVisitorTurnsInADenseSquare) {
+  Scenario scenario = Square("off", 1.9f, 1);
+  scenario.camera_position_m = {0, 0};
+  scenario.legs.assign(1, {});
+  scenario.legs[0].kind = CameraLeg::Kind::kTurn;
+  scenario.legs[0].turn_deg = 3600;
+  scenario.legs[0].rate_dps = 90;
+  for (size_t k = 0; k < scenario.persons.size(); ++k) {
+    Vec2& p = scenario.persons[k].position_m;
+    p = p * 0.3f;
+    if (Length(p) < 1.5f) p = p + Vec2{12, 0.3f};
+    for (Vec2& goal : scenario.persons[k].goals_m) goal = goal * 0.3f;
+  }
+  Simulation s;
+  const Error e = StartSimulation(nullptr, scenario, &s);
+  ASSERT_FALSE(e) << e.message;
+  for (int step = 0; step < 900; ++step) {
+    StepSimulation({}, 0, &s);
+    for (Vec2 p : s.town.crowd.position) ASSERT_GE(Length(p), s.control.settings.r_personal_m) << "step " << step;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AtWalkingPaceAndTwiceAsFast, Adaptation, testing::Values(1.9f, 3.8f));
+
+}  // namespace
+}  // namespace flaneur

@@ -1,0 +1,417 @@
+// The visitor's pages, driven as in the window but without one.
+#include "runtime/visit/menu.h"
+
+#include <gtest/gtest.h>
+#include <imgui/imgui.h>
+
+#include <set>
+#include <sstream>
+
+#include "runtime/show/frame_from_simulation.h"
+#include "runtime/visit/notices.h"
+#include "runtime/visit/phrases.h"
+#include "runtime/desktop/context.h"
+#include "tests/unit/runtime/simulation/tour_town.h"
+
+namespace flaneur {
+namespace {
+
+constexpr int kWidth_px = 1280, kHeight_px = 720;
+
+struct Pages {
+  Pages() {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
+    ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_HasGamepad;
+    unsigned char* pixels = nullptr;
+    int width = 0, height = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
+    TourPack pack = TourTown(0);
+    pack.path[1].captions["de"] = "Etwas zu sehen.";
+    s = Started(pack);
+    controls = MakeControls({}, s);
+    OpenPage(Page::kMain, &menu);
+    Picture({});
+    Picture({});
+  }
+  MenuChoice Picture(const WindowInput& input) {
+    TakePageInput(input, &menu, &controls);
+    overlay.Begin(kWidth_px, kHeight_px, OverlayInputFrom(input, menu, kWidth_px, kHeight_px, 1.0f / 30));
+    MenuChoice choice = ShowMenu("town", s, kWidth_px, kHeight_px, &menu, &controls);
+    ImGui::Render();
+    return choice;
+  }
+  MenuChoice Tap(const char* name) {
+    WindowInput input;
+    input.down.set(static_cast<size_t>(InputCode(name)));
+    MenuChoice choice = Picture(input);
+    for (int k = 0; k < 3; ++k) {
+      const MenuChoice later = Picture({});
+      if (later.ends || later.stop) choice = later;
+    }
+    return choice;
+  }
+  // Moves there, presses and releases, as a finger does.
+  MenuChoice Click(float x, float y) {
+    WindowInput input;
+    input.pointer = {x, y};
+    Picture(input);
+    input.pressed = true;
+    Picture(input);
+    input.pressed = false;
+    MenuChoice choice = Picture(input);
+    Picture({});
+    return choice;
+  }
+
+  Overlay overlay;  // ends ImGui
+  Simulation s;
+  Controls controls;
+  Menu menu;
+};
+
+TEST(Pages, AreAllReachedByKeyboardAndByGamepad) {
+  const struct { const char *down, *accept, *back; } hands[] = {{"down", "enter", "escape"}, {"pad_down", "pad_a", "pad_b"}};
+  for (const auto& hand : hands) {
+    std::set<Page> seen;
+    bool ends = false;
+    for (int row = 0; row < 7; ++row) {
+      Pages p;
+      for (int k = 0; k < row; ++k) p.Tap(hand.down);
+      ends = ends || p.Tap(hand.accept).ends;
+      seen.insert(p.menu.page);
+      if (p.menu.page == Page::kNone || p.menu.page == Page::kMain) continue;
+      p.Tap(hand.back);
+      EXPECT_EQ(p.menu.page, Page::kMain);
+      p.Tap(hand.back);
+      EXPECT_EQ(p.menu.page, Page::kNone);
+    }
+    EXPECT_EQ(seen, (std::set<Page>{Page::kNone, Page::kMain, Page::kStops, Page::kSettings, Page::kKeys})) << hand.down;
+    EXPECT_TRUE(ends) << hand.down;
+  }
+}
+
+TEST(Pages, BeginAtTheirFirstRow) {
+  Pages p;
+  p.Tap("down");
+  p.Tap("down");
+  p.Tap("enter");
+  EXPECT_EQ(p.menu.page, Page::kStops);
+  p.Tap("down");
+  EXPECT_EQ(p.Tap("enter").stop, 3u);
+}
+
+TEST(Pages, AreAllReachedByPointerAlone) {
+  std::set<Page> seen;
+  std::set<std::string> languages;
+  bool ends = false;
+  Pages p;
+  for (float y = 0; y < 1; y += 0.02f) {
+    OpenPage(Page::kMain, &p.menu);
+    p.Picture({});
+    p.Picture({});
+    ends = p.Click(0.5f, y).ends || ends;
+    seen.insert(p.menu.page);
+    languages.insert(PageLanguage(p.controls, p.s));
+  }
+  EXPECT_EQ(seen.size(), 5u);
+  EXPECT_EQ(languages, (std::set<std::string>{"en", "de"}));
+  EXPECT_TRUE(ends);
+}
+
+TEST(Pages, ForAnExhibitionHaveNoEnd) {
+  Pages p;
+  p.controls.settings.kiosk = true;
+  for (float y = 0; y < 1; y += 0.02f) {
+    OpenPage(Page::kMain, &p.menu);
+    p.Picture({});
+    p.Picture({});
+    EXPECT_FALSE(p.Click(0.5f, y).ends);
+  }
+}
+
+TEST(Pages, LeadToEveryHaltOfTheTour) {
+  Pages p;
+  std::set<size_t> stops;
+  for (float y = 0; y < 1; y += 0.02f) {
+    OpenPage(Page::kStops, &p.menu);
+    p.Picture({});
+    p.Picture({});
+    if (const MenuChoice choice = p.Click(0.5f, y); choice.stop) stops.insert(*choice.stop);
+  }
+  EXPECT_EQ(stops, (std::set<size_t>{1, 3, 5}));
+}
+
+TEST(Pages, EverySettingCanBeChangedAndStaysInItsRange) {
+  Pages p;
+  std::set<std::string> changed;
+  const auto note_changes = [&](const std::string& before) {
+    std::istringstream was(before), is(PlayerSettingsText(p.controls.settings));
+    for (std::string old_line, line; std::getline(was, old_line) && std::getline(is, line);) {
+      if (line != old_line) changed.insert(line.substr(0, line.find(' ')));
+    }
+  };
+  for (size_t first : {0, 6}) {  // not all rows fit at once
+    for (float x : {0.3f, 0.57f, 0.65f, 0.7f, 0.75f, 0.8f}) {
+      for (float y = 0.05f; y < 0.9f; y += 0.02f) {
+        OpenPage(Page::kSettings, &p.menu);
+        p.menu.first = first;
+        p.Picture({});
+        p.Picture({});
+        const std::string before = PlayerSettingsText(p.controls.settings);
+        p.Click(x, y);
+        note_changes(before);
+      }
+    }
+  }
+  for (const char* name : {"pointer", "walk_speed_mps", "turn_speed_dps", "mouse_speed", "field_of_view_deg", "snap_turn_deg", "invert_look",
+                           "reduced_motion", "sound_volume", "frames_per_s", "least_resolution_scale"}) {
+    EXPECT_EQ(changed.count(name), 1u) << name;
+  }
+  EXPECT_TRUE(p.controls.changed && p.controls.applies);
+  PlayerSettings read;
+  std::vector<std::string> warnings;
+  const auto path = std::filesystem::temp_directory_path() / "flaneur_pages_test.toml";
+  ASSERT_FALSE(WritePlayerSettings(path, p.controls.settings));
+  ASSERT_FALSE(ReadPlayerSettings(path, &read, &warnings));
+  std::filesystem::remove(path);
+  EXPECT_TRUE(warnings.empty()) << warnings.front();
+}
+
+TEST(Pages, TakeANewKeyFromWhoeverHadIt) {
+  Pages p;
+  OpenPage(Page::kKeys, &p.menu);
+  p.menu.rebinds = Action::kWalkAhead;
+  p.Picture({});
+  p.Tap("pad_a");
+  EXPECT_TRUE(p.menu.rebinds) << "waits for a key, not for a button";
+  p.Tap("space");
+  EXPECT_FALSE(p.menu.rebinds);
+  const auto& keys = p.controls.settings.keys;
+  EXPECT_EQ(keys[static_cast<size_t>(Action::kWalkAhead)], std::vector<std::string>{"space"});
+  EXPECT_EQ(keys[static_cast<size_t>(Action::kPause)], std::vector<std::string>{"pad_a"});
+  EXPECT_EQ(p.menu.page, Page::kKeys);
+  p.menu.rebinds = Action::kWalkAhead;
+  p.Picture({});
+  p.Tap("escape");
+  EXPECT_FALSE(p.menu.rebinds) << "the pages' own key gives it up";
+  EXPECT_EQ(keys[static_cast<size_t>(Action::kWalkAhead)], std::vector<std::string>{"space"});
+  EXPECT_EQ(p.menu.page, Page::kKeys);
+  ResetKeys(&p.controls);
+  EXPECT_EQ(keys, PlayerSettings{}.keys);
+}
+
+TEST(Pages, ShowEveryWordInEveryLanguage) {
+  for (const std::string& language : PhraseLanguages()) {
+    for (int k = 0; k < static_cast<int>(Phrase::kCount); ++k) {
+      const char* words = Say(static_cast<Phrase>(k), language);
+      ASSERT_NE(words, nullptr) << k;
+      EXPECT_STRNE(words, "") << k;
+    }
+    for (size_t k = 0; k < kActions; ++k) EXPECT_STRNE(NameOf(static_cast<Action>(k), language), "") << k;
+  }
+  EXPECT_STREQ(Say(Phrase::kEnd, "fr"), Say(Phrase::kEnd, "en"));
+  EXPECT_STREQ(Say(Phrase::kEnd, "de-AT"), Say(Phrase::kEnd, "de"));
+}
+
+// What the pages write, as a visitor reads it.
+std::string WrittenOn(Page page, int width_px, int height_px, Overlay* overlay, Controls* controls, const Simulation& s) {
+  Menu menu;
+  std::string written;
+  OpenPage(page, &menu);
+  overlay->PrepareText(PageLetter_px(width_px, height_px), PageTexts(*controls, s));
+  for (size_t first = 0; first < kActions; first += 3) {
+    OpenPage(page, &menu);
+    menu.first = first;
+    overlay->Begin(width_px, height_px, {});
+    ImGui::LogToClipboard();
+    ShowMenu("Town", s, width_px, height_px, &menu, controls);
+    ImGui::LogFinish();
+    overlay->Draw();
+    written += ImGui::GetClipboardText();
+  }
+  return written;
+}
+
+TEST(Pages, CutNothingShortInAnyLanguageOrWindowButNamesThatAreTooLong) {
+  HeadlessContext context;
+  if (const Error error = context.Create()) GTEST_SKIP() << error.message;
+  Overlay overlay;
+  ASSERT_EQ(overlay.Create().message, "");
+  TourPack pack = TourTown(0);
+  pack.path[1].captions["de"] = "Etwas zu sehen.";
+  Simulation s = Started(pack);
+  const int sizes[][2] = {{1280, 720}, {1920, 1080}, {800, 600}, {1080, 1920}, {320, 180}};
+  for (const std::string& language : PhraseLanguages()) {
+    PlayerSettings settings;
+    settings.language = language;
+    Controls controls = MakeControls(settings, s);
+    for (const auto& size : sizes) {
+      for (const Page page : {Page::kMain, Page::kStops, Page::kSettings, Page::kKeys}) {
+        const std::string written = WrittenOn(page, size[0], size[1], &overlay, &controls, s);
+        EXPECT_GT(written.size(), 40u);
+        EXPECT_EQ(written.find("…"), std::string::npos) << language << ", " << size[0] << " px: " << written;
+      }
+    }
+  }
+  s.visitor.tour.words[1].caption = "Something that is worth a great many words, and then a few more than anybody would read in passing by";
+  Controls controls = MakeControls({}, s);
+  EXPECT_NE(WrittenOn(Page::kStops, 1280, 720, &overlay, &controls, s).find("…"), std::string::npos);
+}
+
+TEST(Pages, WriteNumbersAsTheLanguageDoes) {
+  HeadlessContext context;
+  if (const Error error = context.Create()) GTEST_SKIP() << error.message;
+  Overlay overlay;
+  ASSERT_EQ(overlay.Create().message, "");
+  const Simulation s = Started(TourTown(0));
+  PlayerSettings settings;
+  Controls controls = MakeControls(settings, s);
+  EXPECT_NE(WrittenOn(Page::kSettings, 1280, 720, &overlay, &controls, s).find("1.5 m/s"), std::string::npos);
+  controls.settings.language = "de";
+  EXPECT_NE(WrittenOn(Page::kSettings, 1280, 720, &overlay, &controls, s).find("1,5 m/s"), std::string::npos);
+}
+
+TEST(Jump, BringsVisitorAndGuideToTheStopAndTheTourOn) {
+  Simulation s = Started(TourTown(60));
+  for (int k = 0; k < 60; ++k) StepSimulation({}, 0, &s);
+  for (const size_t stop : {size_t{5}, size_t{1}, size_t{3}}) {
+    s.visitor.tour.paused = true;
+    JumpToStop(stop, &s);
+    for (int k = 0; k < 15; ++k) StepSimulation({}, 0, &s);
+    EXPECT_TRUE(s.visitor.tour.resting) << stop;
+    EXPECT_EQ(HaltOf(s.visitor.tour), stop);
+    EXPECT_LT(Length(s.visitor.camera.view.position - s.visitor.tour.stops[stop].position_m), 0.6f);
+    const Vec2 guide = s.town.crowd.position[s.visitor.guide.index];
+    EXPECT_LT(Length(guide - s.visitor.camera.view.position), 7) << stop;
+    for (size_t i = 0; i < s.town.crowd.size(); ++i) {
+      EXPECT_GT(Length(s.town.crowd.position[i] - s.visitor.camera.view.position), s.control.settings.r_personal_m * 0.9f) << stop << " " << s.town.crowd.id[i];
+    }
+  }
+  JumpToStop(99, &s);
+  EXPECT_EQ(HaltOf(s.visitor.tour), 3u);
+}
+
+TEST(Notices, TellHowToWalkAndGoByThemselves) {
+  Simulation s = Started(TourTown(0));
+  Controls c = MakeControls({}, s);
+  Notices n;
+  BeginHint(c, s, &n);
+  FrameInput frame;
+  ShowNotice(n, true, &frame);
+  EXPECT_NE(frame.caption.find("W, A, S, D"), std::string::npos) << frame.caption;
+  EXPECT_NE(frame.caption.find("Esc"), std::string::npos);
+  for (int k = 0; k < 30 * 20; ++k) FollowNotices(c, s, 1.0f / 30, &n);
+  frame.caption.clear();
+  ShowNotice(n, true, &frame);
+  EXPECT_EQ(frame.caption, "");
+}
+
+TEST(Notices, TellThatTheTourWaitsAndHowToComeBack) {
+  Simulation s = Started(TourTown(0));
+  PlayerSettings settings;
+  settings.language = "de";
+  Controls c = MakeControls(settings, s);
+  Notices n;
+  FollowNotices(c, s, 0.03f, &n);
+  c.follows_tour = false;
+  FollowNotices(c, s, 0.03f, &n);
+  FrameInput frame;
+  frame.caption = "What stands here.";
+  ShowNotice(n, false, &frame);
+  EXPECT_NE(frame.caption.find("Zurück zur Führung: Tab"), std::string::npos) << frame.caption;
+  s.visitor.tour.paused = true;
+  FollowNotices(c, s, 0.03f, &n);
+  ShowNotice(n, false, &frame);
+  EXPECT_NE(frame.caption.find("Leertaste"), std::string::npos) << frame.caption;
+}
+
+std::string Shown(const Notices& n) {
+  FrameInput frame;
+  ShowNotice(n, false, &frame);
+  return frame.caption;
+}
+
+TEST(Notices, TellWhoLeadsAndWhatIsNext) {
+  Simulation s = Started(TourTown(0));
+  Controls c = MakeControls({}, s);
+  Notices n;
+  BeginHint(c, s, &n);
+  EXPECT_NE(Shown(n).find("tour leads you"), std::string::npos) << Shown(n);
+  c.follows_tour = false;
+  BeginHint(c, s, &n);
+  EXPECT_EQ(Shown(n).find("tour leads you"), std::string::npos) << Shown(n);
+  c.follows_tour = true;
+  s.visitor.tour.words[3].caption = "The gate. It was shut at night.";
+  BeginHint(c, s, &n);
+  StepTour({true, false, false}, true, &s);
+  ASSERT_EQ(HaltOf(s.visitor.tour), 3u);
+  FollowNotices(c, s, 0.03f, &n);
+  EXPECT_EQ(Shown(n), "Next: The gate");
+  FrameInput frame;
+  frame.caption = "What stands here.";
+  ShowNotice(n, false, &frame);
+  EXPECT_EQ(frame.caption, "What stands here.") << "a caption is more";
+}
+
+TEST(Notices, NameNoKeyToWhomHasNone) {
+  Simulation s = Started(TourTown(0));
+  PlayerSettings settings;
+  settings.pointer = "point";
+  Controls c = MakeControls(settings, s);
+  Notices n;
+  BeginHint(c, s, &n);
+  EXPECT_EQ(Shown(n).find("Esc"), std::string::npos) << Shown(n);
+  c.follows_tour = false;
+  FollowNotices(c, s, 0.03f, &n);
+  EXPECT_EQ(Shown(n), "You walk on your own. Back to the tour: the button in the corner");
+}
+
+TEST(Pages, BeginForSomebodyNewAndGoOnLater) {
+  Menu menu;
+  MeetSomebodyNew(&menu);
+  OpenPage(Page::kSettings, &menu);
+  OpenPage(Page::kMain, &menu);
+  EXPECT_TRUE(menu.begins) << "whoever looks at the settings first is still new";
+  OpenPage(Page::kNone, &menu);
+  OpenPage(Page::kMain, &menu);
+  EXPECT_FALSE(menu.begins);
+}
+
+TEST(Notices, NameTheLanguageThatWasChosen) {
+  TourPack pack = TourTown(0);
+  pack.path[1].captions["de"] = "Etwas zu sehen.";
+  Simulation s = Started(pack);
+  Controls c = MakeControls({}, s);
+  Notices n;
+  BeginHint(c, s, &n);
+  for (int k = 0; k < 30 * 20; ++k) FollowNotices(c, s, 1.0f / 30, &n);
+  n.is_hint = false;
+  SetLanguage("de", &s.visitor.tour);
+  FollowNotices(c, s, 0.03f, &n);
+  EXPECT_EQ(Shown(n), "Sprache: Deutsch");
+}
+
+TEST(GroundMark, StandsWhereOneIsOnTheWayToAndGoesOnArrival) {
+  TourPack pack = TourTown(0);
+  pack.path.clear();
+  Simulation s = Started(pack);
+  s.visitor.camera.view.position = {20, 24};
+  CameraInput input;
+  input.active = true;
+  input.walk_to = Vec2{24, 28};
+  StepSimulation(input, 0, &s);
+  input.walk_to.reset();
+  FrameInput frame;
+  PersonLooks looks;
+  FrameFromSimulation(pack, s, &looks, &frame);
+  ASSERT_GT(frame.ground_mark.size(), 20u);
+  for (const Vec3& p : frame.ground_mark) EXPECT_LT(Length(Vec2{p.x, p.y} - Vec2{24, 28}), 0.5f);
+  for (int k = 0; k < 30 * 8; ++k) StepSimulation(input, 0, &s);
+  FrameFromSimulation(pack, s, &looks, &frame);
+  EXPECT_TRUE(frame.ground_mark.empty());
+}
+
+}  // namespace
+}  // namespace flaneur

@@ -1,0 +1,166 @@
+// The rule that chooses how coarsely the picture is drawn, on made-up machines: what stays, what each pixel takes, and noise.
+#include "runtime/visit/resolution.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "runtime/control/level_control.h"
+
+namespace flaneur {
+namespace {
+
+struct Machine {
+  float fixed_ms = 10, pixels_ms = 100;  // the latter at full scale
+  float noise = 0.1f;                    // share by which a picture may take longer; one in 50 takes twice as long
+};
+
+float Took_ms(const Machine& m, float scale, std::mt19937* random) {
+  std::uniform_real_distribution<float> share(0, 1);
+  const float hiccup = m.noise > 0 && share(*random) < 0.02f ? 2.0f : 1.0f;
+  return (m.fixed_ms + m.pixels_ms * scale * scale) * (1 + m.noise * share(*random)) * hiccup;
+}
+
+// The scale of every picture.
+std::vector<float> Play(const Machine& machine, const ResolutionSettings& settings, int pictures, Resolution* r, std::mt19937* random,
+                        bool moves = false) {
+  std::vector<float> scales;
+  for (int k = 0; k < pictures; ++k) {
+    FollowPictureTime(Took_ms(machine, ScaleNow(*r), random), moves, settings, r);
+    scales.push_back(r->scale);
+  }
+  return scales;
+}
+
+int Changes(const std::vector<float>& scales) {
+  int changes = 0;
+  for (size_t k = 1; k < scales.size(); ++k) changes += scales[k] != scales[k - 1];
+  return changes;
+}
+
+// A finer scale that had to be given up again.
+bool IsUndone(const std::vector<float>& scales) {
+  bool rose = false, undone = false;
+  for (size_t k = 1; k < scales.size(); ++k) {
+    undone = undone || (rose && scales[k] < scales[k - 1]);
+    rose = rose || scales[k] > scales[k - 1];
+  }
+  return undone;
+}
+
+float Settled(const Machine& machine, const ResolutionSettings& settings) {
+  Resolution r;
+  std::mt19937 random(7);
+  return Play(machine, settings, 3000, &r, &random).back();
+}
+
+TEST(ResolutionRule, WhereTheViewMovesIntoADearSightThePicturesAreCoarserAtOnceAndFineAgainAfterIt) {
+  const Machine usual{5, 110, 0}, dear{5, 190, 0};
+  const ResolutionSettings settings{40, 0.5f};
+  for (const bool moves : {true, false}) {
+    SCOPED_TRACE(moves);
+    Resolution r;
+    std::mt19937 random(3);
+    Play(usual, settings, 300, &r, &random, moves);
+    const float scale = r.scale;
+    EXPECT_EQ(ScaleNow(r), scale);
+    Play(dear, settings, 2, &r, &random, moves);
+    const float took_ms = Took_ms(dear, ScaleNow(r), &random);
+    if (moves) EXPECT_LT(took_ms, 1.1f * settings.frame_ms);
+    else EXPECT_EQ(ScaleNow(r), scale);
+    EXPECT_EQ(r.scale, scale) << "two pictures are not for long";
+    Play(usual, settings, 6, &r, &random, moves);
+    EXPECT_EQ(ScaleNow(r), scale);
+  }
+}
+
+TEST(ResolutionRule, NoMomentIsCoarserThanItMay) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> fixed_ms(1, 200), pixels_ms(1, 900), least(0.25f, 1);
+  for (int k = 0; k < 300; ++k) {
+    const ResolutionSettings settings{40, least(random)};
+    Resolution r;
+    for (int picture = 0; picture < 60; ++picture) {
+      Play({fixed_ms(random), pixels_ms(random)}, settings, 1, &r, &random, random() % 3 != 0);
+      ASSERT_GE(ScaleNow(r), std::max(0.25f, kLeastMoment * settings.least_scale) - 1e-5f);
+      ASSERT_LE(ScaleNow(r), r.scale);
+    }
+  }
+}
+
+TEST(ResolutionRule, HoldsTheTimeOrIsAtItsLeastAndComesToRest) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> fixed_ms(1, 60), pixels_ms(1, 250), noise(0, 0.15f), frame_ms(8, 60), least(0.3f, 1);
+  for (int k = 0; k < 500; ++k) {
+    const Machine machine{fixed_ms(random), pixels_ms(random), noise(random)};
+    const ResolutionSettings settings{frame_ms(random), least(random)};
+    SCOPED_TRACE(testing::Message() << machine.fixed_ms << " + " << machine.pixels_ms << " ms, noise " << machine.noise << ", wished "
+                                    << settings.frame_ms << " ms at " << settings.least_scale);
+    Resolution r;
+    const std::vector<float> arrival = Play(machine, settings, 200, &r, &random), later = Play(machine, settings, 3000, &r, &random);
+    for (float scale : arrival) ASSERT_GE(scale, settings.least_scale);
+    EXPECT_LE(Changes(arrival), 7);
+    const float typical_ms = (machine.fixed_ms + machine.pixels_ms * r.scale * r.scale) * (1 + machine.noise / 2);
+    if (r.scale > settings.least_scale) {
+      EXPECT_LT(typical_ms, 1.1f * settings.frame_ms);
+    }
+    EXPECT_LE(Changes(later), 5) << "rests, but for a finer scale that it grows into";
+    EXPECT_FALSE(IsUndone(later)) << "never to and fro";
+  }
+}
+
+TEST(ResolutionRule, AFastMachineDrawsAsFineAsTheWindow) {
+  Resolution r;
+  std::mt19937 random(1);
+  for (float scale : Play({2, 12, 0.2f}, {}, 1000, &r, &random)) EXPECT_EQ(scale, 1);
+}
+
+TEST(ResolutionRule, WhoeverWishesNoCoarserPictureGetsNone) {
+  Resolution r;
+  std::mt19937 random(1);
+  for (float scale : Play({80, 200}, {40, 1}, 300, &r, &random)) EXPECT_EQ(scale, 1);
+}
+
+TEST(ResolutionRule, MoreWorkIsNeverDrawnFinerAndMoreTimeNeverCoarser) {
+  const auto settled = [](float fixed_ms, float pixels_ms, float frame_ms) { return Settled({fixed_ms, pixels_ms, 0}, {frame_ms, 0.4f}); };
+  for (float pixels_ms = 5; pixels_ms < 250; pixels_ms += 7) {
+    EXPECT_LE(settled(12, pixels_ms + 7, 40), settled(12, pixels_ms, 40)) << pixels_ms;
+    EXPECT_LE(settled(22, pixels_ms, 40), settled(12, pixels_ms, 40)) << pixels_ms;
+    EXPECT_GE(settled(12, pixels_ms, 50), settled(12, pixels_ms, 40)) << pixels_ms;
+  }
+}
+
+TEST(ResolutionRule, IsThereWithinASecondAndComesBackWhenThereIsTime) {
+  Resolution r;
+  std::mt19937 random(3);
+  Play({10, 90}, {40, 0.4f}, 25, &r, &random);
+  EXPECT_LT(r.scale, 0.65f);
+  Play({4, 15}, {40, 0.4f}, 600, &r, &random);
+  EXPECT_EQ(r.scale, 1);
+}
+
+// As when somebody looks to and fro between the sky and the market.
+TEST(ResolutionRule, WaitsLongerWhereTheLoadItselfGoesToAndFro) {
+  Resolution r;
+  std::mt19937 random(3);
+  std::vector<float> scales;
+  for (int turn = 0; turn < 60; ++turn) {
+    const std::vector<float> more = Play(turn % 2 == 0 ? Machine{8, 60} : Machine{6, 25}, {40, 0.4f}, 100, &r, &random);
+    scales.insert(scales.end(), more.begin(), more.end());
+  }
+  EXPECT_LE(Changes({scales.begin() + 3000, scales.end()}), 20) << "in 30 turns";
+}
+
+TEST(ResolutionRule, LeavesATimeOfItsOwnToABudgetThatFollowsTheFrameTime) {
+  LevelSettings levels;
+  levels.target_ms = 40;
+  EXPECT_FLOAT_EQ(ResolutionFor(25, 0.5f, levels).frame_ms, 40);
+  levels.by_frame_time = true;
+  EXPECT_FLOAT_EQ(ResolutionFor(25, 0.5f, levels).frame_ms, 48);
+  levels.target_ms = 16.7f;
+  EXPECT_FLOAT_EQ(ResolutionFor(25, 0.5f, levels).frame_ms, 40);
+}
+
+}  // namespace
+}  // namespace flaneur

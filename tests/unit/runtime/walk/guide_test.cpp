@@ -1,0 +1,196 @@
+#include "runtime/walk/guide.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/crowd/fast_math.h"
+#include "tests/unit/runtime/simulation/tour_town.h"
+
+namespace flaneur {
+namespace {
+
+constexpr int kMostSteps = 30 * 300;
+
+Vec2 GuideOf(const Simulation& s) { return s.town.crowd.position[s.visitor.guide.index]; }
+float Apart_m(const Simulation& s) { return Length(GuideOf(s) - s.visitor.camera.view.position); }
+
+float OffVisitor_rad(const Simulation& s) {
+  const Vec2 way = s.visitor.camera.view.position - GuideOf(s);
+  return std::abs(WrapAngle(s.town.crowd.heading_rad[s.visitor.guide.index] - std::atan2(way.y, way.x)));
+}
+
+void Step(Simulation* s, int steps, const CameraInput& input = {}) {
+  for (int k = 0; k < steps; ++k) StepSimulation(input, 0, s);
+}
+
+CameraInput Walking(Vec2 direction) {
+  CameraInput input;
+  input.active = true;
+  input.direction = direction;
+  input.speed_mps = Length(direction) > 0 ? 1.5f : 0;
+  return input;
+}
+
+TEST(Guide, WalksAheadWithinAFewMetresUntilTheEnd) {
+  for (const int people : {1, 60, 250}) {
+    Simulation s = Started(TourTown(people));
+    ASSERT_GE(s.visitor.guide.id, 0);
+    int plans = 0, turned_at = 0;
+    for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) {
+      Step(&s, 1);
+      ASSERT_LT(Apart_m(s), 7) << people << " people, step " << step;
+      if (s.visitor.tour.plans != plans) plans = s.visitor.tour.plans, turned_at = step;
+      const bool turning = step - turned_at < 4 * 30;  // from a halt the way may lead back past the visitor
+      const bool arrives = LengthOf_m(s.visitor.tour.route) - s.visitor.tour.visitor_m < 2;  // the guide stands beside the view already
+      if (s.visitor.tour.resting || s.visitor.tour.over || turning || arrives) continue;
+      ASSERT_GT(s.visitor.guide.way_m - s.visitor.tour.visitor_m, 0.5f) << people << " people, step " << step;
+    }
+    EXPECT_TRUE(s.visitor.finished);
+    EXPECT_LT(Length(s.visitor.camera.view.position - Vec2{54, 12}), 1);
+  }
+}
+
+TEST(Guide, StandsStillAndLooksAtAVisitorWhoStops) {
+  Simulation s = Started(TourTown(40));
+  Step(&s, 150);
+  Step(&s, 120, Walking({}));
+  const Vec2 before = GuideOf(s);
+  Step(&s, 60, Walking({}));
+  EXPECT_LT(Length(GuideOf(s) - before), 0.3f);
+  EXPECT_LT(Apart_m(s), 5);
+  EXPECT_LT(OffVisitor_rad(s), 0.3f);
+}
+
+TEST(Guide, WaitsForAVisitorWhoStrays) {
+  Simulation s = Started(TourTown(40));
+  Step(&s, 150);
+  Step(&s, 600, Walking({-0.6f, 0.8f}));
+  ASSERT_GT(Apart_m(s), 8);
+  const Vec2 before = GuideOf(s);
+  Step(&s, 150, Walking({}));
+  EXPECT_LT(Length(GuideOf(s) - before), 0.5f);
+  EXPECT_LT(OffVisitor_rad(s), 0.3f);
+  bool led = false;
+  for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) {
+    Step(&s, 1);
+    led = led || (!s.visitor.tour.resting && Apart_m(s) < 5 && s.visitor.guide.way_m > s.visitor.tour.visitor_m + 1);
+  }
+  EXPECT_TRUE(led);
+  EXPECT_TRUE(s.visitor.finished);
+}
+
+TEST(Guide, FacesTheVisitorAtEveryHaltAndIsSeen) {
+  Simulation s = Started(TourTown(80));
+  int halts = 0, steps = 0, turned_away = 0;
+  for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) {
+    Step(&s, 1);
+    if (!s.visitor.tour.resting || s.visitor.tour.rested_s < 2.5f) continue;
+    if (s.visitor.tour.rested_s < 2.55f) ++halts;
+    ++steps;
+    if (OffVisitor_rad(s) > 0.4f) ++turned_away;  // whoever is jostled takes a step or two back
+    EXPECT_LT(OffVisitor_rad(s), kPi / 2);
+    EXPECT_GT(Apart_m(s), 1);
+    EXPECT_LT(Apart_m(s), 4);
+    EXPECT_EQ(s.town.crowd.view[s.visitor.guide.index], ViewClass::kVisible);
+    EXPECT_EQ(s.town.crowd.activity[s.visitor.guide.index], Activity::kTalking);
+  }
+  EXPECT_GE(halts, 3);
+  EXPECT_LT(turned_away, steps / 4);
+}
+
+// Which is a place that nobody rests at: what a visitor looks at there is the way they came along.
+TEST(Guide, IsSeenAtTheToursEndAndFacesTheVisitor) {
+  TourPack pack = TourTown(60);
+  pack.path.push_back(Waypoint({38, 10}));
+  Simulation s = Started(pack);
+  for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) Step(&s, 1);
+  ASSERT_TRUE(s.visitor.tour.over);
+  Step(&s, 60, Walking({}));
+  EXPECT_EQ(s.town.crowd.view[s.visitor.guide.index], ViewClass::kVisible);
+  EXPECT_LT(Apart_m(s), 4);
+  EXPECT_LT(OffVisitor_rad(s), 0.4f);
+}
+
+// By every person but those out of sight, who meet nobody.
+TEST(Guide, TouchesNobodyAndNothing) {
+  for (const int people : {120, 300}) {
+    Simulation s = Started(TourTown(people));
+    float overlap_m = 0;
+    for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) {
+      Step(&s, 1);
+      const size_t g = s.visitor.guide.index;
+      ASSERT_FALSE(InsideObstacle(s.town.walkable, GuideOf(s))) << step;
+      ASSERT_GT(Apart_m(s), s.control.settings.r_personal_m + s.town.crowd.radius_m[g] - 0.05f) << step;
+      for (size_t i = 0; i < s.town.crowd.size(); ++i) {
+        if (i == g || s.town.crowd.view[g] == ViewClass::kOutside || s.town.crowd.view[i] == ViewClass::kOutside) continue;
+        overlap_m = std::max(overlap_m, s.town.crowd.radius_m[i] + s.town.crowd.radius_m[g] - Length(s.town.crowd.position[i] - GuideOf(s)));
+      }
+    }
+    EXPECT_TRUE(s.visitor.finished) << people;
+    EXPECT_LT(overlap_m, 0.05f) << people;
+  }
+}
+
+// People who stand packed across the square, with nowhere to go.
+TEST(Guide, IsLetThroughARow) {
+  const TourPack pack = TourTown(1);
+  Scenario scenario = ScenarioOf(pack);
+  for (int k = 0; k < 36; ++k) {
+    ScenarioPerson p;
+    p.position_m = {10 + 0.55f * static_cast<float>(k % 2), 1.0f + 0.3f * static_cast<float>(k)};
+    p.goals_m = {{3, 20}};
+    scenario.persons.push_back(p);
+  }
+  Simulation s;
+  ASSERT_EQ(StartSimulation(&pack, scenario, &s).message, "");
+  for (int step = 0; step < 30 * 60 && !s.visitor.tour.resting; ++step) Step(&s, 1);
+  EXPECT_TRUE(s.visitor.tour.resting);
+  EXPECT_LT(Apart_m(s), 5);
+}
+
+TEST(Guide, IsAMeshWheneverSeenAndWithinTheBudget) {
+  TourPack pack = TourTown(250);
+  pack.control.high_limit = 3;
+  pack.control.budget_triangles = 12000;
+  Simulation s = Started(pack);
+  for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) {
+    Step(&s, 1);
+    ASSERT_LE(s.control.levels.triangles, 12000);
+    if (s.town.crowd.view[s.visitor.guide.index] == ViewClass::kVisible) {
+      ASSERT_GE(s.control.levels.level[s.visitor.guide.index], 0) << step;
+    }
+  }
+}
+
+TEST(Guide, IsOneOfThePeopleAskedFor) {
+  EXPECT_EQ(Started(TourTown(50)).crowd.size(), 50u);
+  const Simulation empty = Started(TourTown(0));
+  EXPECT_EQ(empty.crowd.size(), 0u);
+  EXPECT_LT(empty.guide.id, 0);
+}
+
+TEST(Guide, IsTheSameInEveryRun) {
+  Simulation a = Started(TourTown(150)), b = Started(TourTown(150));
+  for (int step = 0; step < 1500; ++step) {
+    Step(&a, 1);
+    Step(&b, 1);
+  }
+  EXPECT_EQ(StateHash(a.town.crowd), StateHash(b.town.crowd));
+}
+
+TEST(Guide, StaysAwayFromScenariosWithAWayOfTheirOwn) {
+  const TourPack pack = TourTown(20);
+  Scenario scenario = ScenarioOf(pack);
+  scenario.has_camera = true;
+  scenario.camera_position_m = {5, 5};
+  scenario.legs.resize(1);
+  Simulation s;
+  ASSERT_EQ(StartSimulation(&pack, scenario, &s).message, "");
+  EXPECT_LT(s.visitor.guide.id, 0);
+  EXPECT_EQ(s.town.crowd.size(), 20u);
+}
+
+}  // namespace
+}  // namespace flaneur

@@ -1,0 +1,191 @@
+#include "runtime/walk/guided_tour.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/unit/runtime/simulation/tour_town.h"
+
+namespace flaneur {
+namespace {
+
+void Step(Simulation* s, int steps) {
+  for (int k = 0; k < steps; ++k) StepSimulation({}, 0, s);
+}
+
+void Ask(const TourWish& wish, Simulation* s) {
+  CameraInput input;
+  input.tour = wish;
+  StepSimulation(input, 0, s);
+}
+
+// The stop that the visitor comes to next; the number of stops where none.
+size_t NextRest(Simulation* s) {
+  for (int step = 0; step < 30 * 120 && !s->visitor.finished; ++step) {
+    StepSimulation({}, 0, s);
+    if (s->visitor.tour.resting) return HaltOf(s->visitor.tour);
+  }
+  return s->visitor.tour.stops.size();
+}
+
+class Tours : public ::testing::TestWithParam<const char*> {
+ protected:
+  TourPack Town() const {
+    TourPack pack = TourTown(30);
+    pack.guide = GetParam();
+    return pack;
+  }
+};
+
+TEST_P(Tours, RestAtEveryHaltForItsTime) {
+  Simulation s = Started(Town());
+  std::vector<size_t> halts;
+  int resting = 0;
+  for (int step = 0; step < 30 * 300 && !s.visitor.finished; ++step) {
+    StepSimulation({}, 0, &s);
+    if (!s.visitor.tour.resting) continue;
+    ++resting;
+    EXPECT_LT(Length(s.visitor.camera.view.position - s.visitor.tour.stops[HaltOf(s.visitor.tour)].position_m), 0.5f);
+    if (halts.empty() || halts.back() != HaltOf(s.visitor.tour)) halts.push_back(HaltOf(s.visitor.tour));
+  }
+  EXPECT_EQ(halts, (std::vector<size_t>{1, 3, 5}));
+  EXPECT_NEAR(static_cast<float>(resting) / 30, 9, 0.3f);
+}
+
+TEST_P(Tours, APauseHoldsEverythingUntilItEnds) {
+  Simulation s = Started(Town());
+  ASSERT_EQ(NextRest(&s), 1u);
+  Ask({false, false, true}, &s);
+  Step(&s, 300);
+  EXPECT_TRUE(s.visitor.tour.resting);
+  EXPECT_LT(s.visitor.tour.rested_s, 1);
+  Ask({false, false, true}, &s);
+  Step(&s, 150);
+  EXPECT_FALSE(s.visitor.tour.resting);
+  Ask({false, false, true}, &s);
+  Step(&s, 60);
+  const Vec2 here = s.visitor.camera.view.position;
+  Step(&s, 60);
+  EXPECT_LT(Length(s.visitor.camera.view.position - here), 0.05f) << "walks on though paused";
+}
+
+TEST_P(Tours, NextLeavesAHaltAndPassesOneBy) {
+  Simulation s = Started(Town());
+  ASSERT_EQ(NextRest(&s), 1u);
+  Ask({true, false, false}, &s);
+  EXPECT_FALSE(s.visitor.tour.resting);
+  EXPECT_EQ(HaltOf(s.visitor.tour), 3u);
+  Ask({true, false, false}, &s);
+  EXPECT_EQ(NextRest(&s), 5u);
+  Ask({true, false, false}, &s);
+  EXPECT_TRUE(s.visitor.finished);
+  Ask({true, false, false}, &s);
+  EXPECT_TRUE(s.visitor.finished);
+}
+
+TEST_P(Tours, BackLeadsToTheHaltBeforeOrToThisOnesBeginning) {
+  Simulation s = Started(Town());
+  ASSERT_EQ(NextRest(&s), 1u);
+  ASSERT_FALSE(s.visitor.finished);
+  Step(&s, 95);
+  ASSERT_EQ(NextRest(&s), 3u);
+  Ask({false, true, false}, &s);
+  EXPECT_EQ(HaltOf(s.visitor.tour), 1u);
+  EXPECT_EQ(NextRest(&s), 1u);
+  EXPECT_EQ(NextRest(&s), 1u);
+  for (int step = 0; step < 30 * 60 && !(s.visitor.tour.resting && HaltOf(s.visitor.tour) == 3); ++step) Step(&s, 1);
+  EXPECT_EQ(HaltOf(s.visitor.tour), 3u) << "goes on afterwards";
+}
+
+TEST_P(Tours, BackAfterTheEndReturnsToTheLastHalt) {
+  Simulation s = Started(Town());
+  for (int step = 0; step < 30 * 300 && !s.visitor.finished; ++step) Step(&s, 1);
+  ASSERT_TRUE(s.visitor.finished);
+  Ask({false, true, false}, &s);
+  EXPECT_FALSE(s.visitor.finished);
+  EXPECT_EQ(NextRest(&s), 5u);
+}
+
+TEST_P(Tours, AVisitorWhoLeftAndComesBackIsLedOn) {
+  TourPack pack = Town();
+  pack.path[1].pause_s = 8;
+  Simulation s = Started(pack);
+  ASSERT_EQ(NextRest(&s), 1u);
+  CameraInput away;
+  away.active = true;
+  away.direction = {-0.8f, -0.6f};
+  away.speed_mps = 1.5f;
+  for (int step = 0; step < 240; ++step) StepSimulation(away, 0, &s);
+  EXPECT_TRUE(s.visitor.tour.resting);
+  EXPECT_LT(s.visitor.tour.rested_s, 6) << "the halt does not run out while the visitor is away";
+  for (int step = 0; step < 30 * 200 && !s.visitor.finished; ++step) Step(&s, 1);
+  EXPECT_TRUE(s.visitor.finished);
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutGuide, Tours, ::testing::Values("monk", ""),
+                         [](const auto& which) { return std::string(which.param).empty() ? "alone" : "guided"; });
+
+TourStop Spoken() {
+  TourStop stop;
+  stop.caption = "The well has never run dry.";
+  stop.captions = {{"de", "Der Brunnen ist nie versiegt."}, {"fr", "Le puits."}};
+  stop.sounds = {{"en", {0, 9}}, {"de", {1, 12}}};
+  return stop;
+}
+
+TEST(Tour, IsCalledByItsTitleInTheVisitorsLanguageOrElseItsOwn) {
+  TourPack pack;
+  pack.name = "markt", pack.language = "de";
+  EXPECT_EQ(TitleOf(pack, "en"), "markt");
+  pack.titles = {{"de", "Der Markt"}, {"en", "The Market"}};
+  EXPECT_EQ(TitleOf(pack, "en"), "The Market");
+  EXPECT_EQ(TitleOf(pack, "fr"), "Der Markt");
+}
+
+TEST(Tour, SpeaksTheVisitorsLanguageOrElseItsOwn) {
+  GuidedTour tour;
+  TakeStops({Spoken()}, "en", &tour);
+  EXPECT_EQ(tour.languages, (std::vector<std::string>{"en", "de", "fr"}));
+  EXPECT_EQ(tour.words[0].caption, "The well has never run dry.");
+  EXPECT_EQ(tour.words[0].sound, 0);
+  SetLanguage("de", &tour);
+  EXPECT_EQ(tour.words[0].caption, "Der Brunnen ist nie versiegt.");
+  EXPECT_EQ(tour.words[0].sound, 1);
+  SetLanguage("fr", &tour);
+  EXPECT_EQ(tour.words[0].caption, "Le puits.");
+  EXPECT_EQ(tour.words[0].sound, -1) << "not two languages at once";
+  SetLanguage("it", &tour);
+  EXPECT_EQ(tour.words[0].caption, "The well has never run dry.");
+  EXPECT_EQ(tour.words[0].sound, 0);
+}
+
+TEST(Tour, RestsUntilEverythingIsReadAndHeard) {
+  GuidedTour tour;
+  TourStop waypoint, read = Spoken(), paused = Spoken();
+  read.sounds.clear();
+  paused.pause_s = 20;
+  TakeStops({waypoint, read, Spoken(), paused}, "en", &tour);
+  EXPECT_EQ(RestOf_s(tour, 0), 0);
+  EXPECT_GT(RestOf_s(tour, 1), 3);
+  EXPECT_LT(RestOf_s(tour, 1), 6);
+  EXPECT_GT(RestOf_s(tour, 2), 9);
+  EXPECT_EQ(RestOf_s(tour, 3), 20);
+}
+
+TEST(Tour, AnUnknownLanguageIsNamedWithTheKnownOnes) {
+  TourPack pack = TourTown(5);
+  pack.path[1].captions["de"] = "Etwas.";
+  Scenario scenario = ScenarioOf(pack);
+  scenario.language = "nl";
+  Simulation s;
+  ASSERT_EQ(StartSimulation(&pack, scenario, &s).message, "");
+  ASSERT_EQ(s.town.warnings.size(), 1u);
+  EXPECT_NE(s.town.warnings[0].find("'nl'; there is: en, de"), std::string::npos) << s.town.warnings[0];
+  scenario.language = "de";
+  ASSERT_EQ(StartSimulation(&pack, scenario, &s).message, "");
+  EXPECT_TRUE(s.town.warnings.empty());
+  EXPECT_EQ(s.visitor.tour.words[1].caption, "Etwas.");
+}
+
+}  // namespace
+}  // namespace flaneur
