@@ -145,7 +145,7 @@ Error Run(const CheckArguments& a, int* status) {
   CheckOptions options = a.options;
   options.open_rings = file.open_rings;
   for (const Way& way : file.ways) options.streets.push_back({way.name, way.points});
-  for (const Place& place : file.places) options.gates.push_back({place.name, place.at, {}, place.is_exit});
+  for (const GatePoint& place : file.places) options.gates.push_back({place.name, place.at, {}, place.is_exit});
   std::vector<Finding> findings;
   if (Error error = Check(file.footprints, with_town ? &town : nullptr, options, &findings)) return Give(a, 901, error, faults);
   findings.insert(findings.end(), faults.begin(), faults.end());

@@ -64,7 +64,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json Number(double v) { return std::isfinite(v) ? Json(std::round(v * 1e6) / 1e6) : Json(); }
-Json Place(Point2 p, double grain) {
+Json PlaceJson(Point2 p, double grain) {
   const auto number = [&](double v) { return std::isfinite(v) ? Json(std::round(v / grain) * grain) : Json(); };
   return Json::array({number(p.x), number(p.y)});
 }
@@ -85,7 +85,7 @@ std::string FindingsJson(const std::vector<Finding>& findings, const std::vector
   for (size_t i = 0; i < findings.size(); ++i) {
     errors += findings[i].severity == Severity::kError;
     list.push_back(Facts(findings[i]));
-    if (i < places.size()) list.back()["at_file"] = Place(places[i], 1e-9);
+    if (i < places.size()) list.back()["at_file"] = PlaceJson(places[i], 1e-9);
   }
   return Text({{"version", 1}, {"errors", errors}, {"warnings", static_cast<int>(findings.size()) - errors}, {"findings", std::move(list)}});
 }
@@ -94,7 +94,7 @@ std::string FindingsGeoJson(const std::vector<Finding>& findings, const std::vec
   Json features = Json::array();
   for (size_t i = 0; i < findings.size(); ++i)
     features.push_back({{"type", "Feature"}, {"properties", Facts(findings[i])},
-                        {"geometry", {{"type", "Point"}, {"coordinates", Place(places[i], degrees ? 1e-9 : 1e-4)}}}});
+                        {"geometry", {{"type", "Point"}, {"coordinates", PlaceJson(places[i], degrees ? 1e-9 : 1e-4)}}}});
   Json root = {{"type", "FeatureCollection"}};
   if (!degrees) root["flaneur"] = {{"version", 1}, {"units", "m"}};
   root["features"] = std::move(features);

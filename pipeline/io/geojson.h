@@ -20,7 +20,7 @@ struct ReadGeoJsonOptions {
 
 struct Way { std::string name; std::vector<Point2> points; };
 // A point of kind door, exit or spawn.
-struct Place { std::string name; Point2 at; bool is_exit = false; };
+struct GatePoint { std::string name; Point2 at; bool is_exit = false; };
 
 // What is wrong with a file that can be read all the same.
 enum class GeoJsonFaultKind { kBrokenFeature, kOtherSystem, kUnknownSystem, kElsewhere };
@@ -32,7 +32,7 @@ struct GeoJsonFile {
   // any point has ring 0 in it, a circle none.
   std::vector<std::vector<int>> open_rings;
   std::vector<Way> ways;           // lines that are streets: all but barriers, waterways, railways, tunnels and the like
-  std::vector<Place> places;
+  std::vector<GatePoint> places;
   std::vector<GeoJsonFault> faults;
   int skipped = 0;                 // features that are nothing of all this
   Point2 moved_m;                  // add to a coordinate to get the file's own, where they were only moved

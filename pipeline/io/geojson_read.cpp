@@ -218,7 +218,7 @@ class Reader {
   Error ReadCircle(const Obstacle& blank, const Json& properties, const Json& coordinates) {
     const std::string kind = TextOf(properties, "kind");
     if (kind == "door" || kind == "exit" || kind == "spawn") {
-      Place place{blank.name, {}, kind == "exit"};
+      GatePoint place{blank.name, {}, kind == "exit"};
       if (!ReadPair(coordinates, &place.at.x, &place.at.y)) return Fail("a point's coordinates must be two numbers");
       return out_->places.push_back(std::move(place)), Ok();
     }

@@ -26,7 +26,7 @@ void ForEachPoint(GeoJsonFile* file, const Function& function) {
       for (Point2& p : hole) function(p);
     if (o.outer.empty()) function(o.center);
   }
-  for (Place& place : file->places) function(place.at);
+  for (GatePoint& place : file->places) function(place.at);
   for (Way& way : file->ways)
     for (Point2& p : way.points) function(p);
 }

@@ -39,7 +39,7 @@ struct ImpostorClip {
 // One picture in the atlas, cropped to the silhouette: a rectangle of texels from the upper left corner, and the texel corner at
 // which the point between the feet is seen (it may lie outside). The rectangle's sides are multiples of 4.
 struct ImpostorCell {
-  int16_t x = 0, y = 0, width = 0, height = 0, origin_x = 0, origin_y = 0;
+  int x = 0, y = 0, width = 0, height = 0, origin_x = 0, origin_y = 0;
 };
 
 // How an atlas is laid out. cells: frame by frame, elevation by elevation, direction by direction. Direction d is seen from azimuth
