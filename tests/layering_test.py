@@ -5,21 +5,34 @@ import sys
 
 BASE = "runtime/base"
 CORE = "pipeline/core"
+# The runtime's rooms from the ground up: what each one adds to what the rooms that it names may include themselves.
+ROOMS = {
+    "base": [],
+    "tour_data": ["base"],
+    "pack": ["tour_data"],
+    "crowd": ["tour_data"],
+    "control": ["crowd"],
+    "town": ["control"],
+    "walk": ["town"],
+    "simulation": ["walk", "pack"],
+    "render": ["pack"],
+    "show": ["simulation", "render"],
+    "visit": ["show"],
+    "desktop": ["visit"],
+    "likeness": ["render", "desktop"],
+}
 ALLOWED = {
-    "runtime/base": set(),
-    "runtime/pack": {BASE},
-    "runtime/crowd": {BASE},
-    "runtime/control": {BASE, "runtime/crowd"},
-    "runtime/render": {BASE, "runtime/pack"},
-    "runtime/likeness": {BASE, "runtime/pack", "runtime/render"},
-    "runtime/player": {BASE, "runtime/pack", "runtime/crowd", "runtime/control", "runtime/render"},
-    "pipeline/core": {BASE},
+    "pipeline/core": {BASE, "runtime/tour_data"},
     "pipeline/io": {BASE, CORE},
     "pipeline/avatar": {BASE, CORE, "pipeline/io"},
-    "pipeline/impostor": {BASE, CORE, "pipeline/io", "runtime/pack"},
+    "pipeline/impostor": {BASE, CORE, "pipeline/io", "runtime/tour_data", "runtime/pack"},
     "pipeline/footprint": {BASE, CORE, "pipeline/io"},
-    "pipeline/pack": {BASE, CORE, "pipeline/io", "runtime/pack"},
+    "pipeline/pack": {BASE, CORE, "pipeline/io", "runtime/tour_data", "runtime/pack"},
 }
+for room, below in ROOMS.items():
+    ALLOWED[f"runtime/{room}"] = {f"runtime/{b}" for b in below}.union(*(ALLOWED[f"runtime/{b}"] for b in below))
+# The one room that knows a window, a driver and a loudspeaker.
+SHELL_ONLY = re.compile(r"(GLFW/|EGL/|AL/|sndfile)")
 # Libraries whose types stay inside source files, and that the runtime must not know at all.
 PIPELINE_ONLY = re.compile(r"(CGAL|OpenMesh|OpenImageIO|tiny_gltf|clipper|boost|proj\.h)", re.IGNORECASE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
@@ -30,6 +43,8 @@ def violations(root):
         if path.suffix not in {".h", ".cpp", ".c"}:
             continue
         folder = "/".join(path.relative_to(root).parts[:2])
+        if folder.startswith("runtime/") and folder not in ALLOWED:
+            yield f"{path}: {folder} is no room of the table"
         for name in INCLUDE.findall(path.read_text(encoding="utf-8")):
             target = "/".join(name.split("/")[:2])
             yield from check_include(path.relative_to(root), folder, name, target)
@@ -39,6 +54,10 @@ def check_include(path, folder, name, target):
     ours = name.startswith(("runtime/", "pipeline/"))
     if ours and folder in ALLOWED and target != folder and target not in ALLOWED[folder]:
         yield f"{path}: {folder} must not include {name}"
+    if not ours and SHELL_ONLY.match(name) and folder.startswith("runtime/") and folder != "runtime/desktop":
+        yield f"{path}: {name} belongs in runtime/desktop"
+    if ours and folder == "runtime/likeness" and target == "runtime/desktop" and name != "runtime/desktop/context.h":
+        yield f"{path}: of runtime/desktop only context.h is for other programs"
     if not ours and PIPELINE_ONLY.search(name):
         if folder.startswith("runtime/"):
             yield f"{path}: the runtime must not include {name}"

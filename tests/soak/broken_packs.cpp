@@ -16,6 +16,7 @@
 #include "runtime/simulation/scenario.h"
 #include "runtime/visit/visit.h"
 #include "runtime/desktop/context.h"
+#include "tests/unit/runtime/visit/silent_shell.h"
 #include "tests/soak/drivers_stay_loaded.h"
 
 namespace flaneur {
@@ -69,10 +70,10 @@ Error Play(const std::filesystem::path& path, Counts* counts) {
   if (Error e = StartSimulation(&pack, scenario, &s)) return e;
   HeadlessContext context;  // one a pack: what was drawn with goes with it
   if (Error e = context.Create()) return e;
-  UserSettings user;
+  SilentShell silent;
   Loader loader;
   loader.Start(std::move(file), pack);
-  Visit visit(pack, &loader, &user, &s);
+  Visit visit(pack, &loader, {}, silent.shell(), &s);
   if (Error e = visit.Begin()) return e;
   for (bool there = false; !there;) {
     if (Error e = visit.Load(&there)) return e;

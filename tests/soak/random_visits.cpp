@@ -10,6 +10,8 @@
 #include "runtime/simulation/scenario.h"
 #include "runtime/visit/visit.h"
 #include "runtime/desktop/context.h"
+#include "runtime/desktop/user_settings.h"
+#include "tests/unit/runtime/visit/silent_shell.h"
 #include "tests/soak/drivers_stay_loaded.h"
 #include "tests/soak/random_hands.h"
 
@@ -59,7 +61,9 @@ Error Play(const std::filesystem::path& path, double until_s, const std::filesys
   if (Error e = context.Create()) return e;
   Loader loader;
   loader.Start(std::move(file), pack);
-  Visit visit(pack, &loader, &user, &s);
+  SilentShell silent;
+  UserSettingsStore store(&user);
+  Visit visit(pack, &loader, user.settings, {silent.sound, store, silent.warnings, {}}, &s);
   if (Error e = visit.Begin()) return e;
   ++counts->visits;
   const bool leaves_early = hands->Share() < 0.2;

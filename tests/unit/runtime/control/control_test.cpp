@@ -101,7 +101,7 @@ TEST(ChooseLevels, TheBudgetHoldsForPropsAndShadowsAsWell) {
       person.avatar = k % 2;
       AddPerson(person, &crowd);
     }
-    LevelSettings settings;
+    ControlSettings settings;
     settings.budget_triangles = budget;
     LevelState state;
     for (int step = 0; step < 120; ++step) {
@@ -109,7 +109,7 @@ TEST(ChooseLevels, TheBudgetHoldsForPropsAndShadowsAsWell) {
         crowd.position[i] = crowd.position[i] + Vec2{random.Uniform(-0.3f, 0.3f), random.Uniform(-0.3f, 0.3f)};
         crowd.view[i] = Classify(crowd.position[i], ViewCamera{}, 3);
       }
-      ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, settings, 1.0f / 30, &state);
+      ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, 0}, &state);
       ASSERT_LE(state.triangles + state.shadows.triangles, budget);
       ASSERT_LE(state.props.triangles, budget / 10);
       ASSERT_LE(state.shadows.triangles, budget / 5);
@@ -212,12 +212,12 @@ TEST(LevelControl, TheBudgetAlwaysHoldsAndCountsAgree) {
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {4000, 120}, {900, 0}}, 1.75f, 128}};
   for (int round = 0; round < 200; ++round) {
     Crowd crowd = PeopleInView(random.Below(300), &random);
-    LevelSettings settings;
+    ControlSettings settings;
     settings.high_limit = random.Below(30);
     settings.budget_triangles = random.Below(150000);
     LevelState state;
     for (int step = 0; step < 5; ++step) {
-      ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, settings, 1.0f / 30, &state);
+      ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, 0}, &state);
       int64_t triangles = 0;
       int high = 0;
       for (int level : state.level) {
@@ -238,9 +238,9 @@ TEST(LevelControl, NobodyFlickersWhereNothingMoves) {
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
   Crowd crowd = PeopleInView(100, &random);
   LevelState state;
-  for (int step = 0; step < 600; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, LevelSettings{}, 1.0f / 30, &state);
+  for (int step = 0; step < 600; ++step) ChooseLevels(crowd, avatars, ControlSettings{}, {ViewCamera{}, {}, 0}, &state);
   for (int step = 0; step < 100; ++step) {
-    ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, LevelSettings{}, 1.0f / 30, &state);
+    ChooseLevels(crowd, avatars, ControlSettings{}, {ViewCamera{}, {}, 0}, &state);
     ASSERT_EQ(state.switches_in_view, 0);
   }
 }
@@ -255,7 +255,7 @@ TEST(LevelControl, WhoComesIntoViewWhileThereIsRoomIsAMeshAndStaysOne) {
     for (size_t i = 0; i < crowd.size(); ++i) {
       if (crowd.position[i].x < camera.position.x) crowd.view[i] = ViewClass::kOutside;
     }
-    ChooseLevels(crowd, avatars, camera, {{3, 0}}, 0, LevelSettings{}, 1.0f / 30, &state);
+    ChooseLevels(crowd, avatars, ControlSettings{}, {camera, {{3, 0}}, 0}, &state);
     ASSERT_EQ(state.switches_in_view, 0);
     ASSERT_EQ(state.low, 0);
   }
@@ -272,7 +272,7 @@ TEST(LevelControl, InADenseViewTheNearestAreMeshesWhoeverCameFirst) {
     for (size_t i = 0; i < crowd.size(); ++i) {
       crowd.view[i] = InWedge(crowd.position[i], position, 0, camera.fov_rad) ? ViewClass::kVisible : ViewClass::kOutside;
     }
-    ChooseLevels(crowd, avatars, camera, {velocity}, 0, LevelSettings{}, 1.0f / 30, &state);
+    ChooseLevels(crowd, avatars, ControlSettings{}, {camera, {velocity}, 0}, &state);
   };
   Vec2 position;
   for (; position.x < 30; position.x += 0.1f) step(position, {3, 0});
@@ -289,13 +289,13 @@ int LevelOfWhoWalks(Vec2 position, Vec2 velocity) {
   Crowd crowd;
   AddPerson({}, &crowd);
   crowd.view[0] = ViewClass::kVisible;
-  LevelSettings settings;
+  ControlSettings settings;
   settings.high_limit = 0;
   LevelState state;
   for (int k = 0; k < 30; ++k) {
     crowd.position[0] = position;
     crowd.velocity[0] = velocity;
-    ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, settings, 1.0f / 30, &state);
+    ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, 0}, &state);
     settings.high_limit = k < 20 ? 0 : 12;
   }
   return state.level[0];
@@ -323,11 +323,11 @@ TEST(LevelControl, WhoComesNearHasAPlaceBeforeWhoLeaves) {
       crowd.view[i] = ViewClass::kVisible;
       if (known) crowd.way[i] = {k == 0 ? 1.0f : -1.0f, 0};
     }
-    LevelSettings settings;
+    ControlSettings settings;
     settings.high_limit = 1;
     LevelState state;
     for (int step = 0; step < 300; ++step) {
-      ChooseLevels(crowd, avatars, ViewCamera{}, {}, 0, settings, 1.0f / 30, &state);
+      ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, 0}, &state);
       ASSERT_EQ(state.switches_in_view, 0);
       ASSERT_GE(state.level[1], 0);
       for (size_t i = 0; i < 2; ++i) crowd.position[i].x += (i == 0 ? 1.0f : -1.0f) * 1.3f / 30;
@@ -343,14 +343,14 @@ TEST(LevelControl, TheSecondMethodSettlesAtTheFrameTimeAskedForAndLowerWhileTheC
   Random random{6};
   Crowd crowd = PeopleInView(120, &random);
   for (Vec2& p : crowd.position) p = {3 + p.x * 0.11f, p.y * 0.08f};  // within r_high
-  LevelSettings settings;
-  settings.by_frame_time = true;
+  ControlSettings settings;
+  settings.method = LimitMethod::kFrameTime;
   LevelState state;
   for (const float speed_mps : {0.0f, 3.0f, 1.4f}) {
     const float target_ms = speed_mps > 2 ? 0.85f * settings.target_ms : settings.target_ms;
     float least_ms = 1e9f, most_ms = 0;
     for (int step = 0; step < 600; ++step) {
-      ChooseLevels(crowd, avatars, ViewCamera{}, {{-speed_mps, 0}}, FrameTime_ms(state), settings, 1.0f / 30, &state);
+      ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {{-speed_mps, 0}}, FrameTime_ms(state)}, &state);
       ASSERT_LE(state.triangles, settings.budget_triangles);
       if (step < 300) continue;
       least_ms = std::min(least_ms, FrameTime_ms(state)), most_ms = std::max(most_ms, FrameTime_ms(state));
@@ -366,13 +366,13 @@ TEST(LevelControl, ABudgetThatNobodyUsesDoesNotGrow) {
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
   Random random{6};
   Crowd crowd = PeopleInView(120, &random);
-  LevelSettings settings;
-  settings.by_frame_time = true;
+  ControlSettings settings;
+  settings.method = LimitMethod::kFrameTime;
   LevelState state;
-  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, {}, FrameTime_ms(state), settings, 1.0f / 30, &state);
+  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, FrameTime_ms(state)}, &state);
   const float settled = state.budget_triangles;
   std::fill(crowd.view.begin(), crowd.view.end(), ViewClass::kOutside);
-  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, ViewCamera{}, {}, FrameTime_ms(state), settings, 1.0f / 30, &state);
+  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, FrameTime_ms(state)}, &state);
   EXPECT_NEAR(state.budget_triangles / settled, 1, 0.01f);
 }
 
@@ -382,7 +382,8 @@ TEST(CrowdInfluence, OnlyLowResolutionVisiblePeopleAvoidTheCameraAndOnlyAtTheLim
   LevelState state;
   state.level.assign(60, kImpostor);
   state.level[0] = 0;
-  InfluenceSettings settings;
+  state.limit = ControlSettings{}.high_limit;
+  ControlSettings settings;
   settings.adaptation = Adaptation::kPaper;
   std::vector<MovingObstacle> obstacles;
   state.high = settings.high_limit - 1;

@@ -36,7 +36,7 @@ TEST(Foresight, LeavesEverybodyAloneWhileThereIsRoom) {
   Crowd crowd;
   for (int i = 0; i < 8; ++i) AddWalker({12.0f + static_cast<float>(i % 4), static_cast<float>(i) - 4}, &crowd);
   ForesightState state;
-  for (int step = 0; step < 30; ++step) Foresee(ViewCamera{}, {}, w, ForesightSettings{}, &crowd, &state);
+  for (int step = 0; step < 30; ++step) Foresee(ViewCamera{}, {}, w, ControlSettings{}, ControlSettings{}.high_limit, &crowd, &state);
   // Those who would walk into the visitor give way; the others go on.
   for (size_t i = 0; i < crowd.size(); ++i) {
     const bool meets_visitor = std::abs(crowd.position[i].y) < 1.5f;
@@ -49,7 +49,7 @@ TEST(Foresight, SomeOfTooManyTurnAsideBeforeTheyComeNear) {
   Crowd crowd;
   for (int i = 0; i < 30; ++i) AddWalker({13.0f + static_cast<float>(i / 10), static_cast<float>(i % 10) - 4.5f}, &crowd);
   ForesightState state;
-  Foresee(ViewCamera{}, {}, w, ForesightSettings{}, &crowd, &state);
+  Foresee(ViewCamera{}, {}, w, ControlSettings{}, ControlSettings{}.high_limit, &crowd, &state);
   EXPECT_GT(Detours(crowd), 10);
   EXPECT_LT(Detours(crowd), 30) << "who fits may come";
   for (size_t i = 0; i < crowd.size(); ++i) {
@@ -69,7 +69,7 @@ TEST(Foresight, NobodyIsSentIntoAWall) {
     Crowd crowd;
     for (int i = 0; i < 40; ++i) AddWalker({random.Uniform(9, 25), random.Uniform(-5, 5)}, &crowd);
     ForesightState state;
-    Foresee(ViewCamera{}, {}, w, ForesightSettings{}, &crowd, &state);
+    Foresee(ViewCamera{}, {}, w, ControlSettings{}, ControlSettings{}.high_limit, &crowd, &state);
     for (size_t i = 0; i < crowd.size(); ++i) {
       EXPECT_TRUE(crowd.detour_s[i] <= 0 || IsFree(w, crowd.position[i] + crowd.detour[i]));
     }
@@ -81,7 +81,7 @@ TEST(Foresight, OutOfReachNobodyIsTouched) {
   Crowd crowd;
   for (int i = 0; i < 60; ++i) AddWalker({40.0f + static_cast<float>(i / 10), static_cast<float>(i % 10)}, &crowd);
   ForesightState state;
-  Foresee(ViewCamera{}, {}, w, ForesightSettings{}, &crowd, &state);
+  Foresee(ViewCamera{}, {}, w, ControlSettings{}, ControlSettings{}.high_limit, &crowd, &state);
   EXPECT_EQ(Detours(crowd), 0);
 }
 

@@ -14,6 +14,7 @@
 
 #include "runtime/base/file.h"
 #include "runtime/desktop/sound.h"
+#include "runtime/visit/narration.h"
 
 namespace flaneur {
 namespace {

@@ -195,7 +195,7 @@ TEST_F(Drawing, APropIsDrawnBeforeThePersonOrHiddenBehindThem) {
     pack.materials.push_back({"blue", {0.05f, 0.05f, 0.6f, 1}, -1, false, false, 0.5f});
     const float z = in_front ? 0.30f : -0.34f;  // the person faces +Z, their front is at 0.25
     pack.meshes.push_back({{BoxPrimitive({-0.15f, 0.9f, z - 0.02f}, {0.15f, 1.3f, z + 0.02f}, 1, true)}});
-    pack.avatars[0].props = {{"plate", static_cast<int>(pack.meshes.size()) - 1, 12, 1, ""}};
+    pack.avatars[0].props = {{{"plate", 1, "", 12}, static_cast<int>(pack.meshes.size()) - 1}};
     pack.avatars[0].tints = {{{0.25f, 0.25f, 0.8f}, 0.3f, {{0.1f, 0.8f, 0.1f}}}};  // the plate's blue, which is no cloth
     for (const int samples : {4, 1}) {
       for (const int level : {0, -1}) {

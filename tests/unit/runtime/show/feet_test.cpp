@@ -16,7 +16,7 @@ constexpr float kMostSlide = 0.10f;       // of the walking speed
 
 // Everybody of the pack side by side, each on the way straight to the east.
 Scenario Parade(const TourPack& pack) {
-  Scenario scenario;
+  Scenario scenario = ScenarioOf(pack);
   scenario.has_ground = true;
   scenario.ground_min_m = {-5, -5};
   scenario.ground_max_m = {45, 3.0f * static_cast<float>(pack.avatars.size()) + 5};

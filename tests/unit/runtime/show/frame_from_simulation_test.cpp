@@ -283,7 +283,7 @@ TEST(FrameFromSimulation, AFasterHandTurnsTheViewEvenlyToo) {
   constexpr float kPicture_s = 0.007f;
   const std::vector<float> yaws = YawsWhileTurning(12, kPicture_s);
   for (size_t k = 1; k < yaws.size(); ++k) {
-    EXPECT_NEAR(std::remainder(yaws[k] - yaws[k - 1], 2 * kPi), Simulation{}.max_yaw_rate_radps * kPicture_s, 0.002f) << k;
+    EXPECT_NEAR(std::remainder(yaws[k] - yaws[k - 1], 2 * kPi), MaxYawRate_radps(kPlainControl) * kPicture_s, 0.002f) << k;
   }
 }
 

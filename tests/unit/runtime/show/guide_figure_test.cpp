@@ -78,7 +78,7 @@ TEST(GuideFigure, IsTheGuideAndNobodyElse) {
   EXPECT_EQ(std::count(s.town.crowd.avatar.begin(), s.town.crowd.avatar.end(), 2), 1);
   EXPECT_EQ(s.town.crowd.avatar[s.visitor.guide.index], 2);
   TourPack plain = WithMeshes();
-  plain.visitor.guide.clear();
+  plain.guide.clear();
   AddGuideFigure(&plain);
   EXPECT_EQ(plain.avatars.size(), 2u);
 }

@@ -10,13 +10,13 @@ constexpr float kHalf_m = 20;
 constexpr int kSteps = 1500;
 
 // A square with 160 strollers and a visitor who walks across it again and again.
-Scenario Square(const char* adaptation, float speed_mps, uint64_t seed) {
+Scenario Square(Adaptation adaptation, float speed_mps, uint64_t seed) {
   Random random{seed};
   const auto anywhere = [&] { return Vec2{random.Uniform(-kHalf_m + 1, kHalf_m - 1), random.Uniform(-kHalf_m + 1, kHalf_m - 1)}; };
   Scenario s;
-  s.adaptation = adaptation;
-  s.high_limit = 12;
-  s.r_high_m = 10;
+  s.control.adaptation = adaptation;
+  s.control.high_limit = 12;
+  s.control.r_high_m = 10;
   s.has_ground = s.has_camera = true;
   s.ground_min_m = {-kHalf_m, -kHalf_m};
   s.ground_max_m = {kHalf_m, kHalf_m};
@@ -65,14 +65,14 @@ Outcome Played(const Scenario& scenario) {
   return out;
 }
 
-class Adaptation : public testing::TestWithParam<float> {};
+class CrowdOfASquare : public testing::TestWithParam<float> {};
 
-TEST_P(Adaptation, FewFramesExceedTheLimitAndTheVisitorGetsOn) {
+TEST_P(CrowdOfASquare, FewFramesExceedTheLimitAndTheVisitorGetsOn) {
   int off = 0, full = 0;
   float asked_m = 0, walked_m = 0;
   for (const uint64_t seed : {1, 2, 3, 4, 5}) {
-    off += Played(Square("off", GetParam(), seed)).exceeded;
-    const Outcome o = Played(Square("full", GetParam(), seed));
+    off += Played(Square(Adaptation::kOff, GetParam(), seed)).exceeded;
+    const Outcome o = Played(Square(Adaptation::kFull, GetParam(), seed));
     full += o.exceeded;
     EXPECT_EQ(o.over_budget, 0);
     EXPECT_LE(o.longest_step, 1.001f);
@@ -86,7 +86,7 @@ TEST_P(Adaptation, FewFramesExceedTheLimitAndTheVisitorGetsOn) {
 }
 
 TEST(PersonalSpace, IsKeptWhereTheVisitorTurnsInADenseSquare) {
-  Scenario scenario = Square("off", 1.9f, 1);
+  Scenario scenario = Square(Adaptation::kOff, 1.9f, 1);
   scenario.camera_position_m = {0, 0};
   scenario.legs.assign(1, {});
   scenario.legs[0].kind = CameraLeg::Kind::kTurn;
@@ -107,7 +107,7 @@ TEST(PersonalSpace, IsKeptWhereTheVisitorTurnsInADenseSquare) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AtWalkingPaceAndTwiceAsFast, Adaptation, testing::Values(1.9f, 3.8f));
+INSTANTIATE_TEST_SUITE_P(AtWalkingPaceAndTwiceAsFast, CrowdOfASquare, testing::Values(1.9f, 3.8f));
 
 }  // namespace
 }  // namespace flaneur

@@ -19,8 +19,8 @@ TourPack Town() {
   return pack;
 }
 
-Scenario Watched() {
-  Scenario scenario;
+Scenario Watched(const TourPack& pack) {
+  Scenario scenario = ScenarioOf(pack);
   scenario.has_camera = true;
   scenario.camera_position_m = {3, 3};
   scenario.camera_yaw_deg = 45;
@@ -55,10 +55,10 @@ bool Has(const std::vector<std::string>& warnings, const std::string& text) {
 TEST(BadWorld, NoWalkableGround) {
   TourPack pack = Town();
   pack.ground.kind.assign(1600, 0);
-  EXPECT_EQ(Complaint(pack, Watched()), "there is no walkable ground");
+  EXPECT_EQ(Complaint(pack, Watched(pack)), "there is no walkable ground");
   pack = Town();
   pack.obstacles.polygons.push_back(Box({-1, -1}, {21, 21}));
-  EXPECT_EQ(Complaint(pack, Watched()), "there is no walkable ground");
+  EXPECT_EQ(Complaint(pack, Watched(pack)), "there is no walkable ground");
 }
 
 TEST(BadWorld, PlacesInsideAHouseAndBehindWalls) {
@@ -70,7 +70,7 @@ TEST(BadWorld, PlacesInsideAHouseAndBehindWalls) {
   pack.obstacles.polygons.push_back(Box({16, 1.2f}, {16.2f, 4}));
   pack.obstacles.polygons.push_back(Box({19.3f, 1.2f}, {19.5f, 4}));
   pack.places.push_back({"yard", "goal", {17.7f, 2.6f}, 1});
-  const auto warnings = Warnings(pack, Watched());
+  const auto warnings = Warnings(pack, Watched(pack));
   EXPECT_TRUE(Has(warnings, "place 'cellar' cannot be reached"));
   EXPECT_TRUE(Has(warnings, "place 'camp' (spawn) is inside an obstacle"));
   EXPECT_TRUE(Has(warnings, "place 'yard' cannot be reached"));
@@ -79,22 +79,22 @@ TEST(BadWorld, PlacesInsideAHouseAndBehindWalls) {
 TEST(BadWorld, MorePeopleThanFit) {
   TourPack pack = Town();
   pack.crowd.people = 5000;
-  const auto warnings = Warnings(pack, Watched());
+  const auto warnings = Warnings(pack, Watched(pack));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].find("only "), 0u) << warnings[0];
   EXPECT_NE(warnings[0].find(" of 5000 people fit"), std::string::npos) << warnings[0];
 }
 
 TEST(BadWorld, ContradictoryLimits) {
-  Scenario scenario = Watched();
+  Scenario scenario = Watched(Town());
   scenario.control.r_high_m = 0.5f;
   EXPECT_EQ(Complaint(Town(), scenario), "contradictory limits: r_personal_m 0.6 m must be below camera.r_high_m 0.5 m");
   scenario.control.r_high_m = 500;
   EXPECT_EQ(Complaint(Town(), scenario), "contradictory limits: camera.r_high_m 500 m must be below r_far_m 200 m");
-  scenario = Watched();
+  scenario = Watched(Town());
   scenario.control.budget_triangles = 5000;
   EXPECT_TRUE(Has(Warnings(Town(), scenario), "12 people in high resolution have at least 12000 triangles, budget_triangles is 5000"));
-  scenario = Watched();
+  scenario = Watched(Town());
   ScenarioPerson hasty;
   hasty.position_m = {5, 5};
   hasty.speed_mps = 3;
@@ -104,7 +104,7 @@ TEST(BadWorld, ContradictoryLimits) {
 }
 
 TEST(BadWorld, ACrowdAreaInsideAHouse) {
-  Scenario scenario = Watched();
+  Scenario scenario = Watched(Town());
   scenario.crowd_area = Area{{9, 9}, {13, 13}};
   EXPECT_NE(Complaint(Town(), scenario).find("crowd_area holds no walkable ground"), std::string::npos);
 }

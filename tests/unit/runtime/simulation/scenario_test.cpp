@@ -64,9 +64,12 @@ center_m = [8, 8]
 radius_m = 0.5
 )", &s).message, "");
   EXPECT_EQ(s.legs.size(), 3u);
-  EXPECT_EQ(*s.high_limit, 7);
+  EXPECT_EQ(s.control.high_limit, 7);
+  EXPECT_EQ(s.control.method, LimitMethod::kFrameTime);
+  EXPECT_EQ(s.control.adaptation, Adaptation::kPaper);
   EXPECT_EQ(s.persons.size(), 1u);
-  EXPECT_EQ(s.obstacles.size(), 2u);
+  EXPECT_EQ(s.obstacles.polygons.size(), 1u);
+  EXPECT_EQ(s.obstacles.circles.size(), 1u);
 }
 
 TEST(Scenario, TheReferenceRuns) {
@@ -106,6 +109,7 @@ TEST(Simulation, ImpossibleGroupsAreNamed) {
   };
   ASSERT_EQ(Parse(kGround + person(1, "[9, 2]"), &s).message, "");
   EXPECT_EQ(StartSimulation(nullptr, s, &simulation).message, "group 'us' has 1 people; 2 to 4 can walk together");
+  s = {};
   ASSERT_EQ(Parse(kGround + person(1, "[9, 2]") + person(2, "[9, 3]"), &s).message, "");
   EXPECT_EQ(StartSimulation(nullptr, s, &simulation).message, "group 'us': person 1 and person 2 have different goals_m");
 }
@@ -164,7 +168,7 @@ TEST(Simulation, TheSameSeedGivesTheSameTown) {
     StepSimulation({}, 0, &b);
   }
   EXPECT_EQ(StateHash(a.town.crowd), StateHash(b.town.crowd));
-  s.seed = 5;
+  s.crowd.seed = 5;
   ASSERT_EQ(StartSimulation(nullptr, s, &b).message, "");
   EXPECT_NE(StateHash(a.town.crowd), StateHash(b.town.crowd));
 }

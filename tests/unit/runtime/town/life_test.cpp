@@ -22,12 +22,14 @@ TourPack Square(int people) {
   return pack;
 }
 
-Simulation Started(const TourPack& pack, const Scenario& scenario = {}) {
+Simulation Started(const TourPack& pack, const Scenario& scenario) {
   Simulation s;
   const Error e = StartSimulation(&pack, scenario, &s);
   EXPECT_FALSE(e) << e.message;
   return s;
 }
+
+Simulation Started(const TourPack& pack) { return Started(pack, ScenarioOf(pack)); }
 
 int InGroups(const Crowd& c) {
   return static_cast<int>(std::count_if(c.group.begin(), c.group.end(), [](int g) { return g >= 0; }));
@@ -55,7 +57,7 @@ TEST(Life, AsManyWalkInGroupsAsAskedForAndStartTogether) {
 TEST(Life, WhoWalksTogetherComesAndLeavesTogether) {
   TourPack pack = Square(60);
   pack.crowd.group_share = 1;
-  Scenario scenario;
+  Scenario scenario = ScenarioOf(pack);
   scenario.has_camera = true;
   scenario.camera_position_m = {20, 20};
   scenario.camera_yaw_deg = 45;
@@ -131,10 +133,11 @@ void StepWatched(const CameraInput& input, Simulation* s, int* came, int* went) 
 }
 
 TEST(Life, PeopleComeAndGoOnlyThroughGatesAndComeOutOfSight) {
-  Scenario scenario;
+  const TourPack pack = Square(120);
+  Scenario scenario = ScenarioOf(pack);
   scenario.has_camera = true;
   scenario.camera_position_m = {0, 10};
-  Simulation s = Started(Square(120), scenario);
+  Simulation s = Started(pack, scenario);
   CameraInput input;
   input.active = true;
   int came = 0, went = 0;
@@ -152,14 +155,14 @@ TEST(Life, PeopleComeAndGoOnlyThroughGatesAndComeOutOfSight) {
 TEST(Life, WhoIsEnclosedInADeadEndAndTooManyGoesIndoors) {
   TourPack pack = Square(10);
   for (const float x : {-30.0f, 2.0f}) {
-    PackObstacle block;
+    PolygonObstacle block;
     block.outer = {{x, 5}, {x + 28, 5}, {x + 28, 30}, {x, 30}};
-    pack.obstacles.push_back(block);
+    pack.obstacles.polygons.push_back(block);
   }
   pack.places = {{"door_1", "door", {-1.5f, 24}, 1}, {"door_2", "door", {1.5f, 20}, 1}, {"south", "exit", {0, -29}, 3}};
   pack.control.high_limit = 4;
   pack.crowd.group_share = 0.4f;
-  Scenario scenario;
+  Scenario scenario = ScenarioOf(pack);
   scenario.crowd_area = Area{{-2, 6}, {2, 28}};
   scenario.has_camera = true;
   scenario.camera_position_m = {0, 2};
@@ -185,13 +188,10 @@ TEST(Life, WhoIsEnclosedInADeadEndAndTooManyGoesIndoors) {
 TourPack Market(int people) {
   TourPack pack = Square(people);
   pack.crowd.loiter_share = 0.25f;
-  PackObstacle stall;
+  PolygonObstacle stall;
   stall.outer = {{-12, 6}, {-8, 6}, {-8, 7}, {-12, 7}};
-  pack.obstacles.push_back(stall);
-  PackObstacle well;
-  well.center = {8, 8};
-  well.radius_m = 1.2f;
-  pack.obstacles.push_back(well);
+  pack.obstacles.polygons.push_back(stall);
+  pack.obstacles.circles.push_back({{8, 8}, 1.2f});
   pack.places.push_back({"stall", "loiter", {-10, 5}, 1, kPi / 2});
   pack.places.push_back({"well_west", "loiter", {6, 8}, 1, 0.0f});
   pack.places.push_back({"well_south", "loiter", {8, 6}, 1, kPi / 2});
@@ -213,12 +213,13 @@ bool LooksAtSomething(const Simulation& s, size_t i) {
 }
 
 TEST(Life, PeopleStandAboutEachAtAnotherSpotAndLookAtThingsOrEachOther) {
-  Scenario scenario;
+  const TourPack pack = Market(40);
+  Scenario scenario = ScenarioOf(pack);
   scenario.has_camera = true;
   scenario.camera_position_m = {0, -29};
   scenario.camera_yaw_deg = 90;
   scenario.control.high_limit = 1000;
-  Simulation s = Started(Market(40), scenario);
+  Simulation s = Started(pack, scenario);
   EXPECT_GE(std::count(s.town.crowd.activity.begin(), s.town.crowd.activity.end(), Activity::kStanding), 8) << "at once";
   int standing = 0, talking = 0, looking = 0, wrong = 0;
   for (int step = 0; step < 3600; ++step) {

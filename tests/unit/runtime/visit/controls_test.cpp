@@ -26,7 +26,7 @@ struct Visitor {
     TourPack pack = TourTown(people);
     if (!tour) pack.path.clear();
     s = Started(pack);
-    controls = MakeControls(settings, s);
+    controls = MakeControls(settings, {}, s);
   }
   void Do(const WindowInput& input, int steps = 1) {
     for (int k = 0; k < steps; ++k) {
@@ -44,6 +44,7 @@ struct Visitor {
     s.visitor.camera.view.position = p;
     s.visitor.camera.view.yaw_rad = yaw_rad;
   }
+  std::optional<Vec2> Ground(Vec2 place) const { return GroundAt(s.town.walkable, s.visitor.camera, place, kAspect); }
   Vec2 At() const { return s.visitor.camera.view.position; }
 
   Simulation s;
@@ -121,7 +122,7 @@ TEST(Controls, NothingTurnsFasterThanTheCrowdAllows) {
     float last = v.s.visitor.camera.view.yaw_rad;
     for (int k = 0; k < 60; ++k) {
       v.Do(input);
-      EXPECT_LE(std::abs(WrapAngle(v.s.visitor.camera.view.yaw_rad - last)), v.s.max_yaw_rate_radps * Step_s(v.s) * 1.001f);
+      EXPECT_LE(std::abs(WrapAngle(v.s.visitor.camera.view.yaw_rad - last)), MaxYawRate_radps(v.s.control.settings) * Step_s(v.s) * 1.001f);
       last = v.s.visitor.camera.view.yaw_rad;
     }
   }
@@ -200,17 +201,17 @@ TEST(Pointing, FindsTheGroundThatIsSeenThere) {
   Visitor v;
   v.Stand({22, 20}, 0);
   v.s.visitor.camera.pitch_rad = 0;
-  const auto middle_low = GroundAt(v.s, {0.5f, 0.9f}, kAspect);
+  const auto middle_low = v.Ground({0.5f, 0.9f});
   ASSERT_TRUE(middle_low);
   const float down = 0.8f * std::tan(v.s.visitor.camera.view.fov_rad / 2) / kAspect;
   EXPECT_NEAR(middle_low->x, 22 + kEyeHeight_m / down, 0.2f);
   EXPECT_NEAR(middle_low->y, 20, 0.05f);
-  const auto right = GroundAt(v.s, {0.9f, 0.9f}, kAspect);
+  const auto right = v.Ground({0.9f, 0.9f});
   ASSERT_TRUE(right);
   EXPECT_LT(right->y, 19);
-  EXPECT_FALSE(GroundAt(v.s, {0.5f, 0.1f}, kAspect) && GroundAt(v.s, {0.5f, 0.1f}, kAspect)->x > 45) << "no farther than the wall";
+  EXPECT_FALSE(v.Ground({0.5f, 0.1f}) && v.Ground({0.5f, 0.1f})->x > 45) << "no farther than the wall";
   v.Stand({10, 15}, 0);
-  const auto house = GroundAt(v.s, {0.5f, 0.5f}, kAspect);
+  const auto house = v.Ground({0.5f, 0.5f});
   ASSERT_TRUE(house);
   EXPECT_FALSE(InsideObstacle(v.s.town.walkable, *house)) << "before the house";
   EXPECT_NEAR(house->x, 12, 0.4f);
@@ -220,7 +221,7 @@ TEST(Pointing, LeadsRoundObstaclesWithoutTouchingThem) {
   Visitor v({}, false, 60);
   v.Stand({10, 15}, 0);
   v.controls.follows_tour = false;
-  SetOut({40, 10}, &v.s);  // behind a house, and beyond the wall with its lane
+  SetOut({40, 10}, InTown(&v.s));  // behind a house, and beyond the wall with its lane
   int steps = 0;
   for (; steps < 30 * 120 && !v.s.visitor.point_walk.route.points.empty(); ++steps) {
     v.Do({});
@@ -232,10 +233,10 @@ TEST(Pointing, LeadsRoundObstaclesWithoutTouchingThem) {
 TEST(Pointing, IntoAHouseLeadsBesideItAndAKeyEndsIt) {
   Visitor v;
   v.Stand({8, 15}, 0);
-  SetOut({12.5f, 15}, &v.s);
+  SetOut({12.5f, 15}, InTown(&v.s));
   v.Do({}, 300);
   EXPECT_LT(Length(v.At() - Vec2{12, 15}), 1.2f);
-  SetOut({22, 30}, &v.s);
+  SetOut({22, 30}, InTown(&v.s));
   v.Do({}, 30);
   v.Do(Holding({"s"}), 2);
   const Vec2 here = v.At();
@@ -260,7 +261,7 @@ TEST(Walking, SlidesAlongWalls) {
 TEST(Walking, TheEyeFollowsSlopesAndStepsSmoothly) {
   TourPack pack = TourTown(0);
   pack.path.clear();
-  pack.obstacles.clear();
+  pack.obstacles = {};
   for (int row = 0; row < 80; ++row) {
     for (int column = 0; column < 120; ++column) {
       const float x = 0.5f * static_cast<float>(column);

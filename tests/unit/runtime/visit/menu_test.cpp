@@ -30,7 +30,7 @@ struct Pages {
     TourPack pack = TourTown(0);
     pack.path[1].captions["de"] = "Etwas zu sehen.";
     s = Started(pack);
-    controls = MakeControls({}, s);
+    controls = MakeControls({}, {}, s);
     OpenPage(Page::kMain, &menu);
     Picture({});
     Picture({});
@@ -246,7 +246,7 @@ TEST(Pages, CutNothingShortInAnyLanguageOrWindowButNamesThatAreTooLong) {
   for (const std::string& language : PhraseLanguages()) {
     PlayerSettings settings;
     settings.language = language;
-    Controls controls = MakeControls(settings, s);
+    Controls controls = MakeControls(settings, {}, s);
     for (const auto& size : sizes) {
       for (const Page page : {Page::kMain, Page::kStops, Page::kSettings, Page::kKeys}) {
         const std::string written = WrittenOn(page, size[0], size[1], &overlay, &controls, s);
@@ -256,7 +256,7 @@ TEST(Pages, CutNothingShortInAnyLanguageOrWindowButNamesThatAreTooLong) {
     }
   }
   s.visitor.tour.words[1].caption = "Something that is worth a great many words, and then a few more than anybody would read in passing by";
-  Controls controls = MakeControls({}, s);
+  Controls controls = MakeControls({}, {}, s);
   EXPECT_NE(WrittenOn(Page::kStops, 1280, 720, &overlay, &controls, s).find("…"), std::string::npos);
 }
 
@@ -267,7 +267,7 @@ TEST(Pages, WriteNumbersAsTheLanguageDoes) {
   ASSERT_EQ(overlay.Create().message, "");
   const Simulation s = Started(TourTown(0));
   PlayerSettings settings;
-  Controls controls = MakeControls(settings, s);
+  Controls controls = MakeControls(settings, {}, s);
   EXPECT_NE(WrittenOn(Page::kSettings, 1280, 720, &overlay, &controls, s).find("1.5 m/s"), std::string::npos);
   controls.settings.language = "de";
   EXPECT_NE(WrittenOn(Page::kSettings, 1280, 720, &overlay, &controls, s).find("1,5 m/s"), std::string::npos);
@@ -278,7 +278,7 @@ TEST(Jump, BringsVisitorAndGuideToTheStopAndTheTourOn) {
   for (int k = 0; k < 60; ++k) StepSimulation({}, 0, &s);
   for (const size_t stop : {size_t{5}, size_t{1}, size_t{3}}) {
     s.visitor.tour.paused = true;
-    JumpToStop(stop, &s);
+    JumpToStop(stop, InTown(&s));
     for (int k = 0; k < 15; ++k) StepSimulation({}, 0, &s);
     EXPECT_TRUE(s.visitor.tour.resting) << stop;
     EXPECT_EQ(HaltOf(s.visitor.tour), stop);
@@ -289,13 +289,13 @@ TEST(Jump, BringsVisitorAndGuideToTheStopAndTheTourOn) {
       EXPECT_GT(Length(s.town.crowd.position[i] - s.visitor.camera.view.position), s.control.settings.r_personal_m * 0.9f) << stop << " " << s.town.crowd.id[i];
     }
   }
-  JumpToStop(99, &s);
+  JumpToStop(99, InTown(&s));
   EXPECT_EQ(HaltOf(s.visitor.tour), 3u);
 }
 
 TEST(Notices, TellHowToWalkAndGoByThemselves) {
   Simulation s = Started(TourTown(0));
-  Controls c = MakeControls({}, s);
+  Controls c = MakeControls({}, {}, s);
   Notices n;
   BeginHint(c, s, &n);
   FrameInput frame;
@@ -312,7 +312,7 @@ TEST(Notices, TellThatTheTourWaitsAndHowToComeBack) {
   Simulation s = Started(TourTown(0));
   PlayerSettings settings;
   settings.language = "de";
-  Controls c = MakeControls(settings, s);
+  Controls c = MakeControls(settings, {}, s);
   Notices n;
   FollowNotices(c, s, 0.03f, &n);
   c.follows_tour = false;
@@ -335,7 +335,7 @@ std::string Shown(const Notices& n) {
 
 TEST(Notices, TellWhoLeadsAndWhatIsNext) {
   Simulation s = Started(TourTown(0));
-  Controls c = MakeControls({}, s);
+  Controls c = MakeControls({}, {}, s);
   Notices n;
   BeginHint(c, s, &n);
   EXPECT_NE(Shown(n).find("tour leads you"), std::string::npos) << Shown(n);
@@ -345,7 +345,7 @@ TEST(Notices, TellWhoLeadsAndWhatIsNext) {
   c.follows_tour = true;
   s.visitor.tour.words[3].caption = "The gate. It was shut at night.";
   BeginHint(c, s, &n);
-  StepTour({true, false, false}, true, &s);
+  StepTour({true, false, false}, true, InTown(&s));
   ASSERT_EQ(HaltOf(s.visitor.tour), 3u);
   FollowNotices(c, s, 0.03f, &n);
   EXPECT_EQ(Shown(n), "Next: The gate");
@@ -359,7 +359,7 @@ TEST(Notices, NameNoKeyToWhomHasNone) {
   Simulation s = Started(TourTown(0));
   PlayerSettings settings;
   settings.pointer = "point";
-  Controls c = MakeControls(settings, s);
+  Controls c = MakeControls(settings, {}, s);
   Notices n;
   BeginHint(c, s, &n);
   EXPECT_EQ(Shown(n).find("Esc"), std::string::npos) << Shown(n);
@@ -383,7 +383,7 @@ TEST(Notices, NameTheLanguageThatWasChosen) {
   TourPack pack = TourTown(0);
   pack.path[1].captions["de"] = "Etwas zu sehen.";
   Simulation s = Started(pack);
-  Controls c = MakeControls({}, s);
+  Controls c = MakeControls({}, {}, s);
   Notices n;
   BeginHint(c, s, &n);
   for (int k = 0; k < 30 * 20; ++k) FollowNotices(c, s, 1.0f / 30, &n);

@@ -153,13 +153,13 @@ TEST(ResolutionRule, WaitsLongerWhereTheLoadItselfGoesToAndFro) {
 }
 
 TEST(ResolutionRule, LeavesATimeOfItsOwnToABudgetThatFollowsTheFrameTime) {
-  LevelSettings levels;
-  levels.target_ms = 40;
-  EXPECT_FLOAT_EQ(ResolutionFor(25, 0.5f, levels).frame_ms, 40);
-  levels.by_frame_time = true;
-  EXPECT_FLOAT_EQ(ResolutionFor(25, 0.5f, levels).frame_ms, 48);
-  levels.target_ms = 16.7f;
-  EXPECT_FLOAT_EQ(ResolutionFor(25, 0.5f, levels).frame_ms, 40);
+  ControlSettings control;
+  control.target_ms = 40;
+  EXPECT_FLOAT_EQ(ResolutionFor(25, 0.5f, control).frame_ms, 40);
+  control.method = LimitMethod::kFrameTime;
+  EXPECT_FLOAT_EQ(ResolutionFor(25, 0.5f, control).frame_ms, 48);
+  control.target_ms = 16.7f;
+  EXPECT_FLOAT_EQ(ResolutionFor(25, 0.5f, control).frame_ms, 40);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "runtime/simulation/scenario.h"
 #include "runtime/visit/visit.h"
 #include "runtime/desktop/context.h"
+#include "tests/unit/runtime/visit/silent_shell.h"
 
 namespace flaneur {
 namespace {
@@ -30,7 +31,7 @@ struct Window {
     if (!error) error = context.Create();
     if (error) return;
     loader.Start(std::move(file), pack);
-    visit = std::make_unique<Visit>(pack, &loader, &user, &s);
+    visit = std::make_unique<Visit>(pack, &loader, PlayerSettings{}, silent.shell(), &s);
     error = visit->Begin();
     for (bool there = false; !there && !error;) error = visit->Load(&there);
     if (!error) error = visit->Enter(false);
@@ -57,7 +58,7 @@ struct Window {
 
   TourPack pack;
   Simulation s;
-  UserSettings user;
+  SilentShell silent;
   HeadlessContext context;
   Loader loader;
   Records records;

@@ -165,10 +165,10 @@ TEST(Guide, IsAMeshWheneverSeenAndWithinTheBudget) {
 }
 
 TEST(Guide, IsOneOfThePeopleAskedFor) {
-  EXPECT_EQ(Started(TourTown(50)).crowd.size(), 50u);
+  EXPECT_EQ(Started(TourTown(50)).town.crowd.size(), 50u);
   const Simulation empty = Started(TourTown(0));
-  EXPECT_EQ(empty.crowd.size(), 0u);
-  EXPECT_LT(empty.guide.id, 0);
+  EXPECT_EQ(empty.town.crowd.size(), 0u);
+  EXPECT_LT(empty.visitor.guide.id, 0);
 }
 
 TEST(Guide, IsTheSameInEveryRun) {
