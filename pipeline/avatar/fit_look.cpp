@@ -55,7 +55,7 @@ float MetresOfUv(const std::array<Vec3, 3>& triangle, const std::vector<Vec2>& u
 }
 
 // `there`: the triangle that the place is in. `guesses`: by mesh, of where the nearest place is.
-Tie TieOf(const WedgeSurface& level, const std::vector<LookOriginal>& originals, const Place& place, const std::array<Vec3, 3>& there,
+Tie TieOf(const WedgeSurface& level, const std::vector<LookOriginal>& originals, const SurfacePlace& place, const std::array<Vec3, 3>& there,
           std::vector<uint32_t>* guesses) {
   const WedgeSurface::Face& face = level.faces[place.triangle];
   Tie tie{face.wedges, place.shares, {}, {}, {}, false, false};
@@ -203,7 +203,7 @@ void LookFitter::Fit(WedgeSurface* level) const {
   if (2 * level->faces.size() > static_cast<size_t>(options_.samples)) return;
   const Triangles triangles = BindTriangles(*level);
   const size_t samples = std::min(std::max(kSamplesAFace * triangles.size(), kFewestSamples), static_cast<size_t>(options_.samples));
-  const std::vector<Place> places = SpreadPlaces(triangles, static_cast<int>(samples));
+  const std::vector<SurfacePlace> places = SpreadPlaces(triangles, static_cast<int>(samples));
   std::vector<Tie> ties(places.size());
   RunOnThreads([&](size_t first, size_t step) {
     // In blocks that do not depend on the number of threads: of equal distances a guess decides.

@@ -35,7 +35,7 @@ constexpr double kLeastTurn = 0.1;  // cosine; a face that turns further is take
 
 // A place of the level that should be where a place of the original is.
 struct Tie {
-  Place on_level, on_original;
+  SurfacePlace on_level, on_original;
   double along = 0;  // how much a pull along the surface counts, against one across it
 };
 
@@ -44,7 +44,7 @@ struct Tie {
 struct FitOriginal {
   const std::vector<std::vector<Mat4>>& poses;
   std::vector<Triangles> triangles;  // by pose, the bind pose first
-  std::vector<Place> places;         // that are tied
+  std::vector<SurfacePlace> places;         // that are tied
   std::unique_ptr<SurfaceTree> tree;
 };
 
@@ -141,7 +141,7 @@ class Fitter {
     targets_.clear();
     targets_.reserve(ties_.size() * Poses());
     for (size_t i = 0; i < ties_.size(); ++i) {
-      const Place& place = ties_[i].on_level;
+      const SurfacePlace& place = ties_[i].on_level;
       for (size_t k = 0; k < 3; ++k) {
         if (!(place.shares[k] > kLeastShare)) continue;
         const int v = level_->faces[place.triangle].vertices[k];
@@ -285,13 +285,13 @@ class Fitter {
   std::vector<Vec3> start_;                 // places before all
   std::vector<float> reach_;                // the greatest distance of a vertex's first ties
   const std::vector<Triangles>& original_;  // bind pose first
-  std::vector<Place> on_original_;          // that are tied
+  std::vector<SurfacePlace> on_original_;          // that are tied
   const SurfaceTree& tree_;
   std::vector<std::vector<size_t>> faces_of_;
   std::vector<Affine> skinning_;  // by vertex and pose
   std::vector<DVec3> posed_;
   std::vector<Quadric> pulls_;  // by pose, of the vertex in hand: they hang on other vertices alone
-  std::vector<Place> on_level_;
+  std::vector<SurfacePlace> on_level_;
   std::vector<uint32_t> guesses_;  // of where each one's nearest place is
   std::vector<Tie> ties_;
   std::vector<Target> targets_;                 // by tie and pose

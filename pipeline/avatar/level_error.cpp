@@ -16,9 +16,9 @@ constexpr size_t kMostCorners = 6000;
 constexpr float kSameSide = 0.3f;  // cosine between normals of places that belong together
 
 // Points that move with a surface: evenly spread ones and corners, where distances are greatest.
-std::vector<Place> PlacesOn(const std::vector<Mesh>& meshes, const Triangles& triangles,
+std::vector<SurfacePlace> PlacesOn(const std::vector<Mesh>& meshes, const Triangles& triangles,
                             int samples) {
-  std::vector<Place> places = SpreadPlaces(triangles, samples), corners;
+  std::vector<SurfacePlace> places = SpreadPlaces(triangles, samples), corners;
   uint32_t triangle = 0;
   for (const Mesh& mesh : meshes) {
     std::vector<bool> known(mesh.positions.size(), false);
@@ -26,7 +26,7 @@ std::vector<Place> PlacesOn(const std::vector<Mesh>& meshes, const Triangles& tr
       for (size_t k = 0; k < 3; ++k) {
         if (known[mesh.indices[i + k]]) continue;
         known[mesh.indices[i + k]] = true;
-        Place corner{triangle, {}};
+        SurfacePlace corner{triangle, {}};
         corner.shares[k] = 1;
         corners.push_back(corner);
       }
@@ -47,13 +47,13 @@ struct PosedSurface {
 std::vector<PosedSurface> InAllPoses(const std::vector<Mesh>& of, const std::vector<std::vector<Mat4>>& poses, int samples) {
   const std::vector<Mesh> meshes = Shapes(of);
   const Triangles bind = PosedTriangles(meshes, nullptr);
-  const std::vector<Place> places = PlacesOn(meshes, bind, samples);
+  const std::vector<SurfacePlace> places = PlacesOn(meshes, bind, samples);
   std::vector<PosedSurface> all(1 + poses.size(), PosedSurface{{}, SurfaceTree(bind)});
   RunOnThreads([&](size_t first, size_t step) {
     for (size_t pose = first; pose < all.size(); pose += step) {
       const Triangles posed = pose > 0 ? PosedTriangles(meshes, &poses[pose - 1]) : bind;
       if (pose > 0) all[pose].tree.MoveTo(posed);
-      for (const Place& place : places) all[pose].points.push_back(At(posed[place.triangle], place.shares));
+      for (const SurfacePlace& place : places) all[pose].points.push_back(At(posed[place.triangle], place.shares));
     }
   });
   return all;
@@ -88,7 +88,7 @@ float MeanAngle_deg(const SurfaceTree& original, const Triangles& original_norma
   double sum = 0;
   int count = 0;
   uint32_t guess = 0;
-  for (const Place& place : SpreadPlaces(triangles, samples)) {
+  for (const SurfacePlace& place : SpreadPlaces(triangles, samples)) {
     const auto found = original.Find(At(triangles[place.triangle], place.shares), guess);
     guess = found.triangle;
     const Vec3 a = Normalized(At(normals[place.triangle], place.shares)), b = Normalized(At(original_normals[found.triangle], found.shares));

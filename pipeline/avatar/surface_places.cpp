@@ -35,7 +35,7 @@ Triangles BindTriangles(const WedgeSurface& surface) {
   return triangles;
 }
 
-std::vector<Place> SpreadPlaces(const Triangles& triangles, int count) {
+std::vector<SurfacePlace> SpreadPlaces(const Triangles& triangles, int count) {
   std::vector<double> sums;
   double total = 0;
   for (const auto& t : triangles) {
@@ -44,7 +44,7 @@ std::vector<Place> SpreadPlaces(const Triangles& triangles, int count) {
   }
   std::mt19937 random(1);
   const auto unit = [&random] { return static_cast<double>(random()) / 4294967296.0; };
-  std::vector<Place> places;
+  std::vector<SurfacePlace> places;
   size_t triangle = 0;
   for (int i = 0; i < count; ++i) {
     const double at = (i + unit()) / count * total;  // one in each of equal strips

@@ -21,7 +21,7 @@ Triangles BindTriangles(const WedgeSurface& surface);
 // Of length 1; zero where the triangle has no extent.
 inline Vec3 FaceNormal(const std::array<Vec3, 3>& t) { return Normalized(Cross(t[1] - t[0], t[2] - t[0])); }
 
-struct Place {
+struct SurfacePlace {
   uint32_t triangle = 0;
   std::array<float, 3> shares{};  // of its corners
 };
@@ -31,6 +31,6 @@ inline Vec3 At(const std::array<Vec3, 3>& triangle, const std::array<float, 3>& 
 }
 
 // Evenly by area, rising by triangle, the same every time.
-std::vector<Place> SpreadPlaces(const Triangles& triangles, int count);
+std::vector<SurfacePlace> SpreadPlaces(const Triangles& triangles, int count);
 
 }  // namespace flaneur

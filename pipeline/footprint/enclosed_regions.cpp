@@ -125,14 +125,14 @@ Rings TraceSolid(const Triangulation& triangulation, const std::vector<bool>& so
 }
 
 template <typename Triangulation>
-Enclosure Enclose(const std::vector<Segment>& cut, const RegionTest& is_solid) {
+EnclosedRegions Enclose(const std::vector<Segment>& cut, const RegionTest& is_solid) {
   Triangulation triangulation;
   Triangulate(cut, &triangulation);
   if (triangulation.dimension() < 2) return {{}, cut};
   const std::vector<Region> regions = FindRegions(&triangulation);
   std::vector<bool> solid(regions.size(), false);
   for (size_t i = 1; i < regions.size(); ++i) solid[i] = is_solid(regions[i].area_m2, regions[i].samples);
-  Enclosure out;
+  EnclosedRegions out;
   out.solid = TraceSolid(triangulation, solid);
   for (const auto& [face, i] : triangulation.finite_edges()) {
     const auto is_solid_face = [&](const auto& f) { return solid[static_cast<size_t>(f->info())]; };
@@ -144,7 +144,7 @@ Enclosure Enclose(const std::vector<Segment>& cut, const RegionTest& is_solid) {
 
 }  // namespace
 
-Enclosure EncloseRegions(const std::vector<Segment>& segments, const RegionTest& is_solid) {
+EnclosedRegions EncloseRegions(const std::vector<Segment>& segments, const RegionTest& is_solid) {
   if (segments.empty()) return {};
   try {
     return Enclose<PlainTriangulation>(segments, is_solid);

@@ -7,7 +7,7 @@
 
 namespace flaneur {
 
-struct Enclosure {
+struct EnclosedRegions {
   Rings solid;                  // the regions that `is_solid` took; slivers thinner than 0.1 mm vanish
   std::vector<Segment> loose;   // pieces of segments with nothing solid beside them
 };
@@ -17,6 +17,6 @@ struct Enclosure {
 // than where they meet at their ends only (see CutWhereTheyMeet). Deterministic for the same segments in the same order.
 using RegionSample = std::pair<Point2, double>;
 using RegionTest = std::function<bool(double area_m2, const std::vector<RegionSample>& samples)>;
-Enclosure EncloseRegions(const std::vector<Segment>& segments, const RegionTest& is_solid);
+EnclosedRegions EncloseRegions(const std::vector<Segment>& segments, const RegionTest& is_solid);
 
 }  // namespace flaneur

@@ -175,9 +175,9 @@ bool AllMeet(std::vector<Segment>* lines) {
 void Close(std::vector<Segment> lines, double reach_m, const Roofs& is_solid, Shape* shape) {
   if (shape->solid.empty()) lines = CutWhereTheyMeet(std::move(lines));
   if (shape->solid.empty() && AllMeet(&lines)) {
-    Enclosure enclosure = EncloseRegions(lines, is_solid);
-    shape->solid = std::move(enclosure.solid);
-    lines = std::move(enclosure.loose);
+    EnclosedRegions enclosed = EncloseRegions(lines, is_solid);
+    shape->solid = std::move(enclosed.solid);
+    lines = std::move(enclosed.loose);
   } else if (reach_m > 0) {
     Rings regions = shape->solid;
     for (const Rings& region : Enclosed(lines, shape->solid, reach_m / 2))

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -133,9 +134,13 @@ void ReadTown(const GltfFile& file, MeshTable* meshes, TourPack* pack) {
 
 std::vector<ImpostorCell> ReadCells(std::span<const uint8_t> bytes, const PackImpostor& impostor) {
   const size_t count = static_cast<size_t>(impostor.directions) * static_cast<size_t>(impostor.frames) * impostor.elevations_deg.size();
-  if (bytes.size() != count * sizeof(ImpostorCell)) throw PackRefused("has an impostor with a wrong number of cells");
-  std::vector<ImpostorCell> cells(count);
-  std::memcpy(cells.data(), bytes.data(), bytes.size());
+  using CellNumbers = std::array<int16_t, 6>;
+  if (bytes.size() != count * sizeof(CellNumbers)) throw PackRefused("has an impostor with a wrong number of cells");
+  std::vector<CellNumbers> numbers(count);
+  std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  std::vector<ImpostorCell> cells;
+  cells.reserve(count);
+  for (const auto& [x, y, width, height, origin_x, origin_y] : numbers) cells.push_back({x, y, width, height, origin_x, origin_y});
   for (const ImpostorCell& c : cells) {
     if (c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x + c.width > impostor.width_px || c.y + c.height > impostor.height_px) {
       throw PackRefused("has an impostor with a cell outside its atlas");

@@ -21,7 +21,7 @@ GroundRaster Ground() {
   return g;
 }
 
-class Painting : public testing::Test {
+class PaintedPicture : public testing::Test {
  protected:
   void SetUp() override { ASSERT_FALSE(folder_.Create("flaneur_painting_", std::filesystem::temp_directory_path())); }
 
@@ -48,7 +48,7 @@ class Painting : public testing::Test {
 
 using Rgba = std::array<uint8_t, 4>;
 
-TEST_F(Painting, RedAndGreenCountByHowFarTheyAreFromGreyAndNorthIsAtTheTop) {
+TEST_F(PaintedPicture, RedAndGreenCountByHowFarTheyAreFromGreyAndNorthIsAtTheTop) {
   const auto path = Written(80, 40, [](int x, int y) -> Rgba {
     if (x < 20 && y < 10) return {255, 55, 55, 255};   // the north-western quarter of the quarter: 200
     if (x < 20 && y >= 30) return {90, 190, 90, 255};  // the south-western: 100 of green
@@ -67,14 +67,14 @@ TEST_F(Painting, RedAndGreenCountByHowFarTheyAreFromGreyAndNorthIsAtTheTop) {
   EXPECT_EQ(PaintingCell(painting_, {31, 15}), -1);
 }
 
-TEST_F(Painting, TheAreaMayBeGiven) {
+TEST_F(PaintedPicture, TheAreaMayBeGiven) {
   const auto path = Written(10, 10, [](int, int) -> Rgba { return {255, 0, 0, 255}; });
   ASSERT_EQ(ReadPainting({path, Vec2{0, 10}, Vec2{10, 20}}, Ground(), &painting_).message, "");
   EXPECT_EQ(PaintingCell(painting_, {-1, 15}), -1);
   EXPECT_EQ(painting_.people.size(), 100u);
 }
 
-TEST_F(Painting, WhatIsWrongIsSaidInOneLine) {
+TEST_F(PaintedPicture, WhatIsWrongIsSaidInOneLine) {
   const auto red = [](int, int) -> Rgba { return {255, 0, 0, 255}; };
   const auto says = [&](const PaintingSettings& settings, const char* what) {
     const Error e = ReadPainting(settings, Ground(), &painting_);
@@ -89,7 +89,7 @@ TEST_F(Painting, WhatIsWrongIsSaidInOneLine) {
   says({folder_.path() / "text.png", {}, {}}, "text.png");
 }
 
-TEST_F(Painting, ThePlanIsACanvasThatSaysNothingItself) {
+TEST_F(PaintedPicture, ThePlanIsACanvasThatSaysNothingItself) {
   Footprints footprints;
   Obstacle house, tree;
   house.outer = {{0, 10}, {5, 10}, {5, 15}, {0, 15}};

@@ -107,7 +107,7 @@ TEST(TourSettings, PropsNameTheirNodeAndShareASlotAtMostOnce) {
   TourSettings settings;
   ASSERT_EQ(Read(prop + "node = \"basket\"\nslot = \"hand\"\n[[avatar.prop]]\nnode = \"jug\"\nslot = \"hand\"\n", &settings), "");
   ASSERT_EQ(settings.avatars[0].props.size(), 2u);
-  EXPECT_EQ(settings.avatars[0].props[1].node, "jug");
+  EXPECT_EQ(settings.avatars[0].props[1].name, "jug");
   const auto has = [](const std::string& message, const char* what) { return message.find(what) != std::string::npos; };
   EXPECT_TRUE(has(Refusal(prop + "share = 0.5\n"), "needs the node"));
   EXPECT_TRUE(has(Refusal(prop + "node = \"a\"\n[[avatar.prop]]\nnode = \"a\"\n"), "two props are the node 'a'"));

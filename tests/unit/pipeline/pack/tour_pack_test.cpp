@@ -120,7 +120,7 @@ TourParts SmallTour() {
   TourParts parts;
   parts.name = "small";
   parts.town = SmallTown();
-  parts.avatars = {{TwoLevels(), SmallAtlas(), 2.5f, {{{0.2f, 0.4f, 0.6f}, 0.1f, {{1, 0, 0}, {0, 0.6f, 0}}}}, {{0.5f, "hand"}}}};
+  parts.avatars = {{TwoLevels(), SmallAtlas(), 2.5f, {{{0.2f, 0.4f, 0.6f}, 0.1f, {{1, 0, 0}, {0, 0.6f, 0}}}}, {{"stick", 0.5f, "hand"}}}};
   parts.footprints = SmallFootprints();
   parts.ground = {{-20, -20}, 10, 4, 3, std::vector<float>(12, 0.25f), std::vector<uint8_t>(12, 3)};
   parts.ground.height_m[5] = -1.5f;
@@ -134,7 +134,7 @@ TourParts SmallTour() {
   parts.path[0].sounds = {{"de", {1, 2.5f}}, {"en", {0, 3.5f}}};
   parts.guide = parts.avatars[0].levels.avatar.name;
   parts.crowd.people = 17;
-  parts.control.method = "frame_time";
+  parts.control.method = LimitMethod::kFrameTime;
   parts.light.day_length_s = 0;
   return parts;
 }
@@ -161,14 +161,13 @@ TEST(TourPack, TheSamePartsGiveTheSameBytes) { EXPECT_EQ(Written(SmallTour()), W
 TEST(TourPack, BringsTheTourAcross) {
   const TourPack pack = Read(Written(SmallTour()));
   EXPECT_EQ(pack.name, "small");
-  ASSERT_EQ(pack.obstacles.size(), 2u);
-  EXPECT_EQ(pack.obstacles[0].name, "house_1");
-  EXPECT_EQ(pack.obstacles[0].kind, "building");
-  EXPECT_EQ(pack.obstacles[0].outer.size(), 4u);
-  ASSERT_EQ(pack.obstacles[0].holes.size(), 1u);
-  EXPECT_EQ(pack.obstacles[0].holes[0][1].y, 2);
-  EXPECT_FLOAT_EQ(pack.obstacles[1].radius_m, 0.4f);
-  EXPECT_FLOAT_EQ(pack.obstacles[1].center.x, -3);
+  ASSERT_EQ(pack.obstacles.polygons.size(), 1u);
+  EXPECT_EQ(pack.obstacles.polygons[0].outer.size(), 4u);
+  ASSERT_EQ(pack.obstacles.polygons[0].holes.size(), 1u);
+  EXPECT_EQ(pack.obstacles.polygons[0].holes[0][1].y, 2);
+  ASSERT_EQ(pack.obstacles.circles.size(), 1u);
+  EXPECT_FLOAT_EQ(pack.obstacles.circles[0].radius_m, 0.4f);
+  EXPECT_FLOAT_EQ(pack.obstacles.circles[0].center.x, -3);
   EXPECT_EQ(pack.ground.columns, 4);
   EXPECT_EQ(pack.ground.rows, 3);
   EXPECT_EQ(pack.ground.height_m[5], -1.5f);
@@ -190,7 +189,7 @@ TEST(TourPack, BringsTheTourAcross) {
   EXPECT_FLOAT_EQ(pack.path[0].sounds.at("de").duration_s, 2.5f);
   EXPECT_EQ(pack.sounds[static_cast<size_t>(pack.path[0].sounds.at("de").sound)], (std::vector<uint8_t>{1, 2, 3}));
   EXPECT_EQ(pack.crowd.people, 17);
-  EXPECT_EQ(pack.control.method, "frame_time");
+  EXPECT_EQ(pack.control.method, LimitMethod::kFrameTime);
   EXPECT_EQ(pack.control.r_high_m, ControlSettings{}.r_high_m);
   EXPECT_EQ(pack.light.day_length_s, 0);
 }
@@ -277,7 +276,8 @@ TEST(TourPack, ItsPersonMovesAsTheEditableOneDid) {
 TEST(TourPack, WithoutGeometryTheCrowdHasAllItNeeds) {
   const TourPack pack = Read(Written(SmallTour()), LoadOptions{false});
   for (const PackImage& image : pack.images) EXPECT_TRUE(image.rgba.empty());
-  EXPECT_EQ(pack.obstacles.size(), 2u);
+  EXPECT_EQ(pack.obstacles.circles.size(), 1u);
+  EXPECT_EQ(pack.obstacles.polygons.size(), 1u);
   EXPECT_EQ(pack.ground.height_m.size(), 12u);
   EXPECT_EQ(pack.avatars.at(0).levels.size(), 2u);
 }
