@@ -9,6 +9,7 @@
 #include "runtime/crowd/flow_field.h"
 #include "runtime/crowd/groups.h"
 #include "runtime/crowd/neighbours.h"
+#include "runtime/crowd/slots.h"
 #include "runtime/crowd/walkable.h"
 #include "runtime/crowd/way_search.h"
 
@@ -45,7 +46,8 @@ struct Mind {
 struct Displaced { std::vector<int> first, next; };
 
 struct Crowd {
-  std::vector<int> id, avatar;
+  std::vector<int> id, avatar;          // ids are never used again
+  std::vector<int> slot;                // what others keep about a person stands here in their arrays, see slots.h
   std::vector<Vec2> position, velocity;
   std::vector<float> heading_rad, radius_m, preferred_mps, top_mps;
   std::vector<int> field;               // index into fields: where the person goes; -1: stays
@@ -70,6 +72,7 @@ struct Crowd {
   std::vector<int> asked_fields;        // indices into fields
   std::vector<Group> groups;
   int next_id = 0;
+  Slots slots;
   int64_t step = 0;
   // Farther than these from the viewer people decide half as often, and only follow their ways.
   Vec2 viewer;

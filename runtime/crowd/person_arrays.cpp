@@ -15,7 +15,8 @@ constexpr float kCurveCell_m = 2;
 // Every array that has an element a person.
 template <typename Visit>
 void VisitPersonArrays(Crowd* c, Visit visit) {
-  visit(&c->id), visit(&c->avatar), visit(&c->position), visit(&c->velocity), visit(&c->heading_rad), visit(&c->radius_m);
+  visit(&c->id), visit(&c->slot), visit(&c->avatar), visit(&c->position), visit(&c->velocity), visit(&c->heading_rad);
+  visit(&c->radius_m);
   visit(&c->preferred_mps), visit(&c->top_mps), visit(&c->field), visit(&c->way), visit(&c->sees_goal), visit(&c->corner);
   visit(&c->activity), visit(&c->wait_s), visit(&c->facing), visit(&c->view), visit(&c->was_visible), visit(&c->avoids_camera);
   visit(&c->arrived), visit(&c->detour), visit(&c->detour_s), visit(&c->walked_m), visit(&c->mind), visit(&c->coast);
@@ -57,6 +58,7 @@ void Permute(const std::vector<uint64_t>& order, std::vector<T>* values, std::ve
 
 int AddPerson(const Person& p, Crowd* c) {
   c->id.push_back(c->next_id);
+  c->slot.push_back(TakeSlot(c->next_id, &c->slots));
   c->avatar.push_back(p.avatar);
   c->position.push_back(p.position);
   c->velocity.push_back({});
@@ -91,6 +93,7 @@ int AddPerson(const Person& p, Crowd* c) {
 
 void RemovePerson(size_t i, Crowd* c) {
   LeaveGroup(i, c);
+  GiveBackSlot(c->slot[i], &c->slots);
   const int last = static_cast<int>(c->size()) - 1, of_last = c->group.back();
   if (of_last >= 0) {
     Group& g = c->groups[static_cast<size_t>(of_last)];

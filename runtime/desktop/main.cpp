@@ -43,6 +43,7 @@ Error TakeOptions(const PlayerOptions& options, Scenario* scenario) {
   if (options.hour) scenario->hour = *options.hour;
   if (options.adaptation) TakeNamed(*options.adaptation, kAdaptationNames, &scenario->control.adaptation);
   scenario->language = options.language;
+  scenario->screen_width_px = options.width_px / static_cast<int>(std::max<size_t>(1, options.compare.size()));
   return Ok();
 }
 

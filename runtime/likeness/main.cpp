@@ -48,7 +48,7 @@ int Parse(int argc, char** argv, LikenessArguments* a) {
   return -1;
 }
 
-std::string LevelName(int level) { return level < 0 ? "impostor" : std::to_string(level); }
+std::string LevelName(Level level) { return IsMesh(level) ? std::to_string(level.mesh) : "impostor"; }
 
 void Print(const AvatarLikeness& avatar, std::string* csv) {
   for (const LevelLikeness& l : avatar.levels) {

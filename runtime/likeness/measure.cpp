@@ -43,7 +43,7 @@ void Divide(double count, Likeness* sum) {
   sum->normal_deg /= count;
 }
 
-LevelLikeness MeasureLevel(const MeasureOptions& o, int avatar, int level, float person_px, PortraitStudio* studio,
+LevelLikeness MeasureLevel(const MeasureOptions& o, int avatar, Level level, float person_px, PortraitStudio* studio,
                            std::vector<SheetPair>* row) {
   LevelLikeness out{level, person_px, {}, {}};
   out.worst.overlap = 1;
@@ -57,7 +57,7 @@ LevelLikeness MeasureLevel(const MeasureOptions& o, int avatar, int level, float
       for (int sun = 0; sun < o.suns; ++sun) {
         moment.to_sun = ToSun(kSuns[static_cast<size_t>(sun)]);
         const auto draw = sun == 0 ? &PortraitStudio::Draw : &PortraitStudio::Relight;
-        (studio->*draw)(moment, 0, person_px, &pair.full);
+        (studio->*draw)(moment, MeshLevel(0), person_px, &pair.full);
         (studio->*draw)(moment, level, person_px, &pair.other);
         Add(Compare(pair.full, pair.other), &out);
         if (on_sheet && phase == column % o.phases && sun == column % o.suns) row->push_back(pair);
@@ -81,7 +81,7 @@ AvatarLikeness Measure(const MeasureOptions& options, int avatar, PortraitStudio
     if (!(switch_px >= 1)) continue;  // the level before serves at any distance
     const float person_px = options.person_px > 0 ? options.person_px : switch_px;
     out.sheet.emplace_back();
-    out.levels.push_back(MeasureLevel(options, avatar, impostor ? -1 : level, person_px, studio, &out.sheet.back()));
+    out.levels.push_back(MeasureLevel(options, avatar, impostor ? kImpostor : MeshLevel(level), person_px, studio, &out.sheet.back()));
   }
   return out;
 }

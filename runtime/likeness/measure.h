@@ -18,7 +18,7 @@ struct MeasureOptions {
 };
 
 struct LevelLikeness {
-  int level = 0;             // -1: impostor
+  Level level;
   float person_px = 0;       // height on screen where compared
   Likeness mean, worst;      // of all pictures, each figure for itself
 };

@@ -12,7 +12,7 @@ constexpr float kEyeHeight_m = 1.7f;
 constexpr float kMargin = 1.5f;  // the picture's height in persons
 constexpr int kSamples = 4;
 
-FrameInput FrameOf(const TourPack& pack, const PortraitMoment& m, int level, float person_px, int size_px) {
+FrameInput FrameOf(const TourPack& pack, const PortraitMoment& m, Level level, float person_px, int size_px) {
   const PackAvatar& avatar = pack.avatars[static_cast<size_t>(m.avatar)];
   const float focal_px = kScreenWidth_px / (2 * std::tan(pack.control.fov_rad / 2));
   const float distance_m = avatar.height_m * focal_px / person_px;
@@ -76,14 +76,14 @@ Error PortraitStudio::Create(TourPack pack, int supersampling) {
   return impl_->normals.Create(impl_->pack, options);
 }
 
-void PortraitStudio::Draw(const PortraitMoment& moment, int level, float person_px, Portrait* portrait) {
+void PortraitStudio::Draw(const PortraitMoment& moment, Level level, float person_px, Portrait* portrait) {
   portrait->size_px = PictureSize_px(person_px);
   impl_->Shoot(FrameOf(impl_->pack, moment, level, person_px, portrait->size_px), portrait->size_px, &impl_->normals,
                &portrait->normals);
   Relight(moment, level, person_px, portrait);
 }
 
-void PortraitStudio::Relight(const PortraitMoment& moment, int level, float person_px, Portrait* portrait) {
+void PortraitStudio::Relight(const PortraitMoment& moment, Level level, float person_px, Portrait* portrait) {
   impl_->Shoot(FrameOf(impl_->pack, moment, level, person_px, portrait->size_px), portrait->size_px, &impl_->lit, &portrait->rgba);
 }
 

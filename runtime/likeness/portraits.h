@@ -26,10 +26,9 @@ class PortraitStudio {
   Error Create(TourPack pack, int supersampling = 1);
 
   // From the distance at which the person is `person_px` pixels high in the player's picture of 1280 pixels' width.
-  // level as in DrawnPerson.
-  void Draw(const PortraitMoment& moment, int level, float person_px, Portrait* portrait);
+  void Draw(const PortraitMoment& moment, Level level, float person_px, Portrait* portrait);
   // Only what depends on the light anew; portrait must be of the same moment, level and size.
-  void Relight(const PortraitMoment& moment, int level, float person_px, Portrait* portrait);
+  void Relight(const PortraitMoment& moment, Level level, float person_px, Portrait* portrait);
 
   const TourPack& pack() const;
   // The person's height on screen at the impostor's switch: one pixel a texel.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/base/math.h"
+#include "runtime/tour_data/level.h"
 #include "runtime/tour_data/shadow_limits.h"
 
 namespace flaneur {
@@ -22,7 +23,7 @@ struct ClipMoment {
 // that complement each other: [0, t) and [t, 1). Who appears or vanishes has [0, t) alone.
 struct DrawnPerson {
   int avatar = 0;
-  int level = 0;           // of the mesh; -1: impostor
+  Level level = MeshLevel(0);
   ClipMoment moment;
   ClipMoment other;        // mixed in by other_share, where a walk ends or begins; an impostor shows the greater share alone
   float other_share = 0;
@@ -63,6 +64,7 @@ struct FrameStatistics {
   float resolution_scale = 1;  // the frame's
   int draw_calls = 0;      // of the whole picture, shadows included
   int people_drawn = 0, people_hidden = 0;  // hidden: behind walls or above or below the view
+  int people_not_loaded = 0;  // drawn by another level than the frame's, or not at all, because that is not loaded yet
   double people_ms = 0;    // of it, on the CPU: choosing who can be seen, poses, the upload
   double draw_ms = 0;      // until the picture is there
   std::array<double, std::size(kDrawPassNames)> pass_ms{};  // by DrawPass: processor time of all threads, with RenderOptions::time_passes

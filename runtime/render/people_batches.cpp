@@ -10,7 +10,6 @@ constexpr float kAround_m = 0.35f;     // arms, skirts and props reach so far be
 constexpr float kLongestShadow_m = 12;  // as far as one may fall into view
 constexpr float kFarImpostor_m = 15;   // nearer ones are drawn before all farther ones,
 constexpr size_t kNearBatches = 5;     // of the avatars that have most of them
-constexpr int kNoLevel = -2;
 
 // The largest numbers of all clips, so that 16 bits hold them with the finest steps.
 void SetSteps(const PackAvatar& avatar, AvatarLayout* layout) {
@@ -148,23 +147,21 @@ Box WithShadow(const Box& box, Vec3 to_sun) {
 }
 
 // In a coarse picture a coarser mesh serves.
-int LevelAt(float distance_m, const DrawnPerson& person, const AvatarLayout& avatar, float focal_px) {
-  int level = person.level;
-  if (focal_px <= 0 || level < 0) return level;
+Level LevelAt(float distance_m, const DrawnPerson& person, const AvatarLayout& avatar, float focal_px) {
+  Level level = person.level;
+  if (focal_px <= 0 || !IsMesh(level)) return level;
   const float high_px = avatar.height_m * focal_px / std::max(distance_m, 0.1f);
-  while (level + 1 < avatar.levels && high_px < avatar.switch_px[static_cast<size_t>(level)]) ++level;
+  while (level.mesh + 1 < avatar.levels && high_px < avatar.switch_px[static_cast<size_t>(level.mesh)]) ++level.mesh;
   return level;
 }
 
-// The level that can be drawn and is nearest to the wished one.
-int ReadyLevel(int level, int levels, const AvatarReady& ready) {
-  const int wished = std::min(level, levels - 1);
-  if (wished >= 0 && ready.levels[static_cast<size_t>(wished)]) return wished;
-  for (int k = std::max(0, wished); k < levels && wished >= 0; ++k) {
-    if (ready.levels[static_cast<size_t>(k)]) return k;
+// The level itself; where it is not loaded yet, a coarser one that is, the impostor, or the coarsest.
+Level LoadedLevel(Level level, int levels, const AvatarReady& ready) {
+  for (int k = level.mesh; IsMesh(level) && k < levels; ++k) {
+    if (ready.levels[static_cast<size_t>(k)]) return MeshLevel(k);
   }
-  if (ready.impostor) return -1;
-  return levels > 0 && ready.levels[static_cast<size_t>(levels) - 1] ? levels - 1 : kNoLevel;
+  if (ready.impostor) return kImpostor;
+  return levels > 0 && ready.levels[static_cast<size_t>(levels) - 1] ? MeshLevel(levels - 1) : kNotDrawn;
 }
 
 // Who is nearer hides others, and is drawn before them: by steps of so much within a batch.
@@ -253,6 +250,7 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
   out->entries.clear();
   out->pose_rows = 0;
   out->hidden = 0;
+  out->not_loaded = 0;
   int levels = 1;
   for (const AvatarLayout& avatar : avatars) levels = std::max(levels, avatar.levels + avatar.props);
   const int count = static_cast<int>(avatars.size()), meshes = count * levels * 2;
@@ -280,16 +278,18 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
       ++out->hidden;
       continue;
     }
-    const int level = ReadyLevel(LevelAt(distance_m, person, avatars[index], sight.focal_px), avatars[index].levels, ready[index]);
-    if (level == kNoLevel) continue;
+    const Level asked = LevelAt(distance_m, person, avatars[index], sight.focal_px);
+    const Level level = LoadedLevel(asked, avatars[index].levels, ready[index]);
+    out->not_loaded += level != asked ? 1 : 0;
+    if (!IsDrawn(level)) continue;
     const int fades = person.share_from > 0 || person.share_to < 1 ? 1 : 0;
     const int far = distance_m > kFarImpostor_m ? count : 0;
-    out->entries.push_back({number, level < 0 ? meshes + far + person.avatar : (person.avatar * levels + level) * 2 + fades, StepOf(distance_m)});
+    out->entries.push_back({number, IsMesh(level) ? (person.avatar * levels + level.mesh) * 2 + fades : meshes + far + person.avatar, StepOf(distance_m)});
     for (int k = 0; person.props >> k != 0; ++k) {
       const int prop = avatars[index].levels + k;
       if ((person.props >> k & 1) == 0 || !ready[index].levels[static_cast<size_t>(prop)]) continue;
       // All in one draw, whether somebody fades or not.
-      out->entries.push_back({number, (person.avatar * levels + prop) * 2 + 1, StepOf(distance_m), level < 0});
+      out->entries.push_back({number, (person.avatar * levels + prop) * 2 + 1, StepOf(distance_m), !IsMesh(level)});
     }
   }
   JoinFewNear(meshes, count, out);

@@ -59,6 +59,7 @@ struct PeopleBatches {
   std::vector<Vec4> poses;           // pose_width texels a row
   size_t pose_width = 0, pose_rows = 0;
   int hidden = 0;                    // left out because the picture cannot show them
+  int not_loaded = 0;                // drawn by another level than asked for, or not at all, because that is not loaded yet
 
   struct Entry { uint32_t person = 0; int key = 0, step = 0; bool on_impostor = false; };  // of a prop
   std::vector<Entry> entries, shadow_entries;  // scratch

@@ -228,6 +228,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   statistics->draw_calls = people.calls + town.calls + shadows.calls + mark.calls + kWholePictures;
   statistics->resolution_scale = frame.resolution_scale;
   statistics->people_hidden = r.people.batches.hidden;
+  statistics->people_not_loaded = r.people.batches.not_loaded;
   statistics->people_drawn = static_cast<int>(frame.people.size()) - statistics->people_hidden;
   statistics->draw_ms = Now_ms() - start_ms;
 }

@@ -12,7 +12,6 @@ namespace {
 
 constexpr float kStandsBelow_mps = 0.10f, kWalksAbove_mps = 0.18f;
 constexpr float kLeaps_m = 2;    // whoever moves by more between two pictures was put there
-constexpr float kEdge_m = 0.8f;  // a body, skirts and shadow reach so far beyond its middle into the view
 
 // The sun goes round by day_length_s a turn, and stays between its start height and a low evening.
 Vec3 ToSun(const LightSettings& light, float time_s) {
@@ -43,30 +42,6 @@ void AddCaption(const Simulation& s, FrameInput* frame) {
   frame->caption_share = s.visitor.gentle ? 1 : std::clamp(std::min(s.visitor.tour.rested_s, RestOf_s(s.visitor.tour, HaltOf(s.visitor.tour)) - s.visitor.tour.rested_s) / kFadeCaption_s, 0.0f, 1.0f);
 }
 
-// The outer one with whoever reaches into the view.
-ViewVolumes WithEdge(const ViewCamera& c) { return VolumesOf(c, kEdge_m / std::max(0.1f, std::sin(c.fov_rad / 2))); }
-
-// What pictures until the next step can show: between the step before and the last one, and as the hand turns the view on.
-using Views = std::array<ViewVolumes, 3>;
-
-Views ViewsUntilNextStep(const Simulation& s, const PersonLooks& looks) {
-  ViewCamera next = s.visitor.camera.view;
-  next.yaw_rad = WrapAngle(next.yaw_rad + s.visitor.camera.yaw_rate_radps * Step_s(s));
-  return {WithEdge(s.visitor.camera.view), WithEdge(looks.frame < 0 ? s.visitor.camera.view : looks.camera), WithEdge(next)};
-}
-
-// The level that the control has chosen. It leaves out who stands outside the view: whose middle is just beyond its edge keeps
-// the level in which they left, or comes in as an impostor.
-int LevelToShow(const Simulation& s, size_t i, const Views& views, const PersonLooks& looks) {
-  const int chosen = s.control.levels.level[i];
-  // Who is outside the outer view volume can't have been in view at the step before, nor be at the next.
-  if (chosen != kNotDrawn || s.town.crowd.view[i] != ViewClass::kBoundary) return chosen;
-  const auto hides = [&](const ViewVolumes& view) { return Classify(s.town.crowd.position[i], view) == ViewClass::kOutside; };
-  if (std::all_of(views.begin(), views.end(), hides)) return kNotDrawn;
-  const auto id = static_cast<size_t>(s.town.crowd.id[i]);
-  return looks.is_shown[id] && looks.by_id[id].level != kNotDrawn ? looks.by_id[id].level : kImpostor;
-}
-
 ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, ClipKind last) {
   const float speed_mps = Length(s.town.crowd.velocity[i]);
   if (speed_mps > (last == ClipKind::kWalk ? kStandsBelow_mps : kWalksAbove_mps)) {
@@ -92,17 +67,6 @@ void FollowClip(const ClipMoment& now, bool anew, float passed_s, PersonLook* lo
   }
 }
 
-void FollowLevel(int level, bool at_once, float passed_s, PersonLook* look) {
-  look->level_s = at_once ? kFade_s : look->level_s + passed_s;
-  if (at_once) {
-    look->level = look->last_level = level;
-  } else if (level != look->level && look->level_s >= kFade_s) {
-    look->last_level = look->level;
-    look->level = level;
-    look->level_s = 0;
-  }
-}
-
 // The same person wears the same all day, and people who came one after the other, as those of a group, wear different colours.
 std::array<uint8_t, 4> TintsOf(const PackAvatar& avatar, int id) {
   constexpr float kApart[] = {0.618034f, 0.754878f, 0.569840f};  // fractions whose multiples spread evenly (Roberts 2018)
@@ -117,12 +81,13 @@ std::array<uint8_t, 4> TintsOf(const PackAvatar& avatar, int id) {
 float Mix_rad(float a, float b, float share) { return WrapAngle(a + share * WrapAngle(b - a)); }
 
 // The part of a person that is drawn with any level, and less of it the farther they are.
-float PropsShare(const PersonLook& look, float done, float distance_m) {
-  const float drawn = (look.level != kNotDrawn ? done : 0) + (look.last_level != kNotDrawn ? 1 - done : 0);
+float PropsShare(const PersonLevel& level, float done, float distance_m) {
+  const float drawn = (IsDrawn(level.level) ? done : 0) + (IsDrawn(level.from) ? 1 - done : 0);
   return drawn * std::clamp((kPropReach_m - distance_m) / kPropFade_m, 0.0f, 1.0f);
 }
 
-void Show(const PersonLook& look, float share, FrameInput* frame) {
+// before_s: how long before the last step.
+void Show(const PersonLook& look, float share, float before_s, FrameInput* frame) {
   DrawnPerson person;
   person.avatar = look.avatar;
   person.tints = look.tints;
@@ -131,37 +96,23 @@ void Show(const PersonLook& look, float share, FrameInput* frame) {
   person.other_share = std::max(0.0f, 1 - look.clip_s / kMix_s);
   person.position = look.before + (look.position - look.before) * share;
   person.heading_rad = Mix_rad(look.heading_before_rad, look.heading_rad, share);
-  const float done = std::min(1.0f, look.level_s / kFade_s);
+  const float done = ShareOf(look.level, before_s);
   person.casts_shadow = look.casts_shadow;
-  person.props_share = PropsShare(look, done, Length(person.position - frame->eye));
+  person.props_share = PropsShare(look.level, done, Length(person.position - frame->eye));
   person.props = person.props_share > 0 ? look.props : 0;
-  if (look.level != kNotDrawn && done > 0) {
-    person.level = look.level;
+  if (IsDrawn(look.level.level) && done > 0) {
+    person.level = look.level.level;
     person.share_to = done;
     frame->people.push_back(person);
     person.props = 0;  // once is enough
   }
-  if (look.last_level != kNotDrawn && done < 1) {
-    person.level = look.last_level;
+  if (IsDrawn(look.level.from) && done < 1) {
+    person.level = look.level.from;
     person.share_from = done;
     person.share_to = 1;
     frame->people.push_back(person);
   }
 }
-
-void KeepIfShown(int id, PersonLooks* looks) {
-  const PersonLook& look = looks->by_id[static_cast<size_t>(id)];
-  const bool shown = look.level != kNotDrawn || (look.last_level != kNotDrawn && look.level_s < kFade_s);
-  looks->is_shown[static_cast<size_t>(id)] = shown;
-  if (shown) looks->shown.push_back(id);
-}
-
-// What is the same for everybody in one picture.
-struct Moment {
-  float passed_s = 0;               // since the last one
-  Views views;
-  ViewVolumes last_view;
-};
 
 void Move(Vec3 position, float heading_rad, bool leaps, PersonLook* look) {
   leaps = leaps || Length(position - look->position) > kLeaps_m;
@@ -177,51 +128,44 @@ float PhaseStep(const ClipMoment& before, const ClipMoment& now) {
   return before.clip == now.clip && step < 0.5f ? step : 0;
 }
 
-void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, const Moment& moment, PersonLooks* looks) {
-  const auto id = static_cast<size_t>(s.town.crowd.id[i]);
-  const Vec2 p = s.town.crowd.position[i];
-  const int level = LevelToShow(s, i, moment.views, *looks);
-  const bool was_shown = looks->is_shown[id];
-  if (level == kNotDrawn && !was_shown) return;
-  PersonLook& look = looks->by_id[id];
-  look.here = true;
-  look.casts_shadow = s.control.levels.casts_shadow[i] != 0;
-  const bool first = looks->frame < 0, was_in_view = !first && Classify(p, moment.last_view) == ViewClass::kVisible;
-  const bool anew = first || !was_shown;
-  // Who comes into the picture with the view's edge, or leaves with it, needs no fading.
-  const bool leaves_view = level == kNotDrawn && s.town.crowd.view[i] != ViewClass::kVisible;
-  look.avatar = s.town.crowd.avatar[i];
-  if (anew) look.tints = TintsOf(pack.avatars[static_cast<size_t>(look.avatar)], s.town.crowd.id[i]);
-  Move({p.x, p.y, HeightAt(s.town.walkable, p)}, s.town.crowd.heading_rad[i], anew, &look);
+void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, float passed_s, PersonLooks* looks) {
+  const Crowd& crowd = s.town.crowd;
+  const LevelState& levels = s.control.levels;
+  if (!IsDrawn(levels.people[i])) return;
+  PersonLook& look = EntryOf(crowd.slot[i], crowd.id[i], &looks->people);
+  const bool anew = looks->frame < 0 || look.frame != looks->frame;
+  look.frame = s.town.step;
+  look.avatar = crowd.avatar[i];
+  look.level = levels.people[i];
+  look.casts_shadow = levels.casts_shadow[i] != 0;
+  look.props = ShownProps(levels.props, crowd.slot[i], crowd.id[i]);
+  const PackAvatar& avatar = pack.avatars[static_cast<size_t>(look.avatar)];
+  if (anew) look.tints = TintsOf(avatar, crowd.id[i]);
+  const Vec2 p = crowd.position[i];
+  Move({p.x, p.y, HeightAt(s.town.walkable, p)}, crowd.heading_rad[i], anew, &look);
   const ClipMoment before = look.moment;
-  FollowClip(MomentOf(s, i, pack.avatars[static_cast<size_t>(look.avatar)], look.moment.clip), anew, moment.passed_s, &look);
+  FollowClip(MomentOf(s, i, avatar, look.moment.clip), anew, passed_s, &look);
   look.phase_step = anew ? 0 : PhaseStep(before, look.moment);
-  look.props = id < s.control.levels.props.shown.size() ? s.control.levels.props.shown[id] : 0;
-  const bool no_budget = id < s.control.levels.fades.at_once.size() && s.control.levels.fades.at_once[id] != 0;
-  FollowLevel(level, leaves_view || no_budget || (anew && !was_in_view), moment.passed_s, &look);
-  KeepIfShown(s.town.crowd.id[i], looks);
+  looks->shown.push_back(crowd.slot[i]);
+}
+
+// Who has left the town fades where they were.
+void FollowGone(const LevelState::Gone& gone, int64_t step, PersonLooks* looks) {
+  PersonLook& look = EntryOf(gone.slot, gone.id, &looks->people);
+  if (look.frame != looks->frame || looks->frame < 0) return;
+  look.frame = step;
+  look.level = gone.level;
+  look.casts_shadow = false;
+  Move(look.position, look.heading_rad, true, &look);
+  look.phase_step = 0;
+  looks->shown.push_back(gone.slot);
 }
 
 void FollowPeople(const TourPack& pack, const Simulation& s, PersonLooks* looks) {
-  Moment moment;
-  moment.passed_s = looks->frame < 0 ? 0 : static_cast<float>(s.town.step - looks->frame) * Step_s(s);
-  moment.views = ViewsUntilNextStep(s, *looks);
-  moment.last_view = VolumesOf(looks->camera, 0);
-  looks->by_id.resize(std::max(looks->by_id.size(), static_cast<size_t>(s.town.crowd.next_id)));
-  looks->is_shown.resize(looks->by_id.size());
-  std::swap(looks->shown, looks->shown_before);
+  const float passed_s = looks->frame < 0 ? 0 : static_cast<float>(s.town.step - looks->frame) * Step_s(s);
   looks->shown.clear();
-  for (int id : looks->shown_before) looks->by_id[static_cast<size_t>(id)].here = false;
-  for (size_t i = 0; i < s.town.crowd.size(); ++i) FollowPerson(pack, s, i, moment, looks);
-  for (int id : looks->shown_before) {
-    PersonLook& look = looks->by_id[static_cast<size_t>(id)];
-    if (look.here) continue;
-    look.casts_shadow = false;
-    FollowLevel(kNotDrawn, false, moment.passed_s, &look);  // gone: fades where they were
-    Move(look.position, look.heading_rad, true, &look);
-    look.phase_step = 0;
-    KeepIfShown(id, looks);
-  }
+  for (size_t i = 0; i < s.town.crowd.size(); ++i) FollowPerson(pack, s, i, passed_s, looks);
+  for (const LevelState::Gone& gone : s.control.levels.gone) FollowGone(gone, s.town.step, looks);
 }
 
 // Everything on to the last step, from where the last picture before it stood.
@@ -234,7 +178,6 @@ void Follow(const TourPack& pack, const Simulation& s, PersonLooks* looks) {
   looks->eye = eye;
   looks->steps = leaps ? 0 : s.town.step - looks->frame;
   looks->frame = s.town.step;
-  looks->camera = s.visitor.camera.view;
 }
 
 }  // namespace
@@ -255,7 +198,8 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks*
   AddCaption(s, frame);
   RingWherePointed(s, &frame->ground_mark);
   frame->people.clear();
-  for (int id : looks->shown) Show(looks->by_id[static_cast<size_t>(id)], share, frame);
+  const float before_s = std::max(0.0f, 1 - between.share) * Step_s(s);
+  for (int slot : looks->shown) Show(looks->people[static_cast<size_t>(slot)], share, before_s, frame);
 }
 
 }  // namespace flaneur

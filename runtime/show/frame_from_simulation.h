@@ -13,10 +13,10 @@ namespace flaneur {
 
 // How a person was shown, so that nothing about them changes at once.
 struct PersonLook {
-  bool here = false;                       // scratch: walks in the town still
+  int id = -1;
+  int64_t frame = -1;                      // of the last picture that showed them
   int avatar = 0;
-  int level = kNotDrawn, last_level = kNotDrawn;
-  float level_s = 0;                       // since the level changed
+  PersonLevel level;
   bool casts_shadow = false;
   ClipMoment moment, last_moment;          // last_moment: where the clip before stopped
   float clip_s = 0;                        // since the clip changed
@@ -30,11 +30,9 @@ struct PersonLook {
 struct EyeLook { Vec3 position; float yaw_rad = 0; };
 
 struct PersonLooks {
-  std::vector<PersonLook> by_id;
-  std::vector<uint8_t> is_shown;           // by id, 1: in the last picture; apart, since nothing else is read of most people
-  std::vector<int> shown, shown_before;    // ids: of the last picture, and scratch
+  std::vector<PersonLook> people;          // by Crowd::slot
+  std::vector<int> shown;                  // slots of whom the last picture shows
   int64_t frame = -1;                      // of the last picture; -1: none yet
-  ViewCamera camera;                       // of the last picture
   EyeLook eye, eye_before;                 // as people's positions
   int64_t steps = 0;                       // between the two; 0: there is nothing before
 };
@@ -48,9 +46,8 @@ struct BetweenSteps {
   float look_rad = 0;   // up, still to do
 };
 
-// A change of level, and appearing or vanishing within the view, is faded over kFade_s: both levels are drawn meanwhile, and the
-// triangle budget holds for both; a change for which it has no room is not faded. A change of clip is mixed over kMix_s. The same moment
-// seen twice gives the same picture.
+// Everybody is drawn by the control's LevelState::people and ::gone. A change of clip is mixed over kMix_s. The same moment seen twice gives
+// the same picture.
 inline constexpr float kMix_s = 0.2f;
 void FrameFromSimulation(const TourPack& pack, const Simulation& simulation, PersonLooks* looks, FrameInput* frame,
                          const BetweenSteps& between = {});

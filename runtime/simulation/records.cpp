@@ -46,8 +46,8 @@ void RecordMetrics(const Simulation& s, const FrameCosts& costs, std::string* te
 void RecordTrajectories(const Simulation& s, std::string* text) {
   for (size_t i = 0; i < s.town.crowd.size(); ++i) {
     const Vec2 p = s.town.crowd.position[i];
-    const int level = s.control.levels.level[i];
-    const std::string level_name = level == kNotDrawn ? "none" : level == kImpostor ? "impostor" : std::to_string(level);
+    const Level level = LevelInView(s.town.crowd, s.control.levels, i);
+    const std::string level_name = IsMesh(level) ? std::to_string(level.mesh) : IsDrawn(level) ? "impostor" : "none";
     Append(text, "%lld,%d,%s,%.5f,%.5f,%.4f,%.5f,%.4f,%s,%s\n", static_cast<long long>(s.town.step), s.town.crowd.id[i],
            s.town.residents[static_cast<size_t>(s.town.crowd.avatar[i])].avatar.c_str(), D(p.x), D(p.y), D(HeightAt(s.town.walkable, p)),
            D(s.town.crowd.heading_rad[i]), D(s.town.crowd.radius_m[i]), kViewNames[static_cast<size_t>(s.town.crowd.view[i])],

@@ -19,16 +19,6 @@ namespace {
 constexpr float kFlatCell_m = 0.5f;
 constexpr float kFarthestView_m = 60;
 
-std::vector<PropCost> CostsOf(const std::vector<PackProp>& props) {
-  std::vector<PropCost> costs;
-  for (size_t k = 0; k < props.size(); ++k) {
-    const auto same = [&](const PackProp& other) { return !props[k].slot.empty() && other.slot == props[k].slot; };
-    const auto first = std::find_if(props.begin(), props.begin() + static_cast<std::ptrdiff_t>(k), same);
-    costs.push_back({props[k].triangles, props[k].share, static_cast<int>(first - props.begin())});
-  }
-  return costs;
-}
-
 // What the renderer draws at most.
 ShadowCost ShadowCostOf(const PackAvatar& avatar) {
   const int coarsest = avatar.levels.back().triangles;
@@ -40,7 +30,7 @@ void TakeAvatar(const PackAvatar& avatar, Simulation* s) {
   for (const PackLevel& level : avatar.levels) costs.levels.push_back({level.triangles, level.switch_px});
   costs.height_m = avatar.height_m;
   costs.impostor_px = avatar.height_m / avatar.impostor.texel_m;
-  costs.props = CostsOf(avatar.props);
+  costs.props.assign(avatar.props.begin(), avatar.props.end());
   costs.shadow = ShadowCostOf(avatar);
   s->control.avatars.push_back(costs);
   s->town.residents.push_back({avatar.name, avatar.share, avatar.radius_m});
@@ -88,6 +78,7 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   s->town.settings = scenario.crowd;
   s->control.settings = scenario.control;
   s->drawing = scenario.drawing;
+  s->screen_width_px = scenario.screen_width_px;
   CameraState& camera = s->visitor.camera;
   camera.view.fov_rad = scenario.control.fov_rad;
   camera.eye_height_m = scenario.eye_height_m;
@@ -170,7 +161,7 @@ void ControlCrowd(float frame_ms, Simulation* s) {
   const CameraState& camera = s->visitor.camera;
   Control& control = s->control;
   const ViewMotion motion{camera.velocity, camera.yaw_rate_radps};
-  ChooseLevels(s->town.crowd, control.avatars, control.settings, {camera.view, motion, frame_ms, 1280, s->visitor.guide.id}, &control.levels);
+  ChooseLevels(s->town.crowd, control.avatars, control.settings, {camera.view, motion, frame_ms, s->screen_width_px, s->visitor.guide.id}, &control.levels);
   s->moving.clear();
   if (camera.present) {
     s->moving.push_back({camera.view.position, control.settings.r_personal_m, true, camera.asked_velocity});

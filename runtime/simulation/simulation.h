@@ -13,7 +13,6 @@
 
 namespace flaneur {
 
-
 struct Simulation {
   Town town;
   Visitor visitor;
@@ -21,6 +20,7 @@ struct Simulation {
   std::vector<MovingObstacle> moving;  // of this step: the visitor, the guide, the paper's camera obstacles
   DrawingModel drawing;
   std::optional<float> hour;           // of the day at the start; none: the light of the pack
+  int screen_width_px = kUsualWidth_px;  // of the picture that levels are chosen for
   double step_ms = 0, control_ms = 0;  // what the last step took, and the control's part of it
 };
 

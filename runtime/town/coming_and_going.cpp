@@ -38,7 +38,7 @@ bool NextGoal(const Company& company, Town* town) {
   Crowd& c = town->crowd;
   bool any = false;
   for (int k = 0; k < company.size; ++k) {
-    std::vector<Vec2>& goals = town->plans[static_cast<size_t>(c.id[company.member[k]])].goals;
+    std::vector<Vec2>& goals = PlanOf(company.member[k], town).goals;
     if (goals.empty()) continue;
     SetGoal(company.member[k], FieldFor(goals.front(), &c), &c);
     goals.erase(goals.begin());
@@ -49,7 +49,7 @@ bool NextGoal(const Company& company, Town* town) {
 
 // On the way to somewhere that they chose themselves and only pass.
 bool Strolls(size_t i, const Town& town) {
-  const PersonPlan& plan = town.plans[static_cast<size_t>(town.crowd.id[i])];
+  const PersonPlan& plan = PlanOf(i, town);
   return town.crowd.field[i] >= 0 && plan.goals.empty() && !plan.stay && !plan.leaves && !plan.loiters;
 }
 
@@ -65,7 +65,7 @@ bool HasArrived(size_t i, Town* town) {
 // True where the person is done and leaves the scene.
 bool NextForArrived(size_t i, const Viewer& viewer, Town* town) {
   Crowd& c = town->crowd;
-  const PersonPlan& plan = town->plans[static_cast<size_t>(c.id[i])];
+  const PersonPlan& plan = PlanOf(i, town);
   const Company company = CompanyOf(c, i);
   if (NextGoal(company, town)) return false;
   if (plan.stay) {
@@ -131,7 +131,7 @@ bool Birth(int company, const Viewer& viewer, Town* town) {
 
 bool HasWaited(const Town& town, size_t i) {
   const Crowd& c = town.crowd;
-  return c.activity[i] != Activity::kWalking && c.wait_s[i] <= 0 && c.field[i] < 0 && !town.plans[static_cast<size_t>(c.id[i])].leaves;
+  return c.activity[i] != Activity::kWalking && c.wait_s[i] <= 0 && c.field[i] < 0 && !PlanOf(i, town).leaves;
 }
 
 }  // namespace

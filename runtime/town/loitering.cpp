@@ -47,7 +47,7 @@ void AddSpot(int place, Vec2 p, Vec2 look, Town* town) {
 }
 
 LoiterSpot* SpotOf(size_t i, Town* town) {
-  const int spot = town->plans[static_cast<size_t>(town->crowd.id[i])].spot;
+  const int spot = PlanOf(i, town).spot;
   return spot >= 0 ? &town->loiter_spots[static_cast<size_t>(spot)] : nullptr;
 }
 
@@ -98,7 +98,7 @@ void LookElsewhere(int own, Town* town) {
 
 void Stand(size_t i, LoiterSpot* spot, float step_s, Town* town) {
   Crowd& c = town->crowd;
-  const int own = town->plans[static_cast<size_t>(c.id[i])].spot;
+  const int own = PlanOf(i, town).spot;
   if (c.detour_s[i] > 0) {
     c.wait_s[i] = 0;
     return;
@@ -135,13 +135,13 @@ void PrepareLoitering(Town* town) {
 }
 
 void PlanToLoiter(size_t i, Town* town) {
-  PersonPlan& plan = town->plans[static_cast<size_t>(town->crowd.id[i])];
+  PersonPlan& plan = PlanOf(i, town);
   if (!plan.loiters) ++town->loiterers;
   plan.loiters = true;
 }
 
 void StopLoitering(size_t i, Town* town) {
-  PersonPlan& plan = town->plans[static_cast<size_t>(town->crowd.id[i])];
+  PersonPlan& plan = PlanOf(i, town);
   if (plan.loiters) --town->loiterers;
   plan.loiters = false;
   if (plan.spot < 0) return;
@@ -193,7 +193,7 @@ void TakeSpot(size_t i, int which, bool now, Town* town) {
   PlanToLoiter(i, town);
   LoiterSpot& spot = town->loiter_spots[static_cast<size_t>(which)];
   spot.taken = true;
-  town->plans[static_cast<size_t>(town->crowd.id[i])].spot = which;
+  PlanOf(i, town).spot = which;
   if (now) StandAt(i, &spot, town);
   else SetGoal(i, FieldFor(spot.position_m, &town->crowd), &town->crowd);
 }
@@ -201,7 +201,7 @@ void TakeSpot(size_t i, int which, bool now, Town* town) {
 void StepLoitering(const Viewer& viewer, Town* town) {
   Crowd& c = town->crowd;
   for (size_t i = static_cast<size_t>(town->step % kLookEvery_steps); i < c.size(); i += kLookEvery_steps) {
-    if (!town->plans[static_cast<size_t>(c.id[i])].loiters) continue;
+    if (!PlanOf(i, town).loiters) continue;
     LoiterSpot* spot = SpotOf(i, town);
     if (spot != nullptr && c.field[i] >= 0 && c.arrived[i] == Arrival::kThere) StandAt(i, spot, town);
     if (spot != nullptr && c.field[i] < 0) Stand(i, spot, Step_s(viewer.settings), town);

@@ -247,9 +247,9 @@ int DrawCompany(int most, Town* town) {
 }
 
 void AddToTown(const Person& person, PersonPlan plan, Town* town) {
-  AddPerson(person, &town->crowd);
+  plan.id = AddPerson(person, &town->crowd);
   town->crowd.view.back() = ViewClass::kOutside;
-  town->plans.push_back(std::move(plan));
+  EntryOf(town->crowd.slot.back(), plan.id, &town->plans) = std::move(plan);
 }
 
 Error PlaceScenarioPeople(const std::vector<ScenarioPerson>& persons, Town* town) {

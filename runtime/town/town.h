@@ -30,11 +30,12 @@ struct ScenarioPerson {
   float speed_mps = 0, top_speed_mps = 0, radius_m = 0;  // 0: the pack's
 };
 
-struct PersonPlan {         // of one person, by id
+struct PersonPlan {         // of one person
   std::vector<Vec2> goals;  // after the present one, next first
   bool stay = false, leaves = true;
   bool loiters = false;     // on the way to a loiter place, or there
   int spot = -1;            // index into Town::loiter_spots, of the one that is theirs
+  int id = -1;              // whose it is
 };
 
 struct LoiterSpot {         // where one person can stand at a loiter place
@@ -73,13 +74,16 @@ struct Town {
 
   Crowd crowd;
   FieldBuilder field_builder;
-  std::vector<PersonPlan> plans;         // by id
+  std::vector<PersonPlan> plans;         // by Crowd::slot, see PlanOf
   Enclosure enclosure;
   DensityMap density;                    // of everybody, once a second
   Random random;
   int64_t step = 0;                      // so many are over
   std::vector<std::string> warnings;     // of what cannot be as the tour says
 };
+
+inline PersonPlan& PlanOf(size_t person, Town* town) { return town->plans[static_cast<size_t>(town->crowd.slot[person])]; }
+inline const PersonPlan& PlanOf(size_t person, const Town& town) { return town.plans[static_cast<size_t>(town.crowd.slot[person])]; }
 
 // What the townspeople's comings and goings heed of the visitor and of the control.
 struct Viewer {

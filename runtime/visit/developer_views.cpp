@@ -65,7 +65,7 @@ void DrawVolumes(const Plan& plan, const Simulation& s) {
 ImU32 ColorOf(const Simulation& s, size_t i) {
   if (s.town.crowd.view[i] == ViewClass::kBoundary) return kBoundary;
   if (s.town.crowd.view[i] == ViewClass::kOutside) return kOutside;
-  return s.control.levels.level[i] >= 0 ? kHigh : kLow;
+  return IsMesh(s.control.levels.people[i].level) ? kHigh : kLow;
 }
 
 void DrawPeople(const Plan& plan, const Simulation& s) {
@@ -129,6 +129,7 @@ void ShowGraphs(const FrameStatistics& statistics, int width_px, const ViewsHist
     Graph("frame time, ms", h.frame_ms, h.next, 17);
     ImGui::Text("limit %d, budget %.0f triangles", s->control.levels.limit, static_cast<double>(s->control.levels.budget_triangles));
     ImGui::Text("%zu people, %d drawn, %d hidden", s->town.crowd.size(), statistics.people_drawn, statistics.people_hidden);
+    if (statistics.people_not_loaded > 0) ImGui::Text("%d drawn otherwise: not loaded yet", statistics.people_not_loaded);
     ImGui::Text("%d draw calls, town %lld triangles", statistics.draw_calls, static_cast<long long>(statistics.town_triangles));
     ImGui::Text("drawn at %.0f %% of width and height", 100 * static_cast<double>(statistics.resolution_scale));
     ImGui::Text("adaptation (F2)");

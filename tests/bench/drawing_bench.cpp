@@ -78,7 +78,7 @@ void Draw(const FrameInput& frame, int width_px, int height_px, Renderer* render
 }
 
 FrameInput AllFinest(FrameInput frame) {
-  for (DrawnPerson& p : frame.people) p.level = 0;
+  for (DrawnPerson& p : frame.people) p.level = MeshLevel(0);
   frame.keeps_levels = true;
   return frame;
 }

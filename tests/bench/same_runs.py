@@ -3,8 +3,8 @@
     same_runs.py OLD_PLAYER NEW_PLAYER PACK [SCENARIO.toml ...] [--seconds S] [--jobs N]
 
 Plays the scenarios (all of tests/scenario and of the demo where none is named) with each adaptation with both players, without
-drawing, and compares what they write: all trajectories, and all metrics but the milliseconds that were measured. Prints a hash a run,
-and ends with status 1 where any two differ.
+drawing, and compares what they write: all trajectories, and all metrics but the milliseconds that were measured. Prints a hash of each
+run's trajectories and which metrics differ, and ends with status 1 where anything does.
 """
 import argparse
 import concurrent.futures
@@ -19,31 +19,33 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MEASURED = {"step_ms", "control_ms"}  # draw_ms is a scenario's model here, and must be the same
 
 
-def run_hash(player, pack, scenario, adaptation, seconds, folder):
-    """A hash of what this run writes; its complaint where it ends with one."""
+def run_hashes(player, pack, scenario, adaptation, seconds, folder):
+    """A hash of the trajectories and one of each column of the metrics; or its complaint where the run ends with one."""
     metrics, trajectories = folder / "metrics.csv", folder / "trajectories.csv"
     command = [player, *pack, "--headless", "--no-draw", "--scenario", scenario, "--adaptation", adaptation,
                "--seconds", str(seconds), "--metrics", metrics, "--trajectories", trajectories]
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        return "fails: " + done.stderr.strip()
-    digest = hashlib.sha256(trajectories.read_bytes())
+        return {"complaint": done.stderr.strip()}
+    hashes = {"trajectories": hashlib.sha256(trajectories.read_bytes()).hexdigest()[:16]}
     with open(metrics, encoding="utf-8", newline="") as file:
-        for row in csv.DictReader(file):
-            digest.update(repr([(key, value) for key, value in row.items() if key not in MEASURED]).encode())
-    return digest.hexdigest()[:16]
+        rows = list(csv.DictReader(file))
+    for name in set(rows[0]) - MEASURED:
+        hashes[name] = hashlib.sha256("\n".join(row[name] for row in rows).encode()).hexdigest()[:16]
+    return hashes
 
 
 def compare(players, pack, scenario, adaptation, seconds):
+    """The run's name, its trajectories' hash, and the names of what differs."""
     # A scenario with ground of its own is played without the pack too: there the plain figure walks.
     own_ground = "[ground]" in scenario.read_text(encoding="utf-8")
-    hashes = []
-    for player in players:
+    differs, shown = set(), ""
+    for chosen in ([[pack], []] if own_ground else [[pack]]):
         with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            hashes.append([run_hash(player, chosen, scenario, adaptation, seconds, folder)
-                           for chosen in ([[pack], []] if own_ground else [[pack]])])
-    return f"{scenario.name} {adaptation}", hashes
+            old, new = (run_hashes(player, chosen, scenario, adaptation, seconds, pathlib.Path(name)) for player in players)
+        differs |= {key for key in old.keys() | new.keys() if old.get(key) != new.get(key)}
+        shown = new.get("trajectories", "fails")
+    return f"{scenario.name} {adaptation}", shown, sorted(differs)
 
 
 def main():
@@ -59,14 +61,14 @@ def main():
     scenarios = [s for s in scenarios if s.name != "tour.toml"]
     players = [a.old_player.resolve(), a.new_player.resolve()]
     runs = [(s, adaptation) for s in scenarios for adaptation in ("off", "paper", "full")]
-    different = 0
+    count = {"same": 0, "same trajectories": 0, "DIFFERENT": 0}
     with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
-        for name, (old, new) in pool.map(lambda run: compare(players, a.pack.resolve(), *run, a.seconds), runs):
-            same = old == new
-            different += not same
-            print(f"{'same' if same else 'DIFFERENT'}  {' '.join(new)}  {name}" + ("" if same else f"  (was {' '.join(old)})"), flush=True)
-    print(f"{len(runs) - different} of {len(runs)} runs are the same")
-    return 1 if different else 0
+        for name, trajectories, differs in pool.map(lambda run: compare(players, a.pack.resolve(), *run, a.seconds), runs):
+            verdict = "same" if not differs else "DIFFERENT" if {"trajectories", "complaint"} & set(differs) else "same trajectories"
+            count[verdict] += 1
+            print(f"{verdict:17}  {trajectories}  {name}" + (f": {', '.join(differs)} differ" if differs else ""), flush=True)
+    print(f"of {len(runs)} runs {count['same']} are the same, {count['same trajectories']} differ in metrics alone")
+    return 1 if count["same"] < len(runs) else 0
 
 
 if __name__ == "__main__":

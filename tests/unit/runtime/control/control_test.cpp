@@ -19,7 +19,7 @@ bool InWedgeByAngle(Vec2 p, Vec2 apex, float yaw_rad, float fov_rad) {
 }
 
 TEST(Props, AreSpreadByTheirSharesAndNobodyHasTwoOfASlot) {
-  const std::vector<PropCost> props{{100, 0.25f, 0}, {60, 0.5f, 0}, {80, 0.3f, 2}};
+  const std::vector<Prop> props{{"a", 0.25f, "hand", 100}, {"b", 0.5f, "hand", 60}, {"c", 0.3f, "", 80}};
   int count[3] = {0, 0, 0}, both = 0;
   constexpr int kPeople = 20000;
   for (int id = 0; id < kPeople; ++id) {
@@ -34,15 +34,15 @@ TEST(Props, AreSpreadByTheirSharesAndNobodyHasTwoOfASlot) {
 }
 
 TEST(Props, StayWithinTheirRoomAndNeitherComeNorGoInView) {
-  const std::vector<PropCost> props{{100, 1, 0}};
+  const std::vector<Prop> props{{"a", 1, "", 100}};
   Props state;
   const auto step = [&](const std::vector<int>& ids, int64_t room) {
     state.bearers.clear();
-    for (int id : ids) state.bearers.push_back({id, &props, static_cast<float>(id)});
-    ChooseProps(room, 10, &state);
+    for (int id : ids) state.bearers.push_back({id, id, &props, static_cast<float>(id)});
+    ChooseProps(room, &state);
     std::vector<int> shown;
     for (int id = 0; id < 10; ++id) {
-      if (state.shown[static_cast<size_t>(id)] != 0) shown.push_back(id);
+      if (ShownProps(state, id, id) != 0) shown.push_back(id);
     }
     EXPECT_EQ(state.triangles, 100 * static_cast<int64_t>(shown.size()));
     EXPECT_LE(state.triangles, room);
@@ -90,10 +90,24 @@ TEST(Shadows, TakeNoMoreThanTheirRoomFromTheFarthestFirstAndComeBackSlowly) {
   EXPECT_EQ(state.triangles, 0);
 }
 
+// Of all that a picture draws people with, but for props: the level of who is in view, and all that still fades out.
+int64_t DrawnTriangles(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const LevelState& state) {
+  const auto triangles = [&](size_t i, Level level) -> int64_t {
+    return IsMesh(level) ? avatars[static_cast<size_t>(crowd.avatar[i])].levels[static_cast<size_t>(level.mesh)].triangles
+                         : IsDrawn(level) ? kImpostorTriangles : 0;
+  };
+  int64_t sum = 0;
+  for (size_t i = 0; i < crowd.size(); ++i) {
+    const PersonLevel& p = state.people[i];
+    sum += (crowd.view[i] == ViewClass::kVisible ? triangles(i, p.level) : 0) + triangles(i, p.from);
+  }
+  return sum;
+}
+
 TEST(ChooseLevels, TheBudgetHoldsForPropsAndShadowsAsWell) {
   Random random{5};
   for (int budget : {40, 300, 2000, 20000, 200000}) {
-    std::vector<AvatarCosts> avatars{{{{9000, 400}, {3000, 200}, {700, 0}}, 1.75f, 128, {{250, 0.7f, 0}, {90, 0.3f, 1}}, {700, 90}}, {{{500, 0}}, 1.75f, 128, {}, {500, 50}}};
+    std::vector<AvatarCosts> avatars{{{{9000, 400}, {3000, 200}, {700, 0}}, 1.75f, 128, {{"hat", 0.7f, "head", 250}, {"bag", 0.3f, "hand", 90}}, {700, 90}}, {{{500, 0}}, 1.75f, 128, {}, {500, 50}}};
     Crowd crowd;
     for (int k = 0; k < 300; ++k) {
       Person person;
@@ -114,11 +128,8 @@ TEST(ChooseLevels, TheBudgetHoldsForPropsAndShadowsAsWell) {
       ASSERT_LE(state.props.triangles, budget / 10);
       ASSERT_LE(state.shadows.triangles, budget / 5);
       int64_t shadows = 0;
-      int64_t drawn = state.fades.triangles + state.props.triangles;
+      int64_t drawn = state.props.triangles + DrawnTriangles(crowd, avatars, state);
       for (size_t i = 0; i < crowd.size(); ++i) {
-        const int level = state.level[i];
-        const auto& levels = avatars[static_cast<size_t>(crowd.avatar[i])].levels;
-        if (level != kNotDrawn) drawn += level < 0 ? kImpostorTriangles : levels[static_cast<size_t>(level)].triangles;
         const ShadowCost& shadow = avatars[static_cast<size_t>(crowd.avatar[i])].shadow;
         const float distance_m = Length(crowd.position[i]);
         EXPECT_TRUE(state.casts_shadow[i] != 0 || crowd.view[i] != ViewClass::kVisible || distance_m >= kShadowReach_m);
@@ -189,24 +200,6 @@ Crowd PeopleInView(int count, Random* random) {
   return crowd;
 }
 
-TEST(LevelControl, WhoChangesTakesTheTrianglesOfBothLevelsWhileTheyFade) {
-  Fades fades;
-  PassFades(0, 10000, 8, &fades);
-  EXPECT_EQ(BeginFade(3, 9000, 9500, &fades), 9000);
-  EXPECT_EQ(BeginFade(4, 900, 500, &fades), 0);  // no room: goes at once
-  EXPECT_EQ(fades.at_once[3], 0);
-  EXPECT_EQ(fades.at_once[4], 1);
-  PassFades(kFade_s / 2, 10000, 8, &fades);
-  EXPECT_EQ(fades.triangles, 9000);
-  EXPECT_EQ(fades.at_once[4], 0);
-  PassFades(kFade_s, 10000, 8, &fades);
-  EXPECT_EQ(fades.triangles, 0);
-  BeginFade(5, 9000, 9500, &fades);
-  PassFades(kFade_s / 2, 5000, 8, &fades);  // the budget has fallen: it holds all the same
-  EXPECT_EQ(fades.triangles, 0);
-  EXPECT_EQ(fades.at_once[5], 1);
-}
-
 TEST(LevelControl, TheBudgetAlwaysHoldsAndCountsAgree) {
   Random random{5};
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {4000, 120}, {900, 0}}, 1.75f, 128}};
@@ -218,13 +211,8 @@ TEST(LevelControl, TheBudgetAlwaysHoldsAndCountsAgree) {
     LevelState state;
     for (int step = 0; step < 5; ++step) {
       ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, 0}, &state);
-      int64_t triangles = 0;
-      int high = 0;
-      for (int level : state.level) {
-        if (level >= 0) ++high;
-        triangles += level >= 0 ? avatars[0].levels[static_cast<size_t>(level)].triangles : level == kImpostor ? 2 : 0;
-      }
-      triangles += state.fades.triangles;
+      const int64_t triangles = DrawnTriangles(crowd, avatars, state);
+      const auto high = std::count_if(state.people.begin(), state.people.end(), [](const PersonLevel& p) { return IsMesh(p.level); });
       ASSERT_LE(triangles, settings.budget_triangles);
       ASSERT_EQ(triangles, state.triangles);
       ASSERT_LE(high, settings.high_limit);
@@ -279,12 +267,12 @@ TEST(LevelControl, InADenseViewTheNearestAreMeshesWhoeverCameFirst) {
   for (int k = 0; k < 60; ++k) step(position, {});
   for (size_t i = 0; i < crowd.size(); ++i) {
     const bool near = crowd.view[i] == ViewClass::kVisible && Length(crowd.position[i] - position) < state.r_high_m - 2;
-    EXPECT_TRUE(!near || state.level[i] >= 0);
+    EXPECT_TRUE(!near || IsMesh(state.people[i].level));
   }
 }
 
 // Those who are seen as impostors when r_high reaches them, 9 m away, and walk on like this.
-int LevelOfWhoWalks(Vec2 position, Vec2 velocity) {
+Level LevelOfWhoWalks(Vec2 position, Vec2 velocity) {
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
   Crowd crowd;
   AddPerson({}, &crowd);
@@ -298,13 +286,13 @@ int LevelOfWhoWalks(Vec2 position, Vec2 velocity) {
     ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, 0}, &state);
     settings.high_limit = k < 20 ? 0 : 12;
   }
-  return state.level[0];
+  return state.people[0].level;
 }
 
 TEST(LevelControl, WhoIsAboutToLeaveTheViewIsNotSwitchedAnyMoreUnlessTheyPassClose) {
-  EXPECT_GE(LevelOfWhoWalks({9, 4}, {}), 0);
+  EXPECT_TRUE(IsMesh(LevelOfWhoWalks({9, 4}, {})));
   EXPECT_EQ(LevelOfWhoWalks({9, 4}, {0, 1.4f}), kImpostor);
-  EXPECT_GE(LevelOfWhoWalks({9, 0.7f}, {-3, 0}), 0);      // soon past the visitor's shoulder
+  EXPECT_TRUE(IsMesh(LevelOfWhoWalks({9, 0.7f}, {-3, 0})));      // soon past the visitor's shoulder
   EXPECT_EQ(LevelOfWhoWalks({9, 3}, {-3, 0}), kImpostor);  // on the other side of the street
 }
 
@@ -329,7 +317,7 @@ TEST(LevelControl, WhoComesNearHasAPlaceBeforeWhoLeaves) {
     for (int step = 0; step < 300; ++step) {
       ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, 0}, &state);
       ASSERT_EQ(state.switches_in_view, 0);
-      ASSERT_GE(state.level[1], 0);
+      ASSERT_TRUE(IsMesh(state.people[1].level));
       for (size_t i = 0; i < 2; ++i) crowd.position[i].x += (i == 0 ? 1.0f : -1.0f) * 1.3f / 30;
     }
   }
@@ -380,8 +368,8 @@ TEST(CrowdInfluence, OnlyLowResolutionVisiblePeopleAvoidTheCameraAndOnlyAtTheLim
   Random random{13};
   Crowd crowd = PeopleInView(60, &random);
   LevelState state;
-  state.level.assign(60, kImpostor);
-  state.level[0] = 0;
+  state.people.assign(60, PersonLevel{kImpostor, kNotDrawn});
+  state.people[0].level = MeshLevel(0);
   state.limit = ControlSettings{}.high_limit;
   ControlSettings settings;
   settings.adaptation = Adaptation::kPaper;

@@ -119,9 +119,10 @@ FrameInput LookEast() {
   return frame;
 }
 
+// level: of the mesh; -1: the impostor.
 DrawnPerson PersonAt(float x, float y, int level) {
   DrawnPerson person;
-  person.level = level;
+  person.level = level < 0 ? kImpostor : MeshLevel(level);
   person.position = {x, y, 0};
   person.heading_rad = kPi;  // towards the eye
   return person;

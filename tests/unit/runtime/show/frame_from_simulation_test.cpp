@@ -12,7 +12,7 @@
 namespace flaneur {
 namespace {
 
-// One person 10 m ahead of a camera that looks east.
+// One person 10 m ahead of a camera that looks east, drawn as the control decides.
 struct Stage {
   Stage() {
     PackAvatar avatar;
@@ -23,12 +23,17 @@ struct Stage {
     person.position = {10, 0};
     AddPerson(person, &s.town.crowd);
     s.town.crowd.view = {ViewClass::kVisible};
-    s.control.levels.level = {0};
-    s.control.levels.casts_shadow = {1};
+    s.control.avatars = {{{{1000, 0}}, 1.75f, 128}};
+  }
+  // A step of the control alone.
+  void Step() {
+    ++s.town.step;
+    ChooseLevels(s.town.crowd, s.control.avatars, s.control.settings, {s.visitor.camera.view, {}, 0}, &s.control.levels);
+    for (size_t i = 0; i < s.town.crowd.size(); ++i) s.town.crowd.was_visible[i] = s.town.crowd.view[i] == ViewClass::kVisible;
   }
   // The pictures so far have been at 30 a second.
   std::vector<DrawnPerson> Next() {
-    ++s.town.step;
+    Step();
     FrameFromSimulation(pack, s, &looks, &frame);
     return frame.people;
   }
@@ -55,8 +60,6 @@ TEST(FrameFromSimulation, PeopleOfOneModelWearDifferentColoursAndKeepThem) {
     AddPerson(person, &stage.s.town.crowd);
   }
   stage.s.town.crowd.view.assign(kPeople, ViewClass::kVisible);
-  stage.s.control.levels.level.assign(kPeople, -1);
-  stage.s.control.levels.casts_shadow.assign(kPeople, 1);
   const auto people = stage.Next();
   ASSERT_EQ(people.size(), static_cast<size_t>(kPeople));
   std::map<std::array<uint8_t, 4>, int> wearers;
@@ -74,7 +77,7 @@ TEST(FrameFromSimulation, PeopleOfOneModelWearDifferentColoursAndKeepThem) {
 
 TEST(FrameFromSimulation, PropsAreDrawnOnceAndFadeWithTheirBearerAndFarOff) {
   Stage stage;
-  stage.s.control.levels.props.shown = {3};
+  stage.s.control.avatars[0].props = {{"hat", 1, "head", 10}, {"bag", 1, "hand", 10}};
   const auto share = [&] {
     float sum = 0;
     for (const DrawnPerson& p : stage.frame.people) sum += p.props != 0 ? p.props_share : 0;
@@ -86,7 +89,7 @@ TEST(FrameFromSimulation, PropsAreDrawnOnceAndFadeWithTheirBearerAndFarOff) {
   };
   EXPECT_EQ(next_share(), 1);
   EXPECT_EQ(stage.frame.people[0].props, 3);
-  stage.s.control.levels.level = {-1};
+  stage.s.control.settings.high_limit = 0;
   for (int k = 0; k < 15; ++k) EXPECT_NEAR(next_share(), 1, 1e-5f) << "while the level changes";
   const auto at = [&](float x) {
     stage.s.town.crowd.position[0].x = x;
@@ -100,14 +103,14 @@ TEST(FrameFromSimulation, PropsAreDrawnOnceAndFadeWithTheirBearerAndFarOff) {
 TEST(FrameFromSimulation, ALevelIsExchangedBitByBit) {
   Stage stage;
   ASSERT_EQ(stage.Next().size(), 1u);
-  stage.s.control.levels.level = {-1};
+  stage.s.control.settings.high_limit = 0;
   float share = 0;
   int pictures = 0;
   for (; share < 1 && pictures < 30; ++pictures) {
     const auto people = stage.Next();
     EXPECT_NEAR(WholeShare(people), 1, 1e-5f);
     float now = 0;
-    for (const DrawnPerson& p : people) now += p.level == -1 ? p.share_to - p.share_from : 0;
+    for (const DrawnPerson& p : people) now += p.level == kImpostor ? p.share_to - p.share_from : 0;
     EXPECT_GE(now, share);
     EXPECT_LT(now - share, 0.2f);
     share = now;
@@ -116,11 +119,29 @@ TEST(FrameFromSimulation, ALevelIsExchangedBitByBit) {
   EXPECT_EQ(stage.Next().size(), 1u);
 }
 
+// Between two steps as well.
+TEST(FrameFromSimulation, ALevelGoesOnBeingExchangedBetweenTheSteps) {
+  Stage stage;
+  stage.Next();
+  stage.s.control.settings.high_limit = 0;
+  stage.Next();
+  float last = 0;
+  for (int k = 0; k < 40; ++k) {
+    if (k % 4 == 0) stage.Step();
+    FrameFromSimulation(stage.pack, stage.s, &stage.looks, &stage.frame, {static_cast<float>(k % 4) / 4});
+    const DrawnPerson& p = stage.frame.people[0];
+    const float now = p.level == kImpostor ? p.share_to - p.share_from : 0;
+    EXPECT_GE(now, last - 1e-5f) << k;
+    EXPECT_LT(now - last, 0.05f) << k;
+    last = now;
+  }
+  EXPECT_EQ(last, 1);
+}
+
 TEST(FrameFromSimulation, WhoGoesWithinTheViewFadesAwayWhereTheyWere) {
   Stage stage;
   stage.Next();
   RemovePerson(0, &stage.s.town.crowd);
-  stage.s.control.levels.level.clear();
   float share = 1;
   for (int k = 0; k < 12; ++k) {
     const auto people = stage.Next();
@@ -140,18 +161,15 @@ TEST(FrameFromSimulation, WhoAppearsWithinTheViewFadesInAndWhoComesFromOutsideIs
   person.position = {12, 1};
   AddPerson(person, &stage.s.town.crowd);
   stage.s.town.crowd.view = {ViewClass::kVisible, ViewClass::kVisible};
-  stage.s.control.levels.level = {0, 0};
-  stage.s.control.levels.casts_shadow = {1, 1};
+  stage.s.town.crowd.was_visible = {1, 1};
   EXPECT_NEAR(WholeShare(stage.Next()), 1, 1e-5f);
   EXPECT_LT(WholeShare(stage.Next()), 1.2f);
   stage.s.visitor.camera.view.yaw_rad = kPi;  // looks the other way, and back
   stage.s.town.crowd.view = {ViewClass::kOutside, ViewClass::kOutside};
-  stage.s.control.levels.level = {kNotDrawn, kNotDrawn};
   stage.Next();  // on the way there
   EXPECT_TRUE(stage.Next().empty());
   stage.s.visitor.camera.view.yaw_rad = 0;
   stage.s.town.crowd.view = {ViewClass::kVisible, ViewClass::kVisible};
-  stage.s.control.levels.level = {0, 0};
   EXPECT_NEAR(WholeShare(stage.Next()), 2, 1e-5f);
 }
 
@@ -160,11 +178,9 @@ TEST(FrameFromSimulation, WhoseMiddleIsBeyondTheViewsEdgeIsStillDrawn) {
   const float half_rad = stage.s.visitor.camera.view.fov_rad / 2;
   stage.s.town.crowd.position = {{5 * std::cos(half_rad + 0.05f), 5 * std::sin(half_rad + 0.05f)}};
   stage.s.town.crowd.view = {ViewClass::kBoundary};
-  stage.s.control.levels.level = {kNotDrawn};
-  stage.s.control.levels.casts_shadow = {0};
   const auto people = stage.Next();
   ASSERT_EQ(people.size(), 1u);
-  EXPECT_FALSE(people[0].casts_shadow);
+  EXPECT_EQ(people[0].level, kImpostor);
   stage.s.town.crowd.position = {{5 * std::cos(half_rad + 0.5f), 5 * std::sin(half_rad + 0.5f)}};
   EXPECT_TRUE(stage.Next().empty());
 }
@@ -188,7 +204,7 @@ TEST(FrameFromSimulation, AWalkEndsByMixing) {
 TEST(FrameFromSimulation, TheSameMomentTwiceIsTheSamePicture) {
   Stage stage;
   stage.Next();
-  stage.s.control.levels.level = {-1};
+  stage.s.control.settings.high_limit = 0;
   const auto people = stage.Next();
   FrameFromSimulation(stage.pack, stage.s, &stage.looks, &stage.frame);
   ASSERT_EQ(stage.frame.people.size(), people.size());
@@ -227,7 +243,7 @@ TEST(FrameFromSimulation, BetweenTwoStepsEverythingIsOnItsWay) {
 TEST(FrameFromSimulation, AfterTwoStepsAtOnceTheWayIsAsLong) {
   Stage stage;
   stage.Next();
-  ++stage.s.town.step;
+  stage.Step();
   stage.s.town.crowd.position = {{10.1f, 0}};
   stage.Next();
   FrameFromSimulation(stage.pack, stage.s, &stage.looks, &stage.frame, {0.5f});
@@ -248,6 +264,7 @@ TEST(FrameFromSimulation, WhoIsPutElsewhereDoesNotFly) {
 // The view's yaw in every picture while a hand turns it evenly; the simulation does it in steps of 33 ms, pictures come every 7 ms.
 std::vector<float> YawsWhileTurning(float rate_radps, float picture_s) {
   Stage stage;
+  stage.Step();
   Controls controls;
   controls.follows_tour = false;
   float owed_s = 0;
@@ -259,7 +276,7 @@ std::vector<float> YawsWhileTurning(float rate_radps, float picture_s) {
       controls.turned_rad = 0;
       const CameraInput step = NextStep({}, stage.s, &controls);
       stage.s.visitor.camera.view.yaw_rad = WrapAngle(stage.s.visitor.camera.view.yaw_rad + step.yaw_rate_radps * Step_s(stage.s));
-      ++stage.s.town.step;
+      stage.Step();
       owed_s -= Step_s(stage.s);
     }
     const float share = owed_s / Step_s(stage.s);
@@ -294,7 +311,6 @@ TEST(FrameFromSimulation, NobodyIsMissingBetweenTheSteps) {
   const float half_rad = stage.s.visitor.camera.view.fov_rad / 2;
   stage.s.visitor.camera.view.yaw_rad = half_rad + 0.2f;
   stage.s.town.crowd.view = {ViewClass::kBoundary};
-  stage.s.control.levels.level = {kNotDrawn};
   EXPECT_EQ(stage.Next().size(), 1u);
   EXPECT_TRUE(stage.Next().empty());
 }

@@ -203,7 +203,7 @@ TourPack Market(int people) {
 bool LooksAtSomething(const Simulation& s, size_t i) {
   const Crowd& c = s.town.crowd;
   const Vec2 ahead{std::cos(c.heading_rad[i]), std::sin(c.heading_rad[i])};
-  const LoiterSpot& spot = s.town.loiter_spots[static_cast<size_t>(s.town.plans[static_cast<size_t>(c.id[i])].spot)];
+  const LoiterSpot& spot = s.town.loiter_spots[static_cast<size_t>(PlanOf(i, s.town).spot)];
   if (Dot(ahead, spot.look) > 0.8f) return true;
   for (size_t j = 0; j < c.size(); ++j) {
     const Vec2 way = c.position[j] - c.position[i];
@@ -226,12 +226,12 @@ TEST(Life, PeopleStandAboutEachAtAnotherSpotAndLookAtThingsOrEachOther) {
     StepSimulation({}, 0, &s);
     if (step < 300 || step % 30 != 0) continue;
     for (size_t i = 0; i < s.town.crowd.size(); ++i) {
-      const int spot = s.town.plans[static_cast<size_t>(s.town.crowd.id[i])].spot;
+      const int spot = PlanOf(i, s.town).spot;
       if (spot < 0 || s.town.crowd.field[i] >= 0 || Length(s.town.crowd.velocity[i]) > 0.05f) continue;
       ++standing;
       talking += s.town.crowd.activity[i] == Activity::kTalking ? 1 : 0;
       looking += LooksAtSomething(s, i) ? 1 : 0;
-      for (size_t j = 0; j < i; ++j) wrong += s.town.plans[static_cast<size_t>(s.town.crowd.id[j])].spot == spot ? 1 : 0;
+      for (size_t j = 0; j < i; ++j) wrong += PlanOf(j, s.town).spot == spot ? 1 : 0;
     }
   }
   EXPECT_EQ(wrong, 0) << "two at one spot";
@@ -253,7 +253,7 @@ TEST(Life, WhoStandsSetsOutWhenADetourIsAsked) {
   for (int step = 0; step < 45; ++step) StepSimulation({}, 0, &s);
   const auto now = std::find(s.town.crowd.id.begin(), s.town.crowd.id.end(), id) - s.town.crowd.id.begin();
   EXPECT_GE(s.town.crowd.field[static_cast<size_t>(now)], 0);
-  EXPECT_EQ(s.town.plans[static_cast<size_t>(id)].spot, -1);
+  EXPECT_EQ(PlanOf(static_cast<size_t>(now), s.town).spot, -1);
 }
 
 // The north-west quarter painted in full, the south-east one by half; people stand about in a strip in the south-west.
@@ -302,7 +302,7 @@ TEST(Life, PeopleStandAboutWhereThatIsPainted) {
     StepSimulation({}, 0, &s);
     if (step % 60 != 0) continue;
     for (size_t i = 0; i < s.town.crowd.size(); ++i) {
-      if (s.town.plans[static_cast<size_t>(s.town.crowd.id[i])].spot < 0 || s.town.crowd.field[i] >= 0) continue;
+      if (PlanOf(i, s.town).spot < 0 || s.town.crowd.field[i] >= 0) continue;
       const Vec2 p = s.town.crowd.position[i];
       ++standing;
       off_paint += p.x > -8 || p.y < -27 || p.y > -18 ? 1 : 0;

@@ -47,7 +47,7 @@ TEST_F(SteadyFrameOfTheDemo, AllocatesNothingAndTakesFewDrawCallsForTenThousandP
   for (int i = 0; i < 10000; ++i) {  // a field of them before the eye, near ones as meshes and some of them fading
     DrawnPerson person;
     person.avatar = i % avatars;
-    person.level = i < 24 ? i % static_cast<int>(pack.avatars[static_cast<size_t>(person.avatar)].levels.size()) : -1;
+    person.level = i < 24 ? MeshLevel(i % static_cast<int>(pack.avatars[static_cast<size_t>(person.avatar)].levels.size())) : kImpostor;
     person.position = {-31 + 0.6f * static_cast<float>(i / 100), -35 + 0.6f * static_cast<float>(i % 100), 0};
     if (i % 8 == 3) person.share_to = 0.6f;
     person.moment.phase = static_cast<float>(i % 31) / 31;

@@ -159,7 +159,7 @@ TEST(Guide, IsAMeshWheneverSeenAndWithinTheBudget) {
     Step(&s, 1);
     ASSERT_LE(s.control.levels.triangles, 12000);
     if (s.town.crowd.view[s.visitor.guide.index] == ViewClass::kVisible) {
-      ASSERT_GE(s.control.levels.level[s.visitor.guide.index], 0) << step;
+      ASSERT_TRUE(IsMesh(s.control.levels.people[s.visitor.guide.index].level)) << step;
     }
   }
 }

@@ -1,0 +1,161 @@
+// How people change their level: what a picture draws meanwhile, and that the budget is about all of it.
+#include <gtest/gtest.h>
+
+#include "runtime/control/level_control.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kStep_s = 1.0f / 30;
+
+// People ahead of a camera that looks east, near enough to be meshes of 9,000 triangles.
+struct Stage {
+  explicit Stage(int people) {
+    for (int k = 0; k < people; ++k) {
+      Person person;
+      person.position = {5 + static_cast<float>(k), 0};
+      AddPerson(person, &crowd);
+    }
+    crowd.view.assign(crowd.size(), ViewClass::kVisible);
+  }
+  void Step(int steps = 1) {
+    for (int k = 0; k < steps; ++k) {
+      ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, 0}, &state);
+      for (size_t i = 0; i < crowd.size(); ++i) crowd.was_visible[i] = crowd.view[i] == ViewClass::kVisible;
+      EXPECT_LE(state.triangles + state.shadows.triangles, settings.budget_triangles);
+    }
+  }
+  const PersonLevel& at(size_t i) const { return state.people[i]; }
+
+  Crowd crowd;
+  std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
+  ControlSettings settings;
+  LevelState state;
+};
+
+TEST(LevelChange, BothLevelsCountWhileOneFadesIntoTheOther) {
+  Stage s(1);
+  s.Step();
+  EXPECT_EQ(s.at(0), (PersonLevel{MeshLevel(0), kNotDrawn, kLongAgo_s})) << "comes with the first picture";
+  s.settings.high_limit = 0;
+  s.Step();
+  EXPECT_EQ(s.at(0), (PersonLevel{kImpostor, MeshLevel(0), 0}));
+  EXPECT_EQ(s.state.triangles, 9000 + kImpostorTriangles);
+  float last_s = 0;
+  while (IsDrawn(s.at(0).from)) {
+    EXPECT_EQ(s.state.fading_triangles, 9000);
+    s.Step();
+    EXPECT_GT(s.at(0).age_s, last_s) << "and is over, sometime";
+    last_s = s.at(0).age_s;
+  }
+  EXPECT_EQ(s.at(0).from, kNotDrawn);
+  EXPECT_EQ(s.state.triangles, kImpostorTriangles);
+}
+
+// The picture showed the one in the middle for a while after the budget had stopped counting it.
+TEST(LevelChange, WhoChangesTwiceSoonIsStillDrawnWithTwoLevelsThatBothCount) {
+  for (int between = 1; between < 12; ++between) {
+    Stage s(1);
+    s.Step();
+    s.settings.high_limit = 0;
+    s.Step(between);
+    s.settings.high_limit = 12;
+    for (int k = 0; k < 15; ++k) {
+      s.Step();
+      const PersonLevel& p = s.at(0);
+      const auto triangles = [](Level level) { return IsMesh(level) ? 9000 : IsDrawn(level) ? kImpostorTriangles : 0; };
+      EXPECT_EQ(s.state.triangles, triangles(p.level) + triangles(p.from)) << between << " " << k;
+    }
+    EXPECT_EQ(s.at(0), (PersonLevel{MeshLevel(0), kNotDrawn, kLongAgo_s}));
+  }
+}
+
+TEST(LevelChange, IsDoneAtOnceWhereTheBudgetHasNoRoomForBoth) {
+  Stage s(2);
+  s.settings.budget_triangles = 24000;
+  s.avatars[0].shadow = {};
+  s.Step();
+  s.settings.high_limit = 0;
+  s.Step();
+  EXPECT_EQ(s.state.fading_triangles, 18000);
+  s.settings.budget_triangles = 12000;  // it falls: nothing fades any more
+  s.Step();
+  EXPECT_EQ(s.state.fading_triangles, 0);
+  for (size_t i = 0; i < 2; ++i) EXPECT_EQ(s.at(i), (PersonLevel{kImpostor, kNotDrawn, kLongAgo_s}));
+  s.settings.high_limit = 1;
+  s.settings.budget_triangles = 9003;  // the mesh and the other's impostor, and no more than one triangle
+  s.Step();
+  EXPECT_EQ(s.at(0), (PersonLevel{MeshLevel(0), kNotDrawn, kLongAgo_s}));
+}
+
+TEST(LevelChange, WhoLeavesTheTownInViewFadesWhereTheyWereAndCountsMeanwhile) {
+  Stage s(2);
+  s.Step();
+  const int slot = s.crowd.slot[0];
+  RemovePerson(0, &s.crowd);
+  s.Step();
+  ASSERT_EQ(s.state.gone.size(), 1u);
+  EXPECT_EQ(s.state.gone[0].slot, slot);
+  EXPECT_EQ(s.state.gone[0].level, (PersonLevel{kNotDrawn, MeshLevel(0), 0}));
+  EXPECT_EQ(s.state.triangles, 18000);
+  s.Step(static_cast<int>(kFade_s / kStep_s) + 3);
+  EXPECT_TRUE(s.state.gone.empty());
+  EXPECT_EQ(s.state.triangles, 9000);
+}
+
+TEST(LevelChange, WhoLeavesTheViewIsGoneAtOnceAndSoIsWhatFadedOfThem) {
+  Stage s(1);
+  s.Step();
+  s.settings.high_limit = 0;
+  s.Step();
+  s.crowd.view[0] = ViewClass::kOutside;
+  s.Step();
+  EXPECT_FALSE(IsDrawn(s.at(0)));
+  EXPECT_EQ(s.state.triangles, 0);
+  EXPECT_TRUE(s.state.gone.empty());
+}
+
+TEST(LevelChange, FartherThanAnybodyIsDrawnPeopleFadeOutAndIn) {
+  Stage s(1);
+  s.settings.r_far_m = 50;
+  s.Step();
+  s.crowd.position[0] = {50.1f, 0};
+  s.Step();
+  EXPECT_EQ(s.at(0), (PersonLevel{kNotDrawn, MeshLevel(0), 0}));
+  s.Step(15);
+  EXPECT_FALSE(IsDrawn(s.at(0)));
+  s.crowd.position[0] = {49.9f, 0};
+  s.Step();
+  EXPECT_EQ(s.at(0).age_s, 0);
+  EXPECT_EQ(s.at(0).from, kNotDrawn);
+  EXPECT_TRUE(IsDrawn(s.at(0).level));
+}
+
+// As many arrivals as ten hours of a busy square have: what is kept about people grows with how many there are at once, not with how
+// many there have been.
+TEST(LevelChange, TenHoursOfArrivalsKeepMemoryFlat) {
+  Stage s(40);
+  s.avatars[0].props = {{"hat", 0.5f, "", 10}};
+  const auto kept = [&] {
+    return s.crowd.slots.owner.capacity() + s.state.memory.capacity() + s.state.props.memory.capacity() + s.state.people.capacity() +
+           s.state.drawn.capacity() + s.state.drawn_before.capacity() + s.state.gone.capacity() + s.crowd.id.capacity();
+  };
+  Random random{7};
+  size_t after_an_hour = 0;
+  constexpr int kArrivalsAnHour = 3600;
+  for (int arrival = 0; arrival < 10 * kArrivalsAnHour; ++arrival) {
+    RemovePerson(static_cast<size_t>(random.Below(static_cast<int>(s.crowd.size()))), &s.crowd);
+    Person person;
+    person.position = {random.Uniform(2, 60), random.Uniform(-5, 5)};
+    AddPerson(person, &s.crowd);
+    s.crowd.view.back() = ViewClass::kVisible;
+    s.Step();
+    for (size_t i = 0; i < s.crowd.size(); ++i) ASSERT_EQ(s.crowd.slots.owner[static_cast<size_t>(s.crowd.slot[i])], s.crowd.id[i]);
+    if (arrival == kArrivalsAnHour) after_an_hour = kept();
+  }
+  EXPECT_EQ(kept(), after_an_hour);
+  EXPECT_EQ(s.crowd.next_id, 40 + 10 * kArrivalsAnHour);
+}
+
+}  // namespace
+}  // namespace flaneur
