@@ -72,6 +72,7 @@ struct Town {
   int loiterers = 0;                     // people whose plan is to loiter
 
   Crowd crowd;
+  Jobs* jobs = nullptr;                  // build fields; they outlive the town
   FieldBuilder field_builder;
   std::vector<PersonPlan> plans;         // by id
   Enclosure enclosure;
