@@ -17,6 +17,7 @@ constexpr float kStep_s = 1.0f / 30;
 // 60 x 60 m of pavement, a carriageway across it, and walls with gaps at alternating ends: a labyrinth.
 Walkable Labyrinth() {
   Walkable w;
+  w.ground.cell_m = 1;
   w.ground.columns = w.ground.rows = 60;
   w.ground.height_m.assign(3600, 0);
   w.ground.kind.assign(3600, 2);
@@ -174,7 +175,10 @@ TEST(FlowField, IsDoneByTheStepThatTakesItWithoutThreads) {
   const int64_t takes_steps = 4;
   FieldBuild build{{{57, 57}, {}, {}}, {}};
   Job job = StartJob(nullptr, [&] { return BuildFurther(w, 1 + CellsToGoOver(w) / takes_steps, &build); });
-  for (int64_t step = 0; step < takes_steps; ++step) EXPECT_FALSE(job.Done()), job.Advance();
+  for (int64_t step = 0; step < takes_steps; ++step) {
+    EXPECT_FALSE(job.Done()) << step;
+    job.Advance();
+  }
   EXPECT_TRUE(job.Done());
 }
 
