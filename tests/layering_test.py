@@ -35,6 +35,9 @@ for room, below in ROOMS.items():
 SHELL_ONLY = re.compile(r"(GLFW/|EGL/|AL/|sndfile)")
 # Libraries whose types stay inside source files, and that the runtime must not know at all.
 PIPELINE_ONLY = re.compile(r"(CGAL|OpenMesh|OpenImageIO|tiny_gltf|clipper|boost|proj\.h)", re.IGNORECASE)
+# Where threads come from: everybody else asks for a Jobs, for a web page has none, and std::async would wait there for ever.
+THREADS = re.compile(r"std::(j?thread|this_thread|async|(shared_)?future|promise|packaged_task)\b|#\s*include\s*<(thread|future)>")
+MAY_START_THREADS = {"runtime/base/jobs.cpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
@@ -45,7 +48,11 @@ def violations(root):
         folder = "/".join(path.relative_to(root).parts[:2])
         if folder.startswith("runtime/") and folder not in ALLOWED:
             yield f"{path}: {folder} is no room of the table"
-        for name in INCLUDE.findall(path.read_text(encoding="utf-8")):
+        text = path.read_text(encoding="utf-8")
+        if folder.startswith("runtime/") and str(path.relative_to(root)) not in MAY_START_THREADS:
+            for found in THREADS.finditer(text):
+                yield f"{path}: {found[0]} belongs in {', '.join(MAY_START_THREADS)}; ask for a Jobs (runtime/base/jobs.h)"
+        for name in INCLUDE.findall(text):
             target = "/".join(name.split("/")[:2])
             yield from check_include(path.relative_to(root), folder, name, target)
 

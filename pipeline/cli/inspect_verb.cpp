@@ -76,7 +76,8 @@ int RunInspect(const Arguments& args) {
   app.add_flag("--json", as_json, "As JSON");
   if (const int status = ParseArguments(&app, args); status >= 0) return status;
   TourPack pack;
-  if (Error e = LoadTourPack(path, LoadOptions{}, &pack)) return Report(e);
+  Jobs jobs(ThreadsOfThisMachine());
+  if (Error e = LoadTourPack(path, {.jobs = &jobs}, &pack)) return Report(e);
   const Json summary = Summary(pack);
   if (as_json) std::printf("%s\n", summary.dump(1).c_str());
   else Print(summary, 0);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <queue>
 
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/fast_math.h"
@@ -16,8 +16,9 @@ constexpr float kExactAround_m = 3;  // straight lines instead of marching: marc
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr uint8_t kNoWay = 255;
 
+constexpr int64_t kMarchCost_cells = 3;  // the march takes so many times as long for a cell as describing its direction
+
 using Entry = std::pair<float, int>;  // ties by cell: the same everywhere
-using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
 // The cheaper of two opposite neighbours and where it lies (-1, +1), infinity if neither has a value.
 struct Upwind { float value = kInfinity; int side = 0; };
@@ -49,28 +50,52 @@ float Solve(const Around& a, float cost_of_cell) {
   return 0.5f * (sum + std::sqrt(2 * cost_of_cell * cost_of_cell - (high - low) * (high - low)));
 }
 
-void SeedAroundGoal(const Walkable& w, Vec2 goal, int start, FlowField* field, Queue* open) {
+void Push(float value, int cell, FieldBuild* build) {
+  build->open.push_back({value, cell});
+  std::push_heap(build->open.begin(), build->open.end(), std::greater<>());
+}
+
+Entry Pop(FieldBuild* build) {
+  std::pop_heap(build->open.begin(), build->open.end(), std::greater<>());
+  const Entry least = build->open.back();
+  build->open.pop_back();
+  return least;
+}
+
+void SeedAroundGoal(const Walkable& w, int start, FieldBuild* build) {
+  FlowField& field = build->field;
   const int reach = static_cast<int>(kExactAround_m / w.cell_m);
   const int cx = start % w.columns, cy = start / w.columns;
   for (int y = std::max(0, cy - reach); y <= std::min(w.rows - 1, cy + reach); ++y) {
     for (int x = std::max(0, cx - reach); x <= std::min(w.columns - 1, cx + reach); ++x) {
       const int cell = y * w.columns + x;
       const Vec2 center = CellCenter(w, cell);
-      const float distance_m = Length(center - goal);
+      const float distance_m = Length(center - field.goal);
       if (w.cost[static_cast<size_t>(cell)] <= 0 || distance_m > kExactAround_m) continue;
-      if (cell != start && !(StraightWay(w, center, goal) && StraightWay(w, goal, center))) continue;
-      field->distance[static_cast<size_t>(cell)] = distance_m * CostOfGround(w, cell);
-      open->push({field->distance[static_cast<size_t>(cell)], cell});
+      if (cell != start && !(StraightWay(w, center, field.goal) && StraightWay(w, field.goal, center))) continue;
+      field.distance[static_cast<size_t>(cell)] = distance_m * CostOfGround(w, cell);
+      Push(field.distance[static_cast<size_t>(cell)], cell, build);
     }
   }
 }
 
-void March(const Walkable& w, FlowField* field, Queue* open) {
-  std::vector<float>& t = field->distance;
-  while (!open->empty()) {
-    const auto [value, cell] = open->top();
-    open->pop();
+void Begin(const Walkable& w, FieldBuild* build) {
+  FlowField& field = build->field;
+  field.distance.assign(w.cost.size(), kInfinity);
+  const size_t squares = static_cast<size_t>((w.columns + 63) / 64) * static_cast<size_t>((w.rows + 63) / 64);
+  field.tiles.resize(64 * squares);
+  for (DirectionTile& tile : field.tiles) std::fill(std::begin(tile.direction), std::end(tile.direction), kNoWay);
+  if (const int start = FreeCellFor(w, field.goal); start >= 0) SeedAroundGoal(w, start, build);
+  build->described = 0;
+}
+
+// Returns how many more cells the slice may go over.
+int64_t March(const Walkable& w, int64_t cells, FieldBuild* build) {
+  std::vector<float>& t = build->field.distance;
+  while (!build->open.empty() && cells > 0) {
+    const auto [value, cell] = Pop(build);
     if (value > t[static_cast<size_t>(cell)]) continue;
+    cells -= kMarchCost_cells;
     const int x = cell % w.columns, y = cell / w.columns;
     const int next[4] = {x > 0 ? cell - 1 : -1, x + 1 < w.columns ? cell + 1 : -1, y > 0 ? cell - w.columns : -1,
                          y + 1 < w.rows ? cell + w.columns : -1};
@@ -79,9 +104,10 @@ void March(const Walkable& w, FlowField* field, Queue* open) {
       const float better = Solve(Look(w, t, n), CostOfGround(w, n) * w.cell_m);
       if (better >= t[static_cast<size_t>(n)]) continue;
       t[static_cast<size_t>(n)] = better;
-      open->push({better, n});
+      Push(better, n, build);
     }
   }
+  return cells;
 }
 
 uint8_t Descent(const Walkable& w, const FlowField& field, int cell) {
@@ -115,20 +141,27 @@ float CostOfGround(const Walkable& w, int cell) {
 }
 
 FlowField BuildFlowField(const Walkable& w, Vec2 goal) {
-  FlowField field{goal, std::vector<float>(w.cost.size(), kInfinity), {}};
-  const size_t squares = static_cast<size_t>((w.columns + 63) / 64) * static_cast<size_t>((w.rows + 63) / 64);
-  field.tiles.resize(64 * squares);
-  for (DirectionTile& tile : field.tiles) std::fill(std::begin(tile.direction), std::end(tile.direction), kNoWay);
-  const int start = FreeCellFor(w, goal);
-  if (start < 0) return field;
-  Queue open;
-  SeedAroundGoal(w, goal, start, &field, &open);
-  March(w, &field, &open);
-  for (int cell = 0; cell < static_cast<int>(w.cost.size()); ++cell) {
+  FieldBuild build{{goal, {}, {}}, {}};
+  while (!BuildFurther(w, std::numeric_limits<int64_t>::max(), &build)) {}
+  return std::move(build.field);
+}
+
+int64_t CellsToGoOver(const Walkable& w) {
+  return (1 + kMarchCost_cells) * std::count_if(w.cost.begin(), w.cost.end(), [](float cost) { return cost > 0; });
+}
+
+bool BuildFurther(const Walkable& w, int64_t cells, FieldBuild* build) {
+  if (build->described < 0) Begin(w, build);
+  cells = March(w, cells, build);
+  if (!build->open.empty()) return false;
+  FlowField& field = build->field;
+  for (int& cell = build->described; cell < static_cast<int>(w.cost.size()) && cells > 0; ++cell) {
+    if (w.cost[static_cast<size_t>(cell)] <= 0) continue;  // nobody can stand there, and no way is what it says already
+    --cells;
     const size_t k = DirectionIndex(w, cell % w.columns, cell / w.columns);
     field.tiles[k >> 6].direction[k & 63] = Descent(w, field, cell);
   }
-  return field;
+  return build->described == static_cast<int>(w.cost.size());
 }
 
 bool Reachable(const Walkable& w, const FlowField& field, Vec2 from) {

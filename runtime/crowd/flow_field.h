@@ -1,6 +1,7 @@
 // The way to one destination from everywhere: travel costs over the navigation grid, shared by all who go there.
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "runtime/crowd/walkable.h"
@@ -33,6 +34,17 @@ inline bool IsBuilt(const FlowField& field) { return !field.distance.empty(); }
 // Solves |grad T| = cost by fast marching (Sethian 1996), exact around the goal. Slopes cost more (constants.h). The goal's
 // nearest free cell within 3 m is the destination.
 FlowField BuildFlowField(const Walkable& w, Vec2 goal);
+
+// The same in slices. A slice goes over at most so many cells; the field is the same whatever they are.
+struct FieldBuild {
+  FlowField field;
+  std::vector<std::pair<float, int>> open;  // heap, least first: distances from which the march goes on, and their cells
+  int described = -1;                       // cells that have their direction; -1: the march has not begun
+};
+// What all slices together go over at most, whatever the goal.
+int64_t CellsToGoOver(const Walkable& w);
+// True: the field is done.
+bool BuildFurther(const Walkable& w, int64_t cells, FieldBuild* build);
 
 // By connected areas: costs nothing, also for a field that isn't built yet.
 bool Reachable(const Walkable& w, const FlowField& field, Vec2 from);

@@ -221,8 +221,9 @@ void Window::FreePointer(bool free) {
   impl_->last = Cursor(impl_->window);
 }
 
-WindowInput Window::Poll() {
-  glfwPollEvents();
+WindowInput Window::Poll(double wait_s) {
+  if (wait_s > 0) glfwWaitEventsTimeout(wait_s);
+  else glfwPollEvents();
   GLFWwindow* w = impl_->window;
   WindowInput input;
   for (int key = GLFW_KEY_SPACE; key <= GLFW_KEY_LAST; ++key) {

@@ -27,10 +27,10 @@ Error CheckOutputs(const PlayerOptions& options) {
   return Ok();
 }
 
-Error PlayInWindow(const PlayerOptions& options, const TourPack& pack, Loader* loader, Simulation* simulation) {
+Error PlayInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, Simulation* simulation) {
   UserSettings user;
   if (Error e = ReadUserSettings(options, &user)) return e;
-  return RunInWindow(options, pack, loader, &user, simulation);
+  return RunInWindow(options, pack, jobs, loader, &user, simulation);
 }
 
 // The scenario's file, and over it what the command line says.
@@ -65,12 +65,13 @@ Error Play(const PlayerOptions& options) {
   }
   Scenario scenario = has_pack ? ScenarioOf(pack) : Scenario{};
   if (Error e = TakeOptions(options, &scenario)) return e;
-  Loader loader;
+  Jobs jobs(options.threads ? static_cast<size_t>(*options.threads) : ThreadsOfThisMachine());
+  Loader loader(&jobs);
   if (has_pack && !options.no_draw) loader.Start(std::move(file), pack);
   std::vector<Simulation> simulations(std::max<size_t>(1, options.compare.size()));
   for (size_t k = 0; k < simulations.size(); ++k) {
     if (!options.compare.empty()) TakeNamed(options.compare[k], kAdaptationNames, &scenario.control.adaptation);
-    if (Error e = StartSimulation(has_pack ? &pack : nullptr, scenario, &simulations[k])) {
+    if (Error e = StartSimulation(has_pack ? &pack : nullptr, scenario, &simulations[k], &jobs)) {
       const auto& source = options.scenario.empty() ? options.pack : options.scenario;
       return Fail(source.string() + ": " + e.message);
     }
@@ -80,7 +81,7 @@ Error Play(const PlayerOptions& options) {
   const float seconds = RunLength_s(options, scenario, simulation);
   if (options.no_draw) return RunWithoutDrawing(options, seconds, &simulation);
   if (options.headless) return RunHeadless(options, seconds, pack, &loader, &simulations);
-  return PlayInWindow(options, pack, &loader, &simulation);
+  return PlayInWindow(options, pack, &jobs, &loader, &simulation);
 }
 
 }  // namespace

@@ -59,6 +59,8 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("--set", o->set, "SETTING=VALUE instead of what the settings file says, such as snap_turn_deg=30 or keys.pause=p,pad_a")
       ->allow_extra_args(false);
   app.add_flag("--save-settings", o->save_settings, "Write the settings as they are now, with --set, and end");
+  app.add_option("--threads", o->threads, "Threads that work beside the one that plays (default: one a core, two at least); 0: it does all itself")
+      ->check(CLI::Range(0, 256));
   app.add_option("--compare", o->compare, "Two adaptations on the same walk, side by side in one film or picture, such as: off full")
       ->expected(2)->check(CLI::IsMember({"off", "paper", "full"}));
   try {

@@ -22,6 +22,7 @@ struct PlayerOptions {
   std::vector<std::string> compare;  // adaptations side by side: two, or none
   int width_px = 1280, height_px = 720;
   std::optional<int> samples;        // a pixel, of stills and films
+  std::optional<int> threads;        // beside the one that plays
 };
 
 // Negative: go on. Else the exit status: 0 after --help, 2 after bad usage, which was said in one line.

@@ -19,6 +19,6 @@ Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation*
 // `loader` has been started with the pack.
 Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader, std::vector<Simulation>* simulations);
 // Settings that the visitor changes are saved.
-Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* loader, UserSettings* user, Simulation* simulation);
+Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, UserSettings* user, Simulation* simulation);
 
 }  // namespace flaneur

@@ -1,9 +1,7 @@
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <string>
-#include <thread>
 
 #include "runtime/base/clock.h"
 #include "runtime/simulation/records.h"
@@ -17,6 +15,7 @@ namespace flaneur {
 namespace {
 
 const double program_start_s = Now_s();
+constexpr double kPause_s = 0.002;  // between looks at whether the town is there
 
 void TellStart() {
   std::fprintf(stderr, "flaneur-player: first picture after %.2f s, %.2f s of processor time\n", Now_s() - program_start_s,
@@ -42,18 +41,17 @@ void EndWithoutWindow(const char* why) {
 Error WaitForTown(Window* window, Visit* visit, bool* closed) {
   for (bool there = false; !there && !*closed;) {
     if (Error e = visit->Load(&there)) return e;
-    *closed = window->Poll().close;
-    if (!there) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    *closed = window->Poll(there ? 0 : kPause_s).close;
   }
   return Ok();
 }
 
 }  // namespace
 
-Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Loader* loader, UserSettings* user, Simulation* s) {
+Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, UserSettings* user, Simulation* s) {
   Window window;
   if (Error e = window.Create(options.width_px, options.height_px, pack.name.c_str(), EndWithoutWindow)) return e;
-  Speaker speaker;
+  Speaker speaker(jobs);
   UserSettingsStore store(user);
   WarningsOnStderr warnings;
   Visit visit(pack, loader, user->settings, {speaker, store, warnings, PrintedKey}, s);

@@ -4,10 +4,9 @@
 #include <AL/alc.h>
 #include <dlfcn.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <future>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -34,9 +33,11 @@ struct Speaker::Impl {
   ALuint source = 0, buffer = 0;
   bool tried = false, paused = false, playing = false;
   float volume = 1;
-  std::future<Sound> decoding;
   std::string name;                    // of the sound that plays or is decoded
   std::set<std::string> undecodable;   // of which that has been said
+  Jobs* jobs = nullptr;
+  Sound decoded;
+  std::optional<Job> decoding;         // last, so that it ends first
 
   // True once there is a device; opens it where that has not been tried.
   bool Open() {
@@ -79,11 +80,13 @@ struct Speaker::Impl {
   }
 };
 
-Speaker::Speaker() : impl_(std::make_unique<Impl>()) { QuietenLibraries(); }
+Speaker::Speaker(Jobs* jobs) : impl_(std::make_unique<Impl>()) {
+  QuietenLibraries();
+  impl_->jobs = jobs;
+}
 
 Speaker::~Speaker() {
-  if (impl_->decoding.valid()) impl_->decoding.wait();
-  impl_->Silence();
+  Stop();
   if (impl_->context != nullptr) {
     alDeleteSources(1, &impl_->source);
     alcMakeContextCurrent(nullptr);
@@ -94,14 +97,17 @@ Speaker::~Speaker() {
 
 void Speaker::Play(std::vector<uint8_t> sound, std::string name) {
   Impl* impl = impl_.get();
+  impl->decoding.reset();
   if (impl->tried && impl->context == nullptr) return;
-  if (impl->decoding.valid()) impl->decoding.wait();
   impl->name = std::move(name);
-  impl->decoding = std::async(std::launch::async, [impl, bytes = std::move(sound)] { return impl->Open() ? DecodeSound(bytes) : Sound{}; });
+  impl->decoding = StartJob(impl->jobs, [impl, bytes = std::move(sound)] {
+    impl->decoded = impl->Open() ? DecodeSound(bytes) : Sound{};
+    return true;
+  });
 }
 
 void Speaker::Stop() {
-  if (impl_->decoding.valid()) impl_->decoding.get();
+  impl_->decoding.reset();
   impl_->Silence();
 }
 
@@ -119,8 +125,12 @@ void Speaker::SetVolume(float share) {
 }
 
 void Speaker::Update() {
-  if (!impl_->decoding.valid() || impl_->decoding.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  impl_->Begin(impl_->decoding.get());
+  if (!impl_->decoding) return;
+  impl_->decoding->Advance();
+  if (!impl_->decoding->Done()) return;
+  impl_->decoding->Wait();  // says what went wrong
+  impl_->decoding.reset();
+  impl_->Begin(impl_->decoded);
 }
 
 }  // namespace flaneur

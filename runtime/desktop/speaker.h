@@ -5,15 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/jobs.h"
 #include "runtime/visit/shell.h"
 
 namespace flaneur {
 
 class Speaker : public SoundOutput {
  public:
-  Speaker();
+  // `jobs` outlives it.
+  explicit Speaker(Jobs* jobs = nullptr);
   ~Speaker() override;
-  // Decodes meanwhile, in another thread.
+  // Opens the device and decodes meanwhile, where there are threads; else in the next Update.
   void Play(std::vector<uint8_t> sound, std::string name) override;
   void Stop() override;
   void SetPaused(bool paused) override;

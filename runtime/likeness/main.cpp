@@ -75,13 +75,14 @@ Error CheckNames(const LikenessArguments& a, const TourPack& pack) {
 
 Error Run(const LikenessArguments& a) {
   if (Error e = CheckWritable(a.output / "likeness.csv")) return e;
+  Jobs jobs(ThreadsOfThisMachine());
   TourPack pack;
-  if (Error e = LoadTourPack(a.pack, {}, &pack)) return e;
+  if (Error e = LoadTourPack(a.pack, {.jobs = &jobs}, &pack)) return e;
   if (Error e = CheckNames(a, pack)) return e;
   HeadlessContext context;
   if (Error e = context.Create()) return e;
   PortraitStudio studio;
-  if (Error e = studio.Create(std::move(pack), a.supersampling)) return e;
+  if (Error e = studio.Create(std::move(pack), a.supersampling, &jobs)) return e;
   std::printf("avatar         level        px dE mean   worst    whole IoU mean    worst  normal\n");
   std::string csv = "avatar,level,person_px,delta_e_mean,delta_e_worst,delta_e_whole_mean,delta_e_whole_worst,iou_mean,iou_worst,"
                     "normal_deg_mean,normal_deg_worst\n";

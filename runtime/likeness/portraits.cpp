@@ -65,12 +65,13 @@ struct PortraitStudio::Impl {
 PortraitStudio::PortraitStudio() : impl_(std::make_unique<Impl>()) {}
 PortraitStudio::~PortraitStudio() = default;
 
-Error PortraitStudio::Create(TourPack pack, int supersampling) {
+Error PortraitStudio::Create(TourPack pack, int supersampling, Jobs* jobs) {
   impl_->supersampling = supersampling;
   impl_->pack = std::move(pack);
   impl_->pack.town.clear();
   RenderOptions options;
   options.samples = kSamples;
+  options.jobs = jobs;
   if (Error e = impl_->lit.Create(impl_->pack, options)) return e;
   options.normals = true;
   return impl_->normals.Create(impl_->pack, options);

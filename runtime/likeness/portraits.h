@@ -23,7 +23,7 @@ class PortraitStudio {
   ~PortraitStudio();
   // The town is left out. Each pixel is the mean of supersampling x supersampling of the player's: with 1 both pictures have the
   // player's own noise. Errors: as for Renderer::Create.
-  Error Create(TourPack pack, int supersampling = 1);
+  Error Create(TourPack pack, int supersampling = 1, Jobs* jobs = nullptr);
 
   // From the distance at which the person is `person_px` pixels high in the player's picture of 1280 pixels' width.
   void Draw(const PortraitMoment& moment, Level level, float person_px, Portrait* portrait);

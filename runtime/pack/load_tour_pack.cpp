@@ -5,7 +5,6 @@
 #include <map>
 
 #include "runtime/base/file.h"
-#include "runtime/base/parallel.h"
 #include "runtime/base/pixels.h"
 #include "runtime/base/text.h"
 #include "runtime/pack/gltf_file.h"
@@ -505,7 +504,7 @@ Error ParseTourPack(std::vector<uint8_t> bytes, const std::string& name, const L
   if (options.geometry_and_images) {
     const size_t images = loaded.images.size(), meshes = loaded.meshes.size(), count = images + meshes + loaded.avatars.size();
     std::vector<Error> errors(count);
-    ParallelFor(count, [&](size_t i) {
+    ParallelFor(options.jobs, count, [&](size_t i) {
       if (i < images) errors[i] = file.ReadImage(static_cast<int>(i), &loaded.images[i]);
       else if (i < images + meshes) errors[i] = file.ReadMesh(static_cast<int>(i - images), &loaded.meshes[i - images]);
       else errors[i] = file.ReadAtlas(static_cast<int>(i - images - meshes), &loaded.avatars[i - images - meshes].impostor);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "runtime/base/error.h"
+#include "runtime/base/jobs.h"
 #include "runtime/base/math.h"
 #include "runtime/pack/texture.h"
 #include "runtime/tour_data/avatar_data.h"
@@ -122,7 +123,10 @@ class PackFile {
   std::unique_ptr<Impl> impl_;
 };
 
-struct LoadOptions { bool geometry_and_images = true; };  // false: enough for a run without drawing
+struct LoadOptions {
+  bool geometry_and_images = true;  // false: enough for a run without drawing
+  Jobs* jobs = nullptr;             // decode with the caller
+};
 
 // The bytes are not trusted: every offset, count and index is checked.
 // Errors: no such file, not a glTF binary, truncated, no FLANEUR_tour, a newer version, an index out of range (names it).

@@ -6,7 +6,6 @@
 #include <ctime>
 
 #include "runtime/base/clock.h"
-#include "runtime/base/parallel.h"
 #include "runtime/render/asset_content.h"
 #include "runtime/render/caption.h"
 #include "runtime/render/ground_mark.h"
@@ -109,7 +108,7 @@ Error Renderer::Create(const TourPack& pack, const RenderOptions& options) {
   if (Error e = Begin(pack, options)) return e;
   const std::vector<AssetId> ids = AssetsOf(pack);
   std::vector<Asset> assets(ids.size());
-  ParallelFor(ids.size(), [&](size_t i) { assets[i] = PrepareAsset(pack, ids[i], surfaces(), formats()); });
+  ParallelFor(options.jobs, ids.size(), [&](size_t i) { assets[i] = PrepareAsset(pack, ids[i], surfaces(), formats()); });
   for (Asset& asset : assets) Add(std::move(asset));
   return Ok();
 }

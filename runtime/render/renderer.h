@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/base/error.h"
+#include "runtime/base/jobs.h"
 #include "runtime/pack/tour_pack.h"
 #include "runtime/render/assets.h"
 #include "runtime/render/frame.h"
@@ -19,6 +20,7 @@ struct RenderOptions {
   bool normals = false;  // people's normals * 0.5 + 0.5 instead of light, over nothing
   bool onto_window = false;  // where a pass finishes the picture it does so on the window's surface, and Read does not bring it out
   bool time_passes = false;  // FrameStatistics::pass_ms; waits for each pass, so that the whole takes longer
+  Jobs* jobs = nullptr;      // make the pack ready with the caller in Create
 };
 
 // Needs a current context for its whole life.

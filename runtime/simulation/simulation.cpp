@@ -181,7 +181,7 @@ bool IsKeptFree(Vec2 p, const void* simulation) {
 
 }  // namespace
 
-Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation* out) {
+Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation* out, Jobs* jobs) {
   Simulation s;
   if (pack == nullptr && !scenario.has_ground) return Fail("no pack and no [ground] in the scenario; give one of them");
   if (pack != nullptr) TakePack(*pack, &s);
@@ -211,6 +211,8 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   PlaceCrowd(town.settings.people - (s.visitor.guide.id >= 0 ? 1 : 0), ViewerOf(s), &town);  // the guide is one of them
   ClassifyAll(&s);
   ControlCrowd(0, &s);
+  town.jobs = jobs;
+  out->town.field_builder = {};  // of a simulation before may still look at its ground
   *out = std::move(s);
   return Ok();
 }
@@ -233,7 +235,7 @@ void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   LeadOn(InTown(s));
   town.crowd.viewer = camera.view.position;
   if (town.step % kSortEvery_steps == 0) SortBySpace(&town.crowd);
-  town.field_builder.Step(town.walkable, &town.crowd);
+  town.field_builder.Step(town.walkable, town.jobs, &town.crowd);
   StepCrowd(town.walkable, s->moving, Step_s(*s), &town.crowd);
   LeaveAndArrive(ViewerOf(*s), &town);
   ClassifyAll(s);

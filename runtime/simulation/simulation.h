@@ -30,8 +30,8 @@ inline VisitorInTown InTown(Simulation* s) { return {s->control.settings, s->tow
 
 // `pack` may be null where the scenario has its own ground. Errors: no walkable ground, a scenario's person inside an obstacle or
 // with a goal nobody can reach, an unknown avatar, no ground at all; each names the person. More people than fit: as many as do,
-// and a warning. `simulation` stays where it is from the first step on.
-Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation* simulation);
+// and a warning. `simulation` stays where it is from the first step on; `jobs` outlives it.
+Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation* simulation, Jobs* jobs = nullptr);
 
 // Horizontal; the outer volume follows.
 void SetFieldOfView(float fov_rad, Simulation* simulation);

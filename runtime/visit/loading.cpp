@@ -5,7 +5,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
-#include <thread>
+#include <optional>
 #include <vector>
 
 #ifdef __GLIBC__
@@ -40,8 +40,11 @@ void KeepForPictures() {
 
 constexpr size_t kMostReady = 4;  // pieces that wait for their upload; faster threads wait too, for people's pictures take 10 MB each
 
-// What a thread does at a time: reads one mesh of the town, or all of another asset.
+// What is read at a time: one mesh of the town, or all of another asset.
 struct Task { size_t asset = 0; int town_mesh = -1; };
+
+// What a slice does: reads, or makes ready what has been read.
+struct Piece { bool read = false; size_t index = 0; };  // of tasks, of assets
 
 }  // namespace
 
@@ -51,30 +54,37 @@ struct Loader::Impl {
   std::vector<AssetId> assets;
   AssetStages stages;
   std::vector<Task> tasks;
-  std::atomic<size_t> next_task{0}, town_meshes_left{0}, threads_left{0};
-  std::atomic<bool> stop{false};
-  std::vector<std::thread> threads;
+  Jobs* jobs = nullptr;
+  size_t most_readers = 0;       // that there is a thread for
 
   std::mutex mutex;
   std::condition_variable changed;
-  bool may_prepare = false, may_go_on = false;
+  size_t next_task = 0, unread_tasks = 0, town_meshes_left = 0, readers = 0;
+  size_t in_hand = 0;            // assets but the town that are being read or wait for their upload
+  bool may_prepare = false, may_go_on = false, stop = false;
   SurfacePlan plan;              // of the renderer
   AtlasFormats formats;
+  std::deque<size_t> read;       // assets
   std::deque<Asset> ready;
   Error error;
 
-  std::vector<bool> uploaded;    // by asset; only of the thread with the context
+  std::vector<bool> uploaded;    // by asset; only of the thread with the context, as what follows
   size_t uploads = 0;
+  std::vector<Job> reading;      // last, so that it ends first: it uses the rest
 
-  void Run();
+  void GoOnReading(size_t most_more);
+  bool ReadHere();
+  bool DoPiece();
+  std::optional<Piece> NextPiece();
+  void Do(const Piece& piece);
   void Give(Error e);
   Error Read(const Task& task);
   Error ReadMesh(int mesh);
   Error ReadLevel(const AssetId& id);
   void Clear(const AssetId& id);
-  bool WaitUntil(const bool& may);
-  bool WaitForRoom();
   void Prepare(size_t asset);
+  bool TakeReady(Asset* asset);
+  void NoteUploaded(const AssetId& id);
   bool AreUploaded(size_t first_assets) const;
 };
 
@@ -121,21 +131,7 @@ void Loader::Impl::Clear(const AssetId& id) {
   }
 }
 
-// `may`: guarded by the mutex. False where there is nothing to wait for any more.
-bool Loader::Impl::WaitUntil(const bool& may) {
-  std::unique_lock lock(mutex);
-  changed.wait(lock, [&] { return may || stop; });
-  return !stop;
-}
-
-bool Loader::Impl::WaitForRoom() {
-  std::unique_lock lock(mutex);
-  changed.wait(lock, [&] { return ready.size() < kMostReady || stop; });
-  return !stop;
-}
-
 void Loader::Impl::Prepare(size_t index) {
-  if (!WaitUntil(may_prepare) || !WaitForRoom()) return;
   Asset asset = PrepareAsset(pack, assets[index], plan, formats);
   Clear(assets[index]);
   const std::lock_guard lock(mutex);
@@ -143,21 +139,78 @@ void Loader::Impl::Prepare(size_t index) {
   changed.notify_all();
 }
 
-void Loader::Impl::Run() {
-  for (size_t t = next_task++; t < tasks.size() && !stop; t = next_task++) {
-    const Task& task = tasks[t];
-    if (task.asset >= stages.town && !WaitUntil(may_go_on)) break;
-    try {
-      if (Error e = Read(task)) return Give(std::move(e));
-      const bool whole = assets[task.asset].kind != AssetKind::kTown || --town_meshes_left == 0;
-      if (whole) Prepare(task.asset);
-    } catch (const std::bad_alloc&) {
-      return Give(Fail("there is not enough memory for this pack"));
-    }
+// What may be done now; guarded. Nothing: until the renderer, the first picture or the upload has come further, or ever.
+std::optional<Piece> Loader::Impl::NextPiece() {
+  if (stop) return {};
+  if (!read.empty() && may_prepare && ready.size() < kMostReady) {
+    const size_t asset = read.front();
+    read.pop_front();
+    return Piece{false, asset};
   }
-  if (--threads_left > 0) return;
+  if (next_task == tasks.size()) return {};
+  const Task& task = tasks[next_task];
+  const bool of_town = assets[task.asset].kind == AssetKind::kTown;
+  if (task.asset >= stages.town && !may_go_on) return {};
+  if (!of_town && in_hand >= kMostReady + most_readers) return {};
+  in_hand += of_town ? 0 : 1;
+  return Piece{true, next_task++};
+}
+
+void Loader::Impl::Do(const Piece& piece) {
+  if (!piece.read) return Prepare(piece.index);
+  const Task& task = tasks[piece.index];
+  if (Error e = Read(task)) return Give(std::move(e));
+  bool last = false;
+  {
+    const std::lock_guard lock(mutex);
+    last = --unread_tasks == 0;
+    const bool whole = assets[task.asset].kind != AssetKind::kTown || --town_meshes_left == 0;
+    if (whole) read.push_back(task.asset);
+  }
+  if (!last) return;
   file = PackFile();  // nobody reads any more
   GiveBackMemory();
+}
+
+// A slice of one of the readers, who end as soon as nothing may be done: true.
+bool Loader::Impl::DoPiece() {
+  std::optional<Piece> piece;
+  {
+    const std::lock_guard lock(mutex);
+    piece = NextPiece();
+    if (!piece) --readers;
+  }
+  if (!piece) return true;
+  try {
+    Do(*piece);
+  } catch (const std::bad_alloc&) {
+    Give(Fail("there is not enough memory for this pack"));
+  } catch (const std::exception& e) {
+    Give(Fail(std::string("this pack cannot be read: ") + e.what()));
+  }
+  return false;
+}
+
+// Whenever more may be done than before: by so many more readers, as far as there are threads for them.
+void Loader::Impl::GoOnReading(size_t most_more) {
+  std::erase_if(reading, [](const Job& job) { return job.Done(); });
+  size_t more = 0;
+  {
+    const std::lock_guard lock(mutex);
+    if (stop || (read.empty() && next_task == tasks.size())) return;
+    more = std::min(most_more, most_readers - readers);
+    readers += more;
+  }
+  for (; more > 0; --more) reading.push_back(StartJob(jobs, [this] { return DoPiece(); }, Urgency::kMeanwhile));
+}
+
+// Without threads: does the next piece. False: none may be done, or threads do it.
+bool Loader::Impl::ReadHere() {
+  if (jobs != nullptr && jobs->threads() > 0) return false;
+  GoOnReading(1);
+  if (reading.empty()) return false;
+  reading.front().Advance();
+  return !reading.front().Done();
 }
 
 void Loader::Impl::Give(Error e) {
@@ -171,15 +224,14 @@ bool Loader::Impl::AreUploaded(size_t first_assets) const {
   return std::all_of(uploaded.begin(), uploaded.begin() + static_cast<std::ptrdiff_t>(first_assets), [](bool u) { return u; });
 }
 
-Loader::Loader() : impl_(std::make_unique<Impl>()) {}
+Loader::Loader(Jobs* jobs) : impl_(std::make_unique<Impl>()) {
+  impl_->jobs = jobs;
+  impl_->most_readers = std::max<size_t>(1, jobs != nullptr ? jobs->threads() : 0);
+}
 
 Loader::~Loader() {
-  {
-    const std::lock_guard lock(impl_->mutex);
-    impl_->stop = true;
-    impl_->changed.notify_all();
-  }
-  for (std::thread& thread : impl_->threads) thread.join();
+  const std::lock_guard lock(impl_->mutex);
+  impl_->stop = true;
 }
 
 void Loader::Start(PackFile file, const TourPack& pack) {
@@ -199,24 +251,48 @@ void Loader::Start(PackFile file, const TourPack& pack) {
     if (l.tasks.empty()) l.tasks.push_back({k, -1});
     l.town_meshes_left = l.tasks.size();
   }
-  const size_t threads = std::max(2u, std::thread::hardware_concurrency());
-  l.threads_left = threads;
-  for (size_t t = 0; t < threads; ++t) l.threads.emplace_back([&l] { l.Run(); });
+  l.unread_tasks = l.tasks.size();
+  l.GoOnReading(l.most_readers);
 }
 
 void Loader::PrepareFor(const Renderer& renderer) {
-  const std::lock_guard lock(impl_->mutex);
-  impl_->plan = renderer.surfaces();
-  impl_->formats = renderer.formats();
-  impl_->may_prepare = true;
-  impl_->changed.notify_all();
+  {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->plan = renderer.surfaces();
+    impl_->formats = renderer.formats();
+    impl_->may_prepare = true;
+  }
+  impl_->GoOnReading(impl_->most_readers);
 }
 
 void Loader::GoOn() {
-  const std::lock_guard lock(impl_->mutex);
-  if (impl_->may_go_on) return;
-  impl_->may_go_on = true;
-  impl_->changed.notify_all();
+  {
+    const std::lock_guard lock(impl_->mutex);
+    if (impl_->may_go_on) return;
+    impl_->may_go_on = true;
+  }
+  impl_->GoOnReading(impl_->most_readers);
+}
+
+bool Loader::Impl::TakeReady(Asset* asset) {
+  const std::lock_guard lock(mutex);
+  if (error || ready.empty()) return false;
+  *asset = std::move(ready.front());
+  ready.pop_front();
+  in_hand -= asset->id.kind == AssetKind::kTown ? 0 : 1;
+  return true;
+}
+
+void Loader::Impl::NoteUploaded(const AssetId& id) {
+  for (size_t k = 0; k < assets.size(); ++k) {
+    const AssetId& a = assets[k];
+    if (a.kind != id.kind || a.index != id.index || a.level != id.level) continue;
+    uploaded[k] = true;
+    if (++uploads < assets.size()) continue;
+    pack = TourPack();  // nobody reads it any more
+    GiveBackMemory();
+    KeepForPictures();
+  }
 }
 
 Error Loader::Upload(double most_ms, Renderer* renderer) {
@@ -224,27 +300,17 @@ Error Loader::Upload(double most_ms, Renderer* renderer) {
   const double start_ms = Now_ms();
   do {
     Asset asset;
-    {
-      const std::lock_guard lock(l.mutex);
-      if (l.error) return l.error;
-      if (l.ready.empty()) return Ok();
-      asset = std::move(l.ready.front());
-      l.ready.pop_front();
-      l.changed.notify_all();
-    }
-    const AssetId id = asset.id;
-    renderer->Add(std::move(asset));
-    for (size_t k = 0; k < l.assets.size(); ++k) {
-      const AssetId& a = l.assets[k];
-      if (a.kind != id.kind || a.index != id.index || a.level != id.level) continue;
-      l.uploaded[k] = true;
-      if (++l.uploads < l.assets.size()) continue;
-      l.pack = TourPack();  // no thread reads it any more
-      GiveBackMemory();
-      KeepForPictures();
+    if (l.TakeReady(&asset)) {
+      l.GoOnReading(1);
+      const AssetId id = asset.id;
+      renderer->Add(std::move(asset));
+      l.NoteUploaded(id);
+    } else if (!l.ReadHere()) {
+      break;
     }
   } while (Now_ms() - start_ms < most_ms);
-  return Ok();
+  const std::lock_guard lock(l.mutex);
+  return l.error;
 }
 
 Error Loader::UploadAll(Renderer* renderer) {

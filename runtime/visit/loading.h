@@ -1,8 +1,9 @@
-// Reads the bulk of a pack on threads of its own, while the tour is set up and already plays.
+// Reads the bulk of a pack beside everything else, while the tour is set up and already plays.
 #pragma once
 #include <memory>
 
 #include "runtime/base/error.h"
+#include "runtime/base/jobs.h"
 #include "runtime/pack/tour_pack.h"
 #include "runtime/render/renderer.h"
 
@@ -10,7 +11,8 @@ namespace flaneur {
 
 class Loader {
  public:
-  Loader();
+  // `jobs` outlives it. Without threads Upload reads too: a whole piece at a time.
+  explicit Loader(Jobs* jobs = nullptr);
   ~Loader();  // leaves what has not been read
 
   // `pack`: of this file, without its bulk; AddGuideFigure may have added to it.

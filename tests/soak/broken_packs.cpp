@@ -60,6 +60,7 @@ class Damage {
 struct Counts { int refused = 0, played = 0; };
 
 Error Play(const std::filesystem::path& path, Counts* counts) {
+  Jobs jobs(static_cast<size_t>(counts->played + counts->refused) % 4);
   TourPack pack;
   PackFile file;
   if (Error e = file.Open(path, &pack)) return e;
@@ -67,11 +68,11 @@ Error Play(const std::filesystem::path& path, Counts* counts) {
   Scenario scenario = ScenarioOf(pack);
   scenario.crowd.people = 20;
   Simulation s;
-  if (Error e = StartSimulation(&pack, scenario, &s)) return e;
+  if (Error e = StartSimulation(&pack, scenario, &s, &jobs)) return e;
   HeadlessContext context;  // one a pack: what was drawn with goes with it
   if (Error e = context.Create()) return e;
   SilentShell silent;
-  Loader loader;
+  Loader loader(&jobs);
   loader.Start(std::move(file), pack);
   Visit visit(pack, &loader, {}, silent.shell(), &s);
   if (Error e = visit.Begin()) return e;

@@ -51,15 +51,16 @@ Error Play(const std::filesystem::path& path, double until_s, const std::filesys
   scenario.crowd.seed = static_cast<uint64_t>(hands->Below(1000));
   if (hands->Share() < 0.5) scenario.hour = static_cast<float>(24 * hands->Share());
   if (hands->Share() < 0.2) pack.path.clear();
+  Jobs jobs(static_cast<size_t>(hands->Below(5)));
   Simulation s;
-  if (Error e = StartSimulation(&pack, scenario, &s)) return e;
+  if (Error e = StartSimulation(&pack, scenario, &s, &jobs)) return e;
   UserSettings user;
   user.path = settings;
   user.settings = user.in_file = hands->NextSettings();
   user.may_save = true;
   HeadlessContext context;
   if (Error e = context.Create()) return e;
-  Loader loader;
+  Loader loader(&jobs);
   loader.Start(std::move(file), pack);
   SilentShell silent;
   UserSettingsStore store(&user);

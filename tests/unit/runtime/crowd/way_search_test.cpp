@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "runtime/crowd/crowd.h"
 #include "runtime/crowd/field_builder.h"
@@ -16,6 +17,7 @@ constexpr float kStep_s = 1.0f / 30;
 // 60 x 60 m of pavement, a carriageway across it, and walls with gaps at alternating ends: a labyrinth.
 Walkable Labyrinth() {
   Walkable w;
+  w.ground.cell_m = 1;
   w.ground.columns = w.ground.rows = 60;
   w.ground.height_m.assign(3600, 0);
   w.ground.kind.assign(3600, 2);
@@ -116,7 +118,7 @@ TEST(WaySearch, AGoalThatManyShareGetsAField) {
 }
 
 // The first step after which each field is there.
-std::vector<int> BuiltAfter(const Walkable& w, uint64_t* state) {
+std::vector<int> BuiltAfter(const Walkable& w, Jobs* jobs, uint64_t* state) {
   Crowd crowd;
   crowd.fields_come_later = true;
   for (int k = 0; k < 60; ++k) {
@@ -128,7 +130,7 @@ std::vector<int> BuiltAfter(const Walkable& w, uint64_t* state) {
   FieldBuilder builder;
   std::vector<int> built(crowd.fields.size(), -1);
   for (int step = 0; step < 30; ++step) {
-    builder.Step(w, &crowd);
+    builder.Step(w, jobs, &crowd);
     StepCrowd(w, {}, kStep_s, &crowd);
     for (size_t f = 0; f < built.size(); ++f) built[f] = built[f] < 0 && IsBuilt(crowd.fields[f]) ? step : built[f];
     for (size_t i = 0; i < crowd.size(); ++i) EXPECT_GT(Length(crowd.way[i]), 0.5f) << "everybody knows their way all the time";
@@ -137,14 +139,60 @@ std::vector<int> BuiltAfter(const Walkable& w, uint64_t* state) {
   return built;
 }
 
-TEST(WaySearch, FieldsThatComeLaterComeOneAfterTheOtherInTheSameSteps) {
+TEST(WaySearch, FieldsThatComeLaterComeOneAfterTheOtherInTheSameStepsWithAnyNumberOfThreads) {
   const Walkable w = Labyrinth();
-  uint64_t first = 0, second = 1;
-  const std::vector<int> built = BuiltAfter(w, &first);
+  uint64_t first = 0;
+  const std::vector<int> built = BuiltAfter(w, nullptr, &first);
   ASSERT_EQ(built.size(), 3u);
   for (size_t f = 0; f < built.size(); ++f) EXPECT_GT(built[f], f == 0 ? 0 : built[f - 1]);
-  EXPECT_EQ(BuiltAfter(w, &second), built);
-  EXPECT_EQ(first, second);
+  for (size_t threads : {0, 1, 2, 4}) {
+    Jobs jobs(threads);
+    uint64_t state = 0;
+    EXPECT_EQ(BuiltAfter(w, &jobs, &state), built) << threads;
+    EXPECT_EQ(state, first) << threads;
+  }
+}
+
+TEST(FlowField, IsTheSameInSlicesOfAnySize) {
+  const Walkable w = Labyrinth();
+  const Vec2 goal{57, 57};
+  const FlowField whole = BuildFlowField(w, goal);
+  const int64_t all = CellsToGoOver(w);
+  for (int64_t slices : {1, 3, 50}) {
+    FieldBuild build{{goal, {}, {}}, {}};
+    int64_t needed = 1;
+    while (!BuildFurther(w, 1 + all / slices, &build)) ++needed;
+    EXPECT_LE(needed, slices) << "a slice went over less than it may";
+    EXPECT_EQ(build.field.distance, whole.distance);
+    ASSERT_EQ(build.field.tiles.size(), whole.tiles.size());
+    EXPECT_EQ(std::memcmp(build.field.tiles.data(), whole.tiles.data(), whole.tiles.size() * sizeof(DirectionTile)), 0);
+  }
+}
+
+// Without threads nobody may stand still for a whole field: when it is taken over it has been built already, in parts.
+TEST(FlowField, IsDoneByTheStepThatTakesItWithoutThreads) {
+  const Walkable w = Labyrinth();
+  const int64_t takes_steps = 4;
+  FieldBuild build{{{57, 57}, {}, {}}, {}};
+  Job job = StartJob(nullptr, [&] { return BuildFurther(w, 1 + CellsToGoOver(w) / takes_steps, &build); });
+  for (int64_t step = 0; step < takes_steps; ++step) {
+    EXPECT_FALSE(job.Done()) << step;
+    job.Advance();
+  }
+  EXPECT_TRUE(job.Done());
+}
+
+TEST(FlowField, MayBeUnderWayWhenItsTownGoes) {
+  const Walkable w = Labyrinth();
+  for (size_t threads : {0, 1, 4}) {
+    Jobs jobs(threads);
+    for (int round = 0; round < 20; ++round) {
+      Crowd crowd;
+      for (int k = 0; k < 6; ++k) FieldFor({50 + static_cast<float>(k), 57}, &crowd), crowd.asked_fields.push_back(k);
+      FieldBuilder builder;
+      builder.Step(w, &jobs, &crowd);
+    }
+  }
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct Window {
     PackFile file;
     error = file.Open(path, &pack);
     AddGuideFigure(&pack);
-    if (!error) error = StartSimulation(&pack, ScenarioOf(pack), &s);
+    if (!error) error = StartSimulation(&pack, ScenarioOf(pack), &s, &jobs);
     if (!error) error = context.Create();
     if (error) return;
     loader.Start(std::move(file), pack);
@@ -56,11 +56,12 @@ struct Window {
     return colours.size();
   }
 
+  Jobs jobs{2};
   TourPack pack;
   Simulation s;
   SilentShell silent;
   HeadlessContext context;
-  Loader loader;
+  Loader loader{&jobs};
   Records records;
   std::unique_ptr<Visit> visit;
   Error error;
