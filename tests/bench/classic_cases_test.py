@@ -12,7 +12,7 @@ sys.path.insert(0, str(HERE.parent / "cli"))
 from support import BIN, ProgramTest  # noqa: E402
 
 NODE = shutil.which("node") or shutil.which("nodejs")
-# Just enough of a browser for the page's script; says what is drawn once the script has begun and again at the end of the case.
+# Just enough of a browser for the page's script; says what is drawn at the beginning and at the end of the case.
 BROWSER = """
 let drawn = {arc: 0, lineTo: 0};
 const pen = new Proxy({}, {set: () => true, get: (_, name) => (...xy) => {
@@ -41,7 +41,8 @@ def classic_cases(*arguments):
 
 class ClassicCases(ProgramTest):
     def play(self, *arguments):
-        return classic_cases(*arguments, "-o", self.folder / "out", "--player", BIN / "flaneur-player", "--runs", 2)
+        player = BIN / "flaneur-player"
+        return classic_cases(*arguments, "-o", self.folder / "out", "--player", player, "--runs", 2)
 
     def test_figures_of_each_and_a_page_that_needs_nothing_beside_it(self):
         result = self.play("narrow-lane", "standing-group")
@@ -58,8 +59,8 @@ class ClassicCases(ProgramTest):
     @unittest.skipIf(NODE is None, "no node to run the page with")
     def test_the_page_draws_who_is_there(self):
         self.assert_succeeds(self.play("standing-group", "narrow-lane"))
-        result = subprocess.run([NODE, "-", self.folder / "out/index.html"], input=BROWSER, capture_output=True, text=True,
-                                timeout=60, check=False)
+        result = subprocess.run([NODE, "-", self.folder / "out/index.html"], input=BROWSER, capture_output=True,
+                                text=True, timeout=60, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         seen = json.loads(result.stdout)
         self.assertEqual((seen["begin"]["arc"], seen["end"]["arc"]), (16, 4), "at the end only those who stay")
@@ -73,7 +74,7 @@ class ClassicCases(ProgramTest):
         broken.write_text("peple = 3\n[ground]\nmin_m = [0, 0]\nmax_m = [9, 9]\n")
         self.assert_fails(self.play(broken), "broken.toml:1", "unknown key 'peple'")
         self.assert_fails(classic_cases("-o", self.folder, "--player", self.folder / "none"), "no such file", "--player")
-        self.assert_fails(self.play("--runs", 0), "--runs")
+        self.assert_fails(classic_cases("-o", self.folder, "--runs", 0), "--runs")
 
 
 if __name__ == "__main__":
