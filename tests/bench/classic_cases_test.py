@@ -73,7 +73,8 @@ class ClassicCases(ProgramTest):
         broken = self.folder / "broken.toml"
         broken.write_text("peple = 3\n[ground]\nmin_m = [0, 0]\nmax_m = [9, 9]\n")
         self.assert_fails(self.play(broken), "broken.toml:1", "unknown key 'peple'")
-        self.assert_fails(classic_cases("-o", self.folder, "--player", self.folder / "none"), "no such file", "--player")
+        without_player = classic_cases("-o", self.folder, "--player", self.folder / "none")
+        self.assert_fails(without_player, "no such file", "--player")
         self.assert_fails(classic_cases("-o", self.folder, "--runs", 0), "--runs")
 
 
