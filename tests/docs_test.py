@@ -13,8 +13,8 @@ import layering_test
 DRAWING = "docs/architecture.md"
 BEGIN, END = "<!-- rooms: begin -->", "<!-- rooms: end -->"
 # A path from the root, wherever it stands in the text; capitals and * stand for any name.
-PATH = re.compile(r"(?<![\w./-])(?:\./)?((?:runtime|pipeline|tests|docs|assets_src|blender_scripts|scripts|packaging|include|samples|\.ci)"
-                  r"/[\w./*-]*)")
+FOLDERS = r"runtime|pipeline|tests|docs|assets_src|blender_scripts|scripts|packaging|include|library|samples|\.ci"
+PATH = re.compile(rf"(?<![\w./-])(?:\./)?((?:{FOLDERS})/[\w./*-]*)")
 LINK = re.compile(r"\]\((?!https?:|#)([^)#]+)")
 CODE_WORD = re.compile(r"`([A-Za-z_:]+)(?:\(\))?`")
 CAMEL = re.compile(r"(?:k[A-Z]|[A-Z][a-z0-9]+[A-Z])\w*")
@@ -26,8 +26,8 @@ def documents(root):
 
 def tracked(root):
     """Files of the project, whether added to git yet or not."""
-    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=root, capture_output=True,
-                            text=True, check=False)
+    command = ["git", "ls-files", "--cached", "--others", "--exclude-standard"]
+    listed = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
     if listed.returncode == 0:
         return [root / name for name in listed.stdout.splitlines()]
     return [p for p in root.rglob("*") if p.is_file()]
@@ -69,8 +69,8 @@ def rooms(root):
         if path.suffix not in {".h", ".cpp", ".c"}:
             continue
         room = "/".join(path.relative_to(root).parts[:2])
-        used = {"/".join(name.split("/")[:2]) for name in layering_test.INCLUDE.findall(path.read_text(encoding="utf-8"))
-                if name.startswith(("runtime/", "pipeline/"))}
+        names = layering_test.INCLUDE.findall(path.read_text(encoding="utf-8"))
+        used = {"/".join(name.split("/")[:2]) for name in names if name.startswith(("runtime/", "pipeline/"))}
         arrows.setdefault(room, set()).update(used - {room})
     return arrows
 
@@ -112,7 +112,7 @@ def split_drawing(text):
 def outdated_drawing(root):
     drawn = split_drawing((root / DRAWING).read_text(encoding="utf-8"))[1]
     if drawn != drawing(root):
-        yield f"{DRAWING}: the rooms are not as the includes have them; python3 tests/docs_test.py . --write draws them anew"
+        yield f"{DRAWING}: the rooms are not as drawn; python3 tests/docs_test.py . --write draws them anew"
 
 
 def main():
