@@ -19,3 +19,4 @@ install(FILES ${PROJECT_SOURCE_DIR}/include/flaneur/base.h ${PROJECT_BINARY_DIR}
 install(EXPORT flaneur NAMESPACE flaneur:: FILE flaneurTargets.cmake DESTINATION ${cmake_folder} COMPONENT dev)
 write_basic_package_version_file(flaneurConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES flaneurConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/flaneurConfigVersion.cmake DESTINATION ${cmake_folder} COMPONENT dev)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/samples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libflaneur-dev/examples COMPONENT dev)

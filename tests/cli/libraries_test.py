@@ -5,7 +5,7 @@ import subprocess
 import tempfile
 import unittest
 
-from support import BIN, SOURCE
+from support import BIN, SOURCE, packages
 
 HOUSE = """\
 o Square
@@ -127,6 +127,18 @@ class Installed(Samples, unittest.TestCase):
         cls.prefix = pathlib.Path(cls.folder.name) / "prefix"
         for component in ("footprints", "dev"):
             call("cmake", "--install", BIN.parent, "--prefix", cls.prefix, "--component", component)
+        cls.samples = cls.build()
+
+
+class Packaged(Samples, unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="flaneur_libraries_")
+        cls.addClassCleanup(cls.folder.cleanup)
+        root = pathlib.Path(cls.folder.name) / "root"
+        for package in packages(cls.folder.name, "footprints", "dev").values():
+            call("dpkg-deb", "-x", package, root)
+        cls.prefix = root / "usr"
         cls.samples = cls.build()
 
 
