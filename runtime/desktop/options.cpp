@@ -30,6 +30,7 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
                "Exit status: 0 done, 2 bad usage or input.",
                "flaneur-player"};
   std::string size = "1280x720";
+  app.set_version_flag("--version", "flaneur-player " FLANEUR_VERSION, "Print the version and exit");
   app.add_option("PACK", o->pack, "Tour pack (.glb); not needed where the scenario brings its own ground");
   app.add_flag("--headless", o->headless, "No window: run by itself, as fast as it goes");
   app.add_flag("--no-draw", o->no_draw, "With --headless: the simulation alone, without OpenGL");

@@ -1,14 +1,17 @@
-"""The player's Debian package: small, complete, and with nothing of the pipeline in it. The pipeline, installed."""
+"""The Debian packages: complete, with the right dependencies and papers; what is in them works where it is unpacked. The pipeline,
+installed. The libraries' packages are tested in libraries_test.py."""
+import gzip
 import pathlib
-import shutil
+import re
 import subprocess
 import tempfile
 import unittest
 
-from support import BIN
+from support import BIN, packages
 
-MOST_BYTES = 3_000_000
+MOST_BYTES = 3_000_000  # of the player
 PIPELINE = ("OpenMesh", "OpenImageIO", "tinygltf", "polyclipping", "gmp", "expat", "proj", "blender")
+NO_ADDRESS = "bogus-mail-host,bogus-mail-host-in-debian-changelog"  # nobody's packages have nobody's address
 
 
 def output(*command):
@@ -18,33 +21,89 @@ def output(*command):
     return result.stdout
 
 
-class Package(unittest.TestCase):
+class Packages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        if shutil.which("dpkg-shlibdeps") is None:
-            raise unittest.SkipTest("no dpkg-shlibdeps: install the Debian package dpkg-dev")
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        output("cpack", "--config", BIN.parent / "CPackConfig.cmake", "-B", cls.folder.name)
-        cls.package, = pathlib.Path(cls.folder.name).glob("*.deb")
+        folder = tempfile.TemporaryDirectory(prefix="flaneur_packages_")
+        cls.addClassCleanup(folder.cleanup)
+        cls.packages = packages(folder.name, "player", "pipeline", "footprints", "dev", "demo", "docs")
+        cls.root = pathlib.Path(folder.name) / "root"
+        for package in cls.packages.values():
+            output("dpkg-deb", "-x", package, cls.root)
 
-    def test_dependencies_are_those_of_the_program(self):
-        depends = output("dpkg-deb", "-f", self.package, "Depends")
-        for name in ("libc6", "libegl1", "libgles2", "libglfw3", "libgl1-mesa-dri", "libdraco"):
-            self.assertIn(name, depends)
+    def depends(self, name):
+        return output("dpkg-deb", "-f", self.packages[name], "Depends")
 
-    def test_unpacks_to_a_small_program_that_runs_and_links_nothing_of_the_pipeline(self):
-        root = pathlib.Path(self.folder.name) / "root"
-        output("dpkg-deb", "-x", self.package, root)
-        program = root / "usr/bin/flaneur-player"
-        sanitized = "libasan" in output("ldd", program)
-        if not sanitized:
+    def linked(self, program):
+        return output("ldd", self.root / program).lower()
+
+    def test_there_is_one_for_whoever_plays_bakes_builds_or_reads(self):
+        self.assertEqual(sorted(self.packages), ["flaneur", "flaneur-demo", "flaneur-docs", "flaneur-player", "libflaneur-dev",
+                                                 "libflaneur-footprints"])
+
+    def test_the_player_depends_on_what_it_links_and_on_a_driver(self):
+        for name in ("libc6", "libegl1", "libgles2", "libglfw3", "libgl1-mesa-dri", "libdraco", "libopenal1", "libsndfile1"):
+            self.assertIn(name, self.depends("flaneur-player"))
+
+    def test_the_player_is_small_runs_and_links_nothing_of_the_pipeline(self):
+        program = self.root / "usr/bin/flaneur-player"
+        linked = self.linked(program)
+        if "libasan" not in linked:
             self.assertLessEqual(program.stat().st_size, MOST_BYTES)
         self.assertIn("tour pack", output(program, "--help"))
-        linked = output("ldd", program).lower()
         for library in PIPELINE:
             self.assertNotIn("lib" + library.lower(), linked)
-        self.assertTrue((root / "usr/share/doc/flaneur-player/copyright").is_file())
+
+    def test_the_pipeline_depends_on_what_it_links_and_runs(self):
+        for name in ("libgmp10", "libmpfr6", "libproj", "libopenimageio", "libpolyclipping", "libdraco", "libsndfile1"):
+            self.assertIn(name, self.depends("flaneur"))
+        self.assertIn("blender", output("dpkg-deb", "-f", self.packages["flaneur"], "Recommends"))
+        self.assertIn("footprint", output(self.root / "usr/bin/flaneur", "footprints", "--help").lower())
+        self.assertTrue((self.root / "usr/share/flaneur/blender_scripts/convert/to_gltf.py").is_file())
+
+    def test_the_demo_tour_plays(self):
+        self.assertRegex(self.depends("flaneur-demo"), r"flaneur-player \(= [0-9.]+\)")
+        command, = re.findall("^Exec=(.*)$", (self.root / "usr/share/applications/flaneur-demo.desktop").read_text(), re.MULTILINE)
+        program, pack = command.split()
+        output(self.root / "usr/bin" / program, self.root / pack.lstrip("/"), "--headless", "--no-draw", "--seconds", "1")
+
+    def test_whoever_builds_gets_the_libraries_of_the_same_version(self):
+        self.assertRegex(self.depends("libflaneur-dev"), r"libflaneur-footprints \(= [0-9.]+\)")
+        self.assertIn("libgmp10", self.depends("libflaneur-footprints"))
+
+    def test_each_says_who_may_do_what_with_it(self):
+        for name in self.packages:
+            papers = self.root / "usr/share/doc" / name
+            copyright_text = (papers / "copyright").read_text()
+            self.assertTrue(copyright_text.startswith("Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/"))
+            stated = set(re.findall(r"^License: (\S+)(?: and (\S+))?$", copyright_text, re.MULTILINE))
+            texts = set(re.findall(r"^License: (\S+)\n ", copyright_text, re.MULTILINE))
+            self.assertEqual({n for pair in stated for n in pair if n}, texts)
+            notice = (papers / "NOTICE").read_text()
+            for library in ("CGAL", "GPL", "OpenAL Soft", "libsndfile", "ImGui", "meshoptimizer", "PROJ", "Boost", "GMP", "MPFR"):
+                self.assertIn(library, notice)
+
+    def test_notice_names_every_library_that_a_program_links_itself(self):
+        notice = (self.root / "usr/share/doc/flaneur/NOTICE").read_text().lower()
+        spelled = {"polyclipping": "clipper", "tomlplusplus": "toml++", "glesv2": "opengl es", "openal": "openal soft",
+                   "openimageio_util": "openimageio", "openmeshcore": "openmesh"}
+        system = {"c", "m", "gcc_s", "stdc++", "ld-linux-x86-64", "asan", "ubsan"}
+        for binary in ("bin/flaneur-player", "bin/flaneur", "bin/flaneur-bake", "lib/libflaneur_footprints.so.0.2"):
+            for library in re.findall(r"NEEDED +(?:lib)?(\S+?)\.so", output("objdump", "-p", self.root / "usr" / binary)):
+                name = library.lower()
+                if name not in system:
+                    self.assertIn(spelled.get(name, name), notice, binary)
+
+    def test_manual_pages_are_there_for_each_program_and_verb(self):
+        verbs = re.findall(r"^  flaneur (\w+)", output(self.root / "usr/bin/flaneur", "--help"), re.MULTILINE)
+        self.assertGreaterEqual(len(verbs), 6)
+        for name in ["flaneur-player", "flaneur", *(f"flaneur-{verb}" for verb in verbs)]:
+            page = gzip.decompress((self.root / f"usr/share/man/man1/{name}.1.gz").read_bytes()).decode()
+            self.assertRegex(page, rf"(?m)^{name} \\- \w")
+            self.assertNotIn(str(BIN), page)  # a folder of the machine it was built on
+
+    def test_lintian_finds_no_error(self):
+        output("lintian", "--allow-root", "--fail-on", "error", "--suppress-tags", NO_ADDRESS, *self.packages.values())
 
 
 class Installation(unittest.TestCase):

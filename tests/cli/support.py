@@ -78,6 +78,17 @@ def run_blender_script(script, output, seed, **options):
         raise AssertionError(f"{script} {options} failed:\n{result.stdout[-2000:]}{result.stderr[-2000:]}")
 
 
+def packages(folder, *components):
+    """The Debian packages of these components of the build, made in the folder: {name: path}."""
+    if not has_tools("dpkg-shlibdeps"):
+        raise unittest.SkipTest("no dpkg-shlibdeps: install the Debian package dpkg-dev")
+    command = ["cpack", "--config", BIN.parent / "CPackConfig.cmake", "-B", folder, "-D", f"CPACK_COMPONENTS_ALL={';'.join(components)}"]
+    result = subprocess.run(list(map(str, command)), check=False, capture_output=True, text=True)
+    if result.returncode != 0:
+        raise AssertionError(f"cpack failed:\n{result.stdout}{result.stderr}")
+    return {path.name.split("_")[0]: path for path in pathlib.Path(folder).glob("*.deb")}
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a folder of its own, and the house rules of error reporting as assertions."""
 
