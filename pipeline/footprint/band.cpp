@@ -5,17 +5,11 @@
 #include <numeric>
 #include <tuple>
 
+#include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/segment_grid.h"
 
 namespace flaneur {
 namespace {
-
-constexpr double kGrid_m = 0.001;
-constexpr double kBend_m = 0.01;          // the ground may leave an edge's straight line by this much
-constexpr double kShortEdge_m = 0.25;     // shorter edges are not split
-constexpr double kThin_m = 0.002;         // parts thinner than this in plan are drawn as one line
-constexpr double kOnLine_m = 0.001;       // lines this near to longer ones belong to them
-constexpr double kLeastOverlap_m = 0.003; // of two lines that are parts of one
 
 bool Before(const Point3& a, const Point3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 bool Before(Point2 a, Point2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
@@ -30,7 +24,7 @@ Point3 Between(Point3 a, Point3 b, double t) {
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
 }
 
-double Snap(double value) { return std::round(value / kGrid_m) * kGrid_m; }
+double Snap(double value) { return std::round(value / kBandGrid_m) * kBandGrid_m; }
 Point2 Snap(Point2 p) { return {Snap(p.x), Snap(p.y)}; }
 
 // Cuts a polygon whose z is the height over the ground: keeps sign * (z - level) >= 0.
@@ -58,7 +52,7 @@ std::vector<Point3> CutAt(const std::vector<Point3>& polygon, double level, doub
 class LineMerger {
  public:
   explicit LineMerger(const std::vector<Segment>& segments)
-      : segments_(segments), grid_(segments, kOnLine_m, CellFor(segments)), gone_(segments.size(), false) {}
+      : segments_(segments), grid_(segments, kOnLongerLine_m, CellFor(segments)), gone_(segments.size(), false) {}
 
   std::vector<Segment> Run() {
     std::vector<size_t> order(segments_.size());
@@ -93,9 +87,9 @@ class LineMerger {
     for (const Point2 end : {s->a, s->b}) {
       for (const size_t j : grid_.Near(end)) {
         const Segment& t = segments_[j];
-        if (gone_[j] || DistanceToSegment(end, t.a, t.b) > kOnLine_m) continue;
+        if (gone_[j] || DistanceToSegment(end, t.a, t.b) > kOnLongerLine_m) continue;
         const Segment longer = Together(*s, t);
-        if (Length(longer) > Length(*s) + Length(t) - kLeastOverlap_m || !IsBeside(t, longer)) continue;
+        if (Length(longer) > Length(*s) + Length(t) - kMinLineOverlap_m || !IsBeside(t, longer)) continue;
         if (!std::all_of(members_.begin(), members_.end(), [&](const Segment& m) { return IsBeside(m, longer); })) continue;
         gone_[j] = true;
         members_.push_back(t);
@@ -107,7 +101,7 @@ class LineMerger {
   }
 
   static bool IsBeside(const Segment& t, const Segment& s) {
-    return DistanceToSegment(t.a, s.a, s.b) <= kOnLine_m && DistanceToSegment(t.b, s.a, s.b) <= kOnLine_m;
+    return DistanceToSegment(t.a, s.a, s.b) <= kOnLongerLine_m && DistanceToSegment(t.b, s.a, s.b) <= kOnLongerLine_m;
   }
 
   // The two ends furthest apart.
@@ -141,7 +135,7 @@ class BandCutter {
     const auto [low, high] = std::minmax({t[0].z, t[1].z, t[2].z});
     if (low > ground_.max_height() + band_m_[1] || high < ground_.min_height() + band_m_[0]) return;
     int longest = -1;
-    double length = kShortEdge_m;
+    double length = kMinSplitEdge_m;
     for (int i = 0; i < 3; ++i) {
       const Point3& a = t[static_cast<size_t>(i)];
       const Point3& b = t[static_cast<size_t>((i + 1) % 3)];
@@ -169,13 +163,13 @@ class BandCutter {
 
  private:
   bool GroundBends(const Point3& a, const Point3& b) const {
-    if (ground_.max_height() - ground_.min_height() <= kBend_m) return false;
+    if (ground_.max_height() - ground_.min_height() <= kMaxBend_m) return false;
     const double from = ground_.Height(a.x, a.y), to = ground_.Height(b.x, b.y);
     for (const double t : {0.25, 0.5, 0.75}) {
       const Point3 p = Between(a, b, t);
       const double share = Before(b, a) ? 1 - t : t;
       const double straight = Before(b, a) ? to + share * (from - to) : from + share * (to - from);
-      if (std::abs(ground_.Height(p.x, p.y) - straight) > kBend_m) return true;
+      if (std::abs(ground_.Height(p.x, p.y) - straight) > kMaxBend_m) return true;
     }
     return false;
   }
@@ -208,7 +202,7 @@ class BandCutter {
     if (width <= 0) return;
     double thickness = 0;
     for (const Point2& p : ring) thickness = std::max(thickness, DistanceToSegment(p, ring[first], ring[last]));
-    if (thickness <= kThin_m) return Draw(ring[first], ring[last]);
+    if (thickness <= kThinPart_m) return Draw(ring[first], ring[last]);
     parts_.areas.push_back(std::move(ring));
   }
 

@@ -4,22 +4,18 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/footprint/constants.h"
+
 namespace flaneur {
 namespace {
 
-constexpr double kCell_m = 0.25;
-constexpr double kMostCells = 1e6;       // of one object; the cells become larger
-constexpr double kOverhang_m = 3;        // half the width of what may hang over lower parts
-constexpr float kLevel_m = 0.3f;         // what varies by less is taken for level: a band from the lowest point finds all walls
-constexpr float kStep_m = 0.1f;          // lower steps are none
-constexpr double kSteep = 0.3;           // of a wall's normal, what points up
 constexpr float kNothing = std::numeric_limits<float>::max();
 
 GroundRaster Blank(const TownObject& object) {
   GroundRaster raster;
   const double width = object.max_m.x - object.min_m.x, depth = object.max_m.y - object.min_m.y;
-  double cell = kCell_m;
-  while ((width / cell + 2) * (depth / cell + 2) > kMostCells) cell *= 2;
+  double cell = kBaseCell_m;
+  while ((width / cell + 2) * (depth / cell + 2) > kMaxBaseCells) cell *= 2;
   raster.cell_m = static_cast<float>(cell);
   raster.min_m = {static_cast<float>(std::floor(object.min_m.x / cell) * cell),
                   static_cast<float>(std::floor(object.min_m.y / cell) * cell)};
@@ -55,7 +51,7 @@ std::vector<Triangle3> Walls(const std::vector<Triangle3>& triangles) {
     const double x = (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
     const double y = (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
     const double z = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    if (std::abs(z) < kSteep * std::hypot(x, y, z)) walls.push_back(t);
+    if (std::abs(z) < kMaxWallSlope * std::hypot(x, y, z)) walls.push_back(t);
   }
   return walls;
 }
@@ -126,7 +122,7 @@ bool LevelFoundation(const TownObject& object, GroundRaster* raster) {
   double lowest = kNothing, highest = -kNothing;
   for (const Triangle3& t : object.foundation)
     for (const Point3& p : t) lowest = std::min(lowest, p.z), highest = std::max(highest, p.z);
-  if (object.foundation.empty() || highest - lowest > kLevel_m) return false;
+  if (object.foundation.empty() || highest - lowest > kLevelGround_m) return false;
   *raster = Level(static_cast<float>(lowest));
   return true;
 }
@@ -138,7 +134,7 @@ void Flatten(GroundRaster* raster) {
     lowest = std::min(lowest, raster->height_m[i]);
     highest = std::max(highest, raster->height_m[i]);
   }
-  if (highest - lowest <= kLevel_m) *raster = Level(lowest);
+  if (highest - lowest <= kLevelGround_m) *raster = Level(lowest);
 }
 
 }  // namespace
@@ -168,7 +164,7 @@ std::vector<LocalGround> GroundsUnder(const TownObject& object) {
   GroundRaster high = low;
   Filter(&high, 1, kHigher);
   bool step = false;
-  for (size_t i = 0; i < low.kind.size(); ++i) step |= low.kind[i] && high.height_m[i] - low.height_m[i] > kStep_m;
+  for (size_t i = 0; i < low.kind.size(); ++i) step |= low.kind[i] && high.height_m[i] - low.height_m[i] > kMinTerraceStep_m;
   std::vector<LocalGround> grounds;
   grounds.emplace_back(low, LocalGround::Gaps::kNearest);
   if (step) grounds.emplace_back(high, LocalGround::Gaps::kNearest);

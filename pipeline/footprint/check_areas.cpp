@@ -3,14 +3,13 @@
 #include <clipper.hpp>
 
 #include "pipeline/footprint/check_parts.h"
+#include "pipeline/footprint/constants.h"
 
 namespace flaneur {
 namespace {
 
 namespace cl = ClipperLib;
 constexpr double kUnitsPerMetre = 1e4;
-constexpr double kArcTolerance_m = 0.003;  // of round corners
-constexpr int kCircleCorners = 64;
 
 cl::Paths ToPaths(const Rings& rings) {
   cl::Paths paths(rings.size());

@@ -7,15 +7,13 @@
 #include <queue>
 #include <unordered_map>
 
+#include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/ways_parts.h"
 
 namespace flaneur {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr double kStandEvery_m = 4;     // places where a visitor is tried
-constexpr double kGateReach_m = 0.1;    // beyond a way's free circle
-constexpr double kNarrows = 0.1;        // a way that narrows faster than this is still coming to its mouth
 
 size_t Index(int i) { return static_cast<size_t>(i); }
 
@@ -203,7 +201,7 @@ class NetworkCheck {
       if (count != 1 || !net_.bridge[Index(only)]) return at;
       const double length = std::hypot(At(only).x - At(at).x, At(only).y - At(at).y);
       gone += length;
-      if (gone > most || Width(at) - Width(only) <= 2 * kNarrows * length) return at;
+      if (gone > most || Width(at) - Width(only) <= 2 * kMinNarrowing * length) return at;
       at = only;
     }
   }

@@ -2,12 +2,10 @@
 #include <cmath>
 
 #include "pipeline/footprint/check_parts.h"
+#include "pipeline/footprint/constants.h"
 
 namespace flaneur {
 namespace {
-
-constexpr double kSameShare = 0.99;   // of the area of both: a duplicate
-constexpr double kSampleStep_m = 0.5; // along walls, where gaps at corners are filled by others
 
 using Entry = CheckedObstacle;
 
@@ -46,7 +44,7 @@ void AddGaps(const Entry& a, const Entry& b, double reach, bool along, std::vect
     for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
       const Point2 p = ring[j], q = ring[i];
       const double length = std::hypot(q.x - p.x, q.y - p.y);
-      const int steps = along ? static_cast<int>(std::ceil(std::min(length / kSampleStep_m, 200.0))) : 1;
+      const int steps = along ? static_cast<int>(std::ceil(std::min(length / kWallSampleStep_m, 200.0))) : 1;
       for (int s = along ? 1 : 0; s < steps; ++s)
         AddGap({p.x + (q.x - p.x) * s / steps, p.y + (q.y - p.y) * s / steps}, b, reach, gaps);
     }

@@ -3,18 +3,10 @@
 #include <numeric>
 
 #include "pipeline/footprint/check_parts.h"
+#include "pipeline/footprint/constants.h"
 
 namespace flaneur {
 namespace {
-
-constexpr double kTouch_m = 1e-6;        // edges this near touch
-constexpr double kHairline = 1e-4;       // radians: sharper spikes have no area to speak of
-constexpr double kRounding_m = 0.0005;   // the opening's own, along every edge
-constexpr double kSpikeMiter = 20;       // corners down to 6 degrees survive the opening
-constexpr double kTurned = 20;           // a crossing ring runs the wrong way where that many times more of it does
-constexpr size_t kMostCrossings = 64;
-constexpr size_t kManyPoints = 100;      // times most_points: larger rings are only counted
-constexpr size_t kMostNearEdges = 512;   // larger rings are opened without asking whether that can matter
 
 double Distance(Point2 a, Point2 b) { return std::hypot(b.x - a.x, b.y - a.y); }
 double Turn(Point2 a, Point2 b, Point2 c) { return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y); }
@@ -61,7 +53,7 @@ std::vector<Crossing> FindCrossings(const Ring& ring) {
         continue;
       }
       found.push_back({i, j, at});
-      if (found.size() == kMostCrossings) return found;
+      if (found.size() == kMaxCrossings) return found;
     }
   }
   return found;
@@ -84,7 +76,7 @@ bool HasNarrowPart(const Rings& rings, double width_m, double sharp_cosine) {
   std::vector<Edge> edges;
   for (size_t r = 0; r < rings.size(); ++r)
     for (size_t i = 0; i < rings[r].size(); ++i) edges.push_back({rings[r][i], rings[r][(i + 1) % rings[r].size()], r, i});
-  if (edges.size() > kMostNearEdges) return true;
+  if (edges.size() > kMaxNearEdges) return true;
   for (size_t u = 0; u < edges.size(); ++u) {
     const Edge& e = edges[u];
     const size_t n = rings[e.ring].size();
@@ -237,11 +229,11 @@ class ObstacleCheck {
     }
     if (complete) Add(104, crossings[0].at, static_cast<double>(crossings.size()), 0, name);
     for (const Crossing& crossing : crossings) entry_.doubt.push_back(LoopOf(ring, crossing));
-    const bool readable = ring.size() <= static_cast<size_t>(state_.options.most_points) && crossings.size() < kMostCrossings;
+    const bool readable = ring.size() <= static_cast<size_t>(state_.options.most_points) && crossings.size() < kMaxCrossings;
     if (!readable) return {ConvexHull(ring)};
     const Rings filled = NonZeroArea(ring);
     const double whole = Area(filled), wrong = number == 0 ? whole - area : whole + area;  // twice what runs the wrong way
-    if (wrong / 2 > kTurned * std::max(whole - wrong / 2, 0.0)) Add(105, ring[0], area, 0, name);
+    if (wrong / 2 > kMinTurnedRatio * std::max(whole - wrong / 2, 0.0)) Add(105, ring[0], area, 0, name);
     if (whole < state_.options.least_area_m2) return ReportSmall(whole, ring[0], name), Rings();
     return filled;
   }
@@ -282,7 +274,7 @@ class ObstacleCheck {
       const Point2 a = (*ring)[(i + n - 1) % n], b = (*ring)[i], c = (*ring)[(i + 1) % n];
       const double ab = Distance(a, b), bc = Distance(b, c);
       const bool back = (a.x - b.x) * (c.x - b.x) + (a.y - b.y) * (c.y - b.y) > 0;
-      if (!back || std::abs(Turn(a, b, c)) > kHairline * ab * bc) {
+      if (!back || std::abs(Turn(a, b, c)) > kHairline_rad * ab * bc) {
         ++i;
         continue;
       }
@@ -351,7 +343,7 @@ class ObstacleCheck {
     const double width = state_.options.spike_width_m, length = state_.options.spike_length_m;
     const double sharp = 2 * std::asin(1 / kSpikeMiter);
     if (!HasNarrowPart(*area, 2 * width, std::cos(sharp))) return false;
-    const Rings opened = Offset(Offset(*area, -width, kSpikeMiter), width + kRounding_m, kSpikeMiter);
+    const Rings opened = Offset(Offset(*area, -width, kSpikeMiter), width + kOpeningRounding_m, kSpikeMiter);
     for (const Ring& lost : Difference(*area, opened)) {
       const Ring hull = ConvexHull(lost);
       double longest = 0;

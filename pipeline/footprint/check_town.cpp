@@ -6,20 +6,13 @@
 #include "pipeline/footprint/band.h"
 #include "pipeline/footprint/base_ground.h"
 #include "pipeline/footprint/check_parts.h"
+#include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/extract_footprints.h"
 #include "pipeline/footprint/passages.h"
 #include "pipeline/footprint/town_objects.h"
 
 namespace flaneur {
 namespace {
-
-constexpr double kMissingShare = 0.5;     // of a building's area uncovered: it has no obstacle
-constexpr double kStrangeShare = 0.05;    // of an obstacle's area on buildings: less, and it has no building
-constexpr double kRounding_m = 0.002;     // of outlines that were offset on a grid
-constexpr double kPiece_m2 = 0.001;       // smaller pieces are rounding
-constexpr double kWallPiece_m = 0.005;    // shorter pieces of a wall likewise
-constexpr double kSeam_m = 0.0125;        // cracks between neighbours up to twice this are nobody's way, and welded
-constexpr double kNear_m = 1;
 
 bool Meet(Point2 min, Point2 max, const BoundingBox& box, double reach = 0) {
   return min.x <= box.max.x + reach && box.min.x <= max.x + reach && min.y <= box.max.y + reach && box.min.y <= max.y + reach;
@@ -113,10 +106,10 @@ class TownCheck {
       if (!near.empty()) cover.covered += Area(Intersection(f.rings, UnionOfAreas(near)));
     }
     for (const auto& [source, cover] : covers) {
-      if (cover.covered >= kMissingShare * cover.all) continue;
+      if (cover.covered >= kMinMissingShare * cover.all) continue;
       missing_.insert(source);
       if (!IsBroken(source, cover.box))
-        state_.Add(304, source, cover.at, cover.covered / cover.all, kMissingShare, "'" + source + "'");
+        state_.Add(304, source, cover.at, cover.covered / cover.all, kMinMissingShare, "'" + source + "'");
     }
   }
 
@@ -130,7 +123,7 @@ class TownCheck {
   Rings CoverNear(const BoundingBox& box) const {
     Rings all;
     for (const CheckedObstacle& entry : state_.obstacles) {
-      if (entry.rings.empty() || entry.duplicate || !Meet(entry.min, entry.max, box, kNear_m)) continue;
+      if (entry.rings.empty() || entry.duplicate || !Meet(entry.min, entry.max, box, kNearWall_m)) continue;
       Rings whole;
       AddWhole(entry, &whole);
       const Rings grown = Offset(UnionOfAreas(whole), kSeam_m);
@@ -139,7 +132,7 @@ class TownCheck {
     return Offset(UnionOfAreas(all), -kSeam_m);
   }
 
-  Rings TruthNear(const BoundingBox& box, double reach = kNear_m) const {
+  Rings TruthNear(const BoundingBox& box, double reach = kNearWall_m) const {
     Rings all;
     for (const Footprint& f : truth_)
       if (Meet(f.box.min, f.box.max, box, reach)) all.insert(all.end(), f.rings.begin(), f.rings.end());
@@ -182,14 +175,14 @@ class TownCheck {
     const Rings cover = CoverNear(box);
     const AreaIndex index(cover, std::max(1.0, 2 * state_.clearance_m));
     const std::vector<Segment> bare = Outside(walls, Offset(cover, tolerance));
-    if (Length(bare) > kWallPiece_m) {
+    if (Length(bare) > kMinWallFinding_m) {
       const auto [depth, at] = Worst(bare, index);
       state_.Add(301, object.name, at, -depth, tolerance, "a wall of '" + object.name + "' stands out by " + Metres(-depth));
       return;
     }
     if (short_of <= 0) return;
-    const std::vector<Segment> near = Outside(walls, Offset(cover, -(short_of - kRounding_m)));
-    if (Length(near) <= kWallPiece_m) return;
+    const std::vector<Segment> near = Outside(walls, Offset(cover, -(short_of - kOutlineRounding_m)));
+    if (Length(near) <= kMinWallFinding_m) return;
     const auto [depth, at] = Worst(near, index);
     const double left = std::max(depth, 0.0);
     if (left < short_of)
@@ -215,9 +208,9 @@ class TownCheck {
     for (const CheckedObstacle& entry : state_.obstacles) {
       if (entry.rings.empty() || entry.duplicate || entry.points_missing) continue;
       const double share = Area(Intersection(entry.rings, TruthNear({entry.min, entry.max}))) / Area(entry.rings);
-      if (share >= (entry.sound ? kStrangeShare : 1e-9)) continue;
+      if (share >= (entry.sound ? kMaxStrangeShare : 1e-9)) continue;
       strange_.insert(&entry);
-      state_.Add(305, entry.obstacle->name, entry.rings[0][0], share, kStrangeShare, "'" + entry.obstacle->name + "'");
+      state_.Add(305, entry.obstacle->name, entry.rings[0][0], share, kMaxStrangeShare, "'" + entry.obstacle->name + "'");
     }
   }
 
@@ -226,20 +219,20 @@ class TownCheck {
     PassageTest::Options options;
     options.headroom_m = state_.options.headroom_m;
     options.person_radius_m = state_.options.person_radius_m;
-    options.slack_m = state_.options.tolerance_m + kRounding_m;
+    options.slack_m = state_.options.tolerance_m + kOutlineRounding_m;
     options.ends_m = state_.clearance_m + 2 * state_.options.tolerance_m;
     const PassageTest passages(objects_, raster_, options);
     for (const CheckedObstacle& entry : state_.obstacles) {
       if (!entry.sound || entry.rings.empty() || entry.duplicate || strange_.contains(&entry)) continue;
       const Rings truth = TruthNear({entry.min, entry.max});
-      const Rings beyond = Difference(entry.rings, Offset(truth, state_.options.tolerance_m + kRounding_m));
+      const Rings beyond = Difference(entry.rings, Offset(truth, state_.options.tolerance_m + kOutlineRounding_m));
       double free = 0, blocked = 0, largest_free = 0, largest_blocked = 0;
       Point2 free_at, blocked_at;
       for (const Polygon& piece : ToPolygons(beyond)) {
         Rings rings{piece.outer};
         rings.insert(rings.end(), piece.holes.begin(), piece.holes.end());
         const double area = Area(rings);
-        if (area < kPiece_m2) continue;
+        if (area < kMinFinding_m2) continue;
         const PassageParts parts = passages.Sort(rings, TruthNear({entry.min, entry.max}, PassageTest::kFarthestWall_m));
         free += parts.elsewhere_m2, blocked += parts.passage_m2;
         if (parts.elsewhere_m2 > largest_free) largest_free = parts.elsewhere_m2, free_at = parts.elsewhere_at;
@@ -248,7 +241,7 @@ class TownCheck {
       const std::string& name = entry.obstacle->name;
       if (blocked > 0) state_.Add(307, name, blocked_at, blocked, 0, "'" + name + "' covers " + SquareMetres(blocked) + " of a way under a building");
       if (free > 0)
-        state_.Add(303, name, free_at, free, kPiece_m2, "'" + name + "' takes " + SquareMetres(free) + " of free ground");
+        state_.Add(303, name, free_at, free, kMinFinding_m2, "'" + name + "' takes " + SquareMetres(free) + " of free ground");
       else if (blocked == 0)
         FindExcess(entry, truth);
     }

@@ -5,17 +5,13 @@
 #include <thread>
 
 #include "pipeline/footprint/check_parts.h"
+#include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/ground_outline.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/footprint/ways_parts.h"
 
 namespace flaneur {
 namespace {
-
-constexpr double kMargin_m = 3;          // round the obstacles, where there is no town
-constexpr double kLargeShare = 0.1;      // of all free ground: more, and it is no courtyard
-constexpr double kNook_m2 = 4;           // cut off by narrow gaps, but nobody misses it
-constexpr double kSlack_m = 0.0005;      // a way exactly as wide as a person counts as open
 
 // A stretch of ground that hangs together, for the centre of a person.
 struct Region { Polygon shape; Point2 min, max; double area_m2 = 0; };
@@ -134,7 +130,7 @@ class WaysCheck {
   }
 
  private:
-  double Thickened() const { return state_.options.person_radius_m - kSlack_m; }
+  double Thickened() const { return state_.options.person_radius_m - kWaySlack_m; }
   double Welded() const { return state_.options.tolerance_m / 2; }  // cracks are nobody's way
 
   Error LayOutTown(const Scene& town) {
@@ -173,7 +169,7 @@ class WaysCheck {
       min = {std::min(min.x, gate.at_m.x), std::min(min.y, gate.at_m.y)};
       max = {std::max(max.x, gate.at_m.x), std::max(max.y, gate.at_m.y)};
     }
-    ground_ = Box({min.x - kMargin_m, min.y - kMargin_m}, {max.x + kMargin_m, max.y + kMargin_m});
+    ground_ = Box({min.x - kFreeMargin_m, min.y - kFreeMargin_m}, {max.x + kFreeMargin_m, max.y + kFreeMargin_m});
     open_.insert(open_.begin(), ground_[0]);
     outside_m2_ = std::abs(Area(ground_)) - covered;
   }
@@ -310,8 +306,8 @@ class WaysCheck {
       const Point2 at = PlaceIn(region);
       state_.Add(501, NearestObstacle(state_.obstacles, at), at, area, state_.options.least_ground_m2,
                  SquareMetres(area) + (closed ? ", closed all round" : ", cut off by narrow gaps"));
-      const bool large = region.area_m2 > kLargeShare * main_m2;
-      if ((closed || area < kNook_m2) && !large && !Has(has_gate_, i)) state_.findings->back().severity = Severity::kWarning;
+      const bool large = region.area_m2 > kMinLargeShare * main_m2;
+      if ((closed || area < kMaxNook_m2) && !large && !Has(has_gate_, i)) state_.findings->back().severity = Severity::kWarning;
     }
   }
 

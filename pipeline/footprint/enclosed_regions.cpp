@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <map>
 
+#include "pipeline/footprint/constants.h"
+
 namespace flaneur {
 namespace {
 
@@ -27,7 +29,6 @@ using PlainTriangulation = Triangulated<Plain, CGAL::No_constraint_intersection_
 using ExactTriangulation = Triangulated<Exact, CGAL::Exact_intersections_tag>::Type;
 
 // A triangle larger than this is sampled at several points.
-constexpr double kSampleArea_m2 = 0.25;
 
 template <typename Triangulation>
 void Triangulate(const std::vector<Segment>& segments, Triangulation* triangulation) {
@@ -73,7 +74,7 @@ void AddSamples(Face face, Region* region) {
   const double area = SignedArea({a, b, c});
   region->area_m2 += area;
   const Point2 m{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
-  if (area <= kSampleArea_m2) return region->samples.push_back({m, area});
+  if (area <= kRoofSampleArea_m2) return region->samples.push_back({m, area});
   region->samples.push_back({m, area / 4});
   for (const Point2 p : {a, b, c}) region->samples.push_back({{(m.x + p.x) / 2, (m.y + p.y) / 2}, area / 4});
 }

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "pipeline/footprint/constants.h"
+
 namespace flaneur {
 namespace {
-
-constexpr double kSmallestHole_m2 = 1;
 
 // The edges between ground and no ground, followed with the ground on the left.
 class Tracer {
@@ -71,7 +71,7 @@ class Tracer {
 
 Rings OutlineOf(const GroundRaster& raster) {
   Rings rings = Tracer(raster).Trace();
-  std::erase_if(rings, [](const Ring& ring) { return ring.size() < 3 || std::abs(SignedArea(ring)) < kSmallestHole_m2; });
+  std::erase_if(rings, [](const Ring& ring) { return ring.size() < 3 || std::abs(SignedArea(ring)) < kMinGroundHole_m2; });
   return UnionOfAreas(Simplify(rings, 0.9 * raster.cell_m));
 }
 

@@ -5,16 +5,11 @@
 #include <map>
 #include <tuple>
 
+#include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/segment_grid.h"
 
 namespace flaneur {
 namespace {
-
-constexpr double kWidestGap_m = 20;
-constexpr double kMostOfOutline = 0.2;  // that the gap may be
-constexpr double kWider = 1.1;          // than its gap, a room
-constexpr size_t kMostEnds = 40;        // of walls that lead nowhere; with more nobody knows which belong together
-constexpr double kOnLine_m = 0.01;
 
 bool Same(Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }
 
@@ -42,11 +37,11 @@ bool Cross(const Segment& s, const Segment& t) {
 // Straight across from end to end, the nearest first; each end once.
 std::vector<Segment> Gaps(const std::vector<Segment>& walls, const Rings& solid, double reach_m) {
   const std::vector<Point2> ends = LooseEnds(walls, solid, reach_m);
-  if (ends.size() < 2 || ends.size() > kMostEnds) return {};
+  if (ends.size() < 2 || ends.size() > kMaxWallEnds) return {};
   std::vector<std::tuple<double, size_t, size_t>> pairs;
   for (size_t i = 0; i < ends.size(); ++i)
     for (size_t j = i + 1; j < ends.size(); ++j)
-      if (const double length = Length(Segment{ends[i], ends[j]}); length <= kWidestGap_m) pairs.emplace_back(length, i, j);
+      if (const double length = Length(Segment{ends[i], ends[j]}); length <= kMaxMouth_m) pairs.emplace_back(length, i, j);
   std::sort(pairs.begin(), pairs.end());
   std::vector<bool> taken(ends.size(), false);
   std::vector<Segment> gaps;
@@ -65,11 +60,11 @@ bool IsRoom(const Rings& region, const std::vector<Segment>& gaps, double reach_
   double width = 0;
   for (const Segment& gap : gaps) {
     const Point2 middle{(gap.a.x + gap.b.x) / 2, (gap.a.y + gap.b.y) / 2};
-    if (DistanceToBoundary(region, middle) > reach_m + kOnLine_m) continue;
+    if (DistanceToBoundary(region, middle) > reach_m + kOnWall_m) continue;
     ++count;
     width = Length(gap);
   }
-  return count == 1 && width <= kMostOfOutline * Length(Outline(region)) && !Offset(region, -kWider * width / 2).empty();
+  return count == 1 && width <= kMaxMouthShare * Length(Outline(region)) && !Offset(region, -kMinRoomToMouth * width / 2).empty();
 }
 
 }  // namespace

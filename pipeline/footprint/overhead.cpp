@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/footprint/constants.h"
+
 namespace flaneur {
 namespace {
-
-constexpr double kLeastCell_m = 0.05;
-constexpr double kMostEntries = 6;  // for each triangle; larger cells hold fewer
 
 // Twice the area in plan, positive where seen from above anticlockwise.
 double TwiceArea(const Triangle3& t) {
@@ -34,7 +33,7 @@ double CellFor(const std::vector<const Triangle3*>& triangles) {
     all = {std::min(all.min_x, box.min_x), std::min(all.min_y, box.min_y), std::max(all.max_x, box.max_x), std::max(all.max_y, box.max_y)};
   }
   const auto count = static_cast<double>(triangles.size());
-  double cell = std::max(kLeastCell_m, std::sqrt((all.max_x - all.min_x) * (all.max_y - all.min_y) / count));
+  double cell = std::max(kMinOverheadCell_m, std::sqrt((all.max_x - all.min_x) * (all.max_y - all.min_y) / count));
   const auto entries = [&] {
     double sum = 0;
     for (const Triangle3* t : triangles) {
@@ -43,7 +42,7 @@ double CellFor(const std::vector<const Triangle3*>& triangles) {
     }
     return sum;
   };
-  while (entries() > kMostEntries * count) cell *= 2;
+  while (entries() > kMaxOverheadEntries * count) cell *= 2;
   return cell;
 }
 

@@ -4,14 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "pipeline/footprint/constants.h"
+
 namespace flaneur {
 namespace {
-
-constexpr double kStep_m = 0.1;         // of samples in narrow places
-constexpr double kMostSamples = 3000;   // more, and they stand further apart
-constexpr int kDirections = 16;         // of lines through a sample
-constexpr int kMostAsked = 60;          // samples asked for walls beside them
-constexpr double kLeastShare = 0.25;    // of them that must have some
 
 std::vector<const std::vector<Triangle3>*> TrianglesOf(const TownObjects& town) {
   std::vector<const std::vector<Triangle3>*> all;
@@ -29,15 +25,15 @@ bool PassageTest::Roofed(Point2 p) const { return overhead_.Covers(p, ground_.He
 // Walks both ways along lines through p, under the roof, until walls.
 bool PassageTest::BetweenWalls(Point2 p, const AreaIndex& walls) const {
   const auto hits = [&](double angle) {
-    for (double d = kStep_m; d < kFarthestWall_m; d += kStep_m) {
+    for (double d = kPassageStep_m; d < kFarthestWall_m; d += kPassageStep_m) {
       const Point2 q{p.x + d * std::cos(angle), p.y + d * std::sin(angle)};
       if (walls.Inside(q)) return true;
       if (!Roofed(q)) return false;
     }
     return false;
   };
-  for (int i = 0; i < kDirections; ++i) {
-    const double angle = 3.14159265358979323846 * i / kDirections;
+  for (int i = 0; i < kPassageDirections; ++i) {
+    const double angle = 3.14159265358979323846 * i / kPassageDirections;
     if (hits(angle) && hits(angle + 3.14159265358979323846)) return true;
   }
   return false;
@@ -49,7 +45,7 @@ PassageParts PassageTest::Sort(const Rings& area, const Rings& walls) const {
   parts.elsewhere_m2 = whole, parts.elsewhere_at = area[0][0];
   const Rings walkable = Offset(area, -(options_.person_radius_m - options_.slack_m));
   if (walkable.empty()) return parts;
-  const double step = std::max(kStep_m, std::sqrt(whole / kMostSamples));
+  const double step = std::max(kPassageStep_m, std::sqrt(whole / kMaxPassageSamples));
   Point2 min{1e300, 1e300}, max{-1e300, -1e300};
   for (const Ring& ring : area) {
     for (const Point2& p : ring) {
@@ -74,14 +70,14 @@ PassageParts PassageTest::Sort(const Rings& area, const Rings& walls) const {
       if (walk.Inside(p)) candidates.push_back(p);
     }
   }
-  const size_t stride = std::max<size_t>(1, candidates.size() / kMostAsked);
+  const size_t stride = std::max<size_t>(1, candidates.size() / kMaxAskedSamples);
   int asked = 0, between = 0;
   for (size_t i = 0; i < candidates.size(); i += stride) {
     ++asked;
     if (!BetweenWalls(candidates[i], solid)) continue;
     if (between++ == 0) parts.passage_at = candidates[i];
   }
-  if (asked == 0 || between < kLeastShare * asked) return parts;
+  if (asked == 0 || between < kMinWalledShare * asked) return parts;
   const double reach = options_.ends_m + step;
   std::erase_if(open, [&](Point2 p) {
     return std::any_of(roofed.begin(), roofed.end(), [&](Point2 q) { return std::hypot(p.x - q.x, p.y - q.y) < reach; });

@@ -6,13 +6,10 @@
 #include <limits>
 
 #include "pipeline/footprint/base_ground.h"
+#include "pipeline/footprint/constants.h"
 
 namespace flaneur {
 namespace {
-
-constexpr double kLargestExtent_m = 100'000;
-constexpr int kSmoothingRounds = 30;
-constexpr double kStep_m = 0.5;  // higher steps between neighbouring cells are no slope
 
 struct Extent {
   double min_x = std::numeric_limits<double>::max(), min_y = min_x, min_z = min_x;
@@ -40,7 +37,7 @@ Extent ObstacleExtent(const TownObjects& town) {
 
 Error LayOut(const Extent& extent, const GroundRasterOptions& options, GroundRaster* raster) {
   const double width = extent.max_x - extent.min_x, depth = extent.max_y - extent.min_y;
-  if (!(width < kLargestExtent_m) || !(depth < kLargestExtent_m))
+  if (!(width < kMaxGround_m) || !(depth < kMaxGround_m))
     return Fail("the town is " + std::to_string(std::max(width, depth) / 1000) +
                 " km wide, more than 100 km; are its units metres? See the option for the scale");
   double cell = options.cell_m;
@@ -215,7 +212,7 @@ double LocalGround::Height(double x, double y) const {
   const double nearest = at(fu < 0.5 ? c0 : c1, fv < 0.5 ? r0 : r1);
   const auto near = [&](int column, int row) {
     const double height = at(column, row);
-    return std::abs(height - nearest) > kStep_m ? nearest : height;
+    return std::abs(height - nearest) > kMaxSlopeStep_m ? nearest : height;
   };
   return (near(c0, r0) * (1 - fu) + near(c1, r0) * fu) * (1 - fv) +
          (near(c0, r1) * (1 - fu) + near(c1, r1) * fu) * fv;

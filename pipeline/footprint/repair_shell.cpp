@@ -7,15 +7,11 @@
 #include <set>
 #include <tuple>
 
+#include "pipeline/footprint/constants.h"
 #include "pipeline/io/triangulate_polygon.h"
 
 namespace flaneur {
 namespace {
-
-constexpr double kSame_m = 0.001;
-constexpr double kThin_m = 0.02;
-constexpr double kFoot_m = 0.3;     // how far a wall's foot may go up and down
-constexpr size_t kLongestHole = 8;  // edges round a hole; longer ones are openings
 
 using Index = uint32_t;
 using Edge = std::pair<Index, Index>;  // the lesser first
@@ -33,7 +29,7 @@ Welded Weld(const std::vector<Triangle3>& shell) {
   corners.reserve(3 * shell.size());
   for (const Triangle3& t : shell) {
     for (const Point3& p : t) {
-      const auto cell = [](double v) { return static_cast<int64_t>(std::llround(v / kSame_m)); };
+      const auto cell = [](double v) { return static_cast<int64_t>(std::llround(v / kSameCorner_m)); };
       corners.emplace_back(Cell{cell(p.x), cell(p.y), cell(p.z)}, static_cast<Index>(corners.size()));
     }
   }
@@ -141,7 +137,7 @@ class Repair {
       if (!done.insert(start).second) continue;
       std::vector<Index> hole{start};
       for (Index before = start, at = *neighbours.begin(); at != start;) {
-        if (hole.size() == kLongestHole) return false;
+        if (hole.size() == kMaxHoleEdges) return false;
         hole.push_back(at);
         done.insert(at);
         const std::set<Index>& next = borders_.at(at);
@@ -161,7 +157,7 @@ class Repair {
     double lowest = point(0).z;
     for (size_t i = 1; i < n; ++i) lowest = std::min(lowest, point(i).z);
     const auto is_high = [&](size_t i) { return point(i).z > lowest + kFoot_m; };
-    const auto is_over = [&](size_t i, size_t below) { return std::hypot(point(i).x - point(below).x, point(i).y - point(below).y) < kThin_m; };
+    const auto is_over = [&](size_t i, size_t below) { return std::hypot(point(i).x - point(below).x, point(i).y - point(below).y) < kThinTriangle_m; };
     size_t high = 0;
     for (size_t i = 0; i < n; ++i) high += is_high(i);
     for (size_t i = 0; i < n && high == 2; ++i)
@@ -177,7 +173,7 @@ class Repair {
 
   void Add(const std::array<Index, 3>& corners) {
     const Triangle3 t{shell_.points[corners[0]], shell_.points[corners[1]], shell_.points[corners[2]]};
-    if (Thickness(t) > kThin_m) out_.push_back(t);
+    if (Thickness(t) > kThinTriangle_m) out_.push_back(t);
   }
 
   Welded shell_;

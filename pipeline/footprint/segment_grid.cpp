@@ -4,14 +4,10 @@
 #include <cmath>
 #include <tuple>
 
+#include "pipeline/footprint/constants.h"
+
 namespace flaneur {
 namespace {
-
-constexpr double kLeastCell_m = 0.1, kMostCell_m = 2;  // for cutting: about as long as the segments
-constexpr size_t kFew = 40;  // segments: looking at all is faster than to sort them into cells
-constexpr double kPointGrid_m = 1e-4;
-constexpr double kTouching_m = 0.6e-4;  // a point this near to a segment is on it: rounding may have moved it so far
-constexpr int kRounds = 4;              // rounding may make pieces cross anew; what is left then is cut exactly elsewhere
 
 int64_t Key(int64_t x, int64_t y) { return x * 73856093 + y; }
 
@@ -79,7 +75,7 @@ void DropRepeated(std::vector<Segment>* segments) {
 }  // namespace
 
 SegmentGrid::SegmentGrid(const std::vector<Segment>& segments, double reach_m, double cell_m)
-    : cell_m_(cell_m), one_cell_(segments.size() <= kFew) {
+    : cell_m_(cell_m), one_cell_(segments.size() <= kFewSegments) {
   if (one_cell_) {
     std::vector<size_t>& all = cells_[Key(0, 0)];
     for (size_t i = 0; i < segments.size(); ++i) all.push_back(i);
@@ -100,7 +96,7 @@ SegmentGrid::SegmentGrid(const std::vector<Segment>& segments, double reach_m, d
 double CellFor(const std::vector<Segment>& segments) {
   double length = 0;
   for (const Segment& s : segments) length += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
-  return std::clamp(length / static_cast<double>(segments.size()), kLeastCell_m, kMostCell_m);
+  return std::clamp(length / static_cast<double>(segments.size()), kMinCutCell_m, kMaxCutCell_m);
 }
 
 int64_t SegmentGrid::Cell(double v) const { return one_cell_ ? 0 : static_cast<int64_t>(std::floor(v / cell_m_)); }
@@ -128,7 +124,7 @@ Point2 NearestOn(const Segment& s, Point2 p) {
 std::vector<Segment> CutWhereTheyMeet(std::vector<Segment> segments) {
   for (Segment& s : segments) s = {Rounded(s.a), Rounded(s.b)};
   std::erase_if(segments, [](const Segment& s) { return Same(s.a, s.b); });
-  for (int round = 0; round < kRounds && !segments.empty(); ++round) {
+  for (int round = 0; round < kCuttingRounds && !segments.empty(); ++round) {
     const SegmentGrid grid(segments, kTouching_m, CellFor(segments));
     Cuts cuts(segments.size());
     for (const auto& [_, cell] : grid.cells()) {

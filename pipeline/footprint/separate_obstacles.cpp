@@ -5,14 +5,11 @@
 #include <numeric>
 
 #include "pipeline/footprint/band.h"
+#include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/for_each.h"
 
 namespace flaneur {
 namespace {
-
-constexpr double kSmallestStrip_m2 = 1e-4; // of those that go to a neighbour instead
-constexpr double kAgainst_m = 0.0005;      // strips nearer than this to a neighbour lie against it
-constexpr double kJoint_m = 1.5;         // houses that overlap by less are meant to touch
 
 bool Apart(const BoundingBox& a, const BoundingBox& b) {
   return a.max.x < b.min.x || b.max.x < a.min.x || a.max.y < b.min.y || b.max.y < a.min.y;
@@ -21,7 +18,7 @@ bool Apart(const BoundingBox& a, const BoundingBox& b) {
 Rings WithoutSpecks(const Rings& rings) {
   Rings out;
   for (const Polygon& polygon : ToPolygons(rings)) {
-    if (SignedArea(polygon.outer) < kSmallestPiece_m2) continue;
+    if (SignedArea(polygon.outer) < kMinPiece_m2) continue;
     out.push_back(polygon.outer);
     out.insert(out.end(), polygon.holes.begin(), polygon.holes.end());
   }
@@ -35,7 +32,7 @@ bool IsTidy(const Rings& rings, double width_m) {
   size_t points = 0;
   for (const Ring& ring : rings) {
     points += ring.size();
-    if (std::abs(SignedArea(ring)) < kSmallestPiece_m2) return false;
+    if (std::abs(SignedArea(ring)) < kMinPiece_m2) return false;
   }
   if (points > kMostPoints) return false;
   const std::vector<Segment> edges = Outline(rings);
@@ -61,7 +58,7 @@ bool IsTidy(const Rings& rings, double width_m) {
 void GiveAway(const Rings& strips, size_t from, const std::vector<size_t>& neighbours, double width_m,
               std::vector<BoundingBox>* boxes, std::vector<Rings>* enlarged) {
   for (const Polygon& strip : ToPolygons(strips)) {
-    if (SignedArea(strip.outer) < kSmallestStrip_m2) continue;
+    if (SignedArea(strip.outer) < kMinStrip_m2) continue;
     const Rings grown = Offset({strip.outer}, kAgainst_m);
     size_t owner = from;
     double most = 0;

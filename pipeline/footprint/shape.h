@@ -6,9 +6,6 @@
 
 namespace flaneur {
 
-inline constexpr double kBlockReach_m = 0.1;      // houses nearer than this are looked at together
-inline constexpr double kSmallestPiece_m2 = 0.01; // what clipping leaves over that is smaller is dropped
-
 // An object's part in the band.
 struct Shape {
   int lines = 0;
@@ -17,6 +14,7 @@ struct Shape {
   double open_m = 0;           // length of walls beside nothing solid
   double ground_z_m = 0;       // in the middle
   bool guessed = false;        // a gap wider than those of an untidy model had to be closed
+  bool open_shell = false;     // a building whose walls do not close, or had to be closed
 };
 
 }  // namespace flaneur

@@ -5,14 +5,10 @@
 #include <map>
 #include <set>
 
+#include "pipeline/footprint/constants.h"
+
 namespace flaneur {
 namespace {
-
-// A node no higher than this, and wide, is ground to walk on.
-constexpr double kFlatHeight_m = 0.15;
-constexpr double kFlatWidth_m = 1.0;
-// What is higher than this share of its length is no ground, whatever its name: mountain_grass, Square Tower.
-constexpr double kGroundSteepness = 0.3;
 
 // Lower-case words of a name: "hex_grass.001" and "HexGrass" are both hex, grass.
 std::set<std::string> Words(const std::string& name) {
@@ -56,9 +52,9 @@ Meaning FromName(const std::string& name, const Point3& min, const Point3& max) 
                                      [&](const char* word) { return words.contains(word); });
     if (!matches) continue;
     const bool is_ground = named.meaning.kind == NodeKind::kGround;
-    if (!is_ground || height_m <= kGroundSteepness * longer_m) return named.meaning;
+    if (!is_ground || height_m <= kMaxGroundSteepness * longer_m) return named.meaning;
   }
-  if (height_m <= kFlatHeight_m && shorter_m >= kFlatWidth_m) return {NodeKind::kGround, GroundKind::kSquare};
+  if (height_m <= kMaxFlatHeight_m && shorter_m >= kMinFlatWidth_m) return {NodeKind::kGround, GroundKind::kSquare};
   return {NodeKind::kBuilding};
 }
 

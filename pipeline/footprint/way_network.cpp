@@ -6,14 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/footprint/constants.h"
+
 namespace flaneur {
 namespace {
 
 namespace bp = boost::polygon;
-constexpr double kFine_m = 200'000;       // ground up to this wide is drawn on a grid of 0.1 mm (32 bits), else of 1 mm
-constexpr double kRowHeight_m = 2;
-constexpr double kStep_m = 2.5;         // between nodes, at most (more where the way is wide),
-constexpr double kMostSteps = 1000;     // but no more than this many along one edge of the diagram
 
 using GridPoint = bp::point_data<int>;
 using GridSegment = bp::segment_data<int>;
@@ -73,7 +71,7 @@ class Builder {
         max = {std::max(max.x, p.x), std::max(max.y, p.y)};
       }
     }
-    units_per_metre_ = std::max(max.x - min.x, max.y - min.y) < kFine_m ? 1e4 : 1e3;
+    units_per_metre_ = std::max(max.x - min.x, max.y - min.y) < kMaxFineGround_m ? 1e4 : 1e3;
     middle_ = {(min.x + max.x) / 2, (min.y + max.y) / 2};
   }
 
@@ -186,8 +184,8 @@ class Builder {
   void AddWay(int from, int to, const Diagram::cell_type& cell, const Diagram::cell_type& other) {
     const Point2 a = network_.nodes[static_cast<size_t>(from)].at, b = network_.nodes[static_cast<size_t>(to)].at;
     const double length = std::hypot(b.x - a.x, b.y - a.y);
-    const double step = std::max(kStep_m, std::min(ClearanceOf(from), ClearanceOf(to)) / 2);
-    const int steps = static_cast<int>(std::clamp(std::ceil(length / step), 1.0, kMostSteps));
+    const double step = std::max(kNodeStep_m, std::min(ClearanceOf(from), ClearanceOf(to)) / 2);
+    const int steps = static_cast<int>(std::clamp(std::ceil(length / step), 1.0, kMaxNodeSteps));
     int before = from;
     for (int s = 1; s <= steps; ++s) {
       const Point2 at{a.x + (b.x - a.x) * s / steps, a.y + (b.y - a.y) * s / steps};

@@ -1,0 +1,139 @@
+#include "pipeline/footprint/object_shape.h"
+
+#include <algorithm>
+#include <map>
+
+#include "pipeline/footprint/constants.h"
+#include "pipeline/footprint/disjoint_sets.h"
+#include "pipeline/footprint/one_mouth.h"
+#include "pipeline/footprint/repair_shell.h"
+#include "pipeline/footprint/segment_grid.h"
+
+namespace flaneur {
+namespace {
+
+// Without the crumbs that stick out of an outline by a hair: connected pieces shorter than kCrumb_m together.
+std::vector<Segment> WithoutCrumbs(const std::vector<Segment>& loose) {
+  std::map<std::pair<double, double>, size_t> ends;
+  DisjointSets connected;
+  const auto end = [&](Point2 p) {
+    const auto [entry, is_new] = ends.try_emplace({p.x, p.y}, connected.size());
+    if (is_new) connected.Add();
+    return entry->second;
+  };
+  std::vector<size_t> start;
+  for (const Segment& s : loose) {
+    start.push_back(end(s.a));
+    connected.Join(start.back(), end(s.b));
+  }
+  std::vector<double> length_m(connected.size(), 0);
+  for (size_t i = 0; i < loose.size(); ++i) length_m[connected.Root(start[i])] += Length(loose[i]);
+  std::vector<Segment> out;
+  for (size_t i = 0; i < loose.size(); ++i)
+    if (length_m[connected.Root(start[i])] >= kCrumb_m) out.push_back(loose[i]);
+  return out;
+}
+
+// How many lines end at each point.
+std::map<std::pair<double, double>, int> Ends(const std::vector<Segment>& lines) {
+  std::map<std::pair<double, double>, int> ends;
+  for (const Segment& s : lines)
+    for (const Point2 p : {s.a, s.b}) ++ends[{p.x, p.y}];
+  return ends;
+}
+
+// Drops crumbs that lead nowhere; whether all other lines lead on at both ends. If not, the lines stay as they are.
+bool AllMeet(std::vector<Segment>* lines) {
+  std::vector<Segment> kept = *lines;
+  for (bool dropped = true; dropped;) {
+    const auto ends = Ends(kept);
+    bool dangling = false;
+    dropped = std::erase_if(kept, [&](const Segment& s) {
+      if (ends.at({s.a.x, s.a.y}) > 1 && ends.at({s.b.x, s.b.y}) > 1) return false;
+      dangling |= Length(s) >= kCrumb_m;
+      return Length(s) < kCrumb_m;
+    }) > 0;
+    if (dangling) return false;
+  }
+  *lines = std::move(kept);
+  return true;
+}
+
+// Closes what is missing from a building's shell; whether that is something in the band.
+bool Repair(const Site& site, const Stand& stand, const TownObject& object, std::vector<Triangle3>* triangles) {
+  if (object.kind != ObstacleKind::kBuilding) return false;
+  std::vector<Triangle3> shell = object.triangles;
+  shell.insert(shell.end(), object.foundation.begin(), object.foundation.end());
+  const std::vector<Triangle3> missing = MissingTriangles(shell);
+  if (missing.empty()) return false;
+  triangles->insert(triangles->end(), missing.begin(), missing.end());
+  const BandParts parts = PartsInBand(site, stand, missing);
+  return !parts.walls.empty() || !parts.areas.empty();
+}
+
+}  // namespace
+
+void SetLoose(const std::vector<Segment>& lines, Shape* shape) {
+  shape->loose.clear();
+  shape->open_m = 0;
+  if (lines.empty()) return;
+  const std::vector<Segment> loose = Outside(lines, Offset(shape->solid, kOnOutline_m));
+  if (loose.empty()) return;
+  const std::vector<Segment> apart = Outside(loose, Offset(shape->solid, kCrumb_m));  // not covered with what is solid
+  shape->loose = WithoutCrumbs(loose);
+  shape->loose.insert(shape->loose.end(), apart.begin(), apart.end());
+  for (const Segment& s : apart) shape->open_m += Length(s);
+}
+
+void CloseUnderRoofs(std::vector<Segment> lines, double reach_m, const Roofs& is_solid, Shape* shape) {
+  if (shape->solid.empty()) lines = CutWhereTheyMeet(std::move(lines));
+  if (shape->solid.empty() && AllMeet(&lines)) {
+    EnclosedRegions enclosed = EncloseRegions(lines, is_solid);
+    shape->solid = std::move(enclosed.solid);
+    lines = std::move(enclosed.loose);
+  } else if (reach_m > 0) {
+    Rings regions = shape->solid;
+    for (const Rings& region : Enclosed(lines, shape->solid, reach_m / 2))
+      if (!region.empty() && is_solid(region)) regions.insert(regions.end(), region.begin(), region.end());
+    shape->solid = UnionOfAreas(regions);
+  }
+  SetLoose(lines, shape);
+}
+
+Shape ShapeOf(const Site& site, const TownObject& object) {
+  const Stand stand(site, object);
+  Shape shape;
+  shape.ground_z_m = GroundInTheMiddle(stand, object);
+  std::vector<Triangle3> triangles = object.triangles;
+  shape.guessed = Repair(site, stand, object, &triangles);
+  const BandParts parts = PartsInBand(site, stand, triangles);
+  const Overhead overhead({&triangles});
+  const Roofs is_solid(site, stand.ground(0), overhead);
+  shape.lines = static_cast<int>(parts.walls.size() + parts.areas.size());
+  shape.solid = parts.areas;
+  const std::vector<Segment> lines = Outside(parts.walls, parts.areas);
+  CloseUnderRoofs(lines, site.options.bridge_m, is_solid, &shape);
+  if (object.kind == ObstacleKind::kBuilding && shape.open_m > kMaxOpenShell_m) {
+    const double before = Area(shape.solid);
+    CloseUnderRoofs(shape.loose, kNoWay_m, is_solid, &shape);
+    shape.guessed |= Area(shape.solid) > before + kMinGap_m2;
+  }
+  return shape;
+}
+
+void CloseRooms(const Site& site, const TownObject& object, Shape* shape) {
+  if (object.kind != ObstacleKind::kBuilding || shape->open_m <= kMaxOpenShell_m) return;
+  const Stand stand(site, object);
+  const Overhead overhead({&object.triangles});
+  const Roofs is_solid(site, stand.ground(0), overhead);
+  Rings rooms = RoomsWithOneMouth(shape->loose, shape->solid, std::max(site.options.bridge_m, kCrumb_m), is_solid);
+  if (rooms.empty()) rooms = RoomsWithOneMouth(shape->loose, shape->solid, kNoWay_m, is_solid);
+  if (rooms.empty()) return;
+  Rings all = shape->solid;
+  all.insert(all.end(), rooms.begin(), rooms.end());
+  shape->solid = UnionOfAreas(all);
+  shape->guessed = true;
+  SetLoose(std::vector<Segment>(shape->loose), shape);
+}
+
+}  // namespace flaneur

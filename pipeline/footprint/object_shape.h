@@ -1,0 +1,23 @@
+// What of one object blocks, before its clearance. Internal to the extraction.
+#pragma once
+#include <vector>
+
+#include "pipeline/footprint/roofs.h"
+#include "pipeline/footprint/shape.h"
+#include "pipeline/footprint/stand.h"
+
+namespace flaneur {
+
+Shape ShapeOf(const Site& site, const TownObject& object);
+
+// Closes what neither the building's own walls nor its block's have closed.
+void CloseRooms(const Site& site, const TownObject& object, Shape* shape);
+
+// Adds what the lines and what is solid already enclose under a roof, together with each other. Lines that all meet are
+// taken exactly; else they are joined where they miss each other by up to reach_m.
+void CloseUnderRoofs(std::vector<Segment> lines, double reach_m, const Roofs& is_solid, Shape* shape);
+
+// Leaves of the lines those outside of what is solid.
+void SetLoose(const std::vector<Segment>& lines, Shape* shape);
+
+}  // namespace flaneur
