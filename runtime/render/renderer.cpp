@@ -13,7 +13,6 @@
 #include "runtime/render/light.h"
 #include "runtime/render/people_view.h"
 #include "runtime/render/picture.h"
-#include "runtime/render/shaders.h"
 #include "runtime/render/shadow_maps.h"
 #include "runtime/render/town_view.h"
 
@@ -31,6 +30,12 @@ PictureLimits LimitsOfThisMachine(bool fast) {
   PictureLimits limits;
   if (fast) limits = {1024, 512, ReadsBc1()};
   return {std::min<int>(limits.town_px, most_px), std::min<int>(limits.people_px, most_px), limits.blocks};
+}
+
+ShaderMode ModeFor(bool software, bool several_samples, bool normals) {
+  if (!software) return normals ? ShaderMode::kGpuNormals : several_samples ? ShaderMode::kGpuSamples : ShaderMode::kGpu;
+  if (several_samples) return normals ? ShaderMode::kSoftwareSamplesNormals : ShaderMode::kSoftwareSamples;
+  return normals ? ShaderMode::kSoftwareNormals : ShaderMode::kSoftware;
 }
 
 // By the processor's time of all threads: software draws on several, and others use the machine too.
@@ -92,10 +97,11 @@ struct Renderer::Impl {
   size_t pictures_left = 0;  // to come
   AtlasFormats formats;
   std::vector<GLuint> arrays;
-  GLuint sky_program = 0, empty_array = 0, block_buffer = 0;
+  Program sky_program;
+  GLuint empty_array = 0, block_buffer = 0;
 
   void DrawSky() const {
-    glUseProgram(sky_program);
+    glUseProgram(sky_program.id);
     CullBackFaces(false);
     glBindVertexArray(empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -121,23 +127,17 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   // In software four samples cost three times the whole rest of a frame.
   const int samples = options.samples > 0 ? options.samples : software ? 1 : 4;
   const bool fast = software && samples == 1;  // for a picture many times a second; stills may take their time
-  std::string defines = std::string("#define SHADOW_TAPS ") + (software ? "1" : "4") + "\n#define SHARPER " +
-                        (fast ? "-0.6" : "0.0") + "\n";
+  const ShaderMode mode = ModeFor(software, samples > 1, options.normals);
   r.formats = FormatsOfThisMachine(fast);
-  if (fast) defines += "#define FAST\n";
-  const bool deferred = fast && !options.normals;
-  if (deferred) defines += "#define DEFERRED\n";
-  if (options.normals) defines += "#define NORMALS\n";
   r.people.smooth_edges = samples > 1 && !options.normals;
-  if (r.people.smooth_edges) defines += "#define SMOOTH_EDGES\n";
   r.pictures_left = pack.images.size();
   r.town.triangle_by_triangle = fast;
   r.plan = PlanSurfaces(pack, LimitsOfThisMachine(fast));
   r.arrays = CreateTextureArrays(r.plan, fast);
-  if (Error e = CreateTownView(defines, r.plan, r.arrays, &r.town)) return e;
-  if (Error e = CreatePeopleView(pack, defines, r.plan, r.arrays, &r.people)) return e;
-  if (Error e = BuildProgram(std::string(kFrame) + kSkyVertex, defines + kFrame + kFinished + kSkyFragment, &r.sky_program)) return e;
-  if (Error e = CreatePicture(samples, deferred, options.onto_window, defines, &r.picture)) return e;
+  if (Error e = CreateTownView(mode, r.plan, r.arrays, &r.town)) return e;
+  if (Error e = CreatePeopleView(pack, mode, r.plan, r.arrays, &r.people)) return e;
+  if (Error e = BuildProgram(ShaderProgram::kSky, mode, &r.sky_program)) return e;
+  if (Error e = CreatePicture(samples, mode == ShaderMode::kSoftware, options.onto_window, mode, &r.picture)) return e;
   if (Error e = CreateCaptionView(&r.caption)) return e;
   if (Error e = CreateGroundMark(&r.ground_mark)) return e;
   CreateShadowMaps(&r.shadows);
