@@ -30,13 +30,15 @@ void TakePlaces(Program* p) {
   const GLuint block = glGetUniformBlockIndex(program, "Frame");
   if (block != GL_INVALID_INDEX) glUniformBlockBinding(program, block, kFrameBinding);
   const struct { const char* name; TextureUnit unit; } samplers[] = {
-      {"u_texture", kColorUnit}, {"u_normals", kNormalsUnit}, {"u_depth", kDepthUnit}, {"u_motion", kMotionUnit}, {"u_poses", kPosesUnit},
+      {"u_texture", kColorUnit}, {"u_normals", kNormalsUnit}, {"u_depth", kDepthUnit}, {"u_motion", kMotionUnit},
+      {"u_poses", kPosesUnit},
       {"u_town_shadow_map", kTownShadowUnit}, {"u_people_shadow_map", kPeopleShadowUnit},
       {"u_textures", kArrayUnit}, {"u_cells", kCellsUnit}};
   for (const auto& s : samplers) glUniform1i(glGetUniformLocation(program, s.name), s.unit);
   const struct { const char* name; GLint* place; } uniforms[] = {
       {"u_atlas", &p->atlas}, {"u_ranges", &p->ranges}, {"u_directions", &p->directions}, {"u_tints", &p->tints},
-      {"u_tint_shifts", &p->tint_shifts}, {"u_alpha_cutoff", &p->alpha_cutoff}, {"u_share", &p->share}, {"u_size", &p->size}};
+      {"u_tint_shifts", &p->tint_shifts}, {"u_alpha_cutoff", &p->alpha_cutoff},
+      {"u_share", &p->share}, {"u_size", &p->size}};
   for (const auto& u : uniforms) *u.place = glGetUniformLocation(program, u.name);
 }
 

@@ -13,7 +13,9 @@
 namespace flaneur {
 
 // Places that all programs share: sampler uniforms get their unit, the block Frame its binding, at linking.
-enum TextureUnit { kColorUnit, kNormalsUnit, kDepthUnit, kMotionUnit, kPosesUnit, kTownShadowUnit, kPeopleShadowUnit, kArrayUnit, kCellsUnit };
+enum TextureUnit {
+  kColorUnit, kNormalsUnit, kDepthUnit, kMotionUnit, kPosesUnit, kTownShadowUnit, kPeopleShadowUnit, kArrayUnit, kCellsUnit
+};
 
 // The uniform block Frame of the shaders.
 struct FrameBlock {
@@ -28,7 +30,8 @@ void BindFrameBlock(GLuint buffer, const FrameBlock& block);
 // A program of the driver's, and the places of the uniforms that it has.
 struct Program {
   GLuint id = 0;
-  GLint atlas = -1, ranges = -1, directions = -1, tints = -1, tint_shifts = -1, alpha_cutoff = -1, share = -1, size = -1;
+  GLint atlas = -1, ranges = -1, directions = -1, tints = -1, tint_shifts = -1;
+  GLint alpha_cutoff = -1, share = -1, size = -1;
 };
 // Errors: what the driver says against it.
 Error BuildProgram(ShaderProgram which, ShaderMode mode, Program* program);

@@ -1,5 +1,6 @@
-# cmake -DFOLDER=... -DLIST=programs.h -DOUTPUT=shader_texts.cpp -DVARIANTS=folder -DGLSLANG=glslangValidator -P embed.cmake
-# Writes the programs' shaders as C++ strings, each with what it includes in place, once glslang has found nothing in any variant.
+# cmake -DFOLDER=... -DLIST=programs.h -DOUTPUT=texts.cpp -DVARIANTS=folder -DGLSLANG=glslangValidator -P embed.cmake
+# Writes the programs' shaders as C++ strings, each with what it includes in place, once glslang has found nothing in any
+# variant.
 cmake_minimum_required(VERSION 3.25)
 
 function(expand name depth out)
@@ -61,9 +62,9 @@ if(NOT variants)
 endif()
 execute_process(COMMAND ${GLSLANG} ${variants} OUTPUT_VARIABLE said ERROR_VARIABLE said RESULT_VARIABLE failed)
 if(failed)
-  string(REGEX MATCHALL "[^\n]*(ERROR|WARNING)[^\n]*" said "${said}")
+  string(REGEX MATCHALL "[^\n]+\nERROR:[^\n]*" said "${said}")
   list(JOIN said "\n" said)
-  message(FATAL_ERROR "glslang refuses shaders of ${VARIANTS}:\n${said}")
+  message(FATAL_ERROR "glslang refuses\n${said}")
 endif()
 
 file(WRITE ${OUTPUT} "// Written at build by runtime/render/shaders/embed.cmake.

@@ -1,5 +1,5 @@
-// All shader programs and all ways to draw: C++ builds them by name, and CMake, which reads this list too, embeds their files and has
-// every variant judged by Khronos' compiler. GLSL ES 3.00: the same text runs as WebGL 2.
+// All shader programs and all ways to draw. C++ builds them by name; CMake reads this list too, embeds their files and
+// has every variant judged by Khronos' compiler. GLSL ES 3.00: the same text runs as WebGL 2.
 #pragma once
 #include <cstdint>
 
@@ -26,8 +26,8 @@ namespace flaneur {
   PROGRAM(kGroundMark, "ground_mark.vert", "ground_mark.frag", "") \
   PROGRAM(kOverlay, "overlay.vert", "overlay.frag", "")
 
-// MODE(name, what is defined in all programs). Samples: several of each pixel. FAST: for many pictures a second in software, which
-// lights a picture's pixels after all surfaces (DEFERRED). NORMALS: pictures show people's normals instead of light.
+// MODE(name, what is defined in all programs). Samples: several of each pixel. FAST: for many pictures a second in
+// software, which lights a picture's pixels after all surfaces (DEFERRED). NORMALS: people's normals instead of light.
 #define FLANEUR_SHADER_MODES(MODE) \
   MODE(kGpu, "") \
   MODE(kGpuSamples, "SMOOTH_EDGES") \
