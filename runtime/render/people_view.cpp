@@ -22,7 +22,7 @@ PersonMesh UploadMesh(const PersonGeometry& person) {
   EnableAttribute(ATTRIBUTE_UV, 2, GL_FLOAT, false, stride, offsetof(PersonVertex, uv), 0);
   EnableAttribute(ATTRIBUTE_COLOR, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(PersonVertex, color), 0);
   EnableAttribute(ATTRIBUTE_JOINTS, 4, GL_UNSIGNED_SHORT, false, stride, offsetof(PersonVertex, joints), 0);
-  EnableAttribute(ATTRIBUTE_WEIGHTS, 4, GL_UNSIGNED_SHORT, true, stride, offsetof(PersonVertex, weights), 0);
+  EnableAttribute(ATTRIBUTE_WEIGHTS, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(PersonVertex, weights), 0);
   return mesh;
 }
 

@@ -46,7 +46,7 @@ PackPrimitive BoxPrimitive(Vec3 low, Vec3 high, int material, bool skinned) {
   }
   if (skinned) {
     p.joints.assign(p.positions.size(), {0, 0, 0, 0});
-    p.weights.assign(p.positions.size(), {1, 0, 0, 0});
+    p.weights.assign(p.positions.size(), {255, 0, 0, 0});
   }
   return p;
 }
