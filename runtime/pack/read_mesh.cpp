@@ -2,8 +2,10 @@
 
 #include <draco/compression/decode.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 
 namespace flaneur {
 namespace {
@@ -62,6 +64,22 @@ void FillColors(const Values& v, PackPrimitive* primitive) {
   }
 }
 
+// A pack's are bytes that sum to 255, and come out as they went in; what others leave over goes to the heaviest.
+std::array<uint8_t, 4> WeightBytes(std::span<const float, 4> weights) {
+  float sum = 0;
+  for (const float w : weights) sum += std::max(0.0f, w);
+  if (!(sum > 0) || !std::isfinite(sum)) throw PackRefused("has a vertex without weights");
+  std::array<uint8_t, 4> bytes{};
+  int left = 255;
+  for (size_t k = 0; k < 4; ++k) {
+    bytes[k] = static_cast<uint8_t>(std::lround(std::max(0.0f, weights[k]) / sum * 255));
+    left -= bytes[k];
+  }
+  uint8_t& heaviest = *std::max_element(bytes.begin(), bytes.end());
+  heaviest = static_cast<uint8_t>(heaviest + left);
+  return bytes;
+}
+
 void FillSkin(const Values& joints, const Values& weights, PackPrimitive* primitive) {
   const size_t count = primitive->positions.size();
   Expect(joints, count, 4, "JOINTS_0");
@@ -69,16 +87,12 @@ void FillSkin(const Values& joints, const Values& weights, PackPrimitive* primit
   primitive->joints.resize(count);
   primitive->weights.resize(count);
   for (size_t i = 0; i < count; ++i) {
-    float sum = 0;
     for (size_t k = 0; k < 4; ++k) {
       const float joint = joints.numbers[4 * i + k];
       if (!(joint >= 0 && joint < 65536)) throw PackRefused("has a joint index out of range");
       primitive->joints[i][k] = static_cast<uint16_t>(joint);
-      primitive->weights[i][k] = std::max(0.0f, weights.numbers[4 * i + k]);
-      sum += primitive->weights[i][k];
     }
-    if (!(sum > 0) || !std::isfinite(sum)) throw PackRefused("has a vertex without weights");
-    for (float& w : primitive->weights[i]) w /= sum;
+    primitive->weights[i] = WeightBytes(std::span<const float, 4>(&weights.numbers[4 * i], 4));
   }
 }
 

@@ -44,7 +44,7 @@ struct PackPrimitive {
   std::vector<Vec2> uvs;                        // empty: none
   std::vector<Vec4> colors;                     // empty: white
   std::vector<std::array<uint16_t, 4>> joints;  // empty: not skinned
-  std::vector<std::array<float, 4>> weights;
+  std::vector<std::array<uint8_t, 4>> weights;  // in 1/255, which they sum to
   std::vector<uint32_t> indices;
 };
 

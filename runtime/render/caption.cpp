@@ -13,7 +13,6 @@
 #pragma GCC diagnostic pop
 
 #include "runtime/render/font.h"
-#include "runtime/render/shaders.h"
 
 namespace flaneur {
 namespace {
@@ -136,7 +135,7 @@ PackImage LayOutCaption(const std::string& text, int width_px, int height_px) {
 Error CreateCaptionView(CaptionView* caption) {
   glGenVertexArrays(1, &caption->empty_array);
   glGenTextures(1, &caption->texture);
-  return BuildProgram(kWholeVertex, kCaptionFragment, &caption->program);
+  return BuildProgram(ShaderProgram::kCaption, &caption->program);
 }
 
 void DrawCaption(const std::string& text, float share, int width_px, int height_px, CaptionView* c) {
@@ -153,8 +152,8 @@ void DrawCaption(const std::string& text, float share, int width_px, int height_
   CullBackFaces(false);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glUseProgram(c->program);
-  SetUniform(c->program, "u_share", share);
+  glUseProgram(c->program.id);
+  SetUniform(c->program.share, share);
   BindTexture(kColorUnit, c->texture);
   glBindVertexArray(c->empty_array);
   glEnable(GL_SCISSOR_TEST);

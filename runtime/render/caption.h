@@ -14,7 +14,8 @@ namespace flaneur {
 PackImage LayOutCaption(const std::string& text, int width_px, int height_px);
 
 struct CaptionView {
-  GLuint program = 0, texture = 0, empty_array = 0;
+  Program program;
+  GLuint texture = 0, empty_array = 0;
   std::string text;                     // that the texture shows
   int width_px = 0, height_px = 0;      // of the picture that it was laid out for
   int strip_px = 0;                     // its own height

@@ -66,7 +66,9 @@ struct FrameStatistics {
   int people_drawn = 0, people_hidden = 0;  // hidden: behind walls or above or below the view
   int people_not_loaded = 0;  // drawn by another level than the frame's, or not at all, because that is not loaded yet
   double people_ms = 0;    // of it, on the CPU: choosing who can be seen, poses, the upload
-  double draw_ms = 0;      // until the picture is there
+  // Until the picture is there; with RenderOptions::runs_ahead until its commands are handed over or, if that is longer,
+  // what the graphics card took over the picture before.
+  double draw_ms = 0;
   std::array<double, std::size(kDrawPassNames)> pass_ms{};  // by DrawPass: processor time of all threads, with RenderOptions::time_passes
 };
 

@@ -4,22 +4,16 @@
 #include <cstring>
 
 #include "runtime/base/text.h"
-#include "runtime/render/all_shaders.h"
-#include "runtime/render/shaders.h"
+#include "runtime/render/shader_source.h"
 
 namespace flaneur {
 namespace {
 
 constexpr GLuint kFrameBinding = 0;
 
-bool keeps_sources = false;
-std::vector<ShaderSource> kept_sources;
-
 Error Compile(GLenum kind, const std::string& source, GLuint* shader) {
   *shader = glCreateShader(kind);
-  const std::string whole = kHeader + source;
-  if (keeps_sources) kept_sources.push_back({kind == GL_VERTEX_SHADER, whole});
-  const char* text = whole.c_str();
+  const char* text = source.c_str();
   glShaderSource(*shader, 1, &text, nullptr);
   glCompileShader(*shader);
   GLint good = 0;
@@ -30,56 +24,57 @@ Error Compile(GLenum kind, const std::string& source, GLuint* shader) {
   return Fail("the OpenGL driver refuses a shader: " + OneLine(log));
 }
 
-void NamePlaces(GLuint program) {
+void TakePlaces(Program* p) {
+  const GLuint program = p->id;
   glUseProgram(program);
   const GLuint block = glGetUniformBlockIndex(program, "Frame");
   if (block != GL_INVALID_INDEX) glUniformBlockBinding(program, block, kFrameBinding);
   const struct { const char* name; TextureUnit unit; } samplers[] = {
-      {"u_texture", kColorUnit}, {"u_normals", kNormalsUnit}, {"u_depth", kDepthUnit}, {"u_motion", kMotionUnit}, {"u_poses", kPosesUnit},
+      {"u_texture", kColorUnit}, {"u_normals", kNormalsUnit}, {"u_depth", kDepthUnit}, {"u_motion", kMotionUnit},
+      {"u_poses", kPosesUnit},
       {"u_town_shadow_map", kTownShadowUnit}, {"u_people_shadow_map", kPeopleShadowUnit},
       {"u_textures", kArrayUnit}, {"u_cells", kCellsUnit}};
   for (const auto& s : samplers) glUniform1i(glGetUniformLocation(program, s.name), s.unit);
+  const struct { const char* name; GLint* place; } uniforms[] = {
+      {"u_atlas", &p->atlas}, {"u_ranges", &p->ranges}, {"u_directions", &p->directions}, {"u_tints", &p->tints},
+      {"u_tint_shifts", &p->tint_shifts}, {"u_alpha_cutoff", &p->alpha_cutoff},
+      {"u_share", &p->share}, {"u_size", &p->size}};
+  for (const auto& u : uniforms) *u.place = glGetUniformLocation(program, u.name);
 }
 
 }  // namespace
 
-void KeepShaderSources(bool on) { keeps_sources = on; }
-const std::vector<ShaderSource>& KeptShaderSources() { return kept_sources; }
-
-Error BuildProgram(const std::string& vertex, const std::string& fragment, GLuint* program) {
+Error BuildProgram(ShaderProgram which, ShaderMode mode, Program* program) {
+  const ShaderSource source = SourceOf(which, mode);
   GLuint v = 0, f = 0;
-  if (Error e = Compile(GL_VERTEX_SHADER, vertex, &v)) return e;
-  if (Error e = Compile(GL_FRAGMENT_SHADER, fragment, &f)) return e;
-  *program = glCreateProgram();
-  glAttachShader(*program, v);
-  glAttachShader(*program, f);
-  glLinkProgram(*program);
+  if (Error e = Compile(GL_VERTEX_SHADER, source.vertex, &v)) return e;
+  if (Error e = Compile(GL_FRAGMENT_SHADER, source.fragment, &f)) return e;
+  const GLuint id = program->id = glCreateProgram();
+  glAttachShader(id, v);
+  glAttachShader(id, f);
+  glLinkProgram(id);
   for (GLuint shader : {v, f}) {  // drivers keep what they made of it as long as it is attached
-    glDetachShader(*program, shader);
+    glDetachShader(id, shader);
     glDeleteShader(shader);
   }
   GLint good = 0;
-  glGetProgramiv(*program, GL_LINK_STATUS, &good);
+  glGetProgramiv(id, GL_LINK_STATUS, &good);
   if (good) {
-    NamePlaces(*program);
+    TakePlaces(program);
     return Ok();
   }
   char log[1024] = "";
-  glGetProgramInfoLog(*program, sizeof log, nullptr, log);
+  glGetProgramInfoLog(id, sizeof log, nullptr, log);
   return Fail("the OpenGL driver refuses a shader program: " + OneLine(log));
 }
 
-void SetUniform(GLuint program, const char* name, Vec3 v) {
-  glUniform3f(glGetUniformLocation(program, name), v.x, v.y, v.z);
-}
-void SetUniform(GLuint program, const char* name, Vec4 v) {
-  glUniform4f(glGetUniformLocation(program, name), v.x, v.y, v.z, v.w);
-}
-void SetUniform(GLuint program, const char* name, float value) {
-  glUniform1f(glGetUniformLocation(program, name), value);
-}
-void SetUniform(GLuint program, const char* name, std::span<const Vec4> values) {
-  glUniform4fv(glGetUniformLocation(program, name), static_cast<GLsizei>(values.size()), &values[0].x);
+Error BuildProgram(ShaderProgram which, Program* program) { return BuildProgram(which, ShaderMode::kGpu, program); }
+
+void SetUniform(GLint place, Vec3 v) { glUniform3f(place, v.x, v.y, v.z); }
+void SetUniform(GLint place, Vec4 v) { glUniform4f(place, v.x, v.y, v.z, v.w); }
+void SetUniform(GLint place, float value) { glUniform1f(place, value); }
+void SetUniform(GLint place, std::span<const Vec4> values) {
+  glUniform4fv(place, static_cast<GLsizei>(values.size()), &values[0].x);
 }
 
 void BindFrameBlock(GLuint buffer, const FrameBlock& block) {

@@ -4,29 +4,43 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
+#include "runtime/render/shaders/programs.h"
+#include "runtime/render/shaders/shared.glsl"
 
 namespace flaneur {
 
 // Places that all programs share: sampler uniforms get their unit, the block Frame its binding, at linking.
-enum TextureUnit { kColorUnit, kNormalsUnit, kDepthUnit, kMotionUnit, kPosesUnit, kTownShadowUnit, kPeopleShadowUnit, kArrayUnit, kCellsUnit };
+enum TextureUnit {
+  kColorUnit, kNormalsUnit, kDepthUnit, kMotionUnit, kPosesUnit, kTownShadowUnit, kPeopleShadowUnit, kArrayUnit, kCellsUnit
+};
 
-// The uniform block Frame of shaders.h, in its std140 layout.
+// The uniform block Frame of the shaders.
 struct FrameBlock {
-  Mat4 view_projection, inverse_view_projection, near_shadow, far_shadow, people_shadow;
-  Vec4 eye, to_sun, sun_color, sky_color, ground_color, haze_color, zenith_color, shadow_layers;
+  using mat4 = Mat4;
+  using vec4 = Vec4;
+#define FIELD(type, name) type name;
+#include "runtime/render/shaders/frame_fields.glsl"
+#undef FIELD
 };
 void BindFrameBlock(GLuint buffer, const FrameBlock& block);
 
-// Both sources without the header. Errors: what the driver says against them.
-Error BuildProgram(const std::string& vertex, const std::string& fragment, GLuint* program);
-void SetUniform(GLuint program, const char* name, Vec3 value);
-void SetUniform(GLuint program, const char* name, Vec4 value);
-void SetUniform(GLuint program, const char* name, float value);
-void SetUniform(GLuint program, const char* name, std::span<const Vec4> values);  // an array of the shader's
+// A program of the driver's, and the places of the uniforms that it has.
+struct Program {
+  GLuint id = 0;
+  GLint atlas = -1, ranges = -1, directions = -1, tints = -1, tint_shifts = -1;
+  GLint alpha_cutoff = -1, share = -1, size = -1;
+};
+// Errors: what the driver says against it.
+Error BuildProgram(ShaderProgram which, ShaderMode mode, Program* program);
+Error BuildProgram(ShaderProgram which, Program* program);  // where all modes are alike
+// Of the program in use; place: a Program's.
+void SetUniform(GLint place, Vec3 value);
+void SetUniform(GLint place, Vec4 value);
+void SetUniform(GLint place, float value);
+void SetUniform(GLint place, std::span<const Vec4> values);  // an array of the shader's
 
 // What draws have taken.
 struct DrawCost {

@@ -1,20 +1,18 @@
 #include "runtime/render/ground_mark.h"
 
-#include "runtime/render/shaders.h"
-
 namespace flaneur {
 
 Error CreateGroundMark(GroundMarkView* m) {
   glGenVertexArrays(1, &m->array);
   glBindVertexArray(m->array);
   m->vertices = CreateBuffer(GL_ARRAY_BUFFER, nullptr, 0);
-  EnableAttribute(0, 3, GL_FLOAT, false, sizeof(Vec3), 0, 0);
-  return BuildProgram(std::string(kFrame) + kGroundMarkVertex, kGroundMarkFragment, &m->program);
+  EnableAttribute(ATTRIBUTE_POSITION, 3, GL_FLOAT, false, sizeof(Vec3), 0, 0);
+  return BuildProgram(ShaderProgram::kGroundMark, &m->program);
 }
 
 DrawCost DrawGroundMark(const std::vector<Vec3>& strip, const GroundMarkView& m) {
   if (strip.size() < 3) return {};
-  glUseProgram(m.program);
+  glUseProgram(m.program.id);
   glBindVertexArray(m.array);
   glBindBuffer(GL_ARRAY_BUFFER, m.vertices);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(strip.size() * sizeof(Vec3)), strip.data(), GL_STREAM_DRAW);

@@ -8,12 +8,12 @@
 
 #include "runtime/render/font.h"
 #include "runtime/render/gl_objects.h"
-#include "runtime/render/shaders.h"
 
 namespace flaneur {
 
 struct Overlay::Impl {
-  GLuint program = 0, font = 0, array = 0, vertices = 0, indices = 0;
+  Program program;
+  GLuint font = 0, array = 0, vertices = 0, indices = 0;
   float letter_px = 0;
   std::string texts;
   ImVector<ImWchar> letters;  // that the large font has; ImGui reads them later
@@ -40,9 +40,9 @@ struct Overlay::Impl {
     constexpr size_t stride = sizeof(ImDrawVert);
     vertices = CreateBuffer(GL_ARRAY_BUFFER, nullptr, 0);
     indices = CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, nullptr, 0);
-    EnableAttribute(0, 2, GL_FLOAT, false, stride, offsetof(ImDrawVert, pos), 0);
-    EnableAttribute(1, 2, GL_FLOAT, false, stride, offsetof(ImDrawVert, uv), 0);
-    EnableAttribute(2, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(ImDrawVert, col), 0);
+    EnableAttribute(ATTRIBUTE_POSITION, 2, GL_FLOAT, false, stride, offsetof(ImDrawVert, pos), 0);
+    EnableAttribute(ATTRIBUTE_UV, 2, GL_FLOAT, false, stride, offsetof(ImDrawVert, uv), 0);
+    EnableAttribute(ATTRIBUTE_COLOR, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(ImDrawVert, col), 0);
   }
 
   void DrawList(const ImDrawList& list, float height_px) const {
@@ -69,7 +69,7 @@ Error Overlay::Create() {
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
   ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_HasGamepad;
   ImGui::StyleColorsDark();
-  if (Error e = BuildProgram(kOverlayVertex, kOverlayFragment, &impl_->program)) return e;
+  if (Error e = BuildProgram(ShaderProgram::kOverlay, &impl_->program)) return e;
   glReleaseShaderCompiler();
   impl_->CreateFont();
   impl_->CreateArrays();
@@ -125,8 +125,8 @@ void Overlay::Draw() {
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glEnable(GL_SCISSOR_TEST);
-  glUseProgram(impl_->program);
-  SetUniform(impl_->program, "u_size", Vec3{data.DisplaySize.x, data.DisplaySize.y, 0});
+  glUseProgram(impl_->program.id);
+  SetUniform(impl_->program.size, Vec3{data.DisplaySize.x, data.DisplaySize.y, 0});
   BindTexture(kColorUnit, impl_->font);
   glBindVertexArray(impl_->array);
   for (int i = 0; i < data.CmdListsCount; ++i) impl_->DrawList(*data.CmdLists[i], data.DisplaySize.y);

@@ -4,12 +4,9 @@
 #include <cstddef>
 
 #include "runtime/pack/tint.h"
-#include "runtime/render/shaders.h"
 
 namespace flaneur {
 namespace {
-
-constexpr int kCellsWidth = 1024;  // of the texture of all cells, in texels
 
 PersonMesh UploadMesh(const PersonGeometry& person) {
   PersonMesh mesh;
@@ -20,27 +17,25 @@ PersonMesh UploadMesh(const PersonGeometry& person) {
   CreateBuffer(GL_ARRAY_BUFFER, person.vertices.data(), person.vertices.size() * sizeof(PersonVertex));
   CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, person.indices.data(), person.indices.size() * sizeof(uint32_t));
   constexpr size_t stride = sizeof(PersonVertex);
-  EnableAttribute(0, 3, GL_FLOAT, false, stride, offsetof(PersonVertex, position), 0);
-  EnableAttribute(1, 4, GL_BYTE, true, stride, offsetof(PersonVertex, normal), 0);
-  EnableAttribute(2, 2, GL_FLOAT, false, stride, offsetof(PersonVertex, uv), 0);
-  EnableAttribute(3, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(PersonVertex, color), 0);
-  EnableAttribute(4, 4, GL_UNSIGNED_SHORT, false, stride, offsetof(PersonVertex, joints), 0);
-  EnableAttribute(5, 4, GL_UNSIGNED_SHORT, true, stride, offsetof(PersonVertex, weights), 0);
+  EnableAttribute(ATTRIBUTE_POSITION, 3, GL_FLOAT, false, stride, offsetof(PersonVertex, position), 0);
+  EnableAttribute(ATTRIBUTE_NORMAL, 4, GL_BYTE, true, stride, offsetof(PersonVertex, normal), 0);
+  EnableAttribute(ATTRIBUTE_UV, 2, GL_FLOAT, false, stride, offsetof(PersonVertex, uv), 0);
+  EnableAttribute(ATTRIBUTE_COLOR, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(PersonVertex, color), 0);
+  EnableAttribute(ATTRIBUTE_JOINTS, 4, GL_UNSIGNED_SHORT, false, stride, offsetof(PersonVertex, joints), 0);
+  EnableAttribute(ATTRIBUTE_WEIGHTS, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(PersonVertex, weights), 0);
   return mesh;
 }
 
-Error BuildPrograms(const std::string& defines, PeopleView* people) {
-  const std::string vertex = defines + kFrame + kHaze + kTintVertex + kPersonVertex;
-  const std::string cells = "#define CELLS_WIDTH " + std::to_string(kCellsWidth) + "\n" + kImpostorCells;
+Error BuildPrograms(ShaderMode mode, PeopleView* people) {
+  constexpr ShaderProgram kMeshes[2][2] = {{ShaderProgram::kPerson, ShaderProgram::kPersonFades},
+                                           {ShaderProgram::kPersonMasked, ShaderProgram::kPersonMaskedFades}};
   for (int masked = 0; masked < 2; ++masked) {
-    const std::string lit = (masked ? "#define TINTS\n#define MASKED\n" : "#define TINTS\n") + defines + kFrame + kLight + kOutcome + kTintFragment;
-    if (Error e = BuildProgram(vertex, lit + kSurfaceFragment, &people->programs[masked][0])) return e;
-    if (Error e = BuildProgram(vertex, "#define FADES\n" + lit + kFade + kSurfaceFragment, &people->programs[masked][1])) return e;
+    for (int fades = 0; fades < 2; ++fades) {
+      if (Error e = BuildProgram(kMeshes[masked][fades], mode, &people->programs[masked][fades])) return e;
+    }
   }
-  if (Error e = BuildProgram("#define SHADOW\n" + vertex, kShadowFragment, &people->shadow_program)) return e;
-  return BuildProgram(defines + kFrame + kHaze + cells + kTintVertex + kImpostorVertex,
-                      defines + kFrame + cells + kImpostorViews + kLight + kOutcome + kTintFragment + kFade + kImpostorFragment,
-                      &people->impostor_program);
+  if (Error e = BuildProgram(ShaderProgram::kPersonShadow, mode, &people->shadow_program)) return e;
+  return BuildProgram(ShaderProgram::kImpostor, mode, &people->impostor_program);
 }
 
 void CreateQuad(PeopleView* people) {
@@ -48,7 +43,7 @@ void CreateQuad(PeopleView* people) {
   glBindVertexArray(people->quad_array);
   const float corners[] = {0, 0, 1, 0, 0, 1, 1, 1};
   CreateBuffer(GL_ARRAY_BUFFER, corners, sizeof corners);
-  EnableAttribute(0, 2, GL_FLOAT, false, 2 * sizeof(float), 0, 0);
+  EnableAttribute(ATTRIBUTE_POSITION, 2, GL_FLOAT, false, 2 * sizeof(float), 0, 0);
 }
 
 GLuint CreateTable(GLsizei width, GLsizei height, const Vec4* texels) {
@@ -111,8 +106,8 @@ void CreateCells(PeopleView* people) {
       texels.push_back(CellsBeside(layout, static_cast<int>(i)));
     }
   }
-  texels.resize((texels.size() + kCellsWidth) / kCellsWidth * kCellsWidth);
-  people->cells = CreateTable(kCellsWidth, static_cast<GLsizei>(texels.size() / kCellsWidth), texels.data());
+  texels.resize((texels.size() + CELLS_WIDTH) / CELLS_WIDTH * CELLS_WIDTH);
+  people->cells = CreateTable(CELLS_WIDTH, static_cast<GLsizei>(texels.size() / CELLS_WIDTH), texels.data());
 }
 
 // OpenGL ES 3.0 has no base instance: the attributes begin where the batch does.
@@ -120,23 +115,23 @@ void BindInstances(GLuint buffer, const PeopleBatch& batch) {
   constexpr size_t stride = sizeof(PersonInstance);
   const size_t first = batch.first * stride;
   glBindBuffer(GL_ARRAY_BUFFER, buffer);
-  EnableAttribute(6, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, place), 1);
-  EnableAttribute(7, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, look), 1);
-  EnableAttribute(8, 4, GL_UNSIGNED_BYTE, false, stride, first + offsetof(PersonInstance, tints), 1);
+  EnableAttribute(ATTRIBUTE_PLACE, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, place), 1);
+  EnableAttribute(ATTRIBUTE_LOOK, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, look), 1);
+  EnableAttribute(ATTRIBUTE_TINTS, 4, GL_UNSIGNED_BYTE, false, stride, first + offsetof(PersonInstance, tints), 1);
 }
 
-void SetTints(GLuint program, const AvatarView& avatar) {
-  SetUniform(program, "u_tints", avatar.tints);
-  SetUniform(program, "u_tint_shifts", avatar.tint_shifts);
+void SetTints(const Program& program, const AvatarView& avatar) {
+  SetUniform(program.tints, avatar.tints);
+  SetUniform(program.tint_shifts, avatar.tint_shifts);
 }
 
 DrawCost DrawImpostors(const PeopleView& people, const PeopleBatch& batch) {
   const AvatarView& avatar = people.avatars[static_cast<size_t>(batch.avatar)];
-  const GLuint program = people.impostor_program;
-  glUseProgram(program);
-  SetUniform(program, "u_atlas", avatar.atlas);
-  SetUniform(program, "u_ranges", avatar.ranges);
-  SetUniform(program, "u_directions", avatar.directions);
+  const Program& program = people.impostor_program;
+  glUseProgram(program.id);
+  SetUniform(program.atlas, avatar.atlas);
+  SetUniform(program.ranges, avatar.ranges);
+  SetUniform(program.directions, avatar.directions);
   SetTints(program, avatar);
   BindTexture(kNormalsUnit, avatar.normals);
   BindTexture(kDepthUnit, avatar.depth);
@@ -165,10 +160,10 @@ DrawCost DrawMeshes(const PeopleView& people, const PeopleBatch& batch) {
   BindTexture(kPosesUnit, people.poses);
   for (const PersonRange& range : mesh.ranges) {
     const SurfaceGroup& group = people.groups[static_cast<size_t>(range.group)];
-    const GLuint program = people.programs[group.masked][batch.fades];
-    glUseProgram(program);
+    const Program& program = people.programs[group.masked][batch.fades];
+    glUseProgram(program.id);
     SetTints(program, avatar);
-    if (group.masked) SetUniform(program, "u_alpha_cutoff", group.alpha_cutoff);
+    if (group.masked) SetUniform(program.alpha_cutoff, group.alpha_cutoff);
     if (group.array >= 0) BindTextureArray(kArrayUnit, people.arrays[static_cast<size_t>(group.array)]);
     CullBackFaces(!group.double_sided);
     DrawRange(range, batch.count);
@@ -176,7 +171,7 @@ DrawCost DrawMeshes(const PeopleView& people, const PeopleBatch& batch) {
   return {mesh.triangles * static_cast<int64_t>(batch.count), static_cast<int>(mesh.ranges.size())};
 }
 
-static_assert(kMaxTints == 3 && kMaxTintColors == 8, "kTintVertex and kTintFragment have as many");
+static_assert(kMaxTints == MAX_TINTS && kMaxTintColors == MAX_TINT_COLORS, "the shaders have as many");
 
 void AddTints(const std::vector<Tint>& tints, AvatarView* view) {
   for (size_t t = 0; t < std::min(tints.size(), kMaxTints); ++t) {
@@ -192,9 +187,9 @@ void AddTints(const std::vector<Tint>& tints, AvatarView* view) {
 
 }  // namespace
 
-Error CreatePeopleView(const TourPack& pack, const std::string& defines, const SurfacePlan& plan, const std::vector<GLuint>& arrays,
+Error CreatePeopleView(const TourPack& pack, ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays,
                        PeopleView* people) {
-  if (Error e = BuildPrograms(defines, people)) return e;
+  if (Error e = BuildPrograms(mode, people)) return e;
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   people->groups = plan.groups;
@@ -275,7 +270,7 @@ DrawCost DrawPeople(const PeopleView& people, bool impostors) {
 
 DrawCost DrawPeopleShadow(const PeopleView& people) {
   DrawCost cost;
-  glUseProgram(people.shadow_program);
+  glUseProgram(people.shadow_program.id);
   BindTexture(kPosesUnit, people.shadow_poses);
   CullBackFaces(false);
   for (const PeopleBatch& b : people.batches.shadows) {

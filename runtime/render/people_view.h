@@ -1,6 +1,5 @@
 // Draws people: skinned meshes near, impostors far. Internal to runtime/render.
 #pragma once
-#include <string>
 #include <vector>
 
 #include "runtime/base/error.h"
@@ -25,8 +24,8 @@ struct AvatarView {
 };
 
 struct PeopleView {
-  GLuint programs[2][2] = {};      // [masked][fades]
-  GLuint impostor_program = 0, shadow_program = 0;
+  Program programs[2][2];          // [masked][fades]
+  Program impostor_program, shadow_program;
   GLuint instances = 0, quad_array = 0, poses = 0, shadow_poses = 0, cells = 0;
   bool smooth_edges = false;       // of impostors, by the samples of a pixel
   size_t poses_held = 0;           // rows of the pose texture
@@ -38,9 +37,8 @@ struct PeopleView {
   PeopleBatches batches;
 };
 
-// Of the pack without its bulk. `defines`: of the lit programs. Errors: a shader that the driver refuses, more joints than a
-// texture is wide.
-Error CreatePeopleView(const TourPack& pack, const std::string& defines, const SurfacePlan& plan, const std::vector<GLuint>& arrays,
+// Of the pack without its bulk. Errors: a shader that the driver refuses, more joints than a texture is wide.
+Error CreatePeopleView(const TourPack& pack, ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays,
                        PeopleView* people);
 void AddLevel(int avatar, int level, const PersonGeometry& person, const ShadowLevels& shadows, PeopleView* people);
 void ShowLevels(PeopleView* people);  // all that have been added, from now on

@@ -13,18 +13,16 @@ namespace {
 
 constexpr float kLargerCells = 1.2f;
 
-uint16_t Word(float v) { return static_cast<uint16_t>(std::clamp(v, 0.0f, 1.0f) * 65535 + 0.5f); }
-
 void AppendVertices(const PackPrimitive& p, Vec4 base, int layer, std::vector<PersonVertex>* vertices) {
   for (size_t i = 0; i < p.positions.size(); ++i) {
     const Vec4 c = p.colors.empty() ? Vec4{1, 1, 1, 1} : p.colors[i];
     const Vec3 n = p.normals[i];
     PersonVertex v{p.positions[i], {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), static_cast<int8_t>(layer)},
                    p.uvs.empty() ? Vec2{} : p.uvs[i],
-                   {SrgbByte(c.x * base.x), SrgbByte(c.y * base.y), SrgbByte(c.z * base.z), Byte(c.w * base.w)}, {}, {65535, 0, 0, 0}};
+                   {SrgbByte(c.x * base.x), SrgbByte(c.y * base.y), SrgbByte(c.z * base.z), Byte(c.w * base.w)}, {}, {255, 0, 0, 0}};
     if (!p.joints.empty()) {
       v.joints = p.joints[i];
-      for (size_t k = 0; k < 4; ++k) v.weights[k] = Word(p.weights[i][k]);
+      v.weights = p.weights[i];
     }
     vertices->push_back(v);
   }
@@ -32,7 +30,7 @@ void AppendVertices(const PackPrimitive& p, Vec4 base, int layer, std::vector<Pe
 
 PersonVertex OnHeaviestJoint(PersonVertex v) {
   v.joints[0] = v.joints[static_cast<size_t>(std::max_element(v.weights.begin(), v.weights.end()) - v.weights.begin())];
-  v.weights = {65535, 0, 0, 0};
+  v.weights = {255, 0, 0, 0};
   return v;
 }
 

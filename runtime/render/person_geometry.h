@@ -15,7 +15,7 @@ struct PersonVertex {
   Vec2 uv;
   std::array<uint8_t, 4> color;     // normalized; the material's base colour is in it
   std::array<uint16_t, 4> joints;
-  std::array<uint16_t, 4> weights;  // normalized
+  std::array<uint8_t, 4> weights;   // normalized
 };
 
 struct PersonRange { int group = 0; uint32_t first = 0, count = 0; };  // of the indices

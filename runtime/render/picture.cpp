@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/render/shaders.h"
-
 namespace flaneur {
 namespace {
 
@@ -67,15 +65,15 @@ void ResizeCoarse(Picture* p) {
   Attach(GL_COLOR_ATTACHMENT0, p->coarse_color);
 }
 
-void DrawWhole(GLuint program, const Picture& p) {
-  glUseProgram(program);
+void DrawWhole(const Program& program, const Picture& p) {
+  glUseProgram(program.id);
   CullBackFaces(false);
   glBindVertexArray(p.empty_array);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 // Into `framebuffer`, as large as it was drawn.
-void Smooth(GLuint framebuffer, GLuint program, const Picture& p) {
+void Smooth(GLuint framebuffer, const Program& program, const Picture& p) {
   if (p.samples > 1) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, p.framebuffer);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
@@ -96,7 +94,7 @@ void Enlarge(const Picture& p) {
 
 }  // namespace
 
-Error CreatePicture(int samples, bool deferred, bool onto_window, const std::string& defines, Picture* p) {
+Error CreatePicture(int samples, bool deferred, bool onto_window, ShaderMode mode, Picture* p) {
   GLint most = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
   p->samples = std::clamp(samples, 1, std::max<int>(most, 1));
@@ -115,12 +113,11 @@ Error CreatePicture(int samples, bool deferred, bool onto_window, const std::str
     p->normals = NewTexture(GL_NEAREST);
     p->lit_color = NewTexture(GL_LINEAR);
     p->coarse_color = p->color;  // which nobody needs once the light is done
-    const std::string fragment = defines + kFrame + kHaze + kLight + kFinished + kLightFragment;
-    if (Error e = BuildProgram(std::string(kFrame) + kLightVertex, fragment, &p->light_program)) return e;
+    if (Error e = BuildProgram(ShaderProgram::kLight, mode, &p->light_program)) return e;
   }
-  if (Error e = BuildProgram(kWholeVertex, defines + kSmoothFragment, &p->smooth_program)) return e;
-  if (Error e = BuildProgram(kWholeVertex, defines + "#define SHARPEN\n" + kSmoothFragment, &p->sharpen_program)) return e;
-  return BuildProgram(kEnlargeVertex, kEnlargeFragment, &p->enlarge_program);
+  if (Error e = BuildProgram(ShaderProgram::kSmooth, mode, &p->smooth_program)) return e;
+  if (Error e = BuildProgram(ShaderProgram::kSharpen, mode, &p->sharpen_program)) return e;
+  return BuildProgram(ShaderProgram::kEnlarge, &p->enlarge_program);
 }
 
 void ResizePicture(int width_px, int height_px, float scale, Picture* p) {

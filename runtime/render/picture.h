@@ -1,6 +1,5 @@
 // What is drawn into, and the finished picture. Internal to runtime/render.
 #pragma once
-#include <string>
 
 #include "runtime/base/error.h"
 #include "runtime/render/gl_objects.h"
@@ -18,12 +17,13 @@ struct Picture {
   GLuint lit_color = 0, lit = 0;                     // where deferred
   GLuint coarse_color = 0, coarse = 0;               // smooth but not yet enlarged
   GLuint finished_color = 0, finished = 0;           // framebuffer of the finished picture; 0: the window's own
-  GLuint light_program = 0, smooth_program = 0, sharpen_program = 0, enlarge_program = 0, empty_array = 0;
+  Program light_program, smooth_program, sharpen_program, enlarge_program;
+  GLuint empty_array = 0;
 };
 
-// samples: wished for; the driver may have fewer. `defines`: of the lit programs; deferred needs one sample. onto_window: with one
+// samples: wished for; the driver may have fewer. deferred: where the mode is; needs one sample. onto_window: with one
 // sample the picture is finished there. Errors: a shader that the driver refuses.
-Error CreatePicture(int samples, bool deferred, bool onto_window, const std::string& defines, Picture* picture);
+Error CreatePicture(int samples, bool deferred, bool onto_window, ShaderMode mode, Picture* picture);
 // scale: FrameInput::resolution_scale.
 void ResizePicture(int width_px, int height_px, float scale, Picture* picture);
 // Empties what is drawn into, and leaves it bound.

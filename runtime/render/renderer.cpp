@@ -12,7 +12,7 @@
 #include "runtime/render/light.h"
 #include "runtime/render/people_view.h"
 #include "runtime/render/picture.h"
-#include "runtime/render/shaders.h"
+#include "runtime/render/picture_clock.h"
 #include "runtime/render/shadow_maps.h"
 #include "runtime/render/town_view.h"
 
@@ -30,6 +30,12 @@ PictureLimits LimitsOfThisMachine(bool fast) {
   PictureLimits limits;
   if (fast) limits = {1024, 512, ReadsBc1()};
   return {std::min<int>(limits.town_px, most_px), std::min<int>(limits.people_px, most_px), limits.blocks};
+}
+
+ShaderMode ModeFor(bool software, bool several_samples, bool normals) {
+  if (!software) return normals ? ShaderMode::kGpuNormals : several_samples ? ShaderMode::kGpuSamples : ShaderMode::kGpu;
+  if (several_samples) return normals ? ShaderMode::kSoftwareSamplesNormals : ShaderMode::kSoftwareSamples;
+  return normals ? ShaderMode::kSoftwareNormals : ShaderMode::kSoftware;
 }
 
 // By the processor's time of all threads: software draws on several, and others use the machine too.
@@ -91,10 +97,13 @@ struct Renderer::Impl {
   size_t pictures_left = 0;  // to come
   AtlasFormats formats;
   std::vector<GLuint> arrays;
-  GLuint sky_program = 0, empty_array = 0, block_buffer = 0;
+  PictureClock clock;
+  bool waits = true;  // for every picture
+  Program sky_program;
+  GLuint empty_array = 0, block_buffer = 0;
 
   void DrawSky() const {
-    glUseProgram(sky_program);
+    glUseProgram(sky_program.id);
     CullBackFaces(false);
     glBindVertexArray(empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -120,26 +129,21 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   // In software four samples cost three times the whole rest of a frame.
   const int samples = options.samples > 0 ? options.samples : software ? 1 : 4;
   const bool fast = software && samples == 1;  // for a picture many times a second; stills may take their time
-  std::string defines = std::string("#define SHADOW_TAPS ") + (software ? "1" : "4") + "\n#define SHARPER " +
-                        (fast ? "-0.6" : "0.0") + "\n";
+  const ShaderMode mode = ModeFor(software, samples > 1, options.normals);
   r.formats = FormatsOfThisMachine(fast);
-  if (fast) defines += "#define FAST\n";
-  const bool deferred = fast && !options.normals;
-  if (deferred) defines += "#define DEFERRED\n";
-  if (options.normals) defines += "#define NORMALS\n";
   r.people.smooth_edges = samples > 1 && !options.normals;
-  if (r.people.smooth_edges) defines += "#define SMOOTH_EDGES\n";
   r.pictures_left = pack.images.size();
   r.town.triangle_by_triangle = fast;
   r.plan = PlanSurfaces(pack, LimitsOfThisMachine(fast));
   r.arrays = CreateTextureArrays(r.plan, fast);
-  if (Error e = CreateTownView(defines, r.plan, r.arrays, &r.town)) return e;
-  if (Error e = CreatePeopleView(pack, defines, r.plan, r.arrays, &r.people)) return e;
-  if (Error e = BuildProgram(std::string(kFrame) + kSkyVertex, defines + kFrame + kFinished + kSkyFragment, &r.sky_program)) return e;
-  if (Error e = CreatePicture(samples, deferred, options.onto_window, defines, &r.picture)) return e;
+  if (Error e = CreateTownView(mode, r.plan, r.arrays, &r.town)) return e;
+  if (Error e = CreatePeopleView(pack, mode, r.plan, r.arrays, &r.people)) return e;
+  if (Error e = BuildProgram(ShaderProgram::kSky, mode, &r.sky_program)) return e;
+  if (Error e = CreatePicture(samples, mode == ShaderMode::kSoftware, options.onto_window, mode, &r.picture)) return e;
   if (Error e = CreateCaptionView(&r.caption)) return e;
   if (Error e = CreateGroundMark(&r.ground_mark)) return e;
   CreateShadowMaps(&r.shadows);
+  r.waits = !options.runs_ahead || !CreatePictureClock(&r.clock);
   glGenVertexArrays(1, &r.empty_array);
   glGenBuffers(1, &r.block_buffer);
   glReleaseShaderCompiler();  // some MB; it comes back by itself where it is needed again
@@ -184,6 +188,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   const Mat4 view_projection = Perspective(frame.fov_rad, aspect, kNear_m, kFar_m) * LookMatrix(eye, ahead, {0, 1, 0});
   PassTimer timer(r.options.time_passes, &statistics->pass_ms);
   FindVisibleBlocks(view_projection, eye, r.options.cull, &r.town);
+  if (!r.waits) BeginPictureTime(&r.clock);
   const double people_ms = Now_ms();
   ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
   const float focal_px = static_cast<float>(r.picture.drawn_width_px) / 2 / std::tan(frame.fov_rad / 2);
@@ -219,7 +224,8 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   FinishPicture(r.picture);
   DrawCaption(frame.caption, frame.caption_share, width_px, height_px, &r.caption);
   timer.Passed(DrawPass::kFinish);
-  glFinish();  // so that draw_ms means the picture, not the handing over of commands
+  if (r.waits) glFinish();  // so that draw_ms means the picture, not the handing over of commands
+  else EndPictureTime(&r.clock);
   constexpr int kWholePictures = 4;  // light, sky, smoothing, caption
   statistics->town_triangles = town.triangles;
   statistics->people_triangles = people.triangles;
@@ -229,7 +235,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   statistics->people_hidden = r.people.batches.hidden;
   statistics->people_not_loaded = r.people.batches.not_loaded;
   statistics->people_drawn = static_cast<int>(frame.people.size()) - statistics->people_hidden;
-  statistics->draw_ms = Now_ms() - start_ms;
+  statistics->draw_ms = std::max(Now_ms() - start_ms, r.clock.took_ms);
 }
 
 void Renderer::ReadWithAlpha(std::vector<uint8_t>* rgba) {

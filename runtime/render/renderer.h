@@ -19,6 +19,9 @@ struct RenderOptions {
   bool cull = true;   // leave out blocks of the town that the picture cannot show; false only to prove that
   bool normals = false;  // people's normals * 0.5 + 0.5 instead of light, over nothing
   bool onto_window = false;  // where a pass finishes the picture it does so on the window's surface, and Read does not bring it out
+  // Draw hands over its commands and returns, and at most one picture is on its way; FrameStatistics::draw_ms goes by
+  // the picture before.
+  bool runs_ahead = false;
   bool time_passes = false;  // FrameStatistics::pass_ms; waits for each pass, so that the whole takes longer
   Jobs* jobs = nullptr;      // make the pack ready with the caller in Create
 };

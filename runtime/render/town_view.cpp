@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "runtime/render/shaders.h"
 #include "runtime/render/visible_triangles.h"
 
 namespace flaneur {
@@ -15,16 +14,16 @@ constexpr uint32_t kJoined = 12000;       // indices that a shadow draws in vain
 
 void EnableVertices() {
   constexpr size_t stride = sizeof(TownVertex);
-  EnableAttribute(0, 3, GL_FLOAT, false, stride, offsetof(TownVertex, position), 0);
-  EnableAttribute(1, 4, GL_BYTE, true, stride, offsetof(TownVertex, normal), 0);
-  EnableAttribute(2, 2, GL_FLOAT, false, stride, offsetof(TownVertex, uv), 0);
-  EnableAttribute(3, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(TownVertex, color), 0);
+  EnableAttribute(ATTRIBUTE_POSITION, 3, GL_FLOAT, false, stride, offsetof(TownVertex, position), 0);
+  EnableAttribute(ATTRIBUTE_NORMAL, 4, GL_BYTE, true, stride, offsetof(TownVertex, normal), 0);
+  EnableAttribute(ATTRIBUTE_UV, 2, GL_FLOAT, false, stride, offsetof(TownVertex, uv), 0);
+  EnableAttribute(ATTRIBUTE_COLOR, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(TownVertex, color), 0);
 }
 
-void BindGroup(const SurfaceGroup& group, const GLuint* programs, const TownView& town) {
-  const GLuint program = programs[group.masked];
-  glUseProgram(program);
-  if (group.masked) SetUniform(program, "u_alpha_cutoff", group.alpha_cutoff);
+void BindGroup(const SurfaceGroup& group, const Program* programs, const TownView& town) {
+  const Program& program = programs[group.masked];
+  glUseProgram(program.id);
+  if (group.masked) SetUniform(program.alpha_cutoff, group.alpha_cutoff);
   if (group.array >= 0) BindTextureArray(kArrayUnit, town.arrays[static_cast<size_t>(group.array)]);
   CullBackFaces(!group.double_sided);
 }
@@ -77,13 +76,11 @@ size_t GatherIndices(Vec3 eye, const TriangleSight* sight, bool cull, TownView* 
 
 }  // namespace
 
-Error CreateTownView(const std::string& defines, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town) {
-  const std::string vertex = std::string(kFrame) + kHaze + kTownVertex, masked = "#define MASKED\n";
-  const std::string lit = defines + kFrame + kLight + kOutcome + kSurfaceFragment;
-  if (Error e = BuildProgram(vertex, lit, &town->lit[0])) return e;
-  if (Error e = BuildProgram(vertex, masked + lit, &town->lit[1])) return e;
-  if (Error e = BuildProgram(vertex, kShadowFragment, &town->shadow[0])) return e;
-  if (Error e = BuildProgram(vertex, masked + kShadowFragment, &town->shadow[1])) return e;
+Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town) {
+  if (Error e = BuildProgram(ShaderProgram::kTown, mode, &town->lit[0])) return e;
+  if (Error e = BuildProgram(ShaderProgram::kTownMasked, mode, &town->lit[1])) return e;
+  if (Error e = BuildProgram(ShaderProgram::kTownShadow, mode, &town->shadow[0])) return e;
+  if (Error e = BuildProgram(ShaderProgram::kTownShadowMasked, mode, &town->shadow[1])) return e;
   town->groups = plan.groups;
   town->arrays = arrays;
   return Ok();

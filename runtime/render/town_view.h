@@ -1,7 +1,6 @@
 // Draws the town. Internal to runtime/render.
 #pragma once
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "runtime/base/error.h"
@@ -12,7 +11,7 @@
 namespace flaneur {
 
 struct TownView {
-  GLuint lit[2] = {}, shadow[2] = {};      // programs: [masked]
+  Program lit[2], shadow[2];               // [masked]
   GLuint vertex_array = 0, shadow_array = 0, visible_indices = 0;
   TownGeometry geometry;                   // without its vertices
   std::vector<SurfaceGroup> groups;
@@ -28,8 +27,7 @@ struct TownView {
   std::vector<uint32_t> counts;            // of indices, by group
 };
 
-// `defines`: of the lit programs.
-Error CreateTownView(const std::string& defines, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town);
+Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town);
 void AddTown(TownGeometry geometry, TownView* town);
 
 // Fills visible and walls: blocks within the view that no nearer walls hide. Without `cull` all blocks and no walls.

@@ -19,7 +19,7 @@ constexpr int kTriangles = 36;  // 12 a box, 12 the cloth
 struct Back {
   Vec3 point{0, 0, 1e9f};
   std::array<uint16_t, 4> joints{};
-  std::array<float, 4> weights{1, 0, 0, 0};
+  std::array<uint8_t, 4> weights{255, 0, 0, 0};
 };
 
 Back FindBack(const PackMesh& mesh, float height_m) {

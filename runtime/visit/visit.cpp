@@ -171,7 +171,7 @@ Visit::Visit(const TourPack& pack, Loader* loader, const PlayerSettings& setting
 Visit::~Visit() = default;
 
 Error Visit::Begin(bool onto_window) {
-  if (Error e = impl_->renderer.Begin(impl_->pack, {.onto_window = onto_window})) return e;
+  if (Error e = impl_->renderer.Begin(impl_->pack, {.onto_window = onto_window, .runs_ahead = true})) return e;
   impl_->loader->PrepareFor(impl_->renderer);
   return Ok();
 }
@@ -209,6 +209,7 @@ Error Visit::Picture(const WindowInput& input, int width_px, int height_px, floa
 
 void Visit::TellTime(float took_ms) {
   Impl& v = *impl_;
+  took_ms = std::max(took_ms, static_cast<float>(v.statistics.draw_ms));
   const PlayerSettings& settings = v.controls.settings;
   constexpr float kMoves_mps = 0.3f, kTurns_radps = 0.2f;
   const CameraState& camera = v.s->visitor.camera;

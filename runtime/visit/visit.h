@@ -29,7 +29,8 @@ class Visit {
   // The next picture, of a window of this size, passed_s after the one before; 0 pixels: the window is hidden. Each step of the
   // simulation goes into `records`. Errors: those of the pack, which still streams in.
   Error Picture(const WindowInput& input, int width_px, int height_px, float passed_s, Records* records);
-  // What the last picture took until it was ready to be shown: by that the next ones are drawn more coarsely or finely, as the settings
+  // What the last picture took until it could be shown, as far as the processor knows; what the graphics card took over
+  // the one before, the renderer knows. By the longer the next ones are drawn more coarsely or finely, as the settings
   // say. Who never tells has them as fine as the window.
   void TellTime(float took_ms);
   void Present();               // onto the window's surface

@@ -84,7 +84,7 @@ FrameInput AllFinest(FrameInput frame) {
 }
 
 // As the window finds it while it shows `frame`.
-float ScaleByRule(FrameInput frame, int width_px, int height_px, const LevelSettings& levels, Renderer* renderer) {
+float ScaleByRule(FrameInput frame, int width_px, int height_px, const ControlSettings& levels, Renderer* renderer) {
   const PlayerSettings settings;
   const ResolutionSettings wished = ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, levels);
   Resolution resolution;

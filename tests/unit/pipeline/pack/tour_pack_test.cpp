@@ -236,6 +236,7 @@ TEST(TourPack, BringsAvatarsAcross) {
     for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(level.mesh)].primitives) {
       triangles += p.indices.size() / 3;
       EXPECT_EQ(p.joints.size(), p.positions.size());
+      for (const auto& w : p.weights) EXPECT_EQ(w[0] + w[1] + w[2] + w[3], 255);
     }
     EXPECT_EQ(triangles, static_cast<size_t>(level.triangles));
   }

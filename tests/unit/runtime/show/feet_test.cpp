@@ -34,7 +34,9 @@ Scenario Parade(const TourPack& pack) {
 
 Vec3 Posed(const PackPrimitive& p, size_t vertex, const Mat4* frame) {
   Vec3 sum;
-  for (size_t k = 0; k < 4; ++k) sum = sum + TransformPoint(frame[p.joints[vertex][k]], p.positions[vertex]) * p.weights[vertex][k];
+  for (size_t k = 0; k < 4; ++k) {
+    sum = sum + TransformPoint(frame[p.joints[vertex][k]], p.positions[vertex]) * (static_cast<float>(p.weights[vertex][k]) / 255);
+  }
   return sum;
 }
 

@@ -22,7 +22,7 @@ TourPack WithMeshes() {
   body.positions = {{0, 1.3f, -0.2f}, {0.3f, 0, 0}, {-0.3f, 0, 0.1f}};
   body.normals.assign(3, {0, 0, 1});
   body.joints = {{3, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}};
-  body.weights.assign(3, {1, 0, 0, 0});
+  body.weights.assign(3, {255, 0, 0, 0});
   body.indices = {0, 1, 2};
   pack.meshes = {{{body}}, {{body}}};
   for (PackAvatar& avatar : pack.avatars) {

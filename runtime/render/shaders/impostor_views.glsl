@@ -1,0 +1,141 @@
+// A texel of a view shows a point of the person: so far before the axis, and moved on by so much since the picture's
+// phase. Where the ray through a pixel meets such a point is searched for in each of the two pictures (relief mapping:
+// Policarpo, Oliveira and Comba 2005); a find counts as far as the other picture does not see through there. Both of
+// the phase beside join in the nearer the moment is to it, for what one phase's pictures hide the other's show.
+#ifndef IMPOSTOR_VIEWS_GLSL
+#define IMPOSTOR_VIEWS_GLSL
+#include "impostor_cells.glsl"
+
+in vec3 v_ray, v_point0, v_point1, v_ray0, v_ray1;
+in vec2 v_texel;
+flat in vec4 v_turns, v_cell0, v_cell1, v_origins, v_look;
+flat in float v_haze, v_level;
+flat in ivec3 v_pictures;
+uniform sampler2D u_texture, u_depth, u_motion;
+uniform vec4 u_atlas;
+uniform vec3 u_ranges;  // of depth, motion and its bend
+const float k_counts = 4.0;  // a picture whose share is a quarter counts fully in what covers and hides
+const float k_phase_counts = 8.0;  // an eighth, for phases
+const float k_beside = 0.1;  // nearer than this to its picture, a phase has no other beside
+struct View { vec3 point, ray; vec4 cell; vec2 origin, turn; float since; };  // since: phases
+// Coverage at a pixel's four samples, where graphics cards take them, or at its middle.
+#ifdef SMOOTH_EDGES
+#define COVER vec4
+const vec2 k_samples[4] = vec2[4](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
+float mean_of(vec4 cover) { return dot(cover, vec4(0.25)); }
+#else
+#define COVER float
+float mean_of(float cover) { return cover; }
+#endif
+struct Meeting {
+  vec2 at;       // texture coordinates
+  vec3 color;    // there
+  COVER cover;   // 0: the ray misses the person
+  float along;   // the ray, in its length
+  float trust;   // less than 1: a guess, where other parts of the person hide what the ray meets
+};
+COVER cover_at(vec2 at, mat2 pixel) {
+#ifdef SMOOTH_EDGES
+  vec4 cover;
+  for (int i = 0; i < 4; ++i) cover[i] = textureLod(u_texture, at + pixel * k_samples[i], v_level).a;
+  return cover;
+#else
+  return textureLod(u_texture, at, v_level).a;
+#endif
+}
+vec2 within(View view, vec2 at) {
+  vec2 edge = 0.5 * exp2(ceil(v_level)) / u_atlas.zw;
+  return clamp(at, view.cell.xy + edge, view.cell.zw - edge);
+}
+bool is_within(View view, vec2 at) {
+  return all(greaterThanEqual(at, view.cell.xy)) && all(lessThanEqual(at, view.cell.zw));
+}
+// Where the picture shows the ray's point at a depth, had that point moved by so much.
+vec2 place_at(View view, float depth, vec2 moved) {
+  vec2 p = view.point.xy + view.ray.xy / view.ray.z * (depth - view.point.z) - moved;
+  return view.origin + p * vec2(u_atlas.x, -u_atlas.y);
+}
+// What a texel shows: its motion since the picture's phase, and depth.
+vec3 moved_and_depth(View view, vec2 at) {
+  float since = view.since, half_level = max(v_level - 1.0, 0.0);
+#ifdef FAST
+  vec3 shown = textureLod(u_depth, at, half_level).rgb * 2.0 - 1.0;  // in one picture of half the size
+  return vec3(shown.gb * (u_ranges.y * since), shown.r * u_ranges.x);
+#else
+  vec4 way = textureLod(u_motion, at, half_level) * 2.0 - 1.0;
+  float depth = textureLod(u_depth, at, v_level).r * 2.0 - 1.0;
+  return vec3(way.rg * (u_ranges.y * since) + way.ba * (u_ranges.z * 4.0 * since * since), depth * u_ranges.x);
+#endif
+}
+#ifdef FAST
+// Depth and motion where the ray crosses the quad say where to look.
+Meeting meet(View view, View other, float others_part, mat2 pixel) {
+  vec3 guess = moved_and_depth(view, within(view, place_at(view, 0.0, vec2(0.0))));
+  vec2 at = place_at(view, guess.z, guess.xy);
+  vec4 color = textureLod(u_texture, within(view, at), v_level);
+  return Meeting(within(view, at), color.rgb, is_within(view, at) ? color.a : 0.0, (guess.z - view.point.z) / view.ray.z, 1.0);
+}
+#else
+// Of the phase beside, by the square of its nearness, as what motion leaves unsaid grows.
+float part_beside() {
+  float near = abs(v_look.x), far = 1.0 - near;
+  return v_pictures.y >= 0 && near > k_beside ? near * near / (near * near + far * far) : 0.0;
+}
+View beside(View view, int cell) {
+  float since = view.since < 0.0 ? view.since + 1.0 : view.since - 1.0;
+  return View(view.point, view.ray, cell_texel(cell, 0) / u_atlas.zwzw, cell_texel(cell, 1).xy / u_atlas.zw, view.turn, since);
+}
+const float k_most_steps = 24.0;
+const float k_solid = 0.1;         // coverage of a texel that can be met
+const float k_thickness_m = 0.06;  // behind the surface by more than this and a step, the ray passes behind the person's part
+const float k_exact_m = 0.03;      // between two guesses of the depth
+const float k_near_m = 0.05;       // of a surface that the ray comes out beneath
+// What another picture shows where a point of the ray lies: nothing if it sees through there.
+COVER cover_from(View view, float along, mat2 pixel) {
+  vec3 p = view.point + along * view.ray;
+  vec2 at = place_at(view, p.z, vec2(0.0));
+  for (int k = 0; k < 3; ++k) at = place_at(view, p.z, moved_and_depth(view, within(view, at)).xy);
+  return is_within(view, at) ? cover_at(within(view, at), pixel) : COVER(0.0);
+}
+// Follows the ray from the person's front to the back, a texel a step, to the first surface that it comes upon. The one return at
+// the end is meant: Mesa 22.3 draws some pixels wrongly in software after an early one.
+Meeting meet(View view, View other, float others_part, mat2 pixel) {
+  float range = u_ranges.x, texels = length((place_at(view, range, vec2(0.0)) - place_at(view, -range, vec2(0.0))) * u_atlas.zw);
+  float steps = clamp(ceil(texels * exp2(-v_level)), 1.0, k_most_steps), step_m = 2.0 * range / steps;
+  float gap = range, least_gap = k_near_m;
+  vec3 shown = vec3(0.0), found = vec3(0.0);  // motion and depth
+  bool met = false;
+  for (float i = 0.0; i <= steps && !met; ++i) {
+    float depth = range - i * step_m, gap_before = gap;
+    vec2 at = place_at(view, depth, shown.xy);
+    shown = moved_and_depth(view, within(view, at));
+    gap = depth - shown.z;
+    if (is_within(view, at) && textureLod(u_texture, within(view, at), v_level).a >= k_solid) {
+      if (abs(gap) < least_gap) {
+        least_gap = abs(gap);
+        found = shown;
+      }
+      if (gap <= 0.0 && gap > -step_m - k_thickness_m) {
+        vec3 guess = vec3(shown.xy, gap_before > 0.0 && i > 0.0 ? depth + step_m * gap / (gap - gap_before) : shown.z);
+        for (int k = 0; k < 3; ++k) {
+          vec3 next = moved_and_depth(view, within(view, place_at(view, guess.z, guess.xy)));
+          met = abs(next.z - guess.z) < k_exact_m;
+          guess = next;
+        }
+        if (met) found = guess;
+      }
+    } else {
+      gap = -1.0;  // what comes next is entered from the side
+    }
+  }
+  vec2 ends = place_at(view, found.z, found.xy), at = within(view, ends);
+  float along = (found.z - view.point.z) / view.ray.z;
+  COVER cover = COVER(0.0);
+  if (is_within(view, ends) && (met || least_gap < k_near_m)) {
+    cover = cover_at(at, pixel);
+    if (others_part > 0.0) cover = min(cover, max(cover_from(other, along, pixel), COVER(1.0 - k_counts * others_part)));
+  }
+  return Meeting(at, textureLod(u_texture, at, v_level).rgb, cover, along, met ? 1.0 : 0.02);
+}
+#endif
+#endif

@@ -1,0 +1,19 @@
+// The colour of cloth, dyed as tint_choice.glsl has chosen.
+#ifndef TINT_GLSL
+#define TINT_GLSL
+#include "shared.glsl"
+
+flat in vec3 v_tint0, v_tint1, v_tint2;
+uniform vec4 u_tints[MAX_TINTS];  // colour, with half its lightness taken off, and 1 / reach squared
+float tint_share(vec3 half_light, vec4 tint) {
+  vec3 off = half_light - tint.rgb;
+  return clamp(2.0 - 2.0 * dot(off, off) * tint.w, 0.0, 1.0);
+}
+vec3 tinted(vec3 color) {
+  vec3 half_light = color - 0.5 * dot(color, vec3(0.30, 0.59, 0.11));
+  float share0 = tint_share(half_light, u_tints[0]);
+  float share1 = min(1.0 - share0, tint_share(half_light, u_tints[1]));
+  float share2 = min(1.0 - share0 - share1, tint_share(half_light, u_tints[2]));
+  return clamp(color + share0 * v_tint0 + share1 * v_tint1 + share2 * v_tint2, 0.0, 1.0);
+}
+#endif

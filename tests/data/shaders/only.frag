@@ -1,0 +1,2 @@
+#include "color.glsl"
+void main() { o_color = color(); }

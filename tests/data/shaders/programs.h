@@ -1,0 +1,6 @@
+#define FLANEUR_SHADER_PROGRAMS(PROGRAM) \
+  PROGRAM(kOnly, "only.vert", "only.frag", "")
+
+#define FLANEUR_SHADER_MODES(MODE) \
+  MODE(kGood, "") \
+  MODE(kBroken, "BROKEN")
