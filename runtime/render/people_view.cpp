@@ -35,7 +35,7 @@ Error BuildPrograms(ShaderMode mode, PeopleView* people) {
     }
   }
   if (Error e = BuildProgram(ShaderProgram::kPersonShadow, mode, &people->shadow_program)) return e;
-  return BuildProgram(ShaderProgram::kImpostor, mode, &people->impostor_program);
+  return BuildProgram(ShaderProgram::kPersonImpostor, mode, &people->impostor_program);
 }
 
 void CreateQuad(PeopleView* people) {

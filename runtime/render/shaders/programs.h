@@ -16,7 +16,7 @@ namespace flaneur {
   PROGRAM(kPersonMasked, "person.vert", "surface.frag", "TINTS MASKED") \
   PROGRAM(kPersonMaskedFades, "person.vert", "surface.frag", "TINTS MASKED FADES") \
   PROGRAM(kPersonShadow, "person.vert", "shadow.frag", "SHADOW") \
-  PROGRAM(kImpostor, "impostor.vert", "impostor.frag", "") \
+  PROGRAM(kPersonImpostor, "impostor.vert", "impostor.frag", "") \
   PROGRAM(kSky, "sky.vert", "sky.frag", "") \
   PROGRAM(kLight, "light.vert", "light.frag", "") \
   PROGRAM(kSmooth, "whole.vert", "smooth.frag", "") \
