@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <numeric>
 #include <tuple>
-#include <unordered_map>
 
-#include "pipeline/avatar/fans.h"
 #include "pipeline/avatar/posed_quadric.h"
 #include "pipeline/avatar/threads.h"
 #include "pipeline/avatar/wedge_mix.h"
@@ -159,25 +159,36 @@ struct QuadricDecimater::Impl {
     }
   }
 
-  // One vertex a fan.
+  // One vertex a fan: a face that has no other to go on into over an edge, or several, ends there.
   void BuildMesh() {
-    std::unordered_map<int, VertexHandle> made;  // by fan
+    std::vector<size_t> same_fan(3 * surface.faces.size());  // by corner: another one
+    std::iota(same_fan.begin(), same_fan.end(), size_t{0});
+    const auto fan_of = [&](size_t corner) {
+      while (same_fan[corner] != corner) corner = same_fan[corner] = same_fan[same_fan[corner]];
+      return corner;
+    };
+    const auto vertex_at = [&](size_t corner) { return surface.faces[corner / 3].vertices[corner % 3]; };
+    const auto next = [](size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
+    std::map<std::pair<int, int>, std::vector<size_t>> sides;  // by the edge's ends: the corners that they start at
+    for (size_t c = 0; c < same_fan.size(); ++c) sides[std::minmax(vertex_at(c), vertex_at(next(c)))].push_back(c);
+    for (const auto& [ends, at_edge] : sides) {
+      if (at_edge.size() != 2 || vertex_at(at_edge[0]) == vertex_at(at_edge[1])) continue;
+      same_fan[fan_of(at_edge[0])] = fan_of(next(at_edge[1]));
+      same_fan[fan_of(next(at_edge[0]))] = fan_of(at_edge[1]);
+    }
     fans.resize(surface.vertices.size());
-    const std::vector<std::array<int, 3>> fans_of_faces = flaneur::FansOf(surface);
-    for (size_t f = 0; f < surface.faces.size(); ++f) {
-      std::array<VertexHandle, 3> corners;
-      for (size_t k = 0; k < 3; ++k) {
-        VertexHandle& fan = made[fans_of_faces[f][k]];
-        if (!fan.is_valid()) {
-          const int vertex = surface.faces[f].vertices[k];
-          const Vec3 p = surface.vertices[static_cast<size_t>(vertex)].position;
-          fan = mesh.add_vertex(OpenMesh::Vec3d(OpenMesh::Vec3f(p.x, p.y, p.z)));
-          fans[static_cast<size_t>(vertex)].push_back(fan);
-          vertex_of.push_back(vertex);
-        }
-        corners[k] = fan;
+    std::vector<VertexHandle> made(same_fan.size()), corners(3);
+    for (size_t c = 0; c < same_fan.size(); ++c) {
+      VertexHandle& fan = made[fan_of(c)];
+      if (!fan.is_valid()) {
+        const auto vertex = static_cast<size_t>(vertex_at(c));
+        const Vec3 p = surface.vertices[vertex].position;
+        fan = mesh.add_vertex(OpenMesh::Vec3d(OpenMesh::Vec3f(p.x, p.y, p.z)));
+        fans[vertex].push_back(fan);
+        vertex_of.push_back(vertex_at(c));
       }
-      mesh.add_face(corners.data(), 3);
+      corners[c % 3] = fan;
+      if (c % 3 == 2) mesh.add_face(corners);
     }
   }
 
@@ -341,16 +352,28 @@ struct QuadricDecimater::Impl {
     return halfedges;
   }
 
-  // Whether the surface stays one of two sides. A triangle by itself may vanish.
-  bool KeepsTopology(HalfedgeHandle h) {
-    const VertexHandle from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
-    const auto is_peak = [&](VertexHandle v) { return mesh.valence(v) == 3 && !mesh.is_boundary(v); };
-    if (is_peak(from) && is_peak(to)) return false;  // a tetrahedron would become a face and its back
-    if (mesh.is_collapse_ok(h)) return true;
-    const FaceHandle face = mesh.face_handle(mesh.is_boundary(h) ? mesh.opposite_halfedge_handle(h) : h);
-    const auto edges = mesh.fe_range(face);
-    return std::all_of(edges.begin(), edges.end(), [&](EdgeHandle e) { return mesh.is_boundary(e); });
+  // Whether both ends have common neighbours that no face between them explains, or faces that would lie on each other:
+  // the surface would be pinched.
+  bool Pinches(int a, int b) const {
+    const std::vector<int> between = FacesBetween(a, b), of_a = FacesOf(a);
+    const auto is_opposite = [&](int v) {
+      return std::any_of(between.begin(), between.end(), [&](int f) { return Has(FaceAt(f), v); });
+    };
+    for (const int f : FacesOf(b)) {
+      for (const int g : of_a) {
+        if (Has(FaceAt(f), a) || Has(FaceAt(g), b)) continue;
+        int common = 0;
+        for (const int v : FaceAt(f).vertices) {
+          if (v == b || !Has(FaceAt(g), v)) continue;
+          if (!is_opposite(v) || ++common == 2) return true;
+        }
+      }
+    }
+    return false;
   }
+
+  // A tetrahedron would become a face and its back.
+  bool IsPeak(VertexHandle fan) const { return mesh.valence(fan) == 3 && !mesh.is_boundary(fan); }
 
   bool TurnsOver(const Collapse& c) const {
     const size_t middle = poses / 2;
@@ -507,10 +530,12 @@ struct QuadricDecimater::Impl {
     }
   }
 
+  // OpenMesh tells where the surface has two sides; at twins all fans count at once, and open borders may be joined.
   bool IsLegal(const Collapse& c) {
-    const std::vector<HalfedgeHandle> twins = FromTo(c.b, c.a);
-    return std::all_of(twins.begin(), twins.end(), [&](HalfedgeHandle h) { return KeepsTopology(h); }) &&
-           !TurnsOver(c);
+    const VertexHandle a = FansOf(c.a)[0], b = FansOf(c.b)[0];
+    const bool single = FansOf(c.a).size() == 1 && FansOf(c.b).size() == 1;
+    const bool is_ok = single && mesh.is_collapse_ok(FromTo(c.b, c.a)[0]) && !(IsPeak(a) && IsPeak(b));
+    return (is_ok || !Pinches(c.a, c.b)) && !TurnsOver(c);
   }
 
   // False where nothing on the heap can be collapsed any more.
