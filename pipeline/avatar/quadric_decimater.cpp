@@ -20,14 +20,14 @@ using Face = WedgeSurface::Face;
 using Wedge = WedgeSurface::Wedge;
 using OpenMesh::EdgeHandle, OpenMesh::FaceHandle, OpenMesh::HalfedgeHandle, OpenMesh::VertexHandle;
 
-constexpr double kBorderWeight = 1;   // of an open border's planes, against those of faces
-constexpr double kSeamWeight = 0.03;  // of a seam's
-constexpr double kStretch = 0.2;      // a picture shifted by a length costs as much as this share of it
-constexpr double kSpring = 1e-6;      // towards the edge, where planes leave a vertex free
-constexpr double kLengthCost = 1e-9;  // of an edge's squared length: decides where all else is equal
-constexpr double kReach = 2;          // of an edge's length: so far may its vertex move from it
-constexpr double kLeastTurn = 0.2;    // cosine; a face that turns further is taken to fold over
-constexpr double kFold = -0.95;       // cosine between faces: a sheet that is seen from both sides
+constexpr double kBorderWeight = 1;    // of an open border's planes, against those of faces
+constexpr double kSeamWeight = 0.03;   // of a seam's
+constexpr double kStretch = 0.2;       // a picture shifted by a length costs as much as this share of it
+constexpr double kSpring = 1e-6;       // towards the edge, where planes leave a vertex free
+constexpr double kLengthCost = 1e-9;   // of an edge's squared length: decides where all else is equal
+constexpr double kReach = 2;           // of an edge's length: so far may its vertex move from it
+constexpr double kLeastTurn = 0.2;     // cosine; a face that turns further is taken to fold over
+constexpr double kFold = -0.95;        // cosine between faces: a sheet that is seen from both sides
 constexpr float kSameWeights = 0.02f;  // sum of differences
 constexpr int kTries = 2000;           // collapses looked at for one that hits the number of triangles
 
@@ -58,7 +58,6 @@ struct ByCost {
     return std::tuple(c.cost, c.a, c.b, e.idx());
   }
   bool less(EdgeHandle e, EdgeHandle f) const { return Key(e) < Key(f); }
-  bool greater(EdgeHandle e, EdgeHandle f) const { return Key(e) > Key(f); }
   int get_heap_position(EdgeHandle e) const { return mesh->property(position, e); }
   void set_heap_position(EdgeHandle e, int i) { mesh->property(position, e) = i; }
 };
@@ -66,10 +65,10 @@ struct ByCost {
 }  // namespace
 
 // Topology is OpenMesh's. A vertex of ours has one of OpenMesh's a fan: twins, which stand at one place and collapse
-// together or not at all. Wedges stay on our faces, found by vertex: a collapse gives a half-edge another one's place in
-// the face beside.
+// together or not at all. Wedges stay on our faces, found by vertex: a collapse gives a half-edge another one's place
+// in the face beside.
 struct QuadricDecimater::Impl {
-  size_t poses = 1;  // with the bind pose
+  size_t poses;  // with the bind pose
   std::vector<std::vector<Mat4>> matrices;
   WedgeSurface surface;
   HalfEdges mesh;                               // the same faces
@@ -83,12 +82,27 @@ struct QuadricDecimater::Impl {
   OpenMesh::EPropHandleT<Collapse> collapse;
   OpenMesh::Utils::HeapT<EdgeHandle, ByCost> heap;
 
-  Impl() {
+  Impl(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& walk)
+      : poses(walk.size() + 1), matrices(walk), surface(JoinWedges(meshes, walk)) {
+    const size_t vertices = surface.vertices.size();
+    fans.resize(vertices);
+    quadrics.resize(vertices * poses);
+    skinning.resize(vertices * poses);
+    on_seam.resize(vertices);
+    triangles = static_cast<int>(surface.faces.size());
     ByCost& by_cost = heap.getInterface();
     by_cost.mesh = &mesh;
     mesh.add_property(by_cost.collapse);
     mesh.add_property(by_cost.position);
     collapse = by_cost.collapse;
+    BuildMesh();
+    for (int v = 0; v < static_cast<int>(vertices); ++v) {
+      SetSkinning(v);
+      FindSeam(v);
+    }
+    AddFaceQuadrics();
+    HoldBordersAndSeams();
+    QueueAll();
   }
 
   size_t At(int vertex, size_t pose) const { return static_cast<size_t>(vertex) * poses + pose; }
@@ -111,6 +125,7 @@ struct QuadricDecimater::Impl {
     for (const VertexHandle fan : FansOf(vertex)) {
       for (const FaceHandle f : mesh.vf_range(fan)) faces.push_back(f.idx());
     }
+    std::sort(faces.begin(), faces.end());  // the same whatever was collapsed before
     return faces;
   }
 
@@ -176,7 +191,6 @@ struct QuadricDecimater::Impl {
       same_fan[fan_of(at_edge[0])] = fan_of(next(at_edge[1]));
       same_fan[fan_of(next(at_edge[0]))] = fan_of(at_edge[1]);
     }
-    fans.resize(surface.vertices.size());
     std::vector<VertexHandle> made(same_fan.size()), corners(3);
     for (size_t c = 0; c < same_fan.size(); ++c) {
       VertexHandle& fan = made[fan_of(c)];
@@ -250,9 +264,8 @@ struct QuadricDecimater::Impl {
 
   void FindSeam(int vertex) {
     const std::vector<int> faces = FacesOf(vertex);
-    on_seam[static_cast<size_t>(vertex)] = std::any_of(faces.begin(), faces.end(), [&](int f) {
-      return !Continues(FaceAt(faces[0]), FaceAt(f), vertex);
-    });
+    on_seam[static_cast<size_t>(vertex)] =
+        std::any_of(faces.begin(), faces.end(), [&](int f) { return !Continues(FaceAt(faces[0]), FaceAt(f), vertex); });
   }
 
   // What moving a vertex from its seam does to the pictures that meet there.
@@ -336,20 +349,17 @@ struct QuadricDecimater::Impl {
     for (const EdgeHandle e : mesh.edges()) heap.insert(e);  // that are not deleted
   }
 
-  void DropFromHeap(FaceHandle f) {
+  void RemoveFace(FaceHandle f) {
+    ForgetEdges(f);
+    mesh.delete_face(f);
+  }
+
+  // Before a face goes; edges of it that stay are queued again.
+  void ForgetEdges(FaceHandle f) {
     for (const EdgeHandle e : mesh.fe_range(f)) {
       if (heap.is_stored(e)) heap.remove(e);
     }
-  }
-
-  std::vector<HalfedgeHandle> FromTo(int b, int a) const {
-    std::vector<HalfedgeHandle> halfedges;
-    for (const VertexHandle fan : FansOf(b)) {
-      for (const HalfedgeHandle h : mesh.voh_range(fan)) {
-        if (VertexOf(mesh.to_vertex_handle(h)) == a) halfedges.push_back(h);
-      }
-    }
-    return halfedges;
+    --triangles;
   }
 
   // Whether both ends have common neighbours that no face between them explains, or faces that would lie on each other:
@@ -372,9 +382,6 @@ struct QuadricDecimater::Impl {
     return false;
   }
 
-  // A tetrahedron would become a face and its back.
-  bool IsPeak(VertexHandle fan) const { return mesh.valence(fan) == 3 && !mesh.is_boundary(fan); }
-
   bool TurnsOver(const Collapse& c) const {
     const size_t middle = poses / 2;
     for (size_t pose = 0; pose <= middle; pose += std::max<size_t>(middle, 1)) {
@@ -394,39 +401,6 @@ struct QuadricDecimater::Impl {
     return false;
   }
 
-  // New wedges of the faces at `end` that stay, from the pairs that vanishing faces join.
-  struct Pair {
-    int a, b, joined;
-  };
-  void MoveWedges(int end, int other, bool is_a, const std::vector<Pair>& pairs) {
-    std::vector<std::pair<int, int>> known;
-    for (const int f : FacesOf(end)) {
-      Face& face = FaceAt(f);
-      if (Has(face, other)) continue;
-      int& wedge = face.wedges[CornerOf(face, end)];
-      const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == wedge; });
-      if (found != known.end()) {
-        wedge = found->second;
-        continue;
-      }
-      int moved = wedge;
-      for (const Pair& pair : pairs) {
-        const int own = is_a ? pair.a : pair.b;
-        if (own == wedge) {
-          moved = pair.joined;
-          break;
-        }
-        if (moved != wedge || !NoSeam(WedgeAt(own), WedgeAt(wedge))) continue;
-        Wedge creased = WedgeAt(pair.joined);
-        creased.normal = WedgeAt(wedge).normal;
-        moved = static_cast<int>(surface.wedges.size());
-        surface.wedges.push_back(creased);
-      }
-      known.push_back({wedge, moved});
-      wedge = moved;
-    }
-  }
-
   // Where the joined wedges lie between those of a (0) and b (1): a seam keeps its picture.
   float PictureShare(const Collapse& c) const {
     if (OnSeam(c.a) != OnSeam(c.b)) return OnSeam(c.a) ? 0.0f : 1.0f;
@@ -436,25 +410,28 @@ struct QuadricDecimater::Impl {
     return static_cast<float>(std::clamp(t, 0.0, 1.0));
   }
 
-  void JoinWedgesOf(const Collapse& c, const std::vector<int>& vanishing) {
-    const float share = PictureShare(c);
-    std::vector<Pair> pairs;
-    for (const int f : vanishing) {
-      const Face& face = FaceAt(f);
-      const int wa = face.wedges[CornerOf(face, c.a)], wb = face.wedges[CornerOf(face, c.b)];
-      if (std::any_of(pairs.begin(), pairs.end(), [&](const Pair& p) { return p.a == wa && p.b == wb; })) continue;
-      pairs.push_back({wa, wb, static_cast<int>(surface.wedges.size())});
-      surface.wedges.push_back(Mix(WedgeAt(wa), WedgeAt(wb), share));
+  // Faces at `end` that stay take the wedge that a vanishing one with theirs, or with theirs but for a crease, gets.
+  void MoveWedges(int end, const std::vector<int>& vanishing, const std::vector<Wedge>& joined) {
+    const auto wedge_at = [&](int f) -> int& { return FaceAt(f).wedges[CornerOf(FaceAt(f), end)]; };
+    std::map<int, int> moved;
+    for (size_t i = 0; i < vanishing.size(); ++i) {
+      if (moved.try_emplace(wedge_at(vanishing[i]), AddedWedge()).second) surface.wedges.push_back(joined[i]);
     }
-    MoveWedges(c.a, c.b, true, pairs);
-    MoveWedges(c.b, c.a, false, pairs);
+    for (const int f : FacesOf(end)) {
+      if (std::find(vanishing.begin(), vanishing.end(), f) != vanishing.end()) continue;
+      const auto [found, is_new] = moved.try_emplace(wedge_at(f), wedge_at(f));
+      for (size_t i = 0; i < vanishing.size() && is_new && found->second == found->first; ++i) {
+        if (!NoSeam(WedgeAt(wedge_at(vanishing[i])), WedgeAt(found->first))) continue;
+        Wedge creased = joined[i];
+        creased.normal = WedgeAt(found->first).normal;
+        found->second = AddedWedge();
+        surface.wedges.push_back(creased);
+      }
+      wedge_at(f) = found->second;
+    }
   }
 
-  void RemoveFace(FaceHandle f) {
-    DropFromHeap(f);
-    mesh.delete_face(f);
-    --triangles;
-  }
+  int AddedWedge() const { return static_cast<int>(surface.wedges.size()); }
 
   // Faces that fell on each other: opposite ones are a sheet without thickness, equal ones one too many.
   void RemoveFlattened(int vertex) {
@@ -473,20 +450,23 @@ struct QuadricDecimater::Impl {
   }
 
   // What cannot be collapsed loses the faces of the edge alone: its ends stay apart, as twins.
-  void CollapseTwins(const Collapse& c, const std::vector<int>& vanishing) {
-    for (const int f : vanishing) DropFromHeap(FaceHandle(f));
-    for (const HalfedgeHandle h : FromTo(c.b, c.a)) {
-      if (mesh.is_collapse_ok(h)) {
-        mesh.collapse(h);
-        continue;
-      }
-      for (const HalfedgeHandle side : {h, HalfedgeHandle(mesh.opposite_halfedge_handle(h))}) {
-        const FaceHandle f = mesh.face_handle(side);
-        if (f.is_valid() && !mesh.status(f).deleted()) mesh.delete_face(f);
+  void CollapseTwins(const Collapse& c) {
+    auto &of_a = fans[static_cast<size_t>(c.a)], &of_b = fans[static_cast<size_t>(c.b)];
+    for (const VertexHandle from : of_b) {
+      for (const VertexHandle to : of_a) {
+        const HalfedgeHandle h = mesh.find_halfedge(from, to);
+        if (!h.is_valid()) continue;
+        const bool is_ok = mesh.is_collapse_ok(h);
+        for (const HalfedgeHandle side : {h, HalfedgeHandle(mesh.opposite_halfedge_handle(h))}) {
+          if (mesh.is_boundary(side)) continue;
+          if (is_ok)
+            ForgetEdges(mesh.face_handle(side));
+          else
+            RemoveFace(mesh.face_handle(side));
+        }
+        if (is_ok) mesh.collapse(h);
       }
     }
-    triangles -= static_cast<int>(vanishing.size());
-    auto &of_a = fans[static_cast<size_t>(c.a)], &of_b = fans[static_cast<size_t>(c.b)];
     of_a.insert(of_a.end(), of_b.begin(), of_b.end());
     of_b.clear();
     std::erase_if(of_a, [&](VertexHandle fan) { return mesh.status(fan).deleted(); });
@@ -498,17 +478,31 @@ struct QuadricDecimater::Impl {
 
   void Perform(const Collapse& c) {
     const std::vector<int> vanishing = FacesBetween(c.a, c.b);
-    JoinWedgesOf(c, vanishing);
+    std::vector<Wedge> joined;
+    for (const int f : vanishing) {
+      const auto& [wedges, at_a, at_b] =
+          std::tuple(FaceAt(f).wedges, CornerOf(FaceAt(f), c.a), CornerOf(FaceAt(f), c.b));
+      joined.push_back(Mix(WedgeAt(wedges[at_a]), WedgeAt(wedges[at_b]), PictureShare(c)));
+    }
+    for (const int end : {c.a, c.b}) MoveWedges(end, vanishing, joined);
     for (const int f : FacesOf(c.b)) {
       Face& face = FaceAt(f);
       if (!Has(face, c.a)) face.vertices[CornerOf(face, c.b)] = c.a;
     }
     MixWeights(surface.vertices[static_cast<size_t>(c.b)], static_cast<float>(c.weight_t),
                &surface.vertices[static_cast<size_t>(c.a)]);
-    CollapseTwins(c, vanishing);
+    CollapseTwins(c);
     SetSkinning(c.a);
     for (size_t k = 0; k < poses; ++k) quadrics[At(c.a, k)] = quadrics[At(c.a, k)] + quadrics[At(c.b, k)];
     if (relaxed) RemoveFlattened(c.a);
+  }
+
+  std::vector<EdgeHandle> EdgesOf(int vertex) const {
+    std::vector<EdgeHandle> edges;
+    for (const VertexHandle fan : FansOf(vertex)) {
+      for (const EdgeHandle e : mesh.ve_range(fan)) edges.push_back(e);
+    }
+    return edges;
   }
 
   void Refresh(int a) {
@@ -518,14 +512,10 @@ struct QuadricDecimater::Impl {
     }
     FindSeam(a);
     for (const int n : ring) FindSeam(n);
-    for (const VertexHandle fan : FansOf(a)) {
-      for (const EdgeHandle e : mesh.ve_range(fan)) Queue(e);
-    }
-    for (const int n : ring) {  // what was refused there may do now
-      for (const VertexHandle fan : FansOf(n)) {
-        for (const EdgeHandle e : mesh.ve_range(fan)) {
-          if (!heap.is_stored(e)) Queue(e);
-        }
+    for (const EdgeHandle e : EdgesOf(a)) Queue(e);
+    for (const int n : ring) {
+      for (const EdgeHandle e : EdgesOf(n)) {
+        if (!heap.is_stored(e)) Queue(e);  // what was refused there may do now
       }
     }
   }
@@ -533,8 +523,9 @@ struct QuadricDecimater::Impl {
   // OpenMesh tells where the surface has two sides; at twins all fans count at once, and open borders may be joined.
   bool IsLegal(const Collapse& c) {
     const VertexHandle a = FansOf(c.a)[0], b = FansOf(c.b)[0];
-    const bool single = FansOf(c.a).size() == 1 && FansOf(c.b).size() == 1;
-    const bool is_ok = single && mesh.is_collapse_ok(FromTo(c.b, c.a)[0]) && !(IsPeak(a) && IsPeak(b));
+    const bool are_single = FansOf(c.a).size() == 1 && FansOf(c.b).size() == 1;
+    const bool is_tetrahedron = mesh.valence(a) == 3 && mesh.valence(b) == 3;
+    const bool is_ok = are_single && !is_tetrahedron && mesh.is_collapse_ok(mesh.find_halfedge(b, a));
     return (is_ok || !Pinches(c.a, c.b)) && !TurnsOver(c);
   }
 
@@ -558,25 +549,7 @@ struct QuadricDecimater::Impl {
 };
 
 QuadricDecimater::QuadricDecimater(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& poses)
-    : impl_(std::make_unique<Impl>()) {
-  Impl& impl = *impl_;
-  impl.poses = poses.size() + 1;
-  impl.matrices = poses;
-  impl.surface = JoinWedges(meshes, poses);
-  impl.triangles = static_cast<int>(impl.surface.faces.size());
-  impl.BuildMesh();
-  const size_t vertices = impl.surface.vertices.size();
-  impl.quadrics.resize(vertices * impl.poses);
-  impl.skinning.resize(vertices * impl.poses);
-  impl.on_seam.resize(vertices);
-  for (int v = 0; v < static_cast<int>(vertices); ++v) {
-    impl.SetSkinning(v);
-    impl.FindSeam(v);
-  }
-  impl.AddFaceQuadrics();
-  impl.HoldBordersAndSeams();
-  impl.QueueAll();
-}
+    : impl_(std::make_unique<Impl>(meshes, poses)) {}
 
 QuadricDecimater::~QuadricDecimater() = default;
 

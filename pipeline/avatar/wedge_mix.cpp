@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace flaneur {
@@ -14,8 +15,8 @@ constexpr float kSameColor = 0.02f;
 
 bool NoSeam(const WedgeSurface::Wedge& a, const WedgeSurface::Wedge& b) {
   return a.mesh == b.mesh && Length(a.uv - b.uv) < kSameUv &&
-         std::max({std::abs(a.color.x - b.color.x), std::abs(a.color.y - b.color.y),
-                   std::abs(a.color.z - b.color.z)}) < kSameColor;
+         std::max({std::abs(a.color.x - b.color.x), std::abs(a.color.y - b.color.y), std::abs(a.color.z - b.color.z)}) <
+             kSameColor;
 }
 
 WedgeSurface::Wedge Mix(const WedgeSurface::Wedge& a, const WedgeSurface::Wedge& b, float t) {
@@ -42,28 +43,17 @@ float WeightDifference(const WedgeSurface::Vertex& a, const WedgeSurface::Vertex
 }
 
 void MixWeights(const WedgeSurface::Vertex& b, float t, WedgeSurface::Vertex* a) {
-  std::array<std::pair<float, uint16_t>, 8> all{};
-  size_t count = 0;
-  const auto add = [&](uint16_t joint, float weight) {
-    if (!(weight > 0)) return;
-    for (size_t i = 0; i < count; ++i) {
-      if (all[i].second != joint) continue;
-      all[i].first += weight;
-      return;
-    }
-    all[count++] = {weight, joint};
-  };
-  for (size_t i = 0; i < 4; ++i) add(a->joints[i], (1 - t) * a->weights[i]);
-  for (size_t i = 0; i < 4; ++i) add(b.joints[i], t * b.weights[i]);
-  std::stable_sort(all.begin(), all.end(), [](auto x, auto y) {
-    return x.first != y.first ? x.first > y.first : x.second < y.second;
-  });
-  float sum = 0;
-  for (size_t i = 0; i < std::min<size_t>(count, 4); ++i) sum += all[i].first;
+  std::map<uint16_t, float> sums;
+  for (size_t i = 0; i < 4; ++i) sums[a->joints[i]] += (1 - t) * a->weights[i];
+  for (size_t i = 0; i < 4; ++i) sums[b.joints[i]] += t * b.weights[i];
+  std::vector<std::pair<uint16_t, float>> all(sums.begin(), sums.end());
+  std::stable_sort(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.second > y.second; });
+  all.resize(4);
+  const float sum = all[0].second + all[1].second + all[2].second + all[3].second;
   for (size_t i = 0; i < 4; ++i) {
-    const bool used = i < count && sum > 0;
-    a->weights[i] = used ? all[i].first / sum : 0;
-    a->joints[i] = used ? all[i].second : uint16_t{0};
+    const bool used = all[i].second > 0;
+    a->weights[i] = used ? all[i].second / sum : 0;
+    a->joints[i] = used ? all[i].first : uint16_t{0};
   }
 }
 
