@@ -109,6 +109,7 @@ struct QuadricDecimater::Impl {
   Face& FaceAt(int f) { return surface.faces[static_cast<size_t>(f)]; }
   const Face& FaceAt(int f) const { return surface.faces[static_cast<size_t>(f)]; }
   const Wedge& WedgeAt(int w) const { return surface.wedges[static_cast<size_t>(w)]; }
+  int WedgeOf(int f, int vertex) const { return FaceAt(f).wedges[CornerOf(FaceAt(f), vertex)]; }
   const std::vector<VertexHandle>& FansOf(int v) const { return fans[static_cast<size_t>(v)]; }
   int VertexOf(VertexHandle fan) const { return vertex_of[static_cast<size_t>(fan.idx())]; }
   bool OnSeam(int v) const { return on_seam[static_cast<size_t>(v)] != 0; }
@@ -158,20 +159,7 @@ struct QuadricDecimater::Impl {
 
   void SetSkinning(int vertex) {
     const WedgeSurface::Vertex& v = surface.vertices[static_cast<size_t>(vertex)];
-    for (size_t k = 0; k < poses; ++k) {
-      Affine& out = skinning[At(vertex, k)];
-      out = {};
-      float sum = 0;
-      for (size_t i = 0; k > 0 && i < 4; ++i) {
-        if (!(v.weights[i] > 0)) continue;
-        sum += v.weights[i];
-        const Mat4& m = matrices[k - 1][v.joints[i]];
-        for (size_t r = 0; r < 3; ++r) {
-          for (size_t c = 0; c < 4; ++c) out[4 * r + c] += v.weights[i] * m.m[c][r];
-        }
-      }
-      if (!(sum > 0)) out = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    }
+    for (size_t k = 1; k < poses; ++k) skinning[At(vertex, k)] = SkinningOf(v.joints, v.weights, matrices[k - 1]);
   }
 
   // One vertex a fan: a face that has no other to go on into over an edge, or several, ends there.
@@ -235,8 +223,8 @@ struct QuadricDecimater::Impl {
     }
   }
 
-  bool Continues(const Face& f, const Face& g, int vertex) const {
-    return NoSeam(WedgeAt(f.wedges[CornerOf(f, vertex)]), WedgeAt(g.wedges[CornerOf(g, vertex)]));
+  bool Continues(int f, int g, int vertex) const {
+    return NoSeam(WedgeAt(WedgeOf(f, vertex)), WedgeAt(WedgeOf(g, vertex)));
   }
 
   void HoldBordersAndSeams() {
@@ -250,7 +238,7 @@ struct QuadricDecimater::Impl {
           if (g == f) continue;
           const Face& other = FaceAt(g);
           ++others;
-          continued = continued || (Continues(face, other, a) && Continues(face, other, b));
+          continued = continued || (Continues(f, g, a) && Continues(f, g, b));
           const DVec3 n = Across(face, 0), m = Across(other, 0);
           folded = folded || Dot(n, m) < kFold * std::sqrt(Dot(n, n) * Dot(m, m));
         }
@@ -265,7 +253,7 @@ struct QuadricDecimater::Impl {
   void FindSeam(int vertex) {
     const std::vector<int> faces = FacesOf(vertex);
     on_seam[static_cast<size_t>(vertex)] =
-        std::any_of(faces.begin(), faces.end(), [&](int f) { return !Continues(FaceAt(faces[0]), FaceAt(f), vertex); });
+        std::any_of(faces.begin(), faces.end(), [&](int f) { return !Continues(faces[0], f, vertex); });
   }
 
   // What moving a vertex from its seam does to the pictures that meet there.
@@ -279,8 +267,7 @@ struct QuadricDecimater::Impl {
   bool AlongSeam(int a, int b) const {
     const std::vector<int> faces = FacesBetween(a, b);
     return faces.size() == 1 || std::any_of(faces.begin(), faces.end(), [&](int f) {
-             const Face &first = FaceAt(faces[0]), &face = FaceAt(f);
-             return !Continues(first, face, a) || !Continues(first, face, b);
+             return !Continues(faces[0], f, a) || !Continues(faces[0], f, b);
            });
   }
 
@@ -410,28 +397,47 @@ struct QuadricDecimater::Impl {
     return static_cast<float>(std::clamp(t, 0.0, 1.0));
   }
 
-  // Faces at `end` that stay take the wedge that a vanishing one with theirs, or with theirs but for a crease, gets.
-  void MoveWedges(int end, const std::vector<int>& vanishing, const std::vector<Wedge>& joined) {
-    const auto wedge_at = [&](int f) -> int& { return FaceAt(f).wedges[CornerOf(FaceAt(f), end)]; };
-    std::map<int, int> moved;
-    for (size_t i = 0; i < vanishing.size(); ++i) {
-      if (moved.try_emplace(wedge_at(vanishing[i]), AddedWedge()).second) surface.wedges.push_back(joined[i]);
-    }
-    for (const int f : FacesOf(end)) {
-      if (std::find(vanishing.begin(), vanishing.end(), f) != vanishing.end()) continue;
-      const auto [found, is_new] = moved.try_emplace(wedge_at(f), wedge_at(f));
-      for (size_t i = 0; i < vanishing.size() && is_new && found->second == found->first; ++i) {
-        if (!NoSeam(WedgeAt(wedge_at(vanishing[i])), WedgeAt(found->first))) continue;
-        Wedge creased = joined[i];
-        creased.normal = WedgeAt(found->first).normal;
-        found->second = AddedWedge();
-        surface.wedges.push_back(creased);
-      }
-      wedge_at(f) = found->second;
-    }
+  int AddWedge(const Wedge& wedge) {
+    surface.wedges.push_back(wedge);
+    return static_cast<int>(surface.wedges.size()) - 1;
   }
 
-  int AddedWedge() const { return static_cast<int>(surface.wedges.size()); }
+  // What the wedges at both ends of a vanishing face become.
+  struct Joined {
+    std::array<int, 2> ends;
+    int wedge;
+  };
+  std::vector<Joined> JoinWedgesOf(const Collapse& c, const std::vector<int>& vanishing) {
+    const float share = PictureShare(c);
+    std::vector<Joined> all;
+    for (const int f : vanishing) {
+      const std::array<int, 2> ends{WedgeOf(f, c.a), WedgeOf(f, c.b)};
+      if (std::any_of(all.begin(), all.end(), [&](const Joined& j) { return j.ends == ends; })) continue;
+      all.push_back({ends, AddWedge(Mix(WedgeAt(ends[0]), WedgeAt(ends[1]), share))});
+    }
+    return all;
+  }
+
+  // A face that stays takes what its wedge was joined to, or, but for its normal, what one was that is only creased
+  // there.
+  void MoveWedges(int vertex, size_t end, const std::vector<int>& vanishing, const std::vector<Joined>& joined) {
+    std::map<int, int> moved;
+    for (const Joined& j : joined) moved.try_emplace(j.ends[end], j.wedge);
+    for (const int f : FacesOf(vertex)) {
+      if (std::find(vanishing.begin(), vanishing.end(), f) != vanishing.end()) continue;
+      const auto [found, is_new] = moved.try_emplace(WedgeOf(f, vertex), WedgeOf(f, vertex));
+      const auto& [own, after] = *found;
+      const auto smooth = std::find_if(joined.begin(), joined.end(), [&](const Joined& j) {
+        return NoSeam(WedgeAt(j.ends[end]), WedgeAt(found->first));
+      });
+      if (is_new && smooth != joined.end()) {
+        Wedge creased = WedgeAt(smooth->wedge);
+        creased.normal = WedgeAt(own).normal;
+        found->second = AddWedge(creased);
+      }
+      FaceAt(f).wedges[CornerOf(FaceAt(f), vertex)] = after;
+    }
+  }
 
   // Faces that fell on each other: opposite ones are a sheet without thickness, equal ones one too many.
   void RemoveFlattened(int vertex) {
@@ -478,13 +484,9 @@ struct QuadricDecimater::Impl {
 
   void Perform(const Collapse& c) {
     const std::vector<int> vanishing = FacesBetween(c.a, c.b);
-    std::vector<Wedge> joined;
-    for (const int f : vanishing) {
-      const auto& [wedges, at_a, at_b] =
-          std::tuple(FaceAt(f).wedges, CornerOf(FaceAt(f), c.a), CornerOf(FaceAt(f), c.b));
-      joined.push_back(Mix(WedgeAt(wedges[at_a]), WedgeAt(wedges[at_b]), PictureShare(c)));
-    }
-    for (const int end : {c.a, c.b}) MoveWedges(end, vanishing, joined);
+    const std::vector<Joined> joined = JoinWedgesOf(c, vanishing);
+    MoveWedges(c.a, 0, vanishing, joined);
+    MoveWedges(c.b, 1, vanishing, joined);
     for (const int f : FacesOf(c.b)) {
       Face& face = FaceAt(f);
       if (!Has(face, c.a)) face.vertices[CornerOf(face, c.b)] = c.a;
