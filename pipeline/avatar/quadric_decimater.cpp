@@ -11,7 +11,7 @@
 
 #include "pipeline/avatar/posed_quadric.h"
 #include "pipeline/avatar/threads.h"
-#include "pipeline/avatar/wedge_mix.h"
+#include "pipeline/avatar/wedge_surface.h"
 
 namespace flaneur {
 namespace {
@@ -455,23 +455,18 @@ struct QuadricDecimater::Impl {
     }
   }
 
-  // What cannot be collapsed loses the faces of the edge alone: its ends stay apart, as twins.
-  void CollapseTwins(const Collapse& c) {
+  // What OpenMesh cannot collapse loses the faces of the edge alone: its ends stay apart, as twins.
+  void CollapseTwins(const Collapse& c, const std::vector<int>& vanishing) {
+    for (const int f : vanishing) ForgetEdges(FaceHandle(f));
     auto &of_a = fans[static_cast<size_t>(c.a)], &of_b = fans[static_cast<size_t>(c.b)];
     for (const VertexHandle from : of_b) {
       for (const VertexHandle to : of_a) {
         const HalfedgeHandle h = mesh.find_halfedge(from, to);
-        if (!h.is_valid()) continue;
-        const bool is_ok = mesh.is_collapse_ok(h);
-        for (const HalfedgeHandle side : {h, HalfedgeHandle(mesh.opposite_halfedge_handle(h))}) {
-          if (mesh.is_boundary(side)) continue;
-          if (is_ok)
-            ForgetEdges(mesh.face_handle(side));
-          else
-            RemoveFace(mesh.face_handle(side));
-        }
-        if (is_ok) mesh.collapse(h);
+        if (h.is_valid() && mesh.is_collapse_ok(h)) mesh.collapse(h);
       }
+    }
+    for (const int f : vanishing) {
+      if (!mesh.status(FaceHandle(f)).deleted()) mesh.delete_face(FaceHandle(f));
     }
     of_a.insert(of_a.end(), of_b.begin(), of_b.end());
     of_b.clear();
@@ -493,7 +488,7 @@ struct QuadricDecimater::Impl {
     }
     MixWeights(surface.vertices[static_cast<size_t>(c.b)], static_cast<float>(c.weight_t),
                &surface.vertices[static_cast<size_t>(c.a)]);
-    CollapseTwins(c);
+    CollapseTwins(c, vanishing);
     SetSkinning(c.a);
     for (size_t k = 0; k < poses; ++k) quadrics[At(c.a, k)] = quadrics[At(c.a, k)] + quadrics[At(c.b, k)];
     if (relaxed) RemoveFlattened(c.a);
