@@ -349,8 +349,8 @@ struct QuadricDecimater::Impl {
     --triangles;
   }
 
-  // Whether both ends have common neighbours that no face between them explains, or faces that would lie on each other:
-  // the surface would be pinched.
+  // The link condition over all fans at once, as OpenMesh's own only sees one: whether both ends have common neighbours
+  // that no face between them explains, or faces that would lie on each other.
   bool Pinches(int a, int b) const {
     const std::vector<int> between = FacesBetween(a, b), of_a = FacesOf(a);
     const auto is_opposite = [&](int v) {
@@ -494,36 +494,22 @@ struct QuadricDecimater::Impl {
     if (relaxed) RemoveFlattened(c.a);
   }
 
-  std::vector<EdgeHandle> EdgesOf(int vertex) const {
-    std::vector<EdgeHandle> edges;
-    for (const VertexHandle fan : FansOf(vertex)) {
-      for (const EdgeHandle e : mesh.ve_range(fan)) edges.push_back(e);
-    }
-    return edges;
-  }
-
   void Refresh(int a) {
-    std::vector<int> ring;
+    std::vector<VertexHandle> ring;
     for (const VertexHandle fan : FansOf(a)) {
-      for (const VertexHandle n : mesh.vv_range(fan)) ring.push_back(VertexOf(n));
+      for (const VertexHandle n : mesh.vv_range(fan))
+        ring.insert(ring.end(), FansOf(VertexOf(n)).begin(), FansOf(VertexOf(n)).end());
     }
     FindSeam(a);
-    for (const int n : ring) FindSeam(n);
-    for (const EdgeHandle e : EdgesOf(a)) Queue(e);
-    for (const int n : ring) {
-      for (const EdgeHandle e : EdgesOf(n)) {
+    for (const VertexHandle n : ring) FindSeam(VertexOf(n));
+    for (const VertexHandle fan : FansOf(a)) {
+      for (const EdgeHandle e : mesh.ve_range(fan)) Queue(e);
+    }
+    for (const VertexHandle n : ring) {
+      for (const EdgeHandle e : mesh.ve_range(n)) {
         if (!heap.is_stored(e)) Queue(e);  // what was refused there may do now
       }
     }
-  }
-
-  // OpenMesh tells where the surface has two sides; at twins all fans count at once, and open borders may be joined.
-  bool IsLegal(const Collapse& c) {
-    const VertexHandle a = FansOf(c.a)[0], b = FansOf(c.b)[0];
-    const bool are_single = FansOf(c.a).size() == 1 && FansOf(c.b).size() == 1;
-    const bool is_tetrahedron = mesh.valence(a) == 3 && mesh.valence(b) == 3;
-    const bool is_ok = are_single && !is_tetrahedron && mesh.is_collapse_ok(mesh.find_halfedge(b, a));
-    return (is_ok || !Pinches(c.a, c.b)) && !TurnsOver(c);
   }
 
   // False where nothing on the heap can be collapsed any more.
@@ -535,7 +521,7 @@ struct QuadricDecimater::Impl {
       const int removed = static_cast<int>(FacesBetween(c.a, c.b).size());
       if (triangles - removed < target && static_cast<int>(aside->size()) < kTries) {
         aside->push_back(e);
-      } else if (relaxed || IsLegal(c)) {
+      } else if (relaxed || (!Pinches(c.a, c.b) && !TurnsOver(c))) {
         Perform(c);
         Refresh(c.a);
         return true;
