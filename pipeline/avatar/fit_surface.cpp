@@ -173,17 +173,7 @@ class Fitter {
     const WedgeSurface::Vertex& vertex = level_->vertices[v];
     for (size_t k = 0; k < Poses(); ++k) {
       Affine& m = skinning_[v * Poses() + k];
-      m = {};
-      float sum = 0;
-      for (size_t i = 0; k > 0 && i < 4; ++i) {
-        if (!(vertex.weights[i] > 0)) continue;
-        sum += vertex.weights[i];
-        const Mat4& joint = poses_[k - 1][vertex.joints[i]];
-        for (size_t r = 0; r < 3; ++r) {
-          for (size_t c = 0; c < 4; ++c) m[4 * r + c] += vertex.weights[i] * joint.m[c][r];
-        }
-      }
-      if (!(sum > 0)) m = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+      m = k > 0 ? SkinningOf(vertex.joints, vertex.weights, poses_[k - 1]) : kIdentity;
       posed_[v * Poses() + k] = Apply(m, ToDouble(vertex.position));
     }
   }

@@ -2,6 +2,19 @@
 
 namespace flaneur {
 
+Affine SkinningOf(const std::array<uint16_t, 4>& joints, const std::array<float, 4>& weights,
+                  const std::vector<Mat4>& matrices) {
+  Affine out{};
+  float sum = 0;
+  for (size_t i = 0; i < 4; ++i) {
+    if (!(weights[i] > 0)) continue;
+    sum += weights[i];
+    const Mat4& m = matrices[joints[i]];
+    for (size_t k = 0; k < 12; ++k) out[k] += weights[i] * m.m[k % 4][k / 4];
+  }
+  return sum > 0 ? out : kIdentity;
+}
+
 void AddPulledBack(const Quadric& q, const Affine& affine, Quadric* sum) {
   double m[12];
   for (size_t i = 0; i < 12; ++i) m[i] = static_cast<double>(affine[i]);

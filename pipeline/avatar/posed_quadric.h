@@ -4,6 +4,8 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "runtime/base/math.h"
 
@@ -29,6 +31,11 @@ inline Vec3 ToFloat(DVec3 v) {
 
 // p -> row . p + shift, three rows of four numbers.
 using Affine = std::array<float, 12>;
+inline constexpr Affine kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+
+// How a vertex of these joints and weights moves; one without weights stays.
+Affine SkinningOf(const std::array<uint16_t, 4>& joints, const std::array<float, 4>& weights,
+                  const std::vector<Mat4>& matrices);
 
 inline DVec3 Apply(const Affine& m, DVec3 p) {
   const auto row = [&](size_t r) {

@@ -1,130 +1,118 @@
 #include "pipeline/avatar/quadric_decimater.h"
 
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Utils/HeapT.hh>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
-#include <queue>
+#include <map>
+#include <numeric>
+#include <tuple>
 
 #include "pipeline/avatar/posed_quadric.h"
 #include "pipeline/avatar/threads.h"
+#include "pipeline/avatar/wedge_surface.h"
 
 namespace flaneur {
 namespace {
 
 using Face = WedgeSurface::Face;
 using Wedge = WedgeSurface::Wedge;
+using OpenMesh::EdgeHandle, OpenMesh::FaceHandle, OpenMesh::HalfedgeHandle, OpenMesh::VertexHandle;
 
-constexpr double kBorderWeight = 1;   // of an open border's planes, against those of faces
-constexpr double kSeamWeight = 0.03;  // of a seam's
-constexpr double kStretch = 0.2;  // a picture shifted by a length costs as much as this share of it
-constexpr double kSpring = 1e-6;  // towards the edge, where planes leave a vertex free
-constexpr double kLengthCost =
-    1e-9;                           // of an edge's squared length: decides where all else is equal
-constexpr double kReach = 2;        // of an edge's length: so far may its vertex move from it
-constexpr double kLeastTurn = 0.2;  // cosine; a face that turns further is taken to fold over
-constexpr double kFold = -0.95;     // cosine between faces: a sheet that is seen from both sides
-constexpr float kSameUv = 1e-4f;    // uvs nearer than this are no seam
-constexpr float kSameColor = 0.02f;
+constexpr double kBorderWeight = 1;    // of an open border's planes, against those of faces
+constexpr double kSeamWeight = 0.03;   // of a seam's
+constexpr double kStretch = 0.2;       // a picture shifted by a length costs as much as this share of it
+constexpr double kSpring = 1e-6;       // towards the edge, where planes leave a vertex free
+constexpr double kLengthCost = 1e-9;   // of an edge's squared length: decides where all else is equal
+constexpr double kReach = 2;           // of an edge's length: so far may its vertex move from it
+constexpr double kLeastTurn = 0.2;     // cosine; a face that turns further is taken to fold over
+constexpr double kFold = -0.95;        // cosine between faces: a sheet that is seen from both sides
 constexpr float kSameWeights = 0.02f;  // sum of differences
-constexpr int kTries = 2000;  // collapses looked at for one that hits the number of triangles
+constexpr int kTries = 2000;           // collapses looked at for one that hits the number of triangles
 
-// Wedges at one vertex that only differ by their normal: a crease, but no seam.
-bool NoSeam(const Wedge& a, const Wedge& b) {
-  return a.mesh == b.mesh && Length(a.uv - b.uv) < kSameUv &&
-         std::max({std::abs(a.color.x - b.color.x), std::abs(a.color.y - b.color.y),
-                   std::abs(a.color.z - b.color.z)}) < kSameColor;
-}
-
-Wedge Mix(const Wedge& a, const Wedge& b, float t) {
-  Wedge out = a;
-  out.normal = Normalized(a.normal * (1 - t) + b.normal * t);
-  if (!(Length(out.normal) > 0.5f)) out.normal = a.normal;
-  out.uv = a.uv * (1 - t) + b.uv * t;
-  out.uv1 = a.uv1 * (1 - t) + b.uv1 * t;
-  out.color = {a.color.x + t * (b.color.x - a.color.x), a.color.y + t * (b.color.y - a.color.y),
-               a.color.z + t * (b.color.z - a.color.z), a.color.w + t * (b.color.w - a.color.w)};
-  return out;
-}
-
-float WeightDifference(const WedgeSurface::Vertex& a, const WedgeSurface::Vertex& b) {
-  float sum = 0;
-  for (size_t i = 0; i < 4; ++i) {
-    float in_b = 0;
-    for (size_t k = 0; k < 4; ++k) {
-      if (b.joints[k] == a.joints[i]) in_b += b.weights[k];
-    }
-    sum += std::max(a.weights[i] - in_b, 0.0f);
-  }
-  return 2 * sum;
-}
-
-// The four heaviest of the two together.
-void MixWeights(const WedgeSurface::Vertex& b, float t, WedgeSurface::Vertex* a) {
-  std::array<std::pair<float, uint16_t>, 8> all{};
-  size_t count = 0;
-  const auto add = [&](uint16_t joint, float weight) {
-    if (!(weight > 0)) return;
-    for (size_t i = 0; i < count; ++i) {
-      if (all[i].second != joint) continue;
-      all[i].first += weight;
-      return;
-    }
-    all[count++] = {weight, joint};
-  };
-  for (size_t i = 0; i < 4; ++i) add(a->joints[i], (1 - t) * a->weights[i]);
-  for (size_t i = 0; i < 4; ++i) add(b.joints[i], t * b.weights[i]);
-  std::stable_sort(all.begin(), all.end(), [](auto x, auto y) {
-    return x.first != y.first ? x.first > y.first : x.second < y.second;
-  });
-  float sum = 0;
-  for (size_t i = 0; i < std::min<size_t>(count, 4); ++i) sum += all[i].first;
-  for (size_t i = 0; i < 4; ++i) {
-    const bool used = i < count && sum > 0;
-    a->weights[i] = used ? all[i].first / sum : 0;
-    a->joints[i] = used ? all[i].second : uint16_t{0};
-  }
-}
-
-struct Collapse {
-  double cost = 0;
-  int a = 0, b = 0;  // a stays
-  uint32_t stamp_a = 0, stamp_b = 0;
-  bool operator<(const Collapse& other) const {  // the cheapest is the greatest
-    if (cost != other.cost) return cost > other.cost;
-    return a != other.a ? a > other.a : b > other.b;
-  }
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  VertexAttributes(OpenMesh::Attributes::Status);
+  EdgeAttributes(OpenMesh::Attributes::Status);
+  FaceAttributes(OpenMesh::Attributes::Status);
 };
+using HalfEdges = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
-struct Placement {
+// Of the edge between vertices a < b, of which a stays.
+struct Collapse {
   double cost = 1e300;
+  int a = 0, b = 0;
   DVec3 position;
   double weight_t = 0;  // share of b's weights
 };
 
+// The edges by cost, for OpenMesh's heap.
+struct ByCost {
+  HalfEdges* mesh = nullptr;
+  OpenMesh::EPropHandleT<Collapse> collapse;
+  OpenMesh::EPropHandleT<int> position;
+
+  auto Key(EdgeHandle e) const {
+    const Collapse& c = mesh->property(collapse, e);
+    return std::tuple(c.cost, c.a, c.b, e.idx());
+  }
+  bool less(EdgeHandle e, EdgeHandle f) const { return Key(e) < Key(f); }
+  int get_heap_position(EdgeHandle e) const { return mesh->property(position, e); }
+  void set_heap_position(EdgeHandle e, int i) { mesh->property(position, e) = i; }
+};
+
 }  // namespace
 
+// Topology is OpenMesh's. A vertex of ours has one of OpenMesh's a fan: twins, which stand at one place and collapse
+// together or not at all. Wedges stay on our faces, found by vertex: a collapse gives a half-edge another one's place
+// in the face beside.
 struct QuadricDecimater::Impl {
-  size_t poses = 1;  // with the bind pose
+  size_t poses;  // with the bind pose
   std::vector<std::vector<Mat4>> matrices;
   WedgeSurface surface;
-  std::vector<DVec3> positions;
-  std::vector<Quadric> quadrics;           // by vertex and pose, in posed space
-  std::vector<Affine> skinning;            // by vertex and pose
-  std::vector<std::vector<int>> faces_of;  // by vertex; none: the vertex is gone
-  std::vector<uint32_t> stamps;
-  std::vector<uint8_t> on_seam;  // wedges at the vertex don't all continue each other
-  std::vector<uint8_t> blocked;  // an edge there could not be collapsed
-  std::vector<uint8_t> gone;     // by face
+  HalfEdges mesh;                               // the same faces
+  std::vector<int> vertex_of;                   // by vertex of the mesh
+  std::vector<std::vector<VertexHandle>> fans;  // by vertex; none: the vertex is gone
+  std::vector<Quadric> quadrics;                // by vertex and pose, in posed space
+  std::vector<Affine> skinning;                 // by vertex and pose
+  std::vector<uint8_t> on_seam;                 // wedges at the vertex don't all continue each other
   int triangles = 0;
   bool relaxed = false;
-  std::priority_queue<Collapse> heap;
+  OpenMesh::EPropHandleT<Collapse> collapse;
+  OpenMesh::Utils::HeapT<EdgeHandle, ByCost> heap;
+
+  Impl(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& walk)
+      : poses(walk.size() + 1), matrices(walk), surface(JoinWedges(meshes, walk)) {
+    const size_t vertices = surface.vertices.size();
+    fans.resize(vertices);
+    quadrics.resize(vertices * poses);
+    skinning.resize(vertices * poses);
+    on_seam.resize(vertices);
+    triangles = static_cast<int>(surface.faces.size());
+    ByCost& by_cost = heap.getInterface();
+    by_cost.mesh = &mesh;
+    mesh.add_property(by_cost.collapse);
+    mesh.add_property(by_cost.position);
+    collapse = by_cost.collapse;
+    BuildMesh();
+    for (int v = 0; v < static_cast<int>(vertices); ++v) {
+      SetSkinning(v);
+      FindSeam(v);
+    }
+    AddFaceQuadrics();
+    HoldBordersAndSeams();
+    QueueAll();
+  }
 
   size_t At(int vertex, size_t pose) const { return static_cast<size_t>(vertex) * poses + pose; }
   Face& FaceAt(int f) { return surface.faces[static_cast<size_t>(f)]; }
   const Face& FaceAt(int f) const { return surface.faces[static_cast<size_t>(f)]; }
   const Wedge& WedgeAt(int w) const { return surface.wedges[static_cast<size_t>(w)]; }
-  const std::vector<int>& FacesOf(int v) const { return faces_of[static_cast<size_t>(v)]; }
+  int WedgeOf(int f, int vertex) const { return FaceAt(f).wedges[CornerOf(FaceAt(f), vertex)]; }
+  const std::vector<VertexHandle>& FansOf(int v) const { return fans[static_cast<size_t>(v)]; }
+  int VertexOf(VertexHandle fan) const { return vertex_of[static_cast<size_t>(fan.idx())]; }
+  bool OnSeam(int v) const { return on_seam[static_cast<size_t>(v)] != 0; }
 
   static size_t CornerOf(const Face& face, int vertex) {
     return face.vertices[0] == vertex ? 0 : face.vertices[1] == vertex ? 1 : 2;
@@ -133,8 +121,28 @@ struct QuadricDecimater::Impl {
     return face.vertices[0] == vertex || face.vertices[1] == vertex || face.vertices[2] == vertex;
   }
 
+  std::vector<int> FacesOf(int vertex) const {
+    std::vector<int> faces;
+    for (const VertexHandle fan : FansOf(vertex)) {
+      for (const FaceHandle f : mesh.vf_range(fan)) faces.push_back(f.idx());
+    }
+    std::sort(faces.begin(), faces.end());  // the same whatever was collapsed before
+    return faces;
+  }
+
+  std::vector<int> FacesBetween(int a, int b) const {
+    std::vector<int> faces = FacesOf(a);
+    std::erase_if(faces, [&](int f) { return !Has(FaceAt(f), b); });
+    return faces;
+  }
+
+  DVec3 Position(int vertex) const {
+    const OpenMesh::Vec3d& p = mesh.point(FansOf(vertex)[0]);
+    return {p[0], p[1], p[2]};
+  }
+
   DVec3 Posed(int vertex, size_t pose) const {
-    const DVec3 p = positions[static_cast<size_t>(vertex)];
+    const DVec3 p = Position(vertex);
     return pose == 0 ? p : Apply(skinning[At(vertex, pose)], p);
   }
 
@@ -144,35 +152,56 @@ struct QuadricDecimater::Impl {
     return Cross(Posed(face.vertices[1], pose) - a, Posed(face.vertices[2], pose) - a);
   }
 
+  double Area(const Face& face, size_t pose) const {
+    const DVec3 across = Across(face, pose);
+    return std::sqrt(Dot(across, across)) / 2;
+  }
+
   void SetSkinning(int vertex) {
     const WedgeSurface::Vertex& v = surface.vertices[static_cast<size_t>(vertex)];
-    for (size_t k = 0; k < poses; ++k) {
-      Affine& out = skinning[At(vertex, k)];
-      out = {};
-      float sum = 0;
-      for (size_t i = 0; k > 0 && i < 4; ++i) {
-        if (!(v.weights[i] > 0)) continue;
-        sum += v.weights[i];
-        const Mat4& m = matrices[k - 1][v.joints[i]];
-        for (size_t r = 0; r < 3; ++r) {
-          for (size_t c = 0; c < 4; ++c) out[4 * r + c] += v.weights[i] * m.m[c][r];
-        }
+    for (size_t k = 1; k < poses; ++k) skinning[At(vertex, k)] = SkinningOf(v.joints, v.weights, matrices[k - 1]);
+  }
+
+  // One vertex a fan: a face that has no other to go on into over an edge, or several, ends there.
+  void BuildMesh() {
+    std::vector<size_t> same_fan(3 * surface.faces.size());  // by corner: another one
+    std::iota(same_fan.begin(), same_fan.end(), size_t{0});
+    const auto fan_of = [&](size_t corner) {
+      while (same_fan[corner] != corner) corner = same_fan[corner] = same_fan[same_fan[corner]];
+      return corner;
+    };
+    const auto vertex_at = [&](size_t corner) { return surface.faces[corner / 3].vertices[corner % 3]; };
+    const auto next = [](size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
+    std::map<std::pair<int, int>, std::vector<size_t>> sides;  // by the edge's ends: the corners that they start at
+    for (size_t c = 0; c < same_fan.size(); ++c) sides[std::minmax(vertex_at(c), vertex_at(next(c)))].push_back(c);
+    for (const auto& [ends, at_edge] : sides) {
+      if (at_edge.size() != 2 || vertex_at(at_edge[0]) == vertex_at(at_edge[1])) continue;
+      same_fan[fan_of(at_edge[0])] = fan_of(next(at_edge[1]));
+      same_fan[fan_of(next(at_edge[0]))] = fan_of(at_edge[1]);
+    }
+    std::vector<VertexHandle> made(same_fan.size()), corners(3);
+    for (size_t c = 0; c < same_fan.size(); ++c) {
+      VertexHandle& fan = made[fan_of(c)];
+      if (!fan.is_valid()) {
+        const auto vertex = static_cast<size_t>(vertex_at(c));
+        const Vec3 p = surface.vertices[vertex].position;
+        fan = mesh.add_vertex(OpenMesh::Vec3d(OpenMesh::Vec3f(p.x, p.y, p.z)));
+        fans[vertex].push_back(fan);
+        vertex_of.push_back(vertex_at(c));
       }
-      if (!(sum > 0)) out = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+      corners[c % 3] = fan;
+      if (c % 3 == 2) mesh.add_face(corners);
     }
   }
 
   // The bind pose counts as much as all others together.
-  double PoseWeight(size_t pose) const {
-    return pose == 0 ? std::max(1.0, static_cast<double>(poses - 1)) : 1;
-  }
+  double PoseWeight(size_t pose) const { return pose == 0 ? std::max(1.0, static_cast<double>(poses - 1)) : 1; }
 
-  void AddPlane(const Face& face, size_t pose, DVec3 across, double weight,
-                std::initializer_list<int> vertices) {
-    const double length = std::sqrt(Dot(across, across));
-    if (!(length > 0) || !(weight > 0)) return;
-    const Quadric plane =
-        PlaneQuadric(across * (1 / length), Posed(face.vertices[0], pose), weight);
+  // The plane through `point` across `normal`, of any length, that the vertices should stay on in a pose.
+  void AddPlane(DVec3 normal, DVec3 point, double weight, size_t pose, std::initializer_list<int> vertices) {
+    const double length = std::sqrt(Dot(normal, normal));
+    if (!(length > 0)) return;
+    const Quadric plane = PlaneQuadric(normal * (1 / length), point, weight * PoseWeight(pose));
     for (const int v : vertices) {
       Quadric& q = quadrics[At(v, pose)];
       q = q + plane;
@@ -181,46 +210,35 @@ struct QuadricDecimater::Impl {
 
   void AddFaceQuadrics() {
     for (const Face& face : surface.faces) {
-      for (size_t k = 0; k < poses; ++k) {
-        const DVec3 across = Across(face, k);
-        AddPlane(face, k, across, PoseWeight(k) * std::sqrt(Dot(across, across)) / 2,
-                 {face.vertices[0], face.vertices[1], face.vertices[2]});
-      }
+      const auto& [a, b, c] = face.vertices;
+      for (size_t k = 0; k < poses; ++k) AddPlane(Across(face, k), Posed(a, k), Area(face, k), k, {a, b, c});
     }
   }
 
   // A plane through the edge at right angles to the face holds its line.
   void HoldEdge(const Face& face, int a, int b, double weight) {
     for (size_t k = 0; k < poses; ++k) {
-      const DVec3 across = Across(face, k), from = Posed(a, k), along = Posed(b, k) - from;
-      const DVec3 normal = Cross(along, across);
-      const double length = std::sqrt(Dot(normal, normal));
-      if (!(length > 0)) continue;
-      const Quadric plane = PlaneQuadric(
-          normal * (1 / length), from, weight * PoseWeight(k) * std::sqrt(Dot(across, across)) / 2);
-      for (const int v : {a, b}) {
-        Quadric& q = quadrics[At(v, k)];
-        q = q + plane;
-      }
+      const DVec3 from = Posed(a, k);
+      AddPlane(Cross(Posed(b, k) - from, Across(face, k)), from, weight * Area(face, k), k, {a, b});
     }
   }
 
-  bool Continues(const Face& f, const Face& g, int vertex) const {
-    return NoSeam(WedgeAt(f.wedges[CornerOf(f, vertex)]), WedgeAt(g.wedges[CornerOf(g, vertex)]));
+  bool Continues(int f, int g, int vertex) const {
+    return NoSeam(WedgeAt(WedgeOf(f, vertex)), WedgeAt(WedgeOf(g, vertex)));
   }
 
   void HoldBordersAndSeams() {
-    for (int f = 0; f < static_cast<int>(surface.faces.size()); ++f) {
-      const Face face = FaceAt(f);
+    for (int f = 0; f < triangles; ++f) {
+      const Face& face = FaceAt(f);
       for (size_t k = 0; k < 3; ++k) {
         const int a = face.vertices[k], b = face.vertices[(k + 1) % 3];
         int others = 0;
         bool continued = false, folded = false;
-        for (const int g : FacesOf(a)) {
+        for (const int g : FacesBetween(a, b)) {
+          if (g == f) continue;
           const Face& other = FaceAt(g);
-          if (g == f || !Has(other, b)) continue;
           ++others;
-          continued = continued || (Continues(face, other, a) && Continues(face, other, b));
+          continued = continued || (Continues(f, g, a) && Continues(f, g, b));
           const DVec3 n = Across(face, 0), m = Across(other, 0);
           folded = folded || Dot(n, m) < kFold * std::sqrt(Dot(n, n) * Dot(m, m));
         }
@@ -233,60 +251,49 @@ struct QuadricDecimater::Impl {
   }
 
   void FindSeam(int vertex) {
-    const auto& faces = FacesOf(vertex);
-    bool seam = false;
-    for (size_t i = 1; i < faces.size() && !seam; ++i) {
-      seam = !Continues(FaceAt(faces[0]), FaceAt(faces[i]), vertex);
-    }
-    on_seam[static_cast<size_t>(vertex)] = seam;
+    const std::vector<int> faces = FacesOf(vertex);
+    on_seam[static_cast<size_t>(vertex)] =
+        std::any_of(faces.begin(), faces.end(), [&](int f) { return !Continues(faces[0], f, vertex); });
   }
 
   // What moving a vertex from its seam does to the pictures that meet there.
   double ShiftCost(int vertex, DVec3 to) const {
     double area = 0;
-    for (const int f : FacesOf(vertex)) {
-      const DVec3 across = Across(FaceAt(f), 0);
-      area += std::sqrt(Dot(across, across)) / 2;
-    }
-    const DVec3 way = to - positions[static_cast<size_t>(vertex)];
-    return kStretch * kStretch * (PoseWeight(0) + static_cast<double>(poses - 1)) * area / 3 *
-           Dot(way, way);
+    for (const int f : FacesOf(vertex)) area += Area(FaceAt(f), 0);
+    const DVec3 way = to - Position(vertex);
+    return kStretch * kStretch * (PoseWeight(0) + static_cast<double>(poses - 1)) * area / 3 * Dot(way, way);
   }
 
   bool AlongSeam(int a, int b) const {
-    const Face* first = nullptr;
-    int count = 0;
-    for (const int f : FacesOf(a)) {
-      const Face& face = FaceAt(f);
-      if (!Has(face, b)) continue;
-      ++count;
-      if (first == nullptr)
-        first = &face;
-      else if (!Continues(*first, face, a) || !Continues(*first, face, b))
-        return true;
-    }
-    return count == 1;
+    const std::vector<int> faces = FacesBetween(a, b);
+    return faces.size() == 1 || std::any_of(faces.begin(), faces.end(), [&](int f) {
+             return !Continues(faces[0], f, a) || !Continues(faces[0], f, b);
+           });
   }
 
-  Placement Place(int a, int b) const {
-    const auto va = static_cast<size_t>(a), vb = static_cast<size_t>(b);
-    const DVec3 from = positions[va], along = positions[vb] - from;
+  Affine MixedSkinning(int a, int b, size_t pose, double weight_t) const {
+    Affine m = skinning[At(a, pose)];
+    const Affine& of_b = skinning[At(b, pose)];
+    for (size_t i = 0; i < 12; ++i) m[i] += static_cast<float>(weight_t) * (of_b[i] - m[i]);
+    return m;
+  }
+
+  Collapse Place(int a, int b) const {
+    const DVec3 from = Position(a), along = Position(b) - from;
     const double length2 = Dot(along, along);
-    const bool alike = WeightDifference(surface.vertices[va], surface.vertices[vb]) < kSameWeights;
-    Placement best;
+    const auto &of_a = surface.vertices[static_cast<size_t>(a)], &of_b = surface.vertices[static_cast<size_t>(b)];
+    const bool alike = WeightDifference(of_a, of_b) < kSameWeights;
+    Collapse best;
+    best.a = a, best.b = b;
     for (const double t : {0.5, 0.0, 1.0}) {
       if (alike && t != 0.5) break;
       Quadric sum = quadrics[At(a, 0)] + quadrics[At(b, 0)];
       for (size_t k = 1; k < poses; ++k) {
-        Affine m;
-        const Affine &ma = skinning[At(a, k)], &mb = skinning[At(b, k)];
-        const float u = static_cast<float>(t);
-        for (size_t i = 0; i < 12; ++i) m[i] = ma[i] + u * (mb[i] - ma[i]);
-        AddPulledBack(quadrics[At(a, k)] + quadrics[At(b, k)], m, &sum);
+        AddPulledBack(quadrics[At(a, k)] + quadrics[At(b, k)], MixedSkinning(a, b, k, t), &sum);
       }
       const auto consider = [&](DVec3 p) {
         const double cost = std::max(Evaluate(sum, p), 0.0);
-        if (cost < best.cost) best = {cost, p, t};
+        if (cost < best.cost) best = {cost, a, b, p, t};
       };
       const DVec3 anchor = from + along * t;
       const DVec3 p = Minimizer(sum, anchor, kSpring);
@@ -296,101 +303,82 @@ struct QuadricDecimater::Impl {
         for (const double s : {0.0, 0.5, 1.0}) consider(from + along * s);
     }
     best.cost += kLengthCost * length2;  // ties, as on flat cloth, go to the shorter edge
-    if ((on_seam[va] || on_seam[vb]) && !(on_seam[va] && on_seam[vb] && AlongSeam(a, b))) {
-      if (on_seam[va]) best.cost += ShiftCost(a, best.position);
-      if (on_seam[vb]) best.cost += ShiftCost(b, best.position);
+    if (!(OnSeam(a) && OnSeam(b) && AlongSeam(a, b))) {
+      if (OnSeam(a)) best.cost += ShiftCost(a, best.position);
+      if (OnSeam(b)) best.cost += ShiftCost(b, best.position);
     }
     return best;
   }
 
-  void Push(int a, int b) {
-    if (a > b) std::swap(a, b);
-    heap.push(
-        {Place(a, b).cost, a, b, stamps[static_cast<size_t>(a)], stamps[static_cast<size_t>(b)]});
+  void SetCollapse(EdgeHandle e) {
+    const HalfedgeHandle h = mesh.halfedge_handle(e, 0);
+    const int a = VertexOf(mesh.from_vertex_handle(h)), b = VertexOf(mesh.to_vertex_handle(h));
+    mesh.property(collapse, e) = Place(std::min(a, b), std::max(a, b));
   }
 
-  std::vector<int> Neighbours(int vertex) const {
-    std::vector<int> out;
-    for (const int f : FacesOf(vertex)) {
-      for (const int v : FaceAt(f).vertices) {
-        if (v != vertex) out.push_back(v);
+  void Queue(EdgeHandle e) {
+    SetCollapse(e);
+    if (heap.is_stored(e))
+      heap.update(e);
+    else
+      heap.insert(e);
+  }
+
+  void QueueAll() {
+    heap.clear();
+    for (const EdgeHandle e : mesh.edges()) heap.reset_heap_position(e);
+    RunOnThreads([&](size_t first, size_t step) {
+      for (size_t i = first; i < mesh.n_edges(); i += step) {
+        const EdgeHandle e(static_cast<int>(i));
+        if (!mesh.status(e).deleted()) SetCollapse(e);
       }
+    });
+    for (const EdgeHandle e : mesh.edges()) heap.insert(e);  // that are not deleted
+  }
+
+  void RemoveFace(FaceHandle f) {
+    ForgetEdges(f);
+    mesh.delete_face(f);
+  }
+
+  // Before a face goes; edges of it that stay are queued again.
+  void ForgetEdges(FaceHandle f) {
+    for (const EdgeHandle e : mesh.fe_range(f)) {
+      if (heap.is_stored(e)) heap.remove(e);
     }
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-    return out;
+    --triangles;
   }
 
-  void PushAll() {
-    heap = {};
-    std::vector<std::pair<int, int>> edges;
-    for (int v = 0; v < static_cast<int>(faces_of.size()); ++v) {
-      for (const int n : Neighbours(v)) {
-        if (n > v) edges.push_back({v, n});
-      }
-    }
-    std::vector<Collapse> all(edges.size());
-    const auto place = [&](size_t first, size_t step) {
-      for (size_t i = first; i < edges.size(); i += step) {
-        const auto [a, b] = edges[i];
-        all[i] = {Place(a, b).cost, a, b, stamps[static_cast<size_t>(a)],
-                  stamps[static_cast<size_t>(b)]};
-      }
-    };
-    RunOnThreads(place);
-    heap = std::priority_queue<Collapse>({}, std::move(all));
-    std::fill(blocked.begin(), blocked.end(), uint8_t{0});
-  }
-
-  // Whether both ends have common neighbours that no face between them explains, or faces that
-  // would lie on each other: the surface would be pinched.
+  // The link condition over all fans at once, as OpenMesh's own only sees one: whether both ends have common neighbours
+  // that no face between them explains, or faces that would lie on each other.
   bool Pinches(int a, int b) const {
-    std::vector<int> opposite;
-    for (const int f : FacesOf(a)) {
-      if (!Has(FaceAt(f), b)) continue;
-      for (const int v : FaceAt(f).vertices) {
-        if (v != a && v != b) opposite.push_back(v);
-      }
-    }
-    const std::vector<int> of_a = Neighbours(a), of_b = Neighbours(b);
-    std::vector<int> common;
-    std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
-                          std::back_inserter(common));
-    for (const int v : common) {
-      if (std::find(opposite.begin(), opposite.end(), v) == opposite.end()) return true;
-    }
+    const std::vector<int> between = FacesBetween(a, b), of_a = FacesOf(a);
+    const auto is_opposite = [&](int v) {
+      return std::any_of(between.begin(), between.end(), [&](int f) { return Has(FaceAt(f), v); });
+    };
     for (const int f : FacesOf(b)) {
-      const Face& face = FaceAt(f);
-      if (Has(face, a)) continue;
-      if (FacesBeneath(a, b, face) > 0) return true;
+      for (const int g : of_a) {
+        if (Has(FaceAt(f), a) || Has(FaceAt(g), b)) continue;
+        int common = 0;
+        for (const int v : FaceAt(f).vertices) {
+          if (v == b || !Has(FaceAt(g), v)) continue;
+          if (!is_opposite(v) || ++common == 2) return true;
+        }
+      }
     }
     return false;
   }
 
-  // Faces of `a` on the same other two corners as this face of `b`.
-  int FacesBeneath(int a, int b, const Face& face) const {
-    const size_t k = CornerOf(face, b);
-    const int x = face.vertices[(k + 1) % 3], y = face.vertices[(k + 2) % 3];
-    int count = 0;
-    for (const int g : FacesOf(a)) count += Has(FaceAt(g), x) && Has(FaceAt(g), y) ? 1 : 0;
-    return count;
-  }
-
-  bool TurnsOver(int a, int b, const Placement& placement) const {
+  bool TurnsOver(const Collapse& c) const {
     const size_t middle = poses / 2;
     for (size_t pose = 0; pose <= middle; pose += std::max<size_t>(middle, 1)) {
-      Affine m = skinning[At(a, pose)];
-      const Affine& mb = skinning[At(b, pose)];
-      const float t = static_cast<float>(placement.weight_t);
-      for (size_t i = 0; i < 12; ++i) m[i] += t * (mb[i] - m[i]);
-      const DVec3 to = pose == 0 ? placement.position : Apply(m, placement.position);
-      for (const int end : {a, b}) {
+      const DVec3 to = pose == 0 ? c.position : Apply(MixedSkinning(c.a, c.b, pose, c.weight_t), c.position);
+      for (const auto& [end, other] : {std::pair(c.a, c.b), std::pair(c.b, c.a)}) {
         for (const int f : FacesOf(end)) {
           const Face& face = FaceAt(f);
-          if (Has(face, a) && Has(face, b)) continue;
+          if (Has(face, other)) continue;
           const size_t k = CornerOf(face, end);
-          const DVec3 x = Posed(face.vertices[(k + 1) % 3], pose);
-          const DVec3 y = Posed(face.vertices[(k + 2) % 3], pose);
+          const DVec3 x = Posed(face.vertices[(k + 1) % 3], pose), y = Posed(face.vertices[(k + 2) % 3], pose);
           const DVec3 before = Cross(y - x, Posed(end, pose) - x), after = Cross(y - x, to - x);
           const double lengths = std::sqrt(Dot(before, before) * Dot(after, after));
           if (Dot(before, before) > 0 && Dot(before, after) <= kLeastTurn * lengths) return true;
@@ -400,188 +388,151 @@ struct QuadricDecimater::Impl {
     return false;
   }
 
-  // New wedges of the faces at `end` that stay, from the pairs that vanishing faces join.
-  struct Pair {
-    int a, b, joined;
-  };
-  void MoveWedges(int end, int other, bool is_a, const std::vector<Pair>& pairs) {
-    std::vector<std::pair<int, int>> known;
-    for (const int f : FacesOf(end)) {
-      Face& face = FaceAt(f);
-      if (Has(face, other)) continue;
-      int& wedge = face.wedges[CornerOf(face, end)];
-      const auto found =
-          std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == wedge; });
-      if (found != known.end()) {
-        wedge = found->second;
-        continue;
-      }
-      int moved = wedge;
-      for (const Pair& pair : pairs) {
-        const int own = is_a ? pair.a : pair.b;
-        if (own == wedge) {
-          moved = pair.joined;
-          break;
-        }
-        if (moved != wedge || !NoSeam(WedgeAt(own), WedgeAt(wedge))) continue;
-        Wedge creased = WedgeAt(pair.joined);
-        creased.normal = WedgeAt(wedge).normal;
-        moved = static_cast<int>(surface.wedges.size());
-        surface.wedges.push_back(creased);
-      }
-      known.push_back({wedge, moved});
-      wedge = moved;
-    }
-  }
-
   // Where the joined wedges lie between those of a (0) and b (1): a seam keeps its picture.
-  float PictureShare(int a, int b, DVec3 to) const {
-    const auto va = static_cast<size_t>(a), vb = static_cast<size_t>(b);
-    if (on_seam[va] != on_seam[vb]) return on_seam[va] ? 0.0f : 1.0f;
-    const DVec3 from = positions[va], along = positions[vb] - from;
+  float PictureShare(const Collapse& c) const {
+    if (OnSeam(c.a) != OnSeam(c.b)) return OnSeam(c.a) ? 0.0f : 1.0f;
+    const DVec3 from = Position(c.a), along = Position(c.b) - from;
     const double length2 = Dot(along, along);
-    const double t = length2 > 0 ? Dot(to - from, along) / length2 : 0;
+    const double t = length2 > 0 ? Dot(c.position - from, along) / length2 : 0;
     return static_cast<float>(std::clamp(t, 0.0, 1.0));
   }
 
-  int Removed(int a, int b) const {
-    int count = 0;
-    for (const int f : FacesOf(a)) count += Has(FaceAt(f), b) ? 1 : 0;
-    return count;
+  int AddWedge(const Wedge& wedge) {
+    surface.wedges.push_back(wedge);
+    return static_cast<int>(surface.wedges.size()) - 1;
   }
 
-  void RemoveFace(int f) {
-    gone[static_cast<size_t>(f)] = 1;
-    --triangles;
-    for (const int v : FaceAt(f).vertices) {
-      auto& faces = faces_of[static_cast<size_t>(v)];
-      faces.erase(std::remove(faces.begin(), faces.end(), f), faces.end());
+  // What the wedges at both ends of a vanishing face become.
+  struct Joined {
+    std::array<int, 2> ends;
+    int wedge;
+  };
+  std::vector<Joined> JoinWedgesOf(const Collapse& c, const std::vector<int>& vanishing) {
+    const float share = PictureShare(c);
+    std::vector<Joined> all;
+    for (const int f : vanishing) {
+      const std::array<int, 2> ends{WedgeOf(f, c.a), WedgeOf(f, c.b)};
+      if (std::any_of(all.begin(), all.end(), [&](const Joined& j) { return j.ends == ends; })) continue;
+      all.push_back({ends, AddWedge(Mix(WedgeAt(ends[0]), WedgeAt(ends[1]), share))});
+    }
+    return all;
+  }
+
+  // A face that stays takes what its wedge was joined to, or, but for its normal, what one was that is only creased
+  // there.
+  void MoveWedges(int vertex, size_t end, const std::vector<int>& vanishing, const std::vector<Joined>& joined) {
+    std::map<int, int> moved;
+    for (const Joined& j : joined) moved.try_emplace(j.ends[end], j.wedge);
+    for (const int f : FacesOf(vertex)) {
+      if (std::find(vanishing.begin(), vanishing.end(), f) != vanishing.end()) continue;
+      const auto [found, is_new] = moved.try_emplace(WedgeOf(f, vertex), WedgeOf(f, vertex));
+      const auto& [own, after] = *found;
+      const auto smooth = std::find_if(joined.begin(), joined.end(), [&](const Joined& j) {
+        return NoSeam(WedgeAt(j.ends[end]), WedgeAt(found->first));
+      });
+      if (is_new && smooth != joined.end()) {
+        Wedge creased = WedgeAt(smooth->wedge);
+        creased.normal = WedgeAt(own).normal;
+        found->second = AddWedge(creased);
+      }
+      FaceAt(f).wedges[CornerOf(FaceAt(f), vertex)] = after;
     }
   }
 
-  // Faces that fell on each other: opposite ones are a sheet without thickness, equal ones one too
-  // many.
+  // Faces that fell on each other: opposite ones are a sheet without thickness, equal ones one too many.
   void RemoveFlattened(int vertex) {
     const std::vector<int> faces = FacesOf(vertex);
     for (size_t i = 0; i < faces.size(); ++i) {
       for (size_t j = i + 1; j < faces.size(); ++j) {
         const Face &f = FaceAt(faces[i]), &g = FaceAt(faces[j]);
-        if (gone[static_cast<size_t>(faces[i])] || gone[static_cast<size_t>(faces[j])]) continue;
+        const FaceHandle first(faces[i]), second(faces[j]);
+        if (mesh.status(first).deleted() || mesh.status(second).deleted()) continue;
         if (!Has(g, f.vertices[0]) || !Has(g, f.vertices[1]) || !Has(g, f.vertices[2])) continue;
         const size_t k = CornerOf(g, f.vertices[0]);
-        if (g.vertices[(k + 1) % 3] != f.vertices[1]) RemoveFace(faces[i]);
-        RemoveFace(faces[j]);
+        if (g.vertices[(k + 1) % 3] != f.vertices[1]) RemoveFace(first);
+        RemoveFace(second);
       }
     }
   }
 
-  void Perform(int a, int b, const Placement& placement) {
-    const auto va = static_cast<size_t>(a), vb = static_cast<size_t>(b);
-    const float share = PictureShare(a, b, placement.position);
-    std::vector<Pair> pairs;
-    std::vector<int> vanishing;
-    for (const int f : FacesOf(a)) {
-      const Face& face = FaceAt(f);
-      if (!Has(face, b)) continue;
-      vanishing.push_back(f);
-      const int wa = face.wedges[CornerOf(face, a)], wb = face.wedges[CornerOf(face, b)];
-      if (std::any_of(pairs.begin(), pairs.end(),
-                      [&](const Pair& p) { return p.a == wa && p.b == wb; })) {
-        continue;
+  // What OpenMesh cannot collapse loses the faces of the edge alone: its ends stay apart, as twins.
+  void CollapseTwins(const Collapse& c, const std::vector<int>& vanishing) {
+    for (const int f : vanishing) ForgetEdges(FaceHandle(f));
+    auto &of_a = fans[static_cast<size_t>(c.a)], &of_b = fans[static_cast<size_t>(c.b)];
+    for (const VertexHandle from : of_b) {
+      for (const VertexHandle to : of_a) {
+        const HalfedgeHandle h = mesh.find_halfedge(from, to);
+        if (h.is_valid() && mesh.is_collapse_ok(h)) mesh.collapse(h);
       }
-      pairs.push_back({wa, wb, static_cast<int>(surface.wedges.size())});
-      surface.wedges.push_back(Mix(WedgeAt(wa), WedgeAt(wb), share));
     }
-    MoveWedges(a, b, true, pairs);
-    MoveWedges(b, a, false, pairs);
-    for (const int f : vanishing) RemoveFace(f);
-    for (const int f : FacesOf(b)) {
+    for (const int f : vanishing) {
+      if (!mesh.status(FaceHandle(f)).deleted()) mesh.delete_face(FaceHandle(f));
+    }
+    of_a.insert(of_a.end(), of_b.begin(), of_b.end());
+    of_b.clear();
+    std::erase_if(of_a, [&](VertexHandle fan) { return mesh.status(fan).deleted(); });
+    for (const VertexHandle fan : of_a) {
+      vertex_of[static_cast<size_t>(fan.idx())] = c.a;
+      mesh.set_point(fan, {c.position.x, c.position.y, c.position.z});
+    }
+  }
+
+  void Perform(const Collapse& c) {
+    const std::vector<int> vanishing = FacesBetween(c.a, c.b);
+    const std::vector<Joined> joined = JoinWedgesOf(c, vanishing);
+    MoveWedges(c.a, 0, vanishing, joined);
+    MoveWedges(c.b, 1, vanishing, joined);
+    for (const int f : FacesOf(c.b)) {
       Face& face = FaceAt(f);
-      face.vertices[CornerOf(face, b)] = a;
-      faces_of[va].push_back(f);
+      if (!Has(face, c.a)) face.vertices[CornerOf(face, c.b)] = c.a;
     }
-    faces_of[vb].clear();
-    MixWeights(surface.vertices[vb], static_cast<float>(placement.weight_t), &surface.vertices[va]);
-    positions[va] = placement.position;
-    SetSkinning(a);
-    for (size_t k = 0; k < poses; ++k) {
-      quadrics[At(a, k)] = quadrics[At(a, k)] + quadrics[At(b, k)];
-    }
-    if (relaxed) RemoveFlattened(a);
-    ++stamps[va];
-    ++stamps[vb];
+    MixWeights(surface.vertices[static_cast<size_t>(c.b)], static_cast<float>(c.weight_t),
+               &surface.vertices[static_cast<size_t>(c.a)]);
+    CollapseTwins(c, vanishing);
+    SetSkinning(c.a);
+    for (size_t k = 0; k < poses; ++k) quadrics[At(c.a, k)] = quadrics[At(c.a, k)] + quadrics[At(c.b, k)];
+    if (relaxed) RemoveFlattened(c.a);
   }
 
   void Refresh(int a) {
-    FindSeam(a);
-    const std::vector<int> ring = Neighbours(a);
-    for (const int n : ring) {
-      FindSeam(n);
-      Push(a, n);
+    std::vector<VertexHandle> ring;
+    for (const VertexHandle fan : FansOf(a)) {
+      for (const VertexHandle n : mesh.vv_range(fan))
+        ring.insert(ring.end(), FansOf(VertexOf(n)).begin(), FansOf(VertexOf(n)).end());
     }
-    for (const int n : ring) {
-      if (!blocked[static_cast<size_t>(n)]) continue;
-      blocked[static_cast<size_t>(n)] = 0;
-      for (const int m : Neighbours(n)) {
-        if (m != a) Push(n, m);
+    FindSeam(a);
+    for (const VertexHandle n : ring) FindSeam(VertexOf(n));
+    for (const VertexHandle fan : FansOf(a)) {
+      for (const EdgeHandle e : mesh.ve_range(fan)) Queue(e);
+    }
+    for (const VertexHandle n : ring) {
+      for (const EdgeHandle e : mesh.ve_range(n)) {
+        if (!heap.is_stored(e)) Queue(e);  // what was refused there may do now
       }
     }
   }
 
   // False where nothing on the heap can be collapsed any more.
-  bool CollapseOne(int target, std::vector<Collapse>* aside) {
+  bool CollapseOne(int target, std::vector<EdgeHandle>* aside) {
     while (!heap.empty()) {
-      const Collapse top = heap.top();
-      heap.pop();
-      const auto va = static_cast<size_t>(top.a), vb = static_cast<size_t>(top.b);
-      if (top.stamp_a != stamps[va] || top.stamp_b != stamps[vb]) continue;
-      const int removed = Removed(top.a, top.b);
-      if (removed == 0) continue;
+      const EdgeHandle e = heap.front();
+      heap.pop_front();
+      const Collapse c = mesh.property(collapse, e);
+      const int removed = static_cast<int>(FacesBetween(c.a, c.b).size());
       if (triangles - removed < target && static_cast<int>(aside->size()) < kTries) {
-        aside->push_back(top);
-        continue;
+        aside->push_back(e);
+      } else if (relaxed || (!Pinches(c.a, c.b) && !TurnsOver(c))) {
+        Perform(c);
+        Refresh(c.a);
+        return true;
       }
-      const Placement placement = Place(top.a, top.b);
-      if (!relaxed && (Pinches(top.a, top.b) || TurnsOver(top.a, top.b, placement))) {
-        blocked[va] = blocked[vb] = 1;
-        continue;
-      }
-      Perform(top.a, top.b, placement);
-      Refresh(top.a);
-      return true;
     }
     return false;
   }
 };
 
-QuadricDecimater::QuadricDecimater(const std::vector<Mesh>& meshes,
-                                   const std::vector<std::vector<Mat4>>& poses)
-    : impl_(std::make_unique<Impl>()) {
-  Impl& impl = *impl_;
-  impl.poses = poses.size() + 1;
-  impl.matrices = poses;
-  impl.surface = JoinWedges(meshes, poses);
-  const size_t vertices = impl.surface.vertices.size();
-  for (const auto& vertex : impl.surface.vertices) {
-    impl.positions.push_back(ToDouble(vertex.position));
-  }
-  impl.quadrics.resize(vertices * impl.poses);
-  impl.skinning.resize(vertices * impl.poses);
-  impl.faces_of.resize(vertices);
-  impl.stamps.resize(vertices);
-  impl.on_seam.resize(vertices);
-  impl.blocked.resize(vertices);
-  impl.gone.resize(impl.surface.faces.size());
-  impl.triangles = static_cast<int>(impl.surface.faces.size());
-  for (int v = 0; v < static_cast<int>(vertices); ++v) impl.SetSkinning(v);
-  for (int f = 0; f < impl.triangles; ++f) {
-    for (const int v : impl.FaceAt(f).vertices) impl.faces_of[static_cast<size_t>(v)].push_back(f);
-  }
-  for (int v = 0; v < static_cast<int>(vertices); ++v) impl.FindSeam(v);
-  impl.AddFaceQuadrics();
-  impl.HoldBordersAndSeams();
-  impl.PushAll();
-}
+QuadricDecimater::QuadricDecimater(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& poses)
+    : impl_(std::make_unique<Impl>(meshes, poses)) {}
 
 QuadricDecimater::~QuadricDecimater() = default;
 
@@ -589,7 +540,7 @@ int QuadricDecimater::Triangles() const { return impl_->triangles; }
 
 void QuadricDecimater::DecimateTo(int target) {
   Impl& impl = *impl_;
-  std::vector<Collapse> aside;
+  std::vector<EdgeHandle> aside;
   int at_last_push = impl.triangles;
   while (impl.triangles > target) {
     if (impl.CollapseOne(target, &aside)) continue;
@@ -597,9 +548,11 @@ void QuadricDecimater::DecimateTo(int target) {
     if (impl.relaxed && impl.triangles == at_last_push) break;
     if (impl.triangles == at_last_push) impl.relaxed = true;
     at_last_push = impl.triangles;
-    impl.PushAll();
+    impl.QueueAll();
   }
-  for (const Collapse& collapse : aside) impl.heap.push(collapse);
+  for (const EdgeHandle e : aside) {
+    if (!impl.mesh.status(e).deleted() && !impl.heap.is_stored(e)) impl.heap.insert(e);
+  }
 }
 
 WedgeSurface QuadricDecimater::Surface() const {
@@ -608,11 +561,9 @@ WedgeSurface QuadricDecimater::Surface() const {
   out.vertices = impl.surface.vertices;
   out.wedges = impl.surface.wedges;
   for (size_t v = 0; v < out.vertices.size(); ++v) {
-    out.vertices[v].position = ToFloat(impl.positions[v]);
+    if (!impl.fans[v].empty()) out.vertices[v].position = ToFloat(impl.Position(static_cast<int>(v)));
   }
-  for (size_t f = 0; f < impl.surface.faces.size(); ++f) {
-    if (!impl.gone[f]) out.faces.push_back(impl.surface.faces[f]);
-  }
+  for (const FaceHandle f : impl.mesh.faces()) out.faces.push_back(impl.FaceAt(f.idx()));
   return out;
 }
 

@@ -32,6 +32,18 @@ struct WedgeSurface {
   std::vector<Face> faces;
 };
 
+// Of one mesh, uv and colour: wedges at one vertex that only differ by their normal are a crease, but no seam.
+bool NoSeam(const WedgeSurface::Wedge& a, const WedgeSurface::Wedge& b);
+
+// Share `t` of b; mesh and chart are a's.
+WedgeSurface::Wedge Mix(const WedgeSurface::Wedge& a, const WedgeSurface::Wedge& b, float t);
+
+// The sum of differences of all joints' weights.
+float WeightDifference(const WedgeSurface::Vertex& a, const WedgeSurface::Vertex& b);
+
+// Gives `a` share `t` of b's weights: the four heaviest of the two together.
+void MixWeights(const WedgeSurface::Vertex& b, float t, WedgeSurface::Vertex* a);
+
 // `poses`: skinning matrices; corners must also stay together in these. Triangles without extent
 // go, and so do repeated ones; any number of faces may meet at an edge.
 WedgeSurface JoinWedges(const std::vector<Mesh>& meshes,
