@@ -15,6 +15,7 @@ inline constexpr float kCorridorStep_s = 1.0f / 30, kCorridorLength_m = 30, kCor
 struct Corridor {
   Walkable walkable;
   Crowd crowd;        // the people, then their doubles
+  CrowdScratch scratch;
   size_t people = 0;
   float width_m = 0;
 };
@@ -81,7 +82,7 @@ inline Corridor MakeCorridor(float width_m, float density_pm2, float share_west,
 }
 
 inline void StepCorridor(const std::vector<MovingObstacle>& moving, Corridor* corridor) {
-  StepCrowd(corridor->walkable, moving, kCorridorStep_s, &corridor->crowd);
+  StepCrowd(corridor->walkable, moving, kCorridorStep_s, &corridor->scratch, &corridor->crowd);
   JoinEnds(corridor);
 }
 
