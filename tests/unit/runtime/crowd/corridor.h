@@ -46,7 +46,7 @@ inline void JoinEnds(Corridor* corridor) {
 
 // On a lattice with some disorder (random places don't fit where it is dense); this share of the people, drawn at random, walk west.
 inline Corridor MakeCorridor(float width_m, float density_pm2, float share_west, uint64_t seed) {
-  Corridor corridor{CorridorGround(width_m), {}, 0, width_m};
+  Corridor corridor{CorridorGround(width_m), {}, {}, 0, width_m};
   Crowd& c = corridor.crowd;
   Random random{seed};
   const float y_m = width_m / 2, margin_m = 0.27f;
