@@ -39,19 +39,19 @@ Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, f
   return turned ? KeepOut(moving, from, KeepOffWalls(w, from, out, c.radius_m[i]), c.radius_m[i]) : out;
 }
 
-void FindContacts(float step_s, Crowd* c) {
-  c->contacts.clear();
-  c->contacts.reserve(kMostContacts * c->size());
-  const NeighbourGrid& g = c->neighbours;
+void FindContacts(const Crowd& c, float step_s, CrowdScratch* s) {
+  s->contacts.clear();
+  s->contacts.reserve(kMostContacts * c.size());
+  const NeighbourGrid& g = s->neighbours;
   float most_mps = 0;
-  for (int i : c->caring) most_mps = std::max(most_mps, c->top_mps[static_cast<size_t>(i)]);
+  for (int i : s->caring) most_mps = std::max(most_mps, c.top_mps[static_cast<size_t>(i)]);
   const float margin_m = 2 * most_mps * step_s + kContactMargin_m;
   const auto test = [&](const Neighbour& a, int first, int end) {
     for (int k = first; k < end; ++k) {
       const Neighbour& b = g.people[static_cast<size_t>(k)];
       const Vec2 apart = a.position - b.position;
       const float reach_m = a.radius_m + b.radius_m + margin_m;
-      if (Dot(apart, apart) < reach_m * reach_m) c->contacts.push_back({a.person, b.person});
+      if (Dot(apart, apart) < reach_m * reach_m) s->contacts.push_back({a.person, b.person});
     }
   };
   for (int k = 0; k < static_cast<int>(g.people.size()); ++k) {
@@ -66,25 +66,26 @@ void FindContacts(float step_s, Crowd* c) {
   }
 }
 
-void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
-  c->pushed_in.assign(c->size(), 0);
+void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c,
+                     CrowdScratch* s) {
+  s->pushed_in.assign(c.size(), 0);
   for (uint8_t pass = 1; pass <= kContactPasses; ++pass) {
     bool any = false;
-    for (const auto& [a, b] : c->contacts) {
+    for (const auto& [a, b] : s->contacts) {
       const size_t i = static_cast<size_t>(a), j = static_cast<size_t>(b);
-      if (std::max(c->pushed_in[i], c->pushed_in[j]) + 1 < pass) continue;  // neither was moved since they were last looked at
-      const Vec2 apart = c->moved[i] - c->moved[j];
-      const float reach_m = c->radius_m[i] + c->radius_m[j], distance2 = Dot(apart, apart);
+      if (std::max(s->pushed_in[i], s->pushed_in[j]) + 1 < pass) continue;  // neither was moved since they were last looked at
+      const Vec2 apart = s->moved[i] - s->moved[j];
+      const float reach_m = c.radius_m[i] + c.radius_m[j], distance2 = Dot(apart, apart);
       if (distance2 >= reach_m * reach_m) continue;
       any = true;
-      c->pushed_in[i] = c->pushed_in[j] = pass;
+      s->pushed_in[i] = s->pushed_in[j] = pass;
       const float distance_m = std::sqrt(distance2);
       const Vec2 normal = distance_m > 1e-5f ? apart * (1 / distance_m) : Vec2{1, 0};
       const Vec2 half = normal * (0.5f * (reach_m - distance_m) + 1e-4f);
-      const Vec2 before = c->moved[i];
-      c->moved[i] = WalkTowards(w, moving, step_s, *c, i, before + half);
-      const Vec2 rest = half * 2 - (c->moved[i] - before);  // what one cannot give, the other does
-      c->moved[j] = WalkTowards(w, moving, step_s, *c, j, c->moved[j] - rest);
+      const Vec2 before = s->moved[i];
+      s->moved[i] = WalkTowards(w, moving, step_s, c, i, before + half);
+      const Vec2 rest = half * 2 - (s->moved[i] - before);  // what one cannot give, the other does
+      s->moved[j] = WalkTowards(w, moving, step_s, c, j, s->moved[j] - rest);
     }
     if (!any) return;
   }

@@ -91,10 +91,10 @@ void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
 }
 
 // Where those who take care go next, and what they have in mind; some of them look around in this step.
-void RenewWays(const Walkable& w, Crowd* c) {
-  for (size_t k = 0; k < c->caring.size(); ++k) {
-    const size_t i = static_cast<size_t>(c->caring[k]);
-    const size_t soon = static_cast<size_t>(c->caring[std::min(k + kFetchAhead, c->caring.size() - 1)]);
+void RenewWays(const Walkable& w, const std::vector<int>& caring, Crowd* c) {
+  for (size_t k = 0; k < caring.size(); ++k) {
+    const size_t i = static_cast<size_t>(caring[k]);
+    const size_t soon = static_cast<size_t>(caring[std::min(k + kFetchAhead, caring.size() - 1)]);
     if (c->turn[soon]) FetchGround(w, soon, *c);
     c->coast[i] = 0;
     if (c->turn[i]) {
@@ -136,11 +136,12 @@ Vec2 Stepped(const Walkable& w, const std::vector<MovingObstacle>& moving, float
   return free ? to : WalkTowards(w, moving, step_s, c, i, to);
 }
 
-void Move(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
-  for (int who : c->caring) {
+void Move(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, CrowdScratch* s, Crowd* c) {
+  s->moved.resize(c->size());
+  for (int who : s->caring) {
     const size_t i = static_cast<size_t>(who);
     ChooseVelocity(step_s, i, c);
-    c->moved[i] = Stepped(w, moving, step_s, i, *c);
+    s->moved[i] = Stepped(w, moving, step_s, i, *c);
   }
 }
 
@@ -198,10 +199,10 @@ void Arrive(Vec2 to, float step_s, size_t i, Crowd* c) {
 }
 
 // The whole step of those who take no care of anybody, and a list of those who do.
-void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
+void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, std::vector<int>* caring, Crowd* c) {
   const float far2_m2 = c->r_far_m * c->r_far_m, unimportant2_m2 = c->r_unimportant_m * c->r_unimportant_m;
-  c->caring.clear();
-  c->caring.reserve(c->size());
+  caring->clear();
+  caring->reserve(c->size());
   for (size_t i = 0; i < c->size(); ++i) {
     if (const size_t soon = i + kFetchAhead; soon < c->size() && c->coast[soon] == 0 && IsTurn(*c, soon, kTurnEvery_steps)) {
       FetchGround(w, soon, *c);
@@ -214,7 +215,7 @@ void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, 
                         : distance2_m2 <= 4 * unimportant2_m2 ? kFarTurnEvery_steps
                                                               : kFarthestTurnEvery_steps;
       c->turn[i] = IsTurn(*c, i, every);
-      c->caring.push_back(static_cast<int>(i));
+      caring->push_back(static_cast<int>(i));
     } else if (c->coast[i] > 0 && c->detour_s[i] <= 0) {
       const Vec2 step = c->wanted[i] * step_s;
       c->position[i] = c->position[i] + step;
@@ -263,16 +264,16 @@ Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, 
   return WayByCorners(w, p, f.goal, look, corner, &c->search);
 }
 
-void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* c) {
-  FollowOrCare(w, moving, step_s, c);
-  RenewWays(w, c);
-  SortIntoGrid(c->caring, c->position, c->velocity, c->radius_m, kGridCell_m, &c->neighbours);
-  Decide(w, moving, c);
+void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, CrowdScratch* s, Crowd* c) {
+  FollowOrCare(w, moving, step_s, &s->caring, c);
+  RenewWays(w, s->caring, c);
+  SortIntoGrid(s->caring, c->position, c->velocity, c->radius_m, kGridCell_m, &s->neighbours);
+  Decide(w, moving, s->neighbours, c);
   WalkTogether(w, c);
-  FindContacts(step_s, c);
-  Move(w, moving, step_s, c);
-  ResolveContacts(w, moving, step_s, c);
-  for (int who : c->caring) Arrive(c->moved[static_cast<size_t>(who)], step_s, static_cast<size_t>(who), c);
+  FindContacts(*c, step_s, s);
+  Move(w, moving, step_s, s, c);
+  ResolveContacts(w, moving, step_s, *c, s);
+  for (int who : s->caring) Arrive(s->moved[static_cast<size_t>(who)], step_s, static_cast<size_t>(who), c);
   ++c->step;
 }
 

@@ -78,20 +78,25 @@ struct Crowd {
   Vec2 viewer;
   float r_unimportant_m = 1e9f, r_far_m = 1e9f;
 
-  // Scratch of the passes, kept so that a steady step allocates nothing.
-  std::vector<Vec2> wanted, moved;
-  std::vector<uint8_t> cares, turn;     // turn: looks around and decides in this step
+  std::vector<Vec2> wanted;             // velocity, until the next decision
+  std::vector<uint8_t> cares, turn;     // as decided last. turn: looks around and decides in this step
+  WaySearch search;                     // knows this ground
+
+  size_t size() const { return id.size(); }
+};
+
+// What passes need for their duration alone, whichever crowd it is: kept by who steps one so that a steady step allocates nothing. Holds
+// nothing from one call to the next.
+struct CrowdScratch {
   std::vector<int> caring;              // who cares, by index
-  NeighbourGrid neighbours;
+  std::vector<Vec2> moved;              // by person: to where
+  NeighbourGrid neighbours;             // of those who care
   std::vector<std::pair<int, int>> contacts;
   std::vector<uint8_t> pushed_in;       // by person: the pass of contact resolution that moved them last
   Displaced displaced;
-  WaySearch search;
   std::vector<uint64_t> order;          // where people are, along a curve, with their index
   std::vector<int> number;              // new index by old
   std::vector<std::byte> spare;
-
-  size_t size() const { return id.size(); }
 };
 
 struct Person {
@@ -105,7 +110,7 @@ int AddPerson(const Person& person, Crowd* crowd);  // returns the id
 void RemovePerson(size_t index, Crowd* crowd);      // the last one takes the place
 // Gives people new indices so that who is near whom in the town is also near in memory: half of a step's time in a large crowd is
 // waiting for memory. Everything else stays; for whoever steps a crowd to call every kSortEvery_steps.
-void SortBySpace(Crowd* crowd);
+void SortBySpace(CrowdScratch* scratch, Crowd* crowd);
 // Sends the person there; -1: to stay.
 void SetGoal(size_t index, int field, Crowd* crowd);
 // The field for this goal; added, still to be built, where there is none yet.
@@ -119,12 +124,13 @@ Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, 
 // One step of step_s. The same on every machine. Visible and boundary people within r_far_m of the viewer avoid each
 // other; others only follow their way. Nobody's centre comes nearer to an obstacle than radius_m, nobody moves farther than
 // top_mps * step_s.
-void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Crowd* crowd);
+void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, CrowdScratch* scratch, Crowd* crowd);
 
 // Boundary people who overlap are moved apart at once, none of them into the inner volume (paper, section 4.3.1). Whoever was visible
 // one step ago stays where they are: the others make room.
 // keep_out(p) is true for points of the inner volume.
-void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2 p, const void* volume), const void* volume, Crowd* crowd);
+void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2 p, const void* volume), const void* volume, CrowdScratch* scratch,
+                      Crowd* crowd);
 
 // Over positions and headings: equal for equal runs.
 uint64_t StateHash(const Crowd& crowd);

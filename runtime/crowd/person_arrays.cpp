@@ -20,7 +20,7 @@ void VisitPersonArrays(Crowd* c, Visit visit) {
   visit(&c->preferred_mps), visit(&c->top_mps), visit(&c->field), visit(&c->way), visit(&c->sees_goal), visit(&c->corner);
   visit(&c->activity), visit(&c->wait_s), visit(&c->facing), visit(&c->view), visit(&c->was_visible), visit(&c->avoids_camera);
   visit(&c->arrived), visit(&c->detour), visit(&c->detour_s), visit(&c->walked_m), visit(&c->mind), visit(&c->coast);
-  visit(&c->group), visit(&c->cares), visit(&c->turn), visit(&c->wanted), visit(&c->moved);
+  visit(&c->group), visit(&c->cares), visit(&c->turn), visit(&c->wanted);
 }
 
 // The bits of a number below 65,536, each followed by a zero.
@@ -34,16 +34,16 @@ uint64_t Spread(uint64_t bits) {
 size_t IndexIn(uint64_t order) { return static_cast<size_t>(order & 0xffffffff); }
 
 // Along Morton's curve; who shares a cell of it, by index.
-void OrderAlongCurve(Crowd* c) {
-  Vec2 min = c->position.empty() ? Vec2{} : c->position[0];
-  for (Vec2 p : c->position) min = {std::min(min.x, p.x), std::min(min.y, p.y)};
+void OrderAlongCurve(const Crowd& c, std::vector<uint64_t>* order) {
+  Vec2 min = c.position.empty() ? Vec2{} : c.position[0];
+  for (Vec2 p : c.position) min = {std::min(min.x, p.x), std::min(min.y, p.y)};
   const auto cell = [](float v_m) { return Spread(static_cast<uint64_t>(std::min(v_m * (1 / kCurveCell_m), 65535.0f))); };
-  c->order.resize(c->size());
-  for (size_t i = 0; i < c->size(); ++i) {
-    const Vec2 off = c->position[i] - min;
-    c->order[i] = (cell(off.x) | cell(off.y) << 1) << 32 | i;
+  order->resize(c.size());
+  for (size_t i = 0; i < c.size(); ++i) {
+    const Vec2 off = c.position[i] - min;
+    (*order)[i] = (cell(off.x) | cell(off.y) << 1) << 32 | i;
   }
-  std::sort(c->order.begin(), c->order.end());
+  std::sort(order->begin(), order->end());
 }
 
 template <typename T>
@@ -87,7 +87,6 @@ int AddPerson(const Person& p, Crowd* c) {
   c->cares.push_back(0);
   c->turn.push_back(0);
   c->wanted.push_back({});
-  c->moved.push_back(p.position);
   return c->next_id++;
 }
 
@@ -105,13 +104,13 @@ void RemovePerson(size_t i, Crowd* c) {
   });
 }
 
-void SortBySpace(Crowd* c) {
-  OrderAlongCurve(c);
-  VisitPersonArrays(c, [c](auto* values) { Permute(c->order, values, &c->spare); });
-  c->number.resize(c->size());
-  for (size_t k = 0; k < c->size(); ++k) c->number[IndexIn(c->order[k])] = static_cast<int>(k);
+void SortBySpace(CrowdScratch* s, Crowd* c) {
+  OrderAlongCurve(*c, &s->order);
+  VisitPersonArrays(c, [s](auto* values) { Permute(s->order, values, &s->spare); });
+  s->number.resize(c->size());
+  for (size_t k = 0; k < c->size(); ++k) s->number[IndexIn(s->order[k])] = static_cast<int>(k);
   for (Group& g : c->groups) {
-    for (int m = 0; m < g.size; ++m) g.member[m] = c->number[static_cast<size_t>(g.member[m])];
+    for (int m = 0; m < g.size; ++m) g.member[m] = s->number[static_cast<size_t>(g.member[m])];
   }
 }
 

@@ -18,7 +18,9 @@ struct Spot {
   const Walkable* w;
   bool (*keep_out)(Vec2, const void*);
   const void* volume;
-  float most_radius_m;
+  const NeighbourGrid& neighbours;
+  Displaced& displaced;
+  float most_radius_m = 0;
 };
 
 bool Touches(const Crowd& c, size_t i, Vec2 p, size_t j) {
@@ -27,12 +29,12 @@ bool Touches(const Crowd& c, size_t i, Vec2 p, size_t j) {
   return j != i && Dot(apart, apart) < reach_m * reach_m;
 }
 
-bool OverlapsDisplaced(const Crowd& c, size_t i, Vec2 p, float reach_m) {
-  const CellRange near = CellsNear(c.neighbours, p, reach_m);
+bool OverlapsDisplaced(const Spot& s, const Crowd& c, size_t i, Vec2 p, float reach_m) {
+  const CellRange near = CellsNear(s.neighbours, p, reach_m);
   for (int y = near.y0; y <= near.y1; ++y) {
     for (int x = near.x0; x <= near.x1; ++x) {
-      int j = c.displaced.first[static_cast<size_t>(y * c.neighbours.columns + x)];
-      for (; j >= 0; j = c.displaced.next[static_cast<size_t>(j)]) {
+      int j = s.displaced.first[static_cast<size_t>(y * s.neighbours.columns + x)];
+      for (; j >= 0; j = s.displaced.next[static_cast<size_t>(j)]) {
         if (Touches(c, i, p, static_cast<size_t>(j))) return true;
       }
     }
@@ -42,9 +44,9 @@ bool OverlapsDisplaced(const Crowd& c, size_t i, Vec2 p, float reach_m) {
 
 bool Overlaps(const Spot& s, const Crowd& c, size_t i, Vec2 p) {
   const float reach_m = c.radius_m[i] + s.most_radius_m;
-  if (OverlapsDisplaced(c, i, p, reach_m)) return true;
+  if (OverlapsDisplaced(s, c, i, p, reach_m)) return true;
   bool any = false;
-  VisitNear(c.neighbours, p, reach_m, [&](const Neighbour& other) { any = any || Touches(c, i, p, static_cast<size_t>(other.person)); });
+  VisitNear(s.neighbours, p, reach_m, [&](const Neighbour& other) { any = any || Touches(c, i, p, static_cast<size_t>(other.person)); });
   return any;
 }
 
@@ -80,8 +82,8 @@ void Displace(const Spot& s, size_t i, Crowd* c) {
     const Vec2 p = c->position[i] + offset;
     if (!Fits(s, *c, i, component, p)) continue;
     c->position[i] = p;
-    int& first = c->displaced.first[static_cast<size_t>(CellOf(c->neighbours, p))];
-    c->displaced.next[i] = first;
+    int& first = s.displaced.first[static_cast<size_t>(CellOf(s.neighbours, p))];
+    s.displaced.next[i] = first;
     first = static_cast<int>(i);
     return;
   }
@@ -89,18 +91,18 @@ void Displace(const Spot& s, size_t i, Crowd* c) {
 
 }  // namespace
 
-void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, const void*), const void* volume, Crowd* c) {
-  Spot spot{&w, keep_out, volume, 0};
-  c->caring.clear();
+void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, const void*), const void* volume, CrowdScratch* s, Crowd* c) {
+  Spot spot{&w, keep_out, volume, s->neighbours, s->displaced};
+  s->caring.clear();
   for (size_t i = 0; i < c->size(); ++i) {
-    if (c->view[i] != ViewClass::kOutside) c->caring.push_back(static_cast<int>(i));
+    if (c->view[i] != ViewClass::kOutside) s->caring.push_back(static_cast<int>(i));
     spot.most_radius_m = std::max(spot.most_radius_m, c->radius_m[i]);
   }
-  SortIntoGrid(c->caring, c->position, c->velocity, c->radius_m, kGridCell_m, &c->neighbours);
-  c->displaced.first.reserve(c->neighbours.start.capacity());
-  c->displaced.first.assign(c->neighbours.start.size(), -1);
-  c->displaced.next.resize(c->size());
-  for (int who : c->caring) {
+  SortIntoGrid(s->caring, c->position, c->velocity, c->radius_m, kGridCell_m, &s->neighbours);
+  s->displaced.first.reserve(s->neighbours.start.capacity());
+  s->displaced.first.assign(s->neighbours.start.size(), -1);
+  s->displaced.next.resize(c->size());
+  for (int who : s->caring) {
     const size_t i = static_cast<size_t>(who);
     if (c->view[i] != ViewClass::kBoundary || c->was_visible[i] || !Overlaps(spot, *c, i, c->position[i])) continue;
     Displace(spot, i, c);

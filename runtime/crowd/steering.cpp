@@ -236,11 +236,12 @@ bool LetsOthersGo(float density_pm2, Vec2 velocity, float alone_mps, int id, int
   return static_cast<float>(hash >> 16) < kLetGo * 65536;
 }
 
-void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const Neighbour& self, Crowd* c) {
+void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours, const Neighbour& self,
+            Crowd* c) {
   const size_t i = static_cast<size_t>(self.person);
   Mind& mind = c->mind[i];
   const Looking me{self.position, self.velocity, mind.ahead, self.radius_m, self.person};
-  const Surroundings around = LookAround(c->neighbours, me);
+  const Surroundings around = LookAround(neighbours, me);
   const int cell = CellAt(w, me.position);
   const float density_pm2 = DensityFrom(w, cell, around.crowding);
   const bool lets_go = LetsOthersGo(density_pm2, me.velocity, mind.alone_mps, c->id[i], c->step);
@@ -267,8 +268,8 @@ float SpeedOnSlope(const Walkable& w, int cell, float level_mps) {
   return cell >= 0 ? level_mps / (1 + kSlopeSlows * SlopeOf(w, cell)) : level_mps;
 }
 
-void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, Crowd* c) {
-  const std::vector<Neighbour>& people = c->neighbours.people;
+void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours, Crowd* c) {
+  const std::vector<Neighbour>& people = neighbours.people;
   for (size_t k = 0; k < people.size(); ++k) {
     const Neighbour& soon = people[std::min(k + kFetchAhead, people.size() - 1)];
     if (c->turn[static_cast<size_t>(soon.person)]) {
@@ -276,7 +277,7 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, Crowd*
       const int cell = CellAt(w, soon.position);
       if (cell >= 0) __builtin_prefetch(&w.cells[static_cast<size_t>(cell)]);
     }
-    if (c->turn[static_cast<size_t>(people[k].person)]) Decide(w, moving, people[k], c);
+    if (c->turn[static_cast<size_t>(people[k].person)]) Decide(w, moving, neighbours, people[k], c);
   }
 }
 

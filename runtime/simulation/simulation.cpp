@@ -234,12 +234,12 @@ void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   MoveCamera(input, InTown(s));
   LeadOn(InTown(s));
   town.crowd.viewer = camera.view.position;
-  if (town.step % kSortEvery_steps == 0) SortBySpace(&town.crowd);
+  if (town.step % kSortEvery_steps == 0) SortBySpace(&town.scratch, &town.crowd);
   town.field_builder.Step(town.walkable, town.jobs, &town.crowd);
-  StepCrowd(town.walkable, s->moving, Step_s(*s), &town.crowd);
+  StepCrowd(town.walkable, s->moving, Step_s(*s), &town.scratch, &town.crowd);
   LeaveAndArrive(ViewerOf(*s), &town);
   ClassifyAll(s);
-  if (camera.present) SeparateBoundary(town.walkable, IsKeptFree, s, &town.crowd);
+  if (camera.present) SeparateBoundary(town.walkable, IsKeptFree, s, &town.scratch, &town.crowd);
   ControlCrowd(frame_ms, s);
   ++town.step;
   s->step_ms = Now_ms() - start_ms;

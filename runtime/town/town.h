@@ -73,6 +73,7 @@ struct Town {
   int loiterers = 0;                     // people whose plan is to loiter
 
   Crowd crowd;
+  CrowdScratch scratch;                  // of whoever steps the crowd
   Jobs* jobs = nullptr;                  // build fields; they outlive the town
   FieldBuilder field_builder;
   std::vector<PersonPlan> plans;         // by Crowd::slot, see PlanOf

@@ -14,7 +14,7 @@ constexpr int kWarmUp_steps = 150, kSteps = 300;
 
 // As whoever keeps a large crowd does.
 void SortAndStep(OpenField* field) {
-  if (field->crowd.step % kSortEvery_steps == 0) SortBySpace(&field->crowd);
+  if (field->crowd.step % kSortEvery_steps == 0) SortBySpace(&field->scratch, &field->crowd);
   StepOpenField(field);
 }
 

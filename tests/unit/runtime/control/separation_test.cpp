@@ -8,6 +8,7 @@
 namespace flaneur {
 namespace {
 
+CrowdScratch scratch;
 constexpr float kBack_m = 8;
 
 // A square of 40 m with a house and a lamp post.
@@ -51,7 +52,7 @@ TEST(Separation, IsAtOnceAndNeverIntoViewNorIntoWalls) {
     Crowd crowd;
     for (int knot = 0; knot < 10; ++knot) AddKnot(w, camera, &random, &crowd);
     const Crowd before = crowd;
-    SeparateBoundary(w, InView, &camera, &crowd);
+    SeparateBoundary(w, InView, &camera, &scratch, &crowd);
     for (size_t i = 0; i < crowd.size(); ++i) {
       const float way_m = Length(crowd.position[i] - before.position[i]);
       if (crowd.view[i] != ViewClass::kBoundary) {
@@ -82,7 +83,7 @@ TEST(Separation, WhoWasVisibleAMomentAgoStaysAndOthersMakeRoom) {
     }
     crowd.was_visible[seen] = 1;
     const Crowd before = crowd;
-    SeparateBoundary(w, InView, &camera, &crowd);
+    SeparateBoundary(w, InView, &camera, &scratch, &crowd);
     EXPECT_EQ(Length(crowd.position[seen] - before.position[seen]), 0);
     EXPECT_FALSE(InTheWay(crowd, 0, 1));
   }

@@ -19,6 +19,7 @@
 namespace flaneur {
 namespace {
 
+CrowdScratch scratch;
 constexpr float kStep_s = 1.0f / 30, kRadius_m = 0.25f, kUsual_mps = 1.3f, kStuckAfter = 2.5f;
 
 struct Walker { Vec2 from, to; float preferred_mps = kUsual_mps; };
@@ -82,7 +83,7 @@ Outcome Play(const Case& c) {
   const double people = static_cast<double>(c.walkers.size());
   std::vector<double> effort(c.walkers.size(), 0);
   for (int step = 1; crowd.size() > 0 && static_cast<float>(step) * kStep_s < kStuckAfter * longest_s; ++step) {
-    StepCrowd(w, {}, kStep_s, &crowd);
+    StepCrowd(w, {}, kStep_s, &scratch, &crowd);
     for (size_t i = 0; i < crowd.size(); ++i) {
       effort[static_cast<size_t>(crowd.id[i])] += Power(Length(crowd.velocity[i])) * kStep_s;
       for (size_t j = 0; j < i; ++j) {

@@ -15,6 +15,7 @@ inline constexpr float kCorridorStep_s = 1.0f / 30, kCorridorLength_m = 30, kCor
 struct Corridor {
   Walkable walkable;
   Crowd crowd;        // the people, then their doubles
+  CrowdScratch scratch;
   size_t people = 0;
   float width_m = 0;
 };
@@ -45,7 +46,7 @@ inline void JoinEnds(Corridor* corridor) {
 
 // On a lattice with some disorder (random places don't fit where it is dense); this share of the people, drawn at random, walk west.
 inline Corridor MakeCorridor(float width_m, float density_pm2, float share_west, uint64_t seed) {
-  Corridor corridor{CorridorGround(width_m), {}, 0, width_m};
+  Corridor corridor{CorridorGround(width_m), {}, {}, 0, width_m};
   Crowd& c = corridor.crowd;
   Random random{seed};
   const float y_m = width_m / 2, margin_m = 0.27f;
@@ -81,7 +82,7 @@ inline Corridor MakeCorridor(float width_m, float density_pm2, float share_west,
 }
 
 inline void StepCorridor(const std::vector<MovingObstacle>& moving, Corridor* corridor) {
-  StepCrowd(corridor->walkable, moving, kCorridorStep_s, &corridor->crowd);
+  StepCrowd(corridor->walkable, moving, kCorridorStep_s, &corridor->scratch, &corridor->crowd);
   JoinEnds(corridor);
 }
 

@@ -10,6 +10,7 @@
 namespace flaneur {
 namespace {
 
+CrowdScratch scratch;
 constexpr float kStep_s = 1.0f / 30;
 
 // A square field of 40 m with a house, a tree and a wall with a doorway of 1.5 m.
@@ -48,7 +49,7 @@ TEST(Crowd, NobodyOverlapsWarpsOrEntersAnObstacle) {
   Crowd crowd = PeopleWhoCross(w, 120);
   for (int step = 0; step < 900; ++step) {
     const std::vector<Vec2> before = crowd.position;
-    StepCrowd(w, {}, kStep_s, &crowd);
+    StepCrowd(w, {}, kStep_s, &scratch, &crowd);
     for (size_t i = 0; i < crowd.size(); ++i) {
       ASSERT_LE(Length(crowd.position[i] - before[i]), crowd.top_mps[i] * kStep_s * 1.001f + 1e-5f);
       ASSERT_FALSE(InsideObstacle(w, crowd.position[i])) << "person " << i << " at step " << step;
@@ -69,7 +70,7 @@ TEST(Crowd, OnePersonGoesRoundTheHouseToTheGoal) {
   AddPerson(p, &crowd);
   int step = 0;
   while (crowd.arrived[0] != Arrival::kThere && step < 3000) {
-    StepCrowd(w, {}, kStep_s, &crowd);
+    StepCrowd(w, {}, kStep_s, &scratch, &crowd);
     ++step;
   }
   EXPECT_LT(static_cast<float>(step) * kStep_s, 1.25f * 31 / 1.3f) << "the way round is about 31 m at 1.3 m/s";
@@ -84,10 +85,10 @@ TEST(Crowd, WhoIsHeldUpBesideTheGoalIsNearIt) {
   p.field = FieldFor(goal, &crowd);
   AddPerson(p, &crowd);
   int step = 0;
-  while (crowd.arrived[0] == Arrival::kNot && ++step < 900) StepCrowd(w, {{goal, 1.5f, true}}, kStep_s, &crowd);
+  while (crowd.arrived[0] == Arrival::kNot && ++step < 900) StepCrowd(w, {{goal, 1.5f, true}}, kStep_s, &scratch, &crowd);
   EXPECT_EQ(crowd.arrived[0], Arrival::kNear) << "the visitor stands there";
   EXPECT_LE(Length(crowd.position[0] - goal), kNearArrival_m);
-  while (crowd.arrived[0] != Arrival::kThere && ++step < 1200) StepCrowd(w, {}, kStep_s, &crowd);
+  while (crowd.arrived[0] != Arrival::kThere && ++step < 1200) StepCrowd(w, {}, kStep_s, &scratch, &crowd);
   EXPECT_EQ(crowd.arrived[0], Arrival::kThere) << "the visitor has left";
 }
 
@@ -108,7 +109,7 @@ TEST(Crowd, NobodyIsPinnedBetweenTheVisitorAndATree) {
     crowd.view[0] = ViewClass::kVisible;
     const Vec2 wish = DirectionOf(to_visitor_rad + kPi + random.Uniform(-0.7f, 0.7f)) * 3.8f;
     const MovingObstacle visitor{p.position + DirectionOf(to_visitor_rad) * 0.851f, 0.6f, true, wish};
-    for (int step = 0; step < 90; ++step) StepCrowd(w, {visitor}, kStep_s, &crowd);
+    for (int step = 0; step < 90; ++step) StepCrowd(w, {visitor}, kStep_s, &scratch, &crowd);
     const Vec2 off = crowd.position[0] - visitor.center;
     const bool bars_the_way = Length(off) < 1 && Dot(off, wish) > 0.5f * Length(wish);
     EXPECT_FALSE(bars_the_way) << "case " << k;
@@ -127,8 +128,8 @@ TEST(Crowd, TheSameRunGivesTheSameState) {
   const Walkable w = Field();
   Crowd a = PeopleWhoCross(w, 80), b = PeopleWhoCross(w, 80);
   for (int step = 0; step < 200; ++step) {
-    StepCrowd(w, {}, kStep_s, &a);
-    StepCrowd(w, {}, kStep_s, &b);
+    StepCrowd(w, {}, kStep_s, &scratch, &a);
+    StepCrowd(w, {}, kStep_s, &scratch, &b);
   }
   EXPECT_EQ(StateHash(a), StateHash(b));
 }
@@ -153,7 +154,7 @@ TEST(Crowd, WhoeverIsOutOfSightArrivesAsWell) {
     AddPerson(p, &crowd);  // seen by nobody
     BuildField(w, p.field, &crowd);
     int steps = 0;
-    while (crowd.arrived[0] != Arrival::kThere && steps < 600) StepCrowd(w, {}, kStep_s, &crowd), ++steps;
+    while (crowd.arrived[0] != Arrival::kThere && steps < 600) StepCrowd(w, {}, kStep_s, &scratch, &crowd), ++steps;
     EXPECT_LT(steps, 600) << "from " << p.position.x << ' ' << p.position.y;
   }
 }
@@ -162,9 +163,9 @@ TEST(Crowd, SortedBySpaceEverybodyStaysWhoTheyAre) {
   const Walkable w = Field();
   Crowd crowd = PeopleWhoCross(w, 200);
   for (int k = 20; k < 80; k += 3) AddGroup({k, k + 1, k + 2}, &crowd);
-  for (int step = 0; step < 30; ++step) StepCrowd(w, {}, kStep_s, &crowd);
+  for (int step = 0; step < 30; ++step) StepCrowd(w, {}, kStep_s, &scratch, &crowd);
   const Crowd before = crowd;
-  SortBySpace(&crowd);
+  SortBySpace(&scratch, &crowd);
   EXPECT_LT(ApartInMemory_m(crowd), 0.25f * ApartInMemory_m(before));
   for (size_t i = 0; i < crowd.size(); ++i) {
     const size_t was = static_cast<size_t>(crowd.id[i]);  // nobody has left
@@ -186,7 +187,7 @@ TEST(Crowd, NobodyEntersTheVisitorsPersonalSpace) {
   const MovingObstacle visitor{{12, 0}, 0.6f, true};
   std::vector<char> outside(crowd.size(), 0);
   for (int step = 0; step < 600; ++step) {
-    StepCrowd(w, {visitor}, kStep_s, &crowd);
+    StepCrowd(w, {visitor}, kStep_s, &scratch, &crowd);
     for (size_t i = 0; i < crowd.size(); ++i) {
       const float distance_m = Length(crowd.position[i] - visitor.center);
       if (outside[i]) {

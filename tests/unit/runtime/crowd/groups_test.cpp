@@ -11,6 +11,7 @@
 namespace flaneur {
 namespace {
 
+CrowdScratch scratch;
 constexpr float kStep_s = 1.0f / 30;
 
 // A square of 60 m; with a doorway, a wall across its middle leaves an opening so wide.
@@ -65,7 +66,7 @@ TEST(Groups, APairWalksAbreast) {
   AddWalkers(2, {-25, 0}, {25, 3}, &c);
   int steps = 0, close = 0, abreast = 0;
   while (c.position[0].x < 18 && steps < 3000) {
-    StepCrowd(w, {}, kStep_s, &c);
+    StepCrowd(w, {}, kStep_s, &scratch, &c);
     const Vec2 apart = c.position[0] - c.position[1], ahead = DirectionOf(c.heading_rad[0]);
     close += Length(apart) < 1.5f ? 1 : 0;
     abreast += std::abs(Cross(ahead, apart)) > std::abs(Dot(ahead, apart)) ? 1 : 0;
@@ -83,7 +84,7 @@ TEST(Groups, FourBendIntoAShallowU) {
   const Walkable w = Square();
   Crowd c;
   AddWalkers(4, {-25, 0}, {25, 0}, &c);
-  for (int step = 0; step < 600; ++step) StepCrowd(w, {}, kStep_s, &c);
+  for (int step = 0; step < 600; ++step) StepCrowd(w, {}, kStep_s, &scratch, &c);
   std::vector<Vec2> row = c.position;
   std::sort(row.begin(), row.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; });
   EXPECT_GT(row[3].y - row[0].y, 2.0f);
@@ -104,11 +105,11 @@ TEST(Groups, GoThroughADoorwayInFileAndMeetAgain) {
     };
     int step = 0;
     for (; last_x() < 0.5f && step < 900; ++step) {
-      StepCrowd(w, {}, kStep_s, &c);
+      StepCrowd(w, {}, kStep_s, &scratch, &c);
       ExpectNobodyTouches(c);
     }
     ASSERT_LT(step, 750) << count << " people within 25 s through the door";
-    for (step = 0; step < 240; ++step) StepCrowd(w, {}, kStep_s, &c);
+    for (step = 0; step < 240; ++step) StepCrowd(w, {}, kStep_s, &scratch, &c);
     EXPECT_LT(MostApart_m(c, 0, people), 1.05f * static_cast<float>(count - 1)) << count << " are together 8 s behind the door";
   }
 }
@@ -122,7 +123,7 @@ TEST(Groups, MeetOthersWithoutTouching) {
   AddWalkers(2, {15, -8}, {-15, -8}, &c);
   std::vector<int> arrived(c.size(), 0);
   for (int step = 0; step < 1500; ++step) {
-    StepCrowd(w, {}, kStep_s, &c);
+    StepCrowd(w, {}, kStep_s, &scratch, &c);
     ExpectNobodyTouches(c);
     for (size_t i = 0; i < c.size(); ++i) arrived[i] |= c.arrived[i] == Arrival::kThere ? 1 : 0;
   }
@@ -134,7 +135,7 @@ TEST(Groups, TheOneAheadWaits) {
   Crowd c;
   AddWalkers(2, {-15, 0}, {25, 0}, &c);
   c.position[1] = {-25, 0};
-  for (int step = 0; step < 600; ++step) StepCrowd(w, {}, kStep_s, &c);
+  for (int step = 0; step < 600; ++step) StepCrowd(w, {}, kStep_s, &scratch, &c);
   EXPECT_LT(MostApart_m(c, 0, 2), 1.5f);
   EXPECT_LT(c.position[0].x, 22) << "met on the way, not at its end";
 }
@@ -143,12 +144,12 @@ TEST(Groups, ADetourComesFirst) {
   const Walkable w = Square();
   Crowd c;
   AddWalkers(2, {-20, 0}, {25, 0}, &c);
-  for (int step = 0; step < 90; ++step) StepCrowd(w, {}, kStep_s, &c);
+  for (int step = 0; step < 90; ++step) StepCrowd(w, {}, kStep_s, &scratch, &c);
   c.detour[0] = {0, 1.2f};
   c.detour_s[0] = 3;
-  for (int step = 0; step < 85; ++step) StepCrowd(w, {}, kStep_s, &c);
+  for (int step = 0; step < 85; ++step) StepCrowd(w, {}, kStep_s, &scratch, &c);
   EXPECT_GT(c.position[0].y, 2.0f);
-  for (int step = 0; step < 450; ++step) StepCrowd(w, {}, kStep_s, &c);
+  for (int step = 0; step < 450; ++step) StepCrowd(w, {}, kStep_s, &scratch, &c);
   EXPECT_LT(MostApart_m(c, 0, 2), 1.5f);
 }
 

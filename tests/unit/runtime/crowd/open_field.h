@@ -14,6 +14,7 @@ inline constexpr float kOpenFieldStep_s = 1.0f / 30;
 struct OpenField {
   Walkable walkable;
   Crowd crowd;
+  CrowdScratch scratch;
   std::vector<Vec2> places;
   std::vector<int> fields;  // of the places
   Random random{1};
@@ -68,7 +69,7 @@ inline OpenField MakeOpenField(int people, int places_aside = 8, uint64_t seed =
 // Who comes near a place goes on to another, so that the field stays evenly full.
 inline void StepOpenField(OpenField* f) {
   Crowd& c = f->crowd;
-  StepCrowd(f->walkable, {}, kOpenFieldStep_s, &c);
+  StepCrowd(f->walkable, {}, kOpenFieldStep_s, &f->scratch, &c);
   for (size_t i = 0; i < c.size(); ++i) {
     const Vec2 left = c.fields[static_cast<size_t>(c.field[i])].goal - c.position[i];
     if (c.arrived[i] == Arrival::kThere || Dot(left, left) < f->turn_round_m * f->turn_round_m) SetGoal(i, SomePlace(f), &c);

@@ -18,6 +18,7 @@
 namespace flaneur {
 namespace {
 
+CrowdScratch scratch;
 constexpr float kStep_s = 1.0f / 30, kRadius_m = 0.25f, kUsual_mps = 1.33f, kWall_m = 0.2f;
 
 PolygonObstacle Box(float x0, float y0, float x1, float y1) { return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}}; }
@@ -69,7 +70,7 @@ template <typename Look>
 float Empty_s(const Walkable& w, float most_s, Crowd* c, Look look) {
   float time_s = 0;
   while (c->size() > 0 && time_s < most_s) {
-    StepCrowd(w, {}, kStep_s, c);
+    StepCrowd(w, {}, kStep_s, &scratch, c);
     time_s += kStep_s;
     look();
     for (size_t i = c->size(); i-- > 0;) {
@@ -101,7 +102,7 @@ TEST(Rimea, Case1SomebodyKeepsTheSpeedInACorridor) {
   Crowd c;
   Add({0, 1}, {43, 1}, kUsual_mps, &c);
   float time_s = 0;
-  while (c.position[0].x < 40 && time_s < 60) StepCrowd(w, {}, kStep_s, &c), time_s += kStep_s;
+  while (c.position[0].x < 40 && time_s < 60) StepCrowd(w, {}, kStep_s, &scratch, &c), time_s += kStep_s;
   std::printf("case 1: 40 m in %.1f s\n", static_cast<double>(time_s));
   EXPECT_GE(time_s, 26);
   EXPECT_LE(time_s, 34);
@@ -135,9 +136,9 @@ TEST(Rimea, Case7SpeedsAreThoseOfThePopulation) {
     const float y_m = 2 + 4 * static_cast<float>(k);
     Add({1, y_m}, {29, y_m}, random.Uniform(groups[k % 4].least_mps, groups[k % 4].most_mps), &c);
   }
-  for (int step = 0; step < 60; ++step) StepCrowd(w, {}, kStep_s, &c);
+  for (int step = 0; step < 60; ++step) StepCrowd(w, {}, kStep_s, &scratch, &c);
   const std::vector<Vec2> before = c.position;
-  for (int step = 0; step < 300; ++step) StepCrowd(w, {}, kStep_s, &c);
+  for (int step = 0; step < 300; ++step) StepCrowd(w, {}, kStep_s, &scratch, &c);
   for (size_t i = 0; i < c.size(); ++i) {
     const float speed_mps = Length(c.position[i] - before[i]) / 10;
     EXPECT_NEAR(speed_mps, c.preferred_mps[i], 0.01f * c.preferred_mps[i]);

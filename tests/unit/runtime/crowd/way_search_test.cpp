@@ -12,6 +12,7 @@
 namespace flaneur {
 namespace {
 
+CrowdScratch scratch;
 constexpr float kStep_s = 1.0f / 30;
 
 // 60 x 60 m of pavement, a carriageway across it, and walls with gaps at alternating ends: a labyrinth.
@@ -91,11 +92,11 @@ TEST(WaySearch, AThousandNewGoalsAreGrantedInTheSameStepAndReached) {
     ++k;
   }
   std::fill(crowd.view.begin(), crowd.view.end(), ViewClass::kOutside);
-  StepCrowd(w, {}, kStep_s, &crowd);
+  StepCrowd(w, {}, kStep_s, &scratch, &crowd);
   for (size_t i = 0; i < crowd.size(); ++i) EXPECT_GT(Length(crowd.way[i]), 0.5f);
   std::vector<char> reached(crowd.size(), 0);
   for (int step = 0; step < 30 * 300; ++step) {
-    StepCrowd(w, {}, kStep_s, &crowd);
+    StepCrowd(w, {}, kStep_s, &scratch, &crowd);
     for (size_t i = 0; i < crowd.size(); ++i) {
       if (crowd.arrived[i] == Arrival::kThere) reached[i] = 1, SetGoal(i, -1, &crowd);
     }
@@ -113,7 +114,7 @@ TEST(WaySearch, AGoalThatManyShareGetsAField) {
     p.field = FieldFor({57, 57}, &crowd);
     AddPerson(p, &crowd);
   }
-  StepCrowd(w, {}, kStep_s, &crowd);
+  StepCrowd(w, {}, kStep_s, &scratch, &crowd);
   EXPECT_TRUE(IsBuilt(crowd.fields[0]));
 }
 
@@ -131,7 +132,7 @@ std::vector<int> BuiltAfter(const Walkable& w, Jobs* jobs, uint64_t* state) {
   std::vector<int> built(crowd.fields.size(), -1);
   for (int step = 0; step < 30; ++step) {
     builder.Step(w, jobs, &crowd);
-    StepCrowd(w, {}, kStep_s, &crowd);
+    StepCrowd(w, {}, kStep_s, &scratch, &crowd);
     for (size_t f = 0; f < built.size(); ++f) built[f] = built[f] < 0 && IsBuilt(crowd.fields[f]) ? step : built[f];
     for (size_t i = 0; i < crowd.size(); ++i) EXPECT_GT(Length(crowd.way[i]), 0.5f) << "everybody knows their way all the time";
   }
