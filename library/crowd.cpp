@@ -374,7 +374,7 @@ void FillPeople(LibraryCrowd* c) {
     p.heading_rad = crowd.heading_rad[i], p.speed_mps = Length(crowd.velocity[i]), p.walked_m = crowd.walked_m[i];
     p.figure = crowd.avatar[i];
     p.level = LevelNumber(level.level), p.from_level = LevelNumber(level.from);
-    p.fade = ShareOf(level), p.age_s = std::min(level.age_s, kFade_s);
+    p.fade = ShareOf(level, 0), p.age_s = std::min(level.age_s, kFade_s);
     p.arrival = static_cast<int>(crowd.arrived[i]);
     p.is_in_view = c->has_camera && crowd.view[i] == ViewClass::kVisible;
     c->people.push_back(p);
