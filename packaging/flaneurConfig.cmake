@@ -1,2 +1,2 @@
-# find_package(flaneur 0.2): target flaneur::footprints, a shared library with a C header.
+# find_package(flaneur 0.2): targets flaneur::crowd and flaneur::footprints, shared libraries with C headers.
 include(${CMAKE_CURRENT_LIST_DIR}/flaneurTargets.cmake)

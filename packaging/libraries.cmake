@@ -14,6 +14,7 @@ function(install_library LIBRARY SUMMARY LICENCE)
 endfunction()
 
 install_library(footprints "obstacles of a town of triangles, and whether they are fit for a crowd" "GPL-3.0-or-later")
+install_library(crowd "people who walk to their goals, and which of them is drawn how" "MIT")
 install(FILES ${PROJECT_SOURCE_DIR}/include/flaneur/base.h ${PROJECT_BINARY_DIR}/include/flaneur/version.h
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flaneur COMPONENT dev)
 install(EXPORT flaneur NAMESPACE flaneur:: FILE flaneurTargets.cmake DESTINATION ${cmake_folder} COMPONENT dev)

@@ -31,6 +31,8 @@ ALLOWED = {
 }
 for room, below in ROOMS.items():
     ALLOWED[f"runtime/{room}"] = {f"runtime/{b}" for b in below}.union(*(ALLOWED[f"runtime/{b}"] for b in below))
+# The shared libraries, a source file each: what stands above no room that a program has of its own.
+ALLOWED["library"] = {"library", CORE, "pipeline/io", "pipeline/footprint", *(f"runtime/{room}" for room in ("base", "tour_data", "crowd", "control"))}
 # The one room that knows a window, a driver and a loudspeaker.
 SHELL_ONLY = re.compile(r"(GLFW/|EGL/|AL/|sndfile)")
 # Libraries whose types stay inside source files, and that the runtime must not know at all.
@@ -41,11 +43,16 @@ MAY_START_THREADS = {"runtime/base/jobs.cpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
+def folder_of(path):
+    parts = path.split("/")
+    return parts[0] if parts[0] == "library" else "/".join(parts[:2])
+
+
 def violations(root):
-    for path in sorted([*root.glob("runtime/**/*"), *root.glob("pipeline/**/*")]):
+    for path in sorted(found for folder in ("runtime", "pipeline", "library", "include") for found in root.glob(f"{folder}/**/*")):
         if path.suffix not in {".h", ".cpp", ".c"}:
             continue
-        folder = "/".join(path.relative_to(root).parts[:2])
+        folder = folder_of(str(path.relative_to(root)))
         if folder.startswith("runtime/") and folder not in ALLOWED:
             yield f"{path}: {folder} is no room of the table"
         text = path.read_text(encoding="utf-8")
@@ -53,12 +60,14 @@ def violations(root):
             for found in THREADS.finditer(text):
                 yield f"{path}: {found[0]} belongs in {', '.join(MAY_START_THREADS)}; ask for a Jobs (runtime/base/jobs.h)"
         for name in INCLUDE.findall(text):
-            target = "/".join(name.split("/")[:2])
+            target = folder_of(name)
             yield from check_include(path.relative_to(root), folder, name, target)
 
 
 def check_include(path, folder, name, target):
-    ours = name.startswith(("runtime/", "pipeline/"))
+    ours = name.startswith(("runtime/", "pipeline/", "library/"))
+    if folder == "include/flaneur" and name not in {"stdbool.h", "stdint.h"} and not name.startswith("flaneur/"):
+        yield f"{path}: a public header includes nothing that is not installed beside it: {name}"
     if ours and folder in ALLOWED and target != folder and target not in ALLOWED[folder]:
         yield f"{path}: {folder} must not include {name}"
     if not ours and SHELL_ONLY.match(name) and folder.startswith("runtime/") and folder != "runtime/desktop":

@@ -47,4 +47,14 @@ typedef struct FlaneurVersion {
   int major, minor, patch;
 } FlaneurVersion;
 
+// On the ground plane: metres, x east, y north.
+typedef struct FlaneurPoint {
+  double x, y;
+} FlaneurPoint;
+
+typedef struct FlaneurRing {
+  const FlaneurPoint* points;  // the first is not repeated
+  int count;
+} FlaneurRing;
+
 #endif

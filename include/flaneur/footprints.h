@@ -21,10 +21,6 @@
 
 #include "flaneur/base.h"
 
-typedef struct FlaneurPoint {
-  double x, y;
-} FlaneurPoint;
-
 typedef enum FlaneurObjectKind {
   FLANEUR_OBJECT_BY_NAME = 0,  // told by the words of its name (tree, lamp, street, grass, square ...), flat ones are ground,
                                // all others are buildings
@@ -64,11 +60,6 @@ typedef struct FlaneurFootprintsDef {
 typedef struct FlaneurFootprintsId {
   uint32_t index1, generation;
 } FlaneurFootprintsId;
-
-typedef struct FlaneurRing {
-  const FlaneurPoint* points;  // the first is not repeated
-  int count;
-} FlaneurRing;
 
 // A polygon with holes, or a circle (outer.count 0, radius_m > 0).
 typedef struct FlaneurObstacle {

@@ -80,6 +80,9 @@ inline constexpr float kArrival_m = 0.5f;
 inline constexpr float kNearArrival_m = 3;
 inline constexpr float kHeldUp = 0.4f;
 
+// So many questions for the way to one goal are worth a flow field.
+inline constexpr int kSharedGoal = 8;
+
 // People decide about ten times a second: reaction times are 0.1 to 0.2 s.
 inline constexpr int kTurnEvery_steps = 3;
 // Half as often, and at twice the distance a quarter as often, where nobody can see what they do.

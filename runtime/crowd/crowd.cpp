@@ -13,7 +13,6 @@
 namespace flaneur {
 namespace {
 
-constexpr int kSharedGoal = 8;  // people with the same goal are worth a field
 constexpr size_t kFetchAhead = 24;  // people
 
 // People decide one after the other, each in a step of their own; neighbours, who often have ids in a row, in no regular pattern.

@@ -1,7 +1,11 @@
 """The libraries as other programs meet them: installed, found by CMake and pkg-config, the samples built and run."""
+import ctypes
+import importlib.util
 import os
 import pathlib
+import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -97,6 +101,42 @@ class Samples:
         self.assertEqual(result.returncode, 2, result.stdout)
         self.assertIn("index", result.stderr)
 
+    def test_a_crowd_in_a_square_keeps_its_limit_of_meshes(self):
+        lines = call(self.samples / "crowd_in_square").splitlines()
+        self.assertEqual(len(lines), 20)
+        meshes = [sum(map(int, re.search(r"meshes +(\d+) fine +(\d+) middle +(\d+) coarse", line).groups())) for line in lines]
+        impostors = [int(re.search(r"(\d+) impostors", line)[1]) for line in lines]
+        self.assertLessEqual(max(meshes), 8)
+        self.assertGreater(max(meshes), 3)
+        self.assertGreater(max(impostors), 20)
+        self.assertEqual(lines, call(self.samples / "crowd_in_square").splitlines())  # the same each time
+
+    def test_a_crowd_from_python_leaves_the_room(self):
+        library = next(self.prefix.rglob("libflaneur_crowd.so"))
+        environment = dict(os.environ)
+        if sanitizer():
+            environment["LD_PRELOAD"] = call("gcc", "-print-file-name=libasan.so").strip()
+        lines = call(sys.executable, SOURCE / "samples/crowd.py", library, env=environment).splitlines()
+        self.assertEqual(lines[0], "  0 s: 50 inside, 50 on the way")
+        self.assertLess(len(lines), 59)  # before the time was up
+        self.assertIn(" 0 inside", lines[-1])
+
+    def test_the_structures_in_python_are_those_of_the_header(self):
+        include = next(self.prefix.rglob("base.h")).parent.parent
+        specification = importlib.util.spec_from_file_location("crowd_sample", SOURCE / "samples/crowd.py")
+        sample = importlib.util.module_from_spec(specification)
+        specification.loader.exec_module(sample)
+        pairs = {"FlaneurCrowdDef": sample.CrowdDef, "FlaneurPersonDef": sample.PersonDef, "FlaneurPerson": sample.Person,
+                 "FlaneurPersonSpan": sample.People, "FlaneurPolygon": sample.Polygon}
+        rows = [f'printf("%zu\\n", offsetof({name}, {field}));' for name, kind in pairs.items() for field, _ in kind._fields_]
+        rows += [f'printf("%zu\\n", sizeof({name}));' for name in pairs]
+        source = "#include <flaneur/crowd.h>\n#include <stddef.h>\n#include <stdio.h>\nint main(void) {" + "".join(rows) + "}"
+        program = pathlib.Path(self.folder.name) / "layout"
+        call("cc", "-std=c99", f"-I{include}", "-xc", "-", "-o", program, input=source)
+        wanted = [getattr(kind, field).offset for kind in pairs.values() for field, _ in kind._fields_]
+        wanted += [ctypes.sizeof(kind) for kind in pairs.values()]
+        self.assertEqual(list(map(int, call(program).split())), wanted)
+
     def test_pkg_config_finds_headers_and_libraries(self):
         folder = next(self.prefix.rglob("flaneur-footprints.pc")).parent
         flags = call("pkg-config", "--cflags", "--libs", "flaneur-footprints", env=dict(os.environ, PKG_CONFIG_PATH=str(folder)))
@@ -125,7 +165,7 @@ class Installed(Samples, unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory(prefix="flaneur_libraries_")
         cls.addClassCleanup(cls.folder.cleanup)
         cls.prefix = pathlib.Path(cls.folder.name) / "prefix"
-        for component in ("footprints", "dev"):
+        for component in ("crowd", "footprints", "dev"):
             call("cmake", "--install", BIN.parent, "--prefix", cls.prefix, "--component", component)
         cls.samples = cls.build()
 
@@ -136,7 +176,7 @@ class Packaged(Samples, unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory(prefix="flaneur_libraries_")
         cls.addClassCleanup(cls.folder.cleanup)
         root = pathlib.Path(cls.folder.name) / "root"
-        for package in packages(cls.folder.name, "footprints", "dev").values():
+        for package in packages(cls.folder.name, "crowd", "footprints", "dev").values():
             call("dpkg-deb", "-x", package, root)
         cls.prefix = root / "usr"
         cls.samples = cls.build()

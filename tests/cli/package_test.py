@@ -26,7 +26,7 @@ class Packages(unittest.TestCase):
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="flaneur_packages_")
         cls.addClassCleanup(folder.cleanup)
-        cls.packages = packages(folder.name, "player", "pipeline", "footprints", "dev", "demo", "docs")
+        cls.packages = packages(folder.name, "player", "pipeline", "crowd", "footprints", "dev", "demo", "docs")
         cls.root = pathlib.Path(folder.name) / "root"
         for package in cls.packages.values():
             output("dpkg-deb", "-x", package, cls.root)
@@ -38,8 +38,8 @@ class Packages(unittest.TestCase):
         return output("ldd", self.root / program).lower()
 
     def test_there_is_one_for_whoever_plays_bakes_builds_or_reads(self):
-        self.assertEqual(sorted(self.packages), ["flaneur", "flaneur-demo", "flaneur-docs", "flaneur-player", "libflaneur-dev",
-                                                 "libflaneur-footprints"])
+        self.assertEqual(sorted(self.packages), ["flaneur", "flaneur-demo", "flaneur-docs", "flaneur-player", "libflaneur-crowd",
+                                                 "libflaneur-dev", "libflaneur-footprints"])
 
     def test_the_player_depends_on_what_it_links_and_on_a_driver(self):
         for name in ("libc6", "libegl1", "libgles2", "libglfw3", "libgl1-mesa-dri", "libdraco", "libopenal1", "libsndfile1"):
@@ -68,8 +68,13 @@ class Packages(unittest.TestCase):
         output(self.root / "usr/bin" / program, self.root / pack.lstrip("/"), "--headless", "--no-draw", "--seconds", "1")
 
     def test_whoever_builds_gets_the_libraries_of_the_same_version(self):
-        self.assertRegex(self.depends("libflaneur-dev"), r"libflaneur-footprints \(= [0-9.]+\)")
+        for library in ("libflaneur-crowd", "libflaneur-footprints"):
+            self.assertRegex(self.depends("libflaneur-dev"), rf"{library} \(= [0-9.]+\)")
         self.assertIn("libgmp10", self.depends("libflaneur-footprints"))
+
+    def test_the_crowd_links_the_system_alone(self):
+        linked = {name.split("-")[0] for name in re.findall(r"[\w+-]+(?= \()", self.depends("libflaneur-crowd"))}
+        self.assertLessEqual(linked, {"libc6", "libgcc", "libstdc++6", "libasan8", "libubsan1"})
 
     def test_each_says_who_may_do_what_with_it(self):
         for name in self.packages:
@@ -88,7 +93,7 @@ class Packages(unittest.TestCase):
         spelled = {"polyclipping": "clipper", "tomlplusplus": "toml++", "glesv2": "opengl es", "openal": "openal soft",
                    "openimageio_util": "openimageio", "openmeshcore": "openmesh"}
         system = {"c", "m", "gcc_s", "stdc++", "ld-linux-x86-64", "asan", "ubsan"}
-        for binary in ("bin/flaneur-player", "bin/flaneur", "bin/flaneur-bake", "lib/libflaneur_footprints.so.0.2"):
+        for binary in ("bin/flaneur-player", "bin/flaneur", "bin/flaneur-bake", "lib/libflaneur_crowd.so.0.2", "lib/libflaneur_footprints.so.0.2"):
             for library in re.findall(r"NEEDED +(?:lib)?(\S+?)\.so", output("objdump", "-p", self.root / "usr" / binary)):
                 name = library.lower()
                 if name not in system:
