@@ -22,7 +22,7 @@ namespace {
 
 constexpr float kSameSide = 0.3f;     // cosine between normals of places that belong together
 constexpr float kSameNormal = 0.98f;  // cosine; nearer ones at one vertex are one normal
-constexpr size_t kSamplesAFace = 7, kFewestSamples = 6000;
+constexpr size_t kSamplesAFace = 7, kMinSamples = 6000;
 constexpr size_t kBlock = 256;  // places on one thread
 constexpr float kSameColor = 0.01f;
 constexpr float kSameUv = 1e-4f;
@@ -202,7 +202,7 @@ LookFitter::~LookFitter() = default;
 void LookFitter::Fit(WedgeSurface* level) const {
   if (2 * level->faces.size() > static_cast<size_t>(options_.samples)) return;
   const Triangles triangles = BindTriangles(*level);
-  const size_t samples = std::min(std::max(kSamplesAFace * triangles.size(), kFewestSamples), static_cast<size_t>(options_.samples));
+  const size_t samples = std::min(std::max(kSamplesAFace * triangles.size(), kMinSamples), static_cast<size_t>(options_.samples));
   const std::vector<SurfacePlace> places = SpreadPlaces(triangles, static_cast<int>(samples));
   std::vector<Tie> ties(places.size());
   RunOnThreads([&](size_t first, size_t step) {

@@ -12,7 +12,7 @@
 namespace flaneur {
 namespace {
 
-constexpr size_t kMostCorners = 6000;
+constexpr size_t kMaxCorners = 6000;
 constexpr float kSameSide = 0.3f;  // cosine between normals of places that belong together
 
 // Points that move with a surface: evenly spread ones and corners, where distances are greatest.
@@ -32,7 +32,7 @@ std::vector<SurfacePlace> PlacesOn(const std::vector<Mesh>& meshes, const Triang
       }
     }
   }
-  const size_t step = 1 + corners.size() / kMostCorners;
+  const size_t step = 1 + corners.size() / kMaxCorners;
   for (size_t i = 0; i < corners.size(); i += step) places.push_back(corners[i]);
   return places;
 }

@@ -13,11 +13,11 @@ namespace {
 
 constexpr float kMerged_px =
     600;  // height of the person; larger ones show more than an atlas holds
-constexpr float kMostRepeats = 4;  // of a picture, in each direction
+constexpr float kMaxRepeats = 4;  // of a picture, in each direction
 constexpr float kSparse = 0.1f;    // of the surface: so much may be stretched more
 constexpr int kGutter_px = 16;     // stays clean down to the mip level of a sixteenth
 constexpr int kAlign_px = 16;      // so that mip levels stay what they were
-constexpr int kLeastSide_px = 64, kMostSide_px = 1024;
+constexpr int kMinSide_px = 64, kMaxSide_px = 1024;
 constexpr float kSameTile = 1e-3f;  // uvs so little below 0 still count as the tile above
 
 struct Rect {
@@ -157,7 +157,7 @@ class Merger {
       Include(shifted, &member->used);
     }
     const Vec2 size = member->used.max - member->used.min;
-    if (!(size.x <= kMostRepeats && size.y <= kMostRepeats)) {
+    if (!(size.x <= kMaxRepeats && size.y <= kMaxRepeats)) {
       return Refuse(*member, "repeats its picture more than four times");
     }
     member->texels_per_m =
@@ -186,8 +186,8 @@ class Merger {
     for (Member& member : members_) {
       while (member.picture && Excess(member) > 2) ++member.halvings;
     }
-    int side_px = kLeastSide_px;
-    while (!Pack(side_px) && side_px < kMostSide_px) side_px *= 2;
+    int side_px = kMinSide_px;
+    while (!Pack(side_px) && side_px < kMaxSide_px) side_px *= 2;
     while (!Pack(side_px)) {
       ++std::max_element(members_.begin(), members_.end(), [&](const Member& a, const Member& b) {
           return std::pair(a.columns > 1, Excess(a)) < std::pair(b.columns > 1, Excess(b));

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "pipeline/footprint/town_objects.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -89,7 +90,7 @@ bool AddGroundWhereNone(float margin_m, Scene* town) {
   };
   Mesh mesh;
   mesh.name = "ground";
-  mesh.material = static_cast<int>(town->materials.size());
+  mesh.material = Count(town->materials);
   mesh.positions = {corner(low.x - margin_m, low.y - margin_m), corner(high.x + margin_m, low.y - margin_m),
                     corner(high.x + margin_m, high.y + margin_m), corner(low.x - margin_m, high.y + margin_m)};
   mesh.normals.assign(4, Vec3{0, 1, 0});
@@ -99,7 +100,7 @@ bool AddGroundWhereNone(float margin_m, Scene* town) {
   material.base_color = {0.30f, 0.27f, 0.22f, 1};
   SceneNode node;
   node.name = "ground";
-  node.meshes = {static_cast<int>(town->meshes.size())};
+  node.meshes = {Count(town->meshes)};
   node.kind = NodeKind::kGround;
   node.ground = GroundKind::kSquare;
   town->materials.push_back(material);

@@ -22,6 +22,7 @@
 #include "pipeline/io/geojson.h"
 #include "pipeline/io/sound_file.h"
 #include "pipeline/pack/write_tour_pack.h"
+#include "runtime/base/array.h"
 #include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
 
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr float kBareGroundMargin_m = 15;
-constexpr float kLeastTintShare = 0.005f;  // of the surface
+constexpr float kMinTintShare = 0.005f;  // of the surface
 
 struct Baking {
   TourSettings settings;
@@ -144,7 +145,7 @@ Error MakeTown(Baking* baking) {
                                 baking->settings.places.end());
     double triangles = 0;
     for (const SceneNode& node : baking->parts.town.nodes) {
-      for (int m : node.meshes) triangles += TriangleCount(baking->parts.town.meshes[static_cast<size_t>(m)]);
+      for (int m : node.meshes) triangles += TriangleCount(At(baking->parts.town.meshes, m));
     }
     report->figures = {{"triangles", triangles}, {"places", static_cast<double>(baking->parts.places.size())}};
     return Ok();
@@ -211,7 +212,7 @@ Error CheckTints(Baking* baking, size_t i) {
     for (size_t t = 0; t < shares.size(); ++t) {
       const std::string color = TextFromColor(avatar.tints[t].color);
       report->figures.push_back({color + "_surface_share", std::round(static_cast<double>(shares[t]) * 1e3) / 1e3});
-      if (shares[t] >= kLeastTintShare) continue;
+      if (shares[t] >= kMinTintShare) continue;
       warnings->push_back("tint " + color + " reaches almost nothing of the avatar; `flaneur avatar` lists the colours that it has");
     }
     return Ok();
@@ -281,7 +282,7 @@ Error MakeSounds(Baking* baking) {
   std::map<fs::path, StopSound> known;
   for (size_t k = 0; k < s.sounds.size(); ++k) {
     for (const auto& [language, file] : s.sounds[k]) {
-      const auto [entry, fresh] = known.try_emplace(file, StopSound{static_cast<int>(parts.sounds.size()), 0});
+      const auto [entry, fresh] = known.try_emplace(file, StopSound{Count(parts.sounds), 0});
       if (fresh) {
         SoundFile sound;
         if (Error e = ReadSoundFile(file, &sound)) return e;
@@ -398,7 +399,7 @@ Error WriteResults(Baking* baking) {
 int CountSteps(const TourSettings& s) {
   int more = IsScript(s.town.file) ? 1 : 0;  // scripts and tints
   for (const AvatarSettings& avatar : s.avatars) more += (IsScript(avatar.source.file) ? 1 : 0) + (avatar.tints.empty() ? 0 : 1);
-  return more + 2 * static_cast<int>(s.avatars.size()) + 4;  // town, footprints, check, pack
+  return more + 2 * Count(s.avatars) + 4;  // town, footprints, check, pack
 }
 
 // Nothing changed since the last bake: the report says so, nothing else is touched.

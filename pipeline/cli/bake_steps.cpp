@@ -13,7 +13,7 @@
 namespace flaneur {
 namespace {
 
-constexpr size_t kMostWarningsShown = 8;  // of a step on the terminal; the report has all
+constexpr size_t kMaxWarningsShown = 8;  // of a step on the terminal; the report has all
 
 double PeakMemory_mb() {
   rusage usage{};
@@ -25,11 +25,11 @@ void ShowProgress(int done, int count, const StageReport& report, const std::vec
   std::fprintf(stderr, "[%*d/%d] %-10s %s ... ", count > 9 ? 2 : 1, done, count, report.stage.c_str(), report.item.c_str());
   if (report.cached) std::fprintf(stderr, "cached\n");
   else std::fprintf(stderr, "%.1f s\n", report.seconds);
-  for (size_t i = 0; i < std::min(warnings.size(), kMostWarningsShown); ++i) {
+  for (size_t i = 0; i < std::min(warnings.size(), kMaxWarningsShown); ++i) {
     std::fprintf(stderr, "        warning: %s\n", warnings[i].c_str());
   }
-  if (warnings.size() > kMostWarningsShown) {
-    std::fprintf(stderr, "        and %zu more warnings, see report.html\n", warnings.size() - kMostWarningsShown);
+  if (warnings.size() > kMaxWarningsShown) {
+    std::fprintf(stderr, "        and %zu more warnings, see report.html\n", warnings.size() - kMaxWarningsShown);
   }
 }
 

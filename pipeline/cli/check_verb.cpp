@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -103,16 +104,44 @@ void AddFaults(const std::vector<GeoJsonFault>& faults, std::vector<Finding>* fi
   }
 }
 
-// The town, with the obstacles moved to where it stands. `lies_apart`: they cannot be, and the town is of no use.
-Error ReadTown(const CheckArguments& a, GeoJsonFile* file, Scene* town, bool* lies_apart) {
+struct TownToCheck {
+  Scene scene;
+  GroundRaster ground;
+};
+
+// The town, with the obstacles moved to where it stands; none where they cannot be, and it is of no use.
+Error ReadTown(const CheckArguments& a, GeoJsonFile* file, std::vector<Finding>* faults, std::optional<TownToCheck>* out) {
   std::vector<std::string> warnings;
-  if (Error error = ReadScene(a.town, town, &warnings)) return error;
+  TownToCheck town;
+  if (Error error = ReadScene(a.town, &town.scene, &warnings)) return error;
   for (const std::string& warning : warnings) std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
-  const Point2 origin{town->origin_m.x * a.options.scale, town->origin_m.y * a.options.scale};
+  const Point2 origin{town.scene.origin_m.x * a.options.scale, town.scene.origin_m.y * a.options.scale};
   const size_t before = file->faults.size();
-  if (Error error = MoveToTown(town->reference_system, origin, file)) return error;
-  *lies_apart = file->faults.size() > before;
+  if (Error error = MoveToTown(town.scene.reference_system, origin, file)) return error;
+  if (file->faults.size() > before) {
+    AddFaults({file->faults.back()}, faults);
+    return Ok();
+  }
+  GroundRasterOptions options;
+  options.scale = a.options.scale;
+  if (Error error = RasterizeGround(town.scene, options, &town.ground)) return error;
+  *out = std::move(town);
   return Ok();
+}
+
+CheckOptions WithStreetsAndGates(CheckOptions options, const GeoJsonFile& file) {
+  options.open_rings = file.open_rings;
+  for (const Way& way : file.ways) options.streets.push_back({way.name, way.points});
+  for (const GatePoint& place : file.places) options.gates.push_back({place.name, place.at, {}, place.is_exit});
+  return options;
+}
+
+Error DrawMaps(const CheckArguments& a, const GeoJsonFile& file, const GroundRaster* ground, const std::vector<Finding>& findings) {
+  MapOptions map{a.obstacles.filename().string(), ground, findings, {}};
+  for (const Way& way : file.ways) map.streets.push_back(way.points);
+  if (!a.map.empty())
+    if (Error error = WriteMap(a.map, file.footprints, map)) return error;
+  return a.page.empty() ? Ok() : WriteMapPage(a.page, file.footprints, map);
 }
 
 Error Run(const CheckArguments& a, int* status) {
@@ -128,37 +157,19 @@ Error Run(const CheckArguments& a, int* status) {
   if (file.skipped > 0)
     std::fprintf(stderr, "flaneur: warning: %s: %d features are no obstacles, streets or doors; left out\n",
                  a.obstacles.c_str(), file.skipped);
-  bool with_town = !a.town.empty();
-  Scene town;
-  GroundRaster ground;
-  if (with_town) {
-    bool lies_apart = false;
-    if (Error error = ReadTown(a, &file, &town, &lies_apart)) return Give(a, 901, error, faults);
-    if (lies_apart) AddFaults({file.faults.back()}, &faults);
-    with_town = !lies_apart;
-  }
-  if (with_town) {
-    GroundRasterOptions options;
-    options.scale = a.options.scale;
-    if (Error error = RasterizeGround(town, options, &ground)) return Give(a, 901, error, faults);
-  }
-  CheckOptions options = a.options;
-  options.open_rings = file.open_rings;
-  for (const Way& way : file.ways) options.streets.push_back({way.name, way.points});
-  for (const GatePoint& place : file.places) options.gates.push_back({place.name, place.at, {}, place.is_exit});
+  std::optional<TownToCheck> town;
+  if (!a.town.empty())
+    if (Error error = ReadTown(a, &file, &faults, &town)) return Give(a, 901, error, faults);
   std::vector<Finding> findings;
-  if (Error error = Check(file.footprints, with_town ? &town : nullptr, options, &findings)) return Give(a, 901, error, faults);
+  if (Error error = Check(file.footprints, town ? &town->scene : nullptr, WithStreetsAndGates(a.options, file), &findings))
+    return Give(a, 901, error, faults);
   findings.insert(findings.end(), faults.begin(), faults.end());
   SortFindings(&findings);
   Print(findings, a.most_listed);
   if (Error error = WriteFindings(a, file, findings)) return error;
   const bool errors = std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; });
   *status = errors || (a.warnings_as_errors && !findings.empty()) ? 1 : 0;
-  MapOptions map{a.obstacles.filename().string(), with_town ? &ground : nullptr, findings, {}};
-  for (const Way& way : file.ways) map.streets.push_back(way.points);
-  if (!a.map.empty())
-    if (Error error = WriteMap(a.map, file.footprints, map)) return error;
-  return a.page.empty() ? Ok() : WriteMapPage(a.page, file.footprints, map);
+  return DrawMaps(a, file, town ? &town->ground : nullptr, findings);
 }
 
 }  // namespace

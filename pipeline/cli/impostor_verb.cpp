@@ -10,6 +10,7 @@
 #include "pipeline/core/interruption.h"
 #include "pipeline/impostor/bake_impostor.h"
 #include "pipeline/io/gltf.h"
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {
@@ -109,7 +110,7 @@ void PrintSummary(const ImpostorArguments& a, const ImpostorAtlas& atlas,
       "%s: %d directions x %d frames, %.1f mm a texel, atlas %d x %d px, %.0f %% filled, %.2f MB on "
       "the graphics card\n",
       a.output.c_str(), atlas.directions,
-      atlas.frames * static_cast<int>(atlas.elevations_deg.size()),
+      atlas.frames * Count(atlas.elevations_deg),
       1000 * static_cast<double>(atlas.texel_m), statistics.width_px, statistics.height_px,
       100 * statistics.fill_rate, static_cast<double>(statistics.memory_bytes) / 1e6);
   std::printf("%d triangles, Blender: %.1f CPU seconds, %.0f MB\n", statistics.triangles,

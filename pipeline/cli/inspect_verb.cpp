@@ -5,6 +5,7 @@
 
 #include "pipeline/cli/arguments.h"
 #include "pipeline/cli/verbs.h"
+#include "runtime/base/array.h"
 #include "runtime/pack/tour_pack.h"
 
 namespace flaneur {
@@ -38,7 +39,7 @@ Json Summary(const TourPack& pack) {
   for (const Place& place : pack.places) places[place.kind] = places.value(place.kind, 0) + 1;
   int64_t town_triangles = 0;
   for (const TownInstance& instance : pack.town) {
-    for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(instance.mesh)].primitives) {
+    for (const PackPrimitive& p : At(pack.meshes, instance.mesh).primitives) {
       town_triangles += static_cast<int64_t>(p.indices.size() / 3);
     }
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "pipeline/impostor/atlas_image.h"
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
@@ -16,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float kCell_m = 1;             // of the painting as packed
-constexpr int kMostCells = 4'000'000;
+constexpr int kMaxCells = 4'000'000;
 constexpr float kShapeTolerance = 0.02f;
-constexpr uint8_t kLeastColor = 8;       // less than this is a grey that a compressed picture has tinted
+constexpr uint8_t kMinColor = 8;       // less than this is a grey that a compressed picture has tinted
 constexpr std::array<uint8_t, 5> kGreyOfGround = {255, 176, 208, 224, 192};  // by GroundKind; 0: none
 constexpr uint8_t kGreyOfObstacle = 64;
 
@@ -29,7 +30,7 @@ struct Picture {
 
 uint8_t Beyond(int value, int others, int alpha) {
   const int strength = std::max(0, value - others) * alpha / 255;
-  return static_cast<uint8_t>(strength < kLeastColor ? 0 : strength);
+  return static_cast<uint8_t>(strength < kMinColor ? 0 : strength);
 }
 
 Error ReadPicture(const fs::path& file, Picture* picture) {
@@ -64,7 +65,7 @@ std::string Metres(Vec2 size_m) {
 uint8_t MeanOver(const std::vector<uint8_t>& values, const Picture& picture, int x0, int x1, int y0, int y1) {
   int64_t sum = 0;
   for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; ++x) sum += values[static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(x)];
+    for (int x = x0; x < x1; ++x) sum += values[RowMajor(y, picture.width, x)];
   }
   const int64_t count = static_cast<int64_t>(x1 - x0) * (y1 - y0);
   return static_cast<uint8_t>((sum + count - 1) / count);
@@ -88,10 +89,10 @@ void Resample(const Picture& picture, Painting* p) {
 bool AnyOnGround(const Painting& p, const GroundRaster& ground) {
   for (int row = 0; row < ground.rows; ++row) {
     for (int column = 0; column < ground.columns; ++column) {
-      if (ground.kind[static_cast<size_t>(row) * static_cast<size_t>(ground.columns) + static_cast<size_t>(column)] == 0) continue;
+      if (ground.kind[RowMajor(row, ground.columns, column)] == 0) continue;
       const Vec2 at = ground.min_m + Vec2{static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f} * ground.cell_m;
       const int cell = PaintingCell(p, at);
-      if (cell >= 0 && (p.people[static_cast<size_t>(cell)] > 0 || p.loiter[static_cast<size_t>(cell)] > 0)) return true;
+      if (cell >= 0 && (At(p.people, cell) > 0 || At(p.loiter, cell) > 0)) return true;
     }
   }
   return false;
@@ -141,7 +142,7 @@ Error ReadPainting(const PaintingSettings& settings, const GroundRaster& ground,
   if (!painted(picture.red) && !painted(picture.green)) {
     return Fail(name + "nothing is painted; paint red where people start and go to, green where they stand about");
   }
-  p.cell_m = std::max(kCell_m, std::sqrt(size_m.x * size_m.y / kMostCells));
+  p.cell_m = std::max(kCell_m, std::sqrt(size_m.x * size_m.y / kMaxCells));
   p.columns = std::max(1, static_cast<int>(std::ceil(size_m.x / p.cell_m)));
   p.rows = std::max(1, static_cast<int>(std::ceil(size_m.y / p.cell_m)));
   Resample(picture, &p);
@@ -158,7 +159,7 @@ Error WritePlan(const fs::path& path, const GroundRaster& g, const Footprints& f
   std::vector<uint8_t> grey(static_cast<size_t>(g.columns) * static_cast<size_t>(g.rows));
   for (int row = 0; row < g.rows; ++row) {
     for (int column = 0; column < g.columns; ++column) {
-      const uint8_t kind = g.kind[static_cast<size_t>(row) * static_cast<size_t>(g.columns) + static_cast<size_t>(column)];
+      const uint8_t kind = g.kind[RowMajor(row, g.columns, column)];
       grey[at(column, row)] = kGreyOfGround[std::min<size_t>(kind, kGreyOfGround.size() - 1)];
     }
     for (const Obstacle& o : footprints.obstacles) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "runtime/base/array.h"
 #include "runtime/base/pixels.h"
 #include "runtime/base/random.h"
 #include "runtime/base/srgb.h"
@@ -16,9 +17,9 @@ constexpr int kPlaces = 4;  // a triangle
 constexpr float kOneCloth = 0.1f;  // apart, as tints measure it
 constexpr float kBoxes = 12;       // along each side of the colours
 constexpr int kRounds = 3;
-constexpr size_t kMostMainColors = 6;
-constexpr int kMostTries = 30;     // many of small parts of the surface
-constexpr float kLeastShare = 1.0f / 30;
+constexpr size_t kMaxMainColors = 6;
+constexpr int kMaxTries = 30;     // many of small parts of the surface
+constexpr float kMinShare = 1.0f / 30;
 
 Vec3 Texel(const Pixels& picture, Vec2 uv) {
   const auto at = [](float t, int size) { return std::min(size - 1, static_cast<int>((t - std::floor(t)) * static_cast<float>(size))); };
@@ -60,11 +61,11 @@ void AddPlaces(const Mesh& mesh, const Material& material, const Pixels* picture
 Error PlacesOf(const Avatar& avatar, std::vector<Place>* places) {
   std::map<int, Pixels> pictures;
   for (const Mesh& mesh : avatar.meshes) {
-    const Material material = mesh.material >= 0 ? avatar.materials[static_cast<size_t>(mesh.material)] : Material{};
+    const Material material = mesh.material >= 0 ? At(avatar.materials, mesh.material) : Material{};
     const int image = material.base_color_image;
     if (image >= 0 && !pictures.contains(image)) {
-      auto decoded = Decoded(avatar.images[static_cast<size_t>(image)].bytes);
-      if (!decoded) return Fail("avatar '" + avatar.name + "': image '" + avatar.images[static_cast<size_t>(image)].name + "' cannot be decoded");
+      auto decoded = Decoded(At(avatar.images, image).bytes);
+      if (!decoded) return Fail("avatar '" + avatar.name + "': image '" + At(avatar.images, image).name + "' cannot be decoded");
       pictures[image] = std::move(*decoded);
     }
     AddPlaces(mesh, material, image >= 0 ? &pictures[image] : nullptr, places);
@@ -109,7 +110,7 @@ Error MainColors(const Avatar& avatar, std::vector<MainColor>* colors) {
   if (Error e = PlacesOf(avatar, &places)) return e;
   const float whole = AreaOf(places);
   colors->clear();
-  for (int k = 0; k < kMostTries && !places.empty() && colors->size() < kMostMainColors; ++k) {
+  for (int k = 0; k < kMaxTries && !places.empty() && colors->size() < kMaxMainColors; ++k) {
     MainColor found = Mean(places, Densest(places));
     for (int round = 0; round < kRounds; ++round) found = Mean(places, found.color);
     const Vec3 color = found.color;
@@ -117,7 +118,7 @@ Error MainColors(const Avatar& avatar, std::vector<MainColor>* colors) {
     if (rest == places.end()) break;
     places.erase(rest, places.end());
     found.share /= whole;
-    if (found.share >= kLeastShare) colors->push_back(found);
+    if (found.share >= kMinShare) colors->push_back(found);
   }
   std::sort(colors->begin(), colors->end(), [](const MainColor& a, const MainColor& b) { return a.share > b.share; });
   return Ok();

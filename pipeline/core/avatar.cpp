@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/array.h"
+
 namespace flaneur {
 namespace {
 
@@ -65,7 +67,7 @@ std::vector<Mat4> SkinningMatrices(std::span<const Joint> joints, std::span<cons
     const Mat4 matrix =
         FromTranslationRotationScale(local.translation, local.rotation, local.scale);
     const int parent = joints[j].parent;
-    matrices[j] = parent < 0 ? matrix : matrices[static_cast<size_t>(parent)] * matrix;
+    matrices[j] = parent < 0 ? matrix : At(matrices, parent) * matrix;
   }
   for (size_t j = 0; j < joints.size(); ++j) matrices[j] = matrices[j] * joints[j].inverse_bind;
   return matrices;

@@ -30,7 +30,7 @@ void CatchInterruptions() {
     if (action.sa_handler == SIG_IGN) continue;  // as under nohup
     action = {};
     action.sa_handler = OnSignal;
-    action.sa_flags = SA_RESTART | SA_RESETHAND;
+    action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
     ::sigaction(signal, &action, nullptr);
   }
 }

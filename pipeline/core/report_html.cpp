@@ -3,11 +3,12 @@
 #include <map>
 
 #include "pipeline/core/report.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
 
-constexpr size_t kMostFindingsOfACode = 100;
+constexpr size_t kMaxFindingsOfACode = 100;
 
 constexpr const char* kStyle = R"(
 :root{--ink:#2b2622;--soft:#7a6f63;--line:#e4dccf;--paper:#fbf8f2;--card:#fff;--accent:#8a4b2a}
@@ -48,7 +49,7 @@ std::string Format(const char* format, double value) {
 std::string Figure(double value) {
   if (value != static_cast<double>(static_cast<int64_t>(value))) return Format("%.4g", value);
   std::string digits = Format("%.0f", value);
-  for (int i = static_cast<int>(digits.size()) - 3; i > (value < 0 ? 1 : 0); i -= 3) {
+  for (int i = Count(digits) - 3; i > (value < 0 ? 1 : 0); i -= 3) {
     digits.insert(static_cast<size_t>(i), ",");
   }
   return digits;
@@ -147,14 +148,14 @@ std::string Findings(const BakeReport& report) {
     out += "<details><summary><span class=\"" + first.severity + "\">" + std::to_string(code) + "</span> " +
            Escaped(first.title) + ": " + Figure(static_cast<double>(findings.size())) + "</summary><p class=\"soft\">" +
            Escaped(first.advice) + "</p><table>";
-    for (size_t i = 0; i < std::min(findings.size(), kMostFindingsOfACode); ++i) {
+    for (size_t i = 0; i < std::min(findings.size(), kMaxFindingsOfACode); ++i) {
       const ReportFinding& f = *findings[i];
       out += "<tr><td>" + Escaped(f.feature) + "<td class=\"n\">" + Format("%.1f, ", static_cast<double>(f.at_m.x)) +
              Format("%.1f", static_cast<double>(f.at_m.y)) + "<td>" + Escaped(f.message) + "</tr>";
     }
-    if (findings.size() > kMostFindingsOfACode) {
+    if (findings.size() > kMaxFindingsOfACode) {
       out += "<tr><td colspan=\"3\" class=\"soft\">and " +
-             Figure(static_cast<double>(findings.size() - kMostFindingsOfACode)) + " more</tr>";
+             Figure(static_cast<double>(findings.size() - kMaxFindingsOfACode)) + " more</tr>";
     }
     out += "</table></details>";
   }

@@ -7,6 +7,7 @@
 
 #include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/segment_grid.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -137,15 +138,15 @@ class BandCutter {
     int longest = -1;
     double length = kMinSplitEdge_m;
     for (int i = 0; i < 3; ++i) {
-      const Point3& a = t[static_cast<size_t>(i)];
-      const Point3& b = t[static_cast<size_t>((i + 1) % 3)];
+      const Point3& a = At(t, i);
+      const Point3& b = At(t, (i + 1) % 3);
       const double l = std::hypot(b.x - a.x, b.y - a.y);
       if (l > length && GroundBends(a, b)) longest = i, length = l;
     }
     if (longest < 0 || depth > 24) return AddFlat(t);
-    const Point3& a = t[static_cast<size_t>(longest)];
-    const Point3& b = t[static_cast<size_t>((longest + 1) % 3)];
-    const Point3& c = t[static_cast<size_t>((longest + 2) % 3)];
+    const Point3& a = At(t, longest);
+    const Point3& b = At(t, (longest + 1) % 3);
+    const Point3& c = At(t, (longest + 2) % 3);
     const Point3 m = Between(a, b, 0.5);
     Add({a, m, c}, depth + 1);
     Add({m, b, c}, depth + 1);

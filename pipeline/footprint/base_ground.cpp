@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "pipeline/footprint/constants.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -27,15 +28,15 @@ GroundRaster Blank(const TownObject& object) {
   return raster;
 }
 
-size_t At(const GroundRaster& raster, int column, int row) {
-  return static_cast<size_t>(row) * static_cast<size_t>(raster.columns) + static_cast<size_t>(column);
+size_t CellAt(const GroundRaster& raster, int column, int row) {
+  return RowMajor(row, raster.columns, column);
 }
 
 void LowerTo(GroundRaster* raster, double x, double y, double z) {
   const int column = static_cast<int>(std::floor((x - raster->min_m.x) / raster->cell_m));
   const int row = static_cast<int>(std::floor((y - raster->min_m.y) / raster->cell_m));
   if (column < 0 || row < 0 || column >= raster->columns || row >= raster->rows) return;
-  float& height = raster->height_m[At(*raster, column, row)];
+  float& height = raster->height_m[CellAt(*raster, column, row)];
   height = std::min(height, static_cast<float>(z));
 }
 
@@ -77,16 +78,16 @@ void FilterLine(std::vector<float>* line, int reach, Better better) {
   std::vector<int> queue;  // candidates, the best in front
   size_t front = 0;
   const std::vector<float> in = *line;
-  const int n = static_cast<int>(in.size());
+  const int n = Count(in);
   for (int i = 0, next = 0; i < n; ++i) {
     for (; next < n && next <= i + reach; ++next) {
-      if (in[static_cast<size_t>(next)] == kNothing) continue;
-      while (queue.size() > front && !better(in[static_cast<size_t>(queue.back())], in[static_cast<size_t>(next)])) queue.pop_back();
+      if (At(in, next) == kNothing) continue;
+      while (queue.size() > front && !better(At(in, queue.back()), At(in, next))) queue.pop_back();
       queue.push_back(next);
     }
     while (front < queue.size() && queue[front] < i - reach) ++front;
-    if (in[static_cast<size_t>(i)] != kNothing && front < queue.size())
-      (*line)[static_cast<size_t>(i)] = in[static_cast<size_t>(queue[front])];
+    if (At(in, i) != kNothing && front < queue.size())
+      At(*line, i) = At(in, queue[front]);
   }
 }
 
@@ -94,16 +95,16 @@ template <typename Better>
 void Filter(GroundRaster* raster, int reach, Better better) {
   std::vector<float> line;
   for (int row = 0; row < raster->rows; ++row) {
-    const auto begin = raster->height_m.begin() + static_cast<long>(At(*raster, 0, row));
+    const auto begin = raster->height_m.begin() + static_cast<long>(CellAt(*raster, 0, row));
     line.assign(begin, begin + raster->columns);
     FilterLine(&line, reach, better);
     std::copy(line.begin(), line.end(), begin);
   }
   line.resize(static_cast<size_t>(raster->rows));
   for (int column = 0; column < raster->columns; ++column) {
-    for (int row = 0; row < raster->rows; ++row) line[static_cast<size_t>(row)] = raster->height_m[At(*raster, column, row)];
+    for (int row = 0; row < raster->rows; ++row) At(line, row) = raster->height_m[CellAt(*raster, column, row)];
     FilterLine(&line, reach, better);
-    for (int row = 0; row < raster->rows; ++row) raster->height_m[At(*raster, column, row)] = line[static_cast<size_t>(row)];
+    for (int row = 0; row < raster->rows; ++row) raster->height_m[CellAt(*raster, column, row)] = At(line, row);
   }
 }
 

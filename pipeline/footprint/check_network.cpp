@@ -9,6 +9,7 @@
 
 #include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/ways_parts.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -97,7 +98,7 @@ class Network {
     std::vector<int> stack;
     const auto enter = [&](int node) {
       order.push_back(node);
-      position[Index(node)] = static_cast<int>(order.size());
+      position[Index(node)] = Count(order);
       low[Index(node)] = exit[Index(node)] ? 0 : position[Index(node)];
       stack.push_back(node);
     };

@@ -9,6 +9,7 @@
 #include "pipeline/footprint/ground_outline.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/footprint/ways_parts.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -295,8 +296,8 @@ class WaysCheck {
     const int main = outside ? kOutside : static_cast<int>(largest - regions_.begin());
     const int main_reach = outside ? -1 : RegionNear(reach_, largest->shape.outer[0], 1e-3);
     const double main_m2 = outside ? outside_m2_ : largest->area_m2;
-    for (int i = 0; i < static_cast<int>(regions_.size()); ++i) {
-      const Region& region = regions_[static_cast<size_t>(i)];
+    for (int i = 0; i < Count(regions_); ++i) {
+      const Region& region = At(regions_, i);
       if (i == main || Has(cut_off_, i)) continue;  // the latter is said by 604
       const double area = Area(Offset(RingsOf(region.shape), state_.options.person_radius_m));
       if (area < state_.options.least_ground_m2) continue;

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "pipeline/footprint/constants.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -88,10 +89,10 @@ std::vector<Region> FindRegions(Triangulation* triangulation) {
   for (const typename Triangulation::Face_handle face : triangulation->finite_face_handles()) {
     if (face->info() == 0) continue;
     if (face->info() < 0) {
-      Flood(face, static_cast<int>(regions.size()));
+      Flood(face, Count(regions));
       regions.emplace_back();
     }
-    AddSamples(face, &regions[static_cast<size_t>(face->info())]);
+    AddSamples(face, &At(regions, face->info()));
   }
   return regions;
 }
@@ -103,9 +104,9 @@ Rings TraceSolid(const Triangulation& triangulation, const std::vector<bool>& so
   std::map<Vertex, std::vector<Vertex>> next;
   std::vector<Vertex> starts;
   for (const typename Triangulation::Face_handle face : triangulation.finite_face_handles()) {
-    if (!solid[static_cast<size_t>(face->info())]) continue;
+    if (!At(solid, face->info())) continue;
     for (int i = 0; i < 3; ++i) {
-      if (solid[static_cast<size_t>(face->neighbor(i)->info())]) continue;
+      if (At(solid, face->neighbor(i)->info())) continue;
       const Vertex from = face->vertex(Triangulation::ccw(i));
       next[from].push_back(face->vertex(Triangulation::cw(i)));
       starts.push_back(from);
@@ -136,7 +137,7 @@ EnclosedRegions Enclose(const std::vector<Segment>& cut, const RegionTest& is_so
   EnclosedRegions out;
   out.solid = TraceSolid(triangulation, solid);
   for (const auto& [face, i] : triangulation.finite_edges()) {
-    const auto is_solid_face = [&](const auto& f) { return solid[static_cast<size_t>(f->info())]; };
+    const auto is_solid_face = [&](const auto& f) { return At(solid, f->info()); };
     if (face->is_constrained(i) && !is_solid_face(face) && !is_solid_face(face->neighbor(i)))
       out.loose.push_back({ToPoint(face->vertex(Triangulation::ccw(i))), ToPoint(face->vertex(Triangulation::cw(i)))});
   }

@@ -11,6 +11,7 @@
 #include "pipeline/footprint/for_each.h"
 #include "pipeline/footprint/object_shape.h"
 #include "pipeline/footprint/separate_obstacles.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -192,7 +193,7 @@ std::vector<Obstacle> ObstaclesOf(const Site& site, const std::vector<TownObject
 
 FootprintStats Count(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes) {
   FootprintStats stats;
-  stats.objects = static_cast<int>(objects.size());
+  stats.objects = Count(objects);
   for (size_t i = 0; i < objects.size(); ++i) {
     stats.triangles += static_cast<int>(objects[i].triangles.size());
     stats.lines += shapes[i].lines;
@@ -233,7 +234,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   footprints->origin_m = {scene.origin_m.x * options.scale, scene.origin_m.y * options.scale};
   footprints->reference_system = scene.reference_system;
   footprints->obstacles = ObstaclesOf(site, objects, shapes, outlines, warnings);
-  counts.obstacles = static_cast<int>(footprints->obstacles.size());
+  counts.obstacles = Count(footprints->obstacles);
   for (const Rings& outline : outlines) counts.covered_m2 += Area(outline);
   if (stats) *stats = counts;
   return Ok();

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "runtime/base/array.h"
+
 namespace flaneur {
 
 const std::vector<FindingKind>& FindingKinds() {
@@ -87,7 +89,7 @@ std::string FindingsJson(const std::vector<Finding>& findings, const std::vector
     list.push_back(Facts(findings[i]));
     if (i < places.size()) list.back()["at_file"] = PlaceJson(places[i], 1e-9);
   }
-  return Text({{"version", 1}, {"errors", errors}, {"warnings", static_cast<int>(findings.size()) - errors}, {"findings", std::move(list)}});
+  return Text({{"version", 1}, {"errors", errors}, {"warnings", Count(findings) - errors}, {"findings", std::move(list)}});
 }
 
 std::string FindingsGeoJson(const std::vector<Finding>& findings, const std::vector<Point2>& places, bool degrees) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/footprint/constants.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -36,7 +37,7 @@ class Tracer {
  private:
   bool IsGround(int column, int row) const {
     if (column < 0 || row < 0 || column >= raster_.columns || row >= raster_.rows) return false;
-    return raster_.kind[static_cast<size_t>(row) * static_cast<size_t>(raster_.columns) + static_cast<size_t>(column)] != 0;
+    return raster_.kind[RowMajor(row, raster_.columns, column)] != 0;
   }
   uint8_t& At(int column, int row) { return leaving_[static_cast<size_t>(row) * stride_ + static_cast<size_t>(column)]; }
 
@@ -56,8 +57,8 @@ class Tracer {
         ring.push_back({raster_.min_m.x + column * static_cast<double>(raster_.cell_m), raster_.min_m.y + row * static_cast<double>(raster_.cell_m)});
       direction = next;
       static constexpr std::array<std::array<int, 2>, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-      column += kSteps[static_cast<size_t>(next)][0];
-      row += kSteps[static_cast<size_t>(next)][1];
+      column += At(kSteps, next)[0];
+      row += At(kSteps, next)[1];
     }
     return ring;
   }

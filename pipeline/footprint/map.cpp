@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {
@@ -14,8 +15,8 @@ constexpr double kPlanWidth = 1200;     // of the town in the picture, pixels
 constexpr double kMargin = 40;
 constexpr double kListWidth = 460;
 constexpr double kLineHeight = 17;
-constexpr size_t kMostListed = 60;
-constexpr int kMostGroundColumns = 1600;
+constexpr size_t kMaxListed = 60;
+constexpr int kMaxGroundColumns = 1600;
 
 const char* Fill(ObstacleKind kind) {
   switch (kind) {
@@ -71,7 +72,7 @@ class Plan {
   }
 
   std::string Draw() {
-    const size_t listed = std::min(options_.findings.size(), kMostListed);
+    const size_t listed = std::min(options_.findings.size(), kMaxListed);
     const double list = options_.findings.empty() ? 0 : kListWidth;
     const double all_height = std::max(height_ + 2 * kMargin + 40, (listed + 4.0) * kLineHeight + 80);
     const double all_width = width_ + 2 * kMargin + list;
@@ -132,12 +133,12 @@ class Plan {
   void DrawGround() {
     const GroundRaster* g = options_.ground;
     if (!g) return;
-    const int step = std::max(1, std::max(g->columns, g->rows) / kMostGroundColumns + 1);
+    const int step = std::max(1, std::max(g->columns, g->rows) / kMaxGroundColumns + 1);
     const double size = g->cell_m * step * scale_;
     out_ += "<g shape-rendering=\"crispEdges\">\n";
     for (int row = 0; row < g->rows; row += step) {
       const auto kind = [&](int column) {
-        return g->kind[static_cast<size_t>(row) * static_cast<size_t>(g->columns) + static_cast<size_t>(column)];
+        return g->kind[RowMajor(row, g->columns, column)];
       };
       for (int column = 0; column < g->columns;) {
         int end = column;
@@ -210,7 +211,7 @@ class Plan {
     if (options_.findings.empty()) return;
     const double x = width_ + 2 * kMargin;
     double y = kMargin + 20;
-    for (size_t i = 0; i < std::min(options_.findings.size(), kMostListed); ++i) {
+    for (size_t i = 0; i < std::min(options_.findings.size(), kMaxListed); ++i) {
       const Finding& f = options_.findings[i];
       std::string text = std::to_string(f.code) + " " + f.message;
       if (text.size() > 68) text = text.substr(0, 66) + "…";
@@ -218,8 +219,8 @@ class Plan {
                      i + 1) + Escaped(text) + "</text>\n";
       y += kLineHeight;
     }
-    if (options_.findings.size() > kMostListed)
-      out_ += Format("<text x=\"%.0f\" y=\"%.0f\">and %zu more</text>\n", x, y, options_.findings.size() - kMostListed);
+    if (options_.findings.size() > kMaxListed)
+      out_ += Format("<text x=\"%.0f\" y=\"%.0f\">and %zu more</text>\n", x, y, options_.findings.size() - kMaxListed);
   }
 
   const Footprints& footprints_;

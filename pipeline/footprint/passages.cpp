@@ -39,52 +39,59 @@ bool PassageTest::BetweenWalls(Point2 p, const AreaIndex& walls) const {
   return false;
 }
 
-PassageParts PassageTest::Sort(const Rings& area, const Rings& walls) const {
-  PassageParts parts;
-  const double whole = Area(area);
-  parts.elsewhere_m2 = whole, parts.elsewhere_at = area[0][0];
-  const Rings walkable = Offset(area, -(options_.person_radius_m - options_.slack_m));
-  if (walkable.empty()) return parts;
-  const double step = std::max(kPassageStep_m, std::sqrt(whole / kMaxPassageSamples));
-  Point2 min{1e300, 1e300}, max{-1e300, -1e300};
-  for (const Ring& ring : area) {
-    for (const Point2& p : ring) {
-      min = {std::min(min.x, p.x), std::min(min.y, p.y)};
-      max = {std::max(max.x, p.x), std::max(max.y, p.y)};
-    }
-  }
-  const AreaIndex inside(area, step), walk(walkable, step), solid(walls, step);
-  std::vector<Point2> roofed, candidates, open;
+PassageTest::Samples PassageTest::Sample(const Rings& area, const Rings& walkable, double step_m) const {
+  Samples samples;
   for (const Ring& ring : walkable)  // narrow ones may lie between the samples
     for (const Point2& p : ring)
-      if (Roofed(p)) candidates.push_back(p);
-  for (double y = min.y + step / 2; y < max.y; y += step) {
-    for (double x = min.x + step / 2; x < max.x; x += step) {
+      if (Roofed(p)) samples.candidates.push_back(p);
+  const AreaIndex inside(area, step_m), walk(walkable, step_m);
+  const BoundingBox box = BoundingBoxOf(area);
+  for (double y = box.min.y + step_m / 2; y < box.max.y; y += step_m) {
+    for (double x = box.min.x + step_m / 2; x < box.max.x; x += step_m) {
       const Point2 p{x, y};
       if (!inside.Inside(p)) continue;
       if (!Roofed(p)) {
-        open.push_back(p);
+        samples.open.push_back(p);
         continue;
       }
-      roofed.push_back(p);
-      if (walk.Inside(p)) candidates.push_back(p);
+      samples.roofed.push_back(p);
+      if (walk.Inside(p)) samples.candidates.push_back(p);
     }
   }
+  return samples;
+}
+
+// Whether enough of the candidates have walls on two sides; the first that has.
+std::optional<Point2> PassageTest::FirstBetweenWalls(const std::vector<Point2>& candidates, const AreaIndex& walls) const {
   const size_t stride = std::max<size_t>(1, candidates.size() / kMaxAskedSamples);
+  std::optional<Point2> first;
   int asked = 0, between = 0;
   for (size_t i = 0; i < candidates.size(); i += stride) {
     ++asked;
-    if (!BetweenWalls(candidates[i], solid)) continue;
-    if (between++ == 0) parts.passage_at = candidates[i];
+    if (!BetweenWalls(candidates[i], walls)) continue;
+    if (between++ == 0) first = candidates[i];
   }
-  if (asked == 0 || between < kMinWalledShare * asked) return parts;
-  const double reach = options_.ends_m + step;
-  std::erase_if(open, [&](Point2 p) {
-    return std::any_of(roofed.begin(), roofed.end(), [&](Point2 q) { return std::hypot(p.x - q.x, p.y - q.y) < reach; });
+  return between < kMinWalledShare * asked ? std::nullopt : first;
+}
+
+PassageParts PassageTest::Sort(const Rings& area, const Rings& walls) const {
+  const double whole_m2 = Area(area);
+  PassageParts parts{0, whole_m2, {}, area[0][0]};
+  const Rings walkable = Offset(area, -(options_.person_radius_m - options_.slack_m));
+  if (walkable.empty()) return parts;
+  const double step_m = std::max(kPassageStep_m, std::sqrt(whole_m2 / kMaxPassageSamples));
+  Samples samples = Sample(area, walkable, step_m);
+  const std::optional<Point2> passage_at = FirstBetweenWalls(samples.candidates, AreaIndex(walls, step_m));
+  if (!passage_at) return parts;
+  const double reach_m = options_.ends_m + step_m;
+  std::erase_if(samples.open, [&](Point2 p) {
+    return std::any_of(samples.roofed.begin(), samples.roofed.end(),
+                       [&](Point2 q) { return std::hypot(p.x - q.x, p.y - q.y) < reach_m; });
   });
-  parts.passage_m2 = static_cast<double>(roofed.size()) * step * step;
-  parts.elsewhere_m2 = static_cast<double>(open.size()) * step * step;
-  if (!open.empty()) parts.elsewhere_at = open[0];
+  parts.passage_m2 = static_cast<double>(samples.roofed.size()) * step_m * step_m;
+  parts.elsewhere_m2 = static_cast<double>(samples.open.size()) * step_m * step_m;
+  parts.passage_at = *passage_at;
+  if (!samples.open.empty()) parts.elsewhere_at = samples.open[0];
   return parts;
 }
 

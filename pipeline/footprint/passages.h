@@ -1,5 +1,8 @@
 // Tells passages under buildings (arcades, gateways) from other free ground.
 #pragma once
+#include <optional>
+#include <vector>
+
 #include "pipeline/core/footprint.h"
 #include "pipeline/footprint/overhead.h"
 #include "pipeline/footprint/polygon_sets.h"
@@ -30,8 +33,14 @@ class PassageTest {
   PassageParts Sort(const Rings& area, const Rings& walls) const;
 
  private:
+  struct Samples {
+    std::vector<Point2> roofed, open;
+    std::vector<Point2> candidates;  // roofed, and far enough from the area's boundary to walk there
+  };
   bool Roofed(Point2 p) const;
+  Samples Sample(const Rings& area, const Rings& walkable, double step_m) const;
   bool BetweenWalls(Point2 p, const AreaIndex& walls) const;
+  std::optional<Point2> FirstBetweenWalls(const std::vector<Point2>& candidates, const AreaIndex& walls) const;
 
   Options options_;
   LocalGround ground_;

@@ -310,14 +310,14 @@ std::vector<Rings> Enclosed(const std::vector<Segment>& segments, const Rings& a
 
 std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area) {
   if (area.empty() || segments.empty()) return segments;
-  constexpr double kLeast_m = 0.001;  // shorter pieces outside do not count
+  constexpr double kMinOutside_m = 0.001;  // shorter pieces outside do not count
   const AreaIndex index(area, 0.01);
   std::vector<Segment> out;
   for (const Segment& s : segments) {
     std::vector<double> cuts = index.Crossings(s);
     cuts.insert(cuts.end(), {0.0, 1.0});
     std::sort(cuts.begin(), cuts.end());
-    const double least = kLeast_m / std::max(kLeast_m, std::hypot(s.b.x - s.a.x, s.b.y - s.a.y));
+    const double least = kMinOutside_m / std::max(kMinOutside_m, std::hypot(s.b.x - s.a.x, s.b.y - s.a.y));
     bool inside = true;
     for (size_t i = 0; i + 1 < cuts.size() && inside; ++i) {
       const double t = (cuts[i] + cuts[i + 1]) / 2;
@@ -388,9 +388,9 @@ double DistanceToBoundary(const Rings& rings, Point2 p) {
 }
 
 AreaIndex::AreaIndex(Rings rings, double reach_m) : rings_(std::move(rings)), reach_m_(reach_m) {
-  constexpr double kLeastCell_m = 1, kMostCells = 1e6;
+  constexpr double kMinCell_m = 1, kMaxCells = 1e6;
   const std::vector<Segment> outline = Outline(rings_);
-  cell_m_ = std::max(kLeastCell_m, Length(outline) / kMostCells);
+  cell_m_ = std::max(kMinCell_m, Length(outline) / kMaxCells);
   for (const Segment& s : outline) Add(s);
 }
 

@@ -7,6 +7,7 @@
 
 #include "pipeline/footprint/base_ground.h"
 #include "pipeline/footprint/constants.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -78,8 +79,7 @@ void DrawTriangle(const Triangle3& t, GroundKind kind, GroundRaster* raster) {
       const double wc = ((b.x - a.x) * (y - a.y) - (x - a.x) * (b.y - a.y)) / area;
       if (wb < -1e-9 || wc < -1e-9 || wb + wc > 1 + 1e-9) continue;
       const float z = static_cast<float>(a.z + wb * (b.z - a.z) + wc * (c.z - a.z));
-      const size_t cell = static_cast<size_t>(row) * static_cast<size_t>(raster->columns) +
-                          static_cast<size_t>(column);
+      const size_t cell = RowMajor(row, raster->columns, column);
       const bool empty = raster->kind[cell] == 0;
       // Equal heights: the higher kind wins, so that the order of the patches does not matter.
       const bool above = z > raster->height_m[cell] ||
@@ -96,7 +96,7 @@ void SmoothGaps(GroundRaster* raster) {
   for (int round = 0; round < kSmoothingRounds; ++round) {
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
-        const size_t i = static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
+        const size_t i = RowMajor(row, columns, column);
         if (raster->kind[i]) continue;
         const size_t stride = static_cast<size_t>(columns);
         const float west = column > 0 ? raster->height_m[i - 1] : raster->height_m[i];
@@ -118,12 +118,12 @@ void DrawBases(const TownObjects& town, GroundRaster* raster) {
     const GroundRaster base = BaseOf(object);
     for (int row = 0; row < base.rows; ++row) {
       for (int column = 0; column < base.columns; ++column) {
-        const size_t i = static_cast<size_t>(row) * static_cast<size_t>(base.columns) + static_cast<size_t>(column);
+        const size_t i = RowMajor(row, base.columns, column);
         if (!base.kind[i]) continue;
         const int c = Column(*raster, base.min_m.x + (column + 0.5) * base.cell_m);
         const int r = Row(*raster, base.min_m.y + (row + 0.5) * base.cell_m);
         if (c < 0 || r < 0 || c >= raster->columns || r >= raster->rows) continue;
-        const size_t cell = static_cast<size_t>(r) * static_cast<size_t>(raster->columns) + static_cast<size_t>(c);
+        const size_t cell = RowMajor(r, raster->columns, c);
         raster->height_m[cell] = raster->kind[cell] ? std::min(raster->height_m[cell], base.height_m[i]) : base.height_m[i];
         raster->kind[cell] = static_cast<uint8_t>(GroundKind::kSquare);
       }
@@ -140,7 +140,7 @@ void DrawBases(const TownObjects& town, GroundRaster* raster) {
 void FillGaps(GroundRaster* raster) {
   const int columns = raster->columns, rows = raster->rows;
   const auto at = [&](int column, int row) {
-    return static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
+    return RowMajor(row, columns, column);
   };
   std::vector<float> distance(raster->kind.size(), std::numeric_limits<float>::max());
   for (size_t i = 0; i < distance.size(); ++i)
@@ -205,8 +205,7 @@ double LocalGround::Height(double x, double y) const {
   const int c0 = static_cast<int>(u), r0 = static_cast<int>(v);
   const int c1 = std::min(c0 + 1, raster_.columns - 1), r1 = std::min(r0 + 1, raster_.rows - 1);
   const auto at = [&](int column, int row) -> double {
-    return raster_.height_m[static_cast<size_t>(row) * static_cast<size_t>(raster_.columns) +
-                            static_cast<size_t>(column)];
+    return raster_.height_m[RowMajor(row, raster_.columns, column)];
   };
   const double fu = u - c0, fv = v - r0;
   const double nearest = at(fu < 0.5 ? c0 : c1, fv < 0.5 ? r0 : r1);

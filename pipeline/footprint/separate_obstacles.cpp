@@ -27,14 +27,14 @@ Rings WithoutSpecks(const Rings& rings) {
 
 // Whether nothing is thin or short about an outline, so that there is nothing to tidy. May say no too often.
 bool IsTidy(const Rings& rings, double width_m) {
-  constexpr size_t kMostPoints = 64;  // looking at each pair of more takes longer than to tidy
+  constexpr size_t kMaxPoints = 64;  // looking at each pair of more takes longer than to tidy
   constexpr double kBluntest = -0.9;  // cosine; sharper corners are looked at more closely
   size_t points = 0;
   for (const Ring& ring : rings) {
     points += ring.size();
     if (std::abs(SignedArea(ring)) < kMinPiece_m2) return false;
   }
-  if (points > kMostPoints) return false;
+  if (points > kMaxPoints) return false;
   const std::vector<Segment> edges = Outline(rings);
   const auto same = [](Point2 p, Point2 q) { return p.x == q.x && p.y == q.y; };
   for (size_t i = 0; i < edges.size(); ++i) {

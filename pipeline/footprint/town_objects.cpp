@@ -6,6 +6,7 @@
 #include <set>
 
 #include "pipeline/footprint/constants.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -61,7 +62,7 @@ Meaning FromName(const std::string& name, const Point3& min, const Point3& max) 
 std::vector<Triangle3> WorldTriangles(const Scene& scene, const SceneNode& node, double scale) {
   std::vector<Triangle3> out;
   for (const int index : node.meshes) {
-    const Mesh& mesh = scene.meshes[static_cast<size_t>(index)];
+    const Mesh& mesh = At(scene.meshes, index);
     std::vector<Point3> points;
     points.reserve(mesh.positions.size());
     for (const Vec3 p : mesh.positions) {
@@ -85,12 +86,12 @@ void Grow(const std::vector<Triangle3>& triangles, Point3* min, Point3* max) {
 
 // The topmost ancestor of the same kind: where the tag stands. Untagged nodes stand for themselves.
 int ObjectRoot(const Scene& scene, int node) {
-  const NodeKind kind = scene.nodes[static_cast<size_t>(node)].kind;
+  const NodeKind kind = At(scene.nodes, node).kind;
   if (kind == NodeKind::kUntagged) return node;
   int root = node;
-  for (int parent = scene.nodes[static_cast<size_t>(node)].parent;
-       parent >= 0 && scene.nodes[static_cast<size_t>(parent)].kind == kind;
-       parent = scene.nodes[static_cast<size_t>(parent)].parent)
+  for (int parent = At(scene.nodes, node).parent;
+       parent >= 0 && At(scene.nodes, parent).kind == kind;
+       parent = At(scene.nodes, parent).parent)
     root = parent;
   return root;
 }
@@ -135,7 +136,7 @@ TownObjects SortTown(const Scene& scene, double scale) {
     const int root = ObjectRoot(scene, static_cast<int>(i));
     const auto [entry, is_new] = object_of_root.try_emplace(root, town.obstacles.size());
     if (is_new) {
-      const SceneNode& top = scene.nodes[static_cast<size_t>(root)];
+      const SceneNode& top = At(scene.nodes, root);
       const std::string name = top.name.empty() ? "node_" + std::to_string(root) : top.name;
       town.obstacles.push_back({name, kind, top.radius_m, {}, {}, min, max});
     }

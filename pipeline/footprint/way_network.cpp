@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "pipeline/footprint/constants.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -122,7 +123,7 @@ class Builder {
       const auto& cell = *vertex.incident_edge()->cell();
       const double clearance = DistanceTo(cell, at);
       if (clearance >= least_ && IsInside(vertex, at, rows)) {
-        node_of_[index] = static_cast<int>(network_.nodes.size());
+        node_of_[index] = Count(network_.nodes);
         network_.nodes.push_back({at, clearance, IsOpen(vertex), {}});
       }
       ++index;
@@ -173,16 +174,16 @@ class Builder {
     }
   }
 
-  double ClearanceOf(int node) const { return network_.nodes[static_cast<size_t>(node)].clearance_m; }
+  double ClearanceOf(int node) const { return At(network_.nodes, node).clearance_m; }
 
   int AddNode(Point2 at, double clearance, bool open) {
     network_.nodes.push_back({at, clearance, open, {}});
-    return static_cast<int>(network_.nodes.size()) - 1;
+    return Count(network_.nodes) - 1;
   }
 
   // In steps.
   void AddWay(int from, int to, const Diagram::cell_type& cell, const Diagram::cell_type& other) {
-    const Point2 a = network_.nodes[static_cast<size_t>(from)].at, b = network_.nodes[static_cast<size_t>(to)].at;
+    const Point2 a = At(network_.nodes, from).at, b = At(network_.nodes, to).at;
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     const double step = std::max(kNodeStep_m, std::min(ClearanceOf(from), ClearanceOf(to)) / 2);
     const int steps = static_cast<int>(std::clamp(std::ceil(length / step), 1.0, kMaxNodeSteps));
@@ -191,10 +192,10 @@ class Builder {
       const Point2 at{a.x + (b.x - a.x) * s / steps, a.y + (b.y - a.y) * s / steps};
       const int next = s == steps ? to : AddNode(at, std::max(least_, std::min(DistanceTo(cell, at), DistanceTo(other, at))),
                                                        IsOpen(cell) || IsOpen(other));
-      const int way = static_cast<int>(network_.ways.size());
+      const int way = Count(network_.ways);
       network_.ways.push_back({before, next, length / steps});
-      network_.nodes[static_cast<size_t>(before)].ways.push_back(way);
-      network_.nodes[static_cast<size_t>(next)].ways.push_back(way);
+      At(network_.nodes, before).ways.push_back(way);
+      At(network_.nodes, next).ways.push_back(way);
       before = next;
     }
   }
@@ -208,7 +209,7 @@ class Builder {
 
   // The least clearance between two nodes: at one of them, or `at` where the way passes straight between corners.
   double Narrowest(const Diagram::cell_type& cell, const Diagram::cell_type& other, int from, int to, Point2* at) const {
-    const WayNode &p = network_.nodes[static_cast<size_t>(from)], &q = network_.nodes[static_cast<size_t>(to)];
+    const WayNode &p = At(network_.nodes, from), &q = At(network_.nodes, to);
     const double ends = std::min(p.clearance_m, q.clearance_m);
     if (!IsCorner(cell) && !IsCorner(other)) return ends;
     const auto& corner = IsCorner(cell) ? cell : other;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pipeline/footprint/polygon_sets.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 
@@ -20,7 +21,7 @@ struct WayNetwork {
   std::vector<WayNode> nodes;
   std::vector<WayEdge> ways;
   int Other(int way, int node) const {
-    const WayEdge& w = ways[static_cast<size_t>(way)];
+    const WayEdge& w = At(ways, way);
     return w.from == node ? w.to : w.from;
   }
 };

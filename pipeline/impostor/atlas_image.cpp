@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "runtime/base/array.h"
 #include "runtime/base/srgb.h"
 #include "runtime/base/text.h"
 
@@ -28,7 +29,7 @@ Pixels Halved(const Pixels& from) {
   }();
   Pixels to{from.width / 2, from.height / 2, {}};
   const auto at = [&](int x, int y, size_t c) {
-    const uint8_t v = from.rgba[4 * (static_cast<size_t>(y) * static_cast<size_t>(from.width) + static_cast<size_t>(x)) + c];
+    const uint8_t v = from.rgba[4 * RowMajor(y, from.width, x) + c];
     return c < 3 ? kLinear[v] : static_cast<float>(v) / 255;
   };
   for (int y = 0; y < to.height; ++y) {

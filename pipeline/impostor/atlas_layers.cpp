@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pipeline/impostor/view_geometry.h"
+#include "runtime/base/array.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -15,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // One sample in 4096 counts; what rounding leaves in Blender's sums does not.
-constexpr float kLeastCoverage = 1e-4f;
+constexpr float kMinCoverage = 1e-4f;
 // How far coverage keeps from a half, for each halving: compression is off by more the smaller a person gets in a block.
 constexpr float kClearOfHalf = 0.02f;
 
@@ -54,7 +55,7 @@ Error FindChannels(const fs::path& exr, const OIIO::ImageSpec& spec, std::array<
 // layers: the sums of one texel, premultiplied with the coverage.
 AtlasTexel TexelOf(const std::array<float, kLayers>& layers) {
   AtlasTexel texel;
-  if (layers[kCoverage] < kLeastCoverage) return texel;
+  if (layers[kCoverage] < kMinCoverage) return texel;
   const auto mean = [&](Layer layer) { return layers[layer] / layers[kCoverage]; };
   texel.coverage = std::min(1.0f, layers[kCoverage]);
   texel.albedo = {mean(kRed), mean(kGreen), mean(kBlue)};
@@ -81,12 +82,12 @@ AtlasLevel Half(const AtlasLevel& from) {
       AtlasTexel sum;
       for (int k = 0; k < 4; ++k) {
         const int u = std::min(2 * x + k % 2, from.width - 1), v = std::min(2 * y + k / 2, from.height - 1);
-        const AtlasTexel& texel = from.texels[static_cast<size_t>(v * from.width + u)];
+        const AtlasTexel& texel = At(from.texels, v * from.width + u);
         AddWeighted(texel, texel.coverage, &sum);
         sum.coverage += texel.coverage;
       }
       if (sum.coverage <= 0) continue;
-      AtlasTexel& mean = to.texels[static_cast<size_t>(y * to.width + x)];
+      AtlasTexel& mean = At(to.texels, y * to.width + x);
       AddWeighted(sum, 1 / sum.coverage, &mean);
       mean.coverage = sum.coverage / 4;
     }
@@ -144,7 +145,7 @@ void TurnIntoCells(const ImpostorAtlas& atlas, AtlasLevel* level) {
     const auto turned = [&](Vec3 v) { return Vec3{Dot(v, axes.right), Dot(v, axes.up), Dot(v, axes.near)}; };
     for (int y = cell.y; y < cell.y + cell.height; ++y) {
       for (int x = cell.x; x < cell.x + cell.width; ++x) {
-        AtlasTexel& texel = level->texels[static_cast<size_t>(y * level->width + x)];
+        AtlasTexel& texel = At(level->texels, y * level->width + x);
         texel.normal = turned(texel.normal);
         texel.motion_m = turned(texel.motion_m);
         texel.bend_m = turned(texel.bend_m);
@@ -166,10 +167,10 @@ void FillGutters(std::vector<AtlasLevel>* levels) {
     const AtlasLevel& coarser = (*levels)[k + 1];
     for (int y = 0; y < level.height; ++y) {
       for (int x = 0; x < level.width; ++x) {
-        AtlasTexel& texel = level.texels[static_cast<size_t>(y * level.width + x)];
+        AtlasTexel& texel = At(level.texels, y * level.width + x);
         if (texel.coverage > 0) continue;
         const int u = std::min(x / 2, coarser.width - 1), v = std::min(y / 2, coarser.height - 1);
-        texel = coarser.texels[static_cast<size_t>(v * coarser.width + u)];
+        texel = At(coarser.texels, v * coarser.width + u);
         texel.coverage = 0;
       }
     }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kCellStep_px = 4;                        // a block of the compressed pictures
 constexpr int kAtlasStep_px = 1 << (kAtlasLevels - 1);
-constexpr int kMostSide_px = 8192;                     // what every desktop graphics card takes
+constexpr int kMaxSide_px = 8192;                     // what every desktop graphics card takes
 
 int RoundedUp(int value, int step) { return (value + step - 1) / step * step; }
 
@@ -50,10 +50,10 @@ bool LayOutCells(const std::vector<ViewBounds>& views, int border_px, ImpostorAt
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return atlas->cells[a].height > atlas->cells[b].height; });
   int64_t least = -1;
-  for (int width = RoundedUp(widest, kAtlasStep_px); width <= kMostSide_px; width += kAtlasStep_px) {
+  for (int width = RoundedUp(widest, kAtlasStep_px); width <= kMaxSide_px; width += kAtlasStep_px) {
     const int height = RoundedUp(FillShelves(width, order, &atlas->cells), kAtlasStep_px);
     const int64_t area = int64_t{width} * height;
-    if (height > kMostSide_px || (least >= 0 && area >= least)) continue;
+    if (height > kMaxSide_px || (least >= 0 && area >= least)) continue;
     least = area;
     atlas->width_px = width;
     atlas->height_px = height;

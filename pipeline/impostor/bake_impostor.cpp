@@ -11,6 +11,7 @@
 #include "pipeline/impostor/atlas_layout.h"
 #include "pipeline/impostor/compress_atlas.h"
 #include "pipeline/impostor/view_geometry.h"
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {
@@ -19,9 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kMostAtlasPixels = 8192;       // what every desktop graphics card takes
+constexpr int kMaxAtlasPixels = 8192;       // what every desktop graphics card takes
 constexpr int kPicturePixels = 1 << 21;      // that Blender renders at once
-constexpr float kMostTexels = 3;             // of a person's picture, a texel of the atlas: players filter as much where the impostor takes over
+constexpr float kMaxTexels = 3;             // of a person's picture, a texel of the atlas: players filter as much where the impostor takes over
 
 Error CheckRange(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return Ok();
@@ -83,7 +84,7 @@ Error LayOut(const ViewGeometry& geometry, const ImpostorOptions& options, Impos
   for (int inner_px = wanted_px; 2 * inner_px >= wanted_px; --inner_px) {
     atlas->texel_m = height_m / static_cast<float>(inner_px);
     if (!LayOutCells(views, options.border_px, atlas)) {
-      if (options.memory_kb == 0) return Fail(TooLarge(kMostAtlasPixels));
+      if (options.memory_kb == 0) return Fail(TooLarge(kMaxAtlasPixels));
       continue;
     }
     if (most_bytes == 0 || TextureMemory(atlas->width_px, atlas->height_px) <= most_bytes) break;
@@ -122,8 +123,8 @@ Error ReduceToSeen(const Mesh& mesh, float texel_m, Image* image) {
   std::optional<Pixels> pixels = Decoded(image->bytes);
   if (!pixels) return Ok();  // Blender says why
   float excess = TexelsPerMetre(mesh, pixels->width, pixels->height) * texel_m;
-  if (!(excess > kMostTexels)) return Ok();
-  for (; excess > kMostTexels && std::min(pixels->width, pixels->height) > 1; excess /= 2) pixels = Halved(*pixels);
+  if (!(excess > kMaxTexels)) return Ok();
+  for (; excess > kMaxTexels && std::min(pixels->width, pixels->height) > 1; excess /= 2) pixels = Halved(*pixels);
   return EncodePng(*pixels, true, image);
 }
 
@@ -131,7 +132,7 @@ Error ReduceToSeen(const Mesh& mesh, float texel_m, Image* image) {
 Error WriteTextures(const fs::path& folder, const Avatar& avatar, const std::vector<ViewMaterial>& materials, float texel_m) {
   for (size_t m = 0; m < materials.size(); ++m) {
     if (materials[m].image < 0) continue;
-    Image image = avatar.images[static_cast<size_t>(materials[m].image)];
+    Image image = At(avatar.images, materials[m].image);
     if (!materials[m].mask) {
       if (Error e = ReduceToSeen(avatar.meshes[m], texel_m, &image)) return e;
     }
@@ -275,8 +276,8 @@ Error BakeImpostor(const Avatar& avatar, const ImpostorOptions& options, Imposto
   }
   if (Error error = Assemble(folder.path(), &made, statistics)) return error;
   statistics->frames = made.frames;
-  statistics->cells = made.frames * made.directions * static_cast<int>(made.elevations_deg.size());
-  statistics->triangles = static_cast<int>(geometry.materials.size());
+  statistics->cells = made.frames * made.directions * Count(made.elevations_deg);
+  statistics->triangles = Count(geometry.materials);
   statistics->blender_cpu_s = process.cpu_s;
   statistics->blender_wall_s = process.wall_s;
   statistics->blender_peak_memory_bytes = process.peak_memory_bytes;

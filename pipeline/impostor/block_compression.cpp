@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/array.h"
 #include "runtime/pack/texture.h"
 
 namespace flaneur {
@@ -116,7 +117,7 @@ std::array<Color, 2> Refined(const BlockTexels& texels, const Weights& weights, 
   Color a{}, b{};
   for (size_t i = 0; i < 16; ++i) {
     if (!IsOn(line, i)) continue;
-    const float t = static_cast<float>(line.steps[static_cast<size_t>(line.indices[i])]) / 64;
+    const float t = static_cast<float>(At(line.steps, line.indices[i])) / 64;
     const float w = weights[i];
     aa += w * (1 - t) * (1 - t);
     ab += w * (1 - t) * t;
@@ -291,7 +292,7 @@ std::array<size_t, kTried> LikelyPartitions(const BlockTexels& texels, const Wei
 
 // An index at `anchor` is written with one bit less: its highest bit must be 0.
 void TurnAround(size_t anchor, Line* line) {
-  const int most = static_cast<int>(line->steps.size()) - 1;
+  const int most = Count(line->steps) - 1;
   if (line->indices[anchor] * 2 <= most) return;
   std::swap(line->ends[0], line->ends[1]);
   for (int& index : line->indices) index = most - index;

@@ -8,6 +8,7 @@
 #include "pipeline/impostor/atlas_layout.h"
 #include "pipeline/impostor/block_compression.h"
 #include "pipeline/impostor/view_geometry.h"
+#include "runtime/base/array.h"
 #include "runtime/pack/ktx2.h"
 
 namespace flaneur {
@@ -34,7 +35,7 @@ std::vector<uint8_t> CompressLevel(const AtlasLevel& level, TextureFormat format
       Block block{};
       for (int i = 0; i < 16; ++i) {
         const int x = std::min(left + i % 4, level.width - 1), y = std::min(top + i / 4, level.height - 1);
-        block[static_cast<size_t>(i)] = &level.texels[static_cast<size_t>(y * level.width + x)];
+        At(block, i) = &At(level.texels, y * level.width + x);
       }
       compress(block, at);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/array.h"
 #include "runtime/base/srgb.h"
 
 namespace flaneur {
@@ -10,7 +11,7 @@ namespace {
 
 Vec4 BaseColor(const Avatar& avatar, const Mesh& mesh) {
   return mesh.material < 0 ? Vec4{1, 1, 1, 1}
-                           : avatar.materials[static_cast<size_t>(mesh.material)].base_color;
+                           : At(avatar.materials, mesh.material).base_color;
 }
 
 Vec4 Product(Vec4 a, Vec4 b) { return {a.x * b.x, a.y * b.y, a.z * b.z, a.w * b.w}; }
@@ -104,7 +105,7 @@ int UsableImage(const Avatar& avatar, const Mesh& mesh, const Material& material
   if (image < 0) return -1;
   std::string why;
   if (static_cast<size_t>(image) >= avatar.images.size() ||
-      avatar.images[static_cast<size_t>(image)].bytes.empty()) {
+      At(avatar.images, image).bytes.empty()) {
     why = "its texture is missing";
   } else if (mesh.uvs.empty()) {
     why = "it has a texture but no texture coordinates";
@@ -123,7 +124,7 @@ std::vector<ViewMaterial> ViewMaterials(const Avatar& avatar, std::vector<std::s
   for (const Mesh& mesh : avatar.meshes) {
     ViewMaterial view;
     if (mesh.material >= 0) {
-      const Material& material = avatar.materials[static_cast<size_t>(mesh.material)];
+      const Material& material = At(avatar.materials, mesh.material);
       view.image = UsableImage(avatar, mesh, material, warnings);
       view.mask = material.alpha != Material::Alpha::kOpaque;
       view.cutoff = material.alpha_cutoff;

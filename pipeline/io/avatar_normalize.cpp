@@ -4,16 +4,18 @@
 #include <cmath>
 #include <cstdio>
 
+#include "runtime/base/array.h"
+
 namespace flaneur {
 namespace {
 
 constexpr float kDefaultHeight_m = 1.75f;
-constexpr float kLeastHeight_m = 0.5f, kGreatestHeight_m = 2.3f;  // kept as they are in between
+constexpr float kMinHeight_m = 0.5f, kMaxHeight_m = 2.3f;  // kept as they are in between
 constexpr float kDefaultSpeed_mps = 1.3f;  // of an adult, where nothing tells
-constexpr float kLeastSpeed_mps = 0.2f;    // slower is not a walk
+constexpr float kMinSpeed_mps = 0.2f;    // slower is not a walk
 constexpr float kTravel = 0.05f;           // of the height: more than sway, so the root travels
 constexpr float kSole = 0.015f;            // of the height: how near the ground a standing sole is
-constexpr size_t kMostBodyVertices = 16000;  // at a millimetre or two from one another's height
+constexpr size_t kMaxBodyVertices = 16000;  // at a millimetre or two from one another's height
 constexpr float kBlendedShare = 0.25f;     // of a clip that does not loop
 
 std::string Metres(float value) {
@@ -44,7 +46,7 @@ std::vector<Vec3> JointPositions(const Avatar& avatar, const Clip& clip, int key
     const Transform& t = clip.transforms[static_cast<size_t>(key) * joints + j];
     const Mat4 local = FromTranslationRotationScale(t.translation, t.rotation, t.scale);
     const int parent = avatar.joints[j].parent;
-    world[j] = parent < 0 ? local : world[static_cast<size_t>(parent)] * local;
+    world[j] = parent < 0 ? local : At(world, parent) * local;
     positions[j] = TransformPoint(world[j], {});
   }
   return positions;
@@ -240,7 +242,7 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
   if (!std::isfinite(height) || !(height > 1e-6f)) return Fail("the figure has no height");
   float wanted = options.height_m;
   if (wanted <= 0) {
-    const bool plausible = height >= kLeastHeight_m && height <= kGreatestHeight_m;
+    const bool plausible = height >= kMinHeight_m && height <= kMaxHeight_m;
     wanted = plausible ? height : kDefaultHeight_m;
     if (!plausible) {
       warnings->push_back("the figure is " + Metres(height) + " m high and is scaled to " +
@@ -297,7 +299,7 @@ void TurnToFace(Vec3 walk_mps, Avatar* avatar, Mesh* body, std::vector<std::stri
 void SetWalkSpeed(float told_mps, Vec3 walk_mps, Avatar* avatar,
                   std::vector<std::string>* warnings) {
   avatar->walk_speed_mps = told_mps > 0 ? told_mps : Length(walk_mps);
-  if (avatar->walk_speed_mps > kLeastSpeed_mps) return;
+  if (avatar->walk_speed_mps > kMinSpeed_mps) return;
   avatar->walk_speed_mps = kDefaultSpeed_mps * std::sqrt(avatar->height_m / kDefaultHeight_m);
   warnings->push_back("the walk's speed cannot be told from its soles; " +
                       Metres(avatar->walk_speed_mps) + " m/s is taken");
@@ -305,7 +307,7 @@ void SetWalkSpeed(float told_mps, Vec3 walk_mps, Avatar* avatar,
 
 // Skin alone, of no more vertices than tell where soles and trunk are.
 Mesh Thinned(const Mesh& mesh) {
-  const size_t step = 1 + mesh.positions.size() / kMostBodyVertices;
+  const size_t step = 1 + mesh.positions.size() / kMaxBodyVertices;
   Mesh thin;
   for (size_t v = 0; v < mesh.positions.size(); v += step) {
     thin.positions.push_back(mesh.positions[v]);
@@ -351,7 +353,7 @@ Error NormalizeAvatar(const NormalizeOptions& options, const Mesh& whole_body, A
   }
   const Clip& walk = *FindClip(*avatar, "walk");
   if (!(Length(walk_mps) > 0)) walk_mps = MeasureWalk(*avatar, walk, body);
-  if (Length(walk_mps) > kLeastSpeed_mps) TurnToFace(walk_mps, avatar, &body, warnings);
+  if (Length(walk_mps) > kMinSpeed_mps) TurnToFace(walk_mps, avatar, &body, warnings);
   PlaceClips(body, avatar);
   avatar->radius_m = TrunkRadius(*avatar, walk, body);
   SetWalkSpeed(options.walk_speed_mps * scale, walk_mps, avatar, warnings);

@@ -8,6 +8,7 @@
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_document.h"
 #include "pipeline/io/gltf_pose.h"
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
@@ -46,7 +47,7 @@ int GuessClip(const GltfDocument& document, const std::string& word) {
     const std::string name = Lower(document.clips[i].name);
     if (name == word) return static_cast<int>(i);
     if (name.find(word) == std::string::npos) continue;
-    if (best < 0 || name.size() < document.clips[static_cast<size_t>(best)].name.size()) {
+    if (best < 0 || name.size() < At(document.clips, best).name.size()) {
       best = static_cast<int>(i);
     }
   }
@@ -86,8 +87,8 @@ Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options
       return Fail("no walk clip; the file has: " + Listed(ClipNames(document)) +
                   "; name the one to walk with");
     }
-    if (clip >= 0 && document.clips[static_cast<size_t>(clip)].channels.empty()) {
-      if (walk) return Fail("walk clip " + Quoted(document.clips[clip].name) + " moves nothing");
+    if (clip >= 0 && At(document.clips, clip).channels.empty()) {
+      if (walk) return Fail("walk clip " + Quoted(At(document.clips, clip).name) + " moves nothing");
       continue;
     }
     if (clip >= 0) chosen->push_back({name, clip});
@@ -110,11 +111,11 @@ Error VisibleNodes(const GltfDocument& document, const ReadAvatarOptions& option
   if (Error e = find(options.props, " for the prop of that name")) return e;
   visible->assign(document.nodes.size(), false);
   for (const int i : document.order) {
-    const DocumentNode& node = document.nodes[static_cast<size_t>(i)];
+    const DocumentNode& node = At(document.nodes, i);
     const bool hidden = std::find(options.hide.begin(), options.hide.end(), node.name) != options.hide.end();
-    const bool parent_seen = node.parent < 0 || !document.nodes[node.parent].in_scene ||
-                             (*visible)[static_cast<size_t>(node.parent)];
-    (*visible)[static_cast<size_t>(i)] = node.in_scene && parent_seen && !hidden;
+    const bool parent_seen = node.parent < 0 || !At(document.nodes, node.parent).in_scene ||
+                             At(*visible, node.parent);
+    At(*visible, i) = node.in_scene && parent_seen && !hidden;
   }
   return Ok();
 }
@@ -159,7 +160,7 @@ class AvatarReader {
   void AddClip(const ChosenClip& chosen);
   void DropUnusedMaterials();
 
-  const DocumentNode& Node(int i) const { return document_.nodes[static_cast<size_t>(i)]; }
+  const DocumentNode& Node(int i) const { return At(document_.nodes, i); }
 
   const GltfDocument& document_;
   const ReadAvatarOptions& options_;
@@ -191,24 +192,24 @@ Error AvatarReader::FindParts() {
   if (Error e = VisibleNodes(document_, options_, &visible)) return e;
   std::vector<bool> moves(document_.nodes.size(), false);
   for (const DocumentSkin& skin : document_.skins) {
-    for (const int joint : skin.joints) moves[static_cast<size_t>(joint)] = true;
+    for (const int joint : skin.joints) At(moves, joint) = true;
   }
   for (const ChosenClip& clip : clips_) {
-    for (const DocumentChannel& c : document_.clips[static_cast<size_t>(clip.source)].channels) {
-      moves[static_cast<size_t>(c.node)] = true;
+    for (const DocumentChannel& c : At(document_.clips, clip.source).channels) {
+      At(moves, c.node) = true;
     }
   }
   bool any_skinned = false;
   for (const std::string& name : options_.props) avatar_->props.push_back({name, {}});
   for (const int i : document_.order) {
     const DocumentNode& node = Node(i);
-    if (!visible[static_cast<size_t>(i)] || node.mesh < 0) continue;
-    const DocumentMesh& mesh = document_.meshes[static_cast<size_t>(node.mesh)];
+    if (!At(visible, i) || node.mesh < 0) continue;
+    const DocumentMesh& mesh = At(document_.meshes, node.mesh);
     if (mesh.primitives.empty()) continue;
     if (mesh.morphs) notes_->push_back("mesh " + Quoted(mesh.name) + ": morph targets are ignored");
     Part part{i, node.skin >= 0 && HasInfluences(mesh), -1, PropOf(i)};
     for (int a = i; a >= 0 && part.anchor < 0; a = Node(a).parent) {
-      if (moves[static_cast<size_t>(a)]) part.anchor = a;
+      if (At(moves, a)) part.anchor = a;
     }
     if (!part.skinned && part.anchor < 0) {
       notes_->push_back("node " + Quoted(node.name) + " hangs on no bone and is left out");
@@ -227,48 +228,48 @@ Error AvatarReader::FindParts() {
 Error AvatarReader::FindJoints() {
   std::vector<bool> bone(document_.nodes.size(), false), used(document_.nodes.size(), false);
   for (const DocumentSkin& skin : document_.skins) {
-    for (const int joint : skin.joints) bone[static_cast<size_t>(joint)] = true;
+    for (const int joint : skin.joints) At(bone, joint) = true;
   }
   for (const Part& part : parts_) {
     if (!part.skinned) {
-      used[static_cast<size_t>(part.anchor)] = true;
+      At(used, part.anchor) = true;
       continue;
     }
-    const DocumentSkin& skin = document_.skins[static_cast<size_t>(Node(part.node).skin)];
+    const DocumentSkin& skin = At(document_.skins, Node(part.node).skin);
     const int mesh = Node(part.node).mesh;
-    for (const auto& primitive : document_.meshes[static_cast<size_t>(mesh)].primitives) {
+    for (const auto& primitive : At(document_.meshes, mesh).primitives) {
       const Influences& in = primitive.influences;
       for (size_t i = 0; i < in.joints.size(); ++i) {
         if (in.weights[i] <= 0) continue;
-        if (in.joints[i] < 0 || in.joints[i] >= static_cast<int>(skin.joints.size())) {
+        if (!InRange(skin.joints, in.joints[i])) {
           return Fail("mesh " + Quoted(primitive.mesh.name) + ": joint " +
                       std::to_string(in.joints[i]) + " is not in its skin");
         }
-        used[static_cast<size_t>(skin.joints[static_cast<size_t>(in.joints[i])])] = true;
+        At(used, At(skin.joints, in.joints[i])) = true;
       }
-      if (in.per_vertex == 0) used[static_cast<size_t>(skin.joints[0])] = true;
+      if (in.per_vertex == 0) At(used, skin.joints[0]) = true;
     }
   }
   for (auto it = document_.order.rbegin(); it != document_.order.rend(); ++it) {
     const int parent = Node(*it).parent;
     // Kept bones reach up to the topmost bone; plain nodes between and above fold into them.
-    for (int a = parent; used[static_cast<size_t>(*it)] && a >= 0; a = Node(a).parent) {
-      if (bone[static_cast<size_t>(a)]) used[static_cast<size_t>(a)] = true;
+    for (int a = parent; At(used, *it) && a >= 0; a = Node(a).parent) {
+      if (At(bone, a)) At(used, a) = true;
     }
   }
   joint_of_.assign(document_.nodes.size(), -1);
   for (const int i : document_.order) {
-    if (!used[static_cast<size_t>(i)]) continue;
+    if (!At(used, i)) continue;
     Joint joint;
     joint.name = Node(i).name;
     for (int a = Node(i).parent; a >= 0 && joint.parent < 0; a = Node(a).parent) {
-      joint.parent = joint_of_[static_cast<size_t>(a)];
+      joint.parent = At(joint_of_, a);
     }
-    joint_of_[static_cast<size_t>(i)] = static_cast<int>(joint_nodes_.size());
+    At(joint_of_, i) = Count(joint_nodes_);
     joint_nodes_.push_back(i);
     avatar_->joints.push_back(std::move(joint));
   }
-  if (static_cast<int>(joint_nodes_.size()) > options_.max_joints) {
+  if (Count(joint_nodes_) > options_.max_joints) {
     return Fail("it uses " + std::to_string(joint_nodes_.size()) + " joints, at most " +
                 std::to_string(options_.max_joints) + " are possible; simplify the skeleton");
   }
@@ -292,22 +293,22 @@ void AvatarReader::FindBindPose() {
   std::vector<const Mat4*> binds(joint_nodes_.size(), nullptr);
   for (const Part& part : parts_) {
     if (!part.skinned) continue;
-    const DocumentSkin& skin = document_.skins[static_cast<size_t>(Node(part.node).skin)];
+    const DocumentSkin& skin = At(document_.skins, Node(part.node).skin);
     for (size_t k = 0; k < skin.joints.size(); ++k) {
-      const int joint = joint_of_[static_cast<size_t>(skin.joints[k])];
-      if (joint < 0 || binds[static_cast<size_t>(joint)] != nullptr) continue;
-      binds[static_cast<size_t>(joint)] = &skin.inverse_binds[k];
+      const int joint = At(joint_of_, skin.joints[k]);
+      if (joint < 0 || At(binds, joint) != nullptr) continue;
+      At(binds, joint) = &skin.inverse_binds[k];
     }
   }
   Mat4 from_bind;  // the skins' space to scene space
   for (size_t j = 0; j < binds.size(); ++j) {
     if (binds[j] == nullptr) continue;
-    from_bind = rest_[static_cast<size_t>(joint_nodes_[j])] * *binds[j];
+    from_bind = At(rest_, joint_nodes_[j]) * *binds[j];
     break;
   }
   const Mat4 to_bind = Inverse(from_bind);
   for (size_t j = 0; j < binds.size(); ++j) {
-    const Mat4& rest = rest_[static_cast<size_t>(joint_nodes_[j])];
+    const Mat4& rest = At(rest_, joint_nodes_[j]);
     const float volume = std::abs(Determinant(rest));
     const float scale = volume > 0 ? std::cbrt(volume) : 1.0f;
     to_metres_.push_back(UniformScale(1 / scale));
@@ -318,7 +319,7 @@ void AvatarReader::FindBindPose() {
     const size_t p = static_cast<size_t>(std::max(parent, 0));
     avatar_->joints[j].rest = Decomposed(
         parent < 0 ? own
-                   : Inverse(rest_[static_cast<size_t>(joint_nodes_[p])] * to_metres_[p]) * own);
+                   : Inverse(At(rest_, joint_nodes_[p]) * to_metres_[p]) * own);
   }
 }
 
@@ -361,10 +362,10 @@ bool FourHeaviest(std::vector<Weighted> all, std::array<uint16_t, 4>* joints,
 }
 
 Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& primitive, Mesh* mesh) {
-  const DocumentSkin& skin = document_.skins[static_cast<size_t>(Node(part.node).skin)];
+  const DocumentSkin& skin = At(document_.skins, Node(part.node).skin);
   std::vector<Mat4> into_bind(skin.joints.size());  // the part's space to the avatar's bind pose
   for (size_t k = 0; k < skin.joints.size(); ++k) {
-    const int joint = joint_of_[static_cast<size_t>(skin.joints[k])];
+    const int joint = At(joint_of_, skin.joints[k]);
     if (joint < 0) continue;
     const size_t j = static_cast<size_t>(joint);
     into_bind[k] =
@@ -388,7 +389,7 @@ Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& prim
       sum += weight;
       for (size_t m = 0; m < 16; ++m)
         blend.m[m / 4][m % 4] += weight * into_bind[k].m[m / 4][m % 4];
-      const auto joint = static_cast<uint16_t>(joint_of_[static_cast<size_t>(skin.joints[k])]);
+      const auto joint = static_cast<uint16_t>(At(joint_of_, skin.joints[k]));
       const auto same =
           std::find_if(all.begin(), all.end(), [&](const Weighted& w) { return w.joint == joint; });
       if (same == all.end())
@@ -398,7 +399,7 @@ Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& prim
     }
     if (!FourHeaviest(all, &mesh->joints[v], &mesh->weights[v])) {
       ++weightless_;
-      const int root = joint_of_[static_cast<size_t>(skin.joints[0])];
+      const int root = At(joint_of_, skin.joints[0]);
       mesh->joints[v] = {static_cast<uint16_t>(std::max(root, 0)), 0, 0, 0};
       mesh->weights[v] = {1, 0, 0, 0};
       blend = into_bind[0];
@@ -416,10 +417,10 @@ Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& prim
 }
 
 void AvatarReader::AttachVertices(const Part& part, Mesh* mesh) const {
-  const int joint = joint_of_[static_cast<size_t>(part.anchor)];
+  const int joint = At(joint_of_, part.anchor);
   const size_t j = static_cast<size_t>(joint);
   const Mat4 from_anchor =
-      Inverse(rest_[static_cast<size_t>(part.anchor)]) * rest_[static_cast<size_t>(part.node)];
+      Inverse(At(rest_, part.anchor)) * At(rest_, part.node);
   const Mat4 matrix =
       Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) * from_anchor;
   for (size_t v = 0; v < mesh->positions.size(); ++v) {
@@ -452,7 +453,7 @@ Mesh* AvatarReader::MergedMesh(int material, std::vector<Mesh>* meshes) const {
   meshes->emplace_back();
   meshes->back().material = material;
   meshes->back().name =
-      material < 0 ? "plain" : document_.materials[static_cast<size_t>(material)].name;
+      material < 0 ? "plain" : At(document_.materials, material).name;
   return &meshes->back();
 }
 
@@ -471,7 +472,7 @@ void AppendMesh(const Mesh& part, Mesh* mesh) {
 
 Error AvatarReader::AddPart(const Part& part) {
   const int mesh_index = Node(part.node).mesh;
-  for (const auto& primitive : document_.meshes[static_cast<size_t>(mesh_index)].primitives) {
+  for (const auto& primitive : At(document_.meshes, mesh_index).primitives) {
     Mesh mesh = primitive.mesh;
     if (part.skinned && primitive.influences.per_vertex > 0) {
       if (Error e = SkinVertices(part, primitive, &mesh)) return e;
@@ -479,10 +480,10 @@ Error AvatarReader::AddPart(const Part& part) {
       AttachVertices(part, &mesh);
     } else {
       Part on_skin = part;
-      on_skin.anchor = document_.skins[static_cast<size_t>(Node(part.node).skin)].joints[0];
+      on_skin.anchor = At(document_.skins, Node(part.node).skin).joints[0];
       AttachVertices(on_skin, &mesh);
     }
-    std::vector<Mesh>& meshes = part.prop < 0 ? avatar_->meshes : avatar_->props[static_cast<size_t>(part.prop)].meshes;
+    std::vector<Mesh>& meshes = part.prop < 0 ? avatar_->meshes : At(avatar_->props, part.prop).meshes;
     AppendMesh(mesh, MergedMesh(mesh.material, &meshes));
     if (part.skinned && part.prop < 0) AppendMesh(mesh, &body_);
   }
@@ -490,7 +491,7 @@ Error AvatarReader::AddPart(const Part& part) {
 }
 
 void AvatarReader::AddClip(const ChosenClip& chosen) {
-  const DocumentClip& source = document_.clips[static_cast<size_t>(chosen.source)];
+  const DocumentClip& source = At(document_.clips, chosen.source);
   const ClipSpan span = SpanOf(source);
   Clip clip;
   clip.name = chosen.name;
@@ -504,10 +505,10 @@ void AvatarReader::AddClip(const ChosenClip& chosen) {
         PoseAt(document_, source, span.start_s + share * (span.end_s - span.start_s));
     std::vector<Mat4> own(joints);
     for (size_t j = 0; j < joints; ++j) {
-      own[j] = world[static_cast<size_t>(joint_nodes_[j])] * to_metres_[j];
+      own[j] = At(world, joint_nodes_[j]) * to_metres_[j];
       const int parent = avatar_->joints[j].parent;
       Transform local =
-          Decomposed(parent < 0 ? own[j] : Inverse(own[static_cast<size_t>(parent)]) * own[j]);
+          Decomposed(parent < 0 ? own[j] : Inverse(At(own, parent)) * own[j]);
       if (k > 0) {
         const Quat b = clip.transforms[clip.transforms.size() - joints].rotation;
         Quat& q = local.rotation;
@@ -523,10 +524,10 @@ void AvatarReader::DropUnusedMaterials() {
   std::vector<int> image_to(document_.images.size(), -1);
   const auto use_image = [&](int* image) {
     if (*image < 0) return;
-    int& to = image_to[static_cast<size_t>(*image)];
+    int& to = At(image_to, *image);
     if (to < 0) {
-      to = static_cast<int>(avatar_->images.size());
-      avatar_->images.push_back(document_.images[static_cast<size_t>(*image)]);
+      to = Count(avatar_->images);
+      avatar_->images.push_back(At(document_.images, *image));
     }
     *image = to;
   };
@@ -534,10 +535,10 @@ void AvatarReader::DropUnusedMaterials() {
   for (Mesh* const each : AllMeshes(avatar_)) {
     Mesh& mesh = *each;
     if (mesh.material < 0) continue;
-    const auto [entry, fresh] = known.try_emplace({mesh.material, mesh.uvs.empty()}, static_cast<int>(avatar_->materials.size()));
+    const auto [entry, fresh] = known.try_emplace({mesh.material, mesh.uvs.empty()}, Count(avatar_->materials));
     const int source = std::exchange(mesh.material, entry->second);
     if (!fresh) continue;
-    Material material = document_.materials[static_cast<size_t>(source)];
+    Material material = At(document_.materials, source);
     if (mesh.uvs.empty() && material.base_color_image >= 0) {
       notes_->push_back("material " + Quoted(material.name) +
                         ": its picture is left out, as its surface has no uvs");

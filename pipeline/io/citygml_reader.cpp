@@ -11,6 +11,7 @@
 #include "pipeline/io/city_objects.h"
 #include "pipeline/io/scene_reader.h"
 #include "pipeline/io/town_builder.h"
+#include "runtime/base/array.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -18,7 +19,7 @@ namespace {
 
 using Rings = std::vector<std::vector<Point3>>;
 
-constexpr size_t kDeepest = 256;  // elements within elements; real files have some 25
+constexpr size_t kMaxDepth = 256;  // elements within elements; real files have some 25
 constexpr size_t kChunk_bytes = 1 << 20;
 constexpr char kSeparator = '|';  // expat puts it between namespace and name
 
@@ -121,7 +122,7 @@ class Reader {
     if (error_) return;
     const std::string_view name = LocalName(full_name);
     if (stack_.empty()) CheckRoot(full_name, name);
-    if (stack_.size() >= kDeepest) return Stop("elements stand more than 256 deep; no CityGML does");
+    if (stack_.size() >= kMaxDepth) return Stop("elements stand more than 256 deep; no CityGML does");
     Element e{std::string(name), {}, polygons_.size(), -1, -1, 0, nullptr, false};
     if (!stack_.empty()) {
       const Element& parent = stack_.back();
@@ -170,7 +171,7 @@ class Reader {
   void EnterFeature(const CityFeature& feature, Element* e) {
     if (!feature.is_part || e->object < 0) {
       const std::string name = e->id.empty() ? e->name + "_" + std::to_string(objects_.size()) : e->id;
-      e->object = static_cast<int>(objects_.size());
+      e->object = Count(objects_);
       objects_.push_back({name, feature, features_});
       e->surface = nullptr;
       e->lod = 0;
@@ -222,7 +223,7 @@ class Reader {
   }
 
   std::string Named(const Element& e) const {
-    return e.object < 0 ? e.name : "'" + objects_[static_cast<size_t>(e.object)].name + "'";
+    return e.object < 0 ? e.name : "'" + At(objects_, e.object).name + "'";
   }
 
   void TakeMatrix(const Element& e, const std::vector<double>& numbers) {
@@ -302,7 +303,7 @@ class Reader {
   Levels FinestLevels() const {
     Levels levels{std::vector<int>(static_cast<size_t>(features_), 0), std::vector<int>(objects_.size(), 0)};
     for (const StoredPolygon& p : polygons_) {
-      for (int* finest : {&levels.of_feature[static_cast<size_t>(p.feature)], &levels.of_object[static_cast<size_t>(p.object)]})
+      for (int* finest : {&At(levels.of_feature, p.feature), &At(levels.of_object, p.object)})
         if (p.lod > 0) *finest = *finest == 0 ? p.lod : Finer(*finest, p.lod);
     }
     return levels;
@@ -319,7 +320,7 @@ class Reader {
     std::vector<int> node(objects_.size(), -1);
     for (const StoredPolygon& p : polygons_) {
       const auto object = static_cast<size_t>(p.object);
-      const int lod = levels.of_feature[static_cast<size_t>(p.feature)];
+      const int lod = At(levels.of_feature, p.feature);
       const bool outdone = p.feature == objects_[object].root && lod != levels.of_object[object];
       if (p.lod == 0 || p.lod != lod || outdone) continue;
       const Object& o = objects_[object];

@@ -6,15 +6,16 @@
 #include <cstring>
 
 #include "pipeline/io/meshopt_codec.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
 
-constexpr float kLeastReach_m = 0.05f;
-constexpr int kLeastBits = 4, kMostBits = 16;  // that the filter allows a rotation's component
+constexpr float kMinReach_m = 0.05f;
+constexpr int kMinBits = 4, kMaxBits = 16;  // that the filter allows a rotation's component
 // Of the tolerance, what keys left out of all channels at once may miss before values are fitted.
 constexpr float kSharedMisfits[] = {0.7f, 1.5f, 3.0f};
-constexpr int kMostFiner = 8;  // halvings of a vector's step, from one that may do
+constexpr int kMaxFiner = 8;  // halvings of a vector's step, from one that may do
 // Together channels err by about three times what each of them may: tried in turn, by how much the
 // first guess missed.
 constexpr int kTrials = 5;
@@ -189,12 +190,12 @@ void RoundVectors(const std::vector<Vec4>& values, int exponent, KeyChannel* cha
 // With as few bits as are tolerated; false where no number of bits is.
 bool RoundTo(const std::vector<Vec4>& values, const Knots& knots, Track* track) {
   const int coarsest = static_cast<int>(std::floor(std::log2(2 / track->unit)));
-  const int trials = track->Rotates() ? kMostBits - kLeastBits + 1 : kMostFiner;
+  const int trials = track->Rotates() ? kMaxBits - kMinBits + 1 : kMaxFiner;
   for (int i = 0; i < trials; ++i) {
     track->channel.values.clear();
     track->channel.rounded.clear();
     if (track->Rotates()) {
-      RoundRotations(values, kLeastBits + i, &track->channel);
+      RoundRotations(values, kMinBits + i, &track->channel);
     } else {
       RoundVectors(values, coarsest - i, &track->channel);
     }
@@ -366,14 +367,14 @@ std::vector<float> JointReaches(std::span<const Joint> joints, std::span<const M
   for (const Joint& joint : joints) {
     pivots.push_back(TransformPoint(Inverse(joint.inverse_bind), {}));
   }
-  std::vector<float> reaches(pivots.size(), kLeastReach_m);
+  std::vector<float> reaches(pivots.size(), kMinReach_m);
   for (const Mesh& mesh : meshes) {
     for (size_t v = 0; v < mesh.joints.size(); ++v) {
       for (size_t i = 0; i < 4; ++i) {
         if (!(mesh.weights[v][i] > 0)) continue;
-        for (int j = mesh.joints[v][i]; j >= 0; j = joints[static_cast<size_t>(j)].parent) {
-          float& reach = reaches[static_cast<size_t>(j)];
-          reach = std::max(reach, Length(mesh.positions[v] - pivots[static_cast<size_t>(j)]));
+        for (int j = mesh.joints[v][i]; j >= 0; j = At(joints, j).parent) {
+          float& reach = At(reaches, j);
+          reach = std::max(reach, Length(mesh.positions[v] - At(pivots, j)));
         }
       }
     }

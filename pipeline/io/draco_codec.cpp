@@ -52,7 +52,7 @@ int AddAttribute(draco::Mesh* mesh, draco::GeometryAttribute::Type type, draco::
   draco::GeometryAttribute attribute;
   const size_t stride =
       static_cast<size_t>(components) * static_cast<size_t>(draco::DataTypeLength(data_type));
-  attribute.Init(type, nullptr, static_cast<int8_t>(components), data_type, normalized,
+  attribute.Init(type, nullptr, static_cast<uint8_t>(components), data_type, normalized,
                  static_cast<int64_t>(stride), 0);
   const int id = mesh->AddAttribute(attribute, true, static_cast<uint32_t>(count));
   mesh->attribute(id)->buffer()->Write(0, data, stride * count);

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kDeepestCollection = 8;
+constexpr int kMaxCollectionDepth = 8;
 
 // JSON has no infinity and no NaN, but programs write them: nulls stand for them from here on.
 std::string WithoutNonNumbers(const std::string& text) {
@@ -151,7 +151,7 @@ class Reader {
     if (type == "LineString") return ReadWay(blank, properties, coordinates);
     if (type == "MultiLineString")
       return ReadEach(coordinates, [&](const Json& j) { return ReadWay(blank, properties, j); });
-    if (type == "GeometryCollection" && depth < kDeepestCollection)
+    if (type == "GeometryCollection" && depth < kMaxCollectionDepth)
       return ReadEach(Member(geometry, "geometries"),
                       [&](const Json& j) { return ReadGeometry(blank, properties, j, depth + 1); });
     if (type == "MultiPoint") return ++out_->skipped, Ok();

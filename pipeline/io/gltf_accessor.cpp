@@ -6,6 +6,8 @@
 #include <cstring>
 #include <string>
 
+#include "runtime/base/array.h"
+
 namespace flaneur {
 namespace {
 
@@ -115,10 +117,10 @@ Error ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accesso
 // Checks the accessor and finds its first byte (null: all zeros) and stride.
 Error Locate(const tinygltf::Model& model, int index, const tinygltf::Accessor** accessor,
              const uint8_t** first, size_t* stride) {
-  if (index < 0 || static_cast<size_t>(index) >= model.accessors.size()) {
+  if (!InRange(model.accessors, index)) {
     return Fail("accessor " + std::to_string(index) + " does not exist");
   }
-  const tinygltf::Accessor& a = model.accessors[static_cast<size_t>(index)];
+  const tinygltf::Accessor& a = At(model.accessors, index);
   *accessor = &a;
   *first = nullptr;
   if (!KnownComponentType(a.componentType)) return Fail("accessor has an unknown component type");
@@ -132,7 +134,7 @@ Error Locate(const tinygltf::Model& model, int index, const tinygltf::Accessor**
   if (static_cast<size_t>(a.bufferView) >= model.bufferViews.size()) {
     return Fail("bufferView " + std::to_string(a.bufferView) + " does not exist");
   }
-  const size_t given = model.bufferViews[static_cast<size_t>(a.bufferView)].byteStride;
+  const size_t given = At(model.bufferViews, a.bufferView).byteStride;
   *stride = given > 0 ? given : size;
   if (*stride < size) return Fail("bufferView has a byteStride shorter than its elements");
   return Elements(model, a.bufferView, a.byteOffset, *stride, size, a.count, first);
@@ -141,14 +143,14 @@ Error Locate(const tinygltf::Model& model, int index, const tinygltf::Accessor**
 }  // namespace
 
 Error BufferViewBytes(const tinygltf::Model& model, int view, std::span<const uint8_t>* bytes) {
-  if (view < 0 || static_cast<size_t>(view) >= model.bufferViews.size()) {
+  if (!InRange(model.bufferViews, view)) {
     return Fail("bufferView " + std::to_string(view) + " does not exist");
   }
-  const tinygltf::BufferView& v = model.bufferViews[static_cast<size_t>(view)];
-  if (v.buffer < 0 || static_cast<size_t>(v.buffer) >= model.buffers.size()) {
+  const tinygltf::BufferView& v = At(model.bufferViews, view);
+  if (!InRange(model.buffers, v.buffer)) {
     return Fail("buffer " + std::to_string(v.buffer) + " does not exist");
   }
-  const auto& data = model.buffers[static_cast<size_t>(v.buffer)].data;
+  const auto& data = At(model.buffers, v.buffer).data;
   if (v.byteOffset > data.size() || v.byteLength > data.size() - v.byteOffset) {
     return Fail("bufferView " + std::to_string(view) + " reaches beyond its buffer");
   }

@@ -6,6 +6,7 @@
 
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_builder.h"
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {
@@ -29,7 +30,7 @@ int PositionBits(const AvatarLevel& level, float height_m) {
 std::vector<Mesh> WithoutIdleUvs(std::vector<Mesh> meshes, const std::vector<Material>& materials) {
   for (Mesh& mesh : meshes) {
     const Material* material =
-        mesh.material >= 0 ? &materials[static_cast<size_t>(mesh.material)] : nullptr;
+        mesh.material >= 0 ? &At(materials, mesh.material) : nullptr;
     const bool pictured =
         material != nullptr && (material->base_color_image >= 0 || material->normal_image >= 0);
     if (pictured) continue;
@@ -64,7 +65,7 @@ void AddSkeleton(GltfBuilder* builder, const Avatar& avatar, const std::string& 
     GltfNode node;
     node.name = prefix + joint.name;
     node.parent = joint.parent < 0 ? part->skeleton_node
-                                   : part->joint_nodes[static_cast<size_t>(joint.parent)];
+                                   : At(part->joint_nodes, joint.parent);
     node.transform = joint.rest;
     part->joint_nodes.push_back(builder->AddNode(node));
     inverse_binds.push_back(joint.inverse_bind);

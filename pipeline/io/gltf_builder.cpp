@@ -10,6 +10,7 @@
 #include "pipeline/io/clip_keys.h"
 #include "pipeline/io/draco_codec.h"
 #include "pipeline/io/meshopt_codec.h"
+#include "runtime/base/array.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -21,7 +22,7 @@ constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // glTF 
 constexpr int kSignedShort = 5122;
 constexpr float kKeyError_m = 0.001f;  // by which a clip's rounding may move any vertex
 constexpr int kTimeExponent = -15;     // keys' times are rounded to that power of two, 31 us
-constexpr float kMostTime_s = 250;     // that 24 bits hold so; longer clips keep floats
+constexpr float kMaxTime_s = 250;     // that 24 bits hold so; longer clips keep floats
 constexpr int kVertices = 34962, kIndices = 34963;  // glTF bufferView targets
 
 json Numbers(Vec3 v) { return {v.x, v.y, v.z}; }
@@ -177,7 +178,7 @@ struct GltfBuilder::Impl {
 
   int Add(const char* list, json item) {
     root[list].push_back(std::move(item));
-    return static_cast<int>(root[list].size()) - 1;
+    return Count(root[list]) - 1;
   }
 
   int AddView(std::span<const uint8_t> bytes, int target) {
@@ -221,7 +222,7 @@ struct GltfBuilder::Impl {
     if (pool->waiting.empty()) return;
     const int view = AddView(Bytes(pool->values), 0);
     for (const int accessor : pool->waiting) {
-      root["accessors"][static_cast<size_t>(accessor)]["bufferView"] = view;
+      At(root["accessors"], accessor)["bufferView"] = view;
     }
     pool->waiting.clear();
   }
@@ -240,7 +241,7 @@ struct GltfBuilder::Impl {
   void FlushStream(const KeyStream& stream) {
     if (stream.accessors.empty()) return;
     const int view = AddView(EncodeMeshopt(stream.bytes, stream.stride), 0);
-    json& item = root["bufferViews"][static_cast<size_t>(view)];
+    json& item = At(root["bufferViews"], view);
     json packed = item;
     packed["byteStride"] = stream.stride;
     packed["count"] = stream.bytes.size() / stream.stride;
@@ -252,7 +253,7 @@ struct GltfBuilder::Impl {
             {"extensions", {{kMeshoptExtension, std::move(packed)}}}};
     fallback_bytes += stream.bytes.size();
     for (const auto& [bytes, accessor] : stream.accessors) {
-      root["accessors"][static_cast<size_t>(accessor)]["bufferView"] = view;
+      At(root["accessors"], accessor)["bufferView"] = view;
     }
     used.insert(kMeshoptExtension);
     required.insert(kMeshoptExtension);
@@ -267,7 +268,7 @@ struct GltfBuilder::Impl {
   }
 
   void SetBounds(int accessor, Vec3 min, Vec3 max) {
-    json& a = root["accessors"][static_cast<size_t>(accessor)];
+    json& a = At(root["accessors"], accessor);
     a["min"] = Numbers(min);
     a["max"] = Numbers(max);
   }
@@ -343,7 +344,7 @@ void GltfBuilder::Impl::AddPlain(const Mesh& mesh, bool byte_joints, json* primi
 }
 
 int GltfBuilder::Impl::AddKeyTimes(const KeyChannel& channel) {
-  if (channel.rounded.empty() || channel.times.back() > kMostTime_s) {
+  if (channel.rounded.empty() || channel.times.back() > kMaxTime_s) {
     return AddFloats(&key_times, channel.times, "SCALAR", 1, true);
   }
   std::vector<uint32_t> rounded;
@@ -424,7 +425,7 @@ std::vector<int> GltfBuilder::AddMaterials(std::span<const Material> materials,
                                            std::span<const Image> images) {
   std::vector<int> added;
   const auto here = [&](int image) {
-    return image < 0 ? -1 : AddImage(images[static_cast<size_t>(image)]);
+    return image < 0 ? -1 : AddImage(At(images, image));
   };
   for (Material material : materials) {
     material.base_color_image = here(material.base_color_image);
@@ -447,10 +448,10 @@ Error GltfBuilder::AddMesh(const std::string& name, const EncodedMesh& encoded,
   for (const EncodedMesh::Part& part : encoded.parts) {
     json primitive = json::object();
     const int material = part.mesh.material;
-    if (material >= static_cast<int>(materials.size())) {
+    if (material >= Count(materials)) {
       return Fail(quoted + ": its material is out of range");
     }
-    if (material >= 0) primitive["material"] = materials[static_cast<size_t>(material)];
+    if (material >= 0) primitive["material"] = At(materials, material);
     if (encoded.compressed) {
       impl_->AddCompressed(part.draco, encoded.byte_joints, &primitive);
     } else {
@@ -480,7 +481,7 @@ int GltfBuilder::AddNode(const GltfNode& node) {
   if (!node.extras.empty()) item["extras"] = impl_->ParseObject("a node's extras", node.extras);
   const int index = impl_->Add("nodes", std::move(item));
   if (node.parent >= 0) {
-    impl_->root["nodes"][static_cast<size_t>(node.parent)]["children"].push_back(index);
+    At(impl_->root["nodes"], node.parent)["children"].push_back(index);
   }
   return index;
 }
@@ -543,19 +544,19 @@ void GltfBuilder::SetRootExtension(const std::string& name, std::string_view tex
 }
 
 void GltfBuilder::SetNodeExtension(int node, const std::string& name, std::string_view text) {
-  impl_->root["nodes"][static_cast<size_t>(node)]["extensions"][name] =
+  At(impl_->root["nodes"], node)["extensions"][name] =
       impl_->ParseObject(name, text);
   UseExtension(name);
 }
 
 void GltfBuilder::SetNodeExtras(int node, std::string_view text) {
-  impl_->root["nodes"][static_cast<size_t>(node)]["extras"] =
+  At(impl_->root["nodes"], node)["extras"] =
       impl_->ParseObject("a node's extras", text);
 }
 
 void GltfBuilder::SetLevels(int node, std::span<const int> coarser,
                             std::span<const float> switch_heights) {
-  json& item = impl_->root["nodes"][static_cast<size_t>(node)];
+  json& item = At(impl_->root["nodes"], node);
   item["extensions"]["MSFT_lod"]["ids"] = std::vector<int>(coarser.begin(), coarser.end());
   item["extras"]["MSFT_screencoverage"] =
       std::vector<float>(switch_heights.begin(), switch_heights.end());

@@ -10,6 +10,7 @@
 #include "pipeline/io/gltf_accessor.h"
 #include "pipeline/io/gltf_parse.h"
 #include "pipeline/io/gltf_primitive.h"
+#include "runtime/base/array.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -110,24 +111,24 @@ Error ReadNode(const Model& model, size_t index, DocumentNode* out) {
   out->skin = in.skin;
   ReadTransform(in, out);
   if (!Finite(LocalMatrix(*out))) return Fail("its transform is not finite");
-  if (in.mesh >= static_cast<int>(model.meshes.size())) {
+  if (in.mesh >= Count(model.meshes)) {
     return Fail("mesh " + std::to_string(in.mesh) + " does not exist");
   }
-  if (in.skin >= static_cast<int>(model.skins.size())) {
+  if (in.skin >= Count(model.skins)) {
     return Fail("skin " + std::to_string(in.skin) + " does not exist");
   }
   return ReadTags(in.extras, &out->tags);
 }
 
 Error LinkNodes(const Model& model, GltfDocument* document) {
-  const int count = static_cast<int>(document->nodes.size());
+  const int count = Count(document->nodes);
   for (int i = 0; i < count; ++i) {
-    for (const int child : model.nodes[static_cast<size_t>(i)].children) {
+    for (const int child : At(model.nodes, i).children) {
       if (child < 0 || child >= count) {
         return Fail("node " + Quoted(document->nodes[i].name) + ": child " + std::to_string(child) +
                     " does not exist");
       }
-      DocumentNode& node = document->nodes[static_cast<size_t>(child)];
+      DocumentNode& node = At(document->nodes, child);
       if (node.parent >= 0 || child == i) {
         return Fail("node " + Quoted(node.name) + " has two parents");
       }
@@ -140,14 +141,14 @@ Error LinkNodes(const Model& model, GltfDocument* document) {
 // Depth first from the roots; nodes in a ring are never reached.
 Error OrderNodes(const Model& model, GltfDocument* document) {
   std::vector<int> stack;
-  for (int i = static_cast<int>(document->nodes.size()) - 1; i >= 0; --i) {
-    if (document->nodes[static_cast<size_t>(i)].parent < 0) stack.push_back(i);
+  for (int i = Count(document->nodes) - 1; i >= 0; --i) {
+    if (At(document->nodes, i).parent < 0) stack.push_back(i);
   }
   while (!stack.empty()) {
     const int node = stack.back();
     stack.pop_back();
     document->order.push_back(node);
-    const auto& children = model.nodes[static_cast<size_t>(node)].children;
+    const auto& children = At(model.nodes, node).children;
     stack.insert(stack.end(), children.rbegin(), children.rend());
   }
   if (document->order.size() != document->nodes.size()) return Fail("its nodes form a ring");
@@ -172,22 +173,22 @@ void MarkScene(const Model& model, GltfDocument* document) {
   const size_t scene = model.defaultScene >= 0 ? static_cast<size_t>(model.defaultScene) : 0;
   if (scene < model.scenes.size()) {
     for (const int root : model.scenes[scene].nodes) {
-      if (root >= 0 && root < static_cast<int>(document->nodes.size())) {
-        document->nodes[static_cast<size_t>(root)].in_scene = true;
+      if (InRange(document->nodes, root)) {
+        At(document->nodes, root).in_scene = true;
       }
     }
   } else {
     for (DocumentNode& node : document->nodes) node.in_scene = node.parent < 0;
     for (const int i : CoarserLevels(model)) {
-      if (i >= 0 && i < static_cast<int>(document->nodes.size())) {
-        document->nodes[static_cast<size_t>(i)].in_scene = false;
+      if (InRange(document->nodes, i)) {
+        At(document->nodes, i).in_scene = false;
       }
     }
   }
   for (const int i : document->order) {
-    DocumentNode& node = document->nodes[static_cast<size_t>(i)];
+    DocumentNode& node = At(document->nodes, i);
     if (node.parent >= 0) {
-      node.in_scene = node.in_scene || document->nodes[static_cast<size_t>(node.parent)].in_scene;
+      node.in_scene = node.in_scene || At(document->nodes, node.parent).in_scene;
     }
   }
 }
@@ -218,16 +219,16 @@ class ImageTable {
     if (static_cast<size_t>(texture) >= model_.textures.size()) {
       return Fail("texture " + std::to_string(texture) + " does not exist");
     }
-    const int source = model_.textures[static_cast<size_t>(texture)].source;
+    const int source = At(model_.textures, texture).source;
     if (source < 0) return Fail("texture " + std::to_string(texture) + " has no PNG or JPEG image");
     if (static_cast<size_t>(source) >= model_.images.size()) {
       return Fail("image " + std::to_string(source) + " does not exist");
     }
-    int& index = index_[static_cast<size_t>(source)];
+    int& index = At(index_, source);
     if (index < 0) {
       Image copy;
       if (Error e = Copy(static_cast<size_t>(source), &copy)) return e;
-      index = static_cast<int>(document_->images.size());
+      index = Count(document_->images);
       document_->images.push_back(std::move(copy));
     }
     *image = index;
@@ -384,11 +385,10 @@ Error ReadDracoPrimitive(const Model& model, const tinygltf::Primitive& in, cons
   raw->indexed = true;
   for (size_t i = 0; i < names.size(); ++i) {
     const auto accessor = in.attributes.find(names[i]);
-    if (accessor == in.attributes.end() || accessor->second < 0 ||
-        static_cast<size_t>(accessor->second) >= model.accessors.size()) {
+    if (accessor == in.attributes.end() || !InRange(model.accessors, accessor->second)) {
       return Fail(names[i] + " has no accessor");
     }
-    const tinygltf::Accessor& a = model.accessors[static_cast<size_t>(accessor->second)];
+    const tinygltf::Accessor& a = At(model.accessors, accessor->second);
     if (a.normalized && !attributes[i].normalized) {
       const int bits =
           8 * tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType));
@@ -426,11 +426,11 @@ Error ReadPrimitive(const Model& model, const tinygltf::Primitive& in,
     return e;
   }
   UvSource uv_source;
-  if (in.material >= static_cast<int>(uv_sources.size())) {
+  if (in.material >= Count(uv_sources)) {
     return Fail("material " + std::to_string(in.material) + " does not exist");
   }
   out->mesh.material = in.material;
-  if (in.material >= 0) uv_source = uv_sources[static_cast<size_t>(in.material)];
+  if (in.material >= 0) uv_source = At(uv_sources, in.material);
   return MakePrimitive(std::move(raw), uv_source, out);
 }
 
@@ -455,8 +455,8 @@ Error ReadMeshes(const Model& model, const std::vector<UvSource>& uv_sources,
   document->meshes.resize(model.meshes.size());
   std::vector<bool> done(model.meshes.size());
   for (const int i : document->order) {
-    const DocumentNode& node = document->nodes[static_cast<size_t>(i)];
-    if (!node.in_scene || node.mesh < 0 || done[static_cast<size_t>(node.mesh)]) continue;
+    const DocumentNode& node = At(document->nodes, i);
+    if (!node.in_scene || node.mesh < 0 || At(done, node.mesh)) continue;
     const size_t m = static_cast<size_t>(node.mesh);
     done[m] = true;
     document->meshes[m].name = NameOr(model.meshes[m].name, "mesh", m);
@@ -471,7 +471,7 @@ Error ReadMeshes(const Model& model, const std::vector<UvSource>& uv_sources,
 Error ReadSkin(const Model& model, const tinygltf::Skin& in, DocumentSkin* out) {
   out->joints = in.joints;
   for (const int joint : in.joints) {
-    if (joint < 0 || joint >= static_cast<int>(model.nodes.size())) {
+    if (!InRange(model.nodes, joint)) {
       return Fail("joint " + std::to_string(joint) + " does not exist");
     }
   }
@@ -490,10 +490,10 @@ Error ReadSkin(const Model& model, const tinygltf::Skin& in, DocumentSkin* out) 
 
 Error ReadChannel(const Model& model, const tinygltf::Animation& animation,
                   const tinygltf::AnimationChannel& in, DocumentChannel* out) {
-  if (in.sampler < 0 || static_cast<size_t>(in.sampler) >= animation.samplers.size()) {
+  if (!InRange(animation.samplers, in.sampler)) {
     return Fail("sampler " + std::to_string(in.sampler) + " does not exist");
   }
-  const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<size_t>(in.sampler)];
+  const tinygltf::AnimationSampler& sampler = At(animation.samplers, in.sampler);
   out->node = in.target_node;
   out->path = in.target_path == "translation" ? ChannelPath::kTranslation
               : in.target_path == "rotation"  ? ChannelPath::kRotation
@@ -569,10 +569,10 @@ Mat4 LocalMatrix(const DocumentNode& node) {
 std::vector<Mat4> WorldMatrices(const GltfDocument& document) {
   std::vector<Mat4> world(document.nodes.size());
   for (const int i : document.order) {
-    const DocumentNode& node = document.nodes[static_cast<size_t>(i)];
+    const DocumentNode& node = At(document.nodes, i);
     const Mat4 local = LocalMatrix(node);
-    world[static_cast<size_t>(i)] =
-        node.parent < 0 ? local : world[static_cast<size_t>(node.parent)] * local;
+    At(world, i) =
+        node.parent < 0 ? local : At(world, node.parent) * local;
   }
   return world;
 }

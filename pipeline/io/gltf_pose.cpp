@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/array.h"
+
 namespace flaneur {
 namespace {
 
@@ -99,17 +101,17 @@ std::vector<Mat4> PoseAt(const GltfDocument& document, const DocumentClip& clip,
   // Channels of one node mostly stand together; the node is copied once for each run of them.
   for (size_t c = 0; c < clip.channels.size();) {
     const int target = clip.channels[c].node;
-    DocumentNode node = document.nodes[static_cast<size_t>(target)];
+    DocumentNode node = At(document.nodes, target);
     for (const DocumentChannel& channel : clip.channels) {
       if (channel.node == target) Apply(channel, time_s, &node);
     }
-    local[static_cast<size_t>(target)] = LocalMatrix(node);
+    At(local, target) = LocalMatrix(node);
     while (c < clip.channels.size() && clip.channels[c].node == target) ++c;
   }
   for (const int i : document.order) {
-    const int parent = document.nodes[static_cast<size_t>(i)].parent;
+    const int parent = At(document.nodes, i).parent;
     const size_t n = static_cast<size_t>(i);
-    world[n] = parent < 0 ? local[n] : world[static_cast<size_t>(parent)] * local[n];
+    world[n] = parent < 0 ? local[n] : At(world, parent) * local[n];
   }
   return world;
 }

@@ -2,6 +2,7 @@
 
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_document.h"
+#include "runtime/base/array.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -75,10 +76,10 @@ class MeshTable {
         mirrored_(document->meshes.size()) {}
 
   const std::vector<int>& Use(int mesh, bool mirrored) {
-    std::vector<int>& indices = (mirrored ? mirrored_ : plain_)[static_cast<size_t>(mesh)];
+    std::vector<int>& indices = At((mirrored ? mirrored_ : plain_), mesh);
     if (!indices.empty()) return indices;
-    for (const DocumentPrimitive& p : document_->meshes[static_cast<size_t>(mesh)].primitives) {
-      indices.push_back(static_cast<int>(scene_->meshes.size()));
+    for (const DocumentPrimitive& p : At(document_->meshes, mesh).primitives) {
+      indices.push_back(Count(scene_->meshes));
       scene_->meshes.push_back(p.mesh);
       if (!mirrored) continue;
       auto& triangles = scene_->meshes.back().indices;
@@ -108,19 +109,19 @@ Error ReadGltfScene(const std::filesystem::path& path, Scene* scene,
   std::vector<int> index(document.nodes.size(), -1);
   MeshTable meshes(&document, scene);
   for (const int i : document.order) {
-    const DocumentNode& in = document.nodes[static_cast<size_t>(i)];
+    const DocumentNode& in = At(document.nodes, i);
     if (!in.in_scene) continue;
     SceneNode node;
     node.name = in.name;
-    node.parent = in.parent < 0 ? -1 : index[static_cast<size_t>(in.parent)];
-    node.world = world[static_cast<size_t>(i)];
+    node.parent = in.parent < 0 ? -1 : At(index, in.parent);
+    node.world = At(world, i);
     const SceneNode* parent =
-        node.parent < 0 ? nullptr : &scene->nodes[static_cast<size_t>(node.parent)];
+        node.parent < 0 ? nullptr : &At(scene->nodes, node.parent);
     if (Error e = ApplyTags(in.tags, parent, &node)) {
       return Fail(document.path + ": node '" + OneLine(in.name) + "': " + e.message);
     }
     if (in.mesh >= 0) node.meshes = meshes.Use(in.mesh, Mirrors(node.world));
-    index[static_cast<size_t>(i)] = static_cast<int>(scene->nodes.size());
+    At(index, i) = Count(scene->nodes);
     scene->nodes.push_back(std::move(node));
   }
   if (scene->meshes.empty()) {

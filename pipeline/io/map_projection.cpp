@@ -45,13 +45,13 @@ class Ways {
       if (way.from == from && way.to == to) return way.transform.get();
     const Object raw(proj_create_crs_to_crs(context_.get(), from.c_str(), to.c_str(), nullptr));
     Object transform(raw ? proj_normalize_for_visualization(context_.get(), raw.get()) : nullptr);
-    if (ways_.size() == kMost) ways_.erase(ways_.begin());
+    if (ways_.size() == kMaxKeptWays) ways_.erase(ways_.begin());
     ways_.push_back({from, to, std::move(transform)});
     return ways_.back().transform.get();
   }
 
  private:
-  static constexpr size_t kMost = 8;
+  static constexpr size_t kMaxKeptWays = 8;
   struct Way { std::string from, to; Object transform; };
   Context context_ = MakeContext();  // outlives the ways
   std::vector<Way> ways_;

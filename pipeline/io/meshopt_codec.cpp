@@ -9,12 +9,13 @@
 #include <string>
 
 #include "pipeline/io/gltf_accessor.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
 
 // No codec makes its input smaller than that: a broken count must not exhaust memory.
-constexpr size_t kMostBytesAByte = 64;
+constexpr size_t kMaxBytesAByte = 64;
 
 struct Compressed {
   size_t count = 0, stride = 0;
@@ -33,7 +34,7 @@ Error ReadCompressed(const tinygltf::Value& extension, size_t bytes, Compressed*
   };
   const double count = number("count"), stride = number("byteStride");
   if (!(count >= 0 && stride >= 1 && stride <= 256) ||
-      count * stride > static_cast<double>(bytes) * kMostBytesAByte) {
+      count * stride > static_cast<double>(bytes) * kMaxBytesAByte) {
     return Fail("has a broken count or byteStride");
   }
   out->count = static_cast<size_t>(count);
@@ -73,7 +74,7 @@ bool Unfilter(const Compressed& view, uint8_t* bytes) {
 }
 
 Error DecodeView(tinygltf::Model* model, int index) {
-  tinygltf::BufferView& view = model->bufferViews[static_cast<size_t>(index)];
+  tinygltf::BufferView& view = At(model->bufferViews, index);
   const auto found = view.extensions.find(kMeshoptExtension);
   if (found == view.extensions.end()) return Ok();
   std::span<const uint8_t> bytes;
@@ -92,7 +93,7 @@ Error DecodeView(tinygltf::Model* model, int index) {
   }
   view.byteOffset = 0;
   view.byteLength = compressed.count * compressed.stride;
-  view.buffer = static_cast<int>(model->buffers.size());
+  view.buffer = Count(model->buffers);
   model->buffers.push_back(std::move(buffer));
   return Ok();
 }

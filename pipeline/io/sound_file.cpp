@@ -9,7 +9,7 @@
 namespace flaneur {
 namespace {
 
-constexpr float kLongest_s = 3600;
+constexpr float kMaxDuration_s = 3600;
 constexpr sf_count_t kBlock_frames = 1 << 14;
 
 }  // namespace
@@ -24,7 +24,7 @@ Error ReadSoundFile(const std::filesystem::path& path, SoundFile* sound) {
   while ((read = sf_readf_float(file.get(), block.data(), kBlock_frames)) > 0) frames += read;
   sound->duration_s = static_cast<float>(frames) / static_cast<float>(info.samplerate);
   if (sf_error(file.get()) != SF_ERR_NO_ERROR || frames == 0) return Fail(path.string() + ": the sound is broken or empty; save it anew");
-  if (sound->duration_s > kLongest_s) return Fail(path.string() + ": the sound is longer than an hour; cut it");
+  if (sound->duration_s > kMaxDuration_s) return Fail(path.string() + ": the sound is longer than an hour; cut it");
   return Ok();
 }
 

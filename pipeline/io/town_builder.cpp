@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "pipeline/io/triangulate_polygon.h"
+#include "runtime/base/array.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -77,7 +78,7 @@ int TownBuilder::AddNode(const std::string& name, NodeKind kind, GroundKind grou
   node.parent = parent;
   nodes_.push_back(std::move(node));
   foundations_.push_back(-1);
-  return static_cast<int>(nodes_.size()) - 1;
+  return Count(nodes_) - 1;
 }
 
 int TownBuilder::FoundationOf(int building) {
@@ -113,7 +114,7 @@ Error TownBuilder::Finish(const std::string& file, const std::string& reference_
   for (const Triangle& t : triangles_)
     for (const Point3& p : {t.a, t.b, t.c})
       if (!(std::abs(p.x) < kFarthest_m && std::abs(p.y) < kFarthest_m && std::abs(p.z) < kFarthest_m))
-        return Fail(OneLine(file + ": '" + nodes_[static_cast<size_t>(t.node)].name + "' reaches farther than any map: a coordinate is beyond 100,000 km"));
+        return Fail(OneLine(file + ": '" + At(nodes_, t.node).name + "' reaches farther than any map: a coordinate is beyond 100,000 km"));
   if (IsInDegrees())
     return Fail(OneLine(file + ": the coordinates are degrees; bring them into a map system in metres, such as EPSG:25832, first"));
   *scene = {};
@@ -134,8 +135,8 @@ Error TownBuilder::Finish(const std::string& file, const std::string& reference_
   for (size_t i = 0; i < triangles_.size(); ++i) {
     const Triangle& t = triangles_[i];
     if (i == 0 || t.node != triangles_[i - 1].node || t.surface != triangles_[i - 1].surface) {
-      SceneNode& node = scene->nodes[static_cast<size_t>(t.node)];
-      node.meshes.push_back(static_cast<int>(scene->meshes.size()));
+      SceneNode& node = At(scene->nodes, t.node);
+      node.meshes.push_back(Count(scene->meshes));
       scene->meshes.emplace_back();
       scene->meshes.back().name = node.name;
       scene->meshes.back().material = static_cast<int>(t.surface);

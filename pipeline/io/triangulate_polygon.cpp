@@ -9,6 +9,8 @@
 #include <cmath>
 #include <optional>
 
+#include "runtime/base/array.h"
+
 namespace flaneur {
 namespace {
 
@@ -139,7 +141,7 @@ std::vector<std::array<uint32_t, 3>> TriangulatePolygon(const std::vector<std::v
   for (const Face face : triangulation.finite_face_handles()) {
     if (face->info().depth % 2 == 0) continue;
     std::array<uint32_t, 3> t;
-    for (int i = 0; i < 3; ++i) t[static_cast<size_t>(i)] = PointOf(face->vertex(i), points);
+    for (int i = 0; i < 3; ++i) At(t, i) = PointOf(face->vertex(i), points);
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) out.push_back(t);
   }
   return out;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "runtime/base/array.h"
 #include "runtime/base/color_text.h"
 #include "runtime/tour_data/settings.h"
 
@@ -133,7 +134,7 @@ Json StopJson(const TourStop& stop, const TourIndices& indices) {
             {"pause_s", Short(stop.pause_s)}, {"caption", stop.caption}};
   for (const auto& [language, caption] : stop.captions) json["captions"][language] = caption;
   for (const auto& [language, sound] : stop.sounds) {
-    json["sounds"][language] = {{"view", indices.sounds[static_cast<size_t>(sound.sound)]}, {"duration_s", Short(sound.duration_s)}};
+    json["sounds"][language] = {{"view", At(indices.sounds, sound.sound)}, {"duration_s", Short(sound.duration_s)}};
   }
   return json;
 }

@@ -6,6 +6,7 @@
 
 #include "pipeline/io/gltf_builder.h"
 #include "pipeline/pack/tour_json.h"
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {
@@ -77,7 +78,7 @@ Error AddTown(const Scene& town, GltfBuilder* builder) {
   for (const SceneNode& node : town.nodes) {
     if (node.meshes.empty()) continue;
     std::vector<Mesh> parts;
-    for (int m : node.meshes) parts.push_back(town.meshes[static_cast<size_t>(m)]);
+    for (int m : node.meshes) parts.push_back(At(town.meshes, m));
     const std::optional<Transform> transform = Decompose(node.world);
     int mesh = -1;
     if (const auto found = shared.find(node.meshes); transform && found != shared.end()) {

@@ -4,10 +4,10 @@ namespace flaneur {
 
 Mat4 operator*(const Mat4& a, const Mat4& b) {
   Mat4 out;
-  for (int c = 0; c < 4; ++c) {
-    for (int r = 0; r < 4; ++r) {
+  for (size_t c = 0; c < 4; ++c) {
+    for (size_t r = 0; r < 4; ++r) {
       float sum = 0;
-      for (int k = 0; k < 4; ++k) sum += a.m[k][r] * b.m[c][k];
+      for (size_t k = 0; k < 4; ++k) sum += a.m[k][r] * b.m[c][k];
       out.m[c][r] = sum;
     }
   }
@@ -39,11 +39,11 @@ Mat4 FromTranslationRotationScale(Vec3 t, Quat q, Vec3 s) {
 namespace {
 
 // Cofactor of element (row, column) of the 4x4 matrix, from the 3x3 minor.
-double Cofactor(const Mat4& m, int row, int column) {
+double Cofactor(const Mat4& m, size_t row, size_t column) {
   double minor[3][3];
-  for (int r = 0, i = 0; r < 4; ++r) {
+  for (size_t r = 0, i = 0; r < 4; ++r) {
     if (r == row) continue;
-    for (int c = 0, j = 0; c < 4; ++c) {
+    for (size_t c = 0, j = 0; c < 4; ++c) {
       if (c != column) minor[i][j++] = m.m[c][r];
     }
     ++i;
@@ -58,11 +58,11 @@ double Cofactor(const Mat4& m, int row, int column) {
 
 Mat4 Inverse(const Mat4& m) {
   double determinant = 0;
-  for (int c = 0; c < 4; ++c) determinant += m.m[c][0] * Cofactor(m, 0, c);
+  for (size_t c = 0; c < 4; ++c) determinant += m.m[c][0] * Cofactor(m, 0, c);
   if (determinant == 0 || !std::isfinite(determinant)) return Mat4{};
   Mat4 out;
-  for (int r = 0; r < 4; ++r) {
-    for (int c = 0; c < 4; ++c) {
+  for (size_t r = 0; r < 4; ++r) {
+    for (size_t c = 0; c < 4; ++c) {
       out.m[r][c] = static_cast<float>(Cofactor(m, r, c) / determinant);
     }
   }

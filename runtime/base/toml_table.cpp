@@ -12,8 +12,8 @@
 namespace flaneur {
 namespace {
 
-constexpr double kLargest_m = 1e6;
-constexpr double kLargestMap_m = 1e8;  // twice round the earth
+constexpr double kMaxLength_m = 1e6;
+constexpr double kMaxMap_m = 1e8;  // twice round the earth
 
 // Two numbers in brackets, neither beyond `largest`; else false, and nothing is changed.
 bool ReadPair(const toml::node& node, double largest, double* x, double* y) {
@@ -166,7 +166,7 @@ void TomlTable::Colors(const char* key, std::vector<Vec3>* values) {
 void TomlTable::Point(const char* key, Vec2* value) {
   std::vector<float> numbers{value->x, value->y};
   const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
-  Numbers(key, &numbers, -kLargest_m, kLargest_m);
+  Numbers(key, &numbers, -kMaxLength_m, kMaxLength_m);
   if (numbers.size() != 2) return context_->Refuse(node, Name(key) + " must be [x, y] in metres");
   *value = {numbers[0], numbers[1]};
 }
@@ -178,7 +178,7 @@ void TomlTable::Points(const char* key, std::vector<Vec2>* values) {
   bool sound = points != nullptr;
   for (size_t i = 0; sound && i < points->size(); ++i) {
     double x = 0, y = 0;
-    sound = ReadPair((*points)[i], kLargest_m, &x, &y);
+    sound = ReadPair((*points)[i], kMaxLength_m, &x, &y);
     if (sound) values->push_back({static_cast<float>(x), static_cast<float>(y)});
   }
   if (!sound) context_->Refuse(node, Name(key) + " must be a list of [x, y] in metres");
@@ -186,7 +186,7 @@ void TomlTable::Points(const char* key, std::vector<Vec2>* values) {
 
 void TomlTable::MapPoint(const char* key, double* east_m, double* north_m) {
   const toml::node* node = Find(key);
-  if (node == nullptr || ReadPair(*node, kLargestMap_m, east_m, north_m)) return;
+  if (node == nullptr || ReadPair(*node, kMaxMap_m, east_m, north_m)) return;
   context_->Refuse(node, Name(key) + " must be [east, north] in metres of the map");
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "runtime/base/array.h"
 #include "runtime/base/text.h"
 #include "runtime/pack/meshopt_view.h"
 
@@ -59,7 +60,7 @@ void VisitComponents(const GltfFile& file, int accessor_index, Visit visit) {
   }
   const int view_index = accessor["bufferView"].get<int>();
   const std::span<const uint8_t> view = BufferView(file, view_index);
-  const Json& view_json = file.json["bufferViews"][static_cast<size_t>(view_index)];
+  const Json& view_json = At(file.json["bufferViews"], view_index);
   const size_t stride = view_json.value("byteStride", size * components);
   const size_t offset = accessor.value("byteOffset", size_t{0});
   if (stride < size * components || offset > view.size() || count > view.size() / std::max<size_t>(stride, 1) + 1 ||
@@ -149,10 +150,10 @@ int IndexOrNone(const Json& object, const char* key, size_t limit) {
 
 const Json& Element(const Json& root, const char* array, int index) {
   const Json& all = Member(root, array);
-  if (!all.is_array() || index < 0 || static_cast<size_t>(index) >= all.size()) {
+  if (!all.is_array() || !InRange(all, index)) {
     throw PackRefused("has no element " + std::to_string(index) + " in '" + array + "'");
   }
-  return all[static_cast<size_t>(index)];
+  return At(all, index);
 }
 
 std::span<const uint8_t> BufferView(const GltfFile& file, int index) {

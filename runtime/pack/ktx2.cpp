@@ -8,8 +8,8 @@ namespace flaneur {
 namespace {
 
 constexpr std::array<uint8_t, 12> kIdentifier{0xAB, 'K', 'T', 'X', ' ', '2', '0', 0xBB, '\r', '\n', 0x1A, '\n'};
-constexpr size_t kHeaderBytes = 80, kLevelEntryBytes = 24, kMostLevels = 16;
-constexpr uint32_t kMostSide_px = 16384;
+constexpr size_t kHeaderBytes = 80, kLevelEntryBytes = 24, kMaxLevels = 16;
+constexpr uint32_t kMaxSide_px = 16384;
 
 class Bytes {
  public:
@@ -124,7 +124,7 @@ Error ReadKtx2(std::span<const uint8_t> bytes, PackTexture* texture) {
     return Fail("is a KTX2 picture that is no plain 2D picture");
   }
   const size_t levels = Word(bytes, kLevels);
-  if (width < 1 || height < 1 || width > kMostSide_px || height > kMostSide_px || levels < 1 || levels > kMostLevels) {
+  if (width < 1 || height < 1 || width > kMaxSide_px || height > kMaxSide_px || levels < 1 || levels > kMaxLevels) {
     return Fail("is a KTX2 picture of an impossible size");
   }
   if (bytes.size() < kHeaderBytes + kLevelEntryBytes * levels) return Fail("is a truncated KTX2 picture");

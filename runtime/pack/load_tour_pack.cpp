@@ -4,6 +4,7 @@
 #include <cstring>
 #include <map>
 
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/base/pixels.h"
 #include "runtime/base/text.h"
@@ -78,7 +79,7 @@ PackMaterial ReadMaterial(const GltfFile& file, const Json& json) {
 class MeshTable {
  public:
   int Get(int gltf_mesh) {
-    const auto [entry, fresh] = indices_.try_emplace(gltf_mesh, static_cast<int>(used_.size()));
+    const auto [entry, fresh] = indices_.try_emplace(gltf_mesh, Count(used_));
     if (fresh) used_.push_back(gltf_mesh);
     return entry->second;
   }
@@ -218,7 +219,7 @@ Tint ReadTint(const TourObject& json) {
 
 PackProp ReadProp(const GltfFile& file, int skin, const TourObject& json, MeshTable* meshes) {
   const Json& nodes = Member(file.json, "nodes");
-  const Json& node = nodes[static_cast<size_t>(json.Whole("node", 0, static_cast<double>(nodes.size()) - 1))];
+  const Json& node = At(nodes, json.Whole("node", 0, static_cast<double>(nodes.size()) - 1));
   if (Index(node, "skin", Member(file.json, "skins").size()) != skin) json.Refuse("has another skin than the levels");
   PackProp prop;
   prop.name = json.Text("name");
@@ -240,7 +241,7 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   const Json& nodes = Member(file.json, "nodes");
   int skin = -1;
   for (const TourObject& level_json : json.Objects("levels")) {
-    const Json& node = nodes[static_cast<size_t>(level_json.Whole("node", 0, static_cast<double>(nodes.size()) - 1))];
+    const Json& node = At(nodes, level_json.Whole("node", 0, static_cast<double>(nodes.size()) - 1));
     PackLevel level;
     level.mesh = meshes->Get(Index(node, "mesh", Member(file.json, "meshes").size()));
     level.triangles = level_json.Whole("triangles", 1, 1e9);
@@ -342,7 +343,7 @@ TourStop ReadStop(const GltfFile& file, const TourObject& json, TourPack* pack) 
     const TourObject sound = sounds.Object(language.c_str());
     const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
     const auto bytes = BufferView(file, sound.Whole("view", 0, last));
-    stop.sounds[language] = {static_cast<int>(pack->sounds.size()), sound.Real("duration_s", 0, 36000)};
+    stop.sounds[language] = {Count(pack->sounds), sound.Real("duration_s", 0, 36000)};
     pack->sounds.emplace_back(bytes.begin(), bytes.end());
   }
   return stop;
@@ -425,8 +426,8 @@ struct PackFile::Impl {
     joints.resize(meshes.size());
     for (int mesh : meshes) pack->meshes.push_back(ReadOutline(file, mesh));
     for (const PackAvatar& avatar : pack->avatars) {
-      for (const PackLevel& level : avatar.levels) joints[static_cast<size_t>(level.mesh)] = avatar.joints;
-      for (const PackProp& prop : avatar.props) joints[static_cast<size_t>(prop.mesh)] = avatar.joints;
+      for (const PackLevel& level : avatar.levels) At(joints, level.mesh) = avatar.joints;
+      for (const PackProp& prop : avatar.props) At(joints, prop.mesh) = avatar.joints;
     }
     const size_t images = file.json.value("images", Json::array()).size();
     for (size_t i = 0; i < images; ++i) pack->images.push_back(ReadImageSize(file, static_cast<int>(i)));

@@ -10,8 +10,8 @@ namespace flaneur {
 namespace {
 
 constexpr uint8_t kHeader = 0xa0;
-constexpr size_t kGroup = 16, kMostStride = 256, kLeastTail = 32;
-constexpr size_t kMostBytesAByte = 64;  // a group of 16 bytes takes two bits at least
+constexpr size_t kGroup = 16, kMaxStride = 256, kMinTail = 32;
+constexpr size_t kMaxBytesAByte = 64;  // a group of 16 bytes takes two bits at least
 constexpr char kBroken[] = "has a broken compressed animation";
 
 // Reads forwards, never beyond the end.
@@ -93,9 +93,9 @@ void Unfilter(const std::string& filter, size_t stride, std::vector<uint8_t>* el
 }  // namespace
 
 std::vector<uint8_t> DecodeMeshoptView(std::span<const uint8_t> bytes, size_t count, size_t stride, const std::string& filter) {
-  const size_t tail = std::max(stride, kLeastTail);
-  if (stride == 0 || stride > kMostStride || stride % 4 != 0 || bytes.size() < 1 + tail || bytes[0] != kHeader ||
-      count > kMostBytesAByte * bytes.size() / stride) {
+  const size_t tail = std::max(stride, kMinTail);
+  if (stride == 0 || stride > kMaxStride || stride % 4 != 0 || bytes.size() < 1 + tail || bytes[0] != kHeader ||
+      count > kMaxBytesAByte * bytes.size() / stride) {
     throw PackRefused(kBroken);
   }
   std::vector<uint8_t> last(bytes.end() - static_cast<std::ptrdiff_t>(stride), bytes.end());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/array.h"
+
 namespace flaneur {
 namespace {
 
@@ -39,7 +41,7 @@ std::vector<int> Parents(const Json& nodes) {
   }
   for (size_t i = 0; i < nodes.size(); ++i) {
     size_t depth = 0;
-    for (int n = static_cast<int>(i); n >= 0; n = parents[static_cast<size_t>(n)]) {
+    for (int n = static_cast<int>(i); n >= 0; n = At(parents, n)) {
       if (++depth > nodes.size()) throw PackRefused("has a loop in its node tree");
     }
   }
@@ -126,11 +128,11 @@ PackClip ReadClip(const GltfFile& file, int skin_index, int animation_index) {
   for (int frame = 0; frame < clip.frames; ++frame) {
     std::vector<NodePose> pose = rest;
     const float time_s = clip.duration_s * static_cast<float>(frame) / static_cast<float>(clip.frames);
-    for (const Channel& c : channels) Apply(c, time_s, &pose[static_cast<size_t>(c.node)]);
+    for (const Channel& c : channels) Apply(c, time_s, &At(pose, c.node));
     for (size_t j = 0; j < joints.size(); ++j) {
       Mat4 global;
-      for (int n = static_cast<int>(joints[j]); n >= 0; n = parents[static_cast<size_t>(n)]) {
-        const NodePose& p = pose[static_cast<size_t>(n)];
+      for (int n = static_cast<int>(joints[j]); n >= 0; n = At(parents, n)) {
+        const NodePose& p = At(pose, n);
         global = FromTranslationRotationScale(p.translation, p.rotation, p.scale) * global;
       }
       clip.matrices.push_back(global * inverse_binds[j]);

@@ -140,7 +140,7 @@ PackPrimitive ReadPrimitive(const GltfFile& file, const Json& json) {
                             Element(file.json, "accessors", Member(attributes, name).get<int>()));
     }, &primitive);
     for (draco::FaceIndex f(0); f < mesh->num_faces(); ++f) {
-      for (int corner = 0; corner < 3; ++corner) primitive.indices.push_back(mesh->face(f)[corner].value());
+      for (size_t corner = 0; corner < 3; ++corner) primitive.indices.push_back(mesh->face(f)[corner].value());
     }
   } else {
     FillVertices([&](const char* name) {

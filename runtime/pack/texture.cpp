@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runtime/base/array.h"
+
 namespace flaneur {
 namespace {
 
@@ -31,7 +33,7 @@ void DecodeMode6(BitReader bits, Texels* out) {
   }
   const int last[2] = {bits.Next(1), bits.Next(1)};
   for (size_t i = 0; i < 16; ++i) {
-    const int weight = kBc7FourBitWeights[static_cast<size_t>(bits.Next(i == 0 ? 3 : 4))];
+    const int weight = At(kBc7FourBitWeights, bits.Next(i == 0 ? 3 : 4));
     for (size_t c = 0; c < 4; ++c) (*out)[i][c] = Between(ends[c][0] | last[0], ends[c][1] | last[1], weight);
   }
 }
@@ -46,11 +48,11 @@ void DecodeMode5(BitReader bits, Texels* out) {
     }
   }
   for (size_t i = 0; i < 16; ++i) {
-    const int weight = kBc7TwoBitWeights[static_cast<size_t>(bits.Next(i == 0 ? 1 : 2))];
+    const int weight = At(kBc7TwoBitWeights, bits.Next(i == 0 ? 1 : 2));
     for (size_t c = 0; c < 3; ++c) (*out)[i][c] = Between(ends[c][0], ends[c][1], weight);
   }
   for (size_t i = 0; i < 16; ++i) {
-    const int weight = kBc7TwoBitWeights[static_cast<size_t>(bits.Next(i == 0 ? 1 : 2))];
+    const int weight = At(kBc7TwoBitWeights, bits.Next(i == 0 ? 1 : 2));
     (*out)[i][3] = Between(ends[3][0], ends[3][1], weight);
     if (rotation > 0) std::swap((*out)[i][3], (*out)[i][rotation - 1]);
   }
@@ -76,8 +78,8 @@ void DecodePairs(BitReader bits, bool with_alpha, Texels* out) {
   for (size_t i = 0; i < 16; ++i) {
     const size_t pair = kBc7Partitions[partition] >> i & 1u;
     const int less = i == 0 || i == kBc7Anchors[partition] ? 1 : 0;
-    const int weight = with_alpha ? kBc7TwoBitWeights[static_cast<size_t>(bits.Next(2 - less))]
-                                  : kBc7ThreeBitWeights[static_cast<size_t>(bits.Next(3 - less))];
+    const int weight = with_alpha ? At(kBc7TwoBitWeights, bits.Next(2 - less))
+                                  : At(kBc7ThreeBitWeights, bits.Next(3 - less));
     (*out)[i][3] = 255;
     for (size_t c = 0; c < channels; ++c) (*out)[i][c] = Between(ends[c][2 * pair], ends[c][2 * pair + 1], weight);
   }
@@ -97,10 +99,10 @@ void DecodeBc4(const uint8_t* block, size_t channel, Texels* out) {
   const int a = block[0], b = block[1];
   std::array<int, 8> values{a, b};
   const int steps = a > b ? 7 : 5;
-  for (int i = 1; i < steps; ++i) values[static_cast<size_t>(i + 1)] = ((steps - i) * a + i * b + steps / 2) / steps;
+  for (int i = 1; i < steps; ++i) At(values, i + 1) = ((steps - i) * a + i * b + steps / 2) / steps;
   if (steps == 5) values[6] = 0, values[7] = 255;
   BitReader bits(block + 2);
-  for (auto& texel : *out) texel[channel] = static_cast<uint8_t>(values[static_cast<size_t>(bits.Next(3))]);
+  for (auto& texel : *out) texel[channel] = static_cast<uint8_t>(At(values, bits.Next(3)));
 }
 
 void DecodeBlock(TextureFormat format, const uint8_t* block, Texels* out) {
