@@ -48,7 +48,7 @@ Json Summary(const TourPack& pack) {
           {"town", {{"instances", pack.town.size()}, {"triangles", town_triangles}}},
           {"avatars", avatars},
           {"obstacles", pack.obstacles.polygons.size() + pack.obstacles.circles.size()},
-          {"ground", {{"columns", pack.ground.columns}, {"rows", pack.ground.rows}, {"cell_m", Rounded(pack.ground.cell_m)}}},
+          {"ground", {{"columns", pack.ground->columns}, {"rows", pack.ground->rows}, {"cell_m", Rounded(pack.ground->cell_m)}}},
           {"places", places},
           {"path_stops", pack.path.size()},
           {"people", pack.crowd.people},

@@ -196,7 +196,7 @@ struct Holes {
 
 // Lower bounds: from the cell's centre less half its diagonal.
 void MeasureClearances(const std::vector<char>& covered, float most_m, Walkable* w) {
-  const Holes holes(w->ground);
+  const Holes holes(*w->ground);
   const float half_m = 0.71f * w->cell_m;
   for (int cell = 0; cell < static_cast<int>(w->cost.size()); ++cell) {
     if (covered[static_cast<size_t>(cell)]) continue;
@@ -233,7 +233,7 @@ void MeasureSame(Walkable* w) {
 }  // namespace
 
 void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
-  const GroundRaster& g = w->ground;
+  const GroundRaster& g = *w->ground;
   const Vec2 size{static_cast<float>(g.columns) * g.cell_m, static_cast<float>(g.rows) * g.cell_m};
   w->person_radius_m = person_radius_m;
   w->cell_m = std::max(kNavigationCell_m, std::sqrt(size.x * size.y / kMostNavigationCells));
@@ -280,12 +280,12 @@ bool IsFree(const Walkable& w, Vec2 p) {
 }
 
 bool OnGround(const Walkable& w, Vec2 p) {
-  const int ground = GroundCell(w.ground, p);
-  return ground >= 0 && w.ground.kind[static_cast<size_t>(ground)] != 0;
+  const int ground = GroundCell(*w.ground, p);
+  return ground >= 0 && w.ground->kind[static_cast<size_t>(ground)] != 0;
 }
 
 float HeightAt(const Walkable& w, Vec2 p) {
-  const GroundRaster& g = w.ground;
+  const GroundRaster& g = *w.ground;
   if (g.height_m.empty()) return 0;
   const float fx = std::clamp((p.x - g.min_m.x) / g.cell_m - 0.5f, 0.0f, static_cast<float>(g.columns - 1));
   const float fy = std::clamp((p.y - g.min_m.y) / g.cell_m - 0.5f, 0.0f, static_cast<float>(g.rows - 1));

@@ -9,7 +9,7 @@
 namespace flaneur {
 
 struct Walkable : Obstacles {
-  GroundRaster ground;
+  SharedGround ground = Share({});
 
   // Derived by BuildWalkable: a navigation grid whose cells are free where a person of person_radius_m fits.
   float person_radius_m = 0.3f;

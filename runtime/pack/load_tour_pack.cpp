@@ -408,7 +408,7 @@ struct PackFile::Impl {
     const TourObject tour = TourOf(file);
     CheckVersion(tour);
     ReadTour(file, tour, pack);
-    pack->ground = ReadGround(file, tour.Object("ground"));
+    pack->ground = Share(ReadGround(file, tour.Object("ground")));
     for (const Json& m : file.json.value("materials", Json::array())) pack->materials.push_back(ReadMaterial(file, m));
     MeshTable table;
     ReadTown(file, &table, pack);

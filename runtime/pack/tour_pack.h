@@ -99,7 +99,7 @@ struct TourPack : TourData {
   std::vector<TownInstance> town;
   std::vector<PackAvatar> avatars;
   Obstacles obstacles;
-  GroundRaster ground;
+  SharedGround ground = Share({});
   std::vector<std::vector<uint8_t>> sounds;  // files: WAV, FLAC, Ogg Vorbis or Opus, MP3
 };
 

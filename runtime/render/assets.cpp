@@ -88,6 +88,24 @@ std::vector<int> MeshesOf(const AssetId& asset, const TourPack& pack) {
   return meshes;
 }
 
+TourPack PartsForAssets(const TourPack& pack) {
+  TourPack parts;
+  parts.images = pack.images;
+  parts.materials = pack.materials;
+  parts.meshes = pack.meshes;
+  parts.town = pack.town;
+  for (const PackAvatar& avatar : pack.avatars) {
+    PackAvatar part;
+    part.height_m = avatar.height_m;
+    part.levels = avatar.levels;
+    part.props = avatar.props;
+    part.impostor = avatar.impostor;
+    part.impostor_of = avatar.impostor_of;
+    parts.avatars.push_back(std::move(part));
+  }
+  return parts;
+}
+
 Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& plan, const AtlasFormats& formats) {
   Asset asset;
   asset.id = id;

@@ -26,6 +26,10 @@ AssetStages StagesOf(const std::vector<AssetId>& assets);
 // What a piece is made of: meshes of the pack, or an image, or an atlas, by their indices.
 std::vector<int> MeshesOf(const AssetId& asset, const TourPack& pack);
 
+// What making pieces ready needs of a pack whose bulk is read piece by piece: images, materials, meshes, the town, and of avatars
+// their levels, props and atlases.
+TourPack PartsForAssets(const TourPack& pack);
+
 // Ready to be uploaded.
 struct Asset {
   Asset();

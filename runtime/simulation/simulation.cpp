@@ -49,7 +49,7 @@ void TakePack(const TourPack& pack, Simulation* s) {
 }
 
 void TakeGround(const Scenario& scenario, Simulation* s) {
-  GroundRaster& g = s->town.walkable.ground;
+  GroundRaster g;
   const Vec2 size = scenario.ground_max_m - scenario.ground_min_m;
   g.min_m = scenario.ground_min_m;
   g.cell_m = kFlatCell_m;
@@ -57,6 +57,7 @@ void TakeGround(const Scenario& scenario, Simulation* s) {
   g.rows = static_cast<int>(size.y / kFlatCell_m);
   g.height_m.assign(static_cast<size_t>(g.columns) * static_cast<size_t>(g.rows), 0);
   g.kind.assign(g.height_m.size(), 3);
+  s->town.walkable.ground = Share(std::move(g));
   static_cast<Obstacles&>(s->town.walkable) = {};
   s->town.places.clear();
   s->town.painting = {};

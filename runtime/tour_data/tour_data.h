@@ -3,8 +3,10 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/base/math.h"
@@ -34,6 +36,10 @@ struct GroundRaster {
   std::vector<float> height_m;  // columns * rows, z at the cell's centre
   std::vector<uint8_t> kind;    // 0 none, 1 carriageway, 2 pavement, 3 square, 4 grass
 };
+
+// The pack, and every simulation of its tour, hold one and the same, which nobody changes. Never null.
+using SharedGround = std::shared_ptr<const GroundRaster>;
+inline SharedGround Share(GroundRaster ground) { return std::make_shared<const GroundRaster>(std::move(ground)); }
 
 // Where people come from and go to. kind: door, exit, goal (go there), loiter (stand there a while), spawn (start there).
 struct Place {

@@ -50,7 +50,7 @@ struct Piece { bool read = false; size_t index = 0; };  // of tasks, of assets
 
 struct Loader::Impl {
   PackFile file;
-  TourPack pack;                 // pieces are read into it, made ready, and taken out again
+  TourPack pack;                 // PartsForAssets: pieces are read into it, made ready, and taken out again
   std::vector<AssetId> assets;
   AssetStages stages;
   std::vector<Task> tasks;
@@ -238,7 +238,7 @@ void Loader::Start(PackFile file, const TourPack& pack) {
   KeepNoStock();
   Impl& l = *impl_;
   l.file = std::move(file);
-  l.pack = pack;
+  l.pack = PartsForAssets(pack);
   l.assets = AssetsOf(pack);
   l.stages = StagesOf(l.assets);
   l.uploaded.assign(l.assets.size(), false);

@@ -39,8 +39,8 @@ void TakeTown(const TourPack& pack, float scale, Walkable* w) {
     return ring;
   };
   *w = {};
-  w->ground = {pack.ground.min_m * scale, pack.ground.cell_m * scale, pack.ground.columns, pack.ground.rows,
-               pack.ground.height_m, pack.ground.kind};
+  const GroundRaster& ground = *pack.ground;
+  w->ground = Share({ground.min_m * scale, ground.cell_m * scale, ground.columns, ground.rows, ground.height_m, ground.kind});
   for (const PackObstacle& o : pack.obstacles) {
     if (o.radius_m > 0) {
       w->circles.push_back({o.center * scale, o.radius_m});

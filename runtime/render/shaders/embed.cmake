@@ -1,6 +1,6 @@
 # cmake -DFOLDER=... -DLIST=programs.h -DOUTPUT=texts.cpp -DVARIANTS=folder -DGLSLANG=glslangValidator -P embed.cmake
-# Writes the programs' shaders as C++ strings, each with what it includes in place, once glslang has found nothing in any
-# variant.
+# Writes the programs' shaders as C++ strings, each with what it includes in place, once glslang has passed all
+# variants.
 cmake_minimum_required(VERSION 3.25)
 
 function(expand name depth out)

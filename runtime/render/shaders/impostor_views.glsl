@@ -73,7 +73,8 @@ Meeting meet(View view, View other, float others_part, mat2 pixel) {
   vec3 guess = moved_and_depth(view, within(view, place_at(view, 0.0, vec2(0.0))));
   vec2 at = place_at(view, guess.z, guess.xy);
   vec4 color = textureLod(u_texture, within(view, at), v_level);
-  return Meeting(within(view, at), color.rgb, is_within(view, at) ? color.a : 0.0, (guess.z - view.point.z) / view.ray.z, 1.0);
+  float along = (guess.z - view.point.z) / view.ray.z;
+  return Meeting(within(view, at), color.rgb, is_within(view, at) ? color.a : 0.0, along, 1.0);
 }
 #else
 // Of the phase beside, by the square of its nearness, as what motion leaves unsaid grows.
@@ -83,13 +84,15 @@ float part_beside() {
 }
 View beside(View view, int cell) {
   float since = view.since < 0.0 ? view.since + 1.0 : view.since - 1.0;
-  return View(view.point, view.ray, cell_texel(cell, 0) / u_atlas.zwzw, cell_texel(cell, 1).xy / u_atlas.zw, view.turn, since);
+  vec4 rectangle = cell_texel(cell, 0) / u_atlas.zwzw;
+  return View(view.point, view.ray, rectangle, cell_texel(cell, 1).xy / u_atlas.zw, view.turn, since);
 }
 const float k_most_steps = 24.0;
 const float k_solid = 0.1;         // coverage of a texel that can be met
-const float k_thickness_m = 0.06;  // behind the surface by more than this and a step, the ray passes behind the person's part
+const float k_thickness_m = 0.06;  // behind the surface by more than this and a step, the ray passes behind it
 const float k_exact_m = 0.03;      // between two guesses of the depth
 const float k_near_m = 0.05;       // of a surface that the ray comes out beneath
+const float k_guess_trust = 0.02;  // of what the ray does not come upon but passes
 // What another picture shows where a point of the ray lies: nothing if it sees through there.
 COVER cover_from(View view, float along, mat2 pixel) {
   vec3 p = view.point + along * view.ray;
@@ -97,45 +100,81 @@ COVER cover_from(View view, float along, mat2 pixel) {
   for (int k = 0; k < 3; ++k) at = place_at(view, p.z, moved_and_depth(view, within(view, at)).xy);
   return is_within(view, at) ? cover_at(within(view, at), pixel) : COVER(0.0);
 }
-// Follows the ray from the person's front to the back, a texel a step, to the first surface that it comes upon. The one return at
-// the end is meant: Mesa 22.3 draws some pixels wrongly in software after an early one.
-Meeting meet(View view, View other, float others_part, mat2 pixel) {
-  float range = u_ranges.x, texels = length((place_at(view, range, vec2(0.0)) - place_at(view, -range, vec2(0.0))) * u_atlas.zw);
-  float steps = clamp(ceil(texels * exp2(-v_level)), 1.0, k_most_steps), step_m = 2.0 * range / steps;
-  float gap = range, least_gap = k_near_m;
-  vec3 shown = vec3(0.0), found = vec3(0.0);  // motion and depth
+// How many steps take the ray from the person's front to the back, a texel each.
+float steps_through(View view) {
+  vec2 front = place_at(view, u_ranges.x, vec2(0.0)), back = place_at(view, -u_ranges.x, vec2(0.0));
+  float texels = length((front - back) * u_atlas.zw);
+  return clamp(ceil(texels * exp2(-v_level)), 1.0, k_most_steps);
+}
+bool is_solid(View view, vec2 at) {
+  return is_within(view, at) && textureLod(u_texture, within(view, at), v_level).a >= k_solid;
+}
+// The depth of a straight surface between two steps of the ray, one before it and one behind.
+float depth_between(float depth, float step_m, float gap, float gap_before) {
+  return depth + step_m * gap / (gap - gap_before);
+}
+// What the picture shows where a guess lies, and where that lies again; exact: it comes to rest.
+vec3 refined(View view, vec3 guess, out bool exact) {
+  for (int k = 0; k < 3; ++k) {
+    vec3 next = moved_and_depth(view, within(view, place_at(view, guess.z, guess.xy)));
+    exact = abs(next.z - guess.z) < k_exact_m;
+    guess = next;
+  }
+  return guess;
+}
+// The first surface that the ray comes upon from the person's front to the back, or else the nearest that it passes.
+struct Surface {
+  vec3 shown;   // motion and depth
+  bool met;     // it comes upon it,
+  bool passed;  // or past it nearer than k_near_m
+};
+Surface first_surface(View view) {
+  float steps = steps_through(view), step_m = 2.0 * u_ranges.x / steps;
+  float gap = u_ranges.x, least_gap = k_near_m;  // from the ray back to the surface that the picture shows there
+  vec3 shown = vec3(0.0), found = vec3(0.0);
   bool met = false;
   for (float i = 0.0; i <= steps && !met; ++i) {
-    float depth = range - i * step_m, gap_before = gap;
+    float depth = u_ranges.x - i * step_m, gap_before = gap;
     vec2 at = place_at(view, depth, shown.xy);
     shown = moved_and_depth(view, within(view, at));
     gap = depth - shown.z;
-    if (is_within(view, at) && textureLod(u_texture, within(view, at), v_level).a >= k_solid) {
+    if (is_solid(view, at)) {
       if (abs(gap) < least_gap) {
         least_gap = abs(gap);
         found = shown;
       }
       if (gap <= 0.0 && gap > -step_m - k_thickness_m) {
-        vec3 guess = vec3(shown.xy, gap_before > 0.0 && i > 0.0 ? depth + step_m * gap / (gap - gap_before) : shown.z);
-        for (int k = 0; k < 3; ++k) {
-          vec3 next = moved_and_depth(view, within(view, place_at(view, guess.z, guess.xy)));
-          met = abs(next.z - guess.z) < k_exact_m;
-          guess = next;
-        }
-        if (met) found = guess;
+        bool came_from_before = gap_before > 0.0 && i > 0.0;
+        float met_at = came_from_before ? depth_between(depth, step_m, gap, gap_before) : shown.z;
+        vec3 surface = refined(view, vec3(shown.xy, met_at), met);
+        if (met) found = surface;
       }
     } else {
       gap = -1.0;  // what comes next is entered from the side
     }
   }
-  vec2 ends = place_at(view, found.z, found.xy), at = within(view, ends);
-  float along = (found.z - view.point.z) / view.ray.z;
-  COVER cover = COVER(0.0);
-  if (is_within(view, ends) && (met || least_gap < k_near_m)) {
-    cover = cover_at(at, pixel);
-    if (others_part > 0.0) cover = min(cover, max(cover_from(other, along, pixel), COVER(1.0 - k_counts * others_part)));
+  return Surface(found, met, least_gap < k_near_m);
+}
+// How much of the pixel the person covers where the ray meets it, as far as the other picture does not see through
+// there.
+COVER agreed_cover(vec2 at, float along, View other, float others_part, mat2 pixel) {
+  COVER cover = cover_at(at, pixel);
+  if (others_part > 0.0) {
+    COVER others = max(cover_from(other, along, pixel), COVER(1.0 - k_counts * others_part));
+    cover = min(cover, others);
   }
-  return Meeting(at, textureLod(u_texture, at, v_level).rgb, cover, along, met ? 1.0 : 0.02);
+  return cover;
+}
+// None of these returns early: Mesa 22.3 draws some pixels wrongly in software after that.
+Meeting meet(View view, View other, float others_part, mat2 pixel) {
+  Surface surface = first_surface(view);
+  vec2 ends = place_at(view, surface.shown.z, surface.shown.xy), at = within(view, ends);
+  float along = (surface.shown.z - view.point.z) / view.ray.z;
+  COVER cover = COVER(0.0);
+  if (is_within(view, ends) && (surface.met || surface.passed)) {
+    cover = agreed_cover(at, along, other, others_part, pixel);
+  }
+  return Meeting(at, textureLod(u_texture, at, v_level).rgb, cover, along, surface.met ? 1.0 : k_guess_trust);
 }
 #endif
 #endif

@@ -168,10 +168,10 @@ TEST(TourPack, BringsTheTourAcross) {
   ASSERT_EQ(pack.obstacles.circles.size(), 1u);
   EXPECT_FLOAT_EQ(pack.obstacles.circles[0].radius_m, 0.4f);
   EXPECT_FLOAT_EQ(pack.obstacles.circles[0].center.x, -3);
-  EXPECT_EQ(pack.ground.columns, 4);
-  EXPECT_EQ(pack.ground.rows, 3);
-  EXPECT_EQ(pack.ground.height_m[5], -1.5f);
-  EXPECT_EQ(pack.ground.kind, std::vector<uint8_t>(12, 3));
+  EXPECT_EQ(pack.ground->columns, 4);
+  EXPECT_EQ(pack.ground->rows, 3);
+  EXPECT_EQ(pack.ground->height_m[5], -1.5f);
+  EXPECT_EQ(pack.ground->kind, std::vector<uint8_t>(12, 3));
   ASSERT_EQ(pack.places.size(), 2u);
   EXPECT_FALSE(pack.places[0].yaw_rad);
   EXPECT_FLOAT_EQ(pack.places[1].yaw_rad.value_or(0), 0.5f);
@@ -279,7 +279,7 @@ TEST(TourPack, WithoutGeometryTheCrowdHasAllItNeeds) {
   for (const PackImage& image : pack.images) EXPECT_TRUE(image.rgba.empty());
   EXPECT_EQ(pack.obstacles.circles.size(), 1u);
   EXPECT_EQ(pack.obstacles.polygons.size(), 1u);
-  EXPECT_EQ(pack.ground.height_m.size(), 12u);
+  EXPECT_EQ(pack.ground->height_m.size(), 12u);
   EXPECT_EQ(pack.avatars.at(0).levels.size(), 2u);
 }
 

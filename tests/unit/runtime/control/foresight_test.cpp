@@ -12,7 +12,7 @@ namespace {
 
 Walkable OpenField() {
   Walkable w;
-  w.ground = {{-60, -60}, 0.5f, 240, 240, std::vector<float>(57600, 0), std::vector<uint8_t>(57600, 3)};
+  w.ground = Share({{-60, -60}, 0.5f, 240, 240, std::vector<float>(57600, 0), std::vector<uint8_t>(57600, 3)});
   BuildWalkable(0.3f, &w);
   return w;
 }

@@ -14,7 +14,7 @@ constexpr float kBack_m = 8;
 // A square of 40 m with a house and a lamp post.
 Walkable Square() {
   Walkable w;
-  w.ground = {{-20, -20}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)};
+  w.ground = Share({{-20, -20}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)});
   w.polygons.push_back({{{-8, -3}, {-3, -3}, {-3, 3}, {-8, 3}}, {}});
   w.circles.push_back({{2, 6}, 0.5f});
   BuildWalkable(0.3f, &w);

@@ -62,7 +62,7 @@ PolygonObstacle Box(float x0, float y0, float x1, float y1) { return {{{x0, y0},
 
 Outcome Play(const Case& c) {
   Walkable w;
-  w.ground = {{-20, -20}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)};
+  w.ground = Share({{-20, -20}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)});
   w.polygons = c.walls;
   BuildWalkable(0.3f, &w, kRadius_m);
   Crowd crowd;

@@ -25,7 +25,7 @@ inline Walkable CorridorGround(float width_m) {
   Walkable w;
   const int columns = 320, rows = static_cast<int>(2 * width_m);
   const size_t all = static_cast<size_t>(columns * rows);
-  w.ground = {{-65, 0}, 0.5f, columns, rows, std::vector<float>(all, 0), std::vector<uint8_t>(all, 3)};
+  w.ground = Share({{-65, 0}, 0.5f, columns, rows, std::vector<float>(all, 0), std::vector<uint8_t>(all, 3)});
   w.polygons.push_back({{{-70, -1}, {100, -1}, {100, 0}, {-70, 0}}, {}});
   w.polygons.push_back({{{-70, width_m}, {100, width_m}, {100, width_m + 1}, {-70, width_m + 1}}, {}});
   BuildWalkable(0.26f, &w, 0.25f);

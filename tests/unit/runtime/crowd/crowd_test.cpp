@@ -16,7 +16,7 @@ constexpr float kStep_s = 1.0f / 30;
 // A square field of 40 m with a house, a tree and a wall with a doorway of 1.5 m.
 Walkable Field() {
   Walkable w;
-  w.ground = {{-20, -20}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)};
+  w.ground = Share({{-20, -20}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)});
   w.polygons.push_back({{{-8, -3}, {-3, -3}, {-3, 3}, {-8, 3}}, {}});
   w.polygons.push_back({{{5, -20}, {5.3f, -20}, {5.3f, -0.75f}, {5, -0.75f}}, {}});
   w.polygons.push_back({{{5, 0.75f}, {5.3f, 0.75f}, {5.3f, 20}, {5, 20}}, {}});
@@ -95,7 +95,7 @@ TEST(Crowd, WhoIsHeldUpBesideTheGoalIsNearIt) {
 // A visitor who wants to pass had somebody between them and a tree, who stood there for seconds.
 TEST(Crowd, NobodyIsPinnedBetweenTheVisitorAndATree) {
   Walkable w;
-  w.ground = {{-10, -10}, 0.5f, 40, 40, std::vector<float>(1600, 0), std::vector<uint8_t>(1600, 3)};
+  w.ground = Share({{-10, -10}, 0.5f, 40, 40, std::vector<float>(1600, 0), std::vector<uint8_t>(1600, 3)});
   w.circles.push_back({{0, 0}, 0.3f});
   BuildWalkable(0.3f, &w);
   Random random{5};

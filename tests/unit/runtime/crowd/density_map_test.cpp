@@ -8,7 +8,7 @@ namespace {
 // Square ground of 40 m with a house in its eastern half.
 Walkable Ground() {
   Walkable w;
-  w.ground = {{0, 0}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)};
+  w.ground = Share({{0, 0}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)});
   w.polygons.push_back({{{20, 0}, {40, 0}, {40, 20}, {20, 20}}, {}});
   BuildWalkable(0.3f, &w);
   return w;

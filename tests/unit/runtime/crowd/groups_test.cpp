@@ -17,7 +17,7 @@ constexpr float kStep_s = 1.0f / 30;
 // A square of 60 m; with a doorway, a wall across its middle leaves an opening so wide.
 Walkable Square(float doorway_m = 0) {
   Walkable w;
-  w.ground = {{-30, -30}, 0.5f, 120, 120, std::vector<float>(14400, 0), std::vector<uint8_t>(14400, 3)};
+  w.ground = Share({{-30, -30}, 0.5f, 120, 120, std::vector<float>(14400, 0), std::vector<uint8_t>(14400, 3)});
   if (doorway_m > 0) {
     const float half = doorway_m / 2;
     w.polygons.push_back({{{0, -30}, {0.4f, -30}, {0.4f, -half}, {0, -half}}, {}});

@@ -32,7 +32,7 @@ inline OpenField MakeOpenField(int people, int places_aside = 8, uint64_t seed =
   f.side_m = std::sqrt(static_cast<float>(people) / density_pm2);
   const int cells = static_cast<int>(std::ceil(f.side_m));
   const size_t all = static_cast<size_t>(cells) * static_cast<size_t>(cells);
-  f.walkable.ground = {{0, 0}, 1, cells, cells, std::vector<float>(all, 0), std::vector<uint8_t>(all, 3)};
+  f.walkable.ground = Share({{0, 0}, 1, cells, cells, std::vector<float>(all, 0), std::vector<uint8_t>(all, 3)});
   for (int k = 0; k < 36; ++k) {
     f.walkable.circles.push_back({{f.random.Uniform(0, f.side_m), f.random.Uniform(0, f.side_m)}, f.random.Uniform(1, 2)});
   }

@@ -34,13 +34,20 @@ void AddWall(bool along_x, float at, float first, float last, const std::vector<
   add(first, last);
 }
 
-Walkable Plan(Vec2 min_m, Vec2 max_m) {
+GroundRaster Flat(Vec2 min_m, Vec2 max_m) {
+  GroundRaster g{min_m, 0.5f, static_cast<int>(2 * (max_m.x - min_m.x)), static_cast<int>(2 * (max_m.y - min_m.y)), {}, {}};
+  const size_t all = static_cast<size_t>(g.columns) * static_cast<size_t>(g.rows);
+  g.height_m.assign(all, 0), g.kind.assign(all, 3);
+  return g;
+}
+
+Walkable On(GroundRaster ground) {
   Walkable w;
-  w.ground = {min_m, 0.5f, static_cast<int>(2 * (max_m.x - min_m.x)), static_cast<int>(2 * (max_m.y - min_m.y)), {}, {}};
-  const size_t all = static_cast<size_t>(w.ground.columns) * static_cast<size_t>(w.ground.rows);
-  w.ground.height_m.assign(all, 0), w.ground.kind.assign(all, 3);
+  w.ground = Share(std::move(ground));
   return w;
 }
+
+Walkable Plan(Vec2 min_m, Vec2 max_m) { return On(Flat(min_m, max_m)); }
 
 void Add(Vec2 position, Vec2 goal, float preferred_mps, Crowd* c) {
   Person p;
@@ -246,12 +253,13 @@ TEST(Rimea, Case12OnlyTheFirstBottleneckJams) {
 
 // A room of 8 x 5 m, a corridor of 2 x 12 m, and a ramp of the same width that rises 4 m over 8 m.
 TEST(Rimea, Case13PeopleQueueBeforeARamp) {
-  Walkable w = Plan({0, 0}, {32, 5});
-  for (int y = 0; y < w.ground.rows; ++y) {
-    for (int x = 40; x < w.ground.columns; ++x) {
-      w.ground.height_m[static_cast<size_t>(y * w.ground.columns + x)] = 0.5f * static_cast<float>(std::min(x, 56) - 40) * 0.5f;
+  GroundRaster ground = Flat({0, 0}, {32, 5});
+  for (int y = 0; y < ground.rows; ++y) {
+    for (int x = 40; x < ground.columns; ++x) {
+      ground.height_m[static_cast<size_t>(y * ground.columns + x)] = 0.5f * static_cast<float>(std::min(x, 56) - 40) * 0.5f;
     }
   }
+  Walkable w = On(std::move(ground));
   w.polygons.push_back(Box(8, -1, 33, 1.5f));
   w.polygons.push_back(Box(8, 3.5f, 33, 6));
   BuildWalkable(0.3f, &w, kRadius_m);
@@ -271,16 +279,17 @@ TEST(Rimea, Case13PeopleQueueBeforeARamp) {
 // always the cheaper one, however crowded; a ramp on the short way makes it dearer.
 TEST(Rimea, Case14TheCheaperWayIsTaken) {
   for (bool ramp : {false, true}) {
-    Walkable w = Plan({0, 0}, {30, 14});
-    w.polygons.push_back(Box(7, 4, 23, 8));
+    GroundRaster ground = Flat({0, 0}, {30, 14});
     if (ramp) {
       for (int y = 0; y < 12; ++y) {  // on under the block: its edge is not seen as a step
         for (int x = 16; x < 44; ++x) {
           const float up = static_cast<float>(std::min(x - 16, 43 - x)) * 0.25f;
-          w.ground.height_m[static_cast<size_t>(y * w.ground.columns + x)] = up;
+          ground.height_m[static_cast<size_t>(y * ground.columns + x)] = up;
         }
       }
     }
+    Walkable w = On(std::move(ground));
+    w.polygons.push_back(Box(7, 4, 23, 8));
     BuildWalkable(0.3f, &w, kRadius_m);
     Crowd c;
     Spread({0, 0}, {6, 4}, 30, kUsual_mps, [](Vec2) { return Vec2{28, 2}; }, &c);

@@ -16,11 +16,12 @@ constexpr uint64_t kHash = 17312560538871042294ull;
 // A square of 40 m that slopes gently to the north, with a pavement, a house, a wall with a doorway and trees.
 Walkable Place() {
   Walkable w;
-  w.ground = {{-20, -20}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)};
+  GroundRaster ground{{-20, -20}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)};
   for (size_t k = 0; k < 6400; ++k) {
-    w.ground.height_m[k] = 0.02f * static_cast<float>(k / 80);
-    if (k % 80 > 60) w.ground.kind[k] = 2;
+    ground.height_m[k] = 0.02f * static_cast<float>(k / 80);
+    if (k % 80 > 60) ground.kind[k] = 2;
   }
+  w.ground = Share(std::move(ground));
   w.polygons.push_back({{{-8, -3}, {-3, -3}, {-3, 3}, {-8, 3}}, {}});
   w.polygons.push_back({{{5, -20}, {5.3f, -20}, {5.3f, -0.75f}, {5, -0.75f}}, {}});
   w.polygons.push_back({{{5, 0.75f}, {5.3f, 0.75f}, {5.3f, 20}, {5, 20}}, {}});

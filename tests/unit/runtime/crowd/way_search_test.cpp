@@ -18,11 +18,13 @@ constexpr float kStep_s = 1.0f / 30;
 // 60 x 60 m of pavement, a carriageway across it, and walls with gaps at alternating ends: a labyrinth.
 Walkable Labyrinth() {
   Walkable w;
-  w.ground.cell_m = 1;
-  w.ground.columns = w.ground.rows = 60;
-  w.ground.height_m.assign(3600, 0);
-  w.ground.kind.assign(3600, 2);
-  for (int y = 28; y < 32; ++y) std::fill_n(w.ground.kind.begin() + y * 60, 60, uint8_t{1});
+  GroundRaster ground;
+  ground.cell_m = 1;
+  ground.columns = ground.rows = 60;
+  ground.height_m.assign(3600, 0);
+  ground.kind.assign(3600, 2);
+  for (int y = 28; y < 32; ++y) std::fill_n(ground.kind.begin() + y * 60, 60, uint8_t{1});
+  w.ground = Share(std::move(ground));
   for (int k = 0; k < 5; ++k) {
     const float x = 10 + 10 * static_cast<float>(k), low = k % 2 ? 3.0f : 0.0f;
     w.polygons.push_back({{{x, low}, {x + 1, low}, {x + 1, low + 57}, {x, low + 57}}, {}});

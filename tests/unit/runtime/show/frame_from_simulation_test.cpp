@@ -18,7 +18,7 @@ struct Stage {
     PackAvatar avatar;
     avatar.walk.duration_s = avatar.idle.duration_s = avatar.talk.duration_s = 1;
     pack.avatars = {avatar};
-    s.town.walkable.ground = {{-50, -50}, 100, 1, 1, {0}, {3}};
+    s.town.walkable.ground = Share({{-50, -50}, 100, 1, 1, {0}, {3}});
     Person person;
     person.position = {10, 0};
     AddPerson(person, &s.town.crowd);

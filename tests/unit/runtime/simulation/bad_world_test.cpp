@@ -10,7 +10,7 @@ namespace {
 // A square of 20 m with a house in its middle.
 TourPack Town() {
   TourPack pack;
-  pack.ground = {{0, 0}, 0.5f, 40, 40, std::vector<float>(1600, 0), std::vector<uint8_t>(1600, 3)};
+  pack.ground = Share({{0, 0}, 0.5f, 40, 40, std::vector<float>(1600, 0), std::vector<uint8_t>(1600, 3)});
   pack.obstacles.polygons.push_back(Box({8, 8}, {14, 14}));
   pack.avatars.emplace_back();
   pack.avatars.back().levels.push_back({0, 1000, 0, 0, 0});
@@ -54,7 +54,9 @@ bool Has(const std::vector<std::string>& warnings, const std::string& text) {
 
 TEST(BadWorld, NoWalkableGround) {
   TourPack pack = Town();
-  pack.ground.kind.assign(1600, 0);
+  GroundRaster ground = *pack.ground;
+  ground.kind.assign(1600, 0);
+  pack.ground = Share(std::move(ground));
   EXPECT_EQ(Complaint(pack, Watched(pack)), "there is no walkable ground");
   pack = Town();
   pack.obstacles.polygons.push_back(Box({-1, -1}, {21, 21}));

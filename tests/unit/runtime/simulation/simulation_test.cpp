@@ -10,7 +10,7 @@ namespace {
 // A square of 40 m with a solid house, and a yard that walls close off.
 TourPack SmallTown() {
   TourPack pack;
-  pack.ground = {{0, 0}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)};
+  pack.ground = Share({{0, 0}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)});
   pack.obstacles.polygons.push_back(Box({10, 10}, {14, 14}));
   PolygonObstacle yard = Box({25, 25}, {35, 35});
   yard.holes = {{{26, 26}, {26, 34}, {34, 34}, {34, 26}}};

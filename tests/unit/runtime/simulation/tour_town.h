@@ -37,7 +37,7 @@ inline TourStop Waypoint(Vec2 position) {
 // The tour leads over the square, through the lane of 3 m and round a house. A wall runs across the town at x = 30.
 inline TourPack TourTown(int people) {
   TourPack pack;
-  pack.ground = {{0, 0}, 0.5f, 120, 80, std::vector<float>(9600, 0), std::vector<uint8_t>(9600, 3)};
+  pack.ground = Share({{0, 0}, 0.5f, 120, 80, std::vector<float>(9600, 0), std::vector<uint8_t>(9600, 3)});
   pack.obstacles.polygons = {Box({29, 0}, {31, 18}), Box({29, 21}, {31, 40}), Box({12, 12}, {18, 18}), Box({42, 14}, {48, 26})};
   pack.avatars = {Figure("maid", 1), Figure("monk", 0)};
   pack.places = {{"west", "exit", {1, 20}, 2}, {"east", "exit", {59, 20}, 2}, {"well", "goal", {22, 8}, 1}, {"tree", "goal", {52, 32}, 1}};

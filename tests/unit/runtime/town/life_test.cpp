@@ -13,7 +13,7 @@ namespace {
 // A square of 60 m with an exit on each side.
 TourPack Square(int people) {
   TourPack pack;
-  pack.ground = {{-30, -30}, 0.5f, 120, 120, std::vector<float>(14400, 0), std::vector<uint8_t>(14400, 3)};
+  pack.ground = Share({{-30, -30}, 0.5f, 120, 120, std::vector<float>(14400, 0), std::vector<uint8_t>(14400, 3)});
   pack.places = {{"west", "exit", {-29, 0}, 3}, {"east", "exit", {29, 0}, 3}, {"north", "exit", {0, 29}, 3}, {"south", "exit", {0, -29}, 3}};
   pack.avatars.emplace_back();
   pack.avatars.back().levels.push_back({0, 1000, 0, 0, 0});

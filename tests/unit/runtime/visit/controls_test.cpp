@@ -262,14 +262,16 @@ TEST(Walking, TheEyeFollowsSlopesAndStepsSmoothly) {
   TourPack pack = TourTown(0);
   pack.path.clear();
   pack.obstacles = {};
+  GroundRaster ground = *pack.ground;
   for (int row = 0; row < 80; ++row) {
     for (int column = 0; column < 120; ++column) {
       const float x = 0.5f * static_cast<float>(column);
       const float ramp = std::clamp(0.2f * (x - 10), 0.0f, 2.0f);
       const float steps = x < 30 ? 0 : std::min(2.0f, 0.16f * (1 + std::floor((x - 30) / 0.5f)));
-      pack.ground.height_m[static_cast<size_t>(row * 120 + column)] = ramp - steps;
+      ground.height_m[static_cast<size_t>(row * 120 + column)] = ramp - steps;
     }
   }
+  pack.ground = Share(std::move(ground));
   Simulation s = Started(pack);
   s.visitor.camera.view.position = {8, 20};
   CameraInput ahead;
