@@ -25,9 +25,9 @@ using namespace flaneur;
 
 constexpr int kCrowdCookie = 0x43524f57, kPersonCookie = 0x50455253;  // "CROW", "PERS"
 constexpr double kFarthest_m = 1e8, kReach_m = 1e5;
-constexpr double kMostGround_m = 2000, kLeastGround_m = 2;
-constexpr size_t kMostPeople = 200'000;
-constexpr int kMostFigures = 10'000, kMostLevels = 16;
+constexpr double kMaxGround_m = 2000, kMinGround_m = 2;
+constexpr size_t kMaxPeople = 200'000;
+constexpr int kMaxFigures = 10'000, kMaxLevels = 16;
 constexpr float kGroundCell_m = 0.5f;
 constexpr float kBeyondRadius_m = 0.05f;  // that the grid's free cells keep from obstacles, as in a tour
 constexpr float kJump_m = 10;
@@ -116,11 +116,11 @@ Failure TakeFigures(const FlaneurCrowdDef& def, std::vector<AvatarCosts>* figure
     return {};
   }
   if (!def.figures) return NullPointer("figures");
-  if (def.figure_count < 1 || def.figure_count > kMostFigures) return OutOfRange("figure_count", "1 to 10000");
+  if (def.figure_count < 1 || def.figure_count > kMaxFigures) return OutOfRange("figure_count", "1 to 10000");
   for (int i = 0; i < def.figure_count; ++i) {
     const FlaneurFigure& figure = def.figures[i];
     if (!figure.levels) return NullPointer("levels");
-    if (figure.level_count < 1 || figure.level_count > kMostLevels) return OutOfRange("level_count", "1 to 16");
+    if (figure.level_count < 1 || figure.level_count > kMaxLevels) return OutOfRange("level_count", "1 to 16");
     const std::array ranges{Range{"height_m", figure.height_m, 0.1, 10}, Range{"impostor_px", figure.impostor_px, 0, 1e6, true}};
     if (Failure failure = CheckRanges(ranges)) return failure;
     AvatarCosts costs;
@@ -173,8 +173,8 @@ Failure TakeGround(const FlaneurCrowdDef& def, LibraryCrowd* c) {
   if (!IsWithin(def.ground_min_m, kFarthest_m) || !IsWithin(def.ground_max_m, kFarthest_m))
     return OutOfRange("ground_min_m and ground_max_m", "within 100,000 km");
   const double width_m = def.ground_max_m.x - def.ground_min_m.x, depth_m = def.ground_max_m.y - def.ground_min_m.y;
-  const std::array ranges{Range{"the ground's width in metres", width_m, kLeastGround_m, kMostGround_m},
-                          Range{"the ground's depth in metres", depth_m, kLeastGround_m, kMostGround_m}};
+  const std::array ranges{Range{"the ground's width in metres", width_m, kMinGround_m, kMaxGround_m},
+                          Range{"the ground's depth in metres", depth_m, kMinGround_m, kMaxGround_m}};
   if (Failure failure = CheckRanges(ranges)) return failure;
   c->origin_m = def.ground_min_m;
   GroundRaster& ground = c->walkable.ground;
@@ -286,7 +286,7 @@ Failure Add(const FlaneurPersonDef& def, LibraryCrowd* c, FlaneurPersonId* id) {
                           Range{"radius_m", def.radius_m, 0.1f, c->largest_radius_m},
                           Range{"preferred_speed_mps", def.preferred_speed_mps, 0, 10}};
   if (Failure failure = CheckRanges(ranges)) return failure;
-  if (c->crowd.size() >= kMostPeople || c->crowd.next_id == std::numeric_limits<int>::max())
+  if (c->crowd.size() >= kMaxPeople || c->crowd.next_id == std::numeric_limits<int>::max())
     return OutOfRange("the number of people", "at most 200,000");
   Person person;
   person.position = Inside(*c, def.position_m);

@@ -18,7 +18,7 @@ using namespace flaneur;
 
 constexpr int kFootprintsCookie = 0x464f4f54, kCheckCookie = 0x43484543;  // "FOOT", "CHEC"
 constexpr double kFarthest_m = 1e8;  // no map reaches farther; see TownBuilder
-constexpr double kMostArea_m2 = 1e10;
+constexpr double kMaxArea_m2 = 1e10;
 
 struct Town {
   Scene scene;
@@ -137,7 +137,7 @@ Failure Create(const FlaneurFootprintsDef& def, FlaneurFootprintsId* id) {
   if (!def.objects) return NullPointer("objects");
   const std::array ranges{Range{"clearance_m", def.clearance_m, 0, 10}, Range{"band_low_m", def.band_low_m, 0, 100},
                           Range{"band_high_m", def.band_high_m, 0, 100}, Range{"tolerance_m", def.tolerance_m, 0, 1},
-                          Range{"bridge_m", def.bridge_m, 0, 1}, Range{"open_yard_m2", def.open_yard_m2, 0, kMostArea_m2},
+                          Range{"bridge_m", def.bridge_m, 0, 1}, Range{"open_yard_m2", def.open_yard_m2, 0, kMaxArea_m2},
                           Range{"threads", static_cast<double>(def.threads), 0, 1024}};
   if (Failure failure = CheckRanges(ranges)) return failure;
   if (!(def.band_low_m < def.band_high_m)) return OutOfRange("band_low_m", "below band_high_m");
@@ -159,16 +159,16 @@ Failure TakeCheckDef(const FlaneurCheckDef& def, Point2 origin, CheckOptions* op
   if (def.gate_count < 0 || def.street_count < 0) return OutOfRange("gate_count and street_count", "at least 0");
   if (def.gate_count > 0 && !def.gates) return NullPointer("gates");
   if (def.street_count > 0 && !def.streets) return NullPointer("streets");
-  constexpr double kMost_m = 1000;
+  constexpr double kMaxLength_m = 1000;
   const std::array ranges{Range{"person_radius_m", def.person_radius_m, 0, 10, true},
-                          Range{"clearance_m", def.clearance_m, -kMost_m, 10},
+                          Range{"clearance_m", def.clearance_m, -kMaxLength_m, 10},
                           Range{"tolerance_m", def.tolerance_m, 0, 10, true},
                           Range{"spike_width_m", def.spike_width_m, 0, 10, true},
-                          Range{"spike_length_m", def.spike_length_m, 0, kMost_m, true},
-                          Range{"over_cover_share", def.over_cover_share, 0, kMostArea_m2},
+                          Range{"spike_length_m", def.spike_length_m, 0, kMaxLength_m, true},
+                          Range{"over_cover_share", def.over_cover_share, 0, kMaxArea_m2},
                           Range{"headroom_m", def.headroom_m, 0, 100, true},
-                          Range{"overlap_m2", def.overlap_m2, 0, kMostArea_m2},
-                          Range{"least_ground_m2", def.least_ground_m2, 0, kMostArea_m2, true},
+                          Range{"overlap_m2", def.overlap_m2, 0, kMaxArea_m2},
+                          Range{"least_ground_m2", def.least_ground_m2, 0, kMaxArea_m2, true},
                           Range{"dead_end_m", def.dead_end_m, 0, kFarthest_m, true},
                           Range{"high_resolution_radius_m", def.high_resolution_radius_m, 0, kFarthest_m, true},
                           Range{"most_points", static_cast<double>(def.most_points), 3, kFarthest_m}};

@@ -21,18 +21,18 @@ constexpr int kQuadricPoses = 4;  // of the walk, that levels are made for; besi
 constexpr float kTargetTolerance = 0.02f;
 constexpr float kSameJoint_m = 1e-4f;  // a joint that moves nothing farther from its parent is none
 constexpr float kJointShare = 0.1f;    // of a level's error, that merged joints may add
-constexpr float kLeastJointGain_m = 2e-4f;  // below it hardly any joint could merge
+constexpr float kMinJointGain_m = 2e-4f;  // below it hardly any joint could merge
 constexpr float kEndless_px = 100000;       // switch height where the next level is exact
 // Of a chain that makes itself, heights of the person on screen:
 constexpr float kFinest_px = 2000;    // larger than anybody is ever seen
 constexpr float kImpostor_px = 128;   // below it most people are impostors
 constexpr float kCoarsest_px = 64;    // half of it: below it nobody is a mesh
 constexpr float kTurned_deg = 2.5f;   // of normals: a level that is further off is none for people higher than impostors
-constexpr float kHardlyWorse = 0.85f;  // of the height on screen up to which a finer level serves,
-constexpr float kHardlyFewer = 0.7f;   // which has so many triangles
-constexpr size_t kFewestLevels = 3;   // where triangles allow: for tight budgets
-constexpr int kMostPropTriangles = 300;
-constexpr float kFewestUseful = 250;  // triangles: fewer save nothing beside the rest of a frame
+constexpr float kSimilarReachShare = 0.85f;  // of the height on screen up to which a finer level serves,
+constexpr float kSimilarTriangleShare = 0.7f;   // which has so many triangles
+constexpr size_t kMinLevels = 3;   // where triangles allow: for tight budgets
+constexpr int kMaxPropTriangles = 300;
+constexpr float kMinUsefulTriangles = 250;  // triangles: fewer save nothing beside the rest of a frame
 
 Error CheckMeshes(const Avatar& avatar) {
   int triangles = 0;
@@ -79,7 +79,7 @@ std::vector<float> Ladder(int triangles) {
   std::vector<float> ratios{1};
   for (float decade = 1;; decade /= 10) {
     for (const float step : {0.5f, 0.4f, 0.2f, 0.1f}) {
-      if (step * decade * static_cast<float>(triangles) < kFewestUseful) return ratios;
+      if (step * decade * static_cast<float>(triangles) < kMinUsefulTriangles) return ratios;
       ratios.push_back(step * decade);
     }
   }
@@ -112,20 +112,20 @@ float Limit_px(const AvatarLevel& level, const Avatar& avatar, float error_px) {
 }
 
 // Of candidates from fine to coarse those that some size on screen needs.
-void ChooseLevels(const Avatar& avatar, float error_px, std::vector<AvatarLevel>* levels) {
+void KeepNeeded(const Avatar& avatar, float error_px, std::vector<AvatarLevel>* levels) {
   std::vector<AvatarLevel> chosen;
   for (AvatarLevel& level : *levels) {
     const float limit_px = Limit_px(level, avatar, error_px);
     const auto hardly_fewer = [&](const AvatarLevel& finer) {
-      return static_cast<float>(level.triangles) > kHardlyFewer * static_cast<float>(finer.triangles);
+      return static_cast<float>(level.triangles) > kSimilarTriangleShare * static_cast<float>(finer.triangles);
     };
     // Finer ones go where this one serves everybody, or no worse, or, where impostors serve as well, hardly worse.
     const auto spares = [&](const AvatarLevel& finer) {
       const bool alike = limit_px < kImpostor_px && hardly_fewer(finer);
-      return limit_px > kFinest_px || limit_px >= (alike ? kHardlyWorse : 1) * Limit_px(finer, avatar, error_px);
+      return limit_px > kFinest_px || limit_px >= (alike ? kSimilarReachShare : 1) * Limit_px(finer, avatar, error_px);
     };
     while (chosen.size() > 1 && spares(chosen.back())) chosen.pop_back();
-    if (chosen.size() >= kFewestLevels && limit_px <= kCoarsest_px) break;
+    if (chosen.size() >= kMinLevels && limit_px <= kCoarsest_px) break;
     if (chosen.size() > 1 && limit_px <= kCoarsest_px && hardly_fewer(chosen.back())) continue;
     chosen.push_back(std::move(level));
   }
@@ -146,7 +146,7 @@ void SetSwitchHeights(const Avatar& avatar, float error_px, std::vector<AvatarLe
 void SpareJoints(const Avatar& avatar, std::vector<AvatarLevel>* levels) {
   for (AvatarLevel& level : *levels) {
     const float bound_m = kJointShare * Error_mm(level) / 1000;
-    if (bound_m > kLeastJointGain_m) {
+    if (bound_m > kMinJointGain_m) {
       level.posed_error_mm += 1000 * MergeJoints(avatar, bound_m, &level.meshes);
     }
     level.joints = CountJoints(level.meshes);
@@ -216,12 +216,12 @@ std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const LevelsOptio
 // To few enough triangles that it may be drawn beside an impostor.
 void ReduceProp(const Avatar& avatar, std::vector<std::string>* warnings, AvatarProp* prop) {
   const int triangles = CountTriangles(prop->meshes);
-  if (triangles <= kMostPropTriangles) return;
+  if (triangles <= kMaxPropTriangles) return;
   Avatar alone = avatar;
   alone.name = avatar.name + "', prop '" + prop->name;
   alone.meshes = prop->meshes;
   LevelsOptions options;
-  options.ratios = {static_cast<float>(kMostPropTriangles) / static_cast<float>(triangles)};
+  options.ratios = {static_cast<float>(kMaxPropTriangles) / static_cast<float>(triangles)};
   prop->meshes = DecimatedLevels(alone, options, warnings)[0].meshes;
 }
 
@@ -234,7 +234,7 @@ Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLeve
   const Avatar avatar = WithoutIdleJoints(source);
   levels->avatar = avatar;
   levels->levels = DecimatedLevels(avatar, options, warnings);
-  if (options.ratios.empty()) ChooseLevels(avatar, options.error_px, &levels->levels);
+  if (options.ratios.empty()) KeepNeeded(avatar, options.error_px, &levels->levels);
   SpareJoints(avatar, &levels->levels);
   levels->avatar.meshes = levels->levels[0].meshes;
   for (AvatarProp& prop : levels->avatar.props) ReduceProp(avatar, warnings, &prop);

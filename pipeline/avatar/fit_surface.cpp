@@ -17,7 +17,7 @@ constexpr double kAlong = 0.02;          // of a pull along the surface, against
 constexpr double kBindShare = 1.25;      // of the bind pose, against all others together
 constexpr double kInertia = 0.02;        // of what holds a vertex where it is, against the pulls
 constexpr double kWeightInertia = 0.05;  // the same of its weights
-constexpr float kLeastShare =
+constexpr float kMinShare =
     0.01f;                         // of a corner in a place: less pulls at the other corners only
 constexpr float kFarthest = 1.5f;  // of its first ties' greatest length: so far may a vertex move
 constexpr float kStraight = 0.7f;  // cosine; a longer way round has a border or crease between
@@ -28,10 +28,10 @@ struct Density {
   size_t a_face, most;
 };
 constexpr Density kSmallOriginal{12, 30000}, kLargeOriginal{5, 20000};
-constexpr size_t kLargeOriginalFaces = 20000, kFewestSamples = 5000;
-constexpr size_t kMostFaces = 10000;  // of a level: of larger ones too few places would be left for a vertex
+constexpr size_t kLargeOriginalFaces = 20000, kMinSamples = 5000;
+constexpr size_t kMaxFaces = 10000;  // of a level: of larger ones too few places would be left for a vertex
 constexpr int kRounds = 2;  // of tying and solving
-constexpr double kLeastTurn = 0.1;  // cosine; a face that turns further is taken to fold over
+constexpr double kMinFaceTurnCosine = 0.1;  // cosine; a face that turns further is taken to fold over
 
 // A place of the level that should be where a place of the original is.
 struct Tie {
@@ -143,7 +143,7 @@ class Fitter {
     for (size_t i = 0; i < ties_.size(); ++i) {
       const SurfacePlace& place = ties_[i].on_level;
       for (size_t k = 0; k < 3; ++k) {
-        if (!(place.shares[k] > kLeastShare)) continue;
+        if (!(place.shares[k] > kMinShare)) continue;
         const int v = level_->faces[place.triangle].vertices[k];
         ties_of_[static_cast<size_t>(v)].push_back(static_cast<uint32_t>(3 * i + k));
       }
@@ -217,7 +217,7 @@ class Fitter {
       const DVec3 along = corner(2) - corner(1);
       const DVec3 before = Cross(along, corner(0) - corner(1));
       const DVec3 after = Cross(along, ToDouble(to) - corner(1));
-      if (Dot(before, after) <= kLeastTurn * std::sqrt(Dot(before, before) * Dot(after, after))) {
+      if (Dot(before, after) <= kMinFaceTurnCosine * std::sqrt(Dot(before, before) * Dot(after, after))) {
         return true;
       }
     }
@@ -308,10 +308,10 @@ SurfaceFitter::SurfaceFitter(const std::vector<Mesh>& original,
 SurfaceFitter::~SurfaceFitter() = default;
 
 void SurfaceFitter::Fit(WedgeSurface* level) const {
-  if (level->faces.size() > kMostFaces) return;
+  if (level->faces.size() > kMaxFaces) return;
   const Density density = DensityFor(*original_);
   const size_t samples =
-      std::clamp(density.a_face * level->faces.size(), kFewestSamples, density.most);
+      std::clamp(density.a_face * level->faces.size(), kMinSamples, density.most);
   Fitter fitter(*original_, samples, level);
   for (int round = 0; round < kRounds; ++round) {
     fitter.TieAll();

@@ -26,8 +26,8 @@ constexpr double kStretch = 0.2;       // a picture shifted by a length costs as
 constexpr double kSpring = 1e-6;       // towards the edge, where planes leave a vertex free
 constexpr double kLengthCost = 1e-9;   // of an edge's squared length: decides where all else is equal
 constexpr double kReach = 2;           // of an edge's length: so far may its vertex move from it
-constexpr double kLeastTurn = 0.2;     // cosine; a face that turns further is taken to fold over
-constexpr double kFold = -0.95;        // cosine between faces: a sheet that is seen from both sides
+constexpr double kMinFaceTurnCosine = 0.2;     // cosine; a face that turns further is taken to fold over
+constexpr double kTwoSidedCosine = -0.95;        // cosine between faces: a sheet that is seen from both sides
 constexpr float kSameWeights = 0.02f;  // sum of differences
 constexpr int kTries = 2000;           // collapses looked at for one that hits the number of triangles
 
@@ -240,7 +240,7 @@ struct QuadricDecimater::Impl {
           ++others;
           continued = continued || (Continues(f, g, a) && Continues(f, g, b));
           const DVec3 n = Across(face, 0), m = Across(other, 0);
-          folded = folded || Dot(n, m) < kFold * std::sqrt(Dot(n, n) * Dot(m, m));
+          folded = folded || Dot(n, m) < kTwoSidedCosine * std::sqrt(Dot(n, n) * Dot(m, m));
         }
         if (others == 0 || (others == 1 && folded))
           HoldEdge(face, a, b, kBorderWeight);
@@ -381,7 +381,7 @@ struct QuadricDecimater::Impl {
           const DVec3 x = Posed(face.vertices[(k + 1) % 3], pose), y = Posed(face.vertices[(k + 2) % 3], pose);
           const DVec3 before = Cross(y - x, Posed(end, pose) - x), after = Cross(y - x, to - x);
           const double lengths = std::sqrt(Dot(before, before) * Dot(after, after));
-          if (Dot(before, before) > 0 && Dot(before, after) <= kLeastTurn * lengths) return true;
+          if (Dot(before, before) > 0 && Dot(before, after) <= kMinFaceTurnCosine * lengths) return true;
         }
       }
     }

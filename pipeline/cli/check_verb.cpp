@@ -87,7 +87,7 @@ Error WriteFindings(const CheckArguments& a, const GeoJsonFile& file, const std:
 }
 
 // What makes checking impossible is a finding too.
-Error Give(const CheckArguments& a, int code, const Error& error, std::vector<Finding> findings = {}) {
+Error ReportFault(const CheckArguments& a, int code, const Error& error, std::vector<Finding> findings = {}) {
   findings.push_back(FaultOf(code, "", error.message));
   SortFindings(&findings);
   if (Error e = WriteFindings(a, {}, findings)) return e;
@@ -145,24 +145,24 @@ Error DrawMaps(const CheckArguments& a, const GeoJsonFile& file, const GroundRas
 }
 
 Error Run(const CheckArguments& a, int* status) {
-  if (Error error = Validate(a.options)) return Give(a, 905, error);
+  if (Error error = Validate(a.options)) return ReportFault(a, 905, error);
   GeoJsonFile file;
-  if (Error error = ReadGeoJson(a.obstacles, a.reading, &file)) return Give(a, 901, error);
+  if (Error error = ReadGeoJson(a.obstacles, a.reading, &file)) return ReportFault(a, 901, error);
   std::vector<Finding> faults;
   AddFaults(file.faults, &faults);
   if (file.footprints.obstacles.empty()) {
     const std::string why = faults.empty() ? "" : "; " + faults[0].feature + ": " + faults[0].message;
-    return Give(a, 902, Fail(a.obstacles.string() + ": holds no polygon and no circle" + why), faults);
+    return ReportFault(a, 902, Fail(a.obstacles.string() + ": holds no polygon and no circle" + why), faults);
   }
   if (file.skipped > 0)
     std::fprintf(stderr, "flaneur: warning: %s: %d features are no obstacles, streets or doors; left out\n",
                  a.obstacles.c_str(), file.skipped);
   std::optional<TownToCheck> town;
   if (!a.town.empty())
-    if (Error error = ReadTown(a, &file, &faults, &town)) return Give(a, 901, error, faults);
+    if (Error error = ReadTown(a, &file, &faults, &town)) return ReportFault(a, 901, error, faults);
   std::vector<Finding> findings;
   if (Error error = Check(file.footprints, town ? &town->scene : nullptr, WithStreetsAndGates(a.options, file), &findings))
-    return Give(a, 901, error, faults);
+    return ReportFault(a, 901, error, faults);
   findings.insert(findings.end(), faults.begin(), faults.end());
   SortFindings(&findings);
   Print(findings, a.most_listed);

@@ -12,7 +12,7 @@
 namespace flaneur {
 namespace {
 
-// Without the crumbs that stick out of an outline by a hair: connected pieces shorter than kCrumb_m together.
+// Without the crumbs that stick out of an outline by a hair: connected pieces shorter than kMinLoosePiece_m together.
 std::vector<Segment> WithoutCrumbs(const std::vector<Segment>& loose) {
   std::map<std::pair<double, double>, size_t> ends;
   DisjointSets connected;
@@ -30,7 +30,7 @@ std::vector<Segment> WithoutCrumbs(const std::vector<Segment>& loose) {
   for (size_t i = 0; i < loose.size(); ++i) length_m[connected.Root(start[i])] += Length(loose[i]);
   std::vector<Segment> out;
   for (size_t i = 0; i < loose.size(); ++i)
-    if (length_m[connected.Root(start[i])] >= kCrumb_m) out.push_back(loose[i]);
+    if (length_m[connected.Root(start[i])] >= kMinLoosePiece_m) out.push_back(loose[i]);
   return out;
 }
 
@@ -50,8 +50,8 @@ bool AllMeet(std::vector<Segment>* lines) {
     bool dangling = false;
     dropped = std::erase_if(kept, [&](const Segment& s) {
       if (ends.at({s.a.x, s.a.y}) > 1 && ends.at({s.b.x, s.b.y}) > 1) return false;
-      dangling |= Length(s) >= kCrumb_m;
-      return Length(s) < kCrumb_m;
+      dangling |= Length(s) >= kMinLoosePiece_m;
+      return Length(s) < kMinLoosePiece_m;
     }) > 0;
     if (dangling) return false;
   }
@@ -79,7 +79,7 @@ void SetLoose(const std::vector<Segment>& lines, Shape* shape) {
   if (lines.empty()) return;
   const std::vector<Segment> loose = Outside(lines, Offset(shape->solid, kOnOutline_m));
   if (loose.empty()) return;
-  const std::vector<Segment> apart = Outside(loose, Offset(shape->solid, kCrumb_m));  // not covered with what is solid
+  const std::vector<Segment> apart = Outside(loose, Offset(shape->solid, kMinLoosePiece_m));  // not covered with what is solid
   shape->loose = WithoutCrumbs(loose);
   shape->loose.insert(shape->loose.end(), apart.begin(), apart.end());
   for (const Segment& s : apart) shape->open_m += Length(s);
@@ -126,7 +126,7 @@ void CloseRooms(const Site& site, const TownObject& object, Shape* shape) {
   const Stand stand(site, object);
   const Overhead overhead({&object.triangles});
   const Roofs is_solid(site, stand.ground(0), overhead);
-  Rings rooms = RoomsWithOneMouth(shape->loose, shape->solid, std::max(site.options.bridge_m, kCrumb_m), is_solid);
+  Rings rooms = RoomsWithOneMouth(shape->loose, shape->solid, std::max(site.options.bridge_m, kMinLoosePiece_m), is_solid);
   if (rooms.empty()) rooms = RoomsWithOneMouth(shape->loose, shape->solid, kNoWay_m, is_solid);
   if (rooms.empty()) return;
   Rings all = shape->solid;

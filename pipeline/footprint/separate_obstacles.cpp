@@ -28,7 +28,7 @@ Rings WithoutSpecks(const Rings& rings) {
 // Whether nothing is thin or short about an outline, so that there is nothing to tidy. May say no too often.
 bool IsTidy(const Rings& rings, double width_m) {
   constexpr size_t kMaxPoints = 64;  // looking at each pair of more takes longer than to tidy
-  constexpr double kBluntest = -0.9;  // cosine; sharper corners are looked at more closely
+  constexpr double kSharpCornerCosine = -0.9;  // cosine; sharper corners are looked at more closely
   size_t points = 0;
   for (const Ring& ring : rings) {
     points += ring.size();
@@ -45,7 +45,7 @@ bool IsTidy(const Rings& rings, double width_m) {
       if (i == j || same(t.b, s.a)) continue;
       if (same(t.a, s.b)) {
         const double along = (s.b.x - s.a.x) * (t.b.x - t.a.x) + (s.b.y - s.a.y) * (t.b.y - t.a.y);
-        if (along < kBluntest * Length(s) * Length(t)) return false;
+        if (along < kSharpCornerCosine * Length(s) * Length(t)) return false;
       } else if (DistanceToSegment(s.a, t.a, t.b) < 2 * width_m || DistanceToSegment(s.b, t.a, t.b) < 2 * width_m) {
         return false;
       }
@@ -55,7 +55,7 @@ bool IsTidy(const Rings& rings, double width_m) {
 }
 
 // A strip or speck too small to stay with its own obstacle goes to the neighbour it lies against, so that no wall loses its clearance.
-void GiveAway(const Rings& strips, size_t from, const std::vector<size_t>& neighbours, double width_m,
+void AssignToNeighbours(const Rings& strips, size_t from, const std::vector<size_t>& neighbours, double width_m,
               std::vector<BoundingBox>* boxes, std::vector<Rings>* enlarged) {
   for (const Polygon& strip : ToPolygons(strips)) {
     if (SignedArea(strip.outer) < kMinStrip_m2) continue;
@@ -153,7 +153,7 @@ void SeparateObstacles(const std::vector<TownObject>& objects, const std::vector
     const Rings kept = WithoutSpecks(Tidy((*enlarged)[i], width_m));
     const Rings strips = Difference((*enlarged)[i], Offset(kept, kAgainst_m));
     (*enlarged)[i] = kept;
-    GiveAway(strips, i, neighbours[i], width_m, &boxes, enlarged);
+    AssignToNeighbours(strips, i, neighbours[i], width_m, &boxes, enlarged);
   };
   const std::vector<std::vector<size_t>> groups = Groups(neighbours);
   ForEach(groups.size(), threads, [&](size_t k) { std::for_each(groups[k].begin(), groups[k].end(), separate); });

@@ -26,8 +26,8 @@ constexpr float kDetour_s = 2.0f;          // a choice holds so long
 constexpr float kAheadFree_s = 1.5f;       // and must be walkable so far
 constexpr float kPaces[] = {1.0f, 0.85f, 1.2f, 0.75f, 0.45f};
 constexpr float kTurns_rad[] = {0, 0.3f, -0.3f, 0.6f, -0.6f, 1.0f, -1.0f, 1.5f, -1.5f};
-constexpr float kMostTurnInView_rad = 1.1f;
-constexpr float kLeastPaceInView = 0.8f;  // who dawdles is noticed
+constexpr float kMaxTurnInView_rad = 1.1f;
+constexpr float kMinPaceInView = 0.8f;  // who dawdles is noticed
 constexpr float kCostInView = 1.35f;
 constexpr float kCostUnseen = 0.1f;  // moments in the way that one radian is worth
 constexpr float kCostOfPace = 1.5f;        // of doubling the pace, in radians
@@ -53,13 +53,13 @@ void FollowCamera(const ViewCamera& camera, const ViewMotion& motion, float step
     const float t = MomentTime_s(m);
     const Vec2 position = camera.position + state->motion.velocity * t;
     const Vec2 axis = DirectionOf(camera.yaw_rad + state->motion.yaw_rate_radps * kTurnLasts_s * (1 - std::exp(-t / kTurnLasts_s)));
-    state->moment[static_cast<size_t>(m)] = {position, position - axis * (kRim_m / state->sine), axis};
+    state->views[static_cast<size_t>(m)] = {position, position - axis * (kRim_m / state->sine), axis};
   }
 }
 
 // Whether a forecast position is in view and within r_high at that moment.
 bool InView(const State& state, int moment, float r_high_m, Vec2 p) {
-  const State::Moment& m = state.moment[static_cast<size_t>(moment)];
+  const State::FutureView& m = state.views[static_cast<size_t>(moment)];
   const Vec2 off = p - m.position, from_apex = p - m.apex;
   const float reach_m = r_high_m + kRim_m;
   return Dot(off, off) < reach_m * reach_m &&
@@ -89,14 +89,14 @@ bool WouldBeInView(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, int 
 // Where around the visitor the person would be, should the visitor turn; -1 out of reach.
 int WouldBeInSector(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, int turn, const State& state) {
   const int m = kTurnMoments[turn];
-  const Vec2 off = c.position[i] + velocity * MomentTime_s(m) - state.moment[static_cast<size_t>(m)].position;
+  const Vec2 off = c.position[i] + velocity * MomentTime_s(m) - state.views[static_cast<size_t>(m)].position;
   return InTurningReach(state, r_high_m, off) ? SectorOf(off) : -1;
 }
 
 // The first moment in which the person could be within r_high, both walking towards each other.
 int SoonestMoment(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, const State& state) {
   const float closing_mps = Length(velocity) + state.speed_mps + 1e-3f;
-  const float soonest_s = (Length(c.position[i] - state.moment[0].position) - r_high_m - 2 * kRim_m) / closing_mps;
+  const float soonest_s = (Length(c.position[i] - state.views[0].position) - r_high_m - 2 * kRim_m) / closing_mps;
   return std::clamp(static_cast<int>(soonest_s / kMoment_s), 0, State::kMoments);
 }
 
@@ -143,7 +143,7 @@ void MeasureExcess(float fov_rad, int capacity, State* state) {
 
 // Whether the visitor would have to stop for the person.
 bool Blocks(const Crowd& c, size_t i, Vec2 velocity, float r_personal_m, const State& state) {
-  const Vec2 apart = c.position[i] - state.moment[0].position, closing = state.motion.velocity - velocity;
+  const Vec2 apart = c.position[i] - state.views[0].position, closing = state.motion.velocity - velocity;
   const float speed2 = Dot(closing, closing), ahead = Dot(apart, closing);
   if (ahead <= 0 || ahead > kStepsAside_s * speed2) return false;
   const float reach_m = r_personal_m + c.radius_m[i] + kRoom_m;
@@ -198,17 +198,17 @@ void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forec
   }
   const bool seen = c.view[i] == ViewClass::kVisible, stands = Dot(desired, desired) < 0.01f;
   const float cost = seen ? kCostInView : kCostUnseen;
-  const Vec2 off = c.position[i] - state->moment[2].position;
+  const Vec2 off = c.position[i] - state->views[2].position;
   const float off_m = std::max(Length(off), 1e-3f);
   const Vec2 ahead = stands ? off * (1 / off_m) : desired * (1 / Length(desired));  // who stands walks away from where the visitor will be
   const float now_mps = stands ? c.preferred_mps[i] : Length(desired), preferred_mps = std::max(c.preferred_mps[i], 0.1f);
   State::Choice best{0, static_cast<int>(i), {}};
   for (const float pace : kPaces) {
     const float speed_mps = std::min(pace * preferred_mps, c.top_mps[i]);
-    if (seen && pace < kLeastPaceInView) continue;
+    if (seen && pace < kMinPaceInView) continue;
     const float change = kCostOfPace * std::abs(speed_mps - now_mps) / preferred_mps;
     for (const float turn : kTurns_rad) {
-      if (seen && std::abs(turn) > kMostTurnInView_rad) continue;
+      if (seen && std::abs(turn) > kMaxTurnInView_rad) continue;
       const float at_best = now - cost * (std::abs(turn) + change) - (stands ? kCostOfSettingOff : 0);
       if (at_best <= best.gain) continue;
       const Vec2 velocity = Rotated(ahead, turn) * speed_mps;

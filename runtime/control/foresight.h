@@ -21,8 +21,8 @@ struct ForesightState {
   int high_limit = 0;                   // in force
   ViewMotion motion;                    // of the camera, settled
   float speed_mps = 0;                  // likewise
-  struct Moment { Vec2 position, apex, axis; };  // of the camera, and of the view with its rim
-  std::array<Moment, kMoments> moment{};
+  struct FutureView { Vec2 position, apex, axis; };  // of the camera, and of the view with its rim
+  std::array<FutureView, kMoments> views{};
   float sine = 0, cosine = 1;           // of half the field of view
   std::array<int, kMoments> seen{};     // people within the view and r_high then
   std::array<std::array<int, kSectors>, kTurns> around{};  // people within r_high whose direction lies in the sector

@@ -197,7 +197,7 @@ void MoveBoundary(const ControlSettings& s, LevelState* state) {
 
 // Only those who may become meshes need to stand in order; and all, where not even impostors fit.
 void PutInOrder(int64_t drawable, std::vector<LevelState::Visible>* visible) {
-  auto end = std::partition(visible->begin(), visible->end(), [](const auto& v) { return v.turn < kStays; });
+  auto end = std::partition(visible->begin(), visible->end(), [](const auto& v) { return v.priority < kStays; });
   if (static_cast<int64_t>(visible->size()) > drawable) end = visible->end();
   std::sort(visible->begin(), end, IsServedBefore);
 }
@@ -234,8 +234,8 @@ struct Serving {
 };
 
 Level LevelFor(const LevelState::Visible& v, const AvatarCosts& avatar, float px, Level last, const Serving& serving, const LevelState& state) {
-  const float share = v.turn == kAppears ? 1 - kReserve : 1.0f;
-  if (v.turn == kStays || static_cast<float>(state.high) >= share * static_cast<float>(state.limit)) return kImpostor;
+  const float share = v.priority == kAppears ? 1 - kReserve : 1.0f;
+  if (v.priority == kStays || static_cast<float>(state.high) >= share * static_cast<float>(state.limit)) return kImpostor;
   const auto budget = static_cast<int64_t>(share * static_cast<float>(serving.budget));
   return AffordableLevel(avatar, WantedMesh(avatar, px, last), budget, state.triangles);
 }

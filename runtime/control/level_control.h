@@ -65,7 +65,7 @@ struct LevelState {
   std::vector<Memory> memory;      // by slot
   std::vector<int> drawn, drawn_before;  // slots: of who is drawn in this step, and was in the last
 
-  struct Visible { float distance_m, key_m; int person, id; uint8_t turn; };
+  struct Visible { float distance_m, key_m; int person, id; uint8_t priority; };
   std::vector<Visible> visible;    // scratch
   std::vector<int> rim;            // scratch: indices of who is drawn, if at all, though the choice is not about them
   std::vector<float> nearest;      // scratch

@@ -57,14 +57,14 @@ LevelState::Visible InOrder(const Crowd& crowd, size_t i, Vec2 off, Level last, 
   const float distance_m = Length(off);
   if (first) return {distance_m, -1e9f, static_cast<int>(i), crowd.id[i], kWithin};
   float key_m = distance_m - (IsMesh(last) ? kHysteresis_m : 0);
-  Turn turn = key_m < state.r_high_m ? kWithin : IsMesh(last) ? kHolds : IsDrawn(last) ? kStays : kAppears;
-  if (turn == kWithin && last == kImpostor && LeavesSoon(off, crowd.velocity[i], state.motion, edges)) turn = kStays;
-  if (turn == kAppears) key_m = ComesWithin_m(crowd, i, off, state.motion);
-  return {distance_m, key_m, static_cast<int>(i), crowd.id[i], turn};
+  Priority priority = key_m < state.r_high_m ? kWithin : IsMesh(last) ? kHolds : IsDrawn(last) ? kStays : kAppears;
+  if (priority == kWithin && last == kImpostor && LeavesSoon(off, crowd.velocity[i], state.motion, edges)) priority = kStays;
+  if (priority == kAppears) key_m = ComesWithin_m(crowd, i, off, state.motion);
+  return {distance_m, key_m, static_cast<int>(i), crowd.id[i], priority};
 }
 
 bool IsServedBefore(const LevelState::Visible& a, const LevelState::Visible& b) {
-  if (a.turn != b.turn) return a.turn < b.turn;
+  if (a.priority != b.priority) return a.priority < b.priority;
   return a.key_m != b.key_m ? a.key_m < b.key_m : a.id < b.id;
 }
 

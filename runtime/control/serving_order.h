@@ -8,7 +8,7 @@ namespace flaneur {
 // anyway, as long as nobody else needs the place; then who comes into view, since nobody sees them change, by how near they will come.
 // Whoever was seen as an impostor stays one until r_high reaches them, and beyond that where they leave the view soon and do not pass
 // close.
-enum Turn : uint8_t { kWithin, kHolds, kAppears, kStays };
+enum Priority : uint8_t { kWithin, kHolds, kAppears, kStays };
 
 // Where the view's two edges have people on their inner side.
 struct ViewEdges { Vec2 inward[2]; };

@@ -20,7 +20,7 @@ inline constexpr float kAnticipation_s = 3.0f;
 inline constexpr float kInteraction_k = 1.5f;
 inline constexpr float kInteraction_tau0_s = 3.0f;
 // One predicted collision never asks for more than this: beyond it contact resolution takes over.
-inline constexpr float kMostPush_mps2 = 5.0f;
+inline constexpr float kMaxPush_mps2 = 5.0f;
 // Passing so close is fine; chosen, with the next two, by the open field, the corridor and the classic cases of the tests.
 inline constexpr float kPassing_m = 0.02f;
 // Who comes from the right across one's way, by more than an angle of this sine, is let go first: so much braking is kept for them.
@@ -47,8 +47,8 @@ inline constexpr float kContactMargin_m = 0.02f;
 
 // Weidmann 1993: v = v0 (1 - exp(-1.913 (1 / rho - 1 / rho_max))), rho_max = 5.4 people/m^2.
 inline constexpr float kWeidmannGamma_pm2 = 1.913f;
-inline constexpr float kWeidmannMostDensity_pm2 = 5.4f;
-inline constexpr float kLeastDensitySpeed = 0.1f;  // share of the preferred speed: a jam still creeps and can dissolve
+inline constexpr float kWeidmannMaxDensity_pm2 = 5.4f;
+inline constexpr float kMinDensitySpeed = 0.1f;  // share of the preferred speed: a jam still creeps and can dissolve
 inline constexpr float kDensityRadius_m = 3.0f;
 
 // Keeping off walls: a gentle push within this beyond touching.
@@ -69,7 +69,7 @@ inline constexpr float kSlopeSlows = 2.0f;
 
 // Cells of the navigation grid: a doorway of 1 m leaves 0.4 m to the centres of people, which holds at least one of them.
 inline constexpr float kNavigationCell_m = 0.35f;
-inline constexpr float kMostNavigationCells = 1.5e6f;  // larger areas get larger cells
+inline constexpr float kMaxNavigationCells = 1.5e6f;  // larger areas get larger cells
 // A flow field that is built beside the steps comes after one step for each so many cells, and one more. At 30 steps a second that is
 // 0.13 s for 326,000 cells, of which a free one in three takes a desktop computer of 2020 28 ms.
 inline constexpr int64_t kCellsAStep = 90000;
@@ -92,6 +92,6 @@ inline constexpr int kSightEvery_steps = 10 * kTurnEvery_steps;
 // People who were near each other so many steps ago mostly still are.
 inline constexpr int kSortEvery_steps = 256;
 // Who is out of sight and far from everything walks straight on for up to so many steps.
-inline constexpr int kMostCoast_steps = 8 * kTurnEvery_steps;
+inline constexpr int kMaxCoast_steps = 8 * kTurnEvery_steps;
 
 }  // namespace flaneur

@@ -10,7 +10,7 @@
 namespace flaneur {
 namespace {
 
-constexpr size_t kMostContacts = 6;  // pairs a person: as many as fit around
+constexpr size_t kMaxContacts = 6;  // pairs a person: as many as fit around
 
 // Nobody walks into a disc that is for everyone: a step that would goes along its rim or not at all.
 Vec2 KeepOut(const std::vector<MovingObstacle>& moving, Vec2 from, Vec2 to, float radius_m) {
@@ -41,7 +41,7 @@ Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, f
 
 void FindContacts(const Crowd& c, float step_s, CrowdScratch* s) {
   s->contacts.clear();
-  s->contacts.reserve(kMostContacts * c.size());
+  s->contacts.reserve(kMaxContacts * c.size());
   const NeighbourGrid& g = s->neighbours;
   float most_mps = 0;
   for (int i : s->caring) most_mps = std::max(most_mps, c.top_mps[static_cast<size_t>(i)]);

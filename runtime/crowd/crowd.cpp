@@ -45,7 +45,7 @@ int CoastSteps(const std::vector<MovingObstacle>& moving, float step_s, const Cr
   const float step_m = Length(c.wanted[i]) * step_s;
   const float clear_m = std::min(c.mind[i].clear_m - c.radius_m[i],
                                  0.5f * Length(c.fields[static_cast<size_t>(c.field[i])].goal - c.position[i]));
-  const float most = std::min(clear_m / std::max(step_m, 1e-6f), static_cast<float>(kMostCoast_steps));
+  const float most = std::min(clear_m / std::max(step_m, 1e-6f), static_cast<float>(kMaxCoast_steps));
   const int steps = static_cast<int>(most) / kTurnEvery_steps * kTurnEvery_steps;
   if (steps <= 0) return 0;
   const float run_s = static_cast<float>(steps) * step_s;

@@ -7,8 +7,8 @@ namespace flaneur {
 namespace {
 
 constexpr float kCell_m = 2;
-constexpr float kMostCells = 1e6f;   // larger areas get larger cells
-constexpr float kLeastArea_m2 = 1;   // of a cell: the strip that is left beside a wall crowds nobody
+constexpr float kMaxCells = 1e6f;   // larger areas get larger cells
+constexpr float kMinArea_m2 = 1;   // of a cell: the strip that is left beside a wall crowds nobody
 
 size_t CellOf(const DensityMap& m, Vec2 p) {
   const int x = std::clamp(static_cast<int>((p.x - m.min_m.x) * m.cells_per_m), 0, m.columns - 1);
@@ -19,7 +19,7 @@ size_t CellOf(const DensityMap& m, Vec2 p) {
 void Build(const Walkable& w, DensityMap* m) {
   const Vec2 size{static_cast<float>(w.columns) * w.cell_m, static_cast<float>(w.rows) * w.cell_m};
   m->min_m = w.min_m;
-  m->cell_m = std::max(kCell_m, std::sqrt(size.x * size.y / kMostCells));
+  m->cell_m = std::max(kCell_m, std::sqrt(size.x * size.y / kMaxCells));
   m->cells_per_m = 1 / m->cell_m;
   m->columns = static_cast<int>(size.x * m->cells_per_m) + 1;
   m->rows = static_cast<int>(size.y * m->cells_per_m) + 1;
@@ -28,7 +28,7 @@ void Build(const Walkable& w, DensityMap* m) {
   for (int cell = 0; cell < w.columns * w.rows; ++cell) {
     if (w.cost[static_cast<size_t>(cell)] > 0) m->per_person_pm2[CellOf(*m, CellCenter(w, cell))] += w.cell_m * w.cell_m;
   }
-  for (float& area_m2 : m->per_person_pm2) area_m2 = 1 / std::max(area_m2, kLeastArea_m2);
+  for (float& area_m2 : m->per_person_pm2) area_m2 = 1 / std::max(area_m2, kMinArea_m2);
 }
 
 }  // namespace

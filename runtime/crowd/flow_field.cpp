@@ -200,7 +200,7 @@ Vec2 RoughWayAt(const Walkable& w, const FlowField& field, Vec2 p) {
 bool StraightWay(const Walkable& w, Vec2 p, Vec2 q) {
   const int first = CellAt(w, p);
   if (first < 0) return false;
-  const float dearest = w.cost[static_cast<size_t>(first)] > 0 ? CostOfGround(w, first) * kNearWallCost * 1.01f : kGroundCost[1];
+  const float max_cost = w.cost[static_cast<size_t>(first)] > 0 ? CostOfGround(w, first) * kNearWallCost * 1.01f : kGroundCost[1];
   const Vec2 way = q - p;
   const float way_m = Length(way), longer_m = std::max(std::abs(way.x), std::abs(way.y));
   const float least = 0.5f * w.cell_m / std::max(way_m, 1e-6f), cells = w.cell_m * 0.99f / std::max(longer_m, 1e-6f);
@@ -210,7 +210,7 @@ bool StraightWay(const Walkable& w, Vec2 p, Vec2 q) {
     if (cell < 0) return false;
     if (!known) {
       const float cost = CostOfGround(w, cell);
-      if (cost <= 0 || cost > dearest) return false;
+      if (cost <= 0 || cost > max_cost) return false;
     }
     const int same = w.cells[static_cast<size_t>(cell)].same;
     known = same > 0;

@@ -55,7 +55,7 @@ Vec2 WayAt(const Walkable& w, const FlowField& field, Vec2 p);
 // The same at the nearest cell, for those whom nobody sees: one look into memory instead of four.
 Vec2 RoughWayAt(const Walkable& w, const FlowField& field, Vec2 p);
 
-// True where one can walk straight from p to q over ground that is nowhere dearer than at p.
+// True where one can walk straight from p to q over ground that is nowhere costlier than at p.
 bool StraightWay(const Walkable& w, Vec2 p, Vec2 q);
 
 }  // namespace flaneur

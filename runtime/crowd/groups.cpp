@@ -12,26 +12,26 @@ namespace flaneur {
 namespace {
 
 constexpr float kElbowRoom_m = 0.35f;       // between bodies in a row
-constexpr float kLeastElbowRoom_m = 0.1f;
+constexpr float kMinElbowRoom_m = 0.1f;
 constexpr float kRowGap_m = 0.95f;          // from row to row
 constexpr float kInnerBack_m = 0.2f;
 constexpr float kWider_m = 0.35f;           // more room than needed before a row grows again: nobody wavers
 constexpr float kLook_m = 0.8f;             // between the points ahead where room is looked for
 constexpr int kLooks = 4;
 constexpr int kLookEvery_turns = 4;
-constexpr float kMostRoom_m = 2.4f;         // to each side
+constexpr float kMaxElbowRoom_m = 2.4f;         // to each side
 constexpr float kTurnsWithWay = 0.25f;      // of the common way, each time it is looked at
 constexpr float kCatchUp_pm = 0.5f;         // change of pace by a metre ahead or behind
-constexpr float kLeastPace = 0.3f, kMostPace = 1.25f;
+constexpr float kMinPace = 0.3f, kMaxPace = 1.25f;
 constexpr float kAside_ps = 0.9f;           // share of the offset made good in a second
-constexpr float kMostAside_mps = 0.4f;
+constexpr float kMaxAside_mps = 0.4f;
 constexpr float kGoalOwn_m = 1.5f, kGoalFades_m = 1.5f;  // close to the goal everybody walks for themselves
 
 struct Formation {
   int count = 0;
-  int who[kMostInGroup];     // indices of Group::member, of those who walk, by place
-  size_t person[kMostInGroup];  // by member
-  Vec2 place[kMostInGroup];  // x ahead, y to the left of the centre
+  int who[kMaxGroupSize];     // indices of Group::member, of those who walk, by place
+  size_t person[kMaxGroupSize];  // by member
+  Vec2 place[kMaxGroupSize];  // x ahead, y to the left of the centre
   Vec2 center, ahead, left;
 };
 
@@ -43,19 +43,19 @@ bool Walks(const Crowd& c, size_t i) {
 float Room_m(const Walkable& w, Vec2 p, Vec2 direction) {
   const float step_m = 0.5f * w.cell_m;
   float room_m = 0;
-  while (room_m < kMostRoom_m) {
+  while (room_m < kMaxElbowRoom_m) {
     const int cell = CellAt(w, p + direction * (room_m + step_m));
     if (cell < 0 || w.cost[static_cast<size_t>(cell)] <= 0) break;
     room_m += std::max(step_m, w.cell_m * static_cast<float>(w.cells[static_cast<size_t>(cell)].same));  // all of it free
   }
-  return std::min(room_m, kMostRoom_m);
+  return std::min(room_m, kMaxElbowRoom_m);
 }
 
 // The least room across the way, from here to where the group will soon be.
 float RoomAhead_m(const Walkable& w, const Formation& f, Crowd* c) {
   const size_t leader = f.person[f.who[0]];
   const Vec2 goal = c->fields[static_cast<size_t>(c->field[leader])].goal;
-  float least_m = 2 * kMostRoom_m;
+  float least_m = 2 * kMaxElbowRoom_m;
   Vec2 p = f.center, way = f.ahead;
   for (int k = 0; k < kLooks; ++k) {
     const Vec2 left{-way.y, way.x};
@@ -102,7 +102,7 @@ void PlaceRow(const Crowd& c, int first, int end, float along_m, float room_m, F
   float bodies_m = 0;
   for (int k = first; k + 1 < end; ++k) bodies_m += Radius_m(c, *f, k) + Radius_m(c, *f, k + 1);
   const float gaps = static_cast<float>(std::max(1, end - first - 1));
-  const float elbow_m = std::clamp((room_m - bodies_m) / gaps, kLeastElbowRoom_m, kElbowRoom_m);
+  const float elbow_m = std::clamp((room_m - bodies_m) / gaps, kMinElbowRoom_m, kElbowRoom_m);
   float across_m = 0.5f * (bodies_m + elbow_m * static_cast<float>(end - first - 1));
   for (int k = first; k < end; ++k) {
     const bool inner = k > first && k + 1 < end;
@@ -152,15 +152,15 @@ void Ask(const Walkable& w, const Crowd& c, const Formation& f, int k, Group* g)
   const float to_goal_m = Length(c.fields[static_cast<size_t>(c.field[i])].goal - p);
   const float share = std::clamp((to_goal_m - kGoalOwn_m) / kGoalFades_m, 0.0f, 1.0f);
   const float behind_m = Dot(place - p, f.ahead), aside_m = Dot(place - p, f.left);
-  g->pace[f.who[k]] = 1 + share * (std::clamp(1 + kCatchUp_pm * behind_m, kLeastPace, kMostPace) - 1);
+  g->pace[f.who[k]] = 1 + share * (std::clamp(1 + kCatchUp_pm * behind_m, kMinPace, kMaxPace) - 1);
   if (!IsFree(w, place) || !IsFree(w, (p + place) * 0.5f)) return;  // round a corner
-  const float aside_mps = std::clamp(kAside_ps * aside_m, -kMostAside_mps, kMostAside_mps);
+  const float aside_mps = std::clamp(kAside_ps * aside_m, -kMaxAside_mps, kMaxAside_mps);
   g->push[f.who[k]] = f.left * (share * aside_mps / kRelaxation_s);
 }
 
 void Plan(const Walkable& w, bool look, Group* g, Crowd* c) {
-  std::fill(g->pace, g->pace + kMostInGroup, 0.0f);
-  std::fill(g->push, g->push + kMostInGroup, Vec2{});
+  std::fill(g->pace, g->pace + kMaxGroupSize, 0.0f);
+  std::fill(g->push, g->push + kMaxGroupSize, Vec2{});
   Formation f;
   if (!Gather(g, *c, &f)) return;
   if (look || g->abreast == 0) {
@@ -199,7 +199,7 @@ void LeaveGroup(size_t index, Crowd* c) {
   if (which < 0) return;
   Group& g = c->groups[static_cast<size_t>(which)];
   g.size = static_cast<int>(std::remove(g.member, g.member + g.size, static_cast<int>(index)) - g.member);
-  std::fill(g.pace, g.pace + kMostInGroup, 0.0f);
+  std::fill(g.pace, g.pace + kMaxGroupSize, 0.0f);
   c->group[index] = -1;
   if (g.size > 1) return;
   c->group[static_cast<size_t>(g.member[0])] = -1;

@@ -8,19 +8,19 @@ namespace flaneur {
 
 struct Crowd;
 
-inline constexpr int kMostInGroup = 4;
+inline constexpr int kMaxGroupSize = 4;
 
 struct Group {
   int size = 0;
-  int member[kMostInGroup] = {}; // indices of the crowd's arrays
+  int member[kMaxGroupSize] = {}; // indices of the crowd's arrays
   Vec2 ahead;                    // unit vector of the common way, averaged over a moment; zero: not known yet
   float room_m = 0;              // across the way, from here to where the group will soon be
   int abreast = 0;               // in a row at the moment; 0: not known yet
-  float pace[kMostInGroup] = {}; // what each member asks for: share of the own speed; 0: nothing
-  Vec2 push[kMostInGroup] = {};  // and acceleration
+  float pace[kMaxGroupSize] = {}; // what each member asks for: share of the own speed; 0: nothing
+  Vec2 push[kMaxGroupSize] = {};  // and acceleration
 };
 
-// The people at the given indices, 2 to kMostInGroup of them and none in a group so far, go together from now on, at the speed of
+// The people at the given indices, 2 to kMaxGroupSize of them and none in a group so far, go together from now on, at the speed of
 // their slowest. Their goals stay the caller's to set.
 void AddGroup(const std::vector<int>& members, Crowd* crowd);
 

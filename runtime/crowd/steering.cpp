@@ -12,14 +12,14 @@ namespace {
 
 constexpr int kBlock = 64;  // people looked at together
 constexpr size_t kFetchAhead = 9;  // people, whose cells lie anywhere
-constexpr float kLeastAcceleration_mps2 = 0.5f;  // a turn ends, and doesn't fade away
+constexpr float kMinAcceleration_mps2 = 0.5f;  // a turn ends, and doesn't fade away
 constexpr int kReturnDecisions = 45;    // after which a line is forgotten;
 constexpr int kPassing = 7;             // and the first of them, while the visitor passes, change nothing
-constexpr float kReturn_s = 1.0f, kMostReturn_mps = 0.5f, kOnLine_m = 0.1f;
+constexpr float kReturn_s = 1.0f, kMaxReturn_mps = 0.5f, kOnLine_m = 0.1f;
 constexpr float kStuck = 0.05f, kStuckDensity_pm2 = 2.5f, kLetGo = 0.7f;
 constexpr int kLetsGo_steps = 30;
-constexpr float kSooner = 2.4f;         // than the last moment
-constexpr float kLeastTime_s = 0.3f;  // no stepping aside is quicker
+constexpr float kSidestepGain = 2.4f;         // than the last moment
+constexpr float kMinTime_s = 0.3f;  // no stepping aside is quicker
 
 // exp(-x) for x in [0, 1] to half a percent, without a call.
 float RoughDecay(float x) { return 1 / (1 + x * (1 + x * (0.5f + x * (1.0f / 6)))); }
@@ -39,7 +39,7 @@ Vec2 Anticipation(Vec2 towards, Vec2 closing, float reach_m) {
   const float strength =
       kInteraction_k * RoughDecay(tau / kInteraction_tau0_s) * (2 / tau + 1 / kInteraction_tau0_s) / (a * tau * tau);
   const Vec2 aside = (closing * b - towards * a) * (1 / root) - closing;
-  return ClampLength(aside * strength, kMostPush_mps2);
+  return ClampLength(aside * strength, kMaxPush_mps2);
 }
 
 struct Looking {
@@ -120,7 +120,7 @@ Vec2 WithoutBraking(const Looking& me, Vec2 towards, Vec2 other, Vec2 push) {
   return push - me.velocity * ((first ? 1 - kGiveWay : 1) * along / speed2);
 }
 
-void Feel(const Looking& me, Block* block, Surroundings* s) {
+void AddInteractions(const Looking& me, Block* block, Surroundings* s) {
   Weigh(me, block);
   const Block& b = *block;
   for (int k = 0; k < b.count; ++k) {
@@ -147,10 +147,10 @@ Surroundings LookAround(const NeighbourGrid& grid, const Looking& me) {
   VisitRows(grid, me.position, kNeighbourRadius_m, [&](const Neighbour* first, const Neighbour* end) {
     while (first < end) {
       first = Gather(me, first, end, &block);
-      if (block.count == kBlock) Feel(me, &block, &s);
+      if (block.count == kBlock) AddInteractions(me, &block, &s);
     }
   });
-  Feel(me, &block, &s);
+  AddInteractions(me, &block, &s);
   return s;
 }
 
@@ -158,12 +158,12 @@ Surroundings LookAround(const NeighbourGrid& grid, const Looking& me) {
 Vec2 StepAside(Vec2 towards, Vec2 closing, float reach_m) {
   const float speed2 = Dot(closing, closing), along = Dot(towards, closing);
   if (along <= 0 || along > kAnticipation_s * speed2) return {};
-  const float time_s = std::max(along / speed2, kLeastTime_s);
+  const float time_s = std::max(along / speed2, kMinTime_s);
   const Vec2 missed = closing * (along / speed2) - towards;  // from where they pass to me
   const float miss_m = Length(missed);
   if (miss_m >= reach_m) return {};
   const Vec2 side = miss_m > 0.05f ? missed * (1 / miss_m) : Vec2{-closing.y, closing.x} * (-1 / std::sqrt(speed2));
-  return side * (kSooner * (reach_m - miss_m) / (time_s * kRelaxation_s));
+  return side * (kSidestepGain * (reach_m - miss_m) / (time_s * kRelaxation_s));
 }
 
 // Between walls and the disc, at once and a step on.
@@ -202,7 +202,7 @@ Vec2 AvoidMoving(const Walkable& w, const std::vector<MovingObstacle>& moving, c
       push = push - towards * (kDiscMinded * kSeparation_mps2 * std::min(1.0f, 1 - gap_m / (2 * kComfort_m)) / distance_m);
     }
   }
-  return ClampLength(push, kDiscMinded * kMostPush_mps2);
+  return ClampLength(push, kDiscMinded * kMaxPush_mps2);
 }
 
 // Who made room for the visitor comes back to the line they walked on, so that the crowd closes again behind.
@@ -216,7 +216,7 @@ Vec2 BackToLine(bool pushed, Vec2 position, Vec2 way, Mind* mind) {
   if (--mind->returns > kReturnDecisions - kPassing) return {};
   const Vec2 off = mind->left_line - position, aside = off - way * Dot(off, way);
   if (Dot(aside, aside) < kOnLine_m * kOnLine_m) mind->returns = 0;
-  return ClampLength(aside * (1 / kReturn_s), kMostReturn_mps) * (1 / kRelaxation_s);
+  return ClampLength(aside * (1 / kReturn_s), kMaxReturn_mps) * (1 / kRelaxation_s);
 }
 
 // The weights of a full disc sum to half its area; walls leave less of it to people.
@@ -260,8 +260,8 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
 
 float SpeedInDensity(float density_pm2) {
   if (density_pm2 < 0.05f) return 1;
-  const float exponent = kWeidmannGamma_pm2 * (1 / density_pm2 - 1 / kWeidmannMostDensity_pm2);
-  return exponent > 0 ? std::clamp(1 - DecayOf(exponent), kLeastDensitySpeed, 1.0f) : kLeastDensitySpeed;
+  const float exponent = kWeidmannGamma_pm2 * (1 / density_pm2 - 1 / kWeidmannMaxDensity_pm2);
+  return exponent > 0 ? std::clamp(1 - DecayOf(exponent), kMinDensitySpeed, 1.0f) : kMinDensitySpeed;
 }
 
 float SpeedOnSlope(const Walkable& w, int cell, float level_mps) {
@@ -288,7 +288,7 @@ void ChooseVelocity(float step_s, size_t i, Crowd* c) {
   else if (c->activity[i] == Activity::kWalking && c->field[i] >= 0) preferred = c->way[i] * mind.asked_mps;
   const Vec2 change = preferred + mind.push * kRelaxation_s - c->velocity[i];
   const float change_mps = Length(change);
-  const float most_mps2 = std::min(kMaxAcceleration_mps2, std::max(change_mps / kRelaxation_s, kLeastAcceleration_mps2));
+  const float most_mps2 = std::min(kMaxAcceleration_mps2, std::max(change_mps / kRelaxation_s, kMinAcceleration_mps2));
   const Vec2 acceleration = ClampLength(change * (1 / step_s), most_mps2);
   c->wanted[i] = ClampLength(c->velocity[i] + acceleration * step_s, c->top_mps[i]);
 }

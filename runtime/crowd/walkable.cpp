@@ -11,8 +11,8 @@ namespace {
 
 // Beyond touching: how far a person steps or feels a wall at most.
 constexpr float kReachBeyondRadius_m = 0.6f;
-constexpr float kMostSlope = 255 * Walkable::kSlopeUnit;
-constexpr int kMostSame = 200;
+constexpr float kMaxSlope = 255 * Walkable::kSlopeUnit;
+constexpr int kMaxUniformRadius_cells = 200;
 
 bool InsideRing(Vec2 p, const std::vector<Vec2>& ring) {
   bool inside = false;
@@ -113,7 +113,7 @@ float SlopeAt(const Walkable& w, Vec2 p) {
   const float dx = HeightAt(w, p + Vec2{kAround_m, 0}) - HeightAt(w, p - Vec2{kAround_m, 0});
   const float dy = HeightAt(w, p + Vec2{0, kAround_m}) - HeightAt(w, p - Vec2{0, kAround_m});
   const float slope = std::sqrt(dx * dx + dy * dy) / (2 * kAround_m);
-  return slope > kMostSlope ? 0.0f : slope;  // a step between two levels of ground, not a slope
+  return slope > kMaxSlope ? 0.0f : slope;  // a step between two levels of ground, not a slope
 }
 
 // A box as wide as the disc that density is measured in, by running sums along rows and columns.
@@ -213,7 +213,7 @@ void MeasureSame(Walkable* w) {
   const int columns = w->columns, rows = w->rows;
   const auto sweep = [&](int x, int y, int direction) {
     const int cell = y * columns + x;
-    int least = direction > 0 ? kMostSame : w->cells[static_cast<size_t>(cell)].same;
+    int least = direction > 0 ? kMaxUniformRadius_cells : w->cells[static_cast<size_t>(cell)].same;
     const int around[4] = {-direction, -direction * columns - 1, -direction * columns, -direction * columns + 1};
     for (int step : around) {
       const size_t other = static_cast<size_t>(cell + step);
@@ -236,7 +236,7 @@ void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
   const GroundRaster& g = *w->ground;
   const Vec2 size{static_cast<float>(g.columns) * g.cell_m, static_cast<float>(g.rows) * g.cell_m};
   w->person_radius_m = person_radius_m;
-  w->cell_m = std::max(kNavigationCell_m, std::sqrt(size.x * size.y / kMostNavigationCells));
+  w->cell_m = std::max(kNavigationCell_m, std::sqrt(size.x * size.y / kMaxNavigationCells));
   w->min_m = g.min_m;
   w->cells_per_m = 1 / w->cell_m;
   w->columns = std::max(1, static_cast<int>(std::ceil(size.x / w->cell_m)));

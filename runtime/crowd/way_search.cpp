@@ -9,11 +9,11 @@
 namespace flaneur {
 namespace {
 
-constexpr float kGreed = 1.2f;       // weight of what is still estimated: ways get a little longer, searches much smaller
+constexpr float kHeuristicWeight = 1.2f;       // weight of what is still estimated: ways get a little longer, searches much smaller
 constexpr float kDiagonal = 1.41421356f;
 constexpr float kAtCorner_m = 0.4f;
 constexpr size_t kNextPoints = 2;    // of the way: searched for over the cells where no point is in sight
-constexpr size_t kLeastCells = 4;    // to a corner of a way over cells
+constexpr size_t kMinCells = 4;    // to a corner of a way over cells
 
 void Reach(int node, float cost, int from, float left, SearchTable* t) {
   const size_t k = static_cast<size_t>(node);
@@ -21,7 +21,7 @@ void Reach(int node, float cost, int from, float left, SearchTable* t) {
   t->round_of[k] = t->round;
   t->cost[k] = cost;
   t->from[k] = from;
-  t->open.push_back({cost + kGreed * left, node});
+  t->open.push_back({cost + kHeuristicWeight * left, node});
   std::push_heap(t->open.begin(), t->open.end(), std::greater<>());
 }
 
@@ -109,7 +109,7 @@ Vec2 CornerNear(const Walkable& w, Vec2 p, int start, Vec2 to, WaySearch* s) {
   s->points.clear();
   for (size_t k = 1; k < s->near.way.size(); ++k) s->points.push_back(CellCenter(w, s->near.way[k]));
   if (s->points.empty()) return to;
-  const size_t corner = std::max(InSight(w, p, s->points), std::min(kLeastCells, s->points.size()));
+  const size_t corner = std::max(InSight(w, p, s->points), std::min(kMinCells, s->points.size()));
   return corner == s->points.size() ? to : s->points[corner - 1];
 }
 

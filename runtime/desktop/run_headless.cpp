@@ -30,7 +30,7 @@ struct Pane {
   FrameInput frame;
   FrameStatistics statistics;
   std::vector<uint8_t> rgb;
-  Views views;
+  DeveloperViews views;
 };
 
 void DrawPane(const PlayerOptions& options, const TourPack& pack, int width_px, bool read, Renderer* renderer, Overlay* overlay, Pane* pane) {

@@ -18,7 +18,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kLetterShare = 1 / 20.0f, kTextWidthShare = 0.84f, kLineGap = 1.25f;
-constexpr int kLeastLetter_px = 12, kLeastPicture_px = 64;
+constexpr int kMinLetter_px = 12, kMinPicture_px = 64;
 constexpr float kStripShare = 0.72f;  // how much of the picture the empty strip hides
 constexpr uint8_t kStripColor = 18;
 
@@ -113,8 +113,8 @@ void PutLine(std::span<const int> letters, float baseline, float scale, PackImag
 
 PackImage LayOutCaption(const std::string& text, int width_px, int height_px) {
   PackImage image;
-  if (text.find_first_not_of(' ') == std::string::npos || width_px < kLeastPicture_px || height_px < kLeastPicture_px) return image;
-  const float letter_px = std::max<float>(kLeastLetter_px, static_cast<float>(height_px) * kLetterShare);
+  if (text.find_first_not_of(' ') == std::string::npos || width_px < kMinPicture_px || height_px < kMinPicture_px) return image;
+  const float letter_px = std::max<float>(kMinLetter_px, static_cast<float>(height_px) * kLetterShare);
   const float scale = stbtt_ScaleForPixelHeight(&Font(), letter_px);
   const auto lines = Wrap(CodePoints(text), scale, static_cast<float>(width_px) * kTextWidthShare);
   int ascent = 0, descent = 0, gap = 0;

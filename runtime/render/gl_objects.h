@@ -49,7 +49,7 @@ struct DrawCost {
   void operator+=(const DrawCost& other) { triangles += other.triangles, calls += other.calls; }
 };
 
-// True where no GPU draws: then what a GPU gives away is too dear.
+// True where no GPU draws: then what a GPU gives away is too expensive.
 bool DrawsInSoftware();
 
 GLuint CreateBuffer(GLenum target, const void* data, size_t bytes);

@@ -228,7 +228,7 @@ AvatarLayout LayoutOf(const PackAvatar& avatar) {
   for (const PackLevel& level : avatar.levels) layout.switch_px.push_back(level.switch_px);
   SetSteps(avatar, &layout);
   layout.clips = {RowsOf(avatar.walk, layout), RowsOf(avatar.idle, layout), RowsOf(avatar.talk, layout)};
-  for (size_t k = 0; k < layout.clips.size(); ++k) layout.shadow_rows[k] = std::min(layout.clips[k].frames, kMostShadowRows);
+  for (size_t k = 0; k < layout.clips.size(); ++k) layout.shadow_rows[k] = std::min(layout.clips[k].frames, kMaxShadowFrames);
   static_cast<ImpostorLayout&>(layout.impostor) = avatar.impostor;
   return layout;
 }

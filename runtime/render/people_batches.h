@@ -32,7 +32,7 @@ AvatarLayout LayoutOf(const PackAvatar& avatar);
 size_t ClipBytes(const AvatarLayout& layout);  // what animating it takes
 
 // Frames of a clip that shadows know.
-inline constexpr int kMostShadowRows = 24;
+inline constexpr int kMaxShadowFrames = 24;
 int ShadowFrame(const ClipRows& clip, int shadow_row, int shadow_rows);
 
 // What can be drawn of an avatar: pictures and meshes may still be on their way.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr float kNear_m = 0.1f, kFar_m = 900;
 // Of the town's shadows that a picture usually renews: with less, one map waits for the other while the visitor runs out of it.
-constexpr float kLeastShadowShare = 0.5f;
+constexpr float kMinShadowShare = 0.5f;
 
 // In software larger pictures cost memory and time that nobody sees at the sizes drawn there, and texels eight times a block's memory.
 PictureLimits LimitsOfThisMachine(bool fast) {
@@ -201,14 +201,14 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   DrawCost shadows = DrawPeopleShadows(eye, ahead, to_sun, r.block_buffer, r.people, &r.shadows);
   statistics->people_shadow_triangles = shadows.triangles;
   timer.Passed(DrawPass::kPeopleShadow);
-  shadows += UpdateTownShadows(eye, to_sun, std::max(kLeastShadowShare, frame.resolution_scale * frame.resolution_scale), r.block_buffer, r.town, &r.shadows);
+  shadows += UpdateTownShadows(eye, to_sun, std::max(kMinShadowShare, frame.resolution_scale * frame.resolution_scale), r.block_buffer, r.town, &r.shadows);
   timer.Passed(DrawPass::kTownShadow);
 
   BeginPicture(r.picture);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, focal_px, to_sun, std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
-  // Whatever is drawn hides what comes after it at no cost: the dearest comes last, the nearest first.
+  // Whatever is drawn hides what comes after it at no cost: the costliest comes last, the nearest first.
   DrawCost people = DrawPeople(r.people, false);
   timer.Passed(DrawPass::kMeshes);
   if (r.picture.deferred) glFlush();  // software fills these pixels while it goes through the town's triangles

@@ -8,7 +8,7 @@ namespace flaneur {
 namespace {
 
 constexpr int kTownMap_px = 2048, kPeopleMap_px = 1024;
-constexpr float kNear_m = 55, kMostFar_m = 400;  // half the widths that the maps of the town cover
+constexpr float kNear_m = 55, kMaxFarHalfWidth_m = 400;  // half the widths that the maps of the town cover
 constexpr float kShadowDepth_m = 140;
 constexpr float kNearStep_m = 8;
 constexpr float kSunStep = 0.004f;       // or when the sun has turned by so much, in radians: hardly a texel on the ground
@@ -111,9 +111,9 @@ DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buff
   // The coarse map stands still over a town that it covers, and else follows the eye.
   const Vec3 middle = (town.box.low + town.box.high) * 0.5f;
   const float reach_m = town.geometry.blocks.empty() ? 1 : Length(town.box.high - middle);
-  const bool covered = reach_m <= kMostFar_m;
-  maps->far.half_width_m = covered ? reach_m : kMostFar_m;
-  maps->far.step_m = kMostFar_m / 8;
+  const bool covered = reach_m <= kMaxFarHalfWidth_m;
+  maps->far.half_width_m = covered ? reach_m : kMaxFarHalfWidth_m;
+  maps->far.step_m = kMaxFarHalfWidth_m / 8;
   cost += UpdateTownMap(covered ? middle : eye, to_sun, share, block_buffer, town, maps, &maps->far);
   glDisable(GL_POLYGON_OFFSET_FILL);
   BindTextureArray(kTownShadowUnit, maps->town_texture);

@@ -19,13 +19,13 @@
 namespace flaneur {
 namespace {
 
-constexpr int kMostLayers = 127;  // a vertex holds its layer in a signed byte
-constexpr int kLeastSide_px = 64;
-constexpr int kMostLevel = 16;
+constexpr int kMaxLayers = 127;  // a vertex holds its layer in a signed byte
+constexpr int kMinSide_px = 64;
+constexpr int kMaxMipLevel = 16;
 
 int Side_px(const PackImage& image, int most_px) {
   const int longest = std::max(image.width_px, image.height_px);
-  int side = kLeastSide_px;
+  int side = kMinSide_px;
   while (side < longest && side * 2 <= most_px) side *= 2;
   return side;
 }
@@ -49,7 +49,7 @@ std::vector<bool> MaterialsOfPeople(const TourPack& pack) {
 int ArrayFor(int side_px, bool blocks, std::vector<TextureArrayPlan>* arrays) {
   for (size_t k = 0; k < arrays->size(); ++k) {
     const TextureArrayPlan& a = (*arrays)[k];
-    if (a.side_px == side_px && a.blocks == blocks && a.layers < kMostLayers) return static_cast<int>(k);
+    if (a.side_px == side_px && a.blocks == blocks && a.layers < kMaxLayers) return static_cast<int>(k);
   }
   arrays->push_back({side_px, 0, blocks});
   return static_cast<int>(arrays->size()) - 1;
@@ -106,7 +106,7 @@ std::vector<PackImage> PreparePicture(const PackImage& image, int side_px) {
     stbir_resize_uint8_srgb_edgemode(image.rgba.data(), image.width_px, image.height_px, 0, levels[0].rgba.data(), side_px, side_px, 0, 4,
                                      3, 0, STBIR_EDGE_WRAP);
   }
-  std::vector<PackImage> smaller = MakeMipChain(levels[0], true, kMostLevel);
+  std::vector<PackImage> smaller = MakeMipChain(levels[0], true, kMaxMipLevel);
   for (PackImage& level : smaller) levels.push_back(std::move(level));
   return levels;
 }

@@ -10,7 +10,7 @@
 namespace flaneur {
 namespace {
 
-constexpr size_t kImpostorMostLevel = 3;  // in coarser ones several cells share a texel
+constexpr size_t kImpostorMaxLevel = 3;  // in coarser ones several cells share a texel
 
 void SetFilters(GLenum target, GLint wrap, GLint most_level, bool between_levels) {
   glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
@@ -52,7 +52,7 @@ AtlasPicture Prepare(const PackTexture& picture, size_t first, const AtlasFormat
   first = std::min(first, picture.levels.size() - 1);
   AtlasPicture out{picture.format, std::max(1, picture.width_px >> first), std::max(1, picture.height_px >> first),
                    ReadsBlocks(picture.format, formats), {}};
-  const size_t end = std::min(picture.levels.size(), first + kImpostorMostLevel + 1);
+  const size_t end = std::min(picture.levels.size(), first + kImpostorMaxLevel + 1);
   for (size_t k = first; k < end; ++k) {
     const std::vector<uint8_t>& blocks = picture.levels[k];
     const int width_px = std::max(1, picture.width_px >> k), height_px = std::max(1, picture.height_px >> k);
@@ -90,7 +90,7 @@ std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, textures[k]);
     glTexStorage3D(GL_TEXTURE_2D_ARRAY, LevelsOf(a.side_px), a.blocks ? GL_COMPRESSED_RGB_S3TC_DXT1_EXT : GL_RGBA8, a.side_px, a.side_px, std::max(1, a.layers));
     SetFilters(GL_TEXTURE_2D_ARRAY, GL_REPEAT, LevelsOf(a.side_px) - 1, !fast);
-    // In software each anisotropic look-up walks an ellipse of texels: too dear for many pictures a second.
+    // In software each anisotropic look-up walks an ellipse of texels: too expensive for many pictures a second.
     if (!fast && HasExtension("texture_filter_anisotropic")) {
       glTexParameterf(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_ANISOTROPY_EXT, 4);
     }

@@ -10,7 +10,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kBlock_m = 4;  // small enough that walls hide most of what they hide; smaller ones take the CPU longer
-constexpr float kLeastWall_m2 = 0.4f;  // of what hides other blocks
+constexpr float kMinOccluder_m2 = 0.4f;  // of what hides other blocks
 
 bool Mirrors(const Mat4& m) {
   const auto column = [&](size_t c) { return Vec3{m.m[c][0], m.m[c][1], m.m[c][2]}; };
@@ -55,7 +55,7 @@ uint64_t CellOf(const std::array<uint32_t, 3>& corners, const TownGeometry& town
 bool HidesWhatIsBehind(const Triangle& t, const SurfacePlan& plan, const std::vector<TownVertex>& vertices) {
   if (plan.groups[static_cast<size_t>(t.group)].masked) return false;
   const Vec3 a = vertices[t.corners[0]].position, b = vertices[t.corners[1]].position, c = vertices[t.corners[2]].position;
-  return Length(Cross(b - a, c - a)) / 2 > kLeastWall_m2;
+  return Length(Cross(b - a, c - a)) / 2 > kMinOccluder_m2;
 }
 
 // Behind the opaque ones, so that a block's ranges are where the index array has them in the end.

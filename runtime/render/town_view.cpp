@@ -8,7 +8,7 @@
 namespace flaneur {
 namespace {
 
-constexpr size_t kMostWalls = 14000;      // triangles a picture: the nearest walls hide most
+constexpr size_t kMaxOccluderTriangles = 14000;      // triangles a picture: the nearest walls hide most
 constexpr uint32_t kPiece = 3 * 15000;    // indices; software keeps all triangles on their way until they are filled
 constexpr uint32_t kJoined = 12000;       // indices that a shadow draws in vain rather than in another call
 
@@ -124,7 +124,7 @@ void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownVie
     const TownBlock& block = blocks[b];
     if (cull && !MayBeSeen(town->walls, block.box, false)) continue;
     town->visible.push_back(b);
-    if (!cull || walls + block.walls > 3 * kMostWalls) continue;
+    if (!cull || walls + block.walls > 3 * kMaxOccluderTriangles) continue;
     walls += block.walls;
     AddWalls(town->geometry.positions, {&town->geometry.walls[block.first_wall], block.walls}, &town->walls);
   }

@@ -152,7 +152,7 @@ void LeaveAndArrive(const Viewer& viewer, Town* town) {
     ++i;
   }
   for (int k = 0; k < kBirths_perStep; ++k) {
-    if (town->next_company == 0) town->next_company = std::min(town->target_people, DrawCompany(kMostInGroup, town));
+    if (town->next_company == 0) town->next_company = std::min(town->target_people, DrawCompany(kMaxGroupSize, town));
     if (static_cast<int>(c.size()) + std::max(1, town->next_company) > town->target_people || !Birth(town->next_company, viewer, town)) return;
     town->next_company = 0;
   }

@@ -7,7 +7,7 @@ namespace flaneur {
 // The people who do what a person does: the group, or the person alone.
 struct Company {
   int size = 1;
-  size_t member[kMostInGroup];  // indices of the crowd's arrays
+  size_t member[kMaxGroupSize];  // indices of the crowd's arrays
 };
 
 Company CompanyOf(const Crowd& crowd, size_t person);

@@ -11,7 +11,7 @@
 namespace flaneur {
 namespace {
 
-constexpr float kLeastWait_s = 15, kMostWait_s = 50;
+constexpr float kMinWait_s = 15, kMaxWait_s = 50;
 constexpr int kLookEvery_steps = 10;
 constexpr float kClaim_m = 2.5f;         // so near a place people look for a spot
 constexpr float kPushedAside_m = 0.6f;
@@ -21,7 +21,7 @@ constexpr float kTurnsAway_s = 9;        // mean time between looks at something
 constexpr float kTalks = 0.6f;           // share of the looks that go to somebody, where somebody is near
 constexpr float kStaysOn = 0.7f;         // of those whose time is over while too few stand about
 constexpr float kOnTheWay = 2;           // so many times those who should stand may plan to
-constexpr float kLeastApart_m = 0.75f;   // between spots
+constexpr float kMinSpotSpacing_m = 0.75f;   // between spots
 // Along the look and to its left.
 constexpr Vec2 kBeforeThing[] = {{0, 0}, {0, 0.85f}, {0, -0.85f}, {-0.85f, 0.45f}, {-0.85f, -0.45f}};
 constexpr Vec2 kCircle[] = {{0.62f, 0}, {0, 0.62f}, {-0.62f, 0}, {0, -0.62f}};
@@ -39,7 +39,7 @@ void AddSpot(int place, Vec2 p, Vec2 look, Town* town) {
   if (!IsFree(town->walkable, p) || !StraightWay(town->walkable, center, p)) return;
   if (town->crowd_area && !Contains(*town->crowd_area, p)) return;
   for (const LoiterSpot& other : town->loiter_spots) {
-    if (Length(other.position_m - p) < kLeastApart_m) return;
+    if (Length(other.position_m - p) < kMinSpotSpacing_m) return;
   }
   LoiterSpot spot;
   spot.position_m = p, spot.look = look, spot.place = place;
@@ -58,7 +58,7 @@ float Standing(const Town& town) {
 // All of the company claim spots, or go elsewhere.
 void Claim(size_t i, int place, const Viewer& viewer, Town* town) {
   const Company company = CompanyOf(town->crowd, i);
-  int spots[kMostInGroup];
+  int spots[kMaxGroupSize];
   if (!FindSpots(*town, place, town->crowd.position[i], company.size, spots)) {
     SendAll(company, PickDestination(viewer, town->crowd.position[i], false, town), town);
     return;
@@ -71,7 +71,7 @@ void StandAt(size_t i, LoiterSpot* spot, Town* town) {
   SetGoal(i, -1, &c);
   spot->there = true;
   c.facing[i] = spot->look;
-  if (c.wait_s[i] <= 0) c.wait_s[i] = town->random.Uniform(kLeastWait_s, kMostWait_s);
+  if (c.wait_s[i] <= 0) c.wait_s[i] = town->random.Uniform(kMinWait_s, kMaxWait_s);
 }
 
 // Somebody near to talk with: who talks to nobody yet first.
@@ -168,7 +168,7 @@ bool StaysOn(size_t i, const Viewer& viewer, Town* town) {
   if (spot == nullptr || !spot->there || town->crowd.detour_s[i] > 0 || IsFullNear(viewer, *town, spot->position_m)) return false;
   const float wanted = town->settings.loiter_share * static_cast<float>(town->target_people);
   if (Standing(*town) > wanted || town->random.Uniform() >= kStaysOn) return false;
-  town->crowd.wait_s[i] = town->random.Uniform(kLeastWait_s, kMostWait_s);
+  town->crowd.wait_s[i] = town->random.Uniform(kMinWait_s, kMaxWait_s);
   return true;
 }
 

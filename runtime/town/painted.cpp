@@ -7,7 +7,7 @@
 namespace flaneur {
 namespace {
 
-constexpr int kGoals = 24, kMostLoiterPlaces = 60;
+constexpr int kGoals = 24, kMaxLoiterPlaces = 60;
 constexpr float kGoalsApart_m = 4, kLoiterApart_m = 2.6f;
 constexpr int kPasses = 24;  // the weakest paint's cells come in the last ones
 
@@ -68,7 +68,7 @@ void AddPaintedPlaces(Town* town) {
   AddPlaces(town->painting.people, "goal", kGoals, kGoalsApart_m, town);
   if (!AnyPaint(town->painting.loiter)) return;
   town->places.erase(std::remove_if(town->places.begin(), town->places.end(), [](const Place& p) { return p.kind == "loiter"; }), town->places.end());
-  AddPlaces(town->painting.loiter, "loiter", kMostLoiterPlaces, kLoiterApart_m, town);
+  AddPlaces(town->painting.loiter, "loiter", kMaxLoiterPlaces, kLoiterApart_m, town);
 }
 
 }  // namespace flaneur

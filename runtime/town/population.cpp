@@ -19,7 +19,7 @@ constexpr float kMeanGroup = 2 * kShareOfTwo + 3 * kShareOfThree + 4 * (1 - kSha
 constexpr float kSpawnReach_m = 8;     // who starts at a place of that kind starts so near it, where there is room
 constexpr float kGroupReach_m = 2.5f;  // members start so near each other
 constexpr float kLoiterGap_m = 0.7f;   // between the middles of people who stand about at the start, and everybody else
-constexpr float kWideGap_m = 0.5f, kLeastGap_m = 0.1f;  // between people at the start, beyond touching
+constexpr float kWideGap_m = 0.5f, kMinGap_m = 0.1f;  // between people at the start, beyond touching
 
 int PickAvatar(Town* town) {
   float total = 0;
@@ -83,8 +83,8 @@ int NextSpot(const Viewer& viewer, const Town& town, float radius_m, Spots* spot
   for (;;) {
     while (spots->next < spots->cells.size() && !IsToBeHad(viewer, town, *spots, spots->cells[spots->next], radius_m)) ++spots->next;
     if (spots->next < spots->cells.size()) return spots->cells[spots->next];
-    if (spots->gap_m <= kLeastGap_m) return -1;
-    spots->gap_m = kLeastGap_m;
+    if (spots->gap_m <= kMinGap_m) return -1;
+    spots->gap_m = kMinGap_m;
     spots->next = 0;
   }
 }
@@ -118,7 +118,7 @@ bool PlaceLoiterers(int company, const Viewer& viewer, Town* town) {
   const std::vector<int>& places = town->place_lists.loiters;
   if (places.empty()) return false;
   const int place = places[static_cast<size_t>(town->random.Below(static_cast<int>(places.size())))];
-  int spots[kMostInGroup];
+  int spots[kMaxGroupSize];
   if (!FindSpots(*town, place, town->places[static_cast<size_t>(place)].position_m, company, spots)) return false;
   for (int k = 0; k < company; ++k) {
     const Vec2 p = town->loiter_spots[static_cast<size_t>(spots[k])].position_m;
@@ -213,7 +213,7 @@ Error JoinScenarioPeople(const std::vector<ScenarioPerson>& persons, size_t firs
       members.push_back(static_cast<int>(first + j));
       done[j] = 1;
     }
-    if (members.size() < 2 || members.size() > kMostInGroup) {
+    if (members.size() < 2 || members.size() > kMaxGroupSize) {
       return Fail(name + " has " + std::to_string(members.size()) + " people; 2 to 4 can walk together");
     }
     AddGroup(members, &town->crowd);

@@ -9,9 +9,9 @@ namespace flaneur {
 namespace {
 
 constexpr float kRadiansPerPixel = 0.0025f;
-constexpr float kMostPitch_rad = 1.2f;
-constexpr float kDeadStick = 0.18f;       // sticks at rest are not quite at rest
-constexpr float kViewStep_deg = 5, kLeastView_deg = 30, kMostView_deg = 120;
+constexpr float kMaxPitch_rad = 1.2f;
+constexpr float kStickDeadZone = 0.18f;       // sticks at rest are not quite at rest
+constexpr float kViewStep_deg = 5, kMinFieldOfView_deg = 30, kMaxFieldOfView_deg = 120;
 constexpr float kRadians = kPi / 180;
 
 struct Held {
@@ -28,8 +28,8 @@ struct Held {
 
 Vec2 FromStick(Vec2 stick) {
   const float length = Length(stick);
-  if (length < kDeadStick) return {};
-  return stick * (std::min(1.0f, (length - kDeadStick) / (1 - kDeadStick)) / length);
+  if (length < kStickDeadZone) return {};
+  return stick * (std::min(1.0f, (length - kStickDeadZone) / (1 - kStickDeadZone)) / length);
 }
 
 void TurnAndLook(const Held& held, float passed_s, Controls* c) {
@@ -70,7 +70,7 @@ void ChangeView(const Held& held, const Simulation& s, Controls* c) {
   const float step = static_cast<float>(held.Pressed(Action::kWider)) - static_cast<float>(held.Pressed(Action::kNarrower));
   if (step == 0) return;
   const float now_deg = s.visitor.camera.view.fov_rad / kRadians;
-  c->settings.field_of_view_deg = std::clamp(std::round(now_deg) + kViewStep_deg * step, kLeastView_deg, kMostView_deg);
+  c->settings.field_of_view_deg = std::clamp(std::round(now_deg) + kViewStep_deg * step, kMinFieldOfView_deg, kMaxFieldOfView_deg);
   c->changed = c->applies = true;
 }
 
@@ -166,7 +166,7 @@ CameraInput NextStep(const CameraInput& camera, const Simulation& s, Controls* c
   // What is turned faster than people can be readied for is caught up with, but not for long.
   c->to_turn_rad = std::clamp(c->to_turn_rad, -kPi / 2, kPi / 2);
   step.yaw_rate_radps = turn_rad / Step_s(s);
-  step.pitch_rad = std::clamp(s.visitor.camera.pitch_rad + c->to_look_rad, -kMostPitch_rad, kMostPitch_rad);
+  step.pitch_rad = std::clamp(s.visitor.camera.pitch_rad + c->to_look_rad, -kMaxPitch_rad, kMaxPitch_rad);
   c->to_look_rad = 0;
   return step;
 }
@@ -177,7 +177,7 @@ float TurnUntil(float share, const Simulation& s, const Controls& c) {
 }
 
 float LookUntilNow(const Simulation& s, const Controls& c) {
-  return std::clamp(s.visitor.camera.pitch_rad + c.to_look_rad, -kMostPitch_rad, kMostPitch_rad) - s.visitor.camera.pitch_rad;
+  return std::clamp(s.visitor.camera.pitch_rad + c.to_look_rad, -kMaxPitch_rad, kMaxPitch_rad) - s.visitor.camera.pitch_rad;
 }
 
 }  // namespace flaneur

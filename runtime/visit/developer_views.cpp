@@ -81,7 +81,7 @@ void Legend(ImU32 color, const char* text) {
   ImGui::SameLine();
 }
 
-void ShowPlan(float size_px, Views* views, const Simulation& s) {
+void ShowPlan(float size_px, DeveloperViews* views, const Simulation& s) {
   ImGui::SetNextWindowPos({8, 8}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({size_px, size_px + 66}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowBgAlpha(0.92f);
@@ -155,7 +155,7 @@ void SwitchAdaptation(Simulation* s) {
   s->control.settings.adaptation = static_cast<Adaptation>((static_cast<int>(s->control.settings.adaptation) + 1) % 3);
 }
 
-void ShowViews(const FrameStatistics& statistics, int width_px, int height_px, Views* views, Simulation* simulation) {
+void ShowViews(const FrameStatistics& statistics, int width_px, int height_px, DeveloperViews* views, Simulation* simulation) {
   ShowPlan(std::min(static_cast<float>(width_px) * 0.42f, static_cast<float>(height_px) * 0.72f), views, *simulation);
   ShowGraphs(statistics, width_px, views->history, simulation);
 }

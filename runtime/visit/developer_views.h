@@ -15,7 +15,7 @@ struct ViewsHistory {
   size_t next = 0;
 };
 
-struct Views {
+struct DeveloperViews {
   bool shown = false;
   float half_width_m = 45;  // of the plan
   ViewsHistory history;
@@ -27,6 +27,6 @@ void RememberFrame(const Simulation& simulation, const FrameStatistics& statisti
 void SwitchAdaptation(Simulation* simulation);
 
 // Between an Overlay's Begin and Draw.
-void ShowViews(const FrameStatistics& statistics, int width_px, int height_px, Views* views, Simulation* simulation);
+void ShowViews(const FrameStatistics& statistics, int width_px, int height_px, DeveloperViews* views, Simulation* simulation);
 
 }  // namespace flaneur

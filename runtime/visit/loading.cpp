@@ -26,7 +26,7 @@ void KeepNoStock() {
   mallopt(M_MMAP_THRESHOLD, 6 * 1024 * 1024);
 #endif
 }
-void GiveBackMemory() {
+void ReleaseMemory() {
 #ifdef __GLIBC__
   malloc_trim(0);
 #endif
@@ -38,7 +38,7 @@ void KeepForPictures() {
 #endif
 }
 
-constexpr size_t kMostReady = 4;  // pieces that wait for their upload; faster threads wait too, for people's pictures take 10 MB each
+constexpr size_t kMaxReadyAssets = 4;  // pieces that wait for their upload; faster threads wait too, for people's pictures take 10 MB each
 
 // What is read at a time: one mesh of the town, or all of another asset.
 struct Task { size_t asset = 0; int town_mesh = -1; };
@@ -77,7 +77,7 @@ struct Loader::Impl {
   bool DoPiece();
   std::optional<Piece> NextPiece();
   void Do(const Piece& piece);
-  void Give(Error e);
+  void StopWithError(Error e);
   Error Read(const Task& task);
   Error ReadMesh(int mesh);
   Error ReadLevel(const AssetId& id);
@@ -142,7 +142,7 @@ void Loader::Impl::Prepare(size_t index) {
 // What may be done now; guarded. Nothing: until the renderer, the first picture or the upload has come further, or ever.
 std::optional<Piece> Loader::Impl::NextPiece() {
   if (stop) return {};
-  if (!read.empty() && may_prepare && ready.size() < kMostReady) {
+  if (!read.empty() && may_prepare && ready.size() < kMaxReadyAssets) {
     const size_t asset = read.front();
     read.pop_front();
     return Piece{false, asset};
@@ -151,7 +151,7 @@ std::optional<Piece> Loader::Impl::NextPiece() {
   const Task& task = tasks[next_task];
   const bool of_town = assets[task.asset].kind == AssetKind::kTown;
   if (task.asset >= stages.town && !may_go_on) return {};
-  if (!of_town && in_hand >= kMostReady + most_readers) return {};
+  if (!of_town && in_hand >= kMaxReadyAssets + most_readers) return {};
   in_hand += of_town ? 0 : 1;
   return Piece{true, next_task++};
 }
@@ -159,7 +159,7 @@ std::optional<Piece> Loader::Impl::NextPiece() {
 void Loader::Impl::Do(const Piece& piece) {
   if (!piece.read) return Prepare(piece.index);
   const Task& task = tasks[piece.index];
-  if (Error e = Read(task)) return Give(std::move(e));
+  if (Error e = Read(task)) return StopWithError(std::move(e));
   bool last = false;
   {
     const std::lock_guard lock(mutex);
@@ -169,7 +169,7 @@ void Loader::Impl::Do(const Piece& piece) {
   }
   if (!last) return;
   file = PackFile();  // nobody reads any more
-  GiveBackMemory();
+  ReleaseMemory();
 }
 
 // A slice of one of the readers, who end as soon as nothing may be done: true.
@@ -184,9 +184,9 @@ bool Loader::Impl::DoPiece() {
   try {
     Do(*piece);
   } catch (const std::bad_alloc&) {
-    Give(Fail("there is not enough memory for this pack"));
+    StopWithError(Fail("there is not enough memory for this pack"));
   } catch (const std::exception& e) {
-    Give(Fail(std::string("this pack cannot be read: ") + e.what()));
+    StopWithError(Fail(std::string("this pack cannot be read: ") + e.what()));
   }
   return false;
 }
@@ -213,7 +213,7 @@ bool Loader::Impl::ReadHere() {
   return !reading.front().Done();
 }
 
-void Loader::Impl::Give(Error e) {
+void Loader::Impl::StopWithError(Error e) {
   const std::lock_guard lock(mutex);
   if (!error) error = std::move(e);
   stop = true;
@@ -290,7 +290,7 @@ void Loader::Impl::NoteUploaded(const AssetId& id) {
     uploaded[k] = true;
     if (++uploads < assets.size()) continue;
     pack = TourPack();  // nobody reads it any more
-    GiveBackMemory();
+    ReleaseMemory();
     KeepForPictures();
   }
 }

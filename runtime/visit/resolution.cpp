@@ -13,11 +13,11 @@ constexpr float kMomentStep = 0.1f;
 constexpr float kCoarsest = 0.25f;     // at any moment
 constexpr int kSoon = 10;              // pictures that tell that it takes too long
 constexpr float kTooLong = 1.05f, kFits = 0.95f, kSpare = 0.9f;  // of the time that a picture may take
-constexpr float kMistrust = 1.25f;     // what pixels seem to cost, times this
-constexpr float kLeastPixels = 0.2f;   // of a picture's time at the least
-constexpr float kLeastPatience_s = 1, kMostPatience_s = 30;
-constexpr float kRegret_s = 10;        // a finer scale that did not last so long was tried too early
-constexpr float kApart = 1.2f;         // between this rule's time and that of a budget which follows the frame time
+constexpr float kPixelCostMargin = 1.25f;     // what pixels seem to cost, times this
+constexpr float kMinPixels = 0.2f;   // of a picture's time at the least
+constexpr float kMinPatience_s = 1, kMaxPatience_s = 30;
+constexpr float kTooEarly_s = 10;        // a finer scale that did not last so long was tried too early
+constexpr float kFrameTimeSeparation = 1.2f;         // between this rule's time and that of a budget which follows the frame time
 
 // The time that `share` of the last `count` pictures did not exceed.
 float Quantile(const Resolution& r, int count, float share) {
@@ -47,7 +47,7 @@ float Finer_ms(float took_ms, const Resolution& r, float scale, float finer) {
 void FollowMoment(bool moves, float frame_ms, Resolution* r) {
   const float took_ms = r->took_ms[static_cast<size_t>((r->next + Resolution::kTimes - 1) % Resolution::kTimes)];
   const float fits = moves && took_ms > frame_ms ? std::sqrt(frame_ms / took_ms) : 1;
-  const float wished = std::max(kLeastMoment, std::round(fits / kMomentStep) * kMomentStep);
+  const float wished = std::max(kMinMotionScale, std::round(fits / kMomentStep) * kMomentStep);
   r->moment = std::min(wished, r->moment + kMomentStep);
 }
 
@@ -56,13 +56,13 @@ void LearnFromChange(float usual_ms, Resolution* r) {
   const float pixels = r->before_scale * r->before_scale - r->scale * r->scale;
   if (r->before_ms <= 0 || pixels == 0) return;
   const float most_ms = usual_ms / (r->scale * r->scale);
-  r->pixels_ms = std::clamp(kMistrust * (r->before_ms - usual_ms) / pixels, kLeastPixels * most_ms, most_ms);
+  r->pixels_ms = std::clamp(kPixelCostMargin * (r->before_ms - usual_ms) / pixels, kMinPixels * most_ms, most_ms);
 }
 
 void Change(float scale, float usual_ms, Resolution* r) {
   const bool rises = scale > r->scale;
-  if (!rises && r->rose && r->steady_s < kRegret_s) r->patience_s = std::min(2 * r->patience_s, kMostPatience_s);
-  else if (r->steady_s > kMostPatience_s) r->patience_s = kLeastPatience_s;
+  if (!rises && r->rose && r->steady_s < kTooEarly_s) r->patience_s = std::min(2 * r->patience_s, kMaxPatience_s);
+  else if (r->steady_s > kMaxPatience_s) r->patience_s = kMinPatience_s;
   r->rose = rises;
   r->before_scale = r->scale;
   r->before_ms = usual_ms;
@@ -99,7 +99,7 @@ void FollowPictureTime(float took_ms, bool moves, const ResolutionSettings& s, R
 ResolutionSettings ResolutionFor(float frames_per_s, float least_scale, const ControlSettings& control) {
   float frame_ms = 1000 / frames_per_s;
   const float apart = frame_ms / control.target_ms;
-  if (control.method == LimitMethod::kFrameTime && apart > 1 / kApart && apart < kApart) frame_ms = kApart * control.target_ms;
+  if (control.method == LimitMethod::kFrameTime && apart > 1 / kFrameTimeSeparation && apart < kFrameTimeSeparation) frame_ms = kFrameTimeSeparation * control.target_ms;
   return {frame_ms, least_scale};
 }
 

@@ -15,7 +15,7 @@ struct ResolutionSettings {
 // Scales are 1, 0.9, 0.8 ... down to the least.
 struct Resolution {
   float scale = 1;                // that serves for long
-  float moment = 1;               // of it, for the next picture, where the view moves and has become dear
+  float moment = 1;               // of it, for the next picture, where the view moves and has become expensive
   static constexpr int kTimes = 30;
   std::array<float, kTimes> took_ms{};  // of the last pictures, as if `moment` had been 1, at this scale, in a ring
   int times = 0, next = 0;        // how many there are; where the next one goes
@@ -30,10 +30,10 @@ struct Resolution {
 float ScaleNow(const Resolution& resolution);
 
 // After every picture. took_ms: from its beginning until it was ready to be shown. moves: the view, so that nobody looks closely: as soon
-// as a picture took too long the next ones are drawn at down to kLeastMoment of the scale, even of the least. A coarser scale is chosen when half of the last pictures
+// as a picture took too long the next ones are drawn at down to kMinMotionScale of the scale, even of the least. A coarser scale is chosen when half of the last pictures
 // took too long, a finer one only when nine in ten leave room for the pixels it adds, with what these cost rather over- than
 // underestimated: so under the same load it never goes to and fro. Where the load itself does, finer scales are waited for longer.
-inline constexpr float kLeastMoment = 0.65f;
+inline constexpr float kMinMotionScale = 0.65f;
 void FollowPictureTime(float took_ms, bool moves, const ResolutionSettings& settings, Resolution* resolution);
 
 // What the visitor's settings ask for. A tour whose budget of triangles follows the frame time aims at a time of its own: near to that

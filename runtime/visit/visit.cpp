@@ -16,7 +16,7 @@ namespace flaneur {
 namespace {
 
 constexpr double kLongUpload_ms = 50, kUpload_ms = 3;  // of what has been loaded: before the first picture, and in each later one
-constexpr int kMostStepsAFrame = 4;  // a machine that can't keep up slows the town down rather than freeze
+constexpr int kMaxStepsPerFrame = 4;  // a machine that can't keep up slows the town down rather than freeze
 constexpr float kNobodyThere_s = 90;  // without a key, a click or a move, in an exhibition
 
 bool IsUsed(const WindowInput& input) {
@@ -35,7 +35,7 @@ struct Visit::Impl {
   Renderer renderer{};
   Overlay overlay{};
   Controls controls{};
-  Views views{};
+  DeveloperViews views{};
   Menu menu{};
   Notices notices{};
   PersonLooks looks{};
@@ -137,7 +137,7 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
 
 void Visit::Impl::StepTown(float passed_s, Records* records) {
   const double step_s = static_cast<double>(Step_s(*s));
-  if (!pages()) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMostStepsAFrame);
+  if (!pages()) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMaxStepsPerFrame);
   if (owed_s >= step_s) controls.turned_rad = 0;
   while (owed_s >= step_s) {
     StepSimulation(NextStep(wishes, *s, &controls), passed_s * 1000, s);

@@ -14,7 +14,7 @@ namespace {
 constexpr float kTourYawRate_radps = 0.9f;    // a calm turn of the head
 constexpr float kLookAhead_m = 3.0f;          // people within this ahead slow the camera
 constexpr float kDenseAhead_pm2 = 5.4f;       // nobody walks at this density (Weidmann 1993)
-constexpr float kLeastFactor = 0.2f;
+constexpr float kMinSpeedFactor = 0.2f;
 constexpr float kReached_m = 0.3f;
 constexpr float kGiveUp_s = 6;                // a leg whose way is barred ends
 constexpr float kGettingOn_m = 0.5f;          // who stays within this is stuck, even if not quite still
@@ -27,7 +27,7 @@ constexpr float kGiveUpPoint_s = 3;
 constexpr float kStands = 0.05f;              // share of the pace
 constexpr float kSidestep_m = 0.7f;           // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;           // after which those who stand in the way move on
-constexpr float kStirs_m = 2;
+constexpr float kLoitererYieldRadius_m = 2;
 
 void TurnTowards(float yaw_rad, float rate_radps, const VisitorInTown& v) {
   const float most = rate_radps * Step_s(v.settings);
@@ -45,7 +45,7 @@ float DensityFactor(const VisitorInTown& v, Vec2 direction) {
     if (distance_m < kLookAhead_m && Dot(off, direction) > 0.7071f * distance_m) people += 1;
   }
   const float density = people / (kPi / 4 * kLookAhead_m * kLookAhead_m);
-  return std::clamp(1 - density / kDenseAhead_pm2, kLeastFactor, 1.0f);
+  return std::clamp(1 - density / kDenseAhead_pm2, kMinSpeedFactor, 1.0f);
 }
 
 // How far the camera may go along the step without anybody coming within r_personal who was not already.
@@ -220,7 +220,7 @@ void MoveCamera(const CameraInput& input, const VisitorInTown& v) {
   if (v.visitor.finished && !v.visitor.tour.over) return;
   if (!v.visitor.legs.empty()) FollowLegs(v);
   else if (!v.visitor.tour.stops.empty()) FollowTour(input, v);
-  if (v.visitor.stuck_s >= kPatience_s) StirLoiterers(camera.view.position, kStirs_m, &v.town);
+  if (v.visitor.stuck_s >= kPatience_s) StirLoiterers(camera.view.position, kLoitererYieldRadius_m, &v.town);
 }
 
 }  // namespace flaneur

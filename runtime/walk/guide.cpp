@@ -22,7 +22,7 @@ constexpr float kAhead_m = 0.8f, kFullPace_m = 2.0f;     // lead with which the 
 constexpr float kPatience_s = 4;           // of a visitor who waits for the guide to get ahead
 constexpr float kBesideView_rad = 0.32f;   // to the side of what there is to see at a halt
 constexpr float kClears_m = 0.15f;         // people keep so much more than touching from the guide
-constexpr float kStuck_s = 1.5f, kGetsOn_m = 0.5f, kStirs_m = 1.6f;
+constexpr float kStuck_s = 1.5f, kGetsOn_m = 0.5f, kLoitererYieldRadius_m = 1.6f;
 constexpr float kFarthest_m = 20;          // of a new route the guide is looked for so far
 
 bool Find(const VisitorInTown& v) {
@@ -101,7 +101,7 @@ void GetOn(Vec2 p, const VisitorInTown& v) {
   const bool got_on = !g.walks || Length(p - g.stuck_at) > kGetsOn_m;
   g.stuck_s = got_on ? 0 : g.stuck_s + Step_s(v.settings);
   if (got_on) g.stuck_at = p;
-  if (g.stuck_s >= kStuck_s) StirLoiterers(p, kStirs_m, &v.town);
+  if (g.stuck_s >= kStuck_s) StirLoiterers(p, kLoitererYieldRadius_m, &v.town);
 }
 
 float OwnShareOfPace(const VisitorInTown& v) {

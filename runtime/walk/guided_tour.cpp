@@ -16,7 +16,7 @@ constexpr float kReroute_s = 1;
 constexpr float kBackwards_m = 2, kForwards_m = 4;  // along the route: the visitor is looked for so near where they were
 constexpr float kAgain_s = 3;             // back within this goes to the halt before, later to this one's beginning
 constexpr float kAfterSound_s = 0.7f;
-constexpr float kLeastReading_s = 2, kReading_sPerLetter = 0.065f;  // about 15 letters a second, an unhurried reader
+constexpr float kMinReading_s = 2, kReading_sPerLetter = 0.065f;  // about 15 letters a second, an unhurried reader
 
 bool IsHalt(const GuidedTour& t, size_t stop) { return RestOf_s(t, stop) > 0; }
 
@@ -135,7 +135,7 @@ StopWords WordsOf(const TourStop& stop, const std::string& language, const std::
   if (sound == stop.sounds.end() && !translated) sound = stop.sounds.find(own);  // one language at a time
   words.rest_s = stop.pause_s;
   if (stop.pause_s <= 0 && !words.caption.empty()) {
-    words.rest_s = kLeastReading_s + kReading_sPerLetter * static_cast<float>(words.caption.size());
+    words.rest_s = kMinReading_s + kReading_sPerLetter * static_cast<float>(words.caption.size());
   }
   if (sound == stop.sounds.end()) return words;
   words.sound = sound->second.sound;

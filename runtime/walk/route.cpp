@@ -9,8 +9,8 @@
 namespace flaneur {
 namespace {
 
-constexpr int kMostCorners = 400;   // of one part: more than any town has
-constexpr float kLeastCorner_m = 0.05f;
+constexpr int kMaxCorners = 400;   // of one part: more than any town has
+constexpr float kMinCorner_m = 0.05f;
 constexpr float kAhead_m[] = {1.2f, 0.6f, 0.3f};  // of the route, walked towards: shorter where the line there cuts a corner
 
 void Append(Vec2 p, Route* route) {
@@ -22,16 +22,16 @@ void Append(Vec2 p, Route* route) {
 
 bool ExtendRoute(const Walkable& w, Vec2 goal, WaySearch* search, Route* route) {
   const size_t before = route->points.size();
-  for (int corners = 0; corners < kMostCorners; ++corners) {
+  for (int corners = 0; corners < kMaxCorners; ++corners) {
     const Vec2 p = route->points.back();
-    if (Length(goal - p) < kLeastCorner_m) return true;
+    if (Length(goal - p) < kMinCorner_m) return true;
     if (StraightWay(w, p, goal)) {
       Append(goal, route);
       return true;
     }
     Corner corner;
     WayByCorners(w, p, goal, true, &corner, search);
-    if (!corner.known || Length(corner.point - p) < kLeastCorner_m) break;
+    if (!corner.known || Length(corner.point - p) < kMinCorner_m) break;
     Append(corner.point, route);
   }
   route->points.resize(before);
@@ -76,7 +76,7 @@ Vec2 WayStraightOrRound(const Walkable& w, Vec2 p, Vec2 point, Corner* corner, W
 Vec2 WayAlong(const Walkable& w, const Route& route, float way_m, Vec2 p, Corner* corner, WaySearch* search) {
   for (const float ahead_m : kAhead_m) {
     const Vec2 way = PointAt(route, way_m + ahead_m) - p;
-    if (Length(way) > kLeastCorner_m && FreeLine(w, p, p + way)) {
+    if (Length(way) > kMinCorner_m && FreeLine(w, p, p + way)) {
       *corner = {};
       return Unit(way);
     }

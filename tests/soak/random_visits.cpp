@@ -19,7 +19,7 @@ namespace flaneur {
 namespace {
 
 constexpr int kSkipped = 77;
-constexpr int kMostPeople = 300;
+constexpr int kMaxPeople = 300;
 
 struct Counts { long visits = 0, unfinished = 0, pictures = 0, of_pages = 0, steps = 0; };
 
@@ -47,7 +47,7 @@ Error Play(const std::filesystem::path& path, double until_s, const std::filesys
   if (Error e = file.Open(path, &pack)) return e;
   AddGuideFigure(&pack);
   Scenario scenario = ScenarioOf(pack);
-  scenario.crowd.people = hands->Below(kMostPeople);
+  scenario.crowd.people = hands->Below(kMaxPeople);
   scenario.crowd.seed = static_cast<uint64_t>(hands->Below(1000));
   if (hands->Share() < 0.5) scenario.hour = static_cast<float>(24 * hands->Share());
   if (hands->Share() < 0.2) pack.path.clear();

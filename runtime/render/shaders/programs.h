@@ -5,6 +5,7 @@
 
 namespace flaneur {
 
+// clang-format off: CMake reads a line at a time.
 // PROGRAM(name, vertex shader, fragment shader, what is defined in both)
 #define FLANEUR_SHADER_PROGRAMS(PROGRAM) \
   PROGRAM(kTown, "town.vert", "surface.frag", "") \
@@ -36,6 +37,8 @@ namespace flaneur {
   MODE(kSoftwareSamples, "ONE_SHADOW_TAP SMOOTH_EDGES") \
   MODE(kSoftwareNormals, "ONE_SHADOW_TAP FAST NORMALS") \
   MODE(kSoftwareSamplesNormals, "ONE_SHADOW_TAP NORMALS")
+
+// clang-format on
 
 enum class ShaderProgram : uint8_t {
 #define PROGRAM(name, vertex, fragment, defines) name,

@@ -1,4 +1,4 @@
-// Smooths stair-steps where the driver's multisampling is too dear: across an edge brighter on one side, two looks
+// Smooths stair-steps where the driver's multisampling is too expensive: across an edge brighter on one side, two looks
 // along it (after the idea of fast approximate antialiasing, Lottes 2009). DEFERRED: alpha is the brightness. SHARPEN:
 // what is enlarged afterwards.
 uniform sampler2D u_texture;

@@ -15,7 +15,7 @@ namespace flaneur {
 namespace {
 
 const std::filesystem::path kReference = std::filesystem::path(FLANEUR_SOURCE_DIR) / "assets_src/reference/tour.toml";
-constexpr const char* kLeast = "[town]\nfile = \"town.glb\"\n[[avatar]]\nfile = \"person.glb\"\n";
+constexpr const char* kMinimalTour = "[town]\nfile = \"town.glb\"\n[[avatar]]\nfile = \"person.glb\"\n";
 
 // Reads tour.toml with this text; returns the error's message behind the file's name.
 std::string Read(const std::string& text, TourSettings* settings) {
@@ -53,7 +53,7 @@ std::string Dumped(T settings) {
 TEST(TourSettings, TheReferenceFileHoldsTheDefaults) {
   TourSettings reference, least;
   ASSERT_EQ(ReadTourSettings(kReference, &reference).message, "");
-  ASSERT_EQ(Read(kLeast, &least), "");
+  ASSERT_EQ(Read(kMinimalTour, &least), "");
   EXPECT_EQ(reference.name, "reference");
   EXPECT_EQ(Dumped(reference.crowd), Dumped(CrowdSettings{}));
   EXPECT_EQ(Dumped(reference.control), Dumped(ControlSettings{}));
@@ -86,7 +86,7 @@ TEST(TourSettings, TheReferenceFileHoldsTheDefaults) {
 }
 
 TEST(TourSettings, TintsAreColoursAndSaySoWhereTheyAreNot) {
-  const std::string tint = std::string(kLeast) + "[[avatar.tint]]\n";
+  const std::string tint = std::string(kMinimalTour) + "[[avatar.tint]]\n";
   TourSettings settings;
   ASSERT_EQ(Read(tint + "color = \"#336699\"\ncolors = [\"#ff0000\", \"#00ff00\"]\n", &settings), "");
   ASSERT_EQ(settings.avatars[0].tints.size(), 1u);
@@ -97,13 +97,13 @@ TEST(TourSettings, TintsAreColoursAndSaySoWhereTheyAreNot) {
   EXPECT_TRUE(has(Refusal(tint + "color = \"#336699\"\ncolors = [\"#ff0000\", \"red\"]\n"), "'red' must be a colour"));
   EXPECT_TRUE(has(Refusal(tint + "color = \"#336699\"\n"), "needs the color of a cloth"));
   EXPECT_TRUE(has(Refusal(tint + "color = \"#336699\"\ncolors = [\"#ff0000\"]\nreach = 0\n"), "reach"));
-  std::string four = kLeast;
+  std::string four = kMinimalTour;
   for (int k = 0; k < 4; ++k) four += "[[avatar.tint]]\ncolor = \"#336699\"\ncolors = [\"#ff0000\"]\n";
   EXPECT_TRUE(has(Refusal(four), "three [[avatar.tint]] at most"));
 }
 
 TEST(TourSettings, PropsNameTheirNodeAndShareASlotAtMostOnce) {
-  const std::string prop = std::string(kLeast) + "[[avatar.prop]]\n";
+  const std::string prop = std::string(kMinimalTour) + "[[avatar.prop]]\n";
   TourSettings settings;
   ASSERT_EQ(Read(prop + "node = \"basket\"\nslot = \"hand\"\n[[avatar.prop]]\nnode = \"jug\"\nslot = \"hand\"\n", &settings), "");
   ASSERT_EQ(settings.avatars[0].props.size(), 2u);
@@ -112,7 +112,7 @@ TEST(TourSettings, PropsNameTheirNodeAndShareASlotAtMostOnce) {
   EXPECT_TRUE(has(Refusal(prop + "share = 0.5\n"), "needs the node"));
   EXPECT_TRUE(has(Refusal(prop + "node = \"a\"\n[[avatar.prop]]\nnode = \"a\"\n"), "two props are the node 'a'"));
   EXPECT_TRUE(has(Refusal(prop + "node = \"a\"\nslot = \"s\"\n[[avatar.prop]]\nnode = \"b\"\nshare = 0.6\nslot = \"s\"\n"), "more than 1 together"));
-  std::string eight = kLeast;
+  std::string eight = kMinimalTour;
   for (int k = 0; k < 8; ++k) eight += "[[avatar.prop]]\nnode = \"p" + std::to_string(k) + "\"\n";
   EXPECT_TRUE(has(Refusal(eight), "seven [[avatar.prop]] at most"));
 }
@@ -120,7 +120,7 @@ TEST(TourSettings, PropsNameTheirNodeAndShareASlotAtMostOnce) {
 TEST(TourSettings, TheReferenceFileHoldsTheDefaultsOfEveryList) {
   TourSettings reference, least;
   ASSERT_EQ(ReadTourSettings(kReference, &reference).message, "");
-  ASSERT_EQ(Read(std::string(kLeast) + "[[town.part]]\nfile = \"house.gltf\"\n", &least), "");
+  ASSERT_EQ(Read(std::string(kMinimalTour) + "[[town.part]]\nfile = \"house.gltf\"\n", &least), "");
   ASSERT_EQ(reference.avatars.size(), 1u);
   const AvatarSettings &a = reference.avatars[0], &b = least.avatars[0];
   EXPECT_EQ(a.name, b.name);
@@ -181,14 +181,14 @@ TEST(TourSettings, TheDemoTourIsUnderstood) {
 
 TEST(TourSettings, FilesAreTakenFromTheTourFilesFolder) {
   TourSettings settings;
-  ASSERT_EQ(Read(kLeast, &settings), "");
+  ASSERT_EQ(Read(kMinimalTour, &settings), "");
   EXPECT_TRUE(settings.town.file.is_absolute());
   EXPECT_EQ(settings.town.file.filename(), "town.glb");
 }
 
 TEST(TourSettings, AnglesBecomeRadians) {
   TourSettings settings;
-  ASSERT_EQ(Read(std::string(kLeast) + "[control]\nfov_deg = 90\n[[stop]]\nposition_m = [1, 2]\nyaw_deg = -180\n", &settings), "");
+  ASSERT_EQ(Read(std::string(kMinimalTour) + "[control]\nfov_deg = 90\n[[stop]]\nposition_m = [1, 2]\nyaw_deg = -180\n", &settings), "");
   EXPECT_FLOAT_EQ(settings.control.fov_rad, kPi / 2);
   EXPECT_FLOAT_EQ(settings.path.at(0).yaw_rad, -kPi);
 }
@@ -220,7 +220,7 @@ TEST(TourSettings, RefusalsNameTheLineAndWhatToDo) {
       {"[control\n", ":5:", {"TOML"}},
   };
   for (const Case& c : cases) {
-    const std::string message = Refusal(std::string(kLeast) + c.more);
+    const std::string message = Refusal(std::string(kMinimalTour) + c.more);
     EXPECT_EQ(message.rfind(c.line, 0), 0u) << c.more << message;
     EXPECT_EQ(message.find('\n'), std::string::npos);
     for (const char* word : c.words) EXPECT_NE(message.find(word), std::string::npos) << c.more << message;

@@ -94,7 +94,7 @@ TEST(Groups, FourBendIntoAShallowU) {
 
 TEST(Groups, GoThroughADoorwayInFileAndMeetAgain) {
   const Walkable w = Square(0.9f);
-  for (int count = 2; count <= kMostInGroup; ++count) {
+  for (int count = 2; count <= kMaxGroupSize; ++count) {
     Crowd c;
     AddWalkers(count, {-10, 1}, {25, 0}, &c);
     const size_t people = c.size();

@@ -276,7 +276,7 @@ TEST(Rimea, Case13PeopleQueueBeforeARamp) {
 }
 
 // Two ways round a block of 16 x 4 m, the short one below it, 8 m longer above. The guideline asks to document which is taken:
-// always the cheaper one, however crowded; a ramp on the short way makes it dearer.
+// always the cheaper one, however crowded; a ramp on the short way makes it costlier.
 TEST(Rimea, Case14TheCheaperWayIsTaken) {
   for (bool ramp : {false, true}) {
     GroundRaster ground = Flat({0, 0}, {30, 14});

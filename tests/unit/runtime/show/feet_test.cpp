@@ -11,8 +11,8 @@ namespace flaneur {
 namespace {
 
 constexpr float kSole_m = 0.015f;         // what is no higher than this above a person's lowest point in both pictures is standing
-constexpr float kMostLift_m = 0.05f;      // of the lowest point above the ground
-constexpr float kMostSlide = 0.10f;       // of the walking speed
+constexpr float kMaxLift_m = 0.05f;      // of the lowest point above the ground
+constexpr float kMaxSlide = 0.10f;       // of the walking speed
 
 // Everybody of the pack side by side, each on the way straight to the east.
 Scenario Parade(const TourPack& pack) {
@@ -98,7 +98,7 @@ TEST(FeetOfTheDemo, StandStillWhileTheirOwnerWalks) {
       if (person.share_from > 0) continue;  // the level that fades out
       ASSERT_EQ(person.moment.clip, ClipKind::kWalk) << pack.avatars[who].name;
       std::vector<Vec3> now = PosedPerson(pack, person);
-      EXPECT_LT(std::abs(Lowest(now) - person.position.z), kMostLift_m) << pack.avatars[who].name;
+      EXPECT_LT(std::abs(Lowest(now) - person.position.z), kMaxLift_m) << pack.avatars[who].name;
       if (!last[who].empty()) slides[who].push_back(SlideSpeed(last[who], now, Step_s(s)));
       last[who] = std::move(now);
     }
@@ -109,7 +109,7 @@ TEST(FeetOfTheDemo, StandStillWhileTheirOwnerWalks) {
     std::copy_if(slides[who].begin(), slides[who].end(), std::back_inserter(standing), [](float v) { return v >= 0; });
     ASSERT_GT(standing.size(), slides[who].size() / 2) << "no foot is on the ground most of the time";
     const float speed_mps = Length(s.town.crowd.velocity[who]);
-    EXPECT_LT(Median(standing), kMostSlide * speed_mps);
+    EXPECT_LT(Median(standing), kMaxSlide * speed_mps);
   }
 }
 

@@ -15,7 +15,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kDeepestTouch_m = 0.02f, kIntoWall_m = 0.001f;
-constexpr float kStandstill_m = 0.3f, kLongestStandstill_s = 8, kLeastPace = 0.5f, kSweptAlong_m = 1;
+constexpr float kStandstill_m = 0.3f, kLongestStandstill_s = 8, kMinPace = 0.5f, kSweptAlong_m = 1;
 
 std::vector<std::filesystem::path> ScenarioFiles() {
   const std::filesystem::path folder = std::filesystem::path(FLANEUR_SOURCE_DIR) / "tests/scenario/classic";
@@ -90,7 +90,7 @@ TEST_P(ClassicScenario, WhoIsStillOnTheWayHasKeptWalking) {
   Play([] {});
   for (size_t i = 0; i < crowd().size(); ++i) {
     if (crowd().field[i] < 0) continue;
-    EXPECT_GE(crowd().walked_m[i], kLeastPace * crowd().preferred_mps[i] * *scenario.seconds) << When(i);
+    EXPECT_GE(crowd().walked_m[i], kMinPace * crowd().preferred_mps[i] * *scenario.seconds) << When(i);
   }
 }
 

@@ -56,7 +56,7 @@ float Settled(const Machine& machine, const ResolutionSettings& settings) {
 }
 
 TEST(ResolutionRule, WhereTheViewMovesIntoADearSightThePicturesAreCoarserAtOnceAndFineAgainAfterIt) {
-  const Machine usual{5, 110, 0}, dear{5, 190, 0};
+  const Machine usual{5, 110, 0}, slow{5, 190, 0};
   const ResolutionSettings settings{40, 0.5f};
   for (const bool moves : {true, false}) {
     SCOPED_TRACE(moves);
@@ -65,8 +65,8 @@ TEST(ResolutionRule, WhereTheViewMovesIntoADearSightThePicturesAreCoarserAtOnceA
     Play(usual, settings, 300, &r, &random, moves);
     const float scale = r.scale;
     EXPECT_EQ(ScaleNow(r), scale);
-    Play(dear, settings, 2, &r, &random, moves);
-    const float took_ms = Took_ms(dear, ScaleNow(r), &random);
+    Play(slow, settings, 2, &r, &random, moves);
+    const float took_ms = Took_ms(slow, ScaleNow(r), &random);
     if (moves) EXPECT_LT(took_ms, 1.1f * settings.frame_ms);
     else EXPECT_EQ(ScaleNow(r), scale);
     EXPECT_EQ(r.scale, scale) << "two pictures are not for long";
@@ -83,7 +83,7 @@ TEST(ResolutionRule, NoMomentIsCoarserThanItMay) {
     Resolution r;
     for (int picture = 0; picture < 60; ++picture) {
       Play({fixed_ms(random), pixels_ms(random)}, settings, 1, &r, &random, random() % 3 != 0);
-      ASSERT_GE(ScaleNow(r), std::max(0.25f, kLeastMoment * settings.least_scale) - 1e-5f);
+      ASSERT_GE(ScaleNow(r), std::max(0.25f, kMinMotionScale * settings.least_scale) - 1e-5f);
       ASSERT_LE(ScaleNow(r), r.scale);
     }
   }

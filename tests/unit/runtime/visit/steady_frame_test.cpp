@@ -14,7 +14,7 @@
 namespace flaneur {
 namespace {
 
-constexpr int kMostDrawCalls = 64;
+constexpr int kMaxDrawCalls = 64;
 
 class SteadyFrameOfTheDemo : public testing::Test {
  protected:
@@ -59,7 +59,7 @@ TEST_F(SteadyFrameOfTheDemo, AllocatesNothingAndTakesFewDrawCallsForTenThousandP
       frame.yaw_rad = 0.17f + 0.01f * static_cast<float>(k);
       frame.resolution_scale = k % 4 == 3 ? 1.0f : 0.5f + 0.1f * static_cast<float>(k % 4);  // it may change at any time
       renderer.Draw(frame, 160, 90, &statistics);
-      EXPECT_LE(statistics.draw_calls, kMostDrawCalls) << k;
+      EXPECT_LE(statistics.draw_calls, kMaxDrawCalls) << k;
       EXPECT_GT(statistics.people_drawn, 1000);
     }
   };

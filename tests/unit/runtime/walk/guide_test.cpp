@@ -11,7 +11,7 @@
 namespace flaneur {
 namespace {
 
-constexpr int kMostSteps = 30 * 300;
+constexpr int kMaxSteps = 30 * 300;
 
 Vec2 GuideOf(const Simulation& s) { return s.town.crowd.position[s.visitor.guide.index]; }
 float Apart_m(const Simulation& s) { return Length(GuideOf(s) - s.visitor.camera.view.position); }
@@ -38,7 +38,7 @@ TEST(Guide, WalksAheadWithinAFewMetresUntilTheEnd) {
     Simulation s = Started(TourTown(people));
     ASSERT_GE(s.visitor.guide.id, 0);
     int plans = 0, turned_at = 0;
-    for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) {
+    for (int step = 0; step < kMaxSteps && !s.visitor.finished; ++step) {
       Step(&s, 1);
       ASSERT_LT(Apart_m(s), 7) << people << " people, step " << step;
       if (s.visitor.tour.plans != plans) plans = s.visitor.tour.plans, turned_at = step;
@@ -73,7 +73,7 @@ TEST(Guide, WaitsForAVisitorWhoStrays) {
   EXPECT_LT(Length(GuideOf(s) - before), 0.5f);
   EXPECT_LT(OffVisitor_rad(s), 0.3f);
   bool led = false;
-  for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) {
+  for (int step = 0; step < kMaxSteps && !s.visitor.finished; ++step) {
     Step(&s, 1);
     led = led || (!s.visitor.tour.resting && Apart_m(s) < 5 && s.visitor.guide.way_m > s.visitor.tour.visitor_m + 1);
   }
@@ -84,7 +84,7 @@ TEST(Guide, WaitsForAVisitorWhoStrays) {
 TEST(Guide, FacesTheVisitorAtEveryHaltAndIsSeen) {
   Simulation s = Started(TourTown(80));
   int halts = 0, steps = 0, turned_away = 0;
-  for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) {
+  for (int step = 0; step < kMaxSteps && !s.visitor.finished; ++step) {
     Step(&s, 1);
     if (!s.visitor.tour.resting || s.visitor.tour.rested_s < 2.5f) continue;
     if (s.visitor.tour.rested_s < 2.55f) ++halts;
@@ -105,7 +105,7 @@ TEST(Guide, IsSeenAtTheToursEndAndFacesTheVisitor) {
   TourPack pack = TourTown(60);
   pack.path.push_back(Waypoint({38, 10}));
   Simulation s = Started(pack);
-  for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) Step(&s, 1);
+  for (int step = 0; step < kMaxSteps && !s.visitor.finished; ++step) Step(&s, 1);
   ASSERT_TRUE(s.visitor.tour.over);
   Step(&s, 60, Walking({}));
   EXPECT_EQ(s.town.crowd.view[s.visitor.guide.index], ViewClass::kVisible);
@@ -118,7 +118,7 @@ TEST(Guide, TouchesNobodyAndNothing) {
   for (const int people : {120, 300}) {
     Simulation s = Started(TourTown(people));
     float overlap_m = 0;
-    for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) {
+    for (int step = 0; step < kMaxSteps && !s.visitor.finished; ++step) {
       Step(&s, 1);
       const size_t g = s.visitor.guide.index;
       ASSERT_FALSE(InsideObstacle(s.town.walkable, GuideOf(s))) << step;
@@ -155,7 +155,7 @@ TEST(Guide, IsAMeshWheneverSeenAndWithinTheBudget) {
   pack.control.high_limit = 3;
   pack.control.budget_triangles = 12000;
   Simulation s = Started(pack);
-  for (int step = 0; step < kMostSteps && !s.visitor.finished; ++step) {
+  for (int step = 0; step < kMaxSteps && !s.visitor.finished; ++step) {
     Step(&s, 1);
     ASSERT_LE(s.control.levels.triangles, 12000);
     if (s.town.crowd.view[s.visitor.guide.index] == ViewClass::kVisible) {
