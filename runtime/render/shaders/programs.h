@@ -5,7 +5,8 @@
 
 namespace flaneur {
 
-// clang-format off: CMake reads a line at a time.
+// CMake reads a program and a mode a line.
+// clang-format off
 // PROGRAM(name, vertex shader, fragment shader, what is defined in both)
 #define FLANEUR_SHADER_PROGRAMS(PROGRAM) \
   PROGRAM(kTown, "town.vert", "surface.frag", "") \
