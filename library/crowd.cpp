@@ -177,11 +177,12 @@ Failure TakeGround(const FlaneurCrowdDef& def, LibraryCrowd* c) {
                           Range{"the ground's depth in metres", depth_m, kMinGround_m, kMaxGround_m}};
   if (Failure failure = CheckRanges(ranges)) return failure;
   c->origin_m = def.ground_min_m;
-  GroundRaster& ground = c->walkable.ground;
+  GroundRaster ground;
   ground.cell_m = kGroundCell_m;
   ground.columns = static_cast<int>(width_m / kGroundCell_m), ground.rows = static_cast<int>(depth_m / kGroundCell_m);
   const auto cells = static_cast<size_t>(ground.columns) * static_cast<size_t>(ground.rows);
   ground.height_m.assign(cells, 0), ground.kind.assign(cells, 3);
+  c->walkable.ground = Share(std::move(ground));
   return {};
 }
 
