@@ -45,6 +45,7 @@ struct LibraryCrowd {
   Walkable walkable;
   Crowd crowd;
   FieldBuilder field_builder;
+  CrowdScratch scratch;
   Control control;
   Goals goals;
   Random random;
@@ -397,18 +398,18 @@ void Step(const FlaneurCamera* camera, const ViewCamera& view, float frame_ms, L
   crowd.r_unimportant_m = camera ? settings.r_unimportant_m : kWholeTown_m;
   crowd.r_far_m = camera ? settings.r_far_m : kWholeTown_m;
   if (crowd.step % kSortEvery_steps == 0) {
-    SortBySpace(&crowd);
+    SortBySpace(&c->scratch, &crowd);
     Renumber(c);
   }
   c->field_builder.Step(c->walkable, nullptr, &crowd);
-  StepCrowd(c->walkable, c->moving, Step_s(settings), &crowd);
+  StepCrowd(c->walkable, c->moving, Step_s(settings), &c->scratch, &crowd);
   c->camera = view, c->has_camera = camera != nullptr;
   c->moving.clear();
   if (camera) {
     control.outer_apex_back_m = OuterApexBack_m(*c, view.fov_rad);
     const ViewVolumes volumes = VolumesOf(view, control.outer_apex_back_m);
     ClassifyAll(&volumes, &crowd);
-    SeparateBoundary(c->walkable, IsKeptFree, c, &crowd);
+    SeparateBoundary(c->walkable, IsKeptFree, c, &c->scratch, &crowd);
     ChooseLevels(crowd, control.avatars, settings, {view, motion, frame_ms, camera->screen_width_px, -1}, &control.levels);
     c->moving.push_back({view.position, settings.r_personal_m, true, motion.velocity});
     InfluenceCrowd(view, motion, control.levels, c->walkable, settings, &crowd, &c->moving, &control.foresight);
