@@ -25,13 +25,17 @@ inline Failure NoDefinition(const char* maker) {
 inline Failure OutOfRange(const std::string& name, const std::string& range) {
   return {FLANEUR_ERROR_OUT_OF_RANGE, name + " must be " + range};
 }
-inline Failure NoSuchId(const char* thing) { return {FLANEUR_ERROR_ID, std::string("there are no such ") + thing + ", or no longer"}; }
-inline Failure BadInput(const Error& error) {
-  return error ? Failure{FLANEUR_ERROR_INPUT, error.message} : Failure{};
+inline Failure NoSuchId(const char* thing) {
+  return {FLANEUR_ERROR_ID, std::string("there are no such ") + thing + ", or no longer"};
 }
+inline Failure BadInput(const Error& error) { return error ? Failure{FLANEUR_ERROR_INPUT, error.message} : Failure{}; }
 
 // Numbers that must lie between two others. The first that does not is told.
-struct Range { const char* name; double value, low, high; bool without_low = false; };
+struct Range {
+  const char* name;
+  double value, low, high;
+  bool without_low = false;
+};
 
 template <typename Ranges>
 Failure CheckRanges(const Ranges& ranges) {

@@ -33,7 +33,8 @@ constexpr float kBeyondRadius_m = 0.05f;  // that the grid's free cells keep fro
 constexpr float kJump_m = 10;
 constexpr float kWholeTown_m = 1e9f;
 
-// Goals that people have, each a field of the crowd. A field that nobody goes to any more is given to the next new goal.
+// Goals that people have, each a field of the crowd. A field that nobody goes to any more is given to the next new
+// goal.
 struct Goals {
   std::map<std::pair<float, float>, int> field_of;
   std::vector<int> users;     // by field
@@ -96,7 +97,8 @@ struct RangeCheck {
 Failure TakeControl(const FlaneurCrowdDef& def, ControlSettings* s) {
   if (def.adaptation < FLANEUR_ADAPTATION_OFF || def.adaptation > FLANEUR_ADAPTATION_FULL)
     return OutOfRange("adaptation", "a FlaneurAdaptation");
-  if (def.method < FLANEUR_LIMIT_COUNT || def.method > FLANEUR_LIMIT_FRAME_TIME) return OutOfRange("method", "a FlaneurLimitMethod");
+  if (def.method < FLANEUR_LIMIT_COUNT || def.method > FLANEUR_LIMIT_FRAME_TIME)
+    return OutOfRange("method", "a FlaneurLimitMethod");
   s->adaptation = static_cast<Adaptation>(def.adaptation), s->method = static_cast<LimitMethod>(def.method);
   s->high_limit = def.high_limit, s->target_ms = def.target_ms, s->budget_triangles = def.budget_triangles;
   s->r_personal_m = def.r_personal_m, s->r_high_m = def.r_high_m;
@@ -122,7 +124,8 @@ Failure TakeFigures(const FlaneurCrowdDef& def, std::vector<AvatarCosts>* figure
     const FlaneurFigure& figure = def.figures[i];
     if (!figure.levels) return NullPointer("levels");
     if (figure.level_count < 1 || figure.level_count > kMaxLevels) return OutOfRange("level_count", "1 to 16");
-    const std::array ranges{Range{"height_m", figure.height_m, 0.1, 10}, Range{"impostor_px", figure.impostor_px, 0, 1e6, true}};
+    const std::array ranges{Range{"height_m", figure.height_m, 0.1, 10},
+                            Range{"impostor_px", figure.impostor_px, 0, 1e6, true}};
     if (Failure failure = CheckRanges(ranges)) return failure;
     AvatarCosts costs;
     costs.height_m = figure.height_m, costs.impostor_px = figure.impostor_px;
@@ -142,7 +145,8 @@ Failure TakeRing(const FlaneurRing& ring, const LibraryCrowd& c, std::vector<Vec
   if (ring.count < 3) return OutOfRange("count of a polygon's ring", "at least 3");
   if (!ring.points) return NullPointer("points of a polygon's ring");
   for (int i = 0; i < ring.count; ++i) {
-    if (!IsWithin(ring.points[i], kReach_m, c.origin_m)) return OutOfRange("each point of a polygon", "within 100 km of the ground");
+    if (!IsWithin(ring.points[i], kReach_m, c.origin_m))
+      return OutOfRange("each point of a polygon", "within 100 km of the ground");
     out->push_back(Inside(c, ring.points[i]));
   }
   return {};
@@ -163,8 +167,10 @@ Failure TakeObstacles(const FlaneurCrowdDef& def, LibraryCrowd* c) {
   }
   for (int i = 0; i < def.circle_count; ++i) {
     const FlaneurCircle& circle = def.circles[i];
-    if (Failure failure = CheckRanges(std::array{Range{"radius_m of a circle", circle.radius_m, 0, kReach_m, true}})) return failure;
-    if (!IsWithin(circle.center_m, kReach_m, c->origin_m)) return OutOfRange("center_m of a circle", "within 100 km of the ground");
+    if (Failure failure = CheckRanges(std::array{Range{"radius_m of a circle", circle.radius_m, 0, kReach_m, true}}))
+      return failure;
+    if (!IsWithin(circle.center_m, kReach_m, c->origin_m))
+      return OutOfRange("center_m of a circle", "within 100 km of the ground");
     c->walkable.circles.push_back({Inside(*c, circle.center_m), static_cast<float>(circle.radius_m)});
   }
   return {};
@@ -188,8 +194,10 @@ Failure TakeGround(const FlaneurCrowdDef& def, LibraryCrowd* c) {
 }
 
 Failure TakeSpeeds(const FlaneurCrowdDef& def, LibraryCrowd* c) {
-  const std::array ranges{Range{"largest_radius_m", def.largest_radius_m, 0.1f, 0.5}, Range{"preferred_speed_mps", def.preferred_speed_mps, 0.1f, 5},
-                          Range{"speed_spread_mps", def.speed_spread_mps, 0, 2}, Range{"top_speed_mps", def.top_speed_mps, 0.1f, 10}};
+  const std::array ranges{Range{"largest_radius_m", def.largest_radius_m, 0.1f, 0.5},
+                          Range{"preferred_speed_mps", def.preferred_speed_mps, 0.1f, 5},
+                          Range{"speed_spread_mps", def.speed_spread_mps, 0, 2},
+                          Range{"top_speed_mps", def.top_speed_mps, 0.1f, 10}};
   if (Failure failure = CheckRanges(ranges)) return failure;
   c->random.state = def.seed;
   c->largest_radius_m = def.largest_radius_m;
@@ -231,7 +239,8 @@ size_t IndexOf(const LibraryCrowd& c, FlaneurPersonId id) {
 }
 
 void Renumber(LibraryCrowd* c) {
-  for (size_t i = 0; i < c->crowd.size(); ++i) c->index_of_slot[static_cast<size_t>(c->crowd.slot[i])] = static_cast<int>(i);
+  for (size_t i = 0; i < c->crowd.size(); ++i)
+    c->index_of_slot[static_cast<size_t>(c->crowd.slot[i])] = static_cast<int>(i);
 }
 
 // A field that nobody goes to any more and nobody builds; -1: none.
@@ -273,7 +282,8 @@ void SendTo(int field, size_t i, LibraryCrowd* c) {
 Failure SetGoalOf(size_t i, FlaneurPoint goal_m, LibraryCrowd* c) {
   if (!IsWithin(goal_m, kReach_m, c->origin_m)) return OutOfRange("goal_m", "within 100 km of the ground");
   const Vec2 goal = Inside(*c, goal_m);
-  if (FreeCellFor(c->walkable, goal) < 0) return {FLANEUR_ERROR_INPUT, "there is no ground to walk on within 3 m of the goal"};
+  if (FreeCellFor(c->walkable, goal) < 0)
+    return {FLANEUR_ERROR_INPUT, "there is no ground to walk on within 3 m of the goal"};
   if (!Reachable(c->walkable, FlowField{goal, {}, {}, 0}, c->crowd.position[i]))
     return {FLANEUR_ERROR_INPUT, "no way leads from the person to the goal"};
   SendTo(FieldOf(goal, c), i, c);
@@ -283,10 +293,11 @@ Failure SetGoalOf(size_t i, FlaneurPoint goal_m, LibraryCrowd* c) {
 Failure Add(const FlaneurPersonDef& def, LibraryCrowd* c, FlaneurPersonId* id) {
   if (!IsWithin(def.position_m, kReach_m, c->origin_m)) return OutOfRange("position_m", "within 100 km of the ground");
   constexpr double kManyTurns_rad = 1e6;
-  const std::array ranges{Range{"heading_rad", def.heading_rad, -kManyTurns_rad, kManyTurns_rad},
-                          Range{"figure", static_cast<double>(def.figure), 0, static_cast<double>(c->control.avatars.size()) - 1},
-                          Range{"radius_m", def.radius_m, 0.1f, c->largest_radius_m},
-                          Range{"preferred_speed_mps", def.preferred_speed_mps, 0, 10}};
+  const std::array ranges{
+      Range{"heading_rad", def.heading_rad, -kManyTurns_rad, kManyTurns_rad},
+      Range{"figure", static_cast<double>(def.figure), 0, static_cast<double>(c->control.avatars.size()) - 1},
+      Range{"radius_m", def.radius_m, 0.1f, c->largest_radius_m},
+      Range{"preferred_speed_mps", def.preferred_speed_mps, 0, 10}};
   if (Failure failure = CheckRanges(ranges)) return failure;
   if (c->crowd.size() >= kMaxPeople || c->crowd.next_id == std::numeric_limits<int>::max())
     return OutOfRange("the number of people", "at most 200,000");
@@ -297,10 +308,12 @@ Failure Add(const FlaneurPersonDef& def, LibraryCrowd* c, FlaneurPersonId* id) {
   if (InsideObstacle(c->walkable, person.position) || Clearance(c->walkable, cell, person.position) < def.radius_m)
     return {FLANEUR_ERROR_INPUT, "position_m is inside an obstacle, or too near to one"};
   person.avatar = def.figure, person.heading_rad = Wrapped(def.heading_rad), person.radius_m = def.radius_m;
-  // Of a sum of three the spread is the standard deviation. Drawn in any case, so that those of others do not depend on it.
+  // Of a sum of three the spread is the standard deviation. Drawn in any case, so that those of others do not depend on
+  // it.
   const float drawn = c->random.Uniform(-1, 1) + c->random.Uniform(-1, 1) + c->random.Uniform(-1, 1);
   const float drawn_mps = c->preferred_mps + c->spread_mps * drawn;
-  person.preferred_mps = std::clamp(def.preferred_speed_mps > 0 ? def.preferred_speed_mps : drawn_mps, 0.1f, c->top_mps);
+  person.preferred_mps =
+      std::clamp(def.preferred_speed_mps > 0 ? def.preferred_speed_mps : drawn_mps, 0.1f, c->top_mps);
   person.top_mps = c->top_mps;
   c->index_of_slot.reserve(c->crowd.slots.owner.size() + 1);
   AddPerson(person, &c->crowd);
@@ -321,7 +334,8 @@ void Remove(size_t i, LibraryCrowd* c) {
 // The step.
 
 Failure TakeCamera(const FlaneurCamera& camera, const LibraryCrowd& c, ViewCamera* view) {
-  if (!IsWithin(camera.position_m, kReach_m, c.origin_m)) return OutOfRange("the camera's position_m", "within 100 km of the ground");
+  if (!IsWithin(camera.position_m, kReach_m, c.origin_m))
+    return OutOfRange("the camera's position_m", "within 100 km of the ground");
   constexpr double kManyTurns_rad = 1e6;
   const std::array ranges{Range{"yaw_rad", camera.yaw_rad, -kManyTurns_rad, kManyTurns_rad},
                           Range{"fov_rad", camera.fov_rad, 10 * kPi / 180, 150 * kPi / 180},
@@ -334,7 +348,8 @@ Failure TakeCamera(const FlaneurCamera& camera, const LibraryCrowd& c, ViewCamer
 float OuterApexBack_m(const LibraryCrowd& c, float fov_rad) {
   MotionLimits limits;
   limits.step_s = Step_s(c.control.settings);
-  limits.reach_m = Length(Vec2{static_cast<float>(c.walkable.columns), static_cast<float>(c.walkable.rows)} * c.walkable.cell_m);
+  limits.reach_m =
+      Length(Vec2{static_cast<float>(c.walkable.columns), static_cast<float>(c.walkable.rows)} * c.walkable.cell_m);
   limits.yaw_rate_radps = MaxYawRate_radps(c.control.settings);
   limits.person_speed_mps = c.top_mps;
   return flaneur::OuterApexBack_m(limits, fov_rad);
@@ -410,7 +425,8 @@ void Step(const FlaneurCamera* camera, const ViewCamera& view, float frame_ms, L
     const ViewVolumes volumes = VolumesOf(view, control.outer_apex_back_m);
     ClassifyAll(&volumes, &crowd);
     SeparateBoundary(c->walkable, IsKeptFree, c, &c->scratch, &crowd);
-    ChooseLevels(crowd, control.avatars, settings, {view, motion, frame_ms, camera->screen_width_px, -1}, &control.levels);
+    ChooseLevels(crowd, control.avatars, settings, {view, motion, frame_ms, camera->screen_width_px, -1},
+                 &control.levels);
     c->moving.push_back({view.position, settings.r_personal_m, true, motion.velocity});
     InfluenceCrowd(view, motion, control.levels, c->walkable, settings, &crowd, &c->moving, &control.foresight);
   } else {
@@ -448,7 +464,8 @@ FlaneurCrowdDef flaneur_default_crowd_def(void) {
   def.preferred_speed_mps = crowd.preferred_speed_mps, def.speed_spread_mps = crowd.speed_spread_mps;
   def.top_speed_mps = crowd.top_speed_mps;
   def.adaptation = static_cast<int>(control.adaptation), def.method = static_cast<int>(control.method);
-  def.high_limit = control.high_limit, def.target_ms = control.target_ms, def.budget_triangles = control.budget_triangles;
+  def.high_limit = control.high_limit, def.target_ms = control.target_ms,
+  def.budget_triangles = control.budget_triangles;
   def.r_personal_m = control.r_personal_m, def.r_high_m = control.r_high_m;
   def.r_unimportant_m = control.r_unimportant_m, def.r_far_m = control.r_far_m;
   def.step_hz = control.step_hz, def.max_yaw_rate_dps = control.max_yaw_rate_dps;
@@ -531,12 +548,15 @@ FlaneurStatus flaneur_crowd_figures(FlaneurCrowdId crowd, FlaneurCrowdFigures* f
   return WithCrowd(crowd, [&](LibraryCrowd* c) -> Failure {
     if (!figures) return NullPointer("figures");
     const LevelState none, &levels = c->has_camera ? c->control.levels : none;
-    *figures = {static_cast<int>(c->crowd.size()), levels.high, levels.low, levels.limit, levels.triangles, c->crowd.step,
-                Step_s(c->control.settings)};
+    *figures = {
+        static_cast<int>(c->crowd.size()), levels.high, levels.low, levels.limit, levels.triangles, c->crowd.step,
+        Step_s(c->control.settings)};
     return {};
   });
 }
 
 const char* flaneur_crowd_last_error(void) { return Last().text; }
 
-FlaneurVersion flaneur_crowd_version(void) { return {FLANEUR_VERSION_MAJOR, FLANEUR_VERSION_MINOR, FLANEUR_VERSION_PATCH}; }
+FlaneurVersion flaneur_crowd_version(void) {
+  return {FLANEUR_VERSION_MAJOR, FLANEUR_VERSION_MINOR, FLANEUR_VERSION_PATCH};
+}

@@ -17,7 +17,7 @@ namespace {
 using namespace flaneur;
 
 constexpr int kFootprintsCookie = 0x464f4f54, kCheckCookie = 0x43484543;  // "FOOT", "CHEC"
-constexpr double kFarthest_m = 1e8;  // no map reaches farther; see TownBuilder
+constexpr double kFarthest_m = 1e8;                                       // no map reaches farther; see TownBuilder
 constexpr double kMaxArea_m2 = 1e10;
 
 struct Town {
@@ -51,11 +51,16 @@ NodeKind NodeKindOf(int kind) {
 
 FlaneurObjectKind KindFrom(ObstacleKind kind) {
   switch (kind) {
-    case ObstacleKind::kBuilding: return FLANEUR_OBJECT_BUILDING;
-    case ObstacleKind::kWall: return FLANEUR_OBJECT_WALL;
-    case ObstacleKind::kTree: return FLANEUR_OBJECT_TREE;
-    case ObstacleKind::kLamp: return FLANEUR_OBJECT_LAMP;
-    case ObstacleKind::kOther: break;
+    case ObstacleKind::kBuilding:
+      return FLANEUR_OBJECT_BUILDING;
+    case ObstacleKind::kWall:
+      return FLANEUR_OBJECT_WALL;
+    case ObstacleKind::kTree:
+      return FLANEUR_OBJECT_TREE;
+    case ObstacleKind::kLamp:
+      return FLANEUR_OBJECT_LAMP;
+    case ObstacleKind::kOther:
+      break;
   }
   return FLANEUR_OBJECT_OTHER;
 }
@@ -100,7 +105,8 @@ Failure BuildScene(const FlaneurFootprintsDef& def, Town* town) {
     radii.push_back(static_cast<float>(object.radius_m));
     const int corners = object.indices ? object.index_count : object.vertex_count;
     for (int k = 0; k < corners; k += 3)
-      builder.AddPolygon(node, SurfaceKind::kOther, {{Corner(object, k), Corner(object, k + 1), Corner(object, k + 2)}});
+      builder.AddPolygon(node, SurfaceKind::kOther,
+                         {{Corner(object, k), Corner(object, k + 1), Corner(object, k + 2)}});
   }
   if (Error error = builder.Finish("the town", "", &town->scene, &town->warnings)) return BadInput(error);
   for (size_t i = 0; i < radii.size(); ++i) town->scene.nodes[i].radius_m = radii[i];
@@ -135,9 +141,12 @@ void FillSpans(Town* town) {
 Failure Create(const FlaneurFootprintsDef& def, FlaneurFootprintsId* id) {
   if (def.object_count <= 0) return OutOfRange("object_count", "greater than 0");
   if (!def.objects) return NullPointer("objects");
-  const std::array ranges{Range{"clearance_m", def.clearance_m, 0, 10}, Range{"band_low_m", def.band_low_m, 0, 100},
-                          Range{"band_high_m", def.band_high_m, 0, 100}, Range{"tolerance_m", def.tolerance_m, 0, 1},
-                          Range{"bridge_m", def.bridge_m, 0, 1}, Range{"open_yard_m2", def.open_yard_m2, 0, kMaxArea_m2},
+  const std::array ranges{Range{"clearance_m", def.clearance_m, 0, 10},
+                          Range{"band_low_m", def.band_low_m, 0, 100},
+                          Range{"band_high_m", def.band_high_m, 0, 100},
+                          Range{"tolerance_m", def.tolerance_m, 0, 1},
+                          Range{"bridge_m", def.bridge_m, 0, 1},
+                          Range{"open_yard_m2", def.open_yard_m2, 0, kMaxArea_m2},
                           Range{"threads", static_cast<double>(def.threads), 0, 1024}};
   if (Failure failure = CheckRanges(ranges)) return failure;
   if (!(def.band_low_m < def.band_high_m)) return OutOfRange("band_low_m", "below band_high_m");
@@ -215,8 +224,16 @@ Failure CheckTown(const FlaneurCheckDef& def, Town* town, FlaneurFindingSpan* sp
   town->finding_items.clear();
   for (const Finding& f : town->findings) {
     const FindingKind& kind = KindOf(f.code);
-    town->finding_items.push_back({f.code, f.severity == Severity::kError, {f.at_m.x + origin.x, f.at_m.y + origin.y}, f.value,
-                                   f.limit, kind.title, f.feature.c_str(), f.other.c_str(), f.message.c_str(), kind.advice});
+    town->finding_items.push_back({f.code,
+                                   f.severity == Severity::kError,
+                                   {f.at_m.x + origin.x, f.at_m.y + origin.y},
+                                   f.value,
+                                   f.limit,
+                                   kind.title,
+                                   f.feature.c_str(),
+                                   f.other.c_str(),
+                                   f.message.c_str(),
+                                   kind.advice});
   }
   *span = {town->finding_items.data(), static_cast<int>(town->finding_items.size())};
   return {};
@@ -266,9 +283,7 @@ FlaneurStatus flaneur_create_footprints(const FlaneurFootprintsDef* def, Flaneur
 }
 
 FlaneurStatus flaneur_destroy_footprints(FlaneurFootprintsId id) {
-  return AtBoundary(&Last(), [&]() -> Failure {
-    return Towns().Remove(id) ? Failure{} : NoSuchId("footprints");
-  });
+  return AtBoundary(&Last(), [&]() -> Failure { return Towns().Remove(id) ? Failure{} : NoSuchId("footprints"); });
 }
 
 bool flaneur_footprints_is_valid(FlaneurFootprintsId id) { return Towns().Find(id) != nullptr; }
@@ -289,7 +304,8 @@ FlaneurStatus flaneur_footprints_warnings(FlaneurFootprintsId id, FlaneurTextSpa
   });
 }
 
-FlaneurStatus flaneur_footprints_check(FlaneurFootprintsId id, const FlaneurCheckDef* def, FlaneurFindingSpan* findings) {
+FlaneurStatus flaneur_footprints_check(FlaneurFootprintsId id, const FlaneurCheckDef* def,
+                                       FlaneurFindingSpan* findings) {
   return WithTown(id, [&](Town* town) -> Failure {
     if (!def || !findings) return NullPointer(def ? "findings" : "def");
     if (def->internal_value != kCheckCookie) return NoDefinition("flaneur_default_check_def");

@@ -42,7 +42,10 @@ class IdPool {
   }
 
  private:
-  struct Slot { std::shared_ptr<Thing> thing; uint32_t generation = 1; };
+  struct Slot {
+    std::shared_ptr<Thing> thing;
+    uint32_t generation = 1;
+  };
 
   bool IsThere(Id id) const {
     return id.index1 > 0 && id.index1 <= slots_.size() && slots_[id.index1 - 1].generation == id.generation &&

@@ -1,5 +1,5 @@
-/* People cross a square with a fountain and a house while a visitor walks through and looks around. Each second one line: how many are
-   in view, and with which level of detail they are drawn. */
+/* People cross a square with a fountain and a house while a visitor walks through and looks around. Each second one
+   line: how many are in view, and with which level of detail they are drawn. */
 #include <math.h>
 #include <stdio.h>
 
@@ -18,7 +18,7 @@ static int check(FlaneurStatus status) {
   return status == FLANEUR_OK;
 }
 
-static int create_square(FlaneurCrowdId *crowd) {
+static int create_square(FlaneurCrowdId* crowd) {
   static const FlaneurPoint house_m[] = {{8, 40}, {20, 40}, {20, 50}, {8, 50}};
   FlaneurPolygon house = {{house_m, 4}, NULL, 0};
   FlaneurCircle fountain = {{30, 30}, 3};
@@ -41,7 +41,8 @@ static int add_people(FlaneurCrowdId crowd) {
     FlaneurPersonDef def = flaneur_default_person_def();
     FlaneurPersonId person;
     def.position_m.x = 2 + 2.9 * (k % 20), def.position_m.y = 2 + 2.9 * (k * 7 % 20);
-    if (flaneur_crowd_add_person(crowd, &def, &person) == FLANEUR_ERROR_INPUT) continue; /* inside the house or the fountain */
+    if (flaneur_crowd_add_person(crowd, &def, &person) == FLANEUR_ERROR_INPUT)
+      continue; /* inside the house or the fountain */
     if (!check(flaneur_crowd_set_goal(crowd, person, gates_m[k % GATES]))) return 0;
     ++added;
   }
@@ -49,7 +50,7 @@ static int add_people(FlaneurCrowdId crowd) {
 }
 
 /* Who has come to a gate goes on to another one. */
-static void send_on(FlaneurCrowdId crowd, const FlaneurPerson *person) {
+static void send_on(FlaneurCrowdId crowd, const FlaneurPerson* person) {
   if (person->arrival == FLANEUR_ARRIVAL_NOT) return;
   flaneur_crowd_set_goal(crowd, person->id, gates_m[(person->id.index1 * 5 + (unsigned)person->walked_m) % GATES]);
 }
@@ -59,13 +60,13 @@ static void print_levels(double seconds, FlaneurCrowdId crowd, FlaneurPersonSpan
   FlaneurCrowdFigures figures;
   flaneur_crowd_figures(crowd, &figures);
   for (int i = 0; i < people.count; ++i) {
-    const FlaneurPerson *p = &people.items[i];
+    const FlaneurPerson* p = &people.items[i];
     if (!p->is_in_view || p->level == FLANEUR_LEVEL_NOT_DRAWN) continue;
     ++drawn[p->level == FLANEUR_LEVEL_IMPOSTOR ? 3 : p->level];
     fading += p->fade < 1;
   }
-  printf("%4.0f s: meshes %2d fine %2d middle %2d coarse, %3d impostors, %2d fading, %6ld triangles, limit %d\n", seconds, drawn[0],
-         drawn[1], drawn[2], drawn[3], fading, (long)figures.triangles, figures.limit);
+  printf("%4.0f s: meshes %2d fine %2d middle %2d coarse, %3d impostors, %2d fading, %6ld triangles, limit %d\n",
+         seconds, drawn[0], drawn[1], drawn[2], drawn[3], fading, (long)figures.triangles, figures.limit);
 }
 
 int main(void) {

@@ -20,8 +20,7 @@ Pixels Resized(const Pixels& from, int width_px, int height_px);
 Pixels TimesBaseColor(Pixels pixels, const Material& material);
 
 // Copies `size` pixels that start at `first` of the picture, which repeats in all directions.
-void CopyRepeated(const Pixels& from, PixelPlace first, PixelPlace to, PixelPlace size,
-                  Pixels* atlas);
+void CopyRepeated(const Pixels& from, PixelPlace first, PixelPlace to, PixelPlace size, Pixels* atlas);
 
 // PNG with alpha, else JPEG.
 Image Encoded(const Pixels& pixels, bool alpha);

@@ -19,26 +19,26 @@ namespace {
 
 constexpr int kQuadricPoses = 4;  // of the walk, that levels are made for; besides the bind pose
 constexpr float kTargetTolerance = 0.02f;
-constexpr float kSameJoint_m = 1e-4f;  // a joint that moves nothing farther from its parent is none
-constexpr float kJointShare = 0.1f;    // of a level's error, that merged joints may add
+constexpr float kSameJoint_m = 1e-4f;     // a joint that moves nothing farther from its parent is none
+constexpr float kJointShare = 0.1f;       // of a level's error, that merged joints may add
 constexpr float kMinJointGain_m = 2e-4f;  // below it hardly any joint could merge
-constexpr float kEndless_px = 100000;       // switch height where the next level is exact
+constexpr float kEndless_px = 100000;     // switch height where the next level is exact
 // Of a chain that makes itself, heights of the person on screen:
-constexpr float kFinest_px = 2000;    // larger than anybody is ever seen
-constexpr float kImpostor_px = 128;   // below it most people are impostors
-constexpr float kCoarsest_px = 64;    // half of it: below it nobody is a mesh
-constexpr float kTurned_deg = 2.5f;   // of normals: a level that is further off is none for people higher than impostors
-constexpr float kSimilarReachShare = 0.85f;  // of the height on screen up to which a finer level serves,
-constexpr float kSimilarTriangleShare = 0.7f;   // which has so many triangles
-constexpr size_t kMinLevels = 3;   // where triangles allow: for tight budgets
+constexpr float kFinest_px = 2000;   // larger than anybody is ever seen
+constexpr float kImpostor_px = 128;  // below it most people are impostors
+constexpr float kCoarsest_px = 64;   // half of it: below it nobody is a mesh
+constexpr float kTurned_deg = 2.5f;  // of normals: a level that is further off is none for people higher than impostors
+constexpr float kSimilarReachShare = 0.85f;    // of the height on screen up to which a finer level serves,
+constexpr float kSimilarTriangleShare = 0.7f;  // which has so many triangles
+constexpr size_t kMinLevels = 3;               // where triangles allow: for tight budgets
 constexpr int kMaxPropTriangles = 300;
 constexpr float kMinUsefulTriangles = 250;  // triangles: fewer save nothing beside the rest of a frame
 
 Error CheckMeshes(const Avatar& avatar) {
   int triangles = 0;
   for (const Mesh& mesh : avatar.meshes) {
-    const std::string name = std::string("avatar '").append(OneLine(avatar.name)) + "', mesh '" +
-                             OneLine(mesh.name) + "'";
+    const std::string name =
+        std::string("avatar '").append(OneLine(avatar.name)) + "', mesh '" + OneLine(mesh.name) + "'";
     for (size_t v = 0; v < mesh.positions.size(); ++v) {
       const Vec3 p = mesh.positions[v];
       if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
@@ -60,8 +60,7 @@ Error CheckOptions(const LevelsOptions& options) {
     }
     previous = ratio;
   }
-  if (options.error_samples < 0 || options.walk_poses < 0 || options.max_triangles < 0 ||
-      options.min_triangles < 0) {
+  if (options.error_samples < 0 || options.walk_poses < 0 || options.max_triangles < 0 || options.min_triangles < 0) {
     return Fail("levels: counts must not be negative");
   }
   if (!(options.error_px > 0)) return Fail("levels: error_px must be greater than 0");
@@ -86,15 +85,14 @@ std::vector<float> Ladder(int triangles) {
 }
 
 std::vector<int> Targets(const LevelsOptions& options, int triangles) {
-  const int limit =
-      options.max_triangles > 0 ? std::min(options.max_triangles, triangles) : triangles;
+  const int limit = options.max_triangles > 0 ? std::min(options.max_triangles, triangles) : triangles;
   std::vector<int> targets;
   for (const float ratio : options.ratios.empty() ? Ladder(limit) : options.ratios) {
     const int wanted = static_cast<int>(std::lround(ratio * static_cast<float>(limit)));
     const int target = std::max(wanted, std::min(options.min_triangles, limit));
     // A level that hardly differs from the one before helps nobody.
-    if (targets.empty() || static_cast<float>(target) <
-                               (1 - 2 * kTargetTolerance) * static_cast<float>(targets.back())) {
+    if (targets.empty() ||
+        static_cast<float>(target) < (1 - 2 * kTargetTolerance) * static_cast<float>(targets.back())) {
       targets.push_back(std::max(target, 1));
     }
   }
@@ -103,7 +101,8 @@ std::vector<int> Targets(const LevelsOptions& options, int triangles) {
 
 float Error_mm(const AvatarLevel& level) { return std::max(level.error_mm, level.posed_error_mm); }
 
-// The person's height on screen from which on a level's error spans error_px, or its light would look unlike the original's.
+// The person's height on screen from which on a level's error spans error_px, or its light would look unlike the
+// original's.
 float Limit_px(const AvatarLevel& level, const Avatar& avatar, float error_px) {
   const float height_mm = 1000 * avatar.height_m;
   const float limit_px =
@@ -161,9 +160,8 @@ Avatar WithoutIdleJoints(Avatar avatar) {
 }
 
 std::string Missed(const Avatar& avatar, int triangles, int target) {
-  return "avatar '" + OneLine(avatar.name) + "': a level has " + std::to_string(triangles) +
-         " triangles instead of " + std::to_string(target) +
-         ", as its parts cannot be simplified further";
+  return "avatar '" + OneLine(avatar.name) + "': a level has " + std::to_string(triangles) + " triangles instead of " +
+         std::to_string(target) + ", as its parts cannot be simplified further";
 }
 
 // What all levels of one original are fitted to and measured against.
@@ -175,7 +173,8 @@ struct Reference {
   LevelMeter meter;
 };
 
-AvatarLevel FinishedLevel(const Avatar& avatar, const LevelsOptions& options, const Reference& reference, WedgeSurface surface) {
+AvatarLevel FinishedLevel(const Avatar& avatar, const LevelsOptions& options, const Reference& reference,
+                          WedgeSurface surface) {
   reference.surface.Fit(&surface);
   reference.look.Fit(&surface);
   AvatarLevel level;
@@ -187,7 +186,8 @@ AvatarLevel FinishedLevel(const Avatar& avatar, const LevelsOptions& options, co
 }
 
 // Levels of so many triangles; while some are fitted and measured the next is decimated.
-std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const LevelsOptions& options, std::vector<std::string>* warnings) {
+std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const LevelsOptions& options,
+                                         std::vector<std::string>* warnings) {
   const int original = CountTriangles(avatar.meshes);
   const std::vector<int> targets = Targets(options, original);
   std::vector<AvatarLevel> levels(targets.size());
@@ -205,8 +205,11 @@ std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const LevelsOptio
   for (size_t k = first; k < targets.size(); ++k) {
     decimater.DecimateTo(targets[k]);
     const float most = (1 + kTargetTolerance) * static_cast<float>(targets[k]);
-    if (static_cast<float>(decimater.Triangles()) > most) warnings->push_back(Missed(avatar, decimater.Triangles(), targets[k]));
-    const auto finish = [&](WedgeSurface surface) { return FinishedLevel(avatar, options, *reference.get(), std::move(surface)); };
+    if (static_cast<float>(decimater.Triangles()) > most)
+      warnings->push_back(Missed(avatar, decimater.Triangles(), targets[k]));
+    const auto finish = [&](WedgeSurface surface) {
+      return FinishedLevel(avatar, options, *reference.get(), std::move(surface));
+    };
     waiting.push_back(std::async(std::launch::async, finish, decimater.Surface()));
   }
   for (size_t k = first; k < targets.size(); ++k) levels[k] = waiting[k - first].get();

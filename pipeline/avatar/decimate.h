@@ -12,8 +12,8 @@ namespace flaneur {
 struct LevelsOptions {
   // Of the original's triangles, falling, in (0, 1]. Empty: the chain follows from the errors. It
   // has 1, 0.5, 0.4, 0.2, 0.1, 0.05, ... of the triangles without the levels that no size on screen
-  // needs, and ends, from the third level on, where impostors are better, or where so few triangles save nothing. Levels whose normals
-  // are more than 2.5 degrees off on average are shown below 128 px alone.
+  // needs, and ends, from the third level on, where impostors are better, or where so few triangles save nothing.
+  // Levels whose normals are more than 2.5 degrees off on average are shown below 128 px alone.
   std::vector<float> ratios;
   float error_px = 1;      // on the screen: that much of a level's error may show
   int max_triangles = 0;   // of level 0; 0: no limit

@@ -55,11 +55,13 @@ float MetresOfUv(const std::array<Vec3, 3>& triangle, const std::vector<Vec2>& u
 }
 
 // `there`: the triangle that the place is in. `guesses`: by mesh, of where the nearest place is.
-Tie TieOf(const WedgeSurface& level, const std::vector<LookOriginal>& originals, const SurfacePlace& place, const std::array<Vec3, 3>& there,
-          std::vector<uint32_t>* guesses) {
+Tie TieOf(const WedgeSurface& level, const std::vector<LookOriginal>& originals, const SurfacePlace& place,
+          const std::array<Vec3, 3>& there, std::vector<uint32_t>* guesses) {
   const WedgeSurface::Face& face = level.faces[place.triangle];
   Tie tie{face.wedges, place.shares, {}, {}, {}, false, false};
-  const auto wedge = [&](size_t k) -> const WedgeSurface::Wedge& { return level.wedges[static_cast<size_t>(face.wedges[k])]; };
+  const auto wedge = [&](size_t k) -> const WedgeSurface::Wedge& {
+    return level.wedges[static_cast<size_t>(face.wedges[k])];
+  };
   const LookOriginal& original = originals[static_cast<size_t>(wedge(0).mesh)];
   if (!original.tree) return tie;
   uint32_t& guess = (*guesses)[static_cast<size_t>(wedge(0).mesh)];
@@ -73,7 +75,8 @@ Tie TieOf(const WedgeSurface& level, const std::vector<LookOriginal>& originals,
   if (original.mesh->uvs.empty() || original.charts[corners[0]] != wedge(0).chart) return tie;
   tie.uv = Mixed(original.mesh->uvs, corners, found.shares);
   const Vec2 now = wedge(0).uv * place.shares[0] + wedge(1).uv * place.shares[1] + wedge(2).uv * place.shares[2];
-  tie.has_uv = Length(tie.uv - now) * MetresOfUv(original.triangles[found.triangle], original.mesh->uvs, corners) < kFarthest_m;
+  tie.has_uv =
+      Length(tie.uv - now) * MetresOfUv(original.triangles[found.triangle], original.mesh->uvs, corners) < kFarthest_m;
   return tie;
 }
 
@@ -89,7 +92,8 @@ std::vector<int> Alike(const WedgeSurface& level, auto alike) {
       auto& others = of_vertex[static_cast<size_t>(face.vertices[k])];
       const WedgeSurface::Wedge& wedge = level.wedges[static_cast<size_t>(face.wedges[k])];
       for (const int other : others) {
-        if (number < 0 && alike(wedge, level.wedges[static_cast<size_t>(other)])) number = numbers[static_cast<size_t>(other)];
+        if (number < 0 && alike(wedge, level.wedges[static_cast<size_t>(other)]))
+          number = numbers[static_cast<size_t>(other)];
       }
       if (number < 0) number = next++;
       others.push_back(face.wedges[k]);
@@ -108,7 +112,7 @@ struct Pulls {
   std::vector<Corner> corners;
 };
 
-Pulls PullsOf(const std::vector<Tie>& ties, bool Tie::* counts, const std::vector<int>& numbers) {
+Pulls PullsOf(const std::vector<Tie>& ties, bool Tie::*counts, const std::vector<int>& numbers) {
   Pulls pulls;
   pulls.first.resize(numbers.size() + 2);
   const auto each = [&](auto visit) {
@@ -127,10 +131,11 @@ Pulls PullsOf(const std::vector<Tie>& ties, bool Tie::* counts, const std::vecto
   return pulls;
 }
 
-// Values at the corners that, mixed by their shares, come nearest to the ties' wanted ones: solved one after the other, in rounds.
+// Values at the corners that, mixed by their shares, come nearest to the ties' wanted ones: solved one after the other,
+// in rounds.
 template <typename Value>
-void Solve(const std::vector<Tie>& ties, bool Tie::* counts, const std::vector<int>& numbers, Value Tie::* wanted, int rounds,
-           std::vector<Value>* values) {
+void Solve(const std::vector<Tie>& ties, bool Tie::*counts, const std::vector<int>& numbers, Value Tie::*wanted,
+           int rounds, std::vector<Value>* values) {
   const Pulls pulls = PullsOf(ties, counts, numbers);
   std::vector<Value> left(ties.size());
   for (size_t i = 0; i < ties.size(); ++i) left[i] = ties[i].*wanted;
@@ -163,7 +168,8 @@ void Solve(const std::vector<Tie>& ties, bool Tie::* counts, const std::vector<i
 }
 
 template <typename Value>
-std::vector<Value> ValuesOf(const WedgeSurface& level, const std::vector<int>& numbers, Value WedgeSurface::Wedge::* member) {
+std::vector<Value> ValuesOf(const WedgeSurface& level, const std::vector<int>& numbers,
+                            Value WedgeSurface::Wedge::*member) {
   std::vector<Value> values(numbers.size());
   for (size_t w = 0; w < numbers.size(); ++w) {
     if (numbers[w] >= 0) values[static_cast<size_t>(numbers[w])] = level.wedges[w].*member;
@@ -202,7 +208,8 @@ LookFitter::~LookFitter() = default;
 void LookFitter::Fit(WedgeSurface* level) const {
   if (2 * level->faces.size() > static_cast<size_t>(options_.samples)) return;
   const Triangles triangles = BindTriangles(*level);
-  const size_t samples = std::min(std::max(kSamplesAFace * triangles.size(), kMinSamples), static_cast<size_t>(options_.samples));
+  const size_t samples =
+      std::min(std::max(kSamplesAFace * triangles.size(), kMinSamples), static_cast<size_t>(options_.samples));
   const std::vector<SurfacePlace> places = SpreadPlaces(triangles, static_cast<int>(samples));
   std::vector<Tie> ties(places.size());
   RunOnThreads([&](size_t first, size_t step) {
@@ -215,7 +222,8 @@ void LookFitter::Fit(WedgeSurface* level) const {
     }
   });
   using Wedge = WedgeSurface::Wedge;
-  const std::vector<int> normal_of = Alike(*level, [](const Wedge& a, const Wedge& b) { return Dot(a.normal, b.normal) > kSameNormal; });
+  const std::vector<int> normal_of =
+      Alike(*level, [](const Wedge& a, const Wedge& b) { return Dot(a.normal, b.normal) > kSameNormal; });
   std::vector<Vec3> normals = ValuesOf(*level, normal_of, &Wedge::normal);
   Solve(ties, &Tie::counts, normal_of, &Tie::normal, options_.rounds, &normals);
   const std::vector<int> color_of = Alike(*level, [](const Wedge& a, const Wedge& b) {
@@ -235,7 +243,8 @@ void LookFitter::Fit(WedgeSurface* level) const {
     if (Length(wedge.normal) > 0 && Length(normal) > 0) wedge.normal = normal;
     const Vec4 c = colors[static_cast<size_t>(color_of[w])];
     const auto unit = [](float v) { return std::clamp(v, 0.0f, 1.0f); };
-    if (wedge.chart >= 0) wedge.uv = Within(bounds_[static_cast<size_t>(wedge.chart)], uvs[static_cast<size_t>(uv_of[w])]);
+    if (wedge.chart >= 0)
+      wedge.uv = Within(bounds_[static_cast<size_t>(wedge.chart)], uvs[static_cast<size_t>(uv_of[w])]);
     wedge.color = {unit(c.x), unit(c.y), unit(c.z), unit(c.w)};
   }
 }

@@ -17,20 +17,19 @@ constexpr double kAlong = 0.02;          // of a pull along the surface, against
 constexpr double kBindShare = 1.25;      // of the bind pose, against all others together
 constexpr double kInertia = 0.02;        // of what holds a vertex where it is, against the pulls
 constexpr double kWeightInertia = 0.05;  // the same of its weights
-constexpr float kMinShare =
-    0.01f;                         // of a corner in a place: less pulls at the other corners only
-constexpr float kFarthest = 1.5f;  // of its first ties' greatest length: so far may a vertex move
-constexpr float kStraight = 0.7f;  // cosine; a longer way round has a border or crease between
-constexpr float kSameSide = 0.2f;  // cosine between normals of places that belong together
-constexpr size_t kBlock = 256;     // places on one thread
+constexpr float kMinShare = 0.01f;       // of a corner in a place: less pulls at the other corners only
+constexpr float kFarthest = 1.5f;        // of its first ties' greatest length: so far may a vertex move
+constexpr float kStraight = 0.7f;        // cosine; a longer way round has a border or crease between
+constexpr float kSameSide = 0.2f;        // cosine between normals of places that belong together
+constexpr size_t kBlock = 256;           // places on one thread
 // Places a face and at most: small originals, whose levels are seen from nearer, can afford more.
 struct Density {
   size_t a_face, most;
 };
 constexpr Density kSmallOriginal{12, 30000}, kLargeOriginal{5, 20000};
 constexpr size_t kLargeOriginalFaces = 20000, kMinSamples = 5000;
-constexpr size_t kMaxFaces = 10000;  // of a level: of larger ones too few places would be left for a vertex
-constexpr int kRounds = 2;  // of tying and solving
+constexpr size_t kMaxFaces = 10000;         // of a level: of larger ones too few places would be left for a vertex
+constexpr int kRounds = 2;                  // of tying and solving
 constexpr double kMinFaceTurnCosine = 0.1;  // cosine; a face that turns further is taken to fold over
 
 // A place of the level that should be where a place of the original is.
@@ -44,7 +43,7 @@ struct Tie {
 struct FitOriginal {
   const std::vector<std::vector<Mat4>>& poses;
   std::vector<Triangles> triangles;  // by pose, the bind pose first
-  std::vector<SurfacePlace> places;         // that are tied
+  std::vector<SurfacePlace> places;  // that are tied
   std::unique_ptr<SurfaceTree> tree;
 };
 
@@ -53,10 +52,7 @@ namespace {
 class Fitter {
  public:
   Fitter(const FitOriginal& original, size_t samples, WedgeSurface* level)
-      : poses_(original.poses),
-        level_(level),
-        original_(original.triangles),
-        tree_(*original.tree) {
+      : poses_(original.poses), level_(level), original_(original.triangles), tree_(*original.tree) {
     for (size_t i = 0; i < samples; ++i) {
       on_original_.push_back(original.places[i * original.places.size() / samples]);
     }
@@ -115,13 +111,10 @@ class Fitter {
   Tie Tied(const Triangles& level, const SurfaceTree& level_tree, size_t i) {
     Tie tie;
     const bool from_original = i < on_original_.size();
-    if (from_original)
-      tie.on_original = on_original_[i];
-    else
-      tie.on_level = on_level_[i - on_original_.size()];
-    const Vec3 from = from_original
-                          ? At(original_[0][tie.on_original.triangle], tie.on_original.shares)
-                          : At(level[tie.on_level.triangle], tie.on_level.shares);
+    if (from_original) tie.on_original = on_original_[i];
+    else tie.on_level = on_level_[i - on_original_.size()];
+    const Vec3 from = from_original ? At(original_[0][tie.on_original.triangle], tie.on_original.shares)
+                                    : At(level[tie.on_level.triangle], tie.on_level.shares);
     const auto nearest = (from_original ? level_tree : tree_).Find(from, guesses_[i]);
     guesses_[i] = nearest.triangle;
     (from_original ? tie.on_level : tie.on_original) = {nearest.triangle, nearest.shares};
@@ -261,8 +254,7 @@ class Fitter {
         }
         curve += kWeightInertia * scale / 3 * way2 / static_cast<double>(poses_.size());
         if (!(curve > 0)) continue;
-        const float s = std::clamp(static_cast<float>(-slope / (2 * curve)), -vertex.weights[i],
-                                   vertex.weights[j]);
+        const float s = std::clamp(static_cast<float>(-slope / (2 * curve)), -vertex.weights[i], vertex.weights[j]);
         vertex.weights[i] += s;
         vertex.weights[j] -= s;
         Pose(v);
@@ -275,7 +267,7 @@ class Fitter {
   std::vector<Vec3> start_;                 // places before all
   std::vector<float> reach_;                // the greatest distance of a vertex's first ties
   const std::vector<Triangles>& original_;  // bind pose first
-  std::vector<SurfacePlace> on_original_;          // that are tied
+  std::vector<SurfacePlace> on_original_;   // that are tied
   const SurfaceTree& tree_;
   std::vector<std::vector<size_t>> faces_of_;
   std::vector<Affine> skinning_;  // by vertex and pose
@@ -294,14 +286,12 @@ Density DensityFor(const FitOriginal& original) {
 
 }  // namespace
 
-SurfaceFitter::SurfaceFitter(const std::vector<Mesh>& original,
-                             const std::vector<std::vector<Mat4>>& poses)
+SurfaceFitter::SurfaceFitter(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses)
     : original_(new FitOriginal{poses, {}, {}, nullptr}) {
   const std::vector<Mesh> shapes = Shapes(original);
   original_->triangles.push_back(PosedTriangles(shapes, nullptr));
   for (const auto& pose : poses) original_->triangles.push_back(PosedTriangles(shapes, &pose));
-  original_->places = SpreadPlaces(original_->triangles[0],
-                                   static_cast<int>(DensityFor(*original_).most));
+  original_->places = SpreadPlaces(original_->triangles[0], static_cast<int>(DensityFor(*original_).most));
   original_->tree = std::make_unique<SurfaceTree>(original_->triangles[0]);
 }
 
@@ -310,8 +300,7 @@ SurfaceFitter::~SurfaceFitter() = default;
 void SurfaceFitter::Fit(WedgeSurface* level) const {
   if (level->faces.size() > kMaxFaces) return;
   const Density density = DensityFor(*original_);
-  const size_t samples =
-      std::clamp(density.a_face * level->faces.size(), kMinSamples, density.most);
+  const size_t samples = std::clamp(density.a_face * level->faces.size(), kMinSamples, density.most);
   Fitter fitter(*original_, samples, level);
   for (int round = 0; round < kRounds; ++round) {
     fitter.TieAll();

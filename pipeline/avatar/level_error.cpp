@@ -16,8 +16,7 @@ constexpr size_t kMaxCorners = 6000;
 constexpr float kSameSide = 0.3f;  // cosine between normals of places that belong together
 
 // Points that move with a surface: evenly spread ones and corners, where distances are greatest.
-std::vector<SurfacePlace> PlacesOn(const std::vector<Mesh>& meshes, const Triangles& triangles,
-                            int samples) {
+std::vector<SurfacePlace> PlacesOn(const std::vector<Mesh>& meshes, const Triangles& triangles, int samples) {
   std::vector<SurfacePlace> places = SpreadPlaces(triangles, samples), corners;
   uint32_t triangle = 0;
   for (const Mesh& mesh : meshes) {
@@ -44,7 +43,8 @@ struct PosedSurface {
 };
 
 // A surface in all poses, the bind pose first.
-std::vector<PosedSurface> InAllPoses(const std::vector<Mesh>& of, const std::vector<std::vector<Mat4>>& poses, int samples) {
+std::vector<PosedSurface> InAllPoses(const std::vector<Mesh>& of, const std::vector<std::vector<Mat4>>& poses,
+                                     int samples) {
   const std::vector<Mesh> meshes = Shapes(of);
   const Triangles bind = PosedTriangles(meshes, nullptr);
   const std::vector<SurfacePlace> places = PlacesOn(meshes, bind, samples);
@@ -59,9 +59,10 @@ std::vector<PosedSurface> InAllPoses(const std::vector<Mesh>& of, const std::vec
   return all;
 }
 
-// The greatest distance of the points from the surface, or `greatest` where that is more. `guesses`, one a point, of where each is
-// nearest: mostly where it was in another pose.
-float Farthest(const std::vector<Vec3>& points, const SurfaceTree& surface, float greatest, std::vector<uint32_t>* guesses) {
+// The greatest distance of the points from the surface, or `greatest` where that is more. `guesses`, one a point, of
+// where each is nearest: mostly where it was in another pose.
+float Farthest(const std::vector<Vec3>& points, const SurfaceTree& surface, float greatest,
+               std::vector<uint32_t>* guesses) {
   const bool first_time = guesses->empty();
   guesses->resize(points.size(), 0);
   for (size_t i = 0; i < points.size(); ++i) {
@@ -83,7 +84,8 @@ Triangles CornerNormals(const std::vector<Mesh>& meshes) {
   return normals;
 }
 
-float MeanAngle_deg(const SurfaceTree& original, const Triangles& original_normals, const std::vector<Mesh>& meshes, int samples) {
+float MeanAngle_deg(const SurfaceTree& original, const Triangles& original_normals, const std::vector<Mesh>& meshes,
+                    int samples) {
   const Triangles triangles = PosedTriangles(meshes, nullptr), normals = CornerNormals(meshes);
   double sum = 0;
   int count = 0;
@@ -91,7 +93,8 @@ float MeanAngle_deg(const SurfaceTree& original, const Triangles& original_norma
   for (const SurfacePlace& place : SpreadPlaces(triangles, samples)) {
     const auto found = original.Find(At(triangles[place.triangle], place.shares), guess);
     guess = found.triangle;
-    const Vec3 a = Normalized(At(normals[place.triangle], place.shares)), b = Normalized(At(original_normals[found.triangle], found.shares));
+    const Vec3 a = Normalized(At(normals[place.triangle], place.shares)),
+               b = Normalized(At(original_normals[found.triangle], found.shares));
     if (!(Dot(a, b) > kSameSide)) continue;
     sum += std::atan2(static_cast<double>(Length(Cross(a, b))), static_cast<double>(Dot(a, b)));
     ++count;
@@ -131,7 +134,8 @@ void LevelMeter::MeasureDistance(AvatarLevel* level) const {
   });
   level->error_mm = 1000 * errors_m[0];
   level->posed_error_mm = 0;
-  for (size_t pose = 1; pose < errors_m.size(); ++pose) level->posed_error_mm = std::max(level->posed_error_mm, 1000 * errors_m[pose]);
+  for (size_t pose = 1; pose < errors_m.size(); ++pose)
+    level->posed_error_mm = std::max(level->posed_error_mm, 1000 * errors_m[pose]);
 }
 
 void LevelMeter::MeasureNormals(AvatarLevel* level) const {

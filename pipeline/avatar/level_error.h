@@ -8,15 +8,16 @@ namespace flaneur {
 
 struct MeasuredOriginal;
 
-// Keeps what all levels of one original, which must outlive this, are measured against. Any number of levels may be measured at once.
+// Keeps what all levels of one original, which must outlive this, are measured against. Any number of levels may be
+// measured at once.
 class LevelMeter {
  public:
   // `samples` points and up to 6,000 vertices of each surface; `walk_poses` moments of the walk.
   LevelMeter(const Avatar& original, int samples, int walk_poses);
   ~LevelMeter();
 
-  // Sets error_mm and posed_error_mm: the greatest of the distances of either surface's points from the other. The same result on any
-  // number of threads.
+  // Sets error_mm and posed_error_mm: the greatest of the distances of either surface's points from the other. The same
+  // result on any number of threads.
   void MeasureDistance(AvatarLevel* level) const;
 
   // Sets normal_deg, at `samples` places of the level whose nearest place of the original faces the same way.

@@ -11,9 +11,8 @@
 namespace flaneur {
 namespace {
 
-constexpr float kMerged_px =
-    600;  // height of the person; larger ones show more than an atlas holds
-constexpr float kMaxRepeats = 4;  // of a picture, in each direction
+constexpr float kMerged_px = 600;  // height of the person; larger ones show more than an atlas holds
+constexpr float kMaxRepeats = 4;   // of a picture, in each direction
 constexpr float kSparse = 0.1f;    // of the surface: so much may be stretched more
 constexpr int kGutter_px = 16;     // stays clean down to the mip level of a sixteenth
 constexpr int kAlign_px = 16;      // so that mip levels stay what they were
@@ -28,7 +27,7 @@ struct Rect {
 struct Member {
   size_t mesh = 0;
   Material material;
-  std::optional<Pixels> picture;                // none: the base colour alone
+  std::optional<Pixels> picture;                 // none: the base colour alone
   Rect used;                                     // of the picture, uv
   int halvings = 0;                              // as a mip level
   float texels_per_m = 0;                        // of the picture, where it is stretched most
@@ -60,8 +59,7 @@ void ShiftToFirstTile(Mesh* mesh) {
   }
   for (uint32_t v = 0; v < parent.size(); ++v) {
     const Vec2 min = least[root(v)];
-    mesh->uvs[v] =
-        mesh->uvs[v] - Vec2{std::floor(min.x + kSameTile), std::floor(min.y + kSameTile)};
+    mesh->uvs[v] = mesh->uvs[v] - Vec2{std::floor(min.x + kSameTile), std::floor(min.y + kSameTile)};
   }
 }
 
@@ -91,9 +89,7 @@ float TexelsPerMetre(const Mesh& mesh, const Pixels& picture) {
   const Vec2 size{static_cast<float>(picture.width), static_cast<float>(picture.height)};
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const uint32_t* corner = &mesh.indices[i];
-    const auto side = [&](size_t k) {
-      return mesh.positions[corner[k]] - mesh.positions[corner[0]];
-    };
+    const auto side = [&](size_t k) { return mesh.positions[corner[k]] - mesh.positions[corner[0]]; };
     const auto texels = [&](size_t k) {
       const Vec2 uv = mesh.uvs[corner[k]] - mesh.uvs[corner[0]];
       return Vec2{uv.x * size.x, uv.y * size.y};
@@ -125,8 +121,8 @@ class Merger {
       Member member;
       member.mesh = m;
       member.material = MaterialOf(levels_->avatar, meshes[m]);
-      const bool fits = member.material.double_sided == double_sided &&
-                        (member.material.alpha == Material::Alpha::kBlend) == blended;
+      const bool fits =
+          member.material.double_sided == double_sided && (member.material.alpha == Material::Alpha::kBlend) == blended;
       if (fits && Anything(m) && Prepare(&member)) members_.push_back(std::move(member));
     }
     if (members_.size() < 2) return;
@@ -160,15 +156,13 @@ class Merger {
     if (!(size.x <= kMaxRepeats && size.y <= kMaxRepeats)) {
       return Refuse(*member, "repeats its picture more than four times");
     }
-    member->texels_per_m =
-        TexelsPerMetre(levels_->levels[first_].meshes[member->mesh], *member->picture);
+    member->texels_per_m = TexelsPerMetre(levels_->levels[first_].meshes[member->mesh], *member->picture);
     return true;
   }
 
   bool Refuse(const Member& member, const std::string& why) {
-    warnings_->push_back("avatar '" + OneLine(levels_->avatar.name) + "': material '" +
-                         OneLine(member.material.name) + "' " + why +
-                         " and keeps apart at coarser levels");
+    warnings_->push_back("avatar '" + OneLine(levels_->avatar.name) + "': material '" + OneLine(member.material.name) +
+                         "' " + why + " and keeps apart at coarser levels");
     return false;
   }
 
@@ -214,14 +208,11 @@ class Merger {
     const auto w = static_cast<float>(member->width_px), h = static_cast<float>(member->height_px);
     member->left = Down(member->used.min.x * w);
     member->top = Down(member->used.min.y * h);
-    member->columns =
-        std::max(1, static_cast<int>(std::ceil(member->used.max.x * w)) - member->left);
+    member->columns = std::max(1, static_cast<int>(std::ceil(member->used.max.x * w)) - member->left);
     member->rows = std::max(1, static_cast<int>(std::ceil(member->used.max.y * h)) - member->top);
   }
 
-  static int Down(float px) {
-    return kAlign_px * static_cast<int>(std::floor(px / static_cast<float>(kAlign_px)));
-  }
+  static int Down(float px) { return kAlign_px * static_cast<int>(std::floor(px / static_cast<float>(kAlign_px))); }
 
   static int Up(int px) { return (px + kAlign_px - 1) / kAlign_px * kAlign_px; }
 
@@ -232,8 +223,7 @@ class Merger {
       Measure(&member);
       order.push_back(&member);
     }
-    std::stable_sort(order.begin(), order.end(),
-                     [](const Member* a, const Member* b) { return a->rows > b->rows; });
+    std::stable_sort(order.begin(), order.end(), [](const Member* a, const Member* b) { return a->rows > b->rows; });
     int x = 0, y = 0, shelf = 0;
     for (Member* member : order) {
       const int width = Up(member->columns + 2 * kGutter_px);
@@ -262,8 +252,7 @@ class Merger {
     Pixels atlas = Resized(Resized(parts[0], 1, 1), side_px, side_px);
     for (size_t i = 0; i < parts.size(); ++i) {
       const Member& m = members_[i];
-      CopyRepeated(parts[i], {m.left - kGutter_px, m.top - kGutter_px},
-                   {m.x - kGutter_px, m.y - kGutter_px},
+      CopyRepeated(parts[i], {m.left - kGutter_px, m.top - kGutter_px}, {m.x - kGutter_px, m.y - kGutter_px},
                    {m.columns + 2 * kGutter_px, m.rows + 2 * kGutter_px}, &atlas);
     }
     return atlas;
@@ -299,12 +288,8 @@ class Merger {
     }
     const auto side = static_cast<float>(side_px);
     for (Vec2& uv : moved.uvs) {
-      uv.x = (uv.x * static_cast<float>(member.width_px) +
-              static_cast<float>(member.x - member.left)) /
-             side;
-      uv.y = (uv.y * static_cast<float>(member.height_px) +
-              static_cast<float>(member.y - member.top)) /
-             side;
+      uv.x = (uv.x * static_cast<float>(member.width_px) + static_cast<float>(member.x - member.left)) / side;
+      uv.y = (uv.y * static_cast<float>(member.height_px) + static_cast<float>(member.y - member.top)) / side;
     }
     return moved;
   }
@@ -313,17 +298,14 @@ class Merger {
     Mesh joined;
     joined.name = "merged";
     joined.material = material;
-    const bool colored = std::any_of(members_.begin(), members_.end(), [&](const Member& member) {
-      return !(*meshes)[member.mesh].colors.empty();
-    });
+    const bool colored = std::any_of(members_.begin(), members_.end(),
+                                     [&](const Member& member) { return !(*meshes)[member.mesh].colors.empty(); });
     for (const Member& member : members_) {
       Mesh& mesh = (*meshes)[member.mesh];
       Mesh part = Moved(member, side_px, mesh);
       if (colored) part.colors.resize(part.positions.size(), {1, 1, 1, 1});
       const auto base = static_cast<uint32_t>(joined.positions.size());
-      const auto append = [](const auto& from, auto* to) {
-        to->insert(to->end(), from.begin(), from.end());
-      };
+      const auto append = [](const auto& from, auto* to) { to->insert(to->end(), from.begin(), from.end()); };
       append(part.positions, &joined.positions);
       append(part.normals, &joined.normals);
       append(part.uvs, &joined.uvs);

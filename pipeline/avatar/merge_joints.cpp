@@ -34,8 +34,7 @@ float Displacement(const Corner& corner, const Joints& standing, const std::vect
   for (size_t i = 0; i < 4; ++i) {
     const uint16_t own = corner.joints[i], other = standing[own];
     if (!(corner.weights[i] > 0) || own == other) continue;
-    moved = moved + (TransformPoint(pose[other], corner.position) -
-                     TransformPoint(pose[own], corner.position)) *
+    moved = moved + (TransformPoint(pose[other], corner.position) - TransformPoint(pose[own], corner.position)) *
                         corner.weights[i];
   }
   return Length(moved);
@@ -66,8 +65,8 @@ std::vector<std::vector<uint32_t>> MovedBy(const std::vector<Corner>& corners, s
 }
 
 // The greatest displacement of these corners, or more than `bound_m` as soon as one is farther.
-float Greatest(const std::vector<Corner>& corners, const std::vector<uint32_t>& of,
-               const Joints& standing, const Poses& poses, float bound_m) {
+float Greatest(const std::vector<Corner>& corners, const std::vector<uint32_t>& of, const Joints& standing,
+               const Poses& poses, float bound_m) {
   float greatest = 0;
   for (const std::vector<Mat4>& pose : poses) {
     for (const uint32_t c : of) {
@@ -87,8 +86,7 @@ void Replace(const Joints& standing, Mesh* mesh) {
       if (!(mesh->weights[v][i] > 0)) continue;
       const uint16_t joint = standing[mesh->joints[v][i]];
       const size_t at = static_cast<size_t>(
-          std::find(joints.begin(), joints.begin() + static_cast<std::ptrdiff_t>(count), joint) -
-          joints.begin());
+          std::find(joints.begin(), joints.begin() + static_cast<std::ptrdiff_t>(count), joint) - joints.begin());
       joints[at] = joint;
       weights[at] += mesh->weights[v][i];
       count = std::max(count, at + 1);

@@ -25,9 +25,7 @@ void AddPulledBack(const Quadric& q, const Affine& affine, Quadric* sum) {
     a[1][c] = q.xy * m[c] + q.yy * m[4 + c] + q.yz * m[8 + c];
     a[2][c] = q.xz * m[c] + q.yz * m[4 + c] + q.zz * m[8 + c];
   }
-  const auto product = [&](size_t r, size_t c) {
-    return m[r] * a[0][c] + m[4 + r] * a[1][c] + m[8 + r] * a[2][c];
-  };
+  const auto product = [&](size_t r, size_t c) { return m[r] * a[0][c] + m[4 + r] * a[1][c] + m[8 + r] * a[2][c]; };
   const auto linear = [&](size_t c) { return m[c] * q.x + m[4 + c] * q.y + m[8 + c] * q.z; };
   sum->xx += product(0, 0);
   sum->xy += product(0, 1);

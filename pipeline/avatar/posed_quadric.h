@@ -19,15 +19,9 @@ inline DVec3 operator+(DVec3 a, DVec3 b) { return {a.x + b.x, a.y + b.y, a.z + b
 inline DVec3 operator-(DVec3 a, DVec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline DVec3 operator*(DVec3 a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 inline double Dot(DVec3 a, DVec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline DVec3 Cross(DVec3 a, DVec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline DVec3 ToDouble(Vec3 v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-inline Vec3 ToFloat(DVec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+inline DVec3 Cross(DVec3 a, DVec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+inline DVec3 ToDouble(Vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+inline Vec3 ToFloat(DVec3 v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 // p -> row . p + shift, three rows of four numbers.
 using Affine = std::array<float, 12>;
@@ -60,8 +54,7 @@ inline Quadric operator+(const Quadric& a, const Quadric& b) {
 inline Quadric PlaneQuadric(DVec3 n, DVec3 point, double weight) {
   const double d = -Dot(n, point);
   const DVec3 w = n * weight;
-  return {w.x * n.x, w.x * n.y, w.x * n.z, w.y * n.y, w.y * n.z,
-          w.z * n.z, w.x * d,   w.y * d,   w.z * d,   weight * d * d};
+  return {w.x * n.x, w.x * n.y, w.x * n.z, w.y * n.y, w.y * n.z, w.z * n.z, w.x * d, w.y * d, w.z * d, weight * d * d};
 }
 
 // Squared distance from `point`, times `weight`.
@@ -70,8 +63,8 @@ inline Quadric PointQuadric(DVec3 p, double w) {
 }
 
 inline double Evaluate(const Quadric& q, DVec3 p) {
-  const double quadratic = p.x * (q.xx * p.x + 2 * (q.xy * p.y + q.xz * p.z)) +
-                           p.y * (q.yy * p.y + 2 * q.yz * p.z) + p.z * q.zz * p.z;
+  const double quadratic =
+      p.x * (q.xx * p.x + 2 * (q.xy * p.y + q.xz * p.z)) + p.y * (q.yy * p.y + 2 * q.yz * p.z) + p.z * q.zz * p.z;
   return quadratic + 2 * (q.x * p.x + q.y * p.y + q.z * p.z) + q.c;
 }
 

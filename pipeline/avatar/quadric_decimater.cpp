@@ -20,16 +20,16 @@ using Face = WedgeSurface::Face;
 using Wedge = WedgeSurface::Wedge;
 using OpenMesh::EdgeHandle, OpenMesh::FaceHandle, OpenMesh::HalfedgeHandle, OpenMesh::VertexHandle;
 
-constexpr double kBorderWeight = 1;    // of an open border's planes, against those of faces
-constexpr double kSeamWeight = 0.03;   // of a seam's
-constexpr double kStretch = 0.2;       // a picture shifted by a length costs as much as this share of it
-constexpr double kSpring = 1e-6;       // towards the edge, where planes leave a vertex free
-constexpr double kLengthCost = 1e-9;   // of an edge's squared length: decides where all else is equal
-constexpr double kReach = 2;           // of an edge's length: so far may its vertex move from it
-constexpr double kMinFaceTurnCosine = 0.2;     // cosine; a face that turns further is taken to fold over
-constexpr double kTwoSidedCosine = -0.95;        // cosine between faces: a sheet that is seen from both sides
-constexpr float kSameWeights = 0.02f;  // sum of differences
-constexpr int kTries = 2000;           // collapses looked at for one that hits the number of triangles
+constexpr double kBorderWeight = 1;         // of an open border's planes, against those of faces
+constexpr double kSeamWeight = 0.03;        // of a seam's
+constexpr double kStretch = 0.2;            // a picture shifted by a length costs as much as this share of it
+constexpr double kSpring = 1e-6;            // towards the edge, where planes leave a vertex free
+constexpr double kLengthCost = 1e-9;        // of an edge's squared length: decides where all else is equal
+constexpr double kReach = 2;                // of an edge's length: so far may its vertex move from it
+constexpr double kMinFaceTurnCosine = 0.2;  // cosine; a face that turns further is taken to fold over
+constexpr double kTwoSidedCosine = -0.95;   // cosine between faces: a sheet that is seen from both sides
+constexpr float kSameWeights = 0.02f;       // sum of differences
+constexpr int kTries = 2000;                // collapses looked at for one that hits the number of triangles
 
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
@@ -242,10 +242,8 @@ struct QuadricDecimater::Impl {
           const DVec3 n = Across(face, 0), m = Across(other, 0);
           folded = folded || Dot(n, m) < kTwoSidedCosine * std::sqrt(Dot(n, n) * Dot(m, m));
         }
-        if (others == 0 || (others == 1 && folded))
-          HoldEdge(face, a, b, kBorderWeight);
-        else if (!continued)
-          HoldEdge(face, a, b, kSeamWeight);
+        if (others == 0 || (others == 1 && folded)) HoldEdge(face, a, b, kBorderWeight);
+        else if (!continued) HoldEdge(face, a, b, kSeamWeight);
       }
     }
   }
@@ -297,8 +295,7 @@ struct QuadricDecimater::Impl {
       };
       const DVec3 anchor = from + along * t;
       const DVec3 p = Minimizer(sum, anchor, kSpring);
-      if (Dot(p - anchor, p - anchor) < kReach * kReach * length2)
-        consider(p);
+      if (Dot(p - anchor, p - anchor) < kReach * kReach * length2) consider(p);
       else
         for (const double s : {0.0, 0.5, 1.0}) consider(from + along * s);
     }
@@ -318,10 +315,8 @@ struct QuadricDecimater::Impl {
 
   void Queue(EdgeHandle e) {
     SetCollapse(e);
-    if (heap.is_stored(e))
-      heap.update(e);
-    else
-      heap.insert(e);
+    if (heap.is_stored(e)) heap.update(e);
+    else heap.insert(e);
   }
 
   void QueueAll() {

@@ -97,8 +97,8 @@ void SurfaceTree::Build(uint32_t node, Range range, const std::vector<Vec3>& cen
   std::array<Range, 4> parts{range};
   size_t count = 1;
   while (count < 4) {
-    const auto largest = std::max_element(parts.begin(), parts.begin() + count,
-                                          [](Range a, Range b) { return a.count < b.count; });
+    const auto largest =
+        std::max_element(parts.begin(), parts.begin() + count, [](Range a, Range b) { return a.count < b.count; });
     if (largest->count <= kLeafTriangles) break;
     const uint32_t half = Halve(*largest, centres);
     parts[count++] = {largest->first + half, largest->count - half};
@@ -204,8 +204,7 @@ SurfaceTree::Nearest SurfaceTree::Find(Vec3 point, uint32_t guess) const {
 
 float SurfaceTree::AtLeast(Vec3 point, float distance, uint32_t* guess) const {
   uint32_t triangle = places_[*guess];
-  const float enough = distance * distance,
-              guessed = SquaredToTriangle(point, triangles_[triangle]);
+  const float enough = distance * distance, guessed = SquaredToTriangle(point, triangles_[triangle]);
   if (guessed <= enough) return distance;
   const float squared = Search(point, guessed, enough, &triangle);
   *guess = numbers_[triangle];

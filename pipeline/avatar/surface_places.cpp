@@ -51,8 +51,7 @@ std::vector<SurfacePlace> SpreadPlaces(const Triangles& triangles, int count) {
     while (triangle + 1 < sums.size() && sums[triangle] < at) ++triangle;
     const auto root = static_cast<float>(std::sqrt(unit()));
     const auto share = static_cast<float>(unit());
-    places.push_back(
-        {static_cast<uint32_t>(triangle), {1 - root, root * (1 - share), root * share}});
+    places.push_back({static_cast<uint32_t>(triangle), {1 - root, root * (1 - share), root * share}});
   }
   return places;
 }

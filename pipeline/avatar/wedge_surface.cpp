@@ -19,8 +19,7 @@ constexpr float kCell_m = 1e-3f;  // much larger than kSamePlace_m: few corners 
 
 uint64_t CellKey(int64_t x, int64_t y, int64_t z) {
   const auto mixed = [](int64_t v, uint64_t prime) { return static_cast<uint64_t>(v) * prime; };
-  return mixed(x, 0x9E3779B97F4A7C15u) ^ mixed(y, 0xC2B2AE3D27D4EB4Fu) ^
-         mixed(z, 0x165667B19E3779F9u);
+  return mixed(x, 0x9E3779B97F4A7C15u) ^ mixed(y, 0xC2B2AE3D27D4EB4Fu) ^ mixed(z, 0x165667B19E3779F9u);
 }
 
 int64_t Cell(float v) { return static_cast<int64_t>(std::floor(v / kCell_m)); }
@@ -38,8 +37,7 @@ class Joiner {
       for (int64_t y = first(p.y); y <= last(p.y); ++y) {
         for (int64_t z = first(p.z); z <= last(p.z); ++z) {
           const auto cell = newest_.find(CellKey(x, y, z));
-          for (int v = cell == newest_.end() ? -1 : cell->second; v >= 0;
-               v = older_[static_cast<size_t>(v)]) {
+          for (int v = cell == newest_.end() ? -1 : cell->second; v >= 0; v = older_[static_cast<size_t>(v)]) {
             if (Same(static_cast<size_t>(v), p, posed)) return v;
           }
         }
@@ -82,8 +80,8 @@ WedgeSurface::Wedge WedgeOf(const Mesh& mesh, int index, size_t v) {
 }
 
 // The vertex of each corner; wedges are the meshes' own vertices, one after the other.
-std::vector<int> AddVertices(const std::vector<Mesh>& meshes,
-                             const std::vector<std::vector<Mat4>>& poses, WedgeSurface* surface) {
+std::vector<int> AddVertices(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& poses,
+                             WedgeSurface* surface) {
   Joiner joiner(poses.size());
   std::vector<int> vertices;
   std::vector<Vec3> posed(poses.size());
@@ -118,9 +116,8 @@ std::vector<int> AddVertices(const std::vector<Mesh>& meshes,
 bool operator==(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
 
 bool Same(const WedgeSurface::Wedge& a, const WedgeSurface::Wedge& b) {
-  return a.mesh == b.mesh && a.uv == b.uv && a.uv1 == b.uv1 &&
-         Length(a.normal - b.normal) < 1e-4f && a.color.x == b.color.x && a.color.y == b.color.y &&
-         a.color.z == b.color.z && a.color.w == b.color.w;
+  return a.mesh == b.mesh && a.uv == b.uv && a.uv1 == b.uv1 && Length(a.normal - b.normal) < 1e-4f &&
+         a.color.x == b.color.x && a.color.y == b.color.y && a.color.z == b.color.z && a.color.w == b.color.w;
 }
 
 template <typename T, typename From>
@@ -174,8 +171,7 @@ void MixWeights(const WedgeSurface::Vertex& b, float t, WedgeSurface::Vertex* a)
   }
 }
 
-WedgeSurface JoinWedges(const std::vector<Mesh>& meshes,
-                        const std::vector<std::vector<Mat4>>& poses) {
+WedgeSurface JoinWedges(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& poses) {
   WedgeSurface surface;
   const std::vector<int> vertices = AddVertices(meshes, poses, &surface);
   const std::vector<int> charts = ChartsOf(meshes);

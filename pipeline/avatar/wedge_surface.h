@@ -46,8 +46,7 @@ void MixWeights(const WedgeSurface::Vertex& b, float t, WedgeSurface::Vertex* a)
 
 // `poses`: skinning matrices; corners must also stay together in these. Triangles without extent
 // go, and so do repeated ones; any number of faces may meet at an edge.
-WedgeSurface JoinWedges(const std::vector<Mesh>& meshes,
-                        const std::vector<std::vector<Mat4>>& poses = {});
+WedgeSurface JoinWedges(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& poses = {});
 
 // A number for each vertex of each mesh, one mesh after the other: the same where uvs go on without a seam.
 std::vector<int> ChartsOf(const std::vector<Mesh>& meshes);

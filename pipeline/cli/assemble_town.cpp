@@ -42,8 +42,8 @@ void Shift(int* index, size_t by) {
 
 void AppendScene(Scene part, float scale, float yaw_rad, Vec2 position_m, Scene* town) {
   const Quat turn{0, std::sin(yaw_rad / 2), 0, std::cos(yaw_rad / 2)};
-  const Mat4 place = FromTranslationRotationScale(GltfFromGround({position_m.x, position_m.y, 0}), turn,
-                                                  {scale, scale, scale});
+  const Mat4 place =
+      FromTranslationRotationScale(GltfFromGround({position_m.x, position_m.y, 0}), turn, {scale, scale, scale});
   const size_t nodes = town->nodes.size(), meshes = town->meshes.size();
   const size_t materials = town->materials.size(), images = town->images.size();
   for (SceneNode& node : part.nodes) {

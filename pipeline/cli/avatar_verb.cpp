@@ -26,8 +26,7 @@ struct AvatarArguments {
 };
 
 void AddFiles(CLI::App* app, AvatarArguments* a) {
-  app->add_option("IN", a->input, "The person: a glTF file with a skin and a walk clip")
-      ->required();
+  app->add_option("IN", a->input, "The person: a glTF file with a skin and a walk clip")->required();
   app->add_option("-o,--output", a->output, "The glTF binary to write")->required();
   app->add_option("--json", a->json, "Also write the levels' numbers to this JSON file");
   app->option_defaults()->always_capture_default();
@@ -36,18 +35,14 @@ void AddFiles(CLI::App* app, AvatarArguments* a) {
 void AddPerson(CLI::App* app, AvatarArguments* a) {
   const std::string person = "Person";
   app->add_option("--name", a->read.name, "Name of the person; empty: the file's")->group(person);
-  app->add_option("--walk", a->read.walk,
-                  "Name of the walk clip in the file; empty: found by itself")
-      ->group(person);
+  app->add_option("--walk", a->read.walk, "Name of the walk clip in the file; empty: found by itself")->group(person);
   app->add_option("--idle", a->read.idle, "Name of the idle clip")->group(person);
   app->add_option("--talk", a->read.talk, "Name of the talk clip")->group(person);
-  app->add_option(
-         "--height", a->read.height_m,
-         "Metres to scale the person to; 0: as it is, or 1.75 where that is no person's height")
+  app->add_option("--height", a->read.height_m,
+                  "Metres to scale the person to; 0: as it is, or 1.75 where that is no person's height")
       ->check(CLI::Range(0.0, 10.0))
       ->group(person);
-  app->add_option("--hide", a->read.hide,
-                  "Names of nodes left out with what hangs on them, separated by commas")
+  app->add_option("--hide", a->read.hide, "Names of nodes left out with what hangs on them, separated by commas")
       ->delimiter(',')
       ->group(person);
 }
@@ -64,8 +59,7 @@ void AddLevels(CLI::App* app, AvatarArguments* a) {
                   "Pixels that a level's error may span on the screen where it is shown")
       ->check(CLI::PositiveNumber)
       ->group(levels);
-  app->add_option("--max-triangles", a->levels.max_triangles,
-                  "Most triangles of the finest level; 0: no limit")
+  app->add_option("--max-triangles", a->levels.max_triangles, "Most triangles of the finest level; 0: no limit")
       ->check(CLI::NonNegativeNumber)
       ->group(levels);
   app->add_option("--min-triangles", a->levels.min_triangles, "Fewest triangles of a level")
@@ -77,9 +71,8 @@ void AddCompression(CLI::App* app, AvatarArguments* a) {
   const std::string compression = "Compression";
   app->add_flag("--no-draco", a->plain, "Write plain meshes and clips, for programs that know no compression")
       ->group(compression);
-  app->add_option(
-         "--position-bits", a->draco.position_bits,
-         "Bits of a position's component, 8 to 24; 0: 14, in coarser levels by their error")
+  app->add_option("--position-bits", a->draco.position_bits,
+                  "Bits of a position's component, 8 to 24; 0: 14, in coarser levels by their error")
       ->check(CLI::IsMember({0}) | CLI::Range(8, 24))
       ->group(compression);
   app->add_option("--normal-bits", a->draco.normal_bits, "Bits of a normal")
@@ -140,15 +133,14 @@ Error Run(AvatarArguments a, AvatarLevels* levels, std::vector<MainColor>* color
 void PrintSummary(const AvatarArguments& a, const AvatarLevels& levels, const std::vector<MainColor>& colors) {
   const Avatar& avatar = levels.avatar;
   std::printf("%s: %.2f m high, %zu joints, walks at %.2f m/s\n", a.output.c_str(),
-              static_cast<double>(avatar.height_m), avatar.joints.size(),
-              static_cast<double>(avatar.walk_speed_mps));
+              static_cast<double>(avatar.height_m), avatar.joints.size(), static_cast<double>(avatar.walk_speed_mps));
   std::printf("colours for tints, and their share of the surface:");
-  for (const MainColor& c : colors) std::printf(" %s %.0f %%", TextFromColor(c.color).c_str(), 100 * static_cast<double>(c.share));
+  for (const MainColor& c : colors)
+    std::printf(" %s %.0f %%", TextFromColor(c.color).c_str(), 100 * static_cast<double>(c.share));
   std::printf("\nlevel  triangles  draws  joints  error mm  posed mm  needed from px\n");
   for (size_t k = 0; k < levels.levels.size(); ++k) {
     const AvatarLevel& level = levels.levels[k];
-    std::printf("%5zu  %9d  %5zu  %6d  %8.2f  %8.2f  %14.0f\n", k, level.triangles,
-                level.meshes.size(), level.joints,
+    std::printf("%5zu  %9d  %5zu  %6d  %8.2f  %8.2f  %14.0f\n", k, level.triangles, level.meshes.size(), level.joints,
                 static_cast<double>(level.error_mm), static_cast<double>(level.posed_error_mm),
                 static_cast<double>(level.switch_px));
   }

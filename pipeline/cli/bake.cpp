@@ -18,8 +18,8 @@
 #include "pipeline/footprint/check.h"
 #include "pipeline/footprint/map.h"
 #include "pipeline/footprint/polygon_sets.h"
-#include "pipeline/io/gltf.h"
 #include "pipeline/io/geojson.h"
+#include "pipeline/io/gltf.h"
 #include "pipeline/io/sound_file.h"
 #include "pipeline/pack/write_tour_pack.h"
 #include "runtime/base/array.h"
@@ -176,8 +176,8 @@ Error MakeAvatar(Baking* baking, size_t i) {
                        {"joints", static_cast<double>(avatar.joints.size())}};
     return Ok();
   };
-  return RunKeptStep(&baking->steps, "avatar", settings.name, AvatarInputs(settings, file, baking->settings.levels), make,
-                     levels);
+  return RunKeptStep(&baking->steps, "avatar", settings.name, AvatarInputs(settings, file, baking->settings.levels),
+                     make, levels);
 }
 
 Error MakeImpostor(Baking* baking, size_t i) {
@@ -213,7 +213,8 @@ Error CheckTints(Baking* baking, size_t i) {
       const std::string color = TextFromColor(avatar.tints[t].color);
       report->figures.push_back({color + "_surface_share", std::round(static_cast<double>(shares[t]) * 1e3) / 1e3});
       if (shares[t] >= kMinTintShare) continue;
-      warnings->push_back("tint " + color + " reaches almost nothing of the avatar; `flaneur avatar` lists the colours that it has");
+      warnings->push_back("tint " + color +
+                          " reaches almost nothing of the avatar; `flaneur avatar` lists the colours that it has");
     }
     return Ok();
   });
@@ -236,7 +237,8 @@ Error MakePeople(Baking* baking) {
 
 bool Covers(const Obstacle& o, Point2 p) {
   if (o.outer.empty()) return std::hypot(p.x - o.center.x, p.y - o.center.y) <= o.radius_m;
-  return Contains(o.outer, p) && std::none_of(o.holes.begin(), o.holes.end(), [&](const auto& hole) { return Contains(hole, p); });
+  return Contains(o.outer, p) &&
+         std::none_of(o.holes.begin(), o.holes.end(), [&](const auto& hole) { return Contains(hole, p); });
 }
 
 // Somewhere there must be ground that nothing stands on.
@@ -261,7 +263,9 @@ Error MakeFootprints(Baking* baking) {
     FootprintStats stats;
     if (Error e = ExtractFootprints(parts->town, s.footprints, &parts->footprints, &stats, warnings)) return e;
     if (!AnywhereToWalk(parts->ground, parts->footprints)) {
-      return Fail("the town has no walkable ground: obstacles cover all of it; mark the ground's nodes with flaneur_kind \"ground\"");
+      return Fail(
+          "the town has no walkable ground: obstacles cover all of it; mark the ground's nodes with flaneur_kind "
+          "\"ground\"");
     }
     report->figures = {{"obstacles", stats.obstacles}, {"covered_m2", stats.covered_m2}};
     return Ok();
@@ -328,7 +332,12 @@ void ReportFindings(const std::vector<Finding>& findings, StageReport* stage, Ba
   for (const Finding& f : findings) {
     const FindingKind& kind = KindOf(f.code);
     errors += f.severity == Severity::kError ? 1 : 0;
-    report->findings.push_back({f.code, SeverityName(f.severity), kind.title, f.feature, f.message, kind.advice,
+    report->findings.push_back({f.code,
+                                SeverityName(f.severity),
+                                kind.title,
+                                f.feature,
+                                f.message,
+                                kind.advice,
                                 {static_cast<float>(f.at_m.x), static_cast<float>(f.at_m.y)}});
   }
   stage->figures = {{"errors", errors}, {"warnings", static_cast<double>(findings.size()) - errors}};
@@ -386,7 +395,8 @@ Error WriteResults(Baking* baking) {
   if (Error e = WriteReport(staging.path(), baking->steps.report)) return e;
   fs::remove(baking->Cache("fingerprint"), ec);
   const std::string on_earth = LongitudeLatitudePath("footprints.geojson");
-  std::vector<std::string> names{baking->settings.name + ".glb", "footprints.geojson", "plan.png", "report.html", "report.json"};
+  std::vector<std::string> names{baking->settings.name + ".glb", "footprints.geojson", "plan.png", "report.html",
+                                 "report.json"};
   if (fs::exists(staging.path() / on_earth, ec)) names.push_back(on_earth);
   else fs::remove(baking->output / on_earth, ec);  // of a georeference that is gone
   for (const std::string& name : names) {
@@ -398,7 +408,8 @@ Error WriteResults(Baking* baking) {
 
 int CountSteps(const TourSettings& s) {
   int more = IsScript(s.town.file) ? 1 : 0;  // scripts and tints
-  for (const AvatarSettings& avatar : s.avatars) more += (IsScript(avatar.source.file) ? 1 : 0) + (avatar.tints.empty() ? 0 : 1);
+  for (const AvatarSettings& avatar : s.avatars)
+    more += (IsScript(avatar.source.file) ? 1 : 0) + (avatar.tints.empty() ? 0 : 1);
   return more + 2 * Count(s.avatars) + 4;  // town, footprints, check, pack
 }
 

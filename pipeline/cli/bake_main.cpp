@@ -5,8 +5,8 @@
 #include "pipeline/cli/verbs.h"
 
 int main(int argc, char** argv) {
-  const std::map<std::string, int (*)(const flaneur::Arguments&)> verbs{
-      {"bake", flaneur::RunBake}, {"impostor", flaneur::RunImpostor}};
+  const std::map<std::string, int (*)(const flaneur::Arguments&)> verbs{{"bake", flaneur::RunBake},
+                                                                        {"impostor", flaneur::RunImpostor}};
   const auto verb = argc < 2 ? verbs.end() : verbs.find(argv[1]);
   if (verb == verbs.end()) {
     std::fprintf(stderr, "flaneur-bake: error: this is a part of flaneur; see flaneur --help\n");

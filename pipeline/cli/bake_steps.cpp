@@ -22,7 +22,8 @@ double PeakMemory_mb() {
 }
 
 void ShowProgress(int done, int count, const StageReport& report, const std::vector<std::string>& warnings) {
-  std::fprintf(stderr, "[%*d/%d] %-10s %s ... ", count > 9 ? 2 : 1, done, count, report.stage.c_str(), report.item.c_str());
+  std::fprintf(stderr, "[%*d/%d] %-10s %s ... ", count > 9 ? 2 : 1, done, count, report.stage.c_str(),
+               report.item.c_str());
   if (report.cached) std::fprintf(stderr, "cached\n");
   else std::fprintf(stderr, "%.1f s\n", report.seconds);
   for (size_t i = 0; i < std::min(warnings.size(), kMaxWarningsShown); ++i) {

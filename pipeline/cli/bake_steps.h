@@ -1,5 +1,5 @@
-// The steps of a bake as its user sees them: reported, timed, shown as they end, side by side where they do not depend on each
-// other, and kept for the next bake. Internal to pipeline/cli.
+// The steps of a bake as its user sees them: reported, timed, shown as they end, side by side where they do not depend
+// on each other, and kept for the next bake. Internal to pipeline/cli.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -16,7 +16,7 @@ namespace flaneur {
 struct BakeSteps {
   std::filesystem::path cache;  // folder
   BakeReport report;
-  std::mutex mutex;             // guards report and the progress line
+  std::mutex mutex;  // guards report and the progress line
   int done = 0, count = 0;
 };
 
@@ -26,8 +26,8 @@ using StepWork = std::function<Error(StageReport*, std::vector<std::string>*)>;
 // Errors: the work's; interrupted.
 Error RunStep(BakeSteps* steps, const std::string& stage, const std::string& item, const StepWork& work);
 
-// The same for work that makes `parts` and depends on `inputs` (a fingerprint) alone: where the last bake had the same inputs its
-// parts, figures and warnings are taken.
+// The same for work that makes `parts` and depends on `inputs` (a fingerprint) alone: where the last bake had the same
+// inputs its parts, figures and warnings are taken.
 template <typename... Parts>
 Error RunKeptStep(BakeSteps* steps, const std::string& stage, const std::string& item, const std::string& inputs,
                   const StepWork& work, Parts*... parts) {

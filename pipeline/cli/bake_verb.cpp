@@ -9,9 +9,10 @@
 namespace flaneur {
 
 int RunBake(const Arguments& args) {
-  CLI::App app{"Makes a tour pack from a town, avatars and one tour.toml.\n"
-               "Writes DIR/NAME.glb, DIR/report.html, DIR/report.json and DIR/footprints.geojson.",
-               "flaneur bake"};
+  CLI::App app{
+      "Makes a tour pack from a town, avatars and one tour.toml.\n"
+      "Writes DIR/NAME.glb, DIR/report.html, DIR/report.json and DIR/footprints.geojson.",
+      "flaneur bake"};
   std::string tour, output;
   app.add_option("TOUR", tour, "tour.toml; assets_src/reference/tour.toml explains every setting")->required();
   app.add_option("-o,--output", output, "Folder for the results, made where missing (default: build_assets/NAME)");

@@ -29,7 +29,9 @@ struct CheckArguments {
 
 void AddOptions(CLI::App* app, CheckArguments* a) {
   app->add_option("OBSTACLES", a->obstacles, "GeoJSON file of obstacles, Flaneur's or any other")->required();
-  app->add_option("--town", a->town, "The town they stand for, in any format that footprints reads: walls, ground, doors and exits are checked too");
+  app->add_option(
+      "--town", a->town,
+      "The town they stand for, in any format that footprints reads: walls, ground, doors and exits are checked too");
   app->add_option("--json", a->json, "Write the findings as JSON");
   app->add_option("--geojson", a->geojson, "Write the findings as GeoJSON points, in the file's own coordinates");
   app->add_option("--map", a->map, "Draw a plan with the findings as SVG");
@@ -61,11 +63,12 @@ void Print(const std::vector<Finding>& findings, size_t most_listed) {
       std::printf("  %s at (%.2f, %.2f)%s%s: %s\n", SeverityName(f.severity), f.at_m.x, f.at_m.y,
                   f.feature.empty() ? "" : " ", f.feature.c_str(), f.message.c_str());
     }
-    if (end - i > most_listed) std::printf("  and %zu more (--json, --html or --most-listed shows them)\n", end - i - most_listed);
+    if (end - i > most_listed)
+      std::printf("  and %zu more (--json, --html or --most-listed shows them)\n", end - i - most_listed);
     i = end;
   }
-  const auto errors = static_cast<size_t>(std::count_if(
-      findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; }));
+  const auto errors = static_cast<size_t>(
+      std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; }));
   std::printf("%zu errors, %zu warnings\n", errors, findings.size() - errors);
 }
 
@@ -110,7 +113,8 @@ struct TownToCheck {
 };
 
 // The town, with the obstacles moved to where it stands; none where they cannot be, and it is of no use.
-Error ReadTown(const CheckArguments& a, GeoJsonFile* file, std::vector<Finding>* faults, std::optional<TownToCheck>* out) {
+Error ReadTown(const CheckArguments& a, GeoJsonFile* file, std::vector<Finding>* faults,
+               std::optional<TownToCheck>* out) {
   std::vector<std::string> warnings;
   TownToCheck town;
   if (Error error = ReadScene(a.town, &town.scene, &warnings)) return error;
@@ -136,7 +140,8 @@ CheckOptions WithStreetsAndGates(CheckOptions options, const GeoJsonFile& file) 
   return options;
 }
 
-Error DrawMaps(const CheckArguments& a, const GeoJsonFile& file, const GroundRaster* ground, const std::vector<Finding>& findings) {
+Error DrawMaps(const CheckArguments& a, const GeoJsonFile& file, const GroundRaster* ground,
+               const std::vector<Finding>& findings) {
   MapOptions map{a.obstacles.filename().string(), ground, findings, {}};
   for (const Way& way : file.ways) map.streets.push_back(way.points);
   if (!a.map.empty())
@@ -161,13 +166,15 @@ Error Run(const CheckArguments& a, int* status) {
   if (!a.town.empty())
     if (Error error = ReadTown(a, &file, &faults, &town)) return ReportFault(a, 901, error, faults);
   std::vector<Finding> findings;
-  if (Error error = Check(file.footprints, town ? &town->scene : nullptr, WithStreetsAndGates(a.options, file), &findings))
+  if (Error error =
+          Check(file.footprints, town ? &town->scene : nullptr, WithStreetsAndGates(a.options, file), &findings))
     return ReportFault(a, 901, error, faults);
   findings.insert(findings.end(), faults.begin(), faults.end());
   SortFindings(&findings);
   Print(findings, a.most_listed);
   if (Error error = WriteFindings(a, file, findings)) return error;
-  const bool errors = std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; });
+  const bool errors =
+      std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; });
   *status = errors || (a.warnings_as_errors && !findings.empty()) ? 1 : 0;
   return DrawMaps(a, file, town ? &town->ground : nullptr, findings);
 }
@@ -175,10 +182,11 @@ Error Run(const CheckArguments& a, int* status) {
 }  // namespace
 
 int RunCheck(const Arguments& args) {
-  CLI::App app("Checks obstacles for a crowd: broken rings, overlaps, narrow gaps, dead ends and traps, streets; against a "
-               "town also walls, passages, doors and exits. Exit status 1 where errors are found, 2 where nothing can be "
-               "checked.",
-               "flaneur check");
+  CLI::App app(
+      "Checks obstacles for a crowd: broken rings, overlaps, narrow gaps, dead ends and traps, streets; against a "
+      "town also walls, passages, doors and exits. Exit status 1 where errors are found, 2 where nothing can be "
+      "checked.",
+      "flaneur check");
   CheckArguments arguments;
   AddOptions(&app, &arguments);
   if (const int status = ParseArguments(&app, args); status >= 0) return status;

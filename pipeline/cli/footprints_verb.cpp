@@ -25,17 +25,19 @@ struct FootprintsArguments {
 };
 
 void AddOptions(CLI::App* app, FootprintsArguments* a) {
-  app->add_option("TOWN", a->town, "The town: glTF, tagged by the town convention or not; OBJ; CityJSON; CityGML")->required();
+  app->add_option("TOWN", a->town, "The town: glTF, tagged by the town convention or not; OBJ; CityJSON; CityGML")
+      ->required();
   app->add_option("-o,--output", a->output, "GeoJSON file to write")->required();
   app->add_option("--map", a->map, "Also draw a plan as SVG");
-  app->add_option("--crs", a->georeference.crs,
-                  "Map system of the town's coordinates, in metres, such as EPSG:25832, whatever its file says; where it is known, "
-                  "longitudes and latitudes are written too, beside the output: NAME_wgs84.geojson. none: it is not known");
-  app->add_option("--origin-m", a->origin_m, "Add to the town's coordinates to get those of the map: EAST NORTH; for glTF, "
-                                             "city models have their own");
+  app->add_option(
+      "--crs", a->georeference.crs,
+      "Map system of the town's coordinates, in metres, such as EPSG:25832, whatever its file says; where it is known, "
+      "longitudes and latitudes are written too, beside the output: NAME_wgs84.geojson. none: it is not known");
+  app->add_option("--origin-m", a->origin_m,
+                  "Add to the town's coordinates to get those of the map: EAST NORTH; for glTF, "
+                  "city models have their own");
   app->option_defaults()->always_capture_default();
-  app->add_option("--clearance-m", a->options.clearance_m, "Enlarge obstacles by this")
-      ->check(CLI::Range(0.0, 10.0));
+  app->add_option("--clearance-m", a->options.clearance_m, "Enlarge obstacles by this")->check(CLI::Range(0.0, 10.0));
   app->add_option("--band", a->options.band_m,
                   "Heights over the local ground between which things block, in metres: LOW HIGH")
       ->check(CLI::Range(0.0, 100.0));

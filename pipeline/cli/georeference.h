@@ -15,8 +15,8 @@ struct Georeference {
 
 // Gives the town its origin and reference system. A system that only the file names and that nothing can be made of is
 // dropped with a warning: unknown ones, degrees, coordinates near zero. `scale`: metres per unit of the town.
-// Errors: a system asked for that is not known or has no metres, coordinates outside of the area that it is for, an origin
-// other than the file's own.
+// Errors: a system asked for that is not known or has no metres, coordinates outside of the area that it is for, an
+// origin other than the file's own.
 Error SetGeoreference(const Georeference& wish, double scale, Scene* town, std::vector<std::string>* warnings);
 
 // Where longitudes and latitudes go: "obstacles_wgs84.geojson" beside "obstacles.geojson".

@@ -24,8 +24,7 @@ struct ImpostorArguments {
 };
 
 void AddOptions(CLI::App* app, ImpostorArguments* a) {
-  app->add_option("IN", a->input, "The person: a glTF file with a skin and a walk clip")
-      ->required();
+  app->add_option("IN", a->input, "The person: a glTF file with a skin and a walk clip")->required();
   app->add_option("-o,--output", a->output,
                   "Folder for the pictures (KTX2 and PNG) and impostor.json; made where missing")
       ->required();
@@ -60,9 +59,7 @@ void AddOptions(CLI::App* app, ImpostorArguments* a) {
   app->add_option("--border", a->impostor.border_px, "Pixels left empty around the person")
       ->check(CLI::Range(1, 16))
       ->group(picture);
-  app->add_option("--samples", a->impostor.samples, "Samples a pixel")
-      ->check(CLI::Range(1, 4096))
-      ->group(picture);
+  app->add_option("--samples", a->impostor.samples, "Samples a pixel")->check(CLI::Range(1, 4096))->group(picture);
   app->add_option("--seed", a->impostor.seed, "Seed of the sample pattern")
       ->check(CLI::NonNegativeNumber)
       ->group(picture);
@@ -70,14 +67,12 @@ void AddOptions(CLI::App* app, ImpostorArguments* a) {
                   "Threads of Blender, 0: one a core; the pictures do not depend on it")
       ->check(CLI::Range(0, 1024))
       ->group(picture);
-  app->add_option("--log", a->impostor.log_file, "Keep in this file what Blender prints")
-      ->group(picture);
+  app->add_option("--log", a->impostor.log_file, "Keep in this file what Blender prints")->group(picture);
 }
 
 void AddPersonOptions(CLI::App* app, ImpostorArguments* a) {
   const std::string person = "Person";
-  app->add_option("--walk", a->read.walk, "Name of the walk clip, where not found by itself")
-      ->group(person);
+  app->add_option("--walk", a->read.walk, "Name of the walk clip, where not found by itself")->group(person);
   app->add_option("--idle", a->read.idle, "Name of the idle clip")->group(person);
   app->add_option("--talk", a->read.talk, "Name of the talk clip")->group(person);
   app->add_option("--height", a->read.height_m,
@@ -104,17 +99,14 @@ Error Bake(const ImpostorArguments& a, ImpostorAtlas* atlas, ImpostorStatistics*
   return WriteImpostor(a.output, *atlas);
 }
 
-void PrintSummary(const ImpostorArguments& a, const ImpostorAtlas& atlas,
-                  const ImpostorStatistics& statistics) {
+void PrintSummary(const ImpostorArguments& a, const ImpostorAtlas& atlas, const ImpostorStatistics& statistics) {
   std::printf(
       "%s: %d directions x %d frames, %.1f mm a texel, atlas %d x %d px, %.0f %% filled, %.2f MB on "
       "the graphics card\n",
-      a.output.c_str(), atlas.directions,
-      atlas.frames * Count(atlas.elevations_deg),
-      1000 * static_cast<double>(atlas.texel_m), statistics.width_px, statistics.height_px,
-      100 * statistics.fill_rate, static_cast<double>(statistics.memory_bytes) / 1e6);
-  std::printf("%d triangles, Blender: %.1f CPU seconds, %.0f MB\n", statistics.triangles,
-              statistics.blender_cpu_s,
+      a.output.c_str(), atlas.directions, atlas.frames * Count(atlas.elevations_deg),
+      1000 * static_cast<double>(atlas.texel_m), statistics.width_px, statistics.height_px, 100 * statistics.fill_rate,
+      static_cast<double>(statistics.memory_bytes) / 1e6);
+  std::printf("%d triangles, Blender: %.1f CPU seconds, %.0f MB\n", statistics.triangles, statistics.blender_cpu_s,
               static_cast<double>(statistics.blender_peak_memory_bytes) / 1e6);
 }
 

@@ -19,7 +19,8 @@ double Rounded(double value) { return std::round(value * 1000) / 1000; }
 Json AvatarSummary(const PackAvatar& avatar) {
   Json levels = Json::array();
   for (const PackLevel& level : avatar.levels) {
-    levels.push_back({{"triangles", level.triangles}, {"posed_error_mm", Rounded(level.posed_error_mm)},
+    levels.push_back({{"triangles", level.triangles},
+                      {"posed_error_mm", Rounded(level.posed_error_mm)},
                       {"switch_px", Rounded(level.switch_px)}});
   }
   const PackImpostor& impostor = avatar.impostor;
@@ -29,8 +30,11 @@ Json AvatarSummary(const PackAvatar& avatar) {
           {"walk_speed_mps", Rounded(avatar.walk_speed_mps)},
           {"joints", avatar.joints},
           {"levels", levels},
-          {"impostor", {{"directions", impostor.directions}, {"frames", impostor.frames},
-                        {"texel_mm", Rounded(1000.0 * impostor.texel_m)}, {"atlas_px", {impostor.width_px, impostor.height_px}}}}};
+          {"impostor",
+           {{"directions", impostor.directions},
+            {"frames", impostor.frames},
+            {"texel_mm", Rounded(1000.0 * impostor.texel_m)},
+            {"atlas_px", {impostor.width_px, impostor.height_px}}}}};
 }
 
 Json Summary(const TourPack& pack) {
@@ -48,7 +52,8 @@ Json Summary(const TourPack& pack) {
           {"town", {{"instances", pack.town.size()}, {"triangles", town_triangles}}},
           {"avatars", avatars},
           {"obstacles", pack.obstacles.polygons.size() + pack.obstacles.circles.size()},
-          {"ground", {{"columns", pack.ground->columns}, {"rows", pack.ground->rows}, {"cell_m", Rounded(pack.ground->cell_m)}}},
+          {"ground",
+           {{"columns", pack.ground->columns}, {"rows", pack.ground->rows}, {"cell_m", Rounded(pack.ground->cell_m)}}},
           {"places", places},
           {"path_stops", pack.path.size()},
           {"people", pack.crowd.people},

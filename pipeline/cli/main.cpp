@@ -11,7 +11,8 @@
 
 namespace {
 
-// The verbs of flaneur-bake, which stands beside this program, need image libraries that take a third of a second to load.
+// The verbs of flaneur-bake, which stands beside this program, need image libraries that take a third of a second to
+// load.
 constexpr auto kInBake = nullptr;
 
 struct Verb {
@@ -34,7 +35,8 @@ void PrintHelp() {
   for (const auto& [name, verb] : kVerbs) {
     std::printf("  flaneur %-10s %-30s %s\n", name.c_str(), verb.usage, verb.purpose);
   }
-  std::printf("\nflaneur VERB --help says all about one. Exit status: 0 done, 1 findings (check), 2 bad usage or input.\n");
+  std::printf(
+      "\nflaneur VERB --help says all about one. Exit status: 0 done, 1 findings (check), 2 bad usage or input.\n");
 }
 
 int Refuse(const std::string& why) {

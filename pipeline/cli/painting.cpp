@@ -16,10 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kCell_m = 1;             // of the painting as packed
+constexpr float kCell_m = 1;  // of the painting as packed
 constexpr int kMaxCells = 4'000'000;
 constexpr float kShapeTolerance = 0.02f;
-constexpr uint8_t kMinColor = 8;       // less than this is a grey that a compressed picture has tinted
+constexpr uint8_t kMinColor = 8;  // less than this is a grey that a compressed picture has tinted
 constexpr std::array<uint8_t, 5> kGreyOfGround = {255, 176, 208, 224, 192};  // by GroundKind; 0: none
 constexpr uint8_t kGreyOfObstacle = 64;
 
@@ -41,7 +41,8 @@ Error ReadPicture(const fs::path& file, Picture* picture) {
   picture->width = spec.width;
   picture->height = spec.height;
   const size_t pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
-  if (channels < 3) return Fail(file.string() + ": has no colours; paint red where people go and green where they stand about");
+  if (channels < 3)
+    return Fail(file.string() + ": has no colours; paint red where people go and green where they stand about");
   std::vector<uint8_t> values(pixels * static_cast<size_t>(channels));
   if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, values.data())) {
     return Fail(file.string() + ": " + OneLine(input->geterror()));
@@ -90,7 +91,8 @@ bool AnyOnGround(const Painting& p, const GroundRaster& ground) {
   for (int row = 0; row < ground.rows; ++row) {
     for (int column = 0; column < ground.columns; ++column) {
       if (ground.kind[RowMajor(row, ground.columns, column)] == 0) continue;
-      const Vec2 at = ground.min_m + Vec2{static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f} * ground.cell_m;
+      const Vec2 at =
+          ground.min_m + Vec2{static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f} * ground.cell_m;
       const int cell = PaintingCell(p, at);
       if (cell >= 0 && (At(p.people, cell) > 0 || At(p.loiter, cell) > 0)) return true;
     }
@@ -116,7 +118,9 @@ void FillRow(const Obstacle& o, const GroundRaster& g, int row, Visit visit) {
     crossings = {o.center.x - half, o.center.x + half};
   }
   std::sort(crossings.begin(), crossings.end());
-  const auto column = [&](double x) { return static_cast<int>(std::ceil((x - static_cast<double>(g.min_m.x)) / static_cast<double>(g.cell_m) - 0.5)); };
+  const auto column = [&](double x) {
+    return static_cast<int>(std::ceil((x - static_cast<double>(g.min_m.x)) / static_cast<double>(g.cell_m) - 0.5));
+  };
   for (size_t k = 0; k + 1 < crossings.size(); k += 2) {
     for (int c = std::max(0, column(crossings[k])); c < std::min(g.columns, column(crossings[k + 1])); ++c) visit(c);
   }
@@ -128,17 +132,21 @@ Error ReadPainting(const PaintingSettings& settings, const GroundRaster& ground,
   const std::string name = settings.file.string() + ": ";
   Picture picture;
   if (Error e = ReadPicture(settings.file, &picture)) return e;
-  const Vec2 ground_size_m{static_cast<float>(ground.columns) * ground.cell_m, static_cast<float>(ground.rows) * ground.cell_m};
+  const Vec2 ground_size_m{static_cast<float>(ground.columns) * ground.cell_m,
+                           static_cast<float>(ground.rows) * ground.cell_m};
   Painting p;
   p.min_m = settings.min_m.value_or(ground.min_m);
   const Vec2 size_m = settings.max_m.value_or(ground.min_m + ground_size_m) - p.min_m;
   const float shape = static_cast<float>(picture.width) / static_cast<float>(picture.height) * size_m.y / size_m.x;
   const float pixel = 1.5f / static_cast<float>(std::min(picture.width, picture.height));
   if (std::abs(shape - 1) > std::max(kShapeTolerance, pixel)) {
-    return Fail(name + "its " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels don't fit the shape of the " +
-                Metres(size_m) + " that it covers; paint over the bake's plan.png, or give [painting] min_m and max_m");
+    return Fail(name + "its " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+                " pixels don't fit the shape of the " + Metres(size_m) +
+                " that it covers; paint over the bake's plan.png, or give [painting] min_m and max_m");
   }
-  const auto painted = [](const std::vector<uint8_t>& values) { return std::any_of(values.begin(), values.end(), [](uint8_t v) { return v > 0; }); };
+  const auto painted = [](const std::vector<uint8_t>& values) {
+    return std::any_of(values.begin(), values.end(), [](uint8_t v) { return v > 0; });
+  };
   if (!painted(picture.red) && !painted(picture.green)) {
     return Fail(name + "nothing is painted; paint red where people start and go to, green where they stand about");
   }

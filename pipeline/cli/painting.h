@@ -10,16 +10,17 @@
 namespace flaneur {
 
 struct PaintingSettings {
-  std::filesystem::path file;           // empty: none
-  std::optional<Vec2> min_m, max_m;     // what it covers; default: what the ground does
+  std::filesystem::path file;        // empty: none
+  std::optional<Vec2> min_m, max_m;  // what it covers; default: what the ground does
 };
 
-// How much redder or greener a pixel is than grey counts, times its opacity: grey pixels, as of the plan itself, say nothing. The
-// picture's top is north. Errors: unreadable, no red and no green, shaped otherwise than its area, no paint on any ground.
+// How much redder or greener a pixel is than grey counts, times its opacity: grey pixels, as of the plan itself, say
+// nothing. The picture's top is north. Errors: unreadable, no red and no green, shaped otherwise than its area, no
+// paint on any ground.
 Error ReadPainting(const PaintingSettings& settings, const GroundRaster& ground, Painting* painting);
 
-// The town from above in shades of grey, a pixel for each cell of the ground, to paint on: dark where something stands, white off
-// the ground. A PNG file.
+// The town from above in shades of grey, a pixel for each cell of the ground, to paint on: dark where something stands,
+// white off the ground. A PNG file.
 Error WritePlan(const std::filesystem::path& path, const GroundRaster& ground, const Footprints& footprints);
 
 }  // namespace flaneur

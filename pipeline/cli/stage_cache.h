@@ -1,5 +1,5 @@
-// What a stage made, kept in a file under the fingerprint of all it was made from. The file is no format: the program that wrote
-// it reads it again, on the same machine; anything else in it counts as nothing kept.
+// What a stage made, kept in a file under the fingerprint of all it was made from. The file is no format: the program
+// that wrote it reads it again, on the same machine; anything else in it counts as nothing kept.
 #pragma once
 #include <cstring>
 #include <filesystem>
@@ -20,58 +20,102 @@
 namespace flaneur {
 
 // The fields of each kind of struct, listed once for writing and reading.
-template <typename A> void Fields(A& a, Image* v) { a(&v->name, &v->mime_type, &v->bytes); }
-template <typename A> void Fields(A& a, Material* v) {
-  a(&v->name, &v->base_color, &v->base_color_image, &v->normal_image, &v->metallic, &v->roughness, &v->double_sided, &v->alpha,
-    &v->alpha_cutoff);
+template <typename A>
+void Fields(A& a, Image* v) {
+  a(&v->name, &v->mime_type, &v->bytes);
 }
-template <typename A> void Fields(A& a, Mesh* v) {
-  a(&v->name, &v->material, &v->positions, &v->normals, &v->uvs, &v->uvs1, &v->colors, &v->joints, &v->weights, &v->indices);
+template <typename A>
+void Fields(A& a, Material* v) {
+  a(&v->name, &v->base_color, &v->base_color_image, &v->normal_image, &v->metallic, &v->roughness, &v->double_sided,
+    &v->alpha, &v->alpha_cutoff);
 }
-template <typename A> void Fields(A& a, Joint* v) { a(&v->name, &v->parent, &v->rest, &v->inverse_bind); }
-template <typename A> void Fields(A& a, Clip* v) { a(&v->name, &v->duration_s, &v->keys, &v->transforms); }
-template <typename A> void Fields(A& a, AvatarProp* v) { a(&v->name, &v->meshes); }
-template <typename A> void Fields(A& a, Avatar* v) {
-  a(&v->name, &v->meshes, &v->materials, &v->images, &v->joints, &v->clips, &v->props, &v->height_m, &v->radius_m, &v->walk_speed_mps);
+template <typename A>
+void Fields(A& a, Mesh* v) {
+  a(&v->name, &v->material, &v->positions, &v->normals, &v->uvs, &v->uvs1, &v->colors, &v->joints, &v->weights,
+    &v->indices);
 }
-template <typename A> void Fields(A& a, AvatarLevel* v) {
+template <typename A>
+void Fields(A& a, Joint* v) {
+  a(&v->name, &v->parent, &v->rest, &v->inverse_bind);
+}
+template <typename A>
+void Fields(A& a, Clip* v) {
+  a(&v->name, &v->duration_s, &v->keys, &v->transforms);
+}
+template <typename A>
+void Fields(A& a, AvatarProp* v) {
+  a(&v->name, &v->meshes);
+}
+template <typename A>
+void Fields(A& a, Avatar* v) {
+  a(&v->name, &v->meshes, &v->materials, &v->images, &v->joints, &v->clips, &v->props, &v->height_m, &v->radius_m,
+    &v->walk_speed_mps);
+}
+template <typename A>
+void Fields(A& a, AvatarLevel* v) {
   a(&v->meshes, &v->triangles, &v->error_mm, &v->posed_error_mm, &v->normal_deg, &v->joints, &v->switch_px);
 }
-template <typename A> void Fields(A& a, AvatarLevels* v) { a(&v->avatar, &v->levels); }
-template <typename A> void Fields(A& a, ImpostorClip* v) { a(&v->name, &v->first_frame, &v->phases); }
-template <typename A> void Fields(A& a, ImpostorAtlas* v) {
+template <typename A>
+void Fields(A& a, AvatarLevels* v) {
+  a(&v->avatar, &v->levels);
+}
+template <typename A>
+void Fields(A& a, ImpostorClip* v) {
+  a(&v->name, &v->first_frame, &v->phases);
+}
+template <typename A>
+void Fields(A& a, ImpostorAtlas* v) {
   a(&v->directions, &v->elevations_deg, &v->frames, &v->width_px, &v->height_px, &v->texel_m, &v->depth_range_m,
-    &v->motion_range_m, &v->bend_range_m, &v->clips, &v->cells, &v->albedo, &v->normal, &v->albedo_ktx2, &v->normal_ktx2, &v->depth_ktx2,
-    &v->motion_ktx2);
+    &v->motion_range_m, &v->bend_range_m, &v->clips, &v->cells, &v->albedo, &v->normal, &v->albedo_ktx2,
+    &v->normal_ktx2, &v->depth_ktx2, &v->motion_ktx2);
 }
-template <typename A> void Fields(A& a, Obstacle* v) {
-  a(&v->name, &v->kind, &v->source, &v->clearance_m, &v->ground_z_m, &v->open_shell, &v->outer, &v->holes, &v->center, &v->radius_m);
+template <typename A>
+void Fields(A& a, Obstacle* v) {
+  a(&v->name, &v->kind, &v->source, &v->clearance_m, &v->ground_z_m, &v->open_shell, &v->outer, &v->holes, &v->center,
+    &v->radius_m);
 }
-template <typename A> void Fields(A& a, Footprints* v) { a(&v->clearance_m, &v->band_m, &v->origin_m, &v->reference_system, &v->obstacles); }
-template <typename A> void Fields(A& a, GroundRaster* v) {
+template <typename A>
+void Fields(A& a, Footprints* v) {
+  a(&v->clearance_m, &v->band_m, &v->origin_m, &v->reference_system, &v->obstacles);
+}
+template <typename A>
+void Fields(A& a, GroundRaster* v) {
   a(&v->min_m, &v->cell_m, &v->columns, &v->rows, &v->height_m, &v->kind);
 }
-template <typename A> void Fields(A& a, ReportFinding* v) {
+template <typename A>
+void Fields(A& a, ReportFinding* v) {
   a(&v->code, &v->severity, &v->title, &v->feature, &v->message, &v->advice, &v->at_m);
 }
-template <typename A> void Fields(A& a, StageReport* v) { a(&v->figures, &v->levels, &v->picture_png); }
-template <typename A, typename F, typename S> void Fields(A& a, std::pair<F, S>* v) { a(&v->first, &v->second); }
+template <typename A>
+void Fields(A& a, StageReport* v) {
+  a(&v->figures, &v->levels, &v->picture_png);
+}
+template <typename A, typename F, typename S>
+void Fields(A& a, std::pair<F, S>* v) {
+  a(&v->first, &v->second);
+}
 
 class StageWriter {
  public:
-  template <typename... T> void operator()(T*... values) { (Put(values), ...); }
+  template <typename... T>
+  void operator()(T*... values) {
+    (Put(values), ...);
+  }
   const std::string& text() const { return text_; }
 
  private:
-  template <typename T> void Put(T* value) {
+  template <typename T>
+  void Put(T* value) {
     if constexpr (std::is_trivially_copyable_v<T>) Raw(value, sizeof(T));
     else Fields(*this, value);
   }
   void Put(std::string* value) { PutSize(value->size()), Raw(value->data(), value->size()); }
-  template <typename T> void Put(std::vector<T>* values) {
+  template <typename T>
+  void Put(std::vector<T>* values) {
     PutSize(values->size());
     if constexpr (std::is_trivially_copyable_v<T>) Raw(values->data(), values->size() * sizeof(T));
-    else for (T& value : *values) Put(&value);
+    else
+      for (T& value : *values) Put(&value);
   }
   void PutSize(uint64_t size) { Raw(&size, sizeof size); }
   void Raw(const void* data, size_t size) { text_.append(static_cast<const char*>(data), size); }
@@ -82,11 +126,15 @@ class StageWriter {
 class StageReader {
  public:
   explicit StageReader(std::string_view text) : text_(text) {}
-  template <typename... T> void operator()(T*... values) { (Get(values), ...); }
+  template <typename... T>
+  void operator()(T*... values) {
+    (Get(values), ...);
+  }
   bool whole() const { return good_ && text_.empty(); }
 
  private:
-  template <typename T> void Get(T* value) {
+  template <typename T>
+  void Get(T* value) {
     if constexpr (std::is_trivially_copyable_v<T>) Raw(value, sizeof(T));
     else Fields(*this, value);
   }
@@ -94,11 +142,13 @@ class StageReader {
     value->resize(Size(1));
     Raw(value->data(), value->size());
   }
-  template <typename T> void Get(std::vector<T>* values) {
+  template <typename T>
+  void Get(std::vector<T>* values) {
     constexpr bool kRaw = std::is_trivially_copyable_v<T>;
     values->resize(Size(kRaw ? sizeof(T) : 1));
     if constexpr (kRaw) Raw(values->data(), values->size() * sizeof(T));
-    else for (T& value : *values) Get(&value);
+    else
+      for (T& value : *values) Get(&value);
   }
   // How many elements of at least so many bytes follow.
   size_t Size(size_t bytes) {

@@ -56,10 +56,18 @@ std::string ImpostorInputs(const AvatarSettings& avatar, const fs::path& file, i
   Fingerprint print;
   print.Add(kImpostorVersion).AddFile(BlenderScriptsFolder() / "bake").AddFile(BlenderScriptsFolder() / "common");
   AddReading(avatar, file, &print);
-  const auto& [directions, elevations_deg, clips, height_px, border_px, memory_kb, samples, seed, threads, log_file] = impostor;
+  const auto& [directions, elevations_deg, clips, height_px, border_px, memory_kb, samples, seed, threads, log_file] =
+      impostor;
   AddAll(elevations_deg, &print);
   for (const ImpostorClipOptions& clip : clips) print.Add(clip.name).Add(clip.phases);
-  return print.Add(max_triangles).Add(directions).Add(height_px).Add(border_px).Add(memory_kb).Add(samples).Add(seed).Hex();
+  return print.Add(max_triangles)
+      .Add(directions)
+      .Add(height_px)
+      .Add(border_px)
+      .Add(memory_kb)
+      .Add(samples)
+      .Add(seed)
+      .Hex();
 }
 
 std::string FootprintsInputs(const TourSettings& s, const fs::path& town) {

@@ -1,4 +1,5 @@
-// Fingerprints of all that each stage of a bake depends on, so that a change makes its dependents anew and nothing else.
+// Fingerprints of all that each stage of a bake depends on, so that a change makes its dependents anew and nothing
+// else.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -13,16 +13,18 @@
 namespace flaneur {
 namespace {
 
-constexpr int kPlaces = 4;  // a triangle
+constexpr int kPlaces = 4;         // a triangle
 constexpr float kOneCloth = 0.1f;  // apart, as tints measure it
 constexpr float kBoxes = 12;       // along each side of the colours
 constexpr int kRounds = 3;
 constexpr size_t kMaxMainColors = 6;
-constexpr int kMaxTries = 30;     // many of small parts of the surface
+constexpr int kMaxTries = 30;  // many of small parts of the surface
 constexpr float kMinShare = 1.0f / 30;
 
 Vec3 Texel(const Pixels& picture, Vec2 uv) {
-  const auto at = [](float t, int size) { return std::min(size - 1, static_cast<int>((t - std::floor(t)) * static_cast<float>(size))); };
+  const auto at = [](float t, int size) {
+    return std::min(size - 1, static_cast<int>((t - std::floor(t)) * static_cast<float>(size)));
+  };
   const auto row = static_cast<size_t>(at(uv.y, picture.height)), column = static_cast<size_t>(at(uv.x, picture.width));
   const size_t first = 4 * (row * static_cast<size_t>(picture.width) + column);
   const auto channel = [&](size_t k) { return static_cast<float>(picture.rgba[first + k]) / 255; };
@@ -31,11 +33,15 @@ Vec3 Texel(const Pixels& picture, Vec2 uv) {
 
 // Of a linear factor, times a picture's sRGB as the player multiplies them.
 Vec3 Shown(Vec3 picture, Vec4 factor) {
-  return {picture.x * SrgbFromLinear(std::clamp(factor.x, 0.0f, 1.0f)), picture.y * SrgbFromLinear(std::clamp(factor.y, 0.0f, 1.0f)),
+  return {picture.x * SrgbFromLinear(std::clamp(factor.x, 0.0f, 1.0f)),
+          picture.y * SrgbFromLinear(std::clamp(factor.y, 0.0f, 1.0f)),
           picture.z * SrgbFromLinear(std::clamp(factor.z, 0.0f, 1.0f))};
 }
 
-struct Place { Vec3 color; float area = 0; };
+struct Place {
+  Vec3 color;
+  float area = 0;
+};
 
 // Places all over the mesh.
 void AddPlaces(const Mesh& mesh, const Material& material, const Pixels* picture, std::vector<Place>* places) {
@@ -46,7 +52,9 @@ void AddPlaces(const Mesh& mesh, const Material& material, const Pixels* picture
     for (int k = 0; k < kPlaces; ++k) {
       float u = random.Uniform(), v = random.Uniform();
       if (u + v > 1) u = 1 - u, v = 1 - v;
-      const auto mixed = [&](const auto& values) { return corner(values, 0) * (1 - u - v) + corner(values, 1) * u + corner(values, 2) * v; };
+      const auto mixed = [&](const auto& values) {
+        return corner(values, 0) * (1 - u - v) + corner(values, 1) * u + corner(values, 2) * v;
+      };
       Vec4 factor = material.base_color;
       if (!mesh.colors.empty()) {
         const Vec4 c = mixed(mesh.colors);
@@ -65,7 +73,8 @@ Error PlacesOf(const Avatar& avatar, std::vector<Place>* places) {
     const int image = material.base_color_image;
     if (image >= 0 && !pictures.contains(image)) {
       auto decoded = Decoded(At(avatar.images, image).bytes);
-      if (!decoded) return Fail("avatar '" + avatar.name + "': image '" + At(avatar.images, image).name + "' cannot be decoded");
+      if (!decoded)
+        return Fail("avatar '" + avatar.name + "': image '" + At(avatar.images, image).name + "' cannot be decoded");
       pictures[image] = std::move(*decoded);
     }
     AddPlaces(mesh, material, image >= 0 ? &pictures[image] : nullptr, places);
@@ -86,7 +95,8 @@ Vec3 Densest(const std::vector<Place>& places) {
   std::map<std::array<int, 3>, float> boxes;
   const auto box = [](float v) { return static_cast<int>(v * kBoxes); };
   for (const Place& p : places) boxes[{box(p.color.x), box(p.color.y), box(p.color.z)}] += p.area;
-  const auto most = std::max_element(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most =
+      std::max_element(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   const auto middle = [](int k) { return (static_cast<float>(k) + 0.5f) / kBoxes; };
   return {middle(most->first[0]), middle(most->first[1]), middle(most->first[2])};
 }
@@ -114,7 +124,8 @@ Error MainColors(const Avatar& avatar, std::vector<MainColor>* colors) {
     MainColor found = Mean(places, Densest(places));
     for (int round = 0; round < kRounds; ++round) found = Mean(places, found.color);
     const Vec3 color = found.color;
-    const auto rest = std::remove_if(places.begin(), places.end(), [&](const Place& p) { return IsNear(p.color, color); });
+    const auto rest =
+        std::remove_if(places.begin(), places.end(), [&](const Place& p) { return IsNear(p.color, color); });
     if (rest == places.end()) break;
     places.erase(rest, places.end());
     found.share /= whole;

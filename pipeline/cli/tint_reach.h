@@ -12,10 +12,13 @@ namespace flaneur {
 // Errors: a picture that cannot be decoded.
 Error TintReach(const Avatar& avatar, const std::vector<Tint>& tints, std::vector<float>* shares);
 
-struct MainColor { Vec3 color; float share = 0; };  // sRGB, of the surface
+struct MainColor {
+  Vec3 color;
+  float share = 0;
+};  // sRGB, of the surface
 
-// The colours that a tint could be of: up to six, the one of the largest part of the surface first, none of less than a thirtieth.
-// Errors: as above.
+// The colours that a tint could be of: up to six, the one of the largest part of the surface first, none of less than a
+// thirtieth. Errors: as above.
 Error MainColors(const Avatar& avatar, std::vector<MainColor>* colors);
 
 }  // namespace flaneur

@@ -23,7 +23,8 @@ void ReadName(TomlTable* table, std::string* name) {
   table->Text("name", name);
   const bool control = std::any_of(name->begin(), name->end(), [](char c) { return c == '/' || (c >= 0 && c < ' '); });
   if (control || name->rfind('.', 0) == 0 || name->size() > 100) {
-    table->Refuse("the name '" + OneLine(*name) + "' must do as a file name: no '/', no '.' in front, at most 100 letters");
+    table->Refuse("the name '" + OneLine(*name) +
+                  "' must do as a file name: no '/', no '.' in front, at most 100 letters");
   }
 }
 
@@ -72,7 +73,8 @@ void ReadProp(TomlTable table, AvatarSettings* avatar) {
     if (other.name == prop.name) table.Refuse("two props are the node '" + OneLine(prop.name) + "'");
     if (!prop.slot.empty() && other.slot == prop.slot) of_slot += other.share;
   }
-  if (of_slot > 1.0001f) table.Refuse("the props of slot '" + OneLine(prop.slot) + "' have shares of more than 1 together");
+  if (of_slot > 1.0001f)
+    table.Refuse("the props of slot '" + OneLine(prop.slot) + "' have shares of more than 1 together");
   table.Finish();
   avatar->props.push_back(std::move(prop));
 }
@@ -175,7 +177,8 @@ void ReadStop(TomlTable table, TourSettings* settings) {
     stop.caption = own->second;
     stop.captions.erase(own);
   } else if (!stop.captions.empty()) {
-    table.Refuse("the caption has no text in the tour's own language, '" + settings->language + "'; add one, or change tour.language");
+    table.Refuse("the caption has no text in the tour's own language, '" + settings->language +
+                 "'; add one, or change tour.language");
   }
   std::map<std::string, std::string> sounds;
   table.Translations("sound", settings->language, &sounds);
@@ -197,7 +200,8 @@ void ReadAll(TomlTable root, TourSettings* settings) {
   tour.Translations("title", settings->language, &settings->titles);
   std::erase_if(settings->titles, [](const auto& title) { return title.second.empty(); });
   if (!settings->titles.empty() && !settings->titles.contains(settings->language)) {
-    tour.Refuse("tour.title has no text in the tour's own language, '" + settings->language + "'; add one, or change tour.language");
+    tour.Refuse("tour.title has no text in the tour's own language, '" + settings->language +
+                "'; add one, or change tour.language");
   }
   tour.Text("guide", &settings->guide);
   tour.Finish();
@@ -255,7 +259,8 @@ Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings
 
 std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
-  const toml::table root = toml::parse("[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[place]]\n[[stop]]\n[[town.part]]\n");
+  const toml::table root =
+      toml::parse("[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[place]]\n[[stop]]\n[[town.part]]\n");
   TomlContext context;
   TourSettings settings;
   ReadAll(TomlTable(&context, &root, ""), &settings);

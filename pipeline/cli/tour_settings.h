@@ -44,9 +44,9 @@ struct AvatarSettings {
 
 // places: besides those tagged in the town.
 struct TourSettings : TourData {
-  SourceSettings town;            // empty file: only parts
-  float town_scale = 1;           // metres per unit of the town's file
-  Georeference georeference;      // of the town
+  SourceSettings town;        // empty file: only parts
+  float town_scale = 1;       // metres per unit of the town's file
+  Georeference georeference;  // of the town
   std::vector<TownPart> parts;
   std::vector<AvatarSettings> avatars;
   LevelsOptions levels;
@@ -57,8 +57,8 @@ struct TourSettings : TourData {
   std::vector<std::map<std::string, std::filesystem::path>> sounds;  // by stop of the path and language
 };
 
-// Errors: unreadable, not TOML, an unknown key (with the nearest known one), a wrong type, a value out of range, no town, no
-// avatar, two of a name; each as FILE:LINE.
+// Errors: unreadable, not TOML, an unknown key (with the nearest known one), a wrong type, a value out of range, no
+// town, no avatar, two of a name; each as FILE:LINE.
 Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings);
 
 // Every setting that may stand in tour.toml, as "section.key".

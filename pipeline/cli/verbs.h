@@ -1,4 +1,5 @@
-// The verbs of `flaneur`, one file each. args: what follows the verb. Exit status: 0 done, 1 findings, 2 bad usage or input.
+// The verbs of `flaneur`, one file each. args: what follows the verb. Exit status: 0 done, 1 findings, 2 bad usage or
+// input.
 #pragma once
 #include <string>
 #include <vector>

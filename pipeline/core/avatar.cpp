@@ -11,8 +11,7 @@ namespace {
 Vec3 Mix(Vec3 a, Vec3 b, float t) { return a * (1 - t) + b * t; }
 
 Transform Mix(const Transform& a, const Transform& b, float t) {
-  return {Mix(a.translation, b.translation, t), Slerp(a.rotation, b.rotation, t),
-          Mix(a.scale, b.scale, t)};
+  return {Mix(a.translation, b.translation, t), Slerp(a.rotation, b.rotation, t), Mix(a.scale, b.scale, t)};
 }
 
 // Key and share of the next one at the time, wrapped into the clip.
@@ -64,8 +63,7 @@ std::vector<Mat4> SkinningMatrices(std::span<const Joint> joints, std::span<cons
   std::vector<Mat4> matrices(joints.size());
   for (size_t j = 0; j < joints.size(); ++j) {
     const Transform& local = transforms[j];
-    const Mat4 matrix =
-        FromTranslationRotationScale(local.translation, local.rotation, local.scale);
+    const Mat4 matrix = FromTranslationRotationScale(local.translation, local.rotation, local.scale);
     const int parent = joints[j].parent;
     matrices[j] = parent < 0 ? matrix : At(matrices, parent) * matrix;
   }

@@ -17,17 +17,17 @@ struct Transform {
 
 struct Joint {
   std::string name;
-  int parent = -1;       // index of an earlier joint; -1: a root
-  Transform rest;        // relative to the parent
-  Mat4 inverse_bind;     // bind pose: avatar space to joint space
+  int parent = -1;    // index of an earlier joint; -1: a root
+  Transform rest;     // relative to the parent
+  Mat4 inverse_bind;  // bind pose: avatar space to joint space
 };
 
 // Keys at a constant rate; the last key equals the first where the clip loops.
 struct Clip {
   std::string name;
   float duration_s = 0;
-  int keys = 0;                      // >= 1; key k is at k * duration_s / (keys - 1)
-  std::vector<Transform> transforms; // keys x joints, key by key, relative to the parent
+  int keys = 0;                       // >= 1; key k is at k * duration_s / (keys - 1)
+  std::vector<Transform> transforms;  // keys x joints, key by key, relative to the parent
 };
 
 // What some people of an avatar carry or wear and others don't, on the avatar's own joints and materials.
@@ -38,15 +38,15 @@ struct AvatarProp {
 
 struct Avatar {
   std::string name;
-  std::vector<Mesh> meshes;          // one a material; what everybody has
+  std::vector<Mesh> meshes;  // one a material; what everybody has
   std::vector<Material> materials;
   std::vector<Image> images;
-  std::vector<Joint> joints;         // parents before children
-  std::vector<Clip> clips;           // among them "walk"; "idle" and "talk" where the source has them
+  std::vector<Joint> joints;  // parents before children
+  std::vector<Clip> clips;    // among them "walk"; "idle" and "talk" where the source has them
   std::vector<AvatarProp> props;
-  float height_m = 0;                // of the bind pose, without props
-  float radius_m = 0;                // of the circle that stands for the person on the ground
-  float walk_speed_mps = 0;          // at which the walk's stance foot does not slide
+  float height_m = 0;        // of the bind pose, without props
+  float radius_m = 0;        // of the circle that stands for the person on the ground
+  float walk_speed_mps = 0;  // at which the walk's stance foot does not slide
 };
 
 struct AvatarLevel {

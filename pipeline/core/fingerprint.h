@@ -12,8 +12,8 @@ class Fingerprint {
   // Parts are kept apart: ("ab", "c") differs from ("a", "bc").
   Fingerprint& Add(std::string_view part);
   Fingerprint& Add(double number);
-  // The content, not the name or age; a file that cannot be read counts as empty. For a .gltf or .glb also the files it names,
-  // for a folder all its .py files, in order of their names.
+  // The content, not the name or age; a file that cannot be read counts as empty. For a .gltf or .glb also the files it
+  // names, for a folder all its .py files, in order of their names.
   Fingerprint& AddFile(const std::filesystem::path& path);
   std::string Hex() const;
 

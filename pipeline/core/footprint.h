@@ -10,17 +10,21 @@
 namespace flaneur {
 
 // Doubles: towns in a map projection keep millimetres.
-struct Point2 { double x = 0, y = 0; };
-struct Point3 { double x = 0, y = 0, z = 0; };  // z up
+struct Point2 {
+  double x = 0, y = 0;
+};
+struct Point3 {
+  double x = 0, y = 0, z = 0;
+};  // z up
 
 enum class ObstacleKind { kBuilding, kWall, kTree, kLamp, kOther };
 const char* ObstacleKindName(ObstacleKind kind);
 
 // A polygon with holes, or a circle (outer empty, radius_m > 0).
 struct Obstacle {
-  std::string name;                        // unique in a collection
+  std::string name;  // unique in a collection
   ObstacleKind kind = ObstacleKind::kBuilding;
-  std::string source;                      // node or object id it was made from
+  std::string source;  // node or object id it was made from
   double clearance_m = 0;
   double ground_z_m = 0;
   bool open_shell = false;                 // its walls do not close, or had to be closed: the outline is a guess (306)

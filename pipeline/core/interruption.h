@@ -1,5 +1,5 @@
-// Ctrl-C and polite requests to end. Work in progress stops at the next good place, so that temporary files go, child processes
-// end and nothing stays half-written.
+// Ctrl-C and polite requests to end. Work in progress stops at the next good place, so that temporary files go, child
+// processes end and nothing stays half-written.
 #pragma once
 #include <sys/types.h>
 
@@ -7,8 +7,8 @@
 
 namespace flaneur {
 
-// From now on the first SIGINT, SIGTERM or SIGHUP ends the child processes and lets Interrupted() say so; a second one ends this
-// process at once.
+// From now on the first SIGINT, SIGTERM or SIGHUP ends the child processes and lets Interrupted() say so; a second one
+// ends this process at once.
 void CatchInterruptions();
 
 // An error once a signal came, else none. For loops and between the steps of long work.

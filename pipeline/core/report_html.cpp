@@ -119,8 +119,9 @@ std::string Person(const BakeReport& report, const StageReport& avatar) {
     out += "<img alt=\"impostor of " + Escaped(avatar.item) + "\" src=\"data:image/png;base64," +
            Base64(impostor->picture_png) + "\">";
   }
-  out += "</div><table><tr><th class=\"n\">Triangles<th class=\"n\">Error, bind pose<th class=\"n\">Error, walking"
-         "<th class=\"n\">Needed from</tr>";
+  out +=
+      "</div><table><tr><th class=\"n\">Triangles<th class=\"n\">Error, bind pose<th class=\"n\">Error, walking"
+      "<th class=\"n\">Needed from</tr>";
   for (const AvatarLevel& level : avatar.levels) {
     out += "<tr><td class=\"n\">" + Figure(level.triangles) + "<td class=\"n\">" +
            Format("%.2f mm", static_cast<double>(level.error_mm)) + "<td class=\"n\">" +
@@ -163,7 +164,8 @@ std::string Findings(const BakeReport& report) {
 }
 
 std::string Stages(const BakeReport& report) {
-  std::string out = "<h2>Stages</h2><table><tr><th>Stage<th>Item<th class=\"n\">Seconds<th class=\"n\">Peak MB<th>Figures</tr>";
+  std::string out =
+      "<h2>Stages</h2><table><tr><th>Stage<th>Item<th class=\"n\">Seconds<th class=\"n\">Peak MB<th>Figures</tr>";
   for (const StageReport& stage : report.stages) {
     out += "<tr><td>" + Escaped(stage.stage) + "<td>" + Escaped(stage.item) + "<td class=\"n\">" +
            (stage.cached ? std::string("cached") : Format("%.1f", stage.seconds)) + "<td class=\"n\">" +
@@ -182,8 +184,8 @@ std::string ReportHtml(const BakeReport& report) {
   out += Summary(report) + "\n" + Warnings(report) + "\n" + People(report) + "\n";
   if (!report.map_svg.empty()) {
     const size_t svg = report.map_svg.find("<svg");
-    out += "<h2>Town and obstacles</h2><div class=\"map\">" + report.map_svg.substr(svg == std::string::npos ? 0 : svg) +
-           "</div>\n";
+    out += "<h2>Town and obstacles</h2><div class=\"map\">" +
+           report.map_svg.substr(svg == std::string::npos ? 0 : svg) + "</div>\n";
   }
   return out + Findings(report) + "\n" + Stages(report) + "</html>\n";
 }

@@ -20,14 +20,14 @@ const char* GroundKindName(GroundKind kind);  // "carriageway", ...
 struct SceneNode {
   std::string name;
   int parent = -1;
-  Mat4 world;                 // to scene space
-  std::vector<int> meshes;    // indices into Scene::meshes
-  NodeKind kind = NodeKind::kUntagged;      // own tag or the nearest ancestor's
-  GroundKind ground = GroundKind::kNone;    // likewise, where kind is kGround
-  float radius_m = 0;         // 0: not given
-  float width_m = 0;          // 0: not given
-  // The ground under the parent building as its model has it. Nobody walks on it and it blocks nobody; it tells how high
-  // the local ground lies in a town without terrain.
+  Mat4 world;                             // to scene space
+  std::vector<int> meshes;                // indices into Scene::meshes
+  NodeKind kind = NodeKind::kUntagged;    // own tag or the nearest ancestor's
+  GroundKind ground = GroundKind::kNone;  // likewise, where kind is kGround
+  float radius_m = 0;                     // 0: not given
+  float width_m = 0;                      // 0: not given
+  // The ground under the parent building as its model has it. Nobody walks on it and it blocks nobody; it tells how
+  // high the local ground lies in a town without terrain.
   bool is_foundation = false;
 };
 

@@ -63,8 +63,8 @@ int Spawn(const std::vector<std::string>& argv, const RunOptions& options, int l
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   posix_spawnattr_setpgroup(&attributes, 0);
-  const int code = ::posix_spawnp(child, argv[0].c_str(), &actions, &attributes,
-                                  Pointers(&arguments).data(), Pointers(&variables).data());
+  const int code = ::posix_spawnp(child, argv[0].c_str(), &actions, &attributes, Pointers(&arguments).data(),
+                                  Pointers(&variables).data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return code;
@@ -75,8 +75,7 @@ int AwaitEnd(pid_t child) {
   siginfo_t ended{};
   int code = 0;
   EndWithUs(child);
-  while ((code = ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT)) < 0 && errno == EINTR) {
-  }
+  while ((code = ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT)) < 0 && errno == EINTR) {}
   Forget(child);
   return code;
 }
@@ -90,8 +89,8 @@ bool IsProgram(const fs::path& path) {
   return fs::is_regular_file(path, ignored) && ::access(path.c_str(), X_OK) == 0;
 }
 
-// Half of Blender's start is compiling its own Python scripts, which a distribution does not do beforehand: a folder of our own
-// keeps them, and folders named __pycache__ appear nowhere.
+// Half of Blender's start is compiling its own Python scripts, which a distribution does not do beforehand: a folder of
+// our own keeps them, and folders named __pycache__ appear nowhere.
 void AddByteCodeCache(std::vector<std::string>* environment) {
   const char* cache = std::getenv("XDG_CACHE_HOME");
   const char* home = std::getenv("HOME");
@@ -121,8 +120,7 @@ std::string Reason(const fs::path& log_file) {
 
 }  // namespace
 
-Error RunProcess(const std::vector<std::string>& argv, const RunOptions& options,
-                 ProcessResult* result) {
+Error RunProcess(const std::vector<std::string>& argv, const RunOptions& options, ProcessResult* result) {
   *result = {};
   if (argv.empty()) return Fail("no program to run was named");
   int log = -1;
@@ -166,12 +164,13 @@ fs::path BlenderScriptsFolder() {
   const char* named = std::getenv("FLANEUR_BLENDER_SCRIPTS");
   if (named && *named) return named;
   std::error_code ec;
-  const fs::path installed = fs::read_symlink("/proc/self/exe", ec).parent_path().parent_path() / "share/flaneur/blender_scripts";
+  const fs::path installed =
+      fs::read_symlink("/proc/self/exe", ec).parent_path().parent_path() / "share/flaneur/blender_scripts";
   return fs::is_directory(installed, ec) ? installed : fs::path(FLANEUR_BLENDER_SCRIPTS_FOLDER);
 }
 
-Error RunBlenderScript(const fs::path& script, const std::string& settings_json,
-                       const BlenderOptions& options, ProcessResult* result) {
+Error RunBlenderScript(const fs::path& script, const std::string& settings_json, const BlenderOptions& options,
+                       ProcessResult* result) {
   fs::path blender;
   if (Error error = FindBlender(&blender)) return error;
   const fs::path path = fs::absolute(BlenderScriptsFolder() / script);
@@ -186,21 +185,21 @@ Error RunBlenderScript(const fs::path& script, const std::string& settings_json,
   if (Error error = WriteTextFile(settings, settings_json)) return error;
   RunOptions run;
   run.log_file = options.log_file.empty() ? folder.path() / "log.txt" : options.log_file;
-  // A distribution's Blender takes the modules of the first python3 on PATH: let that be the one beside it, not a pyenv's or
-  // conda's.
+  // A distribution's Blender takes the modules of the first python3 on PATH: let that be the one beside it, not a
+  // pyenv's or conda's.
   const char* folders = std::getenv("PATH");
-  run.environment = {"TMPDIR=" + folder.path().string(), "PATH=" + blender.parent_path().string() + ":" + (folders ? folders : "")};
+  run.environment = {"TMPDIR=" + folder.path().string(),
+                     "PATH=" + blender.parent_path().string() + ":" + (folders ? folders : "")};
   AddByteCodeCache(&run.environment);
-  std::vector<std::string> argv = {blender.string(), "--background", "--factory-startup",
-                                   "--python-exit-code", "1"};
+  std::vector<std::string> argv = {blender.string(), "--background", "--factory-startup", "--python-exit-code", "1"};
   if (options.threads > 0) argv.insert(argv.end(), {"--threads", std::to_string(options.threads)});
   argv.insert(argv.end(), {"--python", path.string(), "--", settings.string()});
   ProcessResult process;
   if (Error error = RunProcess(argv, run, &process)) return error;
   if (result) *result = process;
   if (process.exit_status == 0) return Ok();
-  return Fail(path.filename().string() + ": " + Reason(run.log_file) +
-              " (Blender ended with status " + std::to_string(process.exit_status) + ")");
+  return Fail(path.filename().string() + ": " + Reason(run.log_file) + " (Blender ended with status " +
+              std::to_string(process.exit_status) + ")");
 }
 
 }  // namespace flaneur

@@ -25,14 +25,13 @@ struct ProcessResult {
 // Runs argv[0] (searched on PATH where it has no slash) to its end. Standard input is empty. A
 // program that ends with a status other than 0 is no error here. It ends with this process's
 // interruption. Errors: no such program, log file not writable, interrupted.
-Error RunProcess(const std::vector<std::string>& argv, const RunOptions& options,
-                 ProcessResult* result);
+Error RunProcess(const std::vector<std::string>& argv, const RunOptions& options, ProcessResult* result);
 
 // The program FLANEUR_BLENDER names, else `blender` on PATH. Errors: neither is there.
 Error FindBlender(std::filesystem::path* program);
 
-// The folder of the scripts that run inside Blender: FLANEUR_BLENDER_SCRIPTS, else that installed with this program, else that
-// of the source tree.
+// The folder of the scripts that run inside Blender: FLANEUR_BLENDER_SCRIPTS, else that installed with this program,
+// else that of the source tree.
 std::filesystem::path BlenderScriptsFolder();
 
 struct BlenderOptions {

@@ -47,9 +47,8 @@ std::vector<Point3> CutAt(const std::vector<Point3>& polygon, double level, doub
   return out;
 }
 
-
-// Merges segments that overlap along one line, as do the parts in the band of triangles of one wall: each becomes longer
-// by those that overlap its ends, and takes in what lies beside it.
+// Merges segments that overlap along one line, as do the parts in the band of triangles of one wall: each becomes
+// longer by those that overlap its ends, and takes in what lies beside it.
 class LineMerger {
  public:
   explicit LineMerger(const std::vector<Segment>& segments)
@@ -73,8 +72,7 @@ class LineMerger {
  private:
   Segment Merge(Segment s) {
     members_ = {s};
-    while (Grow(&s)) {
-    }
+    while (Grow(&s)) {}
     const int steps = grid_.one_cell() ? 1 : static_cast<int>(std::ceil(Length(s) / grid_.cell_m()));
     for (int k = 0; k <= steps; ++k) {
       const double share = static_cast<double>(k) / steps;
@@ -91,7 +89,8 @@ class LineMerger {
         if (gone_[j] || DistanceToSegment(end, t.a, t.b) > kOnLongerLine_m) continue;
         const Segment longer = Together(*s, t);
         if (Length(longer) > Length(*s) + Length(t) - kMinLineOverlap_m || !IsBeside(t, longer)) continue;
-        if (!std::all_of(members_.begin(), members_.end(), [&](const Segment& m) { return IsBeside(m, longer); })) continue;
+        if (!std::all_of(members_.begin(), members_.end(), [&](const Segment& m) { return IsBeside(m, longer); }))
+          continue;
         gone_[j] = true;
         members_.push_back(t);
         *s = longer;

@@ -28,9 +28,7 @@ GroundRaster Blank(const TownObject& object) {
   return raster;
 }
 
-size_t CellAt(const GroundRaster& raster, int column, int row) {
-  return RowMajor(row, raster.columns, column);
-}
+size_t CellAt(const GroundRaster& raster, int column, int row) { return RowMajor(row, raster.columns, column); }
 
 void LowerTo(GroundRaster* raster, double x, double y, double z) {
   const int column = static_cast<int>(std::floor((x - raster->min_m.x) / raster->cell_m));
@@ -86,8 +84,7 @@ void FilterLine(std::vector<float>* line, int reach, Better better) {
       queue.push_back(next);
     }
     while (front < queue.size() && queue[front] < i - reach) ++front;
-    if (At(in, i) != kNothing && front < queue.size())
-      At(*line, i) = At(in, queue[front]);
+    if (At(in, i) != kNothing && front < queue.size()) At(*line, i) = At(in, queue[front]);
   }
 }
 
@@ -165,7 +162,8 @@ std::vector<LocalGround> GroundsUnder(const TownObject& object) {
   GroundRaster high = low;
   Filter(&high, 1, kHigher);
   bool step = false;
-  for (size_t i = 0; i < low.kind.size(); ++i) step |= low.kind[i] && high.height_m[i] - low.height_m[i] > kMinTerraceStep_m;
+  for (size_t i = 0; i < low.kind.size(); ++i)
+    step |= low.kind[i] && high.height_m[i] - low.height_m[i] > kMinTerraceStep_m;
   std::vector<LocalGround> grounds;
   grounds.emplace_back(low, LocalGround::Gaps::kNearest);
   if (step) grounds.emplace_back(high, LocalGround::Gaps::kNearest);

@@ -80,9 +80,10 @@ Rings EnclosedTogether(const Site& site, const std::vector<TownObject>& objects,
   return Difference(whole.solid, known);
 }
 
-// The object of the block that most of the piece lies under, by its place in the block; the block's size: none. The objects'
-// projections are filled in as they are needed.
-size_t OwnerOf(const Rings& piece, const std::vector<TownObject>& objects, const Block& block, std::vector<Rings>* projections) {
+// The object of the block that most of the piece lies under, by its place in the block; the block's size: none. The
+// objects' projections are filled in as they are needed.
+size_t OwnerOf(const Rings& piece, const std::vector<TownObject>& objects, const Block& block,
+               std::vector<Rings>* projections) {
   size_t owner = block.size();
   double most_m2 = 0;
   for (size_t k = 0; k < block.size(); ++k) {
@@ -101,7 +102,8 @@ std::vector<Block> BlocksOf(const std::vector<TownObject>& objects) {
   std::vector<size_t> from_west;
   for (size_t i = 0; i < objects.size(); ++i)
     if (InBlocks(objects[i].kind)) from_west.push_back(i);
-  std::sort(from_west.begin(), from_west.end(), [&](size_t i, size_t j) { return objects[i].min_m.x < objects[j].min_m.x; });
+  std::sort(from_west.begin(), from_west.end(),
+            [&](size_t i, size_t j) { return objects[i].min_m.x < objects[j].min_m.x; });
   DisjointSets adjoining(objects.size());
   for (size_t k = 0; k < from_west.size(); ++k) {
     const size_t i = from_west[k];
@@ -118,7 +120,8 @@ std::vector<Block> BlocksOf(const std::vector<TownObject>& objects) {
   return blocks;
 }
 
-void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const Block& whole_block, std::vector<Shape>* shapes) {
+void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const Block& whole_block,
+                std::vector<Shape>* shapes) {
   const Block block = WithOpenShells(objects, whole_block, *shapes);
   if (block.empty()) return;
   const Rings gap = EnclosedTogether(site, objects, block, *shapes);

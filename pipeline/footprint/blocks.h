@@ -14,7 +14,8 @@ std::vector<Block> BlocksOf(const std::vector<TownObject>& objects);
 
 // Houses that lean on each other often lack the wall between them: what only the block as a whole encloses goes to the
 // house that stands over it.
-void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const Block& whole_block, std::vector<Shape>* shapes);
+void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const Block& whole_block,
+                std::vector<Shape>* shapes);
 
 // Gives all of a block to its first object, whose shell is open where any of theirs is.
 void MergeBlock(const Block& block, std::vector<Shape>* shapes);

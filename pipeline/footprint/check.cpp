@@ -52,7 +52,8 @@ Error Validate(const CheckOptions& options) {
   for (const CheckNumber& number : CheckNumbers()) {
     const double value = options.*number.value;
     if (std::isfinite(value) && (number.may_be_zero ? value >= 0 : value > 0)) continue;
-    return Fail(std::string("the check's ") + number.name + " must be " + (number.may_be_zero ? "at least" : "greater than") + " zero");
+    return Fail(std::string("the check's ") + number.name + " must be " +
+                (number.may_be_zero ? "at least" : "greater than") + " zero");
   }
   if (options.most_points < 3) return Fail("the check's most-points must be at least 3");
   return Ok();
@@ -65,7 +66,8 @@ void AddOpenShells(CheckState* state) {
   std::set<std::string> told;
   for (const Obstacle& o : state->footprints.obstacles)
     if (o.open_shell && told.insert(o.source.empty() ? o.name : o.source).second)
-      state->Add(306, o.name, o.outer.empty() ? o.center : o.outer[0], 0, 0, "the extraction had to guess at '" + o.name + "'");
+      state->Add(306, o.name, o.outer.empty() ? o.center : o.outer[0], 0, 0,
+                 "the extraction had to guess at '" + o.name + "'");
 }
 
 }  // namespace

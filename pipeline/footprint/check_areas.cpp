@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <cmath>
 #include <clipper.hpp>
+#include <cmath>
 
 #include "pipeline/footprint/check_parts.h"
 #include "pipeline/footprint/constants.h"

@@ -1,5 +1,5 @@
-// Dead ends and traps: what hangs on one way only, found as the bridges of the network of ways, and what a visitor cuts off
-// by standing somewhere, found by taking the ways round them out of it.
+// Dead ends and traps: what hangs on one way only, found as the bridges of the network of ways, and what a visitor cuts
+// off by standing somewhere, found by taking the ways round them out of it.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -22,8 +22,12 @@ size_t Index(int i) { return static_cast<size_t>(i); }
 class Network {
  public:
   Network(const Rings& ground, double radius, const OpenTest& is_open, const std::vector<Gate>& gates)
-      : graph(BuildWayNetwork(ground, radius - 0.0005, is_open)), safe(graph.nodes.size()), exit(graph.nodes.size()), gate(graph.nodes.size()) {
-    for (size_t i = 0; i < graph.nodes.size(); ++i) safe[i] = exit[i] = graph.nodes[i].open, open |= graph.nodes[i].open;
+      : graph(BuildWayNetwork(ground, radius - 0.0005, is_open)),
+        safe(graph.nodes.size()),
+        exit(graph.nodes.size()),
+        gate(graph.nodes.size()) {
+    for (size_t i = 0; i < graph.nodes.size(); ++i)
+      safe[i] = exit[i] = graph.nodes[i].open, open |= graph.nodes[i].open;
     for (const Gate& place : gates) AddGate(place);
     FindWaysOut(exit, &to_exit, &next);
     if (safe != exit) FindWaysOut(safe, nullptr, &next);
@@ -32,15 +36,15 @@ class Network {
 
   WayNetwork graph;
   std::vector<uint8_t> safe, exit, gate;  // safe: an exit or a door; gate: not by being open
-  std::vector<double> to_exit;      // metres; infinite where there is no way
-  std::vector<int> next;            // towards the nearest door or exit; -1: there, or no way
-  std::vector<int> parent, order;   // of the search
-  std::vector<uint8_t> bridge;      // the way from the parent is the only one
-  std::vector<double> deepest;      // in the subtree: to_exit and clearance of its farthest node
+  std::vector<double> to_exit;            // metres; infinite where there is no way
+  std::vector<int> next;                  // towards the nearest door or exit; -1: there, or no way
+  std::vector<int> parent, order;         // of the search
+  std::vector<uint8_t> bridge;            // the way from the parent is the only one
+  std::vector<double> deepest;            // in the subtree: to_exit and clearance of its farthest node
   std::vector<int> deepest_node;
-  std::vector<double> size_m2;      // about, of the ground in the subtree
+  std::vector<double> size_m2;  // about, of the ground in the subtree
   double whole_m2 = 0;
-  bool open = false;                // people leave over the edge, and there is more ground beyond
+  bool open = false;  // people leave over the edge, and there is more ground beyond
 
  private:
   // Whoever comes out can go straight to the ways in whose free circle they stand.
@@ -90,7 +94,8 @@ class Network {
     const size_t n = graph.nodes.size();
     parent.assign(n, -1), bridge.assign(n, 0), deepest.assign(n, 0), deepest_node.assign(n, -1), size_m2.assign(n, 0);
     for (const WayEdge& way : graph.ways) {
-      const double area = way.length_m * (graph.nodes[Index(way.from)].clearance_m + graph.nodes[Index(way.to)].clearance_m);
+      const double area =
+          way.length_m * (graph.nodes[Index(way.from)].clearance_m + graph.nodes[Index(way.to)].clearance_m);
       size_m2[Index(way.from)] += area / 2, size_m2[Index(way.to)] += area / 2;
     }
     std::vector<int> position(n, 0), low(n, 0), arrived_by(n, -1);
@@ -143,9 +148,11 @@ class Network {
 
 class NetworkCheck {
  public:
-  NetworkCheck(const Network& network, const BrokenPlaces& broken, const std::vector<CheckedObstacle>& obstacles, CheckState* state)
+  NetworkCheck(const Network& network, const BrokenPlaces& broken, const std::vector<CheckedObstacle>& obstacles,
+               CheckState* state)
       : net_(network), broken_(broken), obstacles_(obstacles), state_(*state) {
-    for (size_t i = 0; i < net_.graph.nodes.size(); ++i) cells_[Cell(net_.graph.nodes[i].at)].push_back(static_cast<int>(i));
+    for (size_t i = 0; i < net_.graph.nodes.size(); ++i)
+      cells_[Cell(net_.graph.nodes[i].at)].push_back(static_cast<int>(i));
     mark_.assign(net_.graph.nodes.size(), 0), verdict_.assign(net_.graph.nodes.size(), 0);
   }
 
@@ -160,8 +167,8 @@ class NetworkCheck {
   Point2 At(int node) const { return net_.graph.nodes[Index(node)].at; }
   double Radius() const { return state_.options.high_resolution_radius_m; }
 
-  // Ground with one mouth that is narrower than the ground is deep, and that the visitor's circle can close; in a walled
-  // town less than half of all ground.
+  // Ground with one mouth that is narrower than the ground is deep, and that the visitor's circle can close; in a
+  // walled town less than half of all ground.
   void FindPockets() {
     pocket_.assign(net_.graph.nodes.size(), -1);
     for (const int node : net_.order) {
@@ -174,7 +181,8 @@ class NetworkCheck {
       const int mouth = MouthFrom(node);
       if (Depth(mouth) <= Width(mouth) || Width(mouth) >= 2 * Radius()) continue;
       if (mouth != node) continue;  // told when the search comes to it
-      if (!net_.open && 2 * net_.size_m2[Index(node)] > net_.whole_m2) continue;  // the town itself, behind its only gate
+      if (!net_.open && 2 * net_.size_m2[Index(node)] > net_.whole_m2)
+        continue;  // the town itself, behind its only gate
       pocket_[Index(node)] = node;
     }
     std::unordered_map<int, bool> in_doubt;  // by pocket
@@ -216,7 +224,9 @@ class NetworkCheck {
   // ---- 503 ----
 
   static constexpr double kCell_m = 10;
-  static int64_t Cell(Point2 p) { return CellOf(static_cast<int64_t>(std::floor(p.x / kCell_m)), static_cast<int64_t>(std::floor(p.y / kCell_m))); }
+  static int64_t Cell(Point2 p) {
+    return CellOf(static_cast<int64_t>(std::floor(p.x / kCell_m)), static_cast<int64_t>(std::floor(p.y / kCell_m)));
+  }
   static int64_t CellOf(int64_t x, int64_t y) { return x * 4'000'037 + y; }
 
   void FindTraps() {
@@ -225,22 +235,25 @@ class NetworkCheck {
     for (const int node : net_.order) {
       const Point2 p = At(node);
       const bool in_pocket = pocket_[Index(node)] >= 0;
-      const int64_t place = static_cast<int64_t>(std::floor(p.x / kStandEvery_m)) * 40'000'003 + static_cast<int64_t>(std::floor(p.y / kStandEvery_m));
+      const int64_t place = static_cast<int64_t>(std::floor(p.x / kStandEvery_m)) * 40'000'003 +
+                            static_cast<int64_t>(std::floor(p.y / kStandEvery_m));
       if (!in_pocket && net_.graph.nodes[Index(node)].clearance_m >= Radius()) continue;
       if (!in_pocket && !tried.try_emplace(place, true).second) continue;
       Stand(node, &told);
     }
   }
 
-  // Takes the ways that the circle covers from wall to wall out, and looks at what is left round them. Inside a pocket the
-  // visitor stands in the middle of the way; elsewhere the way may pass at one side.
+  // Takes the ways that the circle covers from wall to wall out, and looks at what is left round them. Inside a pocket
+  // the visitor stands in the middle of the way; elsewhere the way may pass at one side.
   void Stand(int visitor, std::vector<uint8_t>* told) {
     ++stamp_;
     visitor_ = visitor;
     const Point2 p = At(visitor);
     inside_.clear();
-    const auto low_x = static_cast<int64_t>(std::floor((p.x - Radius()) / kCell_m)), high_x = static_cast<int64_t>(std::floor((p.x + Radius()) / kCell_m));
-    const auto low_y = static_cast<int64_t>(std::floor((p.y - Radius()) / kCell_m)), high_y = static_cast<int64_t>(std::floor((p.y + Radius()) / kCell_m));
+    const auto low_x = static_cast<int64_t>(std::floor((p.x - Radius()) / kCell_m)),
+               high_x = static_cast<int64_t>(std::floor((p.x + Radius()) / kCell_m));
+    const auto low_y = static_cast<int64_t>(std::floor((p.y - Radius()) / kCell_m)),
+               high_y = static_cast<int64_t>(std::floor((p.y + Radius()) / kCell_m));
     const bool in_pocket = pocket_[Index(visitor)] >= 0;
     for (int64_t x = low_x; x <= high_x; ++x) {
       for (int64_t y = low_y; y <= high_y; ++y) {
@@ -267,10 +280,16 @@ class NetworkCheck {
     bool out = false;
     for (int node = start;;) {
       if (Inside(node)) break;
-      if (verdict_[Index(node)] == 2 * stamp_ + 1) { out = true; break; }
+      if (verdict_[Index(node)] == 2 * stamp_ + 1) {
+        out = true;
+        break;
+      }
       if (verdict_[Index(node)] == 2 * stamp_) break;
       walk_.push_back(node);
-      if (net_.safe[Index(node)]) { out = true; break; }
+      if (net_.safe[Index(node)]) {
+        out = true;
+        break;
+      }
       const int on = net_.next[Index(node)];
       if (on < 0) break;
       node = on;
@@ -291,7 +310,10 @@ class NetworkCheck {
       for (const int way : net_.graph.nodes[Index(part_[i])].ways) {
         const int other = net_.graph.Other(way, part_[i]);
         if (Inside(other) || in_part[Index(other)]) continue;
-        if (LeadsOut(other)) { out = true; break; }
+        if (LeadsOut(other)) {
+          out = true;
+          break;
+        }
         in_part[Index(other)] = 1;
         part_.push_back(other);
       }
@@ -303,15 +325,16 @@ class NetworkCheck {
     if (!out) ReportTrap(told);
   }
 
-  // From inside a pocket all that lies beyond the circle counts, as long as two people can stand there; from anywhere else only what is deeper than the radius, lest
-  // every niche and corner that a circle happens to close be a trap.
+  // From inside a pocket all that lies beyond the circle counts, as long as two people can stand there; from anywhere
+  // else only what is deeper than the radius, lest every niche and corner that a circle happens to close be a trap.
   void ReportTrap(std::vector<uint8_t>* told) {
     const int pocket = pocket_[Index(visitor_)];
     double farthest = 0, area = 0;
     int end = part_[0];
     bool in_pocket = pocket >= 0;
     for (const int node : part_) {
-      const double d = std::hypot(At(node).x - At(visitor_).x, At(node).y - At(visitor_).y) + net_.graph.nodes[Index(node)].clearance_m - Radius();
+      const double d = std::hypot(At(node).x - At(visitor_).x, At(node).y - At(visitor_).y) +
+                       net_.graph.nodes[Index(node)].clearance_m - Radius();
       if (d > farthest) farthest = d, end = node;
       in_pocket &= pocket_[Index(node)] == pocket;
       for (const int way : net_.graph.nodes[Index(node)].ways)
@@ -319,7 +342,9 @@ class NetworkCheck {
     }
     const double width = Width(end);
     area = std::max(area, farthest * width);
-    if (area < state_.options.least_ground_m2 || farthest < 4 * state_.options.person_radius_m || (!in_pocket && farthest <= Radius())) return;
+    if (area < state_.options.least_ground_m2 || farthest < 4 * state_.options.person_radius_m ||
+        (!in_pocket && farthest <= Radius()))
+      return;
     for (const int node : part_)
       if ((*told)[Index(node)] || (!in_pocket && InDoubt(node))) return;
     // The whole pocket is one trap.
@@ -327,8 +352,8 @@ class NetworkCheck {
     if (in_pocket) told_pockets_[pocket] = true;
     for (const int node : part_) (*told)[Index(node)] = 1;
     state_.Add(503, NearestObstacle(obstacles_, At(end)), At(end), farthest, 0,
-               "a visitor at (" + Number(At(visitor_).x) + ", " + Number(At(visitor_).y) + ") cuts off " + Metres(farthest) +
-                   " of way without a door or an exit");
+               "a visitor at (" + Number(At(visitor_).x) + ", " + Number(At(visitor_).y) + ") cuts off " +
+                   Metres(farthest) + " of way without a door or an exit");
   }
 
   static std::string Number(double v) {

@@ -9,14 +9,19 @@ namespace {
 
 using Entry = CheckedObstacle;
 
-struct Gap { double width_m; Point2 from, to; };
+struct Gap {
+  double width_m;
+  Point2 from, to;
+};
 
 bool Near(const Entry& entry, Point2 p, double reach) {
-  return p.x >= entry.min.x - reach && p.x <= entry.max.x + reach && p.y >= entry.min.y - reach && p.y <= entry.max.y + reach;
+  return p.x >= entry.min.x - reach && p.x <= entry.max.x + reach && p.y >= entry.min.y - reach &&
+         p.y <= entry.max.y + reach;
 }
 
 bool BoxesWithin(const Entry& a, const Entry& b, double reach) {
-  return a.min.x <= b.max.x + reach && b.min.x <= a.max.x + reach && a.min.y <= b.max.y + reach && b.min.y <= a.max.y + reach;
+  return a.min.x <= b.max.x + reach && b.min.x <= a.max.x + reach && a.min.y <= b.max.y + reach &&
+         b.min.y <= a.max.y + reach;
 }
 
 Point2 NearestOn(Point2 p, Point2 a, Point2 b) {
@@ -70,7 +75,8 @@ class PairCheck {
   explicit PairCheck(CheckState* state) : state_(*state) {
     for (Entry& entry : state->obstacles)
       if (!entry.rings.empty() && !entry.points_missing) sorted_.push_back(&entry);
-    std::stable_sort(sorted_.begin(), sorted_.end(), [](const Entry* a, const Entry* b) { return a->min.x < b->min.x; });
+    std::stable_sort(sorted_.begin(), sorted_.end(),
+                     [](const Entry* a, const Entry* b) { return a->min.x < b->min.x; });
   }
 
   void Run() {
@@ -109,7 +115,9 @@ class PairCheck {
     });
   }
 
-  static std::string Names(const Entry& a, const Entry& b) { return "'" + a.obstacle->name + "' and '" + b.obstacle->name + "'"; }
+  static std::string Names(const Entry& a, const Entry& b) {
+    return "'" + a.obstacle->name + "' and '" + b.obstacle->name + "'";
+  }
 
   // A hole that is not where it should be says nothing about what stands in it.
   static bool StandsInBrokenHole(const Entry& inner, const Entry& outer) {
@@ -127,7 +135,8 @@ class PairCheck {
     if (!doubt.empty()) shared = Difference(shared, Offset(UnionOfRings(doubt), state_.options.tolerance_m));
     const double overlap = Area(shared);
     if (overlap <= state_.options.overlap_m2) return false;
-    const auto largest = std::max_element(shared.begin(), shared.end(), [](const Ring& p, const Ring& q) { return SignedArea(p) < SignedArea(q); });
+    const auto largest = std::max_element(shared.begin(), shared.end(),
+                                          [](const Ring& p, const Ring& q) { return SignedArea(p) < SignedArea(q); });
     state_.Add(401, a.obstacle->name, MiddleOf(*largest), overlap, state_.options.overlap_m2,
                Names(a, b) + " share " + SquareMetres(overlap), b.obstacle->name);
     return true;
@@ -144,7 +153,9 @@ class PairCheck {
   bool DoubtWithin(const Entry& entry, const Entry& other, double reach) const {
     for (const Ring& hull : entry.doubt)
       for (size_t i = 0, j = hull.size() - 1; i < hull.size(); j = i++)
-        if (Near(other, NearestOn({(other.min.x + other.max.x) / 2, (other.min.y + other.max.y) / 2}, hull[j], hull[i]), reach)) return true;
+        if (Near(other, NearestOn({(other.min.x + other.max.x) / 2, (other.min.y + other.max.y) / 2}, hull[j], hull[i]),
+                 reach))
+          return true;
     return false;
   }
 
@@ -171,7 +182,8 @@ class PairCheck {
       const double passage = 2 * state_.options.person_radius_m;
       const int code = gap.width_m < passage ? 403 : 404;
       state_.Add(code, a.obstacle->name, {(gap.from.x + gap.to.x) / 2, (gap.from.y + gap.to.y) / 2}, gap.width_m,
-                 code == 403 ? passage : 2 * passage, Metres(gap.width_m) + " between " + Names(a, b), b.obstacle->name);
+                 code == 403 ? passage : 2 * passage, Metres(gap.width_m) + " between " + Names(a, b),
+                 b.obstacle->name);
       return true;
     }
     return false;

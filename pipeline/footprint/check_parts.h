@@ -9,13 +9,13 @@ namespace flaneur {
 
 struct CheckedObstacle {
   const Obstacle* obstacle = nullptr;
-  Rings rings;                // its area as well as it can be told, without spikes; circles as polygons; empty: no telling
-  Rings spikes;               // what was taken off
-  Rings doubt;                // convex, one a crossing: where a broken ring leaves open what is inside
-  bool sound = true;          // none of 101 to 202
+  Rings rings;        // its area as well as it can be told, without spikes; circles as polygons; empty: no telling
+  Rings spikes;       // what was taken off
+  Rings doubt;        // convex, one a crossing: where a broken ring leaves open what is inside
+  bool sound = true;  // none of 101 to 202
   bool points_missing = false;  // of the outer ring: its edges mean little
   bool holes_broken = false;
-  bool duplicate = false;     // of an earlier one
+  bool duplicate = false;  // of an earlier one
   Point2 min, max;
 };
 
@@ -40,10 +40,10 @@ Rings OffsetRound(const Rings& rings, double distance_m);
 Rings NonZeroArea(const Ring& ring);
 Ring ConvexHull(Ring points);
 
-void CheckRings(CheckState* state);                       // 101-203; fills the obstacles
-void CheckPairs(CheckState* state);                       // 401-404
+void CheckRings(CheckState* state);                            // 101-203; fills the obstacles
+void CheckPairs(CheckState* state);                            // 401-404
 Error CheckAgainstTown(const Scene& town, CheckState* state);  // 301-307
-Error CheckWays(const Scene* town, CheckState* state);    // 501-503, 601-604
-void CheckStreets(CheckState* state);                     // 504
+Error CheckWays(const Scene* town, CheckState* state);         // 501-503, 601-604
+void CheckStreets(CheckState* state);                          // 504
 
 }  // namespace flaneur

@@ -18,15 +18,20 @@ bool Crosses(Point2 a, Point2 b, Point2 c, Point2 d) {
 
 // The distance of two edges that do not cross, and where on the first or second it is taken.
 double EdgeDistance(Point2 a, Point2 b, Point2 c, Point2 d, Point2* at) {
-  const std::pair<double, Point2> all[] = {{DistanceToSegment(a, c, d), a}, {DistanceToSegment(b, c, d), b},
-                                           {DistanceToSegment(c, a, b), c}, {DistanceToSegment(d, a, b), d}};
-  const auto* nearest = std::min_element(std::begin(all), std::end(all),
-                                         [](const auto& p, const auto& q) { return p.first < q.first; });
+  const std::pair<double, Point2> all[] = {{DistanceToSegment(a, c, d), a},
+                                           {DistanceToSegment(b, c, d), b},
+                                           {DistanceToSegment(c, a, b), c},
+                                           {DistanceToSegment(d, a, b), d}};
+  const auto* nearest =
+      std::min_element(std::begin(all), std::end(all), [](const auto& p, const auto& q) { return p.first < q.first; });
   *at = nearest->second;
   return nearest->first;
 }
 
-struct Crossing { size_t first, second; Point2 at; };  // of edges; first < second
+struct Crossing {
+  size_t first, second;
+  Point2 at;
+};  // of edges; first < second
 
 // Where edges that are not neighbours cross or touch.
 std::vector<Crossing> FindCrossings(const Ring& ring) {
@@ -72,10 +77,14 @@ Ring LoopOf(const Ring& ring, const Crossing& crossing) {
 // Whether an opening or closing with this radius can matter: edges that are not neighbours come near each other, or a
 // corner is sharp.
 bool HasNarrowPart(const Rings& rings, double width_m, double sharp_cosine) {
-  struct Edge { Point2 a, b; size_t ring, index; };
+  struct Edge {
+    Point2 a, b;
+    size_t ring, index;
+  };
   std::vector<Edge> edges;
   for (size_t r = 0; r < rings.size(); ++r)
-    for (size_t i = 0; i < rings[r].size(); ++i) edges.push_back({rings[r][i], rings[r][(i + 1) % rings[r].size()], r, i});
+    for (size_t i = 0; i < rings[r].size(); ++i)
+      edges.push_back({rings[r][i], rings[r][(i + 1) % rings[r].size()], r, i});
   if (edges.size() > kMaxNearEdges) return true;
   for (size_t u = 0; u < edges.size(); ++u) {
     const Edge& e = edges[u];
@@ -86,8 +95,10 @@ bool HasNarrowPart(const Rings& rings, double width_m, double sharp_cosine) {
     for (size_t v = u + 1; v < edges.size(); ++v) {
       const Edge& f = edges[v];
       if (f.ring == e.ring && (f.index == e.index + 1 || (e.index == 0 && f.index == n - 1))) continue;
-      if (std::max(e.a.x, e.b.x) + width_m < std::min(f.a.x, f.b.x) || std::max(f.a.x, f.b.x) + width_m < std::min(e.a.x, e.b.x) ||
-          std::max(e.a.y, e.b.y) + width_m < std::min(f.a.y, f.b.y) || std::max(f.a.y, f.b.y) + width_m < std::min(e.a.y, e.b.y))
+      if (std::max(e.a.x, e.b.x) + width_m < std::min(f.a.x, f.b.x) ||
+          std::max(f.a.x, f.b.x) + width_m < std::min(e.a.x, e.b.x) ||
+          std::max(e.a.y, e.b.y) + width_m < std::min(f.a.y, f.b.y) ||
+          std::max(f.a.y, f.b.y) + width_m < std::min(e.a.y, e.b.y))
         continue;
       Point2 at;
       if (EdgeDistance(e.a, e.b, f.a, f.b, &at) < width_m) return true;
@@ -138,8 +149,12 @@ class ObstacleCheck {
     const Obstacle& o = *entry_.obstacle;
     const double limit = state_.options.largest_coordinate_m;
     const bool fits = Fits(o.center) && !(o.radius_m > limit);
-    if (!fits) Add(107, {}, Fits(o.center) ? o.radius_m : SizeOf(o.center), limit, SizeText(Fits(o.center) ? o.radius_m : SizeOf(o.center)));
-    if (!(o.radius_m > 0)) Add(109, Fits(o.center) ? o.center : Point2{}, o.radius_m, 0, std::isnan(o.radius_m) ? "none given" : Metres(o.radius_m));
+    if (!fits)
+      Add(107, {}, Fits(o.center) ? o.radius_m : SizeOf(o.center), limit,
+          SizeText(Fits(o.center) ? o.radius_m : SizeOf(o.center)));
+    if (!(o.radius_m > 0))
+      Add(109, Fits(o.center) ? o.center : Point2{}, o.radius_m, 0,
+          std::isnan(o.radius_m) ? "none given" : Metres(o.radius_m));
     if (fits && o.radius_m > 0) entry_.rings = {CircleRing(o.center, o.radius_m)};
   }
 
@@ -229,10 +244,12 @@ class ObstacleCheck {
     }
     if (complete) Add(104, crossings[0].at, static_cast<double>(crossings.size()), 0, name);
     for (const Crossing& crossing : crossings) entry_.doubt.push_back(LoopOf(ring, crossing));
-    const bool readable = ring.size() <= static_cast<size_t>(state_.options.most_points) && crossings.size() < kMaxCrossings;
+    const bool readable =
+        ring.size() <= static_cast<size_t>(state_.options.most_points) && crossings.size() < kMaxCrossings;
     if (!readable) return {ConvexHull(ring)};
     const Rings filled = NonZeroArea(ring);
-    const double whole = Area(filled), wrong = number == 0 ? whole - area : whole + area;  // twice what runs the wrong way
+    const double whole = Area(filled),
+                 wrong = number == 0 ? whole - area : whole + area;  // twice what runs the wrong way
     if (wrong / 2 > kMinTurnedRatio * std::max(whole - wrong / 2, 0.0)) Add(105, ring[0], area, 0, name);
     if (whole < state_.options.least_area_m2) return ReportSmall(whole, ring[0], name), Rings();
     return filled;
@@ -262,7 +279,8 @@ class ObstacleCheck {
     }
     if (count == 0) return;
     Add(102, points[worst], least, state_.options.same_point_m,
-        "point " + std::to_string(worst) + " of " + name + (count > 1 ? ", and " + std::to_string(count - 1) + " more" : ""));
+        "point " + std::to_string(worst) + " of " + name +
+            (count > 1 ? ", and " + std::to_string(count - 1) + " more" : ""));
   }
 
   // 203: spikes without area. They are taken out, so that they don't count as crossings.
@@ -303,7 +321,8 @@ class ObstacleCheck {
       Rings known = outer;
       known.insert(known.end(), entry_.doubt.begin(), entry_.doubt.end());
       const double outside = outer.empty() ? 0 : Area(Difference(holes[i], UnionOfAreas(known)));
-      if (outside > limit) Add(201, holes[i][0][0], outside, limit, name + ", " + SquareMetres(outside)), entry_.holes_broken = true;
+      if (outside > limit)
+        Add(201, holes[i][0][0], outside, limit, name + ", " + SquareMetres(outside)), entry_.holes_broken = true;
       for (size_t j = 0; j < i; ++j) {
         const double shared = holes[j].empty() ? 0 : Area(Intersection(holes[i], holes[j]));
         if (shared > limit)
@@ -350,7 +369,8 @@ class ObstacleCheck {
       for (const Point2& p : hull)
         for (const Point2& q : hull) longest = std::max(longest, Distance(p, q));
       if (longest <= length) continue;
-      if (std::any_of(entry_.doubt.begin(), entry_.doubt.end(), [&](const Ring& doubt) { return Area(Intersection({lost}, {doubt})) > 0; }))
+      if (std::any_of(entry_.doubt.begin(), entry_.doubt.end(),
+                      [&](const Ring& doubt) { return Area(Intersection({lost}, {doubt})) > 0; }))
         continue;  // a crossing's tips
       ReportSpike(lost[0], longest, name.empty() ? "a part" : name);
       *area = Intersection(*area, opened);

@@ -7,7 +7,10 @@ namespace flaneur {
 namespace {
 
 // How deep a line goes into an obstacle, and where.
-struct Depth { double depth_m = 0; Point2 at; };
+struct Depth {
+  double depth_m = 0;
+  Point2 at;
+};
 
 void GoThrough(Point2 a, Point2 b, const CheckedObstacle& entry, Depth* deepest) {
   std::vector<double> cuts{0, 1};

@@ -15,11 +15,16 @@ namespace flaneur {
 namespace {
 
 bool Meet(Point2 min, Point2 max, const BoundingBox& box, double reach = 0) {
-  return min.x <= box.max.x + reach && box.min.x <= max.x + reach && min.y <= box.max.y + reach && box.min.y <= max.y + reach;
+  return min.x <= box.max.x + reach && box.min.x <= max.x + reach && min.y <= box.max.y + reach &&
+         box.min.y <= max.y + reach;
 }
 
 // What the town itself says should be covered, by object.
-struct Footprint { const Obstacle* obstacle; Rings rings; BoundingBox box; };
+struct Footprint {
+  const Obstacle* obstacle;
+  Rings rings;
+  BoundingBox box;
+};
 
 class TownCheck {
  public:
@@ -93,7 +98,11 @@ class TownCheck {
 
   // 304: objects of which most is uncovered; their walls are not reported once more.
   void FindMissing() {
-    struct Cover { double all = 0, covered = 0; Point2 at; BoundingBox box; };
+    struct Cover {
+      double all = 0, covered = 0;
+      Point2 at;
+      BoundingBox box;
+    };
     std::map<std::string, Cover> covers;  // by source
     for (const Footprint& f : truth_) {
       Cover& cover = covers[f.obstacle->source];
@@ -101,8 +110,7 @@ class TownCheck {
       cover.all += Area(f.rings);
       Rings near;
       for (const CheckedObstacle& entry : state_.obstacles)
-        if (!entry.rings.empty() && !entry.duplicate && Meet(entry.min, entry.max, f.box))
-          AddWhole(entry, &near);
+        if (!entry.rings.empty() && !entry.duplicate && Meet(entry.min, entry.max, f.box)) AddWhole(entry, &near);
       if (!near.empty()) cover.covered += Area(Intersection(f.rings, UnionOfAreas(near)));
     }
     for (const auto& [source, cover] : covers) {
@@ -147,7 +155,9 @@ class TownCheck {
       const BoundingBox box{{object.min_m.x, object.min_m.y}, {object.max_m.x, object.max_m.y}};
       if (IsBroken(object.name, box)) continue;
       if (object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp) FindTrunk(object, box);
-      else CheckWalls(object, box, terrain.empty() ? WallsInBand(object, GroundsUnder(object)) : WallsInBand(object, terrain));
+      else
+        CheckWalls(object, box,
+                   terrain.empty() ? WallsInBand(object, GroundsUnder(object)) : WallsInBand(object, terrain));
     }
   }
 
@@ -177,7 +187,8 @@ class TownCheck {
     const std::vector<Segment> bare = Outside(walls, Offset(cover, tolerance));
     if (Length(bare) > kMinWallFinding_m) {
       const auto [depth, at] = Worst(bare, index);
-      state_.Add(301, object.name, at, -depth, tolerance, "a wall of '" + object.name + "' stands out by " + Metres(-depth));
+      state_.Add(301, object.name, at, -depth, tolerance,
+                 "a wall of '" + object.name + "' stands out by " + Metres(-depth));
       return;
     }
     if (short_of <= 0) return;
@@ -186,7 +197,8 @@ class TownCheck {
     const auto [depth, at] = Worst(near, index);
     const double left = std::max(depth, 0.0);
     if (left < short_of)
-      state_.Add(302, object.name, at, left, state_.clearance_m, "only " + Metres(left) + " beside a wall of '" + object.name + "'");
+      state_.Add(302, object.name, at, left, state_.clearance_m,
+                 "only " + Metres(left) + " beside a wall of '" + object.name + "'");
   }
 
   static std::pair<double, Point2> Worst(const std::vector<Segment>& walls, const AreaIndex& cover) {
@@ -210,7 +222,8 @@ class TownCheck {
       const double share = Area(Intersection(entry.rings, TruthNear({entry.min, entry.max}))) / Area(entry.rings);
       if (share >= (entry.sound ? kMaxStrangeShare : 1e-9)) continue;
       strange_.insert(&entry);
-      state_.Add(305, entry.obstacle->name, entry.rings[0][0], share, kMaxStrangeShare, "'" + entry.obstacle->name + "'");
+      state_.Add(305, entry.obstacle->name, entry.rings[0][0], share, kMaxStrangeShare,
+                 "'" + entry.obstacle->name + "'");
     }
   }
 
@@ -233,17 +246,20 @@ class TownCheck {
         rings.insert(rings.end(), piece.holes.begin(), piece.holes.end());
         const double area = Area(rings);
         if (area < kMinFinding_m2) continue;
-        const PassageParts parts = passages.Sort(rings, TruthNear({entry.min, entry.max}, PassageTest::kFarthestWall_m));
+        const PassageParts parts =
+            passages.Sort(rings, TruthNear({entry.min, entry.max}, PassageTest::kFarthestWall_m));
         free += parts.elsewhere_m2, blocked += parts.passage_m2;
         if (parts.elsewhere_m2 > largest_free) largest_free = parts.elsewhere_m2, free_at = parts.elsewhere_at;
         if (parts.passage_m2 > largest_blocked) largest_blocked = parts.passage_m2, blocked_at = parts.passage_at;
       }
       const std::string& name = entry.obstacle->name;
-      if (blocked > 0) state_.Add(307, name, blocked_at, blocked, 0, "'" + name + "' covers " + SquareMetres(blocked) + " of a way under a building");
+      if (blocked > 0)
+        state_.Add(307, name, blocked_at, blocked, 0,
+                   "'" + name + "' covers " + SquareMetres(blocked) + " of a way under a building");
       if (free > 0)
-        state_.Add(303, name, free_at, free, kMinFinding_m2, "'" + name + "' takes " + SquareMetres(free) + " of free ground");
-      else if (blocked == 0)
-        FindExcess(entry, truth);
+        state_.Add(303, name, free_at, free, kMinFinding_m2,
+                   "'" + name + "' takes " + SquareMetres(free) + " of free ground");
+      else if (blocked == 0) FindExcess(entry, truth);
     }
   }
 
@@ -254,7 +270,8 @@ class TownCheck {
     const double area = Area(excess), right = Area(entry.rings) - area;
     if (area <= share * right || area <= state_.options.tolerance_m / 2 * Length(Outline(entry.rings))) return;
     const std::string& name = entry.obstacle->name;
-    state_.Add(303, name, excess[0][0], area / right, share, "'" + name + "' takes " + SquareMetres(area) + " all round");
+    state_.Add(303, name, excess[0][0], area / right, share,
+               "'" + name + "' takes " + SquareMetres(area) + " all round");
   }
 
   const Scene& scene_;

@@ -15,7 +15,11 @@ namespace flaneur {
 namespace {
 
 // A stretch of ground that hangs together, for the centre of a person.
-struct Region { Polygon shape; Point2 min, max; double area_m2 = 0; };
+struct Region {
+  Polygon shape;
+  Point2 min, max;
+  double area_m2 = 0;
+};
 
 Rings RingsOf(const Polygon& polygon) {
   Rings rings{polygon.outer};
@@ -75,7 +79,8 @@ Point2 PlaceIn(const Region& region) {
 }
 
 bool IsFarther(const CheckedObstacle& entry, Point2 p, double distance) {
-  const double dx = std::max({entry.min.x - p.x, 0.0, p.x - entry.max.x}), dy = std::max({entry.min.y - p.y, 0.0, p.y - entry.max.y});
+  const double dx = std::max({entry.min.x - p.x, 0.0, p.x - entry.max.x}),
+               dy = std::max({entry.min.y - p.y, 0.0, p.y - entry.max.y});
   return dx * dx + dy * dy >= distance * distance;
 }
 
@@ -93,7 +98,8 @@ std::vector<std::vector<const CheckedObstacle*>> Clusters(const std::vector<Chec
   };
   for (size_t i = 0; i < sorted.size(); ++i)
     for (size_t j = i + 1; j < sorted.size() && sorted[j]->min.x <= sorted[i]->max.x + reach; ++j)
-      if (sorted[j]->min.y <= sorted[i]->max.y + reach && sorted[i]->min.y <= sorted[j]->max.y + reach) root[find(j)] = find(i);
+      if (sorted[j]->min.y <= sorted[i]->max.y + reach && sorted[i]->min.y <= sorted[j]->max.y + reach)
+        root[find(j)] = find(i);
   std::map<size_t, std::vector<const CheckedObstacle*>> by_root;
   for (size_t i = 0; i < sorted.size(); ++i) by_root[find(i)].push_back(sorted[i]);
   std::vector<std::vector<const CheckedObstacle*>> clusters;
@@ -189,7 +195,9 @@ class WaysCheck {
   bool IsYard(const Ring& ring) const {
     if (SignedArea(ring) >= 0) return false;
     const BoundingBox box = BoundingBoxOf({ring});
-    const auto inside = [&](Point2 p) { return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y; };
+    const auto inside = [&](Point2 p) {
+      return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y;
+    };
     return std::none_of(gates_.begin(), gates_.end(), [&](const Gate& gate) { return inside(gate.at_m); }) &&
            std::none_of(state_.obstacles.begin(), state_.obstacles.end(), [&](const CheckedObstacle& entry) {
              return !entry.rings.empty() && inside(entry.min) && inside(entry.max);
@@ -236,7 +244,8 @@ class WaysCheck {
 
   // People step out of a door: a door may stand in the wall's clearance, a step ahead of it must be free.
   Point2 Outside(const Gate& gate) const {
-    const double step = std::hypot(gate.ahead.x, gate.ahead.y) > 0 ? state_.options.person_radius_m + state_.clearance_m + 0.05 : 0;
+    const double step =
+        std::hypot(gate.ahead.x, gate.ahead.y) > 0 ? state_.options.person_radius_m + state_.clearance_m + 0.05 : 0;
     return {gate.at_m.x + step * gate.ahead.x, gate.at_m.y + step * gate.ahead.y};
   }
 
@@ -287,10 +296,11 @@ class WaysCheck {
     return false;
   }
 
-  // 501. Ground that even a point cannot get to is a courtyard, unless it is a large part of the town or has a door; a nook
-  // is no more.
+  // 501. Ground that even a point cannot get to is a courtyard, unless it is a large part of the town or has a door; a
+  // nook is no more.
   void CheckRegions() {
-    const auto largest = std::max_element(regions_.begin(), regions_.end(), [](const Region& a, const Region& b) { return a.area_m2 < b.area_m2; });
+    const auto largest = std::max_element(regions_.begin(), regions_.end(),
+                                          [](const Region& a, const Region& b) { return a.area_m2 < b.area_m2; });
     if (largest == regions_.end()) return;
     const bool outside = outside_m2_ > 0;
     const int main = outside ? kOutside : static_cast<int>(largest - regions_.begin());
@@ -302,13 +312,16 @@ class WaysCheck {
       const double area = Area(Offset(RingsOf(region.shape), state_.options.person_radius_m));
       if (area < state_.options.least_ground_m2) continue;
       const Ring& outline = region.shape.outer;
-      if (std::any_of(outline.begin(), outline.end(), [&](Point2 p) { return broken_.Near(p, 2 * state_.options.person_radius_m); })) continue;
+      if (std::any_of(outline.begin(), outline.end(),
+                      [&](Point2 p) { return broken_.Near(p, 2 * state_.options.person_radius_m); }))
+        continue;
       const bool closed = RegionNear(reach_, region.shape.outer[0], 1e-3) != main_reach;
       const Point2 at = PlaceIn(region);
       state_.Add(501, NearestObstacle(state_.obstacles, at), at, area, state_.options.least_ground_m2,
                  SquareMetres(area) + (closed ? ", closed all round" : ", cut off by narrow gaps"));
       const bool large = region.area_m2 > kMinLargeShare * main_m2;
-      if ((closed || area < kMaxNook_m2) && !large && !Has(has_gate_, i)) state_.findings->back().severity = Severity::kWarning;
+      if ((closed || area < kMaxNook_m2) && !large && !Has(has_gate_, i))
+        state_.findings->back().severity = Severity::kWarning;
     }
   }
 
@@ -316,10 +329,10 @@ class WaysCheck {
 
   CheckState& state_;
   BrokenPlaces broken_;
-  std::vector<Gate> gates_, usable_;  // the latter a step ahead, on free ground
+  std::vector<Gate> gates_, usable_;                           // the latter a step ahead, on free ground
   std::vector<std::vector<const CheckedObstacle*>> clusters_;  // of obstacles, without a town
-  Rings ground_, open_;         // all, and all without the obstacles
-  double outside_m2_ = 0;       // of the free ground all round, where there is no town
+  Rings ground_, open_;                                        // all, and all without the obstacles
+  double outside_m2_ = 0;                                      // of the free ground all round, where there is no town
   std::vector<Region> regions_, reach_;
   std::vector<int> has_gate_, cut_off_;  // regions
 };

@@ -1,13 +1,13 @@
-// Tuned numbers of the footprints and their check, each with its unit and reason. What a user may set stands in FootprintOptions
-// (extract_footprints.h) and CheckOptions (check.h).
+// Tuned numbers of the footprints and their check, each with its unit and reason. What a user may set stands in
+// FootprintOptions (extract_footprints.h) and CheckOptions (check.h).
 #pragma once
 #include <cstddef>
 
 namespace flaneur {
 
 // Which objects of a scene are ground.
-inline constexpr double kMaxFlatHeight_m = 0.15;    // a node no higher than this,
-inline constexpr double kMinFlatWidth_m = 1.0;      // and wider than this is ground to walk on
+inline constexpr double kMaxFlatHeight_m = 0.15;  // a node no higher than this,
+inline constexpr double kMinFlatWidth_m = 1.0;    // and wider than this is ground to walk on
 // What is higher than this share of its length is no ground, whatever its name: mountain_grass, Square Tower.
 inline constexpr double kMaxGroundSteepness = 0.3;
 
@@ -18,12 +18,12 @@ inline constexpr double kMinHouse_m = 0.5;       // wide, half of a town's build
 inline constexpr double kMaxHouse_m = 500;       // wide, half of a town's buildings at most
 
 // The ground.
-inline constexpr int kSmoothingRounds = 30;       // over the heights of cells without ground
-inline constexpr double kMaxSlopeStep_m = 0.5;    // higher steps between neighbouring cells are no slope
-inline constexpr double kMinGroundHole_m2 = 1;    // smaller holes of the ground are nobody's obstacle
-inline constexpr double kBaseCell_m = 0.25;       // of the raster under an object without ground
-inline constexpr double kMaxBaseCells = 1e6;      // of one object; the cells become larger
-inline constexpr double kOverhang_m = 3;          // half the width of what may hang over lower parts
+inline constexpr int kSmoothingRounds = 30;     // over the heights of cells without ground
+inline constexpr double kMaxSlopeStep_m = 0.5;  // higher steps between neighbouring cells are no slope
+inline constexpr double kMinGroundHole_m2 = 1;  // smaller holes of the ground are nobody's obstacle
+inline constexpr double kBaseCell_m = 0.25;     // of the raster under an object without ground
+inline constexpr double kMaxBaseCells = 1e6;    // of one object; the cells become larger
+inline constexpr double kOverhang_m = 3;        // half the width of what may hang over lower parts
 // What varies by less is taken for level: a band from the lowest point finds all walls.
 inline constexpr float kLevelGround_m = 0.3f;
 inline constexpr float kMinTerraceStep_m = 0.1f;  // lower steps are none
@@ -42,15 +42,15 @@ inline constexpr double kRoofedShare = 0.5;         // of a region's area must l
 inline constexpr size_t kMinRoofSamples = 16;       // of a region, to see whether it is roofed
 inline constexpr double kRoofSampleArea_m2 = 0.25;  // that one sample of a region stands for at most
 inline constexpr double kMaxOpenShell_m = 1.0;      // of wall without anything solid beside it, in a building
-inline constexpr double kMinLoosePiece_m = 0.02;            // of lines without area that lead nowhere
+inline constexpr double kMinLoosePiece_m = 0.02;    // of lines without area that lead nowhere
 inline constexpr double kNoWay_m = 0.5;             // nobody passes a gap in a building narrower than this
 inline constexpr double kOnOutline_m = 0.002;       // lines this near to something solid are its outline
 inline constexpr double kMaxMouth_m = 20;           // between walls that enclose a room but for it
 inline constexpr double kMaxMouthShare = 0.2;       // of a room's outline
 inline constexpr double kMinRoomToMouth = 1.1;      // a room is so many times as wide as its mouth
 inline constexpr size_t kMaxWallEnds = 40;  // of walls that lead nowhere; with more nobody knows which belong together
-inline constexpr double kOnWall_m = 0.01;           // a mouth whose middle is this near to a room's outline is its own
-inline constexpr double kSameCorner_m = 0.001;      // corners this near are one
+inline constexpr double kOnWall_m = 0.01;   // a mouth whose middle is this near to a room's outline is its own
+inline constexpr double kSameCorner_m = 0.001;  // corners this near are one
 // Thinner triangles close nothing; corners this near in plan stand over each other.
 inline constexpr double kThinTriangle_m = 0.02;
 inline constexpr double kFoot_m = 0.3;              // how far a wall's foot may go up and down
@@ -70,10 +70,10 @@ inline constexpr double kAgainst_m = 0.0005;  // strips nearer than this to a ne
 inline constexpr double kJoint_m = 1.5;       // houses that overlap by less are meant to touch
 
 // Segments in a grid.
-inline constexpr double kMinCutCell_m = 0.1;   // for cutting: about as long as the segments
-inline constexpr double kMaxCutCell_m = 2;     // for cutting: about as long as the segments
-inline constexpr size_t kFewSegments = 40;     // looking at all of so few is faster than to sort them into cells
-inline constexpr double kPointGrid_m = 1e-4;   // to which points are rounded
+inline constexpr double kMinCutCell_m = 0.1;  // for cutting: about as long as the segments
+inline constexpr double kMaxCutCell_m = 2;    // for cutting: about as long as the segments
+inline constexpr size_t kFewSegments = 40;    // looking at all of so few is faster than to sort them into cells
+inline constexpr double kPointGrid_m = 1e-4;  // to which points are rounded
 // A point this near to a segment is on it: rounding may have moved it so far.
 inline constexpr double kTouching_m = 0.6e-4;
 // Rounding may make pieces cross anew; what is left then is cut exactly elsewhere.
@@ -86,9 +86,9 @@ inline constexpr double kOpeningRounding_m = 0.0005;  // the opening's own, alon
 inline constexpr double kSpikeMiter = 20;             // corners down to 6 degrees survive the opening
 // A crossing ring runs the wrong way where that many times more of it does.
 inline constexpr double kMinTurnedRatio = 20;
-inline constexpr size_t kMaxCrossings = 64;           // that are listed of a ring
-inline constexpr size_t kManyPoints = 100;            // times most_points: larger rings are only counted
-inline constexpr size_t kMaxNearEdges = 512;          // larger rings are opened without asking whether that can matter
+inline constexpr size_t kMaxCrossings = 64;   // that are listed of a ring
+inline constexpr size_t kManyPoints = 100;    // times most_points: larger rings are only counted
+inline constexpr size_t kMaxNearEdges = 512;  // larger rings are opened without asking whether that can matter
 
 // Check: pairs, and obstacles against the town.
 inline constexpr double kSameShare = 0.99;           // of the area of both: a duplicate
@@ -99,27 +99,27 @@ inline constexpr double kOutlineRounding_m = 0.002;  // of outlines that were of
 inline constexpr double kMinFinding_m2 = 0.001;      // smaller pieces are rounding
 inline constexpr double kMinWallFinding_m = 0.005;   // shorter pieces of a wall likewise
 inline constexpr double kSeam_m = 0.0125;  // cracks between neighbours up to twice this are nobody's way, and welded
-inline constexpr double kNearWall_m = 1;             // obstacles farther from a building are not compared with it
-inline constexpr double kArcTolerance_m = 0.003;     // of round corners
-inline constexpr int kCircleCorners = 64;            // of a circle as a polygon
+inline constexpr double kNearWall_m = 1;   // obstacles farther from a building are not compared with it
+inline constexpr double kArcTolerance_m = 0.003;  // of round corners
+inline constexpr int kCircleCorners = 64;         // of a circle as a polygon
 
 // Check: ways.
-inline constexpr double kFreeMargin_m = 3;           // round the obstacles, where there is no town
-inline constexpr double kMinLargeShare = 0.1;        // of all free ground: more, and it is no courtyard
-inline constexpr double kMaxNook_m2 = 4;             // cut off by narrow gaps, but nobody misses it
-inline constexpr double kWaySlack_m = 0.0005;        // a way exactly as wide as a person counts as open
-inline constexpr double kStandEvery_m = 4;           // places where a visitor is tried
-inline constexpr double kGateReach_m = 0.1;          // beyond a way's free circle
-inline constexpr double kMinNarrowing = 0.1;         // a way that narrows faster than this is still coming to its mouth
+inline constexpr double kFreeMargin_m = 3;     // round the obstacles, where there is no town
+inline constexpr double kMinLargeShare = 0.1;  // of all free ground: more, and it is no courtyard
+inline constexpr double kMaxNook_m2 = 4;       // cut off by narrow gaps, but nobody misses it
+inline constexpr double kWaySlack_m = 0.0005;  // a way exactly as wide as a person counts as open
+inline constexpr double kStandEvery_m = 4;     // places where a visitor is tried
+inline constexpr double kGateReach_m = 0.1;    // beyond a way's free circle
+inline constexpr double kMinNarrowing = 0.1;   // a way that narrows faster than this is still coming to its mouth
 // Ground up to this wide is drawn on a grid of 0.1 mm (32 bits), else of 1 mm.
 inline constexpr double kMaxFineGround_m = 200'000;
-inline constexpr double kRowHeight_m = 2;            // of the rows in which ways are looked for
-inline constexpr double kNodeStep_m = 2.5;           // between nodes, at most (more where the way is wide),
-inline constexpr double kMaxNodeSteps = 1000;        // but no more than this many along one edge of the diagram
-inline constexpr double kPassageStep_m = 0.1;        // of samples in narrow places
-inline constexpr double kMaxPassageSamples = 3000;   // more, and they stand further apart
-inline constexpr int kPassageDirections = 16;        // of lines through a sample
-inline constexpr int kMaxAskedSamples = 60;          // samples asked for walls beside them
-inline constexpr double kMinWalledShare = 0.25;      // of them that must have some
+inline constexpr double kRowHeight_m = 2;           // of the rows in which ways are looked for
+inline constexpr double kNodeStep_m = 2.5;          // between nodes, at most (more where the way is wide),
+inline constexpr double kMaxNodeSteps = 1000;       // but no more than this many along one edge of the diagram
+inline constexpr double kPassageStep_m = 0.1;       // of samples in narrow places
+inline constexpr double kMaxPassageSamples = 3000;  // more, and they stand further apart
+inline constexpr int kPassageDirections = 16;       // of lines through a sample
+inline constexpr int kMaxAskedSamples = 60;         // samples asked for walls beside them
+inline constexpr double kMinWalledShare = 0.25;     // of them that must have some
 
 }  // namespace flaneur

@@ -65,9 +65,14 @@ void Flood(Face start, int region) {
 }
 
 template <typename Vertex>
-Point2 ToPoint(Vertex v) { return {CGAL::to_double(v->point().x()), CGAL::to_double(v->point().y())}; }
+Point2 ToPoint(Vertex v) {
+  return {CGAL::to_double(v->point().x()), CGAL::to_double(v->point().y())};
+}
 
-struct Region { double area_m2 = 0; std::vector<RegionSample> samples; };
+struct Region {
+  double area_m2 = 0;
+  std::vector<RegionSample> samples;
+};
 
 template <typename Face>
 void AddSamples(Face face, Region* region) {

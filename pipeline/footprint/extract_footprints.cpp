@@ -52,7 +52,9 @@ void WarnOfUnits(const TownObjects& town, std::vector<std::string>* warnings) {
                       " m; are the units metres? See the option for the scale");
 }
 
-bool IsRound(const TownObject& object) { return object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp; }
+bool IsRound(const TownObject& object) {
+  return object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp;
+}
 
 std::vector<Shape> ShapesOf(const Site& site, const std::vector<TownObject>& objects) {
   std::vector<Shape> shapes(objects.size());
@@ -92,7 +94,8 @@ Rings Enlarged(const Site& site, const Shape& shape) {
 }
 
 // Each with its clearance, none in another.
-std::vector<Rings> Outlines(const Site& site, const std::vector<TownObject>& objects, const std::vector<Shape>& shapes) {
+std::vector<Rings> Outlines(const Site& site, const std::vector<TownObject>& objects,
+                            const std::vector<Shape>& shapes) {
   std::vector<Rings> outlines(shapes.size());
   ForEach(shapes.size(), site.options.threads, [&](size_t i) { outlines[i] = Enlarged(site, shapes[i]); });
   // Without a clearance thin walls are as thin as slivers.
@@ -170,8 +173,9 @@ void AddPolygons(const Site& site, const TownObject& object, const Shape& shape,
   }
 }
 
-std::vector<Obstacle> ObstaclesOf(const Site& site, const std::vector<TownObject>& objects, const std::vector<Shape>& shapes,
-                                  const std::vector<Rings>& outlines, std::vector<std::string>* warnings) {
+std::vector<Obstacle> ObstaclesOf(const Site& site, const std::vector<TownObject>& objects,
+                                  const std::vector<Shape>& shapes, const std::vector<Rings>& outlines,
+                                  std::vector<std::string>* warnings) {
   std::vector<Obstacle> obstacles;
   NameGiver names;
   for (size_t i = 0; i < objects.size(); ++i) {

@@ -22,22 +22,23 @@ struct FootprintOptions {
 };
 
 struct FootprintStats {
-  int objects = 0;            // buildings, walls, trees, ... found in the scene
-  int triangles = 0;          // theirs
-  int lines = 0;              // wall lines in the band
+  int objects = 0;    // buildings, walls, trees, ... found in the scene
+  int triangles = 0;  // theirs
+  int lines = 0;      // wall lines in the band
   int obstacles = 0;
-  double covered_m2 = 0;      // without circles
-  std::vector<std::string> open_shells;  // buildings whose walls do not close, or had to be closed: the obstacle is a guess
+  double covered_m2 = 0;  // without circles
+  std::vector<std::string>
+      open_shells;  // buildings whose walls do not close, or had to be closed: the obstacle is a guess
 };
 
 // What reaches into the band over the ground below it blocks. Eaves and storeys above the band do not; arcades and
 // passages stay open; what the walls of a building, or of houses that adjoin, enclose is solid where something is
 // overhead and a hole where it is open to the sky. Trees and lamps become circles. Outer rings are anticlockwise, holes
-// clockwise, all simple; names are unique; obstacles do not overlap but where houses themselves do, wider than 1.5 m. A town without ground has that
-// which its buildings' foundations or feet tell. Holes of a few triangles in a building's shell are closed.
-// Independent of the order of triangles and of the number of threads.
-// `warnings` gets one line for each object that leaves nothing in the band, and one where the units seem to be no metres.
-// Errors: an option out of range, a scene without anything in it, an object or ground wider than 100 km.
+// clockwise, all simple; names are unique; obstacles do not overlap but where houses themselves do, wider than 1.5 m. A
+// town without ground has that which its buildings' foundations or feet tell. Holes of a few triangles in a building's
+// shell are closed. Independent of the order of triangles and of the number of threads. `warnings` gets one line for
+// each object that leaves nothing in the band, and one where the units seem to be no metres. Errors: an option out of
+// range, a scene without anything in it, an object or ground wider than 100 km.
 Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Footprints* footprints,
                         FootprintStats* stats = nullptr, std::vector<std::string>* warnings = nullptr);
 

@@ -38,7 +38,8 @@ const std::vector<FindingKind>& FindingKinds() {
       {501, kError, "ground out of reach", "Open a way at least as wide as a person, or take the ground away."},
       {502, kError, "dead end", "Open a way out at its end, or look whether people should go there at all."},
       {503, kError, "trap", "Give the ground a second way out, or a door that people can go in at."},
-      {504, kError, "street crosses an obstacle", "Move the street or the obstacle; cut a passage out where there is one."},
+      {504, kError, "street crosses an obstacle",
+       "Move the street or the obstacle; cut a passage out where there is one."},
       {601, kError, "entrance inside an obstacle", "Move the door or spawn point to free ground."},
       {602, kError, "exit inside an obstacle", "Move the exit to free ground."},
       {603, kError, "entrance or exit too close to an obstacle", "Move it at least a person's radius away."},
@@ -72,9 +73,15 @@ Json PlaceJson(Point2 p, double grain) {
 }
 
 Json Facts(const Finding& f) {
-  return {{"code", f.code}, {"severity", SeverityName(f.severity)}, {"feature", f.feature},
-          {"other", f.other.empty() ? Json() : Json(f.other)}, {"at_m", Json::array({Number(f.at_m.x), Number(f.at_m.y)})},
-          {"value", Number(f.value)}, {"limit", Number(f.limit)}, {"message", f.message}, {"advice", KindOf(f.code).advice}};
+  return {{"code", f.code},
+          {"severity", SeverityName(f.severity)},
+          {"feature", f.feature},
+          {"other", f.other.empty() ? Json() : Json(f.other)},
+          {"at_m", Json::array({Number(f.at_m.x), Number(f.at_m.y)})},
+          {"value", Number(f.value)},
+          {"limit", Number(f.limit)},
+          {"message", f.message},
+          {"advice", KindOf(f.code).advice}};
 }
 
 std::string Text(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
@@ -89,14 +96,17 @@ std::string FindingsJson(const std::vector<Finding>& findings, const std::vector
     list.push_back(Facts(findings[i]));
     if (i < places.size()) list.back()["at_file"] = PlaceJson(places[i], 1e-9);
   }
-  return Text({{"version", 1}, {"errors", errors}, {"warnings", Count(findings) - errors}, {"findings", std::move(list)}});
+  return Text(
+      {{"version", 1}, {"errors", errors}, {"warnings", Count(findings) - errors}, {"findings", std::move(list)}});
 }
 
 std::string FindingsGeoJson(const std::vector<Finding>& findings, const std::vector<Point2>& places, bool degrees) {
   Json features = Json::array();
   for (size_t i = 0; i < findings.size(); ++i)
-    features.push_back({{"type", "Feature"}, {"properties", Facts(findings[i])},
-                        {"geometry", {{"type", "Point"}, {"coordinates", PlaceJson(places[i], degrees ? 1e-9 : 1e-4)}}}});
+    features.push_back(
+        {{"type", "Feature"},
+         {"properties", Facts(findings[i])},
+         {"geometry", {{"type", "Point"}, {"coordinates", PlaceJson(places[i], degrees ? 1e-9 : 1e-4)}}}});
   Json root = {{"type", "FeatureCollection"}};
   if (!degrees) root["flaneur"] = {{"version", 1}, {"units", "m"}};
   root["features"] = std::move(features);

@@ -9,8 +9,8 @@
 
 namespace flaneur {
 
-// Calls work(0) to work(count - 1), several at a time; 0 threads: one a core. What one of them throws is thrown here, once all
-// threads have ended; the rest may be left out then.
+// Calls work(0) to work(count - 1), several at a time; 0 threads: one a core. What one of them throws is thrown here,
+// once all threads have ended; the rest may be left out then.
 template <typename Work>
 void ForEach(size_t count, int threads, const Work& work) {
   const size_t most = threads > 0 ? static_cast<size_t>(threads) : std::max(1u, std::thread::hardware_concurrency());

@@ -39,7 +39,9 @@ class Tracer {
     if (column < 0 || row < 0 || column >= raster_.columns || row >= raster_.rows) return false;
     return raster_.kind[RowMajor(row, raster_.columns, column)] != 0;
   }
-  uint8_t& At(int column, int row) { return leaving_[static_cast<size_t>(row) * stride_ + static_cast<size_t>(column)]; }
+  uint8_t& At(int column, int row) {
+    return leaving_[static_cast<size_t>(row) * stride_ + static_cast<size_t>(column)];
+  }
 
   // Turns left where two ways lead on, so that cells which touch at a corner stay apart.
   Ring Follow(int column, int row) {
@@ -54,7 +56,8 @@ class Tracer {
         if (out & (1 << d)) next = d;
       out = static_cast<uint8_t>(out & ~(1 << next));
       if (next != direction)
-        ring.push_back({raster_.min_m.x + column * static_cast<double>(raster_.cell_m), raster_.min_m.y + row * static_cast<double>(raster_.cell_m)});
+        ring.push_back({raster_.min_m.x + column * static_cast<double>(raster_.cell_m),
+                        raster_.min_m.y + row * static_cast<double>(raster_.cell_m)});
       direction = next;
       static constexpr std::array<std::array<int, 2>, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
       column += At(kSteps, next)[0];
@@ -72,7 +75,8 @@ class Tracer {
 
 Rings OutlineOf(const GroundRaster& raster) {
   Rings rings = Tracer(raster).Trace();
-  std::erase_if(rings, [](const Ring& ring) { return ring.size() < 3 || std::abs(SignedArea(ring)) < kMinGroundHole_m2; });
+  std::erase_if(rings,
+                [](const Ring& ring) { return ring.size() < 3 || std::abs(SignedArea(ring)) < kMinGroundHole_m2; });
   return UnionOfAreas(Simplify(rings, 0.9 * raster.cell_m));
 }
 

@@ -11,7 +11,7 @@
 namespace flaneur {
 namespace {
 
-constexpr double kPlanWidth = 1200;     // of the town in the picture, pixels
+constexpr double kPlanWidth = 1200;  // of the town in the picture, pixels
 constexpr double kMargin = 40;
 constexpr double kListWidth = 460;
 constexpr double kLineHeight = 17;
@@ -20,11 +20,16 @@ constexpr int kMaxGroundColumns = 1600;
 
 const char* Fill(ObstacleKind kind) {
   switch (kind) {
-    case ObstacleKind::kBuilding: return "#8c5a4a";
-    case ObstacleKind::kWall: return "#5d5a57";
-    case ObstacleKind::kTree: return "#4f7a46";
-    case ObstacleKind::kLamp: return "#c9962b";
-    case ObstacleKind::kOther: return "#6c7f93";
+    case ObstacleKind::kBuilding:
+      return "#8c5a4a";
+    case ObstacleKind::kWall:
+      return "#5d5a57";
+    case ObstacleKind::kTree:
+      return "#4f7a46";
+    case ObstacleKind::kLamp:
+      return "#c9962b";
+    case ObstacleKind::kOther:
+      return "#6c7f93";
   }
   return "#6c7f93";
 }
@@ -63,7 +68,8 @@ class Plan {
     if (const GroundRaster* g = options.ground) {
       Grow({g->min_m.x, g->min_m.y}, 0);
       Grow({g->min_m.x + static_cast<double>(g->columns) * g->cell_m,
-            g->min_m.y + static_cast<double>(g->rows) * g->cell_m}, 0);
+            g->min_m.y + static_cast<double>(g->rows) * g->cell_m},
+           0);
     }
     if (min_.x > max_.x) min_ = {0, 0}, max_ = {10, 10};
     scale_ = kPlanWidth / std::max(max_.x - min_.x, max_.y - min_.y);
@@ -76,10 +82,11 @@ class Plan {
     const double list = options_.findings.empty() ? 0 : kListWidth;
     const double all_height = std::max(height_ + 2 * kMargin + 40, (listed + 4.0) * kLineHeight + 80);
     const double all_width = width_ + 2 * kMargin + list;
-    out_ = Format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "
-                  "font-family=\"sans-serif\" font-size=\"12\" fill=\"#2b2b2b\">\n<rect width=\"100%%\" "
-                  "height=\"100%%\" fill=\"#fbfaf7\"/>\n",
-                  all_width, all_height, all_width, all_height);
+    out_ = Format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "
+        "font-family=\"sans-serif\" font-size=\"12\" fill=\"#2b2b2b\">\n<rect width=\"100%%\" "
+        "height=\"100%%\" fill=\"#fbfaf7\"/>\n",
+        all_width, all_height, all_width, all_height);
     out_ += Format("<text x=\"%.0f\" y=\"30\" font-size=\"20\">", kMargin) + Escaped(options_.title) + "</text>\n";
     out_ += Format("<g transform=\"translate(%.0f %.0f)\">\n", kMargin, kMargin + 10);
     DrawTown();
@@ -92,12 +99,14 @@ class Plan {
 
   // The town alone, to be moved and zoomed, and the marks' places as JSON: [x, y] or null.
   std::string DrawForPage(std::string* places) {
-    out_ = Format("<svg id=\"map\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\"><g id=\"town\">\n", width_, height_);
+    out_ = Format("<svg id=\"map\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\"><g id=\"town\">\n",
+                  width_, height_);
     DrawTown();
     *places = "[";
     for (const Finding& f : options_.findings) {
       if (places->size() > 1) *places += ",";
-      *places += std::isfinite(f.at_m.x) && std::isfinite(f.at_m.y) ? Format("[%.2f,%.2f]", X(f.at_m.x), Y(f.at_m.y)) : "null";
+      *places +=
+          std::isfinite(f.at_m.x) && std::isfinite(f.at_m.y) ? Format("[%.2f,%.2f]", X(f.at_m.x), Y(f.at_m.y)) : "null";
     }
     *places += "]";
     return out_ + "</g><g id=\"marks\"></g></svg>\n";
@@ -137,9 +146,7 @@ class Plan {
     const double size = g->cell_m * step * scale_;
     out_ += "<g shape-rendering=\"crispEdges\">\n";
     for (int row = 0; row < g->rows; row += step) {
-      const auto kind = [&](int column) {
-        return g->kind[RowMajor(row, g->columns, column)];
-      };
+      const auto kind = [&](int column) { return g->kind[RowMajor(row, g->columns, column)]; };
       for (int column = 0; column < g->columns;) {
         int end = column;
         while (end < g->columns && kind(end) == kind(column)) end += step;
@@ -168,13 +175,15 @@ class Plan {
     if (o.outer.empty()) {
       if (!std::isfinite(o.center.x) || !std::isfinite(o.center.y) || !(o.radius_m > 0)) return;
       out_ += Format("<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"%s\">", X(o.center.x), Y(o.center.y),
-                     std::max(o.radius_m * scale_, 1.5), Fill(o.kind)) + title + "</circle>\n";
+                     std::max(o.radius_m * scale_, 1.5), Fill(o.kind)) +
+              title + "</circle>\n";
       return;
     }
     std::string path = PathOf(o.outer);
     for (const auto& hole : o.holes) path += PathOf(hole);
-    out_ += Format("<path fill=\"%s\" fill-rule=\"evenodd\" stroke=\"#3b2620\" stroke-width=\"0.6\" d=\"", Fill(o.kind)) +
-            path + "\">" + title + "</path>\n";
+    out_ +=
+        Format("<path fill=\"%s\" fill-rule=\"evenodd\" stroke=\"#3b2620\" stroke-width=\"0.6\" d=\"", Fill(o.kind)) +
+        path + "\">" + title + "</path>\n";
   }
 
   static const char* MarkFill(const Finding& f) { return f.severity == Severity::kError ? "#d02020" : "#e08a00"; }
@@ -183,9 +192,10 @@ class Plan {
     for (size_t i = options_.findings.size(); i-- > 0;) {
       const Finding& f = options_.findings[i];
       if (!std::isfinite(f.at_m.x) || !std::isfinite(f.at_m.y)) continue;
-      out_ += Format("<g transform=\"translate(%.1f %.1f)\"><circle r=\"7\" fill=\"%s\" fill-opacity=\"0.85\" "
-                     "stroke=\"#fff\"/><text y=\"3.5\" text-anchor=\"middle\" font-size=\"8\" fill=\"#fff\">%zu</text>",
-                     X(f.at_m.x), Y(f.at_m.y), MarkFill(f), i + 1) +
+      out_ += Format(
+                  "<g transform=\"translate(%.1f %.1f)\"><circle r=\"7\" fill=\"%s\" fill-opacity=\"0.85\" "
+                  "stroke=\"#fff\"/><text y=\"3.5\" text-anchor=\"middle\" font-size=\"8\" fill=\"#fff\">%zu</text>",
+                  X(f.at_m.x), Y(f.at_m.y), MarkFill(f), i + 1) +
               "<title>" + std::to_string(f.code) + " " + Escaped(f.message) + "</title></g>\n";
     }
   }
@@ -194,15 +204,17 @@ class Plan {
     const double y = kMargin + 10 + height_ + 24;
     double step = std::pow(10, std::floor(std::log10((max_.x - min_.x) / 4)));
     if ((max_.x - min_.x) / step > 20) step *= 5;
-    out_ += Format("<path d=\"M%.1f %.1fv6h%.1fv-6\" fill=\"none\" stroke=\"#2b2b2b\"/><text x=\"%.1f\" y=\"%.1f\">%g m"
-                   "</text>\n",
-                   kMargin, y - 4, step * scale_, kMargin + step * scale_ + 6, y + 3, step);
+    out_ += Format(
+        "<path d=\"M%.1f %.1fv6h%.1fv-6\" fill=\"none\" stroke=\"#2b2b2b\"/><text x=\"%.1f\" y=\"%.1f\">%g m"
+        "</text>\n",
+        kMargin, y - 4, step * scale_, kMargin + step * scale_ + 6, y + 3, step);
     double x = kMargin + step * scale_ + 80;
     for (const ObstacleKind kind : {ObstacleKind::kBuilding, ObstacleKind::kWall, ObstacleKind::kTree,
                                     ObstacleKind::kLamp, ObstacleKind::kOther}) {
-      out_ += Format("<rect x=\"%.1f\" y=\"%.1f\" width=\"12\" height=\"12\" fill=\"%s\"/><text x=\"%.1f\" y=\"%.1f\">%s"
-                     "</text>\n",
-                     x, y - 7, Fill(kind), x + 17, y + 3, ObstacleKindName(kind));
+      out_ += Format(
+          "<rect x=\"%.1f\" y=\"%.1f\" width=\"12\" height=\"12\" fill=\"%s\"/><text x=\"%.1f\" y=\"%.1f\">%s"
+          "</text>\n",
+          x, y - 7, Fill(kind), x + 17, y + 3, ObstacleKindName(kind));
       x += 85;
     }
   }
@@ -215,8 +227,9 @@ class Plan {
       const Finding& f = options_.findings[i];
       std::string text = std::to_string(f.code) + " " + f.message;
       if (text.size() > 68) text = text.substr(0, 66) + "…";
-      out_ += Format("<text x=\"%.0f\" y=\"%.0f\"><tspan fill=\"%s\" font-weight=\"bold\">%zu</tspan> ", x, y, MarkFill(f),
-                     i + 1) + Escaped(text) + "</text>\n";
+      out_ += Format("<text x=\"%.0f\" y=\"%.0f\"><tspan fill=\"%s\" font-weight=\"bold\">%zu</tspan> ", x, y,
+                     MarkFill(f), i + 1) +
+              Escaped(text) + "</text>\n";
       y += kLineHeight;
     }
     if (options_.findings.size() > kMaxListed)
@@ -347,8 +360,13 @@ std::string PageData(const std::vector<Finding>& findings) {
     const FindingKind& kind = KindOf(f.code);
     const std::string title = kind.title;
     const bool titled = f.message.starts_with(title + ": ");
-    list.push_back({{"code", f.code}, {"severity", SeverityName(f.severity)}, {"feature", f.feature}, {"title", title},
-                    {"message", f.message}, {"detail", titled ? f.message.substr(title.size() + 2) : ""}, {"advice", kind.advice}});
+    list.push_back({{"code", f.code},
+                    {"severity", SeverityName(f.severity)},
+                    {"feature", f.feature},
+                    {"title", title},
+                    {"message", f.message},
+                    {"detail", titled ? f.message.substr(title.size() + 2) : ""},
+                    {"advice", kind.advice}});
   }
   return ForScript(list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
@@ -365,12 +383,14 @@ Error WriteMapPage(const std::filesystem::path& path, const Footprints& footprin
   const std::string map = plan.DrawForPage(&places), title = Escaped(options.title);
   const auto errors = std::count_if(options.findings.begin(), options.findings.end(),
                                     [](const Finding& f) { return f.severity == Severity::kError; });
-  std::string page = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title + "</title><style>" +
-                     kPageStyle + "</style></head>\n<body><div id=\"left\">" + map +
-                     "<div id=\"hover\">Wheel: zoom. Drag: move. Double click: all.</div><div id=\"scale\"></div></div>\n"
-                     "<div id=\"right\"><h1>" + title + "</h1><p>" + std::to_string(errors) + " errors, " +
-                     std::to_string(static_cast<std::ptrdiff_t>(options.findings.size()) - errors) + " warnings, " +
-                     std::to_string(footprints.obstacles.size()) + " obstacles</p><div id=\"list\"></div></div>\n<script>\n";
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title + "</title><style>" +
+      kPageStyle + "</style></head>\n<body><div id=\"left\">" + map +
+      "<div id=\"hover\">Wheel: zoom. Drag: move. Double click: all.</div><div id=\"scale\"></div></div>\n"
+      "<div id=\"right\"><h1>" +
+      title + "</h1><p>" + std::to_string(errors) + " errors, " +
+      std::to_string(static_cast<std::ptrdiff_t>(options.findings.size()) - errors) + " warnings, " +
+      std::to_string(footprints.obstacles.size()) + " obstacles</p><div id=\"list\"></div></div>\n<script>\n";
   page += "const data = " + PageData(options.findings) + ";\nconst places = " + places + ";\n" +
           Format("const pixelsPerMetre = %.9g;", plan.pixels_per_metre()) + kPageScript;
   return WriteTextFile(path, page + "</script></body></html>\n");

@@ -12,8 +12,8 @@ namespace flaneur {
 
 struct MapOptions {
   std::string title;
-  const GroundRaster* ground = nullptr;      // drawn below, where given
-  std::vector<Finding> findings;             // marked and listed
+  const GroundRaster* ground = nullptr;           // drawn below, where given
+  std::vector<Finding> findings;                  // marked and listed
   std::vector<std::vector<Point2>> streets = {};  // their middle lines
 };
 

@@ -49,10 +49,10 @@ bool AllMeet(std::vector<Segment>* lines) {
     const auto ends = Ends(kept);
     bool dangling = false;
     dropped = std::erase_if(kept, [&](const Segment& s) {
-      if (ends.at({s.a.x, s.a.y}) > 1 && ends.at({s.b.x, s.b.y}) > 1) return false;
-      dangling |= Length(s) >= kMinLoosePiece_m;
-      return Length(s) < kMinLoosePiece_m;
-    }) > 0;
+                if (ends.at({s.a.x, s.a.y}) > 1 && ends.at({s.b.x, s.b.y}) > 1) return false;
+                dangling |= Length(s) >= kMinLoosePiece_m;
+                return Length(s) < kMinLoosePiece_m;
+              }) > 0;
     if (dangling) return false;
   }
   *lines = std::move(kept);
@@ -79,7 +79,8 @@ void SetLoose(const std::vector<Segment>& lines, Shape* shape) {
   if (lines.empty()) return;
   const std::vector<Segment> loose = Outside(lines, Offset(shape->solid, kOnOutline_m));
   if (loose.empty()) return;
-  const std::vector<Segment> apart = Outside(loose, Offset(shape->solid, kMinLoosePiece_m));  // not covered with what is solid
+  const std::vector<Segment> apart =
+      Outside(loose, Offset(shape->solid, kMinLoosePiece_m));  // not covered with what is solid
   shape->loose = WithoutCrumbs(loose);
   shape->loose.insert(shape->loose.end(), apart.begin(), apart.end());
   for (const Segment& s : apart) shape->open_m += Length(s);
@@ -126,7 +127,8 @@ void CloseRooms(const Site& site, const TownObject& object, Shape* shape) {
   const Stand stand(site, object);
   const Overhead overhead({&object.triangles});
   const Roofs is_solid(site, stand.ground(0), overhead);
-  Rings rooms = RoomsWithOneMouth(shape->loose, shape->solid, std::max(site.options.bridge_m, kMinLoosePiece_m), is_solid);
+  Rings rooms =
+      RoomsWithOneMouth(shape->loose, shape->solid, std::max(site.options.bridge_m, kMinLoosePiece_m), is_solid);
   if (rooms.empty()) rooms = RoomsWithOneMouth(shape->loose, shape->solid, kNoWay_m, is_solid);
   if (rooms.empty()) return;
   Rings all = shape->solid;

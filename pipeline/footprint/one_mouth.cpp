@@ -30,7 +30,9 @@ std::vector<Point2> LooseEnds(const std::vector<Segment>& walls, const Rings& so
 }
 
 bool Cross(const Segment& s, const Segment& t) {
-  const auto side = [](const Segment& l, Point2 p) { return (l.b.x - l.a.x) * (p.y - l.a.y) - (l.b.y - l.a.y) * (p.x - l.a.x); };
+  const auto side = [](const Segment& l, Point2 p) {
+    return (l.b.x - l.a.x) * (p.y - l.a.y) - (l.b.y - l.a.y) * (p.x - l.a.x);
+  };
   return side(s, t.a) * side(s, t.b) < 0 && side(t, s.a) * side(t, s.b) < 0;
 }
 
@@ -41,7 +43,8 @@ std::vector<Segment> Gaps(const std::vector<Segment>& walls, const Rings& solid,
   std::vector<std::tuple<double, size_t, size_t>> pairs;
   for (size_t i = 0; i < ends.size(); ++i)
     for (size_t j = i + 1; j < ends.size(); ++j)
-      if (const double length = Length(Segment{ends[i], ends[j]}); length <= kMaxMouth_m) pairs.emplace_back(length, i, j);
+      if (const double length = Length(Segment{ends[i], ends[j]}); length <= kMaxMouth_m)
+        pairs.emplace_back(length, i, j);
   std::sort(pairs.begin(), pairs.end());
   std::vector<bool> taken(ends.size(), false);
   std::vector<Segment> gaps;
@@ -64,7 +67,8 @@ bool IsRoom(const Rings& region, const std::vector<Segment>& gaps, double reach_
     ++count;
     width = Length(gap);
   }
-  return count == 1 && width <= kMaxMouthShare * Length(Outline(region)) && !Offset(region, -kMinRoomToMouth * width / 2).empty();
+  return count == 1 && width <= kMaxMouthShare * Length(Outline(region)) &&
+         !Offset(region, -kMinRoomToMouth * width / 2).empty();
 }
 
 }  // namespace
@@ -77,7 +81,8 @@ Rings RoomsWithOneMouth(const std::vector<Segment>& walls, const Rings& solid, d
   lines.insert(lines.end(), gaps.begin(), gaps.end());
   Rings rooms;
   for (const Rings& region : Enclosed(lines, solid, reach_m / 2))
-    if (!region.empty() && IsRoom(region, gaps, reach_m) && is_solid(region)) rooms.insert(rooms.end(), region.begin(), region.end());
+    if (!region.empty() && IsRoom(region, gaps, reach_m) && is_solid(region))
+      rooms.insert(rooms.end(), region.begin(), region.end());
   return rooms;
 }
 

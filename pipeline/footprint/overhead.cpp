@@ -16,7 +16,9 @@ double TwiceArea(const Triangle3& t) {
 }
 bool IsUpright(const Triangle3& t) { return std::abs(TwiceArea(t)) < 1e-9; }
 
-struct Box { double min_x, min_y, max_x, max_y; };
+struct Box {
+  double min_x, min_y, max_x, max_y;
+};
 Box BoxOf(const Triangle3& t) {
   const auto& [a, b, c] = t;
   return {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
@@ -30,7 +32,8 @@ double CellFor(const std::vector<const Triangle3*>& triangles) {
   Box all = BoxOf(*triangles[0]);
   for (const Triangle3* t : triangles) {
     const Box box = BoxOf(*t);
-    all = {std::min(all.min_x, box.min_x), std::min(all.min_y, box.min_y), std::max(all.max_x, box.max_x), std::max(all.max_y, box.max_y)};
+    all = {std::min(all.min_x, box.min_x), std::min(all.min_y, box.min_y), std::max(all.max_x, box.max_x),
+           std::max(all.max_y, box.max_y)};
   }
   const auto count = static_cast<double>(triangles.size());
   double cell = std::max(kMinOverheadCell_m, std::sqrt((all.max_x - all.min_x) * (all.max_y - all.min_y) / count));
@@ -58,7 +61,8 @@ Overhead::Overhead(const std::vector<const std::vector<Triangle3>*>& objects) {
   for (const Triangle3* t : triangles) {
     const Box box = BoxOf(*t);
     for (int64_t x = Cell(box.min_x, cell_m_); x <= Cell(box.max_x, cell_m_); ++x)
-      for (int64_t y = Cell(box.min_y, cell_m_); y <= Cell(box.max_y, cell_m_); ++y) entries_.emplace_back(Key(x, y), t);
+      for (int64_t y = Cell(box.min_y, cell_m_); y <= Cell(box.max_y, cell_m_); ++y)
+        entries_.emplace_back(Key(x, y), t);
   }
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.first < b.first; });
 }
@@ -66,7 +70,8 @@ Overhead::Overhead(const std::vector<const std::vector<Triangle3>*>& objects) {
 double Overhead::LowestAbove(Point2 p, double z) const {
   double lowest = std::numeric_limits<double>::infinity();
   const int64_t key = Key(Cell(p.x, cell_m_), Cell(p.y, cell_m_));
-  auto entry = std::lower_bound(entries_.begin(), entries_.end(), key, [](const Entry& e, int64_t k) { return e.first < k; });
+  auto entry =
+      std::lower_bound(entries_.begin(), entries_.end(), key, [](const Entry& e, int64_t k) { return e.first < k; });
   for (; entry != entries_.end() && entry->first == key; ++entry) {
     const auto& [a, b, c] = *entry->second;
     const double area = TwiceArea(*entry->second);

@@ -62,7 +62,8 @@ PassageTest::Samples PassageTest::Sample(const Rings& area, const Rings& walkabl
 }
 
 // Whether enough of the candidates have walls on two sides; the first that has.
-std::optional<Point2> PassageTest::FirstBetweenWalls(const std::vector<Point2>& candidates, const AreaIndex& walls) const {
+std::optional<Point2> PassageTest::FirstBetweenWalls(const std::vector<Point2>& candidates,
+                                                     const AreaIndex& walls) const {
   const size_t stride = std::max<size_t>(1, candidates.size() / kMaxAskedSamples);
   std::optional<Point2> first;
   int asked = 0, between = 0;

@@ -28,8 +28,8 @@ class PassageTest {
 
   static constexpr double kFarthestWall_m = 8;  // beside a place under a roof
 
-  // Splits free ground that an obstacle covers. A passage is roofed with headroom, wide enough for a person, and has walls
-  // or pillars on two opposite sides, among `walls`: so ground under eaves is none.
+  // Splits free ground that an obstacle covers. A passage is roofed with headroom, wide enough for a person, and has
+  // walls or pillars on two opposite sides, among `walls`: so ground under eaves is none.
   PassageParts Sort(const Rings& area, const Rings& walls) const;
 
  private:

@@ -1,12 +1,12 @@
 #include "pipeline/footprint/polygon_sets.h"
 
 #include <algorithm>
+#include <clipper.hpp>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <tuple>
 #include <utility>
-#include <clipper.hpp>
 
 namespace flaneur {
 namespace {
@@ -78,8 +78,11 @@ cl::Paths UnionAtOnce(const cl::Paths& paths) {
 uint64_t AlongCurve(uint64_t x, uint64_t y) {
   const auto spread = [](uint64_t v) {
     v &= 0xffffffff;
-    for (const auto& [shift, mask] : {std::pair{16, 0x0000ffff0000ffff}, {8, 0x00ff00ff00ff00ff}, {4, 0x0f0f0f0f0f0f0f0f},
-                                      {2, 0x3333333333333333}, {1, 0x5555555555555555}})
+    for (const auto& [shift, mask] : {std::pair{16, 0x0000ffff0000ffff},
+                                      {8, 0x00ff00ff00ff00ff},
+                                      {4, 0x0f0f0f0f0f0f0f0f},
+                                      {2, 0x3333333333333333},
+                                      {1, 0x5555555555555555}})
       v = (v | v << shift) & static_cast<uint64_t>(mask);
     return v;
   };
@@ -98,9 +101,13 @@ cl::Paths Neighbouring(cl::Paths paths) {
   for (size_t i = 0; i < paths.size(); ++i) {
     cl::IntPoint least = paths[i][0];
     for (const cl::IntPoint& p : paths[i]) least = {std::min(least.X, p.X), std::min(least.Y, p.Y)};
-    order.emplace_back(AlongCurve(static_cast<uint64_t>(least.X - low.X) >> kPerCell, static_cast<uint64_t>(least.Y - low.Y) >> kPerCell), i);
+    order.emplace_back(AlongCurve(static_cast<uint64_t>(least.X - low.X) >> kPerCell,
+                                  static_cast<uint64_t>(least.Y - low.Y) >> kPerCell),
+                       i);
   }
-  const auto before = [](const cl::IntPoint& p, const cl::IntPoint& q) { return std::tie(p.X, p.Y) < std::tie(q.X, q.Y); };
+  const auto before = [](const cl::IntPoint& p, const cl::IntPoint& q) {
+    return std::tie(p.X, p.Y) < std::tie(q.X, q.Y);
+  };
   std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) {
     if (a.first != b.first) return a.first < b.first;
     const cl::Path &p = paths[a.second], &q = paths[b.second];
@@ -113,7 +120,8 @@ cl::Paths Neighbouring(cl::Paths paths) {
 }
 
 cl::Paths UnionByHalves(const cl::Paths& paths, size_t from, size_t to) {
-  if (to - from <= kAtOnce) return UnionAtOnce(cl::Paths(paths.begin() + static_cast<long>(from), paths.begin() + static_cast<long>(to)));
+  if (to - from <= kAtOnce)
+    return UnionAtOnce(cl::Paths(paths.begin() + static_cast<long>(from), paths.begin() + static_cast<long>(to)));
   const size_t middle = from + (to - from) / 2;
   cl::Paths both = UnionByHalves(paths, from, middle);
   const cl::Paths other = UnionByHalves(paths, middle, to);
@@ -124,8 +132,8 @@ cl::Paths UnionByHalves(const cl::Paths& paths) { return UnionByHalves(paths, 0,
 
 constexpr double kGrid_m = 1e-4;
 
-// A ring with the area on its left, losing vertices. Each vertex knows how far the boundary has moved outwards there and
-// along the edge that follows.
+// A ring with the area on its left, losing vertices. Each vertex knows how far the boundary has moved outwards there
+// and along the edge that follows.
 class Simplifier {
  public:
   Simplifier(const Ring& ring, double tolerance_m) : tolerance_m_(tolerance_m) {
@@ -133,7 +141,8 @@ class Simplifier {
     const auto sum = [](Point2 p) { return p.x + p.y; };
     const auto less = [&](Point2 p, Point2 q) { return sum(p) != sum(q) ? sum(p) < sum(q) : p.x < q.x; };
     const auto start = std::min_element(ring.begin(), ring.end(), less) - ring.begin();
-    for (size_t i = 0; i < ring.size(); ++i) corners_.push_back({ring[(i + static_cast<size_t>(start)) % ring.size()], 0, 0});
+    for (size_t i = 0; i < ring.size(); ++i)
+      corners_.push_back({ring[(i + static_cast<size_t>(start)) % ring.size()], 0, 0});
   }
 
   Ring Run() {
@@ -150,7 +159,10 @@ class Simplifier {
   }
 
  private:
-  struct Corner { Point2 at; double moved_m, edge_moved_m; };
+  struct Corner {
+    Point2 at;
+    double moved_m, edge_moved_m;
+  };
 
   Corner& At(size_t i) { return corners_[i % corners_.size()]; }
   static double Turn(Point2 a, Point2 b, Point2 c) { return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x); }
@@ -283,8 +295,10 @@ Rings OffsetSegments(const std::vector<Segment>& segments, double distance_m) {
     const double length = std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
     const double dx = length > 0 ? (s.b.x - s.a.x) / length * distance_m : distance_m;
     const double dy = length > 0 ? (s.b.y - s.a.y) / length * distance_m : 0;
-    boxes.push_back({{s.a.x - dx + dy, s.a.y - dy - dx}, {s.b.x + dx + dy, s.b.y + dy - dx},
-                     {s.b.x + dx - dy, s.b.y + dy + dx}, {s.a.x - dx - dy, s.a.y - dy + dx}});
+    boxes.push_back({{s.a.x - dx + dy, s.a.y - dy - dx},
+                     {s.b.x + dx + dy, s.b.y + dy - dx},
+                     {s.b.x + dx - dy, s.b.y + dy + dx},
+                     {s.a.x - dx - dy, s.a.y - dy + dx}});
   }
   return UnionOfRings(boxes);
 }
@@ -321,7 +335,8 @@ std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& 
     bool inside = true;
     for (size_t i = 0; i + 1 < cuts.size() && inside; ++i) {
       const double t = (cuts[i] + cuts[i + 1]) / 2;
-      if (cuts[i + 1] - cuts[i] >= least) inside = index.Inside({s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)});
+      if (cuts[i + 1] - cuts[i] >= least)
+        inside = index.Inside({s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)});
     }
     if (!inside) out.push_back(s);
   }

@@ -11,8 +11,13 @@ namespace flaneur {
 using Ring = std::vector<Point2>;
 // The area inside by the even-odd rule. Results have outer rings anticlockwise and holes clockwise, all simple.
 using Rings = std::vector<Ring>;
-struct Segment { Point2 a, b; };
-struct Polygon { Ring outer; Rings holes; };
+struct Segment {
+  Point2 a, b;
+};
+struct Polygon {
+  Ring outer;
+  Rings holes;
+};
 
 double Length(const Segment& segment);
 double Length(const std::vector<Segment>& segments);  // of all together
@@ -20,7 +25,9 @@ std::vector<Segment> Outline(const Rings& rings);
 
 double SignedArea(const Ring& ring);  // square metres, positive where anticlockwise
 double Area(const Rings& rings);
-struct BoundingBox { Point2 min{1e300, 1e300}, max{-1e300, -1e300}; };  // of nothing: min above max
+struct BoundingBox {
+  Point2 min{1e300, 1e300}, max{-1e300, -1e300};
+};  // of nothing: min above max
 BoundingBox BoundingBoxOf(const Rings& rings);
 
 Rings Union(const Rings& a, const Rings& b);
@@ -37,8 +44,8 @@ Rings DifferenceOfAreas(const Rings& a, const Rings& b);
 Rings Offset(const Rings& rings, double distance_m, double miter_limit = 2);
 // All that lies within distance_m of a segment, ends squared.
 Rings OffsetSegments(const std::vector<Segment>& segments, double distance_m);
-// What is enclosed by segments and areas that reach towards each other over gaps of up to 2 * reach_m: each region up to the
-// segments and areas round it, without the islands in it.
+// What is enclosed by segments and areas that reach towards each other over gaps of up to 2 * reach_m: each region up
+// to the segments and areas round it, without the islands in it.
 std::vector<Rings> Enclosed(const std::vector<Segment>& segments, const Rings& areas, double reach_m);
 // The segments that lie, wholly or in part, outside the area.
 std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area);
@@ -46,8 +53,8 @@ std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& 
 // Drops vertices where the boundary moves outwards by at most tolerance_m; inwards by no more than the grid is wide.
 Rings Simplify(const Rings& rings, double tolerance_m);
 
-// Fit for a file: without slivers thinner than width_m, slits thinner than 1 mm, and crossings; where width_m is more than
-// 1.5 mm also without points nearer than that to each other.
+// Fit for a file: without slivers thinner than width_m, slits thinner than 1 mm, and crossings; where width_m is more
+// than 1.5 mm also without points nearer than that to each other.
 Rings Tidy(const Rings& rings, double width_m);
 
 // Splits an area into polygons with their holes.

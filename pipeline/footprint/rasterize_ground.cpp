@@ -111,7 +111,9 @@ void SmoothGaps(GroundRaster* raster) {
 
 // What the feet of buildings, or where there are none of all things, tell of the ground between them.
 void DrawBases(const TownObjects& town, GroundRaster* raster) {
-  const auto is_house = [](const TownObject& o) { return o.kind == ObstacleKind::kBuilding || o.kind == ObstacleKind::kWall; };
+  const auto is_house = [](const TownObject& o) {
+    return o.kind == ObstacleKind::kBuilding || o.kind == ObstacleKind::kWall;
+  };
   const bool any_house = std::any_of(town.obstacles.begin(), town.obstacles.end(), is_house);
   for (const TownObject& object : town.obstacles) {
     if (any_house && !is_house(object)) continue;
@@ -124,7 +126,8 @@ void DrawBases(const TownObjects& town, GroundRaster* raster) {
         const int r = Row(*raster, base.min_m.y + (row + 0.5) * base.cell_m);
         if (c < 0 || r < 0 || c >= raster->columns || r >= raster->rows) continue;
         const size_t cell = RowMajor(r, raster->columns, c);
-        raster->height_m[cell] = raster->kind[cell] ? std::min(raster->height_m[cell], base.height_m[i]) : base.height_m[i];
+        raster->height_m[cell] =
+            raster->kind[cell] ? std::min(raster->height_m[cell], base.height_m[i]) : base.height_m[i];
         raster->kind[cell] = static_cast<uint8_t>(GroundKind::kSquare);
       }
     }
@@ -139,9 +142,7 @@ void DrawBases(const TownObjects& town, GroundRaster* raster) {
 // Two sweeps each way carry every empty cell the height of a near ground cell.
 void FillGaps(GroundRaster* raster) {
   const int columns = raster->columns, rows = raster->rows;
-  const auto at = [&](int column, int row) {
-    return RowMajor(row, columns, column);
-  };
+  const auto at = [&](int column, int row) { return RowMajor(row, columns, column); };
   std::vector<float> distance(raster->kind.size(), std::numeric_limits<float>::max());
   for (size_t i = 0; i < distance.size(); ++i)
     if (raster->kind[i]) distance[i] = 0;
@@ -213,8 +214,7 @@ double LocalGround::Height(double x, double y) const {
     const double height = at(column, row);
     return std::abs(height - nearest) > kMaxSlopeStep_m ? nearest : height;
   };
-  return (near(c0, r0) * (1 - fu) + near(c1, r0) * fu) * (1 - fv) +
-         (near(c0, r1) * (1 - fu) + near(c1, r1) * fu) * fv;
+  return (near(c0, r0) * (1 - fu) + near(c1, r0) * fu) * (1 - fv) + (near(c0, r1) * (1 - fu) + near(c1, r1) * fu) * fv;
 }
 
 }  // namespace flaneur

@@ -8,22 +8,23 @@
 namespace flaneur {
 
 struct GroundRasterOptions {
-  double cell_m = 0.25;          // > 0; doubled until the raster holds at most max_cells
-  int max_cells = 4'000'000;     // > 0
-  double scale = 1;              // metres per unit of the scene, > 0
-  double bare_margin_m = 10;     // a town without ground gets a flat square this far round it
+  double cell_m = 0.25;       // > 0; doubled until the raster holds at most max_cells
+  int max_cells = 4'000'000;  // > 0
+  double scale = 1;           // metres per unit of the scene, > 0
+  double bare_margin_m = 10;  // a town without ground gets a flat square this far round it
 };
 
 // Each cell takes the topmost ground triangle over its centre. A town without any ground stands on a square that joins
-// the feet of its buildings. Errors: an option out of range, nothing in the scene, a town wider than 100 km (names the extent).
+// the feet of its buildings. Errors: an option out of range, nothing in the scene, a town wider than 100 km (names the
+// extent).
 Error RasterizeGround(const Scene& scene, const GroundRasterOptions& options, GroundRaster* raster);
 Error RasterizeGround(const TownObjects& town, const GroundRasterOptions& options, GroundRaster* raster);
 
 // Carries every cell without ground the height of a near one with ground.
 void FillGaps(GroundRaster* raster);
 
-// The height of the ground everywhere: between cell centres bilinear except across steps, where there is no ground that of
-// the nearest ground, smoothed if so asked. The raster must have at least one cell of ground.
+// The height of the ground everywhere: between cell centres bilinear except across steps, where there is no ground that
+// of the nearest ground, smoothed if so asked. The raster must have at least one cell of ground.
 class LocalGround {
  public:
   enum class Gaps { kNearest, kSmooth };

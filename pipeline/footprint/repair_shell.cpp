@@ -108,8 +108,7 @@ class Repair {
     std::vector<Index> starts;
     for (const auto& [a, _] : borders_) starts.push_back(a);
     for (const Index a : starts)
-      while (FillOneAt(a)) {
-      }
+      while (FillOneAt(a)) {}
   }
 
   bool FillOneAt(Index a) {
@@ -157,7 +156,9 @@ class Repair {
     double lowest = point(0).z;
     for (size_t i = 1; i < n; ++i) lowest = std::min(lowest, point(i).z);
     const auto is_high = [&](size_t i) { return point(i).z > lowest + kFoot_m; };
-    const auto is_over = [&](size_t i, size_t below) { return std::hypot(point(i).x - point(below).x, point(i).y - point(below).y) < kThinTriangle_m; };
+    const auto is_over = [&](size_t i, size_t below) {
+      return std::hypot(point(i).x - point(below).x, point(i).y - point(below).y) < kThinTriangle_m;
+    };
     size_t high = 0;
     for (size_t i = 0; i < n; ++i) high += is_high(i);
     for (size_t i = 0; i < n && high == 2; ++i)

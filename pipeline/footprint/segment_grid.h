@@ -33,7 +33,8 @@ double CellFor(const std::vector<Segment>& segments);
 Point2 NearestOn(const Segment& s, Point2 p);
 
 // Cuts segments where they meet, each meeting point rounded to a tenth of a millimetre, and drops repeated pieces: what
-// comes back hardly ever crosses, so exact arithmetic on it stays cheap. Deterministic for the same segments in the same order.
+// comes back hardly ever crosses, so exact arithmetic on it stays cheap. Deterministic for the same segments in the
+// same order.
 std::vector<Segment> CutWhereTheyMeet(std::vector<Segment> segments);
 
 }  // namespace flaneur

@@ -27,7 +27,7 @@ Rings WithoutSpecks(const Rings& rings) {
 
 // Whether nothing is thin or short about an outline, so that there is nothing to tidy. May say no too often.
 bool IsTidy(const Rings& rings, double width_m) {
-  constexpr size_t kMaxPoints = 64;  // looking at each pair of more takes longer than to tidy
+  constexpr size_t kMaxPoints = 64;            // looking at each pair of more takes longer than to tidy
   constexpr double kSharpCornerCosine = -0.9;  // cosine; sharper corners are looked at more closely
   size_t points = 0;
   for (const Ring& ring : rings) {
@@ -54,9 +54,10 @@ bool IsTidy(const Rings& rings, double width_m) {
   return true;
 }
 
-// A strip or speck too small to stay with its own obstacle goes to the neighbour it lies against, so that no wall loses its clearance.
+// A strip or speck too small to stay with its own obstacle goes to the neighbour it lies against, so that no wall loses
+// its clearance.
 void AssignToNeighbours(const Rings& strips, size_t from, const std::vector<size_t>& neighbours, double width_m,
-              std::vector<BoundingBox>* boxes, std::vector<Rings>* enlarged) {
+                        std::vector<BoundingBox>* boxes, std::vector<Rings>* enlarged) {
   for (const Polygon& strip : ToPolygons(strips)) {
     if (SignedArea(strip.outer) < kMinStrip_m2) continue;
     const Rings grown = Offset({strip.outer}, kAgainst_m);
@@ -129,8 +130,8 @@ Rings SharedGround(const Shape& a, const BoundingBox& box_a, const Shape& b, con
 
 }  // namespace
 
-void SeparateObstacles(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes, double width_m, int threads,
-                       std::vector<Rings>* enlarged) {
+void SeparateObstacles(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes, double width_m,
+                       int threads, std::vector<Rings>* enlarged) {
   const auto is_house = [&](size_t i) { return objects[i].kind == ObstacleKind::kBuilding; };
   const auto append = [](const Rings& more, Rings* to) { to->insert(to->end(), more.begin(), more.end()); };
   std::vector<BoundingBox> solid_boxes, boxes;
@@ -142,7 +143,8 @@ void SeparateObstacles(const std::vector<TownObject>& objects, const std::vector
     for (const size_t j : neighbours[i]) {
       if ((*enlarged)[j].empty()) continue;
       if (j < i && !Apart(boxes[i], boxes[j])) {
-        const Rings shared = is_house(i) && is_house(j) ? SharedGround(shapes[i], solid_boxes[i], shapes[j], solid_boxes[j]) : Rings();
+        const Rings shared =
+            is_house(i) && is_house(j) ? SharedGround(shapes[i], solid_boxes[i], shapes[j], solid_boxes[j]) : Rings();
         append(shared.empty() ? (*enlarged)[j] : Difference((*enlarged)[j], shared), &taken);
       }
       if (j > i && !Apart(boxes[i], solid_boxes[j])) append(shapes[j].solid, &later);

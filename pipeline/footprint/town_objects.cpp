@@ -30,10 +30,16 @@ std::set<std::string> Words(const std::string& name) {
   return words;
 }
 
-struct Meaning { NodeKind kind; GroundKind ground = GroundKind::kNone; };
+struct Meaning {
+  NodeKind kind;
+  GroundKind ground = GroundKind::kNone;
+};
 
 // The first line that shares a word with the name decides: a street lamp is a lamp.
-struct NamedMeaning { std::initializer_list<const char*> words; Meaning meaning; };
+struct NamedMeaning {
+  std::initializer_list<const char*> words;
+  Meaning meaning;
+};
 const NamedMeaning kNamedMeanings[] = {
     {{"tree"}, {NodeKind::kTree}},
     {{"lamp", "lamppost", "streetlamp", "streetlight", "lantern"}, {NodeKind::kLamp}},
@@ -49,8 +55,8 @@ Meaning FromName(const std::string& name, const Point3& min, const Point3& max) 
   const double shorter_m = std::min(max.x - min.x, max.y - min.y);
   const std::set<std::string> words = Words(name);
   for (const NamedMeaning& named : kNamedMeanings) {
-    const bool matches = std::any_of(named.words.begin(), named.words.end(),
-                                     [&](const char* word) { return words.contains(word); });
+    const bool matches =
+        std::any_of(named.words.begin(), named.words.end(), [&](const char* word) { return words.contains(word); });
     if (!matches) continue;
     const bool is_ground = named.meaning.kind == NodeKind::kGround;
     if (!is_ground || height_m <= kMaxGroundSteepness * longer_m) return named.meaning;
@@ -89,8 +95,7 @@ int ObjectRoot(const Scene& scene, int node) {
   const NodeKind kind = At(scene.nodes, node).kind;
   if (kind == NodeKind::kUntagged) return node;
   int root = node;
-  for (int parent = At(scene.nodes, node).parent;
-       parent >= 0 && At(scene.nodes, parent).kind == kind;
+  for (int parent = At(scene.nodes, node).parent; parent >= 0 && At(scene.nodes, parent).kind == kind;
        parent = At(scene.nodes, parent).parent)
     root = parent;
   return root;
@@ -98,12 +103,23 @@ int ObjectRoot(const Scene& scene, int node) {
 
 bool ObstacleKindOf(NodeKind kind, ObstacleKind* out) {
   switch (kind) {
-    case NodeKind::kBuilding: *out = ObstacleKind::kBuilding; return true;
-    case NodeKind::kWall: *out = ObstacleKind::kWall; return true;
-    case NodeKind::kTree: *out = ObstacleKind::kTree; return true;
-    case NodeKind::kLamp: *out = ObstacleKind::kLamp; return true;
-    case NodeKind::kOther: *out = ObstacleKind::kOther; return true;
-    default: return false;
+    case NodeKind::kBuilding:
+      *out = ObstacleKind::kBuilding;
+      return true;
+    case NodeKind::kWall:
+      *out = ObstacleKind::kWall;
+      return true;
+    case NodeKind::kTree:
+      *out = ObstacleKind::kTree;
+      return true;
+    case NodeKind::kLamp:
+      *out = ObstacleKind::kLamp;
+      return true;
+    case NodeKind::kOther:
+      *out = ObstacleKind::kOther;
+      return true;
+    default:
+      return false;
   }
 }
 

@@ -17,10 +17,13 @@ struct TownObject {
   double radius_m = 0;  // 0: measure it
   std::vector<Triangle3> triangles;
   std::vector<Triangle3> foundation;  // the ground under it, where the model has that; none of `triangles`
-  Point3 min_m, max_m;  // of `triangles`
+  Point3 min_m, max_m;                // of `triangles`
 };
 
-struct GroundPatch { GroundKind kind = GroundKind::kPavement; std::vector<Triangle3> triangles; };
+struct GroundPatch {
+  GroundKind kind = GroundKind::kPavement;
+  std::vector<Triangle3> triangles;
+};
 
 struct TownObjects {
   std::vector<TownObject> obstacles;
@@ -29,7 +32,8 @@ struct TownObjects {
 
 // Parts of one tagged node are one object. Untagged nodes are told by the words of their names (tree; lamp, lantern;
 // road, street, grass, square, ground, terrain, floor, hex, path and the like, unless too high for ground), flat ones
-// are ground, and the rest are buildings. Nodes tagged none, door, exit or loiter are left out. `scale` turns the scene's units into metres. Degenerate triangles are kept.
+// are ground, and the rest are buildings. Nodes tagged none, door, exit or loiter are left out. `scale` turns the
+// scene's units into metres. Degenerate triangles are kept.
 TownObjects SortTown(const Scene& scene, double scale);
 
 }  // namespace flaneur

@@ -18,7 +18,11 @@ using GridPoint = bp::point_data<int>;
 using GridSegment = bp::segment_data<int>;
 using Diagram = bp::voronoi_diagram<double>;
 
-struct Edge { Point2 a, b; size_t ring, index, count; bool open; };
+struct Edge {
+  Point2 a, b;
+  size_t ring, index, count;
+  bool open;
+};
 
 // Which edges pass a row of the plan, to tell inside from outside quickly.
 class Rows {
@@ -29,15 +33,15 @@ class Rows {
     low_ = low;
     rows_.resize(edges.empty() ? 1 : static_cast<size_t>((high - low) / kRowHeight_m) + 1);
     for (const Edge& e : edges)
-      for (size_t row = Row(std::min(e.a.y, e.b.y)); row <= Row(std::max(e.a.y, e.b.y)); ++row) rows_[row].push_back(&e);
+      for (size_t row = Row(std::min(e.a.y, e.b.y)); row <= Row(std::max(e.a.y, e.b.y)); ++row)
+        rows_[row].push_back(&e);
   }
 
   bool Inside(Point2 p) const {
     bool inside = false;
     if (p.y < low_ || Row(p.y) >= rows_.size()) return false;
     for (const Edge* e : rows_[Row(p.y)])
-      if ((e->a.y > p.y) != (e->b.y > p.y) &&
-          p.x < e->a.x + (e->b.x - e->a.x) * (p.y - e->a.y) / (e->b.y - e->a.y))
+      if ((e->a.y > p.y) != (e->b.y > p.y) && p.x < e->a.x + (e->b.x - e->a.x) * (p.y - e->a.y) / (e->b.y - e->a.y))
         inside = !inside;
     return inside;
   }
@@ -80,7 +84,9 @@ class Builder {
     return {static_cast<int>(std::lround((p.x - middle_.x) * units_per_metre_)),
             static_cast<int>(std::lround((p.y - middle_.y) * units_per_metre_))};
   }
-  Point2 FromGrid(double x, double y) const { return {middle_.x + x / units_per_metre_, middle_.y + y / units_per_metre_}; }
+  Point2 FromGrid(double x, double y) const {
+    return {middle_.x + x / units_per_metre_, middle_.y + y / units_per_metre_};
+  }
 
   void AddRing(const Ring& ring, size_t number, const OpenTest& is_open) {
     Ring snapped;  // to the diagram's grid, where neighbours may fall together
@@ -89,7 +95,8 @@ class Builder {
       const Point2 q = FromGrid(g.x(), g.y());
       if (snapped.empty() || snapped.back().x != q.x || snapped.back().y != q.y) snapped.push_back(q);
     }
-    while (snapped.size() > 1 && snapped.front().x == snapped.back().x && snapped.front().y == snapped.back().y) snapped.pop_back();
+    while (snapped.size() > 1 && snapped.front().x == snapped.back().x && snapped.front().y == snapped.back().y)
+      snapped.pop_back();
     const size_t n = snapped.size();
     if (n < 3) return;
     for (size_t i = 0; i < n; ++i) {
@@ -190,8 +197,9 @@ class Builder {
     int before = from;
     for (int s = 1; s <= steps; ++s) {
       const Point2 at{a.x + (b.x - a.x) * s / steps, a.y + (b.y - a.y) * s / steps};
-      const int next = s == steps ? to : AddNode(at, std::max(least_, std::min(DistanceTo(cell, at), DistanceTo(other, at))),
-                                                       IsOpen(cell) || IsOpen(other));
+      const int next = s == steps ? to
+                                  : AddNode(at, std::max(least_, std::min(DistanceTo(cell, at), DistanceTo(other, at))),
+                                            IsOpen(cell) || IsOpen(other));
       const int way = Count(network_.ways);
       network_.ways.push_back({before, next, length / steps});
       At(network_.nodes, before).ways.push_back(way);
@@ -208,7 +216,8 @@ class Builder {
   }
 
   // The least clearance between two nodes: at one of them, or `at` where the way passes straight between corners.
-  double Narrowest(const Diagram::cell_type& cell, const Diagram::cell_type& other, int from, int to, Point2* at) const {
+  double Narrowest(const Diagram::cell_type& cell, const Diagram::cell_type& other, int from, int to,
+                   Point2* at) const {
     const WayNode &p = At(network_.nodes, from), &q = At(network_.nodes, to);
     const double ends = std::min(p.clearance_m, q.clearance_m);
     if (!IsCorner(cell) && !IsCorner(other)) return ends;
@@ -225,7 +234,8 @@ class Builder {
   }
 
   static Point2 Foot(Point2 p, const Edge& e) {
-    const double dx = e.b.x - e.a.x, dy = e.b.y - e.a.y, t = ((p.x - e.a.x) * dx + (p.y - e.a.y) * dy) / (dx * dx + dy * dy);
+    const double dx = e.b.x - e.a.x, dy = e.b.y - e.a.y,
+                 t = ((p.x - e.a.x) * dx + (p.y - e.a.y) * dy) / (dx * dx + dy * dy);
     return {e.a.x + t * dx, e.a.y + t * dy};
   }
 

@@ -10,12 +10,15 @@ namespace flaneur {
 
 struct WayNode {
   Point2 at;
-  double clearance_m = 0;    // to the nearest edge of the ground
-  bool open = false;         // the nearest edge is where the map ends, and people may come and go
-  std::vector<int> ways;     // into WayNetwork::ways
+  double clearance_m = 0;  // to the nearest edge of the ground
+  bool open = false;       // the nearest edge is where the map ends, and people may come and go
+  std::vector<int> ways;   // into WayNetwork::ways
 };
 
-struct WayEdge { int from = 0, to = 0; double length_m = 0; };
+struct WayEdge {
+  int from = 0, to = 0;
+  double length_m = 0;
+};
 
 struct WayNetwork {
   std::vector<WayNode> nodes;
@@ -27,8 +30,8 @@ struct WayNetwork {
 };
 
 // The Voronoi diagram of the boundary of `ground` (outer rings anticlockwise, holes clockwise), inside it, wherever the
-// boundary is at least least_clearance_m away; without the branches that run into corners. `is_open` is asked for each edge
-// of the boundary.
+// boundary is at least least_clearance_m away; without the branches that run into corners. `is_open` is asked for each
+// edge of the boundary.
 using OpenTest = std::function<bool(Point2 a, Point2 b)>;
 WayNetwork BuildWayNetwork(const Rings& ground, double least_clearance_m, const OpenTest& is_open);
 

@@ -18,7 +18,9 @@ class BrokenPlaces {
   bool Near(Point2 p, double reach) const;
 
  private:
-  struct Box { Point2 min, max; };
+  struct Box {
+    Point2 min, max;
+  };
   std::vector<Box> boxes_;
 };
 

@@ -16,9 +16,7 @@ namespace flaneur {
 double FillRate(const Pixels& albedo) {
   size_t covered = 0;
   for (size_t i = 3; i < albedo.rgba.size(); i += 4) covered += albedo.rgba[i] > 0;
-  return albedo.rgba.empty()
-             ? 0
-             : 4 * static_cast<double>(covered) / static_cast<double>(albedo.rgba.size());
+  return albedo.rgba.empty() ? 0 : 4 * static_cast<double>(covered) / static_cast<double>(albedo.rgba.size());
 }
 
 Pixels Halved(const Pixels& from) {
@@ -52,8 +50,8 @@ Error EncodePng(const Pixels& pixels, bool srgb, Image* image) {
   OIIO::Filesystem::IOVecOutput bytes;
   auto output = OIIO::ImageOutput::create("atlas.png", &bytes);
   if (!output) return Fail("OpenImageIO cannot write PNG: " + OneLine(OIIO::geterror()));
-  if (!output->open("atlas.png", spec) ||
-      !output->write_image(OIIO::TypeDesc::UINT8, pixels.rgba.data()) || !output->close()) {
+  if (!output->open("atlas.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, pixels.rgba.data()) ||
+      !output->close()) {
     return Fail("OpenImageIO cannot write PNG: " + OneLine(output->geterror()));
   }
   image->mime_type = "image/png";

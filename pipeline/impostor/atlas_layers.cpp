@@ -17,19 +17,34 @@ namespace fs = std::filesystem;
 
 // One sample in 4096 counts; what rounding leaves in Blender's sums does not.
 constexpr float kMinCoverage = 1e-4f;
-// How far coverage keeps from a half, for each halving: compression is off by more the smaller a person gets in a block.
+// How far coverage keeps from a half, for each halving: compression is off by more the smaller a person gets in a
+// block.
 constexpr float kClearOfHalf = 0.02f;
 
 enum Layer {
-  kRed, kGreen, kBlue, kNormalX, kNormalY, kNormalZ, kMotionX, kMotionY, kMotionZ, kBendX, kBendY, kBendZ, kDepth, kCoverage, kLayers
+  kRed,
+  kGreen,
+  kBlue,
+  kNormalX,
+  kNormalY,
+  kNormalZ,
+  kMotionX,
+  kMotionY,
+  kMotionZ,
+  kBendX,
+  kBendY,
+  kBendZ,
+  kDepth,
+  kCoverage,
+  kLayers
 };
-constexpr std::array<const char*, kLayers> kLayerNames = {
-    "albedo.R", "albedo.G", "albedo.B", "normal.R", "normal.G", "normal.B", "motion.R",
-    "motion.G", "motion.B", "bend.R",   "bend.G",   "bend.B",   "depth.",   "coverage."};
+constexpr std::array<const char*, kLayers> kLayerNames = {"albedo.R", "albedo.G", "albedo.B", "normal.R", "normal.G",
+                                                          "normal.B", "motion.R", "motion.G", "motion.B", "bend.R",
+                                                          "bend.G",   "bend.B",   "depth.",   "coverage."};
 // Versions of Blender name the parts of a vector and of a single value differently.
-constexpr std::array<const char*, kLayers> kOtherNames = {
-    "albedo.X", "albedo.Y", "albedo.Z", "normal.X", "normal.Y", "normal.Z", "motion.X",
-    "motion.Y", "motion.Z", "bend.X",   "bend.Y",   "bend.Z",   "depth",    "coverage"};
+constexpr std::array<const char*, kLayers> kOtherNames = {"albedo.X", "albedo.Y", "albedo.Z", "normal.X", "normal.Y",
+                                                          "normal.Z", "motion.X", "motion.Y", "motion.Z", "bend.X",
+                                                          "bend.Y",   "bend.Z",   "depth",    "coverage"};
 
 // Channel names are "ViewLayer.albedo.R".
 int FindChannel(const std::vector<std::string>& names, const std::string& wanted) {
@@ -107,7 +122,8 @@ float ThresholdFor(const AtlasLevel& level, double share) {
   for (const AtlasTexel& texel : level.texels) coverages.push_back(texel.coverage);
   const auto rank = static_cast<size_t>(share * static_cast<double>(coverages.size()) + 0.5);
   if (rank == 0 || rank >= coverages.size()) return 0.5f;
-  std::nth_element(coverages.begin(), coverages.begin() + static_cast<std::ptrdiff_t>(rank - 1), coverages.end(), std::greater<>());
+  std::nth_element(coverages.begin(), coverages.begin() + static_cast<std::ptrdiff_t>(rank - 1), coverages.end(),
+                   std::greater<>());
   return std::clamp(coverages[rank - 1], 0.05f, 0.95f);
 }
 
@@ -118,8 +134,8 @@ Error ReadLayers(const fs::path& exr, int first_row, AtlasLevel* level) {
   if (!input) return Fail(exr.string() + ": " + OneLine(OIIO::geterror()));
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width != level->width || first_row + spec.height > level->height) {
-    return Fail(exr.string() + ": Blender rendered " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                " pixels, not what it was asked for");
+    return Fail(exr.string() + ": Blender rendered " + std::to_string(spec.width) + " x " +
+                std::to_string(spec.height) + " pixels, not what it was asked for");
   }
   std::array<int, kLayers> channels{};
   if (Error error = FindChannels(exr, spec, &channels)) return error;
@@ -141,7 +157,8 @@ void TurnIntoCells(const ImpostorAtlas& atlas, AtlasLevel* level) {
   const size_t elevations = atlas.elevations_deg.size(), directions = static_cast<size_t>(atlas.directions);
   for (size_t i = 0; i < atlas.cells.size(); ++i) {
     const ImpostorCell& cell = atlas.cells[i];
-    const ViewAxes axes = AxesOf(static_cast<int>(i % directions), atlas.directions, atlas.elevations_deg[i / directions % elevations]);
+    const ViewAxes axes =
+        AxesOf(static_cast<int>(i % directions), atlas.directions, atlas.elevations_deg[i / directions % elevations]);
     const auto turned = [&](Vec3 v) { return Vec3{Dot(v, axes.right), Dot(v, axes.up), Dot(v, axes.near)}; };
     for (int y = cell.y; y < cell.y + cell.height; ++y) {
       for (int x = cell.x; x < cell.x + cell.width; ++x) {
@@ -182,7 +199,8 @@ void KeepCoverage(std::vector<AtlasLevel>* levels, int count) {
   for (size_t k = 1; k < std::min(levels->size(), static_cast<size_t>(count)); ++k) {
     AtlasLevel& level = (*levels)[k];
     const float threshold = ThresholdFor(level, share);
-    for (AtlasTexel& texel : level.texels) texel.coverage = Stretched(texel.coverage, threshold, kClearOfHalf * static_cast<float>(k));
+    for (AtlasTexel& texel : level.texels)
+      texel.coverage = Stretched(texel.coverage, threshold, kClearOfHalf * static_cast<float>(k));
   }
 }
 

@@ -9,9 +9,9 @@
 namespace flaneur {
 namespace {
 
-constexpr int kCellStep_px = 4;                        // a block of the compressed pictures
+constexpr int kCellStep_px = 4;  // a block of the compressed pictures
 constexpr int kAtlasStep_px = 1 << (kAtlasLevels - 1);
-constexpr int kMaxSide_px = 8192;                     // what every desktop graphics card takes
+constexpr int kMaxSide_px = 8192;  // what every desktop graphics card takes
 
 int RoundedUp(int value, int step) { return (value + step - 1) / step * step; }
 
@@ -48,7 +48,8 @@ bool LayOutCells(const std::vector<ViewBounds>& views, int border_px, ImpostorAt
   }
   std::vector<size_t> order(views.size());
   std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return atlas->cells[a].height > atlas->cells[b].height; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return atlas->cells[a].height > atlas->cells[b].height; });
   int64_t least = -1;
   for (int width = RoundedUp(widest, kAtlasStep_px); width <= kMaxSide_px; width += kAtlasStep_px) {
     const int height = RoundedUp(FillShelves(width, order, &atlas->cells), kAtlasStep_px);

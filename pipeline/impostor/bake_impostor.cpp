@@ -20,30 +20,29 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kMaxAtlasPixels = 8192;       // what every desktop graphics card takes
-constexpr int kPicturePixels = 1 << 21;      // that Blender renders at once
-constexpr float kMaxTexels = 3;             // of a person's picture, a texel of the atlas: players filter as much where the impostor takes over
+constexpr int kMaxAtlasPixels = 8192;    // what every desktop graphics card takes
+constexpr int kPicturePixels = 1 << 21;  // that Blender renders at once
+constexpr float kMaxTexels =
+    3;  // of a person's picture, a texel of the atlas: players filter as much where the impostor takes over
 
 Error CheckRange(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return Ok();
-  return Fail(std::string("impostor: ") + name + " is " + json(value).dump() + ", must be " +
-              json(least).dump() + " to " + json(most).dump());
+  return Fail(std::string("impostor: ") + name + " is " + json(value).dump() + ", must be " + json(least).dump() +
+              " to " + json(most).dump());
 }
 
 Error CheckOptions(const ImpostorOptions& options) {
   if (Error e = CheckRange("directions", options.directions, 1, 64)) return e;
   if (Error e = CheckRange("height_px", options.height_px, 16, 1024)) return e;
   if (Error e = CheckRange("border_px", options.border_px, 1, 16)) return e;
-  if (Error e = CheckRange("height_px less both borders", options.height_px - 2 * options.border_px,
-                           8, 1024)) {
+  if (Error e = CheckRange("height_px less both borders", options.height_px - 2 * options.border_px, 8, 1024)) {
     return e;
   }
   if (Error e = CheckRange("memory_kb", options.memory_kb, 0, 1e6)) return e;
   if (Error e = CheckRange("samples", options.samples, 1, 4096)) return e;
   if (Error e = CheckRange("seed", options.seed, 0, 0x7FFFFFFF)) return e;
   if (Error e = CheckRange("threads", options.threads, 0, 1024)) return e;
-  if (Error e = CheckRange("number of elevations",
-                           static_cast<double>(options.elevations_deg.size()), 1, 8)) {
+  if (Error e = CheckRange("number of elevations", static_cast<double>(options.elevations_deg.size()), 1, 8)) {
     return e;
   }
   for (float elevation_deg : options.elevations_deg) {
@@ -56,8 +55,8 @@ Error CheckOptions(const ImpostorOptions& options) {
 }
 
 std::string TooLarge(int most_px) {
-  return "impostor: the atlas would be larger than " + std::to_string(most_px) + " x " +
-         std::to_string(most_px) + " px; ask for fewer directions or phases, or a smaller height";
+  return "impostor: the atlas would be larger than " + std::to_string(most_px) + " x " + std::to_string(most_px) +
+         " px; ask for fewer directions or phases, or a smaller height";
 }
 
 float HeightOf(const std::vector<ViewBounds>& views) {
@@ -90,8 +89,9 @@ Error LayOut(const ViewGeometry& geometry, const ImpostorOptions& options, Impos
     if (most_bytes == 0 || TextureMemory(atlas->width_px, atlas->height_px) <= most_bytes) break;
     atlas->width_px = 0;
   }
-  if (atlas->width_px == 0) return Fail("impostor: so many pictures do not fit into " + std::to_string(options.memory_kb) +
-                                        " kB; ask for fewer directions or phases, or for more memory");
+  if (atlas->width_px == 0)
+    return Fail("impostor: so many pictures do not fit into " + std::to_string(options.memory_kb) +
+                " kB; ask for fewer directions or phases, or for more memory");
   for (const ViewBounds& view : views) atlas->depth_range_m = std::max(atlas->depth_range_m, view.depth_m);
   atlas->depth_range_m = std::max(atlas->depth_range_m, atlas->texel_m);
   atlas->motion_range_m = std::max(Longest(geometry.motions, geometry), atlas->texel_m);
@@ -129,7 +129,8 @@ Error ReduceToSeen(const Mesh& mesh, float texel_m, Image* image) {
 }
 
 // One a mesh that has one.
-Error WriteTextures(const fs::path& folder, const Avatar& avatar, const std::vector<ViewMaterial>& materials, float texel_m) {
+Error WriteTextures(const fs::path& folder, const Avatar& avatar, const std::vector<ViewMaterial>& materials,
+                    float texel_m) {
   for (size_t m = 0; m < materials.size(); ++m) {
     if (materials[m].image < 0) continue;
     Image image = At(avatar.images, materials[m].image);
@@ -210,8 +211,7 @@ Error Assemble(const fs::path& folder, ImpostorAtlas* atlas, ImpostorStatistics*
 json Description(const ImpostorAtlas& atlas) {
   json clips = json::array(), cells = json::array();
   for (const ImpostorClip& clip : atlas.clips) {
-    clips.push_back(
-        {{"name", clip.name}, {"first_frame", clip.first_frame}, {"phases", clip.phases}});
+    clips.push_back({{"name", clip.name}, {"first_frame", clip.first_frame}, {"phases", clip.phases}});
   }
   for (const ImpostorCell& c : atlas.cells) cells.push_back({c.x, c.y, c.width, c.height, c.origin_x, c.origin_y});
   return {{"version", 3},
@@ -270,8 +270,8 @@ Error BakeImpostor(const Avatar& avatar, const ImpostorOptions& options, Imposto
   if (Error error = WriteTextures(folder.path(), avatar, materials, made.texel_m)) return error;
   ProcessResult process;
   const json settings = Settings(folder.path(), materials, geometry, options, made);
-  if (Error error = RunBlenderScript("bake/impostor.py", settings.dump(1),
-                                     {options.log_file, options.threads}, &process)) {
+  if (Error error =
+          RunBlenderScript("bake/impostor.py", settings.dump(1), {options.log_file, options.threads}, &process)) {
     return Fail("avatar '" + avatar.name + "': " + error.message);
   }
   if (Error error = Assemble(folder.path(), &made, statistics)) return error;

@@ -31,7 +31,9 @@ constexpr size_t kTried = 3;        // partitions whose colours lie nearest to t
 // Bits of a block from the lowest on.
 class BitWriter {
  public:
-  explicit BitWriter(std::span<uint8_t, 16> bytes) : bytes_(bytes) { std::fill(bytes.begin(), bytes.end(), uint8_t{0}); }
+  explicit BitWriter(std::span<uint8_t, 16> bytes) : bytes_(bytes) {
+    std::fill(bytes.begin(), bytes.end(), uint8_t{0});
+  }
   void Put(int value, int count) {
     for (int i = 0; i < count; ++i, ++at_) bytes_[at_ / 8] |= static_cast<uint8_t>((value >> i & 1) << (at_ % 8));
   }
@@ -43,9 +45,9 @@ class BitWriter {
 
 // Some channels of a block as one line of colours: two ends, and for each texel how far it is along.
 struct Line {
-  size_t first = 0, count = 4;     // channels
-  std::span<const int> steps;      // weights / 64 that an index stands for
-  uint32_t members = 0xFFFF;       // texels that are on it
+  size_t first = 0, count = 4;  // channels
+  std::span<const int> steps;   // weights / 64 that an index stands for
+  uint32_t members = 0xFFFF;    // texels that are on it
   Ends ends{};
   std::array<int, 16> indices{};
   double error = 1e30;
@@ -59,7 +61,8 @@ int Between(int a, int b, int weight) { return ((64 - weight) * a + weight * b +
 void Fit(const BlockTexels& texels, const Weights& weights, const Ends& ends, Line* line) {
   std::array<std::array<int, 4>, 16> palette{};
   for (size_t s = 0; s < line->steps.size(); ++s) {
-    for (size_t c = line->first; c < line->first + line->count; ++c) palette[s][c] = Between(ends[0][c], ends[1][c], line->steps[s]);
+    for (size_t c = line->first; c < line->first + line->count; ++c)
+      palette[s][c] = Between(ends[0][c], ends[1][c], line->steps[s]);
   }
   std::array<int, 16> indices{};
   double error = 0;
@@ -98,7 +101,8 @@ void PrincipalAxis(const BlockTexels& texels, const Weights& weights, const Line
     for (size_t i = 0; i < 16; ++i) {
       if (!IsOn(line, i)) continue;
       float along = 0;
-      for (size_t c = line.first; c < line.first + line.count; ++c) along += (*axis)[c] * (static_cast<float>(texels[i][c]) - (*mean)[c]);
+      for (size_t c = line.first; c < line.first + line.count; ++c)
+        along += (*axis)[c] * (static_cast<float>(texels[i][c]) - (*mean)[c]);
       for (size_t c = 0; c < 4; ++c) next[c] += weights[i] * along * (static_cast<float>(texels[i][c]) - (*mean)[c]);
     }
     float length = 0;
@@ -140,14 +144,16 @@ std::array<Color, 2> Refined(const BlockTexels& texels, const Weights& weights, 
   return ends;
 }
 
-void Solve(const BlockTexels& texels, const Weights& weights, Quantize quantize, int variants, int refinements, Line* line) {
+void Solve(const BlockTexels& texels, const Weights& weights, Quantize quantize, int variants, int refinements,
+           Line* line) {
   Color mean, axis;
   PrincipalAxis(texels, weights, *line, &mean, &axis);
   float least = 0, most = 0;
   for (size_t i = 0; i < 16; ++i) {
     if (!IsOn(*line, i)) continue;
     float along = 0;
-    for (size_t c = line->first; c < line->first + line->count; ++c) along += axis[c] * (static_cast<float>(texels[i][c]) - mean[c]);
+    for (size_t c = line->first; c < line->first + line->count; ++c)
+      along += axis[c] * (static_cast<float>(texels[i][c]) - mean[c]);
     if (weights[i] < 0.05f) continue;
     least = std::min(least, along);
     most = std::max(most, along);
@@ -171,7 +177,8 @@ Ends QuantizeMode6(const std::array<Color, 2>& ends, int variant) {
   for (size_t e = 0; e < 2; ++e) {
     const int last = variant >> e & 1;
     for (size_t c = 0; c < 4; ++c) {
-      out[e][c] = std::clamp(static_cast<int>(std::lround((ends[e][c] - static_cast<float>(last)) / 2)), 0, 127) << 1 | last;
+      out[e][c] =
+          std::clamp(static_cast<int>(std::lround((ends[e][c] - static_cast<float>(last)) / 2)), 0, 127) << 1 | last;
     }
   }
   return out;
@@ -194,7 +201,10 @@ Ends QuantizeMode1(const std::array<Color, 2>& ends, int last) {
   Ends out{};
   for (size_t e = 0; e < 2; ++e) {
     for (size_t c = 0; c < 3; ++c) {
-      const int bits = std::clamp(static_cast<int>(std::lround((ends[e][c] * 127 / 255 - static_cast<float>(last)) / 2)), 0, 63) << 1 | last;
+      const int bits =
+          std::clamp(static_cast<int>(std::lround((ends[e][c] * 127 / 255 - static_cast<float>(last)) / 2)), 0, 63)
+              << 1 |
+          last;
       out[e][c] = bits << 1 | bits >> 6;
     }
   }
@@ -207,7 +217,10 @@ Ends QuantizeMode7(const std::array<Color, 2>& ends, int variant) {
   for (size_t e = 0; e < 2; ++e) {
     const int last = variant >> e & 1;
     for (size_t c = 0; c < 4; ++c) {
-      const int bits = std::clamp(static_cast<int>(std::lround((ends[e][c] * 63 / 255 - static_cast<float>(last)) / 2)), 0, 31) << 1 | last;
+      const int bits =
+          std::clamp(static_cast<int>(std::lround((ends[e][c] * 63 / 255 - static_cast<float>(last)) / 2)), 0, 31)
+              << 1 |
+          last;
       out[e][c] = bits << 2 | bits >> 4;
     }
   }

@@ -8,8 +8,8 @@ namespace flaneur {
 
 using BlockTexels = std::array<std::array<uint8_t, 4>, 16>;  // RGBA, rows from the top
 
-// Modes 1, 5, 6 and 7, whichever comes nearest. Colours count by `weights` (0 to 1 each): those of texels that nobody sees may come
-// out otherwise.
+// Modes 1, 5, 6 and 7, whichever comes nearest. Colours count by `weights` (0 to 1 each): those of texels that nobody
+// sees may come out otherwise.
 void CompressBc7(const BlockTexels& texels, const std::array<float, 16>& weights, std::span<uint8_t, 16> block);
 
 // One channel.

@@ -63,8 +63,10 @@ void CompressChannel(const Block& block, Value value, uint8_t* out) {
 }
 
 void CompressNormal(const Block& block, uint8_t* out) {
-  CompressChannel(block, [](const AtlasTexel& t) { return SquareFromNormal(t.normal).x; }, out);
-  CompressChannel(block, [](const AtlasTexel& t) { return SquareFromNormal(t.normal).y; }, out + 8);
+  CompressChannel(
+      block, [](const AtlasTexel& t) { return SquareFromNormal(t.normal).x; }, out);
+  CompressChannel(
+      block, [](const AtlasTexel& t) { return SquareFromNormal(t.normal).y; }, out + 8);
 }
 
 std::vector<uint8_t> Ktx2(const std::vector<AtlasLevel>& levels, size_t first, TextureFormat format,
@@ -91,14 +93,19 @@ void CompressAtlas(const std::vector<AtlasLevel>& levels, ImpostorAtlas* atlas) 
   atlas->albedo_ktx2 = Ktx2(levels, 0, TextureFormat::kBc7Srgb, compress_albedo);
   atlas->normal_ktx2 = Ktx2(levels, 0, TextureFormat::kBc5, CompressNormal);
   atlas->depth_ktx2 = Ktx2(levels, 0, TextureFormat::kBc4, [&](const Block& block, uint8_t* out) {
-    CompressChannel(block, [&](const AtlasTexel& t) { return share(t.depth_m, atlas->depth_range_m); }, out);
+    CompressChannel(
+        block, [&](const AtlasTexel& t) { return share(t.depth_m, atlas->depth_range_m); }, out);
   });
   atlas->motion_ktx2 = Ktx2(levels, 1, TextureFormat::kBc7, [&](const Block& block, uint8_t* out) {
     const float motion_m = atlas->motion_range_m, bend_m = atlas->bend_range_m;
-    CompressColors(block, [&](const AtlasTexel& t) {
-      return BlockTexels::value_type{Quantized(share(t.motion_m.x, motion_m)), Quantized(share(t.motion_m.y, motion_m)),
-                                     Quantized(share(t.bend_m.x, bend_m)), Quantized(share(t.bend_m.y, bend_m))};
-    }, out);
+    CompressColors(
+        block,
+        [&](const AtlasTexel& t) {
+          return BlockTexels::value_type{Quantized(share(t.motion_m.x, motion_m)),
+                                         Quantized(share(t.motion_m.y, motion_m)), Quantized(share(t.bend_m.x, bend_m)),
+                                         Quantized(share(t.bend_m.y, bend_m))};
+        },
+        out);
   });
 }
 

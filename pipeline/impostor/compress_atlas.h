@@ -8,8 +8,9 @@
 
 namespace flaneur {
 
-// Two channels on the unit square for a direction of the half space z >= 0 (a hemi-octahedron turned by 45 degrees, as in
-// Cigolle et al. 2014, A Survey of Efficient Representations for Independent Unit Vectors); others are bent to its rim.
+// Two channels on the unit square for a direction of the half space z >= 0 (a hemi-octahedron turned by 45 degrees, as
+// in Cigolle et al. 2014, A Survey of Efficient Representations for Independent Unit Vectors); others are bent to its
+// rim.
 Vec2 SquareFromNormal(Vec3 normal);
 
 // Fills in the four KTX2 files from levels as FillGutters and KeepCoverage leave them.

@@ -10,8 +10,7 @@ namespace flaneur {
 namespace {
 
 Vec4 BaseColor(const Avatar& avatar, const Mesh& mesh) {
-  return mesh.material < 0 ? Vec4{1, 1, 1, 1}
-                           : At(avatar.materials, mesh.material).base_color;
+  return mesh.material < 0 ? Vec4{1, 1, 1, 1} : At(avatar.materials, mesh.material).base_color;
 }
 
 Vec4 Product(Vec4 a, Vec4 b) { return {a.x * b.x, a.y * b.y, a.z * b.z, a.w * b.w}; }
@@ -22,8 +21,7 @@ Vec4 Stored(Vec4 linear) {
 }
 
 // What stays the same in all frames.
-void AppendSurface(const Avatar& avatar, const Mesh& mesh, uint32_t material,
-                   ViewGeometry* geometry) {
+void AppendSurface(const Avatar& avatar, const Mesh& mesh, uint32_t material, ViewGeometry* geometry) {
   const auto first = static_cast<uint32_t>(geometry->uvs.size());
   const Vec4 base = BaseColor(avatar, mesh);
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -42,20 +40,17 @@ Error AppendPose(const Avatar& avatar, const Clip& clip, float time_s, ViewGeome
     const Mesh posed = Skinned(mesh, matrices);
     for (size_t i = 0; i < posed.positions.size(); ++i) {
       if (Finite(posed.positions[i]) && Finite(posed.normals[i])) continue;
-      return Fail("avatar '" + avatar.name + "': mesh '" + mesh.name + "', vertex " +
-                  std::to_string(i) + ": not a number in clip '" + clip.name +
-                  "'; export the avatar again");
+      return Fail("avatar '" + avatar.name + "': mesh '" + mesh.name + "', vertex " + std::to_string(i) +
+                  ": not a number in clip '" + clip.name + "'; export the avatar again");
     }
-    geometry->positions.insert(geometry->positions.end(), posed.positions.begin(),
-                               posed.positions.end());
+    geometry->positions.insert(geometry->positions.end(), posed.positions.begin(), posed.positions.end());
     geometry->normals.insert(geometry->normals.end(), posed.normals.begin(), posed.normals.end());
   }
   return Ok();
 }
 
 // Between two moments of the clip, whose middle is the frame that was appended last.
-void AppendMotion(const Avatar& avatar, const Clip& clip, float from_s, float to_s,
-                  ViewGeometry* geometry) {
+void AppendMotion(const Avatar& avatar, const Clip& clip, float from_s, float to_s, ViewGeometry* geometry) {
   const std::vector<Mat4> from = SkinningMatrices(avatar, clip, from_s);
   const std::vector<Mat4> to = SkinningMatrices(avatar, clip, to_s);
   for (const Mesh& mesh : avatar.meshes) {
@@ -99,13 +94,11 @@ std::string Names(const std::vector<ImpostorClipOptions>& clips) {
   return names;
 }
 
-int UsableImage(const Avatar& avatar, const Mesh& mesh, const Material& material,
-                std::vector<std::string>* warnings) {
+int UsableImage(const Avatar& avatar, const Mesh& mesh, const Material& material, std::vector<std::string>* warnings) {
   const int image = material.base_color_image;
   if (image < 0) return -1;
   std::string why;
-  if (static_cast<size_t>(image) >= avatar.images.size() ||
-      At(avatar.images, image).bytes.empty()) {
+  if (static_cast<size_t>(image) >= avatar.images.size() || At(avatar.images, image).bytes.empty()) {
     why = "its texture is missing";
   } else if (mesh.uvs.empty()) {
     why = "it has a texture but no texture coordinates";
@@ -146,8 +139,7 @@ float TexelsPerMetre(const Mesh& mesh, int width_px, int height_px) {
   return area_m2 > 0 ? std::sqrt(area_uv * static_cast<float>(width_px) * static_cast<float>(height_px) / area_m2) : 0;
 }
 
-Error PoseFrames(const Avatar& avatar, const std::vector<ImpostorClipOptions>& clips,
-                 ViewGeometry* geometry) {
+Error PoseFrames(const Avatar& avatar, const std::vector<ImpostorClipOptions>& clips, ViewGeometry* geometry) {
   *geometry = {};
   const std::string name = "avatar '" + avatar.name + "'";
   for (size_t m = 0; m < avatar.meshes.size(); ++m) {
@@ -164,8 +156,7 @@ Error PoseFrames(const Avatar& avatar, const std::vector<ImpostorClipOptions>& c
     geometry->clips.push_back({wanted.name, geometry->frames, wanted.phases});
     geometry->frames += wanted.phases;
     for (int phase = 0; phase < wanted.phases; ++phase) {
-      const float time_s =
-          clip->duration_s * static_cast<float>(phase) / static_cast<float>(wanted.phases);
+      const float time_s = clip->duration_s * static_cast<float>(phase) / static_cast<float>(wanted.phases);
       const float half_s = clip->duration_s / static_cast<float>(2 * wanted.phases);
       if (Error error = AppendPose(avatar, *clip, time_s, geometry)) return error;
       AppendMotion(avatar, *clip, time_s - half_s, time_s + half_s, geometry);

@@ -32,10 +32,14 @@ struct ViewMaterial {
 
 // What one picture shows, about the point between the feet: to the right, along the camera's up
 // axis, and how far towards the camera or away from it.
-struct ViewBounds { float left_m = 0, right_m = 0, bottom_m = 0, top_m = 0, depth_m = 0; };
+struct ViewBounds {
+  float left_m = 0, right_m = 0, bottom_m = 0, top_m = 0, depth_m = 0;
+};
 
 // A camera's axes in the avatar's.
-struct ViewAxes { Vec3 right, up, near; };
+struct ViewAxes {
+  Vec3 right, up, near;
+};
 
 // One a mesh, in their order. Textures that cannot be used are left out with a warning.
 std::vector<ViewMaterial> ViewMaterials(const Avatar& avatar, std::vector<std::string>* warnings);
@@ -45,8 +49,7 @@ float TexelsPerMetre(const Mesh& mesh, int width_px, int height_px);
 
 // Errors: none of the clips, no triangles, a mesh without normals, a non-finite vertex (names mesh,
 // clip and vertex).
-Error PoseFrames(const Avatar& avatar, const std::vector<ImpostorClipOptions>& clips,
-                 ViewGeometry* geometry);
+Error PoseFrames(const Avatar& avatar, const std::vector<ImpostorClipOptions>& clips, ViewGeometry* geometry);
 
 ViewAxes AxesOf(int direction, int directions, float elevation_deg);
 

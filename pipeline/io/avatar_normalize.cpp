@@ -11,12 +11,12 @@ namespace {
 
 constexpr float kDefaultHeight_m = 1.75f;
 constexpr float kMinHeight_m = 0.5f, kMaxHeight_m = 2.3f;  // kept as they are in between
-constexpr float kDefaultSpeed_mps = 1.3f;  // of an adult, where nothing tells
-constexpr float kMinSpeed_mps = 0.2f;    // slower is not a walk
-constexpr float kTravel = 0.05f;           // of the height: more than sway, so the root travels
-constexpr float kSole = 0.015f;            // of the height: how near the ground a standing sole is
-constexpr size_t kMaxBodyVertices = 16000;  // at a millimetre or two from one another's height
-constexpr float kBlendedShare = 0.25f;     // of a clip that does not loop
+constexpr float kDefaultSpeed_mps = 1.3f;                  // of an adult, where nothing tells
+constexpr float kMinSpeed_mps = 0.2f;                      // slower is not a walk
+constexpr float kTravel = 0.05f;                           // of the height: more than sway, so the root travels
+constexpr float kSole = 0.015f;                            // of the height: how near the ground a standing sole is
+constexpr size_t kMaxBodyVertices = 16000;                 // at a millimetre or two from one another's height
+constexpr float kBlendedShare = 0.25f;                     // of a clip that does not loop
 
 std::string Metres(float value) {
   char text[32];
@@ -32,9 +32,7 @@ float Median(std::vector<float> values) {
 }
 
 float TimeOf(const Clip& clip, int key) {
-  return clip.keys < 2
-             ? 0
-             : clip.duration_s * static_cast<float>(key) / static_cast<float>(clip.keys - 1);
+  return clip.keys < 2 ? 0 : clip.duration_s * static_cast<float>(key) / static_cast<float>(clip.keys - 1);
 }
 
 // Unlike SkinningMatrices at a time, this does not wrap the last key to the first.
@@ -80,8 +78,7 @@ void Shift(const Avatar& avatar, Clip* clip, Vec3 by) {
 
 // Takes even horizontal travel out of the clip; returns its velocity.
 Vec3 RemoveTravel(const Avatar& avatar, float height, Clip* clip) {
-  Vec3 travel =
-      Mean(JointPositions(avatar, *clip, clip->keys - 1)) - Mean(JointPositions(avatar, *clip, 0));
+  Vec3 travel = Mean(JointPositions(avatar, *clip, clip->keys - 1)) - Mean(JointPositions(avatar, *clip, 0));
   travel.y = 0;
   if (Length(travel) < kTravel * height) return {};
   const Vec3 velocity = travel * (1 / clip->duration_s);
@@ -109,9 +106,7 @@ void MakeLoop(const Avatar& avatar, Clip* clip, std::vector<std::string>* warnin
     previous = std::move(next);
   }
   const float gap = MeanDistance(previous, first);
-  const auto key = [&](int k) {
-    return clip->transforms.begin() + static_cast<std::ptrdiff_t>(joints) * k;
-  };
+  const auto key = [&](int k) { return clip->transforms.begin() + static_cast<std::ptrdiff_t>(joints) * k; };
   if (gap > 0.5f * step && gap <= 2 * step) {
     clip->duration_s *= static_cast<float>(clip->keys) / static_cast<float>(clip->keys - 1);
     ++clip->keys;
@@ -120,11 +115,9 @@ void MakeLoop(const Avatar& avatar, Clip* clip, std::vector<std::string>* warnin
     if (clip->name == "walk") {
       warnings->push_back("the walk clip does not loop; its end is blended into its start");
     }
-    const int blended =
-        std::max(1, static_cast<int>(kBlendedShare * static_cast<float>(clip->keys)));
+    const int blended = std::max(1, static_cast<int>(kBlendedShare * static_cast<float>(clip->keys)));
     for (int k = clip->keys - blended; k < clip->keys; ++k) {
-      const float t =
-          static_cast<float>(k - (clip->keys - blended) + 1) / static_cast<float>(blended);
+      const float t = static_cast<float>(k - (clip->keys - blended) + 1) / static_cast<float>(blended);
       for (size_t j = 0; j < joints; ++j) {
         Transform& own = *(key(k) + static_cast<std::ptrdiff_t>(j));
         own = Mix(own, clip->transforms[j], t * t * (3 - 2 * t));
@@ -163,8 +156,7 @@ void ScaleAvatar(float scale, Vec3 bind_offset, Avatar* avatar, Mesh* body) {
   }
 }
 
-std::vector<std::vector<Vec3>> BodyOverClip(const Avatar& avatar, const Clip& clip,
-                                            const Mesh& body) {
+std::vector<std::vector<Vec3>> BodyOverClip(const Avatar& avatar, const Clip& clip, const Mesh& body) {
   std::vector<std::vector<Vec3>> keys;
   for (int k = 0; k + 1 < clip.keys; ++k) {
     keys.push_back(SkinnedPositions(body, SkinningMatrices(avatar, clip, TimeOf(clip, k))));
@@ -245,8 +237,8 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
     const bool plausible = height >= kMinHeight_m && height <= kMaxHeight_m;
     wanted = plausible ? height : kDefaultHeight_m;
     if (!plausible) {
-      warnings->push_back("the figure is " + Metres(height) + " m high and is scaled to " +
-                          Metres(wanted) + " m; give its height to change that");
+      warnings->push_back("the figure is " + Metres(height) + " m high and is scaled to " + Metres(wanted) +
+                          " m; give its height to change that");
     }
   }
   *scale = wanted / height;
@@ -257,9 +249,8 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
 
 // The rotation b, then a.
 Quat Product(Quat a, Quat b) {
-  return {
-      a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-      a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
 // Turns the figure about the vertical by the quarter that brings its walk nearest to +Z.
@@ -291,18 +282,16 @@ void TurnToFace(Vec3 walk_mps, Avatar* avatar, Mesh* body, std::vector<std::stri
   }
   char degrees[16];
   std::snprintf(degrees, sizeof degrees, "%.0f", static_cast<double>(-quarters * 90));
-  warnings->push_back("the walk does not go towards +Z; the figure is turned by " +
-                      std::string(degrees) + " degrees");
+  warnings->push_back("the walk does not go towards +Z; the figure is turned by " + std::string(degrees) + " degrees");
 }
 
 // The first that is known: told by the source, the root's travel, the soles.
-void SetWalkSpeed(float told_mps, Vec3 walk_mps, Avatar* avatar,
-                  std::vector<std::string>* warnings) {
+void SetWalkSpeed(float told_mps, Vec3 walk_mps, Avatar* avatar, std::vector<std::string>* warnings) {
   avatar->walk_speed_mps = told_mps > 0 ? told_mps : Length(walk_mps);
   if (avatar->walk_speed_mps > kMinSpeed_mps) return;
   avatar->walk_speed_mps = kDefaultSpeed_mps * std::sqrt(avatar->height_m / kDefaultHeight_m);
-  warnings->push_back("the walk's speed cannot be told from its soles; " +
-                      Metres(avatar->walk_speed_mps) + " m/s is taken");
+  warnings->push_back("the walk's speed cannot be told from its soles; " + Metres(avatar->walk_speed_mps) +
+                      " m/s is taken");
 }
 
 // Skin alone, of no more vertices than tell where soles and trunk are.
@@ -323,16 +312,15 @@ Vec3 MeasureWalk(const Avatar& avatar, const Clip& walk, const Mesh& body) {
   const auto keys = BodyOverClip(avatar, walk, body);
   if (keys.size() < 3) return {};
   const float step_s = walk.duration_s / static_cast<float>(keys.size());
-  std::vector<Vec3>
-      votes;  // one a key, so that a moment with a flat sole does not outweigh the rest
+  std::vector<Vec3> votes;  // one a key, so that a moment with a flat sole does not outweigh the rest
   for (size_t k = 0; k < keys.size(); ++k) {
     const auto& now = keys[k];
     const auto& next = keys[(k + 1) % keys.size()];
     const float ground = LowestOf(now), next_ground = LowestOf(next);
     std::vector<Vec3> backward;
     for (size_t i = 0; i < now.size(); ++i) {
-      const bool stands = now[i].y < ground + kSole * avatar.height_m &&
-                          next[i].y < next_ground + kSole * avatar.height_m;
+      const bool stands =
+          now[i].y < ground + kSole * avatar.height_m && next[i].y < next_ground + kSole * avatar.height_m;
       if (stands) backward.push_back((now[i] - next[i]) * (1 / step_s));
     }
     if (!backward.empty()) votes.push_back(MedianOf(backward));

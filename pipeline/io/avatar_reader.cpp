@@ -61,8 +61,7 @@ Error NamedClip(const GltfDocument& document, const std::string& name, int* clip
     return Ok();
   }
   const std::vector<std::string> names = ClipNames(document);
-  return Fail("no clip " + Quoted(name) + DidYouMean(name, names) +
-              " (the file has: " + Listed(names) + ")");
+  return Fail("no clip " + Quoted(name) + DidYouMean(name, names) + " (the file has: " + Listed(names) + ")");
 }
 
 struct ChosenClip {
@@ -70,8 +69,7 @@ struct ChosenClip {
   int source = -1;   // index into the document's clips
 };
 
-Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options,
-                  std::vector<ChosenClip>* chosen) {
+Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options, std::vector<ChosenClip>* chosen) {
   const std::pair<const char*, const std::string*> wanted[] = {
       {"walk", &options.walk}, {"idle", &options.idle}, {"talk", &options.talk}};
   for (const auto& [name, given] : wanted) {
@@ -84,8 +82,7 @@ Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options
     const bool walk = std::string(name) == "walk";
     if (clip < 0 && walk && document.clips.size() == 1) clip = 0;
     if (clip < 0 && walk) {
-      return Fail("no walk clip; the file has: " + Listed(ClipNames(document)) +
-                  "; name the one to walk with");
+      return Fail("no walk clip; the file has: " + Listed(ClipNames(document)) + "; name the one to walk with");
     }
     if (clip >= 0 && At(document.clips, clip).channels.empty()) {
       if (walk) return Fail("walk clip " + Quoted(At(document.clips, clip).name) + " moves nothing");
@@ -97,13 +94,13 @@ Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options
 }
 
 // Nodes to draw: in the scene and not beneath a hidden one.
-Error VisibleNodes(const GltfDocument& document, const ReadAvatarOptions& options,
-                   std::vector<bool>* visible) {
+Error VisibleNodes(const GltfDocument& document, const ReadAvatarOptions& options, std::vector<bool>* visible) {
   std::vector<std::string> names;
   for (const DocumentNode& node : document.nodes) names.push_back(node.name);
   const auto find = [&](const std::vector<std::string>& wanted, const char* what) {
     for (const std::string& name : wanted) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) return Fail("no node " + Quoted(name) + what + DidYouMean(name, names));
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        return Fail("no node " + Quoted(name) + what + DidYouMean(name, names));
     }
     return Ok();
   };
@@ -113,8 +110,7 @@ Error VisibleNodes(const GltfDocument& document, const ReadAvatarOptions& option
   for (const int i : document.order) {
     const DocumentNode& node = At(document.nodes, i);
     const bool hidden = std::find(options.hide.begin(), options.hide.end(), node.name) != options.hide.end();
-    const bool parent_seen = node.parent < 0 || !At(document.nodes, node.parent).in_scene ||
-                             At(*visible, node.parent);
+    const bool parent_seen = node.parent < 0 || !At(document.nodes, node.parent).in_scene || At(*visible, node.parent);
     At(*visible, i) = node.in_scene && parent_seen && !hidden;
   }
   return Ok();
@@ -242,8 +238,8 @@ Error AvatarReader::FindJoints() {
       for (size_t i = 0; i < in.joints.size(); ++i) {
         if (in.weights[i] <= 0) continue;
         if (!InRange(skin.joints, in.joints[i])) {
-          return Fail("mesh " + Quoted(primitive.mesh.name) + ": joint " +
-                      std::to_string(in.joints[i]) + " is not in its skin");
+          return Fail("mesh " + Quoted(primitive.mesh.name) + ": joint " + std::to_string(in.joints[i]) +
+                      " is not in its skin");
         }
         At(used, At(skin.joints, in.joints[i])) = true;
       }
@@ -317,9 +313,7 @@ void AvatarReader::FindBindPose() {
     const int parent = avatar_->joints[j].parent;
     const Mat4 own = rest * to_metres_[j];
     const size_t p = static_cast<size_t>(std::max(parent, 0));
-    avatar_->joints[j].rest = Decomposed(
-        parent < 0 ? own
-                   : Inverse(At(rest_, joint_nodes_[p]) * to_metres_[p]) * own);
+    avatar_->joints[j].rest = Decomposed(parent < 0 ? own : Inverse(At(rest_, joint_nodes_[p]) * to_metres_[p]) * own);
   }
 }
 
@@ -346,10 +340,8 @@ struct Weighted {
 };
 
 // The four heaviest, summing to 1. Returns false where there is no weight at all.
-bool FourHeaviest(std::vector<Weighted> all, std::array<uint16_t, 4>* joints,
-                  std::array<float, 4>* weights) {
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Weighted& a, const Weighted& b) { return a.weight > b.weight; });
+bool FourHeaviest(std::vector<Weighted> all, std::array<uint16_t, 4>* joints, std::array<float, 4>* weights) {
+  std::stable_sort(all.begin(), all.end(), [](const Weighted& a, const Weighted& b) { return a.weight > b.weight; });
   all.resize(4);
   float sum = 0;
   for (const Weighted& each : all) sum += each.weight;
@@ -368,8 +360,7 @@ Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& prim
     const int joint = At(joint_of_, skin.joints[k]);
     if (joint < 0) continue;
     const size_t j = static_cast<size_t>(joint);
-    into_bind[k] =
-        Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) * skin.inverse_binds[k];
+    into_bind[k] = Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) * skin.inverse_binds[k];
   }
   const Influences& in = primitive.influences;
   const size_t width = static_cast<size_t>(in.per_vertex);
@@ -387,15 +378,11 @@ Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& prim
       if (weight <= 0) continue;
       const size_t k = static_cast<size_t>(in.joints[i]);
       sum += weight;
-      for (size_t m = 0; m < 16; ++m)
-        blend.m[m / 4][m % 4] += weight * into_bind[k].m[m / 4][m % 4];
+      for (size_t m = 0; m < 16; ++m) blend.m[m / 4][m % 4] += weight * into_bind[k].m[m / 4][m % 4];
       const auto joint = static_cast<uint16_t>(At(joint_of_, skin.joints[k]));
-      const auto same =
-          std::find_if(all.begin(), all.end(), [&](const Weighted& w) { return w.joint == joint; });
-      if (same == all.end())
-        all.push_back({joint, weight});
-      else
-        same->weight += weight;
+      const auto same = std::find_if(all.begin(), all.end(), [&](const Weighted& w) { return w.joint == joint; });
+      if (same == all.end()) all.push_back({joint, weight});
+      else same->weight += weight;
     }
     if (!FourHeaviest(all, &mesh->joints[v], &mesh->weights[v])) {
       ++weightless_;
@@ -419,10 +406,8 @@ Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& prim
 void AvatarReader::AttachVertices(const Part& part, Mesh* mesh) const {
   const int joint = At(joint_of_, part.anchor);
   const size_t j = static_cast<size_t>(joint);
-  const Mat4 from_anchor =
-      Inverse(At(rest_, part.anchor)) * At(rest_, part.node);
-  const Mat4 matrix =
-      Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) * from_anchor;
+  const Mat4 from_anchor = Inverse(At(rest_, part.anchor)) * At(rest_, part.node);
+  const Mat4 matrix = Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) * from_anchor;
   for (size_t v = 0; v < mesh->positions.size(); ++v) {
     Transform3(matrix, &mesh->positions[v], &mesh->normals[v]);
   }
@@ -438,8 +423,7 @@ void AppendAll(const std::vector<T>& from, std::vector<T>* to) {
 
 // As AppendAll; where only one side has the attribute the other is filled with `missing`.
 template <typename T>
-void AppendFilled(const std::vector<T>& from, size_t from_count, size_t to_count, T missing,
-                  std::vector<T>* to) {
+void AppendFilled(const std::vector<T>& from, size_t from_count, size_t to_count, T missing, std::vector<T>* to) {
   if (from.empty() && to->empty()) return;
   if (to->empty()) to->assign(to_count, missing);
   AppendAll(from, to);
@@ -452,8 +436,7 @@ Mesh* AvatarReader::MergedMesh(int material, std::vector<Mesh>* meshes) const {
   }
   meshes->emplace_back();
   meshes->back().material = material;
-  meshes->back().name =
-      material < 0 ? "plain" : At(document_.materials, material).name;
+  meshes->back().name = material < 0 ? "plain" : At(document_.materials, material).name;
   return &meshes->back();
 }
 
@@ -501,14 +484,12 @@ void AvatarReader::AddClip(const ChosenClip& chosen) {
   const size_t joints = joint_nodes_.size();
   for (int k = 0; k < clip.keys; ++k) {
     const float share = static_cast<float>(k) / static_cast<float>(clip.keys - 1);
-    const std::vector<Mat4> world =
-        PoseAt(document_, source, span.start_s + share * (span.end_s - span.start_s));
+    const std::vector<Mat4> world = PoseAt(document_, source, span.start_s + share * (span.end_s - span.start_s));
     std::vector<Mat4> own(joints);
     for (size_t j = 0; j < joints; ++j) {
       own[j] = At(world, joint_nodes_[j]) * to_metres_[j];
       const int parent = avatar_->joints[j].parent;
-      Transform local =
-          Decomposed(parent < 0 ? own[j] : Inverse(At(own, parent)) * own[j]);
+      Transform local = Decomposed(parent < 0 ? own[j] : Inverse(At(own, parent)) * own[j]);
       if (k > 0) {
         const Quat b = clip.transforms[clip.transforms.size() - joints].rotation;
         Quat& q = local.rotation;
@@ -531,7 +512,8 @@ void AvatarReader::DropUnusedMaterials() {
     }
     *image = to;
   };
-  std::map<std::pair<int, bool>, int> known;  // a material of the file, and whether there are uvs for its picture -> ours
+  std::map<std::pair<int, bool>, int>
+      known;  // a material of the file, and whether there are uvs for its picture -> ours
   for (Mesh* const each : AllMeshes(avatar_)) {
     Mesh& mesh = *each;
     if (mesh.material < 0) continue;
@@ -540,8 +522,7 @@ void AvatarReader::DropUnusedMaterials() {
     if (!fresh) continue;
     Material material = At(document_.materials, source);
     if (mesh.uvs.empty() && material.base_color_image >= 0) {
-      notes_->push_back("material " + Quoted(material.name) +
-                        ": its picture is left out, as its surface has no uvs");
+      notes_->push_back("material " + Quoted(material.name) + ": its picture is left out, as its surface has no uvs");
       material.base_color_image = material.normal_image = -1;
     }
     use_image(&material.base_color_image);
@@ -565,12 +546,10 @@ Error AvatarReader::Read() {
   DropUnusedMaterials();
   for (const ChosenClip& clip : clips_) AddClip(clip);
   if (unnormalized_ > 0) {
-    notes_->push_back(std::to_string(unnormalized_) +
-                      " vertices had weights that do not sum to 1; they were scaled");
+    notes_->push_back(std::to_string(unnormalized_) + " vertices had weights that do not sum to 1; they were scaled");
   }
   if (weightless_ > 0) {
-    notes_->push_back(std::to_string(weightless_) +
-                      " vertices had no weight; they follow the skin's first joint");
+    notes_->push_back(std::to_string(weightless_) + " vertices had no weight; they follow the skin's first joint");
   }
   NormalizeOptions normalize;
   normalize.height_m = options_.height_m;
@@ -582,8 +561,8 @@ Error AvatarReader::Read() {
 
 }  // namespace
 
-Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& options,
-                 Avatar* avatar, std::vector<std::string>* warnings) {
+Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& options, Avatar* avatar,
+                 std::vector<std::string>* warnings) {
   GltfDocument document;
   TemporaryFolder folder;
   std::filesystem::path gltf = path;

@@ -78,8 +78,14 @@ const CityFeature* FindCityFeature(std::string_view type) { return FindIn(kFeatu
 const CitySurface* FindCitySurface(std::string_view type) { return FindIn(kSurfaces, type); }
 
 bool IsIndoors(std::string_view type) {
-  constexpr std::array<std::string_view, 8> kIndoors{"Room",         "BuildingRoom",   "IntBuildingInstallation", "BuildingFurniture",
-                                                     "BridgeRoom",   "IntBridgeInstallation", "TunnelHollow", "HollowSpace"};
+  constexpr std::array<std::string_view, 8> kIndoors{"Room",
+                                                     "BuildingRoom",
+                                                     "IntBuildingInstallation",
+                                                     "BuildingFurniture",
+                                                     "BridgeRoom",
+                                                     "IntBridgeInstallation",
+                                                     "TunnelHollow",
+                                                     "HollowSpace"};
   return std::find(kIndoors.begin(), kIndoors.end(), type) != kIndoors.end();
 }
 

@@ -8,16 +8,24 @@
 
 namespace flaneur {
 
-// A feature that stands for itself: Building, SolitaryVegetationObject, Road, ... BuildingPart and BuildingInstallation are
-// parts of the building that holds them.
-struct CityFeature { NodeKind kind; GroundKind ground; bool is_part; };
+// A feature that stands for itself: Building, SolitaryVegetationObject, Road, ... BuildingPart and BuildingInstallation
+// are parts of the building that holds them.
+struct CityFeature {
+  NodeKind kind;
+  GroundKind ground;
+  bool is_part;
+};
 
 // Null for anything else.
 const CityFeature* FindCityFeature(std::string_view type);
 // Rooms and furniture inside of buildings.
 bool IsIndoors(std::string_view type);
 
-struct CitySurface { SurfaceKind surface; bool is_virtual; bool is_foundation; };
+struct CitySurface {
+  SurfaceKind surface;
+  bool is_virtual;
+  bool is_foundation;
+};
 
 // WallSurface, RoofSurface, ...; null for anything else. A ClosureSurface is where the model has no wall.
 const CitySurface* FindCitySurface(std::string_view type);

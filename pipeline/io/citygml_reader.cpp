@@ -34,9 +34,14 @@ struct StoredPolygon {
 };
 
 // A reference to polygons that stand elsewhere in the file.
-struct Reference { int object, feature, lod; std::string id; };
+struct Reference {
+  int object, feature, lod;
+  std::string id;
+};
 
-struct Range { size_t begin, end; };
+struct Range {
+  size_t begin, end;
+};
 using Matrix = std::array<double, 16>;  // row by row
 
 Point3 Transformed(const Matrix& m, const Point3& p, const Point3& move) {
@@ -54,7 +59,8 @@ std::optional<int> LodOf(std::string_view name) {
   if (name == "tin") return 1;
   if (name.size() < 5 || name.substr(0, 3) != "lod" || name[3] < '1' || name[3] > '4') return std::nullopt;
   const std::string_view what = name.substr(4);
-  constexpr std::array<std::string_view, 5> kSurfaces{"Solid", "MultiSurface", "Geometry", "ImplicitRepresentation", "Surface"};
+  constexpr std::array<std::string_view, 5> kSurfaces{"Solid", "MultiSurface", "Geometry", "ImplicitRepresentation",
+                                                      "Surface"};
   if (std::find(kSurfaces.begin(), kSurfaces.end(), what) == kSurfaces.end()) return std::nullopt;
   return name[3] - '0';
 }
@@ -107,7 +113,8 @@ class Reader {
     static_cast<Reader*>(self)->text_.append(text, static_cast<size_t>(length));
   }
   static void OnDoctype(void* self, const char*, const char*, const char*, int) {
-    static_cast<Reader*>(self)->Stop("has a DOCTYPE, which CityGML does not need and which can hide an XML bomb; remove it");
+    static_cast<Reader*>(self)->Stop(
+        "has a DOCTYPE, which CityGML does not need and which can hide an XML bomb; remove it");
   }
 
   std::string Where() const {
@@ -141,11 +148,12 @@ class Reader {
   }
 
   void CheckRoot(std::string_view full_name, std::string_view name) {
-    if (name != "CityModel") return Stop("its outermost element is '" + std::string(name) + "', not CityGML's CityModel");
+    if (name != "CityModel")
+      return Stop("its outermost element is '" + std::string(name) + "', not CityGML's CityModel");
     for (const char* version : {"/1.0", "/2.0"})
       if (full_name.find(std::string("opengis.net/citygml") + version) != std::string_view::npos) return;
-    Stop("CityGML 1.0 and 2.0 are understood, not '" + std::string(full_name.substr(0, full_name.size() - name.size() - 1)) +
-         "'; convert it");
+    Stop("CityGML 1.0 and 2.0 are understood, not '" +
+         std::string(full_name.substr(0, full_name.size() - name.size() - 1)) + "'; convert it");
   }
 
   void Enter(Element* e, const std::string& reference) {
@@ -196,7 +204,8 @@ class Reader {
     if (collects_ && HoldsCoordinates(e.name)) TakeCoordinates(e);
     else if (IsPolygon(e.name) && in_polygon_) Store(e);
     else if (e.name == "ImplicitGeometry" && implicit_) EndImplicit(e);
-    if (!e.id.empty() && e.lod > 0 && polygons_.size() > e.first_polygon) ranges_[e.id] = {e.first_polygon, polygons_.size()};
+    if (!e.id.empty() && e.lod > 0 && polygons_.size() > e.first_polygon)
+      ranges_[e.id] = {e.first_polygon, polygons_.size()};
   }
 
   void TakeCoordinates(const Element& e) {
@@ -210,21 +219,22 @@ class Reader {
       double value = 0;
       const auto [next, problem] = std::from_chars(at, end, value);
       if (problem != std::errc() || !std::isfinite(value))
-        return Stop(Named(e) + ": '" + std::string(at, std::min<size_t>(12, static_cast<size_t>(end - at))) + "' is no coordinate");
+        return Stop(Named(e) + ": '" + std::string(at, std::min<size_t>(12, static_cast<size_t>(end - at))) +
+                    "' is no coordinate");
       numbers.push_back(value);
       at = next;
     }
     if (e.name == "transformationMatrix") return TakeMatrix(e, numbers);
     if (numbers.size() % 3 != 0)
-      return Stop(Named(e) + ": " + std::to_string(numbers.size()) + " numbers do not make points of three coordinates");
+      return Stop(Named(e) + ": " + std::to_string(numbers.size()) +
+                  " numbers do not make points of three coordinates");
     if (!in_polygon_) return TakeReferencePoint(numbers);
     if (rings_.empty()) rings_.emplace_back();
-    for (size_t i = 0; i < numbers.size(); i += 3) rings_.back().push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+    for (size_t i = 0; i < numbers.size(); i += 3)
+      rings_.back().push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
   }
 
-  std::string Named(const Element& e) const {
-    return e.object < 0 ? e.name : "'" + At(objects_, e.object).name + "'";
-  }
+  std::string Named(const Element& e) const { return e.object < 0 ? e.name : "'" + At(objects_, e.object).name + "'"; }
 
   void TakeMatrix(const Element& e, const std::vector<double>& numbers) {
     if (numbers.size() != 16) return Stop(Named(e) + ": a transformationMatrix needs 16 numbers");
@@ -299,7 +309,9 @@ class Reader {
   static int Finer(int a, int b) { return b == 4 ? (a == 0 ? 4 : a) : (a == 4 ? b : std::max(a, b)); }
 
   // Each part has its own finest level; a building's own model gives way to finer ones of its parts.
-  struct Levels { std::vector<int> of_feature, of_object; };
+  struct Levels {
+    std::vector<int> of_feature, of_object;
+  };
   Levels FinestLevels() const {
     Levels levels{std::vector<int>(static_cast<size_t>(features_), 0), std::vector<int>(objects_.size(), 0)};
     for (const StoredPolygon& p : polygons_) {
@@ -332,7 +344,11 @@ class Reader {
     return builder.Finish(path_.string(), PlainReferenceSystem(reference_system_), scene, warnings_);
   }
 
-  struct Object { std::string name; CityFeature feature; int root; };
+  struct Object {
+    std::string name;
+    CityFeature feature;
+    int root;
+  };
   struct Implicit {
     Matrix matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     Point3 at;

@@ -17,7 +17,9 @@ namespace {
 using Json = nlohmann::json;
 using Rings = std::vector<std::vector<Point3>>;
 
-struct Transform { Point3 scale{1, 1, 1}, translate; };
+struct Transform {
+  Point3 scale{1, 1, 1}, translate;
+};
 
 // Nesting of surfaces in a geometry's boundaries: a MultiSurface is a list of surfaces, a Solid a list of shells, ...
 int DepthOf(const std::string& type) {
@@ -52,9 +54,7 @@ class Reader {
  private:
   Error Bad(const std::string& why) const { return Fail(OneLine(path_.string() + ": " + where_ + why)); }
 
-  static bool IsSequence(std::string_view rest) {
-    return rest.find_first_not_of(" \t\r\n") != std::string_view::npos;
-  }
+  static bool IsSequence(std::string_view rest) { return rest.find_first_not_of(" \t\r\n") != std::string_view::npos; }
 
   Error ReadSequence(const Json& head, const std::string& text, size_t at) {
     if (Error e = ReadHead(head)) return e;
@@ -68,7 +68,8 @@ class Reader {
       if (!IsSequence(one)) continue;
       const Json feature = Json::parse(one.begin(), one.end(), nullptr, false);
       if (feature.is_discarded()) return Bad("not valid JSON");
-      if (!feature.is_object() || feature.value("type", Json()) != "CityJSONFeature") return Bad("not a CityJSONFeature");
+      if (!feature.is_object() || feature.value("type", Json()) != "CityJSONFeature")
+        return Bad("not a CityJSONFeature");
       if (Error e = ReadVertices(feature)) return e;
       if (Error e = ReadObjects(feature)) return e;
     }
@@ -77,7 +78,8 @@ class Reader {
 
   Error ReadHead(const Json& root) {
     if (!root.is_object() || root.value("type", Json()) != "CityJSON") return Bad("not a CityJSON file");
-    const std::string version = root.contains("version") && root["version"].is_string() ? root["version"].get<std::string>() : "";
+    const std::string version =
+        root.contains("version") && root["version"].is_string() ? root["version"].get<std::string>() : "";
     if (version.rfind("1.", 0) != 0 && version.rfind("2.0", 0) != 0)
       return Bad("CityJSON 1.0 to 2.0 is understood, not version '" + version + "'");
     if (root.contains("transform")) {
@@ -124,7 +126,8 @@ class Reader {
     const Json& templates = root["geometry-templates"];
     if (!templates.is_object()) return Bad("'geometry-templates' must be an object");
     templates_ = templates.value("templates", Json::array());
-    return ReadPoints(templates.value("vertices-templates", Json::array()), "vertices-templates", {}, &template_vertices_);
+    return ReadPoints(templates.value("vertices-templates", Json::array()), "vertices-templates", {},
+                      &template_vertices_);
   }
 
   Error ReadObjects(const Json& root) {
@@ -143,7 +146,8 @@ class Reader {
       const std::string root_id = feature->is_part ? RootOf(objects, id) : id;
       const CityFeature* root_feature = root_id == id ? feature : FeatureOf(TypeOf(objects[root_id]));
       if (!root_feature) root_feature = feature;
-      if (!nodes.contains(root_id)) nodes[root_id] = builder_.AddNode(root_id, root_feature->kind, root_feature->ground);
+      if (!nodes.contains(root_id))
+        nodes[root_id] = builder_.AddNode(root_id, root_feature->kind, root_feature->ground);
       const bool has_finer_parts = root_id == id && LevelOf(object) < FinestPart(objects, object);
       if (has_finer_parts) continue;
       if (Error e = ReadGeometry(object, nodes[root_id], root_feature->kind)) return e;
@@ -153,7 +157,9 @@ class Reader {
   }
 
   static std::string TypeOf(const Json& object) {
-    return object.is_object() && object.contains("type") && object["type"].is_string() ? object["type"].get<std::string>() : "";
+    return object.is_object() && object.contains("type") && object["type"].is_string()
+               ? object["type"].get<std::string>()
+               : "";
   }
   static const CityFeature* FeatureOf(const std::string& type) {
     if (const CityFeature* feature = FindCityFeature(type)) return feature;
@@ -175,7 +181,9 @@ class Reader {
 
   static double LevelOfGeometry(const Json& geometry) {
     const Json lod = geometry.is_object() ? geometry.value("lod", Json("0")) : Json("0");
-    const double level = lod.is_number() ? lod.get<double>() : lod.is_string() ? std::atof(lod.get<std::string>().c_str()) : 0;
+    const double level = lod.is_number()   ? lod.get<double>()
+                         : lod.is_string() ? std::atof(lod.get<std::string>().c_str())
+                                           : 0;
     return level >= 4 ? 0.5 : level;  // about interiors: only where there is no other
   }
   static double LevelOf(const Json& object) {
@@ -204,7 +212,8 @@ class Reader {
       if (!geometry.is_object()) return Bad("a geometry must be an object");
       const bool is_instance = geometry.value("type", Json()) == "GeometryInstance";
       if (!is_instance && (finest == 0 || LevelOfGeometry(geometry) != finest)) continue;
-      if (Error e = is_instance ? ReadInstance(geometry, node, kind) : ReadShape(geometry, vertices_, node, kind)) return e;
+      if (Error e = is_instance ? ReadInstance(geometry, node, kind) : ReadShape(geometry, vertices_, node, kind))
+        return e;
     }
     return Ok();
   }
@@ -212,8 +221,10 @@ class Reader {
   Error ReadInstance(const Json& instance, int node, NodeKind kind) {
     const Json which = instance.value("template", Json()), where = instance.value("boundaries", Json());
     const Json matrix = instance.value("transformationMatrix", Json());
-    if (!which.is_number_unsigned() || which.get<size_t>() >= templates_.size()) return Bad("its template is none of the file's");
-    if (!where.is_array() || where.empty() || !where[0].is_number_unsigned() || where[0].get<size_t>() >= vertices_.size())
+    if (!which.is_number_unsigned() || which.get<size_t>() >= templates_.size())
+      return Bad("its template is none of the file's");
+    if (!where.is_array() || where.empty() || !where[0].is_number_unsigned() ||
+        where[0].get<size_t>() >= vertices_.size())
       return Bad("its place is none of the vertices");
     if (!matrix.is_array() || matrix.size() != 16) return Bad("its transformationMatrix needs 16 numbers");
     std::array<double, 16> m;
@@ -275,7 +286,8 @@ class Reader {
       if (points.size() >= 3 || rings.empty()) rings.push_back(std::move(points));
     }
     const bool foundation = meaning && meaning->is_foundation && kind_ == NodeKind::kBuilding;
-    builder_.AddPolygon(foundation ? builder_.FoundationOf(node_) : node_, meaning ? meaning->surface : SurfaceKind::kOther, rings);
+    builder_.AddPolygon(foundation ? builder_.FoundationOf(node_) : node_,
+                        meaning ? meaning->surface : SurfaceKind::kOther, rings);
     return Ok();
   }
 

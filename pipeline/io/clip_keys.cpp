@@ -46,8 +46,7 @@ float Misfit(const Track& track, Vec4 a, Vec4 b) {
   return track.unit * std::sqrt(Dot(d, d));
 }
 
-Track MakeTrack(const Clip& clip, size_t joint, size_t joints, const char* path, float reach_m,
-                float error_m) {
+Track MakeTrack(const Clip& clip, size_t joint, size_t joints, const char* path, float reach_m, float error_m) {
   Track track;
   track.channel.joint = joint;
   track.channel.path = path;
@@ -220,8 +219,9 @@ Knots SharedKnots(const std::vector<Track>& tracks, size_t last, float most) {
 // and where the clip's tracks bend.
 std::vector<Knots> KnotsToTry(const std::vector<Track>& tracks, size_t last) {
   std::vector<Knots> all{{0}};
-  for (size_t share = 1; share <= last;
-       share = share < 3 ? share + 1 : share % 3 == 0 ? share / 3 * 4 : share / 2 * 3) {
+  for (size_t share = 1; share <= last; share = share < 3        ? share + 1
+                                                : share % 3 == 0 ? share / 3 * 4
+                                                                 : share / 2 * 3) {
     const size_t intervals = (last + share - 1) / share;
     Knots& knots = all.emplace_back();
     for (size_t k = 0; k <= intervals; ++k) {
@@ -231,8 +231,7 @@ std::vector<Knots> KnotsToTry(const std::vector<Track>& tracks, size_t last) {
   if (last > 1) {
     for (const float most : kSharedMisfits) all.push_back(SharedKnots(tracks, last, most));
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Knots& a, const Knots& b) { return a.size() < b.size(); });
+  std::stable_sort(all.begin(), all.end(), [](const Knots& a, const Knots& b) { return a.size() < b.size(); });
   return all;
 }
 
@@ -256,12 +255,11 @@ void ChooseKeys(const Clip& clip, const std::vector<Knots>& all, Track* track) {
 
 bool Moves(const Track& track, const Transform& rest) {
   const Vec4 still = Value(rest, track.channel.path);
-  return std::any_of(track.keys.begin(), track.keys.end(),
-                     [&](Vec4 key) { return Misfit(track, key, still) > 0.5f; });
+  return std::any_of(track.keys.begin(), track.keys.end(), [&](Vec4 key) { return Misfit(track, key, still) > 0.5f; });
 }
 
-std::vector<Track> MovingTracks(const Clip& clip, std::span<const Joint> joints,
-                                std::span<const float> reaches_m, float error_m) {
+std::vector<Track> MovingTracks(const Clip& clip, std::span<const Joint> joints, std::span<const float> reaches_m,
+                                float error_m) {
   std::vector<Track> tracks;
   for (size_t j = 0; j < joints.size(); ++j) {
     for (const char* path : {"translation", "rotation", "scale"}) {
@@ -314,8 +312,7 @@ std::vector<Watched> VerticesToWatch(std::span<const Joint> joints, std::span<co
 }
 
 // The clip's key as the channels leave it.
-std::vector<Transform> Restored(std::span<const Joint> joints,
-                                const std::vector<KeyChannel>& channels, size_t key) {
+std::vector<Transform> Restored(std::span<const Joint> joints, const std::vector<KeyChannel>& channels, size_t key) {
   std::vector<Transform> out;
   for (const Joint& joint : joints) out.push_back(joint.rest);
   for (const KeyChannel& channel : channels) {
@@ -329,8 +326,8 @@ std::vector<Transform> Restored(std::span<const Joint> joints,
   return out;
 }
 
-float WorstMoved(const Clip& clip, std::span<const Joint> joints,
-                 const std::vector<KeyChannel>& channels, const std::vector<Watched>& watched) {
+float WorstMoved(const Clip& clip, std::span<const Joint> joints, const std::vector<KeyChannel>& channels,
+                 const std::vector<Watched>& watched) {
   float worst = 0;
   for (size_t k = 0; k < static_cast<size_t>(clip.keys); ++k) {
     const auto wanted = SkinningMatrices(joints, std::span(clip.transforms).subspan(k * joints.size(), joints.size()));
@@ -340,8 +337,8 @@ float WorstMoved(const Clip& clip, std::span<const Joint> joints,
       for (size_t i = 0; i < 4; ++i) {
         if (!(vertex.weights[i] > 0)) continue;
         const size_t j = vertex.joints[i];
-        off = off + (TransformPoint(wanted[j], vertex.position) -
-                     TransformPoint(is[j], vertex.position)) * vertex.weights[i];
+        off = off +
+              (TransformPoint(wanted[j], vertex.position) - TransformPoint(is[j], vertex.position)) * vertex.weights[i];
       }
       worst = std::max(worst, Length(off));
     }
@@ -382,7 +379,6 @@ std::vector<float> JointReaches(std::span<const Joint> joints, std::span<const M
   return reaches;
 }
 
-
 std::vector<KeyChannel> AllKeys(const Clip& clip, std::span<const Joint> joints) {
   std::vector<KeyChannel> channels;
   for (Track& track : MovingTracks(clip, joints, std::vector<float>(joints.size()), 0)) {
@@ -397,8 +393,8 @@ std::vector<KeyChannel> AllKeys(const Clip& clip, std::span<const Joint> joints)
   return channels;
 }
 
-std::vector<KeyChannel> ReduceKeys(const Clip& clip, std::span<const Joint> joints,
-                                   std::span<const float> reaches_m, float error_m) {
+std::vector<KeyChannel> ReduceKeys(const Clip& clip, std::span<const Joint> joints, std::span<const float> reaches_m,
+                                   float error_m) {
   std::vector<Track> tracks = MovingTracks(clip, joints, reaches_m, error_m);
   const std::vector<Knots> knots = KnotsToTry(tracks, static_cast<size_t>(clip.keys) - 1);
   std::vector<KeyChannel> channels;

@@ -30,8 +30,8 @@ std::vector<KeyChannel> AllKeys(const Clip& clip, std::span<const Joint> joints)
 // `reaches_m`, within `error_m` of where it was for that channel alone; none where the joint's rest
 // transform does. Keys are evenly spaced or where all channels of the clip bend, so that many share
 // their times. The first and the last value are equal where the clip's are.
-std::vector<KeyChannel> ReduceKeys(const Clip& clip, std::span<const Joint> joints,
-                                   std::span<const float> reaches_m, float error_m);
+std::vector<KeyChannel> ReduceKeys(const Clip& clip, std::span<const Joint> joints, std::span<const float> reaches_m,
+                                   float error_m);
 
 // The same with an error that all channels together hold: no vertex of the meshes is farther than
 // `error_m` from where it was at any of the clip's keys (of many vertices a few hundred are looked

@@ -47,13 +47,12 @@ Error CopyAttribute(const draco::Mesh& mesh, DracoAttribute* out) {
 }
 
 // Adds one attribute of `count` values, `data` packed.
-int AddAttribute(draco::Mesh* mesh, draco::GeometryAttribute::Type type, draco::DataType data_type,
-                 int components, bool normalized, const void* data, size_t count) {
+int AddAttribute(draco::Mesh* mesh, draco::GeometryAttribute::Type type, draco::DataType data_type, int components,
+                 bool normalized, const void* data, size_t count) {
   draco::GeometryAttribute attribute;
-  const size_t stride =
-      static_cast<size_t>(components) * static_cast<size_t>(draco::DataTypeLength(data_type));
-  attribute.Init(type, nullptr, static_cast<uint8_t>(components), data_type, normalized,
-                 static_cast<int64_t>(stride), 0);
+  const size_t stride = static_cast<size_t>(components) * static_cast<size_t>(draco::DataTypeLength(data_type));
+  attribute.Init(type, nullptr, static_cast<uint8_t>(components), data_type, normalized, static_cast<int64_t>(stride),
+                 0);
   const int id = mesh->AddAttribute(attribute, true, static_cast<uint32_t>(count));
   mesh->attribute(id)->buffer()->Write(0, data, stride * count);
   return id;
@@ -62,16 +61,14 @@ int AddAttribute(draco::Mesh* mesh, draco::GeometryAttribute::Type type, draco::
 template <typename T>
 int AddFloats(draco::Mesh* mesh, draco::GeometryAttribute::Type type, const std::vector<T>& data) {
   if (data.empty()) return -1;
-  return AddAttribute(mesh, type, draco::DT_FLOAT32, sizeof(T) / sizeof(float), false, data.data(),
-                      data.size());
+  return AddAttribute(mesh, type, draco::DT_FLOAT32, sizeof(T) / sizeof(float), false, data.data(), data.size());
 }
 
 int AddJoints(draco::Mesh* mesh, const Mesh& in, bool bytes) {
   if (in.joints.empty()) return -1;
   const auto generic = draco::GeometryAttribute::GENERIC;
   if (!bytes) {
-    return AddAttribute(mesh, generic, draco::DT_UINT16, 4, false, in.joints.data(),
-                        in.joints.size());
+    return AddAttribute(mesh, generic, draco::DT_UINT16, 4, false, in.joints.data(), in.joints.size());
   }
   std::vector<std::array<uint8_t, 4>> joints(in.joints.size());
   for (size_t i = 0; i < joints.size(); ++i) {
@@ -84,8 +81,8 @@ int AddWeights(draco::Mesh* mesh, const Mesh& in) {
   if (in.weights.empty()) return -1;
   std::vector<std::array<uint8_t, 4>> weights(in.weights.size());
   std::transform(in.weights.begin(), in.weights.end(), weights.begin(), WeightBytes);
-  return AddAttribute(mesh, draco::GeometryAttribute::GENERIC, draco::DT_UINT8, 4, true,
-                      weights.data(), weights.size());
+  return AddAttribute(mesh, draco::GeometryAttribute::GENERIC, draco::DT_UINT8, 4, true, weights.data(),
+                      weights.size());
 }
 
 void AddFaces(const Mesh& in, draco::Mesh* mesh) {
@@ -152,8 +149,8 @@ std::array<uint8_t, 4> WeightBytes(const std::array<float, 4>& weights) {
   return bytes;
 }
 
-Error EncodeDraco(const Mesh& in, const DracoOptions& options, const PositionGrid& grid,
-                  bool byte_joints, DracoMesh* out) {
+Error EncodeDraco(const Mesh& in, const DracoOptions& options, const PositionGrid& grid, bool byte_joints,
+                  DracoMesh* out) {
   using Attribute = draco::GeometryAttribute;
   draco::Mesh mesh;
   mesh.set_num_points(static_cast<uint32_t>(in.positions.size()));
@@ -184,8 +181,7 @@ Error EncodeDraco(const Mesh& in, const DracoOptions& options, const PositionGri
   const draco::Status status = encoder.EncodeToBuffer(&buffer);
   if (!status.ok()) return Fail(std::string("Draco: ") + status.error_msg());
   out->bytes.assign(buffer.data(), buffer.data() + buffer.size());
-  for (int* id : {&out->position, &out->normal, &out->uv, &out->uv1, &out->color, &out->joints,
-                  &out->weights}) {
+  for (int* id : {&out->position, &out->normal, &out->uv, &out->uv1, &out->color, &out->joints, &out->weights}) {
     if (*id >= 0) *id = static_cast<int>(mesh.attribute(*id)->unique_id());
   }
   return MeasureDecoded(out);

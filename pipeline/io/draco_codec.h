@@ -20,8 +20,7 @@ struct DracoAttribute {
   std::vector<float> values;  // out, `components` a vertex
 };
 
-Error DecodeDraco(std::span<const uint8_t> bytes, std::span<DracoAttribute> attributes,
-                  std::vector<uint32_t>* indices);
+Error DecodeDraco(std::span<const uint8_t> bytes, std::span<DracoAttribute> attributes, std::vector<uint32_t>* indices);
 
 // The cube that positions are rounded in; meshes with the same grid stay joined where they touch.
 struct PositionGrid {
@@ -38,8 +37,8 @@ struct DracoMesh {
 };
 
 // Weights as bytes that sum to 255, joints as bytes where `byte_joints`, else 16-bit.
-Error EncodeDraco(const Mesh& mesh, const DracoOptions& options, const PositionGrid& grid,
-                  bool byte_joints, DracoMesh* out);
+Error EncodeDraco(const Mesh& mesh, const DracoOptions& options, const PositionGrid& grid, bool byte_joints,
+                  DracoMesh* out);
 
 // Weights that sum to 1 as bytes that sum to 255, by largest remainder.
 std::array<uint8_t, 4> WeightBytes(const std::array<float, 4>& weights);

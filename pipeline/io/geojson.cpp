@@ -49,7 +49,8 @@ std::string FeatureText(const Obstacle& o, int decimals) {
   return out + "]}}";
 }
 
-std::string CollectionText(const std::string& units, const std::string& origin, const Footprints& footprints, int decimals) {
+std::string CollectionText(const std::string& units, const std::string& origin, const Footprints& footprints,
+                           int decimals) {
   std::string out = R"({"type":"FeatureCollection","flaneur":{"version":1,"units":")" + units + R"(","clearance_m":)" +
                     Number(footprints.clearance_m) + R"(,"band_m":[)" + Number(footprints.band_m[0]) + "," +
                     Number(footprints.band_m[1]) + "]" + origin + "},\n\"features\":[\n";
@@ -61,7 +62,8 @@ std::string CollectionText(const std::string& units, const std::string& origin, 
 Error ToLongitudeLatitude(const Footprints& footprints, std::vector<Point2*> points) {
   std::vector<Point2> moved;
   for (const Point2* p : points) moved.push_back({p->x + footprints.origin_m.x, p->y + footprints.origin_m.y});
-  if (Error error = CheckMapPlace(footprints.reference_system, moved.empty() ? footprints.origin_m : moved[0])) return error;
+  if (Error error = CheckMapPlace(footprints.reference_system, moved.empty() ? footprints.origin_m : moved[0]))
+    return error;
   if (Error error = TransformPoints(footprints.reference_system, kLongitudeLatitude, &moved)) return error;
   for (size_t i = 0; i < points.size(); ++i) *points[i] = moved[i];
   return Ok();

@@ -12,45 +12,56 @@ namespace flaneur {
 enum class GeoJsonUnits { kAuto, kMetres, kDegrees };
 
 struct ReadGeoJsonOptions {
-  // kAuto: metres where the file has our member "flaneur"; else what its member "crs" says; else longitude and latitude, as
-  // the standard has it.
+  // kAuto: metres where the file has our member "flaneur"; else what its member "crs" says; else longitude and
+  // latitude, as the standard has it.
   GeoJsonUnits units = GeoJsonUnits::kAuto;
   std::string system;  // such as "EPSG:25832": of the coordinates, whatever the file says
 };
 
-struct Way { std::string name; std::vector<Point2> points; };
+struct Way {
+  std::string name;
+  std::vector<Point2> points;
+};
 // A point of kind door, exit or spawn.
-struct GatePoint { std::string name; Point2 at; bool is_exit = false; };
+struct GatePoint {
+  std::string name;
+  Point2 at;
+  bool is_exit = false;
+};
 
 // What is wrong with a file that can be read all the same.
 enum class GeoJsonFaultKind { kBrokenFeature, kOtherSystem, kUnknownSystem, kElsewhere };
-struct GeoJsonFault { GeoJsonFaultKind kind; std::string feature, message; };
+struct GeoJsonFault {
+  GeoJsonFaultKind kind;
+  std::string feature, message;
+};
 
 struct GeoJsonFile {
-  Footprints footprints;           // local metres
-  // Obstacle i's rings that end without coming back to their first point: 0 the outer one, then the holes. A polygon without
-  // any point has ring 0 in it, a circle none.
+  Footprints footprints;  // local metres
+  // Obstacle i's rings that end without coming back to their first point: 0 the outer one, then the holes. A polygon
+  // without any point has ring 0 in it, a circle none.
   std::vector<std::vector<int>> open_rings;
-  std::vector<Way> ways;           // lines that are streets: all but barriers, waterways, railways, tunnels and the like
+  std::vector<Way> ways;  // lines that are streets: all but barriers, waterways, railways, tunnels and the like
   std::vector<GatePoint> places;
   std::vector<GeoJsonFault> faults;
-  int skipped = 0;                 // features that are nothing of all this
-  Point2 moved_m;                  // add to a coordinate to get the file's own, where they were only moved
+  int skipped = 0;                   // features that are nothing of all this
+  Point2 moved_m;                    // add to a coordinate to get the file's own, where they were only moved
   std::string system, local_system;  // else: of the file's coordinates, and of ours
   Point2 local_origin_m;             // add to our coordinates to get those of local_system
   bool has_origin = true;            // false: one of our own files that does not say where it lies
 };
 
-// Polygons, multipolygons (one obstacle each part), points with `radius_m`, lines, and points of kind door, exit, spawn. Rings come as they stand, only the
-// repeated last point is dropped: broken rings are for the check to find. Names that are missing are made up, names that
-// repeat get a number. Longitudes and latitudes, and maps that are stretched by more than 0.5 %, become local metres;
-// projected coordinates are moved near zero. Coordinates that cannot be in the system stated are a fault, and read as what
-// they look like. Errors: unreadable, not JSON, no GeoJSON; a system asked for that is not known.
+// Polygons, multipolygons (one obstacle each part), points with `radius_m`, lines, and points of kind door, exit,
+// spawn. Rings come as they stand, only the repeated last point is dropped: broken rings are for the check to find.
+// Names that are missing are made up, names that repeat get a number. Longitudes and latitudes, and maps that are
+// stretched by more than 0.5 %, become local metres; projected coordinates are moved near zero. Coordinates that cannot
+// be in the system stated are a fault, and read as what they look like. Errors: unreadable, not JSON, no GeoJSON; a
+// system asked for that is not known.
 Error ReadGeoJson(const std::filesystem::path& path, const ReadGeoJsonOptions& options, GeoJsonFile* file);
 
-// Into the coordinates of a town that was moved near zero by `origin_m`; `reference_system` of its own ones, empty where not
-// known. Neither known: nothing is moved. What lies in no common system or beyond 100 km is a fault (kElsewhere), and stays
-// where it is. Errors: none but PROJ's own.
+// Into the coordinates of a town that was moved near zero by `origin_m`; `reference_system` of its own ones, empty
+// where not known. Neither known: nothing is moved. What lies in no common system or beyond 100 km is a fault
+// (kElsewhere), and stays where it is. Errors: none but PROJ's own.
 Error MoveToTown(const std::string& reference_system, Point2 origin_m, GeoJsonFile* file);
 
 // Back into the file's own coordinates.

@@ -80,7 +80,8 @@ class Reader {
     const std::string type = TextOf(root, "type");
     if (Error error = ReadMember(root)) return error;
     if (type == "FeatureCollection") {
-      if (!Member(root, "features").is_array()) return Fail(file_name_ + ": a FeatureCollection needs a list 'features'");
+      if (!Member(root, "features").is_array())
+        return Fail(file_name_ + ": a FeatureCollection needs a list 'features'");
       for (const Json& feature : root["features"]) KeepFault(ReadFeature(feature));
     } else if (type == "Feature") {
       KeepFault(ReadFeature(root));
@@ -102,8 +103,7 @@ class Reader {
         stated.system = TextOf(Member(crs, "properties"), "name");
       }
     }
-    if (Error error = ToLocalMetres(stated, out_))
-      return Fail(OneLine(file_name_ + ": " + error.message));
+    if (Error error = ToLocalMetres(stated, out_)) return Fail(OneLine(file_name_ + ": " + error.message));
     return Ok();
   }
 
@@ -179,8 +179,8 @@ class Reader {
         return Fail(std::string("'") + key + "' must be a number");
     o->open_shell = Member(properties, "open_shell") == true;
     const std::string kind = TextOf(properties, "kind");
-    for (const ObstacleKind k : {ObstacleKind::kBuilding, ObstacleKind::kWall, ObstacleKind::kTree,
-                                 ObstacleKind::kLamp, ObstacleKind::kOther})
+    for (const ObstacleKind k :
+         {ObstacleKind::kBuilding, ObstacleKind::kWall, ObstacleKind::kTree, ObstacleKind::kLamp, ObstacleKind::kOther})
       if (kind == ObstacleKindName(k)) o->kind = k;
     return Ok();
   }
@@ -242,7 +242,8 @@ class Reader {
 
   void Add(Obstacle o, std::vector<int> open) {
     const std::string wish = o.name;
-    for (int i = ++repeats_[wish]; !names_.insert(o.name).second; i = ++repeats_[wish]) o.name = wish + "_" + std::to_string(i);
+    for (int i = ++repeats_[wish]; !names_.insert(o.name).second; i = ++repeats_[wish])
+      o.name = wish + "_" + std::to_string(i);
     out_->footprints.obstacles.push_back(std::move(o));
     out_->open_rings.push_back(std::move(open));
   }

@@ -9,12 +9,12 @@
 namespace flaneur {
 namespace {
 
-constexpr double kFarFromOrigin_m = 10'000;   // coordinates further away are moved near zero
-constexpr double kStretched = 0.005;          // maps whose lengths are off by more are transformed
-constexpr double kNullIsland_deg = 1;         // nobody's town is that near to longitude and latitude zero
-constexpr double kHouse_deg = 5e-4;           // houses are smaller than this (50 m), and no house is in metres
+constexpr double kFarFromOrigin_m = 10'000;  // coordinates further away are moved near zero
+constexpr double kStretched = 0.005;         // maps whose lengths are off by more are transformed
+constexpr double kNullIsland_deg = 1;        // nobody's town is that near to longitude and latitude zero
+constexpr double kHouse_deg = 5e-4;          // houses are smaller than this (50 m), and no house is in metres
 
-constexpr double kElsewhere_m = 100'000;      // no town is as wide as that
+constexpr double kElsewhere_m = 100'000;  // no town is as wide as that
 
 using Points = std::vector<Point2>;
 
@@ -90,7 +90,8 @@ class Systems {
   }
 
   Error Other(const std::string& stated, const std::string& seen, const std::string& as) {
-    file_.faults.push_back({GeoJsonFaultKind::kOtherSystem, "", "stated are " + stated + ", but the coordinates are " + seen});
+    file_.faults.push_back(
+        {GeoJsonFaultKind::kOtherSystem, "", "stated are " + stated + ", but the coordinates are " + seen});
     if (!as.empty()) return Transform(as);
     MoveNearZero();
     return Ok();
@@ -115,7 +116,9 @@ class Systems {
     if (!IsUsedAt(system, place[0]))
       return Other(stated_.system, "outside the area that it is for; read as metres", "");
     if (Error error = TransformPoints(stated_.system, LocalMapSystem(place[0]), &corner)) return error;
-    const auto length = [&](size_t i) { return std::hypot(corner[i].x - corner[0].x, corner[i].y - corner[0].y) / 100; };
+    const auto length = [&](size_t i) {
+      return std::hypot(corner[i].x - corner[0].x, corner[i].y - corner[0].y) / 100;
+    };
     if (std::abs(length(1) - 1) > kStretched || std::abs(length(2) - 1) > kStretched) return Transform(stated_.system);
     file_.footprints.reference_system = PlainReferenceSystem(stated_.system);
     MoveNearZero();

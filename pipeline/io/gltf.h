@@ -23,8 +23,7 @@ namespace flaneur {
 // is pavement. Only images that a material uses are kept. Errors: unreadable or broken file,
 // unknown required extension, unknown tag value, a non-finite vertex (names node and mesh), no
 // triangle at all.
-Error ReadGltfScene(const std::filesystem::path& path, Scene* scene,
-                    std::vector<std::string>* warnings = nullptr);
+Error ReadGltfScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings = nullptr);
 
 struct ReadAvatarOptions {
   std::string name;  // of the avatar; empty: the file's stem
@@ -32,27 +31,25 @@ struct ReadAvatarOptions {
   // shortest name that contains it ("Walking_A" for walk; idle and talk may be absent). A file's
   // only clip counts as its walk.
   std::string walk, idle, talk;
-  float height_m = 0;             // 0: as in the file where 0.5 to 2.3 m, else 1.75
-  std::vector<std::string> hide;  // names of nodes left out, with what hangs on them
-  std::vector<std::string> props; // names of nodes that become AvatarProps, each with what hangs on it
+  float height_m = 0;              // 0: as in the file where 0.5 to 2.3 m, else 1.75
+  std::vector<std::string> hide;   // names of nodes left out, with what hangs on them
+  std::vector<std::string> props;  // names of nodes that become AvatarProps, each with what hangs on it
   int max_joints = 256;
 };
 
-// Reads a person from glTF, or .blend, .fbx, .dae and .obj by Blender (blender_import.h): every mesh of the default scene, on one joint list, in metres, feet at y = 0,
-// centred at x = z = 0. The figure is taken to face +Z. Rigid meshes that hang on bones get one
-// weight of 1, weights are reduced to the four heaviest and made to sum to 1, clips are resampled
-// at 30 Hz, made to loop and to walk on the spot. The walk's speed is `flaneur_walk_speed_mps` in
-// any node's extras (metres of the file), else that of the root's travel, else that of the sole on
-// the ground. `warnings` gets one line for each thing left out or guessed. Errors: as for a scene,
-// and no skin, no walk clip (lists the clips), a named clip, hidden node or prop that is not there, too
-// many joints, a prop without a mesh.
-Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& options,
-                 Avatar* avatar, std::vector<std::string>* warnings);
+// Reads a person from glTF, or .blend, .fbx, .dae and .obj by Blender (blender_import.h): every mesh of the default
+// scene, on one joint list, in metres, feet at y = 0, centred at x = z = 0. The figure is taken to face +Z. Rigid
+// meshes that hang on bones get one weight of 1, weights are reduced to the four heaviest and made to sum to 1, clips
+// are resampled at 30 Hz, made to loop and to walk on the spot. The walk's speed is `flaneur_walk_speed_mps` in any
+// node's extras (metres of the file), else that of the root's travel, else that of the sole on the ground. `warnings`
+// gets one line for each thing left out or guessed. Errors: as for a scene, and no skin, no walk clip (lists the
+// clips), a named clip, hidden node or prop that is not there, too many joints, a prop without a mesh.
+Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& options, Avatar* avatar,
+                 std::vector<std::string>* warnings);
 
 // Writes one avatar as a glTF binary: one skin, the levels as an MSFT_lod chain, the clips as
 // animations, meshes compressed with Draco. The level's numbers stand in the extras of its node.
 // Errors: as for WriteFile.
-Error WriteAvatarGlb(const std::filesystem::path& path, const AvatarLevels& levels,
-                     const DracoOptions& draco = {});
+Error WriteAvatarGlb(const std::filesystem::path& path, const AvatarLevels& levels, const DracoOptions& draco = {});
 
 }  // namespace flaneur

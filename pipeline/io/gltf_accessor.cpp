@@ -61,8 +61,8 @@ bool KnownComponentType(int type) {
 }
 
 // The bytes of `count` elements `stride` apart, each `size` long, from `offset` of the view.
-Error Elements(const tinygltf::Model& model, int view, size_t offset, size_t stride, size_t size,
-               size_t count, const uint8_t** first) {
+Error Elements(const tinygltf::Model& model, int view, size_t offset, size_t stride, size_t size, size_t count,
+               const uint8_t** first) {
   std::span<const uint8_t> bytes;
   if (Error e = BufferViewBytes(model, view, &bytes)) return e;
   if (count > 0 && (offset > bytes.size() || size > bytes.size() - offset ||
@@ -82,21 +82,19 @@ Error ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accesso
   const size_t count = static_cast<size_t>(sparse.count);
   const int index_type = sparse.indices.componentType;
   if (!KnownComponentType(index_type)) return Fail("sparse accessor has unknown index type");
-  const size_t index_size =
-      static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(index_type)));
+  const size_t index_size = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(index_type)));
   const size_t size = component_size * static_cast<size_t>(components);
   const uint8_t* indices = nullptr;
   const uint8_t* data = nullptr;
   if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) {
     return Fail("sparse accessor has a negative offset");
   }
-  if (Error e =
-          Elements(model, sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset),
-                   index_size, index_size, count, &indices)) {
+  if (Error e = Elements(model, sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset), index_size,
+                         index_size, count, &indices)) {
     return e;
   }
-  if (Error e = Elements(model, sparse.values.bufferView,
-                         static_cast<size_t>(sparse.values.byteOffset), size, size, count, &data)) {
+  if (Error e = Elements(model, sparse.values.bufferView, static_cast<size_t>(sparse.values.byteOffset), size, size,
+                         count, &data)) {
     return e;
   }
   const double scale = NormalizedScale(accessor);
@@ -115,8 +113,8 @@ Error ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accesso
 }
 
 // Checks the accessor and finds its first byte (null: all zeros) and stride.
-Error Locate(const tinygltf::Model& model, int index, const tinygltf::Accessor** accessor,
-             const uint8_t** first, size_t* stride) {
+Error Locate(const tinygltf::Model& model, int index, const tinygltf::Accessor** accessor, const uint8_t** first,
+             size_t* stride) {
   if (!InRange(model.accessors, index)) {
     return Fail("accessor " + std::to_string(index) + " does not exist");
   }
@@ -128,9 +126,8 @@ Error Locate(const tinygltf::Model& model, int index, const tinygltf::Accessor**
   if (components < 1) return Fail("accessor has an unknown type");
   if (a.count > kMaxElements) return Fail("accessor has too many elements");
   if (a.bufferView < 0) return Ok();
-  const size_t size =
-      static_cast<size_t>(components) * static_cast<size_t>(tinygltf::GetComponentSizeInBytes(
-                                            static_cast<uint32_t>(a.componentType)));
+  const size_t size = static_cast<size_t>(components) *
+                      static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
   if (static_cast<size_t>(a.bufferView) >= model.bufferViews.size()) {
     return Fail("bufferView " + std::to_string(a.bufferView) + " does not exist");
   }
@@ -158,8 +155,7 @@ Error BufferViewBytes(const tinygltf::Model& model, int view, std::span<const ui
   return Ok();
 }
 
-Error ReadFloats(const tinygltf::Model& model, int index, int components,
-                 std::vector<float>* values) {
+Error ReadFloats(const tinygltf::Model& model, int index, int components, std::vector<float>* values) {
   const tinygltf::Accessor* a = nullptr;
   const uint8_t* first = nullptr;
   size_t stride = 0;
@@ -167,11 +163,10 @@ Error ReadFloats(const tinygltf::Model& model, int index, int components,
   const int own = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(a->type));
   if (components == 0) components = own;
   if (own != components) {
-    return Fail("accessor " + std::to_string(index) + " has " + std::to_string(own) +
-                " components instead of " + std::to_string(components));
+    return Fail("accessor " + std::to_string(index) + " has " + std::to_string(own) + " components instead of " +
+                std::to_string(components));
   }
-  const size_t size = static_cast<size_t>(
-      tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a->componentType)));
+  const size_t size = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a->componentType)));
   const double scale = NormalizedScale(*a);
   const double lowest = a->normalized ? -1 : std::numeric_limits<double>::lowest();
   values->assign(a->count * static_cast<size_t>(components), 0.0f);
@@ -194,8 +189,7 @@ Error ReadIndices(const tinygltf::Model& model, int index, std::vector<uint32_t>
   if (Error e = Locate(model, index, &a, &first, &stride)) return e;
   const int type = a->componentType;
   const bool is_index = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                        type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-                        type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+                        type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
   if (a->type != TINYGLTF_TYPE_SCALAR || !is_index || first == nullptr || a->sparse.isSparse) {
     return Fail("accessor " + std::to_string(index) + " cannot be a list of indices");
   }

@@ -18,8 +18,7 @@ Error BufferViewBytes(const tinygltf::Model& model, int view, std::span<const ui
 // `components` floats an element; integers are scaled where the accessor is normalised.
 // `components` 0 takes the accessor's own number. A missing bufferView reads as zeros, sparse
 // values are applied.
-Error ReadFloats(const tinygltf::Model& model, int accessor, int components,
-                 std::vector<float>* values);
+Error ReadFloats(const tinygltf::Model& model, int accessor, int components, std::vector<float>* values);
 
 Error ReadIndices(const tinygltf::Model& model, int accessor, std::vector<uint32_t>* indices);
 

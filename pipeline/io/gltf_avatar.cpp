@@ -29,10 +29,8 @@ int PositionBits(const AvatarLevel& level, float height_m) {
 // Without the uvs of materials that have no picture.
 std::vector<Mesh> WithoutIdleUvs(std::vector<Mesh> meshes, const std::vector<Material>& materials) {
   for (Mesh& mesh : meshes) {
-    const Material* material =
-        mesh.material >= 0 ? &At(materials, mesh.material) : nullptr;
-    const bool pictured =
-        material != nullptr && (material->base_color_image >= 0 || material->normal_image >= 0);
+    const Material* material = mesh.material >= 0 ? &At(materials, mesh.material) : nullptr;
+    const bool pictured = material != nullptr && (material->base_color_image >= 0 || material->normal_image >= 0);
     if (pictured) continue;
     mesh.uvs.clear();
     mesh.uvs1.clear();
@@ -54,8 +52,7 @@ std::shared_ptr<const EncodedMesh> EncodedLevel(const Avatar& avatar, const Avat
   return EncodeMesh(WithoutIdleUvs(level.meshes, avatar.materials), draco);
 }
 
-void AddSkeleton(GltfBuilder* builder, const Avatar& avatar, const std::string& prefix,
-                 AvatarPart* part) {
+void AddSkeleton(GltfBuilder* builder, const Avatar& avatar, const std::string& prefix, AvatarPart* part) {
   GltfNode skeleton;
   skeleton.name = prefix + "skeleton";
   skeleton.extras = nlohmann::json{{"flaneur_walk_speed_mps", avatar.walk_speed_mps}}.dump();
@@ -64,20 +61,18 @@ void AddSkeleton(GltfBuilder* builder, const Avatar& avatar, const std::string& 
   for (const Joint& joint : avatar.joints) {
     GltfNode node;
     node.name = prefix + joint.name;
-    node.parent = joint.parent < 0 ? part->skeleton_node
-                                   : At(part->joint_nodes, joint.parent);
+    node.parent = joint.parent < 0 ? part->skeleton_node : At(part->joint_nodes, joint.parent);
     node.transform = joint.rest;
     part->joint_nodes.push_back(builder->AddNode(node));
     inverse_binds.push_back(joint.inverse_bind);
   }
-  part->skin =
-      builder->AddSkin(prefix + "skin", part->joint_nodes, inverse_binds, part->skeleton_node);
+  part->skin = builder->AddSkin(prefix + "skin", part->joint_nodes, inverse_binds, part->skeleton_node);
 }
 
 }  // namespace
 
-Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix,
-                const DracoOptions& draco, AvatarPart* part) {
+Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix, const DracoOptions& draco,
+                AvatarPart* part) {
   const Avatar& avatar = levels.avatar;
   *part = {};
   AddSkeleton(builder, avatar, prefix, part);
@@ -89,9 +84,8 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
   std::vector<Mesh> moved = levels.levels[0].meshes;  // that tell how exact a clip must be
   for (const AvatarProp& prop : avatar.props) moved.insert(moved.end(), prop.meshes.begin(), prop.meshes.end());
   for (const Clip& clip : avatar.clips) {
-    part->animations.push_back(builder->AddAnimation(prefix + clip.name, clip, avatar.joints,
-                                                     moved, part->joint_nodes,
-                                                     draco.compress));
+    part->animations.push_back(
+        builder->AddAnimation(prefix + clip.name, clip, avatar.joints, moved, part->joint_nodes, draco.compress));
   }
   std::vector<float> switch_shares;
   for (size_t k = 0; k < levels.levels.size(); ++k) {
@@ -112,14 +106,12 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
     part->prop_nodes.push_back(builder->AddNode(node));
   }
   if (part->level_nodes.size() > 1) {
-    builder->SetLevels(part->level_nodes[0], std::span(part->level_nodes).subspan(1),
-                       switch_shares);
+    builder->SetLevels(part->level_nodes[0], std::span(part->level_nodes).subspan(1), switch_shares);
   }
   return Ok();
 }
 
-Error WriteAvatarGlb(const std::filesystem::path& path, const AvatarLevels& levels,
-                     const DracoOptions& draco) {
+Error WriteAvatarGlb(const std::filesystem::path& path, const AvatarLevels& levels, const DracoOptions& draco) {
   GltfBuilder builder;
   AvatarPart part;
   if (Error e = AddAvatar(&builder, levels, "", draco, &part)) {

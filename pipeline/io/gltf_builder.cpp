@@ -20,9 +20,9 @@ using nlohmann::json;
 
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // glTF component types
 constexpr int kSignedShort = 5122;
-constexpr float kKeyError_m = 0.001f;  // by which a clip's rounding may move any vertex
-constexpr int kTimeExponent = -15;     // keys' times are rounded to that power of two, 31 us
-constexpr float kMaxTime_s = 250;     // that 24 bits hold so; longer clips keep floats
+constexpr float kKeyError_m = 0.001f;               // by which a clip's rounding may move any vertex
+constexpr int kTimeExponent = -15;                  // keys' times are rounded to that power of two, 31 us
+constexpr float kMaxTime_s = 250;                   // that 24 bits hold so; longer clips keep floats
 constexpr int kVertices = 34962, kIndices = 34963;  // glTF bufferView targets
 
 json Numbers(Vec3 v) { return {v.x, v.y, v.z}; }
@@ -66,8 +66,8 @@ PositionGrid GridAround(std::span<const Mesh> parts) {
 Error CheckPart(const Mesh& mesh) {
   const size_t n = mesh.positions.size();
   const auto fits = [n](size_t size) { return size == 0 || size == n; };
-  if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.uvs1.size()) ||
-      !fits(mesh.colors.size()) || !fits(mesh.joints.size()) || !fits(mesh.weights.size())) {
+  if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.uvs1.size()) || !fits(mesh.colors.size()) ||
+      !fits(mesh.joints.size()) || !fits(mesh.weights.size())) {
     return Fail("an attribute has not one value a vertex");
   }
   if (mesh.indices.size() % 3 != 0) return Fail("its indices are not triangles");
@@ -123,8 +123,7 @@ void PutU32(uint32_t value, std::vector<uint8_t>* out) {
   for (int i = 0; i < 4; ++i) out->push_back(static_cast<uint8_t>(value >> (8 * i)));
 }
 
-void PutChunk(uint32_t type, std::span<const uint8_t> bytes, uint8_t padding,
-              std::vector<uint8_t>* out) {
+void PutChunk(uint32_t type, std::span<const uint8_t> bytes, uint8_t padding, std::vector<uint8_t>* out) {
   const size_t padded = (bytes.size() + 3) / 4 * 4;
   PutU32(static_cast<uint32_t>(padded), out);
   PutU32(type, out);
@@ -144,8 +143,7 @@ struct EncodedMesh {
   std::vector<Part> parts;
 };
 
-std::shared_ptr<const EncodedMesh> EncodeMesh(std::span<const Mesh> parts,
-                                              const DracoOptions& draco) {
+std::shared_ptr<const EncodedMesh> EncodeMesh(std::span<const Mesh> parts, const DracoOptions& draco) {
   auto out = std::make_shared<EncodedMesh>();
   for (const Mesh& part : parts) {
     if ((out->problem = CheckPart(part))) return out;
@@ -196,8 +194,7 @@ struct GltfBuilder::Impl {
     return json::object();
   }
 
-  int AddFloats(FloatPool* pool, const std::vector<float>& values, const char* type,
-                size_t components, bool bounds) {
+  int AddFloats(FloatPool* pool, const std::vector<float>& values, const char* type, size_t components, bool bounds) {
     // Equal numbers as another type would be another accessor; the component count tells them
     // apart.
     std::vector<float> identity = values;
@@ -229,8 +226,7 @@ struct GltfBuilder::Impl {
 
   // Returns the accessor, whose bufferView is still to come.
   int AddRounded(KeyStream* stream, std::span<const uint8_t> bytes, json accessor) {
-    const auto [it, is_new] =
-        stream->accessors.try_emplace(std::string(bytes.begin(), bytes.end()), -1);
+    const auto [it, is_new] = stream->accessors.try_emplace(std::string(bytes.begin(), bytes.end()), -1);
     if (!is_new) return it->second;
     accessor["byteOffset"] = stream->bytes.size();
     accessor["count"] = bytes.size() / stream->stride;
@@ -285,8 +281,7 @@ void GltfBuilder::Impl::AddCompressed(const DracoMesh& draco, bool byte_joints, 
   const auto add = [&](int id, const char* name, int component, const char* type, bool normalized) {
     if (id < 0) return;
     ids[name] = id;
-    attributes[name] =
-        AddAttribute(-1, component, type, static_cast<size_t>(draco.vertices), normalized);
+    attributes[name] = AddAttribute(-1, component, type, static_cast<size_t>(draco.vertices), normalized);
   };
   add(draco.position, "POSITION", kFloat, "VEC3", false);
   add(draco.normal, "NORMAL", kFloat, "VEC3", false);
@@ -298,8 +293,8 @@ void GltfBuilder::Impl::AddCompressed(const DracoMesh& draco, bool byte_joints, 
   SetBounds(attributes["POSITION"], draco.min, draco.max);
   (*primitive)["indices"] = AddAttribute(-1, draco.vertices > 65535 ? kInt : kShort, "SCALAR",
                                          3 * static_cast<size_t>(draco.triangles), false);
-  (*primitive)["extensions"]["KHR_draco_mesh_compression"] = {
-      {"bufferView", AddView(draco.bytes, 0)}, {"attributes", ids}};
+  (*primitive)["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", AddView(draco.bytes, 0)},
+                                                              {"attributes", ids}};
   used.insert("KHR_draco_mesh_compression");
   required.insert("KHR_draco_mesh_compression");
 }
@@ -307,11 +302,9 @@ void GltfBuilder::Impl::AddCompressed(const DracoMesh& draco, bool byte_joints, 
 void GltfBuilder::Impl::AddPlain(const Mesh& mesh, bool byte_joints, json* primitive) {
   json& attributes = (*primitive)["attributes"];
   const size_t n = mesh.positions.size();
-  const auto add = [&](const char* name, const auto& values, int component, const char* type,
-                       bool normalized) {
+  const auto add = [&](const char* name, const auto& values, int component, const char* type, bool normalized) {
     if (values.empty()) return;
-    attributes[name] =
-        AddAttribute(AddView(Bytes(values), kVertices), component, type, n, normalized);
+    attributes[name] = AddAttribute(AddView(Bytes(values), kVertices), component, type, n, normalized);
   };
   add("POSITION", mesh.positions, kFloat, "VEC3", false);
   add("NORMAL", mesh.normals, kFloat, "VEC3", false);
@@ -320,8 +313,8 @@ void GltfBuilder::Impl::AddPlain(const Mesh& mesh, bool byte_joints, json* primi
   add("COLOR_0", mesh.colors, kFloat, "VEC4", false);
   std::vector<std::array<uint8_t, 4>> joints, weights;
   for (const auto& j : mesh.joints) {
-    joints.push_back({static_cast<uint8_t>(j[0]), static_cast<uint8_t>(j[1]),
-                      static_cast<uint8_t>(j[2]), static_cast<uint8_t>(j[3])});
+    joints.push_back({static_cast<uint8_t>(j[0]), static_cast<uint8_t>(j[1]), static_cast<uint8_t>(j[2]),
+                      static_cast<uint8_t>(j[3])});
   }
   for (const auto& w : mesh.weights) weights.push_back(WeightBytes(w));
   if (byte_joints) add("JOINTS_0", joints, kByte, "VEC4", false);
@@ -334,13 +327,12 @@ void GltfBuilder::Impl::AddPlain(const Mesh& mesh, bool byte_joints, json* primi
   }
   SetBounds(attributes["POSITION"], min, max);
   if (n > 65535) {
-    (*primitive)["indices"] = AddAttribute(AddView(Bytes(mesh.indices), kIndices), kInt, "SCALAR",
-                                           mesh.indices.size(), false);
+    (*primitive)["indices"] =
+        AddAttribute(AddView(Bytes(mesh.indices), kIndices), kInt, "SCALAR", mesh.indices.size(), false);
     return;
   }
   const std::vector<uint16_t> indices(mesh.indices.begin(), mesh.indices.end());
-  (*primitive)["indices"] =
-      AddAttribute(AddView(Bytes(indices), kIndices), kShort, "SCALAR", indices.size(), false);
+  (*primitive)["indices"] = AddAttribute(AddView(Bytes(indices), kIndices), kShort, "SCALAR", indices.size(), false);
 }
 
 int GltfBuilder::Impl::AddKeyTimes(const KeyChannel& channel) {
@@ -368,8 +360,7 @@ int GltfBuilder::Impl::AddKeyValues(const KeyChannel& channel) {
   }
   json accessor = {{"componentType", rotates ? kSignedShort : kFloat}, {"type", type}};
   if (rotates) accessor["normalized"] = true;
-  return AddRounded(rotates ? &rounded_rotations : &rounded_vectors, channel.rounded,
-                    std::move(accessor));
+  return AddRounded(rotates ? &rounded_rotations : &rounded_vectors, channel.rounded, std::move(accessor));
 }
 
 GltfBuilder::GltfBuilder() : impl_(std::make_unique<Impl>()) {}
@@ -378,8 +369,7 @@ GltfBuilder::GltfBuilder(GltfBuilder&&) noexcept = default;
 GltfBuilder& GltfBuilder::operator=(GltfBuilder&&) noexcept = default;
 
 int GltfBuilder::AddImage(const Image& image) {
-  const auto [it, is_new] =
-      impl_->images.try_emplace(std::string(image.bytes.begin(), image.bytes.end()), -1);
+  const auto [it, is_new] = impl_->images.try_emplace(std::string(image.bytes.begin(), image.bytes.end()), -1);
   if (!is_new) return it->second;
   json item = {{"bufferView", impl_->AddView(image.bytes, 0)}, {"mimeType", image.mime_type}};
   if (!image.name.empty()) item["name"] = image.name;
@@ -421,12 +411,9 @@ int GltfBuilder::AddMaterial(const Material& material) {
   return impl_->Add("materials", std::move(item));
 }
 
-std::vector<int> GltfBuilder::AddMaterials(std::span<const Material> materials,
-                                           std::span<const Image> images) {
+std::vector<int> GltfBuilder::AddMaterials(std::span<const Material> materials, std::span<const Image> images) {
   std::vector<int> added;
-  const auto here = [&](int image) {
-    return image < 0 ? -1 : AddImage(At(images, image));
-  };
+  const auto here = [&](int image) { return image < 0 ? -1 : AddImage(At(images, image)); };
   for (Material material : materials) {
     material.base_color_image = here(material.base_color_image);
     material.normal_image = here(material.normal_image);
@@ -435,13 +422,13 @@ std::vector<int> GltfBuilder::AddMaterials(std::span<const Material> materials,
   return added;
 }
 
-Error GltfBuilder::AddMesh(const std::string& name, std::span<const Mesh> parts,
-                           std::span<const int> materials, const DracoOptions& draco, int* mesh) {
+Error GltfBuilder::AddMesh(const std::string& name, std::span<const Mesh> parts, std::span<const int> materials,
+                           const DracoOptions& draco, int* mesh) {
   return AddMesh(name, *EncodeMesh(parts, draco), materials, mesh);
 }
 
-Error GltfBuilder::AddMesh(const std::string& name, const EncodedMesh& encoded,
-                           std::span<const int> materials, int* mesh) {
+Error GltfBuilder::AddMesh(const std::string& name, const EncodedMesh& encoded, std::span<const int> materials,
+                           int* mesh) {
   const std::string quoted = "mesh '" + OneLine(name) + "'";
   if (encoded.problem) return Fail(quoted + ": " + encoded.problem.message);
   json primitives = json::array();
@@ -486,8 +473,8 @@ int GltfBuilder::AddNode(const GltfNode& node) {
   return index;
 }
 
-int GltfBuilder::AddSkin(const std::string& name, std::span<const int> joint_nodes,
-                         std::span<const Mat4> inverse_binds, int skeleton_node) {
+int GltfBuilder::AddSkin(const std::string& name, std::span<const int> joint_nodes, std::span<const Mat4> inverse_binds,
+                         int skeleton_node) {
   std::vector<float> values;
   for (const Mat4& matrix : inverse_binds) {
     for (const auto& column : matrix.m) values.insert(values.end(), column.begin(), column.end());
@@ -503,19 +490,15 @@ int GltfBuilder::AddSkin(const std::string& name, std::span<const int> joint_nod
   return impl_->Add("skins", std::move(item));
 }
 
-int GltfBuilder::AddAnimation(const std::string& name, const Clip& clip,
-                              std::span<const Joint> joints, std::span<const Mesh> meshes,
-                              std::span<const int> joint_nodes, bool compress) {
+int GltfBuilder::AddAnimation(const std::string& name, const Clip& clip, std::span<const Joint> joints,
+                              std::span<const Mesh> meshes, std::span<const int> joint_nodes, bool compress) {
   json channels = json::array(), samplers = json::array();
   const std::vector<KeyChannel> kept =
-      compress ? ReduceKeysTogether(clip, joints, meshes, kKeyError_m)
-               : AllKeys(clip, joints);
+      compress ? ReduceKeysTogether(clip, joints, meshes, kKeyError_m) : AllKeys(clip, joints);
   for (const KeyChannel& channel : kept) {
     channels.push_back(
-        {{"sampler", samplers.size()},
-         {"target", {{"node", joint_nodes[channel.joint]}, {"path", channel.path}}}});
-    samplers.push_back(
-        {{"input", impl_->AddKeyTimes(channel)}, {"output", impl_->AddKeyValues(channel)}});
+        {{"sampler", samplers.size()}, {"target", {{"node", joint_nodes[channel.joint]}, {"path", channel.path}}}});
+    samplers.push_back({{"input", impl_->AddKeyTimes(channel)}, {"output", impl_->AddKeyValues(channel)}});
   }
   if (channels.empty()) return -1;
   json item = {{"channels", std::move(channels)}, {"samplers", std::move(samplers)}};
@@ -544,30 +527,25 @@ void GltfBuilder::SetRootExtension(const std::string& name, std::string_view tex
 }
 
 void GltfBuilder::SetNodeExtension(int node, const std::string& name, std::string_view text) {
-  At(impl_->root["nodes"], node)["extensions"][name] =
-      impl_->ParseObject(name, text);
+  At(impl_->root["nodes"], node)["extensions"][name] = impl_->ParseObject(name, text);
   UseExtension(name);
 }
 
 void GltfBuilder::SetNodeExtras(int node, std::string_view text) {
-  At(impl_->root["nodes"], node)["extras"] =
-      impl_->ParseObject("a node's extras", text);
+  At(impl_->root["nodes"], node)["extras"] = impl_->ParseObject("a node's extras", text);
 }
 
-void GltfBuilder::SetLevels(int node, std::span<const int> coarser,
-                            std::span<const float> switch_heights) {
+void GltfBuilder::SetLevels(int node, std::span<const int> coarser, std::span<const float> switch_heights) {
   json& item = At(impl_->root["nodes"], node);
   item["extensions"]["MSFT_lod"]["ids"] = std::vector<int>(coarser.begin(), coarser.end());
-  item["extras"]["MSFT_screencoverage"] =
-      std::vector<float>(switch_heights.begin(), switch_heights.end());
+  item["extras"]["MSFT_screencoverage"] = std::vector<float>(switch_heights.begin(), switch_heights.end());
   UseExtension("MSFT_lod");
 }
 
 Error GltfBuilder::Finish(std::vector<uint8_t>* glb) {
   Impl& impl = *impl_;
   for (FloatPool* pool : {&impl.binds, &impl.key_times, &impl.key_values}) impl.FlushPool(pool);
-  for (const KeyStream* stream :
-       {&impl.rounded_times, &impl.rounded_rotations, &impl.rounded_vectors}) {
+  for (const KeyStream* stream : {&impl.rounded_times, &impl.rounded_rotations, &impl.rounded_vectors}) {
     impl.FlushStream(*stream);
   }
   if (!impl.used.empty()) impl.root["extensionsUsed"] = impl.used;
@@ -576,8 +554,8 @@ Error GltfBuilder::Finish(std::vector<uint8_t>* glb) {
     impl.root["buffers"] = json::array({{{"byteLength", impl.binary.size()}}});
   }
   if (impl.fallback_bytes > 0) {
-    impl.root["buffers"].push_back({{"byteLength", impl.fallback_bytes},
-                                    {"extensions", {{kMeshoptExtension, {{"fallback", true}}}}}});
+    impl.root["buffers"].push_back(
+        {{"byteLength", impl.fallback_bytes}, {"extensions", {{kMeshoptExtension, {{"fallback", true}}}}}});
   }
   const Error problem = impl.problem;
   std::string text;

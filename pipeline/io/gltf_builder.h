@@ -35,7 +35,8 @@ struct GltfNode {
   std::string extras;  // a JSON object, or empty
 };
 
-// A mesh's parts as AddMesh stores them. Most of the work, and apart from the builder, so that several can be made at once.
+// A mesh's parts as AddMesh stores them. Most of the work, and apart from the builder, so that several can be made at
+// once.
 struct EncodedMesh;
 std::shared_ptr<const EncodedMesh> EncodeMesh(std::span<const Mesh> parts, const DracoOptions& draco);
 
@@ -60,14 +61,13 @@ class GltfBuilder {
   // triangles are left out; at least one must have some. Joint indices are those of the skin that
   // the node will name. Errors: an index or array length out of range, Draco's refusal; each names
   // the mesh.
-  Error AddMesh(const std::string& name, std::span<const Mesh> parts,
-                std::span<const int> materials, const DracoOptions& draco, int* mesh);
-  Error AddMesh(const std::string& name, const EncodedMesh& encoded, std::span<const int> materials,
-                int* mesh);
+  Error AddMesh(const std::string& name, std::span<const Mesh> parts, std::span<const int> materials,
+                const DracoOptions& draco, int* mesh);
+  Error AddMesh(const std::string& name, const EncodedMesh& encoded, std::span<const int> materials, int* mesh);
 
   int AddNode(const GltfNode& node);
-  int AddSkin(const std::string& name, std::span<const int> joint_nodes,
-              std::span<const Mat4> inverse_binds, int skeleton_node);
+  int AddSkin(const std::string& name, std::span<const int> joint_nodes, std::span<const Mat4> inverse_binds,
+              int skeleton_node);
   // `compress`: with as few and as rough keys as keep every vertex of `meshes` within 1 mm (see
   // ReduceKeysTogether), packed by EXT_meshopt_compression; else every key of whatever moves as
   // floats. Channels that only hold the joint's rest transform are left out. Returns -1, and adds
@@ -112,7 +112,7 @@ struct AvatarPart {
 // Adds skeleton, skin, levels (chained by MSFT_lod) and clips; names of nodes and animations start
 // with `prefix`. The caller puts `skeleton_node`, `level_nodes[0]` and `prop_nodes` into a scene. Errors: as
 // AddMesh.
-Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix,
-                const DracoOptions& draco, AvatarPart* part);
+Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix, const DracoOptions& draco,
+                AvatarPart* part);
 
 }  // namespace flaneur

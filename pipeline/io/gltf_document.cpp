@@ -50,8 +50,7 @@ std::string NameOr(const std::string& name, const char* kind, size_t index) {
 Error CheckExtensions(const Model& model) {
   for (const std::string& name : model.extensionsRequired) {
     if (kKnownExtensions.count(name) > 0) continue;
-    return Fail("needs the extension " + OneLine(name) +
-                ", which is not supported; export the file without it");
+    return Fail("needs the extension " + OneLine(name) + ", which is not supported; export the file without it");
   }
   return Ok();
 }
@@ -85,8 +84,7 @@ void ReadTransform(const tinygltf::Node& in, DocumentNode* out) {
     out->translation = {f(in.translation[0]), f(in.translation[1]), f(in.translation[2])};
   }
   if (in.rotation.size() == 4) {
-    out->rotation = Normalized(
-        Quat{f(in.rotation[0]), f(in.rotation[1]), f(in.rotation[2]), f(in.rotation[3])});
+    out->rotation = Normalized(Quat{f(in.rotation[0]), f(in.rotation[1]), f(in.rotation[2]), f(in.rotation[3])});
   }
   if (in.scale.size() == 3) out->scale = {f(in.scale[0]), f(in.scale[1]), f(in.scale[2])};
   if (in.matrix.size() == 16) {
@@ -125,8 +123,7 @@ Error LinkNodes(const Model& model, GltfDocument* document) {
   for (int i = 0; i < count; ++i) {
     for (const int child : At(model.nodes, i).children) {
       if (child < 0 || child >= count) {
-        return Fail("node " + Quoted(document->nodes[i].name) + ": child " + std::to_string(child) +
-                    " does not exist");
+        return Fail("node " + Quoted(document->nodes[i].name) + ": child " + std::to_string(child) + " does not exist");
       }
       DocumentNode& node = At(document->nodes, child);
       if (node.parent >= 0 || child == i) {
@@ -246,8 +243,7 @@ class ImageTable {
       out->bytes.assign(bytes.begin(), bytes.end());
     }
     const auto starts = [&](std::initializer_list<uint8_t> magic) {
-      return out->bytes.size() > magic.size() &&
-             std::equal(magic.begin(), magic.end(), out->bytes.begin());
+      return out->bytes.size() > magic.size() && std::equal(magic.begin(), magic.end(), out->bytes.begin());
     };
     if (out->bytes.empty()) return Fail("image " + Quoted(out->name) + " is missing or empty");
     if (starts({0x89, 'P', 'N', 'G'})) {
@@ -268,8 +264,7 @@ class ImageTable {
 Vec2 Pair(const Value& object, const char* key, Vec2 otherwise) {
   if (!object.Has(key) || object.Get(key).ArrayLen() != 2) return otherwise;
   const Value& pair = object.Get(key);
-  return {static_cast<float>(pair.Get(0).GetNumberAsDouble()),
-          static_cast<float>(pair.Get(1).GetNumberAsDouble())};
+  return {static_cast<float>(pair.Get(0).GetNumberAsDouble()), static_cast<float>(pair.Get(1).GetNumberAsDouble())};
 }
 
 UvSource ReadUvSource(int set, const tinygltf::ExtensionMap& extensions) {
@@ -289,8 +284,8 @@ UvSource ReadUvSource(int set, const tinygltf::ExtensionMap& extensions) {
 
 Vec4 Factor(const std::vector<double>& values) {
   if (values.size() != 4) return {1, 1, 1, 1};
-  return {static_cast<float>(values[0]), static_cast<float>(values[1]),
-          static_cast<float>(values[2]), static_cast<float>(values[3])};
+  return {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2]),
+          static_cast<float>(values[3])};
 }
 
 // The diffuse part of KHR_materials_pbrSpecularGlossiness stands in for the base colour.
@@ -313,8 +308,8 @@ bool SameUvs(const UvSource& a, const UvSource& b) {
          Length(a.scale - b.scale) == 0;
 }
 
-Error ReadMaterial(const tinygltf::Material& in, ImageTable* images, Material* out,
-                   UvSource* uv_source, std::vector<std::string>* warnings) {
+Error ReadMaterial(const tinygltf::Material& in, ImageTable* images, Material* out, UvSource* uv_source,
+                   std::vector<std::string>* warnings) {
   const auto& pbr = in.pbrMetallicRoughness;
   out->base_color = Factor(pbr.baseColorFactor);
   out->metallic = static_cast<float>(pbr.metallicFactor);
@@ -332,9 +327,8 @@ Error ReadMaterial(const tinygltf::Material& in, ImageTable* images, Material* o
   if (Error e = images->Use(base_texture, &out->base_color_image)) return e;
   if (Error e = images->Use(in.normalTexture.index, &out->normal_image)) return e;
   const UvSource normal_uvs = ReadUvSource(in.normalTexture.texCoord, in.normalTexture.extensions);
-  *uv_source = out->base_color_image >= 0
-                   ? ReadUvSource(pbr.baseColorTexture.texCoord, pbr.baseColorTexture.extensions)
-                   : normal_uvs;
+  *uv_source = out->base_color_image >= 0 ? ReadUvSource(pbr.baseColorTexture.texCoord, pbr.baseColorTexture.extensions)
+                                          : normal_uvs;
   if (out->normal_image >= 0 && !SameUvs(*uv_source, normal_uvs)) {
     out->normal_image = -1;
     warnings->push_back("material " + Quoted(out->name) +
@@ -351,8 +345,7 @@ Error ReadMaterials(const Model& model, GltfDocument* document, std::vector<UvSo
   for (size_t i = 0; i < model.materials.size(); ++i) {
     Material& material = document->materials[i];
     material.name = NameOr(model.materials[i].name, "material", i);
-    if (Error e =
-            ReadMaterial(model.materials[i], &images, &material, &(*uv_sources)[i], warnings)) {
+    if (Error e = ReadMaterial(model.materials[i], &images, &material, &(*uv_sources)[i], warnings)) {
       return Fail("material " + Quoted(material.name) + ": " + e.message);
     }
   }
@@ -360,13 +353,11 @@ Error ReadMaterials(const Model& model, GltfDocument* document, std::vector<UvSo
 }
 
 bool WantedAttribute(const std::string& name) {
-  return name == "POSITION" || name == "NORMAL" || name == "COLOR_0" ||
-         name.starts_with("TEXCOORD_") || name.starts_with("JOINTS_") ||
-         name.starts_with("WEIGHTS_");
+  return name == "POSITION" || name == "NORMAL" || name == "COLOR_0" || name.starts_with("TEXCOORD_") ||
+         name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
 }
 
-Error ReadDracoPrimitive(const Model& model, const tinygltf::Primitive& in, const Value& extension,
-                         RawPrimitive* raw) {
+Error ReadDracoPrimitive(const Model& model, const tinygltf::Primitive& in, const Value& extension, RawPrimitive* raw) {
   if (!extension.Has("bufferView") || !extension.Has("attributes")) {
     return Fail("KHR_draco_mesh_compression lacks bufferView or attributes");
   }
@@ -390,10 +381,9 @@ Error ReadDracoPrimitive(const Model& model, const tinygltf::Primitive& in, cons
     }
     const tinygltf::Accessor& a = At(model.accessors, accessor->second);
     if (a.normalized && !attributes[i].normalized) {
-      const int bits =
-          8 * tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType));
-      const bool is_signed = a.componentType == TINYGLTF_COMPONENT_TYPE_BYTE ||
-                             a.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
+      const int bits = 8 * tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType));
+      const bool is_signed =
+          a.componentType == TINYGLTF_COMPONENT_TYPE_BYTE || a.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
       const double largest = static_cast<double>((1ull << (bits - (is_signed ? 1 : 0))) - 1);
       for (float& v : attributes[i].values) v = static_cast<float>(v / largest);
     }
@@ -413,16 +403,15 @@ Error ReadPlainPrimitive(const Model& model, const tinygltf::Primitive& in, RawP
   return raw->indexed ? ReadIndices(model, in.indices, &raw->indices) : Ok();
 }
 
-Error ReadPrimitive(const Model& model, const tinygltf::Primitive& in,
-                    const std::vector<UvSource>& uv_sources, DocumentPrimitive* out) {
+Error ReadPrimitive(const Model& model, const tinygltf::Primitive& in, const std::vector<UvSource>& uv_sources,
+                    DocumentPrimitive* out) {
   RawPrimitive raw;
   if (in.mode == TINYGLTF_MODE_TRIANGLE_STRIP) raw.mode = TriangleMode::kStrip;
   if (in.mode == TINYGLTF_MODE_TRIANGLE_FAN) raw.mode = TriangleMode::kFan;
   const auto draco = in.extensions.find("KHR_draco_mesh_compression");
   const bool compressed = draco != in.extensions.end();
   if (compressed) raw.mode = TriangleMode::kList;  // whatever the mode was, Draco holds triangles
-  if (Error e = compressed ? ReadDracoPrimitive(model, in, draco->second, &raw)
-                           : ReadPlainPrimitive(model, in, &raw)) {
+  if (Error e = compressed ? ReadDracoPrimitive(model, in, draco->second, &raw) : ReadPlainPrimitive(model, in, &raw)) {
     return e;
   }
   UvSource uv_source;
@@ -434,12 +423,11 @@ Error ReadPrimitive(const Model& model, const tinygltf::Primitive& in,
   return MakePrimitive(std::move(raw), uv_source, out);
 }
 
-Error ReadMesh(const Model& model, size_t index, const std::vector<UvSource>& uv_sources,
-               DocumentMesh* out) {
+Error ReadMesh(const Model& model, size_t index, const std::vector<UvSource>& uv_sources, DocumentMesh* out) {
   for (const tinygltf::Primitive& in : model.meshes[index].primitives) {
     out->morphs = out->morphs || !in.targets.empty();
-    const bool triangles = in.mode == -1 || (in.mode >= TINYGLTF_MODE_TRIANGLES &&
-                                             in.mode <= TINYGLTF_MODE_TRIANGLE_FAN);
+    const bool triangles =
+        in.mode == -1 || (in.mode >= TINYGLTF_MODE_TRIANGLES && in.mode <= TINYGLTF_MODE_TRIANGLE_FAN);
     if (!triangles) continue;
     DocumentPrimitive primitive;
     if (Error e = ReadPrimitive(model, in, uv_sources, &primitive)) return e;
@@ -450,8 +438,7 @@ Error ReadMesh(const Model& model, size_t index, const std::vector<UvSource>& uv
 }
 
 // Only meshes that the scene shows.
-Error ReadMeshes(const Model& model, const std::vector<UvSource>& uv_sources,
-                 GltfDocument* document) {
+Error ReadMeshes(const Model& model, const std::vector<UvSource>& uv_sources, GltfDocument* document) {
   document->meshes.resize(model.meshes.size());
   std::vector<bool> done(model.meshes.size());
   for (const int i : document->order) {
@@ -461,8 +448,7 @@ Error ReadMeshes(const Model& model, const std::vector<UvSource>& uv_sources,
     done[m] = true;
     document->meshes[m].name = NameOr(model.meshes[m].name, "mesh", m);
     if (Error e = ReadMesh(model, m, uv_sources, &document->meshes[m])) {
-      return Fail("node " + Quoted(node.name) + ", mesh " + Quoted(document->meshes[m].name) +
-                  ": " + e.message);
+      return Fail("node " + Quoted(node.name) + ", mesh " + Quoted(document->meshes[m].name) + ": " + e.message);
     }
   }
   return Ok();
@@ -488,8 +474,8 @@ Error ReadSkin(const Model& model, const tinygltf::Skin& in, DocumentSkin* out) 
   return Ok();
 }
 
-Error ReadChannel(const Model& model, const tinygltf::Animation& animation,
-                  const tinygltf::AnimationChannel& in, DocumentChannel* out) {
+Error ReadChannel(const Model& model, const tinygltf::Animation& animation, const tinygltf::AnimationChannel& in,
+                  DocumentChannel* out) {
   if (!InRange(animation.samplers, in.sampler)) {
     return Fail("sampler " + std::to_string(in.sampler) + " does not exist");
   }
@@ -525,8 +511,8 @@ Error ReadClip(const Model& model, size_t index, DocumentClip* out) {
   const tinygltf::Animation& in = model.animations[index];
   out->name = NameOr(in.name, "animation", index);
   for (const tinygltf::AnimationChannel& channel : in.channels) {
-    const bool moves_node = channel.target_path == "translation" ||
-                            channel.target_path == "rotation" || channel.target_path == "scale";
+    const bool moves_node =
+        channel.target_path == "translation" || channel.target_path == "rotation" || channel.target_path == "scale";
     if (!moves_node || channel.target_node < 0) continue;
     if (static_cast<size_t>(channel.target_node) >= model.nodes.size()) {
       return Fail("node " + std::to_string(channel.target_node) + " does not exist");
@@ -571,14 +557,12 @@ std::vector<Mat4> WorldMatrices(const GltfDocument& document) {
   for (const int i : document.order) {
     const DocumentNode& node = At(document.nodes, i);
     const Mat4 local = LocalMatrix(node);
-    At(world, i) =
-        node.parent < 0 ? local : At(world, node.parent) * local;
+    At(world, i) = node.parent < 0 ? local : At(world, node.parent) * local;
   }
   return world;
 }
 
-Error LoadGltf(const std::filesystem::path& path, GltfDocument* document,
-               std::vector<std::string>* warnings) {
+Error LoadGltf(const std::filesystem::path& path, GltfDocument* document, std::vector<std::string>* warnings) {
   *document = {};
   document->path = path.string();
   Model model;

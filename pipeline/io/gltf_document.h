@@ -88,7 +88,6 @@ Mat4 LocalMatrix(const DocumentNode& node);
 std::vector<Mat4> WorldMatrices(const GltfDocument& document);
 
 // Errors name the path and the element.
-Error LoadGltf(const std::filesystem::path& path, GltfDocument* document,
-               std::vector<std::string>* warnings);
+Error LoadGltf(const std::filesystem::path& path, GltfDocument* document, std::vector<std::string>* warnings);
 
 }  // namespace flaneur

@@ -20,8 +20,8 @@ constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 constexpr size_t kJsonOffset = 20;  // of a binary file's JSON: file header and chunk header
 
 // Keeps the file's bytes; decoding is the affair of whoever uses the picture.
-bool KeepImageBytes(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
-                    const unsigned char* bytes, int size, void*) {
+bool KeepImageBytes(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
+                    int size, void*) {
   // An image in a bufferView is fetched later, with its bounds checked.
   if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
   image->as_is = true;
@@ -126,8 +126,7 @@ Error ParseGltf(const std::filesystem::path& path, tinygltf::Model* model) {
     const std::string folder = path.parent_path().string();
     const unsigned size = static_cast<unsigned>(bytes.size());
     ok = binary ? loader.LoadBinaryFromMemory(model, &error, &warning, bytes.data(), size, folder)
-                : loader.LoadASCIIFromString(model, &error, &warning,
-                                             reinterpret_cast<const char*>(bytes.data()), size,
+                : loader.LoadASCIIFromString(model, &error, &warning, reinterpret_cast<const char*>(bytes.data()), size,
                                              folder);
   } catch (const std::exception& e) {
     error = e.what();
@@ -138,8 +137,7 @@ Error ParseGltf(const std::filesystem::path& path, tinygltf::Model* model) {
   }
   if (error.empty()) error = "broken";
   while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
-  return Fail(file + (binary ? ": broken or truncated glTF binary: " : ": not a glTF file: ") +
-              PlainJsonError(error));
+  return Fail(file + (binary ? ": broken or truncated glTF binary: " : ": not a glTF file: ") + PlainJsonError(error));
 }
 
 }  // namespace flaneur

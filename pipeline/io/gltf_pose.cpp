@@ -117,9 +117,7 @@ std::vector<Mat4> PoseAt(const GltfDocument& document, const DocumentClip& clip,
 }
 
 Transform Decomposed(const Mat4& matrix) {
-  const auto column = [&](size_t c) {
-    return Vec3{matrix.m[c][0], matrix.m[c][1], matrix.m[c][2]};
-  };
+  const auto column = [&](size_t c) { return Vec3{matrix.m[c][0], matrix.m[c][1], matrix.m[c][2]}; };
   Vec3 x = column(0), y = column(1), z = column(2);
   Transform out;
   out.translation = column(3);

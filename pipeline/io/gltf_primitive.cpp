@@ -50,8 +50,8 @@ Error Triangles(const RawPrimitive& raw, size_t vertices, std::vector<uint32_t>*
   }
   for (const uint32_t i : order) {
     if (i >= vertices) {
-      return Fail("index " + std::to_string(i) + " is out of range, there are " +
-                  std::to_string(vertices) + " vertices");
+      return Fail("index " + std::to_string(i) + " is out of range, there are " + std::to_string(vertices) +
+                  " vertices");
     }
   }
   const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {

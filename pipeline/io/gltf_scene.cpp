@@ -8,16 +8,16 @@
 namespace flaneur {
 namespace {
 
-const std::array<NodeKind, 10> kKinds{
-    NodeKind::kBuilding, NodeKind::kWall, NodeKind::kTree, NodeKind::kLamp,   NodeKind::kOther,
-    NodeKind::kGround,   NodeKind::kDoor, NodeKind::kExit, NodeKind::kLoiter, NodeKind::kNone};
-const std::array<GroundKind, 4> kGrounds{GroundKind::kCarriageway, GroundKind::kPavement,
-                                         GroundKind::kSquare, GroundKind::kGrass};
+const std::array<NodeKind, 10> kKinds{NodeKind::kBuilding, NodeKind::kWall,   NodeKind::kTree, NodeKind::kLamp,
+                                      NodeKind::kOther,    NodeKind::kGround, NodeKind::kDoor, NodeKind::kExit,
+                                      NodeKind::kLoiter,   NodeKind::kNone};
+const std::array<GroundKind, 4> kGrounds{GroundKind::kCarriageway, GroundKind::kPavement, GroundKind::kSquare,
+                                         GroundKind::kGrass};
 
 // The value of that name, or an error that lists the known ones.
 template <typename Kind, size_t n>
-Error FromName(const char* tag, const std::string& name, const std::array<Kind, n>& kinds,
-               const char* (*name_of)(Kind), Kind* out) {
+Error FromName(const char* tag, const std::string& name, const std::array<Kind, n>& kinds, const char* (*name_of)(Kind),
+               Kind* out) {
   std::vector<std::string> names;
   for (const Kind kind : kinds) {
     names.emplace_back(name_of(kind));
@@ -27,8 +27,8 @@ Error FromName(const char* tag, const std::string& name, const std::array<Kind, 
   }
   std::string known;
   for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
-  return Fail(std::string(tag) + " '" + OneLine(name) + "' is unknown" + DidYouMean(name, names) +
-              " (known: " + known + ")");
+  return Fail(std::string(tag) + " '" + OneLine(name) + "' is unknown" + DidYouMean(name, names) + " (known: " + known +
+              ")");
 }
 
 // A node's own tags over its parent's; sizes belong to the tag that they stand beside.
@@ -45,8 +45,7 @@ Error ApplyTags(const NodeTags& tags, const SceneNode* parent, SceneNode* node) 
     if (Error e = FromName("flaneur_kind", tags.kind, kKinds, NodeKindName, &node->kind)) return e;
   }
   if (!tags.ground.empty()) {
-    if (Error e =
-            FromName("flaneur_ground", tags.ground, kGrounds, GroundKindName, &node->ground)) {
+    if (Error e = FromName("flaneur_ground", tags.ground, kGrounds, GroundKindName, &node->ground)) {
       return e;
     }
   }
@@ -70,10 +69,7 @@ bool Mirrors(const Mat4& m) {
 class MeshTable {
  public:
   MeshTable(GltfDocument* document, Scene* scene)
-      : document_(document),
-        scene_(scene),
-        plain_(document->meshes.size()),
-        mirrored_(document->meshes.size()) {}
+      : document_(document), scene_(scene), plain_(document->meshes.size()), mirrored_(document->meshes.size()) {}
 
   const std::vector<int>& Use(int mesh, bool mirrored) {
     std::vector<int>& indices = At((mirrored ? mirrored_ : plain_), mesh);
@@ -96,8 +92,7 @@ class MeshTable {
 
 }  // namespace
 
-Error ReadGltfScene(const std::filesystem::path& path, Scene* scene,
-                     std::vector<std::string>* warnings) {
+Error ReadGltfScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings) {
   GltfDocument document;
   std::vector<std::string> notes;
   if (Error e = LoadGltf(path, &document, &notes)) return e;
@@ -115,8 +110,7 @@ Error ReadGltfScene(const std::filesystem::path& path, Scene* scene,
     node.name = in.name;
     node.parent = in.parent < 0 ? -1 : At(index, in.parent);
     node.world = At(world, i);
-    const SceneNode* parent =
-        node.parent < 0 ? nullptr : &At(scene->nodes, node.parent);
+    const SceneNode* parent = node.parent < 0 ? nullptr : &At(scene->nodes, node.parent);
     if (Error e = ApplyTags(in.tags, parent, &node)) {
       return Fail(document.path + ": node '" + OneLine(in.name) + "': " + e.message);
     }

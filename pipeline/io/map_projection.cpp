@@ -32,7 +32,9 @@ std::string OtherUnit(PJ_CONTEXT* context, const PJ* plane) {
   const Object axes(proj_crs_get_coordinate_system(context, plane));
   double metres = 1;
   const char* name = nullptr;
-  if (!axes || !proj_cs_get_axis_info(context, axes.get(), 0, nullptr, nullptr, nullptr, &metres, &name, nullptr, nullptr)) return {};
+  if (!axes ||
+      !proj_cs_get_axis_info(context, axes.get(), 0, nullptr, nullptr, nullptr, &metres, &name, nullptr, nullptr))
+    return {};
   return std::abs(metres - 1) < 1e-9 || !name ? "" : name;
 }
 
@@ -52,7 +54,10 @@ class Ways {
 
  private:
   static constexpr size_t kMaxKeptWays = 8;
-  struct Way { std::string from, to; Object transform; };
+  struct Way {
+    std::string from, to;
+    Object transform;
+  };
   Context context_ = MakeContext();  // outlives the ways
   std::vector<Way> ways_;
 };
@@ -61,7 +66,8 @@ class Ways {
 
 std::string LocalMapSystem(Point2 longitude_latitude) {
   char text[120];
-  std::snprintf(text, sizeof text, "+proj=tmerc +lat_0=%.2f +lon_0=%.2f +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +type=crs",
+  std::snprintf(text, sizeof text,
+                "+proj=tmerc +lat_0=%.2f +lon_0=%.2f +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +type=crs",
                 longitude_latitude.y, longitude_latitude.x);
   return text;
 }
@@ -101,14 +107,16 @@ Error FindMapSystem(const std::string& name, MapSystem* system) {
 
 bool IsUsedAt(const MapSystem& system, Point2 longitude_latitude, double slack_deg) {
   const auto [x, y] = longitude_latitude;
-  return x > system.west - slack_deg && x < system.east + slack_deg && y > system.south - slack_deg && y < system.north + slack_deg;
+  return x > system.west - slack_deg && x < system.east + slack_deg && y > system.south - slack_deg &&
+         y < system.north + slack_deg;
 }
 
 Error CheckMapPlace(const std::string& system, Point2 at_m, std::vector<std::string>* warnings) {
   MapSystem map;
   if (Error error = FindMapSystem(system, &map)) return Fail(error.message + "; use a name such as EPSG:25832");
   const std::string unit = map.degrees ? "degrees" : map.other_unit;
-  if (!unit.empty()) return Fail("coordinate system '" + system + "' has " + unit + "; a town needs one in metres, such as EPSG:25832");
+  if (!unit.empty())
+    return Fail("coordinate system '" + system + "' has " + unit + "; a town needs one in metres, such as EPSG:25832");
   char at[80];
   std::snprintf(at, sizeof at, "(%.10g, %.10g)", at_m.x, at_m.y);
   if (map.has_area && (at_m.x != 0 || at_m.y != 0) && IsUsedAt(map, at_m))
@@ -120,8 +128,10 @@ Error CheckMapPlace(const std::string& system, Point2 at_m, std::vector<std::str
                 "' is for; the coordinates are in another system, or their origin is missing");
   if (warnings && !IsUsedAt(map, place[0], kBesideUse_deg)) {
     char text[160];
-    std::snprintf(text, sizeof text, " is at %.2f degrees east, %.2f north, beside the area that '%s' is for (%g to %g east, %g to %g north)",
-                  place[0].x, place[0].y, system.c_str(), map.west, map.east, map.south, map.north);
+    std::snprintf(
+        text, sizeof text,
+        " is at %.2f degrees east, %.2f north, beside the area that '%s' is for (%g to %g east, %g to %g north)",
+        place[0].x, place[0].y, system.c_str(), map.west, map.east, map.south, map.north);
     warnings->push_back(at + std::string(text) + "; are these a neighbouring zone's coordinates?");
   }
   return Ok();

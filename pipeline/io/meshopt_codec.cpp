@@ -33,8 +33,7 @@ Error ReadCompressed(const tinygltf::Value& extension, size_t bytes, Compressed*
     return value.IsString() ? value.Get<std::string>() : std::string();
   };
   const double count = number("count"), stride = number("byteStride");
-  if (!(count >= 0 && stride >= 1 && stride <= 256) ||
-      count * stride > static_cast<double>(bytes) * kMaxBytesAByte) {
+  if (!(count >= 0 && stride >= 1 && stride <= 256) || count * stride > static_cast<double>(bytes) * kMaxBytesAByte) {
     return Fail("has a broken count or byteStride");
   }
   out->count = static_cast<size_t>(count);
@@ -53,8 +52,7 @@ bool Decoded(const Compressed& view, std::span<const uint8_t> bytes, uint8_t* ou
     return meshopt_decodeIndexBuffer(out, view.count, view.stride, bytes.data(), bytes.size()) == 0;
   }
   if (view.mode == "INDICES" && index) {
-    return meshopt_decodeIndexSequence(out, view.count, view.stride, bytes.data(), bytes.size()) ==
-           0;
+    return meshopt_decodeIndexSequence(out, view.count, view.stride, bytes.data(), bytes.size()) == 0;
   }
   return false;
 }
@@ -87,8 +85,7 @@ Error DecodeView(tinygltf::Model* model, int index) {
   tinygltf::Buffer buffer;
   // Filters work on four elements at once.
   buffer.data.resize((compressed.count + 3) / 4 * 4 * compressed.stride);
-  if (!Decoded(compressed, bytes, buffer.data.data()) ||
-      !Unfilter(compressed, buffer.data.data())) {
+  if (!Decoded(compressed, bytes, buffer.data.data()) || !Unfilter(compressed, buffer.data.data())) {
     return Fail(name + " holds broken compressed data");
   }
   view.byteOffset = 0;

@@ -50,9 +50,14 @@ class Reader {
   }
 
  private:
-  struct Object { std::string name; size_t first_face; };
+  struct Object {
+    std::string name;
+    size_t first_face;
+  };
 
-  Error Bad(const std::string& why) const { return Fail(OneLine(path_.string() + ":" + std::to_string(line_) + ": " + why)); }
+  Error Bad(const std::string& why) const {
+    return Fail(OneLine(path_.string() + ":" + std::to_string(line_) + ": " + why));
+  }
 
   Error TakeLine(std::string_view line) {
     const std::string_view key = NextWord(&line);
@@ -85,14 +90,16 @@ class Reader {
       const auto known = static_cast<int64_t>(points_.size());
       if (value < 0) value += known + 1;
       if (problem != std::errc() || end != index.data() + index.size() || value < 1 || value > known)
-        return Bad("'" + std::string(word.substr(0, 20)) + "' is none of the " + std::to_string(known) + " vertices so far");
+        return Bad("'" + std::string(word.substr(0, 20)) + "' is none of the " + std::to_string(known) +
+                   " vertices so far");
       corners_.push_back(static_cast<uint32_t>(value - 1));
     }
     sizes_.push_back(count);
     return Ok();
   }
 
-  // Of the faces that stand along each axis: walls stand along the axis that is up, roofs and floors along none or another.
+  // Of the faces that stand along each axis: walls stand along the axis that is up, roofs and floors along none or
+  // another.
   Point3 StandingArea_m2() const {
     Point3 standing{};
     size_t corner = 0;
@@ -100,7 +107,8 @@ class Reader {
       Point3 normal{};  // twice the area long
       for (uint32_t i = 0; i < size; ++i) {
         const Point3 &a = points_[corners_[corner + i]], &b = points_[corners_[corner + (i + 1) % size]];
-        normal = {normal.x + (a.y - b.y) * (a.z + b.z), normal.y + (a.z - b.z) * (a.x + b.x), normal.z + (a.x - b.x) * (a.y + b.y)};
+        normal = {normal.x + (a.y - b.y) * (a.z + b.z), normal.y + (a.z - b.z) * (a.x + b.x),
+                  normal.z + (a.x - b.x) * (a.y + b.y)};
       }
       corner += size;
       const double length = std::sqrt(normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);

@@ -41,7 +41,8 @@ Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std
   const bool city = text.find("\"CityJSON\"") != std::string::npos || text.find("\"CityObjects\"") != std::string::npos;
   if (first == '{' && city) return ReadCityJson(path, scene, warnings);
   if (HasExtension(path, ".obj")) return ReadObj(path, scene, warnings);
-  if (first == '{' && path.extension() != ".gltf" && path.extension() != ".glb") return ReadCityJson(path, scene, warnings);
+  if (first == '{' && path.extension() != ".gltf" && path.extension() != ".glb")
+    return ReadCityJson(path, scene, warnings);
   return ReadGltfScene(path, scene, warnings);
 }
 

@@ -1,4 +1,5 @@
-// Towns in: glTF 2.0 (.glb, .gltf), OBJ, CityJSON 1.0 to 2.0, CityJSONSeq, CityGML 1.0 and 2.0; .blend, .fbx and .dae by Blender.
+// Towns in: glTF 2.0 (.glb, .gltf), OBJ, CityJSON 1.0 to 2.0, CityJSONSeq, CityGML 1.0 and 2.0; .blend, .fbx and .dae
+// by Blender.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -9,13 +10,13 @@
 
 namespace flaneur {
 
-// Reads a town of any of these formats, told by the content, Blender's by the name. Coordinates far from zero are moved near it and
-// `scene->origin_m` says by how much. City models: each building with its parts and installations is one node, named by its
-// id; its finest level of detail up to 3 counts; closure surfaces and rooms are left out; ground surfaces become its
-// foundation; terrain and roads are ground, plants trees. OBJ: each `o`, else each `g`, is an untagged node.
-// `warnings` gets one line for each kind of thing left out or guessed.
-// Errors: unreadable or broken file (names the line or element), a number that is none, an index out of range, a document
-// type in XML, degrees instead of metres, nothing to see.
+// Reads a town of any of these formats, told by the content, Blender's by the name. Coordinates far from zero are moved
+// near it and `scene->origin_m` says by how much. City models: each building with its parts and installations is one
+// node, named by its id; its finest level of detail up to 3 counts; closure surfaces and rooms are left out; ground
+// surfaces become its foundation; terrain and roads are ground, plants trees. OBJ: each `o`, else each `g`, is an
+// untagged node. `warnings` gets one line for each kind of thing left out or guessed. Errors: unreadable or broken file
+// (names the line or element), a number that is none, an index out of range, a document type in XML, degrees instead of
+// metres, nothing to see.
 Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings = nullptr);
 
 // One format each.

@@ -17,7 +17,8 @@ constexpr double kFarFromOrigin_m = 10'000;  // floats there are coarser than a 
 constexpr double kFarthest_m = 1e8;
 constexpr double kOriginStep_m = 100;
 
-// A house in degrees is narrower than 50 m are, and yet higher than this; nobody's town lies at longitude and latitude zero.
+// A house in degrees is narrower than 50 m are, and yet higher than this; nobody's town lies at longitude and latitude
+// zero.
 constexpr double kHouse_deg = 5e-4, kHouseHeight_m = 0.5, kNullIsland_deg = 1;
 
 struct Extent {
@@ -35,7 +36,10 @@ bool IsHouseInDegrees(const Extent& e) {
          std::hypot(middle.x, middle.y) > kNullIsland_deg && std::abs(middle.x) <= 180 && std::abs(middle.y) <= 180;
 }
 
-struct SurfaceLook { const char* name; Vec4 color; };
+struct SurfaceLook {
+  const char* name;
+  Vec4 color;
+};
 constexpr std::array<SurfaceLook, 4> kLooks{{{"other", {0.55f, 0.53f, 0.50f, 1}},
                                              {"wall", {0.72f, 0.66f, 0.55f, 1}},
                                              {"roof", {0.36f, 0.13f, 0.08f, 1}},
@@ -101,7 +105,8 @@ bool TownBuilder::IsInDegrees() const {
   std::map<int, Extent> extents;  // by node
   for (const Triangle& t : triangles_)
     for (const Point3& p : {t.a, t.b, t.c}) extents[t.node].Add(p);
-  const auto in_degrees = std::count_if(extents.begin(), extents.end(), [](const auto& e) { return IsHouseInDegrees(e.second); });
+  const auto in_degrees =
+      std::count_if(extents.begin(), extents.end(), [](const auto& e) { return IsHouseInDegrees(e.second); });
   return 2 * static_cast<size_t>(in_degrees) > extents.size();
 }
 
@@ -114,9 +119,11 @@ Error TownBuilder::Finish(const std::string& file, const std::string& reference_
   for (const Triangle& t : triangles_)
     for (const Point3& p : {t.a, t.b, t.c})
       if (!(std::abs(p.x) < kFarthest_m && std::abs(p.y) < kFarthest_m && std::abs(p.z) < kFarthest_m))
-        return Fail(OneLine(file + ": '" + At(nodes_, t.node).name + "' reaches farther than any map: a coordinate is beyond 100,000 km"));
+        return Fail(OneLine(file + ": '" + At(nodes_, t.node).name +
+                            "' reaches farther than any map: a coordinate is beyond 100,000 km"));
   if (IsInDegrees())
-    return Fail(OneLine(file + ": the coordinates are degrees; bring them into a map system in metres, such as EPSG:25832, first"));
+    return Fail(OneLine(
+        file + ": the coordinates are degrees; bring them into a map system in metres, such as EPSG:25832, first"));
   *scene = {};
   scene->reference_system = reference_system;
   Point2 min{1e300, 1e300}, max{-1e300, -1e300};
@@ -153,7 +160,8 @@ std::string PlainReferenceSystem(const std::string& text) {
   if (std::regex_search(text, found, std::regex("EPSG(?:[:/][0-9.]*)?[:/]([0-9]{4,6})", std::regex::icase)))
     return "EPSG:" + found[1].str();
   if (std::regex_search(text, found, std::regex("ETRS89_UTM([0-9]{2})"))) return "EPSG:258" + found[1].str();
-  if (std::regex_search(text, found, std::regex("DE_DHDN_3GK([2-5])"))) return "EPSG:3146" + std::to_string(std::stoi(found[1]) + 4);
+  if (std::regex_search(text, found, std::regex("DE_DHDN_3GK([2-5])")))
+    return "EPSG:3146" + std::to_string(std::stoi(found[1]) + 4);
   return OneLine(text);
 }
 

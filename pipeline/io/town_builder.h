@@ -21,22 +21,26 @@ class TownBuilder {
   void AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings);
 
   // Coordinates far from zero are moved by whole hundreds of metres: see Scene::origin_m. Nodes without triangles stay
-  // where something hangs on them. Errors: nothing but polygons without area, degrees, a coordinate beyond 100,000 km; each
-  // names `file`.
+  // where something hangs on them. Errors: nothing but polygons without area, degrees, a coordinate beyond 100,000 km;
+  // each names `file`.
   Error Finish(const std::string& file, const std::string& reference_system, Scene* scene,
                std::vector<std::string>* warnings);
 
  private:
   bool IsInDegrees() const;  // most nodes
-  struct Triangle { int node; SurfaceKind surface; Point3 a, b, c; };
+  struct Triangle {
+    int node;
+    SurfaceKind surface;
+    Point3 a, b, c;
+  };
   std::vector<SceneNode> nodes_;
   std::vector<int> foundations_;
   std::vector<Triangle> triangles_;
   int without_area_ = 0;
 };
 
-// "EPSG:25832" from the ways in which files name a reference system (urn, URL, plain, AdV's urn); the text itself where it
-// is none of them.
+// "EPSG:25832" from the ways in which files name a reference system (urn, URL, plain, AdV's urn); the text itself where
+// it is none of them.
 std::string PlainReferenceSystem(const std::string& text);
 
 }  // namespace flaneur

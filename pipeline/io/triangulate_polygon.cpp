@@ -16,8 +16,12 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 constexpr uint32_t kNoPoint = UINT32_MAX;
-struct VertexInfo { uint32_t point = kNoPoint; };
-struct FaceInfo { int depth = -1; };
+struct VertexInfo {
+  uint32_t point = kNoPoint;
+};
+struct FaceInfo {
+  int depth = -1;
+};
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
 using FaceBase =
     CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
@@ -31,7 +35,8 @@ Point3 Normal(const std::vector<Point3>& ring) {
   Point3 n;
   const Point3 o = ring[0];
   for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Point3 a{ring[j].x - o.x, ring[j].y - o.y, ring[j].z - o.z}, b{ring[i].x - o.x, ring[i].y - o.y, ring[i].z - o.z};
+    const Point3 a{ring[j].x - o.x, ring[j].y - o.y, ring[j].z - o.z},
+        b{ring[i].x - o.x, ring[i].y - o.y, ring[i].z - o.z};
     n.x += a.y * b.z - a.z * b.y;
     n.y += a.z * b.x - a.x * b.z;
     n.z += a.x * b.y - a.y * b.x;

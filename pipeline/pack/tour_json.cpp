@@ -41,7 +41,9 @@ struct SettingsWriter {
   void Angle(const char* stem, float* radians, double, double) const {
     (*json)[std::string(stem) + "_rad"] = Short(*radians);
   }
-  void Choice(const char* name, std::string* value, std::initializer_list<const char*>) const { (*json)[name] = *value; }
+  void Choice(const char* name, std::string* value, std::initializer_list<const char*>) const {
+    (*json)[name] = *value;
+  }
 };
 
 template <typename Settings>
@@ -97,19 +99,22 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
     }
   }
   Json json{{"name", person.name},
-          {"share", Short(avatar.share)},
-          {"height_m", Short(person.height_m)},
-          {"radius_m", Short(person.radius_m)},
-          {"walk_speed_mps", Short(person.walk_speed_mps)},
-          {"clips", clips},
-          {"levels", levels},
-          {"impostor", ImpostorJson(avatar.impostor, views)}};
+            {"share", Short(avatar.share)},
+            {"height_m", Short(person.height_m)},
+            {"radius_m", Short(person.radius_m)},
+            {"walk_speed_mps", Short(person.walk_speed_mps)},
+            {"clips", clips},
+            {"levels", levels},
+            {"impostor", ImpostorJson(avatar.impostor, views)}};
   for (const Tint& tint : avatar.tints) json["tints"].push_back(TintJson(tint));
   for (size_t k = 0; k < person.props.size(); ++k) {
     int triangles = 0;
     for (const Mesh& mesh : person.props[k].meshes) triangles += TriangleCount(mesh);
-    json["props"].push_back({{"name", person.props[k].name}, {"node", part.prop_nodes[k]}, {"triangles", triangles},
-                             {"share", Short(avatar.props[k].share)}, {"slot", avatar.props[k].slot}});
+    json["props"].push_back({{"name", person.props[k].name},
+                             {"node", part.prop_nodes[k]},
+                             {"triangles", triangles},
+                             {"share", Short(avatar.props[k].share)},
+                             {"slot", avatar.props[k].slot}});
   }
   return json;
 }
@@ -130,8 +135,10 @@ Json ObstacleJson(const Obstacle& obstacle) {
 }
 
 Json StopJson(const TourStop& stop, const TourIndices& indices) {
-  Json json{{"position_m", PointJson(stop.position_m)}, {"yaw_rad", Short(stop.yaw_rad)},
-            {"pause_s", Short(stop.pause_s)}, {"caption", stop.caption}};
+  Json json{{"position_m", PointJson(stop.position_m)},
+            {"yaw_rad", Short(stop.yaw_rad)},
+            {"pause_s", Short(stop.pause_s)},
+            {"caption", stop.caption}};
   for (const auto& [language, caption] : stop.captions) json["captions"][language] = caption;
   for (const auto& [language, sound] : stop.sounds) {
     json["sounds"][language] = {{"view", At(indices.sounds, sound.sound)}, {"duration_s", Short(sound.duration_s)}};
@@ -154,15 +161,18 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
                     {"height_view", indices.height_view},     {"kind_view", indices.kind_view}};
   tour["places"] = Json::array();
   for (const Place& p : parts.places) {
-    tour["places"].push_back({{"name", p.name}, {"kind", p.kind}, {"position_m", PointJson(p.position_m)},
-                              {"width_m", Short(p.width_m)}});
+    tour["places"].push_back(
+        {{"name", p.name}, {"kind", p.kind}, {"position_m", PointJson(p.position_m)}, {"width_m", Short(p.width_m)}});
     if (p.yaw_rad) tour["places"].back()["yaw_rad"] = Short(*p.yaw_rad);
   }
   if (indices.people_view >= 0) {
     const Painting& p = parts.painting;
-    tour["painting"] = {{"min_m", PointJson(p.min_m)},        {"cell_m", Short(p.cell_m)},
-                        {"columns", p.columns},               {"rows", p.rows},
-                        {"people_view", indices.people_view}, {"loiter_view", indices.loiter_view}};
+    tour["painting"] = {{"min_m", PointJson(p.min_m)},
+                        {"cell_m", Short(p.cell_m)},
+                        {"columns", p.columns},
+                        {"rows", p.rows},
+                        {"people_view", indices.people_view},
+                        {"loiter_view", indices.loiter_view}};
   }
   tour["path"] = Json::array();
   for (const TourStop& s : parts.path) tour["path"].push_back(StopJson(s, indices));

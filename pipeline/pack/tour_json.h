@@ -9,12 +9,14 @@
 namespace flaneur {
 
 // An impostor's buffer views.
-struct ImpostorViews { int cells = -1, albedo = -1, normal = -1, depth = -1, motion = -1; };
+struct ImpostorViews {
+  int cells = -1, albedo = -1, normal = -1, depth = -1, motion = -1;
+};
 
 // Where the glTF part of the pack put what the extension refers to.
 struct TourIndices {
   std::vector<AvatarPart> avatars;
-  std::vector<ImpostorViews> impostors;    // one an avatar
+  std::vector<ImpostorViews> impostors;  // one an avatar
   int height_view = -1, kind_view = -1;
   int people_view = -1, loiter_view = -1;  // -1: no painting
   std::vector<int> sounds;                 // views, by sound

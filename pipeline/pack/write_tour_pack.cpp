@@ -64,7 +64,8 @@ std::vector<Mesh> Baked(std::vector<Mesh> meshes, const Mat4& world) {
 std::string TagExtras(const SceneNode& node) {
   if (node.kind == NodeKind::kUntagged) return "";
   std::string json = std::string("{\"flaneur_kind\":\"") + NodeKindName(node.kind) + "\"";
-  if (node.kind == NodeKind::kGround) json += std::string(",\"flaneur_ground\":\"") + GroundKindName(node.ground) + "\"";
+  if (node.kind == NodeKind::kGround)
+    json += std::string(",\"flaneur_ground\":\"") + GroundKindName(node.ground) + "\"";
   return json + "}";
 }
 
@@ -102,10 +103,12 @@ Error AddTown(const Scene& town, GltfBuilder* builder) {
 ImpostorViews AddImpostor(const ImpostorAtlas& atlas, GltfBuilder* builder) {
   std::vector<int16_t> cells;
   for (const ImpostorCell& c : atlas.cells) {
-    for (int number : {c.x, c.y, c.width, c.height, c.origin_x, c.origin_y}) cells.push_back(static_cast<int16_t>(number));
+    for (int number : {c.x, c.y, c.width, c.height, c.origin_x, c.origin_y})
+      cells.push_back(static_cast<int16_t>(number));
   }
   ImpostorViews views;
-  views.cells = builder->AddBufferView({reinterpret_cast<const uint8_t*>(cells.data()), cells.size() * sizeof(int16_t)});
+  views.cells =
+      builder->AddBufferView({reinterpret_cast<const uint8_t*>(cells.data()), cells.size() * sizeof(int16_t)});
   views.albedo = builder->AddBufferView(atlas.albedo_ktx2);
   views.normal = builder->AddBufferView(atlas.normal_ktx2);
   views.depth = builder->AddBufferView(atlas.depth_ktx2);
@@ -135,8 +138,8 @@ Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, s
   if (Error e = AddTown(parts.town, &builder)) return e;
   if (Error e = AddAvatars(parts, &builder, &indices)) return e;
   const auto& heights = parts.ground.height_m;
-  indices.height_view = builder.AddBufferView(
-      {reinterpret_cast<const uint8_t*>(heights.data()), heights.size() * sizeof(float)});
+  indices.height_view =
+      builder.AddBufferView({reinterpret_cast<const uint8_t*>(heights.data()), heights.size() * sizeof(float)});
   indices.kind_view = builder.AddBufferView(parts.ground.kind);
   if (parts.painting.columns > 0) {
     indices.people_view = builder.AddBufferView(parts.painting.people);

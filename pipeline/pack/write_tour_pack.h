@@ -1,4 +1,5 @@
-// Everything a bake made, written as one tour pack: a glTF binary that any viewer opens, with the tour in its root extension.
+// Everything a bake made, written as one tour pack: a glTF binary that any viewer opens, with the tour in its root
+// extension.
 #pragma once
 #include <filesystem>
 #include <vector>

@@ -1,5 +1,5 @@
-// Arrays and the whole numbers that point into them: ids and indices are int where a file or another array holds them, sizes of
-// arrays are size_t. The step from one to the other is here, once.
+// Arrays and the whole numbers that point into them: ids and indices are int where a file or another array holds them,
+// sizes of arrays are size_t. The step from one to the other is here, once.
 #pragma once
 #include <concepts>
 #include <cstddef>

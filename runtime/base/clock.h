@@ -4,7 +4,9 @@
 
 namespace flaneur {
 
-inline double Now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+inline double Now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 inline double Now_ms() { return 1000 * Now_s(); }
 
 }  // namespace flaneur

@@ -23,8 +23,8 @@ Error ReadTextFile(const std::filesystem::path& path, std::string* text);
 Error WriteFile(const std::filesystem::path& path, std::span<const uint8_t> bytes);
 Error WriteTextFile(const std::filesystem::path& path, std::string_view text);
 
-// What WriteFile would complain of by now, told before long work instead of after it: a folder in the way, no permission, a disk
-// that is full already. Leaves nothing behind.
+// What WriteFile would complain of by now, told before long work instead of after it: a folder in the way, no
+// permission, a disk that is full already. Leaves nothing behind.
 Error CheckWritable(const std::filesystem::path& path);
 
 }  // namespace flaneur

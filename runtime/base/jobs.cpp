@@ -22,7 +22,8 @@ enum class Stage { kWaits, kRuns, kDone };
 struct Jobs::Impl {
   std::mutex mutex;
   std::condition_variable asked, put_down;  // there is work; some job runs no longer
-  std::array<std::deque<std::shared_ptr<Job::State>>, 2> queues;  // by urgency; those whom somebody else took stay in, and are passed over
+  std::array<std::deque<std::shared_ptr<Job::State>>, 2>
+      queues;  // by urgency; those whom somebody else took stay in, and are passed over
   bool ends = false;
   std::vector<std::thread> threads;
 

@@ -1,6 +1,6 @@
-// Work beside the caller's: the one place where threads come from. Whoever runs the program gives a Jobs, and says how many threads it
-// has. None is as good: then the work is done in the caller's thread, slice by slice, where its owner has time for it. What comes out
-// must not depend on that.
+// Work beside the caller's: the one place where threads come from. Whoever runs the program gives a Jobs, and says how
+// many threads it has. None is as good: then the work is done in the caller's thread, slice by slice, where its owner
+// has time for it. What comes out must not depend on that.
 //
 // Wherever a Jobs* is asked for, null means the same as one without threads.
 #pragma once
@@ -61,8 +61,9 @@ size_t ThreadsOfThisMachine();
 // Has the slices done one after the other, until one is the last.
 Job StartJob(Jobs* jobs, Slice slice, Urgency urgency = Urgency::kAwaited);
 
-// Calls work(0) ... work(count - 1), each once, in the caller's thread and all others, in any order; returns when all are done.
-// Of exceptions that calls throw, the one of the least index is thrown here again; calls that had not begun by then are left out.
+// Calls work(0) ... work(count - 1), each once, in the caller's thread and all others, in any order; returns when all
+// are done. Of exceptions that calls throw, the one of the least index is thrown here again; calls that had not begun
+// by then are left out.
 void ParallelFor(Jobs* jobs, size_t count, const std::function<void(size_t)>& work);
 
 }  // namespace flaneur

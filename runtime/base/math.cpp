@@ -14,13 +14,10 @@ Mat4 operator*(const Mat4& a, const Mat4& b) {
   return out;
 }
 
-Vec3 TransformPoint(const Mat4& m, Vec3 p) {
-  return TransformDirection(m, p) + Vec3{m.m[3][0], m.m[3][1], m.m[3][2]};
-}
+Vec3 TransformPoint(const Mat4& m, Vec3 p) { return TransformDirection(m, p) + Vec3{m.m[3][0], m.m[3][1], m.m[3][2]}; }
 
 Vec3 TransformDirection(const Mat4& m, Vec3 d) {
-  return {m.m[0][0] * d.x + m.m[1][0] * d.y + m.m[2][0] * d.z,
-          m.m[0][1] * d.x + m.m[1][1] * d.y + m.m[2][1] * d.z,
+  return {m.m[0][0] * d.x + m.m[1][0] * d.y + m.m[2][0] * d.z, m.m[0][1] * d.x + m.m[1][1] * d.y + m.m[2][1] * d.z,
           m.m[0][2] * d.x + m.m[1][2] * d.y + m.m[2][2] * d.z};
 }
 
@@ -86,8 +83,7 @@ Quat Slerp(Quat a, Quat b, float t) {
     wb = std::sin(t * angle) / std::sin(angle);
   }
   wb *= sign;
-  return Normalized(Quat{wa * a.x + wb * b.x, wa * a.y + wb * b.y, wa * a.z + wb * b.z,
-                         wa * a.w + wb * b.w});
+  return Normalized(Quat{wa * a.x + wb * b.x, wa * a.y + wb * b.y, wa * a.z + wb * b.z, wa * a.w + wb * b.w});
 }
 
 }  // namespace flaneur

@@ -7,10 +7,18 @@ namespace flaneur {
 
 inline constexpr float kPi = 3.14159265358979f;
 
-struct Vec2 { float x = 0, y = 0; };
-struct Vec3 { float x = 0, y = 0, z = 0; };
-struct Vec4 { float x = 0, y = 0, z = 0, w = 0; };
-struct Quat { float x = 0, y = 0, z = 0, w = 1; };  // unit quaternion, glTF order
+struct Vec2 {
+  float x = 0, y = 0;
+};
+struct Vec3 {
+  float x = 0, y = 0, z = 0;
+};
+struct Vec4 {
+  float x = 0, y = 0, z = 0, w = 0;
+};
+struct Quat {
+  float x = 0, y = 0, z = 0, w = 1;
+};  // unit quaternion, glTF order
 
 inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
 inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
@@ -23,9 +31,7 @@ inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}
 inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Vec3 operator*(Vec3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
 inline float Dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 Cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+inline Vec3 Cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline float Length(Vec3 a) { return std::sqrt(Dot(a, a)); }
 // The zero vector stays zero.
 inline Vec3 Normalized(Vec3 a) {

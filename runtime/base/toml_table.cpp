@@ -29,9 +29,8 @@ bool ReadPair(const toml::node& node, double largest, double* x, double* y) {
 
 void TomlContext::Refuse(const toml::node* node, const std::string& why) {
   if (error) return;
-  const std::string line = node != nullptr && node->source().begin.line > 0
-                               ? ":" + std::to_string(node->source().begin.line)
-                               : "";
+  const std::string line =
+      node != nullptr && node->source().begin.line > 0 ? ":" + std::to_string(node->source().begin.line) : "";
   error = Fail(path.string() + line + ": " + why);
 }
 
@@ -42,16 +41,15 @@ Error ReadToml(const std::filesystem::path& path, toml::table* root) {
     *root = toml::parse(text, path.string());
     return Ok();
   } catch (const toml::parse_error& e) {
-    return Fail(path.string() + ":" + std::to_string(e.source().begin.line) + ": not TOML: " + OneLine(e.description()));
+    return Fail(path.string() + ":" + std::to_string(e.source().begin.line) +
+                ": not TOML: " + OneLine(e.description()));
   }
 }
 
 TomlTable::TomlTable(TomlContext* context, const toml::table* table, std::string name)
     : context_(context), table_(table), name_(std::move(name)) {}
 
-std::string TomlTable::Name(const char* key) const {
-  return name_.empty() ? key : name_ + "." + key;
-}
+std::string TomlTable::Name(const char* key) const { return name_.empty() ? key : name_ + "." + key; }
 
 const toml::node* TomlTable::Find(const char* key) {
   keys_.push_back(key);
@@ -68,8 +66,8 @@ bool TomlTable::ReadNumber(const char* key, bool integer, double least, double m
   }
   *number = *node->value<double>();
   if (!(*number >= least && *number <= most)) {
-    context_->Refuse(node, Name(key) + " is " + Compact(*number) + ", it must be from " + Compact(least) + " to " +
-                               Compact(most));
+    context_->Refuse(
+        node, Name(key) + " is " + Compact(*number) + ", it must be from " + Compact(least) + " to " + Compact(most));
     return false;
   }
   return true;
@@ -158,7 +156,9 @@ void TomlTable::Colors(const char* key, std::vector<Vec3>* values) {
   values->clear();
   for (const std::string& text : texts) {
     const auto color = ColorFromText(text);
-    if (!color) return context_->Refuse(table_->get(key), Name(key) + ": '" + OneLine(text) + "' must be a colour such as \"#2f4f8f\"");
+    if (!color)
+      return context_->Refuse(table_->get(key),
+                              Name(key) + ": '" + OneLine(text) + "' must be a colour such as \"#2f4f8f\"");
     values->push_back(*color);
   }
 }
@@ -203,7 +203,8 @@ std::filesystem::path TomlTable::Beside(const std::string& file) const {
 void TomlTable::Translations(const char* key, const std::string& own, std::map<std::string, std::string>* texts) {
   const toml::node* node = Find(key);
   if (node == nullptr) return;
-  const char* const wanted = " must be text in quotes, or a table of texts by language such as { en = \"...\", de = \"...\" }";
+  const char* const wanted =
+      " must be text in quotes, or a table of texts by language such as { en = \"...\", de = \"...\" }";
   if (node->is_string()) {
     (*texts)[own] = *node->value<std::string>();
     return;
@@ -255,8 +256,8 @@ void TomlTable::Finish() {
   for (const auto& [key, node] : *table_) {
     const std::string name(key.str());
     if (std::find(keys_.begin(), keys_.end(), name) != keys_.end()) continue;
-    context_->Refuse(&node, "unknown key '" + name + "'" + (name_.empty() ? "" : " in [" + name_ + "]") +
-                                DidYouMean(name, keys_));
+    context_->Refuse(
+        &node, "unknown key '" + name + "'" + (name_.empty() ? "" : " in [" + name_ + "]") + DidYouMean(name, keys_));
   }
 }
 

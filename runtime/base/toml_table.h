@@ -53,10 +53,10 @@ class TomlTable {
   void Point(const char* key, Vec2* value);
   void Points(const char* key, std::vector<Vec2>* values);
   void MapPoint(const char* key, double* east_m, double* north_m);  // of any size, in full precision
-  void File(const char* key, std::filesystem::path* value);  // relative to the file's folder
+  void File(const char* key, std::filesystem::path* value);         // relative to the file's folder
   // Texts by language: one text, which is in `own`, or a table of them.
   void Translations(const char* key, const std::string& own, std::map<std::string, std::string>* texts);
-  void Json(const char* key, std::string* json);             // a table, as a JSON object
+  void Json(const char* key, std::string* json);                // a table, as a JSON object
   std::filesystem::path Beside(const std::string& file) const;  // the same of a name that was read otherwise
   // The table, or array of tables, under the key.
   TomlTable Table(const char* key);

@@ -8,9 +8,10 @@ namespace {
 
 Vec2 Direction(float yaw_rad) { return {std::cos(yaw_rad), std::sin(yaw_rad)}; }
 
-// Two overlapping circles over the visible high-resolution area, the second over the edge towards which the camera turns.
-void AddCameraObstacles(const ViewCamera& camera, float yaw_rate_radps, const LevelState& levels, const ControlSettings& s,
-                        Crowd* crowd, std::vector<MovingObstacle>* obstacles) {
+// Two overlapping circles over the visible high-resolution area, the second over the edge towards which the camera
+// turns.
+void AddCameraObstacles(const ViewCamera& camera, float yaw_rate_radps, const LevelState& levels,
+                        const ControlSettings& s, Crowd* crowd, std::vector<MovingObstacle>* obstacles) {
   if (levels.high < levels.limit) return;
   const float r = s.r_high_m / 2;
   const float side = yaw_rate_radps >= 0 ? 1.0f : -1.0f;
@@ -25,8 +26,8 @@ void AddCameraObstacles(const ViewCamera& camera, float yaw_rate_radps, const Le
 }  // namespace
 
 void InfluenceCrowd(const ViewCamera& camera, const ViewMotion& motion, const LevelState& levels,
-                    const Walkable& walkable, const ControlSettings& s, Crowd* crowd, std::vector<MovingObstacle>* obstacles,
-                    ForesightState* foresight) {
+                    const Walkable& walkable, const ControlSettings& s, Crowd* crowd,
+                    std::vector<MovingObstacle>* obstacles, ForesightState* foresight) {
   if (s.adaptation == Adaptation::kFull) {
     Foresee(camera, motion, walkable, s, levels.limit, crowd, foresight);
   } else if (s.adaptation == Adaptation::kPaper) {

@@ -8,7 +8,9 @@ namespace {
 
 constexpr uint8_t kNoWay = 0, kCutOff = 1, kOpen = 2;
 
-size_t Index(const Enclosure& e, int x, int y) { return static_cast<size_t>(y) * static_cast<size_t>(e.columns) + static_cast<size_t>(x); }
+size_t Index(const Enclosure& e, int x, int y) {
+  return static_cast<size_t>(y) * static_cast<size_t>(e.columns) + static_cast<size_t>(x);
+}
 
 void Frame(const Walkable& w, Vec2 visitor, float reach_m, Enclosure* e) {
   const int reach = static_cast<int>(reach_m * w.cells_per_m);

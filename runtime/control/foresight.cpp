@@ -13,25 +13,25 @@ using State = ForesightState;
 using Forecast = State::Forecast;
 
 constexpr int kPlanEvery_steps = 5;
-constexpr float kMoment_s = 0.5f;          // between the moments looked at
+constexpr float kMoment_s = 0.5f;                       // between the moments looked at
 constexpr int kTurnMoments[State::kTurns] = {0, 2, 4};  // the first is now
-constexpr float kReach_m = 8;              // beyond r_high: who may be inside within the foresight
-constexpr float kRim_m = 0.6f;             // the forecast is that uncertain
-constexpr float kReserve = 0.2f;           // share of the limit kept free for surprises
-constexpr int kReservesFrom = 5;           // people; of a smaller limit everybody is needed
-constexpr float kTurnLasts_s = 1.0f;       // a turn of the head dies away
-constexpr float kWalksOn_s = 2.6f;         // in the new direction after a turn,
-constexpr float kWalksOn_m = 8;            // at most so far
-constexpr float kDetour_s = 2.0f;          // a choice holds so long
-constexpr float kAheadFree_s = 1.5f;       // and must be walkable so far
+constexpr float kReach_m = 8;                           // beyond r_high: who may be inside within the foresight
+constexpr float kRim_m = 0.6f;                          // the forecast is that uncertain
+constexpr float kReserve = 0.2f;                        // share of the limit kept free for surprises
+constexpr int kReservesFrom = 5;                        // people; of a smaller limit everybody is needed
+constexpr float kTurnLasts_s = 1.0f;                    // a turn of the head dies away
+constexpr float kWalksOn_s = 2.6f;                      // in the new direction after a turn,
+constexpr float kWalksOn_m = 8;                         // at most so far
+constexpr float kDetour_s = 2.0f;                       // a choice holds so long
+constexpr float kAheadFree_s = 1.5f;                    // and must be walkable so far
 constexpr float kPaces[] = {1.0f, 0.85f, 1.2f, 0.75f, 0.45f};
 constexpr float kTurns_rad[] = {0, 0.3f, -0.3f, 0.6f, -0.6f, 1.0f, -1.0f, 1.5f, -1.5f};
 constexpr float kMaxTurnInView_rad = 1.1f;
 constexpr float kMinPaceInView = 0.8f;  // who dawdles is noticed
 constexpr float kCostInView = 1.35f;
 constexpr float kCostUnseen = 0.1f;  // moments in the way that one radian is worth
-constexpr float kCostOfPace = 1.5f;        // of doubling the pace, in radians
-constexpr float kStepsAside_s = 3;         // people make room for the visitor so long before
+constexpr float kCostOfPace = 1.5f;  // of doubling the pace, in radians
+constexpr float kStepsAside_s = 3;   // people make room for the visitor so long before
 constexpr float kRoom_m = 0.15f;
 constexpr float kBlockingCounts = 3;       // moments that holding the visitor up is worth
 constexpr float kTurnsInView = 0.5f;       // what the visitor may turn to matters that much to people in view
@@ -52,7 +52,8 @@ void FollowCamera(const ViewCamera& camera, const ViewMotion& motion, float step
   for (int m = 0; m < State::kMoments; ++m) {
     const float t = MomentTime_s(m);
     const Vec2 position = camera.position + state->motion.velocity * t;
-    const Vec2 axis = DirectionOf(camera.yaw_rad + state->motion.yaw_rate_radps * kTurnLasts_s * (1 - std::exp(-t / kTurnLasts_s)));
+    const Vec2 axis =
+        DirectionOf(camera.yaw_rad + state->motion.yaw_rate_radps * kTurnLasts_s * (1 - std::exp(-t / kTurnLasts_s)));
     state->views[static_cast<size_t>(m)] = {position, position - axis * (kRim_m / state->sine), axis};
   }
 }
@@ -72,9 +73,7 @@ bool InTurningReach(const State& state, float r_high_m, Vec2 off) {
   return Dot(off, off) < reach_m * reach_m;
 }
 
-int SectorOf(Vec2 off) {
-  return static_cast<int>((AngleOf(off) / (2 * kPi) + 1) * State::kSectors) % State::kSectors;
-}
+int SectorOf(Vec2 off) { return static_cast<int>((AngleOf(off) / (2 * kPi) + 1) * State::kSectors) % State::kSectors; }
 
 Vec2 OwnWay(const Crowd& c, size_t i) {
   return c.activity[i] == Activity::kWalking && c.field[i] >= 0 ? c.way[i] * c.preferred_mps[i] : Vec2{};
@@ -105,7 +104,8 @@ Forecast Forecasted(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, con
   for (int m = SoonestMoment(c, i, velocity, r_high_m, state); m < State::kMoments; ++m) {
     if (WouldBeInView(c, i, velocity, r_high_m, m, state)) f.in_view |= 1u << m;
   }
-  for (int k = 0; k < State::kTurns; ++k) f.sector[static_cast<size_t>(k)] = static_cast<int8_t>(WouldBeInSector(c, i, velocity, r_high_m, k, state));
+  for (int k = 0; k < State::kTurns; ++k)
+    f.sector[static_cast<size_t>(k)] = static_cast<int8_t>(WouldBeInSector(c, i, velocity, r_high_m, k, state));
   return f;
 }
 
@@ -123,7 +123,8 @@ void MeasureExcess(float fov_rad, int capacity, State* state) {
     if (state->seen[static_cast<size_t>(m)] > capacity) state->overfull_moments |= 1u << m;
   }
   // One sector more than the view is wide: it may lie across them anyhow.
-  const int width = std::clamp(static_cast<int>(std::ceil(fov_rad / (2 * kPi) * State::kSectors)) + 1, 1, State::kSectors);
+  const int width =
+      std::clamp(static_cast<int>(std::ceil(fov_rad / (2 * kPi) * State::kSectors)) + 1, 1, State::kSectors);
   for (int k = 0; k < State::kTurns; ++k) {
     const auto& around = state->around[static_cast<size_t>(k)];
     auto& excess = state->excess[static_cast<size_t>(k)];
@@ -167,7 +168,8 @@ float TimesInTheWay(const Crowd& c, size_t i, const Forecast& f, bool blocks, co
 }
 
 // The same with another velocity, counted no further than `enough`. Where the person is now they are with any velocity.
-float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, const ControlSettings& s, float enough, const State& state) {
+float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, const ControlSettings& s, float enough,
+                    const State& state) {
   float times = Blocks(c, i, velocity, s.r_personal_m, state) ? kBlockingCounts : 0;
   for (uint32_t left = state.overfull_moments; left != 0 && times < enough; left &= left - 1) {
     if (WouldBeInView(c, i, velocity, s.r_high_m, std::countr_zero(left), state)) ++times;
@@ -180,11 +182,10 @@ float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, 
   return times;
 }
 
-bool CanWalk(const Walkable& w, Vec2 from, Vec2 way) {
-  return IsFree(w, from + way * 0.5f) && IsFree(w, from + way);
-}
+bool CanWalk(const Walkable& w, Vec2 from, Vec2 way) { return IsFree(w, from + way * 0.5f) && IsFree(w, from + way); }
 
-void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forecast& forecast, Crowd* crowd, State* state) {
+void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forecast& forecast, Crowd* crowd,
+              State* state) {
   Crowd& c = *crowd;
   const Vec2 desired = Desired(c, i);
   const float now = TimesInTheWay(c, i, forecast, Blocks(c, i, desired, s.r_personal_m, *state), *state);
@@ -200,8 +201,10 @@ void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forec
   const float cost = seen ? kCostInView : kCostUnseen;
   const Vec2 off = c.position[i] - state->views[2].position;
   const float off_m = std::max(Length(off), 1e-3f);
-  const Vec2 ahead = stands ? off * (1 / off_m) : desired * (1 / Length(desired));  // who stands walks away from where the visitor will be
-  const float now_mps = stands ? c.preferred_mps[i] : Length(desired), preferred_mps = std::max(c.preferred_mps[i], 0.1f);
+  const Vec2 ahead = stands ? off * (1 / off_m)
+                            : desired * (1 / Length(desired));  // who stands walks away from where the visitor will be
+  const float now_mps = stands ? c.preferred_mps[i] : Length(desired),
+              preferred_mps = std::max(c.preferred_mps[i], 0.1f);
   State::Choice best{0, static_cast<int>(i), {}};
   for (const float pace : kPaces) {
     const float speed_mps = std::min(pace * preferred_mps, c.top_mps[i]);
@@ -213,7 +216,8 @@ void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forec
       if (at_best <= best.gain) continue;
       const Vec2 velocity = Rotated(ahead, turn) * speed_mps;
       const float gain = at_best - TimesInTheWay(c, i, velocity, forecast, s, at_best - best.gain + kAny, *state);
-      if (gain > best.gain && CanWalk(w, c.position[i], velocity * kAheadFree_s)) best.gain = gain, best.velocity = velocity;
+      if (gain > best.gain && CanWalk(w, c.position[i], velocity * kAheadFree_s))
+        best.gain = gain, best.velocity = velocity;
     }
   }
   if (best.gain > 0) state->choices.push_back(best);
@@ -221,7 +225,8 @@ void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forec
 
 void Choose(const ControlSettings& s, float fov_rad, int capacity, Crowd* c, State* state) {
   std::sort(state->choices.begin(), state->choices.end(), [&](const State::Choice& a, const State::Choice& b) {
-    return a.gain != b.gain ? a.gain > b.gain : c->id[static_cast<size_t>(a.person)] < c->id[static_cast<size_t>(b.person)];
+    return a.gain != b.gain ? a.gain > b.gain
+                            : c->id[static_cast<size_t>(a.person)] < c->id[static_cast<size_t>(b.person)];
   });
   for (const State::Choice& choice : state->choices) {
     const size_t i = static_cast<size_t>(choice.person);
@@ -244,7 +249,8 @@ void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable&
   FollowCamera(camera, motion, Step_s(s), state);
   state->high_limit = high_limit;
   if (state->step++ % kPlanEvery_steps != 0) return;
-  const int reserve = high_limit < kReservesFrom ? 0 : static_cast<int>(std::lround(kReserve * static_cast<float>(high_limit)));
+  const int reserve =
+      high_limit < kReservesFrom ? 0 : static_cast<int>(std::lround(kReserve * static_cast<float>(high_limit)));
   const int capacity = high_limit - reserve;
   const float reach_m = s.r_high_m + kReach_m + state->speed_mps * MomentTime_s(State::kMoments - 1);
   state->near.clear();

@@ -12,20 +12,20 @@ namespace {
 
 using Memory = LevelState::Memory;
 
-constexpr float kFall_mps = 2.0f;            // r_high moves no faster than people walk,
-constexpr float kRise_mps = 0.5f;            // and comes back slowly: whoever it passes over switches in view
-constexpr float kHeadroom = 8.0f;            // of a newly chosen level: serves up to so many times the pixels
-constexpr float kReserve = 0.2f;             // of limit and budget, kept for those who come into view near
+constexpr float kFall_mps = 2.0f;                      // r_high moves no faster than people walk,
+constexpr float kRise_mps = 0.5f;                      // and comes back slowly: whoever it passes over switches in view
+constexpr float kHeadroom = 8.0f;                      // of a newly chosen level: serves up to so many times the pixels
+constexpr float kReserve = 0.2f;                       // of limit and budget, kept for those who come into view near
 constexpr float kFallGain = 0.08f, kRiseGain = 0.02f;  // a step, of the relative error of the frame time (method 2)
-constexpr float kBudgetInUse = 0.8f;         // share of the budget from which on it is in use
-constexpr float kPropShare = 0.1f;           // of the budget, that props may take,
-constexpr float kShadowShare = 0.2f;         // and shadows,
-constexpr float kShadowRim_m = 1.0f;         // even of those who stand so near the view
-constexpr float kBodyRim_m = 0.8f;           // a body, skirts and shadow reach so far beyond its middle into the view
-constexpr float kSmoothing = 0.03f;          // a step, of what a person in high resolution and all shadows cost
+constexpr float kBudgetInUse = 0.8f;                   // share of the budget from which on it is in use
+constexpr float kPropShare = 0.1f;                     // of the budget, that props may take,
+constexpr float kShadowShare = 0.2f;                   // and shadows,
+constexpr float kShadowRim_m = 1.0f;                   // even of those who stand so near the view
+constexpr float kBodyRim_m = 0.8f;   // a body, skirts and shadow reach so far beyond its middle into the view
+constexpr float kSmoothing = 0.03f;  // a step, of what a person in high resolution and all shadows cost
 constexpr float kMinBudget_triangles = 1000;
-constexpr float kFastCamera_mps = 2.0f;      // above it fidelity may fall,
-constexpr float kFastShare = 0.85f;          // to so much of the target
+constexpr float kFastCamera_mps = 2.0f;  // above it fidelity may fall,
+constexpr float kFastShare = 0.85f;      // to so much of the target
 
 float PixelsHigh(float height_m, float distance_m, const ViewCamera& camera, int screen_width_px) {
   const float focal_px = static_cast<float>(screen_width_px) / (2 * std::tan(camera.fov_rad / 2));
@@ -39,7 +39,9 @@ void FollowFrameTime(float frame_ms, float camera_speed_mps, const ControlSettin
   const float target_ms = camera_speed_mps > kFastCamera_mps ? s.target_ms * kFastShare : s.target_ms;
   const float error = std::clamp((target_ms - frame_ms) / target_ms, -1.0f, 1.0f);
   // A budget that nobody uses says nothing about the frame time, and must not grow on it.
-  if (error > 0 && static_cast<float>(state->triangles + state->shadows.triangles) < kBudgetInUse * state->budget_triangles) return;
+  if (error > 0 &&
+      static_cast<float>(state->triangles + state->shadows.triangles) < kBudgetInUse * state->budget_triangles)
+    return;
   state->budget_triangles = std::clamp(state->budget_triangles * (1 + (error < 0 ? kFallGain : kRiseGain) * error),
                                        std::min(kMinBudget_triangles, most), most);
 }
@@ -52,7 +54,8 @@ int CoarsestAt(const AvatarCosts& avatar, float px) {
   return static_cast<int>(avatar.levels.size()) - 1;
 }
 
-// How many people in high resolution the budget affords, all others in view as impostors: each costs what they did of late.
+// How many people in high resolution the budget affords, all others in view as impostors: each costs what they did of
+// late.
 int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
   if (state->high > 0) {
     const int64_t besides = state->fading_triangles + state->props.triangles + int64_t{kImpostorTriangles} * state->low;
@@ -60,7 +63,8 @@ int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
     state->triangles_a_person += kSmoothing * (meshes / static_cast<float>(state->high) - state->triangles_a_person);
   } else if (state->triangles_a_person <= 0) {
     for (const AvatarCosts& avatar : avatars) {
-      state->triangles_a_person = std::max(state->triangles_a_person, static_cast<float>(avatar.levels.front().triangles));
+      state->triangles_a_person =
+          std::max(state->triangles_a_person, static_cast<float>(avatar.levels.front().triangles));
     }
   }
   // As many shadows as of late, so that the limit does not sway with whose is in view.
@@ -70,8 +74,8 @@ int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
   return std::max(1, static_cast<int>(left / std::max(state->triangles_a_person, 1.0f)));
 }
 
-// Who comes near starts with the level that serves until half the distance, and keeps it until it is far too fine: every switch
-// is one that could be seen.
+// Who comes near starts with the level that serves until half the distance, and keeps it until it is far too fine:
+// every switch is one that could be seen.
 int WantedMesh(const AvatarCosts& avatar, float px, Level last) {
   const int coarsest = CoarsestAt(avatar, px);
   const int finest = CoarsestAt(avatar, px * kHeadroom);
@@ -87,11 +91,15 @@ Level AffordableLevel(const AvatarCosts& avatar, int wanted, int64_t budget, int
 }
 
 int TrianglesOf(Level level, const AvatarCosts& avatar) {
-  return IsMesh(level) ? avatar.levels[static_cast<size_t>(level.mesh)].triangles : IsDrawn(level) ? kImpostorTriangles : 0;
+  return IsMesh(level)    ? avatar.levels[static_cast<size_t>(level.mesh)].triangles
+         : IsDrawn(level) ? kImpostorTriangles
+                          : 0;
 }
 
 // The outer view volume with whoever reaches into the view.
-ViewVolumes WithRim(const ViewCamera& c, float rim_m) { return VolumesOf(c, rim_m / std::max(0.1f, std::sin(c.fov_rad / 2))); }
+ViewVolumes WithRim(const ViewCamera& c, float rim_m) {
+  return VolumesOf(c, rim_m / std::max(0.1f, std::sin(c.fov_rad / 2)));
+}
 
 void EndChange(Memory* m) {
   m->level.from = kNotDrawn;
@@ -141,7 +149,8 @@ void ListGone(const Crowd& crowd, LevelState* state) {
     if (!left_town || !m.in_view) {
       m = {};
     } else {
-      if (IsDrawn(m.level.level)) m.level = {kNotDrawn, m.level.level, 0}, m.from_triangles = m.triangles, m.triangles = 0;
+      if (IsDrawn(m.level.level))
+        m.level = {kNotDrawn, m.level.level, 0}, m.from_triangles = m.triangles, m.triangles = 0;
       if (IsDrawn(m.level)) state->gone.push_back({slot, m.id, m.level});
     }
   }
@@ -150,7 +159,8 @@ void ListGone(const Crowd& crowd, LevelState* state) {
 // What still fades counts, and where the budget has become smaller than that, nothing fades any more.
 void CountFading(int64_t budget, LevelState* state) {
   state->fading_triangles = 0;
-  for (int slot : state->drawn_before) state->fading_triangles += state->memory[static_cast<size_t>(slot)].from_triangles;
+  for (int slot : state->drawn_before)
+    state->fading_triangles += state->memory[static_cast<size_t>(slot)].from_triangles;
   if (state->fading_triangles <= budget) return;
   for (int slot : state->drawn_before) EndChange(&state->memory[static_cast<size_t>(slot)]);
   state->fading_triangles = 0;
@@ -162,25 +172,29 @@ void ListPropBearers(const Crowd& crowd, const std::vector<AvatarCosts>& avatars
   for (const LevelState::Visible& v : state->visible) {
     const auto i = static_cast<size_t>(v.person);
     const std::vector<Prop>& props = avatars[static_cast<size_t>(crowd.avatar[i])].props;
-    if (!props.empty() && v.distance_m < kPropReach_m) state->props.bearers.push_back({crowd.slot[i], v.id, &props, v.distance_m});
+    if (!props.empty() && v.distance_m < kPropReach_m)
+      state->props.bearers.push_back({crowd.slot[i], v.id, &props, v.distance_m});
   }
 }
 
 // Who is in view, or so near it that their shadow may be.
-void ListShadowCasters(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera, LevelState* state) {
+void ListShadowCasters(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ViewCamera& camera,
+                       LevelState* state) {
   state->shadows.casters.clear();
   state->casts_shadow.assign(crowd.size(), 0);
   const ViewVolumes around = WithRim(camera, kShadowRim_m);
   for (size_t i = 0; i < crowd.size(); ++i) {
     if (crowd.view[i] == ViewClass::kOutside) continue;
     const Vec2 off = crowd.position[i] - camera.position;
-    if (Dot(off, off) >= kShadowReach_m * kShadowReach_m || Classify(crowd.position[i], around) == ViewClass::kOutside) continue;
+    if (Dot(off, off) >= kShadowReach_m * kShadowReach_m || Classify(crowd.position[i], around) == ViewClass::kOutside)
+      continue;
     state->casts_shadow[i] = 1;
     state->shadows.casters.push_back({Length(off), avatars[static_cast<size_t>(crowd.avatar[i])].shadow});
   }
 }
 
-// r_high moves towards the distance that leaves `limit` people inside: soon where there are more, slowly where there are fewer.
+// r_high moves towards the distance that leaves `limit` people inside: soon where there are more, slowly where there
+// are fewer.
 void MoveBoundary(const ControlSettings& s, LevelState* state) {
   float wanted_m = s.r_high_m;
   state->nearest.clear();
@@ -202,7 +216,8 @@ void PutInOrder(int64_t drawable, std::vector<LevelState::Visible>* visible) {
   std::sort(visible->begin(), end, IsServedBefore);
 }
 
-// What somebody is drawn with from this step on. fades: where there is room for both, what they were drawn with fades out.
+// What somebody is drawn with from this step on. fades: where there is room for both, what they were drawn with fades
+// out.
 void Change(Level level, int triangles, bool fades, int64_t budget, Memory* m, LevelState* state) {
   if (level == m->level.level) return;
   state->triangles -= m->from_triangles;
@@ -233,9 +248,11 @@ struct Serving {
   int64_t budget = 0, drawable = 0;  // triangles without shadows; people who fit as impostors
 };
 
-Level LevelFor(const LevelState::Visible& v, const AvatarCosts& avatar, float px, Level last, const Serving& serving, const LevelState& state) {
+Level LevelFor(const LevelState::Visible& v, const AvatarCosts& avatar, float px, Level last, const Serving& serving,
+               const LevelState& state) {
   const float share = v.priority == kAppears ? 1 - kReserve : 1.0f;
-  if (v.priority == kStays || static_cast<float>(state.high) >= share * static_cast<float>(state.limit)) return kImpostor;
+  if (v.priority == kStays || static_cast<float>(state.high) >= share * static_cast<float>(state.limit))
+    return kImpostor;
   const auto budget = static_cast<int64_t>(share * static_cast<float>(serving.budget));
   return AffordableLevel(avatar, WantedMesh(avatar, px, last), budget, state.triangles);
 }
@@ -267,7 +284,8 @@ void Serve(const LevelState::Visible& v, bool fits, const Serving& serving, Leve
 std::array<ViewVolumes, 3> VolumesUntilNextStep(const LevelQuery& query, float step_s, const LevelState& state) {
   ViewCamera next = query.camera;
   next.yaw_rad = WrapAngle(next.yaw_rad + query.motion.yaw_rate_radps * step_s);
-  return {WithRim(query.camera, kBodyRim_m), WithRim(state.started ? state.camera : query.camera, kBodyRim_m), WithRim(next, kBodyRim_m)};
+  return {WithRim(query.camera, kBodyRim_m), WithRim(state.started ? state.camera : query.camera, kBodyRim_m),
+          WithRim(next, kBodyRim_m)};
 }
 
 // Whose middle is outside the view but not all of them, and who is in view but too far away.
@@ -278,10 +296,14 @@ void ServeRim(const Serving& serving, float step_s, LevelState* state) {
     const auto i = static_cast<size_t>(person);
     Memory& m = state->memory[static_cast<size_t>(crowd.slot[i])];
     const bool in_view = crowd.view[i] == ViewClass::kVisible;
-    const auto shows = [&](const ViewVolumes& view) { return Classify(crowd.position[i], view) != ViewClass::kOutside; };
+    const auto shows = [&](const ViewVolumes& view) {
+      return Classify(crowd.position[i], view) != ViewClass::kOutside;
+    };
     Level level = kNotDrawn;
-    if (!in_view && std::any_of(volumes.begin(), volumes.end(), shows)) level = IsDrawn(m.level.level) ? m.level.level : kImpostor;
-    Change(level, TrianglesOf(level, serving.avatars[static_cast<size_t>(crowd.avatar[i])]), in_view, serving.budget, &m, state);
+    if (!in_view && std::any_of(volumes.begin(), volumes.end(), shows))
+      level = IsDrawn(m.level.level) ? m.level.level : kImpostor;
+    Change(level, TrianglesOf(level, serving.avatars[static_cast<size_t>(crowd.avatar[i])]), in_view, serving.budget,
+           &m, state);
     m.in_view = in_view;
     Keep(crowd, i, m, state);
   }
@@ -316,7 +338,8 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
   PutInOrder(drawable, &state->visible);
 
   state->people.assign(crowd.size(), {});
-  state->triangles = std::min<int64_t>(static_cast<int64_t>(state->visible.size()), drawable) * kImpostorTriangles + besides;
+  state->triangles =
+      std::min<int64_t>(static_cast<int64_t>(state->visible.size()), drawable) * kImpostorTriangles + besides;
   state->high = state->low = state->shortfalls = state->switches_in_view = 0;
   const Serving serving{crowd, avatars, query, budget, drawable};
   int64_t rank = 0;

@@ -12,12 +12,15 @@ namespace flaneur {
 inline constexpr int kImpostorTriangles = 2;
 inline constexpr int kUsualWidth_px = 1280;  // of a picture, where nothing is drawn
 
-struct LevelCost { int triangles = 0; float switch_px = 0; };  // needed at this height on screen or above
+struct LevelCost {
+  int triangles = 0;
+  float switch_px = 0;
+};  // needed at this height on screen or above
 
 struct AvatarCosts {
   std::vector<LevelCost> levels;  // finest first
   float height_m = 1.75f;
-  float impostor_px = 128;        // height of its picture: adequate below one screen pixel per texel
+  float impostor_px = 128;  // height of its picture: adequate below one screen pixel per texel
   std::vector<Prop> props = {};
   ShadowCost shadow = {};
 };
@@ -25,34 +28,37 @@ struct AvatarCosts {
 // What levels are chosen for in this step.
 struct LevelQuery {
   ViewCamera camera;
-  ViewMotion motion;           // of the camera, in this step
-  float frame_ms = 0;          // what the last frame took, for LimitMethod::kFrameTime; 0: not known
+  ViewMotion motion;                     // of the camera, in this step
+  float frame_ms = 0;                    // what the last frame took, for LimitMethod::kFrameTime; 0: not known
   int screen_width_px = kUsualWidth_px;  // of the picture
-  int first_id = -1;           // who is served before all others, and so is no impostor while anybody is a mesh; -1: nobody
+  int first_id = -1;  // who is served before all others, and so is no impostor while anybody is a mesh; -1: nobody
 };
 
 struct LevelState {
-  float r_high_m = 0;              // in force; 0 before the first step
-  float budget_triangles = 0;      // in force
-  float triangles_a_person = 0;    // in high resolution, averaged over the last while; method 2
-  float shadow_triangles = 0;      // of everybody, likewise
-  int limit = 0;                   // most people in high resolution, in force
+  float r_high_m = 0;            // in force; 0 before the first step
+  float budget_triangles = 0;    // in force
+  float triangles_a_person = 0;  // in high resolution, averaged over the last while; method 2
+  float shadow_triangles = 0;    // of everybody, likewise
+  int limit = 0;                 // most people in high resolution, in force
 
-  std::vector<PersonLevel> people; // by person index
-  struct Gone { int slot = 0, id = 0; PersonLevel level; };
-  std::vector<Gone> gone;          // who has left the town before the visitor's eyes: they fade where they were
+  std::vector<PersonLevel> people;  // by person index
+  struct Gone {
+    int slot = 0, id = 0;
+    PersonLevel level;
+  };
+  std::vector<Gone> gone;             // who has left the town before the visitor's eyes: they fade where they were
   std::vector<uint8_t> casts_shadow;  // by person index; how far it reaches is in `shadows`
   // Of those whose middle is in view.
   int high = 0, low = 0, shortfalls = 0, switches_in_view = 0;
-  int64_t triangles = 0;           // of everybody in view, with props and the levels that fade out, but without shadows
-  int64_t fading_triangles = 0;    // of them, of levels that fade out
+  int64_t triangles = 0;         // of everybody in view, with props and the levels that fade out, but without shadows
+  int64_t fading_triangles = 0;  // of them, of levels that fade out
   Props props;
   Shadows shadows;
   bool exceeded = false;
 
-  ViewMotion motion;               // the camera's, averaged over a moment
-  ViewCamera camera;               // of the last step
-  bool started = false;            // there was one
+  ViewMotion motion;     // the camera's, averaged over a moment
+  ViewCamera camera;     // of the last step
+  bool started = false;  // there was one
 
   // What is remembered of somebody from step to step.
   struct Memory {
@@ -62,13 +68,17 @@ struct LevelState {
     bool in_view = false;                   // in the last step, with their middle
     bool here = false;                      // in this step, in view or on its rim
   };
-  std::vector<Memory> memory;      // by slot
+  std::vector<Memory> memory;            // by slot
   std::vector<int> drawn, drawn_before;  // slots: of who is drawn in this step, and was in the last
 
-  struct Visible { float distance_m, key_m; int person, id; uint8_t priority; };
-  std::vector<Visible> visible;    // scratch
-  std::vector<int> rim;            // scratch: indices of who is drawn, if at all, though the choice is not about them
-  std::vector<float> nearest;      // scratch
+  struct Visible {
+    float distance_m, key_m;
+    int person, id;
+    uint8_t priority;
+  };
+  std::vector<Visible> visible;  // scratch
+  std::vector<int> rim;          // scratch: indices of who is drawn, if at all, though the choice is not about them
+  std::vector<float> nearest;    // scratch
 };
 
 // The level of who is in view, chosen for this step; kNotDrawn: of all others.
@@ -76,12 +86,13 @@ inline Level LevelInView(const Crowd& crowd, const LevelState& state, size_t i) 
   return crowd.view[i] == ViewClass::kVisible ? state.people[i].level : kNotDrawn;
 }
 
-// Chooses everybody's level for this frame. LimitMethod::kCount keeps high_limit; with kFrameTime the budget follows the frame time towards
-// target_ms, or 0.85 of it while the camera moves fast (paper, section 3.2), and the limit is what the budget affords. The budget
-// is for all triangles together, shadows included, and
-// holds whatever happens: who does not fit becomes an impostor, and where even those do not fit, the farthest are not drawn. A change
-// of level, and appearing or vanishing within the view, is faded where the budget has room for both levels. Whose middle is just beyond
-// the view's edge keeps the level in which they left, or is an impostor; neither budget nor limit are about them.
+// Chooses everybody's level for this frame. LimitMethod::kCount keeps high_limit; with kFrameTime the budget follows
+// the frame time towards target_ms, or 0.85 of it while the camera moves fast (paper, section 3.2), and the limit is
+// what the budget affords. The budget is for all triangles together, shadows included, and holds whatever happens: who
+// does not fit becomes an impostor, and where even those do not fit, the farthest are not drawn. A change of level, and
+// appearing or vanishing within the view, is faded where the budget has room for both levels. Whose middle is just
+// beyond the view's edge keeps the level in which they left, or is an impostor; neither budget nor limit are about
+// them.
 void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ControlSettings& settings,
                   const LevelQuery& query, LevelState* state);
 

@@ -11,22 +11,30 @@ inline constexpr float kPropReach_m = 35;  // beyond it props are not drawn,
 inline constexpr float kPropFade_m = 7;    // and over so much before it they fade
 
 // Somebody in view and within reach whose avatar has props.
-struct PropBearer { int slot = 0, id = 0; const std::vector<Prop>* props = nullptr; float distance_m = 0; };
+struct PropBearer {
+  int slot = 0, id = 0;
+  const std::vector<Prop>* props = nullptr;
+  float distance_m = 0;
+};
 
 struct Props {
   int64_t triangles = 0;            // of all that are shown
   std::vector<PropBearer> bearers;  // of this step, to be set before ChooseProps
 
-  struct Memory { int id = -1; uint8_t shown = 0; bool bore = false, served = false; };  // bore: was among the bearers of the last step
-  std::vector<Memory> memory;       // by slot
-  std::vector<int> before;          // slots of the last step's bearers
+  struct Memory {
+    int id = -1;
+    uint8_t shown = 0;
+    bool bore = false, served = false;
+  };                           // bore: was among the bearers of the last step
+  std::vector<Memory> memory;  // by slot
+  std::vector<int> before;     // slots of the last step's bearers
 };
 
 // What a person has, by id alone; bit k: the k-th.
 uint8_t PropsOf(const std::vector<Prop>& props, int id);
 
-// Whose props are shown. They may take `room_triangles` together: who has shown them keeps them before others get any, the nearest
-// first, and nothing appears on who is in view already.
+// Whose props are shown. They may take `room_triangles` together: who has shown them keeps them before others get any,
+// the nearest first, and nothing appears on who is in view already.
 void ChooseProps(int64_t room_triangles, Props* state);
 
 // Those that are shown; bit k: the k-th.

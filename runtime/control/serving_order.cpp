@@ -16,7 +16,8 @@ constexpr float kLong_s = 1e3f;
 
 // How long somebody stays in view if the camera and they go on as they do.
 float StaysInView_s(Vec2 off, Vec2 velocity, const ViewMotion& motion, const ViewEdges& edges) {
-  const Vec2 drift = velocity - motion.velocity + Vec2{off.y, -off.x} * motion.yaw_rate_radps;  // as seen from a camera that turns
+  const Vec2 drift =
+      velocity - motion.velocity + Vec2{off.y, -off.x} * motion.yaw_rate_radps;  // as seen from a camera that turns
   float stays_s = kLong_s;
   for (const Vec2 inward : edges.inward) {
     const float outward_mps = -Dot(inward, drift);
@@ -58,7 +59,8 @@ LevelState::Visible InOrder(const Crowd& crowd, size_t i, Vec2 off, Level last, 
   if (first) return {distance_m, -1e9f, static_cast<int>(i), crowd.id[i], kWithin};
   float key_m = distance_m - (IsMesh(last) ? kHysteresis_m : 0);
   Priority priority = key_m < state.r_high_m ? kWithin : IsMesh(last) ? kHolds : IsDrawn(last) ? kStays : kAppears;
-  if (priority == kWithin && last == kImpostor && LeavesSoon(off, crowd.velocity[i], state.motion, edges)) priority = kStays;
+  if (priority == kWithin && last == kImpostor && LeavesSoon(off, crowd.velocity[i], state.motion, edges))
+    priority = kStays;
   if (priority == kAppears) key_m = ComesWithin_m(crowd, i, off, state.motion);
   return {distance_m, key_m, static_cast<int>(i), crowd.id[i], priority};
 }

@@ -4,18 +4,22 @@
 
 namespace flaneur {
 
-// Within r_high in force by distance, and who is a mesh keeps being one until somebody is nearer by kHysteresis_m; then who is a mesh
-// anyway, as long as nobody else needs the place; then who comes into view, since nobody sees them change, by how near they will come.
-// Whoever was seen as an impostor stays one until r_high reaches them, and beyond that where they leave the view soon and do not pass
-// close.
+// Within r_high in force by distance, and who is a mesh keeps being one until somebody is nearer by kHysteresis_m; then
+// who is a mesh anyway, as long as nobody else needs the place; then who comes into view, since nobody sees them
+// change, by how near they will come. Whoever was seen as an impostor stays one until r_high reaches them, and beyond
+// that where they leave the view soon and do not pass close.
 enum Priority : uint8_t { kWithin, kHolds, kAppears, kStays };
 
 // Where the view's two edges have people on their inner side.
-struct ViewEdges { Vec2 inward[2]; };
+struct ViewEdges {
+  Vec2 inward[2];
+};
 ViewEdges EdgesOf(const ViewCamera& camera);
 
-// off: from the camera; last: what they were drawn as in the last step, if they were in view; first: they are served before all others.
-LevelState::Visible InOrder(const Crowd& crowd, size_t i, Vec2 off, Level last, const ViewEdges& edges, bool first, const LevelState& state);
+// off: from the camera; last: what they were drawn as in the last step, if they were in view; first: they are served
+// before all others.
+LevelState::Visible InOrder(const Crowd& crowd, size_t i, Vec2 off, Level last, const ViewEdges& edges, bool first,
+                            const LevelState& state);
 
 // a is served before b.
 bool IsServedBefore(const LevelState::Visible& a, const LevelState::Visible& b);

@@ -6,10 +6,11 @@
 namespace flaneur {
 namespace {
 
-constexpr float kStep_m = 0.5f;      // of the distances
+constexpr float kStep_m = 0.5f;  // of the distances
 constexpr float kRise_mps = 1.0f;
 
-// The farthest multiple of kStep_m up to `most_m` within which `cost_of` all casters adds up to `room`; what it adds up to in `spent`.
+// The farthest multiple of kStep_m up to `most_m` within which `cost_of` all casters adds up to `room`; what it adds up
+// to in `spent`.
 float FarthestWithin_m(float most_m, int64_t room, auto cost_of, Shadows* s, int64_t* spent) {
   s->by_distance.assign(static_cast<size_t>(std::ceil(most_m / kStep_m)), 0);
   for (const ShadowCaster& caster : s->casters) {
@@ -28,11 +29,13 @@ float FarthestWithin_m(float most_m, int64_t room, auto cost_of, Shadows* s, int
 void ChooseShadows(int64_t room_triangles, float step_s, Shadows* state) {
   const float rise_m = kRise_mps * step_s;
   int64_t coarse = 0, finer = 0;
-  state->reach_m = FarthestWithin_m(std::min(kShadowReach_m, state->reach_m + rise_m), room_triangles,
-                                    [](const ShadowCaster& c) { return int64_t{c.cost.coarse_triangles}; }, state, &coarse);
-  state->fine_m = FarthestWithin_m(std::min({kFineShadow_m, state->fine_m + rise_m, state->reach_m}), room_triangles - coarse, [](const ShadowCaster& c) {
-    return int64_t{std::max(0, c.cost.fine_triangles - c.cost.coarse_triangles)};
-  }, state, &finer);
+  state->reach_m = FarthestWithin_m(
+      std::min(kShadowReach_m, state->reach_m + rise_m), room_triangles,
+      [](const ShadowCaster& c) { return int64_t{c.cost.coarse_triangles}; }, state, &coarse);
+  state->fine_m = FarthestWithin_m(
+      std::min({kFineShadow_m, state->fine_m + rise_m, state->reach_m}), room_triangles - coarse,
+      [](const ShadowCaster& c) { return int64_t{std::max(0, c.cost.fine_triangles - c.cost.coarse_triangles)}; },
+      state, &finer);
   state->triangles = coarse + finer;
 }
 

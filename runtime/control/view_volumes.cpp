@@ -6,12 +6,13 @@
 namespace flaneur {
 
 float OuterApexBack_m(const MotionLimits& m, float fov_rad) {
-  const float motion_m =
-      (m.reach_m * m.yaw_rate_radps + m.camera_speed_mps + m.person_speed_mps) * m.step_s;
+  const float motion_m = (m.reach_m * m.yaw_rate_radps + m.camera_speed_mps + m.person_speed_mps) * m.step_s;
   return motion_m / std::sin(fov_rad / 2);
 }
 
-bool InWedge(Vec2 p, Vec2 apex, float yaw_rad, float fov_rad) { return InWedge(p, apex, VolumesOf({apex, yaw_rad, fov_rad}, 0)); }
+bool InWedge(Vec2 p, Vec2 apex, float yaw_rad, float fov_rad) {
+  return InWedge(p, apex, VolumesOf({apex, yaw_rad, fov_rad}, 0));
+}
 
 ViewVolumes VolumesOf(const ViewCamera& c, float outer_apex_back_m) {
   const Vec2 axis{std::cos(c.yaw_rad), std::sin(c.yaw_rad)};

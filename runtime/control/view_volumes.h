@@ -15,7 +15,10 @@ struct ViewCamera {
 };
 
 // Of a camera.
-struct ViewMotion { Vec2 velocity; float yaw_rate_radps = 0; };
+struct ViewMotion {
+  Vec2 velocity;
+  float yaw_rate_radps = 0;
+};
 
 // Brings `smoothed` nearer to the motion in this step: an average over about 0.3 s.
 void Smooth(const ViewMotion& motion, float step_s, ViewMotion* smoothed);
@@ -34,9 +37,10 @@ struct MotionLimits {
 // Seen from the camera, in one step a person moves by at most
 //   d = reach * yaw_rate * step          (the turn, an arc at the distance `reach`)
 //     + (camera_speed + person_speed) * step.
-// The outer wedge's edges are parallel to the inner one's at the distance b sin(fov / 2), and its apex is b >= b sin(fov / 2)
-// away from the inner apex; so it holds every point within b sin(fov / 2) of the inner wedge. Whoever is inside the inner wedge
-// after the step was within d of it before, and therefore in the outer wedge where b sin(fov / 2) >= d.
+// The outer wedge's edges are parallel to the inner one's at the distance b sin(fov / 2), and its apex is b >= b
+// sin(fov / 2) away from the inner apex; so it holds every point within b sin(fov / 2) of the inner wedge. Whoever is
+// inside the inner wedge after the step was within d of it before, and therefore in the outer wedge where b sin(fov /
+// 2) >= d.
 float OuterApexBack_m(const MotionLimits& limits, float fov_rad);
 
 bool InWedge(Vec2 p, Vec2 apex, float yaw_rad, float fov_rad);

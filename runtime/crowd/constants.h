@@ -10,8 +10,8 @@ inline constexpr float kMaxAcceleration_mps2 = 3.0f;
 inline constexpr float kMaxTurnRate_radps = 3.6f;
 // Slower than this the body keeps its heading, so that a jam doesn't make people spin.
 inline constexpr float kTurnsAbove_mps = 0.15f;
-// Time in which people settle into the velocity they prefer. Moussaid et al. 2009 measured 0.54 s from standing, and the limit of
-// acceleration sees to that; walkers who were pushed off their way are back on it sooner.
+// Time in which people settle into the velocity they prefer. Moussaid et al. 2009 measured 0.54 s from standing, and
+// the limit of acceleration sees to that; walkers who were pushed off their way are back on it sooner.
 inline constexpr float kRelaxation_s = 0.25f;
 
 // How far ahead collisions are predicted; people evade 2 to 4 s before (Karamouzas, Skinner and Guy 2014).
@@ -21,12 +21,15 @@ inline constexpr float kInteraction_k = 1.5f;
 inline constexpr float kInteraction_tau0_s = 3.0f;
 // One predicted collision never asks for more than this: beyond it contact resolution takes over.
 inline constexpr float kMaxPush_mps2 = 5.0f;
-// Passing so close is fine; chosen, with the next two, by the open field, the corridor and the classic cases of the tests.
+// Passing so close is fine; chosen, with the next two, by the open field, the corridor and the classic cases of the
+// tests.
 inline constexpr float kPassing_m = 0.02f;
-// Who comes from the right across one's way, by more than an angle of this sine, is let go first: so much braking is kept for them.
+// Who comes from the right across one's way, by more than an angle of this sine, is let go first: so much braking is
+// kept for them.
 inline constexpr float kCrossing = 0.5f;
 inline constexpr float kGiveWay = 0.4f;
-// Nobody but people gives way between them and the visitor, or another disc: they mind it so many times as much as each other.
+// Nobody but people gives way between them and the visitor, or another disc: they mind it so many times as much as each
+// other.
 inline constexpr float kDiscMinded = 3.0f;
 // What happens at one's back is felt, not foreseen.
 inline constexpr float kAttentionBehind = 0.2f;
@@ -67,16 +70,17 @@ inline constexpr float kLevelSlope = (kNearWallCost - 1) / kSlopeCost;
 // And is walked at 1 / (1 + 2 |g|) of the speed (near Tobler 1993 for the slopes of a town).
 inline constexpr float kSlopeSlows = 2.0f;
 
-// Cells of the navigation grid: a doorway of 1 m leaves 0.4 m to the centres of people, which holds at least one of them.
+// Cells of the navigation grid: a doorway of 1 m leaves 0.4 m to the centres of people, which holds at least one of
+// them.
 inline constexpr float kNavigationCell_m = 0.35f;
 inline constexpr float kMaxNavigationCells = 1.5e6f;  // larger areas get larger cells
-// A flow field that is built beside the steps comes after one step for each so many cells, and one more. At 30 steps a second that is
-// 0.13 s for 326,000 cells, of which a free one in three takes a desktop computer of 2020 28 ms.
+// A flow field that is built beside the steps comes after one step for each so many cells, and one more. At 30 steps a
+// second that is 0.13 s for 326,000 cells, of which a free one in three takes a desktop computer of 2020 28 ms.
 inline constexpr int64_t kCellsAStep = 90000;
 // Walking into a goal's circle counts as arriving.
 inline constexpr float kArrival_m = 0.5f;
-// Where many have the same goal, those who come and those who leave would block each other for good: who is this near and gets on at
-// less than such a share of their speed is there as well as anybody can be.
+// Where many have the same goal, those who come and those who leave would block each other for good: who is this near
+// and gets on at less than such a share of their speed is there as well as anybody can be.
 inline constexpr float kNearArrival_m = 3;
 inline constexpr float kHeldUp = 0.4f;
 

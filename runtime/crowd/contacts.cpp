@@ -30,7 +30,8 @@ Vec2 KeepOut(const std::vector<MovingObstacle>& moving, Vec2 from, Vec2 to, floa
 
 }  // namespace
 
-Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c, size_t i, Vec2 to) {
+Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c, size_t i,
+                 Vec2 to) {
   const Vec2 from = c.position[i];
   const Vec2 step = ClampLength(to - from, c.top_mps[i] * step_s);
   const Vec2 off_walls = KeepOffWalls(w, from, from + step, c.radius_m[i]);
@@ -73,7 +74,8 @@ void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& movin
     bool any = false;
     for (const auto& [a, b] : s->contacts) {
       const size_t i = static_cast<size_t>(a), j = static_cast<size_t>(b);
-      if (std::max(s->pushed_in[i], s->pushed_in[j]) + 1 < pass) continue;  // neither was moved since they were last looked at
+      if (std::max(s->pushed_in[i], s->pushed_in[j]) + 1 < pass)
+        continue;  // neither was moved since they were last looked at
       const Vec2 apart = s->moved[i] - s->moved[j];
       const float reach_m = c.radius_m[i] + c.radius_m[j], distance2 = Dot(apart, apart);
       if (distance2 >= reach_m * reach_m) continue;

@@ -6,8 +6,10 @@
 
 namespace flaneur {
 
-// Where person i gets who heads for `to`: off walls, out of discs that are for everyone, no farther than walking allows.
-Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c, size_t i, Vec2 to);
+// Where person i gets who heads for `to`: off walls, out of discs that are for everyone, no farther than walking
+// allows.
+Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c, size_t i,
+                 Vec2 to);
 
 // Fills scratch->contacts with the pairs of scratch->neighbours that could touch in this step.
 void FindContacts(const Crowd& crowd, float step_s, CrowdScratch* scratch);

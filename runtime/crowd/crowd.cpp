@@ -15,7 +15,8 @@ namespace {
 
 constexpr size_t kFetchAhead = 24;  // people
 
-// People decide one after the other, each in a step of their own; neighbours, who often have ids in a row, in no regular pattern.
+// People decide one after the other, each in a step of their own; neighbours, who often have ids in a row, in no
+// regular pattern.
 bool IsTurn(const Crowd& c, size_t i, int every_steps) {
   const uint32_t phase = static_cast<uint32_t>(c.id[i]) * 2654435769u >> 16;
   return (static_cast<uint32_t>(c.step) + phase) % static_cast<uint32_t>(every_steps) == 0;
@@ -179,7 +180,8 @@ Arrival ArrivalAt(Vec2 goal, size_t i, const Crowd& c) {
   const float left2_m2 = Dot(left, left);
   if (left2_m2 < kArrival_m * kArrival_m) return Arrival::kThere;
   const float slow_mps = kHeldUp * c.preferred_mps[i];
-  const bool held_up = left2_m2 < kNearArrival_m * kNearArrival_m && Dot(c.velocity[i], c.velocity[i]) < slow_mps * slow_mps;
+  const bool held_up =
+      left2_m2 < kNearArrival_m * kNearArrival_m && Dot(c.velocity[i], c.velocity[i]) < slow_mps * slow_mps;
   return held_up ? Arrival::kNear : Arrival::kNot;
 }
 
@@ -198,12 +200,14 @@ void Arrive(Vec2 to, float step_s, size_t i, Crowd* c) {
 }
 
 // The whole step of those who take no care of anybody, and a list of those who do.
-void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, std::vector<int>* caring, Crowd* c) {
+void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, std::vector<int>* caring,
+                  Crowd* c) {
   const float far2_m2 = c->r_far_m * c->r_far_m, unimportant2_m2 = c->r_unimportant_m * c->r_unimportant_m;
   caring->clear();
   caring->reserve(c->size());
   for (size_t i = 0; i < c->size(); ++i) {
-    if (const size_t soon = i + kFetchAhead; soon < c->size() && c->coast[soon] == 0 && IsTurn(*c, soon, kTurnEvery_steps)) {
+    if (const size_t soon = i + kFetchAhead;
+        soon < c->size() && c->coast[soon] == 0 && IsTurn(*c, soon, kTurnEvery_steps)) {
       FetchGround(w, soon, *c);
     }
     const Vec2 off = c->position[i] - c->viewer;

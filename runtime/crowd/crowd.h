@@ -37,39 +37,42 @@ struct Mind {
   float alone_mps = 0;  // what it would be without anybody around
   Vec2 clear_from;      // nothing stops anybody within clear_m of here
   float clear_m = 0;
-  Vec2 left_line;       // where the person began to make room for the visitor
-  int returns = 0;      // decisions left to go back to that line
+  Vec2 left_line;   // where the person began to make room for the visitor
+  int returns = 0;  // decisions left to go back to that line
   bool stands = false, avoids_camera = false;
 };
 
-// Who was moved apart in this step, and no longer is where the grid has them: lists by cell of the grid they are in now; -1 ends one.
-struct Displaced { std::vector<int> first, next; };
+// Who was moved apart in this step, and no longer is where the grid has them: lists by cell of the grid they are in
+// now; -1 ends one.
+struct Displaced {
+  std::vector<int> first, next;
+};
 
 struct Crowd {
-  std::vector<int> id, avatar;          // ids are never used again
-  std::vector<int> slot;                // what others keep about a person stands here in their arrays, see slots.h
+  std::vector<int> id, avatar;  // ids are never used again
+  std::vector<int> slot;        // what others keep about a person stands here in their arrays, see slots.h
   std::vector<Vec2> position, velocity;
   std::vector<float> heading_rad, radius_m, preferred_mps, top_mps;
-  std::vector<int> field;               // index into fields: where the person goes; -1: stays
-  std::vector<Vec2> way;                // unit vector along the way there, zero: none; renewed now and then
-  std::vector<uint8_t> sees_goal;       // walks straight to it; renewed now and then
-  std::vector<Corner> corner;           // else, as long as the field isn't built: where the way leads first
+  std::vector<int> field;          // index into fields: where the person goes; -1: stays
+  std::vector<Vec2> way;           // unit vector along the way there, zero: none; renewed now and then
+  std::vector<uint8_t> sees_goal;  // walks straight to it; renewed now and then
+  std::vector<Corner> corner;      // else, as long as the field isn't built: where the way leads first
   std::vector<Activity> activity;
-  std::vector<float> wait_s;            // left to stand
-  std::vector<Vec2> facing;             // where to look while standing; zero: as before
+  std::vector<float> wait_s;  // left to stand
+  std::vector<Vec2> facing;   // where to look while standing; zero: as before
   std::vector<ViewClass> view;
-  std::vector<uint8_t> was_visible;     // one step ago
-  std::vector<uint8_t> avoids_camera;   // set by the control
-  std::vector<Arrival> arrived;         // in the last step
-  std::vector<Vec2> detour;             // velocity the person prefers for the next detour_s, whatever the goal; set by the control
-  std::vector<float> detour_s;          // 0: none
-  std::vector<float> walked_m;          // since appearing: drives the walk cycle
+  std::vector<uint8_t> was_visible;    // one step ago
+  std::vector<uint8_t> avoids_camera;  // set by the control
+  std::vector<Arrival> arrived;        // in the last step
+  std::vector<Vec2> detour;  // velocity the person prefers for the next detour_s, whatever the goal; set by the control
+  std::vector<float> detour_s;  // 0: none
+  std::vector<float> walked_m;  // since appearing: drives the walk cycle
   std::vector<Mind> mind;
-  std::vector<uint8_t> coast;           // steps left to walk straight on, out of sight and far from everything
-  std::vector<int> group;               // index into groups; -1: alone
-  std::vector<FlowField> fields;        // built where enough people have the same goal
-  bool fields_come_later = false;       // true: a FieldBuilder builds those in asked_fields, not the step that asks
-  std::vector<int> asked_fields;        // indices into fields
+  std::vector<uint8_t> coast;      // steps left to walk straight on, out of sight and far from everything
+  std::vector<int> group;          // index into groups; -1: alone
+  std::vector<FlowField> fields;   // built where enough people have the same goal
+  bool fields_come_later = false;  // true: a FieldBuilder builds those in asked_fields, not the step that asks
+  std::vector<int> asked_fields;   // indices into fields
   std::vector<Group> groups;
   int next_id = 0;
   Slots slots;
@@ -78,24 +81,24 @@ struct Crowd {
   Vec2 viewer;
   float r_unimportant_m = 1e9f, r_far_m = 1e9f;
 
-  std::vector<Vec2> wanted;             // velocity, until the next decision
-  std::vector<uint8_t> cares, turn;     // as decided last. turn: looks around and decides in this step
-  WaySearch search;                     // knows this ground
+  std::vector<Vec2> wanted;          // velocity, until the next decision
+  std::vector<uint8_t> cares, turn;  // as decided last. turn: looks around and decides in this step
+  WaySearch search;                  // knows this ground
 
   size_t size() const { return id.size(); }
 };
 
-// What passes need for their duration alone, whichever crowd it is: kept by who steps one so that a steady step allocates nothing. Holds
-// nothing from one call to the next.
+// What passes need for their duration alone, whichever crowd it is: kept by who steps one so that a steady step
+// allocates nothing. Holds nothing from one call to the next.
 struct CrowdScratch {
-  std::vector<int> caring;              // who cares, by index
-  std::vector<Vec2> moved;              // by person: to where
-  NeighbourGrid neighbours;             // of those who care
+  std::vector<int> caring;   // who cares, by index
+  std::vector<Vec2> moved;   // by person: to where
+  NeighbourGrid neighbours;  // of those who care
   std::vector<std::pair<int, int>> contacts;
-  std::vector<uint8_t> pushed_in;       // by person: the pass of contact resolution that moved them last
+  std::vector<uint8_t> pushed_in;  // by person: the pass of contact resolution that moved them last
   Displaced displaced;
-  std::vector<uint64_t> order;          // where people are, along a curve, with their index
-  std::vector<int> number;              // new index by old
+  std::vector<uint64_t> order;  // where people are, along a curve, with their index
+  std::vector<int> number;      // new index by old
   std::vector<std::byte> spare;
 };
 
@@ -108,8 +111,8 @@ struct Person {
 
 int AddPerson(const Person& person, Crowd* crowd);  // returns the id
 void RemovePerson(size_t index, Crowd* crowd);      // the last one takes the place
-// Gives people new indices so that who is near whom in the town is also near in memory: half of a step's time in a large crowd is
-// waiting for memory. Everything else stays; for whoever steps a crowd to call every kSortEvery_steps.
+// Gives people new indices so that who is near whom in the town is also near in memory: half of a step's time in a
+// large crowd is waiting for memory. Everything else stays; for whoever steps a crowd to call every kSortEvery_steps.
 void SortBySpace(CrowdScratch* scratch, Crowd* crowd);
 // Sends the person there; -1: to stay.
 void SetGoal(size_t index, int field, Crowd* crowd);
@@ -117,20 +120,22 @@ void SetGoal(size_t index, int field, Crowd* crowd);
 int FieldFor(Vec2 goal, Crowd* crowd);
 // Builds the field now, not only when enough people ask for their way.
 void BuildField(const Walkable& w, int field, Crowd* crowd);
-// The way from p to the goal of a field: looked up where it is built, and it is, or is asked for, for the eighth who asks; else searched
-// for (way_search.h), so that any number of new goals in a step is no burden. `corner` is the asker's own.
+// The way from p to the goal of a field: looked up where it is built, and it is, or is asked for, for the eighth who
+// asks; else searched for (way_search.h), so that any number of new goals in a step is no burden. `corner` is the
+// asker's own.
 Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, Crowd* crowd);
 
 // One step of step_s. The same on every machine. Visible and boundary people within r_far_m of the viewer avoid each
-// other; others only follow their way. Nobody's centre comes nearer to an obstacle than radius_m, nobody moves farther than
-// top_mps * step_s.
-void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, CrowdScratch* scratch, Crowd* crowd);
+// other; others only follow their way. Nobody's centre comes nearer to an obstacle than radius_m, nobody moves farther
+// than top_mps * step_s.
+void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, CrowdScratch* scratch,
+               Crowd* crowd);
 
-// Boundary people who overlap are moved apart at once, none of them into the inner volume (paper, section 4.3.1). Whoever was visible
-// one step ago stays where they are: the others make room.
-// keep_out(p) is true for points of the inner volume.
-void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2 p, const void* volume), const void* volume, CrowdScratch* scratch,
-                      Crowd* crowd);
+// Boundary people who overlap are moved apart at once, none of them into the inner volume (paper, section 4.3.1).
+// Whoever was visible one step ago stays where they are: the others make room. keep_out(p) is true for points of the
+// inner volume.
+void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2 p, const void* volume), const void* volume,
+                      CrowdScratch* scratch, Crowd* crowd);
 
 // Over positions and headings: equal for equal runs.
 uint64_t StateHash(const Crowd& crowd);

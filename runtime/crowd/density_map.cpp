@@ -7,7 +7,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kCell_m = 2;
-constexpr float kMaxCells = 1e6f;   // larger areas get larger cells
+constexpr float kMaxCells = 1e6f;  // larger areas get larger cells
 constexpr float kMinArea_m2 = 1;   // of a cell: the strip that is left beside a wall crowds nobody
 
 size_t CellOf(const DensityMap& m, Vec2 p) {
@@ -26,7 +26,8 @@ void Build(const Walkable& w, DensityMap* m) {
   m->per_person_pm2.assign(static_cast<size_t>(m->columns) * static_cast<size_t>(m->rows), 0);
   m->density_pm2 = m->per_person_pm2;
   for (int cell = 0; cell < w.columns * w.rows; ++cell) {
-    if (w.cost[static_cast<size_t>(cell)] > 0) m->per_person_pm2[CellOf(*m, CellCenter(w, cell))] += w.cell_m * w.cell_m;
+    if (w.cost[static_cast<size_t>(cell)] > 0)
+      m->per_person_pm2[CellOf(*m, CellCenter(w, cell))] += w.cell_m * w.cell_m;
   }
   for (float& area_m2 : m->per_person_pm2) area_m2 = 1 / std::max(area_m2, kMinArea_m2);
 }

@@ -54,7 +54,8 @@ inline Vec2 DirectionOf(float angle_rad) {
   else if (a < -0.5f * kPi) a = -kPi - a, sign = -1;
   const float s = a * a;
   const float sine = a * (1 + s * (-1.0f / 6 + s * (1.0f / 120 + s * (-1.0f / 5040 + s * (1.0f / 362880)))));
-  const float cosine = 1 + s * (-0.5f + s * (1.0f / 24 + s * (-1.0f / 720 + s * (1.0f / 40320 - s * (1.0f / 3628800)))));
+  const float cosine =
+      1 + s * (-0.5f + s * (1.0f / 24 + s * (-1.0f / 720 + s * (1.0f / 40320 - s * (1.0f / 3628800)))));
   return {sign * cosine, sine};
 }
 

@@ -13,8 +13,10 @@ constexpr size_t kAtOnce = 2;
 
 void FieldBuilder::Start(const Walkable& w, const Crowd& c, Jobs* jobs, Order* order) {
   if (order->build != nullptr) return;
-  order->build = std::make_unique<FieldBuild>(FieldBuild{{c.fields[static_cast<size_t>(order->field)].goal, {}, {}}, {}});
-  order->job = StartJob(jobs, [&w, cells = order->cells_a_step, build = order->build.get()] { return BuildFurther(w, cells, build); });
+  order->build =
+      std::make_unique<FieldBuild>(FieldBuild{{c.fields[static_cast<size_t>(order->field)].goal, {}, {}}, {}});
+  order->job = StartJob(
+      jobs, [&w, cells = order->cells_a_step, build = order->build.get()] { return BuildFurther(w, cells, build); });
 }
 
 void FieldBuilder::Step(const Walkable& w, Jobs* jobs, Crowd* c) {

@@ -21,7 +21,10 @@ constexpr int64_t kMarchCost_cells = 3;  // the march takes so many times as lon
 using Entry = std::pair<float, int>;  // ties by cell: the same everywhere
 
 // The cheaper of two opposite neighbours and where it lies (-1, +1), infinity if neither has a value.
-struct Upwind { float value = kInfinity; int side = 0; };
+struct Upwind {
+  float value = kInfinity;
+  int side = 0;
+};
 
 Upwind Cheaper(const std::vector<float>& t, int cell, int stride, bool has_low, bool has_high) {
   Upwind u;
@@ -30,7 +33,9 @@ Upwind Cheaper(const std::vector<float>& t, int cell, int stride, bool has_low, 
   return u;
 }
 
-struct Around { Upwind x, y; };
+struct Around {
+  Upwind x, y;
+};
 
 Around Look(const Walkable& w, const std::vector<float>& t, int cell) {
   const int x = cell % w.columns, y = cell / w.columns;
@@ -200,7 +205,8 @@ Vec2 RoughWayAt(const Walkable& w, const FlowField& field, Vec2 p) {
 bool StraightWay(const Walkable& w, Vec2 p, Vec2 q) {
   const int first = CellAt(w, p);
   if (first < 0) return false;
-  const float max_cost = w.cost[static_cast<size_t>(first)] > 0 ? CostOfGround(w, first) * kNearWallCost * 1.01f : kGroundCost[1];
+  const float max_cost =
+      w.cost[static_cast<size_t>(first)] > 0 ? CostOfGround(w, first) * kNearWallCost * 1.01f : kGroundCost[1];
   const Vec2 way = q - p;
   const float way_m = Length(way), longer_m = std::max(std::abs(way.x), std::abs(way.y));
   const float least = 0.5f * w.cell_m / std::max(way_m, 1e-6f), cells = w.cell_m * 0.99f / std::max(longer_m, 1e-6f);

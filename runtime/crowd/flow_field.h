@@ -11,15 +11,17 @@ namespace flaneur {
 // Of a metre there, whichever way one walks; 0 where nobody can.
 float CostOfGround(const Walkable& w, int cell);
 
-// Directions lie in tiles of 8 x 8 cells, one to a cache line, and those in squares of 64 x 64 cells, one to a page of memory: whoever
-// walks on, or comes next to here, finds them there.
-struct alignas(64) DirectionTile { uint8_t direction[64]; };
+// Directions lie in tiles of 8 x 8 cells, one to a cache line, and those in squares of 64 x 64 cells, one to a page of
+// memory: whoever walks on, or comes next to here, finds them there.
+struct alignas(64) DirectionTile {
+  uint8_t direction[64];
+};
 
 struct FlowField {
   Vec2 goal;
-  std::vector<float> distance;          // weighted metres by cell; infinity where there is no way; empty until built
-  std::vector<DirectionTile> tiles;     // of the best way, in 1/255 turns anticlockwise from +x; 255: none
-  int questions = 0;                    // asked for ways before it was built
+  std::vector<float> distance;       // weighted metres by cell; infinity where there is no way; empty until built
+  std::vector<DirectionTile> tiles;  // of the best way, in 1/255 turns anticlockwise from +x; 255: none
+  int questions = 0;                 // asked for ways before it was built
 };
 
 // Index of the direction of the cell at column x and row y, over all tiles.
@@ -27,19 +29,22 @@ inline size_t DirectionIndex(const Walkable& w, int x, int y) {
   const int square = (y >> 6) * ((w.columns + 63) >> 6) + (x >> 6), tile = (y >> 3 & 7) * 8 + (x >> 3 & 7);
   return static_cast<size_t>(square) * 4096 + static_cast<size_t>(tile * 64 + (y & 7) * 8 + (x & 7));
 }
-inline const uint8_t& DirectionAt(const FlowField& field, size_t index) { return field.tiles[index >> 6].direction[index & 63]; }
+inline const uint8_t& DirectionAt(const FlowField& field, size_t index) {
+  return field.tiles[index >> 6].direction[index & 63];
+}
 
 inline bool IsBuilt(const FlowField& field) { return !field.distance.empty(); }
 
-// Solves |grad T| = cost by fast marching (Sethian 1996), exact around the goal. Slopes cost more (constants.h). The goal's
-// nearest free cell within 3 m is the destination.
+// Solves |grad T| = cost by fast marching (Sethian 1996), exact around the goal. Slopes cost more (constants.h). The
+// goal's nearest free cell within 3 m is the destination.
 FlowField BuildFlowField(const Walkable& w, Vec2 goal);
 
 // The same in slices. A slice goes over at most so many cells; the field is the same whatever they are.
 struct FieldBuild {
   FlowField field;
-  std::vector<std::pair<float, int>> open;  // heap, least first: distances from which the march goes on, and their cells
-  int described = -1;                       // cells that have their direction; -1: the march has not begun
+  std::vector<std::pair<float, int>>
+      open;            // heap, least first: distances from which the march goes on, and their cells
+  int described = -1;  // cells that have their direction; -1: the march has not begun
 };
 // What all slices together go over at most, whatever the goal.
 int64_t CellsToGoOver(const Walkable& w);

@@ -11,27 +11,27 @@
 namespace flaneur {
 namespace {
 
-constexpr float kElbowRoom_m = 0.35f;       // between bodies in a row
+constexpr float kElbowRoom_m = 0.35f;  // between bodies in a row
 constexpr float kMinElbowRoom_m = 0.1f;
-constexpr float kRowGap_m = 0.95f;          // from row to row
+constexpr float kRowGap_m = 0.95f;  // from row to row
 constexpr float kInnerBack_m = 0.2f;
-constexpr float kWider_m = 0.35f;           // more room than needed before a row grows again: nobody wavers
-constexpr float kLook_m = 0.8f;             // between the points ahead where room is looked for
+constexpr float kWider_m = 0.35f;  // more room than needed before a row grows again: nobody wavers
+constexpr float kLook_m = 0.8f;    // between the points ahead where room is looked for
 constexpr int kLooks = 4;
 constexpr int kLookEvery_turns = 4;
-constexpr float kMaxElbowRoom_m = 2.4f;         // to each side
-constexpr float kTurnsWithWay = 0.25f;      // of the common way, each time it is looked at
-constexpr float kCatchUp_pm = 0.5f;         // change of pace by a metre ahead or behind
+constexpr float kMaxElbowRoom_m = 2.4f;  // to each side
+constexpr float kTurnsWithWay = 0.25f;   // of the common way, each time it is looked at
+constexpr float kCatchUp_pm = 0.5f;      // change of pace by a metre ahead or behind
 constexpr float kMinPace = 0.3f, kMaxPace = 1.25f;
-constexpr float kAside_ps = 0.9f;           // share of the offset made good in a second
+constexpr float kAside_ps = 0.9f;  // share of the offset made good in a second
 constexpr float kMaxAside_mps = 0.4f;
 constexpr float kGoalOwn_m = 1.5f, kGoalFades_m = 1.5f;  // close to the goal everybody walks for themselves
 
 struct Formation {
   int count = 0;
-  int who[kMaxGroupSize];     // indices of Group::member, of those who walk, by place
+  int who[kMaxGroupSize];        // indices of Group::member, of those who walk, by place
   size_t person[kMaxGroupSize];  // by member
-  Vec2 place[kMaxGroupSize];  // x ahead, y to the left of the centre
+  Vec2 place[kMaxGroupSize];     // x ahead, y to the left of the centre
   Vec2 center, ahead, left;
 };
 
@@ -46,7 +46,8 @@ float Room_m(const Walkable& w, Vec2 p, Vec2 direction) {
   while (room_m < kMaxElbowRoom_m) {
     const int cell = CellAt(w, p + direction * (room_m + step_m));
     if (cell < 0 || w.cost[static_cast<size_t>(cell)] <= 0) break;
-    room_m += std::max(step_m, w.cell_m * static_cast<float>(w.cells[static_cast<size_t>(cell)].same));  // all of it free
+    room_m +=
+        std::max(step_m, w.cell_m * static_cast<float>(w.cells[static_cast<size_t>(cell)].same));  // all of it free
   }
   return std::min(room_m, kMaxElbowRoom_m);
 }
@@ -63,7 +64,9 @@ float RoomAhead_m(const Walkable& w, const Formation& f, Crowd* c) {
     if (Length(goal - p) < kLook_m) break;
     p = p + way * kLook_m;
     const FlowField& field = c->fields[static_cast<size_t>(c->field[leader])];
-    way = c->sees_goal[leader] ? Unit(goal - p) : IsBuilt(field) ? WayAt(w, field, p) : Unit(c->corner[leader].point - p);
+    way = c->sees_goal[leader] ? Unit(goal - p)
+          : IsBuilt(field)     ? WayAt(w, field, p)
+                               : Unit(c->corner[leader].point - p);
     if (way.x == 0 && way.y == 0) break;
   }
   return least_m;
@@ -81,7 +84,8 @@ bool Gather(Group* g, const Crowd& c, Formation* f) {
   if (f->count < 2) return false;
   const float share = 1 / static_cast<float>(f->count);
   f->center = f->center * share;
-  const Vec2 ahead = Unit(g->ahead.x == 0 && g->ahead.y == 0 ? way : g->ahead + (way * share - g->ahead) * kTurnsWithWay);
+  const Vec2 ahead =
+      Unit(g->ahead.x == 0 && g->ahead.y == 0 ? way : g->ahead + (way * share - g->ahead) * kTurnsWithWay);
   if (ahead.x == 0 && ahead.y == 0) return false;
   f->ahead = g->ahead = ahead;
   f->left = {-ahead.y, ahead.x};
@@ -114,7 +118,9 @@ void PlaceRow(const Crowd& c, int first, int end, float along_m, float room_m, F
 // How many walk in a row; one more than now only where there is room to spare.
 int Abreast(const Crowd& c, const Formation& f, float room_m, int now) {
   const float need_m = 2 * Radius_m(c, f, 0) + kElbowRoom_m;
-  const auto fit = [&](float room) { return std::clamp(1 + static_cast<int>(std::max(0.0f, room) / need_m), 1, f.count); };
+  const auto fit = [&](float room) {
+    return std::clamp(1 + static_cast<int>(std::max(0.0f, room) / need_m), 1, f.count);
+  };
   const int most = fit(room_m);
   return now > 0 && most > now ? std::max(now, fit(room_m - kWider_m)) : most;
 }

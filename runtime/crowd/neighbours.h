@@ -1,4 +1,5 @@
-// Who is near whom: people sorted into a uniform grid, copied side by side so that looking around reads memory in order.
+// Who is near whom: people sorted into a uniform grid, copied side by side so that looking around reads memory in
+// order.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +20,10 @@ struct NeighbourGrid {
   Vec2 min_m;
   float cell_m = 1;
   int columns = 0, rows = 0;
-  std::vector<int> start;           // columns * rows + 1: cell c holds people[start[c]] .. people[start[c + 1] - 1]
-  std::vector<Neighbour> people;    // by cell, then by person index
+  std::vector<int> start;         // columns * rows + 1: cell c holds people[start[c]] .. people[start[c + 1] - 1]
+  std::vector<Neighbour> people;  // by cell, then by person index
 
-  std::vector<int> cell_of;         // scratch
+  std::vector<int> cell_of;  // scratch
 };
 
 // Sorts these people, by their index (counting sort, stable). The grid spans them and no more.
@@ -39,15 +40,19 @@ inline int CellOf(const NeighbourGrid& g, Vec2 p) {
   return CellIndex(p.y, g.min_m.y, g.cell_m, g.rows) * g.columns + CellIndex(p.x, g.min_m.x, g.cell_m, g.columns);
 }
 
-struct CellRange { int x0 = 0, x1 = 0, y0 = 0, y1 = 0; };  // columns x0 to x1 of the rows y0 to y1
+struct CellRange {
+  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+};  // columns x0 to x1 of the rows y0 to y1
 
 // The cells within reach_m of p.
 inline CellRange CellsNear(const NeighbourGrid& g, Vec2 p, float reach_m) {
-  return {CellIndex(p.x - reach_m, g.min_m.x, g.cell_m, g.columns), CellIndex(p.x + reach_m, g.min_m.x, g.cell_m, g.columns),
+  return {CellIndex(p.x - reach_m, g.min_m.x, g.cell_m, g.columns),
+          CellIndex(p.x + reach_m, g.min_m.x, g.cell_m, g.columns),
           CellIndex(p.y - reach_m, g.min_m.y, g.cell_m, g.rows), CellIndex(p.y + reach_m, g.min_m.y, g.cell_m, g.rows)};
 }
 
-// Calls visit(first, end) for each row of cells within reach_m of p: the people of a row's cells lie side by side in g.people.
+// Calls visit(first, end) for each row of cells within reach_m of p: the people of a row's cells lie side by side in
+// g.people.
 template <typename Visit>
 void VisitRows(const NeighbourGrid& g, Vec2 p, float reach_m, Visit visit) {
   const CellRange near = CellsNear(g, p, reach_m);

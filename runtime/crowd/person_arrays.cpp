@@ -17,8 +17,10 @@ template <typename Visit>
 void VisitPersonArrays(Crowd* c, Visit visit) {
   visit(&c->id), visit(&c->slot), visit(&c->avatar), visit(&c->position), visit(&c->velocity), visit(&c->heading_rad);
   visit(&c->radius_m);
-  visit(&c->preferred_mps), visit(&c->top_mps), visit(&c->field), visit(&c->way), visit(&c->sees_goal), visit(&c->corner);
-  visit(&c->activity), visit(&c->wait_s), visit(&c->facing), visit(&c->view), visit(&c->was_visible), visit(&c->avoids_camera);
+  visit(&c->preferred_mps), visit(&c->top_mps), visit(&c->field), visit(&c->way), visit(&c->sees_goal),
+      visit(&c->corner);
+  visit(&c->activity), visit(&c->wait_s), visit(&c->facing), visit(&c->view), visit(&c->was_visible),
+      visit(&c->avoids_camera);
   visit(&c->arrived), visit(&c->detour), visit(&c->detour_s), visit(&c->walked_m), visit(&c->mind), visit(&c->coast);
   visit(&c->group), visit(&c->cares), visit(&c->turn), visit(&c->wanted);
 }
@@ -37,7 +39,9 @@ size_t IndexIn(uint64_t order) { return static_cast<size_t>(order & 0xffffffff);
 void OrderAlongCurve(const Crowd& c, std::vector<uint64_t>* order) {
   Vec2 min = c.position.empty() ? Vec2{} : c.position[0];
   for (Vec2 p : c.position) min = {std::min(min.x, p.x), std::min(min.y, p.y)};
-  const auto cell = [](float v_m) { return Spread(static_cast<uint64_t>(std::min(v_m * (1 / kCurveCell_m), 65535.0f))); };
+  const auto cell = [](float v_m) {
+    return Spread(static_cast<uint64_t>(std::min(v_m * (1 / kCurveCell_m), 65535.0f)));
+  };
   order->resize(c.size());
   for (size_t i = 0; i < c.size(); ++i) {
     const Vec2 off = c.position[i] - min;
@@ -50,7 +54,8 @@ template <typename T>
 void Permute(const std::vector<uint64_t>& order, std::vector<T>* values, std::vector<std::byte>* spare) {
   static_assert(std::is_trivially_copyable_v<T>);
   spare->resize(std::max(spare->size(), order.size() * sizeof(T)));
-  for (size_t k = 0; k < order.size(); ++k) std::memcpy(spare->data() + k * sizeof(T), &(*values)[IndexIn(order[k])], sizeof(T));
+  for (size_t k = 0; k < order.size(); ++k)
+    std::memcpy(spare->data() + k * sizeof(T), &(*values)[IndexIn(order[k])], sizeof(T));
   std::memcpy(values->data(), spare->data(), order.size() * sizeof(T));
 }
 

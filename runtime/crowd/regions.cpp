@@ -11,7 +11,8 @@ namespace {
 constexpr int kBlock_cells = 8;
 
 bool SameBlock(const Walkable& w, int a, int b) {
-  return a % w.columns / kBlock_cells == b % w.columns / kBlock_cells && a / w.columns / kBlock_cells == b / w.columns / kBlock_cells;
+  return a % w.columns / kBlock_cells == b % w.columns / kBlock_cells &&
+         a / w.columns / kBlock_cells == b / w.columns / kBlock_cells;
 }
 
 // Calls visit(n) for the cells above, below and beside that are free.
@@ -25,7 +26,10 @@ void VisitBeside(const Walkable& w, int cell, Visit visit) {
   if (y + 1 < w.rows && free(cell + w.columns)) visit(cell + w.columns);
 }
 
-struct Patch { std::vector<int> cells; float mean_cost = 0; };
+struct Patch {
+  std::vector<int> cells;
+  float mean_cost = 0;
+};
 
 void Flood(const Walkable& w, int seed, int number, Regions* r, Patch* patch) {
   patch->cells.assign(1, seed);

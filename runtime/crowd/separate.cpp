@@ -11,8 +11,8 @@ namespace flaneur {
 namespace {
 
 constexpr float kRing_m = 0.12f;
-constexpr int kRings = 40;           // up to 5 m away
-constexpr float kTouching_m = 1e-3f; // overlaps smaller than this are none
+constexpr int kRings = 40;            // up to 5 m away
+constexpr float kTouching_m = 1e-3f;  // overlaps smaller than this are none
 
 struct Spot {
   const Walkable* w;
@@ -46,7 +46,8 @@ bool Overlaps(const Spot& s, const Crowd& c, size_t i, Vec2 p) {
   const float reach_m = c.radius_m[i] + s.most_radius_m;
   if (OverlapsDisplaced(s, c, i, p, reach_m)) return true;
   bool any = false;
-  VisitNear(s.neighbours, p, reach_m, [&](const Neighbour& other) { any = any || Touches(c, i, p, static_cast<size_t>(other.person)); });
+  VisitNear(s.neighbours, p, reach_m,
+            [&](const Neighbour& other) { any = any || Touches(c, i, p, static_cast<size_t>(other.person)); });
   return any;
 }
 
@@ -91,7 +92,8 @@ void Displace(const Spot& s, size_t i, Crowd* c) {
 
 }  // namespace
 
-void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, const void*), const void* volume, CrowdScratch* s, Crowd* c) {
+void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, const void*), const void* volume, CrowdScratch* s,
+                      Crowd* c) {
   Spot spot{&w, keep_out, volume, s->neighbours, s->displaced};
   s->caring.clear();
   for (size_t i = 0; i < c->size(); ++i) {

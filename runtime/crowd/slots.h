@@ -1,5 +1,6 @@
-// Places in arrays that other rooms keep about people. People come and go all day, and their ids are never used again; a slot is, once its
-// person has gone. The id tells whose a slot is, as the generation of a handle does: an entry with another id is somebody else's.
+// Places in arrays that other rooms keep about people. People come and go all day, and their ids are never used again;
+// a slot is, once its person has gone. The id tells whose a slot is, as the generation of a handle does: an entry with
+// another id is somebody else's.
 #pragma once
 #include <cstddef>
 #include <deque>
@@ -7,12 +8,13 @@
 
 namespace flaneur {
 
-// A slot rests until so many others have been given back after it, so that what fades where somebody went is over by then.
+// A slot rests until so many others have been given back after it, so that what fades where somebody went is over by
+// then.
 inline constexpr size_t kRestingSlots = 64;
 
 struct Slots {
-  std::vector<int> owner;  // by slot: the id of who has it; -1: nobody
-  std::deque<int> resting; // given back, the longest first
+  std::vector<int> owner;   // by slot: the id of who has it; -1: nobody
+  std::deque<int> resting;  // given back, the longest first
 };
 
 inline int TakeSlot(int id, Slots* slots) {

@@ -10,22 +10,23 @@
 namespace flaneur {
 namespace {
 
-constexpr int kBlock = 64;  // people looked at together
-constexpr size_t kFetchAhead = 9;  // people, whose cells lie anywhere
+constexpr int kBlock = 64;                     // people looked at together
+constexpr size_t kFetchAhead = 9;              // people, whose cells lie anywhere
 constexpr float kMinAcceleration_mps2 = 0.5f;  // a turn ends, and doesn't fade away
-constexpr int kReturnDecisions = 45;    // after which a line is forgotten;
-constexpr int kPassing = 7;             // and the first of them, while the visitor passes, change nothing
+constexpr int kReturnDecisions = 45;           // after which a line is forgotten;
+constexpr int kPassing = 7;                    // and the first of them, while the visitor passes, change nothing
 constexpr float kReturn_s = 1.0f, kMaxReturn_mps = 0.5f, kOnLine_m = 0.1f;
 constexpr float kStuck = 0.05f, kStuckDensity_pm2 = 2.5f, kLetGo = 0.7f;
 constexpr int kLetsGo_steps = 30;
-constexpr float kSidestepGain = 2.4f;         // than the last moment
-constexpr float kMinTime_s = 0.3f;  // no stepping aside is quicker
+constexpr float kSidestepGain = 2.4f;  // than the last moment
+constexpr float kMinTime_s = 0.3f;     // no stepping aside is quicker
 
 // exp(-x) for x in [0, 1] to half a percent, without a call.
 float RoughDecay(float x) { return 1 / (1 + x * (1 + x * (0.5f + x * (1.0f / 6)))); }
 
 // Acceleration from a predicted collision: the gradient of k tau^-2 exp(-tau / tau0) over the time to collision tau
-// (Karamouzas, Skinner and Guy 2014, eq. 3). `towards` points from me to the other, `closing` is my velocity less the other's.
+// (Karamouzas, Skinner and Guy 2014, eq. 3). `towards` points from me to the other, `closing` is my velocity less the
+// other's.
 Vec2 Anticipation(Vec2 towards, Vec2 closing, float reach_m) {
   const float b = Dot(towards, closing);
   if (b <= 0) return {};
@@ -48,8 +49,12 @@ struct Looking {
   int person = 0;
 };
 
-// Of the predicted collisions only the foremost counts: sums of many pushes stop people who could pass one after the other.
-struct Surroundings { Vec2 foremost, separation; float foremost2 = 0, crowding = 0; };
+// Of the predicted collisions only the foremost counts: sums of many pushes stop people who could pass one after the
+// other.
+struct Surroundings {
+  Vec2 foremost, separation;
+  float foremost2 = 0, crowding = 0;
+};
 
 // Those of a row of the grid who are within the neighbour radius, as arrays by field.
 struct Block {
@@ -78,8 +83,8 @@ const Neighbour* Gather(const Looking& me, const Neighbour* first, const Neighbo
   return first;
 }
 
-// What is cheap for everybody near, side by side: how much they crowd me, and whether they could matter at all. Who walks my way or
-// stands crowds me in full, who crosses half as much, and who comes towards me will be gone.
+// What is cheap for everybody near, side by side: how much they crowd me, and whether they could matter at all. Who
+// walks my way or stands crowds me in full, who crosses half as much, and who comes towards me will be gone.
 void Weigh(const Looking& me, Block* block) {
   constexpr float kPerRadius2 = 1 / (kDensityRadius_m * kDensityRadius_m);
   const int rounded = std::min(kBlock, (block->count + 3) & ~3);
@@ -95,7 +100,8 @@ void Weigh(const Looking& me, Block* block) {
     const float share = 1 - distance2 * kPerRadius2;
     const float other_x = me.velocity.x - closing_x, other_y = me.velocity.y - closing_y;
     const float other_mps = std::sqrt(other_x * other_x + other_y * other_y);
-    const float stays = 1 - 0.5f * (other_mps - other_x * me.ahead.x - other_y * me.ahead.y) / (other_mps + kTurnsAbove_mps);
+    const float stays =
+        1 - 0.5f * (other_mps - other_x * me.ahead.x - other_y * me.ahead.y) / (other_mps + kTurnsAbove_mps);
     const float reach_m = b.reach_m[k] + kPassing_m;
     const float seen_x = x - kPassOnTheRight_rad * y, seen_y = y + kPassOnTheRight_rad * x;
     const float along = seen_x * closing_x + seen_y * closing_y;
@@ -109,8 +115,8 @@ void Weigh(const Looking& me, Block* block) {
   }
 }
 
-// People pass each other sideways and keep walking: slowing down is left to the density around, but for those who cross from the
-// right.
+// People pass each other sideways and keep walking: slowing down is left to the density around, but for those who cross
+// from the right.
 Vec2 WithoutBraking(const Looking& me, Vec2 towards, Vec2 other, Vec2 push) {
   const float along = Dot(push, me.velocity), speed2 = Dot(me.velocity, me.velocity);
   if (along >= 0 || speed2 <= kTurnsAbove_mps * kTurnsAbove_mps) return push;
@@ -154,7 +160,8 @@ Surroundings LookAround(const NeighbourGrid& grid, const Looking& me) {
   return s;
 }
 
-// Room for somebody who may come faster than people walk: the sideways speed that just clears their way in the time left.
+// Room for somebody who may come faster than people walk: the sideways speed that just clears their way in the time
+// left.
 Vec2 StepAside(Vec2 towards, Vec2 closing, float reach_m) {
   const float speed2 = Dot(closing, closing), along = Dot(towards, closing);
   if (along <= 0 || along > kAnticipation_s * speed2) return {};
@@ -199,7 +206,8 @@ Vec2 AvoidMoving(const Walkable& w, const std::vector<MovingObstacle>& moving, c
                               : Anticipation(towards, closing, room_m) * kDiscMinded);
     const float gap_m = distance_m - reach_m;
     if (gap_m < 2 * kComfort_m) {
-      push = push - towards * (kDiscMinded * kSeparation_mps2 * std::min(1.0f, 1 - gap_m / (2 * kComfort_m)) / distance_m);
+      push =
+          push - towards * (kDiscMinded * kSeparation_mps2 * std::min(1.0f, 1 - gap_m / (2 * kComfort_m)) / distance_m);
     }
   }
   return ClampLength(push, kDiscMinded * kMaxPush_mps2);
@@ -221,12 +229,13 @@ Vec2 BackToLine(bool pushed, Vec2 position, Vec2 way, Mind* mind) {
 
 // The weights of a full disc sum to half its area; walls leave less of it to people.
 float DensityFrom(const Walkable& w, int cell, float crowding) {
-  const float open = cell >= 0 ? std::max(0.2f, static_cast<float>(w.cells[static_cast<size_t>(cell)].open) * (1.0f / 255)) : 1.0f;
+  const float open =
+      cell >= 0 ? std::max(0.2f, static_cast<float>(w.cells[static_cast<size_t>(cell)].open) * (1.0f / 255)) : 1.0f;
   return crowding * 2 / (kPi * kDensityRadius_m * kDensityRadius_m * open);
 }
 
-// Where a dense crowd stands before a door, every second another seven in ten of those who are stuck let the others go: else arches of
-// people who all want through at once hold for a minute.
+// Where a dense crowd stands before a door, every second another seven in ten of those who are stuck let the others go:
+// else arches of people who all want through at once hold for a minute.
 bool LetsOthersGo(float density_pm2, Vec2 velocity, float alone_mps, int id, int64_t step) {
   const float stuck_mps = kStuck * alone_mps;
   if (density_pm2 < kStuckDensity_pm2 || Dot(velocity, velocity) > stuck_mps * stuck_mps) return false;
@@ -236,8 +245,8 @@ bool LetsOthersGo(float density_pm2, Vec2 velocity, float alone_mps, int id, int
   return static_cast<float>(hash >> 16) < kLetGo * 65536;
 }
 
-void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours, const Neighbour& self,
-            Crowd* c) {
+void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours,
+            const Neighbour& self, Crowd* c) {
   const size_t i = static_cast<size_t>(self.person);
   Mind& mind = c->mind[i];
   const Looking me{self.position, self.velocity, mind.ahead, self.radius_m, self.person};
@@ -284,7 +293,8 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
 void ChooseVelocity(float step_s, size_t i, Crowd* c) {
   const Mind& mind = c->mind[i];
   Vec2 preferred;
-  if (c->detour_s[i] > 0) preferred = c->detour[i] * (mind.alone_mps > 0 ? std::min(1.0f, mind.asked_mps / mind.alone_mps) : 1.0f);
+  if (c->detour_s[i] > 0)
+    preferred = c->detour[i] * (mind.alone_mps > 0 ? std::min(1.0f, mind.asked_mps / mind.alone_mps) : 1.0f);
   else if (c->activity[i] == Activity::kWalking && c->field[i] >= 0) preferred = c->way[i] * mind.asked_mps;
   const Vec2 change = preferred + mind.push * kRelaxation_s - c->velocity[i];
   const float change_mps = Length(change);

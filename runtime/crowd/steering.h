@@ -13,8 +13,10 @@ float SpeedInDensity(float density_pm2);
 // Speed in this cell of the ground (-1: off it): slower uphill and down.
 float SpeedOnSlope(const Walkable& w, int cell, float level_mps);
 
-// Those of the neighbours whose turn it is renew what they ask for: the push, the speed and the clearance in crowd->mind.
-void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours, Crowd* crowd);
+// Those of the neighbours whose turn it is renew what they ask for: the push, the speed and the clearance in
+// crowd->mind.
+void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours,
+            Crowd* crowd);
 
 // Fills crowd->wanted[i] from what the person asks for.
 void ChooseVelocity(float step_s, size_t i, Crowd* crowd);

@@ -66,23 +66,29 @@ void Bucket(int cells, Each each, std::vector<int>* start, std::vector<int>* ite
 
 void BucketObstacles(float reach_m, Walkable* w) {
   const int cells = w->columns * w->rows;
-  Bucket(cells, [&](auto add) {
-    for (size_t e = 0; e < w->edges.size(); ++e) {
-      const auto& edge = w->edges[e];
-      const Vec2 low{std::min(edge.a.x, edge.b.x), std::min(edge.a.y, edge.b.y)};
-      const Vec2 high{std::max(edge.a.x, edge.b.x), std::max(edge.a.y, edge.b.y)};
-      VisitCells(*w, low, high, reach_m, [&](int cell) {
-        if (EdgeNearCell(*w, edge, cell, reach_m)) add(cell, static_cast<int>(e));
-      });
-    }
-  }, &w->wall_start, &w->wall_edges);
-  Bucket(cells, [&](auto add) {
-    for (size_t c = 0; c < w->circles.size(); ++c) {
-      const Vec2 r{w->circles[c].radius_m, w->circles[c].radius_m};
-      VisitCells(*w, w->circles[c].center - r, w->circles[c].center + r, reach_m,
-                 [&](int cell) { add(cell, static_cast<int>(c)); });
-    }
-  }, &w->circle_start, &w->wall_circles);
+  Bucket(
+      cells,
+      [&](auto add) {
+        for (size_t e = 0; e < w->edges.size(); ++e) {
+          const auto& edge = w->edges[e];
+          const Vec2 low{std::min(edge.a.x, edge.b.x), std::min(edge.a.y, edge.b.y)};
+          const Vec2 high{std::max(edge.a.x, edge.b.x), std::max(edge.a.y, edge.b.y)};
+          VisitCells(*w, low, high, reach_m, [&](int cell) {
+            if (EdgeNearCell(*w, edge, cell, reach_m)) add(cell, static_cast<int>(e));
+          });
+        }
+      },
+      &w->wall_start, &w->wall_edges);
+  Bucket(
+      cells,
+      [&](auto add) {
+        for (size_t c = 0; c < w->circles.size(); ++c) {
+          const Vec2 r{w->circles[c].radius_m, w->circles[c].radius_m};
+          VisitCells(*w, w->circles[c].center - r, w->circles[c].center + r, reach_m,
+                     [&](int cell) { add(cell, static_cast<int>(c)); });
+        }
+      },
+      &w->circle_start, &w->wall_circles);
 }
 
 // Marks what lies inside polygons, row by row.
@@ -217,7 +223,8 @@ void MeasureSame(Walkable* w) {
     const int around[4] = {-direction, -direction * columns - 1, -direction * columns, -direction * columns + 1};
     for (int step : around) {
       const size_t other = static_cast<size_t>(cell + step);
-      const bool alike = w->cost[other] == w->cost[static_cast<size_t>(cell)] && level(other) && level(static_cast<size_t>(cell));
+      const bool alike =
+          w->cost[other] == w->cost[static_cast<size_t>(cell)] && level(other) && level(static_cast<size_t>(cell));
       least = std::min(least, alike ? w->cells[other].same + 1 : 0);
     }
     w->cells[static_cast<size_t>(cell)].same = static_cast<uint8_t>(least);
@@ -303,7 +310,9 @@ float HeightAt(const Walkable& w, Vec2 p) {
   corner(x1, y0, tx * (1 - ty));
   corner(x0, y1, (1 - tx) * ty);
   corner(x1, y1, tx * ty);
-  return weight > 1e-6f ? sum / weight : g.height_m[static_cast<size_t>(y0) * static_cast<size_t>(g.columns) + static_cast<size_t>(x0)];
+  return weight > 1e-6f
+             ? sum / weight
+             : g.height_m[static_cast<size_t>(y0) * static_cast<size_t>(g.columns) + static_cast<size_t>(x0)];
 }
 
 bool InsideObstacle(const Walkable& w, Vec2 p) {
@@ -336,6 +345,8 @@ int NearestFreeCell(const Walkable& w, Vec2 p, float reach_m) {
   return best;
 }
 
-int FreeCellFor(const Walkable& w, Vec2 p) { return IsFree(w, p) ? CellAt(w, p) : NearestFreeCell(w, p, kPlaceReach_m); }
+int FreeCellFor(const Walkable& w, Vec2 p) {
+  return IsFree(w, p) ? CellAt(w, p) : NearestFreeCell(w, p, kPlaceReach_m);
+}
 
 }  // namespace flaneur

@@ -11,7 +11,8 @@ namespace {
 constexpr float kTolerance_m = 1e-3f;
 constexpr int kSlides = 3;  // a corner needs two
 
-// Calls visit(away, distance_m) for all walls and trees near the cell: `away` from the nearest point to p, distance_m to it.
+// Calls visit(away, distance_m) for all walls and trees near the cell: `away` from the nearest point to p, distance_m
+// to it.
 template <typename Visit>
 void VisitWalls(const Walkable& w, int cell, Vec2 p, Visit visit) {
   const size_t k = static_cast<size_t>(cell);

@@ -9,13 +9,15 @@ Vec2 NearestOnSegment(Vec2 p, Vec2 a, Vec2 b);
 // From p, in or next to `cell`, to the nearest wall or tree; 1e9 where none is near. Not negative inside polygons.
 float Clearance(const Walkable& w, int cell, Vec2 p);
 
-// From every point of the cell (-1: off the ground) at least so far to anything that stops people; 0 where that isn't known.
+// From every point of the cell (-1: off the ground) at least so far to anything that stops people; 0 where that isn't
+// known.
 inline float ClearAround_m(const Walkable& w, int cell) {
   return cell >= 0 ? 0.01f * static_cast<float>(w.cells[static_cast<size_t>(cell)].clear_cm) : 0.0f;
 }
 
-// Where a step from `from` towards `to` ends: along walls where they are in the way, never nearer to one than radius_m (or than
-// `from` is, for somebody who starts closer), never off the ground, and never farther from `from` than `to` is.
+// Where a step from `from` towards `to` ends: along walls where they are in the way, never nearer to one than radius_m
+// (or than `from` is, for somebody who starts closer), never off the ground, and never farther from `from` than `to`
+// is.
 Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m);
 
 // Sum of gentle pushes away from walls within kWallComfort_m beyond touching, metres per second squared.

@@ -9,10 +9,11 @@
 namespace flaneur {
 namespace {
 
-constexpr float kHeuristicWeight = 1.2f;       // weight of what is still estimated: ways get a little longer, searches much smaller
+constexpr float kHeuristicWeight =
+    1.2f;  // weight of what is still estimated: ways get a little longer, searches much smaller
 constexpr float kDiagonal = 1.41421356f;
 constexpr float kAtCorner_m = 0.4f;
-constexpr size_t kNextPoints = 2;    // of the way: searched for over the cells where no point is in sight
+constexpr size_t kNextPoints = 2;  // of the way: searched for over the cells where no point is in sight
 constexpr size_t kMinCells = 4;    // to a corner of a way over cells
 
 void Reach(int node, float cost, int from, float left, SearchTable* t) {
@@ -80,7 +81,8 @@ bool SearchCells(const Walkable& w, int start, int goal, SearchTable* t) {
     const int x = cell % w.columns, y = cell / w.columns;
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        if ((dx == 0 && dy == 0) || !IsOpen(w, x + dx, y + dy) || !IsOpen(w, x + dx, y) || !IsOpen(w, x, y + dy)) continue;
+        if ((dx == 0 && dy == 0) || !IsOpen(w, x + dx, y + dy) || !IsOpen(w, x + dx, y) || !IsOpen(w, x, y + dy))
+          continue;
         const int next = cell + dy * w.columns + dx;
         const float length_m = (dx != 0 && dy != 0 ? kDiagonal : 1.0f) * w.cell_m;
         reach(next, 0.5f * length_m * (CostOfGround(w, cell) + CostOfGround(w, next)));
@@ -115,7 +117,8 @@ Vec2 CornerNear(const Walkable& w, Vec2 p, int start, Vec2 to, WaySearch* s) {
 
 Vec2 FirstCorner(const Walkable& w, Vec2 p, Vec2 goal, WaySearch* s) {
   const int start = FreeCellFor(w, p), end = FreeCellFor(w, goal);
-  if (start < 0 || end < 0 || w.component[static_cast<size_t>(start)] != w.component[static_cast<size_t>(end)]) return p;
+  if (start < 0 || end < 0 || w.component[static_cast<size_t>(start)] != w.component[static_cast<size_t>(end)])
+    return p;
   const Regions& r = s->regions;
   if (!SearchRegions(w, r.region_of[static_cast<size_t>(start)], r.region_of[static_cast<size_t>(end)], s)) return p;
   s->points.clear();
@@ -130,7 +133,8 @@ Vec2 FirstCorner(const Walkable& w, Vec2 p, Vec2 goal, WaySearch* s) {
 Vec2 WayByCorners(const Walkable& w, Vec2 p, Vec2 goal, bool look, Corner* corner, WaySearch* s) {
   if (s->regions.region_of.size() != w.cost.size()) s->regions = BuildRegions(w);
   const bool there = Length(corner->point - p) < kAtCorner_m;
-  if (!corner->known || there || (look && !StraightWay(w, p, corner->point))) *corner = {FirstCorner(w, p, goal, s), true};
+  if (!corner->known || there || (look && !StraightWay(w, p, corner->point)))
+    *corner = {FirstCorner(w, p, goal, s), true};
   const Vec2 way = corner->point - p;
   const float way_m = Length(way);
   return way_m > 1e-3f ? way * (1 / way_m) : Vec2{};

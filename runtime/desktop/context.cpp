@@ -19,8 +19,9 @@
 namespace flaneur {
 
 // What InputName names (runtime/visit/window_input.cpp).
-static_assert(GLFW_KEY_SPACE == 32 && GLFW_KEY_A == 'A' && GLFW_KEY_0 == '0' && GLFW_KEY_ESCAPE == 256 && GLFW_KEY_F1 == 290 &&
-              GLFW_KEY_KP_0 == 320 && GLFW_KEY_MENU == 348 && GLFW_KEY_LAST < kFirstPadCode && GLFW_GAMEPAD_BUTTON_DPAD_LEFT == 14);
+static_assert(GLFW_KEY_SPACE == 32 && GLFW_KEY_A == 'A' && GLFW_KEY_0 == '0' && GLFW_KEY_ESCAPE == 256 &&
+              GLFW_KEY_F1 == 290 && GLFW_KEY_KP_0 == 320 && GLFW_KEY_MENU == 348 && GLFW_KEY_LAST < kFirstPadCode &&
+              GLFW_GAMEPAD_BUTTON_DPAD_LEFT == 14);
 
 std::string PrintedKey(int code) {
   const char* printed = glfwGetKeyName(code, 0);
@@ -76,18 +77,23 @@ Error HeadlessContext::Create() {
   KeepEglQuiet();
   impl_->display = OpenDisplay();
   if (impl_->display == EGL_NO_DISPLAY) {
-    return Fail("no OpenGL without a display on this machine: install the Debian package libgl1-mesa-dri, or add --no-draw");
+    return Fail(
+        "no OpenGL without a display on this machine: install the Debian package libgl1-mesa-dri, or add --no-draw");
   }
-  const EGLint config_attributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_NONE};
+  const EGLint config_attributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE, EGL_DONT_CARE,
+                                      EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   eglBindAPI(EGL_OPENGL_ES_API);
   eglChooseConfig(impl_->display, config_attributes, &config, 1, &count);
   const EGLint context_attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
-  impl_->context = eglCreateContext(impl_->display, count > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, context_attributes);
+  impl_->context =
+      eglCreateContext(impl_->display, count > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, context_attributes);
   if (impl_->context == EGL_NO_CONTEXT ||
       !eglMakeCurrent(impl_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, impl_->context)) {
-    return Fail("this machine's graphics driver has no OpenGL ES 3.0: update it, or draw in software with LIBGL_ALWAYS_SOFTWARE=1");
+    return Fail(
+        "this machine's graphics driver has no OpenGL ES 3.0: update it, or draw in software with "
+        "LIBGL_ALWAYS_SOFTWARE=1");
   }
   return Ok();
 }
@@ -121,8 +127,8 @@ void ReadGamepad(WindowInput* input) {
 
 void (*on_loss)(const char* why) = nullptr;
 
-// Xlib ends the program by itself when its server or one of our windows is gone, and says so in its own words. It is there only
-// where GLFW brings it along.
+// Xlib ends the program by itself when its server or one of our windows is gone, and says so in its own words. It is
+// there only where GLFW brings it along.
 void NoticeLostDisplay() {
   using SetHandler = void (*)(int (*)(void*));
   if (void* set = ::dlsym(RTLD_DEFAULT, "XSetIOErrorHandler")) {
@@ -141,7 +147,10 @@ void NoticeLostWindow() {
 thread_local bool opens_window = false;
 
 void TellOfDriver(int) {
-  if (opens_window) on_loss("the display was lost, or its graphics driver crashed, while the window was opened; try LIBGL_ALWAYS_SOFTWARE=1");
+  if (opens_window)
+    on_loss(
+        "the display was lost, or its graphics driver crashed, while the window was opened; try "
+        "LIBGL_ALWAYS_SOFTWARE=1");
   ::signal(SIGSEGV, SIG_DFL);  // another thread's, and no driver's: it crashes as it would have
 }
 
@@ -169,10 +178,10 @@ class CrashOfDriver {
 
 struct Window::Impl {
   GLFWwindow* window = nullptr;
-  Vec2 last, pressed_at;       // of the cursor
+  Vec2 last, pressed_at;  // of the cursor
   bool focused = false, held = false, dragged = false, free_pointer = false;
-  bool entered = false;        // the cursor came into the window or left it since the last look
-  bool software = false;       // no graphics card draws
+  bool entered = false;   // the cursor came into the window or left it since the last look
+  bool software = false;  // no graphics card draws
 };
 
 Window::Window() : impl_(std::make_unique<Impl>()) {}
@@ -197,8 +206,10 @@ Error Window::Create(int width_px, int height_px, const char* title, void (*lost
   }
   if (impl_->window == nullptr) {
     glfwPollEvents();  // a display that is gone is noticed here
-    return Fail("no window with OpenGL ES 3.0 can be opened: update the graphics driver or install the Debian package libgl1-mesa-dri, "
-                "or draw in software with LIBGL_ALWAYS_SOFTWARE=1");
+    return Fail(
+        "no window with OpenGL ES 3.0 can be opened: update the graphics driver or install the Debian package "
+        "libgl1-mesa-dri, "
+        "or draw in software with LIBGL_ALWAYS_SOFTWARE=1");
   }
   NoticeLostWindow();
   glfwMakeContextCurrent(impl_->window);
@@ -206,7 +217,8 @@ Error Window::Create(int width_px, int height_px, const char* title, void (*lost
   impl_->software = DrawsInSoftware();
   glfwSetInputMode(impl_->window, GLFW_CURSOR, GLFW_CURSOR_DISABLED);
   glfwSetWindowUserPointer(impl_->window, impl_.get());
-  glfwSetCursorEnterCallback(impl_->window, [](GLFWwindow* w, int) { static_cast<Impl*>(glfwGetWindowUserPointer(w))->entered = true; });
+  glfwSetCursorEnterCallback(
+      impl_->window, [](GLFWwindow* w, int) { static_cast<Impl*>(glfwGetWindowUserPointer(w))->entered = true; });
   // Whoever taps shorter than a picture lasts is heard as well.
   glfwSetInputMode(impl_->window, GLFW_STICKY_KEYS, GLFW_TRUE);
   glfwSetInputMode(impl_->window, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
@@ -231,7 +243,8 @@ WindowInput Window::Poll(double wait_s) {
   }
   ReadGamepad(&input);
   const Vec2 cursor = Cursor(w);
-  // A window that comes to the front has its cursor put elsewhere, as has one that catches a cursor from beside it: nobody moved the mouse.
+  // A window that comes to the front has its cursor put elsewhere, as has one that catches a cursor from beside it:
+  // nobody moved the mouse.
   const bool focused = glfwGetWindowAttrib(w, GLFW_FOCUSED);
   if (focused != impl_->focused || !focused || impl_->entered) impl_->last = cursor;
   impl_->focused = focused;

@@ -31,11 +31,11 @@ class Window {
  public:
   Window();
   ~Window();
-  // lost: called, and must not return, when the display or the window is taken away, now or later on, or the driver crashes over it,
-  // with a line that says so; what draws cannot go on then. Errors: no display, no OpenGL ES 3.
+  // lost: called, and must not return, when the display or the window is taken away, now or later on, or the driver
+  // crashes over it, with a line that says so; what draws cannot go on then. Errors: no display, no OpenGL ES 3.
   Error Create(int width_px, int height_px, const char* title, void (*lost)(const char* why));
   WindowInput Poll(double wait_s = 0);  // for so long at most, until something happens
-  void FreePointer(bool free);  // to point at things with; else the mouse is caught, and turns the view
+  void FreePointer(bool free);          // to point at things with; else the mouse is caught, and turns the view
   void Size(int* width_px, int* height_px) const;
   void Show();             // what was drawn; waits for the display
   bool ShowWaits() const;  // rather than to work: a graphics card's does

@@ -24,7 +24,8 @@ namespace {
 std::string LastLine(int file) {
   char text[2000];
   const ssize_t size = file < 0 ? 0 : ::lseek(file, 0, SEEK_END);
-  const ssize_t read = size <= 0 ? 0 : ::pread(file, text, sizeof text, std::max<ssize_t>(0, size - static_cast<ssize_t>(sizeof text)));
+  const ssize_t read =
+      size <= 0 ? 0 : ::pread(file, text, sizeof text, std::max<ssize_t>(0, size - static_cast<ssize_t>(sizeof text)));
   std::string line(text, static_cast<size_t>(std::max<ssize_t>(0, read)));
   line.erase(line.find_last_not_of(" \r\n") + 1);
   return OneLine(line.substr(line.find_last_of('\n') + 1));
@@ -43,15 +44,40 @@ FilmWriter::~FilmWriter() {
 }
 
 Error FilmWriter::Start(const std::filesystem::path& path, int width_px, int height_px, float frames_per_s) {
-  if (width_px % 2 != 0 || height_px % 2 != 0) return Fail("a film needs an even --size, not " + std::to_string(width_px) + "x" + std::to_string(height_px));
+  if (width_px % 2 != 0 || height_px % 2 != 0)
+    return Fail("a film needs an even --size, not " + std::to_string(width_px) + "x" + std::to_string(height_px));
   std::error_code ec;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ec);
   path_ = path;
   temporary_ = path.string() + ".part-" + std::to_string(::getpid()) + ".mp4";
-  const std::string size = std::to_string(width_px) + "x" + std::to_string(height_px), rate = std::to_string(frames_per_s);
-  const char* argv[] = {"ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", size.c_str(),
-                        "-framerate", rate.c_str(), "-i", "-", "-c:v", "libx264", "-preset", "veryfast", "-crf", "20",
-                        "-pix_fmt", "yuv420p", "-movflags", "+faststart", temporary_.c_str(), nullptr};
+  const std::string size = std::to_string(width_px) + "x" + std::to_string(height_px),
+                    rate = std::to_string(frames_per_s);
+  const char* argv[] = {"ffmpeg",
+                        "-v",
+                        "error",
+                        "-y",
+                        "-f",
+                        "rawvideo",
+                        "-pixel_format",
+                        "rgb24",
+                        "-video_size",
+                        size.c_str(),
+                        "-framerate",
+                        rate.c_str(),
+                        "-i",
+                        "-",
+                        "-c:v",
+                        "libx264",
+                        "-preset",
+                        "veryfast",
+                        "-crf",
+                        "20",
+                        "-pix_fmt",
+                        "yuv420p",
+                        "-movflags",
+                        "+faststart",
+                        temporary_.c_str(),
+                        nullptr};
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return Fail("no pipe to ffmpeg: " + std::string(std::strerror(errno)));
   complaints_ = ::memfd_create("complaints", MFD_CLOEXEC);
@@ -101,7 +127,8 @@ Error FilmWriter::Finish() {
   // A disk that is full at the film's very end is an error to ffmpeg, but not one to end with another status for.
   const bool whole = WIFEXITED(status) && WEXITSTATUS(status) == 0 && LastLine(complaints_).empty();
   if (!whole) return Failed();
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0) return Fail(path_.string() + ": cannot be written: " + std::strerror(errno));
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0)
+    return Fail(path_.string() + ": cannot be written: " + std::strerror(errno));
   temporary_.clear();
   return Ok();
 }

@@ -4,14 +4,14 @@
 
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
-#include "runtime/show/guide_figure.h"
-#include "runtime/visit/loading.h"
 #include "runtime/desktop/options.h"
 #include "runtime/desktop/run.h"
-#include "runtime/simulation/scenario.h"
 #include "runtime/desktop/stills.h"
 #include "runtime/desktop/user_settings.h"
 #include "runtime/desktop/warn.h"
+#include "runtime/show/guide_figure.h"
+#include "runtime/simulation/scenario.h"
+#include "runtime/visit/loading.h"
 
 namespace flaneur {
 namespace {
@@ -27,7 +27,8 @@ Error CheckOutputs(const PlayerOptions& options) {
   return Ok();
 }
 
-Error PlayInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, Simulation* simulation) {
+Error PlayInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader,
+                   Simulation* simulation) {
   UserSettings user;
   if (Error e = ReadUserSettings(options, &user)) return e;
   return RunInWindow(options, pack, jobs, loader, &user, simulation);

@@ -23,47 +23,64 @@ bool ParseSize(const std::string& text, PlayerOptions* o) {
 }  // namespace
 
 int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
-  CLI::App app{"Plays a tour pack: a walk through a historic town among its townspeople.\n"
-               "In the window: W A S D or arrows walk and the mouse looks; a click walks to where it points. Tab: guided tour or "
-               "free walk; space pauses the tour, N goes to the next stop, B back; L changes the language, M frees the pointer, "
-               "- and = change the field of view, Esc opens the pages with all settings. Gamepads work too. docs/player.md says how to change all that.\n"
-               "Exit status: 0 done, 2 bad usage or input.",
-               "flaneur-player"};
+  CLI::App app{
+      "Plays a tour pack: a walk through a historic town among its townspeople.\n"
+      "In the window: W A S D or arrows walk and the mouse looks; a click walks to where it points. Tab: guided tour "
+      "or "
+      "free walk; space pauses the tour, N goes to the next stop, B back; L changes the language, M frees the pointer, "
+      "- and = change the field of view, Esc opens the pages with all settings. Gamepads work too. docs/player.md says "
+      "how to change all that.\n"
+      "Exit status: 0 done, 2 bad usage or input.",
+      "flaneur-player"};
   std::string size = "1280x720";
   app.set_version_flag("--version", "flaneur-player " FLANEUR_VERSION, "Print the version and exit");
   app.add_option("PACK", o->pack, "Tour pack (.glb); not needed where the scenario brings its own ground");
   app.add_flag("--headless", o->headless, "No window: run by itself, as fast as it goes");
   app.add_flag("--no-draw", o->no_draw, "With --headless: the simulation alone, without OpenGL");
   app.add_flag("--views", o->views,
-               "Show the plan of the town and graphs over the picture (in the window: F1; F2 switches the adaptation), and say when a "
+               "Show the plan of the town and graphs over the picture (in the window: F1; F2 switches the adaptation), "
+               "and say when a "
                "window's first picture was there");
-  app.add_option("--seconds", o->seconds, "End after so much simulated time (default: the scenario's, else the guided tour's end, else 60)")
+  app.add_option("--seconds", o->seconds,
+                 "End after so much simulated time (default: the scenario's, else the guided tour's end, else 60)")
       ->check(CLI::Range(0.0, 1e6));
   app.add_option("--scenario", o->scenario, "Scenario file (TOML)");
   app.add_option("--metrics", o->metrics, "Write one row a frame (CSV)");
   app.add_option("--trajectories", o->trajectories, "Write one row a person a frame (CSV)");
   app.add_option("--screenshot", o->screenshot, "Write the last picture (PNG)");
-  app.add_option("--at", o->at_s, "Moments of --screenshot in seconds, such as 10,25.5: a still each, FILE_10s.png and FILE_25.5s.png")
-      ->delimiter(',')->check(CLI::Range(0.0, 1e6));
+  app.add_option("--at", o->at_s,
+                 "Moments of --screenshot in seconds, such as 10,25.5: a still each, FILE_10s.png and FILE_25.5s.png")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1e6));
   app.add_option("--film", o->film, "Write a film (MP4, H.264)");
-  app.add_option("--samples", o->samples, "Samples a pixel of --screenshot and --film (default: 4, but 1 for films without a graphics card)")
+  app.add_option("--samples", o->samples,
+                 "Samples a pixel of --screenshot and --film (default: 4, but 1 for films without a graphics card)")
       ->check(CLI::IsMember({1, 2, 4, 8}));
   app.add_option("--size", size, "Picture size in pixels")->capture_default_str();
-  app.add_option("--people", o->people, "How many people (default: the scenario's, else the pack's)")->check(CLI::Range(0, 1000000));
+  app.add_option("--people", o->people, "How many people (default: the scenario's, else the pack's)")
+      ->check(CLI::Range(0, 1000000));
   app.add_option("--seed", o->seed, "Seed of the crowd (default: likewise)");
-  app.add_option("--hour", o->hour, "Hour of the day at the start, such as 19.5 (default: likewise); it sets sun and sky")
+  app.add_option("--hour", o->hour,
+                 "Hour of the day at the start, such as 19.5 (default: likewise); it sets sun and sky")
       ->check(CLI::Range(0.0, 24.0));
-  app.add_option("--adaptation", o->adaptation, "How the crowd keeps out of the visitor's way: off, paper or full (default: likewise)")
+  app.add_option("--adaptation", o->adaptation,
+                 "How the crowd keeps out of the visitor's way: off, paper or full (default: likewise)")
       ->check(CLI::IsMember({"off", "paper", "full"}));
-  app.add_option("--language", o->language, "Of the guided tour's captions and sounds, such as en (default: the tour's own)");
+  app.add_option("--language", o->language,
+                 "Of the guided tour's captions and sounds, such as en (default: the tour's own)");
   app.add_option("--settings", o->settings, "Settings file (default: $XDG_CONFIG_HOME/flaneur/player.toml)");
-  app.add_option("--set", o->set, "SETTING=VALUE instead of what the settings file says, such as snap_turn_deg=30 or keys.pause=p,pad_a")
+  app.add_option("--set", o->set,
+                 "SETTING=VALUE instead of what the settings file says, such as snap_turn_deg=30 or keys.pause=p,pad_a")
       ->allow_extra_args(false);
   app.add_flag("--save-settings", o->save_settings, "Write the settings as they are now, with --set, and end");
-  app.add_option("--threads", o->threads, "Threads that work beside the one that plays (default: one a core, two at least); 0: it does all itself")
+  app.add_option(
+         "--threads", o->threads,
+         "Threads that work beside the one that plays (default: one a core, two at least); 0: it does all itself")
       ->check(CLI::Range(0, 256));
-  app.add_option("--compare", o->compare, "Two adaptations on the same walk, side by side in one film or picture, such as: off full")
-      ->expected(2)->check(CLI::IsMember({"off", "paper", "full"}));
+  app.add_option("--compare", o->compare,
+                 "Two adaptations on the same walk, side by side in one film or picture, such as: off full")
+      ->expected(2)
+      ->check(CLI::IsMember({"off", "paper", "full"}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -75,8 +92,10 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   if (o->no_draw && !o->headless) return Refuse("--no-draw needs --headless");
   if (o->no_draw && o->views) return Refuse("--no-draw makes no pictures for --views; leave one out");
   if (o->views && !o->compare.empty()) return Refuse("--views is for one run; leave out --compare");
-  if (o->no_draw && (!o->screenshot.empty() || !o->film.empty())) return Refuse("--no-draw makes no pictures; leave it out");
-  if (!o->headless && (!o->screenshot.empty() || !o->film.empty())) return Refuse("--screenshot and --film need --headless");
+  if (o->no_draw && (!o->screenshot.empty() || !o->film.empty()))
+    return Refuse("--no-draw makes no pictures; leave it out");
+  if (!o->headless && (!o->screenshot.empty() || !o->film.empty()))
+    return Refuse("--screenshot and --film need --headless");
   if (!o->at_s.empty() && o->screenshot.empty()) return Refuse("--at is for --screenshot");
   if (o->samples && o->screenshot.empty() && o->film.empty()) return Refuse("--samples is for --film and --screenshot");
   if (o->compare.empty()) return -1;

@@ -11,18 +11,18 @@ namespace flaneur {
 struct PlayerOptions {
   std::filesystem::path pack, scenario, metrics, trajectories, screenshot, film;
   bool headless = false, no_draw = false, views = false;
-  std::filesystem::path settings;          // empty: the user's own
-  std::vector<std::string> set;            // SETTING=VALUE, over those of the file
+  std::filesystem::path settings;  // empty: the user's own
+  std::vector<std::string> set;    // SETTING=VALUE, over those of the file
   bool save_settings = false;
   std::optional<float> seconds, hour;
-  std::vector<float> at_s;           // moments of the stills; empty: the last picture
+  std::vector<float> at_s;  // moments of the stills; empty: the last picture
   std::optional<int> people;
   std::optional<uint64_t> seed;
   std::optional<std::string> adaptation, language;
   std::vector<std::string> compare;  // adaptations side by side: two, or none
   int width_px = 1280, height_px = 720;
-  std::optional<int> samples;        // a pixel, of stills and films
-  std::optional<int> threads;        // beside the one that plays
+  std::optional<int> samples;  // a pixel, of stills and films
+  std::optional<int> threads;  // beside the one that plays
 };
 
 // Negative: go on. Else the exit status: 0 after --help, 2 after bad usage, which was said in one line.

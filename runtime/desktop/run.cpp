@@ -24,9 +24,12 @@ Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation*
   Records records;
   records.keep_metrics = !options.metrics.empty();
   records.keep_trajectories = !options.trajectories.empty();
-  const auto record = [&] { Record(*simulation, {0, 0, static_cast<double>(FrameTimeByModel_ms(*simulation))}, &records); };
+  const auto record = [&] {
+    Record(*simulation, {0, 0, static_cast<double>(FrameTimeByModel_ms(*simulation))}, &records);
+  };
   record();
-  const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(Step_s(*simulation)) + 0.5);
+  const auto steps =
+      static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(Step_s(*simulation)) + 0.5);
   while (simulation->town.step < steps && !simulation->visitor.finished) {
     StepSimulation({}, FrameTimeByModel_ms(*simulation), simulation);
     record();

@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "runtime/base/error.h"
-#include "runtime/pack/tour_pack.h"
-#include "runtime/visit/loading.h"
 #include "runtime/desktop/options.h"
-#include "runtime/simulation/simulation.h"
 #include "runtime/desktop/user_settings.h"
+#include "runtime/pack/tour_pack.h"
+#include "runtime/simulation/simulation.h"
+#include "runtime/visit/loading.h"
 
 namespace flaneur {
 
@@ -17,8 +17,10 @@ float RunLength_s(const PlayerOptions& options, const Scenario& scenario, const 
 Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation* simulation);
 // Several simulations, as many as options.compare names, are drawn side by side; records are of the first.
 // `loader` has been started with the pack.
-Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader, std::vector<Simulation>* simulations);
+Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader,
+                  std::vector<Simulation>* simulations);
 // Settings that the visitor changes are saved.
-Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, UserSettings* user, Simulation* simulation);
+Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, UserSettings* user,
+                  Simulation* simulation);
 
 }  // namespace flaneur

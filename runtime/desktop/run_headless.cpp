@@ -5,16 +5,16 @@
 
 #include "runtime/base/png.h"
 #include "runtime/base/text.h"
+#include "runtime/desktop/context.h"
 #include "runtime/desktop/film.h"
-#include "runtime/show/frame_from_simulation.h"
 #include "runtime/desktop/interruption.h"
-#include "runtime/simulation/records.h"
 #include "runtime/desktop/run.h"
 #include "runtime/desktop/stills.h"
-#include "runtime/visit/developer_views.h"
-#include "runtime/desktop/context.h"
 #include "runtime/render/overlay.h"
 #include "runtime/render/renderer.h"
+#include "runtime/show/frame_from_simulation.h"
+#include "runtime/simulation/records.h"
+#include "runtime/visit/developer_views.h"
 
 namespace flaneur {
 namespace {
@@ -33,7 +33,8 @@ struct Pane {
   DeveloperViews views;
 };
 
-void DrawPane(const PlayerOptions& options, const TourPack& pack, int width_px, bool read, Renderer* renderer, Overlay* overlay, Pane* pane) {
+void DrawPane(const PlayerOptions& options, const TourPack& pack, int width_px, bool read, Renderer* renderer,
+              Overlay* overlay, Pane* pane) {
   FrameFromSimulation(pack, *pane->simulation, &pane->looks, &pane->frame);
   if (!pane->label.empty()) {
     pane->frame.caption = pane->label;
@@ -64,14 +65,17 @@ std::vector<uint8_t> Joined(const std::vector<Pane>& panes, int height_px) {
 }
 
 // Writes those that are due; `ended`: this is the last picture.
-Error WriteDue(const std::vector<Pane>& panes, const PlayerOptions& options, int64_t frame, bool ended, std::vector<Still>* stills) {
+Error WriteDue(const std::vector<Pane>& panes, const PlayerOptions& options, int64_t frame, bool ended,
+               std::vector<Still>* stills) {
   while (!stills->empty() && (stills->front().frame == frame || (ended && stills->front().frame < 0))) {
-    if (Error e = WritePng(stills->front().path, options.width_px, options.height_px, Joined(panes, options.height_px))) return e;
+    if (Error e = WritePng(stills->front().path, options.width_px, options.height_px, Joined(panes, options.height_px)))
+      return e;
     stills->erase(stills->begin());
   }
   if (!ended || stills->empty()) return Ok();
   const double ends_s = static_cast<double>(frame) * static_cast<double>(Step_s(*panes[0].simulation));
-  return Fail("the walk ends after " + Compact(ends_s) + " s, before " + stills->front().path.string() + "; --at must be earlier");
+  return Fail("the walk ends after " + Compact(ends_s) + " s, before " + stills->front().path.string() +
+              "; --at must be earlier");
 }
 
 }  // namespace
@@ -96,7 +100,8 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   }
   std::vector<Pane> panes;
   for (size_t k = 0; k < simulations->size(); ++k) {
-    panes.push_back({&(*simulations)[k], options.compare.empty() ? "" : "adaptation: " + options.compare[k], {}, {}, {}, {}, {}});
+    panes.push_back(
+        {&(*simulations)[k], options.compare.empty() ? "" : "adaptation: " + options.compare[k], {}, {}, {}, {}, {}});
   }
   Simulation& first = simulations->front();
   std::vector<Still> stills = StillsOf(options, Step_s(first));
@@ -109,8 +114,8 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   }
   const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(Step_s(first)) + 0.5);
   if (!stills.empty() && stills.back().frame > steps) {
-    return Fail("the run ends after " + Compact(static_cast<double>(seconds)) + " s, before " + stills.back().path.string() +
-                "; --at must be earlier");
+    return Fail("the run ends after " + Compact(static_cast<double>(seconds)) + " s, before " +
+                stills.back().path.string() + "; --at must be earlier");
   }
   const auto over = [&](const Simulation& s) { return s.town.step >= steps || s.visitor.finished; };
   for (;;) {
@@ -123,7 +128,8 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
     }
     if (draw_all || still) {
       const int width_px = options.width_px / static_cast<int>(panes.size());
-      for (Pane& pane : panes) DrawPane(options, pack, width_px, filming || still, &renderer, options.views ? &overlay : nullptr, &pane);
+      for (Pane& pane : panes)
+        DrawPane(options, pack, width_px, filming || still, &renderer, options.views ? &overlay : nullptr, &pane);
       if (filming) {
         if (Error e = film.Add(Joined(panes, options.height_px))) return e;
       }
@@ -131,7 +137,9 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
     if (still) {
       if (Error e = WriteDue(panes, options, first.town.step, last, &stills)) return e;
     }
-    Record(first, {panes[0].statistics.town_triangles, panes[0].statistics.shadow_triangles, panes[0].statistics.draw_ms}, &records);
+    Record(first,
+           {panes[0].statistics.town_triangles, panes[0].statistics.shadow_triangles, panes[0].statistics.draw_ms},
+           &records);
     RememberFrame(first, panes[0].statistics, static_cast<float>(panes[0].statistics.draw_ms), &panes[0].views.history);
     if (last) break;
     for (Pane& pane : panes) {

@@ -4,12 +4,12 @@
 #include <string>
 
 #include "runtime/base/clock.h"
-#include "runtime/simulation/records.h"
+#include "runtime/desktop/context.h"
 #include "runtime/desktop/run.h"
 #include "runtime/desktop/speaker.h"
 #include "runtime/desktop/warn.h"
+#include "runtime/simulation/records.h"
 #include "runtime/visit/visit.h"
-#include "runtime/desktop/context.h"
 
 namespace flaneur {
 namespace {
@@ -18,15 +18,18 @@ const double program_start_s = Now_s();
 constexpr double kPause_s = 0.002;  // between looks at whether the town is there
 
 void TellStart() {
-  std::fprintf(stderr, "flaneur-player: first picture after %.2f s, %.2f s of processor time\n", Now_s() - program_start_s,
-               static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
+  std::fprintf(stderr, "flaneur-player: first picture after %.2f s, %.2f s of processor time\n",
+               Now_s() - program_start_s, static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
 }
 
-std::string Title(const std::string& name, double frames_per_s, const Simulation& s, const FrameStatistics& statistics) {
+std::string Title(const std::string& name, double frames_per_s, const Simulation& s,
+                  const FrameStatistics& statistics) {
   char title[200];
-  const char* tour = s.visitor.tour.over ? " - tour over" : s.visitor.tour.paused && HasTour(s.visitor.tour) ? " - tour paused" : "";
-  std::snprintf(title, sizeof title, "%s%s - %.0f frames/s at %.0f %%, %zu people, %lld triangles", name.c_str(), tour, frames_per_s,
-                100 * static_cast<double>(statistics.resolution_scale), s.town.crowd.size(),
+  const char* tour = s.visitor.tour.over                                ? " - tour over"
+                     : s.visitor.tour.paused && HasTour(s.visitor.tour) ? " - tour paused"
+                                                                        : "";
+  std::snprintf(title, sizeof title, "%s%s - %.0f frames/s at %.0f %%, %zu people, %lld triangles", name.c_str(), tour,
+                frames_per_s, 100 * static_cast<double>(statistics.resolution_scale), s.town.crowd.size(),
                 static_cast<long long>(statistics.people_triangles + statistics.town_triangles));
   return title;
 }
@@ -48,7 +51,8 @@ Error WaitForTown(Window* window, Visit* visit, bool* closed) {
 
 }  // namespace
 
-Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, UserSettings* user, Simulation* s) {
+Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, UserSettings* user,
+                  Simulation* s) {
   Window window;
   if (Error e = window.Create(options.width_px, options.height_px, pack.name.c_str(), EndWithoutWindow)) return e;
   Speaker speaker(jobs);

@@ -12,7 +12,10 @@ namespace {
 constexpr sf_count_t kMaxLength_frames = 48000 * 3600, kBlock_frames = 4096;
 
 // The bytes as a file for libsndfile.
-struct Memory { const std::vector<uint8_t>* bytes; sf_count_t at = 0; };
+struct Memory {
+  const std::vector<uint8_t>* bytes;
+  sf_count_t at = 0;
+};
 
 sf_count_t SizeOf(void* memory) { return static_cast<sf_count_t>(static_cast<Memory*>(memory)->bytes->size()); }
 
@@ -51,7 +54,8 @@ Sound DecodeSound(const std::vector<uint8_t>& bytes) {
   while ((read = sf_readf_float(file.get(), block.data(), kBlock_frames)) > 0) {
     for (size_t frame = 0; frame < static_cast<size_t>(read); ++frame) {
       for (int c = 0; c < out.channels; ++c) {
-        const float value = block[frame * static_cast<size_t>(info.channels) + static_cast<size_t>(c)];  // maybe not a number
+        const float value =
+            block[frame * static_cast<size_t>(info.channels) + static_cast<size_t>(c)];  // maybe not a number
         out.samples.push_back(static_cast<int16_t>((value > -1 ? std::min(value, 1.0f) : -1.0f) * 32767));
       }
     }

@@ -18,7 +18,8 @@ namespace {
 
 void SayNothing(const char*, int, const char*, int, const char*, ...) {}
 
-// Where there is no device, OpenAL and ALSA would each have much to say about it. ALSA is there only where OpenAL brings it along.
+// Where there is no device, OpenAL and ALSA would each have much to say about it. ALSA is there only where OpenAL
+// brings it along.
 void QuietenLibraries() {
   ::setenv("ALSOFT_LOGLEVEL", "0", 0);
   using SetHandler = int (*)(decltype(&SayNothing));
@@ -33,11 +34,11 @@ struct Speaker::Impl {
   ALuint source = 0, buffer = 0;
   bool tried = false, paused = false, playing = false;
   float volume = 1;
-  std::string name;                    // of the sound that plays or is decoded
-  std::set<std::string> undecodable;   // of which that has been said
+  std::string name;                   // of the sound that plays or is decoded
+  std::set<std::string> undecodable;  // of which that has been said
   Jobs* jobs = nullptr;
   Sound decoded;
-  std::optional<Job> decoding;         // last, so that it ends first
+  std::optional<Job> decoding;  // last, so that it ends first
 
   // True once there is a device; opens it where that has not been tried.
   bool Open() {

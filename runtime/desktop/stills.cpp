@@ -13,7 +13,8 @@ std::vector<Still> StillsOf(const PlayerOptions& options, float step_s) {
   std::vector<Still> stills;
   for (float at_s : options.at_s) {
     std::filesystem::path path = options.screenshot;
-    path.replace_filename(path.stem().string() + "_" + Compact(static_cast<double>(at_s)) + "s" + path.extension().string());
+    path.replace_filename(path.stem().string() + "_" + Compact(static_cast<double>(at_s)) + "s" +
+                          path.extension().string());
     stills.push_back({std::llround(static_cast<double>(at_s) / static_cast<double>(step_s)), path});
   }
   std::sort(stills.begin(), stills.end(), [](const Still& a, const Still& b) { return a.frame < b.frame; });

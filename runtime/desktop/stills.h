@@ -13,7 +13,8 @@ struct Still {
   std::filesystem::path path;
 };
 
-// In the order of their frames: those that --screenshot and --at ask for. With --at each bears its moment, as walk_12.5s.png.
+// In the order of their frames: those that --screenshot and --at ask for. With --at each bears its moment, as
+// walk_12.5s.png.
 std::vector<Still> StillsOf(const PlayerOptions& options, float step_s);
 
 }  // namespace flaneur

@@ -23,8 +23,11 @@ Error ReadUserSettings(const PlayerOptions& options, UserSettings* user) {
 
 Error SaveUserSettings(const PlayerSettings& settings, const UserSettings& user) {
   if (user.may_save) return WritePlayerSettings(user.path, settings);
-  return user.path.empty() ? Fail("there is no folder for settings: neither XDG_CONFIG_HOME nor HOME is set; name a file with --settings")
-                           : Fail(user.path.string() + ": has something wrong in it, so nothing is saved over it; mend or remove it");
+  return user.path.empty()
+             ? Fail(
+                   "there is no folder for settings: neither XDG_CONFIG_HOME nor HOME is set; name a file with "
+                   "--settings")
+             : Fail(user.path.string() + ": has something wrong in it, so nothing is saved over it; mend or remove it");
 }
 
 Error SaveChanges(const PlayerSettings& now, UserSettings* user) {

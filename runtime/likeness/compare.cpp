@@ -10,7 +10,9 @@
 namespace flaneur {
 namespace {
 
-struct Lab { double l, a, b; };
+struct Lab {
+  double l, a, b;
+};
 
 double LabCurve(double t) {
   constexpr double kEdge = 6.0 / 29;
@@ -33,11 +35,13 @@ Lab LabFromSrgb(const uint8_t* rgb) {
 Vec3 NormalAt(const Portrait& portrait, size_t pixel) {
   const uint8_t* n = &portrait.normals[4 * pixel];
   const float half = static_cast<float>(n[3]) / 2;
-  return Normalized(Vec3{static_cast<float>(n[0]) - half, static_cast<float>(n[1]) - half, static_cast<float>(n[2]) - half});
+  return Normalized(
+      Vec3{static_cast<float>(n[0]) - half, static_cast<float>(n[1]) - half, static_cast<float>(n[2]) - half});
 }
 
 double AngleDegrees(Vec3 a, Vec3 b) {
-  return std::atan2(static_cast<double>(Length(Cross(a, b))), static_cast<double>(Dot(a, b))) * 180 / static_cast<double>(kPi);
+  return std::atan2(static_cast<double>(Length(Cross(a, b))), static_cast<double>(Dot(a, b))) * 180 /
+         static_cast<double>(kPi);
 }
 
 bool Covers(const Portrait& portrait, size_t pixel) { return portrait.normals[4 * pixel + 3] >= 128; }

@@ -13,10 +13,10 @@ struct Portrait {
 };
 
 struct Likeness {
-  double delta_e = 0;            // CIE 1976 dE*ab: mean over the pixels that both cover by half
-  double delta_e_whole = 0;      // over the pixels that `full` covers by half: where the other misses them, against the sky
-  double overlap = 0;            // intersection over union of those pixels
-  double normal_deg = 0;         // mean angle over the pixels that both cover by half
+  double delta_e = 0;        // CIE 1976 dE*ab: mean over the pixels that both cover by half
+  double delta_e_whole = 0;  // over the pixels that `full` covers by half: where the other misses them, against the sky
+  double overlap = 0;        // intersection over union of those pixels
+  double normal_deg = 0;     // mean angle over the pixels that both cover by half
 };
 
 // Both portraits must show somebody and have the same size; otherwise overlap is 0 and nothing else is meaningful.

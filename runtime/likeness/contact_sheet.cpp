@@ -31,7 +31,9 @@ void Paste(const std::vector<uint8_t>& rgba, size_t size, size_t left, size_t to
   }
 }
 
-size_t RowSize(const std::vector<SheetPair>& row) { return row.empty() ? 0 : static_cast<size_t>(row.front().full.size_px); }
+size_t RowSize(const std::vector<SheetPair>& row) {
+  return row.empty() ? 0 : static_cast<size_t>(row.front().full.size_px);
+}
 
 }  // namespace
 

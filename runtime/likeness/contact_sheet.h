@@ -9,7 +9,9 @@
 
 namespace flaneur {
 
-struct SheetPair { Portrait full, other; };
+struct SheetPair {
+  Portrait full, other;
+};
 
 // Three rows for each row of pairs: full geometry, the other, and their difference dE*ab (black 0, white 20 and more).
 // All pairs of a row have the same size. Errors: as for WriteFile.

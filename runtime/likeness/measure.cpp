@@ -8,7 +8,9 @@ namespace flaneur {
 namespace {
 
 // Over the visitor's left shoulder, from the right and high, and low from behind the person.
-struct Sun { float azimuth_deg, elevation_deg; };
+struct Sun {
+  float azimuth_deg, elevation_deg;
+};
 constexpr std::array<Sun, 3> kSuns = {{{145, 40}, {-80, 60}, {25, 20}}};
 
 Vec3 ToSun(const Sun& sun) {
@@ -76,12 +78,14 @@ AvatarLikeness Measure(const MeasureOptions& options, int avatar, PortraitStudio
   out.name = a.name;
   for (int level = 1; level <= static_cast<int>(a.levels.size()); ++level) {
     const bool impostor = level == static_cast<int>(a.levels.size());
-    const float switch_px = impostor ? studio->ImpostorSwitch_px(avatar) : a.levels[static_cast<size_t>(level) - 1].switch_px;
+    const float switch_px =
+        impostor ? studio->ImpostorSwitch_px(avatar) : a.levels[static_cast<size_t>(level) - 1].switch_px;
     if (options.impostors_only && !impostor) continue;
     if (!(switch_px >= 1)) continue;  // the level before serves at any distance
     const float person_px = options.person_px > 0 ? options.person_px : switch_px;
     out.sheet.emplace_back();
-    out.levels.push_back(MeasureLevel(options, avatar, impostor ? kImpostor : MeshLevel(level), person_px, studio, &out.sheet.back()));
+    out.levels.push_back(
+        MeasureLevel(options, avatar, impostor ? kImpostor : MeshLevel(level), person_px, studio, &out.sheet.back()));
   }
   return out;
 }

@@ -10,17 +10,17 @@ namespace flaneur {
 
 struct MeasureOptions {
   int headings = 32, phases = 8, suns = 3;  // 1 or more each; at most 3 suns
-  float between = 0;         // moves every phase and every heading on by so much of their spacing
+  float between = 0;                        // moves every phase and every heading on by so much of their spacing
   ClipKind clip = ClipKind::kWalk;
   bool impostors_only = false;
-  float person_px = 0;       // height on screen where all are compared; 0: each at its switch distance
+  float person_px = 0;  // height on screen where all are compared; 0: each at its switch distance
   int sheet_columns = 8;
 };
 
 struct LevelLikeness {
   Level level;
-  float person_px = 0;       // height on screen where compared
-  Likeness mean, worst;      // of all pictures, each figure for itself
+  float person_px = 0;   // height on screen where compared
+  Likeness mean, worst;  // of all pictures, each figure for itself
 };
 
 struct AvatarLikeness {

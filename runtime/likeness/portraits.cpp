@@ -38,7 +38,8 @@ std::vector<uint8_t> Reduced(const std::vector<uint8_t>& fine, size_t size_px, s
   for (size_t i = 0; i < out.size(); ++i) {
     const size_t x = i / 4 % size_px, y = i / 4 / size_px;
     size_t sum = area / 2;
-    for (size_t k = 0; k < area; ++k) sum += fine[(y * factor + k / factor) * row + (x * factor + k % factor) * 4 + i % 4];
+    for (size_t k = 0; k < area; ++k)
+      sum += fine[(y * factor + k / factor) * row + (x * factor + k % factor) * 4 + i % 4];
     out[i] = static_cast<uint8_t>(sum / area);
   }
   return out;
@@ -85,7 +86,8 @@ void PortraitStudio::Draw(const PortraitMoment& moment, Level level, float perso
 }
 
 void PortraitStudio::Relight(const PortraitMoment& moment, Level level, float person_px, Portrait* portrait) {
-  impl_->Shoot(FrameOf(impl_->pack, moment, level, person_px, portrait->size_px), portrait->size_px, &impl_->lit, &portrait->rgba);
+  impl_->Shoot(FrameOf(impl_->pack, moment, level, person_px, portrait->size_px), portrait->size_px, &impl_->lit,
+               &portrait->rgba);
 }
 
 const TourPack& PortraitStudio::pack() const { return impl_->pack; }

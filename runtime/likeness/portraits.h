@@ -11,9 +11,9 @@ namespace flaneur {
 
 struct PortraitMoment {
   int avatar = 0;
-  float heading_rad = 0;     // 0: the person looks away from the visitor
+  float heading_rad = 0;  // 0: the person looks away from the visitor
   ClipMoment moment;
-  Vec3 to_sun{0, 0, 1};      // ground axes; the visitor looks along +x
+  Vec3 to_sun{0, 0, 1};  // ground axes; the visitor looks along +x
 };
 
 // Needs a current OpenGL context for its whole life.
@@ -21,8 +21,8 @@ class PortraitStudio {
  public:
   PortraitStudio();
   ~PortraitStudio();
-  // The town is left out. Each pixel is the mean of supersampling x supersampling of the player's: with 1 both pictures have the
-  // player's own noise. Errors: as for Renderer::Create.
+  // The town is left out. Each pixel is the mean of supersampling x supersampling of the player's: with 1 both pictures
+  // have the player's own noise. Errors: as for Renderer::Create.
   Error Create(TourPack pack, int supersampling = 1, Jobs* jobs = nullptr);
 
   // From the distance at which the person is `person_px` pixels high in the player's picture of 1280 pixels' width.

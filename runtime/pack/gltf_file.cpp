@@ -21,10 +21,17 @@ uint32_t Word(std::span<const uint8_t> bytes, size_t offset) {
 
 size_t ComponentSize(int type) {
   switch (type) {
-    case 5120: case 5121: return 1;
-    case 5122: case 5123: return 2;
-    case 5125: case 5126: return 4;
-    default: throw PackRefused("has an accessor of unknown component type " + std::to_string(type));
+    case 5120:
+    case 5121:
+      return 1;
+    case 5122:
+    case 5123:
+      return 2;
+    case 5125:
+    case 5126:
+      return 4;
+    default:
+      throw PackRefused("has an accessor of unknown component type " + std::to_string(type));
   }
 }
 
@@ -37,12 +44,18 @@ T Read(const uint8_t* data) {
 
 double ReadComponent(const uint8_t* data, int type) {
   switch (type) {
-    case 5120: return Read<int8_t>(data);
-    case 5121: return Read<uint8_t>(data);
-    case 5122: return Read<int16_t>(data);
-    case 5123: return Read<uint16_t>(data);
-    case 5125: return Read<uint32_t>(data);
-    default: return static_cast<double>(Read<float>(data));
+    case 5120:
+      return Read<int8_t>(data);
+    case 5121:
+      return Read<uint8_t>(data);
+    case 5122:
+      return Read<int16_t>(data);
+    case 5123:
+      return Read<uint16_t>(data);
+    case 5125:
+      return Read<uint32_t>(data);
+    default:
+      return static_cast<double>(Read<float>(data));
   }
 }
 
@@ -92,8 +105,9 @@ void DecodeViews(GltfFile* file) {
     if (extensions != view.end() && extensions->contains(kMeshoptExtension)) {
       const Json& packed = (*extensions)[kMeshoptExtension];
       if (packed.value("mode", "") != "ATTRIBUTES") throw PackRefused("has a buffer view compressed in an unknown way");
-      file->decoded[index] = DecodeMeshoptView(Range(*file, packed, index), Member(packed, "count").get<size_t>(),
-                                               Member(packed, "byteStride").get<size_t>(), packed.value("filter", "NONE"));
+      file->decoded[index] =
+          DecodeMeshoptView(Range(*file, packed, index), Member(packed, "count").get<size_t>(),
+                            Member(packed, "byteStride").get<size_t>(), packed.value("filter", "NONE"));
     }
     ++index;
   }
@@ -174,11 +188,16 @@ int ComponentCount(const std::string& type) {
 float NormalizedScale(const Json& accessor) {
   if (!accessor.value("normalized", false)) return 1;
   switch (Member(accessor, "componentType").get<int>()) {
-    case 5120: return 1.0f / 127;
-    case 5121: return 1.0f / 255;
-    case 5122: return 1.0f / 32767;
-    case 5123: return 1.0f / 65535;
-    default: return 1;
+    case 5120:
+      return 1.0f / 127;
+    case 5121:
+      return 1.0f / 255;
+    case 5122:
+      return 1.0f / 32767;
+    case 5123:
+      return 1.0f / 65535;
+    default:
+      return 1;
   }
 }
 

@@ -24,7 +24,7 @@ std::string Complaint(const std::exception& e);
 struct GltfFile {
   std::vector<uint8_t> bytes;
   Json json;
-  std::span<const uint8_t> binary;  // into bytes
+  std::span<const uint8_t> binary;              // into bytes
   std::map<int, std::vector<uint8_t>> decoded;  // by buffer view, those that were compressed
 };
 
@@ -33,9 +33,9 @@ GltfFile OpenGltf(std::vector<uint8_t> bytes);
 
 // Member access that names what is missing or of the wrong type.
 const Json& Member(const Json& object, const char* key);
-int Index(const Json& object, const char* key, size_t limit);          // 0 <= value < limit
-int IndexOrNone(const Json& object, const char* key, size_t limit);    // -1 where absent or -1
-const Json& Element(const Json& root, const char* array, int index);   // root[array][index]
+int Index(const Json& object, const char* key, size_t limit);         // 0 <= value < limit
+int IndexOrNone(const Json& object, const char* key, size_t limit);   // -1 where absent or -1
+const Json& Element(const Json& root, const char* array, int index);  // root[array][index]
 
 std::span<const uint8_t> BufferView(const GltfFile& file, int index);
 

@@ -15,7 +15,8 @@ class Bytes {
  public:
   template <typename Whole>
   void Put(Whole value) {
-    for (size_t i = 0; i < sizeof value; ++i) data.push_back(static_cast<uint8_t>(static_cast<uint64_t>(value) >> (8 * i)));
+    for (size_t i = 0; i < sizeof value; ++i)
+      data.push_back(static_cast<uint8_t>(static_cast<uint64_t>(value) >> (8 * i)));
   }
   void Text(std::string_view text) { data.insert(data.end(), text.begin(), text.end()); }
   void Align(size_t to) { data.resize((data.size() + to - 1) / to * to); }
@@ -36,8 +37,8 @@ std::vector<uint8_t> Descriptor(TextureFormat format) {
   out.Put(format == TextureFormat::kBc4 ? kBc4Model : format == TextureFormat::kBc5 ? kBc5Model : kBc7Model);
   out.Put(kBt709);
   out.Put(format == TextureFormat::kBc7Srgb ? kSrgb : kLinear);
-  out.Put(uint8_t{0});           // straight alpha
-  out.Put(uint32_t{0x0303});     // blocks of 4 x 4
+  out.Put(uint8_t{0});        // straight alpha
+  out.Put(uint32_t{0x0303});  // blocks of 4 x 4
   out.Put(static_cast<uint64_t>(BlockBytes(format)));
   for (size_t s = 0; s < samples; ++s) {
     out.Put(static_cast<uint16_t>(64 * s));
@@ -117,7 +118,8 @@ Error ReadKtx2(std::span<const uint8_t> bytes, PackTexture* texture) {
   enum : size_t { kFormat, kTypeSize, kWidth, kHeight, kDepth, kLayers, kFaces, kLevels, kScheme };
   const uint32_t format = Word(bytes, kFormat), width = Word(bytes, kWidth), height = Word(bytes, kHeight);
   if (format != static_cast<uint32_t>(TextureFormat::kBc4) && format != static_cast<uint32_t>(TextureFormat::kBc5) &&
-      format != static_cast<uint32_t>(TextureFormat::kBc7) && format != static_cast<uint32_t>(TextureFormat::kBc7Srgb)) {
+      format != static_cast<uint32_t>(TextureFormat::kBc7) &&
+      format != static_cast<uint32_t>(TextureFormat::kBc7Srgb)) {
     return Fail("is a KTX2 picture of format " + std::to_string(format) + ", not BC4, BC5 or BC7");
   }
   if (Word(bytes, kDepth) != 0 || Word(bytes, kLayers) != 0 || Word(bytes, kFaces) != 1 || Word(bytes, kScheme) != 0) {

@@ -1,4 +1,5 @@
-// KTX2 files: the Khronos container for block-compressed pictures. Only what a tour pack needs: one 2D picture with mip levels.
+// KTX2 files: the Khronos container for block-compressed pictures. Only what a tour pack needs: one 2D picture with mip
+// levels.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -12,9 +12,9 @@
 #include "runtime/pack/ktx2.h"
 #include "runtime/pack/read_clip.h"
 #include "runtime/pack/read_mesh.h"
-#include "runtime/tour_data/settings.h"
 #include "runtime/pack/tour_object.h"
 #include "runtime/pack/tour_pack.h"
+#include "runtime/tour_data/settings.h"
 
 namespace flaneur {
 namespace {
@@ -98,7 +98,8 @@ Mat4 LocalMatrix(const Json& node) {
   }
   Vec3 t, s{1, 1, 1};
   Quat r;
-  if (node.contains("translation")) t = {node["translation"].at(0), node["translation"].at(1), node["translation"].at(2)};
+  if (node.contains("translation"))
+    t = {node["translation"].at(0), node["translation"].at(1), node["translation"].at(2)};
   if (node.contains("rotation")) {
     const Json& q = node["rotation"];
     r = {q.at(0), q.at(1), q.at(2), q.at(3)};
@@ -109,7 +110,11 @@ Mat4 LocalMatrix(const Json& node) {
 
 void ReadTown(const GltfFile& file, MeshTable* meshes, TourPack* pack) {
   const Json& nodes = Member(file.json, "nodes");
-  struct Visit { size_t node; Mat4 parent; size_t depth; };
+  struct Visit {
+    size_t node;
+    Mat4 parent;
+    size_t depth;
+  };
   std::vector<Visit> stack;
   for (const Json& root : Element(file.json, "scenes", 0).value("nodes", Json::array())) {
     stack.push_back({root.get<size_t>(), Mat4{}, 0});
@@ -133,16 +138,19 @@ void ReadTown(const GltfFile& file, MeshTable* meshes, TourPack* pack) {
 }
 
 std::vector<ImpostorCell> ReadCells(std::span<const uint8_t> bytes, const PackImpostor& impostor) {
-  const size_t count = static_cast<size_t>(impostor.directions) * static_cast<size_t>(impostor.frames) * impostor.elevations_deg.size();
+  const size_t count =
+      static_cast<size_t>(impostor.directions) * static_cast<size_t>(impostor.frames) * impostor.elevations_deg.size();
   using CellNumbers = std::array<int16_t, 6>;
   if (bytes.size() != count * sizeof(CellNumbers)) throw PackRefused("has an impostor with a wrong number of cells");
   std::vector<CellNumbers> numbers(count);
   std::memcpy(numbers.data(), bytes.data(), bytes.size());
   std::vector<ImpostorCell> cells;
   cells.reserve(count);
-  for (const auto& [x, y, width, height, origin_x, origin_y] : numbers) cells.push_back({x, y, width, height, origin_x, origin_y});
+  for (const auto& [x, y, width, height, origin_x, origin_y] : numbers)
+    cells.push_back({x, y, width, height, origin_x, origin_y});
   for (const ImpostorCell& c : cells) {
-    if (c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x + c.width > impostor.width_px || c.y + c.height > impostor.height_px) {
+    if (c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x + c.width > impostor.width_px ||
+        c.y + c.height > impostor.height_px) {
       throw PackRefused("has an impostor with a cell outside its atlas");
     }
   }
@@ -163,7 +171,7 @@ PackImpostor ReadImpostor(const GltfFile& file, const TourObject& json) {
   out.bend_range_m = json.Real("bend_range_m", kAboveZero, kAnything);
   for (const TourObject& c : json.Objects("clips")) {
     const ImpostorClip clip{c.OneOf("name", {"walk", "idle", "talk"}), c.Whole("first_frame", 0, 4095),
-                                c.Whole("phases", 1, 4096)};
+                            c.Whole("phases", 1, 4096)};
     if (clip.first_frame + clip.phases > out.frames) c.Refuse("reaches beyond the atlas's frames");
     out.clips.push_back(clip);
   }
@@ -177,7 +185,8 @@ PackImpostor ReadImpostor(const GltfFile& file, const TourObject& json) {
 void ReadAtlasPicture(const GltfFile& file, const TourObject& json, const char* view, TextureFormat format,
                       const PackImpostor& impostor, int halved, PackTexture* picture) {
   const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
-  if (Error e = ReadKtx2(BufferView(file, json.Whole(view, 0, last)), picture)) json.Refuse(std::string(view) + " " + e.message);
+  if (Error e = ReadKtx2(BufferView(file, json.Whole(view, 0, last)), picture))
+    json.Refuse(std::string(view) + " " + e.message);
   if (picture->format != format || picture->width_px != impostor.width_px >> halved ||
       picture->height_px != impostor.height_px >> halved) {
     json.Refuse(std::string(view) + " is a picture of another format or size than the atlas");
@@ -335,7 +344,8 @@ std::map<std::string, std::string> ReadTranslations(const TourObject& json, cons
 }
 
 TourStop ReadStop(const GltfFile& file, const TourObject& json, TourPack* pack) {
-  TourStop stop{json.Point("position_m"), json.Real("yaw_rad"), json.Real("pause_s", 0, TourObject::kAnything), json.Text("caption")};
+  TourStop stop{json.Point("position_m"), json.Real("yaw_rad"), json.Real("pause_s", 0, TourObject::kAnything),
+                json.Text("caption")};
   stop.captions = ReadTranslations(json, "captions");
   if (!json.Has("sounds")) return stop;
   const TourObject sounds = json.Object("sounds");
@@ -354,8 +364,8 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   pack->titles = ReadTranslations(tour, "titles");
   for (const TourObject& o : tour.Objects("obstacles")) ReadObstacle(o, &pack->obstacles);
   for (const TourObject& p : tour.Objects("places")) {
-    pack->places.push_back({p.Text("name"), p.OneOf("kind", {"door", "exit", "goal", "loiter", "spawn"}), p.Point("position_m"),
-                            p.Real("width_m", TourObject::kAboveZero, TourObject::kAnything)});
+    pack->places.push_back({p.Text("name"), p.OneOf("kind", {"door", "exit", "goal", "loiter", "spawn"}),
+                            p.Point("position_m"), p.Real("width_m", TourObject::kAboveZero, TourObject::kAnything)});
     if (p.Has("yaw_rad")) pack->places.back().yaw_rad = p.Real("yaw_rad");
   }
   if (tour.Has("painting")) pack->painting = ReadPainting(file, tour.Object("painting"));
@@ -390,7 +400,8 @@ TourObject TourOf(const GltfFile& file) {
 void CheckVersion(const TourObject& tour) {
   const int version = tour.Whole("version", 0, 1e9);
   if (version == kTourPackVersion) return;
-  throw PackRefused("is a tour pack of version " + std::to_string(version) + ", this player reads version " + std::to_string(kTourPackVersion) +
+  throw PackRefused("is a tour pack of version " + std::to_string(version) + ", this player reads version " +
+                    std::to_string(kTourPackVersion) +
                     (version > kTourPackVersion ? "; use a newer player" : "; bake the tour again"));
 }
 
@@ -399,10 +410,10 @@ void CheckVersion(const TourObject& tour) {
 struct PackFile::Impl {
   GltfFile file;
   std::string name;
-  std::vector<int> meshes;       // of the file, by mesh of the pack
+  std::vector<int> meshes;            // of the file, by mesh of the pack
   std::vector<TourObject> impostors;  // by avatar
   std::vector<PackImpostor> atlases;  // their sizes
-  std::vector<int> joints;       // by mesh; 0: of the town
+  std::vector<int> joints;            // by mesh; 0: of the town
 
   void Read(TourPack* pack) {
     const TourObject tour = TourOf(file);
@@ -503,12 +514,15 @@ Error ParseTourPack(std::vector<uint8_t> bytes, const std::string& name, const L
   TourPack loaded;
   if (Error e = file.Open(std::move(bytes), name, &loaded)) return e;
   if (options.geometry_and_images) {
-    const size_t images = loaded.images.size(), meshes = loaded.meshes.size(), count = images + meshes + loaded.avatars.size();
+    const size_t images = loaded.images.size(), meshes = loaded.meshes.size(),
+                 count = images + meshes + loaded.avatars.size();
     std::vector<Error> errors(count);
     ParallelFor(options.jobs, count, [&](size_t i) {
       if (i < images) errors[i] = file.ReadImage(static_cast<int>(i), &loaded.images[i]);
       else if (i < images + meshes) errors[i] = file.ReadMesh(static_cast<int>(i - images), &loaded.meshes[i - images]);
-      else errors[i] = file.ReadAtlas(static_cast<int>(i - images - meshes), &loaded.avatars[i - images - meshes].impostor);
+      else
+        errors[i] =
+            file.ReadAtlas(static_cast<int>(i - images - meshes), &loaded.avatars[i - images - meshes].impostor);
     });
     for (const Error& e : errors) {
       if (e) return e;

@@ -43,7 +43,8 @@ void ReadGroup(int bits, Reader* reader, uint8_t* differences) {
   }
 }
 
-// One byte of each of `count` elements, which lie `stride` apart; `last` is the element's before and becomes the last one's.
+// One byte of each of `count` elements, which lie `stride` apart; `last` is the element's before and becomes the last
+// one's.
 void ReadBytes(size_t count, size_t stride, Reader* reader, uint8_t* last, uint8_t* out) {
   const size_t groups = (count + kGroup - 1) / kGroup;
   const auto headers = reader->Take((groups + 3) / 4);
@@ -66,7 +67,8 @@ void UnfilterRotation(uint8_t* element) {
   for (size_t i = 0; i < 3; ++i) {
     const float x = static_cast<float>(in[i]) / one * std::sqrt(0.5f);
     rest -= x * x;
-    out[(static_cast<size_t>(in[3] & 3) + 1 + i) % 4] = static_cast<int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767));
+    out[(static_cast<size_t>(in[3] & 3) + 1 + i) % 4] =
+        static_cast<int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767));
   }
   out[in[3] & 3] = static_cast<int16_t>(std::lround(std::sqrt(std::max(rest, 0.0f)) * 32767));
   std::memcpy(element, out, sizeof out);
@@ -83,7 +85,8 @@ void UnfilterNumber(uint8_t* element) {
 void Unfilter(const std::string& filter, size_t stride, std::vector<uint8_t>* elements) {
   if (filter == "NONE") return;
   const bool rotations = filter == "QUATERNION";
-  if (rotations ? stride != 8 : filter != "EXPONENTIAL") throw PackRefused("has an animation compressed in an unknown way");
+  if (rotations ? stride != 8 : filter != "EXPONENTIAL")
+    throw PackRefused("has an animation compressed in an unknown way");
   const size_t step = rotations ? 8 : 4;
   for (size_t at = 0; at < elements->size(); at += step) {
     rotations ? UnfilterRotation(elements->data() + at) : UnfilterNumber(elements->data() + at);
@@ -92,7 +95,8 @@ void Unfilter(const std::string& filter, size_t stride, std::vector<uint8_t>* el
 
 }  // namespace
 
-std::vector<uint8_t> DecodeMeshoptView(std::span<const uint8_t> bytes, size_t count, size_t stride, const std::string& filter) {
+std::vector<uint8_t> DecodeMeshoptView(std::span<const uint8_t> bytes, size_t count, size_t stride,
+                                       const std::string& filter) {
   const size_t tail = std::max(stride, kMinTail);
   if (stride == 0 || stride > kMaxStride || stride % 4 != 0 || bytes.size() < 1 + tail || bytes[0] != kHeader ||
       count > kMaxBytesAByte * bytes.size() / stride) {

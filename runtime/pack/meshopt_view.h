@@ -9,6 +9,7 @@
 namespace flaneur {
 
 // `count` elements of `stride` bytes each. Throws PackRefused where the bytes or numbers are broken.
-std::vector<uint8_t> DecodeMeshoptView(std::span<const uint8_t> bytes, size_t count, size_t stride, const std::string& filter);
+std::vector<uint8_t> DecodeMeshoptView(std::span<const uint8_t> bytes, size_t count, size_t stride,
+                                       const std::string& filter);
 
 }  // namespace flaneur

@@ -8,7 +8,11 @@
 namespace flaneur {
 namespace {
 
-struct NodePose { Vec3 translation; Quat rotation; Vec3 scale{1, 1, 1}; };
+struct NodePose {
+  Vec3 translation;
+  Quat rotation;
+  Vec3 scale{1, 1, 1};
+};
 
 struct Channel {
   int node = 0;

@@ -21,7 +21,8 @@ std::unique_ptr<draco::Mesh> DecodeDraco(const GltfFile& file, const Json& exten
   buffer.Init(reinterpret_cast<const char*>(view.data()), view.size());
   draco::Decoder decoder;
   auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!decoded.ok()) throw PackRefused("holds Draco data that cannot be decoded: " + decoded.status().error_msg_string());
+  if (!decoded.ok())
+    throw PackRefused("holds Draco data that cannot be decoded: " + decoded.status().error_msg_string());
   return std::move(decoded).value();
 }
 
@@ -134,18 +135,22 @@ PackPrimitive ReadPrimitive(const GltfFile& file, const Json& json) {
     const Json& extension = json["extensions"][kDracoExtension];
     const auto mesh = DecodeDraco(file, extension);
     const Json& ids = Member(extension, "attributes");
-    FillVertices([&](const char* name) {
-      if (!ids.contains(name)) return Values{};
-      return DracoAttribute(*mesh, ids[name].get<int>(),
-                            Element(file.json, "accessors", Member(attributes, name).get<int>()));
-    }, &primitive);
+    FillVertices(
+        [&](const char* name) {
+          if (!ids.contains(name)) return Values{};
+          return DracoAttribute(*mesh, ids[name].get<int>(),
+                                Element(file.json, "accessors", Member(attributes, name).get<int>()));
+        },
+        &primitive);
     for (draco::FaceIndex f(0); f < mesh->num_faces(); ++f) {
       for (size_t corner = 0; corner < 3; ++corner) primitive.indices.push_back(mesh->face(f)[corner].value());
     }
   } else {
-    FillVertices([&](const char* name) {
-      return attributes.contains(name) ? ReadAccessor(file, attributes[name].get<int>()) : Values{};
-    }, &primitive);
+    FillVertices(
+        [&](const char* name) {
+          return attributes.contains(name) ? ReadAccessor(file, attributes[name].get<int>()) : Values{};
+        },
+        &primitive);
     primitive.indices = ReadIndices(file, Member(json, "indices").get<int>());
   }
   if (primitive.indices.size() % 3 != 0) throw PackRefused("has a number of indices that is no multiple of 3");

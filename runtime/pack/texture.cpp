@@ -78,8 +78,8 @@ void DecodePairs(BitReader bits, bool with_alpha, Texels* out) {
   for (size_t i = 0; i < 16; ++i) {
     const size_t pair = kBc7Partitions[partition] >> i & 1u;
     const int less = i == 0 || i == kBc7Anchors[partition] ? 1 : 0;
-    const int weight = with_alpha ? At(kBc7TwoBitWeights, bits.Next(2 - less))
-                                  : At(kBc7ThreeBitWeights, bits.Next(3 - less));
+    const int weight =
+        with_alpha ? At(kBc7TwoBitWeights, bits.Next(2 - less)) : At(kBc7ThreeBitWeights, bits.Next(3 - less));
     (*out)[i][3] = 255;
     for (size_t c = 0; c < channels; ++c) (*out)[i][c] = Between(ends[c][2 * pair], ends[c][2 * pair + 1], weight);
   }
@@ -113,7 +113,8 @@ void DecodeBlock(TextureFormat format, const uint8_t* block, Texels* out) {
 
 }  // namespace
 
-std::vector<uint8_t> DecodeLevel(TextureFormat format, int width_px, int height_px, const std::vector<uint8_t>& blocks) {
+std::vector<uint8_t> DecodeLevel(TextureFormat format, int width_px, int height_px,
+                                 const std::vector<uint8_t>& blocks) {
   const auto channels = static_cast<size_t>(Channels(format));
   const auto width = static_cast<size_t>(width_px), height = static_cast<size_t>(height_px);
   std::vector<uint8_t> out(width * height * channels);

@@ -1,5 +1,6 @@
-// Tints: people of one model wear their cloth in several colours. A cloth is known by its colour alone, so that meshes and impostors
-// need no masks; runtime/render's shaders do the same as these functions. Colours are the pictures' own, sRGB, 0 to 1.
+// Tints: people of one model wear their cloth in several colours. A cloth is known by its colour alone, so that meshes
+// and impostors need no masks; runtime/render's shaders do the same as these functions. Colours are the pictures' own,
+// sRGB, 0 to 1.
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -14,8 +15,9 @@ Vec3 WithHalfLightness(Vec3 color);
 // How much of a colour is the tint's cloth: 1 within 0.7 of its reach from its colour, falling to 0 at its reach.
 float TintShare(const Tint& tint, Vec3 color);
 
-// The colour after each tint has moved its share by the way from its own colour to another, which keeps weave and folds.
-// `chosen`, by tint: 0 its own colour, k the k-th of its others. A share that an earlier tint has taken is not taken again.
+// The colour after each tint has moved its share by the way from its own colour to another, which keeps weave and
+// folds. `chosen`, by tint: 0 its own colour, k the k-th of its others. A share that an earlier tint has taken is not
+// taken again.
 Vec3 Tinted(const std::vector<Tint>& tints, const std::vector<size_t>& chosen, Vec3 color);
 
 }  // namespace flaneur

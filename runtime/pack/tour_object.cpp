@@ -14,8 +14,9 @@ namespace {
 }
 
 std::string RangeText(double least, double most) {
-  const std::string low = least <= -TourObject::kAnything ? ""
-                          : least == TourObject::kAboveZero ? "above 0" : "at least " + Compact(least);
+  const std::string low = least <= -TourObject::kAnything   ? ""
+                          : least == TourObject::kAboveZero ? "above 0"
+                                                            : "at least " + Compact(least);
   const std::string high = most >= TourObject::kAnything ? "" : "at most " + Compact(most);
   return low + (low.empty() || high.empty() ? "" : " and ") + high;
 }
@@ -48,7 +49,8 @@ double TourObject::Checked(const Json& json, const std::string& place, bool whol
   if (!std::isfinite(number) || (whole && number != std::floor(number))) {
     RefuseMember(place, std::string("must be a ") + (whole ? "whole" : "finite") + " number");
   }
-  if (number < least || number > most) RefuseMember(place, "is " + Compact(number) + ", it must be " + RangeText(least, most));
+  if (number < least || number > most)
+    RefuseMember(place, "is " + Compact(number) + ", it must be " + RangeText(least, most));
   return number;
 }
 
@@ -141,7 +143,8 @@ std::vector<TourObject> TourObject::Objects(const char* key) const {
 
 void TourObject::Angle(const char* stem, float* radians, double least_deg, double most_deg) const {
   constexpr double kToRad = static_cast<double>(kPi) / 180, kSlack_rad = 1e-3;  // rounded on the way
-  Number((std::string(stem) + "_rad").c_str(), radians, least_deg * kToRad - kSlack_rad, most_deg * kToRad + kSlack_rad);
+  Number((std::string(stem) + "_rad").c_str(), radians, least_deg * kToRad - kSlack_rad,
+         most_deg * kToRad + kSlack_rad);
 }
 
 void TourObject::Choice(const char* key, std::string* value, std::initializer_list<const char*> allowed) const {

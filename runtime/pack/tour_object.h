@@ -1,5 +1,5 @@
-// One object of the FLANEUR_tour extension, read member by member. What is missing, of another type or out of range is refused by
-// its place, as FLANEUR_tour.places[3].kind. Internal to runtime/pack.
+// One object of the FLANEUR_tour extension, read member by member. What is missing, of another type or out of range is
+// refused by its place, as FLANEUR_tour.places[3].kind. Internal to runtime/pack.
 #pragma once
 #include <initializer_list>
 #include <limits>
@@ -30,8 +30,8 @@ class TourObject {
   std::vector<Vec2> Ring(const char* key) const;  // at least three points
   std::vector<std::vector<Vec2>> Rings(const char* key) const;
   std::vector<float> Reals(const char* key, double least, double most) const;  // at least one
-  Vec3 Color(const char* key) const;                // "#rrggbb"
-  std::vector<Vec3> Colors(const char* key) const;  // at least one
+  Vec3 Color(const char* key) const;                                           // "#rrggbb"
+  std::vector<Vec3> Colors(const char* key) const;                             // at least one
   TourObject Object(const char* key) const;
   std::vector<TourObject> Objects(const char* key) const;
 

@@ -1,6 +1,7 @@
 // The tour pack: a glTF binary with the root extension FLANEUR_tour, as the runtime sees it after loading.
-// Geometry in glTF axes (Y up), everything of the tour on the ground plane (x east, y north, z up). Metres, seconds, radians.
-// The extension's JSON mirrors these structs name for name (see docs/pack-format.md and runtime/pack/FLANEUR_tour.schema.json).
+// Geometry in glTF axes (Y up), everything of the tour on the ground plane (x east, y north, z up). Metres, seconds,
+// radians. The extension's JSON mirrors these structs name for name (see docs/pack-format.md and
+// runtime/pack/FLANEUR_tour.schema.json).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -23,9 +24,9 @@ namespace flaneur {
 inline constexpr int kTourPackVersion = 3;
 inline constexpr const char* kTourExtension = "FLANEUR_tour";
 
-struct PackImage {           // decoded, 8 bits a channel
+struct PackImage {  // decoded, 8 bits a channel
   int width_px = 0, height_px = 0;
-  std::vector<uint8_t> rgba; // top row first; empty where only the size has been read
+  std::vector<uint8_t> rgba;  // top row first; empty where only the size has been read
 };
 
 struct PackMaterial {
@@ -33,7 +34,7 @@ struct PackMaterial {
   Vec4 base_color{1, 1, 1, 1};  // linear
   int base_color_image = -1;    // index into TourPack::images, sRGB
   bool double_sided = false;
-  bool alpha_mask = false;      // BLEND is drawn as a mask too
+  bool alpha_mask = false;  // BLEND is drawn as a mask too
   float alpha_cutoff = 0.5f;
 };
 
@@ -48,7 +49,9 @@ struct PackPrimitive {
   std::vector<uint32_t> indices;
 };
 
-struct PackMesh { std::vector<PackPrimitive> primitives; };
+struct PackMesh {
+  std::vector<PackPrimitive> primitives;
+};
 
 struct TownInstance {
   std::string name;
@@ -80,16 +83,16 @@ struct PackProp : Prop {
 
 struct PackAvatar {
   std::string name;
-  float share = 1;           // of the crowd, relative to the others'
+  float share = 1;  // of the crowd, relative to the others'
   float height_m = 1.75f, radius_m = 0.25f;
   float walk_speed_mps = 1.3f;  // at which the walk clip's feet don't slide
   int joints = 0;
-  PackClip walk, idle, talk; // always present: a missing talk is the idle, a missing idle a standing pose
+  PackClip walk, idle, talk;      // always present: a missing talk is the idle, a missing idle a standing pose
   std::vector<PackLevel> levels;  // finest first, at least one
   std::vector<Tint> tints;        // at most kMaxTints
   std::vector<PackProp> props;    // at most kMaxProps
   PackImpostor impostor;
-  int impostor_of = -1;      // index of the avatar whose impostor stands for this one too, which brings none; -1: its own
+  int impostor_of = -1;  // index of the avatar whose impostor stands for this one too, which brings none; -1: its own
 };
 
 struct TourPack : TourData {
@@ -103,9 +106,9 @@ struct TourPack : TourData {
   std::vector<std::vector<uint8_t>> sounds;  // files: WAV, FLAC, Ogg Vorbis or Opus, MP3
 };
 
-// A tour pack that stands open. Everything but its bulk is read at once, which is enough for a run without drawing; of images the
-// sizes and of meshes the primitives' materials are there as well. The bulk is read piece by piece, in any order, from any thread.
-// Errors: those of LoadTourPack, each of the piece that it is about.
+// A tour pack that stands open. Everything but its bulk is read at once, which is enough for a run without drawing; of
+// images the sizes and of meshes the primitives' materials are there as well. The bulk is read piece by piece, in any
+// order, from any thread. Errors: those of LoadTourPack, each of the piece that it is about.
 class PackFile {
  public:
   PackFile();
@@ -129,7 +132,8 @@ struct LoadOptions {
 };
 
 // The bytes are not trusted: every offset, count and index is checked.
-// Errors: no such file, not a glTF binary, truncated, no FLANEUR_tour, a newer version, an index out of range (names it).
+// Errors: no such file, not a glTF binary, truncated, no FLANEUR_tour, a newer version, an index out of range (names
+// it).
 Error LoadTourPack(const std::filesystem::path& path, const LoadOptions& options, TourPack* pack);
 
 // The same from memory; `name` stands for the path in messages.

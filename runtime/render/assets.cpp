@@ -45,7 +45,8 @@ std::vector<AssetId> AssetsOf(const TourPack& pack) {
   const int avatars = static_cast<int>(pack.avatars.size());
   const auto add_level = [&](int avatar, size_t from_coarsest) {
     const size_t levels = pack.avatars[static_cast<size_t>(avatar)].levels.size();
-    if (from_coarsest < levels) ids.push_back({AssetKind::kLevel, avatar, static_cast<int>(levels - 1 - from_coarsest)});
+    if (from_coarsest < levels)
+      ids.push_back({AssetKind::kLevel, avatar, static_cast<int>(levels - 1 - from_coarsest)});
   };
   add_pictures(true);
   for (int a = 0; a < avatars; ++a) {
@@ -55,7 +56,8 @@ std::vector<AssetId> AssetsOf(const TourPack& pack) {
   add_pictures(false);
   for (int a = 0; a < avatars; ++a) {
     const PackAvatar& avatar = pack.avatars[static_cast<size_t>(a)];
-    for (size_t k = 0; k < avatar.props.size(); ++k) ids.push_back({AssetKind::kLevel, a, static_cast<int>(avatar.levels.size() + k)});
+    for (size_t k = 0; k < avatar.props.size(); ++k)
+      ids.push_back({AssetKind::kLevel, a, static_cast<int>(avatar.levels.size() + k)});
   }
   size_t most = 0;
   for (const PackAvatar& avatar : pack.avatars) most = std::max(most, avatar.levels.size());
@@ -67,7 +69,8 @@ std::vector<AssetId> AssetsOf(const TourPack& pack) {
 
 AssetStages StagesOf(const std::vector<AssetId>& assets) {
   const auto first = [&](AssetKind kind) {
-    return static_cast<size_t>(std::find_if(assets.begin(), assets.end(), [&](const AssetId& a) { return a.kind == kind; }) - assets.begin());
+    return static_cast<size_t>(
+        std::find_if(assets.begin(), assets.end(), [&](const AssetId& a) { return a.kind == kind; }) - assets.begin());
   };
   size_t likenesses = first(AssetKind::kAtlas);
   const size_t town = likenesses;
@@ -112,10 +115,13 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
   asset.content = std::make_unique<Asset::Content>();
   const auto index = static_cast<size_t>(id.index);
   switch (id.kind) {
-    case AssetKind::kTown: asset.content->town = BuildTownGeometry(pack, plan); break;
+    case AssetKind::kTown:
+      asset.content->town = BuildTownGeometry(pack, plan);
+      break;
     case AssetKind::kPicture:
       if (plan.pictures[index].array >= 0) {
-        asset.content->picture = PrepareLayer(pack.images[index], plan.arrays[static_cast<size_t>(plan.pictures[index].array)]);
+        asset.content->picture =
+            PrepareLayer(pack.images[index], plan.arrays[static_cast<size_t>(plan.pictures[index].array)]);
       }
       break;
     case AssetKind::kLevel: {
@@ -123,7 +129,8 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
       asset.content->person = BuildPersonGeometry(pack, MeshOf(avatar, id.level), plan);
       const bool coarsest = static_cast<size_t>(id.level) + 1 == avatar.levels.size();
       for (size_t k = 0; k < std::size(kShadowCells_m) && coarsest; ++k) {
-        asset.content->shadows[k] = ShadowGeometry(asset.content->person, kShadowCells_m[k], static_cast<size_t>(kMaxShadowTriangles[k]));
+        asset.content->shadows[k] =
+            ShadowGeometry(asset.content->person, kShadowCells_m[k], static_cast<size_t>(kMaxShadowTriangles[k]));
       }
       break;
     }

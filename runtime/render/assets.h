@@ -1,4 +1,5 @@
-// The bulk of a pack, piece by piece as the renderer takes it: prepared on any thread, uploaded on the one with the context.
+// The bulk of a pack, piece by piece as the renderer takes it: prepared on any thread, uploaded on the one with the
+// context.
 #pragma once
 #include <memory>
 #include <vector>
@@ -13,21 +14,26 @@ struct AtlasFormats;
 // kTown: all of the town's meshes. kPicture: an image. kLevel: a level of an avatar, or
 // behind them one of its props. kAtlas: an avatar's impostor.
 enum class AssetKind { kTown, kPicture, kLevel, kAtlas };
-struct AssetId { AssetKind kind = AssetKind::kTown; int index = 0, level = 0; };
+struct AssetId {
+  AssetKind kind = AssetKind::kTown;
+  int index = 0, level = 0;
+};
 
-// All pieces of a pack in the order in which they are missed: the town and its pictures, people as impostors with their shadows,
-// their pictures, and their levels from the coarsest on.
+// All pieces of a pack in the order in which they are missed: the town and its pictures, people as impostors with their
+// shadows, their pictures, and their levels from the coarsest on.
 std::vector<AssetId> AssetsOf(const TourPack& pack);
 
 // How many of them are about the town, and then about everybody's first likeness.
-struct AssetStages { size_t town = 0, likenesses = 0; };
+struct AssetStages {
+  size_t town = 0, likenesses = 0;
+};
 AssetStages StagesOf(const std::vector<AssetId>& assets);
 
 // What a piece is made of: meshes of the pack, or an image, or an atlas, by their indices.
 std::vector<int> MeshesOf(const AssetId& asset, const TourPack& pack);
 
-// What making pieces ready needs of a pack whose bulk is read piece by piece: images, materials, meshes, the town, and of avatars
-// their levels, props and atlases.
+// What making pieces ready needs of a pack whose bulk is read piece by piece: images, materials, meshes, the town, and
+// of avatars their levels, props and atlases.
 TourPack PartsForAssets(const TourPack& pack);
 
 // Ready to be uploaded.

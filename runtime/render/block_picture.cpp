@@ -28,7 +28,8 @@ std::vector<uint8_t> Bc1Blocks(const PackImage& image) {
       std::array<uint8_t, 64> texels;
       for (int i = 0; i < 16; ++i) {
         const int row = std::min(y + i / 4, image.height_px - 1), column = std::min(x + i % 4, image.width_px - 1);
-        std::memcpy(&texels[static_cast<size_t>(4 * i)], &image.rgba[4 * static_cast<size_t>(row * image.width_px + column)], 4);
+        std::memcpy(&texels[static_cast<size_t>(4 * i)],
+                    &image.rgba[4 * static_cast<size_t>(row * image.width_px + column)], 4);
       }
       stb_compress_dxt_block(to, texels.data(), 0, STB_DXT_NORMAL);
     }

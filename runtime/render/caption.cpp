@@ -54,7 +54,8 @@ float Width(std::span<const int> letters, float scale) {
     int advance = 0, bearing = 0;
     stbtt_GetCodepointHMetrics(&Font(), letters[i], &advance, &bearing);
     width += static_cast<float>(advance) * scale;
-    if (i + 1 < letters.size()) width += static_cast<float>(stbtt_GetCodepointKernAdvance(&Font(), letters[i], letters[i + 1])) * scale;
+    if (i + 1 < letters.size())
+      width += static_cast<float>(stbtt_GetCodepointKernAdvance(&Font(), letters[i], letters[i + 1])) * scale;
   }
   return width;
 }
@@ -94,7 +95,8 @@ void PutLetter(int letter, float x, float baseline, float scale, PackImage* imag
       if (px < 0 || py < 0 || px >= image->width_px || py >= image->height_px) continue;
       const int c = cover[static_cast<size_t>(j * width + i)];
       uint8_t* out = &image->rgba[static_cast<size_t>(py * image->width_px + px) * 4];
-      for (int k = 0; k < 3; ++k) out[k] = static_cast<uint8_t>(std::max<int>(out[k], kStripColor + c * (245 - kStripColor) / 255));
+      for (int k = 0; k < 3; ++k)
+        out[k] = static_cast<uint8_t>(std::max<int>(out[k], kStripColor + c * (245 - kStripColor) / 255));
       out[3] = static_cast<uint8_t>(std::max<int>(out[3], c));
     }
   }
@@ -105,7 +107,8 @@ void PutLine(std::span<const int> letters, float baseline, float scale, PackImag
   for (size_t i = 0; i < letters.size(); ++i) {
     PutLetter(letters[i], x, baseline, scale, image);
     x += Width(letters.subspan(i, 1), scale);
-    if (i + 1 < letters.size()) x += static_cast<float>(stbtt_GetCodepointKernAdvance(&Font(), letters[i], letters[i + 1])) * scale;
+    if (i + 1 < letters.size())
+      x += static_cast<float>(stbtt_GetCodepointKernAdvance(&Font(), letters[i], letters[i + 1])) * scale;
   }
 }
 
@@ -113,7 +116,8 @@ void PutLine(std::span<const int> letters, float baseline, float scale, PackImag
 
 PackImage LayOutCaption(const std::string& text, int width_px, int height_px) {
   PackImage image;
-  if (text.find_first_not_of(' ') == std::string::npos || width_px < kMinPicture_px || height_px < kMinPicture_px) return image;
+  if (text.find_first_not_of(' ') == std::string::npos || width_px < kMinPicture_px || height_px < kMinPicture_px)
+    return image;
   const float letter_px = std::max<float>(kMinLetter_px, static_cast<float>(height_px) * kLetterShare);
   const float scale = stbtt_ScaleForPixelHeight(&Font(), letter_px);
   const auto lines = Wrap(CodePoints(text), scale, static_cast<float>(width_px) * kTextWidthShare);
@@ -123,7 +127,8 @@ PackImage LayOutCaption(const std::string& text, int width_px, int height_px) {
   image.width_px = width_px;
   image.height_px = std::min(height_px, static_cast<int>(static_cast<float>(lines.size()) * line_px + 2 * margin_px));
   const std::array<uint8_t, 4> strip{kStripColor, kStripColor, kStripColor, static_cast<uint8_t>(kStripShare * 255)};
-  for (int i = 0; i < image.width_px * image.height_px; ++i) image.rgba.insert(image.rgba.end(), strip.begin(), strip.end());
+  for (int i = 0; i < image.width_px * image.height_px; ++i)
+    image.rgba.insert(image.rgba.end(), strip.begin(), strip.end());
   float baseline = margin_px + (line_px - letter_px) / 2 + static_cast<float>(ascent) * scale;
   for (const std::vector<int>& line : lines) {
     PutLine(line, std::round(baseline), scale, &image);
@@ -144,8 +149,10 @@ void DrawCaption(const std::string& text, float share, int width_px, int height_
     c->text = text, c->width_px = width_px, c->height_px = height_px, c->strip_px = image.height_px;
     if (c->strip_px == 0) return;
     BindTexture(kColorUnit, c->texture);
-    for (GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width_px, image.height_px, 0, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+    for (GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+      glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width_px, image.height_px, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 image.rgba.data());
   }
   if (c->strip_px == 0 || share <= 0) return;
   glDisable(GL_DEPTH_TEST);

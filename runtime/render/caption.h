@@ -16,9 +16,9 @@ PackImage LayOutCaption(const std::string& text, int width_px, int height_px);
 struct CaptionView {
   Program program;
   GLuint texture = 0, empty_array = 0;
-  std::string text;                     // that the texture shows
-  int width_px = 0, height_px = 0;      // of the picture that it was laid out for
-  int strip_px = 0;                     // its own height
+  std::string text;                 // that the texture shows
+  int width_px = 0, height_px = 0;  // of the picture that it was laid out for
+  int strip_px = 0;                 // its own height
 };
 
 Error CreateCaptionView(CaptionView* caption);

@@ -8,7 +8,8 @@ __asm__(
     ".balign 16\n"
     ".global flaneur_font\n"
     "flaneur_font:\n"
-    ".incbin \"" FLANEUR_FONT "\"\n"
+    ".incbin \"" FLANEUR_FONT
+    "\"\n"
     "flaneur_font_end:\n"
     ".global flaneur_font_end\n"
     ".byte 0\n"

@@ -16,60 +16,69 @@ enum class ClipKind : uint8_t { kWalk, kIdle, kTalk };
 
 struct ClipMoment {
   ClipKind clip = ClipKind::kWalk;
-  float phase = 0;         // of the clip, [0, 1)
+  float phase = 0;  // of the clip, [0, 1)
 };
 
-// Somebody who changes from one level to another stands twice in a frame, once with each level, with shares of a dither pattern
-// that complement each other: [0, t) and [t, 1). Who appears or vanishes has [0, t) alone.
+// Somebody who changes from one level to another stands twice in a frame, once with each level, with shares of a dither
+// pattern that complement each other: [0, t) and [t, 1). Who appears or vanishes has [0, t) alone.
 struct DrawnPerson {
   int avatar = 0;
   Level level = MeshLevel(0);
   ClipMoment moment;
-  ClipMoment other;        // mixed in by other_share, where a walk ends or begins; an impostor shows the greater share alone
+  ClipMoment other;  // mixed in by other_share, where a walk ends or begins; an impostor shows the greater share alone
   float other_share = 0;
-  Vec3 position;           // of the feet
-  float heading_rad = 0;   // where the person faces
+  Vec3 position;          // of the feet
+  float heading_rad = 0;  // where the person faces
   float share_from = 0, share_to = 1;
   bool casts_shadow = true;
-  uint8_t props = 0;       // bit k: the k-th of the avatar's is drawn too,
-  float props_share = 1;   // [0, props_share) of the pattern
+  uint8_t props = 0;               // bit k: the k-th of the avatar's is drawn too,
+  float props_share = 1;           // [0, props_share) of the pattern
   std::array<uint8_t, 4> tints{};  // by tint of the avatar, the last unused: 0 its own colour, k the k-th of its others
 };
 
 struct FrameInput {
   Vec3 eye;
   float yaw_rad = 0, pitch_rad = 0, fov_rad = 1;  // horizontal
-  Vec3 to_sun{0, 0, 1};    // unit
+  Vec3 to_sun{0, 0, 1};                           // unit
   std::vector<DrawnPerson> people;
-  // Who is farther from the eye casts the shadow of a coarser figure, and who is beyond the reach none. In a picture of a smaller
-  // scale coarser figures begin nearer.
+  // Who is farther from the eye casts the shadow of a coarser figure, and who is beyond the reach none. In a picture of
+  // a smaller scale coarser figures begin nearer.
   float fine_shadow_m = kFineShadow_m, shadow_reach_m = kShadowReach_m;
   std::vector<Vec3> ground_mark;  // a strip of triangles over the ground; empty: none
-  std::string caption;     // UTF-8, at the foot of the picture; empty: none
-  float caption_share = 1; // how much of it is seen, 0 to 1
-  // Of the picture's width and height, 0.1 to 1: all but the caption is drawn so coarsely, and enlarged. Below 1 people are drawn
-  // by the coarser levels that serve at that size.
+  std::string caption;            // UTF-8, at the foot of the picture; empty: none
+  float caption_share = 1;        // how much of it is seen, 0 to 1
+  // Of the picture's width and height, 0.1 to 1: all but the caption is drawn so coarsely, and enlarged. Below 1 people
+  // are drawn by the coarser levels that serve at that size.
   float resolution_scale = 1;
   bool keeps_levels = false;  // draws people by their levels even so
 };
 
 // The parts of a picture in the order in which they are drawn.
 enum class DrawPass : uint8_t { kCull, kPeopleShadow, kTownShadow, kMeshes, kTown, kImpostors, kLight, kSky, kFinish };
-inline constexpr const char* kDrawPassNames[] = {"cull, sort, upload", "shadows of people", "shadows of the town", "people's meshes",
-                                                 "town", "impostors", "light", "sky, mark", "smoothing, enlarging, caption"};
+inline constexpr const char* kDrawPassNames[] = {"cull, sort, upload",
+                                                 "shadows of people",
+                                                 "shadows of the town",
+                                                 "people's meshes",
+                                                 "town",
+                                                 "impostors",
+                                                 "light",
+                                                 "sky, mark",
+                                                 "smoothing, enlarging, caption"};
 
 struct FrameStatistics {
-  int64_t town_triangles = 0, people_triangles = 0;  // drawn into the picture, both levels of who changes; not the shadows
+  int64_t town_triangles = 0,
+          people_triangles = 0;  // drawn into the picture, both levels of who changes; not the shadows
   int64_t shadow_triangles = 0, people_shadow_triangles = 0;  // of all, and of people alone
-  float resolution_scale = 1;  // the frame's
-  int draw_calls = 0;      // of the whole picture, shadows included
-  int people_drawn = 0, people_hidden = 0;  // hidden: behind walls or above or below the view
+  float resolution_scale = 1;                                 // the frame's
+  int draw_calls = 0;                                         // of the whole picture, shadows included
+  int people_drawn = 0, people_hidden = 0;                    // hidden: behind walls or above or below the view
   int people_not_loaded = 0;  // drawn by another level than the frame's, or not at all, because that is not loaded yet
-  double people_ms = 0;    // of it, on the CPU: choosing who can be seen, poses, the upload
-  // Until the picture is there; with RenderOptions::runs_ahead until its commands are handed over or, if that is longer,
-  // what the graphics card took over the picture before.
+  double people_ms = 0;       // of it, on the CPU: choosing who can be seen, poses, the upload
+  // Until the picture is there; with RenderOptions::runs_ahead until its commands are handed over or, if that is
+  // longer, what the graphics card took over the picture before.
   double draw_ms = 0;
-  std::array<double, std::size(kDrawPassNames)> pass_ms{};  // by DrawPass: processor time of all threads, with RenderOptions::time_passes
+  std::array<double, std::size(kDrawPassNames)>
+      pass_ms{};  // by DrawPass: processor time of all threads, with RenderOptions::time_passes
 };
 
 }  // namespace flaneur

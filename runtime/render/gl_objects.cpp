@@ -29,16 +29,30 @@ void TakePlaces(Program* p) {
   glUseProgram(program);
   const GLuint block = glGetUniformBlockIndex(program, "Frame");
   if (block != GL_INVALID_INDEX) glUniformBlockBinding(program, block, kFrameBinding);
-  const struct { const char* name; TextureUnit unit; } samplers[] = {
-      {"u_texture", kColorUnit}, {"u_normals", kNormalsUnit}, {"u_depth", kDepthUnit}, {"u_motion", kMotionUnit},
-      {"u_poses", kPosesUnit},
-      {"u_town_shadow_map", kTownShadowUnit}, {"u_people_shadow_map", kPeopleShadowUnit},
-      {"u_textures", kArrayUnit}, {"u_cells", kCellsUnit}};
+  const struct {
+    const char* name;
+    TextureUnit unit;
+  } samplers[] = {{"u_texture", kColorUnit},
+                  {"u_normals", kNormalsUnit},
+                  {"u_depth", kDepthUnit},
+                  {"u_motion", kMotionUnit},
+                  {"u_poses", kPosesUnit},
+                  {"u_town_shadow_map", kTownShadowUnit},
+                  {"u_people_shadow_map", kPeopleShadowUnit},
+                  {"u_textures", kArrayUnit},
+                  {"u_cells", kCellsUnit}};
   for (const auto& s : samplers) glUniform1i(glGetUniformLocation(program, s.name), s.unit);
-  const struct { const char* name; GLint* place; } uniforms[] = {
-      {"u_atlas", &p->atlas}, {"u_ranges", &p->ranges}, {"u_directions", &p->directions}, {"u_tints", &p->tints},
-      {"u_tint_shifts", &p->tint_shifts}, {"u_alpha_cutoff", &p->alpha_cutoff},
-      {"u_share", &p->share}, {"u_size", &p->size}};
+  const struct {
+    const char* name;
+    GLint* place;
+  } uniforms[] = {{"u_atlas", &p->atlas},
+                  {"u_ranges", &p->ranges},
+                  {"u_directions", &p->directions},
+                  {"u_tints", &p->tints},
+                  {"u_tint_shifts", &p->tint_shifts},
+                  {"u_alpha_cutoff", &p->alpha_cutoff},
+                  {"u_share", &p->share},
+                  {"u_size", &p->size}};
   for (const auto& u : uniforms) *u.place = glGetUniformLocation(program, u.name);
 }
 
@@ -85,8 +99,9 @@ void BindFrameBlock(GLuint buffer, const FrameBlock& block) {
 
 bool DrawsInSoftware() {
   const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  return renderer != nullptr && (std::strstr(renderer, "llvmpipe") != nullptr || std::strstr(renderer, "softpipe") != nullptr ||
-                                 std::strstr(renderer, "SwiftShader") != nullptr);
+  return renderer != nullptr &&
+         (std::strstr(renderer, "llvmpipe") != nullptr || std::strstr(renderer, "softpipe") != nullptr ||
+          std::strstr(renderer, "SwiftShader") != nullptr);
 }
 
 GLuint CreateBuffer(GLenum target, const void* data, size_t bytes) {
@@ -97,10 +112,12 @@ GLuint CreateBuffer(GLenum target, const void* data, size_t bytes) {
   return buffer;
 }
 
-void EnableAttribute(GLuint index, GLint size, GLenum type, bool normalized, size_t stride, size_t offset, GLuint divisor) {
+void EnableAttribute(GLuint index, GLint size, GLenum type, bool normalized, size_t stride, size_t offset,
+                     GLuint divisor) {
   glEnableVertexAttribArray(index);
   const void* pointer = reinterpret_cast<const void*>(offset);
-  if (type == GL_FLOAT || normalized) glVertexAttribPointer(index, size, type, normalized, static_cast<GLsizei>(stride), pointer);
+  if (type == GL_FLOAT || normalized)
+    glVertexAttribPointer(index, size, type, normalized, static_cast<GLsizei>(stride), pointer);
   else glVertexAttribIPointer(index, size, type, static_cast<GLsizei>(stride), pointer);
   glVertexAttribDivisor(index, divisor);
 }

@@ -14,7 +14,15 @@ namespace flaneur {
 
 // Places that all programs share: sampler uniforms get their unit, the block Frame its binding, at linking.
 enum TextureUnit {
-  kColorUnit, kNormalsUnit, kDepthUnit, kMotionUnit, kPosesUnit, kTownShadowUnit, kPeopleShadowUnit, kArrayUnit, kCellsUnit
+  kColorUnit,
+  kNormalsUnit,
+  kDepthUnit,
+  kMotionUnit,
+  kPosesUnit,
+  kTownShadowUnit,
+  kPeopleShadowUnit,
+  kArrayUnit,
+  kCellsUnit
 };
 
 // The uniform block Frame of the shaders.
@@ -54,7 +62,8 @@ bool DrawsInSoftware();
 
 GLuint CreateBuffer(GLenum target, const void* data, size_t bytes);
 // `divisor` 1: of an instance. Integers stay integers unless `normalized`.
-void EnableAttribute(GLuint index, GLint size, GLenum type, bool normalized, size_t stride, size_t offset, GLuint divisor);
+void EnableAttribute(GLuint index, GLint size, GLenum type, bool normalized, size_t stride, size_t offset,
+                     GLuint divisor);
 void BindTexture(TextureUnit unit, GLuint texture);
 void BindTextureArray(TextureUnit unit, GLuint texture);
 void CullBackFaces(bool cull);

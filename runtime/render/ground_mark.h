@@ -7,7 +7,10 @@
 
 namespace flaneur {
 
-struct GroundMarkView { Program program; GLuint array = 0, vertices = 0; };
+struct GroundMarkView {
+  Program program;
+  GLuint array = 0, vertices = 0;
+};
 
 Error CreateGroundMark(GroundMarkView* mark);
 // A strip of triangles in ground axes, into the bound picture; no points: nothing.

@@ -13,7 +13,8 @@ float Smooth(float low, float high, float x) {
 
 }  // namespace
 
-// By the sine of the sun's height: its colour warms and fades towards the horizon, where the haze glows; below it dusk falls.
+// By the sine of the sun's height: its colour warms and fades towards the horizon, where the haze glows; below it dusk
+// falls.
 Light LightFor(Vec3 to_sun) {
   const float day = Smooth(-0.14f, 0.30f, to_sun.y), low = 1 - Smooth(0.05f, 0.55f, to_sun.y);
   const float dusk = Smooth(-0.20f, 0.0f, to_sun.y) * (1 - Smooth(0.04f, 0.34f, to_sun.y));

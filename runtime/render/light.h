@@ -4,7 +4,9 @@
 
 namespace flaneur {
 
-struct Light { Vec3 sun, sky, ground, haze, zenith; };  // linear colours
+struct Light {
+  Vec3 sun, sky, ground, haze, zenith;
+};  // linear colours
 
 Light LightFor(Vec3 to_sun);  // unit, glTF axes
 

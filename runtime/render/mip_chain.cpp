@@ -12,7 +12,7 @@ namespace {
 constexpr int kLinearSteps = 4096;
 
 struct SrgbTables {
-  std::array<uint16_t, 256> to_linear;             // 0 to kLinearSteps - 1
+  std::array<uint16_t, 256> to_linear;  // 0 to kLinearSteps - 1
   std::array<uint8_t, kLinearSteps> from_linear;
   SrgbTables() {
     for (size_t i = 0; i < to_linear.size(); ++i) {

@@ -11,7 +11,9 @@ constexpr float kNear_m = 0.05f;
 constexpr int kTilesAcross = kOcclusionWidth / kTile, kTilesUp = kOcclusionHeight / kTile;
 constexpr float kWidth = kOcclusionWidth, kHeight = kOcclusionHeight;
 
-struct Corner { float x, y, nearness; };       // in pixels
+struct Corner {
+  float x, y, nearness;
+};  // in pixels
 
 Corner OnScreen(const ClipPoint& c) {
   const float nearness = 1 / c.w;
@@ -48,7 +50,8 @@ void Fill(Corner a, Corner b, Corner c, OcclusionMap* map) {
     const float height = to.y - from.y;
     const float short_x = height > 0 ? from.x + (to.x - from.x) * (at - from.y) / height : from.x;
     const float long_x = a.x + long_slope * (at - a.y);
-    const float low = std::clamp(std::min(short_x, long_x), 0.0f, kWidth), high = std::clamp(std::max(short_x, long_x), 0.0f, kWidth);
+    const float low = std::clamp(std::min(short_x, long_x), 0.0f, kWidth),
+                high = std::clamp(std::max(short_x, long_x), 0.0f, kWidth);
     const int left = static_cast<int>(std::ceil(low - 0.5f)), right = static_cast<int>(std::ceil(high - 0.5f));
     float nearness = a.nearness + by_x * (static_cast<float>(left) + 0.5f - a.x) + by_y * (at - a.y);
     float* row = &map->nearness[static_cast<size_t>(y * kOcclusionWidth)];
@@ -121,8 +124,10 @@ bool MayBeSeen(const OcclusionMap& map, const Box& box, bool finished) {
     nearness = std::max(nearness, s.nearness);
   }
   if (right < 0 || left > kWidth || high < 0 || low > kHeight) return false;
-  const int x0 = std::max(0, static_cast<int>(std::max(left, 0.0f)) - 1), x1 = static_cast<int>(std::min(right + 1, kWidth - 1));
-  const int y0 = std::max(0, static_cast<int>(std::max(low, 0.0f)) - 1), y1 = static_cast<int>(std::min(high + 1, kHeight - 1));
+  const int x0 = std::max(0, static_cast<int>(std::max(left, 0.0f)) - 1),
+            x1 = static_cast<int>(std::min(right + 1, kWidth - 1));
+  const int y0 = std::max(0, static_cast<int>(std::max(low, 0.0f)) - 1),
+            y1 = static_cast<int>(std::min(high + 1, kHeight - 1));
   for (int ty = y0 / kTile; ty <= y1 / kTile; ++ty) {
     for (int tx = x0 / kTile; tx <= x1 / kTile; ++tx) {
       if (finished && map.farthest[static_cast<size_t>(ty * kTilesAcross + tx)] > nearness) continue;

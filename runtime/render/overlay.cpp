@@ -52,9 +52,10 @@ struct Overlay::Impl {
     for (const ImDrawCmd& command : list.CmdBuffer) {
       const ImVec4 clip = command.ClipRect;
       if (clip.z <= clip.x || clip.w <= clip.y) continue;
-      glScissor(static_cast<GLint>(clip.x), static_cast<GLint>(height_px - clip.w), static_cast<GLsizei>(clip.z - clip.x),
-                static_cast<GLsizei>(clip.w - clip.y));
-      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
+      glScissor(static_cast<GLint>(clip.x), static_cast<GLint>(height_px - clip.w),
+                static_cast<GLsizei>(clip.z - clip.x), static_cast<GLsizei>(clip.w - clip.y));
+      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),
+                     sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
                      reinterpret_cast<const void*>(size_t{command.IdxOffset} * sizeof(ImDrawIdx)));
     }
   }
@@ -94,7 +95,8 @@ void Overlay::PrepareText(float letter_px, const std::string& texts) {
   config.FontDataOwnedByAtlas = false;
   const auto file = FontFile();
   // ImGui only reads the file, though it does not say so.
-  fonts.AddFontFromMemoryTTF(const_cast<unsigned char*>(file.data()), static_cast<int>(file.size()), letter_px, &config, o.letters.Data);
+  fonts.AddFontFromMemoryTTF(const_cast<unsigned char*>(file.data()), static_cast<int>(file.size()), letter_px, &config,
+                             o.letters.Data);
   o.CreateFont();
 }
 

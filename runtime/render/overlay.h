@@ -1,4 +1,5 @@
-// Windows with text, buttons and graphs over the picture, by Dear ImGui: between Begin and Draw any source file may call it.
+// Windows with text, buttons and graphs over the picture, by Dear ImGui: between Begin and Draw any source file may
+// call it.
 #pragma once
 #include <memory>
 #include <string>
@@ -11,7 +12,8 @@ namespace flaneur {
 struct OverlayInput {
   Vec2 pointer_px{-1, -1};  // from the upper left corner; negative: none
   bool pressed = false;     // its main button
-  bool up = false, down = false, left = false, right = false, activate = false;  // held: from one button to the next without a pointer
+  bool up = false, down = false, left = false, right = false,
+       activate = false;  // held: from one button to the next without a pointer
   float passed_s = 1.0f / 60;
 };
 
@@ -22,12 +24,12 @@ class Overlay {
   ~Overlay();
   // Errors: a shader that the driver refuses.
   Error Create();
-  // Readable letters for LargeText, so high, and with all that `texts` (UTF-8) need besides ASCII. Cheap where nothing changes; not
-  // between Begin and Draw.
+  // Readable letters for LargeText, so high, and with all that `texts` (UTF-8) need besides ASCII. Cheap where nothing
+  // changes; not between Begin and Draw.
   void PrepareText(float letter_px, const std::string& texts);
   void Begin(int width_px, int height_px, const OverlayInput& input);
   bool HasPointer() const;  // it is over a window, or was pressed there; after Begin
-  void Draw();  // over the picture that the renderer has just drawn, before it is read or presented
+  void Draw();              // over the picture that the renderer has just drawn, before it is read or presented
 
  private:
   struct Impl;

@@ -6,10 +6,10 @@
 namespace flaneur {
 namespace {
 
-constexpr float kAround_m = 0.35f;     // arms, skirts and props reach so far beyond a person's radius
+constexpr float kAround_m = 0.35f;      // arms, skirts and props reach so far beyond a person's radius
 constexpr float kLongestShadow_m = 12;  // as far as one may fall into view
-constexpr float kFarImpostor_m = 15;   // nearer ones are drawn before all farther ones,
-constexpr size_t kNearBatches = 5;     // of the avatars that have most of them
+constexpr float kFarImpostor_m = 15;    // nearer ones are drawn before all farther ones,
+constexpr size_t kNearBatches = 5;      // of the avatars that have most of them
 
 // The largest numbers of all clips, so that 16 bits hold them with the finest steps.
 void SetSteps(const PackAvatar& avatar, AvatarLayout* layout) {
@@ -30,11 +30,13 @@ ClipRows RowsOf(const PackClip& clip, const AvatarLayout& layout) {
   ClipRows out;
   out.frames = std::max(1, clip.frames);
   out.rows.reserve(clip.matrices.size() * 3);
-  const auto steps = [](float value, float step) { return static_cast<int16_t>(std::lround(std::clamp(value / step, -32767.0f, 32767.0f))); };
+  const auto steps = [](float value, float step) {
+    return static_cast<int16_t>(std::lround(std::clamp(value / step, -32767.0f, 32767.0f)));
+  };
   for (const Mat4& m : clip.matrices) {
     for (size_t r = 0; r < 3; ++r) {
-      out.rows.push_back({steps(m.m[0][r], layout.turn_step), steps(m.m[1][r], layout.turn_step), steps(m.m[2][r], layout.turn_step),
-                          steps(m.m[3][r], layout.shift_step_m)});
+      out.rows.push_back({steps(m.m[0][r], layout.turn_step), steps(m.m[1][r], layout.turn_step),
+                          steps(m.m[2][r], layout.turn_step), steps(m.m[3][r], layout.shift_step_m)});
     }
   }
   return out;
@@ -50,8 +52,8 @@ void AddScaled(const PoseRow* from, float turn, float shift, size_t count, Vec4*
   }
 }
 
-// Between two frames of a clip, and between two clips, matrices are mixed linearly: near enough for steps of a thirtieth of a
-// second and for the fifth of a second in which a walk ends.
+// Between two frames of a clip, and between two clips, matrices are mixed linearly: near enough for steps of a
+// thirtieth of a second and for the fifth of a second in which a walk ends.
 void AddMoment(const AvatarLayout& avatar, const ClipMoment& moment, float share, Vec4* row) {
   const ClipRows& clip = avatar.clips[static_cast<size_t>(moment.clip)];
   const size_t width = static_cast<size_t>(avatar.joints) * 3;
@@ -59,7 +61,8 @@ void AddMoment(const AvatarLayout& avatar, const ClipMoment& moment, float share
   const int a = std::clamp(static_cast<int>(at), 0, clip.frames - 1), b = (a + 1) % clip.frames;
   const float between = at - static_cast<float>(a);
   const auto add = [&](int frame, float part) {
-    AddScaled(&clip.rows[static_cast<size_t>(frame) * width], part * avatar.turn_step, part * avatar.shift_step_m, width, row);
+    AddScaled(&clip.rows[static_cast<size_t>(frame) * width], part * avatar.turn_step, part * avatar.shift_step_m,
+              width, row);
   };
   add(a, share * (1 - between));
   add(b, share * between);
@@ -85,7 +88,8 @@ float RowOfPose(uint32_t number, const DrawnPerson& person, const AvatarLayout& 
 // A mesh faces glTF's +Z; turned about the vertical by heading + 90 degrees it faces the heading.
 PersonInstance Placed(const DrawnPerson& person, float row, float phases) {
   const Vec3 p = GltfFromGround(person.position);
-  return {{p.x, p.y, p.z, person.heading_rad + kPi / 2}, {row, person.share_from, person.share_to, phases}, person.tints};
+  return {
+      {p.x, p.y, p.z, person.heading_rad + kPi / 2}, {row, person.share_from, person.share_to, phases}, person.tints};
 }
 
 // Null without pictures of it. Without a clip for it people talk as they stand.
@@ -97,15 +101,17 @@ const ImpostorClip* FindImpostorClip(const PackImpostor& atlas, ClipKind kind) {
   return kind == ClipKind::kTalk ? FindImpostorClip(atlas, ClipKind::kIdle) : nullptr;
 }
 
-const ClipMoment& MainMoment(const DrawnPerson& person) { return person.other_share > 0.5f ? person.other : person.moment; }
+const ClipMoment& MainMoment(const DrawnPerson& person) {
+  return person.other_share > 0.5f ? person.other : person.moment;
+}
 
 size_t NearestElevation(const PackImpostor& atlas, const DrawnPerson& person, Vec3 eye) {
   if (atlas.elevations_deg.size() == 1) return 0;
   const Vec3 from = GroundFromGltf(eye) - person.position;
   const float elevation_deg = std::atan2(from.z, std::max(Length(Vec2{from.x, from.y}), 1e-3f)) * 180 / kPi;
-  const auto nearest = std::min_element(atlas.elevations_deg.begin(), atlas.elevations_deg.end(), [&](float a, float b) {
-    return std::abs(a - elevation_deg) < std::abs(b - elevation_deg);
-  });
+  const auto nearest =
+      std::min_element(atlas.elevations_deg.begin(), atlas.elevations_deg.end(),
+                       [&](float a, float b) { return std::abs(a - elevation_deg) < std::abs(b - elevation_deg); });
   return static_cast<size_t>(nearest - atlas.elevations_deg.begin());
 }
 
@@ -134,12 +140,14 @@ PersonInstance AsShadow(const DrawnPerson& person, const AvatarLayout& avatar) {
 Box BoxOf(const DrawnPerson& person, const AvatarLayout& avatar) {
   const Vec3 p = GltfFromGround(person.position);
   const float around_m = avatar.radius_m + kAround_m;
-  return {{p.x - around_m, p.y - 0.1f, p.z - around_m}, {p.x + around_m, p.y + avatar.height_m * 1.15f + 0.1f, p.z + around_m}};
+  return {{p.x - around_m, p.y - 0.1f, p.z - around_m},
+          {p.x + around_m, p.y + avatar.height_m * 1.15f + 0.1f, p.z + around_m}};
 }
 
 // The person and the shadow on level ground.
 Box WithShadow(const Box& box, Vec3 to_sun) {
-  const float along = std::min((box.high.y - box.low.y) / std::max(to_sun.y, 0.01f), kLongestShadow_m / std::max(0.01f, Length(Vec2{to_sun.x, to_sun.z})));
+  const float along = std::min((box.high.y - box.low.y) / std::max(to_sun.y, 0.01f),
+                               kLongestShadow_m / std::max(0.01f, Length(Vec2{to_sun.x, to_sun.z})));
   Box out = box;
   Include({box.low.x - to_sun.x * along, box.low.y, box.low.z - to_sun.z * along}, &out);
   Include({box.high.x - to_sun.x * along, box.low.y, box.high.z - to_sun.z * along}, &out);
@@ -228,7 +236,8 @@ AvatarLayout LayoutOf(const PackAvatar& avatar) {
   for (const PackLevel& level : avatar.levels) layout.switch_px.push_back(level.switch_px);
   SetSteps(avatar, &layout);
   layout.clips = {RowsOf(avatar.walk, layout), RowsOf(avatar.idle, layout), RowsOf(avatar.talk, layout)};
-  for (size_t k = 0; k < layout.clips.size(); ++k) layout.shadow_rows[k] = std::min(layout.clips[k].frames, kMaxShadowFrames);
+  for (size_t k = 0; k < layout.clips.size(); ++k)
+    layout.shadow_rows[k] = std::min(layout.clips[k].frames, kMaxShadowFrames);
   static_cast<ImpostorLayout&>(layout.impostor) = avatar.impostor;
   return layout;
 }
@@ -242,10 +251,12 @@ size_t ClipBytes(const AvatarLayout& layout) {
   return bytes;
 }
 
-int ShadowFrame(const ClipRows& clip, int shadow_row, int shadow_rows) { return shadow_row * clip.frames / shadow_rows; }
+int ShadowFrame(const ClipRows& clip, int shadow_row, int shadow_rows) {
+  return shadow_row * clip.frames / shadow_rows;
+}
 
-void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<AvatarLayout>& avatars, const std::vector<AvatarReady>& ready,
-                const PeopleSight& sight, PeopleBatches* out) {
+void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<AvatarLayout>& avatars,
+                const std::vector<AvatarReady>& ready, const PeopleSight& sight, PeopleBatches* out) {
   out->instances.clear();
   out->entries.clear();
   out->pose_rows = 0;
@@ -271,7 +282,8 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     const Box box = BoxOf(person, avatars[index]);
     const float distance_m = Length(GltfFromGround(person.position) - sight.eye);
     const bool half = person.share_to - person.share_from >= 0.5f;  // of the two of a fade one casts the shadow
-    if (half && person.casts_shadow && ready[index].shadow && distance_m < sight.shadow_reach_m && in_sight(WithShadow(box, sight.to_sun))) {
+    if (half && person.casts_shadow && ready[index].shadow && distance_m < sight.shadow_reach_m &&
+        in_sight(WithShadow(box, sight.to_sun))) {
       out->shadow_entries.push_back({number, 2 * person.avatar + (distance_m < sight.fine_shadow_m ? 0 : 1), 0});
     }
     if (!in_sight(box)) {
@@ -284,7 +296,9 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     if (!IsDrawn(level)) continue;
     const int fades = person.share_from > 0 || person.share_to < 1 ? 1 : 0;
     const int far = distance_m > kFarImpostor_m ? count : 0;
-    out->entries.push_back({number, IsMesh(level) ? (person.avatar * levels + level.mesh) * 2 + fades : meshes + far + person.avatar, StepOf(distance_m)});
+    out->entries.push_back(
+        {number, IsMesh(level) ? (person.avatar * levels + level.mesh) * 2 + fades : meshes + far + person.avatar,
+         StepOf(distance_m)});
     for (int k = 0; person.props >> k != 0; ++k) {
       const int prop = avatars[index].levels + k;
       if ((person.props >> k & 1) == 0 || !ready[index].levels[static_cast<size_t>(prop)]) continue;
@@ -293,21 +307,30 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     }
   }
   JoinFewNear(meshes, count, out);
-  Gather(meshes + 2 * count, batch_of, [&](const PeopleBatches::Entry& e) {
-    const DrawnPerson& person = people[e.person];
-    const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];
-    if (e.key >= meshes) return AsImpostor(person, avatar, sight.eye);
-    PersonInstance instance = Placed(person, RowOfPose(e.person, person, avatar, out), e.on_impostor ? 1.0f : 0.0f);
-    if (e.key / 2 % levels >= avatar.levels) {
-      instance.look.y = 0, instance.look.z = person.props_share;
-      instance.tints = {};  // a basket is no cloth, though it may have a cloth's colour
-    }
-    return instance;
-  }, out, &out->seen);
+  Gather(
+      meshes + 2 * count, batch_of,
+      [&](const PeopleBatches::Entry& e) {
+        const DrawnPerson& person = people[e.person];
+        const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];
+        if (e.key >= meshes) return AsImpostor(person, avatar, sight.eye);
+        PersonInstance instance = Placed(person, RowOfPose(e.person, person, avatar, out), e.on_impostor ? 1.0f : 0.0f);
+        if (e.key / 2 % levels >= avatar.levels) {
+          instance.look.y = 0, instance.look.z = person.props_share;
+          instance.tints = {};  // a basket is no cloth, though it may have a cloth's colour
+        }
+        return instance;
+      },
+      out, &out->seen);
   std::swap(out->entries, out->shadow_entries);
-  Gather(2 * count, [](int key) { return PeopleBatch{key / 2, key % 2, false, 0, 0}; }, [&](const PeopleBatches::Entry& e) {
-    return AsShadow(people[e.person], avatars[static_cast<size_t>(people[e.person].avatar)]);
-  }, out, &out->shadows);
+  Gather(
+      2 * count,
+      [](int key) {
+        return PeopleBatch{key / 2, key % 2, false, 0, 0};
+      },
+      [&](const PeopleBatches::Entry& e) {
+        return AsShadow(people[e.person], avatars[static_cast<size_t>(people[e.person].avatar)]);
+      },
+      out, &out->shadows);
 }
 
 }  // namespace flaneur

@@ -11,20 +11,23 @@
 
 namespace flaneur {
 
-// A clip's skinning matrices as the upper three rows, joint by joint and frame by frame, in 16 bits: turns and scalings times
-// AvatarLayout::turn_step, shifts times shift_step_m.
+// A clip's skinning matrices as the upper three rows, joint by joint and frame by frame, in 16 bits: turns and scalings
+// times AvatarLayout::turn_step, shifts times shift_step_m.
 using PoseRow = std::array<int16_t, 4>;
-struct ClipRows { int frames = 1; std::vector<PoseRow> rows; };
+struct ClipRows {
+  int frames = 1;
+  std::vector<PoseRow> rows;
+};
 
 struct AvatarLayout {
   int joints = 0, levels = 0, props = 0;
   float turn_step = 0, shift_step_m = 0;
-  std::array<ClipRows, 3> clips;  // by ClipKind
+  std::array<ClipRows, 3> clips;                         // by ClipKind
   std::array<int, 3> first_shadow_row{}, shadow_rows{};  // in the texture of poses for shadows
   float height_m = 0, radius_m = 0;
-  std::vector<float> switch_px;   // by level, PackLevel's
-  PackImpostor impostor;          // without its pictures
-  int first_cell = 0;             // of its cells in the texture of all cells
+  std::vector<float> switch_px;  // by level, PackLevel's
+  PackImpostor impostor;         // without its pictures
+  int first_cell = 0;            // of its cells in the texture of all cells
 };
 
 // Sets all but first_shadow_row and first_cell.
@@ -43,14 +46,19 @@ struct AvatarReady {
 
 // Of one person.
 struct PersonInstance {
-  Vec4 place;              // position in glTF axes, turn about the vertical
-  Vec4 look;               // mesh: row of the poses; impostor: first cell of its picture; shadow: row of the poses for shadows; then
-                           // share of the pattern from, to; and, impostor: phases since its picture, prop: 1 on an impostor
+  Vec4 place;  // position in glTF axes, turn about the vertical
+  Vec4 look;  // mesh: row of the poses; impostor: first cell of its picture; shadow: row of the poses for shadows; then
+              // share of the pattern from, to; and, impostor: phases since its picture, prop: 1 on an impostor
   std::array<uint8_t, 4> tints{};  // DrawnPerson's
 };
 
-// One draw: instances first ... first + count - 1 of one avatar at one level (-1: impostor; behind the last one: a prop).
-struct PeopleBatch { int avatar = 0, level = 0; bool fades = false; size_t first = 0, count = 0; };
+// One draw: instances first ... first + count - 1 of one avatar at one level (-1: impostor; behind the last one: a
+// prop).
+struct PeopleBatch {
+  int avatar = 0, level = 0;
+  bool fades = false;
+  size_t first = 0, count = 0;
+};
 
 struct PeopleBatches {
   std::vector<PersonInstance> instances;
@@ -58,27 +66,31 @@ struct PeopleBatches {
   std::vector<PeopleBatch> shadows;  // from the sun, around the eye; level: of the ShadowLevels
   std::vector<Vec4> poses;           // pose_width texels a row
   size_t pose_width = 0, pose_rows = 0;
-  int hidden = 0;                    // left out because the picture cannot show them
-  int not_loaded = 0;                // drawn by another level than asked for, or not at all, because that is not loaded yet
+  int hidden = 0;      // left out because the picture cannot show them
+  int not_loaded = 0;  // drawn by another level than asked for, or not at all, because that is not loaded yet
 
-  struct Entry { uint32_t person = 0; int key = 0, step = 0; bool on_impostor = false; };  // of a prop
+  struct Entry {
+    uint32_t person = 0;
+    int key = 0, step = 0;
+    bool on_impostor = false;
+  };                                           // of a prop
   std::vector<Entry> entries, shadow_entries;  // scratch
   std::vector<size_t> counts;
-  std::vector<int> pose_rows_of;     // by person: their row of the poses; -1: none yet
+  std::vector<int> pose_rows_of;  // by person: their row of the poses; -1: none yet
 };
 
 // From where people are seen, and what hides them. Without a map nothing does.
 struct PeopleSight {
-  Vec3 eye, to_sun;                  // glTF axes; to_sun: unit
+  Vec3 eye, to_sun;  // glTF axes; to_sun: unit
   Frustum frustum{};
   const OcclusionMap* walls = nullptr;
-  float shadow_reach_m = 0;          // who is farther from the eye casts no shadow
-  float focal_px = 0;                // of a coarse picture: pixels that a metre takes at a distance of one; 0: levels as they are
-  float fine_shadow_m = 0;           // who is farther casts the shadow of a coarser figure
+  float shadow_reach_m = 0;  // who is farther from the eye casts no shadow
+  float focal_px = 0;  // of a coarse picture: pixels that a metre takes at a distance of one; 0: levels as they are
+  float fine_shadow_m = 0;  // who is farther casts the shadow of a coarser figure
 };
 
 // pose_width of `out` must be set: three times the most joints.
-void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<AvatarLayout>& avatars, const std::vector<AvatarReady>& ready,
-                const PeopleSight& sight, PeopleBatches* out);
+void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<AvatarLayout>& avatars,
+                const std::vector<AvatarReady>& ready, const PeopleSight& sight, PeopleBatches* out);
 
 }  // namespace flaneur

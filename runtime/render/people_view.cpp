@@ -66,22 +66,26 @@ void CreateShadowPoses(PeopleView* people) {
       layout.first_shadow_row[k] = static_cast<int>(texels.size() / width);
       for (int row = 0; row < layout.shadow_rows[k]; ++row) {
         const size_t joints = static_cast<size_t>(layout.joints) * 3;
-        const PoseRow* from = &layout.clips[k].rows[static_cast<size_t>(ShadowFrame(layout.clips[k], row, layout.shadow_rows[k])) * joints];
+        const PoseRow* from =
+            &layout.clips[k]
+                 .rows[static_cast<size_t>(ShadowFrame(layout.clips[k], row, layout.shadow_rows[k])) * joints];
         for (size_t i = 0; i < width; ++i) {
           const PoseRow r = i < joints ? from[i] : PoseRow{};
           const float turn = layout.turn_step;
-          texels.push_back({turn * static_cast<float>(r[0]), turn * static_cast<float>(r[1]), turn * static_cast<float>(r[2]),
-                            layout.shift_step_m * static_cast<float>(r[3])});
+          texels.push_back({turn * static_cast<float>(r[0]), turn * static_cast<float>(r[1]),
+                            turn * static_cast<float>(r[2]), layout.shift_step_m * static_cast<float>(r[3])});
         }
       }
     }
   }
-  people->shadow_poses = CreateTable(static_cast<GLsizei>(width), static_cast<GLsizei>(texels.size() / std::max<size_t>(1, width)), texels.data());
+  people->shadow_poses = CreateTable(static_cast<GLsizei>(width),
+                                     static_cast<GLsizei>(texels.size() / std::max<size_t>(1, width)), texels.data());
 }
 
 // The same direction's in the next phase and in the previous one; -1: the clip has one phase alone.
 Vec4 CellsBeside(const AvatarLayout& layout, int cell) {
-  const int row = static_cast<int>(layout.impostor.elevations_deg.size()) * layout.impostor.directions, frame = cell / row;
+  const int row = static_cast<int>(layout.impostor.elevations_deg.size()) * layout.impostor.directions,
+            frame = cell / row;
   for (const ImpostorClip& clip : layout.impostor.clips) {
     const int phase = frame - clip.first_frame, cell_of_first = layout.first_cell + cell - phase * row;
     if (phase < 0 || phase >= clip.phases || clip.phases == 1) continue;
@@ -102,7 +106,8 @@ void CreateCells(PeopleView* people) {
       const float elevation_rad = atlas.elevations_deg[elevation] * kPi / 180;
       const float left = c.x, top = c.y;
       texels.push_back({left, top, left + static_cast<float>(c.width), top + static_cast<float>(c.height)});
-      texels.push_back({static_cast<float>(c.origin_x), static_cast<float>(c.origin_y), std::sin(elevation_rad), std::cos(elevation_rad)});
+      texels.push_back({static_cast<float>(c.origin_x), static_cast<float>(c.origin_y), std::sin(elevation_rad),
+                        std::cos(elevation_rad)});
       texels.push_back(CellsBeside(layout, static_cast<int>(i)));
     }
   }
@@ -149,7 +154,8 @@ DrawCost DrawImpostors(const PeopleView& people, const PeopleBatch& batch) {
 
 void DrawRange(const PersonRange& range, size_t instances) {
   glDrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
-                          reinterpret_cast<const void*>(size_t{range.first} * sizeof(uint32_t)), static_cast<GLsizei>(instances));
+                          reinterpret_cast<const void*>(size_t{range.first} * sizeof(uint32_t)),
+                          static_cast<GLsizei>(instances));
 }
 
 DrawCost DrawMeshes(const PeopleView& people, const PeopleBatch& batch) {
@@ -187,15 +193,16 @@ void AddTints(const std::vector<Tint>& tints, AvatarView* view) {
 
 }  // namespace
 
-Error CreatePeopleView(const TourPack& pack, ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays,
-                       PeopleView* people) {
+Error CreatePeopleView(const TourPack& pack, ShaderMode mode, const SurfacePlan& plan,
+                       const std::vector<GLuint>& arrays, PeopleView* people) {
   if (Error e = BuildPrograms(mode, people)) return e;
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   people->groups = plan.groups;
   people->arrays = arrays;
   for (const PackAvatar& avatar : pack.avatars) {
-    if (3 * avatar.joints > most) return Fail("avatar '" + avatar.name + "' has more joints than this machine's OpenGL can hold");
+    if (3 * avatar.joints > most)
+      return Fail("avatar '" + avatar.name + "' has more joints than this machine's OpenGL can hold");
     people->batches.pose_width = std::max(people->batches.pose_width, 3 * static_cast<size_t>(avatar.joints));
     people->layouts.push_back(LayoutOf(avatar));
     const PackImpostor& atlas = avatar.impostor;
@@ -228,7 +235,8 @@ void AddLevel(int avatar, int level, const PersonGeometry& person, const ShadowL
 
 void ShowLevels(PeopleView* people) {
   for (size_t a = 0; a < people->avatars.size(); ++a) {
-    for (size_t k = 0; k < people->avatars[a].levels.size(); ++k) people->ready[a].levels[k] = people->avatars[a].levels[k].vertex_array != 0;
+    for (size_t k = 0; k < people->avatars[a].levels.size(); ++k)
+      people->ready[a].levels[k] = people->avatars[a].levels[k].vertex_array != 0;
   }
 }
 
@@ -248,15 +256,18 @@ void AddAtlas(int avatar, const std::array<AtlasPicture, 4>& pictures, PeopleVie
 void UploadPeople(PeopleView* people) {
   const PeopleBatches& b = people->batches;
   glBindBuffer(GL_ARRAY_BUFFER, people->instances);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(b.instances.size() * sizeof(PersonInstance)), b.instances.data(), GL_STREAM_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(b.instances.size() * sizeof(PersonInstance)),
+               b.instances.data(), GL_STREAM_DRAW);
   BindTexture(kPosesUnit, people->poses);
   const auto width = static_cast<GLsizei>(b.pose_width);
   if (b.pose_rows > people->poses_held) {
     people->poses_held = b.pose_rows + b.pose_rows / 2;
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, static_cast<GLsizei>(people->poses_held), 0, GL_RGBA, GL_FLOAT, nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, static_cast<GLsizei>(people->poses_held), 0, GL_RGBA, GL_FLOAT,
+                 nullptr);
   }
   if (b.pose_rows > 0) {
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, static_cast<GLsizei>(b.pose_rows), GL_RGBA, GL_FLOAT, b.poses.data());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, static_cast<GLsizei>(b.pose_rows), GL_RGBA, GL_FLOAT,
+                    b.poses.data());
   }
 }
 

@@ -9,26 +9,30 @@
 
 namespace flaneur {
 
-struct PersonMesh { GLuint vertex_array = 0; std::vector<PersonRange> ranges; int64_t triangles = 0; };
+struct PersonMesh {
+  GLuint vertex_array = 0;
+  std::vector<PersonRange> ranges;
+  int64_t triangles = 0;
+};
 
 struct AvatarView {
-  std::vector<PersonMesh> levels;     // behind them the props
-  std::array<PersonMesh, 2> shadows;  // as in ShadowLevels
+  std::vector<PersonMesh> levels;                         // behind them the props
+  std::array<PersonMesh, 2> shadows;                      // as in ShadowLevels
   GLuint albedo = 0, normals = 0, depth = 0, motion = 0;  // of the impostor
-  Vec4 atlas;                      // texture coordinates a metre, size in texels
-  Vec3 ranges;                     // of depth, motion and its bend, in metres
+  Vec4 atlas;                                             // texture coordinates a metre, size in texels
+  Vec3 ranges;                                            // of depth, motion and its bend, in metres
   float directions = 1;
-  std::array<Vec4, kMaxTints> tints{};  // WithHalfLightness, 1 / reach squared; 0: none
+  std::array<Vec4, kMaxTints> tints{};                         // WithHalfLightness, 1 / reach squared; 0: none
   std::array<Vec4, kMaxTints * kMaxTintColors> tint_shifts{};  // from it to each of the others
-  int impostor_of = -1;            // the avatar whose pictures these are; -1: its own
+  int impostor_of = -1;                                        // the avatar whose pictures these are; -1: its own
 };
 
 struct PeopleView {
-  Program programs[2][2];          // [masked][fades]
+  Program programs[2][2];  // [masked][fades]
   Program impostor_program, shadow_program;
   GLuint instances = 0, quad_array = 0, poses = 0, shadow_poses = 0, cells = 0;
-  bool smooth_edges = false;       // of impostors, by the samples of a pixel
-  size_t poses_held = 0;           // rows of the pose texture
+  bool smooth_edges = false;  // of impostors, by the samples of a pixel
+  size_t poses_held = 0;      // rows of the pose texture
   std::vector<AvatarView> avatars;
   std::vector<AvatarLayout> layouts;
   std::vector<AvatarReady> ready;
@@ -38,8 +42,8 @@ struct PeopleView {
 };
 
 // Of the pack without its bulk. Errors: a shader that the driver refuses, more joints than a texture is wide.
-Error CreatePeopleView(const TourPack& pack, ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays,
-                       PeopleView* people);
+Error CreatePeopleView(const TourPack& pack, ShaderMode mode, const SurfacePlan& plan,
+                       const std::vector<GLuint>& arrays, PeopleView* people);
 void AddLevel(int avatar, int level, const PersonGeometry& person, const ShadowLevels& shadows, PeopleView* people);
 void ShowLevels(PeopleView* people);  // all that have been added, from now on
 void AddAtlas(int avatar, const std::array<AtlasPicture, 4>& pictures, PeopleView* people);

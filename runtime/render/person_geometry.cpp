@@ -17,9 +17,12 @@ void AppendVertices(const PackPrimitive& p, Vec4 base, int layer, std::vector<Pe
   for (size_t i = 0; i < p.positions.size(); ++i) {
     const Vec4 c = p.colors.empty() ? Vec4{1, 1, 1, 1} : p.colors[i];
     const Vec3 n = p.normals[i];
-    PersonVertex v{p.positions[i], {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), static_cast<int8_t>(layer)},
+    PersonVertex v{p.positions[i],
+                   {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), static_cast<int8_t>(layer)},
                    p.uvs.empty() ? Vec2{} : p.uvs[i],
-                   {SrgbByte(c.x * base.x), SrgbByte(c.y * base.y), SrgbByte(c.z * base.z), Byte(c.w * base.w)}, {}, {255, 0, 0, 0}};
+                   {SrgbByte(c.x * base.x), SrgbByte(c.y * base.y), SrgbByte(c.z * base.z), Byte(c.w * base.w)},
+                   {},
+                   {255, 0, 0, 0}};
     if (!p.joints.empty()) {
       v.joints = p.joints[i];
       v.weights = p.weights[i];
@@ -44,7 +47,8 @@ PersonGeometry WithinCells(const PersonGeometry& of, float cell_m) {
   for (size_t i = 0; i < of.vertices.size(); ++i) {
     const Vec3 p = of.vertices[i].position;
     const auto cell = [cell_m](float v) { return static_cast<int>(std::floor(v / cell_m)); };
-    const auto [found, fresh] = cells.try_emplace({cell(p.x), cell(p.y), cell(p.z)}, static_cast<uint32_t>(out.vertices.size()));
+    const auto [found, fresh] =
+        cells.try_emplace({cell(p.x), cell(p.y), cell(p.z)}, static_cast<uint32_t>(out.vertices.size()));
     place[i] = found->second;
     if (fresh) out.vertices.push_back(OnHeaviestJoint(of.vertices[i]));
     // The outermost stands for all in the cell, so that hats and hems keep their size.
@@ -78,8 +82,9 @@ PersonGeometry BuildPersonGeometry(const TourPack& pack, int mesh, const Surface
     }
     out.ranges.back().count += static_cast<uint32_t>(p->indices.size());
     const auto base = static_cast<uint32_t>(out.vertices.size());
-    AppendVertices(*p, p->material >= 0 ? pack.materials[static_cast<size_t>(p->material)].base_color : Vec4{1, 1, 1, 1}, surface.layer,
-                   &out.vertices);
+    AppendVertices(*p,
+                   p->material >= 0 ? pack.materials[static_cast<size_t>(p->material)].base_color : Vec4{1, 1, 1, 1},
+                   surface.layer, &out.vertices);
     for (uint32_t i : p->indices) out.indices.push_back(base + i);
   }
   return out;

@@ -16,7 +16,9 @@ GLuint NewTexture(GLint filter) {
   return texture;
 }
 
-void Attach(GLenum attachment, GLuint texture) { glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture, 0); }
+void Attach(GLenum attachment, GLuint texture) {
+  glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture, 0);
+}
 
 void ResizeTexture(GLuint texture, const Picture& p) {
   BindTexture(kColorUnit, texture);
@@ -26,8 +28,8 @@ void ResizeTexture(GLuint texture, const Picture& p) {
 void ResizeDeferred(const Picture& p) {
   for (GLuint texture : {p.color, p.normals, p.lit_color}) ResizeTexture(texture, p);
   BindTexture(kColorUnit, p.depth);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, p.drawn_width_px, p.drawn_height_px, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
-               nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, p.drawn_width_px, p.drawn_height_px, 0, GL_DEPTH_COMPONENT,
+               GL_UNSIGNED_INT, nullptr);
   glBindFramebuffer(GL_FRAMEBUFFER, p.framebuffer);
   Attach(GL_COLOR_ATTACHMENT0, p.color);
   Attach(GL_COLOR_ATTACHMENT1, p.normals);
@@ -77,7 +79,8 @@ void Smooth(GLuint framebuffer, const Program& program, const Picture& p) {
   if (p.samples > 1) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, p.framebuffer);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    glBlitFramebuffer(0, 0, p.drawn_width_px, p.drawn_height_px, 0, 0, p.drawn_width_px, p.drawn_height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(0, 0, p.drawn_width_px, p.drawn_height_px, 0, 0, p.drawn_width_px, p.drawn_height_px,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
     return;
   }
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -121,7 +124,9 @@ Error CreatePicture(int samples, bool deferred, bool onto_window, ShaderMode mod
 }
 
 void ResizePicture(int width_px, int height_px, float scale, Picture* p) {
-  const auto drawn = [scale](int whole_px) { return std::clamp(static_cast<int>(std::lround(static_cast<float>(whole_px) * scale)), 1, whole_px); };
+  const auto drawn = [scale](int whole_px) {
+    return std::clamp(static_cast<int>(std::lround(static_cast<float>(whole_px) * scale)), 1, whole_px);
+  };
   const bool resized = p->width_px != width_px || p->height_px != height_px;
   const bool redrawn = p->drawn_width_px != drawn(width_px) || p->drawn_height_px != drawn(height_px);
   p->width_px = width_px;
@@ -147,8 +152,8 @@ void BeginPicture(const Picture& p) {
 void LightPicture(const Picture& p) {
   if (!p.deferred) return;
   glBindFramebuffer(GL_FRAMEBUFFER, p.lit);
-  // Only where there is a surface. The depth is looked up and tested alike, and not written: software, which alone defers light, does
-  // not mind.
+  // Only where there is a surface. The depth is looked up and tested alike, and not written: software, which alone
+  // defers light, does not mind.
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_GREATER);
   BindTexture(kColorUnit, p.color);

@@ -6,17 +6,18 @@
 
 namespace flaneur {
 
-// With several samples a pixel edges are smoothed by resolving them; with one, by a pass over the picture. What is drawn more coarsely than
-// the finished picture is smoothed as it is, then enlarged. A change of size or scale makes the targets anew.
+// With several samples a pixel edges are smoothed by resolving them; with one, by a pass over the picture. What is
+// drawn more coarsely than the finished picture is smoothed as it is, then enlarged. A change of size or scale makes
+// the targets anew.
 struct Picture {
-  int samples = 1, width_px = 0, height_px = 0;      // of the finished picture
+  int samples = 1, width_px = 0, height_px = 0;  // of the finished picture
   int drawn_width_px = 0, drawn_height_px = 0;
-  bool deferred = false;                             // light comes after the surfaces, in a pass over the picture
-  GLuint color = 0, depth = 0, framebuffer = 0;      // drawn into; color is a texture where samples is 1
-  GLuint normals = 0;                                // where deferred, and depth is a texture then
-  GLuint lit_color = 0, lit = 0;                     // where deferred
-  GLuint coarse_color = 0, coarse = 0;               // smooth but not yet enlarged
-  GLuint finished_color = 0, finished = 0;           // framebuffer of the finished picture; 0: the window's own
+  bool deferred = false;                         // light comes after the surfaces, in a pass over the picture
+  GLuint color = 0, depth = 0, framebuffer = 0;  // drawn into; color is a texture where samples is 1
+  GLuint normals = 0;                            // where deferred, and depth is a texture then
+  GLuint lit_color = 0, lit = 0;                 // where deferred
+  GLuint coarse_color = 0, coarse = 0;           // smooth but not yet enlarged
+  GLuint finished_color = 0, finished = 0;       // framebuffer of the finished picture; 0: the window's own
   Program light_program, smooth_program, sharpen_program, enlarge_program;
   GLuint empty_array = 0;
 };
@@ -28,7 +29,8 @@ Error CreatePicture(int samples, bool deferred, bool onto_window, ShaderMode mod
 void ResizePicture(int width_px, int height_px, float scale, Picture* picture);
 // Empties what is drawn into, and leaves it bound.
 void BeginPicture(const Picture& picture);
-// Lights the surfaces where that has been deferred, and leaves bound what the sky is drawn into. The frame block must be bound.
+// Lights the surfaces where that has been deferred, and leaves bound what the sky is drawn into. The frame block must
+// be bound.
 void LightPicture(const Picture& picture);
 // Leaves the finished picture bound for drawing, all of it.
 void FinishPicture(const Picture& picture);

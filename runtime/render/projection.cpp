@@ -63,7 +63,8 @@ Frustum FrustumOf(const Mat4& vp) {
 
 bool MayTouch(const Frustum& frustum, const Box& box) {
   return std::all_of(frustum.begin(), frustum.end(), [&](const Vec4& p) {
-    const Vec3 inmost{p.x > 0 ? box.high.x : box.low.x, p.y > 0 ? box.high.y : box.low.y, p.z > 0 ? box.high.z : box.low.z};
+    const Vec3 inmost{p.x > 0 ? box.high.x : box.low.x, p.y > 0 ? box.high.y : box.low.y,
+                      p.z > 0 ? box.high.z : box.low.z};
     return p.x * inmost.x + p.y * inmost.y + p.z * inmost.z + p.w >= 0;
   });
 }

@@ -13,7 +13,9 @@ Mat4 Perspective(float fov_horizontal_rad, float aspect, float near_m, float far
 Mat4 ShadowMatrix(Vec3 center, Vec3 to_sun, float half_width_m, float half_depth_m, int size_px);
 
 // In clip space, without the depth: 1 / w tells which is nearer.
-struct ClipPoint { float x, y, w; };
+struct ClipPoint {
+  float x, y, w;
+};
 inline ClipPoint ToClip(const Mat4& m, Vec3 p) {
   const auto row = [&](size_t r) { return m.m[0][r] * p.x + m.m[1][r] * p.y + m.m[2][r] * p.z + m.m[3][r]; };
   return {row(0), row(1), row(3)};
@@ -25,7 +27,9 @@ inline bool IsBesideTheView(const std::array<ClipPoint, 3>& t) {
          all([](const ClipPoint& c) { return c.y < -c.w; }) || all([](const ClipPoint& c) { return c.y > c.w; });
 }
 
-struct Box { Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f}; };
+struct Box {
+  Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
+};
 void Include(Vec3 p, Box* box);
 float Distance(const Box& box, Vec3 p);  // 0 inside
 

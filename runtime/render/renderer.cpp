@@ -20,10 +20,12 @@ namespace flaneur {
 namespace {
 
 constexpr float kNear_m = 0.1f, kFar_m = 900;
-// Of the town's shadows that a picture usually renews: with less, one map waits for the other while the visitor runs out of it.
+// Of the town's shadows that a picture usually renews: with less, one map waits for the other while the visitor runs
+// out of it.
 constexpr float kMinShadowShare = 0.5f;
 
-// In software larger pictures cost memory and time that nobody sees at the sizes drawn there, and texels eight times a block's memory.
+// In software larger pictures cost memory and time that nobody sees at the sizes drawn there, and texels eight times a
+// block's memory.
 PictureLimits LimitsOfThisMachine(bool fast) {
   GLint most_px = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
@@ -33,7 +35,8 @@ PictureLimits LimitsOfThisMachine(bool fast) {
 }
 
 ShaderMode ModeFor(bool software, bool several_samples, bool normals) {
-  if (!software) return normals ? ShaderMode::kGpuNormals : several_samples ? ShaderMode::kGpuSamples : ShaderMode::kGpu;
+  if (!software)
+    return normals ? ShaderMode::kGpuNormals : several_samples ? ShaderMode::kGpuSamples : ShaderMode::kGpu;
   if (several_samples) return normals ? ShaderMode::kSoftwareSamplesNormals : ShaderMode::kSoftwareSamples;
   return normals ? ShaderMode::kSoftwareNormals : ShaderMode::kSoftware;
 }
@@ -41,7 +44,8 @@ ShaderMode ModeFor(bool software, bool several_samples, bool normals) {
 // By the processor's time of all threads: software draws on several, and others use the machine too.
 class PassTimer {
  public:
-  PassTimer(bool on, std::array<double, std::size(kDrawPassNames)>* pass_ms) : pass_ms_(on ? pass_ms : nullptr), last_ms_(Processor_ms()) {}
+  PassTimer(bool on, std::array<double, std::size(kDrawPassNames)>* pass_ms)
+      : pass_ms_(on ? pass_ms : nullptr), last_ms_(Processor_ms()) {}
   void Passed(DrawPass pass) {
     if (pass_ms_ == nullptr) return;
     glFinish();
@@ -64,7 +68,8 @@ Vec3 Ahead(const FrameInput& frame) {
 Vec4 Wide(Vec3 v) { return {v.x, v.y, v.z, 0}; }
 
 // focal_px: pixels that a metre takes at a distance of one.
-FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px, Vec3 to_sun, float shadow_reach_m, const ShadowMaps& shadows) {
+FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px, Vec3 to_sun, float shadow_reach_m,
+                          const ShadowMaps& shadows) {
   const Light light = LightFor(to_sun);
   FrameBlock block;
   block.view_projection = view_projection;
@@ -72,7 +77,8 @@ FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px,
   block.near_shadow = shadows.near.matrix;
   block.far_shadow = shadows.far.matrix;
   block.people_shadow = shadows.people_matrix;
-  block.shadow_layers = {static_cast<float>(shadows.near.layer), static_cast<float>(shadows.far.layer), shadow_reach_m, 0};
+  block.shadow_layers = {static_cast<float>(shadows.near.layer), static_cast<float>(shadows.far.layer), shadow_reach_m,
+                         0};
   block.eye = {eye.x, eye.y, eye.z, focal_px};
   block.to_sun = Wide(to_sun);
   block.sun_color = Wide(light.sun);
@@ -117,7 +123,8 @@ Error Renderer::Create(const TourPack& pack, const RenderOptions& options) {
   if (Error e = Begin(pack, options)) return e;
   const std::vector<AssetId> ids = AssetsOf(pack);
   std::vector<Asset> assets(ids.size());
-  ParallelFor(options.jobs, ids.size(), [&](size_t i) { assets[i] = PrepareAsset(pack, ids[i], surfaces(), formats()); });
+  ParallelFor(options.jobs, ids.size(),
+              [&](size_t i) { assets[i] = PrepareAsset(pack, ids[i], surfaces(), formats()); });
   for (Asset& asset : assets) Add(std::move(asset));
   return Ok();
 }
@@ -174,7 +181,9 @@ void Renderer::Add(Asset asset) {
       AddLevel(asset.id.index, asset.id.level, content.person, content.shadows, &r.people);
       if (r.pictures_left == 0) ShowLevels(&r.people);  // never without their clothes
       break;
-    case AssetKind::kAtlas: AddAtlas(asset.id.index, content.atlas, &r.people); break;
+    case AssetKind::kAtlas:
+      AddAtlas(asset.id.index, content.atlas, &r.people);
+      break;
   }
 }
 
@@ -192,8 +201,13 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   const double people_ms = Now_ms();
   ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
   const float focal_px = static_cast<float>(r.picture.drawn_width_px) / 2 / std::tan(frame.fov_rad / 2);
-  const PeopleSight sight{eye, to_sun, FrustumOf(view_projection), r.options.cull ? &r.town.walls : nullptr, std::min(2 * kPeopleShadow_m, frame.shadow_reach_m),
-                          frame.resolution_scale < 1 && !frame.keeps_levels ? focal_px : 0, frame.fine_shadow_m * frame.resolution_scale};
+  const PeopleSight sight{eye,
+                          to_sun,
+                          FrustumOf(view_projection),
+                          r.options.cull ? &r.town.walls : nullptr,
+                          std::min(2 * kPeopleShadow_m, frame.shadow_reach_m),
+                          frame.resolution_scale < 1 && !frame.keeps_levels ? focal_px : 0,
+                          frame.fine_shadow_m * frame.resolution_scale};
   SortPeople(frame.people, r.people.layouts, r.people.ready, sight, &r.people.batches);
   UploadPeople(&r.people);
   statistics->people_ms = Now_ms() - people_ms;
@@ -201,13 +215,15 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   DrawCost shadows = DrawPeopleShadows(eye, ahead, to_sun, r.block_buffer, r.people, &r.shadows);
   statistics->people_shadow_triangles = shadows.triangles;
   timer.Passed(DrawPass::kPeopleShadow);
-  shadows += UpdateTownShadows(eye, to_sun, std::max(kMinShadowShare, frame.resolution_scale * frame.resolution_scale), r.block_buffer, r.town, &r.shadows);
+  shadows += UpdateTownShadows(eye, to_sun, std::max(kMinShadowShare, frame.resolution_scale * frame.resolution_scale),
+                               r.block_buffer, r.town, &r.shadows);
   timer.Passed(DrawPass::kTownShadow);
 
   BeginPicture(r.picture);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, focal_px, to_sun, std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
+  BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, focal_px, to_sun,
+                                                std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
   // Whatever is drawn hides what comes after it at no cost: the costliest comes last, the nearest first.
   DrawCost people = DrawPeople(r.people, false);
   timer.Passed(DrawPass::kMeshes);

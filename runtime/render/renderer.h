@@ -15,10 +15,11 @@ struct SurfacePlan;
 struct AtlasFormats;
 
 struct RenderOptions {
-  int samples = 0;    // of each pixel; 0: four with a GPU, one and a smoothing pass without
-  bool cull = true;   // leave out blocks of the town that the picture cannot show; false only to prove that
+  int samples = 0;       // of each pixel; 0: four with a GPU, one and a smoothing pass without
+  bool cull = true;      // leave out blocks of the town that the picture cannot show; false only to prove that
   bool normals = false;  // people's normals * 0.5 + 0.5 instead of light, over nothing
-  bool onto_window = false;  // where a pass finishes the picture it does so on the window's surface, and Read does not bring it out
+  bool onto_window =
+      false;  // where a pass finishes the picture it does so on the window's surface, and Read does not bring it out
   // Draw hands over its commands and returns, and at most one picture is on its way; FrameStatistics::draw_ms goes by
   // the picture before.
   bool runs_ahead = false;
@@ -31,10 +32,11 @@ class Renderer {
  public:
   Renderer();
   ~Renderer();
-  // Uploads the pack, which is not needed afterwards. Errors: a shader that the driver refuses, a machine that cannot hold an avatar.
+  // Uploads the pack, which is not needed afterwards. Errors: a shader that the driver refuses, a machine that cannot
+  // hold an avatar.
   Error Create(const TourPack& pack, const RenderOptions& options = {});
-  // The same in pieces, in any order: `pack` without its bulk first, then one asset after the other. What has not come yet is
-  // drawn by the nearest level that has, or not at all.
+  // The same in pieces, in any order: `pack` without its bulk first, then one asset after the other. What has not come
+  // yet is drawn by the nearest level that has, or not at all.
   Error Begin(const TourPack& pack, const RenderOptions& options = {});
   void Add(Asset asset);
   // For PrepareAsset, from any thread, after Begin.

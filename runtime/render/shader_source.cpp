@@ -6,7 +6,9 @@
 namespace flaneur {
 namespace {
 
-struct Entry { const char *vertex, *fragment, *defines; };
+struct Entry {
+  const char *vertex, *fragment, *defines;
+};
 constexpr Entry kPrograms[] = {
 #define PROGRAM(name, vertex, fragment, defines) {vertex, fragment, defines},
     FLANEUR_SHADER_PROGRAMS(PROGRAM)

@@ -8,11 +8,15 @@
 
 namespace flaneur {
 
-struct ShaderSource { std::string vertex, fragment; };
+struct ShaderSource {
+  std::string vertex, fragment;
+};
 ShaderSource SourceOf(ShaderProgram program, ShaderMode mode);
 
 // As embedded at build: a file with what it includes, without the header and the defines of a variant.
-struct ShaderText { std::string_view file, text; };
+struct ShaderText {
+  std::string_view file, text;
+};
 const std::vector<ShaderText>& ShaderTexts();
 extern const char* const kShaderHeader;
 

@@ -11,9 +11,9 @@ constexpr int kTownMap_px = 2048, kPeopleMap_px = 1024;
 constexpr float kNear_m = 55, kMaxFarHalfWidth_m = 400;  // half the widths that the maps of the town cover
 constexpr float kShadowDepth_m = 140;
 constexpr float kNearStep_m = 8;
-constexpr float kSunStep = 0.004f;       // or when the sun has turned by so much, in radians: hardly a texel on the ground
-constexpr float kSunJump = 0.3f;         // so much of a turn is not waited for,
-constexpr float kFarthestSteps = 5;      // nor so many steps of the eye, which leave some of the near map before it
+constexpr float kSunStep = 0.004f;   // or when the sun has turned by so much, in radians: hardly a texel on the ground
+constexpr float kSunJump = 0.3f;     // so much of a turn is not waited for,
+constexpr float kFarthestSteps = 5;  // nor so many steps of the eye, which leave some of the near map before it
 constexpr float kTrianglesAPicture = 10000;  // the work is spread over many pictures, so that no frame stumbles
 
 void SetUpMap(GLenum target) {
@@ -51,8 +51,8 @@ void BeginMaps() {
 }
 
 DrawCost DrawSome(int64_t triangles, GLuint block_buffer, const TownView& town, ShadowMaps* maps, TownMap* map) {
-  BindMap(maps->town_framebuffers[static_cast<size_t>(maps->spare_layer)], kTownMap_px, map->next_matrix, map->to_sun, block_buffer,
-          map->next_step == 0);
+  BindMap(maps->town_framebuffers[static_cast<size_t>(maps->spare_layer)], kTownMap_px, map->next_matrix, map->to_sun,
+          block_buffer, map->next_step == 0);
   const DrawCost cost = DrawTownShadow(map->next_matrix, triangles, town, &map->next_step);
   if (map->next_step < ShadowSteps(town)) return cost;
   map->draws = false;
@@ -62,7 +62,8 @@ DrawCost DrawSome(int64_t triangles, GLuint block_buffer, const TownView& town, 
 }
 
 // One map waits for the other, so that one picture draws parts of one only and both share the spare layer.
-DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town, ShadowMaps* maps, TownMap* map) {
+DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town,
+                       ShadowMaps* maps, TownMap* map) {
   TownMap& other = map == &maps->near ? maps->far : maps->near;
   const float moved_m = Length(center - map->center), turned = Length(to_sun - map->to_sun);
   const bool jumped = !map->valid || moved_m > kFarthestSteps * map->step_m || turned > kSunJump;
@@ -71,14 +72,15 @@ DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, float share, GLuint block_buffe
   if (jumped || ((moved_m > map->step_m || turned > kSunStep) && !map->draws)) {
     map->center = center;
     map->to_sun = to_sun;
-    map->next_matrix = ShadowMatrix(center, to_sun, map->half_width_m, std::max(kShadowDepth_m, map->half_width_m * 1.5f), kTownMap_px);
+    map->next_matrix = ShadowMatrix(center, to_sun, map->half_width_m,
+                                    std::max(kShadowDepth_m, map->half_width_m * 1.5f), kTownMap_px);
     map->draws = true;
     map->next_step = 0;
   }
   map->valid = true;
   if (!map->draws) return {};
-  return DrawSome(jumped ? std::numeric_limits<int64_t>::max() : static_cast<int64_t>(share * kTrianglesAPicture), block_buffer, town,
-                  maps, map);
+  return DrawSome(jumped ? std::numeric_limits<int64_t>::max() : static_cast<int64_t>(share * kTrianglesAPicture),
+                  block_buffer, town, maps, map);
 }
 
 }  // namespace
@@ -86,7 +88,8 @@ DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, float share, GLuint block_buffe
 void CreateShadowMaps(ShadowMaps* maps) {
   glGenTextures(1, &maps->town_texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, maps->town_texture);
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT16, kTownMap_px, kTownMap_px, static_cast<GLsizei>(maps->town_framebuffers.size()));
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT16, kTownMap_px, kTownMap_px,
+                 static_cast<GLsizei>(maps->town_framebuffers.size()));
   SetUpMap(GL_TEXTURE_2D_ARRAY);
   for (size_t k = 0; k < maps->town_framebuffers.size(); ++k) {
     maps->town_framebuffers[k] = NewFramebuffer();
@@ -103,7 +106,8 @@ void CreateShadowMaps(ShadowMaps* maps) {
 
 void ForgetTownShadows(ShadowMaps* maps) { maps->near.valid = maps->far.valid = false; }
 
-DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town, ShadowMaps* maps) {
+DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town,
+                           ShadowMaps* maps) {
   BeginMaps();
   maps->near.half_width_m = kNear_m;
   maps->near.step_m = kNearStep_m;
@@ -120,10 +124,12 @@ DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buff
   return cost;
 }
 
-DrawCost DrawPeopleShadows(Vec3 eye, Vec3 ahead, Vec3 to_sun, GLuint block_buffer, const PeopleView& people, ShadowMaps* maps) {
+DrawCost DrawPeopleShadows(Vec3 eye, Vec3 ahead, Vec3 to_sun, GLuint block_buffer, const PeopleView& people,
+                           ShadowMaps* maps) {
   BeginMaps();
   const Vec3 level_ahead = Normalized(Vec3{ahead.x, 0, ahead.z});
-  maps->people_matrix = ShadowMatrix(eye + level_ahead * (kPeopleShadow_m - 4), to_sun, kPeopleShadow_m, kShadowDepth_m, kPeopleMap_px);
+  maps->people_matrix =
+      ShadowMatrix(eye + level_ahead * (kPeopleShadow_m - 4), to_sun, kPeopleShadow_m, kShadowDepth_m, kPeopleMap_px);
   BindMap(maps->people_framebuffer, kPeopleMap_px, maps->people_matrix, to_sun, block_buffer, true);
   const DrawCost cost = DrawPeopleShadow(people);
   glDisable(GL_POLYGON_OFFSET_FILL);

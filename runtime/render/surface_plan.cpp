@@ -85,8 +85,10 @@ SurfacePlan PlanSurfaces(const TourPack& pack, const PictureLimits& limits) {
   // Surfaces without a picture are drawn along with those of the first array.
   const int any = plan.arrays.empty() ? -1 : 0;
   for (const PackMaterial& m : pack.materials) {
-    const PicturePlace place = m.base_color_image >= 0 ? plan.pictures[static_cast<size_t>(m.base_color_image)] : PicturePlace{any, -1};
-    const int group = GroupFor({place.array, m.alpha_mask, m.double_sided, m.alpha_mask ? m.alpha_cutoff : 0}, &plan.groups);
+    const PicturePlace place =
+        m.base_color_image >= 0 ? plan.pictures[static_cast<size_t>(m.base_color_image)] : PicturePlace{any, -1};
+    const int group =
+        GroupFor({place.array, m.alpha_mask, m.double_sided, m.alpha_mask ? m.alpha_cutoff : 0}, &plan.groups);
     plan.surfaces.push_back({group, place.layer});
   }
   plan.surfaces.push_back({GroupFor({any, false, false, 0}, &plan.groups), -1});
@@ -102,9 +104,10 @@ std::vector<PackImage> PreparePicture(const PackImage& image, int side_px) {
   if (image.width_px == side_px && image.height_px == side_px) {
     levels.push_back(image);
   } else {
-    levels.push_back({side_px, side_px, std::vector<uint8_t>(static_cast<size_t>(side_px) * static_cast<size_t>(side_px) * 4)});
-    stbir_resize_uint8_srgb_edgemode(image.rgba.data(), image.width_px, image.height_px, 0, levels[0].rgba.data(), side_px, side_px, 0, 4,
-                                     3, 0, STBIR_EDGE_WRAP);
+    levels.push_back(
+        {side_px, side_px, std::vector<uint8_t>(static_cast<size_t>(side_px) * static_cast<size_t>(side_px) * 4)});
+    stbir_resize_uint8_srgb_edgemode(image.rgba.data(), image.width_px, image.height_px, 0, levels[0].rgba.data(),
+                                     side_px, side_px, 0, 4, 3, 0, STBIR_EDGE_WRAP);
   }
   std::vector<PackImage> smaller = MakeMipChain(levels[0], true, kMaxMipLevel);
   for (PackImage& level : smaller) levels.push_back(std::move(level));
@@ -113,7 +116,8 @@ std::vector<PackImage> PreparePicture(const PackImage& image, int side_px) {
 
 std::vector<std::vector<uint8_t>> PrepareLayer(const PackImage& image, const TextureArrayPlan& array) {
   std::vector<std::vector<uint8_t>> bytes;
-  for (PackImage& level : PreparePicture(image, array.side_px)) bytes.push_back(array.blocks ? Bc1Blocks(level) : std::move(level.rgba));
+  for (PackImage& level : PreparePicture(image, array.side_px))
+    bytes.push_back(array.blocks ? Bc1Blocks(level) : std::move(level.rgba));
   return bytes;
 }
 

@@ -1,4 +1,5 @@
-// Which pictures share a texture array, and which surfaces are therefore drawn together. Internal to runtime/render; no OpenGL.
+// Which pictures share a texture array, and which surfaces are therefore drawn together. Internal to runtime/render; no
+// OpenGL.
 #pragma once
 #include <vector>
 
@@ -6,30 +7,37 @@
 
 namespace flaneur {
 
-struct TextureArrayPlan { int side_px = 1, layers = 0; bool blocks = false; };  // blocks: Bc1Blocks instead of texels
+struct TextureArrayPlan {
+  int side_px = 1, layers = 0;
+  bool blocks = false;
+};  // blocks: Bc1Blocks instead of texels
 
 // Surfaces that differ in nothing but the layer of one texture array.
 struct SurfaceGroup {
-  int array = -1;               // -1: no picture at all
+  int array = -1;  // -1: no picture at all
   bool masked = false, double_sided = false;
   float alpha_cutoff = 0;
   bool operator==(const SurfaceGroup&) const = default;
 };
 
-struct Surface { int group = 0, layer = -1; };  // layer -1: white
-struct PicturePlace { int array = -1, layer = 0; };
+struct Surface {
+  int group = 0, layer = -1;
+};  // layer -1: white
+struct PicturePlace {
+  int array = -1, layer = 0;
+};
 
 struct SurfacePlan {
   std::vector<TextureArrayPlan> arrays;
-  std::vector<PicturePlace> pictures;           // by image of the pack; array -1: no surface shows it
+  std::vector<PicturePlace> pictures;  // by image of the pack; array -1: no surface shows it
   std::vector<SurfaceGroup> groups;
-  std::vector<Surface> surfaces;                // by material; the last one of primitives without material
+  std::vector<Surface> surfaces;  // by material; the last one of primitives without material
 };
 
 struct AtlasFormats {
   bool bc7_blocks = false, rgtc_blocks = false;  // that OpenGL reads
-  // Impostors' normals half as large, depth and motion together in one picture half as large: they look the same, take less memory
-  // and are looked up faster.
+  // Impostors' normals half as large, depth and motion together in one picture half as large: they look the same, take
+  // less memory and are looked up faster.
   bool pack_details = false;
 };
 
@@ -38,8 +46,8 @@ struct PictureLimits {
   bool blocks = false;                   // of pictures whose alpha nothing is cut out by
 };
 
-// Pictures become squares of a power of two, at least as large as they were within the limits, so that few arrays hold all of them.
-// Only the images' sizes are looked at.
+// Pictures become squares of a power of two, at least as large as they were within the limits, so that few arrays hold
+// all of them. Only the images' sizes are looked at.
 SurfacePlan PlanSurfaces(const TourPack& pack, const PictureLimits& limits);
 
 const Surface& SurfaceOf(int material, const SurfacePlan& plan);

@@ -25,14 +25,20 @@ bool HasExtension(const char* name) {
   return extensions != nullptr && std::strstr(extensions, name) != nullptr;
 }
 
-struct BlockFormat { GLenum compressed, internal, format; const char* extension; };
+struct BlockFormat {
+  GLenum compressed, internal, format;
+  const char* extension;
+};
 
 BlockFormat FormatOf(TextureFormat format) {
   switch (format) {
-    case TextureFormat::kBc4: return {GL_COMPRESSED_RED_RGTC1_EXT, GL_R8, GL_RED, "GL_EXT_texture_compression_rgtc"};
-    case TextureFormat::kBc5: return {GL_COMPRESSED_RED_GREEN_RGTC2_EXT, GL_RG8, GL_RG, "GL_EXT_texture_compression_rgtc"};
+    case TextureFormat::kBc4:
+      return {GL_COMPRESSED_RED_RGTC1_EXT, GL_R8, GL_RED, "GL_EXT_texture_compression_rgtc"};
+    case TextureFormat::kBc5:
+      return {GL_COMPRESSED_RED_GREEN_RGTC2_EXT, GL_RG8, GL_RG, "GL_EXT_texture_compression_rgtc"};
     case TextureFormat::kBc7:
-    case TextureFormat::kBc7Srgb: break;  // made linear in the shader, like all colours
+    case TextureFormat::kBc7Srgb:
+      break;  // made linear in the shader, like all colours
   }
   return {GL_COMPRESSED_RGBA_BPTC_UNORM_EXT, GL_RGBA8, GL_RGBA, "GL_EXT_texture_compression_bptc"};
 }
@@ -50,8 +56,11 @@ bool ReadsBlocks(TextureFormat format, const AtlasFormats& formats) {
 // From mip level `first` on, or the last one before that is there.
 AtlasPicture Prepare(const PackTexture& picture, size_t first, const AtlasFormats& formats) {
   first = std::min(first, picture.levels.size() - 1);
-  AtlasPicture out{picture.format, std::max(1, picture.width_px >> first), std::max(1, picture.height_px >> first),
-                   ReadsBlocks(picture.format, formats), {}};
+  AtlasPicture out{picture.format,
+                   std::max(1, picture.width_px >> first),
+                   std::max(1, picture.height_px >> first),
+                   ReadsBlocks(picture.format, formats),
+                   {}};
   const size_t end = std::min(picture.levels.size(), first + kImpostorMaxLevel + 1);
   for (size_t k = first; k < end; ++k) {
     const std::vector<uint8_t>& blocks = picture.levels[k];
@@ -71,7 +80,8 @@ AtlasPicture Packed(const AtlasPicture& depth, const AtlasPicture& motion) {
     std::vector<uint8_t>& texels = out.levels.emplace_back(width * height * 4);
     for (size_t y = 0; y < height; ++y) {
       for (size_t x = 0; x < width; ++x) {
-        const uint8_t* moved = &motion.levels[level][4 * (y * motion_height / height * motion_width + x * motion_width / width)];
+        const uint8_t* moved =
+            &motion.levels[level][4 * (y * motion_height / height * motion_width + x * motion_width / width)];
         uint8_t* to = &texels[4 * (y * width + x)];
         to[0] = depth.levels[level][y * width + x], to[1] = moved[0], to[2] = moved[1];
       }
@@ -88,7 +98,8 @@ std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast) {
   for (size_t k = 0; k < textures.size(); ++k) {
     const TextureArrayPlan& a = plan.arrays[k];
     glBindTexture(GL_TEXTURE_2D_ARRAY, textures[k]);
-    glTexStorage3D(GL_TEXTURE_2D_ARRAY, LevelsOf(a.side_px), a.blocks ? GL_COMPRESSED_RGB_S3TC_DXT1_EXT : GL_RGBA8, a.side_px, a.side_px, std::max(1, a.layers));
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, LevelsOf(a.side_px), a.blocks ? GL_COMPRESSED_RGB_S3TC_DXT1_EXT : GL_RGBA8,
+                   a.side_px, a.side_px, std::max(1, a.layers));
     SetFilters(GL_TEXTURE_2D_ARRAY, GL_REPEAT, LevelsOf(a.side_px) - 1, !fast);
     // In software each anisotropic look-up walks an ellipse of texels: too expensive for many pictures a second.
     if (!fast && HasExtension("texture_filter_anisotropic")) {
@@ -98,7 +109,8 @@ std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast) {
   return textures;
 }
 
-void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer, const std::vector<std::vector<uint8_t>>& levels) {
+void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer,
+                 const std::vector<std::vector<uint8_t>>& levels) {
   glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   for (size_t k = 0; k < levels.size(); ++k) {
@@ -114,11 +126,14 @@ void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer, const
   }
 }
 
-bool ReadsBc1() { return HasExtension("GL_EXT_texture_compression_s3tc") || HasExtension("GL_EXT_texture_compression_dxt1"); }
+bool ReadsBc1() {
+  return HasExtension("GL_EXT_texture_compression_s3tc") || HasExtension("GL_EXT_texture_compression_dxt1");
+}
 
 AtlasFormats FormatsOfThisMachine(bool fast) {
   if (DrawsInSoftware()) return {false, false, fast};
-  return {HasExtension(FormatOf(TextureFormat::kBc7Srgb).extension), HasExtension(FormatOf(TextureFormat::kBc5).extension), false};
+  return {HasExtension(FormatOf(TextureFormat::kBc7Srgb).extension),
+          HasExtension(FormatOf(TextureFormat::kBc5).extension), false};
 }
 
 std::array<AtlasPicture, 4> PrepareAtlas(const PackImpostor& atlas, const AtlasFormats& formats) {
@@ -146,7 +161,8 @@ GLuint UploadAtlasPicture(const AtlasPicture& picture) {
     const auto level = static_cast<GLint>(k);
     const std::vector<uint8_t>& bytes = picture.levels[k];
     if (picture.blocks) {
-      glCompressedTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, width, height, f.compressed, static_cast<GLsizei>(bytes.size()), bytes.data());
+      glCompressedTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, width, height, f.compressed,
+                                static_cast<GLsizei>(bytes.size()), bytes.data());
     } else {
       glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, width, height, f.format, GL_UNSIGNED_BYTE, bytes.data());
     }

@@ -13,7 +13,8 @@ namespace flaneur {
 // One a planned array, grey until its layers arrive; they repeat.
 // fast: from one mip level, for a look-up between two costs software twice as much.
 std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast);
-void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer, const std::vector<std::vector<uint8_t>>& levels);
+void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer,
+                 const std::vector<std::vector<uint8_t>>& levels);
 bool ReadsBc1();  // needs a context
 
 // An impostor's picture as it is uploaded: blocks where OpenGL reads them and `decode` is not asked for, else texels.
@@ -23,8 +24,10 @@ struct AtlasPicture {
   bool blocks = false;
   std::vector<std::vector<uint8_t>> levels;
 };
-AtlasFormats FormatsOfThisMachine(bool fast);  // needs a context; in software no blocks: there one is decoded for every look-up
-// Albedo, normals, depth, motion. Where details are packed motion is with the depth, as colour, and its own picture is empty.
+AtlasFormats FormatsOfThisMachine(
+    bool fast);  // needs a context; in software no blocks: there one is decoded for every look-up
+// Albedo, normals, depth, motion. Where details are packed motion is with the depth, as colour, and its own picture is
+// empty.
 std::array<AtlasPicture, 4> PrepareAtlas(const PackImpostor& atlas, const AtlasFormats& formats);
 GLuint UploadAtlasPicture(const AtlasPicture& picture);  // 0 where it is empty
 

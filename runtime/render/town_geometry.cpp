@@ -24,17 +24,21 @@ Vec3 TurnNormal(const Mat4& inverse, Vec3 n) {
                          inverse.m[2][0] * n.x + inverse.m[2][1] * n.y + inverse.m[2][2] * n.z});
 }
 
-struct Triangle { int group; std::array<uint32_t, 3> corners; };
+struct Triangle {
+  int group;
+  std::array<uint32_t, 3> corners;
+};
 
 void AppendVertices(const PackPrimitive& p, const Mat4& world, const Vec4& base, int layer, TownGeometry* town) {
   const Mat4 inverse = Inverse(world);
   for (size_t i = 0; i < p.positions.size(); ++i) {
     const Vec3 n = TurnNormal(inverse, p.normals[i]);
     const Vec4 c = p.colors.empty() ? Vec4{1, 1, 1, 1} : p.colors[i];
-    town->vertices.push_back({TransformPoint(world, p.positions[i]),
-                              {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), static_cast<int8_t>(layer)},
-                              p.uvs.empty() ? Vec2{} : p.uvs[i],
-                              {SrgbByte(c.x * base.x), SrgbByte(c.y * base.y), SrgbByte(c.z * base.z), Byte(c.w * base.w)}});
+    town->vertices.push_back(
+        {TransformPoint(world, p.positions[i]),
+         {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), static_cast<int8_t>(layer)},
+         p.uvs.empty() ? Vec2{} : p.uvs[i],
+         {SrgbByte(c.x * base.x), SrgbByte(c.y * base.y), SrgbByte(c.z * base.z), Byte(c.w * base.w)}});
   }
 }
 
@@ -54,7 +58,8 @@ uint64_t CellOf(const std::array<uint32_t, 3>& corners, const TownGeometry& town
 
 bool HidesWhatIsBehind(const Triangle& t, const SurfacePlan& plan, const std::vector<TownVertex>& vertices) {
   if (plan.groups[static_cast<size_t>(t.group)].masked) return false;
-  const Vec3 a = vertices[t.corners[0]].position, b = vertices[t.corners[1]].position, c = vertices[t.corners[2]].position;
+  const Vec3 a = vertices[t.corners[0]].position, b = vertices[t.corners[1]].position,
+             c = vertices[t.corners[2]].position;
   return Length(Cross(b - a, c - a)) / 2 > kMinOccluder_m2;
 }
 
@@ -84,7 +89,8 @@ void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle
   town->indices.reserve(3 * count);
   std::vector<std::vector<uint32_t>> masked(plan.groups.size());
   for (auto& [cell, triangles] : *cells) {
-    std::stable_sort(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) { return a.group < b.group; });
+    std::stable_sort(triangles.begin(), triangles.end(),
+                     [](const Triangle& a, const Triangle& b) { return a.group < b.group; });
     TownBlock block;
     block.triangles = static_cast<int64_t>(triangles.size());
     block.first_wall = town->walls.size();
@@ -129,7 +135,8 @@ TownGeometry BuildTownGeometry(const TourPack& pack, const SurfacePlan& plan) {
     for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(instance.mesh)].primitives) {
       const auto base = static_cast<uint32_t>(town.vertices.size());
       const Surface& surface = SurfaceOf(p.material, plan);
-      const Vec4 color = p.material >= 0 ? pack.materials[static_cast<size_t>(p.material)].base_color : Vec4{1, 1, 1, 1};
+      const Vec4 color =
+          p.material >= 0 ? pack.materials[static_cast<size_t>(p.material)].base_color : Vec4{1, 1, 1, 1};
       AppendVertices(p, instance.world, color, surface.layer, &town);
       for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
         Triangle t{surface.group, {base + p.indices[i], base + p.indices[i + 1], base + p.indices[i + 2]}};

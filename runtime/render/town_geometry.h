@@ -10,27 +10,31 @@
 
 namespace flaneur {
 
-struct TownVertex {         // as the vertex shader reads it
-  Vec3 position;            // world, glTF axes
-  std::array<int8_t, 4> normal;    // normalized; the fourth is the layer of the picture
+struct TownVertex {              // as the vertex shader reads it
+  Vec3 position;                 // world, glTF axes
+  std::array<int8_t, 4> normal;  // normalized; the fourth is the layer of the picture
   Vec2 uv;
-  std::array<uint8_t, 4> color;    // normalized; the material's base colour is in it
+  std::array<uint8_t, 4> color;  // normalized; the material's base colour is in it
 };
 
-struct TownRange { int group = 0; uint32_t first = 0, count = 0; };  // of the indices; group: index into SurfacePlan::groups
+struct TownRange {
+  int group = 0;
+  uint32_t first = 0, count = 0;
+};  // of the indices; group: index into SurfacePlan::groups
 
 struct TownBlock {
   Box box;
-  std::vector<TownRange> ranges;  // one a group
+  std::vector<TownRange> ranges;     // one a group
   size_t first_wall = 0, walls = 0;  // corners in TownGeometry::walls
   int64_t triangles = 0;
 };
 
 struct TownGeometry {
   std::vector<TownVertex> vertices;
-  std::vector<uint32_t> indices;  // of all blocks what is opaque, and after it each group that is cut out: shadows draw those one by one
-  std::vector<Vec3> positions;    // of the vertices
-  std::vector<uint32_t> walls;    // indices of the triangles that are large and opaque enough to hide what is behind them
+  std::vector<uint32_t>
+      indices;  // of all blocks what is opaque, and after it each group that is cut out: shadows draw those one by one
+  std::vector<Vec3> positions;  // of the vertices
+  std::vector<uint32_t> walls;  // indices of the triangles that are large and opaque enough to hide what is behind them
   std::vector<TownBlock> blocks;  // neighbours near each other
 };
 

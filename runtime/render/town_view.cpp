@@ -8,9 +8,9 @@
 namespace flaneur {
 namespace {
 
-constexpr size_t kMaxOccluderTriangles = 14000;      // triangles a picture: the nearest walls hide most
-constexpr uint32_t kPiece = 3 * 15000;    // indices; software keeps all triangles on their way until they are filled
-constexpr uint32_t kJoined = 12000;       // indices that a shadow draws in vain rather than in another call
+constexpr size_t kMaxOccluderTriangles = 14000;  // triangles a picture: the nearest walls hide most
+constexpr uint32_t kPiece = 3 * 15000;  // indices; software keeps all triangles on their way until they are filled
+constexpr uint32_t kJoined = 12000;     // indices that a shadow draws in vain rather than in another call
 
 void EnableVertices() {
   constexpr size_t stride = sizeof(TownVertex);
@@ -29,14 +29,18 @@ void BindGroup(const SurfaceGroup& group, const Program* programs, const TownVie
 }
 
 void DrawIndices(uint32_t first, uint32_t count) {
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, reinterpret_cast<const void*>(size_t{first} * sizeof(uint32_t)));
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(size_t{first} * sizeof(uint32_t)));
 }
 
-// Of the triangles that turn their front to the eye and, where there is a sight, may be seen. Writes up to three indices beyond them.
-uint32_t* GatherSeen(const TownRange& range, bool both_sides, Vec3 eye, const TriangleSight* sight, const TownGeometry& geometry, uint32_t* to) {
+// Of the triangles that turn their front to the eye and, where there is a sight, may be seen. Writes up to three
+// indices beyond them.
+uint32_t* GatherSeen(const TownRange& range, bool both_sides, Vec3 eye, const TriangleSight* sight,
+                     const TownGeometry& geometry, uint32_t* to) {
   const uint32_t* from = &geometry.indices[range.first];
   for (uint32_t i = 0; i < range.count; i += 3, from += 3) {
-    const std::array<Vec3, 3> corners{geometry.positions[from[0]], geometry.positions[from[1]], geometry.positions[from[2]]};
+    const std::array<Vec3, 3> corners{geometry.positions[from[0]], geometry.positions[from[1]],
+                                      geometry.positions[from[2]]};
     std::copy_n(from, 3, to);  // what is not seen is written over
     to += (both_sides || !TurnsItsBack(corners, eye)) && (sight == nullptr || MayBeSeen(corners, *sight)) ? 3 : 0;
   }
@@ -47,7 +51,8 @@ uint32_t* GatherSeen(const TownRange& range, bool both_sides, Vec3 eye, const Tr
 std::vector<int> MaskedGroups(const TownGeometry& geometry, const std::vector<SurfaceGroup>& groups) {
   std::vector<bool> found(groups.size());
   for (const TownBlock& block : geometry.blocks) {
-    for (const TownRange& range : block.ranges) found[static_cast<size_t>(range.group)] = groups[static_cast<size_t>(range.group)].masked;
+    for (const TownRange& range : block.ranges)
+      found[static_cast<size_t>(range.group)] = groups[static_cast<size_t>(range.group)].masked;
   }
   std::vector<int> masked;
   for (size_t g = 0; g < groups.size(); ++g) {
@@ -89,7 +94,8 @@ Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector
 void AddTown(TownGeometry geometry, TownView* town) {
   glGenVertexArrays(1, &town->shadow_array);
   glBindVertexArray(town->shadow_array);
-  const GLuint vertices = CreateBuffer(GL_ARRAY_BUFFER, geometry.vertices.data(), geometry.vertices.size() * sizeof(TownVertex));
+  const GLuint vertices =
+      CreateBuffer(GL_ARRAY_BUFFER, geometry.vertices.data(), geometry.vertices.size() * sizeof(TownVertex));
   CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, geometry.indices.data(), geometry.indices.size() * sizeof(uint32_t));
   EnableVertices();
   glGenVertexArrays(1, &town->vertex_array);
@@ -114,7 +120,8 @@ void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownVie
   const std::vector<TownBlock>& blocks = town->geometry.blocks;
   town->order.clear();
   for (size_t b = 0; b < blocks.size(); ++b) {
-    if (!cull || MayTouch(frustum, blocks[b].box)) town->order.push_back({Distance(blocks[b].box, eye), static_cast<uint32_t>(b)});
+    if (!cull || MayTouch(frustum, blocks[b].box))
+      town->order.push_back({Distance(blocks[b].box, eye), static_cast<uint32_t>(b)});
   }
   std::sort(town->order.begin(), town->order.end());
   ClearOcclusion(view_projection, &town->walls);
@@ -138,7 +145,8 @@ DrawCost DrawTown(Vec3 eye, int width_px, int height_px, bool cull, TownView* to
   const size_t indices = GatherIndices(eye, town->triangle_by_triangle ? &sight : nullptr, cull, town);
   glBindVertexArray(town->vertex_array);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, town->visible_indices);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices * sizeof(uint32_t)), town->indices.get(), GL_STREAM_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices * sizeof(uint32_t)), town->indices.get(),
+               GL_STREAM_DRAW);
   uint32_t first = 0;
   for (size_t g = 0; g < town->groups.size(); ++g) {
     const uint32_t count = town->counts[g];
@@ -164,8 +172,12 @@ DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const T
   const Frustum frustum = FrustumOf(light_projection);
   const std::vector<TownBlock>& blocks = town.geometry.blocks;
   glBindVertexArray(town.shadow_array);
-  // Whatever lies one after the other casts its shadow in one call: all that is opaque, then each group that is cut out.
-  struct Run { uint32_t first = 0, count = 0; int group = -1; } run;
+  // Whatever lies one after the other casts its shadow in one call: all that is opaque, then each group that is cut
+  // out.
+  struct Run {
+    uint32_t first = 0, count = 0;
+    int group = -1;
+  } run;
   const auto draw = [&] {
     if (run.count == 0) return;
     BindGroup(town.groups[static_cast<size_t>(run.group)], town.shadow, town);
@@ -181,7 +193,8 @@ DrawCost DrawTownShadow(const Mat4& light_projection, int64_t triangles, const T
     for (const TownRange& range : block.ranges) {
       const bool masked = town.groups[static_cast<size_t>(range.group)].masked;
       if (part == 0 ? masked : range.group != town.masked_groups[part - 1]) continue;
-      const bool joins = run.count > 0 && (part == 0 || run.group == range.group) && range.first - (run.first + run.count) <= kJoined;
+      const bool joins =
+          run.count > 0 && (part == 0 || run.group == range.group) && range.first - (run.first + run.count) <= kJoined;
       if (!joins) {
         draw();
         run = {range.first, 0, range.group};

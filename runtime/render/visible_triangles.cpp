@@ -13,9 +13,13 @@ constexpr float kSlack_px = 1.0f / 32;  // corners are rounded before they are d
 constexpr float kNearer = 1.004f;       // what lies on a wall is not behind it
 constexpr int kFewPixels = 6;           // so many are looked at one by one
 
-struct Corner { float x, y, nearness; };  // in pixels; nearness: 1 / w
+struct Corner {
+  float x, y, nearness;
+};  // in pixels; nearness: 1 / w
 using Corners = std::array<Corner, 3>;
-struct Area { int left, right, low, high; };  // of pixels, the last included
+struct Area {
+  int left, right, low, high;
+};  // of pixels, the last included
 
 // The last pixel whose middle is not beyond `at`. The library's rounding is a call for every number.
 int LastMiddle(float at) {
@@ -27,8 +31,10 @@ int FirstMiddle(float at) { return -LastMiddle(1 - at); }
 
 // The pixels whose middles lie within the triangle's bounds.
 Area PixelsIn(const Corners& t) {
-  return {FirstMiddle(std::min({t[0].x, t[1].x, t[2].x}) - kSlack_px), LastMiddle(std::max({t[0].x, t[1].x, t[2].x}) + kSlack_px),
-          FirstMiddle(std::min({t[0].y, t[1].y, t[2].y}) - kSlack_px), LastMiddle(std::max({t[0].y, t[1].y, t[2].y}) + kSlack_px)};
+  return {FirstMiddle(std::min({t[0].x, t[1].x, t[2].x}) - kSlack_px),
+          LastMiddle(std::max({t[0].x, t[1].x, t[2].x}) + kSlack_px),
+          FirstMiddle(std::min({t[0].y, t[1].y, t[2].y}) - kSlack_px),
+          LastMiddle(std::max({t[0].y, t[1].y, t[2].y}) + kSlack_px)};
 }
 
 bool ReachesAny(const Corners& t, const Area& pixels) {
@@ -80,7 +86,8 @@ bool MayBeSeen(const std::array<Vec3, 3>& corners, const TriangleSight& sight) {
   const std::array<ClipPoint, 3> clip{ToClip(m, corners[0]), ToClip(m, corners[1]), ToClip(m, corners[2])};
   if (IsBesideTheView(clip)) return false;
   if (std::min({clip[0].w, clip[1].w, clip[2].w}) < kNear_m) return true;
-  const float half_width = 0.5f * static_cast<float>(sight.width_px), half_height = 0.5f * static_cast<float>(sight.height_px);
+  const float half_width = 0.5f * static_cast<float>(sight.width_px),
+              half_height = 0.5f * static_cast<float>(sight.height_px);
   Corners t;
   for (size_t k = 0; k < 3; ++k) {
     const float nearness = 1 / clip[k].w;

@@ -1,5 +1,5 @@
-// Which triangles of the town a picture needs, where a look at one is cheaper than drawing it: in software. Internal to runtime/render;
-// no OpenGL.
+// Which triangles of the town a picture needs, where a look at one is cheaper than drawing it: in software. Internal to
+// runtime/render; no OpenGL.
 #pragma once
 #include <array>
 
@@ -11,9 +11,13 @@ namespace flaneur {
 bool TurnsItsBack(const std::array<Vec3, 3>& corners, Vec3 eye);
 
 // Of a picture with one sample a pixel, in whose middle.
-struct TriangleSight { int width_px = 0, height_px = 0; const OcclusionMap* walls = nullptr; };
+struct TriangleSight {
+  int width_px = 0, height_px = 0;
+  const OcclusionMap* walls = nullptr;
+};
 
-// False only for triangles that reach the middle of no pixel or that walls hide, judged as in MayBeSeen. walls: finished.
+// False only for triangles that reach the middle of no pixel or that walls hide, judged as in MayBeSeen. walls:
+// finished.
 bool MayBeSeen(const std::array<Vec3, 3>& corners, const TriangleSight& sight);
 
 }  // namespace flaneur

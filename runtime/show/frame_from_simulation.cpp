@@ -11,7 +11,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kStandsBelow_mps = 0.10f, kWalksAbove_mps = 0.18f;
-constexpr float kLeaps_m = 2;    // whoever moves by more between two pictures was put there
+constexpr float kLeaps_m = 2;  // whoever moves by more between two pictures was put there
 
 // The sun goes round by day_length_s a turn, and stays between its start height and a low evening.
 Vec3 ToSun(const LightSettings& light, float time_s) {
@@ -21,12 +21,15 @@ Vec3 ToSun(const LightSettings& light, float time_s) {
   return {std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation), std::sin(elevation)};
 }
 
-// Where the sun stands in early summer over the middle of Europe, by the hour of its own time: at 12 it is highest, in the south.
+// Where the sun stands in early summer over the middle of Europe, by the hour of its own time: at 12 it is highest, in
+// the south.
 Vec3 SunAt(float hour) {
   constexpr float kLatitude_rad = 52 * kPi / 180, kDeclination_rad = 20 * kPi / 180;
   const float turned_rad = (hour - 12) * kPi / 12;
-  const float sin_l = std::sin(kLatitude_rad), cos_l = std::cos(kLatitude_rad), sin_d = std::sin(kDeclination_rad), cos_d = std::cos(kDeclination_rad);
-  return {-cos_d * std::sin(turned_rad), cos_l * sin_d - sin_l * cos_d * std::cos(turned_rad), sin_l * sin_d + cos_l * cos_d * std::cos(turned_rad)};
+  const float sin_l = std::sin(kLatitude_rad), cos_l = std::cos(kLatitude_rad), sin_d = std::sin(kDeclination_rad),
+              cos_d = std::cos(kDeclination_rad);
+  return {-cos_d * std::sin(turned_rad), cos_l * sin_d - sin_l * cos_d * std::cos(turned_rad),
+          sin_l * sin_d + cos_l * cos_d * std::cos(turned_rad)};
 }
 
 float Fraction(float x) { return x - std::floor(x); }
@@ -39,7 +42,12 @@ void AddCaption(const Simulation& s, FrameInput* frame) {
   const TourStop& stop = s.visitor.tour.stops[HaltOf(s.visitor.tour)];
   if (Length(stop.position_m - s.visitor.camera.view.position) > kReach_m) return;
   frame->caption = s.visitor.tour.words[HaltOf(s.visitor.tour)].caption;
-  frame->caption_share = s.visitor.gentle ? 1 : std::clamp(std::min(s.visitor.tour.rested_s, RestOf_s(s.visitor.tour, HaltOf(s.visitor.tour)) - s.visitor.tour.rested_s) / kFadeCaption_s, 0.0f, 1.0f);
+  frame->caption_share =
+      s.visitor.gentle ? 1
+                       : std::clamp(std::min(s.visitor.tour.rested_s, RestOf_s(s.visitor.tour, HaltOf(s.visitor.tour)) -
+                                                                          s.visitor.tour.rested_s) /
+                                        kFadeCaption_s,
+                                    0.0f, 1.0f);
 }
 
 ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, ClipKind last) {
@@ -50,7 +58,8 @@ ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, Cli
     return {ClipKind::kWalk, Fraction(s.town.crowd.walked_m[i] / cycle_m)};
   }
   const bool talks = s.town.crowd.activity[i] == Activity::kTalking;
-  const float own_time_s = static_cast<float>(s.town.step) * Step_s(s) + static_cast<float>(s.town.crowd.id[i] % 97) * 0.37f;
+  const float own_time_s =
+      static_cast<float>(s.town.step) * Step_s(s) + static_cast<float>(s.town.crowd.id[i] % 97) * 0.37f;
   return {talks ? ClipKind::kTalk : ClipKind::kIdle,
           Fraction(own_time_s / std::max(talks ? avatar.talk.duration_s : avatar.idle.duration_s, 0.1f))};
 }
@@ -67,9 +76,11 @@ void FollowClip(const ClipMoment& now, bool anew, float passed_s, PersonLook* lo
   }
 }
 
-// The same person wears the same all day, and people who came one after the other, as those of a group, wear different colours.
+// The same person wears the same all day, and people who came one after the other, as those of a group, wear different
+// colours.
 std::array<uint8_t, 4> TintsOf(const PackAvatar& avatar, int id) {
-  constexpr float kLowDiscrepancySteps[] = {0.618034f, 0.754878f, 0.569840f};  // fractions whose multiples spread evenly (Roberts 2018)
+  constexpr float kLowDiscrepancySteps[] = {0.618034f, 0.754878f,
+                                            0.569840f};  // fractions whose multiples spread evenly (Roberts 2018)
   std::array<uint8_t, 4> tints{};
   for (size_t t = 0; t < std::min(avatar.tints.size(), kMaxTints); ++t) {
     const auto count = static_cast<float>(avatar.tints[t].colors.size() + 1);
@@ -172,7 +183,8 @@ void FollowPeople(const TourPack& pack, const Simulation& s, PersonLooks* looks)
 void Follow(const TourPack& pack, const Simulation& s, PersonLooks* looks) {
   FollowPeople(pack, s, looks);
   const Vec2 c = s.visitor.camera.view.position;
-  const EyeLook eye = {{c.x, c.y, HeightAt(s.town.walkable, c) + s.visitor.camera.eye_height_m}, s.visitor.camera.view.yaw_rad};
+  const EyeLook eye = {{c.x, c.y, HeightAt(s.town.walkable, c) + s.visitor.camera.eye_height_m},
+                       s.visitor.camera.view.yaw_rad};
   const bool leaps = looks->frame < 0 || Length(eye.position - looks->eye.position) > kLeaps_m;
   looks->eye_before = leaps ? eye : looks->eye;
   looks->eye = eye;
@@ -182,13 +194,15 @@ void Follow(const TourPack& pack, const Simulation& s, PersonLooks* looks) {
 
 }  // namespace
 
-void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks* looks, FrameInput* frame, const BetweenSteps& between) {
+void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks* looks, FrameInput* frame,
+                         const BetweenSteps& between) {
   if (s.town.step != looks->frame) Follow(pack, s, looks);
   const float share = looks->steps > 0 ? 1 - (1 - between.share) / static_cast<float>(looks->steps) : 1;
   frame->eye = looks->eye_before.position + (looks->eye.position - looks->eye_before.position) * share;
   // The way between the steps, but the hand's part of it at once.
   const float own_yaw_rad = WrapAngle(looks->eye.yaw_rad - between.turned_rad);
-  frame->yaw_rad = WrapAngle(Mix_rad(looks->eye_before.yaw_rad, own_yaw_rad, share) + between.turned_rad + between.turn_rad);
+  frame->yaw_rad =
+      WrapAngle(Mix_rad(looks->eye_before.yaw_rad, own_yaw_rad, share) + between.turned_rad + between.turn_rad);
   frame->pitch_rad = s.visitor.camera.pitch_rad + between.look_rad;
   frame->fov_rad = s.visitor.camera.view.fov_rad;
   const float time_s = static_cast<float>(s.town.step) * Step_s(s);

@@ -66,7 +66,8 @@ void AddCloth(float height_m, float z, const Back& back, PackPrimitive* out) {
     const float left = xs[k] * height_m, right = xs[k + 1] * height_m, top = kBar * height_m;
     for (const float side : {-1.0f, 1.0f}) {
       const float at = z + side * kCloth_m;
-      const Vec3 a{left, feet[k] * height_m, at}, b{right, feet[k + 1] * height_m, at}, c{right, top, at}, d{left, top, at};
+      const Vec3 a{left, feet[k] * height_m, at}, b{right, feet[k + 1] * height_m, at}, c{right, top, at},
+          d{left, top, at};
       if (side > 0) AddQuad(a, b, c, d, color, back, out);
       else AddQuad(d, c, b, a, color, back, out);
     }
@@ -78,7 +79,8 @@ PackPrimitive Banner(float height_m, const Back& back) {
   const float z = back.point.z - kOffBack_m, bar_m = kHalfWidth * height_m + 0.02f;
   AddBox({-kPole_m, kPoleFoot * height_m, z - kPole_m}, {kPole_m, kPoleTop * height_m, z + kPole_m}, kWood, back, &out);
   const float hang = z - kPole_m - kBar_m;
-  AddBox({-bar_m, kBar * height_m - kBar_m, hang - kBar_m}, {bar_m, kBar * height_m + kBar_m, hang + kBar_m}, kWood, back, &out);
+  AddBox({-bar_m, kBar * height_m - kBar_m, hang - kBar_m}, {bar_m, kBar * height_m + kBar_m, hang + kBar_m}, kWood,
+         back, &out);
   AddCloth(height_m, hang, back, &out);
   return out;
 }
@@ -91,18 +93,21 @@ PackMesh GuideMesh(PackMesh level, const PackMesh& finest, float height_m) {
 }
 
 void AddGuideFigure(TourPack* pack) {
-  const auto found = std::find_if(pack->avatars.begin(), pack->avatars.end(), [&](const PackAvatar& a) { return a.name == pack->guide; });
+  const auto found = std::find_if(pack->avatars.begin(), pack->avatars.end(),
+                                  [&](const PackAvatar& a) { return a.name == pack->guide; });
   if (pack->guide.empty() || found == pack->avatars.end()) return;
   PackAvatar figure = *found;
   figure.share = 0;
   figure.tints.clear();  // known by the own colours
   figure.props.clear();
   figure.impostor_of = static_cast<int>(found - pack->avatars.begin());
-  for (PackTexture* picture : {&figure.impostor.albedo, &figure.impostor.normal, &figure.impostor.depth, &figure.impostor.motion}) {
+  for (PackTexture* picture :
+       {&figure.impostor.albedo, &figure.impostor.normal, &figure.impostor.depth, &figure.impostor.motion}) {
     picture->levels.clear();
   }
   const auto mesh_of = [&](const PackLevel& level) { return static_cast<size_t>(level.mesh); };
-  const PackMesh finest = mesh_of(figure.levels.front()) < pack->meshes.size() ? pack->meshes[mesh_of(figure.levels.front())] : PackMesh{};
+  const PackMesh finest =
+      mesh_of(figure.levels.front()) < pack->meshes.size() ? pack->meshes[mesh_of(figure.levels.front())] : PackMesh{};
   for (PackLevel& level : figure.levels) {
     level.triangles += kTriangles;
     if (mesh_of(level) >= pack->meshes.size()) continue;

@@ -1,5 +1,5 @@
-// What makes the guide stand out from the townspeople: a banner on a pole at the back, over everybody's heads. Internal to
-// runtime/show.
+// What makes the guide stand out from the townspeople: a banner on a pole at the back, over everybody's heads. Internal
+// to runtime/show.
 #pragma once
 #include "runtime/pack/tour_pack.h"
 
@@ -8,8 +8,8 @@ namespace flaneur {
 // The figure's mesh, of those of whom the guide is like: one of the levels, and the finest, at whose back the pole is.
 PackMesh GuideMesh(PackMesh level, const PackMesh& finest, float height_m);
 
-// One more avatar, of the guide's name and last in the pack: with the banner, and in nobody's share. Its triangles count it. A pack
-// without a guide stays as it is.
+// One more avatar, of the guide's name and last in the pack: with the banner, and in nobody's share. Its triangles
+// count it. A pack without a guide stays as it is.
 void AddGuideFigure(TourPack* pack);
 
 }  // namespace flaneur

@@ -18,7 +18,8 @@ std::string Metres(float m) {
 int FewestTriangles(const Simulation& s) {
   int fewest = 0;
   for (const AvatarCosts& avatar : s.control.avatars) {
-    for (const LevelCost& level : avatar.levels) fewest = fewest == 0 ? level.triangles : std::min(fewest, level.triangles);
+    for (const LevelCost& level : avatar.levels)
+      fewest = fewest == 0 ? level.triangles : std::min(fewest, level.triangles);
   }
   return fewest;
 }
@@ -28,7 +29,8 @@ int FewestTriangles(const Simulation& s) {
 Error CheckLimits(Simulation* s) {
   const ControlSettings& c = s->control.settings;
   const auto contradict = [&](const char* less, float less_m, const char* more, float more_m) {
-    return Fail(std::string("contradictory limits: ") + less + " " + Metres(less_m) + " must be below " + more + " " + Metres(more_m));
+    return Fail(std::string("contradictory limits: ") + less + " " + Metres(less_m) + " must be below " + more + " " +
+                Metres(more_m));
   };
   if (c.r_high_m > 0 && c.r_high_m <= c.r_personal_m) {  // 0 is for nobody in high resolution
     return contradict("r_personal_m", c.r_personal_m, "camera.r_high_m", c.r_high_m);
@@ -39,9 +41,10 @@ Error CheckLimits(Simulation* s) {
   }
   const int64_t least = static_cast<int64_t>(c.high_limit) * FewestTriangles(*s);
   if (c.method == LimitMethod::kCount && least > c.budget_triangles) {
-    s->town.warnings.push_back("contradictory limits: " + std::to_string(c.high_limit) + " people in high resolution have at least " +
-                          std::to_string(least) + " triangles, budget_triangles is " +
-                          std::to_string(c.budget_triangles) + "; the budget holds");
+    s->town.warnings.push_back("contradictory limits: " + std::to_string(c.high_limit) +
+                               " people in high resolution have at least " + std::to_string(least) +
+                               " triangles, budget_triangles is " + std::to_string(c.budget_triangles) +
+                               "; the budget holds");
   }
   return Ok();
 }

@@ -4,8 +4,8 @@
 
 namespace flaneur {
 
-// Errors: radii of which one must lie within the other and doesn't; a crowd_area without walkable ground. Warns where the triangle
-// budget cannot hold high_limit people.
+// Errors: radii of which one must lie within the other and doesn't; a crowd_area without walkable ground. Warns where
+// the triangle budget cannot hold high_limit people.
 Error CheckLimits(Simulation* simulation);
 
 }  // namespace flaneur

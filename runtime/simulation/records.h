@@ -7,7 +7,10 @@
 
 namespace flaneur {
 
-struct FrameCosts { int64_t town_triangles = 0, shadow_triangles = 0; double draw_ms = 0; };
+struct FrameCosts {
+  int64_t town_triangles = 0, shadow_triangles = 0;
+  double draw_ms = 0;
+};
 
 struct Records {
   std::string metrics, trajectories;  // text so far; written at the end, whole
@@ -15,6 +18,7 @@ struct Records {
 };
 
 void Record(const Simulation& simulation, const FrameCosts& costs, Records* records);
-Error WriteRecords(const Records& records, const std::filesystem::path& metrics, const std::filesystem::path& trajectories);
+Error WriteRecords(const Records& records, const std::filesystem::path& metrics,
+                   const std::filesystem::path& trajectories);
 
 }  // namespace flaneur

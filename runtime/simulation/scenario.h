@@ -20,7 +20,8 @@ struct DrawingModel {
 
 // Where there is no pack: nobody but whom the scenario names, and the usual control.
 inline constexpr CrowdSettings kEmptyTown{.people = 0, .group_share = 0};
-inline constexpr ControlSettings kPlainControl{.fov_rad = 1.0472f, .max_yaw_rate_dps = 120.321129f};  // 2.1 radians a second
+inline constexpr ControlSettings kPlainControl{.fov_rad = 1.0472f,
+                                               .max_yaw_rate_dps = 120.321129f};  // 2.1 radians a second
 
 struct Scenario {
   std::string name;
@@ -47,7 +48,8 @@ struct Scenario {
 // What a pack says by itself: the scenario of a visit without any.
 Scenario ScenarioOf(const TourPack& pack);
 
-// Lays what the file says over `scenario`. Errors: unreadable, not TOML, an unknown key (with the nearest known one), a wrong type or value; FILE:LINE in front.
+// Lays what the file says over `scenario`. Errors: unreadable, not TOML, an unknown key (with the nearest known one), a
+// wrong type or value; FILE:LINE in front.
 Error ReadScenario(const std::filesystem::path& path, Scenario* scenario);
 
 }  // namespace flaneur

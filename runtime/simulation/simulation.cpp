@@ -7,11 +7,11 @@
 #include "runtime/base/clock.h"
 #include "runtime/control/crowd_influence.h"
 #include "runtime/crowd/constants.h"
-#include "runtime/walk/camera_walk.h"
 #include "runtime/simulation/check_limits.h"
 #include "runtime/town/coming_and_going.h"
 #include "runtime/town/places.h"
 #include "runtime/town/population.h"
+#include "runtime/walk/camera_walk.h"
 
 namespace flaneur {
 namespace {
@@ -98,7 +98,8 @@ float OpenestView_rad(const Walkable& w, Vec2 p) {
   for (int k = 0; k < kDirections; ++k) {
     const float yaw_rad = 2 * kPi * static_cast<float>(k) / kDirections;
     float far_m = 0;
-    while (far_m < kFarthestView_m && IsFree(w, p + Vec2{std::cos(yaw_rad), std::sin(yaw_rad)} * far_m)) far_m += w.cell_m;
+    while (far_m < kFarthestView_m && IsFree(w, p + Vec2{std::cos(yaw_rad), std::sin(yaw_rad)} * far_m))
+      far_m += w.cell_m;
     if (far_m > best_m) best_rad = yaw_rad, best_m = far_m;
   }
   return best_rad;
@@ -123,7 +124,8 @@ void ChooseLanguage(const std::string& language, Simulation* s) {
     if (known == language) return SetLanguage(language, &s->visitor.tour);
     list += (list.empty() ? "" : ", ") + known;
   }
-  if (!s->visitor.tour.stops.empty()) s->town.warnings.push_back("the tour has nothing in the language '" + language + "'; there is: " + list);
+  if (!s->visitor.tour.stops.empty())
+    s->town.warnings.push_back("the tour has nothing in the language '" + language + "'; there is: " + list);
 }
 
 void DeriveGap(Simulation* s) {
@@ -146,15 +148,21 @@ void ClassifyAll(Simulation* s) {
   const ViewVolumes volumes = VolumesOf(s->visitor.camera.view, s->control.outer_apex_back_m);
   for (size_t i = 0; i < s->town.crowd.size(); ++i) {
     s->town.crowd.was_visible[i] = s->town.crowd.view[i] == ViewClass::kVisible ? 1 : 0;
-    s->town.crowd.view[i] = s->visitor.camera.present ? Classify(s->town.crowd.position[i], volumes) : ViewClass::kVisible;
+    s->town.crowd.view[i] =
+        s->visitor.camera.present ? Classify(s->town.crowd.position[i], volumes) : ViewClass::kVisible;
   }
 }
 
 Viewer ViewerOf(const Simulation& s) {
   const LevelState& levels = s.control.levels;
   const bool counted = levels.r_high_m > 0;  // not before the first step: nothing is full then
-  return {s.control.settings, s.visitor.camera.present, s.visitor.camera.view, s.visitor.camera.velocity, s.control.outer_apex_back_m,
-          levels.high, counted ? levels.limit : std::numeric_limits<int>::max()};
+  return {s.control.settings,
+          s.visitor.camera.present,
+          s.visitor.camera.view,
+          s.visitor.camera.velocity,
+          s.control.outer_apex_back_m,
+          levels.high,
+          counted ? levels.limit : std::numeric_limits<int>::max()};
 }
 
 void ControlCrowd(float frame_ms, Simulation* s) {
@@ -162,12 +170,14 @@ void ControlCrowd(float frame_ms, Simulation* s) {
   const CameraState& camera = s->visitor.camera;
   Control& control = s->control;
   const ViewMotion motion{camera.velocity, camera.yaw_rate_radps};
-  ChooseLevels(s->town.crowd, control.avatars, control.settings, {camera.view, motion, frame_ms, s->screen_width_px, s->visitor.guide.id}, &control.levels);
+  ChooseLevels(s->town.crowd, control.avatars, control.settings,
+               {camera.view, motion, frame_ms, s->screen_width_px, s->visitor.guide.id}, &control.levels);
   s->moving.clear();
   if (camera.present) {
     s->moving.push_back({camera.view.position, control.settings.r_personal_m, true, camera.asked_velocity});
     ShieldGuide(InTown(s), &s->moving);
-    InfluenceCrowd(camera.view, motion, control.levels, s->town.walkable, control.settings, &s->town.crowd, &s->moving, &control.foresight);
+    InfluenceCrowd(camera.view, motion, control.levels, s->town.walkable, control.settings, &s->town.crowd, &s->moving,
+                   &control.foresight);
     UnshieldGuide(InTown(s));
   }
   s->control_ms = Now_ms() - start_ms;
@@ -177,7 +187,8 @@ void ControlCrowd(float frame_ms, Simulation* s) {
 bool IsKeptFree(Vec2 p, const void* simulation) {
   const Simulation& s = *static_cast<const Simulation*>(simulation);
   const ViewCamera& view = s.visitor.camera.view;
-  return InWedge(p, view.position, view.yaw_rad, view.fov_rad) || Length(p - view.position) < 2 * s.control.settings.r_personal_m;
+  return InWedge(p, view.position, view.yaw_rad, view.fov_rad) ||
+         Length(p - view.position) < 2 * s.control.settings.r_personal_m;
 }
 
 }  // namespace
@@ -224,7 +235,8 @@ void SetFieldOfView(float fov_rad, Simulation* s) {
 }
 
 float FrameTimeByModel_ms(const Simulation& s) {
-  return s.drawing.base_ms + 1e-6f * s.drawing.ms_per_million_triangles * static_cast<float>(s.control.levels.triangles);
+  return s.drawing.base_ms +
+         1e-6f * s.drawing.ms_per_million_triangles * static_cast<float>(s.control.levels.triangles);
 }
 
 void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {

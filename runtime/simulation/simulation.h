@@ -19,18 +19,18 @@ struct Simulation {
   Control control;
   std::vector<MovingObstacle> moving;  // of this step: the visitor, the guide, the paper's camera obstacles
   DrawingModel drawing;
-  std::optional<float> hour;           // of the day at the start; none: the light of the pack
+  std::optional<float> hour;             // of the day at the start; none: the light of the pack
   int screen_width_px = kUsualWidth_px;  // of the picture that levels are chosen for
-  double step_ms = 0, control_ms = 0;  // what the last step took, and the control's part of it
+  double step_ms = 0, control_ms = 0;    // what the last step took, and the control's part of it
 };
 
 inline float Step_s(const Simulation& s) { return Step_s(s.control.settings); }
 inline float Time_s(const Simulation& s) { return static_cast<float>(s.town.step) * Step_s(s); }
 inline VisitorInTown InTown(Simulation* s) { return {s->control.settings, s->town, s->visitor}; }
 
-// `pack` may be null where the scenario has its own ground. Errors: no walkable ground, a scenario's person inside an obstacle or
-// with a goal nobody can reach, an unknown avatar, no ground at all; each names the person. More people than fit: as many as do,
-// and a warning. `simulation` stays where it is from the first step on; `jobs` outlives it.
+// `pack` may be null where the scenario has its own ground. Errors: no walkable ground, a scenario's person inside an
+// obstacle or with a goal nobody can reach, an unknown avatar, no ground at all; each names the person. More people
+// than fit: as many as do, and a warning. `simulation` stays where it is from the first step on; `jobs` outlives it.
 Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation* simulation, Jobs* jobs = nullptr);
 
 // Horizontal; the outer volume follows.

@@ -13,7 +13,8 @@ inline constexpr size_t kMaxTints = 3;       // of an avatar
 inline constexpr size_t kMaxTintColors = 8;  // of a tint, besides its own
 inline constexpr float kMinTintReach = 0.01f;
 
-// People of one model wear their cloth in several colours, sRGB, 0 to 1 (runtime/pack/tint.h says how a cloth is known).
+// People of one model wear their cloth in several colours, sRGB, 0 to 1 (runtime/pack/tint.h says how a cloth is
+// known).
 struct Tint {
   Vec3 color;                // of the cloth in the avatar's own pictures
   float reach = 0.2f;        // kMinTintReach to 1: colours farther off than this are not dyed
@@ -36,14 +37,15 @@ struct ImpostorClip {
   int first_frame = 0, phases = 0;
 };
 
-// One picture in the atlas, cropped to the silhouette: a rectangle of texels from the upper left corner, and the texel corner at
-// which the point between the feet is seen (it may lie outside). The rectangle's sides are multiples of 4.
+// One picture in the atlas, cropped to the silhouette: a rectangle of texels from the upper left corner, and the texel
+// corner at which the point between the feet is seen (it may lie outside). The rectangle's sides are multiples of 4.
 struct ImpostorCell {
   int x = 0, y = 0, width = 0, height = 0, origin_x = 0, origin_y = 0;
 };
 
-// How an atlas is laid out. cells: frame by frame, elevation by elevation, direction by direction. Direction d is seen from azimuth
-// 2 * pi * d / directions about the person, anticlockwise from above, from where they face. A texel is texel_m wide and high.
+// How an atlas is laid out. cells: frame by frame, elevation by elevation, direction by direction. Direction d is seen
+// from azimuth 2 * pi * d / directions about the person, anticlockwise from above, from where they face. A texel is
+// texel_m wide and high.
 struct ImpostorLayout {
   int directions = 16;
   std::vector<float> elevations_deg{0};  // camera above the horizon

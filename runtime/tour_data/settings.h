@@ -1,5 +1,6 @@
-// The settings that travel from tour.toml through the pack to the player. Each is listed once, in VisitFields, with its range: what
-// reads tour.toml, a scenario or a pack and what writes one all walk these lists, so that a name cannot differ between them.
+// The settings that travel from tour.toml through the pack to the player. Each is listed once, in VisitFields, with its
+// range: what reads tour.toml, a scenario or a pack and what writes one all walk these lists, so that a name cannot
+// differ between them.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -18,7 +19,8 @@ struct CrowdSettings {
   float group_share = 0.4f;    // of the people, who walk in groups of 2 to 4
 };
 
-// How the number of people in high resolution is limited: a fixed count, or what the frame time affords (paper, section 3.2).
+// How the number of people in high resolution is limited: a fixed count, or what the frame time affords (paper,
+// section 3.2).
 enum class LimitMethod { kCount, kFrameTime };
 inline constexpr std::initializer_list<const char*> kLimitMethodNames = {"count", "frame_time"};
 
@@ -32,8 +34,8 @@ struct ControlSettings {
   int high_limit = 12;            // most people in high resolution, with LimitMethod::kCount
   float target_ms = 16.7f;        // of a frame, with LimitMethod::kFrameTime
   int budget_triangles = 200000;  // of all visible people together
-  // Distances from the visitor (paper, section 3.2): nobody comes nearer than the first; nominally high resolution within the second;
-  // paths are left alone beyond the third; nothing is drawn beyond the fourth.
+  // Distances from the visitor (paper, section 3.2): nobody comes nearer than the first; nominally high resolution
+  // within the second; paths are left alone beyond the third; nothing is drawn beyond the fourth.
   float r_personal_m = 0.6f, r_high_m = 10, r_unimportant_m = 40, r_far_m = 200;
   float fov_rad = kPi / 3;  // horizontal
   float step_hz = 30;       // steps of the simulation a second
@@ -45,7 +47,7 @@ inline float MaxYawRate_radps(const ControlSettings& s) { return s.max_yaw_rate_
 
 struct LightSettings {
   float sun_azimuth_rad = 0.75f * kPi, sun_elevation_rad = kPi / 4.5f;  // direction to the sun at the start
-  float day_length_s = 600;                                            // time for the sun's way across the sky; 0: it stands still
+  float day_length_s = 600;  // time for the sun's way across the sky; 0: it stands still
 };
 
 // An enumeration as the text that stands in files; the names by value.
@@ -65,8 +67,8 @@ void VisitChoice(Fields&& fields, const char* key, std::initializer_list<const c
   TakeNamed(name, names, value);
 }
 
-// fields.Number(name, &value, least, most); fields.Angle(stem, &radians, least_deg, most_deg), which is STEM_deg in tour.toml and
-// STEM_rad in the pack; fields.Choice(name, &text, {allowed, ...}).
+// fields.Number(name, &value, least, most); fields.Angle(stem, &radians, least_deg, most_deg), which is STEM_deg in
+// tour.toml and STEM_rad in the pack; fields.Choice(name, &text, {allowed, ...}).
 template <typename Fields>
 void VisitFields(Fields&& fields, CrowdSettings* s) {
   fields.Number("people", &s->people, 0, 200000);

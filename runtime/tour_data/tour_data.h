@@ -1,5 +1,5 @@
-// One description of a tour, used by tour.toml's reader, the pack's writer and reader, the simulation and the picture. Structs alone.
-// Everything stands on the ground plane (x east, y north, z up). Metres, seconds, radians.
+// One description of a tour, used by tour.toml's reader, the pack's writer and reader, the simulation and the picture.
+// Structs alone. Everything stands on the ground plane (x east, y north, z up). Metres, seconds, radians.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -27,8 +27,8 @@ struct Obstacles {
   std::vector<PolygonObstacle> polygons;
 };
 
-// The walkable surface. Cell (column, row) covers [min_m.x + column * cell_m, ...) x [min_m.y + row * cell_m, ...); row 0 is the
-// southernmost.
+// The walkable surface. Cell (column, row) covers [min_m.x + column * cell_m, ...) x [min_m.y + row * cell_m, ...); row
+// 0 is the southernmost.
 struct GroundRaster {
   Vec2 min_m;
   float cell_m = 0.25f;
@@ -41,7 +41,8 @@ struct GroundRaster {
 using SharedGround = std::shared_ptr<const GroundRaster>;
 inline SharedGround Share(GroundRaster ground) { return std::make_shared<const GroundRaster>(std::move(ground)); }
 
-// Where people come from and go to. kind: door, exit, goal (go there), loiter (stand there a while), spawn (start there).
+// Where people come from and go to. kind: door, exit, goal (go there), loiter (stand there a while), spawn (start
+// there).
 struct Place {
   std::string name, kind;
   Vec2 position_m;
@@ -49,7 +50,8 @@ struct Place {
   std::optional<float> yaw_rad = std::nullopt;  // loiter: where people look; door, exit: the way out of it
 };
 
-// Where people are, painted over the town: strengths by cell of the area, row 0 the southernmost. No columns: nothing is painted.
+// Where people are, painted over the town: strengths by cell of the area, row 0 the southernmost. No columns: nothing
+// is painted.
 struct Painting {
   Vec2 min_m;
   float cell_m = 0;
@@ -61,7 +63,9 @@ struct Painting {
 // The cell at p, -1 outside.
 inline int PaintingCell(const Painting& painting, Vec2 p) {
   const Vec2 off = (p - painting.min_m) * (1 / painting.cell_m);
-  if (!(off.x >= 0 && off.y >= 0 && off.x < static_cast<float>(painting.columns) && off.y < static_cast<float>(painting.rows))) return -1;
+  if (!(off.x >= 0 && off.y >= 0 && off.x < static_cast<float>(painting.columns) &&
+        off.y < static_cast<float>(painting.rows)))
+    return -1;
   return static_cast<int>(off.y) * painting.columns + static_cast<int>(off.x);
 }
 

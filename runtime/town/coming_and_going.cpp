@@ -14,14 +14,14 @@
 namespace flaneur {
 namespace {
 
-constexpr float kBirthGap_m = 0.3f;         // between a newcomer and everybody else, beyond touching
-constexpr int kTries = 40;                  // to find a free spot before giving up for now
-constexpr int kTriesFarAway = 20;           // of them at gates beyond r_unimportant only
-constexpr int kThinkEvery_steps = 30;       // held up in a crowd of so many people a square metre,
+constexpr float kBirthGap_m = 0.3f;    // between a newcomer and everybody else, beyond touching
+constexpr int kTries = 40;             // to find a free spot before giving up for now
+constexpr int kTriesFarAway = 20;      // of them at gates beyond r_unimportant only
+constexpr int kThinkEvery_steps = 30;  // held up in a crowd of so many people a square metre,
 constexpr float kThinksFrom_pm2 = 1.2f;
-constexpr float kThinksAgain = 0.15f;       // this share decides to go somewhere else
+constexpr float kThinksAgain = 0.15f;  // this share decides to go somewhere else
 constexpr int kBirths_perStep = 2;
-constexpr int kGateSpots = 9;               // the gate itself, and a ring
+constexpr int kGateSpots = 9;  // the gate itself, and a ring
 constexpr float kBesideGate_m = 0.95f;
 
 bool Crowded(const Crowd& crowd, Vec2 p, float radius_m) {
@@ -97,7 +97,9 @@ Vec2 SpotAtGate(const Viewer& viewer, const Town& town, Vec2 gate, float radius_
   for (int k = 0; k < kGateSpots; ++k) {
     const float angle = 2 * kPi * static_cast<float>(k) / (kGateSpots - 1);
     const Vec2 p = k == 0 ? gate : gate + DirectionOf(angle) * kBesideGate_m;
-    if (IsUnseen(viewer, p) && !Crowded(town.crowd, p, radius_m) && (k == 0 || (IsFree(town.walkable, p) && StraightWay(town.walkable, gate, p)))) return p;
+    if (IsUnseen(viewer, p) && !Crowded(town.crowd, p, radius_m) &&
+        (k == 0 || (IsFree(town.walkable, p) && StraightWay(town.walkable, gate, p))))
+      return p;
   }
   return {std::nanf(""), 0};
 }
@@ -107,7 +109,9 @@ bool Birth(int company, const Viewer& viewer, Town* town) {
   const std::vector<int>& gates = town->place_lists.gates;
   if (gates.empty()) return false;
   for (int attempt = 0; attempt < kTries; ++attempt) {
-    const Vec2 gate = town->places[static_cast<size_t>(gates[static_cast<size_t>(town->random.Below(static_cast<int>(gates.size())))])].position_m;
+    const Vec2 gate = town->places[static_cast<size_t>(
+                                       gates[static_cast<size_t>(town->random.Below(static_cast<int>(gates.size())))])]
+                          .position_m;
     if (!IsUnseen(viewer, gate) || IsFullNear(viewer, *town, gate)) continue;
     const bool is_near = viewer.present && Length(gate - viewer.camera.position) < viewer.settings.r_unimportant_m;
     if (is_near && attempt < kTriesFarAway) continue;
@@ -142,7 +146,8 @@ void LeaveAndArrive(const Viewer& viewer, Town* town) {
   SendEnclosedOut(viewer, town);
   StepLoitering(viewer, town);
   for (size_t i = 0; i < c.size();) {
-    if (HasWaited(*town, i) && !StaysOn(i, viewer, town)) SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
+    if (HasWaited(*town, i) && !StaysOn(i, viewer, town))
+      SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
     if (ThinksAgain(i, town)) SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
     if (HasArrived(i, town) && NextForArrived(i, viewer, town)) {
       StopLoitering(i, town);
@@ -153,7 +158,9 @@ void LeaveAndArrive(const Viewer& viewer, Town* town) {
   }
   for (int k = 0; k < kBirths_perStep; ++k) {
     if (town->next_company == 0) town->next_company = std::min(town->target_people, DrawCompany(kMaxGroupSize, town));
-    if (static_cast<int>(c.size()) + std::max(1, town->next_company) > town->target_people || !Birth(town->next_company, viewer, town)) return;
+    if (static_cast<int>(c.size()) + std::max(1, town->next_company) > town->target_people ||
+        !Birth(town->next_company, viewer, town))
+      return;
     town->next_company = 0;
   }
 }

@@ -13,15 +13,15 @@ namespace {
 
 constexpr float kMinWait_s = 15, kMaxWait_s = 50;
 constexpr int kLookEvery_steps = 10;
-constexpr float kClaim_m = 2.5f;         // so near a place people look for a spot
+constexpr float kClaim_m = 2.5f;  // so near a place people look for a spot
 constexpr float kPushedAside_m = 0.6f;
-constexpr float kTalkReach_m = 1.5f;     // between spots
+constexpr float kTalkReach_m = 1.5f;  // between spots
 constexpr float kLooksFor_m = 3;
-constexpr float kTurnsAway_s = 9;        // mean time between looks at something or somebody else
-constexpr float kTalks = 0.6f;           // share of the looks that go to somebody, where somebody is near
-constexpr float kStaysOn = 0.7f;         // of those whose time is over while too few stand about
-constexpr float kOnTheWay = 2;           // so many times those who should stand may plan to
-constexpr float kMinSpotSpacing_m = 0.75f;   // between spots
+constexpr float kTurnsAway_s = 9;           // mean time between looks at something or somebody else
+constexpr float kTalks = 0.6f;              // share of the looks that go to somebody, where somebody is near
+constexpr float kStaysOn = 0.7f;            // of those whose time is over while too few stand about
+constexpr float kOnTheWay = 2;              // so many times those who should stand may plan to
+constexpr float kMinSpotSpacing_m = 0.75f;  // between spots
 // Along the look and to its left.
 constexpr Vec2 kBeforeThing[] = {{0, 0}, {0, 0.85f}, {0, -0.85f}, {-0.85f, 0.45f}, {-0.85f, -0.45f}};
 constexpr Vec2 kCircle[] = {{0.62f, 0}, {0, 0.62f}, {-0.62f, 0}, {0, -0.62f}};
@@ -52,7 +52,8 @@ LoiterSpot* SpotOf(size_t i, Town* town) {
 }
 
 float Standing(const Town& town) {
-  return static_cast<float>(std::count_if(town.loiter_spots.begin(), town.loiter_spots.end(), [](const LoiterSpot& spot) { return spot.there; }));
+  return static_cast<float>(std::count_if(town.loiter_spots.begin(), town.loiter_spots.end(),
+                                          [](const LoiterSpot& spot) { return spot.there; }));
 }
 
 // All of the company claim spots, or go elsewhere.
@@ -82,7 +83,8 @@ int FindPartner(const Town& town, int own) {
   for (int k = 0; k < static_cast<int>(town.loiter_spots.size()); ++k) {
     const LoiterSpot& other = town.loiter_spots[static_cast<size_t>(k)];
     if (k == own || !other.there) continue;
-    const float apart_m = Length(other.position_m - me.position_m) + (other.partner >= 0 && other.partner != own ? 0.5f : 0.0f);
+    const float apart_m =
+        Length(other.position_m - me.position_m) + (other.partner >= 0 && other.partner != own ? 0.5f : 0.0f);
     if (apart_m < best_m) best = k, best_m = apart_m;
   }
   return best;
@@ -112,7 +114,8 @@ void Stand(size_t i, LoiterSpot* spot, float step_s, Town* town) {
   const bool talks = spot->partner >= 0 && town->loiter_spots[static_cast<size_t>(spot->partner)].there;
   if (!talks) spot->partner = -1;
   c.activity[i] = talks ? Activity::kTalking : Activity::kStanding;
-  c.facing[i] = talks ? Unit(town->loiter_spots[static_cast<size_t>(spot->partner)].position_m - c.position[i]) : spot->look;
+  c.facing[i] =
+      talks ? Unit(town->loiter_spots[static_cast<size_t>(spot->partner)].position_m - c.position[i]) : spot->look;
 }
 
 }  // namespace
@@ -129,7 +132,8 @@ void PrepareLoitering(Town* town) {
     const bool anything = HasAhead(town->walkable, at.position_m, look);
     for (const Vec2 p : kBeforeThing) {
       const Vec2 spot = at.position_m + look * p.x + left * p.y;
-      if (!anything || HasAhead(town->walkable, spot, look)) AddSpot(place, spot, look, town);  // not before the gap between two stalls
+      if (!anything || HasAhead(town->walkable, spot, look))
+        AddSpot(place, spot, look, town);  // not before the gap between two stalls
     }
   }
 }
@@ -165,7 +169,8 @@ void StirLoiterers(Vec2 p, float reach_m, Town* town) {
 
 bool StaysOn(size_t i, const Viewer& viewer, Town* town) {
   const LoiterSpot* spot = SpotOf(i, town);
-  if (spot == nullptr || !spot->there || town->crowd.detour_s[i] > 0 || IsFullNear(viewer, *town, spot->position_m)) return false;
+  if (spot == nullptr || !spot->there || town->crowd.detour_s[i] > 0 || IsFullNear(viewer, *town, spot->position_m))
+    return false;
   const float wanted = town->settings.loiter_share * static_cast<float>(town->target_people);
   if (Standing(*town) > wanted || town->random.Uniform() >= kStaysOn) return false;
   town->crowd.wait_s[i] = town->random.Uniform(kMinWait_s, kMaxWait_s);

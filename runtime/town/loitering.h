@@ -4,7 +4,8 @@
 
 namespace flaneur {
 
-// Spots around each loiter place: a row and a half before what there is to see, or a circle where nothing is said of that.
+// Spots around each loiter place: a row and a half before what there is to see, or a circle where nothing is said of
+// that.
 void PrepareLoitering(Town* town);
 
 // Counts the person among those who loiter, and no longer.
@@ -14,8 +15,8 @@ void StopLoitering(size_t person, Town* town);
 // Fewer stand about, or are on their way to it, than should.
 bool FewLoiter(const Town& town);
 
-// Free spots of one loiter place for so many people, in spots[0 ... count - 1]; those nearest to `from` come first. False where
-// there are not enough.
+// Free spots of one loiter place for so many people, in spots[0 ... count - 1]; those nearest to `from` come first.
+// False where there are not enough.
 bool FindSpots(const Town& town, int place, Vec2 from, int count, int* spots);
 // The spot is theirs: they stand there (`now`), or walk there from nearby.
 void TakeSpot(size_t person, int spot, bool now, Town* town);
@@ -26,8 +27,8 @@ void StirLoiterers(Vec2 p, float reach_m, Town* town);
 // True where somebody whose time is over stays on, as too few stand about.
 bool StaysOn(size_t person, const Viewer& viewer, Town* town);
 
-// For everybody: who comes near the loiter place they go to looks for a spot; who stands looks at things and at each other, comes
-// back when pushed aside, and sets out again when a detour is asked of them.
+// For everybody: who comes near the loiter place they go to looks for a spot; who stands looks at things and at each
+// other, comes back when pushed aside, and sets out again when a detour is asked of them.
 void StepLoitering(const Viewer& viewer, Town* town);
 
 }  // namespace flaneur

@@ -17,7 +17,8 @@ int Strength(const std::vector<uint8_t>& layer, const Town& town, int cell) {
 }
 
 void Shuffle(std::vector<int>* cells, Random* random) {
-  for (size_t k = cells->size(); k > 1; --k) std::swap((*cells)[k - 1], (*cells)[static_cast<size_t>(random->Below(static_cast<int>(k)))]);
+  for (size_t k = cells->size(); k > 1; --k)
+    std::swap((*cells)[k - 1], (*cells)[static_cast<size_t>(random->Below(static_cast<int>(k)))]);
 }
 
 bool AnyPaint(const std::vector<uint8_t>& layer) {
@@ -35,7 +36,9 @@ void AddPlaces(const std::vector<uint8_t>& layer, const char* kind, int most, fl
     chosen.push_back(p);
     town->places.push_back({"painted_" + std::string(kind) + "_" + std::to_string(chosen.size()), kind, p, 1});
   }
-  if (chosen.empty()) town->warnings.push_back(std::string("the painting has no place of kind ") + kind + " where people can walk; it is not used");
+  if (chosen.empty())
+    town->warnings.push_back(std::string("the painting has no place of kind ") + kind +
+                             " where people can walk; it is not used");
 }
 
 }  // namespace
@@ -54,7 +57,8 @@ std::vector<int> PaintedOrder(const std::vector<uint8_t>& layer, std::vector<int
     // Each pass takes a cell with a probability in proportion to its strength, few enough that the first pass has many.
     std::vector<int> later;
     for (int cell : left) {
-      const bool now = town->random.Uniform() * static_cast<float>(strongest) < static_cast<float>(Strength(layer, *town, cell));
+      const bool now =
+          town->random.Uniform() * static_cast<float>(strongest) < static_cast<float>(Strength(layer, *town, cell));
       (now ? order : later).push_back(cell);
     }
     left = std::move(later);
@@ -67,7 +71,9 @@ void AddPaintedPlaces(Town* town) {
   if (town->painting.columns == 0) return;
   AddPlaces(town->painting.people, "goal", kGoals, kGoalsApart_m, town);
   if (!AnyPaint(town->painting.loiter)) return;
-  town->places.erase(std::remove_if(town->places.begin(), town->places.end(), [](const Place& p) { return p.kind == "loiter"; }), town->places.end());
+  town->places.erase(
+      std::remove_if(town->places.begin(), town->places.end(), [](const Place& p) { return p.kind == "loiter"; }),
+      town->places.end());
   AddPlaces(town->painting.loiter, "loiter", kMaxLoiterPlaces, kLoiterApart_m, town);
 }
 

@@ -9,13 +9,13 @@
 namespace flaneur {
 namespace {
 
-constexpr int kMadeUpGoals = 24;         // where a town names no places
-constexpr float kReach_m = 2.5f;         // from a place to where people can stand
+constexpr int kMadeUpGoals = 24;  // where a town names no places
+constexpr float kReach_m = 2.5f;  // from a place to where people can stand
 constexpr float kWorthWalking_m = 8;
-constexpr float kPacked_pm2 = 1.4f;       // nobody chooses a way through such a crowd who has the choice
-constexpr float kToPaint = 0.75f;         // of those who go somewhere, where goals are painted; the others leave the town
+constexpr float kPacked_pm2 = 1.4f;  // nobody chooses a way through such a crowd who has the choice
+constexpr float kToPaint = 0.75f;    // of those who go somewhere, where goals are painted; the others leave the town
 constexpr float kWorseThanCrowds = 100;
-constexpr int kTries = 8;                // for somewhere worth walking to
+constexpr int kTries = 8;  // for somewhere worth walking to
 
 void SortPlaces(Town* town) {
   PlaceLists& lists = town->place_lists;
@@ -101,7 +101,8 @@ void PreparePlaces(Town* town) {
     }
     if (town->crowd_area && !Contains(*town->crowd_area, place.position_m)) continue;
     if (!IsGate(place) && InsideObstacle(town->walkable, place.position_m)) {
-      town->warnings.push_back("place '" + place.name + "' (" + place.kind + ") is inside an obstacle; the nearest free ground is taken");
+      town->warnings.push_back("place '" + place.name + "' (" + place.kind +
+                               ") is inside an obstacle; the nearest free ground is taken");
     }
     place.position_m = CellCenter(town->walkable, cell);
     kept.push_back(place);

@@ -12,8 +12,8 @@
 namespace flaneur {
 namespace {
 
-// Sizes of groups seen in public places: Poisson's distribution without zero, here of mean 0.83 and from 2 on (James 1953, The
-// distribution of free-forming small group size; Moussaid et al. 2010 for a shopping street).
+// Sizes of groups seen in public places: Poisson's distribution without zero, here of mean 0.83 and from 2 on (James
+// 1953, The distribution of free-forming small group size; Moussaid et al. 2010 for a shopping street).
 constexpr float kShareOfTwo = 0.75f, kShareOfThree = 0.21f;
 constexpr float kMeanGroup = 2 * kShareOfTwo + 3 * kShareOfThree + 4 * (1 - kShareOfTwo - kShareOfThree);
 constexpr float kSpawnReach_m = 8;     // who starts at a place of that kind starts so near it, where there is room
@@ -37,7 +37,7 @@ struct Spots {
   std::vector<int> cells;     // where people may live, in random order
   std::vector<int> occupant;  // by cell of the grid: index in the crowd, -1: nobody
   size_t next = 0;
-  float gap_m = kWideGap_m;   // beyond touching, to everybody else
+  float gap_m = kWideGap_m;  // beyond touching, to everybody else
 };
 
 void Occupy(const Walkable& w, const Crowd& c, size_t i, Spots* spots) {
@@ -52,9 +52,11 @@ bool IsNearSpawn(const Town& town, Vec2 p) {
 }
 
 Spots MakeSpots(Town* town) {
-  Spots spots{PaintedOrder(town->painting.people, HomeCells(*town), town), std::vector<int>(town->walkable.cost.size(), -1)};
+  Spots spots{PaintedOrder(town->painting.people, HomeCells(*town), town),
+              std::vector<int>(town->walkable.cost.size(), -1)};
   if (!town->place_lists.spawns.empty()) {
-    std::stable_partition(spots.cells.begin(), spots.cells.end(), [&](int cell) { return IsNearSpawn(*town, CellCenter(town->walkable, cell)); });
+    std::stable_partition(spots.cells.begin(), spots.cells.end(),
+                          [&](int cell) { return IsNearSpawn(*town, CellCenter(town->walkable, cell)); });
   }
   for (size_t i = 0; i < town->crowd.size(); ++i) Occupy(town->walkable, town->crowd, i, &spots);
   return spots;
@@ -81,7 +83,8 @@ bool IsToBeHad(const Viewer& viewer, const Town& town, const Spots& spots, int c
 // The next cell for somebody who comes alone or first, -1 when there is none left. Who finds the town full squeezes in.
 int NextSpot(const Viewer& viewer, const Town& town, float radius_m, Spots* spots) {
   for (;;) {
-    while (spots->next < spots->cells.size() && !IsToBeHad(viewer, town, *spots, spots->cells[spots->next], radius_m)) ++spots->next;
+    while (spots->next < spots->cells.size() && !IsToBeHad(viewer, town, *spots, spots->cells[spots->next], radius_m))
+      ++spots->next;
     if (spots->next < spots->cells.size()) return spots->cells[spots->next];
     if (spots->gap_m <= kMinGap_m) return -1;
     spots->gap_m = kMinGap_m;
@@ -124,7 +127,8 @@ bool PlaceLoiterers(int company, const Viewer& viewer, Town* town) {
     const Vec2 p = town->loiter_spots[static_cast<size_t>(spots[k])].position_m;
     const auto stands_there = [&](Vec2 other) { return Length(other - p) < kLoiterGap_m; };
     if (std::any_of(town->crowd.position.begin(), town->crowd.position.end(), stands_there)) return false;
-    if (viewer.present && Length(p - viewer.camera.position) < viewer.settings.r_personal_m + kLoiterGap_m) return false;
+    if (viewer.present && Length(p - viewer.camera.position) < viewer.settings.r_personal_m + kLoiterGap_m)
+      return false;
   }
   std::vector<int> members;
   for (int k = 0; k < company; ++k) {
@@ -146,8 +150,9 @@ int PlaceCompany(int company, const Viewer& viewer, Spots* spots, Town* town) {
   int field = -1;
   for (int k = 0; k < company; ++k) {
     Person p = NewPerson(town);
-    const int cell = k == 0 ? NextSpot(viewer, *town, p.radius_m, spots)
-                            : SpotBeside(viewer, *town, town->crowd.position[static_cast<size_t>(members[0])], p.radius_m, *spots);
+    const int cell =
+        k == 0 ? NextSpot(viewer, *town, p.radius_m, spots)
+               : SpotBeside(viewer, *town, town->crowd.position[static_cast<size_t>(members[0])], p.radius_m, *spots);
     if (cell < 0) break;
     p.position = CellCenter(town->walkable, cell);
     if (k == 0) field = PickDestination(viewer, p.position, true, town);
@@ -168,7 +173,8 @@ Error TakeScenarioPerson(const ScenarioPerson& wanted, const std::string& name, 
     const auto is_wanted = [&](const Resident& resident) { return resident.avatar == wanted.avatar; };
     const auto found = std::find_if(town->residents.begin(), town->residents.end(), is_wanted);
     if (found != town->residents.end()) p.avatar = static_cast<int>(found - town->residents.begin());
-    else if (town->residents.size() != 1 || town->residents.front().avatar != kPlainFigure) return Fail(name + ": there is no avatar '" + wanted.avatar + "'");
+    else if (town->residents.size() != 1 || town->residents.front().avatar != kPlainFigure)
+      return Fail(name + ": there is no avatar '" + wanted.avatar + "'");
   }
   p.radius_m = wanted.radius_m > 0 ? wanted.radius_m : town->residents[static_cast<size_t>(p.avatar)].radius_m;
   p.preferred_mps = wanted.speed_mps > 0 ? wanted.speed_mps : town->settings.preferred_speed_mps;
@@ -208,7 +214,8 @@ Error JoinScenarioPeople(const std::vector<ScenarioPerson>& persons, size_t firs
     for (size_t j = k; j < persons.size(); ++j) {
       if (persons[j].group != persons[k].group) continue;
       if (!SameGoals(persons[j], persons[k])) {
-        return Fail(name + ": person " + std::to_string(k + 1) + " and person " + std::to_string(j + 1) + " have different goals_m");
+        return Fail(name + ": person " + std::to_string(k + 1) + " and person " + std::to_string(j + 1) +
+                    " have different goals_m");
       }
       members.push_back(static_cast<int>(first + j));
       done[j] = 1;
@@ -229,7 +236,8 @@ Person NewPerson(Town* town) {
   p.avatar = PickAvatar(town);
   p.radius_m = town->residents[static_cast<size_t>(p.avatar)].radius_m;
   // The sum of three even draws is near a normal one, and bounded.
-  const float spread = (town->random.Uniform(-1, 1) + town->random.Uniform(-1, 1) + town->random.Uniform(-1, 1)) * c.speed_spread_mps;
+  const float spread =
+      (town->random.Uniform(-1, 1) + town->random.Uniform(-1, 1) + town->random.Uniform(-1, 1)) * c.speed_spread_mps;
   p.top_mps = c.top_speed_mps;
   p.preferred_mps = std::clamp(c.preferred_speed_mps + spread, 0.5f * c.preferred_speed_mps, c.top_speed_mps);
   p.heading_rad = town->random.Uniform(-kPi, kPi);
@@ -276,7 +284,8 @@ void PlaceCrowd(int wanted, const Viewer& viewer, Town* town) {
     const int company = PlaceCompany(DrawCompany(wanted - placed, town), viewer, &spots, town);
     placed += company;
     if (company > 0) continue;
-    town->warnings.push_back("only " + std::to_string(placed) + " of " + std::to_string(wanted) + " people fit on the walkable ground");
+    town->warnings.push_back("only " + std::to_string(placed) + " of " + std::to_string(wanted) +
+                             " people fit on the walkable ground");
     town->target_people = static_cast<int>(town->crowd.size());
     return;
   }

@@ -1,5 +1,5 @@
-// The town as it lives: its ground and places, its people, and what they have in mind. Knows nothing of who looks at it but what a
-// Viewer says, and nothing of drawing.
+// The town as it lives: its ground and places, its people, and what they have in mind. Knows nothing of who looks at it
+// but what a Viewer says, and nothing of drawing.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,7 +15,9 @@
 
 namespace flaneur {
 
-struct Area { Vec2 min_m, max_m; };
+struct Area {
+  Vec2 min_m, max_m;
+};
 
 inline bool Contains(const Area& area, Vec2 p) {
   return p.x >= area.min_m.x && p.y >= area.min_m.y && p.x <= area.max_m.x && p.y <= area.max_m.y;
@@ -26,40 +28,40 @@ struct ScenarioPerson {
   Vec2 position_m;
   std::vector<Vec2> goals_m;
   bool stay = false;
-  std::string avatar, group;  // who names the same group walks together; empty: alone
+  std::string avatar, group;                             // who names the same group walks together; empty: alone
   float speed_mps = 0, top_speed_mps = 0, radius_m = 0;  // 0: the pack's
 };
 
 struct PersonPlan {         // of one person
   std::vector<Vec2> goals;  // after the present one, next first
   bool stay = false, leaves = true;
-  bool loiters = false;     // on the way to a loiter place, or there
-  int spot = -1;            // index into Town::loiter_spots, of the one that is theirs
-  int id = -1;              // whose it is
+  bool loiters = false;  // on the way to a loiter place, or there
+  int spot = -1;         // index into Town::loiter_spots, of the one that is theirs
+  int id = -1;           // whose it is
 };
 
-struct LoiterSpot {         // where one person can stand at a loiter place
-  Vec2 position_m, look;    // look: unit vector to what there is to see
-  int place = 0;            // index into Town::places
+struct LoiterSpot {       // where one person can stand at a loiter place
+  Vec2 position_m, look;  // look: unit vector to what there is to see
+  int place = 0;          // index into Town::places
   bool taken = false, there = false;
-  int partner = -1;         // index of the spot whose occupant they talk with
+  int partner = -1;  // index of the spot whose occupant they talk with
 };
 
-struct PlaceLists {         // indices into Town::places
+struct PlaceLists {  // indices into Town::places
   std::vector<int> gates, goals, loiters, spawns, destinations, all;
 };
 
 // Of an avatar, as far as whom it may be and how much room they take.
 struct Resident {
-  std::string avatar;      // its name
-  float share = 1;         // of the crowd, relative to the others'
+  std::string avatar;  // its name
+  float share = 1;     // of the crowd, relative to the others'
   float radius_m = 0.25f;
 };
 
 inline constexpr const char* kPlainFigure = "person";  // everybody's avatar where there is no pack
 
 struct Town {
-  std::vector<Resident> residents;       // by avatar
+  std::vector<Resident> residents;  // by avatar
   CrowdSettings settings;
   Walkable walkable;
   std::vector<Place> places;
@@ -73,28 +75,32 @@ struct Town {
   int loiterers = 0;                     // people whose plan is to loiter
 
   Crowd crowd;
-  CrowdScratch scratch;                  // of whoever steps the crowd
-  Jobs* jobs = nullptr;                  // build fields; they outlive the town
+  CrowdScratch scratch;  // of whoever steps the crowd
+  Jobs* jobs = nullptr;  // build fields; they outlive the town
   FieldBuilder field_builder;
-  std::vector<PersonPlan> plans;         // by Crowd::slot, see PlanOf
+  std::vector<PersonPlan> plans;  // by Crowd::slot, see PlanOf
   Enclosure enclosure;
-  DensityMap density;                    // of everybody, once a second
+  DensityMap density;  // of everybody, once a second
   Random random;
-  int64_t step = 0;                      // so many are over
-  std::vector<std::string> warnings;     // of what cannot be as the tour says
+  int64_t step = 0;                   // so many are over
+  std::vector<std::string> warnings;  // of what cannot be as the tour says
 };
 
-inline PersonPlan& PlanOf(size_t person, Town* town) { return town->plans[static_cast<size_t>(town->crowd.slot[person])]; }
-inline const PersonPlan& PlanOf(size_t person, const Town& town) { return town.plans[static_cast<size_t>(town.crowd.slot[person])]; }
+inline PersonPlan& PlanOf(size_t person, Town* town) {
+  return town->plans[static_cast<size_t>(town->crowd.slot[person])];
+}
+inline const PersonPlan& PlanOf(size_t person, const Town& town) {
+  return town.plans[static_cast<size_t>(town.crowd.slot[person])];
+}
 
 // What the townspeople's comings and goings heed of the visitor and of the control.
 struct Viewer {
   const ControlSettings& settings;
-  bool present = true;          // false: everybody counts as visible, and nobody has to be kept out of the way
+  bool present = true;  // false: everybody counts as visible, and nobody has to be kept out of the way
   ViewCamera camera;
   Vec2 velocity;
   float outer_apex_back_m = 0;
-  int high = 0, limit = 0;      // people in high resolution now, and the most there may be
+  int high = 0, limit = 0;  // people in high resolution now, and the most there may be
 };
 
 }  // namespace flaneur

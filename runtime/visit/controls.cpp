@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kRadiansPerPixel = 0.0025f;
 constexpr float kMaxPitch_rad = 1.2f;
-constexpr float kStickDeadZone = 0.18f;       // sticks at rest are not quite at rest
+constexpr float kStickDeadZone = 0.18f;  // sticks at rest are not quite at rest
 constexpr float kViewStep_deg = 5, kMinFieldOfView_deg = 30, kMaxFieldOfView_deg = 120;
 constexpr float kRadians = kPi / 180;
 
@@ -40,7 +40,8 @@ void TurnAndLook(const Held& held, float passed_s, Controls* c) {
   const Vec2 stick = FromStick(held.input.right_stick);
   c->to_turn_rad -= drag * mouse * held.input.turned_px.x;
   c->to_look_rad -= drag * mouse * held.input.turned_px.y * inverted;
-  c->to_look_rad += kRadians * s.turn_speed_dps * passed_s * std::clamp(held.Axis(Action::kLookUp, Action::kLookDown) + stick.y * inverted, -1.0f, 1.0f);
+  c->to_look_rad += kRadians * s.turn_speed_dps * passed_s *
+                    std::clamp(held.Axis(Action::kLookUp, Action::kLookDown) + stick.y * inverted, -1.0f, 1.0f);
   const float turn = std::clamp(held.Axis(Action::kTurnLeft, Action::kTurnRight) - stick.x, -1.0f, 1.0f);
   if (s.snap_turn_deg <= 0) {
     c->turn_radps = kRadians * s.turn_speed_dps * turn;
@@ -67,10 +68,12 @@ void Walk(const Held& held, float yaw_rad, Controls* c, CameraInput* camera) {
 }
 
 void ChangeView(const Held& held, const Simulation& s, Controls* c) {
-  const float step = static_cast<float>(held.Pressed(Action::kWider)) - static_cast<float>(held.Pressed(Action::kNarrower));
+  const float step =
+      static_cast<float>(held.Pressed(Action::kWider)) - static_cast<float>(held.Pressed(Action::kNarrower));
   if (step == 0) return;
   const float now_deg = s.visitor.camera.view.fov_rad / kRadians;
-  c->settings.field_of_view_deg = std::clamp(std::round(now_deg) + kViewStep_deg * step, kMinFieldOfView_deg, kMaxFieldOfView_deg);
+  c->settings.field_of_view_deg =
+      std::clamp(std::round(now_deg) + kViewStep_deg * step, kMinFieldOfView_deg, kMaxFieldOfView_deg);
   c->changed = c->applies = true;
 }
 
@@ -138,7 +141,8 @@ void ResetKeys(Controls* c) {
   c->changed = true;
 }
 
-void TakeInput(const WindowInput& input, float passed_s, float aspect, bool pages, const Simulation& s, Controls* c, CameraInput* camera) {
+void TakeInput(const WindowInput& input, float passed_s, float aspect, bool pages, const Simulation& s, Controls* c,
+               CameraInput* camera) {
   const Held held{input, c};
   if (pages) {
     c->quits = c->quits || input.close;
@@ -151,7 +155,8 @@ void TakeInput(const WindowInput& input, float passed_s, float aspect, bool page
     camera->walk_to = GroundAt(s.town.walkable, s.visitor.camera, click, aspect);
     if (camera->walk_to) c->follows_tour = false;
   }
-  c->acted = c->acted || camera->speed_mps > 0 || Length(input.turned_px) > 0 || c->turn_radps != 0 || !input.clicks.empty();
+  c->acted =
+      c->acted || camera->speed_mps > 0 || Length(input.turned_px) > 0 || c->turn_radps != 0 || !input.clicks.empty();
   for (size_t k = 0; k < kActions; ++k) c->was_down[k] = held.Down(static_cast<Action>(k));
 }
 
@@ -177,7 +182,8 @@ float TurnUntil(float share, const Simulation& s, const Controls& c) {
 }
 
 float LookUntilNow(const Simulation& s, const Controls& c) {
-  return std::clamp(s.visitor.camera.pitch_rad + c.to_look_rad, -kMaxPitch_rad, kMaxPitch_rad) - s.visitor.camera.pitch_rad;
+  return std::clamp(s.visitor.camera.pitch_rad + c.to_look_rad, -kMaxPitch_rad, kMaxPitch_rad) -
+         s.visitor.camera.pitch_rad;
 }
 
 }  // namespace flaneur

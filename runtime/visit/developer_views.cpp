@@ -9,10 +9,11 @@
 namespace flaneur {
 namespace {
 
-constexpr ImU32 kHouse = IM_COL32(92, 84, 76, 255), kInner = IM_COL32(255, 214, 90, 255), kOuter = IM_COL32(120, 190, 255, 255);
+constexpr ImU32 kHouse = IM_COL32(92, 84, 76, 255), kInner = IM_COL32(255, 214, 90, 255),
+                kOuter = IM_COL32(120, 190, 255, 255);
 constexpr ImU32 kZone = IM_COL32(255, 255, 255, 90), kCameraObstacle = IM_COL32(255, 90, 200, 200);
-constexpr ImU32 kHigh = IM_COL32(255, 72, 60, 255), kLow = IM_COL32(255, 190, 80, 255), kBoundary = IM_COL32(90, 170, 255, 255),
-                kOutside = IM_COL32(150, 150, 150, 255);
+constexpr ImU32 kHigh = IM_COL32(255, 72, 60, 255), kLow = IM_COL32(255, 190, 80, 255),
+                kBoundary = IM_COL32(90, 170, 255, 255), kOutside = IM_COL32(150, 150, 150, 255);
 constexpr const char* kAdaptations[] = {"off", "paper", "full"};
 
 // Metres to pixels; north is up, the visitor in the middle.
@@ -52,7 +53,8 @@ void DrawWedge(const Plan& plan, Vec2 apex, const ViewCamera& camera, ImU32 colo
 void DrawVolumes(const Plan& plan, const Simulation& s) {
   const ViewCamera& c = s.visitor.camera.view;
   const Vec2 ahead{std::cos(c.yaw_rad), std::sin(c.yaw_rad)};
-  for (float radius_m : {s.control.settings.r_personal_m, s.control.levels.r_high_m, s.control.settings.r_unimportant_m}) {
+  for (float radius_m :
+       {s.control.settings.r_personal_m, s.control.levels.r_high_m, s.control.settings.r_unimportant_m}) {
     plan.list->AddCircle(plan(c.position), radius_m * plan.pixels_per_m, kZone, 0, 1.5f);
   }
   DrawWedge(plan, c.position - ahead * s.control.outer_apex_back_m, c, kOuter);
@@ -93,7 +95,9 @@ void ShowPlan(float size_px, DeveloperViews* views, const Simulation& s) {
     ImGui::NewLine();
     const ImVec2 low = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     const float height_px = std::max(32.0f, room.y - 24);
-    const Plan plan{ImGui::GetWindowDrawList(), {low.x + room.x / 2, low.y + height_px / 2}, s.visitor.camera.view.position,
+    const Plan plan{ImGui::GetWindowDrawList(),
+                    {low.x + room.x / 2, low.y + height_px / 2},
+                    s.visitor.camera.view.position,
                     std::min(room.x, height_px) / (2 * views->half_width_m)};
     plan.list->PushClipRect(low, {low.x + room.x, low.y + height_px}, true);
     DrawTown(plan, s.town.walkable);
@@ -114,7 +118,8 @@ void Graph(const char* name, const std::array<float, ViewsHistory::kFrames>& val
   std::snprintf(text, sizeof text, "%s: %.*f", name, last < 100 ? 1 : 0, static_cast<double>(last));
   ImGui::PushID(name);
   ImGui::SetNextItemWidth(-1);
-  ImGui::PlotLines("##values", values.data(), static_cast<int>(values.size()), static_cast<int>(next), text, 0, top, {0, 48});
+  ImGui::PlotLines("##values", values.data(), static_cast<int>(values.size()), static_cast<int>(next), text, 0, top,
+                   {0, 48});
   ImGui::PopID();
 }
 
@@ -127,16 +132,21 @@ void ShowGraphs(const FrameStatistics& statistics, int width_px, const ViewsHist
     Graph("people as meshes", h.high, h.next, static_cast<float>(s->control.levels.limit) * 1.3f);
     Graph("people's triangles", h.triangles, h.next, s->control.levels.budget_triangles);
     Graph("frame time, ms", h.frame_ms, h.next, 17);
-    ImGui::Text("limit %d, budget %.0f triangles", s->control.levels.limit, static_cast<double>(s->control.levels.budget_triangles));
-    ImGui::Text("%zu people, %d drawn, %d hidden", s->town.crowd.size(), statistics.people_drawn, statistics.people_hidden);
-    if (statistics.people_not_loaded > 0) ImGui::Text("%d drawn otherwise: not loaded yet", statistics.people_not_loaded);
-    ImGui::Text("%d draw calls, town %lld triangles", statistics.draw_calls, static_cast<long long>(statistics.town_triangles));
+    ImGui::Text("limit %d, budget %.0f triangles", s->control.levels.limit,
+                static_cast<double>(s->control.levels.budget_triangles));
+    ImGui::Text("%zu people, %d drawn, %d hidden", s->town.crowd.size(), statistics.people_drawn,
+                statistics.people_hidden);
+    if (statistics.people_not_loaded > 0)
+      ImGui::Text("%d drawn otherwise: not loaded yet", statistics.people_not_loaded);
+    ImGui::Text("%d draw calls, town %lld triangles", statistics.draw_calls,
+                static_cast<long long>(statistics.town_triangles));
     ImGui::Text("drawn at %.0f %% of width and height", 100 * static_cast<double>(statistics.resolution_scale));
     ImGui::Text("adaptation (F2)");
     for (int k = 0; k < 3; ++k) {
       if (k > 0) ImGui::SameLine();
       const auto value = static_cast<Adaptation>(k);
-      if (ImGui::RadioButton(kAdaptations[k], s->control.settings.adaptation == value)) s->control.settings.adaptation = value;
+      if (ImGui::RadioButton(kAdaptations[k], s->control.settings.adaptation == value))
+        s->control.settings.adaptation = value;
     }
   }
   ImGui::End();
@@ -155,7 +165,8 @@ void SwitchAdaptation(Simulation* s) {
   s->control.settings.adaptation = static_cast<Adaptation>((static_cast<int>(s->control.settings.adaptation) + 1) % 3);
 }
 
-void ShowViews(const FrameStatistics& statistics, int width_px, int height_px, DeveloperViews* views, Simulation* simulation) {
+void ShowViews(const FrameStatistics& statistics, int width_px, int height_px, DeveloperViews* views,
+               Simulation* simulation) {
   ShowPlan(std::min(static_cast<float>(width_px) * 0.42f, static_cast<float>(height_px) * 0.72f), views, *simulation);
   ShowGraphs(statistics, width_px, views->history, simulation);
 }

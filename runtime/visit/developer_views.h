@@ -1,10 +1,10 @@
-// Views for the curious: a live plan of the town with both view volumes, zones, obstacles and people coloured by class (the paper's
-// Figs. 3, 4, 8 and 12), graphs of the last while, and a switch of the adaptation.
+// Views for the curious: a live plan of the town with both view volumes, zones, obstacles and people coloured by class
+// (the paper's Figs. 3, 4, 8 and 12), graphs of the last while, and a switch of the adaptation.
 #pragma once
 #include <array>
 
-#include "runtime/simulation/simulation.h"
 #include "runtime/render/frame.h"
+#include "runtime/simulation/simulation.h"
 
 namespace flaneur {
 
@@ -21,12 +21,14 @@ struct DeveloperViews {
   ViewsHistory history;
 };
 
-void RememberFrame(const Simulation& simulation, const FrameStatistics& statistics, float frame_ms, ViewsHistory* history);
+void RememberFrame(const Simulation& simulation, const FrameStatistics& statistics, float frame_ms,
+                   ViewsHistory* history);
 
 // Off to paper to full and round again.
 void SwitchAdaptation(Simulation* simulation);
 
 // Between an Overlay's Begin and Draw.
-void ShowViews(const FrameStatistics& statistics, int width_px, int height_px, DeveloperViews* views, Simulation* simulation);
+void ShowViews(const FrameStatistics& statistics, int width_px, int height_px, DeveloperViews* views,
+               Simulation* simulation);
 
 }  // namespace flaneur

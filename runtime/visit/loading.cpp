@@ -13,14 +13,15 @@
 #endif
 
 #include "runtime/base/clock.h"
-#include "runtime/show/guide_figure.h"
 #include "runtime/render/surface_plan.h"
+#include "runtime/show/guide_figure.h"
 
 namespace flaneur {
 namespace {
 
-// The pieces on their way are large and soon gone: what they took goes back to the system at once, not into the allocator's stock.
-// Those that many pieces need for a moment (a mesh's tables take 4 MB) would cost more time in the system than their reading.
+// The pieces on their way are large and soon gone: what they took goes back to the system at once, not into the
+// allocator's stock. Those that many pieces need for a moment (a mesh's tables take 4 MB) would cost more time in the
+// system than their reading.
 void KeepNoStock() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 6 * 1024 * 1024);
@@ -38,39 +39,46 @@ void KeepForPictures() {
 #endif
 }
 
-constexpr size_t kMaxReadyAssets = 4;  // pieces that wait for their upload; faster threads wait too, for people's pictures take 10 MB each
+constexpr size_t kMaxReadyAssets =
+    4;  // pieces that wait for their upload; faster threads wait too, for people's pictures take 10 MB each
 
 // What is read at a time: one mesh of the town, or all of another asset.
-struct Task { size_t asset = 0; int town_mesh = -1; };
+struct Task {
+  size_t asset = 0;
+  int town_mesh = -1;
+};
 
 // What a slice does: reads, or makes ready what has been read.
-struct Piece { bool read = false; size_t index = 0; };  // of tasks, of assets
+struct Piece {
+  bool read = false;
+  size_t index = 0;
+};  // of tasks, of assets
 
 }  // namespace
 
 struct Loader::Impl {
   PackFile file;
-  TourPack pack;                 // PartsForAssets: pieces are read into it, made ready, and taken out again
+  TourPack pack;  // PartsForAssets: pieces are read into it, made ready, and taken out again
   std::vector<AssetId> assets;
   AssetStages stages;
   std::vector<Task> tasks;
   Jobs* jobs = nullptr;
-  size_t most_readers = 0;       // that there is a thread for
+  size_t most_readers = 0;  // that there is a thread for
 
   std::mutex mutex;
   std::condition_variable changed;
   size_t next_task = 0, unread_tasks = 0, town_meshes_left = 0, readers = 0;
-  size_t in_hand = 0;            // assets but the town that are being read or wait for their upload
+  size_t in_hand = 0;  // assets but the town that are being read or wait for their upload
   bool may_prepare = false, may_go_on = false, stop = false;
-  SurfacePlan plan;              // of the renderer
+  SurfacePlan plan;  // of the renderer
   AtlasFormats formats;
-  std::deque<size_t> read;       // assets
+  std::deque<size_t> read;  // assets
   std::deque<Asset> ready;
   Error error;
 
-  std::vector<bool> uploaded;    // by asset; only of the thread with the context, as what follows
+  std::vector<bool> uploaded;  // by asset; only of the thread with the context, as what follows
   size_t uploads = 0;
-  std::vector<Job> reading;      // last, so that it ends first: it uses the rest
+  std::vector<Job> reading;  // last, so that it ends first: it uses the rest
 
   void GoOnReading(size_t most_more);
   bool ReadHere();
@@ -107,10 +115,14 @@ Error Loader::Impl::Read(const Task& task) {
   const AssetId& id = assets[task.asset];
   const auto index = static_cast<size_t>(id.index);
   switch (id.kind) {
-    case AssetKind::kTown: return task.town_mesh >= 0 ? ReadMesh(task.town_mesh) : Ok();
-    case AssetKind::kPicture: return file.ReadImage(id.index, &pack.images[index]);
-    case AssetKind::kLevel: return ReadLevel(id);
-    case AssetKind::kAtlas: return file.ReadAtlas(id.index, &pack.avatars[index].impostor);
+    case AssetKind::kTown:
+      return task.town_mesh >= 0 ? ReadMesh(task.town_mesh) : Ok();
+    case AssetKind::kPicture:
+      return file.ReadImage(id.index, &pack.images[index]);
+    case AssetKind::kLevel:
+      return ReadLevel(id);
+    case AssetKind::kAtlas:
+      return file.ReadAtlas(id.index, &pack.avatars[index].impostor);
   }
   return Ok();
 }
@@ -139,7 +151,8 @@ void Loader::Impl::Prepare(size_t index) {
   changed.notify_all();
 }
 
-// What may be done now; guarded. Nothing: until the renderer, the first picture or the upload has come further, or ever.
+// What may be done now; guarded. Nothing: until the renderer, the first picture or the upload has come further, or
+// ever.
 std::optional<Piece> Loader::Impl::NextPiece() {
   if (stop) return {};
   if (!read.empty() && may_prepare && ready.size() < kMaxReadyAssets) {
@@ -201,7 +214,9 @@ void Loader::Impl::GoOnReading(size_t most_more) {
     more = std::min(most_more, most_readers - readers);
     readers += more;
   }
-  for (; more > 0; --more) reading.push_back(StartJob(jobs, [this] { return DoPiece(); }, Urgency::kMeanwhile));
+  for (; more > 0; --more)
+    reading.push_back(StartJob(
+        jobs, [this] { return DoPiece(); }, Urgency::kMeanwhile));
 }
 
 // Without threads: does the next piece. False: none may be done, or threads do it.
@@ -221,7 +236,8 @@ void Loader::Impl::StopWithError(Error e) {
 }
 
 bool Loader::Impl::AreUploaded(size_t first_assets) const {
-  return std::all_of(uploaded.begin(), uploaded.begin() + static_cast<std::ptrdiff_t>(first_assets), [](bool u) { return u; });
+  return std::all_of(uploaded.begin(), uploaded.begin() + static_cast<std::ptrdiff_t>(first_assets),
+                     [](bool u) { return u; });
 }
 
 Loader::Loader(Jobs* jobs) : impl_(std::make_unique<Impl>()) {

@@ -27,8 +27,8 @@ class Loader {
   Error Upload(double most_ms, Renderer* renderer);
   Error UploadAll(Renderer* renderer);
 
-  bool TownIsThere() const;        // with its pictures
-  bool LikenessesAreThere() const; // and everybody can be drawn somehow
+  bool TownIsThere() const;         // with its pictures
+  bool LikenessesAreThere() const;  // and everybody can be drawn somehow
   bool Done() const;
 
  private:

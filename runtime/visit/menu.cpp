@@ -11,9 +11,9 @@
 namespace flaneur {
 namespace {
 
-constexpr float kLettersHigh = 22, kLettersWide = 30;  // how many the picture has room for
+constexpr float kLettersHigh = 22, kLettersWide = 30;            // how many the picture has room for
 constexpr float kRow = 1.55f, kPageWidth = 24, kKeysWidth = 28;  // in letters
-constexpr float kKeyNames = 0.39f, kKeyButton = 0.295f;  // of that
+constexpr float kKeyNames = 0.39f, kKeyButton = 0.295f;          // of that
 constexpr const char* kCutShort = "…";
 constexpr float kStickPushed = 0.5f;
 constexpr float kRadians = kPi / 180;
@@ -24,7 +24,7 @@ struct PageView {
   Controls* controls;
   std::string language;
   float letter_px, width_px;
-  size_t rows;                // that fit on a page beside its head and foot
+  size_t rows;  // that fit on a page beside its head and foot
   MenuChoice choice;
 
   const char* Words(Phrase phrase) const { return Say(phrase, language); }
@@ -34,7 +34,8 @@ struct PageView {
 // As much of the text as has room.
 std::string Fitted(const std::string& text, float most_px) {
   std::string fitted = text;
-  for (size_t end = text.size(); end > 0 && ImGui::CalcTextSize(fitted.c_str()).x > most_px; fitted = text.substr(0, end) + kCutShort) {
+  for (size_t end = text.size(); end > 0 && ImGui::CalcTextSize(fitted.c_str()).x > most_px;
+       fitted = text.substr(0, end) + kCutShort) {
     while (--end > 0 && (text[end] & 0xC0) == 0x80) {  // within a letter of several bytes
     }
   }
@@ -94,7 +95,8 @@ std::string Number(const PageView& v, const char* format, float value) {
   char text[32];
   std::snprintf(text, sizeof text, format, static_cast<double>(value));
   std::string number = text;
-  if (const size_t point = number.find('.'); point != std::string::npos) number.replace(point, 1, v.Words(Phrase::kDecimalPoint));
+  if (const size_t point = number.find('.'); point != std::string::npos)
+    number.replace(point, 1, v.Words(Phrase::kDecimalPoint));
   return number;
 }
 
@@ -129,7 +131,8 @@ void FollowTour(PageView* v) {
 void ShowMain(PageView* v) {
   const GuidedTour& tour = v->s.visitor.tour;
   Controls* c = v->controls;
-  if (Row(*v, v->Words(v->menu->begins ? Phrase::kBegin : Phrase::kContinue), "continue")) OpenPage(Page::kNone, v->menu);
+  if (Row(*v, v->Words(v->menu->begins ? Phrase::kBegin : Phrase::kContinue), "continue"))
+    OpenPage(Page::kNone, v->menu);
   if (!tour.stops.empty()) {
     const bool led = c->follows_tour && !v->s.visitor.finished;
     if (Row(*v, v->Words(led ? Phrase::kFreeWalk : Phrase::kTour), "tour")) {
@@ -154,7 +157,8 @@ void ShowStops(PageView* v) {
   const bool led = v->controls->follows_tour && !v->s.visitor.tour.over;
   PagedRows(halts.size(), v, [&](size_t k) {
     std::string text = std::to_string(k + 1) + "   " + NameOfStop(v->s.visitor.tour, halts[k]);
-    if (led && halts[k] == HaltOf(v->s.visitor.tour)) text += std::string("   (") + v->Words(v->s.visitor.tour.resting ? Phrase::kNow : Phrase::kNext) + ")";
+    if (led && halts[k] == HaltOf(v->s.visitor.tour))
+      text += std::string("   (") + v->Words(v->s.visitor.tour.resting ? Phrase::kNow : Phrase::kNext) + ")";
     if (!Row(*v, text, std::to_string(k))) return;
     v->choice.stop = halts[k];
     v->controls->follows_tour = true;
@@ -168,27 +172,41 @@ void ShowSetting(size_t row, PageView* v) {
   PlayerSettings& s = v->controls->settings;
   const float view_deg = v->s.visitor.camera.view.fov_rad / kRadians;
   switch (row) {
-    case 0: return Step(Amount(*v, v->Words(Phrase::kWalkSpeed), Number(*v, "%.1f m/s", s.walk_speed_mps)), 0.1f, 0.3f, 3, &s.walk_speed_mps, v);
-    case 1: return Step(Amount(*v, v->Words(Phrase::kTurnSpeed), Number(*v, "%.0f°/s", s.turn_speed_dps)), 10, 10, 360, &s.turn_speed_dps, v);
+    case 0:
+      return Step(Amount(*v, v->Words(Phrase::kWalkSpeed), Number(*v, "%.1f m/s", s.walk_speed_mps)), 0.1f, 0.3f, 3,
+                  &s.walk_speed_mps, v);
+    case 1:
+      return Step(Amount(*v, v->Words(Phrase::kTurnSpeed), Number(*v, "%.0f°/s", s.turn_speed_dps)), 10, 10, 360,
+                  &s.turn_speed_dps, v);
     case 2: {
-      const std::string value = s.snap_turn_deg > 0 ? Number(*v, "%.0f°", s.snap_turn_deg) : v->Words(Phrase::kSmoothly);
+      const std::string value =
+          s.snap_turn_deg > 0 ? Number(*v, "%.0f°", s.snap_turn_deg) : v->Words(Phrase::kSmoothly);
       return Step(Amount(*v, v->Words(Phrase::kSnapTurn), value), 15, 0, 90, &s.snap_turn_deg, v);
     }
-    case 3: return Step(Amount(*v, v->Words(Phrase::kMouseSpeed), Number(*v, "%.1f", s.mouse_speed)), 0.1f, 0.1f, 10, &s.mouse_speed, v);
+    case 3:
+      return Step(Amount(*v, v->Words(Phrase::kMouseSpeed), Number(*v, "%.1f", s.mouse_speed)), 0.1f, 0.1f, 10,
+                  &s.mouse_speed, v);
     case 4: {
       const int steps = Amount(*v, v->Words(Phrase::kFieldOfView), Number(*v, "%.0f°", view_deg));
       if (steps != 0) s.field_of_view_deg = view_deg;
       return Step(steps, 5, 30, 120, &s.field_of_view_deg, v);
     }
-    case 5: return Step(Amount(*v, v->Words(Phrase::kVolume), Number(*v, "%.0f %%", 100 * s.sound_volume)), 0.1f, 0, 1, &s.sound_volume, v);
-    case 6: return Switch(v->Words(Phrase::kReducedMotion), &s.reduced_motion, v);
-    case 7: return Switch(v->Words(Phrase::kInvertLook), &s.invert_look, v);
-    case 8: return Step(Amount(*v, v->Words(Phrase::kFramesPerSecond), Number(*v, "%.0f", s.frames_per_s)), 5, 5, 240, &s.frames_per_s, v);
+    case 5:
+      return Step(Amount(*v, v->Words(Phrase::kVolume), Number(*v, "%.0f %%", 100 * s.sound_volume)), 0.1f, 0, 1,
+                  &s.sound_volume, v);
+    case 6:
+      return Switch(v->Words(Phrase::kReducedMotion), &s.reduced_motion, v);
+    case 7:
+      return Switch(v->Words(Phrase::kInvertLook), &s.invert_look, v);
+    case 8:
+      return Step(Amount(*v, v->Words(Phrase::kFramesPerSecond), Number(*v, "%.0f", s.frames_per_s)), 5, 5, 240,
+                  &s.frames_per_s, v);
     case 9: {
       const std::string value = Number(*v, "%.0f %%", 100 * s.least_resolution_scale);
       return Step(Amount(*v, v->Words(Phrase::kLeastResolution), value), 0.05f, 0.25f, 1, &s.least_resolution_scale, v);
     }
-    default: break;
+    default:
+      break;
   }
   const std::string how = v->Words(v->controls->points ? Phrase::kMousePoints : Phrase::kMouseLooks);
   if (!Row(*v, std::string(v->Words(Phrase::kMouse)) + ": " + how, "mouse")) return;
@@ -200,7 +218,8 @@ void ShowSetting(size_t row, PageView* v) {
 std::string KeysOf(const PageView& v, Action action, bool pad) {
   std::string list;
   for (int code : v.controls->codes[static_cast<size_t>(action)]) {
-    if (IsGamepadCode(code) == pad) list += (list.empty() ? "" : ", ") + KeyName(InputLabel(code, v.controls->layout), v.language);
+    if (IsGamepadCode(code) == pad)
+      list += (list.empty() ? "" : ", ") + KeyName(InputLabel(code, v.controls->layout), v.language);
   }
   if (!list.empty()) return list;
   return v.Words(pad && action <= Action::kLookDown ? Phrase::kStick : Phrase::kNothing);
@@ -238,11 +257,16 @@ void ShowKeys(PageView* v) {
 
 void ShowRows(PageView* v) {
   switch (v->menu->page) {
-    case Page::kNone: return;
-    case Page::kMain: return ShowMain(v);
-    case Page::kStops: return ShowStops(v);
-    case Page::kSettings: return PagedRows(kSettingRows, v, [&](size_t row) { ShowSetting(row, v); });
-    case Page::kKeys: return ShowKeys(v);
+    case Page::kNone:
+      return;
+    case Page::kMain:
+      return ShowMain(v);
+    case Page::kStops:
+      return ShowStops(v);
+    case Page::kSettings:
+      return PagedRows(kSettingRows, v, [&](size_t row) { ShowSetting(row, v); });
+    case Page::kKeys:
+      return ShowKeys(v);
   }
 }
 
@@ -253,7 +277,9 @@ Phrase TitleOf(Page page) {
 // Dark, warm and large, with the button that is meant clearly brighter.
 struct PageStyle {
   explicit PageStyle(float letter_px) {
-    const auto color = [](ImGuiCol which, float r, float g, float b, float a) { ImGui::PushStyleColor(which, {r, g, b, a}); };
+    const auto color = [](ImGuiCol which, float r, float g, float b, float a) {
+      ImGui::PushStyleColor(which, {r, g, b, a});
+    };
     color(ImGuiCol_WindowBg, 0.07f, 0.06f, 0.05f, 0.86f);
     color(ImGuiCol_Border, 0, 0, 0, 0);
     color(ImGuiCol_Text, 0.97f, 0.95f, 0.90f, 1);
@@ -276,7 +302,8 @@ struct PageStyle {
   PageStyle& operator=(const PageStyle&) = delete;
 };
 
-constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+constexpr ImGuiWindowFlags kPlain =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 
 size_t RowsThatFit(int height_px, float letter_px) {
   const float row_px = (kRow + 0.28f) * letter_px, rest_px = static_cast<float>(height_px) - 6.5f * letter_px;
@@ -322,7 +349,8 @@ OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, int wi
   out.passed_s = passed_s;
   if (menu.page == Page::kNone || menu.lets_go) return out;
   const auto down = [&](std::initializer_list<const char*> names) {
-    return std::any_of(names.begin(), names.end(), [&](const char* name) { return input.down[static_cast<size_t>(InputCode(name))]; });
+    return std::any_of(names.begin(), names.end(),
+                       [&](const char* name) { return input.down[static_cast<size_t>(InputCode(name))]; });
   };
   out.up = down({"up", "pad_up"}) || input.left_stick.y > kStickPushed;
   out.down = down({"down", "pad_down"}) || input.left_stick.y < -kStickPushed;
@@ -351,15 +379,24 @@ void TakePageInput(const WindowInput& input, Menu* menu, Controls* c) {
     return;
   }
   c->quits = c->quits || is_pressed(Action::kQuit);
-  if (back || pressed[static_cast<size_t>(InputCode("pad_b"))]) OpenPage(menu->page == Page::kMain ? Page::kNone : Page::kMain, menu);
+  if (back || pressed[static_cast<size_t>(InputCode("pad_b"))])
+    OpenPage(menu->page == Page::kMain ? Page::kNone : Page::kMain, menu);
 }
 
-MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px, int height_px, Menu* menu, Controls* c) {
+MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px, int height_px, Menu* menu,
+                    Controls* c) {
   if (menu->page == Page::kNone) return {};
   const Page page = menu->page;
   const ImVec2 picture{static_cast<float>(width_px), static_cast<float>(height_px)};
   const float letter_px = PageLetter_px(width_px, height_px);
-  PageView view{s, menu, c, PageLanguage(*c, s), letter_px, std::min((page == Page::kKeys ? kKeysWidth : kPageWidth) * letter_px, picture.x - 2 * letter_px), RowsThatFit(height_px, letter_px), {}};
+  PageView view{s,
+                menu,
+                c,
+                PageLanguage(*c, s),
+                letter_px,
+                std::min((page == Page::kKeys ? kKeysWidth : kPageWidth) * letter_px, picture.x - 2 * letter_px),
+                RowsThatFit(height_px, letter_px),
+                {}};
   const LargeText large;
   const PageStyle style(letter_px);
   ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, picture, IM_COL32(0, 0, 0, 110));
@@ -388,7 +425,8 @@ bool ShowMenuButton(int width_px, int height_px) {
   const bool pressed = ImGui::Button("###menu", {side_px, side_px});
   for (int line = 0; line < 3; ++line) {
     const float y = low.y + side_px * (0.3f + 0.2f * static_cast<float>(line));
-    ImGui::GetWindowDrawList()->AddLine({low.x + side_px * 0.25f, y}, {low.x + side_px * 0.75f, y}, IM_COL32(247, 242, 230, 255), side_px / 14);
+    ImGui::GetWindowDrawList()->AddLine({low.x + side_px * 0.25f, y}, {low.x + side_px * 0.75f, y},
+                                        IM_COL32(247, 242, 230, 255), side_px / 14);
   }
   ImGui::End();
   ImGui::PopStyleVar();

@@ -1,13 +1,13 @@
-// The visitor's pages over the picture: go on, tour or free walk, the tour's stops, language, settings, keys. By mouse, touch, keyboard
-// and gamepad; what is chosen counts at once.
+// The visitor's pages over the picture: go on, tour or free walk, the tour's stops, language, settings, keys. By mouse,
+// touch, keyboard and gamepad; what is chosen counts at once.
 #pragma once
 #include <bitset>
 #include <optional>
 #include <string>
 
-#include "runtime/visit/controls.h"
-#include "runtime/simulation/simulation.h"
 #include "runtime/render/overlay.h"
+#include "runtime/simulation/simulation.h"
+#include "runtime/visit/controls.h"
 
 namespace flaneur {
 
@@ -15,17 +15,17 @@ enum class Page { kNone, kMain, kStops, kSettings, kKeys };
 
 struct Menu {
   Page page = Page::kNone;
-  bool begins = false;             // somebody new meets the pages before the town
-  size_t first = 0;                // of the rows, where not all fit
-  std::optional<Action> rebinds;   // whose new key is waited for
-  bool rebinds_pad = false;        // a button, not a key
-  bool lets_go = false;            // whatever is held now was meant for that
+  bool begins = false;            // somebody new meets the pages before the town
+  size_t first = 0;               // of the rows, where not all fit
+  std::optional<Action> rebinds;  // whose new key is waited for
+  bool rebinds_pad = false;       // a button, not a key
+  bool lets_go = false;           // whatever is held now was meant for that
   std::bitset<kInputCodes> was_down;
 };
 
 struct MenuChoice {
   bool ends = false;
-  std::optional<size_t> stop;      // of the tour, to go to now
+  std::optional<size_t> stop;  // of the tour, to go to now
 };
 
 void OpenPage(Page page, Menu* menu);
@@ -47,7 +47,8 @@ OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, int wi
 void TakePageInput(const WindowInput& input, Menu* menu, Controls* controls);
 
 // These between an Overlay's Begin and Draw. The page that is open, or nothing.
-MenuChoice ShowMenu(const std::string& title, const Simulation& simulation, int width_px, int height_px, Menu* menu, Controls* controls);
+MenuChoice ShowMenu(const std::string& title, const Simulation& simulation, int width_px, int height_px, Menu* menu,
+                    Controls* controls);
 // In the picture's corner, for who has no keys. True when it is pressed.
 bool ShowMenuButton(int width_px, int height_px);
 

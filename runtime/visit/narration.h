@@ -17,6 +17,7 @@ struct Narration {
 };
 
 // Once a picture. holds: everything stands still.
-void Narrate(const GuidedTour& tour, bool holds, const std::vector<std::vector<uint8_t>>& sounds, Narration* last, SoundOutput* output);
+void Narrate(const GuidedTour& tour, bool holds, const std::vector<std::vector<uint8_t>>& sounds, Narration* last,
+             SoundOutput* output);
 
 }  // namespace flaneur

@@ -51,7 +51,8 @@ void TellOfTour(const Controls& c, const Simulation& s, const std::string& langu
   const GuidedTour& t = s.visitor.tour;
   if (t.paused && !n->paused) Tell(Fill(Say(Phrase::kTourPaused, language), FirstKey(c, Action::kPause, language)), n);
   if (n->paused && !t.paused && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
-  if (n->follows && !c.follows_tour && !t.over) Tell(Fill(Say(Phrase::kTourLeft, language), HowTo(c, Action::kTour, language)), n);
+  if (n->follows && !c.follows_tour && !t.over)
+    Tell(Fill(Say(Phrase::kTourLeft, language), HowTo(c, Action::kTour, language)), n);
   if (!n->follows && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
   const std::string next = NameOfStop(t, HaltOf(t));
   if (n->halt == HaltOf(t) || !c.follows_tour || next.empty()) return;
@@ -82,7 +83,8 @@ void FollowNotices(const Controls& c, const Simulation& s, float passed_s, Notic
   const std::string language = PageLanguage(c, s);
   if (HasTour(s.visitor.tour)) TellOfTour(c, s, language, n);
   if (s.visitor.tour.over && !n->over) Tell(Say(Phrase::kTourOver, language), n);
-  if (s.visitor.tour.language != n->language && !n->is_hint) Tell(Say(Phrase::kLanguage, language) + (": " + LanguageName(language)), n);
+  if (s.visitor.tour.language != n->language && !n->is_hint)
+    Tell(Say(Phrase::kLanguage, language) + (": " + LanguageName(language)), n);
   Remember(c, s, n);
 }
 

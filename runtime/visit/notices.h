@@ -1,19 +1,19 @@
-// Short words to the visitor at the foot of the picture: how to walk, that the tour waits, how to come back to it, what is next.
-// They go by themselves.
+// Short words to the visitor at the foot of the picture: how to walk, that the tour waits, how to come back to it, what
+// is next. They go by themselves.
 #pragma once
 #include <string>
 
-#include "runtime/visit/controls.h"
-#include "runtime/simulation/simulation.h"
 #include "runtime/render/frame.h"
+#include "runtime/simulation/simulation.h"
+#include "runtime/visit/controls.h"
 
 namespace flaneur {
 
 struct Notices {
   std::string text;
-  float left_s = 0;             // that it is still shown
-  bool is_hint = false;         // how to walk
-  bool gives_way = false;       // to the tour's captions
+  float left_s = 0;                                   // that it is still shown
+  bool is_hint = false;                               // how to walk
+  bool gives_way = false;                             // to the tour's captions
   bool paused = false, follows = true, over = false;  // as seen last, these and the following
   size_t halt = 0;
   std::string language;

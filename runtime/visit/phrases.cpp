@@ -6,7 +6,9 @@
 namespace flaneur {
 namespace {
 
-struct Words { const char *en, *de; };
+struct Words {
+  const char *en, *de;
+};
 
 // In the order of Phrase.
 constexpr std::array<Words, static_cast<size_t>(Phrase::kCount)> kPhrases{{
@@ -48,10 +50,14 @@ constexpr std::array<Words, static_cast<size_t>(Phrase::kCount)> kPhrases{{
     {"press a button", "Knopf drücken"},
     {"none", "keine"},
     {"stick", "Stick"},
-    {"%s walk, the mouse looks around, a click leads you there.", "%s: gehen. Die Maus blickt umher, ein Klick führt dorthin."},
-    {"Tap where you want to go, drag to look around.", "Tippen Sie an, wohin Sie möchten; ziehen Sie, um sich umzusehen."},
-    {"The guided tour leads you. The mouse looks around; %s: walk on your own.", "Die Führung geht voran. Die Maus blickt umher; %s: selbst gehen."},
-    {"The guided tour leads you. Drag to look around, tap to walk on your own.", "Die Führung geht voran. Ziehen Sie, um sich umzusehen, tippen Sie, um selbst zu gehen."},
+    {"%s walk, the mouse looks around, a click leads you there.",
+     "%s: gehen. Die Maus blickt umher, ein Klick führt dorthin."},
+    {"Tap where you want to go, drag to look around.",
+     "Tippen Sie an, wohin Sie möchten; ziehen Sie, um sich umzusehen."},
+    {"The guided tour leads you. The mouse looks around; %s: walk on your own.",
+     "Die Führung geht voran. Die Maus blickt umher; %s: selbst gehen."},
+    {"The guided tour leads you. Drag to look around, tap to walk on your own.",
+     "Die Führung geht voran. Ziehen Sie, um sich umzusehen, tippen Sie, um selbst zu gehen."},
     {"More: %s", "Mehr: %s"},
     {"The tour waits. %s goes on.", "Die Führung wartet. Weiter: %s"},
     {"The tour goes on.", "Die Führung geht weiter."},
@@ -85,29 +91,53 @@ constexpr std::array<Words, kActions> kActionWords{{
 }};
 
 // By their English labels.
-constexpr std::pair<const char*, const char*> kGermanKeys[] = {
-    {"Space", "Leertaste"}, {"Backspace", "Rücktaste"}, {"Insert", "Einfg"}, {"Delete", "Entf"}, {"Home", "Pos1"}, {"End", "Ende"},
-    {"Page Up", "Bild ↑"}, {"Page Down", "Bild ↓"}, {"Left Shift", "Umschalt links"}, {"Right Shift", "Umschalt rechts"},
-    {"Left Control", "Strg links"}, {"Right Control", "Strg rechts"}, {"Left Alt", "Alt"}, {"Right Alt", "Alt Gr"}, {"Menu", "Menü"},
-    {"Left Bumper", "Schulter links"}, {"Right Bumper", "Schulter rechts"}, {"Left Stick", "Stick links"}, {"Right Stick", "Stick rechts"},
-    {"Back", "Zurück"}, {"Up", "oben"}, {"Down", "unten"}, {"Left", "links"}, {"Right", "rechts"}, {"Enter", "Eingabe"}};
+constexpr std::pair<const char*, const char*> kGermanKeys[] = {{"Space", "Leertaste"},
+                                                               {"Backspace", "Rücktaste"},
+                                                               {"Insert", "Einfg"},
+                                                               {"Delete", "Entf"},
+                                                               {"Home", "Pos1"},
+                                                               {"End", "Ende"},
+                                                               {"Page Up", "Bild ↑"},
+                                                               {"Page Down", "Bild ↓"},
+                                                               {"Left Shift", "Umschalt links"},
+                                                               {"Right Shift", "Umschalt rechts"},
+                                                               {"Left Control", "Strg links"},
+                                                               {"Right Control", "Strg rechts"},
+                                                               {"Left Alt", "Alt"},
+                                                               {"Right Alt", "Alt Gr"},
+                                                               {"Menu", "Menü"},
+                                                               {"Left Bumper", "Schulter links"},
+                                                               {"Right Bumper", "Schulter rechts"},
+                                                               {"Left Stick", "Stick links"},
+                                                               {"Right Stick", "Stick rechts"},
+                                                               {"Back", "Zurück"},
+                                                               {"Up", "oben"},
+                                                               {"Down", "unten"},
+                                                               {"Left", "links"},
+                                                               {"Right", "rechts"},
+                                                               {"Enter", "Eingabe"}};
 
 constexpr const char* kKeypad = "Keypad ";
 
 constexpr std::pair<const char*, const char*> kLanguageNames[] = {
-    {"bg", "Български"}, {"cs", "Čeština"}, {"da", "Dansk"}, {"de", "Deutsch"}, {"el", "Ελληνικά"}, {"en", "English"}, {"es", "Español"},
-    {"et", "Eesti"}, {"fi", "Suomi"}, {"fr", "Français"}, {"hr", "Hrvatski"}, {"hu", "Magyar"}, {"it", "Italiano"}, {"la", "Latina"},
-    {"lt", "Lietuvių"}, {"lv", "Latviešu"}, {"nds", "Plattdüütsch"}, {"nl", "Nederlands"}, {"no", "Norsk"}, {"pl", "Polski"},
-    {"pt", "Português"}, {"ro", "Română"}, {"ru", "Русский"}, {"sk", "Slovenčina"}, {"sl", "Slovenščina"}, {"sv", "Svenska"},
-    {"tr", "Türkçe"}, {"uk", "Українська"}};
+    {"bg", "Български"}, {"cs", "Čeština"},       {"da", "Dansk"},      {"de", "Deutsch"},    {"el", "Ελληνικά"},
+    {"en", "English"},   {"es", "Español"},       {"et", "Eesti"},      {"fi", "Suomi"},      {"fr", "Français"},
+    {"hr", "Hrvatski"},  {"hu", "Magyar"},        {"it", "Italiano"},   {"la", "Latina"},     {"lt", "Lietuvių"},
+    {"lv", "Latviešu"},  {"nds", "Plattdüütsch"}, {"nl", "Nederlands"}, {"no", "Norsk"},      {"pl", "Polski"},
+    {"pt", "Português"}, {"ro", "Română"},        {"ru", "Русский"},    {"sk", "Slovenčina"}, {"sl", "Slovenščina"},
+    {"sv", "Svenska"},   {"tr", "Türkçe"},        {"uk", "Українська"}};
 
 bool IsGerman(const std::string& language) { return language == "de" || language.rfind("de-", 0) == 0; }
 const char* In(const Words& words, const std::string& language) { return IsGerman(language) ? words.de : words.en; }
 
 }  // namespace
 
-const char* Say(Phrase phrase, const std::string& language) { return In(kPhrases[static_cast<size_t>(phrase)], language); }
-const char* NameOf(Action action, const std::string& language) { return In(kActionWords[static_cast<size_t>(action)], language); }
+const char* Say(Phrase phrase, const std::string& language) {
+  return In(kPhrases[static_cast<size_t>(phrase)], language);
+}
+const char* NameOf(Action action, const std::string& language) {
+  return In(kActionWords[static_cast<size_t>(action)], language);
+}
 
 std::string KeyName(const std::string& label, const std::string& language) {
   if (label.rfind(kKeypad, 0) == 0) {

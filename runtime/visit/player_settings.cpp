@@ -15,26 +15,34 @@ namespace {
 // visit.Number(name, value, least, most, about), and the like for the other kinds.
 template <typename Settings, typename Visit>
 void VisitSettings(Settings* s, Visit visit) {
-  visit.Text("language", &s->language, "of the guided tour's captions and sounds, such as \"de\"; \"\": the tour's own");
-  visit.Choice("pointer", &s->pointer, {"look", "point"}, "look: the mouse turns the view; point: drag to turn, click to walk there");
+  visit.Text("language", &s->language,
+             "of the guided tour's captions and sounds, such as \"de\"; \"\": the tour's own");
+  visit.Choice("pointer", &s->pointer, {"look", "point"},
+               "look: the mouse turns the view; point: drag to turn, click to walk there");
   visit.Number("walk_speed_mps", &s->walk_speed_mps, 0.3, 3, "at most; a crowd slows you down");
   visit.Number("turn_speed_dps", &s->turn_speed_dps, 10, 360, "of turning by keys and gamepad");
   visit.Number("mouse_speed", &s->mouse_speed, 0.1, 10, "of turning by mouse, relative to the usual");
-  visit.Number("field_of_view_deg", &s->field_of_view_deg, 0, 120, "from left to right, 30 to 120; 0: as the tour says");
+  visit.Number("field_of_view_deg", &s->field_of_view_deg, 0, 120,
+               "from left to right, 30 to 120; 0: as the tour says");
   visit.Number("snap_turn_deg", &s->snap_turn_deg, 0, 90, "keys and gamepad turn by so much at a time; 0: smoothly");
   visit.Flag("invert_look", &s->invert_look, "pushing the mouse or stick up looks down");
   visit.Flag("reduced_motion", &s->reduced_motion, "the tour turns the view gently and walks slowly, nothing fades");
   visit.Number("sound_volume", &s->sound_volume, 0, 1, "of what is spoken; 1: as recorded");
-  visit.Number("frames_per_s", &s->frames_per_s, 5, 240, "wished for: a machine that draws fewer draws more coarsely instead");
-  visit.Number("least_resolution_scale", &s->least_resolution_scale, 0.25, 1, "as coarsely as that, of width and height; 1: never");
-  visit.Flag("kiosk", &s->kiosk, "for exhibitions: begins with the pages, comes back to them, and cannot be ended there");
+  visit.Number("frames_per_s", &s->frames_per_s, 5, 240,
+               "wished for: a machine that draws fewer draws more coarsely instead");
+  visit.Number("least_resolution_scale", &s->least_resolution_scale, 0.25, 1,
+               "as coarsely as that, of width and height; 1: never");
+  visit.Flag("kiosk", &s->kiosk,
+             "for exhibitions: begins with the pages, comes back to them, and cannot be ended there");
 }
 
 std::vector<std::string> KnownNames() {
   struct Names {
     std::vector<std::string>* out;
     void Text(const char* name, const std::string*, const char*) const { out->push_back(name); }
-    void Choice(const char* name, const std::string*, std::initializer_list<const char*>, const char*) const { out->push_back(name); }
+    void Choice(const char* name, const std::string*, std::initializer_list<const char*>, const char*) const {
+      out->push_back(name);
+    }
     void Number(const char* name, const float*, double, double, const char*) const { out->push_back(name); }
     void Flag(const char* name, const bool*, const char*) const { out->push_back(name); }
   };
@@ -56,7 +64,9 @@ Fields FieldsOf(PlayerSettings* settings) {
   struct Finder {
     Fields* out;
     void Text(const char*, std::string* value, const char*) const { out->texts.push_back(value); }
-    void Choice(const char*, std::string* value, std::initializer_list<const char*>, const char*) const { out->texts.push_back(value); }
+    void Choice(const char*, std::string* value, std::initializer_list<const char*>, const char*) const {
+      out->texts.push_back(value);
+    }
     void Number(const char*, float* value, double, double, const char*) const { out->numbers.push_back(value); }
     void Flag(const char*, bool* value, const char*) const { out->flags.push_back(value); }
   };
@@ -111,7 +121,8 @@ std::string TakeKeys(const toml::node& node, std::vector<std::string>* keys) {
   std::vector<std::string> taken;
   for (const toml::node& element : *array) {
     const std::string key = element.value<std::string>().value_or("");
-    if (InputCode(key) < 0) return "names the key '" + OneLine(key) + "', which there is not" + DidYouMean(key, InputNames());
+    if (InputCode(key) < 0)
+      return "names the key '" + OneLine(key) + "', which there is not" + DidYouMean(key, InputNames());
     taken.push_back(key);
   }
   *keys = std::move(taken);
@@ -147,16 +158,37 @@ struct Writer {
   void Choice(const char* name, const std::string* value, std::initializer_list<const char*>, const char* about) const {
     Line(name, Quoted(*value), about);
   }
-  void Number(const char* name, const float* value, double, double, const char* about) const { Line(name, Compact(static_cast<double>(*value)), about); }
-  void Flag(const char* name, const bool* value, const char* about) const { Line(name, *value ? "true" : "false", about); }
+  void Number(const char* name, const float* value, double, double, const char* about) const {
+    Line(name, Compact(static_cast<double>(*value)), about);
+  }
+  void Flag(const char* name, const bool* value, const char* about) const {
+    Line(name, *value ? "true" : "false", about);
+  }
 };
 
 }  // namespace
 
 PlayerSettings::PlayerSettings()
-    : keys{{{"w", "up"}, {"s", "down"}, {"a"}, {"d"}, {"left", "q"}, {"right", "e"}, {"r"}, {"f"},
-            {"tab", "pad_y"}, {"space", "pad_a"}, {"n", "page_down", "pad_right_bumper"}, {"b", "page_up", "pad_left_bumper"},
-            {"l", "pad_x"}, {"m"}, {"minus", "keypad_subtract"}, {"equal", "keypad_add"}, {"f1"}, {"f2"}, {"escape", "pad_start"}, {"f10"}}} {}
+    : keys{{{"w", "up"},
+            {"s", "down"},
+            {"a"},
+            {"d"},
+            {"left", "q"},
+            {"right", "e"},
+            {"r"},
+            {"f"},
+            {"tab", "pad_y"},
+            {"space", "pad_a"},
+            {"n", "page_down", "pad_right_bumper"},
+            {"b", "page_up", "pad_left_bumper"},
+            {"l", "pad_x"},
+            {"m"},
+            {"minus", "keypad_subtract"},
+            {"equal", "keypad_add"},
+            {"f1"},
+            {"f2"},
+            {"escape", "pad_start"},
+            {"f10"}}} {}
 
 std::filesystem::path PlayerSettingsPath() {
   const char* config = std::getenv("XDG_CONFIG_HOME");
@@ -167,7 +199,8 @@ std::filesystem::path PlayerSettingsPath() {
   return {};
 }
 
-Error ReadPlayerSettings(const std::filesystem::path& path, PlayerSettings* settings, std::vector<std::string>* warnings) {
+Error ReadPlayerSettings(const std::filesystem::path& path, PlayerSettings* settings,
+                         std::vector<std::string>* warnings) {
   std::error_code ec;
   if (path.empty() || !std::filesystem::exists(path, ec)) return Ok();
   toml::table root;
@@ -175,12 +208,14 @@ Error ReadPlayerSettings(const std::filesystem::path& path, PlayerSettings* sett
   const auto take = [&](const std::string& name, const toml::node& node) {
     const std::string wrong = Take(name, node, settings);
     if (wrong.empty()) return;
-    warnings->push_back(path.string() + ":" + std::to_string(node.source().begin.line) + ": " + OneLine(name) + " " + wrong);
+    warnings->push_back(path.string() + ":" + std::to_string(node.source().begin.line) + ": " + OneLine(name) + " " +
+                        wrong);
   };
   for (const auto& [key, node] : root) {
     const toml::table* table = node.as_table();
     if (table == nullptr || key.str() != "keys") take(std::string(key.str()), node);
-    else for (const auto& [action, keys] : *table) take("keys." + std::string(action.str()), keys);
+    else
+      for (const auto& [action, keys] : *table) take("keys." + std::string(action.str()), keys);
   }
   return Ok();
 }

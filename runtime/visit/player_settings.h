@@ -11,32 +11,52 @@ namespace flaneur {
 
 // In the order of kActionNames.
 enum class Action {
-  kWalkAhead, kWalkBack, kWalkLeft, kWalkRight, kTurnLeft, kTurnRight, kLookUp, kLookDown,
-  kTour, kPause, kNext, kBack, kLanguage, kPointer, kWider, kNarrower, kViews, kAdaptation, kMenu, kQuit, kCount
+  kWalkAhead,
+  kWalkBack,
+  kWalkLeft,
+  kWalkRight,
+  kTurnLeft,
+  kTurnRight,
+  kLookUp,
+  kLookDown,
+  kTour,
+  kPause,
+  kNext,
+  kBack,
+  kLanguage,
+  kPointer,
+  kWider,
+  kNarrower,
+  kViews,
+  kAdaptation,
+  kMenu,
+  kQuit,
+  kCount
 };
 inline constexpr size_t kActions = static_cast<size_t>(Action::kCount);
 inline constexpr const char* kActionNames[kActions] = {
-    "walk_ahead", "walk_back", "walk_left", "walk_right", "turn_left", "turn_right", "look_up", "look_down",
-    "tour", "pause", "next", "back", "language", "pointer", "wider", "narrower", "views",
-    "adaptation", "menu", "quit"};
+    "walk_ahead", "walk_back", "walk_left", "walk_right", "turn_left", "turn_right", "look_up",
+    "look_down",  "tour",      "pause",     "next",       "back",      "language",   "pointer",
+    "wider",      "narrower",  "views",     "adaptation", "menu",      "quit"};
 
 struct PlayerSettings {
-  std::string language;          // of the guided tour; empty: the tour's own
-  std::string pointer = "look";  // look: the mouse turns the view; point: drag to turn, click to walk there (touch screens)
+  std::string language;  // of the guided tour; empty: the tour's own
+  std::string pointer =
+      "look";  // look: the mouse turns the view; point: drag to turn, click to walk there (touch screens)
   float walk_speed_mps = 1.5f;
-  float turn_speed_dps = 90;     // by keys and gamepad
+  float turn_speed_dps = 90;  // by keys and gamepad
   float mouse_speed = 1;
-  float field_of_view_deg = 0;   // horizontal; 0: the tour's own
-  float snap_turn_deg = 0;       // turns by keys and gamepad go so far at once; 0: smoothly
+  float field_of_view_deg = 0;  // horizontal; 0: the tour's own
+  float snap_turn_deg = 0;      // turns by keys and gamepad go so far at once; 0: smoothly
   bool invert_look = false;
-  bool reduced_motion = false;   // the tour turns the view gently and walks slowly, nothing fades
-  float sound_volume = 1;        // of what is spoken; 1: as recorded
-  float frames_per_s = 25;       // where a machine draws fewer, the window's picture is drawn more coarsely
+  bool reduced_motion = false;          // the tour turns the view gently and walks slowly, nothing fades
+  float sound_volume = 1;               // of what is spoken; 1: as recorded
+  float frames_per_s = 25;              // where a machine draws fewer, the window's picture is drawn more coarsely
   float least_resolution_scale = 0.5f;  // but not below this share of its width and height; 1: never
-  bool kiosk = false;            // for exhibitions: begins with the pages, comes back to them, and cannot be ended there
+  bool kiosk = false;  // for exhibitions: begins with the pages, comes back to them, and cannot be ended there
   std::array<std::vector<std::string>, kActions> keys;
 
-  PlayerSettings();              // with the default keys
+  PlayerSettings();  // with the default keys
 };
 
 // $XDG_CONFIG_HOME/flaneur/player.toml, else in ~/.config; empty where neither is known.
@@ -44,7 +64,8 @@ std::filesystem::path PlayerSettingsPath();
 
 // What is wrong keeps its default, and is named with FILE:LINE in `warnings`. A file that is not there is all defaults.
 // Errors: unreadable, not TOML.
-Error ReadPlayerSettings(const std::filesystem::path& path, PlayerSettings* settings, std::vector<std::string>* warnings);
+Error ReadPlayerSettings(const std::filesystem::path& path, PlayerSettings* settings,
+                         std::vector<std::string>* warnings);
 
 // "walk_speed_mps=1.2" or "keys.pause=p,pad_x". Errors: no such setting (names the nearest), a value out of range.
 Error SetPlayerSetting(const std::string& assignment, PlayerSettings* settings);

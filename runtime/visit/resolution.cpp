@@ -10,20 +10,22 @@ namespace {
 
 constexpr float kStep = 0.1f;
 constexpr float kMomentStep = 0.1f;
-constexpr float kCoarsest = 0.25f;     // at any moment
-constexpr int kSoon = 10;              // pictures that tell that it takes too long
+constexpr float kCoarsest = 0.25f;                               // at any moment
+constexpr int kSoon = 10;                                        // pictures that tell that it takes too long
 constexpr float kTooLong = 1.05f, kFits = 0.95f, kSpare = 0.9f;  // of the time that a picture may take
-constexpr float kPixelCostMargin = 1.25f;     // what pixels seem to cost, times this
-constexpr float kMinPixels = 0.2f;   // of a picture's time at the least
+constexpr float kPixelCostMargin = 1.25f;                        // what pixels seem to cost, times this
+constexpr float kMinPixels = 0.2f;                               // of a picture's time at the least
 constexpr float kMinPatience_s = 1, kMaxPatience_s = 30;
-constexpr float kTooEarly_s = 10;        // a finer scale that did not last so long was tried too early
-constexpr float kFrameTimeSeparation = 1.2f;         // between this rule's time and that of a budget which follows the frame time
+constexpr float kTooEarly_s = 10;  // a finer scale that did not last so long was tried too early
+constexpr float kFrameTimeSeparation =
+    1.2f;  // between this rule's time and that of a budget which follows the frame time
 
 // The time that `share` of the last `count` pictures did not exceed.
 float Quantile(const Resolution& r, int count, float share) {
   std::array<float, Resolution::kTimes> sorted;
   for (int k = 0; k < count; ++k) {
-    sorted[static_cast<size_t>(k)] = r.took_ms[static_cast<size_t>((r.next + Resolution::kTimes - 1 - k) % Resolution::kTimes)];
+    sorted[static_cast<size_t>(k)] =
+        r.took_ms[static_cast<size_t>((r.next + Resolution::kTimes - 1 - k) % Resolution::kTimes)];
   }
   const auto nth = sorted.begin() + static_cast<int>(share * static_cast<float>(count - 1));
   std::nth_element(sorted.begin(), nth, sorted.begin() + count);
@@ -88,18 +90,21 @@ void FollowPictureTime(float took_ms, bool moves, const ResolutionSettings& s, R
   if (r->times == kSoon) LearnFromChange(usual_ms, r);
   if (usual_ms > kTooLong * s.frame_ms && r->scale > s.least_scale) {
     float scale = Coarser(r->scale, s.least_scale);
-    while (scale > s.least_scale && InProportion_ms(usual_ms, r->scale, scale) > kFits * s.frame_ms) scale = Coarser(scale, s.least_scale);
+    while (scale > s.least_scale && InProportion_ms(usual_ms, r->scale, scale) > kFits * s.frame_ms)
+      scale = Coarser(scale, s.least_scale);
     return Change(scale, usual_ms, r);
   }
   if (r->scale >= 1 || r->times < Resolution::kTimes || r->steady_s < r->patience_s) return;
   const float finer = Finer(r->scale);
-  if (Finer_ms(Quantile(*r, Resolution::kTimes, 0.9f), *r, r->scale, finer) <= kSpare * s.frame_ms) Change(finer, usual_ms, r);
+  if (Finer_ms(Quantile(*r, Resolution::kTimes, 0.9f), *r, r->scale, finer) <= kSpare * s.frame_ms)
+    Change(finer, usual_ms, r);
 }
 
 ResolutionSettings ResolutionFor(float frames_per_s, float least_scale, const ControlSettings& control) {
   float frame_ms = 1000 / frames_per_s;
   const float apart = frame_ms / control.target_ms;
-  if (control.method == LimitMethod::kFrameTime && apart > 1 / kFrameTimeSeparation && apart < kFrameTimeSeparation) frame_ms = kFrameTimeSeparation * control.target_ms;
+  if (control.method == LimitMethod::kFrameTime && apart > 1 / kFrameTimeSeparation && apart < kFrameTimeSeparation)
+    frame_ms = kFrameTimeSeparation * control.target_ms;
   return {frame_ms, least_scale};
 }
 

@@ -2,26 +2,28 @@
 
 #include <algorithm>
 
-#include "runtime/visit/controls.h"
+#include "runtime/render/overlay.h"
+#include "runtime/render/renderer.h"
 #include "runtime/show/frame_from_simulation.h"
+#include "runtime/visit/controls.h"
+#include "runtime/visit/developer_views.h"
 #include "runtime/visit/menu.h"
 #include "runtime/visit/narration.h"
 #include "runtime/visit/notices.h"
 #include "runtime/visit/resolution.h"
-#include "runtime/visit/developer_views.h"
-#include "runtime/render/overlay.h"
-#include "runtime/render/renderer.h"
 
 namespace flaneur {
 namespace {
 
-constexpr double kLongUpload_ms = 50, kUpload_ms = 3;  // of what has been loaded: before the first picture, and in each later one
+constexpr double kLongUpload_ms = 50,
+                 kUpload_ms = 3;      // of what has been loaded: before the first picture, and in each later one
 constexpr int kMaxStepsPerFrame = 4;  // a machine that can't keep up slows the town down rather than freeze
 constexpr float kNobodyThere_s = 90;  // without a key, a click or a move, in an exhibition
 
 bool IsUsed(const WindowInput& input) {
   constexpr float kMoved = 0.3f;
-  return input.down.any() || input.pressed || Length(input.turned_px) > 0 || Length(input.left_stick) > kMoved || Length(input.right_stick) > kMoved;
+  return input.down.any() || input.pressed || Length(input.turned_px) > 0 || Length(input.left_stick) > kMoved ||
+         Length(input.right_stick) > kMoved;
 }
 
 }  // namespace
@@ -45,10 +47,10 @@ struct Visit::Impl {
   Narration narration{};
   Resolution resolution{};
   float own_fov_rad = 0;
-  double owed_s = 0;           // of simulated time
-  float unused_s = 0;          // since the visitor's hands did anything
+  double owed_s = 0;   // of simulated time
+  float unused_s = 0;  // since the visitor's hands did anything
   int width_px = 0, height_px = 0;
-  bool for_pages = false;      // what the hands do in this picture, even where that closes them
+  bool for_pages = false;  // what the hands do in this picture, even where that closes them
 
   bool pages() const { return menu.page != Page::kNone; }
   bool hidden() const { return width_px <= 0 || height_px <= 0; }
@@ -166,7 +168,8 @@ void Visit::Impl::Draw(float passed_s) {
   RememberFrame(*s, statistics, passed_s * 1000, &views.history);
 }
 
-Visit::Visit(const TourPack& pack, Loader* loader, const PlayerSettings& settings, const Shell& shell, Simulation* simulation)
+Visit::Visit(const TourPack& pack, Loader* loader, const PlayerSettings& settings, const Shell& shell,
+             Simulation* simulation)
     : impl_(new Impl{pack, loader, settings, shell, simulation}) {}
 Visit::~Visit() = default;
 
@@ -214,7 +217,10 @@ void Visit::TellTime(float took_ms) {
   constexpr float kMoves_mps = 0.3f, kTurns_radps = 0.2f;
   const CameraState& camera = v.s->visitor.camera;
   const bool moves = camera.actual_mps > kMoves_mps || std::abs(camera.yaw_rate_radps) > kTurns_radps;
-  if (!v.hidden()) FollowPictureTime(took_ms, moves, ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, v.s->control.settings), &v.resolution);
+  if (!v.hidden())
+    FollowPictureTime(took_ms, moves,
+                      ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, v.s->control.settings),
+                      &v.resolution);
 }
 
 void Visit::Present() {

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "runtime/base/error.h"
-#include "runtime/visit/loading.h"
-#include "runtime/visit/shell.h"
+#include "runtime/render/frame.h"
 #include "runtime/simulation/records.h"
 #include "runtime/simulation/simulation.h"
-#include "runtime/render/frame.h"
+#include "runtime/visit/loading.h"
+#include "runtime/visit/shell.h"
 #include "runtime/visit/window_input.h"
 
 namespace flaneur {
@@ -17,27 +17,29 @@ namespace flaneur {
 // Needs a current OpenGL context for its whole life, and what it is given as long.
 class Visit {
  public:
-  Visit(const TourPack& pack, Loader* loader, const PlayerSettings& settings, const Shell& shell, Simulation* simulation);
+  Visit(const TourPack& pack, Loader* loader, const PlayerSettings& settings, const Shell& shell,
+        Simulation* simulation);
   ~Visit();
   // onto_window: RenderOptions::onto_window. Errors: those of Renderer::Begin.
   Error Begin(bool onto_window = false);
-  // Uploads some of what has been loaded; `there` becomes true once there is enough for a picture. Errors: those of the pack.
+  // Uploads some of what has been loaded; `there` becomes true once there is enough for a picture. Errors: those of the
+  // pack.
   Error Load(bool* there);
   // Once after Load. views: the plan and the graphs are shown.
   Error Enter(bool views);
 
-  // The next picture, of a window of this size, passed_s after the one before; 0 pixels: the window is hidden. Each step of the
-  // simulation goes into `records`. Errors: those of the pack, which still streams in.
+  // The next picture, of a window of this size, passed_s after the one before; 0 pixels: the window is hidden. Each
+  // step of the simulation goes into `records`. Errors: those of the pack, which still streams in.
   Error Picture(const WindowInput& input, int width_px, int height_px, float passed_s, Records* records);
   // What the last picture took until it could be shown, as far as the processor knows; what the graphics card took over
   // the one before, the renderer knows. By the longer the next ones are drawn more coarsely or finely, as the settings
   // say. Who never tells has them as fine as the window.
   void TellTime(float took_ms);
-  void Present();               // onto the window's surface
+  void Present();                        // onto the window's surface
   void Read(std::vector<uint8_t>* rgb);  // the last picture: RGB, 8 bits a channel, top row first
-  void Leave();                 // saves what the visitor has changed
-  bool ends() const;            // the visitor wants to
-  bool frees_pointer() const;   // to point at things with; else the mouse is caught
+  void Leave();                          // saves what the visitor has changed
+  bool ends() const;                     // the visitor wants to
+  bool frees_pointer() const;            // to point at things with; else the mouse is caught
   bool shows_pages() const;
   const FrameStatistics& statistics() const;
 

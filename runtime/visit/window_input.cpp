@@ -6,34 +6,71 @@
 namespace flaneur {
 namespace {
 
-struct Named { const char* name; int code; };
+struct Named {
+  const char* name;
+  int code;
+};
 
 // Keys are numbered as GLFW numbers them; runtime/desktop holds both to the same.
 constexpr Named kNamed[] = {
-    {"space", 32}, {"apostrophe", 39}, {"comma", 44}, {"minus", 45},
-    {"period", 46}, {"slash", 47}, {"semicolon", 59}, {"equal", 61},
-    {"left_bracket", 91}, {"backslash", 92}, {"right_bracket", 93},
-    {"grave", 96}, {"escape", 256}, {"enter", 257}, {"tab", 258},
-    {"backspace", 259}, {"insert", 260}, {"delete", 261}, {"right", 262},
-    {"left", 263}, {"down", 264}, {"up", 265}, {"page_up", 266},
-    {"page_down", 267}, {"home", 268}, {"end", 269}, {"left_shift", 340},
-    {"left_control", 341}, {"left_alt", 342}, {"right_shift", 344},
-    {"right_control", 345}, {"right_alt", 346}, {"menu", 348},
-    {"keypad_add", 334}, {"keypad_subtract", 333}, {"keypad_enter", 335},
-    {"pad_a", kFirstPadCode + 0}, {"pad_b", kFirstPadCode + 1},
-    {"pad_x", kFirstPadCode + 2}, {"pad_y", kFirstPadCode + 3},
-    {"pad_left_bumper", kFirstPadCode + 4}, {"pad_right_bumper", kFirstPadCode + 5},
-    {"pad_back", kFirstPadCode + 6}, {"pad_start", kFirstPadCode + 7},
-    {"pad_left_stick", kFirstPadCode + 9}, {"pad_right_stick", kFirstPadCode + 10},
-    {"pad_up", kFirstPadCode + 11}, {"pad_right", kFirstPadCode + 12},
-    {"pad_down", kFirstPadCode + 13}, {"pad_left", kFirstPadCode + 14},
+    {"space", 32},
+    {"apostrophe", 39},
+    {"comma", 44},
+    {"minus", 45},
+    {"period", 46},
+    {"slash", 47},
+    {"semicolon", 59},
+    {"equal", 61},
+    {"left_bracket", 91},
+    {"backslash", 92},
+    {"right_bracket", 93},
+    {"grave", 96},
+    {"escape", 256},
+    {"enter", 257},
+    {"tab", 258},
+    {"backspace", 259},
+    {"insert", 260},
+    {"delete", 261},
+    {"right", 262},
+    {"left", 263},
+    {"down", 264},
+    {"up", 265},
+    {"page_up", 266},
+    {"page_down", 267},
+    {"home", 268},
+    {"end", 269},
+    {"left_shift", 340},
+    {"left_control", 341},
+    {"left_alt", 342},
+    {"right_shift", 344},
+    {"right_control", 345},
+    {"right_alt", 346},
+    {"menu", 348},
+    {"keypad_add", 334},
+    {"keypad_subtract", 333},
+    {"keypad_enter", 335},
+    {"pad_a", kFirstPadCode + 0},
+    {"pad_b", kFirstPadCode + 1},
+    {"pad_x", kFirstPadCode + 2},
+    {"pad_y", kFirstPadCode + 3},
+    {"pad_left_bumper", kFirstPadCode + 4},
+    {"pad_right_bumper", kFirstPadCode + 5},
+    {"pad_back", kFirstPadCode + 6},
+    {"pad_start", kFirstPadCode + 7},
+    {"pad_left_stick", kFirstPadCode + 9},
+    {"pad_right_stick", kFirstPadCode + 10},
+    {"pad_up", kFirstPadCode + 11},
+    {"pad_right", kFirstPadCode + 12},
+    {"pad_down", kFirstPadCode + 13},
+    {"pad_left", kFirstPadCode + 14},
 };
 
 constexpr Named kLabels[] = {{"←", 263}, {"→", 262}, {"↑", 265}, {"↓", 264}, {"Esc", 256}};
 
 template <typename Range>
 const char* Find(const Range& range, int code) {
-  const auto* const found = std::find_if(std::begin(range), std::end(range), [&](const Named& n) { return n.code == code; });
+  const auto* const found =
+      std::find_if(std::begin(range), std::end(range), [&](const Named& n) { return n.code == code; });
   return found != std::end(range) ? found->name : nullptr;
 }
 

@@ -9,16 +9,16 @@
 
 namespace flaneur {
 
-inline constexpr int kInputCodes = 512;   // of keys and gamepad buttons
+inline constexpr int kInputCodes = 512;    // of keys and gamepad buttons
 inline constexpr int kFirstPadCode = 400;  // of the gamepad buttons, behind all keys
 
 struct WindowInput {
   std::bitset<kInputCodes> down;  // or pressed since the last call, however shortly
-  Vec2 turned_px;                 // by the mouse: x to the right, y down; where the pointer is free, while its left button is held
-  Vec2 left_stick, right_stick;   // of the first gamepad: x to the right, y up, each -1 to 1
-  std::vector<Vec2> clicks;       // 0 to 1 from the picture's upper left corner; its middle where the pointer is caught
-  Vec2 pointer{-1, -1};           // likewise; negative where it is caught
-  bool pressed = false;           // its left button
+  Vec2 turned_px;  // by the mouse: x to the right, y down; where the pointer is free, while its left button is held
+  Vec2 left_stick, right_stick;  // of the first gamepad: x to the right, y up, each -1 to 1
+  std::vector<Vec2> clicks;      // 0 to 1 from the picture's upper left corner; its middle where the pointer is caught
+  Vec2 pointer{-1, -1};          // likewise; negative where it is caught
+  bool pressed = false;          // its left button
   bool close = false;
 };
 

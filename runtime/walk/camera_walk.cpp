@@ -5,28 +5,28 @@
 
 #include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/walls.h"
-#include "runtime/walk/guide.h"
 #include "runtime/town/loitering.h"
+#include "runtime/walk/guide.h"
 
 namespace flaneur {
 namespace {
 
-constexpr float kTourYawRate_radps = 0.9f;    // a calm turn of the head
-constexpr float kLookAhead_m = 3.0f;          // people within this ahead slow the camera
-constexpr float kDenseAhead_pm2 = 5.4f;       // nobody walks at this density (Weidmann 1993)
+constexpr float kTourYawRate_radps = 0.9f;  // a calm turn of the head
+constexpr float kLookAhead_m = 3.0f;        // people within this ahead slow the camera
+constexpr float kDenseAhead_pm2 = 5.4f;     // nobody walks at this density (Weidmann 1993)
 constexpr float kMinSpeedFactor = 0.2f;
 constexpr float kReached_m = 0.3f;
-constexpr float kGiveUp_s = 6;                // a leg whose way is barred ends
-constexpr float kGettingOn_m = 0.5f;          // who stays within this is stuck, even if not quite still
+constexpr float kGiveUp_s = 6;        // a leg whose way is barred ends
+constexpr float kGettingOn_m = 0.5f;  // who stays within this is stuck, even if not quite still
 constexpr float kTourSpeed_mps = 1.3f;
-constexpr float kLooksAhead_m = 2.5f;         // along the tour's route
+constexpr float kLooksAhead_m = 2.5f;  // along the tour's route
 constexpr float kAtHalt_m = 1;
 constexpr float kGentleYawRate_radps = 0.35f, kGentleSpeed_mps = 1.0f;
-constexpr float kLooksAbout_s = 2.5f;         // after looking to the side, until the tour turns the view again
+constexpr float kLooksAbout_s = 2.5f;  // after looking to the side, until the tour turns the view again
 constexpr float kGiveUpPoint_s = 3;
-constexpr float kStands = 0.05f;              // share of the pace
-constexpr float kSidestep_m = 0.7f;           // looked ahead when walking round people
-constexpr float kPatience_s = 1.5f;           // after which those who stand in the way move on
+constexpr float kStands = 0.05f;     // share of the pace
+constexpr float kSidestep_m = 0.7f;  // looked ahead when walking round people
+constexpr float kPatience_s = 1.5f;  // after which those who stand in the way move on
 constexpr float kLoitererYieldRadius_m = 2;
 
 void TurnTowards(float yaw_rad, float rate_radps, const VisitorInTown& v) {
@@ -55,7 +55,8 @@ float FreeShare(const VisitorInTown& v, Vec2 step) {
   if (step2 <= 0) return 0;
   for (size_t i = 0; i < v.town.crowd.size(); ++i) {
     const Vec2 off = v.town.crowd.position[i] - v.visitor.camera.view.position;
-    const float reach_m = v.settings.r_personal_m + v.town.crowd.radius_m[i] + 0.06f;  // room for the person's own next step
+    const float reach_m =
+        v.settings.r_personal_m + v.town.crowd.radius_m[i] + 0.06f;  // room for the person's own next step
     const float along = Dot(off, step);
     if (along <= 0) continue;
     const float gap2 = Dot(off, off) - reach_m * reach_m;
@@ -72,7 +73,8 @@ Vec2 RoundPeople(const VisitorInTown& v, Vec2 way) {
   Vec2 best = way;
   float most = 0;
   for (const float turn : {0.0f, -0.5f, 0.5f, -1.0f, 1.0f, -1.5f, 1.5f}) {  // the right first, as people pass
-    const Vec2 direction{way.x * std::cos(turn) - way.y * std::sin(turn), way.x * std::sin(turn) + way.y * std::cos(turn)};
+    const Vec2 direction{way.x * std::cos(turn) - way.y * std::sin(turn),
+                         way.x * std::sin(turn) + way.y * std::cos(turn)};
     if (!IsFree(v.town.walkable, v.visitor.camera.view.position + direction * kSidestep_m)) continue;
     const float progress_m = FreeShare(v, direction * kSidestep_m) * (std::cos(turn) + 0.2f);
     if (progress_m > most + 0.01f) most = progress_m, best = direction;
@@ -89,7 +91,8 @@ void Walk(Vec2 direction, float asked_mps, const VisitorInTown& v) {
   Vec2 step = direction * (speed * Step_s(v.settings));
   step = step * FreeShare(v, step);
   const Vec2 target = before + step;
-  if (InsideObstacle(v.town.walkable, before)) camera.view.position = target;  // let a camera out that a scenario put in a wall
+  if (InsideObstacle(v.town.walkable, before))
+    camera.view.position = target;  // let a camera out that a scenario put in a wall
   else camera.view.position = KeepOffWalls(v.town.walkable, before, target, kCameraRadius_m);
   camera.velocity = (camera.view.position - before) * (1 / Step_s(v.settings));
   camera.actual_mps = Length(camera.velocity);
@@ -136,7 +139,8 @@ float TourSpeed_mps(const VisitorInTown& v) { return v.visitor.gentle ? kGentleS
 
 // Unless the visitor looks elsewhere just now.
 void TurnForTour(float yaw_rad, const VisitorInTown& v) {
-  if (v.visitor.looks_about_s <= 0) TurnTowards(yaw_rad, v.visitor.gentle ? kGentleYawRate_radps : kTourYawRate_radps, v);
+  if (v.visitor.looks_about_s <= 0)
+    TurnTowards(yaw_rad, v.visitor.gentle ? kGentleYawRate_radps : kTourYawRate_radps, v);
 }
 
 void TurnCamera(float yaw_rate_radps, const VisitorInTown& v) {
@@ -172,7 +176,8 @@ void FollowPoint(float speed_mps, bool turns, const VisitorInTown& v) {
 // For somebody who walked about while the tour rests.
 void ReturnToHalt(const VisitorInTown& v) {
   const Vec2 p = v.visitor.camera.view.position;
-  const Vec2 way = WayStraightOrRound(v.town.walkable, p, v.visitor.tour.stops[HaltOf(v.visitor.tour)].position_m, &v.visitor.tour.corner, &v.town.crowd.search);
+  const Vec2 way = WayStraightOrRound(v.town.walkable, p, v.visitor.tour.stops[HaltOf(v.visitor.tour)].position_m,
+                                      &v.visitor.tour.corner, &v.town.crowd.search);
   if (Length(way) < 0.5f) return;
   TurnForTour(std::atan2(way.y, way.x), v);
   Walk(RoundPeople(v, way), TourSpeed_mps(v), v);

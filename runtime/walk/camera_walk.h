@@ -1,4 +1,5 @@
-// How the camera moves: by the visitor, a scenario's legs or the guided tour, always under the crowd's rules (paper, 4.3.2).
+// How the camera moves: by the visitor, a scenario's legs or the guided tour, always under the crowd's rules
+// (paper, 4.3.2).
 #pragma once
 #include "runtime/walk/visitor.h"
 

@@ -11,25 +11,26 @@
 namespace flaneur {
 namespace {
 
-constexpr float kLead_m = 3.6f;            // along the route, before the visitor
-constexpr float kCatchesUp_ps = 0.9f;      // metres a second for each metre that the lead is short of that
+constexpr float kLead_m = 3.6f;        // along the route, before the visitor
+constexpr float kCatchesUp_ps = 0.9f;  // metres a second for each metre that the lead is short of that
 constexpr float kSetsOff_mps = 0.4f, kStops_mps = 0.15f;
-constexpr float kWaits_m = 7;              // a visitor farther than this has to come first
-constexpr float kNearHalt_m = 3;           // from the route's end the guide goes to where to stand there
+constexpr float kWaits_m = 7;     // a visitor farther than this has to come first
+constexpr float kNearHalt_m = 3;  // from the route's end the guide goes to where to stand there
 constexpr float kOffPlace_m = 0.5f, kAtPlace_m = 0.15f;
 constexpr float kToPlace_mps = 1.3f;
-constexpr float kAhead_m = 0.8f, kFullPace_m = 2.0f;     // lead with which the visitor begins to walk, and walks as usual
-constexpr float kPatience_s = 4;           // of a visitor who waits for the guide to get ahead
-constexpr float kBesideView_rad = 0.32f;   // to the side of what there is to see at a halt
-constexpr float kClears_m = 0.15f;         // people keep so much more than touching from the guide
+constexpr float kAhead_m = 0.8f, kFullPace_m = 2.0f;  // lead with which the visitor begins to walk, and walks as usual
+constexpr float kPatience_s = 4;                      // of a visitor who waits for the guide to get ahead
+constexpr float kBesideView_rad = 0.32f;              // to the side of what there is to see at a halt
+constexpr float kClears_m = 0.15f;                    // people keep so much more than touching from the guide
 constexpr float kStuck_s = 1.5f, kGetsOn_m = 0.5f, kLoitererYieldRadius_m = 1.6f;
-constexpr float kFarthest_m = 20;          // of a new route the guide is looked for so far
+constexpr float kFarthest_m = 20;  // of a new route the guide is looked for so far
 
 bool Find(const VisitorInTown& v) {
   Guide& g = v.visitor.guide;
   if (g.id < 0) return false;
   if (g.index < v.town.crowd.size() && v.town.crowd.id[g.index] == g.id) return true;
-  g.index = static_cast<size_t>(std::find(v.town.crowd.id.begin(), v.town.crowd.id.end(), g.id) - v.town.crowd.id.begin());
+  g.index =
+      static_cast<size_t>(std::find(v.town.crowd.id.begin(), v.town.crowd.id.end(), g.id) - v.town.crowd.id.begin());
   return g.index < v.town.crowd.size();
 }
 
@@ -41,7 +42,8 @@ bool CanStand(const VisitorInTown& v, Vec2 stop, Vec2 p) {
 Vec2 PlaceAt(const VisitorInTown& v, size_t halt) {
   const TourStop& stop = v.visitor.tour.stops[halt];
   const float looks_rad = LookAt_rad(v.visitor.tour, halt);
-  const float least_m = v.settings.r_personal_m + v.town.residents[static_cast<size_t>(v.visitor.guide.avatar)].radius_m + 0.3f;
+  const float least_m =
+      v.settings.r_personal_m + v.town.residents[static_cast<size_t>(v.visitor.guide.avatar)].radius_m + 0.3f;
   for (const float wider : {1.0f, 1.8f, 3.0f, 5.0f, 0.0f, 7.0f}) {
     for (const float far_m : {std::max(2.8f, least_m), std::max(2.0f, least_m), least_m}) {
       for (const float side : {-1.0f, 1.0f}) {
@@ -67,7 +69,8 @@ void FollowPlan(Vec2 p, const VisitorInTown& v) {
 }
 
 bool GoesToPlace(const VisitorInTown& v) {
-  return v.visitor.tour.resting || v.visitor.tour.over || LengthOf_m(v.visitor.tour.route) - v.visitor.guide.way_m < kNearHalt_m;
+  return v.visitor.tour.resting || v.visitor.tour.over ||
+         LengthOf_m(v.visitor.tour.route) - v.visitor.guide.way_m < kNearHalt_m;
 }
 
 // Speed along the route: the visitor's own, and what the lead asks for.
@@ -75,7 +78,8 @@ float LeadingSpeed_mps(const VisitorInTown& v, Vec2 p) {
   const bool far = Length(p - v.visitor.camera.view.position) > kWaits_m;
   const float lead_m = v.visitor.guide.way_m - v.visitor.tour.visitor_m;
   if (v.visitor.tour.paused || (far && (lead_m > kLead_m || !v.visitor.tour.follows))) return 0;
-  const Vec2 ahead = PointAt(v.visitor.tour.route, v.visitor.tour.visitor_m + 1) - PointAt(v.visitor.tour.route, v.visitor.tour.visitor_m);
+  const Vec2 ahead = PointAt(v.visitor.tour.route, v.visitor.tour.visitor_m + 1) -
+                     PointAt(v.visitor.tour.route, v.visitor.tour.visitor_m);
   const float ahead_m = Length(ahead);
   const float visitor_mps = ahead_m > 1e-3f ? std::max(0.0f, Dot(v.visitor.camera.velocity, ahead) / ahead_m) : 0;
   return std::clamp(visitor_mps + kCatchesUp_ps * (kLead_m - lead_m), 0.0f, v.town.settings.top_speed_mps);
@@ -87,7 +91,8 @@ Vec2 Wanted(Vec2 p, const VisitorInTown& v) {
     const float left_m = Length(g.place - p);
     g.walks = left_m > (g.walks ? kAtPlace_m : kOffPlace_m);
     if (!g.walks) return {};
-    return WayStraightOrRound(v.town.walkable, p, g.place, &g.corner, &v.town.crowd.search) * std::min(kToPlace_mps, kStops_mps + 1.5f * left_m);
+    return WayStraightOrRound(v.town.walkable, p, g.place, &g.corner, &v.town.crowd.search) *
+           std::min(kToPlace_mps, kStops_mps + 1.5f * left_m);
   }
   const float speed_mps = LeadingSpeed_mps(v, p);
   g.walks = speed_mps > (g.walks ? kStops_mps : kSetsOff_mps);
@@ -113,7 +118,8 @@ float OwnShareOfPace(const VisitorInTown& v) {
 // The free place nearest to the way that the tour begins with, a few steps ahead.
 bool FindStart(const VisitorInTown& v, Vec2* start) {
   const Vec2 visitor = v.visitor.camera.view.position;
-  const float least_m = v.settings.r_personal_m + v.town.residents[static_cast<size_t>(v.visitor.guide.avatar)].radius_m + 0.3f;
+  const float least_m =
+      v.settings.r_personal_m + v.town.residents[static_cast<size_t>(v.visitor.guide.avatar)].radius_m + 0.3f;
   const auto fits = [&](Vec2 p) {
     if (!IsFree(v.town.walkable, p) || Length(p - visitor) < least_m) return false;
     for (size_t i = 0; i < v.town.crowd.size(); ++i) {
@@ -127,7 +133,8 @@ bool FindStart(const VisitorInTown& v, Vec2* start) {
   }
   *start = PlaceAt(v, HaltOf(v.visitor.tour));
   if (Length(*start - visitor) < kWaits_m && fits(*start)) return true;
-  const int cell = NearestFreeCell(v.town.walkable, visitor + DirectionOf(v.visitor.camera.view.yaw_rad) * kLead_m, kLead_m);
+  const int cell =
+      NearestFreeCell(v.town.walkable, visitor + DirectionOf(v.visitor.camera.view.yaw_rad) * kLead_m, kLead_m);
   if (cell >= 0) *start = CellCenter(v.town.walkable, cell);
   return cell >= 0 && fits(*start);
 }

@@ -1,4 +1,5 @@
-// The guide: one of the townspeople, who walks ahead of the visitor, waits, and faces them at the stops. Internal to runtime/walk.
+// The guide: one of the townspeople, who walks ahead of the visitor, waits, and faces them at the stops. Internal to
+// runtime/walk.
 #pragma once
 #include <vector>
 
@@ -8,18 +9,18 @@
 namespace flaneur {
 
 struct Guide {
-  int avatar = -1;         // -1: the tour has none
-  int id = -1;             // in the crowd; -1: not there
-  size_t index = 0;        // in the crowd's arrays
-  int plans = 0;           // of the tour, that place and way_m are about
-  float way_m = 0;         // how far along the tour's route
-  Vec2 place;              // where to stand at the halt
-  bool walks = false;      // else stands and faces the visitor
-  Vec2 velocity;           // wanted
-  Corner corner;           // of the way back to the route
-  float stuck_s = 0;       // since the guide got away from stuck_at
+  int avatar = -1;     // -1: the tour has none
+  int id = -1;         // in the crowd; -1: not there
+  size_t index = 0;    // in the crowd's arrays
+  int plans = 0;       // of the tour, that place and way_m are about
+  float way_m = 0;     // how far along the tour's route
+  Vec2 place;          // where to stand at the halt
+  bool walks = false;  // else stands and faces the visitor
+  Vec2 velocity;       // wanted
+  Corner corner;       // of the way back to the route
+  float stuck_s = 0;   // since the guide got away from stuck_at
   Vec2 stuck_at;
-  float waited_s = 0;      // how long the visitor has waited for the guide to get ahead
+  float waited_s = 0;  // how long the visitor has waited for the guide to get ahead
 };
 
 // In the crowd, on the way that the tour begins with.
@@ -34,7 +35,8 @@ float LookOfLeave_rad(float now_rad, const VisitorInTown& v);
 // Before the crowd's step: where the guide wants to walk now.
 void LeadOn(const VisitorInTown& v);
 
-// Before and after the control looks at the crowd: nobody asks the guide to make room, and everybody makes room for the guide.
+// Before and after the control looks at the crowd: nobody asks the guide to make room, and everybody makes room for the
+// guide.
 void ShieldGuide(const VisitorInTown& v, std::vector<MovingObstacle>* moving);
 void UnshieldGuide(const VisitorInTown& v);
 

@@ -8,13 +8,15 @@
 namespace flaneur {
 namespace {
 
-constexpr float kPassed_m = 0.5f;         // before a stop that is only on the way
-constexpr float kThere_m = 0.35f, kThereFreely_m = 1.8f;  // from a halt: for a visitor whom the tour leads, and who walks freely
-constexpr float kHears_m = 6;             // who is farther from a halt has left it for now
-constexpr float kStrays_m = 3;            // from the route
+constexpr float kPassed_m = 0.5f;  // before a stop that is only on the way
+constexpr float kThere_m = 0.35f,
+                kThereFreely_m = 1.8f;  // from a halt: for a visitor whom the tour leads, and who walks freely
+constexpr float kHears_m = 6;           // who is farther from a halt has left it for now
+constexpr float kStrays_m = 3;          // from the route
 constexpr float kReroute_s = 1;
-constexpr float kBackwards_m = 2, kForwards_m = 4;  // along the route: the visitor is looked for so near where they were
-constexpr float kAgain_s = 3;             // back within this goes to the halt before, later to this one's beginning
+constexpr float kBackwards_m = 2,
+                kForwards_m = 4;  // along the route: the visitor is looked for so near where they were
+constexpr float kAgain_s = 3;     // back within this goes to the halt before, later to this one's beginning
 constexpr float kAfterSound_s = 0.7f;
 constexpr float kMinReading_s = 2, kReading_sPerLetter = 0.065f;  // about 15 letters a second, an unhurried reader
 
@@ -28,8 +30,7 @@ size_t HaltFrom(const GuidedTour& t, size_t stop) {
 
 // The halt before `stop`, else the first stop.
 size_t HaltBefore(const GuidedTour& t, size_t stop) {
-  while (stop > 0 && !IsHalt(t, --stop)) {
-  }
+  while (stop > 0 && !IsHalt(t, --stop)) {}
   return stop;
 }
 
@@ -48,7 +49,8 @@ void Plan(const std::vector<size_t>& stops, const VisitorInTown& v) {
   t.stop_m.clear();
   t.route = {{v.visitor.camera.view.position}, {0}};
   for (size_t k : stops) {
-    if (!ExtendRoute(v.town.walkable, t.stops[k].position_m, &v.town.crowd.search, &t.route) && k != stops.back()) continue;
+    if (!ExtendRoute(v.town.walkable, t.stops[k].position_m, &v.town.crowd.search, &t.route) && k != stops.back())
+      continue;
     t.stage.push_back(k);
     t.stop_m.push_back(LengthOf_m(t.route));
   }
@@ -107,7 +109,8 @@ void Reroute(const VisitorInTown& v) {
   GuidedTour& t = v.visitor.tour;
   t.reroute_s -= Step_s(v.settings);
   if (t.reroute_s > 0) return;
-  const std::vector<size_t> left(t.stage.begin() + static_cast<std::ptrdiff_t>(std::min(t.passed, t.stage.size() - 1)), t.stage.end());
+  const std::vector<size_t> left(t.stage.begin() + static_cast<std::ptrdiff_t>(std::min(t.passed, t.stage.size() - 1)),
+                                 t.stage.end());
   Plan(left, v);
 }
 
@@ -122,7 +125,8 @@ void WalkOn(const VisitorInTown& v) {
     return;
   }
   const bool strays = Length(PointAt(t.route, t.visitor_m) - p) > kStrays_m;
-  const bool is_back = t.follows || v.visitor.guide.id < 0 || FromVisitor_m(v, v.town.crowd.position[v.visitor.guide.index]) < kHears_m;
+  const bool is_back =
+      t.follows || v.visitor.guide.id < 0 || FromVisitor_m(v, v.town.crowd.position[v.visitor.guide.index]) < kHears_m;
   if (strays && is_back) Reroute(v);
 }
 
@@ -170,7 +174,8 @@ void TakeStops(const std::vector<TourStop>& stops, const std::string& own_langua
   t->stops = stops;
   t->languages = {own_language};
   const auto add = [&](const std::string& language) {
-    if (std::find(t->languages.begin(), t->languages.end(), language) == t->languages.end()) t->languages.push_back(language);
+    if (std::find(t->languages.begin(), t->languages.end(), language) == t->languages.end())
+      t->languages.push_back(language);
   };
   for (const TourStop& stop : stops) {
     for (const auto& [language, caption] : stop.captions) add(language);

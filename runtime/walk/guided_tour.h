@@ -20,26 +20,29 @@ struct StopWords {
 
 struct GuidedTour {
   std::vector<TourStop> stops;
-  std::vector<StopWords> words;         // by stop
-  std::vector<std::string> languages;   // that there are, the tour's own first
-  std::string language;                 // that words are in, as far as there are any
-  // The way to the next halt, which is a stop to rest at, or the last stop: indices of the stops on it, and a line over the ground.
+  std::vector<StopWords> words;        // by stop
+  std::vector<std::string> languages;  // that there are, the tour's own first
+  std::string language;                // that words are in, as far as there are any
+  // The way to the next halt, which is a stop to rest at, or the last stop: indices of the stops on it, and a line over
+  // the ground.
   std::vector<size_t> stage;
-  size_t passed = 0;           // of the stage
-  std::vector<float> stop_m;   // by stop of the stage: where it is on the route
+  size_t passed = 0;          // of the stage
+  std::vector<float> stop_m;  // by stop of the stage: where it is on the route
   Route route;
-  float visitor_m = 0;         // how far along the route the visitor is
+  float visitor_m = 0;  // how far along the route the visitor is
   bool resting = false, paused = false, over = false;
-  bool holds = false;          // nothing goes on: paused, or the visitor has left the halt
-  bool follows = true;         // the tour leads the visitor, who does not walk about freely
+  bool holds = false;   // nothing goes on: paused, or the visitor has left the halt
+  bool follows = true;  // the tour leads the visitor, who does not walk about freely
   float rested_s = 0;
-  float reroute_s = 0;         // until a visitor who strayed is thought of again
-  Corner corner;               // of the visitor's way back to the route
-  int plans = 0;               // stages and routes so far
+  float reroute_s = 0;  // until a visitor who strayed is thought of again
+  Corner corner;        // of the visitor's way back to the route
+  int plans = 0;        // stages and routes so far
 };
 
 // What the visitor asks the tour for.
-struct TourWish { bool next = false, back = false, toggle_pause = false; };
+struct TourWish {
+  bool next = false, back = false, toggle_pause = false;
+};
 
 inline bool HasTour(const GuidedTour& tour) { return !tour.stops.empty() && !tour.over; }
 // The stop where the visitor rests, or to which the present way leads.
@@ -48,10 +51,12 @@ inline size_t HaltOf(const GuidedTour& tour) { return tour.stage.empty() ? 0 : t
 std::string TitleOf(const TourData& tour, const std::string& language);
 // What a stop is called: its caption's first sentence. Empty where it has none.
 std::string NameOfStop(const GuidedTour& tour, size_t stop);
-// How long one rests there: as long as the tour says, else as it takes to read the caption; and until the sound is over.
+// How long one rests there: as long as the tour says, else as it takes to read the caption; and until the sound is
+// over.
 inline float RestOf_s(const GuidedTour& tour, size_t stop) { return tour.words[stop].rest_s; }
 
-// Where the visitor looks there: what there is to see at a halt, else the way on, or at the tour's end the way they came.
+// Where the visitor looks there: what there is to see at a halt, else the way on, or at the tour's end the way they
+// came.
 float LookAt_rad(const GuidedTour& tour, size_t stop);
 
 // The tour's stops and languages. own_language: of the stops' `caption`.
@@ -59,7 +64,8 @@ void TakeStops(const std::vector<TourStop>& stops, const std::string& own_langua
 // Words of a stop that has none in this language are in the tour's own.
 void SetLanguage(const std::string& language, GuidedTour* tour);
 
-// Stops that nobody can stand at move beside the wall they are in, those that cannot be reached are left out; both with a warning.
+// Stops that nobody can stand at move beside the wall they are in, those that cannot be reached are left out; both with
+// a warning.
 void PlaceStops(const VisitorInTown& v);
 // The first stage, from where the visitor stands.
 void BeginTour(const VisitorInTown& v);

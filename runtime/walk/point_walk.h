@@ -16,8 +16,8 @@ struct PointWalk {
   Corner corner;
 };
 
-// The ground seen at a place of the picture, 0 to 1 from its upper left corner: where the ray through it meets the ground, or the last
-// ground before what stands in the way. None within sight: looking into the sky.
+// The ground seen at a place of the picture, 0 to 1 from its upper left corner: where the ray through it meets the
+// ground, or the last ground before what stands in the way. None within sight: looking into the sky.
 std::optional<Vec2> GroundAt(const Walkable& walkable, const CameraState& camera, Vec2 place, float aspect);
 
 // Sets out for the nearest place that one can walk to.

@@ -9,9 +9,10 @@
 namespace flaneur {
 namespace {
 
-constexpr int kMaxCorners = 400;   // of one part: more than any town has
+constexpr int kMaxCorners = 400;  // of one part: more than any town has
 constexpr float kMinCorner_m = 0.05f;
-constexpr float kAhead_m[] = {1.2f, 0.6f, 0.3f};  // of the route, walked towards: shorter where the line there cuts a corner
+constexpr float kAhead_m[] = {1.2f, 0.6f,
+                              0.3f};  // of the route, walked towards: shorter where the line there cuts a corner
 
 void Append(Vec2 p, Route* route) {
   route->at_m.push_back(route->points.empty() ? 0 : route->at_m.back() + Length(p - route->points.back()));

@@ -16,13 +16,13 @@ inline constexpr float kCameraRadius_m = 0.3f;
 
 // What the visitor asks for in a step.
 struct CameraInput {
-  bool active = false;      // false: scenario or guided tour moves the camera
-  Vec2 direction;           // asked way, unit or zero
+  bool active = false;  // false: scenario or guided tour moves the camera
+  Vec2 direction;       // asked way, unit or zero
   float speed_mps = 0, yaw_rate_radps = 0;
   std::optional<Vec2> walk_to;  // sets out for there; a direction ends it
   float walk_to_mps = 1.4f;
   std::optional<float> pitch_rad;
-  TourWish tour;            // active or not
+  TourWish tour;  // active or not
 };
 
 struct CameraState {
@@ -31,7 +31,7 @@ struct CameraState {
   Vec2 velocity;
   Vec2 asked_velocity;  // what the visitor wants: who holds them up sees it
   float yaw_rate_radps = 0, asked_mps = 0, actual_mps = 0;
-  bool present = true;      // false: everybody counts as visible
+  bool present = true;  // false: everybody counts as visible
 };
 
 // A part of a scenario's way.
@@ -52,10 +52,10 @@ struct Visitor {
   bool gentle = false;          // the tour turns the view slowly, and walks slowly
   std::vector<CameraLeg> legs;  // of the scenario; empty: the guided tour
   size_t leg = 0;
-  float leg_done = 0;           // seconds waited, or radians turned
-  float stuck_s = 0;            // since the camera got away from stuck_at
+  float leg_done = 0;  // seconds waited, or radians turned
+  float stuck_s = 0;   // since the camera got away from stuck_at
   Vec2 stuck_at;
-  bool finished = false;        // the last leg is over
+  bool finished = false;  // the last leg is over
 };
 
 // What a visitor's step works on.

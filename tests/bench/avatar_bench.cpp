@@ -80,8 +80,7 @@ std::vector<std::vector<Mat4>> Poses(const Person& person) {
     const ClipSpan span = SpanOf(clip);
     for (int i = 0; i < kPoses; ++i) {
       const float share = static_cast<float>(i) / kPoses;
-      const std::vector<Mat4> world =
-          PoseAt(document, clip, span.start_s + share * (span.end_s - span.start_s));
+      const std::vector<Mat4> world = PoseAt(document, clip, span.start_s + share * (span.end_s - span.start_s));
       auto& pose = poses.emplace_back();
       for (size_t j = 0; j < skin.joints.size(); ++j) {
         pose.push_back(world[static_cast<size_t>(skin.joints[j])] * skin.inverse_binds[j]);
@@ -120,8 +119,7 @@ std::vector<Vec3> Sampled(const Triangles& triangles, int count) {
   std::vector<Vec3> points;
   for (int i = 0; i < count; ++i) {
     const auto at = std::upper_bound(sums.begin(), sums.end(), unit(random) * total);
-    const auto& t =
-        triangles[std::min<size_t>(static_cast<size_t>(at - sums.begin()), triangles.size() - 1)];
+    const auto& t = triangles[std::min<size_t>(static_cast<size_t>(at - sums.begin()), triangles.size() - 1)];
     const auto root = static_cast<float>(std::sqrt(unit(random)));
     const float b = root * static_cast<float>(unit(random));
     points.push_back(t[0] * (1 - root) + t[1] * (root - b) + t[2] * b);
@@ -149,13 +147,12 @@ Distances Between(const Triangles& a, const Triangles& b, int samples) {
   return out;
 }
 
-nlohmann::json Measured(const Person& original, const std::vector<std::vector<Mat4>>& poses,
-                        const Person& level, int samples) {
+nlohmann::json Measured(const Person& original, const std::vector<std::vector<Mat4>>& poses, const Person& level,
+                        int samples) {
   std::vector<Distances> all(poses.size());
   const auto measure = [&](size_t first, size_t step) {
     for (size_t k = first; k < poses.size(); k += step) {
-      all[k] = Between(PosedTriangles(original.meshes, &poses[k]),
-                       PosedTriangles(level.meshes, &poses[k]), samples);
+      all[k] = Between(PosedTriangles(original.meshes, &poses[k]), PosedTriangles(level.meshes, &poses[k]), samples);
     }
   };
   const size_t threads = std::max(1u, std::thread::hardware_concurrency());
@@ -194,8 +191,7 @@ Error Measure(const std::vector<std::string>& args) {
 }
 
 // By name, the clip's pose of the person's joints at a time.
-std::vector<Mat4> PoseByName(const Person& person, const Person& names, const DocumentClip& clip,
-                             float time_s) {
+std::vector<Mat4> PoseByName(const Person& person, const Person& names, const DocumentClip& clip, float time_s) {
   const std::vector<Mat4> world = PoseAt(person.document, clip, time_s);
   std::map<std::string, size_t> node;
   for (size_t i = 0; i < world.size(); ++i) node.try_emplace(person.document.nodes[i].name, i);
@@ -217,8 +213,7 @@ Error MeasureClips(const std::vector<std::string>& args) {
   double sum = 0, count = 0, greatest = 0;
   for (const DocumentClip& clip : original.document.clips) {
     const auto& clips = other.document.clips;
-    const auto found = std::find_if(clips.begin(), clips.end(),
-                                    [&](const auto& c) { return c.name == clip.name; });
+    const auto found = std::find_if(clips.begin(), clips.end(), [&](const auto& c) { return c.name == clip.name; });
     if (found == clips.end()) return Fail(args[1] + ": no clip '" + clip.name + "'");
     const float duration_s = SpanOf(clip).end_s;
     const int steps = static_cast<int>(duration_s * 60);
@@ -256,9 +251,8 @@ Mesh Welded(const std::vector<Mesh>& meshes) {
 
 void DecimateWithMeshoptimizer(size_t triangles, Mesh* mesh) {
   std::vector<uint32_t> indices(mesh->indices.size());
-  indices.resize(meshopt_simplify(indices.data(), mesh->indices.data(), mesh->indices.size(),
-                                  &mesh->positions[0].x, mesh->positions.size(), sizeof(Vec3),
-                                  3 * triangles, 1.0f));
+  indices.resize(meshopt_simplify(indices.data(), mesh->indices.data(), mesh->indices.size(), &mesh->positions[0].x,
+                                  mesh->positions.size(), sizeof(Vec3), 3 * triangles, 1.0f));
   mesh->indices = indices;
 }
 
@@ -268,8 +262,7 @@ void DecimateWithOpenMesh(size_t triangles, Mesh* mesh) {
   for (const Vec3 p : mesh->positions) half_edges.add_vertex({p.x, p.y, p.z});
   omerr().disable();
   for (size_t i = 0; i < mesh->indices.size(); i += 3) {
-    half_edges.add_face(half_edges.vertex_handle(mesh->indices[i]),
-                        half_edges.vertex_handle(mesh->indices[i + 1]),
+    half_edges.add_face(half_edges.vertex_handle(mesh->indices[i]), half_edges.vertex_handle(mesh->indices[i + 1]),
                         half_edges.vertex_handle(mesh->indices[i + 2]));
   }
   omerr().enable();

@@ -1,5 +1,5 @@
-// How long all checks of 2,600 obstacles take: without a town, as a designer checks a map. With FLANEUR_SHARED_DIR set, also
-// the old town of Krems three times side by side.
+// How long all checks of 2,600 obstacles take: without a town, as a designer checks a map. With FLANEUR_SHARED_DIR set,
+// also the old town of Krems three times side by side.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -22,7 +22,9 @@ struct Plan {
 Plan MadeUpTown(int houses) {
   Plan plan;
   std::mt19937 random(3);
-  const auto uniform = [&](double low, double high) { return low + (high - low) * (static_cast<double>(random()) / 4294967296.0); };
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+  };
   const int across = 16;
   for (int i = 0; i < houses; ++i) {
     const int block = i / 10, row = i % 10 / 5, place = i % 5;
@@ -66,7 +68,8 @@ Plan KremsThrice(const std::filesystem::path& path) {
 void RunChecks(benchmark::State& state, const Plan& plan) {
   std::vector<Finding> findings;
   for (auto _ : state) {
-    if (Error error = Check(plan.footprints, nullptr, plan.options, &findings)) state.SkipWithError(error.message.c_str());
+    if (Error error = Check(plan.footprints, nullptr, plan.options, &findings))
+      state.SkipWithError(error.message.c_str());
   }
   state.counters["obstacles"] = static_cast<double>(plan.footprints.obstacles.size());
   state.counters["findings"] = static_cast<double>(findings.size());

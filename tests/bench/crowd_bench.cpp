@@ -1,5 +1,5 @@
-// What a step of the crowd costs. The open field is the setting that other crowds are measured in: 0.3 people/m^2, everybody with
-// full behaviour, 36 circles of 1 to 2 m, steps of 1/30 s, one thread.
+// What a step of the crowd costs. The open field is the setting that other crowds are measured in: 0.3 people/m^2,
+// everybody with full behaviour, 36 circles of 1 to 2 m, steps of 1/30 s, one thread.
 #include <benchmark/benchmark.h>
 
 #include "runtime/control/level_control.h"

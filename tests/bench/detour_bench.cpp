@@ -56,7 +56,8 @@ dtNavMesh* MakeMesh(const OpenField& field) {
   for (int y = 0; y < aside; ++y) {
     for (int x = 0; x < aside; ++x) {
       if (at(x, y) < 0) continue;
-      for (unsigned short v : {vertex(x, y), vertex(x, y + 1), vertex(x + 1, y + 1), vertex(x + 1, y)}) polygons.push_back(v);
+      for (unsigned short v : {vertex(x, y), vertex(x, y + 1), vertex(x + 1, y + 1), vertex(x + 1, y)})
+        polygons.push_back(v);
       for (int other : {at(x - 1, y), at(x, y + 1), at(x + 1, y), at(x, y - 1)}) {
         polygons.push_back(other < 0 ? 0xffff : static_cast<unsigned short>(other));
       }

@@ -1,10 +1,11 @@
-// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE|@rule] [passes|alone [PICTURE]]]]]
+// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE|@rule] [passes|alone
+// [PICTURE]]]]]
 //
-// Plays the scenario and draws its frames twice, right after each other: as control decides, and with everybody who is drawn as
-// their finest mesh. Prints medians and 99th percentiles, and their ratio. Processor times are those of all threads: on a machine
-// that does other work as well they say more than the clock. SCALE: FrameInput::resolution_scale of both, or `rule`: each side's is what the
-// window would choose for it, with the settings' defaults. With `alone` our pictures without the comparison, with `passes` what each pass
-// of them takes. PICTURE: the last of them, as PNG.
+// Plays the scenario and draws its frames twice, right after each other: as control decides, and with everybody who is
+// drawn as their finest mesh. Prints medians and 99th percentiles, and their ratio. Processor times are those of all
+// threads: on a machine that does other work as well they say more than the clock. SCALE: FrameInput::resolution_scale
+// of both, or `rule`: each side's is what the window would choose for it, with the settings' defaults. With `alone` our
+// pictures without the comparison, with `passes` what each pass of them takes. PICTURE: the last of them, as PNG.
 #include <time.h>
 
 #include <algorithm>
@@ -16,19 +17,19 @@
 #include <vector>
 
 #include "runtime/base/png.h"
-#include "runtime/show/frame_from_simulation.h"
-#include "runtime/visit/player_settings.h"
-#include "runtime/visit/resolution.h"
-#include "runtime/simulation/scenario.h"
-#include "runtime/simulation/simulation.h"
 #include "runtime/desktop/context.h"
 #include "runtime/render/people_batches.h"
 #include "runtime/render/renderer.h"
+#include "runtime/show/frame_from_simulation.h"
+#include "runtime/simulation/scenario.h"
+#include "runtime/simulation/simulation.h"
+#include "runtime/visit/player_settings.h"
+#include "runtime/visit/resolution.h"
 
 namespace flaneur {
 namespace {
 
-constexpr int kWarm = 3;       // frames before the first that counts
+constexpr int kWarm = 3;  // frames before the first that counts
 constexpr int kRulePictures = 25;
 constexpr int kFullEvery = 6;  // of the frames one in so many is drawn in full geometry: that takes seconds
 
@@ -56,7 +57,8 @@ void Print(const char* what, const Series& s, const char* unit) {
 }
 
 struct Costs {
-  Series clock_ms, processor_ms, town_triangles, people_triangles, shadow_triangles, people_shadow_triangles, calls, drawn, hidden, people_ms;
+  Series clock_ms, processor_ms, town_triangles, people_triangles, shadow_triangles, people_shadow_triangles, calls,
+      drawn, hidden, people_ms;
   std::array<Series, std::size(kDrawPassNames)> pass_ms;
 };
 
@@ -98,12 +100,15 @@ float ScaleByRule(FrameInput frame, int width_px, int height_px, const ControlSe
 }
 
 Error Run(int argc, char** argv) {
-  if (argc < 3) return Fail("usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE|@rule] [passes|alone [PICTURE]]]]]");
+  if (argc < 3)
+    return Fail(
+        "usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE|@rule] [passes|alone [PICTURE]]]]]");
   int width_px = 1280, height_px = 720;
   float scale = 1, full_scale = 1;
   if (argc > 5) std::sscanf(argv[5], "%dx%d@%f", &width_px, &height_px, &scale);
   const bool by_rule = argc > 5 && std::string(argv[5]).ends_with("@rule");
-  const bool passes = argc > 6 && std::string(argv[6]) == "passes", compares = !passes && (argc <= 6 || std::string(argv[6]) != "alone");
+  const bool passes = argc > 6 && std::string(argv[6]) == "passes",
+             compares = !passes && (argc <= 6 || std::string(argv[6]) != "alone");
   const int frames = argc > 4 ? std::atoi(argv[4]) : 60;
   TourPack pack;
   if (Error e = LoadTourPack(argv[1], {}, &pack)) return e;
@@ -128,7 +133,9 @@ Error Run(int argc, char** argv) {
   FrameInput frame;
   FrameFromSimulation(pack, s, &looks, &frame);
   if (by_rule) scale = ScaleByRule(frame, width_px, height_px, s.control.settings, &renderer);
-  full_scale = by_rule && compares ? ScaleByRule(AllFinest(frame), width_px, height_px, s.control.settings, &full_renderer) : scale;
+  full_scale = by_rule && compares
+                   ? ScaleByRule(AllFinest(frame), width_px, height_px, s.control.settings, &full_renderer)
+                   : scale;
   for (int k = 0; k < frames + kWarm && !s.visitor.finished; ++k) {
     const double before = Clock_ms();
     FrameFromSimulation(pack, s, &looks, &frame);
@@ -154,9 +161,9 @@ Error Run(int argc, char** argv) {
     renderer.Read(&rgb);
     if (Error e = WritePng(argv[7], width_px, height_px, rgb)) return e;
   }
-  std::printf("%s, %zu people, %d x %d pixels, scale %.1f, of full geometry %.1f\n%-44s %9s %9s %9s\n", context.Renderer().c_str(), s.town.crowd.size(), width_px, height_px,
-              static_cast<double>(scale), static_cast<double>(full_scale), "", "least",
-              "median", "99th perc.");
+  std::printf("%s, %zu people, %d x %d pixels, scale %.1f, of full geometry %.1f\n%-44s %9s %9s %9s\n",
+              context.Renderer().c_str(), s.town.crowd.size(), width_px, height_px, static_cast<double>(scale),
+              static_cast<double>(full_scale), "", "least", "median", "99th perc.");
   Print("frame time, clock", as_decided.clock_ms, "ms");
   Print("frame time, processor, all threads", as_decided.processor_ms, "ms");
   for (size_t k = 0; k < std::size(kDrawPassNames) && passes; ++k) {
@@ -181,7 +188,8 @@ Error Run(int argc, char** argv) {
     std::printf("full geometry to as decided, medians of the same frames: %.1f by the clock, %.1f by processor time\n",
                 full.clock_ms.At(0.5) / compared_clock_ms.At(0.5), full.processor_ms.At(0.5) / compared_ms.At(0.5));
   }
-  std::printf("99th percentile over median: %.2f by the clock, %.2f by processor time\n", as_decided.clock_ms.At(0.99) / as_decided.clock_ms.At(0.5),
+  std::printf("99th percentile over median: %.2f by the clock, %.2f by processor time\n",
+              as_decided.clock_ms.At(0.99) / as_decided.clock_ms.At(0.5),
               as_decided.processor_ms.At(0.99) / as_decided.processor_ms.At(0.5));
   std::printf("animation memory, the largest of all avatars: %.0f KB\n", static_cast<double>(clip_bytes) / 1024);
   return Ok();

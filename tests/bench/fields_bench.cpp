@@ -1,5 +1,5 @@
-// Flow fields that are built beside the steps: how long a step stands still for them, at once, in slices without threads and with
-// threads. FLANEUR_PACK names the tour pack.
+// Flow fields that are built beside the steps: how long a step stands still for them, at once, in slices without
+// threads and with threads. FLANEUR_PACK names the tour pack.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -36,7 +36,8 @@ std::vector<Vec2> Goals(const TourPack& pack, const Walkable& w) {
   std::vector<Vec2> goals;
   const size_t every = std::max<size_t>(1, pack.places.size() / kGoals);
   for (size_t k = 0; k < pack.places.size(); k += every) {
-    if (const int cell = NearestFreeCell(w, pack.places[k].position_m, 3); cell >= 0) goals.push_back(CellCenter(w, cell));
+    if (const int cell = NearestFreeCell(w, pack.places[k].position_m, 3); cell >= 0)
+      goals.push_back(CellCenter(w, cell));
   }
   return goals;
 }
@@ -51,7 +52,8 @@ void TimeWhole(const Walkable& w, const std::vector<Vec2>& goals) {
   Print("at once", std::move(took_ms), "of processor time a field");
 }
 
-// All goals are asked for at once. With threads the steps are as far apart as in a tour, and what they wait is measured.
+// All goals are asked for at once. With threads the steps are as far apart as in a tour, and what they wait is
+// measured.
 void TimeSteps(const Walkable& w, const std::vector<Vec2>& goals, size_t threads) {
   Jobs jobs(threads);
   const auto clock_ms = threads > 0 ? Now_ms : ThreadTime_ms;
@@ -63,10 +65,12 @@ void TimeSteps(const Walkable& w, const std::vector<Vec2>& goals, size_t threads
     const double step_start_ms = Now_ms(), start_ms = clock_ms();
     builder.Step(w, &jobs, &crowd);
     took_ms.push_back(clock_ms() - start_ms);
-    if (threads > 0) std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(kStep_ms - (Now_ms() - step_start_ms)));
+    if (threads > 0)
+      std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(kStep_ms - (Now_ms() - step_start_ms)));
     ++crowd.step;
   }
-  Print((std::to_string(threads) + " threads").c_str(), std::move(took_ms), threads > 0 ? "a step" : "of processor time a step");
+  Print((std::to_string(threads) + " threads").c_str(), std::move(took_ms),
+        threads > 0 ? "a step" : "of processor time a step");
 }
 
 int Run() {
@@ -83,7 +87,8 @@ int Run() {
   const std::vector<Vec2> goals = Goals(pack, w);
   if (goals.empty()) return std::fprintf(stderr, "this tour has no places to go to\n"), 2;
   const auto free = std::count_if(w.cost.begin(), w.cost.end(), [](float cost) { return cost > 0; });
-  std::printf("%zu cells, of which %lld are free; a field takes %lld steps\n", w.cost.size(), static_cast<long long>(free),
+  std::printf("%zu cells, of which %lld are free; a field takes %lld steps\n", w.cost.size(),
+              static_cast<long long>(free),
               1 + static_cast<long long>(w.cost.size()) / static_cast<long long>(kCellsAStep));
   TimeWhole(w, goals);
   for (size_t threads : {0, 1, 2}) TimeSteps(w, goals, threads);

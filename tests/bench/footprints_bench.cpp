@@ -1,4 +1,5 @@
-// Prints how well and how fast obstacles are found in real city models: bench_footprints [DATA_FOLDER] [--worst] [--only ROW]
+// Prints how well and how fast obstacles are found in real city models: bench_footprints [DATA_FOLDER] [--worst]
+// [--only ROW]
 #include <sys/resource.h>
 
 #include <cstdio>
@@ -13,15 +14,16 @@ namespace {
 
 constexpr double kExactly = 0;  // clearance and tolerance where outlines are compared
 
-const Spoiling kSpoilings[] = {{.name = "clean"},
-                               {.name = "flipped", .flip = true},
-                               {.name = "doubled", .repeat = true},
-                               {.name = "jittered 1 cm", .jitter = true},
-                               {.name = "each corner jittered 1 cm", .jitter_apart = true},
-                               {.name = "eaves added", .eaves = true},
-                               {.name = "no ground faces", .no_ground = true},
-                               {.name = "5 % of triangles dropped", .drop = true},
-                               {.name = "all but dropping", .flip = true, .repeat = true, .jitter = true, .eaves = true, .no_ground = true}};
+const Spoiling kSpoilings[] = {
+    {.name = "clean"},
+    {.name = "flipped", .flip = true},
+    {.name = "doubled", .repeat = true},
+    {.name = "jittered 1 cm", .jitter = true},
+    {.name = "each corner jittered 1 cm", .jitter_apart = true},
+    {.name = "eaves added", .eaves = true},
+    {.name = "no ground faces", .no_ground = true},
+    {.name = "5 % of triangles dropped", .drop = true},
+    {.name = "all but dropping", .flip = true, .repeat = true, .jitter = true, .eaves = true, .no_ground = true}};
 
 double Cpu_s() {
   rusage usage{};
@@ -55,12 +57,13 @@ Error PrintFit(const std::vector<Scene>& towns, const Spoiling& how, bool worst)
               count([](const BuildingFit& f) { return !f.flagged && f.iou < 0.97; }));
   const auto print = [&](const char* what) {
     for (size_t i = 0; worst && i < std::min<size_t>(5, all.size()); ++i)
-      std::printf("    %s %-20s %7.4f  %8.3f m  %8.1f m2%s\n", what, all[i].name.c_str(), all[i].iou, all[i].hausdorff_m,
-                  all[i].area_m2, all[i].flagged ? "  flagged" : "");
+      std::printf("    %s %-20s %7.4f  %8.3f m  %8.1f m2%s\n", what, all[i].name.c_str(), all[i].iou,
+                  all[i].hausdorff_m, all[i].area_m2, all[i].flagged ? "  flagged" : "");
   };
   std::sort(all.begin(), all.end(), [](const BuildingFit& a, const BuildingFit& b) { return a.iou < b.iou; });
   print("IoU");
-  std::sort(all.begin(), all.end(), [](const BuildingFit& a, const BuildingFit& b) { return a.hausdorff_m > b.hausdorff_m; });
+  std::sort(all.begin(), all.end(),
+            [](const BuildingFit& a, const BuildingFit& b) { return a.hausdorff_m > b.hausdorff_m; });
   print("Hausdorff");
   return Ok();
 }
@@ -115,10 +118,13 @@ Scene Large(const std::vector<Scene>& towns, int copies) {
 }
 
 // A single building of a million triangles.
-struct HeavyObject { const char* name; float noise_m; bool soup; };
-const HeavyObject kHeavyObjects[] = {{"one house, fine mesh", 0, false},
-                                     {"one house, scanned", 0.01f, false},
-                                     {"one heap of triangles", 0, true}};
+struct HeavyObject {
+  const char* name;
+  float noise_m;
+  bool soup;
+};
+const HeavyObject kHeavyObjects[] = {
+    {"one house, fine mesh", 0, false}, {"one house, scanned", 0.01f, false}, {"one heap of triangles", 0, true}};
 
 // A wall or roof of squares of two triangles each, every point moved a little.
 void AddSheet(Vec3 corner, Vec3 along, Vec3 across, int squares, float noise_m, std::mt19937* random, Mesh* mesh) {
@@ -127,10 +133,12 @@ void AddSheet(Vec3 corner, Vec3 along, Vec3 across, int squares, float noise_m, 
   for (int i = 0; i <= squares; ++i)
     for (int k = 0; k <= squares; ++k)
       mesh->positions.push_back(corner + along * (static_cast<float>(i) / static_cast<float>(squares)) +
-                                across * (static_cast<float>(k) / static_cast<float>(squares)) + Vec3{noise(), noise(), noise()});
+                                across * (static_cast<float>(k) / static_cast<float>(squares)) +
+                                Vec3{noise(), noise(), noise()});
   for (uint32_t i = 0; i + 1 < row; ++i)
     for (uint32_t k = 0; k + 1 < row; ++k)
-      for (const uint32_t corner_at : {0u, row, row + 1, 0u, row + 1, 1u}) mesh->indices.push_back(first + i * row + k + corner_at);
+      for (const uint32_t corner_at : {0u, row, row + 1, 0u, row + 1, 1u})
+        mesh->indices.push_back(first + i * row + k + corner_at);
 }
 
 Scene Heavy(const HeavyObject& heavy) {
@@ -139,7 +147,9 @@ Scene Heavy(const HeavyObject& heavy) {
   Mesh mesh;
   const float w = 12, h = 8;
   for (int i = 0; heavy.soup && i < 1'000'000; ++i) {
-    const auto in = [&](float from, float to) { return from + (to - from) * static_cast<float>(random() % 10'000) / 10'000; };
+    const auto in = [&](float from, float to) {
+      return from + (to - from) * static_cast<float>(random() % 10'000) / 10'000;
+    };
     const Vec3 at{in(0, w), in(0, h), in(0, w)};
     for (uint32_t k = 0; k < 3; ++k) {
       mesh.indices.push_back(static_cast<uint32_t>(mesh.positions.size()));

@@ -2,8 +2,9 @@
 //
 //   impostor_bench PERSON.glb [SAMPLES] [REFERENCE_SAMPLES]
 //
-// Bakes 16 directions x 8 phases of the walk at 128 px, once as by default (or with SAMPLES a pixel) and once with REFERENCE_SAMPLES
-// (64; 0: without), then the whole impostor's mip levels after compression against exact means of the finest.
+// Bakes 16 directions x 8 phases of the walk at 128 px, once as by default (or with SAMPLES a pixel) and once with
+// REFERENCE_SAMPLES (64; 0: without), then the whole impostor's mip levels after compression against exact means of the
+// finest.
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -59,12 +60,13 @@ Error CompareSamples(const ImpostorAtlas& few, const ImpostorAtlas& many) {
     if (b.bytes[i + 3] > 0 && b.bytes[i + 3] < 255) edge_squares += off * off, ++edges;
     if (a.bytes[i + 3] < 128 || b.bytes[i + 3] < 128) continue;
     const Vec3 u = NormalOf(&m.bytes[i]), v = NormalOf(&n.bytes[i]);
-    degrees += std::atan2(static_cast<double>(Length(Cross(u, v))), static_cast<double>(Dot(u, v))) * 180 / 3.14159265358979;
+    degrees +=
+        std::atan2(static_cast<double>(Length(Cross(u, v))), static_cast<double>(Dot(u, v))) * 180 / 3.14159265358979;
     ++covered;
   }
   std::printf("alpha off by %.2f of 255 (root mean square; on edges alone %.2f), normals by %.2f degrees\n",
-              std::sqrt(4 * squares / static_cast<double>(a.bytes.size())), std::sqrt(edge_squares / static_cast<double>(edges)),
-              degrees / static_cast<double>(covered));
+              std::sqrt(4 * squares / static_cast<double>(a.bytes.size())),
+              std::sqrt(edge_squares / static_cast<double>(edges)), degrees / static_cast<double>(covered));
   std::fflush(stdout);
   return Ok();
 }
@@ -87,7 +89,9 @@ Error CompareLevels(const ImpostorAtlas& atlas) {
   if (Error e = Decode(atlas.albedo, &albedo)) return e;
   const std::vector<AtlasLevel> levels = MakeLevels(Finest(albedo));
   const double share = CoveredShare(levels[0], 0.5f);
-  std::printf("level  covered  colour off by: edges (mean with sign, mean, root mean square)  inside (root mean square), of 255\n");
+  std::printf(
+      "level  covered  colour off by: edges (mean with sign, mean, root mean square)  inside (root mean square), of "
+      "255\n");
   for (size_t k = 0; k < texture.levels.size(); ++k) {
     const std::vector<uint8_t> seen = DecodeLevel(texture.format, levels[k].width, levels[k].height, texture.levels[k]);
     double bled = 0, off[2] = {}, squares[2] = {};  // bled: signed, on edges
@@ -104,8 +108,8 @@ Error CompareLevels(const ImpostorAtlas& atlas) {
     }
     const auto n = [&](size_t inside) { return static_cast<double>(std::max<size_t>(1, count[inside])); };
     std::printf("%5zu  %+.2f %%  %+.2f %.2f %.2f  %.2f\n", k,
-                100 * (static_cast<double>(covered) / static_cast<double>(levels[k].texels.size()) - share), bled / n(0),
-                off[0] / n(0), std::sqrt(squares[0] / n(0)), std::sqrt(squares[1] / n(1)));
+                100 * (static_cast<double>(covered) / static_cast<double>(levels[k].texels.size()) - share),
+                bled / n(0), off[0] / n(0), std::sqrt(squares[0] / n(0)), std::sqrt(squares[1] / n(1)));
   }
   return Ok();
 }
@@ -113,9 +117,11 @@ Error CompareLevels(const ImpostorAtlas& atlas) {
 Error Bake(const Avatar& avatar, const ImpostorOptions& options, ImpostorAtlas* atlas) {
   ImpostorStatistics s;
   if (Error e = BakeImpostor(avatar, options, atlas, &s)) return e;
-  std::printf("%d samples: Blender %.1f CPU seconds, %.0f MB; atlas %d x %d px, %.1f %% of its texels show the person, %.2f MB\n",
-              options.samples, s.blender_cpu_s, static_cast<double>(s.blender_peak_memory_bytes) / 1e6, s.width_px, s.height_px,
-              100 * s.fill_rate, static_cast<double>(s.memory_bytes) / 1e6);
+  std::printf(
+      "%d samples: Blender %.1f CPU seconds, %.0f MB; atlas %d x %d px, %.1f %% of its texels show the person, %.2f "
+      "MB\n",
+      options.samples, s.blender_cpu_s, static_cast<double>(s.blender_peak_memory_bytes) / 1e6, s.width_px, s.height_px,
+      100 * s.fill_rate, static_cast<double>(s.memory_bytes) / 1e6);
   std::fflush(stdout);
   return Ok();
 }

@@ -1,5 +1,5 @@
-// The demo town with view classes on: most people only follow their ways. A small town cannot hold 100,000 people, so it is
-// enlarged until everybody has their share of the ground at 0.3 people/m^2. FLANEUR_PACK names the tour pack.
+// The demo town with view classes on: most people only follow their ways. A small town cannot hold 100,000 people, so
+// it is enlarged until everybody has their share of the ground at 0.3 people/m^2. FLANEUR_PACK names the tour pack.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -40,7 +40,8 @@ void TakeTown(const TourPack& pack, float scale, Walkable* w) {
   };
   *w = {};
   const GroundRaster& ground = *pack.ground;
-  w->ground = Share({ground.min_m * scale, ground.cell_m * scale, ground.columns, ground.rows, ground.height_m, ground.kind});
+  w->ground =
+      Share({ground.min_m * scale, ground.cell_m * scale, ground.columns, ground.rows, ground.height_m, ground.kind});
   for (const PackObstacle& o : pack.obstacles) {
     if (o.radius_m > 0) {
       w->circles.push_back({o.center * scale, o.radius_m});
@@ -55,7 +56,8 @@ void TakeTown(const TourPack& pack, float scale, Walkable* w) {
 int SomeField(Town* t) { return t->fields[static_cast<size_t>(t->random.Below(static_cast<int>(t->fields.size())))]; }
 
 void Settle(const TourPack& pack, int people, float scale, Town* t) {
-  const size_t every = std::max<size_t>(1, pack.places.size() / kGoals);  // all over the town, as people's destinations are
+  const size_t every =
+      std::max<size_t>(1, pack.places.size() / kGoals);  // all over the town, as people's destinations are
   for (size_t k = 0; k < pack.places.size(); k += every) {
     const int cell = NearestFreeCell(t->walkable, pack.places[k].position_m * scale, 3 * scale);
     if (cell >= 0) t->fields.push_back(FieldFor(CellCenter(t->walkable, cell), &t->crowd));
@@ -96,7 +98,8 @@ bool BusyTown(int people, benchmark::State& state, Town* town) {
     return false;
   }
   TakeTown(pack, 1, &town->walkable);
-  const float scale = std::max(1.0f, std::sqrt(static_cast<float>(people) / kDensity_pm2 / WalkableArea_m2(town->walkable)));
+  const float scale =
+      std::max(1.0f, std::sqrt(static_cast<float>(people) / kDensity_pm2 / WalkableArea_m2(town->walkable)));
   TakeTown(pack, scale, &town->walkable);
   Settle(pack, people, scale, town);
   town->crowd.r_unimportant_m = pack.control.r_unimportant_m;
@@ -117,8 +120,8 @@ void TownStep(benchmark::State& state) {
 }
 BENCHMARK(TownStep)->Arg(1000)->Arg(10000)->Arg(100000)->Iterations(376)->Unit(benchmark::kMillisecond);
 
-// So many people are sent somewhere in the same frame, each to a goal that nobody else has; with the step in which they set out.
-// `granted`: the share of them who know their way after it.
+// So many people are sent somewhere in the same frame, each to a goal that nobody else has; with the step in which they
+// set out. `granted`: the share of them who know their way after it.
 void TownNewGoals(benchmark::State& state) {
   Town town;
   if (!BusyTown(10000, state, &town)) return;

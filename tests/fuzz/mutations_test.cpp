@@ -32,18 +32,32 @@ class Mutator {
   void ChangeOnce(std::string* text) {
     const size_t at = Below(text->size()), length = std::min(1 + Below(60), text->size() - at);
     switch (Below(7)) {
-      case 0: (*text)[at] = static_cast<char>((*text)[at] ^ (1 << Below(8))); break;
-      case 1: (*text)[at] = static_cast<char>(Below(256)); break;
-      case 2: text->erase(at, length); break;
-      case 3: text->insert(Below(text->size()), text->substr(at, length)); break;
-      case 4: text->resize(at); break;
-      default: ReplaceNumber(at, text); break;
+      case 0:
+        (*text)[at] = static_cast<char>((*text)[at] ^ (1 << Below(8)));
+        break;
+      case 1:
+        (*text)[at] = static_cast<char>(Below(256));
+        break;
+      case 2:
+        text->erase(at, length);
+        break;
+      case 3:
+        text->insert(Below(text->size()), text->substr(at, length));
+        break;
+      case 4:
+        text->resize(at);
+        break;
+      default:
+        ReplaceNumber(at, text);
+        break;
     }
   }
 
   // The next number by one that is hard to bear.
   void ReplaceNumber(size_t from, std::string* text) {
-    static const char* const kNumbers[] = {"0", "-1", "1e308", "1e-308", "NaN", "-1e9", "4294967295", "2147483648", "99999999999999999999", "0.0001", "100000", "null", "\"a\"", "[]"};
+    static const char* const kNumbers[] = {
+        "0",      "-1",     "1e308", "1e-308", "NaN", "-1e9", "4294967295", "2147483648", "99999999999999999999",
+        "0.0001", "100000", "null",  "\"a\"",  "[]"};
     const size_t begin = text->find_first_of("0123456789", from);
     if (begin == std::string::npos) return;
     const size_t end = std::min(text->find_first_not_of("0123456789.eE+-", begin), text->size());
@@ -61,7 +75,8 @@ TEST_P(ChangedFile, IsRefusedInOneLineOrTakenSoundly) {
   const auto attempt = town ? TryTown : TryObstacles;
   ASSERT_EQ(attempt(seed), "") << "as it is";
   const std::string whole = Bytes(seed);
-  const std::filesystem::path changed = std::filesystem::path(testing::TempDir()) / ("changed_" + std::to_string(getpid()) + "_" + seed.filename().string());
+  const std::filesystem::path changed = std::filesystem::path(testing::TempDir()) /
+                                        ("changed_" + std::to_string(getpid()) + "_" + seed.filename().string());
   Mutator mutator(17);
   for (int i = 0; i < kChanged; ++i) {
     std::ofstream(changed, std::ios::binary | std::ios::trunc) << mutator.Changed(whole);
@@ -78,8 +93,9 @@ std::string NameOf(const testing::TestParamInfo<const char*>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ChangedFile,
-                         testing::Values("towns/houses.gml", "towns/houses.city.json", "towns/houses.city.jsonl", "towns/houses.obj",
-                                         "towns/street.glb", "check/601.gltf", "check/sound.geojson", "check/203.geojson", "check/504.geojson"),
+                         testing::Values("towns/houses.gml", "towns/houses.city.json", "towns/houses.city.jsonl",
+                                         "towns/houses.obj", "towns/street.glb", "check/601.gltf",
+                                         "check/sound.geojson", "check/203.geojson", "check/504.geojson"),
                          NameOf);
 
 }  // namespace

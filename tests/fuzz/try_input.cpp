@@ -17,7 +17,8 @@ bool IsOneLine(const std::string& text) {
 
 std::string Refused(const Error& error, const std::filesystem::path& path, bool names_file) {
   if (!IsOneLine(error.message)) return "not one line: " + error.message;
-  if (names_file && error.message.find(path.filename().string()) == std::string::npos) return "names no file: " + error.message;
+  if (names_file && error.message.find(path.filename().string()) == std::string::npos)
+    return "names no file: " + error.message;
   return {};
 }
 
@@ -41,7 +42,8 @@ std::string Unsound(const Footprints& footprints) {
   const auto finite = [](Point2 p) { return std::isfinite(p.x) && std::isfinite(p.y); };
   for (const Obstacle& o : footprints.obstacles) {
     if (o.outer.empty() ? !(o.radius_m > 0) : o.outer.size() < 3) return "an obstacle without an area";
-    if (!std::all_of(o.outer.begin(), o.outer.end(), finite) || !finite(o.center)) return "an obstacle that is not finite";
+    if (!std::all_of(o.outer.begin(), o.outer.end(), finite) || !finite(o.center))
+      return "an obstacle that is not finite";
   }
   return {};
 }

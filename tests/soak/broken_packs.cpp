@@ -1,6 +1,6 @@
-// A pack damaged at random, again and again, and each of those played: broken_packs PACK [HOW_OFTEN [SEED]]. What is refused must be
-// refused in one line; the rest must give pictures. Run it with the address sanitizer too.
-// Exit status: 0 nothing was wrong, 1 something was, 77 there is no OpenGL.
+// A pack damaged at random, again and again, and each of those played: broken_packs PACK [HOW_OFTEN [SEED]]. What is
+// refused must be refused in one line; the rest must give pictures. Run it with the address sanitizer too. Exit status:
+// 0 nothing was wrong, 1 something was, 77 there is no OpenGL.
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -12,12 +12,12 @@
 #include <random>
 #include <string>
 
+#include "runtime/desktop/context.h"
 #include "runtime/show/guide_figure.h"
 #include "runtime/simulation/scenario.h"
 #include "runtime/visit/visit.h"
-#include "runtime/desktop/context.h"
-#include "tests/unit/runtime/visit/silent_shell.h"
 #include "tests/soak/drivers_stay_loaded.h"
+#include "tests/unit/runtime/visit/silent_shell.h"
 
 namespace flaneur {
 namespace {
@@ -30,7 +30,8 @@ constexpr size_t kHeader_bytes = 20;
 class Damage {
  public:
   Damage(std::string whole, uint64_t seed) : whole_(std::move(whole)), random_(seed) {
-    json_bytes_ = std::min<size_t>(static_cast<uint8_t>(whole_[12]) | size_t{static_cast<uint8_t>(whole_[13])} << 8 | size_t{static_cast<uint8_t>(whole_[14])} << 16,
+    json_bytes_ = std::min<size_t>(static_cast<uint8_t>(whole_[12]) | size_t{static_cast<uint8_t>(whole_[13])} << 8 |
+                                       size_t{static_cast<uint8_t>(whole_[14])} << 16,
                                    whole_.size() - kHeader_bytes);
   }
   // One to four bits anywhere, or bits or a digit of the text at its beginning, which says what all the rest means.
@@ -57,7 +58,9 @@ class Damage {
   std::mt19937_64 random_;
 };
 
-struct Counts { int refused = 0, played = 0; };
+struct Counts {
+  int refused = 0, played = 0;
+};
 
 Error Play(const std::filesystem::path& path, Counts* counts) {
   Jobs jobs(static_cast<size_t>(counts->played + counts->refused) % 4);
@@ -88,9 +91,7 @@ Error Play(const std::filesystem::path& path, Counts* counts) {
   return Ok();
 }
 
-bool IsOneLine(const std::string& text) {
-  return !text.empty() && text.find_first_of("\r\n") == std::string::npos;
-}
+bool IsOneLine(const std::string& text) { return !text.empty() && text.find_first_of("\r\n") == std::string::npos; }
 
 int Run(const std::filesystem::path& pack, int how_often, uint64_t seed) {
   if (HeadlessContext context; Error e = context.Create()) {
@@ -115,11 +116,13 @@ int Run(const std::filesystem::path& pack, int how_often, uint64_t seed) {
     if (!error) continue;
     ++counts.refused;
     if (IsOneLine(error.message)) continue;
-    std::printf("wrong: pack %d is refused in other than one line: '%s'; it is kept as %s\n", k, error.message.c_str(), path.c_str());
+    std::printf("wrong: pack %d is refused in other than one line: '%s'; it is kept as %s\n", k, error.message.c_str(),
+                path.c_str());
     return 1;
   }
   std::filesystem::remove(path, ec);
-  std::printf("seed %llu: %d broken packs, %d refused, %d played\n", static_cast<unsigned long long>(seed), how_often, counts.refused, counts.played);
+  std::printf("seed %llu: %d broken packs, %d refused, %d played\n", static_cast<unsigned long long>(seed), how_often,
+              counts.refused, counts.played);
   return 0;
 }
 
@@ -131,5 +134,6 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "broken_packs PACK [HOW_OFTEN [SEED]]\n");
     return 2;
   }
-  return flaneur::Run(argv[1], argc > 2 ? std::atoi(argv[2]) : 1000, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
+  return flaneur::Run(argv[1], argc > 2 ? std::atoi(argv[2]) : 1000,
+                      argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
 }

@@ -6,11 +6,13 @@ WindowInput RandomHands::Next() {
   static const std::vector<std::string> names = InputNames();
   held_.clicks.clear();
   held_.turned_px = {};
-  if (Share() < 0.25) held_.down.flip(static_cast<size_t>(InputCode(names[static_cast<size_t>(Below(static_cast<int>(names.size())))])));
+  if (Share() < 0.25)
+    held_.down.flip(static_cast<size_t>(InputCode(names[static_cast<size_t>(Below(static_cast<int>(names.size())))])));
   if (Share() < 0.10) held_.down.flip(static_cast<size_t>(Below(kInputCodes)));  // of no name too
   if (Share() < 0.04) held_.down.reset();
   // What leads through the pages is tapped more often than chance would.
-  for (const char* name : {"down", "enter", "pad_a", "escape"}) held_.down.set(static_cast<size_t>(InputCode(name)), Share() < 0.12);
+  for (const char* name : {"down", "enter", "pad_a", "escape"})
+    held_.down.set(static_cast<size_t>(InputCode(name)), Share() < 0.12);
   if (Share() < 0.3) held_.turned_px = {Between(-40, 40), Between(-40, 40)};
   if (Share() < 0.01) held_.turned_px = {Between(-1e5, 1e5), Between(-1e5, 1e5)};
   if (Share() < 0.1) held_.left_stick = {Between(-1, 1), Between(-1, 1)};

@@ -12,7 +12,8 @@ class RandomHands {
  public:
   explicit RandomHands(uint64_t seed) : random_(seed) {}
 
-  // Keys and buttons held for a while or tapped, the mouse moved or thrown about, clicks inside and outside the picture, sticks pushed.
+  // Keys and buttons held for a while or tapped, the mouse moved or thrown about, clicks inside and outside the
+  // picture, sticks pushed.
   WindowInput Next();
   // Of the window; often as before, rarely 0 (hidden) or tiny.
   void NextSize(int* width_px, int* height_px);

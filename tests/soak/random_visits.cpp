@@ -1,19 +1,19 @@
-// Visitors whose hands do anything whatever, one after the other, for so many seconds: random_visits PACK [SECONDS [SEED]].
-// Exit status: 0 nothing was wrong, 1 something was, 77 there is no pack or no OpenGL.
+// Visitors whose hands do anything whatever, one after the other, for so many seconds: random_visits PACK [SECONDS
+// [SEED]]. Exit status: 0 nothing was wrong, 1 something was, 77 there is no pack or no OpenGL.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
 #include "runtime/base/clock.h"
+#include "runtime/desktop/context.h"
+#include "runtime/desktop/user_settings.h"
 #include "runtime/show/guide_figure.h"
 #include "runtime/simulation/scenario.h"
 #include "runtime/visit/visit.h"
-#include "runtime/desktop/context.h"
-#include "runtime/desktop/user_settings.h"
-#include "tests/unit/runtime/visit/silent_shell.h"
 #include "tests/soak/drivers_stay_loaded.h"
 #include "tests/soak/random_hands.h"
+#include "tests/unit/runtime/visit/silent_shell.h"
 
 namespace flaneur {
 namespace {
@@ -21,19 +21,24 @@ namespace {
 constexpr int kSkipped = 77;
 constexpr int kMaxPeople = 300;
 
-struct Counts { long visits = 0, unfinished = 0, pictures = 0, of_pages = 0, steps = 0; };
+struct Counts {
+  long visits = 0, unfinished = 0, pictures = 0, of_pages = 0, steps = 0;
+};
 
 // What must hold whatever anybody does; empty: it does.
 std::string Wrong(const Simulation& s, const std::filesystem::path& settings) {
   const CameraState& c = s.visitor.camera;
-  for (float value : {c.view.position.x, c.view.position.y, c.view.yaw_rad, c.pitch_rad, c.velocity.x, c.velocity.y, c.view.fov_rad}) {
+  for (float value : {c.view.position.x, c.view.position.y, c.view.yaw_rad, c.pitch_rad, c.velocity.x, c.velocity.y,
+                      c.view.fov_rad}) {
     if (!std::isfinite(value)) return "the camera's state is not finite";
   }
   if (InsideObstacle(s.town.walkable, c.view.position)) return "the visitor stands in an obstacle";
-  if (std::abs(c.yaw_rate_radps) > MaxYawRate_radps(s.control.settings) * 1.001f) return "the view turns faster than the crowd allows";
+  if (std::abs(c.yaw_rate_radps) > MaxYawRate_radps(s.control.settings) * 1.001f)
+    return "the view turns faster than the crowd allows";
   if (c.view.fov_rad < 0.3f || c.view.fov_rad > 2.2f) return "the field of view left its range";
   for (size_t i = 0; i < s.town.crowd.size(); ++i) {
-    if (!std::isfinite(s.town.crowd.position[i].x) || !std::isfinite(s.town.crowd.position[i].y)) return "a person is nowhere";
+    if (!std::isfinite(s.town.crowd.position[i].x) || !std::isfinite(s.town.crowd.position[i].y))
+      return "a person is nowhere";
   }
   PlayerSettings read;
   std::vector<std::string> warnings;
@@ -41,7 +46,8 @@ std::string Wrong(const Simulation& s, const std::filesystem::path& settings) {
   return warnings.empty() ? "" : warnings.front();
 }
 
-Error Play(const std::filesystem::path& path, double until_s, const std::filesystem::path& settings, RandomHands* hands, Counts* counts) {
+Error Play(const std::filesystem::path& path, double until_s, const std::filesystem::path& settings, RandomHands* hands,
+           Counts* counts) {
   TourPack pack;
   PackFile file;
   if (Error e = file.Open(path, &pack)) return e;
@@ -98,7 +104,8 @@ int Run(const std::filesystem::path& pack, double seconds, uint64_t seed) {
     std::printf("%s\n", e.message.c_str());
     return kSkipped;
   }
-  const auto settings = std::filesystem::temp_directory_path() / ("flaneur_random_visits_" + std::to_string(seed) + ".toml");
+  const auto settings =
+      std::filesystem::temp_directory_path() / ("flaneur_random_visits_" + std::to_string(seed) + ".toml");
   RandomHands hands(seed);
   Counts counts;
   Error error;
@@ -109,7 +116,8 @@ int Run(const std::filesystem::path& pack, double seconds, uint64_t seed) {
   }
   std::filesystem::remove(settings, ec);
   std::printf("seed %llu: %ld visits (%ld left while loading), %ld pictures (%ld of them with pages), %ld steps\n",
-              static_cast<unsigned long long>(seed), counts.visits, counts.unfinished, counts.pictures, counts.of_pages, counts.steps);
+              static_cast<unsigned long long>(seed), counts.visits, counts.unfinished, counts.pictures, counts.of_pages,
+              counts.steps);
   if (error) std::printf("wrong: %s\n", error.message.c_str());
   return error ? 1 : 0;
 }

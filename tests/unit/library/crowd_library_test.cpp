@@ -1,5 +1,5 @@
-// The crowd library as a program in C sees it: people who walk and levels within limits, the same each time, and a status for whatever
-// else it is given.
+// The crowd library as a program in C sees it: people who walk and levels within limits, the same each time, and a
+// status for whatever else it is given.
 #include <flaneur/crowd.h>
 #include <gtest/gtest.h>
 
@@ -29,14 +29,17 @@ FlaneurCrowdDef Square(FlaneurPoint at = {0, 0}) {
 
 class ACrowd : public testing::Test {
  protected:
-  explicit ACrowd(const FlaneurCrowdDef& def = Square()) { EXPECT_EQ(flaneur_create_crowd(&def, &crowd), FLANEUR_OK) << flaneur_crowd_last_error(); }
+  explicit ACrowd(const FlaneurCrowdDef& def = Square()) {
+    EXPECT_EQ(flaneur_create_crowd(&def, &crowd), FLANEUR_OK) << flaneur_crowd_last_error();
+  }
   ~ACrowd() override { flaneur_destroy_crowd(crowd); }
 
   FlaneurPersonId Add(FlaneurPoint at) const {
     FlaneurPersonDef def = flaneur_default_person_def();
     def.position_m = at;
     FlaneurPersonId id{};
-    EXPECT_EQ(flaneur_crowd_add_person(crowd, &def, &id), FLANEUR_OK) << flaneur_crowd_last_error() << at.x << " " << at.y;
+    EXPECT_EQ(flaneur_crowd_add_person(crowd, &def, &id), FLANEUR_OK)
+        << flaneur_crowd_last_error() << at.x << " " << at.y;
     return id;
   }
   FlaneurPersonId Send(FlaneurPoint from, FlaneurPoint to) const {
@@ -152,7 +155,8 @@ std::vector<double> AllOfARun(uint64_t seed) {
     flaneur_crowd_people(crowd, &people);
     for (int i = 0; i < people.count; ++i) {
       const FlaneurPerson& p = people.items[i];
-      out.insert(out.end(), {p.position_m.x, p.position_m.y, p.heading_rad, p.speed_mps, static_cast<double>(p.level), p.fade});
+      out.insert(out.end(),
+                 {p.position_m.x, p.position_m.y, p.heading_rad, p.speed_mps, static_cast<double>(p.level), p.fade});
     }
     if (step % 9 == 0 && people.count > 0) flaneur_crowd_remove_person(crowd, people.items[people.count / 2].id);
   }
@@ -189,7 +193,8 @@ TEST_F(ACrowd, KnowsItsPeopleByIdsThatAreNeverUsedAgain) {
     EXPECT_EQ(flaneur_crowd_set_goal(crowd, id, {40, 40}), FLANEUR_ERROR_ID);
     EXPECT_EQ(flaneur_crowd_clear_goal(crowd, id), FLANEUR_ERROR_ID);
   }
-  for (const FlaneurPersonId id : {FlaneurPersonId{0, 0}, FlaneurPersonId{UINT32_MAX, 1}, FlaneurPersonId{1, UINT32_MAX}})
+  for (const FlaneurPersonId id :
+       {FlaneurPersonId{0, 0}, FlaneurPersonId{UINT32_MAX, 1}, FlaneurPersonId{1, UINT32_MAX}})
     EXPECT_FALSE(flaneur_crowd_has_person(crowd, id));
   EXPECT_TRUE(Step().empty());
 }
@@ -202,13 +207,15 @@ TEST_F(ACrowd, MayBeSentElsewhereAsOftenAsOneLikes) {
     const FlaneurPoint shared{40.0 + 0.01 * round, 40};
     for (size_t k = 0; k < ids.size(); ++k) {
       const FlaneurPoint own{2.0 + 0.02 * round, 2.0 + 0.3 * static_cast<double>(k)};
-      ASSERT_EQ(flaneur_crowd_set_goal(crowd, ids[k], round % 2 == 0 ? shared : own), FLANEUR_OK) << flaneur_crowd_last_error();
+      ASSERT_EQ(flaneur_crowd_set_goal(crowd, ids[k], round % 2 == 0 ? shared : own), FLANEUR_OK)
+          << flaneur_crowd_last_error();
     }
     Step();
   }
   std::vector<FlaneurPerson> before = Step(), after;
   for (int step = 0; step < 2000; ++step) after = Step();
-  for (const FlaneurPerson& p : after) EXPECT_LT(std::hypot(p.position_m.x - 6, p.position_m.y - 5), 8);  // all at their last goals
+  for (const FlaneurPerson& p : after)
+    EXPECT_LT(std::hypot(p.position_m.x - 6, p.position_m.y - 5), 8);  // all at their last goals
 }
 
 TEST_F(ACrowd, PlacesThatAreNoneAreRefused) {
@@ -218,10 +225,10 @@ TEST_F(ACrowd, PlacesThatAreNoneAreRefused) {
     person.position_m = at;
     return flaneur_crowd_add_person(crowd, &person, &id);
   };
-  EXPECT_EQ(add({25, 15}), FLANEUR_ERROR_INPUT);      // in the house
-  EXPECT_EQ(add({19.9, 15}), FLANEUR_ERROR_INPUT);    // against its wall
-  EXPECT_EQ(add({10, 10.5}), FLANEUR_ERROR_INPUT);    // in the tree
-  EXPECT_EQ(add({-1, 15}), FLANEUR_ERROR_INPUT);      // off the ground
+  EXPECT_EQ(add({25, 15}), FLANEUR_ERROR_INPUT);    // in the house
+  EXPECT_EQ(add({19.9, 15}), FLANEUR_ERROR_INPUT);  // against its wall
+  EXPECT_EQ(add({10, 10.5}), FLANEUR_ERROR_INPUT);  // in the tree
+  EXPECT_EQ(add({-1, 15}), FLANEUR_ERROR_INPUT);    // off the ground
   EXPECT_EQ(add({90'000, 15}), FLANEUR_ERROR_INPUT);
   EXPECT_EQ(add({1e30, 15}), FLANEUR_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(add({kNan, 15}), FLANEUR_ERROR_OUT_OF_RANGE);
@@ -236,7 +243,8 @@ TEST_F(ACrowd, PlacesThatAreNoneAreRefused) {
 
 TEST(Crowds, GoalsBehindClosedWallsAreRefused) {
   FlaneurCrowdDef def = Square();
-  const FlaneurPoint outer[] = {{20, 20}, {40, 20}, {40, 40}, {20, 40}}, yard[] = {{25, 25}, {35, 25}, {35, 35}, {25, 35}};
+  const FlaneurPoint outer[] = {{20, 20}, {40, 20}, {40, 40}, {20, 40}},
+                     yard[] = {{25, 25}, {35, 25}, {35, 35}, {25, 35}};
   const FlaneurRing hole{yard, 4};
   const FlaneurPolygon ring{{outer, 4}, &hole, 1};
   def.polygons = &ring;
@@ -263,14 +271,17 @@ FlaneurStatus StatusOf(const std::function<void(FlaneurCrowdDef*)>& change) {
 
 TEST(Crowds, EveryNumberOfADefinitionMayBeAnything) {
   using Def = FlaneurCrowdDef;
-  for (float Def::* member : {&Def::largest_radius_m, &Def::preferred_speed_mps, &Def::speed_spread_mps, &Def::top_speed_mps, &Def::target_ms,
-                              &Def::r_personal_m, &Def::r_high_m, &Def::r_unimportant_m, &Def::r_far_m, &Def::step_hz, &Def::max_yaw_rate_dps})
+  for (float Def::*member : {&Def::largest_radius_m, &Def::preferred_speed_mps, &Def::speed_spread_mps,
+                             &Def::top_speed_mps, &Def::target_ms, &Def::r_personal_m, &Def::r_high_m,
+                             &Def::r_unimportant_m, &Def::r_far_m, &Def::step_hz, &Def::max_yaw_rate_dps})
     for (const float value : {kNan, kInfinity, -1.0f, 3e38f})
       EXPECT_EQ(StatusOf([&](Def* def) { def->*member = value; }), FLANEUR_ERROR_OUT_OF_RANGE) << value;
-  for (int Def::* member : {&Def::adaptation, &Def::method, &Def::high_limit, &Def::budget_triangles, &Def::polygon_count, &Def::circle_count})
+  for (int Def::*member : {&Def::adaptation, &Def::method, &Def::high_limit, &Def::budget_triangles,
+                           &Def::polygon_count, &Def::circle_count})
     for (const int value : {-1, INT32_MIN})
       EXPECT_EQ(StatusOf([&](Def* def) { def->*member = value; }), FLANEUR_ERROR_OUT_OF_RANGE) << value;
-  for (const FlaneurPoint max : {FlaneurPoint{0, 0}, {-5, 50}, {1, 50}, {50, 2001}, {kNan, 50}, {kInfinity, 50}, {1e300, 50}})
+  for (const FlaneurPoint max :
+       {FlaneurPoint{0, 0}, {-5, 50}, {1, 50}, {50, 2001}, {kNan, 50}, {kInfinity, 50}, {1e300, 50}})
     EXPECT_EQ(StatusOf([&](Def* def) { def->ground_max_m = max; }), FLANEUR_ERROR_OUT_OF_RANGE) << max.x;
   EXPECT_EQ(StatusOf([](Def* def) { def->r_personal_m = def->r_high_m = 5; }), FLANEUR_ERROR_INPUT);
   EXPECT_EQ(StatusOf([](Def* def) { def->r_far_m = def->r_high_m; }), FLANEUR_ERROR_INPUT);
@@ -281,12 +292,14 @@ TEST(Crowds, EveryNumberOfADefinitionMayBeAnything) {
 
 TEST(Crowds, EveryObstacleMayBeAnything) {
   using Def = FlaneurCrowdDef;
-  const auto polygon = [](const FlaneurPoint* points, int count, const FlaneurRing* holes = nullptr, int hole_count = 0) {
+  const auto polygon = [](const FlaneurPoint* points, int count, const FlaneurRing* holes = nullptr,
+                          int hole_count = 0) {
     const FlaneurPolygon p{{points, count}, holes, hole_count};
     return StatusOf([&](Def* def) { def->polygons = &p; });
   };
-  const FlaneurPoint not_a_number[] = {{1, 1}, {kNan, 1}, {5, 5}}, far[] = {{1, 1}, {1e9, 1}, {5, 5}}, one[] = {{5, 5}, {5, 5}, {5, 5}},
-                     bow[] = {{5, 5}, {15, 15}, {15, 5}, {5, 15}}, wide[] = {{-9e4, -9e4}, {9e4, -9e4}, {0, -1}};
+  const FlaneurPoint not_a_number[] = {{1, 1}, {kNan, 1}, {5, 5}}, far[] = {{1, 1}, {1e9, 1}, {5, 5}},
+                     one[] = {{5, 5}, {5, 5}, {5, 5}}, bow[] = {{5, 5}, {15, 15}, {15, 5}, {5, 15}},
+                     wide[] = {{-9e4, -9e4}, {9e4, -9e4}, {0, -1}};
   const FlaneurRing empty{nullptr, 0}, two{kHouse, 2}, missing{nullptr, 4};
   EXPECT_EQ(polygon(not_a_number, 3), FLANEUR_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(polygon(far, 3), FLANEUR_ERROR_OUT_OF_RANGE);
@@ -346,7 +359,9 @@ TEST_F(ACrowd, PeopleAndCamerasMayBeAnything) {
   EXPECT_EQ(add([](Def* def) { def->figure = 1; }), FLANEUR_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(add([](Def* def) { def->figure = -1; }), FLANEUR_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(add([](Def* def) { def->internal_value = 0; }), FLANEUR_ERROR_DEFINITION);
-  const auto step = [&](FlaneurCamera camera, float frame_ms = 16) { return flaneur_crowd_step(crowd, &camera, frame_ms); };
+  const auto step = [&](FlaneurCamera camera, float frame_ms = 16) {
+    return flaneur_crowd_step(crowd, &camera, frame_ms);
+  };
   for (const float value : {kNan, kInfinity, 3e38f}) {
     EXPECT_EQ(step({{value, 25}, 0, 1, 1280}), FLANEUR_ERROR_OUT_OF_RANGE) << value;
     EXPECT_EQ(step({{25, 25}, value, 1, 1280}), FLANEUR_ERROR_OUT_OF_RANGE) << value;
@@ -359,7 +374,9 @@ TEST_F(ACrowd, PeopleAndCamerasMayBeAnything) {
   // Odd ones that are meant: in the house, far away, spinning, leaping.
   for (int k = 0; k < 200; ++k) {
     const double far_m = k % 3 == 0 ? 25 : k % 3 == 1 ? -9e4 : 9e4;
-    ASSERT_EQ(step({{far_m, 15}, 2.5f * static_cast<float>(k * k), k % 2 == 0 ? 0.2f : 2.6f, k % 2 == 0 ? 1 : 65536}, static_cast<float>(k)), FLANEUR_OK);
+    ASSERT_EQ(step({{far_m, 15}, 2.5f * static_cast<float>(k * k), k % 2 == 0 ? 0.2f : 2.6f, k % 2 == 0 ? 1 : 65536},
+                   static_cast<float>(k)),
+              FLANEUR_OK);
     FlaneurPersonSpan people{};
     ASSERT_EQ(flaneur_crowd_people(crowd, &people), FLANEUR_OK);
     for (int i = 0; i < people.count; ++i) {
@@ -375,7 +392,8 @@ TEST_F(ACrowd, MayBePutOnOneSpot) {
   const FlaneurCamera camera{{40, 40}, 0, 1.05f, 1280};
   std::vector<FlaneurPerson> people;
   for (int step = 0; step < 300; ++step) people = Step(&camera);
-  for (const FlaneurPerson& p : people) EXPECT_TRUE(std::isfinite(p.position_m.x) && std::isfinite(p.speed_mps) && p.speed_mps < 5);
+  for (const FlaneurPerson& p : people)
+    EXPECT_TRUE(std::isfinite(p.position_m.x) && std::isfinite(p.speed_mps) && p.speed_mps < 5);
 }
 
 TEST_F(ACrowd, NullAndWhatIsGoneAreRefused) {
@@ -408,7 +426,8 @@ TEST_F(ACrowd, NullAndWhatIsGoneAreRefused) {
 
 TEST(Versions, OfTheCrowdsHeaderAndLibraryAreTheSame) {
   const FlaneurVersion version = flaneur_crowd_version();
-  EXPECT_EQ(std::to_string(version.major) + "." + std::to_string(version.minor) + "." + std::to_string(version.patch), FLANEUR_VERSION_TEXT);
+  EXPECT_EQ(std::to_string(version.major) + "." + std::to_string(version.minor) + "." + std::to_string(version.patch),
+            FLANEUR_VERSION_TEXT);
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ struct Solid {
 Solid Box(double x0, double y0, double z0, double x1, double y1, double z1) {
   Solid box;
   for (const double z : {z0, z1})
-    for (const auto& [x, y] : {std::pair{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}) box.positions_m.insert(box.positions_m.end(), {x, y, z});
+    for (const auto& [x, y] : {std::pair{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}})
+      box.positions_m.insert(box.positions_m.end(), {x, y, z});
   for (uint32_t i = 0; i < 4; ++i) {
     const uint32_t j = (i + 1) % 4;
     box.indices.insert(box.indices.end(), {i, j, j + 4, i, j + 4, i + 4});
@@ -29,9 +30,7 @@ Solid Box(double x0, double y0, double z0, double x1, double y1, double z1) {
   return box;
 }
 
-Solid Ground(double size_m) {
-  return {{0, 0, 0, size_m, 0, 0, size_m, size_m, 0, 0, size_m, 0}, {0, 1, 2, 0, 2, 3}};
-}
+Solid Ground(double size_m) { return {{0, 0, 0, size_m, 0, 0, size_m, size_m, 0, 0, size_m, 0}, {0, 1, 2, 0, 2, 3}}; }
 
 FlaneurObject ObjectOf(const char* name, int kind, const Solid& solid) {
   FlaneurObject object{};
@@ -52,7 +51,8 @@ class House : public testing::Test {
  protected:
   explicit House(double east = 0, double north = 0) : house(Box(10, 10, -0.3, 18, 16, 8)), ground(Ground(40)) {
     for (Solid* solid : {&house, &ground})
-      for (size_t i = 0; i < solid->positions_m.size(); i += 3) solid->positions_m[i] += east, solid->positions_m[i + 1] += north;
+      for (size_t i = 0; i < solid->positions_m.size(); i += 3)
+        solid->positions_m[i] += east, solid->positions_m[i + 1] += north;
     objects = {ObjectOf("house", FLANEUR_OBJECT_BUILDING, house), ObjectOf("square", FLANEUR_OBJECT_GROUND, ground)};
   }
 
@@ -138,7 +138,8 @@ TEST_F(House, TrianglesThatAreNoneAreRefused) {
     for (size_t i = 0; i < 3; ++i) {
       Solid broken = house;
       broken.positions_m[3 + i] = bad;
-      EXPECT_EQ(With([&](FlaneurObject* o) { o->positions_m = broken.positions_m.data(); }), FLANEUR_ERROR_OUT_OF_RANGE) << bad;
+      EXPECT_EQ(With([&](FlaneurObject* o) { o->positions_m = broken.positions_m.data(); }), FLANEUR_ERROR_OUT_OF_RANGE)
+          << bad;
       EXPECT_NE(std::string(flaneur_footprints_last_error()).find("house"), std::string::npos);
     }
   }
@@ -146,7 +147,8 @@ TEST_F(House, TrianglesThatAreNoneAreRefused) {
   EXPECT_EQ(With([](FlaneurObject* o) { o->vertex_count = -1; }), FLANEUR_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(With([](FlaneurObject* o) { o->index_count = -3; }), FLANEUR_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(With([](FlaneurObject* o) { o->index_count -= 1; }), FLANEUR_ERROR_OUT_OF_RANGE);
-  EXPECT_EQ(With([](FlaneurObject* o) { o->vertex_count -= 1; }), FLANEUR_ERROR_OUT_OF_RANGE);  // the last index is behind it
+  EXPECT_EQ(With([](FlaneurObject* o) { o->vertex_count -= 1; }),
+            FLANEUR_ERROR_OUT_OF_RANGE);  // the last index is behind it
   EXPECT_EQ(With([](FlaneurObject* o) { o->indices = nullptr; }), FLANEUR_ERROR_NULL);
   EXPECT_EQ(With([](FlaneurObject* o) { o->kind = 7; }), FLANEUR_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(With([](FlaneurObject* o) { o->kind = -1; }), FLANEUR_ERROR_OUT_OF_RANGE);
@@ -165,7 +167,8 @@ TEST_F(House, TrianglesThatAreOddGiveAStatusOrObstacles) {
   for (const double far : {1e5, 9e7, 1e-300, 1e-12}) {
     Solid odd = house;
     odd.positions_m[6] = far, odd.positions_m[7] = -far;
-    EXPECT_NE(With([&](FlaneurObject* o) { o->positions_m = odd.positions_m.data(); }), FLANEUR_ERROR_INTERNAL) << far << flaneur_footprints_last_error();
+    EXPECT_NE(With([&](FlaneurObject* o) { o->positions_m = odd.positions_m.data(); }), FLANEUR_ERROR_INTERNAL)
+        << far << flaneur_footprints_last_error();
   }
 }
 
@@ -186,7 +189,8 @@ TEST(Footprints, OfNothingIsAnError) {
 
 TEST_F(House, EveryNumberOfADefinitionMayBeAnything) {
   using Def = FlaneurFootprintsDef;
-  for (double Def::* member : {&Def::clearance_m, &Def::band_low_m, &Def::band_high_m, &Def::tolerance_m, &Def::bridge_m, &Def::open_yard_m2}) {
+  for (double Def::*member : {&Def::clearance_m, &Def::band_low_m, &Def::band_high_m, &Def::tolerance_m, &Def::bridge_m,
+                              &Def::open_yard_m2}) {
     for (const double value : {kNan, kInfinity, -1.0, 1e300}) {
       Def def = DefOf(objects);
       def.*member = value;
@@ -197,9 +201,10 @@ TEST_F(House, EveryNumberOfADefinitionMayBeAnything) {
   FlaneurFootprintsId id{};
   ASSERT_EQ(Create(&id), FLANEUR_OK);
   using Check = FlaneurCheckDef;
-  for (double Check::* member :
-       {&Check::person_radius_m, &Check::tolerance_m, &Check::spike_width_m, &Check::spike_length_m, &Check::over_cover_share,
-        &Check::headroom_m, &Check::overlap_m2, &Check::least_ground_m2, &Check::dead_end_m, &Check::high_resolution_radius_m}) {
+  for (double Check::*member :
+       {&Check::person_radius_m, &Check::tolerance_m, &Check::spike_width_m, &Check::spike_length_m,
+        &Check::over_cover_share, &Check::headroom_m, &Check::overlap_m2, &Check::least_ground_m2, &Check::dead_end_m,
+        &Check::high_resolution_radius_m}) {
     for (const double value : {kNan, kInfinity, -1.0, 1e300}) {
       Check check = flaneur_default_check_def();
       check.*member = value;
@@ -229,7 +234,8 @@ TEST_F(House, GatesAndStreetsMayBeAnything) {
   EXPECT_EQ(check(gate, {"street", line, 3}), FLANEUR_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(check(gate, {"street", line, 1}), FLANEUR_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(check(gate, {"street", nullptr, 2}), FLANEUR_ERROR_NULL);
-  EXPECT_NE(check({"gate", {9e7, -9e7}, {0, 0}, false}, {"street", line, 2}), FLANEUR_ERROR_INTERNAL);  // far away, but a place
+  EXPECT_NE(check({"gate", {9e7, -9e7}, {0, 0}, false}, {"street", line, 2}),
+            FLANEUR_ERROR_INTERNAL);  // far away, but a place
   EXPECT_EQ(flaneur_footprints_check(id, nullptr, &findings), FLANEUR_ERROR_NULL);
   const FlaneurCheckDef def = flaneur_default_check_def(), not_made{};
   EXPECT_EQ(flaneur_footprints_check(id, &def, nullptr), FLANEUR_ERROR_NULL);
@@ -248,7 +254,8 @@ TEST_F(House, IdsOfWhatIsGoneAreRefused) {
   FlaneurTextSpan warnings{};
   FlaneurFindingSpan findings{};
   const FlaneurCheckDef check = flaneur_default_check_def();
-  for (const FlaneurFootprintsId gone : {id, FlaneurFootprintsId{0, 0}, FlaneurFootprintsId{UINT32_MAX, 1}, FlaneurFootprintsId{next.index1, UINT32_MAX}}) {
+  for (const FlaneurFootprintsId gone : {id, FlaneurFootprintsId{0, 0}, FlaneurFootprintsId{UINT32_MAX, 1},
+                                         FlaneurFootprintsId{next.index1, UINT32_MAX}}) {
     EXPECT_FALSE(flaneur_footprints_is_valid(gone));
     EXPECT_EQ(flaneur_destroy_footprints(gone), FLANEUR_ERROR_ID);
     EXPECT_EQ(flaneur_footprints_obstacles(gone, &obstacles), FLANEUR_ERROR_ID);
@@ -285,7 +292,8 @@ TEST_F(House, ThreadsWorkAtTheSameTimeEachWithItsOwn) {
 
 TEST(Versions, OfHeaderAndLibraryAreTheSame) {
   const FlaneurVersion version = flaneur_footprints_version();
-  EXPECT_EQ(std::to_string(version.major) + "." + std::to_string(version.minor) + "." + std::to_string(version.patch), FLANEUR_VERSION_TEXT);
+  EXPECT_EQ(std::to_string(version.major) + "." + std::to_string(version.minor) + "." + std::to_string(version.patch),
+            FLANEUR_VERSION_TEXT);
 }
 
 }  // namespace

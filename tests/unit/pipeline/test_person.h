@@ -14,8 +14,7 @@ inline Mat4 Moved(Vec3 by) { return FromTranslationRotationScale(by, {}, {1, 1, 
 
 // A tube of square section from y = bottom to top in `rings` rings, closed at both ends, all on one
 // joint.
-inline void AddTube(float x, float bottom, float top, float half_width, int rings, uint16_t joint,
-                    Mesh* mesh) {
+inline void AddTube(float x, float bottom, float top, float half_width, int rings, uint16_t joint, Mesh* mesh) {
   const uint32_t base = static_cast<uint32_t>(mesh->positions.size());
   for (int r = 0; r < rings; ++r) {
     const float t = static_cast<float>(r) / static_cast<float>(rings - 1);
@@ -89,9 +88,9 @@ inline AvatarLevels OneLevel(const Avatar& avatar) {
 // The folder of real data beside the project; empty where there is none.
 inline std::filesystem::path SharedData() {
   const char* given = std::getenv("FLANEUR_SHARED_DIR");
-  const std::filesystem::path folder =
-      given != nullptr ? std::filesystem::path(given)
-                       : std::filesystem::path(FLANEUR_SOURCE_DIR).parent_path() / "shared";
+  const std::filesystem::path folder = given != nullptr
+                                           ? std::filesystem::path(given)
+                                           : std::filesystem::path(FLANEUR_SOURCE_DIR).parent_path() / "shared";
   return std::filesystem::is_directory(folder / "data") ? folder / "data" : std::filesystem::path();
 }
 

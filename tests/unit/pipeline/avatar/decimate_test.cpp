@@ -127,8 +127,10 @@ AvatarLevels DomesChain(int n) {
   Avatar avatar = PersonWithoutBody();
   Mesh& mesh = avatar.meshes[0];
   for (int k = 0; k < (n + 1) * (n + 1); ++k) {
-    const float x = static_cast<float>(k % (n + 1)) / static_cast<float>(n), y = static_cast<float>(k / (n + 1)) / static_cast<float>(n);
-    const Vec3 p{0.4f * (x - 0.5f), 0.4f * (y - 0.5f), 0.15f * std::cos(7 * kPi * (x - 0.5f)) * std::cos(7 * kPi * (y - 0.5f))};
+    const float x = static_cast<float>(k % (n + 1)) / static_cast<float>(n),
+                y = static_cast<float>(k / (n + 1)) / static_cast<float>(n);
+    const Vec3 p{0.4f * (x - 0.5f), 0.4f * (y - 0.5f),
+                 0.15f * std::cos(7 * kPi * (x - 0.5f)) * std::cos(7 * kPi * (y - 0.5f))};
     mesh.positions.push_back(p + Vec3{0, 0.9f, 0});
     const float a = 7 * kPi * (x - 0.5f), b = 7 * kPi * (y - 0.5f), slope = 0.15f * 7 * kPi / 0.4f;
     mesh.normals.push_back(Normalized(Vec3{slope * std::sin(a) * std::cos(b), slope * std::cos(a) * std::sin(b), 1}));
@@ -238,8 +240,8 @@ TEST(SurfaceTree, AgreesWithAPlainSearchOfKnownDistances) {
   const Mesh& mesh = avatar.meshes[0];
   std::vector<std::array<Vec3, 3>> triangles;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
-    triangles.push_back({mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
-                         mesh.positions[mesh.indices[i + 2]]});
+    triangles.push_back(
+        {mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]], mesh.positions[mesh.indices[i + 2]]});
   }
   const SurfaceTree tree(triangles);
   for (const Vec3 p : mesh.positions) EXPECT_NEAR(tree.Distance(p), 0, 1e-5f);
@@ -295,7 +297,9 @@ TEST(BuildLevels, PropsKeepTheirJointsAndHaveFewTriangles) {
   ReadAvatarOptions read;
   read.props = {"Spike_Shield", "Knight_Helmet", "Round_Shield"};
   ASSERT_EQ(ReadAvatar(SharedData() / "avatars/kaykit/Knight.glb", read, &avatar, &warnings).message, "");
-  const auto joint_of = [](const Avatar& a, size_t prop) { return a.joints[a.props[prop].meshes[0].joints[0][0]].name; };
+  const auto joint_of = [](const Avatar& a, size_t prop) {
+    return a.joints[a.props[prop].meshes[0].joints[0][0]].name;
+  };
   AvatarLevels levels;
   ASSERT_EQ(BuildLevels(avatar, {}, &levels, &warnings).message, "");
   ASSERT_EQ(levels.avatar.props.size(), 3u);

@@ -7,14 +7,16 @@
 namespace flaneur {
 namespace {
 
-// A ball of radius 1 with so many rings, brighter towards +Y. `lean`: how far its normals are off, and its colours with them.
+// A ball of radius 1 with so many rings, brighter towards +Y. `lean`: how far its normals are off, and its colours with
+// them.
 Mesh Ball(int rings, float lean) {
   Mesh mesh;
   mesh.name = "ball";
   const int around = 2 * rings;
   for (int r = 0; r <= rings; ++r) {
     for (int a = 0; a < around; ++a) {
-      const float polar = kPi * static_cast<float>(r) / static_cast<float>(rings), azimuth = kPi * static_cast<float>(a) / static_cast<float>(rings);
+      const float polar = kPi * static_cast<float>(r) / static_cast<float>(rings),
+                  azimuth = kPi * static_cast<float>(a) / static_cast<float>(rings);
       const Vec3 p{std::sin(polar) * std::sin(azimuth), std::cos(polar), std::sin(polar) * std::cos(azimuth)};
       mesh.positions.push_back(p);
       mesh.normals.push_back(Normalized(p + Vec3{lean, 0, -lean}));
@@ -25,7 +27,8 @@ Mesh Ball(int rings, float lean) {
   for (int r = 0; r < rings; ++r) {
     for (int a = 0; a < around; ++a) {
       const auto at = [&](int ring, int step) { return static_cast<uint32_t>(ring * around + step % around); };
-      mesh.indices.insert(mesh.indices.end(), {at(r, a), at(r + 1, a), at(r + 1, a + 1), at(r, a), at(r + 1, a + 1), at(r, a + 1)});
+      mesh.indices.insert(mesh.indices.end(),
+                          {at(r, a), at(r + 1, a), at(r + 1, a + 1), at(r, a), at(r + 1, a + 1), at(r, a + 1)});
     }
   }
   return mesh;
@@ -38,7 +41,8 @@ std::pair<double, double> Off(const WedgeSurface& surface) {
     for (size_t k = 0; k < 3; ++k) {
       const Vec3 p = surface.vertices[static_cast<size_t>(face.vertices[k])].position;
       const WedgeSurface::Wedge& wedge = surface.wedges[static_cast<size_t>(face.wedges[k])];
-      degrees += std::acos(std::min(1.0, static_cast<double>(Dot(wedge.normal, Normalized(p))))) * 180 / static_cast<double>(kPi);
+      degrees += std::acos(std::min(1.0, static_cast<double>(Dot(wedge.normal, Normalized(p))))) * 180 /
+                 static_cast<double>(kPi);
       off += std::abs(static_cast<double>(wedge.color.x - (0.5f + 0.4f * p.y)));
     }
   }

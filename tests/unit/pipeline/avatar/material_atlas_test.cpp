@@ -35,8 +35,7 @@ Mesh Square(int material, Vec2 min, Vec2 max) {
 }
 
 // Two levels, alike, of these squares.
-AvatarLevels TwoLevels(std::vector<Mesh> meshes, std::vector<Material> materials,
-                       std::vector<Image> images) {
+AvatarLevels TwoLevels(std::vector<Mesh> meshes, std::vector<Material> materials, std::vector<Image> images) {
   AvatarLevels levels;
   levels.avatar = MadePerson();
   levels.avatar.meshes = meshes;
@@ -57,13 +56,11 @@ Material Pictured(int image) {
 // The colour that a mesh of the coarser level shows at its first vertices' middle, shares from 0.
 Rgba Shown(const AvatarLevels& levels, const Mesh& mesh, size_t first, float u, float v) {
   const Material& material = levels.avatar.materials[static_cast<size_t>(mesh.material)];
-  const Pixels picture =
-      *Decoded(levels.avatar.images[static_cast<size_t>(material.base_color_image)].bytes);
+  const Pixels picture = *Decoded(levels.avatar.images[static_cast<size_t>(material.base_color_image)].bytes);
   const Vec2 a = mesh.uvs[first], b = mesh.uvs[first + 2];
   const float x = (a.x + u * (b.x - a.x)) * static_cast<float>(picture.width);
   const float y = (a.y + v * (b.y - a.y)) * static_cast<float>(picture.height);
-  const size_t at =
-      4 * (static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(x));
+  const size_t at = 4 * (static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(x));
   return {picture.rgba[at], picture.rgba[at + 1], picture.rgba[at + 2], picture.rgba[at + 3]};
 }
 
@@ -74,10 +71,10 @@ void ExpectNear(Rgba a, Rgba b) {
 TEST(MergeMaterials, ShowsTheSamePicturesInOneDraw) {
   Material plain;
   plain.base_color = {0.2158605f, 0, 1, 1};  // 0.5 in sRGB
-  AvatarLevels levels = TwoLevels(
-      {Square(0, {0, 0}, {1, 1}), Square(1, {0, 0}, {1, 1}), Square(2, {0, 0}, {1, 1})},
-      {Pictured(0), Pictured(1), plain},
-      {TwoColors({200, 0, 0, 255}, {0, 200, 0, 255}), TwoColors({0, 0, 90, 255}, {9, 9, 9, 255})});
+  AvatarLevels levels =
+      TwoLevels({Square(0, {0, 0}, {1, 1}), Square(1, {0, 0}, {1, 1}), Square(2, {0, 0}, {1, 1})},
+                {Pictured(0), Pictured(1), plain},
+                {TwoColors({200, 0, 0, 255}, {0, 200, 0, 255}), TwoColors({0, 0, 90, 255}, {9, 9, 9, 255})});
   std::vector<std::string> warnings;
   MergeMaterials(&levels, &warnings);
   EXPECT_TRUE(warnings.empty());
@@ -99,8 +96,7 @@ TEST(MergeMaterials, MultipliesBaseColoursAndMovesCutoffs) {
   mask.alpha_cutoff = 0.8f;
   AvatarLevels levels =
       TwoLevels({Square(0, {0, 0}, {1, 1}), Square(1, {0, 0}, {1, 1})}, {tinted, mask},
-                {TwoColors({255, 255, 255, 0}, {255, 255, 255, 0}),
-                 TwoColors({50, 50, 50, 210}, {50, 50, 50, 190})});
+                {TwoColors({255, 255, 255, 0}, {255, 255, 255, 0}), TwoColors({50, 50, 50, 210}, {50, 50, 50, 190})});
   std::vector<std::string> warnings;
   MergeMaterials(&levels, &warnings);
   ASSERT_EQ(levels.levels[1].meshes.size(), 1u);
@@ -109,14 +105,14 @@ TEST(MergeMaterials, MultipliesBaseColoursAndMovesCutoffs) {
   EXPECT_EQ(merged.alpha, Material::Alpha::kMask);
   EXPECT_FLOAT_EQ(merged.alpha_cutoff, 0.5f);
   ExpectNear(Shown(levels, mesh, 0, 0.25f, 0.5f), {188, 255, 255, 255});  // 0.5 of white, opaque
-  EXPECT_GT(Shown(levels, mesh, 4, 0.25f, 0.5f)[3], 128);  // above and below the cutoff as before
+  EXPECT_GT(Shown(levels, mesh, 4, 0.25f, 0.5f)[3], 128);                 // above and below the cutoff as before
   EXPECT_LT(Shown(levels, mesh, 4, 0.75f, 0.5f)[3], 128);
 }
 
 TEST(MergeMaterials, WritesRepeatsOutOrKeepsThemApart) {
   const std::vector<Image> images{TwoColors({200, 0, 0, 255}, {0, 200, 0, 255})};
-  AvatarLevels levels = TwoLevels({Square(0, {-7, 3}, {-4, 4}), Square(1, {0, 0}, {1, 1})},
-                                  {Pictured(0), Material{}}, images);
+  AvatarLevels levels =
+      TwoLevels({Square(0, {-7, 3}, {-4, 4}), Square(1, {0, 0}, {1, 1})}, {Pictured(0), Material{}}, images);
   std::vector<std::string> warnings;
   MergeMaterials(&levels, &warnings);
   EXPECT_TRUE(warnings.empty());
@@ -126,8 +122,7 @@ TEST(MergeMaterials, WritesRepeatsOutOrKeepsThemApart) {
     ExpectNear(Shown(levels, mesh, 0, (tile + 0.25f) / 3, 0.5f), {200, 0, 0, 255});
     ExpectNear(Shown(levels, mesh, 0, (tile + 0.75f) / 3, 0.5f), {0, 200, 0, 255});
   }
-  levels = TwoLevels({Square(0, {0, 0}, {40, 1}), Square(1, {0, 0}, {1, 1})},
-                     {Pictured(0), Material{}}, images);
+  levels = TwoLevels({Square(0, {0, 0}, {40, 1}), Square(1, {0, 0}, {1, 1})}, {Pictured(0), Material{}}, images);
   MergeMaterials(&levels, &warnings);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("repeats"), std::string::npos) << warnings[0];
@@ -138,9 +133,9 @@ TEST(MergeMaterials, KeepsApartWhatIsDrawnOtherwise) {
   Material two_sided, blended;
   two_sided.double_sided = true;
   blended.alpha = Material::Alpha::kBlend;
-  AvatarLevels levels = TwoLevels({Square(0, {0, 0}, {1, 1}), Square(1, {0, 0}, {1, 1}),
-                                   Square(2, {0, 0}, {1, 1}), Square(-1, {0, 0}, {1, 1})},
-                                  {Material{}, two_sided, blended}, {});
+  AvatarLevels levels = TwoLevels(
+      {Square(0, {0, 0}, {1, 1}), Square(1, {0, 0}, {1, 1}), Square(2, {0, 0}, {1, 1}), Square(-1, {0, 0}, {1, 1})},
+      {Material{}, two_sided, blended}, {});
   std::vector<std::string> warnings;
   MergeMaterials(&levels, &warnings);
   EXPECT_EQ(levels.levels[1].meshes.size(), 3u);

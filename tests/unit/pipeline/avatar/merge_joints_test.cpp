@@ -21,8 +21,7 @@ Avatar WithToe(float angle_rad) {
       transforms.push_back(walk.transforms[static_cast<size_t>(k) * 3 + j]);
     }
     Transform t = toe.rest;
-    const float half = 0.5f * angle_rad *
-                       std::sin(2 * kPi * static_cast<float>(k) / static_cast<float>(walk.keys));
+    const float half = 0.5f * angle_rad * std::sin(2 * kPi * static_cast<float>(k) / static_cast<float>(walk.keys));
     t.rotation = {std::sin(half), 0, 0, std::cos(half)};
     transforms.push_back(t);
   }
@@ -75,8 +74,7 @@ TEST(DropIdleJoints, LeavesEveryPoseAsItWas) {
   const auto before = SkinnedPositions(avatar.meshes[0], pose);
   DropIdleJoints(&avatar);
   EXPECT_EQ(avatar.joints.size(), 3u);
-  const auto after =
-      SkinnedPositions(avatar.meshes[0], SkinningMatrices(avatar, avatar.clips[0], 0.3f));
+  const auto after = SkinnedPositions(avatar.meshes[0], SkinningMatrices(avatar, avatar.clips[0], 0.3f));
   for (size_t v = 0; v < before.size(); ++v) EXPECT_LT(Length(before[v] - after[v]), 1e-6f);
 }
 

@@ -23,7 +23,9 @@ std::map<Edge, int> FacesAtEdges(const WedgeSurface& surface) {
   return counts;
 }
 
-Vec3 PositionOf(const WedgeSurface& surface, int vertex) { return surface.vertices[static_cast<size_t>(vertex)].position; }
+Vec3 PositionOf(const WedgeSurface& surface, int vertex) {
+  return surface.vertices[static_cast<size_t>(vertex)].position;
+}
 
 // What holds for what is left of any surface.
 void ExpectSound(const QuadricDecimater& decimater) {
@@ -193,8 +195,8 @@ std::vector<Mesh> AnyMeshes(unsigned seed) {
       if (kind == 1) corners[0] = corners[1];
       if (kind == 2) mesh.positions[corners[0]] = mesh.positions[corners[1]];
       if (kind == 3) mesh.uvs[corners[2]] = {unit(), unit()};
-      const std::array<uint32_t, 3> added = kind == 4 ? std::array{corners[0], corners[2], corners[1]}
-                                                      : std::array{corners[0], corners[1], any()};
+      const std::array<uint32_t, 3> added =
+          kind == 4 ? std::array{corners[0], corners[2], corners[1]} : std::array{corners[0], corners[1], any()};
       if (kind >= 4) mesh.indices.insert(mesh.indices.end(), added.begin(), added.end());
     }
     meshes.push_back(mesh);

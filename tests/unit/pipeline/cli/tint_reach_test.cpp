@@ -28,7 +28,9 @@ TEST(TintReach, IsTheShareOfTheSurfaceWithTheColour) {
   avatar.materials = {Plain(blue), Plain(linen), Plain(green)};
   avatar.meshes = {Square(0, 0), Square(1, 1), Square(1, 2), Square(2, 3)};
   std::vector<float> shares;
-  ASSERT_EQ(TintReach(avatar, {{blue, 0.1f, {green}}, {linen, 0.1f, {green}}, {{1, 0, 0}, 0.1f, {green}}}, &shares).message, "");
+  ASSERT_EQ(
+      TintReach(avatar, {{blue, 0.1f, {green}}, {linen, 0.1f, {green}}, {{1, 0, 0}, 0.1f, {green}}}, &shares).message,
+      "");
   EXPECT_NEAR(shares[0], 0.25f, 1e-5f);
   EXPECT_NEAR(shares[1], 0.5f, 1e-5f);
   EXPECT_EQ(shares[2], 0) << "nobody wears it";
@@ -69,7 +71,8 @@ TEST(TintReach, APictureThatCannotBeDecodedIsNamed) {
   avatar.materials[0].base_color_image = 0;
   avatar.meshes = {Square(0, 0)};
   std::vector<float> shares;
-  EXPECT_EQ(TintReach(avatar, {{{1, 0, 0}, 0.1f, {{0, 0, 1}}}}, &shares).message, "avatar 'maid': image 'dress.png' cannot be decoded");
+  EXPECT_EQ(TintReach(avatar, {{{1, 0, 0}, 0.1f, {{0, 0, 1}}}}, &shares).message,
+            "avatar 'maid': image 'dress.png' cannot be decoded");
 }
 
 }  // namespace

@@ -38,9 +38,13 @@ std::string Refusal(const std::string& text) {
 struct Dump {
   std::ostringstream out;
   template <typename T>
-  void Number(const char* name, T* value, double, double) { out << name << '=' << *value << '\n'; }
+  void Number(const char* name, T* value, double, double) {
+    out << name << '=' << *value << '\n';
+  }
   void Angle(const char* name, float* value, double, double) { out << name << '=' << *value << '\n'; }
-  void Choice(const char* name, std::string* value, std::initializer_list<const char*>) { out << name << '=' << *value << '\n'; }
+  void Choice(const char* name, std::string* value, std::initializer_list<const char*>) {
+    out << name << '=' << *value << '\n';
+  }
 };
 
 template <typename T>
@@ -93,7 +97,8 @@ TEST(TourSettings, TintsAreColoursAndSaySoWhereTheyAreNot) {
   EXPECT_NEAR(settings.avatars[0].tints[0].color.y, 0.4f, 1e-6f);
   EXPECT_EQ(settings.avatars[0].tints[0].colors.size(), 2u);
   const auto has = [](const std::string& message, const char* what) { return message.find(what) != std::string::npos; };
-  EXPECT_TRUE(has(Refusal(tint + "color = \"blue\"\ncolors = [\"#ff0000\"]\n"), "must be a colour such as \"#2f4f8f\""));
+  EXPECT_TRUE(
+      has(Refusal(tint + "color = \"blue\"\ncolors = [\"#ff0000\"]\n"), "must be a colour such as \"#2f4f8f\""));
   EXPECT_TRUE(has(Refusal(tint + "color = \"#336699\"\ncolors = [\"#ff0000\", \"red\"]\n"), "'red' must be a colour"));
   EXPECT_TRUE(has(Refusal(tint + "color = \"#336699\"\n"), "needs the color of a cloth"));
   EXPECT_TRUE(has(Refusal(tint + "color = \"#336699\"\ncolors = [\"#ff0000\"]\nreach = 0\n"), "reach"));
@@ -105,13 +110,17 @@ TEST(TourSettings, TintsAreColoursAndSaySoWhereTheyAreNot) {
 TEST(TourSettings, PropsNameTheirNodeAndShareASlotAtMostOnce) {
   const std::string prop = std::string(kMinimalTour) + "[[avatar.prop]]\n";
   TourSettings settings;
-  ASSERT_EQ(Read(prop + "node = \"basket\"\nslot = \"hand\"\n[[avatar.prop]]\nnode = \"jug\"\nslot = \"hand\"\n", &settings), "");
+  ASSERT_EQ(
+      Read(prop + "node = \"basket\"\nslot = \"hand\"\n[[avatar.prop]]\nnode = \"jug\"\nslot = \"hand\"\n", &settings),
+      "");
   ASSERT_EQ(settings.avatars[0].props.size(), 2u);
   EXPECT_EQ(settings.avatars[0].props[1].name, "jug");
   const auto has = [](const std::string& message, const char* what) { return message.find(what) != std::string::npos; };
   EXPECT_TRUE(has(Refusal(prop + "share = 0.5\n"), "needs the node"));
   EXPECT_TRUE(has(Refusal(prop + "node = \"a\"\n[[avatar.prop]]\nnode = \"a\"\n"), "two props are the node 'a'"));
-  EXPECT_TRUE(has(Refusal(prop + "node = \"a\"\nslot = \"s\"\n[[avatar.prop]]\nnode = \"b\"\nshare = 0.6\nslot = \"s\"\n"), "more than 1 together"));
+  EXPECT_TRUE(
+      has(Refusal(prop + "node = \"a\"\nslot = \"s\"\n[[avatar.prop]]\nnode = \"b\"\nshare = 0.6\nslot = \"s\"\n"),
+          "more than 1 together"));
   std::string eight = kMinimalTour;
   for (int k = 0; k < 8; ++k) eight += "[[avatar.prop]]\nnode = \"p" + std::to_string(k) + "\"\n";
   EXPECT_TRUE(has(Refusal(eight), "seven [[avatar.prop]] at most"));
@@ -172,8 +181,9 @@ TEST(TourSettings, AGeoreferenceKeepsItsDigits) {
 
 TEST(TourSettings, TheDemoTourIsUnderstood) {
   TourSettings demo;
-  ASSERT_EQ(ReadTourSettings(std::filesystem::path(FLANEUR_SOURCE_DIR) / "assets_src/wolfenbuettel/tour.toml", &demo).message,
-            "");
+  ASSERT_EQ(
+      ReadTourSettings(std::filesystem::path(FLANEUR_SOURCE_DIR) / "assets_src/wolfenbuettel/tour.toml", &demo).message,
+      "");
   EXPECT_GE(demo.avatars.size(), 8u);
   for (const AvatarSettings& avatar : demo.avatars) EXPECT_TRUE(std::filesystem::exists(avatar.source.file));
   EXPECT_TRUE(std::filesystem::exists(demo.town.file));
@@ -188,14 +198,20 @@ TEST(TourSettings, FilesAreTakenFromTheTourFilesFolder) {
 
 TEST(TourSettings, AnglesBecomeRadians) {
   TourSettings settings;
-  ASSERT_EQ(Read(std::string(kMinimalTour) + "[control]\nfov_deg = 90\n[[stop]]\nposition_m = [1, 2]\nyaw_deg = -180\n", &settings), "");
+  ASSERT_EQ(Read(std::string(kMinimalTour) + "[control]\nfov_deg = 90\n[[stop]]\nposition_m = [1, 2]\nyaw_deg = -180\n",
+                 &settings),
+            "");
   EXPECT_FLOAT_EQ(settings.control.fov_rad, kPi / 2);
   EXPECT_FLOAT_EQ(settings.path.at(0).yaw_rad, -kPi);
 }
 
 // Each with the line it must name and words it must hold.
 TEST(TourSettings, RefusalsNameTheLineAndWhatToDo) {
-  struct Case { const char* more; const char* line; std::vector<const char*> words; };
+  struct Case {
+    const char* more;
+    const char* line;
+    std::vector<const char*> words;
+  };
   const Case cases[] = {
       {"[control]\nhihg_limit = 3\n", ":6:", {"hihg_limit", "did you mean 'high_limit'"}},
       {"[contrl]\n", ":5:", {"contrl", "did you mean 'control'"}},
@@ -266,7 +282,8 @@ void ExpectInSchema(const nlohmann::json& definition) {
 
 TEST(TourSettings, ThePacksSchemaKnowsThem) {
   std::string text;
-  ASSERT_FALSE(ReadTextFile(std::filesystem::path(FLANEUR_SOURCE_DIR) / "runtime/pack/FLANEUR_tour.schema.json", &text));
+  ASSERT_FALSE(
+      ReadTextFile(std::filesystem::path(FLANEUR_SOURCE_DIR) / "runtime/pack/FLANEUR_tour.schema.json", &text));
   const nlohmann::json definitions = nlohmann::json::parse(text)["$defs"];
   ExpectInSchema<CrowdSettings>(definitions["crowd"]);
   ExpectInSchema<ControlSettings>(definitions["control"]);

@@ -110,8 +110,7 @@ TEST_F(Subprocess, ScriptGetsItsSettingsAfterTheDashes) {
 }
 
 TEST_F(Subprocess, ScriptsOwnErrorLineIsTheError) {
-  const Error error =
-      RunWith("echo before; echo 'flaneur: error: the roof leaks' >&2; echo Quit; exit 1");
+  const Error error = RunWith("echo before; echo 'flaneur: error: the roof leaks' >&2; echo Quit; exit 1");
   EXPECT_EQ(error.message.rfind("script.py: the roof leaks", 0), 0u) << error.message;
 }
 

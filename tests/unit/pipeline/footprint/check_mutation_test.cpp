@@ -20,7 +20,7 @@ namespace flaneur {
 namespace {
 
 constexpr size_t kObstacles = 120;  // of a town, round a place
-int TriesEach() {  // more on request, to look for more
+int TriesEach() {                   // more on request, to look for more
   const char* asked = std::getenv("FLANEUR_TRIES");
   return asked ? std::atoi(asked) : 10;
 }
@@ -32,7 +32,9 @@ struct Case {
 
 using Random = std::mt19937;
 
-double Uniform(Random& random, double low, double high) { return low + (high - low) * (static_cast<double>(random()) / 4294967296.0); }
+double Uniform(Random& random, double low, double high) {
+  return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+}
 size_t Below(Random& random, size_t n) { return random() % n; }
 
 Point2 MiddleOf(const Ring& ring) {
@@ -47,8 +49,8 @@ std::vector<Finding> RunCheck(const Case& broken) {
   return findings;
 }
 
-// What a fault is called, and how it is made; nothing where this obstacle does not lend itself to it. `feature`: where the
-// finding belongs, if not to the obstacle.
+// What a fault is called, and how it is made; nothing where this obstacle does not lend itself to it. `feature`: where
+// the finding belongs, if not to the obstacle.
 struct Fault {
   const char* name;
   int code;
@@ -77,7 +79,8 @@ void Insert(Ring* ring, size_t edge, const Ring& points) {
 
 bool InsertSpike(Ring* ring, Random& random, double width, double length) {
   const size_t edge = LongestEdge(*ring);
-  const double t = Uniform(random, 0.3, 0.6), edge_length = std::hypot(On(*ring, edge, 1).x - (*ring)[edge].x, On(*ring, edge, 1).y - (*ring)[edge].y);
+  const double t = Uniform(random, 0.3, 0.6),
+               edge_length = std::hypot(On(*ring, edge, 1).x - (*ring)[edge].x, On(*ring, edge, 1).y - (*ring)[edge].y);
   if (edge_length < 1) return false;
   const Point2 a = On(*ring, edge, t), b = On(*ring, edge, t + width / edge_length);
   if (width == 0) Insert(ring, edge, {a, On(*ring, edge, t, length), a});
@@ -86,7 +89,10 @@ bool InsertSpike(Ring* ring, Random& random, double width, double length) {
 }
 
 Ring Square(Point2 middle, double half, bool clockwise = false) {
-  Ring ring{{middle.x - half, middle.y - half}, {middle.x + half, middle.y - half}, {middle.x + half, middle.y + half}, {middle.x - half, middle.y + half}};
+  Ring ring{{middle.x - half, middle.y - half},
+            {middle.x + half, middle.y - half},
+            {middle.x + half, middle.y + half},
+            {middle.x - half, middle.y + half}};
   if (clockwise) std::reverse(ring.begin(), ring.end());
   return ring;
 }
@@ -116,7 +122,8 @@ std::vector<Fault> Faults() {
          const size_t i = Below(random, r->size());
          return Insert(r, i, {(*r)[i]}), true;
        })},
-      {"open ring", 103, [](size_t at, Case* c, Random&, std::string*) {
+      {"open ring", 103,
+       [](size_t at, Case* c, Random&, std::string*) {
          if (c->footprints.obstacles[at].outer.empty()) return false;
          c->options.open_rings[at] = {0};
          return true;
@@ -129,7 +136,9 @@ std::vector<Fault> Faults() {
                 [&] {  // only where the edges beside them cross indeed
                   const size_t n = r->size();
                   const Point2 a = (*r)[(i + n - 1) % n], b = (*r)[i], p = (*r)[j], q = (*r)[(j + 1) % n];
-                  const auto side = [](Point2 u, Point2 v, Point2 w) { return (v.x - u.x) * (w.y - u.y) - (v.y - u.y) * (w.x - u.x); };
+                  const auto side = [](Point2 u, Point2 v, Point2 w) {
+                    return (v.x - u.x) * (w.y - u.y) - (v.y - u.y) * (w.x - u.x);
+                  };
                   return side(a, b, p) * side(a, b, q) < -1e-3 && side(p, q, a) * side(p, q, b) < -1e-3;
                 }();
        })},
@@ -151,13 +160,16 @@ std::vector<Fault> Faults() {
          const double length = std::hypot(On(*r, edge, 1).x - (*r)[edge].x, On(*r, edge, 1).y - (*r)[edge].y);
          return length > 1 && (Insert(r, edge, more), true);
        })},
-      {"no radius", 109, [](size_t at, Case* c, Random&, std::string*) {
+      {"no radius", 109,
+       [](size_t at, Case* c, Random&, std::string*) {
          Obstacle tree;
-         tree.name = "tree", tree.center = c->footprints.obstacles[at].outer.empty() ? Point2{} : c->footprints.obstacles[at].outer[0];
+         tree.name = "tree",
+         tree.center = c->footprints.obstacles[at].outer.empty() ? Point2{} : c->footprints.obstacles[at].outer[0];
          c->footprints.obstacles[at] = tree;
          return false;  // takes an obstacle away: see the cases of circles in check_test.cpp
        }},
-      {"hole outside", 201, [](size_t at, Case* c, Random&, std::string*) {
+      {"hole outside", 201,
+       [](size_t at, Case* c, Random&, std::string*) {
          Obstacle& o = c->footprints.obstacles[at];
          if (o.outer.empty()) return false;
          Point2 max{-1e300, -1e300};
@@ -165,16 +177,20 @@ std::vector<Fault> Faults() {
          o.holes.push_back(Square({max.x + 2, max.y + 2}, 1, true));
          return true;
        }},
-      {"holes overlap", 202, [](size_t at, Case* c, Random&, std::string*) {
+      {"holes overlap", 202,
+       [](size_t at, Case* c, Random&, std::string*) {
          Obstacle& o = c->footprints.obstacles[at];
          const std::optional<Point2> place = o.outer.empty() ? std::nullopt : Inside(o, 2);
          if (!place) return false;
          o.holes = {Square(*place, 0.8, true), Square({place->x + 0.5, place->y}, 0.8, true)};
          return true;
        }},
-      {"hairline spike", 203, outer([](Ring* r, Random& random) { return InsertSpike(r, random, 0, Uniform(random, 0.2, 3)); })},
-      {"thin spike", 203, outer([](Ring* r, Random& random) { return InsertSpike(r, random, 0.012, Uniform(random, 0.3, 3)); })},
-      {"copy", 402, [](size_t at, Case* c, Random&, std::string* feature) {
+      {"hairline spike", 203,
+       outer([](Ring* r, Random& random) { return InsertSpike(r, random, 0, Uniform(random, 0.2, 3)); })},
+      {"thin spike", 203,
+       outer([](Ring* r, Random& random) { return InsertSpike(r, random, 0.012, Uniform(random, 0.3, 3)); })},
+      {"copy", 402,
+       [](size_t at, Case* c, Random&, std::string* feature) {
          Obstacle copy = c->footprints.obstacles[at];
          *feature = copy.name = "copy";
          c->footprints.obstacles.push_back(copy);
@@ -189,7 +205,8 @@ using Key = std::tuple<int, std::string, std::string>;
 std::multiset<Key> KeysOf(const std::vector<Finding>& findings) {
   std::multiset<Key> keys;
   for (const Finding& f : findings) {
-    const bool pocket = f.code == 502 || f.code == 503;  // which of its ends is the deepest, and so its name, may change
+    const bool pocket =
+        f.code == 502 || f.code == 503;  // which of its ends is the deepest, and so its name, may change
     keys.insert({f.code, pocket ? "" : f.feature, f.other});
   }
   return keys;
@@ -197,7 +214,8 @@ std::multiset<Key> KeysOf(const std::vector<Finding>& findings) {
 
 std::string Listed(const std::multiset<Key>& keys) {
   std::string text;
-  for (const auto& [code, feature, other] : keys) text += "  " + std::to_string(code) + " " + feature + " " + other + "\n";
+  for (const auto& [code, feature, other] : keys)
+    text += "  " + std::to_string(code) + " " + feature + " " + other + "\n";
   return text;
 }
 
@@ -217,9 +235,13 @@ void BreakAndCheck(const Case& good, unsigned seed) {
       std::multiset<Key> fresh, gone;
       std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::inserter(gone, gone.end()));
       std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::inserter(fresh, fresh.end()));
-      const bool found = std::any_of(fresh.begin(), fresh.end(), [&](const Key& k) { return std::get<0>(k) == fault.code && std::get<1>(k) == feature; });
+      const bool found = std::any_of(fresh.begin(), fresh.end(), [&](const Key& k) {
+        return std::get<0>(k) == fault.code && std::get<1>(k) == feature;
+      });
       missed += !found, more += found && fresh.size() > 1;
-      EXPECT_TRUE(found && fresh.size() == 1) << fault.name << " (" << fault.code << ") at " << feature << ", new:\n" << Listed(fresh) << " gone:\n" << Listed(gone);
+      EXPECT_TRUE(found && fresh.size() == 1) << fault.name << " (" << fault.code << ") at " << feature << ", new:\n"
+                                              << Listed(fresh) << " gone:\n"
+                                              << Listed(gone);
     }
   }
   std::printf("%d faults made, %d not found, %d with more than themselves\n", broken, missed, more);
@@ -233,7 +255,8 @@ Case Town() {
     Obstacle o;
     o.name = "house_" + std::to_string(i);
     const double w = Uniform(random, 6, 18), h = Uniform(random, 6, 18);
-    if (i % 3 == 0) o.outer = {{x, y}, {x + w, y}, {x + w, y + h}, {x + w / 2, y + h}, {x + w / 2, y + h / 2}, {x, y + h / 2}};
+    if (i % 3 == 0)
+      o.outer = {{x, y}, {x + w, y}, {x + w, y + h}, {x + w / 2, y + h}, {x + w / 2, y + h / 2}, {x, y + h / 2}};
     else if (i % 3 == 1) o.outer = {{x, y}, {x + w, y + 1}, {x + w + 2, y + h / 2}, {x + w, y + h}, {x + 1, y + h}};
     else o.outer = Rectangle(x, y, x + w, y + h);
     c.footprints.obstacles.push_back(o);
@@ -255,7 +278,8 @@ TEST(CheckMutation, MadeUpTown) {
 
 TEST(CheckMutation, OldTownOfKrems) {
   const char* shared = std::getenv("FLANEUR_SHARED_DIR");
-  const std::filesystem::path path = std::filesystem::path(shared ? shared : FLANEUR_SOURCE_DIR "/../shared") / "data/footprints/krems_old.geojson";
+  const std::filesystem::path path =
+      std::filesystem::path(shared ? shared : FLANEUR_SOURCE_DIR "/../shared") / "data/footprints/krems_old.geojson";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "needs " << path;
   GeoJsonFile file;
   ASSERT_EQ(ReadGeoJson(path, {}, &file).message, "");

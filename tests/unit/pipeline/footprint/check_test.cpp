@@ -53,7 +53,8 @@ TEST(Check, FindsNothingInSoundFiles) {
   }
 }
 
-// ---- Either side of each tolerance: also in the files of tests/data/check, which tests/cli/check_test.py goes through ----
+// ---- Either side of each tolerance: also in the files of tests/data/check, which tests/cli/check_test.py goes through
+// ----
 
 Obstacle Polygon(const std::string& name, const Ring& outer, const Rings& holes = {}) {
   Obstacle obstacle;
@@ -63,7 +64,8 @@ Obstacle Polygon(const std::string& name, const Ring& outer, const Rings& holes 
   return obstacle;
 }
 
-std::vector<Finding> CheckAlone(const std::vector<Obstacle>& obstacles, const Scene* town = nullptr, CheckOptions options = {}) {
+std::vector<Finding> CheckAlone(const std::vector<Obstacle>& obstacles, const Scene* town = nullptr,
+                                CheckOptions options = {}) {
   Footprints footprints;
   footprints.obstacles = obstacles;
   std::vector<Finding> findings;
@@ -112,7 +114,14 @@ TEST(Check, ManyPoints) {
 
 TEST(Check, SpikesByWidthAndLength) {
   const auto ring = [](double width, double length) {
-    return Ring{{0, 0}, {8, 0}, {8, 3 - width / 2}, {8 + length, 3 - width / 2}, {8 + length, 3 + width / 2}, {8, 3 + width / 2}, {8, 6}, {0, 6}};
+    return Ring{{0, 0},
+                {8, 0},
+                {8, 3 - width / 2},
+                {8 + length, 3 - width / 2},
+                {8 + length, 3 + width / 2},
+                {8, 3 + width / 2},
+                {8, 6},
+                {0, 6}};
   };
   EXPECT_EQ(CodesAlone({Polygon("house", ring(0.015, 1))}), std::set<int>{203});
   EXPECT_EQ(CodesAlone({Polygon("house", ring(0.03, 1))}), std::set<int>{}) << "a thin wall";
@@ -157,12 +166,14 @@ TEST(Check, WallsByClearance) {
 
 TEST(Check, ACourtyardIsAWarningAndACutOffPlaceAnError) {
   const auto yard = [](double gate) {
-    return std::vector<Obstacle>{Polygon("yard", {{0, 0}, {40, 0}, {40, 1}, {1, 1}, {1, 5}, {39, 5}, {39, 1 + gate}, {40, 1 + gate}, {40, 6}, {0, 6}})};
+    return std::vector<Obstacle>{Polygon(
+        "yard", {{0, 0}, {40, 0}, {40, 1}, {1, 1}, {1, 5}, {39, 5}, {39, 1 + gate}, {40, 1 + gate}, {40, 6}, {0, 6}})};
   };
   EXPECT_EQ(CodesAlone(yard(0.4)), std::set<int>{501});
   EXPECT_EQ(CodesAlone(yard(0.8)), (std::set<int>{502, 503})) << "open, but by one way only";
   const std::vector<Finding> closed =
-      CheckAlone({Polygon("house", Rectangle(0, 0, 12, 12), {{{5, 5}, {5, 7}, {7, 7}, {7, 5}}}), Polygon("far", Rectangle(30, 30, 31, 31))});
+      CheckAlone({Polygon("house", Rectangle(0, 0, 12, 12), {{{5, 5}, {5, 7}, {7, 7}, {7, 5}}}),
+                  Polygon("far", Rectangle(30, 30, 31, 31))});
   ASSERT_EQ(CodesOf(closed), std::set<int>{501});
   EXPECT_EQ(closed[0].severity, Severity::kWarning);
 }
@@ -187,11 +198,12 @@ TEST(Check, DoorsByTheirDistance) {
 // ---- Together ----
 
 TEST(Check, IndependentFaultsAreAllReported) {
-  const std::vector<Finding> findings =
-      CheckAlone({Polygon("bow", {{0, 0}, {8, 6}, {8, 0}, {0, 6}}), Polygon("turned", {{20, 0}, {20, 6}, {28, 6}, {28, 0}}),
-                  Polygon("a", Rectangle(40, 0, 48, 6)), Polygon("b", Rectangle(47, 0, 55, 6))});
+  const std::vector<Finding> findings = CheckAlone(
+      {Polygon("bow", {{0, 0}, {8, 6}, {8, 0}, {0, 6}}), Polygon("turned", {{20, 0}, {20, 6}, {28, 6}, {28, 0}}),
+       Polygon("a", Rectangle(40, 0, 48, 6)), Polygon("b", Rectangle(47, 0, 55, 6))});
   EXPECT_EQ(CodesOf(findings), (std::set<int>{104, 105, 401})) << Listed(findings);
-  EXPECT_TRUE(std::is_sorted(findings.begin(), findings.end(), [](const Finding& f, const Finding& g) { return f.code < g.code; }));
+  EXPECT_TRUE(std::is_sorted(findings.begin(), findings.end(),
+                             [](const Finding& f, const Finding& g) { return f.code < g.code; }));
 }
 
 TEST(Check, PlacesLieAtTheFault) {

@@ -60,7 +60,8 @@ TEST_F(CityModelFootprints, CoverAllWallsAndHardlyMore) {
 TEST_F(CityModelFootprints, AreTheSameForAnyNumberOfThreads) {
   FootprintOptions one, three;
   one.threads = 1, three.threads = 3;
-  const Footprints a = Extracted("nrw-lod2/LoD2_32_354_5652_1_NW.gml", one), b = Extracted("nrw-lod2/LoD2_32_354_5652_1_NW.gml", three);
+  const Footprints a = Extracted("nrw-lod2/LoD2_32_354_5652_1_NW.gml", one),
+                   b = Extracted("nrw-lod2/LoD2_32_354_5652_1_NW.gml", three);
   ASSERT_EQ(a.obstacles.size(), b.obstacles.size());
   for (size_t i = 0; i < a.obstacles.size(); ++i) {
     ASSERT_EQ(a.obstacles[i].outer.size(), b.obstacles[i].outer.size()) << a.obstacles[i].name;
@@ -71,8 +72,8 @@ TEST_F(CityModelFootprints, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
-// Looked at on the map, one by one: three houses stand in others on the same level, as the cadastre's ground surfaces do;
-// two yards open to one side only; three are closed all round.
+// Looked at on the map, one by one: three houses stand in others on the same level, as the cadastre's ground surfaces
+// do; two yards open to one side only; three are closed all round.
 TEST_F(CityModelFootprints, TheCheckFindsInACleanTownOnlyWhatIsThere) {
   Scene town;
   ASSERT_EQ(ReadScene(figures::SharedData() / "towns/nrw-lod2/LoD2_32_354_5652_1_NW.gml", &town).message, "");
@@ -91,7 +92,8 @@ TEST_F(CityModelFootprints, TheCheckFindsInACleanTownOnlyWhatIsThere) {
     } else if (f.code == 501) {
       EXPECT_EQ(f.severity, Severity::kWarning) << f.message;
     } else {
-      const bool north = std::hypot(f.at_m.x - 358.5, f.at_m.y - 227.4) < 1, south = std::hypot(f.at_m.x - 372.5, f.at_m.y - 206.8) < 1;
+      const bool north = std::hypot(f.at_m.x - 358.5, f.at_m.y - 227.4) < 1,
+                 south = std::hypot(f.at_m.x - 372.5, f.at_m.y - 206.8) < 1;
       EXPECT_TRUE(north || south) << f.message;
     }
   }
@@ -101,9 +103,10 @@ TEST_F(CityModelFootprints, TheCheckFindsInACleanTownOnlyWhatIsThere) {
 // Listed by looking at the model: pillars stand, the ways between and behind them are open.
 TEST_F(CityModelFootprints, TheArcadeOfIngolstadt4018115IsOpen) {
   const Footprints f = Extracted("ingolstadt-lod3/4018115.gml");
-  const Point2 pillars[] = {{678063.15, 5403819.15}, {678066.56, 5403820.85}, {678069.12, 5403822.13}, {678071.68, 5403823.41},
-                            {678074.90, 5403825.02}, {678077.17, 5403826.15}, {678079.67, 5403827.81}, {678078.85, 5403829.39},
-                            {678077.78, 5403831.45}, {678076.54, 5403833.85}};
+  const Point2 pillars[] = {{678063.15, 5403819.15}, {678066.56, 5403820.85}, {678069.12, 5403822.13},
+                            {678071.68, 5403823.41}, {678074.90, 5403825.02}, {678077.17, 5403826.15},
+                            {678079.67, 5403827.81}, {678078.85, 5403829.39}, {678077.78, 5403831.45},
+                            {678076.54, 5403833.85}};
   for (size_t i = 0; i < std::size(pillars); ++i) {
     EXPECT_TRUE(BlockedAt(f, pillars[i].x, pillars[i].y)) << "pillar " << i;
     if (i == 0) continue;
@@ -111,7 +114,8 @@ TEST_F(CityModelFootprints, TheArcadeOfIngolstadt4018115IsOpen) {
     EXPECT_FALSE(BlockedAt(f, (p.x + q.x) / 2, (p.y + q.y) / 2)) << "between pillars " << i - 1 << " and " << i;
     if (i > 5) continue;  // along the southern front: the way is on the left
     const double length = std::hypot(q.x - p.x, q.y - p.y), x = -(q.y - p.y) / length, y = (q.x - p.x) / length;
-    EXPECT_FALSE(BlockedAt(f, (p.x + q.x) / 2 + 1.2 * x, (p.y + q.y) / 2 + 1.2 * y)) << "behind pillars " << i - 1 << " and " << i;
+    EXPECT_FALSE(BlockedAt(f, (p.x + q.x) / 2 + 1.2 * x, (p.y + q.y) / 2 + 1.2 * y))
+        << "behind pillars " << i - 1 << " and " << i;
   }
   EXPECT_TRUE(BlockedAt(f, 678064, 5403833)) << "the rooms behind";
 }
@@ -119,7 +123,11 @@ TEST_F(CityModelFootprints, TheArcadeOfIngolstadt4018115IsOpen) {
 // The other places of the twelve models where people walk under something, by looking at all of them. There are none in
 // 4018152a, 4018198, 4018204a and 4018258 but eaves.
 TEST_F(CityModelFootprints, WaysUnderTheHousesOfIngolstadtAreOpen) {
-  struct Place { const char *file, *what; double east, north; bool blocked; };
+  struct Place {
+    const char *file, *what;
+    double east, north;
+    bool blocked;
+  };
   const Place places[] = {
       {"4018106", "under the oriel at the corner", 678092.00, 5403811.25, false},
       {"4018106", "the house below it", 678090.5, 5403809.5, true},

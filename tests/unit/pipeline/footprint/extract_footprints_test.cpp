@@ -26,7 +26,8 @@ Rings HouseArea(double clearance = 0.05) {
 
 bool SameFootprints(const Footprints& a, const Footprints& b) {
   const auto same = [](const Ring& r, const Ring& s) {
-    return std::equal(r.begin(), r.end(), s.begin(), s.end(), [](Point2 p, Point2 q) { return p.x == q.x && p.y == q.y; });
+    return std::equal(r.begin(), r.end(), s.begin(), s.end(),
+                      [](Point2 p, Point2 q) { return p.x == q.x && p.y == q.y; });
   };
   return std::equal(a.obstacles.begin(), a.obstacles.end(), b.obstacles.begin(), b.obstacles.end(),
                     [&](const Obstacle& o, const Obstacle& p) {
@@ -63,7 +64,10 @@ TEST(ExtractFootprints, RingsAreSimpleAndRunTheRightWay) {
 
 // ---- Messy shells give what the clean one gives ----
 
-struct Mess { const char* name; void (*apply)(Mesh*); };
+struct Mess {
+  const char* name;
+  void (*apply)(Mesh*);
+};
 
 template <typename Function>
 void ForTriangles(Mesh* mesh, const Function& function) {
@@ -74,7 +78,9 @@ void FlipAll(Mesh* mesh) {
   ForTriangles(mesh, [](size_t, uint32_t* triangle) { std::swap(triangle[1], triangle[2]); });
 }
 void FlipSome(Mesh* mesh) {
-  ForTriangles(mesh, [](size_t i, uint32_t* triangle) { if (i % 3 == 0) std::swap(triangle[1], triangle[2]); });
+  ForTriangles(mesh, [](size_t i, uint32_t* triangle) {
+    if (i % 3 == 0) std::swap(triangle[1], triangle[2]);
+  });
 }
 void Double(Mesh* mesh) {
   const std::vector<uint32_t> all = mesh->indices;
@@ -89,8 +95,11 @@ void AddDegenerate(Mesh* mesh) {
   for (uint32_t i = 0; i < 6; ++i) mesh->indices.insert(mesh->indices.end(), {i, i, i + 1});
 }
 
-constexpr Mess kMesses[] = {{"AllFlipped", FlipAll}, {"SomeFlipped", FlipSome}, {"Doubled", Double},
-                            {"Jittered", Jitter}, {"Degenerate", AddDegenerate}};
+constexpr Mess kMesses[] = {{"AllFlipped", FlipAll},
+                            {"SomeFlipped", FlipSome},
+                            {"Doubled", Double},
+                            {"Jittered", Jitter},
+                            {"Degenerate", AddDegenerate}};
 
 class MessyShell : public testing::TestWithParam<Mess> {};
 
@@ -118,7 +127,8 @@ TEST(ExtractFootprints, AHouseWithAFallenTriangleIsSolidOrNamed) {
   for (size_t dropped = 0; dropped < 8; ++dropped) {  // the walls come first
     TestTown town = House();
     std::vector<uint32_t>& indices = town.scene.meshes.back().indices;
-    indices.erase(indices.begin() + static_cast<long>(3 * dropped), indices.begin() + static_cast<long>(3 * dropped + 3));
+    indices.erase(indices.begin() + static_cast<long>(3 * dropped),
+                  indices.begin() + static_cast<long>(3 * dropped + 3));
     FootprintStats stats;
     if (Blocked(Extract(town, {}, &stats), {14, 13})) ++solid;
     else EXPECT_EQ(stats.open_shells, std::vector<std::string>{"house"}) << dropped;
@@ -161,7 +171,8 @@ TEST(ExtractFootprints, AHouseWithoutOneWallIsOpenOnThatSideAndNamed) {
 
 TEST(ExtractFootprints, AHouseBehindOneDoorwayIsSolidAndNamed) {
   TestTown town = House({Side::kSouth});
-  town.Quad({10, 10, 0}, {13, 10, 0}, {13, 10, 8}, {10, 10, 8}).Quad({14, 10, 0}, {18, 10, 0}, {18, 10, 8}, {14, 10, 8});
+  town.Quad({10, 10, 0}, {13, 10, 0}, {13, 10, 8}, {10, 10, 8})
+      .Quad({14, 10, 0}, {18, 10, 0}, {18, 10, 8}, {14, 10, 8});
   FootprintStats stats;
   const Footprints f = Extract(town, {}, &stats);
   EXPECT_LT(Differ(AreaOf(f), HouseArea()), kSlack_m2);
@@ -171,7 +182,8 @@ TEST(ExtractFootprints, AHouseBehindOneDoorwayIsSolidAndNamed) {
 TEST(ExtractFootprints, AWayNoWiderThanItsMouthIsNoRoom) {
   TestTown town;
   town.Ground().Node("passage", NodeKind::kBuilding).Quad({10, 10, 3}, {12, 10, 3}, {12, 16, 3}, {10, 16, 3});
-  town.Quad({10, 10, 0}, {10, 16, 0}, {10, 16, 3}, {10, 10, 3}).Quad({12, 10, 0}, {12, 16, 0}, {12, 16, 3}, {12, 10, 3});
+  town.Quad({10, 10, 0}, {10, 16, 0}, {10, 16, 3}, {10, 10, 3})
+      .Quad({12, 10, 0}, {12, 16, 0}, {12, 16, 3}, {12, 10, 3});
   town.Quad({10, 16, 0}, {12, 16, 0}, {12, 16, 3}, {10, 16, 3});
   const Footprints f = Extract(town);
   for (double y = 9; y < 15.8; y += 0.25) EXPECT_FALSE(Blocked(f, {11, y})) << y;
@@ -188,7 +200,7 @@ TEST(ExtractFootprints, AClosedHouseIsNoOpenShell) {
 
 TEST(ExtractFootprints, JettiesAndEavesDoNotBlock) {
   TestTown town = House();
-  town.Box({9, 9, 2.4f}, {19, 17, 8});            // upper storey, 1 m out
+  town.Box({9, 9, 2.4f}, {19, 17, 8});              // upper storey, 1 m out
   town.Box({8.5f, 8.5f, 8}, {19.5f, 17.5f, 8.2f});  // roof
   EXPECT_LT(Differ(AreaOf(Extract(town)), HouseArea()), kSlack_m2);
 }
@@ -211,8 +223,8 @@ TEST(ExtractFootprints, WhatOneStepsOverDoesNotBlock) {
 TestTown Arcade() {
   TestTown town;
   town.Ground().Node("town_hall", NodeKind::kBuilding);
-  town.Box({10, 13, -1}, {20, 18, 9});      // rooms behind the arcade
-  town.Box({10, 10, 3}, {20, 13, 9});       // and over it
+  town.Box({10, 13, -1}, {20, 18, 9});  // rooms behind the arcade
+  town.Box({10, 10, 3}, {20, 13, 9});   // and over it
   for (const float x : {10.0f, 13.2f, 16.4f, 19.6f}) town.Box({x, 10, -1}, {x + 0.4f, 10.4f, 3});
   return town;
 }
@@ -469,7 +481,8 @@ TEST(ExtractFootprints, HousesOfOddSizesAreAskedAboutOnce) {
     Footprints footprints;
     std::vector<std::string> warnings;
     ASSERT_EQ(ExtractFootprints(town.scene, {}, &footprints, nullptr, &warnings).message, "") << size;
-    const auto asked = std::count_if(warnings.begin(), warnings.end(), [](const std::string& w) { return w.find("units") != std::string::npos; });
+    const auto asked = std::count_if(warnings.begin(), warnings.end(),
+                                     [](const std::string& w) { return w.find("units") != std::string::npos; });
     EXPECT_EQ(asked, size == 20 ? 0 : 1) << size;
   }
   TestTown far;
@@ -489,12 +502,15 @@ TEST(ExtractFootprints, AMillionTrianglesInOneHouseAreTheSameHouse) {
     const auto first = static_cast<uint32_t>(mesh.positions.size()), row = static_cast<uint32_t>(kSquares + 1);
     for (int i = 0; i <= kSquares; ++i)
       for (int k = 0; k <= kSquares; ++k)
-        mesh.positions.push_back(GltfFromGround(corner + along * (static_cast<float>(i) / kSquares) + Vec3{0, 0, 8.0f * static_cast<float>(k) / kSquares}));
+        mesh.positions.push_back(GltfFromGround(corner + along * (static_cast<float>(i) / kSquares) +
+                                                Vec3{0, 0, 8.0f * static_cast<float>(k) / kSquares}));
     for (uint32_t i = 0; i + 1 < row; ++i)
       for (uint32_t k = 0; k + 1 < row; ++k)
-        for (const uint32_t step : {0u, row, row + 1, 0u, row + 1, 1u}) mesh.indices.push_back(first + i * row + k + step);
+        for (const uint32_t step : {0u, row, row + 1, 0u, row + 1, 1u})
+          mesh.indices.push_back(first + i * row + k + step);
   };
-  sheet({10, 10, 0}, {8, 0, 0}), sheet({18, 10, 0}, {0, 6, 0}), sheet({18, 16, 0}, {-8, 0, 0}), sheet({10, 16, 0}, {0, -6, 0});
+  sheet({10, 10, 0}, {8, 0, 0}), sheet({18, 10, 0}, {0, 6, 0}), sheet({18, 16, 0}, {-8, 0, 0}),
+      sheet({10, 16, 0}, {0, -6, 0});
   town.Quad({10, 10, 8}, {18, 10, 8}, {18, 16, 8}, {10, 16, 8});
   town.scene.nodes.back().meshes.push_back(static_cast<int>(town.scene.meshes.size()));
   town.scene.meshes.push_back(std::move(mesh));
@@ -507,7 +523,9 @@ TEST(ExtractFootprints, AMillionTrianglesInOneHouseAreTheSameHouse) {
 
 TEST(ExtractFootprints, AHeapOfTrianglesIsOneObstacle) {
   std::mt19937 random(5);
-  const auto in = [&](float from, float to) { return from + (to - from) * static_cast<float>(random() % 10'000) / 10'000; };
+  const auto in = [&](float from, float to) {
+    return from + (to - from) * static_cast<float>(random() % 10'000) / 10'000;
+  };
   Mesh mesh;
   for (int i = 0; i < 30'000; ++i) {
     const Vec3 at{in(10, 18), in(10, 16), in(0, 3)};
@@ -543,7 +561,9 @@ TEST(ExtractFootprints, RefusesOptionsOutOfRangeAndEmptyTowns) {
            {"bridging", [](FootprintOptions* o) { o->bridge_m = -1; }},
            {"scale", [](FootprintOptions* o) { o->scale = 0; }},
            {"clearance", [](FootprintOptions* o) { o->clearance_m = std::nan(""); }},
-           {"band", [](FootprintOptions* o) { o->band_m = {2, 0.1}; }}}) {
+           {"band", [](FootprintOptions* o) {
+              o->band_m = {2, 0.1};
+            }}}) {
     FootprintOptions options;
     change(&options);
     const Error error = ExtractFootprints(house, options, &footprints);

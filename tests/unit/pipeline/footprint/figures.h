@@ -40,7 +40,8 @@ inline Error ReadFolder(const std::filesystem::path& folder, std::vector<Scene>*
 
 struct Spoiling {
   const char* name;
-  bool flip = false, repeat = false, jitter = false, jitter_apart = false, eaves = false, no_ground = false, drop = false;
+  bool flip = false, repeat = false, jitter = false, jitter_apart = false, eaves = false, no_ground = false,
+       drop = false;
 };
 
 template <typename Function>
@@ -59,7 +60,8 @@ inline void Unweld(Mesh* mesh) {
   *mesh = std::move(out);
 }
 
-inline void Jitter(bool apart, std::mt19937* random, std::map<std::tuple<float, float, float>, Vec3>* moves, Mesh* mesh) {
+inline void Jitter(bool apart, std::mt19937* random, std::map<std::tuple<float, float, float>, Vec3>* moves,
+                   Mesh* mesh) {
   const auto step = [&] { return static_cast<float>((*random)() % 2001) * 1e-5f - 0.01f; };
   for (Vec3& p : mesh->positions) {
     Vec3 move{step(), step(), step()};
@@ -107,7 +109,8 @@ inline void AddEaves(const Rings& outline, float base, Scene* scene, SceneNode* 
         mesh.positions.push_back(GltfFromGround({static_cast<float>(x), static_cast<float>(y), z}));
       };
       const auto first = static_cast<uint32_t>(mesh.positions.size());
-      add(ring[j].x, ring[j].y), add(ring[i].x, ring[i].y), add(ring[i].x + nx, ring[i].y + ny), add(ring[j].x + nx, ring[j].y + ny);
+      add(ring[j].x, ring[j].y), add(ring[i].x, ring[i].y), add(ring[i].x + nx, ring[i].y + ny),
+          add(ring[j].x + nx, ring[j].y + ny);
       for (const uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
     }
   }
@@ -125,19 +128,25 @@ inline Scene Spoilt(const Scene& clean, const Spoiling& how) {
   if (how.eaves)
     for (const SceneNode& node : clean.nodes)
       if (node.is_foundation && !node.meshes.empty())
-        AddEaves(GroundSurface(clean, node.name), BaseHeight(clean, node), &scene, &scene.nodes[static_cast<size_t>(node.parent)]);
+        AddEaves(GroundSurface(clean, node.name), BaseHeight(clean, node), &scene,
+                 &scene.nodes[static_cast<size_t>(node.parent)]);
   std::map<std::tuple<float, float, float>, Vec3> moves;
   for (Mesh& mesh : scene.meshes) {
     Unweld(&mesh);
     if (how.jitter || how.jitter_apart) Jitter(how.jitter_apart, &random, &moves, &mesh);
-    if (how.flip) ForCorners(&mesh, [&](uint32_t* t) { if (random() % 2) std::swap(t[1], t[2]); });
+    if (how.flip)
+      ForCorners(&mesh, [&](uint32_t* t) {
+        if (random() % 2) std::swap(t[1], t[2]);
+      });
     if (how.repeat) {
       const std::vector<uint32_t> all = mesh.indices;
       mesh.indices.insert(mesh.indices.end(), all.begin(), all.end());
     }
     if (!how.drop) continue;
     std::vector<uint32_t> kept;
-    ForCorners(&mesh, [&](uint32_t* t) { if (random() % 20) kept.insert(kept.end(), t, t + 3); });
+    ForCorners(&mesh, [&](uint32_t* t) {
+      if (random() % 20) kept.insert(kept.end(), t, t + 3);
+    });
     mesh.indices = std::move(kept);
   }
   if (how.no_ground)
@@ -148,7 +157,11 @@ inline Scene Spoilt(const Scene& clean, const Spoiling& how) {
 
 // ---- Measuring ----
 
-struct BuildingFit { std::string name; double iou = 0, hausdorff_m = 0, area_m2 = 0; bool flagged = false; };
+struct BuildingFit {
+  std::string name;
+  double iou = 0, hausdorff_m = 0, area_m2 = 0;
+  bool flagged = false;
+};
 
 inline double FarthestFrom(const Rings& from, const Rings& to) {
   double farthest = 0;
@@ -158,7 +171,8 @@ inline double FarthestFrom(const Rings& from, const Rings& to) {
       const int steps = std::max(1, static_cast<int>(std::ceil(length / 0.1)));
       for (int k = 0; k < steps; ++k) {
         const double s = static_cast<double>(k) / steps;
-        farthest = std::max(farthest, DistanceToBoundary(to, {ring[j].x + s * (ring[i].x - ring[j].x), ring[j].y + s * (ring[i].y - ring[j].y)}));
+        farthest = std::max(farthest, DistanceToBoundary(to, {ring[j].x + s * (ring[i].x - ring[j].x),
+                                                              ring[j].y + s * (ring[i].y - ring[j].y)}));
       }
     }
   }
@@ -205,14 +219,17 @@ inline double MeanIou(const std::vector<BuildingFit>& fits) {
 
 // Of buildings whose outline lies within 2 cm of the ground surface's.
 inline double ShareWithin2cm(const std::vector<BuildingFit>& fits) {
-  const auto good = std::count_if(fits.begin(), fits.end(), [](const BuildingFit& fit) { return fit.hausdorff_m <= 0.02; });
+  const auto good =
+      std::count_if(fits.begin(), fits.end(), [](const BuildingFit& fit) { return fit.hausdorff_m <= 0.02; });
   return fits.empty() ? 0 : static_cast<double>(good) / static_cast<double>(fits.size());
 }
 
-struct Cover { double walls_m = 0, uncovered_m = 0, truth_m2 = 0, over_m2 = 0; };
+struct Cover {
+  double walls_m = 0, uncovered_m = 0, truth_m2 = 0, over_m2 = 0;
+};
 
-// Walls in the band that stand out by more than 1 cm, and ground covered farther from the ground surfaces than clearance
-// and tolerance.
+// Walls in the band that stand out by more than 1 cm, and ground covered farther from the ground surfaces than
+// clearance and tolerance.
 inline Cover MeasureCover(const Scene& clean, const Footprints& footprints, const FootprintOptions& options) {
   Rings obstacles, truth;
   for (const Obstacle& o : footprints.obstacles) {
@@ -233,7 +250,8 @@ inline Cover MeasureCover(const Scene& clean, const Footprints& footprints, cons
       for (int k = 0; k < steps; ++k) {
         const double t = (k + 0.5) / steps;
         cover.walls_m += length / steps;
-        if (index.Depth({s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)}) < -0.01) cover.uncovered_m += length / steps;
+        if (index.Depth({s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)}) < -0.01)
+          cover.uncovered_m += length / steps;
       }
     }
   }

@@ -37,7 +37,8 @@ TEST(Findings, AreTheOnesInTheDocumentation) {
 
 TEST(Findings, JsonKeepsTheAgreedKeys) {
   Finding finding;
-  finding.code = 301, finding.feature = "house \"7\"", finding.at_m = {1.5, -2}, finding.value = 0.12, finding.limit = 0.01;
+  finding.code = 301, finding.feature = "house \"7\"", finding.at_m = {1.5, -2}, finding.value = 0.12,
+  finding.limit = 0.01;
   finding.message = "wall not covered";
   Finding warning;
   warning.code = 403, warning.severity = Severity::kWarning, warning.feature = "a", warning.other = "b";

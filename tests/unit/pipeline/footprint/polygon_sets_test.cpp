@@ -78,8 +78,8 @@ TEST(PolygonSets, SimplifyingDoesNotDependOnWhereTheRingStarts) {
 
 TEST(PolygonSets, TidyDropsStripsAndKeepsWalls) {
   Rings rings = {Rectangle(0, 0, 8, 6)};
-  rings = Union(rings, {Rectangle(7, 2, 12, 2.01)});   // a strip of 1 cm
-  rings = Union(rings, {Rectangle(7, 4, 12, 4.1)});    // a wall of 10 cm
+  rings = Union(rings, {Rectangle(7, 2, 12, 2.01)});  // a strip of 1 cm
+  rings = Union(rings, {Rectangle(7, 4, 12, 4.1)});   // a wall of 10 cm
   EXPECT_LT(Differ(Tidy(rings, 0.022), Union({Rectangle(0, 0, 8, 6)}, {Rectangle(7, 4, 12, 4.1)})), 0.002);
 }
 
@@ -101,7 +101,8 @@ TEST(PolygonSets, TheIndexAgreesWithThePlainAnswers) {
   const AreaIndex index(rings, 0.7);
   std::mt19937 random(5);
   for (int i = 0; i < 2000; ++i) {
-    const Point2 p{static_cast<double>(random() % 20001) / 1000 - 10, static_cast<double>(random() % 20001) / 1000 - 10};
+    const Point2 p{static_cast<double>(random() % 20001) / 1000 - 10,
+                   static_cast<double>(random() % 20001) / 1000 - 10};
     const bool inside = Contains(rings, p);
     const double distance = std::min(DistanceToBoundary(rings, p), 0.7);
     EXPECT_EQ(index.Inside(p), inside);
@@ -122,8 +123,7 @@ TEST(Outside, SeesAShortPieceThatSticksOut) {
 TEST(CutWhereTheyMeet, CrossingSegmentsMeetInOnePoint) {
   const std::vector<Segment> pieces = CutWhereTheyMeet({{{0, 0}, {2, 2}}, {{0, 2}, {2, 0}}});
   ASSERT_EQ(pieces.size(), 4u);
-  for (const Segment& s : pieces)
-    EXPECT_TRUE((s.a.x == 1 && s.a.y == 1) || (s.b.x == 1 && s.b.y == 1));
+  for (const Segment& s : pieces) EXPECT_TRUE((s.a.x == 1 && s.a.y == 1) || (s.b.x == 1 && s.b.y == 1));
 }
 
 TEST(CutWhereTheyMeet, OverlapsAreKeptOnce) {
@@ -132,9 +132,7 @@ TEST(CutWhereTheyMeet, OverlapsAreKeptOnce) {
   EXPECT_NEAR(Length(pieces), 4, 1e-9);
 }
 
-TEST(CutWhereTheyMeet, ATeeCutsTheBar) {
-  EXPECT_EQ(CutWhereTheyMeet({{{0, 0}, {4, 0}}, {{2, 0}, {2, 3}}}).size(), 3u);
-}
+TEST(CutWhereTheyMeet, ATeeCutsTheBar) { EXPECT_EQ(CutWhereTheyMeet({{{0, 0}, {4, 0}}, {{2, 0}, {2, 3}}}).size(), 3u); }
 
 TEST(CutWhereTheyMeet, KeepsEveryLineWhereItWas) {
   std::mt19937 random(11);

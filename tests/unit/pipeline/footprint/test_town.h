@@ -76,8 +76,8 @@ class TestTown {
   TestTown& Gate(const std::string& name, NodeKind kind, Vec2 at, Vec2 ahead) {
     Node(name, kind);
     const float yaw = std::atan2(ahead.x, -ahead.y);  // about glTF's +Y, from +Z = our -y
-    scene.nodes.back().world = FromTranslationRotationScale(
-        GltfFromGround({at.x, at.y, 0}), {0, std::sin(yaw / 2), 0, std::cos(yaw / 2)}, {1, 1, 1});
+    scene.nodes.back().world = FromTranslationRotationScale(GltfFromGround({at.x, at.y, 0}),
+                                                            {0, std::sin(yaw / 2), 0, std::cos(yaw / 2)}, {1, 1, 1});
     return *this;
   }
 

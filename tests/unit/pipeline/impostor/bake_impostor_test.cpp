@@ -35,8 +35,7 @@ float Linear(int srgb) {
 }
 
 // A rectangle that faces `azimuth` anticlockwise from +Z, its centre `out` before the axis.
-void AddWall(float azimuth, float out, float half_width, float bottom, float top, Rgb color,
-             Mesh* mesh) {
+void AddWall(float azimuth, float out, float half_width, float bottom, float top, Rgb color, Mesh* mesh) {
   const Vec3 normal{std::sin(azimuth), 0, std::cos(azimuth)};
   const Vec3 right{normal.z, 0, -normal.x};
   const auto first = static_cast<uint32_t>(mesh->positions.size());
@@ -57,8 +56,7 @@ Image SignTexture() {
   pixels.width = pixels.height = 32;
   for (int i = 0; i < 32 * 32; ++i) {
     const uint8_t alpha = i % 32 < 16 ? 255 : 0;
-    pixels.rgba.insert(pixels.rgba.end(),
-                       {uint8_t{kSign.r}, uint8_t{kSign.g}, uint8_t{kSign.b}, alpha});
+    pixels.rgba.insert(pixels.rgba.end(), {uint8_t{kSign.r}, uint8_t{kSign.g}, uint8_t{kSign.b}, alpha});
   }
   Image image;
   EXPECT_FALSE(EncodePng(pixels, true, &image));
@@ -73,8 +71,8 @@ Avatar BoxAvatar() {
   avatar.meshes.resize(2);
   const float outs[4] = {kHalf.z, kHalf.x, kHalf.z, kHalf.x};
   for (int face = 0; face < 4; ++face) {
-    AddWall(kPi / 2 * static_cast<float>(face), outs[face], outs[(face + 1) % 4], 0, 2 * kHalf.y,
-            kFaces[face], &avatar.meshes[0]);
+    AddWall(kPi / 2 * static_cast<float>(face), outs[face], outs[(face + 1) % 4], 0, 2 * kHalf.y, kFaces[face],
+            &avatar.meshes[0]);
   }
   AddWall(0, kSignZ, 0.25f, 0.5f, 1.5f, {255, 255, 255}, &avatar.meshes[1]);
   avatar.meshes[1].colors.clear();
@@ -156,8 +154,8 @@ TEST_F(BoxImpostor, TextureIsExactAndItsHolesAreOpen) {
   ExpectColor(At(albedo_, 0, 0.12f, 1), kFaces[0]);
 }
 
-// A wall half black, half white along its diagonal, and above it one with a picture of black and white pixels in turn, much finer than
-// the impostor's.
+// A wall half black, half white along its diagonal, and above it one with a picture of black and white pixels in turn,
+// much finer than the impostor's.
 Avatar BlackAndWhiteAvatar() {
   Avatar avatar = BoxAvatar();
   for (Mesh& mesh : avatar.meshes) mesh = {};
@@ -277,7 +275,8 @@ TEST_F(BoxImpostor, CompressedPicturesShowTheSame) {
   const PackTexture normal = Texture(atlas_.normal_ktx2), motion = Texture(atlas_.motion_ktx2);
   EXPECT_EQ(albedo.format, TextureFormat::kBc7Srgb);
   EXPECT_EQ(motion.width_px, atlas_.width_px / 2);
-  EXPECT_EQ(TextureBytes(albedo) + TextureBytes(depth) + TextureBytes(normal) + TextureBytes(motion), statistics_.memory_bytes);
+  EXPECT_EQ(TextureBytes(albedo) + TextureBytes(depth) + TextureBytes(normal) + TextureBytes(motion),
+            statistics_.memory_bytes);
   const int width = atlas_.width_px, height = atlas_.height_px;
   const Pixels seen{width, height, DecodeLevel(albedo.format, width, height, albedo.levels[0])};
   for (int d = 0; d < 4; ++d) ExpectColor(At(seen, d, 0, 0.2f), kFaces[d], 253);
@@ -325,11 +324,13 @@ AtlasLevel Figures() {
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
       const int figure = y / 64 * (kSide / 64) + x / 64;
-      const float u = float(x % 64) - 31.5f - float(figure * 7 % 31) * 0.61f + 9, v = float(y % 64) - 31.5f - float(figure * 5 % 9) * 0.37f;
+      const float u = float(x % 64) - 31.5f - float(figure * 7 % 31) * 0.61f + 9,
+                  v = float(y % 64) - 31.5f - float(figure * 5 % 9) * 0.37f;
       const float out = std::min({std::hypot(u, v + 16) - 11, std::max(std::abs(u) - 4, std::abs(v - 8) - 20)});
       AtlasTexel& texel = level.texels[static_cast<size_t>(y * kSide + x)];
       texel.coverage = std::clamp(0.5f - out, 0.0f, 1.0f);
-      if (texel.coverage > 0) texel.albedo = v < -6 ? std::array<float, 3>{0.8f, 0.5f, 0.4f} : std::array<float, 3>{0.1f, 0.2f, 0.6f};
+      if (texel.coverage > 0)
+        texel.albedo = v < -6 ? std::array<float, 3>{0.8f, 0.5f, 0.4f} : std::array<float, 3>{0.1f, 0.2f, 0.6f};
     }
   }
   return level;
@@ -351,7 +352,8 @@ TEST(AtlasLevels, EdgesKeepTheColourOfWhatIsCovered) {
       const AtlasTexel& texel = levels[k].texels[static_cast<size_t>(i)];
       double red = 0, weight = 0;
       for (int j = 0; j < step * step; ++j) {
-        const AtlasTexel& fine = levels[0].texels[static_cast<size_t>((i / side * step + j / step) * kSide + i % side * step + j % step)];
+        const AtlasTexel& fine =
+            levels[0].texels[static_cast<size_t>((i / side * step + j / step) * kSide + i % side * step + j % step)];
         red += double(fine.coverage) * double(fine.albedo[0]);
         weight += double(fine.coverage);
       }
@@ -402,12 +404,15 @@ TEST(BlockCompression, HoldsTwoClothsInOneBlock) {
 
 // Blocks with two pairs of ends, and what another program (Pillow) decodes them to.
 TEST(BlockCompression, IsReadAsOthersReadIt) {
-  const std::vector<uint8_t> opaque{0x06, 0xc6, 0x03, 0x41, 0xc4, 0x30, 0x18, 0xc2, 0x30, 0x18, 0x87, 0x3d, 0x50, 0xc6, 0xe5, 0x3f};
-  const std::vector<uint8_t> edge{0x80, 0x0e, 0x5a, 0x27, 0x89, 0x11, 0x84, 0x18, 0x41, 0x7c, 0xfb, 0x3f, 0x83, 0xa9, 0xa9, 0x2a};
+  const std::vector<uint8_t> opaque{0x06, 0xc6, 0x03, 0x41, 0xc4, 0x30, 0x18, 0xc2,
+                                    0x30, 0x18, 0x87, 0x3d, 0x50, 0xc6, 0xe5, 0x3f};
+  const std::vector<uint8_t> edge{0x80, 0x0e, 0x5a, 0x27, 0x89, 0x11, 0x84, 0x18,
+                                  0x41, 0x7c, 0xfb, 0x3f, 0x83, 0xa9, 0xa9, 0x2a};
   const std::vector<uint8_t> a = DecodeLevel(TextureFormat::kBc7Srgb, 4, 4, opaque);
   const std::vector<uint8_t> b = DecodeLevel(TextureFormat::kBc7Srgb, 4, 4, edge);
   const auto texel = [](const std::vector<uint8_t>& all, size_t i) {
-    return std::vector<uint8_t>(all.begin() + static_cast<std::ptrdiff_t>(4 * i), all.begin() + static_cast<std::ptrdiff_t>(4 * i + 4));
+    return std::vector<uint8_t>(all.begin() + static_cast<std::ptrdiff_t>(4 * i),
+                                all.begin() + static_cast<std::ptrdiff_t>(4 * i + 4));
   };
   EXPECT_EQ(texel(a, 0), (std::vector<uint8_t>{31, 17, 11, 255}));
   EXPECT_EQ(texel(a, 3), (std::vector<uint8_t>{66, 26, 26, 255}));
@@ -438,11 +443,13 @@ TEST(ViewGeometryTest, MotionAndBendLeadToThePosesHalfAPhaseAway) {
     mesh.weights.assign(mesh.positions.size(), {1, 0, 0, 0});
   }
   // Goes aside at an even pace, up and down again.
-  avatar.clips = {{"walk", 1.0f, 3, {{{0, 0, 0}, {}, {1, 1, 1}}, {{1, 1, 0}, {}, {1, 1, 1}}, {{2, 0, 0}, {}, {1, 1, 1}}}}};
+  avatar.clips = {
+      {"walk", 1.0f, 3, {{{0, 0, 0}, {}, {1, 1, 1}}, {{1, 1, 0}, {}, {1, 1, 1}}, {{2, 0, 0}, {}, {1, 1, 1}}}}};
   ViewGeometry geometry;
   ASSERT_FALSE(PoseFrames(avatar, {{"walk", 2}}, &geometry));
   for (size_t i = geometry.uvs.size(); i < geometry.positions.size(); ++i) {  // the picture half way, at the top
-    const Vec3 before = geometry.bends[i] - geometry.motions[i] * 0.5f, after = geometry.bends[i] + geometry.motions[i] * 0.5f;
+    const Vec3 before = geometry.bends[i] - geometry.motions[i] * 0.5f,
+               after = geometry.bends[i] + geometry.motions[i] * 0.5f;
     EXPECT_NEAR(before.x, -0.5f, 1e-5f);
     EXPECT_NEAR(after.x, 0.5f, 1e-5f);
     EXPECT_NEAR(before.y, -0.5f, 1e-5f);

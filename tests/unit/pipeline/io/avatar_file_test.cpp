@@ -194,8 +194,7 @@ TEST_F(AvatarFile, NamesTheNodeOfANonFiniteVertex) {
 }
 
 TEST_F(AvatarFile, RefusesWhatItCannotDecode) {
-  const fs::path path = Changed(Write(MadePerson()), "\"KHR_draco_mesh_compression\"]",
-                                "\"KHR_meshopt_compression\"]");
+  const fs::path path = Changed(Write(MadePerson()), "\"KHR_draco_mesh_compression\"]", "\"KHR_meshopt_compression\"]");
   EXPECT_NE(Read(path).find("KHR_meshopt_compression"), std::string::npos);
 }
 
@@ -285,7 +284,8 @@ TEST_F(AvatarFile, PropsStandApartAndDoNotMakeThePersonHigher) {
   ASSERT_EQ(Read(path), "") << "nobody says that it is a prop";
   EXPECT_EQ(triangles(), own + 1);
   options.props = {"flg"};
-  EXPECT_NE(Read(path, options).find("no node 'flg' for the prop of that name; did you mean 'flag'?"), std::string::npos);
+  EXPECT_NE(Read(path, options).find("no node 'flg' for the prop of that name; did you mean 'flag'?"),
+            std::string::npos);
   options.props = {"flag"};
   options.hide = {"flag"};
   EXPECT_NE(Read(path, options).find("prop 'flag' shows no mesh"), std::string::npos);
@@ -303,8 +303,7 @@ TEST_F(AvatarFile, ReadsRealPeople) {
   EXPECT_NEAR(avatar_.walk_speed_mps, 0.9f, 0.2f);
 
   ReadAvatarOptions options;
-  options.hide = {"1H_Sword_Offhand", "Badge_Shield", "Rectangle_Shield", "Spike_Shield",
-                  "2H_Sword"};
+  options.hide = {"1H_Sword_Offhand", "Badge_Shield", "Rectangle_Shield", "Spike_Shield", "2H_Sword"};
   ASSERT_EQ(Read(people / "kaykit/Knight.glb", options), "");
   EXPECT_EQ(avatar_.meshes.size(), 1u) << "one a material";
   EXPECT_LT(TriangleCount(avatar_.meshes[0]), 6952);

@@ -37,7 +37,8 @@ class CityModel : public testing::Test {
     Point3 highest{0, 0, -1e9};
     for (const Mesh& mesh : scene_.meshes)
       for (const Vec3 g : mesh.positions)
-        if (const Vec3 p = GroundFromGltf(g); p.z > highest.z) highest = {p.x + scene_.origin_m.x, p.y + scene_.origin_m.y, p.z};
+        if (const Vec3 p = GroundFromGltf(g); p.z > highest.z)
+          highest = {p.x + scene_.origin_m.x, p.y + scene_.origin_m.y, p.z};
     return highest;
   }
 
@@ -49,12 +50,14 @@ class CityModel : public testing::Test {
 // ---- CityGML ----
 
 std::string Polygon(const std::string& coordinates, const std::string& id = "") {
-  return "<gml:Polygon" + (id.empty() ? "" : " gml:id=\"" + id + "\"") + "><gml:exterior><gml:LinearRing><gml:posList>" +
-         coordinates + "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon>";
+  return "<gml:Polygon" + (id.empty() ? "" : " gml:id=\"" + id + "\"") +
+         "><gml:exterior><gml:LinearRing><gml:posList>" + coordinates +
+         "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon>";
 }
 std::string Surface(const std::string& type, const std::string& polygon, const std::string& lod = "2") {
-  return "<bldg:boundedBy><bldg:" + type + "><bldg:lod" + lod + "MultiSurface><gml:MultiSurface><gml:surfaceMember>" + polygon +
-         "</gml:surfaceMember></gml:MultiSurface></bldg:lod" + lod + "MultiSurface></bldg:" + type + "></bldg:boundedBy>";
+  return "<bldg:boundedBy><bldg:" + type + "><bldg:lod" + lod + "MultiSurface><gml:MultiSurface><gml:surfaceMember>" +
+         polygon + "</gml:surfaceMember></gml:MultiSurface></bldg:lod" + lod + "MultiSurface></bldg:" + type +
+         "></bldg:boundedBy>";
 }
 std::string Gml(const std::string& members, const std::string& version = "2.0", const std::string& before = "") {
   return "<?xml version=\"1.0\"?>" + before + "<core:CityModel xmlns:core=\"http://www.opengis.net/citygml/" + version +
@@ -64,15 +67,18 @@ std::string Gml(const std::string& members, const std::string& version = "2.0", 
          members + "</core:CityModel>";
 }
 std::string Member(const std::string& inner, const std::string& id = "house") {
-  return "<core:cityObjectMember><bldg:Building gml:id=\"" + id + "\">" + inner + "</bldg:Building></core:cityObjectMember>";
+  return "<core:cityObjectMember><bldg:Building gml:id=\"" + id + "\">" + inner +
+         "</bldg:Building></core:cityObjectMember>";
 }
 const char* const kWall = "603000 5780000 50 603010 5780000 50 603010 5780000 58 603000 5780000 58 603000 5780000 50";
 const char* const kGround = "603000 5780000 50 603000 5780008 50 603010 5780008 50 603010 5780000 50 603000 5780000 50";
 
 TEST_F(CityModel, CityGmlKeepsNamesAndMovesNearZero) {
   for (const char* version : {"1.0", "2.0"}) {
-    ASSERT_EQ(Read("town.gml", Gml(Member(Surface("WallSurface", Polygon(kWall)) + Surface("GroundSurface", Polygon(kGround))),
-                                   version)), "");
+    ASSERT_EQ(
+        Read("town.gml",
+             Gml(Member(Surface("WallSurface", Polygon(kWall)) + Surface("GroundSurface", Polygon(kGround))), version)),
+        "");
     ASSERT_EQ(scene_.nodes.size(), 2u);
     EXPECT_EQ(scene_.nodes[0].name, "house");
     EXPECT_EQ(scene_.nodes[0].kind, NodeKind::kBuilding);
@@ -86,24 +92,31 @@ TEST_F(CityModel, CityGmlKeepsNamesAndMovesNearZero) {
 }
 
 TEST_F(CityModel, CityGmlTakesTheFinestLevelAndNoRooms) {
-  const std::string solid = "<bldg:lod1Solid><gml:Solid><gml:exterior><gml:CompositeSurface><gml:surfaceMember>" + Polygon(kGround) +
+  const std::string solid = "<bldg:lod1Solid><gml:Solid><gml:exterior><gml:CompositeSurface><gml:surfaceMember>" +
+                            Polygon(kGround) +
                             "</gml:surfaceMember></gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod1Solid>";
   const std::string room = "<bldg:interiorRoom><bldg:Room>" + Surface("InteriorWallSurface", Polygon(kWall), "4") +
                            "</bldg:Room></bldg:interiorRoom>";
   ASSERT_EQ(Read("town.gml", Gml(Member(solid + Surface("WallSurface", Polygon(kWall)) +
-                                        Surface("WallSurface", Polygon(kWall), "3") + room))), "");
+                                        Surface("WallSurface", Polygon(kWall), "3") + room))),
+            "");
   EXPECT_EQ(Triangles(false), 2);
 }
 
 TEST_F(CityModel, CityGmlLeavesClosureSurfacesOpen) {
-  ASSERT_EQ(Read("town.gml", Gml(Member(Surface("WallSurface", Polygon(kWall)) + Surface("ClosureSurface", Polygon(kWall))))), "");
+  ASSERT_EQ(
+      Read("town.gml", Gml(Member(Surface("WallSurface", Polygon(kWall)) + Surface("ClosureSurface", Polygon(kWall))))),
+      "");
   EXPECT_EQ(Triangles(false), 2);
 }
 
 TEST_F(CityModel, CityGmlReferencesAreTakenOnce) {
-  const std::string solid = "<bldg:lod2Solid><gml:Solid><gml:exterior><gml:CompositeSurface><gml:surfaceMember xlink:href=\"#w\"/>"
-                            "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod2Solid>";
-  ASSERT_EQ(Read("town.gml", Gml(Member(solid + Surface("WallSurface", Polygon(kWall, "w"))) + Member(solid, "neighbour"))), "");
+  const std::string solid =
+      "<bldg:lod2Solid><gml:Solid><gml:exterior><gml:CompositeSurface><gml:surfaceMember xlink:href=\"#w\"/>"
+      "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod2Solid>";
+  ASSERT_EQ(
+      Read("town.gml", Gml(Member(solid + Surface("WallSurface", Polygon(kWall, "w"))) + Member(solid, "neighbour"))),
+      "");
   EXPECT_EQ(Triangles(false), 4) << "two of the house's own, two that the neighbour shares";
 }
 
@@ -121,9 +134,13 @@ TEST_F(CityModel, XmlBombsAndOtherXmlAreRefused) {
 
 TEST_F(CityModel, BadCityGmlIsNamed) {
   EXPECT_NE(Read("empty.gml", Gml("")).find("no face"), std::string::npos);
-  EXPECT_NE(Read("nan.gml", Gml(Member(Surface("WallSurface", Polygon("0 0 nan 1 0 0 1 1 0"))))).find("'house'"), std::string::npos);
-  EXPECT_NE(Read("odd.gml", Gml(Member(Surface("WallSurface", Polygon("0 0 0 1 0"))))).find("three coordinates"), std::string::npos);
-  ASSERT_EQ(Read("two.gml", Gml(Member(Surface("WallSurface", Polygon("0 0 0 1 0 0")) + Surface("WallSurface", Polygon(kWall))))), "");
+  EXPECT_NE(Read("nan.gml", Gml(Member(Surface("WallSurface", Polygon("0 0 nan 1 0 0 1 1 0"))))).find("'house'"),
+            std::string::npos);
+  EXPECT_NE(Read("odd.gml", Gml(Member(Surface("WallSurface", Polygon("0 0 0 1 0"))))).find("three coordinates"),
+            std::string::npos);
+  ASSERT_EQ(Read("two.gml",
+                 Gml(Member(Surface("WallSurface", Polygon("0 0 0 1 0 0")) + Surface("WallSurface", Polygon(kWall))))),
+            "");
   ASSERT_EQ(warnings_.size(), 1u);
   EXPECT_NE(warnings_[0].find("fewer than three corners"), std::string::npos);
 }
@@ -134,8 +151,10 @@ std::string Json(const std::string& version, const std::string& boundaries, cons
   return R"({"type":"CityJSON","version":")" + version +
          R"(","transform":{"scale":[0.001,0.001,0.001],"translate":[603000,5780000,50]},)"
          R"("metadata":{"referenceSystem":"https://www.opengis.net/def/crs/EPSG/0/7415"},)"
-         R"("vertices":[[0,0,0],[10000,0,0],[10000,0,8000],[0,0,8000],[0,8000,0],[10000,8000,0]],)" + extra +
-         R"("CityObjects":{"house":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2.2","boundaries":)" + boundaries +
+         R"("vertices":[[0,0,0],[10000,0,0],[10000,0,8000],[0,0,8000],[0,8000,0],[10000,8000,0]],)" +
+         extra +
+         R"("CityObjects":{"house":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2.2","boundaries":)" +
+         boundaries +
          R"(,"semantics":{"surfaces":[{"type":"WallSurface"},{"type":"GroundSurface"}],"values":[0,1]}}]}}})";
 }
 
@@ -164,14 +183,16 @@ TEST_F(CityModel, CityJsonPartsBelongToTheirBuilding) {
   ASSERT_EQ(Read("town.json", text), "");
   EXPECT_EQ(Triangles(false), 3) << "the part's two and the tree's one";
   EXPECT_NEAR(Highest().x, 14, 1e-6);
-  for (const SceneNode& node : scene_.nodes) EXPECT_EQ(node.kind, node.name == "oak" ? NodeKind::kTree : NodeKind::kBuilding);
+  for (const SceneNode& node : scene_.nodes)
+    EXPECT_EQ(node.kind, node.name == "oak" ? NodeKind::kTree : NodeKind::kBuilding);
 }
 
 TEST_F(CityModel, CityJsonSequence) {
-  const std::string head = R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},"CityObjects":{},"vertices":[]})";
+  const std::string head =
+      R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},"CityObjects":{},"vertices":[]})";
   const auto feature = [](const std::string& id) {
-    return R"({"type":"CityJSONFeature","id":")" + id + R"(","vertices":[[0,0,0],[9,0,0],[9,0,8]],"CityObjects":{")" + id +
-           R"(":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]}]}}})";
+    return R"({"type":"CityJSONFeature","id":")" + id + R"(","vertices":[[0,0,0],[9,0,0],[9,0,8]],"CityObjects":{")" +
+           id + R"(":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]}]}}})";
   };
   ASSERT_EQ(Read("town.city.jsonl", head + "\n" + feature("a") + "\n" + feature("b") + "\n"), "");
   ASSERT_EQ(scene_.nodes.size(), 2u);
@@ -186,7 +207,8 @@ TEST_F(CityModel, BadCityJsonIsNamed) {
   EXPECT_NE(Read("bad.json", Json("2.0", "[[[0,1,1.5]]]")).find("vertex 1.5"), std::string::npos);
   EXPECT_NE(Read("bad.json", Json("3.0", "[[[0,1,2]]]")).find("3.0"), std::string::npos);
   EXPECT_NE(Read("bad.json", Json("2.0", "7")).find("'house'"), std::string::npos);
-  EXPECT_NE(Read("bad.json", R"({"type":"CityJSON","version":"2.0","CityObjects":{},"vertices":[]})").find("no face"), std::string::npos);
+  EXPECT_NE(Read("bad.json", R"({"type":"CityJSON","version":"2.0","CityObjects":{},"vertices":[]})").find("no face"),
+            std::string::npos);
   EXPECT_NE(Read("bad.json", R"({"type":"CityJSON","version":"2.0",)").find("JSON"), std::string::npos);
 }
 
@@ -210,13 +232,14 @@ TEST_F(CityModel, ObjWithMapCoordinatesHasZUp) {
 
 // A gabled house of 12 x 9 m, 8 m high, is neither flat nor tall: its walls tell.
 TEST_F(CityModel, ObjWallsTellWhichWayIsUp) {
-  const double corners[][3] = {{0, 0, 0}, {12, 0, 0}, {12, 9, 0}, {0, 9, 0}, {0, 0, 5},
-                               {12, 0, 5}, {12, 9, 5}, {0, 9, 5}, {0, 4.5, 8}, {12, 4.5, 8}};
+  const double corners[][3] = {{0, 0, 0},  {12, 0, 0}, {12, 9, 0}, {0, 9, 0},   {0, 0, 5},
+                               {12, 0, 5}, {12, 9, 5}, {0, 9, 5},  {0, 4.5, 8}, {12, 4.5, 8}};
   const std::string faces = "f 1 2 6 5\nf 3 4 8 7\nf 2 3 7 10 6\nf 4 1 5 9 8\nf 5 6 10 9\nf 7 8 9 10\nf 4 3 2 1\n";
   for (const bool y_up : {false, true}) {
     std::string text;
     for (const auto& [x, y, z] : corners) {
-      text += "v " + std::to_string(x) + " " + std::to_string(y_up ? z : y) + " " + std::to_string(y_up ? -y : z) + "\n";
+      text +=
+          "v " + std::to_string(x) + " " + std::to_string(y_up ? z : y) + " " + std::to_string(y_up ? -y : z) + "\n";
     }
     ASSERT_EQ(Read("house.obj", text + faces), "");
     EXPECT_NEAR(Highest().z, 8, 0.01) << y_up;

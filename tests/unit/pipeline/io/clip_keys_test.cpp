@@ -67,11 +67,9 @@ TEST(ReduceKeys, KeepsEveryChannelWithinTheError) {
       for (int k = 0; k < keys; ++k) {
         const float time_s = clip.duration_s * static_cast<float>(k) / static_cast<float>(std::max(keys - 1, 1));
         const Vec4 value = channel.values.size() == 1 ? channel.values[0] : ValueAt(channel, time_s);
-        const Transform& wanted =
-            clip.transforms[static_cast<size_t>(k) * avatar.joints.size() + channel.joint];
-        const float off_m = channel.path == "rotation"
-                                ? Turned(wanted.rotation, value) * reaches[channel.joint]
-                                : Length(wanted.translation - Vec3{value.x, value.y, value.z});
+        const Transform& wanted = clip.transforms[static_cast<size_t>(k) * avatar.joints.size() + channel.joint];
+        const float off_m = channel.path == "rotation" ? Turned(wanted.rotation, value) * reaches[channel.joint]
+                                                       : Length(wanted.translation - Vec3{value.x, value.y, value.z});
         ASSERT_LE(off_m, 1.05f * kError_m + 5e-4f * reaches[channel.joint]);  // acos near 1
       }
     }
@@ -100,8 +98,7 @@ TEST(ReduceKeys, StillClipsKeepTheirLength) {
   for (std::ptrdiff_t k = 1; k < 31; ++k) {
     std::copy_n(clip.transforms.begin(), joints, clip.transforms.begin() + k * joints);
   }
-  const auto channels =
-      ReduceKeys(clip, avatar.joints, JointReaches(avatar.joints, avatar.meshes), kError_m);
+  const auto channels = ReduceKeys(clip, avatar.joints, JointReaches(avatar.joints, avatar.meshes), kError_m);
   ASSERT_FALSE(channels.empty());
   EXPECT_FLOAT_EQ(channels[0].times.back(), 1);
   for (size_t i = 1; i < channels.size(); ++i) EXPECT_EQ(channels[i].times.size(), 1u);
@@ -113,8 +110,7 @@ float WorstMoved(const Avatar& avatar, const Clip& clip, const std::vector<KeyCh
     const float time_s = clip.duration_s * static_cast<float>(k) / static_cast<float>(clip.keys - 1);
     for (const KeyChannel& channel : channels) {
       const Vec4 v = channel.values.size() == 1 ? channel.values[0] : ValueAt(channel, time_s);
-      Transform& t =
-          read.transforms[static_cast<size_t>(k) * avatar.joints.size() + channel.joint];
+      Transform& t = read.transforms[static_cast<size_t>(k) * avatar.joints.size() + channel.joint];
       if (channel.path == "rotation") t.rotation = {v.x, v.y, v.z, v.w};
       if (channel.path == "translation") t.translation = {v.x, v.y, v.z};
     }

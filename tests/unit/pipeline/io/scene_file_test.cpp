@@ -62,10 +62,9 @@ TEST_F(SceneFile, TagsGoDownToChildrenUnlessTheyHaveTheirOwn) {
   const int mesh = AddQuad("quad");
   const int town = builder_.AddNode(NodeWith("house", -1, -1, R"({"flaneur_kind": "building"})"));
   builder_.AddNode(NodeWith("wall", town, mesh, ""));
-  builder_.AddNode(
-      NodeWith("door", town, -1, R"({"flaneur_kind": "door", "flaneur_width_m": 1.2})"));
-  const int ground = builder_.AddNode(NodeWith(
-      "street", -1, mesh, R"({"flaneur_kind": "ground", "flaneur_ground": "carriageway"})"));
+  builder_.AddNode(NodeWith("door", town, -1, R"({"flaneur_kind": "door", "flaneur_width_m": 1.2})"));
+  const int ground =
+      builder_.AddNode(NodeWith("street", -1, mesh, R"({"flaneur_kind": "ground", "flaneur_ground": "carriageway"})"));
   builder_.AddNode(NodeWith("kerb", ground, mesh, ""));
   ASSERT_EQ(ReadScene(Finish({town, ground}), &scene_).message, "");
   ASSERT_EQ(scene_.nodes.size(), 5u);
@@ -77,8 +76,7 @@ TEST_F(SceneFile, TagsGoDownToChildrenUnlessTheyHaveTheirOwn) {
 }
 
 TEST_F(SceneFile, AnUnknownTagIsAnErrorWithAdvice) {
-  const int node =
-      builder_.AddNode(NodeWith("house 7", -1, AddQuad("quad"), R"({"flaneur_kind": "bulding"})"));
+  const int node = builder_.AddNode(NodeWith("house 7", -1, AddQuad("quad"), R"({"flaneur_kind": "bulding"})"));
   const std::string message = ReadScene(Finish({node}), &scene_).message;
   EXPECT_NE(message.find("house 7"), std::string::npos) << message;
   EXPECT_NE(message.find("did you mean 'building'"), std::string::npos) << message;
@@ -90,32 +88,26 @@ TEST_F(SceneFile, MirroredNodesKeepTheirOutside) {
   ASSERT_EQ(ReadScene(Finish({builder_.AddNode(node)}), &scene_).message, "");
   const SceneNode& read = scene_.nodes[0];
   const Mesh& mesh = scene_.meshes[static_cast<size_t>(read.meshes[0])];
-  const auto at = [&](size_t i) {
-    return TransformPoint(read.world, mesh.positions[mesh.indices[i]]);
-  };
+  const auto at = [&](size_t i) { return TransformPoint(read.world, mesh.positions[mesh.indices[i]]); };
   EXPECT_GT(Cross(at(1) - at(0), at(2) - at(0)).z, 0);
 }
 
 TEST_F(SceneFile, MissingNormalsAreThoseOfTheFaces) {
   quad_.normals.clear();
-  ASSERT_EQ(ReadScene(Finish({builder_.AddNode(NodeWith("a", -1, AddQuad("quad"), ""))}), &scene_)
-                .message,
-            "");
+  ASSERT_EQ(ReadScene(Finish({builder_.AddNode(NodeWith("a", -1, AddQuad("quad"), ""))}), &scene_).message, "");
   for (const Vec3 n : scene_.meshes[0].normals) EXPECT_NEAR(n.z, 1, 1e-6f);
   EXPECT_EQ(scene_.meshes[0].normals.size(), scene_.meshes[0].positions.size());
 }
 
 TEST_F(SceneFile, WithoutTrianglesIsAnError) {
-  const std::string message =
-      ReadScene(Finish({builder_.AddNode(NodeWith("empty", -1, -1, ""))}), &scene_).message;
+  const std::string message = ReadScene(Finish({builder_.AddNode(NodeWith("empty", -1, -1, ""))}), &scene_).message;
   EXPECT_NE(message.find("no triangle"), std::string::npos) << message;
 }
 
 TEST_F(SceneFile, ANonFiniteVertexNamesNodeAndMesh) {
   quad_.positions[2].y = std::numeric_limits<float>::infinity();
   const std::string message =
-      ReadScene(Finish({builder_.AddNode(NodeWith("house_17", -1, AddQuad("gable"), ""))}), &scene_)
-          .message;
+      ReadScene(Finish({builder_.AddNode(NodeWith("house_17", -1, AddQuad("gable"), ""))}), &scene_).message;
   EXPECT_NE(message.find("house_17"), std::string::npos) << message;
   EXPECT_NE(message.find("gable"), std::string::npos) << message;
 }
@@ -156,17 +148,18 @@ TEST_F(SceneFile, ReadsWhatMeshoptimizerCompressed) {
     return R"("extensions": {"EXT_meshopt_compression": {"buffer": 0, "byteOffset": )" + std::to_string(at) +
            ", \"byteLength\": " + std::to_string(length) + ", " + numbers + "}}}";
   };
-  const std::string text = R"({"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_meshopt_compression"],
+  const std::string text =
+      R"({"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_meshopt_compression"],
     "extensionsRequired": ["EXT_meshopt_compression"], "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
     "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
                   {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
     "bufferViews": [{"buffer": 1, "byteLength": 48, "byteStride": 12, )" +
-                           view(0, first, R"("byteStride": 12, "count": 4, "mode": "ATTRIBUTES")") +
-                           R"(, {"buffer": 1, "byteOffset": 48, "byteLength": 12, )" +
-                           view(first, second, R"("byteStride": 2, "count": 6, "mode": "TRIANGLES")") +
-                           R"(], "buffers": [{"byteLength": )" + std::to_string(bytes.size()) +
-                           R"(, "uri": "quad.bin"}, {"byteLength": 60, "extensions": {"EXT_meshopt_compression": {"fallback": true}}}]})";
+      view(0, first, R"("byteStride": 12, "count": 4, "mode": "ATTRIBUTES")") +
+      R"(, {"buffer": 1, "byteOffset": 48, "byteLength": 12, )" +
+      view(first, second, R"("byteStride": 2, "count": 6, "mode": "TRIANGLES")") + R"(], "buffers": [{"byteLength": )" +
+      std::to_string(bytes.size()) +
+      R"(, "uri": "quad.bin"}, {"byteLength": 60, "extensions": {"EXT_meshopt_compression": {"fallback": true}}}]})";
   ASSERT_EQ(WriteFile(folder_ / "quad.bin", bytes).message, "");
   ASSERT_EQ(WriteTextFile(folder_ / "town.gltf", text).message, "");
   ASSERT_EQ(ReadScene(folder_ / "town.gltf", &scene_).message, "");
@@ -182,8 +175,7 @@ TEST_F(SceneFile, ReadsWhatMeshoptimizerCompressed) {
 TEST_F(SceneFile, ReadsARealBuilding) {
   if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
   int files = 0;
-  for (const auto& entry :
-       fs::recursive_directory_iterator(SharedData() / "towns/kaykit-medieval")) {
+  for (const auto& entry : fs::recursive_directory_iterator(SharedData() / "towns/kaykit-medieval")) {
     if (entry.path().extension() != ".gltf") continue;
     ++files;
     ASSERT_EQ(ReadScene(entry.path(), &scene_).message, "");

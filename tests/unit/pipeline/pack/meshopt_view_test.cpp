@@ -19,7 +19,10 @@ std::vector<uint8_t> Elements(size_t count, size_t stride) {
   for (size_t i = 0; i < out.size(); ++i) {
     const size_t lane = i % stride % 4, before = i >= stride ? out[i - stride] : 0;
     const auto any = static_cast<uint8_t>(random());
-    out[i] = static_cast<uint8_t>(lane == 0 ? any : lane == 1 ? before + any % 3 : lane == 2 ? before + any % 20 / 2 : before);
+    out[i] = static_cast<uint8_t>(lane == 0   ? any
+                                  : lane == 1 ? before + any % 3
+                                  : lane == 2 ? before + any % 20 / 2
+                                              : before);
   }
   return out;
 }
@@ -28,7 +31,8 @@ TEST(MeshoptView, ReadsWhatTheLibraryWrites) {
   for (const size_t stride : {4, 8, 12, 64, 256}) {
     for (const size_t count : {1, 15, 16, 17, 255, 256, 257, 1000}) {
       const std::vector<uint8_t> wanted = Elements(count, stride);
-      EXPECT_EQ(DecodeMeshoptView(EncodeMeshopt(wanted, stride), count, stride, "NONE"), wanted) << count << ' ' << stride;
+      EXPECT_EQ(DecodeMeshoptView(EncodeMeshopt(wanted, stride), count, stride, "NONE"), wanted)
+          << count << ' ' << stride;
     }
   }
 }

@@ -120,7 +120,11 @@ TourParts SmallTour() {
   TourParts parts;
   parts.name = "small";
   parts.town = SmallTown();
-  parts.avatars = {{TwoLevels(), SmallAtlas(), 2.5f, {{{0.2f, 0.4f, 0.6f}, 0.1f, {{1, 0, 0}, {0, 0.6f, 0}}}}, {{"stick", 0.5f, "hand"}}}};
+  parts.avatars = {{TwoLevels(),
+                    SmallAtlas(),
+                    2.5f,
+                    {{{0.2f, 0.4f, 0.6f}, 0.1f, {{1, 0, 0}, {0, 0.6f, 0}}}},
+                    {{"stick", 0.5f, "hand"}}}};
   parts.footprints = SmallFootprints();
   parts.ground = {{-20, -20}, 10, 4, 3, std::vector<float>(12, 0.25f), std::vector<uint8_t>(12, 3)};
   parts.ground.height_m[5] = -1.5f;
@@ -400,7 +404,8 @@ TEST(TourPack, AMemberOfAnotherTypeIsRefusedByItsPlace) {
       changed[at] = other;
       TourPack pack;
       const std::string message = ParseTourPack(WithJson(whole, changed), "small.glb", LoadOptions{}, &pack).message;
-      ASSERT_NE(message.find(Called(json, at)), std::string::npos) << at.to_string() << " = " << other << ": " << message;
+      ASSERT_NE(message.find(Called(json, at)), std::string::npos)
+          << at.to_string() << " = " << other << ": " << message;
     }
   }
 }
@@ -408,9 +413,11 @@ TEST(TourPack, AMemberOfAnotherTypeIsRefusedByItsPlace) {
 TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
-  const std::set<std::string> optional{"painting", "guide", "titles", "language", "captions", "sounds", "tints", "props"};
-  for (const char* object : {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0",
-                             "/avatars/0/impostor", "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground", "/places/0", "/painting", "/path/0"}) {
+  const std::set<std::string> optional{"painting", "guide",  "titles", "language",
+                                       "captions", "sounds", "tints",  "props"};
+  for (const char* object :
+       {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0", "/avatars/0/impostor",
+        "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground", "/places/0", "/painting", "/path/0"}) {
     const Json::json_pointer at(std::string("/extensions/FLANEUR_tour") + object);
     for (const auto& [key, unused] : json.at(at).items()) {
       Json changed = json;
@@ -423,7 +430,8 @@ TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
 
 TEST(TourPack, UnknownKindsAreRefusedWithTheKnownOnes) {
   const std::vector<uint8_t> whole = Written(SmallTour());
-  for (const char* member : {"/places/0/kind", "/obstacles/0/kind", "/control/method", "/avatars/0/impostor/clips/0/name"}) {
+  for (const char* member :
+       {"/places/0/kind", "/obstacles/0/kind", "/control/method", "/avatars/0/impostor/clips/0/name"}) {
     Json json = JsonOf(whole);
     json[Json::json_pointer(std::string("/extensions/FLANEUR_tour") + member)] = "portal";
     TourPack pack;
@@ -436,7 +444,8 @@ TEST(TourPack, TheGltfPartOfAnotherTypeIsRefusedInPlainWords) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
   std::vector<Json::json_pointer> places;
-  for (const char* part : {"/nodes", "/meshes", "/accessors", "/skins", "/animations", "/materials", "/textures", "/images"}) {
+  for (const char* part :
+       {"/nodes", "/meshes", "/accessors", "/skins", "/animations", "/materials", "/textures", "/images"}) {
     const Json::json_pointer at(part);
     Places(json.at(at), at, &places);
   }

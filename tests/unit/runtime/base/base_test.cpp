@@ -52,8 +52,7 @@ TEST(File, AFailedWriteKeepsWhatWasThere) {
 
 TEST(File, MissingAndFolderAreNamed) {
   std::string text;
-  EXPECT_NE(ReadTextFile("/no/such/file", &text).message.find("/no/such/file: no such file"),
-            std::string::npos);
+  EXPECT_NE(ReadTextFile("/no/such/file", &text).message.find("/no/such/file: no such file"), std::string::npos);
   EXPECT_NE(ReadTextFile("/", &text).message.find("folder"), std::string::npos);
 }
 

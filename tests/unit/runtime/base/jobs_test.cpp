@@ -1,4 +1,5 @@
-// Work beside the caller's: done once and whole with any number of threads and without, and never longer than its owner wants it.
+// Work beside the caller's: done once and whole with any number of threads and without, and never longer than its owner
+// wants it.
 #include "runtime/base/jobs.h"
 
 #include <gtest/gtest.h>

@@ -29,7 +29,8 @@ TEST(Props, AreSpreadByTheirSharesAndNobodyHasTwoOfASlot) {
     both += (chosen & 3) != 0 && (chosen & 4) != 0 ? 1 : 0;
     EXPECT_EQ(chosen, PropsOf(props, id));
   }
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<float>(count[k]) / kPeople, props[static_cast<size_t>(k)].share, 0.02f) << k;
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(static_cast<float>(count[k]) / kPeople, props[static_cast<size_t>(k)].share, 0.02f) << k;
   EXPECT_NEAR(static_cast<float>(both) / kPeople, 0.75f * 0.3f, 0.02f) << "slots don't know each other";
 }
 
@@ -65,7 +66,9 @@ TEST(Shadows, TakeNoMoreThanTheirRoomFromTheFarthestFirstAndComeBackSlowly) {
     ChooseShadows(room, 1.0f / 30, &state);
     int64_t triangles = 0;
     for (const ShadowCaster& c : state.casters) {
-      triangles += c.distance_m < state.fine_m ? c.cost.fine_triangles : c.distance_m < state.reach_m ? c.cost.coarse_triangles : 0;
+      triangles += c.distance_m < state.fine_m    ? c.cost.fine_triangles
+                   : c.distance_m < state.reach_m ? c.cost.coarse_triangles
+                                                  : 0;
     }
     EXPECT_EQ(state.triangles, triangles);
     EXPECT_LE(state.triangles, room);
@@ -93,8 +96,10 @@ TEST(Shadows, TakeNoMoreThanTheirRoomFromTheFarthestFirstAndComeBackSlowly) {
 // Of all that a picture draws people with, but for props: the level of who is in view, and all that still fades out.
 int64_t DrawnTriangles(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const LevelState& state) {
   const auto triangles = [&](size_t i, Level level) -> int64_t {
-    return IsMesh(level) ? avatars[static_cast<size_t>(crowd.avatar[i])].levels[static_cast<size_t>(level.mesh)].triangles
-                         : IsDrawn(level) ? kImpostorTriangles : 0;
+    return IsMesh(level)
+               ? avatars[static_cast<size_t>(crowd.avatar[i])].levels[static_cast<size_t>(level.mesh)].triangles
+           : IsDrawn(level) ? kImpostorTriangles
+                            : 0;
   };
   int64_t sum = 0;
   for (size_t i = 0; i < crowd.size(); ++i) {
@@ -107,7 +112,12 @@ int64_t DrawnTriangles(const Crowd& crowd, const std::vector<AvatarCosts>& avata
 TEST(ChooseLevels, TheBudgetHoldsForPropsAndShadowsAsWell) {
   Random random{5};
   for (int budget : {40, 300, 2000, 20000, 200000}) {
-    std::vector<AvatarCosts> avatars{{{{9000, 400}, {3000, 200}, {700, 0}}, 1.75f, 128, {{"hat", 0.7f, "head", 250}, {"bag", 0.3f, "hand", 90}}, {700, 90}}, {{{500, 0}}, 1.75f, 128, {}, {500, 50}}};
+    std::vector<AvatarCosts> avatars{{{{9000, 400}, {3000, 200}, {700, 0}},
+                                      1.75f,
+                                      128,
+                                      {{"hat", 0.7f, "head", 250}, {"bag", 0.3f, "hand", 90}},
+                                      {700, 90}},
+                                     {{{500, 0}}, 1.75f, 128, {}, {500, 50}}};
     Crowd crowd;
     for (int k = 0; k < 300; ++k) {
       Person person;
@@ -134,7 +144,9 @@ TEST(ChooseLevels, TheBudgetHoldsForPropsAndShadowsAsWell) {
         const float distance_m = Length(crowd.position[i]);
         EXPECT_TRUE(state.casts_shadow[i] != 0 || crowd.view[i] != ViewClass::kVisible || distance_m >= kShadowReach_m);
         if (state.casts_shadow[i] == 0) continue;
-        shadows += distance_m < state.shadows.fine_m ? shadow.fine_triangles : distance_m < state.shadows.reach_m ? shadow.coarse_triangles : 0;
+        shadows += distance_m < state.shadows.fine_m    ? shadow.fine_triangles
+                   : distance_m < state.shadows.reach_m ? shadow.coarse_triangles
+                                                        : 0;
       }
       ASSERT_EQ(state.triangles, drawn);
       ASSERT_EQ(state.shadows.triangles, shadows);
@@ -157,8 +169,8 @@ TEST(ViewVolumes, AgreeWithTheDefinitionByAngles) {
   }
 }
 
-// How many become visible straight from outside within so many steps of random camera motion, of people who stand just outside the
-// outer volume and walk towards the view as fast as they can.
+// How many become visible straight from outside within so many steps of random camera motion, of people who stand just
+// outside the outer volume and walk towards the view as fast as they can.
 int UnforeseenPeople(int steps, float back_share) {
   Random random{11};
   MotionLimits limits;
@@ -177,7 +189,8 @@ int UnforeseenPeople(int steps, float back_share) {
       const Vec2 apex = before.position - Vec2{std::cos(before.yaw_rad), std::sin(before.yaw_rad)} * back_m;
       const Vec2 along{std::cos(edge), std::sin(edge)}, outwards = Vec2{-along.y, along.x} * side;
       const Vec2 person = apex + along * random.Uniform(0, 125) + outwards * random.Uniform(0.01f, 0.3f);
-      if (Length(person - before.position) > limits.reach_m || Classify(person, before, back_m) != ViewClass::kOutside) continue;
+      if (Length(person - before.position) > limits.reach_m || Classify(person, before, back_m) != ViewClass::kOutside)
+        continue;
       const Vec2 moved = person - outwards * (limits.person_speed_mps * limits.step_s);
       unforeseen += Classify(moved, camera, back_m) == ViewClass::kVisible ? 1 : 0;
     }
@@ -212,7 +225,8 @@ TEST(LevelControl, TheBudgetAlwaysHoldsAndCountsAgree) {
     for (int step = 0; step < 5; ++step) {
       ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, 0}, &state);
       const int64_t triangles = DrawnTriangles(crowd, avatars, state);
-      const auto high = std::count_if(state.people.begin(), state.people.end(), [](const PersonLevel& p) { return IsMesh(p.level); });
+      const auto high =
+          std::count_if(state.people.begin(), state.people.end(), [](const PersonLevel& p) { return IsMesh(p.level); });
       ASSERT_LE(triangles, settings.budget_triangles);
       ASSERT_EQ(triangles, state.triangles);
       ASSERT_LE(high, settings.high_limit);
@@ -258,7 +272,8 @@ TEST(LevelControl, InADenseViewTheNearestAreMeshesWhoeverCameFirst) {
   const auto step = [&](Vec2 position, Vec2 velocity) {
     const ViewCamera camera{position, 0, kPi / 3};
     for (size_t i = 0; i < crowd.size(); ++i) {
-      crowd.view[i] = InWedge(crowd.position[i], position, 0, camera.fov_rad) ? ViewClass::kVisible : ViewClass::kOutside;
+      crowd.view[i] =
+          InWedge(crowd.position[i], position, 0, camera.fov_rad) ? ViewClass::kVisible : ViewClass::kOutside;
     }
     ChooseLevels(crowd, avatars, ControlSettings{}, {camera, {velocity}, 0}, &state);
   };
@@ -292,11 +307,12 @@ Level LevelOfWhoWalks(Vec2 position, Vec2 velocity) {
 TEST(LevelControl, WhoIsAboutToLeaveTheViewIsNotSwitchedAnyMoreUnlessTheyPassClose) {
   EXPECT_TRUE(IsMesh(LevelOfWhoWalks({9, 4}, {})));
   EXPECT_EQ(LevelOfWhoWalks({9, 4}, {0, 1.4f}), kImpostor);
-  EXPECT_TRUE(IsMesh(LevelOfWhoWalks({9, 0.7f}, {-3, 0})));      // soon past the visitor's shoulder
-  EXPECT_EQ(LevelOfWhoWalks({9, 3}, {-3, 0}), kImpostor);  // on the other side of the street
+  EXPECT_TRUE(IsMesh(LevelOfWhoWalks({9, 0.7f}, {-3, 0})));  // soon past the visitor's shoulder
+  EXPECT_EQ(LevelOfWhoWalks({9, 3}, {-3, 0}), kImpostor);    // on the other side of the street
 }
 
-// The place in high resolution goes to the one who comes here, though the other, who walks away, is nearer yet: nobody has to change.
+// The place in high resolution goes to the one who comes here, though the other, who walks away, is nearer yet: nobody
+// has to change.
 TEST(LevelControl, WhoComesNearHasAPlaceBeforeWhoLeaves) {
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
   for (const bool known : {true, false}) {  // in the first step nobody has a way yet
@@ -323,7 +339,8 @@ TEST(LevelControl, WhoComesNearHasAPlaceBeforeWhoLeaves) {
   }
 }
 
-// A machine that takes 5 ms, and 100 ms for a million triangles of people. The visitor walks backwards, so that nobody leaves the view.
+// A machine that takes 5 ms, and 100 ms for a million triangles of people. The visitor walks backwards, so that nobody
+// leaves the view.
 float FrameTime_ms(const LevelState& state) { return 5 + 1e-4f * static_cast<float>(state.triangles); }
 
 TEST(LevelControl, TheSecondMethodSettlesAtTheFrameTimeAskedForAndLowerWhileTheCameraRuns) {
@@ -357,10 +374,12 @@ TEST(LevelControl, ABudgetThatNobodyUsesDoesNotGrow) {
   ControlSettings settings;
   settings.method = LimitMethod::kFrameTime;
   LevelState state;
-  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, FrameTime_ms(state)}, &state);
+  for (int step = 0; step < 300; ++step)
+    ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, FrameTime_ms(state)}, &state);
   const float settled = state.budget_triangles;
   std::fill(crowd.view.begin(), crowd.view.end(), ViewClass::kOutside);
-  for (int step = 0; step < 300; ++step) ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, FrameTime_ms(state)}, &state);
+  for (int step = 0; step < 300; ++step)
+    ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, FrameTime_ms(state)}, &state);
   EXPECT_NEAR(state.budget_triangles / settled, 1, 0.01f);
 }
 

@@ -36,7 +36,8 @@ TEST(Foresight, LeavesEverybodyAloneWhileThereIsRoom) {
   Crowd crowd;
   for (int i = 0; i < 8; ++i) AddWalker({12.0f + static_cast<float>(i % 4), static_cast<float>(i) - 4}, &crowd);
   ForesightState state;
-  for (int step = 0; step < 30; ++step) Foresee(ViewCamera{}, {}, w, ControlSettings{}, ControlSettings{}.high_limit, &crowd, &state);
+  for (int step = 0; step < 30; ++step)
+    Foresee(ViewCamera{}, {}, w, ControlSettings{}, ControlSettings{}.high_limit, &crowd, &state);
   // Those who would walk into the visitor give way; the others go on.
   for (size_t i = 0; i < crowd.size(); ++i) {
     const bool meets_visitor = std::abs(crowd.position[i].y) < 1.5f;
@@ -47,7 +48,8 @@ TEST(Foresight, LeavesEverybodyAloneWhileThereIsRoom) {
 TEST(Foresight, SomeOfTooManyTurnAsideBeforeTheyComeNear) {
   const Walkable w = OpenField();
   Crowd crowd;
-  for (int i = 0; i < 30; ++i) AddWalker({13.0f + static_cast<float>(i / 10), static_cast<float>(i % 10) - 4.5f}, &crowd);
+  for (int i = 0; i < 30; ++i)
+    AddWalker({13.0f + static_cast<float>(i / 10), static_cast<float>(i % 10) - 4.5f}, &crowd);
   ForesightState state;
   Foresee(ViewCamera{}, {}, w, ControlSettings{}, ControlSettings{}.high_limit, &crowd, &state);
   EXPECT_GT(Detours(crowd), 10);

@@ -131,14 +131,15 @@ TEST(LevelChange, FartherThanAnybodyIsDrawnPeopleFadeOutAndIn) {
   EXPECT_TRUE(IsDrawn(s.at(0).level));
 }
 
-// As many arrivals as ten hours of a busy square have: what is kept about people grows with how many there are at once, not with how
-// many there have been.
+// As many arrivals as ten hours of a busy square have: what is kept about people grows with how many there are at once,
+// not with how many there have been.
 TEST(LevelChange, TenHoursOfArrivalsKeepMemoryFlat) {
   Stage s(40);
   s.avatars[0].props = {{"hat", 0.5f, "", 10}};
   const auto kept = [&] {
-    return s.crowd.slots.owner.capacity() + s.state.memory.capacity() + s.state.props.memory.capacity() + s.state.people.capacity() +
-           s.state.drawn.capacity() + s.state.drawn_before.capacity() + s.state.gone.capacity() + s.crowd.id.capacity();
+    return s.crowd.slots.owner.capacity() + s.state.memory.capacity() + s.state.props.memory.capacity() +
+           s.state.people.capacity() + s.state.drawn.capacity() + s.state.drawn_before.capacity() +
+           s.state.gone.capacity() + s.crowd.id.capacity();
   };
   Random random{7};
   size_t after_an_hour = 0;
@@ -150,7 +151,8 @@ TEST(LevelChange, TenHoursOfArrivalsKeepMemoryFlat) {
     AddPerson(person, &s.crowd);
     s.crowd.view.back() = ViewClass::kVisible;
     s.Step();
-    for (size_t i = 0; i < s.crowd.size(); ++i) ASSERT_EQ(s.crowd.slots.owner[static_cast<size_t>(s.crowd.slot[i])], s.crowd.id[i]);
+    for (size_t i = 0; i < s.crowd.size(); ++i)
+      ASSERT_EQ(s.crowd.slots.owner[static_cast<size_t>(s.crowd.slot[i])], s.crowd.id[i]);
     if (arrival == kArrivalsAnHour) after_an_hour = kept();
   }
   EXPECT_EQ(kept(), after_an_hour);

@@ -40,7 +40,8 @@ void AddKnot(const Walkable& w, const ViewCamera& camera, Random* random, Crowd*
 }
 
 bool InTheWay(const Crowd& c, size_t i, size_t j) {
-  return i != j && c.view[j] != ViewClass::kOutside && Length(c.position[i] - c.position[j]) < c.radius_m[i] + c.radius_m[j] - 0.002f;
+  return i != j && c.view[j] != ViewClass::kOutside &&
+         Length(c.position[i] - c.position[j]) < c.radius_m[i] + c.radius_m[j] - 0.002f;
 }
 
 TEST(Separation, IsAtOnceAndNeverIntoViewNorIntoWalls) {

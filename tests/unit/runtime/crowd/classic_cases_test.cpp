@@ -1,10 +1,11 @@
-// The small cases that steering is classically judged by (Singh, Kapadia, Faloutsos and Reinman 2009, SteerBench): few people, each
-// with a start and a goal, standing at first, in the open or at an opening in a wall.
+// The small cases that steering is classically judged by (Singh, Kapadia, Faloutsos and Reinman 2009, SteerBench): few
+// people, each with a start and a goal, standing at first, in the open or at an opening in a wall.
 //
-// Time over ideal: a person's seconds from standing until the goal's circle, over the seconds of the shortest way of a disc of their
-// radius to that circle at their preferred speed, alone. Effort over ideal: the energy of walking, the integral of 2.23 + 1.26 v^2
-// (W/kg; Whittle 2008, as used by Guy et al. 2010, PLEdestrians) over the time, over the same for the shortest way at the preferred
-// speed. Both are means over the people of a case, then over the cases. Stuck: not at the goal after 2.5 times the ideal time.
+// Time over ideal: a person's seconds from standing until the goal's circle, over the seconds of the shortest way of a
+// disc of their radius to that circle at their preferred speed, alone. Effort over ideal: the energy of walking, the
+// integral of 2.23 + 1.26 v^2 (W/kg; Whittle 2008, as used by Guy et al. 2010, PLEdestrians) over the time, over the
+// same for the shortest way at the preferred speed. Both are means over the people of a case, then over the cases.
+// Stuck: not at the goal after 2.5 times the ideal time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +23,13 @@ namespace {
 CrowdScratch scratch;
 constexpr float kStep_s = 1.0f / 30, kRadius_m = 0.25f, kUsual_mps = 1.3f, kStuckAfter = 2.5f;
 
-struct Walker { Vec2 from, to; float preferred_mps = kUsual_mps; };
-struct Gate { Vec2 a, b; };  // everybody's shortest way crosses this segment, and the gates in order
+struct Walker {
+  Vec2 from, to;
+  float preferred_mps = kUsual_mps;
+};
+struct Gate {
+  Vec2 a, b;
+};  // everybody's shortest way crosses this segment, and the gates in order
 
 struct Case {
   std::string name;
@@ -32,7 +38,11 @@ struct Case {
   std::vector<Gate> gates;  // in the order of growing x
 };
 
-struct Outcome { double time = 0, effort = 0; float deepest_touch_m = 0; int stuck = 0; };
+struct Outcome {
+  double time = 0, effort = 0;
+  float deepest_touch_m = 0;
+  int stuck = 0;
+};
 
 Vec2 OnGate(const Gate& g, Vec2 p, Vec2 q) {
   const Vec2 along = g.b - g.a, way = q - p;
@@ -41,7 +51,8 @@ Vec2 OnGate(const Gate& g, Vec2 p, Vec2 q) {
   return g.a + along * std::clamp(t, 0.0f, 1.0f);
 }
 
-// The taut string from start to goal through the gates: each point on its gate is moved to where its neighbours' line crosses.
+// The taut string from start to goal through the gates: each point on its gate is moved to where its neighbours' line
+// crosses.
 float ShortestWay_m(const Case& c, const Walker& walker) {
   std::vector<Vec2> points{walker.from};
   std::vector<Gate> gates = c.gates;
@@ -115,7 +126,9 @@ void AddHeadOn(std::vector<Case>* cases) {
   for (float aside_m : {0.0f, 0.1f, 0.25f, 0.4f}) {
     for (float other_mps : {kUsual_mps, 0.9f}) {
       cases->push_back({Named("head-on, %.2f m aside, against %.1f m/s", aside_m, other_mps),
-                        {{{-8, 0}, {8, 0}}, {{8, aside_m}, {-8, aside_m}, other_mps}}, {}, {}});
+                        {{{-8, 0}, {8, 0}}, {{8, aside_m}, {-8, aside_m}, other_mps}},
+                        {},
+                        {}});
     }
   }
 }
@@ -125,7 +138,9 @@ void AddCrossing(std::vector<Case>* cases) {
     for (float behind_m : {0.0f, 0.3f}) {
       const Vec2 way = Direction(angle_deg);
       cases->push_back({Named("crossing at %.0f degrees, %.1f m behind", angle_deg, behind_m),
-                        {{{-8, 0}, {8, 0}}, {way * -(8 + behind_m), way * 8}}, {}, {}});
+                        {{{-8, 0}, {8, 0}}, {way * -(8 + behind_m), way * 8}},
+                        {},
+                        {}});
     }
   }
 }
@@ -134,7 +149,9 @@ void AddOvertaking(std::vector<Case>* cases) {
   for (float slow_mps : {0.7f, 0.9f, 1.1f}) {
     for (float aside_m : {0.0f, 0.2f}) {
       cases->push_back({Named("overtaking %.1f m/s, %.1f m aside", slow_mps, aside_m),
-                        {{{-9, 0}, {12, 0}, 1.5f}, {{-6, aside_m}, {9, aside_m}, slow_mps}}, {}, {}});
+                        {{{-9, 0}, {12, 0}, 1.5f}, {{-6, aside_m}, {9, aside_m}, slow_mps}},
+                        {},
+                        {}});
     }
   }
 }
@@ -142,14 +159,17 @@ void AddOvertaking(std::vector<Case>* cases) {
 // A wall of 0.3 m along y with an opening.
 Case WithOpening(std::string name, float width_m) {
   const float half_m = 0.5f * width_m, way_m = half_m - kRadius_m;
-  return {std::move(name), {}, {Box(-0.15f, -20, 0.15f, -half_m), Box(-0.15f, half_m, 0.15f, 20)},
+  return {std::move(name),
+          {},
+          {Box(-0.15f, -20, 0.15f, -half_m), Box(-0.15f, half_m, 0.15f, 20)},
           {{{-0.15f, -way_m}, {-0.15f, way_m}}, {{0.15f, -way_m}, {0.15f, way_m}}}};
 }
 
 // Rows of people on either side, 0.9 m from each other.
 void AddRows(int people, float side, int abreast, Case* c) {
   for (int k = 0; k < people; ++k) {
-    const float y_m = 0.9f * (static_cast<float>(k % abreast) - 0.5f * static_cast<float>(std::min(people, abreast) - 1));
+    const float y_m =
+        0.9f * (static_cast<float>(k % abreast) - 0.5f * static_cast<float>(std::min(people, abreast) - 1));
     const float back_m = 1.2f * static_cast<float>(k / abreast);
     c->walkers.push_back({{side * (7 + back_m), y_m}, {-side * (8 - back_m), y_m}});
   }
@@ -161,7 +181,8 @@ void AddDoorways(std::vector<Case>* cases) {
     AddRows(1, -1, 1, &meeting), AddRows(1, 1, 1, &meeting);
     cases->push_back(meeting);
     for (int people : {3, 6}) {
-      Case squeeze = WithOpening(Named("doorway of %.1f m, %.0f together", width_m, static_cast<float>(people)), width_m);
+      Case squeeze =
+          WithOpening(Named("doorway of %.1f m, %.0f together", width_m, static_cast<float>(people)), width_m);
       AddRows(people, -1, 3, &squeeze);
       cases->push_back(squeeze);
     }
@@ -195,8 +216,10 @@ void AddCircles(std::vector<Case>* cases) {
 void AddSurprises(std::vector<Case>* cases) {
   for (float behind_m : {-0.4f, 0.0f, 0.4f}) {
     for (int others : {1, 2}) {
-      Case c{Named("corner, %.1f m behind, against %.0f", behind_m, static_cast<float>(others)), {{{-8, -0.5f}, {8, -0.5f}}},
-             {Box(-20, -20, -1, -1)}, {}};
+      Case c{Named("corner, %.1f m behind, against %.0f", behind_m, static_cast<float>(others)),
+             {{{-8, -0.5f}, {8, -0.5f}}},
+             {Box(-20, -20, -1, -1)},
+             {}};
       for (int k = 0; k < others; ++k) {
         const float back_m = behind_m + 0.9f * static_cast<float>(k);
         c.walkers.push_back({{-0.5f, -8 - back_m}, {-0.5f, 8 - 0.9f * static_cast<float>(k)}});
@@ -220,7 +243,8 @@ TEST(ClassicCases, NobodyTouchesOrIsStuckAndAllGetOn) {
   std::printf("%-44s %6s %6s %8s %5s\n", "case", "time", "effort", "touch cm", "stuck");
   for (const Case& c : cases) {
     const Outcome o = Play(c);
-    std::printf("%-44s %6.3f %6.3f %8.1f %5d\n", c.name.c_str(), o.time, o.effort, 100 * static_cast<double>(o.deepest_touch_m), o.stuck);
+    std::printf("%-44s %6.3f %6.3f %8.1f %5d\n", c.name.c_str(), o.time, o.effort,
+                100 * static_cast<double>(o.deepest_touch_m), o.stuck);
     time += o.time / static_cast<double>(cases.size());
     effort += o.effort / static_cast<double>(cases.size());
     clean += o.deepest_touch_m <= 0.02f && o.stuck == 0 ? 1 : 0;

@@ -1,5 +1,5 @@
-// A straight corridor of 30 m whose ends are one (periodic), between two walls. The ends are joined by doubles: everybody has one,
-// 30 m before or behind, that moves as they do. Shared by tests.
+// A straight corridor of 30 m whose ends are one (periodic), between two walls. The ends are joined by doubles:
+// everybody has one, 30 m before or behind, that moves as they do. Shared by tests.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,14 @@ inline constexpr float kCorridorStep_s = 1.0f / 30, kCorridorLength_m = 30, kCor
 
 struct Corridor {
   Walkable walkable;
-  Crowd crowd;        // the people, then their doubles
+  Crowd crowd;  // the people, then their doubles
   CrowdScratch scratch;
   size_t people = 0;
   float width_m = 0;
 };
 
-// People live in x 0 ... 30; walls at y 0 and width_m. The goals lie so far beyond that everybody walks along the corridor.
+// People live in x 0 ... 30; walls at y 0 and width_m. The goals lie so far beyond that everybody walks along the
+// corridor.
 inline Walkable CorridorGround(float width_m) {
   Walkable w;
   const int columns = 320, rows = static_cast<int>(2 * width_m);
@@ -44,7 +45,8 @@ inline void JoinEnds(Corridor* corridor) {
   }
 }
 
-// On a lattice with some disorder (random places don't fit where it is dense); this share of the people, drawn at random, walk west.
+// On a lattice with some disorder (random places don't fit where it is dense); this share of the people, drawn at
+// random, walk west.
 inline Corridor MakeCorridor(float width_m, float density_pm2, float share_west, uint64_t seed) {
   Corridor corridor{CorridorGround(width_m), {}, {}, 0, width_m};
   Crowd& c = corridor.crowd;
@@ -55,12 +57,14 @@ inline Corridor MakeCorridor(float width_m, float density_pm2, float share_west,
   const int fit = static_cast<int>((width_m - 2 * margin_m) / 0.55f) + 1;
   const int even = static_cast<int>(std::round(std::sqrt(static_cast<float>(people) * width_m / kCorridorLength_m)));
   const int rows = std::clamp(even, 2, fit), columns = (people + rows - 1) / rows;
-  const float pitch_m = kCorridorLength_m / static_cast<float>(columns), jitter_m = 0.3f * std::max(0.0f, pitch_m - 0.5f);
+  const float pitch_m = kCorridorLength_m / static_cast<float>(columns),
+              jitter_m = 0.3f * std::max(0.0f, pitch_m - 0.5f);
   for (int k = 0; k < people; ++k) {
     const int row = k % rows, column = k / rows;
     Person p;
-    p.position = {(static_cast<float>(column) + 0.25f + (row % 2 ? 0.5f : 0)) * pitch_m + random.Uniform(-jitter_m, jitter_m),
-                  margin_m + static_cast<float>(row) * (width_m - 2 * margin_m) / static_cast<float>(rows - 1)};
+    p.position = {
+        (static_cast<float>(column) + 0.25f + (row % 2 ? 0.5f : 0)) * pitch_m + random.Uniform(-jitter_m, jitter_m),
+        margin_m + static_cast<float>(row) * (width_m - 2 * margin_m) / static_cast<float>(rows - 1)};
     p.preferred_mps = kCorridorFree_mps;
     const bool goes_west = share_west > 0 && random.Uniform() < share_west;
     p.field = goes_west ? west : east;

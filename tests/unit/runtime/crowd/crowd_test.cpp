@@ -85,7 +85,8 @@ TEST(Crowd, WhoIsHeldUpBesideTheGoalIsNearIt) {
   p.field = FieldFor(goal, &crowd);
   AddPerson(p, &crowd);
   int step = 0;
-  while (crowd.arrived[0] == Arrival::kNot && ++step < 900) StepCrowd(w, {{goal, 1.5f, true}}, kStep_s, &scratch, &crowd);
+  while (crowd.arrived[0] == Arrival::kNot && ++step < 900)
+    StepCrowd(w, {{goal, 1.5f, true}}, kStep_s, &scratch, &crowd);
   EXPECT_EQ(crowd.arrived[0], Arrival::kNear) << "the visitor stands there";
   EXPECT_LE(Length(crowd.position[0] - goal), kNearArrival_m);
   while (crowd.arrived[0] != Arrival::kThere && ++step < 1200) StepCrowd(w, {}, kStep_s, &scratch, &crowd);
@@ -176,7 +177,8 @@ TEST(Crowd, SortedBySpaceEverybodyStaysWhoTheyAre) {
     EXPECT_EQ(crowd.mind[i].asked_mps, before.mind[was].asked_mps);
     ASSERT_EQ(crowd.group[i], before.group[was]);
     if (crowd.group[i] < 0) continue;
-    const Group &now = crowd.groups[static_cast<size_t>(crowd.group[i])], &then = before.groups[static_cast<size_t>(crowd.group[i])];
+    const Group &now = crowd.groups[static_cast<size_t>(crowd.group[i])],
+                &then = before.groups[static_cast<size_t>(crowd.group[i])];
     for (int m = 0; m < now.size; ++m) EXPECT_EQ(crowd.id[static_cast<size_t>(now.member[m])], then.member[m]);
   }
 }

@@ -27,7 +27,8 @@ TEST(DensityMap, AnEvenCrowdHasTheSameDensityEverywhere) {
   DensityMap map;
   EXPECT_EQ(DensityAt_pm2(map, {5, 5}), 0) << "nobody was counted";
   CountPeople(w, Spread({0, 0}, {20, 40}, 0.5f), &map);
-  for (const Vec2 p : {Vec2{4, 4}, Vec2{9.3f, 31}, Vec2{15, 20.7f}}) EXPECT_NEAR(DensityAt_pm2(map, p), 4, 0.5f) << p.x << ", " << p.y;
+  for (const Vec2 p : {Vec2{4, 4}, Vec2{9.3f, 31}, Vec2{15, 20.7f}})
+    EXPECT_NEAR(DensityAt_pm2(map, p), 4, 0.5f) << p.x << ", " << p.y;
   EXPECT_EQ(DensityAt_pm2(map, {35, 35}), 0);
   CountPeople(w, {}, &map);
   EXPECT_EQ(DensityAt_pm2(map, {4, 4}), 0) << "everybody has left";

@@ -12,8 +12,9 @@ namespace {
 constexpr float kWidth_m = 6, kBand_m = 0.6f, kVisitor_mps = 1.2f, kPersonal_m = 0.6f;
 constexpr uint64_t kSeeds = 3;
 
-// Of the people in each band along the corridor, the surplus of those who walk one way, summed over the bands, over all people:
-// 0 where both ways are as many in every band, 1 where no band is shared (after Yamori 1998, Going with the flow).
+// Of the people in each band along the corridor, the surplus of those who walk one way, summed over the bands, over all
+// people: 0 where both ways are as many in every band, 1 where no band is shared (after Yamori 1998, Going with the
+// flow).
 double BandIndex(const Corridor& corridor) {
   const Crowd& c = corridor.crowd;
   std::vector<int> surplus(static_cast<size_t>(kWidth_m / kBand_m) + 1, 0);
@@ -33,10 +34,12 @@ TEST(Flows, LanesFormInCounterflow) {
     mixed += BandIndex(corridor) / kSeeds;
     for (int step = 0; step < 1800; ++step) {
       StepCorridor({}, &corridor);
-      if (step >= 1500) late += BandIndex(corridor) / (300 * kSeeds), speed_mps += SpeedAlong_mps(corridor) / (300 * kSeeds);
+      if (step >= 1500)
+        late += BandIndex(corridor) / (300 * kSeeds), speed_mps += SpeedAlong_mps(corridor) / (300 * kSeeds);
     }
   }
-  std::printf("lanes at 0.75 people/m2: band index %.2f mixed at the start, %.2f after 50 s; %.2f m/s\n", mixed, late, speed_mps);
+  std::printf("lanes at 0.75 people/m2: band index %.2f mixed at the start, %.2f after 50 s; %.2f m/s\n", mixed, late,
+              speed_mps);
   EXPECT_GE(late, 0.6);
   EXPECT_GE(late, 2 * mixed);
 }
@@ -45,7 +48,8 @@ TEST(Flows, LanesFormInCounterflow) {
 double Density_pm2(const Corridor& corridor, Vec2 p) {
   constexpr float kHalf_m = 0.9f;
   int inside = 0;
-  for (Vec2 q : corridor.crowd.position) inside += std::abs(q.x - p.x) < kHalf_m && std::abs(q.y - p.y) < kHalf_m ? 1 : 0;
+  for (Vec2 q : corridor.crowd.position)
+    inside += std::abs(q.x - p.x) < kHalf_m && std::abs(q.y - p.y) < kHalf_m ? 1 : 0;
   return inside / (4.0 * kHalf_m * kHalf_m);
 }
 
@@ -68,8 +72,11 @@ TEST(Flows, ACrowdPartsForAVisitorAndClosesAgain) {
       ++looks;
     }
   }
-  std::printf("visitor in 0.75 people/m2: %.2f people/m2 4 m ahead, %.2f around the visitor, %.2f 4 m behind; %d steps of anybody "
-              "within %.1f m\n", ahead_pm2 / looks, at_pm2 / looks, behind_pm2 / looks, entered, static_cast<double>(kPersonal_m));
+  std::printf(
+      "visitor in 0.75 people/m2: %.2f people/m2 4 m ahead, %.2f around the visitor, %.2f 4 m behind; %d steps of "
+      "anybody "
+      "within %.1f m\n",
+      ahead_pm2 / looks, at_pm2 / looks, behind_pm2 / looks, entered, static_cast<double>(kPersonal_m));
   EXPECT_EQ(entered, 0);
   EXPECT_LE(at_pm2, 0.5 * ahead_pm2);
   EXPECT_GE(behind_pm2, 0.6 * ahead_pm2);

@@ -110,7 +110,8 @@ TEST(Groups, GoThroughADoorwayInFileAndMeetAgain) {
     }
     ASSERT_LT(step, 750) << count << " people within 25 s through the door";
     for (step = 0; step < 240; ++step) StepCrowd(w, {}, kStep_s, &scratch, &c);
-    EXPECT_LT(MostApart_m(c, 0, people), 1.05f * static_cast<float>(count - 1)) << count << " are together 8 s behind the door";
+    EXPECT_LT(MostApart_m(c, 0, people), 1.05f * static_cast<float>(count - 1))
+        << count << " are together 8 s behind the door";
   }
 }
 
@@ -170,11 +171,13 @@ TEST(Groups, StayTheSamePeopleWhenOthersGo) {
         const size_t i = static_cast<size_t>(group.member[k]);
         ASSERT_LT(i, c.size());
         ASSERT_EQ(c.group[i], static_cast<int>(g));
-        ASSERT_EQ(row_of_id[static_cast<size_t>(c.id[i])], row_of_id[static_cast<size_t>(c.id[static_cast<size_t>(group.member[0])])]);
+        ASSERT_EQ(row_of_id[static_cast<size_t>(c.id[i])],
+                  row_of_id[static_cast<size_t>(c.id[static_cast<size_t>(group.member[0])])]);
       }
       in_groups += static_cast<size_t>(group.size);
     }
-    ASSERT_EQ(in_groups, static_cast<size_t>(std::count_if(c.group.begin(), c.group.end(), [](int g) { return g >= 0; })));
+    ASSERT_EQ(in_groups,
+              static_cast<size_t>(std::count_if(c.group.begin(), c.group.end(), [](int g) { return g >= 0; })));
   }
 }
 

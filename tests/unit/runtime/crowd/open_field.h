@@ -1,5 +1,5 @@
-// The open field that crowds are compared on: 0.3 people to the square metre, 36 round obstacles of 1 to 2 m radius, everybody on the
-// way from place to place. Shared by tests and benchmarks.
+// The open field that crowds are compared on: 0.3 people to the square metre, 36 round obstacles of 1 to 2 m radius,
+// everybody on the way from place to place. Shared by tests and benchmarks.
 #pragma once
 #include <cmath>
 #include <vector>
@@ -34,13 +34,15 @@ inline OpenField MakeOpenField(int people, int places_aside = 8, uint64_t seed =
   const size_t all = static_cast<size_t>(cells) * static_cast<size_t>(cells);
   f.walkable.ground = Share({{0, 0}, 1, cells, cells, std::vector<float>(all, 0), std::vector<uint8_t>(all, 3)});
   for (int k = 0; k < 36; ++k) {
-    f.walkable.circles.push_back({{f.random.Uniform(0, f.side_m), f.random.Uniform(0, f.side_m)}, f.random.Uniform(1, 2)});
+    f.walkable.circles.push_back(
+        {{f.random.Uniform(0, f.side_m), f.random.Uniform(0, f.side_m)}, f.random.Uniform(1, 2)});
   }
   BuildWalkable(0.3f, &f.walkable, 0.25f);
   f.turn_round_m = 0.12f * f.side_m / static_cast<float>(places_aside);
   for (int k = 0; k < places_aside * places_aside; ++k) {
     const float pitch_m = f.side_m / static_cast<float>(places_aside);
-    const Vec2 near{(static_cast<float>(k % places_aside) + 0.5f) * pitch_m, (static_cast<float>(k / places_aside) + 0.5f) * pitch_m};
+    const Vec2 near{(static_cast<float>(k % places_aside) + 0.5f) * pitch_m,
+                    (static_cast<float>(k / places_aside) + 0.5f) * pitch_m};
     const int cell = NearestFreeCell(f.walkable, near, 3);
     if (cell < 0) continue;
     f.places.push_back(CellCenter(f.walkable, cell));
@@ -72,7 +74,8 @@ inline void StepOpenField(OpenField* f) {
   StepCrowd(f->walkable, {}, kOpenFieldStep_s, &f->scratch, &c);
   for (size_t i = 0; i < c.size(); ++i) {
     const Vec2 left = c.fields[static_cast<size_t>(c.field[i])].goal - c.position[i];
-    if (c.arrived[i] == Arrival::kThere || Dot(left, left) < f->turn_round_m * f->turn_round_m) SetGoal(i, SomePlace(f), &c);
+    if (c.arrived[i] == Arrival::kThere || Dot(left, left) < f->turn_round_m * f->turn_round_m)
+      SetGoal(i, SomePlace(f), &c);
   }
 }
 

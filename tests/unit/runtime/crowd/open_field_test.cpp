@@ -1,8 +1,8 @@
-// The open field of open_field.h with 1,000 people: nobody overlaps, and people get on. Everybody goes from place to place of a
-// lattice of 8 x 8 over the field, drawn anew at each arrival, all alike likely: ways cross everywhere, most of all in the middle,
-// where it is about twice as dense as on average.
-// Overlapping: closer than 0.45 m from centre to centre. Progress: metres nearer to the goal as the crow flies, over the metres that
-// the preferred speed would have made in the time, of everybody (0.95 of somebody alone: the obstacles stand in the way).
+// The open field of open_field.h with 1,000 people: nobody overlaps, and people get on. Everybody goes from place to
+// place of a lattice of 8 x 8 over the field, drawn anew at each arrival, all alike likely: ways cross everywhere, most
+// of all in the middle, where it is about twice as dense as on average. Overlapping: closer than 0.45 m from centre to
+// centre. Progress: metres nearer to the goal as the crow flies, over the metres that the preferred speed would have
+// made in the time, of everybody (0.95 of somebody alone: the obstacles stand in the way).
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,9 +1,9 @@
-// Cases of the guideline for microscopic evacuation analysis (RiMEA e.V., Richtlinie fuer Mikroskopische Entfluchtungsanalysen 3.0,
-// 2016), each with the guideline's criterion. Not here:
+// Cases of the guideline for microscopic evacuation analysis (RiMEA e.V., Richtlinie fuer Mikroskopische
+// Entfluchtungsanalysen 3.0, 2016), each with the guideline's criterion. Not here:
 //   2, 3  walking on stairs: there are slopes, no stairs.
-//   4     speed and flow against density: weidmann_test.cpp. Above 4 people/m^2 discs of 0.25 m no longer fit side by side.
-//   5     reaction before setting out: whoever sends people somewhere decides when.
-//   11    choice of the exit by its crowding: people have a goal of their own, which crowding doesn't change.
+//   4     speed and flow against density: weidmann_test.cpp. Above 4 people/m^2 discs of 0.25 m no longer fit side by
+//   side. 5     reaction before setting out: whoever sends people somewhere decides when. 11    choice of the exit by
+//   its crowding: people have a goal of their own, which crowding doesn't change.
 // Cases 13 and 14 have a ramp for the guideline's stairs; case 8 has one floor of its building.
 #include <gtest/gtest.h>
 
@@ -24,18 +24,22 @@ constexpr float kStep_s = 1.0f / 30, kRadius_m = 0.25f, kUsual_mps = 1.33f, kWal
 PolygonObstacle Box(float x0, float y0, float x1, float y1) { return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}}; }
 
 // Walls of kWall_m along x at y, or along y at x, from one end to the other but for openings [from, to].
-struct Opening { float from, to; };
+struct Opening {
+  float from, to;
+};
 void AddWall(bool along_x, float at, float first, float last, const std::vector<Opening>& openings, Walkable* w) {
   const auto add = [&](float from, float to) {
     if (to <= from) return;
-    w->polygons.push_back(along_x ? Box(from, at - kWall_m / 2, to, at + kWall_m / 2) : Box(at - kWall_m / 2, from, at + kWall_m / 2, to));
+    w->polygons.push_back(along_x ? Box(from, at - kWall_m / 2, to, at + kWall_m / 2)
+                                  : Box(at - kWall_m / 2, from, at + kWall_m / 2, to));
   };
   for (const Opening& o : openings) add(first, o.from), first = o.to;
   add(first, last);
 }
 
 GroundRaster Flat(Vec2 min_m, Vec2 max_m) {
-  GroundRaster g{min_m, 0.5f, static_cast<int>(2 * (max_m.x - min_m.x)), static_cast<int>(2 * (max_m.y - min_m.y)), {}, {}};
+  GroundRaster g{min_m, 0.5f, static_cast<int>(2 * (max_m.x - min_m.x)), static_cast<int>(2 * (max_m.y - min_m.y)),
+                 {},    {}};
   const size_t all = static_cast<size_t>(g.columns) * static_cast<size_t>(g.rows);
   g.height_m.assign(all, 0), g.kind.assign(all, 3);
   return g;
@@ -72,7 +76,8 @@ void Spread(Vec2 min_m, Vec2 max_m, int people, float preferred_mps, GoalOf goal
   }
 }
 
-// Steps until everybody has reached the goal and gone, and says when that was; most_s where somebody is left. look() sees every step.
+// Steps until everybody has reached the goal and gone, and says when that was; most_s where somebody is left. look()
+// sees every step.
 template <typename Look>
 float Empty_s(const Walkable& w, float most_s, Crowd* c, Look look) {
   float time_s = 0;
@@ -120,7 +125,12 @@ TEST(Rimea, Case6TwentyGoRoundACornerAndThroughNoWall) {
   w.polygons.push_back(Box(-1, 2, 10, 13));
   BuildWalkable(0.3f, &w, kRadius_m);
   Crowd c;
-  Spread({0, 0}, {6, 2}, 20, kUsual_mps, [](Vec2) { return Vec2{11, 11}; }, &c);
+  Spread(
+      {0, 0}, {6, 2}, 20, kUsual_mps,
+      [](Vec2) {
+        return Vec2{11, 11};
+      },
+      &c);
   const float time_s = Empty_s(w, 120, &c, [&] {
     for (size_t i = 0; i < c.size(); ++i) {
       ASSERT_FALSE(InsideObstacle(w, c.position[i]));
@@ -134,7 +144,9 @@ TEST(Rimea, Case6TwentyGoRoundACornerAndThroughNoWall) {
 
 // Fifty adults of the guideline's groups by age (Weidmann 1993), each alone.
 TEST(Rimea, Case7SpeedsAreThoseOfThePopulation) {
-  const struct { float least_mps, most_mps; } groups[] = {{0.58f, 1.61f}, {1.41f, 1.54f}, {0.68f, 1.41f}, {0.46f, 0.76f}};
+  const struct {
+    float least_mps, most_mps;
+  } groups[] = {{0.58f, 1.61f}, {1.41f, 1.54f}, {0.68f, 1.41f}, {0.46f, 0.76f}};
   Walkable w = Plan({0, 0}, {30, 200});
   BuildWalkable(0.3f, &w, kRadius_m);
   Crowd c;
@@ -162,9 +174,15 @@ TEST(Rimea, Case8FasterPeopleLeaveSooner) {
   float last_s = 1e9f;
   for (float preferred_mps : {0.7f, 0.9f, 1.1f, 1.3f, 1.5f}) {
     Crowd c;
-    Spread({0, 0}, {16, 10}, 40, preferred_mps, [](Vec2) { return Vec2{23, 5}; }, &c);
+    Spread(
+        {0, 0}, {16, 10}, 40, preferred_mps,
+        [](Vec2) {
+          return Vec2{23, 5};
+        },
+        &c);
     const float time_s = Empty_s(w, 300, &c, [] {});
-    std::printf("case 8: at %.1f m/s out after %.1f s\n", static_cast<double>(preferred_mps), static_cast<double>(time_s));
+    std::printf("case 8: at %.1f m/s out after %.1f s\n", static_cast<double>(preferred_mps),
+                static_cast<double>(time_s));
     EXPECT_EQ(c.size(), 0u);
     EXPECT_LT(time_s, last_s);
     last_s = time_s;
@@ -181,7 +199,9 @@ float HallEmpty_s(bool four_doors) {
   AddWall(false, 30, 0, 20, {}, &w);
   BuildWalkable(0.3f, &w, kRadius_m);
   Crowd c;
-  const auto nearest_door = [&](Vec2 p) { return Vec2{p.x < 15 ? 7.5f : 22.5f, four_doors && p.y < 10 ? -3.0f : 23.0f}; };
+  const auto nearest_door = [&](Vec2 p) {
+    return Vec2{p.x < 15 ? 7.5f : 22.5f, four_doors && p.y < 10 ? -3.0f : 23.0f};
+  };
   Spread({0.5f, 0.5f}, {29.5f, 19.5f}, 1000, kUsual_mps, nearest_door, &c);
   size_t inside = c.size();
   int still_steps = 0, longest_steps = 0;  // in which nobody gets out, though many want to
@@ -197,8 +217,9 @@ float HallEmpty_s(bool four_doors) {
 
 TEST(Rimea, Case9HalfTheDoorsTakeTwiceAsLong) {
   const float four_s = HallEmpty_s(true), two_s = HallEmpty_s(false);
-  std::printf("case 9: 1,000 people, four doors %.0f s, two doors %.0f s: %.2f times; %.2f people/m/s\n", static_cast<double>(four_s),
-              static_cast<double>(two_s), static_cast<double>(two_s / four_s), static_cast<double>(250 / four_s));
+  std::printf("case 9: 1,000 people, four doors %.0f s, two doors %.0f s: %.2f times; %.2f people/m/s\n",
+              static_cast<double>(four_s), static_cast<double>(two_s), static_cast<double>(two_s / four_s),
+              static_cast<double>(250 / four_s));
   EXPECT_NEAR(two_s / four_s, 2, 0.3f);
 }
 
@@ -241,11 +262,16 @@ TEST(Rimea, Case12OnlyTheFirstBottleneckJams) {
   AddWall(false, 25, 0, 10, {{4.5f, 5.5f}}, &w);
   BuildWalkable(0.3f, &w, kRadius_m);
   Crowd c;
-  Spread({0, 0}, {10, 10}, 150, kUsual_mps, [](Vec2) { return Vec2{28, 5}; }, &c);
+  Spread(
+      {0, 0}, {10, 10}, 150, kUsual_mps,
+      [](Vec2) {
+        return Vec2{28, 5};
+      },
+      &c);
   SpeedIn before_corridor{{7.5f, 2.5f}, {9.8f, 7.5f}}, before_exit{{22.5f, 2.5f}, {24.8f, 7.5f}};
   const float time_s = Empty_s(w, 600, &c, [&] { before_corridor.Look(c), before_exit.Look(c); });
-  std::printf("case 12: %.2f m/s before the corridor, %.2f m/s before the exit; out after %.0f s\n", before_corridor.Mean_mps(),
-              before_exit.Mean_mps(), static_cast<double>(time_s));
+  std::printf("case 12: %.2f m/s before the corridor, %.2f m/s before the exit; out after %.0f s\n",
+              before_corridor.Mean_mps(), before_exit.Mean_mps(), static_cast<double>(time_s));
   EXPECT_EQ(c.size(), 0u);
   EXPECT_LE(before_corridor.Mean_mps(), 0.5 * kUsual_mps);
   EXPECT_GE(before_exit.Mean_mps(), 0.7 * kUsual_mps);
@@ -256,7 +282,8 @@ TEST(Rimea, Case13PeopleQueueBeforeARamp) {
   GroundRaster ground = Flat({0, 0}, {32, 5});
   for (int y = 0; y < ground.rows; ++y) {
     for (int x = 40; x < ground.columns; ++x) {
-      ground.height_m[static_cast<size_t>(y * ground.columns + x)] = 0.5f * static_cast<float>(std::min(x, 56) - 40) * 0.5f;
+      ground.height_m[static_cast<size_t>(y * ground.columns + x)] =
+          0.5f * static_cast<float>(std::min(x, 56) - 40) * 0.5f;
     }
   }
   Walkable w = On(std::move(ground));
@@ -264,19 +291,24 @@ TEST(Rimea, Case13PeopleQueueBeforeARamp) {
   w.polygons.push_back(Box(8, 3.5f, 33, 6));
   BuildWalkable(0.3f, &w, kRadius_m);
   Crowd c;
-  Spread({0, 0}, {8, 5}, 100, kUsual_mps, [](Vec2) { return Vec2{31, 2.5f}; }, &c);
+  Spread(
+      {0, 0}, {8, 5}, 100, kUsual_mps,
+      [](Vec2) {
+        return Vec2{31, 2.5f};
+      },
+      &c);
   SpeedIn into_corridor{{5, 0}, {8, 5}}, before_ramp{{16, 1.5f}, {20, 3.5f}}, after_ramp{{28.5f, 1.5f}, {30, 3.5f}};
   Empty_s(w, 600, &c, [&] { into_corridor.Look(c), before_ramp.Look(c), after_ramp.Look(c); });
-  std::printf("case 13: %.2f m/s before the corridor, %.2f m/s before the ramp, %.2f m/s beyond it\n", into_corridor.Mean_mps(),
-              before_ramp.Mean_mps(), after_ramp.Mean_mps());
+  std::printf("case 13: %.2f m/s before the corridor, %.2f m/s before the ramp, %.2f m/s beyond it\n",
+              into_corridor.Mean_mps(), before_ramp.Mean_mps(), after_ramp.Mean_mps());
   EXPECT_EQ(c.size(), 0u);
   EXPECT_LE(into_corridor.Mean_mps(), 0.5 * kUsual_mps);
   EXPECT_LE(before_ramp.Mean_mps(), 0.6 * kUsual_mps);
   EXPECT_GE(after_ramp.Mean_mps(), 0.75 * kUsual_mps);
 }
 
-// Two ways round a block of 16 x 4 m, the short one below it, 8 m longer above. The guideline asks to document which is taken:
-// always the cheaper one, however crowded; a ramp on the short way makes it costlier.
+// Two ways round a block of 16 x 4 m, the short one below it, 8 m longer above. The guideline asks to document which is
+// taken: always the cheaper one, however crowded; a ramp on the short way makes it costlier.
 TEST(Rimea, Case14TheCheaperWayIsTaken) {
   for (bool ramp : {false, true}) {
     GroundRaster ground = Flat({0, 0}, {30, 14});
@@ -292,13 +324,19 @@ TEST(Rimea, Case14TheCheaperWayIsTaken) {
     w.polygons.push_back(Box(7, 4, 23, 8));
     BuildWalkable(0.3f, &w, kRadius_m);
     Crowd c;
-    Spread({0, 0}, {6, 4}, 30, kUsual_mps, [](Vec2) { return Vec2{28, 2}; }, &c);
+    Spread(
+        {0, 0}, {6, 4}, 30, kUsual_mps,
+        [](Vec2) {
+          return Vec2{28, 2};
+        },
+        &c);
     std::vector<int> above(c.size(), 0);
     Empty_s(w, 300, &c, [&] {
       for (size_t i = 0; i < c.size(); ++i) above[static_cast<size_t>(c.id[i])] |= c.position[i].y > 8 ? 1 : 0;
     });
     const int by_long_way = static_cast<int>(std::count(above.begin(), above.end(), 1));
-    std::printf("case 14: %s, %d of %zu by the long way\n", ramp ? "ramp on the short way" : "level", by_long_way, above.size());
+    std::printf("case 14: %s, %d of %zu by the long way\n", ramp ? "ramp on the short way" : "level", by_long_way,
+                above.size());
     EXPECT_EQ(c.size(), 0u);
     EXPECT_EQ(by_long_way, ramp ? 30 : 0);
   }

@@ -1,6 +1,6 @@
-// The same bits from every compiler setting and on every machine: a scene of everything people do, against the hash it always gave.
-// A change of how people walk changes the hash on purpose: then the new one, which the failing test prints, belongs here, if it is
-// the same in a debug and a release build.
+// The same bits from every compiler setting and on every machine: a scene of everything people do, against the hash it
+// always gave. A change of how people walk changes the hash on purpose: then the new one, which the failing test
+// prints, belongs here, if it is the same in a debug and a release build.
 #include <gtest/gtest.h>
 
 #include "runtime/crowd/crowd.h"
@@ -41,7 +41,8 @@ Crowd People(const Walkable& w) {
     if (!IsFree(w, p.position)) continue;
     p.preferred_mps = random.Uniform(1.0f, 1.6f);
     p.heading_rad = random.Uniform(-3, 3);
-    if (c.size() % 9 != 0) p.field = FieldFor({p.position.x > 0 ? -17.0f : 17.0f, static_cast<float>(random.Below(5)) * 8 - 16}, &c);
+    if (c.size() % 9 != 0)
+      p.field = FieldFor({p.position.x > 0 ? -17.0f : 17.0f, static_cast<float>(random.Below(5)) * 8 - 16}, &c);
     AddPerson(p, &c);
     c.view.back() = static_cast<ViewClass>(c.size() % 3);
     c.avoids_camera.back() = c.size() % 2 == 0 ? 1 : 0;

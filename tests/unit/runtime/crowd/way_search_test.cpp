@@ -59,12 +59,13 @@ TEST(WaySearch, LeadsThereAndIsHardlyLongerThanTheBestWay) {
     const Vec2 from = somewhere(), goal = somewhere();
     const FlowField field = BuildFlowField(w, goal);
     Corner corner;
-    const float searched = Walked_m(w, from, goal, [&](Vec2 p, int step) {
-      return WayByCorners(w, p, goal, step % 30 == 0, &corner, &search);
-    });
+    const float searched = Walked_m(
+        w, from, goal, [&](Vec2 p, int step) { return WayByCorners(w, p, goal, step % 30 == 0, &corner, &search); });
     ASSERT_TRUE(std::isfinite(searched)) << from.x << ' ' << from.y << " to " << goal.x << ' ' << goal.y;
     searched_m += searched;
-    best_m += Walked_m(w, from, goal, [&](Vec2 p, int) { return StraightWay(w, p, goal) ? (goal - p) * (1 / Length(goal - p)) : WayAt(w, field, p); });
+    best_m += Walked_m(w, from, goal, [&](Vec2 p, int) {
+      return StraightWay(w, p, goal) ? (goal - p) * (1 / Length(goal - p)) : WayAt(w, field, p);
+    });
   }
   EXPECT_LT(searched_m, 1.15f * best_m);
 }
@@ -136,7 +137,8 @@ std::vector<int> BuiltAfter(const Walkable& w, Jobs* jobs, uint64_t* state) {
     builder.Step(w, jobs, &crowd);
     StepCrowd(w, {}, kStep_s, &scratch, &crowd);
     for (size_t f = 0; f < built.size(); ++f) built[f] = built[f] < 0 && IsBuilt(crowd.fields[f]) ? step : built[f];
-    for (size_t i = 0; i < crowd.size(); ++i) EXPECT_GT(Length(crowd.way[i]), 0.5f) << "everybody knows their way all the time";
+    for (size_t i = 0; i < crowd.size(); ++i)
+      EXPECT_GT(Length(crowd.way[i]), 0.5f) << "everybody knows their way all the time";
   }
   *state = StateHash(crowd);
   return built;

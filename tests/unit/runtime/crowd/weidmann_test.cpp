@@ -1,5 +1,6 @@
 // Speed against density in a periodic corridor of 30 x 4 m, everybody walking the same way, against Weidmann's curve
-// v = 1.34 (1 - exp(-1.913 (1 / density - 1 / 5.4))) m/s (Weidmann 1993, Transporttechnik der Fussgaenger). Also RiMEA's case 4.
+// v = 1.34 (1 - exp(-1.913 (1 / density - 1 / 5.4))) m/s (Weidmann 1993, Transporttechnik der Fussgaenger). Also
+// RiMEA's case 4.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -71,7 +71,8 @@ std::vector<uint8_t> Encoded(int format, int channels) {
   SNDFILE* file = sf_open(path.c_str(), SFM_WRITE, &info);
   if (file == nullptr) return {};
   std::vector<float> tone(static_cast<size_t>(8000 * channels));
-  for (size_t k = 0; k < tone.size(); ++k) tone[k] = 0.5f * std::sin(static_cast<float>(k / static_cast<size_t>(channels)) * 0.2f);
+  for (size_t k = 0; k < tone.size(); ++k)
+    tone[k] = 0.5f * std::sin(static_cast<float>(k / static_cast<size_t>(channels)) * 0.2f);
   sf_writef_float(file, tone.data(), 8000);
   sf_close(file);
   std::vector<uint8_t> bytes;
@@ -80,8 +81,9 @@ std::vector<uint8_t> Encoded(int format, int channels) {
   return bytes;
 }
 
-constexpr int kFormats[] = {SF_FORMAT_WAV | SF_FORMAT_PCM_16, SF_FORMAT_FLAC | SF_FORMAT_PCM_16, SF_FORMAT_OGG | SF_FORMAT_VORBIS,
-                            SF_FORMAT_OGG | SF_FORMAT_OPUS, SF_FORMAT_WAV | SF_FORMAT_FLOAT};
+constexpr int kFormats[] = {SF_FORMAT_WAV | SF_FORMAT_PCM_16, SF_FORMAT_FLAC | SF_FORMAT_PCM_16,
+                            SF_FORMAT_OGG | SF_FORMAT_VORBIS, SF_FORMAT_OGG | SF_FORMAT_OPUS,
+                            SF_FORMAT_WAV | SF_FORMAT_FLOAT};
 
 TEST(Sound, IsReadFromEveryKindOfFile) {
   for (int format : kFormats) {

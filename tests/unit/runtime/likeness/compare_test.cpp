@@ -49,9 +49,7 @@ TEST(Compare, TurnedNormals) {
   EXPECT_NEAR(turned.normal_deg, 90, 0.5);
 }
 
-TEST(Compare, NobodyIsLikeNobody) {
-  EXPECT_EQ(Compare(Square(40, {1, 1, 1}), Square(4, {1, 1, 1})).overlap, 0);
-}
+TEST(Compare, NobodyIsLikeNobody) { EXPECT_EQ(Compare(Square(40, {1, 1, 1}), Square(4, {1, 1, 1})).overlap, 0); }
 
 }  // namespace
 }  // namespace flaneur

@@ -46,8 +46,10 @@ TEST(Tint, WhoWearsTheOwnColourIsAsInTheFile) {
 }
 
 TEST(ColorText, ReadsWhatItWrites) {
-  for (const char* text : {"#000000", "#ffffff", "#2f4f8f"}) EXPECT_EQ(TextFromColor(ColorFromText(text).value()), text);
-  for (const char* text : {"", "2f4f8f", "#2f4f8", "#2f4f8g", "#2f4f8f0", "# f4f8f", "#-f4f8f"}) EXPECT_FALSE(ColorFromText(text)) << text;
+  for (const char* text : {"#000000", "#ffffff", "#2f4f8f"})
+    EXPECT_EQ(TextFromColor(ColorFromText(text).value()), text);
+  for (const char* text : {"", "2f4f8f", "#2f4f8", "#2f4f8g", "#2f4f8f0", "# f4f8f", "#-f4f8f"})
+    EXPECT_FALSE(ColorFromText(text)) << text;
 }
 
 }  // namespace

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <random>
 
-#include "runtime/render/caption.h"
 #include "runtime/desktop/context.h"
-#include "runtime/render/occlusion.h"
 #include "runtime/render/block_picture.h"
+#include "runtime/render/caption.h"
+#include "runtime/render/occlusion.h"
 #include "runtime/render/people_batches.h"
 #include "runtime/render/person_geometry.h"
 #include "runtime/render/projection.h"
@@ -37,7 +37,8 @@ PackPrimitive BoxPrimitive(Vec3 low, Vec3 high, int material, bool skinned) {
         c[(axis + 2) % 3] = corner >= 2 ? 1.0f : 0.0f;
         float n[3] = {0, 0, 0};
         n[axis] = side == 1 ? 1.0f : -1.0f;
-        p.positions.push_back({low.x + c[0] * (high.x - low.x), low.y + c[1] * (high.y - low.y), low.z + c[2] * (high.z - low.z)});
+        p.positions.push_back(
+            {low.x + c[0] * (high.x - low.x), low.y + c[1] * (high.y - low.y), low.z + c[2] * (high.z - low.z)});
         p.normals.push_back({n[0], n[1], n[2]});
       }
       const std::array<uint32_t, 6> forward{0, 1, 2, 0, 2, 3}, backward{0, 2, 1, 0, 3, 2};
@@ -88,7 +89,8 @@ PackAvatar BoxPerson() {
   atlas.depth_range_m = 0.5f;
   atlas.motion_range_m = atlas.bend_range_m = 0.1f;
   atlas.clips = {{"walk", 0, 1}};
-  for (int16_t d = 0; d < 4; ++d) atlas.cells.push_back({static_cast<int16_t>(32 * d), 0, 20, 72, static_cast<int16_t>(32 * d + 10), 72});
+  for (int16_t d = 0; d < 4; ++d)
+    atlas.cells.push_back({static_cast<int16_t>(32 * d), 0, 20, 72, static_cast<int16_t>(32 * d + 10), 72});
   atlas.albedo = Flat(TextureFormat::kBc7Srgb, 128, 96, {200, 60, 60, 254});
   atlas.normal = Flat(TextureFormat::kBc5, 128, 96, {128, 128});
   atlas.depth = Flat(TextureFormat::kBc4, 128, 96, {191});
@@ -99,7 +101,7 @@ PackAvatar BoxPerson() {
 // `boxes` of the town, each at its place on the ground.
 TourPack MakePack(const std::vector<Vec2>& boxes) {
   TourPack pack;
-  pack.materials = {{"red", {0.578f, 0.045f, 0.045f, 1}, -1, false, false, 0.5f}};           // 200, 60, 60 made linear
+  pack.materials = {{"red", {0.578f, 0.045f, 0.045f, 1}, -1, false, false, 0.5f}};  // 200, 60, 60 made linear
   pack.meshes = {{{BoxPrimitive({-0.25f, 0, -0.25f}, {0.25f, 1.8f, 0.25f}, 0, true)}},
                  {{BoxPrimitive({-1, 0, -1}, {1, 4, 1}, 0, false)}}};
   for (Vec2 p : boxes) {
@@ -128,7 +130,9 @@ DrawnPerson PersonAt(float x, float y, int level) {
   return person;
 }
 
-struct Rgb { int r, g, b; };
+struct Rgb {
+  int r, g, b;
+};
 
 class Drawing : public ::testing::Test {
  protected:
@@ -160,7 +164,10 @@ Rgb Pixel(const std::vector<uint8_t>& rgb, int x, int y) {
 
 bool IsRed(Rgb c) { return c.r > c.g + 30 && c.r > c.b + 30; }
 
-struct Patch { int count = 0; double r = 0, g = 0, b = 0; };
+struct Patch {
+  int count = 0;
+  double r = 0, g = 0, b = 0;
+};
 Patch RedPatch(const std::vector<uint8_t>& rgb) {
   Patch patch;
   for (int y = 0; y < kHeight; ++y) {
@@ -182,7 +189,8 @@ TEST_F(Drawing, ABoxIsWhereTheProjectionSays) {
   const auto column = [&](float right_m) { return static_cast<int>(kWidth / 2.0f + right_m / 10 * focal_px); };
   const auto row = [&](float up_m) { return static_cast<int>(kHeight / 2.0f - up_m / 10 * focal_px); };
   for (float right_m : {-0.9f, 0.9f}) {
-    for (float up_m : {-1.4f, 2.2f}) EXPECT_TRUE(IsRed(Pixel(rgb, column(right_m), row(up_m)))) << right_m << ' ' << up_m;
+    for (float up_m : {-1.4f, 2.2f})
+      EXPECT_TRUE(IsRed(Pixel(rgb, column(right_m), row(up_m)))) << right_m << ' ' << up_m;
   }
   for (float right_m : {-1.15f, 1.15f}) EXPECT_FALSE(IsRed(Pixel(rgb, column(right_m), row(0)))) << right_m;
   EXPECT_FALSE(IsRed(Pixel(rgb, column(0), row(2.6f))));
@@ -197,7 +205,8 @@ TEST_F(Drawing, APropIsDrawnBeforeThePersonOrHiddenBehindThem) {
     const float z = in_front ? 0.30f : -0.34f;  // the person faces +Z, their front is at 0.25
     pack.meshes.push_back({{BoxPrimitive({-0.15f, 0.9f, z - 0.02f}, {0.15f, 1.3f, z + 0.02f}, 1, true)}});
     pack.avatars[0].props = {{{"plate", 1, "", 12}, static_cast<int>(pack.meshes.size()) - 1}};
-    pack.avatars[0].tints = {{{0.25f, 0.25f, 0.8f}, 0.3f, {{0.1f, 0.8f, 0.1f}}}};  // the plate's blue, which is no cloth
+    pack.avatars[0].tints = {
+        {{0.25f, 0.25f, 0.8f}, 0.3f, {{0.1f, 0.8f, 0.1f}}}};  // the plate's blue, which is no cloth
     for (const int samples : {4, 1}) {
       for (const int level : {0, -1}) {
         FrameInput frame = LookEast();
@@ -209,7 +218,8 @@ TEST_F(Drawing, APropIsDrawnBeforeThePersonOrHiddenBehindThem) {
           const std::vector<uint8_t> rgb = Draw(pack, frame, {.samples = samples});
           int count = 0;
           for (int y = kHeight / 3; y < kHeight; ++y) {
-            for (int x = kWidth * 2 / 5; x < kWidth * 3 / 5; ++x) count += Pixel(rgb, x, y).b > Pixel(rgb, x, y).r + 40 ? 1 : 0;
+            for (int x = kWidth * 2 / 5; x < kWidth * 3 / 5; ++x)
+              count += Pixel(rgb, x, y).b > Pixel(rgb, x, y).r + 40 ? 1 : 0;
           }
           return count;
         };
@@ -279,7 +289,8 @@ TEST_F(Drawing, AnImpostorsBlocksLookAsDecoded) {
   for (size_t i = 0; i < decoded.size(); ++i) EXPECT_EQ(decoded[i], (std::array<int, 4>{200, 60, 62, 254})[i % 4]);
 }
 
-// What stands behind the axis but before the picture's own depth must not hide it: to the centimetre with several samples a pixel.
+// What stands behind the axis but before the picture's own depth must not hide it: to the centimetre with several
+// samples a pixel.
 TEST_F(Drawing, AnImpostorHasItsDepthInThePicture) {
   TourPack pack = MakePack({{7.05f, 0}});  // its near face 5 cm behind the axis of a person 6 m away
   FrameInput frame = LookEast();
@@ -296,7 +307,8 @@ TEST_F(Drawing, AnImpostorHasItsDepthInThePicture) {
 // Both maps of the town were due again and again, and the near one waited for the far one until it was drawn at once.
 TEST_F(Drawing, NoPictureDrawsAllShadowsOfALargeTownOfWhoRunsWhileTheSunTurns) {
   std::vector<Vec2> boxes;
-  for (int i = 0; i < 34000; ++i) boxes.push_back({-3 - 0.8f * static_cast<float>(i % 185), 0.8f * static_cast<float>(i / 185) - 75});
+  for (int i = 0; i < 34000; ++i)
+    boxes.push_back({-3 - 0.8f * static_cast<float>(i % 185), 0.8f * static_cast<float>(i / 185) - 75});
   const TourPack pack = MakePack(boxes);
   Renderer renderer;
   ASSERT_EQ(renderer.Create(pack, {}).message, "");
@@ -377,7 +389,8 @@ TEST_F(Drawing, NobodyWaitsForPicturesThatRunAheadAndTheyAreTheSame) {
   FrameInput frame = TwoInTheEast();
   for (int picture = 0; picture < 3; ++picture) {
     frame.yaw_rad += 0.1f;
-    for (int more = 0; more < 2; ++more) runs_ahead.Draw(frame, kWidth, kHeight, &statistics_);  // without a look at them
+    for (int more = 0; more < 2; ++more)
+      runs_ahead.Draw(frame, kWidth, kHeight, &statistics_);  // without a look at them
     const std::vector<uint8_t> seen = DrawWith(frame, &runs_ahead);
     EXPECT_GT(statistics_.draw_ms, 0);
     EXPECT_EQ(seen, DrawWith(frame, &waits));
@@ -415,7 +428,8 @@ TEST_F(Drawing, ACoarsePictureShowsTheSameAndKeepsTheCaptionSharp) {
     frame.resolution_scale = 1;
     const std::vector<uint8_t> sharp = DrawWith(frame, &renderer);
     for (int x = 0; x < kWidth; ++x) {  // white letters on what is nearly black
-      for (int y = kHeight - 12; y < kHeight - 4; ++y) ASSERT_NEAR(Pixel(coarse, x, y).g, Pixel(sharp, x, y).g, 40) << x << ' ' << y;
+      for (int y = kHeight - 12; y < kHeight - 4; ++y)
+        ASSERT_NEAR(Pixel(coarse, x, y).g, Pixel(sharp, x, y).g, 40) << x << ' ' << y;
     }
   }
 }
@@ -446,7 +460,8 @@ TEST_F(Drawing, StatisticsCountWhatIsDrawn) {
   EXPECT_EQ(statistics_.people_triangles, 12 + 2 + 2);
   EXPECT_EQ(statistics_.people_drawn, 3);
   EXPECT_LE(statistics_.draw_calls, 10);
-  frame.people = {PersonAt(6, 1, 0), PersonAt(19, 5.2f, -1), PersonAt(-3, 0, -1)};  // seen, behind the box, behind the eye
+  frame.people = {PersonAt(6, 1, 0), PersonAt(19, 5.2f, -1),
+                  PersonAt(-3, 0, -1)};  // seen, behind the box, behind the eye
   Draw(MakePack({{11, 3}}), frame);
   EXPECT_EQ(statistics_.people_drawn, 1);
   EXPECT_EQ(statistics_.people_hidden, 2);
@@ -467,7 +482,8 @@ TEST_F(Drawing, APersonCastsAShadowOnTheGround) {
     const std::vector<uint8_t> with = Draw(pack, frame);
     int darker = 0;
     for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) darker += !IsRed(Pixel(with, x, y)) && Pixel(with, x, y).g < Pixel(empty, x, y).g - 30;
+      for (int x = 0; x < kWidth; ++x)
+        darker += !IsRed(Pixel(with, x, y)) && Pixel(with, x, y).g < Pixel(empty, x, y).g - 30;
     }
     EXPECT_GT(darker, 100) << level;
   }
@@ -513,7 +529,8 @@ TEST(Caption, WrapsWordsOverAsManyLinesAsItNeeds) {
   EXPECT_EQ(LayOutCaption("", 1280, 720).height_px, 0);
   EXPECT_EQ(LayOutCaption("well", 40, 30).height_px, 0);
   const PackImage one = LayOutCaption("Der Marktplatz: \xC3\xBC\xC3\xA4\xC3\x9F \xFF", 1280, 720);
-  const PackImage more = LayOutCaption("The market square. The stalls open at six; the well has never run dry.", 640, 720);
+  const PackImage more =
+      LayOutCaption("The market square. The stalls open at six; the well has never run dry.", 640, 720);
   EXPECT_EQ(one.width_px, 1280);
   EXPECT_GT(more.height_px, one.height_px * 3 / 2);
   for (const PackImage* image : {&one, &more}) {  // no letter touches the sides
@@ -524,7 +541,9 @@ TEST(Caption, WrapsWordsOverAsManyLinesAsItNeeds) {
 // A wall of 8 x 4 m, 10 m before the eye, and boxes of 1 m beside, above, behind and before it.
 TEST(Occlusion, HidesWhatIsBehindAWallAndNothingElse) {
   const Mat4 view = Perspective(1.2f, 16.0f / 9, 0.1f, 500) * LookMatrix({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
-  const auto box = [](float x, float y, float z) { return Box{{x - 0.5f, y - 0.5f, z - 0.5f}, {x + 0.5f, y + 0.5f, z + 0.5f}}; };
+  const auto box = [](float x, float y, float z) {
+    return Box{{x - 0.5f, y - 0.5f, z - 0.5f}, {x + 0.5f, y + 0.5f, z + 0.5f}};
+  };
   const std::vector<Vec3> wall{{-4, -2, -10}, {4, -2, -10}, {4, 2, -10}, {-4, -2, -10}, {4, 2, -10}, {-4, 2, -10}};
   const std::vector<Vec3> from_behind(wall.rbegin(), wall.rend());
   OcclusionMap map;
@@ -538,11 +557,11 @@ TEST(Occlusion, HidesWhatIsBehindAWallAndNothingElse) {
   for (bool finished : {false, true}) {
     EXPECT_FALSE(MayBeSeen(map, box(0, 0, -20), finished));
     EXPECT_FALSE(MayBeSeen(map, box(5, 2, -20), finished));
-    EXPECT_TRUE(MayBeSeen(map, box(8, 0, -20), finished));   // looks out at the side: the wall ends at 8 m there
-    EXPECT_TRUE(MayBeSeen(map, box(0, 4, -20), finished));   // above it
-    EXPECT_TRUE(MayBeSeen(map, box(0, 0, -9), finished));    // before it
-    EXPECT_TRUE(MayBeSeen(map, box(0, 0, -10), finished));   // in it
-    EXPECT_TRUE(MayBeSeen(map, box(0, 0, 0), finished));     // around the eye
+    EXPECT_TRUE(MayBeSeen(map, box(8, 0, -20), finished));  // looks out at the side: the wall ends at 8 m there
+    EXPECT_TRUE(MayBeSeen(map, box(0, 4, -20), finished));  // above it
+    EXPECT_TRUE(MayBeSeen(map, box(0, 0, -9), finished));   // before it
+    EXPECT_TRUE(MayBeSeen(map, box(0, 0, -10), finished));  // in it
+    EXPECT_TRUE(MayBeSeen(map, box(0, 0, 0), finished));    // around the eye
   }
 }
 
@@ -551,7 +570,8 @@ TEST(Occlusion, AWallThatTheEyeStandsBesideHidesToo) {
   OcclusionMap map;
   ClearOcclusion(view, &map);
   // From 5 m behind the eye to 40 m ahead, 1 m to the left, seen from the right.
-  AddWalls(std::vector<Vec3>{{-1, -30, 5}, {-1, -30, -40}, {-1, 30, -40}, {-1, 30, 5}}, std::vector<uint32_t>{0, 1, 2, 0, 2, 3}, &map);
+  AddWalls(std::vector<Vec3>{{-1, -30, 5}, {-1, -30, -40}, {-1, 30, -40}, {-1, 30, 5}},
+           std::vector<uint32_t>{0, 1, 2, 0, 2, 3}, &map);
   FinishOcclusion(&map);
   EXPECT_FALSE(MayBeSeen(map, {{-9, -1, -20}, {-8, 1, -19}}, true));
   EXPECT_TRUE(MayBeSeen(map, {{1, -1, -20}, {2, 1, -19}}, true));
@@ -559,7 +579,9 @@ TEST(Occlusion, AWallThatTheEyeStandsBesideHidesToo) {
 
 // Where the eye at 0 that looks along -z sees a point, in pixels of a picture of 64 x 36.
 Vec2 Pixel(const Mat4& view, Vec3 p) {
-  const auto row = [&](size_t r) { return view.m[0][r] * p.x + view.m[1][r] * p.y + view.m[2][r] * p.z + view.m[3][r]; };
+  const auto row = [&](size_t r) {
+    return view.m[0][r] * p.x + view.m[1][r] * p.y + view.m[2][r] * p.z + view.m[3][r];
+  };
   return {(row(0) / row(3) + 1) * 32, (row(1) / row(3) + 1) * 18};
 }
 
@@ -579,14 +601,19 @@ TEST(VisibleTriangles, WhatReachesAPixelsMiddleIsSeenAndMostOfTheRestIsNot) {
   FinishOcclusion(&map);
   const TriangleSight sight{64, 36, &map};
   std::mt19937 random(5);
-  const auto number = [&](float low, float high) { return low + (high - low) * static_cast<float>(random() % 10000) / 10000; };
+  const auto number = [&](float low, float high) {
+    return low + (high - low) * static_cast<float>(random() % 10000) / 10000;
+  };
   int seen_in_vain = 0, unseen = 0;
   for (int k = 0; k < 4000; ++k) {
     const Vec3 a{number(-12, 12), number(-7, 7), number(-20, -2)};
     const float reach_m = k % 2 == 0 ? 0.2f : 3.0f;
-    const auto beside = [&] { return a + Vec3{number(-reach_m, reach_m), number(-reach_m, reach_m), number(-0.5f, 0.5f)}; };
+    const auto beside = [&] {
+      return a + Vec3{number(-reach_m, reach_m), number(-reach_m, reach_m), number(-0.5f, 0.5f)};
+    };
     const std::array<Vec3, 3> t{a, beside(), beside()};
-    const bool reaches = ReachesAMiddle(Pixel(view, t[0]), Pixel(view, t[1]), Pixel(view, t[2])), seen = MayBeSeen(t, sight);
+    const bool reaches = ReachesAMiddle(Pixel(view, t[0]), Pixel(view, t[1]), Pixel(view, t[2])),
+               seen = MayBeSeen(t, sight);
     EXPECT_TRUE(seen || !reaches) << k;
     unseen += !reaches;
     seen_in_vain += seen && !reaches;
@@ -600,15 +627,18 @@ TEST(VisibleTriangles, AWallHidesWhatIsBehindItButNotWhatLiesOnIt) {
   const Mat4 view = Perspective(1.2f, 16.0f / 9, 0.1f, 500) * LookMatrix({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
   OcclusionMap map;
   ClearOcclusion(view, &map);
-  AddWalls(std::vector<Vec3>{{-4, -2, -10}, {4, -2, -10}, {4, 2, -10}, {-4, 2, -10}}, std::vector<uint32_t>{0, 1, 2, 0, 2, 3}, &map);
+  AddWalls(std::vector<Vec3>{{-4, -2, -10}, {4, -2, -10}, {4, 2, -10}, {-4, 2, -10}},
+           std::vector<uint32_t>{0, 1, 2, 0, 2, 3}, &map);
   FinishOcclusion(&map);
-  const auto at = [](float x, float z) { return std::array<Vec3, 3>{{{x, -0.5f, z}, {x + 1, -0.5f, z}, {x, 0.5f, z}}}; };
+  const auto at = [](float x, float z) {
+    return std::array<Vec3, 3>{{{x, -0.5f, z}, {x + 1, -0.5f, z}, {x, 0.5f, z}}};
+  };
   const TriangleSight sight{1280, 720, &map};
   EXPECT_FALSE(MayBeSeen(at(0, -12), sight));
   EXPECT_TRUE(MayBeSeen(at(0, -10), sight));
   EXPECT_TRUE(MayBeSeen(at(0, -9), sight));
-  EXPECT_TRUE(MayBeSeen(at(4.5f, -12), sight));   // looks out at the side
-  EXPECT_FALSE(MayBeSeen(at(12, -12), sight));  // beside the view
+  EXPECT_TRUE(MayBeSeen(at(4.5f, -12), sight));  // looks out at the side
+  EXPECT_FALSE(MayBeSeen(at(12, -12), sight));   // beside the view
 }
 
 TEST(SurfacePlan, PicturesOfOneSizeShareAnArrayAndSurfacesOfOneKindAGroup) {
@@ -658,7 +688,9 @@ std::array<double, 3> TexelOfBc1(const uint8_t* block, size_t texel) {
 TEST(BlockPicture, ColoursStayWithinAFewSteps) {
   PackImage image{6, 5, {}};  // blocks reach beyond it
   for (int y = 0; y < 5; ++y) {
-    for (int x = 0; x < 6; ++x) image.rgba.insert(image.rgba.end(), {static_cast<uint8_t>(90 + 12 * x), static_cast<uint8_t>(60 + 8 * x), 40, 255});
+    for (int x = 0; x < 6; ++x)
+      image.rgba.insert(image.rgba.end(),
+                        {static_cast<uint8_t>(90 + 12 * x), static_cast<uint8_t>(60 + 8 * x), 40, 255});
   }
   const std::vector<uint8_t> blocks = Bc1Blocks(image);
   ASSERT_EQ(blocks.size(), 4u * 8);
@@ -682,10 +714,12 @@ TEST(ShadowGeometry, IsMuchSmallerAndStaysInShape) {
       p.normals.push_back({std::cos(a), 0, std::sin(a)});
       if (j == up) continue;
       const auto at = [&](int x, int y) { return static_cast<uint32_t>(y * around + x % around); };
-      for (uint32_t corner : {at(i, j), at(i + 1, j), at(i, j + 1), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)}) p.indices.push_back(corner);
+      for (uint32_t corner : {at(i, j), at(i + 1, j), at(i, j + 1), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)})
+        p.indices.push_back(corner);
     }
   }
-  const PersonGeometry whole = BuildPersonGeometry(pack, 0, PlanSurfaces(pack, {})), shadow = ShadowGeometry(whole, 0.16f, 1000);
+  const PersonGeometry whole = BuildPersonGeometry(pack, 0, PlanSurfaces(pack, {})),
+                       shadow = ShadowGeometry(whole, 0.16f, 1000);
   EXPECT_LT(shadow.indices.size(), whole.indices.size() / 10);
   EXPECT_LE(ShadowGeometry(whole, 0.01f, 100).indices.size() / 3, 100u) << "whatever the cells";
   Box box;
@@ -706,7 +740,8 @@ TEST(ShadowGeometry, KeepsTheBrimOfAHat) {
       p.normals.push_back({0, 1, 0});
       if (j + 1 == rings) continue;
       const auto at = [&](int x, int y) { return static_cast<uint32_t>(y * around + x % around); };
-      for (uint32_t corner : {at(i, j), at(i + 1, j), at(i, j + 1), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)}) p.indices.push_back(corner);
+      for (uint32_t corner : {at(i, j), at(i + 1, j), at(i, j + 1), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)})
+        p.indices.push_back(corner);
     }
   }
   const PersonGeometry shadow = ShadowGeometry(BuildPersonGeometry(pack, 0, PlanSurfaces(pack, {})), 0.1f, 1000);
@@ -725,7 +760,8 @@ TEST(TownGeometry, EveryTriangleIsInOneBlockAndItsBox) {
     for (const TownRange& range : block.ranges) {
       EXPECT_EQ(range.first, next);
       next += range.count;
-      for (uint32_t i = range.first; i < next; ++i) EXPECT_EQ(Distance(block.box, town.vertices[town.indices[i]].position), 0);
+      for (uint32_t i = range.first; i < next; ++i)
+        EXPECT_EQ(Distance(block.box, town.vertices[town.indices[i]].position), 0);
     }
     triangles += block.triangles;
   }
@@ -736,11 +772,13 @@ TEST(TownGeometry, EveryTriangleIsInOneBlockAndItsBox) {
 // Opaque houses and trees that are cut out, side by side.
 TourPack HousesAndTrees() {
   std::vector<Vec2> houses;
-  for (int k = 0; k < 144; ++k) houses.push_back({10.0f * static_cast<float>(k % 12), 10.0f * static_cast<float>(k / 12) - 60});
+  for (int k = 0; k < 144; ++k)
+    houses.push_back({10.0f * static_cast<float>(k % 12), 10.0f * static_cast<float>(k / 12) - 60});
   TourPack pack = MakePack(houses);
   pack.materials.push_back({"leaves", {0.2f, 0.6f, 0.2f, 1}, -1, true, true, 0.5f});
   pack.meshes.push_back({{BoxPrimitive({4, 0, 4}, {6, 3, 6}, static_cast<int>(pack.materials.size()) - 1, false)}});
-  for (size_t k = 0, count = pack.town.size(); k < count; ++k) pack.town.push_back({"tree", static_cast<int>(pack.meshes.size()) - 1, pack.town[k].world});
+  for (size_t k = 0, count = pack.town.size(); k < count; ++k)
+    pack.town.push_back({"tree", static_cast<int>(pack.meshes.size()) - 1, pack.town[k].world});
   return pack;
 }
 
@@ -829,7 +867,8 @@ TEST(PeopleBatches, ShadowsAreThoseOfWhoCanBeSeenOrTheirShadowAndCoarserBeyondTh
   OcclusionMap map;
   const Mat4 view = Perspective(1.2f, 16.0f / 9, 0.1f, 500) * LookMatrix({0, 1.6f, 0}, {1, 0, 0}, {0, 1, 0});
   ClearOcclusion(view, &map);
-  AddWalls(std::vector<Vec3>{{10, 0, -4}, {10, 0, 4}, {10, 5, 4}, {10, 5, -4}}, std::vector<uint32_t>{0, 1, 2, 0, 2, 3}, &map);
+  AddWalls(std::vector<Vec3>{{10, 0, -4}, {10, 0, 4}, {10, 5, 4}, {10, 5, -4}}, std::vector<uint32_t>{0, 1, 2, 0, 2, 3},
+           &map);
   FinishOcclusion(&map);
   PeopleSight sight{{0, 1.6f, 0}, {0, 1, 0}, FrustumOf(view), &map, 50, 0, 6};
   PeopleBatches batches;

@@ -13,16 +13,20 @@
 namespace flaneur {
 namespace {
 
-struct Variant { ShaderProgram program; ShaderMode mode; std::string name; };
+struct Variant {
+  ShaderProgram program;
+  ShaderMode mode;
+  std::string name;
+};
 
 std::vector<Variant> AllVariants() {
   std::vector<Variant> all;
 #define MODE(mode, defines) all.push_back({program, ShaderMode::mode, name + " " #mode});
-#define PROGRAM(which, vertex, fragment, defines)         \
-  {                                                       \
-    const ShaderProgram program = ShaderProgram::which;   \
-    const std::string name = #which;                      \
-    FLANEUR_SHADER_MODES(MODE)                            \
+#define PROGRAM(which, vertex, fragment, defines)       \
+  {                                                     \
+    const ShaderProgram program = ShaderProgram::which; \
+    const std::string name = #which;                    \
+    FLANEUR_SHADER_MODES(MODE)                          \
   }
   FLANEUR_SHADER_PROGRAMS(PROGRAM)
 #undef PROGRAM
@@ -50,7 +54,10 @@ TEST_F(Shaders, LinkInEveryVariant) {
 }
 
 TEST_F(Shaders, HaveTheFrameWhereTheProgramPutsIt) {
-  const struct { const char* name; size_t offset; } fields[] = {
+  const struct {
+    const char* name;
+    size_t offset;
+  } fields[] = {
 #define FIELD(type, name) {"Frame." #name, offsetof(FrameBlock, name)},
 #include "runtime/render/shaders/frame_fields.glsl"
 #undef FIELD

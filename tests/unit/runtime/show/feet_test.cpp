@@ -10,9 +10,10 @@
 namespace flaneur {
 namespace {
 
-constexpr float kSole_m = 0.015f;         // what is no higher than this above a person's lowest point in both pictures is standing
-constexpr float kMaxLift_m = 0.05f;      // of the lowest point above the ground
-constexpr float kMaxSlide = 0.10f;       // of the walking speed
+constexpr float kSole_m =
+    0.015f;  // what is no higher than this above a person's lowest point in both pictures is standing
+constexpr float kMaxLift_m = 0.05f;  // of the lowest point above the ground
+constexpr float kMaxSlide = 0.10f;   // of the walking speed
 
 // Everybody of the pack side by side, each on the way straight to the east.
 Scenario Parade(const TourPack& pack) {
@@ -35,7 +36,8 @@ Scenario Parade(const TourPack& pack) {
 Vec3 Posed(const PackPrimitive& p, size_t vertex, const Mat4* frame) {
   Vec3 sum;
   for (size_t k = 0; k < 4; ++k) {
-    sum = sum + TransformPoint(frame[p.joints[vertex][k]], p.positions[vertex]) * (static_cast<float>(p.weights[vertex][k]) / 255);
+    sum = sum + TransformPoint(frame[p.joints[vertex][k]], p.positions[vertex]) *
+                    (static_cast<float>(p.weights[vertex][k]) / 255);
   }
   return sum;
 }
@@ -46,12 +48,16 @@ std::vector<Vec3> PosedPerson(const TourPack& pack, const DrawnPerson& person) {
   const float at = person.moment.phase * static_cast<float>(avatar.walk.frames);
   const int a = static_cast<int>(at) % avatar.walk.frames, b = (a + 1) % avatar.walk.frames;
   const float between = at - std::floor(at), turn = person.heading_rad + kPi / 2;
-  const auto frame = [&](int f) { return &avatar.walk.matrices[static_cast<size_t>(f) * static_cast<size_t>(avatar.joints)]; };
+  const auto frame = [&](int f) {
+    return &avatar.walk.matrices[static_cast<size_t>(f) * static_cast<size_t>(avatar.joints)];
+  };
   std::vector<Vec3> out;
   for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(avatar.levels.front().mesh)].primitives) {
     for (size_t v = 0; v < p.positions.size(); ++v) {
       const Vec3 q = GroundFromGltf(Posed(p, v, frame(a)) * (1 - between) + Posed(p, v, frame(b)) * between);
-      out.push_back(Vec3{std::cos(turn) * q.x - std::sin(turn) * q.y, std::sin(turn) * q.x + std::cos(turn) * q.y, q.z} + person.position);
+      out.push_back(
+          Vec3{std::cos(turn) * q.x - std::sin(turn) * q.y, std::sin(turn) * q.x + std::cos(turn) * q.y, q.z} +
+          person.position);
     }
   }
   return out;
@@ -78,7 +84,8 @@ float SlideSpeed(const std::vector<Vec3>& before, const std::vector<Vec3>& now, 
 }
 
 TEST(FeetOfTheDemo, StandStillWhileTheirOwnerWalks) {
-  const std::filesystem::path path = std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
+  const std::filesystem::path path =
+      std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "the demo tour is not baked";
   TourPack pack;
   ASSERT_EQ(LoadTourPack(path, {}, &pack).message, "");

@@ -28,8 +28,10 @@ struct Stage {
   // A step of the control alone.
   void Step() {
     ++s.town.step;
-    ChooseLevels(s.town.crowd, s.control.avatars, s.control.settings, {s.visitor.camera.view, {}, 0}, &s.control.levels);
-    for (size_t i = 0; i < s.town.crowd.size(); ++i) s.town.crowd.was_visible[i] = s.town.crowd.view[i] == ViewClass::kVisible;
+    ChooseLevels(s.town.crowd, s.control.avatars, s.control.settings, {s.visitor.camera.view, {}, 0},
+                 &s.control.levels);
+    for (size_t i = 0; i < s.town.crowd.size(); ++i)
+      s.town.crowd.was_visible[i] = s.town.crowd.view[i] == ViewClass::kVisible;
   }
   // The pictures so far have been at 30 a second.
   std::vector<DrawnPerson> Next() {
@@ -261,7 +263,8 @@ TEST(FrameFromSimulation, WhoIsPutElsewhereDoesNotFly) {
   EXPECT_EQ(stage.frame.eye.x, 8);
 }
 
-// The view's yaw in every picture while a hand turns it evenly; the simulation does it in steps of 33 ms, pictures come every 7 ms.
+// The view's yaw in every picture while a hand turns it evenly; the simulation does it in steps of 33 ms, pictures come
+// every 7 ms.
 std::vector<float> YawsWhileTurning(float rate_radps, float picture_s) {
   Stage stage;
   stage.Step();
@@ -275,12 +278,14 @@ std::vector<float> YawsWhileTurning(float rate_radps, float picture_s) {
     if (owed_s >= Step_s(stage.s)) {
       controls.turned_rad = 0;
       const CameraInput step = NextStep({}, stage.s, &controls);
-      stage.s.visitor.camera.view.yaw_rad = WrapAngle(stage.s.visitor.camera.view.yaw_rad + step.yaw_rate_radps * Step_s(stage.s));
+      stage.s.visitor.camera.view.yaw_rad =
+          WrapAngle(stage.s.visitor.camera.view.yaw_rad + step.yaw_rate_radps * Step_s(stage.s));
       stage.Step();
       owed_s -= Step_s(stage.s);
     }
     const float share = owed_s / Step_s(stage.s);
-    FrameFromSimulation(stage.pack, stage.s, &stage.looks, &stage.frame, {share, TurnUntil(share, stage.s, controls), controls.turned_rad, 0});
+    FrameFromSimulation(stage.pack, stage.s, &stage.looks, &stage.frame,
+                        {share, TurnUntil(share, stage.s, controls), controls.turned_rad, 0});
     yaws.push_back(stage.frame.yaw_rad);
   }
   return yaws;
@@ -295,12 +300,14 @@ TEST(FrameFromSimulation, TheViewFollowsTheHandAtOnceAndEvenly) {
   }
 }
 
-// Some of what a hand asks for that turns much faster than the view may is forgotten; the view goes on evenly all the same.
+// Some of what a hand asks for that turns much faster than the view may is forgotten; the view goes on evenly all the
+// same.
 TEST(FrameFromSimulation, AFasterHandTurnsTheViewEvenlyToo) {
   constexpr float kPicture_s = 0.007f;
   const std::vector<float> yaws = YawsWhileTurning(12, kPicture_s);
   for (size_t k = 1; k < yaws.size(); ++k) {
-    EXPECT_NEAR(std::remainder(yaws[k] - yaws[k - 1], 2 * kPi), MaxYawRate_radps(kPlainControl) * kPicture_s, 0.002f) << k;
+    EXPECT_NEAR(std::remainder(yaws[k] - yaws[k - 1], 2 * kPi), MaxYawRate_radps(kPlainControl) * kPicture_s, 0.002f)
+        << k;
   }
 }
 

@@ -68,7 +68,8 @@ TEST(GuideFigure, CostsTheSameWithoutGeometry) {
   without.meshes.clear();
   AddGuideFigure(&with);
   AddGuideFigure(&without);
-  for (size_t k = 0; k < 2; ++k) EXPECT_EQ(with.avatars.back().levels[k].triangles, without.avatars.back().levels[k].triangles);
+  for (size_t k = 0; k < 2; ++k)
+    EXPECT_EQ(with.avatars.back().levels[k].triangles, without.avatars.back().levels[k].triangles);
 }
 
 TEST(GuideFigure, IsTheGuideAndNobodyElse) {

@@ -12,7 +12,9 @@ constexpr int kSteps = 1500;
 // A square with 160 strollers and a visitor who walks across it again and again.
 Scenario Square(Adaptation adaptation, float speed_mps, uint64_t seed) {
   Random random{seed};
-  const auto anywhere = [&] { return Vec2{random.Uniform(-kHalf_m + 1, kHalf_m - 1), random.Uniform(-kHalf_m + 1, kHalf_m - 1)}; };
+  const auto anywhere = [&] {
+    return Vec2{random.Uniform(-kHalf_m + 1, kHalf_m - 1), random.Uniform(-kHalf_m + 1, kHalf_m - 1)};
+  };
   Scenario s;
   s.control.adaptation = adaptation;
   s.control.high_limit = 12;
@@ -31,7 +33,8 @@ Scenario Square(Adaptation adaptation, float speed_mps, uint64_t seed) {
   for (int row = 0; row < 13; ++row) {
     for (int column = 0; column < 13; ++column) {
       ScenarioPerson p;
-      p.position_m = {-kHalf_m + 1.5f + 2.9f * static_cast<float>(column), -kHalf_m + 2.2f + 2.8f * static_cast<float>(row)};
+      p.position_m = {-kHalf_m + 1.5f + 2.9f * static_cast<float>(column),
+                      -kHalf_m + 2.2f + 2.8f * static_cast<float>(row)};
       if (Length(p.position_m - s.camera_position_m) < 2) continue;
       for (int g = 0; g < 10; ++g) p.goals_m.push_back(anywhere());
       p.stay = true;
@@ -41,7 +44,10 @@ Scenario Square(Adaptation adaptation, float speed_mps, uint64_t seed) {
   return s;
 }
 
-struct Outcome { int exceeded = 0, over_budget = 0; float asked_m = 0, walked_m = 0, longest_step = 0; };
+struct Outcome {
+  int exceeded = 0, over_budget = 0;
+  float asked_m = 0, walked_m = 0, longest_step = 0;
+};
 
 Outcome Played(const Scenario& scenario) {
   Simulation s;

@@ -90,12 +90,14 @@ TEST(BadWorld, MorePeopleThanFit) {
 TEST(BadWorld, ContradictoryLimits) {
   Scenario scenario = Watched(Town());
   scenario.control.r_high_m = 0.5f;
-  EXPECT_EQ(Complaint(Town(), scenario), "contradictory limits: r_personal_m 0.6 m must be below camera.r_high_m 0.5 m");
+  EXPECT_EQ(Complaint(Town(), scenario),
+            "contradictory limits: r_personal_m 0.6 m must be below camera.r_high_m 0.5 m");
   scenario.control.r_high_m = 500;
   EXPECT_EQ(Complaint(Town(), scenario), "contradictory limits: camera.r_high_m 500 m must be below r_far_m 200 m");
   scenario = Watched(Town());
   scenario.control.budget_triangles = 5000;
-  EXPECT_TRUE(Has(Warnings(Town(), scenario), "12 people in high resolution have at least 12000 triangles, budget_triangles is 5000"));
+  EXPECT_TRUE(Has(Warnings(Town(), scenario),
+                  "12 people in high resolution have at least 12000 triangles, budget_triangles is 5000"));
   scenario = Watched(Town());
   ScenarioPerson hasty;
   hasty.position_m = {5, 5};

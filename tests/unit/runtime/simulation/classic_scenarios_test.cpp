@@ -60,7 +60,10 @@ class ClassicScenario : public testing::TestWithParam<std::filesystem::path> {
   Simulation simulation;
 };
 
-struct Seen { Vec2 position; float at_s = 0; };  // by id; since when they have not left this place
+struct Seen {
+  Vec2 position;
+  float at_s = 0;
+};  // by id; since when they have not left this place
 
 float ToSegment_m(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 along = b - a;

@@ -10,7 +10,8 @@ namespace flaneur {
 namespace {
 
 Error Parse(const std::string& text, Scenario* scenario) {
-  const auto path = std::filesystem::temp_directory_path() / ("flaneur_scenario_" + std::to_string(::getpid()) + ".toml");
+  const auto path =
+      std::filesystem::temp_directory_path() / ("flaneur_scenario_" + std::to_string(::getpid()) + ".toml");
   EXPECT_EQ(WriteTextFile(path, text).message, "");
   const Error error = ReadScenario(path, scenario);
   std::filesystem::remove(path);
@@ -62,7 +63,10 @@ polygon_m = [[0, 0], [4, 0], [4, 1], [0, 1]]
 [[obstacle]]
 center_m = [8, 8]
 radius_m = 0.5
-)", &s).message, "");
+)",
+                  &s)
+                .message,
+            "");
   EXPECT_EQ(s.legs.size(), 3u);
   EXPECT_EQ(s.control.high_limit, 7);
   EXPECT_EQ(s.control.method, LimitMethod::kFrameTime);
@@ -74,7 +78,8 @@ radius_m = 0.5
 
 TEST(Scenario, TheReferenceRuns) {
   Scenario s;
-  ASSERT_EQ(ReadScenario(std::filesystem::path(FLANEUR_SOURCE_DIR) / "assets_src/reference/scenario.toml", &s).message, "");
+  ASSERT_EQ(ReadScenario(std::filesystem::path(FLANEUR_SOURCE_DIR) / "assets_src/reference/scenario.toml", &s).message,
+            "");
   Simulation simulation;
   ASSERT_EQ(StartSimulation(nullptr, s, &simulation).message, "");
   EXPECT_EQ(simulation.town.crowd.size(), 52u);
@@ -82,10 +87,14 @@ TEST(Scenario, TheReferenceRuns) {
 
 TEST(Scenario, MistakesAreNamedWithTheirLine) {
   Scenario s;
-  EXPECT_NE(Parse("peple = 5\n", &s).message.find(":1: unknown key 'peple'; did you mean 'people'?"), std::string::npos);
-  EXPECT_NE(Parse("\nadaptation = \"ful\"\n", &s).message.find(":2: adaptation is 'ful', it must be one of: off, paper, full"), std::string::npos);
+  EXPECT_NE(Parse("peple = 5\n", &s).message.find(":1: unknown key 'peple'; did you mean 'people'?"),
+            std::string::npos);
+  EXPECT_NE(Parse("\nadaptation = \"ful\"\n", &s)
+                .message.find(":2: adaptation is 'ful', it must be one of: off, paper, full"),
+            std::string::npos);
   EXPECT_NE(Parse("[[camera.leg]]\nspeed_mps = 1\n", &s).message.find("exactly one of"), std::string::npos);
-  EXPECT_NE(Parse("[crowd_area]\nmin_m = [4, 4]\nmax_m = [0, 9]\n", &s).message.find(":1: crowd_area needs"), std::string::npos);
+  EXPECT_NE(Parse("[crowd_area]\nmin_m = [4, 4]\nmax_m = [0, 9]\n", &s).message.find(":1: crowd_area needs"),
+            std::string::npos);
   EXPECT_NE(Parse("seconds = -1\n", &s).message.find("seconds is -1, it must be from 0 to"), std::string::npos);
 }
 
@@ -94,10 +103,12 @@ TEST(Simulation, ImpossiblePeopleAreNamed) {
   Simulation simulation;
   const std::string house = "[[obstacle]]\npolygon_m = [[0, 0], [4, 0], [4, 4], [0, 4]]\n";
   ASSERT_EQ(Parse(std::string(kGround) + house + "[[person]]\nposition_m = [2, 2]\n", &s).message, "");
-  EXPECT_NE(StartSimulation(nullptr, s, &simulation).message.find("person 1: starts inside an obstacle"), std::string::npos);
+  EXPECT_NE(StartSimulation(nullptr, s, &simulation).message.find("person 1: starts inside an obstacle"),
+            std::string::npos);
   s = {};
   const std::string wall = "[[obstacle]]\npolygon_m = [[0, -21], [1, -21], [1, 21], [0, 21]]\n";
-  ASSERT_EQ(Parse(std::string(kGround) + wall + "[[person]]\nposition_m = [-5, 2]\ngoals_m = [[9, 2]]\n", &s).message, "");
+  ASSERT_EQ(Parse(std::string(kGround) + wall + "[[person]]\nposition_m = [-5, 2]\ngoals_m = [[9, 2]]\n", &s).message,
+            "");
   EXPECT_NE(StartSimulation(nullptr, s, &simulation).message.find("nobody can get to goal 1"), std::string::npos);
 }
 
@@ -111,12 +122,17 @@ TEST(Simulation, ImpossibleGroupsAreNamed) {
   EXPECT_EQ(StartSimulation(nullptr, s, &simulation).message, "group 'us' has 1 people; 2 to 4 can walk together");
   s = {};
   ASSERT_EQ(Parse(kGround + person(1, "[9, 2]") + person(2, "[9, 3]"), &s).message, "");
-  EXPECT_EQ(StartSimulation(nullptr, s, &simulation).message, "group 'us': person 1 and person 2 have different goals_m");
+  EXPECT_EQ(StartSimulation(nullptr, s, &simulation).message,
+            "group 'us': person 1 and person 2 have different goals_m");
 }
 
 TEST(Simulation, WithoutACameraEverybodyIsVisibleAndIdsAreNeverReused) {
   Scenario s;
-  ASSERT_EQ(Parse("people = 60\nseed = 4\n" + std::string(kGround) + "[[person]]\nposition_m = [-5, 2]\ngoals_m = [[9, 2]]\n", &s).message, "");
+  ASSERT_EQ(
+      Parse("people = 60\nseed = 4\n" + std::string(kGround) + "[[person]]\nposition_m = [-5, 2]\ngoals_m = [[9, 2]]\n",
+            &s)
+          .message,
+      "");
   Simulation simulation;
   ASSERT_EQ(StartSimulation(nullptr, s, &simulation).message, "");
   EXPECT_EQ(simulation.town.crowd.size(), 61u);
@@ -129,7 +145,11 @@ TEST(Simulation, WithoutACameraEverybodyIsVisibleAndIdsAreNeverReused) {
 
 TEST(Simulation, ACrowdWithAnAreaOfItsOwnLivesThere) {
   Scenario scenario;
-  ASSERT_EQ(Parse("people = 30\nseed = 4\n" + std::string(kGround) + "[crowd_area]\nmin_m = [-12, -6]\nmax_m = [4, 9]\n", &scenario).message, "");
+  ASSERT_EQ(
+      Parse("people = 30\nseed = 4\n" + std::string(kGround) + "[crowd_area]\nmin_m = [-12, -6]\nmax_m = [4, 9]\n",
+            &scenario)
+          .message,
+      "");
   Simulation s;
   ASSERT_FALSE(StartSimulation(nullptr, scenario, &s));
   const Area roomy{{-13, -7}, {5, 10}};  // who walks round others may step out for a moment
@@ -143,7 +163,8 @@ TEST(Simulation, ACrowdWithAnAreaOfItsOwnLivesThere) {
 TEST(Simulation, TheCrowdStartsClearOfPeoplePlacedExactly) {
   std::string text = "people = 200\nseed = 4\n" + std::string(kGround);
   for (int k = 0; k < 20; ++k) {
-    text += "[[person]]\nposition_m = [" + std::to_string(-9.9 + k) + ", " + std::to_string(0.37 * k) + "]\nstay = true\n";
+    text +=
+        "[[person]]\nposition_m = [" + std::to_string(-9.9 + k) + ", " + std::to_string(0.37 * k) + "]\nstay = true\n";
   }
   Scenario scenario;
   ASSERT_EQ(Parse(text, &scenario).message, "");
@@ -152,7 +173,9 @@ TEST(Simulation, TheCrowdStartsClearOfPeoplePlacedExactly) {
   ASSERT_EQ(s.town.crowd.size(), 220u);
   for (size_t i = 0; i < s.town.crowd.size(); ++i) {
     for (size_t j = 0; j < i; ++j) {
-      ASSERT_GE(Length(s.town.crowd.position[i] - s.town.crowd.position[j]), s.town.crowd.radius_m[i] + s.town.crowd.radius_m[j]) << i << " " << j;
+      ASSERT_GE(Length(s.town.crowd.position[i] - s.town.crowd.position[j]),
+                s.town.crowd.radius_m[i] + s.town.crowd.radius_m[j])
+          << i << " " << j;
     }
   }
 }

@@ -38,10 +38,15 @@ inline TourStop Waypoint(Vec2 position) {
 inline TourPack TourTown(int people) {
   TourPack pack;
   pack.ground = Share({{0, 0}, 0.5f, 120, 80, std::vector<float>(9600, 0), std::vector<uint8_t>(9600, 3)});
-  pack.obstacles.polygons = {Box({29, 0}, {31, 18}), Box({29, 21}, {31, 40}), Box({12, 12}, {18, 18}), Box({42, 14}, {48, 26})};
+  pack.obstacles.polygons = {Box({29, 0}, {31, 18}), Box({29, 21}, {31, 40}), Box({12, 12}, {18, 18}),
+                             Box({42, 14}, {48, 26})};
   pack.avatars = {Figure("maid", 1), Figure("monk", 0)};
-  pack.places = {{"west", "exit", {1, 20}, 2}, {"east", "exit", {59, 20}, 2}, {"well", "goal", {22, 8}, 1}, {"tree", "goal", {52, 32}, 1}};
-  pack.path = {Waypoint({4, 6}), Halt({20, 6}, kPi / 2, 3), Waypoint({24, 19.5f}), Halt({36, 19.5f}, 0, 3), Waypoint({45, 30}), Halt({54, 12}, kPi, 3)};
+  pack.places = {{"west", "exit", {1, 20}, 2},
+                 {"east", "exit", {59, 20}, 2},
+                 {"well", "goal", {22, 8}, 1},
+                 {"tree", "goal", {52, 32}, 1}};
+  pack.path = {Waypoint({4, 6}),        Halt({20, 6}, kPi / 2, 3), Waypoint({24, 19.5f}),
+               Halt({36, 19.5f}, 0, 3), Waypoint({45, 30}),        Halt({54, 12}, kPi, 3)};
   pack.guide = "monk";
   pack.crowd.people = people;
   pack.crowd.seed = 5;

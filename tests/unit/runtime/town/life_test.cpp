@@ -14,7 +14,10 @@ namespace {
 TourPack Square(int people) {
   TourPack pack;
   pack.ground = Share({{-30, -30}, 0.5f, 120, 120, std::vector<float>(14400, 0), std::vector<uint8_t>(14400, 3)});
-  pack.places = {{"west", "exit", {-29, 0}, 3}, {"east", "exit", {29, 0}, 3}, {"north", "exit", {0, 29}, 3}, {"south", "exit", {0, -29}, 3}};
+  pack.places = {{"west", "exit", {-29, 0}, 3},
+                 {"east", "exit", {29, 0}, 3},
+                 {"north", "exit", {0, 29}, 3},
+                 {"south", "exit", {0, -29}, 3}};
   pack.avatars.emplace_back();
   pack.avatars.back().levels.push_back({0, 1000, 0, 0, 0});
   pack.crowd.people = people;
@@ -78,7 +81,8 @@ TEST(Life, WhoWalksTogetherComesAndLeavesTogether) {
       }
     }
     for (int id : before) {
-      if (std::find(s.town.crowd.id.begin(), s.town.crowd.id.end(), id) == s.town.crowd.id.end()) left[id] = s.town.step;
+      if (std::find(s.town.crowd.id.begin(), s.town.crowd.id.end(), id) == s.town.crowd.id.end())
+        left[id] = s.town.step;
     }
     before = s.town.crowd.id;
   }
@@ -102,15 +106,20 @@ TEST(Life, WhoWalksTogetherComesAndLeavesTogether) {
 
 float ToNearestGate_m(const Simulation& s, Vec2 p) {
   float nearest_m = 1e9f;
-  for (int gate : s.town.place_lists.gates) nearest_m = std::min(nearest_m, Length(s.town.places[static_cast<size_t>(gate)].position_m - p));
+  for (int gate : s.town.place_lists.gates)
+    nearest_m = std::min(nearest_m, Length(s.town.places[static_cast<size_t>(gate)].position_m - p));
   return nearest_m;
 }
 
-struct Sighting { Vec2 position; ViewClass view = ViewClass::kOutside; };
+struct Sighting {
+  Vec2 position;
+  ViewClass view = ViewClass::kOutside;
+};
 
 std::map<int, Sighting> Seen(const Simulation& s) {
   std::map<int, Sighting> seen;
-  for (size_t i = 0; i < s.town.crowd.size(); ++i) seen[s.town.crowd.id[i]] = {s.town.crowd.position[i], s.town.crowd.view[i]};
+  for (size_t i = 0; i < s.town.crowd.size(); ++i)
+    seen[s.town.crowd.id[i]] = {s.town.crowd.position[i], s.town.crowd.view[i]};
   return seen;
 }
 
@@ -220,7 +229,8 @@ TEST(Life, PeopleStandAboutEachAtAnotherSpotAndLookAtThingsOrEachOther) {
   scenario.camera_yaw_deg = 90;
   scenario.control.high_limit = 1000;
   Simulation s = Started(pack, scenario);
-  EXPECT_GE(std::count(s.town.crowd.activity.begin(), s.town.crowd.activity.end(), Activity::kStanding), 8) << "at once";
+  EXPECT_GE(std::count(s.town.crowd.activity.begin(), s.town.crowd.activity.end(), Activity::kStanding), 8)
+      << "at once";
   int standing = 0, talking = 0, looking = 0, wrong = 0;
   for (int step = 0; step < 3600; ++step) {
     StepSimulation({}, 0, &s);
@@ -337,7 +347,8 @@ float MeanSpeed_mps(int steps, Simulation* s) {
   return static_cast<float>(sum_mps / (static_cast<double>(steps) * static_cast<double>(s->town.crowd.size())));
 }
 
-// Two people on three square metres, who share 24 goals: those who came and those who wanted to leave stood before each other for good.
+// Two people on three square metres, who share 24 goals: those who came and those who wanted to leave stood before each
+// other for good.
 TEST(Life, ADenseCrowdKeepsMovingRoundTheGoalsItShares) {
   Scenario scenario;
   scenario.has_ground = true;

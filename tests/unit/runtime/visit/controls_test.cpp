@@ -53,7 +53,10 @@ struct Visitor {
 };
 
 TEST(Controls, KeysWalkInTheDirectionsOfTheView) {
-  const struct { const char* key; Vec2 way; } cases[] = {{"w", {0, 1}}, {"down", {0, -1}}, {"a", {-1, 0}}, {"d", {1, 0}}};
+  const struct {
+    const char* key;
+    Vec2 way;
+  } cases[] = {{"w", {0, 1}}, {"down", {0, -1}}, {"a", {-1, 0}}, {"d", {1, 0}}};
   for (const auto& c : cases) {
     Visitor v;
     v.Stand({22, 20}, kPi / 2);
@@ -122,7 +125,8 @@ TEST(Controls, NothingTurnsFasterThanTheCrowdAllows) {
     float last = v.s.visitor.camera.view.yaw_rad;
     for (int k = 0; k < 60; ++k) {
       v.Do(input);
-      EXPECT_LE(std::abs(WrapAngle(v.s.visitor.camera.view.yaw_rad - last)), MaxYawRate_radps(v.s.control.settings) * Step_s(v.s) * 1.001f);
+      EXPECT_LE(std::abs(WrapAngle(v.s.visitor.camera.view.yaw_rad - last)),
+                MaxYawRate_radps(v.s.control.settings) * Step_s(v.s) * 1.001f);
       last = v.s.visitor.camera.view.yaw_rad;
     }
   }

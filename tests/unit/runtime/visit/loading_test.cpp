@@ -1,4 +1,5 @@
-// The demo's pack, read beside the pictures or between them: all of it comes, and the same, however many threads there are.
+// The demo's pack, read beside the pictures or between them: all of it comes, and the same, however many threads there
+// are.
 #include "runtime/visit/loading.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +43,8 @@ class LoaderOfTheDemo : public testing::Test {
     return rgb;
   }
 
-  const std::filesystem::path path = std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
+  const std::filesystem::path path =
+      std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
   HeadlessContext context;
   TourPack pack;
 };

@@ -7,10 +7,10 @@
 #include <set>
 #include <sstream>
 
+#include "runtime/desktop/context.h"
 #include "runtime/show/frame_from_simulation.h"
 #include "runtime/visit/notices.h"
 #include "runtime/visit/phrases.h"
-#include "runtime/desktop/context.h"
 #include "tests/unit/runtime/simulation/tour_town.h"
 
 namespace flaneur {
@@ -72,7 +72,9 @@ struct Pages {
 };
 
 TEST(Pages, AreAllReachedByKeyboardAndByGamepad) {
-  const struct { const char *down, *accept, *back; } hands[] = {{"down", "enter", "escape"}, {"pad_down", "pad_a", "pad_b"}};
+  const struct {
+    const char *down, *accept, *back;
+  } hands[] = {{"down", "enter", "escape"}, {"pad_down", "pad_a", "pad_b"}};
   for (const auto& hand : hands) {
     std::set<Page> seen;
     bool ends = false;
@@ -87,7 +89,8 @@ TEST(Pages, AreAllReachedByKeyboardAndByGamepad) {
       p.Tap(hand.back);
       EXPECT_EQ(p.menu.page, Page::kNone);
     }
-    EXPECT_EQ(seen, (std::set<Page>{Page::kNone, Page::kMain, Page::kStops, Page::kSettings, Page::kKeys})) << hand.down;
+    EXPECT_EQ(seen, (std::set<Page>{Page::kNone, Page::kMain, Page::kStops, Page::kSettings, Page::kKeys}))
+        << hand.down;
     EXPECT_TRUE(ends) << hand.down;
   }
 }
@@ -165,8 +168,9 @@ TEST(Pages, EverySettingCanBeChangedAndStaysInItsRange) {
       }
     }
   }
-  for (const char* name : {"pointer", "walk_speed_mps", "turn_speed_dps", "mouse_speed", "field_of_view_deg", "snap_turn_deg", "invert_look",
-                           "reduced_motion", "sound_volume", "frames_per_s", "least_resolution_scale"}) {
+  for (const char* name :
+       {"pointer", "walk_speed_mps", "turn_speed_dps", "mouse_speed", "field_of_view_deg", "snap_turn_deg",
+        "invert_look", "reduced_motion", "sound_volume", "frames_per_s", "least_resolution_scale"}) {
     EXPECT_EQ(changed.count(name), 1u) << name;
   }
   EXPECT_TRUE(p.controls.changed && p.controls.applies);
@@ -216,7 +220,8 @@ TEST(Pages, ShowEveryWordInEveryLanguage) {
 }
 
 // What the pages write, as a visitor reads it.
-std::string WrittenOn(Page page, int width_px, int height_px, Overlay* overlay, Controls* controls, const Simulation& s) {
+std::string WrittenOn(Page page, int width_px, int height_px, Overlay* overlay, Controls* controls,
+                      const Simulation& s) {
   Menu menu;
   std::string written;
   OpenPage(page, &menu);
@@ -255,7 +260,8 @@ TEST(Pages, CutNothingShortInAnyLanguageOrWindowButNamesThatAreTooLong) {
       }
     }
   }
-  s.visitor.tour.words[1].caption = "Something that is worth a great many words, and then a few more than anybody would read in passing by";
+  s.visitor.tour.words[1].caption =
+      "Something that is worth a great many words, and then a few more than anybody would read in passing by";
   Controls controls = MakeControls({}, {}, s);
   EXPECT_NE(WrittenOn(Page::kStops, 1280, 720, &overlay, &controls, s).find("…"), std::string::npos);
 }
@@ -286,7 +292,9 @@ TEST(Jump, BringsVisitorAndGuideToTheStopAndTheTourOn) {
     const Vec2 guide = s.town.crowd.position[s.visitor.guide.index];
     EXPECT_LT(Length(guide - s.visitor.camera.view.position), 7) << stop;
     for (size_t i = 0; i < s.town.crowd.size(); ++i) {
-      EXPECT_GT(Length(s.town.crowd.position[i] - s.visitor.camera.view.position), s.control.settings.r_personal_m * 0.9f) << stop << " " << s.town.crowd.id[i];
+      EXPECT_GT(Length(s.town.crowd.position[i] - s.visitor.camera.view.position),
+                s.control.settings.r_personal_m * 0.9f)
+          << stop << " " << s.town.crowd.id[i];
     }
   }
   JumpToStop(99, InTown(&s));

@@ -52,8 +52,9 @@ TEST_F(Settings, AFileThatIsNotThereIsAllDefaults) {
 }
 
 TEST_F(Settings, WhatIsWrongIsNamedWithItsLineAndTheRestIsUsed) {
-  Write("walk_sped_mps = 1\nturn_speed_dps = 1e9\npointer = \"finger\"\nreduced_motion = 1\n"
-        "walk_speed_mps = 1.25\n[keys]\npause = [\"spac\"]\nnext = \"n\"\njump = [\"j\"]\nback = [\"x\"]\n");
+  Write(
+      "walk_sped_mps = 1\nturn_speed_dps = 1e9\npointer = \"finger\"\nreduced_motion = 1\n"
+      "walk_speed_mps = 1.25\n[keys]\npause = [\"spac\"]\nnext = \"n\"\njump = [\"j\"]\nback = [\"x\"]\n");
   PlayerSettings settings;
   std::vector<std::string> warnings;
   ASSERT_EQ(ReadPlayerSettings(Path(), &settings, &warnings).message, "");
@@ -74,7 +75,8 @@ TEST_F(Settings, WhatIsWrongIsNamedWithItsLineAndTheRestIsUsed) {
   EXPECT_TRUE(named("9", "keys.jump"));
   EXPECT_EQ(settings.walk_speed_mps, 1.25f);
   EXPECT_EQ(settings.turn_speed_dps, PlayerSettings{}.turn_speed_dps);
-  EXPECT_EQ(settings.keys[static_cast<size_t>(Action::kPause)], PlayerSettings{}.keys[static_cast<size_t>(Action::kPause)]);
+  EXPECT_EQ(settings.keys[static_cast<size_t>(Action::kPause)],
+            PlayerSettings{}.keys[static_cast<size_t>(Action::kPause)]);
   EXPECT_EQ(settings.keys[static_cast<size_t>(Action::kBack)], std::vector<std::string>{"x"});
 }
 
@@ -82,7 +84,8 @@ TEST_F(Settings, WhatIsNotTomlIsRefusedByItsLine) {
   Write("walk_speed_mps = 1\n[keys\n");
   PlayerSettings settings;
   std::vector<std::string> warnings;
-  EXPECT_NE(ReadPlayerSettings(Path(), &settings, &warnings).message.find("player.toml:2: not TOML"), std::string::npos);
+  EXPECT_NE(ReadPlayerSettings(Path(), &settings, &warnings).message.find("player.toml:2: not TOML"),
+            std::string::npos);
 }
 
 TEST_F(Settings, CanBeSetByAssignment) {
@@ -95,7 +98,8 @@ TEST_F(Settings, CanBeSetByAssignment) {
   EXPECT_EQ(s.language, "de");
   EXPECT_TRUE(s.reduced_motion);
   EXPECT_EQ(s.keys[static_cast<size_t>(Action::kPause)], (std::vector<std::string>{"p", "pad_x"}));
-  for (const char* wrong : {"snap_turn=30", "snap_turn_deg", "snap_turn_deg=wide", "snap_turn_deg=", "keys.pause=spac", "=", "", "mouse_speed=nan"}) {
+  for (const char* wrong : {"snap_turn=30", "snap_turn_deg", "snap_turn_deg=wide", "snap_turn_deg=", "keys.pause=spac",
+                            "=", "", "mouse_speed=nan"}) {
     const std::string message = SetPlayerSetting(wrong, &s).message;
     EXPECT_NE(message, "") << wrong;
     EXPECT_EQ(message.find('\n'), std::string::npos);
@@ -144,7 +148,8 @@ TEST(InputNames, LeadToACodeAndBack) {
 TEST(InputNames, SettingsAndActionsStandInTheDocument) {
   std::string text;
   ASSERT_FALSE(ReadTextFile(fs::path(FLANEUR_SOURCE_DIR) / "docs/player.md", &text));
-  for (const char* action : kActionNames) EXPECT_NE(text.find("`" + std::string(action) + "`"), std::string::npos) << action;
+  for (const char* action : kActionNames)
+    EXPECT_NE(text.find("`" + std::string(action) + "`"), std::string::npos) << action;
   std::istringstream lines(PlayerSettingsText({}));
   for (std::string line; std::getline(lines, line) && line != "[keys]";) {
     const std::string name = line.substr(0, line.find(' '));

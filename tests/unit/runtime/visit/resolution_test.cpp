@@ -1,4 +1,5 @@
-// The rule that chooses how coarsely the picture is drawn, on made-up machines: what stays, what each pixel takes, and noise.
+// The rule that chooses how coarsely the picture is drawn, on made-up machines: what stays, what each pixel takes, and
+// noise.
 #include "runtime/visit/resolution.h"
 
 #include <gtest/gtest.h>
@@ -23,8 +24,8 @@ float Took_ms(const Machine& m, float scale, std::mt19937* random) {
 }
 
 // The scale of every picture.
-std::vector<float> Play(const Machine& machine, const ResolutionSettings& settings, int pictures, Resolution* r, std::mt19937* random,
-                        bool moves = false) {
+std::vector<float> Play(const Machine& machine, const ResolutionSettings& settings, int pictures, Resolution* r,
+                        std::mt19937* random, bool moves = false) {
   std::vector<float> scales;
   for (int k = 0; k < pictures; ++k) {
     FollowPictureTime(Took_ms(machine, ScaleNow(*r), random), moves, settings, r);
@@ -91,14 +92,16 @@ TEST(ResolutionRule, NoMomentIsCoarserThanItMay) {
 
 TEST(ResolutionRule, HoldsTheTimeOrIsAtItsLeastAndComesToRest) {
   std::mt19937 random(1);
-  std::uniform_real_distribution<float> fixed_ms(1, 60), pixels_ms(1, 250), noise(0, 0.15f), frame_ms(8, 60), least(0.3f, 1);
+  std::uniform_real_distribution<float> fixed_ms(1, 60), pixels_ms(1, 250), noise(0, 0.15f), frame_ms(8, 60),
+      least(0.3f, 1);
   for (int k = 0; k < 500; ++k) {
     const Machine machine{fixed_ms(random), pixels_ms(random), noise(random)};
     const ResolutionSettings settings{frame_ms(random), least(random)};
-    SCOPED_TRACE(testing::Message() << machine.fixed_ms << " + " << machine.pixels_ms << " ms, noise " << machine.noise << ", wished "
-                                    << settings.frame_ms << " ms at " << settings.least_scale);
+    SCOPED_TRACE(testing::Message() << machine.fixed_ms << " + " << machine.pixels_ms << " ms, noise " << machine.noise
+                                    << ", wished " << settings.frame_ms << " ms at " << settings.least_scale);
     Resolution r;
-    const std::vector<float> arrival = Play(machine, settings, 200, &r, &random), later = Play(machine, settings, 3000, &r, &random);
+    const std::vector<float> arrival = Play(machine, settings, 200, &r, &random),
+                             later = Play(machine, settings, 3000, &r, &random);
     for (float scale : arrival) ASSERT_GE(scale, settings.least_scale);
     EXPECT_LE(Changes(arrival), 7);
     const float typical_ms = (machine.fixed_ms + machine.pixels_ms * r.scale * r.scale) * (1 + machine.noise / 2);
@@ -123,7 +126,9 @@ TEST(ResolutionRule, WhoeverWishesNoCoarserPictureGetsNone) {
 }
 
 TEST(ResolutionRule, MoreWorkIsNeverDrawnFinerAndMoreTimeNeverCoarser) {
-  const auto settled = [](float fixed_ms, float pixels_ms, float frame_ms) { return Settled({fixed_ms, pixels_ms, 0}, {frame_ms, 0.4f}); };
+  const auto settled = [](float fixed_ms, float pixels_ms, float frame_ms) {
+    return Settled({fixed_ms, pixels_ms, 0}, {frame_ms, 0.4f});
+  };
   for (float pixels_ms = 5; pixels_ms < 250; pixels_ms += 7) {
     EXPECT_LE(settled(12, pixels_ms + 7, 40), settled(12, pixels_ms, 40)) << pixels_ms;
     EXPECT_LE(settled(22, pixels_ms, 40), settled(12, pixels_ms, 40)) << pixels_ms;

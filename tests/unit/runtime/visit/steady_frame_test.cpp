@@ -1,13 +1,13 @@
-// A steady frame allocates nothing of ours, and takes few draw calls however many people it shows: operator new is counted in this
-// program.
+// A steady frame allocates nothing of ours, and takes few draw calls however many people it shows: operator new is
+// counted in this program.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "runtime/show/frame_from_simulation.h"
-#include "runtime/simulation/scenario.h"
 #include "runtime/desktop/context.h"
 #include "runtime/render/renderer.h"
+#include "runtime/show/frame_from_simulation.h"
+#include "runtime/simulation/scenario.h"
 #include "tests/soak/drivers_stay_loaded.h"
 #include "tests/unit/allocations.h"
 
@@ -47,7 +47,9 @@ TEST_F(SteadyFrameOfTheDemo, AllocatesNothingAndTakesFewDrawCallsForTenThousandP
   for (int i = 0; i < 10000; ++i) {  // a field of them before the eye, near ones as meshes and some of them fading
     DrawnPerson person;
     person.avatar = i % avatars;
-    person.level = i < 24 ? MeshLevel(i % static_cast<int>(pack.avatars[static_cast<size_t>(person.avatar)].levels.size())) : kImpostor;
+    person.level = i < 24
+                       ? MeshLevel(i % static_cast<int>(pack.avatars[static_cast<size_t>(person.avatar)].levels.size()))
+                       : kImpostor;
     person.position = {-31 + 0.6f * static_cast<float>(i / 100), -35 + 0.6f * static_cast<float>(i % 100), 0};
     if (i % 8 == 3) person.share_to = 0.6f;
     person.moment.phase = static_cast<float>(i % 31) / 31;
@@ -57,7 +59,8 @@ TEST_F(SteadyFrameOfTheDemo, AllocatesNothingAndTakesFewDrawCallsForTenThousandP
   const auto draw = [&](int first, int last) {
     for (int k = first; k < last; ++k) {
       frame.yaw_rad = 0.17f + 0.01f * static_cast<float>(k);
-      frame.resolution_scale = k % 4 == 3 ? 1.0f : 0.5f + 0.1f * static_cast<float>(k % 4);  // it may change at any time
+      frame.resolution_scale =
+          k % 4 == 3 ? 1.0f : 0.5f + 0.1f * static_cast<float>(k % 4);  // it may change at any time
       renderer.Draw(frame, 160, 90, &statistics);
       EXPECT_LE(statistics.draw_calls, kMaxDrawCalls) << k;
       EXPECT_GT(statistics.people_drawn, 1000);
@@ -99,7 +102,9 @@ TEST_F(SteadyFrameOfTheDemo, PeopleCastNoMoreShadowThanTheBudgetCounts) {
     FrameFromSimulation(pack, simulation, &looks, &frame);
     renderer.Draw(frame, 160, 90, &statistics);
     EXPECT_LE(statistics.people_shadow_triangles, simulation.control.levels.shadows.triangles) << k;
-    EXPECT_LE(simulation.control.levels.triangles + simulation.control.levels.shadows.triangles, simulation.control.settings.budget_triangles) << k;
+    EXPECT_LE(simulation.control.levels.triangles + simulation.control.levels.shadows.triangles,
+              simulation.control.settings.budget_triangles)
+        << k;
   }
   EXPECT_GT(statistics.people_shadow_triangles, 1000);
 }

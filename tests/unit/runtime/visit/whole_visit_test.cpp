@@ -1,5 +1,5 @@
-// The demo's guided tour from its first picture to its end and begun anew, as behind a window: pictures of a visit, most of them hidden
-// as those of a minimized window are, so that it takes seconds.
+// The demo's guided tour from its first picture to its end and begun anew, as behind a window: pictures of a visit,
+// most of them hidden as those of a minimized window are, so that it takes seconds.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <set>
 
 #include "runtime/crowd/fast_math.h"
+#include "runtime/desktop/context.h"
 #include "runtime/show/guide_figure.h"
 #include "runtime/simulation/scenario.h"
 #include "runtime/visit/visit.h"
-#include "runtime/desktop/context.h"
 #include "tests/unit/runtime/visit/silent_shell.h"
 
 namespace flaneur {
@@ -71,7 +71,10 @@ float FromVisitor_m(const Simulation& s, Vec2 p) { return Length(p - s.visitor.c
 
 float FreeView_m(const Simulation& s) {
   float far_m = 0;
-  while (far_m < kFreeView_m && !InsideObstacle(s.town.walkable, s.visitor.camera.view.position + DirectionOf(s.visitor.camera.view.yaw_rad) * far_m)) far_m += 0.1f;
+  while (far_m < kFreeView_m &&
+         !InsideObstacle(s.town.walkable,
+                         s.visitor.camera.view.position + DirectionOf(s.visitor.camera.view.yaw_rad) * far_m))
+    far_m += 0.1f;
   return far_m;
 }
 
@@ -89,7 +92,8 @@ void ExpectHalt(Window* w) {
 }
 
 TEST(VisitOfTheDemo, FollowsTheGuideToTheToursEndAndBeginsAnew) {
-  const std::filesystem::path path = std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
+  const std::filesystem::path path =
+      std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": bake the demo tour with ./demo";
   if (HeadlessContext context; const Error error = context.Create()) GTEST_SKIP() << error.message;
   Window w(path);
@@ -107,7 +111,8 @@ TEST(VisitOfTheDemo, FollowsTheGuideToTheToursEndAndBeginsAnew) {
     farthest_m = std::max(farthest_m, FromVisitor_m(s, s.town.crowd.position[s.visitor.guide.index]));
     waited_s = s.visitor.tour.resting || s.visitor.camera.actual_mps > 0.05f ? 0 : waited_s + kStep_s;
     longest_wait_s = std::max(longest_wait_s, waited_s);
-    const bool looks = s.visitor.tour.resting && s.visitor.tour.rested_s > RestOf_s(s.visitor.tour, HaltOf(s.visitor.tour)) - kLooks_s;
+    const bool looks =
+        s.visitor.tour.resting && s.visitor.tour.rested_s > RestOf_s(s.visitor.tour, HaltOf(s.visitor.tour)) - kLooks_s;
     if (!looks || (!seen.empty() && seen.back() == HaltOf(s.visitor.tour))) continue;
     seen.push_back(HaltOf(s.visitor.tour));
     ExpectHalt(&w);
@@ -118,8 +123,8 @@ TEST(VisitOfTheDemo, FollowsTheGuideToTheToursEndAndBeginsAnew) {
   ASSERT_TRUE(s.visitor.tour.over);
   for (int k = 0; k < 60; ++k) w.Picture({}, kStep_s, false);
   EXPECT_EQ(s.town.crowd.view[s.visitor.guide.index], ViewClass::kVisible) << "takes leave";
-  std::printf("%.0f s to the end; the guide at most %.1f m away; %.1f s of waiting on the way\n", static_cast<double>(s.town.step) * kStep_s, farthest_m,
-              longest_wait_s);
+  std::printf("%.0f s to the end; the guide at most %.1f m away; %.1f s of waiting on the way\n",
+              static_cast<double>(s.town.step) * kStep_s, farthest_m, longest_wait_s);
 
   for (const char* key : {"escape", "down", "enter"}) w.Tap(key);  // the pages' second row
   EXPECT_FALSE(w.visit->shows_pages());

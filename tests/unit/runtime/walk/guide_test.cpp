@@ -43,7 +43,8 @@ TEST(Guide, WalksAheadWithinAFewMetresUntilTheEnd) {
       ASSERT_LT(Apart_m(s), 7) << people << " people, step " << step;
       if (s.visitor.tour.plans != plans) plans = s.visitor.tour.plans, turned_at = step;
       const bool turning = step - turned_at < 4 * 30;  // from a halt the way may lead back past the visitor
-      const bool arrives = LengthOf_m(s.visitor.tour.route) - s.visitor.tour.visitor_m < 2;  // the guide stands beside the view already
+      const bool arrives =
+          LengthOf_m(s.visitor.tour.route) - s.visitor.tour.visitor_m < 2;  // the guide stands beside the view already
       if (s.visitor.tour.resting || s.visitor.tour.over || turning || arrives) continue;
       ASSERT_GT(s.visitor.guide.way_m - s.visitor.tour.visitor_m, 0.5f) << people << " people, step " << step;
     }
@@ -124,8 +125,10 @@ TEST(Guide, TouchesNobodyAndNothing) {
       ASSERT_FALSE(InsideObstacle(s.town.walkable, GuideOf(s))) << step;
       ASSERT_GT(Apart_m(s), s.control.settings.r_personal_m + s.town.crowd.radius_m[g] - 0.05f) << step;
       for (size_t i = 0; i < s.town.crowd.size(); ++i) {
-        if (i == g || s.town.crowd.view[g] == ViewClass::kOutside || s.town.crowd.view[i] == ViewClass::kOutside) continue;
-        overlap_m = std::max(overlap_m, s.town.crowd.radius_m[i] + s.town.crowd.radius_m[g] - Length(s.town.crowd.position[i] - GuideOf(s)));
+        if (i == g || s.town.crowd.view[g] == ViewClass::kOutside || s.town.crowd.view[i] == ViewClass::kOutside)
+          continue;
+        overlap_m = std::max(overlap_m, s.town.crowd.radius_m[i] + s.town.crowd.radius_m[g] -
+                                            Length(s.town.crowd.position[i] - GuideOf(s)));
       }
     }
     EXPECT_TRUE(s.visitor.finished) << people;
