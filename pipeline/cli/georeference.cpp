@@ -37,7 +37,7 @@ Error SetGeoreference(const Georeference& wish, double scale, Scene* town, std::
   if (asked) town->reference_system = wish.crs == "none" ? "" : PlainReferenceSystem(wish.crs);
   if (town->reference_system.empty()) return Ok();
   const Point2 origin_m{town->origin_m.x * scale, town->origin_m.y * scale};
-  const Error error = CheckMapPlace(town->reference_system, origin_m, warnings);
+  Error error = CheckMapPlace(town->reference_system, origin_m, warnings);
   if (!error) return Ok();
   MapSystem system;
   const bool usable = !FindMapSystem(town->reference_system, &system) && !system.degrees && !IsZero(origin_m);

@@ -247,7 +247,7 @@ class ObstacleCheck {
     const bool readable =
         ring.size() <= static_cast<size_t>(state_.options.most_points) && crossings.size() < kMaxCrossings;
     if (!readable) return {ConvexHull(ring)};
-    const Rings filled = NonZeroArea(ring);
+    Rings filled = NonZeroArea(ring);
     const double whole = Area(filled),
                  wrong = number == 0 ? whole - area : whole + area;  // twice what runs the wrong way
     if (wrong / 2 > kMinTurnedRatio * std::max(whole - wrong / 2, 0.0)) Add(105, ring[0], area, 0, name);

@@ -21,16 +21,16 @@ class Tracer {
     for (int row = 0; row < raster_.rows; ++row) {
       for (int column = 0; column < raster_.columns; ++column) {
         if (!IsGround(column, row)) continue;
-        if (!IsGround(column, row - 1)) At(column, row) |= 1;
-        if (!IsGround(column + 1, row)) At(column + 1, row) |= 2;
-        if (!IsGround(column, row + 1)) At(column + 1, row + 1) |= 4;
-        if (!IsGround(column - 1, row)) At(column, row + 1) |= 8;
+        if (!IsGround(column, row - 1)) Leaving(column, row) |= 1;
+        if (!IsGround(column + 1, row)) Leaving(column + 1, row) |= 2;
+        if (!IsGround(column, row + 1)) Leaving(column + 1, row + 1) |= 4;
+        if (!IsGround(column - 1, row)) Leaving(column, row + 1) |= 8;
       }
     }
     Rings rings;
     for (int row = 0; row <= raster_.rows; ++row)
       for (int column = 0; column <= raster_.columns; ++column)
-        while (At(column, row) != 0) rings.push_back(Follow(column, row));
+        while (Leaving(column, row) != 0) rings.push_back(Follow(column, row));
     return rings;
   }
 
@@ -39,7 +39,7 @@ class Tracer {
     if (column < 0 || row < 0 || column >= raster_.columns || row >= raster_.rows) return false;
     return raster_.kind[RowMajor(row, raster_.columns, column)] != 0;
   }
-  uint8_t& At(int column, int row) {
+  uint8_t& Leaving(int column, int row) {
     return leaving_[static_cast<size_t>(row) * stride_ + static_cast<size_t>(column)];
   }
 
@@ -47,8 +47,8 @@ class Tracer {
   Ring Follow(int column, int row) {
     Ring ring;
     int direction = -1;
-    while (At(column, row) != 0) {
-      uint8_t& out = At(column, row);
+    while (Leaving(column, row) != 0) {
+      uint8_t& out = Leaving(column, row);
       int next = -1;
       for (const int turn : {1, 0, 3})
         if (next < 0 && direction >= 0 && (out & (1 << ((direction + turn) % 4)))) next = (direction + turn) % 4;

@@ -80,7 +80,7 @@ class Plan {
   std::string Draw() {
     const size_t listed = std::min(options_.findings.size(), kMaxListed);
     const double list = options_.findings.empty() ? 0 : kListWidth;
-    const double all_height = std::max(height_ + 2 * kMargin + 40, (listed + 4.0) * kLineHeight + 80);
+    const double all_height = std::max(height_ + 2 * kMargin + 40, (static_cast<double>(listed) + 4) * kLineHeight + 80);
     const double all_width = width_ + 2 * kMargin + list;
     out_ = Format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "
@@ -143,7 +143,7 @@ class Plan {
     const GroundRaster* g = options_.ground;
     if (!g) return;
     const int step = std::max(1, std::max(g->columns, g->rows) / kMaxGroundColumns + 1);
-    const double size = g->cell_m * step * scale_;
+    const double size = g->cell_m * static_cast<float>(step) * scale_;
     out_ += "<g shape-rendering=\"crispEdges\">\n";
     for (int row = 0; row < g->rows; row += step) {
       const auto kind = [&](int column) { return g->kind[RowMajor(row, g->columns, column)]; };

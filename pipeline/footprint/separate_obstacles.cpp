@@ -115,7 +115,7 @@ std::vector<std::vector<size_t>> Groups(const std::vector<std::vector<size_t>>& 
 }
 
 // Where two houses stand in each other by more than a clumsy joint, both keep what is theirs.
-Rings SharedGround(const Shape& a, const BoundingBox& box_a, const Shape& b, const BoundingBox& box_b) {
+Rings GroundOfBoth(const Shape& a, const BoundingBox& box_a, const Shape& b, const BoundingBox& box_b) {
   if (std::min(box_a.max.x, box_b.max.x) - std::max(box_a.min.x, box_b.min.x) < kJoint_m ||
       std::min(box_a.max.y, box_b.max.y) - std::max(box_a.min.y, box_b.min.y) < kJoint_m)
     return {};
@@ -144,7 +144,7 @@ void SeparateObstacles(const std::vector<TownObject>& objects, const std::vector
       if ((*enlarged)[j].empty()) continue;
       if (j < i && !Apart(boxes[i], boxes[j])) {
         const Rings shared =
-            is_house(i) && is_house(j) ? SharedGround(shapes[i], solid_boxes[i], shapes[j], solid_boxes[j]) : Rings();
+            is_house(i) && is_house(j) ? GroundOfBoth(shapes[i], solid_boxes[i], shapes[j], solid_boxes[j]) : Rings();
         append(shared.empty() ? (*enlarged)[j] : Difference((*enlarged)[j], shared), &taken);
       }
       if (j > i && !Apart(boxes[i], solid_boxes[j])) append(shapes[j].solid, &later);

@@ -123,7 +123,7 @@ Error EncodeAtlas(const AtlasLevel& finest, ImpostorAtlas* atlas) {
                                  atlas->elevations_deg[i / directions % atlas->elevations_deg.size()]);
     for (int y = cell.y; y < cell.y + cell.height; ++y) {
       for (int x = cell.x; x < cell.x + cell.width; ++x) {
-        const auto at = static_cast<size_t>(y * finest.width + x);
+        const size_t at = RowMajor(y, finest.width, x);
         const AtlasTexel& texel = finest.texels[at];
         const Vec3 n = Normalized(axes.right * texel.normal.x + axes.up * texel.normal.y + axes.near * texel.normal.z);
         const float channels[] = {n.x, n.y, n.z, texel.depth_m / atlas->depth_range_m};

@@ -73,7 +73,7 @@ Error Elements(const tinygltf::Model& model, int view, size_t offset, size_t str
   return Ok();
 }
 
-Error ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int components,
+Error ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor, size_t components,
                  size_t component_size, std::vector<float>* values) {
   const auto& sparse = accessor.sparse;
   if (sparse.count < 0 || static_cast<size_t>(sparse.count) > accessor.count) {
@@ -83,7 +83,7 @@ Error ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accesso
   const int index_type = sparse.indices.componentType;
   if (!KnownComponentType(index_type)) return Fail("sparse accessor has unknown index type");
   const size_t index_size = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(index_type)));
-  const size_t size = component_size * static_cast<size_t>(components);
+  const size_t size = component_size * components;
   const uint8_t* indices = nullptr;
   const uint8_t* data = nullptr;
   if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) {
@@ -103,8 +103,8 @@ Error ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accesso
     if (!(index >= 0) || index >= static_cast<double>(accessor.count)) {
       return Fail("sparse accessor has an index out of range");
     }
-    for (int c = 0; c < components; ++c) {
-      const uint8_t* at = data + i * size + static_cast<size_t>(c) * component_size;
+    for (size_t c = 0; c < components; ++c) {
+      const uint8_t* at = data + i * size + c * component_size;
       (*values)[static_cast<size_t>(index) * components + c] =
           static_cast<float>(LoadComponent(at, accessor.componentType) * scale);
     }
@@ -169,16 +169,17 @@ Error ReadFloats(const tinygltf::Model& model, int index, int components, std::v
   const size_t size = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a->componentType)));
   const double scale = NormalizedScale(*a);
   const double lowest = a->normalized ? -1 : std::numeric_limits<double>::lowest();
-  values->assign(a->count * static_cast<size_t>(components), 0.0f);
+  const auto width = static_cast<size_t>(components);
+  values->assign(a->count * width, 0.0f);
   for (size_t i = 0; first != nullptr && i < a->count; ++i) {
-    for (int c = 0; c < components; ++c) {
-      const uint8_t* at = first + i * stride + static_cast<size_t>(c) * size;
+    for (size_t c = 0; c < width; ++c) {
+      const uint8_t* at = first + i * stride + c * size;
       const double value = LoadComponent(at, a->componentType) * scale;
       // Not std::max: a NaN has to come through, to be reported.
-      (*values)[i * components + c] = static_cast<float>(value < lowest ? lowest : value);
+      (*values)[i * width + c] = static_cast<float>(value < lowest ? lowest : value);
     }
   }
-  if (a->sparse.isSparse) return ReadSparse(model, *a, components, size, values);
+  if (a->sparse.isSparse) return ReadSparse(model, *a, width, size, values);
   return Ok();
 }
 

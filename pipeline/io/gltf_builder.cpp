@@ -557,7 +557,7 @@ Error GltfBuilder::Finish(std::vector<uint8_t>* glb) {
     impl.root["buffers"].push_back(
         {{"byteLength", impl.fallback_bytes}, {"extensions", {{kMeshoptExtension, {{"fallback", true}}}}}});
   }
-  const Error problem = impl.problem;
+  Error problem = impl.problem;
   std::string text;
   try {
     text = impl.root.dump();

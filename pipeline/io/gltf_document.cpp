@@ -123,7 +123,8 @@ Error LinkNodes(const Model& model, GltfDocument* document) {
   for (int i = 0; i < count; ++i) {
     for (const int child : At(model.nodes, i).children) {
       if (child < 0 || child >= count) {
-        return Fail("node " + Quoted(document->nodes[i].name) + ": child " + std::to_string(child) + " does not exist");
+        return Fail("node " + Quoted(At(document->nodes, i).name) + ": child " + std::to_string(child) +
+                    " does not exist");
       }
       DocumentNode& node = At(document->nodes, child);
       if (node.parent >= 0 || child == i) {
@@ -159,7 +160,8 @@ std::set<int> CoarserLevels(const Model& model) {
     const auto lod = node.extensions.find("MSFT_lod");
     if (lod == node.extensions.end() || !lod->second.Has("ids")) continue;
     const Value& ids = lod->second.Get("ids");
-    for (size_t i = 0; ids.IsArray() && i < ids.ArrayLen(); ++i) {
+    const int count = ids.IsArray() ? static_cast<int>(ids.ArrayLen()) : 0;
+    for (int i = 0; i < count; ++i) {
       if (ids.Get(i).IsNumber()) nodes.insert(ids.Get(i).GetNumberAsInt());
     }
   }
