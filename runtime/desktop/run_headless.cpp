@@ -78,78 +78,111 @@ Error WriteDue(const std::vector<Pane>& panes, const PlayerOptions& options, int
               "; --at must be earlier");
 }
 
+// All that a run without a window draws with and writes into.
+struct HeadlessRun {
+  const PlayerOptions& options;
+  const TourPack& pack;
+  std::vector<Simulation>& simulations;
+  bool films, draws_all;
+  int64_t steps = 0;
+  HeadlessContext context;
+  Renderer renderer;
+  Overlay overlay;
+  std::vector<Pane> panes;    // a simulation each
+  std::vector<Still> stills;  // that have still to be written
+  FilmWriter film;
+  Records records;
+};
+
+bool IsOver(const Simulation& s, const HeadlessRun& run) { return s.town.step >= run.steps || s.visitor.finished; }
+
+Error PrepareDrawing(Loader* loader, HeadlessRun* run) {
+  if (Error e = run->context.Create()) return e;
+  RenderOptions options;
+  if (run->options.samples || !run->draws_all) options.samples = run->options.samples.value_or(kStillSamples);
+  if (Error e = run->renderer.Begin(run->pack, options)) return e;
+  loader->PrepareFor(run->renderer);
+  if (Error e = loader->UploadAll(&run->renderer)) return e;
+  return run->options.views ? run->overlay.Create() : Ok();
+}
+
+Error PrepareOutputs(float seconds, HeadlessRun* run) {
+  const PlayerOptions& options = run->options;
+  const float step_s = Step_s(run->simulations.front());
+  for (size_t k = 0; k < run->simulations.size(); ++k) {
+    const std::string label = options.compare.empty() ? "" : "adaptation: " + options.compare[k];
+    run->panes.push_back({&run->simulations[k], label, {}, {}, {}, {}, {}});
+  }
+  run->records.keep_metrics = !options.metrics.empty();
+  run->records.keep_trajectories = !options.trajectories.empty();
+  if (run->films) {
+    if (Error e = run->film.Start(options.film, options.width_px, options.height_px, 1 / step_s)) return e;
+  }
+  run->steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(step_s) + 0.5);
+  run->stills = StillsOf(options, step_s);
+  if (run->stills.empty() || run->stills.back().frame <= run->steps) return Ok();
+  return Fail("the run ends after " + Compact(static_cast<double>(seconds)) + " s, before " +
+              run->stills.back().path.string() + "; --at must be earlier");
+}
+
+// The picture of this step, where one is asked for. last: the run ends with it.
+Error MakePicture(bool last, HeadlessRun* run) {
+  const PlayerOptions& options = run->options;
+  const int64_t step = run->simulations.front().town.step;
+  const bool still = !run->stills.empty() && (run->stills.front().frame == step || last);
+  if (!still && !run->draws_all) return Ok();
+  if (!run->draws_all) {
+    run->renderer.StartAnew();
+    for (Pane& pane : run->panes) pane.looks = {};
+  }
+  const int width_px = options.width_px / static_cast<int>(run->panes.size());
+  Overlay* overlay = options.views ? &run->overlay : nullptr;
+  for (Pane& pane : run->panes) {
+    DrawPane(options, run->pack, width_px, run->films || still, &run->renderer, overlay, &pane);
+  }
+  if (run->films) {
+    if (Error e = run->film.Add(Joined(run->panes, options.height_px))) return e;
+  }
+  return still ? WriteDue(run->panes, options, step, last, &run->stills) : Ok();
+}
+
+void RecordStep(HeadlessRun* run) {
+  const Simulation& first = run->simulations.front();
+  Pane& pane = run->panes.front();
+  const FrameStatistics& drawn = pane.statistics;
+  Record(first, {drawn.town_triangles, drawn.shadow_triangles, drawn.draw_ms}, &run->records);
+  RememberFrame(first, drawn, static_cast<float>(drawn.draw_ms), &pane.views.history);
+}
+
+void StepAll(HeadlessRun* run) {
+  for (Pane& pane : run->panes) {
+    if (IsOver(*pane.simulation, *run)) continue;
+    StepSimulation({}, static_cast<float>(pane.statistics.draw_ms), pane.simulation);
+  }
+}
+
 }  // namespace
 
 Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader,
                   std::vector<Simulation>* simulations) {
   WatchForInterruption();
-  HeadlessContext context;
-  if (Error e = context.Create()) return e;
-  const bool filming = !options.film.empty();
   // Stills alone need only their own pictures drawn, and may take their time for that.
-  const bool draw_all = filming || !options.metrics.empty() || options.screenshot.empty();
-  RenderOptions render_options;
-  if (options.samples || !draw_all) render_options.samples = options.samples.value_or(kStillSamples);
-  Renderer renderer;
-  if (Error e = renderer.Begin(pack, render_options)) return e;
-  loader->PrepareFor(renderer);
-  if (Error e = loader->UploadAll(&renderer)) return e;
-  Overlay overlay;
-  if (options.views) {
-    if (Error e = overlay.Create()) return e;
-  }
-  std::vector<Pane> panes;
-  for (size_t k = 0; k < simulations->size(); ++k) {
-    panes.push_back(
-        {&(*simulations)[k], options.compare.empty() ? "" : "adaptation: " + options.compare[k], {}, {}, {}, {}, {}});
-  }
-  Simulation& first = simulations->front();
-  std::vector<Still> stills = StillsOf(options, Step_s(first));
-  Records records;
-  records.keep_metrics = !options.metrics.empty();
-  records.keep_trajectories = !options.trajectories.empty();
-  FilmWriter film;
-  if (filming) {
-    if (Error e = film.Start(options.film, options.width_px, options.height_px, 1 / Step_s(first))) return e;
-  }
-  const auto steps = static_cast<int64_t>(static_cast<double>(seconds) / static_cast<double>(Step_s(first)) + 0.5);
-  if (!stills.empty() && stills.back().frame > steps) {
-    return Fail("the run ends after " + Compact(static_cast<double>(seconds)) + " s, before " +
-                stills.back().path.string() + "; --at must be earlier");
-  }
-  const auto over = [&](const Simulation& s) { return s.town.step >= steps || s.visitor.finished; };
-  for (;;) {
+  const bool films = !options.film.empty();
+  const bool draws_all = films || !options.metrics.empty() || options.screenshot.empty();
+  HeadlessRun run{options, pack, *simulations, films, draws_all, 0, {}, {}, {}, {}, {}, {}, {}};
+  if (Error e = PrepareDrawing(loader, &run)) return e;
+  if (Error e = PrepareOutputs(seconds, &run)) return e;
+  for (bool last = false; !last;) {
     if (Error e = CheckInterruption()) return e;
-    const bool last = std::all_of(simulations->begin(), simulations->end(), over);
-    const bool still = !stills.empty() && (stills.front().frame == first.town.step || last);
-    if (still && !draw_all) {
-      renderer.StartAnew();
-      for (Pane& pane : panes) pane.looks = {};
-    }
-    if (draw_all || still) {
-      const int width_px = options.width_px / static_cast<int>(panes.size());
-      for (Pane& pane : panes)
-        DrawPane(options, pack, width_px, filming || still, &renderer, options.views ? &overlay : nullptr, &pane);
-      if (filming) {
-        if (Error e = film.Add(Joined(panes, options.height_px))) return e;
-      }
-    }
-    if (still) {
-      if (Error e = WriteDue(panes, options, first.town.step, last, &stills)) return e;
-    }
-    Record(first,
-           {panes[0].statistics.town_triangles, panes[0].statistics.shadow_triangles, panes[0].statistics.draw_ms},
-           &records);
-    RememberFrame(first, panes[0].statistics, static_cast<float>(panes[0].statistics.draw_ms), &panes[0].views.history);
-    if (last) break;
-    for (Pane& pane : panes) {
-      if (!over(*pane.simulation)) StepSimulation({}, static_cast<float>(pane.statistics.draw_ms), pane.simulation);
-    }
+    last = std::all_of(simulations->begin(), simulations->end(), [&](const Simulation& s) { return IsOver(s, run); });
+    if (Error e = MakePicture(last, &run)) return e;
+    RecordStep(&run);
+    if (!last) StepAll(&run);
   }
-  if (filming) {
-    if (Error e = film.Finish()) return e;
+  if (films) {
+    if (Error e = run.film.Finish()) return e;
   }
-  return WriteRecords(records, options.metrics, options.trajectories);
+  return WriteRecords(run.records, options.metrics, options.trajectories);
 }
 
 }  // namespace flaneur

@@ -224,6 +224,74 @@ void JoinFewNear(int first, int avatars, PeopleBatches* out) {
 
 int StepOf(float distance_m) { return std::min(kSteps - 1, static_cast<int>(distance_m / kStep_m)); }
 
+// Batches by number: meshes by avatar, mesh and whether they fade, then near and far impostors by avatar. Behind an
+// avatar's levels stand its props.
+struct BatchKeys {
+  int avatars = 0, levels = 1, meshes = 0;
+};
+
+BatchKeys KeysFor(const std::vector<AvatarLayout>& avatars) {
+  BatchKeys keys;
+  keys.avatars = static_cast<int>(avatars.size());
+  for (const AvatarLayout& avatar : avatars) keys.levels = std::max(keys.levels, avatar.levels + avatar.props);
+  keys.meshes = keys.avatars * keys.levels * 2;
+  return keys;
+}
+
+int KeyOfMesh(int avatar, int mesh, bool fades, const BatchKeys& keys) {
+  return (avatar * keys.levels + mesh) * 2 + (fades ? 1 : 0);
+}
+
+int KeyOfImpostor(int avatar, float distance_m, const BatchKeys& keys) {
+  return keys.meshes + (distance_m > kFarImpostor_m ? keys.avatars : 0) + avatar;
+}
+
+PeopleBatch BatchOf(int key, const BatchKeys& keys) {
+  if (key >= keys.meshes) return {(key - keys.meshes) % keys.avatars, -1, true, 0, 0};
+  return {key / (2 * keys.levels), key / 2 % keys.levels, key % 2 == 1, 0, 0};
+}
+
+bool InSight(const PeopleSight& sight, const Box& box) {
+  return MayTouch(sight.frustum, box) && (sight.walls == nullptr || MayBeSeen(*sight.walls, box, true));
+}
+
+bool CastsShadow(const DrawnPerson& person, const Box& box, float distance_m, const AvatarReady& ready,
+                 const PeopleSight& sight) {
+  const bool greater_part = person.share_to - person.share_from >= 0.5f;  // of the two of a change one casts the shadow
+  return greater_part && person.casts_shadow && ready.shadow && distance_m < sight.shadow_reach_m &&
+         InSight(sight, WithShadow(box, sight.to_sun));
+}
+
+// Their level as far as it is loaded, and their props.
+void AddPerson(uint32_t number, const DrawnPerson& person, float distance_m, const AvatarLayout& avatar,
+               const AvatarReady& ready, const PeopleSight& sight, const BatchKeys& keys, PeopleBatches* out) {
+  const Level asked = LevelAt(distance_m, person, avatar, sight.focal_px);
+  const Level level = LoadedLevel(asked, avatar.levels, ready);
+  out->not_loaded += level != asked ? 1 : 0;
+  if (!IsDrawn(level)) return;
+  const bool fades = person.share_from > 0 || person.share_to < 1;
+  const int key = IsMesh(level) ? KeyOfMesh(person.avatar, level.mesh, fades, keys)
+                                : KeyOfImpostor(person.avatar, distance_m, keys);
+  out->entries.push_back({number, key, StepOf(distance_m)});
+  for (int k = 0; person.props >> k != 0; ++k) {
+    const int mesh = avatar.levels + k;
+    if ((person.props >> k & 1) == 0 || !ready.levels[static_cast<size_t>(mesh)]) continue;
+    // All in one draw, whether somebody fades or not.
+    out->entries.push_back({number, KeyOfMesh(person.avatar, mesh, true, keys), StepOf(distance_m), !IsMesh(level)});
+  }
+}
+
+PersonInstance InstanceOf(const PeopleBatches::Entry& e, const DrawnPerson& person, const AvatarLayout& avatar,
+                          const PeopleSight& sight, const BatchKeys& keys, PeopleBatches* out) {
+  if (e.key >= keys.meshes) return AsImpostor(person, avatar, sight.eye);
+  PersonInstance instance = Placed(person, RowOfPose(e.person, person, avatar, out), e.on_impostor ? 1.0f : 0.0f);
+  if (BatchOf(e.key, keys).level >= avatar.levels) {
+    instance.look.y = 0, instance.look.z = person.props_share;
+    instance.tints = {};  // a basket is no cloth, though it may have a cloth's colour
+  }
+  return instance;
+}
+
 }  // namespace
 
 AvatarLayout LayoutOf(const PackAvatar& avatar) {
@@ -259,78 +327,37 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
                 const std::vector<AvatarReady>& ready, const PeopleSight& sight, PeopleBatches* out) {
   out->instances.clear();
   out->entries.clear();
-  out->pose_rows = 0;
-  out->hidden = 0;
-  out->not_loaded = 0;
-  int levels = 1;
-  for (const AvatarLayout& avatar : avatars) levels = std::max(levels, avatar.levels + avatar.props);
-  const int count = static_cast<int>(avatars.size()), meshes = count * levels * 2;
-  // Keys: meshes by avatar, level and fading, then near and far impostors by avatar.
-  const auto batch_of = [&](int key) {
-    if (key >= meshes) return PeopleBatch{(key - meshes) % count, -1, true, 0, 0};
-    return PeopleBatch{key / (2 * levels), key / 2 % levels, key % 2 == 1, 0, 0};
-  };
-  const auto in_sight = [&](const Box& box) {
-    return MayTouch(sight.frustum, box) && (sight.walls == nullptr || MayBeSeen(*sight.walls, box, true));
-  };
   out->shadow_entries.clear();
+  out->pose_rows = 0;
+  out->hidden = out->not_loaded = 0;
   out->pose_rows_of.assign(people.size(), -1);
+  const BatchKeys keys = KeysFor(avatars);
   for (size_t i = 0; i < people.size(); ++i) {
-    const DrawnPerson& person = people[i];
-    const auto index = static_cast<size_t>(person.avatar);
-    const auto number = static_cast<uint32_t>(i);
-    const Box box = BoxOf(person, avatars[index]);
-    const float distance_m = Length(GltfFromGround(person.position) - sight.eye);
-    const bool half = person.share_to - person.share_from >= 0.5f;  // of the two of a fade one casts the shadow
-    if (half && person.casts_shadow && ready[index].shadow && distance_m < sight.shadow_reach_m &&
-        in_sight(WithShadow(box, sight.to_sun))) {
-      out->shadow_entries.push_back({number, 2 * person.avatar + (distance_m < sight.fine_shadow_m ? 0 : 1), 0});
+    const auto index = static_cast<size_t>(people[i].avatar);
+    const Box box = BoxOf(people[i], avatars[index]);
+    const float distance_m = Length(GltfFromGround(people[i].position) - sight.eye);
+    if (CastsShadow(people[i], box, distance_m, ready[index], sight)) {
+      const int coarse = distance_m < sight.fine_shadow_m ? 0 : 1;
+      out->shadow_entries.push_back({static_cast<uint32_t>(i), 2 * people[i].avatar + coarse, 0});
     }
-    if (!in_sight(box)) {
+    if (!InSight(sight, box)) {
       ++out->hidden;
       continue;
     }
-    const Level asked = LevelAt(distance_m, person, avatars[index], sight.focal_px);
-    const Level level = LoadedLevel(asked, avatars[index].levels, ready[index]);
-    out->not_loaded += level != asked ? 1 : 0;
-    if (!IsDrawn(level)) continue;
-    const int fades = person.share_from > 0 || person.share_to < 1 ? 1 : 0;
-    const int far = distance_m > kFarImpostor_m ? count : 0;
-    out->entries.push_back(
-        {number, IsMesh(level) ? (person.avatar * levels + level.mesh) * 2 + fades : meshes + far + person.avatar,
-         StepOf(distance_m)});
-    for (int k = 0; person.props >> k != 0; ++k) {
-      const int prop = avatars[index].levels + k;
-      if ((person.props >> k & 1) == 0 || !ready[index].levels[static_cast<size_t>(prop)]) continue;
-      // All in one draw, whether somebody fades or not.
-      out->entries.push_back({number, (person.avatar * levels + prop) * 2 + 1, StepOf(distance_m), !IsMesh(level)});
-    }
+    AddPerson(static_cast<uint32_t>(i), people[i], distance_m, avatars[index], ready[index], sight, keys, out);
   }
-  JoinFewNear(meshes, count, out);
+  JoinFewNear(keys.meshes, keys.avatars, out);
+  const auto instance_of = [&](const PeopleBatches::Entry& e) {
+    return InstanceOf(e, people[e.person], avatars[static_cast<size_t>(people[e.person].avatar)], sight, keys, out);
+  };
   Gather(
-      meshes + 2 * count, batch_of,
-      [&](const PeopleBatches::Entry& e) {
-        const DrawnPerson& person = people[e.person];
-        const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];
-        if (e.key >= meshes) return AsImpostor(person, avatar, sight.eye);
-        PersonInstance instance = Placed(person, RowOfPose(e.person, person, avatar, out), e.on_impostor ? 1.0f : 0.0f);
-        if (e.key / 2 % levels >= avatar.levels) {
-          instance.look.y = 0, instance.look.z = person.props_share;
-          instance.tints = {};  // a basket is no cloth, though it may have a cloth's colour
-        }
-        return instance;
-      },
-      out, &out->seen);
+      keys.meshes + 2 * keys.avatars, [&](int key) { return BatchOf(key, keys); }, instance_of, out, &out->seen);
   std::swap(out->entries, out->shadow_entries);
-  Gather(
-      2 * count,
-      [](int key) {
-        return PeopleBatch{key / 2, key % 2, false, 0, 0};
-      },
-      [&](const PeopleBatches::Entry& e) {
-        return AsShadow(people[e.person], avatars[static_cast<size_t>(people[e.person].avatar)]);
-      },
-      out, &out->shadows);
+  const auto shadow_batch_of = [](int key) { return PeopleBatch{key / 2, key % 2, false, 0, 0}; };
+  const auto shadow_of = [&](const PeopleBatches::Entry& e) {
+    return AsShadow(people[e.person], avatars[static_cast<size_t>(people[e.person].avatar)]);
+  };
+  Gather(2 * keys.avatars, shadow_batch_of, shadow_of, out, &out->shadows);
 }
 
 }  // namespace flaneur

@@ -148,6 +148,8 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, float pas
   look.frame = s.town.step;
   look.avatar = crowd.avatar[i];
   look.level = levels.people[i];
+  // A first picture, as a still is one, shows nobody halfway.
+  if (looks->frame < 0) look.level = {look.level.level, kNotDrawn, kLongAgo_s};
   look.casts_shadow = levels.casts_shadow[i] != 0;
   look.props = ShownProps(levels.props, crowd.slot[i], crowd.id[i]);
   const PackAvatar& avatar = pack.avatars[static_cast<size_t>(look.avatar)];

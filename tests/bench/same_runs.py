@@ -3,7 +3,7 @@
     same_runs.py OLD_PLAYER NEW_PLAYER PACK [SCENARIO.toml ...] [--seconds S] [--jobs N]
 
 Plays the scenarios (all of tests/scenario and of the demo where none is named) with each adaptation with both players, without
-drawing, and compares what they write: all trajectories, and all metrics but the milliseconds that were measured. Prints a hash of each
+drawing, and compares what they write: all trajectories, levels of detail, and metrics but the milliseconds that were measured. Prints a hash of each
 run's trajectories and which metrics differ, and ends with status 1 where anything does.
 """
 import argparse
@@ -20,14 +20,18 @@ MEASURED = {"step_ms", "control_ms"}  # draw_ms is a scenario's model here, and 
 
 
 def run_hashes(player, pack, scenario, adaptation, seconds, folder):
-    """A hash of the trajectories and one of each column of the metrics; or its complaint where the run ends with one."""
+    """A hash of the trajectories, one of the levels and one of each column of the metrics; or its complaint where the run ends with one."""
     metrics, trajectories = folder / "metrics.csv", folder / "trajectories.csv"
     command = [player, *pack, "--headless", "--no-draw", "--scenario", scenario, "--adaptation", adaptation,
                "--seconds", str(seconds), "--metrics", metrics, "--trajectories", trajectories]
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         return {"complaint": done.stderr.strip()}
-    hashes = {"trajectories": hashlib.sha256(trajectories.read_bytes()).hexdigest()[:16]}
+    # The last column, the level, is the control's: apart from where people walk.
+    people = [line.rsplit(",", 1) for line in trajectories.read_text(encoding="utf-8").splitlines()]
+    hashes = {}
+    for name, part in (("trajectories", 0), ("levels", 1)):
+        hashes[name] = hashlib.sha256("\n".join(line[part] for line in people).encode()).hexdigest()[:16]
     with open(metrics, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     for name in set(rows[0]) - MEASURED:
@@ -67,7 +71,7 @@ def main():
             verdict = "same" if not differs else "DIFFERENT" if {"trajectories", "complaint"} & set(differs) else "same trajectories"
             count[verdict] += 1
             print(f"{verdict:17}  {trajectories}  {name}" + (f": {', '.join(differs)} differ" if differs else ""), flush=True)
-    print(f"of {len(runs)} runs {count['same']} are the same, {count['same trajectories']} differ in metrics alone")
+    print(f"of {len(runs)} runs {count['same']} are the same, {count['same trajectories']} differ in levels or metrics alone")
     return 1 if count["same"] < len(runs) else 0
 
 
