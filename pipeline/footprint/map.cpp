@@ -80,7 +80,8 @@ class Plan {
   std::string Draw() {
     const size_t listed = std::min(options_.findings.size(), kMaxListed);
     const double list = options_.findings.empty() ? 0 : kListWidth;
-    const double all_height = std::max(height_ + 2 * kMargin + 40, (static_cast<double>(listed) + 4) * kLineHeight + 80);
+    const double all_height =
+        std::max(height_ + 2 * kMargin + 40, (static_cast<double>(listed) + 4) * kLineHeight + 80);
     const double all_width = width_ + 2 * kMargin + list;
     out_ = Format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "
