@@ -40,10 +40,8 @@ static bool ReadObj(const char* path, bool y_up, Obj* obj) {
     } else if (key == "f") {
       std::vector<uint32_t> corners;
       for (std::string corner; words >> corner;) {
-        const long number = std::strtol(corner.c_str(), nullptr, 10),
-                   count = static_cast<long>(obj->positions_m.size() / 3);
-        corners.push_back(
-            static_cast<uint32_t>(number > 0 ? number - 1 : count + number));  // the library sees whether it is there
+        const long number = std::stol(corner), count = static_cast<long>(obj->positions_m.size() / 3);
+        corners.push_back(static_cast<uint32_t>(number > 0 ? number - 1 : count + number));  // the library looks at it
       }
       for (size_t i = 2; i < corners.size(); ++i)
         obj->objects.back().indices.insert(obj->objects.back().indices.end(), {corners[0], corners[i - 1], corners[i]});
@@ -81,8 +79,7 @@ int main(int argc, char** argv) {
   flaneur_footprints_obstacles(town, &obstacles);
   for (const FlaneurObstacle* o = obstacles.items; o != obstacles.items + obstacles.count; ++o) {
     std::printf("obstacle %s%s:", o->name, o->is_guess ? " (a guess)" : "");
-    if (o->outer.count == 0)
-      std::printf(" circle of %.2f m round (%.2f, %.2f)", o->radius_m, o->center_m.x, o->center_m.y);
+    if (o->outer.count == 0) std::printf(" %.2f m round (%.2f, %.2f)", o->radius_m, o->center_m.x, o->center_m.y);
     for (int i = 0; i < o->outer.count; ++i) std::printf(" (%.2f, %.2f)", o->outer.points[i].x, o->outer.points[i].y);
     std::printf("%s\n", o->hole_count > 0 ? ", with holes" : "");
   }

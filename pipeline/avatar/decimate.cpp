@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <memory>
+#include <optional>
 
 #include "pipeline/avatar/fit_look.h"
 #include "pipeline/avatar/fit_surface.h"
@@ -167,7 +167,9 @@ std::string Missed(const Avatar& avatar, int triangles, int target) {
 // What all levels of one original are fitted to and measured against.
 struct Reference {
   Reference(const Avatar& avatar, const std::vector<std::vector<Mat4>>& poses, const LevelsOptions& options)
-      : surface(avatar.meshes, poses), look(avatar.meshes), meter(avatar, options.error_samples, options.walk_poses) {}
+      : surface(avatar.meshes, poses, options.jobs),
+        look(avatar.meshes, {.jobs = options.jobs}),
+        meter(avatar, options.error_samples, options.walk_poses, options.jobs) {}
   SurfaceFitter surface;
   LookFitter look;
   LevelMeter meter;
@@ -185,7 +187,7 @@ AvatarLevel FinishedLevel(const Avatar& avatar, const LevelsOptions& options, co
   return level;
 }
 
-// Levels of so many triangles; while some are fitted and measured the next is decimated.
+// Levels of so many triangles.
 std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const LevelsOptions& options,
                                          std::vector<std::string>* warnings) {
   const int original = CountTriangles(avatar.meshes);
@@ -198,32 +200,37 @@ std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const LevelsOptio
   }
   if (first == targets.size()) return levels;
   const std::vector<std::vector<Mat4>> poses = WalkPoses(avatar, kQuadricPoses);
-  const auto make = [&] { return std::make_unique<const Reference>(avatar, poses, options); };
-  const std::shared_future<std::unique_ptr<const Reference>> reference = std::async(std::launch::async, make);
-  QuadricDecimater decimater(avatar.meshes, poses);
-  std::vector<std::future<AvatarLevel>> waiting;
+  // What levels are fitted to is prepared beside the decimation of the first.
+  std::optional<Reference> reference;
+  Job preparing = StartJob(options.jobs, [&] {
+    reference.emplace(avatar, poses, options);
+    return true;
+  });
+  QuadricDecimater decimater(avatar.meshes, poses, options.jobs);
+  std::vector<WedgeSurface> surfaces;
   for (size_t k = first; k < targets.size(); ++k) {
     decimater.DecimateTo(targets[k]);
     const float most = (1 + kTargetTolerance) * static_cast<float>(targets[k]);
     if (static_cast<float>(decimater.Triangles()) > most)
       warnings->push_back(Missed(avatar, decimater.Triangles(), targets[k]));
-    const auto finish = [&](WedgeSurface surface) {
-      return FinishedLevel(avatar, options, *reference.get(), std::move(surface));
-    };
-    waiting.push_back(std::async(std::launch::async, finish, decimater.Surface()));
+    surfaces.push_back(decimater.Surface());
   }
-  for (size_t k = first; k < targets.size(); ++k) levels[k] = waiting[k - first].get();
+  preparing.Wait();
+  ParallelFor(options.jobs, surfaces.size(), [&](size_t k) {
+    levels[first + k] = FinishedLevel(avatar, options, *reference, std::move(surfaces[k]));
+  });
   return levels;
 }
 
 // To few enough triangles that it may be drawn beside an impostor.
-void ReduceProp(const Avatar& avatar, std::vector<std::string>* warnings, AvatarProp* prop) {
+void ReduceProp(const Avatar& avatar, Jobs* jobs, std::vector<std::string>* warnings, AvatarProp* prop) {
   const int triangles = CountTriangles(prop->meshes);
   if (triangles <= kMaxPropTriangles) return;
   Avatar alone = avatar;
   alone.name = avatar.name + "', prop '" + prop->name;
   alone.meshes = prop->meshes;
   LevelsOptions options;
+  options.jobs = jobs;
   options.ratios = {static_cast<float>(kMaxPropTriangles) / static_cast<float>(triangles)};
   prop->meshes = DecimatedLevels(alone, options, warnings)[0].meshes;
 }
@@ -240,7 +247,7 @@ Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLeve
   if (options.ratios.empty()) KeepNeeded(avatar, options.error_px, &levels->levels);
   SpareJoints(avatar, &levels->levels);
   levels->avatar.meshes = levels->levels[0].meshes;
-  for (AvatarProp& prop : levels->avatar.props) ReduceProp(avatar, warnings, &prop);
+  for (AvatarProp& prop : levels->avatar.props) ReduceProp(avatar, options.jobs, warnings, &prop);
   SetSwitchHeights(avatar, options.error_px, &levels->levels);
   MergeMaterials(levels, warnings);
   return Ok();

@@ -6,6 +6,7 @@
 
 #include "pipeline/core/avatar.h"
 #include "runtime/base/error.h"
+#include "runtime/base/jobs.h"
 
 namespace flaneur {
 
@@ -20,7 +21,8 @@ struct LevelsOptions {
   int min_triangles = 16;  // no level has fewer, unless the original has
   // Points per surface that the deviation is measured at, besides its vertices.
   int error_samples = 3000;
-  int walk_poses = 8;  // that posed_error_mm is measured over
+  int walk_poses = 8;    // that posed_error_mm is measured over
+  Jobs* jobs = nullptr;  // that share the work; the result is the same
 };
 
 // Reduces the avatar step by step by edge collapses: vertices move to where the error over bind

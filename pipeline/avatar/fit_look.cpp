@@ -4,9 +4,9 @@
 #include <cmath>
 #include <memory>
 
+#include "pipeline/avatar/in_strides.h"
 #include "pipeline/avatar/surface_distance.h"
 #include "pipeline/avatar/surface_places.h"
-#include "pipeline/avatar/threads.h"
 
 namespace flaneur {
 
@@ -212,7 +212,7 @@ void LookFitter::Fit(WedgeSurface* level) const {
       std::min(std::max(kSamplesAFace * triangles.size(), kMinSamples), static_cast<size_t>(options_.samples));
   const std::vector<SurfacePlace> places = SpreadPlaces(triangles, static_cast<int>(samples));
   std::vector<Tie> ties(places.size());
-  RunOnThreads([&](size_t first, size_t step) {
+  InStrides(options_.jobs, [&](size_t first, size_t step) {
     // In blocks that do not depend on the number of threads: of equal distances a guess decides.
     for (size_t start = first * kBlock; start < ties.size(); start += step * kBlock) {
       std::vector<uint32_t> guesses(originals_.size(), 0);

@@ -6,12 +6,14 @@
 
 #include "pipeline/avatar/wedge_surface.h"
 #include "pipeline/core/mesh.h"
+#include "runtime/base/jobs.h"
 
 namespace flaneur {
 
 struct LookOptions {
   int samples = 40000;  // of the level at most; seven a face are enough
   int rounds = 24;      // of solving
+  Jobs* jobs = nullptr;
 };
 
 struct LookOriginal;

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <memory>
 
+#include "pipeline/avatar/in_strides.h"
 #include "pipeline/avatar/posed_quadric.h"
 #include "pipeline/avatar/poses.h"
 #include "pipeline/avatar/surface_distance.h"
 #include "pipeline/avatar/surface_places.h"
-#include "pipeline/avatar/threads.h"
 
 namespace flaneur {
 namespace {
@@ -41,6 +41,7 @@ struct Tie {
 }  // namespace
 
 struct FitOriginal {
+  Jobs* jobs;
   const std::vector<std::vector<Mat4>>& poses;
   std::vector<Triangles> triangles;  // by pose, the bind pose first
   std::vector<SurfacePlace> places;  // that are tied
@@ -52,7 +53,11 @@ namespace {
 class Fitter {
  public:
   Fitter(const FitOriginal& original, size_t samples, WedgeSurface* level)
-      : poses_(original.poses), level_(level), original_(original.triangles), tree_(*original.tree) {
+      : jobs_(original.jobs),
+        poses_(original.poses),
+        level_(level),
+        original_(original.triangles),
+        tree_(*original.tree) {
     for (size_t i = 0; i < samples; ++i) {
       on_original_.push_back(original.places[i * original.places.size() / samples]);
     }
@@ -76,7 +81,7 @@ class Fitter {
       guesses_.assign(on_original_.size() + on_level_.size(), 0);
     }
     std::vector<Tie> found(guesses_.size());
-    RunOnThreads([&](size_t first, size_t step) {
+    InStrides(jobs_, [&](size_t first, size_t step) {
       // In blocks that do not depend on the number of threads: of equal distances a guess decides.
       for (size_t start = first * kBlock; start < found.size(); start += step * kBlock) {
         for (size_t i = start; i < std::min(start + kBlock, found.size()); ++i) {
@@ -262,6 +267,7 @@ class Fitter {
     }
   }
 
+  Jobs* jobs_;
   const std::vector<std::vector<Mat4>>& poses_;
   WedgeSurface* level_;
   std::vector<Vec3> start_;                 // places before all
@@ -286,8 +292,8 @@ Density DensityFor(const FitOriginal& original) {
 
 }  // namespace
 
-SurfaceFitter::SurfaceFitter(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses)
-    : original_(new FitOriginal{poses, {}, {}, nullptr}) {
+SurfaceFitter::SurfaceFitter(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses, Jobs* jobs)
+    : original_(new FitOriginal{jobs, poses, {}, {}, nullptr}) {
   const std::vector<Mesh> shapes = Shapes(original);
   original_->triangles.push_back(PosedTriangles(shapes, nullptr));
   for (const auto& pose : poses) original_->triangles.push_back(PosedTriangles(shapes, &pose));

@@ -7,6 +7,7 @@
 
 #include "pipeline/avatar/wedge_surface.h"
 #include "pipeline/core/mesh.h"
+#include "runtime/base/jobs.h"
 #include "runtime/base/math.h"
 
 namespace flaneur {
@@ -17,7 +18,7 @@ struct FitOriginal;
 class SurfaceFitter {
  public:
   // `poses`: skinning matrices, besides the bind pose; they must outlive this.
-  SurfaceFitter(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses);
+  SurfaceFitter(const std::vector<Mesh>& original, const std::vector<std::vector<Mat4>>& poses, Jobs* jobs = nullptr);
   ~SurfaceFitter();
 
   // Faces, wedges and joints of a vertex stay; no face turns over, and none is pulled farther than

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <memory>
 
+#include "pipeline/avatar/in_strides.h"
 #include "pipeline/avatar/poses.h"
 #include "pipeline/avatar/surface_distance.h"
 #include "pipeline/avatar/surface_places.h"
-#include "pipeline/avatar/threads.h"
 
 namespace flaneur {
 namespace {
@@ -43,13 +43,13 @@ struct PosedSurface {
 };
 
 // A surface in all poses, the bind pose first.
-std::vector<PosedSurface> InAllPoses(const std::vector<Mesh>& of, const std::vector<std::vector<Mat4>>& poses,
-                                     int samples) {
+std::vector<PosedSurface> InAllPoses(Jobs* jobs, const std::vector<Mesh>& of,
+                                     const std::vector<std::vector<Mat4>>& poses, int samples) {
   const std::vector<Mesh> meshes = Shapes(of);
   const Triangles bind = PosedTriangles(meshes, nullptr);
   const std::vector<SurfacePlace> places = PlacesOn(meshes, bind, samples);
   std::vector<PosedSurface> all(1 + poses.size(), PosedSurface{{}, SurfaceTree(bind)});
-  RunOnThreads([&](size_t first, size_t step) {
+  InStrides(jobs, [&](size_t first, size_t step) {
     for (size_t pose = first; pose < all.size(); pose += step) {
       const Triangles posed = pose > 0 ? PosedTriangles(meshes, &poses[pose - 1]) : bind;
       if (pose > 0) all[pose].tree.MoveTo(posed);
@@ -107,23 +107,25 @@ float MeanAngle_deg(const SurfaceTree& original, const Triangles& original_norma
 struct MeasuredOriginal {
   const Avatar& avatar;
   int samples;
+  Jobs* jobs;
   std::vector<std::vector<Mat4>> walk;
   std::vector<PosedSurface> poses;
   Triangles normals;  // of corners
 };
 
-LevelMeter::LevelMeter(const Avatar& original, int samples, int walk_poses)
-    : original_(new MeasuredOriginal{original, samples, WalkPoses(original, walk_poses), {}, {}}) {
-  original_->poses = InAllPoses(original.meshes, original_->walk, samples);
+LevelMeter::LevelMeter(const Avatar& original, int samples, int walk_poses, Jobs* jobs)
+    : original_(new MeasuredOriginal{original, samples, jobs, WalkPoses(original, walk_poses), {}, {}}) {
+  original_->poses = InAllPoses(jobs, original.meshes, original_->walk, samples);
   original_->normals = CornerNormals(original.meshes);
 }
 
 LevelMeter::~LevelMeter() = default;
 
 void LevelMeter::MeasureDistance(AvatarLevel* level) const {
-  const std::vector<PosedSurface> poses = InAllPoses(level->meshes, original_->walk, original_->samples);
+  const std::vector<PosedSurface> poses =
+      InAllPoses(original_->jobs, level->meshes, original_->walk, original_->samples);
   std::vector<float> errors_m(poses.size());
-  RunOnThreads([&](size_t first, size_t step) {
+  InStrides(original_->jobs, [&](size_t first, size_t step) {
     std::vector<uint32_t> on_level, on_original;
     for (size_t pose = first; pose < poses.size(); pose += step) {
       // The walk's poses go on from the greatest so far; the bind pose stands for itself.

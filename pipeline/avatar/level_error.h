@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "pipeline/core/avatar.h"
+#include "runtime/base/jobs.h"
 
 namespace flaneur {
 
@@ -13,7 +14,7 @@ struct MeasuredOriginal;
 class LevelMeter {
  public:
   // `samples` points and up to 6,000 vertices of each surface; `walk_poses` moments of the walk.
-  LevelMeter(const Avatar& original, int samples, int walk_poses);
+  LevelMeter(const Avatar& original, int samples, int walk_poses, Jobs* jobs = nullptr);
   ~LevelMeter();
 
   // Sets error_mm and posed_error_mm: the greatest of the distances of either surface's points from the other. The same

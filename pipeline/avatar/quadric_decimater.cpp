@@ -9,8 +9,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "pipeline/avatar/in_strides.h"
 #include "pipeline/avatar/posed_quadric.h"
-#include "pipeline/avatar/threads.h"
 #include "pipeline/avatar/wedge_surface.h"
 
 namespace flaneur {
@@ -68,6 +68,7 @@ struct ByCost {
 // together or not at all. Wedges stay on our faces, found by vertex: a collapse gives a half-edge another one's place
 // in the face beside.
 struct QuadricDecimater::Impl {
+  Jobs* jobs;
   size_t poses;  // with the bind pose
   std::vector<std::vector<Mat4>> matrices;
   WedgeSurface surface;
@@ -82,8 +83,8 @@ struct QuadricDecimater::Impl {
   OpenMesh::EPropHandleT<Collapse> collapse;
   OpenMesh::Utils::HeapT<EdgeHandle, ByCost> heap;
 
-  Impl(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& walk)
-      : poses(walk.size() + 1), matrices(walk), surface(JoinWedges(meshes, walk)) {
+  Impl(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& walk, Jobs* with)
+      : jobs(with), poses(walk.size() + 1), matrices(walk), surface(JoinWedges(meshes, walk)) {
     const size_t vertices = surface.vertices.size();
     fans.resize(vertices);
     quadrics.resize(vertices * poses);
@@ -322,7 +323,7 @@ struct QuadricDecimater::Impl {
   void QueueAll() {
     heap.clear();
     for (const EdgeHandle e : mesh.edges()) heap.reset_heap_position(e);
-    RunOnThreads([&](size_t first, size_t step) {
+    InStrides(jobs, [&](size_t first, size_t step) {
       for (size_t i = first; i < mesh.n_edges(); i += step) {
         const EdgeHandle e(static_cast<int>(i));
         if (!mesh.status(e).deleted()) SetCollapse(e);
@@ -526,8 +527,9 @@ struct QuadricDecimater::Impl {
   }
 };
 
-QuadricDecimater::QuadricDecimater(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& poses)
-    : impl_(std::make_unique<Impl>(meshes, poses)) {}
+QuadricDecimater::QuadricDecimater(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& poses,
+                                   Jobs* jobs)
+    : impl_(std::make_unique<Impl>(meshes, poses, jobs)) {}
 
 QuadricDecimater::~QuadricDecimater() = default;
 

@@ -6,6 +6,7 @@
 
 #include "pipeline/avatar/wedge_surface.h"
 #include "pipeline/core/mesh.h"
+#include "runtime/base/jobs.h"
 #include "runtime/base/math.h"
 
 namespace flaneur {
@@ -13,7 +14,7 @@ namespace flaneur {
 class QuadricDecimater {
  public:
   // `poses`: skinning matrices that the error is summed over, besides the bind pose.
-  QuadricDecimater(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& poses);
+  QuadricDecimater(const std::vector<Mesh>& meshes, const std::vector<std::vector<Mat4>>& poses, Jobs* jobs = nullptr);
   ~QuadricDecimater();
 
   int Triangles() const;

@@ -121,10 +121,12 @@ Error Run(AvatarArguments a, AvatarLevels* levels, std::vector<MainColor>* color
   }
   Avatar avatar;
   if (Error e = ReadAvatar(a.input, a.read, &avatar, warnings)) return e;
+  Jobs jobs(ThreadsOfThisMachine() - 1);
+  a.levels.jobs = &jobs;
   if (Error e = BuildLevels(avatar, a.levels, levels, warnings)) return e;
   if (Error e = MainColors(avatar, colors)) return e;
   a.draco.compress = !a.plain;
-  if (Error e = WriteAvatarGlb(a.output, *levels, a.draco)) return e;
+  if (Error e = WriteAvatarGlb(a.output, *levels, a.draco, &jobs)) return e;
   if (a.json.empty()) return Ok();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   return WriteTextFile(a.json, Statistics(*levels, *colors, seconds.count()).dump(2) + "\n");

@@ -39,6 +39,7 @@ struct Baking {
   std::vector<fs::path> sources;  // the town's file (may be empty), then one an avatar
   TourParts parts;
   BakeSteps steps;
+  Jobs jobs{ThreadsOfThisMachine() - 1};  // beside the caller's
 
   fs::path Cache(const std::string& name) const { return steps.cache / name; }
 };
@@ -103,7 +104,7 @@ Error MakeSource(Baking* baking, const SourceSettings& source, const std::string
 Error MakeSources(Baking* baking) {
   const TourSettings& s = baking->settings;
   baking->sources.resize(1 + s.avatars.size());
-  return RunParallel(baking->sources.size(), [&](size_t i) -> Error {
+  return RunParallel(&baking->jobs, baking->sources.size(), [&](size_t i) -> Error {
     if (i == 0) return s.town.file.empty() ? Ok() : MakeSource(baking, s.town, "town", &baking->sources[0]);
     const AvatarSettings& avatar = s.avatars[i - 1];
     return MakeSource(baking, avatar.source, avatar.name, &baking->sources[i]);
@@ -167,7 +168,9 @@ Error MakeAvatar(Baking* baking, size_t i) {
     for (const Prop& prop : settings.props) read.props.push_back(prop.name);
     Avatar avatar;
     if (Error e = ReadAvatar(file, read, &avatar, warnings)) return e;
-    if (Error e = BuildLevels(avatar, baking->settings.levels, levels, warnings)) return e;
+    LevelsOptions options = baking->settings.levels;
+    options.jobs = &baking->jobs;
+    if (Error e = BuildLevels(avatar, options, levels, warnings)) return e;
     for (AvatarLevel level : levels->levels) {
       level.meshes.clear();
       report->levels.push_back(std::move(level));
@@ -228,11 +231,11 @@ Error MakePeople(Baking* baking) {
     baking->parts.avatars[i].tints = baking->settings.avatars[i].tints;
     baking->parts.avatars[i].props = baking->settings.avatars[i].props;
   }
-  if (Error e = RunParallel(count, [&](size_t i) { return MakeAvatar(baking, i); })) return e;
+  if (Error e = RunParallel(&baking->jobs, count, [&](size_t i) { return MakeAvatar(baking, i); })) return e;
   for (size_t i = 0; i < count; ++i) {
     if (Error e = CheckTints(baking, i)) return e;
   }
-  return RunParallel(count, [&](size_t i) { return MakeImpostor(baking, i); });
+  return RunParallel(&baking->jobs, count, [&](size_t i) { return MakeImpostor(baking, i); });
 }
 
 bool Covers(const Obstacle& o, Point2 p) {
@@ -379,7 +382,7 @@ Error WritePack(Baking* baking, const fs::path& staging) {
       if (Error e = WriteLongitudeLatitude(LongitudeLatitudePath(footprints), parts.footprints)) return e;
     }
     if (Error e = WritePlan(staging / "plan.png", parts.ground, parts.footprints)) return e;
-    if (Error e = WriteTourPack(staging / (name + ".glb"), parts, &whole.pack_bytes)) return e;
+    if (Error e = WriteTourPack(staging / (name + ".glb"), parts, &baking->jobs, &whole.pack_bytes)) return e;
     whole.pack_path = (baking->output / (name + ".glb")).string();
     report->figures = {{"bytes", static_cast<double>(whole.pack_bytes)}};
     return Ok();

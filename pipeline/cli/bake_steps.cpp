@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
-#include <thread>
 
 #include "pipeline/core/interruption.h"
 #include "runtime/base/clock.h"
@@ -55,21 +54,14 @@ Error RunStep(BakeSteps* steps, const std::string& stage, const std::string& ite
   return Ok();
 }
 
-Error RunParallel(size_t count, const std::function<Error(size_t)>& work) {
+Error RunParallel(Jobs* jobs, size_t count, const std::function<Error(size_t)>& work) {
   std::vector<Error> errors(count);
-  std::atomic<size_t> next{0};
   std::atomic<bool> failed{false};
-  const auto worker = [&] {
-    for (size_t i = next++; i < count && !failed; i = next++) {
-      errors[i] = work(i);
-      if (errors[i]) failed = true;
-    }
-  };
-  {
-    std::vector<std::jthread> threads;
-    const size_t cores = std::max(1u, std::thread::hardware_concurrency());
-    for (size_t t = 0; t < std::min(count, cores); ++t) threads.emplace_back(worker);
-  }
+  ParallelFor(jobs, count, [&](size_t i) {
+    if (failed) return;
+    errors[i] = work(i);
+    if (errors[i]) failed = true;
+  });
   for (Error& error : errors) {
     if (error) return std::move(error);
   }

@@ -10,6 +10,7 @@
 #include "pipeline/cli/stage_cache.h"
 #include "pipeline/core/report.h"
 #include "runtime/base/error.h"
+#include "runtime/base/jobs.h"
 
 namespace flaneur {
 
@@ -40,7 +41,7 @@ Error RunKeptStep(BakeSteps* steps, const std::string& stage, const std::string&
   });
 }
 
-// Runs work(0) ... work(count - 1) on up to one thread a core; the error of the lowest index counts.
-Error RunParallel(size_t count, const std::function<Error(size_t)>& work);
+// Runs work(0) ... work(count - 1), several at a time; the error of the lowest index counts.
+Error RunParallel(Jobs* jobs, size_t count, const std::function<Error(size_t)>& work);
 
 }  // namespace flaneur

@@ -46,7 +46,7 @@ std::string AvatarInputs(const AvatarSettings& avatar, const fs::path& file, con
   Fingerprint print;
   print.Add(ThisProgram()).Add(avatar.name);
   AddReading(avatar, file, &print);
-  const auto& [ratios, error_px, max_triangles, min_triangles, error_samples, walk_poses] = levels;
+  const auto& [ratios, error_px, max_triangles, min_triangles, error_samples, walk_poses, jobs] = levels;
   AddAll(ratios, &print);
   return print.Add(error_px).Add(max_triangles).Add(min_triangles).Add(error_samples).Add(walk_poses).Hex();
 }

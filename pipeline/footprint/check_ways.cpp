@@ -2,7 +2,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <thread>
 
 #include "pipeline/footprint/check_parts.h"
 #include "pipeline/footprint/constants.h"
@@ -10,6 +9,7 @@
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/footprint/ways_parts.h"
 #include "runtime/base/array.h"
+#include "runtime/base/jobs.h"
 
 namespace flaneur {
 namespace {
@@ -124,14 +124,19 @@ class WaysCheck {
     // Doors and exits stand in regions; without any, the network needs none.
     std::vector<Finding> findings;
     CheckState beside{state_.footprints, state_.options, state_.clearance_m, {}, &findings};
-    std::jthread network;
-    const auto start_network = [&] { network = std::jthread([&] { CheckNetworkOfWays(&beside); }); };
+    Jobs jobs(1);
+    const auto check_network = [&] {
+      CheckNetworkOfWays(&beside);
+      return true;
+    };
+    Job network;
+    const auto start_network = [&] { network = StartJob(&jobs, check_network); };
     if (gates_.empty()) start_network();
     if (!town) LayOutRegions();
     CheckGates();
     if (!gates_.empty()) start_network();
     CheckRegions();
-    network.join();
+    network.Wait();
     state_.findings->insert(state_.findings->end(), findings.begin(), findings.end());
     return Ok();
   }

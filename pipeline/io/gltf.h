@@ -12,6 +12,7 @@
 #include "pipeline/io/gltf_builder.h"
 #include "pipeline/io/scene_reader.h"
 #include "runtime/base/error.h"
+#include "runtime/base/jobs.h"
 
 namespace flaneur {
 
@@ -50,6 +51,7 @@ Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& opt
 // Writes one avatar as a glTF binary: one skin, the levels as an MSFT_lod chain, the clips as
 // animations, meshes compressed with Draco. The level's numbers stand in the extras of its node.
 // Errors: as for WriteFile.
-Error WriteAvatarGlb(const std::filesystem::path& path, const AvatarLevels& levels, const DracoOptions& draco = {});
+Error WriteAvatarGlb(const std::filesystem::path& path, const AvatarLevels& levels, const DracoOptions& draco = {},
+                     Jobs* jobs = nullptr);
 
 }  // namespace flaneur

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -72,15 +71,13 @@ void AddSkeleton(GltfBuilder* builder, const Avatar& avatar, const std::string& 
 }  // namespace
 
 Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix, const DracoOptions& draco,
-                AvatarPart* part) {
+                Jobs* jobs, AvatarPart* part) {
   const Avatar& avatar = levels.avatar;
   *part = {};
   AddSkeleton(builder, avatar, prefix, part);
   const std::vector<int> materials = builder->AddMaterials(avatar.materials, avatar.images);
-  std::vector<std::future<std::shared_ptr<const EncodedMesh>>> meshes;
-  for (const AvatarLevel& level : levels.levels) {
-    meshes.push_back(std::async(std::launch::async, [&] { return EncodedLevel(avatar, level, draco); }));
-  }
+  std::vector<std::shared_ptr<const EncodedMesh>> meshes(levels.levels.size());
+  ParallelFor(jobs, meshes.size(), [&](size_t k) { meshes[k] = EncodedLevel(avatar, levels.levels[k], draco); });
   std::vector<Mesh> moved = levels.levels[0].meshes;  // that tell how exact a clip must be
   for (const AvatarProp& prop : avatar.props) moved.insert(moved.end(), prop.meshes.begin(), prop.meshes.end());
   for (const Clip& clip : avatar.clips) {
@@ -93,7 +90,7 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
     node.name = prefix + "level" + std::to_string(k);
     node.skin = part->skin;
     node.extras = LevelExtras(levels.levels[k]);
-    if (Error e = builder->AddMesh(node.name, *meshes[k].get(), materials, &node.mesh)) return e;
+    if (Error e = builder->AddMesh(node.name, *meshes[k], materials, &node.mesh)) return e;
     part->level_nodes.push_back(builder->AddNode(node));
     switch_shares.push_back(std::min(levels.levels[k].switch_px / kScreenHeight_px, 1.0f));
   }
@@ -111,10 +108,11 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
   return Ok();
 }
 
-Error WriteAvatarGlb(const std::filesystem::path& path, const AvatarLevels& levels, const DracoOptions& draco) {
+Error WriteAvatarGlb(const std::filesystem::path& path, const AvatarLevels& levels, const DracoOptions& draco,
+                     Jobs* jobs) {
   GltfBuilder builder;
   AvatarPart part;
-  if (Error e = AddAvatar(&builder, levels, "", draco, &part)) {
+  if (Error e = AddAvatar(&builder, levels, "", draco, jobs, &part)) {
     return Fail(path.string() + ": " + e.message);
   }
   std::vector<int> roots{part.level_nodes[0], part.skeleton_node};

@@ -11,6 +11,7 @@
 #include "pipeline/core/avatar.h"
 #include "pipeline/core/mesh.h"
 #include "runtime/base/error.h"
+#include "runtime/base/jobs.h"
 #include "runtime/base/math.h"
 
 namespace flaneur {
@@ -113,6 +114,6 @@ struct AvatarPart {
 // with `prefix`. The caller puts `skeleton_node`, `level_nodes[0]` and `prop_nodes` into a scene. Errors: as
 // AddMesh.
 Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix, const DracoOptions& draco,
-                AvatarPart* part);
+                Jobs* jobs, AvatarPart* part);
 
 }  // namespace flaneur

@@ -116,11 +116,11 @@ ImpostorViews AddImpostor(const ImpostorAtlas& atlas, GltfBuilder* builder) {
   return views;
 }
 
-Error AddAvatars(const TourParts& parts, GltfBuilder* builder, TourIndices* indices) {
+Error AddAvatars(const TourParts& parts, Jobs* jobs, GltfBuilder* builder, TourIndices* indices) {
   for (const TourAvatar& avatar : parts.avatars) {
     const std::string& name = avatar.levels.avatar.name;
     AvatarPart part;
-    if (Error e = AddAvatar(builder, avatar.levels, name + "_", DracoOptions{}, &part)) return e;
+    if (Error e = AddAvatar(builder, avatar.levels, name + "_", DracoOptions{}, jobs, &part)) return e;
     std::vector<int> roots{part.skeleton_node, part.level_nodes.front()};
     roots.insert(roots.end(), part.prop_nodes.begin(), part.prop_nodes.end());
     builder->AddScene(name, roots);
@@ -132,11 +132,11 @@ Error AddAvatars(const TourParts& parts, GltfBuilder* builder, TourIndices* indi
 
 }  // namespace
 
-Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, size_t* bytes) {
+Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, Jobs* jobs, size_t* bytes) {
   GltfBuilder builder;
   TourIndices indices;
   if (Error e = AddTown(parts.town, &builder)) return e;
-  if (Error e = AddAvatars(parts, &builder, &indices)) return e;
+  if (Error e = AddAvatars(parts, jobs, &builder, &indices)) return e;
   const auto& heights = parts.ground.height_m;
   indices.height_view =
       builder.AddBufferView({reinterpret_cast<const uint8_t*>(heights.data()), heights.size() * sizeof(float)});

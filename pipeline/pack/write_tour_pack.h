@@ -9,6 +9,7 @@
 #include "pipeline/core/impostor.h"
 #include "pipeline/core/scene.h"
 #include "runtime/base/error.h"
+#include "runtime/base/jobs.h"
 #include "runtime/pack/tour_pack.h"
 
 namespace flaneur {
@@ -31,6 +32,6 @@ struct TourParts : TourData {
 
 // Scene 0 is the town; one scene more holds each avatar. The same parts give the same bytes.
 // Errors: geometry that cannot be compressed (names the mesh); as for WriteFile.
-Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, size_t* bytes);
+Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, Jobs* jobs, size_t* bytes);
 
 }  // namespace flaneur

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "pipeline/avatar/surface_distance.h"
-#include "pipeline/avatar/threads.h"
 #include "pipeline/avatar/wedge_surface.h"
 #include "pipeline/io/gltf.h"
 #include "tests/unit/pipeline/test_person.h"
@@ -280,11 +279,12 @@ TEST(BuildLevels, AreTheSameOnAnyNumberOfThreads) {
     ASSERT_EQ(ReadAvatar(man, {}, &avatar, &warnings).message, "");
   }
   std::vector<uint8_t> first;
-  for (const unsigned threads : {1, 2, 3, 7}) {
-    thread_count = threads;
+  for (const size_t threads : {0, 1, 2, 6}) {
+    Jobs jobs(threads);
+    LevelsOptions options;
+    options.jobs = &jobs;
     AvatarLevels levels;
-    EXPECT_EQ(BuildLevels(avatar, {}, &levels, &warnings).message, "");
-    thread_count = 0;
+    EXPECT_EQ(BuildLevels(avatar, options, &levels, &warnings).message, "");
     if (first.empty()) first = BytesOf(levels);
     EXPECT_EQ(BytesOf(levels), first) << threads;
   }

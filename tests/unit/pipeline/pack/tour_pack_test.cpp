@@ -147,7 +147,7 @@ std::vector<uint8_t> Written(const TourParts& parts) {
   TemporaryFolder folder;
   EXPECT_FALSE(folder.Create("flaneur_test_"));
   size_t size = 0;
-  EXPECT_EQ(WriteTourPack(folder.path() / "small.glb", parts, &size).message, "");
+  EXPECT_EQ(WriteTourPack(folder.path() / "small.glb", parts, nullptr, &size).message, "");
   std::vector<uint8_t> bytes;
   EXPECT_FALSE(ReadFile(folder.path() / "small.glb", &bytes));
   EXPECT_EQ(bytes.size(), size);
