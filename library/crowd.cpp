@@ -268,7 +268,7 @@ int FieldOf(Vec2 goal, LibraryCrowd* c) {
     c->crowd.fields.emplace_back();
     c->goals.users.push_back(0);
   }
-  c->crowd.fields[static_cast<size_t>(field)] = FlowField{goal, {}, {}, 0};
+  c->crowd.fields[static_cast<size_t>(field)] = FlowField{goal, {}, 0};
   return entry->second = field;
 }
 
@@ -284,7 +284,7 @@ Failure SetGoalOf(size_t i, FlaneurPoint goal_m, LibraryCrowd* c) {
   const Vec2 goal = Inside(*c, goal_m);
   if (FreeCellFor(c->walkable, goal) < 0)
     return {FLANEUR_ERROR_INPUT, "there is no ground to walk on within 3 m of the goal"};
-  if (!Reachable(c->walkable, FlowField{goal, {}, {}, 0}, c->crowd.position[i]))
+  if (!Reachable(c->walkable, FlowField{goal, {}, 0}, c->crowd.position[i]))
     return {FLANEUR_ERROR_INPUT, "no way leads from the person to the goal"};
   SendTo(FieldOf(goal, c), i, c);
   return {};

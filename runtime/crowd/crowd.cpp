@@ -249,7 +249,7 @@ int FieldFor(Vec2 goal, Crowd* c) {
   for (size_t f = 0; f < c->fields.size(); ++f) {
     if (c->fields[f].goal.x == goal.x && c->fields[f].goal.y == goal.y) return static_cast<int>(f);
   }
-  c->fields.push_back({goal, {}, {}, 0});
+  c->fields.push_back({goal, {}, 0});
   return static_cast<int>(c->fields.size()) - 1;
 }
 

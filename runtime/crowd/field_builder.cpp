@@ -14,7 +14,7 @@ constexpr size_t kAtOnce = 2;
 void FieldBuilder::Start(const Walkable& w, const Crowd& c, Jobs* jobs, Order* order) {
   if (order->build != nullptr) return;
   order->build =
-      std::make_unique<FieldBuild>(FieldBuild{{c.fields[static_cast<size_t>(order->field)].goal, {}, {}}, {}});
+      std::make_unique<FieldBuild>(FieldBuild{{c.fields[static_cast<size_t>(order->field)].goal, {}}, {}, {}});
   order->job = StartJob(
       jobs, [&w, cells = order->cells_a_step, build = order->build.get()] { return BuildFurther(w, cells, build); });
 }

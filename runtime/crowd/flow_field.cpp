@@ -68,7 +68,7 @@ Entry Pop(FieldBuild* build) {
 }
 
 void SeedAroundGoal(const Walkable& w, int start, FieldBuild* build) {
-  FlowField& field = build->field;
+  const FlowField& field = build->field;
   const int reach = static_cast<int>(kExactAround_m / w.cell_m);
   const int cx = start % w.columns, cy = start / w.columns;
   for (int y = std::max(0, cy - reach); y <= std::min(w.rows - 1, cy + reach); ++y) {
@@ -78,15 +78,15 @@ void SeedAroundGoal(const Walkable& w, int start, FieldBuild* build) {
       const float distance_m = Length(center - field.goal);
       if (w.cost[static_cast<size_t>(cell)] <= 0 || distance_m > kExactAround_m) continue;
       if (cell != start && !(StraightWay(w, center, field.goal) && StraightWay(w, field.goal, center))) continue;
-      field.distance[static_cast<size_t>(cell)] = distance_m * CostOfGround(w, cell);
-      Push(field.distance[static_cast<size_t>(cell)], cell, build);
+      build->distance[static_cast<size_t>(cell)] = distance_m * CostOfGround(w, cell);
+      Push(build->distance[static_cast<size_t>(cell)], cell, build);
     }
   }
 }
 
 void Begin(const Walkable& w, FieldBuild* build) {
   FlowField& field = build->field;
-  field.distance.assign(w.cost.size(), kInfinity);
+  build->distance.assign(w.cost.size(), kInfinity);
   const size_t squares = static_cast<size_t>((w.columns + 63) / 64) * static_cast<size_t>((w.rows + 63) / 64);
   field.tiles.resize(64 * squares);
   for (DirectionTile& tile : field.tiles) std::fill(std::begin(tile.direction), std::end(tile.direction), kNoWay);
@@ -96,7 +96,7 @@ void Begin(const Walkable& w, FieldBuild* build) {
 
 // Returns how many more cells the slice may go over.
 int64_t March(const Walkable& w, int64_t cells, FieldBuild* build) {
-  std::vector<float>& t = build->field.distance;
+  std::vector<float>& t = build->distance;
   while (!build->open.empty() && cells > 0) {
     const auto [value, cell] = Pop(build);
     if (value > t[static_cast<size_t>(cell)]) continue;
@@ -115,12 +115,13 @@ int64_t March(const Walkable& w, int64_t cells, FieldBuild* build) {
   return cells;
 }
 
-uint8_t Descent(const Walkable& w, const FlowField& field, int cell) {
-  const float t = field.distance[static_cast<size_t>(cell)];
+uint8_t Descent(const Walkable& w, const FieldBuild& build, int cell) {
+  const FlowField& field = build.field;
+  const float t = build.distance[static_cast<size_t>(cell)];
   if (!std::isfinite(t)) return kNoWay;
   Vec2 way = field.goal - CellCenter(w, cell);
   if (Length(way) > kExactAround_m || !StraightWay(w, CellCenter(w, cell), field.goal)) {
-    const Around a = Look(w, field.distance, cell);
+    const Around a = Look(w, build.distance, cell);
     way = {a.x.value < t ? static_cast<float>(a.x.side) * (t - a.x.value) : 0.0f,
            a.y.value < t ? static_cast<float>(a.y.side) * (t - a.y.value) : 0.0f};
   }
@@ -146,7 +147,7 @@ float CostOfGround(const Walkable& w, int cell) {
 }
 
 FlowField BuildFlowField(const Walkable& w, Vec2 goal) {
-  FieldBuild build{{goal, {}, {}}, {}};
+  FieldBuild build{{goal, {}}, {}, {}};
   while (!BuildFurther(w, std::numeric_limits<int64_t>::max(), &build)) {}
   return std::move(build.field);
 }
@@ -164,7 +165,7 @@ bool BuildFurther(const Walkable& w, int64_t cells, FieldBuild* build) {
     if (w.cost[static_cast<size_t>(cell)] <= 0) continue;  // nobody can stand there, and no way is what it says already
     --cells;
     const size_t k = DirectionIndex(w, cell % w.columns, cell / w.columns);
-    field.tiles[k >> 6].direction[k & 63] = Descent(w, field, cell);
+    field.tiles[k >> 6].direction[k & 63] = Descent(w, *build, cell);
   }
   return build->described == static_cast<int>(w.cost.size());
 }

@@ -19,9 +19,9 @@ struct alignas(64) DirectionTile {
 
 struct FlowField {
   Vec2 goal;
-  std::vector<float> distance;       // weighted metres by cell; infinity where there is no way; empty until built
-  std::vector<DirectionTile> tiles;  // of the best way, in 1/255 turns anticlockwise from +x; 255: none
-  int questions = 0;                 // asked for ways before it was built
+  std::vector<DirectionTile>
+      tiles;          // of the best way, in 1/255 turns anticlockwise from +x; 255: none. Empty until built
+  int questions = 0;  // asked for ways before it was built
 };
 
 // Index of the direction of the cell at column x and row y, over all tiles.
@@ -33,7 +33,7 @@ inline const uint8_t& DirectionAt(const FlowField& field, size_t index) {
   return field.tiles[index >> 6].direction[index & 63];
 }
 
-inline bool IsBuilt(const FlowField& field) { return !field.distance.empty(); }
+inline bool IsBuilt(const FlowField& field) { return !field.tiles.empty(); }
 
 // Solves |grad T| = cost by fast marching (Sethian 1996), exact around the goal. Slopes cost more (constants.h). The
 // goal's nearest free cell within 3 m is the destination.
@@ -42,6 +42,7 @@ FlowField BuildFlowField(const Walkable& w, Vec2 goal);
 // The same in slices. A slice goes over at most so many cells; the field is the same whatever they are.
 struct FieldBuild {
   FlowField field;
+  std::vector<float> distance;  // weighted metres by cell; infinity where there is no way
   std::vector<std::pair<float, int>>
       open;            // heap, least first: distances from which the march goes on, and their cells
   int described = -1;  // cells that have their direction; -1: the march has not begun

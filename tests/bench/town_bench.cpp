@@ -14,6 +14,11 @@
 namespace flaneur {
 namespace {
 
+// Whether a way leads from the cell to the first goal.
+bool IsReached(const Walkable& w, const Crowd& crowd, size_t cell) {
+  return w.cost[cell] > 0 && Reachable(w, crowd.fields[0], CellCenter(w, static_cast<int>(cell)));
+}
+
 constexpr float kDensity_pm2 = 0.3f, kTurn_radps = 0.5f, kOuterApexBack_m = 20;
 constexpr int kWarmUp_steps = 150;
 constexpr size_t kGoals = 24;
@@ -65,7 +70,7 @@ void Settle(const TourPack& pack, int people, float scale, Town* t) {
   for (int f : t->fields) BuildField(t->walkable, f, &t->crowd);
   std::vector<int> cells;
   for (size_t cell = 0; cell < t->walkable.cost.size(); ++cell) {
-    if (std::isfinite(t->crowd.fields[0].distance[cell])) cells.push_back(static_cast<int>(cell));
+    if (IsReached(t->walkable, t->crowd, cell)) cells.push_back(static_cast<int>(cell));
   }
   for (int k = 0; k < people; ++k) {
     Person p;
@@ -127,7 +132,7 @@ void TownNewGoals(benchmark::State& state) {
   if (!BusyTown(10000, state, &town)) return;
   std::vector<int> cells;
   for (size_t cell = 0; cell < town.walkable.cost.size(); ++cell) {
-    if (std::isfinite(town.crowd.fields[0].distance[cell])) cells.push_back(static_cast<int>(cell));
+    if (IsReached(town.walkable, town.crowd, cell)) cells.push_back(static_cast<int>(cell));
   }
   const size_t sent = static_cast<size_t>(state.range(0));
   double granted = 0;
