@@ -149,7 +149,7 @@ void DrawCaption(const std::string& text, float share, int width_px, int height_
     c->text = text, c->width_px = width_px, c->height_px = height_px, c->strip_px = image.height_px;
     if (c->strip_px == 0) return;
     BindTexture(kColorUnit, c->texture);
-    for (GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    for (GLenum filter : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}})
       glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width_px, image.height_px, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                  image.rgba.data());

@@ -104,7 +104,7 @@ void CreateCells(PeopleView* people) {
       const ImpostorCell& c = atlas.cells[i];
       const size_t elevation = i / static_cast<size_t>(atlas.directions) % atlas.elevations_deg.size();
       const float elevation_rad = atlas.elevations_deg[elevation] * kPi / 180;
-      const float left = c.x, top = c.y;
+      const auto left = static_cast<float>(c.x), top = static_cast<float>(c.y);
       texels.push_back({left, top, left + static_cast<float>(c.width), top + static_cast<float>(c.height)});
       texels.push_back({static_cast<float>(c.origin_x), static_cast<float>(c.origin_y), std::sin(elevation_rad),
                         std::cos(elevation_rad)});

@@ -112,7 +112,7 @@ void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle
       if (!HidesWhatIsBehind(t, plan, all)) continue;
       for (uint32_t corner : t.corners) town->walls.push_back(place[corner]);
       if (!plan.groups[group].double_sided) continue;
-      for (size_t k : {2, 1, 0}) town->walls.push_back(place[t.corners[k]]);
+      for (const size_t k : {2u, 1u, 0u}) town->walls.push_back(place[t.corners[k]]);
     }
     block.walls = town->walls.size() - block.first_wall;
     block.ranges.shrink_to_fit();
