@@ -422,16 +422,15 @@ struct QuadricDecimater::Impl {
     for (const int f : FacesOf(vertex)) {
       if (std::find(vanishing.begin(), vanishing.end(), f) != vanishing.end()) continue;
       const auto [found, is_new] = moved.try_emplace(WedgeOf(f, vertex), WedgeOf(f, vertex));
-      const auto& [own, after] = *found;
-      const auto smooth = std::find_if(joined.begin(), joined.end(), [&](const Joined& j) {
-        return NoSeam(WedgeAt(j.ends[end]), WedgeAt(found->first));
-      });
+      const int own = found->first;
+      const auto smooth = std::find_if(joined.begin(), joined.end(),
+                                       [&](const Joined& j) { return NoSeam(WedgeAt(j.ends[end]), WedgeAt(own)); });
       if (is_new && smooth != joined.end()) {
         Wedge creased = WedgeAt(smooth->wedge);
         creased.normal = WedgeAt(own).normal;
         found->second = AddWedge(creased);
       }
-      FaceAt(f).wedges[CornerOf(FaceAt(f), vertex)] = after;
+      FaceAt(f).wedges[CornerOf(FaceAt(f), vertex)] = found->second;
     }
   }
 

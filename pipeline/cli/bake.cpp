@@ -249,9 +249,9 @@ bool AnywhereToWalk(const GroundRaster& ground, const Footprints& footprints) {
   const double cell_m = static_cast<double>(ground.cell_m);
   for (size_t k = 0; k < ground.kind.size(); ++k) {
     if (ground.kind[k] == 0) continue;
-    const size_t columns = static_cast<size_t>(ground.columns);
+    const size_t columns = static_cast<size_t>(ground.columns), row = k / columns;
     const Point2 p{static_cast<double>(ground.min_m.x) + (static_cast<double>(k % columns) + 0.5) * cell_m,
-                   static_cast<double>(ground.min_m.y) + (static_cast<double>(k / columns) + 0.5) * cell_m};
+                   static_cast<double>(ground.min_m.y) + (static_cast<double>(row) + 0.5) * cell_m};
     const auto& obstacles = footprints.obstacles;
     if (std::none_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& o) { return Covers(o, p); })) return true;
   }

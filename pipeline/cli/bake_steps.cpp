@@ -40,7 +40,7 @@ Error RunStep(BakeSteps* steps, const std::string& stage, const std::string& ite
   std::vector<std::string> warnings;
   const double start_s = Now_s();
   if (Error e = Interrupted()) return e;
-  const Error error = work(&report, &warnings);
+  Error error = work(&report, &warnings);
   if (Error e = Interrupted()) return e;
   if (error) return error;
   report.stage = stage;

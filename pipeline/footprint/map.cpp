@@ -151,11 +151,12 @@ class Plan {
       for (int column = 0; column < g->columns;) {
         int end = column;
         while (end < g->columns && kind(end) == kind(column)) end += step;
+        const int cells = (end - column) / step;
         if (kind(column) != 0)
           out_ += Format("<path fill=\"%s\" d=\"M%.1f %.1fh%.1fv%.1fh-%.1fz\"/>\n", GroundFill(kind(column)),
                          X(g->min_m.x + static_cast<double>(column) * g->cell_m),
-                         Y(g->min_m.y + static_cast<double>(row) * g->cell_m) - size,
-                         (end - column) / step * size + 0.6, size + 0.6, (end - column) / step * size + 0.6);
+                         Y(g->min_m.y + static_cast<double>(row) * g->cell_m) - size, cells * size + 0.6, size + 0.6,
+                         cells * size + 0.6);
         column = end;
       }
     }

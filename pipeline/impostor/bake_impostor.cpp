@@ -289,7 +289,7 @@ Error WriteImpostor(const fs::path& folder, const ImpostorAtlas& atlas) {
   std::error_code code;
   const bool made = fs::create_directories(folder, code);
   if (code) return Fail(folder.string() + ": cannot make this folder: " + code.message());
-  const Error error = WriteFiles(folder, atlas);
+  Error error = WriteFiles(folder, atlas);
   if (error && made) fs::remove(folder, code);
   return error;
 }
