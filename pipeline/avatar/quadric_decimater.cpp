@@ -78,6 +78,7 @@ struct QuadricDecimater::Impl {
   std::vector<Quadric> quadrics;                // by vertex and pose, in posed space
   std::vector<Affine> skinning;                 // by vertex and pose
   std::vector<uint8_t> on_seam;                 // wedges at the vertex don't all continue each other
+  std::vector<uint8_t> refused;                 // by vertex: a collapse there, since it was last looked at again
   int triangles = 0;
   bool relaxed = false;
   OpenMesh::EPropHandleT<Collapse> collapse;
@@ -322,6 +323,7 @@ struct QuadricDecimater::Impl {
 
   void QueueAll() {
     heap.clear();
+    refused.assign(surface.vertices.size(), 0);
     for (const EdgeHandle e : mesh.edges()) heap.reset_heap_position(e);
     InStrides(jobs, [&](size_t first, size_t step) {
       for (size_t i = first; i < mesh.n_edges(); i += step) {
@@ -489,22 +491,33 @@ struct QuadricDecimater::Impl {
     if (relaxed) RemoveFlattened(c.a);
   }
 
+  // Where something was refused, all edges are looked at again: what was refused may do now, and what waits may have
+  // become cheaper.
+  void QueueAgain(int vertex) {
+    if (!refused[static_cast<size_t>(vertex)]) return;
+    refused[static_cast<size_t>(vertex)] = 0;
+    for (const VertexHandle fan : FansOf(vertex)) {
+      for (const EdgeHandle e : mesh.ve_range(fan)) {
+        const Collapse before = mesh.property(collapse, e);
+        SetCollapse(e);
+        if (!heap.is_stored(e)) heap.insert(e);
+        else if (mesh.property(collapse, e).cost < before.cost) heap.update(e);
+        else mesh.property(collapse, e) = before;
+      }
+    }
+  }
+
   void Refresh(int a) {
-    std::vector<VertexHandle> ring;
+    std::vector<int> ring;
     for (const VertexHandle fan : FansOf(a)) {
-      for (const VertexHandle n : mesh.vv_range(fan))
-        ring.insert(ring.end(), FansOf(VertexOf(n)).begin(), FansOf(VertexOf(n)).end());
+      for (const VertexHandle n : mesh.vv_range(fan)) ring.push_back(VertexOf(n));
     }
     FindSeam(a);
-    for (const VertexHandle n : ring) FindSeam(VertexOf(n));
+    for (const int n : ring) FindSeam(n);
     for (const VertexHandle fan : FansOf(a)) {
       for (const EdgeHandle e : mesh.ve_range(fan)) Queue(e);
     }
-    for (const VertexHandle n : ring) {
-      for (const EdgeHandle e : mesh.ve_range(n)) {
-        if (!heap.is_stored(e)) Queue(e);  // what was refused there may do now
-      }
-    }
+    for (const int n : ring) QueueAgain(n);
   }
 
   // False where nothing on the heap can be collapsed any more.
@@ -520,6 +533,8 @@ struct QuadricDecimater::Impl {
         Perform(c);
         Refresh(c.a);
         return true;
+      } else {
+        refused[static_cast<size_t>(c.a)] = refused[static_cast<size_t>(c.b)] = 1;
       }
     }
     return false;
