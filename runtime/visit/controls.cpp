@@ -85,11 +85,20 @@ void NextLanguage(const Simulation& s, Controls* c) {
   c->changed = c->applies = true;
 }
 
+// Whatever asks something of the tour leads back to it.
+void AskTour(const Held& held, const Simulation& s, Controls* c, TourWish* wish) {
+  if (s.visitor.legs.empty() && s.visitor.tour.stops.empty()) return;
+  const bool was_led = c->follows_tour, holds = held.Pressed(Action::kPause);
+  const bool next = held.Pressed(Action::kNext), back = held.Pressed(Action::kBack);
+  if (held.Pressed(Action::kTour)) c->follows_tour = !was_led;
+  if (holds || next || back) c->follows_tour = true;
+  if (holds && was_led) wish->toggle_pause = !wish->toggle_pause;
+  wish->next = wish->next || next;
+  wish->back = wish->back || back;
+}
+
 void Press(const Held& held, const Simulation& s, Controls* c, CameraInput* camera) {
-  if (held.Pressed(Action::kTour)) c->follows_tour = !c->follows_tour;
-  camera->tour.toggle_pause = camera->tour.toggle_pause || held.Pressed(Action::kPause);
-  camera->tour.next = camera->tour.next || held.Pressed(Action::kNext);
-  camera->tour.back = camera->tour.back || held.Pressed(Action::kBack);
+  AskTour(held, s, c, &camera->tour);
   if (held.Pressed(Action::kLanguage)) NextLanguage(s, c);
   if (held.Pressed(Action::kPointer)) {
     c->points = !c->points;

@@ -47,15 +47,19 @@ Phrase HintFor(const Controls& c, const Simulation& s) {
   return led ? Phrase::kHintLedKeys : Phrase::kHintKeys;
 }
 
+bool IsAsBefore(const Controls& c, const Simulation& s, const Notices& n) {
+  const GuidedTour& t = s.visitor.tour;
+  return n.paused == t.paused && n.follows == c.follows_tour && n.over == t.over && n.halt == HaltOf(t);
+}
+
 void TellOfTour(const Controls& c, const Simulation& s, const std::string& language, Notices* n) {
   const GuidedTour& t = s.visitor.tour;
+  const bool goes = c.follows_tour && !t.paused, went = n->follows && !n->paused;
   if (t.paused && !n->paused) Tell(Fill(Say(Phrase::kTourPaused, language), FirstKey(c, Action::kPause, language)), n);
-  if (n->paused && !t.paused && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
-  if (n->follows && !c.follows_tour && !t.over)
-    Tell(Fill(Say(Phrase::kTourLeft, language), HowTo(c, Action::kTour, language)), n);
-  if (!n->follows && c.follows_tour) Tell(Say(Phrase::kTourGoesOn, language), n);
+  if (n->follows && !c.follows_tour) Tell(Fill(Say(Phrase::kTourLeft, language), HowTo(c, Action::kTour, language)), n);
+  if (goes && !went) Tell(Say(Phrase::kTourGoesOn, language), n);
   const std::string next = NameOfStop(t, HaltOf(t));
-  if (n->halt == HaltOf(t) || !c.follows_tour || next.empty()) return;
+  if (n->halt == HaltOf(t) || !goes || next.empty()) return;
   Tell(Fill(Say(Phrase::kNextStop, language), next), n);
   n->gives_way = true;
 }
@@ -81,6 +85,7 @@ void FollowNotices(const Controls& c, const Simulation& s, float passed_s, Notic
   n->left_s = std::max(0.0f, n->left_s - passed_s);
   if (n->is_hint && c.acted) n->left_s = std::min(n->left_s, kHintOnceWalking_s);
   const std::string language = PageLanguage(c, s);
+  if (!n->is_hint && !IsAsBefore(c, s, *n)) n->left_s = 0;  // what it says may be so no longer
   if (HasTour(s.visitor.tour)) TellOfTour(c, s, language, n);
   if (s.visitor.tour.over && !n->over) Tell(Say(Phrase::kTourOver, language), n);
   if (s.visitor.tour.language != n->language && !n->is_hint)

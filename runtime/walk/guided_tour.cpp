@@ -96,12 +96,15 @@ void GoBack(const VisitorInTown& v) {
 
 float FromVisitor_m(const VisitorInTown& v, Vec2 p) { return Length(p - v.visitor.camera.view.position); }
 
+// The tour does not end while the visitor walks about on their own.
+bool MayLeave(const GuidedTour& t) { return t.follows || HaltOf(t) + 1 < t.stops.size(); }
+
 void Rest(const VisitorInTown& v) {
   GuidedTour& t = v.visitor.tour;
   const TourStop& stop = t.stops[HaltOf(t)];
   t.holds = t.paused || FromVisitor_m(v, stop.position_m) > kHears_m;
   if (!t.holds) t.rested_s += Step_s(v.settings);
-  if (t.rested_s >= RestOf_s(t, HaltOf(t))) LeaveHalt(v);
+  if (t.rested_s >= RestOf_s(t, HaltOf(t)) && MayLeave(t)) LeaveHalt(v);
 }
 
 // A visitor who comes back to the tour from elsewhere is led on from there.
@@ -121,7 +124,7 @@ void WalkOn(const VisitorInTown& v) {
   while (t.passed + 1 < t.stage.size() && t.visitor_m > t.stop_m[t.passed] - kPassed_m) ++t.passed;
   if (FromVisitor_m(v, t.stops[HaltOf(t)].position_m) < (t.follows ? kThere_m : kThereFreely_m)) {
     t.resting = true;
-    if (RestOf_s(t, HaltOf(t)) <= 0) LeaveHalt(v);
+    if (RestOf_s(t, HaltOf(t)) <= 0 && MayLeave(t)) LeaveHalt(v);
     return;
   }
   const bool strays = Length(PointAt(t.route, t.visitor_m) - p) > kStrays_m;
@@ -222,8 +225,10 @@ void BeginTour(const VisitorInTown& v) {
 void StepTour(const TourWish& wish, bool follows, const VisitorInTown& v) {
   GuidedTour& t = v.visitor.tour;
   if (t.stops.empty()) return;
+  if (t.follows != follows) v.visitor.stuck_s = 0;  // what held them up is of the walk before
   t.follows = follows;
   if (wish.toggle_pause) t.paused = !t.paused;
+  if (!follows || t.over || wish.next || wish.back) t.paused = false;
   if (wish.next) GoToNext(v);
   if (wish.back) GoBack(v);
   if (t.over) return;

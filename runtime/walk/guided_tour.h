@@ -39,7 +39,7 @@ struct GuidedTour {
   int plans = 0;        // stages and routes so far
 };
 
-// What the visitor asks the tour for.
+// What the visitor asks the tour for. Next and back end a pause; for who walks about on their own there is none.
 struct TourWish {
   bool next = false, back = false, toggle_pause = false;
 };

@@ -10,7 +10,7 @@ namespace flaneur {
 namespace {
 
 constexpr int kMaxCorners = 400;  // of one part: more than any town has
-constexpr float kMinCorner_m = 0.05f;
+constexpr float kMinCorner_m = 0.05f, kAsNear_m = 0.05f;
 constexpr float kAhead_m[] = {1.2f, 0.6f,
                               0.3f};  // of the route, walked towards: shorter where the line there cuts a corner
 
@@ -55,7 +55,8 @@ float WayTo(const Route& route, Vec2 p, float least_m, float most_m) {
     const Vec2 on = NearestOnSegment(p, route.points[k], route.points[k + 1]);
     const float at_m = std::clamp(route.at_m[k] + Length(on - route.points[k]), least_m, most_m);
     const float off_m = Length(PointAt(route, at_m) - p);
-    if (off_m < away_m) best_m = at_m, away_m = off_m;
+    // Where the route comes back along itself, the later of both: else who turns round there never gets beyond it.
+    if (off_m < away_m + kAsNear_m) best_m = at_m, away_m = std::min(off_m, away_m);
   }
   return best_m;
 }
