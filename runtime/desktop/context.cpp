@@ -14,6 +14,9 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "runtime/base/clock.h"
+#include "runtime/desktop/icon.h"
+#include "runtime/desktop/monitors.h"
 #include "runtime/render/gl_objects.h"
 
 namespace flaneur {
@@ -106,6 +109,7 @@ std::string HeadlessContext::Renderer() const {
 namespace {
 
 constexpr double kStillAClick_px = 8;  // of the mouse, or a finger, between press and release
+constexpr double kPointerRests_s = 3;  // until it is hidden
 
 Vec2 Cursor(GLFWwindow* w) {
   double x = 0, y = 0;
@@ -182,6 +186,38 @@ struct Window::Impl {
   bool focused = false, held = false, dragged = false, free_pointer = false;
   bool entered = false;   // the cursor came into the window or left it since the last look
   bool software = false;  // no graphics card draws
+  double moved_s = 0;     // when the pointer last did
+  bool pointer_hidden = false;
+  int x = 0, y = 0, width = 0, height = 0;  // of the window before it filled its monitor
+
+  void ShowPointer() const {
+    glfwSetInputMode(window, GLFW_CURSOR,
+                     !free_pointer    ? GLFW_CURSOR_DISABLED
+                     : pointer_hidden ? GLFW_CURSOR_HIDDEN
+                                      : GLFW_CURSOR_NORMAL);
+  }
+  void HideRestingPointer(bool moved) {
+    if (moved) moved_s = Now_s();
+    const bool rests = Now_s() - moved_s > kPointerRests_s;
+    if (rests == pointer_hidden) return;
+    pointer_hidden = rests;
+    if (free_pointer) ShowPointer();
+  }
+  void Fill(GLFWmonitor* monitor) {
+    glfwGetWindowPos(window, &x, &y);
+    glfwGetWindowSize(window, &width, &height);
+    FillMonitor(window, monitor);
+  }
+  void ShowIcon() const {
+    constexpr int kSides_px[] = {128, 48, 16};
+    std::vector<uint8_t> pictures[std::size(kSides_px)];
+    GLFWimage icons[std::size(kSides_px)];
+    for (size_t k = 0; k < std::size(kSides_px); ++k) {
+      pictures[k] = IconPicture(kSides_px[k]);
+      icons[k] = {kSides_px[k], kSides_px[k], pictures[k].data()};
+    }
+    glfwSetWindowIcon(window, std::size(kSides_px), icons);
+  }
 };
 
 Window::Window() : impl_(std::make_unique<Impl>()) {}
@@ -191,18 +227,24 @@ Window::~Window() {
   glfwTerminate();
 }
 
-Error Window::Create(int width_px, int height_px, const char* title, void (*lost)(const char* why)) {
+Error Window::Create(const WindowOptions& options, void (*lost)(const char* why)) {
   KeepEglQuiet();
   on_loss = lost;
   NoticeLostDisplay();
   if (!glfwInit()) return Fail("there is no display for a window; add --headless");
+  GLFWmonitor* monitor = nullptr;
+  if (options.fullscreen || !options.monitor.empty()) {
+    if (Error e = FindMonitor(options.monitor, &monitor)) return e;
+  }
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // who clicks on another screen leaves this one as it is
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "flaneur-player");
   glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_ES_API);
   glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
   {
     const CrashOfDriver crash;
-    impl_->window = glfwCreateWindow(width_px, height_px, title, nullptr, nullptr);
+    impl_->window = glfwCreateWindow(options.width_px, options.height_px, options.title.c_str(), nullptr, nullptr);
   }
   if (impl_->window == nullptr) {
     glfwPollEvents();  // a display that is gone is noticed here
@@ -212,6 +254,9 @@ Error Window::Create(int width_px, int height_px, const char* title, void (*lost
         "or draw in software with LIBGL_ALWAYS_SOFTWARE=1");
   }
   NoticeLostWindow();
+  impl_->ShowIcon();
+  if (monitor != nullptr) CenterOn(impl_->window, monitor);
+  if (options.fullscreen) impl_->Fill(monitor);
   glfwMakeContextCurrent(impl_->window);
   glfwSwapInterval(1);
   impl_->software = DrawsInSoftware();
@@ -229,7 +274,7 @@ Error Window::Create(int width_px, int height_px, const char* title, void (*lost
 void Window::FreePointer(bool free) {
   if (free == impl_->free_pointer) return;
   impl_->free_pointer = free;
-  glfwSetInputMode(impl_->window, GLFW_CURSOR, free ? GLFW_CURSOR_NORMAL : GLFW_CURSOR_DISABLED);
+  impl_->ShowPointer();
   impl_->last = Cursor(impl_->window);
 }
 
@@ -251,6 +296,7 @@ WindowInput Window::Poll(double wait_s) {
   impl_->entered = false;
   const bool held = glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
   if (held && !impl_->held) impl_->pressed_at = impl_->last = cursor, impl_->dragged = false;
+  impl_->HideRestingPointer(Length(cursor - impl_->last) > 0 || held);
   if (Length(cursor - impl_->pressed_at) > static_cast<float>(kStillAClick_px)) impl_->dragged = true;
   if (!impl_->free_pointer || (held && impl_->dragged)) input.turned_px = cursor - impl_->last;
   if (impl_->held && !held && (!impl_->free_pointer || !impl_->dragged)) input.clicks.push_back(PlaceOf(cursor));
@@ -281,5 +327,12 @@ void Window::Show() {
 bool Window::ShowWaits() const { return !impl_->software; }
 
 void Window::SetTitle(const char* title) { glfwSetWindowTitle(impl_->window, title); }
+
+void Window::SetFullscreen(bool fullscreen) {
+  GLFWwindow* w = impl_->window;
+  if (fullscreen == (glfwGetWindowMonitor(w) != nullptr)) return;
+  if (fullscreen) impl_->Fill(MonitorOf(w));
+  else glfwSetWindowMonitor(w, nullptr, impl_->x, impl_->y, impl_->width, impl_->height, GLFW_DONT_CARE);
+}
 
 }  // namespace flaneur

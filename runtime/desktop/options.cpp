@@ -38,9 +38,11 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_flag("--headless", o->headless, "No window: run by itself, as fast as it goes");
   app.add_flag("--no-draw", o->no_draw, "With --headless: the simulation alone, without OpenGL");
   app.add_flag("--views", o->views,
-               "Show the plan of the town and graphs over the picture (in the window: F1; F2 switches the adaptation), "
-               "and say when a "
-               "window's first picture was there");
+               "Show the plan of the town and graphs over the picture (in the window: F1; F2 switches the adaptation)");
+  app.add_flag("--verbose", o->verbose,
+               "Say when a window's first picture was there, and have the window's title tell pictures a second");
+  app.add_flag("--fullscreen", o->fullscreen, "Fill the screen; F11 does so too, and back");
+  app.add_option("--monitor", o->monitor, "Open the window on this monitor: its number, from 1, or its name");
   app.add_option("--seconds", o->seconds,
                  "End after so much simulated time (default: the scenario's, else the guided tour's end, else 60)")
       ->check(CLI::Range(0.0, 1e6));
@@ -94,6 +96,8 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   if (o->views && !o->compare.empty()) return Refuse("--views is for one run; leave out --compare");
   if (o->no_draw && (!o->screenshot.empty() || !o->film.empty()))
     return Refuse("--no-draw makes no pictures; leave it out");
+  if (o->headless && (o->fullscreen || !o->monitor.empty()))
+    return Refuse("--fullscreen and --monitor are for a window; leave out --headless");
   if (!o->headless && (!o->screenshot.empty() || !o->film.empty()))
     return Refuse("--screenshot and --film need --headless");
   if (!o->at_s.empty() && o->screenshot.empty()) return Refuse("--at is for --screenshot");

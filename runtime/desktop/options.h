@@ -10,7 +10,9 @@ namespace flaneur {
 
 struct PlayerOptions {
   std::filesystem::path pack, scenario, metrics, trajectories, screenshot, film;
-  bool headless = false, no_draw = false, views = false;
+  bool headless = false, no_draw = false, views = false, verbose = false;
+  bool fullscreen = false;
+  std::string monitor;             // empty: any
   std::filesystem::path settings;  // empty: the user's own
   std::vector<std::string> set;    // SETTING=VALUE, over those of the file
   bool save_settings = false;

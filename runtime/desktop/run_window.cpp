@@ -22,8 +22,9 @@ void TellStart() {
                Now_s() - program_start_s, static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
 }
 
-std::string Title(const std::string& name, double frames_per_s, const Simulation& s,
-                  const FrameStatistics& statistics) {
+// What a visit looks like from inside, for who looks for faults.
+std::string Figures(const std::string& name, double frames_per_s, const Simulation& s,
+                    const FrameStatistics& statistics) {
   char title[200];
   const char* tour = s.visitor.tour.over                                ? " - tour over"
                      : s.visitor.tour.paused && HasTour(s.visitor.tour) ? " - tour paused"
@@ -54,7 +55,11 @@ Error WaitForTown(Window* window, Visit* visit, bool* closed) {
 Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, UserSettings* user,
                   Simulation* s) {
   Window window;
-  if (Error e = window.Create(options.width_px, options.height_px, pack.name.c_str(), EndWithoutWindow)) return e;
+  const std::string title = TitleOf(pack, s->visitor.tour.language);
+  const bool fullscreen = user->settings.fullscreen;
+  if (Error e =
+          window.Create({options.width_px, options.height_px, title, options.monitor, fullscreen}, EndWithoutWindow))
+    return e;
   Speaker speaker(jobs);
   UserSettingsStore store(user);
   WarningsOnStderr warnings;
@@ -79,14 +84,15 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs
     if (Error e = visit.Picture(input, width_px, height_px, static_cast<float>(passed_s), &records)) return e;
     visit.Present();
     window.FreePointer(visit.frees_pointer());
+    window.SetFullscreen(visit.fullscreen());
     const double ready_s = Now_s();
     window.Show();
     visit.TellTime(static_cast<float>(1000 * ((window.ShowWaits() ? ready_s : Now_s()) - now_s)));
-    if (!shown && options.views) TellStart();
+    if (!shown && options.verbose) TellStart();
     shown = true;
     ++pictures;
-    if (now_s - title_s <= 1) continue;
-    window.SetTitle(Title(pack.name, pictures / (now_s - title_s), *s, visit.statistics()).c_str());
+    if (!options.verbose || now_s - title_s <= 1) continue;
+    window.SetTitle(Figures(title, pictures / (now_s - title_s), *s, visit.statistics()).c_str());
     title_s = now_s;
     pictures = 0;
   }

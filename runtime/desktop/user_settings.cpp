@@ -17,6 +17,7 @@ Error ReadUserSettings(const PlayerOptions& options, UserSettings* user) {
   for (const std::string& assignment : options.set) {
     if (Error e = SetPlayerSetting(assignment, &user->settings)) return Fail("--set: " + e.message);
   }
+  if (options.fullscreen) user->settings.fullscreen = true;
   if (options.language) user->settings.language = *options.language;
   return Ok();
 }

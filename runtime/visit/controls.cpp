@@ -107,6 +107,10 @@ void Press(const Held& held, const Simulation& s, Controls* c, CameraInput* came
   }
   c->toggles_views = c->toggles_views || held.Pressed(Action::kViews);
   c->switches_adaptation = c->switches_adaptation || held.Pressed(Action::kAdaptation);
+  if (held.Pressed(Action::kFullscreen)) {
+    c->settings.fullscreen = !c->settings.fullscreen;
+    c->changed = true;
+  }
   ChangeView(held, s, c);
   c->opens_pages = c->opens_pages || held.Pressed(Action::kMenu);
   c->quits = c->quits || held.input.close || held.Pressed(Action::kQuit);

@@ -86,6 +86,7 @@ constexpr std::array<Words, kActions> kActionWords{{
     {"Narrower view", "Engerer Blick"},
     {"Plan and figures", "Plan und Zahlen"},
     {"How people keep off", "Wie Leute ausweichen"},
+    {"Full screen", "Ganzer Bildschirm"},
     {"These pages", "Diese Seiten"},
     {"End", "Beenden"},
 }};

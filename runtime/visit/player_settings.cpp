@@ -32,6 +32,7 @@ void VisitSettings(Settings* s, Visit visit) {
                "wished for: a machine that draws fewer draws more coarsely instead");
   visit.Number("least_resolution_scale", &s->least_resolution_scale, 0.25, 1,
                "as coarsely as that, of width and height; 1: never");
+  visit.Flag("fullscreen", &s->fullscreen, "the window fills its screen");
   visit.Flag("kiosk", &s->kiosk,
              "for exhibitions: begins with the pages, comes back to them, and cannot be ended there");
 }
@@ -187,6 +188,7 @@ PlayerSettings::PlayerSettings()
             {"equal", "keypad_add"},
             {"f1"},
             {"f2"},
+            {"f11"},
             {"escape", "pad_start"},
             {"f10"}}} {}
 

@@ -29,15 +29,16 @@ enum class Action {
   kNarrower,
   kViews,
   kAdaptation,
+  kFullscreen,
   kMenu,
   kQuit,
   kCount
 };
 inline constexpr size_t kActions = static_cast<size_t>(Action::kCount);
 inline constexpr const char* kActionNames[kActions] = {
-    "walk_ahead", "walk_back", "walk_left", "walk_right", "turn_left", "turn_right", "look_up",
-    "look_down",  "tour",      "pause",     "next",       "back",      "language",   "pointer",
-    "wider",      "narrower",  "views",     "adaptation", "menu",      "quit"};
+    "walk_ahead", "walk_back", "walk_left", "walk_right", "turn_left",  "turn_right", "look_up",
+    "look_down",  "tour",      "pause",     "next",       "back",       "language",   "pointer",
+    "wider",      "narrower",  "views",     "adaptation", "fullscreen", "menu",       "quit"};
 
 struct PlayerSettings {
   std::string language;  // of the guided tour; empty: the tour's own
@@ -53,6 +54,7 @@ struct PlayerSettings {
   float sound_volume = 1;               // of what is spoken; 1: as recorded
   float frames_per_s = 25;              // where a machine draws fewer, the window's picture is drawn more coarsely
   float least_resolution_scale = 0.5f;  // but not below this share of its width and height; 1: never
+  bool fullscreen = false;              // the window fills its screen
   bool kiosk = false;  // for exhibitions: begins with the pages, comes back to them, and cannot be ended there
   std::array<std::vector<std::string>, kActions> keys;
 

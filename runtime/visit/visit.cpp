@@ -231,6 +231,7 @@ void Visit::Read(std::vector<uint8_t>* rgb) { impl_->renderer.Read(rgb); }
 void Visit::Leave() { impl_->Save(); }
 bool Visit::ends() const { return impl_->controls.quits; }
 bool Visit::frees_pointer() const { return impl_->controls.points || impl_->pages(); }
+bool Visit::fullscreen() const { return impl_->controls.settings.fullscreen; }
 bool Visit::shows_pages() const { return impl_->pages(); }
 const FrameStatistics& Visit::statistics() const { return impl_->statistics; }
 

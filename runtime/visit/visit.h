@@ -40,6 +40,7 @@ class Visit {
   void Leave();                          // saves what the visitor has changed
   bool ends() const;                     // the visitor wants to
   bool frees_pointer() const;            // to point at things with; else the mouse is caught
+  bool fullscreen() const;               // as the visitor has it
   bool shows_pages() const;
   const FrameStatistics& statistics() const;
 

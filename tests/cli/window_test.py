@@ -14,8 +14,10 @@ import unittest
 from support import BIN, SOURCE, has_tools, split_glb, write_glb
 
 PACK = SOURCE / "build_assets/wolfenbuettel/wolfenbuettel.glb"
+TITLE = "Wolfenbüttel"  # of the tour
 PATIENCE_S = 120
 WIDTH_PX, HEIGHT_PX = 320, 180
+SCREEN_PX = 640, 480
 
 
 class Display:
@@ -33,7 +35,7 @@ class Display:
         """Whether it is there: servers that start at the same time may take each other's number."""
         reading, writing = os.pipe()
         # -noreset: else it starts anew, and refuses whoever comes meanwhile, as soon as its only client has gone.
-        self.server = subprocess.Popen(["Xvfb", "-noreset", "-displayfd", str(writing), "-screen", "0", "640x480x24"],
+        self.server = subprocess.Popen(["Xvfb", "-noreset", "-displayfd", str(writing), "-screen", "0", "{}x{}x24".format(*SCREEN_PX)],
                                        pass_fds=[writing], stderr=subprocess.DEVNULL)
         os.close(writing)
         with os.fdopen(reading) as number:
@@ -75,8 +77,8 @@ class Display:
         self.do("mousemove", 2, 2)
         time.sleep(1)
 
-    def play(self, *arguments, pack=PACK, people=40, environment=None):
-        command = [BIN / "flaneur-player", pack, "--size", f"{WIDTH_PX}x{HEIGHT_PX}", "--people", people, *arguments]
+    def play(self, *arguments, pack=PACK, people=40, environment=None, verbose=True):
+        command = [BIN / "flaneur-player", pack, "--size", f"{WIDTH_PX}x{HEIGHT_PX}", "--people", people, *["--verbose"] * verbose, *arguments]
         return subprocess.Popen([str(word) for word in command], env=dict(self.environment(), **(environment or {})),
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
@@ -102,7 +104,7 @@ class Display:
         xlib = ctypes.CDLL("libX11.so.6")
         xlib.XOpenDisplay.restype = ctypes.c_void_p
         display = ctypes.c_void_p(xlib.XOpenDisplay(self.name.encode()))
-        window = ctypes.c_ulong(int(self.do("search", "--name", "wolfenbuettel").split()[0]))
+        window = ctypes.c_ulong(int(self.do("search", "--name", TITLE).split()[0]))
         atom = {}
         for name in ("WM_PROTOCOLS", "WM_DELETE_WINDOW"):
             xlib.XInternAtom.restype = ctypes.c_ulong
@@ -141,7 +143,7 @@ class WindowTest(unittest.TestCase):
             program.kill()
             program.communicate()
             raise
-        return program.returncode, errors
+        return program.returncode, "".join(line for line in errors.splitlines(True) if "first picture" not in line)
 
     def assert_ends(self, display, program):
         display.do("keydown", "F10")
@@ -197,6 +199,43 @@ class Walking(WindowTest):
         rows = self.rows(metrics)
         moved = max(abs(float(rows[-1][c]) - float(rows[0][c])) for c in ("camera_x_m", "camera_y_m"))
         self.assertGreater(moved, 0.5)
+
+
+class Screen(WindowTest):
+    def size(self, display):
+        told = display.do("search", "--name", TITLE, "getwindowgeometry", "--shell")
+        return tuple(int(re.search(rf"^{name}=(\d+)", told, re.MULTILINE)[1]) for name in ("WIDTH", "HEIGHT"))
+
+    def wait_for_size(self, display, size):
+        end = time.monotonic() + PATIENCE_S
+        while self.size(display) != size and time.monotonic() < end:
+            time.sleep(0.2)
+        self.assertEqual(self.size(display), size)
+
+    def test_is_filled_by_an_option_and_by_a_key(self):
+        with Display() as display:
+            program = display.play("--fullscreen", "--settings", self.settings)
+            display.wait_for_window(program)
+            self.assertEqual(self.size(display), SCREEN_PX)
+            display.tap("F11")
+            self.wait_for_size(display, (WIDTH_PX, HEIGHT_PX))
+            display.tap("F11")
+            self.wait_for_size(display, SCREEN_PX)
+            self.assert_ends(display, program)
+
+    def test_is_chosen_by_number_or_name_and_those_there_are_are_named(self):
+        with Display() as display:
+            program = display.play("--monitor", "1", "--seconds", "0.1")
+            self.assertEqual(self.end(program), (0, ""))
+            self.assert_one_line(display.play("--monitor", "HDMI-7"), "no monitor 'HDMI-7'", "1 screen (640x480)")
+
+    def test_the_windows_title_is_the_tours_alone(self):
+        with Display() as display:
+            program = display.play(verbose=False)
+            display.wait_for(TITLE, program)
+            time.sleep(4)
+            self.assertEqual(display.do("search", "--name", TITLE, "getwindowname").strip(), TITLE)
+            self.assert_ends(display, program)
 
 
 class GuidedTour(WindowTest):
@@ -333,13 +372,13 @@ class Trouble(WindowTest):
         for later in (False, True):
             with Display() as display:
                 program = display.play()
-                display.wait_for("frames/s" if later else "wolfenbuettel", program)
+                display.wait_for("frames/s" if later else TITLE, program)
                 display.ask_to_close()
                 self.assertEqual(self.end(program), (0, ""))
 
     def test_a_lost_display_is_named(self):
         """Also while the window's context is made, where drivers crash."""
-        for title in ("wolfenbuettel",) * 5 + ("frames/s",):
+        for title in (TITLE,) * 5 + ("frames/s",):
             with Display() as display:
                 program = display.play()
                 display.wait_for(title, program, every_s=0.01)
