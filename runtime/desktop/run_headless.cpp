@@ -99,6 +99,7 @@ bool IsOver(const Simulation& s, const HeadlessRun& run) { return s.town.step >=
 Error PrepareDrawing(Loader* loader, HeadlessRun* run) {
   if (Error e = run->context.Create()) return e;
   RenderOptions options;
+  options.averages = true;
   if (run->options.samples || !run->draws_all) options.samples = run->options.samples.value_or(kStillSamples);
   if (Error e = run->renderer.Begin(run->pack, options)) return e;
   loader->PrepareFor(run->renderer);

@@ -90,30 +90,40 @@ void Smooth(GLuint framebuffer, const Program& program, const Picture& p) {
   DrawWhole(program, p);
 }
 
-void Enlarge(const Picture& p) {
+void Enlarge(GLuint texture, const Picture& p) {
   glBindFramebuffer(GL_FRAMEBUFFER, p.finished);
   glViewport(0, 0, p.width_px, p.height_px);
-  BindTexture(kColorUnit, p.coarse_color);
+  BindTexture(kColorUnit, texture);
   DrawWhole(p.enlarge_program, p);
+}
+
+// The mean so far of this picture and those before it.
+void Average(int average, const Picture& p) {
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+  glBlendColor(0, 0, 0, 1 / static_cast<float>(average + 1));
+  Enlarge(p.deferred ? p.lit_color : p.color, p);
+  glDisable(GL_BLEND);
 }
 
 }  // namespace
 
-Error CreatePicture(int samples, bool deferred, bool onto_window, ShaderMode mode, Picture* p) {
+Error CreatePicture(const PictureOptions& options, ShaderMode mode, Picture* p) {
   GLint most = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
-  p->samples = std::clamp(samples, 1, std::max<int>(most, 1));
-  p->deferred = deferred;
+  p->samples = std::clamp(options.samples, 1, std::max<int>(most, 1));
+  p->averages = options.averages;
+  p->deferred = options.deferred;
   p->color = NewTexture(GL_LINEAR);
   if (p->samples > 1) glGenRenderbuffers(1, &p->color);
   glGenRenderbuffers(1, &p->depth);
   for (GLuint* framebuffer : {&p->framebuffer, &p->lit}) glGenFramebuffers(1, framebuffer);
-  if (p->samples > 1 || !onto_window) {
+  if (p->samples > 1 || p->averages > 1 || !options.onto_window) {
     glGenRenderbuffers(1, &p->finished_color);
     glGenFramebuffers(1, &p->finished);
   }
   glGenVertexArrays(1, &p->empty_array);
-  if (deferred) {
+  if (p->deferred) {
     p->depth = NewTexture(GL_NEAREST);
     p->normals = NewTexture(GL_NEAREST);
     p->lit_color = NewTexture(GL_LINEAR);
@@ -140,7 +150,7 @@ void ResizePicture(int width_px, int height_px, float scale, Picture* p) {
   if (redrawn && IsCoarse(*p)) ResizeCoarse(p);
   if (!resized || p->finished == 0) return;
   glBindRenderbuffer(GL_RENDERBUFFER, p->finished_color);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_px, height_px);
+  glRenderbufferStorage(GL_RENDERBUFFER, p->averages > 1 ? GL_RGB10_A2 : GL_RGBA8, width_px, height_px);
   glBindFramebuffer(GL_FRAMEBUFFER, p->finished);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, p->finished_color);
 }
@@ -167,11 +177,12 @@ void LightPicture(const Picture& p) {
   glDepthFunc(GL_LEQUAL);
 }
 
-void FinishPicture(const Picture& p) {
+void FinishPicture(int average, const Picture& p) {
   glDisable(GL_DEPTH_TEST);
+  if (p.averages > 1) return Average(average, p);
   const bool coarse = IsCoarse(p);
   Smooth(coarse ? p.coarse : p.finished, coarse ? p.sharpen_program : p.smooth_program, p);
-  if (coarse) Enlarge(p);
+  if (coarse) Enlarge(p.coarse_color, p);
 }
 
 }  // namespace flaneur

@@ -11,6 +11,7 @@ namespace flaneur {
 // the targets anew.
 struct Picture {
   int samples = 1, width_px = 0, height_px = 0;  // of the finished picture
+  int averages = 1;                              // pictures that the finished one is the mean of, instead of smoothing
   int drawn_width_px = 0, drawn_height_px = 0;
   bool deferred = false;                         // light comes after the surfaces, in a pass over the picture
   GLuint color = 0, depth = 0, framebuffer = 0;  // drawn into; color is a texture where samples is 1
@@ -22,9 +23,14 @@ struct Picture {
   GLuint empty_array = 0;
 };
 
-// samples: wished for; the driver may have fewer. deferred: where the mode is; needs one sample. onto_window: with one
-// sample the picture is finished there. Errors: a shader that the driver refuses.
-Error CreatePicture(int samples, bool deferred, bool onto_window, ShaderMode mode, Picture* picture);
+struct PictureOptions {
+  int samples = 1;           // wished for; the driver may have fewer
+  int averages = 1;          // more need one sample
+  bool deferred = false;     // where the mode is; needs one sample
+  bool onto_window = false;  // with one sample and without averages the picture is finished there
+};
+// Errors: a shader that the driver refuses.
+Error CreatePicture(const PictureOptions& options, ShaderMode mode, Picture* picture);
 // scale: FrameInput::resolution_scale.
 void ResizePicture(int width_px, int height_px, float scale, Picture* picture);
 // Empties what is drawn into, and leaves it bound.
@@ -32,7 +38,7 @@ void BeginPicture(const Picture& picture);
 // Lights the surfaces where that has been deferred, and leaves bound what the sky is drawn into. The frame block must
 // be bound.
 void LightPicture(const Picture& picture);
-// Leaves the finished picture bound for drawing, all of it.
-void FinishPicture(const Picture& picture);
+// Leaves the finished picture bound for drawing, all of it. average: which of the pictures this was, from 0.
+void FinishPicture(int average, const Picture& picture);
 
 }  // namespace flaneur

@@ -34,9 +34,10 @@ PictureLimits LimitsOfThisMachine(bool fast) {
   return {std::min<int>(limits.town_px, most_px), std::min<int>(limits.people_px, most_px), limits.blocks};
 }
 
-ShaderMode ModeFor(bool software, bool several_samples, bool normals) {
+ShaderMode ModeFor(bool software, bool several_samples, bool averages, bool normals) {
   if (!software)
     return normals ? ShaderMode::kGpuNormals : several_samples ? ShaderMode::kGpuSamples : ShaderMode::kGpu;
+  if (averages) return ShaderMode::kSoftwareAverage;
   if (several_samples) return normals ? ShaderMode::kSoftwareSamplesNormals : ShaderMode::kSoftwareSamples;
   return normals ? ShaderMode::kSoftwareNormals : ShaderMode::kSoftware;
 }
@@ -66,6 +67,18 @@ Vec3 Ahead(const FrameInput& frame) {
 }
 
 Vec4 Wide(Vec3 v) { return {v.x, v.y, v.z, 0}; }
+
+// Moves the k-th of a picture's averages by its part of a pixel, so that no two of them share a row or a column.
+Mat4 Aside(int k, const Picture& p) {
+  Mat4 aside;
+  if (p.averages == 1) return aside;
+  float row = 0, part = 0.5f;
+  for (int bits = k; bits > 0; bits >>= 1, part /= 2) row += part * static_cast<float>(bits & 1);
+  const float count = static_cast<float>(p.averages), half = 0.5f / count - 0.5f;
+  aside.m[3][0] = 2 * (static_cast<float>(k) / count + half) / static_cast<float>(p.drawn_width_px);
+  aside.m[3][1] = 2 * (row + half) / static_cast<float>(p.drawn_height_px);
+  return aside;
+}
 
 // focal_px: pixels that a metre takes at a distance of one.
 FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px, Vec3 to_sun, float shadow_reach_m,
@@ -108,6 +121,23 @@ struct Renderer::Impl {
   Program sky_program;
   GLuint empty_array = 0, block_buffer = 0;
 
+  // The costs are those of one picture, however many are averaged.
+  void DrawSurfaces(Vec3 eye, PassTimer* timer, DrawCost* meshes_and_impostors, DrawCost* of_town) {
+    BeginPicture(picture);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    // Whatever is drawn hides what comes after it at no cost: the costliest comes last, the nearest first.
+    *meshes_and_impostors = DrawPeople(people, false);
+    timer->Passed(DrawPass::kMeshes);
+    if (picture.deferred) glFlush();  // software fills these pixels while it goes through the town's triangles
+    *of_town = DrawTown(eye, picture.drawn_width_px, picture.drawn_height_px, options.cull, &town);
+    timer->Passed(DrawPass::kTown);
+    *meshes_and_impostors += DrawPeople(people, true);
+    timer->Passed(DrawPass::kImpostors);
+    LightPicture(picture);
+    timer->Passed(DrawPass::kLight);
+  }
+
   void DrawSky() const {
     glUseProgram(sky_program.id);
     CullBackFaces(false);
@@ -133,20 +163,24 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   Impl& r = *impl_;
   r.options = options;
   const bool software = DrawsInSoftware();
-  // In software four samples cost three times the whole rest of a frame.
-  const int samples = options.samples > 0 ? options.samples : software ? 1 : 4;
-  const bool fast = software && samples == 1;  // for a picture many times a second; stills may take their time
-  const ShaderMode mode = ModeFor(software, samples > 1, options.normals);
+  // In software four samples cost a dozen times the whole rest of a frame.
+  const int wished = options.samples > 0 ? options.samples : software ? 1 : 4;
+  const bool averages = software && options.averages && wished > 1 && !options.normals;
+  const int samples = averages ? 1 : wished;
+  const bool fast = software && wished == 1;  // for a picture many times a second; stills may take their time
+  const ShaderMode mode = ModeFor(software, samples > 1, averages, options.normals);
   r.formats = FormatsOfThisMachine(fast);
   r.people.smooth_edges = samples > 1 && !options.normals;
   r.pictures_left = pack.images.size();
-  r.town.triangle_by_triangle = fast;
+  r.town.triangle_by_triangle = fast || averages;
   r.plan = PlanSurfaces(pack, LimitsOfThisMachine(fast));
-  r.arrays = CreateTextureArrays(r.plan, fast);
+  r.arrays = CreateTextureArrays(r.plan, fast || averages);
   if (Error e = CreateTownView(mode, r.plan, r.arrays, &r.town)) return e;
   if (Error e = CreatePeopleView(pack, mode, r.plan, r.arrays, &r.people)) return e;
   if (Error e = BuildProgram(ShaderProgram::kSky, mode, &r.sky_program)) return e;
-  if (Error e = CreatePicture(samples, mode == ShaderMode::kSoftware, options.onto_window, mode, &r.picture)) return e;
+  const bool deferred = mode == ShaderMode::kSoftware || averages;
+  if (Error e = CreatePicture({samples, averages ? wished : 1, deferred, options.onto_window}, mode, &r.picture))
+    return e;
   if (Error e = CreateCaptionView(&r.caption)) return e;
   if (Error e = CreateGroundMark(&r.ground_mark)) return e;
   CreateShadowMaps(&r.shadows);
@@ -219,25 +253,18 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
                                r.block_buffer, r.town, &r.shadows);
   timer.Passed(DrawPass::kTownShadow);
 
-  BeginPicture(r.picture);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  BindFrameBlock(r.block_buffer, MakeFrameBlock(view_projection, eye, focal_px, to_sun,
-                                                std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
-  // Whatever is drawn hides what comes after it at no cost: the costliest comes last, the nearest first.
-  DrawCost people = DrawPeople(r.people, false);
-  timer.Passed(DrawPass::kMeshes);
-  if (r.picture.deferred) glFlush();  // software fills these pixels while it goes through the town's triangles
-  const DrawCost town = DrawTown(eye, r.picture.drawn_width_px, r.picture.drawn_height_px, r.options.cull, &r.town);
-  timer.Passed(DrawPass::kTown);
-  people += DrawPeople(r.people, true);
-  timer.Passed(DrawPass::kImpostors);
-  LightPicture(r.picture);
-  timer.Passed(DrawPass::kLight);
-  if (!r.options.normals) r.DrawSky();
-  const DrawCost mark = DrawGroundMark(frame.ground_mark, r.ground_mark);
-  timer.Passed(DrawPass::kSky);
-  FinishPicture(r.picture);
+  DrawCost people, town, mark;
+  for (int k = 0; k < r.picture.averages; ++k) {
+    const Mat4 aside = Aside(k, r.picture) * view_projection;
+    if (r.picture.averages > 1) FindVisibleBlocks(aside, eye, r.options.cull, &r.town);
+    BindFrameBlock(r.block_buffer, MakeFrameBlock(aside, eye, focal_px, to_sun, std::max(sight.shadow_reach_m, 1e-3f),
+                                                  r.shadows));
+    r.DrawSurfaces(eye, &timer, &people, &town);
+    if (!r.options.normals) r.DrawSky();
+    mark = DrawGroundMark(frame.ground_mark, r.ground_mark);
+    timer.Passed(DrawPass::kSky);
+    FinishPicture(k, r.picture);
+  }
   DrawCaption(frame.caption, frame.caption_share, width_px, height_px, &r.caption);
   timer.Passed(DrawPass::kFinish);
   if (r.waits) glFinish();  // so that draw_ms means the picture, not the handing over of commands

@@ -16,6 +16,9 @@ struct AtlasFormats;
 
 struct RenderOptions {
   int samples = 0;       // of each pixel; 0: four with a GPU, one and a smoothing pass without
+  // In software the samples come from as many pictures, each a part of a pixel aside: a fourth of the time. Then no alpha
+  // comes of ReadWithAlpha; nothing changes where there is a GPU, or with `normals`.
+  bool averages = false;
   bool cull = true;      // leave out blocks of the town that the picture cannot show; false only to prove that
   bool normals = false;  // people's normals * 0.5 + 0.5 instead of light, over nothing
   bool onto_window =

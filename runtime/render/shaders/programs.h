@@ -29,13 +29,15 @@ namespace flaneur {
   PROGRAM(kOverlay, "overlay.vert", "overlay.frag", "")
 
 // MODE(name, what is defined in all programs). Samples: several of each pixel. FAST: for many pictures a second in
-// software, which lights a picture's pixels after all surfaces (DEFERRED). NORMALS: people's normals instead of light.
+// software, which lights a picture's pixels after all surfaces (DEFERRED). AVERAGE: one of several pictures that become
+// one. NORMALS: people's normals instead of light.
 #define FLANEUR_SHADER_MODES(MODE) \
   MODE(kGpu, "") \
   MODE(kGpuSamples, "SMOOTH_EDGES") \
   MODE(kGpuNormals, "NORMALS") \
   MODE(kSoftware, "ONE_SHADOW_TAP FAST DEFERRED") \
   MODE(kSoftwareSamples, "ONE_SHADOW_TAP SMOOTH_EDGES") \
+  MODE(kSoftwareAverage, "ONE_SHADOW_TAP DEFERRED AVERAGE") \
   MODE(kSoftwareNormals, "ONE_SHADOW_TAP FAST NORMALS") \
   MODE(kSoftwareSamplesNormals, "ONE_SHADOW_TAP NORMALS")
 

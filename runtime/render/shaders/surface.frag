@@ -15,7 +15,7 @@ in float v_haze;
 flat in float v_layer;
 uniform sampler2DArray u_textures;
 uniform float u_alpha_cutoff;
-#ifdef FAST
+#if defined(FAST) || defined(AVERAGE)
 const float k_finer_levels = -0.6;  // of mip maps, where ground seen flat would blur without anisotropic filtering
 #else
 const float k_finer_levels = 0.0;
