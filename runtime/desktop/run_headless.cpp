@@ -33,12 +33,18 @@ struct Pane {
   DeveloperViews views;
 };
 
-void DrawPane(const PlayerOptions& options, const TourPack& pack, int width_px, bool read, Renderer* renderer,
-              Overlay* overlay, Pane* pane) {
+// loader: of what the picture needs and is not there yet; null: all is there.
+Error DrawPane(const PlayerOptions& options, const TourPack& pack, int width_px, bool read, Loader* loader,
+               Renderer* renderer, Overlay* overlay, Pane* pane) {
   FrameFromSimulation(pack, *pane->simulation, &pane->looks, &pane->frame);
   if (!pane->label.empty()) {
     pane->frame.caption = pane->label;
     pane->frame.caption_share = 1;
+  }
+  if (loader != nullptr) {
+    if (Error e = loader->UploadTown(renderer)) return e;
+    const std::vector<AssetId> needed = renderer->AssetsFor(pane->frame, width_px, options.height_px);
+    if (Error e = loader->UploadThese(needed, renderer)) return e;
   }
   renderer->Draw(pane->frame, width_px, options.height_px, &pane->statistics);
   if (overlay != nullptr) {
@@ -47,6 +53,7 @@ void DrawPane(const PlayerOptions& options, const TourPack& pack, int width_px, 
     overlay->Draw();
   }
   if (read) renderer->Read(&pane->rgb);
+  return Ok();
 }
 
 // Side by side, a white line between them.
@@ -82,6 +89,7 @@ Error WriteDue(const std::vector<Pane>& panes, const PlayerOptions& options, int
 struct HeadlessRun {
   const PlayerOptions& options;
   const TourPack& pack;
+  Loader& loader;
   std::vector<Simulation>& simulations;
   bool films, draws_all;
   int64_t steps = 0;
@@ -96,14 +104,16 @@ struct HeadlessRun {
 
 bool IsOver(const Simulation& s, const HeadlessRun& run) { return s.town.step >= run.steps || s.visitor.finished; }
 
-Error PrepareDrawing(Loader* loader, HeadlessRun* run) {
+Error PrepareDrawing(HeadlessRun* run) {
   if (Error e = run->context.Create()) return e;
   RenderOptions options;
   options.averages = true;
   if (run->options.samples || !run->draws_all) options.samples = run->options.samples.value_or(kStillSamples);
   if (Error e = run->renderer.Begin(run->pack, options)) return e;
-  loader->PrepareFor(run->renderer);
-  if (Error e = loader->UploadAll(&run->renderer)) return e;
+  run->loader.PrepareFor(run->renderer);
+  if (run->draws_all) {
+    if (Error e = run->loader.UploadAll(&run->renderer)) return e;
+  }
   return run->options.views ? run->overlay.Create() : Ok();
 }
 
@@ -139,7 +149,9 @@ Error MakePicture(bool last, HeadlessRun* run) {
   const int width_px = options.width_px / static_cast<int>(run->panes.size());
   Overlay* overlay = options.views ? &run->overlay : nullptr;
   for (Pane& pane : run->panes) {
-    DrawPane(options, run->pack, width_px, run->films || still, &run->renderer, overlay, &pane);
+    Loader* loader = run->draws_all ? nullptr : &run->loader;
+    if (Error e = DrawPane(options, run->pack, width_px, run->films || still, loader, &run->renderer, overlay, &pane))
+      return e;
   }
   if (run->films) {
     if (Error e = run->film.Add(Joined(run->panes, options.height_px))) return e;
@@ -170,8 +182,8 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   // Stills alone need only their own pictures drawn, and may take their time for that.
   const bool films = !options.film.empty();
   const bool draws_all = films || !options.metrics.empty() || options.screenshot.empty();
-  HeadlessRun run{options, pack, *simulations, films, draws_all, 0, {}, {}, {}, {}, {}, {}, {}};
-  if (Error e = PrepareDrawing(loader, &run)) return e;
+  HeadlessRun run{options, pack, *loader, *simulations, films, draws_all, 0, {}, {}, {}, {}, {}, {}, {}};
+  if (Error e = PrepareDrawing(&run)) return e;
   if (Error e = PrepareOutputs(seconds, &run)) return e;
   for (bool last = false; !last;) {
     if (Error e = CheckInterruption()) return e;

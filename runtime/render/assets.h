@@ -17,6 +17,7 @@ enum class AssetKind { kTown, kPicture, kLevel, kAtlas };
 struct AssetId {
   AssetKind kind = AssetKind::kTown;
   int index = 0, level = 0;
+  bool operator==(const AssetId&) const = default;
 };
 
 // All pieces of a pack in the order in which they are missed: the town and its pictures, people as impostors with their

@@ -253,6 +253,24 @@ void AddAtlas(int avatar, const std::array<AtlasPicture, 4>& pictures, PeopleVie
   }
 }
 
+std::vector<AssetId> AssetsFor(const std::vector<DrawnPerson>& drawn, const PeopleSight& sight,
+                               const PeopleView& people) {
+  std::vector<AvatarReady> all = people.ready;
+  for (AvatarReady& ready : all) ready = {std::vector<bool>(ready.levels.size(), true), true, true};
+  PeopleBatches batches;
+  batches.pose_width = people.batches.pose_width;
+  SortPeople(drawn, people.layouts, all, sight, &batches);
+  std::vector<AssetId> ids;
+  for (const PeopleBatch& b : batches.seen) {
+    const int like = people.avatars[static_cast<size_t>(b.avatar)].impostor_of;
+    if (b.level >= 0) ids.push_back({AssetKind::kLevel, b.avatar, b.level});
+    else ids.push_back({AssetKind::kAtlas, like < 0 ? b.avatar : like, 0});
+  }
+  for (const PeopleBatch& b : batches.shadows)  // their figures come with the coarsest level
+    ids.push_back({AssetKind::kLevel, b.avatar, people.layouts[static_cast<size_t>(b.avatar)].levels - 1});
+  return ids;
+}
+
 void UploadPeople(PeopleView* people) {
   const PeopleBatches& b = people->batches;
   glBindBuffer(GL_ARRAY_BUFFER, people->instances);

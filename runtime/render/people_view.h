@@ -48,6 +48,10 @@ void AddLevel(int avatar, int level, const PersonGeometry& person, const ShadowL
 void ShowLevels(PeopleView* people);  // all that have been added, from now on
 void AddAtlas(int avatar, const std::array<AtlasPicture, 4>& pictures, PeopleView* people);
 
+// What the people of a picture are drawn with, their shadows too, whether it is there or not.
+std::vector<AssetId> AssetsFor(const std::vector<DrawnPerson>& drawn, const PeopleSight& sight,
+                               const PeopleView& people);
+
 // Once a picture: instances and poses of people->batches, for both draws below.
 void UploadPeople(PeopleView* people);
 // The frame block must be bound.

@@ -68,6 +68,12 @@ Vec3 Ahead(const FrameInput& frame) {
 
 Vec4 Wide(Vec3 v) { return {v.x, v.y, v.z, 0}; }
 
+Mat4 ViewProjection(const FrameInput& frame, int width_px, int height_px) {
+  const float aspect = static_cast<float>(width_px) / static_cast<float>(height_px);
+  return Perspective(frame.fov_rad, aspect, kNear_m, kFar_m) *
+         LookMatrix(GltfFromGround(frame.eye), Ahead(frame), {0, 1, 0});
+}
+
 // Moves the k-th of a picture's averages by its part of a pixel, so that no two of them share a row or a column.
 Mat4 Aside(int k, const Picture& p) {
   Mat4 aside;
@@ -120,6 +126,20 @@ struct Renderer::Impl {
   bool waits = true;  // for every picture
   Program sky_program;
   GLuint empty_array = 0, block_buffer = 0;
+
+  float Focal_px(const FrameInput& frame) const {
+    return static_cast<float>(picture.drawn_width_px) / 2 / std::tan(frame.fov_rad / 2);
+  }
+
+  PeopleSight Sight(const FrameInput& frame, const Mat4& view_projection) const {
+    return {GltfFromGround(frame.eye),
+            Normalized(GltfFromGround(frame.to_sun)),
+            FrustumOf(view_projection),
+            options.cull ? &town.walls : nullptr,
+            std::min(2 * kPeopleShadow_m, frame.shadow_reach_m),
+            frame.resolution_scale < 1 && !frame.keeps_levels ? Focal_px(frame) : 0,
+            frame.fine_shadow_m * frame.resolution_scale};
+  }
 
   // The costs are those of one picture, however many are averaged.
   void DrawSurfaces(Vec3 eye, PassTimer* timer, DrawCost* meshes_and_impostors, DrawCost* of_town) {
@@ -223,30 +243,30 @@ void Renderer::Add(Asset asset) {
 
 void Renderer::StartAnew() { ForgetTownShadows(&impl_->shadows); }
 
+std::vector<AssetId> Renderer::AssetsFor(const FrameInput& frame, int width_px, int height_px) {
+  Impl& r = *impl_;
+  const Mat4 view_projection = ViewProjection(frame, width_px, height_px);
+  FindVisibleBlocks(view_projection, GltfFromGround(frame.eye), r.options.cull, &r.town);
+  ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
+  return flaneur::AssetsFor(frame.people, r.Sight(frame, view_projection), r.people);
+}
+
 void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics) {
   const double start_ms = Now_ms();
   Impl& r = *impl_;
-  const Vec3 eye = GltfFromGround(frame.eye), to_sun = Normalized(GltfFromGround(frame.to_sun)), ahead = Ahead(frame);
-  const float aspect = static_cast<float>(width_px) / static_cast<float>(height_px);
-  const Mat4 view_projection = Perspective(frame.fov_rad, aspect, kNear_m, kFar_m) * LookMatrix(eye, ahead, {0, 1, 0});
+  const Mat4 view_projection = ViewProjection(frame, width_px, height_px);
   PassTimer timer(r.options.time_passes, &statistics->pass_ms);
-  FindVisibleBlocks(view_projection, eye, r.options.cull, &r.town);
+  FindVisibleBlocks(view_projection, GltfFromGround(frame.eye), r.options.cull, &r.town);
   if (!r.waits) BeginPictureTime(&r.clock);
   const double people_ms = Now_ms();
   ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
-  const float focal_px = static_cast<float>(r.picture.drawn_width_px) / 2 / std::tan(frame.fov_rad / 2);
-  const PeopleSight sight{eye,
-                          to_sun,
-                          FrustumOf(view_projection),
-                          r.options.cull ? &r.town.walls : nullptr,
-                          std::min(2 * kPeopleShadow_m, frame.shadow_reach_m),
-                          frame.resolution_scale < 1 && !frame.keeps_levels ? focal_px : 0,
-                          frame.fine_shadow_m * frame.resolution_scale};
+  const PeopleSight sight = r.Sight(frame, view_projection);
+  const Vec3 eye = sight.eye, to_sun = sight.to_sun;
   SortPeople(frame.people, r.people.layouts, r.people.ready, sight, &r.people.batches);
   UploadPeople(&r.people);
   statistics->people_ms = Now_ms() - people_ms;
   timer.Passed(DrawPass::kCull);
-  DrawCost shadows = DrawPeopleShadows(eye, ahead, to_sun, r.block_buffer, r.people, &r.shadows);
+  DrawCost shadows = DrawPeopleShadows(eye, Ahead(frame), to_sun, r.block_buffer, r.people, &r.shadows);
   statistics->people_shadow_triangles = shadows.triangles;
   timer.Passed(DrawPass::kPeopleShadow);
   shadows += UpdateTownShadows(eye, to_sun, std::max(kMinShadowShare, frame.resolution_scale * frame.resolution_scale),
@@ -257,7 +277,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   for (int k = 0; k < r.picture.averages; ++k) {
     const Mat4 aside = Aside(k, r.picture) * view_projection;
     if (r.picture.averages > 1) FindVisibleBlocks(aside, eye, r.options.cull, &r.town);
-    BindFrameBlock(r.block_buffer, MakeFrameBlock(aside, eye, focal_px, to_sun, std::max(sight.shadow_reach_m, 1e-3f),
+    BindFrameBlock(r.block_buffer, MakeFrameBlock(aside, eye, r.Focal_px(frame), to_sun, std::max(sight.shadow_reach_m, 1e-3f),
                                                   r.shadows));
     r.DrawSurfaces(eye, &timer, &people, &town);
     if (!r.options.normals) r.DrawSky();

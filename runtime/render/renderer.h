@@ -16,9 +16,6 @@ struct AtlasFormats;
 
 struct RenderOptions {
   int samples = 0;       // of each pixel; 0: four with a GPU, one and a smoothing pass without
-  // In software the samples come from as many pictures, each a part of a pixel aside: a fourth of the time. Then no alpha
-  // comes of ReadWithAlpha; nothing changes where there is a GPU, or with `normals`.
-  bool averages = false;
   bool cull = true;      // leave out blocks of the town that the picture cannot show; false only to prove that
   bool normals = false;  // people's normals * 0.5 + 0.5 instead of light, over nothing
   bool onto_window =
@@ -28,6 +25,9 @@ struct RenderOptions {
   bool runs_ahead = false;
   bool time_passes = false;  // FrameStatistics::pass_ms; waits for each pass, so that the whole takes longer
   Jobs* jobs = nullptr;      // make the pack ready with the caller in Create
+  // In software the samples come from as many pictures, each a part of a pixel aside: a fourth of the time. Then no
+  // alpha comes of ReadWithAlpha; nothing changes where there is a GPU, or with `normals`.
+  bool averages = false;
 };
 
 // Needs a current context for its whole life.
@@ -45,6 +45,8 @@ class Renderer {
   // For PrepareAsset, from any thread, after Begin.
   const SurfacePlan& surfaces() const;
   const AtlasFormats& formats() const;
+  // What this picture needs beyond the town, whether it is there or not; the town must be there.
+  std::vector<AssetId> AssetsFor(const FrameInput& frame, int width_px, int height_px);
   // The next picture is drawn as if it were the first, whatever has changed since the last one.
   void StartAnew();
   // Draws into a picture of its own; Read or Present brings it out.

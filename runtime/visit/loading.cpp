@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -68,6 +69,7 @@ struct Loader::Impl {
   std::mutex mutex;
   std::condition_variable changed;
   size_t next_task = 0, unread_tasks = 0, town_meshes_left = 0, readers = 0;
+  size_t asked_tasks = 0;  // so many of the tasks may be done before GoOn
   size_t in_hand = 0;  // assets but the town that are being read or wait for their upload
   bool may_prepare = false, may_go_on = false, stop = false;
   SurfacePlan plan;  // of the renderer
@@ -94,6 +96,8 @@ struct Loader::Impl {
   bool TakeReady(Asset* asset);
   void NoteUploaded(const AssetId& id);
   bool AreUploaded(size_t first_assets) const;
+  void Ask(const std::vector<bool>& needed);  // by asset
+  Error UploadUntil(const std::function<bool()>& is_there, Loader* loader, Renderer* renderer);
 };
 
 Error Loader::Impl::ReadMesh(int mesh) { return file.ReadMesh(mesh, &pack.meshes[static_cast<size_t>(mesh)]); }
@@ -163,7 +167,7 @@ std::optional<Piece> Loader::Impl::NextPiece() {
   if (next_task == tasks.size()) return {};
   const Task& task = tasks[next_task];
   const bool of_town = assets[task.asset].kind == AssetKind::kTown;
-  if (task.asset >= stages.town && !may_go_on) return {};
+  if (next_task >= asked_tasks && !may_go_on) return {};
   if (!of_town && in_hand >= kMaxReadyAssets + most_readers) return {};
   in_hand += of_town ? 0 : 1;
   return Piece{true, next_task++};
@@ -268,6 +272,7 @@ void Loader::Start(PackFile file, const TourPack& pack) {
     l.town_meshes_left = l.tasks.size();
   }
   l.unread_tasks = l.tasks.size();
+  while (l.asked_tasks < l.tasks.size() && l.tasks[l.asked_tasks].asset < l.stages.town) ++l.asked_tasks;
   l.GoOnReading(l.most_readers);
 }
 
@@ -329,14 +334,49 @@ Error Loader::Upload(double most_ms, Renderer* renderer) {
   return l.error;
 }
 
-Error Loader::UploadAll(Renderer* renderer) {
-  GoOn();
-  while (!Done()) {
-    if (Error e = Upload(1e9, renderer)) return e;
-    std::unique_lock lock(impl_->mutex);
-    impl_->changed.wait(lock, [&] { return !impl_->ready.empty() || impl_->error || Done(); });
+Error Loader::Impl::UploadUntil(const std::function<bool()>& is_there, Loader* loader, Renderer* renderer) {
+  while (!is_there()) {
+    if (Error e = loader->Upload(1e9, renderer)) return e;
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return !ready.empty() || error || is_there(); });
   }
   return Ok();
+}
+
+// All pictures: nobody is drawn as a mesh before they are there.
+void Loader::Impl::Ask(const std::vector<bool>& needed) {
+  {
+    const std::lock_guard lock(mutex);
+    const auto asked = [&](const Task& task) { return needed[task.asset] && !uploaded[task.asset]; };
+    const auto from = tasks.begin() + static_cast<std::ptrdiff_t>(std::max(next_task, asked_tasks));
+    asked_tasks = static_cast<size_t>(std::stable_partition(from, tasks.end(), asked) - tasks.begin());
+  }
+  GoOnReading(most_readers);
+}
+
+Error Loader::UploadAll(Renderer* renderer) {
+  GoOn();
+  return impl_->UploadUntil([this] { return Done(); }, this, renderer);
+}
+
+Error Loader::UploadTown(Renderer* renderer) {
+  return impl_->UploadUntil([this] { return TownIsThere(); }, this, renderer);
+}
+
+Error Loader::UploadThese(const std::vector<AssetId>& ids, Renderer* renderer) {
+  Impl& l = *impl_;
+  std::vector<bool> needed(l.assets.size());
+  for (size_t k = 0; k < l.assets.size(); ++k) {
+    needed[k] = l.assets[k].kind == AssetKind::kPicture || std::find(ids.begin(), ids.end(), l.assets[k]) != ids.end();
+  }
+  l.Ask(needed);
+  const auto are_there = [&] {
+    for (size_t k = 0; k < needed.size(); ++k) {
+      if (needed[k] && !l.uploaded[k]) return false;
+    }
+    return TownIsThere();
+  };
+  return l.UploadUntil(are_there, this, renderer);
 }
 
 bool Loader::TownIsThere() const { return impl_->AreUploaded(impl_->stages.town); }

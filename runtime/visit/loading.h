@@ -1,6 +1,7 @@
 // Reads the bulk of a pack beside everything else, while the tour is set up and already plays.
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "runtime/base/error.h"
 #include "runtime/base/jobs.h"
@@ -26,6 +27,9 @@ class Loader {
   // Hands over what is ready, for about `most_ms`. Errors: of a piece that cannot be read.
   Error Upload(double most_ms, Renderer* renderer);
   Error UploadAll(Renderer* renderer);
+  // The town and what else a picture needs; the rest stays unread.
+  Error UploadTown(Renderer* renderer);
+  Error UploadThese(const std::vector<AssetId>& needed, Renderer* renderer);
 
   bool TownIsThere() const;         // with its pictures
   bool LikenessesAreThere() const;  // and everybody can be drawn somehow

@@ -403,6 +403,35 @@ double MeanDifference(const std::vector<uint8_t>& a, const std::vector<uint8_t>&
   return sum / static_cast<double>(a.size());
 }
 
+// Pixels that are neither as dark as the one at one side nor as bright as that at the other.
+size_t Between(const std::vector<uint8_t>& rgb) {
+  constexpr int kApart = 10;
+  size_t count = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 1; x + 1 < kWidth; ++x) {
+      const auto green = [&](int at) { return int{Pixel(rgb, at, y).g}; };
+      const auto [least, most] = std::minmax({green(x - 1), green(x + 1)});
+      count += least + kApart < green(x) && green(x) + kApart < most ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+TEST_F(Drawing, AnAverageOfPicturesHasTheSmoothEdgesOfTheDriversSamples) {
+  const TourPack pack = MakePack({{11, 3}, {14, -4}});
+  FrameInput frame = TwoInTheEast();
+  frame.yaw_rad = 0.11f;  // edges that no column holds
+  const std::vector<uint8_t> samples = Draw(pack, frame, {.samples = 4});
+  Renderer renderer;
+  ASSERT_EQ(renderer.Create(pack, {.samples = 4, .averages = true}).message, "");
+  const std::vector<uint8_t> average = DrawWith(frame, &renderer);
+  EXPECT_LT(MeanDifference(average, samples), 1);
+  const auto between = static_cast<double>(Between(samples));
+  EXPECT_GT(between, 300);
+  EXPECT_NEAR(static_cast<double>(Between(average)), between, 0.3 * between);
+  EXPECT_EQ(DrawWith(frame, &renderer), average) << "and nothing of the picture before";
+}
+
 TEST_F(Drawing, ACoarsePictureShowsTheSameAndKeepsTheCaptionSharp) {
   const TourPack pack = MakePack({{11, 3}, {14, -4}});
   for (int samples : {1, 4}) {

@@ -30,15 +30,19 @@ class LoaderOfTheDemo : public testing::Test {
     AddGuideFigure(&pack);
     loader->Start(std::move(file), pack);
   }
-  std::vector<uint8_t> Picture(Renderer* renderer) {
+  FrameInput Frame() {
     Simulation s;
     EXPECT_EQ(StartSimulation(&pack, ScenarioOf(pack), &s).message, "");
     PersonLooks looks;
     FrameInput frame;
+    FrameFromSimulation(pack, s, &looks, &frame);
+    return frame;
+  }
+  std::vector<uint8_t> Picture(Renderer* renderer) {
     FrameStatistics statistics;
     std::vector<uint8_t> rgb;
-    FrameFromSimulation(pack, s, &looks, &frame);
-    renderer->Draw(frame, kWidth_px, kHeight_px, &statistics);
+    renderer->Draw(Frame(), kWidth_px, kHeight_px, &statistics);
+    EXPECT_EQ(statistics.people_not_loaded, 0);
     renderer->Read(&rgb);
     return rgb;
   }
@@ -83,6 +87,30 @@ TEST_F(LoaderOfTheDemo, ReadsWithoutThreadsBetweenPicturesAndNothingBeforeItsTim
   while (!loader.Done() && Now_s() < end_s) ASSERT_EQ(loader.Upload(kSome_ms, &renderer).message, "");
   EXPECT_TRUE(loader.Done());
   EXPECT_TRUE(loader.LikenessesAreThere());
+}
+
+TEST_F(LoaderOfTheDemo, BringsForAStillWhatItShowsAndNoMore) {
+  for (size_t threads : {0, 2}) {
+    std::vector<uint8_t> whole;
+    for (const bool all : {true, false}) {
+      Jobs jobs(threads);
+      Loader loader(&jobs);
+      pack = {};
+      ASSERT_NO_FATAL_FAILURE(Start(&loader));
+      Renderer renderer;
+      ASSERT_EQ(renderer.Begin(pack, {.samples = 1}).message, "");
+      loader.PrepareFor(renderer);
+      if (all) {
+        ASSERT_EQ(loader.UploadAll(&renderer).message, "");
+        whole = Picture(&renderer);
+        continue;
+      }
+      ASSERT_EQ(loader.UploadTown(&renderer).message, "");
+      ASSERT_EQ(loader.UploadThese(renderer.AssetsFor(Frame(), kWidth_px, kHeight_px), &renderer).message, "");
+      EXPECT_EQ(Picture(&renderer), whole);
+      EXPECT_FALSE(loader.Done());
+    }
+  }
 }
 
 TEST_F(LoaderOfTheDemo, MayGoAtAnyTime) {
