@@ -70,7 +70,7 @@ struct Loader::Impl {
   std::condition_variable changed;
   size_t next_task = 0, unread_tasks = 0, town_meshes_left = 0, readers = 0;
   size_t asked_tasks = 0;  // so many of the tasks may be done before GoOn
-  size_t in_hand = 0;  // assets but the town that are being read or wait for their upload
+  size_t in_hand = 0;      // assets but the town that are being read or wait for their upload
   bool may_prepare = false, may_go_on = false, stop = false;
   SurfacePlan plan;  // of the renderer
   AtlasFormats formats;
