@@ -50,6 +50,9 @@ struct FrameInput {
   // Of the picture's width and height, 0.1 to 1: all but the caption is drawn so coarsely, and enlarged. Below 1 people
   // are drawn by the coarser levels that serve at that size.
   float resolution_scale = 1;
+  // Of people, 0.1 to 1: their meshes are those that serve in a picture of this share of its resolution, and their
+  // shadows end at this share of their reach.
+  float detail = 1;
   bool keeps_levels = false;  // draws people by their levels even so
 };
 

@@ -136,9 +136,9 @@ struct Renderer::Impl {
             Normalized(GltfFromGround(frame.to_sun)),
             FrustumOf(view_projection),
             options.cull ? &town.walls : nullptr,
-            std::min(2 * kPeopleShadow_m, frame.shadow_reach_m),
-            frame.resolution_scale < 1 && !frame.keeps_levels ? Focal_px(frame) : 0,
-            frame.fine_shadow_m * frame.resolution_scale};
+            std::min(2 * kPeopleShadow_m, frame.shadow_reach_m) * frame.detail,
+            frame.resolution_scale * frame.detail < 1 && !frame.keeps_levels ? Focal_px(frame) * frame.detail : 0,
+            frame.fine_shadow_m * frame.resolution_scale * frame.detail};
   }
 
   // The costs are those of one picture, however many are averaged.

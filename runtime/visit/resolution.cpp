@@ -10,8 +10,9 @@ namespace {
 
 constexpr float kStep = 0.1f;
 constexpr float kMomentStep = 0.1f;
-constexpr float kCoarsest = 0.25f;                               // at any moment
-constexpr int kSoon = 10;                                        // pictures that tell that it takes too long
+constexpr float kLeastDetail = 0.5f, kDetailStep = 0.1f;
+constexpr float kDetailCost = 0.5f;  // of a picture's time, that goes with people's detail: rather too much
+constexpr int kSoon = 10;            // pictures that tell that it takes too long
 constexpr float kTooLong = 1.05f, kFits = 0.95f, kSpare = 0.9f;  // of the time that a picture may take
 constexpr float kPixelCostMargin = 1.25f;                        // what pixels seem to cost, times this
 constexpr float kMinPixels = 0.2f;                               // of a picture's time at the least
@@ -73,12 +74,26 @@ void Change(float scale, float usual_ms, Resolution* r) {
   r->times = 0;
 }
 
+// Says nothing about what pixels cost.
+void ChangeDetail(float by, float usual_ms, Resolution* r) {
+  const float pixels_ms = r->pixels_ms;
+  Change(r->scale, usual_ms, r);
+  r->pixels_ms = pixels_ms;
+  r->detail = std::clamp(r->detail + by, kLeastDetail, 1.0f);
+}
+
 }  // namespace
 
-float ScaleNow(const Resolution& r) { return std::max(std::min(r.scale, kCoarsest), r.scale * r.moment); }
+float ScaleNow(const ResolutionSettings& s, const Resolution& r) {
+  return std::max(std::min(s.least_scale, r.scale), r.scale * r.moment);
+}
+
+float DetailNow(const ResolutionSettings& s, const Resolution& r) {
+  return r.detail * r.moment * r.scale / ScaleNow(s, r);
+}
 
 void FollowPictureTime(float took_ms, bool moves, const ResolutionSettings& s, Resolution* r) {
-  took_ms = Finer_ms(took_ms, *r, ScaleNow(*r), r->scale);
+  took_ms = Finer_ms(took_ms, *r, ScaleNow(s, *r), r->scale);
   r->scale = std::clamp(r->scale, s.least_scale, 1.0f);
   r->took_ms[static_cast<size_t>(r->next)] = took_ms;
   r->next = (r->next + 1) % Resolution::kTimes;
@@ -94,7 +109,14 @@ void FollowPictureTime(float took_ms, bool moves, const ResolutionSettings& s, R
       scale = Coarser(scale, s.least_scale);
     return Change(scale, usual_ms, r);
   }
-  if (r->scale >= 1 || r->times < Resolution::kTimes || r->steady_s < r->patience_s) return;
+  if (usual_ms > kTooLong * s.frame_ms && r->detail > kLeastDetail) return ChangeDetail(-kDetailStep, usual_ms, r);
+  if (r->detail < 1 && r->times == Resolution::kTimes && r->steady_s >= r->patience_s) {
+    const float more = r->detail + kDetailStep, cost = kDetailCost * (more * more / (r->detail * r->detail) - 1);
+    if (Quantile(*r, Resolution::kTimes, 0.9f) * (1 + cost) <= kSpare * s.frame_ms)
+      ChangeDetail(kDetailStep, usual_ms, r);
+    return;
+  }
+  if (r->scale >= 1 || r->detail < 1 || r->times < Resolution::kTimes || r->steady_s < r->patience_s) return;
   const float finer = Finer(r->scale);
   if (Finer_ms(Quantile(*r, Resolution::kTimes, 0.9f), *r, r->scale, finer) <= kSpare * s.frame_ms)
     Change(finer, usual_ms, r);

@@ -62,6 +62,7 @@ struct Visit::Impl {
   void ShowPages(const WindowInput& input, float passed_s);
   void StepTown(float passed_s, Records* records);
   BetweenSteps Between() const;
+  ResolutionSettings ResolutionWished() const;
   void Draw(float passed_s);
 };
 
@@ -157,12 +158,19 @@ BetweenSteps Visit::Impl::Between() const {
   return {share, TurnUntil(share, *s, controls), controls.turned_rad, LookUntilNow(*s, controls)};
 }
 
+ResolutionSettings Visit::Impl::ResolutionWished() const {
+  const PlayerSettings& chosen = controls.settings;
+  return ResolutionFor(chosen.frames_per_s, chosen.least_resolution_scale, s->control.settings);
+}
+
 void Visit::Impl::Draw(float passed_s) {
   if (hidden()) return;
   FrameFromSimulation(pack, *s, &looks, &frame, Between());
   if (pages()) frame.caption.clear();
   else ShowNotice(notices, !controls.settings.reduced_motion, &frame);
-  frame.resolution_scale = ScaleNow(resolution);
+  const ResolutionSettings wished = ResolutionWished();
+  frame.resolution_scale = ScaleNow(wished, resolution);
+  frame.detail = DetailNow(wished, resolution);
   renderer.Draw(frame, width_px, height_px, &statistics);
   overlay.Draw();
   RememberFrame(*s, statistics, passed_s * 1000, &views.history);
@@ -213,14 +221,10 @@ Error Visit::Picture(const WindowInput& input, int width_px, int height_px, floa
 void Visit::TellTime(float took_ms) {
   Impl& v = *impl_;
   took_ms = std::max(took_ms, static_cast<float>(v.statistics.draw_ms));
-  const PlayerSettings& settings = v.controls.settings;
   constexpr float kMoves_mps = 0.3f, kTurns_radps = 0.2f;
   const CameraState& camera = v.s->visitor.camera;
   const bool moves = camera.actual_mps > kMoves_mps || std::abs(camera.yaw_rate_radps) > kTurns_radps;
-  if (!v.hidden())
-    FollowPictureTime(took_ms, moves,
-                      ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, v.s->control.settings),
-                      &v.resolution);
+  if (!v.hidden()) FollowPictureTime(took_ms, moves, v.ResolutionWished(), &v.resolution);
 }
 
 void Visit::Present() {

@@ -15,12 +15,14 @@ namespace {
 struct Machine {
   float fixed_ms = 10, pixels_ms = 100;  // the latter at full scale
   float noise = 0.1f;                    // share by which a picture may take longer; one in 50 takes twice as long
+  float people_ms = 0;                   // with all their detail
 };
 
-float Took_ms(const Machine& m, float scale, std::mt19937* random) {
+float Took_ms(const Machine& m, float scale, std::mt19937* random, float detail = 1) {
   std::uniform_real_distribution<float> share(0, 1);
   const float hiccup = m.noise > 0 && share(*random) < 0.02f ? 2.0f : 1.0f;
-  return (m.fixed_ms + m.pixels_ms * scale * scale) * (1 + m.noise * share(*random)) * hiccup;
+  return (m.fixed_ms + m.pixels_ms * scale * scale + m.people_ms * detail * detail) * (1 + m.noise * share(*random)) *
+         hiccup;
 }
 
 // The scale of every picture.
@@ -28,7 +30,8 @@ std::vector<float> Play(const Machine& machine, const ResolutionSettings& settin
                         std::mt19937* random, bool moves = false) {
   std::vector<float> scales;
   for (int k = 0; k < pictures; ++k) {
-    FollowPictureTime(Took_ms(machine, ScaleNow(*r), random), moves, settings, r);
+    const float took_ms = Took_ms(machine, ScaleNow(settings, *r), random, DetailNow(settings, *r));
+    FollowPictureTime(took_ms, moves, settings, r);
     scales.push_back(r->scale);
   }
   return scales;
@@ -58,21 +61,21 @@ float Settled(const Machine& machine, const ResolutionSettings& settings) {
 
 TEST(ResolutionRule, WhereTheViewMovesIntoADearSightThePicturesAreCoarserAtOnceAndFineAgainAfterIt) {
   const Machine usual{5, 110, 0}, slow{5, 190, 0};
-  const ResolutionSettings settings{40, 0.5f};
+  const ResolutionSettings settings{40, 0.35f};
   for (const bool moves : {true, false}) {
     SCOPED_TRACE(moves);
     Resolution r;
     std::mt19937 random(3);
     Play(usual, settings, 300, &r, &random, moves);
     const float scale = r.scale;
-    EXPECT_EQ(ScaleNow(r), scale);
+    EXPECT_EQ(ScaleNow(settings, r), scale);
     Play(slow, settings, 2, &r, &random, moves);
-    const float took_ms = Took_ms(slow, ScaleNow(r), &random);
+    const float took_ms = Took_ms(slow, ScaleNow(settings, r), &random);
     if (moves) EXPECT_LT(took_ms, 1.1f * settings.frame_ms);
-    else EXPECT_EQ(ScaleNow(r), scale);
+    else EXPECT_EQ(ScaleNow(settings, r), scale);
     EXPECT_EQ(r.scale, scale) << "two pictures are not for long";
     Play(usual, settings, 6, &r, &random, moves);
-    EXPECT_EQ(ScaleNow(r), scale);
+    EXPECT_EQ(ScaleNow(settings, r), scale);
   }
 }
 
@@ -84,10 +87,28 @@ TEST(ResolutionRule, NoMomentIsCoarserThanItMay) {
     Resolution r;
     for (int picture = 0; picture < 60; ++picture) {
       Play({fixed_ms(random), pixels_ms(random)}, settings, 1, &r, &random, random() % 3 != 0);
-      ASSERT_GE(ScaleNow(r), std::max(0.25f, kMinMotionScale * settings.least_scale) - 1e-5f);
-      ASSERT_LE(ScaleNow(r), r.scale);
+      ASSERT_GE(ScaleNow(settings, r), settings.least_scale - 1e-5f);
+      ASSERT_LE(ScaleNow(settings, r), r.scale);
+      ASSERT_GT(DetailNow(settings, r), 0.3f);
+      ASSERT_LE(DetailNow(settings, r), 1 + 1e-5f);
     }
   }
+}
+
+TEST(ResolutionRule, WhereTheLeastScaleDoesNotDoPeopleAreLessFineAndFineAgainLater) {
+  const Machine crowded{20, 40, 0.02f, 30}, empty{20, 40, 0.02f, 5};
+  const ResolutionSettings settings{45, 0.5f};
+  Resolution r;
+  std::mt19937 random(11);
+  Play(crowded, settings, 400, &r, &random);
+  EXPECT_FLOAT_EQ(ScaleNow(settings, r), 0.5f);
+  const float detail = r.detail;
+  EXPECT_LT(detail, 0.95f);
+  EXPECT_LT(Took_ms(crowded, 0.5f, &random, detail), 1.1f * settings.frame_ms);
+  Play(crowded, settings, 2000, &r, &random);
+  EXPECT_FLOAT_EQ(r.detail, detail) << "never to and fro";
+  Play(empty, settings, 3000, &r, &random);
+  EXPECT_EQ(r.detail, 1);
 }
 
 TEST(ResolutionRule, HoldsTheTimeOrIsAtItsLeastAndComesToRest) {
