@@ -305,6 +305,7 @@ WindowInput Window::Poll(double wait_s) {
   impl_->held = held;
   impl_->last = cursor;
   input.close = glfwWindowShouldClose(w);
+  glfwSetWindowShouldClose(w, GLFW_FALSE);
   return input;
 }
 

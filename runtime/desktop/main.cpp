@@ -9,6 +9,7 @@
 #include "runtime/desktop/stills.h"
 #include "runtime/desktop/user_settings.h"
 #include "runtime/desktop/warn.h"
+#include "runtime/desktop/watchdog.h"
 #include "runtime/show/guide_figure.h"
 #include "runtime/simulation/scenario.h"
 #include "runtime/visit/loading.h"
@@ -27,13 +28,6 @@ Error CheckOutputs(const PlayerOptions& options) {
   return Ok();
 }
 
-Error PlayInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader,
-                   Simulation* simulation) {
-  UserSettings user;
-  if (Error e = ReadUserSettings(options, &user)) return e;
-  return RunInWindow(options, pack, jobs, loader, &user, simulation);
-}
-
 // The scenario's file, and over it what the command line says.
 Error TakeOptions(const PlayerOptions& options, Scenario* scenario) {
   if (!options.scenario.empty()) {
@@ -48,12 +42,7 @@ Error TakeOptions(const PlayerOptions& options, Scenario* scenario) {
   return Ok();
 }
 
-Error Play(const PlayerOptions& options) {
-  if (options.save_settings) {
-    UserSettings user;
-    if (Error e = ReadUserSettings(options, &user)) return e;
-    return SaveUserSettings(user.settings, user);
-  }
+Error Play(const PlayerOptions& options, UserSettings* user, bool* starts_anew) {
   if (Error e = CheckOutputs(options)) return e;
   TourPack pack;
   PackFile file;
@@ -82,7 +71,29 @@ Error Play(const PlayerOptions& options) {
   const float seconds = RunLength_s(options, scenario, simulation);
   if (options.no_draw) return RunWithoutDrawing(options, seconds, &simulation);
   if (options.headless) return RunHeadless(options, seconds, pack, &loader, &simulations);
-  return PlayInWindow(options, pack, &jobs, &loader, &simulation);
+  return RunInWindow(options, pack, &jobs, &loader, user, &simulation, starts_anew);
+}
+
+// The exit status, unless something is wrong.
+Error Run(PlayerOptions options, char** argv, int* status) {
+  UserSettings user;
+  if (!options.headless || options.save_settings) {
+    if (Error e = ReadUserSettings(options, &user)) return e;
+  }
+  if (options.save_settings) return SaveUserSettings(user.settings, user);
+  if (user.settings.kiosk) {
+    if (options.pack.empty()) options.pack = user.kiosk.tour;
+    if (options.pack.empty() && options.scenario.empty())
+      return Fail("a pack is missing: name it, or say tour = \"FILE\" in the kiosk's settings");
+    if (const auto over = Watch({.hang_s = user.kiosk.hang_s}, argv)) {
+      *status = *over;
+      return Ok();
+    }
+  }
+  bool starts_anew = false;
+  if (Error e = Play(options, &user, &starts_anew)) return e;
+  if (starts_anew) *status = kStartAnewStatus;
+  return Ok();
 }
 
 }  // namespace
@@ -91,8 +102,9 @@ Error Play(const PlayerOptions& options) {
 int main(int argc, char** argv) {
   flaneur::PlayerOptions options;
   if (const int status = flaneur::ParsePlayerOptions(argc, argv, &options); status >= 0) return status;
-  const flaneur::Error error = flaneur::Play(options);
-  if (!error) return 0;
+  int status = 0;
+  const flaneur::Error error = flaneur::Run(options, argv, &status);
+  if (!error) return status;
   std::fprintf(stderr, "flaneur-player: error: %s\n", flaneur::OneLine(error.message).c_str());
   return 2;
 }

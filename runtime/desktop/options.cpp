@@ -70,6 +70,11 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
       ->check(CLI::IsMember({"off", "paper", "full"}));
   app.add_option("--language", o->language,
                  "Of the guided tour's captions and sounds, such as en (default: the tour's own)");
+  app.add_flag("--kiosk", o->kiosk,
+               "For exhibitions: full screen, visitor after visitor, locked but for the operator's PIN, watched and "
+               "started anew when it crashes or hangs");
+  app.add_option("--kiosk-settings", o->kiosk_settings,
+                 "With --kiosk: its file (default: $XDG_CONFIG_HOME/flaneur/kiosk.toml, else /etc/flaneur/kiosk.toml)");
   app.add_option("--settings", o->settings, "Settings file (default: $XDG_CONFIG_HOME/flaneur/player.toml)");
   app.add_option("--set", o->set,
                  "SETTING=VALUE instead of what the settings file says, such as snap_turn_deg=30 or keys.pause=p,pad_a")
@@ -90,14 +95,15 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
     return Refuse(e.what());
   }
   if (!ParseSize(size, o)) return Refuse("--size must be WIDTHxHEIGHT in pixels, 16 to 8192 each, not '" + size + "'");
-  if (o->pack.empty() && o->scenario.empty() && !o->save_settings) return Refuse("a pack is missing");
+  if (o->pack.empty() && o->scenario.empty() && !o->save_settings && !o->kiosk) return Refuse("a pack is missing");
   if (o->no_draw && !o->headless) return Refuse("--no-draw needs --headless");
   if (o->no_draw && o->views) return Refuse("--no-draw makes no pictures for --views; leave one out");
   if (o->views && !o->compare.empty()) return Refuse("--views is for one run; leave out --compare");
   if (o->no_draw && (!o->screenshot.empty() || !o->film.empty()))
     return Refuse("--no-draw makes no pictures; leave it out");
-  if (o->headless && (o->fullscreen || !o->monitor.empty()))
-    return Refuse("--fullscreen and --monitor are for a window; leave out --headless");
+  if (o->headless && (o->fullscreen || o->kiosk || !o->monitor.empty()))
+    return Refuse("--fullscreen, --kiosk and --monitor are for a window; leave out --headless");
+  if (!o->kiosk && !o->kiosk_settings.empty()) return Refuse("--kiosk-settings is for --kiosk");
   if (!o->headless && (!o->screenshot.empty() || !o->film.empty()))
     return Refuse("--screenshot and --film need --headless");
   if (!o->at_s.empty() && o->screenshot.empty()) return Refuse("--at is for --screenshot");

@@ -11,10 +11,11 @@ namespace flaneur {
 struct PlayerOptions {
   std::filesystem::path pack, scenario, metrics, trajectories, screenshot, film;
   bool headless = false, no_draw = false, views = false, verbose = false;
-  bool fullscreen = false;
-  std::string monitor;             // empty: any
-  std::filesystem::path settings;  // empty: the user's own
-  std::vector<std::string> set;    // SETTING=VALUE, over those of the file
+  bool fullscreen = false, kiosk = false;
+  std::filesystem::path kiosk_settings;  // empty: where they are usually
+  std::string monitor;                   // empty: any
+  std::filesystem::path settings;        // empty: the user's own
+  std::vector<std::string> set;          // SETTING=VALUE, over those of the file
   bool save_settings = false;
   std::optional<float> seconds, hour;
   std::vector<float> at_s;  // moments of the stills; empty: the last picture

@@ -19,8 +19,8 @@ Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation*
 // `loader` has been started with the pack.
 Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader,
                   std::vector<Simulation>* simulations);
-// Settings that the visitor changes are saved.
+// Settings that the visitor changes are saved. starts_anew: so that the program is to be started again.
 Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, UserSettings* user,
-                  Simulation* simulation);
+                  Simulation* simulation, bool* starts_anew);
 
 }  // namespace flaneur

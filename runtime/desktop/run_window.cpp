@@ -8,6 +8,7 @@
 #include "runtime/desktop/run.h"
 #include "runtime/desktop/speaker.h"
 #include "runtime/desktop/warn.h"
+#include "runtime/desktop/watchdog.h"
 #include "runtime/simulation/records.h"
 #include "runtime/visit/visit.h"
 
@@ -42,10 +43,11 @@ void EndWithoutWindow(const char* why) {
 }
 
 // Until there is enough for a picture; `closed`: the window was, meanwhile.
-Error WaitForTown(Window* window, Visit* visit, bool* closed) {
+Error WaitForTown(bool may_close, Window* window, Visit* visit, bool* closed) {
   for (bool there = false; !there && !*closed;) {
     if (Error e = visit->Load(&there)) return e;
-    *closed = window->Poll(there ? 0 : kPause_s).close;
+    *closed = window->Poll(there ? 0 : kPause_s).close && may_close;
+    TellAlive(false);
   }
   return Ok();
 }
@@ -53,20 +55,20 @@ Error WaitForTown(Window* window, Visit* visit, bool* closed) {
 }  // namespace
 
 Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, UserSettings* user,
-                  Simulation* s) {
+                  Simulation* s, bool* starts_anew) {
   Window window;
   const std::string title = TitleOf(pack, s->visitor.tour.language);
   const bool fullscreen = user->settings.fullscreen;
-  if (Error e =
-          window.Create({options.width_px, options.height_px, title, options.monitor, fullscreen}, EndWithoutWindow))
+  const std::string& monitor = options.monitor.empty() ? user->kiosk.monitor : options.monitor;
+  if (Error e = window.Create({options.width_px, options.height_px, title, monitor, fullscreen}, EndWithoutWindow))
     return e;
   Speaker speaker(jobs);
   UserSettingsStore store(user);
   WarningsOnStderr warnings;
-  Visit visit(pack, loader, user->settings, {speaker, store, warnings, PrintedKey}, s);
+  Visit visit(pack, loader, user->settings, {speaker, store, warnings, PrintedKey}, s, user->kiosk);
   if (Error e = visit.Begin(true)) return e;
   bool closed = false;
-  if (Error e = WaitForTown(&window, &visit, &closed)) return e;
+  if (Error e = WaitForTown(!user->settings.kiosk, &window, &visit, &closed)) return e;
   if (closed) return Ok();
   if (Error e = visit.Enter(options.views)) return e;
   Records records;
@@ -88,6 +90,7 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs
     const double ready_s = Now_s();
     window.Show();
     visit.TellTime(static_cast<float>(1000 * ((window.ShowWaits() ? ready_s : Now_s()) - now_s)));
+    TellAlive(true);
     if (!shown && options.verbose) TellStart();
     shown = true;
     ++pictures;
@@ -97,6 +100,7 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs
     pictures = 0;
   }
   visit.Leave();
+  *starts_anew = visit.starts_anew();
   return WriteRecords(records, options.metrics, options.trajectories);
 }
 

@@ -3,6 +3,32 @@
 #include "runtime/desktop/warn.h"
 
 namespace flaneur {
+namespace {
+
+Error TakeOptions(const PlayerOptions& options, PlayerSettings* settings) {
+  for (const std::string& assignment : options.set) {
+    if (Error e = SetPlayerSetting(assignment, settings)) return Fail("--set: " + e.message);
+  }
+  if (options.fullscreen) settings->fullscreen = true;
+  if (options.kiosk) settings->kiosk = true;
+  if (options.language) settings->language = *options.language;
+  return Ok();
+}
+
+// What a kiosk has otherwise than a window of one's own.
+Error TakeKiosk(const PlayerOptions& options, UserSettings* user) {
+  const auto path = options.kiosk_settings.empty() ? KioskSettingsPath() : options.kiosk_settings;
+  if (!path.empty()) {
+    if (Error e = ReadKioskSettings(path, &user->kiosk)) return e;
+  }
+  user->settings = user->in_file;
+  user->settings.fullscreen = true;
+  user->settings.pointer = user->kiosk.pointer;
+  if (!user->kiosk.languages.empty()) user->settings.language = user->kiosk.languages.front();
+  return TakeOptions(options, &user->settings);
+}
+
+}  // namespace
 
 Error ReadUserSettings(const PlayerOptions& options, UserSettings* user) {
   user->path = options.settings.empty() ? PlayerSettingsPath() : options.settings;
@@ -14,12 +40,8 @@ Error ReadUserSettings(const PlayerOptions& options, UserSettings* user) {
     const std::string more = wrong.size() > 1 ? " (and " + std::to_string(wrong.size() - 1) + " more)" : "";
     Warn(wrong.front() + more + "; the default is used, and the file stays as it is");
   }
-  for (const std::string& assignment : options.set) {
-    if (Error e = SetPlayerSetting(assignment, &user->settings)) return Fail("--set: " + e.message);
-  }
-  if (options.fullscreen) user->settings.fullscreen = true;
-  if (options.language) user->settings.language = *options.language;
-  return Ok();
+  if (Error e = TakeOptions(options, &user->settings)) return e;
+  return user->settings.kiosk ? TakeKiosk(options, user) : Ok();
 }
 
 Error SaveUserSettings(const PlayerSettings& settings, const UserSettings& user) {

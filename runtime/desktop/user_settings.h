@@ -1,6 +1,7 @@
-// The user's settings file between start and end. Internal to runtime/desktop.
+// The user's settings file between start and end, and a kiosk's. Internal to runtime/desktop.
 #pragma once
 #include "runtime/desktop/options.h"
+#include "runtime/visit/kiosk_settings.h"
 #include "runtime/visit/player_settings.h"
 #include "runtime/visit/shell.h"
 
@@ -11,9 +12,10 @@ struct UserSettings {
   std::filesystem::path path;
   PlayerSettings in_file, settings;  // settings: with what the command line says
   bool may_save = false;
+  KioskSettings kiosk;  // where settings.kiosk
 };
 
-// Warns of what is wrong in the file. Errors: an option that is no setting.
+// Warns of what is wrong in the file. Errors: an option that is no setting, something wrong in the kiosk's file.
 Error ReadUserSettings(const PlayerOptions& options, UserSettings* user);
 
 // Errors: no folder for it, something wrong in the file that is there, and what WriteFile says.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/visit/kiosk.h"
 #include "runtime/walk/point_walk.h"
 
 namespace flaneur {
@@ -78,9 +79,10 @@ void ChangeView(const Held& held, const Simulation& s, Controls* c) {
 }
 
 void NextLanguage(const Simulation& s, Controls* c) {
-  const std::vector<std::string>& all = s.visitor.tour.languages;
+  const std::vector<std::string>& all = c->offered_languages.empty() ? s.visitor.tour.languages : c->offered_languages;
   if (all.size() < 2) return;
-  const size_t now = static_cast<size_t>(std::find(all.begin(), all.end(), s.visitor.tour.language) - all.begin());
+  const std::string& language = c->settings.language.empty() ? s.visitor.tour.language : c->settings.language;
+  const size_t now = static_cast<size_t>(std::find(all.begin(), all.end(), language) - all.begin());
   c->settings.language = all[(now + 1) % all.size()];
   c->changed = c->applies = true;
 }
@@ -96,6 +98,9 @@ void AskTour(const Held& held, const Simulation& s, Controls* c, TourWish* wish)
   wish->next = wish->next || next;
   wish->back = wish->back || back;
 }
+
+// A kiosk is closed by its operator alone.
+bool Closes(const WindowInput& input, const Controls& c) { return input.close && !c.settings.kiosk; }
 
 void Press(const Held& held, const Simulation& s, Controls* c, CameraInput* camera) {
   AskTour(held, s, c, &camera->tour);
@@ -113,12 +118,13 @@ void Press(const Held& held, const Simulation& s, Controls* c, CameraInput* came
   }
   ChangeView(held, s, c);
   c->opens_pages = c->opens_pages || held.Pressed(Action::kMenu);
-  c->quits = c->quits || held.input.close || held.Pressed(Action::kQuit);
+  c->quits = c->quits || Closes(held.input, *c) || held.Pressed(Action::kQuit);
 }
 
 void TakeCodes(Controls* c) {
   for (size_t k = 0; k < kActions; ++k) {
     c->codes[k].clear();
+    if (c->settings.kiosk && IsLocked(static_cast<Action>(k))) continue;
     for (const std::string& key : c->settings.keys[k]) c->codes[k].push_back(InputCode(key));
   }
 }
@@ -158,7 +164,7 @@ void TakeInput(const WindowInput& input, float passed_s, float aspect, bool page
                CameraInput* camera) {
   const Held held{input, c};
   if (pages) {
-    c->quits = c->quits || input.close;
+    c->quits = c->quits || Closes(input, *c);
   } else {
     Press(held, s, c, camera);
     TurnAndLook(held, passed_s, c);

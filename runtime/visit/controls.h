@@ -14,6 +14,7 @@ namespace flaneur {
 struct Controls {
   PlayerSettings settings;
   KeyLayout layout;
+  std::vector<std::string> offered_languages;  // by a kiosk; empty: all that there are
   std::array<std::vector<int>, kActions> codes;
   std::bitset<kActions> was_down;
   bool follows_tour = true;             // else the visitor walks about

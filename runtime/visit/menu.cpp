@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "runtime/visit/phrases.h"
 
@@ -50,8 +51,9 @@ std::vector<size_t> Halts(const GuidedTour& tour) {
   return halts;
 }
 
-// The tour's languages and the player's own.
-std::vector<std::string> Languages(const Simulation& s) {
+// The tour's languages and the player's own, or those that a kiosk offers.
+std::vector<std::string> Languages(const Controls& c, const Simulation& s) {
+  if (!c.offered_languages.empty()) return c.offered_languages;
   std::vector<std::string> all;
   if (!s.visitor.tour.stops.empty()) all = s.visitor.tour.languages;
   for (const std::string& own : PhraseLanguages()) {
@@ -141,14 +143,15 @@ void ShowMain(PageView* v) {
     }
     if (!Halts(tour).empty() && Row(*v, v->Words(Phrase::kStops), "stops")) OpenPage(Page::kStops, v->menu);
   }
-  const std::vector<std::string> languages = Languages(v->s);
-  if (Row(*v, std::string(v->Words(Phrase::kLanguage)) + ": " + LanguageName(v->language), "language")) {
+  const std::vector<std::string> languages = Languages(*c, v->s);
+  if (languages.size() > 1 &&
+      Row(*v, std::string(v->Words(Phrase::kLanguage)) + ": " + LanguageName(v->language), "language")) {
     const auto now = std::find(languages.begin(), languages.end(), v->language) - languages.begin();
     c->settings.language = languages[static_cast<size_t>(now + 1) % languages.size()];
     Changed(v);
   }
   if (Row(*v, v->Words(Phrase::kSettings), "settings")) OpenPage(Page::kSettings, v->menu);
-  if (Row(*v, v->Words(Phrase::kKeys), "keys")) OpenPage(Page::kKeys, v->menu);
+  if (!c->settings.kiosk && Row(*v, v->Words(Phrase::kKeys), "keys")) OpenPage(Page::kKeys, v->menu);
   if (!c->settings.kiosk && Row(*v, v->Words(Phrase::kEnd), "end")) v->choice.ends = true;
 }
 
@@ -166,7 +169,15 @@ void ShowStops(PageView* v) {
   });
 }
 
-constexpr size_t kSettingRows = 11;
+constexpr size_t kVolumeRow = 5, kSettingRows = 11;
+
+// What visitors of a kiosk can change besides the language.
+std::vector<size_t> SettingRows(bool kiosk) {
+  if (kiosk) return {kVolumeRow};
+  std::vector<size_t> all(kSettingRows);
+  std::iota(all.begin(), all.end(), size_t{0});
+  return all;
+}
 
 void ShowSetting(size_t row, PageView* v) {
   PlayerSettings& s = v->controls->settings;
@@ -191,7 +202,7 @@ void ShowSetting(size_t row, PageView* v) {
       if (steps != 0) s.field_of_view_deg = view_deg;
       return Step(steps, 5, 30, 120, &s.field_of_view_deg, v);
     }
-    case 5:
+    case kVolumeRow:
       return Step(Amount(*v, v->Words(Phrase::kVolume), Number(*v, "%.0f %%", 100 * s.sound_volume)), 0.1f, 0, 1,
                   &s.sound_volume, v);
     case 6:
@@ -239,7 +250,7 @@ void ShowKeys(PageView* v) {
   std::vector<Action> actions;
   for (size_t k = 0; k < kActions; ++k) {
     const auto action = static_cast<Action>(k);
-    if (action != Action::kMenu && (action != Action::kQuit || !v->controls->settings.kiosk)) actions.push_back(action);
+    if (action != Action::kMenu) actions.push_back(action);
   }
   PagedRows(actions.size() + 1, v, [&](size_t k) {
     if (k == actions.size()) {
@@ -263,8 +274,10 @@ void ShowRows(PageView* v) {
       return ShowMain(v);
     case Page::kStops:
       return ShowStops(v);
-    case Page::kSettings:
-      return PagedRows(kSettingRows, v, [&](size_t row) { ShowSetting(row, v); });
+    case Page::kSettings: {
+      const std::vector<size_t> rows = SettingRows(v->controls->settings.kiosk);
+      return PagedRows(rows.size(), v, [&](size_t k) { ShowSetting(rows[k], v); });
+    }
     case Page::kKeys:
       return ShowKeys(v);
   }
@@ -334,7 +347,7 @@ float PageLetter_px(int width_px, int height_px) {
 
 std::string PageTexts(const Controls& c, const Simulation& s) {
   std::string all = std::string("–°←→↑↓") + kCutShort;
-  for (const std::string& language : Languages(s)) all += LanguageName(language);
+  for (const std::string& language : Languages(c, s)) all += LanguageName(language);
   for (size_t k = 0; k < s.visitor.tour.words.size(); ++k) all += NameOfStop(s.visitor.tour, k);
   for (const auto& codes : c.codes) {
     for (int code : codes) all += InputLabel(code, c.layout);

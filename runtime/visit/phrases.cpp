@@ -65,6 +65,12 @@ constexpr std::array<Words, static_cast<size_t>(Phrase::kCount)> kPhrases{{
     {"The tour is over. Walk about as you like.", "Die Führung ist zu Ende. Gehen Sie umher, wie Sie mögen."},
     {"Next: %s", "Als Nächstes: %s"},
     {"the button in the corner", "der Knopf in der Ecke"},
+    {"Operator: PIN", "Personal: PIN"},
+    {"Wrong. Again", "Falsch. Noch einmal"},
+    {"Wait", "Warten"},
+    {"Operator", "Personal"},
+    {"Start anew", "Neu starten"},
+    {"Touch to begin", "Berühren, um zu beginnen"},
 }};
 
 constexpr std::array<Words, kActions> kActionWords{{

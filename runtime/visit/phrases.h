@@ -57,6 +57,12 @@ enum class Phrase {
   kTourOver,
   kNextStop,
   kCornerButton,
+  kPinAsked,
+  kPinWrong,
+  kPinWait,
+  kOperator,
+  kRestart,
+  kTouchToBegin,
   kCount
 };
 

@@ -33,8 +33,7 @@ void VisitSettings(Settings* s, Visit visit) {
   visit.Number("least_resolution_scale", &s->least_resolution_scale, 0.25, 1,
                "as coarsely as that, of width and height; 1: never");
   visit.Flag("fullscreen", &s->fullscreen, "the window fills its screen");
-  visit.Flag("kiosk", &s->kiosk,
-             "for exhibitions: begins with the pages, comes back to them, and cannot be ended there");
+  visit.Flag("kiosk", &s->kiosk, "for exhibitions: visitor after visitor, and only the operator ends it");
 }
 
 std::vector<std::string> KnownNames() {

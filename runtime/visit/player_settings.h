@@ -55,7 +55,7 @@ struct PlayerSettings {
   float frames_per_s = 25;              // where a machine draws fewer, the window's picture is drawn more coarsely
   float least_resolution_scale = 0.5f;  // but not below this share of its width and height; 1: never
   bool fullscreen = false;              // the window fills its screen
-  bool kiosk = false;  // for exhibitions: begins with the pages, comes back to them, and cannot be ended there
+  bool kiosk = false;                   // for exhibitions: visitor after visitor, and only the operator ends it
   std::array<std::vector<std::string>, kActions> keys;
 
   PlayerSettings();  // with the default keys

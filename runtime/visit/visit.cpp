@@ -7,9 +7,11 @@
 #include "runtime/show/frame_from_simulation.h"
 #include "runtime/visit/controls.h"
 #include "runtime/visit/developer_views.h"
+#include "runtime/visit/kiosk.h"
 #include "runtime/visit/menu.h"
 #include "runtime/visit/narration.h"
 #include "runtime/visit/notices.h"
+#include "runtime/visit/operator_page.h"
 #include "runtime/visit/resolution.h"
 
 namespace flaneur {
@@ -18,13 +20,6 @@ namespace {
 constexpr double kLongUpload_ms = 50,
                  kUpload_ms = 3;      // of what has been loaded: before the first picture, and in each later one
 constexpr int kMaxStepsPerFrame = 4;  // a machine that can't keep up slows the town down rather than freeze
-constexpr float kNobodyThere_s = 90;  // without a key, a click or a move, in an exhibition
-
-bool IsUsed(const WindowInput& input) {
-  constexpr float kMoved = 0.3f;
-  return input.down.any() || input.pressed || Length(input.turned_px) > 0 || Length(input.left_stick) > kMoved ||
-         Length(input.right_stick) > kMoved;
-}
 
 }  // namespace
 
@@ -34,6 +29,7 @@ struct Visit::Impl {
   PlayerSettings settings;  // as the visit begins
   Shell shell;
   Simulation* s;
+  Kiosk kiosk;
   Renderer renderer{};
   Overlay overlay{};
   Controls controls{};
@@ -47,17 +43,22 @@ struct Visit::Impl {
   Narration narration{};
   Resolution resolution{};
   float own_fov_rad = 0;
-  double owed_s = 0;   // of simulated time
-  float unused_s = 0;  // since the visitor's hands did anything
+  double owed_s = 0;  // of simulated time
   int width_px = 0, height_px = 0;
   bool for_pages = false;  // what the hands do in this picture, even where that closes them
+  bool starts_anew = false;
 
-  bool pages() const { return menu.page != Page::kNone; }
+  bool pages() const { return menu.page != Page::kNone || operator_page(); }
+  bool operator_page() const { return kiosk.page != OperatorPage::kNone; }
   bool hidden() const { return width_px <= 0 || height_px <= 0; }
   void ApplySettings();
   void Save();
   void Jump(size_t stop);
   void BeginAnew();
+  void MakeControlsAnew();
+  bool IsLed() const;
+  void FollowVisitors(const WindowInput& input, float passed_s);
+  void ShowOperator();
   void TakeHands(const WindowInput& input, float passed_s);
   void ShowPages(const WindowInput& input, float passed_s);
   void StepTown(float passed_s, Records* records);
@@ -94,17 +95,46 @@ void Visit::Impl::Jump(size_t stop) {
   looks = {};
 }
 
-// For the next visitor of an exhibition.
-void Visit::Impl::BeginAnew() {
+void Visit::Impl::MakeControlsAnew() {
   controls = MakeControls(settings, shell.layout, *s);
+  if (settings.kiosk) controls.offered_languages = kiosk.settings.languages;
+}
+
+// For the next visitor of a kiosk.
+void Visit::Impl::BeginAnew() {
+  MakeControlsAnew();
   ApplySettings();
   Jump(0);
   MeetSomebodyNew(&menu);
 }
 
+// Who is shown round need not touch anything.
+bool Visit::Impl::IsLed() const {
+  const GuidedTour& tour = s->visitor.tour;
+  return controls.follows_tour && HasTour(tour) && !tour.paused && !pages();
+}
+
+void Visit::Impl::FollowVisitors(const WindowInput& input, float passed_s) {
+  if (!settings.kiosk) return;
+  if (FollowKiosk(input, passed_s, IsLed(), settings, &kiosk) == KioskEvent::kVisitEnds) BeginAnew();
+}
+
+void Visit::Impl::ShowOperator() {
+  switch (ShowOperatorPage(PageLanguage(controls, *s), "", width_px, height_px, &kiosk)) {
+    case OperatorChoice::kNone:
+      return;
+    case OperatorChoice::kRestart:
+      starts_anew = true;
+      [[fallthrough]];
+    case OperatorChoice::kEnd:
+      controls.quits = true;
+      [[fallthrough]];
+    case OperatorChoice::kBack:
+      ClosePage(&kiosk);
+  }
+}
+
 void Visit::Impl::TakeHands(const WindowInput& input, float passed_s) {
-  const bool is_led = controls.follows_tour && HasTour(s->visitor.tour) && !pages();
-  unused_s = is_led || IsUsed(input) ? 0 : unused_s + passed_s;
   WindowInput walking = input;
   if (for_pages) walking = {input.down, {}, {}, {}, {}, {-1, -1}, false, input.close};
   if (!hidden() && overlay.HasPointer()) walking.clicks.clear();
@@ -116,21 +146,26 @@ void Visit::Impl::TakeHands(const WindowInput& input, float passed_s) {
   controls.toggles_views = controls.switches_adaptation = controls.opens_pages = false;
   if (controls.applies) ApplySettings();
   controls.applies = false;
-  if (settings.kiosk && unused_s > kNobodyThere_s) {
-    unused_s = 0;
-    BeginAnew();
-  }
 }
 
 // Before the hands' wishes for the walk: what is pressed here is not meant for the town.
 void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
   for_pages = pages();
-  TakePageInput(input, &menu, &controls);
+  Menu navigated = menu;  // by keys
+  if (operator_page()) {
+    navigated.page = Page::kMain;
+    menu.was_down = input.down;
+  } else {
+    TakePageInput(input, &menu, &controls);
+    navigated = menu;
+  }
   if (hidden()) return;
-  const std::string title = TitleOf(pack, PageLanguage(controls, *s));
-  overlay.PrepareText(PageLetter_px(width_px, height_px), pages() ? title + PageTexts(controls, *s) : "");
-  overlay.Begin(width_px, height_px, OverlayInputFrom(input, menu, width_px, height_px, passed_s));
-  const MenuChoice choice = ShowMenu(title, *s, width_px, height_px, &menu, &controls);
+  const std::string language = PageLanguage(controls, *s), title = TitleOf(pack, language);
+  overlay.PrepareText(PageLetter_px(width_px, height_px),
+                      pages() ? title + PageTexts(controls, *s) + OperatorTexts(language) : "");
+  overlay.Begin(width_px, height_px, OverlayInputFrom(input, navigated, width_px, height_px, passed_s));
+  ShowOperator();
+  const MenuChoice choice = operator_page() ? MenuChoice{} : ShowMenu(title, *s, width_px, height_px, &menu, &controls);
   if (views.shown && !pages()) ShowViews(statistics, width_px, height_px, &views, s);
   if (controls.points && !pages() && ShowMenuButton(width_px, height_px)) OpenPage(Page::kMain, &menu);
   controls.quits = controls.quits || choice.ends;
@@ -177,8 +212,8 @@ void Visit::Impl::Draw(float passed_s) {
 }
 
 Visit::Visit(const TourPack& pack, Loader* loader, const PlayerSettings& settings, const Shell& shell,
-             Simulation* simulation)
-    : impl_(new Impl{pack, loader, settings, shell, simulation}) {}
+             Simulation* simulation, const KioskSettings& kiosk)
+    : impl_(new Impl{pack, loader, settings, shell, simulation, {kiosk}}) {}
 Visit::~Visit() = default;
 
 Error Visit::Begin(bool onto_window) {
@@ -195,9 +230,9 @@ Error Visit::Load(bool* there) {
 Error Visit::Enter(bool views) {
   Impl& v = *impl_;
   if (Error e = v.overlay.Create()) return e;
-  v.views.shown = views;
+  v.views.shown = views && !v.settings.kiosk;
   v.own_fov_rad = v.s->visitor.camera.view.fov_rad;
-  v.controls = MakeControls(v.settings, v.shell.layout, *v.s);
+  v.MakeControlsAnew();
   v.ApplySettings();
   BeginHint(v.controls, *v.s, &v.notices);
   if (v.settings.kiosk) MeetSomebodyNew(&v.menu);
@@ -210,6 +245,7 @@ Error Visit::Picture(const WindowInput& input, int width_px, int height_px, floa
   v.width_px = width_px;
   v.height_px = height_px;
   if (!v.hidden()) v.s->screen_width_px = width_px;
+  v.FollowVisitors(input, passed_s);
   v.ShowPages(input, passed_s);
   v.TakeHands(input, passed_s);
   v.StepTown(passed_s, records);
@@ -234,6 +270,7 @@ void Visit::Present() {
 void Visit::Read(std::vector<uint8_t>* rgb) { impl_->renderer.Read(rgb); }
 void Visit::Leave() { impl_->Save(); }
 bool Visit::ends() const { return impl_->controls.quits; }
+bool Visit::starts_anew() const { return impl_->starts_anew; }
 bool Visit::frees_pointer() const { return impl_->controls.points || impl_->pages(); }
 bool Visit::fullscreen() const { return impl_->controls.settings.fullscreen; }
 bool Visit::shows_pages() const { return impl_->pages(); }

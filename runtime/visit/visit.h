@@ -8,6 +8,7 @@
 #include "runtime/render/frame.h"
 #include "runtime/simulation/records.h"
 #include "runtime/simulation/simulation.h"
+#include "runtime/visit/kiosk_settings.h"
 #include "runtime/visit/loading.h"
 #include "runtime/visit/shell.h"
 #include "runtime/visit/window_input.h"
@@ -17,8 +18,9 @@ namespace flaneur {
 // Needs a current OpenGL context for its whole life, and what it is given as long.
 class Visit {
  public:
+  // kiosk: for PlayerSettings::kiosk.
   Visit(const TourPack& pack, Loader* loader, const PlayerSettings& settings, const Shell& shell,
-        Simulation* simulation);
+        Simulation* simulation, const KioskSettings& kiosk = {});
   ~Visit();
   // onto_window: RenderOptions::onto_window. Errors: those of Renderer::Begin.
   Error Begin(bool onto_window = false);
@@ -38,7 +40,8 @@ class Visit {
   void Present();                        // onto the window's surface
   void Read(std::vector<uint8_t>* rgb);  // the last picture: RGB, 8 bits a channel, top row first
   void Leave();                          // saves what the visitor has changed
-  bool ends() const;                     // the visitor wants to
+  bool ends() const;                     // the visitor wants to; of a kiosk the operator
+  bool starts_anew() const;              // so that the program is to be started again
   bool frees_pointer() const;            // to point at things with; else the mouse is caught
   bool fullscreen() const;               // as the visitor has it
   bool shows_pages() const;

@@ -157,6 +157,27 @@ TEST(Controls, RemappedKeysActAndTheOldOnesDont) {
   EXPECT_GT(v.At().x, 23);
 }
 
+TEST(Controls, NoKeyOfAKioskEndsItOrShowsViewsOrChangesWhatIsTheOperators) {
+  PlayerSettings settings;
+  settings.kiosk = true;
+  settings.pointer = "point";
+  Visitor v(settings, true);
+  v.controls.offered_languages = {"de", "fr"};
+  const float fov_rad = v.s.visitor.camera.view.fov_rad;
+  for (const std::string& name : InputNames()) {
+    v.Tap(name.c_str());
+    EXPECT_FALSE(v.controls.quits || v.controls.toggles_views || v.controls.switches_adaptation) << name;
+    EXPECT_TRUE(v.controls.points) << name;
+    EXPECT_FALSE(v.controls.settings.fullscreen) << name;
+  }
+  WindowInput closing;
+  closing.close = true;
+  v.Do(closing);
+  EXPECT_FALSE(v.controls.quits);
+  EXPECT_EQ(v.s.visitor.camera.view.fov_rad, fov_rad);
+  EXPECT_TRUE(v.controls.settings.language == "de" || v.controls.settings.language == "fr");
+}
+
 TEST(Controls, TheTourIsLeftByWalkingAndFoundAgainByItsKey) {
   Visitor v({}, true, 20);
   v.Do({}, 60);

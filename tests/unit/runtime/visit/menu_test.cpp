@@ -134,6 +134,28 @@ TEST(Pages, ForAnExhibitionHaveNoEnd) {
   }
 }
 
+TEST(Pages, ForAnExhibitionChangeNothingButLanguageAndSound) {
+  Pages p;
+  p.controls.settings.kiosk = true;
+  const PlayerSettings before = p.controls.settings;
+  for (const Page page : {Page::kMain, Page::kSettings}) {
+    for (float y = 0; y < 1; y += 0.02f) {
+      for (const float x : {0.3f, 0.5f, 0.55f, 0.77f}) {
+        OpenPage(page, &p.menu);
+        p.Picture({});
+        p.Picture({});
+        p.Click(x, y);
+        EXPECT_NE(p.menu.page, Page::kKeys);
+      }
+    }
+  }
+  EXPECT_NE(p.controls.settings.sound_volume, before.sound_volume);
+  PlayerSettings others = p.controls.settings;
+  others.sound_volume = before.sound_volume;
+  others.language = before.language;
+  EXPECT_EQ(PlayerSettingsText(others), PlayerSettingsText(before));
+}
+
 TEST(Pages, LeadToEveryHaltOfTheTour) {
   Pages p;
   std::set<size_t> stops;

@@ -1,0 +1,19 @@
+// What a kiosk's operator sees: the keypad for their PIN, and behind it what they can do. By touch, mouse, keyboard and
+// gamepad.
+#pragma once
+#include <string>
+
+#include "runtime/visit/kiosk.h"
+
+namespace flaneur {
+
+enum class OperatorChoice { kNone, kBack, kRestart, kEnd };
+
+// Between an Overlay's Begin and Draw. state: a line of what the operator wants to know.
+OperatorChoice ShowOperatorPage(const std::string& language, const std::string& state, int width_px, int height_px,
+                                Kiosk* kiosk);
+
+// All that it may write, for Overlay::PrepareText.
+std::string OperatorTexts(const std::string& language);
+
+}  // namespace flaneur

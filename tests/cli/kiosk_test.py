@@ -1,0 +1,188 @@
+"""A kiosk as children, operators and crashes meet it: on a display of its own, with keys and mouse by xdotool."""
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+import unittest
+
+from support import BIN, has_tools
+from window_test import PACK, PATIENCE_S, SCREEN_PX, TITLE, Display
+
+PIN = "4711"
+HANG_S = 3
+RESTART_S = 10  # after which a kiosk must be there again; on a machine that others share by so many times as long
+SHARE = 4
+
+
+def child_of(program):
+    found = subprocess.run(["pgrep", "-P", str(program.pid)], capture_output=True, text=True, check=False).stdout.split()
+    return int(found[0]) if found else None
+
+
+class KioskTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if not has_tools("Xvfb", "xdotool", "pgrep"):
+            raise unittest.SkipTest("no Xvfb, xdotool or pgrep: install the Debian packages xvfb, xdotool and procps")
+        if not PACK.exists():
+            raise unittest.SkipTest(f"no {PACK}: bake the demo tour with ./demo")
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="flaneur_kiosk_")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        display = Display()
+        self.display = display.__enter__()
+        self.addCleanup(display.__exit__)
+
+    def start(self, *arguments, settings="", environment=None, pack=True):
+        file = self.folder / "kiosk.toml"
+        file.write_text(f"pin = \"{PIN}\"\nhang_s = {HANG_S}\nstatistics_folder = \"visits\"\n{settings}")
+        command = [str(BIN / "flaneur-player"), *[str(PACK)] * pack, "--kiosk", "--kiosk-settings", str(file), "--people", "10", "--verbose",
+                   *arguments]
+        self.log = open(self.folder / "log", "w+")
+        self.addCleanup(self.log.close)
+        program = subprocess.Popen(command, env=dict(self.display.environment(), **(environment or {})), stderr=self.log, start_new_session=True)
+        self.addCleanup(self.kill, program)
+        return program
+
+    def kill(self, program):
+        try:
+            os.killpg(program.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        program.wait()
+
+    def said(self):
+        return pathlib.Path(self.log.name).read_text()
+
+    def wait_until(self, what, patience_s=PATIENCE_S):
+        began = time.monotonic()
+        while time.monotonic() - began < patience_s:
+            if what():
+                return time.monotonic() - began
+            time.sleep(0.1)
+        raise AssertionError(f"waited {patience_s} s in vain; it said: {self.said()}")
+
+    def wait_for_pictures(self, program):
+        self.display.wait_for_window(program)
+
+    def wait_for_another(self, program, before):
+        """Until another process plays than the one before, and shows the town."""
+        def is_there():
+            return child_of(program) not in (None, before) and self.display.shows("frames/s")
+        return self.wait_until(is_there, SHARE * RESTART_S)
+
+    def hold(self, key, seconds):
+        self.display.do("keydown", key)
+        time.sleep(seconds)
+        self.display.do("keyup", key)
+
+    def type(self, digits):
+        for digit in digits:
+            self.display.tap(digit)
+
+    def test_is_full_screen_and_nobody_gets_out_but_by_the_pin(self):
+        program = self.start()
+        self.wait_for_pictures(program)
+        told = self.display.do("search", "--name", TITLE, "getwindowgeometry")
+        self.assertIn("{}x{}".format(*SCREEN_PX), told)
+        plays = child_of(program)
+        for key in ("Escape", "F10", "F1", "F2", "F11", "alt+F4", "ctrl+q", "ctrl+c", "Escape", "Tab", "Return"):
+            self.display.do("key", key)
+            time.sleep(0.2)
+        self.display.ask_to_close()
+        time.sleep(1)
+        self.type("1234")
+        time.sleep(1)
+        self.assertIsNone(program.poll(), self.said())
+        self.assertEqual(child_of(program), plays)
+        self.type(PIN)
+        for key in ("Down", "Down", "Return"):  # the operator's page: back, start anew, end
+            self.display.tap(key)
+        self.assertEqual(program.wait(PATIENCE_S), 0)
+
+    def test_the_operator_starts_it_anew_by_holding_the_key_for_ending(self):
+        program = self.start()
+        self.wait_for_pictures(program)
+        plays = child_of(program)
+        self.hold("F10", 3 + 2 * self.display.beat_s())
+        self.type(PIN)
+        for key in ("Down", "Return"):
+            self.display.tap(key)
+        self.wait_for_another(program, plays)
+
+    def test_comes_back_when_it_is_killed_and_when_it_is_stopped(self):
+        program = self.start()
+        self.wait_for_pictures(program)
+        for how, said in ((signal.SIGKILL, "the player crashed (Killed)"), (signal.SIGSEGV, "the player crashed"),
+                          (signal.SIGSTOP, "the player hangs")):
+            with self.subTest(how):
+                plays = child_of(program)
+                os.kill(plays, how)
+                took_s = self.wait_for_another(program, plays)
+                print(f"{how.name}: there again after {took_s:.1f} s", flush=True)
+                self.assertIn(said, self.said())
+                time.sleep(1)
+
+    def test_comes_back_when_the_process_that_watches_it_is_killed(self):
+        program = self.start()
+        self.wait_for_pictures(program)
+        plays = child_of(program)
+        program.kill()
+        program.wait()
+        self.wait_until(lambda: "the process that watches the player was lost" in self.said())
+        found = self.wait_until(lambda: subprocess.run(["pgrep", "-P", str(plays)], capture_output=True, check=False).returncode == 0)
+        self.assertIsNotNone(found)
+        os.kill(plays, signal.SIGTERM)
+        self.wait_until(lambda: not pathlib.Path(f"/proc/{plays}").exists())
+
+    def test_ends_when_it_is_asked_to_by_a_signal_even_while_it_hangs(self):
+        for stopped in (False, True):
+            program = self.start()
+            self.wait_for_pictures(program)
+            plays = child_of(program)
+            if stopped:
+                os.kill(plays, signal.SIGSTOP)
+            program.terminate()
+            self.assertEqual(program.wait(PATIENCE_S), 0)
+            self.assertFalse(pathlib.Path(f"/proc/{plays}").exists())
+
+    def test_tells_the_service_manager(self):
+        path = self.folder / "notify"
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+            manager.bind(str(path))
+            manager.settimeout(PATIENCE_S)
+            program = self.start(environment={"NOTIFY_SOCKET": str(path)})
+            heard = []
+            while not any(message.startswith("READY=1") for message in heard):
+                heard.append(manager.recv(1000).decode())
+            for _ in range(3):
+                self.assertIn("WATCHDOG=1", [manager.recv(1000).decode() for _ in range(3)])
+            program.terminate()
+            while heard[-1] != "STOPPING=1":
+                heard.append(manager.recv(1000).decode())
+            self.assertEqual(program.wait(PATIENCE_S), 0)
+
+    def test_the_tour_comes_from_the_settings_and_without_any_it_says_so(self):
+        program = self.start(settings=f"tour = \"{PACK}\"\n", pack=False)
+        self.wait_for_pictures(program)
+        program.terminate()
+        program.wait(PATIENCE_S)
+        program = self.start(pack=False)
+        self.assertEqual(program.wait(PATIENCE_S), 2)
+        self.assertIn("tour = ", self.said())
+
+    def test_what_it_cannot_begin_with_is_named_once(self):
+        for settings, pack, word in (("idle_s = 1\n", True, "kiosk.toml:4: idle_s"), ("tour = \"none.glb\"\n", False, "none.glb")):
+            program = self.start(settings=settings, pack=pack)
+            self.assertEqual(program.wait(PATIENCE_S), 2)
+            self.assertEqual(len(self.said().splitlines()), 1, self.said())
+            self.assertIn(word, self.said())
+
+
+if __name__ == "__main__":
+    unittest.main()
