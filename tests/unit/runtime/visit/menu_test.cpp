@@ -138,6 +138,7 @@ TEST(Pages, ForAnExhibitionChangeNothingButLanguageAndSound) {
   Pages p;
   p.controls.settings.kiosk = true;
   const PlayerSettings before = p.controls.settings;
+  std::set<float> volumes;
   for (const Page page : {Page::kMain, Page::kSettings}) {
     for (float y = 0; y < 1; y += 0.02f) {
       for (const float x : {0.3f, 0.5f, 0.55f, 0.77f}) {
@@ -146,10 +147,11 @@ TEST(Pages, ForAnExhibitionChangeNothingButLanguageAndSound) {
         p.Picture({});
         p.Click(x, y);
         EXPECT_NE(p.menu.page, Page::kKeys);
+        volumes.insert(p.controls.settings.sound_volume);
       }
     }
   }
-  EXPECT_NE(p.controls.settings.sound_volume, before.sound_volume);
+  EXPECT_GT(volumes.size(), 1u);
   PlayerSettings others = p.controls.settings;
   others.sound_volume = before.sound_volume;
   others.language = before.language;
