@@ -36,6 +36,7 @@ class Reader {
   Error Read(Scene* scene) {
     std::string text;
     if (Error e = ReadTextFile(path_, &text)) return e;
+    if (NestsTooDeep(text)) return Bad(kNestsTooDeep);
     // A sequence has a document a line; a document of its own may also be printed over many lines.
     const size_t end = text.find('\n');
     Json first = Json::parse(text.substr(0, end), nullptr, false);

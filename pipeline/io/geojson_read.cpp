@@ -261,6 +261,7 @@ Error ReadGeoJson(const std::filesystem::path& path, const ReadGeoJsonOptions& o
   std::string text;
   if (Error error = ReadTextFile(path, &text)) return error;
   *file = {};
+  if (NestsTooDeep(text)) return Fail(path.string() + ": " + kNestsTooDeep);
   file->footprints.clearance_m = 0;  // unless the file says so
   try {
     return Reader(path.string(), file).Read(Json::parse(WithoutNonNumbers(text)), options);

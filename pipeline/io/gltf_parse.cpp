@@ -81,16 +81,20 @@ void FindMeshoptBytes(json* root) {
   });
 }
 
+// Empty where a binary is broken.
+std::string_view JsonOf(bool binary, const std::vector<uint8_t>& bytes) {
+  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (!binary) return all;
+  if (bytes.size() < kJsonOffset || GetU32(bytes, 12) > bytes.size() - kJsonOffset) return {};
+  return all.substr(kJsonOffset, GetU32(bytes, 12));
+}
+
 // Rewrites the JSON within the file for what tinygltf does not know. Broken JSON stays, for
 // tinygltf to report.
 void PrepareExtensions(bool binary, std::vector<uint8_t>* bytes) {
-  const size_t begin = binary ? kJsonOffset : 0;
-  size_t end = bytes->size();
-  if (binary) {
-    if (bytes->size() < kJsonOffset || GetU32(*bytes, 12) > bytes->size() - kJsonOffset) return;
-    end = kJsonOffset + GetU32(*bytes, 12);
-  }
-  const std::string_view text(reinterpret_cast<const char*>(bytes->data()) + begin, end - begin);
+  const std::string_view text = JsonOf(binary, *bytes);
+  if (text.empty()) return;
+  const size_t begin = binary ? kJsonOffset : 0, end = begin + text.size();
   const bool draco = text.find(kDraco) != std::string_view::npos;
   const bool meshopt = text.find(kMeshoptExtension) != std::string_view::npos;
   if (!draco && !meshopt) return;
@@ -119,6 +123,7 @@ Error ParseGltf(const std::filesystem::path& path, tinygltf::Model* model) {
   std::string error, warning;
   bool ok = false;
   try {
+    if (NestsTooDeep(JsonOf(binary, bytes))) return Fail(file + ": its JSON " + kNestsTooDeep);
     PrepareExtensions(binary, &bytes);
     if (bytes.size() > 0xffffffffu) return Fail(file + ": larger than 4 GiB; split it");
     tinygltf::TinyGLTF loader;

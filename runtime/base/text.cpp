@@ -63,4 +63,40 @@ std::string OneLine(std::string_view text) {
   return out;
 }
 
+bool NestsTooDeep(std::string_view json) {
+  constexpr int kDeepest = 200;
+  int depth = 0;
+  bool in_string = false;
+  for (size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_string && c == '\\') ++i;
+    else if (c == '"') in_string = !in_string;
+    else if (!in_string && (c == '[' || c == '{') && ++depth > kDeepest) return true;
+    else if (!in_string && (c == ']' || c == '}')) --depth;
+  }
+  return false;
+}
+
+int LineOfTooLongKey(std::string_view toml) {
+  constexpr int kMostParts = 200;
+  int line = 1, parts = 1;
+  char quote = 0;  // of the string or comment that we are in; three quotes open and close like one
+  for (size_t i = 0; i < toml.size(); ++i) {
+    const char c = toml[i];
+    line += c == '\n' ? 1 : 0;
+    if (quote == '#') {
+      quote = c == '\n' ? '\0' : quote;
+    } else if (quote != 0) {
+      if (quote == '"' && c == '\\') ++i;
+      else if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'' || c == '#') {
+      quote = c;
+    } else if (c == '.' && ++parts > kMostParts) {
+      return line;
+    }
+    if (quote == 0 && std::string_view("=,[]{}\n").find(c) != std::string_view::npos) parts = 1;
+  }
+  return 0;
+}
+
 }  // namespace flaneur

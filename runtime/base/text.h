@@ -19,6 +19,15 @@ std::string OneLine(std::string_view text);
 // At most six digits: "0.25", "1e+06".
 std::string Compact(double number);
 
+// Lists and objects of JSON within each other, 200 deep or more: what reads, copies and frees them calls itself for
+// each.
+bool NestsTooDeep(std::string_view json);
+inline constexpr const char* kNestsTooDeep = "holds lists or objects more than 200 deep in each other";
+
+// The line of TOML, from 1, in which a key of more than 200 parts stands (a.b.c has three), each a table in the one
+// before; 0: in none.
+int LineOfTooLongKey(std::string_view toml);
+
 // What a JSON library complains of, without its error's number and the parser's inner life:
 // "parse error at line 1, column 1".
 std::string PlainJsonError(std::string_view what);

@@ -37,6 +37,8 @@ void TomlContext::Refuse(const toml::node* node, const std::string& why) {
 Error ReadToml(const std::filesystem::path& path, toml::table* root) {
   std::string text;
   if (Error e = ReadTextFile(path, &text)) return e;
+  if (const int line = LineOfTooLongKey(text); line > 0)
+    return Fail(path.string() + ":" + std::to_string(line) + ": a key of more than 200 parts");
   try {
     *root = toml::parse(text, path.string());
     return Ok();

@@ -130,6 +130,7 @@ GltfFile OpenGltf(std::vector<uint8_t> bytes) {
   const size_t json_size = Word(all, 12);
   if (Word(all, 16) != kJsonChunk || json_size > all.size() - 20) throw PackRefused("is truncated");
   const auto text = all.subspan(20, json_size);
+  if (NestsTooDeep({reinterpret_cast<const char*>(text.data()), text.size()})) throw PackRefused(kNestsTooDeep);
   file.json = Json::parse(text.begin(), text.end(), nullptr, false);
   if (!file.json.is_object()) throw PackRefused("holds broken JSON");
   const size_t chunk = 20 + json_size;

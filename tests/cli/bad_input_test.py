@@ -190,6 +190,31 @@ class BadInput(ProgramTest):
                 (self.folder / "obstacles.geojson").write_text(text)
                 self.assert_fails(run("flaneur", "check", self.folder / "obstacles.geojson"), "obstacles.geojson")
 
+    def test_what_nests_too_deep_is_refused(self):
+        def deep(what, opening, closing, depth=200000):
+            (self.folder / what).write_text(opening * depth + "1" + closing * depth)
+            return (self.folder / what).read_text()
+
+        inner, outer = deep("inner", '{"a":', "}"), deep("outer", "[", "]")
+        gltf = '{"asset": {"version": "2.0"}, "extras": %s}' % inner
+        (self.folder / "deep.gltf").write_text(gltf)
+        text = (gltf + " " * (-len(gltf) % 4)).encode()
+        (self.folder / "deep.glb").write_bytes(struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text), len(text), b"JSON") + text)
+        (self.folder / "deep.json").write_text(
+            '{"type": "CityJSON", "version": "2.0", "vertices": [], "transform": {"scale": [1, 1, 1], "translate": [0, 0, 0]},'
+            '"CityObjects": {"a": {"type": "Building", "geometry": [{"type": "Solid", "lod": 1, "boundaries": %s}]}}}' % outer)
+        (self.folder / "deep.geojson").write_text('{"type": "FeatureCollection", "features": [%s]}' % outer)
+        (self.folder / "deep.toml").write_text("x = 1\n" + ".".join("a" * 50000) + " = 1\n")
+        for name in ("deep.gltf", "deep.glb", "deep.json"):
+            for verb in ("footprints", "avatar") if name != "deep.json" else ("footprints",):
+                with self.subTest((verb, name)):
+                    self.assert_fails(run("flaneur", verb, self.folder / name, "-o", self.folder / "out"), name, "200 deep")
+        self.assert_fails(run("flaneur", "check", self.folder / "deep.geojson"), "deep.geojson", "200 deep")
+        self.assert_fails(run("flaneur-player", self.folder / "deep.glb", "--headless", "--no-draw"), "deep.glb", "200 deep")
+        self.assert_fails(self.bake(self.folder / "deep.toml"), "deep.toml:2", "200 parts")
+        self.assert_fails(run("flaneur-player", "--headless", "--no-draw", "--scenario", self.folder / "deep.toml"),
+                          "deep.toml:2", "200 parts")
+
     def test_player_names_a_broken_pack(self):
         pack = self.folder / "pack.glb"
         write_box_town(pack)

@@ -1,6 +1,7 @@
 #include "pipeline/footprint/map.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -15,7 +16,7 @@ TEST(Map, ShowsNamesAndFindingsAndEscapesThem) {
   town.Ground().Node("Inn <\"Rose\" & Crown>", NodeKind::kBuilding).Box({10, 10, -1}, {18, 16, 8});
   Finding finding;
   finding.code = 301, finding.feature = "Inn", finding.message = "wall not covered";
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / "flaneur_map_test.svg";
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("flaneur_map_" + std::to_string(::getpid()) + ".svg");
   ASSERT_EQ(WriteMap(path, Extract(town), {"town", nullptr, {finding}}).message, "");
   std::vector<uint8_t> bytes;
   ASSERT_EQ(ReadFile(path, &bytes).message, "");

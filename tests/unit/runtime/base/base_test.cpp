@@ -71,6 +71,34 @@ Mat4 RandomTransform(std::mt19937& random) {
                                       {1.5f + u(random), 1.5f + u(random), -1.5f + u(random)});
 }
 
+TEST(Text, FindsWhatNestsTooDeep) {
+  const auto nested = [](int depth) {
+    return "{\"a\": " + std::string(static_cast<size_t>(depth - 1), '[') + "1" +
+           std::string(static_cast<size_t>(depth - 1), ']') + "}";
+  };
+  EXPECT_FALSE(NestsTooDeep(nested(200)));
+  EXPECT_TRUE(NestsTooDeep(nested(201)));
+  const std::string brackets(1000, '[');
+  EXPECT_FALSE(NestsTooDeep("[\"" + brackets + "\", \"\\\"" + brackets + "\"]")) << "in a string they are letters";
+  std::string many = "[";
+  for (int i = 0; i < 1000; ++i) many += "[1], ";
+  EXPECT_FALSE(NestsTooDeep(many + "1]")) << "beside each other";
+}
+
+TEST(Text, FindsTheLineOfAKeyThatIsTooLong) {
+  const auto key = [](int parts) {
+    std::string words = "a";
+    for (int i = 1; i < parts; ++i) words += i % 2 == 0 ? ".a" : " . a";
+    return words;
+  };
+  EXPECT_EQ(LineOfTooLongKey("x = 1\n" + key(200) + " = 2\n"), 0);
+  EXPECT_EQ(LineOfTooLongKey("x = 1\n" + key(201) + " = 2\n"), 2);
+  EXPECT_EQ(LineOfTooLongKey("[" + key(201) + "]\n"), 1);
+  EXPECT_EQ(LineOfTooLongKey("\n\nx = { " + key(201) + " = 2 }\n"), 3);
+  const std::string dots(1000, '.');
+  EXPECT_EQ(LineOfTooLongKey("# It's " + dots + "\nx = \"\\\"" + dots + "\"\ny = \"\"\"\n" + dots + "\n\"\"\"\n"), 0);
+}
+
 TEST(Math, InverseUndoesATransform) {
   std::mt19937 random(1);
   for (int i = 0; i < 100; ++i) {

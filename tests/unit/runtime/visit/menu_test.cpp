@@ -2,6 +2,7 @@
 #include "runtime/visit/menu.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <imgui/imgui.h>
 
 #include <set>
@@ -200,7 +201,7 @@ TEST(Pages, EverySettingCanBeChangedAndStaysInItsRange) {
   EXPECT_TRUE(p.controls.changed && p.controls.applies);
   PlayerSettings read;
   std::vector<std::string> warnings;
-  const auto path = std::filesystem::temp_directory_path() / "flaneur_pages_test.toml";
+  const auto path = std::filesystem::temp_directory_path() / ("flaneur_pages_" + std::to_string(::getpid()) + ".toml");
   ASSERT_FALSE(WritePlayerSettings(path, p.controls.settings));
   ASSERT_FALSE(ReadPlayerSettings(path, &read, &warnings));
   std::filesystem::remove(path);
