@@ -16,7 +16,8 @@ TEST(Map, ShowsNamesAndFindingsAndEscapesThem) {
   town.Ground().Node("Inn <\"Rose\" & Crown>", NodeKind::kBuilding).Box({10, 10, -1}, {18, 16, 8});
   Finding finding;
   finding.code = 301, finding.feature = "Inn", finding.message = "wall not covered";
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("flaneur_map_" + std::to_string(::getpid()) + ".svg");
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("flaneur_map_" + std::to_string(::getpid()) + ".svg");
   ASSERT_EQ(WriteMap(path, Extract(town), {"town", nullptr, {finding}}).message, "");
   std::vector<uint8_t> bytes;
   ASSERT_EQ(ReadFile(path, &bytes).message, "");

@@ -17,7 +17,8 @@ class AvatarFile : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("flaneur_avatar_file_") + info->name() + std::to_string(::getpid()));
+    folder_ =
+        fs::temp_directory_path() / (std::string("flaneur_avatar_file_") + info->name() + std::to_string(::getpid()));
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }

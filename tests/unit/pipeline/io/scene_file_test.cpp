@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <meshoptimizer.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <limits>
@@ -18,7 +18,8 @@ class SceneFile : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("flaneur_scene_file_") + info->name() + std::to_string(::getpid()));
+    folder_ =
+        fs::temp_directory_path() / (std::string("flaneur_scene_file_") + info->name() + std::to_string(::getpid()));
     fs::create_directories(folder_);
     Mesh quad;
     quad.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};

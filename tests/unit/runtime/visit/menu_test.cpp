@@ -2,8 +2,8 @@
 #include "runtime/visit/menu.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <imgui/imgui.h>
+#include <unistd.h>
 
 #include <set>
 #include <sstream>
