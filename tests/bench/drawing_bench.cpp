@@ -1,16 +1,16 @@
-// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE|@rule] [passes|alone
+// What a picture costs: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE|@rule] [whole|passes
 // [PICTURE]]]]]
 //
-// Plays the scenario and draws its frames twice, right after each other: as control decides, and with everybody who is
-// drawn as their finest mesh. Prints medians and 99th percentiles, and their ratio. Processor times are those of all
-// threads: on a machine that does other work as well they say more than the clock. SCALE: FrameInput::resolution_scale
-// of both, or `rule`: each side's is what the window would choose for it, with the settings' defaults. With `alone` our
-// pictures without the comparison, with `passes` what each pass of them takes. PICTURE: the last of them, as PNG.
+// Plays the scenario and draws its frames. Prints medians and 99th percentiles. Processor times are those of all
+// threads: on a machine that does other work as well they say more than the clock. SCALE: FrameInput::resolution_scale,
+// or `rule`: from picture to picture what the window would choose, with the settings' defaults. With `passes` what each
+// pass takes. PICTURE: the last of them, as PNG. What levels of detail save: bench_full_geometry.
 #include <time.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -29,9 +29,8 @@
 namespace flaneur {
 namespace {
 
-constexpr int kWarm = 3;  // frames before the first that counts
-constexpr int kRulePictures = 25;
-constexpr int kFullEvery = 6;  // of the frames one in so many is drawn in full geometry: that takes seconds
+constexpr int kWarm = 3;                                 // frames before the first that counts
+constexpr float kMoves_mps = 0.3f, kTurns_radps = 0.2f;  // as the window sees it
 
 double Clock_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -79,36 +78,31 @@ void Draw(const FrameInput& frame, int width_px, int height_px, Renderer* render
   for (size_t k = 0; k < costs->pass_ms.size(); ++k) costs->pass_ms[k].values.push_back(s.pass_ms[k]);
 }
 
-FrameInput AllFinest(FrameInput frame) {
-  for (DrawnPerson& p : frame.people) p.level = MeshLevel(0);
-  frame.keeps_levels = true;
-  return frame;
-}
-
-// As the window finds it while it shows `frame`.
-float ScaleByRule(FrameInput frame, int width_px, int height_px, const ControlSettings& levels, Renderer* renderer) {
-  const PlayerSettings settings;
-  const ResolutionSettings wished = ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, levels);
+// The window's rule, from picture to picture.
+struct Rule {
+  bool on = false;
+  ResolutionSettings wished;
   Resolution resolution;
-  for (int k = 0; k < kRulePictures; ++k) {
-    Costs costs;
-    frame.resolution_scale = resolution.scale;
-    Draw(frame, width_px, height_px, renderer, &costs);
-    FollowPictureTime(static_cast<float>(costs.clock_ms.values[0]), false, wished, &resolution);
+  void Apply(FrameInput* frame) const {
+    if (!on) return;
+    frame->resolution_scale = ScaleNow(wished, resolution);
+    frame->detail = DetailNow(wished, resolution);
   }
-  return resolution.scale;
-}
+  void Follow(double took_ms, const CameraState& camera) {
+    const bool moves = camera.actual_mps > kMoves_mps || std::abs(camera.yaw_rate_radps) > kTurns_radps;
+    if (on) FollowPictureTime(static_cast<float>(took_ms), moves, wished, &resolution);
+  }
+};
 
 Error Run(int argc, char** argv) {
   if (argc < 3)
     return Fail(
-        "usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE|@rule] [passes|alone [PICTURE]]]]]");
+        "usage: bench_drawing PACK SCENARIO [PEOPLE [FRAMES [WIDTHxHEIGHT[@SCALE|@rule] [whole|passes [PICTURE]]]]]");
   int width_px = 1280, height_px = 720;
-  float scale = 1, full_scale = 1;
+  float scale = 1;
   if (argc > 5) std::sscanf(argv[5], "%dx%d@%f", &width_px, &height_px, &scale);
   const bool by_rule = argc > 5 && std::string(argv[5]).ends_with("@rule");
-  const bool passes = argc > 6 && std::string(argv[6]) == "passes",
-             compares = !passes && (argc <= 6 || std::string(argv[6]) != "alone");
+  const bool passes = argc > 6 && std::string(argv[6]) == "passes";
   const int frames = argc > 4 ? std::atoi(argv[4]) : 60;
   TourPack pack;
   if (Error e = LoadTourPack(argv[1], {}, &pack)) return e;
@@ -119,41 +113,34 @@ Error Run(int argc, char** argv) {
   if (Error e = StartSimulation(&pack, scenario, &s)) return e;
   HeadlessContext context;
   if (Error e = context.Create()) return e;
-  Renderer renderer, full_renderer;  // each with the shadows of its own frames before
+  Renderer renderer;
   if (Error e = renderer.Create(pack, {.time_passes = passes})) return e;
-  if (compares) {
-    if (Error e = full_renderer.Create(pack)) return e;
-  }
 
   size_t clip_bytes = 0;
   for (const PackAvatar& avatar : pack.avatars) clip_bytes = std::max(clip_bytes, ClipBytes(LayoutOf(avatar)));
-  Costs as_decided, full;
-  Series compared_ms, compared_clock_ms, people_ms, levels_ms, all_looks_ms, known_shadow_triangles;
+  Costs as_decided;
+  Series scales, details, people_ms, levels_ms, all_looks_ms, known_shadow_triangles;
   PersonLooks looks;
   FrameInput frame;
   FrameFromSimulation(pack, s, &looks, &frame);
-  if (by_rule) scale = ScaleByRule(frame, width_px, height_px, s.control.settings, &renderer);
-  full_scale = by_rule && compares
-                   ? ScaleByRule(AllFinest(frame), width_px, height_px, s.control.settings, &full_renderer)
-                   : scale;
+  const PlayerSettings settings;
+  Rule rule{by_rule, ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, s.control.settings), {}};
   for (int k = 0; k < frames + kWarm && !s.visitor.finished; ++k) {
     const double before = Clock_ms();
     FrameFromSimulation(pack, s, &looks, &frame);
     frame.resolution_scale = scale;
+    rule.Apply(&frame);
+    scales.values.push_back(100 * static_cast<double>(frame.resolution_scale));
+    details.values.push_back(100 * static_cast<double>(frame.detail));
     const double looks_ms = Clock_ms() - before;
     Costs unused;
     Costs* costs = k < kWarm ? &unused : &as_decided;
     Draw(frame, width_px, height_px, &renderer, costs);
+    rule.Follow(costs->clock_ms.values.back(), s.visitor.camera);
     levels_ms.values.push_back(s.control_ms);
     known_shadow_triangles.values.push_back(static_cast<double>(s.control.levels.shadows.triangles));
     all_looks_ms.values.push_back(looks_ms);
     people_ms.values.push_back(s.control_ms + looks_ms + costs->people_ms.values.back());
-    if (compares && k >= kWarm && k % kFullEvery == 0) {
-      compared_ms.values.push_back(as_decided.processor_ms.values.back());
-      compared_clock_ms.values.push_back(as_decided.clock_ms.values.back());
-      frame.resolution_scale = full_scale;
-      Draw(AllFinest(frame), width_px, height_px, &full_renderer, &full);
-    }
     StepSimulation({}, 0, &s);
   }
   if (argc > 7) {
@@ -161,14 +148,15 @@ Error Run(int argc, char** argv) {
     renderer.Read(&rgb);
     if (Error e = WritePng(argv[7], width_px, height_px, rgb)) return e;
   }
-  std::printf("%s, %zu people, %d x %d pixels, scale %.1f, of full geometry %.1f\n%-44s %9s %9s %9s\n",
-              context.Renderer().c_str(), s.town.crowd.size(), width_px, height_px, static_cast<double>(scale),
-              static_cast<double>(full_scale), "", "least", "median", "99th perc.");
+  std::printf("%s, %zu people, %d x %d pixels\n%-44s %9s %9s %9s\n", context.Renderer().c_str(), s.town.crowd.size(),
+              width_px, height_px, "", "least", "median", "99th perc.");
   Print("frame time, clock", as_decided.clock_ms, "ms");
   Print("frame time, processor, all threads", as_decided.processor_ms, "ms");
   for (size_t k = 0; k < std::size(kDrawPassNames) && passes; ++k) {
     Print((std::string("  ") + kDrawPassNames[k]).c_str(), as_decided.pass_ms[k], "ms");
   }
+  Print("resolution scale", scales, "% of width and height");
+  Print("detail of people", details, "% of that");
   Print("town", as_decided.town_triangles, "triangles");
   Print("people", as_decided.people_triangles, "triangles");
   Print("shadows", as_decided.shadow_triangles, "triangles");
@@ -181,13 +169,6 @@ Error Run(int argc, char** argv) {
   Print("  of it levels", levels_ms, "ms");
   Print("  of it looks", all_looks_ms, "ms");
   Print("  of it cull, sort, poses, upload", as_decided.people_ms, "ms");
-  Print("everybody as finest mesh: clock", full.clock_ms, "ms");
-  Print("everybody as finest mesh: processor", full.processor_ms, "ms");
-  Print("everybody as finest mesh: people", full.people_triangles, "triangles");
-  if (!full.clock_ms.values.empty()) {
-    std::printf("full geometry to as decided, medians of the same frames: %.1f by the clock, %.1f by processor time\n",
-                full.clock_ms.At(0.5) / compared_clock_ms.At(0.5), full.processor_ms.At(0.5) / compared_ms.At(0.5));
-  }
   std::printf("99th percentile over median: %.2f by the clock, %.2f by processor time\n",
               as_decided.clock_ms.At(0.99) / as_decided.clock_ms.At(0.5),
               as_decided.processor_ms.At(0.99) / as_decided.processor_ms.At(0.5));
