@@ -56,6 +56,7 @@ struct LibraryCrowd {
   ViewCamera camera;               // of the last step
   bool has_camera = false;
   std::vector<FlaneurPerson> people;
+  std::vector<float> reach_m;  // by figure
 };
 
 IdPool<FlaneurCrowdId, LibraryCrowd>& Crowds() {
@@ -113,9 +114,10 @@ Failure TakeControl(const FlaneurCrowdDef& def, ControlSettings* s) {
   return {};
 }
 
-Failure TakeFigures(const FlaneurCrowdDef& def, std::vector<AvatarCosts>* figures) {
+Failure TakeFigures(const FlaneurCrowdDef& def, std::vector<AvatarCosts>* figures, std::vector<float>* reach_m) {
   if (!def.figures && def.figure_count == 0) {
     *figures = {{{{6000, 60}, {1500, 0}}, 1.75f, 128}};
+    *reach_m = {0};
     return {};
   }
   if (!def.figures) return NullPointer("figures");
@@ -125,7 +127,8 @@ Failure TakeFigures(const FlaneurCrowdDef& def, std::vector<AvatarCosts>* figure
     if (!figure.levels) return NullPointer("levels");
     if (figure.level_count < 1 || figure.level_count > kMaxLevels) return OutOfRange("level_count", "1 to 16");
     const std::array ranges{Range{"height_m", figure.height_m, 0.1, 10},
-                            Range{"impostor_px", figure.impostor_px, 0, 1e6, true}};
+                            Range{"impostor_px", figure.impostor_px, 0, 1e6, true},
+                            Range{"reach_m", figure.reach_m, 0, 10}};
     if (Failure failure = CheckRanges(ranges)) return failure;
     AvatarCosts costs;
     costs.height_m = figure.height_m, costs.impostor_px = figure.impostor_px;
@@ -137,6 +140,7 @@ Failure TakeFigures(const FlaneurCrowdDef& def, std::vector<AvatarCosts>* figure
       costs.levels.push_back({level.triangles, level.switch_px});
     }
     figures->push_back(std::move(costs));
+    reach_m->push_back(figure.reach_m);
   }
   return {};
 }
@@ -209,7 +213,7 @@ Failure Create(const FlaneurCrowdDef& def, FlaneurCrowdId* id) {
   auto c = std::make_shared<LibraryCrowd>();
   if (Failure failure = TakeSpeeds(def, c.get())) return failure;
   if (Failure failure = TakeControl(def, &c->control.settings)) return failure;
-  if (Failure failure = TakeFigures(def, &c->control.avatars)) return failure;
+  if (Failure failure = TakeFigures(def, &c->control.avatars, &c->reach_m)) return failure;
   if (Failure failure = TakeGround(def, c.get())) return failure;
   if (Failure failure = TakeObstacles(def, c.get())) return failure;
   BuildWalkable(c->largest_radius_m + kBeyondRadius_m, &c->walkable, c->largest_radius_m);
@@ -315,6 +319,7 @@ Failure Add(const FlaneurPersonDef& def, LibraryCrowd* c, FlaneurPersonId* id) {
   person.preferred_mps =
       std::clamp(def.preferred_speed_mps > 0 ? def.preferred_speed_mps : drawn_mps, 0.1f, c->top_mps);
   person.top_mps = c->top_mps;
+  person.reach_m = c->reach_m[static_cast<size_t>(def.figure)];
   c->index_of_slot.reserve(c->crowd.slots.owner.size() + 1);
   AddPerson(person, &c->crowd);
   const size_t i = c->crowd.size() - 1;
@@ -365,14 +370,14 @@ ViewMotion MotionSinceLastStep(const LibraryCrowd& c, const ViewCamera& now) {
 void ClassifyAll(const ViewVolumes* volumes, Crowd* crowd) {
   for (size_t i = 0; i < crowd->size(); ++i) {
     crowd->was_visible[i] = crowd->view[i] == ViewClass::kVisible ? 1 : 0;
-    crowd->view[i] = volumes ? Classify(crowd->position[i], *volumes) : ViewClass::kVisible;
+    crowd->view[i] = volumes ? Classify(crowd->position[i], crowd->reach_m[i], *volumes) : ViewClass::kVisible;
   }
 }
 
 // Nobody is put into view, nor where they would come too near to the visitor.
-bool IsKeptFree(Vec2 p, const void* crowd) {
+bool IsKeptFree(Vec2 p, float reach_m, const void* crowd) {
   const LibraryCrowd& c = *static_cast<const LibraryCrowd*>(crowd);
-  return InWedge(p, c.camera.position, c.camera.yaw_rad, c.camera.fov_rad) ||
+  return Classify(p, reach_m, c.camera, 0) != ViewClass::kOutside ||
          Length(p - c.camera.position) < 2 * c.control.settings.r_personal_m;
 }
 

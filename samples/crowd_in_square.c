@@ -23,7 +23,7 @@ static int create_square(FlaneurCrowdId* crowd) {
   FlaneurPolygon house = {{house_m, 4}, NULL, 0};
   FlaneurCircle fountain = {{30, 30}, 3};
   FlaneurLevelCost levels[] = {{6000, 400}, {1500, 200}, {400, 0}};
-  FlaneurFigure figure = {levels, 3, 1.75f, 128};
+  FlaneurFigure figure = {levels, 3, 1.75f, 128, 0.45f};
   FlaneurCrowdDef def = flaneur_default_crowd_def();
   def.ground_max_m.x = def.ground_max_m.y = SIZE_M;
   def.polygons = &house, def.polygon_count = 1;

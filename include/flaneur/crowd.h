@@ -50,6 +50,7 @@ typedef struct FlaneurFigure {
   int level_count;
   float height_m;     // 0.1 to 10
   float impostor_px;  // height of its picture, which is good enough as long as it is not enlarged; > 0
+  float reach_m;      // of all that is drawn, from the middle: who reaches into the view is in it; 0: a person's radius
 } FlaneurFigure;
 
 typedef enum FlaneurAdaptation {
@@ -140,7 +141,7 @@ typedef struct FlaneurPerson {
   float fade;       // 0: all of from_level, to 1: all of level
   float age_s;      // since the level changed, up to the length of the fade
   int arrival;      // in this step, a FlaneurArrival
-  bool is_in_view;  // their middle
+  bool is_in_view;  // any part of them
 } FlaneurPerson;
 
 typedef struct FlaneurPersonSpan {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/core/reach.h"
 #include "runtime/base/array.h"
 #include "runtime/base/color_text.h"
 #include "runtime/tour_data/settings.h"
@@ -102,6 +103,7 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
             {"share", Short(avatar.share)},
             {"height_m", Short(person.height_m)},
             {"radius_m", Short(person.radius_m)},
+            {"reach_m", Short(Reach_m(avatar.levels))},
             {"walk_speed_mps", Short(person.walk_speed_mps)},
             {"clips", clips},
             {"levels", levels},

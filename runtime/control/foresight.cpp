@@ -54,17 +54,17 @@ void FollowCamera(const ViewCamera& camera, const ViewMotion& motion, float step
     const Vec2 position = camera.position + state->motion.velocity * t;
     const Vec2 axis =
         DirectionOf(camera.yaw_rad + state->motion.yaw_rate_radps * kTurnLasts_s * (1 - std::exp(-t / kTurnLasts_s)));
-    state->views[static_cast<size_t>(m)] = {position, position - axis * (kRim_m / state->sine), axis};
+    state->views[static_cast<size_t>(m)] = {position, axis};
   }
 }
 
 // Whether a forecast position is in view and within r_high at that moment.
-bool InView(const State& state, int moment, float r_high_m, Vec2 p) {
+bool InView(const State& state, int moment, float r_high_m, Vec2 p, float body_m) {
   const State::FutureView& m = state.views[static_cast<size_t>(moment)];
-  const Vec2 off = p - m.position, from_apex = p - m.apex;
+  const Vec2 off = p - m.position;
   const float reach_m = r_high_m + kRim_m;
   return Dot(off, off) < reach_m * reach_m &&
-         Dot(from_apex, m.axis) * state.sine >= std::abs(Cross(m.axis, from_apex)) * state.cosine;
+         Dot(off, m.axis) * state.sine + body_m + kRim_m >= std::abs(Cross(m.axis, off)) * state.cosine;
 }
 
 // Near enough to matter if the visitor turns that way, and perhaps walks on there.
@@ -82,7 +82,7 @@ Vec2 OwnWay(const Crowd& c, size_t i) {
 Vec2 Desired(const Crowd& c, size_t i) { return c.detour_s[i] > 0 ? c.detour[i] : OwnWay(c, i); }
 
 bool WouldBeInView(const Crowd& c, size_t i, Vec2 velocity, float r_high_m, int moment, const State& state) {
-  return InView(state, moment, r_high_m, c.position[i] + velocity * MomentTime_s(moment));
+  return InView(state, moment, r_high_m, c.position[i] + velocity * MomentTime_s(moment), c.view_reach_m[i]);
 }
 
 // Where around the visitor the person would be, should the visitor turn; -1 out of reach.

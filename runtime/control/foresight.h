@@ -22,8 +22,8 @@ struct ForesightState {
   ViewMotion motion;    // of the camera, settled
   float speed_mps = 0;  // likewise
   struct FutureView {
-    Vec2 position, apex, axis;
-  };  // of the camera, and of the view with its rim
+    Vec2 position, axis;
+  };  // of the camera
   std::array<FutureView, kMoments> views{};
   float sine = 0, cosine = 1;                              // of half the field of view
   std::array<int, kMoments> seen{};                        // people within the view and r_high then

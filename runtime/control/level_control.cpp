@@ -21,7 +21,7 @@ constexpr float kBudgetInUse = 0.8f;                   // share of the budget fr
 constexpr float kPropShare = 0.1f;                     // of the budget, that props may take,
 constexpr float kShadowShare = 0.2f;                   // and shadows,
 constexpr float kShadowRim_m = 1.0f;                   // even of those who stand so near the view
-constexpr float kBodyRim_m = 0.8f;   // a body, skirts and shadow reach so far beyond its middle into the view
+constexpr float kBetween_m = 0.25f;  // people and camera are so much elsewhere, at most, between two steps
 constexpr float kSmoothing = 0.03f;  // a step, of what a person in high resolution and all shadows cost
 constexpr float kMinBudget_triangles = 1000;
 constexpr float kFastCamera_mps = 2.0f;  // above it fidelity may fall,
@@ -57,10 +57,11 @@ int CoarsestAt(const AvatarCosts& avatar, float px) {
 // How many people in high resolution the budget affords, all others in view as impostors: each costs what they did of
 // late.
 int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
-  if (state->high > 0) {
-    const int64_t besides = state->fading_triangles + state->props.triangles + int64_t{kImpostorTriangles} * state->low;
+  if (state->meshes > 0) {
+    const int64_t besides =
+        state->fading_triangles + state->props.triangles + int64_t{kImpostorTriangles} * state->impostors;
     const float meshes = static_cast<float>(state->triangles - besides);
-    state->triangles_a_person += kSmoothing * (meshes / static_cast<float>(state->high) - state->triangles_a_person);
+    state->triangles_a_person += kSmoothing * (meshes / static_cast<float>(state->meshes) - state->triangles_a_person);
   } else if (state->triangles_a_person <= 0) {
     for (const AvatarCosts& avatar : avatars) {
       state->triangles_a_person =
@@ -69,7 +70,7 @@ int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
   }
   // As many shadows as of late, so that the limit does not sway with whose is in view.
   state->shadow_triangles += kSmoothing * (static_cast<float>(state->shadows.triangles) - state->shadow_triangles);
-  const float impostors = static_cast<float>(kImpostorTriangles) * static_cast<float>(state->visible.size());
+  const float impostors = static_cast<float>(kImpostorTriangles) * static_cast<float>(state->in_sight.size());
   const float left = state->budget_triangles - state->shadow_triangles - impostors;
   return std::max(1, static_cast<int>(left / std::max(state->triangles_a_person, 1.0f)));
 }
@@ -96,11 +97,6 @@ int TrianglesOf(Level level, const AvatarCosts& avatar) {
                           : 0;
 }
 
-// The outer view volume with whoever reaches into the view.
-ViewVolumes WithRim(const ViewCamera& c, float rim_m) {
-  return VolumesOf(c, rim_m / std::max(0.1f, std::sin(c.fov_rad / 2)));
-}
-
 void EndChange(Memory* m) {
   m->level.from = kNotDrawn;
   m->level.age_s = kLongAgo_s;
@@ -119,34 +115,44 @@ void GrowOlder(float step_s, LevelState* state) {
   }
 }
 
-// Who is in view and near enough to be drawn, and who may reach into it.
-void ListPeople(const Crowd& crowd, const LevelQuery& query, float r_far_m, LevelState* state) {
-  state->visible.clear();
-  state->rim.clear();
+// Views that pictures until the next step can show besides the present one: between the step before and this one, and
+// as the hand turns the view on.
+std::array<ViewVolumes, 2> ViewsBeside(const LevelQuery& query, float step_s, const LevelState& state) {
+  ViewCamera next = query.camera;
+  next.yaw_rad = WrapAngle(next.yaw_rad + query.motion.yaw_rate_radps * step_s);
+  return {VolumesOf(state.started ? state.camera : query.camera, 0), VolumesOf(next, 0)};
+}
+
+// Who may be in a picture until the next step and is near enough to be drawn.
+void ListPeople(const Crowd& crowd, const LevelQuery& query, const ControlSettings& s, LevelState* state) {
+  state->in_sight.clear();
+  state->too_far.clear();
   const ViewEdges edges = EdgesOf(query.camera);
+  const auto beside = ViewsBeside(query, Step_s(s), *state);
   for (size_t i = 0; i < crowd.size(); ++i) {
     if (crowd.view[i] == ViewClass::kOutside) continue;
+    const bool in_view = crowd.view[i] == ViewClass::kVisible;
+    const float reach_m = crowd.view_reach_m[i] + kBetween_m;
+    const auto shows = [&](const ViewVolumes& v) { return Meets(crowd.position[i], reach_m, v.inner_apex, v); };
+    if (!in_view && std::none_of(beside.begin(), beside.end(), shows)) continue;
     const Vec2 off = crowd.position[i] - query.camera.position;
-    const bool in_view = crowd.view[i] == ViewClass::kVisible && Dot(off, off) <= r_far_m * r_far_m;
+    const bool near = Dot(off, off) <= s.r_far_m * s.r_far_m;
     Memory& m = EntryOf(crowd.slot[i], crowd.id[i], &state->memory);
-    m.here = true;
-    if (!in_view) {
-      if (Dot(off, off) <= r_far_m * r_far_m || IsDrawn(m.level)) state->rim.push_back(static_cast<int>(i));
-      continue;
-    }
-    const Level last = m.in_view ? m.level.level : kNotDrawn;
-    state->visible.push_back(InOrder(crowd, i, off, last, edges, crowd.id[i] == query.first_id, *state));
+    m.here = near || (in_view && IsDrawn(m.level));
+    const Level last = m.in_sight ? m.level.level : kNotDrawn;
+    if (near) state->in_sight.push_back(InOrder(crowd, i, off, last, edges, crowd.id[i] == query.first_id, s, *state));
+    else if (m.here) state->too_far.push_back(static_cast<int>(i));
   }
 }
 
-// Who was drawn and has left the town, or the view with all they are.
+// Who was drawn and has left the town, or the picture with all they are.
 void ListGone(const Crowd& crowd, LevelState* state) {
   state->gone.clear();
   for (int slot : state->drawn_before) {
     Memory& m = state->memory[static_cast<size_t>(slot)];
     if (m.here) continue;
     const bool left_town = crowd.slots.owner[static_cast<size_t>(slot)] != m.id;
-    if (!left_town || !m.in_view) {
+    if (!left_town || !m.in_sight) {
       m = {};
     } else {
       if (IsDrawn(m.level.level))
@@ -169,7 +175,7 @@ void CountFading(int64_t budget, LevelState* state) {
 
 void ListPropBearers(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, LevelState* state) {
   state->props.bearers.clear();
-  for (const LevelState::Visible& v : state->visible) {
+  for (const LevelState::InSight& v : state->in_sight) {
     const auto i = static_cast<size_t>(v.person);
     const std::vector<Prop>& props = avatars[static_cast<size_t>(crowd.avatar[i])].props;
     if (!props.empty() && v.distance_m < kPropReach_m)
@@ -182,11 +188,12 @@ void ListShadowCasters(const Crowd& crowd, const std::vector<AvatarCosts>& avata
                        LevelState* state) {
   state->shadows.casters.clear();
   state->casts_shadow.assign(crowd.size(), 0);
-  const ViewVolumes around = WithRim(camera, kShadowRim_m);
+  const ViewVolumes view = VolumesOf(camera, 0);
   for (size_t i = 0; i < crowd.size(); ++i) {
     if (crowd.view[i] == ViewClass::kOutside) continue;
     const Vec2 off = crowd.position[i] - camera.position;
-    if (Dot(off, off) >= kShadowReach_m * kShadowReach_m || Classify(crowd.position[i], around) == ViewClass::kOutside)
+    const float reach_m = std::max(kShadowRim_m, crowd.view_reach_m[i]);
+    if (Dot(off, off) >= kShadowReach_m * kShadowReach_m || !Meets(crowd.position[i], reach_m, view.inner_apex, view))
       continue;
     state->casts_shadow[i] = 1;
     state->shadows.casters.push_back({Length(off), avatars[static_cast<size_t>(crowd.avatar[i])].shadow});
@@ -198,7 +205,7 @@ void ListShadowCasters(const Crowd& crowd, const std::vector<AvatarCosts>& avata
 void MoveBoundary(const ControlSettings& s, LevelState* state) {
   float wanted_m = s.r_high_m;
   state->nearest.clear();
-  for (const LevelState::Visible& v : state->visible) {
+  for (const LevelState::InSight& v : state->in_sight) {
     if (v.distance_m < wanted_m) state->nearest.push_back(v.distance_m);
   }
   if (static_cast<size_t>(state->limit) < state->nearest.size()) {
@@ -210,10 +217,10 @@ void MoveBoundary(const ControlSettings& s, LevelState* state) {
 }
 
 // Only those who may become meshes need to stand in order; and all, where not even impostors fit.
-void PutInOrder(int64_t drawable, std::vector<LevelState::Visible>* visible) {
-  auto end = std::partition(visible->begin(), visible->end(), [](const auto& v) { return v.priority < kStays; });
-  if (static_cast<int64_t>(visible->size()) > drawable) end = visible->end();
-  std::sort(visible->begin(), end, IsServedBefore);
+void PutInOrder(int64_t drawable, std::vector<LevelState::InSight>* people) {
+  auto end = std::partition(people->begin(), people->end(), [](const auto& v) { return v.priority < kStays; });
+  if (static_cast<int64_t>(people->size()) > drawable) end = people->end();
+  std::sort(people->begin(), end, IsServedBefore);
 }
 
 // What somebody is drawn with from this step on. fades: where there is room for both, what they were drawn with fades
@@ -248,22 +255,24 @@ struct Serving {
   int64_t budget = 0, drawable = 0;  // triangles without shadows; people who fit as impostors
 };
 
-Level LevelFor(const LevelState::Visible& v, const AvatarCosts& avatar, float px, Level last, const Serving& serving,
+Level LevelFor(const LevelState::InSight& v, const AvatarCosts& avatar, float px, Level last, const Serving& serving,
                const LevelState& state) {
-  const float share = v.priority == kAppears ? 1 - kReserve : 1.0f;
-  if (v.priority == kStays || static_cast<float>(state.high) >= share * static_cast<float>(state.limit))
+  const bool comes_near = v.priority != kAppears || v.key_m < kNear_m;  // the reserve is for them
+  const float share = comes_near ? 1.0f : 1 - kReserve;
+  if (v.priority == kStays || static_cast<float>(state.meshes) >= share * static_cast<float>(state.limit))
     return kImpostor;
   const auto budget = static_cast<int64_t>(share * static_cast<float>(serving.budget));
   return AffordableLevel(avatar, WantedMesh(avatar, px, last), budget, state.triangles);
 }
 
 // state->triangles holds an impostor for everybody who fits, and what fades.
-void Serve(const LevelState::Visible& v, bool fits, const Serving& serving, LevelState* state) {
+void Serve(const LevelState::InSight& v, bool fits, const Serving& serving, LevelState* state) {
   const Crowd& crowd = serving.crowd;
   const auto i = static_cast<size_t>(v.person);
   Memory& m = state->memory[static_cast<size_t>(crowd.slot[i])];
   const AvatarCosts& avatar = serving.avatars[static_cast<size_t>(crowd.avatar[i])];
-  const Level last = m.in_view ? m.level.level : kNotDrawn;
+  const Level last = m.in_sight ? m.level.level : kNotDrawn;
+  const bool in_view = crowd.view[i] == ViewClass::kVisible;
   // Who comes into the picture with the view's edge needs no fading.
   const bool fades = IsDrawn(m.level) || (state->started && crowd.was_visible[i] != 0);
   Level level = kNotDrawn;
@@ -271,41 +280,22 @@ void Serve(const LevelState::Visible& v, bool fits, const Serving& serving, Leve
     const float px = PixelsHigh(avatar.height_m, v.distance_m, serving.query.camera, serving.query.screen_width_px);
     level = LevelFor(v, avatar, px, last, serving, *state);
     state->triangles += TrianglesOf(level, avatar) - kImpostorTriangles;
-    ++(IsMesh(level) ? state->high : state->low);
-    if (level == kImpostor && px > avatar.impostor_px) ++state->shortfalls;
-    if (IsDrawn(last) && last != level) ++state->switches_in_view;
+    ++(IsMesh(level) ? state->meshes : state->impostors);
+    if (in_view) ++(IsMesh(level) ? state->high : state->low);
+    if (in_view && level == kImpostor && px > avatar.impostor_px) ++state->shortfalls;
+    if (in_view && IsDrawn(last) && last != level) ++state->switches_in_view;
   }
   Change(level, TrianglesOf(level, avatar), fades, serving.budget, &m, state);
-  m.in_view = true;
+  m.in_sight = true;
   Keep(crowd, i, m, state);
 }
 
-// What pictures until the next step can show: between the step before and this one, and as the hand turns the view on.
-std::array<ViewVolumes, 3> VolumesUntilNextStep(const LevelQuery& query, float step_s, const LevelState& state) {
-  ViewCamera next = query.camera;
-  next.yaw_rad = WrapAngle(next.yaw_rad + query.motion.yaw_rate_radps * step_s);
-  return {WithRim(query.camera, kBodyRim_m), WithRim(state.started ? state.camera : query.camera, kBodyRim_m),
-          WithRim(next, kBodyRim_m)};
-}
-
-// Whose middle is outside the view but not all of them, and who is in view but too far away.
-void ServeRim(const Serving& serving, float step_s, LevelState* state) {
-  const auto volumes = VolumesUntilNextStep(serving.query, step_s, *state);
-  const Crowd& crowd = serving.crowd;
-  for (int person : state->rim) {
+void LetGo(const Serving& serving, LevelState* state) {
+  for (int person : state->too_far) {
     const auto i = static_cast<size_t>(person);
-    Memory& m = state->memory[static_cast<size_t>(crowd.slot[i])];
-    const bool in_view = crowd.view[i] == ViewClass::kVisible;
-    const auto shows = [&](const ViewVolumes& view) {
-      return Classify(crowd.position[i], view) != ViewClass::kOutside;
-    };
-    Level level = kNotDrawn;
-    if (!in_view && std::any_of(volumes.begin(), volumes.end(), shows))
-      level = IsDrawn(m.level.level) ? m.level.level : kImpostor;
-    Change(level, TrianglesOf(level, serving.avatars[static_cast<size_t>(crowd.avatar[i])]), in_view, serving.budget,
-           &m, state);
-    m.in_view = in_view;
-    Keep(crowd, i, m, state);
+    Memory& m = state->memory[static_cast<size_t>(serving.crowd.slot[i])];
+    Change(kNotDrawn, 0, true, serving.budget, &m, state);
+    Keep(serving.crowd, i, m, state);
   }
 }
 
@@ -318,12 +308,12 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
   Smooth(query.motion, step_s, &state->motion);
   if (state->r_high_m <= 0) state->r_high_m = s.r_high_m;
   GrowOlder(step_s, state);
-  ListPeople(crowd, query, s.r_far_m, state);
+  ListPeople(crowd, query, s, state);
   ListGone(crowd, state);
 
   ListShadowCasters(crowd, avatars, query.camera, state);
   const int64_t all = static_cast<int64_t>(state->budget_triangles);
-  const int64_t as_impostors = kImpostorTriangles * static_cast<int64_t>(state->visible.size());
+  const int64_t as_impostors = kImpostorTriangles * static_cast<int64_t>(state->in_sight.size());
   const auto most_for_shadows = static_cast<int64_t>(kShadowShare * state->budget_triangles);
   ChooseShadows(std::clamp<int64_t>(all - as_impostors, 0, most_for_shadows), step_s, &state->shadows);
   state->limit = s.method == LimitMethod::kFrameTime ? PeopleAfforded(avatars, state) : s.high_limit;
@@ -335,19 +325,21 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
   ChooseProps(static_cast<int64_t>(kPropShare * state->budget_triangles), &state->props);
   const int64_t besides = state->fading_triangles + state->props.triangles;
   const int64_t drawable = std::max<int64_t>(0, budget - besides) / kImpostorTriangles;
-  PutInOrder(drawable, &state->visible);
+  PutInOrder(drawable, &state->in_sight);
 
   state->people.assign(crowd.size(), {});
   state->triangles =
-      std::min<int64_t>(static_cast<int64_t>(state->visible.size()), drawable) * kImpostorTriangles + besides;
-  state->high = state->low = state->shortfalls = state->switches_in_view = 0;
+      std::min<int64_t>(static_cast<int64_t>(state->in_sight.size()), drawable) * kImpostorTriangles + besides;
+  state->high = state->low = state->meshes = state->impostors = state->shortfalls = state->switches_in_view = 0;
   const Serving serving{crowd, avatars, query, budget, drawable};
   int64_t rank = 0;
-  for (const LevelState::Visible& v : state->visible) Serve(v, rank++ < drawable, serving, state);
-  ServeRim(serving, step_s, state);
+  for (const LevelState::InSight& v : state->in_sight) Serve(v, rank++ < drawable, serving, state);
+  LetGo(serving, state);
   for (const LevelState::Gone& gone : state->gone) state->drawn.push_back(gone.slot);
-  const auto within_nominal = [&](const LevelState::Visible& v) { return v.distance_m < s.r_high_m; };
-  state->exceeded = std::count_if(state->visible.begin(), state->visible.end(), within_nominal) > state->limit;
+  const auto within_nominal = [&](const LevelState::InSight& v) {
+    return v.distance_m < s.r_high_m && crowd.view[static_cast<size_t>(v.person)] == ViewClass::kVisible;
+  };
+  state->exceeded = std::count_if(state->in_sight.begin(), state->in_sight.end(), within_nominal) > state->limit;
   state->camera = query.camera;
   state->started = true;
 }

@@ -10,7 +10,7 @@
 namespace flaneur {
 
 inline constexpr int kImpostorTriangles = 2;
-inline constexpr int kUsualWidth_px = 1280;  // of a picture, where nothing is drawn
+inline constexpr int kUsualWidth_px = 1280, kUsualHeight_px = 720;  // of a picture, where nothing is drawn
 
 struct LevelCost {
   int triangles = 0;
@@ -48,9 +48,11 @@ struct LevelState {
   };
   std::vector<Gone> gone;             // who has left the town before the visitor's eyes: they fade where they were
   std::vector<uint8_t> casts_shadow;  // by person index; how far it reaches is in `shadows`
-  // Of those whose middle is in view.
+  // Of those in view.
   int high = 0, low = 0, shortfalls = 0, switches_in_view = 0;
-  int64_t triangles = 0;         // of everybody in view, with props and the levels that fade out, but without shadows
+  // Of everybody who is drawn: who comes into the picture before the next step, or was in the last, counts as well.
+  int meshes = 0, impostors = 0;
+  int64_t triangles = 0;         // with props and the levels that fade out, but without shadows
   int64_t fading_triangles = 0;  // of them, of levels that fade out
   Props props;
   Shadows shadows;
@@ -65,20 +67,20 @@ struct LevelState {
     int id = -1;
     PersonLevel level;
     int triangles = 0, from_triangles = 0;  // that these take
-    bool in_view = false;                   // in the last step, with their middle
-    bool here = false;                      // in this step, in view or on its rim
+    bool in_sight = false;                  // in the last step
+    bool here = false;                      // in this step, and near enough to be drawn
   };
   std::vector<Memory> memory;            // by slot
   std::vector<int> drawn, drawn_before;  // slots: of who is drawn in this step, and was in the last
 
-  struct Visible {
+  struct InSight {
     float distance_m, key_m;
     int person, id;
     uint8_t priority;
   };
-  std::vector<Visible> visible;  // scratch
-  std::vector<int> rim;          // scratch: indices of who is drawn, if at all, though the choice is not about them
-  std::vector<float> nearest;    // scratch
+  std::vector<InSight> in_sight;  // scratch: who may be in a picture until the next step
+  std::vector<int> too_far;       // scratch: indices of who is in view, and was drawn, but no longer near enough
+  std::vector<float> nearest;     // scratch
 };
 
 // The level of who is in view, chosen for this step; kNotDrawn: of all others.
@@ -88,11 +90,11 @@ inline Level LevelInView(const Crowd& crowd, const LevelState& state, size_t i) 
 
 // Chooses everybody's level for this frame. LimitMethod::kCount keeps high_limit; with kFrameTime the budget follows
 // the frame time towards target_ms, or 0.85 of it while the camera moves fast (paper, section 3.2), and the limit is
-// what the budget affords. The budget is for all triangles together, shadows included, and holds whatever happens: who
-// does not fit becomes an impostor, and where even those do not fit, the farthest are not drawn. A change of level, and
-// appearing or vanishing within the view, is faded where the budget has room for both levels. Whose middle is just
-// beyond the view's edge keeps the level in which they left, or is an impostor; neither budget nor limit are about
-// them.
+// what the budget affords. Both are about everybody of whom any part may be in a picture until the next step: pictures
+// come between steps, and follow the hand that turns the view at once. The budget is for all triangles together,
+// shadows included, and holds whatever happens: who does not fit becomes an impostor, and where even those do not fit,
+// the farthest are not drawn. A change of level, and appearing or vanishing within the view, is faded where the budget
+// has room for both levels.
 void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ControlSettings& settings,
                   const LevelQuery& query, LevelState* state);
 

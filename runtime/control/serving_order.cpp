@@ -14,20 +14,20 @@ constexpr float kPasses_m = 1.8f;      // but for those who pass so near
 constexpr float kSoon_s = 8.0f;        // who comes near by then is served first when they come into view
 constexpr float kLong_s = 1e3f;
 
-// How long somebody stays in view if the camera and they go on as they do.
-float StaysInView_s(Vec2 off, Vec2 velocity, const ViewMotion& motion, const ViewEdges& edges) {
+// How long somebody stays in view, with any part, if the camera and they go on as they do.
+float StaysInView_s(Vec2 off, float reach_m, Vec2 velocity, const ViewMotion& motion, const ViewEdges& edges) {
   const Vec2 drift =
       velocity - motion.velocity + Vec2{off.y, -off.x} * motion.yaw_rate_radps;  // as seen from a camera that turns
   float stays_s = kLong_s;
   for (const Vec2 inward : edges.inward) {
     const float outward_mps = -Dot(inward, drift);
-    if (outward_mps > 0) stays_s = std::min(stays_s, std::max(Dot(inward, off), 0.0f) / outward_mps);
+    if (outward_mps > 0) stays_s = std::min(stays_s, std::max(Dot(inward, off) + reach_m, 0.0f) / outward_mps);
   }
   return stays_s;
 }
 
-bool LeavesSoon(Vec2 off, Vec2 velocity, const ViewMotion& motion, const ViewEdges& edges) {
-  const float stays_s = StaysInView_s(off, velocity, motion, edges);
+bool LeavesSoon(Vec2 off, float reach_m, Vec2 velocity, const ViewMotion& motion, const ViewEdges& edges) {
+  const float stays_s = StaysInView_s(off, reach_m, velocity, motion, edges);
   const Vec2 leaves = off + (velocity - motion.velocity) * stays_s;
   return stays_s < kWorthwhile_s && Length(leaves) > kPasses_m;
 }
@@ -53,19 +53,21 @@ ViewEdges EdgesOf(const ViewCamera& camera) {
   return {{{left.y, -left.x}, {-right.y, right.x}}};
 }
 
-LevelState::Visible InOrder(const Crowd& crowd, size_t i, Vec2 off, Level last, const ViewEdges& edges, bool first,
-                            const LevelState& state) {
+LevelState::InSight InOrder(const Crowd& crowd, size_t i, Vec2 off, Level last, const ViewEdges& edges, bool first,
+                            const ControlSettings& s, const LevelState& state) {
   const float distance_m = Length(off);
   if (first) return {distance_m, -1e9f, static_cast<int>(i), crowd.id[i], kWithin};
   float key_m = distance_m - (IsMesh(last) ? kHysteresis_m : 0);
   Priority priority = key_m < state.r_high_m ? kWithin : IsMesh(last) ? kHolds : IsDrawn(last) ? kStays : kAppears;
-  if (priority == kWithin && last == kImpostor && LeavesSoon(off, crowd.velocity[i], state.motion, edges))
+  if (priority == kWithin && last == kImpostor &&
+      LeavesSoon(off, crowd.view_reach_m[i], crowd.velocity[i], state.motion, edges))
     priority = kStays;
+  if (priority == kStays && distance_m < std::min(kNear_m, s.r_high_m)) priority = kWhereRoom;
   if (priority == kAppears) key_m = ComesWithin_m(crowd, i, off, state.motion);
   return {distance_m, key_m, static_cast<int>(i), crowd.id[i], priority};
 }
 
-bool IsServedBefore(const LevelState::Visible& a, const LevelState::Visible& b) {
+bool IsServedBefore(const LevelState::InSight& a, const LevelState::InSight& b) {
   if (a.priority != b.priority) return a.priority < b.priority;
   return a.key_m != b.key_m ? a.key_m < b.key_m : a.id < b.id;
 }

@@ -1,5 +1,6 @@
 // Inner and outer view volume on the ground plane (paper, section 3.1).
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct MotionLimits {
   float camera_speed_mps = 3;
   float person_speed_mps = 2;
   float step_s = 1.0f / 30;
-  float reach_m = 300;  // nobody is farther from the camera than this
+  float reach_m = 300;      // nobody is farther from the camera than this
+  float reach_grows_m = 0;  // a person's reach into the view grows by no more in a step, as the camera pitches
 };
 
 // How far the outer volume's apex must lie behind the camera so that nobody becomes visible without having been in the
@@ -36,15 +38,15 @@ struct MotionLimits {
 //
 // Seen from the camera, in one step a person moves by at most
 //   d = reach * yaw_rate * step          (the turn, an arc at the distance `reach`)
-//     + (camera_speed + person_speed) * step.
-// The outer wedge's edges are parallel to the inner one's at the distance b sin(fov / 2), and its apex is b >= b
-// sin(fov / 2) away from the inner apex; so it holds every point within b sin(fov / 2) of the inner wedge. Whoever is
-// inside the inner wedge after the step was within d of it before, and therefore in the outer wedge where b sin(fov /
-// 2) >= d.
+//     + (camera_speed + person_speed) * step,
+// and their reach grows by `reach_grows` at most. The outer wedge's edges are parallel to the inner one's at the
+// distance b sin(fov / 2), and its apex is b >= b sin(fov / 2) away from the inner apex; so it holds every point within
+// b sin(fov / 2) of the inner wedge. Whose reach r meets the inner wedge after the step was within r + d of it before,
+// and therefore within r - reach_grows of the outer wedge where b sin(fov / 2) >= d + reach_grows.
 float OuterApexBack_m(const MotionLimits& limits, float fov_rad);
 
-bool InWedge(Vec2 p, Vec2 apex, float yaw_rad, float fov_rad);
-ViewClass Classify(Vec2 p, const ViewCamera& camera, float outer_apex_back_m);
+// reach_m: how far the person reaches from p, where they stand; of whom any part lies in a volume is in it.
+ViewClass Classify(Vec2 p, float reach_m, const ViewCamera& camera, float outer_apex_back_m);
 
 // Both volumes with their sines and cosines, to class many people at once.
 struct ViewVolumes {
@@ -53,13 +55,31 @@ struct ViewVolumes {
 };
 ViewVolumes VolumesOf(const ViewCamera& camera, float outer_apex_back_m);
 
-inline bool InWedge(Vec2 p, Vec2 apex, const ViewVolumes& v) {
+// Whether the disc of this radius about p meets the wedge. Seen from an apex that lies outside it, the disc widens the
+// half angle by asin(reach / distance).
+inline bool Meets(Vec2 p, float reach_m, Vec2 apex, const ViewVolumes& v) {
   const Vec2 off = p - apex;
-  return Dot(off, v.axis) * v.sine >= std::abs(Cross(v.axis, off)) * v.cosine;
+  const float ahead = Dot(off, v.axis), aside = std::abs(Cross(v.axis, off));
+  const float beyond_m = aside * v.cosine - ahead * v.sine;  // the nearer edge's line
+  if (beyond_m <= 0) return true;
+  return beyond_m <= reach_m && (ahead * v.cosine + aside * v.sine >= 0 || Dot(off, off) <= reach_m * reach_m);
 }
 // The inner volume lies within the outer one.
-inline ViewClass Classify(Vec2 p, const ViewVolumes& v) {
-  return static_cast<ViewClass>(InWedge(p, v.inner_apex, v) + InWedge(p, v.outer_apex, v));
+inline ViewClass Classify(Vec2 p, float reach_m, const ViewVolumes& v) {
+  return static_cast<ViewClass>(Meets(p, reach_m, v.inner_apex, v) + Meets(p, reach_m, v.outer_apex, v));
+}
+
+// The wedge is exact for a level camera. One that is pitched sees farther aside near its feet or over its head: of what
+// is so many metres below or above the eye, so much per metre more than the wedge.
+struct ViewTilt {
+  float below = 0, above = 0;
+};
+ViewTilt TiltOf(float pitch_rad, float fov_rad, float aspect);
+// At any pitch.
+float MostTilt(float fov_rad, float aspect);
+// Of somebody whose feet and head are so high above the eye.
+inline float TiltReach_m(const ViewTilt& tilt, float feet_m, float head_m) {
+  return std::max({0.0f, -feet_m * tilt.below, head_m * tilt.above});
 }
 
 }  // namespace flaneur

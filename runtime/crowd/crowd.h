@@ -53,10 +53,12 @@ struct Crowd {
   std::vector<int> slot;        // what others keep about a person stands here in their arrays, see slots.h
   std::vector<Vec2> position, velocity;
   std::vector<float> heading_rad, radius_m, preferred_mps, top_mps;
-  std::vector<int> field;          // index into fields: where the person goes; -1: stays
-  std::vector<Vec2> way;           // unit vector along the way there, zero: none; renewed now and then
-  std::vector<uint8_t> sees_goal;  // walks straight to it; renewed now and then
-  std::vector<Corner> corner;      // else, as long as the field isn't built: where the way leads first
+  std::vector<float> reach_m;  // of what is drawn of the person, from where they stand: arms, clothes, what they carry
+  std::vector<float> view_reach_m;  // in this step, with what the tilt of the view adds; set with `view`
+  std::vector<int> field;           // index into fields: where the person goes; -1: stays
+  std::vector<Vec2> way;            // unit vector along the way there, zero: none; renewed now and then
+  std::vector<uint8_t> sees_goal;   // walks straight to it; renewed now and then
+  std::vector<Corner> corner;       // else, as long as the field isn't built: where the way leads first
   std::vector<Activity> activity;
   std::vector<float> wait_s;  // left to stand
   std::vector<Vec2> facing;   // where to look while standing; zero: as before
@@ -107,6 +109,7 @@ struct Person {
   Vec2 position;
   float heading_rad = 0, radius_m = 0.25f, preferred_mps = 1.3f, top_mps = 1.9f;
   int field = -1;
+  float reach_m = 0;  // see Crowd; never less than the radius
 };
 
 int AddPerson(const Person& person, Crowd* crowd);  // returns the id
@@ -132,10 +135,10 @@ void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
                Crowd* crowd);
 
 // Boundary people who overlap are moved apart at once, none of them into the inner volume (paper, section 4.3.1).
-// Whoever was visible one step ago stays where they are: the others make room. keep_out(p) is true for points of the
-// inner volume.
-void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2 p, const void* volume), const void* volume,
-                      CrowdScratch* scratch, Crowd* crowd);
+// Whoever was visible one step ago stays where they are: the others make room. keep_out(p, reach_m) is true where
+// somebody at p who reaches so far would be in the inner volume.
+void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2 p, float reach_m, const void* volume),
+                      const void* volume, CrowdScratch* scratch, Crowd* crowd);
 
 // Over positions and headings: equal for equal runs.
 uint64_t StateHash(const Crowd& crowd);

@@ -16,7 +16,7 @@ constexpr float kCurveCell_m = 2;
 template <typename Visit>
 void VisitPersonArrays(Crowd* c, Visit visit) {
   visit(&c->id), visit(&c->slot), visit(&c->avatar), visit(&c->position), visit(&c->velocity), visit(&c->heading_rad);
-  visit(&c->radius_m);
+  visit(&c->radius_m), visit(&c->reach_m), visit(&c->view_reach_m);
   visit(&c->preferred_mps), visit(&c->top_mps), visit(&c->field), visit(&c->way), visit(&c->sees_goal),
       visit(&c->corner);
   visit(&c->activity), visit(&c->wait_s), visit(&c->facing), visit(&c->view), visit(&c->was_visible),
@@ -69,6 +69,8 @@ int AddPerson(const Person& p, Crowd* c) {
   c->velocity.push_back({});
   c->heading_rad.push_back(p.heading_rad);
   c->radius_m.push_back(p.radius_m);
+  c->reach_m.push_back(std::max(p.reach_m, p.radius_m));
+  c->view_reach_m.push_back(c->reach_m.back());
   c->preferred_mps.push_back(p.preferred_mps);
   c->top_mps.push_back(p.top_mps);
   c->field.push_back(p.field);

@@ -16,7 +16,7 @@ constexpr float kTouching_m = 1e-3f;  // overlaps smaller than this are none
 
 struct Spot {
   const Walkable* w;
-  bool (*keep_out)(Vec2, const void*);
+  bool (*keep_out)(Vec2, float, const void*);
   const void* volume;
   const NeighbourGrid& neighbours;
   Displaced& displaced;
@@ -53,7 +53,7 @@ bool Overlaps(const Spot& s, const Crowd& c, size_t i, Vec2 p) {
 
 // Fits there without touching anything, on the same side of all walls.
 bool Fits(const Spot& s, const Crowd& c, size_t i, int component, Vec2 p) {
-  if (s.keep_out(p, s.volume) || !IsFree(*s.w, p)) return false;
+  if (s.keep_out(p, c.view_reach_m[i], s.volume) || !IsFree(*s.w, p)) return false;
   const int there = CellAt(*s.w, p);
   if (s.w->component[static_cast<size_t>(there)] != component || Overlaps(s, c, i, p)) return false;
   return Clearance(*s.w, there, p) >= c.radius_m[i];
@@ -92,8 +92,8 @@ void Displace(const Spot& s, size_t i, Crowd* c) {
 
 }  // namespace
 
-void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, const void*), const void* volume, CrowdScratch* s,
-                      Crowd* c) {
+void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, float, const void*), const void* volume,
+                      CrowdScratch* s, Crowd* c) {
   Spot spot{&w, keep_out, volume, s->neighbours, s->displaced};
   s->caring.clear();
   for (size_t i = 0; i < c->size(); ++i) {

@@ -39,6 +39,7 @@ Error TakeOptions(const PlayerOptions& options, Scenario* scenario) {
   if (options.adaptation) TakeNamed(*options.adaptation, kAdaptationNames, &scenario->control.adaptation);
   scenario->language = options.language;
   scenario->screen_width_px = options.width_px / static_cast<int>(std::max<size_t>(1, options.compare.size()));
+  scenario->screen_height_px = options.height_px;
   return Ok();
 }
 

@@ -10,6 +10,7 @@
 #include "runtime/base/text.h"
 #include "runtime/pack/gltf_file.h"
 #include "runtime/pack/ktx2.h"
+#include "runtime/pack/reach.h"
 #include "runtime/pack/read_clip.h"
 #include "runtime/pack/read_mesh.h"
 #include "runtime/pack/tour_object.h"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr int kMaxImageSide_px = 16384;
 constexpr size_t kMaxJoints = 1024;
+constexpr float kMostReach_m = 20;  // of a person; what is farther out is a fault of the model
 
 float Finite(const Json& json) {
   const float value = json.get<float>();
@@ -246,6 +248,7 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   avatar.share = json.Real("share", 0, kAnything);
   avatar.height_m = json.Real("height_m", kAboveZero, kAnything);
   avatar.radius_m = json.Real("radius_m", kAboveZero, kAnything);
+  avatar.reach_m = json.Has("reach_m") ? json.Real("reach_m", kAboveZero, kMostReach_m) : 0;
   avatar.walk_speed_mps = json.Real("walk_speed_mps", kAboveZero, kAnything);
   const Json& nodes = Member(file.json, "nodes");
   int skin = -1;
@@ -415,6 +418,25 @@ struct PackFile::Impl {
   std::vector<PackImpostor> atlases;  // their sizes
   std::vector<int> joints;            // by mesh; 0: of the town
 
+  PackMesh Mesh(size_t mesh) const {
+    PackMesh read = flaneur::ReadMesh(file, meshes[mesh]);
+    if (joints[mesh] > 0) CheckJoints(read, joints[mesh]);
+    return read;
+  }
+
+  // Packs of before do not say it.
+  void FindReach(PackAvatar* avatar) const {
+    const bool said = avatar->reach_m > 0;
+    avatar->reach_m = std::max(avatar->reach_m, avatar->radius_m);
+    if (said) return;
+    avatar->reach_m = std::max(avatar->reach_m, std::min(kMostReach_m, ReachOfPictures_m(avatar->impostor)));
+    for (const PackProp& prop : avatar->props) {
+      const PackMesh mesh = Mesh(static_cast<size_t>(prop.mesh));
+      for (const PackClip* clip : {&avatar->walk, &avatar->idle, &avatar->talk})
+        avatar->reach_m = std::max(avatar->reach_m, std::min(kMostReach_m, PosedReach_m(mesh, *clip, avatar->joints)));
+    }
+  }
+
   void Read(TourPack* pack) {
     const TourObject tour = TourOf(file);
     CheckVersion(tour);
@@ -440,6 +462,7 @@ struct PackFile::Impl {
       for (const PackLevel& level : avatar.levels) At(joints, level.mesh) = avatar.joints;
       for (const PackProp& prop : avatar.props) At(joints, prop.mesh) = avatar.joints;
     }
+    for (PackAvatar& avatar : pack->avatars) FindReach(&avatar);
     const size_t images = file.json.value("images", Json::array()).size();
     for (size_t i = 0; i < images; ++i) pack->images.push_back(ReadImageSize(file, static_cast<int>(i)));
   }
@@ -486,12 +509,7 @@ Error PackFile::ReadImage(int image, PackImage* out) const {
 }
 
 Error PackFile::ReadMesh(int mesh, PackMesh* out) const {
-  return Caught(impl_->name, [&] {
-    const auto index = static_cast<size_t>(mesh);
-    PackMesh read = flaneur::ReadMesh(impl_->file, impl_->meshes[index]);
-    if (impl_->joints[index] > 0) CheckJoints(read, impl_->joints[index]);
-    *out = std::move(read);
-  });
+  return Caught(impl_->name, [&] { *out = impl_->Mesh(static_cast<size_t>(mesh)); });
 }
 
 Error PackFile::ReadAtlas(int avatar, PackImpostor* out) const {

@@ -85,6 +85,7 @@ struct PackAvatar {
   std::string name;
   float share = 1;  // of the crowd, relative to the others'
   float height_m = 1.75f, radius_m = 0.25f;
+  float reach_m = 0.25f;  // of all that is drawn, about where the person stands: arms, clothes, props; radius_m or more
   float walk_speed_mps = 1.3f;  // at which the walk clip's feet don't slide
   int joints = 0;
   PackClip walk, idle, talk;      // always present: a missing talk is the idle, a missing idle a standing pose

@@ -15,7 +15,7 @@ constexpr const char* kMetricsHeader =
     "triangles_people,triangles_town,budget_triangles,level_switches_in_view,step_ms,control_ms,draw_ms,triangles_"
     "shadows,"
     "triangles_people_shadows\n";
-constexpr const char* kTrajectoriesHeader = "frame,id,avatar,x_m,y_m,z_m,heading_rad,radius_m,view,level\n";
+constexpr const char* kTrajectoriesHeader = "frame,id,avatar,x_m,y_m,z_m,heading_rad,radius_m,view,level,reach_m\n";
 constexpr const char* kViewNames[] = {"outside", "boundary", "visible"};
 
 __attribute__((format(printf, 2, 3))) void Append(std::string* text, const char* format, ...) {
@@ -51,10 +51,10 @@ void RecordTrajectories(const Simulation& s, std::string* text) {
     const Vec2 p = s.town.crowd.position[i];
     const Level level = LevelInView(s.town.crowd, s.control.levels, i);
     const std::string level_name = IsMesh(level) ? std::to_string(level.mesh) : IsDrawn(level) ? "impostor" : "none";
-    Append(text, "%lld,%d,%s,%.5f,%.5f,%.4f,%.5f,%.4f,%s,%s\n", static_cast<long long>(s.town.step), s.town.crowd.id[i],
-           s.town.residents[static_cast<size_t>(s.town.crowd.avatar[i])].avatar.c_str(), D(p.x), D(p.y),
-           D(HeightAt(s.town.walkable, p)), D(s.town.crowd.heading_rad[i]), D(s.town.crowd.radius_m[i]),
-           kViewNames[static_cast<size_t>(s.town.crowd.view[i])], level_name.c_str());
+    Append(text, "%lld,%d,%s,%.5f,%.5f,%.4f,%.5f,%.4f,%s,%s,%.4f\n", static_cast<long long>(s.town.step),
+           s.town.crowd.id[i], s.town.residents[static_cast<size_t>(s.town.crowd.avatar[i])].avatar.c_str(), D(p.x),
+           D(p.y), D(HeightAt(s.town.walkable, p)), D(s.town.crowd.heading_rad[i]), D(s.town.crowd.radius_m[i]),
+           kViewNames[static_cast<size_t>(s.town.crowd.view[i])], level_name.c_str(), D(s.town.crowd.view_reach_m[i]));
   }
 }
 

@@ -29,7 +29,7 @@ struct Scenario {
   CrowdSettings crowd = kEmptyTown;
   ControlSettings control = kPlainControl;
   DrawingModel drawing;
-  int screen_width_px = kUsualWidth_px;  // of the pictures; not from the file
+  int screen_width_px = kUsualWidth_px, screen_height_px = kUsualHeight_px;  // of the pictures; not from the file
   std::optional<float> seconds;
   std::optional<float> hour;            // of the day, at the start, 0 to 24; none: the light of the pack
   std::optional<std::string> language;  // of the guided tour; not from the file

@@ -18,6 +18,7 @@ namespace {
 
 constexpr float kFlatCell_m = 0.5f;
 constexpr float kFarthestView_m = 60;
+constexpr float kTallest_m = 3;  // of people, with what they carry
 
 // What the renderer draws at most.
 ShadowCost ShadowCostOf(const PackAvatar& avatar) {
@@ -33,7 +34,7 @@ void TakeAvatar(const PackAvatar& avatar, Simulation* s) {
   costs.props.assign(avatar.props.begin(), avatar.props.end());
   costs.shadow = ShadowCostOf(avatar);
   s->control.avatars.push_back(costs);
-  s->town.residents.push_back({avatar.name, avatar.share, avatar.radius_m});
+  s->town.residents.push_back({avatar.name, avatar.share, avatar.radius_m, avatar.reach_m});
 }
 
 void TakePack(const TourPack& pack, Simulation* s) {
@@ -74,12 +75,13 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   AddObstacles(scenario.obstacles, &s->town.walkable);
   if (!has_pack) {  // one plain figure
     s->control.avatars = {{{{6000, 60}, {1500, 0}}, 1.75f, 128}};
-    s->town.residents = {{kPlainFigure, 1, 0.25f}};
+    s->town.residents = {{kPlainFigure}};
   }
   s->town.settings = scenario.crowd;
   s->control.settings = scenario.control;
   s->drawing = scenario.drawing;
   s->screen_width_px = scenario.screen_width_px;
+  s->screen_height_px = scenario.screen_height_px;
   CameraState& camera = s->visitor.camera;
   camera.view.fov_rad = scenario.control.fov_rad;
   camera.eye_height_m = scenario.eye_height_m;
@@ -128,6 +130,20 @@ void ChooseLanguage(const std::string& language, Simulation* s) {
     s->town.warnings.push_back("the tour has nothing in the language '" + language + "'; there is: " + list);
 }
 
+float Aspect(const Simulation& s) {
+  return static_cast<float>(std::max(1, s.screen_width_px)) / static_cast<float>(std::max(1, s.screen_height_px));
+}
+
+float Relief_m(const Walkable& w) {
+  float lowest_m = 1e9f, highest_m = -1e9f;
+  for (int cell = 0; cell < static_cast<int>(w.cost.size()); ++cell) {
+    if (w.cost[static_cast<size_t>(cell)] <= 0) continue;
+    const float height_m = HeightAt(w, CellCenter(w, cell));
+    lowest_m = std::min(lowest_m, height_m), highest_m = std::max(highest_m, height_m);
+  }
+  return std::max(0.0f, highest_m - lowest_m);
+}
+
 void DeriveGap(Simulation* s) {
   const Walkable& w = s->town.walkable;
   const Vec2 size{static_cast<float>(w.columns) * w.cell_m, static_cast<float>(w.rows) * w.cell_m};
@@ -137,6 +153,8 @@ void DeriveGap(Simulation* s) {
   limits.yaw_rate_radps = MaxYawRate_radps(s->control.settings);
   limits.camera_speed_mps = 3;
   limits.person_speed_mps = s->town.settings.top_speed_mps;
+  limits.reach_grows_m = MostTilt(s->visitor.camera.view.fov_rad, Aspect(*s)) *
+                         (s->relief_m + std::max(s->visitor.camera.eye_height_m, kTallest_m));
   for (const CameraLeg& leg : s->visitor.legs) {
     limits.yaw_rate_radps = std::max(limits.yaw_rate_radps, leg.rate_dps * kPi / 180);
     limits.camera_speed_mps = std::max(limits.camera_speed_mps, leg.speed_mps);
@@ -144,12 +162,27 @@ void DeriveGap(Simulation* s) {
   s->control.outer_apex_back_m = OuterApexBack_m(limits, s->visitor.camera.view.fov_rad);
 }
 
+// How far everybody reaches into a view that is tilted.
+void MeasureReach(Simulation* s) {
+  Crowd& c = s->town.crowd;
+  const CameraState& camera = s->visitor.camera;
+  c.view_reach_m = c.reach_m;
+  if (camera.pitch_rad == 0) return;
+  const ViewTilt tilt = TiltOf(camera.pitch_rad, camera.view.fov_rad, Aspect(*s));
+  const float eye_m = HeightAt(s->town.walkable, camera.view.position) + camera.eye_height_m;
+  for (size_t i = 0; i < c.size(); ++i) {
+    const float feet_m = HeightAt(s->town.walkable, c.position[i]) - eye_m;
+    c.view_reach_m[i] += TiltReach_m(tilt, feet_m, feet_m + kTallest_m);
+  }
+}
+
 void ClassifyAll(Simulation* s) {
   const ViewVolumes volumes = VolumesOf(s->visitor.camera.view, s->control.outer_apex_back_m);
-  for (size_t i = 0; i < s->town.crowd.size(); ++i) {
-    s->town.crowd.was_visible[i] = s->town.crowd.view[i] == ViewClass::kVisible ? 1 : 0;
-    s->town.crowd.view[i] =
-        s->visitor.camera.present ? Classify(s->town.crowd.position[i], volumes) : ViewClass::kVisible;
+  Crowd& c = s->town.crowd;
+  MeasureReach(s);
+  for (size_t i = 0; i < c.size(); ++i) {
+    c.was_visible[i] = c.view[i] == ViewClass::kVisible ? 1 : 0;
+    c.view[i] = s->visitor.camera.present ? Classify(c.position[i], c.view_reach_m[i], volumes) : ViewClass::kVisible;
   }
 }
 
@@ -184,10 +217,10 @@ void ControlCrowd(float frame_ms, Simulation* s) {
 }
 
 // Nobody is put into view, nor where they would come too near to the visitor.
-bool IsKeptFree(Vec2 p, const void* simulation) {
+bool IsKeptFree(Vec2 p, float reach_m, const void* simulation) {
   const Simulation& s = *static_cast<const Simulation*>(simulation);
   const ViewCamera& view = s.visitor.camera.view;
-  return InWedge(p, view.position, view.yaw_rad, view.fov_rad) ||
+  return Classify(p, reach_m, view, 0) != ViewClass::kOutside ||
          Length(p - view.position) < 2 * s.control.settings.r_personal_m;
 }
 
@@ -203,6 +236,7 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   for (const Resident& resident : town.residents) max_radius_m = std::max(max_radius_m, resident.radius_m);
   BuildWalkable(max_radius_m + 0.05f, &town.walkable);
   if (BestFreeCell(town.walkable) < 0) return Fail("there is no walkable ground");
+  s.relief_m = Relief_m(town.walkable);
   if (Error e = CheckLimits(&s)) return e;
   if (s.visitor.camera.present) {
     town.crowd.r_unimportant_m = s.control.settings.r_unimportant_m;
@@ -231,6 +265,13 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
 
 void SetFieldOfView(float fov_rad, Simulation* s) {
   s->visitor.camera.view.fov_rad = fov_rad;
+  DeriveGap(s);
+}
+
+void SetPictureSize(int width_px, int height_px, Simulation* s) {
+  if (width_px == s->screen_width_px && height_px == s->screen_height_px) return;
+  s->screen_width_px = width_px;
+  s->screen_height_px = height_px;
   DeriveGap(s);
 }
 

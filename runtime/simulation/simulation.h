@@ -19,9 +19,10 @@ struct Simulation {
   Control control;
   std::vector<MovingObstacle> moving;  // of this step: the visitor, the guide, the paper's camera obstacles
   DrawingModel drawing;
-  std::optional<float> hour;             // of the day at the start; none: the light of the pack
-  int screen_width_px = kUsualWidth_px;  // of the picture that levels are chosen for
-  double step_ms = 0, control_ms = 0;    // what the last step took, and the control's part of it
+  std::optional<float> hour;  // of the day at the start; none: the light of the pack
+  int screen_width_px = kUsualWidth_px, screen_height_px = kUsualHeight_px;  // of the picture levels are chosen for
+  float relief_m = 0;                  // between the lowest and the highest ground to walk on
+  double step_ms = 0, control_ms = 0;  // what the last step took, and the control's part of it
 };
 
 inline float Step_s(const Simulation& s) { return Step_s(s.control.settings); }
@@ -35,6 +36,9 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
 
 // Horizontal; the outer volume follows.
 void SetFieldOfView(float fov_rad, Simulation* simulation);
+
+// The picture's size: levels, and what a pitched camera sees, follow.
+void SetPictureSize(int width_px, int height_px, Simulation* simulation);
 
 // What drawing this frame takes by the scenario's model of a machine; 0 without one.
 float FrameTimeByModel_ms(const Simulation& simulation);

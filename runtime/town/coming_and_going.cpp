@@ -88,16 +88,17 @@ bool ThinksAgain(size_t i, Town* town) {
   return DensityAt_pm2(town->density, c.position[i]) > kThinksFrom_pm2 && town->random.Uniform() < kThinksAgain;
 }
 
-bool IsUnseen(const Viewer& viewer, Vec2 p) {
-  return !viewer.present || Classify(p, viewer.camera, viewer.outer_apex_back_m) == ViewClass::kOutside;
+bool IsUnseen(const Viewer& viewer, Vec2 p, float reach_m) {
+  return !viewer.present || Classify(p, reach_m, viewer.camera, viewer.outer_apex_back_m) == ViewClass::kOutside;
 }
 
 // Where somebody who comes through the gate can stand; x is NaN where there is no room.
-Vec2 SpotAtGate(const Viewer& viewer, const Town& town, Vec2 gate, float radius_m) {
+Vec2 SpotAtGate(const Viewer& viewer, const Town& town, Vec2 gate, const Person& person) {
+  const float reach_m = town.residents[static_cast<size_t>(person.avatar)].reach_m;
   for (int k = 0; k < kGateSpots; ++k) {
     const float angle = 2 * kPi * static_cast<float>(k) / (kGateSpots - 1);
     const Vec2 p = k == 0 ? gate : gate + DirectionOf(angle) * kBesideGate_m;
-    if (IsUnseen(viewer, p) && !Crowded(town.crowd, p, radius_m) &&
+    if (IsUnseen(viewer, p, reach_m) && !Crowded(town.crowd, p, person.radius_m) &&
         (k == 0 || (IsFree(town.walkable, p) && StraightWay(town.walkable, gate, p))))
       return p;
   }
@@ -112,14 +113,14 @@ bool Birth(int company, const Viewer& viewer, Town* town) {
     const Vec2 gate = town->places[static_cast<size_t>(
                                        gates[static_cast<size_t>(town->random.Below(static_cast<int>(gates.size())))])]
                           .position_m;
-    if (!IsUnseen(viewer, gate) || IsFullNear(viewer, *town, gate)) continue;
+    if (!IsUnseen(viewer, gate, 0) || IsFullNear(viewer, *town, gate)) continue;
     const bool is_near = viewer.present && Length(gate - viewer.camera.position) < viewer.settings.r_unimportant_m;
     if (is_near && attempt < kTriesFarAway) continue;
     std::vector<int> members;
     int field = -1;
     for (int k = 0; k < company; ++k) {
       Person p = NewPerson(town);
-      p.position = SpotAtGate(viewer, *town, gate, p.radius_m);
+      p.position = SpotAtGate(viewer, *town, gate, p);
       if (std::isnan(p.position.x)) break;
       if (k == 0) field = PickDestination(viewer, gate, true, town);
       p.field = field;

@@ -254,7 +254,8 @@ int DrawCompany(int most, Town* town) {
   return std::min(size, most);
 }
 
-void AddToTown(const Person& person, PersonPlan plan, Town* town) {
+void AddToTown(Person person, PersonPlan plan, Town* town) {
+  person.reach_m = town->residents[static_cast<size_t>(person.avatar)].reach_m;
   plan.id = AddPerson(person, &town->crowd);
   town->crowd.view.back() = ViewClass::kOutside;
   EntryOf(town->crowd.slot.back(), plan.id, &town->plans) = std::move(plan);

@@ -14,6 +14,6 @@ int DrawCompany(int most, Town* town);
 // Somebody of the pack's crowd; where and where to is still open.
 Person NewPerson(Town* town);
 // The person lives in the town from now on.
-void AddToTown(const Person& person, PersonPlan plan, Town* town);
+void AddToTown(Person person, PersonPlan plan, Town* town);
 
 }  // namespace flaneur

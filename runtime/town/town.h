@@ -56,6 +56,7 @@ struct Resident {
   std::string avatar;  // its name
   float share = 1;     // of the crowd, relative to the others'
   float radius_m = 0.25f;
+  float reach_m = 0;  // of what is drawn of them, as Crowd::reach_m
 };
 
 inline constexpr const char* kPlainFigure = "person";  // everybody's avatar where there is no pack

@@ -244,7 +244,7 @@ Error Visit::Picture(const WindowInput& input, int width_px, int height_px, floa
   if (Error e = v.loader->Upload(kUpload_ms, &v.renderer)) return e;
   v.width_px = width_px;
   v.height_px = height_px;
-  if (!v.hidden()) v.s->screen_width_px = width_px;
+  if (!v.hidden()) SetPictureSize(width_px, height_px, v.s);
   v.FollowVisitors(input, passed_s);
   v.ShowPages(input, passed_s);
   v.TakeHands(input, passed_s);

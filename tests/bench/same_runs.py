@@ -16,6 +16,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+LEVEL = 9  # the column of the trajectories
 MEASURED = {"step_ms", "control_ms"}  # draw_ms is a scenario's model here, and must be the same
 
 
@@ -27,11 +28,11 @@ def run_hashes(player, pack, scenario, adaptation, seconds, folder):
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         return {"complaint": done.stderr.strip()}
-    # The last column, the level, is the control's: apart from where people walk.
-    people = [line.rsplit(",", 1) for line in trajectories.read_text(encoding="utf-8").splitlines()]
+    # The level is the control's: apart from where people walk. Columns that came later are not compared.
+    people = [line.split(",") for line in trajectories.read_text(encoding="utf-8").splitlines()]
     hashes = {}
-    for name, part in (("trajectories", 0), ("levels", 1)):
-        hashes[name] = hashlib.sha256("\n".join(line[part] for line in people).encode()).hexdigest()[:16]
+    for name, part in (("trajectories", slice(0, LEVEL)), ("levels", slice(LEVEL, LEVEL + 1))):
+        hashes[name] = hashlib.sha256("\n".join(",".join(line[part]) for line in people).encode()).hexdigest()[:16]
     with open(metrics, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     for name in set(rows[0]) - MEASURED:

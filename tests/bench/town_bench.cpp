@@ -85,7 +85,8 @@ void Settle(const TourPack& pack, int people, float scale, Town* t) {
 void StepTown(Town* t) {
   t->camera.yaw_rad = std::remainder(t->camera.yaw_rad + kTurn_radps * kOpenFieldStep_s, 2 * kPi);
   const ViewVolumes volumes = VolumesOf(t->camera, kOuterApexBack_m);
-  for (size_t i = 0; i < t->crowd.size(); ++i) t->crowd.view[i] = Classify(t->crowd.position[i], volumes);
+  for (size_t i = 0; i < t->crowd.size(); ++i)
+    t->crowd.view[i] = Classify(t->crowd.position[i], t->crowd.reach_m[i], volumes);
   t->crowd.viewer = t->camera.position;
   if (t->crowd.step % kSortEvery_steps == 0) SortBySpace(&t->scratch, &t->crowd);
   StepCrowd(t->walkable, {{t->camera.position, 0.6f, true, {}}}, kOpenFieldStep_s, &t->scratch, &t->crowd);

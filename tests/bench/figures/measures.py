@@ -11,6 +11,7 @@ GATE_REACH_M = 2.5            # so near a door or exit people may come and go
 GOAL_REACH_M = 1.0
 KERNEL_M = 1.0                # local density by the kernel exp(-d2 / R2) / (pi R2) (Helbing and Johansson 2007)
 RIM_M = (-0.5, 1.5)           # the rim of the camera obstacles: so far inside to so far outside their outline
+ROUNDED_M = 2e-3             # places are rounded, and so is what is worked out from them
 EDGE_RAD = 1e-3               # directions so near a view volume's edge are not judged
 ARRIVED_M = 0.35              # nearer to its target the direction of the way is not judged
 SURE_STEP_M = 0.02            # camera steps from this length have a direction in spite of rounded coordinates
@@ -48,11 +49,16 @@ def share_exceeded(counts, limits, first=0):
 
 
 def wrong_views(metrics, people):
-    """Rows whose `visible` contradicts the camera's wedge."""
+    """Rows whose `visible` contradicts the camera's wedge: who reaches into it is visible."""
     distance, angle = from_camera(metrics, people)
     half = metrics["camera_fov_rad"][people["frame"] - int(metrics["frame"][0])] / 2
-    sure = (np.abs(np.abs(angle) - half) > EDGE_RAD) & (distance > 0.05)
-    return int(np.sum(sure & ((np.abs(angle) < half) != people["visible"])))
+    reach = people.get("reach_m", np.zeros(len(distance)))
+    around = distance <= reach
+    widened = half + np.arcsin(np.clip(reach / np.maximum(distance, 1e-9), 0, 1))
+    edge = np.maximum(EDGE_RAD, ROUNDED_M / np.maximum(distance, 1e-9))
+    sure = (np.abs(np.abs(angle) - widened) > edge) & (np.abs(distance - reach) > 0.05)
+    inside = around | (np.abs(angle) < widened)
+    return int(np.sum(sure & (inside != people["visible"])))
 
 
 def local_density(people, frame, x, y, radius_m=DENSITY_RADIUS_M):

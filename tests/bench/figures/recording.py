@@ -8,7 +8,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "cli"))
 import judge  # noqa: E402
 
 ROW = np.dtype([("frame", "i4"), ("id", "i4"), ("x_m", "f8"), ("y_m", "f8"), ("heading_rad", "f8"), ("radius_m", "f8"),
-                ("view", "S8"), ("level", "S8")])
+                ("view", "S8"), ("level", "S8"), ("reach_m", "f8")])
 NO_ROW = -1
 
 
@@ -23,9 +23,11 @@ def read_people(path):
     with open(path, encoding="utf-8") as file:
         header = file.readline().strip().split(",")
         assert header[:len(judge.TRAJECTORIES)] == judge.TRAJECTORIES, header
-        columns = [judge.TRAJECTORIES.index(name) for name in ROW.names]
-        table = np.loadtxt(file, delimiter=",", dtype=ROW, usecols=columns, ndmin=1, comments=None)
-    return sorted_people({name: table[name] for name in ROW.names})
+        names = [name for name in ROW.names if name in header]  # reach_m came later
+        row = np.dtype([(name, ROW[name]) for name in names])
+        columns = [header.index(name) for name in names]
+        table = np.loadtxt(file, delimiter=",", dtype=row, usecols=columns, ndmin=1, comments=None)
+    return sorted_people({name: table[name] for name in names})
 
 
 def sorted_people(people):

@@ -64,7 +64,7 @@ TARGETS = [
     Target("bunching", "*", ("full",), "most", 1.3, "median"),
     Target("speeds_ks", "*", ("full",), "most", 0.1, "median"),
     Target("turns_ks", "*", ("full",), "most", 0.1, "median"),
-    Target("switches", "*", ("full",), "most", 2, "median"),
+    Target("switches", "*", ("full",), "most", 5, "median"),
     Target("adaptation_share", "ten-thousand", ("full",), "most", 0.02, "median"),
     Target("speed_ratio", "walkabout-*", ("full",), "least", 0.9, "median"),
     Target("direction_deg", "walkabout-*", MODES, "most", 0.5, "worst"),

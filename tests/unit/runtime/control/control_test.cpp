@@ -93,7 +93,7 @@ TEST(Shadows, TakeNoMoreThanTheirRoomFromTheFarthestFirstAndComeBackSlowly) {
   EXPECT_EQ(state.triangles, 0);
 }
 
-// Of all that a picture draws people with, but for props: the level of who is in view, and all that still fades out.
+// Of all that pictures until the next step draw people with, but for props.
 int64_t DrawnTriangles(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const LevelState& state) {
   const auto triangles = [&](size_t i, Level level) -> int64_t {
     return IsMesh(level)
@@ -104,7 +104,7 @@ int64_t DrawnTriangles(const Crowd& crowd, const std::vector<AvatarCosts>& avata
   int64_t sum = 0;
   for (size_t i = 0; i < crowd.size(); ++i) {
     const PersonLevel& p = state.people[i];
-    sum += (crowd.view[i] == ViewClass::kVisible ? triangles(i, p.level) : 0) + triangles(i, p.from);
+    sum += triangles(i, p.level) + triangles(i, p.from);
   }
   return sum;
 }
@@ -131,7 +131,7 @@ TEST(ChooseLevels, TheBudgetHoldsForPropsAndShadowsAsWell) {
     for (int step = 0; step < 120; ++step) {
       for (size_t i = 0; i < crowd.size(); ++i) {
         crowd.position[i] = crowd.position[i] + Vec2{random.Uniform(-0.3f, 0.3f), random.Uniform(-0.3f, 0.3f)};
-        crowd.view[i] = Classify(crowd.position[i], ViewCamera{}, 3);
+        crowd.view[i] = Classify(crowd.position[i], crowd.reach_m[i], ViewCamera{}, 3);
       }
       ChooseLevels(crowd, avatars, settings, {ViewCamera{}, {}, 0}, &state);
       ASSERT_LE(state.triangles + state.shadows.triangles, budget);
@@ -165,15 +165,78 @@ TEST(ViewVolumes, AgreeWithTheDefinitionByAngles) {
     const Vec2 off = p - c;
     const float edge = std::abs(std::abs(std::remainder(std::atan2(off.y, off.x) - yaw, 2 * kPi)) - fov / 2);
     if (edge < 1e-4f) continue;
-    ASSERT_EQ(InWedge(p, c, yaw, fov), InWedgeByAngle(p, c, yaw, fov));
+    ASSERT_EQ(Classify(p, 0, {c, yaw, fov}, 0) != ViewClass::kOutside, InWedgeByAngle(p, c, yaw, fov));
   }
+}
+
+// Whether any point of the disc is in the wedge, by its rim: an independent formulation.
+bool DiscShows(Vec2 p, float reach_m, const ViewCamera& c) {
+  constexpr int kPoints = 720;
+  if (InWedgeByAngle(p, c.position, c.yaw_rad, c.fov_rad)) return true;
+  for (int k = 0; k < kPoints; ++k) {
+    const float angle = 2 * kPi * static_cast<float>(k) / kPoints;
+    const Vec2 rim = p + Vec2{std::cos(angle), std::sin(angle)} * reach_m;
+    if (InWedgeByAngle(rim, c.position, c.yaw_rad, c.fov_rad)) return true;
+  }
+  return Length(p - c.position) < reach_m;
+}
+
+TEST(ViewVolumes, WhoseArmReachesIntoTheViewIsInIt) {
+  Random random{8};
+  int only_partly = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const ViewCamera camera{
+        {random.Uniform(-5, 5), random.Uniform(-5, 5)}, random.Uniform(-kPi, kPi), random.Uniform(0.3f, 2.4f)};
+    const Vec2 p = camera.position + Vec2{random.Uniform(-4, 4), random.Uniform(-4, 4)};
+    const float reach_m = random.Uniform(0.1f, 1.2f);
+    const bool visible = Classify(p, reach_m, camera, 3) == ViewClass::kVisible;
+    const bool shows = DiscShows(p, reach_m, camera);
+    ASSERT_TRUE(visible || !shows);
+    ASSERT_TRUE(!visible || DiscShows(p, reach_m * 1.01f + 0.001f, camera));
+    only_partly += visible && Classify(p, 0, camera, 0) == ViewClass::kOutside;
+  }
+  EXPECT_GT(only_partly, 1000);
+}
+
+// Points of upright people against the four sides of the picture, through a camera as a renderer has it.
+TEST(ViewVolumes, APitchedViewSeesNobodyOutsideIt) {
+  Random random{21};
+  constexpr float kAspect = 16.0f / 9, kEye_m = 1.65f;
+  int shown = 0;
+  for (int i = 0; i < 400000; ++i) {
+    const float fov = random.Uniform(0.5f, 2.0f), pitch = random.Uniform(-1.5f, 1.5f);
+    const ViewCamera camera{{}, 0, fov};
+    const Vec2 p{random.Uniform(-4, 8), random.Uniform(-6, 6)};
+    const float feet_m = random.Uniform(-2, 2), height_m = 1.8f, reach_m = 0.5f;
+    const float angle = random.Uniform(-kPi, kPi), z = feet_m + random.Uniform(0, height_m) - kEye_m;
+    const Vec2 at = p + Vec2{std::cos(angle), std::sin(angle)} * reach_m;
+    const float depth = at.x * std::cos(pitch) + z * std::sin(pitch), up = z * std::cos(pitch) - at.x * std::sin(pitch);
+    const float half = std::tan(fov / 2);
+    if (depth < 0.01f || std::abs(at.y) > half * depth || std::abs(up) > half / kAspect * depth) continue;
+    ++shown;
+    const float feet_above_eye_m = feet_m - kEye_m;
+    const ViewTilt tilt = TiltOf(pitch, fov, kAspect);
+    const float tilted_m = TiltReach_m(tilt, feet_above_eye_m, feet_above_eye_m + height_m);
+    ASSERT_EQ(Classify(p, reach_m + tilted_m + 1e-4f, camera, 0), ViewClass::kVisible)
+        << p.x << ", " << p.y << " pitch " << pitch << " fov " << fov;
+    ASSERT_LE(std::max(tilt.below, tilt.above), MostTilt(fov, kAspect) + 1e-4f);
+  }
+  EXPECT_GT(shown, 20000);
+}
+
+TEST(ViewVolumes, ALevelViewIsTheWedge) {
+  const ViewTilt level = TiltOf(0, 1.05f, 1.78f), slight = TiltOf(-0.1f, 1.05f, 1.78f);
+  EXPECT_NEAR(std::max(level.below, level.above), 0, 1e-6f);
+  EXPECT_LT(slight.below, 0.1f) << "somebody's feet are 1.65 m below the eye";
 }
 
 // How many become visible straight from outside within so many steps of random camera motion, of people who stand just
 // outside the outer volume and walk towards the view as fast as they can.
 int UnforeseenPeople(int steps, float back_share) {
+  constexpr float kReach_m = 0.7f;
   Random random{11};
   MotionLimits limits;
+  limits.reach_grows_m = 0.4f;
   limits.reach_m = 120;
   ViewCamera camera{{0, 0}, 0, 1.05f};
   const float back_m = OuterApexBack_m(limits, camera.fov_rad) * back_share;
@@ -188,11 +251,12 @@ int UnforeseenPeople(int steps, float back_share) {
       const float edge = before.yaw_rad + side * before.fov_rad / 2;
       const Vec2 apex = before.position - Vec2{std::cos(before.yaw_rad), std::sin(before.yaw_rad)} * back_m;
       const Vec2 along{std::cos(edge), std::sin(edge)}, outwards = Vec2{-along.y, along.x} * side;
-      const Vec2 person = apex + along * random.Uniform(0, 125) + outwards * random.Uniform(0.01f, 0.3f);
-      if (Length(person - before.position) > limits.reach_m || Classify(person, before, back_m) != ViewClass::kOutside)
+      const Vec2 person = apex + along * random.Uniform(0, 125) + outwards * (kReach_m + random.Uniform(0.01f, 0.3f));
+      if (Length(person - before.position) > limits.reach_m ||
+          Classify(person, kReach_m, before, back_m) != ViewClass::kOutside)
         continue;
       const Vec2 moved = person - outwards * (limits.person_speed_mps * limits.step_s);
-      unforeseen += Classify(moved, camera, back_m) == ViewClass::kVisible ? 1 : 0;
+      unforeseen += Classify(moved, kReach_m + limits.reach_grows_m, camera, back_m) == ViewClass::kVisible ? 1 : 0;
     }
   }
   return unforeseen;
@@ -235,6 +299,64 @@ TEST(LevelControl, TheBudgetAlwaysHoldsAndCountsAgree) {
   }
 }
 
+// The hand turns the view at once, and pictures come between steps: who is beside the view in this step is drawn too.
+TEST(LevelControl, LimitAndBudgetAreAboutEverybodyWhoIsDrawnWhileTheViewTurns) {
+  Random random{15};
+  const std::vector<AvatarCosts> avatars{{{{9000, 300}, {4000, 120}, {900, 0}}, 1.75f, 128}};
+  Crowd crowd;
+  for (int k = 0; k < 400; ++k) {
+    Person p;
+    p.position = {random.Uniform(-15, 15), random.Uniform(-15, 15)};
+    p.reach_m = 0.6f;
+    AddPerson(p, &crowd);
+  }
+  ControlSettings settings;
+  settings.budget_triangles = 60000;
+  LevelState state;
+  ViewCamera camera;
+  int beside = 0;
+  for (int step = 0; step < 600; ++step) {
+    const float rate_radps = step < 300 ? 2.0f : -1.0f;
+    camera.yaw_rad = std::remainder(camera.yaw_rad + rate_radps / 30, 2 * kPi);
+    for (size_t i = 0; i < crowd.size(); ++i) {
+      crowd.was_visible[i] = crowd.view[i] == ViewClass::kVisible;
+      crowd.view[i] = Classify(crowd.position[i], crowd.reach_m[i], camera, 20);
+    }
+    ChooseLevels(crowd, avatars, settings, {camera, {{}, rate_radps}, 0}, &state);
+    int meshes = 0;
+    for (size_t i = 0; i < crowd.size(); ++i) {
+      meshes += IsMesh(state.people[i].level);
+      beside += IsDrawn(state.people[i].level) && crowd.view[i] != ViewClass::kVisible;
+      ASSERT_TRUE(IsDrawn(state.people[i].level) || crowd.view[i] != ViewClass::kVisible);
+    }
+    ASSERT_LE(meshes, settings.high_limit);
+    ASSERT_EQ(state.triangles, DrawnTriangles(crowd, avatars, state));
+    ASSERT_LE(state.triangles, settings.budget_triangles);
+  }
+  EXPECT_GT(beside, 1000);
+}
+
+TEST(LevelControl, NobodyNearIsAnImpostorWhileThereIsRoom) {
+  const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
+  Crowd crowd;
+  Person p;
+  p.position = {3, 2.1f};  // the middle is out of view
+  p.reach_m = 0.6f;
+  AddPerson(p, &crowd);
+  ControlSettings settings;
+  settings.high_limit = 0;
+  LevelState state;
+  const ViewCamera camera;
+  crowd.view[0] = Classify(p.position, p.reach_m, camera, 3);
+  ASSERT_EQ(crowd.view[0], ViewClass::kVisible);
+  crowd.velocity[0] = {0, 1.4f};  // and about to leave
+  ChooseLevels(crowd, avatars, settings, {camera, {}, 0}, &state);
+  EXPECT_EQ(state.people[0].level, kImpostor);
+  settings.high_limit = 1;
+  ChooseLevels(crowd, avatars, settings, {camera, {}, 0}, &state);
+  EXPECT_TRUE(IsMesh(state.people[0].level));
+}
+
 TEST(LevelControl, NobodyFlickersWhereNothingMoves) {
   Random random{9};
   const std::vector<AvatarCosts> avatars{{{{9000, 300}, {900, 0}}, 1.75f, 128}};
@@ -272,8 +394,9 @@ TEST(LevelControl, InADenseViewTheNearestAreMeshesWhoeverCameFirst) {
   const auto step = [&](Vec2 position, Vec2 velocity) {
     const ViewCamera camera{position, 0, kPi / 3};
     for (size_t i = 0; i < crowd.size(); ++i) {
-      crowd.view[i] =
-          InWedge(crowd.position[i], position, 0, camera.fov_rad) ? ViewClass::kVisible : ViewClass::kOutside;
+      crowd.view[i] = Classify(crowd.position[i], crowd.reach_m[i], camera, 0) != ViewClass::kOutside
+                          ? ViewClass::kVisible
+                          : ViewClass::kOutside;
     }
     ChooseLevels(crowd, avatars, ControlSettings{}, {camera, {velocity}, 0}, &state);
   };

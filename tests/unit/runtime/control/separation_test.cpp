@@ -21,9 +21,9 @@ Walkable Square() {
   return w;
 }
 
-bool InView(Vec2 p, const void* volume) {
+bool InView(Vec2 p, float reach_m, const void* volume) {
   const auto* camera = static_cast<const ViewCamera*>(volume);
-  return InWedge(p, camera->position, camera->yaw_rad, camera->fov_rad);
+  return Classify(p, reach_m, *camera, 0) != ViewClass::kOutside;
 }
 
 // Up to twelve people in a knot of half a metre, standing in each other.
@@ -32,10 +32,11 @@ void AddKnot(const Walkable& w, const ViewCamera& camera, Random* random, Crowd*
   for (int k = 1 + random->Below(12); k > 0; --k) {
     Person p;
     p.radius_m = random->Uniform(0.2f, 0.3f);
+    p.reach_m = 0.6f;
     p.position = middle + Vec2{random->Uniform(-0.5f, 0.5f), random->Uniform(-0.5f, 0.5f)};
     if (!IsFree(w, p.position)) continue;
     AddPerson(p, crowd);
-    crowd->view.back() = Classify(p.position, camera, kBack_m);
+    crowd->view.back() = Classify(p.position, crowd->reach_m.back(), camera, kBack_m);
   }
 }
 
@@ -61,7 +62,7 @@ TEST(Separation, IsAtOnceAndNeverIntoViewNorIntoWalls) {
         continue;
       }
       moved += way_m > 0 ? 1 : 0;
-      ASSERT_FALSE(InView(crowd.position[i], &camera));
+      ASSERT_FALSE(InView(crowd.position[i], crowd.reach_m[i], &camera));
       ASSERT_TRUE(IsFree(w, crowd.position[i]));
       for (size_t j = 0; j < crowd.size(); ++j) ASSERT_FALSE(InTheWay(crowd, i, j)) << "round " << round;
     }

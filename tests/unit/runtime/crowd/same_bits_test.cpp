@@ -51,7 +51,7 @@ Crowd People(const Walkable& w) {
   return c;
 }
 
-bool AlwaysFree(Vec2, const void*) { return false; }
+bool AlwaysFree(Vec2, float, const void*) { return false; }
 
 uint64_t HashOfTheScene(bool keeps_scratch) {
   const Walkable w = Place();
