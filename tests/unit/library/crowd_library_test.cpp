@@ -328,15 +328,16 @@ TEST(Crowds, EveryFigureMayBeAnything) {
   const auto figure = [](const FlaneurFigure& f, int count = 1) {
     return StatusOf([&](Def* def) { def->figures = &f, def->figure_count = count; });
   };
-  EXPECT_EQ(figure({good, 2, 1.75f, 128}), FLANEUR_OK);
-  EXPECT_EQ(figure({good, 2, 1.75f, 128}, 0), FLANEUR_ERROR_OUT_OF_RANGE);
-  EXPECT_EQ(figure({good, 0, 1.75f, 128}), FLANEUR_ERROR_OUT_OF_RANGE);
-  EXPECT_EQ(figure({good, 17, 1.75f, 128}), FLANEUR_ERROR_OUT_OF_RANGE);
-  EXPECT_EQ(figure({nullptr, 2, 1.75f, 128}), FLANEUR_ERROR_NULL);
-  EXPECT_EQ(figure({no_triangles, 1, 1.75f, 128}), FLANEUR_ERROR_OUT_OF_RANGE);
-  EXPECT_EQ(figure({not_a_number, 1, 1.75f, 128}), FLANEUR_ERROR_OUT_OF_RANGE);
-  EXPECT_EQ(figure({good, 2, kNan, 128}), FLANEUR_ERROR_OUT_OF_RANGE);
-  EXPECT_EQ(figure({good, 2, 1.75f, 0}), FLANEUR_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(figure({good, 2, 1.75f, 128, 0.5f}), FLANEUR_OK);
+  EXPECT_EQ(figure({good, 2, 1.75f, 128, 0.5f}, 0), FLANEUR_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(figure({good, 0, 1.75f, 128, 0.5f}), FLANEUR_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(figure({good, 17, 1.75f, 128, 0.5f}), FLANEUR_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(figure({nullptr, 2, 1.75f, 128, 0.5f}), FLANEUR_ERROR_NULL);
+  EXPECT_EQ(figure({no_triangles, 1, 1.75f, 128, 0.5f}), FLANEUR_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(figure({not_a_number, 1, 1.75f, 128, 0.5f}), FLANEUR_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(figure({good, 2, kNan, 128, 0.5f}), FLANEUR_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(figure({good, 2, 1.75f, 0, 0.5f}), FLANEUR_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(figure({good, 2, 1.75f, 128, -1}), FLANEUR_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(StatusOf([](Def* def) { def->figure_count = 2; }), FLANEUR_ERROR_NULL);
 }
 
