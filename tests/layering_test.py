@@ -8,6 +8,7 @@ CORE = "pipeline/core"
 # The runtime's rooms from the ground up: what each one adds to what the rooms that it names may include themselves.
 ROOMS = {
     "base": [],
+    "text": ["base"],
     "tour_data": ["base"],
     "pack": ["tour_data"],
     "crowd": ["tour_data"],
@@ -15,7 +16,7 @@ ROOMS = {
     "town": ["control"],
     "walk": ["town"],
     "simulation": ["walk", "pack"],
-    "render": ["pack"],
+    "render": ["pack", "text"],
     "show": ["simulation", "render"],
     "visit": ["show"],
     "desktop": ["visit"],

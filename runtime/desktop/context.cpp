@@ -294,6 +294,9 @@ WindowInput Window::Poll(double wait_s) {
   if (focused != impl_->focused || !focused || impl_->entered) impl_->last = cursor;
   impl_->focused = focused;
   impl_->entered = false;
+  for (const int button : {GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE}) {
+    if (glfwGetMouseButton(w, button) == GLFW_PRESS) input.down.set(static_cast<size_t>(kFirstMouseCode + button));
+  }
   const bool held = glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
   if (held && !impl_->held) impl_->pressed_at = impl_->last = cursor, impl_->dragged = false;
   impl_->HideRestingPointer(Length(cursor - impl_->last) > 0 || held);

@@ -14,6 +14,7 @@
 #include "runtime/render/renderer.h"
 #include "runtime/show/frame_from_simulation.h"
 #include "runtime/simulation/records.h"
+#include "runtime/text/system_fonts.h"
 #include "runtime/visit/developer_views.h"
 
 namespace flaneur {
@@ -93,13 +94,14 @@ struct HeadlessRun {
   std::vector<Simulation>& simulations;
   bool films, draws_all;
   int64_t steps = 0;
-  HeadlessContext context;
-  Renderer renderer;
-  Overlay overlay;
-  std::vector<Pane> panes;    // a simulation each
-  std::vector<Still> stills;  // that have still to be written
-  FilmWriter film;
-  Records records;
+  HeadlessContext context{};
+  Fonts fonts{SystemFonts()};
+  Renderer renderer{};
+  Overlay overlay{&fonts};
+  std::vector<Pane> panes{};    // a simulation each
+  std::vector<Still> stills{};  // that have still to be written
+  FilmWriter film{};
+  Records records{};
 };
 
 bool IsOver(const Simulation& s, const HeadlessRun& run) { return s.town.step >= run.steps || s.visitor.finished; }
@@ -108,6 +110,7 @@ Error PrepareDrawing(HeadlessRun* run) {
   if (Error e = run->context.Create()) return e;
   RenderOptions options;
   options.averages = true;
+  options.fonts = &run->fonts;
   if (run->options.samples || !run->draws_all) options.samples = run->options.samples.value_or(kStillSamples);
   if (Error e = run->renderer.Begin(run->pack, options)) return e;
   run->loader.PrepareFor(run->renderer);
@@ -182,7 +185,7 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   // Stills alone need only their own pictures drawn, and may take their time for that.
   const bool films = !options.film.empty();
   const bool draws_all = films || !options.metrics.empty() || options.screenshot.empty();
-  HeadlessRun run{options, pack, *loader, *simulations, films, draws_all, 0, {}, {}, {}, {}, {}, {}, {}};
+  HeadlessRun run{options, pack, *loader, *simulations, films, draws_all};
   if (Error e = PrepareDrawing(&run)) return e;
   if (Error e = PrepareOutputs(seconds, &run)) return e;
   for (bool last = false; !last;) {

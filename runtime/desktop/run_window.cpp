@@ -10,6 +10,7 @@
 #include "runtime/desktop/warn.h"
 #include "runtime/desktop/watchdog.h"
 #include "runtime/simulation/records.h"
+#include "runtime/text/system_fonts.h"
 #include "runtime/visit/visit.h"
 
 namespace flaneur {
@@ -65,7 +66,8 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs
   Speaker speaker(jobs);
   UserSettingsStore store(user);
   WarningsOnStderr warnings;
-  Visit visit(pack, loader, user->settings, {speaker, store, warnings, PrintedKey}, s, user->kiosk);
+  Fonts fonts(SystemFonts());
+  Visit visit(pack, loader, user->settings, {speaker, store, warnings, PrintedKey, &fonts}, s, user->kiosk);
   if (Error e = visit.Begin(true)) return e;
   bool closed = false;
   if (Error e = WaitForTown(!user->settings.kiosk, &window, &visit, &closed)) return e;

@@ -1,28 +1,35 @@
 // Words at the foot of the picture. Internal to runtime/render.
 #pragma once
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "runtime/base/error.h"
 #include "runtime/pack/tour_pack.h"
+#include "runtime/render/frame.h"
 #include "runtime/render/gl_objects.h"
+#include "runtime/text/fonts.h"
 
 namespace flaneur {
 
-// A dark translucent strip as wide as the picture, with the text (UTF-8) wrapped and centred on it. Letters are about a
-// twentieth of the picture's height. No text, or a picture under 64 pixels: an empty image.
-PackImage LayOutCaption(const std::string& text, int width_px, int height_px);
+// A dark strip as wide as the picture, with the text (UTF-8) wrapped on it: one line in the middle, several beginning
+// at one edge. Letters are about a twentieth of the picture's height, smaller where the strip would cover more than
+// half of the picture; what does not fit even so is cut off. No text, or a picture under 64 pixels: an empty image.
+PackImage LayOutCaption(const std::string& text, const CaptionStyle& style, int width_px, int height_px, Fonts* fonts);
 
 struct CaptionView {
   Program program;
+  Fonts* fonts = nullptr;
+  std::unique_ptr<Fonts> own_fonts;  // where none are given
   GLuint texture = 0, empty_array = 0;
-  std::string text;                 // that the texture shows
+  std::string text;  // that the texture shows
+  CaptionStyle style;
   int width_px = 0, height_px = 0;  // of the picture that it was laid out for
   int strip_px = 0;                 // its own height
 };
 
-Error CreateCaptionView(CaptionView* caption);
+// fonts: null for the built-in one.
+Error CreateCaptionView(Fonts* fonts, CaptionView* caption);
 // Over the bound picture; share: how much of it is seen.
-void DrawCaption(const std::string& text, float share, int width_px, int height_px, CaptionView* caption);
+void DrawCaption(const FrameInput& frame, int width_px, int height_px, CaptionView* caption);
 
 }  // namespace flaneur

@@ -36,6 +36,13 @@ struct DrawnPerson {
   std::array<uint8_t, 4> tints{};  // by tint of the avatar, the last unused: 0 its own colour, k the k-th of its others
 };
 
+struct CaptionStyle {
+  std::string language;        // such as "ar"
+  float size = 1;              // of its letters; 1: a twentieth of the picture's height
+  bool high_contrast = false;  // yellow on black that nothing shines through
+  friend bool operator==(const CaptionStyle&, const CaptionStyle&) = default;
+};
+
 struct FrameInput {
   Vec3 eye;
   float yaw_rad = 0, pitch_rad = 0, fov_rad = 1;  // horizontal
@@ -47,6 +54,7 @@ struct FrameInput {
   std::vector<Vec3> ground_mark;  // a strip of triangles over the ground; empty: none
   std::string caption;            // UTF-8, at the foot of the picture; empty: none
   float caption_share = 1;        // how much of it is seen, 0 to 1
+  CaptionStyle caption_style;
   // Of the picture's width and height, 0.1 to 1: all but the caption is drawn so coarsely, and enlarged. Below 1 people
   // are drawn by the coarser levels that serve at that size.
   float resolution_scale = 1;

@@ -6,32 +6,53 @@
 #include <cmath>
 #include <cstddef>
 
-#include "runtime/render/font.h"
 #include "runtime/render/gl_objects.h"
+#include "runtime/render/glyph_atlas.h"
+#include "runtime/render/overlay_textures.h"
 
 namespace flaneur {
 
 struct Overlay::Impl {
+  TextLayer text;
   Program program;
-  GLuint font = 0, array = 0, vertices = 0, indices = 0;
-  float letter_px = 0;
-  std::string texts;
-  ImVector<ImWchar> letters;  // that the large font has; ImGui reads them later
+  GLuint font = 0, glyphs = 0, array = 0, vertices = 0, indices = 0;
 
+  explicit Impl(Fonts* fonts) : text(fonts) {}
   ~Impl() {
     if (ImGui::GetCurrentContext() != nullptr) ImGui::DestroyContext();
   }
 
-  void CreateFont() {
-    unsigned char* pixels = nullptr;
-    int width = 0, height = 0;
-    ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
-    if (font == 0) glGenTextures(1, &font);
-    BindTexture(kColorUnit, font);
+  static GLuint CreateTexture(int width_px, int height_px, const unsigned char* cover) {
+    GLuint texture = 0;
+    glGenTextures(1, &texture);
+    BindTexture(kColorUnit, texture);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, pixels);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, width_px, height_px, 0, GL_RED, GL_UNSIGNED_BYTE, cover);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return texture;
+  }
+
+  void CreateFont() {
+    unsigned char* pixels = nullptr;
+    int width_px = 0, height_px = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&pixels, &width_px, &height_px);
+    font = CreateTexture(width_px, height_px, pixels);
+  }
+
+  // What has come to the glyphs since the last picture.
+  void UploadGlyphs() {
+    GlyphAtlas& atlas = text.atlas();
+    if (atlas.changed_from >= atlas.changed_to) return;
+    if (glyphs == 0) {
+      glyphs = CreateTexture(kGlyphAtlas_px, kGlyphAtlas_px, atlas.cover.data());
+    } else {
+      BindTexture(kColorUnit, glyphs);
+      glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, atlas.changed_from, kGlyphAtlas_px, atlas.changed_to - atlas.changed_from,
+                      GL_RED, GL_UNSIGNED_BYTE, &atlas.cover[static_cast<size_t>(atlas.changed_from) * kGlyphAtlas_px]);
+    }
+    atlas.changed_from = atlas.changed_to = 0;
   }
 
   void CreateArrays() {
@@ -52,6 +73,7 @@ struct Overlay::Impl {
     for (const ImDrawCmd& command : list.CmdBuffer) {
       const ImVec4 clip = command.ClipRect;
       if (clip.z <= clip.x || clip.w <= clip.y) continue;
+      BindTexture(kColorUnit, command.GetTexID() == kGlyphTexture ? glyphs : font);
       glScissor(static_cast<GLint>(clip.x), static_cast<GLint>(height_px - clip.w),
                 static_cast<GLsizei>(clip.z - clip.x), static_cast<GLsizei>(clip.w - clip.y));
       glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),
@@ -61,7 +83,7 @@ struct Overlay::Impl {
   }
 };
 
-Overlay::Overlay() : impl_(std::make_unique<Impl>()) {}
+Overlay::Overlay(Fonts* fonts) : impl_(std::make_unique<Impl>(fonts)) {}
 Overlay::~Overlay() = default;
 
 Error Overlay::Create() {
@@ -77,29 +99,7 @@ Error Overlay::Create() {
   return Ok();
 }
 
-void Overlay::PrepareText(float letter_px, const std::string& texts) {
-  Impl& o = *impl_;
-  letter_px = std::max(4.0f, std::round(letter_px));
-  if (letter_px == o.letter_px && texts == o.texts) return;
-  o.letter_px = letter_px;
-  o.texts = texts;
-  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
-  ImFontGlyphRangesBuilder builder;
-  builder.AddRanges(fonts.GetGlyphRangesDefault());
-  builder.AddText(texts.c_str());
-  o.letters.clear();
-  builder.BuildRanges(&o.letters);
-  fonts.Clear();
-  fonts.AddFontDefault();
-  ImFontConfig config;
-  config.FontDataOwnedByAtlas = false;
-  const auto file = FontFile();
-  // ImGui only reads the file, though it does not say so.
-  fonts.AddFontFromMemoryTTF(const_cast<unsigned char*>(file.data()), static_cast<int>(file.size()), letter_px, &config,
-                             o.letters.Data);
-  o.CreateFont();
-}
-
+TextLayer& Overlay::text() { return impl_->text; }
 bool Overlay::HasPointer() const { return ImGui::GetIO().WantCaptureMouse; }
 
 void Overlay::Begin(int width_px, int height_px, const OverlayInput& input) {
@@ -116,6 +116,7 @@ void Overlay::Begin(int width_px, int height_px, const OverlayInput& input) {
   hold(ImGuiNavInput_DpadRight, input.right);
   hold(ImGuiNavInput_Activate, input.activate);
   ImGui::NewFrame();
+  impl_->text.BeginPicture();
 }
 
 void Overlay::Draw() {
@@ -129,14 +130,11 @@ void Overlay::Draw() {
   glEnable(GL_SCISSOR_TEST);
   glUseProgram(impl_->program.id);
   SetUniform(impl_->program.size, Vec3{data.DisplaySize.x, data.DisplaySize.y, 0});
-  BindTexture(kColorUnit, impl_->font);
+  impl_->UploadGlyphs();
   glBindVertexArray(impl_->array);
   for (int i = 0; i < data.CmdListsCount; ++i) impl_->DrawList(*data.CmdLists[i], data.DisplaySize.y);
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
 }
-
-LargeText::LargeText() { ImGui::PushFont(ImGui::GetIO().Fonts->Fonts.back()); }
-LargeText::~LargeText() { ImGui::PopFont(); }
 
 }  // namespace flaneur

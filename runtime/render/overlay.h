@@ -6,6 +6,7 @@
 
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
+#include "runtime/render/text_layer.h"
 
 namespace flaneur {
 
@@ -20,13 +21,12 @@ struct OverlayInput {
 // Needs a current context for its whole life. One at a time.
 class Overlay {
  public:
-  Overlay();
+  // fonts: of its text, outliving it; null for the built-in one.
+  explicit Overlay(Fonts* fonts = nullptr);
   ~Overlay();
   // Errors: a shader that the driver refuses.
   Error Create();
-  // Readable letters for LargeText, so high, and with all that `texts` (UTF-8) need besides ASCII. Cheap where nothing
-  // changes; not between Begin and Draw.
-  void PrepareText(float letter_px, const std::string& texts);
+  TextLayer& text();  // for all that visitors read; developers have ImGui's own letters
   void Begin(int width_px, int height_px, const OverlayInput& input);
   bool HasPointer() const;  // it is over a window, or was pressed there; after Begin
   void Draw();              // over the picture that the renderer has just drawn, before it is read or presented
@@ -34,15 +34,6 @@ class Overlay {
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
-};
-
-// As long as it lives, text is in the letters that PrepareText made.
-class LargeText {
- public:
-  LargeText();
-  ~LargeText();
-  LargeText(const LargeText&) = delete;
-  LargeText& operator=(const LargeText&) = delete;
 };
 
 }  // namespace flaneur

@@ -201,7 +201,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   const bool deferred = mode == ShaderMode::kSoftware || averages;
   if (Error e = CreatePicture({samples, averages ? wished : 1, deferred, options.onto_window}, mode, &r.picture))
     return e;
-  if (Error e = CreateCaptionView(&r.caption)) return e;
+  if (Error e = CreateCaptionView(options.fonts, &r.caption)) return e;
   if (Error e = CreateGroundMark(&r.ground_mark)) return e;
   CreateShadowMaps(&r.shadows);
   r.waits = !options.runs_ahead || !CreatePictureClock(&r.clock);
@@ -277,15 +277,15 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   for (int k = 0; k < r.picture.averages; ++k) {
     const Mat4 aside = Aside(k, r.picture) * view_projection;
     if (r.picture.averages > 1) FindVisibleBlocks(aside, eye, r.options.cull, &r.town);
-    BindFrameBlock(r.block_buffer, MakeFrameBlock(aside, eye, r.Focal_px(frame), to_sun, std::max(sight.shadow_reach_m, 1e-3f),
-                                                  r.shadows));
+    BindFrameBlock(r.block_buffer, MakeFrameBlock(aside, eye, r.Focal_px(frame), to_sun,
+                                                  std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
     r.DrawSurfaces(eye, &timer, &people, &town);
     if (!r.options.normals) r.DrawSky();
     mark = DrawGroundMark(frame.ground_mark, r.ground_mark);
     timer.Passed(DrawPass::kSky);
     FinishPicture(k, r.picture);
   }
-  DrawCaption(frame.caption, frame.caption_share, width_px, height_px, &r.caption);
+  DrawCaption(frame, width_px, height_px, &r.caption);
   timer.Passed(DrawPass::kFinish);
   if (r.waits) glFinish();  // so that draw_ms means the picture, not the handing over of commands
   else EndPictureTime(&r.clock);

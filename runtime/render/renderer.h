@@ -8,6 +8,7 @@
 #include "runtime/pack/tour_pack.h"
 #include "runtime/render/assets.h"
 #include "runtime/render/frame.h"
+#include "runtime/text/fonts.h"
 
 namespace flaneur {
 
@@ -24,6 +25,7 @@ struct RenderOptions {
   // the picture before.
   bool runs_ahead = false;
   bool time_passes = false;  // FrameStatistics::pass_ms; waits for each pass, so that the whole takes longer
+  Fonts* fonts = nullptr;    // of captions; outlives the renderer. Null: the built-in one
   Jobs* jobs = nullptr;      // make the pack ready with the caller in Create
   // In software the samples come from as many pictures, each a part of a pixel aside: a fourth of the time. Then no
   // alpha comes of ReadWithAlpha; nothing changes where there is a GPU, or with `normals`.

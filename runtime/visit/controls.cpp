@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/visit/kiosk.h"
+#include "runtime/visit/one_handed.h"
 #include "runtime/walk/point_walk.h"
 
 namespace flaneur {
@@ -13,6 +14,7 @@ constexpr float kRadiansPerPixel = 0.0025f;
 constexpr float kMaxPitch_rad = 1.2f;
 constexpr float kStickDeadZone = 0.18f;  // sticks at rest are not quite at rest
 constexpr float kViewStep_deg = 5, kMinFieldOfView_deg = 30, kMaxFieldOfView_deg = 120;
+constexpr float kCalmSnap_deg = 30;  // of keys and sticks with less motion: a view that flows makes some people ill
 constexpr float kRadians = kPi / 180;
 
 struct Held {
@@ -38,33 +40,34 @@ void TurnAndLook(const Held& held, float passed_s, Controls* c) {
   const float inverted = s.invert_look ? -1.0f : 1.0f, mouse = kRadiansPerPixel * s.mouse_speed;
   // Dragging takes the picture along; a caught mouse takes the eye along.
   const float drag = c->points ? -1.0f : 1.0f;
-  const Vec2 stick = FromStick(held.input.right_stick);
+  const Vec2 stick = FromStick(WishesOfSticks(held.input, s).look);
   c->to_turn_rad -= drag * mouse * held.input.turned_px.x;
   c->to_look_rad -= drag * mouse * held.input.turned_px.y * inverted;
   c->to_look_rad += kRadians * s.turn_speed_dps * passed_s *
                     std::clamp(held.Axis(Action::kLookUp, Action::kLookDown) + stick.y * inverted, -1.0f, 1.0f);
   const float turn = std::clamp(held.Axis(Action::kTurnLeft, Action::kTurnRight) - stick.x, -1.0f, 1.0f);
-  if (s.snap_turn_deg <= 0) {
+  const float snap_deg = s.snap_turn_deg <= 0 && s.reduced_motion ? kCalmSnap_deg : s.snap_turn_deg;
+  if (snap_deg <= 0) {
     c->turn_radps = kRadians * s.turn_speed_dps * turn;
     return;
   }
   constexpr float kPushed = 0.6f, kReleased = 0.3f;
-  if (std::abs(turn) > kPushed && c->snap_ready) c->to_turn_rad += std::copysign(kRadians * s.snap_turn_deg, turn);
+  if (std::abs(turn) > kPushed && c->snap_ready) c->to_turn_rad += std::copysign(kRadians * snap_deg, turn);
   if (std::abs(turn) > kPushed) c->snap_ready = false;
   if (std::abs(turn) < kReleased) c->snap_ready = true;
   c->turn_radps = 0;
 }
 
 void Walk(const Held& held, float yaw_rad, Controls* c, CameraInput* camera) {
-  const Vec2 stick = FromStick(held.input.left_stick);
+  const Vec2 stick = FromStick(WishesOfSticks(held.input, c->settings).walk);
   const Vec2 keys{held.Axis(Action::kWalkRight, Action::kWalkLeft), held.Axis(Action::kWalkAhead, Action::kWalkBack)};
   const Vec2 way = keys + stick;
   const float share = std::min(1.0f, Length(way));
   const Vec2 ahead{std::cos(yaw_rad), std::sin(yaw_rad)}, right{ahead.y, -ahead.x};
   const Vec2 wanted = ahead * way.y + right * way.x;
   camera->direction = share > 0 ? wanted * (1 / Length(wanted)) : Vec2{};
-  camera->speed_mps = share * c->settings.walk_speed_mps;
-  camera->walk_to_mps = c->settings.walk_speed_mps;
+  camera->walk_to_mps = c->settings.walk_speed_mps * c->settings.pace;
+  camera->speed_mps = share * camera->walk_to_mps;
   if (share > 0) c->follows_tour = false;
 }
 
@@ -121,15 +124,16 @@ void Press(const Held& held, const Simulation& s, Controls* c, CameraInput* came
   c->quits = c->quits || Closes(held.input, *c) || held.Pressed(Action::kQuit);
 }
 
-void TakeCodes(Controls* c) {
+}  // namespace
+
+void TakeKeys(Controls* c) {
+  const auto keys = KeysInForce(c->settings);
   for (size_t k = 0; k < kActions; ++k) {
     c->codes[k].clear();
     if (c->settings.kiosk && IsLocked(static_cast<Action>(k))) continue;
-    for (const std::string& key : c->settings.keys[k]) c->codes[k].push_back(InputCode(key));
+    for (const std::string& key : keys[k]) c->codes[k].push_back(InputCode(key));
   }
 }
-
-}  // namespace
 
 Controls MakeControls(const PlayerSettings& settings, const KeyLayout& layout, const Simulation& s) {
   Controls c;
@@ -137,7 +141,7 @@ Controls MakeControls(const PlayerSettings& settings, const KeyLayout& layout, c
   c.settings = settings;
   c.points = settings.pointer == "point";
   c.follows_tour = !s.visitor.legs.empty() || !s.visitor.tour.stops.empty();
-  TakeCodes(&c);
+  TakeKeys(&c);
   return c;
 }
 
@@ -145,18 +149,21 @@ bool Rebind(Action action, int code, Controls* c) {
   const std::string name = InputName(code);
   const auto& of_pages = c->codes[static_cast<size_t>(Action::kMenu)];
   if (name.empty() || std::find(of_pages.begin(), of_pages.end(), code) != of_pages.end()) return false;
+  c->settings.keys = KeysInForce(c->settings);  // from here on they are the visitor's own
+  c->settings.one_handed = "off";
   for (auto& keys : c->settings.keys) std::erase(keys, name);
   auto& keys = c->settings.keys[static_cast<size_t>(action)];
   std::erase_if(keys, [&](const std::string& key) { return IsGamepadCode(InputCode(key)) == IsGamepadCode(code); });
   keys.push_back(name);
-  TakeCodes(c);
+  TakeKeys(c);
   c->changed = true;
   return true;
 }
 
 void ResetKeys(Controls* c) {
   c->settings.keys = PlayerSettings().keys;
-  TakeCodes(c);
+  c->settings.one_handed = "off";
+  TakeKeys(c);
   c->changed = true;
 }
 

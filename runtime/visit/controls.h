@@ -31,6 +31,8 @@ struct Controls {
 
 Controls MakeControls(const PlayerSettings& settings, const KeyLayout& layout, const Simulation& simulation);
 
+// The codes anew, after the settings' keys or the hand they are for have changed.
+void TakeKeys(Controls* controls);
 // The key or button becomes the action's only one of its kind, keyboard or gamepad, and nobody else's. False, and
 // nothing done, where it has no name or opens the pages.
 bool Rebind(Action action, int code, Controls* controls);

@@ -5,17 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
+#include "runtime/visit/page_rows.h"
 #include "runtime/visit/phrases.h"
 
 namespace flaneur {
 namespace {
 
-constexpr float kLettersHigh = 22, kLettersWide = 30;            // how many the picture has room for
-constexpr float kRow = 1.55f, kPageWidth = 24, kKeysWidth = 28;  // in letters
-constexpr float kKeyNames = 0.39f, kKeyButton = 0.295f;          // of that
-constexpr const char* kCutShort = "…";
+constexpr float kPageWidth = 24, kKeysWidth = 28;  // in letters
+constexpr float kMargin = 0.5f, kPadding = 0.6f, kGap = 0.28f, kSides = 0.8f;
 constexpr float kStickPushed = 0.5f;
 constexpr float kRadians = kPi / 180;
 
@@ -23,25 +21,15 @@ struct PageView {
   const Simulation& s;
   Menu* menu;
   Controls* controls;
-  std::string language;
-  float letter_px, width_px;
-  size_t rows;  // that fit on a page beside its head and foot
+  const std::string language;
+  PageRows* rows;
   MenuChoice choice;
 
   const char* Words(Phrase phrase) const { return Say(phrase, language); }
-  float row_px() const { return kRow * letter_px; }
-};
-
-// As much of the text as has room.
-std::string Fitted(const std::string& text, float most_px) {
-  std::string fitted = text;
-  for (size_t end = text.size(); end > 0 && ImGui::CalcTextSize(fitted.c_str()).x > most_px;
-       fitted = text.substr(0, end) + kCutShort) {
-    while (--end > 0 && (text[end] & 0xC0) == 0x80) {  // within a letter of several bytes
-    }
+  std::string Pair(const std::string& what, const std::string& value) const {
+    return Say(Phrase::kPair, language, {what, value});
   }
-  return fitted;
-}
+};
 
 std::vector<size_t> Halts(const GuidedTour& tour) {
   std::vector<size_t> halts;
@@ -62,35 +50,12 @@ std::vector<std::string> Languages(const Controls& c, const Simulation& s) {
   return all;
 }
 
-// `###` keeps a button the same whatever is written on it.
-bool Button(const PageView& v, const std::string& text, const std::string& id, float width_px) {
-  const std::string fitted = Fitted(text, width_px - 2 * ImGui::GetStyle().FramePadding.x);
-  return ImGui::Button((fitted + "###" + id).c_str(), {width_px, v.row_px()});
-}
-
-bool Row(const PageView& v, const std::string& text, const std::string& id) { return Button(v, text, id, v.width_px); }
+bool Row(const PageView& v, const std::string& text, const std::string& id) { return v.rows->Button(text, id); }
 
 void Changed(PageView* v) { v->controls->changed = v->controls->applies = true; }
 
-// Less and more; by how many steps it shall change.
-int Amount(const PageView& v, const char* text, const std::string& value) {
-  const float button_px = 1.3f * v.row_px(), value_px = 6.2f * v.letter_px;
-  ImGui::PushID(text);
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(Fitted(text, v.width_px - 2 * button_px - value_px - 0.4f * v.letter_px).c_str());
-  ImGui::SameLine(v.width_px - 2 * button_px - value_px);
-  ImGui::PushButtonRepeat(true);
-  ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0.5f, 0.5f});
-  const bool less = ImGui::Button("-", {button_px, v.row_px()});
-  const float text_px = ImGui::CalcTextSize(value.c_str()).x;
-  ImGui::SameLine(v.width_px - button_px - value_px / 2 - text_px / 2);
-  ImGui::TextUnformatted(value.c_str());
-  ImGui::SameLine(v.width_px - button_px);
-  const bool more = ImGui::Button("+", {button_px, v.row_px()});
-  ImGui::PopStyleVar();
-  ImGui::PopButtonRepeat();
-  ImGui::PopID();
-  return static_cast<int>(more) - static_cast<int>(less);
+int Amount(const PageView& v, Phrase phrase, const std::string& value) {
+  return v.rows->Amount(v.Words(phrase), value);
 }
 
 std::string Number(const PageView& v, const char* format, float value) {
@@ -102,32 +67,49 @@ std::string Number(const PageView& v, const char* format, float value) {
   return number;
 }
 
+std::string Percent(const PageView& v, float share) {
+  return Say(Phrase::kPercent, v.language, {Number(v, "%.0f", 100 * share)});
+}
+
 void Step(int steps, float step, float least, float most, float* value, PageView* v) {
   if (steps == 0) return;
   *value = std::clamp((std::round(*value / step) + static_cast<float>(steps)) * step, least, most);
   Changed(v);
 }
 
-void Switch(const char* text, bool* value, PageView* v) {
-  if (!Row(*v, std::string(text) + ": " + v->Words(*value ? Phrase::kYes : Phrase::kNo), text)) return;
+void Switch(Phrase phrase, const char* id, bool* value, PageView* v) {
+  if (!Row(*v, v->Pair(v->Words(phrase), v->Words(*value ? Phrase::kYes : Phrase::kNo)), id)) return;
   *value = !*value;
   Changed(v);
 }
 
-// The rows that fit, and a button for more where there are more.
-template <typename ShowRow>
-void PagedRows(size_t count, PageView* v, ShowRow show) {
-  const bool all_fit = count <= v->rows;
-  const size_t shown = all_fit ? count : v->rows - 1;
-  if (v->menu->first >= count) v->menu->first = 0;
-  for (size_t k = v->menu->first; k < std::min(count, v->menu->first + shown); ++k) show(k);
-  if (!all_fit && Row(*v, v->Words(Phrase::kMore), "more")) v->menu->first += shown;
+struct NamedChoice {
+  const char* value;
+  Phrase phrase;
+};
+
+// On to the next one.
+void Cycle(Phrase phrase, const char* id, std::initializer_list<NamedChoice> choices, std::string* value, PageView* v) {
+  const auto* now =
+      std::find_if(choices.begin(), choices.end(), [&](const NamedChoice& c) { return *value == c.value; });
+  if (now == choices.end()) now = choices.begin();
+  if (!Row(*v, v->Pair(v->Words(phrase), v->Words(now->phrase)), id)) return;
+  *value = now + 1 == choices.end() ? choices.begin()->value : (now + 1)->value;
+  Changed(v);
 }
 
 void FollowTour(PageView* v) {
   v->controls->follows_tour = true;
   OpenPage(Page::kNone, v->menu);
   if (v->s.visitor.finished) v->choice.stop = 0;
+}
+
+// Who reads another language than the one that is on finds the word for it even so.
+std::string LanguageRow(const PageView& v) {
+  std::string word = v.Words(Phrase::kLanguage);
+  const std::string english = Say(Phrase::kLanguage, "en");
+  if (word != english) word += " / " + english;
+  return v.Pair(word, LanguageName(v.language));
 }
 
 void ShowMain(PageView* v) {
@@ -141,15 +123,13 @@ void ShowMain(PageView* v) {
       if (!led) FollowTour(v);
       else c->follows_tour = false, OpenPage(Page::kNone, v->menu);
     }
+    if (led && !v->menu->begins && Row(*v, v->Words(tour.paused ? Phrase::kLetTourGoOn : Phrase::kHoldTour), "hold")) {
+      v->choice.toggles_pause = true;
+      OpenPage(Page::kNone, v->menu);
+    }
     if (!Halts(tour).empty() && Row(*v, v->Words(Phrase::kStops), "stops")) OpenPage(Page::kStops, v->menu);
   }
-  const std::vector<std::string> languages = Languages(*c, v->s);
-  if (languages.size() > 1 &&
-      Row(*v, std::string(v->Words(Phrase::kLanguage)) + ": " + LanguageName(v->language), "language")) {
-    const auto now = std::find(languages.begin(), languages.end(), v->language) - languages.begin();
-    c->settings.language = languages[static_cast<size_t>(now + 1) % languages.size()];
-    Changed(v);
-  }
+  if (Languages(*c, v->s).size() > 1 && Row(*v, LanguageRow(*v), "language")) OpenPage(Page::kLanguages, v->menu);
   if (Row(*v, v->Words(Phrase::kSettings), "settings")) OpenPage(Page::kSettings, v->menu);
   if (!c->settings.kiosk && Row(*v, v->Words(Phrase::kKeys), "keys")) OpenPage(Page::kKeys, v->menu);
   if (!c->settings.kiosk && Row(*v, v->Words(Phrase::kEnd), "end")) v->choice.ends = true;
@@ -158,72 +138,92 @@ void ShowMain(PageView* v) {
 void ShowStops(PageView* v) {
   const std::vector<size_t> halts = Halts(v->s.visitor.tour);
   const bool led = v->controls->follows_tour && !v->s.visitor.tour.over;
-  PagedRows(halts.size(), v, [&](size_t k) {
+  for (size_t k = 0; k < halts.size(); ++k) {
     std::string text = std::to_string(k + 1) + "   " + NameOfStop(v->s.visitor.tour, halts[k]);
     if (led && halts[k] == HaltOf(v->s.visitor.tour))
       text += std::string("   (") + v->Words(v->s.visitor.tour.resting ? Phrase::kNow : Phrase::kNext) + ")";
-    if (!Row(*v, text, std::to_string(k))) return;
+    if (!Row(*v, text, std::to_string(k))) continue;
     v->choice.stop = halts[k];
     v->controls->follows_tour = true;
     OpenPage(Page::kNone, v->menu);
-  });
-}
-
-constexpr size_t kVolumeRow = 5, kSettingRows = 11;
-
-// What visitors of a kiosk can change besides the language.
-std::vector<size_t> SettingRows(bool kiosk) {
-  if (kiosk) return {kVolumeRow};
-  std::vector<size_t> all(kSettingRows);
-  std::iota(all.begin(), all.end(), size_t{0});
-  return all;
-}
-
-void ShowSetting(size_t row, PageView* v) {
-  PlayerSettings& s = v->controls->settings;
-  const float view_deg = v->s.visitor.camera.view.fov_rad / kRadians;
-  switch (row) {
-    case 0:
-      return Step(Amount(*v, v->Words(Phrase::kWalkSpeed), Number(*v, "%.1f m/s", s.walk_speed_mps)), 0.1f, 0.3f, 3,
-                  &s.walk_speed_mps, v);
-    case 1:
-      return Step(Amount(*v, v->Words(Phrase::kTurnSpeed), Number(*v, "%.0f°/s", s.turn_speed_dps)), 10, 10, 360,
-                  &s.turn_speed_dps, v);
-    case 2: {
-      const std::string value =
-          s.snap_turn_deg > 0 ? Number(*v, "%.0f°", s.snap_turn_deg) : v->Words(Phrase::kSmoothly);
-      return Step(Amount(*v, v->Words(Phrase::kSnapTurn), value), 15, 0, 90, &s.snap_turn_deg, v);
-    }
-    case 3:
-      return Step(Amount(*v, v->Words(Phrase::kMouseSpeed), Number(*v, "%.1f", s.mouse_speed)), 0.1f, 0.1f, 10,
-                  &s.mouse_speed, v);
-    case 4: {
-      const int steps = Amount(*v, v->Words(Phrase::kFieldOfView), Number(*v, "%.0f°", view_deg));
-      if (steps != 0) s.field_of_view_deg = view_deg;
-      return Step(steps, 5, 30, 120, &s.field_of_view_deg, v);
-    }
-    case kVolumeRow:
-      return Step(Amount(*v, v->Words(Phrase::kVolume), Number(*v, "%.0f %%", 100 * s.sound_volume)), 0.1f, 0, 1,
-                  &s.sound_volume, v);
-    case 6:
-      return Switch(v->Words(Phrase::kReducedMotion), &s.reduced_motion, v);
-    case 7:
-      return Switch(v->Words(Phrase::kInvertLook), &s.invert_look, v);
-    case 8:
-      return Step(Amount(*v, v->Words(Phrase::kFramesPerSecond), Number(*v, "%.0f", s.frames_per_s)), 5, 5, 240,
-                  &s.frames_per_s, v);
-    case 9: {
-      const std::string value = Number(*v, "%.0f %%", 100 * s.least_resolution_scale);
-      return Step(Amount(*v, v->Words(Phrase::kLeastResolution), value), 0.05f, 0.25f, 1, &s.least_resolution_scale, v);
-    }
-    default:
-      break;
   }
-  const std::string how = v->Words(v->controls->points ? Phrase::kMousePoints : Phrase::kMouseLooks);
-  if (!Row(*v, std::string(v->Words(Phrase::kMouse)) + ": " + how, "mouse")) return;
+}
+
+void ShowLanguages(PageView* v) {
+  for (const std::string& language : Languages(*v->controls, v->s)) {
+    if (!Row(*v, LanguageName(language), language)) continue;
+    v->controls->settings.language = language;
+    Changed(v);
+    OpenPage(Page::kMain, v->menu);
+  }
+}
+
+void ShowEyeHeight(PageView* v) {
+  constexpr float kSeated_m = 1.2f, kStep_m = 0.05f, kLeast_m = 0.5f, kMost_m = 2.2f;
+  float* eye_m = &v->controls->settings.eye_height_m;
+  const int steps =
+      Amount(*v, Phrase::kEyeHeight, *eye_m > 0 ? Number(*v, "%.2f m", *eye_m) : v->Words(Phrase::kAsTheTour));
+  if (steps == 0) return;
+  if (*eye_m <= 0) *eye_m = kSeated_m;  // most who ask for it sit
+  else if (std::lround(*eye_m / kStep_m) + steps > std::lround(kMost_m / kStep_m)) *eye_m = 0;
+  else return Step(steps, kStep_m, kLeast_m, kMost_m, eye_m, v);
+  Changed(v);
+}
+
+// For everybody; an exhibition's visitors have no others.
+void ShowReading(PageView* v) {
+  PlayerSettings& s = v->controls->settings;
+  Cycle(Phrase::kTextSize, "text size",
+        {{"normal", Phrase::kTextNormal}, {"large", Phrase::kTextLarge}, {"largest", Phrase::kTextLargest}},
+        &s.text_size, v);
+  Switch(Phrase::kHighContrast, "contrast", &s.high_contrast, v);
+  Step(Amount(*v, Phrase::kVolume, Percent(*v, s.sound_volume)), 0.1f, 0, 1, &s.sound_volume, v);
+}
+
+void ShowComfort(PageView* v) {
+  PlayerSettings& s = v->controls->settings;
+  Switch(Phrase::kCaptionsAlways, "captions", &s.captions_always, v);
+  Step(Amount(*v, Phrase::kPace, Percent(*v, s.pace)), 0.1f, 0.3f, 1.5f, &s.pace, v);
+  Switch(Phrase::kReducedMotion, "motion", &s.reduced_motion, v);
+  ShowEyeHeight(v);
+  const std::string before = s.one_handed;
+  Cycle(Phrase::kOneHand, "one hand",
+        {{"off", Phrase::kBothHands},
+         {"left_keys", Phrase::kLeftKeys},
+         {"right_keys", Phrase::kRightKeys},
+         {"left_pad", Phrase::kLeftPad},
+         {"right_pad", Phrase::kRightPad}},
+        &s.one_handed, v);
+  if (s.one_handed != before) TakeKeys(v->controls);
+  const Phrase how = v->controls->points ? Phrase::kMousePoints : Phrase::kMouseLooks;
+  if (!Row(*v, v->Pair(v->Words(Phrase::kMouse), v->Words(how)), "mouse")) return;
   v->controls->points = !v->controls->points;
   s.pointer = v->controls->points ? "point" : "look";
   Changed(v);
+}
+
+void ShowHandling(PageView* v) {
+  PlayerSettings& s = v->controls->settings;
+  Step(Amount(*v, Phrase::kWalkSpeed, Number(*v, "%.1f m/s", s.walk_speed_mps)), 0.1f, 0.3f, 3, &s.walk_speed_mps, v);
+  Step(Amount(*v, Phrase::kTurnSpeed, Number(*v, "%.0f°/s", s.turn_speed_dps)), 10, 10, 360, &s.turn_speed_dps, v);
+  const std::string snap = s.snap_turn_deg > 0 ? Number(*v, "%.0f°", s.snap_turn_deg) : v->Words(Phrase::kSmoothly);
+  Step(Amount(*v, Phrase::kSnapTurn, snap), 15, 0, 90, &s.snap_turn_deg, v);
+  Step(Amount(*v, Phrase::kMouseSpeed, Number(*v, "%.1f", s.mouse_speed)), 0.1f, 0.1f, 10, &s.mouse_speed, v);
+  Switch(Phrase::kInvertLook, "invert", &s.invert_look, v);
+  const float view_deg = v->s.visitor.camera.view.fov_rad / kRadians;
+  const int steps = Amount(*v, Phrase::kFieldOfView, Number(*v, "%.0f°", view_deg));
+  if (steps != 0) s.field_of_view_deg = view_deg;
+  Step(steps, 5, 30, 120, &s.field_of_view_deg, v);
+  Step(Amount(*v, Phrase::kFramesPerSecond, Number(*v, "%.0f", s.frames_per_s)), 5, 5, 240, &s.frames_per_s, v);
+  Step(Amount(*v, Phrase::kLeastResolution, Percent(*v, s.least_resolution_scale)), 0.05f, 0.25f, 1,
+       &s.least_resolution_scale, v);
+}
+
+void ShowSettings(PageView* v) {
+  ShowReading(v);
+  if (v->controls->settings.kiosk) return;
+  ShowComfort(v);
+  ShowHandling(v);
 }
 
 std::string KeysOf(const PageView& v, Action action, bool pad) {
@@ -236,34 +236,22 @@ std::string KeysOf(const PageView& v, Action action, bool pad) {
   return v.Words(pad && action <= Action::kLookDown ? Phrase::kStick : Phrase::kNothing);
 }
 
-void KeyButton(Action action, bool pad, PageView* v) {
-  Menu* menu = v->menu;
-  const bool waits = menu->rebinds == action && menu->rebinds_pad == pad;
-  const std::string text = waits ? v->Words(pad ? Phrase::kPressButton : Phrase::kPressKey) : KeysOf(*v, action, pad);
-  const std::string id = std::string(kActionNames[static_cast<size_t>(action)]) + (pad ? "pad" : "key");
-  if (!Button(*v, text, id, kKeyButton * v->width_px)) return;
-  menu->rebinds = action;
-  menu->rebinds_pad = pad;
+std::string KeyButton(Action action, bool pad, const PageView& v) {
+  const bool waits = v.menu->rebinds == action && v.menu->rebinds_pad == pad;
+  return waits ? v.Words(pad ? Phrase::kPressButton : Phrase::kPressKey) : KeysOf(v, action, pad);
 }
 
 void ShowKeys(PageView* v) {
-  std::vector<Action> actions;
   for (size_t k = 0; k < kActions; ++k) {
     const auto action = static_cast<Action>(k);
-    if (action != Action::kMenu) actions.push_back(action);
+    if (action == Action::kMenu) continue;
+    const int pressed = v->rows->Choice(NameOf(action, v->language),
+                                        {KeyButton(action, false, *v), KeyButton(action, true, *v)}, kActionNames[k]);
+    if (pressed < 0) continue;
+    v->menu->rebinds = action;
+    v->menu->rebinds_pad = pressed == 1;
   }
-  PagedRows(actions.size() + 1, v, [&](size_t k) {
-    if (k == actions.size()) {
-      if (Row(*v, v->Words(Phrase::kDefaults), "defaults")) ResetKeys(v->controls);
-      return;
-    }
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(Fitted(NameOf(actions[k], v->language), (kKeyNames - 0.01f) * v->width_px).c_str());
-    for (const bool pad : {false, true}) {
-      ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + v->width_px * (pad ? 1 - kKeyButton : kKeyNames));
-      KeyButton(actions[k], pad, v);
-    }
-  });
+  if (Row(*v, v->Words(Phrase::kDefaults), "defaults")) ResetKeys(v->controls);
 }
 
 void ShowRows(PageView* v) {
@@ -274,54 +262,35 @@ void ShowRows(PageView* v) {
       return ShowMain(v);
     case Page::kStops:
       return ShowStops(v);
-    case Page::kSettings: {
-      const std::vector<size_t> rows = SettingRows(v->controls->settings.kiosk);
-      return PagedRows(rows.size(), v, [&](size_t k) { ShowSetting(rows[k], v); });
-    }
+    case Page::kLanguages:
+      return ShowLanguages(v);
+    case Page::kSettings:
+      return ShowSettings(v);
     case Page::kKeys:
       return ShowKeys(v);
   }
 }
 
 Phrase TitleOf(Page page) {
-  return page == Page::kStops ? Phrase::kStops : page == Page::kSettings ? Phrase::kSettings : Phrase::kKeys;
+  return page == Page::kStops       ? Phrase::kStops
+         : page == Page::kLanguages ? Phrase::kLanguage
+         : page == Page::kSettings  ? Phrase::kSettings
+                                    : Phrase::kKeys;
 }
 
-// Dark, warm and large, with the button that is meant clearly brighter.
-struct PageStyle {
-  explicit PageStyle(float letter_px) {
-    const auto color = [](ImGuiCol which, float r, float g, float b, float a) {
-      ImGui::PushStyleColor(which, {r, g, b, a});
-    };
-    color(ImGuiCol_WindowBg, 0.07f, 0.06f, 0.05f, 0.86f);
-    color(ImGuiCol_Border, 0, 0, 0, 0);
-    color(ImGuiCol_Text, 0.97f, 0.95f, 0.90f, 1);
-    color(ImGuiCol_Button, 0.24f, 0.20f, 0.16f, 0.9f);
-    color(ImGuiCol_ButtonHovered, 0.66f, 0.42f, 0.14f, 1);
-    color(ImGuiCol_ButtonActive, 0.80f, 0.54f, 0.20f, 1);
-    color(ImGuiCol_NavHighlight, 0.98f, 0.80f, 0.42f, 1);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.8f * letter_px, 0.6f * letter_px});
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.6f * letter_px, 0.25f * letter_px});
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.4f * letter_px, 0.28f * letter_px});
-    ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, 0.25f * letter_px);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * letter_px);
-    ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
-  }
-  ~PageStyle() {
-    ImGui::PopStyleVar(6);
-    ImGui::PopStyleColor(7);
-  }
-  PageStyle(const PageStyle&) = delete;
-  PageStyle& operator=(const PageStyle&) = delete;
-};
+float HeadHeight_px(const std::string& head, float width_px, const PageLook& look, TextLayer* text) {
+  return RoomFor(head, width_px, TextOf(look), text).height_px + kGap * look.letter_px;
+}
+
+void ShowHead(const std::string& head, float width_px, const PageLook& look, TextLayer* text) {
+  const float height_px = RoomFor(head, width_px, TextOf(look), text).height_px;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::Dummy({width_px, height_px});
+  DrawText(head, {corner.x, corner.y, width_px, height_px}, TextOf(look), text);
+}
 
 constexpr ImGuiWindowFlags kPlain =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
-
-size_t RowsThatFit(int height_px, float letter_px) {
-  const float row_px = (kRow + 0.28f) * letter_px, rest_px = static_cast<float>(height_px) - 6.5f * letter_px;
-  return static_cast<size_t>(std::max(3.0f, std::floor(rest_px / row_px)));
-}
 
 }  // namespace
 
@@ -337,25 +306,8 @@ void MeetSomebodyNew(Menu* menu) {
   menu->begins = true;
 }
 
-std::string PageLanguage(const Controls& c, const Simulation& s) {
-  return c.settings.language.empty() ? s.visitor.tour.language : c.settings.language;
-}
-
-float PageLetter_px(int width_px, int height_px) {
-  return std::min(static_cast<float>(height_px) / kLettersHigh, static_cast<float>(width_px) / kLettersWide);
-}
-
-std::string PageTexts(const Controls& c, const Simulation& s) {
-  std::string all = std::string("–°←→↑↓") + kCutShort;
-  for (const std::string& language : Languages(c, s)) all += LanguageName(language);
-  for (size_t k = 0; k < s.visitor.tour.words.size(); ++k) all += NameOfStop(s.visitor.tour, k);
-  for (const auto& codes : c.codes) {
-    for (int code : codes) all += InputLabel(code, c.layout);
-  }
-  return all;
-}
-
-OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, int width_px, int height_px, float passed_s) {
+OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, const Controls& c, int width_px,
+                              int height_px, float passed_s) {
   OverlayInput out;
   out.pointer_px = {input.pointer.x * static_cast<float>(width_px), input.pointer.y * static_cast<float>(height_px)};
   out.pressed = input.pressed;
@@ -365,11 +317,17 @@ OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, int wi
     return std::any_of(names.begin(), names.end(),
                        [&](const char* name) { return input.down[static_cast<size_t>(InputCode(name))]; });
   };
-  out.up = down({"up", "pad_up"}) || input.left_stick.y > kStickPushed;
-  out.down = down({"down", "pad_down"}) || input.left_stick.y < -kStickPushed;
-  out.left = down({"left", "pad_left"}) || input.left_stick.x < -kStickPushed;
-  out.right = down({"right", "pad_right"}) || input.left_stick.x > kStickPushed;
-  out.activate = down({"enter", "keypad_enter", "space", "pad_a"});
+  // Whoever walks by them, with one hand or two, finds them here too.
+  const auto does = [&](Action action) {
+    const auto& codes = c.codes[static_cast<size_t>(action)];
+    return std::any_of(codes.begin(), codes.end(), [&](int code) { return input.down[static_cast<size_t>(code)]; });
+  };
+  const Vec2 stick = Length(input.left_stick) > Length(input.right_stick) ? input.left_stick : input.right_stick;
+  out.up = down({"up", "pad_up"}) || does(Action::kWalkAhead) || stick.y > kStickPushed;
+  out.down = down({"down", "pad_down"}) || does(Action::kWalkBack) || stick.y < -kStickPushed;
+  out.left = down({"left", "pad_left"}) || does(Action::kTurnLeft) || stick.x < -kStickPushed;
+  out.right = down({"right", "pad_right"}) || does(Action::kTurnRight) || stick.x > kStickPushed;
+  out.activate = down({"enter", "keypad_enter", "space", "pad_a"}) || does(Action::kPause);
   return out;
 }
 
@@ -396,50 +354,54 @@ void TakePageInput(const WindowInput& input, Menu* menu, Controls* c) {
     OpenPage(menu->page == Page::kMain ? Page::kNone : Page::kMain, menu);
 }
 
-MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px, int height_px, Menu* menu,
-                    Controls* c) {
+MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px, int height_px, Menu* menu, Controls* c,
+                    TextLayer* text) {
   if (menu->page == Page::kNone) return {};
   const Page page = menu->page;
+  const PageLook look = LookOf(*c, s, width_px, height_px);
   const ImVec2 picture{static_cast<float>(width_px), static_cast<float>(height_px)};
-  const float letter_px = PageLetter_px(width_px, height_px);
-  PageView view{s,
-                menu,
-                c,
-                PageLanguage(*c, s),
-                letter_px,
-                std::min((page == Page::kKeys ? kKeysWidth : kPageWidth) * letter_px, picture.x - 2 * letter_px),
-                RowsThatFit(height_px, letter_px),
-                {}};
-  const LargeText large;
-  const PageStyle style(letter_px);
-  ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, picture, IM_COL32(0, 0, 0, 110));
+  const float letter_px = look.letter_px, most_px = picture.x - 2 * (kMargin + kSides) * letter_px;
+  const float page_px = std::min((page == Page::kKeys ? kKeysWidth : kPageWidth) * letter_px, most_px);
+  PageRows rows(look, page_px, text);
+  PageView view{s, menu, c, look.language, &rows, {}};
+  const PageStyle style(look);
+  ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, picture,
+                                                IM_COL32(look.veil[0], look.veil[1], look.veil[2], look.veil[3]));
   ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   const std::string name = "page " + std::to_string(static_cast<int>(page));
   if (ImGui::Begin(name.c_str(), nullptr, kPlain | ImGuiWindowFlags_AlwaysAutoResize)) {
     if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
-    ImGui::TextUnformatted(Fitted(page == Page::kMain ? title : view.Words(TitleOf(page)), view.width_px).c_str());
-    ImGui::PushTextWrapPos(0);
+    const std::string head = page == Page::kMain ? title : view.Words(TitleOf(page));
+    const std::string back = page == Page::kMain ? "" : view.Words(Phrase::kBackToPages);
+    ShowHead(head, page_px, look, text);
     ShowRows(&view);
-    ImGui::PopTextWrapPos();
-    if (page != Page::kMain && Row(view, view.Words(Phrase::kBackToPages), "back")) OpenPage(Page::kMain, menu);
+    const float rest_px = picture.y - 2 * (kMargin + kPadding) * letter_px - HeadHeight_px(head, page_px, look, text) -
+                          (back.empty() ? 0 : rows.ButtonHeight_px(back) + kGap * letter_px);
+    if (!rows.Fit(rest_px, menu->first, view.Words(Phrase::kMore))) menu->first = 0;
+    ShowRows(&view);
+    rows.ShowMore();
+    if (rows.more_pressed()) menu->first = rows.end() < rows.count() ? rows.end() : 0;
+    if (!back.empty() && rows.ButtonBelow(back, "back")) OpenPage(Page::kMain, menu);
   }
   ImGui::End();
   return view.choice;
 }
 
-bool ShowMenuButton(int width_px, int height_px) {
-  const float letter_px = PageLetter_px(width_px, height_px), side_px = 2 * letter_px;
-  const PageStyle style(letter_px);
+bool ShowMenuButton(const PageLook& look, int width_px) {
+  const float letter_px = look.letter_px, side_px = 2 * letter_px;
+  const PageStyle style(look);
   ImGui::SetNextWindowPos({static_cast<float>(width_px) - side_px - letter_px / 2, letter_px / 2});
   ImGui::SetNextWindowSize({side_px, side_px});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::Begin("menu button", nullptr, kPlain | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav);
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const bool pressed = ImGui::Button("###menu", {side_px, side_px});
+  const PageColor& color = ImGui::IsItemHovered() ? look.marked_text : look.text;
   for (int line = 0; line < 3; ++line) {
     const float y = low.y + side_px * (0.3f + 0.2f * static_cast<float>(line));
     ImGui::GetWindowDrawList()->AddLine({low.x + side_px * 0.25f, y}, {low.x + side_px * 0.75f, y},
-                                        IM_COL32(247, 242, 230, 255), side_px / 14);
+                                        IM_COL32(color[0], color[1], color[2], color[3]),
+                                        side_px / (look.high_contrast ? 9 : 14));
   }
   ImGui::End();
   ImGui::PopStyleVar();

@@ -8,10 +8,11 @@
 #include "runtime/render/overlay.h"
 #include "runtime/simulation/simulation.h"
 #include "runtime/visit/controls.h"
+#include "runtime/visit/page_look.h"
 
 namespace flaneur {
 
-enum class Page { kNone, kMain, kStops, kSettings, kKeys };
+enum class Page { kNone, kMain, kStops, kLanguages, kSettings, kKeys };
 
 struct Menu {
   Page page = Page::kNone;
@@ -26,30 +27,24 @@ struct Menu {
 struct MenuChoice {
   bool ends = false;
   std::optional<size_t> stop;  // of the tour, to go to now
+  bool toggles_pause = false;  // of the tour
 };
 
 void OpenPage(Page page, Menu* menu);
 // The first page, as whoever comes to an exhibition meets it.
 void MeetSomebodyNew(Menu* menu);
 
-// Of the player's own words: the visitor's, else the tour's.
-std::string PageLanguage(const Controls& controls, const Simulation& simulation);
-
-// Height of the pages' letters, for readers 2 m away.
-float PageLetter_px(int width_px, int height_px);
-// All that ShowMenu may write, for Overlay::PrepareText.
-std::string PageTexts(const Controls& controls, const Simulation& simulation);
-
 // The hands, for Overlay::Begin.
-OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, int width_px, int height_px, float passed_s);
+OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, const Controls& controls, int width_px,
+                              int height_px, float passed_s);
 
 // Back to the page before, and the key that is waited for. Once a picture.
 void TakePageInput(const WindowInput& input, Menu* menu, Controls* controls);
 
 // These between an Overlay's Begin and Draw. The page that is open, or nothing.
 MenuChoice ShowMenu(const std::string& title, const Simulation& simulation, int width_px, int height_px, Menu* menu,
-                    Controls* controls);
+                    Controls* controls, TextLayer* text);
 // In the picture's corner, for who has no keys. True when it is pressed.
-bool ShowMenuButton(int width_px, int height_px);
+bool ShowMenuButton(const PageLook& look, int width_px);
 
 }  // namespace flaneur

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "runtime/visit/menu.h"
+#include "runtime/visit/page_look.h"
 #include "runtime/visit/phrases.h"
 
 namespace flaneur {
@@ -10,12 +10,6 @@ namespace {
 
 constexpr float kHint_s = 14, kHintOnceWalking_s = 2.5f;
 constexpr float kNotice_s = 4, kLeaves_s = 0.4f;
-
-std::string Fill(const char* format, const std::string& text) {
-  std::string filled = format;
-  if (const size_t at = filled.find("%s"); at != std::string::npos) filled.replace(at, 2, text);
-  return filled;
-}
 
 std::string FirstKey(const Controls& c, Action action, const std::string& language) {
   const auto& codes = c.codes[static_cast<size_t>(action)];
@@ -55,12 +49,12 @@ bool IsAsBefore(const Controls& c, const Simulation& s, const Notices& n) {
 void TellOfTour(const Controls& c, const Simulation& s, const std::string& language, Notices* n) {
   const GuidedTour& t = s.visitor.tour;
   const bool goes = c.follows_tour && !t.paused, went = n->follows && !n->paused;
-  if (t.paused && !n->paused) Tell(Fill(Say(Phrase::kTourPaused, language), FirstKey(c, Action::kPause, language)), n);
-  if (n->follows && !c.follows_tour) Tell(Fill(Say(Phrase::kTourLeft, language), HowTo(c, Action::kTour, language)), n);
+  if (t.paused && !n->paused) Tell(Say(Phrase::kTourPaused, language, {FirstKey(c, Action::kPause, language)}), n);
+  if (n->follows && !c.follows_tour) Tell(Say(Phrase::kTourLeft, language, {HowTo(c, Action::kTour, language)}), n);
   if (goes && !went) Tell(Say(Phrase::kTourGoesOn, language), n);
   const std::string next = NameOfStop(t, HaltOf(t));
   if (n->halt == HaltOf(t) || !goes || next.empty()) return;
-  Tell(Fill(Say(Phrase::kNextStop, language), next), n);
+  Tell(Say(Phrase::kNextStop, language, {next}), n);
   n->gives_way = true;
 }
 
@@ -73,9 +67,9 @@ void BeginHint(const Controls& c, const Simulation& s, Notices* n) {
     const std::string key = FirstKey(c, action, language);
     if (!key.empty()) keys += (keys.empty() ? "" : ", ") + key;
   }
-  n->text = Fill(Say(HintFor(c, s), language), keys);
+  n->text = Say(HintFor(c, s), language, {keys});
   const std::string pages = FirstKey(c, Action::kMenu, language);
-  if (!c.points && !pages.empty()) n->text += " " + Fill(Say(Phrase::kHintMenu, language), pages);
+  if (!c.points && !pages.empty()) n->text += " " + Say(Phrase::kHintMenu, language, {pages});
   n->left_s = kHint_s;
   n->is_hint = n->gives_way = true;
   Remember(c, s, n);
@@ -89,7 +83,7 @@ void FollowNotices(const Controls& c, const Simulation& s, float passed_s, Notic
   if (HasTour(s.visitor.tour)) TellOfTour(c, s, language, n);
   if (s.visitor.tour.over && !n->over) Tell(Say(Phrase::kTourOver, language), n);
   if (s.visitor.tour.language != n->language && !n->is_hint)
-    Tell(Say(Phrase::kLanguage, language) + (": " + LanguageName(language)), n);
+    Tell(Say(Phrase::kPair, language, {Say(Phrase::kLanguage, language), LanguageName(language)}), n);
   Remember(c, s, n);
 }
 

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/render/overlay.h"
-#include "runtime/visit/menu.h"
+#include "runtime/visit/page_rows.h"
 #include "runtime/visit/phrases.h"
 
 namespace flaneur {
@@ -15,36 +14,12 @@ namespace {
 constexpr float kKey = 2.4f, kGap = 0.3f;  // of the keypad, in letters
 constexpr float kKeypadWide = 10;
 constexpr float kRowHigh = 1.55f, kRowWide = 16;
+constexpr float kLettersHigh = 15;  // that the keypad takes
 constexpr const char* kDelete = "←";
+constexpr const char* kLeave = "×";
 constexpr const char* kDot = "•";
 constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
-
-struct OperatorStyle {
-  explicit OperatorStyle(float letter_px) {
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, {0.05f, 0.06f, 0.08f, 0.95f});
-    ImGui::PushStyleColor(ImGuiCol_Border, {0, 0, 0, 0});
-    ImGui::PushStyleColor(ImGuiCol_Text, {0.95f, 0.96f, 0.97f, 1});
-    ImGui::PushStyleColor(ImGuiCol_Button, {0.18f, 0.22f, 0.28f, 1});
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, {0.24f, 0.32f, 0.44f, 1});
-    ImGui::PushStyleColor(ImGuiCol_ButtonActive, {0.30f, 0.46f, 0.66f, 1});
-    ImGui::PushStyleColor(ImGuiCol_NavHighlight, {0.60f, 0.80f, 1, 1});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {letter_px, 0.8f * letter_px});
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {kGap * letter_px, kGap * letter_px});
-    ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, 0.25f * letter_px);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * letter_px);
-  }
-  ~OperatorStyle() {
-    ImGui::PopStyleVar(4);
-    ImGui::PopStyleColor(7);
-  }
-  OperatorStyle(const OperatorStyle&) = delete;
-  OperatorStyle& operator=(const OperatorStyle&) = delete;
-};
-
-bool Key(const std::string& text, float letter_px) {
-  return ImGui::Button(text.c_str(), {kKey * letter_px, kKey * letter_px});
-}
 
 std::string StateOfEntry(const std::string& language, const PinEntry& pin) {
   if (pin.wait_s > 0) {
@@ -58,72 +33,69 @@ std::string StateOfEntry(const std::string& language, const PinEntry& pin) {
   return dots;
 }
 
-OperatorChoice ShowKeypad(const std::string& language, float letter_px, Kiosk* k) {
-  const float wide_px = kKeypadWide * letter_px, left_px = (wide_px - (3 * kKey + 2 * kGap) * letter_px) / 2;
-  const std::string state = StateOfEntry(language, k->pin);
+OperatorChoice ShowKeypad(const PageLook& look, TextLayer* text, Kiosk* k) {
+  const float key_px = kKey * look.letter_px, wide_px = kKeypadWide * look.letter_px;
+  const float left_px = (wide_px - (3 * kKey + 2 * kGap) * look.letter_px) / 2;
   const float edge_px = ImGui::GetCursorPosX();
-  ImGui::Dummy({wide_px, 0});
-  ImGui::SetCursorPosX(edge_px + std::max(0.0f, (wide_px - ImGui::CalcTextSize(state.c_str()).x) / 2));
-  ImGui::TextUnformatted(state.c_str());
+  TextAt(StateOfEntry(look.language, k->pin), wide_px, Align::kCenter, look, text);
   const char* const keys[] = {"1", "2", "3", "4", "5", "6", "7", "8", "9", kDelete, "0"};
   for (size_t key = 0; key < std::size(keys); ++key) {
     if (key % 3 != 0) ImGui::SameLine();
     else ImGui::SetCursorPosX(edge_px + left_px);
-    if (!Key(keys[key], letter_px)) continue;
+    if (!TextButton(keys[key], keys[key], key_px, key_px, Align::kCenter, look, text)) continue;
     if (keys[key] == kDelete) DeleteDigit(&k->pin);
     else if (k->page == OperatorPage::kKeypad) TypePin(*keys[key], k);
   }
   ImGui::SameLine();
-  if (ImGui::Button("###leave", {kKey * letter_px, kKey * letter_px})) return OperatorChoice::kBack;
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  const float in_px = 0.36f * (high.x - low.x);
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  const ImU32 color = IM_COL32(242, 245, 248, 255);
-  draw->AddLine({low.x + in_px, low.y + in_px}, {high.x - in_px, high.y - in_px}, color, letter_px / 8);
-  draw->AddLine({low.x + in_px, high.y - in_px}, {high.x - in_px, low.y + in_px}, color, letter_px / 8);
-  return OperatorChoice::kNone;
+  return TextButton(kLeave, "leave", key_px, key_px, Align::kCenter, look, text) ? OperatorChoice::kBack
+                                                                                 : OperatorChoice::kNone;
 }
 
-OperatorChoice ShowChoices(const std::string& language, const std::string& state, float letter_px) {
-  ImGui::TextUnformatted(Say(Phrase::kOperator, language));
-  if (!state.empty()) ImGui::TextUnformatted(state.c_str());
-  const auto row = [&](Phrase phrase) {
-    return ImGui::Button(Say(phrase, language), {kRowWide * letter_px, kRowHigh * letter_px});
+OperatorChoice ShowChoices(const PageLook& look, const std::string& state, float most_px, TextLayer* text) {
+  const float wide_px = std::min(kRowWide * look.letter_px, most_px);
+  TextAt(Say(Phrase::kOperator, look.language), wide_px, Align::kStart, look, text);
+  if (!state.empty()) TextAt(state, wide_px, Align::kStart, look, text);
+  const auto row = [&](Phrase phrase, const char* id) {
+    return TextButton(Say(phrase, look.language), id, wide_px, kRowHigh * look.letter_px, Align::kStart, look, text);
   };
   OperatorChoice choice = OperatorChoice::kNone;
-  if (row(Phrase::kBackToPages)) choice = OperatorChoice::kBack;
-  if (row(Phrase::kRestart)) choice = OperatorChoice::kRestart;
-  if (row(Phrase::kEnd)) choice = OperatorChoice::kEnd;
+  if (row(Phrase::kBackToPages, "back")) choice = OperatorChoice::kBack;
+  if (row(Phrase::kRestart, "restart")) choice = OperatorChoice::kRestart;
+  if (row(Phrase::kEnd, "end")) choice = OperatorChoice::kEnd;
   return choice;
+}
+
+// Bluer than what visitors see, unless the contrast is high, and no larger than fits.
+PageLook OperatorLook(PageLook look, int height_px) {
+  look.letter_px = std::min(look.letter_px, static_cast<float>(height_px) / kLettersHigh);
+  if (look.high_contrast) return look;
+  look.panel = {13, 15, 20, 242};
+  look.text = look.marked_text = {242, 245, 247, 255};
+  look.button = {46, 56, 71, 255};
+  look.marked = {61, 82, 112, 255};
+  look.pressed = {77, 117, 168, 255};
+  look.outline = {153, 204, 255, 255};
+  return look;
 }
 
 }  // namespace
 
-OperatorChoice ShowOperatorPage(const std::string& language, const std::string& state, int width_px, int height_px,
-                                Kiosk* k) {
+OperatorChoice ShowOperatorPage(const PageLook& pages, const std::string& state, int width_px, int height_px, Kiosk* k,
+                                TextLayer* text) {
   if (k->page == OperatorPage::kNone) return OperatorChoice::kNone;
   const ImVec2 picture{static_cast<float>(width_px), static_cast<float>(height_px)};
-  const float letter_px = PageLetter_px(width_px, height_px);
-  const LargeText large;
-  const OperatorStyle style(letter_px);
+  const PageLook look = OperatorLook(pages, height_px);
+  const PageStyle style(look);
   ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, picture, IM_COL32(0, 0, 0, 140));
   ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   const bool keypad = k->page == OperatorPage::kKeypad;
   OperatorChoice choice = OperatorChoice::kNone;
   if (ImGui::Begin(keypad ? "keypad" : "operator", nullptr, kPlain)) {
     if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
-    choice = keypad ? ShowKeypad(language, letter_px, k) : ShowChoices(language, state, letter_px);
+    choice = keypad ? ShowKeypad(look, text, k) : ShowChoices(look, state, picture.x - 2 * look.letter_px, text);
   }
   ImGui::End();
   return choice;
-}
-
-std::string OperatorTexts(const std::string& language) {
-  std::string all = std::string(kDelete) + kDot;
-  for (Phrase phrase : {Phrase::kPinAsked, Phrase::kPinWrong, Phrase::kPinWait, Phrase::kOperator, Phrase::kRestart,
-                        Phrase::kEnd, Phrase::kBackToPages})
-    all += Say(phrase, language);
-  return all;
 }
 
 }  // namespace flaneur

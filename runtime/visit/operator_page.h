@@ -4,16 +4,14 @@
 #include <string>
 
 #include "runtime/visit/kiosk.h"
+#include "runtime/visit/page_look.h"
 
 namespace flaneur {
 
 enum class OperatorChoice { kNone, kBack, kRestart, kEnd };
 
 // Between an Overlay's Begin and Draw. state: a line of what the operator wants to know.
-OperatorChoice ShowOperatorPage(const std::string& language, const std::string& state, int width_px, int height_px,
-                                Kiosk* kiosk);
-
-// All that it may write, for Overlay::PrepareText.
-std::string OperatorTexts(const std::string& language);
+OperatorChoice ShowOperatorPage(const PageLook& look, const std::string& state, int width_px, int height_px,
+                                Kiosk* kiosk, TextLayer* text);
 
 }  // namespace flaneur

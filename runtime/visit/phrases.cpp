@@ -1,149 +1,118 @@
 #include "runtime/visit/phrases.h"
 
+#include <toml++/toml.h>
+
+#include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
+
+#include "runtime/visit/word_files.h"
 
 namespace flaneur {
 namespace {
 
+constexpr const char* kFallback = "en";
+constexpr const char* kKeypad = "Keypad ";
+constexpr const char* kPlace = "%s";
+
 struct Words {
-  const char *en, *de;
+  std::string name;
+  std::array<std::string, static_cast<size_t>(Phrase::kCount)> phrases;
+  std::array<std::string, kActions> actions;
+  std::map<std::string, std::string> keys;  // by their English labels
+  std::vector<std::string> faults;
 };
 
-// In the order of Phrase.
-constexpr std::array<Words, static_cast<size_t>(Phrase::kCount)> kPhrases{{
-    {"Continue", "Weiter"},
-    {"Begin", "Beginnen"},
-    {"Guided tour", "Führung"},
-    {"Walk on your own", "Allein umhergehen"},
-    {"Stops of the tour", "Stationen der Führung"},
-    {"Language", "Sprache"},
-    {"Settings", "Einstellungen"},
-    {"Keys", "Tasten"},
-    {"End", "Beenden"},
-    {"Back", "Zurück"},
-    {"More", "Mehr"},
-    {"here", "hier"},
-    {"next", "als Nächstes"},
-    {"Mouse", "Maus"},
-    {"looks", "blickt"},
-    {"points", "zeigt"},
-    {"Walking speed", "Gehtempo"},
-    {"Turning speed", "Drehtempo"},
-    {"Mouse speed", "Maustempo"},
-    {"Field of view", "Blickwinkel"},
-    {"Turn in steps of", "Drehen in Schritten"},
-    {"smoothly", "fließend"},
-    {"Look upside down", "Blick umgekehrt"},
-    {"Less motion", "Weniger Bewegung"},
-    {"Volume", "Lautstärke"},
-    {"Pictures a second", "Bilder je Sekunde"},
-    {"Coarsest picture", "Gröbstes Bild"},
-    {"yes", "ja"},
-    {"no", "nein"},
-    {".", ","},
-    {"As it was delivered", "Wie ausgeliefert"},
-    {"What", "Was"},
-    {"Keyboard", "Tastatur"},
-    {"Gamepad", "Gamepad"},
-    {"press a key", "Taste drücken"},
-    {"press a button", "Knopf drücken"},
-    {"none", "keine"},
-    {"stick", "Stick"},
-    {"%s walk, the mouse looks around, a click leads you there.",
-     "%s: gehen. Die Maus blickt umher, ein Klick führt dorthin."},
-    {"Tap where you want to go, drag to look around.",
-     "Tippen Sie an, wohin Sie möchten; ziehen Sie, um sich umzusehen."},
-    {"The guided tour leads you. The mouse looks around; %s: walk on your own.",
-     "Die Führung geht voran. Die Maus blickt umher; %s: selbst gehen."},
-    {"The guided tour leads you. Drag to look around, tap to walk on your own.",
-     "Die Führung geht voran. Ziehen Sie, um sich umzusehen, tippen Sie, um selbst zu gehen."},
-    {"More: %s", "Mehr: %s"},
-    {"The tour waits. %s goes on.", "Die Führung wartet. Weiter: %s"},
-    {"The tour goes on.", "Die Führung geht weiter."},
-    {"You walk on your own. Back to the tour: %s", "Sie gehen allein umher. Zurück zur Führung: %s"},
-    {"The tour is over. Walk about as you like.", "Die Führung ist zu Ende. Gehen Sie umher, wie Sie mögen."},
-    {"Next: %s", "Als Nächstes: %s"},
-    {"the button in the corner", "der Knopf in der Ecke"},
-    {"Operator: PIN", "Personal: PIN"},
-    {"Wrong. Again", "Falsch. Noch einmal"},
-    {"Wait", "Warten"},
-    {"Operator", "Personal"},
-    {"Start anew", "Neu starten"},
-    {"Touch to begin", "Berühren, um zu beginnen"},
-}};
+template <size_t N>
+void Take(const toml::table& file, const char* part, const char* const (&names)[N], std::array<std::string, N>* texts,
+          std::vector<std::string>* faults) {
+  const toml::table* table = file[part].as_table();
+  for (size_t k = 0; k < N; ++k) {
+    if (table != nullptr) (*texts)[k] = (*table)[names[k]].value_or(std::string());
+    if ((*texts)[k].empty()) faults->push_back(std::string(part) + "." + names[k] + " is missing");
+  }
+  if (table == nullptr) return;
+  for (const auto& [key, value] : *table) {
+    if (std::find(std::begin(names), std::end(names), key.str()) == std::end(names))
+      faults->push_back(std::string(part) + "." + std::string(key.str()) + " is not known");
+  }
+}
 
-constexpr std::array<Words, kActions> kActionWords{{
-    {"Walk ahead", "Vorwärts gehen"},
-    {"Walk back", "Rückwärts gehen"},
-    {"Step left", "Nach links treten"},
-    {"Step right", "Nach rechts treten"},
-    {"Turn left", "Nach links drehen"},
-    {"Turn right", "Nach rechts drehen"},
-    {"Look up", "Nach oben blicken"},
-    {"Look down", "Nach unten blicken"},
-    {"Tour or own way", "Führung oder allein"},
-    {"Hold the tour", "Führung anhalten"},
-    {"Next stop", "Nächste Station"},
-    {"Stop before", "Vorige Station"},
-    {"Language", "Sprache"},
-    {"Catch the mouse", "Maus fangen"},
-    {"Wider view", "Weiterer Blick"},
-    {"Narrower view", "Engerer Blick"},
-    {"Plan and figures", "Plan und Zahlen"},
-    {"How people keep off", "Wie Leute ausweichen"},
-    {"Full screen", "Ganzer Bildschirm"},
-    {"These pages", "Diese Seiten"},
-    {"End", "Beenden"},
-}};
+Words Read(const char* text) {
+  Words words;
+  const toml::table file = toml::parse(text);
+  words.name = file["name"].value_or(std::string());
+  Take(file, "phrases", kPhraseNames, &words.phrases, &words.faults);
+  Take(file, "actions", kActionNames, &words.actions, &words.faults);
+  if (const toml::table* keys = file["keys"].as_table()) {
+    for (const auto& [key, value] : *keys) words.keys[std::string(key.str())] = value.value_or(std::string());
+  }
+  return words;
+}
 
-// By their English labels.
-constexpr std::pair<const char*, const char*> kGermanKeys[] = {{"Space", "Leertaste"},
-                                                               {"Backspace", "Rücktaste"},
-                                                               {"Insert", "Einfg"},
-                                                               {"Delete", "Entf"},
-                                                               {"Home", "Pos1"},
-                                                               {"End", "Ende"},
-                                                               {"Page Up", "Bild ↑"},
-                                                               {"Page Down", "Bild ↓"},
-                                                               {"Left Shift", "Umschalt links"},
-                                                               {"Right Shift", "Umschalt rechts"},
-                                                               {"Left Control", "Strg links"},
-                                                               {"Right Control", "Strg rechts"},
-                                                               {"Left Alt", "Alt"},
-                                                               {"Right Alt", "Alt Gr"},
-                                                               {"Menu", "Menü"},
-                                                               {"Left Bumper", "Schulter links"},
-                                                               {"Right Bumper", "Schulter rechts"},
-                                                               {"Left Stick", "Stick links"},
-                                                               {"Right Stick", "Stick rechts"},
-                                                               {"Back", "Zurück"},
-                                                               {"Up", "oben"},
-                                                               {"Down", "unten"},
-                                                               {"Left", "links"},
-                                                               {"Right", "rechts"},
-                                                               {"Enter", "Eingabe"}};
+const std::map<std::string, Words>& AllWords() {
+  static const std::map<std::string, Words> all = [] {
+    std::map<std::string, Words> read;
+    for (const WordFile& file : WordFiles()) read[file.language] = Read(file.text);
+    return read;
+  }();
+  return all;
+}
 
-constexpr const char* kKeypad = "Keypad ";
+// Of "de-AT" those of "de".
+const Words* Find(const std::string& language) {
+  const auto found = AllWords().find(language.substr(0, language.find_first_of("-_")));
+  return found == AllWords().end() ? nullptr : &found->second;
+}
 
+const Words& In(const std::string& language) {
+  const Words* words = Find(language);
+  return words != nullptr ? *words : AllWords().at(kFallback);
+}
+
+const char* OrFallback(const std::string& text, const std::string& fallback) {
+  return text.empty() ? fallback.c_str() : text.c_str();
+}
+
+size_t Places(const std::string& text) {
+  size_t count = 0;
+  for (size_t at = text.find(kPlace); at != std::string::npos; at = text.find(kPlace, at + 2)) ++count;
+  return count;
+}
+
+// Of tours whose language the player does not speak.
 constexpr std::pair<const char*, const char*> kLanguageNames[] = {
-    {"bg", "Български"}, {"cs", "Čeština"},       {"da", "Dansk"},      {"de", "Deutsch"},    {"el", "Ελληνικά"},
-    {"en", "English"},   {"es", "Español"},       {"et", "Eesti"},      {"fi", "Suomi"},      {"fr", "Français"},
-    {"hr", "Hrvatski"},  {"hu", "Magyar"},        {"it", "Italiano"},   {"la", "Latina"},     {"lt", "Lietuvių"},
-    {"lv", "Latviešu"},  {"nds", "Plattdüütsch"}, {"nl", "Nederlands"}, {"no", "Norsk"},      {"pl", "Polski"},
-    {"pt", "Português"}, {"ro", "Română"},        {"ru", "Русский"},    {"sk", "Slovenčina"}, {"sl", "Slovenščina"},
-    {"sv", "Svenska"},   {"tr", "Türkçe"},        {"uk", "Українська"}};
-
-bool IsGerman(const std::string& language) { return language == "de" || language.rfind("de-", 0) == 0; }
-const char* In(const Words& words, const std::string& language) { return IsGerman(language) ? words.de : words.en; }
+    {"ar", "العربية"},    {"bg", "Български"},   {"ca", "Català"},     {"cs", "Čeština"},       {"da", "Dansk"},
+    {"el", "Ελληνικά"},   {"et", "Eesti"},       {"fa", "فارسی"},      {"fi", "Suomi"},         {"he", "עברית"},
+    {"hi", "हिन्दी"},      {"hr", "Hrvatski"},    {"hu", "Magyar"},     {"ja", "日本語"},        {"ko", "한국어"},
+    {"la", "Latina"},     {"lt", "Lietuvių"},    {"lv", "Latviešu"},   {"nds", "Plattdüütsch"}, {"nl", "Nederlands"},
+    {"no", "Norsk"},      {"pl", "Polski"},      {"pt", "Português"},  {"ro", "Română"},        {"ru", "Русский"},
+    {"sk", "Slovenčina"}, {"sl", "Slovenščina"}, {"sv", "Svenska"},    {"th", "ไทย"},           {"tr", "Türkçe"},
+    {"uk", "Українська"}, {"ur", "اردو"},        {"vi", "Tiếng Việt"}, {"yi", "ייִדיש"},         {"zh", "中文"}};
 
 }  // namespace
 
 const char* Say(Phrase phrase, const std::string& language) {
-  return In(kPhrases[static_cast<size_t>(phrase)], language);
+  const auto k = static_cast<size_t>(phrase);
+  return OrFallback(In(language).phrases[k], AllWords().at(kFallback).phrases[k]);
 }
+
+std::string Say(Phrase phrase, const std::string& language, std::initializer_list<std::string> put_in) {
+  std::string text = Say(phrase, language);
+  size_t from = 0;
+  for (const std::string& part : put_in) {
+    const size_t at = text.find(kPlace, from);
+    if (at == std::string::npos) break;
+    text.replace(at, 2, part);
+    from = at + part.size();
+  }
+  return text;
+}
+
 const char* NameOf(Action action, const std::string& language) {
-  return In(kActionWords[static_cast<size_t>(action)], language);
+  const auto k = static_cast<size_t>(action);
+  return OrFallback(In(language).actions[k], AllWords().at(kFallback).actions[k]);
 }
 
 std::string KeyName(const std::string& label, const std::string& language) {
@@ -151,19 +120,36 @@ std::string KeyName(const std::string& label, const std::string& language) {
     const std::string key = label.substr(std::string(kKeypad).size());
     return "Num " + (key == "Subtract" ? "-" : key == "Add" ? "+" : KeyName(key, language));
   }
-  if (!IsGerman(language)) return label;
-  for (const auto& [en, de] : kGermanKeys) {
-    if (label == en) return de;
-  }
-  return label;
+  const auto& keys = In(language).keys;
+  const auto found = keys.find(label);
+  return found == keys.end() ? label : found->second;
 }
 
 const std::vector<std::string>& PhraseLanguages() {
-  static const std::vector<std::string> languages{"en", "de"};
+  static const std::vector<std::string> languages = [] {
+    std::vector<std::string> all{kFallback};
+    for (const auto& [language, words] : AllWords()) {
+      if (language != kFallback) all.push_back(language);
+    }
+    return all;
+  }();
   return languages;
 }
 
+std::vector<std::string> FaultsOfWords(const std::string& language) {
+  const Words& words = In(language);
+  const Words& english = AllWords().at(kFallback);
+  std::vector<std::string> faults = words.faults;
+  if (words.name.empty()) faults.push_back("name is missing");
+  for (size_t k = 0; k < words.phrases.size(); ++k) {
+    if (Places(words.phrases[k]) != Places(english.phrases[k]))
+      faults.push_back(std::string("phrases.") + kPhraseNames[k] + " has another number of %s");
+  }
+  return faults;
+}
+
 std::string LanguageName(const std::string& language) {
+  if (const Words* words = Find(language); words != nullptr && !words->name.empty()) return words->name;
   for (const auto& [code, name] : kLanguageNames) {
     if (language == code) return name;
   }

@@ -26,7 +26,16 @@ void VisitSettings(Settings* s, Visit visit) {
                "from left to right, 30 to 120; 0: as the tour says");
   visit.Number("snap_turn_deg", &s->snap_turn_deg, 0, 90, "keys and gamepad turn by so much at a time; 0: smoothly");
   visit.Flag("invert_look", &s->invert_look, "pushing the mouse or stick up looks down");
-  visit.Flag("reduced_motion", &s->reduced_motion, "the tour turns the view gently and walks slowly, nothing fades");
+  visit.Choice("text_size", &s->text_size, {"normal", "large", "largest"}, "of pages and captions");
+  visit.Flag("high_contrast", &s->high_contrast, "pages and captions are white and yellow on black");
+  visit.Flag("captions_always", &s->captions_always, "nothing takes the place of a caption while it is due");
+  visit.Number("pace", &s->pace, 0.3, 1.5, "of you and of the tour, and how long it lets you read; 1: the usual");
+  visit.Number("eye_height_m", &s->eye_height_m, 0, 2.2,
+               "above the ground, from 0.5; 1.2 as if seated; 0: as the tour has it");
+  visit.Choice("one_handed", &s->one_handed, {"off", "left_keys", "right_keys", "left_pad", "right_pad"},
+               "that half of the keyboard or gamepad does everything");
+  visit.Flag("reduced_motion", &s->reduced_motion,
+             "you turn in steps, the tour turns the view gently and walks slowly, and jumps fade");
   visit.Number("sound_volume", &s->sound_volume, 0, 1, "of what is spoken; 1: as recorded");
   visit.Number("frames_per_s", &s->frames_per_s, 5, 240,
                "wished for: a machine that draws fewer draws more coarsely instead");
@@ -188,7 +197,7 @@ PlayerSettings::PlayerSettings()
             {"f1"},
             {"f2"},
             {"f11"},
-            {"escape", "pad_start"},
+            {"escape", "pad_start", "mouse_right"},
             {"f10"}}} {}
 
 std::filesystem::path PlayerSettingsPath() {

@@ -50,6 +50,12 @@ struct PlayerSettings {
   float field_of_view_deg = 0;  // horizontal; 0: the tour's own
   float snap_turn_deg = 0;      // turns by keys and gamepad go so far at once; 0: smoothly
   bool invert_look = false;
+  std::string text_size = "normal";     // of pages and captions: normal, large or largest
+  bool high_contrast = false;           // pages and captions opaque, in white and yellow on black
+  bool captions_always = false;         // nothing takes a caption's place
+  float pace = 1;                       // of the visitor and of the tour; 1: as they are
+  float eye_height_m = 0;               // above the ground, 1.2 as if seated; 0: standing, as the tour has it
+  std::string one_handed = "off";       // left_keys, right_keys, left_pad, right_pad: that half alone does everything
   bool reduced_motion = false;          // the tour turns the view gently and walks slowly, nothing fades
   float sound_volume = 1;               // of what is spoken; 1: as recorded
   float frames_per_s = 25;              // where a machine draws fewer, the window's picture is drawn more coarsely

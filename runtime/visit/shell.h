@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/base/error.h"
+#include "runtime/text/fonts.h"
 #include "runtime/visit/player_settings.h"
 #include "runtime/visit/window_input.h"
 
@@ -36,12 +37,13 @@ class Warnings {
   virtual void Warn(const std::string& what) = 0;
 };
 
-// All three outlive the visit.
+// All of them outlive the visit.
 struct Shell {
   SoundOutput& sound;
   SettingsStore& settings;
   Warnings& warnings;
-  KeyLayout layout;  // may be empty
+  KeyLayout layout;        // may be empty
+  Fonts* fonts = nullptr;  // of all that is read; null: the built-in one
 };
 
 }  // namespace flaneur

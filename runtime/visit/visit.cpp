@@ -31,7 +31,7 @@ struct Visit::Impl {
   Simulation* s;
   Kiosk kiosk;
   Renderer renderer{};
-  Overlay overlay{};
+  Overlay overlay{shell.fonts};
   Controls controls{};
   DeveloperViews views{};
   Menu menu{};
@@ -58,7 +58,7 @@ struct Visit::Impl {
   void MakeControlsAnew();
   bool IsLed() const;
   void FollowVisitors(const WindowInput& input, float passed_s);
-  void ShowOperator();
+  void ShowOperator(const PageLook& look);
   void TakeHands(const WindowInput& input, float passed_s);
   void ShowPages(const WindowInput& input, float passed_s);
   void StepTown(float passed_s, Records* records);
@@ -119,8 +119,8 @@ void Visit::Impl::FollowVisitors(const WindowInput& input, float passed_s) {
   if (FollowKiosk(input, passed_s, IsLed(), settings, &kiosk) == KioskEvent::kVisitEnds) BeginAnew();
 }
 
-void Visit::Impl::ShowOperator() {
-  switch (ShowOperatorPage(PageLanguage(controls, *s), "", width_px, height_px, &kiosk)) {
+void Visit::Impl::ShowOperator(const PageLook& look) {
+  switch (ShowOperatorPage(look, "", width_px, height_px, &kiosk, &overlay.text())) {
     case OperatorChoice::kNone:
       return;
     case OperatorChoice::kRestart:
@@ -160,16 +160,17 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
     navigated = menu;
   }
   if (hidden()) return;
-  const std::string language = PageLanguage(controls, *s), title = TitleOf(pack, language);
-  overlay.PrepareText(PageLetter_px(width_px, height_px),
-                      pages() ? title + PageTexts(controls, *s) + OperatorTexts(language) : "");
-  overlay.Begin(width_px, height_px, OverlayInputFrom(input, navigated, width_px, height_px, passed_s));
-  ShowOperator();
-  const MenuChoice choice = operator_page() ? MenuChoice{} : ShowMenu(title, *s, width_px, height_px, &menu, &controls);
+  const std::string title = TitleOf(pack, PageLanguage(controls, *s));
+  const PageLook look = LookOf(controls, *s, width_px, height_px);
+  overlay.Begin(width_px, height_px, OverlayInputFrom(input, navigated, controls, width_px, height_px, passed_s));
+  ShowOperator(look);
+  const MenuChoice choice =
+      operator_page() ? MenuChoice{} : ShowMenu(title, *s, width_px, height_px, &menu, &controls, &overlay.text());
   if (views.shown && !pages()) ShowViews(statistics, width_px, height_px, &views, s);
-  if (controls.points && !pages() && ShowMenuButton(width_px, height_px)) OpenPage(Page::kMain, &menu);
+  if (controls.points && !pages() && ShowMenuButton(look, width_px)) OpenPage(Page::kMain, &menu);
   controls.quits = controls.quits || choice.ends;
   if (choice.stop) Jump(*choice.stop);
+  wishes.tour.toggle_pause = wishes.tour.toggle_pause || choice.toggles_pause;
   if (for_pages && !pages()) Save();
 }
 
@@ -203,6 +204,7 @@ void Visit::Impl::Draw(float passed_s) {
   FrameFromSimulation(pack, *s, &looks, &frame, Between());
   if (pages()) frame.caption.clear();
   else ShowNotice(notices, !controls.settings.reduced_motion, &frame);
+  frame.caption_style = CaptionStyleOf(controls.settings, PageLanguage(controls, *s));
   const ResolutionSettings wished = ResolutionWished();
   frame.resolution_scale = ScaleNow(wished, resolution);
   frame.detail = DetailNow(wished, resolution);
@@ -217,7 +219,9 @@ Visit::Visit(const TourPack& pack, Loader* loader, const PlayerSettings& setting
 Visit::~Visit() = default;
 
 Error Visit::Begin(bool onto_window) {
-  if (Error e = impl_->renderer.Begin(impl_->pack, {.onto_window = onto_window, .runs_ahead = true})) return e;
+  if (Error e = impl_->renderer.Begin(impl_->pack,
+                                      {.onto_window = onto_window, .runs_ahead = true, .fonts = impl_->shell.fonts}))
+    return e;
   impl_->loader->PrepareFor(impl_->renderer);
   return Ok();
 }

@@ -49,6 +49,8 @@ constexpr Named kNamed[] = {
     {"keypad_add", 334},
     {"keypad_subtract", 333},
     {"keypad_enter", 335},
+    {"mouse_right", kFirstMouseCode + 1},
+    {"mouse_middle", kFirstMouseCode + 2},
     {"pad_a", kFirstPadCode + 0},
     {"pad_b", kFirstPadCode + 1},
     {"pad_x", kFirstPadCode + 2},

@@ -9,7 +9,9 @@
 
 namespace flaneur {
 
-inline constexpr int kInputCodes = 512;    // of keys and gamepad buttons
+inline constexpr int kInputCodes = 512;  // of keys and gamepad buttons
+inline constexpr int kFirstMouseCode =
+    390;                                   // of the mouse's buttons, the left one first, which has a meaning of its own
 inline constexpr int kFirstPadCode = 400;  // of the gamepad buttons, behind all keys
 
 struct WindowInput {

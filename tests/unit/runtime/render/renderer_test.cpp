@@ -555,16 +555,70 @@ TEST_F(Drawing, ACaptionStandsAtTheFootAndNowhereElse) {
 }
 
 TEST(Caption, WrapsWordsOverAsManyLinesAsItNeeds) {
-  EXPECT_EQ(LayOutCaption("", 1280, 720).height_px, 0);
-  EXPECT_EQ(LayOutCaption("well", 40, 30).height_px, 0);
-  const PackImage one = LayOutCaption("Der Marktplatz: \xC3\xBC\xC3\xA4\xC3\x9F \xFF", 1280, 720);
-  const PackImage more =
-      LayOutCaption("The market square. The stalls open at six; the well has never run dry.", 640, 720);
+  Fonts fonts;
+  EXPECT_EQ(LayOutCaption("", {}, 1280, 720, &fonts).height_px, 0);
+  EXPECT_EQ(LayOutCaption("well", {}, 40, 30, &fonts).height_px, 0);
+  const PackImage one = LayOutCaption("Der Marktplatz: \xC3\xBC\xC3\xA4\xC3\x9F \xFF", {}, 1280, 720, &fonts);
+  const PackImage more = LayOutCaption(
+      "The market square. The stalls open at six; the well has never run dry, or so they say.", {}, 1280, 720, &fonts);
   EXPECT_EQ(one.width_px, 1280);
   EXPECT_GT(more.height_px, one.height_px * 3 / 2);
   for (const PackImage* image : {&one, &more}) {  // no letter touches the sides
     for (int y = 0; y < image->height_px; ++y) EXPECT_LT(image->rgba[static_cast<size_t>(y * image->width_px) * 4], 64);
   }
+}
+
+// The most opaque colour, and how many pixels are letters.
+std::pair<Vec3, int> LettersOf(const PackImage& image) {
+  std::pair<Vec3, int> found;
+  for (size_t k = 0; k < image.rgba.size(); k += 4) {
+    if (image.rgba[k] < 200) continue;
+    found.first = {static_cast<float>(image.rgba[k]), static_cast<float>(image.rgba[k + 1]),
+                   static_cast<float>(image.rgba[k + 2])};
+    ++found.second;
+  }
+  return found;
+}
+
+TEST(Caption, IsLargerAndWithoutTranslucencyForWhoeverAsksForIt) {
+  Fonts fonts;
+  const std::string text = "The market square.";
+  const PackImage usual = LayOutCaption(text, {"en", 1, false}, 1280, 720, &fonts);
+  const PackImage large = LayOutCaption(text, {"en", 1.6f, true}, 1280, 720, &fonts);
+  EXPECT_GT(large.height_px, usual.height_px * 4 / 3);
+  EXPECT_GT(LettersOf(large).second, LettersOf(usual).second * 2);
+  EXPECT_LT(usual.rgba[3], 255);
+  for (size_t k = 3; k < large.rgba.size(); k += 4) ASSERT_EQ(large.rgba[k], 255);
+  const Vec3 yellow = LettersOf(large).first;
+  EXPECT_GT(yellow.x, 220);
+  EXPECT_LT(yellow.z, 100);
+}
+
+TEST(Caption, LeavesHalfOfThePictureFreeHoweverMuchItSays) {
+  Fonts fonts;
+  std::string text;
+  for (int k = 0; k < 60; ++k) text += "The stalls open at six; the well has never run dry. ";
+  for (const auto& [width_px, height_px] : {std::pair{800, 600}, std::pair{1280, 720}, std::pair{720, 1280}}) {
+    const PackImage image = LayOutCaption(text, {"en", 1.65f, false}, width_px, height_px, &fonts);
+    EXPECT_LE(image.height_px, height_px * 0.53f) << width_px;
+    EXPECT_GT(image.height_px, height_px / 3) << width_px;
+  }
+}
+
+TEST(Caption, BeginsAtTheRightInArabic) {
+  Fonts fonts;
+  const std::string text =
+      "ساحة السوق. تفتح الأكشاك في الساعة السادسة صباحا، ولم تجف البئر قط منذ أن حفرت في وسط المدينة.\nنعم";
+  const PackImage image = LayOutCaption(text, {"ar", 1, false}, 1280, 720, &fonts);
+  int left = 0, right = 0;  // of the last line, which is short
+  for (int y = image.height_px * 3 / 4; y < image.height_px; ++y) {
+    for (int x = 0; x < image.width_px; ++x) {
+      const bool letter = image.rgba[static_cast<size_t>(y * image.width_px + x) * 4] > 200;
+      (x < image.width_px / 2 ? left : right) += letter;
+    }
+  }
+  EXPECT_EQ(left, 0);
+  EXPECT_GT(right, 20);
 }
 
 // A wall of 8 x 4 m, 10 m before the eye, and boxes of 1 m beside, above, behind and before it.

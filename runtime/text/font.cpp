@@ -1,4 +1,4 @@
-#include "runtime/render/font.h"
+#include "runtime/text/font.h"
 
 #include <stb/stb_image.h>
 
@@ -23,7 +23,7 @@ constexpr int kGzipHead_bytes = 10, kGzipTail_bytes = 8;  // around the deflated
 
 }  // namespace
 
-std::span<const unsigned char> FontFile() {
+std::span<const unsigned char> BuiltInFont() {
   static const std::span<const unsigned char> file = [] {
     const int packed_bytes = static_cast<int>(flaneur_font_end - flaneur_font) - kGzipHead_bytes - kGzipTail_bytes;
     int bytes = 0;
