@@ -11,6 +11,7 @@
 #include "runtime/desktop/context.h"
 #include "runtime/show/frame_from_simulation.h"
 #include "runtime/visit/notices.h"
+#include "runtime/visit/operator_page.h"
 #include "runtime/visit/phrases.h"
 #include "tests/unit/runtime/simulation/tour_town.h"
 
@@ -139,12 +140,12 @@ TEST(Pages, ForAnExhibitionHaveNoEnd) {
   }
 }
 
-TEST(Pages, ForAnExhibitionChangeNothingButLanguageAndSound) {
+TEST(Pages, ForAnExhibitionChangeNothingButLanguageTextAndSound) {
   Pages p;
   p.controls.settings.kiosk = true;
   const PlayerSettings before = p.controls.settings;
   std::set<float> volumes;
-  for (const Page page : {Page::kMain, Page::kSettings}) {
+  for (const Page page : {Page::kMain, Page::kLanguages, Page::kSettings}) {
     for (float y = 0; y < 1; y += 0.02f) {
       for (const float x : {0.3f, 0.5f, 0.55f, 0.77f}) {
         OpenPage(page, &p.menu);
@@ -160,6 +161,8 @@ TEST(Pages, ForAnExhibitionChangeNothingButLanguageAndSound) {
   PlayerSettings others = p.controls.settings;
   others.sound_volume = before.sound_volume;
   others.language = before.language;
+  others.text_size = before.text_size;
+  others.high_contrast = before.high_contrast;
   EXPECT_EQ(PlayerSettingsText(others), PlayerSettingsText(before));
 }
 
@@ -373,6 +376,34 @@ TEST(Pages, ShowAllTheirRowsPageByPage) {
     EXPECT_EQ(names.count(NameOf(action, "en")), 1u) << kActionNames[k];
   }
   EXPECT_EQ(names.count("More"), 1u);
+}
+
+TEST(OperatorPage, IsWholeInEveryLanguageTextSizeAndWindow) {
+  HeadlessContext context;
+  if (const Error error = context.Create()) GTEST_SKIP() << error.message;
+  Overlay overlay;
+  ASSERT_EQ(overlay.Create().message, "");
+  const Simulation s = TownWithStops();
+  for (const std::string& language : PhraseLanguages()) {
+    for (const auto& [width_px, height_px] : {std::pair{800, 600}, std::pair{1280, 720}, std::pair{720, 1280}}) {
+      for (const OperatorPage page : {OperatorPage::kKeypad, OperatorPage::kChoices}) {
+        PlayerSettings settings;
+        settings.language = language;
+        settings.text_size = "largest";
+        const PageLook look = LookOf(MakeControls(settings, {}, s), s, width_px, height_px);
+        Kiosk kiosk;
+        kiosk.page = page;
+        kiosk.pin.wrong = 1;
+        for (int round = 0; round < 2; ++round) {
+          overlay.Begin(width_px, height_px, {});
+          ShowOperatorPage(look, page == OperatorPage::kChoices ? "12" : "", width_px, height_px, &kiosk,
+                           &overlay.text());
+          overlay.Draw();
+        }
+        ExpectWhole(overlay.text().drawn(), width_px, height_px, language + " " + std::to_string(width_px) + ": ");
+      }
+    }
+  }
 }
 
 TEST(Pages, ShowATourInAnyScript) {
