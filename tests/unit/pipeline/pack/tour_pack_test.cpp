@@ -413,8 +413,8 @@ TEST(TourPack, AMemberOfAnotherTypeIsRefusedByItsPlace) {
 TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
-  const std::set<std::string> optional{"painting", "guide",  "titles", "language",
-                                       "captions", "sounds", "tints",  "props"};
+  const std::set<std::string> optional{"painting", "guide", "titles", "language", "captions",
+                                       "sounds",   "tints", "props",  "reach_m"};
   for (const char* object :
        {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0", "/avatars/0/impostor",
         "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground", "/places/0", "/painting", "/path/0"}) {
@@ -426,6 +426,30 @@ TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
       EXPECT_TRUE(Refused(WithJson(whole, changed))) << object << "/" << key;
     }
   }
+}
+
+// Packs of before have no reach_m: it is measured, from the outlines of the impostor and from the props' meshes.
+TEST(TourPack, HowFarPeopleReachIsKnownWhereThePackDoesNotSayIt) {
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  TourPack pack, older;
+  ASSERT_FALSE(ParseTourPack(whole, "small.glb", LoadOptions{}, &pack));
+  Json json = JsonOf(whole);
+  for (Json& avatar : json["extensions"]["FLANEUR_tour"]["avatars"]) avatar.erase("reach_m");
+  ASSERT_FALSE(ParseTourPack(WithJson(whole, json), "small.glb", LoadOptions{}, &older));
+  ASSERT_EQ(pack.avatars.size(), older.avatars.size());
+  for (size_t k = 0; k < pack.avatars.size(); ++k) {
+    for (const PackProp& prop : pack.avatars[k].props) {
+      for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(prop.mesh)].primitives) {
+        for (const Vec3 v : p.positions) EXPECT_GE(older.avatars[k].reach_m, std::hypot(v.x, v.z) - 0.05f);
+      }
+    }
+    EXPECT_GE(pack.avatars[k].reach_m, pack.avatars[k].radius_m);
+    EXPECT_GE(older.avatars[k].reach_m, older.avatars[k].radius_m);
+    EXPECT_LT(older.avatars[k].reach_m, 20.001f);
+  }
+  json = JsonOf(whole);
+  json["extensions"]["FLANEUR_tour"]["avatars"][0]["reach_m"] = -1;
+  EXPECT_TRUE(Refused(WithJson(whole, json)));
 }
 
 TEST(TourPack, UnknownKindsAreRefusedWithTheKnownOnes) {
