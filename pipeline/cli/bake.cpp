@@ -72,6 +72,9 @@ Error RequireFiles(const TourSettings& s) {
   for (const AvatarSettings& avatar : s.avatars) {
     if (Error e = RequireFile(avatar.source.file)) return e;
   }
+  for (const fs::path& file : FilesOf(s.title_page)) {
+    if (Error e = RequireFile(file)) return e;
+  }
   return s.painting_file.file.empty() ? Ok() : RequireFile(s.painting_file.file);
 }
 
@@ -460,6 +463,7 @@ Error Bake(const fs::path& tour, const fs::path& output) {
   if (ec) return Fail(baking.steps.cache.string() + ": cannot make this folder: " + ec.message());
   static_cast<TourData&>(baking.parts) = baking.settings;
   if (Error e = MakeSounds(&baking)) return e;
+  if (Error e = MakeTitlePage(baking.settings.title_page, &baking.parts.title_page)) return e;
   if (Error e = MakeSources(&baking)) return e;
   if (Error e = MakeTown(&baking)) return e;
   if (Error e = MakeFootprints(&baking)) return e;

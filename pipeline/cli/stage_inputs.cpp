@@ -99,6 +99,7 @@ std::string TourInputs(const fs::path& tour, const TourSettings& s) {
   const auto add = [&](const fs::path& file) { print.AddFile(IsScript(file) ? file.parent_path() : file); };
   add(s.town.file);
   if (!s.painting_file.file.empty()) print.AddFile(s.painting_file.file);
+  for (const fs::path& file : FilesOf(s.title_page)) print.AddFile(file);
   for (const TownPart& part : s.parts) add(part.file);
   for (const AvatarSettings& avatar : s.avatars) add(avatar.source.file);
   return print.Hex();

@@ -213,6 +213,7 @@ void ReadAll(TomlTable root, TourSettings* settings) {
   for (TomlTable& place : root.Tables("place")) ReadPlace(place, settings);
   for (TomlTable& stop : root.Tables("stop")) ReadStop(stop, settings);
   ReadPaintingSettings(root.Table("painting"), &settings->painting_file);
+  ReadTitlePageSettings(root.Table("title_page"), &settings->title_page);
   const auto section = [&](const char* name, auto* values) {
     TomlTable table = root.Table(name);
     VisitFields(table, values);

@@ -8,6 +8,7 @@
 #include "pipeline/avatar/decimate.h"
 #include "pipeline/cli/georeference.h"
 #include "pipeline/cli/painting.h"
+#include "pipeline/cli/title_page.h"
 #include "pipeline/footprint/extract_footprints.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/impostor/bake_impostor.h"
@@ -54,6 +55,7 @@ struct TourSettings : TourData {
   FootprintOptions footprints;
   GroundRasterOptions ground;
   PaintingSettings painting_file;
+  TitlePageSettings title_page;
   std::vector<std::map<std::string, std::filesystem::path>> sounds;  // by stop of the path and language
 };
 

@@ -148,6 +148,13 @@ Json StopJson(const TourStop& stop, const TourIndices& indices) {
   return json;
 }
 
+Json TitlePageJson(const TitlePage& page, const TourIndices& indices) {
+  Json json{{"background", TextFromColor(page.background)}};
+  if (indices.title_picture_view >= 0) json["picture_view"] = indices.title_picture_view;
+  if (indices.title_logo_view >= 0) json["logo_view"] = indices.title_logo_view;
+  return json;
+}
+
 }  // namespace
 
 std::string TourJson(const TourParts& parts, const TourIndices& indices) {
@@ -181,6 +188,7 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   for (const auto& [language, title] : parts.titles) tour["titles"][language] = title;
   tour["language"] = parts.language;
   if (!parts.guide.empty()) tour["guide"] = parts.guide;
+  if (parts.title_page.there()) tour["title_page"] = TitlePageJson(parts.title_page, indices);
   tour["crowd"] = SettingsJson(parts.crowd);
   tour["control"] = SettingsJson(parts.control);
   tour["light"] = SettingsJson(parts.light);

@@ -18,8 +18,9 @@ struct TourIndices {
   std::vector<AvatarPart> avatars;
   std::vector<ImpostorViews> impostors;  // one an avatar
   int height_view = -1, kind_view = -1;
-  int people_view = -1, loiter_view = -1;  // -1: no painting
-  std::vector<int> sounds;                 // views, by sound
+  int people_view = -1, loiter_view = -1;             // -1: no painting
+  std::vector<int> sounds;                            // views, by sound
+  int title_picture_view = -1, title_logo_view = -1;  // -1: none
 };
 
 std::string TourJson(const TourParts& parts, const TourIndices& indices);

@@ -135,6 +135,9 @@ Error AddAvatars(const TourParts& parts, Jobs* jobs, GltfBuilder* builder, TourI
 Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, Jobs* jobs, size_t* bytes) {
   GltfBuilder builder;
   TourIndices indices;
+  // First in the file, as they are read first.
+  if (!parts.title_page.picture.empty()) indices.title_picture_view = builder.AddBufferView(parts.title_page.picture);
+  if (!parts.title_page.logo.empty()) indices.title_logo_view = builder.AddBufferView(parts.title_page.logo);
   if (Error e = AddTown(parts.town, &builder)) return e;
   if (Error e = AddAvatars(parts, jobs, &builder, &indices)) return e;
   const auto& heights = parts.ground.height_m;

@@ -11,6 +11,7 @@
 #include "runtime/base/error.h"
 #include "runtime/base/jobs.h"
 #include "runtime/pack/tour_pack.h"
+#include "runtime/tour_data/title_page.h"
 
 namespace flaneur {
 
@@ -28,6 +29,7 @@ struct TourParts : TourData {
   Footprints footprints;
   GroundRaster ground;
   std::vector<std::vector<uint8_t>> sounds;  // files, as the stops number them
+  TitlePage title_page;
 };
 
 // Scene 0 is the town; one scene more holds each avatar. The same parts give the same bytes.

@@ -188,7 +188,8 @@ struct Window::Impl {
   bool software = false;  // no graphics card draws
   double moved_s = 0;     // when the pointer last did
   bool pointer_hidden = false;
-  int x = 0, y = 0, width = 0, height = 0;  // of the window before it filled its monitor
+  int x = 0, y = 0, width = 0, height = 0;  // of the window where it does not fill its monitor
+  GLFWmonitor* to_fill = nullptr;           // as soon as it appears
 
   void ShowPointer() const {
     glfwSetInputMode(window, GLFW_CURSOR,
@@ -207,6 +208,14 @@ struct Window::Impl {
     glfwGetWindowPos(window, &x, &y);
     glfwGetWindowSize(window, &width, &height);
     FillMonitor(window, monitor);
+  }
+  // As large as the monitor, and not yet there.
+  void PrepareToFill(GLFWmonitor* monitor) {
+    to_fill = monitor;
+    glfwGetWindowPos(window, &x, &y);
+    glfwGetWindowSize(window, &width, &height);
+    const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+    if (mode != nullptr) glfwSetWindowSize(window, mode->width, mode->height);
   }
   void ShowIcon() const {
     constexpr int kSides_px[] = {128, 48, 16};
@@ -236,6 +245,7 @@ Error Window::Create(const WindowOptions& options, void (*lost)(const char* why)
   if (options.fullscreen || !options.monitor.empty()) {
     if (Error e = FindMonitor(options.monitor, &monitor)) return e;
   }
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // who clicks on another screen leaves this one as it is
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "flaneur-player");
   glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_ES_API);
@@ -256,7 +266,7 @@ Error Window::Create(const WindowOptions& options, void (*lost)(const char* why)
   NoticeLostWindow();
   impl_->ShowIcon();
   if (monitor != nullptr) CenterOn(impl_->window, monitor);
-  if (options.fullscreen) impl_->Fill(monitor);
+  if (options.fullscreen) impl_->PrepareToFill(monitor);
   glfwMakeContextCurrent(impl_->window);
   glfwSwapInterval(1);
   impl_->software = DrawsInSoftware();
@@ -329,6 +339,11 @@ void Window::Show() {
 }
 
 bool Window::ShowWaits() const { return !impl_->software; }
+
+void Window::Appear() {
+  if (impl_->to_fill != nullptr) FillMonitor(impl_->window, impl_->to_fill);
+  glfwShowWindow(impl_->window);
+}
 
 void Window::SetTitle(const char* title) { glfwSetWindowTitle(impl_->window, title); }
 

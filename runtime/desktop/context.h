@@ -49,6 +49,7 @@ class Window {
   void Size(int* width_px, int* height_px) const;
   void Show();             // what was drawn; waits for the display
   bool ShowWaits() const;  // rather than to work: a graphics card's does
+  void Appear();           // it is hidden before, so that it never shows nothing
   void SetTitle(const char* title);
   void SetFullscreen(bool fullscreen);  // on the monitor that it is on; else as it was before
 

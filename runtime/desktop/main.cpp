@@ -7,12 +7,10 @@
 #include "runtime/desktop/options.h"
 #include "runtime/desktop/run.h"
 #include "runtime/desktop/stills.h"
+#include "runtime/desktop/tour_start.h"
 #include "runtime/desktop/user_settings.h"
 #include "runtime/desktop/warn.h"
 #include "runtime/desktop/watchdog.h"
-#include "runtime/show/guide_figure.h"
-#include "runtime/simulation/scenario.h"
-#include "runtime/visit/loading.h"
 
 namespace flaneur {
 namespace {
@@ -28,51 +26,19 @@ Error CheckOutputs(const PlayerOptions& options) {
   return Ok();
 }
 
-// The scenario's file, and over it what the command line says.
-Error TakeOptions(const PlayerOptions& options, Scenario* scenario) {
-  if (!options.scenario.empty()) {
-    if (Error e = ReadScenario(options.scenario, scenario)) return e;
-  }
-  if (options.people) scenario->crowd.people = *options.people;
-  if (options.seed) scenario->crowd.seed = *options.seed;
-  if (options.hour) scenario->hour = *options.hour;
-  if (options.adaptation) TakeNamed(*options.adaptation, kAdaptationNames, &scenario->control.adaptation);
-  scenario->language = options.language;
-  scenario->screen_width_px = options.width_px / static_cast<int>(std::max<size_t>(1, options.compare.size()));
-  scenario->screen_height_px = options.height_px;
-  return Ok();
-}
-
 Error Play(const PlayerOptions& options, UserSettings* user, bool* starts_anew) {
   if (Error e = CheckOutputs(options)) return e;
-  TourPack pack;
-  PackFile file;
-  const bool has_pack = !options.pack.empty();
-  if (has_pack) {
-    if (Error e = file.Open(options.pack, &pack)) return e;
-    AddGuideFigure(&pack);
-  } else if (!options.no_draw) {
+  if (options.pack.empty() && !options.no_draw)
     return Fail("nothing to draw without a pack; add --headless --no-draw or name a pack");
-  }
-  Scenario scenario = has_pack ? ScenarioOf(pack) : Scenario{};
-  if (Error e = TakeOptions(options, &scenario)) return e;
-  Jobs jobs(options.threads ? static_cast<size_t>(*options.threads) : ThreadsOfThisMachine());
-  Loader loader(&jobs);
-  if (has_pack && !options.no_draw) loader.Start(std::move(file), pack);
-  std::vector<Simulation> simulations(std::max<size_t>(1, options.compare.size()));
-  for (size_t k = 0; k < simulations.size(); ++k) {
-    if (!options.compare.empty()) TakeNamed(options.compare[k], kAdaptationNames, &scenario.control.adaptation);
-    if (Error e = StartSimulation(has_pack ? &pack : nullptr, scenario, &simulations[k], &jobs)) {
-      const auto& source = options.scenario.empty() ? options.pack : options.scenario;
-      return Fail(source.string() + ": " + e.message);
-    }
-  }
-  Simulation& simulation = simulations.front();
-  for (const std::string& warning : simulation.town.warnings) Warn(warning);
-  const float seconds = RunLength_s(options, scenario, simulation);
-  if (options.no_draw) return RunWithoutDrawing(options, seconds, &simulation);
-  if (options.headless) return RunHeadless(options, seconds, pack, &loader, &simulations);
-  return RunInWindow(options, pack, &jobs, &loader, user, &simulation, starts_anew);
+  StartingTour tour(options);
+  if (!options.headless) return RunInWindow(options, &tour, user, starts_anew);
+  if (Error e = OpenTour(options, &tour)) return e;
+  if (!options.pack.empty() && !options.no_draw) tour.loader.Start(std::move(tour.file), tour.pack);
+  if (Error e = StartSimulations(options, &tour)) return e;
+  WarnOfTour(tour);
+  const float seconds = RunLength_s(options, tour.scenario, tour.simulations.front());
+  if (options.no_draw) return RunWithoutDrawing(options, seconds, &tour.simulations.front());
+  return RunHeadless(options, seconds, tour.pack, &tour.loader, &tour.simulations);
 }
 
 // The exit status, unless something is wrong.

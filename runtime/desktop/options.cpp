@@ -40,7 +40,7 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_flag("--views", o->views,
                "Show the plan of the town and graphs over the picture (in the window: F1; F2 switches the adaptation)");
   app.add_flag("--verbose", o->verbose,
-               "Say when a window's first picture was there, and have the window's title tell pictures a second");
+               "Say when a window's title page and first picture were there, and have the window's title tell pictures a second");
   app.add_flag("--fullscreen", o->fullscreen, "Fill the screen; F11 does so too, and back");
   app.add_option("--monitor", o->monitor, "Open the window on this monitor: its number, from 1, or its name");
   app.add_option("--seconds", o->seconds,

@@ -4,6 +4,7 @@
 
 #include "runtime/base/error.h"
 #include "runtime/desktop/options.h"
+#include "runtime/desktop/tour_start.h"
 #include "runtime/desktop/user_settings.h"
 #include "runtime/pack/tour_pack.h"
 #include "runtime/simulation/simulation.h"
@@ -19,8 +20,8 @@ Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation*
 // `loader` has been started with the pack.
 Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader,
                   std::vector<Simulation>* simulations);
-// Settings that the visitor changes are saved. starts_anew: so that the program is to be started again.
-Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, UserSettings* user,
-                  Simulation* simulation, bool* starts_anew);
+// `tour` has not been opened. Settings that the visitor changes are saved. starts_anew: so that the program is to be
+// started again.
+Error RunInWindow(const PlayerOptions& options, StartingTour* tour, UserSettings* user, bool* starts_anew);
 
 }  // namespace flaneur

@@ -1,12 +1,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <functional>
+#include <memory>
 #include <string>
 
 #include "runtime/base/clock.h"
 #include "runtime/desktop/context.h"
 #include "runtime/desktop/run.h"
 #include "runtime/desktop/speaker.h"
+#include "runtime/desktop/title_screen.h"
 #include "runtime/desktop/warn.h"
 #include "runtime/desktop/watchdog.h"
 #include "runtime/simulation/records.h"
@@ -17,11 +20,11 @@ namespace flaneur {
 namespace {
 
 const double program_start_s = Now_s();
-constexpr double kPause_s = 0.002;  // between looks at whether the town is there
+constexpr double kPause_s = 0.002;  // between looks at how far the loading is
 
-void TellStart() {
-  std::fprintf(stderr, "flaneur-player: first picture after %.2f s, %.2f s of processor time\n",
-               Now_s() - program_start_s, static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
+void TellOf(const char* what) {
+  std::fprintf(stderr, "flaneur-player: %s after %.2f s, %.2f s of processor time\n", what, Now_s() - program_start_s,
+               static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
 }
 
 // What a visit looks like from inside, for who looks for faults.
@@ -43,35 +46,90 @@ void EndWithoutWindow(const char* why) {
   std::_Exit(2);
 }
 
-// Until there is enough for a picture; `closed`: the window was, meanwhile.
-Error WaitForTown(bool may_close, Window* window, Visit* visit, bool* closed) {
-  for (bool there = false; !there && !*closed;) {
-    if (Error e = visit->Load(&there)) return e;
-    *closed = window->Poll(there ? 0 : kPause_s).close && may_close;
+// Meanwhile the title page is shown. `closed`: the window was.
+struct Loading {
+  Window& window;
+  TitleScreen& title;
+  bool may_close;
+  bool closed = false;
+
+  void ShowTitle(float share) {
+    title.Show(share);
+    closed = closed || (window.Poll(kPause_s).close && may_close);
     TellAlive(false);
+  }
+};
+
+// A part of the loading beside the title page.
+class Part {
+ public:
+  Part(Jobs* jobs, const std::function<Error()>& part)
+      : error_(std::make_unique<Error>()),
+        job_(StartJob(jobs, [error = error_.get(), part] { return *error = part(), true; })) {}
+  // share: of the loading, that is done with it.
+  Error Finish(float share, Loading* loading) {
+    while (!job_.Done() && !loading->closed) {
+      job_.Advance();
+      loading->ShowTitle(share);
+    }
+    job_.Wait();
+    return std::move(*error_);
+  }
+
+ private:
+  std::unique_ptr<Error> error_;
+  Job job_;  // last, so that it ends first
+};
+
+// Until there is enough to walk through, with its people.
+Error WaitForTown(Visit* visit, Loader* loader, float from_share, Loading* loading) {
+  for (bool there = false; !there && !loading->closed;) {
+    if (Error e = visit->Load(&there)) return e;
+    loading->ShowTitle(from_share + (1 - from_share) * loader->ShareOfLikenesses());
   }
   return Ok();
 }
 
+WindowOptions WindowFor(const PlayerOptions& options, const UserSettings& user, const std::string& title) {
+  const std::string& monitor = options.monitor.empty() ? user.kiosk.monitor : options.monitor;
+  return {options.width_px, options.height_px, title, monitor, user.settings.fullscreen};
+}
+
 }  // namespace
 
-Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs, Loader* loader, UserSettings* user,
-                  Simulation* s, bool* starts_anew) {
+Error RunInWindow(const PlayerOptions& options, StartingTour* tour, UserSettings* user, bool* starts_anew) {
+  constexpr float kOpened = 0.2f, kStarted = 0.35f;  // of the loading
+  PackTitle pack_title;
+  const bool opens_later = ReadPackTitle(options.pack, user->settings.language, &pack_title);
+  if (!opens_later) {
+    if (Error e = OpenTour(options, tour)) return e;  // says what is wrong
+  }
   Window window;
-  const std::string title = TitleOf(pack, s->visitor.tour.language);
-  const bool fullscreen = user->settings.fullscreen;
-  const std::string& monitor = options.monitor.empty() ? user->kiosk.monitor : options.monitor;
-  if (Error e = window.Create({options.width_px, options.height_px, title, monitor, fullscreen}, EndWithoutWindow))
-    return e;
-  Speaker speaker(jobs);
+  if (Error e = window.Create(WindowFor(options, *user, pack_title.title), EndWithoutWindow)) return e;
+  TitleScreen title(pack_title, &window);
+  Loading loading{window, title, !user->settings.kiosk};
+  title.Show(0);
+  window.Appear();
+  loading.ShowTitle(0);
+  if (options.verbose) TellOf("title page");
+  Part open(&tour->jobs, [&] { return opens_later ? OpenTour(options, tour) : Ok(); });
+  if (Error e = open.Finish(kOpened, &loading)) return e;
+  if (loading.closed) return Ok();
+  tour->loader.Start(std::move(tour->file), tour->pack);
+  Simulation* s = &tour->simulations.front();
+  Speaker speaker(&tour->jobs);
   UserSettingsStore store(user);
   WarningsOnStderr warnings;
   Fonts fonts(SystemFonts());
-  Visit visit(pack, loader, user->settings, {speaker, store, warnings, PrintedKey, &fonts}, s, user->kiosk);
+  const Shell shell{speaker, store, warnings, PrintedKey, &fonts};
+  Visit visit(tour->pack, &tour->loader, user->settings, shell, s, user->kiosk);
+  Part simulations(&tour->jobs, [&] { return StartSimulations(options, tour); });
   if (Error e = visit.Begin(true)) return e;
-  bool closed = false;
-  if (Error e = WaitForTown(!user->settings.kiosk, &window, &visit, &closed)) return e;
-  if (closed) return Ok();
+  if (Error e = simulations.Finish(kStarted, &loading)) return e;
+  if (loading.closed) return Ok();
+  WarnOfTour(*tour);
+  if (Error e = WaitForTown(&visit, &tour->loader, kStarted, &loading)) return e;
+  if (loading.closed) return Ok();
   if (Error e = visit.Enter(options.views)) return e;
   Records records;
   records.keep_metrics = !options.metrics.empty();
@@ -93,11 +151,11 @@ Error RunInWindow(const PlayerOptions& options, const TourPack& pack, Jobs* jobs
     window.Show();
     visit.TellTime(static_cast<float>(1000 * ((window.ShowWaits() ? ready_s : Now_s()) - now_s)));
     TellAlive(true);
-    if (!shown && options.verbose) TellStart();
+    if (!shown && options.verbose) TellOf("first picture");
     shown = true;
     ++pictures;
     if (!options.verbose || now_s - title_s <= 1) continue;
-    window.SetTitle(Figures(title, pictures / (now_s - title_s), *s, visit.statistics()).c_str());
+    window.SetTitle(Figures(pack_title.title, pictures / (now_s - title_s), *s, visit.statistics()).c_str());
     title_s = now_s;
     pictures = 0;
   }

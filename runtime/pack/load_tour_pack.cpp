@@ -375,6 +375,13 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   for (const TourObject& s : tour.Objects("path")) pack->path.push_back(ReadStop(file, s, pack));
   if (tour.Has("language")) pack->language = tour.Text("language");
   if (tour.Has("guide")) pack->guide = tour.Text("guide");
+  if (tour.Has("title_page")) {
+    const TourObject page = tour.Object("title_page");
+    page.Color("background");
+    for (const char* view : {"picture_view", "logo_view"}) {
+      if (page.Has(view)) page.View(view, Member(file.json, "bufferViews").size());
+    }
+  }
   VisitFields(tour.Object("crowd"), &pack->crowd);
   VisitFields(tour.Object("control"), &pack->control);
   VisitFields(tour.Object("light"), &pack->light);

@@ -43,6 +43,9 @@ class TourObject {
   void Angle(const char* stem, float* radians, double least_deg, double most_deg) const;
   void Choice(const char* key, std::string* value, std::initializer_list<const char*> allowed) const;
 
+  // The number of a buffer view, of `views`.
+  int View(const char* key, size_t views) const { return Whole(key, 0, static_cast<double>(views) - 1); }
+
   [[noreturn]] void Refuse(const std::string& why) const;
 
  private:

@@ -380,6 +380,12 @@ Error Loader::UploadThese(const std::vector<AssetId>& ids, Renderer* renderer) {
 }
 
 bool Loader::TownIsThere() const { return impl_->AreUploaded(impl_->stages.town); }
+float Loader::ShareOfLikenesses() const {
+  const size_t all = impl_->stages.likenesses;
+  const auto there =
+      std::count(impl_->uploaded.begin(), impl_->uploaded.begin() + static_cast<std::ptrdiff_t>(all), true);
+  return all > 0 ? static_cast<float>(there) / static_cast<float>(all) : 1;
+}
 bool Loader::LikenessesAreThere() const { return impl_->AreUploaded(impl_->stages.likenesses); }
 bool Loader::Done() const { return impl_->uploads == impl_->assets.size(); }
 

@@ -33,6 +33,7 @@ class Loader {
 
   bool TownIsThere() const;         // with its pictures
   bool LikenessesAreThere() const;  // and everybody can be drawn somehow
+  float ShareOfLikenesses() const;  // of what that takes, that is there
   bool Done() const;
 
  private:

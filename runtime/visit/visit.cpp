@@ -227,7 +227,8 @@ Error Visit::Begin(bool onto_window) {
 }
 
 Error Visit::Load(bool* there) {
-  *there = impl_->loader->TownIsThere();
+  if (impl_->loader->TownIsThere()) impl_->loader->GoOn();
+  *there = impl_->loader->LikenessesAreThere();
   return *there ? Ok() : impl_->loader->Upload(kLongUpload_ms, &impl_->renderer);
 }
 

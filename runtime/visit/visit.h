@@ -24,8 +24,8 @@ class Visit {
   ~Visit();
   // onto_window: RenderOptions::onto_window. Errors: those of Renderer::Begin.
   Error Begin(bool onto_window = false);
-  // Uploads some of what has been loaded; `there` becomes true once there is enough for a picture. Errors: those of the
-  // pack.
+  // Uploads some of what has been loaded; `there` becomes true once there is enough to walk among people. Errors: those
+  // of the pack.
   Error Load(bool* there);
   // Once after Load. views: the plan and the graphs are shown.
   Error Enter(bool views);

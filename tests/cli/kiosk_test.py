@@ -1,6 +1,7 @@
 """A kiosk as children, operators and crashes meet it: on a display of its own, with keys and mouse by xdotool."""
 import os
 import pathlib
+import re
 import signal
 import socket
 import subprocess
@@ -104,6 +105,24 @@ class KioskTest(unittest.TestCase):
         for key in ("Down", "Down", "Return"):  # the operator's page: back, start anew, end
             self.display.tap(key)
         self.assertEqual(program.wait(PATIENCE_S), 0)
+
+    def test_shows_its_title_page_before_the_town_and_nothing_black_after(self):
+        if not has_tools("ffmpeg"):
+            self.skipTest("no ffmpeg: install the Debian package ffmpeg")
+        size = "{}x{}".format(*SCREEN_PX)
+        command = ["ffmpeg", "-loglevel", "error", "-f", "x11grab", "-framerate", "10", "-video_size", size, "-i", self.display.name,
+                   "-vf", "scale=32:24", "-pix_fmt", "gray", "-f", "rawvideo", "-"]
+        film = subprocess.Popen(command, stdout=subprocess.PIPE)
+        program = self.start()
+        self.wait_for_pictures(program)
+        film.send_signal(signal.SIGINT)
+        grey = film.communicate(timeout=PATIENCE_S)[0]
+        brightest = [max(grey[k:k + 32 * 24]) for k in range(0, len(grey) - 32 * 24 + 1, 32 * 24)]
+        first = next(k for k, value in enumerate(brightest) if value > 60)
+        self.assertGreater(min(brightest[first:]), 60, brightest)
+        told = re.findall(r"(title page|first picture) after ([0-9.]+) s", self.said())
+        self.assertEqual([what for what, _ in told], ["title page", "first picture"])
+        print(told, flush=True)
 
     def test_the_operator_starts_it_anew_by_holding_the_key_for_ending(self):
         program = self.start()

@@ -1,11 +1,11 @@
 // Packs written and read again: both halves of the contract at once, and what a reader does with broken bytes.
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -14,6 +14,7 @@
 #include "runtime/base/file.h"
 #include "runtime/base/png.h"
 #include "runtime/pack/ktx2.h"
+#include "runtime/pack/title_page.h"
 #include "runtime/pack/tour_pack.h"
 #include "tests/unit/pipeline/test_person.h"
 
@@ -137,6 +138,7 @@ TourParts SmallTour() {
   parts.sounds = {{'O', 'g', 'g', 'S'}, {1, 2, 3}};
   parts.path[0].sounds = {{"de", {1, 2.5f}}, {"en", {0, 3.5f}}};
   parts.guide = parts.avatars[0].levels.avatar.name;
+  parts.title_page = {{'J', 'F', 'I', 'F'}, {'P', 'N', 'G'}, {0, 0.2f, 1}};
   parts.crowd.people = 17;
   parts.control.method = LimitMethod::kFrameTime;
   parts.light.day_length_s = 0;
@@ -310,6 +312,54 @@ bool Refused(std::vector<uint8_t> bytes) {
   return static_cast<bool>(error);
 }
 
+// Without the care that WriteFile takes, thousands of times.
+void Put(const std::filesystem::path& path, const std::vector<uint8_t>& bytes) {
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+TEST(TourPack, TheTitlePageIsReadBeforeAllElse) {
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  TemporaryFolder folder;
+  ASSERT_FALSE(folder.Create("flaneur_test_"));
+  const auto path = folder.path() / "small.glb";
+  const auto read = [&](const std::vector<uint8_t>& bytes, PackTitle* title) {
+    Put(path, bytes);
+    *title = {};
+    return ReadPackTitle(path, "en", title);
+  };
+  PackTitle title;
+  ASSERT_TRUE(read(whole, &title));
+  EXPECT_EQ(title.title, "Little market");
+  EXPECT_EQ(title.page.picture, SmallTour().title_page.picture);
+  EXPECT_EQ(title.page.logo, SmallTour().title_page.logo);
+  EXPECT_EQ(title.page.background.z, 1);
+  const size_t read_first = 20 + Get(whole, 12) + 8 + 16;
+  ASSERT_TRUE(read({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(read_first)}, &title));
+  EXPECT_EQ(title.page.logo, SmallTour().title_page.logo) << "the rest need not be there yet";
+  for (size_t size = 0; size < read_first; size += 19) {  // of what is cut nothing wrong comes out
+    read({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}, &title);
+    ASSERT_TRUE(title.page.logo.empty() || title.page.logo == SmallTour().title_page.logo) << size;
+  }
+}
+
+TEST(TourPack, ADamagedTitlePageNeverCrashesItsReader) {
+  const std::vector<uint8_t> whole = Written(SmallTour());
+  const size_t end = 20 + Get(whole, 12);
+  TemporaryFolder folder;
+  ASSERT_FALSE(folder.Create("flaneur_test_"));
+  std::mt19937 random(3);
+  for (size_t i = 0; i < end; i += 1 + random() % 60) {
+    std::vector<uint8_t> bytes = whole;
+    if (bytes[i] >= '0' && bytes[i] <= '9') bytes[i] = static_cast<uint8_t>("0123456789-e"[random() % 12]);
+    else bytes[i] ^= static_cast<uint8_t>(1u << (random() % 8));
+    Put(folder.path() / "small.glb", bytes);
+    PackTitle title;
+    ReadPackTitle(folder.path() / "small.glb", "de", &title);
+    ASSERT_LE(title.page.picture.size(), whole.size());
+  }
+}
+
 TEST(TourPack, EveryPrefixIsRefused) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   for (size_t size = 0; size < whole.size(); ++size) {
@@ -413,11 +463,11 @@ TEST(TourPack, AMemberOfAnotherTypeIsRefusedByItsPlace) {
 TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
-  const std::set<std::string> optional{"painting", "guide", "titles", "language", "captions",
-                                       "sounds",   "tints", "props",  "reach_m"};
+  const std::set<std::string> optional{"painting", "guide", "titles",     "language",     "captions",  "sounds",
+                                       "tints",    "props", "title_page", "picture_view", "logo_view", "reach_m"};
   for (const char* object :
        {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0", "/avatars/0/impostor",
-        "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground", "/places/0", "/painting", "/path/0"}) {
+        "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground", "/title_page", "/places/0", "/painting", "/path/0"}) {
     const Json::json_pointer at(std::string("/extensions/FLANEUR_tour") + object);
     for (const auto& [key, unused] : json.at(at).items()) {
       Json changed = json;
