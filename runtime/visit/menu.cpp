@@ -39,17 +39,6 @@ std::vector<size_t> Halts(const GuidedTour& tour) {
   return halts;
 }
 
-// The tour's languages and the player's own, or those that a kiosk offers.
-std::vector<std::string> Languages(const Controls& c, const Simulation& s) {
-  if (!c.offered_languages.empty()) return c.offered_languages;
-  std::vector<std::string> all;
-  if (!s.visitor.tour.stops.empty()) all = s.visitor.tour.languages;
-  for (const std::string& own : PhraseLanguages()) {
-    if (std::find(all.begin(), all.end(), own) == all.end()) all.push_back(own);
-  }
-  return all;
-}
-
 bool Row(const PageView& v, const std::string& text, const std::string& id) { return v.rows->Button(text, id); }
 
 void Changed(PageView* v) { v->controls->changed = v->controls->applies = true; }
@@ -129,7 +118,8 @@ void ShowMain(PageView* v) {
     }
     if (!Halts(tour).empty() && Row(*v, v->Words(Phrase::kStops), "stops")) OpenPage(Page::kStops, v->menu);
   }
-  if (Languages(*c, v->s).size() > 1 && Row(*v, LanguageRow(*v), "language")) OpenPage(Page::kLanguages, v->menu);
+  if (OfferedLanguages(*c, v->s).size() > 1 && Row(*v, LanguageRow(*v), "language"))
+    OpenPage(Page::kLanguages, v->menu);
   if (Row(*v, v->Words(Phrase::kSettings), "settings")) OpenPage(Page::kSettings, v->menu);
   if (!c->settings.kiosk && Row(*v, v->Words(Phrase::kKeys), "keys")) OpenPage(Page::kKeys, v->menu);
   if (!c->settings.kiosk && Row(*v, v->Words(Phrase::kEnd), "end")) v->choice.ends = true;
@@ -150,7 +140,7 @@ void ShowStops(PageView* v) {
 }
 
 void ShowLanguages(PageView* v) {
-  for (const std::string& language : Languages(*v->controls, v->s)) {
+  for (const std::string& language : OfferedLanguages(*v->controls, v->s)) {
     if (!Row(*v, LanguageName(language), language)) continue;
     v->controls->settings.language = language;
     Changed(v);
@@ -293,6 +283,16 @@ constexpr ImGuiWindowFlags kPlain =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 
 }  // namespace
+
+std::vector<std::string> OfferedLanguages(const Controls& c, const Simulation& s) {
+  if (!c.offered_languages.empty()) return c.offered_languages;
+  std::vector<std::string> all;
+  if (!s.visitor.tour.stops.empty()) all = s.visitor.tour.languages;
+  for (const std::string& own : PhraseLanguages()) {
+    if (std::find(all.begin(), all.end(), own) == all.end()) all.push_back(own);
+  }
+  return all;
+}
 
 void OpenPage(Page page, Menu* menu) {
   menu->page = page;

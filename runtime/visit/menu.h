@@ -30,6 +30,9 @@ struct MenuChoice {
   bool toggles_pause = false;  // of the tour
 };
 
+// The tour's languages and the player's own, or those that a kiosk offers.
+std::vector<std::string> OfferedLanguages(const Controls& controls, const Simulation& simulation);
+
 void OpenPage(Page page, Menu* menu);
 // The first page, as whoever comes to an exhibition meets it.
 void MeetSomebodyNew(Menu* menu);

@@ -5,6 +5,8 @@
 #include "runtime/render/overlay.h"
 #include "runtime/render/renderer.h"
 #include "runtime/show/frame_from_simulation.h"
+#include "runtime/visit/attract.h"
+#include "runtime/visit/attract_page.h"
 #include "runtime/visit/controls.h"
 #include "runtime/visit/developer_views.h"
 #include "runtime/visit/kiosk.h"
@@ -30,6 +32,9 @@ struct Visit::Impl {
   Shell shell;
   Simulation* s;
   Kiosk kiosk;
+  Attract attract{};
+  float shows_itself_s = 0;  // the tour, by now
+  ViewCamera start{};        // of every visit
   Renderer renderer{};
   Overlay overlay{shell.fonts};
   Controls controls{};
@@ -49,12 +54,14 @@ struct Visit::Impl {
   bool starts_anew = false;
 
   bool pages() const { return menu.page != Page::kNone || operator_page(); }
+  bool attracts() const { return settings.kiosk && kiosk.state == KioskState::kAttract; }
   bool operator_page() const { return kiosk.page != OperatorPage::kNone; }
   bool hidden() const { return width_px <= 0 || height_px <= 0; }
   void ApplySettings();
   void Save();
   void Jump(size_t stop);
-  void BeginAnew();
+  void EndVisitor();
+  void MeetVisitor(const WindowInput& input);
   void MakeControlsAnew();
   bool IsLed() const;
   void FollowVisitors(const WindowInput& input, float passed_s);
@@ -100,12 +107,32 @@ void Visit::Impl::MakeControlsAnew() {
   if (settings.kiosk) controls.offered_languages = kiosk.settings.languages;
 }
 
-// For the next visitor of a kiosk.
-void Visit::Impl::BeginAnew() {
+// Nobody is there any more: the tour shows itself.
+void Visit::Impl::EndVisitor() {
   MakeControlsAnew();
   ApplySettings();
+  OpenPage(Page::kNone, &menu);
+  s->visitor.gentle = true;
+  shows_itself_s = 0;
+  BeginAttract(*s, &attract);
+}
+
+// Somebody is there, who may have touched a language.
+void Visit::Impl::MeetVisitor(const WindowInput& input) {
+  const std::vector<std::string> languages = OfferedLanguages(controls, *s);
+  const PageLook look = LookOf(controls, *s, width_px, height_px);
+  const auto language =
+      hidden() ? std::nullopt : LanguageAt(input.pointer, languages.size(), look, width_px, height_px);
+  if (language) controls.settings.language = languages[*language];
+  ApplySettings();
+  s->visitor.point_walk = {};
+  s->visitor.camera.view = {start.position, start.yaw_rad, s->visitor.camera.view.fov_rad};
+  s->visitor.camera.pitch_rad = 0;
   Jump(0);
+  BeginHint(controls, *s, &notices);
   MeetSomebodyNew(&menu);
+  menu.lets_go = true;
+  menu.was_down = input.down;
 }
 
 // Who is shown round need not touch anything.
@@ -116,7 +143,14 @@ bool Visit::Impl::IsLed() const {
 
 void Visit::Impl::FollowVisitors(const WindowInput& input, float passed_s) {
   if (!settings.kiosk) return;
-  if (FollowKiosk(input, passed_s, IsLed(), settings, &kiosk) == KioskEvent::kVisitEnds) BeginAnew();
+  switch (FollowKiosk(input, passed_s, IsLed(), settings, &kiosk)) {
+    case KioskEvent::kVisitBegins:
+      return MeetVisitor(input);
+    case KioskEvent::kVisitEnds:
+      return EndVisitor();
+    case KioskEvent::kNothing:
+      shows_itself_s += passed_s;
+  }
 }
 
 void Visit::Impl::ShowOperator(const PageLook& look) {
@@ -150,7 +184,7 @@ void Visit::Impl::TakeHands(const WindowInput& input, float passed_s) {
 
 // Before the hands' wishes for the walk: what is pressed here is not meant for the town.
 void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
-  for_pages = pages();
+  for_pages = pages() || attracts();
   Menu navigated = menu;  // by keys
   if (operator_page()) {
     navigated.page = Page::kMain;
@@ -167,6 +201,12 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
   const MenuChoice choice =
       operator_page() ? MenuChoice{} : ShowMenu(title, *s, width_px, height_px, &menu, &controls, &overlay.text());
   if (views.shown && !pages()) ShowViews(statistics, width_px, height_px, &views, s);
+  if (attracts()) {
+    if (operator_page()) return;
+    ShowAttractPage(title, OfferedLanguages(controls, *s), shows_itself_s, !controls.settings.reduced_motion, look,
+                    width_px, height_px, &overlay.text());
+    return;
+  }
   if (controls.points && !pages() && ShowMenuButton(look, width_px)) OpenPage(Page::kMain, &menu);
   controls.quits = controls.quits || choice.ends;
   if (choice.stop) Jump(*choice.stop);
@@ -179,14 +219,15 @@ void Visit::Impl::StepTown(float passed_s, Records* records) {
   if (!pages()) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMaxStepsPerFrame);
   if (owed_s >= step_s) controls.turned_rad = 0;
   while (owed_s >= step_s) {
-    StepSimulation(NextStep(wishes, *s, &controls), passed_s * 1000, s);
+    const CameraInput next = attracts() ? NextOfAttract(*s, &attract) : NextStep(wishes, *s, &controls);
+    StepSimulation(next, passed_s * 1000, s);
     Record(*s, {statistics.town_triangles, statistics.shadow_triangles, statistics.draw_ms}, records);
     wishes.tour = {};
     wishes.walk_to.reset();
     owed_s -= step_s;
   }
-  Narrate(s->visitor.tour, pages(), pack.sounds, &narration, &shell.sound);
-  if (!pages()) FollowNotices(controls, *s, passed_s, &notices);
+  Narrate(s->visitor.tour, pages() || attracts(), pack.sounds, &narration, &shell.sound);
+  if (!pages() && !attracts()) FollowNotices(controls, *s, passed_s, &notices);
 }
 
 BetweenSteps Visit::Impl::Between() const {
@@ -202,7 +243,7 @@ ResolutionSettings Visit::Impl::ResolutionWished() const {
 void Visit::Impl::Draw(float passed_s) {
   if (hidden()) return;
   FrameFromSimulation(pack, *s, &looks, &frame, Between());
-  if (pages()) frame.caption.clear();
+  if (pages() || attracts()) frame.caption.clear();
   else ShowNotice(notices, !controls.settings.reduced_motion, &frame);
   frame.caption_style = CaptionStyleOf(controls.settings, PageLanguage(controls, *s));
   const ResolutionSettings wished = ResolutionWished();
@@ -240,7 +281,8 @@ Error Visit::Enter(bool views) {
   v.MakeControlsAnew();
   v.ApplySettings();
   BeginHint(v.controls, *v.s, &v.notices);
-  if (v.settings.kiosk) MeetSomebodyNew(&v.menu);
+  v.start = v.s->visitor.camera.view;
+  if (v.settings.kiosk) v.EndVisitor();
   return Ok();
 }
 
@@ -276,7 +318,7 @@ void Visit::Read(std::vector<uint8_t>* rgb) { impl_->renderer.Read(rgb); }
 void Visit::Leave() { impl_->Save(); }
 bool Visit::ends() const { return impl_->controls.quits; }
 bool Visit::starts_anew() const { return impl_->starts_anew; }
-bool Visit::frees_pointer() const { return impl_->controls.points || impl_->pages(); }
+bool Visit::frees_pointer() const { return impl_->controls.points || impl_->pages() || impl_->attracts(); }
 bool Visit::fullscreen() const { return impl_->controls.settings.fullscreen; }
 bool Visit::shows_pages() const { return impl_->pages(); }
 const FrameStatistics& Visit::statistics() const { return impl_->statistics; }
