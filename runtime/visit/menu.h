@@ -12,7 +12,8 @@
 
 namespace flaneur {
 
-enum class Page { kNone, kMain, kStops, kLanguages, kSettings, kKeys };
+// Map and photo are pages of their own, which ShowMenu leaves alone.
+enum class Page { kNone, kMain, kStops, kLanguages, kSettings, kKeys, kMap, kPhoto };
 
 struct Menu {
   Page page = Page::kNone;
@@ -30,6 +31,7 @@ struct MenuChoice {
   bool toggles_pause = false;  // of the tour
 };
 
+bool IsOfTown(Page page);  // map and photo
 void OpenPage(Page page, Menu* menu);
 // The first page, as whoever comes to an exhibition meets it.
 void MeetSomebodyNew(Menu* menu);

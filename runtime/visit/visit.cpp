@@ -7,6 +7,7 @@
 #include "runtime/show/frame_from_simulation.h"
 #include "runtime/visit/controls.h"
 #include "runtime/visit/developer_views.h"
+#include "runtime/visit/discovery.h"
 #include "runtime/visit/kiosk.h"
 #include "runtime/visit/menu.h"
 #include "runtime/visit/narration.h"
@@ -41,6 +42,7 @@ struct Visit::Impl {
   CameraInput wishes{};
   FrameStatistics statistics{};
   Narration narration{};
+  Discovery discovery{};
   Resolution resolution{};
   float own_fov_rad = 0;
   double owed_s = 0;  // of simulated time
@@ -51,6 +53,7 @@ struct Visit::Impl {
   bool pages() const { return menu.page != Page::kNone || operator_page(); }
   bool operator_page() const { return kiosk.page != OperatorPage::kNone; }
   bool hidden() const { return width_px <= 0 || height_px <= 0; }
+  DiscoveryIn find() { return {pack, settings, *s, controls, menu, notices, wishes, shell, discovery}; }
   void ApplySettings();
   void Save();
   void Jump(size_t stop);
@@ -105,6 +108,7 @@ void Visit::Impl::BeginAnew() {
   MakeControlsAnew();
   ApplySettings();
   Jump(0);
+  ForgetDiscovery(find());
   MeetSomebodyNew(&menu);
 }
 
@@ -139,10 +143,12 @@ void Visit::Impl::TakeHands(const WindowInput& input, float passed_s) {
   if (for_pages) walking = {input.down, {}, {}, {}, {}, {-1, -1}, false, input.close};
   if (!hidden() && overlay.HasPointer()) walking.clicks.clear();
   const float aspect = static_cast<float>(std::max(1, width_px)) / static_cast<float>(std::max(1, height_px));
+  TakeDiscoveryInput(for_pages, width_px, height_px, find(), &walking);
   TakeInput(walking, passed_s, aspect, for_pages, *s, &controls, &wishes);
   if (controls.toggles_views) views.shown = !views.shown;
   if (controls.switches_adaptation) SwitchAdaptation(s);
   if (controls.opens_pages) OpenPage(Page::kMain, &menu);
+  TakeDiscoveryWishes(find());
   controls.toggles_views = controls.switches_adaptation = controls.opens_pages = false;
   if (controls.applies) ApplySettings();
   controls.applies = false;
@@ -168,6 +174,7 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
       operator_page() ? MenuChoice{} : ShowMenu(title, *s, width_px, height_px, &menu, &controls, &overlay.text());
   if (views.shown && !pages()) ShowViews(statistics, width_px, height_px, &views, s);
   if (controls.points && !pages() && ShowMenuButton(look, width_px)) OpenPage(Page::kMain, &menu);
+  if (!operator_page()) ShowDiscoveryPages(look, width_px, height_px, find(), &overlay);
   controls.quits = controls.quits || choice.ends;
   if (choice.stop) Jump(*choice.stop);
   wishes.tour.toggle_pause = wishes.tour.toggle_pause || choice.toggles_pause;
@@ -185,7 +192,7 @@ void Visit::Impl::StepTown(float passed_s, Records* records) {
     wishes.walk_to.reset();
     owed_s -= step_s;
   }
-  Narrate(s->visitor.tour, pages(), pack.sounds, &narration, &shell.sound);
+  Narrate(s->visitor.tour, AsideOf(find()), pages(), pack.sounds, &narration, &shell.sound);
   if (!pages()) FollowNotices(controls, *s, passed_s, &notices);
 }
 
@@ -208,7 +215,11 @@ void Visit::Impl::Draw(float passed_s) {
   const ResolutionSettings wished = ResolutionWished();
   frame.resolution_scale = ScaleNow(wished, resolution);
   frame.detail = DetailNow(wished, resolution);
+  TakePhoto(frame, width_px, height_px, PageLanguage(controls, *s), find(), &renderer, &overlay);
   renderer.Draw(frame, width_px, height_px, &statistics);
+  ShowDiscovery(frame, renderer, passed_s, pages(), LookOf(controls, *s, width_px, height_px), width_px, height_px,
+                find(), &overlay);
+  HearTown(frame, passed_s, narration.sound >= 0, pages(), find());
   overlay.Draw();
   RememberFrame(*s, statistics, passed_s * 1000, &views.history);
 }
@@ -240,6 +251,7 @@ Error Visit::Enter(bool views) {
   v.MakeControlsAnew();
   v.ApplySettings();
   BeginHint(v.controls, *v.s, &v.notices);
+  PrepareDiscovery(v.find());
   if (v.settings.kiosk) MeetSomebodyNew(&v.menu);
   return Ok();
 }
