@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 #include "pipeline/footprint/town_objects.h"
 #include "runtime/base/array.h"
@@ -13,6 +14,29 @@ namespace {
 template <typename T>
 void Append(std::vector<T>* to, std::vector<T>& from) {
   to->insert(to->end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+// Through the points' middle, along where they lie farthest apart, from end to end.
+std::vector<Vec2> LongAxis(const std::vector<Vec2>& points) {
+  Vec2 low = points.front(), high = low;
+  for (const Vec2& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const Vec2 middle = (low + high) * 0.5f;
+  float xx = 0, xy = 0, yy = 0;
+  for (const Vec2& p : points) {
+    const Vec2 off = p - middle;
+    xx += off.x * off.x, xy += off.x * off.y, yy += off.y * off.y;
+  }
+  const float angle = 0.5f * std::atan2(2 * xy, xx - yy);
+  const Vec2 along{std::cos(angle), std::sin(angle)};
+  float least_m = 0, most_m = 0;
+  for (const Vec2& p : points) {
+    least_m = std::min(least_m, Dot(p - middle, along));
+    most_m = std::max(most_m, Dot(p - middle, along));
+  }
+  return {middle + along * least_m, middle + along * most_m};
 }
 
 // Whether most things in the town stand over ground. A single meadow of many models is not the ground of the others.
@@ -75,6 +99,24 @@ std::vector<Place> TaggedPlaces(const Scene& town) {
     if (Length(ahead) > 1e-6f) places.back().yaw_rad = std::atan2(ahead.y, ahead.x);
   }
   return places;
+}
+
+std::vector<Street> TaggedStreets(const Scene& town, const std::string& language) {
+  std::map<std::string, std::vector<Vec2>> corners;
+  for (const SceneNode& node : town.nodes) {
+    if (node.street.empty() || node.kind != NodeKind::kGround) continue;
+    for (int mesh : node.meshes) {
+      for (const Vec3& p : At(town.meshes, mesh).positions) {
+        const Vec3 on = GroundFromGltf(TransformPoint(node.world, p));
+        corners[node.street].push_back({on.x, on.y});
+      }
+    }
+  }
+  std::vector<Street> streets;
+  for (const auto& [name, points] : corners) {
+    if (!points.empty()) streets.push_back({{{language, name}}, LongAxis(points)});
+  }
+  return streets;
 }
 
 bool AddGroundWhereNone(float margin_m, Scene* town) {

@@ -13,6 +13,7 @@
 #include "pipeline/cli/thumbnail.h"
 #include "pipeline/cli/tint_reach.h"
 #include "pipeline/cli/tour_settings.h"
+#include "pipeline/cli/visitor_media.h"
 #include "pipeline/core/subprocess.h"
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/footprint/check.h"
@@ -20,7 +21,6 @@
 #include "pipeline/footprint/polygon_sets.h"
 #include "pipeline/io/geojson.h"
 #include "pipeline/io/gltf.h"
-#include "pipeline/io/sound_file.h"
 #include "pipeline/pack/write_tour_pack.h"
 #include "runtime/base/array.h"
 #include "runtime/base/color_text.h"
@@ -73,6 +73,9 @@ Error RequireFiles(const TourSettings& s) {
     if (Error e = RequireFile(avatar.source.file)) return e;
   }
   for (const fs::path& file : FilesOf(s.title_page)) {
+    if (Error e = RequireFile(file)) return e;
+  }
+  for (const fs::path& file : FilesOf(s.visitor_files)) {
     if (Error e = RequireFile(file)) return e;
   }
   return s.painting_file.file.empty() ? Ok() : RequireFile(s.painting_file.file);
@@ -140,6 +143,13 @@ Error ReadTown(Baking* baking, Scene* town, std::vector<std::string>* warnings) 
   return Ok();
 }
 
+// Streets of tour.toml stand for those of the same name in the town.
+void AddUnlessNamed(Street street, TourData* tour) {
+  const std::string name = TextIn(street.names, tour->language, tour->language);
+  const auto same = [&](const Street& s) { return TextIn(s.names, tour->language, tour->language) == name; };
+  if (std::none_of(tour->streets.begin(), tour->streets.end(), same)) tour->streets.push_back(std::move(street));
+}
+
 Error MakeTown(Baking* baking) {
   const std::string& name = baking->settings.name;
   return RunStep(&baking->steps, "town", name, [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
@@ -147,6 +157,8 @@ Error MakeTown(Baking* baking) {
     baking->parts.places = TaggedPlaces(baking->parts.town);
     baking->parts.places.insert(baking->parts.places.end(), baking->settings.places.begin(),
                                 baking->settings.places.end());
+    for (Street& street : TaggedStreets(baking->parts.town, baking->settings.language))
+      AddUnlessNamed(std::move(street), &baking->parts);
     double triangles = 0;
     for (const SceneNode& node : baking->parts.town.nodes) {
       for (int m : node.meshes) triangles += TriangleCount(At(baking->parts.town.meshes, m));
@@ -283,26 +295,6 @@ Error MakeFootprints(Baking* baking) {
 Error MakePainting(Baking* baking) {
   const PaintingSettings& painting = baking->settings.painting_file;
   return painting.file.empty() ? Ok() : ReadPainting(painting, baking->parts.ground, &baking->parts.painting);
-}
-
-// Each file once, however many stops name it.
-Error MakeSounds(Baking* baking) {
-  const TourSettings& s = baking->settings;
-  TourParts& parts = baking->parts;
-  std::map<fs::path, StopSound> known;
-  for (size_t k = 0; k < s.sounds.size(); ++k) {
-    for (const auto& [language, file] : s.sounds[k]) {
-      const auto [entry, fresh] = known.try_emplace(file, StopSound{Count(parts.sounds), 0});
-      if (fresh) {
-        SoundFile sound;
-        if (Error e = ReadSoundFile(file, &sound)) return e;
-        entry->second.duration_s = sound.duration_s;
-        parts.sounds.push_back(std::move(sound.bytes));
-      }
-      parts.path[k].sounds[language] = entry->second;
-    }
-  }
-  return Ok();
 }
 
 // The doors and exits of tour.toml; the check finds the town's own by itself.
@@ -462,7 +454,7 @@ Error Bake(const fs::path& tour, const fs::path& output) {
   fs::create_directories(baking.steps.cache, ec);
   if (ec) return Fail(baking.steps.cache.string() + ": cannot make this folder: " + ec.message());
   static_cast<TourData&>(baking.parts) = baking.settings;
-  if (Error e = MakeSounds(&baking)) return e;
+  if (Error e = MakeVisitorMedia(baking.settings, baking.steps.cache, &baking.parts)) return e;
   if (Error e = MakeTitlePage(baking.settings.title_page, &baking.parts.title_page)) return e;
   if (Error e = MakeSources(&baking)) return e;
   if (Error e = MakeTown(&baking)) return e;

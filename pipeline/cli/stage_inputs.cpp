@@ -100,6 +100,10 @@ std::string TourInputs(const fs::path& tour, const TourSettings& s) {
   add(s.town.file);
   if (!s.painting_file.file.empty()) print.AddFile(s.painting_file.file);
   for (const fs::path& file : FilesOf(s.title_page)) print.AddFile(file);
+  for (const fs::path& file : FilesOf(s.visitor_files)) print.AddFile(file);
+  for (const FilesByLanguage& sounds : s.sounds) {
+    for (const auto& [language, file] : sounds) print.AddFile(file);
+  }
   for (const TownPart& part : s.parts) add(part.file);
   for (const AvatarSettings& avatar : s.avatars) add(avatar.source.file);
   return print.Hex();

@@ -180,16 +180,13 @@ void ReadStop(TomlTable table, TourSettings* settings) {
     table.Refuse("the caption has no text in the tour's own language, '" + settings->language +
                  "'; add one, or change tour.language");
   }
-  std::map<std::string, std::string> sounds;
-  table.Translations("sound", settings->language, &sounds);
-  std::map<std::string, std::filesystem::path> files;
-  for (const auto& [language, file] : sounds) {
-    if (!file.empty()) files[language] = table.Beside(file);
-  }
+  settings->sounds.push_back(ReadFiles("sound", settings->language, &table));
+  bool speak = false;
+  table.Flag("speak", &speak);
+  settings->visitor_files.stops_speak.push_back(speak);
   if (!table.Has("position_m")) table.Refuse("a [[stop]] needs position_m = [x, y]");
   table.Finish();
   settings->path.push_back(stop);
-  settings->sounds.push_back(std::move(files));
 }
 
 void ReadAll(TomlTable root, TourSettings* settings) {
@@ -212,6 +209,7 @@ void ReadAll(TomlTable root, TourSettings* settings) {
   ReadFootprints(root.Table("footprints"), &settings->footprints, &settings->ground);
   for (TomlTable& place : root.Tables("place")) ReadPlace(place, settings);
   for (TomlTable& stop : root.Tables("stop")) ReadStop(stop, settings);
+  ReadVisitorSettings(&root, settings, &settings->visitor_files);
   ReadPaintingSettings(root.Table("painting"), &settings->painting_file);
   ReadTitlePageSettings(root.Table("title_page"), &settings->title_page);
   const auto section = [&](const char* name, auto* values) {
@@ -260,8 +258,9 @@ Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings
 
 std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
-  const toml::table root =
-      toml::parse("[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[place]]\n[[stop]]\n[[town.part]]\n");
+  const toml::table root = toml::parse(
+      "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[place]]\n[[stop]]\n[[town.part]]\n"
+      "[[hotspot]]\n[[street]]\n[[sound]]\n");
   TomlContext context;
   TourSettings settings;
   ReadAll(TomlTable(&context, &root, ""), &settings);

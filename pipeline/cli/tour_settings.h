@@ -9,6 +9,7 @@
 #include "pipeline/cli/georeference.h"
 #include "pipeline/cli/painting.h"
 #include "pipeline/cli/title_page.h"
+#include "pipeline/cli/visitor_settings.h"
 #include "pipeline/footprint/extract_footprints.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/impostor/bake_impostor.h"
@@ -56,7 +57,8 @@ struct TourSettings : TourData {
   GroundRasterOptions ground;
   PaintingSettings painting_file;
   TitlePageSettings title_page;
-  std::vector<std::map<std::string, std::filesystem::path>> sounds;  // by stop of the path and language
+  std::vector<FilesByLanguage> sounds;  // by stop of the path
+  VisitorFiles visitor_files;
 };
 
 // Errors: unreadable, not TOML, an unknown key (with the nearest known one), a wrong type, a value out of range, no

@@ -24,8 +24,9 @@ struct SceneNode {
   std::vector<int> meshes;                // indices into Scene::meshes
   NodeKind kind = NodeKind::kUntagged;    // own tag or the nearest ancestor's
   GroundKind ground = GroundKind::kNone;  // likewise, where kind is kGround
-  float radius_m = 0;                     // 0: not given
-  float width_m = 0;                      // 0: not given
+  std::string street = {};  // what visitors call this ground, own or the nearest ancestor's; empty: nothing
+  float radius_m = 0;       // 0: not given
+  float width_m = 0;        // 0: not given
   // The ground under the parent building as its model has it. Nobody walks on it and it blocks nobody; it tells how
   // high the local ground lies in a town without terrain.
   bool is_foundation = false;

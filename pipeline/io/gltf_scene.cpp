@@ -36,6 +36,7 @@ Error ApplyTags(const NodeTags& tags, const SceneNode* parent, SceneNode* node) 
   if (parent != nullptr) {
     node->kind = parent->kind;
     node->ground = parent->ground;
+    node->street = parent->street;
     if (tags.kind.empty()) {
       node->radius_m = parent->radius_m;
       node->width_m = parent->width_m;
@@ -51,6 +52,7 @@ Error ApplyTags(const NodeTags& tags, const SceneNode* parent, SceneNode* node) 
   }
   const bool is_ground = node->kind == NodeKind::kGround;
   if (!is_ground) node->ground = GroundKind::kNone;
+  if (!tags.street.empty()) node->street = tags.street;
   if (is_ground && node->ground == GroundKind::kNone) node->ground = GroundKind::kPavement;
   if (tags.radius_m > 0) node->radius_m = tags.radius_m;
   if (tags.width_m > 0) node->width_m = tags.width_m;

@@ -136,6 +136,10 @@ Json ObstacleJson(const Obstacle& obstacle) {
   return json;
 }
 
+Json SoundJson(const StopSound& sound, const TourIndices& indices) {
+  return {{"view", At(indices.sounds, sound.sound)}, {"duration_s", Short(sound.duration_s)}};
+}
+
 Json StopJson(const TourStop& stop, const TourIndices& indices) {
   Json json{{"position_m", PointJson(stop.position_m)},
             {"yaw_rad", Short(stop.yaw_rad)},
@@ -143,7 +147,7 @@ Json StopJson(const TourStop& stop, const TourIndices& indices) {
             {"caption", stop.caption}};
   for (const auto& [language, caption] : stop.captions) json["captions"][language] = caption;
   for (const auto& [language, sound] : stop.sounds) {
-    json["sounds"][language] = {{"view", At(indices.sounds, sound.sound)}, {"duration_s", Short(sound.duration_s)}};
+    json["sounds"][language] = SoundJson(sound, indices);
   }
   return json;
 }
@@ -153,6 +157,40 @@ Json TitlePageJson(const TitlePage& page, const TourIndices& indices) {
   if (indices.title_picture_view >= 0) json["picture_view"] = indices.title_picture_view;
   if (indices.title_logo_view >= 0) json["logo_view"] = indices.title_logo_view;
   return json;
+}
+
+Json HotspotJson(const Hotspot& hotspot, const TourIndices& indices) {
+  Json json{{"position_m", PointJson(hotspot.position_m)},
+            {"height_m", Short(hotspot.height_m)},
+            {"radius_m", Short(hotspot.radius_m)}};
+  for (const auto& [language, title] : hotspot.titles) json["titles"][language] = title;
+  for (const auto& [language, text] : hotspot.texts) json["texts"][language] = text;
+  if (hotspot.picture >= 0) json["picture_view"] = At(indices.pictures, hotspot.picture);
+  for (const auto& [language, sound] : hotspot.sounds) json["sounds"][language] = SoundJson(sound, indices);
+  return json;
+}
+
+Json SoundPlaceJson(const SoundPlace& place, const TourIndices& indices) {
+  Json json{{"kind", kSoundKindNames[static_cast<size_t>(place.kind)]},
+            {"position_m", PointJson(place.position_m)},
+            {"height_m", Short(place.height_m)},
+            {"radius_m", Short(place.radius_m)},
+            {"volume", Short(place.volume)}};
+  if (place.sound >= 0) json["view"] = At(indices.sounds, place.sound);
+  return json;
+}
+
+// What there is for visitors; nothing where there is nothing.
+void AddVisitorJson(const TourParts& parts, const TourIndices& indices, Json* tour) {
+  for (const Hotspot& hotspot : parts.hotspots) (*tour)["hotspots"].push_back(HotspotJson(hotspot, indices));
+  for (const Street& street : parts.streets) {
+    Json json{{"points_m", PointsJson(street.points)}};
+    for (const auto& [language, name] : street.names) json["names"][language] = name;
+    (*tour)["streets"].push_back(std::move(json));
+  }
+  for (const SoundPlace& place : parts.sound_places) (*tour)["sounds"].push_back(SoundPlaceJson(place, indices));
+  for (const auto& [language, line] : parts.photo.lines) (*tour)["photo"]["lines"][language] = line;
+  if (!parts.photo.link.empty()) (*tour)["photo"]["link"] = parts.photo.link;
 }
 
 }  // namespace
@@ -189,6 +227,7 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   tour["language"] = parts.language;
   if (!parts.guide.empty()) tour["guide"] = parts.guide;
   if (parts.title_page.there()) tour["title_page"] = TitlePageJson(parts.title_page, indices);
+  AddVisitorJson(parts, indices, &tour);
   tour["crowd"] = SettingsJson(parts.crowd);
   tour["control"] = SettingsJson(parts.control);
   tour["light"] = SettingsJson(parts.light);

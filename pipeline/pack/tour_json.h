@@ -21,6 +21,7 @@ struct TourIndices {
   int people_view = -1, loiter_view = -1;             // -1: no painting
   std::vector<int> sounds;                            // views, by sound
   int title_picture_view = -1, title_logo_view = -1;  // -1: none
+  std::vector<int> pictures;                          // views, by picture
 };
 
 std::string TourJson(const TourParts& parts, const TourIndices& indices);

@@ -149,6 +149,7 @@ Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, J
     indices.loiter_view = builder.AddBufferView(parts.painting.loiter);
   }
   for (const auto& sound : parts.sounds) indices.sounds.push_back(builder.AddBufferView(sound));
+  for (const auto& picture : parts.pictures) indices.pictures.push_back(builder.AddBufferView(picture));
   builder.SetRootExtension(kTourExtension, TourJson(parts, indices));
   std::vector<uint8_t> glb;
   if (Error e = builder.Finish(&glb)) return e;

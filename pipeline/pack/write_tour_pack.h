@@ -28,7 +28,8 @@ struct TourParts : TourData {
   std::vector<TourAvatar> avatars;
   Footprints footprints;
   GroundRaster ground;
-  std::vector<std::vector<uint8_t>> sounds;  // files, as the stops number them
+  std::vector<std::vector<uint8_t>> sounds;    // files, as stops, hotspots and sound places number them
+  std::vector<std::vector<uint8_t>> pictures;  // files (PNG or JPEG), as hotspots number them
   TitlePage title_page;
 };
 

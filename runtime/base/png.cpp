@@ -23,6 +23,18 @@ std::vector<uint8_t> EncodePng(int width_px, int height_px, int channels, const 
   return bytes;
 }
 
+std::vector<uint8_t> EncodeJpeg(int width_px, int height_px, int quality, const std::vector<uint8_t>& rgb) {
+  std::vector<uint8_t> bytes;
+  const auto append = [](void* to, void* data, int size) {
+    const auto* from = static_cast<const uint8_t*>(data);
+    auto* out = static_cast<std::vector<uint8_t>*>(to);
+    out->insert(out->end(), from, from + size);
+  };
+  return stbi_write_jpg_to_func(append, &bytes, width_px, height_px, 3, rgb.data(), quality) != 0
+             ? bytes
+             : std::vector<uint8_t>{};
+}
+
 Error WritePng(const std::filesystem::path& path, int width_px, int height_px, const std::vector<uint8_t>& rgb) {
   const std::vector<uint8_t> png = EncodePng(width_px, height_px, 3, rgb);
   if (png.empty()) return Fail(path.string() + ": the picture cannot be encoded");

@@ -40,7 +40,8 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_flag("--views", o->views,
                "Show the plan of the town and graphs over the picture (in the window: F1; F2 switches the adaptation)");
   app.add_flag("--verbose", o->verbose,
-               "Say when a window's title page and first picture were there, and have the window's title tell pictures a second");
+               "Say when a window's title page and first picture were there, and have the window's title tell pictures "
+               "a second");
   app.add_flag("--fullscreen", o->fullscreen, "Fill the screen; F11 does so too, and back");
   app.add_option("--monitor", o->monitor, "Open the window on this monitor: its number, from 1, or its name");
   app.add_option("--seconds", o->seconds,
@@ -75,6 +76,9 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
                "started anew when it crashes or hangs");
   app.add_option("--kiosk-settings", o->kiosk_settings,
                  "With --kiosk: its file (default: $XDG_CONFIG_HOME/flaneur/kiosk.toml, else /etc/flaneur/kiosk.toml)");
+  app.add_option(
+      "--photos", o->photos,
+      "Folder where visitors' photos are kept (default: Pictures/Flaneur in your home; in an exhibition none)");
   app.add_option("--settings", o->settings, "Settings file (default: $XDG_CONFIG_HOME/flaneur/player.toml)");
   app.add_option("--set", o->set,
                  "SETTING=VALUE instead of what the settings file says, such as snap_turn_deg=30 or keys.pause=p,pad_a")

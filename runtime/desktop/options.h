@@ -14,6 +14,7 @@ struct PlayerOptions {
   bool fullscreen = false, kiosk = false;
   std::filesystem::path kiosk_settings;  // empty: where they are usually
   std::string monitor;                   // empty: any
+  std::filesystem::path photos;          // folder; empty: as the settings say
   std::filesystem::path settings;        // empty: the user's own
   std::vector<std::string> set;          // SETTING=VALUE, over those of the file
   bool save_settings = false;

@@ -121,7 +121,7 @@ Error RunInWindow(const PlayerOptions& options, StartingTour* tour, UserSettings
   UserSettingsStore store(user);
   WarningsOnStderr warnings;
   Fonts fonts(SystemFonts());
-  const Shell shell{speaker, store, warnings, PrintedKey, &fonts};
+  const Shell shell{speaker, store, warnings, PrintedKey, &fonts, &tour->jobs};
   Visit visit(tour->pack, &tour->loader, user->settings, shell, s, user->kiosk);
   Part simulations(&tour->jobs, [&] { return StartSimulations(options, tour); });
   if (Error e = visit.Begin(true)) return e;

@@ -1,4 +1,5 @@
-// Spoken audio. Without an audio device it is silent, and says so once; as it does of a sound that cannot be decoded.
+// Spoken audio and the sounds of the town, each from its place. Without an audio device it is silent, and says so once;
+// as it does of a sound that cannot be decoded.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -21,6 +22,9 @@ class Speaker : public SoundOutput {
   void SetPaused(bool paused) override;
   void SetVolume(float share) override;
   void Update() override;
+  // Likewise opens the device and makes them ready meanwhile; until then nothing is heard of them.
+  void Prepare(const std::vector<Recording>& recordings) override;
+  void Hear(const Heard& heard) override;
 
  private:
   struct Impl;

@@ -9,6 +9,7 @@ Error TakeOptions(const PlayerOptions& options, PlayerSettings* settings) {
   for (const std::string& assignment : options.set) {
     if (Error e = SetPlayerSetting(assignment, settings)) return Fail("--set: " + e.message);
   }
+  if (!options.photos.empty()) settings->photos = options.photos.string();
   if (options.fullscreen) settings->fullscreen = true;
   if (options.kiosk) settings->kiosk = true;
   if (options.language) settings->language = *options.language;

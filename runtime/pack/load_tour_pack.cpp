@@ -13,6 +13,7 @@
 #include "runtime/pack/reach.h"
 #include "runtime/pack/read_clip.h"
 #include "runtime/pack/read_mesh.h"
+#include "runtime/pack/read_visitor_data.h"
 #include "runtime/pack/tour_object.h"
 #include "runtime/pack/tour_pack.h"
 #include "runtime/tour_data/settings.h"
@@ -337,28 +338,11 @@ Painting ReadPainting(const GltfFile& file, const TourObject& json) {
   return painting;
 }
 
-// By language; empty where there are none.
-std::map<std::string, std::string> ReadTranslations(const TourObject& json, const char* key) {
-  std::map<std::string, std::string> texts;
-  if (!json.Has(key)) return texts;
-  const TourObject object = json.Object(key);
-  for (const std::string& language : object.Keys()) texts[language] = object.Text(language.c_str());
-  return texts;
-}
-
 TourStop ReadStop(const GltfFile& file, const TourObject& json, TourPack* pack) {
   TourStop stop{json.Point("position_m"), json.Real("yaw_rad"), json.Real("pause_s", 0, TourObject::kAnything),
                 json.Text("caption")};
   stop.captions = ReadTranslations(json, "captions");
-  if (!json.Has("sounds")) return stop;
-  const TourObject sounds = json.Object("sounds");
-  for (const std::string& language : sounds.Keys()) {
-    const TourObject sound = sounds.Object(language.c_str());
-    const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
-    const auto bytes = BufferView(file, sound.Whole("view", 0, last));
-    stop.sounds[language] = {Count(pack->sounds), sound.Real("duration_s", 0, 36000)};
-    pack->sounds.emplace_back(bytes.begin(), bytes.end());
-  }
+  stop.sounds = ReadSounds(file, json, pack);
   return stop;
 }
 
@@ -382,6 +366,7 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
       if (page.Has(view)) page.View(view, Member(file.json, "bufferViews").size());
     }
   }
+  ReadVisitorData(file, tour, pack);
   VisitFields(tour.Object("crowd"), &pack->crowd);
   VisitFields(tour.Object("control"), &pack->control);
   VisitFields(tour.Object("light"), &pack->light);

@@ -97,6 +97,13 @@ std::string TourObject::OneOf(const char* key, std::initializer_list<const char*
 
 Vec2 TourObject::Point(const char* key) const { return CheckedPoint(Get(key), Place(key)); }
 
+std::vector<Vec2> TourObject::Points(const char* key) const {
+  const Json& json = Array(key);
+  std::vector<Vec2> points;
+  for (size_t i = 0; i < json.size(); ++i) points.push_back(CheckedPoint(json[i], Item(Place(key), i)));
+  return points;
+}
+
 std::vector<Vec2> TourObject::Ring(const char* key) const { return CheckedRing(Get(key), Place(key)); }
 
 std::vector<std::vector<Vec2>> TourObject::Rings(const char* key) const {

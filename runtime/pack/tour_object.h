@@ -27,6 +27,7 @@ class TourObject {
   std::string Text(const char* key) const;
   std::string OneOf(const char* key, std::initializer_list<const char*> allowed) const;
   Vec2 Point(const char* key) const;
+  std::vector<Vec2> Points(const char* key) const;
   std::vector<Vec2> Ring(const char* key) const;  // at least three points
   std::vector<std::vector<Vec2>> Rings(const char* key) const;
   std::vector<float> Reals(const char* key, double least, double most) const;  // at least one

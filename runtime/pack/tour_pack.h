@@ -104,7 +104,8 @@ struct TourPack : TourData {
   std::vector<PackAvatar> avatars;
   Obstacles obstacles;
   SharedGround ground = Share({});
-  std::vector<std::vector<uint8_t>> sounds;  // files: WAV, FLAC, Ogg Vorbis or Opus, MP3
+  std::vector<std::vector<uint8_t>> sounds;    // files: WAV, FLAC, Ogg Vorbis or Opus, MP3
+  std::vector<std::vector<uint8_t>> pictures;  // of hotspots; files: PNG or JPEG
 };
 
 // A tour pack that stands open. Everything but its bulk is read at once, which is enough for a run without drawing; of

@@ -1,4 +1,4 @@
-// Words at the foot of the picture. Internal to runtime/render.
+// Words at the foot of the picture. But for LayOutCaption internal to runtime/render.
 #pragma once
 #include <memory>
 #include <string>

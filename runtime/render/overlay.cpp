@@ -30,7 +30,15 @@ struct Overlay::Impl {
     glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, width_px, height_px, 0, GL_RED, GL_UNSIGNED_BYTE, cover);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (GLenum channel : {GLenum{GL_TEXTURE_SWIZZLE_R}, GLenum{GL_TEXTURE_SWIZZLE_G}, GLenum{GL_TEXTURE_SWIZZLE_B}})
+      glTexParameteri(GL_TEXTURE_2D, channel, GL_ONE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_A, GL_RED);  // so that letters are drawn as pictures are
     return texture;
+  }
+
+  GLuint TextureOf(ImTextureID id) const {
+    const auto number = reinterpret_cast<uintptr_t>(id);
+    return number >= kFirstPicture ? static_cast<GLuint>(number - kFirstPicture) : id == kGlyphTexture ? glyphs : font;
   }
 
   void CreateFont() {
@@ -73,7 +81,7 @@ struct Overlay::Impl {
     for (const ImDrawCmd& command : list.CmdBuffer) {
       const ImVec4 clip = command.ClipRect;
       if (clip.z <= clip.x || clip.w <= clip.y) continue;
-      BindTexture(kColorUnit, command.GetTexID() == kGlyphTexture ? glyphs : font);
+      BindTexture(kColorUnit, TextureOf(command.GetTexID()));
       glScissor(static_cast<GLint>(clip.x), static_cast<GLint>(height_px - clip.w),
                 static_cast<GLsizei>(clip.z - clip.x), static_cast<GLsizei>(clip.w - clip.y));
       glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),
@@ -100,6 +108,26 @@ Error Overlay::Create() {
 }
 
 TextLayer& Overlay::text() { return impl_->text; }
+OverlayPicture Overlay::AddPicture(int width_px, int height_px, const std::vector<uint8_t>& rgba) {
+  GLuint texture = 0;
+  glGenTextures(1, &texture);
+  BindTexture(kColorUnit, texture);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width_px, height_px, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  for (GLenum wrap : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}})
+    glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+  return reinterpret_cast<OverlayPicture>(kFirstPicture + texture);
+}
+
+void Overlay::RemovePicture(OverlayPicture picture) {
+  if (picture == nullptr) return;
+  const auto texture = static_cast<GLuint>(reinterpret_cast<uintptr_t>(picture) - kFirstPicture);
+  glDeleteTextures(1, &texture);
+}
+
 bool Overlay::HasPointer() const { return ImGui::GetIO().WantCaptureMouse; }
 
 void Overlay::Begin(int width_px, int height_px, const OverlayInput& input) {

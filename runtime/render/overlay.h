@@ -1,8 +1,10 @@
 // Windows with text, buttons and graphs over the picture, by Dear ImGui: between Begin and Draw any source file may
 // call it.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
@@ -18,6 +20,9 @@ struct OverlayInput {
   float passed_s = 1.0f / 60;
 };
 
+// For ImDrawList::AddImage; null: none.
+using OverlayPicture = void*;
+
 // Needs a current context for its whole life. One at a time.
 class Overlay {
  public:
@@ -28,8 +33,11 @@ class Overlay {
   Error Create();
   TextLayer& text();  // for all that visitors read; developers have ImGui's own letters
   void Begin(int width_px, int height_px, const OverlayInput& input);
-  bool HasPointer() const;  // it is over a window, or was pressed there; after Begin
-  void Draw();              // over the picture that the renderer has just drawn, before it is read or presented
+  // RGBA, top row first; it stays until it is removed.
+  OverlayPicture AddPicture(int width_px, int height_px, const std::vector<uint8_t>& rgba);
+  void RemovePicture(OverlayPicture picture);  // not between Begin and Draw of a picture that shows it; null: nothing
+  bool HasPointer() const;                     // it is over a window, or was pressed there; after Begin
+  void Draw();  // over the picture that the renderer has just drawn, before it is read or presented
 
  private:
   struct Impl;

@@ -301,6 +301,13 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   statistics->draw_ms = std::max(Now_ms() - start_ms, r.clock.took_ms);
 }
 
+bool Renderer::Hides(Vec3 point) const {
+  constexpr float kHalf_m = 0.1f;
+  const Vec3 p = GltfFromGround(point), half{kHalf_m, kHalf_m, kHalf_m};
+  const OcclusionMap& walls = impl_->town.walls;
+  return !walls.nearness.empty() && !MayBeSeen(walls, {p - half, p + half}, true);
+}
+
 void Renderer::ReadWithAlpha(std::vector<uint8_t>* rgba) {
   const Picture& p = impl_->picture;
   const size_t row = static_cast<size_t>(p.width_px) * 4, height = static_cast<size_t>(p.height_px);

@@ -53,6 +53,8 @@ class Renderer {
   void StartAnew();
   // Draws into a picture of its own; Read or Present brings it out.
   void Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics);
+  // Whether walls of the last picture hide a point, in the ground's axes; false where that is not known.
+  bool Hides(Vec3 point) const;
   // The last picture: RGB, 8 bits a channel, top row first.
   void Read(std::vector<uint8_t>* rgb);
   // The same as RGBA; alpha is 0 where nothing is drawn.

@@ -11,6 +11,7 @@
 
 #include "runtime/base/math.h"
 #include "runtime/tour_data/settings.h"
+#include "runtime/tour_data/visitor_data.h"
 
 namespace flaneur {
 
@@ -69,11 +70,6 @@ inline int PaintingCell(const Painting& painting, Vec2 p) {
   return static_cast<int>(off.y) * painting.columns + static_cast<int>(off.x);
 }
 
-struct StopSound {
-  int sound = 0;  // index into the tour's sounds
-  float duration_s = 0;
-};
-
 struct TourStop {
   Vec2 position_m;
   float yaw_rad = 0, pause_s = 0;
@@ -91,6 +87,10 @@ struct TourData {
   std::map<std::string, std::string> titles;  // what visitors read, by language; empty: the name
   std::string language = "en";                // of titles, captions and sounds for which no other is named
   std::string guide;                          // name of the avatar who leads the way along the path; empty: nobody does
+  std::vector<Hotspot> hotspots;
+  std::vector<Street> streets;
+  std::vector<SoundPlace> sound_places;
+  PhotoData photo;
   CrowdSettings crowd;
   ControlSettings control;
   LightSettings light;

@@ -121,6 +121,9 @@ void Press(const Held& held, const Simulation& s, Controls* c, CameraInput* came
   }
   ChangeView(held, s, c);
   c->opens_pages = c->opens_pages || held.Pressed(Action::kMenu);
+  c->opens_map = c->opens_map || held.Pressed(Action::kMap);
+  c->takes_photo = c->takes_photo || held.Pressed(Action::kPhoto);
+  c->asks = c->asks || held.Pressed(Action::kAsk);
   c->quits = c->quits || Closes(held.input, *c) || held.Pressed(Action::kQuit);
 }
 

@@ -118,6 +118,11 @@ void ShowMain(PageView* v) {
     }
     if (!Halts(tour).empty() && Row(*v, v->Words(Phrase::kStops), "stops")) OpenPage(Page::kStops, v->menu);
   }
+  if (Row(*v, v->Words(Phrase::kMap), "map")) OpenPage(Page::kMap, v->menu);
+  if (c->has_photos && !v->menu->begins && Row(*v, v->Words(Phrase::kPhoto), "photo")) {
+    c->takes_photo = true;
+    OpenPage(Page::kNone, v->menu);
+  }
   if (OfferedLanguages(*c, v->s).size() > 1 && Row(*v, LanguageRow(*v), "language"))
     OpenPage(Page::kLanguages, v->menu);
   if (Row(*v, v->Words(Phrase::kSettings), "settings")) OpenPage(Page::kSettings, v->menu);
@@ -258,6 +263,9 @@ void ShowRows(PageView* v) {
       return ShowSettings(v);
     case Page::kKeys:
       return ShowKeys(v);
+    case Page::kMap:
+    case Page::kPhoto:
+      return;
   }
 }
 
@@ -293,6 +301,8 @@ std::vector<std::string> OfferedLanguages(const Controls& c, const Simulation& s
   }
   return all;
 }
+
+bool IsOfTown(Page page) { return page == Page::kMap || page == Page::kPhoto; }
 
 void OpenPage(Page page, Menu* menu) {
   menu->page = page;
@@ -351,12 +361,13 @@ void TakePageInput(const WindowInput& input, Menu* menu, Controls* c) {
   }
   c->quits = c->quits || is_pressed(Action::kQuit);
   if (back || pressed[static_cast<size_t>(InputCode("pad_b"))])
-    OpenPage(menu->page == Page::kMain ? Page::kNone : Page::kMain, menu);
+    OpenPage(menu->page == Page::kMain || IsOfTown(menu->page) ? Page::kNone : Page::kMain, menu);
+  else if (menu->page == Page::kMap && is_pressed(Action::kMap)) OpenPage(Page::kNone, menu);
 }
 
 MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px, int height_px, Menu* menu, Controls* c,
                     TextLayer* text) {
-  if (menu->page == Page::kNone) return {};
+  if (menu->page == Page::kNone || IsOfTown(menu->page)) return {};
   const Page page = menu->page;
   const PageLook look = LookOf(*c, s, width_px, height_px);
   const ImVec2 picture{static_cast<float>(width_px), static_cast<float>(height_px)};

@@ -12,7 +12,8 @@
 
 namespace flaneur {
 
-enum class Page { kNone, kMain, kStops, kLanguages, kSettings, kKeys };
+// Map and photo are pages of their own, which ShowMenu leaves alone.
+enum class Page { kNone, kMain, kStops, kLanguages, kSettings, kKeys, kMap, kPhoto };
 
 struct Menu {
   Page page = Page::kNone;
@@ -33,6 +34,7 @@ struct MenuChoice {
 // The tour's languages and the player's own, or those that a kiosk offers.
 std::vector<std::string> OfferedLanguages(const Controls& controls, const Simulation& simulation);
 
+bool IsOfTown(Page page);  // map and photo
 void OpenPage(Page page, Menu* menu);
 // The first page, as whoever comes to an exhibition meets it.
 void MeetSomebodyNew(Menu* menu);

@@ -87,6 +87,11 @@ void FollowNotices(const Controls& c, const Simulation& s, float passed_s, Notic
   Remember(c, s, n);
 }
 
+void TellNotice(const std::string& text, const Controls& c, const Simulation& s, Notices* n) {
+  Tell(text, n);
+  Remember(c, s, n);
+}
+
 void ShowNotice(const Notices& n, bool fades, FrameInput* frame) {
   if (n.left_s <= 0 || (n.gives_way && !frame->caption.empty())) return;
   frame->caption = n.text;

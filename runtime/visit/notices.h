@@ -25,6 +25,9 @@ void BeginHint(const Controls& controls, const Simulation& simulation, Notices* 
 // passed_s since the last picture.
 void FollowNotices(const Controls& controls, const Simulation& simulation, float passed_s, Notices* notices);
 
+// Something else, for a while, instead of what has just changed.
+void TellNotice(const std::string& text, const Controls& controls, const Simulation& simulation, Notices* notices);
+
 // Into the picture, before or instead of its caption.
 void ShowNotice(const Notices& notices, bool fades, FrameInput* frame);
 

@@ -36,12 +36,15 @@ void VisitSettings(Settings* s, Visit visit) {
                "that half of the keyboard or gamepad does everything");
   visit.Flag("reduced_motion", &s->reduced_motion,
              "you turn in steps, the tour turns the view gently and walks slowly, and jumps fade");
-  visit.Number("sound_volume", &s->sound_volume, 0, 1, "of what is spoken; 1: as recorded");
+  visit.Number("sound_volume", &s->sound_volume, 0, 1, "of all sounds; 1: as recorded");
   visit.Number("frames_per_s", &s->frames_per_s, 5, 240,
                "wished for: a machine that draws fewer draws more coarsely instead");
   visit.Number("least_resolution_scale", &s->least_resolution_scale, 0.25, 1,
                "as coarsely as that, of width and height; 1: never");
   visit.Flag("fullscreen", &s->fullscreen, "the window fills its screen");
+  visit.Text("photos", &s->photos, "folder of visitors' photos; \"\": in your own pictures, in an exhibition none");
+  visit.Text("photo_link", &s->photo_link, "for the photos' QR code, with {file} or {id}; \"\": the tour's own");
+  visit.Number("photos_most", &s->photos_most, 1, 100000, "photos are kept; of more the eldest are deleted");
   visit.Flag("kiosk", &s->kiosk, "for exhibitions: visitor after visitor, and only the operator ends it");
 }
 
@@ -197,6 +200,9 @@ PlayerSettings::PlayerSettings()
             {"f1"},
             {"f2"},
             {"f11"},
+            {"t", "pad_back"},
+            {"p", "pad_down"},
+            {"i", "enter", "pad_up"},
             {"escape", "pad_start", "mouse_right"},
             {"f10"}}} {}
 

@@ -30,15 +30,18 @@ enum class Action {
   kViews,
   kAdaptation,
   kFullscreen,
+  kMap,
+  kPhoto,
+  kAsk,
   kMenu,
   kQuit,
   kCount
 };
 inline constexpr size_t kActions = static_cast<size_t>(Action::kCount);
 inline constexpr const char* kActionNames[kActions] = {
-    "walk_ahead", "walk_back", "walk_left", "walk_right", "turn_left",  "turn_right", "look_up",
-    "look_down",  "tour",      "pause",     "next",       "back",       "language",   "pointer",
-    "wider",      "narrower",  "views",     "adaptation", "fullscreen", "menu",       "quit"};
+    "walk_ahead", "walk_back",  "walk_left",  "walk_right", "turn_left", "turn_right", "look_up", "look_down",
+    "tour",       "pause",      "next",       "back",       "language",  "pointer",    "wider",   "narrower",
+    "views",      "adaptation", "fullscreen", "map",        "photo",     "ask",        "menu",    "quit"};
 
 struct PlayerSettings {
   std::string language;  // of the guided tour; empty: the tour's own
@@ -60,8 +63,11 @@ struct PlayerSettings {
   float sound_volume = 1;               // of what is spoken; 1: as recorded
   float frames_per_s = 25;              // where a machine draws fewer, the window's picture is drawn more coarsely
   float least_resolution_scale = 0.5f;  // but not below this share of its width and height; 1: never
-  bool fullscreen = false;              // the window fills its screen
-  bool kiosk = false;                   // for exhibitions: visitor after visitor, and only the operator ends it
+  std::string photos;  // folder where visitors' photos are kept; empty: in the user's pictures, in an exhibition none
+  std::string photo_link;    // instead of the tour's, for the QR code: with {file} or {id}; empty: the tour's
+  float photos_most = 1000;  // that are kept; of more the eldest are deleted
+  bool fullscreen = false;   // the window fills its screen
+  bool kiosk = false;        // for exhibitions: visitor after visitor, and only the operator ends it
   std::array<std::vector<std::string>, kActions> keys;
 
   PlayerSettings();  // with the default keys

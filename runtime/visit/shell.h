@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "runtime/base/error.h"
+#include "runtime/base/jobs.h"
 #include "runtime/text/fonts.h"
+#include "runtime/visit/heard.h"
 #include "runtime/visit/player_settings.h"
 #include "runtime/visit/window_input.h"
 
@@ -21,6 +23,9 @@ class SoundOutput {
   virtual void SetPaused(bool paused) = 0;
   virtual void SetVolume(float share) = 0;  // 1: as recorded
   virtual void Update() = 0;                // once a picture
+  // The town's own sounds, by number, made ready beside everything else; once, before Hear. Files outlive it.
+  virtual void Prepare(const std::vector<Recording>& recordings) = 0;
+  virtual void Hear(const Heard& heard) = 0;  // once a picture
 };
 
 // Where what the visitor changes is kept for the next time.
@@ -44,6 +49,7 @@ struct Shell {
   Warnings& warnings;
   KeyLayout layout;        // may be empty
   Fonts* fonts = nullptr;  // of all that is read; null: the built-in one
+  Jobs* jobs = nullptr;    // for photos; null: they are written at once
 };
 
 }  // namespace flaneur

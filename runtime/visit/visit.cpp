@@ -9,6 +9,7 @@
 #include "runtime/visit/attract_page.h"
 #include "runtime/visit/controls.h"
 #include "runtime/visit/developer_views.h"
+#include "runtime/visit/discovery.h"
 #include "runtime/visit/kiosk.h"
 #include "runtime/visit/menu.h"
 #include "runtime/visit/narration.h"
@@ -46,6 +47,7 @@ struct Visit::Impl {
   CameraInput wishes{};
   FrameStatistics statistics{};
   Narration narration{};
+  Discovery discovery{};
   Resolution resolution{};
   float own_fov_rad = 0;
   double owed_s = 0;  // of simulated time
@@ -57,6 +59,7 @@ struct Visit::Impl {
   bool attracts() const { return settings.kiosk && kiosk.state == KioskState::kAttract; }
   bool operator_page() const { return kiosk.page != OperatorPage::kNone; }
   bool hidden() const { return width_px <= 0 || height_px <= 0; }
+  DiscoveryIn find() { return {pack, settings, *s, controls, menu, notices, wishes, shell, discovery}; }
   void ApplySettings();
   void Save();
   void Jump(size_t stop);
@@ -130,6 +133,7 @@ void Visit::Impl::MeetVisitor(const WindowInput& input) {
   s->visitor.camera.pitch_rad = 0;
   Jump(0);
   BeginHint(controls, *s, &notices);
+  ForgetDiscovery(find());
   MeetSomebodyNew(&menu);
   menu.lets_go = true;
   menu.was_down = input.down;
@@ -173,10 +177,12 @@ void Visit::Impl::TakeHands(const WindowInput& input, float passed_s) {
   if (for_pages) walking = {input.down, {}, {}, {}, {}, {-1, -1}, false, input.close};
   if (!hidden() && overlay.HasPointer()) walking.clicks.clear();
   const float aspect = static_cast<float>(std::max(1, width_px)) / static_cast<float>(std::max(1, height_px));
+  TakeDiscoveryInput(for_pages, width_px, height_px, find(), &walking);
   TakeInput(walking, passed_s, aspect, for_pages, *s, &controls, &wishes);
   if (controls.toggles_views) views.shown = !views.shown;
   if (controls.switches_adaptation) SwitchAdaptation(s);
   if (controls.opens_pages) OpenPage(Page::kMain, &menu);
+  TakeDiscoveryWishes(find());
   controls.toggles_views = controls.switches_adaptation = controls.opens_pages = false;
   if (controls.applies) ApplySettings();
   controls.applies = false;
@@ -208,6 +214,7 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
     return;
   }
   if (controls.points && !pages() && ShowMenuButton(look, width_px)) OpenPage(Page::kMain, &menu);
+  if (!operator_page()) ShowDiscoveryPages(look, width_px, height_px, find(), &overlay);
   controls.quits = controls.quits || choice.ends;
   if (choice.stop) Jump(*choice.stop);
   wishes.tour.toggle_pause = wishes.tour.toggle_pause || choice.toggles_pause;
@@ -226,7 +233,7 @@ void Visit::Impl::StepTown(float passed_s, Records* records) {
     wishes.walk_to.reset();
     owed_s -= step_s;
   }
-  Narrate(s->visitor.tour, pages() || attracts(), pack.sounds, &narration, &shell.sound);
+  Narrate(s->visitor.tour, AsideOf(find()), pages() || attracts(), pack.sounds, &narration, &shell.sound);
   if (!pages() && !attracts()) FollowNotices(controls, *s, passed_s, &notices);
 }
 
@@ -249,7 +256,11 @@ void Visit::Impl::Draw(float passed_s) {
   const ResolutionSettings wished = ResolutionWished();
   frame.resolution_scale = ScaleNow(wished, resolution);
   frame.detail = DetailNow(wished, resolution);
+  TakePhoto(frame, width_px, height_px, PageLanguage(controls, *s), find(), &renderer, &overlay);
   renderer.Draw(frame, width_px, height_px, &statistics);
+  ShowDiscovery(frame, renderer, passed_s, pages(), LookOf(controls, *s, width_px, height_px), width_px, height_px,
+                find(), &overlay);
+  HearTown(frame, passed_s, narration.sound >= 0, pages(), find());
   overlay.Draw();
   RememberFrame(*s, statistics, passed_s * 1000, &views.history);
 }
@@ -282,6 +293,7 @@ Error Visit::Enter(bool views) {
   v.ApplySettings();
   BeginHint(v.controls, *v.s, &v.notices);
   v.start = v.s->visitor.camera.view;
+  PrepareDiscovery(v.find());
   if (v.settings.kiosk) v.EndVisitor();
   return Ok();
 }

@@ -23,9 +23,9 @@ constexpr float kLooksAhead_m = 2.5f;  // along the tour's route
 constexpr float kAtHalt_m = 1;
 constexpr float kGentleYawRate_radps = 0.35f, kGentleSpeed_mps = 1.0f;
 constexpr float kLooksAbout_s = 2.5f;  // after looking to the side, until the tour turns the view again
-constexpr float kGiveUpPoint_s = 3;
-constexpr float kStands = 0.05f;     // share of the pace
-constexpr float kSidestep_m = 0.7f;  // looked ahead when walking round people
+constexpr float kGiveUpPoint_s = 3, kGiveUpFarPoint_s = 10, kFarPoint_m = 20;  // the longer the way, the more patient
+constexpr float kStands = 0.05f;                                               // share of the pace
+constexpr float kSidestep_m = 0.7f;                                            // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;  // after which those who stand in the way move on
 constexpr float kLoitererYieldRadius_m = 2;
 
@@ -163,8 +163,9 @@ void FollowPoint(float speed_mps, bool turns, const VisitorInTown& v) {
   const Vec2 p = v.visitor.camera.view.position;
   walk.way_m = WayTo(walk.route, p, walk.way_m - 1, walk.way_m + 2);
   const bool there = LengthOf_m(walk.route) - walk.way_m < kReached_m;
+  const float give_up_s = LengthOf_m(walk.route) > kFarPoint_m ? kGiveUpFarPoint_s : kGiveUpPoint_s;
   const Vec2 way = WayAlong(v.town.walkable, walk.route, walk.way_m, p, &walk.corner, &v.town.crowd.search);
-  if (there || Length(way) < 0.5f || v.visitor.stuck_s > kGiveUpPoint_s) {
+  if (there || Length(way) < 0.5f || v.visitor.stuck_s > give_up_s) {
     walk = {};
     return;
   }
@@ -220,6 +221,8 @@ void MoveCamera(const CameraInput& input, const VisitorInTown& v) {
     TurnCamera(input.yaw_rate_radps, v);
     if (input.speed_mps > 0) Walk(input.direction, input.speed_mps, v);
     else if (!v.visitor.point_walk.route.points.empty()) FollowPoint(input.walk_to_mps, input.yaw_rate_radps != 0, v);
+    if (!v.visitor.point_walk.route.points.empty() && v.visitor.stuck_s >= kPatience_s)
+      StirLoiterers(camera.view.position, kLoitererYieldRadius_m, &v.town);
     return;
   }
   if (v.visitor.finished && !v.visitor.tour.over) return;

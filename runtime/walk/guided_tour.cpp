@@ -99,6 +99,12 @@ float FromVisitor_m(const VisitorInTown& v, Vec2 p) { return Length(p - v.visito
 // The tour does not end while the visitor walks about on their own.
 bool MayLeave(const GuidedTour& t) { return t.follows || HaltOf(t) + 1 < t.stops.size(); }
 
+void LeadTo(size_t stop, const VisitorInTown& v) {
+  v.visitor.finished = false;
+  v.visitor.stuck_s = 0;
+  Plan({stop}, v);
+}
+
 void Rest(const VisitorInTown& v) {
   GuidedTour& t = v.visitor.tour;
   const TourStop& stop = t.stops[HaltOf(t)];
@@ -228,9 +234,10 @@ void StepTour(const TourWish& wish, bool follows, const VisitorInTown& v) {
   if (t.follows != follows) v.visitor.stuck_s = 0;  // what held them up is of the walk before
   t.follows = follows;
   if (wish.toggle_pause) t.paused = !t.paused;
-  if (!follows || t.over || wish.next || wish.back) t.paused = false;
+  if (!follows || t.over || wish.next || wish.back || wish.lead_to) t.paused = false;
   if (wish.next) GoToNext(v);
   if (wish.back) GoBack(v);
+  if (wish.lead_to && *wish.lead_to < t.stops.size()) LeadTo(*wish.lead_to, v);
   if (t.over) return;
   if (t.resting) Rest(v);
   else WalkOn(v);

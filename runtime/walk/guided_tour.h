@@ -1,6 +1,7 @@
 // The guided tour: which stop is next, the way there, and how long the visitor rests. Internal to runtime/walk.
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct GuidedTour {
 // What the visitor asks the tour for. Next and back end a pause; for who walks about on their own there is none.
 struct TourWish {
   bool next = false, back = false, toggle_pause = false;
+  std::optional<size_t> lead_to = std::nullopt;  // a stop, straight from where the visitor is; the tour goes on there
 };
 
 inline bool HasTour(const GuidedTour& tour) { return !tour.stops.empty() && !tour.over; }

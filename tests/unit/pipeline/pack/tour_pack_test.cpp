@@ -137,6 +137,12 @@ TourParts SmallTour() {
   parts.path[0].captions["en"] = "Good day";
   parts.sounds = {{'O', 'g', 'g', 'S'}, {1, 2, 3}};
   parts.path[0].sounds = {{"de", {1, 2.5f}}, {"en", {0, 3.5f}}};
+  parts.pictures = {{9, 8, 7}};
+  parts.hotspots = {
+      {{3, -4}, 2.5f, 9, {{"de", "Brunnen"}}, {{"de", "Tief."}, {"en", "Deep."}}, 0, {{"en", {0, 3.5f}}}}};
+  parts.streets = {{{{"de", "Lange Straße"}}, {{0, 1}, {5, 1}, {9, 3}}}};
+  parts.sound_places = {{SoundKind::kWater, {1, 1}, 0.5f, 12, 0.75f, -1}, {SoundKind::kLoop, {2, 2}, 1, 30, 1, 1}};
+  parts.photo = {{{"de", "Grüße"}}, "https://example.org/{file}"};
   parts.guide = parts.avatars[0].levels.avatar.name;
   parts.title_page = {{'J', 'F', 'I', 'F'}, {'P', 'N', 'G'}, {0, 0.2f, 1}};
   parts.crowd.people = 17;
@@ -198,6 +204,41 @@ TEST(TourPack, BringsTheTourAcross) {
   EXPECT_EQ(pack.control.method, LimitMethod::kFrameTime);
   EXPECT_EQ(pack.control.r_high_m, ControlSettings{}.r_high_m);
   EXPECT_EQ(pack.light.day_length_s, 0);
+}
+
+TEST(TourPack, BringsWhatVisitorsFindAcross) {
+  const TourPack pack = Read(Written(SmallTour()));
+  ASSERT_EQ(pack.hotspots.size(), 1u);
+  const Hotspot& hotspot = pack.hotspots[0];
+  EXPECT_EQ(hotspot.position_m.y, -4);
+  EXPECT_EQ(hotspot.height_m, 2.5f);
+  EXPECT_EQ(hotspot.radius_m, 9);
+  EXPECT_EQ(TextIn(hotspot.titles, "en", "de"), "Brunnen");
+  EXPECT_EQ(TextIn(hotspot.texts, "en", "de"), "Deep.");
+  ASSERT_GE(hotspot.picture, 0);
+  EXPECT_EQ(pack.pictures[static_cast<size_t>(hotspot.picture)], (std::vector<uint8_t>{9, 8, 7}));
+  EXPECT_EQ(pack.sounds[static_cast<size_t>(hotspot.sounds.at("en").sound)],
+            (std::vector<uint8_t>{'O', 'g', 'g', 'S'}));
+  ASSERT_EQ(pack.streets.size(), 1u);
+  EXPECT_EQ(pack.streets[0].points.size(), 3u);
+  EXPECT_EQ(TextIn(pack.streets[0].names, "fr", "de"), "Lange Straße");
+  ASSERT_EQ(pack.sound_places.size(), 2u);
+  EXPECT_EQ(pack.sound_places[0].kind, SoundKind::kWater);
+  EXPECT_EQ(pack.sound_places[0].volume, 0.75f);
+  EXPECT_EQ(pack.sound_places[0].sound, -1);
+  EXPECT_EQ(pack.sounds[static_cast<size_t>(pack.sound_places[1].sound)], (std::vector<uint8_t>{1, 2, 3}));
+  EXPECT_EQ(pack.photo.link, "https://example.org/{file}");
+  EXPECT_EQ(pack.photo.lines.at("de"), "Grüße");
+}
+
+TEST(TourPack, WhatVisitorsFindMayBeMissing) {
+  TourParts parts = SmallTour();
+  parts.hotspots.clear();
+  parts.streets.clear();
+  parts.sound_places.clear();
+  parts.photo = {};
+  const TourPack pack = Read(Written(parts));
+  EXPECT_TRUE(pack.hotspots.empty() && pack.streets.empty() && pack.sound_places.empty() && pack.photo.link.empty());
 }
 
 TEST(TourPack, BringsTheTownAcross) {
@@ -463,11 +504,12 @@ TEST(TourPack, AMemberOfAnotherTypeIsRefusedByItsPlace) {
 TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
-  const std::set<std::string> optional{"painting", "guide", "titles",     "language",     "captions",  "sounds",
-                                       "tints",    "props", "title_page", "picture_view", "logo_view", "reach_m"};
-  for (const char* object :
-       {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0", "/avatars/0/impostor",
-        "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground", "/title_page", "/places/0", "/painting", "/path/0"}) {
+  const std::set<std::string> optional{"painting", "guide",   "titles",     "language",     "captions",  "sounds",
+                                       "tints",    "props",   "title_page", "picture_view", "logo_view", "photo",
+                                       "hotspots", "streets", "texts",      "reach_m"};
+  for (const char* object : {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0",
+                             "/avatars/0/impostor", "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground",
+                             "/title_page", "/places/0", "/painting", "/path/0", "/hotspots/0", "/sounds/1"}) {
     const Json::json_pointer at(std::string("/extensions/FLANEUR_tour") + object);
     for (const auto& [key, unused] : json.at(at).items()) {
       Json changed = json;
@@ -504,8 +546,8 @@ TEST(TourPack, HowFarPeopleReachIsKnownWhereThePackDoesNotSayIt) {
 
 TEST(TourPack, UnknownKindsAreRefusedWithTheKnownOnes) {
   const std::vector<uint8_t> whole = Written(SmallTour());
-  for (const char* member :
-       {"/places/0/kind", "/obstacles/0/kind", "/control/method", "/avatars/0/impostor/clips/0/name"}) {
+  for (const char* member : {"/places/0/kind", "/obstacles/0/kind", "/control/method", "/sounds/0/kind",
+                             "/avatars/0/impostor/clips/0/name"}) {
     Json json = JsonOf(whole);
     json[Json::json_pointer(std::string("/extensions/FLANEUR_tour") + member)] = "portal";
     TourPack pack;

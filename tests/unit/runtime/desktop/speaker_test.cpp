@@ -184,7 +184,7 @@ TEST(Speaker, FollowsATourThatStopsAndGoes) {
     tour.resting = step > 10 && step < 50;
     tour.rested_s = tour.resting ? static_cast<float>(step - 10) / 30 : 0;
     tour.holds = step > 20 && step < 30;
-    Narrate(tour, false, sounds, &last, &speaker);
+    Narrate(tour, {}, false, sounds, &last, &speaker);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(last.sound, -1);
@@ -204,7 +204,7 @@ TEST(Speaker, SaysWhatTheTourSaysAtAStopAndHoldsItsBreath) {
       Narration last;
       for (int step = 0; step < 60; ++step) {
         tour.rested_s = static_cast<float>(step) / 100;
-        Narrate(tour, holds, sounds, &last, &speaker);
+        Narrate(tour, {}, holds, sounds, &last, &speaker);
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
       }
     }
@@ -212,6 +212,50 @@ TEST(Speaker, SaysWhatTheTourSaysAtAStopAndHoldsItsBreath) {
   };
   EXPECT_GT(loudest(false), 5000);
   EXPECT_EQ(loudest(true), 0);
+}
+
+// What OpenAL played of the town's sounds for half a second.
+int LoudestOfTown(float volume, float gain, bool once) {
+  {
+    Speaker speaker;
+    speaker.SetVolume(volume);
+    speaker.Prepare({{SoundKind::kMurmur, 0, nullptr}, {SoundKind::kBell, 0, nullptr}});
+    Heard heard;
+    for (int step = 0; step < 60; ++step) {
+      heard.round.clear();
+      heard.once.clear();
+      if (once && step % 20 == 5) heard.once.push_back({0, 1, {3, 0, 0}, gain, 1});
+      if (!once) heard.round.push_back({7, 0, {0, 4, 0}, gain, 1});
+      speaker.Hear(heard);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+  return Loudest();
+}
+
+TEST(Speaker, LetsTheTownSoundUnlessItIsTurnedOff) {
+  EXPECT_GT(LoudestOfTown(1, 1, true), 3000);
+  EXPECT_GT(LoudestOfTown(1, 1, false), 1000);
+  EXPECT_EQ(LoudestOfTown(0, 1, true), 0);
+  EXPECT_EQ(LoudestOfTown(0, 1, false), 0);
+  EXPECT_EQ(LoudestOfTown(1, 0, false), 0);
+}
+
+TEST(Speaker, WhatIsNoSoundLeavesTheOthersAsTheyAre) {
+  const std::vector<uint8_t> noise(500, 7);
+  {
+    Speaker speaker;
+    speaker.Prepare({{SoundKind::kLoop, 0, &noise}, {SoundKind::kBell, 0, nullptr}});
+    Heard heard;
+    for (int step = 0; step < 60; ++step) {
+      heard.round = {{3, 0, {}, 1, 1}, {4, 12, {}, 1, 1}, {5, -1, {}, 1, 1}};
+      heard.once.clear();
+      if (step == 20) heard.once = {{0, 1, {3, 0, 0}, 1, 1}};
+      speaker.Hear(heard);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+  EXPECT_GT(Loudest(), 3000);
 }
 
 }  // namespace

@@ -80,19 +80,24 @@ TEST(Pages, AreAllReachedByKeyboardAndByGamepad) {
   for (const auto& hand : hands) {
     std::set<Page> seen;
     bool ends = false;
-    for (int row = 0; row < 8; ++row) {
+    for (int row = 0; row < 9; ++row) {
       Pages p;
       for (int k = 0; k < row; ++k) p.Tap(hand.down);
       ends = ends || p.Tap(hand.accept).ends;
       seen.insert(p.menu.page);
       if (p.menu.page == Page::kNone || p.menu.page == Page::kMain) continue;
+      const bool of_town = IsOfTown(p.menu.page);
       p.Tap(hand.back);
+      if (of_town) {
+        EXPECT_EQ(p.menu.page, Page::kNone);
+        continue;
+      }
       EXPECT_EQ(p.menu.page, Page::kMain);
       p.Tap(hand.back);
       EXPECT_EQ(p.menu.page, Page::kNone);
     }
-    EXPECT_EQ(seen,
-              (std::set<Page>{Page::kNone, Page::kMain, Page::kStops, Page::kLanguages, Page::kSettings, Page::kKeys}))
+    EXPECT_EQ(seen, (std::set<Page>{Page::kNone, Page::kMain, Page::kStops, Page::kLanguages, Page::kSettings,
+                                    Page::kKeys, Page::kMap}))
         << hand.down;
     EXPECT_TRUE(ends) << hand.down;
   }
@@ -124,7 +129,7 @@ TEST(Pages, AreAllReachedByPointerAlone) {
     p.Click(0.5f, y);
     languages.insert(PageLanguage(p.controls, p.s));
   }
-  EXPECT_EQ(seen.size(), 6u);
+  EXPECT_EQ(seen.size(), 7u);
   EXPECT_EQ(languages, (std::set<std::string>{"en", "de", "es", "fr", "it"}));
   EXPECT_TRUE(ends);
 }

@@ -14,6 +14,8 @@ struct SilentSound : SoundOutput {
   void SetPaused(bool) override {}
   void SetVolume(float) override {}
   void Update() override {}
+  void Prepare(const std::vector<Recording>&) override {}
+  void Hear(const Heard&) override {}
 };
 
 struct ForgetfulSettings : SettingsStore {

@@ -1,11 +1,13 @@
 // The demo's guided tour from its first picture to its end and begun anew, as behind a window: pictures of a visit,
 // most of them hidden as those of a minimized window are, so that it takes seconds.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <set>
 
+#include "runtime/base/file.h"
 #include "runtime/crowd/fast_math.h"
 #include "runtime/desktop/context.h"
 #include "runtime/show/guide_figure.h"
@@ -23,7 +25,7 @@ constexpr float kLongestWait_s = 6;  // on the way
 constexpr float kLooks_s = 1;        // before a halt's end: whoever arrives with their back to it has turned by then
 
 struct Window {
-  explicit Window(const std::filesystem::path& path) {
+  explicit Window(const std::filesystem::path& path, const PlayerSettings& settings = {}) {
     PackFile file;
     error = file.Open(path, &pack);
     AddGuideFigure(&pack);
@@ -31,7 +33,7 @@ struct Window {
     if (!error) error = context.Create();
     if (error) return;
     loader.Start(std::move(file), pack);
-    visit = std::make_unique<Visit>(pack, &loader, PlayerSettings{}, silent.shell(), &s);
+    visit = std::make_unique<Visit>(pack, &loader, settings, silent.shell(), &s);
     error = visit->Begin();
     for (bool there = false; !there && !error;) error = visit->Load(&there);
     if (!error) error = visit->Enter(false);
@@ -131,6 +133,36 @@ TEST(VisitOfTheDemo, FollowsTheGuideToTheToursEndAndBeginsAnew) {
   EXPECT_FALSE(s.visitor.tour.over);
   EXPECT_LT(FromVisitor_m(s, s.visitor.tour.stops.front().position_m), 2);
   EXPECT_LT(FromVisitor_m(s, s.town.crowd.position[s.visitor.guide.index]), 7);
+}
+
+TEST(VisitOfTheDemo, OpensTheMapAndKeepsAPhotoByKeys) {
+  namespace fs = std::filesystem;
+  const fs::path path = fs::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
+  if (!fs::exists(path)) GTEST_SKIP() << "no " << path << ": bake the demo tour with ./demo";
+  if (HeadlessContext context; const Error error = context.Create()) GTEST_SKIP() << error.message;
+  const fs::path folder = fs::temp_directory_path() / ("flaneur_visit_photos_" + std::to_string(::getpid()));
+  PlayerSettings settings;
+  settings.photos = folder.string();
+  Window w(path, settings);
+  ASSERT_EQ(w.error.message, "");
+  w.Tap("t");
+  EXPECT_TRUE(w.visit->shows_pages());
+  w.Tap("escape");
+  EXPECT_FALSE(w.visit->shows_pages());
+  w.Tap("p");
+  EXPECT_TRUE(w.visit->shows_pages());
+  ASSERT_TRUE(fs::exists(folder));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+  EXPECT_TRUE(w.silent.warnings.all.empty());
+  w.Tap("enter");
+  EXPECT_FALSE(w.visit->shows_pages());
+  fs::remove_all(folder);
+  ASSERT_FALSE(WriteTextFile(folder, "no folder"));
+  w.Tap("p");
+  EXPECT_EQ(w.silent.warnings.all.size(), 1u) << "and the visit goes on";
+  w.Tap("enter");
+  EXPECT_FALSE(w.visit->shows_pages());
+  fs::remove(folder);
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+#include "pipeline/cli/speech.h"
+
+#include "pipeline/core/fingerprint.h"
+#include "pipeline/core/subprocess.h"
+#include "pipeline/core/temporary_folder.h"
+#include "runtime/base/file.h"
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kVersion = "1";  // changed when the same text comes out otherwise
+
+Error RunTool(const std::vector<std::string>& argv, const fs::path& log) {
+  ProcessResult result;
+  if (Error e = RunProcess(argv, {log, {}}, &result)) return e;
+  if (result.exit_status == 0) return Ok();
+  std::string text;
+  if (ReadTextFile(log, &text)) text.clear();
+  return Fail(argv.front() + " failed: " + OneLine(text.substr(0, 200)));
+}
+
+}  // namespace
+
+Error Speak(const Speech& speech, const fs::path& cache, fs::path* file) {
+  Fingerprint print;
+  print.Add(kVersion).Add(speech.text).Add(speech.voice).Add(speech.words_per_minute);
+  *file = cache / ("speech_" + print.Hex() + ".ogg");
+  std::error_code ec;
+  if (fs::is_regular_file(*file, ec)) return Ok();
+  TemporaryFolder folder;
+  if (Error e = folder.Create(".flaneur_speech_", cache)) return e;
+  const fs::path text = folder.path() / "text", wave = folder.path() / "spoken.wav", ogg = folder.path() / "spoken.ogg";
+  if (Error e = WriteTextFile(text, speech.text)) return e;
+  const fs::path log = folder.path() / "log";
+  if (Error e = RunTool({"espeak-ng", "-v", speech.voice, "-s", std::to_string(speech.words_per_minute), "-f",
+                         text.string(), "-w", wave.string()},
+                        log))
+    return Fail("voice '" + OneLine(speech.voice) + "': " + e.message);
+  // As loud as recordings of speakers are (EBU R 128), without the silence around.
+  if (Error e = RunTool(
+          {"ffmpeg",  "-nostdin",  "-v",        "error", "-i",      wave.string(), "-af", "loudnorm=I=-18:TP=-2", "-ar",
+           "24000",   "-ac",       "1",         "-c:a",  "libopus", "-b:a",        "28k", "-map_metadata",        "-1",
+           "-fflags", "+bitexact", ogg.string()},
+          log))
+    return e;
+  fs::rename(ogg, *file, ec);
+  return ec ? Fail(file->string() + ": cannot be written: " + ec.message()) : Ok();
+}
+
+}  // namespace flaneur

@@ -1,0 +1,148 @@
+#include "pipeline/cli/visitor_media.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+
+#include "pipeline/cli/speech.h"
+#include "pipeline/io/sound_file.h"
+#include "runtime/base/array.h"
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kJpegQuality = 88;
+
+struct Media {
+  const TourSettings& settings;
+  const fs::path& cache;
+  TourParts* parts;
+  std::map<fs::path, StopSound> sounds;  // each file once
+  std::map<fs::path, int> pictures;
+
+  Error Sound(const fs::path& file, StopSound* out) {
+    const auto [entry, fresh] = sounds.try_emplace(file, StopSound{Count(parts->sounds), 0});
+    if (fresh) {
+      SoundFile sound;
+      if (Error e = ReadSoundFile(file, &sound)) return e;
+      entry->second.duration_s = sound.duration_s;
+      parts->sounds.push_back(std::move(sound.bytes));
+    }
+    *out = entry->second;
+    return Ok();
+  }
+
+  Error Picture(const fs::path& file, int* out) {
+    const auto [entry, fresh] = pictures.try_emplace(file, Count(parts->pictures));
+    if (fresh) {
+      parts->pictures.emplace_back();
+      if (Error e = ScaledPicture(file, &parts->pictures.back())) return e;
+    }
+    *out = entry->second;
+    return Ok();
+  }
+
+  // What is recorded, and of the texts in other languages what a machine says.
+  Error Sounds(FilesByLanguage files, bool speak, const TextsByLanguage& texts, std::map<std::string, StopSound>* out) {
+    const SpeechSettings& speech = settings.visitor_files.speech;
+    for (const auto& [language, text] : texts) {
+      if (!speak || text.empty() || files.contains(language)) continue;
+      const auto voice = speech.voices.find(language);
+      fs::path file;
+      if (Error e = Speak({text, voice == speech.voices.end() ? language : voice->second, speech.words_per_minute},
+                          cache, &file))
+        return Fail("'" + OneLine(text.substr(0, 40)) + "' cannot be spoken: " + e.message);
+      files[language] = file;
+    }
+    for (const auto& [language, file] : files) {
+      if (Error e = Sound(file, &(*out)[language])) return e;
+    }
+    return Ok();
+  }
+};
+
+Error MakeStops(Media* media) {
+  const TourSettings& s = media->settings;
+  for (size_t k = 0; k < s.path.size(); ++k) {
+    TextsByLanguage texts = s.path[k].captions;
+    if (!s.path[k].caption.empty()) texts[s.language] = s.path[k].caption;
+    if (Error e = media->Sounds(s.sounds[k], s.visitor_files.stops_speak[k], texts, &media->parts->path[k].sounds))
+      return e;
+  }
+  return Ok();
+}
+
+Error MakeHotspots(Media* media) {
+  const TourSettings& s = media->settings;
+  for (size_t k = 0; k < s.hotspots.size(); ++k) {
+    const VisitorFiles::OfHotspot& files = s.visitor_files.hotspots[k];
+    Hotspot* hotspot = &media->parts->hotspots[k];
+    if (!files.picture.empty()) {
+      if (Error e = media->Picture(files.picture, &hotspot->picture)) return e;
+    }
+    TextsByLanguage texts = s.hotspots[k].titles;
+    for (const auto& [language, text] : s.hotspots[k].texts) {
+      std::string& spoken = texts[language];
+      spoken += (spoken.empty() ? "" : ". ") + text;
+    }
+    if (Error e = media->Sounds(files.sounds, files.speak, texts, &hotspot->sounds)) return e;
+  }
+  return Ok();
+}
+
+Error MakeSoundPlaces(Media* media) {
+  const std::vector<fs::path>& files = media->settings.visitor_files.sound_places;
+  for (size_t k = 0; k < files.size(); ++k) {
+    if (files[k].empty()) continue;
+    StopSound sound;
+    if (Error e = media->Sound(files[k], &sound)) return e;
+    media->parts->sound_places[k].sound = sound.sound;
+  }
+  return Ok();
+}
+
+}  // namespace
+
+Error ScaledPicture(const fs::path& file, std::vector<uint8_t>* bytes) {
+  const auto refuse = [&](const std::string& why) { return Fail(file.string() + ": " + OneLine(why)); };
+  OIIO::ImageBuf picture(file.string());
+  if (!picture.read(0, 0, true, OIIO::TypeDesc::UINT8)) return refuse(picture.geterror());
+  const OIIO::ImageBuf upright = OIIO::ImageBufAlgo::reorient(picture);
+  const int channels = std::min(upright.nchannels(), 4), side = std::max(upright.spec().width, upright.spec().height);
+  const bool translucent = channels == 4 || channels == 2;
+  std::vector<int> order{0, channels > 2 ? 1 : 0, channels > 2 ? 2 : 0};
+  if (translucent) order.push_back(channels - 1);
+  OIIO::ImageBuf out = OIIO::ImageBufAlgo::channels(upright, Count(order), order);
+  if (side > kMaxPictureSide_px) {
+    const auto scaled = [&](int length) { return std::max(1, length * kMaxPictureSide_px / side); };
+    const OIIO::ROI roi(0, scaled(upright.spec().width), 0, scaled(upright.spec().height), 0, 1, 0, Count(order));
+    out = OIIO::ImageBufAlgo::resize(out, "", 0, roi);
+  }
+  if (out.has_error()) return refuse(out.geterror());
+  OIIO::Filesystem::IOVecOutput memory;
+  const std::string name = translucent ? "picture.png" : "picture.jpg";
+  const auto writer = OIIO::ImageOutput::create(name, &memory);
+  if (!writer) return refuse("cannot be written as " + name + ": " + OIIO::geterror());
+  OIIO::ImageSpec spec(out.spec().width, out.spec().height, Count(order), OIIO::TypeDesc::UINT8);
+  spec.attribute("Compression", "jpeg:" + std::to_string(kJpegQuality));
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  std::vector<uint8_t> pixels(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) * order.size());
+  if (!out.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::UINT8, pixels.data())) return refuse(out.geterror());
+  if (!writer->open(name, spec) || !writer->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !writer->close())
+    return refuse(writer->geterror());
+  *bytes = memory.buffer();
+  return Ok();
+}
+
+Error MakeVisitorMedia(const TourSettings& settings, const fs::path& cache, TourParts* parts) {
+  Media media{settings, cache, parts, {}, {}};
+  if (Error e = MakeStops(&media)) return e;
+  if (Error e = MakeHotspots(&media)) return e;
+  return MakeSoundPlaces(&media);
+}
+
+}  // namespace flaneur

@@ -1,0 +1,95 @@
+#include "runtime/pack/read_visitor_data.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "runtime/base/array.h"
+
+namespace flaneur {
+namespace {
+
+constexpr double kMaxHeight_m = 500, kMaxRadius_m = 1000;
+
+std::vector<uint8_t> ViewBytes(const GltfFile& file, const TourObject& json, const char* key) {
+  const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
+  const auto bytes = BufferView(file, json.Whole(key, 0, last));
+  return {bytes.begin(), bytes.end()};
+}
+
+Hotspot ReadHotspot(const GltfFile& file, const TourObject& json, TourPack* pack) {
+  Hotspot hotspot{json.Point("position_m"), json.Real("height_m", -kMaxHeight_m, kMaxHeight_m),
+                  json.Real("radius_m", TourObject::kAboveZero, kMaxRadius_m)};
+  hotspot.titles = ReadTranslations(json, "titles");
+  hotspot.texts = ReadTranslations(json, "texts");
+  hotspot.sounds = ReadSounds(file, json, pack);
+  if (!json.Has("picture_view")) return hotspot;
+  hotspot.picture = Count(pack->pictures);
+  pack->pictures.push_back(ViewBytes(file, json, "picture_view"));
+  return hotspot;
+}
+
+SoundPlace ReadSoundPlace(const GltfFile& file, const TourObject& json, TourPack* pack) {
+  SoundPlace place;
+  const std::string kind = json.OneOf("kind", {"steps", "murmur", "water", "birds", "bell", "loop"});
+  const auto* const found = std::find(std::begin(kSoundKindNames), std::end(kSoundKindNames), kind);
+  place.kind = static_cast<SoundKind>(found - std::begin(kSoundKindNames));
+  place.position_m = json.Point("position_m");
+  place.height_m = json.Real("height_m", -kMaxHeight_m, kMaxHeight_m);
+  place.radius_m = json.Real("radius_m", TourObject::kAboveZero, kMaxRadius_m);
+  place.volume = json.Real("volume", 0, 4);
+  if (json.Has("view")) {
+    place.sound = Count(pack->sounds);
+    pack->sounds.push_back(ViewBytes(file, json, "view"));
+  } else if (place.kind == SoundKind::kLoop) {
+    json.Refuse("is a loop without a view of its sound");
+  }
+  return place;
+}
+
+std::vector<Vec2> ReadLine(const TourObject& json) {
+  std::vector<Vec2> points = json.Points("points_m");
+  if (points.size() < 2) json.Refuse("needs two points at least");
+  return points;
+}
+
+}  // namespace
+
+TextsByLanguage ReadTranslations(const TourObject& json, const char* key) {
+  TextsByLanguage texts;
+  if (!json.Has(key)) return texts;
+  const TourObject object = json.Object(key);
+  for (const std::string& language : object.Keys()) texts[language] = object.Text(language.c_str());
+  return texts;
+}
+
+std::map<std::string, StopSound> ReadSounds(const GltfFile& file, const TourObject& json, TourPack* pack) {
+  std::map<std::string, StopSound> sounds;
+  if (!json.Has("sounds")) return sounds;
+  const TourObject object = json.Object("sounds");
+  for (const std::string& language : object.Keys()) {
+    const TourObject sound = object.Object(language.c_str());
+    std::vector<uint8_t> bytes = ViewBytes(file, sound, "view");
+    sounds[language] = {Count(pack->sounds), sound.Real("duration_s", 0, 36000)};
+    pack->sounds.push_back(std::move(bytes));
+  }
+  return sounds;
+}
+
+void ReadVisitorData(const GltfFile& file, const TourObject& tour, TourPack* pack) {
+  if (tour.Has("hotspots")) {
+    for (const TourObject& h : tour.Objects("hotspots")) pack->hotspots.push_back(ReadHotspot(file, h, pack));
+  }
+  if (tour.Has("streets")) {
+    for (const TourObject& s : tour.Objects("streets"))
+      pack->streets.push_back({ReadTranslations(s, "names"), ReadLine(s)});
+  }
+  if (tour.Has("sounds")) {
+    for (const TourObject& p : tour.Objects("sounds")) pack->sound_places.push_back(ReadSoundPlace(file, p, pack));
+  }
+  if (!tour.Has("photo")) return;
+  const TourObject photo = tour.Object("photo");
+  pack->photo.lines = ReadTranslations(photo, "lines");
+  if (photo.Has("link")) pack->photo.link = photo.Text("link");
+}
+
+}  // namespace flaneur
