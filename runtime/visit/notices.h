@@ -25,7 +25,7 @@ void BeginHint(const Controls& controls, const Simulation& simulation, Notices* 
 // passed_s since the last picture.
 void FollowNotices(const Controls& controls, const Simulation& simulation, float passed_s, Notices* notices);
 
-// Into the picture, before or instead of its caption.
-void ShowNotice(const Notices& notices, bool fades, FrameInput* frame);
+// Into the picture, instead of its caption, or before it where that stays.
+void ShowNotice(const Notices& notices, bool fades, bool caption_stays, FrameInput* frame);
 
 }  // namespace flaneur
