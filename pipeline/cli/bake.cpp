@@ -9,6 +9,7 @@
 #include "pipeline/avatar/decimate.h"
 #include "pipeline/cli/assemble_town.h"
 #include "pipeline/cli/bake_steps.h"
+#include "pipeline/cli/check_words.h"
 #include "pipeline/cli/stage_inputs.h"
 #include "pipeline/cli/thumbnail.h"
 #include "pipeline/cli/tint_reach.h"
@@ -25,6 +26,7 @@
 #include "runtime/base/array.h"
 #include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
+#include "runtime/text/system_fonts.h"
 
 namespace flaneur {
 namespace fs = std::filesystem;
@@ -366,7 +368,9 @@ Error CheckTown(Baking* baking) {
 // Into the folder `staging`.
 Error WritePack(Baking* baking, const fs::path& staging) {
   const std::string& name = baking->settings.name;
-  return RunStep(&baking->steps, "pack", name, [&](StageReport* report, std::vector<std::string>*) -> Error {
+  return RunStep(&baking->steps, "pack", name, [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
+    Fonts fonts(SystemFonts());
+    *warnings = WarningsOfWords(baking->parts, &fonts);
     TourParts& parts = baking->parts;
     parts.footprints.origin_m = parts.town.origin_m;  // kept ones may have another
     parts.footprints.reference_system = parts.town.reference_system;

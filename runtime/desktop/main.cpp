@@ -38,7 +38,7 @@ Error Play(const PlayerOptions& options, UserSettings* user, bool* starts_anew) 
   WarnOfTour(tour);
   const float seconds = RunLength_s(options, tour.scenario, tour.simulations.front());
   if (options.no_draw) return RunWithoutDrawing(options, seconds, &tour.simulations.front());
-  return RunHeadless(options, seconds, tour.pack, &tour.loader, &tour.simulations);
+  return RunHeadless(options, seconds, tour.pack, user->settings, &tour.loader, &tour.simulations);
 }
 
 // The exit status, unless something is wrong.
@@ -46,6 +46,8 @@ Error Run(PlayerOptions options, char** argv, int* status) {
   UserSettings user;
   if (!options.headless || options.save_settings) {
     if (Error e = ReadUserSettings(options, &user)) return e;
+  } else if (Error e = TakeOptions(options, &user.settings)) {
+    return e;
   }
   if (options.save_settings) return SaveUserSettings(user.settings, user);
   if (user.settings.kiosk) {

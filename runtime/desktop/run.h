@@ -17,9 +17,9 @@ float RunLength_s(const PlayerOptions& options, const Scenario& scenario, const 
 
 Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation* simulation);
 // Several simulations, as many as options.compare names, are drawn side by side; records are of the first.
-// `loader` has been started with the pack.
-Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader,
-                  std::vector<Simulation>* simulations);
+// `loader` has been started with the pack. Of the settings eye height and what captions look like hold.
+Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, const PlayerSettings& settings,
+                  Loader* loader, std::vector<Simulation>* simulations);
 // `tour` has not been opened. Settings that the visitor changes are saved. starts_anew: so that the program is to be
 // started again.
 Error RunInWindow(const PlayerOptions& options, StartingTour* tour, UserSettings* user, bool* starts_anew);

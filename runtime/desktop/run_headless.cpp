@@ -16,6 +16,7 @@
 #include "runtime/simulation/records.h"
 #include "runtime/text/system_fonts.h"
 #include "runtime/visit/developer_views.h"
+#include "runtime/visit/page_look.h"
 
 namespace flaneur {
 namespace {
@@ -179,8 +180,8 @@ void StepAll(HeadlessRun* run) {
 
 }  // namespace
 
-Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, Loader* loader,
-                  std::vector<Simulation>* simulations) {
+Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, const PlayerSettings& settings,
+                  Loader* loader, std::vector<Simulation>* simulations) {
   WatchForInterruption();
   // Stills alone need only their own pictures drawn, and may take their time for that.
   const bool films = !options.film.empty();
@@ -188,6 +189,11 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   HeadlessRun run{options, pack, *loader, *simulations, films, draws_all};
   if (Error e = PrepareDrawing(&run)) return e;
   if (Error e = PrepareOutputs(seconds, &run)) return e;
+  for (Pane& pane : run.panes) {
+    CameraState& camera = pane.simulation->visitor.camera;
+    camera.eye_height_m = EyeHeight_m(settings, camera.eye_height_m);
+    pane.frame.caption_style = CaptionStyleOf(settings, pane.simulation->visitor.tour.language);
+  }
   for (bool last = false; !last;) {
     if (Error e = CheckInterruption()) return e;
     last = std::all_of(simulations->begin(), simulations->end(), [&](const Simulation& s) { return IsOver(s, run); });

@@ -5,17 +5,6 @@
 namespace flaneur {
 namespace {
 
-Error TakeOptions(const PlayerOptions& options, PlayerSettings* settings) {
-  for (const std::string& assignment : options.set) {
-    if (Error e = SetPlayerSetting(assignment, settings)) return Fail("--set: " + e.message);
-  }
-  if (!options.photos.empty()) settings->photos = options.photos.string();
-  if (options.fullscreen) settings->fullscreen = true;
-  if (options.kiosk) settings->kiosk = true;
-  if (options.language) settings->language = *options.language;
-  return Ok();
-}
-
 // What a kiosk has otherwise than a window of one's own.
 Error TakeKiosk(const PlayerOptions& options, UserSettings* user) {
   const auto path = options.kiosk_settings.empty() ? KioskSettingsPath() : options.kiosk_settings;
@@ -30,6 +19,17 @@ Error TakeKiosk(const PlayerOptions& options, UserSettings* user) {
 }
 
 }  // namespace
+
+Error TakeOptions(const PlayerOptions& options, PlayerSettings* settings) {
+  for (const std::string& assignment : options.set) {
+    if (Error e = SetPlayerSetting(assignment, settings)) return Fail("--set: " + e.message);
+  }
+  if (!options.photos.empty()) settings->photos = options.photos.string();
+  if (options.fullscreen) settings->fullscreen = true;
+  if (options.kiosk) settings->kiosk = true;
+  if (options.language) settings->language = *options.language;
+  return Ok();
+}
 
 Error ReadUserSettings(const PlayerOptions& options, UserSettings* user) {
   user->path = options.settings.empty() ? PlayerSettingsPath() : options.settings;

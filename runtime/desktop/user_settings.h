@@ -15,6 +15,10 @@ struct UserSettings {
   KioskSettings kiosk;  // where settings.kiosk
 };
 
+// What the command line alone says, over `settings`: for runs without a window, which give the same for everybody.
+// Errors: an option that is no setting.
+Error TakeOptions(const PlayerOptions& options, PlayerSettings* settings);
+
 // Warns of what is wrong in the file. Errors: an option that is no setting, something wrong in the kiosk's file.
 Error ReadUserSettings(const PlayerOptions& options, UserSettings* user);
 

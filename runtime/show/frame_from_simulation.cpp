@@ -40,7 +40,8 @@ void AddCaption(const Simulation& s, FrameInput* frame) {
   frame->caption.clear();
   if (!s.visitor.tour.resting) return;
   const TourStop& stop = s.visitor.tour.stops[HaltOf(s.visitor.tour)];
-  if (Length(stop.position_m - s.visitor.camera.view.position) > kReach_m) return;
+  const float reach_m = s.visitor.comfort.captions_stay ? kHears_m : kReach_m;
+  if (Length(stop.position_m - s.visitor.camera.view.position) > reach_m) return;
   frame->caption = s.visitor.tour.words[HaltOf(s.visitor.tour)].caption;
   frame->caption_share =
       s.visitor.gentle ? 1

@@ -92,8 +92,12 @@ void TellNotice(const std::string& text, const Controls& c, const Simulation& s,
   Remember(c, s, n);
 }
 
-void ShowNotice(const Notices& n, bool fades, FrameInput* frame) {
+void ShowNotice(const Notices& n, bool fades, bool caption_stays, FrameInput* frame) {
   if (n.left_s <= 0 || (n.gives_way && !frame->caption.empty())) return;
+  if (caption_stays && !frame->caption.empty()) {
+    frame->caption = n.text + "\n" + frame->caption;
+    return;
+  }
   frame->caption = n.text;
   frame->caption_share = fades ? std::min(1.0f, n.left_s / kLeaves_s) : 1;
 }

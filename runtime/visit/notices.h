@@ -28,7 +28,7 @@ void FollowNotices(const Controls& controls, const Simulation& simulation, float
 // Something else, for a while, instead of what has just changed.
 void TellNotice(const std::string& text, const Controls& controls, const Simulation& simulation, Notices* notices);
 
-// Into the picture, before or instead of its caption.
-void ShowNotice(const Notices& notices, bool fades, FrameInput* frame);
+// Into the picture, instead of its caption, or before it where that stays.
+void ShowNotice(const Notices& notices, bool fades, bool caption_stays, FrameInput* frame);
 
 }  // namespace flaneur

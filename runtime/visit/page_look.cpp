@@ -7,6 +7,7 @@ namespace {
 
 constexpr float kLettersHigh = 22, kLettersWide = 30;  // how many the picture has room for
 constexpr float kLarge = 1.3f, kLargest = 1.65f;       // of a usual letter
+constexpr float kLeastEye_m = 0.5f;                    // a child on the ground
 constexpr float kOutline = 0.1f;                       // of a letter
 
 float SizeOf(const PlayerSettings& settings) {
@@ -41,6 +42,10 @@ TextLook TextOf(const PageLook& look) {
   text.language = look.language;
   text.color = look.text;
   return text;
+}
+
+float EyeHeight_m(const PlayerSettings& settings, float own_m) {
+  return settings.eye_height_m > 0 ? std::max(kLeastEye_m, settings.eye_height_m) : own_m;
 }
 
 CaptionStyle CaptionStyleOf(const PlayerSettings& settings, const std::string& language) {

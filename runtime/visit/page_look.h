@@ -28,6 +28,8 @@ std::string PageLanguage(const Controls& controls, const Simulation& simulation)
 PageLook LookOf(const Controls& controls, const Simulation& simulation, int width_px, int height_px);
 // Of letters as large as the look's.
 TextLook TextOf(const PageLook& look);
+// The settings' eye height, or the tour's own.
+float EyeHeight_m(const PlayerSettings& settings, float own_m);
 // Of the tour's captions and the player's notices.
 CaptionStyle CaptionStyleOf(const PlayerSettings& settings, const std::string& language);
 

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 
+#include "runtime/base/text.h"
 #include "runtime/render/overlay.h"
 #include "runtime/render/renderer.h"
 #include "runtime/show/frame_from_simulation.h"
+#include "runtime/text/unicode.h"
 #include "runtime/visit/attract.h"
 #include "runtime/visit/attract_page.h"
 #include "runtime/visit/controls.h"
 #include "runtime/visit/developer_views.h"
 #include "runtime/visit/discovery.h"
+#include "runtime/visit/fade.h"
 #include "runtime/visit/kiosk.h"
 #include "runtime/visit/menu.h"
 #include "runtime/visit/narration.h"
@@ -42,6 +45,7 @@ struct Visit::Impl {
   DeveloperViews views{};
   Menu menu{};
   Notices notices{};
+  Fade fade{};
   PersonLooks looks{};
   FrameInput frame{};
   CameraInput wishes{};
@@ -49,7 +53,7 @@ struct Visit::Impl {
   Narration narration{};
   Discovery discovery{};
   Resolution resolution{};
-  float own_fov_rad = 0;
+  float own_fov_rad = 0, own_eye_m = kEyeHeight_m;
   double owed_s = 0;  // of simulated time
   int width_px = 0, height_px = 0;
   bool for_pages = false;  // what the hands do in this picture, even where that closes them
@@ -81,6 +85,8 @@ struct Visit::Impl {
 void Visit::Impl::ApplySettings() {
   const PlayerSettings& chosen = controls.settings;
   s->visitor.gentle = chosen.reduced_motion;
+  s->visitor.comfort = {chosen.pace, chosen.captions_always, chosen.high_contrast};
+  s->visitor.camera.eye_height_m = EyeHeight_m(chosen, own_eye_m);
   SetFieldOfView(chosen.field_of_view_deg > 0 ? chosen.field_of_view_deg * kPi / 180 : own_fov_rad, s);
   shell.sound.SetVolume(chosen.sound_volume);
   const std::vector<std::string>& known = s->visitor.tour.languages;
@@ -102,6 +108,7 @@ void Visit::Impl::Save() {
 
 void Visit::Impl::Jump(size_t stop) {
   JumpToStop(stop, InTown(s));
+  if (controls.settings.reduced_motion) BeginFade(&fade);
   looks = {};
 }
 
@@ -219,6 +226,7 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
   if (choice.stop) Jump(*choice.stop);
   wishes.tour.toggle_pause = wishes.tour.toggle_pause || choice.toggles_pause;
   if (for_pages && !pages()) Save();
+  ShowFade(width_px, height_px, passed_s, &fade);
 }
 
 void Visit::Impl::StepTown(float passed_s, Records* records) {
@@ -251,7 +259,7 @@ void Visit::Impl::Draw(float passed_s) {
   if (hidden()) return;
   FrameFromSimulation(pack, *s, &looks, &frame, Between());
   if (pages() || attracts()) frame.caption.clear();
-  else ShowNotice(notices, !controls.settings.reduced_motion, &frame);
+  else ShowNotice(notices, !controls.settings.reduced_motion, controls.settings.captions_always, &frame);
   frame.caption_style = CaptionStyleOf(controls.settings, PageLanguage(controls, *s));
   const ResolutionSettings wished = ResolutionWished();
   frame.resolution_scale = ScaleNow(wished, resolution);
@@ -262,6 +270,8 @@ void Visit::Impl::Draw(float passed_s) {
                 find(), &overlay);
   HearTown(frame, passed_s, narration.sound >= 0, pages(), find());
   overlay.Draw();
+  if (const std::u32string missing = overlay.text().fonts().TakeMissing(); !missing.empty())
+    shell.warnings.Warn("no font of this machine shows " + OneLine(Utf8(missing)) + "; visitors see boxes");
   RememberFrame(*s, statistics, passed_s * 1000, &views.history);
 }
 
@@ -289,6 +299,7 @@ Error Visit::Enter(bool views) {
   if (Error e = v.overlay.Create()) return e;
   v.views.shown = views && !v.settings.kiosk;
   v.own_fov_rad = v.s->visitor.camera.view.fov_rad;
+  v.own_eye_m = v.s->visitor.camera.eye_height_m;
   v.MakeControlsAnew();
   v.ApplySettings();
   BeginHint(v.controls, *v.s, &v.notices);

@@ -135,7 +135,9 @@ void FollowLegs(const VisitorInTown& v) {
   }
 }
 
-float TourSpeed_mps(const VisitorInTown& v) { return v.visitor.gentle ? kGentleSpeed_mps : kTourSpeed_mps; }
+float TourSpeed_mps(const VisitorInTown& v) {
+  return (v.visitor.gentle ? kGentleSpeed_mps : kTourSpeed_mps) * v.visitor.comfort.pace;
+}
 
 // Unless the visitor looks elsewhere just now.
 void TurnForTour(float yaw_rad, const VisitorInTown& v) {

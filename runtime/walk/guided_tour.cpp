@@ -11,7 +11,6 @@ namespace {
 constexpr float kPassed_m = 0.5f;  // before a stop that is only on the way
 constexpr float kThere_m = 0.35f,
                 kThereFreely_m = 1.8f;  // from a halt: for a visitor whom the tour leads, and who walks freely
-constexpr float kHears_m = 6;           // who is farther from a halt has left it for now
 constexpr float kStrays_m = 3;          // from the route
 constexpr float kReroute_s = 1;
 constexpr float kBackwards_m = 2,
@@ -109,7 +108,7 @@ void Rest(const VisitorInTown& v) {
   GuidedTour& t = v.visitor.tour;
   const TourStop& stop = t.stops[HaltOf(t)];
   t.holds = t.paused || FromVisitor_m(v, stop.position_m) > kHears_m;
-  if (!t.holds) t.rested_s += Step_s(v.settings);
+  if (!t.holds) t.rested_s += Step_s(v.settings) * std::min(1.0f, v.visitor.comfort.pace);
   if (t.rested_s >= RestOf_s(t, HaltOf(t)) && MayLeave(t)) LeaveHalt(v);
 }
 

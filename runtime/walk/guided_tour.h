@@ -53,6 +53,8 @@ inline size_t HaltOf(const GuidedTour& tour) { return tour.stage.empty() ? 0 : t
 std::string TitleOf(const TourData& tour, const std::string& language);
 // What a stop is called: its caption's first sentence. Empty where it has none.
 std::string NameOfStop(const GuidedTour& tour, size_t stop);
+// Who is farther from a halt does not hear what is said there, and has left it for now.
+inline constexpr float kHears_m = 6;
 // How long one rests there: as long as the tour says, else as it takes to read the caption; and until the sound is
 // over.
 inline float RestOf_s(const GuidedTour& tour, size_t stop) { return tour.words[stop].rest_s; }

@@ -43,12 +43,20 @@ struct CameraLeg {
   float wait_s = 0;
 };
 
+// How the visitor likes to be shown about.
+struct VisitorComfort {
+  float pace = 1;              // of the tour, and how long it lets one read where it is below 1
+  bool captions_stay = false;  // as long as the stop can be heard
+  bool clear_marks = false;    // on the ground
+};
+
 struct Visitor {
   CameraState camera;
   GuidedTour tour;
   Guide guide;
   PointWalk point_walk;
-  float looks_about_s = 0;      // left until the tour turns the view again
+  float looks_about_s = 0;  // left until the tour turns the view again
+  VisitorComfort comfort;
   bool gentle = false;          // the tour turns the view slowly, and walks slowly
   std::vector<CameraLeg> legs;  // of the scenario; empty: the guided tour
   size_t leg = 0;

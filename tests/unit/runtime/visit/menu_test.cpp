@@ -75,13 +75,19 @@ struct Pages {
 
 TEST(Pages, AreAllReachedByKeyboardAndByGamepad) {
   const struct {
-    const char *down, *accept, *back;
-  } hands[] = {{"down", "enter", "escape"}, {"pad_down", "pad_a", "pad_b"}};
+    const char *down, *accept, *back, *one_handed;
+  } hands[] = {{"down", "enter", "escape", "off"},
+               {"pad_down", "pad_a", "pad_b", "off"},
+               {"s", "space", "escape", "left_keys"},
+               {"k", "space", "backspace", "right_keys"},
+               {"pad_down", "pad_left_stick", "pad_back", "left_pad"}};
   for (const auto& hand : hands) {
     std::set<Page> seen;
     bool ends = false;
     for (int row = 0; row < 9; ++row) {
       Pages p;
+      p.controls.settings.one_handed = hand.one_handed;
+      TakeKeys(&p.controls);
       for (int k = 0; k < row; ++k) p.Tap(hand.down);
       ends = ends || p.Tap(hand.accept).ends;
       seen.insert(p.menu.page);
@@ -473,13 +479,26 @@ TEST(Notices, TellHowToWalkAndGoByThemselves) {
   Notices n;
   BeginHint(c, s, &n);
   FrameInput frame;
-  ShowNotice(n, true, &frame);
+  ShowNotice(n, true, false, &frame);
   EXPECT_NE(frame.caption.find("W, A, S, D"), std::string::npos) << frame.caption;
   EXPECT_NE(frame.caption.find("Esc"), std::string::npos);
   for (int k = 0; k < 30 * 20; ++k) FollowNotices(c, s, 1.0f / 30, &n);
   frame.caption.clear();
-  ShowNotice(n, true, &frame);
+  ShowNotice(n, true, false, &frame);
   EXPECT_EQ(frame.caption, "");
+}
+
+TEST(Notices, LeaveACaptionThatIsToStayWhereItIs) {
+  Notices n;
+  n.text = "The tour waits.";
+  n.left_s = 3;
+  FrameInput frame;
+  frame.caption = "What stands here.";
+  ShowNotice(n, true, true, &frame);
+  EXPECT_EQ(frame.caption, "The tour waits.\nWhat stands here.");
+  frame.caption.clear();
+  ShowNotice(n, true, true, &frame);
+  EXPECT_EQ(frame.caption, "The tour waits.");
 }
 
 TEST(Notices, TellThatTheTourWaitsAndHowToComeBack) {
@@ -493,17 +512,17 @@ TEST(Notices, TellThatTheTourWaitsAndHowToComeBack) {
   FollowNotices(c, s, 0.03f, &n);
   FrameInput frame;
   frame.caption = "What stands here.";
-  ShowNotice(n, false, &frame);
+  ShowNotice(n, false, false, &frame);
   EXPECT_NE(frame.caption.find("Zurück zur Führung: Tab"), std::string::npos) << frame.caption;
   s.visitor.tour.paused = true;
   FollowNotices(c, s, 0.03f, &n);
-  ShowNotice(n, false, &frame);
+  ShowNotice(n, false, false, &frame);
   EXPECT_NE(frame.caption.find("Leertaste"), std::string::npos) << frame.caption;
 }
 
 std::string Shown(const Notices& n) {
   FrameInput frame;
-  ShowNotice(n, false, &frame);
+  ShowNotice(n, false, false, &frame);
   return frame.caption;
 }
 
@@ -525,7 +544,7 @@ TEST(Notices, TellWhoLeadsAndWhatIsNext) {
   EXPECT_EQ(Shown(n), "Next: The gate");
   FrameInput frame;
   frame.caption = "What stands here.";
-  ShowNotice(n, false, &frame);
+  ShowNotice(n, false, false, &frame);
   EXPECT_EQ(frame.caption, "What stands here.") << "a caption is more";
 }
 

@@ -69,7 +69,7 @@ class TourHands {
   // What the foot of the picture says can be relied on.
   void ExpectTruth() const {
     FrameInput frame;
-    ShowNotice(notices_, false, &frame);
+    ShowNotice(notices_, false, false, &frame);
     const std::string& said = frame.caption;
     const GuidedTour& t = s_.visitor.tour;
     const bool led = controls_.follows_tour;
