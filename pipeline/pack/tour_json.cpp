@@ -181,6 +181,8 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   for (const auto& [language, title] : parts.titles) tour["titles"][language] = title;
   tour["language"] = parts.language;
   if (!parts.guide.empty()) tour["guide"] = parts.guide;
+  for (const auto& [language, thanks] : parts.thanks) tour["thanks"][language] = thanks;
+  tour["home_after_s"] = Short(parts.home_after_s);
   tour["crowd"] = SettingsJson(parts.crowd);
   tour["control"] = SettingsJson(parts.control);
   tour["light"] = SettingsJson(parts.light);

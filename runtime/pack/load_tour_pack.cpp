@@ -375,6 +375,8 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   for (const TourObject& s : tour.Objects("path")) pack->path.push_back(ReadStop(file, s, pack));
   if (tour.Has("language")) pack->language = tour.Text("language");
   if (tour.Has("guide")) pack->guide = tour.Text("guide");
+  pack->thanks = ReadTranslations(tour, "thanks");
+  if (tour.Has("home_after_s")) pack->home_after_s = tour.Real("home_after_s", 0, kLongestIdle_s);
   VisitFields(tour.Object("crowd"), &pack->crowd);
   VisitFields(tour.Object("control"), &pack->control);
   VisitFields(tour.Object("light"), &pack->light);

@@ -251,6 +251,7 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
     town.warnings.push_back("the camera starts inside an obstacle");
   }
   if (Error e = PlaceScenarioPeople(scenario.persons, &town)) return e;
+  RememberStart(InTown(&s));
   BeginTour(InTown(&s));
   PlaceGuide(InTown(&s));
   DeriveGap(&s);

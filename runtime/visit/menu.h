@@ -12,10 +12,11 @@
 
 namespace flaneur {
 
-enum class Page { kNone, kMain, kStops, kLanguages, kSettings, kKeys };
+enum class Page { kNone, kMain, kStops, kLanguages, kSettings, kKeys, kEnd };
 
 struct Menu {
   Page page = Page::kNone;
+  std::string thanks;             // said on the page at the tour's end
   bool begins = false;            // somebody new meets the pages before the town
   size_t first = 0;               // of the rows, where not all fit
   std::optional<Action> rebinds;  // whose new key is waited for
@@ -26,11 +27,16 @@ struct Menu {
 
 struct MenuChoice {
   bool ends = false;
+  bool home = false;           // back to the beginning
   std::optional<size_t> stop;  // of the tour, to go to now
   bool toggles_pause = false;  // of the tour
 };
 
 void OpenPage(Page page, Menu* menu);
+// Thanks at the tour's end; again, on one's own, or home. Whatever is held just then was not meant for it.
+void OpenEndOfTour(const std::string& thanks, Menu* menu);
+// The town stands still behind the page; not while nobody is led.
+bool HoldsTown(const Menu& menu);
 // The first page, as whoever comes to an exhibition meets it.
 void MeetSomebodyNew(Menu* menu);
 

@@ -187,6 +187,7 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   GuidedTour& t = v.visitor.tour;
   const Vec2 p = v.visitor.camera.view.position;
   LookAbout(input, v);
+  if (!t.begun) return;
   if (t.resting && Length(t.stops[HaltOf(t)].position_m - p) < kAtHalt_m) {
     return TurnForTour(t.stops[HaltOf(t)].yaw_rad, v);
   }

@@ -77,7 +77,8 @@ bool GoesToPlace(const VisitorInTown& v) {
 float LeadingSpeed_mps(const VisitorInTown& v, Vec2 p) {
   const bool far = Length(p - v.visitor.camera.view.position) > kWaits_m;
   const float lead_m = v.visitor.guide.way_m - v.visitor.tour.visitor_m;
-  if (v.visitor.tour.paused || (far && (lead_m > kLead_m || !v.visitor.tour.follows))) return 0;
+  if (v.visitor.tour.paused || !v.visitor.tour.begun || (far && (lead_m > kLead_m || !v.visitor.tour.follows)))
+    return 0;
   const Vec2 ahead = PointAt(v.visitor.tour.route, v.visitor.tour.visitor_m + 1) -
                      PointAt(v.visitor.tour.route, v.visitor.tour.visitor_m);
   const float ahead_m = Length(ahead);

@@ -133,6 +133,16 @@ void WalkOn(const VisitorInTown& v) {
   if (strays && is_back) Reroute(v);
 }
 
+// In this language, else in the tour's own; empty in neither.
+std::string WordsIn(const std::map<std::string, std::string>& words, const std::string& language,
+                    const std::string& own) {
+  for (const std::string& wished : {language, own}) {
+    const auto found = words.find(wished);
+    if (found != words.end() && !found->second.empty()) return found->second;
+  }
+  return "";
+}
+
 StopWords WordsOf(const TourStop& stop, const std::string& language, const std::string& own) {
   StopWords words;
   const auto caption = stop.captions.find(language);
@@ -153,11 +163,12 @@ StopWords WordsOf(const TourStop& stop, const std::string& language, const std::
 }  // namespace
 
 std::string TitleOf(const TourData& tour, const std::string& language) {
-  for (const std::string& wished : {language, tour.language}) {
-    const auto title = tour.titles.find(wished);
-    if (title != tour.titles.end() && !title->second.empty()) return title->second;
-  }
-  return tour.name;
+  const std::string title = WordsIn(tour.titles, language, tour.language);
+  return title.empty() ? tour.name : title;
+}
+
+std::string ThanksOf(const TourData& tour, const std::string& language) {
+  return WordsIn(tour.thanks, language, tour.language);
 }
 
 std::string NameOfStop(const GuidedTour& tour, size_t stop) {
@@ -224,7 +235,7 @@ void BeginTour(const VisitorInTown& v) {
 
 void StepTour(const TourWish& wish, bool follows, const VisitorInTown& v) {
   GuidedTour& t = v.visitor.tour;
-  if (t.stops.empty()) return;
+  if (t.stops.empty() || !t.begun) return;
   if (t.follows != follows) v.visitor.stuck_s = 0;  // what held them up is of the walk before
   t.follows = follows;
   if (wish.toggle_pause) t.paused = !t.paused;
@@ -244,6 +255,7 @@ void JumpToStop(size_t stop, const VisitorInTown& v) {
   v.visitor.camera.pitch_rad = v.visitor.looks_about_s = v.visitor.stuck_s = 0;
   v.visitor.point_walk = {};
   v.visitor.finished = t.paused = t.holds = false;
+  t.begun = true;
   Plan(StopsBetween(stop, HaltFrom(t, stop)), v);
   BringGuide(v);
 }

@@ -32,6 +32,7 @@ struct GuidedTour {
   float visitor_m = 0;  // how far along the route the visitor is
   bool resting = false, paused = false, over = false;
   bool holds = false;   // nothing goes on: paused, or the visitor has left the halt
+  bool begun = true;    // else it waits where it begins, for somebody to lead
   bool follows = true;  // the tour leads the visitor, who does not walk about freely
   float rested_s = 0;
   float reroute_s = 0;  // until a visitor who strayed is thought of again
@@ -49,6 +50,8 @@ inline bool HasTour(const GuidedTour& tour) { return !tour.stops.empty() && !tou
 inline size_t HaltOf(const GuidedTour& tour) { return tour.stage.empty() ? 0 : tour.stage.back(); }
 // What visitors read: the title in this language, else in the pack's own, else its name.
 std::string TitleOf(const TourData& tour, const std::string& language);
+// What they read at the guided tour's end, likewise; empty where the tour says nothing.
+std::string ThanksOf(const TourData& tour, const std::string& language);
 // What a stop is called: its caption's first sentence. Empty where it has none.
 std::string NameOfStop(const GuidedTour& tour, size_t stop);
 // How long one rests there: as long as the tour says, else as it takes to read the caption; and until the sound is

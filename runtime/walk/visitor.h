@@ -8,6 +8,7 @@
 #include "runtime/walk/guide.h"
 #include "runtime/walk/guided_tour.h"
 #include "runtime/walk/point_walk.h"
+#include "runtime/walk/start.h"
 
 namespace flaneur {
 
@@ -45,6 +46,7 @@ struct CameraLeg {
 
 struct Visitor {
   CameraState camera;
+  Start start;
   GuidedTour tour;
   Guide guide;
   PointWalk point_walk;
