@@ -85,6 +85,7 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   CameraState& camera = s->visitor.camera;
   camera.view.fov_rad = scenario.control.fov_rad;
   camera.eye_height_m = scenario.eye_height_m;
+  camera.aspect = static_cast<float>(scenario.screen_width_px) / static_cast<float>(scenario.screen_height_px);
   camera.pitch_rad = scenario.pitch_deg * kPi / 180;
   camera.present = scenario.has_camera || (has_pack && !scenario.has_ground);
   s->visitor.legs = scenario.legs;

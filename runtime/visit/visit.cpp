@@ -123,7 +123,8 @@ void Visit::Impl::BeginAnew() {
 }
 
 void Visit::Impl::EndVisitNow() {
-  if (!settings.kiosk || EndVisit(&kiosk) == KioskEvent::kVisitEnds) BeginAnew();
+  if (settings.kiosk) EndVisit(&kiosk);
+  BeginAnew();
 }
 
 // Thanks, and what next; who does not say it any more has left.
@@ -209,7 +210,7 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
 void Visit::Impl::StepTown(float passed_s, Records* records) {
   const double step_s = static_cast<double>(Step_s(*s));
   if (!pages()) BeginVisit(SoFar());
-  if (!HoldsTown(menu)) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMaxStepsPerFrame);
+  if (!HoldsTown(menu) && !operator_page()) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMaxStepsPerFrame);
   if (owed_s >= step_s) controls.turned_rad = 0;
   while (owed_s >= step_s) {
     StepSimulation(NextStep(wishes, *s, &controls), passed_s * 1000, s);

@@ -7,6 +7,7 @@
 #include "runtime/crowd/walls.h"
 #include "runtime/town/loitering.h"
 #include "runtime/walk/guide.h"
+#include "runtime/walk/staging.h"
 
 namespace flaneur {
 namespace {
@@ -24,6 +25,7 @@ constexpr float kAtHalt_m = 1;
 constexpr float kGentleYawRate_radps = 0.35f, kGentleSpeed_mps = 1.0f;
 constexpr float kLooksAbout_s = 2.5f;  // after looking to the side, until the tour turns the view again
 constexpr float kGiveUpPoint_s = 3;
+constexpr float kLooksAside_radps = 0.15f, kBack_rad = 2.3f;
 constexpr float kStands = 0.05f;     // share of the pace
 constexpr float kSidestep_m = 0.7f;  // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;  // after which those who stand in the way move on
@@ -143,6 +145,17 @@ void TurnForTour(float yaw_rad, const VisitorInTown& v) {
     TurnTowards(yaw_rad, v.visitor.gentle ? kGentleYawRate_radps : kTourYawRate_radps, v);
 }
 
+// On the way, with the guide to one side; by their side where the way leads back.
+void TurnAlong(float yaw_rad, const VisitorInTown& v) {
+  Visitor& visitor = v.visitor;
+  const float most = kLooksAside_radps * Step_s(v.settings);
+  visitor.looks_aside_rad += std::clamp(LookAside_rad(yaw_rad, v) - visitor.looks_aside_rad, -most, most);
+  const float now_rad = visitor.camera.view.yaw_rad, turn_rad = WrapAngle(yaw_rad - now_rad);
+  const float side = v.visitor.guide.side;
+  const bool back = std::abs(turn_rad) > kBack_rad && turn_rad * side < 0;
+  TurnForTour(back ? now_rad + side * kBack_rad / 2 : yaw_rad + visitor.looks_aside_rad, v);
+}
+
 void TurnCamera(float yaw_rate_radps, const VisitorInTown& v) {
   CameraState& camera = v.visitor.camera;
   camera.yaw_rate_radps = std::clamp(yaw_rate_radps, -MaxYawRate_radps(v.settings), MaxYawRate_radps(v.settings));
@@ -199,9 +212,9 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
     v.visitor.stuck_s = 0;
     return GiveUpStop(v);
   }
-  const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
-  if (Length(look) > kReached_m) TurnForTour(std::atan2(look.y, look.x), v);
   const float pace = ShareOfPace(v);
+  const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
+  if (pace > kStands && Length(look) > kReached_m) TurnAlong(AngleOf(look), v);
   if (pace > kStands) Walk(RoundPeople(v, way), TourSpeed_mps(v) * pace, v);
   else v.visitor.stuck_s = 0;
 }

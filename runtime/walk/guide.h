@@ -15,6 +15,8 @@ struct Guide {
   int plans = 0;       // of the tour, that place and way_m are about
   float way_m = 0;     // how far along the tour's route
   Vec2 place;          // where to stand at the halt
+  float side = 0;      // of the route, on which the guide walks: 1 left, -1 right; 0: not yet chosen
+  bool is_left = true; // of the picture's middle, or was when last clearly beside it
   bool walks = false;  // else stands and faces the visitor
   Vec2 velocity;       // wanted
   Corner corner;       // of the way back to the route
