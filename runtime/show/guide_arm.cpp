@@ -8,11 +8,11 @@ namespace flaneur {
 namespace {
 
 // Shares of the person's height.
-constexpr float kTrunk = 0.045f;                    // joints nearer to the middle belong to the trunk
-constexpr float kFinger = 0.055f;                   // bones shorter than that are a hand's
-constexpr float kHandLow = 0.3f, kHandHigh = 0.9f;  // of the rest pose, arms down or stretched out
-constexpr float kShortest = 0.2f, kLongest = 0.55f; // arm
-constexpr float kGrip = 0.045f;                     // from the wrist on
+constexpr float kTrunk = 0.045f;                     // joints nearer to the middle belong to the trunk
+constexpr float kFinger = 0.055f;                    // bones shorter than that are a hand's
+constexpr float kHandLow = 0.3f, kHandHigh = 0.9f;   // of the rest pose, arms down or stretched out
+constexpr float kShortest = 0.2f, kLongest = 0.55f;  // arm
+constexpr float kGrip = 0.045f;                      // from the wrist on
 // Shares of the arm's length, from the shoulder: where the hand is, and to where the elbow points.
 constexpr Vec3 kHand{-0.16f, -0.60f, 0.55f}, kElbow{-0.35f, -0.6f, -0.7f};
 
@@ -108,8 +108,8 @@ std::optional<CarryingArm> FindCarryingArm(const std::vector<PackJoint>& s, floa
     const Vec3 at = s[I(elbow)].rest_m;
     return std::abs(Length(at - s[I(arm.shoulder)].rest_m) - Length(at - s[I(arm.hand)].rest_m));
   };
-  arm.elbow = *std::min_element(chain.begin() + 1, chain.end() - 1,
-                                [&](int a, int b) { return unlike_m(a) < unlike_m(b); });
+  arm.elbow =
+      *std::min_element(chain.begin() + 1, chain.end() - 1, [&](int a, int b) { return unlike_m(a) < unlike_m(b); });
   if (!Bend(s, height_m, &arm)) return std::nullopt;
   return arm;
 }

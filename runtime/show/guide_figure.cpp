@@ -14,8 +14,8 @@ namespace {
 constexpr float kStrapLow = 0.66f, kStrapHigh = 0.80f;  // the pole at the back is tied between these
 constexpr float kTop = 1.38f, kBar = 1.34f, kTails = 1.12f, kNotch = 1.165f;
 constexpr float kFootAtBack = 0.52f, kFootInHand = 0.16f;
-constexpr float kLeftOfPole = 0.10f, kRightOfPole = 0.10f;        // the cloth at the back,
-constexpr float kLeftInHand = 0.03f, kRightInHand = 0.15f;        // and in the hand, away from the head
+constexpr float kLeftOfPole = 0.10f, kRightOfPole = 0.10f;             // the cloth at the back,
+constexpr float kLeftInHand = 0.03f, kRightInHand = 0.15f;             // and in the hand, away from the head
 constexpr float kPole_m = 0.014f, kBar_m = 0.011f, kCloth_m = 0.008f;  // half as thick
 constexpr float kOffBack_m = 0.03f;
 constexpr Vec4 kWood{0.10f, 0.05f, 0.02f, 1}, kRed{0.42f, 0.015f, 0.02f, 1}, kGold{0.80f, 0.48f, 0.06f, 1};
@@ -99,8 +99,8 @@ PackPrimitive Banner(float height_m, const Carrier& carrier) {
   PackPrimitive out;
   const auto [x, y, z] = carrier.pole;
   const float overhang_m = 0.02f, hang = z - kPole_m - kBar_m;
-  AddBox({x - kPole_m, carrier.foot * height_m, z - kPole_m}, {x + kPole_m, kTop * height_m, z + kPole_m}, kWood, carrier,
-         &out);
+  AddBox({x - kPole_m, carrier.foot * height_m, z - kPole_m}, {x + kPole_m, kTop * height_m, z + kPole_m}, kWood,
+         carrier, &out);
   AddBox({x - carrier.right * height_m - overhang_m, kBar * height_m - kBar_m, hang - kBar_m},
          {x + carrier.left * height_m + overhang_m, kBar * height_m + kBar_m, hang + kBar_m}, kWood, carrier, &out);
   AddCloth(height_m, hang, carrier, &out);

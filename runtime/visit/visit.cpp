@@ -52,9 +52,9 @@ struct Visit::Impl {
   Narration narration{};
   Resolution resolution{};
   float own_fov_rad = 0;
-  double owed_s = 0;        // of simulated time
-  float over_s = 0;         // since the tour ended for a visitor whom it led
-  float says_nothing_s = 0; // since they were asked what next
+  double owed_s = 0;         // of simulated time
+  float over_s = 0;          // since the tour ended for a visitor whom it led
+  float says_nothing_s = 0;  // since they were asked what next
   int width_px = 0, height_px = 0;
   bool for_pages = false;  // what the hands do in this picture, even where that closes them
   bool starts_anew = false;
@@ -210,7 +210,8 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
 void Visit::Impl::StepTown(float passed_s, Records* records) {
   const double step_s = static_cast<double>(Step_s(*s));
   if (!pages()) BeginVisit(SoFar());
-  if (!HoldsTown(menu) && !operator_page()) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMaxStepsPerFrame);
+  if (!HoldsTown(menu) && !operator_page())
+    owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMaxStepsPerFrame);
   if (owed_s >= step_s) controls.turned_rad = 0;
   while (owed_s >= step_s) {
     StepSimulation(NextStep(wishes, *s, &controls), passed_s * 1000, s);

@@ -25,7 +25,9 @@ constexpr float kAtHalt_m = 1;
 constexpr float kGentleYawRate_radps = 0.35f, kGentleSpeed_mps = 1.0f;
 constexpr float kLooksAbout_s = 2.5f;  // after looking to the side, until the tour turns the view again
 constexpr float kGiveUpPoint_s = 3;
-constexpr float kLooksAside_radps = 0.15f, kBack_rad = 2.3f;
+constexpr float kLooksAside_radps = 0.15f;  // from the guide, and so far: on the way, and from what there is to see
+constexpr float kMostAside_rad = 0.19f, kMostAsideAtHalt_rad = 0.08f;
+constexpr float kBack_rad = 2.3f;    // a turn of more goes by the guide's side
 constexpr float kStands = 0.05f;     // share of the pace
 constexpr float kSidestep_m = 0.7f;  // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;  // after which those who stand in the way move on
@@ -145,13 +147,14 @@ void TurnForTour(float yaw_rad, const VisitorInTown& v) {
     TurnTowards(yaw_rad, v.visitor.gentle ? kGentleYawRate_radps : kTourYawRate_radps, v);
 }
 
-// On the way, with the guide to one side; by their side where the way leads back.
-void TurnAlong(float yaw_rad, const VisitorInTown& v) {
+// With the guide to one side.
+void TurnBeside(float yaw_rad, float most_aside_rad, const VisitorInTown& v) {
   Visitor& visitor = v.visitor;
   const float most = kLooksAside_radps * Step_s(v.settings);
-  visitor.looks_aside_rad += std::clamp(LookAside_rad(yaw_rad, v) - visitor.looks_aside_rad, -most, most);
-  const float now_rad = visitor.camera.view.yaw_rad, turn_rad = WrapAngle(yaw_rad - now_rad);
-  const float side = v.visitor.guide.side;
+  const float aside_rad = LookAside_rad(yaw_rad, most_aside_rad, v);
+  visitor.looks_aside_rad += std::clamp(aside_rad - visitor.looks_aside_rad, -most, most);
+  const float now_rad = visitor.camera.view.yaw_rad, side = visitor.guide.side;
+  const float turn_rad = WrapAngle(yaw_rad - now_rad);
   const bool back = std::abs(turn_rad) > kBack_rad && turn_rad * side < 0;
   TurnForTour(back ? now_rad + side * kBack_rad / 2 : yaw_rad + visitor.looks_aside_rad, v);
 }
@@ -202,7 +205,7 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   LookAbout(input, v);
   if (!t.begun) return;
   if (t.resting && Length(t.stops[HaltOf(t)].position_m - p) < kAtHalt_m) {
-    return TurnForTour(t.stops[HaltOf(t)].yaw_rad, v);
+    return TurnBeside(t.stops[HaltOf(t)].yaw_rad, kMostAsideAtHalt_rad, v);
   }
   if (t.over) return TurnForTour(LookOfLeave_rad(v.visitor.camera.view.yaw_rad, v), v);
   if (t.paused) return;
@@ -214,7 +217,7 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   }
   const float pace = ShareOfPace(v);
   const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
-  if (pace > kStands && Length(look) > kReached_m) TurnAlong(AngleOf(look), v);
+  if (pace > kStands && Length(look) > kReached_m) TurnBeside(AngleOf(look), kMostAside_rad, v);
   if (pace > kStands) Walk(RoundPeople(v, way), TourSpeed_mps(v) * pace, v);
   else v.visitor.stuck_s = 0;
 }

@@ -17,13 +17,16 @@ constexpr float kSetsOff_mps = 0.4f, kStops_mps = 0.15f;
 constexpr float kWaits_m = 4;     // a visitor so much farther than the lead has to come first
 constexpr float kNearHalt_m = 3;  // from the route's end the guide goes to where to stand there
 constexpr float kOffPlace_m = 0.5f, kAtPlace_m = 0.15f;
-constexpr float kToPlace_mps = 1.3f;
-constexpr float kAhead = 0.3f, kFullPace = 0.7f;  // of the lead, with which the visitor begins to walk, and walks as usual
-constexpr float kPatience_s = 5;                  // of a visitor who waits for the guide to get ahead
-constexpr float kWalkedTo_m = 1.2f;               // along the route
+constexpr float kToPlace_mps = 1.6f;
+constexpr float kAhead = 0.5f,
+                kFullPace = 0.85f;   // of the lead, with which the visitor begins to walk, and walks as usual
+constexpr float kPatience_s = 8;     // of a visitor who waits for the guide to get ahead
+constexpr float kWalkedTo_m = 1.2f;  // along the route
+constexpr float kLeadsOn = 0.3f;     // cosine of the angle from it
+constexpr float kOnRoute_s = 0.8f;
 constexpr int kChooseSideEvery_steps = 15;
-constexpr float kClearlyBeside_rad = 0.1f;        // of the picture's middle
-constexpr float kClears_m = 0.15f;                    // people keep so much more than touching from the guide
+constexpr float kClearlyBeside_rad = 0.1f;  // of the picture's middle
+constexpr float kClears_m = 0.15f;          // people keep so much more than touching from the guide
 constexpr float kStuck_s = 1.5f, kGetsOn_m = 0.5f, kLoitererYieldRadius_m = 1.6f;
 constexpr float kFarthest_m = 20;  // of a new route the guide is looked for so far
 
@@ -39,9 +42,7 @@ bool Find(const VisitorInTown& v) {
 // Along the route, before the visitor.
 float Lead_m(const VisitorInTown& v) { return LeadDepth_m(v.visitor.camera); }
 
-bool IsFar(const VisitorInTown& v, Vec2 p) {
-  return Length(p - v.visitor.camera.view.position) > Lead_m(v) + kWaits_m;
-}
+bool IsFar(const VisitorInTown& v, Vec2 p) { return Length(p - v.visitor.camera.view.position) > Lead_m(v) + kWaits_m; }
 
 void FollowPlan(Vec2 p, const VisitorInTown& v) {
   Guide& g = v.visitor.guide;
@@ -75,6 +76,19 @@ float LeadingSpeed_mps(const VisitorInTown& v, Vec2 p) {
   return std::clamp(visitor_mps + kCatchesUp_ps * (Lead_m(v) - lead_m), 0.0f, v.town.settings.top_speed_mps);
 }
 
+// To one side of the route, and on it for a while wherever that does not lead on.
+Vec2 AlongRouteBeside(Vec2 p, const VisitorInTown& v) {
+  Guide& g = v.visitor.guide;
+  const Route& route = v.visitor.tour.route;
+  g.on_route_s = std::max(0.0f, g.on_route_s - Step_s(v.settings));
+  const Vec2 to = BesideRoute(g.way_m + kWalkedTo_m, g.side, v) - p;
+  const Vec2 on = PointAt(route, g.way_m + kWalkedTo_m) - PointAt(route, g.way_m);
+  const bool leads_on = Length(to) > kAtPlace_m && Dot(to, on) > kLeadsOn * Length(to) * Length(on);
+  if (!leads_on || !FreeLine(v.town.walkable, p, p + to)) g.on_route_s = kOnRoute_s;
+  if (g.on_route_s <= 0) return Unit(to);
+  return WayAlong(v.town.walkable, route, g.way_m, p, &g.corner, &v.town.crowd.search);
+}
+
 Vec2 Wanted(Vec2 p, const VisitorInTown& v) {
   Guide& g = v.visitor.guide;
   if (GoesToPlace(v)) {
@@ -88,9 +102,7 @@ Vec2 Wanted(Vec2 p, const VisitorInTown& v) {
   g.walks = speed_mps > (g.walks ? kStops_mps : kSetsOff_mps);
   if (!g.walks) return {};
   if (v.town.step % kChooseSideEvery_steps == 0) g.side = SideToWalk(g.way_m, g.side, v);
-  const Vec2 to = BesideRoute(g.way_m + kWalkedTo_m, g.side, v);
-  if (Length(to - p) > kAtPlace_m && FreeLine(v.town.walkable, p, to)) return Unit(to - p) * speed_mps;
-  return WayAlong(v.town.walkable, v.visitor.tour.route, g.way_m, p, &g.corner, &v.town.crowd.search) * speed_mps;
+  return AlongRouteBeside(p, v) * speed_mps;
 }
 
 // Who stands in the way of a guide who cannot get on walks off.

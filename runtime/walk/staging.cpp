@@ -9,16 +9,15 @@
 namespace flaneur {
 namespace {
 
-constexpr float kHalfWidth_m = 0.5f;                   // of a guide with the banner
-constexpr float kLeastDepth_m = 2.6f, kMostDepth_m = 6.5f;
-constexpr float kFeetClear = 1.12f;                    // of the depth at which feet stand on the picture's lower edge
+constexpr float kHalfWidth_m = 0.5f;  // of a guide with the banner
+constexpr float kLeastDepth_m = 2.6f, kMostDepth_m = 7;
+constexpr float kFeetClear = 1.18f;  // of the depth at which feet stand on the picture's lower edge
 constexpr float kSideClear_m = 0.12f;
 constexpr float kTangent_m = 0.4f, kRoomStep_m = 0.25f;
-constexpr float kRoomAhead_m[] = {-1, 0, 1.5f, 3};     // where along the route there should be room
-constexpr float kTurnAhead_m = 6, kTurn_rad = 0.5f;    // a turn within that counts
+constexpr float kRoomAhead_m[] = {-1, 0, 1.5f, 3};   // where along the route there should be room
+constexpr float kTurnAhead_m = 6, kTurn_rad = 0.5f;  // a turn within that counts
 constexpr float kStartTurn_rad = 0.35f, kBehind_rad = 2.2f;
 constexpr float kOfTurn = 0.25f, kOfStart = 0.5f, kOfNow = 0.35f;  // preferences, in shares of the room that it takes
-constexpr float kMostAside_rad = 0.19f;
 
 Vec2 LeftOf(Vec2 along) { return {-along.y, along.x}; }
 
@@ -46,7 +45,7 @@ float Intrusion(const CameraState& camera, float depth_m, float side_m) {
     return std::max(0.0f, std::min(right_m, high_m) - std::max(left_m, low_m)) / (2 * kHalfWidth_m);
   };
   const float feet = camera.eye_height_m * camera.aspect / (half_m * 1.0f);  // 1: at the lower edge
-  return 4 * within(-third_m, third_m) + 3 * (1 - within(-half_m, half_m)) + 2 * std::max(0.0f, feet - 1);
+  return 6 * within(-third_m, third_m) + 3 * (1 - within(-half_m, half_m)) + 1.5f * std::max(0.0f, feet - 1);
 }
 
 }  // namespace
@@ -96,11 +95,11 @@ float SideToWalk(float way_m, float now, const VisitorInTown& v) {
   const auto worth = [&](float side) {
     float room_m = takes_m;
     for (const float ahead_m : kRoomAhead_m) room_m = std::min(room_m, Room_m(way_m + ahead_m, side, takes_m, v));
-    float worth = room_m / takes_m;
-    if (side * turn_rad > kTurn_rad) worth += kOfTurn;
-    if (now == side) worth += kOfNow;
-    if (now == 0 && side * start_rad > kStartTurn_rad && std::abs(start_rad) < kBehind_rad) worth += kOfStart;
-    return worth;
+    float points = room_m / takes_m;
+    if (side * turn_rad > kTurn_rad) points += kOfTurn;
+    if (now == side) points += kOfNow;
+    if (now == 0 && side * start_rad > kStartTurn_rad && std::abs(start_rad) < kBehind_rad) points += kOfStart;
+    return points;
   };
   return worth(-1) > worth(1) ? -1.0f : 1.0f;
 }
@@ -112,15 +111,15 @@ Vec2 BesideRoute(float way_m, float side, const VisitorInTown& v) {
   return PointAt(route, way_m) + out * Room_m(way_m, side, takes_m, v);
 }
 
-float LookAside_rad(float look_rad, const VisitorInTown& v) {
+float LookAside_rad(float look_rad, float most_rad, const VisitorInTown& v) {
   const Guide& g = v.visitor.guide;
   const CameraState& camera = v.visitor.camera;
   if (g.id < 0 || g.index >= v.town.crowd.size()) return 0;
   const Vec2 off = v.town.crowd.position[g.index] - camera.view.position;
   const float far_m = Length(off), at_rad = WrapAngle(AngleOf(off) - look_rad);
-  if (far_m < 1 || at_rad * g.side <= 0 || std::abs(at_rad) > camera.view.fov_rad / 2) return 0;
+  if (far_m < 1 || at_rad * (g.is_left ? 1.0f : -1.0f) <= 0 || std::abs(at_rad) > camera.view.fov_rad / 2) return 0;
   const float takes_rad = std::atan(HalfTan(camera) / 3) + std::atan((kHalfWidth_m + kSideClear_m) / far_m);
-  return -g.side * std::clamp(takes_rad - std::abs(at_rad), 0.0f, kMostAside_rad);
+  return (g.is_left ? -1.0f : 1.0f) * std::clamp(takes_rad - std::abs(at_rad), 0.0f, most_rad);
 }
 
 }  // namespace flaneur

@@ -180,7 +180,7 @@ TEST(Pages, LeadToEveryHaltOfTheTour) {
 }
 
 TEST(Pages, AtTheToursEndOfferTheTourAgainOnesOwnWayAndHome) {
-  const struct { const char *down, *accept; } hands[] = {{"down", "enter"}, {"pad_down", "pad_a"}};
+  const struct { const char *down, *up, *accept; } hands[] = {{"down", "up", "enter"}, {"pad_down", "pad_up", "pad_a"}};
   for (const auto& hand : hands) {
     for (int row = 0; row < 3; ++row) {
       Pages p;
@@ -189,6 +189,8 @@ TEST(Pages, AtTheToursEndOfferTheTourAgainOnesOwnWayAndHome) {
       EXPECT_FALSE(HoldsTown(p.menu));
       p.Picture({});
       p.Picture({});
+      p.Tap(hand.down);  // shows which row is meant
+      p.Tap(hand.up);
       for (int k = 0; k < row; ++k) p.Tap(hand.down);
       WindowInput accept;
       accept.down.set(static_cast<size_t>(InputCode(hand.accept)));
