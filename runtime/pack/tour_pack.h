@@ -95,10 +95,10 @@ struct PackAvatar {
   float walk_speed_mps = 1.3f;  // at which the walk clip's feet don't slide
   int joints = 0;
   std::vector<PackJoint> skeleton;  // a joint each
-  PackClip walk, idle, talk;      // always present: a missing talk is the idle, a missing idle a standing pose
-  std::vector<PackLevel> levels;  // finest first, at least one
-  std::vector<Tint> tints;        // at most kMaxTints
-  std::vector<PackProp> props;    // at most kMaxProps
+  PackClip walk, idle, talk;        // always present: a missing talk is the idle, a missing idle a standing pose
+  std::vector<PackLevel> levels;    // finest first, at least one
+  std::vector<Tint> tints;          // at most kMaxTints
+  std::vector<PackProp> props;      // at most kMaxProps
   PackImpostor impostor;
   int impostor_of = -1;  // index of the avatar whose impostor stands for this one too, which brings none; -1: its own
 };

@@ -245,6 +245,7 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   }
   town.crowd.fields_come_later = true;
   town.random.state = town.settings.seed;
+  if (Error e = CutTour(scenario.tour, &s.visitor.tour)) return e;
   PlaceStops(InTown(&s));
   if (scenario.language) ChooseLanguage(*scenario.language, &s);
   PlaceCamera(scenario, &s);
