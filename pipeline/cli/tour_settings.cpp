@@ -201,6 +201,9 @@ void ReadAll(TomlTable root, TourSettings* settings) {
                 "'; add one, or change tour.language");
   }
   tour.Text("guide", &settings->guide);
+  tour.Translations("thanks", settings->language, &settings->thanks);
+  std::erase_if(settings->thanks, [](const auto& thanks) { return thanks.second.empty(); });
+  tour.Number("home_after_s", &settings->home_after_s, 0, kLongestIdle_s);
   tour.Finish();
   ReadTown(root.Table("town"), settings);
   for (TomlTable& avatar : root.Tables("avatar")) ReadAvatarSettings(avatar, settings);

@@ -228,6 +228,8 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   if (!parts.guide.empty()) tour["guide"] = parts.guide;
   if (parts.title_page.there()) tour["title_page"] = TitlePageJson(parts.title_page, indices);
   AddVisitorJson(parts, indices, &tour);
+  for (const auto& [language, thanks] : parts.thanks) tour["thanks"][language] = thanks;
+  tour["home_after_s"] = Short(parts.home_after_s);
   tour["crowd"] = SettingsJson(parts.crowd);
   tour["control"] = SettingsJson(parts.control);
   tour["light"] = SettingsJson(parts.light);

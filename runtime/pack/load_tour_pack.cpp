@@ -269,6 +269,7 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   if (avatar.levels.empty()) json.Refuse("has no levels");
   avatar.joints = static_cast<int>(Member(Element(file.json, "skins", skin), "joints").size());
   if (avatar.joints < 1 || static_cast<size_t>(avatar.joints) > kMaxJoints) throw PackRefused("has too many joints");
+  avatar.skeleton = ReadSkeleton(file, skin);
   const double last = static_cast<double>(file.json.value("animations", Json::array()).size()) - 1;
   const TourObject clips = json.Object("clips");
   const auto clip = [&](const char* name) { return ReadClip(file, skin, clips.Whole(name, -1, last)); };
@@ -367,6 +368,8 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
     }
   }
   ReadVisitorData(file, tour, pack);
+  pack->thanks = ReadTranslations(tour, "thanks");
+  if (tour.Has("home_after_s")) pack->home_after_s = tour.Real("home_after_s", 0, kLongestIdle_s);
   VisitFields(tour.Object("crowd"), &pack->crowd);
   VisitFields(tour.Object("control"), &pack->control);
   VisitFields(tour.Object("light"), &pack->light);

@@ -104,17 +104,44 @@ std::vector<Mat4> InverseBinds(const GltfFile& file, const Json& skin, size_t jo
   return out;
 }
 
+std::vector<size_t> JointNodes(const Json& skin, size_t nodes) {
+  std::vector<size_t> joints;
+  for (const Json& joint : Member(skin, "joints")) {
+    if (joint.get<size_t>() >= nodes) throw PackRefused("has a skin whose joint is no node");
+    joints.push_back(joint.get<size_t>());
+  }
+  return joints;
+}
+
 }  // namespace
+
+std::vector<PackJoint> ReadSkeleton(const GltfFile& file, int skin_index) {
+  const Json& nodes = Member(file.json, "nodes");
+  const Json& skin = Element(file.json, "skins", skin_index);
+  const std::vector<int> parents = Parents(nodes);
+  const std::vector<size_t> joints = JointNodes(skin, nodes.size());
+  const std::vector<Mat4> inverse_binds = InverseBinds(file, skin, joints.size());
+  std::vector<int> joint_of(nodes.size(), -1);
+  for (size_t j = 0; j < joints.size(); ++j) joint_of[joints[j]] = static_cast<int>(j);
+  std::vector<PackJoint> skeleton;
+  for (size_t j = 0; j < joints.size(); ++j) {
+    PackJoint joint;
+    const Json& node = nodes[joints[j]];
+    if (node.contains("name") && node["name"].is_string()) joint.name = node["name"].get<std::string>();
+    int above = parents[joints[j]];
+    while (above >= 0 && At(joint_of, above) < 0) above = At(parents, above);
+    if (above >= 0) joint.parent = At(joint_of, above);
+    joint.rest_m = TransformPoint(Inverse(inverse_binds[j]), {});
+    skeleton.push_back(std::move(joint));
+  }
+  return skeleton;
+}
 
 PackClip ReadClip(const GltfFile& file, int skin_index, int animation_index) {
   const Json& nodes = Member(file.json, "nodes");
   const Json& skin = Element(file.json, "skins", skin_index);
   const std::vector<int> parents = Parents(nodes);
-  std::vector<size_t> joints;
-  for (const Json& joint : Member(skin, "joints")) {
-    if (joint.get<size_t>() >= nodes.size()) throw PackRefused("has a skin whose joint is no node");
-    joints.push_back(joint.get<size_t>());
-  }
+  const std::vector<size_t> joints = JointNodes(skin, nodes.size());
   const std::vector<Mat4> inverse_binds = InverseBinds(file, skin, joints.size());
 
   std::vector<Channel> channels;

@@ -66,6 +66,12 @@ struct PackClip {
   std::vector<Mat4> matrices;  // frames x joints, frame by frame
 };
 
+struct PackJoint {
+  std::string name;  // of its node; may be empty
+  int parent = -1;   // index of the joint next above it; -1: none
+  Vec3 rest_m;       // where it begins in the pose that the vertices are in
+};
+
 struct PackLevel {
   int mesh = 0;
   int triangles = 0;
@@ -88,10 +94,11 @@ struct PackAvatar {
   float reach_m = 0.25f;  // of all that is drawn, about where the person stands: arms, clothes, props; radius_m or more
   float walk_speed_mps = 1.3f;  // at which the walk clip's feet don't slide
   int joints = 0;
-  PackClip walk, idle, talk;      // always present: a missing talk is the idle, a missing idle a standing pose
-  std::vector<PackLevel> levels;  // finest first, at least one
-  std::vector<Tint> tints;        // at most kMaxTints
-  std::vector<PackProp> props;    // at most kMaxProps
+  std::vector<PackJoint> skeleton;  // a joint each
+  PackClip walk, idle, talk;        // always present: a missing talk is the idle, a missing idle a standing pose
+  std::vector<PackLevel> levels;    // finest first, at least one
+  std::vector<Tint> tints;          // at most kMaxTints
+  std::vector<PackProp> props;      // at most kMaxProps
   PackImpostor impostor;
   int impostor_of = -1;  // index of the avatar whose impostor stands for this one too, which brings none; -1: its own
 };

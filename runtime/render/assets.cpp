@@ -100,6 +100,7 @@ TourPack PartsForAssets(const TourPack& pack) {
   for (const PackAvatar& avatar : pack.avatars) {
     PackAvatar part;
     part.height_m = avatar.height_m;
+    part.skeleton = avatar.skeleton;
     part.levels = avatar.levels;
     part.props = avatar.props;
     part.impostor = avatar.impostor;

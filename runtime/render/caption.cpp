@@ -39,7 +39,10 @@ void PutGlyph(const GlyphPicture& glyph, Vec2 pen, const Color& strip, const Col
 TextLayout LayOut(const std::string& text, const CaptionStyle& style, float width_px, float height_px, Fonts* fonts) {
   const float usual_px = std::min(height_px * kLetterShare, width_px * kLetterWidthShare);
   TextStyle letters{.letter_px = std::max(kMinLetter_px, usual_px * style.size), .language = style.language};
-  const auto lay_out = [&] { return LayOutText(text, width_px * kTextWidthShare, letters, fonts); };
+  const auto room_px = [&] {
+    return style.side == 0 ? width_px * kTextWidthShare : width_px * kCaptionPanel - 2 * kMargin * letters.letter_px;
+  };
+  const auto lay_out = [&] { return LayOutText(text, room_px(), letters, fonts); };
   const float least_px = std::max(kMinLetter_px, usual_px * kLeastSize);
   const auto most_px = [&] { return height_px * kMostShare - 2 * kMargin * letters.letter_px; };
   TextLayout layout = lay_out();
@@ -66,9 +69,15 @@ PackImage LayOutCaption(const std::string& text, const CaptionStyle& style, int 
   const Color& letters = style.high_contrast ? kTextHigh : kText;
   image.width_px = width_px;
   image.height_px = std::min(height_px, static_cast<int>(std::ceil(layout.height_px + 2 * margin_px)));
-  for (int i = 0; i < image.width_px * image.height_px; ++i)
-    image.rgba.insert(image.rgba.end(), strip.begin(), strip.end());
-  const Vec2 corner{(width - layout.width_px) / 2 - layout.left_px, margin_px};
+  const float panel_px = style.side == 0 ? width : std::min(width, layout.width_px + 2 * margin_px);
+  const float left_px = style.side > 0 ? width - panel_px : 0;
+  const Color none{strip[0], strip[1], strip[2], 0};
+  for (int i = 0; i < image.width_px * image.height_px; ++i) {
+    const auto x = static_cast<float>(i % image.width_px);
+    const Color& ground = x >= left_px && x < left_px + panel_px ? strip : none;
+    image.rgba.insert(image.rgba.end(), ground.begin(), ground.end());
+  }
+  const Vec2 corner{left_px + (panel_px - layout.width_px) / 2 - layout.left_px, margin_px};
   for (const PlacedGlyph& g : layout.glyphs)
     PutGlyph(fonts->Draw(g.font, g.glyph, layout.em_px), corner + g.pen_px, strip, letters, &image);
   return image;

@@ -13,8 +13,11 @@ namespace flaneur {
 
 // A dark strip as wide as the picture, with the text (UTF-8) wrapped on it: one line in the middle, several beginning
 // at one edge. Letters are about a twentieth of the picture's height, smaller where the strip would cover more than
-// half of the picture; what does not fit even so is cut off. No text, or a picture under 64 pixels: an empty image.
+// half of the picture; what does not fit even so is cut off. On one side it is a
+// panel of at most kCaptionPanel of the picture's width. No text, or a picture under 64 pixels: an empty image.
 PackImage LayOutCaption(const std::string& text, const CaptionStyle& style, int width_px, int height_px, Fonts* fonts);
+
+inline constexpr float kCaptionPanel = 0.62f;
 
 struct CaptionView {
   Program program;

@@ -40,6 +40,7 @@ struct CaptionStyle {
   std::string language;        // such as "ar"
   float size = 1;              // of its letters; 1: a twentieth of the picture's height
   bool high_contrast = false;  // yellow on black that nothing shines through
+  int side = 0;                // -1, 1: on the picture's left or right, and the rest stays free; 0: all along it
   friend bool operator==(const CaptionStyle&, const CaptionStyle&) = default;
 };
 

@@ -51,6 +51,12 @@ void AddCaption(const Simulation& s, FrameInput* frame) {
                                     0.0f, 1.0f);
 }
 
+// Away from a guide who leads the visitor.
+int SideOfCaption(const Simulation& s) {
+  if (s.visitor.guide.id < 0 || !s.visitor.tour.follows || s.visitor.tour.over) return 0;
+  return s.visitor.guide.is_left ? 1 : -1;
+}
+
 ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, ClipKind last) {
   const float speed_mps = Length(s.town.crowd.velocity[i]);
   if (speed_mps > (last == ClipKind::kWalk ? kStandsBelow_mps : kWalksAbove_mps)) {
@@ -213,6 +219,7 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks*
   frame->fine_shadow_m = s.control.levels.shadows.fine_m;
   frame->shadow_reach_m = s.control.levels.shadows.reach_m;
   AddCaption(s, frame);
+  frame->caption_style.side = SideOfCaption(s);
   RingWherePointed(s, &frame->ground_mark);
   frame->people.clear();
   const float before_s = std::max(0.0f, 1 - between.share) * Step_s(s);

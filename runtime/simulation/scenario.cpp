@@ -1,5 +1,7 @@
 #include "runtime/simulation/scenario.h"
 
+#include <cmath>
+
 #include "runtime/base/toml_table.h"
 
 namespace flaneur {
@@ -29,6 +31,17 @@ void ReadCamera(TomlTable t, Scenario* s) {
   t.Number("pitch_deg", &s->pitch_deg, -89, 89);
   for (TomlTable& leg : t.Tables("leg")) s->legs.push_back(ReadLeg(leg));
   t.Finish();
+}
+
+void ReadTourCut(TomlTable t, Scenario* s) {
+  t.Numbers("stops", &s->tour.stops, 1, 10000);
+  t.Number("most_rest_s", &s->tour.most_rest_s, 0, 36000);
+  t.Number("approach_m", &s->tour.approach_m, 0, 1e5);
+  t.Finish();
+  for (const float number : s->tour.stops) {
+    if (number != std::floor(number)) t.Refuse("tour.stops are whole numbers, as the tour counts them from 1");
+  }
+  if (!s->legs.empty()) t.Refuse("[tour] is for runs that follow the guided tour; leave out the [[camera.leg]]s");
 }
 
 void ReadPerson(TomlTable t, Scenario* s) {
@@ -108,6 +121,7 @@ void ReadAll(TomlTable root, Scenario* s) {
   // These mean something by being there.
   TomlTable camera = root.Table("camera"), ground = root.Table("ground"), area = root.Table("crowd_area");
   if (root.Has("camera")) ReadCamera(camera, s);
+  if (TomlTable tour = root.Table("tour"); root.Has("tour")) ReadTourCut(tour, s);
   if (root.Has("ground")) ReadGround(ground, s);
   if (root.Has("crowd_area")) ReadCrowdArea(area, s);
   for (TomlTable& person : root.Tables("person")) ReadPerson(person, s);

@@ -38,6 +38,7 @@ struct Scenario {
   float camera_yaw_deg = 0;
   float eye_height_m = kEyeHeight_m, pitch_deg = 0;
   std::vector<CameraLeg> legs;
+  TourCut tour;
   std::vector<ScenarioPerson> persons;
   std::optional<Area> crowd_area;  // in which the `people` start and walk about; else they live all over town
   bool has_ground = false;

@@ -85,6 +85,7 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   CameraState& camera = s->visitor.camera;
   camera.view.fov_rad = scenario.control.fov_rad;
   camera.eye_height_m = scenario.eye_height_m;
+  camera.aspect = static_cast<float>(scenario.screen_width_px) / static_cast<float>(scenario.screen_height_px);
   camera.pitch_rad = scenario.pitch_deg * kPi / 180;
   camera.present = scenario.has_camera || (has_pack && !scenario.has_ground);
   s->visitor.legs = scenario.legs;
@@ -244,6 +245,7 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   }
   town.crowd.fields_come_later = true;
   town.random.state = town.settings.seed;
+  if (Error e = CutTour(scenario.tour, &s.visitor.tour)) return e;
   PlaceStops(InTown(&s));
   if (scenario.language) ChooseLanguage(*scenario.language, &s);
   PlaceCamera(scenario, &s);
@@ -251,6 +253,7 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
     town.warnings.push_back("the camera starts inside an obstacle");
   }
   if (Error e = PlaceScenarioPeople(scenario.persons, &town)) return e;
+  RememberStart(InTown(&s));
   BeginTour(InTown(&s));
   PlaceGuide(InTown(&s));
   DeriveGap(&s);

@@ -79,6 +79,7 @@ struct TourStop {
 };
 
 // What tour.toml says of the tour itself and the pack carries on, whatever town and avatars are made of.
+inline constexpr double kLongestIdle_s = 86400;
 struct TourData {
   std::string name;
   std::vector<Place> places;
@@ -91,6 +92,9 @@ struct TourData {
   std::vector<Street> streets;
   std::vector<SoundPlace> sound_places;
   PhotoData photo;
+  std::map<std::string, std::string>
+      thanks;               // what visitors read at the tour's end, by language; empty: a word of ours
+  float home_after_s = 45;  // without a touch at the tour's end, until all is as at the beginning; 0: never
   CrowdSettings crowd;
   ControlSettings control;
   LightSettings light;

@@ -111,7 +111,7 @@ Error Loader::Impl::ReadLevel(const AssetId& id) {
   PackMesh mesh, finest;
   if (Error e = file.ReadMesh(like.levels[level].mesh, &mesh)) return e;
   if (Error e = file.ReadMesh(like.levels.front().mesh, &finest)) return e;
-  pack.meshes[static_cast<size_t>(avatar.levels[level].mesh)] = GuideMesh(std::move(mesh), finest, avatar.height_m);
+  pack.meshes[static_cast<size_t>(avatar.levels[level].mesh)] = GuideMesh(std::move(mesh), finest, avatar);
   return Ok();
 }
 

@@ -93,6 +93,11 @@ void FollowTour(PageView* v) {
   if (v->s.visitor.finished) v->choice.stop = 0;
 }
 
+void WalkOnOwn(Menu* menu, Controls* c) {
+  c->follows_tour = false;
+  OpenPage(Page::kNone, menu);
+}
+
 // Who reads another language than the one that is on finds the word for it even so.
 std::string LanguageRow(const PageView& v) {
   std::string word = v.Words(Phrase::kLanguage);
@@ -110,7 +115,7 @@ void ShowMain(PageView* v) {
     const bool led = c->follows_tour && !v->s.visitor.finished;
     if (Row(*v, v->Words(led ? Phrase::kFreeWalk : Phrase::kTour), "tour")) {
       if (!led) FollowTour(v);
-      else c->follows_tour = false, OpenPage(Page::kNone, v->menu);
+      else WalkOnOwn(v->menu, c);
     }
     if (led && !v->menu->begins && Row(*v, v->Words(tour.paused ? Phrase::kLetTourGoOn : Phrase::kHoldTour), "hold")) {
       v->choice.toggles_pause = true;
@@ -128,6 +133,12 @@ void ShowMain(PageView* v) {
   if (Row(*v, v->Words(Phrase::kSettings), "settings")) OpenPage(Page::kSettings, v->menu);
   if (!c->settings.kiosk && Row(*v, v->Words(Phrase::kKeys), "keys")) OpenPage(Page::kKeys, v->menu);
   if (!c->settings.kiosk && Row(*v, v->Words(Phrase::kEnd), "end")) v->choice.ends = true;
+}
+
+void ShowEndOfTour(PageView* v) {
+  if (Row(*v, v->Words(Phrase::kAgain), "again")) FollowTour(v);
+  if (Row(*v, v->Words(Phrase::kFreeWalk), "explore")) WalkOnOwn(v->menu, v->controls);
+  if (Row(*v, v->Words(Phrase::kHome), "home")) v->choice.home = true;
 }
 
 void ShowStops(PageView* v) {
@@ -266,6 +277,8 @@ void ShowRows(PageView* v) {
     case Page::kMap:
     case Page::kPhoto:
       return;
+    case Page::kEnd:
+      return ShowEndOfTour(v);
   }
 }
 
@@ -310,6 +323,14 @@ void OpenPage(Page page, Menu* menu) {
   menu->first = 0;
   menu->rebinds.reset();
 }
+
+void OpenEndOfTour(const std::string& thanks, Menu* menu) {
+  OpenPage(Page::kEnd, menu);
+  menu->thanks = thanks;
+  menu->lets_go = true;
+}
+
+bool HoldsTown(const Menu& menu) { return menu.page != Page::kNone && menu.page != Page::kEnd && !menu.begins; }
 
 void MeetSomebodyNew(Menu* menu) {
   OpenPage(Page::kMain, menu);
@@ -360,9 +381,12 @@ void TakePageInput(const WindowInput& input, Menu* menu, Controls* c) {
     return;
   }
   c->quits = c->quits || is_pressed(Action::kQuit);
-  if (back || pressed[static_cast<size_t>(InputCode("pad_b"))])
-    OpenPage(menu->page == Page::kMain || IsOfTown(menu->page) ? Page::kNone : Page::kMain, menu);
-  else if (menu->page == Page::kMap && is_pressed(Action::kMap)) OpenPage(Page::kNone, menu);
+  if (back || pressed[static_cast<size_t>(InputCode("pad_b"))]) {
+    if (menu->page == Page::kEnd) WalkOnOwn(menu, c);
+    else OpenPage(menu->page == Page::kMain || IsOfTown(menu->page) ? Page::kNone : Page::kMain, menu);
+  } else if (menu->page == Page::kMap && is_pressed(Action::kMap)) {
+    OpenPage(Page::kNone, menu);
+  }
 }
 
 MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px, int height_px, Menu* menu, Controls* c,
@@ -382,8 +406,10 @@ MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px,
   const std::string name = "page " + std::to_string(static_cast<int>(page));
   if (ImGui::Begin(name.c_str(), nullptr, kPlain | ImGuiWindowFlags_AlwaysAutoResize)) {
     if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
-    const std::string head = page == Page::kMain ? title : view.Words(TitleOf(page));
-    const std::string back = page == Page::kMain ? "" : view.Words(Phrase::kBackToPages);
+    const std::string head = page == Page::kMain  ? title
+                             : page == Page::kEnd ? menu->thanks
+                                                  : std::string(view.Words(TitleOf(page)));
+    const std::string back = page == Page::kMain || page == Page::kEnd ? "" : view.Words(Phrase::kBackToPages);
     ShowHead(head, page_px, look, text);
     ShowRows(&view);
     const float rest_px = picture.y - 2 * (kMargin + kPadding) * letter_px - HeadHeight_px(head, page_px, look, text) -

@@ -13,10 +13,11 @@
 namespace flaneur {
 
 // Map and photo are pages of their own, which ShowMenu leaves alone.
-enum class Page { kNone, kMain, kStops, kLanguages, kSettings, kKeys, kMap, kPhoto };
+enum class Page { kNone, kMain, kStops, kLanguages, kSettings, kKeys, kMap, kPhoto, kEnd };
 
 struct Menu {
   Page page = Page::kNone;
+  std::string thanks;             // said on the page at the tour's end
   bool begins = false;            // somebody new meets the pages before the town
   size_t first = 0;               // of the rows, where not all fit
   std::optional<Action> rebinds;  // whose new key is waited for
@@ -27,6 +28,7 @@ struct Menu {
 
 struct MenuChoice {
   bool ends = false;
+  bool home = false;           // back to the beginning
   std::optional<size_t> stop;  // of the tour, to go to now
   bool toggles_pause = false;  // of the tour
 };
@@ -36,6 +38,10 @@ std::vector<std::string> OfferedLanguages(const Controls& controls, const Simula
 
 bool IsOfTown(Page page);  // map and photo
 void OpenPage(Page page, Menu* menu);
+// Thanks at the tour's end; again, on one's own, or home. Whatever is held just then was not meant for it.
+void OpenEndOfTour(const std::string& thanks, Menu* menu);
+// The town stands still behind the page; not while nobody is led.
+bool HoldsTown(const Menu& menu);
 // The first page, as whoever comes to an exhibition meets it.
 void MeetSomebodyNew(Menu* menu);
 

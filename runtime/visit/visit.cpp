@@ -13,19 +13,28 @@
 #include "runtime/visit/developer_views.h"
 #include "runtime/visit/discovery.h"
 #include "runtime/visit/fade.h"
+#include "runtime/visit/home.h"
 #include "runtime/visit/kiosk.h"
 #include "runtime/visit/menu.h"
 #include "runtime/visit/narration.h"
 #include "runtime/visit/notices.h"
 #include "runtime/visit/operator_page.h"
+#include "runtime/visit/phrases.h"
 #include "runtime/visit/resolution.h"
 
 namespace flaneur {
 namespace {
 
 constexpr double kLongUpload_ms = 50,
-                 kUpload_ms = 3;      // of what has been loaded: before the first picture, and in each later one
-constexpr int kMaxStepsPerFrame = 4;  // a machine that can't keep up slows the town down rather than freeze
+                 kUpload_ms = 3;       // of what has been loaded: before the first picture, and in each later one
+constexpr int kMaxStepsPerFrame = 4;   // a machine that can't keep up slows the town down rather than freeze
+constexpr float kTakesLeave_s = 2.5f;  // of the guide, before the visitor is asked what next
+
+bool IsUsed(const WindowInput& input) {
+  constexpr float kMoved = 0.3f;
+  return input.down.any() || input.pressed || Length(input.turned_px) > 0 || Length(input.left_stick) > kMoved ||
+         Length(input.right_stick) > kMoved;
+}
 
 }  // namespace
 
@@ -38,7 +47,6 @@ struct Visit::Impl {
   Kiosk kiosk;
   Attract attract{};
   float shows_itself_s = 0;  // the tour, by now
-  ViewCamera start{};        // of every visit
   Renderer renderer{};
   Overlay overlay{shell.fonts};
   Controls controls{};
@@ -54,7 +62,9 @@ struct Visit::Impl {
   Discovery discovery{};
   Resolution resolution{};
   float own_fov_rad = 0, own_eye_m = kEyeHeight_m;
-  double owed_s = 0;  // of simulated time
+  double owed_s = 0;         // of simulated time
+  float over_s = 0;          // since the tour ended for a visitor whom it led
+  float says_nothing_s = 0;  // since they were asked what next
   int width_px = 0, height_px = 0;
   bool for_pages = false;  // what the hands do in this picture, even where that closes them
   bool starts_anew = false;
@@ -67,12 +77,16 @@ struct Visit::Impl {
   void ApplySettings();
   void Save();
   void Jump(size_t stop);
+  VisitSoFar SoFar() { return {*s, controls, wishes, notices}; }
+  void BeginAnew();
   void EndVisitor();
   void MeetVisitor(const WindowInput& input);
   void MakeControlsAnew();
   bool IsLed() const;
   void FollowVisitors(const WindowInput& input, float passed_s);
   void ShowOperator(const PageLook& look);
+  void EndTour(const WindowInput& input, float passed_s);
+  void EndVisitNow();
   void TakeHands(const WindowInput& input, float passed_s);
   void ShowPages(const WindowInput& input, float passed_s);
   void StepTown(float passed_s, Records* records);
@@ -117,9 +131,17 @@ void Visit::Impl::MakeControlsAnew() {
   if (settings.kiosk) controls.offered_languages = kiosk.settings.languages;
 }
 
+// All is as at the beginning.
+void Visit::Impl::BeginAnew() {
+  GoHome(settings, SoFar());
+  if (settings.kiosk) controls.offered_languages = kiosk.settings.languages;
+  ForgetDiscovery(find());
+  looks = {};
+}
+
 // Nobody is there any more: the tour shows itself.
 void Visit::Impl::EndVisitor() {
-  MakeControlsAnew();
+  BeginAnew();
   ApplySettings();
   OpenPage(Page::kNone, &menu);
   s->visitor.gentle = true;
@@ -133,17 +155,35 @@ void Visit::Impl::MeetVisitor(const WindowInput& input) {
   const PageLook look = LookOf(controls, *s, width_px, height_px);
   const auto language =
       hidden() ? std::nullopt : LanguageAt(input.pointer, languages.size(), look, width_px, height_px);
+  BeginAnew();
   if (language) controls.settings.language = languages[*language];
   ApplySettings();
-  s->visitor.point_walk = {};
-  s->visitor.camera.view = {start.position, start.yaw_rad, s->visitor.camera.view.fov_rad};
-  s->visitor.camera.pitch_rad = 0;
-  Jump(0);
-  BeginHint(controls, *s, &notices);
-  ForgetDiscovery(find());
   MeetSomebodyNew(&menu);
   menu.lets_go = true;
   menu.was_down = input.down;
+}
+
+void Visit::Impl::EndVisitNow() {
+  if (settings.kiosk) {
+    EndVisit(&kiosk);
+    return EndVisitor();
+  }
+  BeginAnew();
+  MeetSomebodyNew(&menu);
+  menu.lets_go = true;
+}
+
+// Thanks, and what next; who does not say it any more has left.
+void Visit::Impl::EndTour(const WindowInput& input, float passed_s) {
+  over_s = s->visitor.tour.over && controls.follows_tour && !attracts() ? over_s + passed_s : 0;
+  if (over_s > kTakesLeave_s && !pages()) {
+    wishes = {};
+    controls.turn_radps = 0;
+    const std::string language = PageLanguage(controls, *s), thanks = ThanksOf(pack, language);
+    OpenEndOfTour(thanks.empty() ? Say(Phrase::kThanks, language) : thanks, &menu);
+  }
+  says_nothing_s = menu.page == Page::kEnd && !IsUsed(input) ? says_nothing_s + passed_s : 0;
+  if (pack.home_after_s > 0 && says_nothing_s > pack.home_after_s) EndVisitNow();
 }
 
 // Who is shown round need not touch anything.
@@ -225,13 +265,16 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
   controls.quits = controls.quits || choice.ends;
   if (choice.stop) Jump(*choice.stop);
   wishes.tour.toggle_pause = wishes.tour.toggle_pause || choice.toggles_pause;
+  if (choice.home) EndVisitNow();
   if (for_pages && !pages()) Save();
   ShowFade(width_px, height_px, passed_s, &fade);
 }
 
 void Visit::Impl::StepTown(float passed_s, Records* records) {
   const double step_s = static_cast<double>(Step_s(*s));
-  if (!pages()) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMaxStepsPerFrame);
+  if (!pages() && !attracts()) BeginVisit(SoFar());
+  if (!HoldsTown(menu) && !operator_page())
+    owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMaxStepsPerFrame);
   if (owed_s >= step_s) controls.turned_rad = 0;
   while (owed_s >= step_s) {
     const CameraInput next = attracts() ? NextOfAttract(*s, &attract) : NextStep(wishes, *s, &controls);
@@ -303,7 +346,6 @@ Error Visit::Enter(bool views) {
   v.MakeControlsAnew();
   v.ApplySettings();
   BeginHint(v.controls, *v.s, &v.notices);
-  v.start = v.s->visitor.camera.view;
   PrepareDiscovery(v.find());
   if (v.settings.kiosk) v.EndVisitor();
   return Ok();
@@ -318,6 +360,7 @@ Error Visit::Picture(const WindowInput& input, int width_px, int height_px, floa
   v.FollowVisitors(input, passed_s);
   v.ShowPages(input, passed_s);
   v.TakeHands(input, passed_s);
+  v.EndTour(input, passed_s);
   v.StepTown(passed_s, records);
   v.Draw(passed_s);
   v.loader->GoOn();

@@ -7,6 +7,7 @@
 #include "runtime/crowd/walls.h"
 #include "runtime/town/loitering.h"
 #include "runtime/walk/guide.h"
+#include "runtime/walk/staging.h"
 
 namespace flaneur {
 namespace {
@@ -24,8 +25,11 @@ constexpr float kAtHalt_m = 1;
 constexpr float kGentleYawRate_radps = 0.35f, kGentleSpeed_mps = 1.0f;
 constexpr float kLooksAbout_s = 2.5f;  // after looking to the side, until the tour turns the view again
 constexpr float kGiveUpPoint_s = 3, kGiveUpFarPoint_s = 10, kFarPoint_m = 20;  // the longer the way, the more patient
-constexpr float kStands = 0.05f;                                               // share of the pace
-constexpr float kSidestep_m = 0.7f;                                            // looked ahead when walking round people
+constexpr float kLooksAside_radps = 0.15f;  // from the guide, and so far: on the way, and from what there is to see
+constexpr float kMostAside_rad = 0.19f, kMostAsideAtHalt_rad = 0.08f;
+constexpr float kBack_rad = 2.3f;    // a turn of more goes by the guide's side
+constexpr float kStands = 0.05f;     // share of the pace
+constexpr float kSidestep_m = 0.7f;  // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;  // after which those who stand in the way move on
 constexpr float kLoitererYieldRadius_m = 2;
 
@@ -145,6 +149,18 @@ void TurnForTour(float yaw_rad, const VisitorInTown& v) {
     TurnTowards(yaw_rad, v.visitor.gentle ? kGentleYawRate_radps : kTourYawRate_radps, v);
 }
 
+// With the guide to one side.
+void TurnBeside(float yaw_rad, float most_aside_rad, const VisitorInTown& v) {
+  Visitor& visitor = v.visitor;
+  const float most = kLooksAside_radps * Step_s(v.settings);
+  const float aside_rad = LookAside_rad(yaw_rad, most_aside_rad, v);
+  visitor.looks_aside_rad += std::clamp(aside_rad - visitor.looks_aside_rad, -most, most);
+  const float now_rad = visitor.camera.view.yaw_rad, side = visitor.guide.side;
+  const float turn_rad = WrapAngle(yaw_rad - now_rad);
+  const bool back = std::abs(turn_rad) > kBack_rad && turn_rad * side < 0;
+  TurnForTour(back ? now_rad + side * kBack_rad / 2 : yaw_rad + visitor.looks_aside_rad, v);
+}
+
 void TurnCamera(float yaw_rate_radps, const VisitorInTown& v) {
   CameraState& camera = v.visitor.camera;
   camera.yaw_rate_radps = std::clamp(yaw_rate_radps, -MaxYawRate_radps(v.settings), MaxYawRate_radps(v.settings));
@@ -190,8 +206,9 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   GuidedTour& t = v.visitor.tour;
   const Vec2 p = v.visitor.camera.view.position;
   LookAbout(input, v);
+  if (!t.begun) return;
   if (t.resting && Length(t.stops[HaltOf(t)].position_m - p) < kAtHalt_m) {
-    return TurnForTour(t.stops[HaltOf(t)].yaw_rad, v);
+    return TurnBeside(t.stops[HaltOf(t)].yaw_rad, kMostAsideAtHalt_rad, v);
   }
   if (t.over) return TurnForTour(LookOfLeave_rad(v.visitor.camera.view.yaw_rad, v), v);
   if (t.paused) return;
@@ -201,9 +218,9 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
     v.visitor.stuck_s = 0;
     return GiveUpStop(v);
   }
-  const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
-  if (Length(look) > kReached_m) TurnForTour(std::atan2(look.y, look.x), v);
   const float pace = ShareOfPace(v);
+  const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
+  if (pace > kStands && Length(look) > kReached_m) TurnBeside(AngleOf(look), kMostAside_rad, v);
   if (pace > kStands) Walk(RoundPeople(v, way), TourSpeed_mps(v) * pace, v);
   else v.visitor.stuck_s = 0;
 }

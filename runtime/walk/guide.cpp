@@ -6,22 +6,27 @@
 #include "runtime/crowd/fast_math.h"
 #include "runtime/town/loitering.h"
 #include "runtime/town/population.h"
+#include "runtime/walk/staging.h"
 #include "runtime/walk/visitor.h"
 
 namespace flaneur {
 namespace {
 
-constexpr float kLead_m = 3.6f;        // along the route, before the visitor
 constexpr float kCatchesUp_ps = 0.9f;  // metres a second for each metre that the lead is short of that
 constexpr float kSetsOff_mps = 0.4f, kStops_mps = 0.15f;
-constexpr float kWaits_m = 7;     // a visitor farther than this has to come first
+constexpr float kWaits_m = 4;     // a visitor so much farther than the lead has to come first
 constexpr float kNearHalt_m = 3;  // from the route's end the guide goes to where to stand there
 constexpr float kOffPlace_m = 0.5f, kAtPlace_m = 0.15f;
-constexpr float kToPlace_mps = 1.3f;
-constexpr float kAhead_m = 0.8f, kFullPace_m = 2.0f;  // lead with which the visitor begins to walk, and walks as usual
-constexpr float kPatience_s = 4;                      // of a visitor who waits for the guide to get ahead
-constexpr float kBesideView_rad = 0.32f;              // to the side of what there is to see at a halt
-constexpr float kClears_m = 0.15f;                    // people keep so much more than touching from the guide
+constexpr float kToPlace_mps = 1.6f;
+constexpr float kAhead = 0.5f,
+                kFullPace = 0.85f;   // of the lead, with which the visitor begins to walk, and walks as usual
+constexpr float kPatience_s = 8;     // of a visitor who waits for the guide to get ahead
+constexpr float kWalkedTo_m = 1.2f;  // along the route
+constexpr float kLeadsOn = 0.3f;     // cosine of the angle from it
+constexpr float kOnRoute_s = 0.8f;
+constexpr int kChooseSideEvery_steps = 15;
+constexpr float kClearlyBeside_rad = 0.1f;  // of the picture's middle
+constexpr float kClears_m = 0.15f;          // people keep so much more than touching from the guide
 constexpr float kStuck_s = 1.5f, kGetsOn_m = 0.5f, kLoitererYieldRadius_m = 1.6f;
 constexpr float kFarthest_m = 20;  // of a new route the guide is looked for so far
 
@@ -34,26 +39,10 @@ bool Find(const VisitorInTown& v) {
   return g.index < v.town.crowd.size();
 }
 
-bool CanStand(const VisitorInTown& v, Vec2 stop, Vec2 p) {
-  return IsFree(v.town.walkable, p) && FreeLine(v.town.walkable, stop, p);
-}
+// Along the route, before the visitor.
+float Lead_m(const VisitorInTown& v) { return LeadDepth_m(v.visitor.camera); }
 
-// Where the guide stands at a halt: beside what there is to see, near enough to be heard, never in the visitor's way.
-Vec2 PlaceAt(const VisitorInTown& v, size_t halt) {
-  const TourStop& stop = v.visitor.tour.stops[halt];
-  const float looks_rad = LookAt_rad(v.visitor.tour, halt);
-  const float least_m =
-      v.settings.r_personal_m + v.town.residents[static_cast<size_t>(v.visitor.guide.avatar)].radius_m + 0.3f;
-  for (const float wider : {1.0f, 1.8f, 3.0f, 5.0f, 0.0f, 7.0f}) {
-    for (const float far_m : {std::max(2.8f, least_m), std::max(2.0f, least_m), least_m}) {
-      for (const float side : {-1.0f, 1.0f}) {
-        const Vec2 p = stop.position_m + DirectionOf(looks_rad + side * wider * kBesideView_rad) * far_m;
-        if (CanStand(v, stop.position_m, p)) return p;
-      }
-    }
-  }
-  return stop.position_m;
-}
+bool IsFar(const VisitorInTown& v, Vec2 p) { return Length(p - v.visitor.camera.view.position) > Lead_m(v) + kWaits_m; }
 
 void FollowPlan(Vec2 p, const VisitorInTown& v) {
   Guide& g = v.visitor.guide;
@@ -63,9 +52,10 @@ void FollowPlan(Vec2 p, const VisitorInTown& v) {
     return;
   }
   g.plans = t.plans;
-  g.place = PlaceAt(v, HaltOf(t));
   g.way_m = WayTo(t.route, p, 0, kFarthest_m);
   g.waited_s = 0;
+  g.side = SideToWalk(std::min(Lead_m(v), LengthOf_m(t.route)), 0, v);
+  g.place = PlaceBesideSight(HaltOf(t), BesideRoute(LengthOf_m(t.route) - kNearHalt_m, g.side, v), v);
 }
 
 bool GoesToPlace(const VisitorInTown& v) {
@@ -75,14 +65,28 @@ bool GoesToPlace(const VisitorInTown& v) {
 
 // Speed along the route: the visitor's own, and what the lead asks for.
 float LeadingSpeed_mps(const VisitorInTown& v, Vec2 p) {
-  const bool far = Length(p - v.visitor.camera.view.position) > kWaits_m;
+  const bool far = IsFar(v, p);
   const float lead_m = v.visitor.guide.way_m - v.visitor.tour.visitor_m;
-  if (v.visitor.tour.paused || (far && (lead_m > kLead_m || !v.visitor.tour.follows))) return 0;
+  if (v.visitor.tour.paused || !v.visitor.tour.begun || (far && (lead_m > Lead_m(v) || !v.visitor.tour.follows)))
+    return 0;
   const Vec2 ahead = PointAt(v.visitor.tour.route, v.visitor.tour.visitor_m + 1) -
                      PointAt(v.visitor.tour.route, v.visitor.tour.visitor_m);
   const float ahead_m = Length(ahead);
   const float visitor_mps = ahead_m > 1e-3f ? std::max(0.0f, Dot(v.visitor.camera.velocity, ahead) / ahead_m) : 0;
-  return std::clamp(visitor_mps + kCatchesUp_ps * (kLead_m - lead_m), 0.0f, v.town.settings.top_speed_mps);
+  return std::clamp(visitor_mps + kCatchesUp_ps * (Lead_m(v) - lead_m), 0.0f, v.town.settings.top_speed_mps);
+}
+
+// To one side of the route, and on it for a while wherever that does not lead on.
+Vec2 AlongRouteBeside(Vec2 p, const VisitorInTown& v) {
+  Guide& g = v.visitor.guide;
+  const Route& route = v.visitor.tour.route;
+  g.on_route_s = std::max(0.0f, g.on_route_s - Step_s(v.settings));
+  const Vec2 to = BesideRoute(g.way_m + kWalkedTo_m, g.side, v) - p;
+  const Vec2 on = PointAt(route, g.way_m + kWalkedTo_m) - PointAt(route, g.way_m);
+  const bool leads_on = Length(to) > kAtPlace_m && Dot(to, on) > kLeadsOn * Length(to) * Length(on);
+  if (!leads_on || !FreeLine(v.town.walkable, p, p + to)) g.on_route_s = kOnRoute_s;
+  if (g.on_route_s <= 0) return Unit(to);
+  return WayAlong(v.town.walkable, route, g.way_m, p, &g.corner, &v.town.crowd.search);
 }
 
 Vec2 Wanted(Vec2 p, const VisitorInTown& v) {
@@ -97,7 +101,8 @@ Vec2 Wanted(Vec2 p, const VisitorInTown& v) {
   const float speed_mps = LeadingSpeed_mps(v, p);
   g.walks = speed_mps > (g.walks ? kStops_mps : kSetsOff_mps);
   if (!g.walks) return {};
-  return WayAlong(v.town.walkable, v.visitor.tour.route, g.way_m, p, &g.corner, &v.town.crowd.search) * speed_mps;
+  if (v.town.step % kChooseSideEvery_steps == 0) g.side = SideToWalk(g.way_m, g.side, v);
+  return AlongRouteBeside(p, v) * speed_mps;
 }
 
 // Who stands in the way of a guide who cannot get on walks off.
@@ -109,10 +114,21 @@ void GetOn(Vec2 p, const VisitorInTown& v) {
   if (g.stuck_s >= kStuck_s) StirLoiterers(p, kLoitererYieldRadius_m, &v.town);
 }
 
+// Where the guide is going to stand while the visitor rests, else where they are.
+void NoteSideInPicture(Vec2 p, const VisitorInTown& v) {
+  Guide& g = v.visitor.guide;
+  const GuidedTour& t = v.visitor.tour;
+  const ViewCamera& view = v.visitor.camera.view;
+  const float at_rad = t.resting ? WrapAngle(AngleOf(g.place - view.position) - LookAt_rad(t, HaltOf(t)))
+                                 : WrapAngle(AngleOf(p - view.position) - view.yaw_rad);
+  if (std::abs(at_rad) > kClearlyBeside_rad && std::abs(at_rad) < view.fov_rad / 2) g.is_left = at_rad > 0;
+}
+
 float OwnShareOfPace(const VisitorInTown& v) {
   const Guide& g = v.visitor.guide;
-  if (GoesToPlace(v) || Length(v.town.crowd.position[g.index] - v.visitor.camera.view.position) > kWaits_m) return 1;
-  return std::clamp((g.way_m - v.visitor.tour.visitor_m - kAhead_m) / (kFullPace_m - kAhead_m), 0.0f, 1.0f);
+  if (GoesToPlace(v) || IsFar(v, v.town.crowd.position[g.index])) return 1;
+  const float lead = (g.way_m - v.visitor.tour.visitor_m) / Lead_m(v);
+  return std::clamp((lead - kAhead) / (kFullPace - kAhead), 0.0f, 1.0f);
 }
 
 // The free place nearest to the way that the tour begins with, a few steps ahead.
@@ -127,14 +143,19 @@ bool FindStart(const VisitorInTown& v, Vec2* start) {
     }
     return true;
   };
-  for (const float ahead_m : {kLead_m, 2.5f, 4.0f, 2.0f, 5.0f, 1.5f}) {
+  const float lead_m = Lead_m(v), side = SideToWalk(std::min(lead_m, LengthOf_m(v.visitor.tour.route)), 0, v);
+  for (const float ahead_m : {lead_m, lead_m - 0.7f, lead_m + 0.7f, 4.0f, 3.0f, 2.0f, 1.5f}) {
+    for (const float of_side : {side, -side}) {
+      *start = BesideRoute(ahead_m, of_side, v);
+      if (fits(*start)) return true;
+    }
     *start = PointAt(v.visitor.tour.route, ahead_m);
     if (fits(*start)) return true;
   }
-  *start = PlaceAt(v, HaltOf(v.visitor.tour));
-  if (Length(*start - visitor) < kWaits_m && fits(*start)) return true;
+  *start = PlaceBesideSight(HaltOf(v.visitor.tour), visitor, v);
+  if (!IsFar(v, *start) && fits(*start)) return true;
   const int cell =
-      NearestFreeCell(v.town.walkable, visitor + DirectionOf(v.visitor.camera.view.yaw_rad) * kLead_m, kLead_m);
+      NearestFreeCell(v.town.walkable, visitor + DirectionOf(v.visitor.camera.view.yaw_rad) * lead_m, lead_m);
   if (cell >= 0) *start = CellCenter(v.town.walkable, cell);
   return cell >= 0 && fits(*start);
 }
@@ -184,6 +205,7 @@ void LeadOn(const VisitorInTown& v) {
   GetOn(p, v);
   g.waited_s = OwnShareOfPace(v) < 0.3f ? g.waited_s + Step_s(v.settings) : 0;
   const Vec2 to_visitor = v.visitor.camera.view.position - p;
+  NoteSideInPicture(p, v);
   c.facing[g.index] = Unit(to_visitor);
   const bool talks = v.visitor.tour.resting && !v.visitor.tour.paused;
   c.activity[g.index] = g.walks ? Activity::kWalking : talks ? Activity::kTalking : Activity::kStanding;

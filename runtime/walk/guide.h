@@ -9,16 +9,19 @@
 namespace flaneur {
 
 struct Guide {
-  int avatar = -1;     // -1: the tour has none
-  int id = -1;         // in the crowd; -1: not there
-  size_t index = 0;    // in the crowd's arrays
-  int plans = 0;       // of the tour, that place and way_m are about
-  float way_m = 0;     // how far along the tour's route
-  Vec2 place;          // where to stand at the halt
-  bool walks = false;  // else stands and faces the visitor
-  Vec2 velocity;       // wanted
-  Corner corner;       // of the way back to the route
-  float stuck_s = 0;   // since the guide got away from stuck_at
+  int avatar = -1;       // -1: the tour has none
+  int id = -1;           // in the crowd; -1: not there
+  size_t index = 0;      // in the crowd's arrays
+  int plans = 0;         // of the tour, that place and way_m are about
+  float way_m = 0;       // how far along the tour's route
+  Vec2 place;            // where to stand at the halt
+  float side = 0;        // of the route, on which the guide walks: 1 left, -1 right; 0: not yet chosen
+  float on_route_s = 0;  // left to walk on the route itself
+  bool is_left = true;   // of the picture's middle, or was when last clearly beside it
+  bool walks = false;    // else stands and faces the visitor
+  Vec2 velocity;         // wanted
+  Corner corner;         // of the way back to the route
+  float stuck_s = 0;     // since the guide got away from stuck_at
   Vec2 stuck_at;
   float waited_s = 0;  // how long the visitor has waited for the guide to get ahead
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/crowd/fast_math.h"
 #include "runtime/walk/visitor.h"
 
 namespace flaneur {
@@ -17,6 +18,7 @@ constexpr float kBackwards_m = 2,
                 kForwards_m = 4;  // along the route: the visitor is looked for so near where they were
 constexpr float kAgain_s = 3;     // back within this goes to the halt before, later to this one's beginning
 constexpr float kAfterSound_s = 0.7f;
+constexpr float kLooksAfterCut_m = 2.5f;                          // along the way
 constexpr float kMinReading_s = 2, kReading_sPerLetter = 0.065f;  // about 15 letters a second, an unhurried reader
 
 bool IsHalt(const GuidedTour& t, size_t stop) { return RestOf_s(t, stop) > 0; }
@@ -61,10 +63,29 @@ void Plan(const std::vector<size_t>& stops, const VisitorInTown& v) {
   ++t.plans;
 }
 
+// A cut: the visitor is near the halt at once, and looks along the way there. False where it is not far.
+bool SkipWay(const VisitorInTown& v) {
+  GuidedTour& t = v.visitor.tour;
+  const float skipped_m = LengthOf_m(t.route) - t.cut.approach_m;
+  if (t.cut.approach_m <= 0 || skipped_m <= 0) return false;
+  ViewCamera& view = v.visitor.camera.view;
+  view.position = v.visitor.stuck_at = PointAt(t.route, skipped_m);
+  view.yaw_rad = AngleOf(PointAt(t.route, skipped_m + kLooksAfterCut_m) - view.position);
+  v.visitor.stuck_s = v.visitor.looks_aside_rad = 0;
+  size_t first = 0;
+  while (first + 1 < t.stage.size() && t.stop_m[first] < skipped_m) ++first;
+  Plan({t.stage.begin() + static_cast<std::ptrdiff_t>(first), t.stage.end()}, v);
+  return true;
+}
+
 void LeaveHalt(const VisitorInTown& v) {
   GuidedTour& t = v.visitor.tour;
   const size_t next = HaltOf(t) + 1;
-  if (next < t.stops.size()) return Plan(StopsBetween(next, HaltFrom(t, next)), v);
+  if (next < t.stops.size()) {
+    Plan(StopsBetween(next, HaltFrom(t, next)), v);
+    if (SkipWay(v)) BringGuide(v);
+    return;
+  }
   t.resting = false;
   t.over = v.visitor.finished = true;
 }
@@ -138,6 +159,16 @@ void WalkOn(const VisitorInTown& v) {
   if (strays && is_back) Reroute(v);
 }
 
+// In this language, else in the tour's own; empty in neither.
+std::string WordsIn(const std::map<std::string, std::string>& words, const std::string& language,
+                    const std::string& own) {
+  for (const std::string& wished : {language, own}) {
+    const auto found = words.find(wished);
+    if (found != words.end() && !found->second.empty()) return found->second;
+  }
+  return "";
+}
+
 StopWords WordsOf(const TourStop& stop, const std::string& language, const std::string& own) {
   StopWords words;
   const auto caption = stop.captions.find(language);
@@ -158,11 +189,12 @@ StopWords WordsOf(const TourStop& stop, const std::string& language, const std::
 }  // namespace
 
 std::string TitleOf(const TourData& tour, const std::string& language) {
-  for (const std::string& wished : {language, tour.language}) {
-    const auto title = tour.titles.find(wished);
-    if (title != tour.titles.end() && !title->second.empty()) return title->second;
-  }
-  return tour.name;
+  const std::string title = WordsIn(tour.titles, language, tour.language);
+  return title.empty() ? tour.name : title;
+}
+
+std::string ThanksOf(const TourData& tour, const std::string& language) {
+  return WordsIn(tour.thanks, language, tour.language);
 }
 
 std::string NameOfStop(const GuidedTour& tour, size_t stop) {
@@ -195,7 +227,28 @@ void TakeStops(const std::vector<TourStop>& stops, const std::string& own_langua
 void SetLanguage(const std::string& language, GuidedTour* t) {
   t->language = language;
   t->words.clear();
-  for (const TourStop& stop : t->stops) t->words.push_back(WordsOf(stop, language, t->languages.front()));
+  for (const TourStop& stop : t->stops) {
+    t->words.push_back(WordsOf(stop, language, t->languages.front()));
+    if (t->cut.most_rest_s > 0) t->words.back().rest_s = std::min(t->words.back().rest_s, t->cut.most_rest_s);
+  }
+}
+
+Error CutTour(const TourCut& cut, GuidedTour* t) {
+  size_t last = 0;
+  for (const float number : cut.stops) {
+    const auto k = static_cast<size_t>(number) - 1;
+    if (k >= t->stops.size() || !IsHalt(*t, k))
+      return Fail("tour.stops: nobody rests at stop " + std::to_string(k + 1) + " of this tour");
+    last = std::max(last, k);
+  }
+  if (!cut.stops.empty()) t->stops.resize(last + 1);
+  for (size_t k = 0; k < t->stops.size() && !cut.stops.empty(); ++k) {
+    if (std::find(cut.stops.begin(), cut.stops.end(), static_cast<float>(k + 1)) == cut.stops.end())
+      t->stops[k] = {t->stops[k].position_m, t->stops[k].yaw_rad};
+  }
+  t->cut = cut;
+  SetLanguage(t->language, t);
+  return Ok();
 }
 
 void PlaceStops(const VisitorInTown& v) {
@@ -224,12 +277,14 @@ void PlaceStops(const VisitorInTown& v) {
 }
 
 void BeginTour(const VisitorInTown& v) {
-  if (!v.visitor.tour.stops.empty()) Plan(StopsBetween(0, HaltFrom(v.visitor.tour, 0)), v);
+  if (v.visitor.tour.stops.empty()) return;
+  Plan(StopsBetween(0, HaltFrom(v.visitor.tour, 0)), v);
+  SkipWay(v);
 }
 
 void StepTour(const TourWish& wish, bool follows, const VisitorInTown& v) {
   GuidedTour& t = v.visitor.tour;
-  if (t.stops.empty()) return;
+  if (t.stops.empty() || !t.begun) return;
   if (t.follows != follows) v.visitor.stuck_s = 0;  // what held them up is of the walk before
   t.follows = follows;
   if (wish.toggle_pause) t.paused = !t.paused;
@@ -250,6 +305,7 @@ void JumpToStop(size_t stop, const VisitorInTown& v) {
   v.visitor.camera.pitch_rad = v.visitor.looks_about_s = v.visitor.stuck_s = 0;
   v.visitor.point_walk = {};
   v.visitor.finished = t.paused = t.holds = false;
+  t.begun = true;
   Plan(StopsBetween(stop, HaltFrom(t, stop)), v);
   BringGuide(v);
 }

@@ -5,12 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/error.h"
 #include "runtime/tour_data/tour_data.h"
 #include "runtime/walk/route.h"
 
 namespace flaneur {
 
 struct VisitorInTown;
+
+// A tour made shorter, as for a film.
+struct TourCut {
+  std::vector<float> stops;  // numbers from 1 of those to rest at; the tour ends at the last. Empty: all
+  float most_rest_s = 0;     // at a stop; 0: as long as it takes
+  float approach_m = 0;      // of the way to each, the rest is skipped; 0: all of it
+};
 
 // What is shown and said at a stop, in the visitor's language.
 struct StopWords {
@@ -24,6 +32,7 @@ struct GuidedTour {
   std::vector<StopWords> words;        // by stop
   std::vector<std::string> languages;  // that there are, the tour's own first
   std::string language;                // that words are in, as far as there are any
+  TourCut cut;
   // The way to the next halt, which is a stop to rest at, or the last stop: indices of the stops on it, and a line over
   // the ground.
   std::vector<size_t> stage;
@@ -33,6 +42,7 @@ struct GuidedTour {
   float visitor_m = 0;  // how far along the route the visitor is
   bool resting = false, paused = false, over = false;
   bool holds = false;   // nothing goes on: paused, or the visitor has left the halt
+  bool begun = true;    // else it waits where it begins, for somebody to lead
   bool follows = true;  // the tour leads the visitor, who does not walk about freely
   float rested_s = 0;
   float reroute_s = 0;  // until a visitor who strayed is thought of again
@@ -51,6 +61,8 @@ inline bool HasTour(const GuidedTour& tour) { return !tour.stops.empty() && !tou
 inline size_t HaltOf(const GuidedTour& tour) { return tour.stage.empty() ? 0 : tour.stage.back(); }
 // What visitors read: the title in this language, else in the pack's own, else its name.
 std::string TitleOf(const TourData& tour, const std::string& language);
+// What they read at the guided tour's end, likewise; empty where the tour says nothing.
+std::string ThanksOf(const TourData& tour, const std::string& language);
 // What a stop is called: its caption's first sentence. Empty where it has none.
 std::string NameOfStop(const GuidedTour& tour, size_t stop);
 // Who is farther from a halt does not hear what is said there, and has left it for now.
@@ -65,13 +77,15 @@ float LookAt_rad(const GuidedTour& tour, size_t stop);
 
 // The tour's stops and languages. own_language: of the stops' `caption`.
 void TakeStops(const std::vector<TourStop>& stops, const std::string& own_language, GuidedTour* tour);
+// From now on, before the tour begins. Errors: numbers of stops that there are not, or at which nobody rests.
+Error CutTour(const TourCut& cut, GuidedTour* tour);
 // Words of a stop that has none in this language are in the tour's own.
 void SetLanguage(const std::string& language, GuidedTour* tour);
 
 // Stops that nobody can stand at move beside the wall they are in, those that cannot be reached are left out; both with
 // a warning.
 void PlaceStops(const VisitorInTown& v);
-// The first stage, from where the visitor stands.
+// The first stage, or the end of it where the tour is cut, from where the visitor stands.
 void BeginTour(const VisitorInTown& v);
 
 // The tour goes on to where the visitor is now.

@@ -8,11 +8,13 @@
 #include "runtime/walk/guide.h"
 #include "runtime/walk/guided_tour.h"
 #include "runtime/walk/point_walk.h"
+#include "runtime/walk/start.h"
 
 namespace flaneur {
 
 inline constexpr float kEyeHeight_m = 1.65f;
 inline constexpr float kCameraRadius_m = 0.3f;
+inline constexpr float kUsualAspect = 16.0f / 9;
 
 // What the visitor asks for in a step.
 struct CameraInput {
@@ -28,6 +30,7 @@ struct CameraInput {
 struct CameraState {
   ViewCamera view;
   float pitch_rad = 0, eye_height_m = kEyeHeight_m;
+  float aspect = kUsualAspect;  // of the picture, width over height
   Vec2 velocity;
   Vec2 asked_velocity;  // what the visitor wants: who holds them up sees it
   float yaw_rate_radps = 0, asked_mps = 0, actual_mps = 0;
@@ -52,10 +55,12 @@ struct VisitorComfort {
 
 struct Visitor {
   CameraState camera;
+  Start start;
   GuidedTour tour;
   Guide guide;
   PointWalk point_walk;
-  float looks_about_s = 0;  // left until the tour turns the view again
+  float looks_aside_rad = 0;  // that the tour keeps the view turned away from the guide
+  float looks_about_s = 0;    // left until the tour turns the view again
   VisitorComfort comfort;
   bool gentle = false;          // the tour turns the view slowly, and walks slowly
   std::vector<CameraLeg> legs;  // of the scenario; empty: the guided tour

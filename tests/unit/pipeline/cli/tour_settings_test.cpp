@@ -59,6 +59,8 @@ TEST(TourSettings, TheReferenceFileHoldsTheDefaults) {
   ASSERT_EQ(ReadTourSettings(kReference, &reference).message, "");
   ASSERT_EQ(Read(kMinimalTour, &least), "");
   EXPECT_EQ(reference.name, "reference");
+  EXPECT_TRUE(reference.thanks.empty());
+  EXPECT_EQ(reference.home_after_s, least.home_after_s);
   EXPECT_EQ(Dumped(reference.crowd), Dumped(CrowdSettings{}));
   EXPECT_EQ(Dumped(reference.control), Dumped(ControlSettings{}));
   EXPECT_EQ(Dumped(reference.light), Dumped(LightSettings{}));

@@ -145,6 +145,8 @@ TourParts SmallTour() {
   parts.photo = {{{"de", "Grüße"}}, "https://example.org/{file}"};
   parts.guide = parts.avatars[0].levels.avatar.name;
   parts.title_page = {{'J', 'F', 'I', 'F'}, {'P', 'N', 'G'}, {0, 0.2f, 1}};
+  parts.thanks = {{"de", "Danke!"}, {"en", "Thanks!"}};
+  parts.home_after_s = 12;
   parts.crowd.people = 17;
   parts.control.method = LimitMethod::kFrameTime;
   parts.light.day_length_s = 0;
@@ -194,6 +196,8 @@ TEST(TourPack, BringsTheTourAcross) {
   ASSERT_EQ(pack.path.size(), 1u);
   EXPECT_EQ(pack.path[0].caption, "Grüß Gott");
   EXPECT_EQ(pack.guide, "made");
+  EXPECT_EQ(pack.thanks.at("en"), "Thanks!");
+  EXPECT_EQ(pack.home_after_s, 12);
   EXPECT_EQ(pack.language, "de");
   EXPECT_EQ(pack.titles.at("en"), "Little market");
   EXPECT_EQ(pack.path[0].captions.at("en"), "Good day");
@@ -504,9 +508,9 @@ TEST(TourPack, AMemberOfAnotherTypeIsRefusedByItsPlace) {
 TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
-  const std::set<std::string> optional{"painting", "guide",   "titles",     "language",     "captions",  "sounds",
+  const std::set<std::string> optional{"painting", "guide",   "titles", "language",   "captions",     "sounds",
                                        "tints",    "props",   "title_page", "picture_view", "logo_view", "photo",
-                                       "hotspots", "streets", "texts",      "reach_m"};
+                                       "hotspots", "streets", "texts",  "reach_m",    "thanks",       "home_after_s"};
   for (const char* object : {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0",
                              "/avatars/0/impostor", "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground",
                              "/title_page", "/places/0", "/painting", "/path/0", "/hotspots/0", "/sounds/1"}) {

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "runtime/show/guide_arm.h"
 #include "tests/unit/runtime/simulation/tour_town.h"
 
 namespace flaneur {
@@ -48,7 +50,7 @@ TEST(GuideFigure, CountsItsTrianglesInEveryLevel) {
   EXPECT_EQ(Triangles(pack.meshes[0]), 1u) << "the townspeople stay as they are";
 }
 
-TEST(GuideFigure, IsSeenOverEverybodysHeadAndMovesWithTheBack) {
+TEST(GuideFigure, IsSeenOverEverybodysHeadAndMovesWithTheBackOfOneWithoutArms) {
   TourPack pack = WithMeshes();
   AddGuideFigure(&pack);
   const PackAvatar& figure = pack.avatars.back();
@@ -60,6 +62,83 @@ TEST(GuideFigure, IsSeenOverEverybodysHeadAndMovesWithTheBack) {
     EXPECT_EQ(banner.joints[i][0], 3);
   }
   EXPECT_GT(highest_m, 1.3f * figure.height_m);
+}
+
+// A trunk and a right arm of two bones and a hand with a finger, stretched out or hanging; joint 0 is the hip.
+std::vector<PackJoint> Skeleton(bool hangs, bool named) {
+  const Vec3 shoulder{-0.2f, 1.4f, 0}, along = hangs ? Vec3{-0.05f, -1, 0.05f} : Vec3{-1, 0, 0};
+  std::vector<PackJoint> s{{"hip", -1, {0, 0.95f, 0}}, {"chest", 0, {0, 1.3f, 0}}};
+  const float at_m[] = {0, 0.26f, 0.52f, 0.59f};
+  const char* names[] = {"Arm.R", "ForeArm.R", "Hand.R", "Finger.R"};
+  for (int k = 0; k < 4; ++k) s.push_back({named ? names[k] : "", 1 + k, shoulder + Normalized(along) * at_m[k]});
+  s.push_back({named ? "Foot.R" : "", 0, {-0.1f, 0.08f, 0.1f}});
+  return s;
+}
+
+TEST(GuideFigure, CarriesTheBannerInTheHandOfAnySkeleton) {
+  for (const bool hangs : {false, true}) {
+    for (const bool named : {false, true}) {
+      SCOPED_TRACE(std::string(hangs ? "hangs" : "stretched out") + (named ? ", named" : ""));
+      TourPack pack = WithMeshes();
+      for (PackAvatar& avatar : pack.avatars) {
+        avatar.skeleton = Skeleton(hangs, named);
+        avatar.joints = static_cast<int>(avatar.skeleton.size());
+        for (PackClip* clip : {&avatar.walk, &avatar.idle, &avatar.talk}) {
+          clip->frames = 2;
+          clip->matrices.assign(2 * avatar.skeleton.size(), Mat4{});
+          // In the second frame the arm swings far off.
+          for (size_t j = 2; j < 6; ++j)
+            clip->matrices[avatar.skeleton.size() + j] = FromTranslationRotationScale({0, 0, 5}, {}, {1, 1, 1});
+        }
+      }
+      AddGuideFigure(&pack);
+      const PackAvatar& figure = pack.avatars.back();
+      const PackPrimitive& banner = pack.meshes[static_cast<size_t>(figure.levels[0].mesh)].primitives.back();
+      for (size_t frame = 0; frame < 2; ++frame) {
+        float lowest_m = 9, highest_m = 0;
+        for (size_t i = 0; i < banner.positions.size(); ++i) {
+          ASSERT_EQ(banner.joints[i][0], 4) << "the hand";
+          const Mat4& joint = figure.walk.matrices[frame * figure.skeleton.size() + banner.joints[i][0]];
+          const Vec3 p = TransformPoint(joint, banner.positions[i]);
+          lowest_m = std::min(lowest_m, p.y), highest_m = std::max(highest_m, p.y);
+          EXPECT_LT(p.x, -0.12f) << "beside the head";
+          EXPECT_GT(p.z, 0.05f) << "before the body";
+          EXPECT_LT(p.z, 0.6f);
+        }
+        EXPECT_GT(lowest_m, 0.1f);
+        EXPECT_GT(highest_m, 1.3f * figure.height_m);
+      }
+      EXPECT_EQ(pack.avatars[1].walk.matrices.back().m[3][2], 0.0f) << "the townspeople keep their arms";
+      EXPECT_EQ(pack.avatars[1].walk.matrices[figure.skeleton.size() + 4].m[3][2], 5.0f);
+    }
+  }
+}
+
+TEST(GuideFigure, CarriesTheBannerAtTheBackWhereThereIsNoArm) {
+  for (const size_t joints : {size_t{0}, size_t{1}, size_t{3}, size_t{4}}) {
+    TourPack pack = WithMeshes();
+    std::vector<PackJoint> odd = Skeleton(true, true);
+    odd.resize(joints);
+    for (PackAvatar& avatar : pack.avatars) avatar.skeleton = odd;
+    AddGuideFigure(&pack);
+    const PackAvatar& figure = pack.avatars.back();
+    for (const Vec3& p : pack.meshes[static_cast<size_t>(figure.levels[0].mesh)].primitives.back().positions)
+      EXPECT_LT(p.z, -0.2f);
+  }
+}
+
+TEST(GuideOfTheDemo, CarriesTheBannerInTheHand) {
+  const std::filesystem::path path =
+      std::filesystem::path(FLANEUR_SOURCE_DIR) / "build_assets/wolfenbuettel/wolfenbuettel.glb";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": bake the demo tour with ./demo";
+  TourPack pack;
+  ASSERT_EQ(LoadTourPack(path, {.geometry_and_images = false}, &pack).message, "");
+  for (const PackAvatar& avatar : pack.avatars) {
+    const auto arm = FindCarryingArm(avatar.skeleton, avatar.height_m);
+    ASSERT_TRUE(arm) << avatar.name;
+    EXPECT_LT(arm->grip_m.x, -0.1f * avatar.height_m) << avatar.name;
+    EXPECT_GT(arm->grip_m.z, 0.05f * avatar.height_m) << avatar.name;
+  }
 }
 
 // What has no geometry loaded walks by the same numbers.

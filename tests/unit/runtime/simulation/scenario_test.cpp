@@ -95,6 +95,9 @@ TEST(Scenario, MistakesAreNamedWithTheirLine) {
   EXPECT_NE(Parse("[[camera.leg]]\nspeed_mps = 1\n", &s).message.find("exactly one of"), std::string::npos);
   EXPECT_NE(Parse("[crowd_area]\nmin_m = [4, 4]\nmax_m = [0, 9]\n", &s).message.find(":1: crowd_area needs"),
             std::string::npos);
+  EXPECT_NE(Parse("[tour]\nstops = [1.5]\n", &s).message.find(":1: tour.stops are whole numbers"), std::string::npos);
+  EXPECT_NE(Parse("[[camera.leg]]\nwait_s = 1\n[tour]\nmost_rest_s = 3\n", &s).message.find(":3: [tour] is for runs"),
+            std::string::npos);
   EXPECT_NE(Parse("seconds = -1\n", &s).message.find("seconds is -1, it must be from 0 to"), std::string::npos);
 }
 

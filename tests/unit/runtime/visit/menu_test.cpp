@@ -10,6 +10,7 @@
 
 #include "runtime/desktop/context.h"
 #include "runtime/show/frame_from_simulation.h"
+#include "runtime/visit/home.h"
 #include "runtime/visit/notices.h"
 #include "runtime/visit/operator_page.h"
 #include "runtime/visit/phrases.h"
@@ -187,6 +188,84 @@ TEST(Pages, LeadToEveryHaltOfTheTour) {
     if (const MenuChoice choice = p.Click(0.5f, y); choice.stop) stops.insert(*choice.stop);
   }
   EXPECT_EQ(stops, (std::set<size_t>{1, 3, 5}));
+}
+
+TEST(Pages, AtTheToursEndOfferTheTourAgainOnesOwnWayAndHome) {
+  const struct { const char *down, *up, *accept; } hands[] = {{"down", "up", "enter"}, {"pad_down", "pad_up", "pad_a"}};
+  for (const auto& hand : hands) {
+    for (int row = 0; row < 3; ++row) {
+      Pages p;
+      p.s.visitor.tour.over = p.s.visitor.finished = true;
+      OpenEndOfTour("Thank you.", &p.menu);
+      EXPECT_FALSE(HoldsTown(p.menu));
+      p.Picture({});
+      p.Picture({});
+      p.Tap(hand.down);  // shows which row is meant
+      p.Tap(hand.up);
+      for (int k = 0; k < row; ++k) p.Tap(hand.down);
+      WindowInput accept;
+      accept.down.set(static_cast<size_t>(InputCode(hand.accept)));
+      MenuChoice choice = p.Picture(accept);
+      for (int k = 0; k < 3; ++k) {
+        const MenuChoice later = p.Picture({});
+        if (later.stop || later.home) choice = later;
+      }
+      EXPECT_EQ(choice.stop.has_value(), row == 0) << hand.down;
+      EXPECT_EQ(p.controls.follows_tour, row != 1) << hand.down;
+      EXPECT_EQ(choice.home, row == 2) << hand.down;
+    }
+  }
+  std::set<int> reached;  // by a finger
+  for (float y = 0.2f; y < 0.9f; y += 0.02f) {
+    Pages p;
+    p.s.visitor.tour.over = p.s.visitor.finished = true;
+    OpenEndOfTour("Thank you.", &p.menu);
+    p.Picture({});
+    p.Picture({});
+    const MenuChoice choice = p.Click(0.5f, y);
+    if (choice.stop) reached.insert(0);
+    if (!p.controls.follows_tour) reached.insert(1);
+    if (choice.home) reached.insert(2);
+  }
+  EXPECT_EQ(reached, (std::set<int>{0, 1, 2}));
+}
+
+// Whoever just then held a button that accepts meant something else by it.
+TEST(Pages, AtTheToursEndWaitUntilWhatIsHeldIsLetGo) {
+  Pages p;
+  p.s.visitor.tour.over = p.s.visitor.finished = true;
+  WindowInput held;
+  held.down.set(static_cast<size_t>(InputCode("space")));
+  OpenPage(Page::kNone, &p.menu);
+  p.Picture(held);
+  OpenEndOfTour("Thank you.", &p.menu);
+  for (int k = 0; k < 5; ++k) EXPECT_FALSE(p.Picture(held).stop);
+  EXPECT_EQ(p.menu.page, Page::kEnd);
+}
+
+TEST(Home, IsTheBeginningWhileTheCrowdGoesOn) {
+  Simulation s = Started(TourTown(40));
+  PlayerSettings settings;
+  Controls controls = MakeControls(settings, {}, s);
+  CameraInput wishes;
+  Notices notices;
+  const ViewCamera start = s.visitor.camera.view;
+  for (int k = 0; k < 30 * 60; ++k) StepSimulation({}, 0, &s);
+  ASSERT_GT(Length(s.visitor.camera.view.position - start.position), 5);
+  controls.follows_tour = false;
+  controls.settings.language = "de";
+  const int64_t step = s.town.step;
+  GoHome(settings, {s, controls, wishes, notices});
+  EXPECT_EQ(s.town.step, step) << "nobody but the visitor is where they were before";
+  EXPECT_TRUE(controls.follows_tour);
+  EXPECT_EQ(controls.settings.language, settings.language);
+  for (int k = 0; k < 30 * 20; ++k) StepSimulation(NextStep(wishes, s, &controls), 0, &s);
+  EXPECT_LT(Length(s.visitor.camera.view.position - start.position), 0.01f) << "the tour waits to be begun";
+  EXPECT_LT(std::abs(s.visitor.camera.view.yaw_rad - start.yaw_rad), 0.01f);
+  EXPECT_LT(Length(s.town.crowd.position[s.visitor.guide.index] - start.position), 9);
+  BeginVisit({s, controls, wishes, notices});
+  for (int k = 0; k < 30 * 20; ++k) StepSimulation(NextStep(wishes, s, &controls), 0, &s);
+  EXPECT_GT(Length(s.visitor.camera.view.position - start.position), 3);
 }
 
 TEST(Pages, EverySettingCanBeChangedAndStaysInItsRange) {

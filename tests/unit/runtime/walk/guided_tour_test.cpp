@@ -122,6 +122,61 @@ TEST_P(Tours, AVisitorWhoLeftAndComesBackIsLedOn) {
   EXPECT_TRUE(s.visitor.finished);
 }
 
+// The times at which the visitor rests at each stop, and the whole tour's.
+struct Rests {
+  std::vector<std::pair<size_t, float>> of_stop_s;
+  float whole_s = 0, way_m = 0;
+  bool captions = true;
+};
+
+Rests WatchRests(Simulation* s) {
+  Rests rests;
+  Vec2 before = s->visitor.camera.view.position;
+  for (int step = 0; step < 30 * 400 && !s->visitor.finished; ++step) {
+    StepSimulation({}, 0, s);
+    rests.way_m += s->visitor.camera.actual_mps / 30;
+    before = s->visitor.camera.view.position;
+    EXPECT_FALSE(InsideObstacle(s->town.walkable, before)) << step;
+    const GuidedTour& t = s->visitor.tour;
+    if (!t.resting) continue;
+    if (rests.of_stop_s.empty() || rests.of_stop_s.back().first != HaltOf(t)) rests.of_stop_s.push_back({HaltOf(t), 0});
+    rests.of_stop_s.back().second += 1.0f / 30;
+    rests.captions = rests.captions && !t.words[HaltOf(t)].caption.empty();
+  }
+  EXPECT_TRUE(s->visitor.finished);
+  rests.whole_s = Time_s(*s);
+  return rests;
+}
+
+TEST_P(Tours, CutShortRestAtTheStopsThatWereAskedForAlone) {
+  const TourPack pack = Town();
+  Scenario scenario = ScenarioOf(pack);
+  Simulation whole, cut;
+  ASSERT_EQ(StartSimulation(&pack, scenario, &whole).message, "");
+  scenario.tour = {{2, 6}, 1.5f, 8};
+  ASSERT_EQ(StartSimulation(&pack, scenario, &cut).message, "");
+  const Rests all = WatchRests(&whole), some = WatchRests(&cut);
+  EXPECT_EQ(all.of_stop_s.size(), 3u);
+  ASSERT_EQ(some.of_stop_s.size(), 2u);
+  EXPECT_EQ(some.of_stop_s[0].first, 1u);
+  EXPECT_EQ(some.of_stop_s[1].first, 5u);
+  for (const auto& [stop, rest_s] : some.of_stop_s) EXPECT_NEAR(rest_s, 1.5f, 0.1f);
+  EXPECT_TRUE(some.captions);
+  EXPECT_LT(some.way_m, 20);
+  EXPECT_GT(some.way_m, 12) << "something is walked to each";
+  EXPECT_LT(some.whole_s, all.whole_s / 2);
+}
+
+TEST(Tour, CannotBeCutToStopsWhereNobodyRests) {
+  const TourPack pack = TourTown(5);
+  Scenario scenario = ScenarioOf(pack);
+  Simulation s;
+  for (const float stop : {1.0f, 3.0f, 7.0f}) {
+    scenario.tour.stops = {stop};
+    EXPECT_NE(StartSimulation(&pack, scenario, &s).message.find("nobody rests at stop"), std::string::npos) << stop;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutGuide, Tours, ::testing::Values("monk", ""),
                          [](const auto& which) { return std::string(which.param).empty() ? "alone" : "guided"; });
 

@@ -1,0 +1,23 @@
+// The arm with which the guide carries the banner, whatever skeleton the figure has. Internal to runtime/show.
+#pragma once
+#include <optional>
+
+#include "runtime/pack/tour_pack.h"
+
+namespace flaneur {
+
+// The right one, bent so that the hand is before the body. Places in avatar axes (x to the left, y up, z ahead) as they
+// are while the trunk rests.
+struct CarryingArm {
+  int trunk = -1, shoulder = -1, elbow = -1, hand = -1;  // joints
+  Mat4 upper, fore;                                      // from the rest pose to the bent arm
+  Vec3 grip_m;                                           // what the hand is closed round
+};
+
+// By the joints' names and places; none where nothing there looks like a right arm.
+std::optional<CarryingArm> FindCarryingArm(const std::vector<PackJoint>& skeleton, float height_m);
+
+// The arm keeps to the trunk in every clip.
+void CarryInClips(const CarryingArm& arm, PackAvatar* figure);
+
+}  // namespace flaneur
