@@ -266,8 +266,10 @@ std::vector<AssetId> AssetsFor(const std::vector<DrawnPerson>& drawn, const Peop
     if (b.level >= 0) ids.push_back({AssetKind::kLevel, b.avatar, b.level});
     else ids.push_back({AssetKind::kAtlas, like < 0 ? b.avatar : like, 0});
   }
-  for (const PeopleBatch& b : batches.shadows)  // their figures come with the coarsest level
-    ids.push_back({AssetKind::kLevel, b.avatar, people.layouts[static_cast<size_t>(b.avatar)].levels - 1});
+  for (const std::vector<PeopleBatch>& map : batches.shadows) {
+    for (const PeopleBatch& b : map)  // their figures come with the coarsest level
+      ids.push_back({AssetKind::kLevel, b.avatar, people.layouts[static_cast<size_t>(b.avatar)].levels - 1});
+  }
   return ids;
 }
 
