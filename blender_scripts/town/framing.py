@@ -203,14 +203,15 @@ def bargeboards(mesh, frame, width, slope, over, drop, colors, rng):
         beam(mesh, plane, a, b, 0.2, 0.0, colors["barge"], rng, "planks", base=-0.04, ends=True)
 
 
-def jetty(mesh, frame, width, overhang, drop, posts, colors, rng, brackets=1):
+def jetty(mesh, frame, width, overhang, drop, posts, colors, rng, brackets=1, feet=None):
     """What carries an upper wall that stands `overhang` before the lower one: joist ends, brackets, filling boards.
 
     frame: the upper wall, its v = 0 at the lower edge of its sill; drop: height of the joists; brackets: under every
-    joist (1) or every other one (2).
+    joist (1) or every other one (2); feet: where posts of the wall below carry them instead, clear of its windows.
     """
     timber = colors["timber"]
     lower, upper = -overhang, 0.0
+    tones = []
     cuts = max(2, int(width / 1.6))
     for i in range(cuts):
         a, b = width * i / cuts, width * (i + 1) / cuts
@@ -230,11 +231,13 @@ def jetty(mesh, frame, width, overhang, drop, posts, colors, rng, brackets=1):
                   [(0, 0), (overhang, 0), (overhang, drop), (0, drop)], color)
         mesh.face("timber", [f(a, -drop, lower), f(b, -drop, lower), f(b, -drop, end), f(a, -drop, end)],
                   [(0, 0), (0.17, 0), (0.17, overhang), (0, overhang)], color)
-        if i % brackets:
-            continue
+        if i % brackets == 0:
+            tones.append(tone(colors["bracket"], rng))
+    for i, u in enumerate(posts[::brackets] if feet is None else feet):
+        u = min(max(u, 0.1), width - 0.1)
         side = Frame(frame.at(u - 0.06, -drop, lower), frame.n)   # the bracket seen from the left
         reach, fall = overhang * 0.92, 0.52
         profile = [(0, -fall), (reach * 0.45, -fall * 0.6), (reach, -0.08), (reach, 0.0), (0, 0.0)]
-        extrude(mesh, "timber", side, profile, -0.12, 0.0, tone(colors["bracket"], rng), front=True, back=True,
+        extrude(mesh, "timber", side, profile, -0.12, 0.0, tones[i % len(tones)], front=True, back=True,
                 flanks=(0, 1, 2))
 

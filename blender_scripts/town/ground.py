@@ -5,6 +5,7 @@ overlaps and the baked light has vertices where it changes.
 """
 
 import math
+import random
 
 import numpy as np
 from mathutils import Vector, geometry
@@ -12,7 +13,7 @@ from mathutils import Vector, geometry
 import plan
 from gardens import EARTH, UNDER_WALLS_M as UNDER_GARDEN_WALLS_M
 from layout import Field, contour, simplify
-from mesh import Mesh, lathe, shade, srgb
+from mesh import Mesh, shade, srgb
 
 UNDER_WALLS_M = 0.5     # the walkable ground goes on this far under the walls
 KERB_STONE_M = 0.2
@@ -151,7 +152,30 @@ def far_land(rng):
 
 
 def _copse(mesh, center, radius, rng):
-    """A lump of distant trees."""
-    green = shade(srgb("8d9060"), rng.uniform(0.6, 0.95))
-    profile = [(radius * 1.0, -0.5), (radius * 1.15, radius * 0.45), (radius * 0.75, radius * 0.95), (0.0, radius * 1.2)]
-    lathe(mesh, "leaves", center, profile, 7, green, turn=rng.uniform(0, 6), caps=False)
+    """Distant trees: a few crowns that overlap, each a lumpy dome whose light turns softly, darker towards the ground."""
+    green = shade(srgb("8d9060"), rng.uniform(0.7, 0.95))
+    own = random.Random(rng.uniform(0, 6))
+    for k in range(own.choice((2, 3, 3))):
+        turn = own.uniform(0, 2 * math.pi)
+        away = 0.0 if k == 0 else radius * own.uniform(0.5, 0.8)
+        x, y = center[0] + away * math.cos(turn), center[1] + away * math.sin(turn)
+        _crown(mesh, (x, y, center[2]), radius * own.uniform(0.55, 0.8), shade(green, own.uniform(0.85, 1.1)), own)
+
+
+def _crown(mesh, center, radius, color, rng):
+    sides, bands = 7, ((1.0, -0.2, 0.62), (1.12, 0.55, 0.85), (0.72, 1.2, 1.0), (0.0, 1.5, 1.08))
+    rings = []
+    for width, height, light in bands:
+        ring = []
+        for i in range(sides):
+            t, r = 2 * math.pi * (i + rng.uniform(-0.2, 0.2)) / sides, radius * width * rng.uniform(0.82, 1.15)
+            d = (r * math.cos(t), r * math.sin(t), radius * (height + (rng.uniform(-0.1, 0.1) if 0 < width else 0.0)))
+            ring.append((tuple(center[m] + d[m] for m in range(3)), (d[0], d[1], d[2] - 0.3 * radius)))
+        rings.append((ring, light))
+    for (low, dark), (high, bright) in zip(rings, rings[1:]):
+        for i in range(sides):
+            j = (i + 1) % sides
+            corners = [low[i], low[j], high[j], high[i]] if high is not rings[-1][0] else [low[i], low[j], high[0]]
+            girth = 2 * math.pi * radius / sides
+            uvs = [(i * girth, 0), ((i + 1) * girth, 0), ((i + 1) * girth, radius), (i * girth, radius)][:len(corners)]
+            mesh.face("leaves", [p for p, _ in corners], uvs, shade(color, (dark + bright) / 2), [n for _, n in corners])

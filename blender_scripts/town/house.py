@@ -51,6 +51,7 @@ class House:
             self.bases.append(self.bases[-1] + self.heights[i - 1] + DROP)
         self.top = self.bases[-1] + self.heights[-1]
         self.doors = []   # (x, y) on the ground
+        self.posts_below = []   # of the ground floor, along the front
 
     @property
     def front(self):
@@ -78,7 +79,7 @@ def build_house(plot, rng):
 def ground_floor(house):
     mesh, rng, colors, w = house.mesh, house.rng, house.colors, house.width
     height = house.heights[0]
-    edges = bay_edges(w, 1.2)
+    edges = house.posts_below = bay_edges(w, 1.2)
     bays = len(edges) - 1
     ground = front_frame()
     wall = ground.shifted(0, PLINTH)
@@ -182,7 +183,8 @@ def upper_floor(house, level):
     storey(mesh, frame, w, house.heights[level], colors, rng, lights, pattern, house.corner, (), edges,
            flowers=0.12 if level == 1 else 0.04, sills=False)
     overhang = house.fronts[level - 1] - house.fronts[level]
-    jetty(mesh, frame, w, overhang, DROP, edges, colors, rng, brackets=1 if level == 1 else 2)
+    jetty(mesh, frame, w, overhang, DROP, edges, colors, rng, brackets=1 if level == 1 else 2,
+          feet=house.posts_below if level == 1 else None)
     y0, y1, z = house.fronts[level - 1], house.fronts[level], house.bases[level]
     for x, order, open_side in ((0.0, -1, house.left_open), (w, 1, house.right_open)):
         if open_side:

@@ -122,6 +122,17 @@ def _stones(size, distance, label, rng, palette, joint, joint_color, soft, bump,
     return color * _relief(height, bump)[..., None]
 
 
+def _levelled(color, stones):
+    """Without differences of brightness that are wider than two of `stones` a side: repeated over a square, and seen
+    flat from afar, they would make waves."""
+    size = color.shape[0]
+    frequency = np.fft.fftfreq(size) * size
+    keeps = np.exp(-0.5 * (np.hypot(frequency[:, None], frequency[None, :]) / (0.25 * stones)) ** 2)
+    light = color.mean(axis=2)
+    wide = np.real(np.fft.ifft2(np.fft.fft2(light) * keeps))
+    return color * (light.mean() / np.maximum(wide, 0.2 * light.mean()))[..., None] ** 0.85
+
+
 def cobble(size, seed):
     """Rounded field stones for the carriageway."""
     rng = _rng(seed, "cobble")
@@ -129,22 +140,22 @@ def cobble(size, seed):
     wx = (_noise(rng, size, 6) - 0.5) * 0.02
     border, _, label = _cells(rng, (x + wx) % 1, y, 24, 26, 0.62)
     palette = [(0.37, 0.35, 0.33), (0.42, 0.39, 0.35), (0.33, 0.33, 0.34), (0.46, 0.42, 0.37), (0.40, 0.35, 0.31)]
-    color = _stones(size, border, label, rng, palette, 0.10, (0.215, 0.2, 0.165), 0.34, bump=3.6)
+    color = _stones(size, border, label, rng, palette, 0.10, (0.215, 0.2, 0.165), 0.34, bump=2.8)
     moss = _step(0.55, 0.72, _fractal(rng, size, 4, 5)) * (1 - _step(0.1, 0.3, border))
-    return _mix(color, _rgb(0.17, 0.20, 0.09) * (0.7 + 0.6 * _noise(rng, size, 128))[..., None], 0.75 * moss)
+    mossy = _mix(color, _rgb(0.17, 0.20, 0.09) * (0.7 + 0.6 * _noise(rng, size, 128))[..., None], 0.75 * moss)
+    return _levelled(mossy, 24)
 
 
 def setts(size, seed):
-    """Small setts laid in fans, for the square."""
+    """Small setts laid in courses that waver a little, for the square. Fans would be scales from afar."""
     rng = _rng(seed, "setts")
     x, y = _grid(size)
-    fans = 3
-    u = (x * fans) % 1.0
-    arc = 0.085 * np.sin(np.pi * u)
-    jx, jy, label = _bricks(rng, x, (y - arc + (_noise(rng, size, 8) - 0.5) * 0.006) % 1, 30, 36, 0.5)
+    wave = (_noise(rng, size, 5) - 0.5) * 0.03 + (_noise(rng, size, 24) - 0.5) * 0.008
+    jx, jy, label = _bricks(rng, (x + np.roll(wave, size // 3, 0)) % 1, (y + wave) % 1, 30, 36, 0.6)
     distance = np.minimum(jx * 30, jy * 30)
     palette = [(0.45, 0.42, 0.38), (0.50, 0.47, 0.42), (0.40, 0.38, 0.36), (0.47, 0.41, 0.36), (0.53, 0.50, 0.45)]
-    return _stones(size, distance, label, rng, palette, 0.07, (0.33, 0.31, 0.265), 0.2, bump=2.2)
+    color = _stones(size, distance, label, rng, palette, 0.07, (0.33, 0.31, 0.265), 0.2, bump=1.6)
+    return _levelled(color, 30)
 
 
 def paving(size, seed):

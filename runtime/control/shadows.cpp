@@ -31,7 +31,8 @@ void ChooseShadows(int64_t room_triangles, float step_s, Shadows* state) {
   int64_t coarse = 0, finer = 0;
   state->reach_m = FarthestWithin_m(
       std::min(kShadowReach_m, state->reach_m + rise_m), room_triangles,
-      [](const ShadowCaster& c) { return int64_t{c.cost.coarse_triangles}; }, state, &coarse);
+      [](const ShadowCaster& c) { return int64_t{c.cost.coarse_triangles} * (c.distance_m < kTwoShadows_m ? 2 : 1); },
+      state, &coarse);
   state->fine_m = FarthestWithin_m(
       std::min({kFineShadow_m, state->fine_m + rise_m, state->reach_m}), room_triangles - coarse,
       [](const ShadowCaster& c) { return int64_t{std::max(0, c.cost.fine_triangles - c.cost.coarse_triangles)}; },

@@ -129,11 +129,12 @@ PersonInstance AsImpostor(const DrawnPerson& person, const AvatarLayout& avatar,
   return Placed(person, static_cast<float>(cell), at - nearest);
 }
 
-PersonInstance AsShadow(const DrawnPerson& person, const AvatarLayout& avatar) {
+// In the nearest of the clip's moments that coarse shadows know.
+PersonInstance AsCoarseShadow(const DrawnPerson& person, const AvatarLayout& avatar) {
   const ClipMoment& moment = MainMoment(person);
   const auto clip = static_cast<size_t>(moment.clip);
   const int rows = avatar.shadow_rows[clip];
-  const int row = std::clamp(static_cast<int>(moment.phase * static_cast<float>(rows)), 0, rows - 1);
+  const int row = static_cast<int>(std::lround(moment.phase * static_cast<float>(rows))) % rows;
   return Placed(person, static_cast<float>(avatar.first_shadow_row[clip] + row), 0);
 }
 
@@ -262,6 +263,17 @@ bool CastsShadow(const DrawnPerson& person, const Box& box, float distance_m, co
          InSight(sight, WithShadow(box, sight.to_sun));
 }
 
+// Seen from the sun a shadow lies where its caster does: in the map that holds the caster. Who stands on the fine map's
+// border is in both.
+void AddShadow(uint32_t number, const DrawnPerson& person, const Box& box, float distance_m, const PeopleSight& sight,
+               PeopleBatches* out) {
+  const bool whole = LiesWithin(sight.fine_map, box);
+  const int coarse = whole && distance_m < sight.fine_shadow_m ? 0 : 1;
+  const PeopleBatches::Entry entry{number, 2 * person.avatar + coarse, 0};
+  if (MayTouch(sight.fine_map, box)) out->shadow_entries[0].push_back(entry);
+  if (!whole) out->shadow_entries[1].push_back(entry);
+}
+
 // Their level as far as it is loaded, and their props.
 void AddPerson(uint32_t number, const DrawnPerson& person, float distance_m, const AvatarLayout& avatar,
                const AvatarReady& ready, const PeopleSight& sight, const BatchKeys& keys, PeopleBatches* out) {
@@ -327,7 +339,7 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
                 const std::vector<AvatarReady>& ready, const PeopleSight& sight, PeopleBatches* out) {
   out->instances.clear();
   out->entries.clear();
-  out->shadow_entries.clear();
+  for (std::vector<PeopleBatches::Entry>& entries : out->shadow_entries) entries.clear();
   out->pose_rows = 0;
   out->hidden = out->not_loaded = 0;
   out->pose_rows_of.assign(people.size(), -1);
@@ -337,8 +349,7 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     const Box box = BoxOf(people[i], avatars[index]);
     const float distance_m = Length(GltfFromGround(people[i].position) - sight.eye);
     if (CastsShadow(people[i], box, distance_m, ready[index], sight)) {
-      const int coarse = distance_m < sight.fine_shadow_m ? 0 : 1;
-      out->shadow_entries.push_back({static_cast<uint32_t>(i), 2 * people[i].avatar + coarse, 0});
+      AddShadow(static_cast<uint32_t>(i), people[i], box, distance_m, sight, out);
     }
     if (!InSight(sight, box)) {
       ++out->hidden;
@@ -352,12 +363,17 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
   };
   Gather(
       keys.meshes + 2 * keys.avatars, [&](int key) { return BatchOf(key, keys); }, instance_of, out, &out->seen);
-  std::swap(out->entries, out->shadow_entries);
   const auto shadow_batch_of = [](int key) { return PeopleBatch{key / 2, key % 2, false, 0, 0}; };
   const auto shadow_of = [&](const PeopleBatches::Entry& e) {
-    return AsShadow(people[e.person], avatars[static_cast<size_t>(people[e.person].avatar)]);
+    const DrawnPerson& person = people[e.person];
+    const AvatarLayout& avatar = avatars[static_cast<size_t>(person.avatar)];
+    if (e.key % 2 == 1) return AsCoarseShadow(person, avatar);
+    return Placed(person, RowOfPose(e.person, person, avatar, out), 0);  // its feet stand where the person's do
   };
-  Gather(2 * keys.avatars, shadow_batch_of, shadow_of, out, &out->shadows);
+  for (size_t map = 0; map < out->shadows.size(); ++map) {
+    std::swap(out->entries, out->shadow_entries[map]);
+    Gather(2 * keys.avatars, shadow_batch_of, shadow_of, out, &out->shadows[map]);
+  }
 }
 
 }  // namespace flaneur

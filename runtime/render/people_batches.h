@@ -23,7 +23,7 @@ struct AvatarLayout {
   int joints = 0, levels = 0, props = 0;
   float turn_step = 0, shift_step_m = 0;
   std::array<ClipRows, 3> clips;                         // by ClipKind
-  std::array<int, 3> first_shadow_row{}, shadow_rows{};  // in the texture of poses for shadows
+  std::array<int, 3> first_shadow_row{}, shadow_rows{};  // in the texture of poses for coarse shadows
   float height_m = 0, radius_m = 0;
   std::vector<float> switch_px;  // by level, PackLevel's
   PackImpostor impostor;         // without its pictures
@@ -34,7 +34,7 @@ struct AvatarLayout {
 AvatarLayout LayoutOf(const PackAvatar& avatar);
 size_t ClipBytes(const AvatarLayout& layout);  // what animating it takes
 
-// Frames of a clip that shadows know.
+// Frames of a clip that coarse shadows know.
 inline constexpr int kMaxShadowFrames = 24;
 int ShadowFrame(const ClipRows& clip, int shadow_row, int shadow_rows);
 
@@ -47,8 +47,9 @@ struct AvatarReady {
 // Of one person.
 struct PersonInstance {
   Vec4 place;  // position in glTF axes, turn about the vertical
-  Vec4 look;  // mesh: row of the poses; impostor: first cell of its picture; shadow: row of the poses for shadows; then
-              // share of the pattern from, to; and, impostor: phases since its picture, prop: 1 on an impostor
+  Vec4 look;   // mesh: row of the poses; impostor: first cell of its picture; shadow: row of the poses, or of those for
+              // coarse shadows; then share of the pattern from, to; and, impostor: phases since its picture, prop: 1 on
+              // an impostor
   std::array<uint8_t, 4> tints{};  // DrawnPerson's
 };
 
@@ -62,9 +63,10 @@ struct PeopleBatch {
 
 struct PeopleBatches {
   std::vector<PersonInstance> instances;
-  std::vector<PeopleBatch> seen;     // from the eye
-  std::vector<PeopleBatch> shadows;  // from the sun, around the eye; level: of the ShadowLevels
-  std::vector<Vec4> poses;           // pose_width texels a row
+  std::vector<PeopleBatch> seen;  // from the eye
+  // From the sun, into people's fine map and into the coarse one; level: of the ShadowLevels.
+  std::array<std::vector<PeopleBatch>, 2> shadows;
+  std::vector<Vec4> poses;  // pose_width texels a row
   size_t pose_width = 0, pose_rows = 0;
   int hidden = 0;      // left out because the picture cannot show them
   int not_loaded = 0;  // drawn by another level than asked for, or not at all, because that is not loaded yet
@@ -73,8 +75,9 @@ struct PeopleBatches {
     uint32_t person = 0;
     int key = 0, step = 0;
     bool on_impostor = false;
-  };                                           // of a prop
-  std::vector<Entry> entries, shadow_entries;  // scratch
+  };                           // of a prop
+  std::vector<Entry> entries;  // scratch
+  std::array<std::vector<Entry>, 2> shadow_entries;
   std::vector<size_t> counts;
   std::vector<int> pose_rows_of;  // by person: their row of the poses; -1: none yet
 };
@@ -86,7 +89,8 @@ struct PeopleSight {
   const OcclusionMap* walls = nullptr;
   float shadow_reach_m = 0;  // who is farther from the eye casts no shadow
   float focal_px = 0;  // of a coarse picture: pixels that a metre takes at a distance of one; 0: levels as they are
-  float fine_shadow_m = 0;  // who is farther casts the shadow of a coarser figure
+  float fine_shadow_m = 0;  // who is farther casts the shadow of a coarser figure, as does who is
+  Frustum fine_map{};       // not wholly in this map; all zero: everybody is
 };
 
 // pose_width of `out` must be set: three times the most joints.

@@ -57,7 +57,7 @@ GLuint CreateTable(GLsizei width, GLsizei height, const Vec4* texels) {
   return texture;
 }
 
-// The shadows' poses: some frames of every clip, one a row.
+// Coarse shadows' poses: some frames of every clip, one a row.
 void CreateShadowPoses(PeopleView* people) {
   const size_t width = people->batches.pose_width;
   std::vector<Vec4> texels;
@@ -266,8 +266,10 @@ std::vector<AssetId> AssetsFor(const std::vector<DrawnPerson>& drawn, const Peop
     if (b.level >= 0) ids.push_back({AssetKind::kLevel, b.avatar, b.level});
     else ids.push_back({AssetKind::kAtlas, like < 0 ? b.avatar : like, 0});
   }
-  for (const PeopleBatch& b : batches.shadows)  // their figures come with the coarsest level
-    ids.push_back({AssetKind::kLevel, b.avatar, people.layouts[static_cast<size_t>(b.avatar)].levels - 1});
+  for (const std::vector<PeopleBatch>& map : batches.shadows) {
+    for (const PeopleBatch& b : map)  // their figures come with the coarsest level
+      ids.push_back({AssetKind::kLevel, b.avatar, people.layouts[static_cast<size_t>(b.avatar)].levels - 1});
+  }
   return ids;
 }
 
@@ -297,12 +299,12 @@ DrawCost DrawPeople(const PeopleView& people, bool impostors) {
   return cost;
 }
 
-DrawCost DrawPeopleShadow(const PeopleView& people) {
+DrawCost DrawPeopleShadow(const PeopleView& people, const std::vector<PeopleBatch>& shadows) {
   DrawCost cost;
   glUseProgram(people.shadow_program.id);
-  BindTexture(kPosesUnit, people.shadow_poses);
   CullBackFaces(false);
-  for (const PeopleBatch& b : people.batches.shadows) {
+  for (const PeopleBatch& b : shadows) {
+    BindTexture(kPosesUnit, b.level == 0 ? people.poses : people.shadow_poses);
     const PersonMesh& mesh = people.avatars[static_cast<size_t>(b.avatar)].shadows[static_cast<size_t>(b.level)];
     glBindVertexArray(mesh.vertex_array);
     BindInstances(people.instances, b);

@@ -56,6 +56,6 @@ std::vector<AssetId> AssetsFor(const std::vector<DrawnPerson>& drawn, const Peop
 void UploadPeople(PeopleView* people);
 // The frame block must be bound.
 DrawCost DrawPeople(const PeopleView& people, bool impostors);  // else the meshes
-DrawCost DrawPeopleShadow(const PeopleView& people);
+DrawCost DrawPeopleShadow(const PeopleView& people, const std::vector<PeopleBatch>& shadows);
 
 }  // namespace flaneur

@@ -61,12 +61,21 @@ Frustum FrustumOf(const Mat4& vp) {
   return planes;
 }
 
+namespace {
+
+// How far the box reaches into the plane's inside; the box turned about its middle: how far all of it is inside.
+float Reach(const Vec4& p, Vec3 low, Vec3 high) {
+  return p.x * (p.x > 0 ? high.x : low.x) + p.y * (p.y > 0 ? high.y : low.y) + p.z * (p.z > 0 ? high.z : low.z) + p.w;
+}
+
+}  // namespace
+
 bool MayTouch(const Frustum& frustum, const Box& box) {
-  return std::all_of(frustum.begin(), frustum.end(), [&](const Vec4& p) {
-    const Vec3 inmost{p.x > 0 ? box.high.x : box.low.x, p.y > 0 ? box.high.y : box.low.y,
-                      p.z > 0 ? box.high.z : box.low.z};
-    return p.x * inmost.x + p.y * inmost.y + p.z * inmost.z + p.w >= 0;
-  });
+  return std::all_of(frustum.begin(), frustum.end(), [&](const Vec4& p) { return Reach(p, box.low, box.high) >= 0; });
+}
+
+bool LiesWithin(const Frustum& frustum, const Box& box) {
+  return std::all_of(frustum.begin(), frustum.end(), [&](const Vec4& p) { return Reach(p, box.high, box.low) >= 0; });
 }
 
 }  // namespace flaneur

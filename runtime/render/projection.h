@@ -37,5 +37,6 @@ float Distance(const Box& box, Vec3 p);  // 0 inside
 using Frustum = std::array<Vec4, 6>;
 Frustum FrustumOf(const Mat4& view_projection);
 bool MayTouch(const Frustum& frustum, const Box& box);  // conservative: true for some that just miss
+bool LiesWithin(const Frustum& frustum, const Box& box);
 
 }  // namespace flaneur

@@ -95,9 +95,11 @@ FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px,
   block.inverse_view_projection = Inverse(view_projection);
   block.near_shadow = shadows.near.matrix;
   block.far_shadow = shadows.far.matrix;
-  block.people_shadow = shadows.people_matrix;
+  block.fine_shadow = shadows.people_matrices[0];
+  block.people_shadow = shadows.people_matrices[1];
   block.shadow_layers = {static_cast<float>(shadows.near.layer), static_cast<float>(shadows.far.layer), shadow_reach_m,
                          0};
+  block.shadow_texels = {Texel_m(shadows.near), Texel_m(shadows.far), kPeopleTexels_m[0], kPeopleTexels_m[1]};
   block.eye = {eye.x, eye.y, eye.z, focal_px};
   block.to_sun = Wide(to_sun);
   block.sun_color = Wide(light.sun);
@@ -132,13 +134,15 @@ struct Renderer::Impl {
   }
 
   PeopleSight Sight(const FrameInput& frame, const Mat4& view_projection) const {
-    return {GltfFromGround(frame.eye),
-            Normalized(GltfFromGround(frame.to_sun)),
+    const Vec3 eye = GltfFromGround(frame.eye), to_sun = Normalized(GltfFromGround(frame.to_sun));
+    return {eye,
+            to_sun,
             FrustumOf(view_projection),
             options.cull ? &town.walls : nullptr,
             std::min(2 * kPeopleShadow_m, frame.shadow_reach_m) * frame.detail,
             frame.resolution_scale * frame.detail < 1 && !frame.keeps_levels ? Focal_px(frame) * frame.detail : 0,
-            frame.fine_shadow_m * frame.resolution_scale * frame.detail};
+            frame.fine_shadow_m * (1 + frame.resolution_scale) / 2 * frame.detail,
+            FrustumOf(PeopleShadowMatrices(eye, Ahead(frame), to_sun)[0])};
   }
 
   // The costs are those of one picture, however many are averaged.

@@ -7,22 +7,23 @@
 namespace flaneur {
 namespace {
 
-constexpr int kTownMap_px = 2048, kPeopleMap_px = 1024;
+constexpr int kTownMap_px = 2048;
 constexpr float kNear_m = 55, kMaxFarHalfWidth_m = 400;  // half the widths that the maps of the town cover
 constexpr float kShadowDepth_m = 140;
+constexpr float kFinePeopleDepth_m = 60;  // the longest shadows that reach from people in the fine map
 constexpr float kNearStep_m = 8;
 constexpr float kSunStep = 0.004f;   // or when the sun has turned by so much, in radians: hardly a texel on the ground
 constexpr float kSunJump = 0.3f;     // so much of a turn is not waited for,
 constexpr float kFarthestSteps = 5;  // nor so many steps of the eye, which leave some of the near map before it
 constexpr float kTrianglesAPicture = 10000;  // the work is spread over many pictures, so that no frame stumbles
 
-void SetUpMap(GLenum target) {
-  glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(target, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  glTexParameteri(target, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+void SetUpMap() {
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 }
 
 GLuint NewFramebuffer() {
@@ -42,12 +43,6 @@ void BindMap(GLuint framebuffer, int size_px, const Mat4& matrix, Vec3 to_sun, G
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, size_px, size_px);
   if (clear) glClear(GL_DEPTH_BUFFER_BIT);
-}
-
-void BeginMaps() {
-  glEnable(GL_DEPTH_TEST);
-  glEnable(GL_POLYGON_OFFSET_FILL);
-  glPolygonOffset(2, 4);
 }
 
 DrawCost DrawSome(int64_t triangles, GLuint block_buffer, const TownView& town, ShadowMaps* maps, TownMap* map) {
@@ -90,25 +85,30 @@ void CreateShadowMaps(ShadowMaps* maps) {
   glBindTexture(GL_TEXTURE_2D_ARRAY, maps->town_texture);
   glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT16, kTownMap_px, kTownMap_px,
                  static_cast<GLsizei>(maps->town_framebuffers.size()));
-  SetUpMap(GL_TEXTURE_2D_ARRAY);
+  SetUpMap();
   for (size_t k = 0; k < maps->town_framebuffers.size(); ++k) {
     maps->town_framebuffers[k] = NewFramebuffer();
     glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps->town_texture, 0, static_cast<GLint>(k));
   }
   maps->far.layer = 1;
   glGenTextures(1, &maps->people_texture);
-  glBindTexture(GL_TEXTURE_2D, maps->people_texture);
-  glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT16, kPeopleMap_px, kPeopleMap_px);
-  SetUpMap(GL_TEXTURE_2D);
-  maps->people_framebuffer = NewFramebuffer();
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, maps->people_texture, 0);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, maps->people_texture);
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT16, kPeopleMap_px, kPeopleMap_px,
+                 static_cast<GLsizei>(maps->people_framebuffers.size()));
+  SetUpMap();
+  for (size_t k = 0; k < maps->people_framebuffers.size(); ++k) {
+    maps->people_framebuffers[k] = NewFramebuffer();
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps->people_texture, 0, static_cast<GLint>(k));
+  }
 }
+
+float Texel_m(const TownMap& map) { return 2 * map.half_width_m / static_cast<float>(kTownMap_px); }
 
 void ForgetTownShadows(ShadowMaps* maps) { maps->near.valid = maps->far.valid = false; }
 
 DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town,
                            ShadowMaps* maps) {
-  BeginMaps();
+  glEnable(GL_DEPTH_TEST);
   maps->near.half_width_m = kNear_m;
   maps->near.step_m = kNearStep_m;
   DrawCost cost = UpdateTownMap(eye, to_sun, share, block_buffer, town, maps, &maps->near);
@@ -119,21 +119,27 @@ DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buff
   maps->far.half_width_m = covered ? reach_m : kMaxFarHalfWidth_m;
   maps->far.step_m = kMaxFarHalfWidth_m / 8;
   cost += UpdateTownMap(covered ? middle : eye, to_sun, share, block_buffer, town, maps, &maps->far);
-  glDisable(GL_POLYGON_OFFSET_FILL);
   BindTextureArray(kTownShadowUnit, maps->town_texture);
   return cost;
 }
 
+std::array<Mat4, 2> PeopleShadowMatrices(Vec3 eye, Vec3 ahead, Vec3 to_sun) {
+  const Vec3 level_ahead = Normalized(Vec3{ahead.x, 0, ahead.z});
+  return {
+      ShadowMatrix(eye + level_ahead * kFinePeopleAhead_m, to_sun, kFinePeople_m, kFinePeopleDepth_m, kPeopleMap_px),
+      ShadowMatrix(eye + level_ahead * (kPeopleShadow_m - 4), to_sun, kPeopleShadow_m, kShadowDepth_m, kPeopleMap_px)};
+}
+
 DrawCost DrawPeopleShadows(Vec3 eye, Vec3 ahead, Vec3 to_sun, GLuint block_buffer, const PeopleView& people,
                            ShadowMaps* maps) {
-  BeginMaps();
-  const Vec3 level_ahead = Normalized(Vec3{ahead.x, 0, ahead.z});
-  maps->people_matrix =
-      ShadowMatrix(eye + level_ahead * (kPeopleShadow_m - 4), to_sun, kPeopleShadow_m, kShadowDepth_m, kPeopleMap_px);
-  BindMap(maps->people_framebuffer, kPeopleMap_px, maps->people_matrix, to_sun, block_buffer, true);
-  const DrawCost cost = DrawPeopleShadow(people);
-  glDisable(GL_POLYGON_OFFSET_FILL);
-  BindTexture(kPeopleShadowUnit, maps->people_texture);
+  maps->people_matrices = PeopleShadowMatrices(eye, ahead, to_sun);
+  glEnable(GL_DEPTH_TEST);
+  DrawCost cost;
+  for (size_t k = 0; k < maps->people_matrices.size(); ++k) {
+    BindMap(maps->people_framebuffers[k], kPeopleMap_px, maps->people_matrices[k], to_sun, block_buffer, true);
+    cost += DrawPeopleShadow(people, people.batches.shadows[k]);
+  }
+  BindTextureArray(kPeopleShadowUnit, maps->people_texture);
   return cost;
 }
 

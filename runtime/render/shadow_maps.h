@@ -1,5 +1,6 @@
 // The sun's shadows: of the town a fine map around the eye and a coarse one of all of it, renewed bit by bit as eye and
-// sun move, and a fine map of the people ahead, drawn in every picture. Internal to runtime/render.
+// sun move, and of the people a fine map around the eye and a coarse one of those ahead, drawn in every picture.
+// Internal to runtime/render.
 #pragma once
 #include <array>
 
@@ -8,7 +9,13 @@
 
 namespace flaneur {
 
-inline constexpr float kPeopleShadow_m = 36;  // half the width that the map of people covers; it begins at the eye
+inline constexpr float kPeopleShadow_m =
+    36;  // half the width that the coarse map of people covers; it begins at the eye
+// Half the width of the fine one, and how far ahead of the eye its middle lies. A texel is 2 cm, since a foot is 10 cm
+// wide.
+inline constexpr float kFinePeople_m = 10, kFinePeopleAhead_m = 4;
+inline constexpr int kPeopleMap_px = 1024;
+inline constexpr float kPeopleTexels_m[] = {2 * kFinePeople_m / kPeopleMap_px, 2 * kPeopleShadow_m / kPeopleMap_px};
 
 // One map of the town: a layer that is shown; the next one is drawn into the layer that is spare.
 struct TownMap {
@@ -22,17 +29,21 @@ struct TownMap {
 };
 
 struct ShadowMaps {
-  GLuint town_texture = 0, people_texture = 0, people_framebuffer = 0;
+  GLuint town_texture = 0, people_texture = 0;
   std::array<GLuint, 3> town_framebuffers{};  // by layer
   TownMap near, far;
   int spare_layer = 2;
-  Mat4 people_matrix;
+  std::array<GLuint, 2> people_framebuffers{};  // by layer: the fine and the coarse map
+  std::array<Mat4, 2> people_matrices;
 };
 
 void CreateShadowMaps(ShadowMaps* maps);
 // After another town has come: all of it is drawn anew.
 void ForgetTownShadows(ShadowMaps* maps);
-// eye, ahead, to_sun: glTF axes. share: of the work that a picture usually does, for one that has less time. Both leave
+float Texel_m(const TownMap& map);
+// eye, ahead, to_sun: glTF axes. Of people's fine and coarse map.
+std::array<Mat4, 2> PeopleShadowMatrices(Vec3 eye, Vec3 ahead, Vec3 to_sun);
+// share: of the work that a picture usually does, for one that has less time. Both leave
 // their map bound to its unit; `block_buffer` is overwritten.
 DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town,
                            ShadowMaps* maps);

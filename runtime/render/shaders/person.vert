@@ -1,5 +1,5 @@
-// Everybody's pose is a row of the pose texture, three texels a joint. SHADOW: the rows are those of the clips'
-// moments, and a vertex hangs on its first joint alone.
+// Everybody's pose is a row of the pose texture, three texels a joint. SHADOW: a vertex hangs on its first joint
+// alone.
 #include "shared.glsl"
 #include "frame.glsl"
 #include "haze.glsl"

@@ -13,12 +13,12 @@ namespace flaneur {
   PROGRAM(kTownMasked, "town.vert", "surface.frag", "MASKED") \
   PROGRAM(kTownShadow, "town.vert", "shadow.frag", "") \
   PROGRAM(kTownShadowMasked, "town.vert", "shadow.frag", "MASKED") \
-  PROGRAM(kPerson, "person.vert", "surface.frag", "TINTS") \
-  PROGRAM(kPersonFades, "person.vert", "surface.frag", "TINTS FADES") \
-  PROGRAM(kPersonMasked, "person.vert", "surface.frag", "TINTS MASKED") \
-  PROGRAM(kPersonMaskedFades, "person.vert", "surface.frag", "TINTS MASKED FADES") \
+  PROGRAM(kPerson, "person.vert", "surface.frag", "PERSON TINTS") \
+  PROGRAM(kPersonFades, "person.vert", "surface.frag", "PERSON TINTS FADES") \
+  PROGRAM(kPersonMasked, "person.vert", "surface.frag", "PERSON TINTS MASKED") \
+  PROGRAM(kPersonMaskedFades, "person.vert", "surface.frag", "PERSON TINTS MASKED FADES") \
   PROGRAM(kPersonShadow, "person.vert", "shadow.frag", "SHADOW") \
-  PROGRAM(kPersonImpostor, "impostor.vert", "impostor.frag", "") \
+  PROGRAM(kPersonImpostor, "impostor.vert", "impostor.frag", "PERSON") \
   PROGRAM(kSky, "sky.vert", "sky.frag", "") \
   PROGRAM(kLight, "light.vert", "light.frag", "") \
   PROGRAM(kSmooth, "whole.vert", "smooth.frag", "") \

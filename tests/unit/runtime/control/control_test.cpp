@@ -66,9 +66,9 @@ TEST(Shadows, TakeNoMoreThanTheirRoomFromTheFarthestFirstAndComeBackSlowly) {
     ChooseShadows(room, 1.0f / 30, &state);
     int64_t triangles = 0;
     for (const ShadowCaster& c : state.casters) {
-      triangles += c.distance_m < state.fine_m    ? c.cost.fine_triangles
-                   : c.distance_m < state.reach_m ? c.cost.coarse_triangles
-                                                  : 0;
+      const int coarse = c.cost.coarse_triangles * (c.distance_m < kTwoShadows_m ? 2 : 1);
+      triangles += c.distance_m < state.reach_m ? coarse : 0;
+      triangles += c.distance_m < state.fine_m ? c.cost.fine_triangles - c.cost.coarse_triangles : 0;
     }
     EXPECT_EQ(state.triangles, triangles);
     EXPECT_LE(state.triangles, room);
@@ -78,9 +78,9 @@ TEST(Shadows, TakeNoMoreThanTheirRoomFromTheFarthestFirstAndComeBackSlowly) {
   EXPECT_EQ(state.reach_m, kShadowReach_m);
   step(10000);
   EXPECT_EQ(state.reach_m, kShadowReach_m) << "everybody's coarse shadow before anybody's fine one";
-  EXPECT_NEAR(state.fine_m, 4, 0.5f);
+  EXPECT_NEAR(state.fine_m, 2, 0.5f);
   step(2000);
-  EXPECT_NEAR(state.reach_m, 20, 0.5f);
+  EXPECT_NEAR(state.reach_m, 10, 0.5f);
   EXPECT_LT(state.fine_m, 0.5f);
   float before_m = state.reach_m;
   for (int k = 0; k < 3000 && state.fine_m < kFineShadow_m; ++k) {
@@ -144,9 +144,9 @@ TEST(ChooseLevels, TheBudgetHoldsForPropsAndShadowsAsWell) {
         const float distance_m = Length(crowd.position[i]);
         EXPECT_TRUE(state.casts_shadow[i] != 0 || crowd.view[i] != ViewClass::kVisible || distance_m >= kShadowReach_m);
         if (state.casts_shadow[i] == 0) continue;
-        shadows += distance_m < state.shadows.fine_m    ? shadow.fine_triangles
-                   : distance_m < state.shadows.reach_m ? shadow.coarse_triangles
-                                                        : 0;
+        if (distance_m >= state.shadows.reach_m) continue;
+        shadows += shadow.coarse_triangles * (distance_m < kTwoShadows_m ? 2 : 1);
+        shadows += distance_m < state.shadows.fine_m ? shadow.fine_triangles - shadow.coarse_triangles : 0;
       }
       ASSERT_EQ(state.triangles, drawn);
       ASSERT_EQ(state.shadows.triangles, shadows);

@@ -518,6 +518,65 @@ TEST_F(Drawing, APersonCastsAShadowOnTheGround) {
   }
 }
 
+// A plain, a wall, a leaning roof and somebody, all of them before the sun and in nobody's shadow: each is lit evenly,
+// at any height and heading of the sun, with the light in a pass of its own and with the surfaces.
+TEST_F(Drawing, NothingCastsAShadowOnItself) {
+  TourPack pack = MakePack({{12, 0}});
+  pack.materials.push_back({"grey", {0.4f, 0.4f, 0.4f, 1}, -1, false, false, 0.5f});
+  pack.meshes.push_back({{BoxPrimitive({-80, -1, -80}, {80, 0, 80}, 1, false)}});
+  pack.town.push_back({"ground", 2, {}});
+  PackPrimitive roof;
+  roof.material = 1;
+  const Vec3 n = Normalized(Vec3{-1, 1, 0});
+  roof.positions = {{9, 0.5f, 2}, {9, 0.5f, 6}, {11, 2.5f, 6}, {11, 2.5f, 2}};
+  roof.normals.assign(4, n);
+  roof.indices = {0, 1, 2, 0, 2, 3};
+  pack.meshes.push_back({{roof}});
+  pack.town.push_back({"roof", 3, {}});
+  FrameInput frame = LookEast();
+  const auto column = [](float right_m, float ahead_m) {
+    return kWidth / 2 + static_cast<int>(right_m / ahead_m * kWidth / (2 * std::tan(0.5f)));
+  };
+  const auto row = [](float up_m, float ahead_m) {
+    return kHeight / 2 - static_cast<int>((up_m - 1.6f) / ahead_m * kWidth / (2 * std::tan(0.5f)));
+  };
+  struct Even {
+    const char* what;
+    int left, right, top, bottom;
+    bool of_person;
+  };
+  const Even surfaces[] = {{"wall", column(-0.8f, 11), column(0.8f, 11), row(3.8f, 11), row(0.3f, 11), false},
+                           {"roof", column(2.6f, 10), column(5.2f, 10), row(2.0f, 10.5f), row(1.0f, 9.5f), false},
+                           {"ground", 20, kWidth - 20, row(0, 5), kHeight - 2, false},
+                           {"person", column(-2.6f, 5.9f), column(-2.4f, 5.9f), row(1.7f, 6), row(0.2f, 6), true}};
+  for (const int samples : {1, 4}) {
+    Renderer renderer;
+    ASSERT_EQ(renderer.Create(pack, {.samples = samples}).message, "");
+    for (const float height : {0.1f, 0.7f, 2.0f}) {
+      for (const float aside : {-0.5f, 0.0f, 0.5f}) {
+        frame.to_sun = Normalized(Vec3{-1, aside, height});
+        for (const int level : {0, -1}) {
+          frame.people.clear();
+          const std::vector<uint8_t> town = DrawWith(frame, &renderer);
+          frame.people = {PersonAt(6, 2.5f, level)};
+          const std::vector<uint8_t> with_person = DrawWith(frame, &renderer);
+          for (const Even& s : surfaces) {
+            const std::vector<uint8_t>& rgb = s.of_person ? with_person : town;
+            int darkest = 255, brightest = 0;
+            for (int y = s.top; y < s.bottom; ++y) {
+              for (int x = s.left; x < s.right; ++x) {
+                darkest = std::min(darkest, Pixel(rgb, x, y).r), brightest = std::max(brightest, Pixel(rgb, x, y).r);
+              }
+            }
+            EXPECT_LE(brightest - darkest, 12) << s.what << ", sun " << height << " high, " << aside << " aside, level "
+                                               << level << ", samples " << samples;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST_F(Drawing, WhoIsBeyondTheReachOfShadowsCastsNone) {
   const TourPack pack = MakePack({});
   FrameInput frame = LookEast();
@@ -960,7 +1019,7 @@ TEST(PeopleBatches, ShadowsAreThoseOfWhoCanBeSeenOrTheirShadowAndCoarserBeyondTh
   const auto shadows = [&] {
     SortPeople(people, {LayoutOf(BoxPerson())}, {{{true, true}, true, true}}, sight, &batches);
     std::vector<int> levels;
-    for (const PeopleBatch& b : batches.shadows) levels.insert(levels.end(), b.count, b.level);
+    for (const PeopleBatch& b : batches.shadows[0]) levels.insert(levels.end(), b.count, b.level);
     return levels;
   };
   EXPECT_EQ(shadows(), (std::vector<int>{0, 1})) << "the third is behind the wall";

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "runtime/show/frame_from_simulation.h"
+#include "tests/unit/runtime/show/posed_person.h"
 
 namespace flaneur {
 namespace {
@@ -31,36 +32,6 @@ Scenario Parade(const TourPack& pack) {
     scenario.persons.push_back(person);
   }
   return scenario;
-}
-
-Vec3 Posed(const PackPrimitive& p, size_t vertex, const Mat4* frame) {
-  Vec3 sum;
-  for (size_t k = 0; k < 4; ++k) {
-    sum = sum + TransformPoint(frame[p.joints[vertex][k]], p.positions[vertex]) *
-                    (static_cast<float>(p.weights[vertex][k]) / 255);
-  }
-  return sum;
-}
-
-// The finest mesh where the picture shows it, on the ground axes.
-std::vector<Vec3> PosedPerson(const TourPack& pack, const DrawnPerson& person) {
-  const PackAvatar& avatar = pack.avatars[static_cast<size_t>(person.avatar)];
-  const float at = person.moment.phase * static_cast<float>(avatar.walk.frames);
-  const int a = static_cast<int>(at) % avatar.walk.frames, b = (a + 1) % avatar.walk.frames;
-  const float between = at - std::floor(at), turn = person.heading_rad + kPi / 2;
-  const auto frame = [&](int f) {
-    return &avatar.walk.matrices[static_cast<size_t>(f) * static_cast<size_t>(avatar.joints)];
-  };
-  std::vector<Vec3> out;
-  for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(avatar.levels.front().mesh)].primitives) {
-    for (size_t v = 0; v < p.positions.size(); ++v) {
-      const Vec3 q = GroundFromGltf(Posed(p, v, frame(a)) * (1 - between) + Posed(p, v, frame(b)) * between);
-      out.push_back(
-          Vec3{std::cos(turn) * q.x - std::sin(turn) * q.y, std::sin(turn) * q.x + std::cos(turn) * q.y, q.z} +
-          person.position);
-    }
-  }
-  return out;
 }
 
 float Median(std::vector<float> v) {

@@ -14,7 +14,7 @@
 namespace flaneur {
 namespace {
 
-constexpr int kMaxDrawCalls = 64;
+constexpr int kMaxDrawCalls = 72;
 
 class SteadyFrameOfTheDemo : public testing::Test {
  protected:
