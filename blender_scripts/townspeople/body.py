@@ -285,6 +285,12 @@ def proportioned(figure, height_m, proportions):
     return replace(result, leg_thickness=factor * scales[skeleton.index("lowerleg01_L")][0])
 
 
+MOUTH_CORNERS = {  # the source's droop
+    "at": "mouth", "by": (0.021, 0.012, -0.001), "radius": (0.017, 0.030, 0.014), "push": (0.0008, 0.0, 0.0042),
+    "mirror": True,
+}
+
+
 def bulged(figure, bulges):
     """Pushes shirt, trousers and body by smooth bumps.
 
@@ -294,7 +300,7 @@ def bulged(figure, bulges):
     """
     factor = figure.landmarks["crown"][2] / 1.7
     parts = dict(figure.parts)
-    for bump in bulges:
+    for bump in [MOUTH_CORNERS, *bulges]:
         sides = (1.0, -1.0) if bump.get("mirror") else (1.0,)
         for side in sides:
             flip = np.array([side, 1.0, 1.0])

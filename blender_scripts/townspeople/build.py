@@ -26,7 +26,7 @@ PIECES = {
     "cord": accessories.cord, "pouch": accessories.pouch, "apron": accessories.apron,
     "cape": accessories.cape, "standing collar": accessories.collar, "roll": accessories.roll,
     "ruff": accessories.ruff, "shell": headwear.shell, "beard": headwear.beard,
-    "moustache": headwear.moustache, "brows": headwear.brows, "hat": headwear.hat,
+    "moustache": headwear.moustache, "hat": headwear.hat,
     "feather": headwear.feather,
 }
 

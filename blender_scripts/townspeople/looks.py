@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from townspeople import materials
+from townspeople import face, materials
 from townspeople import surface as sf
-from townspeople.skin import face_places
 from townspeople.wardrobe import CELLS
 
 MATERIALS = {"skin": (0.62, 0.0), "cloth": (0.92, 0.0), "trim": (0.70, 0.0)}  # roughness, metallic
@@ -33,7 +32,7 @@ def paint_cells(figure, person, seed, cells):
 
 def make_materials(figure, person, seed, cells):
     """Blender materials by name, each cell's material, and each cell's place in its atlas."""
-    skin = materials.skin_picture(figure.images["skin"], face_places(figure), **person["skin"])
+    skin = face.skin_picture(figure, person, seed)
     made = {
         "skin": materials.blender_material(
             "skin", materials.blender_image("skin", skin), *MATERIALS["skin"]

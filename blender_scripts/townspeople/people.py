@@ -7,13 +7,13 @@ the trunk or the face in or out before anything is sewn; `manner` is how they mo
 `props` are meshes of their own, for some of the people of one model (props.py).
 """
 
-from townspeople.wardrobe import (BAND, BEARD, BELLY, CHILD_FACE, CHILD_SHAPE, CLOSE_SLEEVE, COIF,
-    FEMALE, LONG_HAIR, MALE, SHORT_HAIR, SHORT_STOCKINGS, STOCKINGS, TANNED, WIDE_SLEEVE,
+from townspeople.wardrobe import (BAND, BEARD, BELLY, CHILD_FACE, CHILD_SHAPE, CHILDLIKE,
+    CLOSE_SLEEVE, COIF, FEMALE, LONG_HAIR, MALE, OLD, SHORT_HAIR, SHORT_STOCKINGS, STOCKINGS, TANNED, WIDE_SLEEVE,
     WOMAN_BULGES, WOMAN_FACE, WOMAN_HAIR, WOMAN_SHAPE, dyed)
 
 PEOPLE = {
     "merchant": {
-        "height_m": 1.76, "skin": MALE, "bulges": [BELLY],
+        "height_m": 1.76, "skin": dict(MALE, age=0.3), "bulges": [BELLY],
         "manner": {"arm_swing": 0.3, "arm_forward_deg": 13.0},
         "wear": [
             STOCKINGS,
@@ -27,7 +27,7 @@ PEOPLE = {
              "flare": 0.22, "folds": 14, "fold_depth": 0.012, "rows": 6, "cell": "overskirt"},
             {"piece": "belt", "at": ["waist", -0.02], "height": 0.035},
             {"piece": "pouch", "at": ["waist", -0.05], "angle_deg": -60, "cell": "pouch"},
-            {"piece": "brows"}, dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
+            dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
             {"piece": "cape", "name": "cloak", "top_deg": 65, "bottom_deg": 0, "ease": 0.024,
              "open_deg": 62,
              "hem": ["crotch", 0.02], "flare": 0.22, "folds": 8, "fold_depth": 0.03,
@@ -73,7 +73,7 @@ PEOPLE = {
              "flare": 0.20, "folds": 11, "fold_depth": 0.022, "rows": 9},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.04},
             {"piece": "pouch", "at": ["waist", -0.02], "angle_deg": 50},
-            {"piece": "brows"}, dict(BEARD, thickness=0.012), dict(SHORT_HAIR),
+            dict(BEARD, thickness=0.012), dict(SHORT_HAIR),
             {"piece": "shell", "name": "hood", "thickness": 0.014, "crown_thickness": 0.008,
              "peak": 0.035,
              "columns": 40, "nape": 0.01, "cell": "hood",
@@ -115,7 +115,7 @@ PEOPLE = {
             {"piece": "apron", "over": "form", "hem_row": 1.0, "bib_top": ["chest", 0.05],
              "half_angle_deg": 66},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.028}, dict(BAND),
-            {"piece": "brows"}, dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
+            dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
             {"piece": "hat", "name": "cap", "sit": 0.024, "tilt_deg": -10, "profile": [
                 [0, 0, 0.070], [0.6, 0, 0.072], [1.0, 0.020, 0.058], [1.0, 0.032, 0.034],
                 [1.0, 0.010, 0.006], [1.0, 0.006, -0.014],
@@ -149,7 +149,7 @@ PEOPLE = {
              "flare": 0.18, "folds": 16, "fold_depth": 0.030, "gather": 0.2},
             {"piece": "apron", "over": "skirt", "hem_row": 0.82, "half_angle_deg": 58},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.03, "thickness": 0.008},
-            {"piece": "brows"}, dict(WOMAN_HAIR), dict(COIF),
+            dict(WOMAN_HAIR), dict(COIF),
             dict(BAND),
         ],
         "props": [
@@ -169,7 +169,7 @@ PEOPLE = {
         },
     },
     "noblewoman": {
-        "height_m": 1.66, "skin": {"tint": (1.10, 1.06, 1.05), "smooth": 1.0, "rouge": 1.2},
+        "height_m": 1.66, "skin": dict(FEMALE, tone=(0.635, 0.51, 0.44), rouge=1.2),
         "proportions": WOMAN_SHAPE,
         "bulges": WOMAN_BULGES + WOMAN_FACE,
         "manner": {"arm_spread_deg": 6.0, "arm_swing": 0.3, "arm_forward_deg": 14.0,
@@ -183,7 +183,7 @@ PEOPLE = {
              "ease": 0.04,
              "flare": 0.20, "folds": 15, "fold_depth": 0.03, "gather": 0.15, "columns": 60},
             {"piece": "belt", "at": ["waist", -0.01], "height": 0.022, "thickness": 0.007},
-            {"piece": "brows"}, dict(WOMAN_HAIR),
+            dict(WOMAN_HAIR),
             {"piece": "cape", "name": "mantle", "top_deg": 64, "bottom_deg": 0, "ease": 0.022,
              "open_deg": 82,
              "hem": ["knee", -0.22], "flare": 0.16, "folds": 9, "fold_depth": 0.035,
@@ -212,7 +212,7 @@ PEOPLE = {
         },
     },
     "maid": {
-        "height_m": 1.58, "skin": {"tint": (1.0, 0.94, 0.90), "smooth": 1.0, "rouge": 0.9},
+        "height_m": 1.58, "skin": dict(FEMALE, tone=(0.575, 0.44, 0.36)),
         "proportions": WOMAN_SHAPE,
         "bulges": WOMAN_BULGES + WOMAN_FACE,
         "manner": {"arm_spread_deg": 4.0, "stride": 0.98},
@@ -226,7 +226,7 @@ PEOPLE = {
              "flare": 0.20, "folds": 13, "fold_depth": 0.030, "gather": 0.25},
             {"piece": "apron", "over": "skirt", "hem_row": 0.9, "half_angle_deg": 50},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.025, "thickness": 0.007},
-            {"piece": "brows"}, dict(WOMAN_HAIR),
+            dict(WOMAN_HAIR),
             dict(COIF, peak=0.03, edge=[[0, 58], [35, 50], [65, 24], [85, 0], [105, -12],
                                         [140, -30], [180, -40]]),
             {"piece": "cape", "name": "shawl", "top_deg": 62, "bottom_deg": 16, "ease": 0.018,
@@ -249,7 +249,8 @@ PEOPLE = {
         },
     },
     "monk": {
-        "height_m": 1.74, "skin": MALE,         "bulges": [dict(BELLY, push=(0, -0.05, 0))],
+        "height_m": 1.74, "skin": dict(MALE, stubble=0.35, age=0.35),
+        "bulges": [dict(BELLY, push=(0, -0.05, 0))],
         "manner": {"arm_spread_deg": 3.0, "stride": 0.88},
         "wear": [
             SHORT_STOCKINGS,
@@ -261,7 +262,7 @@ PEOPLE = {
              "flare": 0.12, "folds": 13, "fold_depth": 0.035},
             {"piece": "belt", "at": ["waist", 0.01], "height": 0.026, "thickness": 0.016},
             {"piece": "cord", "start": ["waist", 0.0], "end": ["knee", 0.05], "angle_deg": 30},
-            {"piece": "brows"},
+            
             {"piece": "shell", "name": "hair", "thickness": 0.009, "crown_thickness": 0.012,
              "roughness": 0.003, "top_deg": 64, "rows": 5,
              "edge": [[0, 44], [40, 34], [70, 10], [95, 4], [130, -25], [180, -34]]},
@@ -292,7 +293,7 @@ PEOPLE = {
              "flare": 0.22, "folds": 14, "fold_depth": 0.016, "rows": 7},
             {"piece": "plate", "bottom": ["waist", -0.03]},
             {"piece": "belt", "at": ["waist", -0.03], "height": 0.045},
-            {"piece": "brows"}, dict(SHORT_HAIR), dict(BEARD),
+            dict(SHORT_HAIR), dict(BEARD),
             {"piece": "moustache", "thickness": 0.013},
             dict(BAND),
             {"piece": "hat", "name": "helmet", "sit": 0.020, "tilt_deg": -3, "cell": "plate",
@@ -319,8 +320,8 @@ PEOPLE = {
         },
     },
     "child": {
-        "height_m": 1.20, "skin": {"tint": (1.08, 1.01, 0.97), "smooth": 1.0, "rouge": 0.8},
-        "bulges": CHILD_FACE,         "proportions": CHILD_SHAPE,
+        "height_m": 1.20, "skin": CHILDLIKE,
+        "bulges": CHILD_FACE, "proportions": CHILD_SHAPE,
         "manner": {"arm_spread_deg": 1.0, "stride": 1.0},
         "wear": [
             dict(STOCKINGS, start=0.3),
@@ -331,7 +332,7 @@ PEOPLE = {
              "ease": 0.016,
              "flare": 0.26, "folds": 11, "fold_depth": 0.022, "rows": 9},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.03},
-            {"piece": "brows"}, dict(LONG_HAIR),
+            dict(LONG_HAIR),
             dict(BAND),
             {"piece": "hat", "name": "cap", "sit": 0.040, "tilt_deg": -14, "profile": [
                 [0, 0, 0.080], [0.6, 0, 0.078], [1.0, 0.018, 0.056], [1.0, 0.028, 0.026],
@@ -351,7 +352,7 @@ PEOPLE = {
         },
     },
     "girl": {
-        "height_m": 1.28, "skin": {"tint": (1.08, 1.01, 0.97), "smooth": 1.0, "rouge": 1.0},
+        "height_m": 1.28, "skin": CHILDLIKE,
         "bulges": CHILD_FACE, "proportions": CHILD_SHAPE,
         "manner": {"arm_spread_deg": 5.0},
         "wear": [
@@ -363,7 +364,7 @@ PEOPLE = {
              "ease": 0.016, "flare": 0.26, "folds": 13, "fold_depth": 0.026, "gather": 0.2},
             {"piece": "apron", "over": "dress", "hem_row": 0.85, "half_angle_deg": 52},
             {"piece": "belt", "at": ["waist", 0.02], "height": 0.026, "thickness": 0.007},
-            {"piece": "brows"}, dict(LONG_HAIR),
+            dict(LONG_HAIR),
             dict(COIF, peak=0.012, edge=[[0, 64], [35, 58], [65, 34], [85, 6], [105, -6],
                                          [140, -24], [180, -34]]),
             dict(BAND),
@@ -380,7 +381,7 @@ PEOPLE = {
         },
     },
     "old_man": {
-        "height_m": 1.69, "skin": {"tint": (0.98, 0.94, 0.92), "smooth": 0.6},
+        "height_m": 1.69, "skin": OLD,
         "bulges": [dict(BELLY, push=(0, -0.035, 0))],
         "manner": {"arm_spread_deg": 1.0, "stride": 0.76, "liveliness": 0.7, "arm_swing": 0.3,
                    "arm_forward_deg": 10.0, "stoop_deg": 8.0},
@@ -393,7 +394,7 @@ PEOPLE = {
              "ease": 0.016,
              "flare": 0.15, "folds": 12, "fold_depth": 0.028},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.035},
-            {"piece": "brows"}, dict(LONG_HAIR), dict(BEARD, thickness=0.02, length=0.10),
+            dict(LONG_HAIR), dict(BEARD, thickness=0.02, length=0.10),
             {"piece": "moustache", "thickness": 0.014},
             {"piece": "cape", "name": "cloak", "top_deg": 66, "bottom_deg": 0, "ease": 0.028,
              "open_deg": 64,
