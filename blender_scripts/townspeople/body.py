@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from common.settings import fail
+from townspeople import eyes
 from townspeople import skeleton as sk
 from townspeople.surface import Surface, nearest_weights, smoothstep, with_parts
 
@@ -179,9 +180,8 @@ def load_figure(path):
         bpy.data.objects.remove(thing)
     for action in list(bpy.data.actions):
         bpy.data.actions.remove(action)
-    return Figure(
-        sk.Skeleton(list(sk.KEPT), parents, heads), parts, walk, walk_root, images, landmarks
-    )
+    skeleton = sk.Skeleton(list(sk.KEPT), parents, heads)
+    return eyes.with_eye_joints(Figure(skeleton, parts, walk, walk_root, images, landmarks))
 
 
 def standing_pose(figure, arm_lift_deg):
@@ -237,7 +237,7 @@ def _joint_scales(names, proportions):
         "feet": ("foot",),
         "arms": ("shoulder02", "upperarm", "lowerarm"),
         "hands": ("wrist", "finger"),
-        "head": ("head",),
+        "head": ("head", "lids", "eye_"),
         "neck": ("neck",),
         "trunk": ("root", "spine", "clavicle"),
     }

@@ -20,7 +20,7 @@ SHAVEN = {"upper_edge": BEARD_ABOVE, "lower_edge": BEARD_BELOW}
 def places_of_texels(figure, size_px):
     """Where on the head each texel of the skin's picture lies (metres), and whether it is on it."""
     skin = figure.parts["body"]
-    head = body.joint_share(figure, skin, ("head", "neck"))
+    head = body.joint_share(figure, skin, ("head", "neck", "lids"))
     places = np.zeros((size_px, size_px, 3))
     there = np.zeros((size_px, size_px), bool)
     starts = sf.corner_starts(skin.faces)
@@ -164,8 +164,8 @@ def _features(head, picture, tone, rouge):
     for x, z, rx, rz, share in ((e + 9, nose - 4, 17, 15, 0.20), (0, nose + 3, 9, 8, 0.20), (0, mouth - 26, 12, 9, 0.08)):
         red = share * (0.6 + 0.7 * rouge) * head.spot(x, z, rx, rz)
         picture = picture * (1.0 - red[..., None] * np.array([0.02, 0.62, 0.60]))
-    lips = head.spot(0, mouth, 19, 6.0) ** 1.5
-    picture = _mixed(picture, (0.42 + 0.38 * rouge) * lips, np.asarray(tone) * np.array([0.92, 0.60, 0.58]))
+    lips = head.spot(0, mouth, 20, 7.5) ** 1.5
+    picture = _mixed(picture, (0.50 + 0.38 * rouge) * lips, np.asarray(tone) * np.array([0.88, 0.55, 0.53]))
     socket = head.spot(e - 14, 4, 8, 10) * 0.16
     return picture * (1.0 - socket[..., None] * np.array([0.8, 1.0, 1.0]))
 
