@@ -39,12 +39,15 @@ def make_materials(figure, person, seed, cells):
         )
     }
     material_of_cell, places = {"body": "skin"}, {}
+    dyes = person.get("dyes", {})
     for name, pictures in paint_cells(figure, person, seed, cells - {"body"}).items():
         atlas, atlas_places = materials.pack_cells(pictures)
-        made[name] = materials.blender_material(
-            name, materials.blender_image(name, atlas), *MATERIALS[name]
-        )
-        material_of_cell.update({cell: name for cell in pictures})
+        image = materials.blender_image(name, atlas)
+        for cell in pictures:  # what is dyed by itself is a material by itself, of the same picture
+            own = next((dye for dye, cells in dyes.items() if cell in cells), name)
+            material_of_cell[cell] = own
+            if own not in made:
+                made[own] = materials.blender_material(own, image, *MATERIALS[name])
         places.update(atlas_places)
     return made, material_of_cell, places
 

@@ -4,7 +4,8 @@
 (build.py), the rest are its settings. `cloth` says how each texture cell looks (materials.paint).
 `proportions` are scales in x, y, z (to the left, to the back, up) of body regions; `bulges` push
 the trunk or the face in or out before anything is sewn; `manner` is how they move (clips.py).
-`props` are meshes of their own, for some of the people of one model (props.py).
+`props` are meshes of their own, for some of the people of one model (props.py). `dyes` names the
+materials of cells that a tour's tints dye by themselves.
 """
 
 from townspeople.wardrobe import (BAND, BEARD, BELLY, CHILD_FACE, CHILD_SHAPE, CHILDLIKE,
@@ -29,8 +30,8 @@ PEOPLE = {
             {"piece": "pouch", "at": ["waist", -0.05], "angle_deg": -60, "cell": "pouch"},
             dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
             {"piece": "cape", "name": "cloak", "top_deg": 65, "bottom_deg": 0, "ease": 0.024,
-             "open_deg": 62,
-             "hem": ["crotch", 0.02], "flare": 0.22, "folds": 8, "fold_depth": 0.03,
+             "open_deg": 88, "stand_off": 0.06,
+             "hem": ["crotch", 0.02], "flare": 0.12, "folds": 9, "fold_depth": 0.04,
              "lining": "lining"},
             {"piece": "standing collar", "height": 0.035, "flare": 0.0, "cell": "upper"},
             {"piece": "ruff"},
@@ -44,6 +45,7 @@ PEOPLE = {
             {"piece": "book", "name": "book", "cover": ["collar", (0.32, 0.11, 0.07)],
              "pages": ["collar", (1.0, 0.94, 0.80)]},
         ],
+        "dyes": {"doublet": ["upper", "overskirt", "sleeve"], "cloak": ["cape"]},
         "cloth": {
             "upper": dyed("velvet", (0.35, 0.10, 0.11),
                           placket=[0.03, (0.28, 0.06, 0.07), 12, (0.54, 0.36, 0.19)]),
@@ -79,13 +81,14 @@ PEOPLE = {
              "columns": 40, "nape": 0.01, "cell": "hood",
              "drop": 0.07,
              "edge": [[0, 44], [30, 38], [48, 18], [58, -14], [66, -40], [80, -50], [180, -52]]},
-            {"piece": "cape", "name": "hood", "top_deg": 68, "bottom_deg": 12, "ease": 0.026,
+            {"piece": "cape", "name": "hood", "top_deg": 74, "bottom_deg": 12, "ease": 0.026,
              "point": 0.03},
         ],
         "props": [
             {"piece": "sack", "name": "sack", "cloth": ["skirt", (1.0, 0.88, 0.68)],
              "strap": ["belt", (1.0, 1.0, 1.0)]},
         ],
+        "dyes": {"tunic": ["upper", "sleeve", "skirt"], "hood": ["hood", "cape"]},
         "cloth": {
             "upper": dyed("wool", (0.47, 0.40, 0.29)), "sleeve": dyed("wool", (0.47, 0.40, 0.29)),
             "skirt": dyed("wool", (0.47, 0.40, 0.29), hem=0.55, folds=0.2),
@@ -106,14 +109,14 @@ PEOPLE = {
              "smooth": 6,
              "sleeve": [[0, 0.085], [0.6, 0.088], [1.0, 0.080], [1.15, 0.058], [1.22, 0.056]]},
             {"piece": "skirt", "name": "shirt", "top": ["waist", 0.0], "hem": ["crotch", -0.06],
-             "ease": 0.012,
-             "flare": 0.2, "folds": 12, "fold_depth": 0.014, "rows": 7},
+             "ease": 0.010,
+             "flare": 0.08, "folds": 12, "fold_depth": 0.012, "rows": 7},
             {"piece": "skirt", "name": "form", "top": ["waist", 0.0], "hem": ["knee", -0.06],
-             "ease": 0.022,
-             "flare": 0.16, "folds": 5, "fold_depth": 0.010, "rows": 9, "follow": 0.85,
-             "shin": 0.2, "hidden": True},
+             "ease": 0.012,
+             "flare": 0.05, "front_flare": 0.3, "folds": 8, "fold_depth": 0.016, "rows": 9,
+             "shin": 0.3, "hidden": True},
             {"piece": "apron", "over": "form", "hem_row": 1.0, "bib_top": ["chest", 0.05],
-             "half_angle_deg": 66},
+             "half_angle_deg": 66, "lift": 0.007},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.028}, dict(BAND),
             dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
             {"piece": "hat", "name": "cap", "sit": 0.024, "tilt_deg": -10, "profile": [
@@ -125,6 +128,7 @@ PEOPLE = {
             {"piece": "satchel", "name": "satchel", "leather": ["belt", (1.0, 0.9, 0.8)],
              "flap": ["belt", (0.75, 0.62, 0.5)], "strap": ["belt", (0.75, 0.62, 0.5)]},
         ],
+        "dyes": {"shirt": ["upper", "sleeve", "skirt"], "breeches": ["trousers"], "cap": ["hat"]},
         "cloth": {
             "upper": dyed("linen", (0.63, 0.575, 0.475), placket=[0.012, (0.66, 0.61, 0.50), 0, None]),
             "sleeve": dyed("linen", (0.63, 0.575, 0.475)), "skirt": dyed("linen", (0.63, 0.575, 0.475)),
@@ -156,6 +160,7 @@ PEOPLE = {
             {"piece": "back basket", "name": "back_basket", "wicker": ["coif", (0.46, 0.26, 0.11)],
              "filling": ["coif", (0.20, 0.29, 0.07)], "strap": ["coif", (0.13, 0.06, 0.03)]},
         ],
+        "dyes": {"gown": ["upper", "sleeve", "skirt"]},
         "cloth": {
             "upper": dyed("wool", (0.20, 0.27, 0.38),
                           placket=[0.07, (0.68, 0.66, 0.59), 9, (0.48, 0.44, 0.38)]),
@@ -185,17 +190,18 @@ PEOPLE = {
             {"piece": "belt", "at": ["waist", -0.01], "height": 0.022, "thickness": 0.007},
             dict(WOMAN_HAIR),
             {"piece": "cape", "name": "mantle", "top_deg": 64, "bottom_deg": 0, "ease": 0.022,
-             "open_deg": 82,
-             "hem": ["knee", -0.22], "flare": 0.16, "folds": 9, "fold_depth": 0.035,
+             "open_deg": 96, "stand_off": 0.06,
+             "hem": ["knee", -0.22], "flare": 0.10, "folds": 9, "fold_depth": 0.045,
              "lining": "lining", "hang_rows": 10},
             {"piece": "standing collar", "height": 0.035, "flare": 0.0, "cell": "upper"},
-            {"piece": "ruff", "outer": 0.14},
+            {"piece": "ruff", "width": 0.072},
             {"piece": "hat", "sit": 0.036, "tilt_deg": -9, "profile": [
                 [0, 0, 0.10], [0.5, 0, 0.102], [0.82, 0, 0.092], [0.95, 0, 0.05], [1.0, 0, 0.0],
                 [1.0, 0.030, 0.0],
                 [1.0, 0.045, 0.006], [1.0, 0.043, 0.0], [1.0, 0.01, -0.008]]},
             {"piece": "feather"},
         ],
+        "dyes": {"gown": ["upper", "sleeve", "skirt"], "mantle": ["cape"]},
         "cloth": {
             "upper": dyed("velvet", (0.13, 0.22, 0.17),
                           placket=[0.09, (0.52, 0.45, 0.26), 8, (0.66, 0.57, 0.34)]),
@@ -229,7 +235,7 @@ PEOPLE = {
             dict(WOMAN_HAIR),
             dict(COIF, peak=0.03, edge=[[0, 58], [35, 50], [65, 24], [85, 0], [105, -12],
                                         [140, -30], [180, -40]]),
-            {"piece": "cape", "name": "shawl", "top_deg": 62, "bottom_deg": 16, "ease": 0.018,
+            {"piece": "cape", "name": "shawl", "top_deg": 67, "bottom_deg": 16, "ease": 0.018,
              "point": 0.10},
             {"piece": "roll", "thickness": 0.018},
         ],
@@ -238,6 +244,7 @@ PEOPLE = {
             {"piece": "head basket", "name": "basket", "wicker": ["coif", (0.50, 0.30, 0.13)],
              "filling": ["coif", (1.0, 1.0, 1.0)], "pad": ["coif", (0.28, 0.33, 0.40)]},
         ],
+        "dyes": {"skirt": ["skirt"], "bodice": ["upper"], "shawl": ["cape"]},
         "cloth": {
             "upper": dyed("wool", (0.44, 0.20, 0.13)), "sleeve": dyed("linen", (0.70, 0.66, 0.59)),
             "skirt": dyed("wool", (0.50, 0.36, 0.17), hem=0.55, folds=0.25),
@@ -266,7 +273,7 @@ PEOPLE = {
             {"piece": "shell", "name": "hair", "thickness": 0.009, "crown_thickness": 0.012,
              "roughness": 0.003, "top_deg": 64, "rows": 5,
              "edge": [[0, 44], [40, 34], [70, 10], [95, 4], [130, -25], [180, -34]]},
-            {"piece": "cape", "name": "cowl", "top_deg": 66, "bottom_deg": 8, "ease": 0.03},
+            {"piece": "cape", "name": "cowl", "top_deg": 69, "bottom_deg": 8, "ease": 0.03},
             {"piece": "roll"},
         ],
         "cloth": {
@@ -339,6 +346,7 @@ PEOPLE = {
                 [1.0, 0.008, 0.004], [1.0, 0.004, -0.012],
                 [0.96, 0, -0.016]]},
         ],
+        "dyes": {"tunic": ["upper", "sleeve", "skirt"], "cap": ["hat"]},
         "cloth": {
             "upper": dyed("wool", (0.51, 0.25, 0.165),
                           placket=[0.03, (0.46, 0.21, 0.13), 5, (0.36, 0.20, 0.13)]),
@@ -369,6 +377,7 @@ PEOPLE = {
                                          [140, -24], [180, -34]]),
             dict(BAND),
         ],
+        "dyes": {"dress": ["upper", "sleeve", "skirt"]},
         "cloth": {
             "upper": dyed("wool", (0.35, 0.42, 0.30),
                           placket=[0.05, (0.27, 0.33, 0.23), 6, (0.48, 0.50, 0.39)]),
@@ -397,8 +406,8 @@ PEOPLE = {
             dict(LONG_HAIR), dict(BEARD, thickness=0.02, length=0.10),
             {"piece": "moustache", "thickness": 0.014},
             {"piece": "cape", "name": "cloak", "top_deg": 66, "bottom_deg": 0, "ease": 0.028,
-             "open_deg": 64,
-             "hem": ["knee", 0.0], "flare": 0.17, "folds": 9, "fold_depth": 0.035, "hang_rows": 9},
+             "open_deg": 88, "stand_off": 0.06,
+             "hem": ["knee", 0.0], "flare": 0.10, "folds": 9, "fold_depth": 0.045, "hang_rows": 9},
             {"piece": "hat", "name": "cap", "sit": 0.024, "tilt_deg": -8, "profile": [
                 [0, 0, 0.088], [0.6, 0, 0.085], [1.0, 0.024, 0.060], [1.0, 0.036, 0.026],
                 [1.0, 0.010, 0.004], [1.0, 0.008, -0.016],

@@ -49,7 +49,7 @@ struct PersonInstance {
   Vec4 place;  // position in glTF axes, turn about the vertical
   Vec4 look;  // mesh: row of the poses; impostor: first cell of its picture; shadow: row of the poses for shadows; then
               // share of the pattern from, to; and, impostor: phases since its picture, prop: 1 on an impostor
-  std::array<uint8_t, 4> tints{};  // DrawnPerson's
+  std::array<uint8_t, 4> tints{};  // DrawnPerson's, and its size as the shaders read it
 };
 
 // One draw: instances first ... first + count - 1 of one avatar at one level (-1: impostor; behind the last one: a
