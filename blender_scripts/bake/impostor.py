@@ -6,7 +6,8 @@ Run as every script here (see common/settings.py). The settings:
     seed            another sample pattern
     geometry        folder with the binary arrays named below
     vertices, triangles, frames     lengths of these arrays
-    materials       list of {"texture": file or "", "mask", "cutoff", "double_sided"}
+    materials       list of {"texture": file or "", "mask", "cutoff", "double_sided", "tints": [1 or 0, ...]}
+    tint_regions    whether to write the layer tints: which of three tints may dye the surface
     directions      around the person
     cells           list of {"frame", "direction", "elevation_deg", "origin_px": [x, y]}: where in
                     the atlas the point between the feet is, from the upper left corner
@@ -22,7 +23,7 @@ Arrays, little-endian, without header, axes as in glTF (Y up, the person faces +
 
 Each EXR holds float layers: means over all samples of a pixel, so that every value is premultiplied
 with the coverage. They are albedo (sRGB), normal, motion and bend (avatar's axes), depth (metres
-from the axis towards the camera) and coverage.
+from the axis towards the camera), coverage and, where wanted, tints (by channel a tint).
 """
 
 import math
@@ -37,9 +38,10 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.p
 from common.settings import fail, load_settings  # noqa: E402
 
 REQUIRED = ("output", "seed", "geometry", "vertices", "triangles", "frames", "materials",
-            "directions", "cells", "width_px", "height_px", "texel_m", "band_px")
+            "directions", "cells", "width_px", "height_px", "texel_m", "band_px",
+            "tint_regions")
 VECTORS = ("normal", "motion", "bend")  # of a vertex; they differ from frame to frame
-COLOR_LAYERS = ("albedo",) + VECTORS
+COLOR_LAYERS = ("albedo", "tints") + VECTORS
 VALUE_LAYERS = ("depth", "coverage")
 PATTERN = 32  # of 40 patterns of 16 samples the one that comes nearest to 64 samples on edges
 
@@ -155,7 +157,14 @@ def visibility(nodes, description, alpha, backfacing):
     return visible
 
 
-def make_material(description):
+def constant(nodes, vector):
+    node = nodes.node("ShaderNodeCombineXYZ")
+    for socket, value in zip(node.inputs, vector):
+        socket.default_value = value
+    return node.outputs[0]
+
+
+def make_material(description, tint_regions):
     """Writes the layers at the first visible surface.
 
     A layer is written at every surface a sample meets, also where the sample then passes through,
@@ -179,6 +188,8 @@ def make_material(description):
     side = nodes.math("SUBTRACT", 1.0, nodes.math("MULTIPLY", geometry.outputs["Backfacing"], 2.0))
     normal = nodes.scale(nodes.attribute("person_normal").outputs["Vector"], side)
     layers = {"albedo": color, "normal": normal}
+    if tint_regions:
+        layers["tints"] = constant(nodes, description["tints"])
     for name in ("motion", "bend"):
         layers[name] = nodes.attribute("person_" + name).outputs["Vector"]
     for name, vector in layers.items():
@@ -300,6 +311,8 @@ def set_up_output(settings, scene):
     layer.use_pass_z = False
     for names, kind in ((COLOR_LAYERS, "COLOR"), (VALUE_LAYERS, "VALUE")):
         for name in names:
+            if name == "tints" and not settings["tint_regions"]:
+                continue
             aov = layer.aovs.add()
             aov.name, aov.type = name, kind
 
@@ -310,7 +323,7 @@ def main():
     for each in list(scene.collection.all_objects):  # what a new file holds
         bpy.data.objects.remove(each)
     arrays = read_geometry(settings)
-    materials = [make_material(each) for each in settings["materials"]]
+    materials = [make_material(each, settings["tint_regions"]) for each in settings["materials"]]
     place_views(settings, make_frames(arrays, materials, settings["frames"]))
     distance = 2 * float(np.abs(arrays["positions"]).max()) + 1
     place_camera(settings, scene, distance)

@@ -185,6 +185,7 @@ def cape(
     columns=40,
     hang_rows=6,
     calm_arms=0.55,
+    stand_off=0.12,
     point=0.0,
     lining=None,
     cell="cape",
@@ -193,7 +194,7 @@ def cape(
 
     It starts at the neck `top_deg` above the chest's middle and comes down to `bottom_deg`; from
     there it hangs to the place `hem`, where given. open_deg: half the opening in front. point:
-    lowers front and back.
+    lowers front and back. stand_off: how far at most it is pushed off what moves beneath it.
     """
     size = tailor.size
     angles = _opened_angles(columns, open_deg)
@@ -222,7 +223,7 @@ def cape(
         tl.beneath(tailor, kinds),
         tailor.poses,
         0.022 * size,
-        0.12 * size,
+        stand_off * size,
         closed,
     )
     tailor.grids[name] = (points, weights, angles)
@@ -250,6 +251,8 @@ def _hung(tailor, points, angles, z_hem, flare, folds, fold_depth, rows):
     size, edge = tailor.size, points[-1]
     cloud = tl.slice_points(tailor, arms=True, skirts=True)
     wave = tl.fold_wave(tailor.random, angles, folds)
+    inside = sf.smoothstep(0.0, 0.9, np.minimum(angles - angles[0], angles[-1] - angles))  # of an opening's edges
+    loose = inside if angles[0] > 0 else np.ones_like(angles)
     reach = np.linalg.norm(edge[:, :2] - [0.0, tl.axis_y(tailor, edge[:, 2].mean())], axis=1)
     z_edge, added = edge[:, 2].mean(), []
     for t in np.linspace(0.0, 1.0, rows + 1)[1:]:
@@ -258,7 +261,8 @@ def _hung(tailor, points, angles, z_hem, flare, folds, fold_depth, rows):
         if outline is not None:
             reach = np.maximum(reach * 0.985, outline + 0.02 * size)
         fall = (z_edge - z.mean()) / size
-        radii = reach + flare * size * fall + fold_depth * size * wave * min(fall / 0.3, 1.0)
+        radii = reach + flare * size * fall * loose
+        radii = radii + fold_depth * size * (wave - 0.35) * min(fall / 0.3, 1.0) * (0.3 + 0.7 * loose)
         base = np.stack([np.zeros_like(z), np.full_like(z, tl.axis_y(tailor, z.mean())), z], axis=1)
         added.append(base + tl.direction(angles) * radii[:, None])
     return np.concatenate([points, np.array(added)])
@@ -287,7 +291,7 @@ def collar(tailor, name, height=0.045, flare=0.010, cell="collar"):
         tailor,
         name,
         [
-            (-0.03, 0.004),
+            (-0.055, 0.010),
             (0.0, 0.006),
             (height, 0.006 + flare),
             (height, flare - 0.006),
@@ -341,22 +345,24 @@ def _neck_rings(tailor, name, shape, cell, columns=28):
     tailor.worn["neck " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles))
 
 
-def ruff(tailor, name, inner=0.060, outer=0.125, height=0.034, pleats=19, cell="collar"):
-    """A pleated ruff: a figure-of-eight frill about the neck."""
-    size, columns = tailor.size, pleats * 5
+def ruff(tailor, name, width=0.062, height=0.034, pleats=19, lift=0.012, cell="collar"):
+    """A pleated ruff that lies about the neck: a figure-of-eight frill whose inside begins at the skin."""
+    size, columns = tailor.size, pleats * 4
     angles = tl.angles_of(columns)
-    centre = tailor.figure.landmarks["neck"] + np.array([0.0, 0.004, 0.010]) * size
-    wave = np.sin(pleats * angles) * (0.85 + 0.15 * np.cos(7 * angles))
+    tree = sf.tree_of([tailor.figure.parts["body"]])
+    low, high = tailor.figure.landmarks["shoulder"], tailor.figure.landmarks["neck"]
+    base = high[2] + lift * size
+    middle = low + (high - low) * ((base - low[2]) / (high[2] - low[2]))
+    reach = [sf.outermost(tree, middle, ray, 0.11 * size) or 0.06 * size for ray in tl.direction(angles)]
+    reach = np.clip(tl.circular_blur(np.array(reach), 6), 0.045 * size, 0.075 * size)
+    frill = np.sin(pleats * angles) * (0.9 + 0.1 * np.cos(7 * angles))
     rows = []
-    for t in (0.0, 0.35, 0.7, 1.0):
-        radius = inner + (outer - inner) * t
-        z = (
-            0.5 * height * wave * min(0.25 + t * 1.5, 1.0)
-            + 0.018 * t
-            - 0.018 * np.cos(angles) * (1 + t)
-        ) * size
-        ring = centre + tl.direction(angles + 0.05 * np.cos(pleats * angles) * t) * radius * size
-        ring[:, 2] += z
+    for t in (0.0, 0.4, 0.75, 1.0):
+        radius = reach - 0.004 * size + width * size * t
+        ring = middle + tl.direction(angles) * radius[:, None]
+        swell = 0.5 * height * min(0.3 + t * 1.3, 1.0) * frill
+        droop = 0.006 * t - 0.016 * np.cos(angles) * (0.6 + 0.4 * t)  # lower before the chin than behind
+        ring[:, 2] = base + (swell + droop) * size
         rows.append(ring)
     points = np.array(rows)
     weights = np.zeros(points.shape[:2] + (len(tailor.figure.skeleton.names),))

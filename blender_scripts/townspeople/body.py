@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from common.settings import fail
+from townspeople import eyes
 from townspeople import skeleton as sk
 from townspeople.surface import Surface, nearest_weights, smoothstep, with_parts
 
@@ -179,9 +180,8 @@ def load_figure(path):
         bpy.data.objects.remove(thing)
     for action in list(bpy.data.actions):
         bpy.data.actions.remove(action)
-    return Figure(
-        sk.Skeleton(list(sk.KEPT), parents, heads), parts, walk, walk_root, images, landmarks
-    )
+    skeleton = sk.Skeleton(list(sk.KEPT), parents, heads)
+    return eyes.with_eye_joints(Figure(skeleton, parts, walk, walk_root, images, landmarks))
 
 
 def standing_pose(figure, arm_lift_deg):
@@ -237,7 +237,7 @@ def _joint_scales(names, proportions):
         "feet": ("foot",),
         "arms": ("shoulder02", "upperarm", "lowerarm"),
         "hands": ("wrist", "finger"),
-        "head": ("head",),
+        "head": ("head", "lids", "eye_"),
         "neck": ("neck",),
         "trunk": ("root", "spine", "clavicle"),
     }
@@ -285,6 +285,12 @@ def proportioned(figure, height_m, proportions):
     return replace(result, leg_thickness=factor * scales[skeleton.index("lowerleg01_L")][0])
 
 
+MOUTH_CORNERS = {  # the source's droop
+    "at": "mouth", "by": (0.021, 0.012, -0.001), "radius": (0.017, 0.030, 0.014), "push": (0.0008, 0.0, 0.0042),
+    "mirror": True,
+}
+
+
 def bulged(figure, bulges):
     """Pushes shirt, trousers and body by smooth bumps.
 
@@ -294,7 +300,7 @@ def bulged(figure, bulges):
     """
     factor = figure.landmarks["crown"][2] / 1.7
     parts = dict(figure.parts)
-    for bump in bulges:
+    for bump in [MOUTH_CORNERS, *bulges]:
         sides = (1.0, -1.0) if bump.get("mirror") else (1.0,)
         for side in sides:
             flip = np.array([side, 1.0, 1.0])

@@ -26,7 +26,7 @@ PIECES = {
     "cord": accessories.cord, "pouch": accessories.pouch, "apron": accessories.apron,
     "cape": accessories.cape, "standing collar": accessories.collar, "roll": accessories.roll,
     "ruff": accessories.ruff, "shell": headwear.shell, "beard": headwear.beard,
-    "moustache": headwear.moustache, "brows": headwear.brows, "hat": headwear.hat,
+    "moustache": headwear.moustache, "hat": headwear.hat,
     "feather": headwear.feather,
 }
 
@@ -113,10 +113,11 @@ def main():
 
     armature = scene.make_armature(figure.skeleton)
     armature["flaneur_walk_speed_mps"] = round(speed_mps, 4)
-    scene.make_mesh("person_mesh", surface, made, material_of_cell, uv, armature)
+    joints = figure.skeleton.names
+    scene.make_mesh("person_mesh", surface, made, material_of_cell, uv, armature, joints)
     for name, prop in with_props(tailor, person, surface).items():
         uv = looks.texture_coordinates(prop.surface, places)
-        scene.make_mesh(name, prop.surface, made, material_of_cell, uv, armature, prop.tint)
+        scene.make_mesh(name, prop.surface, made, material_of_cell, uv, armature, joints, prop.tint)
     for clip in moves:
         scene.add_clip(armature, figure.skeleton, clip)
     write_atomically(settings["output"], scene.export_glb)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from townspeople import gait
+from townspeople import eyes, gait
 from townspeople import skeleton as sk
 from townspeople.body import WALK_FRAMES_PER_SECOND
 
@@ -81,6 +81,8 @@ def walk_clip(figure, manner):
         _calm_arms(skeleton, frame, manner.arm_swing)
         _enliven(skeleton, frame, np.cos(phase), np.sin(phase), manner)
         _hold(skeleton, frame, manner, 2.0)
+    turn = 4.0 * manner.liveliness * np.cos(phases)  # of the head: the eyes stay on the way
+    eyes.animate(skeleton, local, np.zeros(len(local)), np.stack([-0.6 * turn, np.full(len(local), 2.0)], axis=1))
     rotations = _globals(skeleton, local)
     leg = skeleton.head("upperleg02_L")[2]
     roots = gait.step_legs(
@@ -142,7 +144,7 @@ def _curl_fingers(skeleton, frame, side, sign):
     palm = np.cross(along, thumb) * sign
     axis = np.cross(along, palm)
     axis /= np.linalg.norm(axis)
-    for name, degrees in (("finger3-1", 18.0), ("finger3-2", 24.0)):
+    for name, degrees in (("finger3-1", 30.0), ("finger3-2", 38.0)):
         joint = skeleton.index(name + side)
         frame[joint] = _matrix_of(axis * np.radians(degrees)) @ frame[joint]
 
@@ -215,7 +217,10 @@ def _clip(figure, name, local, roots):
 
 def idle_clip(figure, manner):
     frames = int(IDLE_SECONDS * WALK_FRAMES_PER_SECOND) + 1
-    return _clip(figure, "idle", *_standing(figure, frames, manner))
+    local, roots = _standing(figure, frames, manner)
+    look = eyes.glances(frames, [[14, 9.0, 1.0], [31, -7.0, 3.0], [58, 4.0, 0.0], [74, -10.0, 1.0], [88, 0.0, 0.0]])
+    eyes.animate(figure.skeleton, local, eyes.closing(frames, (29, 72)), look)
+    return _clip(figure, "idle", local, roots)
 
 
 def talk_clip(figure, manner):
@@ -238,4 +243,6 @@ def talk_clip(figure, manner):
         _turn(skeleton, frame, "head", "x", nod)
         _turn(skeleton, frame, "head", "z", 5.0 * np.sin(2 * t))
         _turn(skeleton, frame, "spine01", "z", 3.0 * np.sin(t))
+    look = eyes.glances(frames, [[20, 5.0, 5.0], [34, 0.0, 0.0], [62, -6.0, 2.0], [70, 0.0, 0.0]])
+    eyes.animate(skeleton, local, eyes.closing(frames, (18, 61)), look)
     return _clip(figure, "talk", local, roots)

@@ -10,6 +10,9 @@ from townspeople import tailor as tl
 from townspeople.body import joint_share
 
 
+WIDE_HEM_M = 0.06  # radius of a sleeve's end that one can look into
+
+
 def upper(
     tailor, name, bottom, ease=0.008, smooth=8, sleeve=None, cell="upper", sleeve_cell="sleeve"
 ):
@@ -163,12 +166,17 @@ def _with_sleeve(tailor, base, side, profile, cell):
     rows = np.linspace(place.mean(), ends[-1], 11)[1:]
     rings, weights, v_rows = [], [], [place.mean() / 2.05]
     first = base.weights[loop]
-    for k, at in enumerate(list(rows) + [rows[-1], rows[-1] - 0.12]):
+    # The hem turned in; a wide sleeve's inside goes on to the arm, so that nobody looks into a hollow.
+    inner = [(rows[-1], 0.86), (rows[-1] - 0.12, 0.8)]
+    if profile[-1][1] > WIDE_HEM_M:
+        inner[1:] = [(rows[-1] - 0.06, 0.82), (max(rows[-1] - 0.26, 1.70), 0.034 / profile[-1][1])]
+    for k, (at, share) in enumerate([(row, 1.0) for row in rows] + inner):
         centre, _, front, outside = _arm_frame(tailor, side, at)
         radius = np.interp(at, ends, [stop[1] for stop in profile]) * size
-        inside = max(k - len(rows) + 1, 0)
         blend = min((k + 1) / 3.0, 1.0)
-        radii = (distance * (1 - blend) + radius * blend) * (1.0, 0.86, 0.8)[inside]
+        if k >= len(rows):
+            radius = profile[-1][1] * size
+        radii = (distance * (1 - blend) + radius * blend) * share
         rings.append(
             centre
             + np.cos(angle)[:, None] * outside * radii[:, None]

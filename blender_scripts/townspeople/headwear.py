@@ -9,6 +9,7 @@ import numpy as np
 from townspeople import clearance
 from townspeople import surface as sf
 from townspeople import tailor as tl
+from townspeople.face import BEARD_ABOVE, BEARD_BELOW
 
 
 def _head_size(tailor):
@@ -128,17 +129,8 @@ def beard(
     name,
     thickness=0.013,
     length=0.0,
-    upper_edge=(
-        (0, -47),
-        (12, -46),
-        (22, -40),
-        (30, -33),
-        (45, -29),
-        (60, -25),
-        (76, -13),
-        (92, 4),
-    ),
-    lower_edge=((0, -66), (40, -62), (62, -53), (78, -38), (92, -14)),
+    upper_edge=BEARD_ABOVE,
+    lower_edge=BEARD_BELOW,
     cell="hair",
 ):
     """Hair over jaw and chin; `length` draws the chin's part down."""
@@ -243,37 +235,6 @@ def hat(
     weights = np.zeros(points.shape[:2] + (len(tailor.figure.skeleton.names),))
     weights[..., tailor.column("head")] = 1.0
     tailor.worn["head " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles), pole=pole)
-
-
-def brows(tailor, name, thickness=0.003, cell="hair"):
-    """Eyebrows: two thin strips."""
-    size = _head_size(tailor)
-    centre, tree = tailor.figure.landmarks["head"], _head_tree(tailor)
-    sides = []
-    for sign in (1.0, -1.0):
-        angles = np.radians(np.linspace(8.0, 36.0, 6))[:: int(sign)] * sign
-        reached = np.abs(np.degrees(angles))
-        arch = 6.2 + 1.4 * np.sin(np.pi * np.clip((reached - 8.0) / 34.0, 0, 1))
-        half = np.interp(reached, [8, 14, 28, 36], [1.6, 1.9, 1.3, 0.4])
-        points = []
-        for up in (1.0, 0.0, -1.0):
-            elevation = np.radians(arch + up * half)
-            rays = tl.direction(angles) * np.cos(elevation)[:, None]
-            rays[:, 2] = np.sin(elevation)
-            reach = np.array([sf.outermost(tree, centre, ray, 0.5) or 0.09 * size for ray in rays])
-            points.append(
-                centre + rays * (reach + (thickness if up == 0.0 else 0.0008) * size)[:, None]
-            )
-        points = np.array(points)
-        if sign < 0:
-            points = points[:, ::-1]
-            angles = angles[::-1]
-        order = np.argsort(np.arctan2(points[0, :, 0], -points[0, :, 1]))
-        points = points[:, order]
-        sides.append(
-            sf.grid(points, _carried(tailor, points, False), cell, np.full(6, 0.5), closed=False)
-        )
-    tailor.worn["hair " + name] = sf.joined(sides)
 
 
 def feather(tailor, name, azimuth_deg=75, length=0.26, sit=0.03, width=0.065, cell="collar"):

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from townspeople import materials
+from townspeople import face, materials
 from townspeople import surface as sf
-from townspeople.skin import face_places
 from townspeople.wardrobe import CELLS
 
 MATERIALS = {"skin": (0.62, 0.0), "cloth": (0.92, 0.0), "trim": (0.70, 0.0)}  # roughness, metallic
@@ -33,19 +32,22 @@ def paint_cells(figure, person, seed, cells):
 
 def make_materials(figure, person, seed, cells):
     """Blender materials by name, each cell's material, and each cell's place in its atlas."""
-    skin = materials.skin_picture(figure.images["skin"], face_places(figure), **person["skin"])
+    skin = face.skin_picture(figure, person, seed)
     made = {
         "skin": materials.blender_material(
             "skin", materials.blender_image("skin", skin), *MATERIALS["skin"]
         )
     }
     material_of_cell, places = {"body": "skin"}, {}
+    dyes = person.get("dyes", {})
     for name, pictures in paint_cells(figure, person, seed, cells - {"body"}).items():
         atlas, atlas_places = materials.pack_cells(pictures)
-        made[name] = materials.blender_material(
-            name, materials.blender_image(name, atlas), *MATERIALS[name]
-        )
-        material_of_cell.update({cell: name for cell in pictures})
+        image = materials.blender_image(name, atlas)
+        for cell in pictures:  # what is dyed by itself is a material by itself, of the same picture
+            own = next((dye for dye, cells in dyes.items() if cell in cells), name)
+            material_of_cell[cell] = own
+            if own not in made:
+                made[own] = materials.blender_material(own, image, *MATERIALS[name])
         places.update(atlas_places)
     return made, material_of_cell, places
 

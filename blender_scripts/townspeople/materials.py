@@ -1,5 +1,4 @@
-"""Textures: cloth, leather, metal, hair painted with numpy into cells of an atlas; skin from the
-source.
+"""Textures: cloth, leather, metal, hair painted with numpy into cells of an atlas (the skin: face.py).
 
 Pictures are (height, width, 3) arrays of sRGB values 0 to 1, top row first. In a cell, u runs from
 the front of the body (left) to its back (right), v from the garment's top to its hem.
@@ -224,25 +223,7 @@ def atlas_uv(corner_uv, place):
     return (np.array([x, y]) + np.clip(corner_uv, 0, 1) * np.array([w, h])) / ATLAS_PX
 
 
-def skin_picture(source, places, tint, smooth, rouge=0.0):
-    """The MakeHuman skin at 1024 px: tinted, without stubble where `smooth`, with lips and cheeks
-    reddened.
-
-    places: {"lips" ...: (centre uv, radius in u and v)}, v from the top.
-    """
-    picture = shrunk(source[::-1], 1024, 1024)
-    if smooth:
-        picture = picture * (1 - smooth) + _without_speckles(picture) * smooth
-    picture = picture * np.asarray(tint)
-    u, v = (np.arange(1024)[None, :] + 0.5) / 1024, (np.arange(1024)[:, None] + 0.5) / 1024
-    for name, (centre, radius) in places.items():
-        strength = rouge * (0.55 if name == "lips" else 0.28)
-        mask = np.exp(-(((u - centre[0]) / radius[0]) ** 2) - ((v - centre[1]) / radius[1]) ** 2)
-        picture = picture * (1.0 - strength * mask[..., None] * np.array([0.05, 0.45, 0.42]))
-    return np.clip(picture, 0.0, 1.0)
-
-
-def _without_speckles(picture):
+def without_speckles(picture):
     """Removes dark specks (stubble, pores) but keeps large dark areas: a closing by rank
     filters.
     """

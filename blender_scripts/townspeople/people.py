@@ -4,16 +4,17 @@
 (build.py), the rest are its settings. `cloth` says how each texture cell looks (materials.paint).
 `proportions` are scales in x, y, z (to the left, to the back, up) of body regions; `bulges` push
 the trunk or the face in or out before anything is sewn; `manner` is how they move (clips.py).
-`props` are meshes of their own, for some of the people of one model (props.py).
+`props` are meshes of their own, for some of the people of one model (props.py). `dyes` names the
+materials of cells that a tour's tints dye by themselves.
 """
 
-from townspeople.wardrobe import (BAND, BEARD, BELLY, CHILD_FACE, CHILD_SHAPE, CLOSE_SLEEVE, COIF,
-    FEMALE, LONG_HAIR, MALE, SHORT_HAIR, SHORT_STOCKINGS, STOCKINGS, TANNED, WIDE_SLEEVE,
+from townspeople.wardrobe import (BAND, BEARD, BELLY, CHILD_FACE, CHILD_SHAPE, CHILDLIKE,
+    CLOSE_SLEEVE, COIF, FEMALE, LONG_HAIR, MALE, OLD, SHORT_HAIR, SHORT_STOCKINGS, STOCKINGS, TANNED, WIDE_SLEEVE,
     WOMAN_BULGES, WOMAN_FACE, WOMAN_HAIR, WOMAN_SHAPE, dyed)
 
 PEOPLE = {
     "merchant": {
-        "height_m": 1.76, "skin": MALE, "bulges": [BELLY],
+        "height_m": 1.76, "skin": dict(MALE, age=0.3), "bulges": [BELLY],
         "manner": {"arm_swing": 0.3, "arm_forward_deg": 13.0},
         "wear": [
             STOCKINGS,
@@ -27,10 +28,10 @@ PEOPLE = {
              "flare": 0.22, "folds": 14, "fold_depth": 0.012, "rows": 6, "cell": "overskirt"},
             {"piece": "belt", "at": ["waist", -0.02], "height": 0.035},
             {"piece": "pouch", "at": ["waist", -0.05], "angle_deg": -60, "cell": "pouch"},
-            {"piece": "brows"}, dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
+            dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
             {"piece": "cape", "name": "cloak", "top_deg": 65, "bottom_deg": 0, "ease": 0.024,
-             "open_deg": 62,
-             "hem": ["crotch", 0.02], "flare": 0.22, "folds": 8, "fold_depth": 0.03,
+             "open_deg": 88, "stand_off": 0.06,
+             "hem": ["crotch", 0.02], "flare": 0.12, "folds": 9, "fold_depth": 0.04,
              "lining": "lining"},
             {"piece": "standing collar", "height": 0.035, "flare": 0.0, "cell": "upper"},
             {"piece": "ruff"},
@@ -44,6 +45,7 @@ PEOPLE = {
             {"piece": "book", "name": "book", "cover": ["collar", (0.32, 0.11, 0.07)],
              "pages": ["collar", (1.0, 0.94, 0.80)]},
         ],
+        "dyes": {"doublet": ["upper", "overskirt", "sleeve"], "cloak": ["cape"]},
         "cloth": {
             "upper": dyed("velvet", (0.35, 0.10, 0.11),
                           placket=[0.03, (0.28, 0.06, 0.07), 12, (0.54, 0.36, 0.19)]),
@@ -73,19 +75,20 @@ PEOPLE = {
              "flare": 0.20, "folds": 11, "fold_depth": 0.022, "rows": 9},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.04},
             {"piece": "pouch", "at": ["waist", -0.02], "angle_deg": 50},
-            {"piece": "brows"}, dict(BEARD, thickness=0.012), dict(SHORT_HAIR),
+            dict(BEARD, thickness=0.012), dict(SHORT_HAIR),
             {"piece": "shell", "name": "hood", "thickness": 0.014, "crown_thickness": 0.008,
              "peak": 0.035,
              "columns": 40, "nape": 0.01, "cell": "hood",
              "drop": 0.07,
              "edge": [[0, 44], [30, 38], [48, 18], [58, -14], [66, -40], [80, -50], [180, -52]]},
-            {"piece": "cape", "name": "hood", "top_deg": 68, "bottom_deg": 12, "ease": 0.026,
+            {"piece": "cape", "name": "hood", "top_deg": 74, "bottom_deg": 12, "ease": 0.026,
              "point": 0.03},
         ],
         "props": [
             {"piece": "sack", "name": "sack", "cloth": ["skirt", (1.0, 0.88, 0.68)],
              "strap": ["belt", (1.0, 1.0, 1.0)]},
         ],
+        "dyes": {"tunic": ["upper", "sleeve", "skirt"], "hood": ["hood", "cape"]},
         "cloth": {
             "upper": dyed("wool", (0.47, 0.40, 0.29)), "sleeve": dyed("wool", (0.47, 0.40, 0.29)),
             "skirt": dyed("wool", (0.47, 0.40, 0.29), hem=0.55, folds=0.2),
@@ -106,18 +109,18 @@ PEOPLE = {
              "smooth": 6,
              "sleeve": [[0, 0.085], [0.6, 0.088], [1.0, 0.080], [1.15, 0.058], [1.22, 0.056]]},
             {"piece": "skirt", "name": "shirt", "top": ["waist", 0.0], "hem": ["crotch", -0.06],
-             "ease": 0.012,
-             "flare": 0.2, "folds": 12, "fold_depth": 0.014, "rows": 7},
+             "ease": 0.010,
+             "flare": 0.08, "folds": 12, "fold_depth": 0.012, "rows": 7},
             {"piece": "skirt", "name": "form", "top": ["waist", 0.0], "hem": ["knee", -0.06],
-             "ease": 0.022,
-             "flare": 0.16, "folds": 5, "fold_depth": 0.010, "rows": 9, "follow": 0.85,
-             "shin": 0.2, "hidden": True},
+             "ease": 0.012,
+             "flare": 0.05, "front_flare": 0.3, "folds": 8, "fold_depth": 0.016, "rows": 9,
+             "shin": 0.3, "hidden": True},
             {"piece": "apron", "over": "form", "hem_row": 1.0, "bib_top": ["chest", 0.05],
-             "half_angle_deg": 66},
+             "half_angle_deg": 66, "lift": 0.007},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.028}, dict(BAND),
-            {"piece": "brows"}, dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
+            dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
             {"piece": "hat", "name": "cap", "sit": 0.024, "tilt_deg": -10, "profile": [
-                [0, 0, 0.070], [0.6, 0, 0.072], [1.0, 0.020, 0.058], [1.0, 0.032, 0.034],
+                [0, 0, 0.084], [0.6, 0, 0.080], [1.0, 0.020, 0.058], [1.0, 0.032, 0.034],
                 [1.0, 0.010, 0.006], [1.0, 0.006, -0.014],
                 [0.96, 0, -0.018]]},
         ],
@@ -125,6 +128,7 @@ PEOPLE = {
             {"piece": "satchel", "name": "satchel", "leather": ["belt", (1.0, 0.9, 0.8)],
              "flap": ["belt", (0.75, 0.62, 0.5)], "strap": ["belt", (0.75, 0.62, 0.5)]},
         ],
+        "dyes": {"shirt": ["upper", "sleeve", "skirt"], "breeches": ["trousers"], "cap": ["hat"]},
         "cloth": {
             "upper": dyed("linen", (0.63, 0.575, 0.475), placket=[0.012, (0.66, 0.61, 0.50), 0, None]),
             "sleeve": dyed("linen", (0.63, 0.575, 0.475)), "skirt": dyed("linen", (0.63, 0.575, 0.475)),
@@ -149,13 +153,14 @@ PEOPLE = {
              "flare": 0.18, "folds": 16, "fold_depth": 0.030, "gather": 0.2},
             {"piece": "apron", "over": "skirt", "hem_row": 0.82, "half_angle_deg": 58},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.03, "thickness": 0.008},
-            {"piece": "brows"}, dict(WOMAN_HAIR), dict(COIF),
+            dict(WOMAN_HAIR), dict(COIF),
             dict(BAND),
         ],
         "props": [
             {"piece": "back basket", "name": "back_basket", "wicker": ["coif", (0.46, 0.26, 0.11)],
              "filling": ["coif", (0.20, 0.29, 0.07)], "strap": ["coif", (0.13, 0.06, 0.03)]},
         ],
+        "dyes": {"gown": ["upper", "sleeve", "skirt"]},
         "cloth": {
             "upper": dyed("wool", (0.20, 0.27, 0.38),
                           placket=[0.07, (0.68, 0.66, 0.59), 9, (0.48, 0.44, 0.38)]),
@@ -169,7 +174,7 @@ PEOPLE = {
         },
     },
     "noblewoman": {
-        "height_m": 1.66, "skin": {"tint": (1.10, 1.06, 1.05), "smooth": 1.0, "rouge": 1.2},
+        "height_m": 1.66, "skin": dict(FEMALE, tone=(0.635, 0.51, 0.44), rouge=1.2),
         "proportions": WOMAN_SHAPE,
         "bulges": WOMAN_BULGES + WOMAN_FACE,
         "manner": {"arm_spread_deg": 6.0, "arm_swing": 0.3, "arm_forward_deg": 14.0,
@@ -183,19 +188,20 @@ PEOPLE = {
              "ease": 0.04,
              "flare": 0.20, "folds": 15, "fold_depth": 0.03, "gather": 0.15, "columns": 60},
             {"piece": "belt", "at": ["waist", -0.01], "height": 0.022, "thickness": 0.007},
-            {"piece": "brows"}, dict(WOMAN_HAIR),
+            dict(WOMAN_HAIR),
             {"piece": "cape", "name": "mantle", "top_deg": 64, "bottom_deg": 0, "ease": 0.022,
-             "open_deg": 82,
-             "hem": ["knee", -0.22], "flare": 0.16, "folds": 9, "fold_depth": 0.035,
+             "open_deg": 96, "stand_off": 0.06,
+             "hem": ["knee", -0.22], "flare": 0.10, "folds": 9, "fold_depth": 0.045,
              "lining": "lining", "hang_rows": 10},
             {"piece": "standing collar", "height": 0.035, "flare": 0.0, "cell": "upper"},
-            {"piece": "ruff", "outer": 0.14},
+            {"piece": "ruff", "width": 0.072},
             {"piece": "hat", "sit": 0.036, "tilt_deg": -9, "profile": [
                 [0, 0, 0.10], [0.5, 0, 0.102], [0.82, 0, 0.092], [0.95, 0, 0.05], [1.0, 0, 0.0],
                 [1.0, 0.030, 0.0],
                 [1.0, 0.045, 0.006], [1.0, 0.043, 0.0], [1.0, 0.01, -0.008]]},
             {"piece": "feather"},
         ],
+        "dyes": {"gown": ["upper", "sleeve", "skirt"], "mantle": ["cape"]},
         "cloth": {
             "upper": dyed("velvet", (0.13, 0.22, 0.17),
                           placket=[0.09, (0.52, 0.45, 0.26), 8, (0.66, 0.57, 0.34)]),
@@ -212,7 +218,7 @@ PEOPLE = {
         },
     },
     "maid": {
-        "height_m": 1.58, "skin": {"tint": (1.0, 0.94, 0.90), "smooth": 1.0, "rouge": 0.9},
+        "height_m": 1.58, "skin": dict(FEMALE, tone=(0.575, 0.44, 0.36)),
         "proportions": WOMAN_SHAPE,
         "bulges": WOMAN_BULGES + WOMAN_FACE,
         "manner": {"arm_spread_deg": 4.0, "stride": 0.98},
@@ -226,10 +232,10 @@ PEOPLE = {
              "flare": 0.20, "folds": 13, "fold_depth": 0.030, "gather": 0.25},
             {"piece": "apron", "over": "skirt", "hem_row": 0.9, "half_angle_deg": 50},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.025, "thickness": 0.007},
-            {"piece": "brows"}, dict(WOMAN_HAIR),
+            dict(WOMAN_HAIR),
             dict(COIF, peak=0.03, edge=[[0, 58], [35, 50], [65, 24], [85, 0], [105, -12],
                                         [140, -30], [180, -40]]),
-            {"piece": "cape", "name": "shawl", "top_deg": 62, "bottom_deg": 16, "ease": 0.018,
+            {"piece": "cape", "name": "shawl", "top_deg": 67, "bottom_deg": 16, "ease": 0.018,
              "point": 0.10},
             {"piece": "roll", "thickness": 0.018},
         ],
@@ -238,6 +244,7 @@ PEOPLE = {
             {"piece": "head basket", "name": "basket", "wicker": ["coif", (0.50, 0.30, 0.13)],
              "filling": ["coif", (1.0, 1.0, 1.0)], "pad": ["coif", (0.28, 0.33, 0.40)]},
         ],
+        "dyes": {"skirt": ["skirt"], "bodice": ["upper"], "shawl": ["cape"]},
         "cloth": {
             "upper": dyed("wool", (0.44, 0.20, 0.13)), "sleeve": dyed("linen", (0.70, 0.66, 0.59)),
             "skirt": dyed("wool", (0.50, 0.36, 0.17), hem=0.55, folds=0.25),
@@ -249,7 +256,8 @@ PEOPLE = {
         },
     },
     "monk": {
-        "height_m": 1.74, "skin": MALE,         "bulges": [dict(BELLY, push=(0, -0.05, 0))],
+        "height_m": 1.74, "skin": dict(MALE, stubble=0.35, age=0.35),
+        "bulges": [dict(BELLY, push=(0, -0.05, 0))],
         "manner": {"arm_spread_deg": 3.0, "stride": 0.88},
         "wear": [
             SHORT_STOCKINGS,
@@ -261,11 +269,11 @@ PEOPLE = {
              "flare": 0.12, "folds": 13, "fold_depth": 0.035},
             {"piece": "belt", "at": ["waist", 0.01], "height": 0.026, "thickness": 0.016},
             {"piece": "cord", "start": ["waist", 0.0], "end": ["knee", 0.05], "angle_deg": 30},
-            {"piece": "brows"},
+            
             {"piece": "shell", "name": "hair", "thickness": 0.009, "crown_thickness": 0.012,
              "roughness": 0.003, "top_deg": 64, "rows": 5,
              "edge": [[0, 44], [40, 34], [70, 10], [95, 4], [130, -25], [180, -34]]},
-            {"piece": "cape", "name": "cowl", "top_deg": 66, "bottom_deg": 8, "ease": 0.03},
+            {"piece": "cape", "name": "cowl", "top_deg": 69, "bottom_deg": 8, "ease": 0.03},
             {"piece": "roll"},
         ],
         "cloth": {
@@ -292,7 +300,7 @@ PEOPLE = {
              "flare": 0.22, "folds": 14, "fold_depth": 0.016, "rows": 7},
             {"piece": "plate", "bottom": ["waist", -0.03]},
             {"piece": "belt", "at": ["waist", -0.03], "height": 0.045},
-            {"piece": "brows"}, dict(SHORT_HAIR), dict(BEARD),
+            dict(SHORT_HAIR), dict(BEARD),
             {"piece": "moustache", "thickness": 0.013},
             dict(BAND),
             {"piece": "hat", "name": "helmet", "sit": 0.020, "tilt_deg": -3, "cell": "plate",
@@ -319,8 +327,8 @@ PEOPLE = {
         },
     },
     "child": {
-        "height_m": 1.20, "skin": {"tint": (1.08, 1.01, 0.97), "smooth": 1.0, "rouge": 0.8},
-        "bulges": CHILD_FACE,         "proportions": CHILD_SHAPE,
+        "height_m": 1.20, "skin": CHILDLIKE,
+        "bulges": CHILD_FACE, "proportions": CHILD_SHAPE,
         "manner": {"arm_spread_deg": 1.0, "stride": 1.0},
         "wear": [
             dict(STOCKINGS, start=0.3),
@@ -331,13 +339,14 @@ PEOPLE = {
              "ease": 0.016,
              "flare": 0.26, "folds": 11, "fold_depth": 0.022, "rows": 9},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.03},
-            {"piece": "brows"}, dict(LONG_HAIR),
+            dict(LONG_HAIR),
             dict(BAND),
             {"piece": "hat", "name": "cap", "sit": 0.040, "tilt_deg": -14, "profile": [
                 [0, 0, 0.080], [0.6, 0, 0.078], [1.0, 0.018, 0.056], [1.0, 0.028, 0.026],
                 [1.0, 0.008, 0.004], [1.0, 0.004, -0.012],
                 [0.96, 0, -0.016]]},
         ],
+        "dyes": {"tunic": ["upper", "sleeve", "skirt"], "cap": ["hat"]},
         "cloth": {
             "upper": dyed("wool", (0.51, 0.25, 0.165),
                           placket=[0.03, (0.46, 0.21, 0.13), 5, (0.36, 0.20, 0.13)]),
@@ -351,7 +360,7 @@ PEOPLE = {
         },
     },
     "girl": {
-        "height_m": 1.28, "skin": {"tint": (1.08, 1.01, 0.97), "smooth": 1.0, "rouge": 1.0},
+        "height_m": 1.28, "skin": CHILDLIKE,
         "bulges": CHILD_FACE, "proportions": CHILD_SHAPE,
         "manner": {"arm_spread_deg": 5.0},
         "wear": [
@@ -363,11 +372,12 @@ PEOPLE = {
              "ease": 0.016, "flare": 0.26, "folds": 13, "fold_depth": 0.026, "gather": 0.2},
             {"piece": "apron", "over": "dress", "hem_row": 0.85, "half_angle_deg": 52},
             {"piece": "belt", "at": ["waist", 0.02], "height": 0.026, "thickness": 0.007},
-            {"piece": "brows"}, dict(LONG_HAIR),
+            dict(LONG_HAIR),
             dict(COIF, peak=0.012, edge=[[0, 64], [35, 58], [65, 34], [85, 6], [105, -6],
                                          [140, -24], [180, -34]]),
             dict(BAND),
         ],
+        "dyes": {"dress": ["upper", "sleeve", "skirt"]},
         "cloth": {
             "upper": dyed("wool", (0.35, 0.42, 0.30),
                           placket=[0.05, (0.27, 0.33, 0.23), 6, (0.48, 0.50, 0.39)]),
@@ -380,7 +390,7 @@ PEOPLE = {
         },
     },
     "old_man": {
-        "height_m": 1.69, "skin": {"tint": (0.98, 0.94, 0.92), "smooth": 0.6},
+        "height_m": 1.69, "skin": OLD,
         "bulges": [dict(BELLY, push=(0, -0.035, 0))],
         "manner": {"arm_spread_deg": 1.0, "stride": 0.76, "liveliness": 0.7, "arm_swing": 0.3,
                    "arm_forward_deg": 10.0, "stoop_deg": 8.0},
@@ -393,11 +403,11 @@ PEOPLE = {
              "ease": 0.016,
              "flare": 0.15, "folds": 12, "fold_depth": 0.028},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.035},
-            {"piece": "brows"}, dict(LONG_HAIR), dict(BEARD, thickness=0.02, length=0.10),
+            dict(LONG_HAIR), dict(BEARD, thickness=0.02, length=0.10),
             {"piece": "moustache", "thickness": 0.014},
             {"piece": "cape", "name": "cloak", "top_deg": 66, "bottom_deg": 0, "ease": 0.028,
-             "open_deg": 64,
-             "hem": ["knee", 0.0], "flare": 0.17, "folds": 9, "fold_depth": 0.035, "hang_rows": 9},
+             "open_deg": 88, "stand_off": 0.06,
+             "hem": ["knee", 0.0], "flare": 0.10, "folds": 9, "fold_depth": 0.045, "hang_rows": 9},
             {"piece": "hat", "name": "cap", "sit": 0.024, "tilt_deg": -8, "profile": [
                 [0, 0, 0.088], [0.6, 0, 0.085], [1.0, 0.024, 0.060], [1.0, 0.036, 0.026],
                 [1.0, 0.010, 0.004], [1.0, 0.008, -0.016],

@@ -48,9 +48,9 @@ def _onward(skeleton, joint):
     return way / np.linalg.norm(way) * 0.04
 
 
-def make_mesh(name, surface, materials, material_of_cell, uv, armature, tint=1.0):
+def make_mesh(name, surface, materials, material_of_cell, uv, armature, joints, tint=1.0):
     """A skinned mesh object; `uv` are glTF texture coordinates of the corners, `tint` colours the
-    ambient light.
+    ambient light; `joints`: names, by column of the weights.
 
     It is no child of the armature: a skinned mesh below another node draws a validator's warning.
     """
@@ -72,10 +72,9 @@ def make_mesh(name, surface, materials, material_of_cell, uv, armature, tint=1.0
     colours.data.foreach_set("color", values.ravel())
     thing = bpy.data.objects.new(name, mesh)
     bpy.context.scene.collection.objects.link(thing)
-    groups = [thing.vertex_groups.new(name=bone.name) for bone in armature.data.bones]
-    index = {group.name: group for group in groups}
+    groups = [thing.vertex_groups.new(name=joint) for joint in joints]
     for vertex, joint in np.argwhere(surface.weights > 0):
-        index[sk.KEPT[joint]].add([int(vertex)], float(surface.weights[vertex, joint]), "REPLACE")
+        groups[joint].add([int(vertex)], float(surface.weights[vertex, joint]), "REPLACE")
     modifier = thing.modifiers.new("Armature", "ARMATURE")
     modifier.object = armature
     return thing

@@ -1,4 +1,4 @@
-"""The skin that garments leave to be seen, and where the face lies in its picture."""
+"""The skin that garments leave to be seen."""
 
 import numpy as np
 
@@ -70,22 +70,3 @@ def _lengthened_neck(tailor, skin):
     )
     grown.corner_uv[-added:] = np.concatenate([ring_uv] * 2)
     return grown
-
-
-def face_places(figure):
-    """Where lips and cheeks lie in the skin's picture: {name: (centre uv, radius in u and v)}."""
-    skin, places = figure.parts["body"], {}
-    scale = (figure.landmarks["crown"][2] - figure.landmarks["chin"][2]) / 0.230
-    corner_vertices = [v for face in skin.faces for v in face]
-    for name, shift, reach in (
-        ("lips", (0, 0.004, 0), 0.022),
-        ("cheek_L", (0.042, 0.04, 0.028), 0.024),
-        ("cheek_R", (-0.042, 0.04, 0.028), 0.024),
-    ):
-        centre = figure.landmarks["mouth"] + np.array(shift) * scale
-        near = np.linalg.norm(skin.vertices - centre, axis=1) < reach * scale
-        near &= skin.vertices[:, 1] < centre[1] + 0.02 * scale
-        uv = np.array([uv for v, uv in zip(corner_vertices, skin.corner_uv) if near[v]])
-        if len(uv):
-            places[name] = (uv.mean(axis=0), np.maximum(uv.std(axis=0) * 1.6, 0.004))
-    return places

@@ -13,9 +13,13 @@ CELLS = {
     "plate": ("trim", (160, 160)), "boots": ("trim", (96, 96)), "pouch": ("trim", (64, 64)),
 }
 
-MALE = {"tint": (0.97, 0.95, 0.93), "smooth": 0.0}
-FEMALE = {"tint": (1.05, 1.0, 0.97), "smooth": 1.0, "rouge": 1.0}
-TANNED = {"tint": (0.86, 0.80, 0.74), "smooth": 0.0}
+MALE = {"tone": (0.565, 0.425, 0.345), "smooth": 0.5}
+FEMALE = {"tone": (0.60, 0.465, 0.385), "smooth": 1.0, "rouge": 0.9,
+          "brow": {"rise": 19.0, "half": 1.7, "arch": 3.6, "strength": 0.75}}
+TANNED = {"tone": (0.51, 0.375, 0.30), "smooth": 0.4, "age": 0.2}
+OLD = {"tone": (0.56, 0.43, 0.36), "smooth": 0.4, "age": 1.0, "brow": {"half": 3.2, "fall": 5.0}}
+CHILDLIKE = {"tone": (0.60, 0.465, 0.385), "smooth": 1.0, "rouge": 0.8,
+             "brow": {"rise": 19.5, "half": 1.6, "strength": 0.65}}
 
 WOMAN_SHAPE = {"trunk": (0.90, 0.94, 0.98), "arms": (0.92, 0.92, 0.92), "hands": (0.88, 0.88, 0.88),
                "head": (0.95, 0.96, 0.97), "neck": (0.86, 0.88, 1.02), "feet": (0.88, 0.90, 0.9),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "pipeline/avatar/atlas_picture.h"
 #include "runtime/base/text.h"
@@ -127,9 +128,14 @@ class Merger {
     }
     if (members_.size() < 2) return;
     const int side_px = FitIn();
-    const int material = AddMaterial(Painted(side_px));
-    for (size_t k = first_; k < levels_->levels.size(); ++k) {
-      Join(material, side_px, &levels_->levels[k].meshes);
+    const int image = AddImage(Painted(side_px));
+    std::set<uint8_t> tints;
+    for (const Member& member : members_) tints.insert(member.material.tints);
+    for (const uint8_t dyed_alike : tints) {
+      const int material = AddMaterial(image, dyed_alike);
+      for (size_t k = first_; k < levels_->levels.size(); ++k) {
+        Join(material, dyed_alike, side_px, &levels_->levels[k].meshes);
+      }
     }
   }
 
@@ -258,10 +264,21 @@ class Merger {
     return atlas;
   }
 
-  int AddMaterial(const Pixels& atlas) {
-    Avatar& avatar = levels_->avatar;
+  int AddImage(const Pixels& atlas) {
+    std::vector<Image>& images = levels_->avatar.images;
+    const bool opaque = std::none_of(members_.begin(), members_.end(), [](const Member& member) {
+      return member.material.alpha != Material::Alpha::kOpaque;
+    });
+    images.push_back(Encoded(atlas, !opaque));
+    images.back().name = "atlas";
+    return static_cast<int>(images.size()) - 1;
+  }
+
+  // All that show the atlas differ in nothing but what dyes them.
+  int AddMaterial(int image, uint8_t tints) {
     Material merged;
     merged.name = "atlas";
+    merged.tints = tints;
     merged.double_sided = members_[0].material.double_sided;
     merged.alpha = members_[0].material.alpha;
     merged.metallic = merged.roughness = 0;
@@ -271,11 +288,9 @@ class Merger {
       merged.roughness += member.material.roughness / count;
       if (member.material.alpha == Material::Alpha::kMask) merged.alpha = Material::Alpha::kMask;
     }
-    merged.base_color_image = static_cast<int>(avatar.images.size());
-    avatar.images.push_back(Encoded(atlas, merged.alpha != Material::Alpha::kOpaque));
-    avatar.images.back().name = merged.name;
-    avatar.materials.push_back(merged);
-    return static_cast<int>(avatar.materials.size()) - 1;
+    merged.base_color_image = image;
+    levels_->avatar.materials.push_back(merged);
+    return static_cast<int>(levels_->avatar.materials.size()) - 1;
   }
 
   // The member's vertices with their uvs in the atlas.
@@ -294,13 +309,17 @@ class Merger {
     return moved;
   }
 
-  void Join(int material, int side_px, std::vector<Mesh>* meshes) const {
+  // The members that are dyed alike.
+  void Join(int material, uint8_t tints, int side_px, std::vector<Mesh>* meshes) const {
     Mesh joined;
     joined.name = "merged";
     joined.material = material;
     const bool colored = std::any_of(members_.begin(), members_.end(),
                                      [&](const Member& member) { return !(*meshes)[member.mesh].colors.empty(); });
+    size_t place = 0;
     for (const Member& member : members_) {
+      if (member.material.tints != tints) continue;
+      place = member.mesh;
       Mesh& mesh = (*meshes)[member.mesh];
       Mesh part = Moved(member, side_px, mesh);
       if (colored) part.colors.resize(part.positions.size(), {1, 1, 1, 1});
@@ -315,7 +334,7 @@ class Merger {
       for (const uint32_t i : part.indices) joined.indices.push_back(base + i);
       mesh = {};
     }
-    (*meshes)[members_[0].mesh] = std::move(joined);
+    (*meshes)[place] = std::move(joined);
   }
 
   AvatarLevels* levels_;

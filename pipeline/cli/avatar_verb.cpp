@@ -13,6 +13,7 @@
 #include "pipeline/io/gltf.h"
 #include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
+#include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
@@ -136,7 +137,9 @@ void PrintSummary(const AvatarArguments& a, const AvatarLevels& levels, const st
   const Avatar& avatar = levels.avatar;
   std::printf("%s: %.2f m high, %zu joints, walks at %.2f m/s\n", a.output.c_str(),
               static_cast<double>(avatar.height_m), avatar.joints.size(), static_cast<double>(avatar.walk_speed_mps));
-  std::printf("colours for tints, and their share of the surface:");
+  std::printf("materials:");
+  for (const Material& material : avatar.materials) std::printf(" %s", OneLine(material.name).c_str());
+  std::printf("\ncolours for tints, and their share of the surface:");
   for (const MainColor& c : colors)
     std::printf(" %s %.0f %%", TextFromColor(c.color).c_str(), 100 * static_cast<double>(c.share));
   std::printf("\nlevel  triangles  draws  joints  error mm  posed mm  needed from px\n");

@@ -185,6 +185,7 @@ Error MakeAvatar(Baking* baking, size_t i) {
     for (const Prop& prop : settings.props) read.props.push_back(prop.name);
     Avatar avatar;
     if (Error e = ReadAvatar(file, read, &avatar, warnings)) return e;
+    if (Error e = BindTints(settings.tint_materials, &avatar)) return e;
     LevelsOptions options = baking->settings.levels;
     options.jobs = &baking->jobs;
     if (Error e = BuildLevels(avatar, options, levels, warnings)) return e;
@@ -221,7 +222,7 @@ Error MakeImpostor(Baking* baking, size_t i) {
   return RunKeptStep(&baking->steps, "impostor", settings.name, inputs, make, &avatar->impostor);
 }
 
-// What each tint reaches, so that nobody has to guess.
+// What each tint reaches, in figures and as a picture, so that nobody has to guess.
 Error CheckTints(Baking* baking, size_t i) {
   const TourAvatar& avatar = baking->parts.avatars[i];
   const std::string& name = baking->settings.avatars[i].name;
@@ -229,6 +230,7 @@ Error CheckTints(Baking* baking, size_t i) {
   return RunStep(&baking->steps, "tint", name, [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
     std::vector<float> shares;
     if (Error e = TintReach(avatar.levels.avatar, avatar.tints, &shares)) return e;
+    report->picture_png = TintThumbnail(avatar.impostor, avatar.tints);
     for (size_t t = 0; t < shares.size(); ++t) {
       const std::string color = TextFromColor(avatar.tints[t].color);
       report->figures.push_back({color + "_surface_share", std::round(static_cast<double>(shares[t]) * 1e3) / 1e3});
@@ -245,14 +247,16 @@ Error MakePeople(Baking* baking) {
   baking->parts.avatars.resize(count);
   for (size_t i = 0; i < count; ++i) {
     baking->parts.avatars[i].share = baking->settings.avatars[i].share;
+    baking->parts.avatars[i].height_spread = baking->settings.avatars[i].height_spread;
     baking->parts.avatars[i].tints = baking->settings.avatars[i].tints;
     baking->parts.avatars[i].props = baking->settings.avatars[i].props;
   }
   if (Error e = RunParallel(&baking->jobs, count, [&](size_t i) { return MakeAvatar(baking, i); })) return e;
+  if (Error e = RunParallel(&baking->jobs, count, [&](size_t i) { return MakeImpostor(baking, i); })) return e;
   for (size_t i = 0; i < count; ++i) {
     if (Error e = CheckTints(baking, i)) return e;
   }
-  return RunParallel(&baking->jobs, count, [&](size_t i) { return MakeImpostor(baking, i); });
+  return Ok();
 }
 
 bool Covers(const Obstacle& o, Point2 p) {

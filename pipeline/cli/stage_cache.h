@@ -27,7 +27,7 @@ void Fields(A& a, Image* v) {
 template <typename A>
 void Fields(A& a, Material* v) {
   a(&v->name, &v->base_color, &v->base_color_image, &v->normal_image, &v->metallic, &v->roughness, &v->double_sided,
-    &v->alpha, &v->alpha_cutoff);
+    &v->alpha, &v->alpha_cutoff, &v->tints);
 }
 template <typename A>
 void Fields(A& a, Mesh* v) {
@@ -67,7 +67,7 @@ template <typename A>
 void Fields(A& a, ImpostorAtlas* v) {
   a(&v->directions, &v->elevations_deg, &v->frames, &v->width_px, &v->height_px, &v->texel_m, &v->depth_range_m,
     &v->motion_range_m, &v->bend_range_m, &v->clips, &v->cells, &v->albedo, &v->normal, &v->albedo_ktx2,
-    &v->normal_ktx2, &v->depth_ktx2, &v->motion_ktx2);
+    &v->normal_ktx2, &v->depth_ktx2, &v->motion_ktx2, &v->tint_regions, &v->tints, &v->tints_ktx2);
 }
 template <typename A>
 void Fields(A& a, Obstacle* v) {

@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kBlenderStagesVersion = "2";
 
 // The same for impostors alone.
-constexpr const char* kImpostorVersion = "5";
+constexpr const char* kImpostorVersion = "6";
 
 // Of what this program computes in seconds: any other build of it may compute something else.
 const std::string& ThisProgram() {
@@ -29,6 +29,7 @@ void AddReading(const AvatarSettings& a, const fs::path& file, Fingerprint* prin
   print->AddFile(file).Add(a.walk).Add(a.idle).Add(a.talk).Add(a.height_m);
   AddAll(a.hide, print);
   for (const Prop& prop : a.props) print->Add(prop.name);
+  for (const auto& materials : a.tint_materials) AddAll(materials, print);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "runtime/base/pixels.h"
 #include "runtime/base/random.h"
 #include "runtime/base/srgb.h"
+#include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
@@ -41,6 +42,7 @@ Vec3 Shown(Vec3 picture, Vec4 factor) {
 struct Place {
   Vec3 color;
   float area = 0;
+  uint8_t tints = kEveryTint;  // that may dye it
 };
 
 // Places all over the mesh.
@@ -61,7 +63,7 @@ void AddPlaces(const Mesh& mesh, const Material& material, const Pixels* picture
         factor = {factor.x * c.x, factor.y * c.y, factor.z * c.z, 1};
       }
       const Vec3 own = picture != nullptr && !mesh.uvs.empty() ? Texel(*picture, mixed(mesh.uvs)) : Vec3{1, 1, 1};
-      places->push_back({Shown(own, factor), Length(Cross(ab, ac))});
+      places->push_back({Shown(own, factor), Length(Cross(ab, ac)), material.tints});
     }
   }
 }
@@ -141,9 +143,33 @@ Error TintReach(const Avatar& avatar, const std::vector<Tint>& tints, std::vecto
   const float whole = AreaOf(places);
   shares->assign(tints.size(), 0);
   for (const Place& place : places) {
-    for (size_t t = 0; t < tints.size(); ++t) (*shares)[t] += place.area * TintShare(tints[t], place.color);
+    for (size_t t = 0; t < tints.size(); ++t) {
+      if (place.tints >> t & 1) (*shares)[t] += place.area * TintShare(tints[t], place.color);
+    }
   }
   for (float& share : *shares) share /= whole;
+  return Ok();
+}
+
+Error BindTints(const std::vector<std::vector<std::string>>& names, Avatar* avatar) {
+  for (size_t t = 0; t < names.size(); ++t) {
+    if (names[t].empty()) continue;
+    const auto bit = static_cast<uint8_t>(1u << t);
+    for (Material& material : avatar->materials) material.tints = static_cast<uint8_t>(material.tints & ~bit);
+    for (const std::string& name : names[t]) {
+      bool found = false;
+      for (Material& material : avatar->materials) {
+        if (material.name != name) continue;
+        found = true;
+        material.tints = static_cast<uint8_t>(material.tints | bit);
+      }
+      if (found) continue;
+      std::string known;
+      for (const Material& material : avatar->materials) known += (known.empty() ? "" : ", ") + OneLine(material.name);
+      return Fail("avatar '" + OneLine(avatar->name) + "': a tint is bound to the material '" + OneLine(name) +
+                  "', which it has not; it has: " + known);
+    }
+  }
   return Ok();
 }
 

@@ -55,11 +55,14 @@ void ReadTint(TomlTable table, AvatarSettings* avatar) {
   table.Color("color", &tint.color);
   table.Number("reach", &tint.reach, static_cast<double>(kMinTintReach), 1);
   table.Colors("colors", &tint.colors);
+  std::vector<std::string> materials;
+  table.Texts("materials", &materials);
   if (!table.Has("color") || tint.colors.empty() || tint.colors.size() > kMaxTintColors) {
     table.Refuse("an [[avatar.tint]] needs the color of a cloth, and colors, one to eight, that others wear it in");
   }
   table.Finish();
   avatar->tints.push_back(std::move(tint));
+  avatar->tint_materials.push_back(std::move(materials));
 }
 
 void ReadProp(TomlTable table, AvatarSettings* avatar) {
@@ -85,6 +88,7 @@ void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
   ReadSource(&table, &avatar.source);
   table.Number("share", &avatar.share, 0, 1e6);
   table.Number("height_m", &avatar.height_m, 0, 10);
+  table.Number("height_spread", &avatar.height_spread, 0, static_cast<double>(kMaxHeightSpread));
   table.Text("walk", &avatar.walk);
   table.Text("idle", &avatar.idle);
   table.Text("talk", &avatar.talk);

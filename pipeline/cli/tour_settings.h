@@ -36,11 +36,13 @@ struct TownPart {
 struct AvatarSettings {
   std::string name;
   SourceSettings source;
-  float share = 1;     // of the crowd, relative to the others'
-  float height_m = 0;  // 0: as in the file, see ReadAvatarOptions
+  float share = 1;              // of the crowd, relative to the others'
+  float height_m = 0;           // 0: as in the file, see ReadAvatarOptions
+  float height_spread = 0.04f;  // as a share, 0 to kMaxHeightSpread
   std::string walk, idle, talk;
   std::vector<std::string> hide;
-  std::vector<Tint> tints;  // at most kMaxTints
+  std::vector<Tint> tints;                               // at most kMaxTints
+  std::vector<std::vector<std::string>> tint_materials;  // by tint: names of what it dyes; empty: all
   std::vector<Prop> props;
 };
 

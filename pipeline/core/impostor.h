@@ -18,6 +18,10 @@ struct ImpostorAtlas : ImpostorLayout {
   // to the right and up from half a phase before to half a phase after, and how far to the right and up that way's
   // middle lies (BC7).
   std::vector<uint8_t> albedo_ktx2, normal_ktx2, depth_ktx2, motion_ktx2;
+  // Where tints are bound to materials: by channel how much of a texel the tint may dye. PNG, and BC7 at half the size.
+  bool tint_regions = false;
+  Image tints;
+  std::vector<uint8_t> tints_ktx2;
 };
 
 inline size_t CellIndex(const ImpostorAtlas& atlas, int frame, size_t elevation, int direction) {

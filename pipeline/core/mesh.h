@@ -15,6 +15,8 @@ struct Image {
   std::vector<uint8_t> bytes;  // encoded, as in the file
 };
 
+inline constexpr uint8_t kEveryTint = 0xFF;
+
 struct Material {
   std::string name;
   Vec4 base_color{1, 1, 1, 1};  // linear
@@ -25,6 +27,7 @@ struct Material {
   bool double_sided = false;
   enum class Alpha { kOpaque, kMask, kBlend } alpha = Alpha::kOpaque;
   float alpha_cutoff = 0.5f;
+  uint8_t tints = kEveryTint;  // bit t: the avatar's t-th tint may dye it
 };
 
 // One material's triangles. Every per-vertex array is either empty or as long as positions.

@@ -36,15 +36,18 @@ enum Layer {
   kBendZ,
   kDepth,
   kCoverage,
+  kTint0,  // from here on only where tints are bound to materials
+  kTint1,
+  kTint2,
   kLayers
 };
-constexpr std::array<const char*, kLayers> kLayerNames = {"albedo.R", "albedo.G", "albedo.B", "normal.R", "normal.G",
-                                                          "normal.B", "motion.R", "motion.G", "motion.B", "bend.R",
-                                                          "bend.G",   "bend.B",   "depth.",   "coverage."};
+constexpr std::array<const char*, kLayers> kLayerNames = {
+    "albedo.R", "albedo.G", "albedo.B", "normal.R", "normal.G",  "normal.B", "motion.R", "motion.G", "motion.B",
+    "bend.R",   "bend.G",   "bend.B",   "depth.",   "coverage.", "tints.R",  "tints.G",  "tints.B"};
 // Versions of Blender name the parts of a vector and of a single value differently.
-constexpr std::array<const char*, kLayers> kOtherNames = {"albedo.X", "albedo.Y", "albedo.Z", "normal.X", "normal.Y",
-                                                          "normal.Z", "motion.X", "motion.Y", "motion.Z", "bend.X",
-                                                          "bend.Y",   "bend.Z",   "depth",    "coverage"};
+constexpr std::array<const char*, kLayers> kOtherNames = {
+    "albedo.X", "albedo.Y", "albedo.Z", "normal.X", "normal.Y", "normal.Z", "motion.X", "motion.Y", "motion.Z",
+    "bend.X",   "bend.Y",   "bend.Z",   "depth",    "coverage", "tints.X",  "tints.Y",  "tints.Z"};
 
 // Channel names are "ViewLayer.albedo.R".
 int FindChannel(const std::vector<std::string>& names, const std::string& wanted) {
@@ -59,7 +62,7 @@ Error FindChannels(const fs::path& exr, const OIIO::ImageSpec& spec, std::array<
   for (size_t i = 0; i < kLayers; ++i) {
     int found = FindChannel(spec.channelnames, kLayerNames[i]);
     if (found < 0) found = FindChannel(spec.channelnames, kOtherNames[i]);
-    if (found < 0) {
+    if (found < 0 && i < kTint0) {
       return Fail(exr.string() + ": Blender wrote no layer '" + kLayerNames[i] + "'; use Blender 3.4 to 4.x");
     }
     (*channels)[i] = found;
@@ -78,6 +81,7 @@ AtlasTexel TexelOf(const std::array<float, kLayers>& layers) {
   texel.depth_m = mean(kDepth);
   texel.motion_m = {mean(kMotionX), mean(kMotionY), mean(kMotionZ)};
   texel.bend_m = {mean(kBendX), mean(kBendY), mean(kBendZ)};
+  texel.tints = {mean(kTint0), mean(kTint1), mean(kTint2)};
   return texel;
 }
 
@@ -87,6 +91,7 @@ void AddWeighted(const AtlasTexel& from, float weight, AtlasTexel* sum) {
   sum->depth_m += weight * from.depth_m;
   sum->motion_m = sum->motion_m + from.motion_m * weight;
   sum->bend_m = sum->bend_m + from.bend_m * weight;
+  for (size_t t = 0; t < 3; ++t) sum->tints[t] += weight * from.tints[t];
 }
 
 AtlasLevel Half(const AtlasLevel& from) {
@@ -147,7 +152,9 @@ Error ReadLayers(const fs::path& exr, int first_row, AtlasLevel* level) {
   const size_t first = static_cast<size_t>(first_row) * static_cast<size_t>(spec.width);
   for (size_t i = 0; i < values.size() / stride; ++i) {
     std::array<float, kLayers> layers{};
-    for (size_t c = 0; c < kLayers; ++c) layers[c] = values[i * stride + static_cast<size_t>(channels[c])];
+    for (size_t c = 0; c < kLayers; ++c) {
+      if (channels[c] >= 0) layers[c] = values[i * stride + static_cast<size_t>(channels[c])];
+    }
     level->texels[first + i] = TexelOf(layers);
   }
   return Ok();

@@ -18,7 +18,8 @@ struct AtlasTexel {
   Vec3 normal;        // not normalized; axes as motion_m
   float depth_m = 0;  // towards the camera
   Vec3 motion_m;  // from half a phase before to half a phase after; in the cell's axes: right, up, towards the camera
-  Vec3 bend_m;    // of that way: its ends' middle lies so far beside the surface
+  std::array<float, 3> tints{};  // how much of it each tint may dye
+  Vec3 bend_m;                   // of that way: its ends' middle lies so far beside the surface
 };
 
 struct AtlasLevel {

@@ -65,13 +65,13 @@ bool LayOutCells(const std::vector<ViewBounds>& views, int border_px, ImpostorAt
   return true;
 }
 
-size_t TextureMemory(int width_px, int height_px) {
+size_t TextureMemory(const ImpostorAtlas& atlas) {
   size_t bytes = 0;
   for (int k = 0; k < kAtlasLevels; ++k) {
-    const int width = width_px >> k, height = height_px >> k;
+    const int width = atlas.width_px >> k, height = atlas.height_px >> k;
     bytes += LevelBytes(TextureFormat::kBc7Srgb, width, height) + LevelBytes(TextureFormat::kBc5, width, height) +
              LevelBytes(TextureFormat::kBc4, width, height);
-    if (k > 0) bytes += LevelBytes(TextureFormat::kBc5, width, height);
+    if (k > 0) bytes += LevelBytes(TextureFormat::kBc7, width, height) * (atlas.tint_regions ? 2 : 1);
   }
   return bytes;
 }

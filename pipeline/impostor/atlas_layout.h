@@ -13,7 +13,7 @@ namespace flaneur {
 bool LayOutCells(const std::vector<ViewBounds>& views, int border_px, ImpostorAtlas* atlas);
 
 // All four KTX2 pictures together, in bytes on the graphics card.
-size_t TextureMemory(int width_px, int height_px);
+size_t TextureMemory(const ImpostorAtlas& atlas);
 
 // Their mip levels: as many as halve the atlas evenly, the motion's one less.
 inline constexpr int kAtlasLevels = 6;

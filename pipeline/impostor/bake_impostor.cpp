@@ -70,7 +70,6 @@ float HeightOf(const std::vector<ViewBounds>& views) {
 
 // Square texels, of the wanted size where that fits into the memory, else larger ones.
 Error LayOut(const ViewGeometry& geometry, const ImpostorOptions& options, ImpostorAtlas* atlas) {
-  *atlas = {};
   atlas->directions = options.directions;
   atlas->elevations_deg = options.elevations_deg;
   atlas->frames = geometry.frames;
@@ -86,7 +85,7 @@ Error LayOut(const ViewGeometry& geometry, const ImpostorOptions& options, Impos
       if (options.memory_kb == 0) return Fail(TooLarge(kMaxAtlasPixels));
       continue;
     }
-    if (most_bytes == 0 || TextureMemory(atlas->width_px, atlas->height_px) <= most_bytes) break;
+    if (most_bytes == 0 || TextureMemory(*atlas) <= most_bytes) break;
     atlas->width_px = 0;
   }
   if (atlas->width_px == 0)
@@ -146,7 +145,8 @@ json MaterialSettings(const fs::path& folder, size_t mesh, const ViewMaterial& m
   return {{"texture", material.image >= 0 ? TexturePath(folder, mesh).string() : ""},
           {"mask", material.mask},
           {"cutoff", material.cutoff},
-          {"double_sided", material.double_sided}};
+          {"double_sided", material.double_sided},
+          {"tints", {material.tints & 1, material.tints >> 1 & 1, material.tints >> 2 & 1}}};
 }
 
 int BandRows(const ImpostorAtlas& atlas) { return std::clamp(kPicturePixels / atlas.width_px, 1, atlas.height_px); }
@@ -180,6 +180,7 @@ json Settings(const fs::path& folder, const std::vector<ViewMaterial>& materials
           {"band_px", BandRows(atlas)},
           {"texel_m", atlas.texel_m},
           {"cells", CellSettings(atlas)},
+          {"tint_regions", atlas.tint_regions},
           {"options", {{"samples", options.samples}}}};
 }
 
@@ -199,7 +200,7 @@ Error Assemble(const fs::path& folder, ImpostorAtlas* atlas, ImpostorStatistics*
   statistics->width_px = finest.width;
   statistics->height_px = finest.height;
   statistics->fill_rate = CoveredShare(finest, 1e-6f);
-  statistics->memory_bytes = TextureMemory(finest.width, finest.height);
+  statistics->memory_bytes = TextureMemory(*atlas);
   TurnIntoCells(*atlas, &finest);
   std::vector<AtlasLevel> levels = MakeLevels(std::move(finest));
   FillGutters(&levels);
@@ -229,22 +230,25 @@ json Description(const ImpostorAtlas& atlas) {
           {"albedo", "albedo.ktx2"},
           {"normal", "normal.ktx2"},
           {"depth", "depth.ktx2"},
-          {"motion", "motion.ktx2"}};
+          {"motion", "motion.ktx2"},
+          {"tints", atlas.tint_regions ? "tints.ktx2" : ""}};
 }
 
 Error WriteFiles(const fs::path& folder, const ImpostorAtlas& atlas) {
   TemporaryFolder temporary;
   if (Error error = temporary.Create(".flaneur_impostor_", folder)) return error;
   const fs::path& from = temporary.path();
-  const std::pair<const char*, const std::vector<uint8_t>*> files[] = {
+  std::vector<std::pair<const char*, const std::vector<uint8_t>*>> files = {
       {"albedo.png", &atlas.albedo.bytes}, {"normal.png", &atlas.normal.bytes}, {"albedo.ktx2", &atlas.albedo_ktx2},
       {"normal.ktx2", &atlas.normal_ktx2}, {"depth.ktx2", &atlas.depth_ktx2},   {"motion.ktx2", &atlas.motion_ktx2}};
+  if (atlas.tint_regions)
+    files.insert(files.end(), {{"tints.png", &atlas.tints.bytes}, {"tints.ktx2", &atlas.tints_ktx2}});
   for (const auto& [name, bytes] : files) {
     if (Error e = WriteFile(from / name, *bytes)) return e;
   }
   if (Error e = WriteTextFile(from / "impostor.json", Description(atlas).dump(1) + "\n")) return e;
-  for (const char* name :
-       {"albedo.png", "normal.png", "albedo.ktx2", "normal.ktx2", "depth.ktx2", "motion.ktx2", "impostor.json"}) {
+  files.emplace_back("impostor.json", nullptr);
+  for (const auto& [name, bytes] : files) {
     std::error_code code;
     fs::rename(from / name, folder / name, code);
     if (code) return Fail((folder / name).string() + ": cannot write: " + code.message());
@@ -263,6 +267,8 @@ Error BakeImpostor(const Avatar& avatar, const ImpostorOptions& options, Imposto
   ViewGeometry geometry;
   if (Error error = PoseFrames(avatar, options.clips, &geometry)) return error;
   ImpostorAtlas made;
+  made.tint_regions = std::any_of(materials.begin(), materials.end(),
+                                  [](const ViewMaterial& material) { return material.tints != kEveryTint; });
   if (Error error = LayOut(geometry, options, &made)) return error;
   TemporaryFolder folder;
   if (Error error = folder.Create("flaneur_impostor_")) return error;

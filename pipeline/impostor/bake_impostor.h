@@ -34,7 +34,7 @@ struct ImpostorStatistics {
   int frames = 0, cells = 0, triangles = 0;
   int width_px = 0, height_px = 0;  // of the atlas
   double fill_rate = 0;             // share of the atlas's texels that show the person
-  size_t memory_bytes = 0;          // of the four KTX2 pictures on the graphics card
+  size_t memory_bytes = 0;          // of the KTX2 pictures on the graphics card
   double blender_cpu_s = 0, blender_wall_s = 0;
   int64_t blender_peak_memory_bytes = 0;
 };
@@ -50,7 +50,7 @@ struct ImpostorStatistics {
 Error BakeImpostor(const Avatar& avatar, const ImpostorOptions& options, ImpostorAtlas* atlas,
                    ImpostorStatistics* statistics, std::vector<std::string>* warnings = nullptr);
 
-// Writes the four KTX2 pictures, the two PNG ones, and impostor.json (the atlas's other fields by
+// Writes the KTX2 pictures, the PNG ones, and impostor.json (the atlas's other fields by
 // their names) into `folder`, which is made where missing; nothing in it is touched before all are
 // complete. Errors: a file in the way, no permission, disk full.
 Error WriteImpostor(const std::filesystem::path& folder, const ImpostorAtlas& atlas);

@@ -23,6 +23,10 @@ std::array<uint8_t, 4> AlbedoBytes(const AtlasTexel& texel) {
   return {Quantized(texel.albedo[0]), Quantized(texel.albedo[1]), Quantized(texel.albedo[2]), coverage};
 }
 
+std::array<uint8_t, 4> TintBytes(const AtlasTexel& texel) {
+  return {Quantized(texel.tints[0]), Quantized(texel.tints[1]), Quantized(texel.tints[2]), 255};
+}
+
 using Block = std::array<const AtlasTexel*, 16>;
 
 // A level, block by block; at its edge the last texels are repeated.
@@ -107,6 +111,9 @@ void CompressAtlas(const std::vector<AtlasLevel>& levels, ImpostorAtlas* atlas) 
         },
         out);
   });
+  if (!atlas->tint_regions) return;
+  atlas->tints_ktx2 = Ktx2(levels, 1, TextureFormat::kBc7,
+                           [](const Block& block, uint8_t* out) { CompressColors(block, TintBytes, out); });
 }
 
 Error EncodeAtlas(const AtlasLevel& finest, ImpostorAtlas* atlas) {
@@ -132,6 +139,14 @@ Error EncodeAtlas(const AtlasLevel& finest, ImpostorAtlas* atlas) {
     }
   }
   if (Error error = EncodePng(albedo, true, &atlas->albedo)) return error;
+  if (atlas->tint_regions) {
+    Pixels tints{finest.width, finest.height, {}};
+    for (const AtlasTexel& texel : finest.texels) {
+      const auto bytes = TintBytes(texel);
+      tints.rgba.insert(tints.rgba.end(), bytes.begin(), bytes.end());
+    }
+    if (Error error = EncodePng(tints, false, &atlas->tints)) return error;
+  }
   return EncodePng(normal, false, &atlas->normal);
 }
 

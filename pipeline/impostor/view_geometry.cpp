@@ -122,6 +122,7 @@ std::vector<ViewMaterial> ViewMaterials(const Avatar& avatar, std::vector<std::s
       view.mask = material.alpha != Material::Alpha::kOpaque;
       view.cutoff = material.alpha_cutoff;
       view.double_sided = material.double_sided;
+      view.tints = material.tints;
     }
     all.push_back(view);
   }

@@ -28,6 +28,7 @@ struct ViewMaterial {
   bool mask = false;
   float cutoff = 0.5f;
   bool double_sided = false;
+  uint8_t tints = kEveryTint;
 };
 
 // What one picture shows, about the point between the feet: to the right, along the camera's up

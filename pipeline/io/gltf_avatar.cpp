@@ -75,7 +75,7 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
   const Avatar& avatar = levels.avatar;
   *part = {};
   AddSkeleton(builder, avatar, prefix, part);
-  const std::vector<int> materials = builder->AddMaterials(avatar.materials, avatar.images);
+  const std::vector<int>& materials = part->materials = builder->AddMaterials(avatar.materials, avatar.images);
   std::vector<std::shared_ptr<const EncodedMesh>> meshes(levels.levels.size());
   ParallelFor(jobs, meshes.size(), [&](size_t k) { meshes[k] = EncodedLevel(avatar, levels.levels[k], draco); });
   std::vector<Mesh> moved = levels.levels[0].meshes;  // that tell how exact a clip must be

@@ -108,6 +108,7 @@ struct AvatarPart {
   std::vector<int> level_nodes;  // finest first; the first is a root of the scene
   std::vector<int> prop_nodes;   // as Avatar::props
   std::vector<int> animations;   // as Avatar::clips; -1: a clip without motion
+  std::vector<int> materials;    // as Avatar::materials
 };
 
 // Adds skeleton, skin, levels (chained by MSFT_lod) and clips; names of nodes and animations start

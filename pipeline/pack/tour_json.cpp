@@ -60,27 +60,36 @@ Json ImpostorJson(const ImpostorAtlas& atlas, const ImpostorViews& views) {
     clips.push_back({{"name", clip.name}, {"first_frame", clip.first_frame}, {"phases", clip.phases}});
   }
   for (float e : atlas.elevations_deg) elevations.push_back(Short(e));
-  return {{"directions", atlas.directions},
-          {"elevations_deg", elevations},
-          {"frames", atlas.frames},
-          {"width_px", atlas.width_px},
-          {"height_px", atlas.height_px},
-          {"texel_m", Short(atlas.texel_m)},
-          {"depth_range_m", Short(atlas.depth_range_m)},
-          {"motion_range_m", Short(atlas.motion_range_m)},
-          {"bend_range_m", Short(atlas.bend_range_m)},
-          {"clips", clips},
-          {"cells_view", views.cells},
-          {"albedo_view", views.albedo},
-          {"normal_view", views.normal},
-          {"depth_view", views.depth},
-          {"motion_view", views.motion}};
+  Json json{{"directions", atlas.directions},
+            {"elevations_deg", elevations},
+            {"frames", atlas.frames},
+            {"width_px", atlas.width_px},
+            {"height_px", atlas.height_px},
+            {"texel_m", Short(atlas.texel_m)},
+            {"depth_range_m", Short(atlas.depth_range_m)},
+            {"motion_range_m", Short(atlas.motion_range_m)},
+            {"bend_range_m", Short(atlas.bend_range_m)},
+            {"clips", clips},
+            {"cells_view", views.cells},
+            {"albedo_view", views.albedo},
+            {"normal_view", views.normal},
+            {"depth_view", views.depth},
+            {"motion_view", views.motion}};
+  if (views.tints >= 0) json["tints_view"] = views.tints;
+  return json;
 }
 
-Json TintJson(const Tint& tint) {
+// Of the t-th tint, with the materials that it may dye where it may not dye all.
+Json TintJson(const Tint& tint, size_t t, const std::vector<Material>& materials, const AvatarPart& part) {
   Json colors = Json::array();
   for (Vec3 color : tint.colors) colors.push_back(TextFromColor(color));
-  return {{"color", TextFromColor(tint.color)}, {"reach", Short(tint.reach)}, {"colors", colors}};
+  Json json{{"color", TextFromColor(tint.color)}, {"reach", Short(tint.reach)}, {"colors", colors}};
+  std::vector<int> dyed;
+  for (size_t m = 0; m < materials.size(); ++m) {
+    if (materials[m].tints >> t & 1) dyed.push_back(part.materials[m]);
+  }
+  if (dyed.size() < materials.size()) json["materials"] = dyed;
+  return json;
 }
 
 Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const ImpostorViews& views) {
@@ -108,7 +117,9 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
             {"clips", clips},
             {"levels", levels},
             {"impostor", ImpostorJson(avatar.impostor, views)}};
-  for (const Tint& tint : avatar.tints) json["tints"].push_back(TintJson(tint));
+  if (avatar.height_spread > 0) json["height_spread"] = Short(avatar.height_spread);
+  for (size_t t = 0; t < avatar.tints.size(); ++t)
+    json["tints"].push_back(TintJson(avatar.tints[t], t, person.materials, part));
   for (size_t k = 0; k < person.props.size(); ++k) {
     int triangles = 0;
     for (const Mesh& mesh : person.props[k].meshes) triangles += TriangleCount(mesh);

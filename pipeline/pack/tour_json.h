@@ -10,7 +10,7 @@ namespace flaneur {
 
 // An impostor's buffer views.
 struct ImpostorViews {
-  int cells = -1, albedo = -1, normal = -1, depth = -1, motion = -1;
+  int cells = -1, albedo = -1, normal = -1, depth = -1, motion = -1, tints = -1;
 };
 
 // Where the glTF part of the pack put what the extension refers to.

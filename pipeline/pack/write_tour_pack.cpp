@@ -113,6 +113,7 @@ ImpostorViews AddImpostor(const ImpostorAtlas& atlas, GltfBuilder* builder) {
   views.normal = builder->AddBufferView(atlas.normal_ktx2);
   views.depth = builder->AddBufferView(atlas.depth_ktx2);
   views.motion = builder->AddBufferView(atlas.motion_ktx2);
+  if (atlas.tint_regions) views.tints = builder->AddBufferView(atlas.tints_ktx2);
   return views;
 }
 

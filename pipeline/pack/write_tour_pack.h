@@ -21,6 +21,7 @@ struct TourAvatar {
   float share = 1;
   std::vector<Tint> tints = {};
   std::vector<Prop> props = {};  // one for each of the avatar's
+  float height_spread = 0;       // as PackAvatar's
 };
 
 struct TourParts : TourData {

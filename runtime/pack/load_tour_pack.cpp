@@ -201,6 +201,8 @@ void ReadAtlas(const GltfFile& file, const TourObject& json, PackImpostor* impos
   ReadAtlasPicture(file, json, "normal_view", TextureFormat::kBc5, *impostor, 0, &impostor->normal);
   ReadAtlasPicture(file, json, "depth_view", TextureFormat::kBc4, *impostor, 0, &impostor->depth);
   ReadAtlasPicture(file, json, "motion_view", TextureFormat::kBc7, *impostor, 1, &impostor->motion);
+  if (json.Has("tints_view"))
+    ReadAtlasPicture(file, json, "tints_view", TextureFormat::kBc7, *impostor, 1, &impostor->tints);
 }
 
 void CheckJoints(const PackMesh& mesh, int joints) {
@@ -220,12 +222,17 @@ PackClip FirstFrame(const PackClip& clip, int joints) {
   return still;
 }
 
-Tint ReadTint(const TourObject& json) {
+Tint ReadTint(const GltfFile& file, const TourObject& json) {
   Tint tint;
   tint.color = json.Color("color");
   tint.reach = json.Real("reach", kMinTintReach, 1);
   tint.colors = json.Colors("colors");
   if (tint.colors.size() > kMaxTintColors) json.Refuse("has more than eight colors");
+  if (json.Has("materials")) {
+    const size_t materials = file.json.value("materials", Json::array()).size();
+    tint.materials = json.Wholes("materials", 0, static_cast<double>(materials) - 1);
+    if (tint.materials.empty()) json.Refuse("may dye none of the materials");
+  }
   return tint;
 }
 
@@ -251,6 +258,7 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   avatar.radius_m = json.Real("radius_m", kAboveZero, kAnything);
   avatar.reach_m = json.Has("reach_m") ? json.Real("reach_m", kAboveZero, kMostReach_m) : 0;
   avatar.walk_speed_mps = json.Real("walk_speed_mps", kAboveZero, kAnything);
+  if (json.Has("height_spread")) avatar.height_spread = json.Real("height_spread", 0, kMaxHeightSpread);
   const Json& nodes = Member(file.json, "nodes");
   int skin = -1;
   for (const TourObject& level_json : json.Objects("levels")) {
@@ -282,7 +290,7 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
     if (avatar.props.size() > kMaxProps) json.Refuse("has more than seven props");
   }
   if (json.Has("tints")) {
-    for (const TourObject& tint : json.Objects("tints")) avatar.tints.push_back(ReadTint(tint));
+    for (const TourObject& tint : json.Objects("tints")) avatar.tints.push_back(ReadTint(file, tint));
     if (avatar.tints.size() > kMaxTints) json.Refuse("has more than three tints");
   }
   return avatar;
@@ -386,6 +394,21 @@ PackMesh ReadOutline(const GltfFile& file, int mesh) {
   return out;
 }
 
+// Notes in the materials of an avatar's levels which tints may dye them.
+void BindTints(const PackAvatar& avatar, const std::vector<PackMesh>& meshes, std::vector<PackMaterial>* materials) {
+  for (size_t t = 0; t < avatar.tints.size(); ++t) {
+    const std::vector<int>& dyed = avatar.tints[t].materials;
+    if (dyed.empty()) continue;
+    for (const PackLevel& level : avatar.levels) {
+      for (const PackPrimitive& primitive : At(meshes, level.mesh).primitives) {
+        if (primitive.material < 0 || std::find(dyed.begin(), dyed.end(), primitive.material) != dyed.end()) continue;
+        uint8_t& tints = At(*materials, primitive.material).tints;
+        tints = static_cast<uint8_t>(tints & ~(1u << t));
+      }
+    }
+  }
+}
+
 TourObject TourOf(const GltfFile& file) {
   const auto extensions = file.json.find("extensions");
   if (extensions == file.json.end() || !extensions->contains(kTourExtension)) {
@@ -456,8 +479,12 @@ struct PackFile::Impl {
     for (const PackAvatar& avatar : pack->avatars) {
       for (const PackLevel& level : avatar.levels) At(joints, level.mesh) = avatar.joints;
       for (const PackProp& prop : avatar.props) At(joints, prop.mesh) = avatar.joints;
+      BindTints(avatar, pack->meshes, &pack->materials);
     }
-    for (PackAvatar& avatar : pack->avatars) FindReach(&avatar);
+    for (PackAvatar& avatar : pack->avatars) {
+      FindReach(&avatar);
+      avatar.reach_m = std::min(kMostReach_m, avatar.reach_m * (1 + avatar.height_spread));
+    }
     const size_t images = file.json.value("images", Json::array()).size();
     for (size_t i = 0; i < images; ++i) pack->images.push_back(ReadImageSize(file, static_cast<int>(i)));
   }

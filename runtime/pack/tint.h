@@ -1,6 +1,6 @@
-// Tints: people of one model wear their cloth in several colours. A cloth is known by its colour alone, so that meshes
-// and impostors need no masks; runtime/render's shaders do the same as these functions. Colours are the pictures' own,
-// sRGB, 0 to 1.
+// Tints: people of one model wear their cloth in several colours. A cloth is known by its colour, and, where a
+// tint is bound to materials, by these; runtime/render's shaders do the same as these functions. Colours are the
+// pictures' own, sRGB, 0 to 1.
 #pragma once
 #include <cstddef>
 #include <vector>

@@ -139,6 +139,15 @@ std::vector<float> TourObject::Reals(const char* key, double least, double most)
   return numbers;
 }
 
+std::vector<int> TourObject::Wholes(const char* key, double least, double most) const {
+  const Json& json = Array(key);
+  std::vector<int> numbers;
+  for (size_t i = 0; i < json.size(); ++i) {
+    numbers.push_back(static_cast<int>(Checked(json[i], Item(Place(key), i), true, least, most)));
+  }
+  return numbers;
+}
+
 TourObject TourObject::Object(const char* key) const { return {Get(key), Place(key)}; }
 
 std::vector<TourObject> TourObject::Objects(const char* key) const {

@@ -31,8 +31,9 @@ class TourObject {
   std::vector<Vec2> Ring(const char* key) const;  // at least three points
   std::vector<std::vector<Vec2>> Rings(const char* key) const;
   std::vector<float> Reals(const char* key, double least, double most) const;  // at least one
-  Vec3 Color(const char* key) const;                                           // "#rrggbb"
-  std::vector<Vec3> Colors(const char* key) const;                             // at least one
+  std::vector<int> Wholes(const char* key, double least, double most) const;
+  Vec3 Color(const char* key) const;                // "#rrggbb"
+  std::vector<Vec3> Colors(const char* key) const;  // at least one
   TourObject Object(const char* key) const;
   std::vector<TourObject> Objects(const char* key) const;
 

@@ -36,6 +36,7 @@ struct PackMaterial {
   bool double_sided = false;
   bool alpha_mask = false;  // BLEND is drawn as a mask too
   float alpha_cutoff = 0.5f;
+  uint8_t tints = 0xFF;  // bit t: its avatar's t-th tint may dye it
 };
 
 struct PackPrimitive {
@@ -80,6 +81,7 @@ struct PackLevel {
 
 // docs/pack-format.md says how an atlas is laid out.
 struct PackImpostor : ImpostorLayout {
+  PackTexture tints;  // by channel where each tint may dye; no levels: wherever the colour is right
   PackTexture albedo, normal, depth, motion;  // without levels where a pack is loaded without its pictures
 };
 
@@ -91,7 +93,9 @@ struct PackAvatar {
   std::string name;
   float share = 1;  // of the crowd, relative to the others'
   float height_m = 1.75f, radius_m = 0.25f;
-  float reach_m = 0.25f;  // of all that is drawn, about where the person stands: arms, clothes, props; radius_m or more
+  float reach_m = 0.25f;    // of all that is drawn, about where the person stands: arms, clothes, props of the largest;
+                            // radius_m or more
+  float height_spread = 0;  // people are up to so much larger or smaller, as a share, 0 to kMaxHeightSpread
   float walk_speed_mps = 1.3f;  // at which the walk clip's feet don't slide
   int joints = 0;
   std::vector<PackJoint> skeleton;  // a joint each

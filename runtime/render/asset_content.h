@@ -13,8 +13,8 @@ struct Asset::Content {
   TownGeometry town;
   std::vector<std::vector<uint8_t>> picture;  // by level
   PersonGeometry person;
-  ShadowLevels shadows;               // with the coarsest level alone
-  std::array<AtlasPicture, 4> atlas;  // albedo, normals, depth, motion
+  ShadowLevels shadows;                            // with the coarsest level alone
+  std::array<AtlasPicture, kAtlasPictures> atlas;  // as PrepareAtlas
 };
 
 }  // namespace flaneur

@@ -40,7 +40,8 @@ void TakePlaces(Program* p) {
                   {"u_town_shadow_map", kTownShadowUnit},
                   {"u_people_shadow_map", kPeopleShadowUnit},
                   {"u_textures", kArrayUnit},
-                  {"u_cells", kCellsUnit}};
+                  {"u_cells", kCellsUnit},
+                  {"u_tint_picture", kTintsUnit}};
   for (const auto& s : samplers) glUniform1i(glGetUniformLocation(program, s.name), s.unit);
   const struct {
     const char* name;
@@ -50,6 +51,7 @@ void TakePlaces(Program* p) {
                   {"u_directions", &p->directions},
                   {"u_tints", &p->tints},
                   {"u_tint_shifts", &p->tint_shifts},
+                  {"u_tint_regions", &p->tint_regions},
                   {"u_alpha_cutoff", &p->alpha_cutoff},
                   {"u_share", &p->share},
                   {"u_size", &p->size}};

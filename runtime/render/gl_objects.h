@@ -22,7 +22,8 @@ enum TextureUnit {
   kTownShadowUnit,
   kPeopleShadowUnit,
   kArrayUnit,
-  kCellsUnit
+  kCellsUnit,
+  kTintsUnit
 };
 
 // The uniform block Frame of the shaders.
@@ -38,7 +39,7 @@ void BindFrameBlock(GLuint buffer, const FrameBlock& block);
 // A program of the driver's, and the places of the uniforms that it has.
 struct Program {
   GLuint id = 0;
-  GLint atlas = -1, ranges = -1, directions = -1, tints = -1, tint_shifts = -1;
+  GLint atlas = -1, ranges = -1, directions = -1, tints = -1, tint_shifts = -1, tint_regions = -1;
   GLint alpha_cutoff = -1, share = -1, size = -1;
 };
 // Errors: what the driver says against it.

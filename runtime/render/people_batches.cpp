@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/render/shaders/shared.glsl"
+
 namespace flaneur {
 namespace {
 
@@ -85,11 +87,18 @@ float RowOfPose(uint32_t number, const DrawnPerson& person, const AvatarLayout& 
   return static_cast<float>(row);
 }
 
+uint8_t SizeByte(float size) {
+  return static_cast<uint8_t>(
+      std::clamp(std::lround(SIZE_MIDDLE + (static_cast<double>(size) - 1) / SIZE_STEP), 1l, 255l));
+}
+
 // A mesh faces glTF's +Z; turned about the vertical by heading + 90 degrees it faces the heading.
 PersonInstance Placed(const DrawnPerson& person, float row, float phases) {
   const Vec3 p = GltfFromGround(person.position);
-  return {
-      {p.x, p.y, p.z, person.heading_rad + kPi / 2}, {row, person.share_from, person.share_to, phases}, person.tints};
+  const auto& t = person.tints;
+  return {{p.x, p.y, p.z, person.heading_rad + kPi / 2},
+          {row, person.share_from, person.share_to, phases},
+          {t[0], t[1], t[2], SizeByte(person.size)}};
 }
 
 // Null without pictures of it. Without a clip for it people talk as they stand.
@@ -140,9 +149,9 @@ PersonInstance AsCoarseShadow(const DrawnPerson& person, const AvatarLayout& ava
 
 Box BoxOf(const DrawnPerson& person, const AvatarLayout& avatar) {
   const Vec3 p = GltfFromGround(person.position);
-  const float around_m = avatar.radius_m + kAround_m;
+  const float around_m = person.size * (avatar.radius_m + kAround_m);
   return {{p.x - around_m, p.y - 0.1f, p.z - around_m},
-          {p.x + around_m, p.y + avatar.height_m * 1.15f + 0.1f, p.z + around_m}};
+          {p.x + around_m, p.y + person.size * avatar.height_m * 1.15f + 0.1f, p.z + around_m}};
 }
 
 // The person and the shadow on level ground.
@@ -299,7 +308,7 @@ PersonInstance InstanceOf(const PeopleBatches::Entry& e, const DrawnPerson& pers
   PersonInstance instance = Placed(person, RowOfPose(e.person, person, avatar, out), e.on_impostor ? 1.0f : 0.0f);
   if (BatchOf(e.key, keys).level >= avatar.levels) {
     instance.look.y = 0, instance.look.z = person.props_share;
-    instance.tints = {};  // a basket is no cloth, though it may have a cloth's colour
+    instance.tints = {0, 0, 0, instance.tints[3]};  // a basket is no cloth, though it may have a cloth's colour
   }
   return instance;
 }

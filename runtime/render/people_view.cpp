@@ -23,6 +23,7 @@ PersonMesh UploadMesh(const PersonGeometry& person) {
   EnableAttribute(ATTRIBUTE_COLOR, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(PersonVertex, color), 0);
   EnableAttribute(ATTRIBUTE_JOINTS, 4, GL_UNSIGNED_SHORT, false, stride, offsetof(PersonVertex, joints), 0);
   EnableAttribute(ATTRIBUTE_WEIGHTS, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(PersonVertex, weights), 0);
+  EnableAttribute(ATTRIBUTE_DYED, 4, GL_UNSIGNED_BYTE, true, stride, offsetof(PersonVertex, dyed), 0);
   return mesh;
 }
 
@@ -141,6 +142,8 @@ DrawCost DrawImpostors(const PeopleView& people, const PeopleBatch& batch) {
   BindTexture(kNormalsUnit, avatar.normals);
   BindTexture(kDepthUnit, avatar.depth);
   BindTexture(kMotionUnit, avatar.motion);
+  SetUniform(program.tint_regions, avatar.tint_regions != 0 ? 1.0f : 0.0f);
+  BindTexture(kTintsUnit, avatar.tint_regions);
   BindTexture(kColorUnit, avatar.albedo);
   BindTexture(kCellsUnit, people.cells);
   glBindVertexArray(people.quad_array);
@@ -240,15 +243,16 @@ void ShowLevels(PeopleView* people) {
   }
 }
 
-void AddAtlas(int avatar, const std::array<AtlasPicture, 4>& pictures, PeopleView* people) {
+void AddAtlas(int avatar, const std::array<AtlasPicture, kAtlasPictures>& pictures, PeopleView* people) {
   AvatarView& view = people->avatars[static_cast<size_t>(avatar)];
-  GLuint* textures[] = {&view.albedo, &view.normals, &view.depth, &view.motion};
+  GLuint* textures[] = {&view.albedo, &view.normals, &view.depth, &view.motion, &view.tint_regions};
   for (size_t k = 0; k < pictures.size(); ++k) *textures[k] = UploadAtlasPicture(pictures[k]);
   people->ready[static_cast<size_t>(avatar)].impostor = true;
   for (size_t other = 0; other < people->avatars.size(); ++other) {
     if (people->avatars[other].impostor_of != avatar) continue;
     AvatarView& shares = people->avatars[other];
     shares.albedo = view.albedo, shares.normals = view.normals, shares.depth = view.depth, shares.motion = view.motion;
+    shares.tint_regions = view.tint_regions;
     people->ready[other].impostor = true;
   }
 }

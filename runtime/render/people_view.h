@@ -19,6 +19,7 @@ struct AvatarView {
   std::vector<PersonMesh> levels;                         // behind them the props
   std::array<PersonMesh, 2> shadows;                      // as in ShadowLevels
   GLuint albedo = 0, normals = 0, depth = 0, motion = 0;  // of the impostor
+  GLuint tint_regions = 0;                                // 0: its colours alone say what is dyed
   Vec4 atlas;                                             // texture coordinates a metre, size in texels
   Vec3 ranges;                                            // of depth, motion and its bend, in metres
   float directions = 1;
@@ -46,7 +47,7 @@ Error CreatePeopleView(const TourPack& pack, ShaderMode mode, const SurfacePlan&
                        const std::vector<GLuint>& arrays, PeopleView* people);
 void AddLevel(int avatar, int level, const PersonGeometry& person, const ShadowLevels& shadows, PeopleView* people);
 void ShowLevels(PeopleView* people);  // all that have been added, from now on
-void AddAtlas(int avatar, const std::array<AtlasPicture, 4>& pictures, PeopleView* people);
+void AddAtlas(int avatar, const std::array<AtlasPicture, kAtlasPictures>& pictures, PeopleView* people);
 
 // What the people of a picture are drawn with, their shadows too, whether it is there or not.
 std::vector<AssetId> AssetsFor(const std::vector<DrawnPerson>& drawn, const PeopleSight& sight,

@@ -13,7 +13,11 @@ namespace {
 
 constexpr float kLargerCells = 1.2f;
 
-void AppendVertices(const PackPrimitive& p, Vec4 base, int layer, std::vector<PersonVertex>* vertices) {
+void AppendVertices(const PackPrimitive& p, const PackMaterial& material, int layer,
+                    std::vector<PersonVertex>* vertices) {
+  const Vec4 base = material.base_color;
+  std::array<uint8_t, 4> dyed{};
+  for (size_t t = 0; t < kMaxTints; ++t) dyed[t] = material.tints >> t & 1 ? 255 : 0;
   for (size_t i = 0; i < p.positions.size(); ++i) {
     const Vec4 c = p.colors.empty() ? Vec4{1, 1, 1, 1} : p.colors[i];
     const Vec3 n = p.normals[i];
@@ -22,7 +26,8 @@ void AppendVertices(const PackPrimitive& p, Vec4 base, int layer, std::vector<Pe
                    p.uvs.empty() ? Vec2{} : p.uvs[i],
                    {SrgbByte(c.x * base.x), SrgbByte(c.y * base.y), SrgbByte(c.z * base.z), Byte(c.w * base.w)},
                    {},
-                   {255, 0, 0, 0}};
+                   {255, 0, 0, 0},
+                   dyed};
     if (!p.joints.empty()) {
       v.joints = p.joints[i];
       v.weights = p.weights[i];
@@ -82,8 +87,7 @@ PersonGeometry BuildPersonGeometry(const TourPack& pack, int mesh, const Surface
     }
     out.ranges.back().count += static_cast<uint32_t>(p->indices.size());
     const auto base = static_cast<uint32_t>(out.vertices.size());
-    AppendVertices(*p,
-                   p->material >= 0 ? pack.materials[static_cast<size_t>(p->material)].base_color : Vec4{1, 1, 1, 1},
+    AppendVertices(*p, p->material >= 0 ? pack.materials[static_cast<size_t>(p->material)] : PackMaterial{},
                    surface.layer, &out.vertices);
     for (uint32_t i : p->indices) out.indices.push_back(base + i);
   }

@@ -16,6 +16,7 @@ struct PersonVertex {
   std::array<uint8_t, 4> color;  // normalized; the material's base colour is in it
   std::array<uint16_t, 4> joints;
   std::array<uint8_t, 4> weights;  // normalized
+  std::array<uint8_t, 4> dyed;     // normalized; by tint whether it may dye the material, the last unused
 };
 
 struct PersonRange {

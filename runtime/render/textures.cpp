@@ -136,10 +136,12 @@ AtlasFormats FormatsOfThisMachine(bool fast) {
           HasExtension(FormatOf(TextureFormat::kBc5).extension), false};
 }
 
-std::array<AtlasPicture, 4> PrepareAtlas(const PackImpostor& atlas, const AtlasFormats& formats) {
+std::array<AtlasPicture, kAtlasPictures> PrepareAtlas(const PackImpostor& atlas, const AtlasFormats& formats) {
   const bool pack = formats.pack_details;
-  std::array<AtlasPicture, 4> out{Prepare(atlas.albedo, 0, formats), Prepare(atlas.normal, pack ? 1 : 0, formats),
-                                  Prepare(atlas.depth, pack ? 1 : 0, formats), Prepare(atlas.motion, 0, formats)};
+  std::array<AtlasPicture, kAtlasPictures> out{
+      Prepare(atlas.albedo, 0, formats), Prepare(atlas.normal, pack ? 1 : 0, formats),
+      Prepare(atlas.depth, pack ? 1 : 0, formats), Prepare(atlas.motion, 0, formats),
+      atlas.tints.levels.empty() ? AtlasPicture{} : Prepare(atlas.tints, 0, formats)};
   if (pack) {
     out[2] = Packed(out[2], out[3]);
     out[3] = {};

@@ -17,6 +17,8 @@ void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer,
                  const std::vector<std::vector<uint8_t>>& levels);
 bool ReadsBc1();  // needs a context
 
+inline constexpr size_t kAtlasPictures = 5;
+
 // An impostor's picture as it is uploaded: blocks where OpenGL reads them and `decode` is not asked for, else texels.
 struct AtlasPicture {
   TextureFormat format = TextureFormat::kBc7Srgb;
@@ -26,9 +28,9 @@ struct AtlasPicture {
 };
 AtlasFormats FormatsOfThisMachine(
     bool fast);  // needs a context; in software no blocks: there one is decoded for every look-up
-// Albedo, normals, depth, motion. Where details are packed motion is with the depth, as colour, and its own picture is
-// empty.
-std::array<AtlasPicture, 4> PrepareAtlas(const PackImpostor& atlas, const AtlasFormats& formats);
+// Albedo, normals, depth, motion, where tints may dye (empty: everywhere). Where details are packed motion is with the
+// depth, as colour, and its own picture is empty.
+std::array<AtlasPicture, kAtlasPictures> PrepareAtlas(const PackImpostor& atlas, const AtlasFormats& formats);
 GLuint UploadAtlasPicture(const AtlasPicture& picture);  // 0 where it is empty
 
 }  // namespace flaneur

@@ -57,11 +57,11 @@ int SideOfCaption(const Simulation& s) {
   return s.visitor.guide.is_left ? 1 : -1;
 }
 
-ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, ClipKind last) {
+ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, float size, ClipKind last) {
   const float speed_mps = Length(s.town.crowd.velocity[i]);
   if (speed_mps > (last == ClipKind::kWalk ? kStandsBelow_mps : kWalksAbove_mps)) {
-    // One clip's length of way for each turn of the walk, so that feet don't slide.
-    const float cycle_m = avatar.walk_speed_mps * std::max(avatar.walk.duration_s, 0.1f);
+    // One clip's length of way for each turn of the walk, so that feet don't slide: longer legs take longer steps.
+    const float cycle_m = size * avatar.walk_speed_mps * std::max(avatar.walk.duration_s, 0.1f);
     return {ClipKind::kWalk, Fraction(s.town.crowd.walked_m[i] / cycle_m)};
   }
   const bool talks = s.town.crowd.activity[i] == Activity::kTalking;
@@ -85,15 +85,22 @@ void FollowClip(const ClipMoment& now, bool anew, float passed_s, PersonLook* lo
 
 // The same person wears the same all day, and people who came one after the other, as those of a group, wear different
 // colours.
-std::array<uint8_t, 4> TintsOf(const PackAvatar& avatar, int id) {
+std::array<uint8_t, 3> TintsOf(const PackAvatar& avatar, int id) {
   constexpr float kLowDiscrepancySteps[] = {0.618034f, 0.754878f,
                                             0.569840f};  // fractions whose multiples spread evenly (Roberts 2018)
-  std::array<uint8_t, 4> tints{};
+  std::array<uint8_t, 3> tints{};
   for (size_t t = 0; t < std::min(avatar.tints.size(), kMaxTints); ++t) {
     const auto count = static_cast<float>(avatar.tints[t].colors.size() + 1);
     tints[t] = static_cast<uint8_t>(Fraction(static_cast<float>(id % 4096 + 1) * kLowDiscrepancySteps[t]) * count);
   }
   return tints;
+}
+
+// Likewise for life; evenly over the avatar's spread.
+float SizeOf(const PackAvatar& avatar, int id) {
+  constexpr float kLowDiscrepancyStep = 0.438579f;
+  const float at = Fraction(static_cast<float>(id % 4096 + 1) * kLowDiscrepancyStep);
+  return 1 + avatar.height_spread * (2 * at - 1);
 }
 
 float Mix_rad(float a, float b, float share) { return WrapAngle(a + share * WrapAngle(b - a)); }
@@ -109,6 +116,7 @@ void Show(const PersonLook& look, float share, float before_s, FrameInput* frame
   DrawnPerson person;
   person.avatar = look.avatar;
   person.tints = look.tints;
+  person.size = look.size;
   person.moment = {look.moment.clip, Fraction(look.moment.phase - (1 - share) * look.phase_step)};
   person.other = look.last_moment;
   person.other_share = std::max(0.0f, 1 - look.clip_s / kMix_s);
@@ -160,11 +168,14 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, float pas
   look.casts_shadow = levels.casts_shadow[i] != 0;
   look.props = ShownProps(levels.props, crowd.slot[i], crowd.id[i]);
   const PackAvatar& avatar = pack.avatars[static_cast<size_t>(look.avatar)];
-  if (anew) look.tints = TintsOf(avatar, crowd.id[i]);
+  if (anew) {
+    look.tints = TintsOf(avatar, crowd.id[i]);
+    look.size = SizeOf(avatar, crowd.id[i]);
+  }
   const Vec2 p = crowd.position[i];
   Move({p.x, p.y, HeightAt(s.town.walkable, p)}, crowd.heading_rad[i], anew, &look);
   const ClipMoment before = look.moment;
-  FollowClip(MomentOf(s, i, avatar, look.moment.clip), anew, passed_s, &look);
+  FollowClip(MomentOf(s, i, avatar, look.size, look.moment.clip), anew, passed_s, &look);
   look.phase_step = anew ? 0 : PhaseStep(before, look.moment);
   looks->shown.push_back(crowd.slot[i]);
 }

@@ -23,8 +23,9 @@ struct PersonLook {
   Vec3 position, before;           // before: where the picture stood before the last step
   float heading_rad = 0, heading_before_rad = 0;
   float phase_step = 0;            // of the clip, since before
-  std::array<uint8_t, 4> tints{};  // DrawnPerson's,
-  uint8_t props = 0;               // and these
+  std::array<uint8_t, 3> tints{};  // DrawnPerson's,
+  float size = 1;
+  uint8_t props = 0;  // and these
 };
 
 struct EyeLook {

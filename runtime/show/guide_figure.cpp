@@ -121,11 +121,12 @@ void AddGuideFigure(TourPack* pack) {
   PackAvatar figure = *found;
   figure.share = 0;
   figure.tints.clear();  // known by the own colours
+  figure.height_spread = 0;
   figure.props.clear();
   if (const auto arm = FindCarryingArm(figure.skeleton, figure.height_m)) CarryInClips(*arm, &figure);
   figure.impostor_of = static_cast<int>(found - pack->avatars.begin());
-  for (PackTexture* picture :
-       {&figure.impostor.albedo, &figure.impostor.normal, &figure.impostor.depth, &figure.impostor.motion}) {
+  for (PackTexture* picture : {&figure.impostor.albedo, &figure.impostor.normal, &figure.impostor.depth,
+                               &figure.impostor.motion, &figure.impostor.tints}) {
     picture->levels.clear();
   }
   const auto mesh_of = [&](const PackLevel& level) { return static_cast<size_t>(level.mesh); };

@@ -12,13 +12,15 @@ namespace flaneur {
 inline constexpr size_t kMaxTints = 3;       // of an avatar
 inline constexpr size_t kMaxTintColors = 8;  // of a tint, besides its own
 inline constexpr float kMinTintReach = 0.01f;
+inline constexpr float kMaxHeightSpread = 0.1f;
 
 // People of one model wear their cloth in several colours, sRGB, 0 to 1 (runtime/pack/tint.h says how a cloth is
 // known).
 struct Tint {
-  Vec3 color;                // of the cloth in the avatar's own pictures
-  float reach = 0.2f;        // kMinTintReach to 1: colours farther off than this are not dyed
-  std::vector<Vec3> colors;  // in which others wear it; at least one
+  Vec3 color;                       // of the cloth in the avatar's own pictures
+  float reach = 0.2f;               // kMinTintReach to 1: colours farther off than this are not dyed
+  std::vector<Vec3> colors;         // in which others wear it; at least one
+  std::vector<int> materials = {};  // of the pack, that alone it dyes; empty: all
 };
 
 inline constexpr size_t kMaxProps = 7;  // of an avatar

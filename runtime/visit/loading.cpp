@@ -143,7 +143,8 @@ void Loader::Impl::Clear(const AssetId& id) {
   if (id.kind == AssetKind::kPicture) std::vector<uint8_t>().swap(pack.images[index].rgba);
   if (id.kind == AssetKind::kAtlas) {
     PackImpostor& atlas = pack.avatars[index].impostor;
-    for (PackTexture* picture : {&atlas.albedo, &atlas.normal, &atlas.depth, &atlas.motion}) picture->levels.clear();
+    for (PackTexture* picture : {&atlas.albedo, &atlas.normal, &atlas.depth, &atlas.motion, &atlas.tints})
+      picture->levels.clear();
   }
 }
 

@@ -4,7 +4,8 @@
 #include "tint.glsl"
 #include "fade.glsl"
 
-uniform sampler2D u_normals;
+uniform sampler2D u_normals, u_tint_picture;
+uniform float u_tint_regions;  // 0: there is no picture of where tints may dye
 const float k_hides = 0.999;  // not all: straight from a picture's direction it alone has a share
 vec3 normal_at(View view, vec2 at) {
 #ifdef FAST
@@ -25,7 +26,8 @@ void main() {
   View other = View(v_point1, v_ray1, v_cell1, v_origins.zw, v_turns.zw, v_look.x);
   COVER cover = COVER(0.0);
   vec3 color = vec3(0.0), n = vec3(0.0);
-  float along = 0.0, weight = 0.0, covered_before = 0.0, parts_before = 0.0, phase_part = 1.0;
+  vec2 seen_at = vec2(0.0);  // where the picture that counts most shows it
+  float most = 0.0, along = 0.0, weight = 0.0, covered_before = 0.0, parts_before = 0.0, phase_part = 1.0;
   int pictures = v_pictures.x;
 #ifndef FAST
   float beside_part = part_beside();
@@ -56,6 +58,10 @@ void main() {
 #else
     cover = max(cover, min(1.0, k_counts * direction_part) * min(1.0, k_phase_counts * phase_part) * m.cover);
 #endif
+    if (own > most) {
+      most = own;
+      seen_at = m.at;
+    }
     color += own * m.color;
     n += own * normal_at(view, m.at);
     along += own * m.along;
@@ -84,6 +90,8 @@ void main() {
   vec4 clip = frame.view_projection * vec4(p, 1.0);
   gl_FragDepth = clip.z / clip.w * 0.5 + 0.5;
 #endif
-  leave(tinted(color * whole), normalize(n), p, v_haze);
+  vec3 dyed = vec3(1.0);
+  if (u_tint_regions > 0.0) dyed = textureLod(u_tint_picture, seen_at, max(v_level - 1.0, 0.0)).rgb;
+  leave(tinted(color * whole, dyed), normalize(n), p, v_haze);
   o_color.a = coverage;
 }

@@ -39,7 +39,7 @@ void main() {
   vec2 low0 = vec2(cell0.x - origin0.x, origin0.y - cell0.w), high0 = vec2(cell0.z - origin0.x, origin0.y - cell0.y);
   vec2 low1 = vec2(cell1.x - origin1.x, origin1.y - cell1.w), high1 = vec2(cell1.z - origin1.x, origin1.y - cell1.y);
   vec2 low = min(min(low0, low1), vec2(0.0)), high = max(max(high0, high1), vec2(0.0));
-  float texel_m = 1.0 / (u_atlas.x * u_atlas.z);
+  float size = person_size(), texel_m = 1.0 / (u_atlas.x * u_atlas.z);
 #ifdef FAST
   float around_px = k_around_px;
 #else
@@ -48,14 +48,14 @@ void main() {
   vec2 at = mix(low - around_px, high + around_px, a_corner) * texel_m;
   float distance = max(length(from.xz), 1e-3);
   vec3 offset = vec3(from.z / distance * at.x, at.y, -from.x / distance * at.x);
-  vec3 p = a_place.xyz + offset;
+  vec3 p = a_place.xyz + offset * size;
   v_ray = p - frame.eye.xyz;
   vec2 azimuths = vec2(d0, d1) * 6.28318531 / u_directions + a_place.w;
   v_turns = vec4(cos(azimuths.x), sin(azimuths.x), cos(azimuths.y), sin(azimuths.y));
   v_point0 = in_axes_of(v_turns.xy, origin0.zw, offset);
   v_point1 = in_axes_of(v_turns.zw, origin0.zw, offset);
-  v_ray0 = in_axes_of(v_turns.xy, origin0.zw, v_ray);
-  v_ray1 = in_axes_of(v_turns.zw, origin0.zw, v_ray);
+  v_ray0 = in_axes_of(v_turns.xy, origin0.zw, v_ray / size);
+  v_ray1 = in_axes_of(v_turns.zw, origin0.zw, v_ray / size);
   v_texel = at * u_atlas.xy * u_atlas.zw;
   v_cell0 = cell0 / u_atlas.zwzw;
   v_cell1 = cell1 / u_atlas.zwzw;
@@ -64,7 +64,7 @@ void main() {
   choose_tints();
   v_haze = haze_at(a_place.xyz);
   gl_Position = frame.view_projection * vec4(p, 1.0);
-  v_level = max(0.0, log2(max((frame.view_projection * vec4(a_place.xyz, 1.0)).w, 0.1) / (frame.eye.w * texel_m)));
+  v_level = max(0.0, log2(max((frame.view_projection * vec4(a_place.xyz, 1.0)).w, 0.1) / (frame.eye.w * texel_m * size)));
   float between = fract(direction);
   vec2 beside0 = cell_texel(first + d0, 2).xy, beside1 = cell_texel(first + d1, 2).xy;
   v_pictures = ivec3(2, a_look.w < 0.0 ? vec2(beside0.y, beside1.y) : vec2(beside0.x, beside1.x));

@@ -22,6 +22,8 @@ centroid out vec4 v_color;
 out float v_haze;
 flat out float v_layer;
 flat out vec2 v_share;
+layout(location = ATTRIBUTE_DYED) in vec4 a_dyed;
+flat out vec3 v_dyed;
 #endif
 void main() {
   vec4 r0 = vec4(0.0), r1 = vec4(0.0), r2 = vec4(0.0);
@@ -40,7 +42,7 @@ void main() {
     r2 += w * texelFetch(u_poses, ivec2(j + 2, row), 0);
   }
   vec4 p = vec4(a_position, 1.0);
-  vec3 posed = vec3(dot(r0, p), dot(r1, p), dot(r2, p));
+  vec3 posed = vec3(dot(r0, p), dot(r1, p), dot(r2, p)) * person_size();
   float c = cos(a_place.w), s = sin(a_place.w);
   vec3 place = vec3(c * posed.x + s * posed.z, posed.y, c * posed.z - s * posed.x) + a_place.xyz;
   gl_Position = frame.view_projection * vec4(place, 1.0);
@@ -54,6 +56,7 @@ void main() {
   v_color = a_color;
   v_share = a_look.yz;
   choose_tints();
+  v_dyed = a_dyed.xyz;
 #ifdef FAST
   // A prop before the person's axis stands before their impostor, which is as deep as its front.
   if (a_look.w > 0.5) {

@@ -13,10 +13,16 @@
 #define ATTRIBUTE_PLACE 6
 #define ATTRIBUTE_LOOK 7
 #define ATTRIBUTE_TINTS 8
+// Of a corner, too: which tints may dye it.
+#define ATTRIBUTE_DYED 9
 
 // Of an avatar, and of a tint besides its own.
 #define MAX_TINTS 3
 #define MAX_TINT_COLORS 8
+
+// Of a person's size in ATTRIBUTE_TINTS: what stands for the pack's own, and a step, as a share of it.
+#define SIZE_MIDDLE 128.0
+#define SIZE_STEP 0.001
 
 // Of the texture of all impostor cells, in texels.
 #define CELLS_WIDTH 1024

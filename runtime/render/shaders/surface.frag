@@ -6,6 +6,7 @@
 #endif
 #ifdef TINTS
 #include "tint.glsl"
+flat in vec3 v_dyed;
 #endif
 
 centroid in vec3 v_position, v_normal;
@@ -32,7 +33,7 @@ void main() {
   vec3 n = gl_FrontFacing ? v_normal : -v_normal;
   vec3 color = albedo.rgb * v_color.rgb;
 #ifdef TINTS
-  color = tinted(color);
+  color = tinted(color, v_dyed);
 #endif
   leave(color, n, v_position, v_haze);
 }

@@ -9,11 +9,12 @@ float tint_share(vec3 half_light, vec4 tint) {
   vec3 off = half_light - tint.rgb;
   return clamp(2.0 - 2.0 * dot(off, off) * tint.w, 0.0, 1.0);
 }
-vec3 tinted(vec3 color) {
+// dyed: by tint, whether it may dye this place.
+vec3 tinted(vec3 color, vec3 dyed) {
   vec3 half_light = color - 0.5 * dot(color, vec3(0.30, 0.59, 0.11));
-  float share0 = tint_share(half_light, u_tints[0]);
-  float share1 = min(1.0 - share0, tint_share(half_light, u_tints[1]));
-  float share2 = min(1.0 - share0 - share1, tint_share(half_light, u_tints[2]));
+  float share0 = dyed.x * tint_share(half_light, u_tints[0]);
+  float share1 = min(1.0 - share0, dyed.y * tint_share(half_light, u_tints[1]));
+  float share2 = min(1.0 - share0 - share1, dyed.z * tint_share(half_light, u_tints[2]));
   return clamp(color + share0 * v_tint0 + share1 * v_tint1 + share2 * v_tint2, 0.0, 1.0);
 }
 #endif

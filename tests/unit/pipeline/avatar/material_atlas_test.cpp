@@ -89,6 +89,24 @@ TEST(MergeMaterials, ShowsTheSamePicturesInOneDraw) {
   ExpectNear(Shown(levels, mesh, 8, 0.5f, 0.5f), {128, 0, 255, 255});
 }
 
+TEST(MergeMaterials, KeepsApartWhatIsDyedOtherwiseButInOnePicture) {
+  AvatarLevels levels = TwoLevels(
+      {Square(0, {0, 0}, {1, 1}), Square(1, {0, 0}, {1, 1}), Square(0, {0, 0}, {1, 1})}, {Pictured(0), Pictured(1)},
+      {TwoColors({200, 0, 0, 255}, {0, 200, 0, 255}), TwoColors({0, 0, 90, 255}, {9, 9, 9, 255})});
+  levels.avatar.materials[1].tints = 0xFE;
+  std::vector<std::string> warnings;
+  MergeMaterials(&levels, &warnings);
+  ASSERT_EQ(levels.levels[1].meshes.size(), 2u);
+  const auto material = [&](size_t mesh) {
+    return levels.avatar.materials[static_cast<size_t>(levels.levels[1].meshes[mesh].material)];
+  };
+  int triangles[2] = {};
+  for (size_t mesh : {0u, 1u}) triangles[material(mesh).tints & 1] += TriangleCount(levels.levels[1].meshes[mesh]);
+  EXPECT_EQ(triangles[0], 2);
+  EXPECT_EQ(triangles[1], 4);
+  EXPECT_EQ(material(0).base_color_image, material(1).base_color_image);
+}
+
 TEST(MergeMaterials, MultipliesBaseColoursAndMovesCutoffs) {
   Material tinted = Pictured(0), mask = Pictured(1);
   tinted.base_color = {0.5f, 1, 1, 1};

@@ -36,6 +36,24 @@ TEST(TintReach, IsTheShareOfTheSurfaceWithTheColour) {
   EXPECT_EQ(shares[2], 0) << "nobody wears it";
 }
 
+TEST(TintReach, StaysWithinTheMaterialsThatATintIsBoundTo) {
+  const Vec3 brown{0.4f, 0.25f, 0.15f};
+  Avatar avatar;
+  avatar.name = "child";
+  avatar.materials = {Plain(brown), Plain(brown)};
+  avatar.materials[0].name = "tunic";
+  avatar.materials[1].name = "hair";
+  avatar.meshes = {Square(0, 0), Square(1, 1)};
+  const std::vector<Tint> tints(2, {brown, 0.1f, {{0, 1, 0}}});
+  std::vector<float> shares;
+  ASSERT_EQ(BindTints({{"tunic"}, {}}, &avatar).message, "");
+  ASSERT_EQ(TintReach(avatar, tints, &shares).message, "");
+  EXPECT_NEAR(shares[0], 0.5f, 1e-5f) << "the hair, of the same colour, stays";
+  EXPECT_NEAR(shares[1], 1, 1e-5f) << "bound to nothing";
+  EXPECT_EQ(BindTints({{"tunick"}}, &avatar).message,
+            "avatar 'child': a tint is bound to the material 'tunick', which it has not; it has: tunic, hair");
+}
+
 TEST(TintReach, MainColoursAreThoseOfTheClothsAndTheLargestComesFirst) {
   const Vec3 blue{0.2f, 0.3f, 0.5f}, linen{0.8f, 0.78f, 0.7f};
   Avatar avatar;

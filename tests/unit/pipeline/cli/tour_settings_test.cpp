@@ -98,6 +98,9 @@ TEST(TourSettings, TintsAreColoursAndSaySoWhereTheyAreNot) {
   ASSERT_EQ(settings.avatars[0].tints.size(), 1u);
   EXPECT_NEAR(settings.avatars[0].tints[0].color.y, 0.4f, 1e-6f);
   EXPECT_EQ(settings.avatars[0].tints[0].colors.size(), 2u);
+  TourSettings bound;
+  ASSERT_EQ(Read(tint + "color = \"#336699\"\ncolors = [\"#ff0000\"]\nmaterials = [\"coat\"]\n", &bound), "");
+  EXPECT_EQ(bound.avatars[0].tint_materials, (std::vector<std::vector<std::string>>{{"coat"}}));
   const auto has = [](const std::string& message, const char* what) { return message.find(what) != std::string::npos; };
   EXPECT_TRUE(
       has(Refusal(tint + "color = \"blue\"\ncolors = [\"#ff0000\"]\n"), "must be a colour such as \"#2f4f8f\""));

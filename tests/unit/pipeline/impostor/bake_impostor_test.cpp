@@ -290,6 +290,34 @@ TEST_F(BoxImpostor, CompressedPicturesShowTheSame) {
   }
 }
 
+TEST(BakeImpostor, SaysTexelByTexelWhereATintMayDye) {
+  Avatar avatar = BoxAvatar();
+  avatar.materials.resize(2);
+  avatar.meshes[0].material = 1;
+  avatar.materials[0].tints = 0b101;  // the sign
+  avatar.materials[1].tints = 0b110;
+  ImpostorAtlas atlas;
+  ImpostorStatistics statistics;
+  ASSERT_EQ(BakeImpostor(avatar, SmallOptions(), &atlas, &statistics).message, "");
+  ASSERT_TRUE(atlas.tint_regions);
+  const Pixels albedo = Decoded(atlas.albedo.bytes).value(), tints = Decoded(atlas.tints.bytes).value();
+  int signs = 0, walls = 0;
+  for (size_t i = 0; i + 3 < albedo.rgba.size(); i += 4) {
+    if (albedo.rgba[i + 3] < 255) continue;
+    const bool sign = std::abs(albedo.rgba[i] - kSign.r) < 2 && std::abs(albedo.rgba[i + 1] - kSign.g) < 2;
+    if (tints.rgba[i] > 0 && tints.rgba[i] < 255) continue;  // an edge between the two
+    ++(sign ? signs : walls);
+    EXPECT_EQ(tints.rgba[i], sign ? 255 : 0) << i;
+    EXPECT_EQ(tints.rgba[i + 1], sign ? 0 : 255) << i;
+    EXPECT_EQ(tints.rgba[i + 2], 255) << i;
+  }
+  EXPECT_GT(signs, 50);
+  EXPECT_GT(walls, 500);
+  PackTexture picture;
+  ASSERT_EQ(ReadKtx2(atlas.tints_ktx2, &picture).message, "");
+  EXPECT_EQ(picture.width_px, atlas.width_px / 2);
+}
+
 TEST_F(BoxImpostor, IsTheSameAgainOnAnotherNumberOfThreads) {
   ImpostorOptions options = SmallOptions();
   options.threads = 1;

@@ -125,7 +125,8 @@ TourParts SmallTour() {
                     SmallAtlas(),
                     2.5f,
                     {{{0.2f, 0.4f, 0.6f}, 0.1f, {{1, 0, 0}, {0, 0.6f, 0}}}},
-                    {{"stick", 0.5f, "hand"}}}};
+                    {{"stick", 0.5f, "hand"}},
+                    0.05f}};
   parts.footprints = SmallFootprints();
   parts.ground = {{-20, -20}, 10, 4, 3, std::vector<float>(12, 0.25f), std::vector<uint8_t>(12, 3)};
   parts.ground.height_m[5] = -1.5f;
@@ -278,6 +279,8 @@ TEST(TourPack, BringsAvatarsAcross) {
   EXPECT_EQ(avatar.tints[0].reach, 0.1f);
   EXPECT_NEAR(avatar.tints[0].color.z, 0.6f, 1e-6f);
   ASSERT_EQ(avatar.tints[0].colors.size(), 2u);
+  EXPECT_TRUE(avatar.tints[0].materials.empty()) << "bound to nothing";
+  EXPECT_EQ(avatar.height_spread, 0.05f);
   EXPECT_NEAR(avatar.tints[0].colors[1].y, 0.6f, 1e-6f);
   ASSERT_EQ(avatar.levels.size(), 2u);
   EXPECT_EQ(avatar.levels[0].switch_px, 90);
@@ -505,12 +508,41 @@ TEST(TourPack, AMemberOfAnotherTypeIsRefusedByItsPlace) {
   }
 }
 
+TEST(TourPack, ATintKeepsToItsMaterialsOnEveryLevelAndTheImpostor) {
+  TourParts parts = SmallTour();
+  TourAvatar& avatar = parts.avatars[0];
+  avatar.levels.avatar.materials.push_back(avatar.levels.avatar.materials[0]);
+  avatar.levels.avatar.materials[0].tints = 0xFE;
+  for (AvatarLevel& level : avatar.levels.levels) {
+    Mesh other = level.meshes[0];
+    other.material = 1;
+    level.meshes.push_back(other);
+    level.triangles += TriangleCount(other);
+  }
+  avatar.impostor.tint_regions = true;
+  avatar.impostor.tints_ktx2 = Ktx2(TextureFormat::kBc7, 16, 32);
+  const std::vector<uint8_t> whole = Written(parts);
+  TourPack pack;
+  ASSERT_EQ(ParseTourPack(whole, "small.glb", LoadOptions{}, &pack).message, "");
+  for (const PackLevel& level : pack.avatars[0].levels) {
+    for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(level.mesh)].primitives) {
+      const bool first = p.material == pack.avatars[0].tints[0].materials.at(0) - 1;
+      EXPECT_EQ(pack.materials[static_cast<size_t>(p.material)].tints, first ? 0xFE : 0xFF);
+    }
+  }
+  EXPECT_EQ(pack.avatars[0].impostor.tints.width_px, 16);
+  Json json = JsonOf(whole);
+  json[Json::json_pointer("/extensions/FLANEUR_tour/avatars/0/tints/0/materials/0")] = 1000;
+  EXPECT_TRUE(Refused(WithJson(whole, json)));
+}
+
 TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
-  const std::set<std::string> optional{"painting", "guide",   "titles", "language",   "captions",     "sounds",
-                                       "tints",    "props",   "title_page", "picture_view", "logo_view", "photo",
-                                       "hotspots", "streets", "texts",  "reach_m",    "thanks",       "home_after_s"};
+  const std::set<std::string> optional{
+      "painting",     "guide",     "titles", "language", "captions", "sounds", "tints",   "props",        "title_page",
+      "picture_view", "logo_view", "photo",  "hotspots", "streets",  "texts",  "reach_m", "height_spread", "thanks",
+      "home_after_s"};
   for (const char* object : {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0",
                              "/avatars/0/impostor", "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground",
                              "/title_page", "/places/0", "/painting", "/path/0", "/hotspots/0", "/sounds/1"}) {

@@ -268,6 +268,60 @@ TEST_F(Drawing, ATintDyesMeshAndImpostorOfWhoWearsItAlone) {
   EXPECT_EQ(Draw(pack, frame), own) << "nobody wears that colour";
 }
 
+// A tunic on the picture's left and hair on its right, both red: who wears the tunic in blue keeps their hair.
+TEST_F(Drawing, ATintBoundToAMaterialLeavesAnotherOfTheSameColour) {
+  TourPack pack = MakePack({});
+  pack.materials.push_back(pack.materials[0]);
+  pack.materials[1].tints = 0xFE;
+  pack.meshes[0] = {{BoxPrimitive({-0.25f, 0, -0.25f}, {-0.05f, 1.8f, 0.25f}, 0, true),
+                     BoxPrimitive({-0.05f, 0, -0.25f}, {0.25f, 1.8f, 0.25f}, 1, true)}};
+  pack.avatars[0].tints = {{{200 / 255.0f, 60 / 255.0f, 60 / 255.0f}, 0.2f, {{0.2f, 0.3f, 0.8f}}, {0}}};
+  PackTexture& regions = pack.avatars[0].impostor.tints = Flat(TextureFormat::kBc7, 64, 48, {254, 254, 254, 254});
+  const std::vector<uint8_t> nothing = Flat(TextureFormat::kBc7, 4, 4, {0, 0, 0, 254}).levels[0];
+  for (size_t block = 0; block < regions.levels[0].size() / nothing.size(); ++block) {
+    const auto at = regions.levels[0].begin() + static_cast<std::ptrdiff_t>(block * nothing.size());
+    if (block % 4 > 0) std::copy(nothing.begin(), nothing.end(), at);
+  }
+  for (const int samples : {4, 1}) {
+    for (int level : {0, -1}) {
+      FrameInput frame = LookEast();
+      frame.people = {PersonAt(4, 0, level)};
+      frame.people[0].tints = {1};
+      const std::vector<uint8_t> rgb = Draw(pack, frame, {.samples = samples});
+      int blue_left = 0, red_left = 0, blue_right = 0, red_right = 0;
+      for (int y = kHeight / 3; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+          const Rgb c = Pixel(rgb, x, y);
+          const bool blue = c.b > c.r + 60;
+          if (x >= kWidth / 2) blue ? ++blue_right : IsRed(c) ? ++red_right : 0;
+          else if (x < kWidth * 47 / 100) blue ? ++blue_left : IsRed(c) ? ++red_left : 0;
+        }
+      }
+      SCOPED_TRACE(testing::Message() << "samples " << samples << ", level " << level);
+      EXPECT_GT(blue_left, 300);
+      EXPECT_GT(red_right, 300);
+      EXPECT_EQ(blue_right, 0) << "the hair stays as it is";
+    }
+  }
+}
+
+// Mesh, impostor and shadow of somebody tall, against the model's own size.
+TEST_F(Drawing, WhoIsLargerIsDrawnLargerAtEveryLevel) {
+  const TourPack pack = MakePack({});
+  for (const int samples : {4, 1}) {
+    for (int level : {0, -1}) {
+      const auto patch = [&](float size) {
+        FrameInput frame = LookEast();
+        frame.people = {PersonAt(6, 0, level)};
+        frame.people[0].size = size;
+        return RedPatch(Draw(pack, frame, {.samples = samples}));
+      };
+      EXPECT_NEAR(patch(1.1f).count, 1.21 * patch(1).count, 0.05 * patch(1).count) << "level " << level;
+      EXPECT_NEAR(patch(0.9f).count, 0.81 * patch(1).count, 0.05 * patch(1).count) << "level " << level;
+    }
+  }
+}
+
 TEST_F(Drawing, MeshAndImpostorLookAlike) {
   const TourPack pack = MakePack({});
   FrameInput frame = LookEast();

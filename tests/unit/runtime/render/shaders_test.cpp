@@ -85,7 +85,8 @@ TEST_F(Shaders, HaveNoUniformThatCannotBeSet) {
   for (const Variant& v : AllVariants()) {
     Program p;
     ASSERT_EQ(BuildProgram(v.program, v.mode, &p).message, "") << v.name;
-    const GLint places[] = {p.atlas, p.ranges, p.directions, p.tints, p.tint_shifts, p.alpha_cutoff, p.share, p.size};
+    const GLint places[] = {p.atlas,        p.ranges,       p.directions, p.tints, p.tint_shifts,
+                            p.tint_regions, p.alpha_cutoff, p.share,      p.size};
     GLint count = 0;
     glGetProgramiv(p.id, GL_ACTIVE_UNIFORMS, &count);
     for (GLint i = 0; i < count; ++i) {

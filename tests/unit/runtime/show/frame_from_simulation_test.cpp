@@ -64,7 +64,7 @@ TEST(FrameFromSimulation, PeopleOfOneModelWearDifferentColoursAndKeepThem) {
   stage.s.town.crowd.view.assign(kPeople, ViewClass::kVisible);
   const auto people = stage.Next();
   ASSERT_EQ(people.size(), static_cast<size_t>(kPeople));
-  std::map<std::array<uint8_t, 4>, int> wearers;
+  std::map<std::array<uint8_t, 3>, int> wearers;
   int like_the_one_before = 0;
   for (size_t k = 0; k < people.size(); ++k) {
     ++wearers[people[k].tints];
@@ -75,6 +75,32 @@ TEST(FrameFromSimulation, PeopleOfOneModelWearDifferentColoursAndKeepThem) {
   EXPECT_EQ(like_the_one_before, 0) << "of who came one after the other, as the members of a group";
   const auto later = stage.Next();
   for (size_t k = 0; k < people.size(); ++k) EXPECT_EQ(later[k].tints, people[k].tints);
+}
+
+TEST(FrameFromSimulation, PeopleOfOneModelAreOfSeveralSizesAndKeepThem) {
+  Stage stage;
+  constexpr int kPeople = 100;
+  for (int k = 1; k < kPeople; ++k) {
+    Person person;
+    person.position = {10, static_cast<float>(k) * 0.1f};
+    AddPerson(person, &stage.s.town.crowd);
+  }
+  stage.s.town.crowd.view.assign(kPeople, ViewClass::kVisible);
+  for (const DrawnPerson& person : stage.Next()) EXPECT_EQ(person.size, 1) << "a pack without a spread";
+  stage.looks = {};
+  stage.pack.avatars[0].height_spread = 0.05f;
+  const auto people = stage.Next();
+  float least = 1, most = 1, sum = 0;
+  for (const DrawnPerson& person : people) {
+    least = std::min(least, person.size);
+    most = std::max(most, person.size);
+    sum += person.size / kPeople;
+  }
+  EXPECT_NEAR(least, 0.95f, 0.005f);
+  EXPECT_NEAR(most, 1.05f, 0.005f);
+  EXPECT_NEAR(sum, 1, 0.005f);
+  const auto later = stage.Next();
+  for (size_t k = 0; k < people.size(); ++k) EXPECT_EQ(later[k].size, people[k].size);
 }
 
 TEST(FrameFromSimulation, PropsAreDrawnOnceAndFadeWithTheirBearerAndFarOff) {
