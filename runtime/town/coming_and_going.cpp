@@ -6,6 +6,7 @@
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/fast_math.h"
 #include "runtime/town/company.h"
+#include "runtime/town/courtesy.h"
 #include "runtime/town/loitering.h"
 #include "runtime/town/places.h"
 #include "runtime/town/population.h"
@@ -149,7 +150,8 @@ void LeaveAndArrive(const Viewer& viewer, Town* town) {
   for (size_t i = 0; i < c.size();) {
     if (HasWaited(*town, i) && !StaysOn(i, viewer, town))
       SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
-    if (ThinksAgain(i, town)) SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
+    if (ThinksAgain(i, town) || IsHeldUpByVisitor(i, viewer, town))
+      SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
     if (HasArrived(i, town) && NextForArrived(i, viewer, town)) {
       StopLoitering(i, town);
       RemovePerson(i, &c);

@@ -37,6 +37,7 @@ struct PersonPlan {         // of one person
   bool stay = false, leaves = true;
   bool loiters = false;  // on the way to a loiter place, or there
   int spot = -1;         // index into Town::loiter_spots, of the one that is theirs
+  float held_up_s = 0;   // by the visitor, so near that they would rather go elsewhere
   int id = -1;           // whose it is
 };
 

@@ -21,6 +21,7 @@ constexpr float kToPlace_mps = 1.3f;
 constexpr float kAhead_m = 0.8f, kFullPace_m = 2.0f;  // lead with which the visitor begins to walk, and walks as usual
 constexpr float kPatience_s = 4;                      // of a visitor who waits for the guide to get ahead
 constexpr float kBesideView_rad = 0.32f;              // to the side of what there is to see at a halt
+constexpr float kRoom_m = 0.25f;                      // and so much more where they have the choice
 constexpr float kClears_m = 0.15f;                    // people keep so much more than touching from the guide
 constexpr float kStuck_s = 1.5f, kGetsOn_m = 0.5f, kLoitererYieldRadius_m = 1.6f;
 constexpr float kFarthest_m = 20;  // of a new route the guide is looked for so far
@@ -198,7 +199,8 @@ void ShieldGuide(const VisitorInTown& v, std::vector<MovingObstacle>* moving) {
   // Who is on a fresh detour is not sent on another.
   v.town.crowd.detour[i] = v.visitor.guide.velocity;
   v.town.crowd.detour_s[i] = 1e3f;
-  moving->push_back({v.town.crowd.position[i], v.town.crowd.radius_m[i] + kClears_m, true, v.visitor.guide.velocity});
+  moving->push_back(
+      {v.town.crowd.position[i], v.town.crowd.radius_m[i] + kClears_m, true, v.visitor.guide.velocity, kRoom_m});
 }
 
 void UnshieldGuide(const VisitorInTown& v) {
