@@ -19,7 +19,7 @@ namespace {
 
 constexpr float kFlatCell_m = 0.5f;
 constexpr float kFarthestView_m = 60;
-constexpr float kVisitorRoom_m = 0.5f, kBeforeFace_m = 0.5f;
+constexpr float kVisitorRoom_m = 0.55f, kBeforeFace_m = 0.55f;
 constexpr float kTallest_m = 3;  // of people, with what they carry
 
 // What the renderer draws at most.

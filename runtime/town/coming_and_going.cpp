@@ -150,8 +150,8 @@ void LeaveAndArrive(const Viewer& viewer, Town* town) {
   for (size_t i = 0; i < c.size();) {
     if (HasWaited(*town, i) && !StaysOn(i, viewer, town))
       SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
-    if (ThinksAgain(i, town) || IsHeldUpByVisitor(i, viewer, town))
-      SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
+    if (ThinksAgain(i, town)) SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
+    if (IsHeldUpByVisitor(i, viewer, town)) SendAll(CompanyOf(c, i), DestinationAway(i, viewer, town), town);
     if (HasArrived(i, town) && NextForArrived(i, viewer, town)) {
       StopLoitering(i, town);
       RemovePerson(i, &c);
