@@ -27,6 +27,10 @@ struct MovingObstacle {
   float radius_m = 0;
   bool everyone = false;  // else only people with `avoids_camera`
   Vec2 velocity{};        // foreseen as it moves
+  // Who has the choice passes so much farther away, of a disc that is for everyone; measured from a middle that lies so
+  // far before its own.
+  float room_m = 0;
+  Vec2 before{};
 };
 
 // What a person has in mind between looks around (steering.h says when those are).
@@ -40,6 +44,8 @@ struct Mind {
   Vec2 left_line;   // where the person began to make room for the visitor
   int returns = 0;  // decisions left to go back to that line
   bool stands = false, avoids_camera = false;
+  Vec2 round;       // unit vector of the way round the visitor; zero: the own way is free
+  int8_t side = 0;  // on which they go round, see WayRound
 };
 
 // Who was moved apart in this step, and no longer is where the grid has them: lists by cell of the grid they are in

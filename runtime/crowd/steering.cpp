@@ -5,6 +5,7 @@
 
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/fast_math.h"
+#include "runtime/crowd/go_round.h"
 #include "runtime/crowd/walls.h"
 
 namespace flaneur {
@@ -227,6 +228,24 @@ Vec2 BackToLine(bool pushed, Vec2 position, Vec2 way, Mind* mind) {
   return ClampLength(aside * (1 / kReturn_s), kMaxReturn_mps) * (1 / kRelaxation_s);
 }
 
+// The person means to walk there, with whatever is in the way.
+Vec2 GoingTo(const Crowd& c, size_t i) {
+  if (c.detour_s[i] > 0) return Unit(c.detour[i]);
+  return c.activity[i] == Activity::kWalking && c.field[i] >= 0 ? c.way[i] : Vec2{};
+}
+
+void BendWay(const Walkable& w, const std::vector<MovingObstacle>& moving, size_t i, Crowd* c) {
+  Mind& mind = c->mind[i];
+  mind.round = {};
+  const Vec2 way = GoingTo(*c, i);
+  if (way.x == 0 && way.y == 0) return;
+  const bool straight = c->detour_s[i] <= 0 && c->sees_goal[i] != 0;
+  const float goal_m = straight ? Length(c->fields[static_cast<size_t>(c->field[i])].goal - c->position[i]) : 1e9f;
+  const Walking me{c->position[i], way, c->radius_m[i], std::max(mind.alone_mps, 0.3f), goal_m};
+  const Vec2 round = WayRound(w, moving, me, &mind.side);
+  if (round.x != way.x || round.y != way.y) mind.round = round;
+}
+
 // The weights of a full disc sum to half its area; walls leave less of it to people.
 float DensityFrom(const Walkable& w, int cell, float crowding) {
   const float open =
@@ -261,6 +280,7 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
   push = push + room;
   if (!mind.stands) push = push + BackToLine(Dot(room, room) > 0, me.position, c->way[i], &mind);
   mind.push = push + WallPush(w, me.position, me.radius_m);
+  BendWay(w, moving, i, c);
   mind.clear_from = me.position;
   mind.clear_m = ClearAround_m(w, cell);
 }
@@ -296,6 +316,7 @@ void ChooseVelocity(float step_s, size_t i, Crowd* c) {
   if (c->detour_s[i] > 0)
     preferred = c->detour[i] * (mind.alone_mps > 0 ? std::min(1.0f, mind.asked_mps / mind.alone_mps) : 1.0f);
   else if (c->activity[i] == Activity::kWalking && c->field[i] >= 0) preferred = c->way[i] * mind.asked_mps;
+  if (mind.round.x != 0 || mind.round.y != 0) preferred = mind.round * Length(preferred);
   const Vec2 change = preferred + mind.push * kRelaxation_s - c->velocity[i];
   const float change_mps = Length(change);
   const float most_mps2 = std::min(kMaxAcceleration_mps2, std::max(change_mps / kRelaxation_s, kMinAcceleration_mps2));

@@ -7,6 +7,7 @@
 #include "runtime/base/clock.h"
 #include "runtime/control/crowd_influence.h"
 #include "runtime/crowd/constants.h"
+#include "runtime/crowd/fast_math.h"
 #include "runtime/simulation/check_limits.h"
 #include "runtime/town/coming_and_going.h"
 #include "runtime/town/places.h"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr float kFlatCell_m = 0.5f;
 constexpr float kFarthestView_m = 60;
+constexpr float kVisitorRoom_m = 0.55f, kBeforeFace_m = 0.55f;
 constexpr float kTallest_m = 3;  // of people, with what they carry
 
 // What the renderer draws at most.
@@ -199,6 +201,18 @@ Viewer ViewerOf(const Simulation& s) {
           counted ? levels.limit : std::numeric_limits<int>::max()};
 }
 
+// People pass farther from the visitor's face than from the back, where they have the choice (the space before somebody
+// is the most private: Hayduk 1983).
+MovingObstacle VisitorDisc(const Simulation& s) {
+  const CameraState& camera = s.visitor.camera;
+  return {camera.view.position,
+          s.control.settings.r_personal_m,
+          true,
+          camera.asked_velocity,
+          kVisitorRoom_m,
+          DirectionOf(camera.view.yaw_rad) * kBeforeFace_m};
+}
+
 void ControlCrowd(float frame_ms, Simulation* s) {
   const double start_ms = Now_ms();
   const CameraState& camera = s->visitor.camera;
@@ -208,7 +222,7 @@ void ControlCrowd(float frame_ms, Simulation* s) {
                {camera.view, motion, frame_ms, s->screen_width_px, s->visitor.guide.id}, &control.levels);
   s->moving.clear();
   if (camera.present) {
-    s->moving.push_back({camera.view.position, control.settings.r_personal_m, true, camera.asked_velocity});
+    s->moving.push_back(VisitorDisc(*s));
     ShieldGuide(InTown(s), &s->moving);
     InfluenceCrowd(camera.view, motion, control.levels, s->town.walkable, control.settings, &s->town.crowd, &s->moving,
                    &control.foresight);

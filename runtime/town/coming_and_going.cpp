@@ -6,6 +6,7 @@
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/fast_math.h"
 #include "runtime/town/company.h"
+#include "runtime/town/courtesy.h"
 #include "runtime/town/loitering.h"
 #include "runtime/town/places.h"
 #include "runtime/town/population.h"
@@ -150,6 +151,7 @@ void LeaveAndArrive(const Viewer& viewer, Town* town) {
     if (HasWaited(*town, i) && !StaysOn(i, viewer, town))
       SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
     if (ThinksAgain(i, town)) SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
+    if (IsHeldUpByVisitor(i, viewer, town)) SendAll(CompanyOf(c, i), DestinationAway(i, viewer, town), town);
     if (HasArrived(i, town) && NextForArrived(i, viewer, town)) {
       StopLoitering(i, town);
       RemovePerson(i, &c);

@@ -5,6 +5,7 @@
 
 #include "runtime/crowd/fast_math.h"
 #include "runtime/town/company.h"
+#include "runtime/town/courtesy.h"
 #include "runtime/town/places.h"
 #include "runtime/town/ways_out.h"
 
@@ -60,7 +61,7 @@ float Standing(const Town& town) {
 void Claim(size_t i, int place, const Viewer& viewer, Town* town) {
   const Company company = CompanyOf(town->crowd, i);
   int spots[kMaxGroupSize];
-  if (!FindSpots(*town, place, town->crowd.position[i], company.size, spots)) {
+  if (!FindSpots(viewer, *town, place, town->crowd.position[i], company.size, spots)) {
     SendAll(company, PickDestination(viewer, town->crowd.position[i], false, town), town);
     return;
   }
@@ -169,7 +170,8 @@ void StirLoiterers(Vec2 p, float reach_m, Town* town) {
 
 bool StaysOn(size_t i, const Viewer& viewer, Town* town) {
   const LoiterSpot* spot = SpotOf(i, town);
-  if (spot == nullptr || !spot->there || town->crowd.detour_s[i] > 0 || IsFullNear(viewer, *town, spot->position_m))
+  if (spot == nullptr || !spot->there || town->crowd.detour_s[i] > 0 || IsFullNear(viewer, *town, spot->position_m) ||
+      IsBeforeEyes(viewer, spot->position_m))
     return false;
   const float wanted = town->settings.loiter_share * static_cast<float>(town->target_people);
   if (Standing(*town) > wanted || town->random.Uniform() >= kStaysOn) return false;
@@ -177,14 +179,16 @@ bool StaysOn(size_t i, const Viewer& viewer, Town* town) {
   return true;
 }
 
-bool FindSpots(const Town& town, int place, Vec2 from, int count, int* spots) {
+bool FindSpots(const Viewer& viewer, const Town& town, int place, Vec2 from, int count, int* spots) {
   int found = 0;
   for (; found < count; ++found) {
     int best = -1;
     float best_m = 0;
     for (int k = 0; k < static_cast<int>(town.loiter_spots.size()); ++k) {
       const LoiterSpot& spot = town.loiter_spots[static_cast<size_t>(k)];
-      if (spot.place != place || spot.taken || std::find(spots, spots + found, k) != spots + found) continue;
+      if (spot.place != place || spot.taken || IsBeforeEyes(viewer, spot.position_m) ||
+          std::find(spots, spots + found, k) != spots + found)
+        continue;
       const float away_m = Length(spot.position_m - from);
       if (best < 0 || away_m < best_m) best = k, best_m = away_m;
     }

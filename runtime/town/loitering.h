@@ -16,8 +16,8 @@ void StopLoitering(size_t person, Town* town);
 bool FewLoiter(const Town& town);
 
 // Free spots of one loiter place for so many people, in spots[0 ... count - 1]; those nearest to `from` come first.
-// False where there are not enough.
-bool FindSpots(const Town& town, int place, Vec2 from, int count, int* spots);
+// False where there are not enough, but for those right before the visitor's eyes.
+bool FindSpots(const Viewer& viewer, const Town& town, int place, Vec2 from, int count, int* spots);
 // The spot is theirs: they stand there (`now`), or walk there from nearby.
 void TakeSpot(size_t person, int spot, bool now, Town* town);
 

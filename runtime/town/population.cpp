@@ -122,7 +122,8 @@ bool PlaceLoiterers(int company, const Viewer& viewer, Town* town) {
   if (places.empty()) return false;
   const int place = places[static_cast<size_t>(town->random.Below(static_cast<int>(places.size())))];
   int spots[kMaxGroupSize];
-  if (!FindSpots(*town, place, town->places[static_cast<size_t>(place)].position_m, company, spots)) return false;
+  if (!FindSpots(viewer, *town, place, town->places[static_cast<size_t>(place)].position_m, company, spots))
+    return false;
   for (int k = 0; k < company; ++k) {
     const Vec2 p = town->loiter_spots[static_cast<size_t>(spots[k])].position_m;
     const auto stands_there = [&](Vec2 other) { return Length(other - p) < kLoiterGap_m; };

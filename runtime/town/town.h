@@ -37,7 +37,9 @@ struct PersonPlan {         // of one person
   bool stay = false, leaves = true;
   bool loiters = false;  // on the way to a loiter place, or there
   int spot = -1;         // index into Town::loiter_spots, of the one that is theirs
-  int id = -1;           // whose it is
+  float held_up_s = 0;   // by the visitor, near this place
+  Vec2 held_up_at{};
+  int id = -1;  // whose it is
 };
 
 struct LoiterSpot {       // where one person can stand at a loiter place

@@ -97,7 +97,7 @@ void Walk(Vec2 direction, float asked_mps, const VisitorInTown& v) {
   const Vec2 target = before + step;
   if (InsideObstacle(v.town.walkable, before))
     camera.view.position = target;  // let a camera out that a scenario put in a wall
-  else camera.view.position = KeepOffWalls(v.town.walkable, before, target, kCameraRadius_m);
+  else camera.view.position = KeepOffWalls(v.town.walkable, before, target, CameraRadius_m(v.town.walkable));
   camera.velocity = (camera.view.position - before) * (1 / Step_s(v.settings));
   camera.actual_mps = Length(camera.velocity);
   const bool got_on = Length(camera.view.position - v.visitor.stuck_at) > kGettingOn_m;

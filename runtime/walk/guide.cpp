@@ -27,6 +27,7 @@ constexpr float kOnRoute_s = 0.8f;
 constexpr int kChooseSideEvery_steps = 15;
 constexpr float kClearlyBeside_rad = 0.1f;  // of the picture's middle
 constexpr float kClears_m = 0.15f;          // people keep so much more than touching from the guide
+constexpr float kRoom_m = 0.25f;            // and so much more where they have the choice
 constexpr float kStuck_s = 1.5f, kGetsOn_m = 0.5f, kLoitererYieldRadius_m = 1.6f;
 constexpr float kFarthest_m = 20;  // of a new route the guide is looked for so far
 
@@ -220,7 +221,8 @@ void ShieldGuide(const VisitorInTown& v, std::vector<MovingObstacle>* moving) {
   // Who is on a fresh detour is not sent on another.
   v.town.crowd.detour[i] = v.visitor.guide.velocity;
   v.town.crowd.detour_s[i] = 1e3f;
-  moving->push_back({v.town.crowd.position[i], v.town.crowd.radius_m[i] + kClears_m, true, v.visitor.guide.velocity});
+  moving->push_back(
+      {v.town.crowd.position[i], v.town.crowd.radius_m[i] + kClears_m, true, v.visitor.guide.velocity, kRoom_m});
 }
 
 void UnshieldGuide(const VisitorInTown& v) {

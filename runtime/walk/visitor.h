@@ -1,5 +1,6 @@
 // Who looks at the town: the camera, and what moves it - hands, a scenario's legs or the guided tour.
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -13,7 +14,12 @@
 namespace flaneur {
 
 inline constexpr float kEyeHeight_m = 1.65f;
-inline constexpr float kCameraRadius_m = 0.3f;
+// The visitor's body: as wide as ways are laid for, so that whatever stands about stays well before the near plane, and
+// never so narrow that a wall would be cut by it.
+inline constexpr float kCameraRadius_m = 0.3f, kWidestCamera_m = 0.45f;
+inline float CameraRadius_m(const Walkable& w) {
+  return std::clamp(w.person_radius_m, kCameraRadius_m, kWidestCamera_m);
+}
 inline constexpr float kUsualAspect = 16.0f / 9;
 
 // What the visitor asks for in a step.

@@ -363,5 +363,62 @@ TEST(Life, ADenseCrowdKeepsMovingRoundTheGoalsItShares) {
   EXPECT_GT(MeanSpeed_mps(300, &s), 0.85f);
 }
 
+// Two loiter places, one of them right before the eyes of a visitor who stands on the square, the other behind the
+// back.
+Simulation WithVisitorBeforeAPlace() {
+  TourPack pack = Square(80);
+  pack.crowd.loiter_share = 0.3f;
+  pack.places.push_back({"before", "loiter", {2, 0}, 1});
+  pack.places.push_back({"behind", "loiter", {-9, 0}, 1});
+  Scenario scenario = ScenarioOf(pack);
+  scenario.has_camera = true;
+  scenario.camera_position_m = {0, 0};
+  scenario.camera_yaw_deg = 0;
+  scenario.control.adaptation = Adaptation::kOff;
+  return Started(pack, scenario);
+}
+
+TEST(Life, NobodyPicksAPlaceToStandThatFillsTheVisitorsView) {
+  Simulation s = WithVisitorBeforeAPlace();
+  int before = 0, behind = 0;
+  for (int step = 0; step < 5400; ++step) {
+    StepSimulation({}, 0, &s);
+    for (const LoiterSpot& spot : s.town.loiter_spots) {
+      before += spot.there && spot.position_m.x > 0 && Length(spot.position_m) < 2.8f;
+      behind += spot.there && spot.position_m.x < 0;
+    }
+  }
+  EXPECT_EQ(before, 0);
+  EXPECT_GT(behind, 1000) << "they stand elsewhere";
+}
+
+// In a lane that the visitor bars, nobody waits before them for the way to come free.
+TEST(Life, WhoCannotPassTheVisitorGoesElsewhere) {
+  TourPack pack = Square(120);
+  for (const float y : {1.0f, -9.0f}) {
+    pack.obstacles.polygons.push_back({{{-8, y}, {8, y}, {8, y + 8}, {-8, y + 8}}, {}});
+  }
+  Scenario scenario = ScenarioOf(pack);
+  scenario.has_camera = true;
+  scenario.camera_position_m = {0, 0};
+  scenario.control.adaptation = Adaptation::kOff;
+  Simulation s = Started(pack, scenario);
+  std::map<int, int> waits;  // steps in a row, by id
+  int longest = 0, came = 0;
+  for (int step = 0; step < 3600; ++step) {
+    StepSimulation({}, 0, &s);
+    const Crowd& c = s.town.crowd;
+    for (size_t i = 0; i < c.size(); ++i) {
+      const bool near = Length(c.position[i]) < 2.5f && std::abs(c.position[i].y) < 1;
+      came += near;
+      int& steps = waits[c.id[i]];
+      steps = near ? steps + 1 : 0;
+      longest = std::max(longest, steps);
+    }
+  }
+  EXPECT_GT(came, 100) << "people try the lane";
+  EXPECT_LT(longest, 30 * 12);
+}
+
 }  // namespace
 }  // namespace flaneur
