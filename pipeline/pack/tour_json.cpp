@@ -1,6 +1,8 @@
 #include "pipeline/pack/tour_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/core/reach.h"
@@ -54,13 +56,21 @@ Json SettingsJson(Settings settings) {
   return json;
 }
 
+constexpr const char* kUsualClips[] = {"walk", "idle", "talk"};
+
+bool IsUsual(const std::string& clip) {
+  return std::find(std::begin(kUsualClips), std::end(kUsualClips), clip) != std::end(kUsualClips);
+}
+
 Json ImpostorJson(const ImpostorAtlas& atlas, const ImpostorViews& views) {
   Json clips = Json::array(), elevations = Json::array();
+  Json others = Json::array();
   for (const ImpostorClip& clip : atlas.clips) {
-    clips.push_back({{"name", clip.name}, {"first_frame", clip.first_frame}, {"phases", clip.phases}});
+    (IsUsual(clip.name) ? clips : others)
+        .push_back({{"name", clip.name}, {"first_frame", clip.first_frame}, {"phases", clip.phases}});
   }
   for (float e : atlas.elevations_deg) elevations.push_back(Short(e));
-  return {{"directions", atlas.directions},
+  Json json{{"directions", atlas.directions},
           {"elevations_deg", elevations},
           {"frames", atlas.frames},
           {"width_px", atlas.width_px},
@@ -75,6 +85,8 @@ Json ImpostorJson(const ImpostorAtlas& atlas, const ImpostorViews& views) {
           {"normal_view", views.normal},
           {"depth_view", views.depth},
           {"motion_view", views.motion}};
+  if (!others.empty()) json["other_clips"] = others;
+  return json;
 }
 
 Json TintJson(const Tint& tint) {
@@ -83,9 +95,17 @@ Json TintJson(const Tint& tint) {
   return {{"color", TextFromColor(tint.color)}, {"reach", Short(tint.reach)}, {"colors", colors}};
 }
 
+Json OtherClipJson(const std::string& name, int animation, const std::vector<TourClip>& known) {
+  Json json{{"name", name}, {"animation", animation}};
+  for (const TourClip& clip : known) {
+    if (clip.name == name && clip.seat_m > 0) json["seat_m"] = Short(clip.seat_m);
+  }
+  return json;
+}
+
 Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const ImpostorViews& views) {
   const Avatar& person = avatar.levels.avatar;
-  Json levels = Json::array(), clips = Json::object();
+  Json levels = Json::array(), clips = Json::object(), others = Json::array();
   for (size_t i = 0; i < avatar.levels.levels.size(); ++i) {
     const AvatarLevel& level = avatar.levels.levels[i];
     levels.push_back({{"node", part.level_nodes[i]},
@@ -94,10 +114,10 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
                       {"posed_error_mm", Short(level.posed_error_mm)},
                       {"switch_px", Short(level.switch_px)}});
   }
-  for (const char* name : {"walk", "idle", "talk"}) {
-    for (size_t c = 0; c < person.clips.size(); ++c) {
-      if (person.clips[c].name == name) clips[name] = part.animations[c];
-    }
+  for (size_t c = 0; c < person.clips.size(); ++c) {
+    const std::string& name = person.clips[c].name;
+    if (IsUsual(name)) clips[name] = part.animations[c];
+    else others.push_back(OtherClipJson(name, part.animations[c], avatar.clips));
   }
   Json json{{"name", person.name},
             {"share", Short(avatar.share)},
@@ -108,6 +128,7 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
             {"clips", clips},
             {"levels", levels},
             {"impostor", ImpostorJson(avatar.impostor, views)}};
+  if (!others.empty()) json["other_clips"] = others;
   for (const Tint& tint : avatar.tints) json["tints"].push_back(TintJson(tint));
   for (size_t k = 0; k < person.props.size(); ++k) {
     int triangles = 0;
@@ -117,6 +138,7 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
                              {"triangles", triangles},
                              {"share", Short(avatar.props[k].share)},
                              {"slot", avatar.props[k].slot}});
+    if (!avatar.props[k].clip.empty()) json["props"].back()["clip"] = avatar.props[k].clip;
   }
   return json;
 }
@@ -133,6 +155,15 @@ Json ObstacleJson(const Obstacle& obstacle) {
     json["holes_m"] = Json::array();
     for (const auto& hole : obstacle.holes) json["holes_m"].push_back(PointsJson(hole));
   }
+  return json;
+}
+
+Json WorkJson(const Place& place) {
+  Json json{{"name", place.name}, {"position_m", PointJson(place.position_m)}, {"yaw_rad", Short(place.yaw_rad.value_or(0))}};
+  if (!place.clip.empty()) json["clip"] = place.clip;
+  if (!place.avatars.empty()) json["avatars"] = place.avatars;
+  if (place.seat_m > 0) json["seat_m"] = Short(place.seat_m);
+  if (place.stay_s > 0) json["stay_s"] = Short(place.stay_s);
   return json;
 }
 
@@ -170,6 +201,10 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
                     {"height_view", indices.height_view},     {"kind_view", indices.kind_view}};
   tour["places"] = Json::array();
   for (const Place& p : parts.places) {
+    if (p.kind == "work") {
+      tour["work"].push_back(WorkJson(p));
+      continue;
+    }
     tour["places"].push_back(
         {{"name", p.name}, {"kind", p.kind}, {"position_m", PointJson(p.position_m)}, {"width_m", Short(p.width_m)}});
     if (p.yaw_rad) tour["places"].back()["yaw_rad"] = Short(*p.yaw_rad);

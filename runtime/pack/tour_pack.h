@@ -66,6 +66,13 @@ struct PackClip {
   std::vector<Mat4> matrices;  // frames x joints, frame by frame
 };
 
+// What some do beside walking, standing and talking: at places of work, by its name.
+struct PackOtherClip {
+  std::string name;
+  PackClip clip;
+  float seat_m = 0;     // height of the seat that it is made for; 0: it does not sit
+};
+
 struct PackLevel {
   int mesh = 0;
   int triangles = 0;
@@ -89,6 +96,7 @@ struct PackAvatar {
   float walk_speed_mps = 1.3f;  // at which the walk clip's feet don't slide
   int joints = 0;
   PackClip walk, idle, talk;      // always present: a missing talk is the idle, a missing idle a standing pose
+  std::vector<PackOtherClip> other_clips;  // at most kMaxOtherClips
   std::vector<PackLevel> levels;  // finest first, at least one
   std::vector<Tint> tints;        // at most kMaxTints
   std::vector<PackProp> props;    // at most kMaxProps

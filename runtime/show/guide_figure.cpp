@@ -100,6 +100,7 @@ void AddGuideFigure(TourPack* pack) {
   figure.share = 0;
   figure.tints.clear();  // known by the own colours
   figure.props.clear();
+  figure.other_clips.clear();  // does nothing but lead
   figure.impostor_of = static_cast<int>(found - pack->avatars.begin());
   for (PackTexture* picture :
        {&figure.impostor.albedo, &figure.impostor.normal, &figure.impostor.depth, &figure.impostor.motion}) {

@@ -5,6 +5,7 @@
 #include "runtime/town/loitering.h"
 #include "runtime/town/painted.h"
 #include "runtime/town/ways_out.h"
+#include "runtime/town/work.h"
 
 namespace flaneur {
 namespace {
@@ -22,6 +23,10 @@ void SortPlaces(Town* town) {
   lists = {};
   for (int k = 0; k < static_cast<int>(town->places.size()); ++k) {
     const Place& place = town->places[static_cast<size_t>(k)];
+    if (place.kind == "work") {
+      lists.works.push_back(k);
+      continue;
+    }
     lists.all.push_back(k);
     if (IsGate(place)) lists.gates.push_back(k);
     if (place.kind == "goal") lists.goals.push_back(k);
@@ -100,6 +105,10 @@ void PreparePlaces(Town* town) {
       continue;
     }
     if (town->crowd_area && !Contains(*town->crowd_area, place.position_m)) continue;
+    if (place.kind == "work" && RoomAt_m(town->walkable, place.position_m) >= kLeastWorkRoom_m) {
+      kept.push_back(place);  // behind a counter there is less room than people walk in
+      continue;
+    }
     if (!IsGate(place) && InsideObstacle(town->walkable, place.position_m)) {
       town->warnings.push_back("place '" + place.name + "' (" + place.kind +
                                ") is inside an obstacle; the nearest free ground is taken");
@@ -110,7 +119,7 @@ void PreparePlaces(Town* town) {
   town->places = std::move(kept);
   AddPaintedPlaces(town);
   SortPlaces(town);
-  if (town->crowd_area ? !town->place_lists.goals.empty() : !town->places.empty()) return;
+  if (town->crowd_area ? !town->place_lists.goals.empty() : !town->place_lists.all.empty()) return;
   MakeUpGoals(town);
   SortPlaces(town);
 }
