@@ -75,8 +75,8 @@ std::vector<Place> TaggedPlaces(const Scene& town) {
     places.push_back({node.name, NodeKindName(node.kind), {p.x, p.y}, node.width_m > 0 ? node.width_m : 1});
     places.back().clip = node.clip;
     places.back().avatars = node.avatars;
-    places.back().seat_m = node.seat_m;
-    places.back().stay_s = node.stay_s;
+    places.back().seat_m = std::clamp(node.seat_m, 0.0f, kMaxSeat_m);
+    places.back().stay_s = std::clamp(node.stay_s, 0.0f, kMaxStay_s);
     const Vec2 ahead{node.world.m[2][0], -node.world.m[2][2]};  // local +Z
     if (Length(ahead) > 1e-6f) places.back().yaw_rad = std::atan2(ahead.y, ahead.x);
   }

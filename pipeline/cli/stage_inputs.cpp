@@ -57,8 +57,8 @@ std::string ImpostorInputs(const AvatarSettings& avatar, const fs::path& file, i
   Fingerprint print;
   print.Add(kImpostorVersion).AddFile(BlenderScriptsFolder() / "bake").AddFile(BlenderScriptsFolder() / "common");
   AddReading(avatar, file, &print);
-  const auto& [directions, elevations_deg, clips, work_phases, height_px, border_px, memory_kb, samples, seed, threads, log_file] =
-      impostor;
+  const auto& [directions, elevations_deg, clips, work_phases, height_px, border_px, memory_kb, samples, seed, threads,
+               log_file] = impostor;
   AddAll(elevations_deg, &print);
   for (const ImpostorClipOptions& clip : clips) print.Add(clip.name).Add(clip.phases);
   return print.Add(max_triangles)

@@ -291,8 +291,8 @@ Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings
 
 std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
-  const toml::table root =
-      toml::parse("[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[avatar.clip]]\n[[place]]\n[[stop]]\n[[town.part]]\n");
+  const toml::table root = toml::parse(
+      "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[avatar.clip]]\n[[place]]\n[[stop]]\n[[town.part]]\n");
   TomlContext context;
   TourSettings settings;
   ReadAll(TomlTable(&context, &root, ""), &settings);

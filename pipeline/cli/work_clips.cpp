@@ -45,8 +45,9 @@ Error ChooseWorkClips(const std::vector<Place>& places, std::vector<AvatarSettin
   }
   for (const Place& place : places) {
     for (const std::string& name : place.avatars) {
-      if (!Holds(names, name))
-        warnings->push_back("place '" + OneLine(place.name) + "': there is no avatar '" + OneLine(name) + "'");
+      if (Holds(names, name)) continue;
+      warnings->push_back("place '" + OneLine(place.name) + "': there is no avatar '" + OneLine(name) + "'");
+      names.push_back(name);  // once is enough
     }
   }
   return Ok();

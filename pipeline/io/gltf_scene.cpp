@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <sstream>
 
@@ -6,7 +5,6 @@
 #include "pipeline/io/gltf_document.h"
 #include "runtime/base/array.h"
 #include "runtime/base/text.h"
-#include "runtime/tour_data/tour_data.h"
 
 namespace flaneur {
 namespace {
@@ -71,8 +69,8 @@ Error ApplyTags(const NodeTags& tags, const SceneNode* parent, SceneNode* node) 
   if (node->kind != NodeKind::kWork) return Ok();
   node->clip = tags.clip;
   node->avatars = Listed(tags.avatars);
-  node->seat_m = std::clamp(tags.seat_m, 0.0f, kMaxSeat_m);
-  node->stay_s = std::clamp(tags.stay_s, 0.0f, kMaxStay_s);
+  node->seat_m = tags.seat_m;
+  node->stay_s = tags.stay_s;
   return Ok();
 }
 

@@ -71,20 +71,20 @@ Json ImpostorJson(const ImpostorAtlas& atlas, const ImpostorViews& views) {
   }
   for (float e : atlas.elevations_deg) elevations.push_back(Short(e));
   Json json{{"directions", atlas.directions},
-          {"elevations_deg", elevations},
-          {"frames", atlas.frames},
-          {"width_px", atlas.width_px},
-          {"height_px", atlas.height_px},
-          {"texel_m", Short(atlas.texel_m)},
-          {"depth_range_m", Short(atlas.depth_range_m)},
-          {"motion_range_m", Short(atlas.motion_range_m)},
-          {"bend_range_m", Short(atlas.bend_range_m)},
-          {"clips", clips},
-          {"cells_view", views.cells},
-          {"albedo_view", views.albedo},
-          {"normal_view", views.normal},
-          {"depth_view", views.depth},
-          {"motion_view", views.motion}};
+            {"elevations_deg", elevations},
+            {"frames", atlas.frames},
+            {"width_px", atlas.width_px},
+            {"height_px", atlas.height_px},
+            {"texel_m", Short(atlas.texel_m)},
+            {"depth_range_m", Short(atlas.depth_range_m)},
+            {"motion_range_m", Short(atlas.motion_range_m)},
+            {"bend_range_m", Short(atlas.bend_range_m)},
+            {"clips", clips},
+            {"cells_view", views.cells},
+            {"albedo_view", views.albedo},
+            {"normal_view", views.normal},
+            {"depth_view", views.depth},
+            {"motion_view", views.motion}};
   if (!others.empty()) json["other_clips"] = others;
   return json;
 }
@@ -159,7 +159,8 @@ Json ObstacleJson(const Obstacle& obstacle) {
 }
 
 Json WorkJson(const Place& place) {
-  Json json{{"name", place.name}, {"position_m", PointJson(place.position_m)}, {"yaw_rad", Short(place.yaw_rad.value_or(0))}};
+  Json json{
+      {"name", place.name}, {"position_m", PointJson(place.position_m)}, {"yaw_rad", Short(place.yaw_rad.value_or(0))}};
   if (!place.clip.empty()) json["clip"] = place.clip;
   if (!place.avatars.empty()) json["avatars"] = place.avatars;
   if (place.seat_m > 0) json["seat_m"] = Short(place.seat_m);

@@ -70,7 +70,7 @@ struct PackClip {
 struct PackOtherClip {
   std::string name;
   PackClip clip;
-  float seat_m = 0;     // height of the seat that it is made for; 0: it does not sit
+  float seat_m = 0;  // height of the seat that it is made for; 0: it does not sit
 };
 
 struct PackLevel {
@@ -95,11 +95,11 @@ struct PackAvatar {
   float reach_m = 0.25f;  // of all that is drawn, about where the person stands: arms, clothes, props; radius_m or more
   float walk_speed_mps = 1.3f;  // at which the walk clip's feet don't slide
   int joints = 0;
-  PackClip walk, idle, talk;      // always present: a missing talk is the idle, a missing idle a standing pose
+  PackClip walk, idle, talk;               // always present: a missing talk is the idle, a missing idle a standing pose
   std::vector<PackOtherClip> other_clips;  // at most kMaxOtherClips
-  std::vector<PackLevel> levels;  // finest first, at least one
-  std::vector<Tint> tints;        // at most kMaxTints
-  std::vector<PackProp> props;    // at most kMaxProps
+  std::vector<PackLevel> levels;           // finest first, at least one
+  std::vector<Tint> tints;                 // at most kMaxTints
+  std::vector<PackProp> props;             // at most kMaxProps
   PackImpostor impostor;
   int impostor_of = -1;  // index of the avatar whose impostor stands for this one too, which brings none; -1: its own
 };

@@ -48,15 +48,15 @@ struct LoiterSpot {       // where one person can stand at a loiter place
   int partner = -1;  // index of the spot whose occupant they talk with
 };
 
-struct WorkSpot {  // where one person works
+struct WorkSpot {         // where one person works
   Vec2 position_m, look;  // look: unit vector, as in LoiterSpot
   int place = 0;          // index into Town::places
   float room_m = 0;       // to the nearest obstacle
   bool taken = false, there = false;
-  float left_s = 0;       // taken: that they stay there, where they do not stay for ever; free: until somebody comes
+  float left_s = 0;  // taken: that they stay there, where they do not stay for ever; free: until somebody comes
 };
 
-struct PlaceLists {  // indices into Town::places
+struct PlaceLists {                                                          // indices into Town::places
   std::vector<int> gates, goals, loiters, spawns, works, destinations, all;  // all: without works
 };
 

@@ -128,8 +128,7 @@ TEST(Work, NoMoreWorkThanTheShareAndAllArePartOfTheCrowd) {
 TEST(Work, WhoseTimeIsOverLeavesAndSomebodyElseComes) {
   TourPack pack = Square(60);
   pack.crowd.group_share = 0;
-  pack.places = {{"west", "exit", {-29, 0}, 3}, {"east", "exit", {29, 0}, 3},
-                 Work("yard", {8, 8}, 0, "sweep", {}, 20)};
+  pack.places = {{"west", "exit", {-29, 0}, 3}, {"east", "exit", {29, 0}, 3}, Work("yard", {8, 8}, 0, "sweep", {}, 20)};
   Simulation s = Started(pack);
   int at_work = 0, first = -1, changes = 0;
   for (int step = 0; step < 6000; ++step) {
@@ -158,12 +157,12 @@ TEST(Work, APlaceThatNobodyCanFillSaysSo) {
   pack.places.push_back(Work("forge", {12, -12}, 0, "hammer", {}, 0));
   const Simulation s = Started(pack);
   ASSERT_EQ(s.town.warnings.size(), 1u);
-  EXPECT_EQ(s.town.warnings[0],
-            "place 'forge': nobody can work there; no avatar has the clip 'hammer' and the room");
+  EXPECT_EQ(s.town.warnings[0], "place 'forge': nobody can work there; no avatar has the clip 'hammer' and the room");
 }
 
 TEST(Work, AToolIsInTheHandsOfWhoUsesItAlone) {
-  const std::vector<Prop> props{{"broom", 1, "load", 60, "sweep"}, {"basket", 1, "load", 80, ""}, {"hat", 1, "", 20, ""}};
+  const std::vector<Prop> props{
+      {"broom", 1, "load", 60, "sweep"}, {"basket", 1, "load", 80, ""}, {"hat", 1, "", 20, ""}};
   const std::string sweep = "sweep", sit = "sit";
   EXPECT_EQ(PropsOf(props, 7), 0b110);
   EXPECT_EQ(PropsOf(props, 7, &sit), 0b110);
