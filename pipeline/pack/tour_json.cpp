@@ -103,6 +103,13 @@ Json OtherClipJson(const std::string& name, int animation, const std::vector<Tou
   return json;
 }
 
+// By prop the clip that it is for.
+std::vector<std::string> ToolsOf(const TourAvatar& avatar) {
+  std::vector<std::string> clips;
+  for (const Prop& prop : avatar.props) clips.push_back(prop.clip);
+  return clips;
+}
+
 Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const ImpostorViews& views) {
   const Avatar& person = avatar.levels.avatar;
   Json levels = Json::array(), clips = Json::object(), others = Json::array();
@@ -123,7 +130,7 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
             {"share", Short(avatar.share)},
             {"height_m", Short(person.height_m)},
             {"radius_m", Short(person.radius_m)},
-            {"reach_m", Short(Reach_m(avatar.levels))},
+            {"reach_m", Short(Reach_m(avatar.levels, ToolsOf(avatar)))},
             {"walk_speed_mps", Short(person.walk_speed_mps)},
             {"clips", clips},
             {"levels", levels},
