@@ -52,6 +52,13 @@ float DrawbackOf(const Viewer& viewer, Vec2 from, Vec2 goal, const Town& town) {
   return Length(goal - from) < kWorthWalking_m ? crowded + 2 * kWorseThanCrowds : crowded;
 }
 
+// A place of work may be where nobody walks, as behind a counter, if whoever works there never comes or goes.
+bool IsWhereItCanBe(const Place& place, bool reachable, const Town& town) {
+  if (place.kind != "work" || RoomAt_m(town.walkable, place.position_m) < kLeastWorkRoom_m) return false;
+  if (town.crowd_area && !Contains(*town.crowd_area, place.position_m)) return false;
+  return OnGround(town.walkable, place.position_m) && (place.stay_s <= 0 || reachable);
+}
+
 }  // namespace
 
 int LargestComponent(const Walkable& w) {
@@ -100,15 +107,16 @@ void PreparePlaces(Town* town) {
   std::vector<Place> kept;
   for (Place& place : town->places) {
     const int cell = NearestFreeCell(town->walkable, place.position_m, kReach_m);
-    if (cell < 0 || town->walkable.component[static_cast<size_t>(cell)] != main_component) {
+    const bool reachable = cell >= 0 && town->walkable.component[static_cast<size_t>(cell)] == main_component;
+    if (IsWhereItCanBe(place, reachable, *town)) {
+      kept.push_back(place);
+      continue;
+    }
+    if (!reachable) {
       town->warnings.push_back("place '" + place.name + "' cannot be reached; it is not used");
       continue;
     }
     if (town->crowd_area && !Contains(*town->crowd_area, place.position_m)) continue;
-    if (place.kind == "work" && RoomAt_m(town->walkable, place.position_m) >= kLeastWorkRoom_m) {
-      kept.push_back(place);  // behind a counter there is less room than people walk in
-      continue;
-    }
     if (!IsGate(place) && InsideObstacle(town->walkable, place.position_m)) {
       town->warnings.push_back("place '" + place.name + "' (" + place.kind +
                                ") is inside an obstacle; the nearest free ground is taken");

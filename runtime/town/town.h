@@ -65,7 +65,7 @@ struct Resident {
   std::string avatar;  // its name
   float share = 1;     // of the crowd, relative to the others'
   float radius_m = 0.25f;
-  float reach_m = 0;  // of what is drawn of them, as Crowd::reach_m
+  float reach_m = 0;                          // of what is drawn of them, as Crowd::reach_m
   bool leads = false;                         // is the guide's figure, and nobody's besides
   std::vector<std::string> other_clips = {};  // what they can do at work, by Crowd::doing
 };
