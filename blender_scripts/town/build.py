@@ -22,6 +22,7 @@ import export  # noqa: E402
 import furnish  # noqa: E402
 import gardens as backs  # noqa: E402
 import layout  # noqa: E402
+import life  # noqa: E402
 import nature  # noqa: E402
 import plan  # noqa: E402
 import square  # noqa: E402
@@ -158,17 +159,20 @@ def add_furniture(town, streets, public, plots, doors, rng):
         put("market_stall_%d" % (i + 1), square.make_stall(rng), x, y, yaw)
     for i, (x, y, yaw) in enumerate(furnish.CARTS):
         put("cart_%d" % (i + 1), square.make_cart(rng), x, y, yaw)
-    counts = {"bench": 0, "pile": 0}
+    counts, benches = {"bench": 0, "pile": 0}, []
     for kind, x, y, yaw, free in furnish.along_fronts(plots, doors, streets, public, rng):
         mesh = (square.make_bench if kind == "bench" else square.make_pile)(rng)
         if free:
             counts[kind] += 1
             put("%s_%02d" % ("goods" if kind == "pile" else kind, counts[kind]), mesh, x, y, yaw)
+            if kind == "bench":
+                benches.append((x, y, yaw))
     for i, (x, y, yaw) in enumerate(furnish.graves(rng)):
         put("grave_%02d" % (i + 1), square.make_grave(rng), x, y, yaw)
     for i, (x, y, yaw) in enumerate(furnish.loiter_spots()):
         town.empties.append(("loiter_%02d" % (i + 1), {"flaneur_kind": "loiter"},
                              (x, y, float(plan.ground_height(x, y))), yaw))
+    life.add_work(town, benches)
 
 
 def add_gardens(town, gardens):

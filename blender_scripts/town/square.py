@@ -79,8 +79,8 @@ def make_stall(rng):
     crate(mesh, -w / 2 + 0.5, d / 2 - 0.2, 0, (0.6, 0.5, 0.45), rng)
     crate(mesh, -w / 2 + 0.55, d / 2 - 0.2, 0.45, (0.55, 0.45, 0.4), rng)
     barrel(mesh, w / 2 - 0.4, d / 2 - 0.15, 0, rng)
-    for _ in range(2):
-        sack(mesh, rng.uniform(-0.2, 0.6), d / 2 - 0.1, 0, rng)
+    for x in (0.62, 0.86):  # the keeper comes in and stands left of them
+        sack(mesh, x + 0.1 * rng.uniform(-0.2, 0.6), d / 2 - 0.1, 0, rng)
     return mesh
 
 

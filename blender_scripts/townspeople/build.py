@@ -15,7 +15,7 @@ import numpy as np  # noqa: E402
 
 from common.settings import fail, load_settings, unknown_key, write_atomically  # noqa: E402
 from townspeople import accessories, body, clips, garments, headwear, looks  # noqa: E402
-from townspeople import occlusion, props, scene, skeleton, skin  # noqa: E402
+from townspeople import occlusion, props, scene, skeleton, skin, work_clips, work_props  # noqa: E402
 from townspeople import surface as sf  # noqa: E402
 from townspeople.people import PEOPLE  # noqa: E402
 from townspeople.tailor import Tailor  # noqa: E402
@@ -75,10 +75,11 @@ def assemble(tailor, person):
     return occlusion.with_shade(whole, lightest_for={"eyes": 1.0, "body": 0.8, "hair": 0.65})
 
 
-def with_props(tailor, person, whole):
-    """The person's props by name, with weights and ambient occlusion as on the person."""
+def with_props(tailor, person, name_of_person, whole):
+    """The person's props and tools by name, with weights and ambient occlusion as on the person."""
     finished = {}
-    for name, prop in props.carried(tailor, person).items():
+    carried = props.carried(tailor, person) | work_props.tools(tailor, name_of_person)
+    for name, prop in carried.items():
         strange = set(prop.surface.cells) - set(whole.cells)
         if strange:
             fail("people.py: prop '%s': no texture cell '%s'" % (name, min(strange)))
@@ -115,10 +116,10 @@ def main():
     armature["flaneur_walk_speed_mps"] = round(speed_mps, 4)
     joints = figure.skeleton.names
     scene.make_mesh("person_mesh", surface, made, material_of_cell, uv, armature, joints)
-    for name, prop in with_props(tailor, person, surface).items():
+    for name, prop in with_props(tailor, person, options["person"], surface).items():
         uv = looks.texture_coordinates(prop.surface, places)
         scene.make_mesh(name, prop.surface, made, material_of_cell, uv, armature, joints, prop.tint)
-    for clip in moves:
+    for clip in moves + tuple(work_clips.work_clips(figure, options["person"], manner)):
         scene.add_clip(armature, figure.skeleton, clip)
     write_atomically(settings["output"], scene.export_glb)
     print(

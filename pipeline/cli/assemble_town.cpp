@@ -76,6 +76,7 @@ void AppendScene(Scene part, float scale, float yaw_rad, Vec2 position_m, Scene*
     node.world = place * node.world;
     node.radius_m *= scale;
     node.width_m *= scale;
+    node.seat_m *= scale;
   }
   for (Mesh& mesh : part.meshes) Shift(&mesh.material, materials);
   for (Material& material : part.materials) {
@@ -91,10 +92,15 @@ void AppendScene(Scene part, float scale, float yaw_rad, Vec2 position_m, Scene*
 std::vector<Place> TaggedPlaces(const Scene& town) {
   std::vector<Place> places;
   for (const SceneNode& node : town.nodes) {
-    const bool place = node.kind == NodeKind::kDoor || node.kind == NodeKind::kExit || node.kind == NodeKind::kLoiter;
+    const bool place = node.kind == NodeKind::kDoor || node.kind == NodeKind::kExit || node.kind == NodeKind::kLoiter ||
+                       node.kind == NodeKind::kWork;
     if (!place || !node.meshes.empty()) continue;
     const Vec3 p = GroundFromGltf({node.world.m[3][0], node.world.m[3][1], node.world.m[3][2]});
     places.push_back({node.name, NodeKindName(node.kind), {p.x, p.y}, node.width_m > 0 ? node.width_m : 1});
+    places.back().clip = node.clip;
+    places.back().avatars = node.avatars;
+    places.back().seat_m = std::clamp(node.seat_m, 0.0f, kMaxSeat_m);
+    places.back().stay_s = std::clamp(node.stay_s, 0.0f, kMaxStay_s);
     const Vec2 ahead{node.world.m[2][0], -node.world.m[2][2]};  // local +Z
     if (Length(ahead) > 1e-6f) places.back().yaw_rad = std::atan2(ahead.y, ahead.x);
   }

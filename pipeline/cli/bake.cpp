@@ -15,6 +15,7 @@
 #include "pipeline/cli/tint_reach.h"
 #include "pipeline/cli/tour_settings.h"
 #include "pipeline/cli/visitor_media.h"
+#include "pipeline/cli/work_clips.h"
 #include "pipeline/core/subprocess.h"
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/footprint/check.h"
@@ -161,6 +162,7 @@ Error MakeTown(Baking* baking) {
                                 baking->settings.places.end());
     for (Street& street : TaggedStreets(baking->parts.town, baking->settings.language))
       AddUnlessNamed(std::move(street), &baking->parts);
+    if (Error e = ChooseWorkClips(baking->parts.places, &baking->settings.avatars, warnings)) return e;
     double triangles = 0;
     for (const SceneNode& node : baking->parts.town.nodes) {
       for (int m : node.meshes) triangles += TriangleCount(At(baking->parts.town.meshes, m));
@@ -182,6 +184,7 @@ Error MakeAvatar(Baking* baking, size_t i) {
     read.talk = settings.talk;
     read.height_m = settings.height_m;
     read.hide = settings.hide;
+    for (const ClipSettings& clip : settings.clips) read.other_clips.emplace_back(clip.name, clip.clip);
     for (const Prop& prop : settings.props) read.props.push_back(prop.name);
     Avatar avatar;
     if (Error e = ReadAvatar(file, read, &avatar, warnings)) return e;
@@ -206,6 +209,7 @@ Error MakeImpostor(Baking* baking, size_t i) {
   TourAvatar* avatar = &baking->parts.avatars[i];
   ImpostorOptions options = baking->settings.impostor;
   options.threads = 1;  // one avatar a core
+  for (const ClipSettings& clip : settings.clips) options.clips.push_back({clip.name, options.work_phases});
   const auto make = [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
     ImpostorStatistics statistics;
     if (Error e = BakeImpostor(avatar->levels.avatar, options, &avatar->impostor, &statistics, warnings)) return e;
@@ -250,6 +254,8 @@ Error MakePeople(Baking* baking) {
     baking->parts.avatars[i].height_spread = baking->settings.avatars[i].height_spread;
     baking->parts.avatars[i].tints = baking->settings.avatars[i].tints;
     baking->parts.avatars[i].props = baking->settings.avatars[i].props;
+    for (const ClipSettings& clip : baking->settings.avatars[i].clips)
+      baking->parts.avatars[i].clips.push_back({clip.name, clip.seat_m});
   }
   if (Error e = RunParallel(&baking->jobs, count, [&](size_t i) { return MakeAvatar(baking, i); })) return e;
   if (Error e = RunParallel(&baking->jobs, count, [&](size_t i) { return MakeImpostor(baking, i); })) return e;

@@ -30,6 +30,7 @@ void AddReading(const AvatarSettings& a, const fs::path& file, Fingerprint* prin
   AddAll(a.hide, print);
   for (const Prop& prop : a.props) print->Add(prop.name);
   for (const auto& materials : a.tint_materials) AddAll(materials, print);
+  for (const ClipSettings& clip : a.clips) print->Add(clip.name).Add(clip.clip);
 }
 
 }  // namespace
@@ -57,8 +58,8 @@ std::string ImpostorInputs(const AvatarSettings& avatar, const fs::path& file, i
   Fingerprint print;
   print.Add(kImpostorVersion).AddFile(BlenderScriptsFolder() / "bake").AddFile(BlenderScriptsFolder() / "common");
   AddReading(avatar, file, &print);
-  const auto& [directions, elevations_deg, clips, height_px, border_px, memory_kb, samples, seed, threads, log_file] =
-      impostor;
+  const auto& [directions, elevations_deg, clips, work_phases, height_px, border_px, memory_kb, samples, seed, threads,
+               log_file] = impostor;
   AddAll(elevations_deg, &print);
   for (const ImpostorClipOptions& clip : clips) print.Add(clip.name).Add(clip.phases);
   return print.Add(max_triangles)

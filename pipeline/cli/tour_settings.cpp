@@ -70,16 +70,31 @@ void ReadProp(TomlTable table, AvatarSettings* avatar) {
   table.Text("node", &prop.name);
   table.Number("share", &prop.share, 0, 1);
   table.Text("slot", &prop.slot);
+  table.Text("clip", &prop.clip);
   if (prop.name.empty()) table.Refuse("an [[avatar.prop]] needs the node of the avatar's file that shows it");
   float of_slot = prop.share;
   for (const Prop& other : avatar->props) {
     if (other.name == prop.name) table.Refuse("two props are the node '" + OneLine(prop.name) + "'");
-    if (!prop.slot.empty() && other.slot == prop.slot) of_slot += other.share;
+    if (!prop.slot.empty() && other.slot == prop.slot && other.clip == prop.clip) of_slot += other.share;
   }
   if (of_slot > 1.0001f)
     table.Refuse("the props of slot '" + OneLine(prop.slot) + "' have shares of more than 1 together");
   table.Finish();
   avatar->props.push_back(std::move(prop));
+}
+
+void ReadClip(TomlTable table, AvatarSettings* avatar) {
+  ClipSettings clip;
+  table.Text("name", &clip.name);
+  table.Text("clip", &clip.clip);
+  table.Number("seat_m", &clip.seat_m, 0, static_cast<double>(kMaxSeat_m));
+  if (clip.name.empty() || clip.name == "walk" || clip.name == "idle" || clip.name == "talk")
+    table.Refuse("an [[avatar.clip]] needs a name, as places of work have it, that is not walk, idle or talk");
+  for (const ClipSettings& other : avatar->clips) {
+    if (other.name == clip.name) table.Refuse("two clips are named '" + OneLine(clip.name) + "'");
+  }
+  table.Finish();
+  avatar->clips.push_back(std::move(clip));
 }
 
 void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
@@ -95,6 +110,7 @@ void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
   table.Texts("hide", &avatar.hide);
   for (TomlTable& tint : table.Tables("tint")) ReadTint(tint, &avatar);
   for (TomlTable& prop : table.Tables("prop")) ReadProp(prop, &avatar);
+  for (TomlTable& clip : table.Tables("clip")) ReadClip(clip, &avatar);
   if (avatar.props.size() > kMaxProps) table.Refuse("an [[avatar]] has seven [[avatar.prop]] at most");
   if (avatar.tints.size() > kMaxTints) table.Refuse("an [[avatar]] has three [[avatar.tint]] at most");
   if (avatar.source.file.empty()) table.Refuse("an [[avatar]] needs a file");
@@ -124,6 +140,7 @@ void ReadImpostor(TomlTable table, ImpostorOptions* options) {
   for (ImpostorClipOptions& clip : options->clips) {
     table.Number((clip.name + "_phases").c_str(), &clip.phases, 1, 256);
   }
+  table.Number("work_phases", &options->work_phases, 1, 256);
   table.Finish();
 }
 
@@ -145,13 +162,20 @@ void ReadPlace(TomlTable table, TourSettings* settings) {
   Place place;
   place.kind = "goal";
   table.Text("name", &place.name);
-  table.Choice("kind", &place.kind, {"door", "exit", "goal", "loiter", "spawn"});
+  table.Choice("kind", &place.kind, {"door", "exit", "goal", "loiter", "spawn", "work"});
   table.Point("position_m", &place.position_m);
   table.Number("width_m", &place.width_m, 0.1, 1000);
   float yaw_rad = 0;
   table.Angle("yaw", &yaw_rad, -360, 360);
   if (table.Has("yaw_deg")) place.yaw_rad = yaw_rad;
+  table.Text("clip", &place.clip);
+  table.Texts("avatars", &place.avatars);
+  table.Number("seat_m", &place.seat_m, 0, static_cast<double>(kMaxSeat_m));
+  table.Number("stay_s", &place.stay_s, 0, static_cast<double>(kMaxStay_s));
   if (!table.Has("position_m")) table.Refuse("a [[place]] needs position_m = [x, y]");
+  for (const char* key : {"clip", "avatars", "seat_m", "stay_s"}) {
+    if (place.kind != "work" && table.Has(key)) table.Refuse(std::string(key) + " is for a [[place]] of kind \"work\"");
+  }
   table.Finish();
   settings->places.push_back(place);
 }
@@ -238,6 +262,13 @@ void CheckWhole(TomlContext* context, const TourSettings& s) {
   if (!s.guide.empty() && std::none_of(s.avatars.begin(), s.avatars.end(), is_guide)) {
     refuse("tour.guide is '" + OneLine(s.guide) + "', but no [[avatar]] has that name");
   }
+  for (const Place& place : s.places) {
+    for (const std::string& name : place.avatars) {
+      const auto is_named = [&](const AvatarSettings& a) { return a.name == name; };
+      if (std::none_of(s.avatars.begin(), s.avatars.end(), is_named))
+        refuse("place '" + OneLine(place.name) + "': no [[avatar]] has the name '" + OneLine(name) + "'");
+    }
+  }
   const ControlSettings& c = s.control;
   if (!(c.r_personal_m < c.r_high_m && c.r_high_m < c.r_unimportant_m && c.r_unimportant_m < c.r_far_m)) {
     refuse("control: r_personal_m < r_high_m < r_unimportant_m < r_far_m must hold");
@@ -266,7 +297,7 @@ Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings
 std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
   const toml::table root = toml::parse(
-      "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[place]]\n[[stop]]\n[[town.part]]\n"
+      "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[avatar.clip]]\n[[place]]\n[[stop]]\n[[town.part]]\n"
       "[[hotspot]]\n[[street]]\n[[sound]]\n");
   TomlContext context;
   TourSettings settings;

@@ -33,6 +33,12 @@ struct TownPart {
   float scale = 1;    // metres per unit of the file
 };
 
+// A clip besides walk, idle and talk.
+struct ClipSettings {
+  std::string name, clip;  // clip: in the avatar's file; empty: the one of that name
+  float seat_m = 0;        // height of the seat that it is made for; 0: it does not sit
+};
+
 struct AvatarSettings {
   std::string name;
   SourceSettings source;
@@ -44,6 +50,7 @@ struct AvatarSettings {
   std::vector<Tint> tints;                               // at most kMaxTints
   std::vector<std::vector<std::string>> tint_materials;  // by tint: names of what it dyes; empty: all
   std::vector<Prop> props;
+  std::vector<ClipSettings> clips;
 };
 
 // places: besides those tagged in the town.

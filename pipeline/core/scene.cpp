@@ -24,6 +24,8 @@ const char* NodeKindName(NodeKind kind) {
       return "exit";
     case NodeKind::kLoiter:
       return "loiter";
+    case NodeKind::kWork:
+      return "work";
     case NodeKind::kNone:
       return "none";
   }

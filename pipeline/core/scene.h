@@ -11,7 +11,7 @@
 namespace flaneur {
 
 // What a node stands for in the town; see docs/town-convention.md.
-enum class NodeKind { kUntagged, kBuilding, kWall, kTree, kLamp, kOther, kGround, kDoor, kExit, kLoiter, kNone };
+enum class NodeKind { kUntagged, kBuilding, kWall, kTree, kLamp, kOther, kGround, kDoor, kExit, kLoiter, kWork, kNone };
 enum class GroundKind : uint8_t { kNone = 0, kCarriageway = 1, kPavement = 2, kSquare = 3, kGrass = 4 };
 
 const char* NodeKindName(NodeKind kind);      // "building", ...
@@ -27,6 +27,10 @@ struct SceneNode {
   std::string street = {};  // what visitors call this ground, own or the nearest ancestor's; empty: nothing
   float radius_m = 0;       // 0: not given
   float width_m = 0;        // 0: not given
+  // Of kWork, as Place has them:
+  std::string clip = {};
+  std::vector<std::string> avatars = {};
+  float seat_m = 0, stay_s = 0;
   // The ground under the parent building as its model has it. Nobody walks on it and it blocks nobody; it tells how
   // high the local ground lies in a town without terrain.
   bool is_foundation = false;

@@ -21,6 +21,7 @@ struct ImpostorOptions {
   int directions = 16;                   // 1 to 64
   std::vector<float> elevations_deg{3};  // 1 to 8 of them, -89 to 89: a grown-up sees a person 15 m away from 3 above
   std::vector<ImpostorClipOptions> clips{{"walk", 8}, {"idle", 2}, {"talk", 2}};
+  int work_phases = 2;   // of each further clip that whoever bakes adds
   int height_px = 128;   // of the highest cell, 16 to 1024
   int border_px = 1;     // left empty around the silhouette in each cell, 1 to 16
   int memory_kb = 6000;  // most on the graphics card: where more is needed, cells are lower, down to half; 0: no limit

@@ -198,10 +198,16 @@ Vec3 MedianOf(const std::vector<Vec3>& points) {
   return {Median(std::move(x)), 0, Median(std::move(z))};
 }
 
-// Feet on the ground, trunk over the origin. Other clips than the walk keep their place beside it
-// unless they stray.
+// Feet on the ground, trunk over the origin. Idle and talk keep their place beside the walk unless they stray; what is
+// done besides is moved as the walk is: who sits has the trunk behind the feet, and a child's feet over the ground.
 void PlaceClips(const Mesh& body, Avatar* avatar) {
+  const auto walk = BodyOverClip(*avatar, *FindClip(*avatar, "walk"), body);
+  const float walk_ground = Lowest(walk);
   for (Clip& clip : avatar->clips) {
+    if (clip.name != "walk" && clip.name != "idle" && clip.name != "talk") {
+      Shift(*avatar, &clip, {0, -walk_ground, 0});
+      continue;
+    }
     const auto keys = BodyOverClip(*avatar, clip, body);
     const float ground = Lowest(keys);
     Vec3 center = MedianOf(Trunk(keys, ground, avatar->height_m));

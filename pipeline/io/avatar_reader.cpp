@@ -65,7 +65,7 @@ Error NamedClip(const GltfDocument& document, const std::string& name, int* clip
 }
 
 struct ChosenClip {
-  std::string name;  // ours: walk, idle, talk
+  std::string name;  // ours: walk, idle, talk, and others
   int source = -1;   // index into the document's clips
 };
 
@@ -89,6 +89,11 @@ Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options
       continue;
     }
     if (clip >= 0) chosen->push_back({name, clip});
+  }
+  for (const auto& [name, given] : options.other_clips) {
+    int clip = -1;
+    if (Error e = NamedClip(document, given.empty() ? name : given, &clip); e && !given.empty()) return e;
+    if (clip >= 0 && !At(document.clips, clip).channels.empty()) chosen->push_back({name, clip});
   }
   return Ok();
 }

@@ -32,6 +32,8 @@ struct ReadAvatarOptions {
   // shortest name that contains it ("Walking_A" for walk; idle and talk may be absent). A file's
   // only clip counts as its walk.
   std::string walk, idle, talk;
+  // Further clips: what each is called here, and in the file; empty: the one of that very name, where there is one.
+  std::vector<std::pair<std::string, std::string>> other_clips;
   float height_m = 0;              // 0: as in the file where 0.5 to 2.3 m, else 1.75
   std::vector<std::string> hide;   // names of nodes left out, with what hangs on them
   std::vector<std::string> props;  // names of nodes that become AvatarProps, each with what hangs on it

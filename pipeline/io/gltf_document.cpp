@@ -74,6 +74,10 @@ Error ReadTags(const Value& extras, NodeTags* tags) {
   if (Error e = ReadTextTag(extras, "flaneur_kind", &tags->kind)) return e;
   if (Error e = ReadTextTag(extras, "flaneur_ground", &tags->ground)) return e;
   if (Error e = ReadTextTag(extras, "flaneur_street", &tags->street)) return e;
+  if (Error e = ReadTextTag(extras, "flaneur_clip", &tags->clip)) return e;
+  if (Error e = ReadTextTag(extras, "flaneur_avatars", &tags->avatars)) return e;
+  if (Error e = ReadNumberTag(extras, "flaneur_seat_m", &tags->seat_m)) return e;
+  if (Error e = ReadNumberTag(extras, "flaneur_stay_s", &tags->stay_s)) return e;
   if (Error e = ReadNumberTag(extras, "flaneur_radius_m", &tags->radius_m)) return e;
   if (Error e = ReadNumberTag(extras, "flaneur_width_m", &tags->width_m)) return e;
   return ReadNumberTag(extras, "flaneur_walk_speed_mps", &tags->walk_speed_mps);

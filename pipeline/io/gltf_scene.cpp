@@ -1,4 +1,5 @@
 #include <array>
+#include <sstream>
 
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_document.h"
@@ -8,9 +9,9 @@
 namespace flaneur {
 namespace {
 
-const std::array<NodeKind, 10> kKinds{NodeKind::kBuilding, NodeKind::kWall,   NodeKind::kTree, NodeKind::kLamp,
+const std::array<NodeKind, 11> kKinds{NodeKind::kBuilding, NodeKind::kWall,   NodeKind::kTree, NodeKind::kLamp,
                                       NodeKind::kOther,    NodeKind::kGround, NodeKind::kDoor, NodeKind::kExit,
-                                      NodeKind::kLoiter,   NodeKind::kNone};
+                                      NodeKind::kLoiter,   NodeKind::kWork,   NodeKind::kNone};
 const std::array<GroundKind, 4> kGrounds{GroundKind::kCarriageway, GroundKind::kPavement, GroundKind::kSquare,
                                          GroundKind::kGrass};
 
@@ -29,6 +30,17 @@ Error FromName(const char* tag, const std::string& name, const std::array<Kind, 
   for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
   return Fail(std::string(tag) + " '" + OneLine(name) + "' is unknown" + DidYouMean(name, names) + " (known: " + known +
               ")");
+}
+
+// "maid, farmer" as names.
+std::vector<std::string> Listed(const std::string& text) {
+  std::vector<std::string> names;
+  std::istringstream in(text);
+  for (std::string name; std::getline(in, name, ',');) {
+    const size_t first = name.find_first_not_of(' '), last = name.find_last_not_of(' ');
+    if (first != std::string::npos) names.push_back(name.substr(first, last - first + 1));
+  }
+  return names;
 }
 
 // A node's own tags over its parent's; sizes belong to the tag that they stand beside.
@@ -56,6 +68,11 @@ Error ApplyTags(const NodeTags& tags, const SceneNode* parent, SceneNode* node) 
   if (is_ground && node->ground == GroundKind::kNone) node->ground = GroundKind::kPavement;
   if (tags.radius_m > 0) node->radius_m = tags.radius_m;
   if (tags.width_m > 0) node->width_m = tags.width_m;
+  if (node->kind != NodeKind::kWork) return Ok();
+  node->clip = tags.clip;
+  node->avatars = Listed(tags.avatars);
+  node->seat_m = tags.seat_m;
+  node->stay_s = tags.stay_s;
   return Ok();
 }
 

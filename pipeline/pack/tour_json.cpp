@@ -1,6 +1,8 @@
 #include "pipeline/pack/tour_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/core/reach.h"
@@ -54,10 +56,18 @@ Json SettingsJson(Settings settings) {
   return json;
 }
 
+constexpr const char* kUsualClips[] = {"walk", "idle", "talk"};
+
+bool IsUsual(const std::string& clip) {
+  return std::find(std::begin(kUsualClips), std::end(kUsualClips), clip) != std::end(kUsualClips);
+}
+
 Json ImpostorJson(const ImpostorAtlas& atlas, const ImpostorViews& views) {
   Json clips = Json::array(), elevations = Json::array();
+  Json others = Json::array();
   for (const ImpostorClip& clip : atlas.clips) {
-    clips.push_back({{"name", clip.name}, {"first_frame", clip.first_frame}, {"phases", clip.phases}});
+    (IsUsual(clip.name) ? clips : others)
+        .push_back({{"name", clip.name}, {"first_frame", clip.first_frame}, {"phases", clip.phases}});
   }
   for (float e : atlas.elevations_deg) elevations.push_back(Short(e));
   Json json{{"directions", atlas.directions},
@@ -76,6 +86,7 @@ Json ImpostorJson(const ImpostorAtlas& atlas, const ImpostorViews& views) {
             {"depth_view", views.depth},
             {"motion_view", views.motion}};
   if (views.tints >= 0) json["tints_view"] = views.tints;
+  if (!others.empty()) json["other_clips"] = others;
   return json;
 }
 
@@ -92,9 +103,24 @@ Json TintJson(const Tint& tint, size_t t, const std::vector<Material>& materials
   return json;
 }
 
+Json OtherClipJson(const std::string& name, int animation, const std::vector<TourClip>& known) {
+  Json json{{"name", name}, {"animation", animation}};
+  for (const TourClip& clip : known) {
+    if (clip.name == name && clip.seat_m > 0) json["seat_m"] = Short(clip.seat_m);
+  }
+  return json;
+}
+
+// By prop the clip that it is for.
+std::vector<std::string> ToolsOf(const TourAvatar& avatar) {
+  std::vector<std::string> clips;
+  for (const Prop& prop : avatar.props) clips.push_back(prop.clip);
+  return clips;
+}
+
 Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const ImpostorViews& views) {
   const Avatar& person = avatar.levels.avatar;
-  Json levels = Json::array(), clips = Json::object();
+  Json levels = Json::array(), clips = Json::object(), others = Json::array();
   for (size_t i = 0; i < avatar.levels.levels.size(); ++i) {
     const AvatarLevel& level = avatar.levels.levels[i];
     levels.push_back({{"node", part.level_nodes[i]},
@@ -103,20 +129,21 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
                       {"posed_error_mm", Short(level.posed_error_mm)},
                       {"switch_px", Short(level.switch_px)}});
   }
-  for (const char* name : {"walk", "idle", "talk"}) {
-    for (size_t c = 0; c < person.clips.size(); ++c) {
-      if (person.clips[c].name == name) clips[name] = part.animations[c];
-    }
+  for (size_t c = 0; c < person.clips.size(); ++c) {
+    const std::string& name = person.clips[c].name;
+    if (IsUsual(name)) clips[name] = part.animations[c];
+    else others.push_back(OtherClipJson(name, part.animations[c], avatar.clips));
   }
   Json json{{"name", person.name},
             {"share", Short(avatar.share)},
             {"height_m", Short(person.height_m)},
             {"radius_m", Short(person.radius_m)},
-            {"reach_m", Short(Reach_m(avatar.levels))},
+            {"reach_m", Short(Reach_m(avatar.levels, ToolsOf(avatar)))},
             {"walk_speed_mps", Short(person.walk_speed_mps)},
             {"clips", clips},
             {"levels", levels},
             {"impostor", ImpostorJson(avatar.impostor, views)}};
+  if (!others.empty()) json["other_clips"] = others;
   if (avatar.height_spread > 0) json["height_spread"] = Short(avatar.height_spread);
   for (size_t t = 0; t < avatar.tints.size(); ++t)
     json["tints"].push_back(TintJson(avatar.tints[t], t, person.materials, part));
@@ -128,6 +155,7 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
                              {"triangles", triangles},
                              {"share", Short(avatar.props[k].share)},
                              {"slot", avatar.props[k].slot}});
+    if (!avatar.props[k].clip.empty()) json["props"].back()["clip"] = avatar.props[k].clip;
   }
   return json;
 }
@@ -149,6 +177,16 @@ Json ObstacleJson(const Obstacle& obstacle) {
 
 Json SoundJson(const StopSound& sound, const TourIndices& indices) {
   return {{"view", At(indices.sounds, sound.sound)}, {"duration_s", Short(sound.duration_s)}};
+}
+
+Json WorkJson(const Place& place) {
+  Json json{
+      {"name", place.name}, {"position_m", PointJson(place.position_m)}, {"yaw_rad", Short(place.yaw_rad.value_or(0))}};
+  if (!place.clip.empty()) json["clip"] = place.clip;
+  if (!place.avatars.empty()) json["avatars"] = place.avatars;
+  if (place.seat_m > 0) json["seat_m"] = Short(place.seat_m);
+  if (place.stay_s > 0) json["stay_s"] = Short(place.stay_s);
+  return json;
 }
 
 Json StopJson(const TourStop& stop, const TourIndices& indices) {
@@ -219,6 +257,10 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
                     {"height_view", indices.height_view},     {"kind_view", indices.kind_view}};
   tour["places"] = Json::array();
   for (const Place& p : parts.places) {
+    if (p.kind == "work") {
+      tour["work"].push_back(WorkJson(p));
+      continue;
+    }
     tour["places"].push_back(
         {{"name", p.name}, {"kind", p.kind}, {"position_m", PointJson(p.position_m)}, {"width_m", Short(p.width_m)}});
     if (p.yaw_rad) tour["places"].back()["yaw_rad"] = Short(*p.yaw_rad);

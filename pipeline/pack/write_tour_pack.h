@@ -15,12 +15,19 @@
 
 namespace flaneur {
 
+// Of one of the avatar's clips besides walk, idle and talk.
+struct TourClip {
+  std::string name;
+  float seat_m = 0;  // height of the seat that it is made for; 0: it does not sit
+};
+
 struct TourAvatar {
   AvatarLevels levels;
   ImpostorAtlas impostor;
   float share = 1;
   std::vector<Tint> tints = {};
   std::vector<Prop> props = {};  // one for each of the avatar's
+  std::vector<TourClip> clips = {};
   float height_spread = 0;       // as PackAvatar's
 };
 

@@ -267,7 +267,8 @@ void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable&
   MeasureExcess(camera.fov_rad, capacity, state);
   for (const State::Near& n : state->near) {
     const size_t i = static_cast<size_t>(n.person);
-    if (c->detour_s[i] <= 0.5f * kDetour_s) Consider(walkable, s, i, n.forecast, c, state);
+    if (c->activity[i] != Activity::kWorking && c->detour_s[i] <= 0.5f * kDetour_s)
+      Consider(walkable, s, i, n.forecast, c, state);
   }
   Choose(s, camera.fov_rad, capacity, c, state);
 }

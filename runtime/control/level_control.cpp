@@ -177,9 +177,11 @@ void ListPropBearers(const Crowd& crowd, const std::vector<AvatarCosts>& avatars
   state->props.bearers.clear();
   for (const LevelState::InSight& v : state->in_sight) {
     const auto i = static_cast<size_t>(v.person);
-    const std::vector<Prop>& props = avatars[static_cast<size_t>(crowd.avatar[i])].props;
-    if (!props.empty() && v.distance_m < kPropReach_m)
-      state->props.bearers.push_back({crowd.slot[i], v.id, &props, v.distance_m});
+    const AvatarCosts& avatar = avatars[static_cast<size_t>(crowd.avatar[i])];
+    if (avatar.props.empty() || v.distance_m >= kPropReach_m) continue;
+    const auto doing = static_cast<size_t>(crowd.doing[i]);
+    state->props.bearers.push_back({crowd.slot[i], v.id, &avatar.props, v.distance_m,
+                                    doing < avatar.other_clips.size() ? &avatar.other_clips[doing] : nullptr});
   }
 }
 

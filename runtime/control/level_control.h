@@ -23,6 +23,7 @@ struct AvatarCosts {
   float impostor_px = 128;  // height of its picture: adequate below one screen pixel per texel
   std::vector<Prop> props = {};
   ShadowCost shadow = {};
+  std::vector<std::string> other_clips = {};  // names, by Crowd::doing
 };
 
 // What levels are chosen for in this step.

@@ -1,6 +1,7 @@
 // What people carry or wear besides their level: geometry of its own, within the triangle budget.
 #pragma once
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "runtime/tour_data/avatar_data.h"
@@ -10,11 +11,12 @@ namespace flaneur {
 inline constexpr float kPropReach_m = 35;  // beyond it props are not drawn,
 inline constexpr float kPropFade_m = 7;    // and over so much before it they fade
 
-// Somebody in view and within reach whose avatar has props.
+// Somebody in view and within reach whose avatar has props. doing: what the props of that clip are for.
 struct PropBearer {
   int slot = 0, id = 0;
   const std::vector<Prop>* props = nullptr;
   float distance_m = 0;
+  const std::string* doing = nullptr;  // name of the clip; null: nothing
 };
 
 struct Props {
@@ -30,8 +32,8 @@ struct Props {
   std::vector<int> before;     // slots of the last step's bearers
 };
 
-// What a person has, by id alone; bit k: the k-th.
-uint8_t PropsOf(const std::vector<Prop>& props, int id);
+// What a person has, by id and by what they do alone; bit k: the k-th.
+uint8_t PropsOf(const std::vector<Prop>& props, int id, const std::string* doing = nullptr);
 
 // Whose props are shown. They may take `room_triangles` together: who has shown them keeps them before others get any,
 // the nearest first, and nothing appears on who is in view already.

@@ -243,6 +243,7 @@ void SetGoal(size_t i, int field, Crowd* c) {
   c->sees_goal[i] = c->coast[i] = 0;
   c->arrived[i] = Arrival::kNot;
   c->activity[i] = field >= 0 ? Activity::kWalking : Activity::kStanding;
+  c->doing[i] = -1;
 }
 
 int FieldFor(Vec2 goal, Crowd* c) {

@@ -275,11 +275,12 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
   const bool lets_go = LetsOthersGo(density_pm2, me.velocity, mind.alone_mps, c->id[i], c->step);
   mind.asked_mps = lets_go ? 0 : SpeedOnSlope(w, cell, mind.alone_mps) * SpeedInDensity(density_pm2);
   Vec2 push = around.foremost + around.separation;
-  if (mind.stands && Dot(push, push) < 1) push = {};  // people who stand give way only when pressed
+  const bool works = c->activity[i] == Activity::kWorking && mind.stands;
+  if (works || (mind.stands && Dot(push, push) < 1)) push = {};  // people who stand give way only when pressed
   const Vec2 room = AvoidMoving(w, moving, me, mind.avoids_camera);
   push = push + room;
   if (!mind.stands) push = push + BackToLine(Dot(room, room) > 0, me.position, c->way[i], &mind);
-  mind.push = push + WallPush(w, me.position, me.radius_m);
+  mind.push = works ? push : push + WallPush(w, me.position, me.radius_m);  // a counter is near by choice
   BendWay(w, moving, i, c);
   mind.clear_from = me.position;
   mind.clear_m = ClearAround_m(w, cell);

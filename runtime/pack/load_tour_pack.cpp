@@ -160,6 +160,18 @@ std::vector<ImpostorCell> ReadCells(std::span<const uint8_t> bytes, const PackIm
   return cells;
 }
 
+ImpostorClip ReadPhases(const TourObject& json, std::string name, int frames) {
+  ImpostorClip clip{std::move(name), json.Whole("first_frame", 0, 4095), json.Whole("phases", 1, 4096)};
+  if (clip.first_frame + clip.phases > frames) json.Refuse("reaches beyond the atlas's frames");
+  return clip;
+}
+
+void ReadOtherPhases(const TourObject& json, PackImpostor* impostor) {
+  for (const TourObject& c : json.Objects("other_clips"))
+    impostor->clips.push_back(ReadPhases(c, c.Text("name"), impostor->frames));
+  if (impostor->clips.size() > 3 + kMaxOtherClips) json.Refuse("has more than eight other_clips");
+}
+
 PackImpostor ReadImpostor(const GltfFile& file, const TourObject& json) {
   constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
   PackImpostor out;
@@ -172,13 +184,10 @@ PackImpostor ReadImpostor(const GltfFile& file, const TourObject& json) {
   out.depth_range_m = json.Real("depth_range_m", kAboveZero, kAnything);
   out.motion_range_m = json.Real("motion_range_m", kAboveZero, kAnything);
   out.bend_range_m = json.Real("bend_range_m", kAboveZero, kAnything);
-  for (const TourObject& c : json.Objects("clips")) {
-    const ImpostorClip clip{c.OneOf("name", {"walk", "idle", "talk"}), c.Whole("first_frame", 0, 4095),
-                            c.Whole("phases", 1, 4096)};
-    if (clip.first_frame + clip.phases > out.frames) c.Refuse("reaches beyond the atlas's frames");
-    out.clips.push_back(clip);
-  }
+  for (const TourObject& c : json.Objects("clips"))
+    out.clips.push_back(ReadPhases(c, c.OneOf("name", {"walk", "idle", "talk"}), out.frames));
   if (out.clips.empty()) json.Refuse("has no clips");
+  if (json.Has("other_clips")) ReadOtherPhases(json, &out);
   const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
   out.cells = ReadCells(BufferView(file, json.Whole("cells_view", 0, last)), out);
   return out;
@@ -246,7 +255,21 @@ PackProp ReadProp(const GltfFile& file, int skin, const TourObject& json, MeshTa
   prop.triangles = json.Whole("triangles", 1, 1e6);
   prop.share = json.Real("share", 0, 1);
   prop.slot = json.Text("slot");
+  if (json.Has("clip")) prop.clip = json.Text("clip");
   return prop;
+}
+
+std::vector<PackOtherClip> ReadOtherClips(const GltfFile& file, int skin, const TourObject& avatar) {
+  std::vector<PackOtherClip> clips;
+  if (!avatar.Has("other_clips")) return clips;
+  const double last = static_cast<double>(file.json.value("animations", Json::array()).size()) - 1;
+  const std::vector<TourObject> objects = avatar.Objects("other_clips");
+  if (objects.size() > kMaxOtherClips) avatar.Refuse("has more than eight other_clips");
+  for (const TourObject& c : objects) {
+    clips.push_back({c.Text("name"), ReadClip(file, skin, c.Whole("animation", 0, last))});
+    if (c.Has("seat_m")) clips.back().seat_m = c.Real("seat_m", 0, kMaxSeat_m);
+  }
+  return clips;
 }
 
 PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* meshes) {
@@ -284,6 +307,7 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   avatar.walk = clip("walk");
   avatar.idle = clips.Has("idle") ? clip("idle") : FirstFrame(avatar.walk, avatar.joints);
   avatar.talk = clips.Has("talk") ? clip("talk") : avatar.idle;
+  avatar.other_clips = ReadOtherClips(file, skin, json);
   avatar.impostor = ReadImpostor(file, json.Object("impostor"));
   if (json.Has("props")) {
     for (const TourObject& prop : json.Objects("props")) avatar.props.push_back(ReadProp(file, skin, prop, meshes));
@@ -355,6 +379,16 @@ TourStop ReadStop(const GltfFile& file, const TourObject& json, TourPack* pack) 
   return stop;
 }
 
+Place ReadWork(const TourObject& json) {
+  Place place{json.Text("name"), "work", json.Point("position_m")};
+  place.yaw_rad = json.Real("yaw_rad");
+  if (json.Has("clip")) place.clip = json.Text("clip");
+  if (json.Has("avatars")) place.avatars = json.Texts("avatars");
+  if (json.Has("seat_m")) place.seat_m = json.Real("seat_m", 0, kMaxSeat_m);
+  if (json.Has("stay_s")) place.stay_s = json.Real("stay_s", 0, kMaxStay_s);
+  return place;
+}
+
 void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   pack->name = tour.Text("name");
   pack->titles = ReadTranslations(tour, "titles");
@@ -363,6 +397,9 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
     pack->places.push_back({p.Text("name"), p.OneOf("kind", {"door", "exit", "goal", "loiter", "spawn"}),
                             p.Point("position_m"), p.Real("width_m", TourObject::kAboveZero, TourObject::kAnything)});
     if (p.Has("yaw_rad")) pack->places.back().yaw_rad = p.Real("yaw_rad");
+  }
+  if (tour.Has("work")) {
+    for (const TourObject& w : tour.Objects("work")) pack->places.push_back(ReadWork(w));
   }
   if (tour.Has("painting")) pack->painting = ReadPainting(file, tour.Object("painting"));
   for (const TourObject& s : tour.Objects("path")) pack->path.push_back(ReadStop(file, s, pack));

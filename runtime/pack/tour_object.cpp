@@ -87,6 +87,16 @@ std::string TourObject::Text(const char* key) const {
   return json.get<std::string>();
 }
 
+std::vector<std::string> TourObject::Texts(const char* key) const {
+  const Json& json = Array(key);
+  std::vector<std::string> texts;
+  for (size_t i = 0; i < json.size(); ++i) {
+    if (!json[i].is_string()) RefuseMember(Item(Place(key), i), "must be text");
+    texts.push_back(json[i].get<std::string>());
+  }
+  return texts;
+}
+
 std::string TourObject::OneOf(const char* key, std::initializer_list<const char*> allowed) const {
   const std::string text = Text(key);
   if (std::find(allowed.begin(), allowed.end(), text) != allowed.end()) return text;

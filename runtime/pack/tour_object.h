@@ -25,6 +25,7 @@ class TourObject {
   float Real(const char* key, double least = -kAnything, double most = kAnything) const;  // finite
   int Whole(const char* key, double least, double most) const;
   std::string Text(const char* key) const;
+  std::vector<std::string> Texts(const char* key) const;
   std::string OneOf(const char* key, std::initializer_list<const char*> allowed) const;
   Vec2 Point(const char* key) const;
   std::vector<Vec2> Points(const char* key) const;

@@ -73,6 +73,13 @@ struct PackJoint {
   Vec3 rest_m;       // where it begins in the pose that the vertices are in
 };
 
+// What some do beside walking, standing and talking: at places of work, by its name.
+struct PackOtherClip {
+  std::string name;
+  PackClip clip;
+  float seat_m = 0;  // height of the seat that it is made for; 0: it does not sit
+};
+
 struct PackLevel {
   int mesh = 0;
   int triangles = 0;
@@ -100,9 +107,10 @@ struct PackAvatar {
   int joints = 0;
   std::vector<PackJoint> skeleton;  // a joint each
   PackClip walk, idle, talk;        // always present: a missing talk is the idle, a missing idle a standing pose
-  std::vector<PackLevel> levels;    // finest first, at least one
-  std::vector<Tint> tints;          // at most kMaxTints
-  std::vector<PackProp> props;      // at most kMaxProps
+  std::vector<PackOtherClip> other_clips;  // at most kMaxOtherClips
+  std::vector<PackLevel> levels;           // finest first, at least one
+  std::vector<Tint> tints;                 // at most kMaxTints
+  std::vector<PackProp> props;             // at most kMaxProps
   PackImpostor impostor;
   int impostor_of = -1;  // index of the avatar whose impostor stands for this one too, which brings none; -1: its own
 };

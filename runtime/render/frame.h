@@ -12,7 +12,11 @@
 
 namespace flaneur {
 
+// And behind these the avatar's others.
 enum class ClipKind : uint8_t { kWalk, kIdle, kTalk };
+inline constexpr int kUsualClips = 3;
+inline ClipKind OtherClip(int which) { return static_cast<ClipKind>(kUsualClips + which); }
+inline bool IsOtherClip(ClipKind clip) { return static_cast<int>(clip) >= kUsualClips; }
 
 struct ClipMoment {
   ClipKind clip = ClipKind::kWalk;

@@ -13,10 +13,17 @@ constexpr float kLongestShadow_m = 12;  // as far as one may fall into view
 constexpr float kFarImpostor_m = 15;    // nearer ones are drawn before all farther ones,
 constexpr size_t kNearBatches = 5;      // of the avatars that have most of them
 
+// By ClipKind.
+std::vector<const PackClip*> ClipsOf(const PackAvatar& avatar) {
+  std::vector<const PackClip*> clips{&avatar.walk, &avatar.idle, &avatar.talk};
+  for (const PackOtherClip& other : avatar.other_clips) clips.push_back(&other.clip);
+  return clips;
+}
+
 // The largest numbers of all clips, so that 16 bits hold them with the finest steps.
 void SetSteps(const PackAvatar& avatar, AvatarLayout* layout) {
   float turn = 1e-6f, shift_m = 1e-6f;
-  for (const PackClip* clip : {&avatar.walk, &avatar.idle, &avatar.talk}) {
+  for (const PackClip* clip : ClipsOf(avatar)) {
     for (const Mat4& m : clip->matrices) {
       for (size_t r = 0; r < 3; ++r) {
         for (size_t c = 0; c < 3; ++c) turn = std::max(turn, std::abs(m.m[c][r]));
@@ -101,13 +108,20 @@ PersonInstance Placed(const DrawnPerson& person, float row, float phases) {
           {t[0], t[1], t[2], SizeByte(person.size)}};
 }
 
-// Null without pictures of it. Without a clip for it people talk as they stand.
-const ImpostorClip* FindImpostorClip(const PackImpostor& atlas, ClipKind kind) {
-  static constexpr const char* kNames[] = {"walk", "idle", "talk"};
-  const auto found = std::find_if(atlas.clips.begin(), atlas.clips.end(),
-                                  [&](const ImpostorClip& c) { return c.name == kNames[static_cast<size_t>(kind)]; });
-  if (found != atlas.clips.end()) return &*found;
-  return kind == ClipKind::kTalk ? FindImpostorClip(atlas, ClipKind::kIdle) : nullptr;
+// By ClipKind; -1 without pictures of it. Without pictures of what else they do people stand.
+std::vector<int> ImpostorClipsOf(const PackAvatar& avatar) {
+  std::vector<std::string> names{"walk", "idle", "talk"};
+  for (const PackOtherClip& other : avatar.other_clips) names.push_back(other.name);
+  std::vector<int> clips;
+  for (const std::string& name : names) {
+    const auto& all = avatar.impostor.clips;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const ImpostorClip& c) { return c.name == name; });
+    const bool stands = found == all.end() && clips.size() > static_cast<size_t>(ClipKind::kIdle);
+    clips.push_back(found != all.end() ? static_cast<int>(found - all.begin())
+                    : stands           ? clips[static_cast<size_t>(ClipKind::kIdle)]
+                                       : -1);
+  }
+  return clips;
 }
 
 const ClipMoment& MainMoment(const DrawnPerson& person) {
@@ -128,10 +142,10 @@ size_t NearestElevation(const PackImpostor& atlas, const DrawnPerson& person, Ve
 PersonInstance AsImpostor(const DrawnPerson& person, const AvatarLayout& avatar, Vec3 eye) {
   const PackImpostor& atlas = avatar.impostor;
   const ClipMoment& moment = MainMoment(person);
-  const ImpostorClip* own = FindImpostorClip(atlas, moment.clip);
-  const ImpostorClip& clip = own != nullptr ? *own : atlas.clips.front();
+  const int own = avatar.impostor_clips[static_cast<size_t>(moment.clip)];
+  const ImpostorClip& clip = atlas.clips[static_cast<size_t>(std::max(0, own))];
   // Who cannot stand but walk stands still at the first step, as their mesh does.
-  const float at = own != nullptr ? moment.phase * static_cast<float>(clip.phases) : 0, nearest = std::floor(at + 0.5f);
+  const float at = own >= 0 ? moment.phase * static_cast<float>(clip.phases) : 0, nearest = std::floor(at + 0.5f);
   const size_t frame = static_cast<size_t>(clip.first_frame + static_cast<int>(nearest) % clip.phases);
   const size_t row = frame * atlas.elevations_deg.size() + NearestElevation(atlas, person, eye);
   const size_t cell = static_cast<size_t>(avatar.first_cell) + row * static_cast<size_t>(atlas.directions);
@@ -324,9 +338,12 @@ AvatarLayout LayoutOf(const PackAvatar& avatar) {
   layout.radius_m = avatar.radius_m;
   for (const PackLevel& level : avatar.levels) layout.switch_px.push_back(level.switch_px);
   SetSteps(avatar, &layout);
-  layout.clips = {RowsOf(avatar.walk, layout), RowsOf(avatar.idle, layout), RowsOf(avatar.talk, layout)};
-  for (size_t k = 0; k < layout.clips.size(); ++k)
-    layout.shadow_rows[k] = std::min(layout.clips[k].frames, kMaxShadowFrames);
+  for (const PackClip* clip : ClipsOf(avatar)) {
+    layout.clips.push_back(RowsOf(*clip, layout));
+    layout.shadow_rows.push_back(std::min(layout.clips.back().frames, kMaxShadowFrames));
+  }
+  layout.first_shadow_row.resize(layout.clips.size());
+  layout.impostor_clips = ImpostorClipsOf(avatar);
   static_cast<ImpostorLayout&>(layout.impostor) = avatar.impostor;
   return layout;
 }

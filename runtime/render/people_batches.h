@@ -22,8 +22,9 @@ struct ClipRows {
 struct AvatarLayout {
   int joints = 0, levels = 0, props = 0;
   float turn_step = 0, shift_step_m = 0;
-  std::array<ClipRows, 3> clips;                         // by ClipKind
-  std::array<int, 3> first_shadow_row{}, shadow_rows{};  // in the texture of poses for coarse shadows
+  std::vector<ClipRows> clips;                     // by ClipKind,
+  std::vector<int> impostor_clips;                 // and of the impostor's; -1: it has no pictures of that
+  std::vector<int> first_shadow_row, shadow_rows;  // in the texture of poses for coarse shadows
   float height_m = 0, radius_m = 0;
   std::vector<float> switch_px;  // by level, PackLevel's
   PackImpostor impostor;         // without its pictures

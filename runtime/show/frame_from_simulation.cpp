@@ -57,6 +57,14 @@ int SideOfCaption(const Simulation& s) {
   return s.visitor.guide.is_left ? 1 : -1;
 }
 
+// With whom they stand, or, where the place says so, as their work.
+bool Talks(const Simulation& s, size_t i) {
+  const Activity activity = s.town.crowd.activity[i];
+  if (activity != Activity::kWorking) return activity == Activity::kTalking;
+  const WorkSpot& spot = s.town.work_spots[static_cast<size_t>(PlanOf(i, s.town).work)];
+  return s.town.places[static_cast<size_t>(spot.place)].clip == "talk";
+}
+
 ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, float size, ClipKind last) {
   const float speed_mps = Length(s.town.crowd.velocity[i]);
   if (speed_mps > (last == ClipKind::kWalk ? kStandsBelow_mps : kWalksAbove_mps)) {
@@ -64,11 +72,25 @@ ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, flo
     const float cycle_m = size * avatar.walk_speed_mps * std::max(avatar.walk.duration_s, 0.1f);
     return {ClipKind::kWalk, Fraction(s.town.crowd.walked_m[i] / cycle_m)};
   }
-  const bool talks = s.town.crowd.activity[i] == Activity::kTalking;
   const float own_time_s =
       static_cast<float>(s.town.step) * Step_s(s) + static_cast<float>(s.town.crowd.id[i] % 97) * 0.37f;
-  return {talks ? ClipKind::kTalk : ClipKind::kIdle,
-          Fraction(own_time_s / std::max(talks ? avatar.talk.duration_s : avatar.idle.duration_s, 0.1f))};
+  const auto moment = [&](ClipKind kind, const PackClip& clip) {
+    return ClipMoment{kind, Fraction(own_time_s / std::max(clip.duration_s, 0.1f))};
+  };
+  const int doing = s.town.crowd.doing[i];
+  if (doing >= 0) return moment(OtherClip(doing), avatar.other_clips[static_cast<size_t>(doing)].clip);
+  if (Talks(s, i)) return moment(ClipKind::kTalk, avatar.talk);
+  return moment(ClipKind::kIdle, avatar.idle);
+}
+
+// How far over the ground their feet are, who sit higher than their clip does.
+float Lift_m(const Simulation& s, size_t i, const PackAvatar& avatar) {
+  const int doing = s.town.crowd.doing[i], work = PlanOf(i, s.town).work;
+  if (doing < 0 || work < 0) return 0;
+  const float seat_m = avatar.other_clips[static_cast<size_t>(doing)].seat_m;
+  const WorkSpot& spot = s.town.work_spots[static_cast<size_t>(work)];
+  const float wanted_m = s.town.places[static_cast<size_t>(spot.place)].seat_m;
+  return seat_m > 0 && wanted_m > 0 ? wanted_m - seat_m : 0;
 }
 
 // One change at a time: who changes again before the last is over has to wait for it.
@@ -173,7 +195,7 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, float pas
     look.size = SizeOf(avatar, crowd.id[i]);
   }
   const Vec2 p = crowd.position[i];
-  Move({p.x, p.y, HeightAt(s.town.walkable, p)}, crowd.heading_rad[i], anew, &look);
+  Move({p.x, p.y, HeightAt(s.town.walkable, p) + Lift_m(s, i, avatar)}, crowd.heading_rad[i], anew, &look);
   const ClipMoment before = look.moment;
   FollowClip(MomentOf(s, i, avatar, look.size, look.moment.clip), anew, passed_s, &look);
   look.phase_step = anew ? 0 : PhaseStep(before, look.moment);

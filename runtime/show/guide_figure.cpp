@@ -123,6 +123,7 @@ void AddGuideFigure(TourPack* pack) {
   figure.tints.clear();  // known by the own colours
   figure.height_spread = 0;
   figure.props.clear();
+  figure.other_clips.clear();  // does nothing but lead
   if (const auto arm = FindCarryingArm(figure.skeleton, figure.height_m)) CarryInClips(*arm, &figure);
   figure.impostor_of = static_cast<int>(found - pack->avatars.begin());
   for (PackTexture* picture : {&figure.impostor.albedo, &figure.impostor.normal, &figure.impostor.depth,

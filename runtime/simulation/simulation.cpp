@@ -35,15 +35,18 @@ void TakeAvatar(const PackAvatar& avatar, Simulation* s) {
   costs.impostor_px = avatar.height_m / avatar.impostor.texel_m;
   costs.props.assign(avatar.props.begin(), avatar.props.end());
   costs.shadow = ShadowCostOf(avatar);
-  s->control.avatars.push_back(costs);
-  s->town.residents.push_back({avatar.name, avatar.share, avatar.radius_m, avatar.reach_m});
+  for (const PackOtherClip& clip : avatar.other_clips) costs.other_clips.push_back(clip.name);
+  s->town.residents.push_back({avatar.name, avatar.share, avatar.radius_m, avatar.reach_m, false, costs.other_clips});
+  s->control.avatars.push_back(std::move(costs));
 }
 
 void TakePack(const TourPack& pack, Simulation* s) {
   for (const PackAvatar& avatar : pack.avatars) TakeAvatar(avatar, s);
   TakeStops(pack.path, pack.language, &s->visitor.tour);
   for (size_t k = 0; !pack.guide.empty() && k < pack.avatars.size(); ++k) {
-    if (pack.avatars[k].name == pack.guide) s->visitor.guide.avatar = static_cast<int>(k);
+    if (pack.avatars[k].name != pack.guide) continue;
+    s->town.residents[k].leads = s->visitor.guide.avatar >= 0;  // a figure beside the avatar of that name
+    s->visitor.guide.avatar = static_cast<int>(k);
   }
   s->town.places = pack.places;
   s->town.painting = pack.painting;

@@ -31,11 +31,14 @@ struct Prop {
   float share = 0.5f;  // of the people
   std::string slot;    // of those with the same one a person has one at most; empty: its own
   int triangles = 0;
+  std::string clip = {};  // not empty: those alone have it who do this, and nothing else of the slot while they do
 };
+
+inline constexpr size_t kMaxOtherClips = 8;  // of an avatar, besides walk, idle and talk
 
 // A run of frames of an impostor atlas: the phases of one clip, evenly spaced over its duration.
 struct ImpostorClip {
-  std::string name;  // walk, idle, talk
+  std::string name;  // walk, idle, talk, or one of the avatar's others
   int first_frame = 0, phases = 0;
 };
 

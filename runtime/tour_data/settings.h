@@ -17,6 +17,7 @@ struct CrowdSettings {
   float preferred_speed_mps = 1.3f, speed_spread_mps = 0.2f, top_speed_mps = 1.9f;
   float loiter_share = 0.15f;  // of the people, standing at loiter places at any time
   float group_share = 0.4f;    // of the people, who walk in groups of 2 to 4
+  float work_share = 0.2f;     // of the people, at most, who are at places of work
 };
 
 // How the number of people in high resolution is limited: a fixed count, or what the frame time affords (paper,
@@ -78,6 +79,7 @@ void VisitFields(Fields&& fields, CrowdSettings* s) {
   fields.Number("top_speed_mps", &s->top_speed_mps, 0.1, 10);
   fields.Number("loiter_share", &s->loiter_share, 0, 1);
   fields.Number("group_share", &s->group_share, 0, 1);
+  fields.Number("work_share", &s->work_share, 0, 1);
 }
 
 template <typename Fields>

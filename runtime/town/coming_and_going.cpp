@@ -11,6 +11,7 @@
 #include "runtime/town/places.h"
 #include "runtime/town/population.h"
 #include "runtime/town/ways_out.h"
+#include "runtime/town/work.h"
 
 namespace flaneur {
 namespace {
@@ -51,7 +52,7 @@ bool NextGoal(const Company& company, Town* town) {
 // On the way to somewhere that they chose themselves and only pass.
 bool Strolls(size_t i, const Town& town) {
   const PersonPlan& plan = PlanOf(i, town);
-  return town.crowd.field[i] >= 0 && plan.goals.empty() && !plan.stay && !plan.leaves && !plan.loiters;
+  return town.crowd.field[i] >= 0 && plan.goals.empty() && !plan.stay && !plan.leaves && !plan.loiters && plan.work < 0;
 }
 
 // Near is as good as there, but for a door, a place to stand at and what a scenario asks for.
@@ -74,7 +75,7 @@ bool NextForArrived(size_t i, const Viewer& viewer, Town* town) {
     return false;
   }
   if (plan.leaves) return true;
-  if (plan.loiters) return false;  // loitering.h
+  if (plan.loiters || plan.work >= 0) return false;  // loitering.h, work.h
   const int place = PlaceOfField(c.field[i], town);
   if (place >= 0 && IsGate(town->places[static_cast<size_t>(place)])) return true;
   SendAll(company, PickDestination(viewer, c.position[i], true, town), town);
@@ -137,7 +138,8 @@ bool Birth(int company, const Viewer& viewer, Town* town) {
 
 bool HasWaited(const Town& town, size_t i) {
   const Crowd& c = town.crowd;
-  return c.activity[i] != Activity::kWalking && c.wait_s[i] <= 0 && c.field[i] < 0 && !PlanOf(i, town).leaves;
+  return c.activity[i] != Activity::kWalking && c.wait_s[i] <= 0 && c.field[i] < 0 && !PlanOf(i, town).leaves &&
+         PlanOf(i, town).work < 0;
 }
 
 }  // namespace
@@ -147,6 +149,7 @@ void LeaveAndArrive(const Viewer& viewer, Town* town) {
   if (town->step % kThinkEvery_steps == 0) CountPeople(town->walkable, c.position, &town->density);
   SendEnclosedOut(viewer, town);
   StepLoitering(viewer, town);
+  StepWork(viewer, town);
   for (size_t i = 0; i < c.size();) {
     if (HasWaited(*town, i) && !StaysOn(i, viewer, town))
       SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);
@@ -154,6 +157,7 @@ void LeaveAndArrive(const Viewer& viewer, Town* town) {
     if (IsHeldUpByVisitor(i, viewer, town)) SendAll(CompanyOf(c, i), DestinationAway(i, viewer, town), town);
     if (HasArrived(i, town) && NextForArrived(i, viewer, town)) {
       StopLoitering(i, town);
+      StopWork(i, town);
       RemovePerson(i, &c);
       continue;
     }

@@ -2,6 +2,7 @@
 
 #include "runtime/town/loitering.h"
 #include "runtime/town/places.h"
+#include "runtime/town/work.h"
 
 namespace flaneur {
 
@@ -17,6 +18,7 @@ Company CompanyOf(const Crowd& c, size_t i) {
 
 void Send(size_t i, int field, Town* town) {
   StopLoitering(i, town);
+  StopWork(i, town);
   const int place = PlaceOfField(field, town);
   if (place >= 0 && town->places[static_cast<size_t>(place)].kind == "loiter") PlanToLoiter(i, town);
   SetGoal(i, field, &town->crowd);

@@ -5,6 +5,7 @@
 #include "runtime/town/loitering.h"
 #include "runtime/town/painted.h"
 #include "runtime/town/ways_out.h"
+#include "runtime/town/work.h"
 
 namespace flaneur {
 namespace {
@@ -22,6 +23,10 @@ void SortPlaces(Town* town) {
   lists = {};
   for (int k = 0; k < static_cast<int>(town->places.size()); ++k) {
     const Place& place = town->places[static_cast<size_t>(k)];
+    if (place.kind == "work") {
+      lists.works.push_back(k);
+      continue;
+    }
     lists.all.push_back(k);
     if (IsGate(place)) lists.gates.push_back(k);
     if (place.kind == "goal") lists.goals.push_back(k);
@@ -45,6 +50,13 @@ float DrawbackOf(const Viewer& viewer, Vec2 from, Vec2 goal, const Town& town) {
   const float crowded = crowd_pm2 < kPacked_pm2 ? 0 : crowd_pm2;
   if (IsFullNear(viewer, town, goal)) return crowded + kWorseThanCrowds;
   return Length(goal - from) < kWorthWalking_m ? crowded + 2 * kWorseThanCrowds : crowded;
+}
+
+// A place of work may be where nobody walks, as behind a counter, if whoever works there never comes or goes.
+bool IsWhereItCanBe(const Place& place, bool reachable, const Town& town) {
+  if (place.kind != "work" || RoomAt_m(town.walkable, place.position_m) < kLeastWorkRoom_m) return false;
+  if (town.crowd_area && !Contains(*town.crowd_area, place.position_m)) return false;
+  return OnGround(town.walkable, place.position_m) && (place.stay_s <= 0 || reachable);
 }
 
 }  // namespace
@@ -95,7 +107,12 @@ void PreparePlaces(Town* town) {
   std::vector<Place> kept;
   for (Place& place : town->places) {
     const int cell = NearestFreeCell(town->walkable, place.position_m, kReach_m);
-    if (cell < 0 || town->walkable.component[static_cast<size_t>(cell)] != main_component) {
+    const bool reachable = cell >= 0 && town->walkable.component[static_cast<size_t>(cell)] == main_component;
+    if (IsWhereItCanBe(place, reachable, *town)) {
+      kept.push_back(place);
+      continue;
+    }
+    if (!reachable) {
       town->warnings.push_back("place '" + place.name + "' cannot be reached; it is not used");
       continue;
     }
@@ -110,7 +127,7 @@ void PreparePlaces(Town* town) {
   town->places = std::move(kept);
   AddPaintedPlaces(town);
   SortPlaces(town);
-  if (town->crowd_area ? !town->place_lists.goals.empty() : !town->places.empty()) return;
+  if (town->crowd_area ? !town->place_lists.goals.empty() : !town->place_lists.all.empty()) return;
   MakeUpGoals(town);
   SortPlaces(town);
 }

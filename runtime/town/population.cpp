@@ -8,6 +8,7 @@
 #include "runtime/town/loitering.h"
 #include "runtime/town/painted.h"
 #include "runtime/town/places.h"
+#include "runtime/town/work.h"
 
 namespace flaneur {
 namespace {
@@ -231,10 +232,12 @@ Error JoinScenarioPeople(const std::vector<ScenarioPerson>& persons, size_t firs
 
 }  // namespace
 
-Person NewPerson(Town* town) {
+Person NewPerson(Town* town) { return NewPersonOf(PickAvatar(town), town); }
+
+Person NewPersonOf(int avatar, Town* town) {
   const CrowdSettings& c = town->settings;
   Person p;
-  p.avatar = PickAvatar(town);
+  p.avatar = avatar;
   p.radius_m = town->residents[static_cast<size_t>(p.avatar)].radius_m;
   // The sum of three even draws is near a normal one, and bounded.
   const float spread =
@@ -275,11 +278,15 @@ void PlaceCrowd(int wanted, const Viewer& viewer, Town* town) {
   if (wanted == 0) return;
   PreparePlaces(town);
   PrepareLoitering(town);
-  int placed = 0;
+  PrepareWork(town);
+  int placed = PlaceWorkers(wanted, viewer, town);
   const int standing = static_cast<int>(town->settings.loiter_share * static_cast<float>(wanted));
-  for (int tries = 0; tries < 2 * standing && placed < standing; ++tries) {
-    const int company = DrawCompany(standing - placed, town);
-    if (PlaceLoiterers(company, viewer, town)) placed += company;
+  const int about = std::min(standing, wanted - placed);
+  for (int tries = 0, stand = 0; tries < 2 * about && stand < about; ++tries) {
+    const int company = DrawCompany(about - stand, town);
+    if (!PlaceLoiterers(company, viewer, town)) continue;
+    stand += company;
+    placed += company;
   }
   Spots spots = MakeSpots(town);
   while (placed < wanted) {

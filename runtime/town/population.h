@@ -13,6 +13,7 @@ void PlaceCrowd(int people, const Viewer& viewer, Town* town);
 int DrawCompany(int most, Town* town);
 // Somebody of the pack's crowd; where and where to is still open.
 Person NewPerson(Town* town);
+Person NewPersonOf(int avatar, Town* town);
 // The person lives in the town from now on.
 void AddToTown(Person person, PersonPlan plan, Town* town);
 

@@ -39,7 +39,8 @@ struct PersonPlan {         // of one person
   int spot = -1;         // index into Town::loiter_spots, of the one that is theirs
   float held_up_s = 0;   // by the visitor, near this place
   Vec2 held_up_at{};
-  int id = -1;  // whose it is
+  int work = -1;  // index into Town::work_spots, of the one that is theirs
+  int id = -1;    // whose it is
 };
 
 struct LoiterSpot {       // where one person can stand at a loiter place
@@ -49,8 +50,16 @@ struct LoiterSpot {       // where one person can stand at a loiter place
   int partner = -1;  // index of the spot whose occupant they talk with
 };
 
-struct PlaceLists {  // indices into Town::places
-  std::vector<int> gates, goals, loiters, spawns, destinations, all;
+struct WorkSpot {         // where one person works
+  Vec2 position_m, look;  // look: unit vector, as in LoiterSpot
+  int place = 0;          // index into Town::places
+  float room_m = 0;       // to the nearest obstacle
+  bool taken = false, there = false;
+  float left_s = 0;  // taken: that they stay there, where they do not stay for ever; free: until somebody comes
+};
+
+struct PlaceLists {                                                          // indices into Town::places
+  std::vector<int> gates, goals, loiters, spawns, works, destinations, all;  // all: without works
 };
 
 // Of an avatar, as far as whom it may be and how much room they take.
@@ -58,7 +67,9 @@ struct Resident {
   std::string avatar;  // its name
   float share = 1;     // of the crowd, relative to the others'
   float radius_m = 0.25f;
-  float reach_m = 0;  // of what is drawn of them, as Crowd::reach_m
+  float reach_m = 0;                          // of what is drawn of them, as Crowd::reach_m
+  bool leads = false;                         // is the guide's figure, and nobody's besides
+  std::vector<std::string> other_clips = {};  // what they can do at work, by Crowd::doing
 };
 
 inline constexpr const char* kPlainFigure = "person";  // everybody's avatar where there is no pack
@@ -71,11 +82,13 @@ struct Town {
   Painting painting;
   PlaceLists place_lists;
   std::vector<LoiterSpot> loiter_spots;  // by place
+  std::vector<WorkSpot> work_spots;      // one a place
   std::vector<int> place_of_field;       // by index into crowd.fields, -1: no place; see PlaceOfField
   std::optional<Area> crowd_area;        // in which people start and walk about; none: all over town
   int target_people = 0;                 // kept up by people who appear out of sight
   int next_company = 0;                  // how many come together next, once there is room for them; 0: not drawn yet
-  int loiterers = 0;                     // people whose plan is to loiter
+  int loiterers = 0;                     // people whose plan is to loiter,
+  int workers = 0;                       // to work
 
   Crowd crowd;
   CrowdScratch scratch;  // of whoever steps the crowd

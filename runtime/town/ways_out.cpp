@@ -52,7 +52,8 @@ void SendEnclosedOut(const Viewer& viewer, Town* town) {
   for (size_t i = 0; i < town->crowd.size(); ++i) {
     if (!IsCutOff(town->walkable, town->enclosure, town->crowd.position[i]) || GoesToGate(i, town)) continue;
     --room;
-    if (PlanOf(i, town).leaves) continue;  // a scenario's person has goals of their own
+    const PersonPlan& plan = PlanOf(i, town);
+    if (plan.leaves || plan.work >= 0) continue;  // a scenario's person has goals of their own, and who works stays
     float away_m = 0;
     const int gate = NearestGate(*town, town->crowd.position[i], &away_m);
     if (gate >= 0 && (best < 0 || away_m < best_m)) best = static_cast<int>(i), best_gate = gate, best_m = away_m;

@@ -23,7 +23,8 @@ COMPONENTS = {
 }
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 CLIPS = ["idle", "talk", "walk"]
-DEMO_AVATARS = tomllib.loads(DEMO_TOUR.read_text())["avatar"]
+DEMO_AVATARS = [avatar for avatar in tomllib.loads(DEMO_TOUR.read_text())["avatar"]
+                if avatar["file"].endswith("townspeople/build.py")]  # not the dogs
 
 
 class Glb:
@@ -98,7 +99,7 @@ class TownspersonTest(unittest.TestCase):
 
     def test_clips(self):
         for glb in self.each():
-            self.assertEqual(sorted(clip["name"] for clip in glb.json["animations"]), CLIPS)
+            self.assertLessEqual(set(CLIPS), {clip["name"] for clip in glb.json["animations"]})
 
     def test_one_skin(self):
         for glb in self.each():

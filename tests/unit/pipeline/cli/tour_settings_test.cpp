@@ -131,6 +131,25 @@ TEST(TourSettings, PropsNameTheirNodeAndShareASlotAtMostOnce) {
   EXPECT_TRUE(has(Refusal(eight), "seven [[avatar.prop]] at most"));
 }
 
+TEST(TourSettings, PlacesOfWorkSayWhatIsDoneThereAndByWhom) {
+  const std::string work = std::string(kMinimalTour) + "[[place]]\nkind = \"work\"\nposition_m = [1, 2]\n";
+  TourSettings settings;
+  ASSERT_EQ(Read(work + "clip = \"sit\"\navatars = [\"person\"]\nseat_m = 0.4\nstay_s = 30\n", &settings), "");
+  ASSERT_EQ(settings.places.size(), 1u);
+  EXPECT_EQ(settings.places[0].clip, "sit");
+  EXPECT_EQ(settings.places[0].avatars, std::vector<std::string>{"person"});
+  EXPECT_EQ(settings.places[0].seat_m, 0.4f);
+  EXPECT_EQ(settings.places[0].stay_s, 30);
+  const auto has = [](const std::string& message, const char* what) { return message.find(what) != std::string::npos; };
+  EXPECT_TRUE(has(Refusal(work + "avatars = [\"maid\"]\n"), "no [[avatar]] has the name 'maid'"));
+  EXPECT_TRUE(has(Refusal(work + "seat_m = -1\n"), "seat_m"));
+  EXPECT_TRUE(has(Refusal(std::string(kMinimalTour) + "[[place]]\nposition_m = [1, 2]\nclip = \"sit\"\n"),
+                  "clip is for a [[place]] of kind \"work\""));
+  const std::string clip = std::string(kMinimalTour) + "[[avatar.clip]]\n";
+  EXPECT_TRUE(has(Refusal(clip + "name = \"walk\"\n"), "needs a name"));
+  EXPECT_TRUE(has(Refusal(clip + "name = \"a\"\n[[avatar.clip]]\nname = \"a\"\n"), "two clips are named 'a'"));
+}
+
 TEST(TourSettings, TheReferenceFileHoldsTheDefaultsOfEveryList) {
   TourSettings reference, least;
   ASSERT_EQ(ReadTourSettings(kReference, &reference).message, "");
@@ -147,8 +166,11 @@ TEST(TourSettings, TheReferenceFileHoldsTheDefaultsOfEveryList) {
   ASSERT_EQ(reference.parts.size(), 1u);
   EXPECT_EQ(reference.parts[0].scale, least.parts[0].scale);
   EXPECT_EQ(reference.parts[0].yaw_deg, least.parts[0].yaw_deg);
-  ASSERT_EQ(reference.places.size(), 1u);
+  ASSERT_EQ(reference.places.size(), 2u);
   EXPECT_EQ(reference.places[0].width_m, Place{}.width_m);
+  EXPECT_EQ(reference.places[1].seat_m, Place{}.seat_m);
+  EXPECT_EQ(reference.places[1].stay_s, Place{}.stay_s);
+  EXPECT_EQ(reference.impostor.work_phases, least.impostor.work_phases);
   ASSERT_EQ(reference.path.size(), 1u);
   EXPECT_EQ(reference.path[0].pause_s, TourStop{}.pause_s);
 }

@@ -77,6 +77,19 @@ TEST_F(SceneFile, TagsGoDownToChildrenUnlessTheyHaveTheirOwn) {
   EXPECT_EQ(scene_.meshes.size(), 1u) << "shared";
 }
 
+TEST_F(SceneFile, APlaceOfWorkSaysWhatIsDoneThereAndByWhom) {
+  const int work = builder_.AddNode(NodeWith("bench", -1, -1, R"({"flaneur_kind": "work", "flaneur_clip": "sit",
+      "flaneur_avatars": " maid, old man,,farmer ", "flaneur_seat_m": 0.45, "flaneur_stay_s": 60})"));
+  const int house = builder_.AddNode(NodeWith("house", -1, AddQuad("quad"), R"({"flaneur_kind": "building"})"));
+  ASSERT_EQ(ReadScene(Finish({work, house}), &scene_).message, "");
+  const SceneNode& read = scene_.nodes[0];
+  EXPECT_EQ(read.kind, NodeKind::kWork);
+  EXPECT_EQ(read.clip, "sit");
+  EXPECT_EQ(read.avatars, (std::vector<std::string>{"maid", "old man", "farmer"}));
+  EXPECT_NEAR(read.seat_m, 0.45f, 1e-6f);
+  EXPECT_EQ(read.stay_s, 60);
+}
+
 TEST_F(SceneFile, AnUnknownTagIsAnErrorWithAdvice) {
   const int node = builder_.AddNode(NodeWith("house 7", -1, AddQuad("quad"), R"({"flaneur_kind": "bulding"})"));
   const std::string message = ReadScene(Finish({node}), &scene_).message;

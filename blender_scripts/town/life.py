@@ -1,0 +1,48 @@
+"""Where people work in the town: behind the stalls, on the benches, at the well, before some doors.
+
+Empties of kind `work` as docs/town-convention.md says; their local -y is where people look.
+"""
+
+import math
+
+import furnish
+import plan
+
+KEEPER = (-0.2, 0.36)   # in a stall, behind its counter
+BESIDE_STALL = (2.0, -0.5)  # a dog's place
+BEFORE_BENCH_M = 0.62   # from a bench's middle to where a sitter's feet are
+SEAT_M = 0.46
+FROM_WELL_M = 1.76      # from its middle
+DOORS_SWEPT = 7         # every so many doors somebody sweeps beside it
+BESIDE_DOOR_M = (1.3, 0.95)  # along the front, and out of it
+
+
+def _turned(x, y, yaw, along, back):
+    c, s = math.cos(yaw), math.sin(yaw)
+    return x + c * along - s * back, y + s * along + c * back
+
+
+def _work(town, name, spot, yaw, clip, avatars="", **more):
+    extras = {"flaneur_kind": "work", "flaneur_clip": clip, "flaneur_avatars": avatars}
+    extras.update({"flaneur_" + key: value for key, value in more.items()})
+    x, y = spot
+    town.empties.append((name, extras, (x, y, float(plan.pavement_height(x, y))), yaw))
+
+
+def add_work(town, benches):
+    """benches: (x, y, yaw) of each."""
+    for i, (x, y, yaw) in enumerate(furnish.STALLS):
+        _work(town, "keeper_%d" % (i + 1), _turned(x, y, yaw, *KEEPER), yaw, "keep", "merchant, farmer, townswoman")
+        if i % 3 == 1:
+            _work(town, "dog_%d" % (i + 1), _turned(x, y, yaw, *BESIDE_STALL), yaw, "lie", "dog, pale_dog")
+    for i, (x, y, yaw) in enumerate(benches):
+        side = -0.42 if i % 2 else 0.42
+        _work(town, "sitter_%02d" % (i + 1), _turned(x, y, yaw, side, -BEFORE_BENCH_M), yaw, "sit", seat_m=SEAT_M)
+    x, y = furnish.WELL
+    for i, angle in enumerate((-2.4, 0.5)):
+        spot = (x + FROM_WELL_M * math.cos(angle), y + FROM_WELL_M * math.sin(angle))
+        _work(town, "well_%d" % (i + 1), spot, angle - math.pi / 2, "draw_water", "maid", stay_s=90.0)
+    doors = [(name, spot, yaw) for name, extras, spot, yaw in town.empties if extras["flaneur_kind"] == "door"]
+    for i, (name, (x, y, _), yaw) in enumerate(doors[3::DOORS_SWEPT]):
+        spot = _turned(x, y, yaw, BESIDE_DOOR_M[0], -BESIDE_DOOR_M[1])
+        _work(town, "sweeper_%02d" % (i + 1), spot, yaw + 0.9, "sweep", "maid, farmer, craftsman", stay_s=150.0)

@@ -1,0 +1,56 @@
+#include "pipeline/cli/work_clips.h"
+
+#include <algorithm>
+
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+bool IsUsual(const std::string& clip) { return clip.empty() || clip == "walk" || clip == "idle" || clip == "talk"; }
+
+bool Holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// In the order of the places.
+std::vector<std::string> ClipsFor(const std::string& avatar, const std::vector<Place>& places) {
+  std::vector<std::string> clips;
+  for (const Place& place : places) {
+    if (place.kind != "work" || IsUsual(place.clip) || Holds(clips, place.clip)) continue;
+    if (place.avatars.empty() || Holds(place.avatars, avatar)) clips.push_back(place.clip);
+  }
+  return clips;
+}
+
+}  // namespace
+
+Error ChooseWorkClips(const std::vector<Place>& places, std::vector<AvatarSettings>* avatars,
+                      std::vector<std::string>* warnings) {
+  std::vector<std::string> names;
+  for (AvatarSettings& avatar : *avatars) {
+    names.push_back(avatar.name);
+    std::vector<ClipSettings> used;
+    for (const std::string& name : ClipsFor(avatar.name, places)) {
+      const auto known =
+          std::find_if(avatar.clips.begin(), avatar.clips.end(), [&](const auto& clip) { return clip.name == name; });
+      used.push_back(known != avatar.clips.end() ? *known : ClipSettings{name, "", 0});
+    }
+    if (used.size() > kMaxOtherClips) {
+      return Fail("avatar '" + avatar.name + "' would need " + std::to_string(used.size()) +
+                  " clips for the places of work; " + std::to_string(kMaxOtherClips) +
+                  " are possible: name the avatars of some places");
+    }
+    avatar.clips = std::move(used);
+  }
+  for (const Place& place : places) {
+    for (const std::string& name : place.avatars) {
+      if (Holds(names, name)) continue;
+      warnings->push_back("place '" + OneLine(place.name) + "': there is no avatar '" + OneLine(name) + "'");
+      names.push_back(name);  // once is enough
+    }
+  }
+  return Ok();
+}
+
+}  // namespace flaneur

@@ -1,0 +1,18 @@
+// Which clips besides walk, idle and talk people need: those of the places of work, and no others, so that nothing is
+// baked that nobody does.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "pipeline/cli/tour_settings.h"
+#include "runtime/base/error.h"
+
+namespace flaneur {
+
+// Leaves of each avatar's clips those that a place of work has them do, and adds what places name and tour.toml does
+// not describe. `warnings`: places that name somebody whom there is not. Errors: an avatar with more than
+// kMaxOtherClips.
+Error ChooseWorkClips(const std::vector<Place>& places, std::vector<AvatarSettings>* avatars,
+                      std::vector<std::string>* warnings);
+
+}  // namespace flaneur
