@@ -94,7 +94,7 @@ Vec2 WayRound(const Walkable& w, const std::vector<MovingObstacle>& moving, cons
     std::array<Disc, kMostDiscs> near;
     size_t count = 0;
     for (const MovingObstacle& m : moving) {
-      if (!m.everyone || Length(m.center - me.position) > kSeen_m) continue;
+      if (!m.everyone || m.room_m <= 0 || Length(m.center - me.position) > kSeen_m) continue;
       const Disc disc = DiscOf(m, me, with_room);
       if (count < kMostDiscs && !IsBeyondGoal(disc, me)) near[count++] = disc;
     }

@@ -14,6 +14,7 @@ struct Walking {
   float goal_m = 1e9f;  // away, where they walk straight to it
 };
 
+// Of discs that are for everyone and have a room; of others people only step aside.
 // The way to take: `way`, or the one nearest to it that passes all discs which are for everyone, as far as walls let
 // people pass: with their room if there is any such way, else without touching. side: -1 where they go round on the
 // right, 1 on the left, 0 where nothing is in their way; they keep to it unless the other one is much shorter.
