@@ -204,7 +204,7 @@ TEST(LessMotion, TurnsInStepsByKeysAndSticks) {
   EXPECT_FLOAT_EQ(c.turn_radps, 0);
 }
 
-TEST(Look, LettersGrowWithEachStepAndContrastIsOpaque) {
+TEST(LookOfPages, LettersGrowWithEachStepAndContrastIsOpaque) {
   const Simulation s = Started(TourTown(0));
   float last_px = 0;
   for (const char* size : {"normal", "large", "largest"}) {
