@@ -33,6 +33,15 @@ TextBox TileOf(size_t k, size_t count, const PageLook& look, int width_px, int h
   return {left_px, static_cast<float>(height_px) - from_foot_px, wide_px, kTile * letter_px};
 }
 
+// One line of it, as large as the look asks for or as the picture is wide.
+void DrawLine(const std::string& line, const TextBox& box, TextLook words, TextLayer* text) {
+  constexpr float kSmaller = 0.93f, kLeast = 0.3f;
+  const float least_px = kLeast * words.letter_px;
+  const float width_px = box.width_px - words.letter_px;
+  while (words.letter_px > least_px && RoomFor(line, width_px, words, text).lines > 1) words.letter_px *= kSmaller;
+  DrawText(line, box, words, text);
+}
+
 }  // namespace
 
 std::optional<size_t> LanguageAt(Vec2 place, size_t languages, const PageLook& look, int width_px, int height_px) {
@@ -65,11 +74,11 @@ void ShowAttractPage(const std::string& title, const std::vector<std::string>& l
   words.language = languages.empty() ? look.language : languages[now];
   words.letter_px = 1.7f * look.letter_px;
   if (moves) words.color[3] = static_cast<uint8_t>(185 + 70 * std::cos(2 * kPi * time_s / kPulse_s));
-  DrawText(Say(Phrase::kTouchToBegin, words.language), {0, top_px - call_px, width, call_px * 0.9f}, words, text);
+  DrawLine(Say(Phrase::kTouchToBegin, words.language), {0, top_px - call_px, width, call_px * 0.9f}, words, text);
   words.color[3] = 255;
   words.language = look.language;
   words.letter_px = 1.3f * look.letter_px;
-  DrawText(title, {0, top_px - 2 * call_px + 0.6f * look.letter_px, width, call_px}, words, text);
+  DrawLine(title, {0, top_px - 2 * call_px + 0.6f * look.letter_px, width, call_px}, words, text);
   words.letter_px = look.letter_px;
   for (size_t k = 0; k < tiles; ++k) {
     const TextBox tile = TileOf(k, tiles, look, width_px, height_px);
@@ -78,7 +87,7 @@ void ShowAttractPage(const std::string& title, const std::vector<std::string>& l
     if (look.outline_px > 0)
       draw->AddRect(low, high, ColorOf(look.outline), 0.25f * look.letter_px, 0, look.outline_px);
     words.language = languages[k];
-    DrawText(LanguageName(languages[k]), tile, words, text);
+    DrawLine(LanguageName(languages[k]), tile, words, text);
   }
 }
 

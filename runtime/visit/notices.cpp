@@ -58,16 +58,29 @@ void TellOfTour(const Controls& c, const Simulation& s, const std::string& langu
   n->gives_way = true;
 }
 
+// The keys of these actions, one of each.
+std::string KeysOf(std::initializer_list<Action> actions, const Controls& c, const std::string& language) {
+  std::string keys;
+  for (const Action action : actions) {
+    const std::string key = FirstKey(c, action, language);
+    if (!key.empty()) keys += (keys.empty() ? "" : ", ") + key;
+  }
+  return keys;
+}
+
 }  // namespace
 
 void BeginHint(const Controls& c, const Simulation& s, Notices* n) {
   const std::string language = PageLanguage(c, s);
-  std::string keys;
-  for (Action action : {Action::kWalkAhead, Action::kWalkLeft, Action::kWalkBack, Action::kWalkRight}) {
-    const std::string key = FirstKey(c, action, language);
-    if (!key.empty()) keys += (keys.empty() ? "" : ", ") + key;
-  }
-  n->text = Say(HintFor(c, s), language, {keys});
+  const bool one_hand = c.settings.one_handed == "left_keys" || c.settings.one_handed == "right_keys";
+  if (one_hand && !c.points)
+    n->text = Say(Phrase::kHintOneHand, language,
+                  {KeysOf({Action::kWalkAhead, Action::kWalkBack}, c, language),
+                   KeysOf({Action::kTurnLeft, Action::kTurnRight}, c, language)});
+  else
+    n->text =
+        Say(HintFor(c, s), language,
+            {KeysOf({Action::kWalkAhead, Action::kWalkLeft, Action::kWalkBack, Action::kWalkRight}, c, language)});
   const std::string pages = FirstKey(c, Action::kMenu, language);
   if (!c.points && !pages.empty()) n->text += " " + Say(Phrase::kHintMenu, language, {pages});
   n->left_s = kHint_s;

@@ -42,15 +42,12 @@ const std::vector<HalfKeys>& HalfOf(const std::string& one_handed) {
                                                 {Action::kMap, {"0"}},
                                                 {Action::kPhoto, {"9"}},
                                                 {Action::kAsk, {"8"}}};
-  static const std::vector<HalfKeys> left_pad{{Action::kTour, {"pad_up"}},       {Action::kPause, {"pad_left_stick"}},
-                                              {Action::kNext, {"pad_right"}},    {Action::kBack, {"pad_left"}},
-                                              {Action::kLanguage, {"pad_down"}}, {Action::kMenu, {"pad_back"}}};
-  static const std::vector<HalfKeys> right_pad{{Action::kTour, {"pad_y"}},
-                                               {Action::kPause, {"pad_a"}},
-                                               {Action::kNext, {"pad_b"}},
-                                               {Action::kBack, {"pad_x"}},
-                                               {Action::kLanguage, {"pad_right_stick"}},
-                                               {Action::kMenu, {"pad_start"}}};
+  static const std::vector<HalfKeys> left_pad{{Action::kTour, {"pad_up"}},    {Action::kPause, {"pad_left_stick"}},
+                                              {Action::kNext, {"pad_right"}}, {Action::kBack, {"pad_left"}},
+                                              {Action::kAsk, {"pad_down"}},   {Action::kMenu, {"pad_back"}}};
+  static const std::vector<HalfKeys> right_pad{{Action::kTour, {"pad_y"}},          {Action::kPause, {"pad_a"}},
+                                               {Action::kNext, {"pad_b"}},          {Action::kBack, {"pad_x"}},
+                                               {Action::kAsk, {"pad_right_stick"}}, {Action::kMenu, {"pad_start"}}};
   return one_handed == "left_keys"    ? left_keys
          : one_handed == "right_keys" ? right_keys
          : one_handed == "left_pad"   ? left_pad

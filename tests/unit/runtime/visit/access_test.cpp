@@ -5,6 +5,7 @@
 
 #include "runtime/show/frame_from_simulation.h"
 #include "runtime/visit/controls.h"
+#include "runtime/visit/notices.h"
 #include "runtime/visit/one_handed.h"
 #include "runtime/visit/page_look.h"
 #include "tests/unit/runtime/simulation/tour_town.h"
@@ -13,10 +14,10 @@ namespace flaneur {
 namespace {
 
 // What visitors do; developers' views and ending are the operator's, and on the pages.
-constexpr Action kVisitors[] = {Action::kWalkAhead, Action::kWalkBack,  Action::kWalkLeft, Action::kWalkRight,
-                                Action::kTurnLeft,  Action::kTurnRight, Action::kLookUp,   Action::kLookDown,
-                                Action::kTour,      Action::kPause,     Action::kNext,     Action::kBack,
-                                Action::kLanguage,  Action::kMenu};
+constexpr Action kVisitors[] = {
+    Action::kWalkAhead, Action::kWalkBack, Action::kWalkLeft, Action::kWalkRight, Action::kTurnLeft, Action::kTurnRight,
+    Action::kLookUp,    Action::kLookDown, Action::kTour,     Action::kPause,     Action::kNext,     Action::kBack,
+    Action::kLanguage,  Action::kMap,      Action::kPhoto,    Action::kAsk,       Action::kMenu};
 
 PlayerSettings OneHanded(const std::string& half) {
   PlayerSettings settings;
@@ -105,6 +106,30 @@ TEST(OneHanded, BecomesOnesOwnKeysWithTheFirstThatIsChanged) {
   EXPECT_EQ(c.settings.keys[static_cast<size_t>(Action::kNext)].back(), "v");
 }
 
+TEST(OneHanded, IsToldTheKeysOfTheirHalf) {
+  const Simulation s = Started(TourTown(0));
+  Notices n;
+  BeginHint(MakeControls(OneHanded("left_keys"), {}, s), s, &n);
+  EXPECT_EQ(n.text, "W, S walk, A, D turn the view. More: Esc");
+}
+
+TEST(OneHanded, AGamepadsHalfHasAButtonForWhatThePagesHaveNot) {
+  for (const char* half : {"left_pad", "right_pad"}) {
+    const auto keys = KeysInForce(OneHanded(half));
+    std::set<std::string> used;
+    for (const Action action :
+         {Action::kTour, Action::kPause, Action::kNext, Action::kBack, Action::kAsk, Action::kMenu}) {
+      size_t here = 0;
+      for (const std::string& key : keys[static_cast<size_t>(action)]) {
+        if (!IsGamepadCode(InputCode(key))) continue;
+        EXPECT_TRUE(used.insert(key).second) << half << ": " << key << " has two meanings";
+        ++here;
+      }
+      EXPECT_GE(here, 1u) << half << " " << kActionNames[static_cast<size_t>(action)];
+    }
+  }
+}
+
 TEST(Pace, IsOnesOwnAndTheTours) {
   PlayerSettings slow;
   slow.pace = 0.5f;
@@ -179,7 +204,7 @@ TEST(LessMotion, TurnsInStepsByKeysAndSticks) {
   EXPECT_FLOAT_EQ(c.turn_radps, 0);
 }
 
-TEST(Look, LettersGrowWithEachStepAndContrastIsOpaque) {
+TEST(LookOfPages, LettersGrowWithEachStepAndContrastIsOpaque) {
   const Simulation s = Started(TourTown(0));
   float last_px = 0;
   for (const char* size : {"normal", "large", "largest"}) {

@@ -10,6 +10,7 @@
 
 #include "runtime/desktop/context.h"
 #include "runtime/show/frame_from_simulation.h"
+#include "runtime/visit/attract_page.h"
 #include "runtime/visit/home.h"
 #include "runtime/visit/notices.h"
 #include "runtime/visit/operator_page.h"
@@ -359,6 +360,7 @@ std::vector<DrawnText> WrittenOn(Page page, int width_px, int height_px, Overlay
   std::vector<DrawnText> written;
   for (size_t first = 0, last = 1; first != last && first < 2 * kActions;) {
     OpenPage(page, &menu);
+    if (page == Page::kEnd) OpenEndOfTour(Say(Phrase::kThanks, PageLanguage(*controls, s)), &menu);
     menu.first = first;
     for (int round = 0; round < 2; ++round) {  // ImGui knows a window's size only after its first picture
       overlay->Begin(width_px, height_px, {});
@@ -414,7 +416,8 @@ TEST(Pages, CutNothingInAnyLanguageTextSizeOrWindow) {
       settings.high_contrast = language == "de";
       Controls controls = MakeControls(settings, {}, s);
       for (const auto& size : sizes) {
-        for (const Page page : {Page::kMain, Page::kStops, Page::kLanguages, Page::kSettings, Page::kKeys}) {
+        for (const Page page :
+             {Page::kMain, Page::kStops, Page::kLanguages, Page::kSettings, Page::kKeys, Page::kEnd}) {
           const std::string where = language + ", " + text_size + ", " + std::to_string(size[0]) + " px, page " +
                                     std::to_string(static_cast<int>(page)) + ": ";
           ExpectWhole(WrittenOn(page, size[0], size[1], &overlay, &controls, s), size[0], size[1], where);
@@ -491,6 +494,31 @@ TEST(OperatorPage, IsWholeInEveryLanguageTextSizeAndWindow) {
           overlay.Draw();
         }
         ExpectWhole(overlay.text().drawn(), width_px, height_px, language + " " + std::to_string(width_px) + ": ");
+      }
+    }
+  }
+}
+
+TEST(AttractPage, IsWholeInEveryLanguageTextSizeAndWindow) {
+  HeadlessContext context;
+  if (const Error error = context.Create()) GTEST_SKIP() << error.message;
+  Overlay overlay;
+  ASSERT_EQ(overlay.Create().message, "");
+  const Simulation s = TownWithStops();
+  std::vector<std::string> languages = PhraseLanguages();
+  for (const char* size : {"normal", "large", "largest"}) {
+    for (const auto& [width_px, height_px] : {std::pair{800, 600}, std::pair{1280, 720}, std::pair{720, 1280}}) {
+      std::rotate(languages.begin(), languages.begin() + 1, languages.end());  // another one calls
+      for (size_t k = 0; k < languages.size(); ++k) {
+        PlayerSettings settings;
+        settings.text_size = size;
+        const PageLook look = LookOf(MakeControls(settings, {}, s), s, width_px, height_px);
+        std::rotate(languages.begin(), languages.begin() + 1, languages.end());
+        overlay.Begin(width_px, height_px, {});
+        ShowAttractPage("Wolfenbüttel im Abendlicht", languages, 0, false, look, width_px, height_px, &overlay.text());
+        overlay.Draw();
+        ExpectWhole(overlay.text().drawn(), width_px, height_px,
+                    languages.front() + " " + size + " " + std::to_string(width_px) + ": ");
       }
     }
   }
