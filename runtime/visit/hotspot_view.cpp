@@ -15,7 +15,8 @@ namespace {
 constexpr float kMark = 0.32f, kMarkGrows = 0.32f;         // radius in letters: unnoticed, and what interest adds
 constexpr float kMarkLifts = 0.75f;                        // of its opacity, where it is near the edge of its reach
 constexpr float kPanelWide = 17, kPanelShare = 0.44f;      // in letters; of the picture's width, at most
-constexpr float kPanelHigh = 0.74f, kPortraitHigh = 0.5f;  // of the picture's height, at most
+constexpr float kLeastPicture = 3;                         // in letters; lower, it is left out
+constexpr float kPanelHigh = 0.86f, kPortraitHigh = 0.5f;  // of the picture's height, at most
 constexpr float kPictureHigh = 0.3f;                       // the same of its picture
 constexpr float kEdge = 0.6f, kGap = 0.4f, kClose = 1.5f;  // in letters
 constexpr float kTitle = 1.1f;                             // of a letter
@@ -113,8 +114,14 @@ bool ShowHotspotPanel(const TourPack& pack, const Hotspots& h, const PageLook& l
   const float gap_px = kGap * letter_px, head_px = inner_px - kClose * letter_px - gap_px;
   float needed_px =
       1.2f * letter_px + std::max(kClose * letter_px, RoomFor(title, head_px, head, layer).height_px) + gap_px;
-  if (shown_px.y > 0) needed_px += shown_px.y + gap_px;
   if (!text.empty()) needed_px += RoomFor(text, inner_px, words, layer).height_px;
+  // Words before pictures: it is as large as they leave it room.
+  const float room_px = panel.most_px - needed_px - gap_px;
+  if (shown_px.y > 0 && room_px < shown_px.y) {
+    const float share = room_px < kLeastPicture * letter_px ? 0 : room_px / shown_px.y;
+    shown_px = {shown_px.x * share, shown_px.y * share};
+  }
+  if (shown_px.y > 0) needed_px += shown_px.y + gap_px;
   const PageStyle style(look);
   ImGui::SetNextWindowPos({panel.left_px, panel.top_px});
   ImGui::SetNextWindowSize({panel.width_px, std::min(needed_px, panel.most_px)});

@@ -13,10 +13,12 @@
 namespace flaneur {
 namespace {
 
-constexpr float kEdge = 0.5f, kListWide = 14, kListShare = 0.4f;  // in letters; of the picture's width, at most
-constexpr float kPortraitMap = 0.52f;                             // of the height
-constexpr float kPin = 0.62f, kPinReach = 1.3f, kSelf = 0.7f;     // radius in letters; touched so far off
-constexpr float kStreetLetter = 0.62f;                            // of a letter
+constexpr float kEdge = 0.5f, kListWide = 14, kListShare = 0.46f;  // in letters; of the picture's width, at most
+constexpr float kPortraitMap = 0.52f;                              // of the height
+constexpr float kPin = 0.62f, kPinReach = 1.3f, kSelf = 0.7f;      // radius in letters; touched so far off
+constexpr float kStreetLetter = 0.62f;                             // of a letter
+constexpr float kMostMapLetter = 0.042f;                           // of the map's shorter side
+constexpr size_t kMostHintLines = 2;                               // longer, it would leave the names no room
 constexpr float kMostTimes = 16, kLabelMargin_px = 3;
 constexpr ImU32 kPinColor = IM_COL32(140, 36, 28, 255), kSelfColor = IM_COL32(24, 92, 168, 255);
 constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 255);
@@ -190,8 +192,10 @@ MapChoice ChoiceAt(ImVec2 tapped, const std::vector<MapStop>& stops, const Drawi
   return choice;
 }
 
-MapChoice ShowTheMap(const TourPack& pack, const Simulation& s, const PageLook& look, const Box& box, Overlay* overlay,
+MapChoice ShowTheMap(const TourPack& pack, const Simulation& s, PageLook look, const Box& box, Overlay* overlay,
                      MapPage* page) {
+  const float side_px = std::min(box.right - box.left, box.bottom - box.top);
+  look.letter_px = std::min(look.letter_px, kMostMapLetter * side_px);
   const int width_px = static_cast<int>(box.right - box.left), height_px = static_cast<int>(box.bottom - box.top);
   if (page->whole.width_px != width_px || page->whole.height_px != height_px)
     page->whole = WholeTown(s.town.walkable, width_px, height_px);
@@ -243,10 +247,10 @@ std::string TimesText(float times) {
   return text;
 }
 
-void ShowListRows(const TourPack& pack, const Simulation& s, const PageLook& look, PageRows* rows, MapPage* page,
-                  MapChoice* choice) {
+void ShowListRows(const TourPack& pack, const Simulation& s, const PageLook& look, bool hints, PageRows* rows,
+                  MapPage* page, MapChoice* choice) {
   rows->Words(WhereOneIs(pack, s, look.language));
-  rows->Words(Say(Phrase::kMapTap, look.language));
+  if (hints) rows->Words(Say(Phrase::kMapTap, look.language));
   for (const MapStop& stop : StopsOnMap(s.visitor.tour)) {
     const std::string name = std::to_string(stop.number) + "   " + NameOfStop(s.visitor.tour, stop.stop);
     if (rows->Button(name, "stop " + std::to_string(stop.stop))) choice->stop = stop.stop;
@@ -269,10 +273,12 @@ MapChoice ShowList(const TourPack& pack, const Simulation& s, const PageLook& lo
   if (ImGui::Begin("map list", nullptr, kPlain)) {
     if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
     const std::string back = Say(Phrase::kBackToPages, look.language);
-    ShowListRows(pack, s, look, &rows, page, &choice);
+    const TextRoom hint = RoomFor(Say(Phrase::kMapTap, look.language), inner_px, TextOf(look), &overlay->text());
+    const bool hints = hint.lines <= kMostHintLines;
+    ShowListRows(pack, s, look, hints, &rows, page, &choice);
     const float rest_px = box.bottom - box.top - 1.2f * letter_px - rows.ButtonHeight_px(back) - 0.6f * letter_px;
     if (!rows.Fit(rest_px, menu->first, Say(Phrase::kMore, look.language))) menu->first = 0;
-    ShowListRows(pack, s, look, &rows, page, &choice);
+    ShowListRows(pack, s, look, hints, &rows, page, &choice);
     rows.ShowMore();
     if (rows.more_pressed()) menu->first = rows.end() < rows.count() ? rows.end() : 0;
     if (rows.ButtonBelow(back, "back")) OpenPage(Page::kNone, menu);

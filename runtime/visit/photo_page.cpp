@@ -57,7 +57,9 @@ void ShowPhotoPage(const TakenPhoto& t, const std::string& folder, bool names_fi
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::Dummy({inner_px, words_px});
   DrawText(words, {corner.x, corner.y, inner_px, words_px}, TextOf(look), text);
-  if (rows.ButtonBelow(on, "on")) OpenPage(Page::kNone, menu);
+  // The only button is meant even where nobody has moved to it yet.
+  const bool accepted = ImGui::GetIO().NavInputsDownDuration[ImGuiNavInput_Activate] == 0;
+  if (rows.ButtonBelow(on, "on") || accepted) OpenPage(Page::kNone, menu);
   ImGui::End();
 }
 

@@ -8,13 +8,13 @@ namespace {
 
 constexpr float kAspect = 16.0f / 9;
 
-struct Look : ::testing::Test {
+struct HotspotsSeen : ::testing::Test {
   Walkable walkable;
   std::vector<Hotspot> all{{{10, 0}, 1.65f, 15}};
   FrameInput frame;
   Hotspots h;
 
-  Look() {
+  HotspotsSeen() {
     GroundRaster g{{-20, -20}, 1, 60, 40, std::vector<float>(2400, 2), std::vector<uint8_t>(2400, 3)};
     walkable.ground = Share(std::move(g));
     frame.eye = {0, 0, 3.65f};
@@ -32,7 +32,7 @@ struct Look : ::testing::Test {
   }
 };
 
-TEST_F(Look, APointIsWhereItsRayMeetsThePicture) {
+TEST_F(HotspotsSeen, APointIsWhereItsRayMeetsThePicture) {
   Begin();
   const Vec2 middle = PlaceInPicture(frame, kAspect, {10, 0, 3.65f}).value_or(Vec2{-9, -9});
   EXPECT_NEAR(middle.x, 0.5f, 1e-5f);
@@ -48,7 +48,7 @@ TEST_F(Look, APointIsWhereItsRayMeetsThePicture) {
   EXPECT_NEAR(up.y, 0.5f, 1e-4f);
 }
 
-TEST_F(Look, LookingAtItForAWhileMakesItTell) {
+TEST_F(HotspotsSeen, LookingAtItForAWhileMakesItTell) {
   Begin();
   Pass(0.5f);
   ASSERT_EQ(h.seen.size(), 1u);
@@ -58,7 +58,7 @@ TEST_F(Look, LookingAtItForAWhileMakesItTell) {
   EXPECT_EQ(h.open, 0);
 }
 
-TEST_F(Look, WhoOnlyPassesByItWithTheEyesIsNotDisturbed) {
+TEST_F(HotspotsSeen, WhoOnlyPassesByItWithTheEyesIsNotDisturbed) {
   Begin();
   for (int k = 0; k < 20; ++k) {
     frame.yaw_rad = 0;
@@ -69,7 +69,7 @@ TEST_F(Look, WhoOnlyPassesByItWithTheEyesIsNotDisturbed) {
   EXPECT_LT(h.open, 0);
 }
 
-TEST_F(Look, ItEndsWhenOneLooksOrWalksAway) {
+TEST_F(HotspotsSeen, ItEndsWhenOneLooksOrWalksAway) {
   Begin();
   Pass(2);
   ASSERT_EQ(h.open, 0);
@@ -89,7 +89,7 @@ TEST_F(Look, ItEndsWhenOneLooksOrWalksAway) {
   EXPECT_LT(h.open, 0) << "18 m away from what is found within 15";
 }
 
-TEST_F(Look, TooFarAwayItIsNotSeen) {
+TEST_F(HotspotsSeen, TooFarAwayItIsNotSeen) {
   Begin();
   frame.eye.x = -5.5f;
   Pass(2);
@@ -97,7 +97,7 @@ TEST_F(Look, TooFarAwayItIsNotSeen) {
   EXPECT_LT(h.open, 0);
 }
 
-TEST_F(Look, HousesHideItAndStallsDoNot) {
+TEST_F(HotspotsSeen, HousesHideItAndStallsDoNot) {
   AddHouse(4, 4, 3);
   Begin();
   Pass(2);
@@ -109,7 +109,7 @@ TEST_F(Look, HousesHideItAndStallsDoNot) {
   EXPECT_EQ(h.open, 0);
 }
 
-TEST_F(Look, WhatIsAtAWallIsSeenFromThatSideOnly) {
+TEST_F(HotspotsSeen, WhatIsAtAWallIsSeenFromThatSideOnly) {
   AddHouse(10, 5, 6);
   Begin();
   Pass(0.1f);
@@ -120,7 +120,7 @@ TEST_F(Look, WhatIsAtAWallIsSeenFromThatSideOnly) {
   EXPECT_TRUE(h.seen.empty());
 }
 
-TEST_F(Look, WhatIsHighIsSeenOverHouses) {
+TEST_F(HotspotsSeen, WhatIsHighIsSeenOverHouses) {
   all[0].height_m = 12;
   AddHouse(4, 4, 3);
   Begin();
@@ -129,13 +129,13 @@ TEST_F(Look, WhatIsHighIsSeenOverHouses) {
   EXPECT_EQ(h.seen.size(), 1u);
 }
 
-TEST_F(Look, WhatThePictureHidesIsNotSeen) {
+TEST_F(HotspotsSeen, WhatThePictureHidesIsNotSeen) {
   Begin();
   Pass(2, true, [](Vec3 p) { return p.z > 3; });
   EXPECT_TRUE(h.seen.empty());
 }
 
-TEST_F(Look, ATapAndAKeyOpenAndClose) {
+TEST_F(HotspotsSeen, ATapAndAKeyOpenAndClose) {
   Begin();
   Pass(0.1f, false);
   EXPECT_FALSE(TapHotspot({0.3f, 0.5f}, kAspect, 0.045f, &h));
@@ -156,7 +156,7 @@ TEST_F(Look, ATapAndAKeyOpenAndClose) {
   EXPECT_EQ(h.open, 0);
 }
 
-TEST_F(Look, WhereTheTourLeadsNothingOpensByItself) {
+TEST_F(HotspotsSeen, WhereTheTourLeadsNothingOpensByItself) {
   Begin();
   Pass(5, false);
   EXPECT_LT(h.open, 0);
