@@ -7,6 +7,7 @@
 
 #include "runtime/base/clock.h"
 #include "runtime/desktop/context.h"
+#include "runtime/desktop/kiosk_files.h"
 #include "runtime/desktop/run.h"
 #include "runtime/desktop/speaker.h"
 #include "runtime/desktop/title_screen.h"
@@ -121,7 +122,9 @@ Error RunInWindow(const PlayerOptions& options, StartingTour* tour, UserSettings
   UserSettingsStore store(user);
   WarningsOnStderr warnings;
   Fonts fonts(SystemFonts());
-  const Shell shell{speaker, store, warnings, PrintedKey, &fonts, &tour->jobs};
+  VisitLogFile visits(user->kiosk);
+  PackWatch pack_file(options.pack);
+  const Shell shell{speaker, store, warnings, PrintedKey, &fonts, &tour->jobs, &visits};
   Visit visit(tour->pack, &tour->loader, user->settings, shell, s, user->kiosk);
   Part simulations(&tour->jobs, [&] { return StartSimulations(options, tour); });
   if (Error e = visit.Begin(true)) return e;
@@ -151,6 +154,10 @@ Error RunInWindow(const PlayerOptions& options, StartingTour* tour, UserSettings
     window.Show();
     visit.TellTime(static_cast<float>(1000 * ((window.ShowWaits() ? ready_s : Now_s()) - now_s)));
     TellAlive(true);
+    if (visit.waits_for_visitors() && pack_file.IsReplaced(now_s)) {
+      *starts_anew = true;
+      break;
+    }
     if (!shown && options.verbose) TellOf("first picture");
     shown = true;
     ++pictures;
@@ -160,7 +167,7 @@ Error RunInWindow(const PlayerOptions& options, StartingTour* tour, UserSettings
     pictures = 0;
   }
   visit.Leave();
-  *starts_anew = visit.starts_anew();
+  *starts_anew = *starts_anew || visit.starts_anew();
   return WriteRecords(records, options.metrics, options.trajectories);
 }
 

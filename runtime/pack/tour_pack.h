@@ -105,8 +105,8 @@ struct PackAvatar {
   float height_spread = 0;  // people are up to so much larger or smaller, as a share, 0 to kMaxHeightSpread
   float walk_speed_mps = 1.3f;  // at which the walk clip's feet don't slide
   int joints = 0;
-  std::vector<PackJoint> skeleton;  // a joint each
-  PackClip walk, idle, talk;        // always present: a missing talk is the idle, a missing idle a standing pose
+  std::vector<PackJoint> skeleton;         // a joint each
+  PackClip walk, idle, talk;               // always present: a missing talk is the idle, a missing idle a standing pose
   std::vector<PackOtherClip> other_clips;  // at most kMaxOtherClips
   std::vector<PackLevel> levels;           // finest first, at least one
   std::vector<Tint> tints;                 // at most kMaxTints

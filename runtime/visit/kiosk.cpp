@@ -79,7 +79,6 @@ KioskEvent FollowKiosk(const WindowInput& hands, float passed_s, bool is_led, co
 KioskEvent EndVisit(Kiosk* k) {
   if (k->state == KioskState::kAttract) return KioskEvent::kNothing;
   k->state = KioskState::kAttract;
-  k->unused_s = 0;
   return KioskEvent::kVisitEnds;
 }
 

@@ -9,6 +9,7 @@
 #include "runtime/text/fonts.h"
 #include "runtime/visit/heard.h"
 #include "runtime/visit/player_settings.h"
+#include "runtime/visit/visit_log.h"
 #include "runtime/visit/window_input.h"
 
 namespace flaneur {
@@ -47,9 +48,10 @@ struct Shell {
   SoundOutput& sound;
   SettingsStore& settings;
   Warnings& warnings;
-  KeyLayout layout;        // may be empty
-  Fonts* fonts = nullptr;  // of all that is read; null: the built-in one
-  Jobs* jobs = nullptr;    // for photos; null: they are written at once
+  KeyLayout layout;            // may be empty
+  Fonts* fonts = nullptr;      // of all that is read; null: the built-in one
+  Jobs* jobs = nullptr;        // for photos; null: they are written at once
+  VisitLog* visits = nullptr;  // of a kiosk; null: nobody keeps them
 };
 
 }  // namespace flaneur

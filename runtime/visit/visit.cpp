@@ -1,6 +1,7 @@
 #include "runtime/visit/visit.h"
 
 #include <algorithm>
+#include <set>
 
 #include "runtime/base/text.h"
 #include "runtime/render/overlay.h"
@@ -46,7 +47,9 @@ struct Visit::Impl {
   Simulation* s;
   Kiosk kiosk;
   Attract attract{};
-  float shows_itself_s = 0;  // the tour, by now
+  float shows_itself_s = 0;    // the tour, by now
+  VisitRecord record{};        // of the visit that is
+  std::set<size_t> reached{};  // halts, in it
   Renderer renderer{};
   Overlay overlay{shell.fonts};
   Controls controls{};
@@ -80,6 +83,7 @@ struct Visit::Impl {
   VisitSoFar SoFar() { return {*s, controls, wishes, notices}; }
   void BeginAnew();
   void EndVisitor();
+  void NoteVisit();
   void MeetVisitor(const WindowInput& input);
   void MakeControlsAnew();
   bool IsLed() const;
@@ -139,8 +143,20 @@ void Visit::Impl::BeginAnew() {
   looks = {};
 }
 
+void Visit::Impl::NoteVisit() {
+  if (shell.visits == nullptr || record.began == 0) return;
+  const GuidedTour& tour = s->visitor.tour;
+  record.length_s = std::max(0.0f, record.length_s - kiosk.unused_s);
+  record.language = PageLanguage(controls, *s);
+  record.stops_reached = reached.size();
+  for (size_t k = 0; k < tour.stops.size(); ++k) record.stops += RestOf_s(tour, k) > 0;
+  if (Error e = shell.visits->Note(record)) shell.warnings.Warn(e.message);
+  record = {};
+}
+
 // Nobody is there any more: the tour shows itself.
 void Visit::Impl::EndVisitor() {
+  NoteVisit();
   BeginAnew();
   ApplySettings();
   OpenPage(Page::kNone, &menu);
@@ -157,6 +173,9 @@ void Visit::Impl::MeetVisitor(const WindowInput& input) {
       hidden() ? std::nullopt : LanguageAt(input.pointer, languages.size(), look, width_px, height_px);
   BeginAnew();
   if (language) controls.settings.language = languages[*language];
+  record = {};
+  record.began = std::time(nullptr);
+  reached.clear();
   ApplySettings();
   MeetSomebodyNew(&menu);
   menu.lets_go = true;
@@ -201,6 +220,8 @@ void Visit::Impl::FollowVisitors(const WindowInput& input, float passed_s) {
       return EndVisitor();
     case KioskEvent::kNothing:
       shows_itself_s += passed_s;
+      record.length_s += passed_s;
+      if (s->visitor.tour.resting && !attracts()) reached.insert(HaltOf(s->visitor.tour));
   }
 }
 
@@ -381,8 +402,12 @@ void Visit::Present() {
 }
 
 void Visit::Read(std::vector<uint8_t>* rgb) { impl_->renderer.Read(rgb); }
-void Visit::Leave() { impl_->Save(); }
+void Visit::Leave() {
+  impl_->Save();
+  impl_->NoteVisit();
+}
 bool Visit::ends() const { return impl_->controls.quits; }
+bool Visit::waits_for_visitors() const { return impl_->attracts() && !impl_->operator_page(); }
 bool Visit::starts_anew() const { return impl_->starts_anew; }
 bool Visit::frees_pointer() const { return impl_->controls.points || impl_->pages() || impl_->attracts(); }
 bool Visit::fullscreen() const { return impl_->controls.settings.fullscreen; }

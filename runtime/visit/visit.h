@@ -41,6 +41,7 @@ class Visit {
   void Read(std::vector<uint8_t>* rgb);  // the last picture: RGB, 8 bits a channel, top row first
   void Leave();                          // saves what the visitor has changed
   bool ends() const;                     // the visitor wants to; of a kiosk the operator
+  bool waits_for_visitors() const;       // of a kiosk: nobody is there
   bool starts_anew() const;              // so that the program is to be started again
   bool frees_pointer() const;            // to point at things with; else the mouse is caught
   bool fullscreen() const;               // as the visitor has it

@@ -1,7 +1,9 @@
 """A kiosk as children, operators and crashes meet it: on a display of its own, with keys and mouse by xdotool."""
+import csv
 import os
 import pathlib
 import re
+import shutil
 import signal
 import socket
 import subprocess
@@ -123,6 +125,36 @@ class KioskTest(unittest.TestCase):
         told = re.findall(r"(title page|first picture) after ([0-9.]+) s", self.said())
         self.assertEqual([what for what, _ in told], ["title page", "first picture"])
         print(told, flush=True)
+
+    def test_keeps_a_line_a_visit(self):
+        program = self.start(settings="idle_s = 10\nlanguages = [\"fr\", \"de\"]\n")
+        self.wait_for_pictures(program)
+        log = self.folder / "visits/visits.csv"
+        time.sleep(2)
+        self.assertFalse(log.exists(), "nobody has been there")
+        self.display.tap("k")
+        self.wait_until(log.exists)
+        with open(log, newline="") as file:
+            visit, = csv.DictReader(file)
+        self.assertEqual(visit["language"], "fr")
+        self.assertLess(int(visit["length_s"]), 10)
+        self.assertRegex(visit["began"], r"^\d{4}-\d\d-\d\d \d\d:\d\d$")
+
+    def test_takes_a_new_tour_over_while_nobody_is_there_and_leaves_what_is_none(self):
+        tour = self.folder / "tour.glb"
+        shutil.copy(PACK, tour)
+        program = self.start(settings=f"tour = \"{tour}\"\n", pack=False)
+        self.wait_for_pictures(program)
+        plays = child_of(program)
+        broken = self.folder / "broken.glb"
+        broken.write_bytes(PACK.read_bytes()[:1000])
+        broken.rename(tour)
+        self.wait_until(lambda: "the tour that is there goes on" in self.said())
+        self.assertEqual(child_of(program), plays)
+        fresh = self.folder / "fresh.glb"
+        shutil.copy(PACK, fresh)
+        fresh.rename(tour)
+        self.wait_for_another(program, plays)
 
     def test_the_operator_starts_it_anew_by_holding_the_key_for_ending(self):
         program = self.start()

@@ -67,6 +67,21 @@ class Packages(unittest.TestCase):
         program, pack = command.split()
         output(self.root / "usr/bin" / program, self.root / pack.lstrip("/"), "--headless", "--no-draw", "--seconds", "1")
 
+    def test_the_player_brings_a_kiosk(self):
+        unit = (self.root / "usr/lib/systemd/user/flaneur-kiosk.service").read_text()
+        for line in ("Type=notify", "WatchdogSec=10", "Restart=always", "ExecStart=/usr/bin/flaneur-player --kiosk"):
+            self.assertIn(line, unit)
+        session, = re.findall("^Exec=(.*)$", (self.root / "usr/share/xsessions/flaneur-kiosk.desktop").read_text(), re.MULTILINE)
+        self.assertTrue((self.root / session.lstrip("/")).stat().st_mode & 0o100)
+        output("sh", "-n", self.root / session.lstrip("/"))
+        # The example is in order as it is: all that is wrong is that there is no display.
+        nowhere = {"PATH": "/usr/bin:/bin", "DISPLAY": ":4711", "HOME": "/nonexistent"}
+        settings = self.root / "usr/share/doc/flaneur-player/examples/kiosk.toml"
+        said = subprocess.run([self.root / "usr/bin/flaneur-player", self.root / "usr/share/flaneur/wolfenbuettel.glb", "--kiosk",
+                               "--kiosk-settings", settings], env=nowhere, capture_output=True, text=True, check=False)
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("no display", said.stderr)
+
     def test_whoever_builds_gets_the_libraries_of_the_same_version(self):
         for library in ("libflaneur-crowd", "libflaneur-footprints"):
             self.assertRegex(self.depends("libflaneur-dev"), rf"{library} \(= [0-9.]+\)")
