@@ -110,15 +110,19 @@ const StageReport* Find(const BakeReport& report, const char* stage, const std::
   return nullptr;
 }
 
+// What a stage shows of the item; empty where it shows nothing.
+std::string Picture(const BakeReport& report, const std::string& stage, const std::string& item) {
+  const StageReport* found = Find(report, stage.c_str(), item);
+  if (found == nullptr || found->picture_png.empty()) return "";
+  return "<img alt=\"" + stage + " of " + Escaped(item) + "\" src=\"data:image/png;base64," +
+         Base64(found->picture_png) + "\">";
+}
+
 std::string Person(const BakeReport& report, const StageReport& avatar) {
   std::string out = "<div class=\"person\"><div><h3>" + Escaped(avatar.item) + "</h3><div class=\"soft\">";
   for (const auto& [key, value] : avatar.figures) out += Escaped(key) + " " + Figure(value) + " &nbsp; ";
   out += "</div>";
-  const StageReport* impostor = Find(report, "impostor", avatar.item);
-  if (impostor != nullptr && !impostor->picture_png.empty()) {
-    out += "<img alt=\"impostor of " + Escaped(avatar.item) + "\" src=\"data:image/png;base64," +
-           Base64(impostor->picture_png) + "\">";
-  }
+  out += Picture(report, "impostor", avatar.item) + Picture(report, "tint", avatar.item);
   out +=
       "</div><table><tr><th class=\"n\">Triangles<th class=\"n\">Error, bind pose<th class=\"n\">Error, walking"
       "<th class=\"n\">Needed from</tr>";

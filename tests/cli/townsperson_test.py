@@ -164,5 +164,5 @@ class TownspersonTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    TownspersonTest.paths = [argument for argument in sys.argv[1:] if argument.endswith(".glb")]
-    unittest.main(argv=[argument for argument in sys.argv if argument not in TownspersonTest.paths])
+    TownspersonTest.paths = [pathlib.Path(argument) for argument in sys.argv[1:] if argument.endswith(".glb")]
+    unittest.main(argv=[argument for argument in sys.argv if not argument.endswith(".glb")])
