@@ -9,7 +9,7 @@ import furnish
 import plan
 
 KEEPER = (-0.2, 0.36)   # in a stall, behind its counter
-BESIDE_STALL = (2.0, -0.5)  # a dog's place
+DOGS = {0: (-2.1, -0.5), 4: (2.1, -0.5), 7: (-2.1, -0.5)}  # by stall at the end of a row: beside it, in nobody's way
 BEFORE_BENCH_M = 0.62   # from a bench's middle to where a sitter's feet are
 SEAT_M = 0.46
 FROM_WELL_M = 1.76      # from its middle
@@ -33,8 +33,8 @@ def add_work(town, benches):
     """benches: (x, y, yaw) of each."""
     for i, (x, y, yaw) in enumerate(furnish.STALLS):
         _work(town, "keeper_%d" % (i + 1), _turned(x, y, yaw, *KEEPER), yaw, "keep", "merchant, farmer, townswoman")
-        if i % 3 == 1:
-            _work(town, "dog_%d" % (i + 1), _turned(x, y, yaw, *BESIDE_STALL), yaw, "lie", "dog, pale_dog")
+        if i in DOGS:
+            _work(town, "dog_%d" % (i + 1), _turned(x, y, yaw, *DOGS[i]), yaw, "lie", "dog, pale_dog")
     for i, (x, y, yaw) in enumerate(benches):
         side = -0.42 if i % 2 else 0.42
         _work(town, "sitter_%02d" % (i + 1), _turned(x, y, yaw, side, -BEFORE_BENCH_M), yaw, "sit", seat_m=SEAT_M)

@@ -17,11 +17,10 @@ ARM = ("shoulder02", "upperarm02", "lowerarm01", "lowerarm02", "wrist")
 FINGERS = ("finger1-1", "finger3-1", "finger3-2")
 SIDES = (("_L", 1.0), ("_R", -1.0))
 
-# By person, what they can do.
+# By person, what they can do. Skirts and long tunics stand off like bells where somebody sits.
 WORK = {
-    "merchant": ("keep", "sit"), "farmer": ("keep", "sweep", "sit"), "craftsman": ("sweep", "sit"),
-    "townswoman": ("keep", "sit"), "maid": ("sweep", "draw_water"), "old_man": ("sit",),
-    "child": ("sit",), "girl": ("sit",),
+    "merchant": ("keep", "sit"), "farmer": ("keep", "sweep"), "craftsman": ("sweep", "sit"),
+    "townswoman": ("keep",), "maid": ("sweep", "draw_water"),
 }
 
 

@@ -55,7 +55,6 @@ float DrawbackOf(const Viewer& viewer, Vec2 from, Vec2 goal, const Town& town) {
 // A place of work may be where nobody walks, as behind a counter, if whoever works there never comes or goes.
 bool IsWhereItCanBe(const Place& place, bool reachable, const Town& town) {
   if (place.kind != "work" || RoomAt_m(town.walkable, place.position_m) < kLeastWorkRoom_m) return false;
-  if (town.crowd_area && !Contains(*town.crowd_area, place.position_m)) return false;
   return OnGround(town.walkable, place.position_m) && (place.stay_s <= 0 || reachable);
 }
 
@@ -106,6 +105,7 @@ void PreparePlaces(Town* town) {
   const int main_component = LargestComponent(town->walkable);
   std::vector<Place> kept;
   for (Place& place : town->places) {
+    if (town->crowd_area && !Contains(*town->crowd_area, place.position_m)) continue;
     const int cell = NearestFreeCell(town->walkable, place.position_m, kReach_m);
     const bool reachable = cell >= 0 && town->walkable.component[static_cast<size_t>(cell)] == main_component;
     if (IsWhereItCanBe(place, reachable, *town)) {
@@ -116,7 +116,6 @@ void PreparePlaces(Town* town) {
       town->warnings.push_back("place '" + place.name + "' cannot be reached; it is not used");
       continue;
     }
-    if (town->crowd_area && !Contains(*town->crowd_area, place.position_m)) continue;
     if (!IsGate(place) && InsideObstacle(town->walkable, place.position_m)) {
       town->warnings.push_back("place '" + place.name + "' (" + place.kind +
                                ") is inside an obstacle; the nearest free ground is taken");
