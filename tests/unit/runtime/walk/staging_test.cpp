@@ -140,7 +140,7 @@ Shares WatchTowns(float fov_rad, float aspect) {
     const RandomTown town(seed);
     Scenario scenario = ScenarioOf(town.pack);
     scenario.control.fov_rad = fov_rad;
-    scenario.aspect = aspect;
+    scenario.screen_height_px = static_cast<int>(static_cast<float>(scenario.screen_width_px) / aspect);
     Simulation s;
     const Error e = StartSimulation(&town.pack, scenario, &s);
     EXPECT_FALSE(e) << e.message;
