@@ -710,7 +710,8 @@ TEST(Caption, IsLargerAndWithoutTranslucencyForWhoeverAsksForIt) {
 TEST(Caption, OnOneSideLeavesTheRestOfThePictureFree) {
   Fonts fonts;
   for (const int side : {-1, 1}) {
-    for (const char* text : {"Next: the well", "The market square. The stalls open at six; the well has never run dry."}) {
+    for (const char* text :
+         {"Next: the well", "The market square. The stalls open at six; the well has never run dry."}) {
       const PackImage image = LayOutCaption(text, {"en", 1, false, side}, 1280, 720, &fonts);
       ASSERT_GT(image.height_px, 0);
       for (int x = 0; x < 1280; ++x) {
