@@ -292,6 +292,7 @@ void SetPictureSize(int width_px, int height_px, Simulation* s) {
   if (width_px == s->screen_width_px && height_px == s->screen_height_px) return;
   s->screen_width_px = width_px;
   s->screen_height_px = height_px;
+  s->visitor.camera.aspect = static_cast<float>(width_px) / static_cast<float>(height_px);
   DeriveGap(s);
 }
 

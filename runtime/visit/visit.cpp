@@ -324,7 +324,9 @@ void Visit::Impl::Draw(float passed_s) {
   FrameFromSimulation(pack, *s, &looks, &frame, Between());
   if (pages() || attracts()) frame.caption.clear();
   else ShowNotice(notices, !controls.settings.reduced_motion, controls.settings.captions_always, &frame);
+  const int side = frame.caption_style.side;
   frame.caption_style = CaptionStyleOf(controls.settings, PageLanguage(controls, *s));
+  frame.caption_style.side = side;
   const ResolutionSettings wished = ResolutionWished();
   frame.resolution_scale = ScaleNow(wished, resolution);
   frame.detail = DetailNow(wished, resolution);

@@ -707,6 +707,23 @@ TEST(Caption, IsLargerAndWithoutTranslucencyForWhoeverAsksForIt) {
   EXPECT_LT(yellow.z, 100);
 }
 
+TEST(Caption, OnOneSideLeavesTheRestOfThePictureFree) {
+  Fonts fonts;
+  for (const int side : {-1, 1}) {
+    for (const char* text :
+         {"Next: the well", "The market square. The stalls open at six; the well has never run dry."}) {
+      const PackImage image = LayOutCaption(text, {"en", 1, false, side}, 1280, 720, &fonts);
+      ASSERT_GT(image.height_px, 0);
+      for (int x = 0; x < 1280; ++x) {
+        const bool beyond = side < 0 ? x > 1280 * 0.64f : x < 1280 * 0.36f;
+        for (int y = 0; y < image.height_px && beyond; ++y)
+          ASSERT_EQ(image.rgba[static_cast<size_t>(y * 1280 + x) * 4 + 3], 0) << x << ' ' << text;
+      }
+      EXPECT_GT(LettersOf(image).second, 100);
+    }
+  }
+}
+
 TEST(Caption, LeavesHalfOfThePictureFreeHoweverMuchItSays) {
   Fonts fonts;
   std::string text;
