@@ -34,7 +34,8 @@ struct DrawnPerson {
   Vec3 position;          // of the feet
   float heading_rad = 0;  // where the person faces
   float share_from = 0, share_to = 1;
-  Vec2 slope;  // of the ground there: its rise a metre to the east and to the north
+  Vec2 slope;        // of the ground there: its rise a metre to the east and to the north
+  float lift_m = 0;  // of the feet above the ground
   bool casts_shadow = true;
   uint8_t props = 0;               // bit k: the k-th of the avatar's is drawn too,
   float props_share = 1;           // [0, props_share) of the pattern

@@ -295,7 +295,8 @@ void AddContact(const DrawnPerson& person, float distance_m, const AvatarLayout&
                       (person.share_to - person.share_from) * sight.contact_shade;
   if (share <= 0 || !IsDrawn(person.level)) return;
   PersonInstance contact = Placed(person, 0, 0);
-  contact.look = {person.slope.x, -person.slope.y, avatar.radius_m + kAroundFeet_m, share};
+  contact.place.y -= person.lift_m;
+  contact.look = {person.slope.x, -person.slope.y, person.size * avatar.radius_m + kAroundFeet_m, share};
   out->contact_instances.push_back(contact);
 }
 
