@@ -17,6 +17,7 @@ FrameInput FrameOf(const TourPack& pack, const PortraitMoment& m, Level level, f
   const float focal_px = kScreenWidth_px / (2 * std::tan(pack.control.fov_rad / 2));
   const float distance_m = avatar.height_m * focal_px / person_px;
   FrameInput frame;
+  frame.contact_shade = 0;  // there is no ground
   frame.eye = {0, 0, kEyeHeight_m};
   frame.pitch_rad = std::atan2(avatar.height_m / 2 - kEyeHeight_m, distance_m);
   frame.fov_rad = 2 * std::atan(static_cast<float>(size_px) / 2 / focal_px);

@@ -34,6 +34,8 @@ struct DrawnPerson {
   Vec3 position;          // of the feet
   float heading_rad = 0;  // where the person faces
   float share_from = 0, share_to = 1;
+  Vec2 slope;        // of the ground there: its rise a metre to the east and to the north
+  float lift_m = 0;  // of the feet above the ground
   bool casts_shadow = true;
   uint8_t props = 0;               // bit k: the k-th of the avatar's is drawn too,
   float props_share = 1;           // [0, props_share) of the pattern
@@ -57,6 +59,7 @@ struct FrameInput {
   // Who is farther from the eye casts the shadow of a coarser figure, and who is beyond the reach none. In a picture of
   // a smaller scale coarser figures begin nearer.
   float fine_shadow_m = kFineShadow_m, shadow_reach_m = kShadowReach_m;
+  float contact_shade = 0.3f;     // of the light, that feet keep from the ground about them
   std::vector<Vec3> ground_mark;  // a strip of triangles over the ground; empty: none
   std::string caption;            // UTF-8, at the foot of the picture; empty: none
   float caption_share = 1;        // how much of it is seen, 0 to 1

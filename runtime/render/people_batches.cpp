@@ -10,8 +10,9 @@ namespace {
 
 constexpr float kAround_m = 0.35f;      // arms, skirts and props reach so far beyond a person's radius
 constexpr float kLongestShadow_m = 12;  // as far as one may fall into view
-constexpr float kFarImpostor_m = 15;    // nearer ones are drawn before all farther ones,
-constexpr size_t kNearBatches = 5;      // of the avatars that have most of them
+constexpr float kContactReach_m = 30, kContactFade_m = 8;  // of the shade about feet
+constexpr float kFarImpostor_m = 15;                       // nearer ones are drawn before all farther ones,
+constexpr size_t kNearBatches = 5;                         // of the avatars that have most of them
 
 // By ClipKind.
 std::vector<const PackClip*> ClipsOf(const PackAvatar& avatar) {
@@ -286,6 +287,19 @@ bool CastsShadow(const DrawnPerson& person, const Box& box, float distance_m, co
          InSight(sight, WithShadow(box, sight.to_sun));
 }
 
+// What shades the ground about somebody's feet. Look: the ground's rise a metre along x and z, radius, how much.
+void AddContact(const DrawnPerson& person, float distance_m, const AvatarLayout& avatar, const PeopleSight& sight,
+                PeopleBatches* out) {
+  constexpr float kAroundFeet_m = 0.1f;
+  const float share = std::clamp((kContactReach_m - distance_m) / kContactFade_m, 0.0f, 1.0f) *
+                      (person.share_to - person.share_from) * sight.contact_shade;
+  if (share <= 0 || !IsDrawn(person.level)) return;
+  PersonInstance contact = Placed(person, 0, 0);
+  contact.place.y -= person.lift_m;
+  contact.look = {person.slope.x, -person.slope.y, person.size * avatar.radius_m + kAroundFeet_m, share};
+  out->contact_instances.push_back(contact);
+}
+
 // Seen from the sun a shadow lies where its caster does: in the map that holds the caster. Who stands on the fine map's
 // border is in both.
 void AddShadow(uint32_t number, const DrawnPerson& person, const Box& box, float distance_m, const PeopleSight& sight,
@@ -368,6 +382,7 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
   for (std::vector<PeopleBatches::Entry>& entries : out->shadow_entries) entries.clear();
   out->pose_rows = 0;
   out->hidden = out->not_loaded = 0;
+  out->contact_instances.clear();
   out->pose_rows_of.assign(people.size(), -1);
   const BatchKeys keys = KeysFor(avatars);
   for (size_t i = 0; i < people.size(); ++i) {
@@ -381,6 +396,7 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
       ++out->hidden;
       continue;
     }
+    AddContact(people[i], distance_m, avatars[index], sight, out);
     AddPerson(static_cast<uint32_t>(i), people[i], distance_m, avatars[index], ready[index], sight, keys, out);
   }
   JoinFewNear(keys.meshes, keys.avatars, out);
@@ -400,6 +416,8 @@ void SortPeople(const std::vector<DrawnPerson>& people, const std::vector<Avatar
     std::swap(out->entries, out->shadow_entries[map]);
     Gather(2 * keys.avatars, shadow_batch_of, shadow_of, out, &out->shadows[map]);
   }
+  out->contacts = {0, 0, false, out->instances.size(), out->contact_instances.size()};
+  out->instances.insert(out->instances.end(), out->contact_instances.begin(), out->contact_instances.end());
 }
 
 }  // namespace flaneur

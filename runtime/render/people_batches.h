@@ -67,6 +67,7 @@ struct PeopleBatches {
   std::vector<PeopleBatch> seen;  // from the eye
   // From the sun, into people's fine map and into the coarse one; level: of the ShadowLevels.
   std::array<std::vector<PeopleBatch>, 2> shadows;
+  PeopleBatch contacts;     // the shade about the feet of those near the eye
   std::vector<Vec4> poses;  // pose_width texels a row
   size_t pose_width = 0, pose_rows = 0;
   int hidden = 0;      // left out because the picture cannot show them
@@ -79,6 +80,7 @@ struct PeopleBatches {
   };                           // of a prop
   std::vector<Entry> entries;  // scratch
   std::array<std::vector<Entry>, 2> shadow_entries;
+  std::vector<PersonInstance> contact_instances;
   std::vector<size_t> counts;
   std::vector<int> pose_rows_of;  // by person: their row of the poses; -1: none yet
 };
@@ -92,6 +94,7 @@ struct PeopleSight {
   float focal_px = 0;  // of a coarse picture: pixels that a metre takes at a distance of one; 0: levels as they are
   float fine_shadow_m = 0;  // who is farther casts the shadow of a coarser figure, as does who is
   Frustum fine_map{};       // not wholly in this map; all zero: everybody is
+  float contact_shade = 0;  // FrameInput's
 };
 
 // pose_width of `out` must be set: three times the most joints.

@@ -116,16 +116,6 @@ void CreateCells(PeopleView* people) {
   people->cells = CreateTable(CELLS_WIDTH, static_cast<GLsizei>(texels.size() / CELLS_WIDTH), texels.data());
 }
 
-// OpenGL ES 3.0 has no base instance: the attributes begin where the batch does.
-void BindInstances(GLuint buffer, const PeopleBatch& batch) {
-  constexpr size_t stride = sizeof(PersonInstance);
-  const size_t first = batch.first * stride;
-  glBindBuffer(GL_ARRAY_BUFFER, buffer);
-  EnableAttribute(ATTRIBUTE_PLACE, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, place), 1);
-  EnableAttribute(ATTRIBUTE_LOOK, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, look), 1);
-  EnableAttribute(ATTRIBUTE_TINTS, 4, GL_UNSIGNED_BYTE, false, stride, first + offsetof(PersonInstance, tints), 1);
-}
-
 void SetTints(const Program& program, const AvatarView& avatar) {
   SetUniform(program.tints, avatar.tints);
   SetUniform(program.tint_shifts, avatar.tint_shifts);
@@ -195,6 +185,16 @@ void AddTints(const std::vector<Tint>& tints, AvatarView* view) {
 }
 
 }  // namespace
+
+// OpenGL ES 3.0 has no base instance: the attributes begin where the batch does.
+void BindInstances(GLuint buffer, const PeopleBatch& batch) {
+  constexpr size_t stride = sizeof(PersonInstance);
+  const size_t first = batch.first * stride;
+  glBindBuffer(GL_ARRAY_BUFFER, buffer);
+  EnableAttribute(ATTRIBUTE_PLACE, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, place), 1);
+  EnableAttribute(ATTRIBUTE_LOOK, 4, GL_FLOAT, false, stride, first + offsetof(PersonInstance, look), 1);
+  EnableAttribute(ATTRIBUTE_TINTS, 4, GL_UNSIGNED_BYTE, false, stride, first + offsetof(PersonInstance, tints), 1);
+}
 
 Error CreatePeopleView(const TourPack& pack, ShaderMode mode, const SurfacePlan& plan,
                        const std::vector<GLuint>& arrays, PeopleView* people) {

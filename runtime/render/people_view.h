@@ -53,6 +53,8 @@ void AddAtlas(int avatar, const std::array<AtlasPicture, kAtlasPictures>& pictur
 std::vector<AssetId> AssetsFor(const std::vector<DrawnPerson>& drawn, const PeopleSight& sight,
                                const PeopleView& people);
 
+// Attributes of the bound vertex array, from this batch's first instance on.
+void BindInstances(GLuint buffer, const PeopleBatch& batch);
 // Once a picture: instances and poses of people->batches, for both draws below.
 void UploadPeople(PeopleView* people);
 // The frame block must be bound.

@@ -8,6 +8,7 @@
 #include "runtime/base/clock.h"
 #include "runtime/render/asset_content.h"
 #include "runtime/render/caption.h"
+#include "runtime/render/contact_shade.h"
 #include "runtime/render/ground_mark.h"
 #include "runtime/render/light.h"
 #include "runtime/render/people_view.h"
@@ -120,6 +121,7 @@ struct Renderer::Impl {
   Picture picture;
   CaptionView caption;
   GroundMarkView ground_mark;
+  ContactShadeView contact_shade;
   SurfacePlan plan;
   size_t pictures_left = 0;  // to come
   AtlasFormats formats;
@@ -142,7 +144,8 @@ struct Renderer::Impl {
             std::min(2 * kPeopleShadow_m, frame.shadow_reach_m) * frame.detail,
             frame.resolution_scale * frame.detail < 1 && !frame.keeps_levels ? Focal_px(frame) * frame.detail : 0,
             frame.fine_shadow_m * (1 + frame.resolution_scale) / 2 * frame.detail,
-            FrustumOf(PeopleShadowMatrices(eye, Ahead(frame), to_sun)[0])};
+            FrustumOf(PeopleShadowMatrices(eye, Ahead(frame), to_sun)[0]),
+            frame.contact_shade};
   }
 
   // The costs are those of one picture, however many are averaged.
@@ -207,6 +210,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
     return e;
   if (Error e = CreateCaptionView(options.fonts, &r.caption)) return e;
   if (Error e = CreateGroundMark(&r.ground_mark)) return e;
+  if (Error e = CreateContactShade(&r.contact_shade)) return e;
   CreateShadowMaps(&r.shadows);
   r.waits = !options.runs_ahead || !CreatePictureClock(&r.clock);
   glGenVertexArrays(1, &r.empty_array);
@@ -285,7 +289,8 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
                                                   std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
     r.DrawSurfaces(eye, &timer, &people, &town);
     if (!r.options.normals) r.DrawSky();
-    mark = DrawGroundMark(frame.ground_mark, r.ground_mark);
+    mark = r.options.normals ? DrawCost{} : DrawContactShade(r.people, r.contact_shade);
+    mark += DrawGroundMark(frame.ground_mark, r.ground_mark);
     timer.Passed(DrawPass::kSky);
     FinishPicture(k, r.picture);
   }

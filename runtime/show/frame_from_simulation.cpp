@@ -133,6 +133,14 @@ float PropsShare(const PersonLevel& level, float done, float distance_m) {
   return drawn * std::clamp((kPropReach_m - distance_m) / kPropFade_m, 0.0f, 1.0f);
 }
 
+Vec2 SlopeAt(const Walkable& ground, Vec2 p) {
+  constexpr float kAside_m = 0.25f;
+  const auto rise = [&](Vec2 aside) {
+    return (HeightAt(ground, p + aside) - HeightAt(ground, p - aside)) / (2 * kAside_m);
+  };
+  return {rise({kAside_m, 0}), rise({0, kAside_m})};
+}
+
 // before_s: how long before the last step.
 void Show(const PersonLook& look, float share, float before_s, FrameInput* frame) {
   DrawnPerson person;
@@ -145,6 +153,8 @@ void Show(const PersonLook& look, float share, float before_s, FrameInput* frame
   person.position = look.before + (look.position - look.before) * share;
   person.heading_rad = Mix_rad(look.heading_before_rad, look.heading_rad, share);
   const float done = ShareOf(look.level, before_s);
+  person.slope = look.slope;
+  person.lift_m = look.lift_m;
   person.casts_shadow = look.casts_shadow;
   person.props_share = PropsShare(look.level, done, Length(person.position - frame->eye));
   person.props = person.props_share > 0 ? look.props : 0;
@@ -195,7 +205,9 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, float pas
     look.size = SizeOf(avatar, crowd.id[i]);
   }
   const Vec2 p = crowd.position[i];
-  Move({p.x, p.y, HeightAt(s.town.walkable, p) + Lift_m(s, i, avatar)}, crowd.heading_rad[i], anew, &look);
+  look.slope = SlopeAt(s.town.walkable, p);
+  look.lift_m = Lift_m(s, i, avatar);
+  Move({p.x, p.y, HeightAt(s.town.walkable, p) + look.lift_m}, crowd.heading_rad[i], anew, &look);
   const ClipMoment before = look.moment;
   FollowClip(MomentOf(s, i, avatar, look.size, look.moment.clip), anew, passed_s, &look);
   look.phase_step = anew ? 0 : PhaseStep(before, look.moment);

@@ -21,6 +21,8 @@ struct PersonLook {
   ClipMoment moment, last_moment;  // last_moment: where the clip before stopped
   float clip_s = 0;                // since the clip changed
   Vec3 position, before;           // before: where the picture stood before the last step
+  Vec2 slope;                      // DrawnPerson's
+  float lift_m = 0;                // likewise
   float heading_rad = 0, heading_before_rad = 0;
   float phase_step = 0;            // of the clip, since before
   std::array<uint8_t, 3> tints{};  // DrawnPerson's,

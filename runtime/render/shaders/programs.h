@@ -25,6 +25,7 @@ namespace flaneur {
   PROGRAM(kSharpen, "whole.vert", "smooth.frag", "SHARPEN") \
   PROGRAM(kEnlarge, "enlarge.vert", "enlarge.frag", "") \
   PROGRAM(kCaption, "whole.vert", "caption.frag", "") \
+  PROGRAM(kContactShade, "contact_shade.vert", "contact_shade.frag", "") \
   PROGRAM(kGroundMark, "ground_mark.vert", "ground_mark.frag", "") \
   PROGRAM(kOverlay, "overlay.vert", "overlay.frag", "")
 

@@ -64,6 +64,7 @@ std::unique_ptr<TourPack> ContactOfTheDemo::pack_;
 // Looking east at somebody's feet, the sun in the south, on the right.
 FrameInput LookAtFeet(float sun_elevation_rad) {
   FrameInput frame;
+  frame.contact_shade = 0;  // shadows alone
   frame.eye = {0, 0, kEye_m};
   frame.pitch_rad = -std::atan2(kEye_m - 0.4f, kDistance_m);
   frame.fov_rad = 2 * std::atan(kSeen_m / 2 / kDistance_m);
