@@ -85,8 +85,10 @@ ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, flo
 
 // How far over the ground their feet are, who sit higher than their clip does.
 float Lift_m(const Simulation& s, size_t i, const PackAvatar& avatar) {
-  const int doing = s.town.crowd.doing[i], work = PlanOf(i, s.town).work;
-  if (doing < 0 || work < 0) return 0;
+  const int doing = s.town.crowd.doing[i];
+  if (doing < 0) return 0;
+  const int work = PlanOf(i, s.town).work;
+  if (work < 0) return 0;
   const float seat_m = avatar.other_clips[static_cast<size_t>(doing)].seat_m;
   const WorkSpot& spot = s.town.work_spots[static_cast<size_t>(work)];
   const float wanted_m = s.town.places[static_cast<size_t>(spot.place)].seat_m;

@@ -261,8 +261,10 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
   for_pages = pages() || attracts();
   Menu navigated = menu;  // by keys
   if (operator_page()) {
-    navigated.page = Page::kMain;
     menu.was_down = input.down;
+    menu.lets_go = menu.lets_go && input.down.any();
+    navigated = menu;
+    navigated.page = Page::kMain;
   } else {
     TakePageInput(input, &menu, &controls);
     navigated = menu;

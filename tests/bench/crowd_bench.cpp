@@ -47,7 +47,7 @@ void LevelChoice(benchmark::State& state) {
   const std::vector<AvatarCosts> avatars{{{{10000, 90}, {5000, 60}, {1000, 0}}, 1.75f, 128}};
   LevelState levels;
   for (auto _ : state) {
-    ChooseLevels(field.crowd, avatars, {{10, 10}, 0.8f, 1.05f}, {{1, 1}}, 0, {}, kOpenFieldStep_s, &levels);
+    ChooseLevels(field.crowd, avatars, {}, {.camera = {{10, 10}, 0.8f, 1.05f}, .motion = {{1, 1}}}, &levels);
     benchmark::DoNotOptimize(levels.triangles);
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));

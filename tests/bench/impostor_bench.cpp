@@ -77,7 +77,7 @@ AtlasLevel Finest(const Rgba& albedo) {
   AtlasLevel level{albedo.width, albedo.height, {}};
   for (size_t i = 0; i + 3 < albedo.bytes.size(); i += 4) {
     const uint8_t* t = &albedo.bytes[i];
-    level.texels.push_back({Share(t[3]), {Share(t[0]), Share(t[1]), Share(t[2])}, {}, 0, {}, {}});
+    level.texels.push_back({Share(t[3]), {Share(t[0]), Share(t[1]), Share(t[2])}, {}, 0, {}, {}, {}});
   }
   return level;
 }

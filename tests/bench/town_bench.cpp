@@ -47,11 +47,8 @@ void TakeTown(const TourPack& pack, float scale, Walkable* w) {
   const GroundRaster& ground = *pack.ground;
   w->ground =
       Share({ground.min_m * scale, ground.cell_m * scale, ground.columns, ground.rows, ground.height_m, ground.kind});
-  for (const PackObstacle& o : pack.obstacles) {
-    if (o.radius_m > 0) {
-      w->circles.push_back({o.center * scale, o.radius_m});
-      continue;
-    }
+  for (const CircleObstacle& o : pack.obstacles.circles) w->circles.push_back({o.center * scale, o.radius_m});
+  for (const PolygonObstacle& o : pack.obstacles.polygons) {
     w->polygons.push_back({scaled(o.outer), {}});
     for (const auto& hole : o.holes) w->polygons.back().holes.push_back(scaled(hole));
   }

@@ -158,7 +158,8 @@ class TownspersonTest(unittest.TestCase):
         for glb in self.each():
             bounds = [
                 glb.json["accessors"][primitive["attributes"]["POSITION"]]
-                for primitive in glb.primitives()
+                for mesh in glb.json["meshes"] if mesh["name"].startswith("person_mesh")  # tools hang as they are held
+                for primitive in mesh["primitives"]
             ]
             self.assertAlmostEqual(min(bound["min"][1] for bound in bounds), 0.0, delta=0.01)
 

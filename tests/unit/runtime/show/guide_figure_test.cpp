@@ -135,6 +135,10 @@ TEST(GuideOfTheDemo, CarriesTheBannerInTheHand) {
   ASSERT_EQ(LoadTourPack(path, {.geometry_and_images = false}, &pack).message, "");
   for (const PackAvatar& avatar : pack.avatars) {
     const auto arm = FindCarryingArm(avatar.skeleton, avatar.height_m);
+    if (avatar.name.ends_with("dog")) {
+      EXPECT_FALSE(arm) << avatar.name;
+      continue;
+    }
     ASSERT_TRUE(arm) << avatar.name;
     EXPECT_LT(arm->grip_m.x, -0.1f * avatar.height_m) << avatar.name;
     EXPECT_GT(arm->grip_m.z, 0.05f * avatar.height_m) << avatar.name;
