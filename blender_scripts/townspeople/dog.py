@@ -178,8 +178,10 @@ def walk_clip(skeleton):
         pose.turn("neck", "x", 3.0 * np.sin(2 * t + 0.6))
         pose.turn("tail", "y", 9.0 * np.sin(t))
         for leg, side, ahead in STEPS:
-            own = t - 2.0 * np.pi * ahead
-            swing, lift = np.cos(own), max(0.0, -np.sin(own))  # forward while it is lifted
+            own = (t - 2.0 * np.pi * ahead) % (2.0 * np.pi)
+            # Backward at one pace while it stands, forward while it is lifted.
+            swing = 1.0 - 2.0 * own / np.pi if own < np.pi else np.cos(own)
+            lift = max(0.0, -np.sin(own))
             pose.turn(leg + "_upper" + side, "x", -SWING_DEG * swing)
             if leg == "fore":
                 pose.turn("fore_lower" + side, "x", 48.0 * lift)

@@ -76,8 +76,8 @@ def check_meshes(gltf, size, fail):
     drawn = sum(triangles(gltf, n["mesh"]) for n in gltf["nodes"] if "mesh" in n)
     if not 150_000 <= drawn <= 385_000:
         fail("%d triangles drawn, 150000 to 385000 expected" % drawn)
-    if size > 25 * MEGABYTE:
-        fail("%.1f MB, at most 25 expected" % (size / MEGABYTE))
+    if size > 26 * MEGABYTE:
+        fail("%.1f MB, at most 26 expected" % (size / MEGABYTE))
     if len(gltf["materials"]) > 16:
         fail("%d materials, at most 16 expected" % len(gltf["materials"]))
     for mesh in gltf["meshes"]:
