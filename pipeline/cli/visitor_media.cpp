@@ -1,11 +1,6 @@
 #include "pipeline/cli/visitor_media.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-
-#include <algorithm>
-
+#include "pipeline/cli/scaled_picture.h"
 #include "pipeline/cli/speech.h"
 #include "pipeline/io/sound_file.h"
 #include "runtime/base/array.h"
@@ -14,8 +9,6 @@
 namespace flaneur {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr int kJpegQuality = 88;
 
 struct Media {
   const TourSettings& settings;
@@ -40,7 +33,7 @@ struct Media {
     const auto [entry, fresh] = pictures.try_emplace(file, Count(parts->pictures));
     if (fresh) {
       parts->pictures.emplace_back();
-      if (Error e = ScaledPicture(file, &parts->pictures.back())) return e;
+      if (Error e = ScaledPicture(file, kMaxPictureSide_px, &parts->pictures.back())) return e;
     }
     *out = entry->second;
     return Ok();
@@ -106,37 +99,6 @@ Error MakeSoundPlaces(Media* media) {
 }
 
 }  // namespace
-
-Error ScaledPicture(const fs::path& file, std::vector<uint8_t>* bytes) {
-  const auto refuse = [&](const std::string& why) { return Fail(file.string() + ": " + OneLine(why)); };
-  OIIO::ImageBuf picture(file.string());
-  if (!picture.read(0, 0, true, OIIO::TypeDesc::UINT8)) return refuse(picture.geterror());
-  const OIIO::ImageBuf upright = OIIO::ImageBufAlgo::reorient(picture);
-  const int channels = std::min(upright.nchannels(), 4), side = std::max(upright.spec().width, upright.spec().height);
-  const bool translucent = channels == 4 || channels == 2;
-  std::vector<int> order{0, channels > 2 ? 1 : 0, channels > 2 ? 2 : 0};
-  if (translucent) order.push_back(channels - 1);
-  OIIO::ImageBuf out = OIIO::ImageBufAlgo::channels(upright, Count(order), order);
-  if (side > kMaxPictureSide_px) {
-    const auto scaled = [&](int length) { return std::max(1, length * kMaxPictureSide_px / side); };
-    const OIIO::ROI roi(0, scaled(upright.spec().width), 0, scaled(upright.spec().height), 0, 1, 0, Count(order));
-    out = OIIO::ImageBufAlgo::resize(out, "", 0, roi);
-  }
-  if (out.has_error()) return refuse(out.geterror());
-  OIIO::Filesystem::IOVecOutput memory;
-  const std::string name = translucent ? "picture.png" : "picture.jpg";
-  const auto writer = OIIO::ImageOutput::create(name, &memory);
-  if (!writer) return refuse("cannot be written as " + name + ": " + OIIO::geterror());
-  OIIO::ImageSpec spec(out.spec().width, out.spec().height, Count(order), OIIO::TypeDesc::UINT8);
-  spec.attribute("Compression", "jpeg:" + std::to_string(kJpegQuality));
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  std::vector<uint8_t> pixels(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) * order.size());
-  if (!out.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::UINT8, pixels.data())) return refuse(out.geterror());
-  if (!writer->open(name, spec) || !writer->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !writer->close())
-    return refuse(writer->geterror());
-  *bytes = memory.buffer();
-  return Ok();
-}
 
 Error MakeVisitorMedia(const TourSettings& settings, const fs::path& cache, TourParts* parts) {
   Media media{settings, cache, parts, {}, {}};

@@ -2,17 +2,13 @@
 // pipeline/cli.
 #pragma once
 #include <filesystem>
-#include <vector>
 
 #include "pipeline/cli/tour_settings.h"
 #include "pipeline/pack/write_tour_pack.h"
 
 namespace flaneur {
 
-inline constexpr int kMaxPictureSide_px = 1024;
-
-// A picture file scaled down to kMaxPictureSide_px, as JPEG, or as PNG where it is translucent. Errors: unreadable.
-Error ScaledPicture(const std::filesystem::path& file, std::vector<uint8_t>* bytes);
+inline constexpr int kMaxPictureSide_px = 1024;  // of a hotspot
 
 // Into parts->sounds and ->pictures, each file once, and what stops, hotspots and sound places are to play. Texts that
 // are to be spoken and have no file are, by espeak-ng; `cache` keeps that for the next bake. Errors: a file that is no

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/cli/assemble_town.h"
+#include "pipeline/cli/scaled_picture.h"
 #include "pipeline/cli/tour_settings.h"
 #include "pipeline/cli/visitor_media.h"
 #include "pipeline/core/temporary_folder.h"
@@ -83,18 +84,18 @@ TEST_F(VisitorSettings, PicturesAreScaledAndKeepTheirShape) {
   const auto file = folder.path() / "wide.png";
   ASSERT_FALSE(WriteFile(file, PictureOf(3000, 1500, 3)));
   std::vector<uint8_t> bytes;
-  ASSERT_EQ(ScaledPicture(file, &bytes).message, "");
+  ASSERT_EQ(ScaledPicture(file, kMaxPictureSide_px, &bytes).message, "");
   const auto picture = Decoded(bytes);
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->width, kMaxPictureSide_px);
   EXPECT_EQ(picture->height, kMaxPictureSide_px / 2);
   EXPECT_NEAR(picture->rgba[0], 200, 3);
   ASSERT_FALSE(WriteFile(file, PictureOf(40, 30, 4)));
-  ASSERT_EQ(ScaledPicture(file, &bytes).message, "");
+  ASSERT_EQ(ScaledPicture(file, kMaxPictureSide_px, &bytes).message, "");
   EXPECT_EQ(Decoded(bytes)->height, 30);
   EXPECT_NEAR(Decoded(bytes)->rgba[3], 200, 1);
   ASSERT_FALSE(WriteTextFile(file, "no picture"));
-  EXPECT_EQ(ScaledPicture(file, &bytes).message.find(file.string()), 0u);
+  EXPECT_EQ(ScaledPicture(file, kMaxPictureSide_px, &bytes).message.find(file.string()), 0u);
 }
 
 TEST_F(VisitorSettings, WhatIsToBeSpokenIsInEveryLanguageAndARecordingStaysAsItIs) {
