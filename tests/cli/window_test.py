@@ -143,13 +143,12 @@ class WindowTest(unittest.TestCase):
             program.kill()
             program.communicate()
             raise
-        return program.returncode, "".join(line for line in errors.splitlines(True) if not re.search("title page|first picture", line))
+        # The machine may have no audio device; what --verbose tells besides is no error.
+        return program.returncode, "".join(line for line in errors.splitlines(True) if not re.search("title page|first picture|no sound", line))
 
     def assert_ends(self, display, program):
         display.do("keydown", "F10")
-        code, errors = self.end(program)
-        errors = [line for line in errors.splitlines() if "no sound" not in line]
-        self.assertEqual((code, errors), (0, []))
+        self.assertEqual(self.end(program), (0, ""))
 
     def assert_one_line(self, program, *words):
         code, errors = self.end(program)
@@ -279,7 +278,7 @@ class GuidedTour(WindowTest):
             program = display.play(pack=self.short_tour())
             display.wait_for_window(program)
             display.open_pages()
-            for key in ("Down", "Down", "Return", "Down", "Return"):  # the stops; the second of them
+            for key in ("Down", "Down", "Down", "Return", "Down", "Return"):  # the stops; the second of them
                 display.tap(key)
             display.wait_for("tour over", program)
             self.assert_ends(display, program)
