@@ -430,6 +430,10 @@ void Step(const FlaneurCamera* camera, const ViewCamera& view, float frame_ms, L
     const ViewVolumes volumes = VolumesOf(view, control.outer_apex_back_m);
     ClassifyAll(&volumes, &crowd);
     SeparateBoundary(c->walkable, IsKeptFree, c, &c->scratch, &crowd);
+    for (int who : c->scratch.displaced.people) {
+      const auto i = static_cast<size_t>(who);
+      crowd.view[i] = Classify(crowd.position[i], crowd.reach_m[i], volumes);
+    }
     ChooseLevels(crowd, control.avatars, settings, {view, motion, frame_ms, camera->screen_width_px, -1},
                  &control.levels);
     c->moving.push_back({view.position, settings.r_personal_m, true, motion.velocity});

@@ -49,10 +49,10 @@ struct Mind {
   int8_t side = 0;  // on which they go round, see WayRound
 };
 
-// Who was moved apart in this step, and no longer is where the grid has them: lists by cell of the grid they are in
-// now; -1 ends one.
+// Who was moved apart in this step, and no longer is where the grid has them: their indices, and lists by cell of the
+// grid they are in now; -1 ends one.
 struct Displaced {
-  std::vector<int> first, next;
+  std::vector<int> people, first, next;
 };
 
 struct Crowd {
@@ -144,7 +144,8 @@ void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
 
 // Boundary people who overlap are moved apart at once, none of them into the inner volume (paper, section 4.3.1).
 // Whoever was visible one step ago stays where they are: the others make room. keep_out(p, reach_m) is true where
-// somebody at p who reaches so far would be in the inner volume.
+// somebody with that Crowd::reach_m would be in the inner volume at p. The class of those who were moved is the
+// caller's to set anew: scratch->displaced.people.
 void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2 p, float reach_m, const void* volume),
                       const void* volume, CrowdScratch* scratch, Crowd* crowd);
 

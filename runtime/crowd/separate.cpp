@@ -53,7 +53,7 @@ bool Overlaps(const Spot& s, const Crowd& c, size_t i, Vec2 p) {
 
 // Fits there without touching anything, on the same side of all walls.
 bool Fits(const Spot& s, const Crowd& c, size_t i, int component, Vec2 p) {
-  if (s.keep_out(p, c.view_reach_m[i], s.volume) || !IsFree(*s.w, p)) return false;
+  if (s.keep_out(p, c.reach_m[i], s.volume) || !IsFree(*s.w, p)) return false;
   const int there = CellAt(*s.w, p);
   if (s.w->component[static_cast<size_t>(there)] != component || Overlaps(s, c, i, p)) return false;
   return Clearance(*s.w, there, p) >= c.radius_m[i];
@@ -86,6 +86,7 @@ void Displace(const Spot& s, size_t i, Crowd* c) {
     int& first = s.displaced.first[static_cast<size_t>(CellOf(s.neighbours, p))];
     s.displaced.next[i] = first;
     first = static_cast<int>(i);
+    s.displaced.people.push_back(first);
     return;
   }
 }
@@ -96,6 +97,7 @@ void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, float, const voi
                       CrowdScratch* s, Crowd* c) {
   Spot spot{&w, keep_out, volume, s->neighbours, s->displaced};
   s->caring.clear();
+  s->displaced.people.clear();
   for (size_t i = 0; i < c->size(); ++i) {
     if (c->view[i] != ViewClass::kOutside) s->caring.push_back(static_cast<int>(i));
     spot.most_radius_m = std::max(spot.most_radius_m, c->radius_m[i]);

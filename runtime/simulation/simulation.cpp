@@ -168,27 +168,43 @@ void DeriveGap(Simulation* s) {
   s->control.outer_apex_back_m = OuterApexBack_m(limits, s->visitor.camera.view.fov_rad);
 }
 
-// How far everybody reaches into a view that is tilted.
-void MeasureReach(Simulation* s) {
-  Crowd& c = s->town.crowd;
-  const CameraState& camera = s->visitor.camera;
-  c.view_reach_m = c.reach_m;
-  if (camera.pitch_rad == 0) return;
-  const ViewTilt tilt = TiltOf(camera.pitch_rad, camera.view.fov_rad, Aspect(*s));
-  const float eye_m = HeightAt(s->town.walkable, camera.view.position) + camera.eye_height_m;
-  for (size_t i = 0; i < c.size(); ++i) {
-    const float feet_m = HeightAt(s->town.walkable, c.position[i]) - eye_m;
-    c.view_reach_m[i] += TiltReach_m(tilt, feet_m, feet_m + kTallest_m);
-  }
+// What people are classed by in one step.
+struct ViewOfStep {
+  ViewVolumes volumes;
+  ViewTilt tilt;
+  bool tilted = false;
+  float eye_m = 0;  // height above the sea
+};
+
+ViewOfStep ViewNow(const Simulation& s) {
+  const CameraState& camera = s.visitor.camera;
+  ViewOfStep view{VolumesOf(camera.view, s.control.outer_apex_back_m), {}, camera.pitch_rad != 0, 0};
+  if (!view.tilted) return view;
+  view.tilt = TiltOf(camera.pitch_rad, camera.view.fov_rad, Aspect(s));
+  view.eye_m = HeightAt(s.town.walkable, camera.view.position) + camera.eye_height_m;
+  return view;
+}
+
+// How far somebody at p reaches into a view that may be tilted.
+float ReachIntoView_m(Vec2 p, float reach_m, const ViewOfStep& view, const Walkable& w) {
+  if (!view.tilted) return reach_m;
+  const float feet_m = HeightAt(w, p) - view.eye_m;
+  return reach_m + TiltReach_m(view.tilt, feet_m, feet_m + kTallest_m);
+}
+
+void ClassifyOne(size_t i, const ViewOfStep& view, const Walkable& w, Crowd* c) {
+  c->view_reach_m[i] = ReachIntoView_m(c->position[i], c->reach_m[i], view, w);
+  c->view[i] = Classify(c->position[i], c->view_reach_m[i], view.volumes);
 }
 
 void ClassifyAll(Simulation* s) {
-  const ViewVolumes volumes = VolumesOf(s->visitor.camera.view, s->control.outer_apex_back_m);
+  const ViewOfStep view = ViewNow(*s);
   Crowd& c = s->town.crowd;
-  MeasureReach(s);
+  c.view_reach_m.resize(c.size());
   for (size_t i = 0; i < c.size(); ++i) {
     c.was_visible[i] = c.view[i] == ViewClass::kVisible ? 1 : 0;
-    c.view[i] = s->visitor.camera.present ? Classify(c.position[i], c.view_reach_m[i], volumes) : ViewClass::kVisible;
+    ClassifyOne(i, view, s->town.walkable, &c);
+    if (!s->visitor.camera.present) c.view[i] = ViewClass::kVisible;
   }
 }
 
@@ -237,9 +253,18 @@ void ControlCrowd(float frame_ms, Simulation* s) {
 // Nobody is put into view, nor where they would come too near to the visitor.
 bool IsKeptFree(Vec2 p, float reach_m, const void* simulation) {
   const Simulation& s = *static_cast<const Simulation*>(simulation);
-  const ViewCamera& view = s.visitor.camera.view;
-  return Classify(p, reach_m, view, 0) != ViewClass::kOutside ||
-         Length(p - view.position) < 2 * s.control.settings.r_personal_m;
+  const ViewCamera& camera = s.visitor.camera.view;
+  const ViewOfStep view = ViewNow(s);
+  return Meets(p, ReachIntoView_m(p, reach_m, view, s.town.walkable), view.volumes.inner_apex, view.volumes) ||
+         Length(p - camera.position) < 2 * s.control.settings.r_personal_m;
+}
+
+// Whoever was moved apart may be in another class where they are now, but not in view.
+void SeparateUnseen(Simulation* s) {
+  Town& town = s->town;
+  SeparateBoundary(town.walkable, IsKeptFree, s, &town.scratch, &town.crowd);
+  const ViewOfStep view = ViewNow(*s);
+  for (int who : town.scratch.displaced.people) ClassifyOne(static_cast<size_t>(who), view, town.walkable, &town.crowd);
 }
 
 }  // namespace
@@ -314,7 +339,7 @@ void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   StepCrowd(town.walkable, s->moving, Step_s(*s), &town.scratch, &town.crowd);
   LeaveAndArrive(ViewerOf(*s), &town);
   ClassifyAll(s);
-  if (camera.present) SeparateBoundary(town.walkable, IsKeptFree, s, &town.scratch, &town.crowd);
+  if (camera.present) SeparateUnseen(s);
   ControlCrowd(frame_ms, s);
   ++town.step;
   s->step_ms = Now_ms() - start_ms;

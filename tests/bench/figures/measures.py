@@ -12,7 +12,7 @@ GOAL_REACH_M = 1.0
 KERNEL_M = 1.0                # local density by the kernel exp(-d2 / R2) / (pi R2) (Helbing and Johansson 2007)
 RIM_M = (-0.5, 1.5)           # the rim of the camera obstacles: so far inside to so far outside their outline
 ROUNDED_M = 2e-3             # places are rounded, and so is what is worked out from them
-EDGE_RAD = 1e-3               # directions so near a view volume's edge are not judged
+ROUNDED_YAW_RAD = 2e-6        # likewise the camera's direction
 ARRIVED_M = 0.35              # nearer to its target the direction of the way is not judged
 SURE_STEP_M = 0.02            # camera steps from this length have a direction in spite of rounded coordinates
 
@@ -48,17 +48,29 @@ def share_exceeded(counts, limits, first=0):
     return float(over.mean()) if len(over) else 0.0
 
 
+def beyond_wedge(x, y, apex_x, apex_y, yaw, half_fov):
+    """Metres from points to the nearest part of a wedge on the ground; within it less than 0, from the nearer edge's line."""
+    dx, dy = x - apex_x, y - apex_y
+    ahead, aside = dx * np.cos(yaw) + dy * np.sin(yaw), np.abs(dy * np.cos(yaw) - dx * np.sin(yaw))
+    beyond = aside * np.cos(half_fov) - ahead * np.sin(half_fov)
+    along = ahead * np.cos(half_fov) + aside * np.sin(half_fov)
+    return np.where((beyond <= 0) | (along >= 0), beyond, np.hypot(dx, dy))
+
+
 def wrong_views(metrics, people):
-    """Rows whose `visible` contradicts the camera's wedge: who reaches into it is visible."""
-    distance, angle = from_camera(metrics, people)
-    half = metrics["camera_fov_rad"][people["frame"] - int(metrics["frame"][0])] / 2
-    reach = people.get("reach_m", np.zeros(len(distance)))
-    around = distance <= reach
-    widened = half + np.arcsin(np.clip(reach / np.maximum(distance, 1e-9), 0, 1))
-    edge = np.maximum(EDGE_RAD, ROUNDED_M / np.maximum(distance, 1e-9))
-    sure = (np.abs(np.abs(angle) - widened) > edge) & (np.abs(distance - reach) > 0.05)
-    inside = around | (np.abs(angle) < widened)
-    return int(np.sum(sure & (inside != people["visible"])))
+    """Rows whose `view` contradicts the two wedges: who reaches into the camera's is visible, who reaches only into the one whose
+    apex lies behind it is in the boundary, everybody else outside."""
+    index = people["frame"] - int(metrics["frame"][0])
+    x, y, yaw = camera_at(metrics, people["frame"])
+    half, back = metrics["camera_fov_rad"][index] / 2, metrics["outer_apex_back_m"][index]
+    inner = beyond_wedge(people["x_m"], people["y_m"], x, y, yaw, half)
+    outer = beyond_wedge(people["x_m"], people["y_m"], x - back * np.cos(yaw), y - back * np.sin(yaw), yaw, half)
+    reach = people.get("reach_m", np.zeros(len(inner)))
+    rounded = ROUNDED_M + ROUNDED_YAW_RAD * np.hypot(people["x_m"] - x, people["y_m"] - y)
+    visible, boundary, outside = (people["view"] == name for name in (b"visible", b"boundary", b"outside"))
+    wrong = visible & (inner > reach + rounded) | ~visible & (inner < reach - rounded)
+    wrong |= boundary & (outer > reach + rounded) | outside & (outer < reach - rounded)
+    return int(wrong.sum())
 
 
 def local_density(people, frame, x, y, radius_m=DENSITY_RADIUS_M):

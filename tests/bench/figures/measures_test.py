@@ -28,7 +28,7 @@ def metrics(places=((0, 0),), yaw_rad=0.0, asked_mps=0.0, actual_mps=0.0):
     count = len(places)
     columns = {"camera_x_m": [p[0] for p in places], "camera_y_m": [p[1] for p in places], "camera_yaw_rad": [yaw_rad] * count,
                "camera_fov_rad": [FOV_RAD] * count, "frame": range(count), "asked_speed_mps": [asked_mps] * count,
-               "actual_speed_mps": [actual_mps] * count, "r_personal_m": [0.6] * count}
+               "actual_speed_mps": [actual_mps] * count, "r_personal_m": [0.6] * count, "outer_apex_back_m": [2] * count}
     return {name: np.array(list(values), float) for name, values in columns.items()}
 
 
@@ -43,6 +43,14 @@ class Measures(unittest.TestCase):
     def test_view_is_the_cameras_wedge(self):
         crowd = people((0, 1, 5, 0), (0, 2, 5, 4), (0, 3, 5, 4, b"boundary"), (0, 4, 5, 0.5, b"outside"), (0, 5, -5, 0, b"outside"))
         self.assertEqual(measures.wrong_views(metrics(), crowd), 2)
+
+    def test_boundary_is_the_outer_wedge_alone(self):
+        """Its apex lies 2 m behind the camera, so that its edges run a metre outside the view's."""
+        crowd = people((0, 1, 5, 3.5, b"boundary"), (0, 2, 5, 4.5, b"boundary"), (0, 3, 5, 3.5, b"outside"), (0, 4, -1, 0, b"boundary"),
+                       (0, 5, -3, 0, b"boundary"), (0, 6, -3, 0, b"outside"))
+        self.assertEqual(measures.wrong_views(metrics(), crowd), 3)
+        crowd["reach_m"] = np.full(6, 1.05)
+        self.assertEqual(measures.wrong_views(metrics(), crowd), 4, "arms reach farther")
 
     def test_overlaps_count_pairs_and_leave_out_dense_places(self):
         pair = [(0, 1, 5, 0), (0, 2, 5.4, 0), (1, 1, 5, 0), (1, 2, 5.4, 0)]

@@ -24,7 +24,7 @@ FIGURES = [
     Figure("vanished", "vanished in view", "{:.0f}",
            "visible people whose last row is farther than 2.5 m from every door and exit, and 1 m from their last goal"),
     Figure("unforeseen", "visible without boundary", "{:.0f}", "people who became visible without a step in the boundary"),
-    Figure("wrong_view", "wrong view class", "{:.0f}", "rows whose view contradicts the camera's wedge"),
+    Figure("wrong_view", "wrong view class", "{:.0f}", "rows whose view (visible, boundary, outside) contradicts the wedges of the camera and of the outer volume"),
     Figure("too_near", "personal space entered", "{:.0f}", "frames with somebody's centre within r_personal of the camera"),
     Figure("bunching", "bunching", "{:.2f}",
            "highest local density (kernel exp(−d²/R²)/(πR²), R = 1 m) from 0.5 m inside to 1.5 m outside the outline of the camera "
