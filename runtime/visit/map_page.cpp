@@ -271,7 +271,7 @@ MapChoice ShowList(const TourPack& pack, const Simulation& s, const PageLook& lo
   ImGui::SetNextWindowPos({box.left, box.top});
   ImGui::SetNextWindowSize({box.right - box.left, box.bottom - box.top});
   if (ImGui::Begin("map list", nullptr, kPlain)) {
-    if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+    ShowKeyMark(&menu->mark);
     const std::string back = Say(Phrase::kBackToPages, look.language);
     const TextRoom hint = RoomFor(Say(Phrase::kMapTap, look.language), inner_px, TextOf(look), &overlay->text());
     const bool hints = hint.lines <= kMostHintLines;
@@ -280,7 +280,10 @@ MapChoice ShowList(const TourPack& pack, const Simulation& s, const PageLook& lo
     if (!rows.Fit(rest_px, menu->first, Say(Phrase::kMore, look.language))) menu->first = 0;
     ShowListRows(pack, s, look, hints, &rows, page, &choice);
     rows.ShowMore();
-    if (rows.more_pressed()) menu->first = rows.end() < rows.count() ? rows.end() : 0;
+    if (rows.more_pressed()) {
+      menu->first = rows.end() < rows.count() ? rows.end() : 0;
+      menu->mark.is_asked = menu->mark.by_keys;
+    }
     if (rows.ButtonBelow(back, "back")) OpenPage(Page::kNone, menu);
   }
   ImGui::End();
@@ -294,7 +297,7 @@ MapChoice ShowMapPage(const TourPack& pack, const Simulation& s, const PageLook&
   if (menu->page != Page::kMap) return {};
   const ImVec2 picture{static_cast<float>(width_px), static_cast<float>(height_px)};
   const Places places = PlacesFor(look, picture.x, picture.y);
-  const PageStyle style(look);
+  const PageStyle style(look, menu->mark);
   ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, picture, IM_COL32(0, 0, 0, 130));
   MapChoice choice = ShowTheMap(pack, s, look, places.map, overlay, page);
   const MapChoice listed = ShowList(pack, s, look, places.list, menu, overlay, page);

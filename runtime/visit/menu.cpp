@@ -303,6 +303,27 @@ void ShowHead(const std::string& head, float width_px, const PageLook& look, Tex
 constexpr ImGuiWindowFlags kPlain =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 
+// What goes from row to row and chooses one.
+OverlayInput HeldIn(const WindowInput& input, const Controls& c) {
+  OverlayInput out;
+  const auto down = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const char* name) { return input.down[static_cast<size_t>(InputCode(name))]; });
+  };
+  // Whoever walks by them, with one hand or two, finds them here too.
+  const auto does = [&](Action action) {
+    const auto& codes = c.codes[static_cast<size_t>(action)];
+    return std::any_of(codes.begin(), codes.end(), [&](int code) { return input.down[static_cast<size_t>(code)]; });
+  };
+  const Vec2 stick = Length(input.left_stick) > Length(input.right_stick) ? input.left_stick : input.right_stick;
+  out.up = down({"up", "pad_up"}) || does(Action::kWalkAhead) || stick.y > kStickPushed;
+  out.down = down({"down", "pad_down"}) || does(Action::kWalkBack) || stick.y < -kStickPushed;
+  out.left = down({"left", "pad_left"}) || does(Action::kTurnLeft) || stick.x < -kStickPushed;
+  out.right = down({"right", "pad_right"}) || does(Action::kTurnRight) || stick.x > kStickPushed;
+  out.activate = down({"enter", "keypad_enter", "space", "pad_a"}) || does(Action::kPause);
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> OfferedLanguages(const Controls& c, const Simulation& s) {
@@ -340,32 +361,28 @@ void MeetSomebodyNew(Menu* menu) {
 OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, const Controls& c, int width_px,
                               int height_px, float passed_s) {
   OverlayInput out;
+  if (menu.page != Page::kNone && !menu.lets_go) out = HeldIn(input, c);
   out.pointer_px = {input.pointer.x * static_cast<float>(width_px), input.pointer.y * static_cast<float>(height_px)};
   out.pressed = input.pressed;
   out.passed_s = passed_s;
-  if (menu.page == Page::kNone || menu.lets_go) return out;
-  const auto down = [&](std::initializer_list<const char*> names) {
-    return std::any_of(names.begin(), names.end(),
-                       [&](const char* name) { return input.down[static_cast<size_t>(InputCode(name))]; });
-  };
-  // Whoever walks by them, with one hand or two, finds them here too.
-  const auto does = [&](Action action) {
-    const auto& codes = c.codes[static_cast<size_t>(action)];
-    return std::any_of(codes.begin(), codes.end(), [&](int code) { return input.down[static_cast<size_t>(code)]; });
-  };
-  const Vec2 stick = Length(input.left_stick) > Length(input.right_stick) ? input.left_stick : input.right_stick;
-  out.up = down({"up", "pad_up"}) || does(Action::kWalkAhead) || stick.y > kStickPushed;
-  out.down = down({"down", "pad_down"}) || does(Action::kWalkBack) || stick.y < -kStickPushed;
-  out.left = down({"left", "pad_left"}) || does(Action::kTurnLeft) || stick.x < -kStickPushed;
-  out.right = down({"right", "pad_right"}) || does(Action::kTurnRight) || stick.x > kStickPushed;
-  out.activate = down({"enter", "keypad_enter", "space", "pad_a"}) || does(Action::kPause);
   return out;
 }
 
-void TakePageInput(const WindowInput& input, Menu* menu, Controls* c) {
+std::bitset<kInputCodes> FollowHands(const WindowInput& input, const Controls& c, Menu* menu) {
   const std::bitset<kInputCodes> pressed = input.down & ~menu->was_down;
   menu->was_down = input.down;
-  menu->lets_go = menu->rebinds || (menu->lets_go && input.down.any());
+  const OverlayInput held = HeldIn(input, c);
+  const bool moves = held.up || held.down || held.left || held.right || held.activate;
+  menu->lets_go = menu->rebinds || (menu->lets_go && (input.down.any() || moves));
+  if (pressed.any() || moves) menu->mark.by_keys = true;
+  if (input.pressed) menu->mark.by_keys = menu->mark.is_shown = false;
+  if (!moves || menu->mark.is_shown || menu->lets_go) return pressed;
+  menu->mark.is_asked = menu->lets_go = true;
+  return pressed;
+}
+
+void TakePageInput(const WindowInput& input, Menu* menu, Controls* c) {
+  const std::bitset<kInputCodes> pressed = FollowHands(input, *c, menu);
   if (menu->page == Page::kNone) return;
   const auto is_pressed = [&](Action action) {
     const auto& codes = c->codes[static_cast<size_t>(action)];
@@ -399,13 +416,13 @@ MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px,
   const float page_px = std::min((page == Page::kKeys ? kKeysWidth : kPageWidth) * letter_px, most_px);
   PageRows rows(look, page_px, text);
   PageView view{s, menu, c, look.language, &rows, {}};
-  const PageStyle style(look);
+  const PageStyle style(look, menu->mark);
   ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, picture,
                                                 IM_COL32(look.veil[0], look.veil[1], look.veil[2], look.veil[3]));
   ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   const std::string name = "page " + std::to_string(static_cast<int>(page));
   if (ImGui::Begin(name.c_str(), nullptr, kPlain | ImGuiWindowFlags_AlwaysAutoResize)) {
-    if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+    ShowKeyMark(&menu->mark);
     const std::string head = page == Page::kMain  ? title
                              : page == Page::kEnd ? menu->thanks
                                                   : std::string(view.Words(TitleOf(page)));
@@ -417,7 +434,10 @@ MenuChoice ShowMenu(const std::string& title, const Simulation& s, int width_px,
     if (!rows.Fit(rest_px, menu->first, view.Words(Phrase::kMore))) menu->first = 0;
     ShowRows(&view);
     rows.ShowMore();
-    if (rows.more_pressed()) menu->first = rows.end() < rows.count() ? rows.end() : 0;
+    if (rows.more_pressed()) {
+      menu->first = rows.end() < rows.count() ? rows.end() : 0;
+      menu->mark.is_asked = menu->mark.by_keys;
+    }
     if (!back.empty() && rows.ButtonBelow(back, "back")) OpenPage(Page::kMain, menu);
   }
   ImGui::End();

@@ -9,6 +9,7 @@
 #include "runtime/simulation/simulation.h"
 #include "runtime/visit/controls.h"
 #include "runtime/visit/page_look.h"
+#include "runtime/visit/page_rows.h"
 
 namespace flaneur {
 
@@ -24,6 +25,7 @@ struct Menu {
   bool rebinds_pad = false;       // a button, not a key
   bool lets_go = false;           // whatever is held now was meant for that
   std::bitset<kInputCodes> was_down;
+  KeyMark mark;
 };
 
 struct MenuChoice {
@@ -48,6 +50,10 @@ void MeetSomebodyNew(Menu* menu);
 // The hands, for Overlay::Begin.
 OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, const Controls& controls, int width_px,
                               int height_px, float passed_s);
+
+// Whether they use keys or a pointer; what was pressed just now. Once a picture, by TakePageInput unless that is left
+// out.
+std::bitset<kInputCodes> FollowHands(const WindowInput& input, const Controls& controls, Menu* menu);
 
 // Back to the page before, and the key that is waited for. Once a picture.
 void TakePageInput(const WindowInput& input, Menu* menu, Controls* controls);

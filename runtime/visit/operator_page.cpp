@@ -81,17 +81,17 @@ PageLook OperatorLook(PageLook look, int height_px) {
 }  // namespace
 
 OperatorChoice ShowOperatorPage(const PageLook& pages, const std::string& state, int width_px, int height_px, Kiosk* k,
-                                TextLayer* text) {
+                                KeyMark* mark, TextLayer* text) {
   if (k->page == OperatorPage::kNone) return OperatorChoice::kNone;
   const ImVec2 picture{static_cast<float>(width_px), static_cast<float>(height_px)};
   const PageLook look = OperatorLook(pages, height_px);
-  const PageStyle style(look);
+  const PageStyle style(look, *mark);
   ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, picture, IM_COL32(0, 0, 0, 140));
   ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   const bool keypad = k->page == OperatorPage::kKeypad;
   OperatorChoice choice = OperatorChoice::kNone;
   if (ImGui::Begin(keypad ? "keypad" : "operator", nullptr, kPlain)) {
-    if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+    ShowKeyMark(mark, !keypad);  // whose keys are typed
     choice = keypad ? ShowKeypad(look, text, k) : ShowChoices(look, state, picture.x - 2 * look.letter_px, text);
   }
   ImGui::End();

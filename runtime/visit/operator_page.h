@@ -5,6 +5,7 @@
 
 #include "runtime/visit/kiosk.h"
 #include "runtime/visit/page_look.h"
+#include "runtime/visit/page_rows.h"
 
 namespace flaneur {
 
@@ -12,6 +13,6 @@ enum class OperatorChoice { kNone, kBack, kRestart, kEnd };
 
 // Between an Overlay's Begin and Draw. state: a line of what the operator wants to know.
 OperatorChoice ShowOperatorPage(const PageLook& look, const std::string& state, int width_px, int height_px,
-                                Kiosk* kiosk, TextLayer* text);
+                                Kiosk* kiosk, KeyMark* mark, TextLayer* text);
 
 }  // namespace flaneur

@@ -40,6 +40,18 @@ void TextAt(const std::string& text, float width_px, Align align, const PageLook
   DrawText(text, {corner.x, corner.y, width_px, height_px}, letters, layer);
 }
 
+void ShowKeyMark(KeyMark* mark, bool at_once) {
+  if (ImGui::IsWindowAppearing()) {
+    ImGui::SetWindowFocus();
+    mark->is_shown = false;
+    mark->is_asked = mark->by_keys && at_once;
+  }
+  if (!mark->is_asked) return;
+  ImGui::SetKeyboardFocusHere();  // the next button
+  mark->is_asked = false;
+  mark->is_shown = true;
+}
+
 PageRows::PageRows(const PageLook& look, float width_px, TextLayer* text)
     : look_(look), width_px_(width_px), text_(text) {}
 
@@ -152,7 +164,7 @@ bool PageRows::ButtonBelow(const std::string& text, const std::string& id) {
   return ButtonAt(text, id, width_px_, ButtonHeight_px(text), Align::kStart);
 }
 
-PageStyle::PageStyle(const PageLook& look) {
+PageStyle::PageStyle(const PageLook& look, const KeyMark& mark) {
   const auto color = [](ImGuiCol which, const PageColor& c) { ImGui::PushStyleColor(which, Packed(c)); };
   color(ImGuiCol_WindowBg, look.panel);
   color(ImGuiCol_Border, look.outline_px > 0 ? look.outline : PageColor{});
@@ -160,7 +172,7 @@ PageStyle::PageStyle(const PageLook& look) {
   color(ImGuiCol_Button, look.button);
   color(ImGuiCol_ButtonHovered, look.marked);
   color(ImGuiCol_ButtonActive, look.pressed);
-  color(ImGuiCol_NavHighlight, look.outline);
+  color(ImGuiCol_NavHighlight, mark.is_shown ? look.outline : PageColor{});
   color(ImGuiCol_BorderShadow, {});
   const float letter_px = look.letter_px;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.8f * letter_px, 0.6f * letter_px});

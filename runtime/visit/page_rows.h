@@ -15,6 +15,15 @@ bool TextButton(const std::string& text, const std::string& id, float width_px, 
 // Likewise words, so wide; they take the height that they need.
 void TextAt(const std::string& text, float width_px, Align align, const PageLook& look, TextLayer* layer);
 
+// The row that keys choose. Whoever comes by keys or gamepad sees it at once; whoever comes by pointer or touch sees
+// none until they press a key that goes from row to row, which shows the first one.
+struct KeyMark {
+  bool by_keys = true;  // what the hands did last
+  bool is_shown = false, is_asked = false;
+};
+// After ImGui's Begin of the page, which takes the keys over when it appears. at_once: else no row is marked then.
+void ShowKeyMark(KeyMark* mark, bool at_once = true);
+
 // A page is gone through twice: first its rows only tell how high they are and none is pressed, then those that have
 // room are there.
 class PageRows {
@@ -58,7 +67,7 @@ class PageRows {
 
 // The page's colours and spaces, as long as it lives.
 struct PageStyle {
-  explicit PageStyle(const PageLook& look);
+  explicit PageStyle(const PageLook& look, const KeyMark& mark = {.is_shown = true});
   ~PageStyle();
   PageStyle(const PageStyle&) = delete;
   PageStyle& operator=(const PageStyle&) = delete;

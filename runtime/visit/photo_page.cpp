@@ -42,13 +42,13 @@ void ShowPhotoPage(const TakenPhoto& t, const std::string& folder, bool names_fi
   const float scale = std::min(most_wide_px / static_cast<float>(std::max(1, t.photo.width_px)),
                                most_high_px / static_cast<float>(std::max(1, t.photo.height_px)));
   const ImVec2 shown_px{scale * static_cast<float>(t.photo.width_px), scale * static_cast<float>(t.photo.height_px)};
-  const PageStyle style(look);
+  const PageStyle style(look, menu->mark);
   ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, {wide_px, high_px}, IM_COL32(0, 0, 0, 130));
   ImGui::SetNextWindowPos({wide_px / 2, high_px / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::Begin("photo", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_AlwaysAutoResize);
-  if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+  ShowKeyMark(&menu->mark);
   ImGui::Image(t.shown, shown_px);
   if (codes) {
     if (!portrait) ImGui::SameLine(0, gap_px);

@@ -180,6 +180,7 @@ void Visit::Impl::MeetVisitor(const WindowInput& input) {
   MeetSomebodyNew(&menu);
   menu.lets_go = true;
   menu.was_down = input.down;
+  menu.mark.by_keys = input.down.any();
 }
 
 void Visit::Impl::EndVisitNow() {
@@ -226,7 +227,7 @@ void Visit::Impl::FollowVisitors(const WindowInput& input, float passed_s) {
 }
 
 void Visit::Impl::ShowOperator(const PageLook& look) {
-  switch (ShowOperatorPage(look, "", width_px, height_px, &kiosk, &overlay.text())) {
+  switch (ShowOperatorPage(look, "", width_px, height_px, &kiosk, &menu.mark, &overlay.text())) {
     case OperatorChoice::kNone:
       return;
     case OperatorChoice::kRestart:
@@ -261,8 +262,7 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
   for_pages = pages() || attracts();
   Menu navigated = menu;  // by keys
   if (operator_page()) {
-    menu.was_down = input.down;
-    menu.lets_go = menu.lets_go && input.down.any();
+    FollowHands(input, controls, &menu);
     navigated = menu;
     navigated.page = Page::kMain;
   } else {

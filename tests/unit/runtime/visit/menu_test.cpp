@@ -120,6 +120,61 @@ TEST(Pages, BeginAtTheirFirstRow) {
   EXPECT_EQ(p.Tap("enter").stop, 3u);
 }
 
+// A row as high as that has the colour of those that are marked.
+bool IsMarked(const ImDrawData& data, Vec2 at_px) {
+  const ImU32 marked = IM_COL32(250, 204, 107, 255);  // the outline of who goes by keys
+  for (int l = 0; l < data.CmdListsCount; ++l) {
+    const ImDrawList& list = *data.CmdLists[l];
+    float left = 1e9f, top = 1e9f, right = 0, bottom = 0;
+    for (const ImDrawVert& v : list.VtxBuffer) {
+      if ((v.col & 0xffffff) != (marked & 0xffffff)) continue;
+      left = std::min(left, v.pos.x), right = std::max(right, v.pos.x);
+      top = std::min(top, v.pos.y), bottom = std::max(bottom, v.pos.y);
+    }
+    if (at_px.x > left && at_px.x < right && at_px.y > top && at_px.y < bottom) return true;
+  }
+  return false;
+}
+
+bool MarksRow(Pages& p, const char* text) {
+  for (const DrawnText& t : p.overlay.text().drawn()) {
+    if (t.text == text) return IsMarked(*ImGui::GetDrawData(), {t.box.left_px + 5, t.box.top_px + t.box.height_px / 2});
+  }
+  ADD_FAILURE() << text;
+  return false;
+}
+
+bool MarksAny(Pages& p) {
+  const auto& drawn = p.overlay.text().drawn();
+  return std::any_of(drawn.begin(), drawn.end(), [&](const DrawnText& t) { return MarksRow(p, t.text.c_str()); });
+}
+
+TEST(Pages, MarkTheirFirstRowForWhoComesByKeys) {
+  for (const char* accept : {"enter", "pad_a"}) {
+    Pages p;
+    EXPECT_TRUE(MarksRow(p, "Continue")) << "at once";
+    for (int k = 0; k < 3; ++k) p.Tap("down");
+    EXPECT_TRUE(MarksRow(p, "Stops of the tour"));
+    p.Tap(accept);
+    ASSERT_EQ(p.menu.page, Page::kStops);
+    EXPECT_TRUE(MarksAny(p));
+    EXPECT_EQ(p.Tap(accept).stop, 1u) << "the first, by nothing but accepting it";
+  }
+}
+
+TEST(Pages, MarkNothingForWhoComesByPointerUntilAKeyIsPressed) {
+  Pages p;
+  p.Click(0.98f, 0.02f);  // beside all rows
+  OpenPage(Page::kLanguages, &p.menu);
+  p.Picture({});
+  p.Picture({});
+  EXPECT_FALSE(MarksAny(p));
+  p.Tap("down");
+  EXPECT_TRUE(MarksRow(p, "English"));
+  p.Tap("down");
+  EXPECT_TRUE(MarksRow(p, "Deutsch"));
+}
+
 TEST(Pages, AreAllReachedByPointerAlone) {
   std::set<Page> seen;
   std::set<std::string> languages;
@@ -487,9 +542,10 @@ TEST(OperatorPage, IsWholeInEveryLanguageTextSizeAndWindow) {
         Kiosk kiosk;
         kiosk.page = page;
         kiosk.pin.wrong = 1;
+        KeyMark mark;
         for (int round = 0; round < 2; ++round) {
           overlay.Begin(width_px, height_px, {});
-          ShowOperatorPage(look, page == OperatorPage::kChoices ? "12" : "", width_px, height_px, &kiosk,
+          ShowOperatorPage(look, page == OperatorPage::kChoices ? "12" : "", width_px, height_px, &kiosk, &mark,
                            &overlay.text());
           overlay.Draw();
         }

@@ -51,10 +51,10 @@ struct Window {
     Picture(hands, kStep_s, true);
     for (int k = 0; k < 3; ++k) Picture({}, kStep_s, true);
   }
-  // Of a page's rows; a first key shows which one is meant.
+  // Of a page's rows.
   void ChooseFirst() {
     for (int k = 0; k < 3; ++k) Picture({}, kStep_s, true);
-    for (const char* key : {"down", "up", "enter"}) Tap(key);
+    Tap("enter");
   }
   // What the last picture shows, roughly: how many colours.
   size_t Colours() const {
