@@ -147,10 +147,10 @@ def cobble(size, seed):
 
 
 def setts(size, seed):
-    """Small setts laid in courses that waver a little, for the square. Fans would be scales from afar."""
+    """Small setts laid in straight courses, for the square. Fans would be scales from afar, and so are waves."""
     rng = _rng(seed, "setts")
     x, y = _grid(size)
-    wave = (_noise(rng, size, 5) - 0.5) * 0.03 + (_noise(rng, size, 24) - 0.5) * 0.008
+    wave = (_noise(rng, size, 5) - 0.5) * 0.004 + (_noise(rng, size, 24) - 0.5) * 0.006
     jx, jy, label = _bricks(rng, (x + np.roll(wave, size // 3, 0)) % 1, (y + wave) % 1, 30, 36, 0.6)
     distance = np.minimum(jx * 30, jy * 30)
     palette = [(0.45, 0.42, 0.38), (0.50, 0.47, 0.42), (0.40, 0.38, 0.36), (0.47, 0.41, 0.36), (0.53, 0.50, 0.45)]
