@@ -29,7 +29,6 @@ constexpr double kMaxGround_m = 2000, kMinGround_m = 2;
 constexpr size_t kMaxPeople = 200'000;
 constexpr int kMaxFigures = 10'000, kMaxLevels = 16;
 constexpr float kGroundCell_m = 0.5f;
-constexpr float kBeyondRadius_m = 0.05f;  // that the grid's free cells keep from obstacles, as in a tour
 constexpr float kJump_m = 10;
 constexpr float kWholeTown_m = 1e9f;
 
@@ -216,7 +215,7 @@ Failure Create(const FlaneurCrowdDef& def, FlaneurCrowdId* id) {
   if (Failure failure = TakeFigures(def, &c->control.avatars, &c->reach_m)) return failure;
   if (Failure failure = TakeGround(def, c.get())) return failure;
   if (Failure failure = TakeObstacles(def, c.get())) return failure;
-  BuildWalkable(c->largest_radius_m + kBeyondRadius_m, &c->walkable, c->largest_radius_m);
+  BuildWalkable(c->largest_radius_m + kByChoice_m, &c->walkable, c->largest_radius_m);
   const std::vector<float>& cost = c->walkable.cost;
   if (std::none_of(cost.begin(), cost.end(), [](float metre) { return metre > 0; }))
     return {FLANEUR_ERROR_INPUT, "obstacles leave no ground to walk on"};

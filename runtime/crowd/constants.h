@@ -63,6 +63,11 @@ inline constexpr float kGroundCost[] = {0, 1.6f, 1.0f, 1.1f, 3.0f};
 // A metre close to a wall costs this much more, so that ways keep off corners where there is room.
 inline constexpr float kNearWallCost = 1.25f;
 inline constexpr float kNearWall_m = 0.35f;
+// People keep so much from obstacles where they have the choice: the navigation grid's free cells do. A door that
+// leaves them less is gone through all the same, at such a cost that straight ways and whoever has another keep out of
+// it.
+inline constexpr float kByChoice_m = 0.05f;
+inline constexpr float kNarrowCost = 1.5f;
 // A metre up or down a gradient g counts 1 + 4 |g|, near the energy of walking on gentle slopes (Minetti et al. 2002).
 inline constexpr float kSlopeCost = 4.0f;
 // Gentler slopes are level to those who look for a straight way: they cost no more than a wall near by.

@@ -10,6 +10,8 @@
 namespace flaneur {
 namespace {
 
+constexpr float kAheadOf = 0.5f;  // cosine from the way to who is walked into
+constexpr float kStepsBack_mps = 0.1f;
 constexpr size_t kMaxContacts = 6;  // pairs a person: as many as fit around
 
 // Nobody walks into a disc that is for everyone: a step that would goes along its rim or not at all.
@@ -26,6 +28,23 @@ Vec2 KeepOut(const std::vector<MovingObstacle>& moving, Vec2 from, Vec2 to, floa
     to = Length(along - m.center) >= least_m - 1e-4f ? along : from;
   }
   return to;
+}
+
+// They walk, and towards there.
+bool WalksTowards(const Crowd& c, size_t i, Vec2 direction) {
+  return c.activity[i] == Activity::kWalking && c.field[i] >= 0 && Dot(c.way[i], direction) > kAheadOf;
+}
+
+// Of the correction of two who would touch, i's share; `normal` points from j to i. Who walks into the back of somebody
+// who is held up takes all of it, as long as they only step back: else the many behind press those before a door into
+// an arch that nobody leaves.
+float ShareOf(const Crowd& c, const std::vector<Vec2>& moved, float step_s, size_t i, size_t j, Vec2 normal) {
+  const bool i_follows = WalksTowards(c, i, normal * -1), j_follows = WalksTowards(c, j, normal);
+  if (i_follows == j_follows) return 0.5f;
+  const size_t follows = i_follows ? i : j, held_up = i_follows ? j : i;
+  if (Dot(moved[follows] - c.position[follows], c.way[follows]) < -kStepsBack_mps * step_s) return 0.5f;
+  const float spared = 0.5f * IsHeldUp(c.mind[held_up]);
+  return i_follows ? 0.5f + spared : 0.5f - spared;
 }
 
 }  // namespace
@@ -83,10 +102,10 @@ void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& movin
       s->pushed_in[i] = s->pushed_in[j] = pass;
       const float distance_m = std::sqrt(distance2);
       const Vec2 normal = distance_m > 1e-5f ? apart * (1 / distance_m) : Vec2{1, 0};
-      const Vec2 half = normal * (0.5f * (reach_m - distance_m) + 1e-4f);
+      const Vec2 whole = normal * (reach_m - distance_m + 2e-4f);
       const Vec2 before = s->moved[i];
-      s->moved[i] = WalkTowards(w, moving, step_s, c, i, before + half);
-      const Vec2 rest = half * 2 - (s->moved[i] - before);  // what one cannot give, the other does
+      s->moved[i] = WalkTowards(w, moving, step_s, c, i, before + whole * ShareOf(c, s->moved, step_s, i, j, normal));
+      const Vec2 rest = whole - (s->moved[i] - before);  // what one cannot give, the other does
       s->moved[j] = WalkTowards(w, moving, step_s, c, j, s->moved[j] - rest);
     }
     if (!any) return;

@@ -35,7 +35,7 @@ struct MovingObstacle {
 };
 
 // What a person has in mind between looks around (steering.h says when those are).
-struct Mind {
+struct Mind {           // one line of the cache
   Vec2 ahead;           // unit vector of the heading
   Vec2 push;            // acceleration that people, walls and discs near ask for
   float asked_mps = 0;  // speed along the way
@@ -45,9 +45,17 @@ struct Mind {
   Vec2 left_line;   // where the person began to make room for the visitor
   int returns = 0;  // decisions left to go back to that line
   bool stands = false, avoids_camera = false;
-  Vec2 round;       // unit vector of the way round the visitor; zero: the own way is free
-  int8_t side = 0;  // on which they go round, see WayRound
+  int8_t side = 0;   // on which they go round the visitor, see WayRound
+  Vec2 round;        // unit vector of the way round the visitor; zero: the own way is free
+  float lately = 1;  // speed along the way over what the density allows, mean over about two seconds
 };
+
+// From 0, who gets on, to 1, who has got nowhere lately, neither on nor back.
+inline float IsHeldUp(const Mind& mind) {
+  constexpr float kSlow = 0.12f, kNowhere = 0.08f;
+  const float lately = mind.lately < 0 ? -mind.lately : mind.lately;
+  return lately >= kSlow ? 0.0f : lately <= kNowhere ? 1.0f : (kSlow - lately) / (kSlow - kNowhere);
+}
 
 // Who was moved apart in this step, and no longer is where the grid has them: their indices, and lists by cell of the
 // grid they are in now; -1 ends one.

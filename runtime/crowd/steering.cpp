@@ -17,7 +17,10 @@ constexpr float kMinAcceleration_mps2 = 0.5f;  // a turn ends, and doesn't fade 
 constexpr int kReturnDecisions = 45;           // after which a line is forgotten;
 constexpr int kPassing = 7;                    // and the first of them, while the visitor passes, change nothing
 constexpr float kReturn_s = 1.0f, kMaxReturn_mps = 0.5f, kOnLine_m = 0.1f;
-constexpr float kStuck = 0.05f, kStuckDensity_pm2 = 2.5f, kLetGo = 0.7f;
+constexpr float kStuck = 0.05f, kLetGo = 0.7f;
+constexpr float kLately = 0.05f;  // of the mean, each decision
+constexpr float kStuckFilled =
+    0.156f;  // of the ground, by bodies over pi: 2.5 people of 0.25 m radius to the square metre
 constexpr int kLetsGo_steps = 30;
 constexpr float kSidestepGain = 2.4f;  // than the last moment
 constexpr float kMinTime_s = 0.3f;     // no stepping aside is quicker
@@ -54,7 +57,8 @@ struct Looking {
 // other.
 struct Surroundings {
   Vec2 foremost, separation;
-  float foremost2 = 0, crowding = 0;
+  float foremost2 = 0;
+  float crowding = 0, filling = 0;  // people, and the squares of their radii in m2, by how much they crowd
 };
 
 // Those of a row of the grid who are within the neighbour radius, as arrays by field.
@@ -131,7 +135,8 @@ void AddInteractions(const Looking& me, Block* block, Surroundings* s) {
   Weigh(me, block);
   const Block& b = *block;
   for (int k = 0; k < b.count; ++k) {
-    s->crowding += b.weight[k];
+    const float radius_m = b.reach_m[k] - me.radius_m;
+    s->crowding += b.weight[k], s->filling += b.weight[k] * radius_m * radius_m;
     if (b.meets[k] == 0 && b.gap_m[k] >= kComfort_m) continue;
     const Vec2 towards{b.x[k], b.y[k]};
     const float attention = b.cosine[k] > -0.2f ? 1.0f : kAttentionBehind;
@@ -255,9 +260,10 @@ float DensityFrom(const Walkable& w, int cell, float crowding) {
 
 // Where a dense crowd stands before a door, every second another seven in ten of those who are stuck let the others go:
 // else arches of people who all want through at once hold for a minute.
-bool LetsOthersGo(float density_pm2, Vec2 velocity, float alone_mps, int id, int64_t step) {
-  const float stuck_mps = kStuck * alone_mps;
-  if (density_pm2 < kStuckDensity_pm2 || Dot(velocity, velocity) > stuck_mps * stuck_mps) return false;
+bool LetsOthersGo(float filled, Vec2 velocity, int id, int64_t step, const Mind& mind) {
+  const float stuck_mps = kStuck * mind.alone_mps;
+  if (Dot(velocity, velocity) > stuck_mps * stuck_mps) return false;
+  if (filled < kStuckFilled && IsHeldUp(mind) < 1) return false;
   uint32_t hash = static_cast<uint32_t>(id) * 0x9e3779b9u ^ static_cast<uint32_t>(step / kLetsGo_steps) * 0x85ebca6bu;
   hash = (hash ^ hash >> 15) * 0x2c1b3c6du;
   hash = (hash ^ hash >> 12) * 0x297a2d39u;
@@ -272,8 +278,12 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
   const Surroundings around = LookAround(neighbours, me);
   const int cell = CellAt(w, me.position);
   const float density_pm2 = DensityFrom(w, cell, around.crowding);
-  const bool lets_go = LetsOthersGo(density_pm2, me.velocity, mind.alone_mps, c->id[i], c->step);
-  mind.asked_mps = lets_go ? 0 : SpeedOnSlope(w, cell, mind.alone_mps) * SpeedInDensity(density_pm2);
+  const float filled = DensityFrom(w, cell, around.filling);
+  const float asked_mps = SpeedOnSlope(w, cell, mind.alone_mps) * SpeedInDensity(density_pm2);
+  const float along = asked_mps > 0 && !mind.stands ? Dot(me.velocity, GoingTo(*c, i)) / asked_mps : 1;
+  mind.lately += (along - mind.lately) * kLately;
+  const bool lets_go = LetsOthersGo(filled, me.velocity, c->id[i], c->step, mind);
+  mind.asked_mps = lets_go ? 0 : asked_mps;
   Vec2 push = around.foremost + around.separation;
   const bool works = c->activity[i] == Activity::kWorking && mind.stands;
   if (works || (mind.stands && Dot(push, push) < 1)) push = {};  // people who stand give way only when pressed

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/crowd/constants.h"
+#include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/walls.h"
 
 namespace flaneur {
@@ -237,6 +238,63 @@ void MeasureSame(Walkable* w) {
   }
 }
 
+// The place in the cell where a person fits between walls on either side, which is no wider than that there: found from
+// several points of the cell by pushing off whatever is too near.
+bool FitsBetween(const Walkable& w, int cell, float radius_m, Vec2* place) {
+  constexpr float kPoints[] = {0, -0.45f, 0.45f};
+  constexpr float kSloppy_m = 0.002f;
+  const Vec2 center = CellCenter(w, cell);
+  const float half_m = 0.5f * w.cell_m + kSloppy_m;
+  for (const float x : kPoints) {
+    for (const float y : kPoints) {
+      const Vec2 p = PushedOff(w, cell, center + Vec2{x, y} * w.cell_m, radius_m + kSloppy_m);
+      if (std::abs(p.x - center.x) > half_m || std::abs(p.y - center.y) > half_m) continue;
+      if (Clearance(w, cell, p) < radius_m || !HasWallsOnEitherSide(w, cell, p, radius_m + w.cell_m)) continue;
+      *place = p;
+      return true;
+    }
+  }
+  return false;
+}
+
+// Opens the cells of the way through a door from a place in it, one way: until a cell that is free anyway.
+void OpenAlong(Vec2 place, Vec2 along, float radius_m, const std::vector<float>& cost, Walkable* w) {
+  constexpr float kStep_m = 0.05f, kThickestWall_m = 3;
+  const auto open = [&](int x, int y) {
+    const int cell = y * w->columns + x, ground = GroundCell(*w->ground, CellCenter(*w, cell));
+    const uint8_t kind = ground < 0 ? 0 : w->ground->kind[static_cast<size_t>(ground)];
+    float& now = w->cost[static_cast<size_t>(cell)];
+    if (now <= 0 && kind > 0 && kind <= 4) now = kGroundCost[kind] * kNarrowCost;
+  };
+  GridPlace last = PlaceAt(*w, place);
+  open(last.x, last.y);
+  for (float m = 0; m < kThickestWall_m; m += kStep_m) {
+    const int before = CellAt(*w, place);
+    place = PushedOff(*w, before, place + along * kStep_m, radius_m);
+    const GridPlace at = PlaceAt(*w, place);
+    if (at.x < 0 || Clearance(*w, before, place) < radius_m - 0.001f) return;
+    if (at.x != last.x && at.y != last.y) open(at.x, last.y);  // ways lead from side to side of cells
+    if (cost[static_cast<size_t>(at.y * w->columns + at.x)] > 0) return;
+    open(at.x, at.y);
+    last = at;
+  }
+}
+
+// Doors that are wide enough for a person but miss the centres of cells. Nothing else is opened: only between walls on
+// either side can't a whole cell hide another way.
+void OpenNarrowDoors(float radius_m, Walkable* w) {
+  const std::vector<float> cost = w->cost;
+  for (int cell = 0; cell < static_cast<int>(cost.size()); ++cell) {
+    const size_t k = static_cast<size_t>(cell);
+    const int near = w->wall_start[k + 1] - w->wall_start[k] + w->circle_start[k + 1] - w->circle_start[k];
+    Vec2 place;
+    if (cost[k] > 0 || near < 2 || !FitsBetween(*w, cell, radius_m, &place) || InsideObstacle(*w, place)) continue;
+    const Vec2 aside = Unit(AwayFromNearest(*w, cell, place)), along{-aside.y, aside.x};
+    OpenAlong(place, along, radius_m, cost, w);
+    OpenAlong(place, along * -1, radius_m, cost, w);
+  }
+}
+
 }  // namespace
 
 void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
@@ -270,6 +328,7 @@ void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
     w->least_cost = std::min(w->least_cost, kGroundCost[kind]);
     w->cells[static_cast<size_t>(cell)].slope = static_cast<uint8_t>(SlopeAt(*w, center) / Walkable::kSlopeUnit);
   }
+  OpenNarrowDoors(std::max(person_radius_m - kByChoice_m, 0.05f), w);
   NumberComponents(w);
   MeasureOpenShares(covered, w);
   MeasureClearances(covered, std::max(person_radius_m, most_radius_m) + kReachBeyondRadius_m, w);

@@ -10,6 +10,8 @@ namespace {
 
 constexpr float kTolerance_m = 1e-3f;
 constexpr int kSlides = 3;  // a corner needs two
+constexpr int kPushes = 24;
+constexpr float kOpposite = 0.7f;
 
 // Calls visit(away, distance_m) for all walls and trees near the cell: `away` from the nearest point to p, distance_m
 // to it.
@@ -98,6 +100,35 @@ float Clearance(const Walkable& w, int cell, Vec2 p) {
   float nearest_m = 1e9f;
   VisitWalls(w, cell, p, [&](Vec2, float distance_m) { nearest_m = std::min(nearest_m, distance_m); });
   return nearest_m;
+}
+
+Vec2 PushedOff(const Walkable& w, int cell, Vec2 p, float radius_m) {
+  for (int push = 0; push < kPushes; ++push) {
+    const Vec2 pushed = PushOut(w, cell, p, radius_m);
+    if (pushed.x == p.x && pushed.y == p.y) break;
+    p = pushed;
+  }
+  return p;
+}
+
+Vec2 AwayFromNearest(const Walkable& w, int cell, Vec2 p) {
+  Vec2 nearest;
+  float nearest_m = 1e9f;
+  VisitWalls(w, cell, p, [&](Vec2 away, float distance_m) {
+    if (distance_m < nearest_m) nearest = away, nearest_m = distance_m;
+  });
+  return nearest;
+}
+
+bool HasWallsOnEitherSide(const Walkable& w, int cell, Vec2 p, float reach_m) {
+  bool found = false;
+  VisitWalls(w, cell, p, [&](Vec2 away, float distance_m) {
+    if (found || distance_m > reach_m || distance_m < 1e-4f) return;
+    VisitWalls(w, cell, p, [&](Vec2 other, float other_m) {
+      if (other_m <= reach_m && other_m >= 1e-4f && Dot(away, other) < -kOpposite * distance_m * other_m) found = true;
+    });
+  });
+  return found;
 }
 
 Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {

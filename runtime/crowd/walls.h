@@ -9,6 +9,15 @@ Vec2 NearestOnSegment(Vec2 p, Vec2 a, Vec2 b);
 // From p, in or next to `cell`, to the nearest wall or tree; 1e9 where none is near. Not negative inside polygons.
 float Clearance(const Walkable& w, int cell, Vec2 p);
 
+// The point near p that is radius_m from the walls and trees near the cell, if a few pushes find one.
+Vec2 PushedOff(const Walkable& w, int cell, Vec2 p, float radius_m);
+
+// From the nearest wall or tree near the cell to p; zero where none is.
+Vec2 AwayFromNearest(const Walkable& w, int cell, Vec2 p);
+
+// Something stops people within reach_m of p on one side and within reach_m on the other.
+bool HasWallsOnEitherSide(const Walkable& w, int cell, Vec2 p, float reach_m);
+
 // From every point of the cell (-1: off the ground) at least so far to anything that stops people; 0 where that isn't
 // known.
 inline float ClearAround_m(const Walkable& w, int cell) {

@@ -99,6 +99,14 @@ void TakeScenario(const Scenario& scenario, bool has_pack, Simulation* s) {
   s->hour = scenario.hour;
 }
 
+// Of those who will be there, on ground of the scenario's own.
+float LargestRadius_m(const Scenario& scenario, float residents_m) {
+  const bool only_named = scenario.crowd.people == 0 && !scenario.persons.empty();
+  float most_m = only_named ? 0 : residents_m;
+  for (const ScenarioPerson& p : scenario.persons) most_m = std::max(most_m, p.radius_m > 0 ? p.radius_m : residents_m);
+  return most_m;
+}
+
 // The direction in which one sees farthest at walking height.
 float OpenestView_rad(const Walkable& w, Vec2 p) {
   constexpr int kDirections = 32;
@@ -277,7 +285,8 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   Town& town = s.town;
   float max_radius_m = 0;
   for (const Resident& resident : town.residents) max_radius_m = std::max(max_radius_m, resident.radius_m);
-  BuildWalkable(max_radius_m + 0.05f, &town.walkable);
+  if (pack == nullptr) max_radius_m = LargestRadius_m(scenario, max_radius_m);
+  BuildWalkable(max_radius_m + kByChoice_m, &town.walkable, std::max(max_radius_m, 0.5f));
   if (BestFreeCell(town.walkable) < 0) return Fail("there is no walkable ground");
   s.relief_m = Relief_m(town.walkable);
   if (Error e = CheckLimits(&s)) return e;
