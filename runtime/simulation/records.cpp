@@ -15,7 +15,8 @@ constexpr const char* kMetricsHeader =
     "triangles_people,triangles_town,budget_triangles,level_switches_in_view,step_ms,control_ms,draw_ms,triangles_"
     "shadows,"
     "triangles_people_shadows\n";
-constexpr const char* kTrajectoriesHeader = "frame,id,avatar,x_m,y_m,z_m,heading_rad,radius_m,view,level,reach_m\n";
+constexpr const char* kTrajectoriesHeader =
+    "frame,id,avatar,x_m,y_m,z_m,heading_rad,radius_m,view,level,reach_m,fading_level\n";
 constexpr const char* kViewNames[] = {"outside", "boundary", "visible"};
 
 __attribute__((format(printf, 2, 3))) void Append(std::string* text, const char* format, ...) {
@@ -46,15 +47,25 @@ void RecordMetrics(const Simulation& s, const FrameCosts& costs, std::string* te
          static_cast<long long>(costs.shadow_triangles), static_cast<long long>(s.control.levels.shadows.triangles));
 }
 
+std::string NameOf(Level level) {
+  return IsMesh(level) ? std::to_string(level.mesh) : IsDrawn(level) ? "impostor" : "none";
+}
+
+// What the person in view is drawn with besides their level, while the one fades into the other.
+Level FadingInView(const Simulation& s, size_t i) {
+  const PersonLevel& level = s.control.levels.people[i];
+  return s.town.crowd.view[i] == ViewClass::kVisible && ShareOf(level, 0) < 1 ? level.from : kNotDrawn;
+}
+
 void RecordTrajectories(const Simulation& s, std::string* text) {
   for (size_t i = 0; i < s.town.crowd.size(); ++i) {
     const Vec2 p = s.town.crowd.position[i];
-    const Level level = LevelInView(s.town.crowd, s.control.levels, i);
-    const std::string level_name = IsMesh(level) ? std::to_string(level.mesh) : IsDrawn(level) ? "impostor" : "none";
-    Append(text, "%lld,%d,%s,%.5f,%.5f,%.4f,%.5f,%.4f,%s,%s,%.4f\n", static_cast<long long>(s.town.step),
+    const std::string level = NameOf(LevelInView(s.town.crowd, s.control.levels, i));
+    Append(text, "%lld,%d,%s,%.5f,%.5f,%.4f,%.5f,%.4f,%s,%s,%.4f,%s\n", static_cast<long long>(s.town.step),
            s.town.crowd.id[i], s.town.residents[static_cast<size_t>(s.town.crowd.avatar[i])].avatar.c_str(), D(p.x),
            D(p.y), D(HeightAt(s.town.walkable, p)), D(s.town.crowd.heading_rad[i]), D(s.town.crowd.radius_m[i]),
-           kViewNames[static_cast<size_t>(s.town.crowd.view[i])], level_name.c_str(), D(s.town.crowd.view_reach_m[i]));
+           kViewNames[static_cast<size_t>(s.town.crowd.view[i])], level.c_str(), D(s.town.crowd.view_reach_m[i]),
+           NameOf(FadingInView(s, i)).c_str());
   }
 }
 

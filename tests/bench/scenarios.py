@@ -3,7 +3,10 @@
 
     python3 tests/bench/scenarios.py build_assets/wolfenbuettel/wolfenbuettel.glb -o figures
 
-OUT/index.html is the page, OUT/figures.json holds every number. Needs gnuplot and numpy (Debian: gnuplot-nox, python3-numpy).
+    python3 tests/bench/scenarios.py PACK.glb -o figures --only-paths --paths 20 --path-seed 7   # paths nobody has tuned for, any pack
+
+OUT/index.html is the page, OUT/figures.json holds every number. Needs gnuplot and numpy (Debian: gnuplot-nox, python3-numpy); whether crowds can be
+told apart also needs scikit-learn (python3-sklearn), and is left out without it.
 Exit status: 0 every target reached, 1 a target missed, 2 bad usage or input.
 """
 import argparse
@@ -24,8 +27,8 @@ except ImportError:  # Debian's numpy belongs to Debian's Python, which need not
         sys.exit("scenarios: error: numpy not found: install the Debian package python3-numpy")
     os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
 
-from figures import page, plots, runs, summary  # noqa: E402
-from figures.targets import MODES  # noqa: E402
+from figures import drawn_runs, page, plots, runs, summary, told_apart  # noqa: E402
+from figures.targets import DRAWN, MODES  # noqa: E402
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = SOURCE / "tests/scenario"
@@ -48,6 +51,11 @@ def arguments():
     parser.add_argument("--seeds", type=positive, default=5, metavar="N", help="seeds 1 to N of each scenario (default: 5); numbered "
                         "scenarios (NAME-01, NAME-02, ...) count as the seeds of one")
     parser.add_argument("--scenario", action="append", metavar="NAME", help="only this one; may be given several times")
+    parser.add_argument("--paths", type=natural, default=20, metavar="N", help="so many paths drawn from a seed as well, each with two seeds "
+                        "of the crowd (default: 20; 0: none)")
+    parser.add_argument("--path-seed", type=int, default=1, metavar="S", help="the seed that they are drawn from (default: 1)")
+    parser.add_argument("--without-paper", action="store_true", help="leave out the paper's own adaptation on drawn paths: a third faster")
+    parser.add_argument("--only-paths", action="store_true", help="leave out the scenarios")
     parser.add_argument("--jobs", type=positive, default=len(os.sched_getaffinity(0)), metavar="N", help="runs at once (default: cores)")
     parser.add_argument("--seconds", type=float, help="end each run after so much simulated time")
     parser.add_argument("--report-only", action="store_true", help="exit status 0 even where a target is missed")
@@ -58,6 +66,13 @@ def positive(text):
     number = int(text)
     if number < 1:
         raise argparse.ArgumentTypeError(f"must be at least 1, not {text}")
+    return number
+
+
+def natural(text):
+    number = int(text)
+    if number < 0:
+        raise argparse.ArgumentTypeError(f"must not be below 0: {text}")
     return number
 
 
@@ -85,11 +100,30 @@ def planned_jobs(options, pack_facts):
     return jobs
 
 
+def drawn_jobs(options, pack_facts):
+    """Of the paths that are drawn from a seed, unless only one scenario is asked for."""
+    if options.paths == 0 or options.scenario:
+        return []
+    if told_apart.MISSING:
+        print(f"scenarios: warning: nothing is told apart: {told_apart.MISSING}", file=sys.stderr)
+    return drawn_runs.planned_jobs(options, pack_facts, runs.read_tour(options.pack))
+
+
+def paths_facts(options, drawn):
+    """What the page says of the drawn paths; None without any."""
+    if not drawn:
+        return None
+    tells = drawn_runs.compare(drawn)
+    return {"seed": options.path_seed, "paths": drawn_runs.by_path(drawn), "told_apart": drawn_runs.mean_told_apart(drawn), "tells": tells,
+            "missing": told_apart.MISSING}
+
+
 def play_all(jobs, parallel):
     """The judged runs, in the order of the jobs."""
     done = {}
     with concurrent.futures.ProcessPoolExecutor(parallel) as pool:
-        waiting = {pool.submit(runs.run_and_judge, job): (k, job) for k, job in enumerate(jobs)}
+        waiting = {pool.submit(drawn_runs.run_and_measure if "path" in job else runs.run_and_judge, job): (k, job)
+                   for k, job in enumerate(jobs)}
         for future in concurrent.futures.as_completed(waiting):
             k, job = waiting[future]
             name = f"{job['group']}, {job['case']}, {job['mode']}"
@@ -134,22 +168,26 @@ def finite(value):
 def main():
     options, start_s = arguments(), time.monotonic()
     pack_facts = runs.read_pack(options.pack)
-    jobs = planned_jobs(options, pack_facts)
     try:
         options.output.mkdir(parents=True, exist_ok=True)
-        judged = play_all(jobs, options.jobs)
-        for group in {run["group"] for run in judged}:
+        jobs = [] if options.only_paths else planned_jobs(options, pack_facts)
+        judged = play_all(jobs + drawn_jobs(options, pack_facts), options.jobs)
+        for group in {run["group"] for run in judged} - {DRAWN}:
             runs.compare_with_off([run for run in judged if run["group"] == group])
+        drawn = [run for run in judged if run["group"] == DRAWN]
+        paths = paths_facts(options, drawn)
         table = summary.summarise(judged)
         results = summary.verdicts(table)
         facts = {"pack": str(options.pack), "runs": len(judged), "seeds": options.seeds,
                  "simulated_s": sum(float(run["time_s"][-1]) for run in judged), "seconds": time.monotonic() - start_s}
         small = {name: plots.candidates_plot(first_case(judged, name), height=110) for name in table}
-        write(options.output / "figures.json", json.dumps(finite({**facts, "targets": results, "scenarios": table}), indent=1))
-        write(options.output / "index.html", page.page(facts, table, results, drawn_figures(judged, table), small))
+        write(options.output / "figures.json",
+              json.dumps(finite({**facts, "targets": results, "scenarios": table, "paths": paths}), indent=1))
+        write(options.output / "index.html", page.page(facts, table, results, drawn_figures(judged, table), small, paths))
     except OSError as error:
         raise runs.Failed(f"{error.filename or options.output}: {(error.strerror or str(error)).lower()}") from error
     print(summary.terminal_table(results))
+    print(summary.paths_table(paths))
     print(f"page    {options.output / 'index.html'}")
     return 0 if options.report_only or all(v["reached"] for v in results) else 1
 

@@ -40,6 +40,19 @@ class Scenarios(ProgramTest):
             self.assertEqual(walkabout["wrong_view"]["worst"], 0)
         self.assertTrue(figures["targets"])
 
+    def test_drawn_paths(self):
+        self.assert_succeeds(self.play("--only-paths", "--paths", 3, "--path-seed", 9, "--without-paper", "--seconds", 10, "--report-only"))
+        self.assertEqual(len(list((self.folder / "out/paths").glob("*.toml"))), 3)
+        facts = json.loads((self.folder / "out/figures.json").read_text())
+        self.assertEqual(facts["runs"], 3 * 2 * 2)
+        self.assertEqual(list(facts["scenarios"]), ["drawn paths"])
+        full = facts["scenarios"]["drawn paths"]["full"]
+        self.assertEqual(full["wrong_view"]["worst"], 0)
+        self.assertEqual(len(full["exceeded"]["cases"]), 6)
+        page = (self.folder / "out/index.html").read_text()
+        for path in facts["paths"]["paths"]:
+            self.assertIn(path, page)
+
     def test_bad_input(self):
         self.assert_fails(self.play("--scenario", "walkabout"), "walkabout", "there are", "spin")
         self.assert_fails(scenarios(self.folder / "none.glb", "-o", self.folder), "none.glb", "no such file")

@@ -134,12 +134,41 @@ def kolmogorov_smirnov(a, b):
 
 
 def level_switches(people, step_s):
-    """Changes of level of those visible in two frames running, per visible person and minute."""
+    """Changes of level that are seen, per visible person and minute: of those visible in two frames running, and of those who come into
+    view while one level still fades into another."""
     after, before = steps(people)
     seen = people["visible"][after] & people["visible"][before]
     changes = np.sum(people["level"][after[seen]] != people["level"][before[seen]])
+    if "fading_level" in people:
+        was_visible = (people["before"] != NO_ROW) & people["visible"][people["before"]]
+        changes += np.sum(people["visible"] & ~was_visible & (people["fading_level"] != b"none"))
     minutes = np.sum(people["visible"]) * step_s / 60
     return float(changes / minutes) if minutes else 0.0
+
+
+def people_over(counts, limits):
+    """Candidates beyond the limit, mean over the frames."""
+    return float(np.maximum(counts - limits, 0).mean())
+
+
+def filled(counts, limits, base_counts):
+    """Candidates up to the limit, of the limit, mean over those frames in which the base has as many; None where it never has."""
+    shared = min(len(counts), len(base_counts))
+    full = base_counts[:shared] >= limits[:shared]
+    return float((np.minimum(counts, limits)[:shared] / limits[:shared])[full].mean()) if full.any() else None
+
+
+def ring_densities(metrics, people, most_m):
+    """People per square metre in rings of 1 m about the visitor, mean over the frames: the k-th reaches from k to k + 1 metres."""
+    distance, _ = from_camera(metrics, people)
+    count, edges = np.histogram(distance, bins=np.arange(most_m + 1))
+    return count / (len(metrics["frame"]) * math.pi * np.diff(edges.astype(float)**2))
+
+
+def densest_ring(rings, base_rings, least_m=2):
+    """The density of the densest ring that begins so far from the visitor or farther, over the base's there; None where nobody is."""
+    densest = least_m + int(np.argmax(rings[least_m:]))
+    return float(rings[densest] / base_rings[densest]) if base_rings[densest] > 0 else None
 
 
 def obstacle_outline(dx, dy, yaw_rad, fov_rad, r_high_m):

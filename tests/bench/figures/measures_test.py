@@ -84,6 +84,25 @@ class Measures(unittest.TestCase):
         crowd = people(*((frame, 1, 5, 0, b"visible", b"0" if frame < 900 else b"1") for frame in range(1800)))
         self.assertAlmostEqual(measures.level_switches(crowd, STEP_S), 1)
 
+    def test_a_fade_that_comes_into_view_is_a_switch(self):
+        crowd = people((0, 1, 5, 0, b"boundary", b"none"), (1, 1, 5, 0), (2, 1, 5, 0), (0, 2, 5, 0), (1, 2, 5, 0), (2, 2, 5, 0))
+        crowd["fading_level"] = np.array([b"none", b"none", b"impostor", b"none", b"impostor", b"none"])
+        self.assertAlmostEqual(measures.level_switches(crowd, 60), 1 / 5, msg="one person, once, in five visible minutes")
+
+    def test_what_the_limit_leaves(self):
+        counts, limits = np.array([20, 8, 16, 2]), np.full(4, 16)
+        self.assertEqual(measures.people_over(counts, limits), 1)
+        self.assertEqual(measures.filled(counts, limits, np.array([17, 30, 3])), 0.75, "of the frames where the base has the limit")
+        self.assertIsNone(measures.filled(counts, limits, np.zeros(4)))
+
+    def test_the_densest_ring(self):
+        crowd = people((0, 1, 5.5, 0), (0, 2, 0, 5.5), (0, 3, -8.5, 0), (0, 4, 0.5, 0))
+        rings = measures.ring_densities(metrics(), crowd, 10)
+        self.assertAlmostEqual(rings[5], 2 / (math.pi * 11))
+        free = measures.ring_densities(metrics(), people((0, 1, 5.5, 0), (0, 2, 8.5, 0)), 10)
+        self.assertAlmostEqual(measures.densest_ring(rings, free), 2)
+        self.assertIsNone(measures.densest_ring(rings, np.zeros(10)))
+
     def test_rim_density_sees_the_rim_alone(self):
         outline = measures.obstacle_outline(np.array([10.0, 5.0, 0.0, 12.0]), np.zeros(4), 0, FOV_RAD, 10)
         np.testing.assert_allclose(outline, [0, -5, 0, 2], atol=1e-9)

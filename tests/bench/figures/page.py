@@ -1,7 +1,7 @@
 """The page of figures: one HTML file that needs nothing else."""
 import html
 
-from figures.summary import FIGURE, LEAST_IS_WORST, named, shown
+from figures.summary import FIGURE, LEAST_IS_WORST, PATH_COLUMNS, named, path_rows, shown
 from figures.targets import FIGURES, MODES
 
 STYLE = """
@@ -76,9 +76,25 @@ def meanings():
     return f"<h2>How it is measured</h2><p>From metrics and trajectories alone, by code apart from the player's.</p><dl>{items}</dl>"
 
 
-def page(facts, summary, results, figures, small_plots):
-    """`figures`: (title, text, svg) of the paper's figures; `small_plots`: svg by scenario."""
-    body = header(facts, results) + targets_table(results) + "".join(plot(*figure) for figure in figures)
+def paths_section(paths):
+    """What scenarios.paths_facts says; None: nothing."""
+    if not paths:
+        return ""
+    heads = "".join(f'<th class="n">{FIGURE[key].title}<br>{mode}' for mode, key in PATH_COLUMNS)
+    rows = "".join(f"<tr><td>{html.escape(name)}" + "".join(f'<td class="n">{cell}' for cell in cells) + "</tr>"
+                   for name, *cells in path_rows(paths["paths"]))
+    means = "; ".join(f"{mode} {auc:.3f} ± {error:.3f}" for mode, (auc, error) in paths["told_apart"].items())
+    tells = "".join(f"<p>What tells {mode} from off: " + ", ".join(f"{html.escape(name.replace('_', ' '))} {loss:.3f}" for name, loss in some)
+                    + ' <span class="soft">(loss of AUC without it)</span></p>' for mode, some in paths["tells"].items())
+    told = f"Not told apart: {html.escape(paths['missing'])}." if paths["missing"] else f"Told apart from off, AUC within 15 m: {means}."
+    return (f'<h2>Drawn paths</h2><p class="soft">Paths drawn from seed {paths["seed"]}, each with two seeds of the crowd; means of both. '
+            f'The last number of a name: people in the town.</p><p>{told}</p>{tells}<div style="overflow-x:auto"><table><tr><th>Path{heads}</tr>'
+            f"{rows}</table></div>")
+
+
+def page(facts, summary, results, figures, small_plots, paths=None):
+    """`figures`: (title, text, svg) of the paper's figures; `small_plots`: svg by scenario; `paths`: of the drawn paths."""
+    body = header(facts, results) + targets_table(results) + paths_section(paths) + "".join(plot(*figure) for figure in figures)
     body += "<h2>Every scenario</h2>" + "".join(scenario_details(name, modes, small_plots[name]) for name, modes in summary.items())
     return (f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>Flaneur: figures of the crowd</title><style>{STYLE}'
             f"</style>\n{body}\n{meanings()}</html>\n")

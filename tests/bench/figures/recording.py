@@ -8,7 +8,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "cli"))
 import judge  # noqa: E402
 
 ROW = np.dtype([("frame", "i4"), ("id", "i4"), ("x_m", "f8"), ("y_m", "f8"), ("heading_rad", "f8"), ("radius_m", "f8"),
-                ("view", "S8"), ("level", "S8"), ("reach_m", "f8")])
+                ("view", "S8"), ("level", "S8"), ("reach_m", "f8"), ("fading_level", "S8")])
 NO_ROW = -1
 
 
@@ -23,7 +23,7 @@ def read_people(path):
     with open(path, encoding="utf-8") as file:
         header = file.readline().strip().split(",")
         assert header[:len(judge.TRAJECTORIES)] == judge.TRAJECTORIES, header
-        names = [name for name in ROW.names if name in header]  # reach_m came later
+        names = [name for name in ROW.names if name in header]  # reach_m and fading_level came later
         row = np.dtype([(name, ROW[name]) for name in names])
         columns = [header.index(name) for name in names]
         table = np.loadtxt(file, delimiter=",", dtype=row, usecols=columns, ndmin=1, comments=None)

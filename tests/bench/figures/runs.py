@@ -20,16 +20,21 @@ class Failed(Exception):
     """One line for the user."""
 
 
-def read_pack(path):
-    """What judging needs of a pack."""
+def read_tour(path):
+    """A pack's description of its tour."""
     try:
-        tour = split_glb(path)[0]["extensions"]["FLANEUR_tour"]
+        return split_glb(path)[0]["extensions"]["FLANEUR_tour"]
     except OSError as error:
         raise Failed(f"{path}: {error.strerror.lower()}") from error
     except (ValueError, KeyError, IndexError, AttributeError) as error:
         raise Failed(f"{path}: not a tour pack; bake one with flaneur bake") from error
     except Exception as error:  # a truncated header
         raise Failed(f"{path}: not a tour pack ({error})") from error
+
+
+def read_pack(path):
+    """What judging needs of a pack."""
+    tour = read_tour(path)
     return {"gates": [p["position_m"] for p in tour["places"] if p["kind"] in ("door", "exit")],
             "top_speed_mps": tour["crowd"]["top_speed_mps"], "step_hz": tour["control"]["step_hz"],
             "r_high_m": tour["control"]["r_high_m"]}

@@ -66,5 +66,29 @@ def terminal_table(results):
     return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows)
 
 
+# Of each drawn path, for these modes.
+PATH_COLUMNS = [("off", "exceeded"), ("paper", "exceeded"), ("full", "exceeded"), ("off", "over"), ("full", "over"), ("full", "filled"),
+                ("full", "ring"), ("full", "switches"), ("off", "told_apart"), ("paper", "told_apart"), ("full", "told_apart")]
+
+
+def path_rows(paths):
+    """[path, text, ...] by PATH_COLUMNS; empty where a path has no such figure."""
+    return [[path] + [shown(key, modes[mode][key]) if key in modes.get(mode, {}) else "" for mode, key in PATH_COLUMNS]
+            for path, modes in paths.items()]
+
+
+def paths_table(facts):
+    """The drawn paths as lines of text."""
+    if not facts:
+        return ""
+    rows = [["path"] + [f"{key} {mode}" for mode, key in PATH_COLUMNS]] + path_rows(facts["paths"])
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows]
+    lines += [f"told apart from off, {mode}: AUC {auc:.3f} +- {error:.3f}" for mode, (auc, error) in facts["told_apart"].items()]
+    lines += [f"what tells {mode}: " + ", ".join(f"{name} {loss:.3f}" for name, loss in features)
+              for mode, features in facts["tells"].items()]
+    return "\n".join(lines)
+
+
 def named(modes):
     return "any" if tuple(modes) == MODES else ", ".join(modes)

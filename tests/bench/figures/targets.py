@@ -8,6 +8,7 @@ Figure = collections.namedtuple("Figure", "key title format meaning")
 Target = collections.namedtuple("Target", "key scenario modes sense value by")
 
 MODES = ("off", "paper", "full")
+DRAWN = "drawn paths"  # the group of the paths that are drawn from a seed
 FREE_SECONDS = {"dead-end": 3}  # not counted when frames are exceeded: the visitor starts among people
 
 FIGURES = [
@@ -16,6 +17,21 @@ FIGURES = [
            "share of frames with more than the limit of visible people within the nominal r_high, counted from the positions; in "
            "dead-end after the first 3 s"),
     Figure("exceeded_of_off", "exceeded over off's", "{:.2f}", "share of frames exceeded over that of the same seed with off"),
+    Figure("exceeded_light", "exceeded, where off exceeds less", "{:.2%}",
+           "frames exceeded on the paths where off exceeds in at most half of the frames"),
+    Figure("over", "people over the limit", "{:.2f}", "visible people within the nominal r_high beyond the limit, mean over the frames"),
+    Figure("over_of_off", "people over, of off's", "{:.2f}", "the same over that of off, on the paths where off exceeds in more than half of "
+           "the frames"),
+    Figure("over_at_start", "people over in the first frame", "{:.0f}", "the same in the run's first frame"),
+    Figure("filled", "people within r_high, of the limit", "{:.2f}",
+           "visible people within the nominal r_high, counted up to the limit, over the limit: mean of the frames in which off has at "
+           "least the limit"),
+    Figure("ring", "densest ring over off's", "{:.2f}",
+           "density of people in the densest ring of 1 m about a visitor who stands, from 2 m on, over off's at the same distance; both seeds "
+           "together"),
+    Figure("told_apart", "told apart (AUC)", "{:.3f}",
+           "how well a classifier tells how people within 15 m walk from how they do with off and another seed, on paths that it has not "
+           "learnt from: 0.5 never, 1 always; for off itself what chance alone makes"),
     Figure("jumps", "jumps in view", "{:.0f}", "visible people who moved farther in a step than top speed × step"),
     Figure("overlaps", "overlaps", "{:.0f}",
            "pairs of visible people that overlap by more than 5 cm where at most 1 person/m² is within 2 m of the pair"),
@@ -37,7 +53,7 @@ FIGURES = [
     Figure("turns_ks", "turn rates, distance", "{:.3f}", "likewise of the amount of their turn rates"),
     Figure("speeds_ks_together", "speeds, all seeds together", "{:.3f}", "the distance of all seeds' speeds to all seeds' with off"),
     Figure("turns_ks_together", "turn rates, all seeds together", "{:.3f}", "likewise of their turn rates"),
-    Figure("switches", "level switches", "{:.2f}", "changes of level in view per visible person and minute"),
+    Figure("switches", "level switches", "{:.2f}", "changes of level seen per visible person and minute, with those that still fade when somebody comes into view"),
     Figure("shortfalls", "shortfalls", "{:.2f}", "people drawn as impostors nearer than adequate, mean a frame"),
     Figure("speed_ratio", "user's speed", "{:.2f}", "the visitor's way made over the way asked for"),
     Figure("direction_deg", "user's direction error", "{:.2f}°",
@@ -65,6 +81,15 @@ TARGETS = [
     Target("speeds_ks", "*", ("full",), "most", 0.1, "median"),
     Target("turns_ks", "*", ("full",), "most", 0.1, "median"),
     Target("switches", "*", ("full",), "most", 5, "median"),
+    Target("switches", DRAWN, ("full",), "most", 2, "median"),
+    Target("told_apart", DRAWN, ("full",), "most", 0.58, "median"),
+    Target("told_apart", DRAWN, ("full",), "most", 0.70, "worst"),
+    Target("exceeded_light", DRAWN, ("full",), "most", 0, "median"),
+    Target("exceeded_light", DRAWN, ("full",), "most", 0.03, "worst"),
+    Target("over_of_off", DRAWN, ("full",), "most", 0.5, "median"),
+    Target("over_at_start", DRAWN, ("full",), "most", 0, "worst"),
+    Target("ring", DRAWN, ("full",), "most", 1.25, "median"),
+    Target("filled", DRAWN, ("full",), "least", 0.85, "median"),
     Target("adaptation_share", "ten-thousand", ("full",), "most", 0.02, "median"),
     Target("speed_ratio", "walkabout-*", ("full",), "least", 0.9, "median"),
     Target("direction_deg", "walkabout-*", MODES, "most", 0.5, "worst"),
