@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "pipeline/cli/life_settings.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
 #include "runtime/base/toml_table.h"
@@ -241,6 +242,7 @@ void ReadAll(TomlTable root, TourSettings* settings) {
   for (TomlTable& place : root.Tables("place")) ReadPlace(place, settings);
   for (TomlTable& stop : root.Tables("stop")) ReadStop(stop, settings);
   ReadVisitorSettings(&root, settings, &settings->visitor_files);
+  ReadLifeSettings(&root, settings);
   ReadPaintingSettings(root.Table("painting"), &settings->painting_file);
   ReadTitlePageSettings(root.Table("title_page"), &settings->title_page);
   const auto section = [&](const char* name, auto* values) {
@@ -268,6 +270,11 @@ void CheckWhole(TomlContext* context, const TourSettings& s) {
       if (std::none_of(s.avatars.begin(), s.avatars.end(), is_named))
         refuse("place '" + OneLine(place.name) + "': no [[avatar]] has the name '" + OneLine(name) + "'");
     }
+  }
+  for (const Flock& flock : s.flocks) {
+    const auto is_named = [&](const AvatarSettings& a) { return a.name == flock.avatar; };
+    if (std::none_of(s.avatars.begin(), s.avatars.end(), is_named))
+      refuse("a [[flock]] is of '" + OneLine(flock.avatar) + "', but no [[avatar]] has that name");
   }
   const ControlSettings& c = s.control;
   if (!(c.r_personal_m < c.r_high_m && c.r_high_m < c.r_unimportant_m && c.r_unimportant_m < c.r_far_m)) {
@@ -298,7 +305,7 @@ std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
   const toml::table root = toml::parse(
       "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[avatar.clip]]\n[[place]]\n[[stop]]\n[[town.part]]\n"
-      "[[hotspot]]\n[[street]]\n[[sound]]\n");
+      "[[hotspot]]\n[[street]]\n[[sound]]\n[[flock]]\n");
   TomlContext context;
   TourSettings settings;
   ReadAll(TomlTable(&context, &root, ""), &settings);

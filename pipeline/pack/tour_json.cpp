@@ -229,6 +229,15 @@ Json SoundPlaceJson(const SoundPlace& place, const TourIndices& indices) {
   return json;
 }
 
+Json FlockJson(const Flock& flock) {
+  return {{"avatar", flock.avatar},
+          {"position_m", PointJson(flock.position_m)},
+          {"radius_m", Short(flock.radius_m)},
+          {"birds", flock.birds},
+          {"shy_m", Short(flock.shy_m)},
+          {"clip", flock.clip}};
+}
+
 // What there is for visitors; nothing where there is nothing.
 void AddVisitorJson(const TourParts& parts, const TourIndices& indices, Json* tour) {
   for (const Hotspot& hotspot : parts.hotspots) (*tour)["hotspots"].push_back(HotspotJson(hotspot, indices));
@@ -281,6 +290,7 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   if (!parts.guide.empty()) tour["guide"] = parts.guide;
   if (parts.title_page.there()) tour["title_page"] = TitlePageJson(parts.title_page, indices);
   AddVisitorJson(parts, indices, &tour);
+  for (const Flock& flock : parts.flocks) tour["flocks"].push_back(FlockJson(flock));
   for (const auto& [language, thanks] : parts.thanks) tour["thanks"][language] = thanks;
   tour["home_after_s"] = Short(parts.home_after_s);
   tour["crowd"] = SettingsJson(parts.crowd);

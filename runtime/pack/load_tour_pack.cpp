@@ -12,6 +12,7 @@
 #include "runtime/pack/ktx2.h"
 #include "runtime/pack/reach.h"
 #include "runtime/pack/read_clip.h"
+#include "runtime/pack/read_life.h"
 #include "runtime/pack/read_mesh.h"
 #include "runtime/pack/read_visitor_data.h"
 #include "runtime/pack/tour_object.h"
@@ -413,6 +414,7 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
     }
   }
   ReadVisitorData(file, tour, pack);
+  ReadLife(tour, pack);
   pack->thanks = ReadTranslations(tour, "thanks");
   if (tour.Has("home_after_s")) pack->home_after_s = tour.Real("home_after_s", 0, kLongestIdle_s);
   VisitFields(tour.Object("crowd"), &pack->crowd);

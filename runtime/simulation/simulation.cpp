@@ -237,8 +237,12 @@ void ControlCrowd(float frame_ms, Simulation* s) {
   const CameraState& camera = s->visitor.camera;
   Control& control = s->control;
   const ViewMotion motion{camera.velocity, camera.yaw_rate_radps};
-  ChooseLevels(s->town.crowd, control.avatars, control.settings,
-               {camera.view, motion, frame_ms, s->screen_width_px, s->visitor.guide.id}, &control.levels);
+  LevelQuery query{camera.view, motion, frame_ms, s->screen_width_px, 0, s->visitor.guide.id};
+  const float budget = control.levels.budget_triangles > 0 ? control.levels.budget_triangles
+                                                           : static_cast<float>(control.settings.budget_triangles);
+  ChooseBirds(s->town, control.avatars, query, camera.eye_height_m, budget, Step_s(*s), &s->birds);
+  query.taken_triangles = s->birds.triangles;
+  ChooseLevels(s->town.crowd, control.avatars, control.settings, query, &control.levels);
   s->moving.clear();
   if (camera.present) {
     s->moving.push_back(VisitorDisc(*s));
@@ -300,6 +304,7 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   PlaceGuide(InTown(&s));
   DeriveGap(&s);
   PlaceCrowd(town.settings.people - (s.visitor.guide.id >= 0 ? 1 : 0), ViewerOf(s), &town);  // the guide is one of them
+  if (pack != nullptr && !scenario.has_ground) PlaceFlocks(pack->flocks, &town);
   ClassifyAll(&s);
   ControlCrowd(0, &s);
   town.jobs = jobs;
@@ -338,6 +343,7 @@ void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   town.field_builder.Step(town.walkable, town.jobs, &town.crowd);
   StepCrowd(town.walkable, s->moving, Step_s(*s), &town.scratch, &town.crowd);
   LeaveAndArrive(ViewerOf(*s), &town);
+  StepFlocks(camera.view.position, camera.present, Step_s(*s), &town);
   ClassifyAll(s);
   if (camera.present) SeparateUnseen(s);
   ControlCrowd(frame_ms, s);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/base/math.h"
+#include "runtime/tour_data/life_data.h"
 #include "runtime/tour_data/settings.h"
 #include "runtime/tour_data/visitor_data.h"
 
@@ -99,6 +100,7 @@ struct TourData {
   std::vector<Street> streets;
   std::vector<SoundPlace> sound_places;
   PhotoData photo;
+  std::vector<Flock> flocks;
   std::map<std::string, std::string>
       thanks;               // what visitors read at the tour's end, by language; empty: a word of ours
   float home_after_s = 45;  // without a touch at the tour's end, until all is as at the beginning; 0: never

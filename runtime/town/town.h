@@ -12,6 +12,7 @@
 #include "runtime/crowd/density_map.h"
 #include "runtime/crowd/field_builder.h"
 #include "runtime/tour_data/tour_data.h"
+#include "runtime/town/flock.h"
 
 namespace flaneur {
 
@@ -89,6 +90,8 @@ struct Town {
   int next_company = 0;                  // how many come together next, once there is room for them; 0: not drawn yet
   int loiterers = 0;                     // people whose plan is to loiter,
   int workers = 0;                       // to work
+
+  std::vector<FlockState> flocks;
 
   Crowd crowd;
   CrowdScratch scratch;  // of whoever steps the crowd
