@@ -222,7 +222,8 @@ Error MakeImpostor(Baking* baking, size_t i) {
   TourAvatar* avatar = &baking->parts.avatars[i];
   ImpostorOptions options = baking->settings.impostor;
   options.threads = 1;  // one avatar a core
-  for (const ClipSettings& clip : settings.clips) options.clips.push_back({clip.name, options.work_phases});
+  for (const ClipSettings& clip : settings.clips)
+    options.clips.push_back({clip.name, clip.speed_mps > 0 ? options.clips.front().phases : options.work_phases});
   if (IsBirdOnly(settings, *baking)) {
     options.height_px = kUnseen_px;
     for (ImpostorClipOptions& clip : options.clips) clip.phases = 1;
@@ -272,7 +273,7 @@ Error MakePeople(Baking* baking) {
     baking->parts.avatars[i].tints = baking->settings.avatars[i].tints;
     baking->parts.avatars[i].props = baking->settings.avatars[i].props;
     for (const ClipSettings& clip : baking->settings.avatars[i].clips)
-      baking->parts.avatars[i].clips.push_back({clip.name, clip.seat_m});
+      baking->parts.avatars[i].clips.push_back({clip.name, clip.seat_m, clip.speed_mps});
   }
   if (Error e = RunParallel(&baking->jobs, count, [&](size_t i) { return MakeAvatar(baking, i); })) return e;
   if (Error e = RunParallel(&baking->jobs, count, [&](size_t i) { return MakeImpostor(baking, i); })) return e;

@@ -89,6 +89,7 @@ void ReadClip(TomlTable table, AvatarSettings* avatar) {
   table.Text("name", &clip.name);
   table.Text("clip", &clip.clip);
   table.Number("seat_m", &clip.seat_m, 0, static_cast<double>(kMaxSeat_m));
+  table.Number("speed_mps", &clip.speed_mps, 0, static_cast<double>(kMaxRun_mps));
   if (clip.name.empty() || clip.name == "walk" || clip.name == "idle" || clip.name == "talk")
     table.Refuse("an [[avatar.clip]] needs a name, as places of work have it, that is not walk, idle or talk");
   for (const ClipSettings& other : avatar->clips) {
@@ -159,11 +160,20 @@ void ReadFootprints(TomlTable table, FootprintOptions* options, GroundRasterOpti
   table.Finish();
 }
 
+// What is otherwise, or cannot be left open, at a place of play.
+void ReadPlay(TomlTable& table, Place* place) {
+  if (place->clip.empty()) place->clip = "run";
+  if (place->people == 0) place->people = 3;
+  if (!table.Has("width_m")) place->width_m = 10;
+  if (place->width_m < 4 || place->width_m > kMaxPlay_m)
+    table.Refuse("a [[place]] of kind \"play\" needs a width_m of 4 to 60");
+}
+
 void ReadPlace(TomlTable table, TourSettings* settings) {
   Place place;
   place.kind = "goal";
   table.Text("name", &place.name);
-  table.Choice("kind", &place.kind, {"door", "exit", "goal", "loiter", "spawn", "work"});
+  table.Choice("kind", &place.kind, {"door", "exit", "goal", "loiter", "spawn", "work", "play"});
   table.Point("position_m", &place.position_m);
   table.Number("width_m", &place.width_m, 0.1, 1000);
   float yaw_rad = 0;
@@ -173,10 +183,18 @@ void ReadPlace(TomlTable table, TourSettings* settings) {
   table.Texts("avatars", &place.avatars);
   table.Number("seat_m", &place.seat_m, 0, static_cast<double>(kMaxSeat_m));
   table.Number("stay_s", &place.stay_s, 0, static_cast<double>(kMaxStay_s));
+  table.Number("people", &place.people, 1, kMaxPlayers);
   if (!table.Has("position_m")) table.Refuse("a [[place]] needs position_m = [x, y]");
-  for (const char* key : {"clip", "avatars", "seat_m", "stay_s"}) {
-    if (place.kind != "work" && table.Has(key)) table.Refuse(std::string(key) + " is for a [[place]] of kind \"work\"");
+  const bool works = place.kind == "work", plays = place.kind == "play";
+  for (const char* key : {"seat_m", "stay_s"}) {
+    if (!works && table.Has(key)) table.Refuse(std::string(key) + " is for a [[place]] of kind \"work\"");
   }
+  for (const char* key : {"clip", "avatars"}) {
+    if (!works && !plays && table.Has(key))
+      table.Refuse(std::string(key) + " is for a [[place]] of kind \"work\" or \"play\"");
+  }
+  if (!plays && table.Has("people")) table.Refuse("people is for a [[place]] of kind \"play\"");
+  if (plays) ReadPlay(table, &place);
   table.Finish();
   settings->places.push_back(place);
 }

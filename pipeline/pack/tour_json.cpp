@@ -107,6 +107,7 @@ Json OtherClipJson(const std::string& name, int animation, const std::vector<Tou
   Json json{{"name", name}, {"animation", animation}};
   for (const TourClip& clip : known) {
     if (clip.name == name && clip.seat_m > 0) json["seat_m"] = Short(clip.seat_m);
+    if (clip.name == name && clip.speed_mps > 0) json["speed_mps"] = Short(clip.speed_mps);
   }
   return json;
 }
@@ -189,6 +190,16 @@ Json WorkJson(const Place& place) {
   return json;
 }
 
+Json PlayJson(const Place& place) {
+  Json json{{"name", place.name},
+            {"position_m", PointJson(place.position_m)},
+            {"width_m", Short(place.width_m)},
+            {"clip", place.clip},
+            {"people", place.people}};
+  if (!place.avatars.empty()) json["avatars"] = place.avatars;
+  return json;
+}
+
 Json StopJson(const TourStop& stop, const TourIndices& indices) {
   Json json{{"position_m", PointJson(stop.position_m)},
             {"yaw_rad", Short(stop.yaw_rad)},
@@ -268,6 +279,10 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   for (const Place& p : parts.places) {
     if (p.kind == "work") {
       tour["work"].push_back(WorkJson(p));
+      continue;
+    }
+    if (p.kind == "play") {
+      tour["play"].push_back(PlayJson(p));
       continue;
     }
     tour["places"].push_back(

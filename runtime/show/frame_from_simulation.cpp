@@ -13,7 +13,8 @@ namespace flaneur {
 namespace {
 
 constexpr float kStandsBelow_mps = 0.10f, kWalksAbove_mps = 0.18f;
-constexpr float kLeaps_m = 2;  // whoever moves by more between two pictures was put there
+constexpr float kRunsAbove = 0.65f, kRunsBand = 0.15f;  // of a clip's speed: slower people walk
+constexpr float kLeaps_m = 2;                           // whoever moves by more between two pictures was put there
 
 // The sun goes round by day_length_s a turn, and stays between its start height and a low evening.
 Vec3 ToSun(const LightSettings& light, float time_s) {
@@ -69,6 +70,13 @@ bool Talks(const Simulation& s, size_t i) {
 
 ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, float size, ClipKind last) {
   const float speed_mps = Length(s.town.crowd.velocity[i]);
+  const int doing = s.town.crowd.doing[i];
+  const PackOtherClip* other = doing >= 0 ? &avatar.other_clips[static_cast<size_t>(doing)] : nullptr;
+  if (other != nullptr && other->speed_mps > 0 &&
+      speed_mps > other->speed_mps * (last == OtherClip(doing) ? kRunsAbove - kRunsBand : kRunsAbove)) {
+    const float cycle_m = size * other->speed_mps * std::max(other->clip.duration_s, 0.1f);
+    return {OtherClip(doing), Fraction(s.town.crowd.walked_m[i] / cycle_m)};
+  }
   if (speed_mps > (last == ClipKind::kWalk ? kStandsBelow_mps : kWalksAbove_mps)) {
     // One clip's length of way for each turn of the walk, so that feet don't slide: longer legs take longer steps.
     const float cycle_m = size * avatar.walk_speed_mps * std::max(avatar.walk.duration_s, 0.1f);
@@ -79,8 +87,7 @@ ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, flo
   const auto moment = [&](ClipKind kind, const PackClip& clip) {
     return ClipMoment{kind, Fraction(own_time_s / std::max(clip.duration_s, 0.1f))};
   };
-  const int doing = s.town.crowd.doing[i];
-  if (doing >= 0) return moment(OtherClip(doing), avatar.other_clips[static_cast<size_t>(doing)].clip);
+  if (other != nullptr && other->speed_mps <= 0) return moment(OtherClip(doing), other->clip);
   if (Talks(s, i)) return moment(ClipKind::kTalk, avatar.talk);
   return moment(ClipKind::kIdle, avatar.idle);
 }

@@ -59,5 +59,24 @@ TEST_F(LifeSettings, WhatIsMissingOrWrongOfAFlockIsSaidInOneLine) {
               "more than 200 birds"));
 }
 
+TEST_F(LifeSettings, APlaceOfPlayHasItsOwnDefaultsAndItsClipIsTakenWithItsSpeed) {
+  ASSERT_EQ(
+      Read("[[avatar]]\nname = \"child\"\nfile = \"child.glb\"\n[[avatar.clip]]\nname = \"run\"\nspeed_mps = 2.5\n"
+           "[[place]]\nkind = \"play\"\nposition_m = [1, 2]\navatars = [\"child\"]\n"),
+      "");
+  const Place& place = settings.places.at(0);
+  EXPECT_EQ(place.clip, "run");
+  EXPECT_EQ(place.people, 3);
+  EXPECT_EQ(place.width_m, 10);
+  std::vector<std::string> warnings;
+  ASSERT_FALSE(ChooseWorkClips(settings.places, {}, &settings.avatars, &warnings));
+  EXPECT_TRUE(settings.avatars[1].clips.empty());
+  ASSERT_EQ(settings.avatars[2].clips.size(), 1u);
+  EXPECT_EQ(settings.avatars[2].clips[0].speed_mps, 2.5f);
+  EXPECT_TRUE(Refuses("[[place]]\nposition_m = [0, 0]\npeople = 3\n", "people is for a [[place]] of kind \"play\""));
+  EXPECT_TRUE(Refuses("[[place]]\nkind = \"play\"\nposition_m = [0, 0]\nwidth_m = 2\n", "width_m of 4 to 60"));
+  EXPECT_TRUE(Refuses("[[place]]\nkind = \"play\"\nposition_m = [0, 0]\nseat_m = 1\n", "seat_m is for"));
+}
+
 }  // namespace
 }  // namespace flaneur

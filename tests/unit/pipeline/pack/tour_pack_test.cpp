@@ -132,6 +132,10 @@ TourParts SmallTour() {
   parts.ground = {{-20, -20}, 10, 4, 3, std::vector<float>(12, 0.25f), std::vector<uint8_t>(12, 3)};
   parts.ground.height_m[5] = -1.5f;
   parts.places = {{"west", "exit", {-18, 0}, 2}, {"stall", "loiter", {3, 0}, 1, 0.5f}};
+  Place green{"green", "play", {1, 3}, 9};
+  green.clip = "run";
+  green.people = 5;
+  parts.places.push_back(green);
   parts.painting = {{-4, -2}, 2, 2, 1, {0, 200}, {30, 0}};
   parts.path = {{{1, 2}, 0.5f, 3, "Grüß Gott"}};
   parts.language = "de";
@@ -189,7 +193,11 @@ TEST(TourPack, BringsTheTourAcross) {
   EXPECT_EQ(pack.ground->rows, 3);
   EXPECT_EQ(pack.ground->height_m[5], -1.5f);
   EXPECT_EQ(pack.ground->kind, std::vector<uint8_t>(12, 3));
-  ASSERT_EQ(pack.places.size(), 2u);
+  ASSERT_EQ(pack.places.size(), 3u);
+  EXPECT_EQ(pack.places[2].kind, "play");
+  EXPECT_EQ(pack.places[2].width_m, 9);
+  EXPECT_EQ(pack.places[2].clip, "run");
+  EXPECT_EQ(pack.places[2].people, 5);
   EXPECT_FALSE(pack.places[0].yaw_rad);
   EXPECT_FLOAT_EQ(pack.places[1].yaw_rad.value_or(0), 0.5f);
   EXPECT_EQ(pack.painting.columns, 2);
@@ -550,14 +558,14 @@ TEST(TourPack, ATintKeepsToItsMaterialsOnEveryLevelAndTheImpostor) {
 TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
-  const std::set<std::string> optional{"painting",  "guide",         "titles",   "language",     "captions",
-                                       "sounds",    "tints",         "props",    "title_page",   "picture_view",
-                                       "logo_view", "photo",         "hotspots", "streets",      "texts",
-                                       "reach_m",   "height_spread", "thanks",   "home_after_s", "flocks"};
+  const std::set<std::string> optional{
+      "painting", "guide",      "titles",        "language",  "captions",     "sounds",   "tints",
+      "props",    "title_page", "picture_view",  "logo_view", "photo",        "hotspots", "streets",
+      "texts",    "reach_m",    "height_spread", "thanks",    "home_after_s", "flocks",   "play"};
   for (const char* object :
        {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0", "/avatars/0/impostor",
         "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground", "/title_page", "/places/0", "/painting", "/path/0",
-        "/hotspots/0", "/sounds/1", "/flocks/0"}) {
+        "/hotspots/0", "/sounds/1", "/flocks/0", "/play/0"}) {
     const Json::json_pointer at(std::string("/extensions/FLANEUR_tour") + object);
     for (const auto& [key, unused] : json.at(at).items()) {
       Json changed = json;
