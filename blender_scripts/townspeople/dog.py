@@ -42,6 +42,7 @@ class Tubes:
     faces: list
     colors: list
     weights: list  # {joint: share} a point
+    sides: int = SIDES
 
     def add(self, rings, color, turn=(1.0, 0.0, 0.0)):
         """A closed tube of (centre, half width, half height, {joint: share}), its rings across
@@ -56,18 +57,18 @@ class Tubes:
             side = np.array(turn) - way * (way @ np.array(turn))
             side = side / np.linalg.norm(side)
             up = np.cross(way, side)
-            for s in range(SIDES):
-                a = 2.0 * np.pi * s / SIDES
+            for s in range(self.sides):
+                a = 2.0 * np.pi * s / self.sides
                 point = centres[k] + side * wide * np.cos(a) + up * high * np.sin(a)
                 self.points.append(tuple(point))
                 self.weights.append(weights)
         for k in range(count - 1):
-            for s in range(SIDES):
-                a, b = first + k * SIDES + s, first + k * SIDES + (s + 1) % SIDES
-                self._face((a, b, b + SIDES, a + SIDES), top if k < segments else below)
-        self._face(tuple(range(first + SIDES - 1, first - 1, -1)), top)
-        last = first + (count - 1) * SIDES
-        self._face(tuple(range(last, last + SIDES)), below)
+            for s in range(self.sides):
+                a, b = first + k * self.sides + s, first + k * self.sides + (s + 1) % self.sides
+                self._face((a, b, b + self.sides, a + self.sides), top if k < segments else below)
+        self._face(tuple(range(first + self.sides - 1, first - 1, -1)), top)
+        last = first + (count - 1) * self.sides
+        self._face(tuple(range(last, last + self.sides)), below)
 
     def _face(self, corners, color):
         self.faces.append(corners)
@@ -151,7 +152,7 @@ class Pose:
         return sk.global_from_local(self.skeleton, self.local)
 
 
-def _clip(skeleton, name, seconds, pose_at):
+def make_clip(skeleton, name, seconds, pose_at):
     frames = int(round(seconds * FRAMES_PER_SECOND)) + 1
     poses = []
     for phase in np.linspace(0.0, 2.0 * np.pi, frames):
@@ -193,7 +194,7 @@ def walk_clip(skeleton):
 
     leg_m = 0.36
     stride_m = 2.0 * leg_m * np.sin(np.radians(SWING_DEG))
-    return _clip(skeleton, "walk", WALK_S, pose_at), float(stride_m / (0.5 * WALK_S))
+    return make_clip(skeleton, "walk", WALK_S, pose_at), float(stride_m / (0.5 * WALK_S))
 
 
 def _wag(t, pose, wide):
@@ -209,7 +210,7 @@ def idle_clip(skeleton):
         pose.turn("head", "x", 5.0 * np.sin(2 * t))
         _wag(t, pose, 16.0)
 
-    return _clip(skeleton, "idle", IDLE_S, pose_at)
+    return make_clip(skeleton, "idle", IDLE_S, pose_at)
 
 
 def lie_clip(skeleton):
@@ -233,4 +234,4 @@ def lie_clip(skeleton):
             pose.turn("hind_hock" + side, "x", -121.0)
             pose.turn("hind_foot" + side, "x", 86.0)
 
-    return _clip(skeleton, "lie", LIE_S, pose_at)
+    return make_clip(skeleton, "lie", LIE_S, pose_at)

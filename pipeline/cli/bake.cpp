@@ -34,6 +34,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr float kBareGroundMargin_m = 15;
+constexpr int kUnseen_px = 16;           // of an impostor that nobody sees
 constexpr float kMinTintShare = 0.005f;  // of the surface
 
 struct Baking {
@@ -162,7 +163,8 @@ Error MakeTown(Baking* baking) {
                                 baking->settings.places.end());
     for (Street& street : TaggedStreets(baking->parts.town, baking->settings.language))
       AddUnlessNamed(std::move(street), &baking->parts);
-    if (Error e = ChooseWorkClips(baking->parts.places, &baking->settings.avatars, warnings)) return e;
+    if (Error e = ChooseWorkClips(baking->parts.places, baking->settings.flocks, &baking->settings.avatars, warnings))
+      return e;
     double triangles = 0;
     for (const SceneNode& node : baking->parts.town.nodes) {
       for (int m : node.meshes) triangles += TriangleCount(At(baking->parts.town.meshes, m));
@@ -204,12 +206,28 @@ Error MakeAvatar(Baking* baking, size_t i) {
                      make, levels);
 }
 
+// Of birds no impostor is ever seen, unless they are people too.
+bool IsBirdOnly(const AvatarSettings& avatar, const Baking& baking) {
+  if (avatar.share > 0 || avatar.name == baking.settings.guide) return false;
+  const auto works = [&](const Place& place) {
+    return std::find(place.avatars.begin(), place.avatars.end(), avatar.name) != place.avatars.end();
+  };
+  if (std::any_of(baking.parts.places.begin(), baking.parts.places.end(), works)) return false;
+  return std::any_of(baking.settings.flocks.begin(), baking.settings.flocks.end(),
+                     [&](const Flock& flock) { return flock.avatar == avatar.name; });
+}
+
 Error MakeImpostor(Baking* baking, size_t i) {
   const AvatarSettings& settings = baking->settings.avatars[i];
   TourAvatar* avatar = &baking->parts.avatars[i];
   ImpostorOptions options = baking->settings.impostor;
   options.threads = 1;  // one avatar a core
-  for (const ClipSettings& clip : settings.clips) options.clips.push_back({clip.name, options.work_phases});
+  for (const ClipSettings& clip : settings.clips)
+    options.clips.push_back({clip.name, clip.speed_mps > 0 ? options.clips.front().phases : options.work_phases});
+  if (IsBirdOnly(settings, *baking)) {
+    options.height_px = kUnseen_px;
+    for (ImpostorClipOptions& clip : options.clips) clip.phases = 1;
+  }
   const auto make = [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
     ImpostorStatistics statistics;
     if (Error e = BakeImpostor(avatar->levels.avatar, options, &avatar->impostor, &statistics, warnings)) return e;
@@ -255,7 +273,7 @@ Error MakePeople(Baking* baking) {
     baking->parts.avatars[i].tints = baking->settings.avatars[i].tints;
     baking->parts.avatars[i].props = baking->settings.avatars[i].props;
     for (const ClipSettings& clip : baking->settings.avatars[i].clips)
-      baking->parts.avatars[i].clips.push_back({clip.name, clip.seat_m});
+      baking->parts.avatars[i].clips.push_back({clip.name, clip.seat_m, clip.speed_mps});
   }
   if (Error e = RunParallel(&baking->jobs, count, [&](size_t i) { return MakeAvatar(baking, i); })) return e;
   if (Error e = RunParallel(&baking->jobs, count, [&](size_t i) { return MakeImpostor(baking, i); })) return e;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "pipeline/cli/life_settings.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
 #include "runtime/base/toml_table.h"
@@ -88,6 +89,7 @@ void ReadClip(TomlTable table, AvatarSettings* avatar) {
   table.Text("name", &clip.name);
   table.Text("clip", &clip.clip);
   table.Number("seat_m", &clip.seat_m, 0, static_cast<double>(kMaxSeat_m));
+  table.Number("speed_mps", &clip.speed_mps, 0, static_cast<double>(kMaxRun_mps));
   if (clip.name.empty() || clip.name == "walk" || clip.name == "idle" || clip.name == "talk")
     table.Refuse("an [[avatar.clip]] needs a name, as places of work have it, that is not walk, idle or talk");
   for (const ClipSettings& other : avatar->clips) {
@@ -158,11 +160,20 @@ void ReadFootprints(TomlTable table, FootprintOptions* options, GroundRasterOpti
   table.Finish();
 }
 
+// What is otherwise, or cannot be left open, at a place of play.
+void ReadPlay(TomlTable& table, Place* place) {
+  if (place->clip.empty()) place->clip = "run";
+  if (place->people == 0) place->people = 3;
+  if (!table.Has("width_m")) place->width_m = 10;
+  if (place->width_m < 4 || place->width_m > kMaxPlay_m)
+    table.Refuse("a [[place]] of kind \"play\" needs a width_m of 4 to 60");
+}
+
 void ReadPlace(TomlTable table, TourSettings* settings) {
   Place place;
   place.kind = "goal";
   table.Text("name", &place.name);
-  table.Choice("kind", &place.kind, {"door", "exit", "goal", "loiter", "spawn", "work"});
+  table.Choice("kind", &place.kind, {"door", "exit", "goal", "loiter", "spawn", "work", "play"});
   table.Point("position_m", &place.position_m);
   table.Number("width_m", &place.width_m, 0.1, 1000);
   float yaw_rad = 0;
@@ -172,10 +183,18 @@ void ReadPlace(TomlTable table, TourSettings* settings) {
   table.Texts("avatars", &place.avatars);
   table.Number("seat_m", &place.seat_m, 0, static_cast<double>(kMaxSeat_m));
   table.Number("stay_s", &place.stay_s, 0, static_cast<double>(kMaxStay_s));
+  table.Number("people", &place.people, 1, kMaxPlayers);
   if (!table.Has("position_m")) table.Refuse("a [[place]] needs position_m = [x, y]");
-  for (const char* key : {"clip", "avatars", "seat_m", "stay_s"}) {
-    if (place.kind != "work" && table.Has(key)) table.Refuse(std::string(key) + " is for a [[place]] of kind \"work\"");
+  const bool works = place.kind == "work", plays = place.kind == "play";
+  for (const char* key : {"seat_m", "stay_s"}) {
+    if (!works && table.Has(key)) table.Refuse(std::string(key) + " is for a [[place]] of kind \"work\"");
   }
+  for (const char* key : {"clip", "avatars"}) {
+    if (!works && !plays && table.Has(key))
+      table.Refuse(std::string(key) + " is for a [[place]] of kind \"work\" or \"play\"");
+  }
+  if (!plays && table.Has("people")) table.Refuse("people is for a [[place]] of kind \"play\"");
+  if (plays) ReadPlay(table, &place);
   table.Finish();
   settings->places.push_back(place);
 }
@@ -241,6 +260,7 @@ void ReadAll(TomlTable root, TourSettings* settings) {
   for (TomlTable& place : root.Tables("place")) ReadPlace(place, settings);
   for (TomlTable& stop : root.Tables("stop")) ReadStop(stop, settings);
   ReadVisitorSettings(&root, settings, &settings->visitor_files);
+  ReadLifeSettings(&root, settings);
   ReadPaintingSettings(root.Table("painting"), &settings->painting_file);
   ReadTitlePageSettings(root.Table("title_page"), &settings->title_page);
   const auto section = [&](const char* name, auto* values) {
@@ -268,6 +288,11 @@ void CheckWhole(TomlContext* context, const TourSettings& s) {
       if (std::none_of(s.avatars.begin(), s.avatars.end(), is_named))
         refuse("place '" + OneLine(place.name) + "': no [[avatar]] has the name '" + OneLine(name) + "'");
     }
+  }
+  for (const Flock& flock : s.flocks) {
+    const auto is_named = [&](const AvatarSettings& a) { return a.name == flock.avatar; };
+    if (std::none_of(s.avatars.begin(), s.avatars.end(), is_named))
+      refuse("a [[flock]] is of '" + OneLine(flock.avatar) + "', but no [[avatar]] has that name");
   }
   const ControlSettings& c = s.control;
   if (!(c.r_personal_m < c.r_high_m && c.r_high_m < c.r_unimportant_m && c.r_unimportant_m < c.r_far_m)) {
@@ -298,7 +323,7 @@ std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
   const toml::table root = toml::parse(
       "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[avatar.clip]]\n[[place]]\n[[stop]]\n[[town.part]]\n"
-      "[[hotspot]]\n[[street]]\n[[sound]]\n");
+      "[[hotspot]]\n[[street]]\n[[sound]]\n[[flock]]\n");
   TomlContext context;
   TourSettings settings;
   ReadAll(TomlTable(&context, &root, ""), &settings);

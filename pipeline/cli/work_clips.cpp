@@ -13,11 +13,15 @@ bool Holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// In the order of the places.
-std::vector<std::string> ClipsFor(const std::string& avatar, const std::vector<Place>& places) {
+// In the order of the flocks and places.
+std::vector<std::string> ClipsFor(const std::string& avatar, const std::vector<Place>& places,
+                                  const std::vector<Flock>& flocks) {
   std::vector<std::string> clips;
+  for (const Flock& flock : flocks) {
+    if (flock.avatar == avatar && !Holds(clips, flock.clip)) clips.push_back(flock.clip);
+  }
   for (const Place& place : places) {
-    if (place.kind != "work" || IsUsual(place.clip) || Holds(clips, place.clip)) continue;
+    if ((place.kind != "work" && place.kind != "play") || IsUsual(place.clip) || Holds(clips, place.clip)) continue;
     if (place.avatars.empty() || Holds(place.avatars, avatar)) clips.push_back(place.clip);
   }
   return clips;
@@ -25,16 +29,16 @@ std::vector<std::string> ClipsFor(const std::string& avatar, const std::vector<P
 
 }  // namespace
 
-Error ChooseWorkClips(const std::vector<Place>& places, std::vector<AvatarSettings>* avatars,
-                      std::vector<std::string>* warnings) {
+Error ChooseWorkClips(const std::vector<Place>& places, const std::vector<Flock>& flocks,
+                      std::vector<AvatarSettings>* avatars, std::vector<std::string>* warnings) {
   std::vector<std::string> names;
   for (AvatarSettings& avatar : *avatars) {
     names.push_back(avatar.name);
     std::vector<ClipSettings> used;
-    for (const std::string& name : ClipsFor(avatar.name, places)) {
+    for (const std::string& name : ClipsFor(avatar.name, places, flocks)) {
       const auto known =
           std::find_if(avatar.clips.begin(), avatar.clips.end(), [&](const auto& clip) { return clip.name == name; });
-      used.push_back(known != avatar.clips.end() ? *known : ClipSettings{name, "", 0});
+      used.push_back(known != avatar.clips.end() ? *known : ClipSettings{name, "", 0, 0});
     }
     if (used.size() > kMaxOtherClips) {
       return Fail("avatar '" + avatar.name + "' would need " + std::to_string(used.size()) +

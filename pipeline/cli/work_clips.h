@@ -1,5 +1,5 @@
-// Which clips besides walk, idle and talk people need: those of the places of work, and no others, so that nothing is
-// baked that nobody does.
+// Which clips besides walk, idle and talk people need: those of the places of work and of flocks, and no others, so
+// that nothing is baked that nobody does.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace flaneur {
 
-// Leaves of each avatar's clips those that a place of work has them do, and adds what places name and tour.toml does
-// not describe. `warnings`: places that name somebody whom there is not. Errors: an avatar with more than
-// kMaxOtherClips.
-Error ChooseWorkClips(const std::vector<Place>& places, std::vector<AvatarSettings>* avatars,
-                      std::vector<std::string>* warnings);
+// Leaves of each avatar's clips those that a place of work or a flock has them do, and adds what places name and
+// tour.toml does not describe. `warnings`: places that name somebody whom there is not. Errors: an avatar with more
+// than kMaxOtherClips.
+Error ChooseWorkClips(const std::vector<Place>& places, const std::vector<Flock>& flocks,
+                      std::vector<AvatarSettings>* avatars, std::vector<std::string>* warnings);
 
 }  // namespace flaneur

@@ -107,6 +107,7 @@ Json OtherClipJson(const std::string& name, int animation, const std::vector<Tou
   Json json{{"name", name}, {"animation", animation}};
   for (const TourClip& clip : known) {
     if (clip.name == name && clip.seat_m > 0) json["seat_m"] = Short(clip.seat_m);
+    if (clip.name == name && clip.speed_mps > 0) json["speed_mps"] = Short(clip.speed_mps);
   }
   return json;
 }
@@ -189,6 +190,16 @@ Json WorkJson(const Place& place) {
   return json;
 }
 
+Json PlayJson(const Place& place) {
+  Json json{{"name", place.name},
+            {"position_m", PointJson(place.position_m)},
+            {"width_m", Short(place.width_m)},
+            {"clip", place.clip},
+            {"people", place.people}};
+  if (!place.avatars.empty()) json["avatars"] = place.avatars;
+  return json;
+}
+
 Json StopJson(const TourStop& stop, const TourIndices& indices) {
   Json json{{"position_m", PointJson(stop.position_m)},
             {"yaw_rad", Short(stop.yaw_rad)},
@@ -229,6 +240,15 @@ Json SoundPlaceJson(const SoundPlace& place, const TourIndices& indices) {
   return json;
 }
 
+Json FlockJson(const Flock& flock) {
+  return {{"avatar", flock.avatar},
+          {"position_m", PointJson(flock.position_m)},
+          {"radius_m", Short(flock.radius_m)},
+          {"birds", flock.birds},
+          {"shy_m", Short(flock.shy_m)},
+          {"clip", flock.clip}};
+}
+
 // What there is for visitors; nothing where there is nothing.
 void AddVisitorJson(const TourParts& parts, const TourIndices& indices, Json* tour) {
   for (const Hotspot& hotspot : parts.hotspots) (*tour)["hotspots"].push_back(HotspotJson(hotspot, indices));
@@ -261,6 +281,10 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
       tour["work"].push_back(WorkJson(p));
       continue;
     }
+    if (p.kind == "play") {
+      tour["play"].push_back(PlayJson(p));
+      continue;
+    }
     tour["places"].push_back(
         {{"name", p.name}, {"kind", p.kind}, {"position_m", PointJson(p.position_m)}, {"width_m", Short(p.width_m)}});
     if (p.yaw_rad) tour["places"].back()["yaw_rad"] = Short(*p.yaw_rad);
@@ -281,6 +305,7 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   if (!parts.guide.empty()) tour["guide"] = parts.guide;
   if (parts.title_page.there()) tour["title_page"] = TitlePageJson(parts.title_page, indices);
   AddVisitorJson(parts, indices, &tour);
+  for (const Flock& flock : parts.flocks) tour["flocks"].push_back(FlockJson(flock));
   for (const auto& [language, thanks] : parts.thanks) tour["thanks"][language] = thanks;
   tour["home_after_s"] = Short(parts.home_after_s);
   tour["crowd"] = SettingsJson(parts.crowd);

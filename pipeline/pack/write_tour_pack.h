@@ -18,7 +18,8 @@ namespace flaneur {
 // Of one of the avatar's clips besides walk, idle and talk.
 struct TourClip {
   std::string name;
-  float seat_m = 0;  // height of the seat that it is made for; 0: it does not sit
+  float seat_m = 0;     // height of the seat that it is made for; 0: it does not sit
+  float speed_mps = 0;  // at which its feet don't slide; 0: it is on the spot
 };
 
 struct TourAvatar {

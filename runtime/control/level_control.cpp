@@ -314,7 +314,7 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
   ListGone(crowd, state);
 
   ListShadowCasters(crowd, avatars, query.camera, state);
-  const int64_t all = static_cast<int64_t>(state->budget_triangles);
+  const int64_t all = std::max<int64_t>(0, static_cast<int64_t>(state->budget_triangles) - query.taken_triangles);
   const int64_t as_impostors = kImpostorTriangles * static_cast<int64_t>(state->in_sight.size());
   const auto most_for_shadows = static_cast<int64_t>(kShadowShare * state->budget_triangles);
   ChooseShadows(std::clamp<int64_t>(all - as_impostors, 0, most_for_shadows), step_s, &state->shadows);

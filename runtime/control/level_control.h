@@ -32,6 +32,7 @@ struct LevelQuery {
   ViewMotion motion;                     // of the camera, in this step
   float frame_ms = 0;                    // what the last frame took, for LimitMethod::kFrameTime; 0: not known
   int screen_width_px = kUsualWidth_px;  // of the picture
+  int64_t taken_triangles = 0;           // of the budget, by what is no person
   int first_id = -1;  // who is served before all others, and so is no impostor while anybody is a mesh; -1: nobody
 };
 

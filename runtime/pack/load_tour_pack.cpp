@@ -12,6 +12,7 @@
 #include "runtime/pack/ktx2.h"
 #include "runtime/pack/reach.h"
 #include "runtime/pack/read_clip.h"
+#include "runtime/pack/read_life.h"
 #include "runtime/pack/read_mesh.h"
 #include "runtime/pack/read_visitor_data.h"
 #include "runtime/pack/tour_object.h"
@@ -268,6 +269,7 @@ std::vector<PackOtherClip> ReadOtherClips(const GltfFile& file, int skin, const 
   for (const TourObject& c : objects) {
     clips.push_back({c.Text("name"), ReadClip(file, skin, c.Whole("animation", 0, last))});
     if (c.Has("seat_m")) clips.back().seat_m = c.Real("seat_m", 0, kMaxSeat_m);
+    if (c.Has("speed_mps")) clips.back().speed_mps = c.Real("speed_mps", 0, kMaxRun_mps);
   }
   return clips;
 }
@@ -379,6 +381,15 @@ TourStop ReadStop(const GltfFile& file, const TourObject& json, TourPack* pack) 
   return stop;
 }
 
+Place ReadPlay(const TourObject& json) {
+  Place place{json.Text("name"), "play", json.Point("position_m")};
+  place.width_m = json.Real("width_m", TourObject::kAboveZero, kMaxPlay_m);
+  place.clip = json.Text("clip");
+  place.people = json.Whole("people", 1, kMaxPlayers);
+  if (json.Has("avatars")) place.avatars = json.Texts("avatars");
+  return place;
+}
+
 Place ReadWork(const TourObject& json) {
   Place place{json.Text("name"), "work", json.Point("position_m")};
   place.yaw_rad = json.Real("yaw_rad");
@@ -401,6 +412,9 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   if (tour.Has("work")) {
     for (const TourObject& w : tour.Objects("work")) pack->places.push_back(ReadWork(w));
   }
+  if (tour.Has("play")) {
+    for (const TourObject& p : tour.Objects("play")) pack->places.push_back(ReadPlay(p));
+  }
   if (tour.Has("painting")) pack->painting = ReadPainting(file, tour.Object("painting"));
   for (const TourObject& s : tour.Objects("path")) pack->path.push_back(ReadStop(file, s, pack));
   if (tour.Has("language")) pack->language = tour.Text("language");
@@ -413,6 +427,7 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
     }
   }
   ReadVisitorData(file, tour, pack);
+  ReadLife(tour, pack);
   pack->thanks = ReadTranslations(tour, "thanks");
   if (tour.Has("home_after_s")) pack->home_after_s = tour.Real("home_after_s", 0, kLongestIdle_s);
   VisitFields(tour.Object("crowd"), &pack->crowd);

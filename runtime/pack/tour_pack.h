@@ -77,7 +77,8 @@ struct PackJoint {
 struct PackOtherClip {
   std::string name;
   PackClip clip;
-  float seat_m = 0;  // height of the seat that it is made for; 0: it does not sit
+  float seat_m = 0;     // height of the seat that it is made for; 0: it does not sit
+  float speed_mps = 0;  // at which its feet don't slide; 0: it is on the spot
 };
 
 struct PackLevel {

@@ -170,12 +170,12 @@ Box BoxOf(const DrawnPerson& person, const AvatarLayout& avatar) {
 }
 
 // The person and the shadow on level ground.
-Box WithShadow(const Box& box, Vec3 to_sun) {
-  const float along = std::min((box.high.y - box.low.y) / std::max(to_sun.y, 0.01f),
+Box WithShadow(const Box& box, float lift_m, Vec3 to_sun) {
+  const float along = std::min((box.high.y - box.low.y + lift_m) / std::max(to_sun.y, 0.01f),
                                kLongestShadow_m / std::max(0.01f, Length(Vec2{to_sun.x, to_sun.z})));
   Box out = box;
-  Include({box.low.x - to_sun.x * along, box.low.y, box.low.z - to_sun.z * along}, &out);
-  Include({box.high.x - to_sun.x * along, box.low.y, box.high.z - to_sun.z * along}, &out);
+  Include({box.low.x - to_sun.x * along, box.low.y - lift_m, box.low.z - to_sun.z * along}, &out);
+  Include({box.high.x - to_sun.x * along, box.low.y - lift_m, box.high.z - to_sun.z * along}, &out);
   return out;
 }
 
@@ -284,19 +284,22 @@ bool CastsShadow(const DrawnPerson& person, const Box& box, float distance_m, co
                  const PeopleSight& sight) {
   const bool greater_part = person.share_to - person.share_from >= 0.5f;  // of the two of a change one casts the shadow
   return greater_part && person.casts_shadow && ready.shadow && distance_m < sight.shadow_reach_m &&
-         InSight(sight, WithShadow(box, sight.to_sun));
+         InSight(sight, WithShadow(box, person.lift_m, sight.to_sun));
 }
 
 // What shades the ground about somebody's feet. Look: the ground's rise a metre along x and z, radius, how much.
 void AddContact(const DrawnPerson& person, float distance_m, const AvatarLayout& avatar, const PeopleSight& sight,
                 PeopleBatches* out) {
   constexpr float kAroundFeet_m = 0.1f;
-  const float share = std::clamp((kContactReach_m - distance_m) / kContactFade_m, 0.0f, 1.0f) *
+  constexpr float kContact_m = 0.6f, kNoContact_m = 1.5f;  // over the ground: who sits shades it, who flies does not
+  const float near = std::clamp((kNoContact_m - person.lift_m) / (kNoContact_m - kContact_m), 0.0f, 1.0f);
+  const float share = near * std::clamp((kContactReach_m - distance_m) / kContactFade_m, 0.0f, 1.0f) *
                       (person.share_to - person.share_from) * sight.contact_shade;
   if (share <= 0 || !IsDrawn(person.level)) return;
   PersonInstance contact = Placed(person, 0, 0);
   contact.place.y -= person.lift_m;
-  contact.look = {person.slope.x, -person.slope.y, person.size * avatar.radius_m + kAroundFeet_m, share};
+  contact.look = {person.slope.x, -person.slope.y,
+                  person.size * std::min(avatar.radius_m, 0.5f * avatar.height_m) + kAroundFeet_m, share};
   out->contact_instances.push_back(contact);
 }
 

@@ -5,13 +5,16 @@
 #include <cmath>
 
 #include "runtime/crowd/fast_math.h"
+#include "runtime/show/birds.h"
 #include "runtime/show/ground_mark.h"
+#include "runtime/show/looks.h"
 
 namespace flaneur {
 namespace {
 
 constexpr float kStandsBelow_mps = 0.10f, kWalksAbove_mps = 0.18f;
-constexpr float kLeaps_m = 2;  // whoever moves by more between two pictures was put there
+constexpr float kRunsAbove = 0.65f, kRunsBand = 0.15f;  // of a clip's speed: slower people walk
+constexpr float kLeaps_m = 2;                           // whoever moves by more between two pictures was put there
 
 // The sun goes round by day_length_s a turn, and stays between its start height and a low evening.
 Vec3 ToSun(const LightSettings& light, float time_s) {
@@ -67,6 +70,13 @@ bool Talks(const Simulation& s, size_t i) {
 
 ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, float size, ClipKind last) {
   const float speed_mps = Length(s.town.crowd.velocity[i]);
+  const int doing = s.town.crowd.doing[i];
+  const PackOtherClip* other = doing >= 0 ? &avatar.other_clips[static_cast<size_t>(doing)] : nullptr;
+  if (other != nullptr && other->speed_mps > 0 &&
+      speed_mps > other->speed_mps * (last == OtherClip(doing) ? kRunsAbove - kRunsBand : kRunsAbove)) {
+    const float cycle_m = size * other->speed_mps * std::max(other->clip.duration_s, 0.1f);
+    return {OtherClip(doing), Fraction(s.town.crowd.walked_m[i] / cycle_m)};
+  }
   if (speed_mps > (last == ClipKind::kWalk ? kStandsBelow_mps : kWalksAbove_mps)) {
     // One clip's length of way for each turn of the walk, so that feet don't slide: longer legs take longer steps.
     const float cycle_m = size * avatar.walk_speed_mps * std::max(avatar.walk.duration_s, 0.1f);
@@ -77,8 +87,7 @@ ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, flo
   const auto moment = [&](ClipKind kind, const PackClip& clip) {
     return ClipMoment{kind, Fraction(own_time_s / std::max(clip.duration_s, 0.1f))};
   };
-  const int doing = s.town.crowd.doing[i];
-  if (doing >= 0) return moment(OtherClip(doing), avatar.other_clips[static_cast<size_t>(doing)].clip);
+  if (other != nullptr && other->speed_mps <= 0) return moment(OtherClip(doing), other->clip);
   if (Talks(s, i)) return moment(ClipKind::kTalk, avatar.talk);
   return moment(ClipKind::kIdle, avatar.idle);
 }
@@ -105,26 +114,6 @@ void FollowClip(const ClipMoment& now, bool anew, float passed_s, PersonLook* lo
     look->moment = now;
     look->clip_s = 0;
   }
-}
-
-// The same person wears the same all day, and people who came one after the other, as those of a group, wear different
-// colours.
-std::array<uint8_t, 3> TintsOf(const PackAvatar& avatar, int id) {
-  constexpr float kLowDiscrepancySteps[] = {0.618034f, 0.754878f,
-                                            0.569840f};  // fractions whose multiples spread evenly (Roberts 2018)
-  std::array<uint8_t, 3> tints{};
-  for (size_t t = 0; t < std::min(avatar.tints.size(), kMaxTints); ++t) {
-    const auto count = static_cast<float>(avatar.tints[t].colors.size() + 1);
-    tints[t] = static_cast<uint8_t>(Fraction(static_cast<float>(id % 4096 + 1) * kLowDiscrepancySteps[t]) * count);
-  }
-  return tints;
-}
-
-// Likewise for life; evenly over the avatar's spread.
-float SizeOf(const PackAvatar& avatar, int id) {
-  constexpr float kLowDiscrepancyStep = 0.438579f;
-  const float at = Fraction(static_cast<float>(id % 4096 + 1) * kLowDiscrepancyStep);
-  return 1 + avatar.height_spread * (2 * at - 1);
 }
 
 float Mix_rad(float a, float b, float share) { return WrapAngle(a + share * WrapAngle(b - a)); }
@@ -271,6 +260,7 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks*
   frame->people.clear();
   const float before_s = std::max(0.0f, 1 - between.share) * Step_s(s);
   for (int slot : looks->shown) Show(looks->people[static_cast<size_t>(slot)], share, before_s, frame);
+  AddBirds(pack, s, between.share, frame);
 }
 
 }  // namespace flaneur

@@ -11,6 +11,7 @@
 #include "runtime/simulation/check_limits.h"
 #include "runtime/town/coming_and_going.h"
 #include "runtime/town/places.h"
+#include "runtime/town/play.h"
 #include "runtime/town/population.h"
 #include "runtime/walk/camera_walk.h"
 
@@ -35,8 +36,13 @@ void TakeAvatar(const PackAvatar& avatar, Simulation* s) {
   costs.impostor_px = avatar.height_m / avatar.impostor.texel_m;
   costs.props.assign(avatar.props.begin(), avatar.props.end());
   costs.shadow = ShadowCostOf(avatar);
-  for (const PackOtherClip& clip : avatar.other_clips) costs.other_clips.push_back(clip.name);
-  s->town.residents.push_back({avatar.name, avatar.share, avatar.radius_m, avatar.reach_m, false, costs.other_clips});
+  Resident resident{avatar.name, avatar.share, avatar.radius_m, avatar.reach_m};
+  for (const PackOtherClip& clip : avatar.other_clips) {
+    resident.other_clips.push_back(clip.name);
+    resident.clip_mps.push_back(clip.speed_mps);
+  }
+  costs.other_clips = resident.other_clips;
+  s->town.residents.push_back(std::move(resident));
   s->control.avatars.push_back(std::move(costs));
 }
 
@@ -166,7 +172,7 @@ void DeriveGap(Simulation* s) {
   limits.reach_m = Length(size);
   limits.yaw_rate_radps = MaxYawRate_radps(s->control.settings);
   limits.camera_speed_mps = 3;
-  limits.person_speed_mps = s->town.settings.top_speed_mps;
+  limits.person_speed_mps = std::max(s->town.settings.top_speed_mps, FastestPlay_mps(s->town));
   limits.reach_grows_m = MostTilt(s->visitor.camera.view.fov_rad, Aspect(*s)) *
                          (s->relief_m + std::max(s->visitor.camera.eye_height_m, kTallest_m));
   for (const CameraLeg& leg : s->visitor.legs) {
@@ -245,8 +251,12 @@ void ControlCrowd(float frame_ms, Simulation* s) {
   const CameraState& camera = s->visitor.camera;
   Control& control = s->control;
   const ViewMotion motion{camera.velocity, camera.yaw_rate_radps};
-  ChooseLevels(s->town.crowd, control.avatars, control.settings,
-               {camera.view, motion, frame_ms, s->screen_width_px, s->visitor.guide.id}, &control.levels);
+  LevelQuery query{camera.view, motion, frame_ms, s->screen_width_px, 0, s->visitor.guide.id};
+  const float budget = control.levels.budget_triangles > 0 ? control.levels.budget_triangles
+                                                           : static_cast<float>(control.settings.budget_triangles);
+  ChooseBirds(s->town, control.avatars, query, camera.eye_height_m, budget, Step_s(*s), &s->birds);
+  query.taken_triangles = s->birds.triangles;
+  ChooseLevels(s->town.crowd, control.avatars, control.settings, query, &control.levels);
   s->moving.clear();
   if (camera.present) {
     s->moving.push_back(VisitorDisc(*s));
@@ -309,6 +319,8 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   PlaceGuide(InTown(&s));
   DeriveGap(&s);
   PlaceCrowd(town.settings.people - (s.visitor.guide.id >= 0 ? 1 : 0), ViewerOf(s), &town);  // the guide is one of them
+  DeriveGap(&s);                                                                             // some may run
+  if (pack != nullptr && !scenario.has_ground) PlaceFlocks(pack->flocks, &town);
   ClassifyAll(&s);
   ControlCrowd(0, &s);
   town.jobs = jobs;
@@ -347,6 +359,7 @@ void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   town.field_builder.Step(town.walkable, town.jobs, &town.crowd);
   StepCrowd(town.walkable, s->moving, Step_s(*s), &town.scratch, &town.crowd);
   LeaveAndArrive(ViewerOf(*s), &town);
+  StepFlocks(camera.view.position, camera.present, Step_s(*s), &town);
   ClassifyAll(s);
   if (camera.present) SeparateUnseen(s);
   ControlCrowd(frame_ms, s);

@@ -7,6 +7,7 @@
 #include "runtime/base/error.h"
 #include "runtime/control/control.h"
 #include "runtime/pack/tour_pack.h"
+#include "runtime/simulation/birds.h"
 #include "runtime/simulation/scenario.h"
 #include "runtime/town/town.h"
 #include "runtime/walk/visitor.h"
@@ -18,6 +19,7 @@ struct Simulation {
   Visitor visitor;
   Control control;
   std::vector<MovingObstacle> moving;  // of this step: the visitor, the guide, the paper's camera obstacles
+  BirdLevels birds;
   DrawingModel drawing;
   std::optional<float> hour;  // of the day at the start; none: the light of the pack
   int screen_width_px = kUsualWidth_px, screen_height_px = kUsualHeight_px;  // of the picture levels are chosen for

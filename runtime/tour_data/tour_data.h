@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/base/math.h"
+#include "runtime/tour_data/life_data.h"
 #include "runtime/tour_data/settings.h"
 #include "runtime/tour_data/visitor_data.h"
 
@@ -43,19 +44,24 @@ using SharedGround = std::shared_ptr<const GroundRaster>;
 inline SharedGround Share(GroundRaster ground) { return std::make_shared<const GroundRaster>(std::move(ground)); }
 
 inline constexpr float kMaxSeat_m = 3, kMaxStay_s = 36000;
+inline constexpr float kMaxRun_mps = 6, kMaxPlay_m = 60;
+inline constexpr int kMaxPlayers = 20;  // of a place
 
 // Where people come from and go to. kind: door, exit, goal (go there), loiter (stand there a while), spawn (start
-// there), work (one of them does something there).
+// there), work (one of them does something there),
+// play (children run about there).
 struct Place {
   std::string name, kind;
   Vec2 position_m;
   float width_m = 1;
   std::optional<float> yaw_rad = std::nullopt;  // loiter, work: where people look; door, exit: the way out of it
-  // Of work:
+  // Of work and play:
   std::string clip = {};                  // what they do, by its name; empty: they stand
   std::vector<std::string> avatars = {};  // who does it, by name; none: whoever has the clip
-  float seat_m = 0;                       // height of what they sit on, over the ground; 0: as the clip has it
-  float stay_s = 0;                       // how long one stays; 0: the whole tour
+  // Of work:
+  float seat_m = 0;  // height of what they sit on, over the ground; 0: as the clip has it
+  float stay_s = 0;  // how long one stays; 0: the whole tour
+  int people = 0;    // of play: so many
 };
 
 // Where people are, painted over the town: strengths by cell of the area, row 0 the southernmost. No columns: nothing
@@ -99,6 +105,7 @@ struct TourData {
   std::vector<Street> streets;
   std::vector<SoundPlace> sound_places;
   PhotoData photo;
+  std::vector<Flock> flocks;
   std::map<std::string, std::string>
       thanks;               // what visitors read at the tour's end, by language; empty: a word of ours
   float home_after_s = 45;  // without a touch at the tour's end, until all is as at the beginning; 0: never

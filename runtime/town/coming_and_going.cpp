@@ -9,6 +9,7 @@
 #include "runtime/town/courtesy.h"
 #include "runtime/town/loitering.h"
 #include "runtime/town/places.h"
+#include "runtime/town/play.h"
 #include "runtime/town/population.h"
 #include "runtime/town/ways_out.h"
 #include "runtime/town/work.h"
@@ -139,7 +140,7 @@ bool Birth(int company, const Viewer& viewer, Town* town) {
 bool HasWaited(const Town& town, size_t i) {
   const Crowd& c = town.crowd;
   return c.activity[i] != Activity::kWalking && c.wait_s[i] <= 0 && c.field[i] < 0 && !PlanOf(i, town).leaves &&
-         PlanOf(i, town).work < 0;
+         PlanOf(i, town).work < 0 && PlanOf(i, town).play < 0;
 }
 
 }  // namespace
@@ -150,6 +151,7 @@ void LeaveAndArrive(const Viewer& viewer, Town* town) {
   SendEnclosedOut(viewer, town);
   StepLoitering(viewer, town);
   StepWork(viewer, town);
+  StepPlay(viewer, town);
   for (size_t i = 0; i < c.size();) {
     if (HasWaited(*town, i) && !StaysOn(i, viewer, town))
       SendAll(CompanyOf(c, i), PickDestination(viewer, c.position[i], false, town), town);

@@ -27,6 +27,10 @@ void SortPlaces(Town* town) {
       lists.works.push_back(k);
       continue;
     }
+    if (place.kind == "play") {
+      lists.plays.push_back(k);
+      continue;
+    }
     lists.all.push_back(k);
     if (IsGate(place)) lists.gates.push_back(k);
     if (place.kind == "goal") lists.goals.push_back(k);

@@ -8,6 +8,7 @@
 #include "runtime/town/loitering.h"
 #include "runtime/town/painted.h"
 #include "runtime/town/places.h"
+#include "runtime/town/play.h"
 #include "runtime/town/work.h"
 
 namespace flaneur {
@@ -280,6 +281,7 @@ void PlaceCrowd(int wanted, const Viewer& viewer, Town* town) {
   PrepareLoitering(town);
   PrepareWork(town);
   int placed = PlaceWorkers(wanted, viewer, town);
+  placed += PlacePlayers(wanted - placed, town);
   const int standing = static_cast<int>(town->settings.loiter_share * static_cast<float>(wanted));
   const int about = std::min(standing, wanted - placed);
   for (int tries = 0, stand = 0; tries < 2 * about && stand < about; ++tries) {

@@ -12,6 +12,7 @@
 #include "runtime/crowd/density_map.h"
 #include "runtime/crowd/field_builder.h"
 #include "runtime/tour_data/tour_data.h"
+#include "runtime/town/flock.h"
 
 namespace flaneur {
 
@@ -39,8 +40,10 @@ struct PersonPlan {         // of one person
   int spot = -1;         // index into Town::loiter_spots, of the one that is theirs
   float held_up_s = 0;   // by the visitor, near this place
   Vec2 held_up_at{};
-  int work = -1;  // index into Town::work_spots, of the one that is theirs
-  int id = -1;    // whose it is
+  int work = -1;     // index into Town::work_spots, of the one that is theirs
+  int play = -1;     // index into Town::play_places, of the one where they play
+  float play_s = 0;  // of play: left to stand, or before they give up a way
+  int id = -1;       // whose it is
 };
 
 struct LoiterSpot {       // where one person can stand at a loiter place
@@ -58,8 +61,13 @@ struct WorkSpot {         // where one person works
   float left_s = 0;  // taken: that they stay there, where they do not stay for ever; free: until somebody comes
 };
 
-struct PlaceLists {                                                          // indices into Town::places
-  std::vector<int> gates, goals, loiters, spawns, works, destinations, all;  // all: without works
+struct PlayPlace {
+  int place = 0;             // index into Town::places
+  std::vector<Vec2> points;  // between which they run, two at least
+};
+
+struct PlaceLists {                                                                 // indices into Town::places
+  std::vector<int> gates, goals, loiters, spawns, works, plays, destinations, all;  // all: without works, plays
 };
 
 // Of an avatar, as far as whom it may be and how much room they take.
@@ -70,6 +78,7 @@ struct Resident {
   float reach_m = 0;                          // of what is drawn of them, as Crowd::reach_m
   bool leads = false;                         // is the guide's figure, and nobody's besides
   std::vector<std::string> other_clips = {};  // what they can do at work, by Crowd::doing
+  std::vector<float> clip_mps = {};           // of each, the speed it is made for; 0: on the spot
 };
 
 inline constexpr const char* kPlainFigure = "person";  // everybody's avatar where there is no pack
@@ -83,12 +92,15 @@ struct Town {
   PlaceLists place_lists;
   std::vector<LoiterSpot> loiter_spots;  // by place
   std::vector<WorkSpot> work_spots;      // one a place
-  std::vector<int> place_of_field;       // by index into crowd.fields, -1: no place; see PlaceOfField
-  std::optional<Area> crowd_area;        // in which people start and walk about; none: all over town
-  int target_people = 0;                 // kept up by people who appear out of sight
-  int next_company = 0;                  // how many come together next, once there is room for them; 0: not drawn yet
-  int loiterers = 0;                     // people whose plan is to loiter,
-  int workers = 0;                       // to work
+  std::vector<PlayPlace> play_places;
+  std::vector<int> place_of_field;  // by index into crowd.fields, -1: no place; see PlaceOfField
+  std::optional<Area> crowd_area;   // in which people start and walk about; none: all over town
+  int target_people = 0;            // kept up by people who appear out of sight
+  int next_company = 0;             // how many come together next, once there is room for them; 0: not drawn yet
+  int loiterers = 0;                // people whose plan is to loiter,
+  int workers = 0;                  // to work
+
+  std::vector<FlockState> flocks;
 
   Crowd crowd;
   CrowdScratch scratch;  // of whoever steps the crowd

@@ -166,7 +166,7 @@ TEST(TourSettings, TheReferenceFileHoldsTheDefaultsOfEveryList) {
   ASSERT_EQ(reference.parts.size(), 1u);
   EXPECT_EQ(reference.parts[0].scale, least.parts[0].scale);
   EXPECT_EQ(reference.parts[0].yaw_deg, least.parts[0].yaw_deg);
-  ASSERT_EQ(reference.places.size(), 2u);
+  ASSERT_EQ(reference.places.size(), 3u);
   EXPECT_EQ(reference.places[0].width_m, Place{}.width_m);
   EXPECT_EQ(reference.places[1].seat_m, Place{}.seat_m);
   EXPECT_EQ(reference.places[1].stay_s, Place{}.stay_s);

@@ -132,6 +132,10 @@ TourParts SmallTour() {
   parts.ground = {{-20, -20}, 10, 4, 3, std::vector<float>(12, 0.25f), std::vector<uint8_t>(12, 3)};
   parts.ground.height_m[5] = -1.5f;
   parts.places = {{"west", "exit", {-18, 0}, 2}, {"stall", "loiter", {3, 0}, 1, 0.5f}};
+  Place green{"green", "play", {1, 3}, 9};
+  green.clip = "run";
+  green.people = 5;
+  parts.places.push_back(green);
   parts.painting = {{-4, -2}, 2, 2, 1, {0, 200}, {30, 0}};
   parts.path = {{{1, 2}, 0.5f, 3, "Grüß Gott"}};
   parts.language = "de";
@@ -145,6 +149,7 @@ TourParts SmallTour() {
   parts.streets = {{{{"de", "Lange Straße"}}, {{0, 1}, {5, 1}, {9, 3}}}};
   parts.sound_places = {{SoundKind::kWater, {1, 1}, 0.5f, 12, 0.75f, -1}, {SoundKind::kLoop, {2, 2}, 1, 30, 1, 1}};
   parts.photo = {{{"de", "Grüße"}}, "https://example.org/{file}"};
+  parts.flocks = {{"made", {4, 5}, 3.5f, 9, 2, "fly"}};
   parts.guide = parts.avatars[0].levels.avatar.name;
   parts.title_page = {{'J', 'F', 'I', 'F'}, {'P', 'N', 'G'}, {0, 0.2f, 1}};
   parts.thanks = {{"de", "Danke!"}, {"en", "Thanks!"}};
@@ -188,7 +193,11 @@ TEST(TourPack, BringsTheTourAcross) {
   EXPECT_EQ(pack.ground->rows, 3);
   EXPECT_EQ(pack.ground->height_m[5], -1.5f);
   EXPECT_EQ(pack.ground->kind, std::vector<uint8_t>(12, 3));
-  ASSERT_EQ(pack.places.size(), 2u);
+  ASSERT_EQ(pack.places.size(), 3u);
+  EXPECT_EQ(pack.places[2].kind, "play");
+  EXPECT_EQ(pack.places[2].width_m, 9);
+  EXPECT_EQ(pack.places[2].clip, "run");
+  EXPECT_EQ(pack.places[2].people, 5);
   EXPECT_FALSE(pack.places[0].yaw_rad);
   EXPECT_FLOAT_EQ(pack.places[1].yaw_rad.value_or(0), 0.5f);
   EXPECT_EQ(pack.painting.columns, 2);
@@ -235,6 +244,13 @@ TEST(TourPack, BringsWhatVisitorsFindAcross) {
   EXPECT_EQ(pack.sounds[static_cast<size_t>(pack.sound_places[1].sound)], (std::vector<uint8_t>{1, 2, 3}));
   EXPECT_EQ(pack.photo.link, "https://example.org/{file}");
   EXPECT_EQ(pack.photo.lines.at("de"), "Grüße");
+  ASSERT_EQ(pack.flocks.size(), 1u);
+  EXPECT_EQ(pack.flocks[0].avatar, "made");
+  EXPECT_EQ(pack.flocks[0].position_m.y, 5);
+  EXPECT_EQ(pack.flocks[0].radius_m, 3.5f);
+  EXPECT_EQ(pack.flocks[0].birds, 9);
+  EXPECT_EQ(pack.flocks[0].shy_m, 2);
+  EXPECT_EQ(pack.flocks[0].clip, "fly");
 }
 
 TEST(TourPack, WhatVisitorsFindMayBeMissing) {
@@ -243,8 +259,10 @@ TEST(TourPack, WhatVisitorsFindMayBeMissing) {
   parts.streets.clear();
   parts.sound_places.clear();
   parts.photo = {};
+  parts.flocks.clear();
   const TourPack pack = Read(Written(parts));
-  EXPECT_TRUE(pack.hotspots.empty() && pack.streets.empty() && pack.sound_places.empty() && pack.photo.link.empty());
+  EXPECT_TRUE(pack.hotspots.empty() && pack.streets.empty() && pack.sound_places.empty() && pack.photo.link.empty() &&
+              pack.flocks.empty());
 }
 
 TEST(TourPack, BringsTheTownAcross) {
@@ -540,13 +558,14 @@ TEST(TourPack, ATintKeepsToItsMaterialsOnEveryLevelAndTheImpostor) {
 TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
-  const std::set<std::string> optional{"painting",  "guide",         "titles",   "language",    "captions",
-                                       "sounds",    "tints",         "props",    "title_page",  "picture_view",
-                                       "logo_view", "photo",         "hotspots", "streets",     "texts",
-                                       "reach_m",   "height_spread", "thanks",   "home_after_s"};
-  for (const char* object : {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0",
-                             "/avatars/0/impostor", "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground",
-                             "/title_page", "/places/0", "/painting", "/path/0", "/hotspots/0", "/sounds/1"}) {
+  const std::set<std::string> optional{
+      "painting", "guide",      "titles",        "language",  "captions",     "sounds",   "tints",
+      "props",    "title_page", "picture_view",  "logo_view", "photo",        "hotspots", "streets",
+      "texts",    "reach_m",    "height_spread", "thanks",    "home_after_s", "flocks",   "play"};
+  for (const char* object :
+       {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0", "/avatars/0/impostor",
+        "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground", "/title_page", "/places/0", "/painting", "/path/0",
+        "/hotspots/0", "/sounds/1", "/flocks/0", "/play/0"}) {
     const Json::json_pointer at(std::string("/extensions/FLANEUR_tour") + object);
     for (const auto& [key, unused] : json.at(at).items()) {
       Json changed = json;

@@ -83,6 +83,7 @@ TEST(FeetOfTheDemo, StandStillWhileTheirOwnerWalks) {
   }
   for (size_t who = 0; who < pack.avatars.size(); ++who) {
     SCOPED_TRACE(pack.avatars[who].name);
+    if (IsBird(pack, pack.avatars[who].name)) continue;  // would have to run here as people walk
     std::vector<float> standing;
     std::copy_if(slides[who].begin(), slides[who].end(), std::back_inserter(standing), [](float v) { return v >= 0; });
     ASSERT_GT(standing.size(), slides[who].size() / 2) << "no foot is on the ground most of the time";

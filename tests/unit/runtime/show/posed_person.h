@@ -1,12 +1,20 @@
 // The finest mesh of somebody in a picture, where the picture shows it.
 #pragma once
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "runtime/pack/tour_pack.h"
 #include "runtime/render/frame.h"
 
 namespace flaneur {
+
+// Of a flock, and nobody who walks among people.
+inline bool IsBird(const TourPack& pack, const std::string& avatar) {
+  return std::any_of(pack.flocks.begin(), pack.flocks.end(),
+                     [&](const Flock& flock) { return flock.avatar == avatar; });
+}
 
 inline Vec3 Posed(const PackPrimitive& p, size_t vertex, const Mat4* frame) {
   Vec3 sum;

@@ -1,0 +1,11 @@
+// What tour.toml says of a town's life besides its people. Internal to pipeline/cli.
+#pragma once
+#include "runtime/base/toml_table.h"
+#include "runtime/tour_data/tour_data.h"
+
+namespace flaneur {
+
+// [[flock]]. What is wrong is refused by the tables.
+void ReadLifeSettings(TomlTable* root, TourData* tour);
+
+}  // namespace flaneur
