@@ -14,10 +14,19 @@ CameraLeg ReadLeg(TomlTable t) {
   t.Number("wait_s", &leg.wait_s, 0, 36000);
   t.Number("speed_mps", &leg.speed_mps, 0.01, 20);
   t.Number("rate_dps", &leg.rate_dps, 0.1, 720);
+  t.Number("facing_deg", &leg.facing_deg, -180, 180);
+  t.Number("look_about_deg", &leg.look_about_deg, 0, 180);
+  t.Number("follow_s", &leg.follow_s, 0, 36000);
+  t.Number("behind_m", &leg.behind_m, 0.5, 100);
   t.Finish();
-  const bool walk = t.Has("walk_to_m"), turn = t.Has("turn_by_deg"), wait = t.Has("wait_s");
-  if (walk + turn + wait != 1) t.Refuse("a camera.leg needs exactly one of walk_to_m, turn_by_deg and wait_s");
-  leg.kind = walk ? CameraLeg::Kind::kWalk : turn ? CameraLeg::Kind::kTurn : CameraLeg::Kind::kWait;
+  const bool walk = t.Has("walk_to_m"), turn = t.Has("turn_by_deg"), wait = t.Has("wait_s"), follow = t.Has("follow_s");
+  if (walk + turn + wait + follow != 1)
+    t.Refuse("a camera.leg needs exactly one of walk_to_m, turn_by_deg, wait_s and follow_s");
+  if (t.Has("facing_deg") && !walk) t.Refuse("facing_deg belongs to a camera.leg with walk_to_m");
+  if (t.Has("look_about_deg") && !wait) t.Refuse("look_about_deg belongs to a camera.leg with wait_s");
+  if (t.Has("behind_m") && !follow) t.Refuse("behind_m belongs to a camera.leg with follow_s");
+  using Kind = CameraLeg::Kind;
+  leg.kind = walk ? Kind::kWalk : turn ? Kind::kTurn : wait ? Kind::kWait : Kind::kFollow;
   return leg;
 }
 

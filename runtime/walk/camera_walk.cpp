@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/array.h"
 #include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/walls.h"
 #include "runtime/town/loitering.h"
@@ -107,16 +108,57 @@ void Walk(Vec2 direction, float asked_mps, const VisitorInTown& v) {
 
 void NextLeg(const VisitorInTown& v) {
   v.visitor.leg_done = 0;
+  v.visitor.followed_id = -1;
   v.visitor.stuck_s = 0;
   if (++v.visitor.leg >= v.visitor.legs.size()) v.visitor.finished = true;
+}
+
+// Straight on at first, then between both sides.
+void LookToAndFro(const CameraLeg& leg, const VisitorInTown& v) {
+  if (leg.look_about_deg <= 0) return;
+  const float swung = std::fmod(v.visitor.leg_done * leg.rate_dps / leg.look_about_deg, 4.0f);
+  const float rate_radps = (swung < 1 || swung >= 3 ? 1.0f : -1.0f) * leg.rate_dps * kPi / 180;
+  v.visitor.camera.view.yaw_rad = WrapAngle(v.visitor.camera.view.yaw_rad + rate_radps * Step_s(v.settings));
+  v.visitor.camera.yaw_rate_radps = rate_radps;
+}
+
+// Index of who is followed, or of the nearest who walks in view; -1: nobody does.
+int WhomToFollow(const VisitorInTown& v) {
+  const Crowd& c = v.town.crowd;
+  int nearest = -1;
+  float nearest_m = 1e9f;
+  for (size_t i = 0; i < c.size(); ++i) {
+    if (c.id[i] == v.visitor.followed_id) return static_cast<int>(i);
+    const float away_m = Length(c.position[i] - v.visitor.camera.view.position);
+    const bool walks = c.activity[i] == Activity::kWalking && c.field[i] >= 0;
+    if (walks && c.view[i] == ViewClass::kVisible && away_m < nearest_m)
+      nearest = static_cast<int>(i), nearest_m = away_m;
+  }
+  return nearest;
+}
+
+void FollowSomebody(const CameraLeg& leg, const VisitorInTown& v) {
+  const int who = WhomToFollow(v);
+  v.visitor.followed_id = who < 0 ? -1 : At(v.town.crowd.id, who);
+  if (who < 0) return;
+  const Vec2 way = At(v.town.crowd.position, who) - v.visitor.camera.view.position;
+  const float way_m = Length(way);
+  TurnTowards(AngleOf(way), MaxYawRate_radps(v.settings) * 0.75f, v);
+  if (way_m > leg.behind_m) Walk(way * (1 / way_m), leg.speed_mps, v);
 }
 
 void FollowLegs(const VisitorInTown& v) {
   const CameraLeg& leg = v.visitor.legs[v.visitor.leg];
   switch (leg.kind) {
     case CameraLeg::Kind::kWait:
+      LookToAndFro(leg, v);
       v.visitor.leg_done += Step_s(v.settings);
       if (v.visitor.leg_done >= leg.wait_s) NextLeg(v);
+      return;
+    case CameraLeg::Kind::kFollow:
+      FollowSomebody(leg, v);
+      v.visitor.leg_done += Step_s(v.settings);
+      if (v.visitor.leg_done >= leg.follow_s) NextLeg(v);
       return;
     case CameraLeg::Kind::kTurn: {
       const float left = std::abs(leg.turn_deg * kPi / 180) - v.visitor.leg_done;
@@ -132,7 +174,7 @@ void FollowLegs(const VisitorInTown& v) {
       const Vec2 way = leg.to_m - v.visitor.camera.view.position;
       const float way_m = Length(way);
       if (way_m < kReached_m || v.visitor.stuck_s > kGiveUp_s) return NextLeg(v);
-      TurnTowards(std::atan2(way.y, way.x), MaxYawRate_radps(v.settings) * 0.75f, v);
+      TurnTowards(std::atan2(way.y, way.x) + leg.facing_deg * kPi / 180, MaxYawRate_radps(v.settings) * 0.75f, v);
       Walk(way * (1 / way_m), leg.speed_mps, v);
       return;
     }

@@ -45,11 +45,13 @@ struct CameraState {
 
 // A part of a scenario's way.
 struct CameraLeg {
-  enum class Kind { kWalk, kTurn, kWait } kind = Kind::kWait;
+  enum class Kind { kWalk, kTurn, kWait, kFollow } kind = Kind::kWait;
   Vec2 to_m;
   float speed_mps = 1.4f;
+  float facing_deg = 0;  // while walking: the view's direction from the way's, anticlockwise
   float turn_deg = 0, rate_dps = 60;
-  float wait_s = 0;
+  float wait_s = 0, look_about_deg = 0;  // so far to either side, to and fro at rate_dps
+  float follow_s = 0, behind_m = 2.5f;   // whoever walks in view and is nearest when nobody is followed yet
 };
 
 // How the visitor likes to be shown about.
@@ -71,8 +73,9 @@ struct Visitor {
   bool gentle = false;          // the tour turns the view slowly, and walks slowly
   std::vector<CameraLeg> legs;  // of the scenario; empty: the guided tour
   size_t leg = 0;
-  float leg_done = 0;  // seconds waited, or radians turned
-  float stuck_s = 0;   // since the camera got away from stuck_at
+  float leg_done = 0;    // seconds waited or followed, or radians turned
+  int followed_id = -1;  // by the leg; -1: nobody
+  float stuck_s = 0;     // since the camera got away from stuck_at
   Vec2 stuck_at;
   bool finished = false;  // the last leg is over
 };

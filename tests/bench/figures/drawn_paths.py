@@ -94,6 +94,33 @@ def hurrying(dice, town, _):
     return place, anywhere_deg(dice), walking(dice, town, place, (2.0, 4.0)), ""
 
 
+def strafing(dice, town, _):
+    place = town.near(dice, town.places)
+    return place, anywhere_deg(dice), walking(dice, town, place, (0.6, 1.2), facing_deg=dice.choice((-90, 90))), ""
+
+
+def backwards(dice, town, _):
+    place = town.near(dice, town.places)
+    return place, anywhere_deg(dice), walking(dice, town, place, (0.6, 1.2), facing_deg=180), ""
+
+
+def looking_aside(dice, town, _):
+    place = town.near(dice, town.places)
+    return place, anywhere_deg(dice), walking(dice, town, place, (0.8, 1.5), facing_deg=dice.choice((-60, -35, 35, 60))), ""
+
+
+def following(dice, town, _):
+    place = town.near(dice, town.places)
+    legs = leg(follow_s=SECONDS, behind_m=round(dice.uniform(2, 4), 1), speed_mps=1.8)
+    return place, anywhere_deg(dice), legs, ""
+
+
+def looking_about(dice, town, _):
+    place = town.near(dice, town.places)
+    legs = leg(wait_s=SECONDS, look_about_deg=dice.randrange(20, 90, 5), rate_dps=dice.randrange(10, 60, 5))
+    return place, anywhere_deg(dice), legs, ""
+
+
 def circling(dice, town, _):
     """Round a place where people stand, such as a well."""
     for _ in range(500):
@@ -176,8 +203,9 @@ def against_a_stream(dice, town, _):
 
 KINDS = {"circling": circling, "crowded-market": crowded_market, "to-and-fro": to_and_fro, "turning-back": turning_back,
          "against-a-stream": against_a_stream, "strolling": strolling, "throng": turning_in_a_throng, "standing": standing,
-         "hurrying": hurrying}
-STANDING_KINDS = ("crowded-market", "throng", "standing", "to-and-fro")
+         "hurrying": hurrying, "strafing": strafing, "backwards": backwards, "looking-aside": looking_aside, "following": following,
+         "looking-about": looking_about}
+STANDING_KINDS = ("crowded-market", "throng", "standing", "to-and-fro", "looking-about")
 
 
 def drawn(tour, count, seed):

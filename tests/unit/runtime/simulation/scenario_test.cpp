@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
+
 #include "runtime/base/file.h"
 #include "runtime/simulation/simulation.h"
 
@@ -99,6 +101,65 @@ TEST(Scenario, MistakesAreNamedWithTheirLine) {
   EXPECT_NE(Parse("[[camera.leg]]\nwait_s = 1\n[tour]\nmost_rest_s = 3\n", &s).message.find(":3: [tour] is for runs"),
             std::string::npos);
   EXPECT_NE(Parse("seconds = -1\n", &s).message.find("seconds is -1, it must be from 0 to"), std::string::npos);
+}
+
+Simulation Played(const std::string& text, int steps) {
+  Scenario scenario;
+  EXPECT_EQ(Parse(kGround + text, &scenario).message, "");
+  Simulation s;
+  EXPECT_EQ(StartSimulation(nullptr, scenario, &s).message, "");
+  for (int step = 0; step < steps; ++step) StepSimulation({}, 0, &s);
+  return s;
+}
+
+TEST(Legs, TheViewKeepsItsAngleToTheWay) {
+  for (const float facing_deg : {90.0f, 180.0f, -40.0f}) {
+    const Simulation s = Played("[camera]\nposition_m = [-10, 0]\n[[camera.leg]]\nwalk_to_m = [15, 0]\nfacing_deg = " +
+                                    std::to_string(facing_deg) + "\n",
+                                300);
+    EXPECT_GT(s.visitor.camera.view.position.x, 2);
+    EXPECT_NEAR(s.visitor.camera.view.position.y, 0, 0.01f);
+    const float off_rad = std::remainder(s.visitor.camera.view.yaw_rad - facing_deg * kPi / 180, 2 * kPi);
+    EXPECT_NEAR(off_rad, 0, 0.01f) << facing_deg;
+  }
+}
+
+TEST(Legs, WhoIsFollowedIsKeptInViewAtADistance) {
+  const Simulation s = Played(
+      "[camera]\nposition_m = [-15, 0]\n[[camera.leg]]\nfollow_s = 60\nbehind_m = 3\nspeed_mps = 2\n"
+      "[[person]]\nposition_m = [-11, 1]\ngoals_m = [[0, 2], [0, 15]]\nstay = true\nspeed_mps = 1.2\n",
+      450);
+  ASSERT_EQ(s.town.crowd.size(), 1u);
+  EXPECT_EQ(s.town.crowd.view[0], ViewClass::kVisible);
+  EXPECT_NEAR(Length(s.town.crowd.position[0] - s.visitor.camera.view.position), 3, 0.7f);
+  EXPECT_GT(s.visitor.camera.view.position.y, 1);
+}
+
+TEST(Legs, LookingAboutStaysWithinBothSides) {
+  Scenario scenario;
+  ASSERT_EQ(Parse(kGround + std::string("[camera]\nposition_m = [0, 0]\n[[camera.leg]]\nwait_s = 30\n"
+                                        "look_about_deg = 45\nrate_dps = 60\n"),
+                  &scenario)
+                .message,
+            "");
+  Simulation s;
+  ASSERT_FALSE(StartSimulation(nullptr, scenario, &s));
+  float least_rad = 0, most_rad = 0;
+  for (int step = 0; step < 300; ++step) {
+    StepSimulation({}, 0, &s);
+    least_rad = std::min(least_rad, s.visitor.camera.view.yaw_rad);
+    most_rad = std::max(most_rad, s.visitor.camera.view.yaw_rad);
+  }
+  EXPECT_NEAR(least_rad * 180 / kPi, -45, 6);
+  EXPECT_NEAR(most_rad * 180 / kPi, 45, 6);
+}
+
+TEST(Legs, AKeyOfAnotherKindIsRefused) {
+  Scenario s;
+  EXPECT_NE(Parse("[[camera.leg]]\nwait_s = 1\nfacing_deg = 90\n", &s).message.find("facing_deg belongs"),
+            std::string::npos);
+  EXPECT_NE(Parse("[[camera.leg]]\nwalk_to_m = [1, 1]\nbehind_m = 2\n", &s).message.find("behind_m belongs"),
+            std::string::npos);
 }
 
 TEST(Simulation, ImpossiblePeopleAreNamed) {
