@@ -12,14 +12,16 @@
 namespace flaneur {
 namespace {
 
-constexpr float kMark = 0.32f, kMarkGrows = 0.32f;         // radius in letters: unnoticed, and what interest adds
-constexpr float kMarkLifts = 0.75f;                        // of its opacity, where it is near the edge of its reach
-constexpr float kPanelWide = 17, kPanelShare = 0.44f;      // in letters; of the picture's width, at most
-constexpr float kLeastPicture = 3;                         // in letters; lower, it is left out
-constexpr float kPanelHigh = 0.86f, kPortraitHigh = 0.5f;  // of the picture's height, at most
-constexpr float kPictureHigh = 0.3f;                       // the same of its picture
-constexpr float kEdge = 0.6f, kGap = 0.4f, kClose = 1.5f;  // in letters
-constexpr float kTitle = 1.1f;                             // of a letter
+constexpr float kMark = 0.32f, kMarkGrows = 0.32f;     // radius in letters: unnoticed, and what interest adds
+constexpr float kMarkLifts = 0.75f;                    // of its opacity, where it is near the edge of its reach
+constexpr float kPanelWide = 17, kPanelShare = 0.44f;  // in letters; of the picture's width, at most
+constexpr float kLeastPanelWide = 12, kMostPanelShare = 0.62f;  // likewise, where letters are large
+constexpr float kShrinks = 0.92f, kLeastShrunk = 0.6f;          // of letters, where words would not fit
+constexpr float kLeastPicture = 3;                              // in letters; lower, it is left out
+constexpr float kPanelHigh = 0.86f, kPortraitHigh = 0.5f;       // of the picture's height, at most
+constexpr float kPictureHigh = 0.3f;                            // the same of its picture
+constexpr float kEdge = 0.6f, kGap = 0.4f, kClose = 1.5f;       // in letters
+constexpr float kTitle = 1.1f;                                  // of a letter
 
 ImU32 Packed(const PageColor& c, float share = 1) {
   return IM_COL32(c[0], c[1], c[2], static_cast<int>(static_cast<float>(c[3]) * share));
@@ -68,10 +70,23 @@ Panel PlaceOfPanel(const SeenHotspot* seen, const PageLook& look, float width_px
     return {edge_px, below ? height_px * 0.45f : edge_px + kClose * 2 * look.letter_px, width_px - 2 * edge_px,
             std::min(high_px, height_px * 0.4f)};
   }
-  const float wide_px = std::min(kPanelWide * look.letter_px, kPanelShare * width_px);
+  const float most_px =
+      std::max(kPanelShare * width_px, std::min(kLeastPanelWide * look.letter_px, kMostPanelShare * width_px));
+  const float wide_px = std::min(kPanelWide * look.letter_px, most_px);
   const bool right = seen == nullptr || seen->place.x < 0.5f;
   const float top_px = right ? edge_px + kClose * 2 * look.letter_px : edge_px;  // the pages' button is in that corner
   return {right ? width_px - wide_px - edge_px : edge_px, top_px, wide_px, kPanelHigh * height_px - top_px};
+}
+
+// Of a panel's title and text, with what is around them.
+float NeededHeight_px(const std::string& title, const std::string& text, float inner_px, const TextLook& words,
+                      TextLayer* layer) {
+  const float letter_px = words.letter_px, gap_px = kGap * letter_px;
+  TextLook head = words;
+  head.letter_px *= kTitle;
+  const float head_px = RoomFor(title, inner_px - kClose * letter_px - gap_px, head, layer).height_px;
+  const float text_px = text.empty() ? 0 : RoomFor(text, inner_px, words, layer).height_px;
+  return std::ceil(1.2f * letter_px + std::max(kClose * letter_px + gap_px, head_px + kGap * head.letter_px) + text_px);
 }
 
 float Write(const std::string& text, float top_px, const TextBox& within, TextLook look, TextLayer* layer) {
@@ -90,7 +105,7 @@ void ShowHotspotMarks(const Hotspots& h, const PageLook& look, int width_px, int
     ShowMark(seen, seen.hotspot == h.open, look, static_cast<float>(width_px), static_cast<float>(height_px));
 }
 
-bool ShowHotspotPanel(const TourPack& pack, const Hotspots& h, const PageLook& look, int width_px, int height_px,
+bool ShowHotspotPanel(const TourPack& pack, const Hotspots& h, PageLook look, int width_px, int height_px,
                       Overlay* overlay, HotspotPicture* picture) {
   const Hotspot* hotspot = h.open < 0 ? nullptr : &At(pack.hotspots, h.open);
   TakePicture(pack, hotspot == nullptr ? -1 : hotspot->picture, overlay, picture);
@@ -101,10 +116,15 @@ bool ShowHotspotPanel(const TourPack& pack, const Hotspots& h, const PageLook& l
       PlaceOfPanel(seen == h.seen.end() ? nullptr : &*seen, look, static_cast<float>(width_px), high_px);
   const std::string title = TextIn(hotspot->titles, look.language, pack.language);
   const std::string text = TextIn(hotspot->texts, look.language, pack.language);
-  const float letter_px = look.letter_px, inner_px = panel.width_px - 1.6f * letter_px;
+  TextLayer* layer = &overlay->text();
+  const float most_letter_px = look.letter_px;
+  const auto inner = [&] { return panel.width_px - 1.6f * look.letter_px; };
+  while (look.letter_px > kLeastShrunk * most_letter_px &&
+         NeededHeight_px(title, text, inner(), TextOf(look), layer) > panel.most_px)
+    look.letter_px *= kShrinks;
+  const float letter_px = look.letter_px, inner_px = inner();
   TextLook words = TextOf(look), head = words;
   head.letter_px *= kTitle;
-  TextLayer* layer = &overlay->text();
   ImVec2 shown_px{0, 0};
   if (picture->shown != nullptr) {
     const float scale = std::min(inner_px / static_cast<float>(picture->width_px),
@@ -112,16 +132,14 @@ bool ShowHotspotPanel(const TourPack& pack, const Hotspots& h, const PageLook& l
     shown_px = {scale * static_cast<float>(picture->width_px), scale * static_cast<float>(picture->height_px)};
   }
   const float gap_px = kGap * letter_px, head_px = inner_px - kClose * letter_px - gap_px;
-  float needed_px =
-      1.2f * letter_px + std::max(kClose * letter_px, RoomFor(title, head_px, head, layer).height_px) + gap_px;
-  if (!text.empty()) needed_px += RoomFor(text, inner_px, words, layer).height_px;
+  float needed_px = NeededHeight_px(title, text, inner_px, words, layer);
   // Words before pictures: it is as large as they leave it room.
-  const float room_px = panel.most_px - needed_px - gap_px;
+  const float room_px = std::floor(panel.most_px - needed_px - gap_px) - 1;  // windows have whole pixels
   if (shown_px.y > 0 && room_px < shown_px.y) {
     const float share = room_px < kLeastPicture * letter_px ? 0 : room_px / shown_px.y;
     shown_px = {shown_px.x * share, shown_px.y * share};
   }
-  if (shown_px.y > 0) needed_px += shown_px.y + gap_px;
+  if (shown_px.y > 0) needed_px += std::ceil(shown_px.y + gap_px);
   const PageStyle style(look);
   ImGui::SetNextWindowPos({panel.left_px, panel.top_px});
   ImGui::SetNextWindowSize({panel.width_px, std::min(needed_px, panel.most_px)});

@@ -20,7 +20,7 @@ struct HotspotPicture {
 void ShowHotspotMarks(const Hotspots& hotspots, const PageLook& look, int width_px, int height_px);
 
 // True where it was closed by its button.
-bool ShowHotspotPanel(const TourPack& pack, const Hotspots& hotspots, const PageLook& look, int width_px, int height_px,
+bool ShowHotspotPanel(const TourPack& pack, const Hotspots& hotspots, PageLook look, int width_px, int height_px,
                       Overlay* overlay, HotspotPicture* picture);
 
 }  // namespace flaneur

@@ -14,6 +14,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kEdge = 0.5f, kListWide = 14, kListShare = 0.46f;  // in letters; of the picture's width, at most
+constexpr float kLeastListWide = 11.5f, kMostListShare = 0.62f;    // likewise, where letters are large
 constexpr float kPortraitMap = 0.52f;                              // of the height
 constexpr float kPin = 0.62f, kPinReach = 1.3f, kSelf = 0.7f;      // radius in letters; touched so far off
 constexpr float kStreetLetter = 0.62f;                             // of a letter
@@ -44,7 +45,9 @@ Places PlacesFor(const PageLook& look, float width_px, float height_px) {
     const float split = kPortraitMap * height_px;
     return {{edge, edge, width_px - edge, split}, {edge, split + edge, width_px - edge, height_px - edge}};
   }
-  const float split = width_px - std::min(kListWide * look.letter_px, kListShare * width_px);
+  const float most_px =
+      std::max(kListShare * width_px, std::min(kLeastListWide * look.letter_px, kMostListShare * width_px));
+  const float split = width_px - std::min(kListWide * look.letter_px, most_px);
   return {{edge, edge, split, height_px - edge}, {split + edge, edge, width_px - edge, height_px - edge}};
 }
 

@@ -127,7 +127,7 @@ void HearWalkers(const TourPack& pack, const Simulation& sim, Soundscape* s) {
 }
 
 void HearOwnSteps(const Simulation& sim, float passed_s, Soundscape* s) {
-  s->walked_m += sim.visitor.camera.actual_mps * passed_s;
+  if (!sim.visitor.camera.flies) s->walked_m += sim.visitor.camera.actual_mps * passed_s;
   const int steps = static_cast<int>(s->walked_m / kStep_m);
   if (steps == s->own_steps) return;
   s->own_steps = steps;

@@ -162,7 +162,7 @@ void Visit::Impl::EndVisitor() {
   OpenPage(Page::kNone, &menu);
   s->visitor.gentle = true;
   shows_itself_s = 0;
-  BeginAttract(*s, &attract);
+  BeginAttract(*s, controls.settings.reduced_motion, &attract);
 }
 
 // Somebody is there, who may have touched a language.
@@ -281,6 +281,7 @@ void Visit::Impl::ShowPages(const WindowInput& input, float passed_s) {
     if (operator_page()) return;
     ShowAttractPage(title, OfferedLanguages(controls, *s), shows_itself_s, !controls.settings.reduced_motion, look,
                     width_px, height_px, &overlay.text());
+    ShowFade(width_px, height_px, passed_s, &fade);
     return;
   }
   if (controls.points && !pages() && ShowMenuButton(look, width_px)) OpenPage(Page::kMain, &menu);
@@ -302,6 +303,7 @@ void Visit::Impl::StepTown(float passed_s, Records* records) {
   while (owed_s >= step_s) {
     const CameraInput next = attracts() ? NextOfAttract(*s, &attract) : NextStep(wishes, *s, &controls);
     StepSimulation(next, passed_s * 1000, s);
+    if (attracts() && attract.leapt) BeginFade(&fade);
     Record(*s, {statistics.town_triangles, statistics.shadow_triangles, statistics.draw_ms}, records);
     wishes.tour = {};
     wishes.walk_to.reset();

@@ -267,12 +267,26 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   else v.visitor.stuck_s = 0;
 }
 
+void Fly(const FlyingCamera& to, const VisitorInTown& v) {
+  CameraState& camera = v.visitor.camera;
+  camera.flies = true;
+  camera.velocity = (to.position - camera.view.position) * (1 / Step_s(v.settings));
+  camera.actual_mps = Length(camera.velocity);
+  camera.view.position = v.visitor.stuck_at = to.position;
+  camera.eye_height_m = to.eye_height_m;
+  if (!to.yaw_rad) return;  // leaps there
+  camera.view.yaw_rad = *to.yaw_rad;
+  camera.velocity = {};
+  camera.actual_mps = 0;
+}
+
 }  // namespace
 
 void MoveCamera(const CameraInput& input, const VisitorInTown& v) {
   CameraState& camera = v.visitor.camera;
   camera.velocity = camera.asked_velocity = {};
   camera.yaw_rate_radps = camera.asked_mps = camera.actual_mps = 0;
+  camera.flies = false;
   if (!camera.present) return;
   if (input.pitch_rad) camera.pitch_rad = *input.pitch_rad;
   if (input.walk_to) SetOut(*input.walk_to, v);
@@ -280,6 +294,7 @@ void MoveCamera(const CameraInput& input, const VisitorInTown& v) {
   if (input.active) {
     v.visitor.looks_about_s = 0;
     TurnCamera(input.yaw_rate_radps, v);
+    if (input.flies) return Fly(*input.flies, v);
     if (input.speed_mps > 0) Walk(input.direction, input.speed_mps, v);
     else if (!v.visitor.point_walk.route.points.empty()) FollowPoint(input.walk_to_mps, input.yaw_rate_radps != 0, v);
     if (!v.visitor.point_walk.route.points.empty() && v.visitor.stuck_s >= kPatience_s)

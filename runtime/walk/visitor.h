@@ -22,6 +22,13 @@ inline float CameraRadius_m(const Walkable& w) {
 }
 inline constexpr float kUsualAspect = 16.0f / 9;
 
+// Where the camera is put, above everybody's heads, whatever the rules of walking.
+struct FlyingCamera {
+  Vec2 position;
+  float eye_height_m = 0;
+  std::optional<float> yaw_rad;  // at once
+};
+
 // What the visitor asks for in a step.
 struct CameraInput {
   bool active = false;  // false: scenario or guided tour moves the camera
@@ -30,7 +37,8 @@ struct CameraInput {
   std::optional<Vec2> walk_to;  // sets out for there; a direction ends it
   float walk_to_mps = 1.4f;
   std::optional<float> pitch_rad;
-  TourWish tour;  // active or not
+  std::optional<FlyingCamera> flies;  // while active
+  TourWish tour;                      // active or not
 };
 
 struct CameraState {
@@ -41,6 +49,7 @@ struct CameraState {
   Vec2 asked_velocity;  // what the visitor wants: who holds them up sees it
   float yaw_rate_radps = 0, asked_mps = 0, actual_mps = 0;
   bool present = true;  // false: everybody counts as visible
+  bool flies = false;   // above heads
 };
 
 // A part of a scenario's way.

@@ -1,5 +1,6 @@
 """A kiosk as children, operators and crashes meet it: on a display of its own, with keys and mouse by xdotool."""
 import csv
+import math
 import os
 import pathlib
 import re
@@ -11,7 +12,7 @@ import tempfile
 import time
 import unittest
 
-from support import BIN, has_tools
+from support import BIN, SOURCE, has_tools
 from window_test import PACK, PATIENCE_S, SCREEN_PX, TITLE, Display
 
 PIN = "4711"
@@ -23,6 +24,23 @@ SHARE = 4
 def child_of(program):
     found = subprocess.run(["pgrep", "-P", str(program.pid)], capture_output=True, text=True, check=False).stdout.split()
     return int(found[0]) if found else None
+
+
+class ServiceTest(unittest.TestCase):
+    def test_systemd_takes_the_unit_without_a_word(self):
+        if not has_tools("systemd-analyze"):
+            self.skipTest("no systemd-analyze: install the Debian package systemd")
+        unit = (SOURCE / "packaging/kiosk/flaneur-kiosk.service").read_text()
+        with tempfile.TemporaryDirectory(prefix="flaneur_unit_") as folder:
+            def verify(text):
+                path = pathlib.Path(folder) / "flaneur-kiosk.service"
+                path.write_text(text.replace("/usr/bin/flaneur-player", str(BIN / "flaneur-player"))
+                                .replace("/usr/share/doc/flaneur-docs", str(SOURCE)))
+                done = subprocess.run(["systemd-analyze", "verify", "--user", str(path)], env=dict(os.environ, XDG_RUNTIME_DIR=folder),
+                                      capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+                return done.returncode, done.stderr
+            self.assertEqual(verify(unit), (0, ""))
+            self.assertIn("WatchdogSecs", verify(unit.replace("WatchdogSec=", "WatchdogSecs="))[1], "else it looks at nothing")
 
 
 class KioskTest(unittest.TestCase):
@@ -217,6 +235,59 @@ class KioskTest(unittest.TestCase):
             while heard[-1] != "STOPPING=1":
                 heard.append(manager.recv(1000).decode())
             self.assertEqual(program.wait(PATIENCE_S), 0)
+
+    def test_tells_the_service_manager_while_a_player_that_hangs_is_started_anew(self):
+        path = self.folder / "notify"
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+            manager.bind(str(path))
+            manager.settimeout(10)  # WatchdogSec
+            program = self.start(environment={"NOTIFY_SOCKET": str(path)})
+            heard = [manager.recv(1000).decode()]
+            while not heard[-1].startswith("READY=1"):
+                heard.append(manager.recv(1000).decode())
+            os.kill(child_of(program), signal.SIGSTOP)
+            del heard[:]
+            while not any(message.startswith("READY=1") for message in heard):
+                heard.append(manager.recv(1000).decode())
+            self.assertIn("STATUS=Starting anew", heard)
+            self.assertIn("WATCHDOG=1", heard)
+            self.assertIn("the player hangs", self.said())
+
+    def codes(self):
+        """What QR codes on the screen say."""
+        size, picture = "{}x{}".format(*SCREEN_PX), self.folder / "screen.png"
+        subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-f", "x11grab", "-video_size", size, "-i", self.display.name, "-frames:v", "1",
+                        picture], check=True, timeout=PATIENCE_S)
+        return subprocess.run(["zbarimg", "--quiet", "--raw", picture], capture_output=True, text=True, timeout=PATIENCE_S, check=False).stdout.split()
+
+    def test_visitors_take_a_photo_with_a_code_and_are_led_by_the_map(self):
+        if not has_tools("ffmpeg", "zbarimg"):
+            self.skipTest("no ffmpeg or zbarimg: install the Debian packages ffmpeg and zbar-tools")
+        photos, metrics = self.folder / "photos", self.folder / "metrics.csv"
+        program = self.start("--photos", photos, "--set", "photo_link=https://museum.example/{file}", "--metrics", metrics,
+                             settings="languages = [\"en\"]\n")
+        self.wait_for_pictures(program)
+        self.display.tap("k")       # somebody is there
+        self.display.tap("Return")  # begins
+        self.display.tap("Tab")     # on their own
+        self.display.tap("p")
+        self.wait_until(lambda: photos.exists() and len(list(photos.glob("*.jpg"))) == 1)
+        photo, = photos.glob("*.jpg")
+        self.wait_until(lambda: self.codes() == [f"https://museum.example/{photo.name}"])
+        self.display.tap("Return")
+        self.wait_until(lambda: self.codes() == [])
+        self.display.tap("t")       # the map
+        self.display.tap("Return")  # the first of the stops beside it
+        time.sleep(8)
+        self.hold("F10", 3 + 2 * self.display.beat_s())
+        self.type(PIN)
+        for key in ("Down", "Down", "Return"):
+            self.display.tap(key)
+        self.assertEqual(program.wait(PATIENCE_S), 0, self.said())
+        with open(metrics, newline="") as file:
+            rows = list(csv.DictReader(file))
+        moved_m = math.hypot(*(float(rows[-1][c]) - float(rows[0][c]) for c in ("camera_x_m", "camera_y_m")))
+        self.assertGreater(moved_m, 2)  # was led
 
     def test_the_tour_comes_from_the_settings_and_without_any_it_says_so(self):
         program = self.start(settings=f"tour = \"{PACK}\"\n", pack=False)

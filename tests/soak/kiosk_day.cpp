@@ -26,9 +26,9 @@ namespace {
 constexpr int kSkipped = 77;
 constexpr int kWidth_px = 160, kHeight_px = 90;
 constexpr float kPicture_s = 2.0f / 15;  // as many steps as a picture goes on by at most
-constexpr int kShownEvery = 8;           // while nobody does anything: the others count as hidden
+constexpr int kShownEvery = 30;          // while nobody does anything: the others count as hidden
 constexpr float kTold_s = 1800, kLong_s = 3600;
-constexpr double kMostGrowth = 1.05;
+constexpr double kMostGrowth = 1.05, kSlow_ms = 1000;
 constexpr float kWarmUp = 0.125f;  // of the time
 
 struct Memory {
@@ -73,10 +73,14 @@ Error PlayDay(Visit* visit, Simulation* s, float seconds, KioskVisitors* visitor
     const WindowInput hands = visitors->Next(visit->waits_for_visitors(), kPicture_s);
     const bool still = hands.down.none() && !hands.pressed && hands.clicks.empty();
     const bool shown =
-        (visitors->does_something() && !still) || visit->shows_pages() || day->pictures % kShownEvery < 2;
+        (visitors->does_something() && !still) || visit->shows_pages() || day->pictures % kShownEvery == 0;
     const double began_s = Now_s();
     if (Error e = visit->Picture(hands, shown ? kWidth_px : 0, shown ? kHeight_px : 0, kPicture_s, &records)) return e;
-    day->longest_ms = std::max(day->longest_ms, 1000 * (Now_s() - began_s));
+    const double took_ms = 1000 * (Now_s() - began_s);
+    if (took_ms > kSlow_ms)
+      std::printf("a slow picture of %.0f ms after %.0f s%s\n", took_ms, static_cast<double>(time_s),
+                  visit->shows_pages() ? ", with pages" : "");
+    day->longest_ms = std::max(day->longest_ms, took_ms);
     ++day->pictures;
     if (const std::string wrong = WhatIsWrong(*s); !wrong.empty()) return Fail(wrong);
     if (visit->ends() || visit->starts_anew()) return Fail("a visitor has ended the kiosk");
