@@ -103,10 +103,15 @@ void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& movin
       const float distance_m = std::sqrt(distance2);
       const Vec2 normal = distance_m > 1e-5f ? apart * (1 / distance_m) : Vec2{1, 0};
       const Vec2 whole = normal * (reach_m - distance_m + 2e-4f);
-      const Vec2 before = s->moved[i];
-      s->moved[i] = WalkTowards(w, moving, step_s, c, i, before + whole * ShareOf(c, s->moved, step_s, i, j, normal));
-      const Vec2 rest = whole - (s->moved[i] - before);  // what one cannot give, the other does
-      s->moved[j] = WalkTowards(w, moving, step_s, c, j, s->moved[j] - rest);
+      const float share = ShareOf(c, s->moved, step_s, i, j, normal);
+      // Who gives more goes first: what one cannot give, the other does.
+      const bool j_first = share < 0.5f;
+      const size_t first = j_first ? j : i, other = j_first ? i : j;
+      const Vec2 first_gives = whole * (j_first ? share - 1 : share);
+      const Vec2 before = s->moved[first];
+      s->moved[first] = WalkTowards(w, moving, step_s, c, first, before + first_gives);
+      const Vec2 given = s->moved[first] - before, rest = j_first ? whole + given : given - whole;
+      s->moved[other] = WalkTowards(w, moving, step_s, c, other, s->moved[other] + rest);
     }
     if (!any) return;
   }
