@@ -1,5 +1,7 @@
 #include "runtime/visit/one_handed.h"
 
+#include <algorithm>
+
 namespace flaneur {
 namespace {
 
@@ -55,10 +57,26 @@ const std::vector<HalfKeys>& HalfOf(const std::string& one_handed) {
                                       : none;
 }
 
+using Keys = std::array<std::vector<std::string>, kActions>;
+
+// A key that somebody gave to an action is no longer another's that merely has its first keys.
+Keys WithoutFirstKeysGivenAway(Keys keys) {
+  static const Keys first = PlayerSettings{}.keys;
+  std::vector<std::string> given;
+  for (size_t k = 0; k < kActions; ++k) {
+    if (keys[k] != first[k]) given.insert(given.end(), keys[k].begin(), keys[k].end());
+  }
+  for (size_t k = 0; k < kActions; ++k) {
+    if (keys[k] != first[k]) continue;
+    std::erase_if(keys[k], [&](const std::string& key) { return std::count(given.begin(), given.end(), key) > 0; });
+  }
+  return keys;
+}
+
 }  // namespace
 
-std::array<std::vector<std::string>, kActions> KeysInForce(const PlayerSettings& settings) {
-  auto keys = settings.keys;
+Keys KeysInForce(const PlayerSettings& settings) {
+  Keys keys = WithoutFirstKeysGivenAway(settings.keys);
   const std::vector<HalfKeys>& half = HalfOf(settings.one_handed);
   if (half.empty()) return keys;
   const bool pad = settings.one_handed == "left_pad" || settings.one_handed == "right_pad";

@@ -9,7 +9,8 @@
 
 namespace flaneur {
 
-// Of each action: the settings' own, and on the keyboard or gamepad that is played with one hand those of its half.
+// Of each action: the settings' own, less first keys that the settings give to another action, and on the keyboard or
+// gamepad that is played with one hand those of its half.
 std::array<std::vector<std::string>, kActions> KeysInForce(const PlayerSettings& settings);
 
 // What the sticks ask for: x to the right, y ahead or up.

@@ -32,6 +32,19 @@ std::set<std::string> LeftOfKeyboard() {
   return keys;
 }
 
+TEST(Keys, AKeyThatIsGivenToAnActionDoesNothingElse) {
+  const auto of = [](const PlayerSettings& settings, Action action) {
+    return KeysInForce(settings)[static_cast<size_t>(action)];
+  };
+  PlayerSettings settings;
+  const std::string key = settings.keys[static_cast<size_t>(Action::kPhoto)].front();
+  settings.keys[static_cast<size_t>(Action::kPause)] = {key};
+  EXPECT_EQ(of(settings, Action::kPause), std::vector<std::string>{key});
+  for (const std::string& other : of(settings, Action::kPhoto)) EXPECT_NE(other, key);
+  settings.keys[static_cast<size_t>(Action::kPhoto)] = {key, "f12"};
+  EXPECT_EQ(of(settings, Action::kPhoto).front(), key) << "who asks for both has both";
+}
+
 TEST(OneHanded, TheKeyboardsHalvesHaveAKeyOfTheirOwnForEverything) {
   for (const char* half : {"left_keys", "right_keys"}) {
     const auto keys = KeysInForce(OneHanded(half));
