@@ -7,6 +7,7 @@
 #include "pipeline/cli/work_clips.h"
 #include "pipeline/core/temporary_folder.h"
 #include "runtime/base/file.h"
+#include "tests/unit/pipeline/cli/reads_tour.h"
 
 namespace flaneur {
 namespace {
@@ -15,23 +16,8 @@ const std::string kTour =
     "[town]\nfile = \"town.glb\"\n[[avatar]]\nname = \"dove\"\nshare = 0\nfile = \"dove.glb\"\n"
     "[[avatar]]\nfile = \"person.glb\"\n";
 
-struct LifeSettings : ::testing::Test {
-  TemporaryFolder folder;
-  TourSettings settings;
-  void SetUp() override { ASSERT_EQ(folder.Create("flaneur_test_").message, ""); }
-
-  // What is wrong, behind the file's name.
-  std::string Read(const std::string& more) {
-    const auto path = folder.path() / "tour.toml";
-    EXPECT_FALSE(WriteTextFile(path, kTour + more));
-    const std::string message = ReadTourSettings(path, &settings).message;
-    return message.empty() ? "" : message.substr(path.string().size());
-  }
-  bool Refuses(const std::string& more, const std::string& why) {
-    const std::string message = Read(more);
-    EXPECT_NE(message.find(why), std::string::npos) << message;
-    return message.find(':') == 0;
-  }
+struct LifeSettings : ReadsTour {
+  LifeSettings() : ReadsTour(kTour) {}
 };
 
 TEST_F(LifeSettings, AFlockHasAPlaceAndItsBirdsTheClipThatTheyFlyBy) {

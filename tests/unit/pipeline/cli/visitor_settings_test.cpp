@@ -13,29 +13,15 @@
 #include "runtime/base/file.h"
 #include "runtime/base/pixels.h"
 #include "runtime/base/png.h"
+#include "tests/unit/pipeline/cli/reads_tour.h"
 
 namespace flaneur {
 namespace {
 
 const std::string kTour = "[town]\nfile = \"town.glb\"\n[[avatar]]\nfile = \"person.glb\"\n";
 
-struct VisitorSettings : ::testing::Test {
-  TemporaryFolder folder;
-  TourSettings settings;
-  void SetUp() override { ASSERT_EQ(folder.Create("flaneur_test_").message, ""); }
-
-  // What is wrong, behind the file's name.
-  std::string Read(const std::string& more) {
-    const auto path = folder.path() / "tour.toml";
-    EXPECT_FALSE(WriteTextFile(path, kTour + more));
-    const std::string message = ReadTourSettings(path, &settings).message;
-    return message.empty() ? "" : message.substr(path.string().size());
-  }
-  bool Refuses(const std::string& more, const std::string& why) {
-    const std::string message = Read(more);
-    EXPECT_NE(message.find(why), std::string::npos) << message;
-    return message.find(':') == 0;
-  }
+struct VisitorSettings : ReadsTour {
+  VisitorSettings() : ReadsTour(kTour) {}
   std::vector<uint8_t> PictureOf(int width_px, int height_px, int channels) {
     std::vector<uint8_t> pixels(static_cast<size_t>(width_px * height_px * channels), 200);
     return EncodePng(width_px, height_px, channels, pixels);
