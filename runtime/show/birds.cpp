@@ -11,8 +11,6 @@ namespace {
 
 constexpr float kMixBird_s = 0.15f;  // from one clip to the next
 
-float Fraction(float x) { return x - std::floor(x); }
-
 // before_s: how long before the last step. Each bird is at its own moment of the clip.
 ClipMoment MomentOf(const PackAvatar& avatar, const Flock& flock, const Bird& bird, BirdState state, int number,
                     float time_s) {

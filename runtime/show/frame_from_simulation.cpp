@@ -35,8 +35,6 @@ Vec3 SunAt(float hour) {
           sin_l * sin_d + cos_l * cos_d * std::cos(turned_rad)};
 }
 
-float Fraction(float x) { return x - std::floor(x); }
-
 // A stop's caption shows while the tour rests there, and only to a visitor who has not walked off.
 void AddCaption(const Simulation& s, FrameInput* frame) {
   constexpr float kFadeCaption_s = 0.4f, kReach_m = 2.5f;

@@ -1,14 +1,8 @@
 #include "runtime/show/looks.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace flaneur {
-namespace {
-
-float Fraction(float x) { return x - std::floor(x); }
-
-}  // namespace
 
 // The same person wears the same all day, and people who came one after the other, as those of a group, wear different
 // colours.
