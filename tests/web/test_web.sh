@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # test_web.sh build SOURCES FOLDER: all that a page is made of, in FOLDER. test_web.sh run PROGRAM.js: with node.
+# test_web.sh same WALK_THE_TOUR.js PLAYER PACK SECONDS: both walk everybody along the same ways, bit for bit.
 # Ends with status 77, skipped, where this machine has no Emscripten.
 set -euo pipefail
 for command in emcc node; do
@@ -13,5 +14,13 @@ case $1 in
     cmake --build "$3"
     ;;
   run) node --no-experimental-fetch "$2" ;;
-  *) echo "test_web.sh: error: '$1' is neither build nor run" >&2; exit 2 ;;
+  same)
+    folder=$(mktemp -d)
+    trap 'rm -rf "$folder"' EXIT
+    node --no-experimental-fetch "$2" "$4" "$5" "$folder/web.csv"
+    "$3" "$4" --headless --no-draw --seconds "$5" --trajectories "$folder/native.csv"
+    [ "$(wc -l < "$folder/native.csv")" -gt 10000 ] || { echo "too few rows to compare"; exit 1; }
+    cmp "$folder/web.csv" "$folder/native.csv"
+    ;;
+  *) echo "test_web.sh: error: '$1' is neither build, run nor same" >&2; exit 2 ;;
 esac
