@@ -112,7 +112,7 @@ void AddTown(TownGeometry geometry, TownView* town) {
   }
   town->order.reserve(town->geometry.blocks.size());
   town->visible.reserve(town->geometry.blocks.size());
-  town->indices = std::make_unique_for_overwrite<uint32_t[]>(town->geometry.indices.size() + 3);
+  town->indices.reset(new uint32_t[town->geometry.indices.size() + 3]);
 }
 
 void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownView* town) {

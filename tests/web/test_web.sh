@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# test_web.sh build SOURCES FOLDER: all that a page is made of, in FOLDER. test_web.sh run PROGRAM.js: with node.
+# test_web.sh same WALK_THE_TOUR.js PLAYER PACK SECONDS: both walk everybody along the same ways, bit for bit.
+# Ends with status 77, skipped, where this machine has no Emscripten.
+set -euo pipefail
+for command in emcc node; do
+  command -v "$command" > /dev/null || { echo "skipped: there is no $command (Debian packages emscripten, nodejs)"; exit 77; }
+done
+export NODE_PATH=/usr/share/nodejs${NODE_PATH:+:$NODE_PATH}  # where Debian keeps what Emscripten asks node for
+case $1 in
+  build)
+    cmake -S "$2" -B "$3" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+      -DCMAKE_TOOLCHAIN_FILE=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake
+    cmake --build "$3"
+    ;;
+  run) node --no-experimental-fetch "$2" ;;
+  same)
+    folder=$(mktemp -d)
+    trap 'rm -rf "$folder"' EXIT
+    node --no-experimental-fetch "$2" "$4" "$5" "$folder/web.csv"
+    "$3" "$4" --headless --no-draw --seconds "$5" --trajectories "$folder/native.csv"
+    [ "$(wc -l < "$folder/native.csv")" -gt 10000 ] || { echo "too few rows to compare"; exit 1; }
+    cmp "$folder/web.csv" "$folder/native.csv"
+    ;;
+  *) echo "test_web.sh: error: '$1' is neither build, run nor same" >&2; exit 2 ;;
+esac
