@@ -158,7 +158,13 @@ int PickDestination(const Viewer& viewer, Vec2 from, bool may_loiter, Town* town
   float least = 0;
   for (int attempt = 0; attempt < kTries && !choices->empty(); ++attempt) {
     const int chosen = (*choices)[static_cast<size_t>(town->random.Below(static_cast<int>(choices->size())))];
-    const float drawback = DrawbackOf(viewer, from, town->places[static_cast<size_t>(chosen)].position_m, *town);
+    const Vec2 goal = town->places[static_cast<size_t>(chosen)].position_m;
+    float drawback = DrawbackOf(viewer, from, goal, *town);
+    if (town->outlook.is_full && drawback < kWorseThanCrowds) {
+      const float in_the_way =
+          InTheWay(viewer, *town, from, FieldFor(goal, &town->crowd), town->settings.preferred_speed_mps);
+      drawback += std::min(in_the_way, kWorseThanCrowds / 2);
+    }
     if (best < 0 || drawback < least) best = chosen, least = drawback;
     if (least <= 0) break;
   }
