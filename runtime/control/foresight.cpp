@@ -29,26 +29,19 @@ constexpr float kCostOfPace = 1.5f;   // of doubling the pace, in radians
 constexpr float kTurnsInView = 0.5f;  // what the visitor may turn to matters that much to people in view
 constexpr float kAny = 1e-4f;         // of times in the way; they cannot differ by less
 
-// What is asked of people, and how soon they come to it. In view it is no more than people do on their own.
+// What is asked of people, and how soon they come to it. In view it is no more than people do on their own, unless
+// detail matters more than discretion.
 struct Freedom {
-  std::array<float, 9> turns_rad;
-  std::array<float, 5> paces;
-  float cost;  // moments in the way that one radian is worth
+  float turn_rad, pace;  // at most; pace: slower or faster by this share
+  float cost;            // moments in the way that one radian is worth
   float turn_radps, pace_ps;
 };
-constexpr Freedom kUnseen{
-    {0, 0.3f, -0.3f, 0.6f, -0.6f, 1.0f, -1.0f, 1.5f, -1.5f}, {1, 0.85f, 1.2f, 0.75f, 0.45f}, kCostUnseen, 3, 2};
-constexpr Freedom kFar{{0, 0.15f, -0.15f, 0.3f, -0.3f, 0.45f, -0.45f, 0.6f, -0.6f},
-                       {1, 0.9f, 1.1f, 0.95f, 1.05f},
-                       kCostInView,
-                       0.4f,
-                       0.2f};
-constexpr Freedom kNear{{0, 0.08f, -0.08f, 0.16f, -0.16f, 0.2f, -0.2f, 0.25f, -0.25f},
-                        {1, 0.93f, 1.07f, 0.96f, 1.04f},
-                        kCostInView,
-                        0.2f,
-                        0.08f};
-constexpr float kFarFrom = 1.6f;  // times r_high
+constexpr Freedom kUnseen{1.5f, 0.5f, kCostUnseen, 3, 2};
+constexpr Freedom kFar{0.6f, 0.12f, kCostInView, 0.4f, 0.2f};
+constexpr Freedom kNear{0.35f, 0.08f, kCostInView, 0.25f, 0.08f};
+constexpr Freedom kBold{1.1f, 0.2f, kCostInView, 2.5f, 1.5f};                     // without any discretion
+constexpr float kTurns[] = {0, 0.25f, -0.25f, 0.5f, -0.5f, 0.75f, -0.75f, 1, -1};  // shares of the most
+constexpr float kPaces[] = {0, -0.3f, 0.4f, -1, 1};
 
 Vec2 Rotated(Vec2 v, float by_rad) {
   const Vec2 d = DirectionOf(by_rad);
@@ -186,11 +179,16 @@ float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, 
 
 bool CanWalk(const Walkable& w, Vec2 from, Vec2 way) { return IsFree(w, from + way * 0.5f) && IsFree(w, from + way); }
 
-const Freedom& FreedomOf(const Crowd& c, size_t i, const ControlSettings& s, const State& state) {
+Freedom Between(const Freedom& a, const Freedom& b, float share) {
+  const auto mix = [share](float from, float to) { return from + (to - from) * share; };
+  return {mix(a.turn_rad, b.turn_rad), mix(a.pace, b.pace), mix(a.cost, b.cost), mix(a.turn_radps, b.turn_radps),
+          mix(a.pace_ps, b.pace_ps)};
+}
+
+Freedom FreedomOf(const Crowd& c, size_t i, const ControlSettings& s, const State& state) {
   if (c.view[i] != ViewClass::kVisible) return kUnseen;
   const Vec2 off = c.position[i] - state.views[0].position;
-  const float far_m = kFarFrom * s.r_high_m;
-  return Dot(off, off) > far_m * far_m ? kFar : kNear;
+  return Between(kBold, Dot(off, off) > s.r_high_m * s.r_high_m ? kFar : kNear, s.discretion);
 }
 
 State::Memory& MemoryOf(const Crowd& c, size_t i, State* state) { return EntryOf(c.slot[i], c.id[i], &state->memory); }
@@ -213,15 +211,14 @@ void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forec
       m.left_s = kLeans_s;
     return;
   }
-  if (own.x == 0 && own.y == 0) {  // who stands out of sight moves on
-    if (c.view[i] != ViewClass::kVisible) c.wait_s[i] = 0;
-    return;
-  }
-  const Freedom& freedom = FreedomOf(c, i, s, *state);
+  if (own.x == 0 && own.y == 0) return;
+  const Freedom freedom = FreedomOf(c, i, s, *state);
   State::Choice best{0, static_cast<int>(i), {}};
-  for (const float pace : freedom.paces) {
+  for (const float faster : kPaces) {
+    const float pace = 1 + faster * freedom.pace;
     const float change = kCostOfPace * std::abs(pace - m.wanted.pace);
-    for (const float turn : freedom.turns_rad) {
+    for (const float share : kTurns) {
+      const float turn = share * freedom.turn_rad;
       const float at_best = now - freedom.cost * (std::abs(turn - m.wanted.turn_rad) + change);
       if (at_best <= best.gain) continue;
       const Vec2 velocity = Leant(own, {turn, pace}, c.top_mps[i]);
@@ -262,7 +259,7 @@ void Lean(float step_s, const ControlSettings& s, Crowd* c, State* state) {
     State::Memory& m = state->memory[static_cast<size_t>(c->slot[i])];
     if (m.id != c->id[i] || IsStraight(m)) continue;
     if ((m.left_s -= step_s) <= 0) m.wanted = {};
-    const Freedom& freedom = FreedomOf(*c, i, s, *state);
+    const Freedom freedom = FreedomOf(*c, i, s, *state);
     m.now.turn_rad = Approached(m.now.turn_rad, m.wanted.turn_rad, freedom.turn_radps * step_s);
     m.now.pace = Approached(m.now.pace, m.wanted.pace, freedom.pace_ps * step_s);
     const Vec2 own = OwnWay(*c, i);

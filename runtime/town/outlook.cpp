@@ -16,10 +16,21 @@ constexpr float kAfter_s[Outlook::kMoments] = {2, 5, 8, 12};
 constexpr float kTrace_s = 1.0f;   // from point to point of a way that is forecast
 constexpr float kFast_mps = 1.6f;  // few walk faster
 constexpr float kReserve = 0.1f;   // share of the limit kept free for surprises
+constexpr float kSurer[Outlook::kMoments] = {1, 1.15f, 1.3f, 1.5f};  // times the limit: what is far off may yet change
 constexpr float kVisitorsWay_s = 1.5f;
+constexpr float kGoesOn_s = 4;  // the visitor does as before
+constexpr float kPressureGrows_ps = 1.0f, kPressureFades_ps = 0.15f;  // for each limit too many, or too few
+constexpr float kAimsAt = 0.92f;                                       // times the limit
+constexpr float kLax = 1.0f;       // without pressure so many times the limit more may come
+constexpr float kElsewhere = 0.85f;  // a full view matters that much while the visitor looks elsewhere
+constexpr float kNeighbourhood = 2.5f;  // times r_high
+constexpr float kStays = 0.35f;  // share of usual people beyond the limit who stay for discretion
+constexpr int kEveryCell = 2;
+constexpr float kUsual = 0.05f;
+constexpr float kWorthFilling = 0.25f;
 constexpr float kFarFrom = 1.6f;        // times r_high: farther away people may choose another way in view,
 constexpr float kTurnsInView = 0.8f;    // cosine of how far they turn for it
-constexpr int kTries = 3, kMostSent = 10;  // destinations; people at once
+constexpr int kTries = 6, kMostSent = 10;  // destinations; people at once
 
 using Bearing = std::array<int8_t, Outlook::kMoments>;  // sector by moment; -1: out of reach
 
@@ -68,11 +79,13 @@ void Tally(const Bearing& bearing, int count, Outlook* o) {
 }
 
 // Finds where there would be too many, whichever way the visitor looks.
-void MeasureRoom(float fov_rad, int capacity, Outlook* o) {
+void MeasureRoom(float fov_rad, float limit, Outlook* o) {
   constexpr int n = Outlook::kSectors;
   const int width = std::clamp(static_cast<int>(std::ceil(fov_rad / (2 * kPi) * n)) + 1, 1, n);
   o->is_full = false;
-  for (Outlook::Moment& m : o->moments) {
+  for (size_t k = 0; k < Outlook::kMoments; ++k) {
+    Outlook::Moment& m = o->moments[k];
+    const int capacity = static_cast<int>(std::lround(kSurer[k] * limit));
     m.too_many.fill(-capacity);
     int held = 0;
     for (int j = 0; j < width; ++j) held += m.around[static_cast<size_t>(j)];
@@ -97,13 +110,30 @@ float TooMany(const Outlook& o, const Bearing& bearing, int added) {
   return sum;
 }
 
+// How much room would be filled.
+float Fills(const Outlook& o, const Bearing& bearing) {
+  float sum = 0;
+  for (size_t k = 0; k < Outlook::kMoments; ++k) {
+    if (bearing[k] < 0) continue;
+    const int room = -o.moments[k].too_many[static_cast<size_t>(bearing[k])];
+    sum += kWorthFilling * static_cast<float>(std::clamp(room - 1, 0, 4));
+  }
+  return sum;
+}
+
+// Most people in a view: where the usual number is beyond the limit, some of them stay for discretion.
+float Allowed(const Viewer& viewer, const Outlook& o) {
+  const float limit = static_cast<float>(viewer.limit);
+  return limit + kStays * viewer.settings.discretion * std::max(0.0f, o.usual - limit);
+}
+
 // The visitor walks on, until a wall.
 void ForeseeVisitor(const Viewer& viewer, const Town& town, Outlook* o) {
   Vec2 p = viewer.camera.position;
   float now_s = 0;
   for (int k = 0; k < Outlook::kMoments; ++k) {
     for (; now_s < kAfter_s[k]; now_s += 0.5f) {
-      const Vec2 next = p + o->velocity * 0.5f;
+      const Vec2 next = p + o->velocity * (0.5f * std::exp(-now_s / kGoesOn_s));
       if (!IsFree(town.walkable, next)) break;
       p = next;
     }
@@ -140,18 +170,81 @@ Vec2 FirstWay(const Town& town, Vec2 p, int field) {
 }
 
 // Somewhere else where they are less in the way, -1 where nothing is found.
-int BetterDestination(size_t i, Sight sight, float now, const Viewer& viewer, Town* town) {
+int BetterDestination(size_t i, Sight sight, float now, Town* town) {
   int best = -1;
   float least = now;
   const Crowd& c = town->crowd;
-  for (int k = 0; k < kTries && least > 0; ++k) {
-    const int field = PickDestination(viewer, c.position[i], false, town);
+  for (int k = 0; k < kTries; ++k) {
+    const int field = AnyDestination(c.position[i], town);
     if (field < 0 || field == c.field[i]) continue;
     if (sight == Sight::kFar && Dot(FirstWay(*town, c.position[i], field), c.way[i]) < kTurnsInView) continue;
-    const float then = TooMany(town->outlook, Forecast(*town, c.position[i], field, c.preferred_mps[i]), 1);
+    const Bearing bearing = Forecast(*town, c.position[i], field, c.preferred_mps[i]);
+    const float then = TooMany(town->outlook, bearing, 1) - Fills(town->outlook, bearing);
     if (then < least) best = field, least = then;
   }
   return best;
+}
+
+using Sectors = std::array<float, Outlook::kSectors>;
+
+int Width(float fov_rad) {
+  constexpr int n = Outlook::kSectors;
+  return std::clamp(static_cast<int>(std::lround(fov_rad / (2 * kPi) * n)), 1, n);
+}
+
+float Fullest(const Sectors& sectors, int width) {
+  float most = 0;
+  for (int first = 0; first < Outlook::kSectors; ++first) {
+    float sum = 0;
+    for (int j = 0; j < width; ++j) sum += sectors[static_cast<size_t>((first + j) % Outlook::kSectors)];
+    most = std::max(most, sum);
+  }
+  return most;
+}
+
+// Share of the ground of the neighbourhood that lies in the fullest view.
+float ShareOfView(const Viewer& viewer, const Town& town, float around_m) {
+  const Walkable& w = town.walkable;
+  const Vec2 visitor = viewer.camera.position;
+  const float step_m = kEveryCell * w.cell_m;
+  const int reach = static_cast<int>(around_m / step_m);
+  Sectors sectors{};
+  float all = 0;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      const Vec2 off = Vec2{static_cast<float>(x), static_cast<float>(y)} * step_m, p = visitor + off;
+      const float away2 = Dot(off, off);
+      if (away2 > around_m * around_m || !IsFree(w, p)) continue;
+      if (town.crowd_area && !Contains(*town.crowd_area, p)) continue;
+      all += 1;
+      if (away2 < town.outlook.reach_m * town.outlook.reach_m) sectors[static_cast<size_t>(SectorOf(off))] += 1;
+    }
+  }
+  return all > 0 ? Fullest(sectors, Width(viewer.camera.fov_rad)) / all : 0;
+}
+
+// How full it is now, and how full it would be without any control.
+void Watch(const Viewer& viewer, Town* town) {
+  Outlook& o = town->outlook;
+  const ViewVolumes view = VolumesOf(viewer.camera, 0);
+  const float around_m = kNeighbourhood * o.reach_m;
+  Sectors sectors{};
+  float in_view = 0, all = 0;
+  for (size_t i = 0; i < town->crowd.size(); ++i) {
+    const Vec2 off = town->crowd.position[i] - viewer.camera.position;
+    const float away2 = Dot(off, off);
+    if (away2 > around_m * around_m) continue;
+    all += 1;
+    if (away2 > o.reach_m * o.reach_m) continue;
+    sectors[static_cast<size_t>(SectorOf(off))] += 1;
+    if (Meets(town->crowd.position[i], town->crowd.view_reach_m[i], view.inner_apex, view)) in_view += 1;
+  }
+  const float usual = all * ShareOfView(viewer, *town, around_m);
+  o.usual += (usual - o.usual) * (o.usual <= 0 ? 1 : kUsual);
+  const float aim = kAimsAt * Allowed(viewer, o);
+  const float held = std::max(in_view, kElsewhere * Fullest(sectors, Width(viewer.camera.fov_rad)));
+  const float error = aim > 0 ? held / aim - 1 : 1;
+  o.pressure = std::clamp(o.pressure + error * kLookEvery_s * (error > 0 ? kPressureGrows_ps : kPressureFades_ps), 0.0f, 1.0f);
 }
 
 }  // namespace
@@ -163,7 +256,8 @@ void StepOutlook(const Viewer& viewer, Town* town) {
   const int64_t every = std::max<int64_t>(1, std::lround(kLookEvery_s / step_s));
   if (!Adapts(viewer) || town->step % every != 0) return;
   o.reach_m = viewer.settings.r_high_m;
-  const int capacity = viewer.limit - static_cast<int>(std::lround(kReserve * static_cast<float>(viewer.limit)));
+  Watch(viewer, town);
+  const float capacity = (1 - kReserve + kLax * (1 - o.pressure)) * Allowed(viewer, o);
   ForeseeVisitor(viewer, *town, &o);
   const Crowd& c = town->crowd;
   std::vector<std::pair<size_t, Bearing>>& near = town->outlook_near;
@@ -187,7 +281,7 @@ void StepOutlook(const Viewer& viewer, Town* town) {
     const Sight sight = SightOf(company, viewer, *town);
     if (sight == Sight::kNear) continue;
     ++sent;
-    const int field = BetterDestination(i, sight, now, viewer, town);
+    const int field = BetterDestination(i, sight, now, town);
     if (field < 0) continue;
     Tally(bearing, -company.size, &o);
     SendAll(company, field, town);

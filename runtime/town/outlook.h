@@ -23,6 +23,8 @@ struct Outlook {
   };
   Vec2 velocity;         // the visitor's, averaged over some seconds
   float reach_m = 0;     // of what counts, r_high
+  float pressure = 0;    // 0 to 1: how strictly the limit is kept; grows while there are too many
+  float usual = 0;       // people in the fullest view if everybody near were spread evenly, averaged
   bool is_full = false;  // there are too many in some view of some moment
   std::array<Moment, kMoments> moments{};
 };
