@@ -19,12 +19,13 @@ constexpr float kReserve = 0.1f;   // share of the limit kept free for surprises
 constexpr float kSurer[Outlook::kMoments] = {1, 1.15f, 1.3f, 1.5f};  // times the limit: what is far off may yet change
 constexpr float kVisitorsWay_s = 1.5f;
 constexpr float kGoesOn_s = 4;  // the visitor does as before
-constexpr float kPressureGrows_ps = 1.0f, kPressureFades_ps = 0.15f;  // for each limit too many, or too few
-constexpr float kAimsAt = 0.92f;                                       // times the limit
+constexpr float kPressureGrows_ps = 1.0f, kPressureFades_ps = 0.06f;  // for each limit too many, or too few
+constexpr float kAimsAt = 0.82f;                                       // times the limit
 constexpr float kLax = 1.0f;       // without pressure so many times the limit more may come
 constexpr float kElsewhere = 0.85f;  // a full view matters that much while the visitor looks elsewhere
 constexpr float kNeighbourhood = 2.5f;  // times r_high
 constexpr float kStays = 0.35f;  // share of usual people beyond the limit who stay for discretion
+constexpr float kPressureAtStart = 0.7f, kFillsAtStart = 0.9f, kStartRim_m = 0.5f;
 constexpr int kEveryCell = 2;
 constexpr float kUsual = 0.05f;
 constexpr float kWorthFilling = 0.25f;
@@ -122,9 +123,9 @@ float Fills(const Outlook& o, const Bearing& bearing) {
 }
 
 // Most people in a view: where the usual number is beyond the limit, some of them stay for discretion.
-float Allowed(const Viewer& viewer, const Outlook& o) {
-  const float limit = static_cast<float>(viewer.limit);
-  return limit + kStays * viewer.settings.discretion * std::max(0.0f, o.usual - limit);
+float Allowed(int most, float usual, float discretion) {
+  const float limit = static_cast<float>(most);
+  return limit + kStays * discretion * std::max(0.0f, usual - limit);
 }
 
 // The visitor walks on, until a wall.
@@ -241,13 +242,54 @@ void Watch(const Viewer& viewer, Town* town) {
   }
   const float usual = all * ShareOfView(viewer, *town, around_m);
   o.usual += (usual - o.usual) * (o.usual <= 0 ? 1 : kUsual);
-  const float aim = kAimsAt * Allowed(viewer, o);
+  const float aim = kAimsAt * Allowed(viewer.limit, o.usual, viewer.settings.discretion);
   const float held = std::max(in_view, kElsewhere * Fullest(sectors, Width(viewer.camera.fov_rad)));
   const float error = aim > 0 ? held / aim - 1 : 1;
   o.pressure = std::clamp(o.pressure + error * kLookEvery_s * (error > 0 ? kPressureGrows_ps : kPressureFades_ps), 0.0f, 1.0f);
 }
 
+bool CountsAtStart(const Viewer& viewer) {
+  return Adapts(viewer) && viewer.settings.method == LimitMethod::kCount;
+}
+
 }  // namespace
+
+void BeginOutlook(int people, const Viewer& viewer, Town* town) {
+  Outlook& o = town->outlook;
+  o.pressure = kPressureAtStart;
+  o.reach_m = viewer.settings.r_high_m;
+  if (!CountsAtStart(viewer)) return;
+  Sectors sectors{};
+  const std::vector<int> cells = HomeCells(*town);
+  for (const int cell : cells) {
+    const Vec2 off = CellCenter(town->walkable, cell) - viewer.camera.position;
+    if (Dot(off, off) < o.reach_m * o.reach_m) sectors[static_cast<size_t>(SectorOf(off))] += 1;
+  }
+  const float share =
+      Fullest(sectors, Width(viewer.camera.fov_rad)) / std::max(1.0f, static_cast<float>(cells.size()));
+  o.usual = share * static_cast<float>(people);
+}
+
+bool HasRoomAtStart(const Viewer& viewer, const Town& town, Vec2 p) {
+  const Outlook& o = town.outlook;
+  const float reach_m = o.reach_m + kStartRim_m;
+  const Vec2 visitor = viewer.camera.position, own = p - visitor;
+  if (!CountsAtStart(viewer) || Dot(own, own) > reach_m * reach_m) return true;
+  Sectors sectors{};
+  for (const Vec2 other : town.crowd.position) {
+    const Vec2 off = other - visitor;
+    if (Dot(off, off) < reach_m * reach_m) sectors[static_cast<size_t>(SectorOf(off))] += 1;
+  }
+  // Of the views that show p.
+  const int width = Width(viewer.camera.fov_rad) + 1, at = SectorOf(own), n = Outlook::kSectors;
+  float most = 0;
+  for (int first = at - width + 1; first <= at; ++first) {
+    float held = 0;
+    for (int j = 0; j < width; ++j) held += sectors[static_cast<size_t>((first + j + n) % n)];
+    most = std::max(most, held);
+  }
+  return most + 1 <= kFillsAtStart * Allowed(viewer.settings.high_limit, o.usual, viewer.settings.discretion);
+}
 
 void StepOutlook(const Viewer& viewer, Town* town) {
   Outlook& o = town->outlook;
@@ -257,7 +299,8 @@ void StepOutlook(const Viewer& viewer, Town* town) {
   if (!Adapts(viewer) || town->step % every != 0) return;
   o.reach_m = viewer.settings.r_high_m;
   Watch(viewer, town);
-  const float capacity = (1 - kReserve + kLax * (1 - o.pressure)) * Allowed(viewer, o);
+  const float allowed = Allowed(viewer.limit, o.usual, viewer.settings.discretion);
+  const float capacity = (1 - kReserve + kLax * (1 - o.pressure)) * allowed;
   ForeseeVisitor(viewer, *town, &o);
   const Crowd& c = town->crowd;
   std::vector<std::pair<size_t, Bearing>>& near = town->outlook_near;

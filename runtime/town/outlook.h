@@ -29,6 +29,10 @@ struct Outlook {
   std::array<Moment, kMoments> moments{};
 };
 
+// Before anybody is placed: where they start heeds the limit as well, so that the first picture keeps it.
+void BeginOutlook(int people, const Viewer& viewer, Town* town);
+bool HasRoomAtStart(const Viewer& viewer, const Town& town, Vec2 p);
+
 // Only with full adaptation. Looks a few times a second, and sends people elsewhere who are out of sight, or far away,
 // and would be too many.
 void StepOutlook(const Viewer& viewer, Town* town);
