@@ -39,7 +39,7 @@ struct Freedom {
 constexpr Freedom kUnseen{1.5f, 0.5f, kCostUnseen, 3, 2};
 constexpr Freedom kFar{1.0f, 0.15f, 0.7f, 0.8f, 0.3f};
 constexpr Freedom kNear{0.5f, 0.12f, 0.9f, 0.5f, 0.15f};
-constexpr Freedom kBold{1.1f, 0.2f, kCostInView, 2.5f, 1.5f};                     // without any discretion
+constexpr Freedom kBold{1.1f, 0.2f, kCostInView, 2.5f, 1.5f};                      // without any discretion
 constexpr float kTurns[] = {0, 0.25f, -0.25f, 0.5f, -0.5f, 0.75f, -0.75f, 1, -1};  // shares of the most
 constexpr float kPaces[] = {0, -0.3f, 0.4f, -1, 1};
 

@@ -13,24 +13,24 @@ namespace {
 
 constexpr float kLookEvery_s = 0.4f;
 constexpr float kAfter_s[Outlook::kMoments] = {2, 5, 8, 12};
-constexpr float kTrace_s = 1.0f;   // from point to point of a way that is forecast
-constexpr float kFast_mps = 1.6f;  // few walk faster
-constexpr float kReserve = 0.1f;   // share of the limit kept free for surprises
+constexpr float kTrace_s = 1.0f;                                     // from point to point of a way that is forecast
+constexpr float kFast_mps = 1.6f;                                    // few walk faster
+constexpr float kReserve = 0.1f;                                     // share of the limit kept free for surprises
 constexpr float kSurer[Outlook::kMoments] = {1, 1.15f, 1.3f, 1.5f};  // times the limit: what is far off may yet change
 constexpr float kVisitorsWay_s = 1.5f;
-constexpr float kGoesOn_s = 4;  // the visitor does as before
+constexpr float kGoesOn_s = 4;                                        // the visitor does as before
 constexpr float kPressureGrows_ps = 1.0f, kPressureFades_ps = 0.06f;  // for each limit too many, or too few
-constexpr float kAimsAt = 0.82f;                                       // times the limit
-constexpr float kLax = 1.0f;       // without pressure so many times the limit more may come
-constexpr float kElsewhere = 0.85f;  // a full view matters that much while the visitor looks elsewhere
+constexpr float kAimsAt = 0.82f;                                      // times the limit
+constexpr float kLax = 1.0f;            // without pressure so many times the limit more may come
+constexpr float kElsewhere = 0.85f;     // a full view matters that much while the visitor looks elsewhere
 constexpr float kNeighbourhood = 2.5f;  // times r_high
-constexpr float kStays = 0.35f;  // share of usual people beyond the limit who stay for discretion
+constexpr float kStays = 0.35f;         // share of usual people beyond the limit who stay for discretion
 constexpr float kPressureAtStart = 0.7f, kFillsAtStart = 0.9f, kStartRim_m = 0.5f;
 constexpr int kEveryCell = 2;
 constexpr float kUsual = 0.05f;
 constexpr float kWorthFilling = 0.25f;
-constexpr float kFarFrom = 1.6f;        // times r_high: farther away people may choose another way in view,
-constexpr float kTurnsInView = 0.8f;    // cosine of how far they turn for it
+constexpr float kFarFrom = 1.6f;           // times r_high: farther away people may choose another way in view,
+constexpr float kTurnsInView = 0.8f;       // cosine of how far they turn for it
 constexpr int kTries = 6, kMostSent = 10;  // destinations; people at once
 
 using Bearing = std::array<int8_t, Outlook::kMoments>;  // sector by moment; -1: out of reach
@@ -245,12 +245,11 @@ void Watch(const Viewer& viewer, Town* town) {
   const float aim = kAimsAt * Allowed(viewer.limit, o.usual, viewer.settings.discretion);
   const float held = std::max(in_view, kElsewhere * Fullest(sectors, Width(viewer.camera.fov_rad)));
   const float error = aim > 0 ? held / aim - 1 : 1;
-  o.pressure = std::clamp(o.pressure + error * kLookEvery_s * (error > 0 ? kPressureGrows_ps : kPressureFades_ps), 0.0f, 1.0f);
+  o.pressure =
+      std::clamp(o.pressure + error * kLookEvery_s * (error > 0 ? kPressureGrows_ps : kPressureFades_ps), 0.0f, 1.0f);
 }
 
-bool CountsAtStart(const Viewer& viewer) {
-  return Adapts(viewer) && viewer.settings.method == LimitMethod::kCount;
-}
+bool CountsAtStart(const Viewer& viewer) { return Adapts(viewer) && viewer.settings.method == LimitMethod::kCount; }
 
 }  // namespace
 
@@ -265,8 +264,7 @@ void BeginOutlook(int people, const Viewer& viewer, Town* town) {
     const Vec2 off = CellCenter(town->walkable, cell) - viewer.camera.position;
     if (Dot(off, off) < o.reach_m * o.reach_m) sectors[static_cast<size_t>(SectorOf(off))] += 1;
   }
-  const float share =
-      Fullest(sectors, Width(viewer.camera.fov_rad)) / std::max(1.0f, static_cast<float>(cells.size()));
+  const float share = Fullest(sectors, Width(viewer.camera.fov_rad)) / std::max(1.0f, static_cast<float>(cells.size()));
   o.usual = share * static_cast<float>(people);
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 #include <array>
 
-#include "runtime/tour_data/settings.h"
 #include "runtime/base/math.h"
+#include "runtime/tour_data/settings.h"
 
 namespace flaneur {
 

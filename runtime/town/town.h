@@ -111,7 +111,7 @@ struct Town {
   Enclosure enclosure;
   Outlook outlook;
   std::vector<std::pair<size_t, std::array<int8_t, Outlook::kMoments>>> outlook_near;  // scratch of StepOutlook
-  DensityMap density;  // of everybody, once a second
+  DensityMap density;                                                                  // of everybody, once a second
   Random random;
   int64_t step = 0;                   // so many are over
   std::vector<std::string> warnings;  // of what cannot be as the tour says

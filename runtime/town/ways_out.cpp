@@ -10,10 +10,10 @@ namespace flaneur {
 namespace {
 
 constexpr float kLookEvery_s = 0.5f;
-constexpr float kKeepAway_m = 2.0f;   // people don't like to squeeze past anybody closer
-constexpr float kSoon_s = 1.5f;       // the visitor's way is thought on so far
-constexpr float kBeyondHigh_m = 12;   // who is cut off within r_high and this counts
-constexpr float kReserve = 0.15f;     // share of the limit kept free
+constexpr float kKeepAway_m = 2.0f;  // people don't like to squeeze past anybody closer
+constexpr float kSoon_s = 1.5f;      // the visitor's way is thought on so far
+constexpr float kBeyondHigh_m = 12;  // who is cut off within r_high and this counts
+constexpr float kReserve = 0.15f;    // share of the limit kept free
 
 bool Adapts(const Viewer& viewer) { return viewer.present && viewer.settings.adaptation == Adaptation::kFull; }
 
