@@ -19,11 +19,16 @@ constexpr float kReach_m = 8;                           // beyond r_high: who ma
 constexpr float kRim_m = 0.6f;                          // the forecast is that uncertain
 constexpr float kReserve = 0.06f;                       // share of the limit kept free for surprises
 constexpr float kTurnLasts_s = 1.0f;                    // a turn of the head dies away
-constexpr float kWalksOn_s = 0.5f;                      // in the new direction after a turn
-constexpr float kLeans_s = 2.0f;                        // a choice holds so long
-constexpr float kHold_s = 0.2f;                         // what is asked is asked anew every step
-constexpr float kAheadFree_s = 1.5f;                    // and must be walkable so far
-constexpr float kCostUnseen = 0.1f;                     // moments in the way that one radian is worth
+constexpr float kWalksOn_m = 8;
+constexpr float kWalksOn_s = 0.5f;                           // in the new direction after a turn
+constexpr float kLeans_s = 2.0f;                             // a choice holds so long
+constexpr float kBoldReserve = 0.2f, kBoldWalksOn_s = 2.6f;  // without discretion
+constexpr float kStepsAside_s = 3;                           // people make room for the visitor so long before
+constexpr float kRoom_m = 0.15f;
+constexpr float kBlockingCounts = 5;  // moments that holding the visitor up is worth, without discretion
+constexpr float kHold_s = 0.2f;       // what is asked is asked anew every step
+constexpr float kAheadFree_s = 1.5f;  // and must be walkable so far
+constexpr float kCostUnseen = 0.1f;   // moments in the way that one radian is worth
 constexpr float kCostInView = 1.35f;
 constexpr float kCostOfPace = 1.5f;   // of doubling the pace, in radians
 constexpr float kTurnsInView = 0.5f;  // what the visitor may turn to matters that much to people in view
@@ -39,7 +44,7 @@ struct Freedom {
 constexpr Freedom kUnseen{1.5f, 0.5f, kCostUnseen, 3, 2};
 constexpr Freedom kFar{1.0f, 0.15f, 0.7f, 0.8f, 0.3f};
 constexpr Freedom kNear{0.5f, 0.12f, 0.9f, 0.5f, 0.15f};
-constexpr Freedom kBold{1.1f, 0.2f, kCostInView, 2.5f, 1.5f};                      // without any discretion
+constexpr Freedom kBold{1.1f, 0.2f, kCostInView, 90, 30};                          // without any discretion
 constexpr float kTurns[] = {0, 0.25f, -0.25f, 0.5f, -0.5f, 0.75f, -0.75f, 1, -1};  // shares of the most
 constexpr float kPaces[] = {0, -0.3f, 0.4f, -1, 1};
 
@@ -74,7 +79,7 @@ bool InView(const State& state, int moment, float r_high_m, Vec2 p, float body_m
 
 // Near enough to matter if the visitor turns that way, and perhaps walks on there.
 bool InTurningReach(const State& state, float r_high_m, Vec2 off) {
-  const float reach_m = r_high_m + kWalksOn_s * state.speed_mps;
+  const float reach_m = r_high_m + std::min(state.walks_on_s * state.speed_mps, kWalksOn_m);
   return Dot(off, off) < reach_m * reach_m;
 }
 
@@ -147,6 +152,20 @@ void MeasureExcess(float fov_rad, int capacity, State* state) {
   }
 }
 
+// Whether the visitor would have to stop for the person.
+bool Blocks(const Crowd& c, size_t i, Vec2 velocity, float r_personal_m, const State& state) {
+  const Vec2 apart = c.position[i] - state.views[0].position, closing = state.motion.velocity - velocity;
+  const float speed2 = Dot(closing, closing), ahead = Dot(apart, closing);
+  if (ahead <= 0 || ahead > kStepsAside_s * speed2) return false;
+  const float reach_m = r_personal_m + c.radius_m[i] + kRoom_m;
+  return Dot(apart, apart) * speed2 - ahead * ahead < reach_m * reach_m * speed2;
+}
+
+float BlockingCounts(const Crowd& c, size_t i, Vec2 velocity, const ControlSettings& s, const State& state) {
+  if (s.discretion >= 1 || !Blocks(c, i, velocity, s.r_personal_m, state)) return 0;
+  return kBlockingCounts * (1 - s.discretion);
+}
+
 // How much one person too many in this sector counts. Where every direction is full already, the fullest counts most.
 float ExcessCounts(const Crowd& c, size_t i, size_t turn, int sector, const State& state) {
   const int excess = sector < 0 ? 0 : state.excess[turn][static_cast<size_t>(sector)];
@@ -156,8 +175,10 @@ float ExcessCounts(const Crowd& c, size_t i, size_t turn, int sector, const Stat
 }
 
 // In how many instants the person would be one too many.
-float TimesInTheWay(const Crowd& c, size_t i, const Forecast& f, const State& state) {
-  float times = static_cast<float>(std::popcount(f.in_view & state.overfull_moments));
+float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, const ControlSettings& s,
+                    const State& state) {
+  float times = BlockingCounts(c, i, velocity, s, state);
+  times += static_cast<float>(std::popcount(f.in_view & state.overfull_moments));
   for (size_t k = 0; k < State::kTurns; ++k) times += ExcessCounts(c, i, k, f.sector[k], state);
   return times;
 }
@@ -165,7 +186,7 @@ float TimesInTheWay(const Crowd& c, size_t i, const Forecast& f, const State& st
 // The same with another velocity, counted no further than `enough`. Where the person is now they are with any velocity.
 float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, const ControlSettings& s, float enough,
                     const State& state) {
-  float times = 0;
+  float times = BlockingCounts(c, i, velocity, s, state);
   for (uint32_t left = state.overfull_moments; left != 0 && times < enough; left &= left - 1) {
     if (WouldBeInView(c, i, velocity, s.r_high_m, std::countr_zero(left), state)) ++times;
   }
@@ -204,7 +225,7 @@ void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forec
   Crowd& c = *crowd;
   State::Memory& m = MemoryOf(c, i, state);
   const Vec2 own = OwnWay(c, i);
-  const float now = TimesInTheWay(c, i, forecast, *state);
+  const float now = TimesInTheWay(c, i, Desired(c, i), forecast, s, *state);
   if (now == 0) {  // what goes well ends only when the own way is free again: nobody wavers
     if (!(m.wanted == State::Lean{}) && TimesInTheWay(c, i, own, forecast, s, kAny, *state) > 0 &&
         CanWalk(w, c.position[i], Desired(c, i) * kAheadFree_s))
@@ -237,8 +258,9 @@ void Choose(const ControlSettings& s, float fov_rad, int capacity, Crowd* c, Sta
   });
   for (const State::Choice& choice : state->choices) {
     const size_t i = static_cast<size_t>(choice.person);
-    const Forecast forecast = Forecasted(*c, i, Desired(*c, i), s.r_high_m, *state);
-    if (TimesInTheWay(*c, i, forecast, *state) == 0) continue;  // others have made room
+    const Vec2 desired = Desired(*c, i);
+    const Forecast forecast = Forecasted(*c, i, desired, s.r_high_m, *state);
+    if (TimesInTheWay(*c, i, desired, forecast, s, *state) == 0) continue;  // others have made room
     Tally(forecast, -1, state);
     State::Memory& m = MemoryOf(*c, i, state);
     m.wanted = choice.lean;
@@ -278,7 +300,9 @@ void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable&
   state->high_limit = high_limit;
   Lean(Step_s(s), s, c, state);
   if (state->step++ % kPlanEvery_steps != 0) return;
-  const int capacity = high_limit - static_cast<int>(std::lround(kReserve * static_cast<float>(high_limit)));
+  const float reserve = kBoldReserve + (kReserve - kBoldReserve) * s.discretion;
+  state->walks_on_s = kBoldWalksOn_s + (kWalksOn_s - kBoldWalksOn_s) * s.discretion;
+  const int capacity = high_limit - static_cast<int>(std::lround(reserve * static_cast<float>(high_limit)));
   const float reach_m = s.r_high_m + kReach_m + state->speed_mps * MomentTime_s(State::kMoments - 1);
   state->near.clear();
   state->choices.clear();

@@ -18,9 +18,10 @@ struct ForesightState {
   static constexpr int kTurns = 3;     // of the moments, in which the visitor may look anywhere
 
   int64_t step = 0;
-  int high_limit = 0;   // in force
-  ViewMotion motion;    // of the camera, settled
-  float speed_mps = 0;  // likewise
+  int high_limit = 0;    // in force
+  ViewMotion motion;     // of the camera, settled
+  float speed_mps = 0;   // likewise
+  float walks_on_s = 0;  // in a new direction, as far as it counts
   struct FutureView {
     Vec2 position, axis;
   };  // of the camera
