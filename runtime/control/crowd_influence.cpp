@@ -18,7 +18,7 @@ void AddCameraObstacles(const ViewCamera& camera, float yaw_rate_radps, const Le
   obstacles->push_back({camera.position + Direction(camera.yaw_rad) * r, r, false});
   obstacles->push_back({camera.position + Direction(camera.yaw_rad + side * camera.fov_rad / 2) * r, r, false});
   for (size_t i = 0; i < crowd->size(); ++i) {
-    if (crowd->view[i] != ViewClass::kVisible || IsMesh(levels.people[i].level)) continue;
+    if (IsMesh(LevelInView(*crowd, levels, i))) continue;
     crowd->avoids_camera[i] =
         crowd->activity[i] != Activity::kWorking && Length(crowd->position[i] - camera.position) < s.r_unimportant_m;
   }

@@ -17,26 +17,36 @@ constexpr float kMoment_s = 0.5f;                       // between the moments l
 constexpr int kTurnMoments[State::kTurns] = {0, 2, 4};  // the first is now
 constexpr float kReach_m = 8;                           // beyond r_high: who may be inside within the foresight
 constexpr float kRim_m = 0.6f;                          // the forecast is that uncertain
-constexpr float kReserve = 0.2f;                        // share of the limit kept free for surprises
-constexpr int kReservesFrom = 5;                        // people; of a smaller limit everybody is needed
+constexpr float kReserve = 0.06f;                       // share of the limit kept free for surprises
 constexpr float kTurnLasts_s = 1.0f;                    // a turn of the head dies away
-constexpr float kWalksOn_s = 2.6f;                      // in the new direction after a turn,
-constexpr float kWalksOn_m = 8;                         // at most so far
-constexpr float kDetour_s = 2.0f;                       // a choice holds so long
-constexpr float kAheadFree_s = 1.5f;                    // and must be walkable so far
-constexpr float kPaces[] = {1.0f, 0.85f, 1.2f, 0.75f, 0.45f};
-constexpr float kTurns_rad[] = {0, 0.3f, -0.3f, 0.6f, -0.6f, 1.0f, -1.0f, 1.5f, -1.5f};
-constexpr float kMaxTurnInView_rad = 1.1f;
-constexpr float kMinPaceInView = 0.8f;  // who dawdles is noticed
-constexpr float kCostInView = 1.35f;
-constexpr float kCostUnseen = 0.1f;  // moments in the way that one radian is worth
-constexpr float kCostOfPace = 1.5f;  // of doubling the pace, in radians
-constexpr float kStepsAside_s = 3;   // people make room for the visitor so long before
+constexpr float kWalksOn_m = 8;
+constexpr float kWalksOn_s = 0.5f;                           // in the new direction after a turn
+constexpr float kLeans_s = 2.0f;                             // a choice holds so long
+constexpr float kBoldReserve = 0.2f, kBoldWalksOn_s = 2.6f;  // without discretion
+constexpr float kStepsAside_s = 3;                           // people make room for the visitor so long before
 constexpr float kRoom_m = 0.15f;
-constexpr float kBlockingCounts = 3;       // moments that holding the visitor up is worth
-constexpr float kTurnsInView = 0.5f;       // what the visitor may turn to matters that much to people in view
-constexpr float kAny = 1e-4f;              // of times in the way; they cannot differ by less
-constexpr float kCostOfSettingOff = 8.0f;  // moments that it is worth to leave somebody standing
+constexpr float kBlockingCounts = 5;  // moments that holding the visitor up is worth, without discretion
+constexpr float kHold_s = 0.2f;       // what is asked is asked anew every step
+constexpr float kAheadFree_s = 1.5f;  // and must be walkable so far
+constexpr float kCostUnseen = 0.1f;   // moments in the way that one radian is worth
+constexpr float kCostInView = 1.35f;
+constexpr float kCostOfPace = 1.5f;   // of doubling the pace, in radians
+constexpr float kTurnsInView = 0.5f;  // what the visitor may turn to matters that much to people in view
+constexpr float kAny = 1e-4f;         // of times in the way; they cannot differ by less
+
+// What is asked of people, and how soon they come to it. In view it is no more than people do on their own, unless
+// detail matters more than discretion.
+struct Freedom {
+  float turn_rad, pace;  // at most; pace: slower or faster by this share
+  float cost;            // moments in the way that one radian is worth
+  float turn_radps, pace_ps;
+};
+constexpr Freedom kUnseen{1.5f, 0.5f, kCostUnseen, 3, 2};
+constexpr Freedom kFar{1.0f, 0.15f, 0.7f, 0.8f, 0.3f};
+constexpr Freedom kNear{0.5f, 0.12f, 0.9f, 0.5f, 0.15f};
+constexpr Freedom kBold{1.1f, 0.2f, kCostInView, 90, 30};                          // without any discretion
+constexpr float kTurns[] = {0, 0.25f, -0.25f, 0.5f, -0.5f, 0.75f, -0.75f, 1, -1};  // shares of the most
+constexpr float kPaces[] = {0, -0.3f, 0.4f, -1, 1};
 
 Vec2 Rotated(Vec2 v, float by_rad) {
   const Vec2 d = DirectionOf(by_rad);
@@ -69,7 +79,7 @@ bool InView(const State& state, int moment, float r_high_m, Vec2 p, float body_m
 
 // Near enough to matter if the visitor turns that way, and perhaps walks on there.
 bool InTurningReach(const State& state, float r_high_m, Vec2 off) {
-  const float reach_m = r_high_m + std::min(kWalksOn_s * state.speed_mps, kWalksOn_m);
+  const float reach_m = r_high_m + std::min(state.walks_on_s * state.speed_mps, kWalksOn_m);
   return Dot(off, off) < reach_m * reach_m;
 }
 
@@ -151,6 +161,11 @@ bool Blocks(const Crowd& c, size_t i, Vec2 velocity, float r_personal_m, const S
   return Dot(apart, apart) * speed2 - ahead * ahead < reach_m * reach_m * speed2;
 }
 
+float BlockingCounts(const Crowd& c, size_t i, Vec2 velocity, const ControlSettings& s, const State& state) {
+  if (s.discretion >= 1 || !Blocks(c, i, velocity, s.r_personal_m, state)) return 0;
+  return kBlockingCounts * (1 - s.discretion);
+}
+
 // How much one person too many in this sector counts. Where every direction is full already, the fullest counts most.
 float ExcessCounts(const Crowd& c, size_t i, size_t turn, int sector, const State& state) {
   const int excess = sector < 0 ? 0 : state.excess[turn][static_cast<size_t>(sector)];
@@ -160,8 +175,9 @@ float ExcessCounts(const Crowd& c, size_t i, size_t turn, int sector, const Stat
 }
 
 // In how many instants the person would be one too many.
-float TimesInTheWay(const Crowd& c, size_t i, const Forecast& f, bool blocks, const State& state) {
-  float times = blocks ? kBlockingCounts : 0;
+float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, const ControlSettings& s,
+                    const State& state) {
+  float times = BlockingCounts(c, i, velocity, s, state);
   times += static_cast<float>(std::popcount(f.in_view & state.overfull_moments));
   for (size_t k = 0; k < State::kTurns; ++k) times += ExcessCounts(c, i, k, f.sector[k], state);
   return times;
@@ -170,7 +186,7 @@ float TimesInTheWay(const Crowd& c, size_t i, const Forecast& f, bool blocks, co
 // The same with another velocity, counted no further than `enough`. Where the person is now they are with any velocity.
 float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, const ControlSettings& s, float enough,
                     const State& state) {
-  float times = Blocks(c, i, velocity, s.r_personal_m, state) ? kBlockingCounts : 0;
+  float times = BlockingCounts(c, i, velocity, s, state);
   for (uint32_t left = state.overfull_moments; left != 0 && times < enough; left &= left - 1) {
     if (WouldBeInView(c, i, velocity, s.r_high_m, std::countr_zero(left), state)) ++times;
   }
@@ -184,40 +200,52 @@ float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, 
 
 bool CanWalk(const Walkable& w, Vec2 from, Vec2 way) { return IsFree(w, from + way * 0.5f) && IsFree(w, from + way); }
 
+Freedom Between(const Freedom& a, const Freedom& b, float share) {
+  const auto mix = [share](float from, float to) { return from + (to - from) * share; };
+  return {mix(a.turn_rad, b.turn_rad), mix(a.pace, b.pace), mix(a.cost, b.cost), mix(a.turn_radps, b.turn_radps),
+          mix(a.pace_ps, b.pace_ps)};
+}
+
+Freedom FreedomOf(const Crowd& c, size_t i, const ControlSettings& s, const State& state) {
+  if (c.view[i] != ViewClass::kVisible) return kUnseen;
+  const Vec2 off = c.position[i] - state.views[0].position;
+  return Between(kBold, Dot(off, off) > s.r_high_m * s.r_high_m ? kFar : kNear, s.discretion);
+}
+
+State::Memory& MemoryOf(const Crowd& c, size_t i, State* state) { return EntryOf(c.slot[i], c.id[i], &state->memory); }
+
+Vec2 Leant(Vec2 own, const State::Lean& lean, float top_mps) {
+  return ClampLength(Rotated(own, lean.turn_rad) * lean.pace, top_mps);
+}
+
+bool IsStraight(const State::Memory& m) { return m.now == State::Lean{} && m.wanted == State::Lean{}; }
+
 void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forecast& forecast, Crowd* crowd,
               State* state) {
   Crowd& c = *crowd;
-  const Vec2 desired = Desired(c, i);
-  const float now = TimesInTheWay(c, i, forecast, Blocks(c, i, desired, s.r_personal_m, *state), *state);
-  if (now == 0) {  // a detour that goes well ends only when the own way is free again: nobody wavers
-    const bool on_detour = c.detour_s[i] > 0;
-    if (on_detour && TimesInTheWay(c, i, OwnWay(c, i), forecast, s, kAny, *state) > 0 &&
-        CanWalk(w, c.position[i], desired * kAheadFree_s)) {
-      c.detour_s[i] = kDetour_s;
-    }
+  State::Memory& m = MemoryOf(c, i, state);
+  const Vec2 own = OwnWay(c, i);
+  const float now = TimesInTheWay(c, i, Desired(c, i), forecast, s, *state);
+  if (now == 0) {  // what goes well ends only when the own way is free again: nobody wavers
+    if (!(m.wanted == State::Lean{}) && TimesInTheWay(c, i, own, forecast, s, kAny, *state) > 0 &&
+        CanWalk(w, c.position[i], Desired(c, i) * kAheadFree_s))
+      m.left_s = kLeans_s;
     return;
   }
-  const bool seen = c.view[i] == ViewClass::kVisible, stands = Dot(desired, desired) < 0.01f;
-  const float cost = seen ? kCostInView : kCostUnseen;
-  const Vec2 off = c.position[i] - state->views[2].position;
-  const float off_m = std::max(Length(off), 1e-3f);
-  const Vec2 ahead = stands ? off * (1 / off_m)
-                            : desired * (1 / Length(desired));  // who stands walks away from where the visitor will be
-  const float now_mps = stands ? c.preferred_mps[i] : Length(desired),
-              preferred_mps = std::max(c.preferred_mps[i], 0.1f);
+  if (own.x == 0 && own.y == 0) return;
+  const Freedom freedom = FreedomOf(c, i, s, *state);
   State::Choice best{0, static_cast<int>(i), {}};
-  for (const float pace : kPaces) {
-    const float speed_mps = std::min(pace * preferred_mps, c.top_mps[i]);
-    if (seen && pace < kMinPaceInView) continue;
-    const float change = kCostOfPace * std::abs(speed_mps - now_mps) / preferred_mps;
-    for (const float turn : kTurns_rad) {
-      if (seen && std::abs(turn) > kMaxTurnInView_rad) continue;
-      const float at_best = now - cost * (std::abs(turn) + change) - (stands ? kCostOfSettingOff : 0);
+  for (const float faster : kPaces) {
+    const float pace = 1 + faster * freedom.pace;
+    const float change = kCostOfPace * std::abs(pace - m.wanted.pace);
+    for (const float share : kTurns) {
+      const float turn = share * freedom.turn_rad;
+      const float at_best = now - freedom.cost * (std::abs(turn - m.wanted.turn_rad) + change);
       if (at_best <= best.gain) continue;
-      const Vec2 velocity = Rotated(ahead, turn) * speed_mps;
+      const Vec2 velocity = Leant(own, {turn, pace}, c.top_mps[i]);
       const float gain = at_best - TimesInTheWay(c, i, velocity, forecast, s, at_best - best.gain + kAny, *state);
       if (gain > best.gain && CanWalk(w, c.position[i], velocity * kAheadFree_s))
-        best.gain = gain, best.velocity = velocity;
+        best.gain = gain, best.lean = {turn, pace};
     }
   }
   if (best.gain > 0) state->choices.push_back(best);
@@ -232,13 +260,35 @@ void Choose(const ControlSettings& s, float fov_rad, int capacity, Crowd* c, Sta
     const size_t i = static_cast<size_t>(choice.person);
     const Vec2 desired = Desired(*c, i);
     const Forecast forecast = Forecasted(*c, i, desired, s.r_high_m, *state);
-    const bool blocks = Blocks(*c, i, desired, s.r_personal_m, *state);
-    if (TimesInTheWay(*c, i, forecast, blocks, *state) == 0) continue;  // others have made room
+    if (TimesInTheWay(*c, i, desired, forecast, s, *state) == 0) continue;  // others have made room
     Tally(forecast, -1, state);
-    c->detour[i] = choice.velocity;
-    c->detour_s[i] = kDetour_s;
-    Tally(Forecasted(*c, i, choice.velocity, s.r_high_m, *state), 1, state);
+    State::Memory& m = MemoryOf(*c, i, state);
+    m.wanted = choice.lean;
+    m.left_s = kLeans_s;
+    c->detour[i] = Leant(OwnWay(*c, i), m.now, c->top_mps[i]);
+    c->detour_s[i] = kHold_s;
+    Tally(Forecasted(*c, i, Leant(OwnWay(*c, i), m.wanted, c->top_mps[i]), s.r_high_m, *state), 1, state);
     MeasureExcess(fov_rad, capacity, state);
+  }
+}
+
+float Approached(float now, float wanted, float most) { return now + std::clamp(wanted - now, -most, most); }
+
+// Everybody who leans comes a step nearer to what is wanted of them; who is on their own way again is let go.
+void Lean(float step_s, const ControlSettings& s, Crowd* c, State* state) {
+  for (size_t i = 0; i < c->size(); ++i) {
+    if (c->detour_s[i] <= 0 || static_cast<size_t>(c->slot[i]) >= state->memory.size()) continue;
+    State::Memory& m = state->memory[static_cast<size_t>(c->slot[i])];
+    if (m.id != c->id[i] || IsStraight(m)) continue;
+    if ((m.left_s -= step_s) <= 0) m.wanted = {};
+    const Freedom freedom = FreedomOf(*c, i, s, *state);
+    m.now.turn_rad = Approached(m.now.turn_rad, m.wanted.turn_rad, freedom.turn_radps * step_s);
+    m.now.pace = Approached(m.now.pace, m.wanted.pace, freedom.pace_ps * step_s);
+    const Vec2 own = OwnWay(*c, i);
+    const bool over = IsStraight(m) || (own.x == 0 && own.y == 0);
+    if (over) m.now = m.wanted = {};
+    c->detour[i] = Leant(own, m.now, c->top_mps[i]);
+    c->detour_s[i] = over ? 0 : kHold_s;
   }
 }
 
@@ -248,10 +298,11 @@ void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable&
              int high_limit, Crowd* c, State* state) {
   FollowCamera(camera, motion, Step_s(s), state);
   state->high_limit = high_limit;
+  Lean(Step_s(s), s, c, state);
   if (state->step++ % kPlanEvery_steps != 0) return;
-  const int reserve =
-      high_limit < kReservesFrom ? 0 : static_cast<int>(std::lround(kReserve * static_cast<float>(high_limit)));
-  const int capacity = high_limit - reserve;
+  const float reserve = kBoldReserve + (kReserve - kBoldReserve) * s.discretion;
+  state->walks_on_s = kBoldWalksOn_s + (kWalksOn_s - kBoldWalksOn_s) * s.discretion;
+  const int capacity = high_limit - static_cast<int>(std::lround(reserve * static_cast<float>(high_limit)));
   const float reach_m = s.r_high_m + kReach_m + state->speed_mps * MomentTime_s(State::kMoments - 1);
   state->near.clear();
   state->choices.clear();
@@ -267,7 +318,7 @@ void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable&
   MeasureExcess(camera.fov_rad, capacity, state);
   for (const State::Near& n : state->near) {
     const size_t i = static_cast<size_t>(n.person);
-    if (c->activity[i] != Activity::kWorking && c->detour_s[i] <= 0.5f * kDetour_s)
+    if (c->activity[i] != Activity::kWorking && MemoryOf(*c, i, state).left_s <= 0.5f * kLeans_s)
       Consider(walkable, s, i, n.forecast, c, state);
   }
   Choose(s, camera.fov_rad, capacity, c, state);

@@ -14,13 +14,14 @@ namespace flaneur {
 // Scratch, kept so that a steady step allocates nothing, and what is remembered of the camera.
 struct ForesightState {
   static constexpr int kMoments = 11;  // looked at ahead, half a second apart
-  static constexpr int kSectors = 24;  // around the camera
+  static constexpr int kSectors = 48;  // around the camera
   static constexpr int kTurns = 3;     // of the moments, in which the visitor may look anywhere
 
   int64_t step = 0;
-  int high_limit = 0;   // in force
-  ViewMotion motion;    // of the camera, settled
-  float speed_mps = 0;  // likewise
+  int high_limit = 0;    // in force
+  ViewMotion motion;     // of the camera, settled
+  float speed_mps = 0;   // likewise
+  float walks_on_s = 0;  // in a new direction, as far as it counts
   struct FutureView {
     Vec2 position, axis;
   };  // of the camera
@@ -39,12 +40,24 @@ struct ForesightState {
     Forecast forecast;
   };
   std::vector<Near> near;
+  struct Lean {  // how somebody walks, relative to their own way
+    float turn_rad = 0, pace = 1;
+
+    bool operator==(const Lean&) const = default;
+  };
   struct Choice {
     float gain = 0;
     int person = 0;
-    Vec2 velocity;
+    Lean lean;
   };
   std::vector<Choice> choices;
+  // What is remembered of somebody from step to step.
+  struct Memory {
+    int id = -1;
+    Lean now, wanted;  // now comes nearer to wanted from step to step
+    float left_s = 0;  // that it is wanted
+  };
+  std::vector<Memory> memory;  // by slot
 };
 
 // Every few steps: forecasts, with everybody going on as they do, how many people will be within r_high in view, and,

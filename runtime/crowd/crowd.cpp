@@ -63,6 +63,7 @@ void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
   Mind& mind = c->mind[i];
   mind.push = {};
   if (c->detour_s[i] > 0 || c->activity[i] != Activity::kWalking || c->field[i] < 0) {
+    if (c->turn[i] && c->field[i] >= 0) RenewWay(w, i, false, true, c);
     c->wanted[i] = c->detour_s[i] > 0 ? c->detour[i] : Vec2{};
     return;
   }

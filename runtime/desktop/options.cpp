@@ -69,6 +69,9 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("--adaptation", o->adaptation,
                  "How the crowd keeps out of the visitor's way: off, paper or full (default: likewise)")
       ->check(CLI::IsMember({"off", "paper", "full"}));
+  app.add_option("--discretion", o->discretion,
+                 "With full adaptation: 1 for unnoticed, 0 for the limit at any price (default: likewise)")
+      ->check(CLI::Range(0.0, 1.0));
   app.add_option("--language", o->language,
                  "Of the guided tour's captions and sounds, such as en (default: the tour's own)");
   app.add_flag("--kiosk", o->kiosk,

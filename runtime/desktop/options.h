@@ -18,7 +18,7 @@ struct PlayerOptions {
   std::filesystem::path settings;        // empty: the user's own
   std::vector<std::string> set;          // SETTING=VALUE, over those of the file
   bool save_settings = false;
-  std::optional<float> seconds, hour;
+  std::optional<float> seconds, hour, discretion;
   std::vector<float> at_s;  // moments of the stills; empty: the last picture
   std::optional<int> people;
   std::optional<uint64_t> seed;

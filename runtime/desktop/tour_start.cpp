@@ -18,6 +18,7 @@ Error TakeOptions(const PlayerOptions& options, Scenario* scenario) {
   if (options.seed) scenario->crowd.seed = *options.seed;
   if (options.hour) scenario->hour = *options.hour;
   if (options.adaptation) TakeNamed(*options.adaptation, kAdaptationNames, &scenario->control.adaptation);
+  if (options.discretion) scenario->control.discretion = *options.discretion;
   scenario->language = options.language;
   scenario->screen_width_px = options.width_px / static_cast<int>(std::max<size_t>(1, options.compare.size()));
   scenario->screen_height_px = options.height_px;

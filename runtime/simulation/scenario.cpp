@@ -126,6 +126,7 @@ void ReadAll(TomlTable root, Scenario* s) {
   root.Number("seconds", &s->seconds, 0, 1e6);
   root.Number("hour", &s->hour, 0, 24);
   VisitChoice(root, "adaptation", kAdaptationNames, &s->control.adaptation);
+  root.Number("discretion", &s->control.discretion, 0, 1);
   ReadLimit(root.Table("limit"), s);
   // These mean something by being there.
   TomlTable camera = root.Table("camera"), ground = root.Table("ground"), area = root.Table("crowd_area");

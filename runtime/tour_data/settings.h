@@ -32,6 +32,9 @@ inline constexpr std::initializer_list<const char*> kAdaptationNames = {"off", "
 struct ControlSettings {
   LimitMethod method = LimitMethod::kCount;
   Adaptation adaptation = Adaptation::kFull;
+  // Who is in view is asked to change their way no more than people do on their own (1), or whatever the limit needs
+  // (0). Where it cannot be kept unnoticed, fewer are in high resolution.
+  float discretion = 1;
   int high_limit = 12;            // most people in high resolution, with LimitMethod::kCount
   float target_ms = 16.7f;        // of a frame, with LimitMethod::kFrameTime
   int budget_triangles = 200000;  // of all visible people together
@@ -86,6 +89,7 @@ template <typename Fields>
 void VisitFields(Fields&& fields, ControlSettings* s) {
   VisitChoice(fields, "method", kLimitMethodNames, &s->method);
   VisitChoice(fields, "adaptation", kAdaptationNames, &s->adaptation);
+  fields.Number("discretion", &s->discretion, 0, 1);
   fields.Number("high_limit", &s->high_limit, 0, 10000);
   fields.Number("target_ms", &s->target_ms, 1, 1000);
   fields.Number("budget_triangles", &s->budget_triangles, 0, 1e9);

@@ -149,6 +149,7 @@ void LeaveAndArrive(const Viewer& viewer, Town* town) {
   Crowd& c = town->crowd;
   if (town->step % kThinkEvery_steps == 0) CountPeople(town->walkable, c.position, &town->density);
   SendEnclosedOut(viewer, town);
+  StepOutlook(viewer, town);
   StepLoitering(viewer, town);
   StepWork(viewer, town);
   StepPlay(viewer, town);

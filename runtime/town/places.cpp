@@ -56,6 +56,15 @@ float DrawbackOf(const Viewer& viewer, Vec2 from, Vec2 goal, const Town& town) {
   return Length(goal - from) < kWorthWalking_m ? crowded + 2 * kWorseThanCrowds : crowded;
 }
 
+// Drawn from by whoever goes somewhere.
+const std::vector<int>& Destinations(bool loiter, Town* town) {
+  const PlaceLists& lists = town->place_lists;
+  const std::vector<int>* choices = loiter ? &lists.loiters : town->crowd_area ? &lists.goals : &lists.destinations;
+  const bool painted = !lists.goals.empty() && town->painting.columns > 0;
+  if (!loiter && painted && town->random.Uniform() < kToPaint) choices = &lists.goals;
+  return choices->empty() ? lists.all : *choices;
+}
+
 // A place of work may be where nobody walks, as behind a counter, if whoever works there never comes or goes.
 bool IsWhereItCanBe(const Place& place, bool reachable, const Town& town) {
   if (place.kind != "work" || RoomAt_m(town.walkable, place.position_m) < kLeastWorkRoom_m) return false;
@@ -147,18 +156,30 @@ int PlaceOfField(int field, Town* town) {
   return town->place_of_field[static_cast<size_t>(field)];
 }
 
+int AnyDestination(Vec2 from, Town* town) {
+  const std::vector<int>& choices = Destinations(false, town);
+  if (choices.empty()) return -1;
+  const int chosen = choices[static_cast<size_t>(town->random.Below(static_cast<int>(choices.size())))];
+  const Vec2 goal = town->places[static_cast<size_t>(chosen)].position_m;
+  if (Length(goal - from) < kWorthWalking_m || MostDensityBetween_pm2(town->density, from, goal) >= kPacked_pm2)
+    return -1;
+  return FieldFor(goal, &town->crowd);
+}
+
 int PickDestination(const Viewer& viewer, Vec2 from, bool may_loiter, Town* town) {
-  const PlaceLists& lists = town->place_lists;
   const bool loiter = may_loiter && FewLoiter(*town) && town->random.Uniform() < 0.5f;
-  const std::vector<int>* choices = loiter ? &lists.loiters : town->crowd_area ? &lists.goals : &lists.destinations;
-  const bool painted = !lists.goals.empty() && town->painting.columns > 0;
-  if (!loiter && painted && town->random.Uniform() < kToPaint) choices = &lists.goals;
-  if (choices->empty()) choices = &lists.all;
+  const std::vector<int>* choices = &Destinations(loiter, town);
   int best = -1;
   float least = 0;
   for (int attempt = 0; attempt < kTries && !choices->empty(); ++attempt) {
     const int chosen = (*choices)[static_cast<size_t>(town->random.Below(static_cast<int>(choices->size())))];
-    const float drawback = DrawbackOf(viewer, from, town->places[static_cast<size_t>(chosen)].position_m, *town);
+    const Vec2 goal = town->places[static_cast<size_t>(chosen)].position_m;
+    float drawback = DrawbackOf(viewer, from, goal, *town);
+    if (town->outlook.is_full && drawback < kWorseThanCrowds) {
+      const float in_the_way =
+          InTheWay(viewer, *town, from, FieldFor(goal, &town->crowd), town->settings.preferred_speed_mps);
+      drawback += std::min(in_the_way, kWorseThanCrowds / 2);
+    }
     if (best < 0 || drawback < least) best = chosen, least = drawback;
     if (least <= 0) break;
   }

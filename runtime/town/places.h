@@ -21,4 +21,7 @@ int PlaceOfField(int field, Town* town);
 // A field of somewhere worth walking to from there, -1 where there is nowhere.
 int PickDestination(const Viewer& viewer, Vec2 from, bool may_loiter, Town* town);
 
+// Any of them, -1 where the one that was drawn is not worth it.
+int AnyDestination(Vec2 from, Town* town);
+
 }  // namespace flaneur

@@ -6,6 +6,7 @@
 
 #include "runtime/town/company.h"
 #include "runtime/town/loitering.h"
+#include "runtime/town/outlook.h"
 #include "runtime/town/painted.h"
 #include "runtime/town/places.h"
 #include "runtime/town/play.h"
@@ -40,6 +41,7 @@ struct Spots {
   std::vector<int> occupant;  // by cell of the grid: index in the crowd, -1: nobody
   size_t next = 0;
   float gap_m = kWideGap_m;  // beyond touching, to everybody else
+  bool heeds_limit = true;   // leaves room in the visitor's first view
 };
 
 void Occupy(const Walkable& w, const Crowd& c, size_t i, Spots* spots) {
@@ -79,6 +81,7 @@ bool IsToBeHad(const Viewer& viewer, const Town& town, const Spots& spots, int c
       if (Length(town.crowd.position[j] - p) < radius_m + town.crowd.radius_m[j] + spots.gap_m) return false;
     }
   }
+  if (spots.heeds_limit && !HasRoomAtStart(viewer, town, p)) return false;
   return !viewer.present || Length(p - viewer.camera.position) > viewer.settings.r_personal_m + radius_m + 0.5f;
 }
 
@@ -88,7 +91,8 @@ int NextSpot(const Viewer& viewer, const Town& town, float radius_m, Spots* spot
     while (spots->next < spots->cells.size() && !IsToBeHad(viewer, town, *spots, spots->cells[spots->next], radius_m))
       ++spots->next;
     if (spots->next < spots->cells.size()) return spots->cells[spots->next];
-    if (spots->gap_m <= kMinGap_m) return -1;
+    if (spots->gap_m <= kMinGap_m && !spots->heeds_limit) return -1;
+    if (spots->gap_m <= kMinGap_m) spots->heeds_limit = false;
     spots->gap_m = kMinGap_m;
     spots->next = 0;
   }
@@ -132,6 +136,7 @@ bool PlaceLoiterers(int company, const Viewer& viewer, Town* town) {
     if (std::any_of(town->crowd.position.begin(), town->crowd.position.end(), stands_there)) return false;
     if (viewer.present && Length(p - viewer.camera.position) < viewer.settings.r_personal_m + kLoiterGap_m)
       return false;
+    if (!HasRoomAtStart(viewer, *town, p)) return false;
   }
   std::vector<int> members;
   for (int k = 0; k < company; ++k) {
@@ -280,6 +285,7 @@ void PlaceCrowd(int wanted, const Viewer& viewer, Town* town) {
   PreparePlaces(town);
   PrepareLoitering(town);
   PrepareWork(town);
+  BeginOutlook(static_cast<int>(town->crowd.size()) + wanted, viewer, town);
   int placed = PlaceWorkers(wanted, viewer, town);
   placed += PlacePlayers(wanted - placed, town);
   const int standing = static_cast<int>(town->settings.loiter_share * static_cast<float>(wanted));

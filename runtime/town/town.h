@@ -13,6 +13,7 @@
 #include "runtime/crowd/field_builder.h"
 #include "runtime/tour_data/tour_data.h"
 #include "runtime/town/flock.h"
+#include "runtime/town/outlook.h"
 
 namespace flaneur {
 
@@ -108,7 +109,9 @@ struct Town {
   FieldBuilder field_builder;
   std::vector<PersonPlan> plans;  // by Crowd::slot, see PlanOf
   Enclosure enclosure;
-  DensityMap density;  // of everybody, once a second
+  Outlook outlook;
+  std::vector<std::pair<size_t, std::array<int8_t, Outlook::kMoments>>> outlook_near;  // scratch of StepOutlook
+  DensityMap density;                                                                  // of everybody, once a second
   Random random;
   int64_t step = 0;                   // so many are over
   std::vector<std::string> warnings;  // of what cannot be as the tour says

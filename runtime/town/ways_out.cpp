@@ -10,12 +10,10 @@ namespace flaneur {
 namespace {
 
 constexpr float kLookEvery_s = 0.5f;
-constexpr float kKeepAway_m = 2.0f;   // people don't like to squeeze past anybody closer
-constexpr float kSoon_s = 1.5f;       // the visitor's way is thought on so far
-constexpr float kBeyondHigh_m = 12;   // who is cut off within r_high and this counts
-constexpr float kReserve = 0.15f;     // share of the limit kept free
-constexpr float kNearlyFull = 0.6f;   // share of the limit from which people keep away
-constexpr float kAwayFromHigh_m = 6;  // and this far beyond r_high
+constexpr float kKeepAway_m = 2.0f;  // people don't like to squeeze past anybody closer
+constexpr float kSoon_s = 1.5f;      // the visitor's way is thought on so far
+constexpr float kBeyondHigh_m = 12;  // who is cut off within r_high and this counts
+constexpr float kReserve = 0.15f;    // share of the limit kept free
 
 bool Adapts(const Viewer& viewer) { return viewer.present && viewer.settings.adaptation == Adaptation::kFull; }
 
@@ -66,8 +64,7 @@ void SendEnclosedOut(const Viewer& viewer, Town* town) {
 bool IsFullNear(const Viewer& viewer, const Town& town, Vec2 p) {
   if (!Adapts(viewer)) return false;
   if (IsCutOff(town.walkable, town.enclosure, p)) return true;
-  if (static_cast<float>(viewer.high) < kNearlyFull * static_cast<float>(viewer.limit)) return false;
-  return Length(p - viewer.camera.position) < viewer.settings.r_high_m + kAwayFromHigh_m;
+  return IsFullAt(viewer, town, p);
 }
 
 }  // namespace flaneur

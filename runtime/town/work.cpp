@@ -184,6 +184,7 @@ int PlaceWorkers(int wanted, const Viewer& viewer, Town* town) {
     const float away_m = Length(spot.position_m - viewer.camera.position);
     if (AnybodyAt(*town, spot.position_m)) continue;
     if (viewer.present && away_m < viewer.settings.r_personal_m + kGap_m) continue;
+    if (!HasRoomAtStart(viewer, *town, spot.position_m)) continue;
     const int avatar = PickWorker(spot, town);
     if (avatar < 0) continue;
     Person p = NewPersonOf(avatar, town);

@@ -17,6 +17,7 @@ Scenario Square(Adaptation adaptation, float speed_mps, uint64_t seed) {
   };
   Scenario s;
   s.control.adaptation = adaptation;
+  s.control.discretion = 0;
   s.control.high_limit = 12;
   s.control.r_high_m = 10;
   s.has_ground = s.has_camera = true;
