@@ -100,6 +100,7 @@ Failure TakeControl(const FlaneurCrowdDef& def, ControlSettings* s) {
   if (def.method < FLANEUR_LIMIT_COUNT || def.method > FLANEUR_LIMIT_FRAME_TIME)
     return OutOfRange("method", "a FlaneurLimitMethod");
   s->adaptation = static_cast<Adaptation>(def.adaptation), s->method = static_cast<LimitMethod>(def.method);
+  s->discretion = def.discretion;
   s->high_limit = def.high_limit, s->target_ms = def.target_ms, s->budget_triangles = def.budget_triangles;
   s->r_personal_m = def.r_personal_m, s->r_high_m = def.r_high_m;
   s->r_unimportant_m = def.r_unimportant_m, s->r_far_m = def.r_far_m;
@@ -472,6 +473,7 @@ FlaneurCrowdDef flaneur_default_crowd_def(void) {
   def.preferred_speed_mps = crowd.preferred_speed_mps, def.speed_spread_mps = crowd.speed_spread_mps;
   def.top_speed_mps = crowd.top_speed_mps;
   def.adaptation = static_cast<int>(control.adaptation), def.method = static_cast<int>(control.method);
+  def.discretion = control.discretion;
   def.high_limit = control.high_limit, def.target_ms = control.target_ms,
   def.budget_triangles = control.budget_triangles;
   def.r_personal_m = control.r_personal_m, def.r_high_m = control.r_high_m;

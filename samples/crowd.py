@@ -19,7 +19,8 @@ Id = struct("Id", index1=c_uint32, generation=c_uint32)
 Version = struct("Version", major=c_int, minor=c_int, patch=c_int)
 CrowdDef = struct("CrowdDef", ground_min_m=Point, ground_max_m=Point, polygons=POINTER(Polygon), polygon_count=c_int, circles=c_void_p,
                   circle_count=c_int, figures=c_void_p, figure_count=c_int, seed=c_uint64, largest_radius_m=c_float,
-                  preferred_speed_mps=c_float, speed_spread_mps=c_float, top_speed_mps=c_float, adaptation=c_int, method=c_int,
+                  preferred_speed_mps=c_float, speed_spread_mps=c_float, top_speed_mps=c_float, adaptation=c_int,
+                  discretion=c_float, method=c_int,
                   high_limit=c_int, target_ms=c_float, budget_triangles=c_int, r_personal_m=c_float, r_high_m=c_float,
                   r_unimportant_m=c_float, r_far_m=c_float, step_hz=c_float, max_yaw_rate_dps=c_float, internal_value=c_int)
 PersonDef = struct("PersonDef", position_m=Point, heading_rad=c_float, figure=c_int, radius_m=c_float, preferred_speed_mps=c_float,

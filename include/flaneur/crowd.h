@@ -78,6 +78,7 @@ typedef struct FlaneurCrowdDef {
   float speed_spread_mps;     // 0.2, their standard deviation, 0 to 2
   float top_speed_mps;        // 1.9, 0.1 to 10
   int adaptation;             // FLANEUR_ADAPTATION_FULL
+  float discretion;           // 1, 0 to 1, with full adaptation: 1 unnoticed, 0 the limit at any price
   int method;                 // FLANEUR_LIMIT_COUNT
   int high_limit;             // 12, 0 to 10,000
   float target_ms;            // 16.7, of a frame, 1 to 1,000

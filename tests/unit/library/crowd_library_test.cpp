@@ -272,7 +272,7 @@ FlaneurStatus StatusOf(const std::function<void(FlaneurCrowdDef*)>& change) {
 TEST(Crowds, EveryNumberOfADefinitionMayBeAnything) {
   using Def = FlaneurCrowdDef;
   for (float Def::*member : {&Def::largest_radius_m, &Def::preferred_speed_mps, &Def::speed_spread_mps,
-                             &Def::top_speed_mps, &Def::target_ms, &Def::r_personal_m, &Def::r_high_m,
+                             &Def::top_speed_mps, &Def::discretion, &Def::target_ms, &Def::r_personal_m, &Def::r_high_m,
                              &Def::r_unimportant_m, &Def::r_far_m, &Def::step_hz, &Def::max_yaw_rate_dps})
     for (const float value : {kNan, kInfinity, -1.0f, 3e38f})
       EXPECT_EQ(StatusOf([&](Def* def) { def->*member = value; }), FLANEUR_ERROR_OUT_OF_RANGE) << value;

@@ -17,7 +17,6 @@ Scenario Square(Adaptation adaptation, float speed_mps, uint64_t seed) {
   };
   Scenario s;
   s.control.adaptation = adaptation;
-  s.control.discretion = 0;
   s.control.high_limit = 12;
   s.control.r_high_m = 10;
   s.has_ground = s.has_camera = true;
@@ -48,6 +47,10 @@ Scenario Square(Adaptation adaptation, float speed_mps, uint64_t seed) {
 struct Outcome {
   int exceeded = 0, over_budget = 0;
   float asked_m = 0, walked_m = 0, longest_step = 0;
+  double accelerations_mps2 = 0;  // summed over whoever is seen near, as what follows
+  int seen = 0;
+
+  double MeanAcceleration_mps2() const { return accelerations_mps2 / std::max(1, seen); }
 };
 
 Outcome Played(const Scenario& scenario) {
@@ -55,9 +58,12 @@ Outcome Played(const Scenario& scenario) {
   const Error e = StartSimulation(nullptr, scenario, &s);
   EXPECT_FALSE(e) << e.message;
   Outcome out;
-  std::map<int, Vec2> before;  // by id
+  std::map<int, Vec2> before, velocity;  // by id
   for (int step = 0; step < kSteps && !s.visitor.finished; ++step) {
-    for (size_t i = 0; i < s.town.crowd.size(); ++i) before[s.town.crowd.id[i]] = s.town.crowd.position[i];
+    for (size_t i = 0; i < s.town.crowd.size(); ++i) {
+      before[s.town.crowd.id[i]] = s.town.crowd.position[i];
+      velocity[s.town.crowd.id[i]] = s.town.crowd.velocity[i];
+    }
     StepSimulation({}, 0, &s);
     out.exceeded += s.control.levels.exceeded;
     out.over_budget += s.control.levels.triangles > static_cast<int64_t>(s.control.settings.budget_triangles);
@@ -67,6 +73,9 @@ Outcome Played(const Scenario& scenario) {
       if (s.town.crowd.view[i] != ViewClass::kVisible) continue;
       const float step_m = Length(s.town.crowd.position[i] - before[s.town.crowd.id[i]]);
       out.longest_step = std::max(out.longest_step, step_m / (s.town.crowd.top_mps[i] * Step_s(s)));
+      if (Length(s.town.crowd.position[i] - s.visitor.camera.view.position) > s.control.settings.r_high_m) continue;
+      out.accelerations_mps2 += Length(s.town.crowd.velocity[i] - velocity[s.town.crowd.id[i]]) / Step_s(s);
+      ++out.seen;
     }
   }
   return out;
@@ -74,12 +83,14 @@ Outcome Played(const Scenario& scenario) {
 
 class CrowdOfASquare : public testing::TestWithParam<float> {};
 
-TEST_P(CrowdOfASquare, FewFramesExceedTheLimitAndTheVisitorGetsOn) {
+TEST_P(CrowdOfASquare, WithoutDiscretionFewFramesExceedTheLimitAndTheVisitorGetsOn) {
   int off = 0, full = 0;
   float asked_m = 0, walked_m = 0;
   for (const uint64_t seed : {1, 2, 3, 4, 5}) {
     off += Played(Square(Adaptation::kOff, GetParam(), seed)).exceeded;
-    const Outcome o = Played(Square(Adaptation::kFull, GetParam(), seed));
+    Scenario strict = Square(Adaptation::kFull, GetParam(), seed);
+    strict.control.discretion = 0;
+    const Outcome o = Played(strict);
     full += o.exceeded;
     EXPECT_EQ(o.over_budget, 0);
     EXPECT_LE(o.longest_step, 1.001f);
@@ -90,6 +101,49 @@ TEST_P(CrowdOfASquare, FewFramesExceedTheLimitAndTheVisitorGetsOn) {
   EXPECT_GT(off, 100) << "the square is crowded enough to matter";
   EXPECT_LE(full, off / 6);
   EXPECT_GT(walked_m, 0.85f * asked_m);
+}
+
+TEST_P(CrowdOfASquare, WithDiscretionPeopleStayNearbyAndWalkAsFreeOnesDo) {
+  Outcome off, full, strict;
+  const auto add = [](const Outcome& o, Outcome* sum) {
+    sum->exceeded += o.exceeded, sum->over_budget += o.over_budget;
+    sum->accelerations_mps2 += o.accelerations_mps2, sum->seen += o.seen;
+  };
+  for (const uint64_t seed : {1, 2, 3, 4, 5}) {
+    add(Played(Square(Adaptation::kOff, GetParam(), seed)), &off);
+    Scenario s = Square(Adaptation::kFull, GetParam(), seed);
+    add(Played(s), &full);
+    s.control.discretion = 0;
+    add(Played(s), &strict);
+  }
+  EXPECT_EQ(full.over_budget, 0);
+  EXPECT_LE(full.exceeded, off.exceeded / 2);
+  EXPECT_LT(full.MeanAcceleration_mps2(), 1.2 * off.MeanAcceleration_mps2());
+  EXPECT_GT(full.seen, 1.1 * strict.seen) << "the foreground is not emptied";
+  EXPECT_LT(full.seen, off.seen);
+}
+
+TEST(Discretion, TheFirstPictureKeepsTheLimitWhereTheTownIsFull) {
+  int off = 0, full = 0;
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    for (const Adaptation adaptation : {Adaptation::kOff, Adaptation::kFull}) {
+      Scenario s = Square(adaptation, 1.9f, seed);
+      s.persons.clear();
+      s.crowd.people = 300;
+      s.control.high_limit = 10;
+      s.crowd.seed = seed;
+      s.camera_position_m = {0, 0};
+      s.camera_yaw_deg = 36 * static_cast<float>(seed);
+      Simulation simulation;
+      const Error e = StartSimulation(nullptr, s, &simulation);
+      ASSERT_FALSE(e) << e.message;
+      StepSimulation({}, 0, &simulation);
+      EXPECT_GE(simulation.town.crowd.size(), 290u);
+      (adaptation == Adaptation::kOff ? off : full) += simulation.control.levels.exceeded;
+    }
+  }
+  EXPECT_GE(off, 3) << "the square is crowded enough to matter";
+  EXPECT_EQ(full, 0);
 }
 
 TEST(PersonalSpace, IsKeptWhereTheVisitorTurnsInADenseSquare) {
