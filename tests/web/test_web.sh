@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # test_web.sh build SOURCES FOLDER: all that a page is made of, in FOLDER. test_web.sh run PROGRAM.js: with node.
 # test_web.sh same WALK_THE_TOUR.js PLAYER PACK SECONDS: both walk everybody along the same ways, bit for bit.
-# Ends with status 77, skipped, where this machine has no Emscripten.
+# Ends with status 77, skipped, where this machine has no Emscripten or cannot fetch the sources of libraries.
 set -euo pipefail
 for command in emcc node; do
   command -v "$command" > /dev/null || { echo "skipped: there is no $command (Debian packages emscripten, nodejs)"; exit 77; }
 done
 export NODE_PATH=/usr/share/nodejs${NODE_PATH:+:$NODE_PATH}  # where Debian keeps what Emscripten asks node for
 case $1 in
+  run | same) [ -e "$2" ] || { echo "skipped: $2 was not built"; exit 77; } ;;&
   build)
+    "$2/scripts/web_sources.sh" "$3/sources" || { echo "skipped: no sources of libraries"; exit 77; }
     cmake -S "$2" -B "$3" -G Ninja -DCMAKE_BUILD_TYPE=Release \
       -DCMAKE_TOOLCHAIN_FILE=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake
     cmake --build "$3"
