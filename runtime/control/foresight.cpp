@@ -83,8 +83,6 @@ bool InTurningReach(const State& state, float r_high_m, Vec2 off) {
   return Dot(off, off) < reach_m * reach_m;
 }
 
-int SectorOf(Vec2 off) { return static_cast<int>((AngleOf(off) / (2 * kPi) + 1) * State::kSectors) % State::kSectors; }
-
 Vec2 OwnWay(const Crowd& c, size_t i) {
   return c.activity[i] == Activity::kWalking && c.field[i] >= 0 ? c.way[i] * c.preferred_mps[i] : Vec2{};
 }
@@ -132,23 +130,13 @@ void MeasureExcess(float fov_rad, int capacity, State* state) {
   for (int m = 1; m < State::kMoments; ++m) {
     if (state->seen[static_cast<size_t>(m)] > capacity) state->overfull_moments |= 1u << m;
   }
-  // One sector more than the view is wide: it may lie across them anyhow.
-  const int width =
-      std::clamp(static_cast<int>(std::ceil(fov_rad / (2 * kPi) * State::kSectors)) + 1, 1, State::kSectors);
-  for (int k = 0; k < State::kTurns; ++k) {
-    const auto& around = state->around[static_cast<size_t>(k)];
-    auto& excess = state->excess[static_cast<size_t>(k)];
-    excess.fill(0);
-    int held = 0;
-    for (int j = 0; j < width; ++j) held += around[static_cast<size_t>(j)];
-    for (int first = 0; first < State::kSectors; ++first) {
-      if (held > capacity) state->overfull_turns |= 1u << k;
-      for (int j = 0; held > capacity && j < width; ++j) {
-        int& worst = excess[static_cast<size_t>((first + j) % State::kSectors)];
-        worst = std::max(worst, held - capacity);
-      }
-      held += around[static_cast<size_t>((first + width) % State::kSectors)] - around[static_cast<size_t>(first)];
-    }
+  const int width = SectorsTouched(fov_rad);
+  for (size_t k = 0; k < State::kTurns; ++k) {
+    state->excess[k].fill(0);
+    if (Fullest(state->around[k], width) <= capacity) continue;
+    state->overfull_turns |= 1u << k;
+    const Sectors<int> fullest = FullestOver(state->around[k], width);
+    for (size_t j = 0; j < kSectors; ++j) state->excess[k][j] = std::max(0, fullest[j] - capacity);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "runtime/control/sectors.h"
 #include "runtime/control/view_volumes.h"
 #include "runtime/crowd/crowd.h"
 #include "runtime/tour_data/settings.h"
@@ -14,7 +15,6 @@ namespace flaneur {
 // Scratch, kept so that a steady step allocates nothing, and what is remembered of the camera.
 struct ForesightState {
   static constexpr int kMoments = 11;  // looked at ahead, half a second apart
-  static constexpr int kSectors = 48;  // around the camera
   static constexpr int kTurns = 3;     // of the moments, in which the visitor may look anywhere
 
   int64_t step = 0;
@@ -26,14 +26,14 @@ struct ForesightState {
     Vec2 position, axis;
   };  // of the camera
   std::array<FutureView, kMoments> views{};
-  float sine = 0, cosine = 1;                              // of half the field of view
-  std::array<int, kMoments> seen{};                        // people within the view and r_high then
-  std::array<std::array<int, kSectors>, kTurns> around{};  // people within r_high whose direction lies in the sector
-  std::array<std::array<int, kSectors>, kTurns> excess{};  // people too many in the fullest view over the sector
-  uint32_t overfull_moments = 0, overfull_turns = 0;       // a bit for each with too many people in some view
-  struct Forecast {                                        // of one person
-    uint32_t in_view = 0;                                  // a bit for every moment
-    std::array<int8_t, kTurns> sector{-1, -1, -1};         // none where they are out of reach then
+  float sine = 0, cosine = 1;                         // of half the field of view
+  std::array<int, kMoments> seen{};                   // people within the view and r_high then
+  std::array<Sectors<int>, kTurns> around{};          // people within r_high
+  std::array<Sectors<int>, kTurns> excess{};          // people too many in the fullest view over the sector
+  uint32_t overfull_moments = 0, overfull_turns = 0;  // a bit for each with too many people in some view
+  struct Forecast {                                   // of one person
+    uint32_t in_view = 0;                             // a bit for every moment
+    std::array<int8_t, kTurns> sector{-1, -1, -1};    // none where they are out of reach then
   };
   struct Near {
     int person = 0;

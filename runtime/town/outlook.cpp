@@ -35,12 +35,6 @@ constexpr int kTries = 6, kMostSent = 10;  // destinations; people at once
 
 using Bearing = std::array<int8_t, Outlook::kMoments>;  // sector by moment; -1: out of reach
 
-bool Adapts(const Viewer& viewer) { return viewer.present && viewer.settings.adaptation == Adaptation::kFull; }
-
-int SectorOf(Vec2 off) {
-  return static_cast<int>((AngleOf(off) / (2 * kPi) + 1) * Outlook::kSectors) % Outlook::kSectors;
-}
-
 int8_t BearingAt(const Outlook& o, int moment, Vec2 p) {
   const Vec2 off = p - o.moments[static_cast<size_t>(moment)].visitor;
   return Dot(off, off) < o.reach_m * o.reach_m ? static_cast<int8_t>(SectorOf(off)) : int8_t{-1};
@@ -81,23 +75,14 @@ void Tally(const Bearing& bearing, int count, Outlook* o) {
 
 // Finds where there would be too many, whichever way the visitor looks.
 void MeasureRoom(float fov_rad, float limit, Outlook* o) {
-  constexpr int n = Outlook::kSectors;
-  const int width = std::clamp(static_cast<int>(std::ceil(fov_rad / (2 * kPi) * n)) + 1, 1, n);
+  const int width = SectorsTouched(fov_rad);
   o->is_full = false;
   for (size_t k = 0; k < Outlook::kMoments; ++k) {
     Outlook::Moment& m = o->moments[k];
     const int capacity = static_cast<int>(std::lround(kSurer[k] * limit));
-    m.too_many.fill(-capacity);
-    int held = 0;
-    for (int j = 0; j < width; ++j) held += m.around[static_cast<size_t>(j)];
-    for (int first = 0; first < n; ++first) {
-      if (held > capacity) o->is_full = true;
-      for (int j = 0; j < width; ++j) {
-        int& worst = m.too_many[static_cast<size_t>((first + j) % n)];
-        worst = std::max(worst, held - capacity);
-      }
-      held += m.around[static_cast<size_t>((first + width) % n)] - m.around[static_cast<size_t>(first)];
-    }
+    m.too_many = FullestOver(m.around, width);
+    for (int& people : m.too_many) people -= capacity;
+    if (Fullest(m.around, width) > capacity) o->is_full = true;
   }
 }
 
@@ -139,7 +124,6 @@ void ForeseeVisitor(const Viewer& viewer, const Town& town, Outlook* o) {
       p = next;
     }
     now_s = kAfter_s[k];
-    o->moments[static_cast<size_t>(k)].after_s = kAfter_s[k];
     o->moments[static_cast<size_t>(k)].visitor = p;
     o->moments[static_cast<size_t>(k)].around.fill(0);
   }
@@ -186,30 +170,13 @@ int BetterDestination(size_t i, Sight sight, float now, Town* town) {
   return best;
 }
 
-using Sectors = std::array<float, Outlook::kSectors>;
-
-int Width(float fov_rad) {
-  constexpr int n = Outlook::kSectors;
-  return std::clamp(static_cast<int>(std::lround(fov_rad / (2 * kPi) * n)), 1, n);
-}
-
-float Fullest(const Sectors& sectors, int width) {
-  float most = 0;
-  for (int first = 0; first < Outlook::kSectors; ++first) {
-    float sum = 0;
-    for (int j = 0; j < width; ++j) sum += sectors[static_cast<size_t>((first + j) % Outlook::kSectors)];
-    most = std::max(most, sum);
-  }
-  return most;
-}
-
 // Share of the ground of the neighbourhood that lies in the fullest view.
 float ShareOfView(const Viewer& viewer, const Town& town, float around_m) {
   const Walkable& w = town.walkable;
   const Vec2 visitor = viewer.camera.position;
   const float step_m = kEveryCell * w.cell_m;
   const int reach = static_cast<int>(around_m / step_m);
-  Sectors sectors{};
+  Sectors<float> sectors{};
   float all = 0;
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -reach; x <= reach; ++x) {
@@ -221,7 +188,7 @@ float ShareOfView(const Viewer& viewer, const Town& town, float around_m) {
       if (away2 < town.outlook.reach_m * town.outlook.reach_m) sectors[static_cast<size_t>(SectorOf(off))] += 1;
     }
   }
-  return all > 0 ? Fullest(sectors, Width(viewer.camera.fov_rad)) / all : 0;
+  return all > 0 ? Fullest(sectors, SectorsOfView(viewer.camera.fov_rad)) / all : 0;
 }
 
 // How full it is now, and how full it would be without any control.
@@ -229,7 +196,7 @@ void Watch(const Viewer& viewer, Town* town) {
   Outlook& o = town->outlook;
   const ViewVolumes view = VolumesOf(viewer.camera, 0);
   const float around_m = kNeighbourhood * o.reach_m;
-  Sectors sectors{};
+  Sectors<float> sectors{};
   float in_view = 0, all = 0;
   for (size_t i = 0; i < town->crowd.size(); ++i) {
     const Vec2 off = town->crowd.position[i] - viewer.camera.position;
@@ -243,7 +210,7 @@ void Watch(const Viewer& viewer, Town* town) {
   const float usual = all * ShareOfView(viewer, *town, around_m);
   o.usual += (usual - o.usual) * (o.usual <= 0 ? 1 : kUsual);
   const float aim = kAimsAt * Allowed(viewer.limit, o.usual, viewer.settings.discretion);
-  const float held = std::max(in_view, kElsewhere * Fullest(sectors, Width(viewer.camera.fov_rad)));
+  const float held = std::max(in_view, kElsewhere * Fullest(sectors, SectorsOfView(viewer.camera.fov_rad)));
   const float error = aim > 0 ? held / aim - 1 : 1;
   o.pressure =
       std::clamp(o.pressure + error * kLookEvery_s * (error > 0 ? kPressureGrows_ps : kPressureFades_ps), 0.0f, 1.0f);
@@ -258,13 +225,14 @@ void BeginOutlook(int people, const Viewer& viewer, Town* town) {
   o.pressure = kPressureAtStart;
   o.reach_m = viewer.settings.r_high_m;
   if (!CountsAtStart(viewer)) return;
-  Sectors sectors{};
+  Sectors<float> sectors{};
   const std::vector<int> cells = HomeCells(*town);
   for (const int cell : cells) {
     const Vec2 off = CellCenter(town->walkable, cell) - viewer.camera.position;
     if (Dot(off, off) < o.reach_m * o.reach_m) sectors[static_cast<size_t>(SectorOf(off))] += 1;
   }
-  const float share = Fullest(sectors, Width(viewer.camera.fov_rad)) / std::max(1.0f, static_cast<float>(cells.size()));
+  const float share =
+      Fullest(sectors, SectorsOfView(viewer.camera.fov_rad)) / std::max(1.0f, static_cast<float>(cells.size()));
   o.usual = share * static_cast<float>(people);
 }
 
@@ -273,19 +241,12 @@ bool HasRoomAtStart(const Viewer& viewer, const Town& town, Vec2 p) {
   const float reach_m = o.reach_m + kStartRim_m;
   const Vec2 visitor = viewer.camera.position, own = p - visitor;
   if (!CountsAtStart(viewer) || Dot(own, own) > reach_m * reach_m) return true;
-  Sectors sectors{};
+  Sectors<float> sectors{};
   for (const Vec2 other : town.crowd.position) {
     const Vec2 off = other - visitor;
     if (Dot(off, off) < reach_m * reach_m) sectors[static_cast<size_t>(SectorOf(off))] += 1;
   }
-  // Of the views that show p.
-  const int width = Width(viewer.camera.fov_rad) + 1, at = SectorOf(own), n = Outlook::kSectors;
-  float most = 0;
-  for (int first = at - width + 1; first <= at; ++first) {
-    float held = 0;
-    for (int j = 0; j < width; ++j) held += sectors[static_cast<size_t>((first + j + n) % n)];
-    most = std::max(most, held);
-  }
+  const float most = FullestOver(sectors, SectorsOfView(viewer.camera.fov_rad) + 1)[static_cast<size_t>(SectorOf(own))];
   return most + 1 <= kFillsAtStart * Allowed(viewer.settings.high_limit, o.usual, viewer.settings.discretion);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "runtime/base/math.h"
+#include "runtime/control/sectors.h"
 #include "runtime/tour_data/settings.h"
 
 namespace flaneur {
@@ -13,13 +14,11 @@ struct Viewer;
 
 struct Outlook {
   static constexpr int kMoments = 4;
-  static constexpr int kSectors = 48;  // around the visitor
 
   struct Moment {
-    float after_s = 0;
-    Vec2 visitor;                          // forecast
-    std::array<int, kSectors> around{};    // people within r_high whose direction lies in the sector
-    std::array<int, kSectors> too_many{};  // in the fullest view over the sector; negative: so many more have room
+    Vec2 visitor;             // forecast
+    Sectors<int> around{};    // people within r_high
+    Sectors<int> too_many{};  // in the fullest view over the sector; negative: so many more have room
   };
   Vec2 velocity;         // the visitor's, averaged over some seconds
   float reach_m = 0;     // of what counts, r_high

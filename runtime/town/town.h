@@ -133,5 +133,6 @@ struct Viewer {
   float outer_apex_back_m = 0;
   int high = 0, limit = 0;  // people in high resolution now, and the most there may be
 };
+inline bool Adapts(const Viewer& viewer) { return viewer.present && viewer.settings.adaptation == Adaptation::kFull; }
 
 }  // namespace flaneur

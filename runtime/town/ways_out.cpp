@@ -15,8 +15,6 @@ constexpr float kSoon_s = 1.5f;      // the visitor's way is thought on so far
 constexpr float kBeyondHigh_m = 12;  // who is cut off within r_high and this counts
 constexpr float kReserve = 0.15f;    // share of the limit kept free
 
-bool Adapts(const Viewer& viewer) { return viewer.present && viewer.settings.adaptation == Adaptation::kFull; }
-
 bool GoesToGate(size_t i, Town* town) {
   const int place = PlaceOfField(town->crowd.field[i], town);
   if (place < 0 || !IsGate(town->places[static_cast<size_t>(place)])) return false;
