@@ -12,9 +12,14 @@ namespace {
 
 using Memory = LevelState::Memory;
 
-constexpr float kFall_mps = 2.0f;                      // r_high moves no faster than people walk,
-constexpr float kRise_mps = 0.5f;                      // and comes back slowly: whoever it passes over switches in view
-constexpr float kHeadroom = 8.0f;                      // of a newly chosen level: serves up to so many times the pixels
+constexpr float kFall_mps = 2.0f;             // r_high moves no faster than people walk,
+constexpr float kRise_mps = 0.5f;             // and comes back slowly: whoever it passes over switches in view
+constexpr float kMostHeadroom = 8.0f;         // times the pixels,
+constexpr float kLeastHeadroom = 0.05f;       // where the limit is a number of people,
+constexpr float kLeastHeadroomOfTime = 1.0f;  // and where it is what the budget affords of people served well
+constexpr float kKeeps = 3.0f;                // a level is kept while it serves at so much less than that
+constexpr float kHeadroomFalls = 0.9f, kHeadroomRises = 1.02f;  // a step
+constexpr float kBudgetIsAmple = 0.8f;                          // this share of it in use
 constexpr float kReserve = 0.2f;                       // of limit and budget, kept for those who come into view near
 constexpr float kFallGain = 0.08f, kRiseGain = 0.02f;  // a step, of the relative error of the frame time (method 2)
 constexpr float kBudgetInUse = 0.8f;                   // share of the budget from which on it is in use
@@ -77,9 +82,9 @@ int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
 
 // Who comes near starts with the level that serves until half the distance, and keeps it until it is far too fine:
 // every switch is one that could be seen.
-int WantedMesh(const AvatarCosts& avatar, float px, Level last) {
-  const int coarsest = CoarsestAt(avatar, px);
-  const int finest = CoarsestAt(avatar, px * kHeadroom);
+int WantedMesh(const AvatarCosts& avatar, float px, float headroom, Level last) {
+  const int coarsest = CoarsestAt(avatar, px * std::min(headroom / kKeeps, 1.0f));
+  const int finest = CoarsestAt(avatar, px * headroom);
   return !IsMesh(last) || last.mesh > coarsest ? finest : std::clamp(last.mesh, finest, coarsest);
 }
 
@@ -96,6 +101,8 @@ int TrianglesOf(Level level, const AvatarCosts& avatar) {
          : IsDrawn(level) ? kImpostorTriangles
                           : 0;
 }
+
+Level LastSeen(const Memory& m) { return m.in_sight ? m.level.level : kNotDrawn; }
 
 void EndChange(Memory* m) {
   m->level.from = kNotDrawn;
@@ -139,7 +146,7 @@ void ListPeople(const Crowd& crowd, const LevelQuery& query, const ControlSettin
     const bool near = Dot(off, off) <= s.r_far_m * s.r_far_m;
     Memory& m = EntryOf(crowd.slot[i], crowd.id[i], &state->memory);
     m.here = near || (in_view && IsDrawn(m.level));
-    const Level last = m.in_sight ? m.level.level : kNotDrawn;
+    const Level last = LastSeen(m);
     if (near) state->in_sight.push_back(InOrder(crowd, i, off, last, edges, crowd.id[i] == query.first_id, s, *state));
     else if (m.here) state->too_far.push_back(static_cast<int>(i));
   }
@@ -257,14 +264,54 @@ struct Serving {
   int64_t budget = 0, drawable = 0;  // triangles without shadows; people who fit as impostors
 };
 
+// Of limit and budget, for this person: the reserve is for those who come near.
+float ShareFor(const LevelState::InSight& v) {
+  return v.priority != kAppears || v.key_m < kNear_m ? 1.0f : 1 - kReserve;
+}
+
+bool HasPlace(const LevelState::InSight& v, int meshes, int limit) {
+  return v.priority != kStays && static_cast<float>(meshes) < ShareFor(v) * static_cast<float>(limit);
+}
+
+float PixelsHigh(const LevelState::InSight& v, const AvatarCosts& avatar, const LevelQuery& query) {
+  return PixelsHigh(avatar.height_m, v.distance_m, query.camera, query.screen_width_px);
+}
+
+// Triangles beyond an impostor's that all meshes would take.
+int64_t TrianglesWanted(float headroom, const Serving& serving, const LevelState& state) {
+  int64_t triangles = 0;
+  int meshes = 0;
+  for (const LevelState::InSight& v : state.in_sight) {
+    if (meshes >= state.limit) break;
+    if (!HasPlace(v, meshes, state.limit)) continue;
+    const auto i = static_cast<size_t>(v.person);
+    const AvatarCosts& avatar = serving.avatars[static_cast<size_t>(serving.crowd.avatar[i])];
+    const Level last = LastSeen(state.memory[static_cast<size_t>(serving.crowd.slot[i])]);
+    const int mesh = WantedMesh(avatar, PixelsHigh(v, avatar, serving.query), headroom, last);
+    triangles += avatar.levels[static_cast<size_t>(mesh)].triangles - kImpostorTriangles;
+    ++meshes;
+  }
+  return triangles;
+}
+
+void FitHeadroom(const ControlSettings& s, const Serving& serving, LevelState* state) {
+  const float least = s.method == LimitMethod::kFrameTime ? kLeastHeadroomOfTime : kLeastHeadroom;
+  if (state->headroom <= 0) state->headroom = kMostHeadroom;
+  const auto fits = [&](float share, float headroom) {
+    const auto taken = state->triangles - state->fading_triangles + TrianglesWanted(headroom, serving, *state);
+    return static_cast<float>(taken) <= share * static_cast<float>(serving.budget);
+  };
+  const float more = std::min(state->headroom * kHeadroomRises, kMostHeadroom);
+  if (more > state->headroom && fits(kBudgetIsAmple, more)) state->headroom = more;
+  while (state->headroom > least && !fits(1, state->headroom))
+    state->headroom = std::max(state->headroom * kHeadroomFalls, least);
+}
+
 Level LevelFor(const LevelState::InSight& v, const AvatarCosts& avatar, float px, Level last, const Serving& serving,
                const LevelState& state) {
-  const bool comes_near = v.priority != kAppears || v.key_m < kNear_m;  // the reserve is for them
-  const float share = comes_near ? 1.0f : 1 - kReserve;
-  if (v.priority == kStays || static_cast<float>(state.meshes) >= share * static_cast<float>(state.limit))
-    return kImpostor;
-  const auto budget = static_cast<int64_t>(share * static_cast<float>(serving.budget));
-  return AffordableLevel(avatar, WantedMesh(avatar, px, last), budget, state.triangles);
+  if (!HasPlace(v, state.meshes, state.limit)) return kImpostor;
+  const auto budget = static_cast<int64_t>(ShareFor(v) * static_cast<float>(serving.budget));
+  return AffordableLevel(avatar, WantedMesh(avatar, px, state.headroom, last), budget, state.triangles);
 }
 
 // state->triangles holds an impostor for everybody who fits, and what fades.
@@ -273,13 +320,13 @@ void Serve(const LevelState::InSight& v, bool fits, const Serving& serving, Leve
   const auto i = static_cast<size_t>(v.person);
   Memory& m = state->memory[static_cast<size_t>(crowd.slot[i])];
   const AvatarCosts& avatar = serving.avatars[static_cast<size_t>(crowd.avatar[i])];
-  const Level last = m.in_sight ? m.level.level : kNotDrawn;
+  const Level last = LastSeen(m);
   const bool in_view = crowd.view[i] == ViewClass::kVisible;
   // Who comes into the picture with the view's edge needs no fading.
   const bool fades = IsDrawn(m.level) || (state->started && crowd.was_visible[i] != 0);
   Level level = kNotDrawn;
   if (fits) {
-    const float px = PixelsHigh(avatar.height_m, v.distance_m, serving.query.camera, serving.query.screen_width_px);
+    const float px = PixelsHigh(v, avatar, serving.query);
     level = LevelFor(v, avatar, px, last, serving, *state);
     state->triangles += TrianglesOf(level, avatar) - kImpostorTriangles;
     ++(IsMesh(level) ? state->meshes : state->impostors);
@@ -334,6 +381,7 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
       std::min<int64_t>(static_cast<int64_t>(state->in_sight.size()), drawable) * kImpostorTriangles + besides;
   state->high = state->low = state->meshes = state->impostors = state->shortfalls = state->switches_in_view = 0;
   const Serving serving{crowd, avatars, query, budget, drawable};
+  FitHeadroom(s, serving, state);
   int64_t rank = 0;
   for (const LevelState::InSight& v : state->in_sight) Serve(v, rank++ < drawable, serving, state);
   LetGo(serving, state);

@@ -42,6 +42,8 @@ struct LevelState {
   float triangles_a_person = 0;  // in high resolution, averaged over the last while; method 2
   float shadow_triangles = 0;    // of everybody, likewise
   int limit = 0;                 // most people in high resolution, in force
+  float headroom = 0;            // in force: who comes near starts with the level that serves at so many times the
+                                 // pixels; below 1, where the budget is short, all are a little too coarse
 
   std::vector<PersonLevel> people;  // by person index
   struct Gone {
@@ -95,8 +97,9 @@ inline Level LevelInView(const Crowd& crowd, const LevelState& state, size_t i) 
 // what the budget affords. Both are about everybody of whom any part may be in a picture until the next step: pictures
 // come between steps, and follow the hand that turns the view at once. The budget is for all triangles together,
 // shadows included, and holds whatever happens: who does not fit becomes an impostor, and where even those do not fit,
-// the farthest are not drawn. A change of level, and appearing or vanishing within the view, is faded where the budget
-// has room for both levels.
+// the farthest are not drawn. Where it is short for long, all who are near get coarser levels before the last of them
+// is served with none, and get them back when there is plenty. A change of level, and appearing or vanishing within the
+// view, is faded where the budget has room for both levels.
 void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, const ControlSettings& settings,
                   const LevelQuery& query, LevelState* state);
 
