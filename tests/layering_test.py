@@ -19,6 +19,7 @@ ROOMS = {
     "render": ["pack", "text"],
     "show": ["simulation", "render"],
     "visit": ["show"],
+    "web": ["visit"],
     "desktop": ["visit"],
     "likeness": ["render", "desktop"],
 }
@@ -28,6 +29,7 @@ ALLOWED = {
     "pipeline/avatar": {BASE, CORE, "pipeline/io"},
     "pipeline/impostor": {BASE, CORE, "pipeline/io", "runtime/tour_data", "runtime/pack"},
     "pipeline/footprint": {BASE, CORE, "pipeline/io"},
+    "pipeline/web": {BASE, CORE, "runtime/tour_data", "runtime/pack"},
     "pipeline/pack": {BASE, CORE, "pipeline/io", "runtime/tour_data", "runtime/pack"},
 }
 for room, below in ROOMS.items():

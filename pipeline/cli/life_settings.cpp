@@ -5,6 +5,8 @@
 namespace flaneur {
 namespace {
 
+constexpr double kMostPlace_m = 1e5;
+
 void ReadFlock(TomlTable table, TourData* tour) {
   Flock flock;
   table.Text("avatar", &flock.avatar);
@@ -24,10 +26,24 @@ void ReadFlock(TomlTable table, TourData* tour) {
   tour->flocks.push_back(std::move(flock));
 }
 
+void ReadSmoke(TomlTable table, TourData* tour) {
+  Smoke smoke;
+  std::vector<float> position_m;
+  table.Numbers("position_m", &position_m, -kMostPlace_m, kMostPlace_m);
+  table.Number("width_m", &smoke.width_m, static_cast<double>(kLeastSmoke_m), static_cast<double>(kMostSmoke_m));
+  table.Number("density", &smoke.density, 0, 1);
+  if (position_m.size() == 3) smoke.position_m = {position_m[0], position_m[1], position_m[2]};
+  else table.Refuse("a [[smoke]] needs position_m = [x, y, z], z in the town's own height");
+  if (tour->smokes.size() == kMaxSmokes) table.Refuse("more than " + std::to_string(kMaxSmokes) + " [[smoke]]");
+  table.Finish();
+  tour->smokes.push_back(smoke);
+}
+
 }  // namespace
 
 void ReadLifeSettings(TomlTable* root, TourData* tour) {
   for (TomlTable& flock : root->Tables("flock")) ReadFlock(flock, tour);
+  for (TomlTable& smoke : root->Tables("smoke")) ReadSmoke(smoke, tour);
 }
 
 }  // namespace flaneur

@@ -5,7 +5,7 @@
 
 namespace flaneur {
 
-// [[flock]]. What is wrong is refused by the tables.
+// [[flock]], [[smoke]]. What is wrong is refused by the tables.
 void ReadLifeSettings(TomlTable* root, TourData* tour);
 
 }  // namespace flaneur

@@ -27,6 +27,7 @@ const std::map<std::string, Verb> kVerbs{
     {"impostor", {kInBake, "IN.glb -o DIR", "impostor atlas of a rigged character"}},
     {"footprints", {flaneur::RunFootprints, "TOWN.glb -o OUT.geojson", "obstacles from a town model"}},
     {"check", {flaneur::RunCheck, "OUT.geojson [--town TOWN.glb]", "whether obstacles are fit for a crowd"}},
+    {"web", {flaneur::RunWeb, "PACK.glb -o DIR", "a tour as a static web site"}},
     {"inspect", {flaneur::RunInspect, "PACK.glb [--json]", "what is in a tour pack"}},
 };
 

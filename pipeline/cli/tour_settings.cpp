@@ -271,6 +271,7 @@ void ReadAll(TomlTable root, TourSettings* settings) {
   section("crowd", &settings->crowd);
   section("control", &settings->control);
   section("light", &settings->light);
+  section("wind", &settings->wind);
   root.Finish();
 }
 
@@ -323,7 +324,7 @@ std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
   const toml::table root = toml::parse(
       "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[avatar.clip]]\n[[place]]\n[[stop]]\n[[town.part]]\n"
-      "[[hotspot]]\n[[street]]\n[[sound]]\n[[flock]]\n");
+      "[[hotspot]]\n[[street]]\n[[sound]]\n[[flock]]\n[[smoke]]\n");
   TomlContext context;
   TourSettings settings;
   ReadAll(TomlTable(&context, &root, ""), &settings);

@@ -14,5 +14,6 @@ int RunCheck(const Arguments& args);
 int RunFootprints(const Arguments& args);
 int RunImpostor(const Arguments& args);
 int RunInspect(const Arguments& args);
+int RunWeb(const Arguments& args);
 
 }  // namespace flaneur

@@ -249,6 +249,13 @@ Json FlockJson(const Flock& flock) {
           {"clip", flock.clip}};
 }
 
+Json SmokeJson(const Smoke& smoke) {
+  const Vec3 p = smoke.position_m;
+  return {{"position_m", {Short(p.x), Short(p.y), Short(p.z)}},
+          {"width_m", Short(smoke.width_m)},
+          {"density", Short(smoke.density)}};
+}
+
 // What there is for visitors; nothing where there is nothing.
 void AddVisitorJson(const TourParts& parts, const TourIndices& indices, Json* tour) {
   for (const Hotspot& hotspot : parts.hotspots) (*tour)["hotspots"].push_back(HotspotJson(hotspot, indices));
@@ -306,11 +313,13 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   if (parts.title_page.there()) tour["title_page"] = TitlePageJson(parts.title_page, indices);
   AddVisitorJson(parts, indices, &tour);
   for (const Flock& flock : parts.flocks) tour["flocks"].push_back(FlockJson(flock));
+  for (const Smoke& smoke : parts.smokes) tour["smokes"].push_back(SmokeJson(smoke));
   for (const auto& [language, thanks] : parts.thanks) tour["thanks"][language] = thanks;
   tour["home_after_s"] = Short(parts.home_after_s);
   tour["crowd"] = SettingsJson(parts.crowd);
   tour["control"] = SettingsJson(parts.control);
   tour["light"] = SettingsJson(parts.light);
+  tour["wind"] = SettingsJson(parts.wind);
   return tour.dump();
 }
 

@@ -12,12 +12,12 @@ namespace {
 
 using Memory = LevelState::Memory;
 
-constexpr float kFall_mps = 2.0f;             // r_high moves no faster than people walk,
-constexpr float kRise_mps = 0.5f;             // and comes back slowly: whoever it passes over switches in view
-constexpr float kMostHeadroom = 8.0f;         // times the pixels,
-constexpr float kLeastHeadroom = 0.05f;       // where the limit is a number of people,
-constexpr float kLeastHeadroomOfTime = 1.0f;  // and where it is what the budget affords of people served well
-constexpr float kKeeps = 3.0f;                // a level is kept while it serves at so much less than that
+constexpr float kFall_mps = 2.0f;  // r_high moves no faster than people walk,
+constexpr float kRise_mps = 0.5f;  // and comes back slowly: whoever it passes over switches in view
+// A newly chosen level serves at so many times the pixels, at most, and at least where the limit is a number of people,
+// or what the budget affords of people served well.
+constexpr float kMostHeadroom = 8.0f, kLeastHeadroom = 0.05f, kLeastHeadroomOfTime = 1.0f;
+constexpr float kKeeps = 3.0f;  // a level is kept while it serves at so much less than that
 constexpr float kHeadroomFalls = 0.9f, kHeadroomRises = 1.02f;  // a step
 constexpr float kBudgetIsAmple = 0.8f;                          // this share of it in use
 constexpr float kReserve = 0.2f;                       // of limit and budget, kept for those who come into view near

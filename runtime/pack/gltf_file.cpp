@@ -1,5 +1,6 @@
 #include "runtime/pack/gltf_file.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "runtime/base/array.h"
@@ -88,13 +89,24 @@ void VisitComponents(const GltfFile& file, int accessor_index, Visit visit) {
 }
 
 // A range of the binary chunk, as a buffer view or an extension of one gives it.
-std::span<const uint8_t> Range(const GltfFile& file, const Json& range, int view) {
+std::span<const uint8_t> Place(const GltfFile& file, const Json& range, int view) {
   const size_t offset = range.value("byteOffset", size_t{0});
   const size_t length = Member(range, "byteLength").get<size_t>();
   if (range.value("buffer", 0) != 0 || offset > file.binary.size() || length > file.binary.size() - offset) {
     throw PackRefused("has buffer view " + std::to_string(view) + " that reaches beyond the file");
   }
   return file.binary.subspan(offset, length);
+}
+
+ByteRange RangeOf(const GltfFile& file, std::span<const uint8_t> part) {
+  return {static_cast<size_t>(part.data() - file.bytes.data()), part.size()};
+}
+
+std::span<const uint8_t> Range(const GltfFile& file, const Json& range, int view) {
+  const std::span<const uint8_t> place = Place(file, range, view);
+  if (file.there && !file.there->Holds(RangeOf(file, place)))
+    throw PackRefused("has not arrived as far as buffer view " + std::to_string(view));
+  return place;
 }
 
 void DecodeViews(GltfFile* file) {
@@ -120,9 +132,10 @@ std::string Complaint(const std::exception& e) {
   return "is broken: in its JSON, " + PlainJsonError(e.what());
 }
 
-GltfFile OpenGltf(std::vector<uint8_t> bytes) {
+GltfFile OpenGltf(std::vector<uint8_t> bytes, std::optional<ByteRanges> there) {
   GltfFile file;
   file.bytes = std::move(bytes);
+  file.there = std::move(there);
   const std::span<const uint8_t> all(file.bytes);
   if (all.size() < 12 || Word(all, 0) != kMagic) throw PackRefused("is not a glTF binary");
   if (Word(all, 4) != 2) throw PackRefused("is not glTF 2.0");
@@ -175,6 +188,18 @@ std::span<const uint8_t> BufferView(const GltfFile& file, int index) {
   const Json& view = Element(file.json, "bufferViews", index);
   const auto decoded = file.decoded.find(index);
   return decoded != file.decoded.end() ? std::span<const uint8_t>(decoded->second) : Range(file, view, index);
+}
+
+std::span<const uint8_t> BeginningOfView(const GltfFile& file, int index) {
+  const std::span<const uint8_t> place = Place(file, Element(file.json, "bufferViews", index), index);
+  return file.there ? place.first(std::min(place.size(), file.there->HeldFrom(RangeOf(file, place).offset))) : place;
+}
+
+ByteRange RangeOfView(const GltfFile& file, int index) {
+  const Json& view = Element(file.json, "bufferViews", index);
+  const auto extensions = view.find("extensions");
+  const bool packed = extensions != view.end() && extensions->contains(kMeshoptExtension);
+  return RangeOf(file, Place(file, packed ? (*extensions)[kMeshoptExtension] : view, index));
 }
 
 int ComponentCount(const std::string& type) {

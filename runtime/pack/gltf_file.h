@@ -4,10 +4,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "runtime/pack/byte_ranges.h"
 
 namespace flaneur {
 
@@ -26,10 +29,11 @@ struct GltfFile {
   Json json;
   std::span<const uint8_t> binary;              // into bytes
   std::map<int, std::vector<uint8_t>> decoded;  // by buffer view, those that were compressed
+  std::optional<ByteRanges> there;              // of bytes; none: all of them
 };
 
 // Splits the container, parses the JSON and decodes what EXT_meshopt_compression packed. Throws PackRefused.
-GltfFile OpenGltf(std::vector<uint8_t> bytes);
+GltfFile OpenGltf(std::vector<uint8_t> bytes, std::optional<ByteRanges> there = {});
 
 // Member access that names what is missing or of the wrong type.
 const Json& Member(const Json& object, const char* key);
@@ -38,6 +42,10 @@ int IndexOrNone(const Json& object, const char* key, size_t limit);   // -1 wher
 const Json& Element(const Json& root, const char* array, int index);  // root[array][index]
 
 std::span<const uint8_t> BufferView(const GltfFile& file, int index);
+// As much of its beginning as is there.
+std::span<const uint8_t> BeginningOfView(const GltfFile& file, int index);
+// Where it stands in the file; of a compressed one what stands there for it.
+ByteRange RangeOfView(const GltfFile& file, int index);
 
 struct Values {
   int components = 0;          // a value

@@ -112,6 +112,22 @@ std::vector<uint8_t> WriteKtx2(const PackTexture& texture) {
 }
 
 Error ReadKtx2(std::span<const uint8_t> bytes, PackTexture* texture) {
+  return ReadKtx2Beginning(bytes, bytes.size(), texture);
+}
+
+size_t Ktx2BytesOfWidth(std::span<const uint8_t> bytes, size_t whole, int width_px) {
+  if (bytes.size() < kHeaderBytes) return whole;
+  const size_t levels = std::min<size_t>(Word(bytes, 7), kMaxLevels);
+  for (size_t k = 0; k < levels && bytes.size() >= kHeaderBytes + kLevelEntryBytes * (k + 1); ++k) {
+    if (static_cast<int>(Word(bytes, 2)) >> k > width_px) continue;
+    const uint64_t offset = Number(bytes, kHeaderBytes + kLevelEntryBytes * k, 8);
+    return static_cast<size_t>(
+        std::min<uint64_t>(whole, offset + Number(bytes, kHeaderBytes + kLevelEntryBytes * k + 8, 8)));
+  }
+  return whole;
+}
+
+Error ReadKtx2Beginning(std::span<const uint8_t> bytes, size_t whole, PackTexture* texture) {
   if (bytes.size() < kHeaderBytes || !std::equal(kIdentifier.begin(), kIdentifier.end(), bytes.begin())) {
     return Fail("is no KTX2 picture");
   }
@@ -134,13 +150,18 @@ Error ReadKtx2(std::span<const uint8_t> bytes, PackTexture* texture) {
   for (size_t k = 0; k < levels; ++k) {
     const uint64_t offset = Number(bytes, kHeaderBytes + kLevelEntryBytes * k, 8);
     const uint64_t length = Number(bytes, kHeaderBytes + kLevelEntryBytes * k + 8, 8);
-    if (offset > bytes.size() || length > bytes.size() - offset) return Fail("is a truncated KTX2 picture");
-    if (length != LevelBytes(out.format, std::max(1, out.width_px >> k), std::max(1, out.height_px >> k))) {
+    if (offset > whole || length > whole - offset) return Fail("is a truncated KTX2 picture");
+    if (length !=
+        LevelBytes(out.format, std::max(1, static_cast<int>(width) >> k), std::max(1, static_cast<int>(height) >> k))) {
       return Fail("is a KTX2 picture with a level of the wrong length");
     }
+    if (offset + length > bytes.size()) continue;  // coarser ones stand before it
+    if (out.levels.empty())
+      out.width_px = std::max(1, out.width_px >> k), out.height_px = std::max(1, out.height_px >> k);
     const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(offset);
     out.levels.emplace_back(first, first + static_cast<std::ptrdiff_t>(length));
   }
+  if (out.levels.empty()) return Fail("is a KTX2 picture of which nothing has arrived");
   *texture = std::move(out);
   return Ok();
 }

@@ -15,5 +15,11 @@ std::vector<uint8_t> WriteKtx2(const PackTexture& texture);
 
 // The bytes are not trusted. Errors: not KTX2, truncated, another format, cube, array or volume, supercompressed.
 Error ReadKtx2(std::span<const uint8_t> bytes, PackTexture* texture);
+// The same of a file of `whole` bytes whose beginning is there: its finest levels are left out as far as they are not,
+// and the texture is as large as the first that is. Errors: none is there.
+Error ReadKtx2Beginning(std::span<const uint8_t> bytes, size_t whole, PackTexture* texture);
+// How many bytes from its beginning hold the first level that is no wider than `width_px`, and all coarser ones; all of
+// them where no level is so narrow or too little is there to tell.
+size_t Ktx2BytesOfWidth(std::span<const uint8_t> bytes, size_t whole, int width_px);
 
 }  // namespace flaneur

@@ -38,12 +38,16 @@ std::string NameOf(const GltfFile& file, int image) {
   return "image " + std::to_string(image) + (name.empty() ? "" : " '" + name + "'");
 }
 
+int ImageView(const GltfFile& file, int image) {
+  return Member(Element(file.json, "images", image), "bufferView").get<int>();
+}
+
 std::span<const uint8_t> ImageBytes(const GltfFile& file, int image) {
-  return BufferView(file, Member(Element(file.json, "images", image), "bufferView").get<int>());
+  return BufferView(file, ImageView(file, image));
 }
 
 PackImage ReadImageSize(const GltfFile& file, int index) {
-  const auto size = DecodedSize(ImageBytes(file, index));
+  const auto size = DecodedSize(BeginningOfView(file, ImageView(file, index)));
   if (!size || size->width > kMaxImageSide_px || size->height > kMaxImageSide_px) {
     throw PackRefused("has " + NameOf(file, index) + " that is neither PNG nor JPEG, or too large");
   }
@@ -194,15 +198,50 @@ PackImpostor ReadImpostor(const GltfFile& file, const TourObject& json) {
   return out;
 }
 
-// `halved`: how often the picture's sides are half the atlas's.
+// halved: how often the picture's sides are half the atlas's.
+struct AtlasView {
+  const char* name;
+  int halved;
+};
+constexpr AtlasView kAtlasViews[] = {
+    {"albedo_view", 0}, {"normal_view", 0}, {"depth_view", 0}, {"motion_view", 1}, {"tints_view", 1}};
+
 void ReadAtlasPicture(const GltfFile& file, const TourObject& json, const char* view, TextureFormat format,
                       const PackImpostor& impostor, int halved, PackTexture* picture) {
   const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
-  if (Error e = ReadKtx2(BufferView(file, json.Whole(view, 0, last)), picture))
+  const int index = json.Whole(view, 0, last);
+  if (Error e = ReadKtx2Beginning(BeginningOfView(file, index), RangeOfView(file, index).bytes, picture))
     json.Refuse(std::string(view) + " " + e.message);
-  if (picture->format != format || picture->width_px != impostor.width_px >> halved ||
-      picture->height_px != impostor.height_px >> halved) {
+  int left_out = 0;  // levels
+  while (left_out < kCoarsestAtlasLevel && picture->width_px < impostor.width_px >> (halved + left_out)) ++left_out;
+  if (picture->format != format || picture->width_px != impostor.width_px >> (halved + left_out) ||
+      picture->height_px != impostor.height_px >> (halved + left_out)) {
     json.Refuse(std::string(view) + " is a picture of another format or size than the atlas");
+  }
+}
+
+// The same levels of all pictures, as many as the one has of which the fewest are there; normals are looked up on their
+// own.
+void LeaveOutLevels(PackImpostor* impostor) {
+  const auto left_out = [&](const PackTexture& picture, int halved) {
+    size_t count = 0;
+    while (picture.width_px < impostor->width_px >> (static_cast<size_t>(halved) + count)) ++count;
+    return count;
+  };
+  struct Halved {
+    PackTexture* picture;
+    int halved;
+  };
+  const Halved all[] = {{&impostor->albedo, 0}, {&impostor->depth, 0}, {&impostor->motion, 1}, {&impostor->tints, 1}};
+  size_t most = 0;
+  for (const Halved& h : all) most = std::max(most, h.picture->levels.empty() ? 0 : left_out(*h.picture, h.halved));
+  for (const Halved& h : all) {
+    for (size_t k = h.picture->levels.empty() ? most : left_out(*h.picture, h.halved);
+         k < most && h.picture->levels.size() > 1; ++k) {
+      h.picture->levels.erase(h.picture->levels.begin());
+      h.picture->width_px >>= 1;
+      h.picture->height_px >>= 1;
+    }
   }
 }
 
@@ -213,6 +252,7 @@ void ReadAtlas(const GltfFile& file, const TourObject& json, PackImpostor* impos
   ReadAtlasPicture(file, json, "motion_view", TextureFormat::kBc7, *impostor, 1, &impostor->motion);
   if (json.Has("tints_view"))
     ReadAtlasPicture(file, json, "tints_view", TextureFormat::kBc7, *impostor, 1, &impostor->tints);
+  LeaveOutLevels(impostor);
 }
 
 void CheckJoints(const PackMesh& mesh, int joints) {
@@ -567,9 +607,19 @@ Error PackFile::Open(const std::filesystem::path& path, TourPack* pack) {
 }
 
 Error PackFile::Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack) {
+  return OpenPart(std::move(bytes), {}, name, pack);
+}
+
+Error PackFile::Open(std::vector<uint8_t> bytes, ByteRanges there, const std::string& name, TourPack* pack) {
+  if (there.Holds({0, bytes.size()})) return Open(std::move(bytes), name, pack);
+  return OpenPart(std::move(bytes), std::move(there), name, pack);
+}
+
+Error PackFile::OpenPart(std::vector<uint8_t> bytes, std::optional<ByteRanges> there, const std::string& name,
+                         TourPack* pack) {
   return Caught(name, [&] {
     auto impl = std::make_unique<Impl>();
-    impl->file = OpenGltf(std::move(bytes));
+    impl->file = OpenGltf(std::move(bytes), std::move(there));
     impl->name = name;
     TourPack read;
     impl->Read(&read);
@@ -592,6 +642,62 @@ Error PackFile::ReadAtlas(int avatar, PackImpostor* out) const {
     PackImpostor read = impl_->atlases[index];
     flaneur::ReadAtlas(impl_->file, impl_->impostors[index], &read);
     *out = std::move(read);
+  });
+}
+
+template <typename Collect>
+std::vector<ByteRange> PackFile::Ranges(Collect collect) const {
+  std::vector<ByteRange> ranges;
+  if (!impl_ || Caught(impl_->name, [&] { collect(impl_->file, &ranges); })) ranges.clear();
+  return ranges;
+}
+
+Error PackFile::Arrive(size_t offset, std::span<const uint8_t> bytes) {
+  if (!impl_) return Ok();  // nobody reads any more
+  std::vector<uint8_t>& all = impl_->file.bytes;
+  if (offset > all.size() || bytes.size() > all.size() - offset)
+    return Fail(impl_->name + ": has a piece beyond its end");
+  std::optional<ByteRanges>& there = impl_->file.there;
+  if (!there) return Ok();
+  std::copy(bytes.begin(), bytes.end(), all.begin() + static_cast<std::ptrdiff_t>(offset));
+  there->Add({offset, bytes.size()});
+  if (there->Holds({0, all.size()})) there.reset();
+  return Ok();
+}
+
+bool PackFile::IsWhole() const { return !impl_ || !impl_->file.there; }
+
+bool PackFile::Holds(const std::vector<ByteRange>& ranges) const {
+  return IsWhole() || std::all_of(ranges.begin(), ranges.end(),
+                                  [&](const ByteRange& range) { return impl_->file.there->Holds(range); });
+}
+
+std::vector<ByteRange> PackFile::RangesOfImage(int image) const {
+  return Ranges([&](const GltfFile& file, std::vector<ByteRange>* ranges) {
+    ranges->push_back(RangeOfView(file, ImageView(file, image)));
+  });
+}
+
+std::vector<ByteRange> PackFile::RangesOfMesh(int mesh) const {
+  return Ranges([&](const GltfFile& file, std::vector<ByteRange>* ranges) {
+    for (int view : ViewsOfMesh(file, At(impl_->meshes, mesh))) ranges->push_back(RangeOfView(file, view));
+  });
+}
+
+std::vector<ByteRange> PackFile::RangesOfAtlas(int avatar, int finest_level) const {
+  return Ranges([&](const GltfFile& file, std::vector<ByteRange>* ranges) {
+    const TourObject& json = At(impl_->impostors, avatar);
+    const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
+    const int width_px = At(impl_->atlases, avatar).width_px;
+    for (const AtlasView& view : kAtlasViews) {
+      if (!json.Has(view.name)) continue;
+      const int index = json.Whole(view.name, 0, last);
+      ByteRange range = RangeOfView(file, index);
+      if (finest_level > 0)
+        range.bytes =
+            Ktx2BytesOfWidth(BeginningOfView(file, index), range.bytes, width_px >> (view.halved + finest_level));
+      ranges->push_back(range);
+    }
   });
 }
 

@@ -173,4 +173,22 @@ PackMesh ReadMesh(const GltfFile& file, int mesh) {
   }
 }
 
+std::vector<int> ViewsOfMesh(const GltfFile& file, int mesh) {
+  std::vector<int> views;
+  const auto add = [&](const Json& accessor) {
+    const Json& json = Element(file.json, "accessors", accessor.get<int>());
+    if (json.contains("bufferView")) views.push_back(json["bufferView"].get<int>());
+  };
+  for (const Json& primitive : Member(Element(file.json, "meshes", mesh), "primitives")) {
+    for (const auto& attribute : Member(primitive, "attributes").items()) add(attribute.value());
+    if (primitive.contains("indices")) add(primitive["indices"]);
+    const auto extensions = primitive.find("extensions");
+    if (extensions != primitive.end() && extensions->contains(kDracoExtension))
+      views.push_back(Member((*extensions)[kDracoExtension], "bufferView").get<int>());
+  }
+  std::sort(views.begin(), views.end());
+  views.erase(std::unique(views.begin(), views.end()), views.end());
+  return views;
+}
+
 }  // namespace flaneur

@@ -10,10 +10,15 @@ namespace {
 
 constexpr double kMaxHeight_m = 500, kMaxRadius_m = 1000;
 
-std::vector<uint8_t> ViewBytes(const GltfFile& file, const TourObject& json, const char* key) {
+// A file in the pack: one of `files`, and where it stands.
+void AddFile(const GltfFile& file, const TourObject& json, const char* key, std::vector<std::vector<uint8_t>>* files,
+             std::vector<ByteRange>* ranges) {
   const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
-  const auto bytes = BufferView(file, json.Whole(key, 0, last));
-  return {bytes.begin(), bytes.end()};
+  const int view = json.Whole(key, 0, last);
+  ranges->push_back(RangeOfView(file, view));
+  const bool there = !file.there || file.there->Holds(ranges->back());
+  const auto bytes = there ? BufferView(file, view) : std::span<const uint8_t>();
+  files->emplace_back(bytes.begin(), bytes.end());
 }
 
 Hotspot ReadHotspot(const GltfFile& file, const TourObject& json, TourPack* pack) {
@@ -24,7 +29,7 @@ Hotspot ReadHotspot(const GltfFile& file, const TourObject& json, TourPack* pack
   hotspot.sounds = ReadSounds(file, json, pack);
   if (!json.Has("picture_view")) return hotspot;
   hotspot.picture = Count(pack->pictures);
-  pack->pictures.push_back(ViewBytes(file, json, "picture_view"));
+  AddFile(file, json, "picture_view", &pack->pictures, &pack->picture_ranges);
   return hotspot;
 }
 
@@ -39,7 +44,7 @@ SoundPlace ReadSoundPlace(const GltfFile& file, const TourObject& json, TourPack
   place.volume = json.Real("volume", 0, 4);
   if (json.Has("view")) {
     place.sound = Count(pack->sounds);
-    pack->sounds.push_back(ViewBytes(file, json, "view"));
+    AddFile(file, json, "view", &pack->sounds, &pack->sound_ranges);
   } else if (place.kind == SoundKind::kLoop) {
     json.Refuse("is a loop without a view of its sound");
   }
@@ -68,9 +73,8 @@ std::map<std::string, StopSound> ReadSounds(const GltfFile& file, const TourObje
   const TourObject object = json.Object("sounds");
   for (const std::string& language : object.Keys()) {
     const TourObject sound = object.Object(language.c_str());
-    std::vector<uint8_t> bytes = ViewBytes(file, sound, "view");
     sounds[language] = {Count(pack->sounds), sound.Real("duration_s", 0, 36000)};
-    pack->sounds.push_back(std::move(bytes));
+    AddFile(file, sound, "view", &pack->sounds, &pack->sound_ranges);
   }
   return sounds;
 }

@@ -9,12 +9,14 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "runtime/base/error.h"
 #include "runtime/base/jobs.h"
 #include "runtime/base/math.h"
+#include "runtime/pack/byte_ranges.h"
 #include "runtime/pack/texture.h"
 #include "runtime/tour_data/avatar_data.h"
 #include "runtime/tour_data/tour_data.h"
@@ -22,6 +24,7 @@
 namespace flaneur {
 
 inline constexpr int kTourPackVersion = 3;
+inline constexpr int kCoarsestAtlasLevel = 3;  // of its mip levels: in coarser ones several cells share a texel
 inline constexpr const char* kTourExtension = "FLANEUR_tour";
 
 struct PackImage {  // decoded, 8 bits a channel
@@ -126,6 +129,8 @@ struct TourPack : TourData {
   SharedGround ground = Share({});
   std::vector<std::vector<uint8_t>> sounds;    // files: WAV, FLAC, Ogg Vorbis or Opus, MP3
   std::vector<std::vector<uint8_t>> pictures;  // of hotspots; files: PNG or JPEG
+  // Where they stand in the pack: of one that arrives in pieces they are empty until somebody has put them together.
+  std::vector<ByteRange> sound_ranges, picture_ranges;
 };
 
 // A tour pack that stands open. Everything but its bulk is read at once, which is enough for a run without drawing; of
@@ -141,10 +146,27 @@ class PackFile {
   Error Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack);
   Error ReadImage(int image, PackImage* out) const;
   Error ReadMesh(int mesh, PackMesh* out) const;
-  Error ReadAtlas(int avatar, PackImpostor* out) const;  // with its pictures
+  // With its pictures: of one that has not arrived as a whole the levels that are there, at least one of each.
+  Error ReadAtlas(int avatar, PackImpostor* out) const;
+
+  // A file that arrives in pieces: `bytes` are as many as it has, and of them so many are there that all but the bulk
+  // can be read, and of each image what tells its size.
+  Error Open(std::vector<uint8_t> bytes, ByteRanges there, const std::string& name, TourPack* pack);
+  // More of it; whoever reads at the same time must be in this thread. Errors: beyond the file's end.
+  Error Arrive(size_t offset, std::span<const uint8_t> bytes);
+  bool IsWhole() const;  // or was never in pieces
+  bool Holds(const std::vector<ByteRange>& ranges) const;
+  // Where pieces of the bulk stand. finest_level: of an atlas's pictures this mip level, counted from the atlas's own
+  // size, and coarser ones; 0: all. Empty where the file is broken: reading it says how.
+  std::vector<ByteRange> RangesOfImage(int image) const;
+  std::vector<ByteRange> RangesOfMesh(int mesh) const;
+  std::vector<ByteRange> RangesOfAtlas(int avatar, int finest_level = 0) const;
 
  private:
   struct Impl;
+  Error OpenPart(std::vector<uint8_t> bytes, std::optional<ByteRanges> there, const std::string& name, TourPack* pack);
+  template <typename Collect>
+  std::vector<ByteRange> Ranges(Collect collect) const;
   std::unique_ptr<Impl> impl_;
 };
 

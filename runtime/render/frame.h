@@ -43,6 +43,13 @@ struct DrawnPerson {
   float size = 1;                  // of the avatar's, 0.9 to 1.1: everybody of one model is as high or wide as they are
 };
 
+// A soft spot that turns to the eye.
+struct SmokePuff {
+  Vec3 position;
+  float radius_m = 1, density = 0.5f;  // density: how much its middle hides, 0 to 1
+  float turn_rad = 0;
+};
+
 struct CaptionStyle {
   std::string language;        // such as "ar"
   float size = 1;              // of its letters; 1: a twentieth of the picture's height
@@ -60,6 +67,7 @@ struct FrameInput {
   // a smaller scale coarser figures begin nearer.
   float fine_shadow_m = kFineShadow_m, shadow_reach_m = kShadowReach_m;
   float contact_shade = 0.3f;     // of the light, that feet keep from the ground about them
+  std::vector<SmokePuff> smoke;   // farthest first
   std::vector<Vec3> ground_mark;  // a strip of triangles over the ground; empty: none
   std::string caption;            // UTF-8, at the foot of the picture; empty: none
   float caption_share = 1;        // how much of it is seen, 0 to 1

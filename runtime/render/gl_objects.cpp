@@ -100,7 +100,12 @@ void BindFrameBlock(GLuint buffer, const FrameBlock& block) {
 }
 
 bool DrawsInSoftware() {
-  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+#ifdef __EMSCRIPTEN__  // browsers hide the usual name behind one of their own, unless the page has asked for it
+  constexpr GLenum kRendererName = 0x9246;  // UNMASKED_RENDERER_WEBGL of WEBGL_debug_renderer_info
+#else
+  constexpr GLenum kRendererName = GL_RENDERER;
+#endif
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(kRendererName));
   return renderer != nullptr &&
          (std::strstr(renderer, "llvmpipe") != nullptr || std::strstr(renderer, "softpipe") != nullptr ||
           std::strstr(renderer, "SwiftShader") != nullptr);

@@ -27,11 +27,34 @@ void ResizeTexture(GLuint texture, const Picture& p) {
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, p.drawn_width_px, p.drawn_height_px, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
 }
 
-void ResizeDeferred(const Picture& p) {
-  for (GLuint texture : {p.color, p.normals, p.lit_color}) ResizeTexture(texture, p);
-  BindTexture(kColorUnit, p.depth);
+// A page's OpenGL refuses to look up the depth of what is drawn into: there it is copied first.
+#ifdef __EMSCRIPTEN__
+constexpr bool kCopiesDepth = true;
+#else
+constexpr bool kCopiesDepth = false;
+#endif
+
+void ResizeDepth(GLuint texture, const Picture& p) {
+  BindTexture(kColorUnit, texture);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, p.drawn_width_px, p.drawn_height_px, 0, GL_DEPTH_COMPONENT,
                GL_UNSIGNED_INT, nullptr);
+}
+
+void CopyDepth(const Picture& p) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, p.framebuffer);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, p.depth_copy_target);
+  glBlitFramebuffer(0, 0, p.drawn_width_px, p.drawn_height_px, 0, 0, p.drawn_width_px, p.drawn_height_px,
+                    GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+void ResizeDeferred(const Picture& p) {
+  for (GLuint texture : {p.color, p.normals, p.lit_color}) ResizeTexture(texture, p);
+  ResizeDepth(p.depth, p);
+  if (kCopiesDepth) {
+    ResizeDepth(p.depth_copy, p);
+    glBindFramebuffer(GL_FRAMEBUFFER, p.depth_copy_target);
+    Attach(GL_DEPTH_ATTACHMENT, p.depth_copy);
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, p.framebuffer);
   Attach(GL_COLOR_ATTACHMENT0, p.color);
   Attach(GL_COLOR_ATTACHMENT1, p.normals);
@@ -127,6 +150,10 @@ Error CreatePicture(const PictureOptions& options, ShaderMode mode, Picture* p) 
     p->depth = NewTexture(GL_NEAREST);
     p->normals = NewTexture(GL_NEAREST);
     p->lit_color = NewTexture(GL_LINEAR);
+    if (kCopiesDepth) {
+      p->depth_copy = NewTexture(GL_NEAREST);
+      glGenFramebuffers(1, &p->depth_copy_target);
+    }
     p->coarse_color = p->color;  // which nobody needs once the light is done
     if (Error e = BuildProgram(ShaderProgram::kLight, mode, &p->light_program)) return e;
   }
@@ -163,6 +190,7 @@ void BeginPicture(const Picture& p) {
 
 void LightPicture(const Picture& p) {
   if (!p.deferred) return;
+  if (kCopiesDepth) CopyDepth(p);
   glBindFramebuffer(GL_FRAMEBUFFER, p.lit);
   // Only where there is a surface. The depth is looked up and tested alike, and not written: software, which alone
   // defers light, does not mind.
@@ -170,7 +198,7 @@ void LightPicture(const Picture& p) {
   glDepthFunc(GL_GREATER);
   BindTexture(kColorUnit, p.color);
   BindTexture(kNormalsUnit, p.normals);
-  BindTexture(kDepthUnit, p.depth);
+  BindTexture(kDepthUnit, kCopiesDepth ? p.depth_copy : p.depth);
   DrawWhole(p.light_program, p);
   BindTexture(kDepthUnit, 0);  // it is drawn into again
   glDepthMask(GL_TRUE);

@@ -17,6 +17,7 @@ struct Picture {
   GLuint color = 0, depth = 0, framebuffer = 0;  // drawn into; color is a texture where samples is 1
   GLuint normals = 0;                            // where deferred, and depth is a texture then
   GLuint lit_color = 0, lit = 0;                 // where deferred
+  GLuint depth_copy = 0, depth_copy_target = 0;  // likewise, where depth cannot be looked up while it is drawn into
   GLuint coarse_color = 0, coarse = 0;           // smooth but not yet enlarged
   GLuint finished_color = 0, finished = 0;       // framebuffer of the finished picture; 0: the window's own
   Program light_program, smooth_program, sharpen_program, enlarge_program;

@@ -15,6 +15,7 @@
 #include "runtime/render/picture.h"
 #include "runtime/render/picture_clock.h"
 #include "runtime/render/shadow_maps.h"
+#include "runtime/render/smoke_view.h"
 #include "runtime/render/town_view.h"
 
 namespace flaneur {
@@ -122,6 +123,7 @@ struct Renderer::Impl {
   CaptionView caption;
   GroundMarkView ground_mark;
   ContactShadeView contact_shade;
+  SmokeView smoke;
   SurfacePlan plan;
   size_t pictures_left = 0;  // to come
   AtlasFormats formats;
@@ -211,6 +213,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   if (Error e = CreateCaptionView(options.fonts, &r.caption)) return e;
   if (Error e = CreateGroundMark(&r.ground_mark)) return e;
   if (Error e = CreateContactShade(&r.contact_shade)) return e;
+  if (Error e = CreateSmokeView(&r.smoke)) return e;
   CreateShadowMaps(&r.shadows);
   r.waits = !options.runs_ahead || !CreatePictureClock(&r.clock);
   glGenVertexArrays(1, &r.empty_array);
@@ -290,6 +293,7 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
     r.DrawSurfaces(eye, &timer, &people, &town);
     if (!r.options.normals) r.DrawSky();
     mark = r.options.normals ? DrawCost{} : DrawContactShade(r.people, r.contact_shade);
+    if (!r.options.normals) mark += DrawSmoke(frame.smoke, r.smoke);
     mark += DrawGroundMark(frame.ground_mark, r.ground_mark);
     timer.Passed(DrawPass::kSky);
     FinishPicture(k, r.picture);

@@ -10,7 +10,7 @@
 namespace flaneur {
 namespace {
 
-constexpr size_t kImpostorMaxLevel = 3;  // in coarser ones several cells share a texel
+constexpr size_t kImpostorMaxLevel = kCoarsestAtlasLevel;
 
 void SetFilters(GLenum target, GLint wrap, GLint most_level, bool between_levels) {
   glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
@@ -127,7 +127,8 @@ void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer,
 }
 
 bool ReadsBc1() {
-  return HasExtension("GL_EXT_texture_compression_s3tc") || HasExtension("GL_EXT_texture_compression_dxt1");
+  return HasExtension("texture_compression_s3tc") || HasExtension("GL_EXT_texture_compression_dxt1") ||
+         HasExtension("WEBGL_compressed_texture_s3tc");
 }
 
 AtlasFormats FormatsOfThisMachine(bool fast) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 #include "runtime/render/visible_triangles.h"
 
@@ -79,6 +80,14 @@ size_t GatherIndices(Vec3 eye, const TriangleSight* sight, bool cull, TownView* 
   return static_cast<size_t>(to - town->indices.get());
 }
 
+void RemoveTown(TownView* town) {
+  const GLuint arrays[] = {town->vertex_array, town->shadow_array};
+  const GLuint buffers[] = {town->visible_indices, town->vertices, town->shadow_indices};
+  glDeleteVertexArrays(static_cast<GLsizei>(std::size(arrays)), arrays);
+  glDeleteBuffers(static_cast<GLsizei>(std::size(buffers)), buffers);
+  town->box = {};
+}
+
 }  // namespace
 
 Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town) {
@@ -92,15 +101,17 @@ Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector
 }
 
 void AddTown(TownGeometry geometry, TownView* town) {
+  if (town->vertex_array != 0) RemoveTown(town);
   glGenVertexArrays(1, &town->shadow_array);
   glBindVertexArray(town->shadow_array);
-  const GLuint vertices =
+  town->vertices =
       CreateBuffer(GL_ARRAY_BUFFER, geometry.vertices.data(), geometry.vertices.size() * sizeof(TownVertex));
-  CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, geometry.indices.data(), geometry.indices.size() * sizeof(uint32_t));
+  town->shadow_indices =
+      CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, geometry.indices.data(), geometry.indices.size() * sizeof(uint32_t));
   EnableVertices();
   glGenVertexArrays(1, &town->vertex_array);
   glBindVertexArray(town->vertex_array);
-  glBindBuffer(GL_ARRAY_BUFFER, vertices);
+  glBindBuffer(GL_ARRAY_BUFFER, town->vertices);
   EnableVertices();
   glGenBuffers(1, &town->visible_indices);
   std::vector<TownVertex>().swap(geometry.vertices);  // its memory too

@@ -13,6 +13,7 @@ namespace flaneur {
 struct TownView {
   Program lit[2], shadow[2];  // [masked]
   GLuint vertex_array = 0, shadow_array = 0, visible_indices = 0;
+  GLuint vertices = 0, shadow_indices = 0;
   TownGeometry geometry;  // without its vertices
   std::vector<SurfaceGroup> groups;
   std::vector<int> masked_groups;  // that the town has, in the order in which they stand in the index array
@@ -30,6 +31,7 @@ struct TownView {
 };
 
 Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town);
+// Instead of the one that was added before.
 void AddTown(TownGeometry geometry, TownView* town);
 
 // Fills visible and walls: blocks within the view that no nearer walls hide. Without `cull` all blocks and no walls.

@@ -8,6 +8,7 @@
 #include "runtime/show/birds.h"
 #include "runtime/show/ground_mark.h"
 #include "runtime/show/looks.h"
+#include "runtime/show/smoke.h"
 
 namespace flaneur {
 namespace {
@@ -259,6 +260,7 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks*
   const float before_s = std::max(0.0f, 1 - between.share) * Step_s(s);
   for (int slot : looks->shown) Show(looks->people[static_cast<size_t>(slot)], share, before_s, frame);
   AddBirds(pack, s, between.share, frame);
+  AddSmoke(pack, time_s - before_s, frame);
 }
 
 }  // namespace flaneur

@@ -19,4 +19,14 @@ struct Flock {
   std::string clip = "fly";  // in the air
 };
 
+inline constexpr size_t kMaxSmokes = 1000;
+inline constexpr float kLeastSmoke_m = 0.1f, kMostSmoke_m = 5;
+
+// What rises over a chimney and drifts with the wind.
+struct Smoke {
+  Vec3 position_m;       // of the chimney's mouth, in the town's own coordinates
+  float width_m = 0.5f;  // there
+  float density = 0.7f;  // 0 to 1: how much it hides at its thickest
+};
+
 }  // namespace flaneur

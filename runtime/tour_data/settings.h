@@ -54,6 +54,11 @@ struct LightSettings {
   float day_length_s = 600;  // time for the sun's way across the sky; 0: it stands still
 };
 
+struct WindSettings {
+  float yaw_rad = kPi / 6;  // where it blows to, on the whole
+  float speed_mps = 1;
+};
+
 // An enumeration as the text that stands in files; the names by value.
 template <typename Enum>
 const char* NameOf(Enum value, std::initializer_list<const char*> names) {
@@ -108,6 +113,12 @@ void VisitFields(Fields&& fields, LightSettings* s) {
   fields.Angle("sun_azimuth", &s->sun_azimuth_rad, -360, 360);
   fields.Angle("sun_elevation", &s->sun_elevation_rad, 0, 90);
   fields.Number("day_length_s", &s->day_length_s, 0, 1e6);
+}
+
+template <typename Fields>
+void VisitFields(Fields&& fields, WindSettings* s) {
+  fields.Angle("yaw", &s->yaw_rad, -360, 360);
+  fields.Number("speed_mps", &s->speed_mps, 0, 10);
 }
 
 }  // namespace flaneur

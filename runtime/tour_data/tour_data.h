@@ -106,12 +106,14 @@ struct TourData {
   std::vector<SoundPlace> sound_places;
   PhotoData photo;
   std::vector<Flock> flocks;
+  std::vector<Smoke> smokes;
   std::map<std::string, std::string>
       thanks;               // what visitors read at the tour's end, by language; empty: a word of ours
   float home_after_s = 45;  // without a touch at the tour's end, until all is as at the beginning; 0: never
   CrowdSettings crowd;
   ControlSettings control;
   LightSettings light;
+  WindSettings wind;
 };
 
 }  // namespace flaneur

@@ -16,6 +16,7 @@
 #include "runtime/base/clock.h"
 #include "runtime/render/surface_plan.h"
 #include "runtime/show/guide_figure.h"
+#include "runtime/visit/arriving.h"
 
 namespace flaneur {
 namespace {
@@ -62,15 +63,18 @@ struct Loader::Impl {
   TourPack pack;  // PartsForAssets: pieces are read into it, made ready, and taken out again
   std::vector<AssetId> assets;
   AssetStages stages;
+  bool town_comes_twice = false;  // first what is there of it at the beginning
   std::vector<Task> tasks;
   Jobs* jobs = nullptr;
   size_t most_readers = 0;  // that there is a thread for
 
   std::mutex mutex;
   std::condition_variable changed;
-  size_t next_task = 0, unread_tasks = 0, town_meshes_left = 0, readers = 0;
-  size_t asked_tasks = 0;  // so many of the tasks may be done before GoOn
-  size_t in_hand = 0;      // assets but the town that are being read or wait for their upload
+  size_t next_task = 0, unread_tasks = 0, readers = 0;
+  std::vector<size_t> parts_left;  // by asset: of its tasks
+  bool looks_for_pieces = false;   // some may have arrived since there was none
+  size_t asked_tasks = 0;          // so many of the tasks may be done before GoOn
+  size_t in_hand = 0;              // assets but the town that are being read or wait for their upload
   bool may_prepare = false, may_go_on = false, stop = false;
   SurfacePlan plan;  // of the renderer
   AtlasFormats formats;
@@ -82,10 +86,12 @@ struct Loader::Impl {
   size_t uploads = 0;
   std::vector<Job> reading;  // last, so that it ends first: it uses the rest
 
+  void AddTasks(const TourPack& whole);
   void GoOnReading(size_t most_more);
   bool ReadHere();
   bool DoPiece();
   std::optional<Piece> NextPiece();
+  bool FindTask();
   void Do(const Piece& piece);
   void StopWithError(Error e);
   Error Read(const Task& task);
@@ -150,7 +156,8 @@ void Loader::Impl::Clear(const AssetId& id) {
 
 void Loader::Impl::Prepare(size_t index) {
   Asset asset = PrepareAsset(pack, assets[index], plan, formats);
-  Clear(assets[index]);
+  const bool again = town_comes_twice && assets[index].kind == AssetKind::kTown && assets[index].index != kWholeTown;
+  if (!again) Clear(assets[index]);
   const std::lock_guard lock(mutex);
   ready.push_back(std::move(asset));
   changed.notify_all();
@@ -165,13 +172,29 @@ std::optional<Piece> Loader::Impl::NextPiece() {
     read.pop_front();
     return Piece{false, asset};
   }
-  if (next_task == tasks.size()) return {};
+  if (next_task == tasks.size() || !FindTask()) return {};
   const Task& task = tasks[next_task];
   const bool of_town = assets[task.asset].kind == AssetKind::kTown;
   if (next_task >= asked_tasks && !may_go_on) return {};
   if (!of_town && in_hand >= kMaxReadyAssets + most_readers) return {};
   in_hand += of_town ? 0 : 1;
   return Piece{true, next_task++};
+}
+
+// Puts what is there before what is not.
+bool Loader::Impl::FindTask() {
+  if (file.IsWhole()) return true;
+  if (!looks_for_pieces) return false;
+  const auto is_there = [&](const Task& task) {
+    return task.town_mesh >= 0 ? flaneur::IsThere(task.town_mesh, file)
+                               : assets[task.asset].kind == AssetKind::kTown || IsThere(assets[task.asset], file, pack);
+  };
+  const auto next = tasks.begin() + static_cast<std::ptrdiff_t>(next_task);
+  const auto found = std::find_if(next, tasks.end(), is_there);
+  looks_for_pieces = found != tasks.end();
+  if (!looks_for_pieces) return false;
+  std::rotate(next, found, found + 1);
+  return true;
 }
 
 void Loader::Impl::Do(const Piece& piece) {
@@ -182,8 +205,7 @@ void Loader::Impl::Do(const Piece& piece) {
   {
     const std::lock_guard lock(mutex);
     last = --unread_tasks == 0;
-    const bool whole = assets[task.asset].kind != AssetKind::kTown || --town_meshes_left == 0;
-    if (whole) read.push_back(task.asset);
+    if (--parts_left[task.asset] == 0) read.push_back(task.asset);
   }
   if (!last) return;
   file = PackFile();  // nobody reads any more
@@ -255,26 +277,46 @@ Loader::~Loader() {
   impl_->stop = true;
 }
 
+void Loader::Impl::AddTasks(const TourPack& whole) {
+  const bool twice = std::any_of(assets.begin(), assets.end(),
+                                 [](const AssetId& a) { return a.kind == AssetKind::kTown && a.index == kWholeTown; });
+  for (size_t k = 0; k < assets.size(); ++k) {
+    const size_t before = tasks.size();
+    if (assets[k].kind == AssetKind::kTown) {
+      for (int mesh : MeshesOf(assets[k], whole)) {
+        const bool first = !twice || flaneur::IsThere(mesh, file);
+        if (first == (assets[k].index != kWholeTown)) tasks.push_back({k, mesh});
+      }
+    }
+    if (tasks.size() == before) tasks.push_back({k, -1});
+    parts_left.push_back(tasks.size() - before);
+  }
+  town_comes_twice = twice;
+}
+
 void Loader::Start(PackFile file, const TourPack& pack) {
   KeepNoStock();
   Impl& l = *impl_;
   l.file = std::move(file);
   l.pack = PartsForAssets(pack);
-  l.assets = AssetsOf(pack);
-  l.stages = StagesOf(l.assets);
-  l.uploaded.assign(l.assets.size(), false);
-  for (size_t k = 0; k < l.assets.size(); ++k) {
-    if (l.assets[k].kind != AssetKind::kTown) {
-      l.tasks.push_back({k, -1});
-      continue;
-    }
-    for (int mesh : MeshesOf(l.assets[k], pack)) l.tasks.push_back({k, mesh});
-    if (l.tasks.empty()) l.tasks.push_back({k, -1});
-    l.town_meshes_left = l.tasks.size();
+  if (l.file.IsWhole()) {
+    l.assets = AssetsOf(pack);
+    l.stages = StagesOf(l.assets);
+  } else {
+    l.assets = AssetsWhileArriving(l.file, pack, &l.stages);
+    l.looks_for_pieces = true;
   }
+  l.uploaded.assign(l.assets.size(), false);
+  l.AddTasks(pack);
   l.unread_tasks = l.tasks.size();
   while (l.asked_tasks < l.tasks.size() && l.tasks[l.asked_tasks].asset < l.stages.town) ++l.asked_tasks;
   l.GoOnReading(l.most_readers);
+}
+
+Error Loader::Arrive(size_t offset, std::span<const uint8_t> bytes) {
+  if (Error e = impl_->file.Arrive(offset, bytes)) return e;
+  impl_->looks_for_pieces = true;
+  return Ok();
 }
 
 void Loader::PrepareFor(const Renderer& renderer) {

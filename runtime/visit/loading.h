@@ -1,6 +1,7 @@
 // Reads the bulk of a pack beside everything else, while the tour is set up and already plays.
 #pragma once
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "runtime/base/error.h"
@@ -18,6 +19,9 @@ class Loader {
 
   // `pack`: of this file, without its bulk; AddGuideFigure may have added to it.
   void Start(PackFile file, const TourPack& pack);
+  // More of a file that was opened in pieces; what can be read now is. In the thread that uploads, and without threads.
+  // Errors: those of PackFile::Arrive.
+  Error Arrive(size_t offset, std::span<const uint8_t> bytes);
   // After the renderer has begun with the same pack: from now on pieces are made ready for it.
   void PrepareFor(const Renderer& renderer);
 

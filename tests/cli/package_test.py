@@ -106,7 +106,7 @@ class Packages(unittest.TestCase):
 
     def test_notice_names_every_library_that_a_program_links_itself(self):
         notice = (self.root / "usr/share/doc/flaneur/NOTICE").read_text().lower()
-        spelled = {"polyclipping": "clipper", "tomlplusplus": "toml++", "glesv2": "opengl es", "openal": "openal soft",
+        spelled = {"polyclipping": "clipper", "brotlienc": "brotli", "tomlplusplus": "toml++", "glesv2": "opengl es", "openal": "openal soft",
                    "openimageio_util": "openimageio", "openmeshcore": "openmesh"}
         system = {"c", "m", "gcc_s", "stdc++", "ld-linux-x86-64", "asan", "ubsan"}
         for binary in ("bin/flaneur-player", "bin/flaneur", "bin/flaneur-bake", "lib/libflaneur_crowd.so.0.2", "lib/libflaneur_footprints.so.0.2"):

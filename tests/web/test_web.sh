@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # test_web.sh build SOURCES FOLDER: all that a page is made of, in FOLDER. test_web.sh run PROGRAM.js: with node.
 # test_web.sh same WALK_THE_TOUR.js PLAYER PACK SECONDS: both walk everybody along the same ways, bit for bit.
+# test_web.sh page FLANEUR PACK FOLDER_OF_TESTS PLAYER_FOLDER: the site of a tour in a browser.
 # Ends with status 77, skipped, where this machine has no Emscripten or cannot fetch the sources of libraries.
 set -euo pipefail
 for command in emcc node; do
@@ -24,5 +25,12 @@ case $1 in
     [ "$(wc -l < "$folder/native.csv")" -gt 10000 ] || { echo "too few rows to compare"; exit 1; }
     cmp "$folder/web.csv" "$folder/native.csv"
     ;;
-  *) echo "test_web.sh: error: '$1' is neither build, run nor same" >&2; exit 2 ;;
+  page)
+    [ -e "$3" ] || { echo "skipped: $3 has not been baked"; exit 77; }
+    command -v chromium > /dev/null || { echo "skipped: there is no chromium"; exit 77; }
+    [ -e "$5/player.wasm" ] || { echo "skipped: the page's player was not built"; exit 77; }
+    [ -e "$4/node_modules/puppeteer-core" ] || { echo "skipped: npm ci --prefix $4 has not been called"; exit 77; }
+    node "$4/page_test.mjs" "$2" "$3" "$5"
+    ;;
+  *) echo "test_web.sh: error: '$1' is neither build, run, same nor page" >&2; exit 2 ;;
 esac

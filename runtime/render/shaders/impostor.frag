@@ -8,12 +8,7 @@ uniform sampler2D u_normals, u_tint_picture;
 uniform float u_tint_regions;  // 0: there is no picture of where tints may dye
 const float k_hides = 0.999;  // not all: straight from a picture's direction it alone has a share
 vec3 normal_at(View view, vec2 at) {
-#ifdef FAST
-  float level = max(v_level - 1.0, 0.0);
-#else
-  float level = v_level;
-#endif
-  vec2 square = textureLod(u_normals, at, level).rg * 2.0 - 1.0;
+  vec2 square = textureLod(u_normals, at, v_normals_level).rg * 2.0 - 1.0;
   vec2 p = vec2(square.x + square.y, square.x - square.y) * 0.5;
   float near = 1.0 - abs(p.x) - abs(p.y), out_m = v_look.w * near - v_look.z * p.y;
   float up_m = v_look.w * p.y + v_look.z * near;

@@ -9,6 +9,7 @@ layout(location = ATTRIBUTE_POSITION) in vec2 a_corner;  // 0 to 1
 layout(location = ATTRIBUTE_PLACE) in vec4 a_place;      // position, turn about the vertical
 // First cell of the picture's directions, share of the pattern from, to, phases since it.
 layout(location = ATTRIBUTE_LOOK) in vec4 a_look;
+uniform sampler2D u_texture, u_normals;
 uniform vec4 u_atlas;       // texture coordinates a metre, size in texels
 uniform float u_directions;
 uniform vec3 u_ranges;      // of depth, motion and its bend
@@ -20,7 +21,9 @@ flat out vec4 v_turns;      // cosine and sine of the two pictures' azimuths
 flat out vec4 v_cell0, v_cell1, v_origins;
 flat out vec4 v_look;       // phases since the picture, share of the second one, sine and cosine of the elevation
 flat out vec2 v_share;
-flat out float v_haze, v_level;  // v_level: mip level, whose texels are as large as pixels
+// v_level: mip level, whose texels are as large as pixels; normals may be a coarser picture. v_texels: so many of the atlas's a texel of the finest level
+// that is there has in a row.
+flat out float v_haze, v_level, v_normals_level, v_texels;
 flat out ivec3 v_pictures;  // how many of the two count; their directions' cells in the phase beside, -1: none
 // Beyond both silhouettes lie those between them, and what perspective and motion make larger.
 const float k_around_px = 4.0;
@@ -64,14 +67,15 @@ void main() {
   choose_tints();
   v_haze = haze_at(a_place.xyz);
   gl_Position = frame.view_projection * vec4(p, 1.0);
-  v_level = max(0.0, log2(max((frame.view_projection * vec4(a_place.xyz, 1.0)).w, 0.1) / (frame.eye.w * texel_m * size)));
+  v_texels = u_atlas.z / float(textureSize(u_texture, 0).x);
+  v_level = max(0.0, log2(max((frame.view_projection * vec4(a_place.xyz, 1.0)).w, 0.1) / (frame.eye.w * texel_m * v_texels * size)));
   float between = fract(direction);
   vec2 beside0 = cell_texel(first + d0, 2).xy, beside1 = cell_texel(first + d1, 2).xy;
   v_pictures = ivec3(2, a_look.w < 0.0 ? vec2(beside0.y, beside1.y) : vec2(beside0.x, beside1.x));
 #ifdef FAST
   // The smaller they are drawn, the narrower is the range of directions in which both pictures are looked up.
   v_level = floor(v_level + 0.5);  // between two levels software looks up twice as much
-  between = clamp((between - 0.5) * 2.0 * exp2(v_level) + 0.5, 0.0, 1.0);
+  between = clamp((between - 0.5) * 2.0 * exp2(v_level) * v_texels + 0.5, 0.0, 1.0);
   if (between <= 0.0) v_pictures.x = 1;
   if (between >= 1.0) {
     v_pictures.x = 1;
@@ -87,4 +91,5 @@ void main() {
   gl_Position.z = front.z / front.w * gl_Position.w;
 #endif
   v_look = vec4(a_look.w, between, origin0.zw);
+  v_normals_level = max(0.0, v_level - log2(float(textureSize(u_texture, 0).x) / float(textureSize(u_normals, 0).x)));
 }

@@ -9,7 +9,7 @@
 in vec3 v_ray, v_point0, v_point1, v_ray0, v_ray1;
 in vec2 v_texel;
 flat in vec4 v_turns, v_cell0, v_cell1, v_origins, v_look;
-flat in float v_haze, v_level;
+flat in float v_haze, v_level, v_normals_level, v_texels;
 flat in ivec3 v_pictures;
 uniform sampler2D u_texture, u_depth, u_motion;
 uniform vec4 u_atlas;
@@ -44,7 +44,7 @@ COVER cover_at(vec2 at, mat2 pixel) {
 #endif
 }
 vec2 within(View view, vec2 at) {
-  vec2 edge = 0.5 * exp2(ceil(v_level)) / u_atlas.zw;
+  vec2 edge = 0.5 * exp2(ceil(v_level)) * v_texels / u_atlas.zw;
   return clamp(at, view.cell.xy + edge, view.cell.zw - edge);
 }
 bool is_within(View view, vec2 at) {
@@ -104,7 +104,7 @@ COVER cover_from(View view, float along, mat2 pixel) {
 float steps_through(View view) {
   vec2 front = place_at(view, u_ranges.x, vec2(0.0)), back = place_at(view, -u_ranges.x, vec2(0.0));
   float texels = length((front - back) * u_atlas.zw);
-  return clamp(ceil(texels * exp2(-v_level)), 1.0, k_most_steps);
+  return clamp(ceil(texels * exp2(-v_level) / v_texels), 1.0, k_most_steps);
 }
 bool is_solid(View view, vec2 at) {
   return is_within(view, at) && textureLod(u_texture, within(view, at), v_level).a >= k_solid;

@@ -45,6 +45,24 @@ TEST_F(LifeSettings, WhatIsMissingOrWrongOfAFlockIsSaidInOneLine) {
               "more than 200 birds"));
 }
 
+TEST_F(LifeSettings, SmokeHasAPlaceInTheTownsHeightAndTheTourItsWind) {
+  ASSERT_EQ(Read("[[smoke]]\nposition_m = [3, -4, 12.5]\nwidth_m = 0.8\n[wind]\nyaw_deg = 90\nspeed_mps = 3\n"), "");
+  ASSERT_EQ(settings.smokes.size(), 1u);
+  EXPECT_EQ(settings.smokes[0].position_m.z, 12.5f);
+  EXPECT_EQ(settings.smokes[0].width_m, 0.8f);
+  EXPECT_EQ(settings.smokes[0].density, Smoke{}.density);
+  EXPECT_NEAR(settings.wind.yaw_rad, kPi / 2, 1e-6f);
+  EXPECT_EQ(settings.wind.speed_mps, 3);
+}
+
+TEST_F(LifeSettings, WhatIsMissingOrWrongOfSmokeIsSaidInOneLine) {
+  EXPECT_TRUE(Refuses("[[smoke]]\n", "a [[smoke]] needs position_m = [x, y, z]"));
+  EXPECT_TRUE(Refuses("[[smoke]]\nposition_m = [1, 2]\n", "a [[smoke]] needs position_m = [x, y, z]"));
+  EXPECT_TRUE(Refuses("[[smoke]]\nposition_m = [1, 2, 3]\nwidth_m = 0\n", "smoke.width_m"));
+  EXPECT_TRUE(Refuses("[[smoke]]\nposition_m = [1, 2, 3]\ncolor = 2\n", "unknown key 'color' in [smoke]"));
+  EXPECT_TRUE(Refuses("[wind]\nspeed_mps = -1\n", "wind.speed_mps"));
+}
+
 TEST_F(LifeSettings, APlaceOfPlayHasItsOwnDefaultsAndItsClipIsTakenWithItsSpeed) {
   ASSERT_EQ(
       Read("[[avatar]]\nname = \"child\"\nfile = \"child.glb\"\n[[avatar.clip]]\nname = \"run\"\nspeed_mps = 2.5\n"

@@ -64,6 +64,7 @@ TEST(TourSettings, TheReferenceFileHoldsTheDefaults) {
   EXPECT_EQ(Dumped(reference.crowd), Dumped(CrowdSettings{}));
   EXPECT_EQ(Dumped(reference.control), Dumped(ControlSettings{}));
   EXPECT_EQ(Dumped(reference.light), Dumped(LightSettings{}));
+  EXPECT_EQ(Dumped(reference.wind), Dumped(WindSettings{}));
   const LevelsOptions levels;
   EXPECT_EQ(reference.levels.ratios, levels.ratios);
   EXPECT_EQ(reference.levels.error_px, levels.error_px);
@@ -318,6 +319,7 @@ TEST(TourSettings, ThePacksSchemaKnowsThem) {
   ExpectInSchema<CrowdSettings>(definitions["crowd"]);
   ExpectInSchema<ControlSettings>(definitions["control"], {"discretion"});
   ExpectInSchema<LightSettings>(definitions["light"]);
+  ExpectInSchema<WindSettings>(definitions["wind"]);
 }
 
 }  // namespace

@@ -150,6 +150,8 @@ TourParts SmallTour() {
   parts.sound_places = {{SoundKind::kWater, {1, 1}, 0.5f, 12, 0.75f, -1}, {SoundKind::kLoop, {2, 2}, 1, 30, 1, 1}};
   parts.photo = {{{"de", "Grüße"}}, "https://example.org/{file}"};
   parts.flocks = {{"made", {4, 5}, 3.5f, 9, 2, "fly"}};
+  parts.smokes = {{{1, -2, 14}, 0.75f, 0.25f}};
+  parts.wind = {1.5f, 2.5f};
   parts.guide = parts.avatars[0].levels.avatar.name;
   parts.title_page = {{'J', 'F', 'I', 'F'}, {'P', 'N', 'G'}, {0, 0.2f, 1}};
   parts.thanks = {{"de", "Danke!"}, {"en", "Thanks!"}};
@@ -251,6 +253,12 @@ TEST(TourPack, BringsWhatVisitorsFindAcross) {
   EXPECT_EQ(pack.flocks[0].birds, 9);
   EXPECT_EQ(pack.flocks[0].shy_m, 2);
   EXPECT_EQ(pack.flocks[0].clip, "fly");
+  ASSERT_EQ(pack.smokes.size(), 1u);
+  EXPECT_EQ(pack.smokes[0].position_m.z, 14);
+  EXPECT_EQ(pack.smokes[0].width_m, 0.75f);
+  EXPECT_EQ(pack.smokes[0].density, 0.25f);
+  EXPECT_EQ(pack.wind.yaw_rad, 1.5f);
+  EXPECT_EQ(pack.wind.speed_mps, 2.5f);
 }
 
 TEST(TourPack, WhatVisitorsFindMayBeMissing) {
@@ -559,13 +567,13 @@ TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
   const std::set<std::string> optional{
-      "painting", "guide",      "titles",        "language",  "captions",     "sounds",   "tints",
-      "props",    "title_page", "picture_view",  "logo_view", "photo",        "hotspots", "streets",
-      "texts",    "reach_m",    "height_spread", "thanks",    "home_after_s", "flocks",   "play"};
+      "painting",      "guide",        "titles",       "language", "captions", "sounds",  "tints", "props",
+      "title_page",    "picture_view", "logo_view",    "photo",    "hotspots", "streets", "texts", "reach_m",
+      "height_spread", "thanks",       "home_after_s", "flocks",   "play",     "smokes",  "wind"};
   for (const char* object :
        {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0", "/avatars/0/impostor",
         "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground", "/title_page", "/places/0", "/painting", "/path/0",
-        "/hotspots/0", "/sounds/1", "/flocks/0", "/play/0"}) {
+        "/hotspots/0", "/sounds/1", "/flocks/0", "/play/0", "/smokes/0"}) {
     const Json::json_pointer at(std::string("/extensions/FLANEUR_tour") + object);
     for (const auto& [key, unused] : json.at(at).items()) {
       Json changed = json;

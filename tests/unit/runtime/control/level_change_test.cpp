@@ -1,6 +1,9 @@
 // How people change their level: what a picture draws meanwhile, and that the budget is about all of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "runtime/control/level_control.h"
 
 namespace flaneur {
@@ -133,6 +136,32 @@ TEST(LevelChange, FartherThanAnybodyIsDrawnPeopleFadeOutAndIn) {
 
 // As many arrivals as ten hours of a busy square have: what is kept about people grows with how many there are at once,
 // not with how many there have been.
+// Twenty who mill about at 3 to 9 m, for a minute, with a budget for half of what they would get where there is plenty.
+// The first in order got all of it, so that the last changed with every step they took past each other.
+TEST(LevelChange, WhereTheBudgetIsShortPeopleWhoMillAboutKeepTheirLevels) {
+  Stage s(20);
+  s.avatars[0].levels = {{9000, 300}, {4500, 150}, {2200, 75}, {900, 0}};
+  s.settings.high_limit = 20;
+  s.settings.budget_triangles = 75000;
+  const auto mill = [&](float time_s) {
+    for (int k = 0; k < 20; ++k) {
+      const float phase = 2.4f * static_cast<float>(k);
+      s.crowd.position[static_cast<size_t>(k)] = {
+          3 + 0.28f * static_cast<float>(k) + 0.6f * std::sin(0.7f * time_s + phase), std::cos(time_s + phase)};
+    }
+  };
+  int switches = 0, fewest = 20;
+  for (int step = 0; step < 70 * 30; ++step) {
+    mill(static_cast<float>(step) * kStep_s);
+    s.Step();
+    if (step < 10 * 30) continue;  // until it has found what fits
+    switches += s.state.switches_in_view;
+    fewest = std::min(fewest, s.state.meshes);
+  }
+  EXPECT_LE(switches, 20) << "one a person and minute";
+  EXPECT_EQ(fewest, 20) << "nobody near is an impostor for lack of budget while others have more than they need";
+}
+
 TEST(LevelChange, TenHoursOfArrivalsKeepMemoryFlat) {
   Stage s(40);
   s.avatars[0].props = {{"hat", 0.5f, "", 10}};

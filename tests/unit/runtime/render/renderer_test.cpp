@@ -536,6 +536,22 @@ TEST_F(Drawing, APictureAfterCoarserOnesIsTheSameAsBefore) {
   }
 }
 
+// Before what is behind it, and not at all behind the eye.
+TEST_F(Drawing, SmokeIsSeenWhereItIsInOneCall) {
+  const TourPack pack = MakePack({{11, 3}});
+  const std::vector<uint8_t> clear = Draw(pack, LookEast());
+  const int calls = statistics_.draw_calls;
+  FrameInput frame = LookEast();
+  const Vec3 ahead{std::cos(frame.yaw_rad), std::sin(frame.yaw_rad), 0};
+  for (int k = 0; k < 20; ++k)
+    frame.smoke.push_back({frame.eye + ahead * (30 - 0.1f * static_cast<float>(k)), 2, 0.6f, 0.3f});
+  const std::vector<uint8_t> smoky = Draw(pack, frame);
+  EXPECT_NE(clear, smoky);
+  EXPECT_EQ(statistics_.draw_calls, calls + 1);
+  for (SmokePuff& puff : frame.smoke) puff.position = frame.eye - ahead * 30;
+  EXPECT_EQ(Draw(pack, frame), clear) << "behind the eye";
+}
+
 TEST_F(Drawing, StatisticsCountWhatIsDrawn) {
   FrameInput frame = LookEast();
   frame.people = {PersonAt(6, 1, 0), PersonAt(9, -1, -1), PersonAt(9, -2, -1)};

@@ -6,8 +6,10 @@
 
 #include <filesystem>
 #include <set>
+#include <span>
 
 #include "runtime/base/clock.h"
+#include "runtime/base/file.h"
 #include "runtime/desktop/context.h"
 #include "runtime/show/frame_from_simulation.h"
 #include "runtime/show/guide_figure.h"
@@ -126,6 +128,80 @@ TEST_F(LoaderOfTheDemo, MayGoAtAnyTime) {
       for (int k = 0; k < uploads; ++k) ASSERT_EQ(loader.Upload(kSome_ms, &renderer).message, "");
     }
   }
+}
+
+// All but the bulk is there at first, and the town's first half with it.
+TEST_F(LoaderOfTheDemo, BringsTheSamePictureOfAPackThatArrivesInPieces) {
+  std::vector<uint8_t> bytes;
+  ASSERT_EQ(ReadFile(path, &bytes).message, "");
+  PackFile whole;
+  ASSERT_EQ(whole.Open(bytes, "whole", &pack).message, "");
+  std::vector<ByteRange> later;
+  ByteRanges of_later, there;
+  const auto leave_out = [&](const std::vector<ByteRange>& ranges, size_t kept) {
+    for (const ByteRange& r : ranges) {
+      if (r.bytes <= kept) continue;
+      later.push_back({r.offset + kept, r.bytes - kept});
+      of_later.Add(later.back());
+    }
+  };
+  for (size_t k = 0; k < pack.meshes.size(); k += k < 600 ? 2 : 1)
+    leave_out(whole.RangesOfMesh(static_cast<int>(k)), 0);
+  for (size_t k = 0; k < pack.images.size(); ++k) leave_out(whole.RangesOfImage(static_cast<int>(k)), 2048);
+  for (size_t k = 0; k < pack.avatars.size(); ++k) {
+    const std::vector<ByteRange> all = whole.RangesOfAtlas(static_cast<int>(k)),
+                                 coarse = whole.RangesOfAtlas(static_cast<int>(k), kCoarsestAtlasLevel);
+    for (size_t view = 0; view < all.size(); ++view) {
+      ASSERT_LT(coarse[view].bytes, all[view].bytes / 2);
+      leave_out({all[view]}, coarse[view].bytes);
+    }
+  }
+  std::vector<uint8_t> begun(bytes.size());
+  for (size_t at = 0; at < bytes.size(); ++at) {
+    if (const size_t skipped = of_later.HeldFrom(at)) {
+      at += skipped - 1;
+      continue;
+    }
+    begun[at] = bytes[at];
+    there.Add({at, 1});
+  }
+
+  pack = {};
+  PackFile file;
+  ASSERT_EQ(file.Open(std::move(begun), there, "in pieces", &pack).message, "");
+  EXPECT_FALSE(file.IsWhole());
+  PackMesh missing;
+  EXPECT_NE(file.ReadMesh(0, &missing).message.find("has not arrived"), std::string::npos);
+  AddGuideFigure(&pack);
+  Loader loader;
+  loader.Start(std::move(file), pack);
+  Renderer renderer;
+  ASSERT_EQ(renderer.Begin(pack, {.samples = 1}).message, "");
+  loader.PrepareFor(renderer);
+  loader.GoOn();
+  const double end_s = Now_s() + kLongest_s;
+  while (!loader.LikenessesAreThere() && Now_s() < end_s) ASSERT_EQ(loader.Upload(kSome_ms, &renderer).message, "");
+  EXPECT_TRUE(loader.LikenessesAreThere()) << "people's coarsest pictures are there";
+  EXPECT_FALSE(loader.Done());
+  FrameStatistics statistics;
+  renderer.Draw(Frame(), kWidth_px, kHeight_px, &statistics);
+  EXPECT_GT(statistics.people_drawn, 0);
+  EXPECT_NE(loader.Arrive(bytes.size() - 1, std::vector<uint8_t>(2)).message, "");
+  for (auto range = later.rbegin(); range != later.rend(); ++range)  // from the end on: in any order
+    ASSERT_EQ(loader.Arrive(range->offset, std::span(bytes).subspan(range->offset, range->bytes)).message, "");
+  while (!loader.Done() && Now_s() < end_s) ASSERT_EQ(loader.Upload(kSome_ms, &renderer).message, "");
+  ASSERT_TRUE(loader.Done());
+  renderer.StartAnew();
+  const std::vector<uint8_t> in_pieces = Picture(&renderer);
+
+  Loader at_once;
+  pack = {};
+  ASSERT_NO_FATAL_FAILURE(Start(&at_once));
+  Renderer other;
+  ASSERT_EQ(other.Begin(pack, {.samples = 1}).message, "");
+  at_once.PrepareFor(other);
+  ASSERT_EQ(at_once.UploadAll(&other).message, "");
+  EXPECT_EQ(in_pieces, Picture(&other));
 }
 
 }  // namespace

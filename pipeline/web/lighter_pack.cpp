@@ -1,0 +1,143 @@
+#include "pipeline/web/lighter_pack.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+#include <string_view>
+
+#include "pipeline/web/jpeg.h"
+#include "runtime/base/pixels.h"
+#include "runtime/pack/ktx2.h"
+#include "runtime/pack/tour_pack.h"
+
+namespace flaneur {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8, kAlignment = 16;  // of a KTX2 file's levels
+
+uint32_t Word(const std::vector<uint8_t>& bytes, size_t at) {
+  uint32_t word = 0;
+  std::memcpy(&word, &bytes[at], sizeof word);
+  return word;
+}
+
+void PutWord(uint32_t word, size_t at, std::vector<uint8_t>* bytes) { std::memcpy(&(*bytes)[at], &word, sizeof word); }
+
+Json& PlaceOf(Json& view) {
+  const auto extensions = view.find("extensions");
+  const char* packed = "EXT_meshopt_compression";
+  return extensions != view.end() && extensions->contains(packed) ? (*extensions)[packed] : view;
+}
+
+std::vector<uint8_t> Glb(const Json& json, const std::vector<uint8_t>& binary) {
+  std::string text = json.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  std::vector<uint8_t> out(kHeaderBytes + 2 * kChunkHeaderBytes + text.size() + binary.size());
+  size_t at = 0;
+  for (uint32_t word :
+       {0x46546C67u, 2u, static_cast<uint32_t>(out.size()), static_cast<uint32_t>(text.size()), 0x4E4F534Au})
+    PutWord(word, at, &out), at += sizeof word;
+  std::memcpy(&out[at], text.data(), text.size());
+  at += text.size();
+  for (uint32_t word : {static_cast<uint32_t>(binary.size()), 0x004E4942u}) PutWord(word, at, &out), at += sizeof word;
+  if (!binary.empty()) std::memcpy(&out[at], binary.data(), binary.size());
+  return out;
+}
+
+// Views of atlases' pictures. // How many levels of each are left out.
+std::map<size_t, int> AtlasViews(const Json& json, const Lighter& lighter) {
+  std::map<size_t, int> views;
+  for (const Json& avatar : json["extensions"][kTourExtension]["avatars"]) {
+    for (const char* key : {"albedo_view", "normal_view", "depth_view", "motion_view", "tints_view"}) {
+      if (avatar["impostor"].contains(key))
+        views[avatar["impostor"][key].get<size_t>()] =
+            std::string_view(key) == "normal_view" ? lighter.normal_levels_left_out : lighter.atlas_levels_left_out;
+    }
+  }
+  return views;
+}
+
+Error LeaveOut(int levels, const std::string& view, std::span<const uint8_t> before, std::vector<uint8_t>* after) {
+  PackTexture texture;
+  if (Error e = ReadKtx2(before, &texture)) return Fail("buffer view " + view + " " + e.message);
+  for (int k = 0; k < levels && texture.levels.size() > 1; ++k) {
+    texture.levels.erase(texture.levels.begin());
+    texture.width_px = std::max(1, texture.width_px / 2);
+    texture.height_px = std::max(1, texture.height_px / 2);
+  }
+  *after = WriteKtx2(texture);
+  return Ok();
+}
+
+std::set<size_t> JpegViews(const Json& json) {
+  std::set<size_t> views;
+  for (const Json& image : json.value("images", Json::array())) {
+    if (image.value("mimeType", "") == "image/jpeg") views.insert(image["bufferView"].get<size_t>());
+  }
+  return views;
+}
+
+// Out of the description; the views that it alone used.
+std::set<size_t> TakeTitlePage(Json* json) {
+  std::set<size_t> views;
+  Json& tour = (*json)["extensions"][kTourExtension];
+  const Json page = tour.value("title_page", Json::object());
+  for (const auto& [key, value] : page.items()) {
+    if (key.ends_with("_view")) views.insert(value.get<size_t>());
+  }
+  tour.erase("title_page");
+  return views;
+}
+
+// As it is where that is smaller.
+void Recode(int quality, std::vector<uint8_t>* picture) {
+  const auto pixels = Decoded(*picture);
+  if (!pixels) return;
+  std::vector<uint8_t> smaller = EncodeJpeg(*pixels, quality);
+  if (!smaller.empty() && smaller.size() < picture->size()) *picture = std::move(smaller);
+}
+
+}  // namespace
+
+Error MakeLighter(const Lighter& lighter, std::vector<uint8_t>* pack) {
+  const size_t text = Word(*pack, kHeaderBytes), text_at = kHeaderBytes + kChunkHeaderBytes;
+  Json json = Json::parse(pack->begin() + static_cast<std::ptrdiff_t>(text_at),
+                          pack->begin() + static_cast<std::ptrdiff_t>(text_at + text));
+  const std::span<const uint8_t> old = std::span(*pack).subspan(text_at + text + kChunkHeaderBytes);
+  const std::map<size_t, int> atlases = AtlasViews(json, lighter);
+  const std::set<size_t> jpegs = JpegViews(json), dropped = TakeTitlePage(&json);
+  std::vector<uint8_t> binary;
+  std::map<std::pair<size_t, size_t>, size_t> moved;  // what several views share stays shared
+  for (size_t k = 0; k < json["bufferViews"].size(); ++k) {
+    Json& place = PlaceOf(json["bufferViews"][k]);
+    const size_t offset = place.value("byteOffset", size_t{0}), length = place["byteLength"];
+    const auto known = moved.find({offset, length});
+    if (known != moved.end()) {
+      place["byteOffset"] = known->second;
+      continue;
+    }
+    binary.resize((binary.size() + kAlignment - 1) / kAlignment * kAlignment);
+    place["byteOffset"] = moved[{offset, length}] = binary.size();
+    const std::span<const uint8_t> content = old.subspan(offset, length);
+    std::vector<uint8_t> written(content.begin(), content.end());
+    if (const auto atlas = atlases.find(k); atlas != atlases.end()) {
+      if (Error e = LeaveOut(atlas->second, std::to_string(k), content, &written)) return e;
+    } else if (jpegs.contains(k) && lighter.picture_quality > 0) {
+      Recode(lighter.picture_quality, &written);
+    } else if (dropped.contains(k)) {
+      written.resize(1);  // a buffer view cannot be empty
+    }
+    place["byteLength"] = written.size();
+    binary.insert(binary.end(), written.begin(), written.end());
+  }
+  binary.resize((binary.size() + 3) / 4 * 4);
+  json["buffers"][0]["byteLength"] = binary.size();
+  *pack = Glb(json, binary);
+  return Ok();
+}
+
+}  // namespace flaneur

@@ -1,0 +1,124 @@
+"""A tour as a web site, from outside: what is in the folder, and what happens where it cannot be written."""
+import gzip
+import json
+import re
+import signal
+import subprocess
+import unittest
+import urllib.error
+import urllib.request
+
+from support import BIN, SOURCE, ProgramTest, baked_demo, run
+
+PAGE = SOURCE / "runtime/web/site"
+
+
+class Web(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.pack = baked_demo() / "wolfenbuettel.glb"
+
+    def setUp(self):
+        super().setUp()
+        self.player = self.folder / "player"  # the page's own files, and something in the player's place
+        self.player.mkdir()
+        for file in PAGE.iterdir():
+            (self.player / file.name).write_bytes(file.read_bytes())
+        for name in ("player.js", "player.wasm"):
+            (self.player / name).write_text("stands for " + name)
+        self.site = self.folder / "site"
+
+    def write(self, *arguments, pack=None):
+        return run("flaneur", "web", pack or self.pack, "-o", self.site, "--player", self.player, *arguments)
+
+    def files(self, folder):
+        return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+    def assert_refused(self, result, what):
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertIn(what, result.stderr)
+
+    def test_pieces_put_together_are_a_tour_pack(self):
+        self.assert_succeeds(self.write())
+        site = json.loads((self.site / "tour.json").read_text())
+        pack, filled = bytearray(site["bytes"]), bytearray(site["bytes"])
+        for piece in site["pieces"]:
+            content, at = gzip.decompress((self.site / piece["file"]).read_bytes()), 0
+            for offset, length in piece["parts"]:
+                self.assertFalse(any(filled[offset:offset + length]), "a byte is in two pieces")
+                pack[offset:offset + length], filled[offset:offset + length] = content[at:at + length], b"1" * length
+                at += length
+            self.assertEqual(at, len(content))
+        self.assertTrue(all(filled), "a byte is in no piece")
+        joined = self.folder / "joined.glb"
+        joined.write_bytes(pack)
+        before, after = (json.loads(run("flaneur", "inspect", "--json", p).stdout) for p in (self.pack, joined))
+        self.assertEqual(after, before)
+        self.assertLess(len(pack), self.pack.stat().st_size / 2)
+        first = sum((self.site / p["file"]).stat().st_size for p in site["pieces"][:site["first"]])
+        self.assertLess(first, 4_000_000)
+
+    def test_text_files_stand_there_compressed_too_and_the_page_asks_nobody_else(self):
+        self.assert_succeeds(self.write())
+        for name in ("index.html", "page.js", "bar.js", "page.css", "tour.json", "worker.js", "sentences.js"):
+            text = (self.site / name).read_bytes()
+            self.assertEqual(gzip.decompress((self.site / (name + ".gz")).read_bytes()), text)
+            self.assertTrue((self.site / (name + ".br")).exists())
+            self.assertEqual(re.findall(rb"https?://", text), [], name)
+        page = (self.site / "index.html").read_text()
+        self.assertIn("default-src 'none'", page)
+        self.assertNotRegex(page, "'unsafe-(inline|eval)'|<style|<script>|@[A-Z]+@")
+
+    def test_the_same_tour_gives_the_same_site(self):
+        self.assert_succeeds(self.write())
+        first = self.files(self.site)
+        self.assert_succeeds(self.write())
+        self.assertEqual(self.files(self.site), first)
+
+    def test_what_was_there_is_lost_only_for_a_whole_new_site(self):
+        self.site.mkdir()
+        (self.site / "thesis.txt").write_text("mine")
+        self.assert_refused(self.write(), "holds files that flaneur web has not written")
+        self.assertEqual(self.files(self.site), {"thesis.txt": b"mine"})
+        (self.site / "thesis.txt").unlink()
+        self.assert_succeeds(self.write())
+        before = self.files(self.site)
+        broken = self.folder / "broken.glb"
+        broken.write_bytes(self.pack.read_bytes()[:100_000])
+        self.assert_refused(self.write(pack=broken), "broken.glb: is truncated")
+        self.assertEqual(self.files(self.site), before)
+        self.assertEqual([p.name for p in self.folder.iterdir() if p.name.startswith(".")], [], "something half-written stays")
+
+    def test_what_is_missing_is_said_in_a_line(self):
+        self.assert_refused(self.write(pack=self.folder / "none.glb"), "none.glb")
+        (self.player / "player.wasm").unlink()
+        self.assert_refused(self.write(), "player.wasm: the page's player is not there")
+        self.assertFalse(self.site.exists())
+
+    def test_serve_shows_the_site_and_nothing_beside_it(self):
+        (self.folder / "secret.txt").write_text("secret")
+        server = subprocess.Popen([BIN / "flaneur", "web", self.pack, "-o", self.site, "--player", self.player, "--serve", "0"],
+                                  stdout=subprocess.PIPE, text=True)
+        try:
+            address = ""
+            while not address:
+                line = server.stdout.readline()
+                self.assertTrue(line, "it ended before it said where it is")
+                address = "".join(re.findall(r"http://127\.0\.0\.1:\d+/", line))
+            with urllib.request.urlopen(address) as answer:
+                self.assertEqual(answer.read(), (self.site / "index.html").read_bytes())
+                self.assertEqual(answer.headers["Content-Type"], "text/html; charset=utf-8")
+            for path in ("../secret.txt", "%2e%2e/secret.txt", "none.js"):
+                with self.assertRaises(urllib.error.HTTPError) as refused:
+                    urllib.request.urlopen(address + path)
+                self.assertEqual(refused.exception.code, 404)
+                refused.exception.close()
+        finally:
+            server.send_signal(signal.SIGINT)
+            server.wait(timeout=20)
+            server.stdout.close()
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,85 @@
+// page_bench.mjs SITE: figures of a site that `flaneur web` wrote, in Debian's Chromium without a graphics card. Bytes are those that
+// came over the line.
+import fs from 'node:fs';
+import http from 'node:http';
+import path from 'node:path';
+import puppeteer from 'puppeteer-core';
+
+const [site] = process.argv.slice(2);
+if (!site || !fs.existsSync(path.join(site, 'tour.json'))) {
+  console.error('page_bench.mjs: error: name a folder that flaneur web wrote');
+  process.exit(2);
+}
+const kBytesAMillisecond = 20e6 / 8 / 1000, kDelay_ms = 40, kPart_bytes = 8192;  // of the line, which all answers share
+const kFlags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+const kTypes = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.jpg': 'image/jpeg'};
+
+let sent = 0;
+const server = http.createServer((request, response) => {
+  const name = request.url.split('?')[0].replace(/\/$/, '/index.html').slice(1), file = path.join(site, name);
+  if (!fs.existsSync(file)) return response.writeHead(404).end();
+  const headers = {'Content-Type': kTypes[path.extname(file)] ?? 'application/octet-stream'};
+  const packed = fs.existsSync(file + '.gz');  // as most hosts do
+  if (packed) headers['Content-Encoding'] = 'gzip';
+  const body = fs.readFileSync(packed ? file + '.gz' : file);
+  response.writeHead(200, {...headers, 'Content-Length': body.length});
+  for (let at = 0; at < body.length; at += kPart_bytes) waiting.push([response, body.subarray(at, at + kPart_bytes), at + kPart_bytes >= body.length]);
+  if (body.length === 0) response.end();
+});
+const waiting = [];
+let free_ms = performance.now();
+setInterval(() => {
+  const now = performance.now();
+  free_ms = Math.max(free_ms, now - 20);
+  while (waiting.length > 0 && free_ms < now) {
+    const [response, part, last] = waiting.shift();
+    free_ms += part.length / kBytesAMillisecond;
+    sent += part.length;
+    setTimeout(() => last ? response.end(part) : response.write(part), kDelay_ms);
+  }
+}, 2);
+await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
+
+const browser = await puppeteer.launch({executablePath: '/usr/bin/chromium', args: kFlags, protocolTimeout: 300000});
+const page = await browser.newPage();
+await page.setViewport({width: 1280, height: 720});
+const sentUntil = {};
+await page.exposeFunction('told', (mark) => { sentUntil[mark] = sent; });
+await page.evaluateOnNewDocument(() => {
+  globalThis.tasks = [];
+  globalThis.marks = {};
+  new PerformanceObserver((list) => {
+    for (const task of list.getEntries()) globalThis.tasks.push([task.startTime, task.duration]);
+  }).observe({type: 'longtask', buffered: true});
+  for (const type of ['tour-loaded', 'complete'])
+    addEventListener(type, () => { globalThis.marks[type] = performance.now(), globalThis.told(type); });
+});
+await page.goto(`http://127.0.0.1:${server.address().port}/`);
+const came = async (mark) => {
+  await page.waitForFunction((m) => globalThis.marks[m], {timeout: 280000}, mark);
+  return page.evaluate((m) => globalThis.marks[m], mark);
+};
+const first_ms = await came('tour-loaded');
+const whole_ms = await came('complete');
+await page.waitForFunction(() => document.getElementById('tour').flaneur.state().complete, {timeout: 280000});
+await new Promise((done) => setTimeout(done, 5000));
+const pictures = () => page.evaluate(() => document.getElementById('tour').flaneur.state().pictures);
+const before = await pictures(), seconds = 5;
+await new Promise((done) => setTimeout(done, 1000 * seconds));
+const drawn = await pictures() - before;
+const {longest, heap} = await page.evaluate(() => ({
+  longest: Math.max(0, ...globalThis.tasks.filter(([at]) => at > globalThis.marks['tour-loaded']).map(([, ms]) => ms)),
+  heap: document.getElementById('tour').flaneur.heapBytes()}));
+const code = fs.readdirSync(site).filter((f) => f.endsWith('.js.br')).map((f) => path.join(site, f));
+const list = JSON.parse(fs.readFileSync(path.join(site, 'tour.json')));
+const codeBytes = [...code, path.join(site, list.player)].reduce((sum, f) => sum + fs.statSync(f).size, 0);
+console.log(`code, compressed                                ${(codeBytes / 1e6).toFixed(2)} MB`);
+console.log(`bytes until the first picture with people       ${(sentUntil['tour-loaded'] / 1e6).toFixed(2)} MB`);
+console.log(`bytes of the whole tour                         ${(sent / 1e6).toFixed(2)} MB`);
+console.log(`first picture from a cold start, 20 Mbit/s      ${(first_ms / 1000).toFixed(1)} s`);
+console.log(`all that there is, on the same line             ${(whole_ms / 1000).toFixed(1)} s`);
+console.log(`longest task after the first picture            ${longest.toFixed(0)} ms`);
+console.log(`heap of the player                              ${(heap / 1e6).toFixed(0)} MB`);
+console.log(`pictures a second at 1280 x 720                 ${(drawn / seconds).toFixed(1)}`);
+await browser.close();
+process.exit();
