@@ -8,7 +8,6 @@ const kSigns = {  // paths in a square of 24
   back: 'M5 5h3v14H5zM20 5v14L9 12z',
   next: 'M16 5h3v14h-3zM4 5v14l11-7z',
   fullscreen: 'M4 4h6v2H6v4H4zM14 4h6v6h-2V6h-4zM4 14h2v4h4v2H4zM18 14h2v6h-6v-2h4z'};
-const kDrawing = 'http://www.w3.org/2000/svg';
 
 function element(kind, parent, attributes = {}) {
   return parent.appendChild(Object.assign(document.createElement(kind), attributes));
@@ -19,11 +18,7 @@ function label(button, sign, words, beside = false) {
   if (button.title === words) return;
   button.title = words;
   button.setAttribute('aria-label', words);
-  const drawing = document.createElementNS(kDrawing, 'svg'), path = document.createElementNS(kDrawing, 'path');
-  drawing.setAttribute('viewBox', '0 0 24 24');
-  path.setAttribute('d', sign);
-  drawing.append(path);
-  button.replaceChildren(drawing);
+  button.innerHTML = `<svg viewBox="0 0 24 24"><path d="${sign}"/></svg>`;
   if (beside) element('span', button, {textContent: words, className: 'words'});
 }
 
