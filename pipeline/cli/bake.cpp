@@ -122,12 +122,16 @@ Error MakeSources(Baking* baking) {
 }
 
 Error ReadTown(Baking* baking, Scene* town, std::vector<std::string>* warnings) {
+  const std::string& crs = baking->settings.georeference.crs;
+  bool brought = false;  // from degrees into metres, as the reader knew the wish
   const auto append = [&](const fs::path& file, float scale, float yaw_deg, Vec2 position_m) -> Error {
     Scene part;
-    if (Error e = ReadScene(file, &part, warnings)) return e;
+    SceneSource source;
+    if (Error e = ReadScene(file, &part, warnings, {crs == "none" || file != baking->sources[0] ? "" : crs}, &source)) return e;
     if (file == baking->sources[0]) {
       town->origin_m = {part.origin_m.x * scale, part.origin_m.y * scale};
       town->reference_system = part.reference_system;
+      brought = !source.system.empty();
     }
     AppendScene(std::move(part), scale, yaw_deg * kPi / 180, position_m, town);
     return Ok();
@@ -138,8 +142,9 @@ Error ReadTown(Baking* baking, Scene* town, std::vector<std::string>* warnings) 
   for (const TownPart& part : baking->settings.parts) {
     if (Error e = append(part.file, part.scale, part.yaw_deg, part.position_m)) return e;
   }
-  const Georeference& georeference = baking->settings.georeference;
+  Georeference georeference = baking->settings.georeference;
   if (georeference.crs.empty()) town->reference_system.clear();
+  if (brought) georeference.crs.clear();
   if (Error e = SetGeoreference(georeference, 1, town, warnings)) return Fail("town.georeference: " + e.message);
   if (AddGroundWhereNone(kBareGroundMargin_m, town)) {
     warnings->push_back("most of the town has no ground under it; a flat square was added");
@@ -356,19 +361,20 @@ void SummarizeErrors(const std::vector<Finding>& findings, std::vector<std::stri
 }
 
 void ReportFindings(const std::vector<Finding>& findings, StageReport* stage, BakeReport* report) {
-  double errors = 0;
+  double errors = 0, warnings = 0;
   for (const Finding& f : findings) {
     const FindingKind& kind = KindOf(f.code);
     errors += f.severity == Severity::kError ? 1 : 0;
+    warnings += f.severity == Severity::kWarning ? 1 : 0;
     report->findings.push_back({f.code,
                                 SeverityName(f.severity),
                                 kind.title,
                                 f.feature,
-                                f.message,
+                                f.reason.empty() ? f.message : f.message + " (accepted: " + f.reason + ")",
                                 kind.advice,
                                 {static_cast<float>(f.at_m.x), static_cast<float>(f.at_m.y)}});
   }
-  stage->figures = {{"errors", errors}, {"warnings", static_cast<double>(findings.size()) - errors}};
+  stage->figures = {{"errors", errors}, {"warnings", warnings}};
 }
 
 // Findings do not stop a bake: the designer reads them in the report and decides.
@@ -382,6 +388,9 @@ Error CheckTown(Baking* baking) {
     map.title = s.name;
     map.ground = &baking->parts.ground;
     if (Error e = Check(baking->parts.footprints, &baking->parts.town, options, &map.findings)) return e;
+    for (const size_t idle : AcceptFindings(s.accepted, &map.findings))
+      warnings->push_back("footprints.accept " + std::to_string(s.accepted[idle].code) + " (" +
+                          s.accepted[idle].reason + ") meets no finding any more; remove it, or correct its at_m");
     SummarizeErrors(map.findings, warnings);
     ReportFindings(map.findings, report, whole);
     if (Error e = WriteTextFile(baking->Cache("findings.json"), FindingsJson(map.findings))) return e;

@@ -3,15 +3,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "pipeline/cli/arguments.h"
+#include "pipeline/cli/place_obstacles.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/footprint/check.h"
 #include "pipeline/footprint/map.h"
-#include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/io/geojson.h"
 #include "pipeline/io/scene_reader.h"
 #include "runtime/base/file.h"
@@ -45,6 +44,7 @@ void AddOptions(CLI::App* app, CheckArguments* a) {
   app->add_option("--clearance-m", a->options.clearance_m, "Least distance from wall to outline [default: the file's]")
       ->check(CLI::Range(0.0, 10.0));
   app->option_defaults()->always_capture_default();
+  app->add_option("--threads", a->options.threads, "0: one a core; the result is the same")->check(CLI::Range(0, 1024));
   app->add_option("--most-points", a->options.most_points, "In a ring; more are reported (108)");
   for (const CheckNumber& number : CheckNumbers())
     app->add_option(std::string("--") + number.name, a->options.*number.value, number.help);
@@ -55,9 +55,10 @@ void AddOptions(CLI::App* app, CheckArguments* a) {
 void Print(const std::vector<Finding>& findings, size_t most_listed) {
   for (size_t i = 0; i < findings.size();) {
     size_t end = i;
-    while (end < findings.size() && findings[end].code == findings[i].code) ++end;
+    size_t count = 0;
+    for (; end < findings.size() && findings[end].code == findings[i].code; ++end) count += findings[end].Count();
     const FindingKind& kind = KindOf(findings[i].code);
-    std::printf("%d %s: %zu\n    %s\n", kind.code, kind.title, end - i, kind.advice);
+    std::printf("%d %s: %zu\n    %s\n", kind.code, kind.title, count, kind.advice);
     for (size_t k = i; k < std::min(end, i + most_listed); ++k) {
       const Finding& f = findings[k];
       std::printf("  %s at (%.2f, %.2f)%s%s: %s\n", SeverityName(f.severity), f.at_m.x, f.at_m.y,
@@ -109,27 +110,22 @@ void AddFaults(const std::vector<GeoJsonFault>& faults, std::vector<Finding>* fi
 
 struct TownToCheck {
   Scene scene;
-  GroundRaster ground;
+  PreparedTown prepared;
+  bool found = true;  // the obstacles are in its coordinates
 };
 
-// The town, with the obstacles moved to where it stands; none where they cannot be, and it is of no use.
-Error ReadTown(const CheckArguments& a, GeoJsonFile* file, std::vector<Finding>* faults,
-               std::optional<TownToCheck>* out) {
+// The town, with the obstacles moved to where it stands.
+Error ReadTown(const CheckArguments& a, GeoJsonFile* file, std::vector<Finding>* faults, TownToCheck* town) {
   std::vector<std::string> warnings;
-  TownToCheck town;
-  if (Error error = ReadScene(a.town, &town.scene, &warnings)) return error;
+  if (Error error = ReadScene(a.town, &town->scene, &warnings)) return error;
+  if (Error error = PrepareTown(town->scene, file->footprints, a.options, &town->prepared))
+    return Fail(a.town.string() + ": " + error.message);
+  const Error error = PlaceObstacles(a.obstacles, a.reading, town->prepared, a.options.tolerance_m, file, &town->found,
+                                     &warnings);
   for (const std::string& warning : warnings) std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
-  const Point2 origin{town.scene.origin_m.x * a.options.scale, town.scene.origin_m.y * a.options.scale};
-  const size_t before = file->faults.size();
-  if (Error error = MoveToTown(town.scene.reference_system, origin, file)) return error;
-  if (file->faults.size() > before) {
-    AddFaults({file->faults.back()}, faults);
-    return Ok();
-  }
-  GroundRasterOptions options;
-  options.scale = a.options.scale;
-  if (Error error = RasterizeGround(town.scene, options, &town.ground)) return error;
-  *out = std::move(town);
+  if (error) return error;
+  faults->clear();
+  AddFaults(file->faults, faults);
   return Ok();
 }
 
@@ -162,13 +158,16 @@ Error Run(const CheckArguments& a, int* status) {
   if (file.skipped > 0)
     std::fprintf(stderr, "flaneur: warning: %s: %d features are no obstacles, streets or doors; left out\n",
                  a.obstacles.c_str(), file.skipped);
-  std::optional<TownToCheck> town;
+  TownToCheck town;
   if (!a.town.empty())
     if (Error error = ReadTown(a, &file, &faults, &town)) return ReportFault(a, 901, error, faults);
+  const PreparedTown* const prepared = a.town.empty() || !town.found ? nullptr : &town.prepared;
   std::vector<Finding> findings;
   if (Error error =
-          Check(file.footprints, town ? &town->scene : nullptr, WithStreetsAndGates(a.options, file), &findings))
+          CheckPrepared(file.footprints, prepared, WithStreetsAndGates(a.options, file), &findings))
     return ReportFault(a, 901, error, faults);
+  const auto elsewhere = [](const Finding& f) { return f.code == 907; };
+  if (std::any_of(faults.begin(), faults.end(), elsewhere)) std::erase_if(findings, elsewhere);  // said already
   findings.insert(findings.end(), faults.begin(), faults.end());
   SortFindings(&findings);
   Print(findings, a.most_listed);
@@ -176,7 +175,7 @@ Error Run(const CheckArguments& a, int* status) {
   const bool errors =
       std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; });
   *status = errors || (a.warnings_as_errors && !findings.empty()) ? 1 : 0;
-  return DrawMaps(a, file, town ? &town->ground : nullptr, findings);
+  return DrawMaps(a, file, prepared ? &prepared->ground : nullptr, findings);
 }
 
 }  // namespace

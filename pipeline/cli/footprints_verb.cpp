@@ -12,20 +12,23 @@
 #include "pipeline/footprint/map.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/io/geojson.h"
-#include "pipeline/io/scene_reader.h"
+#include "pipeline/io/scene_tiles.h"
 
 namespace flaneur {
 namespace {
 
 struct FootprintsArguments {
-  std::filesystem::path town, output, map;
+  std::vector<std::filesystem::path> towns;
+  std::filesystem::path output, map;
   FootprintOptions options;
   Georeference georeference;
   std::array<double, 2> origin_m{};
 };
 
 void AddOptions(CLI::App* app, FootprintsArguments* a) {
-  app->add_option("TOWN", a->town, "The town: glTF, tagged by the town convention or not; OBJ; CityJSON; CityGML")
+  app->add_option("TOWN", a->towns,
+                  "The town: glTF, tagged by the town convention or not; OBJ; CityJSON; CityGML. Several: tiles of one "
+                  "city, of which what stands in two counts once")
       ->required();
   app->add_option("-o,--output", a->output, "GeoJSON file to write")->required();
   app->add_option("--map", a->map, "Also draw a plan as SVG");
@@ -50,32 +53,44 @@ void AddOptions(CLI::App* app, FootprintsArguments* a) {
   app->add_flag("--merge-blocks", a->options.merge_blocks, "Make one obstacle of houses that adjoin");
 }
 
+// "town.gml", or "town.gml and 3 more".
+std::string NameOf(const std::vector<std::filesystem::path>& towns) {
+  return towns[0].string() + (towns.size() > 1 ? " and " + std::to_string(towns.size() - 1) + " more" : "");
+}
+
 Error Run(const FootprintsArguments& a) {
   Scene scene;
+  SceneSource source;
   Footprints footprints;
   FootprintStats stats;
   std::vector<std::string> warnings;
-  if (Error error = ReadScene(a.town, &scene, &warnings)) return error;
+  const std::string name = NameOf(a.towns);
+  if (Error error = ReadTiles(a.towns, {a.georeference.crs == "none" ? "" : a.georeference.crs}, &scene, &source, &warnings))
+    return error;
   Georeference georeference = a.georeference;
+  if (!source.system.empty()) georeference.crs.clear();  // done by the reader
   georeference.origin_m = {a.origin_m[0], a.origin_m[1]};
   if (Error error = SetGeoreference(georeference, a.options.scale, &scene, &warnings))
-    return Fail(a.town.string() + ": " + error.message);
+    return Fail(name + ": " + error.message);
   if (Error error = ExtractFootprints(scene, a.options, &footprints, &stats, &warnings))
-    return Fail(a.town.string() + ": " + error.message);
+    return Fail(name + ": " + error.message);
   for (const std::string& warning : warnings) std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
   if (!footprints.reference_system.empty())
     if (Error error = WriteLongitudeLatitude(LongitudeLatitudePath(a.output), footprints)) return error;
-  if (Error error = WriteGeoJson(a.output, footprints)) return error;
+  if (Error error = WriteGeoJson(a.output, footprints, source.system)) return error;
   std::printf("%s: %d obstacles from %d objects, %d triangles; %.1f m2 covered\n", a.output.c_str(), stats.obstacles,
               stats.objects, stats.triangles, stats.covered_m2);
   for (const std::string& name : stats.open_shells)
     std::printf("open shell: '%s' has walls that enclose nothing; look whether its obstacle is right\n", name.c_str());
+  if (!source.system.empty())
+    std::printf("the town is in %s; its obstacles are in %s, in metres\n", source.system.c_str(),
+                footprints.reference_system.c_str());
   if (a.map.empty()) return Ok();
   GroundRaster ground;
   GroundRasterOptions options;
   options.scale = a.options.scale;
   if (Error error = RasterizeGround(scene, options, &ground)) return error;
-  return WriteMap(a.map, footprints, {a.town.filename().string(), &ground, {}});
+  return WriteMap(a.map, footprints, {a.towns[0].filename().string(), &ground, {}});
 }
 
 }  // namespace

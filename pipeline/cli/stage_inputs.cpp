@@ -92,6 +92,8 @@ std::string CheckInputs(const TourSettings& s, const std::string& footprints_inp
   for (const Place& place : s.places) {
     print.Add(place.name).Add(place.kind).Add(place.position_m.x).Add(place.position_m.y).Add(place.width_m);
   }
+  for (const AcceptedFinding& a : s.accepted)
+    print.Add(a.code).Add(a.at_m.x).Add(a.at_m.y).Add(a.within_m).Add(a.reason);
   return print.Hex();
 }
 

@@ -146,7 +146,23 @@ void ReadImpostor(TomlTable table, ImpostorOptions* options) {
   table.Finish();
 }
 
-void ReadFootprints(TomlTable table, FootprintOptions* options, GroundRasterOptions* ground) {
+void ReadAccepted(TomlTable table, std::vector<AcceptedFinding>* accepted) {
+  AcceptedFinding finding;
+  table.Number("code", &finding.code, 0, 999);
+  table.MapPoint("at_m", &finding.at_m.x, &finding.at_m.y);
+  table.Number("within_m", &finding.within_m, 0.01, 1e6);
+  table.Text("reason", &finding.reason);
+  const auto& kinds = FindingKinds();
+  if (std::none_of(kinds.begin(), kinds.end(), [&](const FindingKind& k) { return k.code == finding.code; }))
+    table.Refuse("footprints.accept needs the code of a finding, such as 502; docs/findings.md lists them");
+  if (!table.Has("at_m")) table.Refuse("footprints.accept needs at_m = [x, y], the place of the finding");
+  if (OneLine(finding.reason).empty()) table.Refuse("footprints.accept needs a reason, for who reads the report");
+  table.Finish();
+  accepted->push_back(std::move(finding));
+}
+
+void ReadFootprints(TomlTable table, FootprintOptions* options, GroundRasterOptions* ground,
+                    std::vector<AcceptedFinding>* accepted) {
   table.Number("clearance_m", &options->clearance_m, 0, 2);
   std::vector<float> band{static_cast<float>(options->band_m[0]), static_cast<float>(options->band_m[1])};
   table.Numbers("band_m", &band, 0, 100);
@@ -157,6 +173,7 @@ void ReadFootprints(TomlTable table, FootprintOptions* options, GroundRasterOpti
   table.Number("open_yard_m2", &options->open_yard_m2, 0, 1e6);
   table.Flag("merge_blocks", &options->merge_blocks);
   table.Number("ground_cell_m", &ground->cell_m, 0.05, 10);
+  for (TomlTable& accept : table.Tables("accept")) ReadAccepted(accept, accepted);
   table.Finish();
 }
 
@@ -256,7 +273,7 @@ void ReadAll(TomlTable root, TourSettings* settings) {
   for (TomlTable& avatar : root.Tables("avatar")) ReadAvatarSettings(avatar, settings);
   ReadLevels(root.Table("levels"), &settings->levels);
   ReadImpostor(root.Table("impostor"), &settings->impostor);
-  ReadFootprints(root.Table("footprints"), &settings->footprints, &settings->ground);
+  ReadFootprints(root.Table("footprints"), &settings->footprints, &settings->ground, &settings->accepted);
   for (TomlTable& place : root.Tables("place")) ReadPlace(place, settings);
   for (TomlTable& stop : root.Tables("stop")) ReadStop(stop, settings);
   ReadVisitorSettings(&root, settings, &settings->visitor_files);

@@ -11,6 +11,7 @@
 #include "pipeline/cli/title_page.h"
 #include "pipeline/cli/visitor_settings.h"
 #include "pipeline/footprint/extract_footprints.h"
+#include "pipeline/footprint/findings.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/impostor/bake_impostor.h"
 #include "runtime/base/error.h"
@@ -65,6 +66,7 @@ struct TourSettings : TourData {
   ImpostorOptions impostor;
   FootprintOptions footprints;
   GroundRasterOptions ground;
+  std::vector<AcceptedFinding> accepted;  // of the check
   PaintingSettings painting_file;
   TitlePageSettings title_page;
   std::vector<FilesByLanguage> sounds;  // by stop of the path

@@ -1,10 +1,13 @@
 #include "pipeline/footprint/check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <set>
 
 #include "pipeline/footprint/check_parts.h"
+#include "pipeline/footprint/extract_footprints.h"
+#include "pipeline/footprint/rasterize_ground.h"
 
 namespace flaneur {
 
@@ -13,6 +16,13 @@ void CheckState::Add(int code, const std::string& feature, Point2 at, double val
   const FindingKind& kind = KindOf(code);
   findings->push_back({code, kind.severity, feature, other, at, value, limit,
                        detail.empty() ? kind.title : std::string(kind.title) + ": " + detail});
+}
+
+BoxGrid GridOf(const std::vector<CheckedObstacle>& obstacles) {
+  std::vector<BoundingBox> boxes;
+  for (const CheckedObstacle& entry : obstacles)
+    boxes.push_back(entry.rings.empty() ? BoundingBox{} : BoundingBox{entry.min, entry.max});
+  return BoxGrid(std::move(boxes));
 }
 
 std::string Metres(double value) {
@@ -72,8 +82,34 @@ void AddOpenShells(CheckState* state) {
 
 }  // namespace
 
+Error PrepareTown(const Scene& town, const Footprints& footprints, const CheckOptions& options,
+                  PreparedTown* prepared) {
+  FootprintOptions extraction;
+  extraction.clearance_m = std::max(options.clearance_m >= 0 ? options.clearance_m : footprints.clearance_m, 0.0);
+  extraction.band_m = footprints.band_m;
+  extraction.scale = options.scale;
+  extraction.tolerance_m = 0;
+  extraction.threads = options.threads;
+  FootprintStats stats;
+  *prepared = {};
+  prepared->scene = &town;
+  if (Error error = ExtractFootprints(town, extraction, &prepared->own, &stats)) return error;
+  prepared->open_shells = std::move(stats.open_shells);
+  prepared->objects = SortTown(town, options.scale);
+  return RasterizeGround(prepared->objects, {}, &prepared->ground);
+}
+
 Error Check(const Footprints& footprints, const Scene* town, const CheckOptions& options,
             std::vector<Finding>* findings) {
+  if (Error error = Validate(options)) return error;
+  if (!town) return CheckPrepared(footprints, nullptr, options, findings);
+  PreparedTown prepared;
+  if (Error error = PrepareTown(*town, footprints, options, &prepared)) return error;
+  return CheckPrepared(footprints, &prepared, options, findings);
+}
+
+Error CheckPrepared(const Footprints& footprints, const PreparedTown* town, const CheckOptions& options,
+                    std::vector<Finding>* findings) {
   if (Error error = Validate(options)) return error;
   findings->clear();
   const double clearance = options.clearance_m >= 0 ? options.clearance_m : footprints.clearance_m;
@@ -82,13 +118,14 @@ Error Check(const Footprints& footprints, const Scene* town, const CheckOptions&
   CheckRings(&state);
   CheckPairs(&state);
   if (town) {
-    if (Error error = CheckAgainstTown(*town, &state)) return error;
+    CheckAgainstTown(*town, &state);
   } else {
     AddOpenShells(&state);
   }
   if (Error error = CheckWays(town, &state)) return error;
   CheckStreets(&state);
   SortFindings(findings);
+  JoinFindings(footprints.obstacles.size(), findings);
   return Ok();
 }
 

@@ -6,6 +6,7 @@
 #include "pipeline/core/footprint.h"
 #include "pipeline/core/scene.h"
 #include "pipeline/footprint/findings.h"
+#include "pipeline/footprint/town_objects.h"
 #include "runtime/base/error.h"
 
 namespace flaneur {
@@ -41,6 +42,7 @@ struct CheckOptions {
   double dead_end_m = 10;                // > 0; 502: deeper
   double high_resolution_radius_m = 10;  // > 0; 503: round the visitor
   double scale = 1;                      // of the town, as in FootprintOptions
+  int threads = 0;                       // 0: one a core; the result is the same
   std::vector<Gate> gates;               // besides the town's own doors and exits
   std::vector<Centreline> streets;
   std::vector<std::vector<int>> open_rings;  // by obstacle, as ReadGeoJson gives them; may be empty
@@ -58,11 +60,25 @@ const std::vector<CheckNumber>& CheckNumbers();
 // Errors: an option out of range (names it).
 Error Validate(const CheckOptions& options);
 
+// A town made ready to be compared with obstacles.
+struct PreparedTown {
+  const Scene* scene = nullptr;  // must outlive it
+  TownObjects objects;
+  Footprints own;  // what the extraction makes of it, with the obstacles' clearance and band
+  std::vector<std::string> open_shells;
+  GroundRaster ground;
+};
+// `footprints` is for its clearance and band. Errors: as for ExtractFootprints.
+Error PrepareTown(const Scene& town, const Footprints& footprints, const CheckOptions& options, PreparedTown* prepared);
+
 // Looks at rings and pairs of obstacles, at the ways between them and the streets; with a town also at walls, passages,
 // ground, doors and exits. Independent findings are all reported, consequences of one fault are not; sorted by code,
 // then by obstacle. Errors: as Validate, a town without anything in it.
 Error Check(const Footprints& footprints, const Scene* town, const CheckOptions& options,
             std::vector<Finding>* findings);
+// The same, with a town that is ready; null: without one.
+Error CheckPrepared(const Footprints& footprints, const PreparedTown* town, const CheckOptions& options,
+                    std::vector<Finding>* findings);
 
 // The doors and exits of a town by the town convention.
 std::vector<Gate> GatesOf(const Scene& town, double scale);

@@ -14,6 +14,8 @@
 namespace flaneur {
 namespace {
 
+// Wider mouths, in high-resolution radii, are squares and forecourts: people keep clear of a visitor in them.
+constexpr double kMaxMouthToRadius = 1.25;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 size_t Index(int i) { return static_cast<size_t>(i); }
@@ -148,9 +150,8 @@ class Network {
 
 class NetworkCheck {
  public:
-  NetworkCheck(const Network& network, const BrokenPlaces& broken, const std::vector<CheckedObstacle>& obstacles,
-               CheckState* state)
-      : net_(network), broken_(broken), obstacles_(obstacles), state_(*state) {
+  NetworkCheck(const Network& network, const BrokenPlaces& broken, const Placed& placed, CheckState* state)
+      : net_(network), broken_(broken), placed_(placed), state_(*state) {
     for (size_t i = 0; i < net_.graph.nodes.size(); ++i)
       cells_[Cell(net_.graph.nodes[i].at)].push_back(static_cast<int>(i));
     mark_.assign(net_.graph.nodes.size(), 0), verdict_.assign(net_.graph.nodes.size(), 0);
@@ -165,10 +166,11 @@ class NetworkCheck {
   double Depth(int node) const { return net_.deepest[Index(node)] - net_.to_exit[Index(node)]; }
   double Width(int node) const { return 2 * net_.graph.nodes[Index(node)].clearance_m; }
   Point2 At(int node) const { return net_.graph.nodes[Index(node)].at; }
+  double MaxMouth() const { return kMaxMouthToRadius * Radius(); }
   double Radius() const { return state_.options.high_resolution_radius_m; }
 
-  // Ground with one mouth that is narrower than the ground is deep, and that the visitor's circle can close; in a
-  // walled town less than half of all ground.
+  // Ground with one mouth that is narrower than the ground is deep, and than what one visitor closes; in a walled town
+  // less than half of all ground.
   void FindPockets() {
     pocket_.assign(net_.graph.nodes.size(), -1);
     for (const int node : net_.order) {
@@ -179,7 +181,7 @@ class NetworkCheck {
       }
       if (up < 0 || !net_.bridge[Index(node)]) continue;
       const int mouth = MouthFrom(node);
-      if (Depth(mouth) <= Width(mouth) || Width(mouth) >= 2 * Radius()) continue;
+      if (Depth(mouth) <= Width(mouth) || Width(mouth) > MaxMouth()) continue;
       if (mouth != node) continue;  // told when the search comes to it
       if (!net_.open && 2 * net_.size_m2[Index(node)] > net_.whole_m2)
         continue;  // the town itself, behind its only gate
@@ -217,7 +219,7 @@ class NetworkCheck {
 
   void ReportDeadEnd(int mouth) {
     const Point2 end = At(net_.deepest_node[Index(mouth)]);
-    state_.Add(502, NearestObstacle(obstacles_, end), end, Depth(mouth), state_.options.dead_end_m,
+    state_.Add(502, NearestName(placed_, end), end, Depth(mouth), state_.options.dead_end_m,
                Metres(Depth(mouth)) + " deep, behind a mouth of " + Metres(Width(mouth)));
   }
 
@@ -237,7 +239,7 @@ class NetworkCheck {
       const bool in_pocket = pocket_[Index(node)] >= 0;
       const int64_t place = static_cast<int64_t>(std::floor(p.x / kStandEvery_m)) * 40'000'003 +
                             static_cast<int64_t>(std::floor(p.y / kStandEvery_m));
-      if (!in_pocket && net_.graph.nodes[Index(node)].clearance_m >= Radius()) continue;
+      if (!in_pocket && 2 * net_.graph.nodes[Index(node)].clearance_m > MaxMouth()) continue;
       if (!in_pocket && !tried.try_emplace(place, true).second) continue;
       Stand(node, &told);
     }
@@ -262,7 +264,7 @@ class NetworkCheck {
         for (const int node : cell->second) {
           const double dx = At(node).x - p.x, dy = At(node).y - p.y, c = net_.graph.nodes[Index(node)].clearance_m;
           const double d2 = dx * dx + dy * dy, left = Radius() - c;
-          if (in_pocket ? d2 + c * c > Radius() * Radius() : left < 0 || d2 > left * left) continue;
+          if (in_pocket ? d2 + c * c > Radius() * Radius() : 2 * c > MaxMouth() || d2 > left * left) continue;
           if (!in_pocket && net_.gate[Index(node)]) return;  // at a door everybody can be kept out of it
           mark_[Index(node)] = stamp_, inside_.push_back(node);
         }
@@ -351,7 +353,7 @@ class NetworkCheck {
     if (in_pocket && told_pockets_.count(pocket)) return;
     if (in_pocket) told_pockets_[pocket] = true;
     for (const int node : part_) (*told)[Index(node)] = 1;
-    state_.Add(503, NearestObstacle(obstacles_, At(end)), At(end), farthest, 0,
+    state_.Add(503, NearestName(placed_, At(end)), At(end), farthest, 0,
                "a visitor at (" + Number(At(visitor_).x) + ", " + Number(At(visitor_).y) + ") cuts off " +
                    Metres(farthest) + " of way without a door or an exit");
   }
@@ -364,7 +366,7 @@ class NetworkCheck {
 
   const Network& net_;
   const BrokenPlaces& broken_;
-  const std::vector<CheckedObstacle>& obstacles_;
+  const Placed& placed_;
   CheckState& state_;
   std::unordered_map<int64_t, std::vector<int>> cells_;
   std::vector<int> pocket_;  // by node: its outermost pocket's mouth, or -1
@@ -379,9 +381,9 @@ class NetworkCheck {
 }  // namespace
 
 void CheckNetwork(const Rings& ground, const OpenTest& is_open, const std::vector<Gate>& gates,
-                  const BrokenPlaces& broken, const std::vector<CheckedObstacle>& obstacles, CheckState* state) {
+                  const BrokenPlaces& broken, const Placed& placed, CheckState* state) {
   const Network network(ground, state->options.person_radius_m, is_open, gates);
-  if (!network.graph.nodes.empty()) NetworkCheck(network, broken, obstacles, state).Run();
+  if (!network.graph.nodes.empty()) NetworkCheck(network, broken, placed, state).Run();
 }
 
 }  // namespace flaneur

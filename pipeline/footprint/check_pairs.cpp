@@ -72,7 +72,7 @@ bool Fills(const Entry& other, const Gap& gap, double tolerance) {
 
 class PairCheck {
  public:
-  explicit PairCheck(CheckState* state) : state_(*state) {
+  explicit PairCheck(CheckState* state) : state_(*state), grid_(GridOf(state->obstacles)) {
     for (Entry& entry : state->obstacles)
       if (!entry.rings.empty() && !entry.points_missing) sorted_.push_back(&entry);
     std::stable_sort(sorted_.begin(), sorted_.end(),
@@ -191,14 +191,17 @@ class PairCheck {
 
   bool IsFilled(const Entry& a, const Entry& b, const Gap& gap) const {
     if (Fills(a, gap, 0) || Fills(b, gap, 0)) return true;
-    for (const Entry* other : sorted_) {
-      if (other->min.x > std::max(gap.from.x, gap.to.x) + gap.width_m) break;
-      if (other != &a && other != &b && Fills(*other, gap, state_.options.tolerance_m)) return true;
+    const BoundingBox box{{std::min(gap.from.x, gap.to.x), std::min(gap.from.y, gap.to.y)},
+                          {std::max(gap.from.x, gap.to.x), std::max(gap.from.y, gap.to.y)}};
+    for (const size_t i : grid_.Near(box, gap.width_m)) {
+      const Entry* const other = &state_.obstacles[i];
+      if (other != &a && other != &b && !other->duplicate && !other->points_missing && Fills(*other, gap, state_.options.tolerance_m)) return true;
     }
     return false;
   }
 
   CheckState& state_;
+  BoxGrid grid_;
   std::vector<Entry*> sorted_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "pipeline/footprint/box_grid.h"
 #include "pipeline/footprint/check.h"
 #include "pipeline/footprint/polygon_sets.h"
 
@@ -18,6 +19,9 @@ struct CheckedObstacle {
   bool duplicate = false;  // of an earlier one
   Point2 min, max;
 };
+
+// What stands near a place; obstacles without rings are not in it.
+BoxGrid GridOf(const std::vector<CheckedObstacle>& obstacles);
 
 struct CheckState {
   const Footprints& footprints;
@@ -42,8 +46,8 @@ Ring ConvexHull(Ring points);
 
 void CheckRings(CheckState* state);                            // 101-203; fills the obstacles
 void CheckPairs(CheckState* state);                            // 401-404
-Error CheckAgainstTown(const Scene& town, CheckState* state);  // 301-307
-Error CheckWays(const Scene* town, CheckState* state);         // 501-503, 601-604
+void CheckAgainstTown(const PreparedTown& town, CheckState* state);  // 301-307, 907
+Error CheckWays(const PreparedTown* town, CheckState* state);         // 501-503, 601-604
 void CheckStreets(CheckState* state);                          // 504
 
 }  // namespace flaneur

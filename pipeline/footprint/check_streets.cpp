@@ -47,15 +47,16 @@ bool InDoubt(const CheckedObstacle& entry, Point2 p) {
 // Once for each street and obstacle.
 void CheckStreets(CheckState* state) {
   const double tolerance = state->options.tolerance_m;
+  const BoxGrid grid = GridOf(state->obstacles);
   for (const Centreline& street : state->options.streets) {
     Point2 min{1e300, 1e300}, max{-1e300, -1e300};
     for (const Point2& p : street.points_m) {
       min = {std::min(min.x, p.x), std::min(min.y, p.y)};
       max = {std::max(max.x, p.x), std::max(max.y, p.y)};
     }
-    for (const CheckedObstacle& entry : state->obstacles) {
-      if (entry.rings.empty() || entry.duplicate || entry.points_missing) continue;
-      if (entry.min.x > max.x || min.x > entry.max.x || entry.min.y > max.y || min.y > entry.max.y) continue;
+    for (const size_t at : grid.Near({min, max})) {
+      const CheckedObstacle& entry = state->obstacles[at];
+      if (entry.duplicate || entry.points_missing) continue;
       Depth deepest;
       for (size_t i = 0; i + 1 < street.points_m.size(); ++i) {
         const Point2 a = street.points_m[i], b = street.points_m[i + 1];

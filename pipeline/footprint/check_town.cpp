@@ -5,9 +5,9 @@
 
 #include "pipeline/footprint/band.h"
 #include "pipeline/footprint/base_ground.h"
+#include "pipeline/footprint/box_grid.h"
 #include "pipeline/footprint/check_parts.h"
 #include "pipeline/footprint/constants.h"
-#include "pipeline/footprint/extract_footprints.h"
 #include "pipeline/footprint/passages.h"
 #include "pipeline/footprint/town_objects.h"
 
@@ -28,37 +28,49 @@ struct Footprint {
 
 class TownCheck {
  public:
-  TownCheck(const Scene& town, CheckState* state)
-      : scene_(town), state_(*state), objects_(SortTown(town, state->options.scale)) {}
+  TownCheck(const PreparedTown& town, CheckState* state)
+      : town_(town),
+        objects_(town.objects),
+        state_(*state),
+        truth_(FootprintsOf(town.own)),
+        truth_grid_(BoxesOf(truth_)),
+        obstacle_grid_(GridOf(state->obstacles)) {
+    for (const CheckedObstacle& entry : state_.obstacles)
+      if (!entry.sound) broken_.push_back(&entry);
+  }
 
-  Error Run() {
-    FootprintOptions options;
-    options.clearance_m = std::max(state_.clearance_m, 0.0);
-    options.band_m = state_.footprints.band_m;
-    options.scale = state_.options.scale;
-    options.tolerance_m = 0;
-    FootprintStats stats;
-    if (Error error = ExtractFootprints(scene_, options, &extracted_, &stats)) return error;
-    if (Error error = RasterizeGround(objects_, {}, &raster_)) return error;
-    ListFootprints();
-    if (LieApart()) return Ok();
+  void Run() {
+    if (LieApart()) return;
     FindMissing();
     FindWalls();
     FindStrange();
     FindOverCover();
-    for (const std::string& name : stats.open_shells)
-      state_.Add(306, name, MiddleOf(name), 0, 0, "some walls of '" + name + "' enclose nothing");
-    return Ok();
+    std::map<std::string, const TownObject*> by_name;
+    for (const TownObject& o : objects_.obstacles) by_name.try_emplace(o.name, &o);
+    for (const std::string& name : town_.open_shells) {
+      const auto found = by_name.find(name);
+      const Point2 at = found == by_name.end() ? Point2{}
+                                               : Point2{(found->second->min_m.x + found->second->max_m.x) / 2,
+                                                        (found->second->min_m.y + found->second->max_m.y) / 2};
+      state_.Add(306, name, at, 0, 0, "some walls of '" + name + "' enclose nothing");
+    }
   }
 
  private:
-  void ListFootprints() {
-    for (const Obstacle& o : extracted_.obstacles) {
+  static std::vector<Footprint> FootprintsOf(const Footprints& own) {
+    std::vector<Footprint> all;
+    for (const Obstacle& o : own.obstacles) {
       Rings rings{o.outer};
       if (o.outer.empty()) rings = {CircleRing(o.center, o.radius_m)};
       else rings.insert(rings.end(), o.holes.begin(), o.holes.end());
-      truth_.push_back({&o, rings, BoundingBoxOf(rings)});
+      all.push_back({&o, rings, BoundingBoxOf(rings)});
     }
+    return all;
+  }
+  static std::vector<BoundingBox> BoxesOf(const std::vector<Footprint>& all) {
+    std::vector<BoundingBox> boxes;
+    for (const Footprint& f : all) boxes.push_back(f.box);
+    return boxes;
   }
 
   // 907. Then every building would lack its obstacle and every obstacle its building.
@@ -80,17 +92,10 @@ class TownCheck {
     return true;
   }
 
-  Point2 MiddleOf(const std::string& name) const {
-    for (const TownObject& o : objects_.obstacles)
-      if (o.name == name) return {(o.min_m.x + o.max_m.x) / 2, (o.min_m.y + o.max_m.y) / 2};
-    return {};
-  }
-
   // The obstacle that stands for an object has a broken ring, which is said already; what follows from it is not.
   bool IsBroken(const std::string& source, const BoundingBox& box) const {
-    return std::any_of(state_.obstacles.begin(), state_.obstacles.end(), [&](const CheckedObstacle& entry) {
-      if (entry.sound) return false;
-      const Obstacle& o = *entry.obstacle;
+    return std::any_of(broken_.begin(), broken_.end(), [&](const CheckedObstacle* entry) {
+      const Obstacle& o = *entry->obstacle;
       if (o.source == source || o.name == source) return true;
       return std::any_of(o.outer.begin(), o.outer.end(), [&](Point2 p) { return Meet(p, p, box); });
     });
@@ -109,8 +114,8 @@ class TownCheck {
       if (cover.all == 0) cover.at = f.rings[0][0], cover.box = f.box;
       cover.all += Area(f.rings);
       Rings near;
-      for (const CheckedObstacle& entry : state_.obstacles)
-        if (!entry.rings.empty() && !entry.duplicate && Meet(entry.min, entry.max, f.box)) AddWhole(entry, &near);
+      for (const size_t i : obstacle_grid_.Near(f.box))
+        if (!state_.obstacles[i].duplicate) AddWhole(state_.obstacles[i], &near);
       if (!near.empty()) cover.covered += Area(Intersection(f.rings, UnionOfAreas(near)));
     }
     for (const auto& [source, cover] : covers) {
@@ -130,8 +135,9 @@ class TownCheck {
   // What obstacles cover in and round a box, cracks welded.
   Rings CoverNear(const BoundingBox& box) const {
     Rings all;
-    for (const CheckedObstacle& entry : state_.obstacles) {
-      if (entry.rings.empty() || entry.duplicate || !Meet(entry.min, entry.max, box, kNearWall_m)) continue;
+    for (const size_t i : obstacle_grid_.Near(box, kNearWall_m)) {
+      const CheckedObstacle& entry = state_.obstacles[i];
+      if (entry.duplicate) continue;
       Rings whole;
       AddWhole(entry, &whole);
       const Rings grown = Offset(UnionOfAreas(whole), kSeam_m);
@@ -142,14 +148,14 @@ class TownCheck {
 
   Rings TruthNear(const BoundingBox& box, double reach = kNearWall_m) const {
     Rings all;
-    for (const Footprint& f : truth_)
-      if (Meet(f.box.min, f.box.max, box, reach)) all.insert(all.end(), f.rings.begin(), f.rings.end());
+    for (const size_t i : truth_grid_.Near(box, reach))
+      all.insert(all.end(), truth_[i].rings.begin(), truth_[i].rings.end());
     return UnionOfAreas(all);
   }
 
   void FindWalls() {
     std::vector<LocalGround> terrain;
-    if (!objects_.ground.empty()) terrain.emplace_back(raster_);
+    if (!objects_.ground.empty()) terrain.emplace_back(town_.ground);
     for (const TownObject& object : objects_.obstacles) {
       if (missing_.contains(object.name)) continue;
       const BoundingBox box{{object.min_m.x, object.min_m.y}, {object.max_m.x, object.max_m.y}};
@@ -172,7 +178,8 @@ class TownCheck {
   }
 
   void FindTrunk(const TownObject& object, const BoundingBox& box) {
-    for (const Footprint& f : truth_) {
+    for (const size_t i : truth_grid_.Near(box, kNearWall_m)) {
+      const Footprint& f = truth_[i];
       if (f.obstacle->source != object.name || !f.obstacle->outer.empty()) continue;
       const double radius = f.obstacle->radius_m - std::max(state_.clearance_m, 0.0);
       if (radius > 0) CheckWalls(object, box, Outline({CircleRing(f.obstacle->center, radius)}));
@@ -234,7 +241,7 @@ class TownCheck {
     options.person_radius_m = state_.options.person_radius_m;
     options.slack_m = state_.options.tolerance_m + kOutlineRounding_m;
     options.ends_m = state_.clearance_m + 2 * state_.options.tolerance_m;
-    const PassageTest passages(objects_, raster_, options);
+    const PassageTest passages(objects_, town_.ground, options);
     for (const CheckedObstacle& entry : state_.obstacles) {
       if (!entry.sound || entry.rings.empty() || entry.duplicate || strange_.contains(&entry)) continue;
       const Rings truth = TruthNear({entry.min, entry.max});
@@ -274,18 +281,18 @@ class TownCheck {
                "'" + name + "' takes " + SquareMetres(area) + " all round");
   }
 
-  const Scene& scene_;
+  const PreparedTown& town_;
+  const TownObjects& objects_;
   CheckState& state_;
-  TownObjects objects_;
-  Footprints extracted_;
   std::vector<Footprint> truth_;
-  GroundRaster raster_;
+  BoxGrid truth_grid_, obstacle_grid_;
+  std::vector<const CheckedObstacle*> broken_;
   std::set<std::string> missing_;
   std::set<const CheckedObstacle*> strange_;
 };
 
 }  // namespace
 
-Error CheckAgainstTown(const Scene& town, CheckState* state) { return TownCheck(town, state).Run(); }
+void CheckAgainstTown(const PreparedTown& town, CheckState* state) { TownCheck(town, state).Run(); }
 
 }  // namespace flaneur

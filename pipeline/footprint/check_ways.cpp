@@ -78,6 +78,7 @@ Point2 PlaceIn(const Region& region) {
   return best;
 }
 
+// From p, or beyond.
 bool IsFarther(const CheckedObstacle& entry, Point2 p, double distance) {
   const double dx = std::max({entry.min.x - p.x, 0.0, p.x - entry.max.x}),
                dy = std::max({entry.min.y - p.y, 0.0, p.y - entry.max.y});
@@ -109,17 +110,17 @@ std::vector<std::vector<const CheckedObstacle*>> Clusters(const std::vector<Chec
 
 class WaysCheck {
  public:
-  explicit WaysCheck(CheckState* state) : state_(*state), broken_(*state) {}
+  explicit WaysCheck(CheckState* state) : state_(*state), broken_(*state), placed_(state->obstacles) {}
 
-  Error Run(const Scene* town) {
+  Error Run(const PreparedTown* town) {
     gates_ = state_.options.gates;
     if (town) {
-      const std::vector<Gate> more = GatesOf(*town, state_.options.scale);
+      const std::vector<Gate> more = GatesOf(*town->scene, state_.options.scale);
       gates_.insert(gates_.end(), more.begin(), more.end());
-      if (Error error = LayOutTown(*town)) return error;
-    } else {
-      LayOutObstacles();
     }
+    const bool whole = town && !town->objects.ground.empty();
+    if (whole) LayOutTown(*town);
+    else LayOutObstacles(town ? OutlineOf(town->ground) : Rings{});
     if (ground_.empty()) return Ok();
     // Doors and exits stand in regions; without any, the network needs none.
     std::vector<Finding> findings;
@@ -132,11 +133,14 @@ class WaysCheck {
     Job network;
     const auto start_network = [&] { network = StartJob(&jobs, check_network); };
     if (gates_.empty()) start_network();
-    if (!town) LayOutRegions();
+    if (!whole) LayOutRegions();
     CheckGates();
     if (!gates_.empty()) start_network();
     CheckRegions();
     network.Wait();
+    // What is shut in where nobody says where people come and go is only likely to be wrong.
+    if (gates_.empty())
+      for (Finding& finding : findings) finding.severity = Severity::kWarning;
     state_.findings->insert(state_.findings->end(), findings.begin(), findings.end());
     return Ok();
   }
@@ -145,22 +149,18 @@ class WaysCheck {
   double Thickened() const { return state_.options.person_radius_m - kWaySlack_m; }
   double Welded() const { return state_.options.tolerance_m / 2; }  // cracks are nobody's way
 
-  Error LayOutTown(const Scene& town) {
-    GroundRasterOptions options;
-    options.scale = state_.options.scale;
-    GroundRaster raster;
-    if (Error error = RasterizeGround(town, options, &raster)) return error;
-    ground_ = OutlineOf(raster);
+  void LayOutTown(const PreparedTown& town) {
+    ground_ = OutlineOf(town.ground);
     Rings all;
     for (const CheckedObstacle& entry : state_.obstacles) all.insert(all.end(), entry.rings.begin(), entry.rings.end());
     regions_ = RegionsOf(Difference(ground_, OffsetRound(all, Thickened())));
     open_ = Difference(ground_, Offset(all, Welded()));
     reach_ = RegionsOf(open_);
-    return Ok();
   }
 
-  // Free ground all round: each cluster of obstacles is looked at by itself, for large plans take long as a whole.
-  void LayOutObstacles() {
+  // Free ground all round, `square` where the town has that: each cluster of obstacles is looked at by itself, for large
+  // plans take long as a whole.
+  void LayOutObstacles(const Rings& square) {
     clusters_ = Clusters(state_.obstacles, 2 * state_.options.person_radius_m + 0.1);
     Point2 min{1e300, 1e300}, max{-1e300, -1e300};
     double covered = 0;
@@ -181,7 +181,14 @@ class WaysCheck {
       min = {std::min(min.x, gate.at_m.x), std::min(min.y, gate.at_m.y)};
       max = {std::max(max.x, gate.at_m.x), std::max(max.y, gate.at_m.y)};
     }
-    ground_ = Box({min.x - kFreeMargin_m, min.y - kFreeMargin_m}, {max.x + kFreeMargin_m, max.y + kFreeMargin_m});
+    min = {min.x - kFreeMargin_m, min.y - kFreeMargin_m}, max = {max.x + kFreeMargin_m, max.y + kFreeMargin_m};
+    for (const Ring& ring : square) {
+      for (const Point2& p : ring) {
+        min = {std::min(min.x, p.x), std::min(min.y, p.y)};
+        max = {std::max(max.x, p.x), std::max(max.y, p.y)};
+      }
+    }
+    ground_ = Box(min, max);
     open_.insert(open_.begin(), ground_[0]);
     outside_m2_ = std::abs(Area(ground_)) - covered;
   }
@@ -204,9 +211,12 @@ class WaysCheck {
       return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y;
     };
     return std::none_of(gates_.begin(), gates_.end(), [&](const Gate& gate) { return inside(gate.at_m); }) &&
-           std::none_of(state_.obstacles.begin(), state_.obstacles.end(), [&](const CheckedObstacle& entry) {
-             return !entry.rings.empty() && inside(entry.min) && inside(entry.max);
-           });
+           [&] {
+             const std::vector<size_t> near = placed_.grid.Near(box);
+             return std::none_of(near.begin(), near.end(), [&](size_t i) {
+               return inside(state_.obstacles[i].min) && inside(state_.obstacles[i].max);
+             });
+           }();
   }
 
   // Where nothing says how people leave, they leave over the edge.
@@ -215,7 +225,7 @@ class WaysCheck {
     const auto is_open = [&](Point2 a, Point2 b) {
       return !any_exit && DistanceToBoundary(ground_, {(a.x + b.x) / 2, (a.y + b.y) / 2}) < 0.01;
     };
-    CheckNetwork(open_, is_open, usable_, broken_, state_.obstacles, beside);
+    CheckNetwork(open_, is_open, usable_, broken_, placed_, beside);
   }
 
   static Rings Box(Point2 min, Point2 max) { return {{min, {max.x, min.y}, max, {min.x, max.y}}}; }
@@ -260,7 +270,8 @@ class WaysCheck {
     for (const Gate& gate : gates_) {
       const Point2 p = Outside(gate);
       bool inside = false;
-      const double gap = GapTo(p, &inside);
+      const CheckedObstacle* nearest = nullptr;
+      const double gap = NearestObstacle(placed_, p, &nearest, &inside);
       regions.push_back(-1);
       if (inside) {
         state_.Add(gate.is_exit ? 602 : 601, gate.name, p, gap, 0, "'" + gate.name + "'");
@@ -282,17 +293,6 @@ class WaysCheck {
       cut_off_.push_back(regions[i]);
       state_.Add(604, gates_[i].name, gates_[i].at_m, 0, 0, "no exit can be reached from '" + gates_[i].name + "'");
     }
-  }
-
-  // To the nearest obstacle, or how far inside one.
-  double GapTo(Point2 p, bool* inside) const {
-    double least = 1e100;
-    for (const CheckedObstacle& entry : state_.obstacles) {
-      if (entry.rings.empty() || IsFarther(entry, p, least)) continue;
-      least = std::min(least, DistanceToBoundary(entry.rings, p));
-      *inside |= Contains(entry.rings, p);
-    }
-    return least;
   }
 
   bool ReachesExit(int region, const std::vector<int>& regions) const {
@@ -322,7 +322,7 @@ class WaysCheck {
         continue;
       const bool closed = RegionNear(reach_, region.shape.outer[0], 1e-3) != main_reach;
       const Point2 at = PlaceIn(region);
-      state_.Add(501, NearestObstacle(state_.obstacles, at), at, area, state_.options.least_ground_m2,
+      state_.Add(501, NearestName(placed_, at), at, area, state_.options.least_ground_m2,
                  SquareMetres(area) + (closed ? ", closed all round" : ", cut off by narrow gaps"));
       const bool large = region.area_m2 > kMinLargeShare * main_m2;
       if ((closed || area < kMaxNook_m2) && !large && !Has(has_gate_, i))
@@ -334,6 +334,7 @@ class WaysCheck {
 
   CheckState& state_;
   BrokenPlaces broken_;
+  Placed placed_;
   std::vector<Gate> gates_, usable_;                           // the latter a step ahead, on free ground
   std::vector<std::vector<const CheckedObstacle*>> clusters_;  // of obstacles, without a town
   Rings ground_, open_;                                        // all, and all without the obstacles
@@ -365,17 +366,25 @@ bool BrokenPlaces::Near(Point2 p, double reach) const {
   });
 }
 
-std::string NearestObstacle(const std::vector<CheckedObstacle>& obstacles, Point2 p) {
-  const CheckedObstacle* nearest = nullptr;
+double NearestObstacle(const Placed& placed, Point2 p, const CheckedObstacle** nearest, bool* inside) {
   double least = 1e100;
-  for (const CheckedObstacle& entry : obstacles) {
-    if (entry.rings.empty() || IsFarther(entry, p, least)) continue;
+  const auto visit = [&](size_t i) {
+    const CheckedObstacle& entry = placed.obstacles[i];
+    if (IsFarther(entry, p, least)) return;
     const double d = DistanceToBoundary(entry.rings, p);
-    if (d < least) least = d, nearest = &entry;
-  }
+    if (d < least || (d == least && &entry < *nearest)) least = d, *nearest = &entry;
+    if (inside) *inside |= Contains(entry.rings, p);
+  };
+  placed.grid.Outwards(p, visit, [&] { return least; });
+  return least;
+}
+
+std::string NearestName(const Placed& placed, Point2 p) {
+  const CheckedObstacle* nearest = nullptr;
+  NearestObstacle(placed, p, &nearest, nullptr);
   return nearest ? nearest->obstacle->name : "";
 }
 
-Error CheckWays(const Scene* town, CheckState* state) { return WaysCheck(state).Run(town); }
+Error CheckWays(const PreparedTown* town, CheckState* state) { return WaysCheck(state).Run(town); }
 
 }  // namespace flaneur

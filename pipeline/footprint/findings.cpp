@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <tuple>
 
 #include "runtime/base/array.h"
@@ -50,7 +51,8 @@ const std::vector<FindingKind>& FindingKinds() {
       {904, kError, "broken feature", "Correct it; it was left out of the check."},
       {905, kError, "number out of range", "Correct the option as the message says."},
       {906, kError, "coordinate system not known", "Use a name that PROJ knows, such as EPSG:25832."},
-      {907, kError, "obstacles and town lie apart", "See whether they belong together: --scale, --units, the origin."},
+      {907, kError, "obstacles lie elsewhere",
+       "See whether they belong together, and what the file says of its place: crs, origin_m, the order of axes."},
   };
   return kinds;
 }
@@ -60,7 +62,7 @@ const FindingKind& KindOf(int code) {
   return *std::find_if(kinds.begin(), kinds.end(), [&](const FindingKind& k) { return k.code == code; });
 }
 
-const char* SeverityName(Severity severity) { return severity == Severity::kError ? "error" : "warning"; }
+const char* SeverityName(Severity severity) { return severity == Severity::kError ? "error" : severity == Severity::kWarning ? "warning" : "accepted"; }
 
 namespace {
 
@@ -73,7 +75,7 @@ Json PlaceJson(Point2 p, double grain) {
 }
 
 Json Facts(const Finding& f) {
-  return {{"code", f.code},
+  Json facts{{"code", f.code},
           {"severity", SeverityName(f.severity)},
           {"feature", f.feature},
           {"other", f.other.empty() ? Json() : Json(f.other)},
@@ -82,6 +84,13 @@ Json Facts(const Finding& f) {
           {"limit", Number(f.limit)},
           {"message", f.message},
           {"advice", KindOf(f.code).advice}};
+  if (f.Count() > 1) {
+    facts["count"] = f.Count();
+    facts["features"] = Json::array({f.feature});
+    for (const std::string& other : f.others) facts["features"].push_back(other);
+  }
+  if (!f.reason.empty()) facts["reason"] = f.reason;
+  return facts;
 }
 
 std::string Text(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
@@ -90,14 +99,15 @@ std::string Text(const Json& json) { return json.dump(1, ' ', false, Json::error
 
 std::string FindingsJson(const std::vector<Finding>& findings, const std::vector<Point2>& places) {
   Json list = Json::array();
-  int errors = 0;
+  int errors = 0, warnings = 0;
   for (size_t i = 0; i < findings.size(); ++i) {
     errors += findings[i].severity == Severity::kError;
+    warnings += findings[i].severity == Severity::kWarning;
     list.push_back(Facts(findings[i]));
     if (i < places.size()) list.back()["at_file"] = PlaceJson(places[i], 1e-9);
   }
   return Text(
-      {{"version", 1}, {"errors", errors}, {"warnings", Count(findings) - errors}, {"findings", std::move(list)}});
+      {{"version", 1}, {"errors", errors}, {"warnings", warnings}, {"findings", std::move(list)}});
 }
 
 std::string FindingsGeoJson(const std::vector<Finding>& findings, const std::vector<Point2>& places, bool degrees) {
@@ -111,6 +121,57 @@ std::string FindingsGeoJson(const std::vector<Finding>& findings, const std::vec
   if (!degrees) root["flaneur"] = {{"version", 1}, {"units", "m"}};
   root["features"] = std::move(features);
   return Text(root);
+}
+
+namespace {
+
+// Of faults in rings, and of walls: how the whole map was made. Overlaps, gaps and ways have each their own cause.
+double JoinedShare(int code) {
+  if (code == 306) return 0.2;  // walls that the whole model lacks
+  const bool rings = code >= 101 && code <= 203, town = code >= 301 && code <= 305;
+  return rings || town ? 0.5 : 2;
+}
+
+}  // namespace
+
+void JoinFindings(size_t obstacles, std::vector<Finding>* findings) {
+  constexpr size_t kMany = 10;
+  std::vector<Finding> joined;
+  for (size_t i = 0; i < findings->size();) {
+    size_t end = i;
+    std::set<std::string> features;
+    while (end < findings->size() && (*findings)[end].code == (*findings)[i].code) features.insert((*findings)[end++].feature);
+    const double share = static_cast<double>(features.size()) / std::max(1.0, static_cast<double>(obstacles));
+    if (features.size() < kMany || share < JoinedShare((*findings)[i].code)) {
+      joined.insert(joined.end(), std::make_move_iterator(findings->begin() + static_cast<std::ptrdiff_t>(i)),
+                    std::make_move_iterator(findings->begin() + static_cast<std::ptrdiff_t>(end)));
+    } else {
+      Finding one = (*findings)[i];
+      features.erase(one.feature);
+      one.others.assign(features.begin(), features.end());
+      const std::string first = one.message.substr(std::min(one.message.size(), std::string(KindOf(one.code).title).size()));
+      one.message = std::string(KindOf(one.code).title) + " in " + std::to_string(one.Count()) + " of " +
+                    std::to_string(obstacles) + " obstacles, so likely of one cause; the first" + first;
+      joined.push_back(std::move(one));
+    }
+    i = end;
+  }
+  *findings = std::move(joined);
+}
+
+std::vector<size_t> AcceptFindings(const std::vector<AcceptedFinding>& accepted, std::vector<Finding>* findings) {
+  std::vector<size_t> idle;
+  for (size_t i = 0; i < accepted.size(); ++i) {
+    const AcceptedFinding& a = accepted[i];
+    bool met = false;
+    for (Finding& f : *findings) {
+      if (f.code != a.code || !(std::hypot(f.at_m.x - a.at_m.x, f.at_m.y - a.at_m.y) <= a.within_m)) continue;
+      f.severity = Severity::kAccepted, f.reason = a.reason;
+      met = true;
+    }
+    if (!met) idle.push_back(i);
+  }
+  return idle;
 }
 
 void SortFindings(std::vector<Finding>* findings) {

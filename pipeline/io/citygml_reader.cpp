@@ -21,7 +21,8 @@ using Rings = std::vector<std::vector<Point3>>;
 
 constexpr size_t kMaxDepth = 256;  // elements within elements; real files have some 25
 constexpr size_t kChunk_bytes = 1 << 20;
-constexpr char kSeparator = '|';  // expat puts it between namespace and name
+constexpr char kSeparator = '|';          // expat puts it between namespace and name
+constexpr const char* kSeparators = "|:";  // and the file a colon between prefix and name
 
 // A polygon as it stands in the file.
 struct StoredPolygon {
@@ -50,7 +51,7 @@ Point3 Transformed(const Matrix& m, const Point3& p, const Point3& move) {
 }
 
 std::string_view LocalName(std::string_view name) {
-  const size_t at = name.rfind(kSeparator);
+  const size_t at = name.find_last_of(kSeparators);
   return at == std::string_view::npos ? name : name.substr(at + 1);
 }
 
@@ -75,8 +76,16 @@ bool HoldsCoordinates(std::string_view name) {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, std::vector<std::string>* warnings)
-      : path_(path), warnings_(warnings), parser_(XML_ParserCreateNS(nullptr, kSeparator), &XML_ParserFree) {}
+  Reader(const std::filesystem::path& path, std::vector<std::string>* warnings, const ReadSceneOptions& options,
+         SceneSource* source, bool namespaces)
+      : path_(path),
+        warnings_(warnings),
+        options_(options),
+        source_(*source),
+        parser_(namespaces ? XML_ParserCreateNS(nullptr, kSeparator) : XML_ParserCreate(nullptr), &XML_ParserFree) {}
+
+  // A name's prefix that the file does not explain: it may be read without looking at namespaces.
+  bool lacks_namespace() const { return XML_GetErrorCode(parser_.get()) == XML_ERROR_UNBOUND_PREFIX; }
 
   Error Read(Scene* scene) {
     const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path_.c_str(), "rb"), &std::fclose);
@@ -150,6 +159,14 @@ class Reader {
   void CheckRoot(std::string_view full_name, std::string_view name) {
     if (name != "CityModel")
       return Stop("its outermost element is '" + std::string(name) + "', not CityGML's CityModel");
+    const bool named = full_name.find(kSeparator) != std::string_view::npos;
+    if (!named) {
+      if (warnings_)
+        warnings_->push_back(path_.string() +
+                             ": its CityModel names no namespace; read as CityGML 2.0 (add "
+                             "xmlns=\"http://www.opengis.net/citygml/2.0\")");
+      return;
+    }
     for (const char* version : {"/1.0", "/2.0"})
       if (full_name.find(std::string("opengis.net/citygml") + version) != std::string_view::npos) return;
     Stop("CityGML 1.0 and 2.0 are understood, not '" +
@@ -341,7 +358,8 @@ class Reader {
       builder.AddPolygon(foundation ? builder.FoundationOf(node[object]) : node[object], p.surface, p.rings);
     }
     polygons_ = {};
-    return builder.Finish(path_.string(), PlainReferenceSystem(reference_system_), scene, warnings_);
+    const std::string& system = options_.system.empty() ? reference_system_ : options_.system;
+    return builder.Finish(path_.string(), {PlainReferenceSystem(system), true}, scene, &source_.system, warnings_);
   }
 
   struct Object {
@@ -359,6 +377,8 @@ class Reader {
 
   std::filesystem::path path_;
   std::vector<std::string>* warnings_;
+  const ReadSceneOptions& options_;
+  SceneSource& source_;
   std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser_;
   Error error_;
   std::vector<Element> stack_;
@@ -376,8 +396,11 @@ class Reader {
 
 }  // namespace
 
-Error ReadCityGml(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings) {
-  return Reader(path, warnings).Read(scene);
+Error ReadCityGml(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings,
+                  const ReadSceneOptions& options, SceneSource* source) {
+  Reader reader(path, warnings, options, source, true);
+  const Error error = reader.Read(scene);
+  return error && reader.lacks_namespace() ? Reader(path, warnings, options, source, false).Read(scene) : error;
 }
 
 }  // namespace flaneur

@@ -31,7 +31,9 @@ int DepthOf(const std::string& type) {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, std::vector<std::string>* warnings) : path_(path), warnings_(warnings) {}
+  Reader(const std::filesystem::path& path, std::vector<std::string>* warnings, const ReadSceneOptions& options,
+         SceneSource* source)
+      : path_(path), warnings_(warnings), options_(options), source_(*source) {}
 
   Error Read(Scene* scene) {
     std::string text;
@@ -49,7 +51,8 @@ class Reader {
       if (Error e = ReadVertices(first)) return e;
       if (Error e = ReadObjects(first)) return e;
     }
-    return builder_.Finish(path_.string(), reference_system_, scene, warnings_);
+    if (!options_.system.empty()) reference_system_ = PlainReferenceSystem(options_.system);
+    return builder_.Finish(path_.string(), {reference_system_, false}, scene, &source_.system, warnings_);
   }
 
  private:
@@ -294,6 +297,8 @@ class Reader {
 
   std::filesystem::path path_;
   std::vector<std::string>* warnings_;
+  const ReadSceneOptions& options_;
+  SceneSource& source_;
   std::string where_, reference_system_;
   Transform transform_;
   std::vector<Point3> vertices_, template_vertices_;
@@ -306,9 +311,10 @@ class Reader {
 
 }  // namespace
 
-Error ReadCityJson(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings) {
+Error ReadCityJson(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings,
+                   const ReadSceneOptions& options, SceneSource* source) {
   try {
-    return Reader(path, warnings).Read(scene);
+    return Reader(path, warnings, options, source).Read(scene);
   } catch (const Json::exception& exception) {
     return Fail(path.string() + ": not valid JSON: " + PlainJsonError(exception.what()));
   }

@@ -103,11 +103,29 @@ class Reader {
         stated.system = TextOf(Member(crs, "properties"), "name");
       }
     }
+    if (options.swapped) ForEachPoint(out_, [](Point2& p) { std::swap(p.x, p.y); });
+    else if (Error error = FindMisplacement(stated, PlaceOf(root, stated), out_)) return Fail(file_name_ + ": " + error.message);
     if (Error error = ToLocalMetres(stated, out_)) return Fail(OneLine(file_name_ + ": " + error.message));
     return Ok();
   }
 
  private:
+  StatedPlace PlaceOf(const Json& root, const StatedSystem& stated) {
+    StatedPlace place;
+    const Json &ours = Member(root, "flaneur"), &box = Member(root, "bbox");
+    // The plain order, or with heights between.
+    if (box.is_array() && (box.size() == 4 || box.size() == 6))
+      for (size_t i = 0; i < 4; ++i) ReadNumber(box[i < 2 ? i : i + box.size() / 2 - 2], &place.box[i]);
+    if (const Json& places = Member(ours, "places_deg"); places.is_object())
+      for (const auto& [name, at] : places.items())
+        if (Point2 p; ReadPair(at, &p.x, &p.y)) place.places_deg.emplace_back(name, p);
+    if (root.contains("flaneur") && stated.system.empty())
+      place.other_crs = TextOf(Member(Member(root, "crs"), "properties"), "name");
+    out_->town_system = TextOf(ours, "town_crs");
+    ReadPair(Member(ours, "town_origin_m"), &out_->town_origin_m.x, &out_->town_origin_m.y);
+    return place;
+  }
+
   // A broken feature is left out, the others are read all the same.
   void KeepFault(const Error& error) {
     if (error) out_->faults.push_back({GeoJsonFaultKind::kBrokenFeature, where_, OneLine(error.message)});

@@ -10,26 +10,12 @@ namespace flaneur {
 namespace {
 
 constexpr double kFarFromOrigin_m = 10'000;  // coordinates further away are moved near zero
-constexpr double kStretched = 0.005;         // maps whose lengths are off by more are transformed
 constexpr double kNullIsland_deg = 1;        // nobody's town is that near to longitude and latitude zero
 constexpr double kHouse_deg = 5e-4;          // houses are smaller than this (50 m), and no house is in metres
 
 constexpr double kElsewhere_m = 100'000;  // no town is as wide as that
 
 using Points = std::vector<Point2>;
-
-template <typename Function>
-void ForEachPoint(GeoJsonFile* file, const Function& function) {
-  for (Obstacle& o : file->footprints.obstacles) {
-    for (Point2& p : o.outer) function(p);
-    for (auto& hole : o.holes)
-      for (Point2& p : hole) function(p);
-    if (o.outer.empty()) function(o.center);
-  }
-  for (GatePoint& place : file->places) function(place.at);
-  for (Way& way : file->ways)
-    for (Point2& p : way.points) function(p);
-}
 
 class Systems {
  public:
@@ -49,19 +35,7 @@ class Systems {
   }
 
  private:
-  // Of each coordinate by itself, so that a few stray points do not move it.
-  void FindMiddle() {
-    std::vector<double> x, y;
-    for (const Point2& p : points_)
-      if (std::isfinite(p.x) && std::isfinite(p.y)) x.push_back(p.x), y.push_back(p.y);
-    if (x.empty()) return;
-    const auto median = [](std::vector<double>* values) {
-      const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-      std::nth_element(values->begin(), middle, values->end());
-      return *middle;
-    };
-    middle_ = {median(&x), median(&y)};
-  }
+  void FindMiddle() { middle_ = Median(points_); }
 
   static bool OnEarth(Point2 p) { return std::abs(p.x) <= 180 && std::abs(p.y) <= 90; }
 
@@ -110,16 +84,11 @@ class Systems {
     }
     if (system.degrees) return Degrees(stated_.system, "degrees of " + stated_.system);
     if (LooksLikeDegrees()) return Other(stated_.system, "longitudes and latitudes", kLongitudeLatitude);
-    Points corner{middle_, {middle_.x + 100, middle_.y}, {middle_.x, middle_.y + 100}};
     Points place{middle_};
     if (Error error = TransformPoints(stated_.system, kLongitudeLatitude, &place)) return error;
     if (!IsUsedAt(system, place[0]))
       return Other(stated_.system, "outside the area that it is for; read as metres", "");
-    if (Error error = TransformPoints(stated_.system, LocalMapSystem(place[0]), &corner)) return error;
-    const auto length = [&](size_t i) {
-      return std::hypot(corner[i].x - corner[0].x, corner[i].y - corner[0].y) / 100;
-    };
-    if (std::abs(length(1) - 1) > kStretched || std::abs(length(2) - 1) > kStretched) return Transform(stated_.system);
+    if (!IsMapOfMetres(stated_.system, middle_)) return Transform(stated_.system);
     file_.footprints.reference_system = PlainReferenceSystem(stated_.system);
     MoveNearZero();
     return Ok();
@@ -154,9 +123,32 @@ class Systems {
 
 }  // namespace
 
+void ForEachPoint(GeoJsonFile* file, const std::function<void(Point2&)>& function) {
+  for (Obstacle& o : file->footprints.obstacles) {
+    for (Point2& p : o.outer) function(p);
+    for (auto& hole : o.holes)
+      for (Point2& p : hole) function(p);
+    if (o.outer.empty()) function(o.center);
+  }
+  for (GatePoint& place : file->places) function(place.at);
+  for (Way& way : file->ways)
+    for (Point2& p : way.points) function(p);
+}
+
+void MoveBy(Point2 shift_m, GeoJsonFile* file) {
+  ForEachPoint(file, [&](Point2& p) { p = {p.x + shift_m.x, p.y + shift_m.y}; });
+  Point2& from = file->system.empty() ? file->moved_m : file->local_origin_m;
+  from = {from.x - shift_m.x, from.y - shift_m.y};
+}
+
 Error ToLocalMetres(const StatedSystem& stated, GeoJsonFile* file) { return Systems(stated, file).Run(); }
 
-Error MoveToTown(const std::string& reference_system, Point2 origin_m, GeoJsonFile* file) {
+Error MoveToTown(const std::string& town_system, Point2 origin_m, GeoJsonFile* file) {
+  std::string reference_system = town_system;
+  if (reference_system.empty() && !file->system.empty() && !file->town_system.empty()) {
+    reference_system = file->town_system;
+    if (origin_m.x == 0 && origin_m.y == 0) origin_m = file->town_origin_m;
+  }
   const bool placed = !reference_system.empty() || origin_m.x != 0 || origin_m.y != 0;
   if (!placed || !file->has_origin) return Ok();
   const auto elsewhere = [&](const std::string& why) {

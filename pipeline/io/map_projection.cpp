@@ -2,6 +2,7 @@
 
 #include <proj.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -10,6 +11,7 @@
 namespace flaneur {
 namespace {
 
+constexpr double kPlaceGrain_deg = 0.1;  // to which the place is rounded at which a way is chosen
 constexpr double kBesideUse_deg = 0.25;  // towns may reach this far over the border of a system's area
 
 struct Free {
@@ -38,64 +40,192 @@ std::string OtherUnit(PJ_CONTEXT* context, const PJ* plane) {
   return std::abs(metres - 1) < 1e-9 || !name ? "" : name;
 }
 
-// Finding the way between two systems takes longer than to transform a town's points, so the last ones are kept.
+bool FirstAxisIsNorth(PJ_CONTEXT* context, const PJ* plane) {
+  const Object axes(proj_crs_get_coordinate_system(context, plane));
+  const char* direction = nullptr;
+  return axes &&
+         proj_cs_get_axis_info(context, axes.get(), 0, nullptr, nullptr, &direction, nullptr, nullptr, nullptr,
+                               nullptr) &&
+         direction && std::string(direction) == "north";
+}
+
+// Those whose area of use holds the place: code and name.
+std::vector<std::pair<std::string, std::string>> ProjectedSystemsAt(PJ_CONTEXT* context, Point2 place) {
+  PROJ_CRS_LIST_PARAMETERS* const wish = proj_get_crs_list_parameters_create();
+  const PJ_TYPE projected = PJ_TYPE_PROJECTED_CRS;
+  wish->types = &projected, wish->typesCount = 1;
+  wish->bbox_valid = 1, wish->crs_area_of_use_contains_bbox = 1;
+  wish->west_lon_degree = wish->east_lon_degree = place.x;
+  wish->south_lat_degree = wish->north_lat_degree = place.y;
+  int count = 0;
+  PROJ_CRS_INFO** const list = proj_get_crs_info_list_from_database(context, "EPSG", wish, &count);
+  proj_get_crs_list_parameters_destroy(wish);
+  std::vector<std::pair<std::string, std::string>> systems;
+  for (int i = 0; list && i < count; ++i)
+    systems.emplace_back(std::string("EPSG:") + list[i]->code, list[i]->name);
+  proj_crs_info_list_destroy(list);
+  return systems;
+}
+
+// "EPSG:25832"; empty where the datum has none there.
+std::string UtmZoneAt(PJ_CONTEXT* context, const std::string& datum, Point2 place) {
+  const std::string zone = datum + " / UTM zone ";
+  for (const auto& [code, name] : ProjectedSystemsAt(context, place))
+    if (name.starts_with(zone) && name.find('(', zone.size()) == std::string::npos) return code;
+  return {};
+}
+
+// The part for the plane of a system with heights of its own.
+Object PlaneOf(PJ_CONTEXT* context, Object system) {
+  if (!system || proj_get_type(system.get()) != PJ_TYPE_COMPOUND_CRS) return system;
+  return Object(proj_crs_get_sub_crs(context, system.get(), 0));
+}
+
+Object MakeSystem(PJ_CONTEXT* context, const std::string& name) {
+  Object object(proj_create(context, name.c_str()));
+  if (object && !proj_is_crs(object.get())) object.reset();
+  return object;
+}
+
+// A system's way to longitude and latitude. Between many systems PROJ knows several, each good for a part of the world
+// and some metres apart: the best one at a place that needs nothing which is not installed. Always asked for in this
+// direction and used backwards too, so that there and back meet again.
+Object WayToEarth(PJ_CONTEXT* context, const std::string& name, Point2 place) {
+  const Object system = PlaneOf(context, MakeSystem(context, name));
+  const Object earth = MakeSystem(context, kLongitudeLatitude);
+  const std::unique_ptr<PJ_OPERATION_FACTORY_CONTEXT, decltype(&proj_operation_factory_context_destroy)> wish(
+      proj_create_operation_factory_context(context, nullptr), &proj_operation_factory_context_destroy);
+  if (!system || !earth || !wish) return nullptr;
+  const double reach = kPlaceGrain_deg / 2;
+  proj_operation_factory_context_set_area_of_interest(context, wish.get(), place.x - reach, place.y - reach,
+                                                      place.x + reach, place.y + reach);
+  proj_operation_factory_context_set_spatial_criterion(context, wish.get(),
+                                                       PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
+  proj_operation_factory_context_set_grid_availability_use(context, wish.get(),
+                                                           PROJ_GRID_AVAILABILITY_DISCARD_OPERATION_IF_MISSING_GRID);
+  const std::unique_ptr<PJ_OBJ_LIST, decltype(&proj_list_destroy)> ways(
+      proj_create_operations(context, system.get(), earth.get(), wish.get()), &proj_list_destroy);
+  for (int i = 0; ways && i < proj_list_get_count(ways.get()); ++i) {
+    const Object way(proj_list_get(context, ways.get(), i));
+    if (way && proj_coordoperation_is_instantiable(context, way.get()))
+      return Object(proj_normalize_for_visualization(context, way.get()));
+  }
+  return nullptr;
+}
+
+// Finding a way takes longer than to transform a town's points, so the last ones are kept.
 class Ways {
  public:
   // Null where there is none.
-  PJ* Find(const std::string& from, const std::string& to) {
+  PJ* ToEarth(const std::string& system, Point2 place) {
+    const auto grain = [](double degrees) { return std::round(degrees / kPlaceGrain_deg) * kPlaceGrain_deg; };
+    place = {grain(place.x), grain(place.y)};
     for (const Way& way : ways_)
-      if (way.from == from && way.to == to) return way.transform.get();
-    const Object raw(proj_create_crs_to_crs(context_.get(), from.c_str(), to.c_str(), nullptr));
-    Object transform(raw ? proj_normalize_for_visualization(context_.get(), raw.get()) : nullptr);
+      if (way.system == system && way.place.x == place.x && way.place.y == place.y) return way.transform.get();
     if (ways_.size() == kMaxKeptWays) ways_.erase(ways_.begin());
-    ways_.push_back({from, to, std::move(transform)});
+    ways_.push_back({system, place, WayToEarth(context_.get(), system, place)});
     return ways_.back().transform.get();
+  }
+
+  // To some metres: enough to choose the way. False where there is none.
+  bool Roughly(const std::string& system, Point2* p) {
+    if (system != kLongitudeLatitude) {
+      if (rough_system_ != system) {
+        rough_system_ = system;
+        const Object from = PlaneOf(context_.get(), MakeSystem(context_.get(), system));
+        const Object to = MakeSystem(context_.get(), kLongitudeLatitude);
+        const Object raw(from && to ? proj_create_crs_to_crs_from_pj(context_.get(), from.get(), to.get(), nullptr, nullptr)
+                                    : nullptr);
+        rough_.reset(raw ? proj_normalize_for_visualization(context_.get(), raw.get()) : nullptr);
+      }
+      if (!rough_) return false;
+      const PJ_COORD out = proj_trans(rough_.get(), PJ_FWD, proj_coord(p->x, p->y, 0, HUGE_VAL));
+      *p = {out.xy.x, out.xy.y};
+    }
+    if (!std::isfinite(p->x) || !std::isfinite(p->y)) *p = {};
+    return true;
   }
 
  private:
   static constexpr size_t kMaxKeptWays = 8;
   struct Way {
-    std::string from, to;
+    std::string system;
+    Point2 place;
     Object transform;
   };
   Context context_ = MakeContext();  // outlives the ways
   std::vector<Way> ways_;
+  std::string rough_system_;
+  Object rough_;
 };
 
+// The place that leads to `p`. PROJ's own inverse forgets the height that a change of datum gave, which costs up to
+// some millimetres; what is missing then is taken off once.
+PJ_COORD Backwards(PJ* way, PJ_COORD p) {
+  const PJ_COORD near = proj_trans(way, PJ_INV, p), reached = proj_trans(way, PJ_FWD, near);
+  const double dx = p.xy.x - reached.xy.x, dy = p.xy.y - reached.xy.y;
+  constexpr double kMost_deg = 1e-3;  // more is no rounding: the other side of the date line
+  if (!(std::abs(dx) < kMost_deg && std::abs(dy) < kMost_deg)) return near;
+  return proj_trans(way, PJ_INV, proj_coord(p.xy.x + dx, p.xy.y + dy, 0, HUGE_VAL));
+}
+
 }  // namespace
+
+Point2 Median(const std::vector<Point2>& points) {
+  std::vector<double> x, y;
+  for (const Point2& p : points)
+    if (std::isfinite(p.x) && std::isfinite(p.y)) x.push_back(p.x), y.push_back(p.y);
+  if (x.empty()) return {};
+  const auto middle = [](std::vector<double>* values) {
+    const auto at = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
+    std::nth_element(values->begin(), at, values->end());
+    return *at;
+  };
+  return {middle(&x), middle(&y)};
+}
 
 std::string LocalMapSystem(Point2 longitude_latitude) {
   char text[120];
   std::snprintf(text, sizeof text,
-                "+proj=tmerc +lat_0=%.2f +lon_0=%.2f +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +type=crs",
+                "+proj=tmerc +lat_0=%.2f +lon_0=%.2f +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +type=crs",
                 longitude_latitude.y, longitude_latitude.x);
   return text;
 }
 
 Error TransformPoints(const std::string& from, const std::string& to, std::vector<Point2>* points) {
   thread_local Ways ways;
-  PJ* const transform = ways.Find(from, to);
-  if (!transform) return Fail("no way from coordinate system '" + from + "' to '" + to + "'");
+  if (from == to) return Ok();
+  const Error none = Fail("no way from coordinate system '" + from + "' to '" + to + "'");
+  Point2 place = Median(*points);
+  if (!ways.Roughly(from, &place)) return none;
+  PJ* const there = from == kLongitudeLatitude ? nullptr : ways.ToEarth(from, place);
+  PJ* const back = to == kLongitudeLatitude ? nullptr : ways.ToEarth(to, place);
+  if ((!there && from != kLongitudeLatitude) || (!back && to != kLongitudeLatitude)) return none;
   for (Point2& p : *points) {
-    const PJ_COORD out = proj_trans(transform, PJ_FWD, proj_coord(p.x, p.y, 0, HUGE_VAL));
-    const bool found = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(out.xy.x) && std::isfinite(out.xy.y);
+    PJ_COORD q = proj_coord(p.x, p.y, 0, HUGE_VAL);
+    if (there) q = proj_trans(there, PJ_FWD, q);
+    if (back) q = Backwards(back, q);
+    const bool found = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(q.xy.x) && std::isfinite(q.xy.y);
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    p = found ? Point2{out.xy.x, out.xy.y} : Point2{kNone, kNone};
+    p = found ? Point2{q.xy.x, q.xy.y} : Point2{kNone, kNone};
   }
   return Ok();
 }
 
 Error FindMapSystem(const std::string& name, MapSystem* system) {
   const Context context = MakeContext();
-  const Object object(proj_create(context.get(), name.c_str()));
-  if (!object || !proj_is_crs(object.get())) return Fail("coordinate system '" + name + "' is not known");
+  const Object object = MakeSystem(context.get(), name);
+  if (!object) return Fail("coordinate system '" + name + "' is not known");
   *system = {};
-  // Of a system with heights of its own, the part for the plane.
-  const bool compound = proj_get_type(object.get()) == PJ_TYPE_COMPOUND_CRS;
-  const Object plane(compound ? proj_crs_get_sub_crs(context.get(), object.get(), 0) : nullptr);
-  const PJ_TYPE type = proj_get_type(plane ? plane.get() : object.get());
+  Object plane = PlaneOf(context.get(), MakeSystem(context.get(), name));
+  if (plane && proj_get_type(plane.get()) == PJ_TYPE_BOUND_CRS)
+    plane.reset(proj_get_source_crs(context.get(), plane.get()));
+  const PJ_TYPE type = plane ? proj_get_type(plane.get()) : PJ_TYPE_UNKNOWN;
+  if (type == PJ_TYPE_UNKNOWN || type == PJ_TYPE_VERTICAL_CRS || type == PJ_TYPE_GEOCENTRIC_CRS)
+    return Fail("coordinate system '" + name + "' is none of a map");
   system->degrees = type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
-  if (!system->degrees) system->other_unit = OtherUnit(context.get(), plane ? plane.get() : object.get());
+  if (!system->degrees) system->other_unit = OtherUnit(context.get(), plane.get());
+  system->north_first = FirstAxisIsNorth(context.get(), plane.get());
   const char* area = nullptr;
   double w = 0, s = 0, e = 0, n = 0;
   if (proj_get_area_of_use(context.get(), object.get(), &w, &s, &e, &n, &area) && w > -1000) {
@@ -105,9 +235,51 @@ Error FindMapSystem(const std::string& name, MapSystem* system) {
   return Ok();
 }
 
+std::string MetricSystemAt(const std::string& system, Point2 place) {
+  const Context context = MakeContext();
+  const Object plane = PlaneOf(context.get(), MakeSystem(context.get(), system));
+  const Object base(plane ? proj_crs_get_geodetic_crs(context.get(), plane.get()) : nullptr);
+  const char* const datum = base ? proj_get_name(base.get()) : nullptr;
+  for (const std::string& name : {std::string(datum ? datum : "WGS 84"), std::string("WGS 84")}) {
+    const std::string code = UtmZoneAt(context.get(), name, place);
+    if (!code.empty()) return code;
+  }
+  return LocalMapSystem(place);
+}
+
+std::vector<std::string> SystemsThatPut(Point2 at, Point2 place, double within_m) {
+  constexpr double kDegree_m = 111'000, kRadian = 3.14159265358979323846 / 180;
+  const Context context = MakeContext();
+  std::vector<std::pair<double, std::string>> found;
+  for (const auto& [code, name] : ProjectedSystemsAt(context.get(), place)) {
+    if (name.find("(N-E)") != std::string::npos) continue;  // another one with its axes turned
+    std::vector<Point2> there{at};
+    if (TransformPoints(code, kLongitudeLatitude, &there)) continue;
+    const double apart_m = kDegree_m * std::hypot((there[0].x - place.x) * std::cos(place.y * kRadian), there[0].y - place.y);
+    if (apart_m < within_m) found.emplace_back(std::round(apart_m * 100), code);
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> systems;
+  for (auto& [apart, code] : found) systems.push_back(std::move(code));
+  return systems;
+}
+
+bool IsMapOfMetres(const std::string& system, Point2 at_m) {
+  constexpr double kSide_m = 100, kStretched = 0.005, kMaxTurn = 0.5;  // the cosine of 60 degrees
+  std::vector<Point2> place{at_m}, corners{at_m, {at_m.x + kSide_m, at_m.y}, {at_m.x, at_m.y + kSide_m}};
+  if (TransformPoints(system, kLongitudeLatitude, &place)) return true;
+  if (TransformPoints(system, LocalMapSystem(place[0]), &corners)) return true;
+  const Point2 x{corners[1].x - corners[0].x, corners[1].y - corners[0].y},
+      y{corners[2].x - corners[0].x, corners[2].y - corners[0].y};
+  const auto stretched = [](Point2 v) { return std::abs(std::hypot(v.x, v.y) / kSide_m - 1) > kStretched; };
+  return !stretched(x) && !stretched(y) && x.x > kMaxTurn * kSide_m && y.y > kMaxTurn * kSide_m;
+}
+
 bool IsUsedAt(const MapSystem& system, Point2 longitude_latitude, double slack_deg) {
   const auto [x, y] = longitude_latitude;
-  return x > system.west - slack_deg && x < system.east + slack_deg && y > system.south - slack_deg &&
+  const bool above = x > system.west - slack_deg, below = x < system.east + slack_deg;
+  const bool over_date_line = system.west > system.east;
+  return (over_date_line ? above || below : above && below) && y > system.south - slack_deg &&
          y < system.north + slack_deg;
 }
 

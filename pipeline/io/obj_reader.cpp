@@ -159,7 +159,7 @@ class Reader {
         builder.AddPolygon(node, SurfaceKind::kWall, {ring});
       }
     }
-    return builder.Finish(path_.string(), "", scene, warnings);
+    return builder.Finish(path_.string(), {"", false}, scene, nullptr, warnings);
   }
 
   std::filesystem::path path_;

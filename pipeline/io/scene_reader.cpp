@@ -26,7 +26,11 @@ bool IsXml(const std::string& text, char first) {
 
 }  // namespace
 
-Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings) {
+Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings,
+                const ReadSceneOptions& options, SceneSource* source) {
+  SceneSource unasked;
+  if (!source) source = &unasked;
+  *source = {};
   if (NeedsBlender(path)) {
     TemporaryFolder folder;
     std::filesystem::path gltf;
@@ -36,13 +40,13 @@ Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std
   const std::string text = Beginning(path);
   const size_t start = text.find_first_not_of(" \t\r\n");
   const char first = start == std::string::npos ? '\0' : text[start];
-  if (IsXml(text, first)) return ReadCityGml(path, scene, warnings);
+  if (IsXml(text, first)) return ReadCityGml(path, scene, warnings, options, source);
   // Members of a JSON object stand in any order: glTF must have "asset" and "version", CityJSON its "type".
   const bool city = text.find("\"CityJSON\"") != std::string::npos || text.find("\"CityObjects\"") != std::string::npos;
-  if (first == '{' && city) return ReadCityJson(path, scene, warnings);
+  if (first == '{' && city) return ReadCityJson(path, scene, warnings, options, source);
   if (HasExtension(path, ".obj")) return ReadObj(path, scene, warnings);
   if (first == '{' && path.extension() != ".gltf" && path.extension() != ".glb")
-    return ReadCityJson(path, scene, warnings);
+    return ReadCityJson(path, scene, warnings, options, source);
   return ReadGltfScene(path, scene, warnings);
 }
 

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <regex>
 
+#include "pipeline/io/axis_order.h"
+#include "pipeline/io/map_projection.h"
 #include "pipeline/io/triangulate_polygon.h"
 #include "runtime/base/array.h"
 #include "runtime/base/text.h"
@@ -15,6 +18,9 @@ namespace {
 
 constexpr double kFarFromOrigin_m = 10'000;  // floats there are coarser than a millimetre
 constexpr double kFarthest_m = 1e8;
+constexpr double kMost_deg = 360;
+constexpr double kBesideArea_deg = 1;      // a town may lie so far beside the area of its system
+constexpr size_t kMaxRingsAsked = 20'000;  // for their right angles
 constexpr double kOriginStep_m = 100;
 
 // A house in degrees is narrower than 50 m are, and yet higher than this; nobody's town lies at longitude and latitude
@@ -70,6 +76,28 @@ void AddTriangle(const std::array<Point3, 3>& corners, Point2 origin, Mesh* mesh
   }
 }
 
+// Which of two coordinates in degrees is the longitude: where the system is used, then the houses' right angles, then
+// as it was said (`swapped`).
+Error ChooseAxes(const std::string& name, const MapSystem& system, Point2 middle, const std::vector<PlanRing>& rings,
+                 bool* swapped, std::vector<std::string>* notes) {
+  const bool said = *swapped;
+  const auto possible = [&](Point2 p) {
+    return std::abs(p.y) <= 90 && (!system.has_area || IsUsedAt(system, p, kBesideArea_deg));
+  };
+  const bool given = possible(middle), turned = possible({middle.y, middle.x});
+  char at[80];
+  std::snprintf(at, sizeof at, "(%.6g, %.6g)", middle.x, middle.y);
+  if (!given && !turned)
+    return Fail(std::string(at) + " is outside the area that '" + name + "' is for; are the degrees another system's?");
+  const AxisEvidence evidence = AxesByRightAngles(rings);
+  if (given != turned) *swapped = turned;
+  else if (evidence != AxisEvidence::kNone) *swapped = evidence == AxisEvidence::kSwapped;
+  if (*swapped != said)
+    notes->push_back(std::string("the first coordinate was taken for the ") + (*swapped ? "latitude" : "longitude") +
+                     ": so the town lies " + (given != turned ? "where the system is used" : "with right angles"));
+  return Ok();
+}
+
 double Step(double value) { return std::floor(value / kOriginStep_m) * kOriginStep_m; }
 
 }  // namespace
@@ -94,38 +122,149 @@ int TownBuilder::FoundationOf(int building) {
 }
 
 void TownBuilder::AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings) {
+  for (const auto& ring : rings)
+    for (const Point3& p : ring) may_be_degrees_ &= std::abs(p.x) <= kMost_deg && std::abs(p.y) <= kMost_deg;
+  if (may_be_degrees_) return waiting_.push_back({node, surface, rings});
+  TriangulateWaiting();
+  Triangulate({node, surface, rings});
+}
+
+void TownBuilder::TriangulateWaiting() {
+  for (const WaitingPolygon& polygon : waiting_) Triangulate(polygon);
+  waiting_ = {};
+}
+
+void TownBuilder::Triangulate(const WaitingPolygon& polygon) {
   std::vector<Point3> points;
-  for (const auto& ring : rings) points.insert(points.end(), ring.begin(), ring.end());
-  const std::vector<std::array<uint32_t, 3>> triangles = TriangulatePolygon(rings);
+  for (const auto& ring : polygon.rings) points.insert(points.end(), ring.begin(), ring.end());
+  const std::vector<std::array<uint32_t, 3>> triangles = TriangulatePolygon(polygon.rings);
   if (triangles.empty()) ++without_area_;
-  for (const auto& [a, b, c] : triangles) triangles_.push_back({node, surface, points[a], points[b], points[c]});
+  for (const auto& [a, b, c] : triangles)
+    triangles_.push_back({polygon.node, polygon.surface, points[a], points[b], points[c]});
 }
 
 bool TownBuilder::IsInDegrees() const {
   std::map<int, Extent> extents;  // by node
-  for (const Triangle& t : triangles_)
-    for (const Point3& p : {t.a, t.b, t.c}) extents[t.node].Add(p);
+  for (const WaitingPolygon& polygon : waiting_)
+    for (const auto& ring : polygon.rings)
+      for (const Point3& p : ring) extents[polygon.node].Add(p);
   const auto in_degrees =
       std::count_if(extents.begin(), extents.end(), [](const auto& e) { return IsHouseInDegrees(e.second); });
   return 2 * static_cast<size_t>(in_degrees) > extents.size();
 }
 
-Error TownBuilder::Finish(const std::string& file, const std::string& reference_system, Scene* scene,
-                          std::vector<std::string>* warnings) {
-  if (without_area_ > 0 && warnings)
-    warnings->push_back(file + ": " + std::to_string(without_area_) +
-                        " faces have fewer than three corners or no area; they were left out");
-  if (triangles_.empty()) return Fail(OneLine(file + ": holds no face with an area, so there is no town in it"));
+Error TownBuilder::DegreesToMetres(const CityCoordinates& coordinates, std::string* from, std::string* to,
+                                   std::vector<std::string>* notes) {
+  MapSystem system;
+  const bool known = !coordinates.system.empty() && !FindMapSystem(coordinates.system, &system);
+  if (known && !system.degrees)
+    return Fail("the coordinates are degrees, but '" + coordinates.system +
+                "' has metres; say which degrees they are: --crs EPSG:4326");
+  *from = known ? coordinates.system : "EPSG:4326";
+  if (!known && FindMapSystem(*from, &system)) return Fail("PROJ lacks its database; install proj-data");
+  std::vector<Point2> points;
+  std::vector<PlanRing> rings;
+  for (const WaitingPolygon& polygon : waiting_) {
+    for (const auto& ring : polygon.rings) {
+      const size_t first = points.size();
+      for (const Point3& p : ring) points.push_back({p.x, p.y});
+      if (rings.size() < kMaxRingsAsked) rings.emplace_back(points.begin() + static_cast<long>(first), points.end());
+    }
+  }
+  bool swapped = coordinates.axes_as_named && system.north_first;
+  if (Error error = ChooseAxes(*from, system, Median(points), rings, &swapped, notes)) return error;
+  if (!known) notes->push_back("the coordinates look like degrees and were taken for " + *from + "; --crs says otherwise");
+  if (swapped)
+    for (Point2& p : points) std::swap(p.x, p.y);
+  std::vector<Point2> place{Median(points)};
+  if (Error error = TransformPoints(*from, kLongitudeLatitude, &place)) return error;
+  *to = MetricSystemAt(*from, place[0]);
+  if (Error error = TransformPoints(*from, *to, &points)) return error;
+  size_t next = 0;
+  for (WaitingPolygon& polygon : waiting_)
+    for (auto& ring : polygon.rings)
+      for (Point3& p : ring) p.x = points[next].x, p.y = points[next].y, ++next;
+  return Ok();
+}
+
+// Maps of metres stay, but where the authority's axes are the other way round.
+Error TownBuilder::MapToMetres(const CityCoordinates& coordinates, std::string* from, std::string* to,
+                               std::vector<std::string>* notes) {
+  MapSystem system;
+  *to = coordinates.system;
+  if (coordinates.system.empty() || FindMapSystem(coordinates.system, &system) || !system.other_unit.empty() ||
+      system.degrees || !system.has_area)
+    return Ok();
+  std::vector<Point2> points;
+  for (const Triangle& t : triangles_)
+    for (const Point3& p : {t.a, t.b, t.c}) points.push_back({p.x, p.y});
+  Point2 middle = Median(points);
+  const auto lies_there = [&](Point2 p) {
+    std::vector<Point2> place{p};
+    return !TransformPoints(coordinates.system, kLongitudeLatitude, &place) && IsUsedAt(system, place[0], kBesideArea_deg);
+  };
+  const bool swapped = !lies_there(middle) && lies_there({middle.y, middle.x});
+  if (swapped) {
+    middle = {middle.y, middle.x};
+    for (Point2& p : points) std::swap(p.x, p.y);
+    if (!(coordinates.axes_as_named && system.north_first))
+      notes->push_back("northings stand before eastings: the coordinates lie in the area of '" + coordinates.system +
+                       "' only so; they were swapped");
+  } else if (!lies_there(middle)) {
+    return Ok();  // said elsewhere
+  }
+  if (!IsMapOfMetres(coordinates.system, middle)) {
+    std::vector<Point2> place{middle};
+    if (Error error = TransformPoints(coordinates.system, kLongitudeLatitude, &place)) return error;
+    *from = coordinates.system;
+    *to = MetricSystemAt(*from, place[0]);
+    if (Error error = TransformPoints(*from, *to, &points)) return error;
+  } else if (!swapped) {
+    return Ok();
+  }
+  size_t next = 0;
+  for (Triangle& t : triangles_)
+    for (Point3* p : {&t.a, &t.b, &t.c}) p->x = points[next].x, p->y = points[next].y, ++next;
+  return Ok();
+}
+
+Error TownBuilder::CheckReach() const {
   for (const Triangle& t : triangles_)
     for (const Point3& p : {t.a, t.b, t.c})
       if (!(std::abs(p.x) < kFarthest_m && std::abs(p.y) < kFarthest_m && std::abs(p.z) < kFarthest_m))
-        return Fail(OneLine(file + ": '" + At(nodes_, t.node).name +
-                            "' reaches farther than any map: a coordinate is beyond 100,000 km"));
-  if (IsInDegrees())
-    return Fail(OneLine(
-        file + ": the coordinates are degrees; bring them into a map system in metres, such as EPSG:25832, first"));
+        return Fail("'" + At(nodes_, t.node).name + "' reaches farther than any map: a coordinate is beyond 100,000 km");
+  return Ok();
+}
+
+Error TownBuilder::Finish(const std::string& file, const CityCoordinates& coordinates, Scene* scene,
+                          std::string* source_system, std::vector<std::string>* warnings) {
+  std::string from, to = coordinates.system;
+  std::vector<std::string> notes;
+  const auto named = [&](const Error& error) { return Fail(OneLine(file + ": " + error.message)); };
+  MapSystem system;
+  const bool stated = !to.empty() && !FindMapSystem(to, &system) && system.degrees;
+  if (!waiting_.empty() && (stated || IsInDegrees()))
+    if (Error error = DegreesToMetres(coordinates, &from, &to, &notes)) return named(error);
+  TriangulateWaiting();
+  if (without_area_ > 0)
+    notes.push_back(std::to_string(without_area_) +
+                    " faces have fewer than three corners or no area; they were left out");
+  if (triangles_.empty()) return named(Fail("holds no face with an area, so there is no town in it"));
+  if (Error error = CheckReach()) return named(error);
+  if (from.empty() && stated)
+    return named(Fail("'" + to + "' has degrees, but the coordinates are beyond 180; say what they are: --crs EPSG:25832"));
+  if (from.empty())
+    if (Error error = MapToMetres(coordinates, &from, &to, &notes)) return named(error);
+  if (warnings)
+    for (const std::string& note : notes) warnings->push_back(OneLine(file + ": " + note));
   *scene = {};
-  scene->reference_system = reference_system;
+  scene->reference_system = to;
+  if (source_system) *source_system = from;
+  Build(scene);
+  return Ok();
+}
+
+void TownBuilder::Build(Scene* scene) {
   Point2 min{1e300, 1e300}, max{-1e300, -1e300};
   for (const Triangle& t : triangles_) {
     min = {std::min(min.x, t.a.x), std::min(min.y, t.a.y)};
@@ -151,7 +290,6 @@ Error TownBuilder::Finish(const std::string& file, const std::string& reference_
     AddTriangle({t.a, t.b, t.c}, scene->origin_m, &scene->meshes.back());
   }
   triangles_ = {};
-  return Ok();
 }
 
 std::string PlainReferenceSystem(const std::string& text) {

@@ -10,31 +10,55 @@ namespace flaneur {
 
 enum class SurfaceKind { kOther, kWall, kRoof, kGround };  // its colour
 
+// In which system the coordinates are.
+struct CityCoordinates {
+  std::string system;  // "EPSG:25832"; empty: not known
+  bool axes_as_named;  // the first of a point is what the system's authority says, such as latitude; else always east
+};
+
 class TownBuilder {
  public:
   // Returns the node's number. Give the parent first.
   int AddNode(const std::string& name, NodeKind kind, GroundKind ground = GroundKind::kNone, int parent = -1);
   // The node below a building that holds its ground surfaces; made when first asked for.
   int FoundationOf(int building);
-  // Rings without a repeated last point: the outer one, then holes. Points are x east, y north, z up, metres; finite.
-  // Polygons without area are counted and left out.
+  // Rings without a repeated last point: the outer one, then holes. Points are x east, y north, z up, metres; or what
+  // Finish makes that of. Finite. Polygons without area are counted and left out.
   void AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings);
 
-  // Coordinates far from zero are moved by whole hundreds of metres: see Scene::origin_m. Nodes without triangles stay
-  // where something hangs on them. Errors: nothing but polygons without area, degrees, a coordinate beyond 100,000 km;
-  // each names `file`.
-  Error Finish(const std::string& file, const std::string& reference_system, Scene* scene,
-               std::vector<std::string>* warnings);
+  // Degrees, and maps that are stretched, mirrored or turned, become the fitting system in metres: then
+  // `source_system` (may be null) is what they were. Which axis comes first is told by the place where the system is used, by right angles, and by
+  // `coordinates` only where these are silent. Coordinates far from zero are moved by whole hundreds of metres: see
+  // Scene::origin_m. Nodes without triangles stay where something hangs on them. Errors: nothing but polygons without
+  // area, degrees in a system of metres or outside of the system's area, a coordinate beyond 100,000 km; each names
+  // `file`.
+  Error Finish(const std::string& file, const CityCoordinates& coordinates, Scene* scene,
+               std::string* source_system, std::vector<std::string>* warnings);
 
  private:
-  bool IsInDegrees() const;  // most nodes
   struct Triangle {
     int node;
     SurfaceKind surface;
     Point3 a, b, c;
   };
+  struct WaitingPolygon {
+    int node;
+    SurfaceKind surface;
+    std::vector<std::vector<Point3>> rings;
+  };
+  void Triangulate(const WaitingPolygon& polygon);
+  void TriangulateWaiting();
+  bool IsInDegrees() const;  // most nodes that wait
+  Error DegreesToMetres(const CityCoordinates& coordinates, std::string* from, std::string* to,
+                        std::vector<std::string>* notes);
+  Error MapToMetres(const CityCoordinates& coordinates, std::string* from, std::string* to,
+                    std::vector<std::string>* notes);
+  Error CheckReach() const;
+  void Build(Scene* scene);
   std::vector<SceneNode> nodes_;
   std::vector<int> foundations_;
+  bool may_be_degrees_ = true;           // so far
+  std::vector<WaitingPolygon> waiting_;  // until that is known: degrees are no plane to triangulate in
   std::vector<Triangle> triangles_;
   int without_area_ = 0;
 };

@@ -41,6 +41,22 @@ def city_of_two(path, system="EPSG:25832"):
     return path
 
 
+def row_of_houses(path):
+    """A CityJSON town of eight houses of their own sizes, askew, 20 m apart."""
+    vertices, objects = [], {}
+    for k in range(8):
+        w, d, first = 8 + 0.6 * k, 10 - 0.4 * k, len(vertices)
+        for z in (0, 7):
+            vertices += [[round(603960 + 20 * k + 0.8 * u - 0.6 * v, 3), round(5779040 + 0.6 * u + 0.8 * v, 3), z]
+                         for u, v in ((0, 0), (w, 0), (w, d), (0, d))]
+        sides = [[0, 3, 2, 1], [4, 5, 6, 7]] + [[i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i] for i in range(4)]
+        solid = {"type": "Solid", "lod": "2", "boundaries": [[[[first + i for i in side]] for side in sides]]}
+        objects[f"house_{k}"] = {"type": "Building", "geometry": [solid]}
+    path.write_text(json.dumps({"type": "CityJSON", "version": "2.0", "metadata": {"referenceSystem": "EPSG:25832"},
+                                "CityObjects": objects, "vertices": vertices}))
+    return path
+
+
 def moved(features, x, y):
     """The same polygons elsewhere."""
     def shift(p):
@@ -297,6 +313,94 @@ class Check(ProgramTest):
         plot = {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
         _, findings = self.check_obstacles([plot], "--town", town, members={})
         self.assertEqual(self.codes(findings), ["907"])
+
+    # ---- Where they lie ----
+
+    def placed(self, **changes):
+        """Our own output of a town in map coordinates, with something about its place changed."""
+        town = row_of_houses(self.folder / "town.json")
+        out, made = self.extracted(town)
+        made["flaneur"].update(changes)
+        out.write_text(json.dumps(made))
+        return town, out
+
+    def on_earth(self, change):
+        town, out = self.placed()
+        out = out.with_name("extracted_wgs84.geojson")
+        made = json.loads(out.read_text())
+        change(made)
+        out.write_text(json.dumps(made))
+        return town, out
+
+    def assert_one_907(self, town, out, *words):
+        for arguments in ([], ["--town", town]):
+            _, findings = self.check(out, *arguments)
+            self.assertEqual([f["code"] for f in findings], [907], findings)
+            for word in words:
+                self.assertIn(word, findings[0]["message"])
+
+    def test_nothing_is_wrong_with_a_place(self):
+        town, out = self.placed()
+        for path in (out, out.with_name("extracted_wgs84.geojson")):
+            for arguments in ([], ["--town", town]):
+                self.assertEqual(self.check(path, *arguments)[1], [])
+
+    def test_a_wrong_crs(self):
+        for wrong in ("EPSG:25833", "EPSG:31467", "EPSG:23032", "EPSG:3857", "EPSG:2056"):
+            with self.subTest(wrong):
+                self.assert_one_907(*self.placed(crs=wrong), wrong, "EPSG:25832")
+
+    def test_a_wrong_crs_beside_our_own(self):
+        def name_another(made):
+            made["crs"] = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}
+        self.assert_one_907(*self.on_earth(name_another), "EPSG:25832", "longitude and latitude")
+
+    def test_a_wrong_origin(self):
+        for off in ((100, 0), (0, -100), (37.5, 12.25)):
+            with self.subTest(off):
+                self.assert_one_907(*self.placed(origin_m=[604000 + off[0], 5779000 + off[1]]), "origin_m", "[604000, 5779000]")
+
+    def test_an_origin_off_by_little_is_told_by_the_town(self):
+        town, out = self.placed(origin_m=[604000.4, 5779000])
+        _, findings = self.check(out, "--town", town)
+        self.assertEqual([f["code"] for f in findings], [907])
+        self.assertIn("0.40 m east", findings[0]["message"])
+
+    def test_longitude_and_latitude_swapped(self):
+        def swap(made, with_box=False):
+            for feature in made["features"]:
+                geometry = feature["geometry"]
+                geometry["coordinates"] = [[p[::-1] for p in ring] for ring in geometry["coordinates"]]
+            if with_box:
+                made.pop("bbox"), made["flaneur"].pop("town_crs"), made["flaneur"].pop("town_origin_m")
+        self.assert_one_907(*self.on_earth(swap), "swapped")
+        self.assert_one_907(*self.on_earth(lambda made: swap(made, True)), "swapped", "right angles")
+
+    def test_findings_of_one_cause_are_one(self):
+        turned = [house(20 * i, 0, f"h{i}") for i in range(30)]
+        for feature in turned:
+            feature["geometry"]["coordinates"][0].reverse()
+        _, findings = self.check_obstacles(turned)
+        self.assertEqual([(f["code"], f["count"], len(f["features"])) for f in findings], [(105, 30, 30)])
+        _, findings = self.check_obstacles(turned[:5] + [house(20 * i, 0, f"h{i}") for i in range(5, 30)])
+        self.assertEqual([f["code"] for f in findings], [105] * 5)
+
+    def test_dead_ends_are_only_warnings_where_no_door_is_stated(self):
+        for name in ("502", "503"):
+            with self.subTest(name):
+                case = json.loads((CASES / f"{name}.geojson").read_text())
+                case["features"] = [f for f in case["features"] if f["properties"].get("kind") != "door"]
+                result, findings = self.check_obstacles(case["features"])
+                self.assertEqual({f["severity"] for f in findings}, {"warning"})
+                self.assertIn(int(name), [f["code"] for f in findings])
+                self.assertEqual(result.returncode, 0)
+
+    def test_a_forecourt_is_no_dead_end(self):
+        def court(width, depth):
+            ring = [[0, 0], [2, 0], [2, depth], [2 + width, depth], [2 + width, 0], [4 + width, 0], [4 + width, depth + 2], [0, depth + 2], [0, 0]]
+            return {"type": "Feature", "properties": {"name": "court"}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+        self.assertEqual(self.check_obstacles([court(19, 25)])[1], [])
+        self.assertIn("502", self.codes(self.check_obstacles([court(6, 25)])[1]))
 
     # ---- A real town ----
 

@@ -50,10 +50,33 @@ def city(path, at, system="EPSG:25832", scale=1.0):
     return path
 
 
+def cities(path, at, system, scale=(1.0, 1.0), turned=False):
+    """A CityJSON town of six houses in two rows, 40 units apart, each of its own size; turned: not along the axes."""
+    vertices, objects = [], {}
+    for k in range(6):
+        w, d, x0, y0 = 7 + 0.5 * k, 9 - 0.7 * k, 40.0 * (k % 3), 30.0 * (k // 3)
+        if not turned and k % 3 == 2:
+            w, d = 7 + 0.5 * (k - 2), 9 - 0.7 * (k - 2)  # as the first of its row
+        first = len(vertices)
+        for z in (0, 6):
+            for u, v in ((0, 0), (w, 0), (w, d), (0, d)):
+                c, s = (0.8, 0.6) if turned else (1, 0)
+                x, y = x0 + c * u - s * v, y0 + s * u + c * v
+                x, y = (y, x) if scale[0] < scale[1] < 1 else (x, y)  # latitude first
+                vertices.append([at[0] + scale[0] * x, at[1] + scale[1] * y, z])
+        faces = [[[0, 3, 2, 1]], [[4, 5, 6, 7]]] + [[[i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i]] for i in range(4)]
+        solid = {"type": "Solid", "lod": "2", "boundaries": [[[[first + i for i in ring] for ring in face] for face in faces]]}
+        objects[f"house_{k}"] = {"type": "Building", "geometry": [solid]}
+    path.write_text(json.dumps({
+        "type": "CityJSON", "version": "2.0", "metadata": {"referenceSystem": system} if system else {}, "vertices": vertices,
+        "CityObjects": objects}))
+    return path
+
+
 class Georeference(ProgramTest):
-    def footprints(self, town, *arguments):
+    def footprints(self, *arguments):
         out = self.folder / "obstacles.geojson"
-        return run("flaneur", "footprints", town, "-o", out, *arguments)
+        return run("flaneur", "footprints", *arguments, "-o", out)
 
     def written(self, name="obstacles"):
         return [json.loads(path.read_text()) if path.exists() else None
@@ -131,11 +154,118 @@ class Georeference(ProgramTest):
         feet = 1 / 0.3048
         self.assert_fails(self.footprints(city(self.folder / "town.json", (603900 * feet, 5780000 * feet))), "EPSG:25832", "outside the area")
 
-    def test_degrees_in_a_city_model(self):
-        for system in ("EPSG:4326", "EPSG:25832", None):
+    # ---- There and back ----
+
+    def assert_own_output_is_right(self, town, *arguments):
+        """Both files, with and without the town: nothing of walls, places and overlaps."""
+        for name in ("obstacles", "obstacles_wgs84"):
+            for more in ([], ["--town", town]):
+                found = self.folder / "findings.json"
+                run("flaneur", "check", self.folder / f"{name}.geojson", *more, *arguments, "--json", found)
+                findings = json.loads(found.read_text())["findings"]
+                self.assertEqual([f["message"] for f in findings if 300 < f["code"] < 306 or f["code"] in (401, 402) or f["code"] > 900],
+                                 [], (name, more))
+
+    def test_own_output_in_systems_with_a_datum_shift(self):
+        for system, at in (("EPSG:2056", (2683000, 1248000)), ("EPSG:7415", (84500, 446000)), ("EPSG:28992", (155000, 463000)),
+                           ("EPSG:31467", (3500000, 5400000)), ("EPSG:3068", (25000, 20000)), ("EPSG:27700", (530000, 180000)),
+                           ("EPSG:31256", (2000, 341000)), ("EPSG:5514", (-743000, -1043000)), ("EPSG:6677", (-6000, -35000))):
             with self.subTest(system):
-                town = city(self.folder / "town.json", (10.5, 52.1), system, scale=1e-5)
-                self.assert_fails(self.footprints(town), "degrees")
+                town = cities(self.folder / "town.json", at, system)
+                self.assert_succeeds(self.footprints(town))
+                self.assert_own_output_is_right(town)
+
+    def test_a_system_that_only_the_extraction_was_told(self):
+        bare = self.folder / "town.glb"
+        write_box_town(bare)
+        self.assert_succeeds(self.footprints(bare, "--crs", "EPSG:2056", "--origin-m", 2683000, 1248000))
+        self.assert_own_output_is_right(bare)
+        town = cities(self.folder / "town.json", (3500000, 5400000), "EPSG:25832")  # its file names the wrong one
+        self.assert_succeeds(self.footprints(town, "--crs", "EPSG:31467"))
+        self.assert_own_output_is_right(town)
+
+    # ---- Systems that are no metres, or not east and north ----
+
+    def test_degrees_become_the_fitting_system_in_metres(self):
+        for system, at, step, to in (("EPSG:6697", (35.68, 139.76), (8.98e-6, 1.108e-5), "EPSG:6691"),
+                                     ("EPSG:4326", (52.1, 10.5), (8.98e-6, 1.46e-5), "EPSG:32632"),
+                                     ("EPSG:4979", (-33.4, -70.6), (9.0e-6, 1.07e-5), "EPSG:32719"),
+                                     ("OGC:CRS84", (10.5, 52.1), (1.46e-5, 8.98e-6), "EPSG:32632")):
+            with self.subTest(system):
+                town = cities(self.folder / "town.json", at, system, scale=step, turned=True)
+                result = self.footprints(town)
+                self.assert_succeeds(result)
+                self.assertIn(f"the town is in {system}; its obstacles are in {to}, in metres", result.stdout)
+                local, on_earth = self.written()
+                self.assertEqual((local["flaneur"]["crs"], local["flaneur"]["source_crs"]), (to, system))
+                lat, lon = at if system != "OGC:CRS84" else at[::-1]
+                for x, y in points(on_earth):
+                    self.assertAlmostEqual(x, lon, delta=2e-3)
+                    self.assertAlmostEqual(y, lat, delta=2e-3)
+                self.assert_own_output_is_right(town)
+
+    def test_degrees_of_an_unnamed_system(self):
+        town = cities(self.folder / "town.json", (10.5, 52.1), None, scale=(1.46e-5, 8.98e-6), turned=True)
+        result = self.footprints(town)
+        self.assert_succeeds(result)
+        self.assertIn("look like degrees and were taken for EPSG:4326", result.stderr)
+        self.assert_own_output_is_right(town)
+        self.assert_succeeds(self.footprints(town, "--crs", "EPSG:4258"))
+        self.assertEqual(self.written()[0]["flaneur"]["crs"], "EPSG:25832")
+
+    def test_degrees_in_a_system_of_metres(self):
+        town = city(self.folder / "town.json", (10.5, 52.1), "EPSG:25832", scale=1e-5)
+        self.assert_fails(self.footprints(town), "degrees", "'EPSG:25832' has metres", "--crs EPSG:4326")
+
+    def test_stretched_mirrored_and_turned_maps(self):
+        for system, at in (("EPSG:3857", (1172000, 6830000)), ("EPSG:2065", (1043000, 743000)), ("EPSG:2048", (47400, 3750000))):
+            with self.subTest(system):
+                town = cities(self.folder / "town.json", at, system)
+                self.assert_succeeds(self.footprints(town))
+                self.assertEqual(self.written()[0]["flaneur"]["source_crs"], system)
+                self.assert_own_output_is_right(town)
+
+    def test_northings_before_eastings(self):
+        town = cities(self.folder / "town.json", (5780000, 603900), "EPSG:25832")
+        result = self.footprints(town)
+        self.assert_succeeds(result)
+        self.assertIn("northings stand before eastings", result.stderr)
+        self.assertEqual(self.written()[0]["flaneur"]["origin_m"], [603900, 5780000])
+        self.assert_own_output_is_right(town)
+
+    def test_japanese_models(self):
+        for tile, system in (("plateau-lod1/53395404_bldg_6697_op.gml", "EPSG:6691"), ("plateau+osm-pair/53392547_bldg_6697_op2.gml", "EPSG:6691")):
+            with self.subTest(tile):
+                town = shared_data(f"towns/{tile}")
+                self.assert_succeeds(self.footprints(town))
+                local, on_earth = self.written()
+                self.assertEqual(local["flaneur"]["crs"], system)
+                for lon, lat in points(on_earth):
+                    self.assertTrue(139 < lon < 140 and 35 < lat < 36)
+                self.assert_own_output_is_right(town)
+
+    # ---- Tiles of one city ----
+
+    def test_tiles(self):
+        west = cities(self.folder / "west.json", (603900, 5780000), "EPSG:25832")
+        east = cities(self.folder / "east.json", (603980, 5780000), "EPSG:25832")  # two of its houses stand in both
+        result = self.footprints(west, east)
+        self.assert_succeeds(result)
+        self.assertIn("2 things stand in two tiles", result.stderr)
+        local = self.written()[0]
+        self.assertEqual(len(local["features"]), 10)
+        self.assertEqual(len({f["properties"]["name"] for f in local["features"]}), 10)
+        bytes_ = (self.folder / "obstacles.geojson").read_bytes()
+        self.assert_succeeds(self.footprints(west, east, "--threads", 1))
+        self.assertEqual(bytes_, (self.folder / "obstacles.geojson").read_bytes())
+        self.assertFalse([f for f in self.findings() if f["code"] in (401, 402)])
+        self.assert_fails(self.footprints(west, west), "named twice", west)
+        other = cities(self.folder / "other.json", (0, 0), None)
+        self.assert_fails(self.footprints(west, other), "map coordinates", other)
+
+    def findings(self):
+        run("flaneur", "check", self.folder / "obstacles.geojson", "--json", self.folder / "findings.json")
+        return json.loads((self.folder / "findings.json").read_text())["findings"]
 
     def test_a_tile(self):
         town = shared_data("towns/nrw-lod2/LoD2_32_354_5652_1_NW.gml")

@@ -60,5 +60,42 @@ TEST(Findings, JsonKeepsTheAgreedKeys) {
   EXPECT_EQ(json["findings"][1]["severity"], "warning");
 }
 
+Finding At(int code, const std::string& feature, Point2 at = {}) {
+  Finding finding;
+  finding.code = code, finding.severity = KindOf(code).severity, finding.feature = feature, finding.at_m = at;
+  finding.message = std::string(KindOf(code).title) + ": '" + feature + "'";
+  return finding;
+}
+
+TEST(Findings, OfOneCauseAreOneWithACount) {
+  std::vector<Finding> findings;
+  for (int i = 0; i < 20; ++i) findings.push_back(At(303, "house_" + std::to_string(i)));
+  findings.push_back(At(403, "a"));
+  SortFindings(&findings);
+  std::vector<Finding> few = findings;
+  JoinFindings(30, &findings);
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].Count(), 20u);
+  const auto json = nlohmann::json::parse(FindingsJson(findings))["findings"];
+  EXPECT_EQ(json[0]["count"], 20);
+  EXPECT_EQ(json[0]["features"].size(), 20u);
+  EXPECT_FALSE(json[1].contains("count"));
+  JoinFindings(100, &few);
+  EXPECT_EQ(few.size(), 21u) << "a fifth of the obstacles each have their own fault";
+}
+
+TEST(Findings, ThatAreAcceptedAreNoErrors) {
+  std::vector<Finding> findings{At(502, "alley", {10, 20}), At(502, "other", {50, 20}), At(503, "alley", {10, 20})};
+  const std::vector<AcceptedFinding> accepted{{502, {12, 20}, 5, "meant so"}, {504, {12, 20}, 5, "gone"}};
+  EXPECT_EQ(AcceptFindings(accepted, &findings), std::vector<size_t>{1});
+  EXPECT_EQ(findings[0].severity, Severity::kAccepted);
+  EXPECT_EQ(findings[1].severity, Severity::kError);
+  EXPECT_EQ(findings[2].severity, Severity::kError);
+  const auto json = nlohmann::json::parse(FindingsJson(findings));
+  EXPECT_EQ(json["errors"], 2);
+  EXPECT_EQ(json["findings"][0]["severity"], "accepted");
+  EXPECT_EQ(json["findings"][0]["reason"], "meant so");
+}
+
 }  // namespace
 }  // namespace flaneur

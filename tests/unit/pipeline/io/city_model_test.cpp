@@ -70,6 +70,25 @@ std::string Member(const std::string& inner, const std::string& id = "house") {
   return "<core:cityObjectMember><bldg:Building gml:id=\"" + id + "\">" + inner +
          "</bldg:Building></core:cityObjectMember>";
 }
+// Without namespaces, as some programs write it: plainly, or with prefixes that nothing explains.
+TEST_F(CityModel, CityGmlWithoutItsNamespace) {
+  const std::string wall = "603000 5780000 50 603010 5780000 50 603010 5780000 58 603000 5780000 58 603000 5780000 50";
+  const std::string whole = Gml(Member(Surface("WallSurface", Polygon(wall))));
+  std::string bare = whole, unbound = whole;
+  for (const char* prefix : {"core:", "bldg:", "gml:"})
+    for (size_t at; (at = bare.find(prefix)) != std::string::npos;) bare.erase(at, std::string(prefix).size());
+  for (std::string* text : {&bare, &unbound})
+    for (size_t at; (at = text->find(" xmlns:")) != std::string::npos;)
+      text->erase(at, text->find('"', text->find('"', at) + 1) + 1 - at);
+  for (const std::string& text : {bare, unbound}) {
+    ASSERT_EQ(Read("town.gml", text), "");
+    EXPECT_EQ(Triangles(false), 2);
+    EXPECT_EQ(scene_.nodes.at(0).name, "house");
+    ASSERT_EQ(warnings_.size(), 1u);
+    EXPECT_NE(warnings_[0].find("names no namespace"), std::string::npos);
+  }
+}
+
 const char* const kWall = "603000 5780000 50 603010 5780000 50 603010 5780000 58 603000 5780000 58 603000 5780000 50";
 const char* const kGround = "603000 5780000 50 603000 5780008 50 603010 5780008 50 603010 5780000 50 603000 5780000 50";
 
