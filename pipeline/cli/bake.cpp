@@ -127,7 +127,8 @@ Error ReadTown(Baking* baking, Scene* town, std::vector<std::string>* warnings) 
   const auto append = [&](const fs::path& file, float scale, float yaw_deg, Vec2 position_m) -> Error {
     Scene part;
     SceneSource source;
-    if (Error e = ReadScene(file, &part, warnings, {crs == "none" || file != baking->sources[0] ? "" : crs}, &source)) return e;
+    if (Error e = ReadScene(file, &part, warnings, {crs == "none" || file != baking->sources[0] ? "" : crs}, &source))
+      return e;
     if (file == baking->sources[0]) {
       town->origin_m = {part.origin_m.x * scale, part.origin_m.y * scale};
       town->reference_system = part.reference_system;

@@ -120,8 +120,8 @@ Error ReadTown(const CheckArguments& a, GeoJsonFile* file, std::vector<Finding>*
   if (Error error = ReadScene(a.town, &town->scene, &warnings)) return error;
   if (Error error = PrepareTown(town->scene, file->footprints, a.options, &town->prepared))
     return Fail(a.town.string() + ": " + error.message);
-  const Error error = PlaceObstacles(a.obstacles, a.reading, town->prepared, a.options.tolerance_m, file, &town->found,
-                                     &warnings);
+  const Error error =
+      PlaceObstacles(a.obstacles, a.reading, town->prepared, a.options.tolerance_m, file, &town->found, &warnings);
   for (const std::string& warning : warnings) std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
   if (error) return error;
   faults->clear();
@@ -163,8 +163,7 @@ Error Run(const CheckArguments& a, int* status) {
     if (Error error = ReadTown(a, &file, &faults, &town)) return ReportFault(a, 901, error, faults);
   const PreparedTown* const prepared = a.town.empty() || !town.found ? nullptr : &town.prepared;
   std::vector<Finding> findings;
-  if (Error error =
-          CheckPrepared(file.footprints, prepared, WithStreetsAndGates(a.options, file), &findings))
+  if (Error error = CheckPrepared(file.footprints, prepared, WithStreetsAndGates(a.options, file), &findings))
     return ReportFault(a, 901, error, faults);
   const auto elsewhere = [](const Finding& f) { return f.code == 907; };
   if (std::any_of(faults.begin(), faults.end(), elsewhere)) std::erase_if(findings, elsewhere);  // said already

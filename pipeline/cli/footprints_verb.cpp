@@ -65,7 +65,8 @@ Error Run(const FootprintsArguments& a) {
   FootprintStats stats;
   std::vector<std::string> warnings;
   const std::string name = NameOf(a.towns);
-  if (Error error = ReadTiles(a.towns, {a.georeference.crs == "none" ? "" : a.georeference.crs}, &scene, &source, &warnings))
+  if (Error error =
+          ReadTiles(a.towns, {a.georeference.crs == "none" ? "" : a.georeference.crs}, &scene, &source, &warnings))
     return error;
   Georeference georeference = a.georeference;
   if (!source.system.empty()) georeference.crs.clear();  // done by the reader

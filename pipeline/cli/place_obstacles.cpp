@@ -43,11 +43,7 @@ class Placing {
  public:
   Placing(const std::filesystem::path& path, const ReadGeoJsonOptions& reading, const PreparedTown& town,
           double tolerance_m, Point2 stated_origin_m)
-      : path_(path),
-        reading_(reading),
-        town_(town),
-        tolerance_m_(tolerance_m),
-        stated_origin_m_(stated_origin_m) {}
+      : path_(path), reading_(reading), town_(town), tolerance_m_(tolerance_m), stated_origin_m_(stated_origin_m) {}
 
   Error Run(GeoJsonFile* file, bool* found, std::vector<std::string>* warnings) {
     const std::vector<GeoJsonFault> before = file->faults;
@@ -60,13 +56,13 @@ class Placing {
       GeoJsonFile other;
       TownFit other_fit;
       if (!Try(reading, as_read, &other, &other_fit) || other_fit.share < std::max(kFits, fit.share)) continue;
-      const bool agreed = reading.as_the_towns && as_read.place_is_sure && Length(other_fit.shift_m) <= 2 * tolerance_m_;
+      const bool agreed =
+          reading.as_the_towns && as_read.place_is_sure && Length(other_fit.shift_m) <= 2 * tolerance_m_;
       other.faults = before;
       if (agreed)
         warnings->push_back(path_.string() + ": the obstacles name " + as_read.footprints.reference_system +
                             ", the town " + System() + ", but their coordinates fit; taken for the same");
-      else
-        Tell(reading.fault, &other);
+      else Tell(reading.fault, &other);
       *file = std::move(other);
       *found = true;
       return Shift(other_fit, file), Ok();
@@ -87,8 +83,8 @@ class Placing {
     const Point2 origin = file->footprints.origin_m;
     if (file->system.empty() && file->has_origin && (origin.x != 0 || origin.y != 0)) {
       char text[120];
-      std::snprintf(text, sizeof text, "; the origin_m looks wrong: [%.10g, %.10g] would fit", stated_origin_m_.x - off.x,
-                    stated_origin_m_.y - off.y);
+      std::snprintf(text, sizeof text, "; the origin_m looks wrong: [%.10g, %.10g] would fit",
+                    stated_origin_m_.x - off.x, stated_origin_m_.y - off.y);
       what += text;
     }
     Tell(what, file);
@@ -102,9 +98,10 @@ class Placing {
     swapped.options.swapped = true;
     readings.push_back(swapped);
     if (!System().empty())
-      readings.push_back({"the system that the obstacles name looks wrong: they fit the town if their coordinates are in " +
-                              System() + ", as the town's",
-                          reading_, true});
+      readings.push_back(
+          {"the system that the obstacles name looks wrong: they fit the town if their coordinates are in " + System() +
+               ", as the town's",
+           reading_, true});
     return readings;
   }
 

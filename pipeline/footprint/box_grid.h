@@ -42,7 +42,8 @@ void BoxGrid::Outwards(Point2 p, const Visit& visit, const Limit& limit_m) const
   if (max_x_ < min_x_) return;
   const int64_t x = Cell(p.x), y = Cell(p.y);
   const int64_t first = std::max<int64_t>({0, min_x_ - x, x - max_x_, min_y_ - y, y - max_y_});
-  const int64_t last = std::max({std::abs(min_x_ - x), std::abs(max_x_ - x), std::abs(min_y_ - y), std::abs(max_y_ - y)});
+  const int64_t last =
+      std::max({std::abs(min_x_ - x), std::abs(max_x_ - x), std::abs(min_y_ - y), std::abs(max_y_ - y)});
   const auto look = [&](int64_t cx, int64_t cy) {
     const auto found = cells_.find(Key(cx, cy));
     if (found == cells_.end()) return;

@@ -195,7 +195,9 @@ class PairCheck {
                           {std::max(gap.from.x, gap.to.x), std::max(gap.from.y, gap.to.y)}};
     for (const size_t i : grid_.Near(box, gap.width_m)) {
       const Entry* const other = &state_.obstacles[i];
-      if (other != &a && other != &b && !other->duplicate && !other->points_missing && Fills(*other, gap, state_.options.tolerance_m)) return true;
+      if (other != &a && other != &b && !other->duplicate && !other->points_missing &&
+          Fills(*other, gap, state_.options.tolerance_m))
+        return true;
     }
     return false;
   }

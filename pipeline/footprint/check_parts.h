@@ -44,10 +44,10 @@ Rings OffsetRound(const Rings& rings, double distance_m);
 Rings NonZeroArea(const Ring& ring);
 Ring ConvexHull(Ring points);
 
-void CheckRings(CheckState* state);                            // 101-203; fills the obstacles
-void CheckPairs(CheckState* state);                            // 401-404
+void CheckRings(CheckState* state);                                  // 101-203; fills the obstacles
+void CheckPairs(CheckState* state);                                  // 401-404
 void CheckAgainstTown(const PreparedTown& town, CheckState* state);  // 301-307, 907
-Error CheckWays(const PreparedTown* town, CheckState* state);         // 501-503, 601-604
-void CheckStreets(CheckState* state);                          // 504
+Error CheckWays(const PreparedTown* town, CheckState* state);        // 501-503, 601-604
+void CheckStreets(CheckState* state);                                // 504
 
 }  // namespace flaneur

@@ -158,8 +158,8 @@ class WaysCheck {
     reach_ = RegionsOf(open_);
   }
 
-  // Free ground all round, `square` where the town has that: each cluster of obstacles is looked at by itself, for large
-  // plans take long as a whole.
+  // Free ground all round, `square` where the town has that: each cluster of obstacles is looked at by itself, for
+  // large plans take long as a whole.
   void LayOutObstacles(const Rings& square) {
     clusters_ = Clusters(state_.obstacles, 2 * state_.options.person_radius_m + 0.1);
     Point2 min{1e300, 1e300}, max{-1e300, -1e300};
@@ -210,13 +210,11 @@ class WaysCheck {
     const auto inside = [&](Point2 p) {
       return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y;
     };
-    return std::none_of(gates_.begin(), gates_.end(), [&](const Gate& gate) { return inside(gate.at_m); }) &&
-           [&] {
-             const std::vector<size_t> near = placed_.grid.Near(box);
-             return std::none_of(near.begin(), near.end(), [&](size_t i) {
-               return inside(state_.obstacles[i].min) && inside(state_.obstacles[i].max);
-             });
-           }();
+    return std::none_of(gates_.begin(), gates_.end(), [&](const Gate& gate) { return inside(gate.at_m); }) && [&] {
+      const std::vector<size_t> near = placed_.grid.Near(box);
+      return std::none_of(near.begin(), near.end(),
+                          [&](size_t i) { return inside(state_.obstacles[i].min) && inside(state_.obstacles[i].max); });
+    }();
   }
 
   // Where nothing says how people leave, they leave over the edge.

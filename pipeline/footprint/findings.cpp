@@ -62,7 +62,9 @@ const FindingKind& KindOf(int code) {
   return *std::find_if(kinds.begin(), kinds.end(), [&](const FindingKind& k) { return k.code == code; });
 }
 
-const char* SeverityName(Severity severity) { return severity == Severity::kError ? "error" : severity == Severity::kWarning ? "warning" : "accepted"; }
+const char* SeverityName(Severity severity) {
+  return severity == Severity::kError ? "error" : severity == Severity::kWarning ? "warning" : "accepted";
+}
 
 namespace {
 
@@ -76,14 +78,14 @@ Json PlaceJson(Point2 p, double grain) {
 
 Json Facts(const Finding& f) {
   Json facts{{"code", f.code},
-          {"severity", SeverityName(f.severity)},
-          {"feature", f.feature},
-          {"other", f.other.empty() ? Json() : Json(f.other)},
-          {"at_m", Json::array({Number(f.at_m.x), Number(f.at_m.y)})},
-          {"value", Number(f.value)},
-          {"limit", Number(f.limit)},
-          {"message", f.message},
-          {"advice", KindOf(f.code).advice}};
+             {"severity", SeverityName(f.severity)},
+             {"feature", f.feature},
+             {"other", f.other.empty() ? Json() : Json(f.other)},
+             {"at_m", Json::array({Number(f.at_m.x), Number(f.at_m.y)})},
+             {"value", Number(f.value)},
+             {"limit", Number(f.limit)},
+             {"message", f.message},
+             {"advice", KindOf(f.code).advice}};
   if (f.Count() > 1) {
     facts["count"] = f.Count();
     facts["features"] = Json::array({f.feature});
@@ -106,8 +108,7 @@ std::string FindingsJson(const std::vector<Finding>& findings, const std::vector
     list.push_back(Facts(findings[i]));
     if (i < places.size()) list.back()["at_file"] = PlaceJson(places[i], 1e-9);
   }
-  return Text(
-      {{"version", 1}, {"errors", errors}, {"warnings", warnings}, {"findings", std::move(list)}});
+  return Text({{"version", 1}, {"errors", errors}, {"warnings", warnings}, {"findings", std::move(list)}});
 }
 
 std::string FindingsGeoJson(const std::vector<Finding>& findings, const std::vector<Point2>& places, bool degrees) {
@@ -140,7 +141,8 @@ void JoinFindings(size_t obstacles, std::vector<Finding>* findings) {
   for (size_t i = 0; i < findings->size();) {
     size_t end = i;
     std::set<std::string> features;
-    while (end < findings->size() && (*findings)[end].code == (*findings)[i].code) features.insert((*findings)[end++].feature);
+    while (end < findings->size() && (*findings)[end].code == (*findings)[i].code)
+      features.insert((*findings)[end++].feature);
     const double share = static_cast<double>(features.size()) / std::max(1.0, static_cast<double>(obstacles));
     if (features.size() < kMany || share < JoinedShare((*findings)[i].code)) {
       joined.insert(joined.end(), std::make_move_iterator(findings->begin() + static_cast<std::ptrdiff_t>(i)),
@@ -149,7 +151,8 @@ void JoinFindings(size_t obstacles, std::vector<Finding>* findings) {
       Finding one = (*findings)[i];
       features.erase(one.feature);
       one.others.assign(features.begin(), features.end());
-      const std::string first = one.message.substr(std::min(one.message.size(), std::string(KindOf(one.code).title).size()));
+      const std::string first =
+          one.message.substr(std::min(one.message.size(), std::string(KindOf(one.code).title).size()));
       one.message = std::string(KindOf(one.code).title) + " in " + std::to_string(one.Count()) + " of " +
                     std::to_string(obstacles) + " obstacles, so likely of one cause; the first" + first;
       joined.push_back(std::move(one));

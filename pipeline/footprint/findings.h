@@ -37,7 +37,8 @@ const FindingKind& KindOf(int code);
 const char* SeverityName(Severity severity);  // "error", "warning", "accepted"
 
 // The findings as JSON (version 1): counts, then each with code, severity, feature, other, at_m, value, limit, message
-// and advice, those with one cause also count and features, accepted ones reason; with `places`, the same places in a file's own coordinates, also at_file.
+// and advice, those with one cause also count and features, accepted ones reason; with `places`, the same places in a
+// file's own coordinates, also at_file.
 std::string FindingsJson(const std::vector<Finding>& findings, const std::vector<Point2>& places = {});
 
 // The same as GeoJSON points at `places`: longitudes and latitudes, else metres, which a member says.

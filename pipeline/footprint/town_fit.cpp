@@ -9,13 +9,13 @@
 namespace flaneur {
 namespace {
 
-constexpr double kSameSize_m = 0.05;       // boxes whose sides differ by less may be each other's
-constexpr double kSameShift_m = 0.03;      // shifts that differ by less are one
-constexpr double kVoteCell_m = 0.1;        // of the grid on which shifts are counted
-constexpr size_t kMinAgreeing = 3;         // obstacles that are shifted alike
-constexpr double kMinInPlace = 0.3;        // of the obstacles: they lie in this town, whatever their outlines
-constexpr size_t kMaxVoters = 2000;        // obstacles that are asked for shifts
-constexpr size_t kMaxAlike = 50;           // houses of one size; more tell nothing
+constexpr double kSameSize_m = 0.05;   // boxes whose sides differ by less may be each other's
+constexpr double kSameShift_m = 0.03;  // shifts that differ by less are one
+constexpr double kVoteCell_m = 0.1;    // of the grid on which shifts are counted
+constexpr size_t kMinAgreeing = 3;     // obstacles that are shifted alike
+constexpr double kMinInPlace = 0.3;    // of the obstacles: they lie in this town, whatever their outlines
+constexpr size_t kMaxVoters = 2000;    // obstacles that are asked for shifts
+constexpr size_t kMaxAlike = 50;       // houses of one size; more tell nothing
 
 BoundingBox BoxOf(const Obstacle& o) {
   if (!o.outer.empty()) return BoundingBoxOf({o.outer});
@@ -60,9 +60,8 @@ Point2 MedianOf(std::vector<Point2> points) {
 }
 
 size_t CountNear(const std::vector<Point2>& points, Point2 p) {
-  return static_cast<size_t>(std::count_if(points.begin(), points.end(), [&](Point2 q) {
-    return std::hypot(q.x - p.x, q.y - p.y) < kSameShift_m;
-  }));
+  return static_cast<size_t>(std::count_if(points.begin(), points.end(),
+                                           [&](Point2 q) { return std::hypot(q.x - p.x, q.y - p.y) < kSameShift_m; }));
 }
 
 bool Agree(size_t agreeing, size_t all) {

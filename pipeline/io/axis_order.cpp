@@ -5,11 +5,11 @@
 namespace flaneur {
 namespace {
 
-constexpr double kRight = 0.01;          // the cosine of an angle that counts as right
-constexpr double kAlong = 0.002;         // an edge this near to a meridian or parallel tells nothing
-constexpr double kMinEdge_m = 0.5;       // shorter edges are rounded too much
-constexpr int kMinRight = 12;            // fewer are chance
-constexpr double kClearly = 1.5;         // so many times more of them
+constexpr double kRight = 0.01;           // the cosine of an angle that counts as right
+constexpr double kAlong = 0.002;          // an edge this near to a meridian or parallel tells nothing
+constexpr double kMinEdge_m = 0.5;        // shorter edges are rounded too much
+constexpr int kMinRight = 12;             // fewer are chance
+constexpr double kClearly = 1.5;          // so many times more of them
 constexpr double kDegree_m = 111'319.49;  // of the equator
 
 Point2 EdgeIn_m(Point2 a, Point2 b) {

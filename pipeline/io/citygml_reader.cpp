@@ -21,7 +21,7 @@ using Rings = std::vector<std::vector<Point3>>;
 
 constexpr size_t kMaxDepth = 256;  // elements within elements; real files have some 25
 constexpr size_t kChunk_bytes = 1 << 20;
-constexpr char kSeparator = '|';          // expat puts it between namespace and name
+constexpr char kSeparator = '|';           // expat puts it between namespace and name
 constexpr const char* kSeparators = "|:";  // and the file a colon between prefix and name
 
 // A polygon as it stands in the file.

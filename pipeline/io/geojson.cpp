@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 // By hand, so that a feature is a line and numbers are short.
 
-constexpr size_t kPlaces = 5;  // of obstacles that the collection names in degrees too
+constexpr size_t kPlaces = 5;                           // of obstacles that the collection names in degrees too
 constexpr int kMetreDecimals = 4, kDegreeDecimals = 9;  // 0.1 mm
 
 std::string Number(double value, int decimals = kMetreDecimals) {
@@ -56,9 +56,9 @@ std::string FeatureText(const Obstacle& o, int decimals) {
 std::string CollectionText(const std::string& units, const std::string& members, const std::string& place,
                            const Footprints& footprints, int decimals) {
   std::string out = R"({"type":"FeatureCollection",)" + members + R"("flaneur":{"version":1,"units":")" + units +
-                    R"(","clearance_m":)" +
-                    Number(footprints.clearance_m) + R"(,"band_m":[)" + Number(footprints.band_m[0]) + "," +
-                    Number(footprints.band_m[1]) + "]" + place + "},\n\"features\":[\n";
+                    R"(","clearance_m":)" + Number(footprints.clearance_m) + R"(,"band_m":[)" +
+                    Number(footprints.band_m[0]) + "," + Number(footprints.band_m[1]) + "]" + place +
+                    "},\n\"features\":[\n";
   for (size_t i = 0; i < footprints.obstacles.size(); ++i)
     out += FeatureText(footprints.obstacles[i], decimals) + (i + 1 < footprints.obstacles.size() ? ",\n" : "\n");
   return out + "]}\n";

@@ -15,7 +15,7 @@ struct ReadGeoJsonOptions {
   // kAuto: metres where the file has our member "flaneur"; else what its member "crs" says; else longitude and
   // latitude, as the standard has it.
   GeoJsonUnits units = GeoJsonUnits::kAuto;
-  std::string system;  // such as "EPSG:25832": of the coordinates, whatever the file says
+  std::string system;    // such as "EPSG:25832": of the coordinates, whatever the file says
   bool swapped = false;  // x and y stand the other way round
 };
 
@@ -77,7 +77,8 @@ void MoveBy(Point2 shift_m, GeoJsonFile* file);
 // Back into the file's own coordinates.
 std::vector<Point2> ToFileCoordinates(const GeoJsonFile& file, std::vector<Point2> points);
 
-// Coordinates to 0.1 mm. `source_system`: of the town's file, where it was brought into `footprints.reference_system`. Errors: as for WriteFile.
+// Coordinates to 0.1 mm. `source_system`: of the town's file, where it was brought into `footprints.reference_system`.
+// Errors: as for WriteFile.
 Error WriteGeoJson(const std::filesystem::path& path, const Footprints& footprints,
                    const std::string& source_system = {});
 

@@ -11,10 +11,10 @@
 namespace flaneur {
 namespace {
 
-constexpr double kSamePlace_m = 5;            // by other grids of PROJ, a place may move by some metres
-constexpr double kSameTown_m = 100'000;       // no town is as wide as that
-constexpr double kWrongOrigin_m = 20'000;     // farther off, the system is wrong rather than the origin
-constexpr size_t kMaxRingsAsked = 20'000;     // for their right angles
+constexpr double kSamePlace_m = 5;         // by other grids of PROJ, a place may move by some metres
+constexpr double kSameTown_m = 100'000;    // no town is as wide as that
+constexpr double kWrongOrigin_m = 20'000;  // farther off, the system is wrong rather than the origin
+constexpr size_t kMaxRingsAsked = 20'000;  // for their right angles
 constexpr double kRadian = 3.14159265358979323846 / 180, kEarth_m = 6'371'000;
 
 std::string Text(Point2 p, const char* format) {
@@ -61,13 +61,15 @@ class Misplacement {
     if (IsSwapped(name, system)) {
       Tell(std::string(system.degrees ? "longitude and latitude" : "easting and northing") +
            " look swapped: read as they stand they give " + Where(name, middle_) + ", the other way round " +
-           Where(name, {middle_.y, middle_.x}) + (why_.empty() ? "" : "; " + why_) + "; write longitude or easting first");
+           Where(name, {middle_.y, middle_.x}) + (why_.empty() ? "" : "; " + why_) +
+           "; write longitude or easting first");
       ForEachPoint(&file_, [](Point2& p) { std::swap(p.x, p.y); });
       middle_ = {middle_.y, middle_.x};
       return Ok();
     }
     if (system.degrees && InOneBox(middle_) == 0)
-      Tell("its bbox does not hold most of it, which lies at " + Degrees(middle_) + "; was it moved, or is the bbox old?");
+      Tell("its bbox does not hold most of it, which lies at " + Degrees(middle_) +
+           "; was it moved, or is the bbox old?");
     return system.degrees ? TownsPlace() : Ok();
   }
 
@@ -108,7 +110,8 @@ class Misplacement {
       std::vector<Point2> town{file_.town_origin_m};
       if (!TransformPoints(file_.town_system, kLongitudeLatitude, &town) && Known(town[0])) {
         const double given_m = Apart_m(middle_, town[0]), turned_m = Apart_m(turned, town[0]);
-        if (given_m > kSameTown_m && turned_m < kSameTown_m) return why_ = "there the town is, by its town_origin_m", true;
+        if (given_m > kSameTown_m && turned_m < kSameTown_m)
+          return why_ = "there the town is, by its town_origin_m", true;
         if (given_m < kSameTown_m) return false;
       }
     }
@@ -120,7 +123,8 @@ class Misplacement {
   Error OtherCrs() {
     if (place_.other_crs.empty()) return Ok();
     const std::string other = PlainReferenceSystem(place_.other_crs);
-    const std::string own = stated_.local ? PlainReferenceSystem(file_.footprints.reference_system) : "longitude and latitude";
+    const std::string own =
+        stated_.local ? PlainReferenceSystem(file_.footprints.reference_system) : "longitude and latitude";
     MapSystem system;
     if (!stated_.local && !FindMapSystem(other, &system) && system.degrees) return Ok();
     if (stated_.local && (own.empty() || own == other)) return Ok();
@@ -156,14 +160,16 @@ class Misplacement {
     if (stated.empty() || TransformPoints(kLongitudeLatitude, f.reference_system, &stated)) return all;
     for (size_t i = 0; i < stated.size(); ++i) {
       const std::string& name = place_.places_deg[i].first;
-      const auto found = std::find_if(f.obstacles.begin(), f.obstacles.end(), [&](const Obstacle& o) { return o.name == name; });
+      const auto found =
+          std::find_if(f.obstacles.begin(), f.obstacles.end(), [&](const Obstacle& o) { return o.name == name; });
       if (found == f.obstacles.end()) continue;
       std::vector<Point2> corners = found->outer.empty() ? std::vector<Point2>{found->center} : found->outer;
       for (Point2& p : corners) p = {p.x + f.origin_m.x, p.y + f.origin_m.y};
       const auto far = [&](Point2 p) { return std::hypot(p.x - stated[i].x, p.y - stated[i].y); };
       std::erase_if(corners, [](Point2 p) { return !Known(p); });
       if (corners.empty()) continue;
-      const Point2 own = Known(stated[i]) ? *std::min_element(corners.begin(), corners.end(), [&](Point2 a, Point2 b) { return far(a) < far(b); })
+      const Point2 own = Known(stated[i]) ? *std::min_element(corners.begin(), corners.end(),
+                                                              [&](Point2 a, Point2 b) { return far(a) < far(b); })
                                           : corners[0];
       all.push_back({place_.places_deg[i].second, stated[i], own});
     }
@@ -176,7 +182,8 @@ class Misplacement {
     if (f.reference_system.empty()) return Ok();
     MapSystem system;
     if (FindMapSystem(f.reference_system, &system)) {
-      file_.faults.push_back({GeoJsonFaultKind::kUnknownSystem, "", "its crs '" + f.reference_system + "' is not known"});
+      file_.faults.push_back(
+          {GeoJsonFaultKind::kUnknownSystem, "", "its crs '" + f.reference_system + "' is not known"});
       return Ok();
     }
     std::vector<Point2> place{{middle_.x + f.origin_m.x, middle_.y + f.origin_m.y}};
@@ -194,8 +201,9 @@ class Misplacement {
     const Point2 off = Median(offs);
     const bool known = std::all_of(offs.begin(), offs.end(), Known);
     if (known && std::hypot(off.x, off.y) < kSamePlace_m) return file_.place_is_sure = true, Ok();
-    Tell(says + ", its places_deg at " + Degrees(witnesses[0].stated_deg) +
-         (known && std::hypot(off.x, off.y) < kWrongOrigin_m ? WrongOrigin(off, witnesses[0]) : WrongCrs(witnesses[0])));
+    Tell(
+        says + ", its places_deg at " + Degrees(witnesses[0].stated_deg) +
+        (known && std::hypot(off.x, off.y) < kWrongOrigin_m ? WrongOrigin(off, witnesses[0]) : WrongCrs(witnesses[0])));
     return Ok();
   }
 

@@ -104,7 +104,8 @@ class Reader {
       }
     }
     if (options.swapped) ForEachPoint(out_, [](Point2& p) { std::swap(p.x, p.y); });
-    else if (Error error = FindMisplacement(stated, PlaceOf(root, stated), out_)) return Fail(file_name_ + ": " + error.message);
+    else if (Error error = FindMisplacement(stated, PlaceOf(root, stated), out_))
+      return Fail(file_name_ + ": " + error.message);
     if (Error error = ToLocalMetres(stated, out_)) return Fail(OneLine(file_name_ + ": " + error.message));
     return Ok();
   }

@@ -19,7 +19,7 @@ struct StatedSystem {
 
 // What a file says of its place besides its coordinates and their system. NaN and empty: nothing.
 struct StatedPlace {
-  std::string other_crs;                      // the member "crs" of one of our own files, which has its own
+  std::string other_crs;                                  // the member "crs" of one of our own files, which has its own
   std::array<double, 4> box{kNone, kNone, kNone, kNone};  // bbox: west, south, east, north
   std::vector<std::pair<std::string, Point2>> places_deg;  // where a corner of these obstacles lies
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

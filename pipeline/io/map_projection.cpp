@@ -61,8 +61,7 @@ std::vector<std::pair<std::string, std::string>> ProjectedSystemsAt(PJ_CONTEXT* 
   PROJ_CRS_INFO** const list = proj_get_crs_info_list_from_database(context, "EPSG", wish, &count);
   proj_get_crs_list_parameters_destroy(wish);
   std::vector<std::pair<std::string, std::string>> systems;
-  for (int i = 0; list && i < count; ++i)
-    systems.emplace_back(std::string("EPSG:") + list[i]->code, list[i]->name);
+  for (int i = 0; list && i < count; ++i) systems.emplace_back(std::string("EPSG:") + list[i]->code, list[i]->name);
   proj_crs_info_list_destroy(list);
   return systems;
 }
@@ -134,8 +133,9 @@ class Ways {
         rough_system_ = system;
         const Object from = PlaneOf(context_.get(), MakeSystem(context_.get(), system));
         const Object to = MakeSystem(context_.get(), kLongitudeLatitude);
-        const Object raw(from && to ? proj_create_crs_to_crs_from_pj(context_.get(), from.get(), to.get(), nullptr, nullptr)
-                                    : nullptr);
+        const Object raw(from && to
+                             ? proj_create_crs_to_crs_from_pj(context_.get(), from.get(), to.get(), nullptr, nullptr)
+                             : nullptr);
         rough_.reset(raw ? proj_normalize_for_visualization(context_.get(), raw.get()) : nullptr);
       }
       if (!rough_) return false;
@@ -255,7 +255,8 @@ std::vector<std::string> SystemsThatPut(Point2 at, Point2 place, double within_m
     if (name.find("(N-E)") != std::string::npos) continue;  // another one with its axes turned
     std::vector<Point2> there{at};
     if (TransformPoints(code, kLongitudeLatitude, &there)) continue;
-    const double apart_m = kDegree_m * std::hypot((there[0].x - place.x) * std::cos(place.y * kRadian), there[0].y - place.y);
+    const double apart_m =
+        kDegree_m * std::hypot((there[0].x - place.x) * std::cos(place.y * kRadian), there[0].y - place.y);
     if (apart_m < within_m) found.emplace_back(std::round(apart_m * 100), code);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

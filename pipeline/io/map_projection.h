@@ -27,14 +27,14 @@ Error TransformPoints(const std::string& from, const std::string& to, std::vecto
 struct MapSystem {
   bool degrees = false;
   bool north_first = false;  // its authority gives latitude or northing as the first coordinate
-  std::string other_unit;  // "US survey foot": of coordinates that are neither degrees nor metres
+  std::string other_unit;    // "US survey foot": of coordinates that are neither degrees nor metres
   bool has_area = false;
   double west = -180, south = -90, east = 180, north = 90;  // where it is meant to be used, degrees
 };
 Error FindMapSystem(const std::string& name, MapSystem* system);
 
-// The fitting system in metres, x east and y north, for a town at this place: the UTM zone on the same datum where there
-// is one, else on WGS 84, near the poles a local map.
+// The fitting system in metres, x east and y north, for a town at this place: the UTM zone on the same datum where
+// there is one, else on WGS 84, near the poles a local map.
 std::string MetricSystemAt(const std::string& system, Point2 longitude_latitude);
 
 // The projected systems in which `at` is at this place on earth, to within_m; the nearest first.

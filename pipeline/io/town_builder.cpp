@@ -173,7 +173,8 @@ Error TownBuilder::DegreesToMetres(const CityCoordinates& coordinates, std::stri
   }
   bool swapped = coordinates.axes_as_named && system.north_first;
   if (Error error = ChooseAxes(*from, system, Median(points), rings, &swapped, notes)) return error;
-  if (!known) notes->push_back("the coordinates look like degrees and were taken for " + *from + "; --crs says otherwise");
+  if (!known)
+    notes->push_back("the coordinates look like degrees and were taken for " + *from + "; --crs says otherwise");
   if (swapped)
     for (Point2& p : points) std::swap(p.x, p.y);
   std::vector<Point2> place{Median(points)};
@@ -201,7 +202,8 @@ Error TownBuilder::MapToMetres(const CityCoordinates& coordinates, std::string* 
   Point2 middle = Median(points);
   const auto lies_there = [&](Point2 p) {
     std::vector<Point2> place{p};
-    return !TransformPoints(coordinates.system, kLongitudeLatitude, &place) && IsUsedAt(system, place[0], kBesideArea_deg);
+    return !TransformPoints(coordinates.system, kLongitudeLatitude, &place) &&
+           IsUsedAt(system, place[0], kBesideArea_deg);
   };
   const bool swapped = !lies_there(middle) && lies_there({middle.y, middle.x});
   if (swapped) {
@@ -232,7 +234,8 @@ Error TownBuilder::CheckReach() const {
   for (const Triangle& t : triangles_)
     for (const Point3& p : {t.a, t.b, t.c})
       if (!(std::abs(p.x) < kFarthest_m && std::abs(p.y) < kFarthest_m && std::abs(p.z) < kFarthest_m))
-        return Fail("'" + At(nodes_, t.node).name + "' reaches farther than any map: a coordinate is beyond 100,000 km");
+        return Fail("'" + At(nodes_, t.node).name +
+                    "' reaches farther than any map: a coordinate is beyond 100,000 km");
   return Ok();
 }
 
@@ -252,7 +255,8 @@ Error TownBuilder::Finish(const std::string& file, const CityCoordinates& coordi
   if (triangles_.empty()) return named(Fail("holds no face with an area, so there is no town in it"));
   if (Error error = CheckReach()) return named(error);
   if (from.empty() && stated)
-    return named(Fail("'" + to + "' has degrees, but the coordinates are beyond 180; say what they are: --crs EPSG:25832"));
+    return named(
+        Fail("'" + to + "' has degrees, but the coordinates are beyond 180; say what they are: --crs EPSG:25832"));
   if (from.empty())
     if (Error error = MapToMetres(coordinates, &from, &to, &notes)) return named(error);
   if (warnings)

@@ -27,13 +27,13 @@ class TownBuilder {
   void AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings);
 
   // Degrees, and maps that are stretched, mirrored or turned, become the fitting system in metres: then
-  // `source_system` (may be null) is what they were. Which axis comes first is told by the place where the system is used, by right angles, and by
-  // `coordinates` only where these are silent. Coordinates far from zero are moved by whole hundreds of metres: see
-  // Scene::origin_m. Nodes without triangles stay where something hangs on them. Errors: nothing but polygons without
-  // area, degrees in a system of metres or outside of the system's area, a coordinate beyond 100,000 km; each names
-  // `file`.
-  Error Finish(const std::string& file, const CityCoordinates& coordinates, Scene* scene,
-               std::string* source_system, std::vector<std::string>* warnings);
+  // `source_system` (may be null) is what they were. Which axis comes first is told by the place where the system is
+  // used, by right angles, and by `coordinates` only where these are silent. Coordinates far from zero are moved by
+  // whole hundreds of metres: see Scene::origin_m. Nodes without triangles stay where something hangs on them. Errors:
+  // nothing but polygons without area, degrees in a system of metres or outside of the system's area, a coordinate
+  // beyond 100,000 km; each names `file`.
+  Error Finish(const std::string& file, const CityCoordinates& coordinates, Scene* scene, std::string* source_system,
+               std::vector<std::string>* warnings);
 
  private:
   struct Triangle {

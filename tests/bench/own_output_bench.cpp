@@ -1,7 +1,7 @@
 // Our own obstacles against our own check, in coordinate systems at random: a small made-up town somewhere in each
 // system's area is extracted, written in local metres and in longitude and latitude, read again, and checked alone and
-// against its town. Prints how many systems gave findings that the model has not (301 to 305, 401, 402, 9xx), and which.
-// bench_own_output [SYSTEMS] [SEED]
+// against its town. Prints how many systems gave findings that the model has not (301 to 305, 401, 402, 9xx), and
+// which. bench_own_output [SYSTEMS] [SEED]
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -40,11 +40,13 @@ std::vector<House> MadeUpTown(Random* random) {
   for (int i = 0; i < count; ++i) {
     const double x = 25.0 * (i % 4), y = 25.0 * (i / 4), w = Uniform(random, 6, 15), d = Uniform(random, 6, 15);
     std::vector<Point2> plan{{x, y}, {x + w, y}, {x + w, y + d}, {x, y + d}};
-    if (i % 3 == 0) plan = {{x, y}, {x + w, y}, {x + w, y + d}, {x + w / 2, y + d}, {x + w / 2, y + d / 2}, {x, y + d / 2}};
+    if (i % 3 == 0)
+      plan = {{x, y}, {x + w, y}, {x + w, y + d}, {x + w / 2, y + d}, {x + w / 2, y + d / 2}, {x, y + d / 2}};
     std::vector<std::vector<Point2>> plans{plan};
     if (i % 4 == 1) plans.push_back({{x + w, y}, {x + w + 5, y}, {x + w + 5, y + d}, {x + w, y + d}});
     for (std::vector<Point2>& p : plans) {
-      for (Point2& q : p) q = {q.x * std::cos(turn) - q.y * std::sin(turn), q.x * std::sin(turn) + q.y * std::cos(turn)};
+      for (Point2& q : p)
+        q = {q.x * std::cos(turn) - q.y * std::sin(turn), q.x * std::sin(turn) + q.y * std::cos(turn)};
       houses.push_back({p, Uniform(random, 3, 12)});
     }
   }
@@ -78,8 +80,10 @@ bool WriteTown(const fs::path& path, const std::vector<House>& houses, Point2 pl
     const Json solid{{"type", "Solid"}, {"lod", "2"}, {"boundaries", Json::array({faces})}};
     objects["house_" + std::to_string(h)] = {{"type", "Building"}, {"geometry", Json::array({solid})}};
   }
-  std::ofstream(path) << Json{{"type", "CityJSON"},       {"version", "2.0"},
-                              {"vertices", vertices},     {"CityObjects", objects},
+  std::ofstream(path) << Json{{"type", "CityJSON"},
+                              {"version", "2.0"},
+                              {"vertices", vertices},
+                              {"CityObjects", objects},
                               {"metadata", {{"referenceSystem", system}}}};
   return true;
 }
@@ -94,15 +98,18 @@ std::string Findings(const fs::path& obstacles, const Scene* town) {
   std::vector<std::string> warnings;
   if (town) {
     if (Error e = PrepareTown(*town, file.footprints, options, &prepared)) return e.message;
-    if (Error e = PlaceObstacles(obstacles, {}, prepared, options.tolerance_m, &file, &found, &warnings)) return e.message;
+    if (Error e = PlaceObstacles(obstacles, {}, prepared, options.tolerance_m, &file, &found, &warnings))
+      return e.message;
   }
   options.open_rings = file.open_rings;
   std::vector<Finding> findings;
-  if (Error e = CheckPrepared(file.footprints, town && found ? &prepared : nullptr, options, &findings)) return e.message;
+  if (Error e = CheckPrepared(file.footprints, town && found ? &prepared : nullptr, options, &findings))
+    return e.message;
   std::map<int, int> count;
   std::string first;
   for (const Finding& f : findings) {
-    const bool counts = (f.code >= 101 && f.code < 204) || (f.code > 300 && f.code < 306) || f.code == 401 || f.code == 402;
+    const bool counts =
+        (f.code >= 101 && f.code < 204) || (f.code > 300 && f.code < 306) || f.code == 401 || f.code == 402;
     if (counts && count[f.code]++ == 0 && first.empty()) first = f.message;
   }
   std::string text;
@@ -157,9 +164,11 @@ int Run(int wanted, unsigned seed) {
     ++tried;
     degrees += system.degrees;
     wrong += !problem.empty();
-    if (!problem.empty()) std::printf("%s at %.3f east, %.3f north: %s\n", name.c_str(), place.x, place.y, problem.c_str());
+    if (!problem.empty())
+      std::printf("%s at %.3f east, %.3f north: %s\n", name.c_str(), place.x, place.y, problem.c_str());
   }
-  std::printf("%d systems (%d of them in degrees), seed %u: in %d own output is called wrong\n", tried, degrees, seed, wrong);
+  std::printf("%d systems (%d of them in degrees), seed %u: in %d own output is called wrong\n", tried, degrees, seed,
+              wrong);
   return wrong > 0;
 }
 

@@ -1,6 +1,6 @@
 // A whole city: extraction and check of many buildings, their processor time and memory, and whether the bytes are the
-// same for any number of threads. Buildings are those of the city models given, set side by side until there are enough,
-// else made up. bench_whole_city [BUILDINGS] [MODEL]...
+// same for any number of threads. Buildings are those of the city models given, set side by side until there are
+// enough, else made up. bench_whole_city [BUILDINGS] [MODEL]...
 #include <sys/resource.h>
 
 #include <cmath>
@@ -65,7 +65,9 @@ Scene MadeUp(int buildings) {
   const int rows = std::max(1, static_cast<int>(std::sqrt(buildings / 10.0)));
   for (int i = 0; i < buildings; ++i) {
     const int block = i / 10, place = i % 10;
-    AddHouse(i, {static_cast<float>(60 * (block % rows) + 9 * (place % 5)), static_cast<float>(50 * (block / rows) + 22 * (place / 5))},
+    AddHouse(i,
+             {static_cast<float>(60 * (block % rows) + 9 * (place % 5)),
+              static_cast<float>(50 * (block / rows) + 22 * (place / 5))},
              &scene);
   }
   return scene;
@@ -84,7 +86,8 @@ Scene SideBySide(const std::vector<Scene>& models, int buildings) {
   double wide = 0;
   for (const Scene& model : models)
     for (const Mesh& mesh : model.meshes)
-      for (const Vec3& p : mesh.positions) wide = std::max({wide, std::abs(2.0 * static_cast<double>(p.x)), std::abs(2.0 * static_cast<double>(p.z))});
+      for (const Vec3& p : mesh.positions)
+        wide = std::max({wide, std::abs(2.0 * static_cast<double>(p.x)), std::abs(2.0 * static_cast<double>(p.z))});
   int of_all = 0;
   for (const Scene& model : models) of_all += Buildings(model);
   const int copies = buildings / std::max(1, of_all / Count(models)) + 1;
@@ -92,7 +95,8 @@ Scene SideBySide(const std::vector<Scene>& models, int buildings) {
   for (int copy = 0, made = 0; made < buildings; ++copy) {
     const Scene& model = models[static_cast<size_t>(copy) % models.size()];
     const auto step = [&](int k) { return static_cast<float>((k - across / 2) * (wide + 20)); };
-    const Mat4 place = FromTranslationRotationScale({step(copy % across), 0, step(copy / across)}, {0, 0, 0, 1}, {1, 1, 1});
+    const Mat4 place =
+        FromTranslationRotationScale({step(copy % across), 0, step(copy / across)}, {0, 0, 0, 1}, {1, 1, 1});
     const int nodes = Count(city.nodes), meshes = Count(city.meshes);
     for (SceneNode node : model.nodes) {
       node.name += "_" + std::to_string(copy);
@@ -135,7 +139,8 @@ int Run(int buildings, const std::vector<std::string>& files) {
       check.threads = threads;
       std::vector<Finding> findings;
       start = Cpu_s();
-      if (Error e = Check(footprints, with_town ? &city : nullptr, check, &findings)) return std::puts(e.message.c_str()), 1;
+      if (Error e = Check(footprints, with_town ? &city : nullptr, check, &findings))
+        return std::puts(e.message.c_str()), 1;
       std::printf("%d threads: check %s %.1f CPU s, %.0f MB at most, %zu findings\n", threads,
                   with_town ? "with the town" : "alone", Cpu_s() - start, Peak_mb(), findings.size());
       findings_of[threads] += FindingsJson(findings);
