@@ -7,6 +7,7 @@
 
 #include "pipeline/cli/arguments.h"
 #include "pipeline/cli/georeference.h"
+#include "pipeline/cli/obj_up.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/footprint/extract_footprints.h"
 #include "pipeline/footprint/map.h"
@@ -22,6 +23,7 @@ struct FootprintsArguments {
   FootprintOptions options;
   Georeference georeference;
   std::array<double, 2> origin_m{};
+  UpAxis obj_up = UpAxis::kJudged;
 };
 
 void AddOptions(CLI::App* app, FootprintsArguments* a) {
@@ -36,6 +38,7 @@ void AddOptions(CLI::App* app, FootprintsArguments* a) {
   app->add_option("--origin-m", a->origin_m,
                   "Add to the town's coordinates to get those of the map: EAST NORTH; for glTF, "
                   "city models have their own");
+  AddObjUp(app, &a->obj_up);
   app->option_defaults()->always_capture_default();
   app->add_option("--clearance-m", a->options.clearance_m, "Enlarge obstacles by this")->check(CLI::Range(0.0, 10.0));
   app->add_option("--band", a->options.band_m,
@@ -55,7 +58,7 @@ Error Run(const FootprintsArguments& a) {
   Footprints footprints;
   FootprintStats stats;
   std::vector<std::string> warnings;
-  if (Error error = ReadScene(a.town, &scene, &warnings)) return error;
+  if (Error error = ReadScene(a.town, &scene, &warnings, a.obj_up)) return error;
   Georeference georeference = a.georeference;
   georeference.origin_m = {a.origin_m[0], a.origin_m[1]};
   if (Error error = SetGeoreference(georeference, a.options.scale, &scene, &warnings))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "pipeline/footprint/bridges.h"
 #include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/disjoint_sets.h"
 #include "pipeline/footprint/one_mouth.h"
@@ -59,6 +60,38 @@ bool AllMeet(std::vector<Segment>* lines) {
   return true;
 }
 
+// The share of a ring's length that runs along walls.
+double WalledShare(const Ring& ring, const std::vector<Segment>& walls, const SegmentGrid& grid) {
+  double walled = 0, all = 0;
+  for (const Segment& edge : Outline({ring})) {
+    const Point2 middle{(edge.a.x + edge.b.x) / 2, (edge.a.y + edge.b.y) / 2};
+    const std::vector<size_t>& near = grid.Near(middle);
+    const bool is_wall = std::any_of(near.begin(), near.end(), [&](size_t i) {
+      return DistanceToSegment(middle, walls[i].a, walls[i].b) < kMinLoosePiece_m;
+    });
+    all += Length(edge);
+    if (is_wall) walled += Length(edge);
+  }
+  return all > 0 ? walled / all : 0;
+}
+
+// Nobody gets into a hole. Where no walls bound it, or the model says that the building stands there, it is none: some
+// part lower than the band.
+void FillHoles(const std::vector<Segment>& walls, const TownObject& object, Shape* shape) {
+  if (std::none_of(shape->solid.begin(), shape->solid.end(), [](const Ring& r) { return SignedArea(r) < 0; })) return;
+  const Rings ground = object.foundation_is_given ? InPlan(object.foundation) : Rings();
+  const SegmentGrid grid(walls, kMinLoosePiece_m, walls.empty() ? kMaxCutCell_m : CellFor(walls));
+  const size_t filled = std::erase_if(shape->solid, [&](const Ring& ring) {
+    if (SignedArea(ring) >= 0) return false;
+    const Rings hole{Ring(ring.rbegin(), ring.rend())};
+    return WalledShare(ring, walls, grid) < kMinWalledHole ||
+           (!ground.empty() && Area(Difference(hole, ground)) < kMaxOffGround * Area(hole));
+  });
+  if (filled == 0) return;
+  shape->solid = UnionOfAreas(shape->solid);
+  SetLoose(std::vector<Segment>(shape->loose), shape);
+}
+
 // Closes what is missing from a building's shell; whether that is something in the band.
 bool Repair(const Site& site, const Stand& stand, const TownObject& object, std::vector<Triangle3>* triangles) {
   if (object.kind != ObstacleKind::kBuilding) return false;
@@ -73,17 +106,27 @@ bool Repair(const Site& site, const Stand& stand, const TownObject& object, std:
 
 }  // namespace
 
-void SetLoose(const std::vector<Segment>& lines, Shape* shape) {
+void SetLoose(const std::vector<Segment>& lines, Shape* shape) { SetLoose(lines, shape->solid, shape); }
+
+void SetLoose(const std::vector<Segment>& lines, const Rings& solid, Shape* shape) {
   shape->loose.clear();
   shape->open_m = 0;
   if (lines.empty()) return;
-  const std::vector<Segment> loose = Outside(lines, Offset(shape->solid, kOnOutline_m));
+  const std::vector<Segment> loose = Outside(lines, Offset(solid, kOnOutline_m));
   if (loose.empty()) return;
-  const std::vector<Segment> apart =
-      Outside(loose, Offset(shape->solid, kMinLoosePiece_m));  // not covered with what is solid
+  const std::vector<Segment> apart = Outside(loose, Offset(solid, kMinLoosePiece_m));  // not covered with what is solid
   shape->loose = WithoutCrumbs(loose);
   shape->loose.insert(shape->loose.end(), apart.begin(), apart.end());
   for (const Segment& s : apart) shape->open_m += Length(s);
+}
+
+Rings InPlan(const std::vector<Triangle3>& triangles) {
+  Rings rings;
+  for (const Triangle3& t : triangles) {
+    Ring ring{{t[0].x, t[0].y}, {t[1].x, t[1].y}, {t[2].x, t[2].y}};
+    if (std::abs(SignedArea(ring)) > 1e-6) rings.push_back(std::move(ring));
+  }
+  return Offset(Offset(UnionOfRings(rings), kSeamInPlan_m), -kSeamInPlan_m);
 }
 
 void CloseUnderRoofs(std::vector<Segment> lines, double reach_m, const Roofs& is_solid, Shape* shape) {
@@ -101,8 +144,9 @@ void CloseUnderRoofs(std::vector<Segment> lines, double reach_m, const Roofs& is
   SetLoose(lines, shape);
 }
 
-Shape ShapeOf(const Site& site, const TownObject& object) {
-  const Stand stand(site, object);
+Shape ShapeOf(const Site& site, const TownObject& object, const Neighbours& neighbours) {
+  if (object.is_bridge) return BridgeShape(site, object);
+  const Stand stand(site, object, neighbours);
   Shape shape;
   shape.ground_z_m = GroundInTheMiddle(stand, object);
   std::vector<Triangle3> triangles = object.triangles;
@@ -119,12 +163,13 @@ Shape ShapeOf(const Site& site, const TownObject& object) {
     CloseUnderRoofs(shape.loose, kNoWay_m, is_solid, &shape);
     shape.guessed |= Area(shape.solid) > before + kMinGap_m2;
   }
+  if (object.kind == ObstacleKind::kBuilding) FillHoles(parts.walls, object, &shape);
   return shape;
 }
 
-void CloseRooms(const Site& site, const TownObject& object, Shape* shape) {
+void CloseRooms(const Site& site, const TownObject& object, const Neighbours& neighbours, Shape* shape) {
   if (object.kind != ObstacleKind::kBuilding || shape->open_m <= kMaxOpenShell_m) return;
-  const Stand stand(site, object);
+  const Stand stand(site, object, neighbours);
   const Overhead overhead({&object.triangles});
   const Roofs is_solid(site, stand.ground(0), overhead);
   Rings rooms =

@@ -7,6 +7,7 @@
 
 #include "pipeline/footprint/base_ground.h"
 #include "pipeline/footprint/constants.h"
+#include "pipeline/footprint/plan_raster.h"
 #include "runtime/base/array.h"
 
 namespace flaneur {
@@ -109,6 +110,47 @@ void SmoothGaps(GroundRaster* raster) {
   }
 }
 
+// The decks of bridges are ground as far as one gets on them from the ground, in low steps.
+void DrawDecks(const TownObjects& town, GroundRaster* raster) {
+  GroundRaster deck = *raster;  // upside down: its drawing keeps the lowest
+  std::fill(deck.height_m.begin(), deck.height_m.end(), kNoHeight);
+  for (const TownObject& object : town.obstacles) {
+    if (!object.is_bridge) continue;
+    for (Triangle3 t : object.triangles) {
+      if (IsWall(t)) continue;
+      for (Point3& p : t) p.z = -p.z;
+      DrawArea(t, &deck);
+    }
+  }
+  const auto leads_on = [](float from, float to) { return std::abs(from - to) <= kMaxDeckSlope_m; };
+  std::vector<std::pair<int, int>> reached;
+  std::vector<bool> done(deck.height_m.size(), false);
+  const auto reach = [&](int column, int row, auto test) {
+    if (column < 0 || row < 0 || column >= deck.columns || row >= deck.rows) return;
+    const size_t cell = CellAt(deck, column, row);
+    if (done[cell] || deck.height_m[cell] == kNoHeight || !test(-deck.height_m[cell])) return;
+    done[cell] = true;
+    reached.emplace_back(column, row);
+  };
+  for (int row = 0; row < deck.rows; ++row)
+    for (int column = 0; column < deck.columns; ++column) {
+      const size_t cell = CellAt(deck, column, row);
+      if (!raster->kind[cell]) continue;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          reach(column + dx, row + dy, [&](float z) { return leads_on(raster->height_m[cell], z); });
+    }
+  for (size_t k = 0; k < reached.size(); ++k) {
+    const auto [column, row] = reached[k];
+    const float here = -deck.height_m[CellAt(deck, column, row)];
+    for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
+      reach(column + dx, row + dy, [&](float z) { return leads_on(here, z); });
+  }
+  for (size_t i = 0; i < done.size(); ++i)
+    if (done[i])
+      raster->height_m[i] = -deck.height_m[i], raster->kind[i] = static_cast<uint8_t>(GroundKind::kPavement);
+}
+
 // What the feet of buildings, or where there are none of all things, tell of the ground between them.
 void DrawBases(const TownObjects& town, GroundRaster* raster) {
   const auto is_house = [](const TownObject& o) {
@@ -185,6 +227,9 @@ Error RasterizeGround(const TownObjects& town, const GroundRasterOptions& option
   if (bare) DrawBases(town, raster);
   for (const GroundPatch& patch : town.ground)
     for (const Triangle3& t : patch.triangles) DrawTriangle(t, patch.kind, raster);
+  const bool any_bridge =
+      std::any_of(town.obstacles.begin(), town.obstacles.end(), [](const TownObject& o) { return o.is_bridge; });
+  if (options.with_decks && any_bridge && !bare) DrawDecks(town, raster);
   return Ok();
 }
 

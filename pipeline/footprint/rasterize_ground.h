@@ -12,6 +12,7 @@ struct GroundRasterOptions {
   int max_cells = 4'000'000;  // > 0
   double scale = 1;           // metres per unit of the scene, > 0
   double bare_margin_m = 10;  // a town without ground gets a flat square this far round it
+  bool with_decks = true;     // of bridges, where the ground leads on to them
 };
 
 // Each cell takes the topmost ground triangle over its centre. A town without any ground stands on a square that joins

@@ -26,7 +26,7 @@ bool IsXml(const std::string& text, char first) {
 
 }  // namespace
 
-Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings) {
+Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings, UpAxis obj_up) {
   if (NeedsBlender(path)) {
     TemporaryFolder folder;
     std::filesystem::path gltf;
@@ -40,7 +40,7 @@ Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std
   // Members of a JSON object stand in any order: glTF must have "asset" and "version", CityJSON its "type".
   const bool city = text.find("\"CityJSON\"") != std::string::npos || text.find("\"CityObjects\"") != std::string::npos;
   if (first == '{' && city) return ReadCityJson(path, scene, warnings);
-  if (HasExtension(path, ".obj")) return ReadObj(path, scene, warnings);
+  if (HasExtension(path, ".obj")) return ReadObj(path, scene, warnings, obj_up);
   if (first == '{' && path.extension() != ".gltf" && path.extension() != ".glb")
     return ReadCityJson(path, scene, warnings);
   return ReadGltfScene(path, scene, warnings);

@@ -10,17 +10,22 @@
 
 namespace flaneur {
 
+// Which axis of an OBJ points up, which the format does not say.
+enum class UpAxis { kJudged, kY, kZ };
+
 // Reads a town of any of these formats, told by the content, Blender's by the name. Coordinates far from zero are moved
 // near it and `scene->origin_m` says by how much. City models: each building with its parts and installations is one
 // node, named by its id; its finest level of detail up to 3 counts; closure surfaces and rooms are left out; ground
 // surfaces become its foundation; terrain and roads are ground, plants trees. OBJ: each `o`, else each `g`, is an
 // untagged node. `warnings` gets one line for each kind of thing left out or guessed. Errors: unreadable or broken file
 // (names the line or element), a number that is none, an index out of range, a document type in XML, degrees instead of
-// metres, nothing to see.
-Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings = nullptr);
+// metres, nothing to see. `obj_up` counts for OBJ alone.
+Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings = nullptr,
+                UpAxis obj_up = UpAxis::kJudged);
 
 // One format each.
-Error ReadObj(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings);
+Error ReadObj(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings,
+              UpAxis up = UpAxis::kJudged);
 Error ReadCityJson(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings);
 Error ReadCityGml(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings);
 

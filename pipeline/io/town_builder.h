@@ -10,15 +10,26 @@ namespace flaneur {
 
 enum class SurfaceKind { kOther, kWall, kRoof, kGround };  // its colour
 
+// A material of its own for a polygon, and where its corners lie in the material's picture: for each ring as many as it
+// has points, or none at all.
+struct PolygonLook {
+  int material = -1;  // as AddMaterial says; -1: that of its kind of surface
+  std::vector<std::vector<Vec2>> uvs;
+};
+
 class TownBuilder {
  public:
   // Returns the node's number. Give the parent first.
   int AddNode(const std::string& name, NodeKind kind, GroundKind ground = GroundKind::kNone, int parent = -1);
   // The node below a building that holds its ground surfaces; made when first asked for.
   int FoundationOf(int building);
+  void MarkBridge(int node);
+  // Returns the material's number. `image`, if any, becomes its picture.
+  int AddMaterial(Material material, const Image* image);
   // Rings without a repeated last point: the outer one, then holes. Points are x east, y north, z up, metres; finite.
   // Polygons without area are counted and left out.
-  void AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings);
+  void AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings,
+                  const PolygonLook& look = {});
 
   // Coordinates far from zero are moved by whole hundreds of metres: see Scene::origin_m. Nodes without triangles stay
   // where something hangs on them. Errors: nothing but polygons without area, degrees, a coordinate beyond 100,000 km;
@@ -29,13 +40,17 @@ class TownBuilder {
  private:
   bool IsInDegrees() const;  // most nodes
   struct Triangle {
-    int node;
-    SurfaceKind surface;
+    int node, material;
     Point3 a, b, c;
+    int first_uv;  // of three; -1: none
   };
+  void AddTriangles(Scene* scene);
   std::vector<SceneNode> nodes_;
   std::vector<int> foundations_;
   std::vector<Triangle> triangles_;
+  std::vector<Vec2> uvs_;
+  std::vector<Material> materials_;  // besides those of the kinds of surface
+  std::vector<Image> images_;
   int without_area_ = 0;
 };
 
