@@ -22,9 +22,9 @@ bool Adjoin(const TownObject& a, const TownObject& b);
 Rings EnclosedTogether(const Site& site, const std::vector<TownObject>& objects, const Block& block,
                        const std::vector<Shape>& shapes);
 
-// Houses that lean on each other often lack the wall between them, and one may own the walls of all: what the block as a
-// whole encloses goes to the houses whose ground surfaces, floors or roofs lie there, and what is left over to those that
-// it lies against. A house that has a ground surface and a roof but no walls at all stands on its ground surface.
+// Houses that lean on each other often lack the wall between them, and one may own the walls of all: what the block as
+// a whole encloses goes to the houses whose ground surfaces, floors or roofs lie there, and what is left over to those
+// that it lies against. A house that has a ground surface and a roof but no walls at all stands on its ground surface.
 void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const Block& whole_block,
                 std::vector<Shape>* shapes);
 

@@ -94,6 +94,7 @@ void CloseShells(const Site& site, const std::vector<TownObject>& objects, const
   ForEach(shapes->size(), site.options.threads, [&](size_t i) {
     Shape& shape = (*shapes)[i];
     CloseRooms(site, objects[i], neighbours[i], &shape);
+    CloseGround(site, objects[i], &shape);
     shape.open_shell = objects[i].kind == ObstacleKind::kBuilding && (shape.guessed || shape.open_m > kMaxOpenShell_m);
   });
 }

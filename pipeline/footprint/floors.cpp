@@ -60,14 +60,15 @@ class FloorFinder {
   float Level(int column, int row) const { return level_.height_m[CellAt(level_, column, row)]; }
   float Lowest(int column, int row) const { return lowest_.height_m[CellAt(lowest_, column, row)]; }
   bool IsLowest(int column, int row) const {
-    return Inside(column, row) && Level(column, row) != kNoHeight && Level(column, row) <= Lowest(column, row) + kFoot_m;
+    return Inside(column, row) && Level(column, row) != kNoHeight &&
+           Level(column, row) <= Lowest(column, row) + kFoot_m;
   }
 
   // Of the part round a cell, how many cells are floor: all or none.
   size_t TakePart(int column, int row) {
     std::vector<std::pair<int, int>> part{{column, row}};
     is_floor_[CellAt(level_, column, row)] = kRefused;
-    size_t border = 0, over_lower = 0;
+    size_t border = 0, over_lower = 0, over_nothing = 0, high_over_floor = 0;
     for (size_t k = 0; k < part.size(); ++k) {
       const auto [x, y] = part[k];
       const float z = Level(x, y);
@@ -89,11 +90,29 @@ class FloorFinder {
       }
       border += at_border || lower;
       over_lower += lower;
+      if (!lower) continue;
+      const float below = FloorBeside(x, y);
+      over_nothing += below == kNoHeight;
+      high_over_floor += below != kNoHeight && z - below > kPassageHeight_m;
     }
-    if (static_cast<double>(over_lower) > kMaxHangingShare * static_cast<double>(border)) return 0;
+    const auto share = [&](size_t cells) { return static_cast<double>(cells) / static_cast<double>(border); };
+    // A roof ends in the air; a ceiling hangs high over the floor beside it.
+    if (over_lower > 0 && (share(over_lower) > kMaxHangingShare || share(over_nothing) > kMaxFreeShare)) return 0;
+    if (2 * high_over_floor > over_lower) return 0;
     if (over_lower > 0 && !IsWide(part)) return 0;
     for (const auto& [x, y] : part) is_floor_[CellAt(level_, x, y)] = kFloor;
     return part.size();
+  }
+
+  // The height of a lower floor within two cells; kNoHeight: none.
+  float FloorBeside(int column, int row) const {
+    const float z = Level(column, row);
+    float below = kNoHeight;
+    for (int dy = -2; dy <= 2; ++dy)
+      for (int dx = -2; dx <= 2; ++dx)
+        if (IsLowest(column + dx, row + dy) && Level(column + dx, row + dy) < z - kFoot_m)
+          below = std::min(below, Level(column + dx, row + dy));
+    return below;
   }
 
   // Whether a square as wide as what may hang over lower parts finds room in it.
@@ -106,8 +125,7 @@ class FloorFinder {
   }
 
   bool LiesOnFloor(const Triangle3& t) const {
-    const Point3 middle{(t[0].x + t[1].x + t[2].x) / 3, (t[0].y + t[1].y + t[2].y) / 3,
-                        (t[0].z + t[1].z + t[2].z) / 3};
+    const Point3 middle{(t[0].x + t[1].x + t[2].x) / 3, (t[0].y + t[1].y + t[2].y) / 3, (t[0].z + t[1].z + t[2].z) / 3};
     const int column = ColumnAt(level_, middle.x), row = RowAt(level_, middle.y);
     return Inside(column, row) && is_floor_[CellAt(level_, column, row)] == kFloor &&
            std::abs(Level(column, row) - middle.z) <= kFoot_m;

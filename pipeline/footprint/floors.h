@@ -7,8 +7,8 @@
 namespace flaneur {
 
 // The nearly level faces that lie lowest and on which the walls round them stand. What hangs over lower parts of the
-// same building (the ceiling of a passage, a balcony, a roof without a floor below) is none. Empty where the faces found
-// would bear less than half of the building.
+// same building (the ceiling of a passage, a balcony, a roof without a floor below) is none. Empty where the faces
+// found would bear less than half of the building.
 std::vector<Triangle3> FloorOf(const std::vector<Triangle3>& triangles);
 
 }  // namespace flaneur

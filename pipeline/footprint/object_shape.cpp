@@ -60,17 +60,30 @@ bool AllMeet(std::vector<Segment>* lines) {
   return true;
 }
 
+LocalGround Level(double height_m) {
+  GroundRaster raster;
+  raster.columns = raster.rows = 1;
+  raster.height_m = {static_cast<float>(height_m)};
+  raster.kind = {static_cast<uint8_t>(GroundKind::kSquare)};
+  return LocalGround(raster);
+}
+
 // The share of a ring's length that runs along walls.
 double WalledShare(const Ring& ring, const std::vector<Segment>& walls, const SegmentGrid& grid) {
+  constexpr double kStep_m = 0.5;
   double walled = 0, all = 0;
   for (const Segment& edge : Outline({ring})) {
-    const Point2 middle{(edge.a.x + edge.b.x) / 2, (edge.a.y + edge.b.y) / 2};
-    const std::vector<size_t>& near = grid.Near(middle);
-    const bool is_wall = std::any_of(near.begin(), near.end(), [&](size_t i) {
-      return DistanceToSegment(middle, walls[i].a, walls[i].b) < kMinLoosePiece_m;
-    });
-    all += Length(edge);
-    if (is_wall) walled += Length(edge);
+    const int steps = std::max(1, static_cast<int>(Length(edge) / kStep_m));
+    for (int k = 0; k < steps; ++k) {
+      const double s = (k + 0.5) / steps;
+      const Point2 p{edge.a.x + s * (edge.b.x - edge.a.x), edge.a.y + s * (edge.b.y - edge.a.y)};
+      const std::vector<size_t>& near = grid.Near(p);
+      const bool is_wall = std::any_of(near.begin(), near.end(), [&](size_t i) {
+        return DistanceToSegment(p, walls[i].a, walls[i].b) < kMinLoosePiece_m;
+      });
+      all += Length(edge) / steps;
+      if (is_wall) walled += Length(edge) / steps;
+    }
   }
   return all > 0 ? walled / all : 0;
 }
@@ -179,6 +192,34 @@ void CloseRooms(const Site& site, const TownObject& object, const Neighbours& ne
   Rings all = shape->solid;
   all.insert(all.end(), rooms.begin(), rooms.end());
   shape->solid = UnionOfAreas(all);
+  shape->guessed = true;
+  SetLoose(std::vector<Segment>(shape->loose), shape);
+}
+
+void CloseGround(const Site& site, const TownObject& object, Shape* shape) {
+  if (object.kind != ObstacleKind::kBuilding || object.foundation.empty() || shape->open_m <= kMaxOpenShell_m) return;
+  const Point3& at = object.foundation[0][0];
+  if (site.ground && std::abs(site.ground->Height(at.x, at.y) - at.z) > kSameGround_m) return;
+  const Rings open = Difference(InPlan(object.foundation), Offset(shape->solid, kOnOutline_m));
+  std::vector<Segment> walls = shape->loose;
+  const std::vector<Segment> outline = Outline(shape->solid);
+  walls.insert(walls.end(), outline.begin(), outline.end());
+  if (open.empty() || walls.empty()) return;
+  const SegmentGrid grid(walls, kMinLoosePiece_m, CellFor(walls));
+  const Overhead overhead({&object.triangles});
+  const LocalGround ground = Level(at.z);
+  const Roofs is_solid(site, ground, overhead);
+  Rings all = shape->solid;
+  for (const Polygon& polygon : ToPolygons(open)) {
+    Rings rings{polygon.outer};
+    rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
+    const double least = object.foundation_is_given ? kMinWalledGround : kMinWalledFloor;
+    if (Area(rings) < kMinClaim_m2 || WalledShare(polygon.outer, walls, grid) < least || !is_solid(rings)) continue;
+    all.insert(all.end(), rings.begin(), rings.end());
+  }
+  if (all.size() == shape->solid.size()) return;
+  // Over the seams to what was solid before.
+  shape->solid = Offset(Offset(UnionOfAreas(all), 2 * kOnOutline_m), -2 * kOnOutline_m);
   shape->guessed = true;
   SetLoose(std::vector<Segment>(shape->loose), shape);
 }

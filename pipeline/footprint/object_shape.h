@@ -10,6 +10,9 @@ namespace flaneur {
 
 Shape ShapeOf(const Site& site, const TownObject& object, const Neighbours& neighbours);
 
+// What of its ground walls enclose but for some that are missing, as where triangles were lost: a guess.
+void CloseGround(const Site& site, const TownObject& object, Shape* shape);
+
 // Closes what neither the building's own walls nor its block's have closed.
 void CloseRooms(const Site& site, const TownObject& object, const Neighbours& neighbours, Shape* shape);
 

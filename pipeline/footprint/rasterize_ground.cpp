@@ -147,8 +147,7 @@ void DrawDecks(const TownObjects& town, GroundRaster* raster) {
       reach(column + dx, row + dy, [&](float z) { return leads_on(here, z); });
   }
   for (size_t i = 0; i < done.size(); ++i)
-    if (done[i])
-      raster->height_m[i] = -deck.height_m[i], raster->kind[i] = static_cast<uint8_t>(GroundKind::kPavement);
+    if (done[i]) raster->height_m[i] = -deck.height_m[i], raster->kind[i] = static_cast<uint8_t>(GroundKind::kPavement);
 }
 
 // What the feet of buildings, or where there are none of all things, tell of the ground between them.
@@ -260,6 +259,24 @@ double LocalGround::Height(double x, double y) const {
     return std::abs(height - nearest) > kMaxSlopeStep_m ? nearest : height;
   };
   return (near(c0, r0) * (1 - fu) + near(c1, r0) * fu) * (1 - fv) + (near(c0, r1) * (1 - fu) + near(c1, r1) * fu) * fv;
+}
+
+std::pair<double, double> LocalGround::Range(Point2 min, Point2 max) const {
+  const auto cell = [&](double v, double from, int count, int beyond) {
+    const double at = std::clamp((v - from) / raster_.cell_m - 0.5, 0.0, count - 1.0);
+    return std::clamp(static_cast<int>(at) + beyond, 0, count - 1);
+  };
+  const int c0 = cell(min.x, raster_.min_m.x, raster_.columns, 0),
+            c1 = cell(max.x, raster_.min_m.x, raster_.columns, 1);
+  const int r0 = cell(min.y, raster_.min_m.y, raster_.rows, 0), r1 = cell(max.y, raster_.min_m.y, raster_.rows, 1);
+  float low = std::numeric_limits<float>::max(), high = -low;
+  for (int row = r0; row <= r1; ++row) {
+    for (int column = c0; column <= c1; ++column) {
+      const float height = raster_.height_m[RowMajor(row, raster_.columns, column)];
+      low = std::min(low, height), high = std::max(high, height);
+    }
+  }
+  return {low, high};
 }
 
 }  // namespace flaneur

@@ -1,5 +1,7 @@
 // The walkable surface of a town as a raster.
 #pragma once
+#include <utility>
+
 #include "pipeline/core/footprint.h"
 #include "pipeline/core/scene.h"
 #include "pipeline/footprint/town_objects.h"
@@ -31,6 +33,8 @@ class LocalGround {
   enum class Gaps { kNearest, kSmooth };
   explicit LocalGround(const GroundRaster& raster, Gaps gaps = Gaps::kSmooth);
   double Height(double x, double y) const;
+  // The least and the greatest height that Height may give in a box.
+  std::pair<double, double> Range(Point2 min, Point2 max) const;
   double min_height() const { return min_height_; }
   double max_height() const { return max_height_; }
 

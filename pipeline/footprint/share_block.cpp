@@ -22,9 +22,9 @@ Rings WithHoles(const Polygon& polygon) {
 }
 
 // The houses of one block while what they enclose is shared out.
-class Share {
+class BlockShares {
  public:
-  Share(const Site& site, const std::vector<TownObject>& objects, const Block& block, std::vector<Shape>* shapes)
+  BlockShares(const Site& site, const std::vector<TownObject>& objects, const Block& block, std::vector<Shape>* shapes)
       : site_(site),
         objects_(objects),
         block_(block),
@@ -94,9 +94,8 @@ class Share {
     return near;
   }
   bool AnyOpen(const Block& near) const {
-    return near.size() > 1 && std::any_of(near.begin(), near.end(), [&](size_t i) {
-             return shapes_[i].open_m > kMaxOpenShell_m;
-           });
+    return near.size() > 1 &&
+           std::any_of(near.begin(), near.end(), [&](size_t i) { return shapes_[i].open_m > kMaxOpenShell_m; });
   }
 
   // First by the ground, then by the roofs, then by what it lies against.
@@ -191,7 +190,7 @@ class Share {
 
 void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const Block& block,
                 std::vector<Shape>* shapes) {
-  Share(site, objects, block, shapes).Run();
+  BlockShares(site, objects, block, shapes).Run();
 }
 
 }  // namespace flaneur

@@ -62,7 +62,8 @@ Meaning FromName(const std::string& name, const Point3& min, const Point3& max) 
     const bool is_ground = named.meaning.kind == NodeKind::kGround;
     if (!is_ground || height_m <= kMaxGroundSteepness * longer_m) return named.meaning;
   }
-  if (height_m <= kMaxFlatHeight_m && shorter_m >= kMinFlatWidth_m) return {NodeKind::kGround, GroundKind::kSquare, true};
+  if (height_m <= kMaxFlatHeight_m && shorter_m >= kMinFlatWidth_m)
+    return {NodeKind::kGround, GroundKind::kSquare, true};
   return {NodeKind::kBuilding};
 }
 

@@ -19,7 +19,7 @@ struct TownObject {
   std::vector<Triangle3> foundation;  // the ground under it, where the model has that; none of `triangles`
   Point3 min_m, max_m;                // of `triangles`
   bool is_bridge = false;
-  bool foundation_is_given = false;   // by the model; else it is found among `triangles`
+  bool foundation_is_given = false;  // by the model; else it is found among `triangles`
 };
 
 struct GroundPatch {

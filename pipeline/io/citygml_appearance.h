@@ -12,8 +12,8 @@ namespace flaneur {
 
 // One texture or colour and the ids of what wears it.
 struct CityLook {
-  std::string image;        // file beside the model; empty: a colour
-  Vec4 color{1, 1, 1, 1};   // linear
+  std::string image;       // file beside the model; empty: a colour
+  Vec4 color{1, 1, 1, 1};  // linear
   std::vector<std::string> targets;
 };
 

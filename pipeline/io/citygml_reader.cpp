@@ -80,7 +80,10 @@ class Reader {
  public:
   // keep_rings: by their ids, for texture coordinates.
   Reader(const std::filesystem::path& path, bool keep_rings, std::vector<std::string>* warnings)
-      : path_(path), keep_rings_(keep_rings), warnings_(warnings), parser_(XML_ParserCreateNS(nullptr, kSeparator), &XML_ParserFree) {}
+      : path_(path),
+        keep_rings_(keep_rings),
+        warnings_(warnings),
+        parser_(XML_ParserCreateNS(nullptr, kSeparator), &XML_ParserFree) {}
 
   // Whether what was read has looks but no rings to put them on.
   bool NeedsRings() const { return !keep_rings_ && !appearances_.empty(); }

@@ -131,8 +131,8 @@ inline void Block::AddTo(Town* town, Point3 at, double angle_rad, PartyWalls wal
       const double x0 = xs_[i], x1 = xs_[i + 1], y0 = ys_[j], y1 = ys_[j + 1];
       town->faces.push_back({house,
                              SurfaceKind::kRoof,
-                             {{place(x0, y0, c.south_top_m), place(x1, y0, c.south_top_m),
-                               place(x1, y1, c.north_top_m), place(x0, y1, c.north_top_m)}}});
+                             {{place(x0, y0, c.south_top_m), place(x1, y0, c.south_top_m), place(x1, y1, c.north_top_m),
+                               place(x0, y1, c.north_top_m)}}});
       const std::vector<Point3> below{place(x0, y1, c.low_m), place(x1, y1, c.low_m), place(x1, y0, c.low_m),
                                       place(x0, y0, c.low_m)};
       town->faces.push_back({house, c.is_passage ? SurfaceKind::kOther : SurfaceKind::kGround, {below}});
@@ -165,8 +165,8 @@ inline void Block::AddTo(Town* town, Point3 at, double angle_rad, PartyWalls wal
       }
       bottom.insert(bottom.end(), top.rbegin(), top.rend());
       const auto found = house_of.find(pieces[k].house);
-      town->faces.push_back({found == house_of.end() ? house_of.begin()->second : found->second, SurfaceKind::kWall,
-                             {bottom}});
+      town->faces.push_back(
+          {found == house_of.end() ? house_of.begin()->second : found->second, SurfaceKind::kWall, {bottom}});
     }
   };
   for (size_t i = 0; i < xs_.size(); ++i) {
@@ -246,7 +246,8 @@ inline Block Yard(Random* random, int side) {
 // One large building of many heights, towers standing in its roofs.
 inline Block Huge(Random* random, int cells) {
   std::vector<double> xs{0}, ys{0};
-  for (int i = 0; i < cells; ++i) xs.push_back(xs.back() + random->In(5, 14)), ys.push_back(ys.back() + random->In(5, 14));
+  for (int i = 0; i < cells; ++i)
+    xs.push_back(xs.back() + random->In(5, 14)), ys.push_back(ys.back() + random->In(5, 14));
   Block block(xs, ys);
   const double hall = random->In(5, 9);
   for (size_t j = 0; j < block.Rows(); ++j)
@@ -287,7 +288,7 @@ inline Block Basin(Random* random) {
 // A house on two terraces.
 inline Block Terraced(Random* random) {
   Block block({0, 6, 12}, {0, 9});
-  const double step = random->In(0.4, 3);
+  const double step = random->In(0.4, 1.9);
   Stand(&block.At(0, 0), 0, 0, 8);
   Stand(&block.At(1, 0), 0, step, random->OneIn(2) ? 8 : 8 + step);
   return block;

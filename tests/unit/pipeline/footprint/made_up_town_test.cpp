@@ -49,18 +49,17 @@ constexpr made_up::Mix kTerraces{"terraces", PartyWalls::kBoth, false, false, fa
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, MadeUpTown,
-    testing::Values(
-        Case{"rows without party walls", kRows, {}, true, 0.999},
-        Case{"rows without party walls, untagged", kRows, {}, false, 0.99},
-        Case{"rows, walls of one owner", kRowsOfOne, {}, true, 0.99},
-        Case{"yards, walls of one owner", kYardsOfOne, {}, true, 0.99},
-        Case{"huge, untagged", kHuge, {}, false, 0.998},
-        Case{"huge, untagged, no ground", kHuge, {.name = "", .no_ground = true}, false, 0.998},
-        Case{"huge, untagged, jittered", kHuge, {.name = "", .jitter = true}, false, 0.995},
-        Case{"towers, untagged", kTowers, {}, false, 0.998},
-        Case{"towers, untagged, no ground", kTowers, {.name = "", .no_ground = true}, false, 0.998},
-        Case{"basins", kBasins, {}, true, 0.998}, Case{"basins, untagged", kBasins, {}, false, 0.998},
-        Case{"terraces, untagged", kTerraces, {}, false, 0.998}),
+    testing::Values(Case{"rows without party walls", kRows, {}, true, 0.999},
+                    Case{"rows without party walls, untagged", kRows, {}, false, 0.99},
+                    Case{"rows, walls of one owner", kRowsOfOne, {}, true, 0.99},
+                    Case{"yards, walls of one owner", kYardsOfOne, {}, true, 0.99},
+                    Case{"huge, untagged", kHuge, {}, false, 0.998},
+                    Case{"huge, untagged, no ground", kHuge, {.name = "", .no_ground = true}, false, 0.998},
+                    Case{"huge, untagged, jittered", kHuge, {.name = "", .jitter = true}, false, 0.995},
+                    Case{"towers, untagged", kTowers, {}, false, 0.998},
+                    Case{"towers, untagged, no ground", kTowers, {.name = "", .no_ground = true}, false, 0.998},
+                    Case{"basins", kBasins, {}, true, 0.998}, Case{"basins, untagged", kBasins, {}, false, 0.998},
+                    Case{"terraces, untagged", kTerraces, {}, false, 0.998}),
     [](const testing::TestParamInfo<Case>& info) {
       std::string name;
       for (const char c : std::string(info.param.name)) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
