@@ -7,6 +7,7 @@
 
 #include "pipeline/cli/arguments.h"
 #include "pipeline/cli/georeference.h"
+#include "pipeline/cli/obj_up.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/footprint/extract_footprints.h"
 #include "pipeline/footprint/map.h"
@@ -23,6 +24,7 @@ struct FootprintsArguments {
   FootprintOptions options;
   Georeference georeference;
   std::array<double, 2> origin_m{};
+  UpAxis obj_up = UpAxis::kJudged;
 };
 
 void AddOptions(CLI::App* app, FootprintsArguments* a) {
@@ -39,6 +41,7 @@ void AddOptions(CLI::App* app, FootprintsArguments* a) {
   app->add_option("--origin-m", a->origin_m,
                   "Add to the town's coordinates to get those of the map: EAST NORTH; for glTF, "
                   "city models have their own");
+  AddObjUp(app, &a->obj_up);
   app->option_defaults()->always_capture_default();
   app->add_option("--clearance-m", a->options.clearance_m, "Enlarge obstacles by this")->check(CLI::Range(0.0, 10.0));
   app->add_option("--band", a->options.band_m,
@@ -65,9 +68,8 @@ Error Run(const FootprintsArguments& a) {
   FootprintStats stats;
   std::vector<std::string> warnings;
   const std::string name = NameOf(a.towns);
-  if (Error error =
-          ReadTiles(a.towns, {a.georeference.crs == "none" ? "" : a.georeference.crs}, &scene, &source, &warnings))
-    return error;
+  const ReadSceneOptions options{a.georeference.crs == "none" ? "" : a.georeference.crs, a.obj_up};
+  if (Error error = ReadTiles(a.towns, options, &scene, &source, &warnings)) return error;
   Georeference georeference = a.georeference;
   if (!source.system.empty()) georeference.crs.clear();  // done by the reader
   georeference.origin_m = {a.origin_m[0], a.origin_m[1]};

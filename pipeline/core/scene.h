@@ -34,6 +34,7 @@ struct SceneNode {
   // The ground under the parent building as its model has it. Nobody walks on it and it blocks nobody; it tells how
   // high the local ground lies in a town without terrain.
   bool is_foundation = false;
+  bool is_bridge = false;  // people walk over it, and under it where there is room
 };
 
 struct Scene {

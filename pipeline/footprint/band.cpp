@@ -134,6 +134,11 @@ class BandCutter {
   void Add(const Triangle3& t, int depth = 0) {
     const auto [low, high] = std::minmax({t[0].z, t[1].z, t[2].z});
     if (low > ground_.max_height() + band_m_[1] || high < ground_.min_height() + band_m_[0]) return;
+    const auto [west, east] = std::minmax({t[0].x, t[1].x, t[2].x});
+    const auto [south, north] = std::minmax({t[0].y, t[1].y, t[2].y});
+    const auto [lowest, highest] = ground_.Range({west, south}, {east, north});
+    if (low > highest + band_m_[1] || high < lowest + band_m_[0]) return;
+    if (highest - lowest <= kMaxBend_m) return AddFlat(t);
     int longest = -1;
     double length = kMinSplitEdge_m;
     for (int i = 0; i < 3; ++i) {

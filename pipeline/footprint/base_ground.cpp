@@ -2,111 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "pipeline/footprint/constants.h"
-#include "runtime/base/array.h"
+#include "pipeline/footprint/floors.h"
+#include "pipeline/footprint/plan_raster.h"
 
 namespace flaneur {
 namespace {
 
-constexpr float kNothing = std::numeric_limits<float>::max();
-
-GroundRaster Blank(const TownObject& object) {
-  GroundRaster raster;
-  const double width = object.max_m.x - object.min_m.x, depth = object.max_m.y - object.min_m.y;
-  double cell = kBaseCell_m;
-  while ((width / cell + 2) * (depth / cell + 2) > kMaxBaseCells) cell *= 2;
-  raster.cell_m = static_cast<float>(cell);
-  raster.min_m = {static_cast<float>(std::floor(object.min_m.x / cell) * cell),
-                  static_cast<float>(std::floor(object.min_m.y / cell) * cell)};
-  raster.columns = static_cast<int>(std::floor((object.max_m.x - raster.min_m.x) / cell)) + 1;
-  raster.rows = static_cast<int>(std::floor((object.max_m.y - raster.min_m.y) / cell)) + 1;
-  const size_t cells = static_cast<size_t>(raster.columns) * static_cast<size_t>(raster.rows);
-  raster.height_m.assign(cells, kNothing);
-  raster.kind.assign(cells, 0);
-  return raster;
-}
-
-size_t CellAt(const GroundRaster& raster, int column, int row) { return RowMajor(row, raster.columns, column); }
-
-void LowerTo(GroundRaster* raster, double x, double y, double z) {
-  const int column = static_cast<int>(std::floor((x - raster->min_m.x) / raster->cell_m));
-  const int row = static_cast<int>(std::floor((y - raster->min_m.y) / raster->cell_m));
-  if (column < 0 || row < 0 || column >= raster->columns || row >= raster->rows) return;
-  float& height = raster->height_m[CellAt(*raster, column, row)];
-  height = std::min(height, static_cast<float>(z));
-}
-
 void MarkKnown(GroundRaster* raster) {
   for (size_t i = 0; i < raster->kind.size(); ++i)
-    if (raster->height_m[i] != kNothing) raster->kind[i] = static_cast<uint8_t>(GroundKind::kSquare);
+    if (raster->height_m[i] != kNoHeight) raster->kind[i] = static_cast<uint8_t>(GroundKind::kSquare);
 }
-
-std::vector<Triangle3> Walls(const std::vector<Triangle3>& triangles) {
-  std::vector<Triangle3> walls;
-  for (const Triangle3& t : triangles) {
-    const auto& [a, b, c] = t;
-    const double x = (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
-    const double y = (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
-    const double z = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    if (std::abs(z) < kMaxWallSlope * std::hypot(x, y, z)) walls.push_back(t);
-  }
-  return walls;
-}
-
-// The lowest point of the triangles' edges in each cell.
-void DrawEdges(const std::vector<Triangle3>& triangles, GroundRaster* raster) {
-  for (const Triangle3& t : triangles) {
-    for (size_t i = 0; i < 3; ++i) {
-      const Point3 &a = t[i], &b = t[(i + 1) % 3];
-      const double length = std::hypot(b.x - a.x, b.y - a.y);
-      const int steps = std::max(1, static_cast<int>(std::ceil(2 * length / raster->cell_m)));
-      for (int k = 0; k <= steps; ++k) {
-        const double s = static_cast<double>(k) / steps;
-        LowerTo(raster, a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), a.z + s * (b.z - a.z));
-      }
-    }
-  }
-}
-
-// The least value within `reach` cells along one line of cells, those without a value left out.
-template <typename Better>
-void FilterLine(std::vector<float>* line, int reach, Better better) {
-  std::vector<int> queue;  // candidates, the best in front
-  size_t front = 0;
-  const std::vector<float> in = *line;
-  const int n = Count(in);
-  for (int i = 0, next = 0; i < n; ++i) {
-    for (; next < n && next <= i + reach; ++next) {
-      if (At(in, next) == kNothing) continue;
-      while (queue.size() > front && !better(At(in, queue.back()), At(in, next))) queue.pop_back();
-      queue.push_back(next);
-    }
-    while (front < queue.size() && queue[front] < i - reach) ++front;
-    if (At(in, i) != kNothing && front < queue.size()) At(*line, i) = At(in, queue[front]);
-  }
-}
-
-template <typename Better>
-void Filter(GroundRaster* raster, int reach, Better better) {
-  std::vector<float> line;
-  for (int row = 0; row < raster->rows; ++row) {
-    const auto begin = raster->height_m.begin() + static_cast<long>(CellAt(*raster, 0, row));
-    line.assign(begin, begin + raster->columns);
-    FilterLine(&line, reach, better);
-    std::copy(line.begin(), line.end(), begin);
-  }
-  line.resize(static_cast<size_t>(raster->rows));
-  for (int column = 0; column < raster->columns; ++column) {
-    for (int row = 0; row < raster->rows; ++row) At(line, row) = raster->height_m[CellAt(*raster, column, row)];
-    FilterLine(&line, reach, better);
-    for (int row = 0; row < raster->rows; ++row) raster->height_m[CellAt(*raster, column, row)] = At(line, row);
-  }
-}
-
-constexpr auto kLower = [](float a, float b) { return a < b; };
-constexpr auto kHigher = [](float a, float b) { return a > b; };
 
 GroundRaster Level(float height_m) {
   GroundRaster raster;
@@ -116,17 +23,17 @@ GroundRaster Level(float height_m) {
   return raster;
 }
 
-bool LevelFoundation(const TownObject& object, GroundRaster* raster) {
-  double lowest = kNothing, highest = -kNothing;
-  for (const Triangle3& t : object.foundation)
+bool IsLevel(const std::vector<Triangle3>& foundation, GroundRaster* raster) {
+  double lowest = kNoHeight, highest = -lowest;
+  for (const Triangle3& t : foundation)
     for (const Point3& p : t) lowest = std::min(lowest, p.z), highest = std::max(highest, p.z);
-  if (object.foundation.empty() || highest - lowest > kLevelGround_m) return false;
+  if (foundation.empty() || highest - lowest > kLevelGround_m) return false;
   *raster = Level(static_cast<float>(lowest));
   return true;
 }
 
 void Flatten(GroundRaster* raster) {
-  float lowest = kNothing, highest = -kNothing;
+  float lowest = kNoHeight, highest = -kNoHeight;
   for (size_t i = 0; i < raster->kind.size(); ++i) {
     if (!raster->kind[i]) continue;
     lowest = std::min(lowest, raster->height_m[i]);
@@ -135,32 +42,83 @@ void Flatten(GroundRaster* raster) {
   if (highest - lowest <= kLevelGround_m) *raster = Level(lowest);
 }
 
-}  // namespace
+GroundRaster Around(const TownObject& object, double margin_m) {
+  return BlankRaster({object.min_m.x - margin_m, object.min_m.y - margin_m},
+                     {object.max_m.x + margin_m, object.max_m.y + margin_m});
+}
 
-GroundRaster BaseOf(const TownObject& object) {
-  GroundRaster raster = Blank(object);
-  if (!object.foundation.empty()) {
-    DrawEdges(object.foundation, &raster);
-    MarkKnown(&raster);
-  } else {
-    // An opening, as of greyscale pictures: narrow heights vanish, wide ones keep their borders.
-    const std::vector<Triangle3> walls = Walls(object.triangles);
-    DrawEdges(walls.empty() ? object.triangles : walls, &raster);
-    MarkKnown(&raster);
-    FillGaps(&raster);
-    const int reach = static_cast<int>(std::ceil(kOverhang_m / raster.cell_m));
-    Filter(&raster, reach, kLower);
-    Filter(&raster, reach, kHigher);
-  }
+GroundRaster OfFoundation(const TownObject& object, const std::vector<Triangle3>& foundation) {
+  GroundRaster raster = Around(object, 0);
+  for (const Triangle3& t : foundation) DrawEdges(t, &raster), DrawArea(t, &raster);
+  MarkKnown(&raster);
   return raster;
 }
 
-std::vector<LocalGround> GroundsUnder(const TownObject& object) {
+bool Reaches(const Triangle3& t, const GroundRaster& raster) {
+  const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
+  const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
+  const double cell_m = raster.cell_m;
+  return x1 >= raster.min_m.x && x0 <= raster.min_m.x + raster.columns * cell_m && y1 >= raster.min_m.y &&
+         y0 <= raster.min_m.y + raster.rows * cell_m;
+}
+
+// Forgets what is farther than eaves reach from any cell that lies open to the sky: walls there stand on roofs.
+void ForgetInside(const GroundRaster& cover, GroundRaster* feet) {
+  GroundRaster open = cover;
+  for (float& height : open.height_m) height = height == kNoHeight ? 1.0f : 0.0f;
+  const int reach = static_cast<int>(std::ceil(kEaves_m / cover.cell_m));
+  for (int column = 0; column < open.columns; ++column)
+    open.height_m[CellAt(open, column, 0)] = open.height_m[CellAt(open, column, open.rows - 1)] = 1;
+  for (int row = 0; row < open.rows; ++row)
+    open.height_m[CellAt(open, 0, row)] = open.height_m[CellAt(open, open.columns - 1, row)] = 1;
+  TakeGreatest(reach, &open);
+  GroundRaster outer = *feet;
+  bool any = false;
+  for (size_t i = 0; i < outer.height_m.size(); ++i) {
+    if (open.height_m[i] == 0) outer.height_m[i] = kNoHeight;
+    any |= outer.height_m[i] != kNoHeight;
+  }
+  if (any) *feet = std::move(outer);
+}
+
+// An opening, as of greyscale pictures: narrow heights vanish, wide ones keep their borders.
+GroundRaster OfFeet(const TownObject& object, const Neighbours& neighbours) {
+  GroundRaster feet = Around(object, 2 * kBaseCell_m), cover = feet;
+  bool any_wall = false;
+  const auto draw = [&](const Triangle3& t) {
+    if (!Reaches(t, feet)) return;
+    if (!IsWall(t)) return DrawArea(t, &cover);
+    any_wall = true;
+    DrawEdges(t, &feet);
+  };
+  for (const Triangle3& t : object.triangles) draw(t);
+  if (!any_wall)
+    for (const Triangle3& t : object.triangles) DrawEdges(t, &feet);
+  for (const TownObject* neighbour : neighbours)
+    for (const Triangle3& t : neighbour->triangles) draw(t);
+  ForgetInside(cover, &feet);
+  MarkKnown(&feet);
+  FillGaps(&feet);
+  const int reach = static_cast<int>(std::ceil(kOverhang_m / feet.cell_m));
+  TakeLeast(reach, &feet);
+  TakeGreatest(reach, &feet);
+  return feet;
+}
+
+}  // namespace
+
+GroundRaster BaseOf(const TownObject& object, const Neighbours& neighbours) {
+  const std::vector<Triangle3> floor = object.foundation.empty() ? FloorOf(object.triangles) : std::vector<Triangle3>();
+  const std::vector<Triangle3>& foundation = object.foundation.empty() ? floor : object.foundation;
+  return foundation.empty() ? OfFeet(object, neighbours) : OfFoundation(object, foundation);
+}
+
+std::vector<LocalGround> GroundsUnder(const TownObject& object, const Neighbours& neighbours) {
   GroundRaster low;
-  if (!LevelFoundation(object, &low)) low = BaseOf(object);
+  if (!IsLevel(object.foundation, &low)) low = BaseOf(object, neighbours);
   Flatten(&low);
   GroundRaster high = low;
-  Filter(&high, 1, kHigher);
+  TakeGreatest(1, &high);
   bool step = false;
   for (size_t i = 0; i < low.kind.size(); ++i)
     step |= low.kind[i] && high.height_m[i] - low.height_m[i] > kMinTerraceStep_m;

@@ -7,12 +7,16 @@
 
 namespace flaneur {
 
-// Where the object's foundation lies, else the feet of its walls; cells of which nothing is known have no kind. Parts
-// that hang over lower ones and are narrower than 6 m (arcades, passages, jetties) do not count as feet.
-GroundRaster BaseOf(const TownObject& object);
+// Objects beside an object, which tell of its ground too.
+using Neighbours = std::vector<const TownObject*>;
+
+// Where the object's foundation lies, else its floor, else the feet of its walls; cells of which nothing is known have
+// no kind. Walls that stand on roofs, the object's own or its neighbours', and parts that hang over lower ones and are
+// narrower than 6 m (arcades, passages, jetties) do not count as feet.
+GroundRaster BaseOf(const TownObject& object, const Neighbours& neighbours = {});
 
 // One ground, or two where the object stands on terraces: at a step, walls of the upper and of the lower terrace are in
 // the way, each above its own ground.
-std::vector<LocalGround> GroundsUnder(const TownObject& object);
+std::vector<LocalGround> GroundsUnder(const TownObject& object, const Neighbours& neighbours = {});
 
 }  // namespace flaneur

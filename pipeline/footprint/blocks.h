@@ -9,11 +9,22 @@ namespace flaneur {
 
 using Block = std::vector<size_t>;  // of objects, rising
 
+// For each object the buildings and walls that adjoin it, rising; none for other kinds.
+std::vector<std::vector<size_t>> Adjoining(const std::vector<TownObject>& objects);
+
 // Groups of buildings and walls whose boxes lie within reach of each other; all other objects alone.
 std::vector<Block> BlocksOf(const std::vector<TownObject>& objects);
 
-// Houses that lean on each other often lack the wall between them: what only the block as a whole encloses goes to the
-// house that stands over it.
+// Whether the boxes of two objects lie within reach of each other.
+bool Adjoin(const TownObject& a, const TownObject& b);
+
+// What the objects enclose under their roofs together, and none of them by itself.
+Rings EnclosedTogether(const Site& site, const std::vector<TownObject>& objects, const Block& block,
+                       const std::vector<Shape>& shapes);
+
+// Houses that lean on each other often lack the wall between them, and one may own the walls of all: what the block as
+// a whole encloses goes to the houses whose ground surfaces, floors or roofs lie there, and what is left over to those
+// that it lies against. A house that has a ground surface and a roof but no walls at all stands on its ground surface.
 void ShareBlock(const Site& site, const std::vector<TownObject>& objects, const Block& whole_block,
                 std::vector<Shape>* shapes);
 

@@ -157,7 +157,7 @@ class TownCheck {
     std::vector<LocalGround> terrain;
     if (!objects_.ground.empty()) terrain.emplace_back(town_.ground);
     for (const TownObject& object : objects_.obstacles) {
-      if (missing_.contains(object.name)) continue;
+      if (missing_.contains(object.name) || object.is_bridge) continue;
       const BoundingBox box{{object.min_m.x, object.min_m.y}, {object.max_m.x, object.max_m.y}};
       if (IsBroken(object.name, box)) continue;
       if (object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp) FindTrunk(object, box);

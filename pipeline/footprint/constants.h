@@ -28,6 +28,11 @@ inline constexpr double kOverhang_m = 3;        // half the width of what may ha
 inline constexpr float kLevelGround_m = 0.3f;
 inline constexpr float kMinTerraceStep_m = 0.1f;  // lower steps are none
 inline constexpr double kMaxWallSlope = 0.3;      // of a wall's normal, what points up
+inline constexpr double kMinLevelShare = 0.9;     // of a floor's normal, what points up or down
+inline constexpr double kMaxHangingShare = 0.4;   // of a floor's border may lie over lower parts
+inline constexpr double kMaxFreeShare = 0.1;      // of a floor's border may end in the air
+inline constexpr float kPassageHeight_m = 2;      // over the floor beside it: a ceiling, no terrace
+inline constexpr double kEaves_m = 1.5;           // walls farther than this under something stand inside
 
 // Cutting to the band over the ground.
 inline constexpr double kBandGrid_m = 0.001;        // to which cuts are rounded
@@ -58,16 +63,36 @@ inline constexpr size_t kMaxHoleEdges = 8;          // edges round a hole; longe
 inline constexpr double kMinOverheadCell_m = 0.05;  // of the grid that finds what is overhead
 inline constexpr double kMaxOverheadEntries = 6;    // for each triangle; larger cells hold fewer
 
+inline constexpr double kMinBuried_m2 = 0.5;  // smaller parts beneath the terrain are not worth a word
+
+// Bridges.
+inline constexpr double kMaxPylon_m = 4;         // wide; what is wider and carries the deck is walked over
+inline constexpr double kMinDeck_m = 2;          // wide; narrower tops are those of pylons and parapets
+inline constexpr double kMaxDeckSlope_m = 0.35;  // a deck this near to the ground in height leads on to it
+
+// What walls do not quite enclose, on a building's ground.
+inline constexpr double kMinWalledGround = 0.7;  // of its outline is walls, where the model says that it is ground
+inline constexpr double kMinWalledFloor = 0.85;  // likewise on a floor that was found
+
+// Holes that are none.
+inline constexpr double kMinWalledHole = 0.5;  // of a yard's outline is walls, else it is a part below the band
+inline constexpr double kMaxOffGround = 0.02;  // of a hole lies beside the building's ground surface, else it is none
+inline constexpr double kRoofOverFloor_m = 0.03;  // what lies so little over the ground is its floor
+
 // Houses beside each other.
-inline constexpr double kBlockReach_m = 0.1;  // houses nearer than this are looked at together
-inline constexpr double kMinPiece_m2 = 0.01;  // what clipping leaves over that is smaller is dropped
-inline constexpr double kMinGap_m2 = 0.01;    // of a block that no single house accounts for
-inline constexpr double kSliver_m = 0.022;    // strips narrower than this that neighbours leave over are dropped
-inline constexpr double kSlit_m = 0.4;        // narrower yards are none
-inline constexpr double kThinWall_m = 0.001;  // half the thickness of a wall without any, before the clearance
-inline constexpr double kMinStrip_m2 = 1e-4;  // of those that go to a neighbour instead
-inline constexpr double kAgainst_m = 0.0005;  // strips nearer than this to a neighbour lie against it
-inline constexpr double kJoint_m = 1.5;       // houses that overlap by less are meant to touch
+inline constexpr double kSeamInPlan_m = 0.0005;  // cracks between triangles of one surface
+inline constexpr double kMinClaim_m2 = 0.05;     // of another house's ground; less is untidiness
+inline constexpr double kStripe_m = 0.1;         // what is narrower goes to the house that it lies against
+inline constexpr double kSameGround_m = 1;       // a house without walls stands on ground no farther off than this
+inline constexpr double kBlockReach_m = 0.1;     // houses nearer than this are looked at together
+inline constexpr double kMinPiece_m2 = 0.01;     // what clipping leaves over that is smaller is dropped
+inline constexpr double kMinGap_m2 = 0.01;       // of a block that no single house accounts for
+inline constexpr double kSliver_m = 0.022;       // strips narrower than this that neighbours leave over are dropped
+inline constexpr double kSlit_m = 0.4;           // narrower yards are none
+inline constexpr double kThinWall_m = 0.001;     // half the thickness of a wall without any, before the clearance
+inline constexpr double kMinStrip_m2 = 1e-4;     // of those that go to a neighbour instead
+inline constexpr double kAgainst_m = 0.0005;     // strips nearer than this to a neighbour lie against it
+inline constexpr double kJoint_m = 1.5;          // houses that overlap by less are meant to touch
 
 // Segments in a grid.
 inline constexpr double kMinCutCell_m = 0.1;  // for cutting: about as long as the segments

@@ -8,7 +8,9 @@
 
 #include "pipeline/footprint/blocks.h"
 #include "pipeline/footprint/constants.h"
+#include "pipeline/footprint/floors.h"
 #include "pipeline/footprint/for_each.h"
+#include "pipeline/footprint/left_out.h"
 #include "pipeline/footprint/object_shape.h"
 #include "pipeline/footprint/separate_obstacles.h"
 #include "runtime/base/array.h"
@@ -56,22 +58,43 @@ bool IsRound(const TownObject& object) {
   return object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp;
 }
 
-std::vector<Shape> ShapesOf(const Site& site, const std::vector<TownObject>& objects) {
+// A floor for each building that the model gives none.
+void FindFloors(const FootprintOptions& options, std::vector<TownObject>* objects) {
+  ForEach(objects->size(), options.threads, [&](size_t i) {
+    TownObject& object = (*objects)[i];
+    if (object.kind == ObstacleKind::kBuilding && object.foundation.empty())
+      object.foundation = FloorOf(object.triangles);
+  });
+}
+
+// Those that tell something of the ground under an object: none where it knows that itself.
+std::vector<Neighbours> NeighboursOf(const Site& site, const std::vector<TownObject>& objects) {
+  std::vector<Neighbours> neighbours(objects.size());
+  if (site.ground) return neighbours;
+  const std::vector<std::vector<size_t>> adjoining = Adjoining(objects);
+  for (size_t i = 0; i < objects.size(); ++i)
+    if (objects[i].foundation.empty())
+      for (const size_t j : adjoining[i]) neighbours[i].push_back(&objects[j]);
+  return neighbours;
+}
+
+std::vector<Shape> ShapesOf(const Site& site, const std::vector<TownObject>& objects,
+                            const std::vector<Neighbours>& neighbours) {
   std::vector<Shape> shapes(objects.size());
   ForEach(shapes.size(), site.options.threads, [&](size_t i) {
-    if (!IsRound(objects[i])) shapes[i] = ShapeOf(site, objects[i]);
+    if (!IsRound(objects[i])) shapes[i] = ShapeOf(site, objects[i], neighbours[i]);
   });
   return shapes;
 }
 
 // Closes what is open in the buildings' shells, each with its neighbours and then by itself; says which were open.
 void CloseShells(const Site& site, const std::vector<TownObject>& objects, const std::vector<Block>& blocks,
-                 std::vector<Shape>* shapes) {
-  for (const Block& block : blocks)
-    if (block.size() > 1) ShareBlock(site, objects, block, shapes);
+                 const std::vector<Neighbours>& neighbours, std::vector<Shape>* shapes) {
+  ForEach(blocks.size(), site.options.threads, [&](size_t k) { ShareBlock(site, objects, blocks[k], shapes); });
   ForEach(shapes->size(), site.options.threads, [&](size_t i) {
     Shape& shape = (*shapes)[i];
-    CloseRooms(site, objects[i], &shape);
+    CloseRooms(site, objects[i], neighbours[i], &shape);
+    CloseGround(site, objects[i], &shape);
     shape.open_shell = objects[i].kind == ObstacleKind::kBuilding && (shape.guessed || shape.open_m > kMaxOpenShell_m);
   });
 }
@@ -175,8 +198,9 @@ void AddPolygons(const Site& site, const TownObject& object, const Shape& shape,
 
 std::vector<Obstacle> ObstaclesOf(const Site& site, const std::vector<TownObject>& objects,
                                   const std::vector<Shape>& shapes, const std::vector<Rings>& outlines,
-                                  std::vector<std::string>* warnings) {
+                                  std::vector<bool>* has_obstacle) {
   std::vector<Obstacle> obstacles;
+  has_obstacle->assign(objects.size(), false);
   NameGiver names;
   for (size_t i = 0; i < objects.size(); ++i) {
     const TownObject& object = objects[i];
@@ -187,10 +211,7 @@ std::vector<Obstacle> ObstaclesOf(const Site& site, const std::vector<TownObject
       circle->name = names.Unique(object.name);
       obstacles.push_back(std::move(*circle));
     }
-    if (obstacles.size() == before && shapes[i].lines == 0 && warnings)
-      warnings->push_back("'" + object.name + "' leaves nothing in the way: it has no part between " +
-                          std::to_string(site.options.band_m[0]) + " and " + std::to_string(site.options.band_m[1]) +
-                          " m over the ground");
+    (*has_obstacle)[i] = obstacles.size() > before;
   }
   return obstacles;
 }
@@ -211,7 +232,8 @@ FootprintStats Count(const std::vector<TownObject>& objects, const std::vector<S
 Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Footprints* footprints,
                         FootprintStats* stats, std::vector<std::string>* warnings) {
   if (Error error = CheckOptions(options)) return error;
-  const TownObjects town = SortTown(scene, options.scale);
+  TownObjects town = SortTown(scene, options.scale);
+  FindFloors(options, &town.obstacles);
   const std::vector<TownObject>& objects = town.obstacles;
   if (town.ground.empty() && objects.empty()) return Fail("the town has neither ground nor obstacles");
   if (Error error = CheckExtents(town)) return error;
@@ -219,14 +241,17 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   GroundRaster raster;
   std::optional<LocalGround> ground;
   if (!town.ground.empty()) {
-    if (Error error = RasterizeGround(town, {}, &raster)) return error;
+    GroundRasterOptions below_bridges;
+    below_bridges.with_decks = false;
+    if (Error error = RasterizeGround(town, below_bridges, &raster)) return error;
     ground.emplace(raster);
   }
   const Site site{options, ground ? &*ground : nullptr};
 
   const std::vector<Block> blocks = BlocksOf(objects);
-  std::vector<Shape> shapes = ShapesOf(site, objects);
-  CloseShells(site, objects, blocks, &shapes);
+  const std::vector<Neighbours> neighbours = NeighboursOf(site, objects);
+  std::vector<Shape> shapes = ShapesOf(site, objects, neighbours);
+  CloseShells(site, objects, blocks, neighbours, &shapes);
   FootprintStats counts = Count(objects, shapes);
   if (options.merge_blocks)
     for (const Block& block : blocks) MergeBlock(block, &shapes);
@@ -237,7 +262,9 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   footprints->band_m = options.band_m;
   footprints->origin_m = {scene.origin_m.x * options.scale, scene.origin_m.y * options.scale};
   footprints->reference_system = scene.reference_system;
-  footprints->obstacles = ObstaclesOf(site, objects, shapes, outlines, warnings);
+  std::vector<bool> has_obstacle;
+  footprints->obstacles = ObstaclesOf(site, objects, shapes, outlines, &has_obstacle);
+  if (warnings) WarnOfLeftOut(site, town, shapes, outlines, has_obstacle, warnings);
   counts.obstacles = Count(footprints->obstacles);
   for (const Rings& outline : outlines) counts.covered_m2 += Area(outline);
   if (stats) *stats = counts;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "pipeline/footprint/bridges.h"
 #include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/disjoint_sets.h"
 #include "pipeline/footprint/one_mouth.h"
@@ -59,6 +60,51 @@ bool AllMeet(std::vector<Segment>* lines) {
   return true;
 }
 
+LocalGround Level(double height_m) {
+  GroundRaster raster;
+  raster.columns = raster.rows = 1;
+  raster.height_m = {static_cast<float>(height_m)};
+  raster.kind = {static_cast<uint8_t>(GroundKind::kSquare)};
+  return LocalGround(raster);
+}
+
+// The share of a ring's length that runs along walls.
+double WalledShare(const Ring& ring, const std::vector<Segment>& walls, const SegmentGrid& grid) {
+  constexpr double kStep_m = 0.5;
+  double walled = 0, all = 0;
+  for (const Segment& edge : Outline({ring})) {
+    const int steps = std::max(1, static_cast<int>(Length(edge) / kStep_m));
+    for (int k = 0; k < steps; ++k) {
+      const double s = (k + 0.5) / steps;
+      const Point2 p{edge.a.x + s * (edge.b.x - edge.a.x), edge.a.y + s * (edge.b.y - edge.a.y)};
+      const std::vector<size_t>& near = grid.Near(p);
+      const bool is_wall = std::any_of(near.begin(), near.end(), [&](size_t i) {
+        return DistanceToSegment(p, walls[i].a, walls[i].b) < kMinLoosePiece_m;
+      });
+      all += Length(edge) / steps;
+      if (is_wall) walled += Length(edge) / steps;
+    }
+  }
+  return all > 0 ? walled / all : 0;
+}
+
+// Nobody gets into a hole. Where no walls bound it, or the model says that the building stands there, it is none: some
+// part lower than the band.
+void FillHoles(const std::vector<Segment>& walls, const TownObject& object, Shape* shape) {
+  if (std::none_of(shape->solid.begin(), shape->solid.end(), [](const Ring& r) { return SignedArea(r) < 0; })) return;
+  const Rings ground = object.foundation_is_given ? InPlan(object.foundation) : Rings();
+  const SegmentGrid grid(walls, kMinLoosePiece_m, walls.empty() ? kMaxCutCell_m : CellFor(walls));
+  const size_t filled = std::erase_if(shape->solid, [&](const Ring& ring) {
+    if (SignedArea(ring) >= 0) return false;
+    const Rings hole{Ring(ring.rbegin(), ring.rend())};
+    return WalledShare(ring, walls, grid) < kMinWalledHole ||
+           (!ground.empty() && Area(Difference(hole, ground)) < kMaxOffGround * Area(hole));
+  });
+  if (filled == 0) return;
+  shape->solid = UnionOfAreas(shape->solid);
+  SetLoose(std::vector<Segment>(shape->loose), shape);
+}
+
 // Closes what is missing from a building's shell; whether that is something in the band.
 bool Repair(const Site& site, const Stand& stand, const TownObject& object, std::vector<Triangle3>* triangles) {
   if (object.kind != ObstacleKind::kBuilding) return false;
@@ -73,17 +119,27 @@ bool Repair(const Site& site, const Stand& stand, const TownObject& object, std:
 
 }  // namespace
 
-void SetLoose(const std::vector<Segment>& lines, Shape* shape) {
+void SetLoose(const std::vector<Segment>& lines, Shape* shape) { SetLoose(lines, shape->solid, shape); }
+
+void SetLoose(const std::vector<Segment>& lines, const Rings& solid, Shape* shape) {
   shape->loose.clear();
   shape->open_m = 0;
   if (lines.empty()) return;
-  const std::vector<Segment> loose = Outside(lines, Offset(shape->solid, kOnOutline_m));
+  const std::vector<Segment> loose = Outside(lines, Offset(solid, kOnOutline_m));
   if (loose.empty()) return;
-  const std::vector<Segment> apart =
-      Outside(loose, Offset(shape->solid, kMinLoosePiece_m));  // not covered with what is solid
+  const std::vector<Segment> apart = Outside(loose, Offset(solid, kMinLoosePiece_m));  // not covered with what is solid
   shape->loose = WithoutCrumbs(loose);
   shape->loose.insert(shape->loose.end(), apart.begin(), apart.end());
   for (const Segment& s : apart) shape->open_m += Length(s);
+}
+
+Rings InPlan(const std::vector<Triangle3>& triangles) {
+  Rings rings;
+  for (const Triangle3& t : triangles) {
+    Ring ring{{t[0].x, t[0].y}, {t[1].x, t[1].y}, {t[2].x, t[2].y}};
+    if (std::abs(SignedArea(ring)) > 1e-6) rings.push_back(std::move(ring));
+  }
+  return Offset(Offset(UnionOfRings(rings), kSeamInPlan_m), -kSeamInPlan_m);
 }
 
 void CloseUnderRoofs(std::vector<Segment> lines, double reach_m, const Roofs& is_solid, Shape* shape) {
@@ -101,8 +157,9 @@ void CloseUnderRoofs(std::vector<Segment> lines, double reach_m, const Roofs& is
   SetLoose(lines, shape);
 }
 
-Shape ShapeOf(const Site& site, const TownObject& object) {
-  const Stand stand(site, object);
+Shape ShapeOf(const Site& site, const TownObject& object, const Neighbours& neighbours) {
+  if (object.is_bridge) return BridgeShape(site, object);
+  const Stand stand(site, object, neighbours);
   Shape shape;
   shape.ground_z_m = GroundInTheMiddle(stand, object);
   std::vector<Triangle3> triangles = object.triangles;
@@ -119,12 +176,13 @@ Shape ShapeOf(const Site& site, const TownObject& object) {
     CloseUnderRoofs(shape.loose, kNoWay_m, is_solid, &shape);
     shape.guessed |= Area(shape.solid) > before + kMinGap_m2;
   }
+  if (object.kind == ObstacleKind::kBuilding) FillHoles(parts.walls, object, &shape);
   return shape;
 }
 
-void CloseRooms(const Site& site, const TownObject& object, Shape* shape) {
+void CloseRooms(const Site& site, const TownObject& object, const Neighbours& neighbours, Shape* shape) {
   if (object.kind != ObstacleKind::kBuilding || shape->open_m <= kMaxOpenShell_m) return;
-  const Stand stand(site, object);
+  const Stand stand(site, object, neighbours);
   const Overhead overhead({&object.triangles});
   const Roofs is_solid(site, stand.ground(0), overhead);
   Rings rooms =
@@ -134,6 +192,34 @@ void CloseRooms(const Site& site, const TownObject& object, Shape* shape) {
   Rings all = shape->solid;
   all.insert(all.end(), rooms.begin(), rooms.end());
   shape->solid = UnionOfAreas(all);
+  shape->guessed = true;
+  SetLoose(std::vector<Segment>(shape->loose), shape);
+}
+
+void CloseGround(const Site& site, const TownObject& object, Shape* shape) {
+  if (object.kind != ObstacleKind::kBuilding || object.foundation.empty() || shape->open_m <= kMaxOpenShell_m) return;
+  const Point3& at = object.foundation[0][0];
+  if (site.ground && std::abs(site.ground->Height(at.x, at.y) - at.z) > kSameGround_m) return;
+  const Rings open = Difference(InPlan(object.foundation), Offset(shape->solid, kOnOutline_m));
+  std::vector<Segment> walls = shape->loose;
+  const std::vector<Segment> outline = Outline(shape->solid);
+  walls.insert(walls.end(), outline.begin(), outline.end());
+  if (open.empty() || walls.empty()) return;
+  const SegmentGrid grid(walls, kMinLoosePiece_m, CellFor(walls));
+  const Overhead overhead({&object.triangles});
+  const LocalGround ground = Level(at.z);
+  const Roofs is_solid(site, ground, overhead);
+  Rings all = shape->solid;
+  for (const Polygon& polygon : ToPolygons(open)) {
+    Rings rings{polygon.outer};
+    rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
+    const double least = object.foundation_is_given ? kMinWalledGround : kMinWalledFloor;
+    if (Area(rings) < kMinClaim_m2 || WalledShare(polygon.outer, walls, grid) < least || !is_solid(rings)) continue;
+    all.insert(all.end(), rings.begin(), rings.end());
+  }
+  if (all.size() == shape->solid.size()) return;
+  // Over the seams to what was solid before.
+  shape->solid = Offset(Offset(UnionOfAreas(all), 2 * kOnOutline_m), -2 * kOnOutline_m);
   shape->guessed = true;
   SetLoose(std::vector<Segment>(shape->loose), shape);
 }

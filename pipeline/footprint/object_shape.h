@@ -8,16 +8,23 @@
 
 namespace flaneur {
 
-Shape ShapeOf(const Site& site, const TownObject& object);
+Shape ShapeOf(const Site& site, const TownObject& object, const Neighbours& neighbours);
+
+// What of its ground walls enclose but for some that are missing, as where triangles were lost: a guess.
+void CloseGround(const Site& site, const TownObject& object, Shape* shape);
 
 // Closes what neither the building's own walls nor its block's have closed.
-void CloseRooms(const Site& site, const TownObject& object, Shape* shape);
+void CloseRooms(const Site& site, const TownObject& object, const Neighbours& neighbours, Shape* shape);
 
 // Adds what the lines and what is solid already enclose under a roof, together with each other. Lines that all meet are
 // taken exactly; else they are joined where they miss each other by up to reach_m.
 void CloseUnderRoofs(std::vector<Segment> lines, double reach_m, const Roofs& is_solid, Shape* shape);
 
-// Leaves of the lines those outside of what is solid.
+// Leaves of the lines those outside of what is solid: the shape itself, or also what `solid` adds.
 void SetLoose(const std::vector<Segment>& lines, Shape* shape);
+void SetLoose(const std::vector<Segment>& lines, const Rings& solid, Shape* shape);
+
+// A foundation, or whatever triangles, in plan.
+Rings InPlan(const std::vector<Triangle3>& triangles);
 
 }  // namespace flaneur

@@ -7,6 +7,7 @@
 
 #include "pipeline/footprint/base_ground.h"
 #include "pipeline/footprint/constants.h"
+#include "pipeline/footprint/plan_raster.h"
 #include "runtime/base/array.h"
 
 namespace flaneur {
@@ -109,6 +110,46 @@ void SmoothGaps(GroundRaster* raster) {
   }
 }
 
+// The decks of bridges are ground as far as one gets on them from the ground, in low steps.
+void DrawDecks(const TownObjects& town, GroundRaster* raster) {
+  GroundRaster deck = *raster;  // upside down: its drawing keeps the lowest
+  std::fill(deck.height_m.begin(), deck.height_m.end(), kNoHeight);
+  for (const TownObject& object : town.obstacles) {
+    if (!object.is_bridge) continue;
+    for (Triangle3 t : object.triangles) {
+      if (IsWall(t)) continue;
+      for (Point3& p : t) p.z = -p.z;
+      DrawArea(t, &deck);
+    }
+  }
+  const auto leads_on = [](float from, float to) { return std::abs(from - to) <= kMaxDeckSlope_m; };
+  std::vector<std::pair<int, int>> reached;
+  std::vector<bool> done(deck.height_m.size(), false);
+  const auto reach = [&](int column, int row, auto test) {
+    if (column < 0 || row < 0 || column >= deck.columns || row >= deck.rows) return;
+    const size_t cell = CellAt(deck, column, row);
+    if (done[cell] || deck.height_m[cell] == kNoHeight || !test(-deck.height_m[cell])) return;
+    done[cell] = true;
+    reached.emplace_back(column, row);
+  };
+  for (int row = 0; row < deck.rows; ++row)
+    for (int column = 0; column < deck.columns; ++column) {
+      const size_t cell = CellAt(deck, column, row);
+      if (!raster->kind[cell]) continue;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          reach(column + dx, row + dy, [&](float z) { return leads_on(raster->height_m[cell], z); });
+    }
+  for (size_t k = 0; k < reached.size(); ++k) {
+    const auto [column, row] = reached[k];
+    const float here = -deck.height_m[CellAt(deck, column, row)];
+    for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
+      reach(column + dx, row + dy, [&](float z) { return leads_on(here, z); });
+  }
+  for (size_t i = 0; i < done.size(); ++i)
+    if (done[i]) raster->height_m[i] = -deck.height_m[i], raster->kind[i] = static_cast<uint8_t>(GroundKind::kPavement);
+}
+
 // What the feet of buildings, or where there are none of all things, tell of the ground between them.
 void DrawBases(const TownObjects& town, GroundRaster* raster) {
   const auto is_house = [](const TownObject& o) {
@@ -185,6 +226,9 @@ Error RasterizeGround(const TownObjects& town, const GroundRasterOptions& option
   if (bare) DrawBases(town, raster);
   for (const GroundPatch& patch : town.ground)
     for (const Triangle3& t : patch.triangles) DrawTriangle(t, patch.kind, raster);
+  const bool any_bridge =
+      std::any_of(town.obstacles.begin(), town.obstacles.end(), [](const TownObject& o) { return o.is_bridge; });
+  if (options.with_decks && any_bridge && !bare) DrawDecks(town, raster);
   return Ok();
 }
 
@@ -215,6 +259,24 @@ double LocalGround::Height(double x, double y) const {
     return std::abs(height - nearest) > kMaxSlopeStep_m ? nearest : height;
   };
   return (near(c0, r0) * (1 - fu) + near(c1, r0) * fu) * (1 - fv) + (near(c0, r1) * (1 - fu) + near(c1, r1) * fu) * fv;
+}
+
+std::pair<double, double> LocalGround::Range(Point2 min, Point2 max) const {
+  const auto cell = [&](double v, double from, int count, int beyond) {
+    const double at = std::clamp((v - from) / raster_.cell_m - 0.5, 0.0, count - 1.0);
+    return std::clamp(static_cast<int>(at) + beyond, 0, count - 1);
+  };
+  const int c0 = cell(min.x, raster_.min_m.x, raster_.columns, 0),
+            c1 = cell(max.x, raster_.min_m.x, raster_.columns, 1);
+  const int r0 = cell(min.y, raster_.min_m.y, raster_.rows, 0), r1 = cell(max.y, raster_.min_m.y, raster_.rows, 1);
+  float low = std::numeric_limits<float>::max(), high = -low;
+  for (int row = r0; row <= r1; ++row) {
+    for (int column = c0; column <= c1; ++column) {
+      const float height = raster_.height_m[RowMajor(row, raster_.columns, column)];
+      low = std::min(low, height), high = std::max(high, height);
+    }
+  }
+  return {low, high};
 }
 
 }  // namespace flaneur

@@ -1,5 +1,7 @@
 // The walkable surface of a town as a raster.
 #pragma once
+#include <utility>
+
 #include "pipeline/core/footprint.h"
 #include "pipeline/core/scene.h"
 #include "pipeline/footprint/town_objects.h"
@@ -12,6 +14,7 @@ struct GroundRasterOptions {
   int max_cells = 4'000'000;  // > 0
   double scale = 1;           // metres per unit of the scene, > 0
   double bare_margin_m = 10;  // a town without ground gets a flat square this far round it
+  bool with_decks = true;     // of bridges, where the ground leads on to them
 };
 
 // Each cell takes the topmost ground triangle over its centre. A town without any ground stands on a square that joins
@@ -30,6 +33,8 @@ class LocalGround {
   enum class Gaps { kNearest, kSmooth };
   explicit LocalGround(const GroundRaster& raster, Gaps gaps = Gaps::kSmooth);
   double Height(double x, double y) const;
+  // The least and the greatest height that Height may give in a box.
+  std::pair<double, double> Range(Point2 min, Point2 max) const;
   double min_height() const { return min_height_; }
   double max_height() const { return max_height_; }
 

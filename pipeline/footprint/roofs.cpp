@@ -32,9 +32,12 @@ std::vector<RegionSample> Samples(const Rings& region) {
 bool Roofs::operator()(double area_m2, const std::vector<RegionSample>& samples) const {
   if (area_m2 < site_.options.open_yard_m2) return true;
   double roofed = 0, all = 0;
+  // On ground that the building itself tells even a low part of it is no ground to stand on.
+  const double over_ground_m =
+      site_.ground ? site_.options.band_m[0] : std::min(kRoofOverFloor_m, site_.options.band_m[0]);
   for (const auto& [p, weight] : samples) {
     all += weight;
-    if (overhead_.Covers(p, ground_.Height(p.x, p.y) + site_.options.band_m[0])) roofed += weight;
+    if (overhead_.Covers(p, ground_.Height(p.x, p.y) + over_ground_m)) roofed += weight;
   }
   return roofed > kRoofedShare * all;
 }

@@ -18,8 +18,8 @@ struct Site {
 // What an object stands on: one ground, or where it stands on terraces several, the lowest first.
 class Stand {
  public:
-  Stand(const Site& site, const TownObject& object) : town_(site.ground) {
-    if (!town_) own_ = GroundsUnder(object);
+  Stand(const Site& site, const TownObject& object, const Neighbours& neighbours = {}) : town_(site.ground) {
+    if (!town_) own_ = GroundsUnder(object, neighbours);
   }
   size_t count() const { return town_ ? 1 : own_.size(); }
   const LocalGround& ground(size_t i) const { return town_ ? *town_ : own_[i]; }

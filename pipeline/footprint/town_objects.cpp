@@ -33,6 +33,7 @@ std::set<std::string> Words(const std::string& name) {
 struct Meaning {
   NodeKind kind;
   GroundKind ground = GroundKind::kNone;
+  bool is_flat = false;  // and therefore ground
 };
 
 // The first line that shares a word with the name decides: a street lamp is a lamp.
@@ -61,7 +62,8 @@ Meaning FromName(const std::string& name, const Point3& min, const Point3& max) 
     const bool is_ground = named.meaning.kind == NodeKind::kGround;
     if (!is_ground || height_m <= kMaxGroundSteepness * longer_m) return named.meaning;
   }
-  if (height_m <= kMaxFlatHeight_m && shorter_m >= kMinFlatWidth_m) return {NodeKind::kGround, GroundKind::kSquare};
+  if (height_m <= kMaxFlatHeight_m && shorter_m >= kMinFlatWidth_m)
+    return {NodeKind::kGround, GroundKind::kSquare, true};
   return {NodeKind::kBuilding};
 }
 
@@ -145,6 +147,7 @@ TownObjects SortTown(const Scene& scene, double scale) {
     if (meaning.kind == NodeKind::kGround) {
       if (meaning.ground == GroundKind::kNone) meaning.ground = GroundKind::kPavement;
       town.ground.push_back({meaning.ground, std::move(triangles)});
+      if (meaning.is_flat) town.flat.push_back(node.name);
       continue;
     }
     ObstacleKind kind;
@@ -155,6 +158,7 @@ TownObjects SortTown(const Scene& scene, double scale) {
       const SceneNode& top = At(scene.nodes, root);
       const std::string name = top.name.empty() ? "node_" + std::to_string(root) : top.name;
       town.obstacles.push_back({name, kind, top.radius_m, {}, {}, min, max});
+      if (top.is_bridge) town.obstacles.back().kind = ObstacleKind::kOther, town.obstacles.back().is_bridge = true;
     }
     TownObject& object = town.obstacles[entry->second];
     Grow(triangles, &object.min_m, &object.max_m);
@@ -165,6 +169,7 @@ TownObjects SortTown(const Scene& scene, double scale) {
     if (entry == object_of_root.end()) continue;
     std::vector<Triangle3>& foundation = town.obstacles[entry->second].foundation;
     foundation.insert(foundation.end(), triangles.begin(), triangles.end());
+    town.obstacles[entry->second].foundation_is_given = true;
   }
   return town;
 }

@@ -18,6 +18,8 @@ struct TownObject {
   std::vector<Triangle3> triangles;
   std::vector<Triangle3> foundation;  // the ground under it, where the model has that; none of `triangles`
   Point3 min_m, max_m;                // of `triangles`
+  bool is_bridge = false;
+  bool foundation_is_given = false;  // by the model; else it is found among `triangles`
 };
 
 struct GroundPatch {
@@ -28,6 +30,7 @@ struct GroundPatch {
 struct TownObjects {
   std::vector<TownObject> obstacles;
   std::vector<GroundPatch> ground;
+  std::vector<std::string> flat;  // untagged objects that are ground only because they are flat
 };
 
 // Parts of one tagged node are one object. Untagged nodes are told by the words of their names (tree; lamp, lantern;

@@ -14,11 +14,11 @@ constexpr std::array<Feature, 36> kFeatures{{
     {"BuildingPart", {NodeKind::kBuilding, kNoGround, true}},
     {"BuildingInstallation", {NodeKind::kBuilding, kNoGround, true}},
     {"BuildingConstructiveElement", {NodeKind::kBuilding, kNoGround, true}},
-    {"Bridge", {NodeKind::kOther, kNoGround, false}},
-    {"BridgePart", {NodeKind::kOther, kNoGround, true}},
-    {"BridgeInstallation", {NodeKind::kOther, kNoGround, true}},
-    {"BridgeConstructionElement", {NodeKind::kOther, kNoGround, true}},
-    {"BridgeConstructiveElement", {NodeKind::kOther, kNoGround, true}},
+    {"Bridge", {NodeKind::kOther, kNoGround, false, true}},
+    {"BridgePart", {NodeKind::kOther, kNoGround, true, true}},
+    {"BridgeInstallation", {NodeKind::kOther, kNoGround, true, true}},
+    {"BridgeConstructionElement", {NodeKind::kOther, kNoGround, true, true}},
+    {"BridgeConstructiveElement", {NodeKind::kOther, kNoGround, true, true}},
     {"OtherConstruction", {NodeKind::kOther, kNoGround, false}},
     {"CityFurniture", {NodeKind::kOther, kNoGround, false}},
     {"GenericCityObject", {NodeKind::kOther, kNoGround, false}},
@@ -76,6 +76,8 @@ auto FindIn(const Table& table, std::string_view type) {
 
 const CityFeature* FindCityFeature(std::string_view type) { return FindIn(kFeatures, type); }
 const CitySurface* FindCitySurface(std::string_view type) { return FindIn(kSurfaces, type); }
+
+bool IsBridgeFunction(std::string_view function) { return function.rfind("53001_18", 0) == 0; }
 
 bool IsIndoors(std::string_view type) {
   constexpr std::array<std::string_view, 8> kIndoors{"Room",

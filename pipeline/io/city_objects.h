@@ -14,7 +14,11 @@ struct CityFeature {
   NodeKind kind;
   GroundKind ground;
   bool is_part;
+  bool is_bridge = false;
 };
+
+// Whether a feature's function, by the AdV's code list, is that of a bridge: 53001_1800 and its kinds.
+bool IsBridgeFunction(std::string_view function);
 
 // Null for anything else.
 const CityFeature* FindCityFeature(std::string_view type);

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "pipeline/io/city_objects.h"
+#include "pipeline/io/citygml_appearance.h"
 #include "pipeline/io/scene_reader.h"
 #include "pipeline/io/town_builder.h"
 #include "runtime/base/array.h"
@@ -32,6 +33,8 @@ struct StoredPolygon {
   SurfaceKind surface;
   bool is_foundation;
   Rings rings;
+  std::vector<std::string> ring_ids;  // where the file has appearances
+  int look = -1;
 };
 
 // A reference to polygons that stand elsewhere in the file.
@@ -76,9 +79,11 @@ bool HoldsCoordinates(std::string_view name) {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, std::vector<std::string>* warnings, const ReadSceneOptions& options,
-         SceneSource* source, bool namespaces)
+  // keep_rings: by their ids, for texture coordinates.
+  Reader(const std::filesystem::path& path, bool keep_rings, std::vector<std::string>* warnings,
+         const ReadSceneOptions& options, SceneSource* source, bool namespaces)
       : path_(path),
+        keep_rings_(keep_rings),
         warnings_(warnings),
         options_(options),
         source_(*source),
@@ -87,7 +92,10 @@ class Reader {
   // A name's prefix that the file does not explain: it may be read without looking at namespaces.
   bool lacks_namespace() const { return XML_GetErrorCode(parser_.get()) == XML_ERROR_UNBOUND_PREFIX; }
 
-  Error Read(Scene* scene) {
+  // Whether what was read has looks but no rings to put them on.
+  bool NeedsRings() const { return !keep_rings_ && !appearances_.empty(); }
+
+  Error Parse() {
     const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path_.c_str(), "rb"), &std::fclose);
     if (!file) return Fail(path_.string() + ": cannot be opened");
     XML_SetUserData(parser_.get(), this);
@@ -102,7 +110,21 @@ class Reader {
       if (error_) return error_;
       if (!good) return Fail(Where() + "not well-formed XML: " + XML_ErrorString(XML_GetErrorCode(parser_.get())));
     }
-    return Build(scene);
+    return Ok();
+  }
+
+  Error Build(Scene* scene) {
+    PlaceImplicits();
+    TakeReferences();
+    if (without_geometry_ > 0 && warnings_)
+      warnings_->push_back(path_.string() + ": " + std::to_string(without_geometry_) +
+                           " objects show models in other files; they were left out");
+    TownBuilder builder;
+    const std::vector<int> materials = AddMaterials(path_, appearances_.looks(), &builder, warnings_);
+    AddPolygons(materials, &builder);
+    polygons_ = {};
+    const std::string& system = options_.system.empty() ? reference_system_ : options_.system;
+    return builder.Finish(path_.string(), {PlainReferenceSystem(system), true}, scene, &source_.system, warnings_);
   }
 
  private:
@@ -145,15 +167,18 @@ class Reader {
       e.object = parent.object, e.feature = parent.feature, e.lod = parent.lod;
       e.surface = parent.surface, e.skipped = parent.skipped;
     }
-    std::string reference;
+    std::string reference, uri, ring;
     for (const char** a = attributes; *a; a += 2) {
       const std::string_view key = LocalName(a[0]);
       if (key == "id") e.id = a[1];
       else if (key == "href") reference = a[1];
+      else if (key == "uri") uri = a[1];
+      else if (key == "ring") ring = a[1];
       else if (key == "srsName" && reference_system_.empty()) reference_system_ = a[1];
     }
     stack_.push_back(std::move(e));
     Enter(&stack_.back(), reference);
+    if (appearances_.Enter(name, uri, ring)) Collect(true), text_.clear();
   }
 
   void CheckRoot(std::string_view full_name, std::string_view name) {
@@ -183,6 +208,7 @@ class Reader {
     else if (const std::optional<int> lod = LodOf(e->name)) e->lod = *lod;
     if (!reference.empty() && e->lod > 0 && e->object >= 0 && reference[0] == '#')
       references_.push_back({e->object, e->feature, e->lod, reference.substr(1)});
+    if (e->name == "function" && e->object >= 0) Collect(true), text_.clear();
     if (!HoldsCoordinates(e->name)) return;
     Collect(in_polygon_ || implicit_);
     text_.clear();
@@ -218,11 +244,25 @@ class Reader {
     if (error_) return;
     const Element e = std::move(stack_.back());
     stack_.pop_back();
-    if (collects_ && HoldsCoordinates(e.name)) TakeCoordinates(e);
+    if (e.name == "LinearRing" && in_polygon_ && keep_rings_ && !rings_.empty()) {
+      ring_ids_.resize(rings_.size());
+      ring_ids_.back() = e.id;
+    }
+    appearances_.Leave(e.name, collects_ ? text_ : std::string());
+    if (collects_ && !in_polygon_ && !implicit_ && e.name != "function") Collect(false);
+    if (collects_ && e.name == "function") TakeFunction(e);
+    else if (collects_ && HoldsCoordinates(e.name)) TakeCoordinates(e);
     else if (IsPolygon(e.name) && in_polygon_) Store(e);
     else if (e.name == "ImplicitGeometry" && implicit_) EndImplicit(e);
     if (!e.id.empty() && e.lod > 0 && polygons_.size() > e.first_polygon)
       ranges_[e.id] = {e.first_polygon, polygons_.size()};
+  }
+
+  void TakeFunction(const Element& e) {
+    Collect(false);
+    const size_t start = text_.find_first_not_of(" \t\r\n");
+    if (start != std::string::npos && IsBridgeFunction(std::string_view(text_).substr(start)))
+      At(objects_, e.object).feature.is_bridge = true;
   }
 
   void TakeCoordinates(const Element& e) {
@@ -268,10 +308,17 @@ class Reader {
       ring.erase(std::unique(ring.begin(), ring.end(), same), ring.end());
       if (ring.size() > 1 && same(ring.front(), ring.back())) ring.pop_back();
     }
-    std::erase_if(rings_, [&](const std::vector<Point3>& ring) { return ring.size() < 3 && &ring != rings_.data(); });
+    ring_ids_.resize(keep_rings_ ? rings_.size() : 0);
+    for (size_t i = rings_.size(); i-- > 1;) {
+      if (rings_[i].size() >= 3) continue;
+      rings_.erase(rings_.begin() + static_cast<long>(i));
+      if (keep_rings_) ring_ids_.erase(ring_ids_.begin() + static_cast<long>(i));
+    }
     const SurfaceKind kind = e.surface ? e.surface->surface : SurfaceKind::kOther;
-    polygons_.push_back({e.object, e.feature, e.lod, kind, e.surface && e.surface->is_foundation, std::move(rings_)});
+    polygons_.push_back({e.object, e.feature, e.lod, kind, e.surface && e.surface->is_foundation, std::move(rings_),
+                         std::move(ring_ids_)});
     rings_.clear();
+    ring_ids_.clear();
   }
 
   // The prototype stands in its own coordinates and is moved to its place; others may refer to it as it was.
@@ -338,14 +385,35 @@ class Reader {
     return levels;
   }
 
-  Error Build(Scene* scene) {
-    PlaceImplicits();
-    TakeReferences();
-    if (without_geometry_ > 0 && warnings_)
-      warnings_->push_back(path_.string() + ": " + std::to_string(without_geometry_) +
-                           " objects show models in other files; they were left out");
+  // The looks of polygons, by the ids of these or of what holds them; the first one counts.
+  void TakeLooks(const std::vector<int>& materials) {
+    for (size_t k = 0; k < materials.size(); ++k) {
+      for (const std::string& target : appearances_.looks()[k].targets) {
+        const auto found = ranges_.find(target);
+        if (found == ranges_.end()) continue;
+        for (size_t i = found->second.begin; i < found->second.end; ++i)
+          if (polygons_[i].look < 0) polygons_[i].look = static_cast<int>(k);
+      }
+    }
+  }
+
+  PolygonLook LookOf(const StoredPolygon& p, const std::vector<int>& materials) const {
+    PolygonLook look;
+    if (p.look < 0) return look;
+    look.material = At(materials, p.look);
+    if (At(appearances_.looks(), p.look).image.empty()) return look;
+    for (size_t i = 0; i < p.rings.size(); ++i) {
+      const std::vector<Vec2>* uvs =
+          i < p.ring_ids.size() ? appearances_.TextureCoordinates(p.ring_ids[i], p.rings[i].size()) : nullptr;
+      if (!uvs) return {};
+      look.uvs.push_back(*uvs);
+    }
+    return look;
+  }
+
+  void AddPolygons(const std::vector<int>& materials, TownBuilder* builder) {
+    TakeLooks(materials);
     const Levels levels = FinestLevels();
-    TownBuilder builder;
     std::vector<int> node(objects_.size(), -1);
     for (const StoredPolygon& p : polygons_) {
       const auto object = static_cast<size_t>(p.object);
@@ -353,13 +421,14 @@ class Reader {
       const bool outdone = p.feature == objects_[object].root && lod != levels.of_object[object];
       if (p.lod == 0 || p.lod != lod || outdone) continue;
       const Object& o = objects_[object];
-      if (node[object] < 0) node[object] = builder.AddNode(o.name, o.feature.kind, o.feature.ground);
+      if (node[object] < 0) {
+        node[object] = builder->AddNode(o.name, o.feature.kind, o.feature.ground);
+        if (o.feature.is_bridge) builder->MarkBridge(node[object]);
+      }
       const bool foundation = p.is_foundation && o.feature.kind == NodeKind::kBuilding;
-      builder.AddPolygon(foundation ? builder.FoundationOf(node[object]) : node[object], p.surface, p.rings);
+      builder->AddPolygon(foundation ? builder->FoundationOf(node[object]) : node[object], p.surface, p.rings,
+                          LookOf(p, materials));
     }
-    polygons_ = {};
-    const std::string& system = options_.system.empty() ? reference_system_ : options_.system;
-    return builder.Finish(path_.string(), {PlainReferenceSystem(system), true}, scene, &source_.system, warnings_);
   }
 
   struct Object {
@@ -376,6 +445,7 @@ class Reader {
   };
 
   std::filesystem::path path_;
+  bool keep_rings_;
   std::vector<std::string>* warnings_;
   const ReadSceneOptions& options_;
   SceneSource& source_;
@@ -387,6 +457,8 @@ class Reader {
   std::string reference_system_, text_;
   bool in_polygon_ = false, collects_ = false;
   Rings rings_;
+  std::vector<std::string> ring_ids_;
+  CityAppearances appearances_;
   std::optional<Implicit> implicit_;
   std::vector<Implicit> implicits_;
   std::vector<StoredPolygon> polygons_;
@@ -398,9 +470,18 @@ class Reader {
 
 Error ReadCityGml(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings,
                   const ReadSceneOptions& options, SceneSource* source) {
-  Reader reader(path, warnings, options, source, true);
-  const Error error = reader.Read(scene);
-  return error && reader.lacks_namespace() ? Reader(path, warnings, options, source, false).Read(scene) : error;
+  bool namespaces = true, keep_rings = false;
+  for (;;) {
+    Reader reader(path, keep_rings, warnings, options, source, namespaces);
+    if (Error e = reader.Parse()) {
+      if (!namespaces || !reader.lacks_namespace()) return e;
+      namespaces = false;
+    } else if (!keep_rings && reader.NeedsRings()) {
+      keep_rings = true;
+    } else {
+      return reader.Build(scene);
+    }
+  }
 }
 
 }  // namespace flaneur

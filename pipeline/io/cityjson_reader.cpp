@@ -152,12 +152,21 @@ class Reader {
       if (!root_feature) root_feature = feature;
       if (!nodes.contains(root_id))
         nodes[root_id] = builder_.AddNode(root_id, root_feature->kind, root_feature->ground);
+      if (root_feature->is_bridge || HasBridgeFunction(object)) builder_.MarkBridge(nodes[root_id]);
       const bool has_finer_parts = root_id == id && LevelOf(object) < FinestPart(objects, object);
       if (has_finer_parts) continue;
       if (Error e = ReadGeometry(object, nodes[root_id], root_feature->kind)) return e;
     }
     where_ = outer;
     return Ok();
+  }
+
+  static bool HasBridgeFunction(const Json& object) {
+    const auto attributes = object.find("attributes");
+    if (attributes == object.end() || !attributes->is_object()) return false;
+    const Json function = attributes->value("function", Json());
+    const auto is_bridge = [](const Json& f) { return f.is_string() && IsBridgeFunction(f.get<std::string>()); };
+    return is_bridge(function) || (function.is_array() && std::any_of(function.begin(), function.end(), is_bridge));
   }
 
   static std::string TypeOf(const Json& object) {

@@ -36,7 +36,7 @@ std::string_view Rest(std::string_view line) {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path) : path_(path) {}
+  Reader(const std::filesystem::path& path, UpAxis up) : path_(path), up_(up) {}
 
   Error Read(Scene* scene, std::vector<std::string>* warnings) {
     std::string text;
@@ -136,12 +136,13 @@ class Reader {
       warnings->push_back(path_.string() + ": OBJ does not say which way is up; taken for " + (y_up ? "y" : "z") +
                           (on_map       ? ", as x and y are map coordinates"
                            : by_extents ? ", judging by the extents"
-                                        : ", judging by the walls"));
+                                        : ", judging by the walls") +
+                          "; --obj-up says otherwise");
     return y_up;
   }
 
   Error Build(Scene* scene, std::vector<std::string>* warnings) {
-    const bool y_up = YIsUp(warnings);
+    const bool y_up = up_ == UpAxis::kJudged ? YIsUp(warnings) : up_ == UpAxis::kY;
     TownBuilder builder;
     std::vector<Object> objects = by_object_.empty() ? by_group_ : by_object_;
     if (objects.empty() || objects[0].first_face > 0) objects.insert(objects.begin(), {path_.stem().string(), 0});
@@ -163,6 +164,7 @@ class Reader {
   }
 
   std::filesystem::path path_;
+  UpAxis up_;
   int line_ = 1;
   std::vector<Point3> points_;
   std::vector<uint32_t> corners_, sizes_;
@@ -171,8 +173,8 @@ class Reader {
 
 }  // namespace
 
-Error ReadObj(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings) {
-  return Reader(path).Read(scene, warnings);
+Error ReadObj(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings, UpAxis up) {
+  return Reader(path, up).Read(scene, warnings);
 }
 
 }  // namespace flaneur

@@ -44,7 +44,7 @@ Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std
   // Members of a JSON object stand in any order: glTF must have "asset" and "version", CityJSON its "type".
   const bool city = text.find("\"CityJSON\"") != std::string::npos || text.find("\"CityObjects\"") != std::string::npos;
   if (first == '{' && city) return ReadCityJson(path, scene, warnings, options, source);
-  if (HasExtension(path, ".obj")) return ReadObj(path, scene, warnings);
+  if (HasExtension(path, ".obj")) return ReadObj(path, scene, warnings, options.obj_up);
   if (first == '{' && path.extension() != ".gltf" && path.extension() != ".glb")
     return ReadCityJson(path, scene, warnings, options, source);
   return ReadGltfScene(path, scene, warnings);

@@ -14,8 +14,13 @@ namespace flaneur {
 struct SceneSource {
   std::string system;  // of the file's coordinates, where they were brought into Scene::reference_system; else empty
 };
+
+// Which axis of an OBJ points up, which the format does not say.
+enum class UpAxis { kJudged, kY, kZ };
+
 struct ReadSceneOptions {
   std::string system;  // of a city model's coordinates, whatever its file says: "EPSG:6697"; empty: as the file says
+  UpAxis obj_up = UpAxis::kJudged;  // of an OBJ alone
 };
 
 // Reads a town of any of these formats, told by the content, Blender's by the name. Coordinates far from zero are moved
@@ -30,7 +35,8 @@ Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std
                 const ReadSceneOptions& options = {}, SceneSource* source = nullptr);
 
 // One format each.
-Error ReadObj(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings);
+Error ReadObj(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings,
+              UpAxis up = UpAxis::kJudged);
 Error ReadCityJson(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings,
                    const ReadSceneOptions& options, SceneSource* source);
 Error ReadCityGml(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings,

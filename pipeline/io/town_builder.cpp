@@ -121,12 +121,25 @@ int TownBuilder::FoundationOf(int building) {
   return foundations_[at] = node;
 }
 
-void TownBuilder::AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings) {
+void TownBuilder::MarkBridge(int node) { At(nodes_, node).is_bridge = true; }
+
+int TownBuilder::AddMaterial(Material material, const Image* image) {
+  if (image) {
+    material.base_color_image = Count(images_);
+    images_.push_back(*image);
+  }
+  materials_.push_back(std::move(material));
+  return Count(kLooks) + Count(materials_) - 1;
+}
+
+void TownBuilder::AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings,
+                             const PolygonLook& look) {
   for (const auto& ring : rings)
     for (const Point3& p : ring) may_be_degrees_ &= std::abs(p.x) <= kMost_deg && std::abs(p.y) <= kMost_deg;
-  if (may_be_degrees_) return waiting_.push_back({node, surface, rings});
+  const int material = look.material < 0 ? static_cast<int>(surface) : look.material;
+  if (may_be_degrees_) return waiting_.push_back({node, material, rings, look.uvs});
   TriangulateWaiting();
-  Triangulate({node, surface, rings});
+  Triangulate({node, material, rings, look.uvs});
 }
 
 void TownBuilder::TriangulateWaiting() {
@@ -139,8 +152,14 @@ void TownBuilder::Triangulate(const WaitingPolygon& polygon) {
   for (const auto& ring : polygon.rings) points.insert(points.end(), ring.begin(), ring.end());
   const std::vector<std::array<uint32_t, 3>> triangles = TriangulatePolygon(polygon.rings);
   if (triangles.empty()) ++without_area_;
-  for (const auto& [a, b, c] : triangles)
-    triangles_.push_back({polygon.node, polygon.surface, points[a], points[b], points[c]});
+  std::vector<Vec2> uvs;
+  for (const auto& ring : polygon.uvs) uvs.insert(uvs.end(), ring.begin(), ring.end());
+  const bool textured = uvs.size() == points.size();
+  for (const auto& [a, b, c] : triangles) {
+    triangles_.push_back(
+        {polygon.node, polygon.material, points[a], points[b], points[c], textured ? Count(uvs_) : -1});
+    if (textured) uvs_.insert(uvs_.end(), {uvs[a], uvs[b], uvs[c]});
+  }
 }
 
 bool TownBuilder::IsInDegrees() const {
@@ -278,20 +297,29 @@ void TownBuilder::Build(Scene* scene) {
   if (std::abs(middle.x) > kFarFromOrigin_m || std::abs(middle.y) > kFarFromOrigin_m)
     scene->origin_m = {Step(middle.x), Step(middle.y)};
   scene->materials = Looks();
+  scene->materials.insert(scene->materials.end(), materials_.begin(), materials_.end());
+  scene->images = std::move(images_);
   scene->nodes = std::move(nodes_);
+  AddTriangles(scene);
+}
+
+void TownBuilder::AddTriangles(Scene* scene) {
   std::stable_sort(triangles_.begin(), triangles_.end(), [](const Triangle& a, const Triangle& b) {
-    return a.node != b.node ? a.node < b.node : a.surface < b.surface;
+    return a.node != b.node ? a.node < b.node : a.material < b.material;
   });
   for (size_t i = 0; i < triangles_.size(); ++i) {
     const Triangle& t = triangles_[i];
-    if (i == 0 || t.node != triangles_[i - 1].node || t.surface != triangles_[i - 1].surface) {
+    if (i == 0 || t.node != triangles_[i - 1].node || t.material != triangles_[i - 1].material) {
       SceneNode& node = At(scene->nodes, t.node);
       node.meshes.push_back(Count(scene->meshes));
       scene->meshes.emplace_back();
       scene->meshes.back().name = node.name;
-      scene->meshes.back().material = static_cast<int>(t.surface);
+      scene->meshes.back().material = t.material;
     }
-    AddTriangle({t.a, t.b, t.c}, scene->origin_m, &scene->meshes.back());
+    Mesh& mesh = scene->meshes.back();
+    AddTriangle({t.a, t.b, t.c}, scene->origin_m, &mesh);
+    if (At(scene->materials, t.material).base_color_image < 0) continue;
+    for (int k = 0; k < 3; ++k) mesh.uvs.push_back(t.first_uv < 0 ? Vec2{} : At(uvs_, t.first_uv + k));
   }
   triangles_ = {};
 }

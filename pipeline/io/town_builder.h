@@ -16,15 +16,26 @@ struct CityCoordinates {
   bool axes_as_named;  // the first of a point is what the system's authority says, such as latitude; else always east
 };
 
+// A material of its own for a polygon, and where its corners lie in the material's picture: for each ring as many as it
+// has points, or none at all.
+struct PolygonLook {
+  int material = -1;  // as AddMaterial says; -1: that of its kind of surface
+  std::vector<std::vector<Vec2>> uvs;
+};
+
 class TownBuilder {
  public:
   // Returns the node's number. Give the parent first.
   int AddNode(const std::string& name, NodeKind kind, GroundKind ground = GroundKind::kNone, int parent = -1);
   // The node below a building that holds its ground surfaces; made when first asked for.
   int FoundationOf(int building);
+  void MarkBridge(int node);
+  // Returns the material's number. `image`, if any, becomes its picture.
+  int AddMaterial(Material material, const Image* image);
   // Rings without a repeated last point: the outer one, then holes. Points are x east, y north, z up, metres; or what
   // Finish makes that of. Finite. Polygons without area are counted and left out.
-  void AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings);
+  void AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings,
+                  const PolygonLook& look = {});
 
   // Degrees, and maps that are stretched, mirrored or turned, become the fitting system in metres: then
   // `source_system` (may be null) is what they were. Which axis comes first is told by the place where the system is
@@ -37,14 +48,14 @@ class TownBuilder {
 
  private:
   struct Triangle {
-    int node;
-    SurfaceKind surface;
+    int node, material;
     Point3 a, b, c;
+    int first_uv;  // of three; -1: none
   };
   struct WaitingPolygon {
-    int node;
-    SurfaceKind surface;
+    int node, material;
     std::vector<std::vector<Point3>> rings;
+    std::vector<std::vector<Vec2>> uvs;
   };
   void Triangulate(const WaitingPolygon& polygon);
   void TriangulateWaiting();
@@ -55,11 +66,15 @@ class TownBuilder {
                     std::vector<std::string>* notes);
   Error CheckReach() const;
   void Build(Scene* scene);
+  void AddTriangles(Scene* scene);
   std::vector<SceneNode> nodes_;
   std::vector<int> foundations_;
   bool may_be_degrees_ = true;           // so far
   std::vector<WaitingPolygon> waiting_;  // until that is known: degrees are no plane to triangulate in
   std::vector<Triangle> triangles_;
+  std::vector<Vec2> uvs_;
+  std::vector<Material> materials_;  // besides those of the kinds of surface
+  std::vector<Image> images_;
   int without_area_ = 0;
 };
 

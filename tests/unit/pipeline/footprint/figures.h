@@ -72,23 +72,26 @@ inline void Jitter(bool apart, std::mt19937* random, std::map<std::tuple<float, 
 
 constexpr double kSlit_m = 0.0005;  // between triangles of one surface on the grid
 
-inline Rings GroundSurface(const Scene& scene, const std::string& name) {
+inline Rings GroundSurface(const Scene& scene, const SceneNode& foundation) {
   Rings rings;
-  for (const SceneNode& node : scene.nodes) {
-    if (!node.is_foundation || node.name != name) continue;
-    for (const int m : node.meshes) {
-      const Mesh& mesh = scene.meshes[static_cast<size_t>(m)];
-      for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        Ring ring;
-        for (size_t k = 0; k < 3; ++k) {
-          const Vec3 p = GroundFromGltf(mesh.positions[mesh.indices[i + k]]);
-          ring.push_back({p.x, p.y});
-        }
-        if (std::abs(SignedArea(ring)) > 1e-9) rings.push_back(ring);
+  for (const int m : foundation.meshes) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(m)];
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      Ring ring;
+      for (size_t k = 0; k < 3; ++k) {
+        const Vec3 p = GroundFromGltf(mesh.positions[mesh.indices[i + k]]);
+        ring.push_back({p.x, p.y});
       }
+      if (std::abs(SignedArea(ring)) > 1e-9) rings.push_back(ring);
     }
   }
   return Offset(Offset(UnionOfRings(rings), kSlit_m), -kSlit_m);
+}
+
+inline Rings GroundSurface(const Scene& scene, const std::string& name) {
+  for (const SceneNode& node : scene.nodes)
+    if (node.is_foundation && node.name == name) return GroundSurface(scene, node);
+  return {};
 }
 
 // Half a metre of eaves round the building, at the lowest point of its roof, but over people's heads.
@@ -128,7 +131,7 @@ inline Scene Spoilt(const Scene& clean, const Spoiling& how) {
   if (how.eaves)
     for (const SceneNode& node : clean.nodes)
       if (node.is_foundation && !node.meshes.empty())
-        AddEaves(GroundSurface(clean, node.name), BaseHeight(clean, node), &scene,
+        AddEaves(GroundSurface(clean, node), BaseHeight(clean, node), &scene,
                  &scene.nodes[static_cast<size_t>(node.parent)]);
   std::map<std::tuple<float, float, float>, Vec3> moves;
   for (Mesh& mesh : scene.meshes) {
@@ -153,6 +156,20 @@ inline Scene Spoilt(const Scene& clean, const Spoiling& how) {
     for (SceneNode& node : scene.nodes)
       if (node.is_foundation) node.meshes.clear();
   return scene;
+}
+
+// What an OBJ keeps: ground surfaces are triangles of their building.
+inline Scene Untagged(const Scene& scene) {
+  Scene out = scene;
+  for (SceneNode& node : out.nodes) {
+    if (node.kind == NodeKind::kBuilding) node.kind = NodeKind::kUntagged;
+    if (!node.is_foundation) continue;
+    SceneNode& parent = out.nodes[static_cast<size_t>(node.parent)];
+    parent.meshes.insert(parent.meshes.end(), node.meshes.begin(), node.meshes.end());
+    node.meshes.clear();
+    node.is_foundation = false;
+  }
+  return out;
 }
 
 // ---- Measuring ----
@@ -195,7 +212,7 @@ inline std::vector<BuildingFit> Fits(const Scene& clean, const Footprints& footp
   std::vector<BuildingFit> fits;
   for (const SceneNode& node : clean.nodes) {
     if (!node.is_foundation || node.meshes.empty()) continue;
-    const Rings truth = GroundSurface(clean, node.name);
+    const Rings truth = GroundSurface(clean, node);
     BuildingFit fit;
     fit.name = node.name;
     fit.area_m2 = Area(truth);

@@ -122,6 +122,52 @@ TEST_F(CityModel, CityGmlTakesTheFinestLevelAndNoRooms) {
   EXPECT_EQ(Triangles(false), 2);
 }
 
+TEST_F(CityModel, CityGmlTellsBridgesByTheirFunction) {
+  const std::string wall = Surface("WallSurface", Polygon(kWall));
+  for (const auto& [function, is_bridge] :
+       {std::pair("53001_1800", true), {"53001_1830", true}, {"31001_1010", false}}) {
+    ASSERT_EQ(Read("town.gml", Gml(Member("<bldg:function>" + std::string(function) + "</bldg:function>" + wall))), "");
+    EXPECT_EQ(scene_.nodes[0].is_bridge, is_bridge) << function;
+  }
+}
+
+std::string TexturedWall(const std::string& image) {
+  const std::string polygon =
+      "<gml:Polygon gml:id=\"wall\"><gml:exterior><gml:LinearRing gml:id=\"ring\"><gml:posList>" + std::string(kWall) +
+      "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon>";
+  return Gml(
+      "<app:appearanceMember xmlns:app=\"http://www.opengis.net/citygml/appearance/2.0\"><app:Appearance>"
+      "<app:surfaceDataMember><app:ParameterizedTexture><app:imageURI>" +
+      image +
+      "</app:imageURI><app:target uri=\"#wall\"><app:TexCoordList><app:textureCoordinates ring=\"#ring\">"
+      "0 0 1 0 1 1 0 1 0 0</app:textureCoordinates></app:TexCoordList></app:target></app:ParameterizedTexture>"
+      "</app:surfaceDataMember></app:Appearance></app:appearanceMember>" +
+      Member(Surface("WallSurface", polygon)));
+}
+
+TEST_F(CityModel, CityGmlWearsItsTextures) {
+  ASSERT_EQ(Read("wall.png", "\x89PNG").empty(), false);
+  ASSERT_EQ(Read("town.gml", TexturedWall("wall.png")), "");
+  ASSERT_EQ(scene_.images.size(), 1u);
+  EXPECT_EQ(scene_.images[0].mime_type, "image/png");
+  const Mesh& mesh = scene_.meshes[0];
+  EXPECT_EQ(scene_.materials[static_cast<size_t>(mesh.material)].base_color_image, 0);
+  ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
+  for (size_t i = 0; i < mesh.uvs.size(); ++i) {
+    const Vec3 p = GroundFromGltf(mesh.positions[i]);
+    EXPECT_NEAR(mesh.uvs[i].x, p.x > 5 ? 1 : 0, 1e-6);
+    EXPECT_NEAR(mesh.uvs[i].y, p.z > 54 ? 0 : 1, 1e-6) << "glTF's pictures begin at the top";
+  }
+}
+
+TEST_F(CityModel, CityGmlWithoutItsPicturesIsPlain) {
+  for (const char* image : {"missing.png", "../outside.png", "/etc/passwd"}) {
+    ASSERT_EQ(Read("town.gml", TexturedWall(image)), "");
+    EXPECT_TRUE(scene_.images.empty());
+    EXPECT_TRUE(scene_.meshes[0].uvs.empty());
+  }
+}
+
 TEST_F(CityModel, CityGmlLeavesClosureSurfacesOpen) {
   ASSERT_EQ(
       Read("town.gml", Gml(Member(Surface("WallSurface", Polygon(kWall)) + Surface("ClosureSurface", Polygon(kWall))))),

@@ -1,0 +1,125 @@
+#include "pipeline/footprint/plan_raster.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/footprint/constants.h"
+
+namespace flaneur {
+namespace {
+
+void LowerTo(int column, int row, double z, GroundRaster* raster) {
+  if (column < 0 || row < 0 || column >= raster->columns || row >= raster->rows) return;
+  float& height = raster->height_m[CellAt(*raster, column, row)];
+  height = std::min(height, static_cast<float>(z));
+}
+
+// The best value within `reach` cells along one line of cells, those without a value left out.
+template <typename Better>
+void FilterLine(std::vector<float>* line, int reach, Better better) {
+  std::vector<int> queue;  // candidates, the best in front
+  size_t front = 0;
+  const std::vector<float> in = *line;
+  const int n = Count(in);
+  for (int i = 0, next = 0; i < n; ++i) {
+    for (; next < n && next <= i + reach; ++next) {
+      if (At(in, next) == kNoHeight) continue;
+      while (queue.size() > front && !better(At(in, queue.back()), At(in, next))) queue.pop_back();
+      queue.push_back(next);
+    }
+    while (front < queue.size() && queue[front] < i - reach) ++front;
+    if (At(in, i) != kNoHeight && front < queue.size()) At(*line, i) = At(in, queue[front]);
+  }
+}
+
+template <typename Better>
+void Filter(GroundRaster* raster, int reach, Better better) {
+  std::vector<float> line;
+  for (int row = 0; row < raster->rows; ++row) {
+    const auto begin = raster->height_m.begin() + static_cast<long>(CellAt(*raster, 0, row));
+    line.assign(begin, begin + raster->columns);
+    FilterLine(&line, reach, better);
+    std::copy(line.begin(), line.end(), begin);
+  }
+  line.resize(static_cast<size_t>(raster->rows));
+  for (int column = 0; column < raster->columns; ++column) {
+    for (int row = 0; row < raster->rows; ++row) At(line, row) = raster->height_m[CellAt(*raster, column, row)];
+    FilterLine(&line, reach, better);
+    for (int row = 0; row < raster->rows; ++row) raster->height_m[CellAt(*raster, column, row)] = At(line, row);
+  }
+}
+
+}  // namespace
+
+GroundRaster BlankRaster(Point2 min_m, Point2 max_m) {
+  GroundRaster raster;
+  const double width = max_m.x - min_m.x, depth = max_m.y - min_m.y;
+  double cell = kBaseCell_m;
+  while ((width / cell + 2) * (depth / cell + 2) > kMaxBaseCells) cell *= 2;
+  raster.cell_m = static_cast<float>(cell);
+  raster.min_m = {static_cast<float>(std::floor(min_m.x / cell) * cell),
+                  static_cast<float>(std::floor(min_m.y / cell) * cell)};
+  raster.columns = ColumnAt(raster, max_m.x) + 1;
+  raster.rows = RowAt(raster, max_m.y) + 1;
+  const size_t cells = static_cast<size_t>(raster.columns) * static_cast<size_t>(raster.rows);
+  raster.height_m.assign(cells, kNoHeight);
+  raster.kind.assign(cells, 0);
+  return raster;
+}
+
+int ColumnAt(const GroundRaster& raster, double x) {
+  return static_cast<int>(std::floor((x - raster.min_m.x) / raster.cell_m));
+}
+int RowAt(const GroundRaster& raster, double y) {
+  return static_cast<int>(std::floor((y - raster.min_m.y) / raster.cell_m));
+}
+
+bool IsWall(const Triangle3& triangle) {
+  const auto& [a, b, c] = triangle;
+  const double x = (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
+  const double y = (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
+  const double z = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  return std::abs(z) < kMaxWallSlope * std::hypot(x, y, z);
+}
+
+void DrawEdges(const Triangle3& triangle, GroundRaster* raster) {
+  for (size_t i = 0; i < 3; ++i) {
+    const Point3 &a = triangle[i], &b = triangle[(i + 1) % 3];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const int steps = std::max(1, static_cast<int>(std::ceil(2 * length / raster->cell_m)));
+    for (int k = 0; k <= steps; ++k) {
+      const double s = static_cast<double>(k) / steps;
+      LowerTo(ColumnAt(*raster, a.x + s * (b.x - a.x)), RowAt(*raster, a.y + s * (b.y - a.y)), a.z + s * (b.z - a.z),
+              raster);
+    }
+  }
+}
+
+void DrawArea(const Triangle3& triangle, GroundRaster* raster) {
+  const auto& [a, b, c] = triangle;
+  const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+  if (std::abs(area) < 1e-9) return;
+  const int c0 = std::max(ColumnAt(*raster, std::min({a.x, b.x, c.x})), 0);
+  const int c1 = std::min(ColumnAt(*raster, std::max({a.x, b.x, c.x})), raster->columns - 1);
+  const int r0 = std::max(RowAt(*raster, std::min({a.y, b.y, c.y})), 0);
+  const int r1 = std::min(RowAt(*raster, std::max({a.y, b.y, c.y})), raster->rows - 1);
+  for (int row = r0; row <= r1; ++row) {
+    for (int column = c0; column <= c1; ++column) {
+      const double x = raster->min_m.x + (column + 0.5) * raster->cell_m;
+      const double y = raster->min_m.y + (row + 0.5) * raster->cell_m;
+      const double wb = ((x - a.x) * (c.y - a.y) - (c.x - a.x) * (y - a.y)) / area;
+      const double wc = ((b.x - a.x) * (y - a.y) - (x - a.x) * (b.y - a.y)) / area;
+      if (wb < -1e-9 || wc < -1e-9 || wb + wc > 1 + 1e-9) continue;
+      LowerTo(column, row, a.z + wb * (b.z - a.z) + wc * (c.z - a.z), raster);
+    }
+  }
+}
+
+void TakeLeast(int reach, GroundRaster* raster) {
+  Filter(raster, reach, [](float a, float b) { return a < b; });
+}
+void TakeGreatest(int reach, GroundRaster* raster) {
+  Filter(raster, reach, [](float a, float b) { return a > b; });
+}
+
+}  // namespace flaneur
