@@ -11,6 +11,7 @@ from townspeople.body import WALK_FRAMES_PER_SECOND
 RUN_PITCH = [
     [0.0, -8.0], [0.06, 0.0], [0.20, 2.0], [0.30, 28.0], [0.38, 50.0], [0.52, 66.0], [0.74, 26.0], [0.92, -9.0], [1.0, -8.0],
 ]
+STRAIGHTER_DEG = 8.0  # than the rest pose's elbows are, in arms that hang
 RUN = gait.Step(stance=0.36, pitch=RUN_PITCH, lift=0.16, flight=0.030)
 
 
@@ -23,7 +24,8 @@ class Gait:
     stride: float  # double step, in leg lengths
     arm_deg: float  # half the upper arms' swing
     trunk: float = 1.0  # how much hips and chest turn
-    elbow_deg: float = 16.0
+    bent_deg: float = 0.0  # of the elbows at least
+    elbow_deg: float = 16.0  # that they bend more as the arm comes forward
     lean_deg: float = 2.0
     stoop_deg: float = 0.0
     spread_deg: float = 9.0  # of the arms, inwards from the rest pose
@@ -34,11 +36,11 @@ class Gait:
 GAITS = [
     Gait("walk", 1.04, 1.38, 20.0),
     Gait("walk_stroll", 1.25, 1.16, 13.0, trunk=0.8),
-    Gait("walk_brisk", 0.92, 1.52, 27.0, trunk=1.2, elbow_deg=24.0, lean_deg=4.0),
-    Gait("walk_old", 1.20, 0.86, 8.0, trunk=0.6, elbow_deg=26.0, lean_deg=3.0, stoop_deg=14.0),
+    Gait("walk_brisk", 0.92, 1.52, 27.0, trunk=1.2, bent_deg=4.0, elbow_deg=22.0, lean_deg=4.0),
+    Gait("walk_old", 1.20, 0.86, 8.0, trunk=0.6, bent_deg=10.0, elbow_deg=8.0, lean_deg=3.0, stoop_deg=14.0),
     Gait("walk_child", 0.90, 1.34, 28.0, trunk=1.6, spread_deg=6.0),
     Gait("carry", 1.10, 1.14, 0.0, trunk=0.5, lean_deg=-2.0, bearing=True),
-    Gait("run", 0.70, 2.10, 38.0, trunk=1.7, elbow_deg=82.0, lean_deg=9.0, feet=RUN),
+    Gait("run", 0.70, 2.10, 38.0, trunk=1.7, bent_deg=62.0, elbow_deg=26.0, lean_deg=9.0, feet=RUN),
 ]
 
 
@@ -84,8 +86,8 @@ def _swing_arm(skeleton, frame, side, sign, swing, gait_of):
     """swing: 1 where the arm is farthest back; the elbow bends as it comes forward."""
     clips._turn(skeleton, frame, "shoulder02" + side, "y", sign * gait_of.spread_deg)
     clips._turn(skeleton, frame, "shoulder02" + side, "x", gait_of.arm_deg * swing)
-    bend = gait_of.elbow_deg * (1.0 - 0.45 * swing)
-    clips._turn(skeleton, frame, "lowerarm01" + side, "x", -bend)
+    bend = gait_of.bent_deg + gait_of.elbow_deg * (0.5 - 0.5 * swing)
+    clips._turn(skeleton, frame, "lowerarm01" + side, "x", STRAIGHTER_DEG - bend)
 
 
 def _bear(figure, rotations, roots):

@@ -245,7 +245,8 @@ Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLeve
   Avatar limited = source;
   if (!LimitJoints(options.max_joints, &limited, warnings)) {
     return Fail("it uses " + std::to_string(source.joints.size()) + " joints, at most " +
-                std::to_string(options.max_joints) + " are possible, and too many of them move by themselves; simplify the skeleton");
+                std::to_string(options.max_joints) +
+                " are possible, and too many of them move by themselves; simplify the skeleton");
   }
   const Avatar avatar = WithoutIdleJoints(limited);
   levels->avatar = avatar;

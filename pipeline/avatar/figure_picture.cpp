@@ -10,11 +10,11 @@
 namespace flaneur {
 namespace {
 
-constexpr float kMargin = 0.08f;        // of the height, above and below
-constexpr float kWidth = 0.85f;         // of a view, against its height
+constexpr float kMargin = 0.08f;  // of the height, above and below
+constexpr float kWidth = 0.85f;   // of a view, against its height
 constexpr float kAmbient = 0.45f;
 constexpr Vec3 kLight{0.35f, 0.6f, 0.72f};  // towards it, as seen
-constexpr int kPicture_px = 256;        // that materials' pictures are looked up in
+constexpr int kPicture_px = 256;            // that materials' pictures are looked up in
 
 struct Look {
   Vec4 color;  // sRGB
@@ -47,11 +47,13 @@ struct Corner {
 class Canvas {
  public:
   Canvas(int views, float height_m, int height_px)
-      : width_(static_cast<int>(kWidth * static_cast<float>(height_px))), height_(height_px),
+      : width_(static_cast<int>(kWidth * static_cast<float>(height_px))),
+        height_(height_px),
         pixels_(Blank(width_ * std::max(views, 1), height_px)),
         scale_(static_cast<float>(height_px) * (1 - 2 * kMargin) / std::max(height_m, 0.01f)),
         depths_(static_cast<size_t>(pixels_.width) * static_cast<size_t>(pixels_.height), -1e30f) {
-    const int ground = std::clamp(height_ - 1 - static_cast<int>(kMargin * static_cast<float>(height_)), 0, height_ - 1);
+    const int ground =
+        std::clamp(height_ - 1 - static_cast<int>(kMargin * static_cast<float>(height_)), 0, height_ - 1);
     for (int x = 0; x < pixels_.width; ++x) Set(x, ground, {0.75f, 0.75f, 0.75f});
   }
 
@@ -68,7 +70,8 @@ class Canvas {
       const float lit = Dot(seen(mesh.normals[v]), kLight);
       corner.shade = kAmbient + (1 - kAmbient) * std::abs(lit) * (lit < 0 ? 0.5f : 1.0f);
       if (!mesh.uvs.empty()) corner.uv = mesh.uvs[v];
-      if (!mesh.colors.empty()) corner.tint = {std::sqrt(mesh.colors[v].x), std::sqrt(mesh.colors[v].y), std::sqrt(mesh.colors[v].z)};
+      if (!mesh.colors.empty())
+        corner.tint = {std::sqrt(mesh.colors[v].x), std::sqrt(mesh.colors[v].y), std::sqrt(mesh.colors[v].z)};
     }
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       Fill(corners[mesh.indices[i]], corners[mesh.indices[i + 1]], corners[mesh.indices[i + 2]], look, view);
@@ -79,7 +82,8 @@ class Canvas {
 
  private:
   void Set(int x, int y, Vec3 color) {
-    uint8_t* out = &pixels_.rgba[4 * (static_cast<size_t>(y) * static_cast<size_t>(pixels_.width) + static_cast<size_t>(x))];
+    uint8_t* out =
+        &pixels_.rgba[4 * (static_cast<size_t>(y) * static_cast<size_t>(pixels_.width) + static_cast<size_t>(x))];
     const float channels[] = {color.x, color.y, color.z};
     for (size_t i = 0; i < 3; ++i) out[i] = static_cast<uint8_t>(std::clamp(channels[i], 0.0f, 1.0f) * 255);
     out[3] = 255;
@@ -88,7 +92,9 @@ class Canvas {
   void Fill(const Corner& a, const Corner& b, const Corner& c, const Look* look, int view) {
     const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     if (!(std::abs(area) > 1e-6f)) return;
-    const auto bound = [](float v, int low, int high) { return static_cast<int>(std::clamp(v, static_cast<float>(low), static_cast<float>(high))); };
+    const auto bound = [](float v, int low, int high) {
+      return static_cast<int>(std::clamp(v, static_cast<float>(low), static_cast<float>(high)));
+    };
     const int left = bound(std::floor(std::min({a.x, b.x, c.x})), view * width_, (view + 1) * width_ - 1);
     const int right = bound(std::ceil(std::max({a.x, b.x, c.x})), view * width_, (view + 1) * width_ - 1);
     const int top = bound(std::floor(std::min({a.y, b.y, c.y})), 0, height_ - 1);
@@ -105,7 +111,8 @@ class Canvas {
     }
   }
 
-  void Shade(int x, int y, float wa, float wb, float wc, const Corner& a, const Corner& b, const Corner& c, const Look* look) {
+  void Shade(int x, int y, float wa, float wb, float wc, const Corner& a, const Corner& b, const Corner& c,
+             const Look* look) {
     float& depth = depths_[static_cast<size_t>(y) * static_cast<size_t>(pixels_.width) + static_cast<size_t>(x)];
     const float own = wa * a.depth + wb * b.depth + wc * c.depth;
     if (own <= depth) return;
@@ -129,8 +136,10 @@ class Canvas {
       const int i = static_cast<int>((v - std::floor(v)) * static_cast<float>(size));
       return static_cast<size_t>(std::clamp(i, 0, size - 1));
     };
-    const uint8_t* in = &picture.rgba[4 * (wrapped(uv.y, picture.height) * static_cast<size_t>(picture.width) + wrapped(uv.x, picture.width))];
-    return {static_cast<float>(in[0]) / 255, static_cast<float>(in[1]) / 255, static_cast<float>(in[2]) / 255, static_cast<float>(in[3]) / 255};
+    const uint8_t* in = &picture.rgba[4 * (wrapped(uv.y, picture.height) * static_cast<size_t>(picture.width) +
+                                           wrapped(uv.x, picture.width))];
+    return {static_cast<float>(in[0]) / 255, static_cast<float>(in[1]) / 255, static_cast<float>(in[2]) / 255,
+            static_cast<float>(in[3]) / 255};
   }
 
   int width_, height_;
@@ -160,7 +169,8 @@ std::vector<FigureView> ViewsOfClip(const Avatar& avatar, const Clip& clip, int 
     const float share = static_cast<float>(i) / static_cast<float>(std::max(count, 1));
     views.push_back({SkinningMatrices(avatar, clip, share * clip.duration_s), 90});
   }
-  for (const float yaw_deg : {0.0f, 180.0f}) views.push_back({SkinningMatrices(avatar, clip, 0.25f * clip.duration_s), yaw_deg});
+  for (const float yaw_deg : {0.0f, 180.0f})
+    views.push_back({SkinningMatrices(avatar, clip, 0.25f * clip.duration_s), yaw_deg});
   return views;
 }
 

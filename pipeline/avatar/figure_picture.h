@@ -1,5 +1,5 @@
-// Small pictures of a person in their clips, drawn without any graphics driver: to see at a glance whether somebody stands,
-// faces forward and keeps their hands out of themselves.
+// Small pictures of a person in their clips, drawn without any graphics driver: to see at a glance whether somebody
+// stands, faces forward and keeps their hands out of themselves.
 #pragma once
 #include <vector>
 
@@ -15,12 +15,13 @@ struct FigureView {
   float yaw_deg = 0;
 };
 
-// The views side by side, each `height_px` high for figures of up to `height_m` with a margin, the ground drawn as a line
-// at y = 0. Pictures of materials show; what they hide does not.
+// The views side by side, each `height_px` high for figures of up to `height_m` with a margin, the ground drawn as a
+// line at y = 0. Pictures of materials show; what they hide does not.
 Pixels DrawFigures(const std::vector<Mesh>& meshes, const Avatar& avatar, const std::vector<FigureView>& views,
                    float height_m, int height_px);
 
-// A row of a clip's phases: `count` moments evenly spread from the left side, then one from the front and one from behind.
+// A row of a clip's phases: `count` moments evenly spread from the left side, then one from the front and one from
+// behind.
 std::vector<FigureView> ViewsOfClip(const Avatar& avatar, const Clip& clip, int count);
 
 // The second to the right of the first; both as high as the higher.

@@ -44,7 +44,8 @@ void KeepUsed(Avatar* avatar) {
   }
   const auto joined = [&](const Transform* locals, size_t j) {
     Mat4 matrix = MatrixOf(locals[j]);
-    for (int a = avatar->joints[j].parent; a != above[j]; a = At(avatar->joints, a).parent) matrix = MatrixOf(locals[a]) * matrix;
+    for (int a = avatar->joints[j].parent; a != above[j]; a = At(avatar->joints, a).parent)
+      matrix = MatrixOf(locals[a]) * matrix;
     return Decomposed(matrix);
   };
   std::vector<Transform> rest;
@@ -88,8 +89,8 @@ bool LimitJoints(int most, Avatar* avatar, std::vector<std::string>* warnings) {
   }
   if (Count(avatar->joints) > most) return false;
   char text[160];
-  std::snprintf(text, sizeof text, "its %d joints are reduced to %d, which moves no vertex by more than %.1f mm", before,
-                Count(avatar->joints), 1000 * static_cast<double>(moved_m));
+  std::snprintf(text, sizeof text, "its %d joints are reduced to %d, which moves no vertex by more than %.1f mm",
+                before, Count(avatar->joints), 1000 * static_cast<double>(moved_m));
   warnings->push_back(text);
   return true;
 }

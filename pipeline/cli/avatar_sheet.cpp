@@ -32,8 +32,8 @@ std::string Number(const char* format, float value) {
 }
 
 std::string Figures(const Avatar& avatar) {
-  std::string text = Number("%.2f m high, ", avatar.height_m) + std::to_string(avatar.joints.size()) + " joints, walks at " +
-                     Number("%.2f m/s", avatar.walk_speed_mps);
+  std::string text = Number("%.2f m high, ", avatar.height_m) + std::to_string(avatar.joints.size()) +
+                     " joints, walks at " + Number("%.2f m/s", avatar.walk_speed_mps);
   if (const Clip* walk = FindClip(avatar, "walk")) {
     text += Number(", soles slide by %.0f %% of it", 100 * FootSlide(avatar, *walk, avatar.walk_speed_mps));
   }
@@ -50,7 +50,8 @@ std::vector<uint8_t> AvatarSheet(const AvatarLevels& levels) {
   for (const AvatarLevel& level : levels.levels) {
     std::vector<FigureView> views;
     for (const float yaw_deg : {20.0f, 200.0f}) {
-      views.push_back({walk != nullptr ? SkinningMatrices(avatar, *walk, 0) : std::vector<Mat4>(avatar.joints.size()), yaw_deg});
+      views.push_back(
+          {walk != nullptr ? SkinningMatrices(avatar, *walk, 0) : std::vector<Mat4>(avatar.joints.size()), yaw_deg});
     }
     const Pixels drawn = DrawFigures(level.meshes, avatar, views, avatar.height_m, kLevel_px);
     if (level_row.width == 0) level_row = drawn;
@@ -66,7 +67,8 @@ std::vector<uint8_t> AvatarSheet(const AvatarLevels& levels) {
 
 std::string SheetPage(const std::vector<SheetEntry>& entries) {
   std::string page =
-      "<!doctype html><meta charset=utf-8><title>People</title><style>body{font:16px sans-serif;margin:2em;max-width:90em}"
+      "<!doctype html><meta charset=utf-8><title>People</title><style>body{font:16px "
+      "sans-serif;margin:2em;max-width:90em}"
       "img{max-width:100%;border:1px solid #ccc}.warning{color:#850}.error{color:#a00}</style><h1>People</h1>\n";
   for (const SheetEntry& entry : entries) {
     page += "<h2>" + Escaped(entry.input.filename().string()) + "</h2>\n";
@@ -75,8 +77,8 @@ std::string SheetPage(const std::vector<SheetEntry>& entries) {
       page += "<p class=error>" + Escaped(entry.error) + "</p>\n";
       continue;
     }
-    page += "<p>" + Escaped(Figures(entry.avatar)) + ": <a href=\"" + Escaped(entry.output.filename().string()) + "\">" +
-            Escaped(entry.output.filename().string()) + "</a></p>\n<p>Levels, then";
+    page += "<p>" + Escaped(Figures(entry.avatar)) + ": <a href=\"" + Escaped(entry.output.filename().string()) +
+            "\">" + Escaped(entry.output.filename().string()) + "</a></p>\n<p>Levels, then";
     for (const Clip& clip : entry.avatar.clips) page += " " + Escaped(clip.name);
     page += ":</p>\n<img src=\"" + Escaped(entry.picture.filename().string()) + "\" alt=\"levels and clips\">\n";
   }

@@ -9,8 +9,8 @@
 
 namespace flaneur {
 
-// PNG: the levels, walking, from the front and half from behind; then each clip's phases from the left, one from the front
-// and one from behind.
+// PNG: the levels, walking, from the front and half from behind; then each clip's phases from the left, one from the
+// front and one from behind.
 std::vector<uint8_t> AvatarSheet(const AvatarLevels& levels);
 
 struct SheetEntry {

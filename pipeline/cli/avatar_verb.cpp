@@ -34,7 +34,8 @@ struct AvatarArguments {
 };
 
 void AddFiles(CLI::App* app, AvatarArguments* a) {
-  app->add_option("IN", a->inputs, "The people: files with a skin, of any format that docs/avatars.md names")->required();
+  app->add_option("IN", a->inputs, "The people: files with a skin, of any format that docs/avatars.md names")
+      ->required();
   app->add_option("-o,--output", a->output,
                   "The glTF binary to write; of several people a folder for one each, with a contact sheet index.html");
   app->add_option("--json", a->json, "Also write the levels' numbers of one person to this JSON file");
@@ -50,7 +51,8 @@ void AddPerson(CLI::App* app, AvatarArguments* a) {
   app->add_option("--idle", a->read.idle, "Name of the idle clip")->group(person);
   app->add_option("--talk", a->read.talk, "Name of the talk clip")->group(person);
   app->add_option("--clips", a->read.clip_files,
-                  "A file whose clips the person moves by, also of another skeleton: glTF, FBX, BVH, VRMA, .blend, .dae; more than once")
+                  "A file whose clips the person moves by, also of another skeleton: glTF, FBX, BVH, VRMA, .blend, "
+                  ".dae; more than once")
       ->allow_extra_args(false)
       ->group(person);
   app->add_option("--height", a->read.height_m,
@@ -204,7 +206,8 @@ int List(const std::vector<fs::path>& inputs) {
 
 // One file a person, and a page of all of them; who cannot be read keeps nobody else from it.
 int MakeAll(const AvatarArguments& all) {
-  if (!all.json.empty() || !all.sheet.empty()) return Report(Fail("--json and --sheet are for one person; a folder has a sheet of all"));
+  if (!all.json.empty() || !all.sheet.empty())
+    return Report(Fail("--json and --sheet are for one person; a folder has a sheet of all"));
   std::error_code ec;
   fs::create_directories(all.output, ec);
   if (ec) return Report(Fail(all.output.string() + ": cannot be made: " + ec.message()));

@@ -73,7 +73,13 @@ std::string AvatarInputs(const AvatarSettings& avatar, const fs::path& file, con
   AddReading(avatar, file, &print);
   const auto& [ratios, error_px, max_triangles, min_triangles, error_samples, walk_poses, max_joints, jobs] = levels;
   AddAll(ratios, &print);
-  return print.Add(error_px).Add(max_triangles).Add(min_triangles).Add(error_samples).Add(walk_poses).Add(max_joints).Hex();
+  return print.Add(error_px)
+      .Add(max_triangles)
+      .Add(min_triangles)
+      .Add(error_samples)
+      .Add(walk_poses)
+      .Add(max_joints)
+      .Hex();
 }
 
 std::string ImpostorInputs(const AvatarSettings& avatar, const fs::path& file, int max_triangles,

@@ -94,10 +94,11 @@ void ReadClip(TomlTable table, AvatarSettings* avatar) {
   table.Number("speed_mps", &clip.speed_mps, 0, static_cast<double>(kMaxRun_mps));
   table.File("file", &clip.file);
   if (clip.file.filename() == "flaneur") clip.file = "flaneur";  // the program's own clips, in no folder
-  if (clip.name.empty()) table.Refuse("an [[avatar.clip]] needs a name: as places of work have it, or walk, idle or talk");
+  if (clip.name.empty())
+    table.Refuse("an [[avatar.clip]] needs a name: as places of work have it, or walk, idle or talk");
   if (IsUsual(clip.name) && clip.file.empty()) {
-    table.Refuse("the [[avatar.clip]] '" + clip.name + "' needs the file that it is in; of the avatar's own the setting " +
-                 clip.name + " names it");
+    table.Refuse("the [[avatar.clip]] '" + clip.name +
+                 "' needs the file that it is in; of the avatar's own the setting " + clip.name + " names it");
   }
   std::vector<ClipSettings>* clips = IsUsual(clip.name) ? &avatar->usual_clips : &avatar->clips;
   for (const ClipSettings& other : *clips) {
@@ -348,7 +349,8 @@ Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings
 std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
   const toml::table root = toml::parse(
-      "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[avatar.clip]]\n[[avatar.part]]\n[[place]]\n[[stop]]\n[[town.part]]\n"
+      "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[avatar.clip]]\n[[avatar.part]]\n[[place]]\n[[stop]]\n[[town."
+      "part]]\n"
       "[[hotspot]]\n[[street]]\n[[sound]]\n[[flock]]\n[[smoke]]\n");
   TomlContext context;
   TourSettings settings;

@@ -35,9 +35,9 @@ struct TownPart {
 
 // A clip besides walk, idle and talk.
 struct ClipSettings {
-  std::string name, clip;  // clip: in the avatar's file; empty: the one of that name
-  float seat_m = 0;        // height of the seat that it is made for; 0: it does not sit
-  float speed_mps = 0;     // at which its feet don't slide; 0: it is on the spot
+  std::string name, clip;      // clip: in the avatar's file; empty: the one of that name
+  float seat_m = 0;            // height of the seat that it is made for; 0: it does not sit
+  float speed_mps = 0;         // at which its feet don't slide; 0: it is on the spot
   std::filesystem::path file;  // that holds it, see ClipRequest; empty: the avatar's
 };
 

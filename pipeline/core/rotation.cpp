@@ -62,13 +62,9 @@ Quat RotationOf(const Mat4& matrix) {
   return Normalized(QuatFromBasis(x, y, z));
 }
 
-float AngleBetween(Vec3 a, Vec3 b) {
-  return std::acos(std::clamp(Dot(Normalized(a), Normalized(b)), -1.0f, 1.0f));
-}
+float AngleBetween(Vec3 a, Vec3 b) { return std::acos(std::clamp(Dot(Normalized(a), Normalized(b)), -1.0f, 1.0f)); }
 
-float AngleOf(Quat q) {
-  return 2 * std::atan2(std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z), std::abs(q.w));
-}
+float AngleOf(Quat q) { return 2 * std::atan2(std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z), std::abs(q.w)); }
 
 Vec3 RotationVector(Quat q) {
   const float sign = q.w < 0 ? -1.0f : 1.0f;

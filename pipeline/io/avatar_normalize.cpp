@@ -161,9 +161,10 @@ float TrunkRadius(const Avatar& avatar, const Clip& walk, const Mesh& body) {
 
 bool IsPlausible(float height_m) { return height_m >= kMinHeight_m && height_m <= kMaxHeight_m; }
 
-// As it is where that is a person's height, or that of the person below a tall hat: so people of one pack keep one scale.
-// Else in the unit that makes the skeleton a person's, else the usual height.
-float HeightByItself(const NormalizeOptions& options, const Avatar& avatar, float height, std::vector<std::string>* warnings) {
+// As it is where that is a person's height, or that of the person below a tall hat: so people of one pack keep one
+// scale. Else in the unit that makes the skeleton a person's, else the usual height.
+float HeightByItself(const NormalizeOptions& options, const Avatar& avatar, float height,
+                     std::vector<std::string>* warnings) {
   if (options.scale > 0 || IsPlausible(height)) return height;
   const float skeleton = HeightOfSkeleton(avatar, options.told);
   if (IsPlausible(skeleton)) return height;
@@ -189,8 +190,9 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
   if (!std::isfinite(height) || !(height > 1e-6f)) return Fail("the figure has no height");
   const float widest = std::max(extent.max.x - extent.min.x, extent.max.z - extent.min.z);
   if (height < kFlat * widest) {
-    warnings->push_back("the figure is " + Metres(widest / height) +
-                        " times as wide as it is high: lying or collapsed; set up and forward, or see flaneur avatar --list");
+    warnings->push_back(
+        "the figure is " + Metres(widest / height) +
+        " times as wide as it is high: lying or collapsed; set up and forward, or see flaneur avatar --list");
   }
   const float wanted = options.height_m > 0 ? options.height_m : HeightByItself(options, *avatar, height, warnings);
   *scale = wanted / height;
@@ -269,7 +271,12 @@ Error NormalizeAvatar(const NormalizeOptions& options, const Mesh& whole_body, A
     MakeLoop(avatar->joints, &clip, warnings);
   }
   const Clip& walk = *FindClip(*avatar, "walk");
-  if (!(Length(walk_mps) > 0)) walk_mps = MeasureWalk(*avatar, walk, body);
+  if (!(Length(walk_mps) > 0)) {
+    walk_mps = MeasureWalk(*avatar, walk, body);
+    // Soles that hop or slide mistake the way, a face does not.
+    Vec3 forward;
+    if (FacingInWalk(*avatar, options.told, walk, &forward)) walk_mps = forward * Length(walk_mps);
+  }
   if (Length(walk_mps) > kMinSpeed_mps) TurnToFace(walk_mps, avatar, &body, warnings);
   PlaceClips(body, options.told, avatar, warnings);
   avatar->radius_m = TrunkRadius(*avatar, walk, body);

@@ -85,6 +85,7 @@ class AvatarReader {
   Error SkinVertices(const Part& part, const DocumentPrimitive& primitive, Mesh* mesh);
   void AttachVertices(const Part& part, Mesh* mesh) const;
   int PropOf(int node) const;
+  bool HangsOnLeg(const Part& part) const;
   Mesh* MergedMesh(int material, std::vector<Mesh>* meshes) const;
   void WarnOfFullHands() const;
   Error AddClips();
@@ -121,6 +122,15 @@ int AvatarReader::PropOf(int node) const {
   return -1;
 }
 
+// A foot or shin of a figure that is put together from rigid pieces.
+bool AvatarReader::HangsOnLeg(const Part& part) const {
+  for (int a = part.anchor; a >= 0; a = Node(a).parent) {
+    const BodyPart body_part = ReadBoneName(Node(a).name).part;
+    if (body_part >= BodyPart::kUpperLeg && body_part <= BodyPart::kToes) return true;
+  }
+  return false;
+}
+
 Error AvatarReader::FindParts() {
   std::vector<bool> visible;
   if (Error e = VisibleNodes(document_, options_, &visible)) return e;
@@ -139,7 +149,8 @@ Error AvatarReader::FindParts() {
     if (!At(visible, i) || node.mesh < 0) continue;
     const DocumentMesh& mesh = At(document_.meshes, node.mesh);
     if (mesh.primitives.empty()) continue;
-    if (mesh.morphs) notes_->push_back("mesh " + Quoted(mesh.name) + ": its morph targets stay at the file's own weights");
+    if (mesh.morphs)
+      notes_->push_back("mesh " + Quoted(mesh.name) + ": its morph targets stay at the file's own weights");
     Part part{i, node.skin >= 0 && HasInfluences(mesh), -1, PropOf(i)};
     for (int a = i; a >= 0 && part.anchor < 0; a = Node(a).parent) {
       if (At(moves, a)) part.anchor = a;
@@ -405,7 +416,7 @@ Error AvatarReader::AddPart(const Part& part) {
     }
     std::vector<Mesh>& meshes = part.prop < 0 ? avatar_->meshes : At(avatar_->props, part.prop).meshes;
     AppendMesh(mesh, MergedMesh(mesh.material, &meshes));
-    if (part.skinned && part.prop < 0) AppendMesh(mesh, &body_);
+    if ((part.skinned || HangsOnLeg(part)) && part.prop < 0) AppendMesh(mesh, &body_);
   }
   return Ok();
 }
@@ -445,8 +456,8 @@ Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std:
   const std::vector<Joint>& joints = motion.skeleton.joints;
   if (chosen.name == "walk") CutToCycle(joints, &clip);
   if (clip.duration_s > kLongestLoop_s) {
-    notes_->push_back("clip " + Quoted(motion.clip_names[chosen.index]) + " of " + motion.path + " is long; its first " +
-                      std::to_string(static_cast<int>(kLongestLoop_s)) + " s are taken");
+    notes_->push_back("clip " + Quoted(motion.clip_names[chosen.index]) + " of " + motion.path +
+                      " is long; its first " + std::to_string(static_cast<int>(kLongestLoop_s)) + " s are taken");
     CutTo(kLongestLoop_s, joints.size(), &clip);
   }
   float scale = 1;
@@ -462,10 +473,11 @@ Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std:
   } else {
     const int found = CopyClip(joints, clip, avatar_->joints, &made.clip);
     if (2 * found < Count(avatar_->joints)) {
-      return Fail("clip " + Quoted(motion.clip_names[chosen.index]) + " of " + motion.path + " does not fit: " +
-                  (rig == nullptr ? "the figure is no human skeleton, " + why : "it is for no human skeleton, " + source_why) +
-                  ", and only " + std::to_string(found) + " of " + std::to_string(avatar_->joints.size()) +
-                  " joints have names of its");
+      return Fail(
+          "clip " + Quoted(motion.clip_names[chosen.index]) + " of " + motion.path + " does not fit: " +
+          (rig == nullptr ? "the figure is no human skeleton, " + why : "it is for no human skeleton, " + source_why) +
+          ", and only " + std::to_string(found) + " of " + std::to_string(avatar_->joints.size()) +
+          " joints have names of its");
     }
   }
   made.clip.name = chosen.name;
@@ -501,6 +513,8 @@ Error AvatarReader::AddClips() {
     if (Error e = FitClip(chosen, human ? &rig : nullptr, why)) return e;
   }
   if (FindClip(*avatar_, "walk") == nullptr) {
+    if (!document_.clips.empty())
+      return Fail("no walk clip, and no legs that another could move (" + why + "); " + clips_.missing);
     notes_->push_back("it has no walk clip and no legs to walk with (" + why + "): it glides as it stands");
     Glide();
   } else if (clips_.shipped_walk) {

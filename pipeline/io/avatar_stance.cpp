@@ -12,9 +12,9 @@
 namespace flaneur {
 namespace {
 
-constexpr float kUpright_rad = 0.9f;       // a skeleton further off vertical than this lies
-constexpr float kHeadJoint = 0.87f;        // of a person's height: where the head's joint is
-constexpr int kPoses = 16;                 // of a walk, whose mean tells how it stands
+constexpr float kUpright_rad = 0.9f;  // a skeleton further off vertical than this lies
+constexpr float kHeadJoint = 0.87f;   // of a person's height: where the head's joint is
+constexpr int kPoses = 16;            // of a walk, whose mean tells how it stands
 
 bool Stance(const Avatar& avatar, const std::vector<NamedBone>& told, Humanoid* h, Vec3* up, Vec3* forward) {
   const Pose bind = BindPose(avatar.joints);
@@ -44,10 +44,15 @@ bool Lies(Vec3 up) { return AngleBetween(up, {0, 1, 0}) > kUpright_rad; }
 }  // namespace
 
 Error ReadAxis(const std::string& text, Vec3* axis) {
-  static constexpr std::array<std::pair<const char*, Vec3>, 9> kAxes = {
-      std::pair{"x", Vec3{1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}},
-      {"+x", {1, 0, 0}}, {"+y", {0, 1, 0}}, {"+z", {0, 0, 1}},
-      {"-x", {-1, 0, 0}}, {"-y", {0, -1, 0}}, {"-z", {0, 0, -1}}};
+  static constexpr std::array<std::pair<const char*, Vec3>, 9> kAxes = {std::pair{"x", Vec3{1, 0, 0}},
+                                                                        {"y", {0, 1, 0}},
+                                                                        {"z", {0, 0, 1}},
+                                                                        {"+x", {1, 0, 0}},
+                                                                        {"+y", {0, 1, 0}},
+                                                                        {"+z", {0, 0, 1}},
+                                                                        {"-x", {-1, 0, 0}},
+                                                                        {"-y", {0, -1, 0}},
+                                                                        {"-z", {0, 0, -1}}};
   for (const auto& [name, way] : kAxes) {
     if (text != name) continue;
     *axis = way;
@@ -110,6 +115,16 @@ Error StandUp(const std::string& up_text, const std::string& forward_text, const
   warnings->push_back(std::string("the figure ") + (up.y < -0.6f ? "stands on its head" : "lies") +
                       " in its walk; its clips are stood up: set up and forward to have it otherwise");
   return Ok();
+}
+
+bool FacingInWalk(const Avatar& avatar, const std::vector<NamedBone>& told, const Clip& walk, Vec3* forward) {
+  Humanoid h;
+  Vec3 up;
+  if (!Stance(avatar, told, &h, &up, forward) || h.by_shape) return false;
+  if (!StanceOfClip(avatar, h, walk, &up, forward)) return false;
+  forward->y = 0;
+  *forward = Normalized(*forward);
+  return Length(*forward) > 0.5f;
 }
 
 float HeightOfSkeleton(const Avatar& avatar, const std::vector<NamedBone>& told) {

@@ -16,11 +16,14 @@ Error ReadAxis(const std::string& text, Vec3* axis);
 void TurnFigure(Quat turn, bool clips, Avatar* avatar, Mesh* body);
 void TurnClip(Quat turn, const Avatar& avatar, Clip* clip);
 
-// Stands the figure up: by `up` and `forward` where given, else by its skeleton, the bind pose and the clips each as they
-// need it, by quarters. A bind pose or walk that lies or stands on its head is turned, with a warning; one that faces
-// elsewhere is left to the walk.
+// Stands the figure up: by `up` and `forward` where given, else by its skeleton, the bind pose and the clips each as
+// they need it, by quarters. A bind pose or walk that lies or stands on its head is turned, with a warning; one that
+// faces elsewhere is left to the walk.
 Error StandUp(const std::string& up, const std::string& forward, const std::vector<NamedBone>& told, Avatar* avatar,
               Mesh* body, std::vector<std::string>* warnings);
+
+// Where the figure faces in its walk, by its joints' names; unit and level. False where names don't tell.
+bool FacingInWalk(const Avatar& avatar, const std::vector<NamedBone>& told, const Clip& walk, Vec3* forward);
 
 // The height that a person with this skeleton would have, without hats and hair, in the figure's unit; 0: not told.
 float HeightOfSkeleton(const Avatar& avatar, const std::vector<NamedBone>& told);

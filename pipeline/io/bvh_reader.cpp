@@ -37,11 +37,11 @@ class Words {
     return text_.substr(begin, at_ - begin);
   }
 
-  // What is left of the line.
+  // What is left of the line, up to a brace.
   std::string_view RestOfLine() {
     while (at_ < text_.size() && text_[at_] != '\n' && IsSpace(text_[at_])) Step();
     const size_t begin = at_;
-    while (at_ < text_.size() && text_[at_] != '\n') Step();
+    while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '{') Step();
     std::string_view rest = text_.substr(begin, at_ - begin);
     while (!rest.empty() && IsSpace(rest.back())) rest.remove_suffix(1);
     return rest;
@@ -168,12 +168,24 @@ class BvhReader {
       const float value = frame[own.first + i];
       const float angle = value * kPi / 180;
       switch (own.channels[i]) {
-        case Channel::kX: moved.x = value, moves = true; break;
-        case Channel::kY: moved.y = value, moves = true; break;
-        case Channel::kZ: moved.z = value, moves = true; break;
-        case Channel::kTurnX: t.rotation = Product(t.rotation, TurnAbout({1, 0, 0}, angle)); break;
-        case Channel::kTurnY: t.rotation = Product(t.rotation, TurnAbout({0, 1, 0}, angle)); break;
-        case Channel::kTurnZ: t.rotation = Product(t.rotation, TurnAbout({0, 0, 1}, angle)); break;
+        case Channel::kX:
+          moved.x = value, moves = true;
+          break;
+        case Channel::kY:
+          moved.y = value, moves = true;
+          break;
+        case Channel::kZ:
+          moved.z = value, moves = true;
+          break;
+        case Channel::kTurnX:
+          t.rotation = Product(t.rotation, TurnAbout({1, 0, 0}, angle));
+          break;
+        case Channel::kTurnY:
+          t.rotation = Product(t.rotation, TurnAbout({0, 1, 0}, angle));
+          break;
+        case Channel::kTurnZ:
+          t.rotation = Product(t.rotation, TurnAbout({0, 0, 1}, angle));
+          break;
       }
     }
     if (moves) t.translation = moved;
@@ -186,12 +198,16 @@ class BvhReader {
     clip.duration_s = static_cast<float>(frames - 1) * frame_s;
     clip.keys = frames < 2 ? 1 : std::max(2, 1 + static_cast<int>(std::lround(clip.duration_s * kKeysPerSecond)));
     for (int k = 0; k < clip.keys; ++k) {
-      const float at = clip.keys < 2 ? 0 : static_cast<float>(frames - 1) * static_cast<float>(k) / static_cast<float>(clip.keys - 1);
+      const float at = clip.keys < 2
+                           ? 0
+                           : static_cast<float>(frames - 1) * static_cast<float>(k) / static_cast<float>(clip.keys - 1);
       const size_t before = std::min(static_cast<size_t>(at), frames - 1), after = std::min(before + 1, frames - 1);
       const float t = at - static_cast<float>(before);
       for (size_t j = 0; j < skeleton_.joints.size(); ++j) {
-        const Transform a = TransformOf(j, values.data() + before * width_), b = TransformOf(j, values.data() + after * width_);
-        clip.transforms.push_back({a.translation * (1 - t) + b.translation * t, Slerp(a.rotation, b.rotation, t), {1, 1, 1}});
+        const Transform a = TransformOf(j, values.data() + before * width_),
+                        b = TransformOf(j, values.data() + after * width_);
+        clip.transforms.push_back(
+            {a.translation * (1 - t) + b.translation * t, Slerp(a.rotation, b.rotation, t), {1, 1, 1}});
       }
     }
     if (clip.keys == 1) clip.duration_s = 1;

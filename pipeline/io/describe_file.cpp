@@ -94,12 +94,15 @@ std::string Body(const MotionFile& motion) {
   Humanoid h;
   std::string why;
   std::string text = Line("%zu bones and nodes above them", joints.size());
-  if (!FindHumanoid(joints, rest.positions, motion.told, &h, &why)) return text + Line("no human skeleton: %s", why.c_str());
+  if (!FindHumanoid(joints, rest.positions, motion.told, &h, &why))
+    return text + Line("no human skeleton: %s", why.c_str());
   const auto name = [&](int joint) { return joint < 0 ? std::string("-") : OneLine(At(joints, joint).name); };
   text += Line("%s, by its %s:", h.quadruped ? "goes on four legs" : "a human skeleton",
-               !motion.told.empty() ? "VRM bones" : h.by_shape ? "shape" : "names");
-  text += Line("  hips %s, head %s, %zu joints of the spine, %zu of the neck", name(h.hips).c_str(), name(h.head).c_str(),
-               h.spine.size(), h.neck.size());
+               !motion.told.empty() ? "VRM bones"
+               : h.by_shape         ? "shape"
+                                    : "names");
+  text += Line("  hips %s, head %s, %zu joints of the spine, %zu of the neck", name(h.hips).c_str(),
+               name(h.head).c_str(), h.spine.size(), h.neck.size());
   for (const size_t side : {kLeft, kRight}) {
     const HumanoidArm& arm = h.arms[side];
     const HumanoidLeg& leg = h.legs[side];

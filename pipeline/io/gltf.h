@@ -28,9 +28,10 @@ Error ReadGltfScene(const std::filesystem::path& path, Scene* scene, std::vector
 
 // A clip besides walk, idle and talk, or one of these from a file of its own.
 struct ClipRequest {
-  std::string name;            // what it is called here
-  std::string clip = {};       // in the file; empty: the one of that name, where there is one
-  std::filesystem::path file = {};  // any that OpenMotion reads, or "flaneur": the clips that come with the program; empty: the avatar's
+  std::string name;       // what it is called here
+  std::string clip = {};  // in the file; empty: the one of that name, where there is one
+  std::filesystem::path file =
+      {};  // any that OpenMotion reads, or "flaneur": the clips that come with the program; empty: the avatar's
 };
 
 struct ReadAvatarOptions {
@@ -41,13 +42,13 @@ struct ReadAvatarOptions {
   std::string walk, idle, talk;
   std::vector<ClipRequest> other_clips;
   std::vector<std::filesystem::path> clip_files;
-  float height_m = 0;              // 0: as in the file where 0.5 to 2.3 m, else in a unit that makes it so, else 1.75
-  float scale = 0;                 // metres per unit of the file, where height_m is 0; 0: by the height
-  std::string up, forward;         // of the figure in the file: "z", "-y", ...; empty: by its skeleton and walk
+  float height_m = 0;       // 0: as in the file where 0.5 to 2.3 m, else in a unit that makes it so, else 1.75
+  float scale = 0;          // metres per unit of the file, where height_m is 0; 0: by the height
+  std::string up, forward;  // of the figure in the file: "z", "-y", ...; empty: by its skeleton and walk
   std::vector<std::filesystem::path> parts;  // further files on the same skeleton: outfits, hair, faces
-  std::vector<std::string> hide;   // names of nodes left out, with what hangs on them
-  std::vector<std::string> props;  // names of nodes that become AvatarProps, each with what hangs on it
-  int max_joints = 4096;  // BuildLevels makes fewer of them
+  std::vector<std::string> hide;             // names of nodes left out, with what hangs on them
+  std::vector<std::string> props;            // names of nodes that become AvatarProps, each with what hangs on it
+  int max_joints = 4096;                     // BuildLevels makes fewer of them
 };
 
 // Reads a person from glTF, or .blend, .fbx, .dae and .obj by Blender (blender_import.h): every mesh of the default
@@ -55,8 +56,8 @@ struct ReadAvatarOptions {
 // meshes that hang on bones get one weight of 1, weights are reduced to the four heaviest and made to sum to 1, clips
 // are resampled at 30 Hz, made to loop and to walk on the spot; those of other files are taken as they are where the
 // skeletons are one, else made to fit (pipeline/rig/retarget.h). The walk's speed is that of the clip it was made from,
-// or `flaneur_walk_speed_mps` in any node's extras (metres of the file), else that of the root's travel, else that of the
-// sole on the ground. `warnings` gets one line for each thing left out or guessed. Errors: as for a scene and for
+// or `flaneur_walk_speed_mps` in any node's extras (metres of the file), else that of the root's travel, else that of
+// the sole on the ground. `warnings` gets one line for each thing left out or guessed. Errors: as for a scene and for
 // OpenMotion, no skin, a named clip, hidden node or prop that is not there, a clip that fits no way, too many joints, a
 // prop without a mesh; without any walk clip, four legs.
 Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& options, Avatar* avatar,

@@ -336,7 +336,8 @@ Error ReadMaterial(const tinygltf::Material& in, ImageTable* images, Material* o
   // Exporters round: 1.0000006 is 1.
   out->metallic = static_cast<float>(std::clamp(pbr.metallicFactor, 0.0, 1.0));
   out->roughness = static_cast<float>(std::clamp(pbr.roughnessFactor, 0.0, 1.0));
-  const bool drawn_flat = in.extensions.count("KHR_materials_unlit") > 0 || in.extensions.count("VRMC_materials_mtoon") > 0;
+  const bool drawn_flat =
+      in.extensions.count("KHR_materials_unlit") > 0 || in.extensions.count("VRMC_materials_mtoon") > 0;
   if (drawn_flat) out->metallic = 0, out->roughness = 1;
   out->double_sided = in.doubleSided;
   out->alpha_cutoff = static_cast<float>(in.alphaCutoff);
@@ -436,7 +437,8 @@ std::vector<double> MorphWeights(const Model& model, size_t mesh) {
 }
 
 // The shape that the file's own weights make: faces are modelled in them.
-Error AddMorphs(const Model& model, const tinygltf::Primitive& in, const std::vector<double>& weights, RawPrimitive* raw) {
+Error AddMorphs(const Model& model, const tinygltf::Primitive& in, const std::vector<double>& weights,
+                RawPrimitive* raw) {
   for (size_t t = 0; t < std::min(weights.size(), in.targets.size()); ++t) {
     if (weights[t] == 0 || !std::isfinite(weights[t])) continue;
     for (const char* name : {"POSITION", "NORMAL"}) {
@@ -444,8 +446,10 @@ Error AddMorphs(const Model& model, const tinygltf::Primitive& in, const std::ve
       const auto own = raw->attributes.find(name);
       if (target == in.targets[t].end() || own == raw->attributes.end()) continue;
       std::vector<float> moved;
-      if (Error e = ReadFloats(model, target->second, 3, &moved)) return Fail("morph target " + std::to_string(t) + ": " + e.message);
-      if (moved.size() != own->second.size()) return Fail("morph target " + std::to_string(t) + " has not one " + name + " a vertex");
+      if (Error e = ReadFloats(model, target->second, 3, &moved))
+        return Fail("morph target " + std::to_string(t) + ": " + e.message);
+      if (moved.size() != own->second.size())
+        return Fail("morph target " + std::to_string(t) + " has not one " + name + " a vertex");
       for (size_t i = 0; i < moved.size(); ++i) own->second[i] += static_cast<float>(weights[t]) * moved[i];
     }
   }

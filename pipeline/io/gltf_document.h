@@ -87,7 +87,7 @@ struct GltfDocument {
   std::vector<DocumentSkin> skins;
   std::vector<DocumentClip> clips;
   std::vector<Material> materials;
-  std::vector<Image> images;  // only those that a material uses
+  std::vector<Image> images;        // only those that a material uses
   std::vector<DocumentBone> bones;  // of VRM 0.x, VRM 1.0 and VRM animations
 };
 

@@ -5,8 +5,8 @@
 
 namespace flaneur {
 
-// Adds what `part` shows to `whole`. Its bones are those of `whole` that have their names; bones of its own (skirts, braids)
-// come along on them. Its clips are left. Errors: most of its bones have no counterpart; names the file.
+// Adds what `part` shows to `whole`. Its bones are those of `whole` that have their names; bones of its own (skirts,
+// braids) come along on them. Its clips are left. Errors: most of its bones have no counterpart; names the file.
 Error JoinDocuments(GltfDocument part, GltfDocument* whole);
 
 }  // namespace flaneur

@@ -37,7 +37,8 @@ void TakeSkeleton(MotionFile* motion) {
     if (!own.in_scene || (own.mesh >= 0 && !At(moves, node))) continue;
     Joint joint;
     joint.name = own.name;
-    for (int a = own.parent; a >= 0 && joint.parent < 0; a = At(document.nodes, a).parent) joint.parent = At(joint_of, a);
+    for (int a = own.parent; a >= 0 && joint.parent < 0; a = At(document.nodes, a).parent)
+      joint.parent = At(joint_of, a);
     At(joint_of, node) = Count(motion->joint_nodes);
     const Mat4 unscale = Unscaled(At(rest, node));
     const Mat4 world = At(rest, node) * unscale;

@@ -19,79 +19,46 @@ struct Word {
 
 // A name's words without sides, numbers and what only tells whose rig it is, written together.
 constexpr std::array kWords = {
-    Word{"hips", BodyPart::kHips},
-    Word{"hip", BodyPart::kHips},
-    Word{"pelvis", BodyPart::kHips},
-    Word{"spine", BodyPart::kSpine},
-    Word{"chest", BodyPart::kSpine},
-    Word{"upperchest", BodyPart::kSpine},
-    Word{"chestupper", BodyPart::kSpine},
-    Word{"chestlower", BodyPart::kSpine},
-    Word{"torso", BodyPart::kSpine},
-    Word{"abdomen", BodyPart::kSpine},
-    Word{"abdomenlower", BodyPart::kSpine},
-    Word{"abdomenupper", BodyPart::kSpine},
-    Word{"waist", BodyPart::kSpine},
-    Word{"lowerback", BodyPart::kSpine},
-    Word{"upperbody", BodyPart::kSpine},
-    Word{"stomach", BodyPart::kSpine},
-    Word{"belly", BodyPart::kSpine},
-    Word{"tummy", BodyPart::kSpine},
-    Word{"ribs", BodyPart::kSpine},
-    Word{"ribcage", BodyPart::kSpine},
-    Word{"body", BodyPart::kSpine},
-    Word{"neck", BodyPart::kNeck},
-    Word{"necklower", BodyPart::kNeck},
-    Word{"neckupper", BodyPart::kNeck},
-    Word{"head", BodyPart::kHead},
-    Word{"clavicle", BodyPart::kClavicle},
-    Word{"collar", BodyPart::kClavicle},
-    Word{"collarbone", BodyPart::kClavicle},
-    Word{"scapula", BodyPart::kClavicle},
-    Word{"shoulder", BodyPart::kShoulder},
-    Word{"upperarm", BodyPart::kUpperArm},
-    Word{"armupper", BodyPart::kUpperArm},
-    Word{"uparm", BodyPart::kUpperArm},
-    Word{"shldr", BodyPart::kUpperArm},
-    Word{"shldrbend", BodyPart::kUpperArm},
-    Word{"bicep", BodyPart::kUpperArm},
-    Word{"humerus", BodyPart::kUpperArm},
-    Word{"arm", BodyPart::kArm},
-    Word{"lowerarm", BodyPart::kLowerArm},
-    Word{"armlower", BodyPart::kLowerArm},
-    Word{"loarm", BodyPart::kLowerArm},
-    Word{"lowarm", BodyPart::kLowerArm},
-    Word{"forearm", BodyPart::kLowerArm},
-    Word{"forearmbend", BodyPart::kLowerArm},
-    Word{"elbow", BodyPart::kLowerArm},
-    Word{"hand", BodyPart::kHand},
-    Word{"wrist", BodyPart::kHand},
-    Word{"upperleg", BodyPart::kUpperLeg},
-    Word{"legupper", BodyPart::kUpperLeg},
-    Word{"upleg", BodyPart::kUpperLeg},
-    Word{"thigh", BodyPart::kUpperLeg},
-    Word{"thighbend", BodyPart::kUpperLeg},
-    Word{"femur", BodyPart::kUpperLeg},
-    Word{"leg", BodyPart::kLeg},
-    Word{"lowerleg", BodyPart::kLowerLeg},
-    Word{"leglower", BodyPart::kLowerLeg},
-    Word{"loleg", BodyPart::kLowerLeg},
-    Word{"lowleg", BodyPart::kLowerLeg},
-    Word{"shin", BodyPart::kLowerLeg},
-    Word{"calf", BodyPart::kLowerLeg},
-    Word{"knee", BodyPart::kLowerLeg},
-    Word{"foot", BodyPart::kFoot},
-    Word{"ankle", BodyPart::kFoot},
-    Word{"toe", BodyPart::kToes},
-    Word{"toes", BodyPart::kToes},
-    Word{"ball", BodyPart::kToes},
+    Word{"hips", BodyPart::kHips},          Word{"hip", BodyPart::kHips},
+    Word{"pelvis", BodyPart::kHips},        Word{"spine", BodyPart::kSpine},
+    Word{"chest", BodyPart::kSpine},        Word{"upperchest", BodyPart::kSpine},
+    Word{"chestupper", BodyPart::kSpine},   Word{"chestlower", BodyPart::kSpine},
+    Word{"torso", BodyPart::kSpine},        Word{"abdomen", BodyPart::kSpine},
+    Word{"abdomenlower", BodyPart::kSpine}, Word{"abdomenupper", BodyPart::kSpine},
+    Word{"waist", BodyPart::kSpine},        Word{"lowerback", BodyPart::kSpine},
+    Word{"upperbody", BodyPart::kSpine},    Word{"stomach", BodyPart::kSpine},
+    Word{"belly", BodyPart::kSpine},        Word{"tummy", BodyPart::kSpine},
+    Word{"ribs", BodyPart::kSpine},         Word{"ribcage", BodyPart::kSpine},
+    Word{"body", BodyPart::kSpine},         Word{"neck", BodyPart::kNeck},
+    Word{"necklower", BodyPart::kNeck},     Word{"neckupper", BodyPart::kNeck},
+    Word{"head", BodyPart::kHead},          Word{"clavicle", BodyPart::kClavicle},
+    Word{"collar", BodyPart::kClavicle},    Word{"collarbone", BodyPart::kClavicle},
+    Word{"scapula", BodyPart::kClavicle},   Word{"shoulder", BodyPart::kShoulder},
+    Word{"upperarm", BodyPart::kUpperArm},  Word{"armupper", BodyPart::kUpperArm},
+    Word{"uparm", BodyPart::kUpperArm},     Word{"shldr", BodyPart::kUpperArm},
+    Word{"shldrbend", BodyPart::kUpperArm}, Word{"bicep", BodyPart::kUpperArm},
+    Word{"humerus", BodyPart::kUpperArm},   Word{"arm", BodyPart::kArm},
+    Word{"lowerarm", BodyPart::kLowerArm},  Word{"armlower", BodyPart::kLowerArm},
+    Word{"loarm", BodyPart::kLowerArm},     Word{"lowarm", BodyPart::kLowerArm},
+    Word{"forearm", BodyPart::kLowerArm},   Word{"forearmbend", BodyPart::kLowerArm},
+    Word{"elbow", BodyPart::kLowerArm},     Word{"hand", BodyPart::kHand},
+    Word{"wrist", BodyPart::kHand},         Word{"upperleg", BodyPart::kUpperLeg},
+    Word{"legupper", BodyPart::kUpperLeg},  Word{"upleg", BodyPart::kUpperLeg},
+    Word{"thigh", BodyPart::kUpperLeg},     Word{"thighbend", BodyPart::kUpperLeg},
+    Word{"femur", BodyPart::kUpperLeg},     Word{"leg", BodyPart::kLeg},
+    Word{"lowerleg", BodyPart::kLowerLeg},  Word{"leglower", BodyPart::kLowerLeg},
+    Word{"loleg", BodyPart::kLowerLeg},     Word{"lowleg", BodyPart::kLowerLeg},
+    Word{"shin", BodyPart::kLowerLeg},      Word{"calf", BodyPart::kLowerLeg},
+    Word{"knee", BodyPart::kLowerLeg},      Word{"foot", BodyPart::kFoot},
+    Word{"ankle", BodyPart::kFoot},         Word{"toe", BodyPart::kToes},
+    Word{"toes", BodyPart::kToes},          Word{"ball", BodyPart::kToes},
 };
 
 // The parts of a finger's name, with or without the hand's.
 constexpr std::array kFingerWords = {
-    Word{"thumb", BodyPart::kThumb}, Word{"index", BodyPart::kIndex},   Word{"middle", BodyPart::kMiddle},
-    Word{"mid", BodyPart::kMiddle},  Word{"ring", BodyPart::kRing},     Word{"pinky", BodyPart::kLittle},
-    Word{"pinkie", BodyPart::kLittle}, Word{"little", BodyPart::kLittle}, Word{"finger", BodyPart::kFinger},
+    Word{"thumb", BodyPart::kThumb},    Word{"index", BodyPart::kIndex},   Word{"middle", BodyPart::kMiddle},
+    Word{"mid", BodyPart::kMiddle},     Word{"ring", BodyPart::kRing},     Word{"pinky", BodyPart::kLittle},
+    Word{"pinkie", BodyPart::kLittle},  Word{"little", BodyPart::kLittle}, Word{"finger", BodyPart::kFinger},
     Word{"fingers", BodyPart::kFinger},
 };
 
@@ -113,9 +80,10 @@ constexpr std::array kIdeographs = {
 constexpr std::array<std::string_view, 6> kIdeographsOfNoBody = {"ＩＫ", "IK", "捩", "先", "親", "指"};
 
 // Whose rig it is, and what says nothing about where.
-constexpr std::array<std::string_view, 24> kIdle = {
-    "mixamorig", "bip", "biped", "valve", "def",  "deform", "bn",     "bone",     "jnt",  "joint", "jt",   "cc",
-    "base",      "j",   "b",     "sk",    "c",    "rig",    "armature", "skeleton", "character", "center", "gltf", "bind"};
+constexpr std::array<std::string_view, 24> kIdle = {"mixamorig", "bip",      "biped",     "valve",  "def",  "deform",
+                                                    "bn",        "bone",     "jnt",       "joint",  "jt",   "cc",
+                                                    "base",      "j",        "b",         "sk",     "c",    "rig",
+                                                    "armature",  "skeleton", "character", "center", "gltf", "bind"};
 
 bool IsIdle(const Token& token) { return std::find(kIdle.begin(), kIdle.end(), token) != kIdle.end(); }
 
@@ -141,7 +109,8 @@ std::vector<Token> Tokens(const std::string& name) {
     const Kind after = i + 1 < name.size() ? KindOf(name[i + 1]) : Kind::kOther;
     const bool letters = kind == Kind::kLower || kind == Kind::kUpper;
     const bool after_letters = before == Kind::kLower || before == Kind::kUpper;
-    const bool new_word = kind == Kind::kUpper && (before == Kind::kLower || (before == Kind::kUpper && after == Kind::kLower));
+    const bool new_word =
+        kind == Kind::kUpper && (before == Kind::kLower || (before == Kind::kUpper && after == Kind::kLower));
     if (kind == Kind::kOther || new_word || letters != after_letters) finish();
     if (kind != Kind::kOther) current += static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])));
   }
@@ -163,8 +132,8 @@ BodyPart PartOf(const std::string& words) {
 }
 
 BodyPart FingerOf(const std::vector<Token>& words) {
-  static constexpr std::array<std::string_view, 9> kBeside = {"hand", "finger", "proximal", "intermediate", "distal",
-                                                              "metacarpal", "f", "knuckle", "phalange"};
+  static constexpr std::array<std::string_view, 9> kBeside = {
+      "hand", "finger", "proximal", "intermediate", "distal", "metacarpal", "f", "knuckle", "phalange"};
   BodyPart part = BodyPart::kNone;
   for (const Token& word : words) {
     const auto* known =

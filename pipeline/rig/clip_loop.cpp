@@ -8,8 +8,8 @@
 namespace flaneur {
 namespace {
 
-constexpr float kTravel = 0.05f;        // of the height: more than sway, so the root travels
-constexpr float kBlendedShare = 0.25f;  // of a clip that does not loop
+constexpr float kTravel = 0.05f;          // of the height: more than sway, so the root travels
+constexpr float kBlendedShare = 0.25f;    // of a clip that does not loop
 constexpr float kLongRecording_s = 3.2f;  // of a walk; shorter ones are a cycle or a few already
 constexpr float kMinCycle_s = 0.6f, kMaxCycle_s = 2.5f;
 constexpr float kCycleGap = 0.35f;  // of the mean way of a joint in the cycle: how far it may be from where it began

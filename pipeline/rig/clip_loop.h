@@ -10,7 +10,8 @@ namespace flaneur {
 // In seconds from the clip's beginning.
 float TimeOf(const Clip& clip, int key);
 
-// Of the clip's joints in one key, world. Unlike SkinningMatrices at a time, this does not wrap the last key to the first.
+// Of the clip's joints in one key, world. Unlike SkinningMatrices at a time, this does not wrap the last key to the
+// first.
 std::vector<Vec3> JointPositions(const std::vector<Joint>& joints, const Clip& clip, int key);
 
 // Moves the whole figure, in one key or in all.
@@ -25,8 +26,8 @@ Vec3 RemoveTravel(const std::vector<Joint>& joints, float height, Clip* clip);
 // blending the clip's end into its first pose.
 void MakeLoop(const std::vector<Joint>& joints, Clip* clip, std::vector<std::string>* warnings);
 
-// Of a long recording the stretch of 0.6 to 2.5 s that comes back nearest to where it began while it moves on: one cycle
-// of a walk. False where none does well enough; the clip then stays whole.
+// Of a long recording the stretch of 0.6 to 2.5 s that comes back nearest to where it began while it moves on: one
+// cycle of a walk. False where none does well enough; the clip then stays whole.
 bool CutToCycle(const std::vector<Joint>& joints, Clip* clip);
 
 // The clip's first `duration_s` seconds.

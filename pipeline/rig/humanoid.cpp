@@ -73,7 +73,8 @@ class NameReader {
     int best_rank = 0;
     for (int j = 0; j < Count(joints_); ++j) {
       const BoneName& name = At(names_, j);
-      if (name.part != part || name.side != side || (below >= 0 && (j == below || !IsBelow(joints_, j, below)))) continue;
+      if (name.part != part || name.side != side || (below >= 0 && (j == below || !IsBelow(joints_, j, below))))
+        continue;
       const bool deforms = At(joints_, j).name.starts_with("DEF");
       const bool steers = At(joints_, j).name.starts_with("ORG") || At(joints_, j).name.starts_with("MCH");
       const int rank = (deforms ? 0 : steers ? 2000 : 1000) + DepthOf(joints_, j);

@@ -28,9 +28,9 @@ struct Humanoid {
   int head = -1;
   std::array<HumanoidArm, 2> arms;
   std::array<HumanoidLeg, 2> legs;
-  bool by_shape = false;      // not by the joints' names
-  bool sides_known = true;    // else left and right may be the other way round
-  bool quadruped = false;     // four legs: arms are the fore ones
+  bool by_shape = false;    // not by the joints' names
+  bool sides_known = true;  // else left and right may be the other way round
+  bool quadruped = false;   // four legs: arms are the fore ones
   bool has_legs() const { return legs[kLeft].upper >= 0 && legs[kRight].upper >= 0; }
   bool has_arms() const { return arms[kLeft].upper >= 0 && arms[kRight].upper >= 0; }
 };

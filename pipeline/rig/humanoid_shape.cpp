@@ -10,8 +10,8 @@
 namespace flaneur {
 namespace {
 
-constexpr float kAlike = 0.12f;        // how far lengths of a pair may differ, as a share
-constexpr float kShortLink = 0.35f;    // of the limb's longest bone: a link to it, no part of it
+constexpr float kAlike = 0.12f;      // how far lengths of a pair may differ, as a share
+constexpr float kShortLink = 0.35f;  // of the limb's longest bone: a link to it, no part of it
 
 using Chain = std::vector<int>;
 
@@ -28,9 +28,8 @@ struct Tree {
     Chain chain{joint};
     while (!At(children, chain.back()).empty()) {
       const std::vector<int>& next = At(children, chain.back());
-      chain.push_back(*std::max_element(next.begin(), next.end(), [&](int a, int b) {
-        return Bone(a) + At(reach, a) < Bone(b) + At(reach, b);
-      }));
+      chain.push_back(*std::max_element(next.begin(), next.end(),
+                                        [&](int a, int b) { return Bone(a) + At(reach, a) < Bone(b) + At(reach, b); }));
     }
     return chain;
   }
@@ -149,7 +148,8 @@ bool FindHumanoidByShape(const std::vector<Joint>& joints, const std::vector<Vec
   }
   if (legs == nullptr) return false;
   SetLimbs(tree, *legs, *arms, h);
-  const Vec3 hips = At(positions, legs->at), feet = (At(positions, legs->a.back()) + At(positions, legs->b.back())) * 0.5f;
+  const Vec3 hips = At(positions, legs->at),
+             feet = (At(positions, legs->a.back()) + At(positions, legs->b.back())) * 0.5f;
   const Vec3 up = Normalized(hips - feet);
   h->head = FindHead(tree, *arms, up);
   // Left is what lies left of +Z until feet or a walk say otherwise.

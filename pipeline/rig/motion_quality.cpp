@@ -88,7 +88,7 @@ float DepthOf(Vec3 point, const Mesh& trunk, float farthest) {
 }
 
 struct ArmOverClip {
-  std::vector<Mesh> trunks;             // a key each
+  std::vector<Mesh> trunks;  // a key each
   std::vector<std::vector<Vec3>> arms;
   std::vector<Vec3> shoulders;
 };
@@ -132,7 +132,8 @@ void OpenArm(const Rig& rig, int upper, Quat turn, Clip* clip) {
     Quat& own = key[upper].rotation;
     const Quat before = own;
     own = Normalized(Product(Conjugate(above), Product(turn, At(pose.rotations, upper))));
-    if (own.x * before.x + own.y * before.y + own.z * before.z + own.w * before.w < 0) own = {-own.x, -own.y, -own.z, -own.w};
+    if (own.x * before.x + own.y * before.y + own.z * before.z + own.w * before.w < 0)
+      own = {-own.x, -own.y, -own.z, -own.w};
   }
 }
 
@@ -190,7 +191,8 @@ float WrongBend(const Rig& rig, const Clip& clip) {
     for (const size_t side : {kLeft, kRight}) {
       const RigLeg& leg = rig.legs[side];
       if (leg.lower < 0) continue;
-      const Vec3 hip = At(pose.positions, leg.upper), knee = At(pose.positions, leg.lower), ankle = PlaceOf(leg.ankle, pose);
+      const Vec3 hip = At(pose.positions, leg.upper), knee = At(pose.positions, leg.lower),
+                 ankle = PlaceOf(leg.ankle, pose);
       const Quat turned = Product(At(pose.rotations, leg.upper), Conjugate(At(rig.reference.rotations, leg.upper)));
       const Vec3 front = Rotated(Product(turned, rig.leg_upper[side]), {0, 0, 1});
       // A knee behind the line from hip to ankle bends backwards.
@@ -218,7 +220,8 @@ float ClearHands(const Avatar& person, const Rig& rig, Clip* clip) {
     const float sign = side == kLeft ? 1.0f : -1.0f;
     const float clear = kClear * rig.leg_m;
     float open_deg = 0;
-    while (open_deg < kMostOpen_deg && Deepest(sampled, ahead, sign * open_deg * kPi / 180, kFarthest * rig.leg_m, clear) > clear) {
+    while (open_deg < kMostOpen_deg &&
+           Deepest(sampled, ahead, sign * open_deg * kPi / 180, kFarthest * rig.leg_m, clear) > clear) {
       open_deg += kOpenStep_deg;
     }
     if (open_deg > 0) OpenArm(rig, upper, TurnAbout(ahead, sign * open_deg * kPi / 180), clip);

@@ -7,13 +7,13 @@
 
 namespace flaneur {
 
-// What points of the body near the ground move over it, as a share of the speed: the median over the points of each key,
-// then the mean over the keys in which any is there. `band`: of the person's height. The person stands at y = 0, faces +Z
-// and walks on the spot.
+// What points of the body near the ground move over it, as a share of the speed: the median over the points of each
+// key, then the mean over the keys in which any is there. `band`: of the person's height. The person stands at y = 0,
+// faces +Z and walks on the spot.
 float FootSlide(const Avatar& person, const Clip& walk, float speed_mps, float band = 0.012f);
 
-// How high the hip joints are above standing ankles, in legs, as a mean over the clip: the same in a clip and in what is
-// retargeted from it.
+// How high the hip joints are above standing ankles, in legs, as a mean over the clip: the same in a clip and in what
+// is retargeted from it.
 float HipsHeight(const Rig& rig, const Clip& clip);
 
 // By how much a knee or an elbow bends the wrong way at most, in radians, anywhere in the clip.

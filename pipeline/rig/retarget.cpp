@@ -11,13 +11,13 @@
 namespace flaneur {
 namespace {
 
-constexpr float kStraightest = 0.998f;       // of a leg's length: a knee never stretches further
-constexpr float kMaxFlatten_rad = 0.6f;      // that a standing foot may be turned to lie flat
-constexpr float kCurl_rad = 0.25f;           // of each finger joint of a hand whose source has no fingers
+constexpr float kStraightest = 0.998f;        // of a leg's length: a knee never stretches further
+constexpr float kMaxFlatten_rad = 0.6f;       // that a standing foot may be turned to lie flat
+constexpr float kCurl_rad = 0.25f;            // of each finger joint of a hand whose source has no fingers
 constexpr float kStraightFinger_rad = 0.35f;  // fingers that rest more bent than this stay as they are
-constexpr float kToeBend_rad = 0.75f;        // at most, where the source has no toes
-constexpr float kToeLift = 0.07f;            // of the leg's length above the ground: toes bend no more
-constexpr float kGroundShare = 0.02f;        // of the keys may have a sole below what counts as the ground
+constexpr float kToeBend_rad = 0.75f;         // at most, where the source has no toes
+constexpr float kToeLift = 0.07f;             // of the leg's length above the ground: toes bend no more
+constexpr float kGroundShare = 0.02f;         // of the keys may have a sole below what counts as the ground
 
 Quat Between(Quat a, Quat b, float t) { return Slerp(a, b, std::clamp(t, 0.0f, 1.0f)); }
 
@@ -109,7 +109,8 @@ class Source {
     auto& poses = motion_.poses;
     if (poses.size() < 3) return;
     float step = 0;
-    for (size_t k = 1; k < poses.size(); ++k) step += Gap(poses[k - 1], poses[k]) / static_cast<float>(poses.size() - 1);
+    for (size_t k = 1; k < poses.size(); ++k)
+      step += Gap(poses[k - 1], poses[k]) / static_cast<float>(poses.size() - 1);
     const float gap = Gap(poses.front(), poses.back());
     if (gap > 0.5f * step && gap <= 2 * step) {
       poses.push_back(poses.front());
@@ -159,11 +160,14 @@ class Source {
     const auto left = Soles(kLeft), right = Soles(kRight);
     if (motion_.speed == 0) motion_.speed = SpeedOfSoles(left, right, motion_.step_s, rig_.leg_m);
     motion_.loops = motion_.poses.size() > 2;
+    std::array<std::vector<std::vector<Vec3>>, 2> soles{left, right};
     for (const size_t side : {kLeft, kRight}) {
-      auto soles = side == kLeft ? left : right;
-      if (motion_.loops) soles.pop_back();  // the last key is the first
-      stands_[side] = FindStance(soles, motion_.speed, motion_.step_s, rig_.leg_m, motion_.loops);
-      if (motion_.loops) stands_[side].push_back(stands_[side].front());
+      if (motion_.loops) soles[side].pop_back();  // the last key is the first
+      stands_[side] = FindStance(soles[side], motion_.speed, motion_.step_s, rig_.leg_m, motion_.loops);
+    }
+    StandSomewhere(soles[kLeft], soles[kRight], rig_.leg_m, &stands_[kLeft], &stands_[kRight]);
+    for (std::vector<bool>& stands : stands_) {
+      if (motion_.loops) stands.push_back(stands.front());
     }
   }
 
@@ -182,7 +186,10 @@ struct Wanted {
 class Retargeter {
  public:
   Retargeter(const Rig& source, const Clip& clip, const Rig& target)
-      : source_(source, clip), s_(source), t_(target), keys_(source_.motion().poses.size()),
+      : source_(source, clip),
+        s_(source),
+        t_(target),
+        keys_(source_.motion().poses.size()),
         scale_(target.leg_m / source.leg_m) {}
 
   Retargeted Make(const Clip& clip) {
@@ -217,16 +224,12 @@ class Retargeter {
     return 0.5f * (rig.legs[kLeft].ankle_height_m + rig.legs[kRight].ankle_height_m);
   }
 
-  float HipHeight(float source_height) const {
-    return AnkleHeight(t_) + scale_ * (source_height - AnkleHeight(s_));
-  }
+  float HipHeight(float source_height) const { return AnkleHeight(t_) + scale_ * (source_height - AnkleHeight(s_)); }
 
   Quat ReferenceOf(int joint) const { return At(t_.reference.rotations, joint); }
 
   // The target joint turned from its reference by `turn`.
-  void Turn(size_t key, int joint, Quat turn) {
-    wanted_[key].rotations[joint] = Product(turn, ReferenceOf(joint));
-  }
+  void Turn(size_t key, int joint, Quat turn) { wanted_[key].rotations[joint] = Product(turn, ReferenceOf(joint)); }
 
   // The source's frame of a limb, now.
   Quat SourceFrame(size_t key, int joint, Quat reference_frame) const {
@@ -298,9 +301,8 @@ class Retargeter {
     const RigArm &rest = s_.arms[side], &own = t_.arms[side];
     if (to.clavicle >= 0 && !t_.humanoid.spine.empty()) {
       const int chest = s_.humanoid.spine.empty() ? s_.humanoid.hips : s_.humanoid.spine.back();
-      const Quat lift = from.clavicle >= 0
-                            ? Product(Conjugate(source_.Turned(k, chest)), source_.Turned(k, from.clavicle))
-                            : Quat{};
+      const Quat lift =
+          from.clavicle >= 0 ? Product(Conjugate(source_.Turned(k, chest)), source_.Turned(k, from.clavicle)) : Quat{};
       Turn(k, to.clavicle, Product(source_.Turned(k, chest), lift));
     }
     Quat upper = SourceFrame(k, from.upper, rest.upper);
@@ -399,7 +401,7 @@ class Retargeter {
       track.wanted.pop_back();
       track.sole.pop_back();
     }
-    ankles_[side] = RollFoot(track, step_m, loops);
+    ankles_[side] = RollFoot(track, step_m, t_.leg_m, loops);
     if (loops) ankles_[side].push_back(ankles_[side].front());
   }
 
@@ -620,9 +622,9 @@ std::map<std::string, int> ByName(const std::vector<Joint>& joints) {
   return by_name;
 }
 
-constexpr float kSameTurn_rad = 0.09f;   // between the rests of two joints that are the same
-constexpr float kSameLength = 0.03f;     // of the skeleton's mean bone, how much one may be off
-constexpr float kMostJoints = 0.9f;      // of the target's, that the source must have
+constexpr float kSameTurn_rad = 0.09f;  // between the rests of two joints that are the same
+constexpr float kSameLength = 0.03f;    // of the skeleton's mean bone, how much one may be off
+constexpr float kMostJoints = 0.9f;     // of the target's, that the source must have
 
 }  // namespace
 

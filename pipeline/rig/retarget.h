@@ -8,14 +8,14 @@
 namespace flaneur {
 
 struct Retargeted {
-  Clip clip;               // on the target's joints, in the target's own space
+  Clip clip;                 // on the target's joints, in the target's own space
   float walk_speed_mps = 0;  // in the target's unit, along the reference pose's +Z; 0: the clip goes nowhere
 };
 
-// Every limb points where the source's does, whatever pose each rests in. Trunk and head turn as the source's do, spread
-// over as many joints as there are. Hips are as high above the ankles, measured in legs, as the source's. Feet that
-// stand roll over the ground without sliding and without sinking in; knees bend forward to meet them. Fingers bend as
-// the source's, or a little where it has none. Joints that no part of a body stands for keep their place on their
+// Every limb points where the source's does, whatever pose each rests in. Trunk and head turn as the source's do,
+// spread over as many joints as there are. Hips are as high above the ankles, measured in legs, as the source's. Feet
+// that stand roll over the ground without sliding and without sinking in; knees bend forward to meet them. Fingers bend
+// as the source's, or a little where it has none. Joints that no part of a body stands for keep their place on their
 // parents. `clip` may travel or walk on the spot; it is on `source`'s joints, in their own space.
 Retargeted Retarget(const Rig& source, const Clip& clip, const Rig& target);
 

@@ -9,11 +9,11 @@
 namespace flaneur {
 namespace {
 
-constexpr float kOwnWeight = 0.4f;       // a vertex of the sole hangs on its foot by as much
-constexpr float kSoleBand = 0.05f;       // of the leg's length, above its lowest point
-constexpr size_t kSoleDirections = 16;   // that the sole's outline is kept in
-constexpr float kAnkleHeight = 0.09f;    // of the leg's length, where nothing tells
-constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;  // of the leg's length: where y = 0 may be the ground
+constexpr float kOwnWeight = 0.4f;                               // a vertex of the sole hangs on its foot by as much
+constexpr float kSoleBand = 0.05f;                               // of the leg's length, above its lowest point
+constexpr size_t kSoleDirections = 16;                           // that the sole's outline is kept in
+constexpr float kAnkleHeight = 0.09f;                            // of the leg's length, where nothing tells
+constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;            // of the leg's length: where y = 0 may be the ground
 constexpr float kBall = 0.19f, kToeTip = 0.27f, kHeel = -0.06f;  // of the leg's length, before the ankle
 
 Vec3 InFrame(const Pose& pose, int joint, Vec3 place) {
@@ -42,8 +42,8 @@ class RigMaker {
       const RigLeg& leg = rig_.legs[side];
       const Vec3 knee = leg.lower >= 0 ? Place(leg.lower) : PlaceOf(leg.ankle, rig_.reference);
       rig_.leg_upper[side] = LegFrame(knee - Place(leg.upper), {0, 0, 1});
-      rig_.leg_lower[side] = leg.lower < 0 ? rig_.leg_upper[side]
-                                           : LegFrame(PlaceOf(leg.ankle, rig_.reference) - knee, {0, 0, 1});
+      rig_.leg_lower[side] =
+          leg.lower < 0 ? rig_.leg_upper[side] : LegFrame(PlaceOf(leg.ankle, rig_.reference) - knee, {0, 0, 1});
     }
   }
 

@@ -49,8 +49,8 @@ struct RigArm {
 struct Rig {
   std::vector<Joint> joints;
   Humanoid humanoid;
-  Quat turn;               // from the joints' own space to the reference pose's
-  Vec3 shift;              // added after it
+  Quat turn;   // from the joints' own space to the reference pose's
+  Vec3 shift;  // added after it
   Pose reference;
   std::array<RigLeg, 2> legs;
   std::array<Quat, 2> leg_upper, leg_lower;  // frames as RigArm's, of a leg that hangs straight down

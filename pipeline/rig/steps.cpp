@@ -8,22 +8,27 @@
 namespace flaneur {
 namespace {
 
-constexpr float kLow = 0.045f;        // of the leg's length: how near the ground a standing foot is
-constexpr float kLoose = 0.4f;        // of the walking speed: what a standing foot may seem to move
-constexpr float kStill = 0.25f;       // leg lengths a second, the same on the spot
-constexpr float kWalks = 0.12f;       // leg lengths a second: slower is no walk
-constexpr int kGap = 2;               // keys: shorter gaps and stands are noise
+constexpr float kLow = 0.045f;    // of the leg's length: how near the ground a standing foot is
+constexpr float kLoose = 0.4f;    // of the walking speed: what a standing foot may seem to move
+constexpr float kStill = 0.25f;   // leg lengths a second, the same on the spot
+constexpr float kWalks = 0.12f;   // leg lengths a second: slower is no walk
+constexpr float kClear = 0.045f;  // of the leg's length: how high a swinging foot is over the ground at least
+constexpr int kGap = 2;           // keys: shorter gaps and stands are noise
 
 size_t LowestOf(const std::vector<Vec3>& points) {
-  return static_cast<size_t>(
-      std::min_element(points.begin(), points.end(), [](Vec3 a, Vec3 b) { return a.y < b.y; }) - points.begin());
+  return static_cast<size_t>(std::min_element(points.begin(), points.end(), [](Vec3 a, Vec3 b) { return a.y < b.y; }) -
+                             points.begin());
 }
 
-float Median(std::vector<float> values) {
+// Without the sixth that is least and the sixth that is most. The mean, and not the median, so that feet which slide in
+// the source come as far in the copy.
+float TrimmedMean(std::vector<float> values) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  std::sort(values.begin(), values.end());
+  const size_t cut = values.size() / 6;
+  float sum = 0;
+  for (size_t i = cut; i < values.size() - cut; ++i) sum += values[i];
+  return sum / static_cast<float>(values.size() - 2 * cut);
 }
 
 // Runs of `value` no longer than kGap become the other.
@@ -92,10 +97,11 @@ void Place(const FootTrack& track, const Stand& stand, std::vector<Vec3>* way) {
 
 float Smooth(float t) { return t * t * (3 - 2 * t); }
 
-void KeepAbove(const FootTrack& track, std::vector<Vec3>* ankles) {
+// Above the ground, and in the middle of a swing clear of it: a foot that skims it seems to slide.
+void KeepAbove(const FootTrack& track, const std::vector<float>& clear_m, std::vector<Vec3>* ankles) {
   for (size_t k = 0; k < ankles->size(); ++k) {
     const float low = (*ankles)[k].y + track.sole[k][LowestOf(track.sole[k])].y;
-    if (low < 0) (*ankles)[k].y -= low;
+    if (low < clear_m[k]) (*ankles)[k].y += clear_m[k] - low;
   }
 }
 
@@ -120,7 +126,7 @@ float SpeedOfSoles(const std::vector<std::vector<Vec3>>& left, const std::vector
     }
     if (lowest < kLow * leg) speeds.push_back(speed);
   }
-  const float speed = Median(std::move(speeds));
+  const float speed = TrimmedMean(std::move(speeds));
   return std::abs(speed) > kWalks * leg ? speed : 0;
 }
 
@@ -143,8 +149,19 @@ std::vector<bool> FindStance(const std::vector<std::vector<Vec3>>& sole, float s
   return stands;
 }
 
-std::vector<Vec3> RollFoot(const FootTrack& track, float step_m, bool loops) {
+void StandSomewhere(const std::vector<std::vector<Vec3>>& left, const std::vector<std::vector<Vec3>>& right, float leg,
+                    std::vector<bool>* left_stands, std::vector<bool>* right_stands) {
+  for (size_t k = 0; k < left_stands->size(); ++k) {
+    if ((*left_stands)[k] || (*right_stands)[k]) continue;
+    const float a = left[k][LowestOf(left[k])].y, b = right[k][LowestOf(right[k])].y;
+    if (std::min(a, b) > kLow * leg) continue;
+    (*(a < b ? left_stands : right_stands))[k] = true;
+  }
+}
+
+std::vector<Vec3> RollFoot(const FootTrack& track, float step_m, float leg_m, bool loops) {
   const size_t n = track.wanted.size();
+  std::vector<float> clear_m(n, 0.0f);
   std::vector<Vec3> ankles = track.wanted;
   const std::vector<Stand> stands = StandsOf(track.stands, loops);
   for (const Stand& stand : stands) {
@@ -168,9 +185,11 @@ std::vector<Vec3> RollFoot(const FootTrack& track, float step_m, bool loops) {
     for (size_t k = from + 1; k < to; ++k) {
       const float t = Smooth(static_cast<float>(k - from) / static_cast<float>(to - from));
       ankles[k % n] = track.wanted[k % n] + begin * (1 - t) + end * t;
+      const float through = static_cast<float>(k - from) / static_cast<float>(to - from);
+      clear_m[k % n] = kClear * leg_m * std::sqrt(std::sin(kPi * through));
     }
   }
-  KeepAbove(track, &ankles);
+  KeepAbove(track, clear_m, &ankles);
   return ankles;
 }
 

@@ -23,8 +23,13 @@ float SpeedOfSoles(const std::vector<std::vector<Vec3>>& left, const std::vector
 std::vector<bool> FindStance(const std::vector<std::vector<Vec3>>& sole, float speed, float step_s, float leg,
                              bool loops);
 
+// Lets the lower foot stand where neither does and one is low.
+void StandSomewhere(const std::vector<std::vector<Vec3>>& left, const std::vector<std::vector<Vec3>>& right, float leg,
+                    std::vector<bool>* left_stands, std::vector<bool>* right_stands);
+
 // Where the ankle goes: while the foot stands, its lowest point stays on ground that moves backwards by `step_m` a key;
-// in between the source's way, led over to both ends. Never below the ground.
-std::vector<Vec3> RollFoot(const FootTrack& track, float step_m, bool loops);
+// in between the source's way, led over to both ends. Never below the ground, and
+// clear of it in the middle of a swing.
+std::vector<Vec3> RollFoot(const FootTrack& track, float step_m, float leg_m, bool loops);
 
 }  // namespace flaneur

@@ -1,7 +1,7 @@
-// Walks made to fit other skeletons: retarget_bench FILE... takes the walk of each file that has one and makes every other
-// file's figure walk by it, and by the clips that come with Flaneur. Prints for each pair the slide of the soles (share of the
-// walking speed), the hips' height against the source's (mm), the deepest hand in the body beyond the source's own (mm) and
-// the worst bend of a knee the wrong way (degrees); then median and worst of all.
+// Walks made to fit other skeletons: retarget_bench FILE... takes the walk of each file that has one and makes every
+// other file's figure walk by it, and by the clips that come with Flaneur. Prints for each pair the slide of the soles
+// (share of the walking speed), the hips' height against the source's (mm), the deepest hand in the body beyond the
+// source's own (mm) and the worst bend of a knee the wrong way (degrees); then median and worst of all.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -56,7 +56,8 @@ float OwnDepth(const std::filesystem::path& file) {
   std::string why;
   if (ReadAvatar(file, {}, &avatar, &warnings) || !MakeRig(avatar, {}, &rig, &why)) return 0;
   const Clip* walk = FindClip(avatar, "walk");
-  return std::max(HandDepth(avatar, rig, *walk, kLeft, 12), HandDepth(avatar, rig, *walk, kRight, 12)) / avatar.height_m;
+  return std::max(HandDepth(avatar, rig, *walk, kLeft, 12), HandDepth(avatar, rig, *walk, kRight, 12)) /
+         avatar.height_m;
 }
 
 bool SourceHips(const std::filesystem::path& file, float* hips) {
@@ -94,9 +95,9 @@ void Measure(const Person& source, float own_depth, float source_hips, const Per
   const float depth = std::max(HandDepth(avatar, rig, walk, kLeft, 12), HandDepth(avatar, rig, walk, kRight, 12));
   const float depth_mm = 1000 * std::max(0.0f, depth - own_depth * avatar.height_m);
   const float bend_deg = WrongBend(rig, walk) * 180 / kPi;
-  std::printf("%-28s -> %-24s slide %5.1f %%  hips %+6.1f mm  hands %5.1f mm  knees %4.1f deg  %.2f m/s\n", source.name.c_str(),
-              target.name.c_str(), 100 * static_cast<double>(slide), static_cast<double>(hips_mm), static_cast<double>(depth_mm),
-              static_cast<double>(bend_deg), static_cast<double>(avatar.walk_speed_mps));
+  std::printf("%-28s -> %-24s slide %5.1f %%  hips %+6.1f mm  hands %5.1f mm  knees %4.1f deg  %.2f m/s\n",
+              source.name.c_str(), target.name.c_str(), 100 * static_cast<double>(slide), static_cast<double>(hips_mm),
+              static_cast<double>(depth_mm), static_cast<double>(bend_deg), static_cast<double>(avatar.walk_speed_mps));
   all->slide.push_back(slide);
   all->hips_mm.push_back(std::abs(hips_mm));
   all->depth_mm.push_back(depth_mm);
@@ -120,8 +121,9 @@ int Run(int argc, char** argv) {
     }
   }
   const auto print = [](const char* what, const std::vector<float>& values, float scale, const char* unit) {
-    std::printf("%s: median %.1f %s, worst %.1f %s of %zu pairs\n", what, static_cast<double>(scale * At_(values, 0.5f)), unit,
-                static_cast<double>(scale * At_(values, 1)), unit, values.size());
+    std::printf("%s: median %.1f %s, worst %.1f %s of %zu pairs\n", what,
+                static_cast<double>(scale * At_(values, 0.5f)), unit, static_cast<double>(scale * At_(values, 1)), unit,
+                values.size());
   };
   print("foot slide, share of the walking speed", all.slide, 100, "%");
   print("hips' height off the leg length's", all.hips_mm, 1, "mm");

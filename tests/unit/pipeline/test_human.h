@@ -10,13 +10,15 @@
 namespace flaneur {
 
 struct HumanShape {
-  float unit = 1;           // of lengths: 100 for centimetres
-  float leg_m = 0.84f;      // hip to ankle
-  float arm_down_deg = 0;   // of the rest pose: 0 a T-pose, 45 an A-pose
-  Quat turn;                // of the whole rest pose
+  float unit = 1;             // of lengths: 100 for centimetres
+  float leg_m = 0.84f;        // hip to ankle
+  float arm_down_deg = 0;     // of the rest pose: 0 a T-pose, 45 an A-pose
+  Quat turn{};                // of the whole rest pose
   bool feet_on_root = false;  // as rigs have them whose feet are steered
-  std::vector<std::string> names = {"Hips", "Spine", "Neck", "Head", "LeftArm", "LeftForeArm", "LeftHand", "RightArm", "RightForeArm",
-                                    "RightHand", "LeftUpLeg", "LeftLeg", "LeftFoot", "LeftToeBase", "RightUpLeg", "RightLeg", "RightFoot", "RightToeBase"};
+  std::vector<std::string> names = {"Hips",        "Spine",     "Neck",        "Head",         "LeftArm",
+                                    "LeftForeArm", "LeftHand",  "RightArm",    "RightForeArm", "RightHand",
+                                    "LeftUpLeg",   "LeftLeg",   "LeftFoot",    "LeftToeBase",  "RightUpLeg",
+                                    "RightLeg",    "RightFoot", "RightToeBase"};
 };
 
 inline void AddBox(Vec3 from, Vec3 to, float half, uint16_t joint, Mesh* mesh) {
@@ -32,7 +34,8 @@ inline void AddBox(Vec3 from, Vec3 to, float half, uint16_t joint, Mesh* mesh) {
     mesh->joints.push_back({joint, 0, 0, 0});
     mesh->weights.push_back({1, 0, 0, 0});
   }
-  for (const uint32_t i : {0u, 2u, 1u, 1u, 2u, 3u, 4u, 5u, 6u, 5u, 7u, 6u, 0u, 1u, 4u, 1u, 5u, 4u, 2u, 6u, 3u, 3u, 6u, 7u, 0u, 4u, 2u, 2u, 4u, 6u, 1u, 3u, 5u, 3u, 7u, 5u}) {
+  for (const uint32_t i : {0u, 2u, 1u, 1u, 2u, 3u, 4u, 5u, 6u, 5u, 7u, 6u, 0u, 1u, 4u, 1u, 5u, 4u,
+                           2u, 6u, 3u, 3u, 6u, 7u, 0u, 4u, 2u, 2u, 4u, 6u, 1u, 3u, 5u, 3u, 7u, 5u}) {
     mesh->indices.push_back(base + i);
   }
 }
@@ -74,9 +77,11 @@ inline Avatar MadeHuman(const HumanShape& shape) {
   AddBox(places[0], places[1], 0.11f, 0, &body);
   AddBox(places[1], places[2], 0.12f, 1, &body);
   AddBox(places[3], places[3] + Vec3{0, 0.12f, 0}, 0.08f, 3, &body);
-  for (const size_t j : {size_t{4}, size_t{5}, size_t{7}, size_t{8}}) AddBox(places[j], places[j + 1], 0.04f, static_cast<uint16_t>(j), &body);
+  for (const size_t j : {size_t{4}, size_t{5}, size_t{7}, size_t{8}})
+    AddBox(places[j], places[j + 1], 0.04f, static_cast<uint16_t>(j), &body);
   for (const size_t j : {size_t{6}, size_t{9}}) AddBox(places[j], places[j], 0.05f, static_cast<uint16_t>(j), &body);
-  for (const size_t j : {size_t{10}, size_t{11}, size_t{14}, size_t{15}}) AddBox(places[j], places[j + 1], 0.05f, static_cast<uint16_t>(j), &body);
+  for (const size_t j : {size_t{10}, size_t{11}, size_t{14}, size_t{15}})
+    AddBox(places[j], places[j + 1], 0.05f, static_cast<uint16_t>(j), &body);
   for (const size_t j : {size_t{12}, size_t{16}}) {
     const float x = places[j].x;
     AddBox({x, 0.03f, -0.03f}, {x, 0.03f, 0.10f}, 0.03f, static_cast<uint16_t>(j), &body);
@@ -95,24 +100,35 @@ inline Avatar MadeHuman(const HumanShape& shape) {
   return avatar;
 }
 
-// A stiff walk in place: legs and arms swing, knees bend while their leg comes forward. On MadeHuman's joints.
+// A stiff walk in place: legs and arms swing, knees bend while their leg comes forward, soles stay level and the lower
+// foot stands on the ground. On MadeHuman's joints.
 inline Clip MadeWalk(const Avatar& human, int keys = 31) {
   Clip walk;
   walk.name = "walk";
   walk.duration_s = 1;
   walk.keys = keys;
+  const Quat turn = human.joints[0].rest.rotation;
+  const float unit =
+      Length(human.joints[11].rest.translation) + Length(human.joints[12].rest.translation);  // about a leg
   for (int k = 0; k < keys; ++k) {
     const float phase = 2 * kPi * static_cast<float>(k) / static_cast<float>(keys - 1);
+    const size_t first = walk.transforms.size();
+    float longest = 0;
     for (size_t j = 0; j < human.joints.size(); ++j) {
       Transform t = human.joints[j].rest;
       const float own = j >= 14 || (j >= 7 && j <= 9) ? phase + kPi : phase;
+      const float thigh = -0.42f * std::sin(own), knee = 0.7f * std::max(0.0f, std::cos(own));
       float angle = 0;
-      if (j == 10 || j == 14) angle = -0.42f * std::sin(own);
-      if (j == 11 || j == 15) angle = 0.7f * std::max(0.0f, std::cos(own));
+      if (j == 10 || j == 14) angle = thigh;
+      if (j == 11 || j == 15) angle = knee;
+      if (j == 12 || j == 16) angle = -thigh - knee;
       if (j == 4 || j == 7) angle = 0.3f * std::sin(own);
       t.rotation = Normalized(Product(t.rotation, TurnAbout({1, 0, 0}, angle)));
+      if (j == 12 || j == 16) longest = std::max(longest, unit / 2 * (std::cos(thigh) + std::cos(thigh + knee)));
       walk.transforms.push_back(t);
     }
+    Vec3& root = walk.transforms[first].translation;
+    root = root + Rotated(turn, {0, longest - unit, 0});
   }
   return walk;
 }

@@ -60,8 +60,9 @@ TEST(BoneNames, AreReadInTheWordsOfManyRigs) {
 }
 
 TEST(BoneNames, OfWhatIsNoPartOfABodySayNothing) {
-  for (const char* name : {"IK-foot.l", "kneeIK.r", "control-toe-roll.l", "PoleTargetL", "HeadTop_End", "upperarm_twist_01_l",
-                           "handslot.r", "HairBall_L", "index_04_leaf_l", "左足ＩＫ", "", ":", "____", "Armature", "root"}) {
+  for (const char* name :
+       {"IK-foot.l", "kneeIK.r", "control-toe-roll.l", "PoleTargetL", "HeadTop_End", "upperarm_twist_01_l",
+        "handslot.r", "HairBall_L", "index_04_leaf_l", "左足ＩＫ", "", ":", "____", "Armature", "root"}) {
     EXPECT_EQ(static_cast<int>(ReadBoneName(name).part), static_cast<int>(BodyPart::kNone)) << name;
   }
 }

@@ -35,7 +35,8 @@ TEST_P(Retargeting, LimbsPointAsTheSourcesDoAndFeetDoNotSlide) {
   ASSERT_EQ(made.clip.transforms.size(), target.joints.size() * static_cast<size_t>(walk.keys));
   for (int k = 0; k < walk.keys; k += 5) {
     for (const auto& [a, b] : {std::pair{4, 5}, {5, 6}, {7, 8}, {8, 9}, {1, 2}}) {
-      EXPECT_LT(AngleBetween(Direction(from, walk, k, a, b), Direction(to, made.clip, k, a, b)), 0.02f) << k << " " << a;
+      EXPECT_LT(AngleBetween(Direction(from, walk, k, a, b), Direction(to, made.clip, k, a, b)), 0.02f)
+          << k << " " << a;
     }
   }
   EXPECT_LT(WrongBend(to, made.clip), 0.02f);
@@ -50,7 +51,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Retargeting,
                          testing::Values(HumanShape{}, HumanShape{.leg_m = 0.55f}, HumanShape{.unit = 100},
                                          HumanShape{.arm_down_deg = 45}, HumanShape{.arm_down_deg = 80},
                                          HumanShape{.turn = TurnAbout({1, 0, 0}, kPi / 2)},
-                                         HumanShape{.turn = TurnAbout({0, 1, 0}, kPi)}, HumanShape{.feet_on_root = true}));
+                                         HumanShape{.turn = TurnAbout({0, 1, 0}, kPi)},
+                                         HumanShape{.feet_on_root = true}));
 
 TEST(Retarget, FeetStandOnTheGround) {
   const Avatar source = MadeHuman({});
@@ -59,7 +61,10 @@ TEST(Retarget, FeetStandOnTheGround) {
   const Retargeted made = Retarget(from, MadeWalk(source), to);
   for (int k = 0; k < made.clip.keys; ++k) {
     float lowest = 1e30f;
-    for (const Vec3 p : SkinnedPositions(target.meshes[0], SkinningMatrices(target, made.clip, made.clip.duration_s * static_cast<float>(k) / static_cast<float>(made.clip.keys))))
+    for (const Vec3 p : SkinnedPositions(
+             target.meshes[0],
+             SkinningMatrices(target, made.clip,
+                              made.clip.duration_s * static_cast<float>(k) / static_cast<float>(made.clip.keys))))
       lowest = std::min(lowest, p.y);
     EXPECT_NEAR(lowest, 0, 0.03f) << k;
     EXPECT_GT(lowest, -0.005f) << k;
