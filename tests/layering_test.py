@@ -25,8 +25,9 @@ ROOMS = {
 }
 ALLOWED = {
     "pipeline/core": {BASE, "runtime/tour_data"},
-    "pipeline/io": {BASE, CORE},
-    "pipeline/avatar": {BASE, CORE, "pipeline/io"},
+    "pipeline/rig": {BASE, CORE},
+    "pipeline/io": {BASE, CORE, "pipeline/rig"},
+    "pipeline/avatar": {BASE, CORE, "pipeline/rig", "pipeline/io"},
     "pipeline/impostor": {BASE, CORE, "pipeline/io", "runtime/tour_data", "runtime/pack"},
     "pipeline/footprint": {BASE, CORE, "pipeline/io"},
     "pipeline/web": {BASE, CORE, "runtime/tour_data", "runtime/pack"},

@@ -6,7 +6,7 @@ foot stands, its lowest sole point moves backwards evenly; the rest of the leg f
 inverse kinematics.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -35,6 +35,16 @@ STRAIGHTEST = 0.997  # a leg never stretches beyond this share of its length
 
 
 @dataclass
+class Step:
+    """How the feet go; a walk unless said otherwise."""
+
+    stance: float = STANCE
+    pitch: list = field(default_factory=lambda: PITCH)
+    lift: float = SWING_LIFT
+    flight: float = 0.0  # of a run: half the pelvis' rise and fall, of the leg's length; 0: as the legs let it
+
+
+@dataclass
 class FootTrack:
     """One foot's cycle, sampled at SUBSTEPS + 1 phases from heel strike; y is forward-negative."""
 
@@ -43,9 +53,9 @@ class FootTrack:
     pitch_deg: np.ndarray
 
 
-def _smooth_pitch():
+def _smooth_pitch(pitch):
     phases = np.linspace(0.0, 1.0, SUBSTEPS + 1)
-    values = np.interp(phases, [p[0] for p in PITCH], [p[1] for p in PITCH])
+    values = np.interp(phases, [p[0] for p in pitch], [p[1] for p in pitch])
     kernel = np.hanning(17) / np.hanning(17).sum()
     return np.convolve(np.concatenate([values[-9:-1], values, values[1:9]]), kernel, "valid")
 
@@ -60,14 +70,14 @@ def sole_points(figure, side):
     )
 
 
-def foot_track(figure, stride_m):
+def foot_track(figure, stride_m, how=Step()):
     """Rolls a foot through its stance and swings it forward again; both feet step alike."""
     sole = sole_points(figure, "_L")
     leg = figure.skeleton.head("upperleg02_L")[2]
-    pitch = _smooth_pitch()
+    pitch = _smooth_pitch(how.pitch)
     turned = np.array([sole @ sk.rotation("x", degrees).T for degrees in pitch])
     low = turned[:, :, 2].argmin(axis=1)
-    lift_off = int(round(STANCE * SUBSTEPS))
+    lift_off = int(round(how.stance * SUBSTEPS))
     y, z = np.zeros(SUBSTEPS + 1), -turned[:, :, 2].min(axis=1)
     step = stride_m / SUBSTEPS
     for i in range(lift_off):
@@ -77,7 +87,7 @@ def foot_track(figure, stride_m):
     y[lift_off:] = _hermite(
         s, y[lift_off], y[0], (y[lift_off] - y[lift_off - 1]) * span, (y[1] - y[0]) * span
     )
-    lift = SWING_LIFT * leg * np.sin(np.pi * s**0.8) ** 2
+    lift = how.lift * leg * np.sin(np.pi * s**0.8) ** 2
     z[lift_off:] = z[lift_off:] + lift
     return FootTrack(y, z, pitch)
 
@@ -130,17 +140,23 @@ def _pelvis_height(limit, cycles, max_bob_m):
     return best[1]
 
 
-def step_legs(figure, rotations, stride_m, half_width_m, toe_out_deg=5.0):
+def _flying_height(limit, cycles, how, leg_m):
+    """Lowest while a foot stands, highest while none does."""
+    wave = how.flight * leg_m * np.cos(4.0 * np.pi * (cycles - 0.5 * how.stance + 0.25))
+    return (limit - wave).min() + wave
+
+
+def step_legs(figure, rotations, stride_m, half_width_m, toe_out_deg=5.0, how=Step()):
     """Replaces the legs in global rotations (frames, joints, 3, 3); returns the root positions."""
     skeleton = figure.skeleton
-    track = foot_track(figure, stride_m)
+    track = foot_track(figure, stride_m, how)
     frames = len(rotations) - 1
     root = skeleton.heads[0]
     leg = sum(
         np.linalg.norm(skeleton.head(b) - skeleton.head(a))
         for a, b in (("upperleg02_L", "lowerleg01_L"), ("lowerleg01_L", "foot_L"))
     )
-    centre = 0.5 * (track.y[0] + track.y[int(STANCE * SUBSTEPS)]) - BEHIND * leg
+    centre = 0.5 * (track.y[0] + track.y[int(how.stance * SUBSTEPS)]) - BEHIND * leg
     hip_y = skeleton.head("upperleg02_L")[1] - root[1]
     cycles = (np.arange(frames + 1) / frames * 24.0 - STRIKE_FRAME) / 24.0
     ankles, pitches, hips, limits = {}, {}, {}, []
@@ -158,7 +174,8 @@ def step_legs(figure, rotations, stride_m, half_width_m, toe_out_deg=5.0):
         flat = ankles[side][:, :2] - hips[side][:, :2] - root[:2]
         reach = np.sqrt(np.maximum((STRAIGHTEST * leg) ** 2 - (flat**2).sum(axis=1), 0.0))
         limits.append(ankles[side][:, 2] + reach - hips[side][:, 2])
-    height = _pelvis_height(np.min(limits, axis=0), cycles, MAX_BOB * leg)
+    limit = np.min(limits, axis=0)
+    height = _flying_height(limit, cycles, how, leg) if how.flight > 0 else _pelvis_height(limit, cycles, MAX_BOB * leg)
     roots = np.stack([np.zeros(frames + 1), np.full(frames + 1, root[1]), height], axis=1)
     for f in range(frames + 1):
         left = rotations[f, 0] @ np.array([1.0, 0.0, 0.0])

@@ -8,6 +8,7 @@
 #include "pipeline/avatar/fit_look.h"
 #include "pipeline/avatar/fit_surface.h"
 #include "pipeline/avatar/level_error.h"
+#include "pipeline/avatar/limit_joints.h"
 #include "pipeline/avatar/material_atlas.h"
 #include "pipeline/avatar/merge_joints.h"
 #include "pipeline/avatar/poses.h"
@@ -241,7 +242,13 @@ Error BuildLevels(const Avatar& source, const LevelsOptions& options, AvatarLeve
                   std::vector<std::string>* warnings) {
   if (Error e = CheckOptions(options)) return e;
   if (Error e = CheckMeshes(source)) return e;
-  const Avatar avatar = WithoutIdleJoints(source);
+  Avatar limited = source;
+  if (!LimitJoints(options.max_joints, &limited, warnings)) {
+    return Fail("it uses " + std::to_string(source.joints.size()) + " joints, at most " +
+                std::to_string(options.max_joints) +
+                " are possible, and too many of them move by themselves; simplify the skeleton");
+  }
+  const Avatar avatar = WithoutIdleJoints(limited);
   levels->avatar = avatar;
   levels->levels = DecimatedLevels(avatar, options, warnings);
   if (options.ratios.empty()) KeepNeeded(avatar, options.error_px, &levels->levels);

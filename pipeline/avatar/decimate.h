@@ -22,6 +22,7 @@ struct LevelsOptions {
   // Points per surface that the deviation is measured at, besides its vertices.
   int error_samples = 3000;
   int walk_poses = 8;    // that posed_error_mm is measured over
+  int max_joints = 256;  // that the player knows; of more those go that are least missed
   Jobs* jobs = nullptr;  // that share the work; the result is the same
 };
 

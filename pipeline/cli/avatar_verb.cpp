@@ -3,13 +3,16 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "pipeline/avatar/decimate.h"
 #include "pipeline/cli/arguments.h"
+#include "pipeline/cli/avatar_sheet.h"
 #include "pipeline/cli/tint_reach.h"
 #include "pipeline/cli/verbs.h"
+#include "pipeline/io/describe_file.h"
 #include "pipeline/io/gltf.h"
 #include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
@@ -18,8 +21,12 @@
 namespace flaneur {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct AvatarArguments {
-  std::filesystem::path input, output, json;
+  std::vector<fs::path> inputs;
+  fs::path output, json, sheet;
+  bool list = false;
   ReadAvatarOptions read;
   LevelsOptions levels;
   DracoOptions draco;
@@ -27,9 +34,13 @@ struct AvatarArguments {
 };
 
 void AddFiles(CLI::App* app, AvatarArguments* a) {
-  app->add_option("IN", a->input, "The person: a glTF file with a skin and a walk clip")->required();
-  app->add_option("-o,--output", a->output, "The glTF binary to write")->required();
-  app->add_option("--json", a->json, "Also write the levels' numbers to this JSON file");
+  app->add_option("IN", a->inputs, "The people: files with a skin, of any format that docs/avatars.md names")
+      ->required();
+  app->add_option("-o,--output", a->output,
+                  "The glTF binary to write; of several people a folder for one each, with a contact sheet index.html");
+  app->add_option("--json", a->json, "Also write the levels' numbers of one person to this JSON file");
+  app->add_option("--sheet", a->sheet, "Also draw one person's levels and clips into this PNG");
+  app->add_flag("--list", a->list, "Say what the files hold: nodes, bones, clips, up and facing; write nothing");
   app->option_defaults()->always_capture_default();
 }
 
@@ -39,9 +50,23 @@ void AddPerson(CLI::App* app, AvatarArguments* a) {
   app->add_option("--walk", a->read.walk, "Name of the walk clip in the file; empty: found by itself")->group(person);
   app->add_option("--idle", a->read.idle, "Name of the idle clip")->group(person);
   app->add_option("--talk", a->read.talk, "Name of the talk clip")->group(person);
+  app->add_option("--clips", a->read.clip_files,
+                  "A file whose clips the person moves by, also of another skeleton: glTF, FBX, BVH, VRMA, .blend, "
+                  ".dae; more than once")
+      ->allow_extra_args(false)
+      ->group(person);
   app->add_option("--height", a->read.height_m,
                   "Metres to scale the person to; 0: as it is, or 1.75 where that is no person's height")
       ->check(CLI::Range(0.0, 10.0))
+      ->group(person);
+  const std::string axes = "x, y, z, -x, -y or -z; empty: by the skeleton";
+  app->add_option("--scale", a->read.scale, "Metres per unit of the file; 0: by the height")
+      ->check(CLI::Range(0.0, 1e6))
+      ->group(person);
+  app->add_option("--up", a->read.up, "Where the figure's head is in the file: " + axes)->group(person);
+  app->add_option("--forward", a->read.forward, "Where the figure faces in the file: " + axes)->group(person);
+  app->add_option("--part", a->read.parts, "A further file on the person's skeleton: outfit, hair; more than once")
+      ->allow_extra_args(false)
       ->group(person);
   app->add_option("--hide", a->read.hide, "Names of nodes left out with what hangs on them, separated by commas")
       ->delimiter(',')
@@ -70,7 +95,7 @@ void AddLevels(CLI::App* app, AvatarArguments* a) {
 
 void AddCompression(CLI::App* app, AvatarArguments* a) {
   const std::string compression = "Compression";
-  app->add_flag("--no-draco", a->plain, "Write plain meshes and clips, for programs that know no compression")
+  app->add_flag("--plain,--no-draco", a->plain, "Write plain meshes and clips, for programs that know no compression")
       ->group(compression);
   app->add_option("--position-bits", a->draco.position_bits,
                   "Bits of a position's component, 8 to 24; 0: 14, in coarser levels by their error")
@@ -114,20 +139,24 @@ nlohmann::json Statistics(const AvatarLevels& levels, const std::vector<MainColo
           {"levels", list}};
 }
 
-Error Run(AvatarArguments a, AvatarLevels* levels, std::vector<MainColor>* colors, std::vector<std::string>* warnings) {
+Error Run(AvatarArguments a, const fs::path& input, AvatarLevels* levels, std::vector<MainColor>* colors,
+          std::vector<std::string>* warnings) {
   const auto start = std::chrono::steady_clock::now();
-  for (const auto* path : {&a.output, &a.json}) {
+  for (const auto* path : {&a.output, &a.json, &a.sheet}) {
     if (path->empty()) continue;
     if (Error e = CheckWritable(*path)) return e;
   }
   Avatar avatar;
-  if (Error e = ReadAvatar(a.input, a.read, &avatar, warnings)) return e;
+  if (Error e = ReadAvatar(input, a.read, &avatar, warnings)) return e;
   Jobs jobs(ThreadsOfThisMachine() - 1);
   a.levels.jobs = &jobs;
   if (Error e = BuildLevels(avatar, a.levels, levels, warnings)) return e;
   if (Error e = MainColors(avatar, colors)) return e;
   a.draco.compress = !a.plain;
   if (Error e = WriteAvatarGlb(a.output, *levels, a.draco, &jobs)) return e;
+  if (!a.sheet.empty()) {
+    if (Error e = WriteFile(a.sheet, AvatarSheet(*levels))) return e;
+  }
   if (a.json.empty()) return Ok();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   return WriteTextFile(a.json, Statistics(*levels, *colors, seconds.count()).dump(2) + "\n");
@@ -151,6 +180,53 @@ void PrintSummary(const AvatarArguments& a, const AvatarLevels& levels, const st
   }
 }
 
+int MakeOne(const AvatarArguments& a, const fs::path& input, SheetEntry* entry) {
+  AvatarLevels levels;
+  std::vector<MainColor> colors;
+  std::vector<std::string> warnings;
+  const Error error = Run(a, input, &levels, &colors, &warnings);
+  for (const std::string& warning : warnings) {
+    std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
+  }
+  if (entry != nullptr) *entry = {input, levels.avatar, a.sheet, a.output, warnings, error.message};
+  if (error) return Report(error);
+  PrintSummary(a, levels, colors);
+  return 0;
+}
+
+int List(const std::vector<fs::path>& inputs) {
+  int status = 0;
+  for (const fs::path& input : inputs) {
+    std::string text;
+    if (const Error e = DescribePersonFile(input, &text)) status = Report(e);
+    else std::fputs(text.c_str(), stdout);
+  }
+  return status;
+}
+
+// One file a person, and a page of all of them; who cannot be read keeps nobody else from it.
+int MakeAll(const AvatarArguments& all) {
+  if (!all.json.empty() || !all.sheet.empty())
+    return Report(Fail("--json and --sheet are for one person; a folder has a sheet of all"));
+  std::error_code ec;
+  fs::create_directories(all.output, ec);
+  if (ec) return Report(Fail(all.output.string() + ": cannot be made: " + ec.message()));
+  std::vector<SheetEntry> entries;
+  std::set<std::string> taken;
+  int status = 0;
+  for (const fs::path& input : all.inputs) {
+    AvatarArguments one = all;
+    std::string stem = input.stem().string();
+    for (int n = 2; !taken.insert(stem).second; ++n) stem = input.stem().string() + "_" + std::to_string(n);
+    one.output = all.output / (stem + ".glb");
+    one.sheet = all.output / (stem + ".png");
+    const int own = MakeOne(one, input, &entries.emplace_back());
+    status = std::max(status, own);
+  }
+  const Error e = WriteTextFile(all.output / "index.html", SheetPage(entries));
+  return e ? Report(e) : status;
+}
+
 }  // namespace
 
 int RunAvatar(const Arguments& args) {
@@ -164,16 +240,10 @@ int RunAvatar(const Arguments& args) {
   AddLevels(&app, &arguments);
   AddCompression(&app, &arguments);
   if (const int status = ParseArguments(&app, args); status >= 0) return status;
-  AvatarLevels levels;
-  std::vector<MainColor> colors;
-  std::vector<std::string> warnings;
-  const Error error = Run(arguments, &levels, &colors, &warnings);
-  for (const std::string& warning : warnings) {
-    std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
-  }
-  if (error) return Report(error);
-  PrintSummary(arguments, levels, colors);
-  return 0;
+  if (arguments.list) return List(arguments.inputs);
+  if (arguments.output.empty()) return Report(Fail("-o is missing: say where to write"));
+  const bool folder = arguments.inputs.size() > 1 || fs::is_directory(arguments.output);
+  return folder ? MakeAll(arguments) : MakeOne(arguments, arguments.inputs[0], nullptr);
 }
 
 }  // namespace flaneur

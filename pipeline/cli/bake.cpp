@@ -75,6 +75,9 @@ Error RequireFiles(const TourSettings& s) {
   }
   for (const AvatarSettings& avatar : s.avatars) {
     if (Error e = RequireFile(avatar.source.file)) return e;
+    for (const fs::path& file : FilesBeside(avatar)) {
+      if (Error e = RequireFile(file)) return e;
+    }
   }
   for (const fs::path& file : FilesOf(s.title_page)) {
     if (Error e = RequireFile(file)) return e;
@@ -192,7 +195,13 @@ Error MakeAvatar(Baking* baking, size_t i) {
     read.talk = settings.talk;
     read.height_m = settings.height_m;
     read.hide = settings.hide;
-    for (const ClipSettings& clip : settings.clips) read.other_clips.emplace_back(clip.name, clip.clip);
+    read.scale = settings.scale;
+    read.up = settings.up;
+    read.forward = settings.forward;
+    read.parts = settings.parts;
+    for (const auto* clips : {&settings.usual_clips, &settings.clips}) {
+      for (const ClipSettings& clip : *clips) read.other_clips.push_back({clip.name, clip.clip, clip.file});
+    }
     for (const Prop& prop : settings.props) read.props.push_back(prop.name);
     Avatar avatar;
     if (Error e = ReadAvatar(file, read, &avatar, warnings)) return e;

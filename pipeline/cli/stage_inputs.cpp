@@ -2,6 +2,7 @@
 
 #include "pipeline/core/fingerprint.h"
 #include "pipeline/core/subprocess.h"
+#include "pipeline/io/motion_reader.h"
 
 namespace flaneur {
 namespace fs = std::filesystem;
@@ -25,15 +26,37 @@ void AddAll(const Values& values, Fingerprint* print) {
   for (const auto& value : values) print->Add(value);
 }
 
+// Of its own settings; the program's own clips stand beside them.
+std::vector<fs::path> ClipFiles(const AvatarSettings& a) {
+  std::vector<fs::path> files;
+  for (const auto* clips : {&a.clips, &a.usual_clips}) {
+    for (const ClipSettings& clip : *clips) {
+      if (!clip.file.empty() && clip.file != "flaneur") files.push_back(clip.file);
+    }
+  }
+  return files;
+}
+
 void AddReading(const AvatarSettings& a, const fs::path& file, Fingerprint* print) {
   print->AddFile(file).Add(a.walk).Add(a.idle).Add(a.talk).Add(a.height_m);
   AddAll(a.hide, print);
   for (const Prop& prop : a.props) print->Add(prop.name);
   for (const auto& materials : a.tint_materials) AddAll(materials, print);
   for (const ClipSettings& clip : a.clips) print->Add(clip.name).Add(clip.clip);
+  if (!a.up.empty() || !a.forward.empty() || a.scale > 0) print->Add(a.up).Add(a.forward).Add(a.scale);
+  for (const fs::path& part : a.parts) print->AddFile(part);
+  for (const ClipSettings& clip : a.usual_clips) print->Add(clip.name).Add(clip.clip);
+  for (const fs::path& clips : ClipFiles(a)) print->AddFile(clips);
+  if (!IsScript(a.source.file)) print->AddFile(ShippedClips());  // our own scripts bring all clips
 }
 
 }  // namespace
+
+std::vector<fs::path> FilesBeside(const AvatarSettings& avatar) {
+  std::vector<fs::path> files = ClipFiles(avatar);
+  files.insert(files.end(), avatar.parts.begin(), avatar.parts.end());
+  return files;
+}
 
 bool IsScript(const fs::path& file) { return file.extension() == ".py"; }
 
@@ -48,9 +71,15 @@ std::string AvatarInputs(const AvatarSettings& avatar, const fs::path& file, con
   Fingerprint print;
   print.Add(ThisProgram()).Add(avatar.name);
   AddReading(avatar, file, &print);
-  const auto& [ratios, error_px, max_triangles, min_triangles, error_samples, walk_poses, jobs] = levels;
+  const auto& [ratios, error_px, max_triangles, min_triangles, error_samples, walk_poses, max_joints, jobs] = levels;
   AddAll(ratios, &print);
-  return print.Add(error_px).Add(max_triangles).Add(min_triangles).Add(error_samples).Add(walk_poses).Hex();
+  return print.Add(error_px)
+      .Add(max_triangles)
+      .Add(min_triangles)
+      .Add(error_samples)
+      .Add(walk_poses)
+      .Add(max_joints)
+      .Hex();
 }
 
 std::string ImpostorInputs(const AvatarSettings& avatar, const fs::path& file, int max_triangles,
@@ -109,7 +138,10 @@ std::string TourInputs(const fs::path& tour, const TourSettings& s) {
     for (const auto& [language, file] : sounds) print.AddFile(file);
   }
   for (const TownPart& part : s.parts) add(part.file);
-  for (const AvatarSettings& avatar : s.avatars) add(avatar.source.file);
+  for (const AvatarSettings& avatar : s.avatars) {
+    add(avatar.source.file);
+    for (const fs::path& file : FilesBeside(avatar)) add(file);
+  }
   return print.Hex();
 }
 

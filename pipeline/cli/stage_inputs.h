@@ -20,6 +20,9 @@ std::string CheckInputs(const TourSettings& settings, const std::string& footpri
 // Of all of a tour: its settings, files, scripts and this program.
 std::string TourInputs(const std::filesystem::path& tour, const TourSettings& settings);
 
+// What an avatar names besides its own file: clips and parts.
+std::vector<std::filesystem::path> FilesBeside(const AvatarSettings& avatar);
+
 bool IsScript(const std::filesystem::path& file);
 
 }  // namespace flaneur

@@ -84,19 +84,43 @@ void ReadProp(TomlTable table, AvatarSettings* avatar) {
   avatar->props.push_back(std::move(prop));
 }
 
+bool IsUsual(const std::string& clip) { return clip == "walk" || clip == "idle" || clip == "talk"; }
+
 void ReadClip(TomlTable table, AvatarSettings* avatar) {
   ClipSettings clip;
   table.Text("name", &clip.name);
   table.Text("clip", &clip.clip);
   table.Number("seat_m", &clip.seat_m, 0, static_cast<double>(kMaxSeat_m));
   table.Number("speed_mps", &clip.speed_mps, 0, static_cast<double>(kMaxRun_mps));
-  if (clip.name.empty() || clip.name == "walk" || clip.name == "idle" || clip.name == "talk")
-    table.Refuse("an [[avatar.clip]] needs a name, as places of work have it, that is not walk, idle or talk");
-  for (const ClipSettings& other : avatar->clips) {
+  table.File("file", &clip.file);
+  if (clip.file.filename() == "flaneur") clip.file = "flaneur";  // the program's own clips, in no folder
+  if (clip.name.empty())
+    table.Refuse("an [[avatar.clip]] needs a name: as places of work have it, or walk, idle or talk");
+  if (IsUsual(clip.name) && clip.file.empty()) {
+    table.Refuse("the [[avatar.clip]] '" + clip.name +
+                 "' needs the file that it is in; of the avatar's own the setting " + clip.name + " names it");
+  }
+  std::vector<ClipSettings>* clips = IsUsual(clip.name) ? &avatar->usual_clips : &avatar->clips;
+  for (const ClipSettings& other : *clips) {
     if (other.name == clip.name) table.Refuse("two clips are named '" + OneLine(clip.name) + "'");
   }
   table.Finish();
-  avatar->clips.push_back(std::move(clip));
+  clips->push_back(std::move(clip));
+}
+
+void ReadAvatarPart(TomlTable table, AvatarSettings* avatar) {
+  std::filesystem::path file;
+  table.File("file", &file);
+  if (file.empty()) table.Refuse("an [[avatar.part]] needs a file");
+  table.Finish();
+  avatar->parts.push_back(std::move(file));
+}
+
+void ReadStance(TomlTable* table, AvatarSettings* avatar) {
+  table->Number("scale", &avatar->scale, 0, 1e6);
+  table->Choice("up", &avatar->up, {"", "x", "y", "z", "-x", "-y", "-z"});
+  table->Choice("forward", &avatar->forward, {"", "x", "y", "z", "-x", "-y", "-z"});
+  if (avatar->scale > 0 && avatar->height_m > 0) table->Refuse("an [[avatar]] has a scale or a height_m, not both");
 }
 
 void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
@@ -106,6 +130,7 @@ void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
   table.Number("share", &avatar.share, 0, 1e6);
   table.Number("height_m", &avatar.height_m, 0, 10);
   table.Number("height_spread", &avatar.height_spread, 0, static_cast<double>(kMaxHeightSpread));
+  ReadStance(&table, &avatar);
   table.Text("walk", &avatar.walk);
   table.Text("idle", &avatar.idle);
   table.Text("talk", &avatar.talk);
@@ -113,6 +138,7 @@ void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
   for (TomlTable& tint : table.Tables("tint")) ReadTint(tint, &avatar);
   for (TomlTable& prop : table.Tables("prop")) ReadProp(prop, &avatar);
   for (TomlTable& clip : table.Tables("clip")) ReadClip(clip, &avatar);
+  for (TomlTable& part : table.Tables("part")) ReadAvatarPart(part, &avatar);
   if (avatar.props.size() > kMaxProps) table.Refuse("an [[avatar]] has seven [[avatar.prop]] at most");
   if (avatar.tints.size() > kMaxTints) table.Refuse("an [[avatar]] has three [[avatar.tint]] at most");
   if (avatar.source.file.empty()) table.Refuse("an [[avatar]] needs a file");
@@ -340,7 +366,8 @@ Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings
 std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
   const toml::table root = toml::parse(
-      "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[avatar.clip]]\n[[place]]\n[[stop]]\n[[town.part]]\n"
+      "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[avatar.clip]]\n[[avatar.part]]\n[[place]]\n[[stop]]\n[[town."
+      "part]]\n"
       "[[hotspot]]\n[[street]]\n[[sound]]\n[[flock]]\n[[smoke]]\n");
   TomlContext context;
   TourSettings settings;

@@ -36,9 +36,10 @@ struct TownPart {
 
 // A clip besides walk, idle and talk.
 struct ClipSettings {
-  std::string name, clip;  // clip: in the avatar's file; empty: the one of that name
-  float seat_m = 0;        // height of the seat that it is made for; 0: it does not sit
-  float speed_mps = 0;     // at which its feet don't slide; 0: it is on the spot
+  std::string name, clip;      // clip: in the avatar's file; empty: the one of that name
+  float seat_m = 0;            // height of the seat that it is made for; 0: it does not sit
+  float speed_mps = 0;         // at which its feet don't slide; 0: it is on the spot
+  std::filesystem::path file;  // that holds it, see ClipRequest; empty: the avatar's
 };
 
 struct AvatarSettings {
@@ -47,8 +48,13 @@ struct AvatarSettings {
   float share = 1;              // of the crowd, relative to the others'
   float height_m = 0;           // 0: as in the file, see ReadAvatarOptions
   float height_spread = 0.04f;  // as a share, 0 to kMaxHeightSpread
+  float scale = 0;              // metres per unit of the file; 0: see ReadAvatarOptions
+  std::string up, forward;      // of the figure in the file; empty: found
   std::string walk, idle, talk;
   std::vector<std::string> hide;
+  std::vector<std::filesystem::path> parts;  // further files on its skeleton
+  // Of [[avatar.clip]] with the names walk, idle and talk, which need no place to ask for them.
+  std::vector<ClipSettings> usual_clips;
   std::vector<Tint> tints;                               // at most kMaxTints
   std::vector<std::vector<std::string>> tint_materials;  // by tint: names of what it dyes; empty: all
   std::vector<Prop> props;

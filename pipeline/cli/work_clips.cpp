@@ -38,7 +38,7 @@ Error ChooseWorkClips(const std::vector<Place>& places, const std::vector<Flock>
     for (const std::string& name : ClipsFor(avatar.name, places, flocks)) {
       const auto known =
           std::find_if(avatar.clips.begin(), avatar.clips.end(), [&](const auto& clip) { return clip.name == name; });
-      used.push_back(known != avatar.clips.end() ? *known : ClipSettings{name, "", 0, 0});
+      used.push_back(known != avatar.clips.end() ? *known : ClipSettings{name, "", 0, 0, {}});
     }
     if (used.size() > kMaxOtherClips) {
       return Fail("avatar '" + avatar.name + "' would need " + std::to_string(used.size()) +

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "pipeline/io/avatar_stance.h"
+#include "pipeline/rig/clip_loop.h"
 #include "runtime/base/array.h"
 
 namespace flaneur {
@@ -11,12 +13,12 @@ namespace {
 
 constexpr float kDefaultHeight_m = 1.75f;
 constexpr float kMinHeight_m = 0.5f, kMaxHeight_m = 2.3f;  // kept as they are in between
+constexpr float kFlat = 0.4f;                              // of its width: a lower figure hardly stands
+constexpr float kHangs = 0.02f;                            // of the height: what hangs lower than the soles by more
 constexpr float kDefaultSpeed_mps = 1.3f;                  // of an adult, where nothing tells
 constexpr float kMinSpeed_mps = 0.2f;                      // slower is not a walk
-constexpr float kTravel = 0.05f;                           // of the height: more than sway, so the root travels
 constexpr float kSole = 0.015f;                            // of the height: how near the ground a standing sole is
 constexpr size_t kMaxBodyVertices = 16000;                 // at a millimetre or two from one another's height
-constexpr float kBlendedShare = 0.25f;                     // of a clip that does not loop
 
 std::string Metres(float value) {
   char text[32];
@@ -29,102 +31,6 @@ float Median(std::vector<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-float TimeOf(const Clip& clip, int key) {
-  return clip.keys < 2 ? 0 : clip.duration_s * static_cast<float>(key) / static_cast<float>(clip.keys - 1);
-}
-
-// Unlike SkinningMatrices at a time, this does not wrap the last key to the first.
-std::vector<Vec3> JointPositions(const Avatar& avatar, const Clip& clip, int key) {
-  const size_t joints = avatar.joints.size();
-  std::vector<Mat4> world(joints);
-  std::vector<Vec3> positions(joints);
-  for (size_t j = 0; j < joints; ++j) {
-    const Transform& t = clip.transforms[static_cast<size_t>(key) * joints + j];
-    const Mat4 local = FromTranslationRotationScale(t.translation, t.rotation, t.scale);
-    const int parent = avatar.joints[j].parent;
-    world[j] = parent < 0 ? local : At(world, parent) * local;
-    positions[j] = TransformPoint(world[j], {});
-  }
-  return positions;
-}
-
-Vec3 Mean(const std::vector<Vec3>& points) {
-  Vec3 sum;
-  for (const Vec3 p : points) sum = sum + p;
-  return sum * (1 / static_cast<float>(points.size()));
-}
-
-float MeanDistance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  float sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) sum += Length(a[i] - b[i]);
-  return sum / static_cast<float>(a.size());
-}
-
-// Moves the whole figure in one key.
-void Shift(const Avatar& avatar, Clip* clip, int key, Vec3 by) {
-  const size_t joints = avatar.joints.size();
-  for (size_t j = 0; j < joints; ++j) {
-    if (avatar.joints[j].parent >= 0) continue;
-    Vec3& t = clip->transforms[static_cast<size_t>(key) * joints + j].translation;
-    t = t + by;
-  }
-}
-
-void Shift(const Avatar& avatar, Clip* clip, Vec3 by) {
-  for (int k = 0; k < clip->keys; ++k) Shift(avatar, clip, k, by);
-}
-
-// Takes even horizontal travel out of the clip; returns its velocity.
-Vec3 RemoveTravel(const Avatar& avatar, float height, Clip* clip) {
-  Vec3 travel = Mean(JointPositions(avatar, *clip, clip->keys - 1)) - Mean(JointPositions(avatar, *clip, 0));
-  travel.y = 0;
-  if (Length(travel) < kTravel * height) return {};
-  const Vec3 velocity = travel * (1 / clip->duration_s);
-  for (int k = 0; k < clip->keys; ++k) {
-    Shift(avatar, clip, k, velocity * -TimeOf(*clip, k));
-  }
-  return velocity;
-}
-
-Transform Mix(const Transform& a, const Transform& b, float t) {
-  return {a.translation * (1 - t) + b.translation * t, Slerp(a.rotation, b.rotation, t),
-          a.scale * (1 - t) + b.scale * t};
-}
-
-// Makes the last key equal the first: exactly where it nearly does, by one more key where just that
-// is missing, else by blending the clip's end into its first pose.
-void MakeLoop(const Avatar& avatar, Clip* clip, std::vector<std::string>* warnings) {
-  const size_t joints = avatar.joints.size();
-  const std::vector<Vec3> first = JointPositions(avatar, *clip, 0);
-  float step = 0;
-  std::vector<Vec3> previous = first;
-  for (int k = 1; k < clip->keys; ++k) {
-    std::vector<Vec3> next = JointPositions(avatar, *clip, k);
-    step += MeanDistance(previous, next) / static_cast<float>(clip->keys - 1);
-    previous = std::move(next);
-  }
-  const float gap = MeanDistance(previous, first);
-  const auto key = [&](int k) { return clip->transforms.begin() + static_cast<std::ptrdiff_t>(joints) * k; };
-  if (gap > 0.5f * step && gap <= 2 * step) {
-    clip->duration_s *= static_cast<float>(clip->keys) / static_cast<float>(clip->keys - 1);
-    ++clip->keys;
-    clip->transforms.resize(clip->transforms.size() + joints);
-  } else if (gap > 2 * step) {
-    if (clip->name == "walk") {
-      warnings->push_back("the walk clip does not loop; its end is blended into its start");
-    }
-    const int blended = std::max(1, static_cast<int>(kBlendedShare * static_cast<float>(clip->keys)));
-    for (int k = clip->keys - blended; k < clip->keys; ++k) {
-      const float t = static_cast<float>(k - (clip->keys - blended) + 1) / static_cast<float>(blended);
-      for (size_t j = 0; j < joints; ++j) {
-        Transform& own = *(key(k) + static_cast<std::ptrdiff_t>(j));
-        own = Mix(own, clip->transforms[j], t * t * (3 - 2 * t));
-      }
-    }
-  }
-  std::copy(key(0), key(1), key(clip->keys - 1));
 }
 
 struct Extent {
@@ -152,7 +58,7 @@ void ScaleAvatar(float scale, Vec3 bind_offset, Avatar* avatar, Mesh* body) {
   }
   for (Clip& clip : avatar->clips) {
     for (Transform& t : clip.transforms) t.translation = t.translation * scale;
-    Shift(*avatar, &clip, bind_offset);
+    ShiftClip(avatar->joints, &clip, bind_offset);
   }
 }
 
@@ -198,22 +104,45 @@ Vec3 MedianOf(const std::vector<Vec3>& points) {
   return {Median(std::move(x)), 0, Median(std::move(z))};
 }
 
+// Vertices that are marked, with their skin.
+Mesh Only(const std::vector<bool>& marked, const Mesh& mesh) {
+  Mesh out;
+  for (size_t v = 0; v < marked.size(); ++v) {
+    if (!marked[v]) continue;
+    out.positions.push_back(mesh.positions[v]);
+    out.joints.push_back(mesh.joints[v]);
+    out.weights.push_back(mesh.weights[v]);
+  }
+  return out;
+}
+
 // Feet on the ground, trunk over the origin. Idle and talk keep their place beside the walk unless they stray; what is
 // done besides is moved as the walk is: who sits has the trunk behind the feet, and a child's feet over the ground.
-void PlaceClips(const Mesh& body, Avatar* avatar) {
-  const auto walk = BodyOverClip(*avatar, *FindClip(*avatar, "walk"), body);
-  const float walk_ground = Lowest(walk);
+// Feet are the lowest there is, unless something hangs below them in the walk: then they alone count.
+void PlaceClips(const Mesh& whole, const std::vector<NamedBone>& told, Avatar* avatar,
+                std::vector<std::string>* warnings) {
+  const Clip& walk_clip = *FindClip(*avatar, "walk");
+  const auto walk = BodyOverClip(*avatar, walk_clip, whole);
+  float walk_ground = Lowest(walk);
+  const Mesh feet = Only(OnFeet(*avatar, told, whole), whole);
+  const float soles = feet.positions.empty() ? walk_ground : Lowest(BodyOverClip(*avatar, walk_clip, feet));
+  const bool hangs = soles - walk_ground > kHangs * avatar->height_m;
+  if (hangs) {
+    warnings->push_back("something hangs " + Metres(soles - walk_ground) +
+                        " m below the soles; the soles stand on the ground: hide it, or see flaneur avatar --list");
+    walk_ground = soles;
+  }
   for (Clip& clip : avatar->clips) {
     if (clip.name != "walk" && clip.name != "idle" && clip.name != "talk") {
-      Shift(*avatar, &clip, {0, -walk_ground, 0});
+      ShiftClip(avatar->joints, &clip, {0, -walk_ground, 0});
       continue;
     }
-    const auto keys = BodyOverClip(*avatar, clip, body);
-    const float ground = Lowest(keys);
+    const auto keys = BodyOverClip(*avatar, clip, whole);
+    const float ground = hangs ? Lowest(BodyOverClip(*avatar, clip, feet)) : Lowest(keys);
     Vec3 center = MedianOf(Trunk(keys, ground, avatar->height_m));
     const bool strays = Length(center) > 0.1f * avatar->height_m;
     if (clip.name != "walk" && !strays) center = {};
-    Shift(*avatar, &clip, {-center.x, -ground, -center.z});
+    ShiftClip(avatar->joints, &clip, {-center.x, -ground, -center.z});
   }
 }
 
@@ -230,6 +159,27 @@ float TrunkRadius(const Avatar& avatar, const Clip& walk, const Mesh& body) {
   return std::clamp(*at, 0.2f, 0.35f);
 }
 
+bool IsPlausible(float height_m) { return height_m >= kMinHeight_m && height_m <= kMaxHeight_m; }
+
+// As it is where that is a person's height, or that of the person below a tall hat: so people of one pack keep one
+// scale. Else in the unit that makes the skeleton a person's, else the usual height.
+float HeightByItself(const NormalizeOptions& options, const Avatar& avatar, float height,
+                     std::vector<std::string>* warnings) {
+  if (options.scale > 0 || IsPlausible(height)) return height;
+  const float skeleton = HeightOfSkeleton(avatar, options.told);
+  if (IsPlausible(skeleton)) return height;
+  if (const float unit_m = UnitOf(skeleton); skeleton > 0 && unit_m > 0) {
+    char unit[24];
+    std::snprintf(unit, sizeof unit, "%g", static_cast<double>(unit_m));
+    warnings->push_back("the figure is " + Metres(height) + " units high; one is taken to be " + unit +
+                        " m: set scale or its height to have it otherwise");
+    return height * unit_m;
+  }
+  warnings->push_back("the figure is " + Metres(height) + " m high and is scaled to " + Metres(kDefaultHeight_m) +
+                      " m; give its height to change that");
+  return kDefaultHeight_m;
+}
+
 Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body, float* scale,
                     std::vector<std::string>* warnings) {
   Extent extent;
@@ -238,25 +188,18 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
   }
   const float height = extent.max.y - extent.min.y;
   if (!std::isfinite(height) || !(height > 1e-6f)) return Fail("the figure has no height");
-  float wanted = options.height_m;
-  if (wanted <= 0) {
-    const bool plausible = height >= kMinHeight_m && height <= kMaxHeight_m;
-    wanted = plausible ? height : kDefaultHeight_m;
-    if (!plausible) {
-      warnings->push_back("the figure is " + Metres(height) + " m high and is scaled to " + Metres(wanted) +
-                          " m; give its height to change that");
-    }
+  const float widest = std::max(extent.max.x - extent.min.x, extent.max.z - extent.min.z);
+  if (height < kFlat * widest) {
+    warnings->push_back(
+        "the figure is " + Metres(widest / height) +
+        " times as wide as it is high: lying or collapsed; set up and forward, or see flaneur avatar --list");
   }
+  const float wanted = options.height_m > 0 ? options.height_m : HeightByItself(options, *avatar, height, warnings);
   *scale = wanted / height;
+  if (options.height_m <= 0 && options.scale > 0) *scale = options.scale;
   ScaleAvatar(*scale, Vec3{0, -extent.min.y, 0} * *scale, avatar, body);
-  avatar->height_m = wanted;
+  avatar->height_m = height * *scale;
   return Ok();
-}
-
-// The rotation b, then a.
-Quat Product(Quat a, Quat b) {
-  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
 // Turns the figure about the vertical by the quarter that brings its walk nearest to +Z.
@@ -266,26 +209,7 @@ void TurnToFace(Vec3 walk_mps, Avatar* avatar, Mesh* body, std::vector<std::stri
   if (quarters == 0) return;
   const float half_rad = -quarters * kPi / 4;
   const Quat turn{0, std::sin(half_rad), 0, std::cos(half_rad)};
-  const Mat4 matrix = FromTranslationRotationScale({}, turn, {1, 1, 1});
-  const auto turn_mesh = [&](Mesh* mesh) {
-    for (Vec3& p : mesh->positions) p = TransformPoint(matrix, p);
-    for (Vec3& n : mesh->normals) n = TransformDirection(matrix, n);
-  };
-  for (Mesh* mesh : AllMeshes(avatar)) turn_mesh(mesh);
-  turn_mesh(body);
-  const auto turn_root = [&](Transform* t) {
-    t->translation = TransformPoint(matrix, t->translation);
-    t->rotation = Normalized(Product(turn, t->rotation));
-  };
-  const size_t joints = avatar->joints.size();
-  for (size_t j = 0; j < joints; ++j) {
-    avatar->joints[j].inverse_bind = avatar->joints[j].inverse_bind * Inverse(matrix);
-    if (avatar->joints[j].parent >= 0) continue;
-    turn_root(&avatar->joints[j].rest);
-    for (Clip& clip : avatar->clips) {
-      for (size_t i = j; i < clip.transforms.size(); i += joints) turn_root(&clip.transforms[i]);
-    }
-  }
+  TurnFigure(turn, true, avatar, body);
   char degrees[16];
   std::snprintf(degrees, sizeof degrees, "%.0f", static_cast<double>(-quarters * 90));
   warnings->push_back("the walk does not go towards +Z; the figure is turned by " + std::string(degrees) + " degrees");
@@ -338,17 +262,23 @@ Error NormalizeAvatar(const NormalizeOptions& options, const Mesh& whole_body, A
                       std::vector<std::string>* warnings) {
   Mesh body = Thinned(whole_body);
   float scale = 1;
+  if (Error e = StandUp(options.up, options.forward, options.told, avatar, &body, warnings)) return e;
   if (Error e = ScaleToHeight(options, avatar, &body, &scale, warnings)) return e;
   Vec3 walk_mps;
   for (Clip& clip : avatar->clips) {
-    const Vec3 travel_mps = RemoveTravel(*avatar, avatar->height_m, &clip);
+    const Vec3 travel_mps = RemoveTravel(avatar->joints, avatar->height_m, &clip);
     if (clip.name == "walk") walk_mps = travel_mps;
-    MakeLoop(*avatar, &clip, warnings);
+    MakeLoop(avatar->joints, &clip, warnings);
   }
   const Clip& walk = *FindClip(*avatar, "walk");
-  if (!(Length(walk_mps) > 0)) walk_mps = MeasureWalk(*avatar, walk, body);
+  if (!(Length(walk_mps) > 0)) {
+    walk_mps = MeasureWalk(*avatar, walk, body);
+    // Soles that hop or slide mistake the way, a face does not.
+    Vec3 forward;
+    if (FacingInWalk(*avatar, options.told, walk, &forward)) walk_mps = forward * Length(walk_mps);
+  }
   if (Length(walk_mps) > kMinSpeed_mps) TurnToFace(walk_mps, avatar, &body, warnings);
-  PlaceClips(body, avatar);
+  PlaceClips(body, options.told, avatar, warnings);
   avatar->radius_m = TrunkRadius(*avatar, walk, body);
   SetWalkSpeed(options.walk_speed_mps * scale, walk_mps, avatar, warnings);
   return Ok();

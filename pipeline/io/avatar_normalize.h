@@ -4,20 +4,24 @@
 #include <vector>
 
 #include "pipeline/core/avatar.h"
+#include "pipeline/rig/humanoid.h"
 #include "runtime/base/error.h"
 
 namespace flaneur {
 
 struct NormalizeOptions {
-  float height_m = 0;        // 0: as it is where 0.5 to 2.3 m, else 1.75
-  float walk_speed_mps = 0;  // known from the source, before any scaling; 0: measure
+  float height_m = 0;           // 0: as it is where 0.5 to 2.3 m, else in another unit, else 1.75
+  float scale = 0;              // metres per unit of the file, whatever height that makes; 0: by the height
+  std::string up, forward;      // the figure's in the file: "z", "-y", ...; empty: by its skeleton and walk
+  std::vector<NamedBone> told;  // by the file, of the avatar's joints
+  float walk_speed_mps = 0;     // known from the source, before any scaling; 0: measure
 };
 
-// Removes travel from the clips, makes them loop, turns the figure by quarters so that it walks
-// towards +Z, scales, sets the feet on y = 0 (lowest point over each clip) and the trunk over x = z
-// = 0, then measures height, radius and walking speed. `body`: the part of the surface that can
-// touch the ground and that gives the trunk's width, without what is carried; on the avatar's
-// joints. Errors: a figure without height, numbers beyond reason.
+// Stands the figure up where it lies, removes travel from the clips, makes them loop, turns the figure by quarters so
+// that it walks towards +Z, scales, sets the feet on y = 0 (lowest point over each clip) and the trunk over x = z = 0,
+// then measures height, radius and walking speed. `body`: the part of the surface that can touch the ground and that
+// gives the trunk's width, without what is carried; on the avatar's joints. Errors: a figure without height, numbers
+// beyond reason.
 Error NormalizeAvatar(const NormalizeOptions& options, const Mesh& body, Avatar* avatar,
                       std::vector<std::string>* warnings);
 

@@ -1,13 +1,20 @@
 #include <algorithm>
-#include <cctype>
+#include <cmath>
 #include <map>
 #include <utility>
 
 #include "pipeline/io/avatar_normalize.h"
+#include "pipeline/io/avatar_stance.h"
 #include "pipeline/io/blender_import.h"
+#include "pipeline/io/choose_clips.h"
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_document.h"
 #include "pipeline/io/gltf_pose.h"
+#include "pipeline/io/join_documents.h"
+#include "pipeline/io/motion_reader.h"
+#include "pipeline/rig/clip_loop.h"
+#include "pipeline/rig/motion_quality.h"
+#include "pipeline/rig/retarget.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
@@ -15,88 +22,9 @@
 namespace flaneur {
 namespace {
 
-constexpr float kKeysPerSecond = 30;
+constexpr float kLongestLoop_s = 12;  // of a clip from another file
 
 std::string Quoted(const std::string& name) { return std::string("'").append(OneLine(name)) + "'"; }
-
-std::string Lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-std::string Listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) {
-    if (!list.empty()) list += ", ";
-    list += Quoted(name);
-  }
-  return names.empty() ? "no clips" : list;
-}
-
-std::vector<std::string> ClipNames(const GltfDocument& document) {
-  std::vector<std::string> names;
-  for (const DocumentClip& clip : document.clips) names.push_back(clip.name);
-  return names;
-}
-
-// -1: none. Of several names that contain the word the shortest is the plainest; file order breaks
-// ties.
-int GuessClip(const GltfDocument& document, const std::string& word) {
-  int best = -1;
-  for (size_t i = 0; i < document.clips.size(); ++i) {
-    const std::string name = Lower(document.clips[i].name);
-    if (name == word) return static_cast<int>(i);
-    if (name.find(word) == std::string::npos) continue;
-    if (best < 0 || name.size() < At(document.clips, best).name.size()) {
-      best = static_cast<int>(i);
-    }
-  }
-  return best;
-}
-
-Error NamedClip(const GltfDocument& document, const std::string& name, int* clip) {
-  for (size_t i = 0; i < document.clips.size(); ++i) {
-    if (Lower(document.clips[i].name) != Lower(name)) continue;
-    *clip = static_cast<int>(i);
-    return Ok();
-  }
-  const std::vector<std::string> names = ClipNames(document);
-  return Fail("no clip " + Quoted(name) + DidYouMean(name, names) + " (the file has: " + Listed(names) + ")");
-}
-
-struct ChosenClip {
-  std::string name;  // ours: walk, idle, talk, and others
-  int source = -1;   // index into the document's clips
-};
-
-Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options, std::vector<ChosenClip>* chosen) {
-  const std::pair<const char*, const std::string*> wanted[] = {
-      {"walk", &options.walk}, {"idle", &options.idle}, {"talk", &options.talk}};
-  for (const auto& [name, given] : wanted) {
-    int clip = -1;
-    if (!given->empty()) {
-      if (Error e = NamedClip(document, *given, &clip)) return e;
-    } else {
-      clip = GuessClip(document, name);
-    }
-    const bool walk = std::string(name) == "walk";
-    if (clip < 0 && walk && document.clips.size() == 1) clip = 0;
-    if (clip < 0 && walk) {
-      return Fail("no walk clip; the file has: " + Listed(ClipNames(document)) + "; name the one to walk with");
-    }
-    if (clip >= 0 && At(document.clips, clip).channels.empty()) {
-      if (walk) return Fail("walk clip " + Quoted(At(document.clips, clip).name) + " moves nothing");
-      continue;
-    }
-    if (clip >= 0) chosen->push_back({name, clip});
-  }
-  for (const auto& [name, given] : options.other_clips) {
-    int clip = -1;
-    if (Error e = NamedClip(document, given.empty() ? name : given, &clip); e && !given.empty()) return e;
-    if (clip >= 0 && !At(document.clips, clip).channels.empty()) chosen->push_back({name, clip});
-  }
-  return Ok();
-}
 
 // Nodes to draw: in the scene and not beneath a hidden one.
 Error VisibleNodes(const GltfDocument& document, const ReadAvatarOptions& options, std::vector<bool>* visible) {
@@ -157,8 +85,13 @@ class AvatarReader {
   Error SkinVertices(const Part& part, const DocumentPrimitive& primitive, Mesh* mesh);
   void AttachVertices(const Part& part, Mesh* mesh) const;
   int PropOf(int node) const;
+  bool HangsOnLeg(const Part& part) const;
   Mesh* MergedMesh(int material, std::vector<Mesh>* meshes) const;
-  void AddClip(const ChosenClip& chosen);
+  void WarnOfFullHands() const;
+  Error AddClips();
+  Error FitClip(const ChosenClip& chosen, const Rig* rig, const std::string& why);
+  void Glide();
+  std::vector<NamedBone> Told() const;
   void DropUnusedMaterials();
 
   const DocumentNode& Node(int i) const { return At(document_.nodes, i); }
@@ -168,12 +101,13 @@ class AvatarReader {
   Avatar* avatar_;
   std::vector<std::string>* notes_;
 
-  std::vector<ChosenClip> clips_;
+  ClipChoice clips_;
   std::vector<Part> parts_;
   std::vector<int> joint_nodes_;  // node of each of the avatar's joints
   std::vector<int> joint_of_;     // joint of each node, -1: none
   std::vector<Mat4> rest_;        // world matrices of the file's own pose
   std::vector<Mat4> to_metres_;   // a joint: removes the scale that its node has at rest
+  float walk_speed_ = 0;          // of a walk made to fit, in units of the file
   Mesh body_;                     // skinned parts: what stands on the ground
   int unnormalized_ = 0;
   int weightless_ = 0;
@@ -188,6 +122,15 @@ int AvatarReader::PropOf(int node) const {
   return -1;
 }
 
+// A foot or shin of a figure that is put together from rigid pieces.
+bool AvatarReader::HangsOnLeg(const Part& part) const {
+  for (int a = part.anchor; a >= 0; a = Node(a).parent) {
+    const BodyPart body_part = ReadBoneName(Node(a).name).part;
+    if (body_part >= BodyPart::kUpperLeg && body_part <= BodyPart::kToes) return true;
+  }
+  return false;
+}
+
 Error AvatarReader::FindParts() {
   std::vector<bool> visible;
   if (Error e = VisibleNodes(document_, options_, &visible)) return e;
@@ -195,10 +138,9 @@ Error AvatarReader::FindParts() {
   for (const DocumentSkin& skin : document_.skins) {
     for (const int joint : skin.joints) At(moves, joint) = true;
   }
-  for (const ChosenClip& clip : clips_) {
-    for (const DocumentChannel& c : At(document_.clips, clip.source).channels) {
-      At(moves, c.node) = true;
-    }
+  for (const ChosenClip& clip : clips_.clips) {
+    if (clip.file >= 0) continue;
+    for (const DocumentChannel& c : document_.clips[clip.index].channels) At(moves, c.node) = true;
   }
   bool any_skinned = false;
   for (const std::string& name : options_.props) avatar_->props.push_back({name, {}});
@@ -207,7 +149,8 @@ Error AvatarReader::FindParts() {
     if (!At(visible, i) || node.mesh < 0) continue;
     const DocumentMesh& mesh = At(document_.meshes, node.mesh);
     if (mesh.primitives.empty()) continue;
-    if (mesh.morphs) notes_->push_back("mesh " + Quoted(mesh.name) + ": morph targets are ignored");
+    if (mesh.morphs)
+      notes_->push_back("mesh " + Quoted(mesh.name) + ": its morph targets stay at the file's own weights");
     Part part{i, node.skin >= 0 && HasInfluences(mesh), -1, PropOf(i)};
     for (int a = i; a >= 0 && part.anchor < 0; a = Node(a).parent) {
       if (At(moves, a)) part.anchor = a;
@@ -312,7 +255,7 @@ void AvatarReader::FindBindPose() {
     const Mat4& rest = At(rest_, joint_nodes_[j]);
     const float volume = std::abs(Determinant(rest));
     const float scale = volume > 0 ? std::cbrt(volume) : 1.0f;
-    to_metres_.push_back(UniformScale(1 / scale));
+    to_metres_.push_back(UniformScale(1 / scale));  // as Unscaled
     const Mat4 inverse = binds[j] != nullptr ? *binds[j] * to_bind : Inverse(rest);
     avatar_->joints[j].inverse_bind = UniformScale(scale) * inverse;
     const int parent = avatar_->joints[j].parent;
@@ -473,37 +416,111 @@ Error AvatarReader::AddPart(const Part& part) {
     }
     std::vector<Mesh>& meshes = part.prop < 0 ? avatar_->meshes : At(avatar_->props, part.prop).meshes;
     AppendMesh(mesh, MergedMesh(mesh.material, &meshes));
-    if (part.skinned && part.prop < 0) AppendMesh(mesh, &body_);
+    if ((part.skinned || HangsOnLeg(part)) && part.prop < 0) AppendMesh(mesh, &body_);
   }
   return Ok();
 }
 
-void AvatarReader::AddClip(const ChosenClip& chosen) {
-  const DocumentClip& source = At(document_.clips, chosen.source);
-  const ClipSpan span = SpanOf(source);
-  Clip clip;
-  clip.name = chosen.name;
-  clip.duration_s = span.end_s - span.start_s;
-  clip.keys = std::max(2, 1 + static_cast<int>(std::lround(clip.duration_s * kKeysPerSecond)));
-  if (!(clip.duration_s > 0)) clip.duration_s = 1;  // a pose, held
-  const size_t joints = joint_nodes_.size();
-  for (int k = 0; k < clip.keys; ++k) {
-    const float share = static_cast<float>(k) / static_cast<float>(clip.keys - 1);
-    const std::vector<Mat4> world = PoseAt(document_, source, span.start_s + share * (span.end_s - span.start_s));
-    std::vector<Mat4> own(joints);
-    for (size_t j = 0; j < joints; ++j) {
-      own[j] = At(world, joint_nodes_[j]) * to_metres_[j];
-      const int parent = avatar_->joints[j].parent;
-      Transform local = Decomposed(parent < 0 ? own[j] : Inverse(At(own, parent)) * own[j]);
-      if (k > 0) {
-        const Quat b = clip.transforms[clip.transforms.size() - joints].rotation;
-        Quat& q = local.rotation;
-        if (q.x * b.x + q.y * b.y + q.z * b.z + q.w * b.w < 0) q = {-q.x, -q.y, -q.z, -q.w};
-      }
-      clip.transforms.push_back(local);
+// Alternates that all show in one hand: two axes and a mug.
+void AvatarReader::WarnOfFullHands() const {
+  std::map<int, std::vector<std::string>> held;  // by hand's node
+  for (const Part& part : parts_) {
+    if (part.skinned || part.prop >= 0) continue;
+    for (int a = part.anchor; a >= 0; a = Node(a).parent) {
+      if (ReadBoneName(Node(a).name).part != BodyPart::kHand) continue;
+      held[a].push_back(Node(part.node).name);
+      break;
     }
   }
-  avatar_->clips.push_back(std::move(clip));
+  for (const auto& [hand, things] : held) {
+    if (things.size() < 2) continue;
+    std::string list;
+    for (const std::string& thing : things) list += (list.empty() ? "" : ", ") + Quoted(thing);
+    notes_->push_back(Quoted(Node(hand).name) + " holds " + std::to_string(things.size()) + " things at once (" + list +
+                      "): hide all but one, or make them props");
+  }
+}
+
+std::vector<NamedBone> AvatarReader::Told() const {
+  std::vector<NamedBone> told;
+  for (const DocumentBone& bone : document_.bones) {
+    if (At(joint_of_, bone.node) >= 0) told.push_back({At(joint_of_, bone.node), bone.part, bone.side});
+  }
+  return told;
+}
+
+// A clip of another file: as it is where the skeletons are one, else retargeted, else by the joints' names.
+Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std::string& why) {
+  const MotionFile& motion = At(clips_.files, chosen.file);
+  Clip clip = ClipOf(motion, chosen.index);
+  const std::vector<Joint>& joints = motion.skeleton.joints;
+  if (chosen.name == "walk") CutToCycle(joints, &clip);
+  if (clip.duration_s > kLongestLoop_s) {
+    notes_->push_back("clip " + Quoted(motion.clip_names[chosen.index]) + " of " + motion.path +
+                      " is long; its first " + std::to_string(static_cast<int>(kLongestLoop_s)) + " s are taken");
+    CutTo(kLongestLoop_s, joints.size(), &clip);
+  }
+  float scale = 1;
+  Rig source;
+  std::string source_why;
+  Retargeted made;
+  if (SameSkeleton(joints, avatar_->joints, &scale)) {
+    CopyClip(joints, clip, avatar_->joints, &made.clip);
+  } else if (rig != nullptr && MakeRig(motion.skeleton, motion.told, &source, &source_why)) {
+    made = Retarget(source, clip, *rig);
+    if (chosen.name == "walk") walk_speed_ = made.walk_speed_mps;
+    if (chosen.name == "walk" || chosen.name == "idle" || chosen.name == "talk") ClearHands(*avatar_, *rig, &made.clip);
+  } else {
+    const int found = CopyClip(joints, clip, avatar_->joints, &made.clip);
+    if (2 * found < Count(avatar_->joints)) {
+      return Fail(
+          "clip " + Quoted(motion.clip_names[chosen.index]) + " of " + motion.path + " does not fit: " +
+          (rig == nullptr ? "the figure is no human skeleton, " + why : "it is for no human skeleton, " + source_why) +
+          ", and only " + std::to_string(found) + " of " + std::to_string(avatar_->joints.size()) +
+          " joints have names of its");
+    }
+  }
+  made.clip.name = chosen.name;
+  avatar_->clips.push_back(std::move(made.clip));
+  return Ok();
+}
+
+// Who has no legs and no clips moves over the ground as they stand.
+void AvatarReader::Glide() {
+  Clip walk{"walk", 1, 2, {}};
+  for (int k = 0; k < walk.keys; ++k) {
+    for (const Joint& joint : avatar_->joints) walk.transforms.push_back(joint.rest);
+  }
+  avatar_->clips.insert(avatar_->clips.begin(), std::move(walk));
+}
+
+Error AvatarReader::AddClips() {
+  Rig rig;
+  std::string why;
+  const bool human = clips_.files.empty() || MakeRig(*avatar_, Told(), &rig, &why);
+  for (const ChosenClip& chosen : clips_.clips) {
+    if (chosen.file < 0) {
+      avatar_->clips.push_back(
+          SampleClip(document_, document_.clips[chosen.index], avatar_->joints, joint_nodes_, to_metres_));
+      avatar_->clips.back().name = chosen.name;
+      continue;
+    }
+    const bool shipped = clips_.shipped == chosen.file;
+    if (!human && shipped && rig.humanoid.quadruped) {
+      return Fail("no walk clip, and it goes on four legs: only its own clips make it walk; " + clips_.missing);
+    }
+    if (!human && shipped) continue;  // said below
+    if (Error e = FitClip(chosen, human ? &rig : nullptr, why)) return e;
+  }
+  if (FindClip(*avatar_, "walk") == nullptr) {
+    if (!document_.clips.empty())
+      return Fail("no walk clip, and no legs that another could move (" + why + "); " + clips_.missing);
+    notes_->push_back("it has no walk clip and no legs to walk with (" + why + "): it glides as it stands");
+    Glide();
+  } else if (clips_.shipped_walk) {
+    notes_->push_back("it has no walk clip (" + clips_.missing + "): it walks by one that comes with Flaneur");
+  }
+  return Ok();
 }
 
 void AvatarReader::DropUnusedMaterials() {
@@ -549,7 +566,12 @@ Error AvatarReader::Read() {
     if (prop.meshes.empty()) return Fail("prop " + Quoted(prop.name) + " shows no mesh that hangs on a bone");
   }
   DropUnusedMaterials();
-  for (const ChosenClip& clip : clips_) AddClip(clip);
+  WarnOfFullHands();
+  if (std::string which; HasSecondPerson(avatar_->joints, &which)) {
+    notes_->push_back("the file holds more than one person (" + Quoted(which) +
+                      " is of another): hide all but one, see flaneur avatar --list");
+  }
+  if (Error e = AddClips()) return e;
   if (unnormalized_ > 0) {
     notes_->push_back(std::to_string(unnormalized_) + " vertices had weights that do not sum to 1; they were scaled");
   }
@@ -558,10 +580,30 @@ Error AvatarReader::Read() {
   }
   NormalizeOptions normalize;
   normalize.height_m = options_.height_m;
+  normalize.scale = options_.scale;
+  normalize.up = options_.up;
+  normalize.forward = options_.forward;
+  normalize.told = Told();
   for (const DocumentNode& node : document_.nodes) {
     normalize.walk_speed_mps = std::max(normalize.walk_speed_mps, node.tags.walk_speed_mps);
   }
+  if (walk_speed_ > 0) normalize.walk_speed_mps = walk_speed_;
   return NormalizeAvatar(normalize, body_, avatar_, notes_);
+}
+
+}  // namespace
+
+namespace {
+
+Error LoadPerson(const std::filesystem::path& path, GltfDocument* document, std::vector<std::string>* warnings) {
+  TemporaryFolder folder;
+  std::filesystem::path gltf = path;
+  if (NeedsBlender(path) || HasExtension(path, ".obj")) {
+    if (Error e = ConvertToGltf(path, &folder, &gltf)) return e;
+  }
+  if (Error e = LoadGltf(gltf, document, warnings)) return e;
+  document->path = path.string();
+  return Ok();
 }
 
 }  // namespace
@@ -569,13 +611,12 @@ Error AvatarReader::Read() {
 Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& options, Avatar* avatar,
                  std::vector<std::string>* warnings) {
   GltfDocument document;
-  TemporaryFolder folder;
-  std::filesystem::path gltf = path;
-  if (NeedsBlender(path) || HasExtension(path, ".obj")) {
-    if (Error e = ConvertToGltf(path, &folder, &gltf)) return e;
+  if (Error e = LoadPerson(path, &document, warnings)) return e;
+  for (const std::filesystem::path& file : options.parts) {
+    GltfDocument part;
+    if (Error e = LoadPerson(file, &part, warnings)) return e;
+    if (Error e = JoinDocuments(std::move(part), &document)) return e;
   }
-  if (Error e = LoadGltf(gltf, &document, warnings)) return e;
-  document.path = path.string();
   *avatar = {};
   avatar->name = options.name.empty() ? path.stem().string() : options.name;
   std::vector<std::string> notes;

@@ -26,27 +26,40 @@ namespace flaneur {
 // triangle at all.
 Error ReadGltfScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings = nullptr);
 
+// A clip besides walk, idle and talk, or one of these from a file of its own.
+struct ClipRequest {
+  std::string name;       // what it is called here
+  std::string clip = {};  // in the file; empty: the one of that name, where there is one
+  std::filesystem::path file =
+      {};  // any that OpenMotion reads, or "flaneur": the clips that come with the program; empty: the avatar's
+};
+
 struct ReadAvatarOptions {
   std::string name;  // of the avatar; empty: the file's stem
-  // Clip names in the file, upper and lower case alike. Empty: the clip of that very name, else the
-  // shortest name that contains it ("Walking_A" for walk; idle and talk may be absent). A file's
-  // only clip counts as its walk.
+  // Clip names, upper and lower case alike. Empty: the clip of that very name, else the shortest name that contains it
+  // ("Walking_A" for walk; idle and talk may be absent). A file's only clip counts as its walk. Clips are looked for in
+  // clip_files, then in the avatar's own file, and a name or a missing walk in the clips that come with the program.
   std::string walk, idle, talk;
-  // Further clips: what each is called here, and in the file; empty: the one of that very name, where there is one.
-  std::vector<std::pair<std::string, std::string>> other_clips;
-  float height_m = 0;              // 0: as in the file where 0.5 to 2.3 m, else 1.75
-  std::vector<std::string> hide;   // names of nodes left out, with what hangs on them
-  std::vector<std::string> props;  // names of nodes that become AvatarProps, each with what hangs on it
-  int max_joints = 256;
+  std::vector<ClipRequest> other_clips;
+  std::vector<std::filesystem::path> clip_files;
+  float height_m = 0;       // 0: as in the file where 0.5 to 2.3 m, else in a unit that makes it so, else 1.75
+  float scale = 0;          // metres per unit of the file, where height_m is 0; 0: by the height
+  std::string up, forward;  // of the figure in the file: "z", "-y", ...; empty: by its skeleton and walk
+  std::vector<std::filesystem::path> parts;  // further files on the same skeleton: outfits, hair, faces
+  std::vector<std::string> hide;             // names of nodes left out, with what hangs on them
+  std::vector<std::string> props;            // names of nodes that become AvatarProps, each with what hangs on it
+  int max_joints = 4096;                     // BuildLevels makes fewer of them
 };
 
 // Reads a person from glTF, or .blend, .fbx, .dae and .obj by Blender (blender_import.h): every mesh of the default
-// scene, on one joint list, in metres, feet at y = 0, centred at x = z = 0. The figure is taken to face +Z. Rigid
+// scene, on one joint list, in metres, feet at y = 0, centred at x = z = 0, upright and facing +Z. Rigid
 // meshes that hang on bones get one weight of 1, weights are reduced to the four heaviest and made to sum to 1, clips
-// are resampled at 30 Hz, made to loop and to walk on the spot. The walk's speed is `flaneur_walk_speed_mps` in any
-// node's extras (metres of the file), else that of the root's travel, else that of the sole on the ground. `warnings`
-// gets one line for each thing left out or guessed. Errors: as for a scene, and no skin, no walk clip (lists the
-// clips), a named clip, hidden node or prop that is not there, too many joints, a prop without a mesh.
+// are resampled at 30 Hz, made to loop and to walk on the spot; those of other files are taken as they are where the
+// skeletons are one, else made to fit (pipeline/rig/retarget.h). The walk's speed is that of the clip it was made from,
+// or `flaneur_walk_speed_mps` in any node's extras (metres of the file), else that of the root's travel, else that of
+// the sole on the ground. `warnings` gets one line for each thing left out or guessed. Errors: as for a scene and for
+// OpenMotion, no skin, a named clip, hidden node or prop that is not there, a clip that fits no way, too many joints, a
+// prop without a mesh; without any walk clip, four legs.
 Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& options, Avatar* avatar,
                  std::vector<std::string>* warnings);
 

@@ -392,8 +392,8 @@ int GltfBuilder::AddTexture(int image, bool repeat) {
 
 int GltfBuilder::AddMaterial(const Material& material) {
   json pbr = {{"baseColorFactor", Numbers(material.base_color)},
-              {"metallicFactor", material.metallic},
-              {"roughnessFactor", material.roughness}};
+              {"metallicFactor", std::clamp(material.metallic, 0.0f, 1.0f)},  // sums of shares round beyond 1
+              {"roughnessFactor", std::clamp(material.roughness, 0.0f, 1.0f)}};
   if (material.base_color_image >= 0) {
     pbr["baseColorTexture"] = {{"index", AddTexture(material.base_color_image)}};
   }

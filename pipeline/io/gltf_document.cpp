@@ -3,6 +3,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <set>
 
@@ -36,7 +37,17 @@ const std::set<std::string> kKnownExtensions{"KHR_draco_mesh_compression",
                                              "KHR_materials_anisotropy",
                                              "KHR_materials_transmission",
                                              "KHR_materials_volume",
+                                             "KHR_materials_iridescence",
+                                             "KHR_materials_dispersion",
                                              "KHR_lights_punctual",
+                                             "KHR_animation_pointer",
+                                             "VRM",
+                                             "VRMC_vrm",
+                                             "VRMC_vrm_animation",
+                                             "VRMC_materials_mtoon",
+                                             "VRMC_materials_hdr_emissiveMultiplier",
+                                             "VRMC_springBone",
+                                             "VRMC_node_constraint",
                                              "MSFT_lod",
                                              "KHR_xmp_json_ld",
                                              "FLANEUR_tour"};
@@ -50,6 +61,9 @@ std::string NameOr(const std::string& name, const char* kind, size_t index) {
 Error CheckExtensions(const Model& model) {
   for (const std::string& name : model.extensionsRequired) {
     if (kKnownExtensions.count(name) > 0) continue;
+    if (name == "KHR_texture_basisu") {
+      return Fail("its pictures are KTX2 alone (KHR_texture_basisu), which is not read; save them as PNG or JPEG");
+    }
     return Fail("needs the extension " + OneLine(name) + ", which is not supported; export the file without it");
   }
   return Ok();
@@ -319,8 +333,12 @@ Error ReadMaterial(const tinygltf::Material& in, ImageTable* images, Material* o
                    std::vector<std::string>* warnings) {
   const auto& pbr = in.pbrMetallicRoughness;
   out->base_color = Factor(pbr.baseColorFactor);
-  out->metallic = static_cast<float>(pbr.metallicFactor);
-  out->roughness = static_cast<float>(pbr.roughnessFactor);
+  // Exporters round: 1.0000006 is 1.
+  out->metallic = static_cast<float>(std::clamp(pbr.metallicFactor, 0.0, 1.0));
+  out->roughness = static_cast<float>(std::clamp(pbr.roughnessFactor, 0.0, 1.0));
+  const bool drawn_flat =
+      in.extensions.count("KHR_materials_unlit") > 0 || in.extensions.count("VRMC_materials_mtoon") > 0;
+  if (drawn_flat) out->metallic = 0, out->roughness = 1;
   out->double_sided = in.doubleSided;
   out->alpha_cutoff = static_cast<float>(in.alphaCutoff);
   if (in.alphaMode == "MASK") out->alpha = Material::Alpha::kMask;
@@ -410,8 +428,36 @@ Error ReadPlainPrimitive(const Model& model, const tinygltf::Primitive& in, RawP
   return raw->indexed ? ReadIndices(model, in.indices, &raw->indices) : Ok();
 }
 
+// Of the first node that shows the mesh and has some, else the mesh's own.
+std::vector<double> MorphWeights(const Model& model, size_t mesh) {
+  for (const tinygltf::Node& node : model.nodes) {
+    if (node.mesh == static_cast<int>(mesh) && !node.weights.empty()) return node.weights;
+  }
+  return model.meshes[mesh].weights;
+}
+
+// The shape that the file's own weights make: faces are modelled in them.
+Error AddMorphs(const Model& model, const tinygltf::Primitive& in, const std::vector<double>& weights,
+                RawPrimitive* raw) {
+  for (size_t t = 0; t < std::min(weights.size(), in.targets.size()); ++t) {
+    if (weights[t] == 0 || !std::isfinite(weights[t])) continue;
+    for (const char* name : {"POSITION", "NORMAL"}) {
+      const auto target = in.targets[t].find(name);
+      const auto own = raw->attributes.find(name);
+      if (target == in.targets[t].end() || own == raw->attributes.end()) continue;
+      std::vector<float> moved;
+      if (Error e = ReadFloats(model, target->second, 3, &moved))
+        return Fail("morph target " + std::to_string(t) + ": " + e.message);
+      if (moved.size() != own->second.size())
+        return Fail("morph target " + std::to_string(t) + " has not one " + name + " a vertex");
+      for (size_t i = 0; i < moved.size(); ++i) own->second[i] += static_cast<float>(weights[t]) * moved[i];
+    }
+  }
+  return Ok();
+}
+
 Error ReadPrimitive(const Model& model, const tinygltf::Primitive& in, const std::vector<UvSource>& uv_sources,
-                    DocumentPrimitive* out) {
+                    const std::vector<double>& morph_weights, DocumentPrimitive* out) {
   RawPrimitive raw;
   if (in.mode == TINYGLTF_MODE_TRIANGLE_STRIP) raw.mode = TriangleMode::kStrip;
   if (in.mode == TINYGLTF_MODE_TRIANGLE_FAN) raw.mode = TriangleMode::kFan;
@@ -421,6 +467,7 @@ Error ReadPrimitive(const Model& model, const tinygltf::Primitive& in, const std
   if (Error e = compressed ? ReadDracoPrimitive(model, in, draco->second, &raw) : ReadPlainPrimitive(model, in, &raw)) {
     return e;
   }
+  if (Error e = AddMorphs(model, in, morph_weights, &raw)) return e;
   UvSource uv_source;
   if (in.material >= Count(uv_sources)) {
     return Fail("material " + std::to_string(in.material) + " does not exist");
@@ -431,13 +478,14 @@ Error ReadPrimitive(const Model& model, const tinygltf::Primitive& in, const std
 }
 
 Error ReadMesh(const Model& model, size_t index, const std::vector<UvSource>& uv_sources, DocumentMesh* out) {
+  const std::vector<double> morph_weights = MorphWeights(model, index);
   for (const tinygltf::Primitive& in : model.meshes[index].primitives) {
     out->morphs = out->morphs || !in.targets.empty();
     const bool triangles =
         in.mode == -1 || (in.mode >= TINYGLTF_MODE_TRIANGLES && in.mode <= TINYGLTF_MODE_TRIANGLE_FAN);
     if (!triangles) continue;
     DocumentPrimitive primitive;
-    if (Error e = ReadPrimitive(model, in, uv_sources, &primitive)) return e;
+    if (Error e = ReadPrimitive(model, in, uv_sources, morph_weights, &primitive)) return e;
     primitive.mesh.name = out->name;
     if (!primitive.mesh.indices.empty()) out->primitives.push_back(std::move(primitive));
   }
@@ -531,10 +579,37 @@ Error ReadClip(const Model& model, size_t index, DocumentClip* out) {
   return Ok();
 }
 
+// VRM's own names ("leftUpperArm") read as any others.
+void AddBone(const std::string& name, const Value& node, GltfDocument* document) {
+  const BoneName bone = ReadBoneName(name);
+  if (bone.part == BodyPart::kNone || !node.IsNumber() || !InRange(document->nodes, node.GetNumberAsInt())) return;
+  document->bones.push_back({node.GetNumberAsInt(), bone.part, bone.side});
+}
+
+void ReadBones(const Model& model, GltfDocument* document) {
+  for (const char* name : {"VRM", "VRMC_vrm", "VRMC_vrm_animation"}) {
+    const auto found = model.extensions.find(name);
+    if (found == model.extensions.end() || !found->second.IsObject() || !found->second.Has("humanoid")) continue;
+    const Value& humanoid = found->second.Get("humanoid");
+    if (!humanoid.IsObject() || !humanoid.Has("humanBones")) continue;
+    const Value& bones = humanoid.Get("humanBones");
+    for (size_t i = 0; bones.IsArray() && i < bones.ArrayLen(); ++i) {
+      const Value& bone = bones.Get(static_cast<int>(i));
+      if (bone.IsObject() && bone.Has("bone") && bone.Get("bone").IsString() && bone.Has("node"))
+        AddBone(bone.Get("bone").Get<std::string>(), bone.Get("node"), document);
+    }
+    for (const std::string& key : bones.IsObject() ? bones.Keys() : std::vector<std::string>{}) {
+      const Value& bone = bones.Get(key);
+      if (bone.IsObject() && bone.Has("node")) AddBone(key, bone.Get("node"), document);
+    }
+  }
+}
+
 Error ReadModel(const Model& model, GltfDocument* document, std::vector<std::string>* warnings) {
   std::vector<UvSource> uv_sources;
   if (Error e = CheckExtensions(model)) return e;
   if (Error e = ReadNodes(model, document)) return e;
+  ReadBones(model, document);
   if (Error e = ReadMaterials(model, document, &uv_sources, warnings)) return e;
   if (Error e = ReadMeshes(model, uv_sources, document)) return e;
   document->skins.resize(model.skins.size());

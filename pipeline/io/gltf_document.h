@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/core/mesh.h"
+#include "pipeline/rig/bone_names.h"
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
 
@@ -71,6 +72,13 @@ struct DocumentClip {
   std::vector<DocumentChannel> channels;
 };
 
+// What VRM says of a node: part and side of a human body.
+struct DocumentBone {
+  int node = 0;
+  BodyPart part = BodyPart::kNone;
+  BodySide side = BodySide::kNone;
+};
+
 struct GltfDocument {
   std::string path;  // for messages
   std::vector<DocumentNode> nodes;
@@ -79,7 +87,8 @@ struct GltfDocument {
   std::vector<DocumentSkin> skins;
   std::vector<DocumentClip> clips;
   std::vector<Material> materials;
-  std::vector<Image> images;  // only those that a material uses
+  std::vector<Image> images;        // only those that a material uses
+  std::vector<DocumentBone> bones;  // of VRM 0.x, VRM 1.0 and VRM animations
 };
 
 Mat4 LocalMatrix(const DocumentNode& node);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/core/rotation.h"
 #include "runtime/base/array.h"
 
 namespace flaneur {
@@ -61,25 +62,6 @@ void Apply(const DocumentChannel& channel, float time_s, DocumentNode* node) {
       node->scale = {v.x, v.y, v.z};
       break;
   }
-}
-
-// Of an orthonormal, right-handed basis; the branch with the largest component keeps precision.
-Quat QuatFromBasis(Vec3 x, Vec3 y, Vec3 z) {
-  const float trace = x.x + y.y + z.z;
-  if (trace > 0) {
-    const float s = 2 * std::sqrt(trace + 1);
-    return {(y.z - z.y) / s, (z.x - x.z) / s, (x.y - y.x) / s, s / 4};
-  }
-  if (x.x > y.y && x.x > z.z) {
-    const float s = 2 * std::sqrt(1 + x.x - y.y - z.z);
-    return {s / 4, (x.y + y.x) / s, (z.x + x.z) / s, (y.z - z.y) / s};
-  }
-  if (y.y > z.z) {
-    const float s = 2 * std::sqrt(1 + y.y - x.x - z.z);
-    return {(x.y + y.x) / s, s / 4, (y.z + z.y) / s, (z.x - x.z) / s};
-  }
-  const float s = 2 * std::sqrt(1 + z.z - x.x - y.y);
-  return {(z.x + x.z) / s, (y.z + z.y) / s, s / 4, (x.y - y.x) / s};
 }
 
 }  // namespace

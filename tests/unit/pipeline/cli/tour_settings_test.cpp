@@ -147,7 +147,10 @@ TEST(TourSettings, PlacesOfWorkSayWhatIsDoneThereAndByWhom) {
   EXPECT_TRUE(has(Refusal(std::string(kMinimalTour) + "[[place]]\nposition_m = [1, 2]\nclip = \"sit\"\n"),
                   "clip is for a [[place]] of kind \"work\""));
   const std::string clip = std::string(kMinimalTour) + "[[avatar.clip]]\n";
-  EXPECT_TRUE(has(Refusal(clip + "name = \"walk\"\n"), "needs a name"));
+  EXPECT_TRUE(has(Refusal(clip + "name = \"walk\"\n"), "needs the file that it is in"));
+  EXPECT_TRUE(has(Refusal(clip + "seat_m = 0.4\n"), "needs a name"));
+  EXPECT_TRUE(has(Refusal(std::string(kMinimalTour) + "scale = 0.01\nheight_m = 1.7\n"), "not both"));
+  EXPECT_TRUE(has(Refusal(std::string(kMinimalTour) + "[[avatar.part]]\n"), "needs a file"));
   EXPECT_TRUE(has(Refusal(clip + "name = \"a\"\n[[avatar.clip]]\nname = \"a\"\n"), "two clips are named 'a'"));
 }
 

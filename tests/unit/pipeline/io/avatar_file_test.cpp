@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "pipeline/io/gltf.h"
+#include "pipeline/rig/motion_quality.h"
 #include "runtime/base/file.h"
+#include "tests/unit/pipeline/test_human.h"
 #include "tests/unit/pipeline/test_person.h"
 
 namespace flaneur {
@@ -162,10 +164,6 @@ TEST_F(AvatarFile, FaultsAreOneClearLine) {
   ASSERT_EQ(WriteTextFile(folder_ / "text.glb", "not a picture of a person").message, "");
   EXPECT_NE(Read(folder_ / "text.glb").find("text.glb"), std::string::npos);
 
-  Avatar still = MadePerson();
-  still.clips.clear();
-  EXPECT_NE(Read(Write(still)).find("no walk clip"), std::string::npos);
-
   Avatar swimmer = MadePerson();
   swimmer.clips[0].name = "swim";
   swimmer.clips.push_back(swimmer.clips[0]);
@@ -291,6 +289,188 @@ TEST_F(AvatarFile, PropsStandApartAndDoNotMakeThePersonHigher) {
   options.props = {"flag"};
   options.hide = {"flag"};
   EXPECT_NE(Read(path, options).find("prop 'flag' shows no mesh"), std::string::npos);
+}
+
+TEST_F(AvatarFile, WhoHasNoClipsAndNoLegsGlides) {
+  Avatar ghost = MadePerson();
+  ghost.clips.clear();
+  ASSERT_EQ(Read(Write(ghost)), "");
+  ExpectSoundAvatar(avatar_);
+  ASSERT_FALSE(warnings_.empty());
+  EXPECT_NE(warnings_[0].find("glides"), std::string::npos) << warnings_[0];
+  EXPECT_GT(avatar_.walk_speed_mps, 0.5f);
+}
+
+// Whether the walk moves its feet, stands upright on the ground and goes ahead.
+void ExpectWalks(const Avatar& avatar) {
+  ExpectSoundAvatar(avatar);
+  const Clip& walk = *FindClip(avatar, "walk");
+  EXPECT_GT(avatar.walk_speed_mps, 0.5f);
+  EXPECT_LT(avatar.walk_speed_mps, 4.0f);  // MakeHuman's is in a hurry
+  EXPECT_LT(FootSlide(avatar, walk, avatar.walk_speed_mps), 0.1f);
+  float highest = 0, lowest = 1;
+  for (int k = 0; k < walk.keys; ++k) {
+    const float time_s = walk.duration_s * static_cast<float>(k) / static_cast<float>(walk.keys);
+    for (const Mesh& mesh : avatar.meshes) {
+      for (const Vec3 p : SkinnedPositions(mesh, SkinningMatrices(avatar, walk, time_s))) {
+        highest = std::max(highest, p.y), lowest = std::min(lowest, p.y);
+      }
+    }
+  }
+  EXPECT_NEAR(lowest, 0, 0.01f);
+  EXPECT_NEAR(highest, avatar.height_m, 0.12f);
+}
+
+TEST_F(AvatarFile, WhoHasNoClipsWalksByThoseThatComeWithTheProgram) {
+  for (const HumanShape& shape :
+       {HumanShape{}, HumanShape{.unit = 100}, HumanShape{.arm_down_deg = 60},
+        HumanShape{.turn = TurnAbout({1, 0, 0}, kPi / 2)}, HumanShape{.turn = TurnAbout({1, 0, 0}, kPi)},
+        HumanShape{.turn = TurnAbout({0, 1, 0}, kPi)}, HumanShape{.feet_on_root = true}}) {
+    ASSERT_EQ(Read(Write(MadeHuman(shape))), "");
+    ExpectWalks(avatar_);
+    EXPECT_NEAR(avatar_.height_m, 1.74f, 0.03f) << "the unit is found, and what lies is stood up";
+    EXPECT_NE(FindClip(avatar_, "idle"), nullptr);
+    EXPECT_NE(FindClip(avatar_, "talk"), nullptr);
+  }
+  ReadAvatarOptions options;
+  options.walk = "walk_old";
+  options.other_clips = {{"sit"}, {"sweep", "sweep", "flaneur"}};
+  ASSERT_EQ(Read(Write(MadeHuman({})), options), "");
+  EXPECT_LT(avatar_.walk_speed_mps, 0.9f);
+  EXPECT_NE(FindClip(avatar_, "sweep"), nullptr);
+}
+
+TEST_F(AvatarFile, ClipsOfAnotherFileAreTakenAsTheyAreWhereTheSkeletonIsOne) {
+  Avatar walker = MadeHuman({});
+  walker.clips = {MadeWalk(walker)};
+  const fs::path clips = folder_ / "clips.glb";
+  ASSERT_EQ(WriteAvatarGlb(clips, OneLevel(walker)).message, "");
+  ASSERT_EQ(Read(clips), "");
+  const Clip own = *FindClip(avatar_, "walk");
+  ReadAvatarOptions options;
+  options.clip_files = {clips};
+  ASSERT_EQ(Read(Write(MadeHuman({})), options), "");
+  const Clip& taken = *FindClip(avatar_, "walk");
+  ASSERT_EQ(taken.transforms.size(), own.transforms.size());
+  for (size_t i = 0; i < own.transforms.size(); ++i)
+    EXPECT_NEAR(taken.transforms[i].rotation.x, own.transforms[i].rotation.x, 1e-4f);
+}
+
+TEST_F(AvatarFile, ClipsOfAnotherSkeletonAreMadeToFit) {
+  Avatar walker = MadeHuman({.unit = 100, .arm_down_deg = 70, .turn = TurnAbout({1, 0, 0}, -kPi / 2)});
+  walker.clips = {MadeWalk(walker)};
+  const fs::path clips = folder_ / "clips.glb";
+  ASSERT_EQ(WriteAvatarGlb(clips, OneLevel(walker)).message, "");
+  HumanShape other{.leg_m = 0.6f};
+  for (size_t j = 0; j < other.names.size(); ++j) other.names[j] = "bone " + std::to_string(j);
+  ReadAvatarOptions options;
+  options.clip_files = {clips};
+  ASSERT_EQ(Read(Write(MadeHuman(other)), options), "");
+  ExpectWalks(avatar_);
+  EXPECT_EQ(avatar_.clips.size(), 1u);
+}
+
+constexpr const char* kWalkBvh = R"(HIERARCHY
+ROOT Hips
+{
+  OFFSET 0 0 0
+  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+  JOINT Head
+  { OFFSET 0 60 0 CHANNELS 3 Zrotation Xrotation Yrotation End Site { OFFSET 0 15 0 } }
+  JOINT LeftUpLeg
+  { OFFSET 9 0 0 CHANNELS 3 Zrotation Xrotation Yrotation
+    JOINT LeftLeg
+    { OFFSET 0 -42 1 CHANNELS 3 Zrotation Xrotation Yrotation
+      JOINT LeftFoot { OFFSET 0 -42 -1 CHANNELS 3 Zrotation Xrotation Yrotation End Site { OFFSET 0 -6 16 } } } }
+  JOINT RightUpLeg
+  { OFFSET -9 0 0 CHANNELS 3 Zrotation Xrotation Yrotation
+    JOINT RightLeg
+    { OFFSET 0 -42 1 CHANNELS 3 Zrotation Xrotation Yrotation
+      JOINT RightFoot { OFFSET 0 -42 -1 CHANNELS 3 Zrotation Xrotation Yrotation End Site { OFFSET 0 -6 16 } } } }
+}
+MOTION
+Frames: 31
+Frame Time: 0.0333333
+)";
+
+std::string WalkBvh() {
+  std::string text = kWalkBvh;
+  for (int k = 0; k < 31; ++k) {
+    const float phase = 2 * kPi * static_cast<float>(k) / 30;
+    const auto turn = [](float degrees) { return "0 " + std::to_string(degrees) + " 0 "; };
+    text += "0 90 " + std::to_string(4.0f * static_cast<float>(k)) + " 0 0 0 " + turn(0);
+    for (const float own : {phase, phase + kPi}) {
+      const float swing = -24 * std::sin(own), bend = 40 * std::max(0.0f, std::cos(own));
+      text += turn(swing) + turn(bend) + turn(-swing - bend);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+TEST_F(AvatarFile, WalksByMotionCapture) {
+  const fs::path bvh = folder_ / "walking.bvh";
+  ASSERT_EQ(WriteTextFile(bvh, WalkBvh()).message, "");
+  ReadAvatarOptions options;
+  options.clip_files = {bvh};
+  ASSERT_EQ(Read(Write(MadeHuman({})), options), "");
+  ExpectWalks(avatar_);
+  EXPECT_NEAR(avatar_.walk_speed_mps, 1.2f, 0.1f) << "1.2 m in a second, on legs of the same length";
+}
+
+TEST_F(AvatarFile, BrokenMotionCaptureNamesTheLine) {
+  const fs::path bvh = folder_ / "broken.bvh", person = Write(MadeHuman({}));
+  ReadAvatarOptions options;
+  options.clip_files = {bvh};
+  const std::string whole = WalkBvh();
+  for (size_t length = 0; length + 40 < whole.size(); length += 97) {
+    ASSERT_EQ(WriteTextFile(bvh, whole.substr(0, length)).message, "");
+    EXPECT_NE(Read(person, options).find("broken.bvh: line "), std::string::npos) << length;
+  }
+}
+
+TEST_F(AvatarFile, ClipsThatFitNoWayAreRefused) {
+  const fs::path clips = Write(MadePerson());
+  fs::copy(clips, folder_ / "clips.glb");
+  ReadAvatarOptions options;
+  options.clip_files = {folder_ / "clips.glb"};
+  EXPECT_NE(Read(Write(MadeHuman({})), options).find("does not fit"), std::string::npos);
+}
+
+TEST_F(AvatarFile, PartsOfOneSkeletonAreOnePerson) {
+  Avatar body = MadeHuman({}), hair = MadeHuman({});
+  body.clips = {MadeWalk(body)};
+  hair.meshes[0] = {};
+  hair.meshes[0].material = 0;
+  AddBox({0, 1.6f, 0}, {0, 1.7f, 0}, 0.1f, 3, &hair.meshes[0]);
+  hair.materials[0].name = "hair";
+  const fs::path part = folder_ / "hair.glb";
+  ASSERT_EQ(WriteAvatarGlb(part, OneLevel(hair)).message, "");
+  ReadAvatarOptions options;
+  options.parts = {part};
+  ASSERT_EQ(Read(Write(body), options), "");
+  ASSERT_EQ(avatar_.meshes.size(), 2u);
+  EXPECT_EQ(avatar_.materials[1].name, "hair");
+  EXPECT_EQ(avatar_.joints.size(), body.joints.size()) << "one skeleton";
+  options.parts = {Write(MadePerson())};
+  fs::copy(options.parts[0], folder_ / "other.glb");
+  options.parts = {folder_ / "other.glb"};
+  EXPECT_NE(Read(Write(body), options).find("other.glb: is for another skeleton"), std::string::npos);
+}
+
+TEST_F(AvatarFile, ReadsPeopleOfManyRigs) {
+  if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
+  const fs::path people = SharedData() / "avatars";
+  for (const char* file :
+       {"kaykit-adventurers2/Rogue.glb", "quaternius-outfits/Male_Peasant.gltf", "vrm/Godette_vrm_v4.vrm"}) {
+    SCOPED_TRACE(file);
+    ASSERT_EQ(Read(people / file), "");
+    ExpectWalks(avatar_);
+    ReadAvatarOptions options;
+    options.clip_files = {people / "bvh/makehuman_walk1.bvh"};
+    ASSERT_EQ(Read(people / file, options), "");
+    ExpectWalks(avatar_);
+  }
 }
 
 TEST_F(AvatarFile, ReadsRealPeople) {

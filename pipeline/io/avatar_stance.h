@@ -1,0 +1,40 @@
+// How a figure as read stands in the world: up, facing, size, and what its file makes doubtful about them.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "pipeline/core/avatar.h"
+#include "pipeline/rig/humanoid.h"
+#include "runtime/base/error.h"
+
+namespace flaneur {
+
+// "x", "-x", "y", ...: a direction in the file.
+Error ReadAxis(const std::string& text, Vec3* axis);
+
+// Turns everything about the origin: bind pose, rest pose and, where `clips`, all clips.
+void TurnFigure(Quat turn, bool clips, Avatar* avatar, Mesh* body);
+void TurnClip(Quat turn, const Avatar& avatar, Clip* clip);
+
+// Stands the figure up: by `up` and `forward` where given, else by its skeleton, the bind pose and the clips each as
+// they need it, by quarters. A bind pose or walk that lies or stands on its head is turned, with a warning; one that
+// faces elsewhere is left to the walk.
+Error StandUp(const std::string& up, const std::string& forward, const std::vector<NamedBone>& told, Avatar* avatar,
+              Mesh* body, std::vector<std::string>* warnings);
+
+// Where the figure faces in its walk, by its joints' names; unit and level. False where names don't tell.
+bool FacingInWalk(const Avatar& avatar, const std::vector<NamedBone>& told, const Clip& walk, Vec3* forward);
+
+// The height that a person with this skeleton would have, without hats and hair, in the figure's unit; 0: not told.
+float HeightOfSkeleton(const Avatar& avatar, const std::vector<NamedBone>& told);
+
+// The unit, in metres, in which a person of that height is one: 0.01 for 175. 0: none.
+float UnitOf(float height);
+
+// Vertices that hang on feet or what is below them; empty where no feet are known.
+std::vector<bool> OnFeet(const Avatar& avatar, const std::vector<NamedBone>& told, const Mesh& mesh);
+
+// Whether a second person's bones are among the joints; `which`: one of them.
+bool HasSecondPerson(const std::vector<Joint>& joints, std::string* which);
+
+}  // namespace flaneur

@@ -1,0 +1,229 @@
+#include "pipeline/io/choose_clips.h"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "runtime/base/array.h"
+#include "runtime/base/text.h"
+
+namespace flaneur {
+namespace {
+
+constexpr const char* kShipped = "flaneur";  // as a file: the clips that come with the program
+
+std::string Quoted(const std::string& name) { return std::string("'").append(OneLine(name)) + "'"; }
+
+std::string Lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string Listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) {
+    if (!list.empty()) list += ", ";
+    list += Quoted(name);
+  }
+  return names.empty() ? "no clips" : list;
+}
+
+// Any of its channels has two keys that differ.
+bool Moves(const DocumentClip& clip) {
+  return std::any_of(clip.channels.begin(), clip.channels.end(), [](const DocumentChannel& channel) {
+    const auto differs = [&](const Vec4& v) {
+      const Vec4& first = channel.values.front();
+      return v.x != first.x || v.y != first.y || v.z != first.z || v.w != first.w;
+    };
+    return std::any_of(channel.values.begin(), channel.values.end(), differs);
+  });
+}
+
+// -1: none. Of several names that contain the word the shortest is the plainest; file order breaks ties.
+int GuessClip(const std::vector<std::string>& names, const std::string& word) {
+  int best = -1;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const std::string name = Lower(names[i]);
+    const size_t space = name.find_last_of('|');
+    if (name == word || (space != std::string::npos && name.substr(space + 1) == word)) return static_cast<int>(i);
+    if (name.find(word) == std::string::npos) continue;
+    if (best < 0 || name.size() < At(names, best).size()) best = static_cast<int>(i);
+  }
+  return best;
+}
+
+// Of that very name, upper and lower case alike; what a program writes before a bar need not be given.
+int NamedClip(const std::vector<std::string>& names, const std::string& wanted) {
+  for (const bool whole : {true, false}) {
+    for (size_t i = 0; i < names.size(); ++i) {
+      const size_t bar = names[i].find_last_of('|');
+      const std::string name = whole || bar == std::string::npos ? names[i] : names[i].substr(bar + 1);
+      if (Lower(name) == Lower(wanted)) return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
+class Chooser {
+ public:
+  Chooser(const GltfDocument& document, const ReadAvatarOptions& options, ClipChoice* choice)
+      : document_(document), options_(options), choice_(*choice) {
+    for (const DocumentClip& clip : document.clips) own_.push_back(clip.name);
+  }
+
+  Error Choose() {
+    for (const auto& file : options_.clip_files) {
+      int opened = -1;
+      if (Error e = OpenOnce(file, &opened)) return e;
+      library_.push_back(opened);
+    }
+    const std::pair<const char*, const std::string*> usual[] = {
+        {"walk", &options_.walk}, {"idle", &options_.idle}, {"talk", &options_.talk}};
+    for (const auto& [name, given] : usual) {
+      if (Error e = ChooseUsual(name, *given)) return e;
+    }
+    for (const ClipRequest& request : options_.other_clips) {
+      if (Has(request.name)) continue;
+      if (Error e = ChooseOther(request)) return e;
+    }
+    return Ok();
+  }
+
+ private:
+  bool Has(const std::string& name) const {
+    return std::any_of(choice_.clips.begin(), choice_.clips.end(), [&](const auto& clip) { return clip.name == name; });
+  }
+
+  Error OpenOnce(const std::filesystem::path& file, int* opened) {
+    const bool shipped = file == kShipped;
+    const std::filesystem::path path = shipped ? ShippedClips() : file;
+    for (size_t i = 0; i < choice_.files.size(); ++i) {
+      if (choice_.files[i].path != path.string()) continue;
+      *opened = static_cast<int>(i);
+      return Ok();
+    }
+    choice_.files.emplace_back();
+    if (Error e = OpenMotion(path, &choice_.files.back())) return e;
+    *opened = Count(choice_.files) - 1;
+    if (shipped) choice_.shipped = *opened;
+    return Ok();
+  }
+
+  const std::vector<std::string>& NamesIn(int file) const {
+    return file < 0 ? own_ : At(choice_.files, file).clip_names;
+  }
+
+  bool MovesIn(int file, int clip) const {
+    if (file < 0) return Moves(At(document_.clips, clip));
+    const MotionFile& motion = At(choice_.files, file);
+    return motion.document.clips.empty() || Moves(At(motion.document.clips, clip));
+  }
+
+  void Take(const std::string& name, int file, int clip) {
+    choice_.clips.push_back({name, file, static_cast<size_t>(clip)});
+  }
+
+  // Where a clip of that very name is, in other files, then in the avatar's, then in the program's.
+  Error TakeNamed(const std::string& name, const std::string& wanted) {
+    std::vector<std::string> known;
+    std::vector<int> files = library_;
+    files.push_back(-1);
+    for (const int file : files) {
+      const int clip = NamedClip(NamesIn(file), wanted);
+      if (clip >= 0) {
+        if (!MovesIn(file, clip) && name == "walk") return Fail("walk clip " + Quoted(wanted) + " moves nothing");
+        Take(name, file, clip);
+        return Ok();
+      }
+      known.insert(known.end(), NamesIn(file).begin(), NamesIn(file).end());
+    }
+    int shipped = -1;
+    if (!OpenOnce(kShipped, &shipped)) {
+      const int clip = NamedClip(NamesIn(shipped), wanted);
+      if (clip >= 0) Take(name, shipped, clip);
+      if (clip >= 0) return Ok();
+    }
+    return Fail("no clip " + Quoted(wanted) + DidYouMean(wanted, known) + " (the file has: " + Listed(known) + ")");
+  }
+
+  Error ChooseUsual(const std::string& name, const std::string& given) {
+    const auto own_file = std::find_if(options_.other_clips.begin(), options_.other_clips.end(),
+                                       [&](const ClipRequest& r) { return r.name == name && !r.file.empty(); });
+    if (own_file != options_.other_clips.end()) return ChooseOther(*own_file);
+    if (!given.empty()) return TakeNamed(name, given);
+    std::vector<int> files = library_;
+    files.push_back(-1);
+    for (const int file : files) {
+      const int clip = GuessClip(NamesIn(file), name);
+      if (clip < 0 || (name == "walk" && !MovesIn(file, clip))) continue;
+      Take(name, file, clip);
+      return Ok();
+    }
+    if (name == "walk") return ChooseAnyWalk();
+    if (choice_.shipped_walk) TakeShipped(name);
+    return Ok();
+  }
+
+  Error ChooseAnyWalk() {
+    std::vector<int> files = library_;
+    files.push_back(-1);
+    for (const int file : files) {
+      if (NamesIn(file).size() != 1 || !MovesIn(file, 0)) continue;
+      Take("walk", file, 0);
+      return Ok();
+    }
+    choice_.missing = "the file has: " + Listed(own_) + (own_.empty() ? "" : "; name the one to walk with");
+    int shipped = -1;
+    if (Error e = OpenOnce(kShipped, &shipped)) return Fail("no walk clip; " + choice_.missing + "; " + e.message);
+    choice_.shipped_walk = true;
+    TakeShipped("walk");
+    return Ok();
+  }
+
+  void TakeShipped(const std::string& name) {
+    const int clip = NamedClip(NamesIn(choice_.shipped), name);
+    if (clip >= 0) Take(name, choice_.shipped, clip);
+  }
+
+  Error ChooseOther(const ClipRequest& request) {
+    const std::string& wanted = request.clip.empty() ? request.name : request.clip;
+    if (!request.file.empty()) {
+      int file = -1;
+      if (Error e = OpenOnce(request.file, &file)) return e;
+      const std::vector<std::string>& names = NamesIn(file);
+      int clip = NamedClip(names, wanted);
+      if (clip < 0 && request.clip.empty()) clip = names.size() == 1 ? 0 : GuessClip(names, Lower(wanted));
+      if (clip < 0) {
+        return Fail("no clip " + Quoted(wanted) + " in " + At(choice_.files, file).path + DidYouMean(wanted, names) +
+                    " (it has: " + Listed(names) + ")");
+      }
+      Take(request.name, file, clip);
+      return Ok();
+    }
+    if (!request.clip.empty()) return TakeNamed(request.name, request.clip);
+    std::vector<int> files = library_;
+    files.push_back(-1);
+    for (const int file : files) {
+      const int clip = NamedClip(NamesIn(file), wanted);
+      if (clip < 0) continue;
+      Take(request.name, file, clip);
+      return Ok();
+    }
+    if (choice_.shipped_walk) TakeShipped(request.name);
+    return Ok();
+  }
+
+  const GltfDocument& document_;
+  const ReadAvatarOptions& options_;
+  ClipChoice& choice_;
+  std::vector<std::string> own_;
+  std::vector<int> library_;  // of the choice's files: where all clips are looked for
+};
+
+}  // namespace
+
+Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options, ClipChoice* choice) {
+  return Chooser(document, options, choice).Choose();
+}
+
+}  // namespace flaneur

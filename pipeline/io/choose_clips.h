@@ -1,0 +1,30 @@
+// Which clip of which file becomes a person's walk, idle, talk and all else they do.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "pipeline/io/gltf.h"
+#include "pipeline/io/gltf_document.h"
+#include "pipeline/io/motion_reader.h"
+
+namespace flaneur {
+
+struct ChosenClip {
+  std::string name;  // ours
+  int file = -1;     // of ClipChoice::files; -1: the avatar's own
+  size_t index = 0;  // of the file's clips
+};
+
+struct ClipChoice {
+  std::vector<ChosenClip> clips;
+  std::vector<MotionFile> files;
+  int shipped = -1;           // of files: those that come with the program, where any is needed
+  bool shipped_walk = false;  // for want of another
+  std::string missing;        // what the avatar's own file has instead of a walk
+};
+
+// As ReadAvatarOptions says. A clip that moves nothing is none. Errors: a clip that is named and nowhere, a file that
+// cannot be read.
+Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options, ClipChoice* choice);
+
+}  // namespace flaneur

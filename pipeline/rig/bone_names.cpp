@@ -1,0 +1,218 @@
+#include "pipeline/rig/bone_names.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace flaneur {
+namespace {
+
+using Token = std::string;
+
+struct Word {
+  std::string_view text;
+  BodyPart part;
+};
+
+// A name's words without sides, numbers and what only tells whose rig it is, written together.
+constexpr std::array kWords = {
+    Word{"hips", BodyPart::kHips},          Word{"hip", BodyPart::kHips},
+    Word{"pelvis", BodyPart::kHips},        Word{"spine", BodyPart::kSpine},
+    Word{"chest", BodyPart::kSpine},        Word{"upperchest", BodyPart::kSpine},
+    Word{"chestupper", BodyPart::kSpine},   Word{"chestlower", BodyPart::kSpine},
+    Word{"torso", BodyPart::kSpine},        Word{"abdomen", BodyPart::kSpine},
+    Word{"abdomenlower", BodyPart::kSpine}, Word{"abdomenupper", BodyPart::kSpine},
+    Word{"waist", BodyPart::kSpine},        Word{"lowerback", BodyPart::kSpine},
+    Word{"upperbody", BodyPart::kSpine},    Word{"stomach", BodyPart::kSpine},
+    Word{"belly", BodyPart::kSpine},        Word{"tummy", BodyPart::kSpine},
+    Word{"ribs", BodyPart::kSpine},         Word{"ribcage", BodyPart::kSpine},
+    Word{"body", BodyPart::kSpine},         Word{"neck", BodyPart::kNeck},
+    Word{"necklower", BodyPart::kNeck},     Word{"neckupper", BodyPart::kNeck},
+    Word{"head", BodyPart::kHead},          Word{"clavicle", BodyPart::kClavicle},
+    Word{"collar", BodyPart::kClavicle},    Word{"collarbone", BodyPart::kClavicle},
+    Word{"scapula", BodyPart::kClavicle},   Word{"shoulder", BodyPart::kShoulder},
+    Word{"upperarm", BodyPart::kUpperArm},  Word{"armupper", BodyPart::kUpperArm},
+    Word{"uparm", BodyPart::kUpperArm},     Word{"shldr", BodyPart::kUpperArm},
+    Word{"shldrbend", BodyPart::kUpperArm}, Word{"bicep", BodyPart::kUpperArm},
+    Word{"humerus", BodyPart::kUpperArm},   Word{"arm", BodyPart::kArm},
+    Word{"lowerarm", BodyPart::kLowerArm},  Word{"armlower", BodyPart::kLowerArm},
+    Word{"loarm", BodyPart::kLowerArm},     Word{"lowarm", BodyPart::kLowerArm},
+    Word{"forearm", BodyPart::kLowerArm},   Word{"forearmbend", BodyPart::kLowerArm},
+    Word{"elbow", BodyPart::kLowerArm},     Word{"hand", BodyPart::kHand},
+    Word{"wrist", BodyPart::kHand},         Word{"upperleg", BodyPart::kUpperLeg},
+    Word{"legupper", BodyPart::kUpperLeg},  Word{"upleg", BodyPart::kUpperLeg},
+    Word{"thigh", BodyPart::kUpperLeg},     Word{"thighbend", BodyPart::kUpperLeg},
+    Word{"femur", BodyPart::kUpperLeg},     Word{"leg", BodyPart::kLeg},
+    Word{"lowerleg", BodyPart::kLowerLeg},  Word{"leglower", BodyPart::kLowerLeg},
+    Word{"loleg", BodyPart::kLowerLeg},     Word{"lowleg", BodyPart::kLowerLeg},
+    Word{"shin", BodyPart::kLowerLeg},      Word{"calf", BodyPart::kLowerLeg},
+    Word{"knee", BodyPart::kLowerLeg},      Word{"foot", BodyPart::kFoot},
+    Word{"ankle", BodyPart::kFoot},         Word{"toe", BodyPart::kToes},
+    Word{"toes", BodyPart::kToes},          Word{"ball", BodyPart::kToes},
+};
+
+// The parts of a finger's name, with or without the hand's.
+constexpr std::array kFingerWords = {
+    Word{"thumb", BodyPart::kThumb},    Word{"index", BodyPart::kIndex},   Word{"middle", BodyPart::kMiddle},
+    Word{"mid", BodyPart::kMiddle},     Word{"ring", BodyPart::kRing},     Word{"pinky", BodyPart::kLittle},
+    Word{"pinkie", BodyPart::kLittle},  Word{"little", BodyPart::kLittle}, Word{"finger", BodyPart::kFinger},
+    Word{"fingers", BodyPart::kFinger},
+};
+
+// Japanese and Chinese; the first that is found counts.
+constexpr std::array kIdeographs = {
+    Word{"足首", BodyPart::kFoot},     Word{"つま先", BodyPart::kToes},   Word{"手首", BodyPart::kHand},
+    Word{"ひざ", BodyPart::kLowerLeg}, Word{"膝", BodyPart::kLowerLeg},   Word{"小腿", BodyPart::kLowerLeg},
+    Word{"大腿", BodyPart::kUpperLeg}, Word{"脚趾", BodyPart::kToes},     Word{"脚踝", BodyPart::kFoot},
+    Word{"ひじ", BodyPart::kLowerArm}, Word{"肘", BodyPart::kLowerArm},   Word{"前臂", BodyPart::kLowerArm},
+    Word{"下臂", BodyPart::kLowerArm}, Word{"小臂", BodyPart::kLowerArm}, Word{"上臂", BodyPart::kUpperArm},
+    Word{"大臂", BodyPart::kUpperArm}, Word{"手腕", BodyPart::kHand},     Word{"腕", BodyPart::kUpperArm},
+    Word{"锁骨", BodyPart::kClavicle}, Word{"肩", BodyPart::kShoulder},   Word{"下半身", BodyPart::kHips},
+    Word{"骨盆", BodyPart::kHips},     Word{"腰", BodyPart::kHips},       Word{"上半身", BodyPart::kSpine},
+    Word{"脊", BodyPart::kSpine},      Word{"胸", BodyPart::kSpine},      Word{"頭", BodyPart::kHead},
+    Word{"头", BodyPart::kHead},       Word{"首", BodyPart::kNeck},       Word{"脖", BodyPart::kNeck},
+    Word{"颈", BodyPart::kNeck},       Word{"足", BodyPart::kUpperLeg},   Word{"腿", BodyPart::kLeg},
+    Word{"脚", BodyPart::kFoot},       Word{"手", BodyPart::kHand},
+};
+constexpr std::array<std::string_view, 6> kIdeographsOfNoBody = {"ＩＫ", "IK", "捩", "先", "親", "指"};
+
+// Whose rig it is, and what says nothing about where.
+constexpr std::array<std::string_view, 24> kIdle = {"mixamorig", "bip",      "biped",     "valve",  "def",  "deform",
+                                                    "bn",        "bone",     "jnt",       "joint",  "jt",   "cc",
+                                                    "base",      "j",        "b",         "sk",     "c",    "rig",
+                                                    "armature",  "skeleton", "character", "center", "gltf", "bind"};
+
+bool IsIdle(const Token& token) { return std::find(kIdle.begin(), kIdle.end(), token) != kIdle.end(); }
+
+enum class Kind { kLower, kUpper, kDigit, kOther };
+
+Kind KindOf(char c) {
+  const auto u = static_cast<unsigned char>(c);
+  if (std::islower(u)) return Kind::kLower;
+  if (std::isupper(u)) return Kind::kUpper;
+  return std::isdigit(u) ? Kind::kDigit : Kind::kOther;
+}
+
+// "mixamorig:LeftUpLeg_07" becomes mixamorig, left, up, leg, 07; capitals that end a run belong to the next word.
+std::vector<Token> Tokens(const std::string& name) {
+  std::vector<Token> tokens;
+  Token current;
+  const auto finish = [&] {
+    if (!current.empty()) tokens.push_back(std::exchange(current, {}));
+  };
+  for (size_t i = 0; i < name.size(); ++i) {
+    const Kind kind = KindOf(name[i]);
+    const Kind before = i > 0 ? KindOf(name[i - 1]) : Kind::kOther;
+    const Kind after = i + 1 < name.size() ? KindOf(name[i + 1]) : Kind::kOther;
+    const bool letters = kind == Kind::kLower || kind == Kind::kUpper;
+    const bool after_letters = before == Kind::kLower || before == Kind::kUpper;
+    const bool new_word =
+        kind == Kind::kUpper && (before == Kind::kLower || (before == Kind::kUpper && after == Kind::kLower));
+    if (kind == Kind::kOther || new_word || letters != after_letters) finish();
+    if (kind != Kind::kOther) current += static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])));
+  }
+  finish();
+  return tokens;
+}
+
+BodySide SideOf(const Token& token) {
+  if (token == "l" || token == "left" || token == "lft") return BodySide::kLeft;
+  if (token == "r" || token == "right" || token == "rgt") return BodySide::kRight;
+  return BodySide::kNone;
+}
+
+BodyPart PartOf(const std::string& words) {
+  for (const Word& word : kWords) {
+    if (word.text == words) return word.part;
+  }
+  return BodyPart::kNone;
+}
+
+BodyPart FingerOf(const std::vector<Token>& words) {
+  static constexpr std::array<std::string_view, 9> kBeside = {
+      "hand", "finger", "proximal", "intermediate", "distal", "metacarpal", "f", "knuckle", "phalange"};
+  BodyPart part = BodyPart::kNone;
+  for (const Token& word : words) {
+    const auto* known =
+        std::find_if(kFingerWords.begin(), kFingerWords.end(), [&](const Word& w) { return w.text == word; });
+    if (known != kFingerWords.end()) {
+      if (part == BodyPart::kNone || part == BodyPart::kFinger) part = known->part;
+    } else if (std::find(kBeside.begin(), kBeside.end(), word) == kBeside.end()) {
+      return BodyPart::kNone;
+    }
+  }
+  return part;
+}
+
+BoneName ReadIdeographs(const std::string& name) {
+  BoneName read;
+  for (const std::string_view no_body : kIdeographsOfNoBody) {
+    if (name.find(no_body) != std::string::npos && name.find("つま先") == std::string::npos) return read;
+  }
+  for (const Word& word : kIdeographs) {
+    if (name.find(word.text) == std::string::npos) continue;
+    read.part = word.part;
+    break;
+  }
+  if (name.find("左") != std::string::npos) read.side = BodySide::kLeft;
+  if (name.find("右") != std::string::npos) read.side = BodySide::kRight;
+  return read;
+}
+
+bool IsAscii(const std::string& name) {
+  return std::all_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 128; });
+}
+
+// Where side and part stand in one word of small letters: "leftarm", "rshoulder", "handl".
+BoneName ReadJoined(const std::string& word) {
+  static constexpr std::array<std::pair<std::string_view, BodySide>, 4> kSides = {
+      std::pair{std::string_view("left"), BodySide::kLeft}, std::pair{std::string_view("right"), BodySide::kRight},
+      std::pair{std::string_view("l"), BodySide::kLeft}, std::pair{std::string_view("r"), BodySide::kRight}};
+  for (const auto& [text, side] : kSides) {
+    if (word.size() <= text.size() + 2) continue;
+    if (word.starts_with(text)) {
+      if (const BodyPart part = PartOf(word.substr(text.size())); part != BodyPart::kNone) return {part, side, -1};
+    }
+    if (word.ends_with(text)) {
+      const BodyPart part = PartOf(word.substr(0, word.size() - text.size()));
+      if (part != BodyPart::kNone) return {part, side, -1};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+BoneName ReadBoneName(const std::string& whole) {
+  const size_t space = whole.find_last_of("|:");
+  const std::string name = space == std::string::npos || space + 1 == whole.size() ? whole : whole.substr(space + 1);
+  if (!IsAscii(name)) return ReadIdeographs(name);
+  if (name.starts_with("__")) return {};  // MakeHuman's links between bones
+  BoneName read;
+  std::vector<Token> words;
+  std::string joined;
+  for (const Token& token : Tokens(name)) {
+    const bool number = KindOf(token[0]) == Kind::kDigit;
+    if (number && !words.empty() && read.number < 0) read.number = std::stoi(token.substr(0, 6));
+    if (number || IsIdle(token)) continue;
+    if (const BodySide side = SideOf(token); side != BodySide::kNone) {
+      read.side = side;
+      continue;
+    }
+    words.push_back(token);
+    joined += token;
+  }
+  read.part = PartOf(joined);
+  if (read.part == BodyPart::kNone && !words.empty()) read.part = FingerOf(words);
+  if (read.part == BodyPart::kNone && read.side == BodySide::kNone) {
+    const BoneName together = ReadJoined(joined);
+    read.part = together.part;
+    read.side = together.side;
+  }
+  return read;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,233 @@
+#include "pipeline/rig/motion_quality.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/core/rotation.h"
+#include "runtime/base/array.h"
+
+namespace flaneur {
+namespace {
+
+constexpr size_t kTrunkPoints = 900, kArmPoints = 140;  // that depths are looked for with
+constexpr float kFarthest = 0.12f;  // of the leg's length: deeper than that is another side of the body
+constexpr float kClear = 0.006f;    // of the leg's length: a hand may be so deep
+constexpr float kMostOpen_deg = 45, kOpenStep_deg = 3;
+constexpr int kKeys = 8;
+
+float Median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool IsBelow(const std::vector<Joint>& joints, int joint, int above) {
+  for (int a = joint; a >= 0; a = At(joints, a).parent) {
+    if (a == above) return true;
+  }
+  return false;
+}
+
+// Which joints move what: trunk with thighs, or one arm from the elbow.
+std::vector<bool> TrunkJoints(const Rig& rig) {
+  std::vector<bool> trunk(rig.joints.size(), false);
+  const Humanoid& h = rig.humanoid;
+  At(trunk, h.hips) = true;
+  for (const int joint : h.spine) At(trunk, joint) = true;
+  for (const HumanoidLeg& leg : h.legs) At(trunk, leg.upper) = true;
+  return trunk;
+}
+
+std::vector<bool> ArmJoints(const Rig& rig, size_t side) {
+  std::vector<bool> arm(rig.joints.size(), false);
+  const HumanoidArm& h = rig.humanoid.arms[side];
+  const int from = h.lower >= 0 ? h.lower : h.upper;
+  for (int j = 0; j < Count(rig.joints) && from >= 0; ++j) {
+    At(arm, j) = IsBelow(rig.joints, j, from) || (h.hand >= 0 && IsBelow(rig.joints, j, h.hand));
+  }
+  return arm;
+}
+
+// Vertices that hang mostly on these joints, thinned to `most`.
+Mesh PointsOn(const Avatar& person, const std::vector<bool>& joints, size_t most) {
+  Mesh all;
+  for (const Mesh& mesh : person.meshes) {
+    for (size_t v = 0; v < mesh.joints.size(); ++v) {
+      float weight = 0;
+      for (size_t i = 0; i < 4; ++i) weight += At(joints, mesh.joints[v][i]) ? mesh.weights[v][i] : 0;
+      if (weight < 0.6f) continue;
+      all.positions.push_back(mesh.positions[v]);
+      all.normals.push_back(mesh.normals[v]);
+      all.joints.push_back(mesh.joints[v]);
+      all.weights.push_back(mesh.weights[v]);
+    }
+  }
+  Mesh thin;
+  const size_t step = 1 + all.positions.size() / most;
+  for (size_t v = 0; v < all.positions.size(); v += step) {
+    thin.positions.push_back(all.positions[v]);
+    thin.normals.push_back(all.normals[v]);
+    thin.joints.push_back(all.joints[v]);
+    thin.weights.push_back(all.weights[v]);
+  }
+  return thin;
+}
+
+// How deep a point lies behind the surface that its nearest trunk point is on.
+float DepthOf(Vec3 point, const Mesh& trunk, float farthest) {
+  float nearest = 1e30f, depth = 0;
+  for (size_t v = 0; v < trunk.positions.size(); ++v) {
+    const Vec3 off = point - trunk.positions[v];
+    const float distance = Dot(off, off);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    depth = -Dot(off, trunk.normals[v]);
+  }
+  return nearest < farthest * farthest ? std::max(depth, 0.0f) : 0;
+}
+
+struct ArmOverClip {
+  std::vector<Mesh> trunks;  // a key each
+  std::vector<std::vector<Vec3>> arms;
+  std::vector<Vec3> shoulders;
+};
+
+ArmOverClip Sampled(const Avatar& person, const Rig& rig, const Clip& clip, size_t side, int keys) {
+  const Mesh trunk = PointsOn(person, TrunkJoints(rig), kTrunkPoints);
+  const Mesh arm = PointsOn(person, ArmJoints(rig, side), kArmPoints);
+  ArmOverClip sampled;
+  for (int k = 0; k < keys; ++k) {
+    const float time_s = clip.duration_s * static_cast<float>(k) / static_cast<float>(keys);
+    const std::vector<Mat4> pose = SkinningMatrices(person, clip, time_s);
+    sampled.trunks.push_back(Skinned(trunk, pose));
+    sampled.arms.push_back(SkinnedPositions(arm, pose));
+    const int upper = rig.humanoid.arms[side].upper;
+    const Vec3 at = TransformPoint(Inverse(At(person.joints, upper).inverse_bind), {});
+    sampled.shoulders.push_back(TransformPoint(At(pose, upper), at));
+  }
+  return sampled;
+}
+
+float Deepest(const ArmOverClip& sampled, Vec3 axis, float angle_rad, float farthest, float enough) {
+  const Quat turn = TurnAbout(axis, angle_rad);
+  float deepest = 0;
+  for (size_t k = 0; k < sampled.arms.size(); ++k) {
+    for (const Vec3 p : sampled.arms[k]) {
+      const Vec3 turned = sampled.shoulders[k] + Rotated(turn, p - sampled.shoulders[k]);
+      deepest = std::max(deepest, DepthOf(turned, sampled.trunks[k], farthest));
+      if (deepest > enough) return deepest;
+    }
+  }
+  return deepest;
+}
+
+void OpenArm(const Rig& rig, int upper, Quat turn, Clip* clip) {
+  const size_t joints = rig.joints.size();
+  const int parent = At(rig.joints, upper).parent;
+  for (int k = 0; k < clip->keys; ++k) {
+    Transform* key = clip->transforms.data() + static_cast<size_t>(k) * joints;
+    const Pose pose = PoseOf(rig.joints, key);
+    const Quat above = parent < 0 ? Quat{} : At(pose.rotations, parent);
+    Quat& own = key[upper].rotation;
+    const Quat before = own;
+    own = Normalized(Product(Conjugate(above), Product(turn, At(pose.rotations, upper))));
+    if (own.x * before.x + own.y * before.y + own.z * before.z + own.w * before.w < 0)
+      own = {-own.x, -own.y, -own.z, -own.w};
+  }
+}
+
+}  // namespace
+
+float FootSlide(const Avatar& person, const Clip& walk, float speed_mps, float band) {
+  if (!(speed_mps > 0) || walk.keys < 3) return 0;
+  const float step_s = walk.duration_s / static_cast<float>(walk.keys - 1);
+  std::vector<std::vector<Vec3>> keys;
+  for (int k = 0; k + 1 < walk.keys; ++k) {
+    const std::vector<Mat4> pose = SkinningMatrices(person, walk, step_s * static_cast<float>(k));
+    std::vector<Vec3>& points = keys.emplace_back();
+    for (const Mesh& mesh : person.meshes) {
+      const std::vector<Vec3> posed = SkinnedPositions(mesh, pose);
+      points.insert(points.end(), posed.begin(), posed.end());
+    }
+  }
+  float sum = 0, count = 0;
+  for (size_t k = 0; k < keys.size(); ++k) {
+    const std::vector<Vec3>& next = keys[(k + 1) % keys.size()];
+    std::vector<float> slides;
+    for (size_t v = 0; v < next.size(); ++v) {
+      if (std::max(keys[k][v].y, next[v].y) > band * person.height_m) continue;
+      Vec3 velocity = (next[v] - keys[k][v]) * (1 / step_s);
+      velocity.y = 0;
+      velocity.z += speed_mps;
+      slides.push_back(Length(velocity) / speed_mps);
+    }
+    if (!slides.empty()) sum += Median(std::move(slides)), count += 1;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+float HipsHeight(const Rig& rig, const Clip& clip) {
+  const size_t joints = rig.joints.size();
+  float sum = 0, lowest = 1e30f;
+  for (int k = 0; k < clip.keys; ++k) {
+    Pose pose = PoseOf(rig.joints, clip.transforms.data() + static_cast<size_t>(k) * joints);
+    TurnPose(rig.turn, &pose);
+    for (const RigLeg& leg : rig.legs) {
+      sum += 0.5f * At(pose.positions, leg.upper).y / static_cast<float>(clip.keys);
+      for (const JointPoint& point : leg.sole) lowest = std::min(lowest, PlaceOf(point, pose).y);
+    }
+  }
+  const float ankle = 0.5f * (rig.legs[kLeft].ankle_height_m + rig.legs[kRight].ankle_height_m);
+  return (sum - lowest - ankle) / rig.leg_m;
+}
+
+float WrongBend(const Rig& rig, const Clip& clip) {
+  const size_t joints = rig.joints.size();
+  float worst = 0;
+  for (int k = 0; k < clip.keys; ++k) {
+    Pose pose = PoseOf(rig.joints, clip.transforms.data() + static_cast<size_t>(k) * joints);
+    TurnPose(rig.turn, &pose);
+    for (const size_t side : {kLeft, kRight}) {
+      const RigLeg& leg = rig.legs[side];
+      if (leg.lower < 0) continue;
+      const Vec3 hip = At(pose.positions, leg.upper), knee = At(pose.positions, leg.lower),
+                 ankle = PlaceOf(leg.ankle, pose);
+      const Quat turned = Product(At(pose.rotations, leg.upper), Conjugate(At(rig.reference.rotations, leg.upper)));
+      const Vec3 front = Rotated(Product(turned, rig.leg_upper[side]), {0, 0, 1});
+      // A knee behind the line from hip to ankle bends backwards.
+      const Vec3 line = Normalized(ankle - hip);
+      const Vec3 off = (knee - hip) - line * Dot(knee - hip, line);
+      const float bend = AngleBetween(knee - hip, ankle - knee);
+      if (Dot(off, front) < 0) worst = std::max(worst, bend);
+    }
+  }
+  return worst;
+}
+
+float HandDepth(const Avatar& person, const Rig& rig, const Clip& clip, size_t side, int keys) {
+  if (rig.humanoid.arms[side].upper < 0) return 0;
+  return Deepest(Sampled(person, rig, clip, side, keys), {0, 0, 1}, 0, kFarthest * rig.leg_m, 1e30f);
+}
+
+float ClearHands(const Avatar& person, const Rig& rig, Clip* clip) {
+  float widest = 0;
+  const Vec3 ahead = Rotated(Conjugate(rig.turn), {0, 0, 1});
+  for (const size_t side : {kLeft, kRight}) {
+    const int upper = rig.humanoid.arms[side].upper;
+    if (upper < 0) continue;
+    const ArmOverClip sampled = Sampled(person, rig, *clip, side, kKeys);
+    const float sign = side == kLeft ? 1.0f : -1.0f;
+    const float clear = kClear * rig.leg_m;
+    float open_deg = 0;
+    while (open_deg < kMostOpen_deg &&
+           Deepest(sampled, ahead, sign * open_deg * kPi / 180, kFarthest * rig.leg_m, clear) > clear) {
+      open_deg += kOpenStep_deg;
+    }
+    if (open_deg > 0) OpenArm(rig, upper, TurnAbout(ahead, sign * open_deg * kPi / 180), clip);
+    widest = std::max(widest, open_deg);
+  }
+  return widest;
+}
+
+}  // namespace flaneur

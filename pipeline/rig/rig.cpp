@@ -1,0 +1,294 @@
+#include "pipeline/rig/rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/core/rotation.h"
+#include "runtime/base/array.h"
+
+namespace flaneur {
+namespace {
+
+constexpr float kOwnWeight = 0.4f;                               // a vertex of the sole hangs on its foot by as much
+constexpr float kSoleBand = 0.05f;                               // of the leg's length, above its lowest point
+constexpr size_t kSoleDirections = 16;                           // that the sole's outline is kept in
+constexpr float kAnkleHeight = 0.09f;                            // of the leg's length, where nothing tells
+constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;            // of the leg's length: where y = 0 may be the ground
+constexpr float kBall = 0.19f, kToeTip = 0.27f, kHeel = -0.06f;  // of the leg's length, before the ankle
+
+Vec3 InFrame(const Pose& pose, int joint, Vec3 place) {
+  return Rotated(Conjugate(At(pose.rotations, joint)), place - At(pose.positions, joint));
+}
+
+bool IsBelow(const std::vector<Joint>& joints, int joint, int above) {
+  for (int a = joint; a >= 0; a = At(joints, a).parent) {
+    if (a == above) return true;
+  }
+  return false;
+}
+
+class RigMaker {
+ public:
+  RigMaker(const Avatar& person, Rig* rig) : person_(person), rig_(*rig) {}
+
+  void Make() {
+    for (const size_t side : {kLeft, kRight}) MakeLeg(side);
+    rig_.leg_m = 0.5f * (rig_.legs[kLeft].thigh_m + rig_.legs[kLeft].shin_m + rig_.legs[kRight].thigh_m +
+                         rig_.legs[kRight].shin_m);
+    for (const size_t side : {kLeft, kRight}) MakeSole(side);
+    PutOnGround();
+    for (const size_t side : {kLeft, kRight}) {
+      MakeArm(side);
+      const RigLeg& leg = rig_.legs[side];
+      const Vec3 knee = leg.lower >= 0 ? Place(leg.lower) : PlaceOf(leg.ankle, rig_.reference);
+      rig_.leg_upper[side] = LegFrame(knee - Place(leg.upper), {0, 0, 1});
+      rig_.leg_lower[side] =
+          leg.lower < 0 ? rig_.leg_upper[side] : LegFrame(PlaceOf(leg.ankle, rig_.reference) - knee, {0, 0, 1});
+    }
+  }
+
+ private:
+  Vec3 Place(int joint) const { return At(rig_.reference.positions, joint); }
+
+  void MakeLeg(size_t side) {
+    const HumanoidLeg& h = rig_.humanoid.legs[side];
+    RigLeg& leg = rig_.legs[side];
+    leg.upper = h.upper, leg.lower = h.lower, leg.foot = h.foot, leg.toes = h.toes;
+    const Vec3 hip = Place(leg.upper);
+    if (leg.foot >= 0 && leg.lower >= 0) {
+      leg.ankle = {leg.foot, {}};
+    } else {
+      const int last = leg.lower >= 0 ? leg.lower : leg.upper;
+      leg.foot = leg.toes = -1;
+      const Vec3 from = Place(last);
+      const float bottom = LowestOf(last, from);
+      leg.ankle = {last, InFrame(rig_.reference, last, {from.x, bottom + kAnkleHeight * (hip.y - bottom), from.z})};
+    }
+    const Vec3 ankle = PlaceOf(leg.ankle, rig_.reference);
+    const Vec3 knee = leg.lower >= 0 ? Place(leg.lower) : ankle;
+    leg.thigh_m = Length(knee - hip);
+    leg.shin_m = leg.lower >= 0 ? Length(ankle - knee) : 0;
+  }
+
+  // Calls with the place of every vertex that hangs on the joint or on what is below it.
+  template <typename Use>
+  void ForOwnVertices(int joint, Use use) const {
+    std::vector<bool> own(rig_.joints.size());
+    for (int j = 0; j < Count(rig_.joints); ++j) At(own, j) = IsBelow(rig_.joints, j, joint);
+    for (const Mesh& mesh : person_.meshes) {
+      for (size_t v = 0; v < mesh.joints.size(); ++v) {
+        float weight = 0;
+        size_t heaviest = 0;
+        for (size_t i = 0; i < 4; ++i) {
+          if (At(own, mesh.joints[v][i])) weight += mesh.weights[v][i];
+          if (mesh.weights[v][i] > mesh.weights[v][heaviest]) heaviest = i;
+        }
+        if (weight < kOwnWeight) continue;
+        const int on = At(own, mesh.joints[v][heaviest]) ? mesh.joints[v][heaviest] : joint;
+        use(Rotated(rig_.turn, mesh.positions[v]) + rig_.shift, on);
+      }
+    }
+  }
+
+  float LowestOf(int joint, Vec3 otherwise) const {
+    float lowest = 1e30f;
+    ForOwnVertices(joint, [&](Vec3 place, int) { lowest = std::min(lowest, place.y); });
+    if (lowest < 1e29f) return lowest;
+    for (int j = 0; j < Count(rig_.joints); ++j) {
+      if (IsBelow(rig_.joints, j, joint)) lowest = std::min(lowest, Place(j).y);
+    }
+    return std::min(lowest, otherwise.y - 1e-3f);
+  }
+
+  // The outline of what is lowest of the foot, else what a foot of that length would have.
+  void MakeSole(size_t side) {
+    RigLeg& leg = rig_.legs[side];
+    const Vec3 ankle = PlaceOf(leg.ankle, rig_.reference);
+    float lowest = 1e30f;
+    ForOwnVertices(leg.ankle.joint, [&](Vec3 place, int) { lowest = std::min(lowest, place.y); });
+    if (lowest > ankle.y) return SoleOfBones(&leg, ankle);
+    struct Far {
+      float reach = -1e30f;
+      Vec3 place;
+      int joint = -1;
+    };
+    std::array<Far, kSoleDirections> outline;
+    ForOwnVertices(leg.ankle.joint, [&](Vec3 place, int joint) {
+      if (place.y > lowest + kSoleBand * rig_.leg_m) return;
+      for (size_t d = 0; d < kSoleDirections; ++d) {
+        const float angle = 2 * kPi * static_cast<float>(d) / kSoleDirections;
+        // Of two as far out the lower one is the sole's.
+        const float reach = place.x * std::cos(angle) + place.z * std::sin(angle) - 2 * (place.y - lowest);
+        if (reach > outline[d].reach) outline[d] = {reach, place, joint};
+      }
+    });
+    for (const Far& far : outline) {
+      if (far.joint < 0) continue;
+      const int joint = leg.toes >= 0 && IsBelow(rig_.joints, far.joint, leg.toes) ? leg.toes : leg.ankle.joint;
+      leg.sole.push_back({joint, InFrame(rig_.reference, joint, far.place)});
+    }
+    leg.ankle_height_m = ankle.y - lowest;
+  }
+
+  void SoleOfBones(RigLeg* leg, Vec3 ankle) const {
+    Vec3 way{0, 0, kBall * rig_.leg_m};
+    float lowest = ankle.y;
+    Vec3 tip;
+    for (int j = 0; leg->foot >= 0 && j < Count(rig_.joints); ++j) {
+      if (!IsBelow(rig_.joints, j, leg->foot)) continue;
+      lowest = std::min(lowest, Place(j).y);
+      if (Length(Place(j) - ankle) > Length(tip)) tip = Place(j) - ankle;
+    }
+    tip.y = 0;
+    if (leg->toes >= 0) way = Place(leg->toes) - ankle;
+    else if (Length(tip) > 0.5f * kBall * rig_.leg_m) way = tip * 0.75f;
+    way.y = 0;
+    const float length = Length(way) / kBall;
+    const Vec3 ahead = Normalized(way);
+    // The file's own ground, where it is one; else soles are a little below the lowest bone.
+    const float at_zero = ankle.y + InOwnSpace();
+    float height = ankle.y - lowest + 0.02f * rig_.leg_m;
+    if (height < kMinAnkle * rig_.leg_m || leg->toes < 0) height = std::max(height, kAnkleHeight * rig_.leg_m);
+    if (at_zero > kMinAnkle * rig_.leg_m && at_zero < kMaxAnkle * rig_.leg_m) height = at_zero;
+    leg->ankle_height_m = height;
+    const Vec3 across = Cross({0, 1, 0}, ahead) * (0.05f * rig_.leg_m);
+    for (const float along : {kHeel, kBall, kToeTip}) {
+      for (const float side : {-1.0f, 1.0f}) {
+        Vec3 place = ankle + ahead * (along * length) + across * side;
+        place.y = ankle.y - height;
+        const int joint = along > kBall && leg->toes >= 0 ? leg->toes : leg->ankle.joint;
+        leg->sole.push_back({joint, InFrame(rig_.reference, joint, place)});
+      }
+    }
+  }
+
+  // Added to a reference height it gives the height in the file.
+  float InOwnSpace() const { return -rig_.shift.y; }
+
+  void PutOnGround() {
+    float ground = 0;
+    for (const RigLeg& leg : rig_.legs) {
+      ground += 0.5f * (PlaceOf(leg.ankle, rig_.reference).y - leg.ankle_height_m);
+    }
+    const Vec3 middle = (Place(rig_.legs[kLeft].upper) + Place(rig_.legs[kRight].upper)) * 0.5f;
+    const Vec3 by{-middle.x, -ground, -middle.z};
+    rig_.shift = rig_.shift + by;
+    for (Vec3& p : rig_.reference.positions) p = p + by;
+  }
+
+  void MakeArm(size_t side) {
+    const HumanoidArm& h = rig_.humanoid.arms[side];
+    if (h.upper < 0) return;
+    RigArm& arm = rig_.arms[side];
+    const Vec3 out{side == kLeft ? 1.0f : -1.0f, 0, 0};
+    const int next = h.lower >= 0 ? h.lower : h.hand;
+    const Vec3 way = next >= 0 ? Place(next) - Place(h.upper) : EndOf(h.upper) - Place(h.upper);
+    arm.upper = ArcBetween(out, way);
+    const Vec3 fore = h.lower >= 0 && h.hand >= 0 ? Place(h.hand) - Place(h.lower) : way;
+    arm.lower = Product(ArcBetween(way, fore), arm.upper);
+    arm.hand = arm.lower;
+    if (h.hand < 0) return;
+    const auto knuckle = [&](size_t finger) { return h.fingers[finger].empty() ? -1 : h.fingers[finger].front(); };
+    const int middle = knuckle(2) >= 0 ? knuckle(2) : knuckle(1);
+    if (middle < 0) return;
+    const Vec3 along = Place(middle) - Place(h.hand);
+    arm.hand = Product(ArcBetween(fore, along), arm.lower);
+    const int first = knuckle(1) >= 0 ? knuckle(1) : middle, last = knuckle(4) >= 0 ? knuckle(4) : knuckle(3);
+    if (last < 0 || first == last) return;
+    // The knuckles from the little finger to the first go where the T-pose has +Z.
+    Vec3 across = Place(first) - Place(last);
+    across = Normalized(across - Normalized(along) * Dot(Normalized(along), across));
+    if (Length(across) > 0.5f) arm.hand = Product(ArcBetween(Rotated(arm.hand, {0, 0, 1}), across), arm.hand);
+  }
+
+  // Of a one-bone arm, by what hangs on it.
+  Vec3 EndOf(int joint) const {
+    Vec3 sum;
+    float count = 0;
+    ForOwnVertices(joint, [&](Vec3 place, int) { sum = sum + place, count += 1; });
+    return count > 0 ? sum * (1 / count) : Place(joint) + Vec3{0, -1, 0};
+  }
+
+  const Avatar& person_;
+  Rig& rig_;
+};
+
+}  // namespace
+
+Pose PoseOf(const std::vector<Joint>& joints, const Transform* transforms) {
+  Pose pose;
+  std::vector<Mat4> world(joints.size());
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const Transform& t = transforms[j];
+    const Mat4 local = FromTranslationRotationScale(t.translation, t.rotation, t.scale);
+    world[j] = joints[j].parent < 0 ? local : At(world, joints[j].parent) * local;
+    pose.positions.push_back(TransformPoint(world[j], {}));
+    pose.rotations.push_back(RotationOf(world[j]));
+  }
+  return pose;
+}
+
+Pose BindPose(const std::vector<Joint>& joints) {
+  Pose pose;
+  for (const Joint& joint : joints) {
+    const Mat4 bind = Inverse(joint.inverse_bind);
+    pose.positions.push_back(TransformPoint(bind, {}));
+    pose.rotations.push_back(RotationOf(bind));
+  }
+  return pose;
+}
+
+void TurnPose(Quat turn, Pose* pose) {
+  for (Vec3& p : pose->positions) p = Rotated(turn, p);
+  for (Quat& q : pose->rotations) q = Product(turn, q);
+}
+
+Vec3 PlaceOf(const JointPoint& point, const Pose& pose) {
+  return At(pose.positions, point.joint) + Rotated(At(pose.rotations, point.joint), point.offset);
+}
+
+Quat QuarterTurn(Vec3 up, Vec3 forward) {
+  const std::array<Vec3, 6> axes = {Vec3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  Vec3 best_up{0, 1, 0}, best_forward{0, 0, 1};
+  float best = -1e30f;
+  for (const Vec3 u : axes) {
+    for (const Vec3 f : axes) {
+      if (std::abs(Dot(u, f)) > 0.5f) continue;
+      const float fits = 2 * Dot(u, up) + Dot(f, forward);
+      if (fits > best + 1e-4f) best = fits, best_up = u, best_forward = f;
+    }
+  }
+  return Normalized(Conjugate(QuatFromBasis(Cross(best_up, best_forward), best_up, best_forward)));
+}
+
+Quat LegFrame(Vec3 along, Vec3 front) {
+  const Vec3 y = Normalized(along) * -1;
+  Vec3 z = front - y * Dot(front, y);
+  if (!(Length(z) > 1e-4f)) z = Cross(Vec3{1, 0, 0}, y);
+  z = Normalized(z);
+  return Normalized(QuatFromBasis(Cross(y, z), y, z));
+}
+
+bool MakeRig(const Avatar& person, const std::vector<NamedBone>& told, Rig* rig, std::string* why) {
+  *rig = {};
+  rig->joints = person.joints;
+  rig->reference = BindPose(person.joints);
+  if (!FindHumanoid(person.joints, rig->reference.positions, told, &rig->humanoid, why)) return false;
+  if (rig->humanoid.quadruped) {
+    *why = "it goes on four legs";
+    return false;
+  }
+  Vec3 up, forward;
+  if (!FindStance(rig->humanoid, rig->reference.positions, &up, &forward)) {
+    *why = "its limbs all lie at one place";
+    return false;
+  }
+  rig->turn = QuarterTurn(up, forward);
+  TurnPose(rig->turn, &rig->reference);
+  RigMaker(person, rig).Make();
+  if (rig->leg_m > 1e-6f) return true;
+  *why = "its legs have no length";
+  return false;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,71 @@
+// A human skeleton in the pose that all others are reckoned from: upright, facing +Z, soles at y = 0, any unit.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "pipeline/core/avatar.h"
+#include "pipeline/rig/humanoid.h"
+
+namespace flaneur {
+
+// World positions and rotations, one a joint.
+struct Pose {
+  std::vector<Vec3> positions;
+  std::vector<Quat> rotations;
+};
+
+// Of joints, parents first, whose local transforms these are.
+Pose PoseOf(const std::vector<Joint>& joints, const Transform* transforms);
+
+// That of the inverse bind matrices.
+Pose BindPose(const std::vector<Joint>& joints);
+
+// Turns all of it about the origin.
+void TurnPose(Quat turn, Pose* pose);
+
+// A point that moves with a joint, in the joint's own frame.
+struct JointPoint {
+  int joint = -1;
+  Vec3 offset;
+};
+Vec3 PlaceOf(const JointPoint& point, const Pose& pose);
+
+// One leg with all that a step needs. `lower`, `foot` and `toes` are -1 where the rig has none.
+struct RigLeg {
+  int upper = -1, lower = -1, foot = -1, toes = -1;
+  JointPoint ankle;               // the foot's joint, or where it would be
+  float thigh_m = 0, shin_m = 0;  // shin_m 0: the leg is one bone
+  float ankle_height_m = 0;       // above the sole's lowest point
+  std::vector<JointPoint> sole;
+};
+
+// Directions and turns of one arm in the reference pose. A limb's frame is the turn that brings the like limb of a
+// person in T-pose, palms down, to it.
+struct RigArm {
+  Quat upper, lower, hand;
+};
+
+struct Rig {
+  std::vector<Joint> joints;
+  Humanoid humanoid;
+  Quat turn;   // from the joints' own space to the reference pose's
+  Vec3 shift;  // added after it
+  Pose reference;
+  std::array<RigLeg, 2> legs;
+  std::array<Quat, 2> leg_upper, leg_lower;  // frames as RigArm's, of a leg that hangs straight down
+  std::array<RigArm, 2> arms;
+  float leg_m = 0;  // thigh and shin
+};
+
+// `person`: with meshes, whose soles are then known, or without. False where it is no human skeleton; `why` says what
+// is missing.
+bool MakeRig(const Avatar& person, const std::vector<NamedBone>& told, Rig* rig, std::string* why);
+
+// Of the 24 turns by quarters the one that brings `up` and `forward` nearest to +Y and +Z.
+Quat QuarterTurn(Vec3 up, Vec3 forward);
+
+// The limb's frame: -Y along it and +Z as near to `front` as can be.
+Quat LegFrame(Vec3 along, Vec3 front);
+
+}  // namespace flaneur
