@@ -67,16 +67,16 @@ Error Run(const FootprintsArguments& a) {
   Footprints footprints;
   FootprintStats stats;
   std::vector<std::string> warnings;
-  const std::string name = NameOf(a.towns);
-  const ReadSceneOptions options{a.georeference.crs == "none" ? "" : a.georeference.crs, a.obj_up};
-  if (Error error = ReadTiles(a.towns, options, &scene, &source, &warnings)) return error;
+  const std::string towns = NameOf(a.towns);
+  const ReadSceneOptions reading{a.georeference.crs == "none" ? "" : a.georeference.crs, a.obj_up};
+  if (Error error = ReadTiles(a.towns, reading, &scene, &source, &warnings)) return error;
   Georeference georeference = a.georeference;
   if (!source.system.empty()) georeference.crs.clear();  // done by the reader
   georeference.origin_m = {a.origin_m[0], a.origin_m[1]};
   if (Error error = SetGeoreference(georeference, a.options.scale, &scene, &warnings))
-    return Fail(name + ": " + error.message);
+    return Fail(towns + ": " + error.message);
   if (Error error = ExtractFootprints(scene, a.options, &footprints, &stats, &warnings))
-    return Fail(name + ": " + error.message);
+    return Fail(towns + ": " + error.message);
   for (const std::string& warning : warnings) std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
   if (!footprints.reference_system.empty())
     if (Error error = WriteLongitudeLatitude(LongitudeLatitudePath(a.output), footprints)) return error;
