@@ -7,7 +7,7 @@
 #include "pipeline/core/footprint.h"
 #include "pipeline/core/mesh.h"
 #include "runtime/base/math.h"
-#include "runtime/tour_data/life_data.h"
+#include "runtime/tour_data/turning_part.h"
 
 namespace flaneur {
 

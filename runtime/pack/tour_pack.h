@@ -20,6 +20,7 @@
 #include "runtime/pack/texture.h"
 #include "runtime/tour_data/avatar_data.h"
 #include "runtime/tour_data/tour_data.h"
+#include "runtime/tour_data/turning_part.h"
 
 namespace flaneur {
 
