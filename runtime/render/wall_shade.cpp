@@ -184,7 +184,7 @@ void AddTrunk(const CircleObstacle& trunk, Strips* strips) {
 bool LooksUp(const PackPrimitive& p, const Mat4& world) {
   constexpr float kUp = 0.9f, kMost = 0.9f;
   size_t up = 0;
-  for (const Vec3& n : p.normals) up += Normalized(TransformDirection(world, n)).y > kUp ? 1 : 0;
+  for (const Vec3& n : p.normals) up += Normalized(TransformDirection(world, n)).y > kUp ? 1u : 0u;
   return static_cast<float>(up) > kMost * static_cast<float>(p.normals.size());
 }
 

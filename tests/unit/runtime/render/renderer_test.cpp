@@ -692,24 +692,9 @@ TEST_F(Drawing, FeetShadeTheGroundAboutThem) {
   }
 }
 
-// A made-up row of two houses and a tree on a slope of bare ground: darker at the foot of walls, nowhere else, as dark
-// where the houses meet as before either, and not where the ground brings shade of its own.
+// A made-up row of two houses and a tree on a slope of bare ground, from above: darker at the foot of walls, nowhere
+// else, no darker where the houses meet, and not where the ground brings shade of its own.
 TEST_F(Drawing, WallsShadeTheGroundAtTheirFeet) {
-  const auto darker_at = [&](const TourPack& pack, Vec2 at, int samples) {
-    FrameInput frame;
-    frame.eye = {at.x, at.y, 0.4f * at.x + 12};
-    frame.yaw_rad = 0;
-    frame.pitch_rad = -1.55f;
-    frame.fov_rad = 0.6f;
-    frame.to_sun = Normalized(Vec3{0.2f, 0, 1});
-    frame.contact_shade = 0;
-    const std::vector<uint8_t> without = Draw(pack, frame, {.samples = samples});
-    frame.contact_shade = 0.3f;
-    const std::vector<uint8_t> with = Draw(pack, frame, {.samples = samples});
-    // The picture's middle is what is looked at from above, but for the last 0.02 of a right angle.
-    const int y = kHeight / 2 - static_cast<int>(std::lround(std::tan(kPi / 2 - 1.55f) / std::tan(0.3f) * kWidth / 2));
-    return Pixel(without, kWidth / 2, y).g - Pixel(with, kWidth / 2, y).g;
-  };
   for (const float rise : {0.0f, 0.1f}) {
     TourPack pack = MakePack({});
     pack.materials.push_back({"grey", {0.4f, 0.4f, 0.4f, 1}, -1, false, false, 0.5f});
@@ -720,28 +705,50 @@ TEST_F(Drawing, WallsShadeTheGroundAtTheirFeet) {
     ground.indices = {0, 1, 2, 0, 2, 3};
     pack.meshes.push_back({{ground}});
     pack.town.push_back({"ground", 2, {}});
-    pack.obstacles.polygons = {{{{4, 0}, {10, 0}, {10, 5}, {4, 5}}, {}}, {{{4, -5}, {4, 0}, {10, 0}, {10, -5}}, {}}};
-    pack.obstacles.circles = {{{-5, 0}, 0.3f}};
+    pack.obstacles.polygons = {{{{3, 0}, {6, 0}, {6, 5}, {3, 5}}, {}}, {{{3, -5}, {3, 0}, {6, 0}, {6, -5}}, {}}};
+    pack.obstacles.circles = {{{-1, 0}, 0.3f}};
     GroundRaster raster{{-30, -30}, 0.5f, 120, 120, {}, {}};
     raster.kind.assign(120 * 120, 1);
     for (int cell = 0; cell < 120 * 120; ++cell)
       raster.height_m.push_back((-30 + (static_cast<float>(cell % 120) + 0.5f) / 2) * rise);
     pack.ground = Share(raster);
+    FrameInput frame;
+    frame.eye = {2.5f, 0, 40};
+    frame.pitch_rad = -1.55f;
+    frame.fov_rad = 0.6f;
+    frame.to_sun = Normalized(Vec3{0.2f, 0, 1});
+    const Vec3 ahead{std::cos(frame.pitch_rad), 0, std::sin(frame.pitch_rad)}, up{-ahead.z, 0, ahead.x};
+    const auto darker = [&](const std::vector<uint8_t>& without, const std::vector<uint8_t>& with, Vec2 at) {
+      const Vec3 to = Vec3{at.x, at.y, rise * at.x} - frame.eye;
+      const float scale = kWidth / 2 / (Dot(to, ahead) * std::tan(frame.fov_rad / 2));
+      const int x = kWidth / 2 + static_cast<int>(std::floor(-to.y * scale));
+      const int y = kHeight / 2 - static_cast<int>(std::ceil(Dot(to, up) * scale));
+      return Pixel(without, x, y).g - Pixel(with, x, y).g;
+    };
     for (const int samples : {1, 4}) {
       SCOPED_TRACE(testing::Message() << "rise " << rise << ", samples " << samples);
-      const int at_wall = darker_at(pack, {3.9f, 2.5f}, samples);
+      const RenderOptions options{.samples = samples};
+      frame.contact_shade = 0;
+      const std::vector<uint8_t> without = Draw(pack, frame, options);
+      frame.contact_shade = 0.3f;
+      const std::vector<uint8_t> with = Draw(pack, frame, options);
+      const auto darker_at = [&](float x, float y) { return darker(without, with, {x, y}); };
+      const int at_wall = darker_at(2.88f, 2.5f);
       EXPECT_GT(at_wall, 12);
       EXPECT_LT(at_wall, 70) << "faint";
-      EXPECT_NEAR(darker_at(pack, {3.9f, 0}, samples), at_wall, 4) << "where the houses meet";
-      EXPECT_NEAR(darker_at(pack, {10.1f, -2.5f}, samples), at_wall, 6) << "on the other side";
-      EXPECT_GT(darker_at(pack, {-4.6f, 0}, samples), 12) << "the tree";
-      EXPECT_LT(darker_at(pack, {3.6f, 2.5f}, samples), at_wall) << "it ends";
-      EXPECT_EQ(darker_at(pack, {3.3f, 2.5f}, samples), 0) << "0.7 m away";
-      EXPECT_EQ(darker_at(pack, {0, 0}, samples), 0) << "in the open";
+      EXPECT_NEAR(darker_at(2.88f, 0), at_wall, 6) << "where the houses meet";
+      EXPECT_NEAR(darker_at(6.12f, -2.5f), at_wall, 8) << "on the other side";
+      EXPECT_GT(darker_at(-0.6f, 0), 8) << "the tree";
+      EXPECT_LT(darker_at(2.7f, 2.5f), at_wall) << "it ends";
+      EXPECT_EQ(darker_at(2.3f, 2.5f), 0) << "0.7 m away";
+      EXPECT_EQ(darker_at(1, -3), 0) << "in the open";
+      if (samples > 1) continue;
+      TourPack shaded = pack;
+      shaded.meshes[2].primitives[0].colors = {{1, 1, 1, 1}, {1, 1, 1, 1}, {0.5f, 0.5f, 0.5f, 1}, {1, 1, 1, 1}};
+      const std::vector<uint8_t> own = Draw(shaded, frame, options);
+      frame.contact_shade = 0;
+      EXPECT_EQ(Draw(shaded, frame, options), own) << "the town's own shade";
     }
-    TourPack shaded = pack;
-    shaded.meshes[2].primitives[0].colors = {{1, 1, 1, 1}, {1, 1, 1, 1}, {0.5f, 0.5f, 0.5f, 1}, {1, 1, 1, 1}};
-    EXPECT_EQ(darker_at(shaded, {3.9f, 2.5f}, 1), 0) << "the town's own shade";
   }
 }
 
