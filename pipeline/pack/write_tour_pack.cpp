@@ -8,6 +8,7 @@
 #include "pipeline/pack/tour_json.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
