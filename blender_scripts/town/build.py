@@ -27,11 +27,12 @@ import nature  # noqa: E402
 import plan  # noqa: E402
 import square  # noqa: E402
 import town_wall  # noqa: E402
-from church import make_church  # noqa: E402
+from church import make_church, make_hands  # noqa: E402
 from common.settings import fail, load_settings, write_atomically  # noqa: E402
 from ground import far_land, make_ground  # noqa: E402
 from house import build_house  # noqa: E402
 from mesh import srgb  # noqa: E402
+from roof import make_vanes  # noqa: E402
 from town_hall import make_town_hall  # noqa: E402
 
 OPTIONS = {
@@ -51,9 +52,14 @@ class Town:
         self.copies = []     # (name, mesh name, extras, (x, y, z), yaw, scale)
         self.empties = []    # (name, extras, (x, y, z), yaw)
         self.doors = 0
+        self.turning = 0
 
     def add(self, name, mesh, kind, weather=0.10):
         self.parts.append((name, mesh, {"flaneur_kind": kind}, weather))
+        for which, by, spot, yaw in mesh.turning:
+            self.turning += 1
+            self.copies.append(("%s_%02d" % (which, self.turning), which, {"flaneur_kind": "none", "flaneur_turns": by}, spot, yaw,
+                                1.0))
 
     def door(self, x, y, nx, ny, width=1.0):
         """An empty whose local -y is (nx, ny)."""
@@ -114,6 +120,8 @@ def add_houses(town, plots, rng):
 
 
 def add_landmarks(town, rng):
+    town.shared.update(make_vanes())
+    town.shared.update(make_hands())
     for name, make in (("church", make_church), ("town_hall", make_town_hall)):
         mesh, doors = make(rng)
         town.add(name, mesh, "building")

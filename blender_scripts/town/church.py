@@ -4,7 +4,7 @@ import math
 
 import plan
 from masonry import LIMESTONE, SANDSTONE, SLATE, buttress, pointed_window, portal, pyramid, string_course
-from mesh import Frame, Mesh, box, extrude, lathe, panel, polygon, shade, srgb
+from mesh import Frame, Mesh, box, extrude, front_frame, lathe, panel, polygon, shade, srgb
 from roof import gable_roof, weathercock
 
 TOWER, NAVE, CHOIR = 8.4, 23.0, 8.0     # lengths along the axis
@@ -56,9 +56,19 @@ def clock(mesh, wall, u, v):
         polygon(mesh, "iron", wall, [(u + c * 0.78 + s * w, v + s * 0.78 - c * w), (u + c * 0.97 + s * w, v + s * 0.97 - c * w),
                                      (u + c * 0.97 - s * w, v + s * 0.97 + c * w), (u + c * 0.78 - s * w, v + s * 0.78 + c * w)],
                 gold, 0.075)
-    polygon(mesh, "iron", wall, [(u - 0.05, v - 0.1), (u + 0.05, v - 0.1), (u + 0.02, v + 0.75), (u - 0.02, v + 0.75)], gold, 0.08)
-    polygon(mesh, "iron", wall, [(u - 0.08, v - 0.05), (u - 0.02, v + 0.06), (u - 0.5, v + 0.32), (u - 0.53, v + 0.27)],
-            gold, 0.085)
+    yaw = math.atan2(wall.n[0], -wall.n[1])
+    mesh.turning.append(("minute_hand", "minute_hand", wall.at(u, v, 0.09), yaw))
+    mesh.turning.append(("hour_hand", "hour_hand", wall.at(u, v, 0.08), yaw))
+
+
+def make_hands():
+    """Both hands of a clock at twelve, about the middle of its face, which looks to -y."""
+    gold, wall = (0.62, 0.43, 0.1), front_frame()
+    hour, minute = Mesh(), Mesh()
+    polygon(hour, "iron", wall, [(-0.06, -0.1), (0.06, -0.1), (0.05, 0.36), (0.1, 0.38), (0.0, 0.56), (-0.1, 0.38), (-0.05, 0.36)],
+            gold)
+    polygon(minute, "iron", wall, [(-0.05, -0.16), (0.05, -0.16), (0.02, 0.8), (-0.02, 0.8)], gold)
+    return {"hour_hand": hour, "minute_hand": minute}
 
 
 def spire(mesh, cx, cy, half, rng):
@@ -85,7 +95,7 @@ def spire(mesh, cx, cy, half, rng):
             ring = [(px - 0.55, py - 0.55, z + 2.2), (px + 0.55, py - 0.55, z + 2.2), (px + 0.55, py + 0.55, z + 2.2),
                     (px - 0.55, py + 0.55, z + 2.2)]
             pyramid(mesh, "stone", ring, (px, py, z + 4.6), LIMESTONE, 1)
-    weathercock(mesh, cx, cy, top - 0.4)
+    weathercock(mesh, cx, cy, top - 0.4, "cock")
 
 
 def nave(mesh, x, axis, rng):

@@ -36,6 +36,7 @@ class Mesh:
         self.materials = []  # material name a polygon
         self.colors = []     # linear RGB a polygon
         self.normals = {}    # polygon index -> one normal a corner, where not flat
+        self.turning = []    # (shared mesh's name, what it turns by, (x, y, z), yaw): parts of it that turn
 
     def face(self, material, points, uvs, color, normals=None):
         """One polygon; texture coordinates in metres."""
@@ -58,6 +59,7 @@ class Mesh:
         self.sizes.extend(other.sizes)
         self.materials.extend(other.materials)
         self.colors.extend(other.colors)
+        self.turning.extend(other.turning)
 
     def moved(self, x, y, z, yaw=0.0, shear_x=0.0, shear_y=0.0):
         """A copy, sheared by height, turned about z and moved; the shears are slopes (leaning walls)."""
@@ -72,6 +74,8 @@ class Mesh:
         copy.materials, copy.colors = list(self.materials), list(self.colors)
         for index, normals in self.normals.items():
             copy.normals[index] = [(c * n[0] - s * n[1], s * n[0] + c * n[1], n[2]) for n in normals]
+        copy.turning = [(name, by, (c * px - s * py + x, s * px + c * py + y, pz + z), own + yaw)
+                        for name, by, (px, py, pz), own in self.turning]
         return copy
 
     def triangle_count(self):

@@ -3,7 +3,7 @@
 import math
 
 from framing import PROUD, gable, tone
-from mesh import Frame, beam, box, extrude, lathe, panel, shade, srgb, ticks
+from mesh import Frame, Mesh, beam, box, extrude, lathe, panel, shade, srgb, ticks
 from openings import window
 
 THICK = 0.13   # of the covering, seen at the eaves
@@ -176,10 +176,24 @@ def chimney(mesh, x, y, z_low, z_top, rng):
         shade(color, 0.6), skip="z")
 
 
-def weathercock(mesh, x, y, z):
-    """An iron finial with a ball and a vane."""
+def weathercock(mesh, x, y, z, which="vane"):
+    """An iron finial with a ball, and what turns on it."""
     iron = (0.05, 0.045, 0.035)
     lathe(mesh, "iron", (x, y, z), [(0.05, 0.0), (0.03, 1.2), (0.0, 2.0)], 5, iron)
     lathe(mesh, "iron", (x, y, z + 0.7), [(0.0, 0.0), (0.2, 0.2), (0.0, 0.4)], 7, (0.5, 0.36, 0.1))
-    extrude(mesh, "iron", Frame((x, y, z + 1.4), (1, 0, 0)), [(0.02, 0.0), (0.6, 0.1), (0.5, 0.2), (0.6, 0.32), (0.02, 0.22)],
-            -0.01, 0.01, (0.4, 0.3, 0.09), back=True)
+    mesh.turning.append((which, "wind", (x, y, z + 1.4), 0.0))
+
+
+def make_vanes():
+    """A vane with an arrow, and a cock; both look to -y, into the wind."""
+    gold = (0.4, 0.3, 0.09)
+    along = Frame((0, 0, 0), (0, 1, 0))
+    vane, cock = Mesh(), Mesh()
+    extrude(vane, "iron", along, [(-0.45, 0.14), (0.1, 0.14), (0.1, 0.18), (-0.45, 0.18)], -0.01, 0.01, gold, back=True)
+    extrude(vane, "iron", along, [(-0.62, 0.16), (-0.42, 0.06), (-0.42, 0.26)], -0.01, 0.01, gold, back=True)
+    extrude(vane, "iron", along, [(0.02, 0.0), (0.6, 0.1), (0.5, 0.2), (0.6, 0.32), (0.02, 0.22)], -0.01, 0.01, gold, back=True)
+    body = [(-0.62, 0.72), (-0.5, 0.66), (-0.42, 0.4), (-0.2, 0.2), (0.12, 0.18), (0.36, 0.36), (0.62, 0.3), (0.78, 0.5),
+            (0.74, 0.86), (0.52, 0.98), (0.42, 0.66), (0.12, 0.5), (-0.14, 0.62), (-0.24, 0.86), (-0.36, 1.0), (-0.48, 0.94), (-0.5, 0.78)]
+    extrude(cock, "iron", along, body, -0.03, 0.03, gold, back=True)
+    extrude(cock, "iron", along, [(-0.04, 0.0), (0.04, 0.0), (0.04, 0.24), (-0.04, 0.24)], -0.03, 0.03, gold, back=True)
+    return {"vane": vane, "cock": cock}

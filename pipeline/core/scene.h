@@ -7,6 +7,7 @@
 #include "pipeline/core/footprint.h"
 #include "pipeline/core/mesh.h"
 #include "runtime/base/math.h"
+#include "runtime/tour_data/turning_part.h"
 
 namespace flaneur {
 
@@ -24,9 +25,10 @@ struct SceneNode {
   std::vector<int> meshes;                // indices into Scene::meshes
   NodeKind kind = NodeKind::kUntagged;    // own tag or the nearest ancestor's
   GroundKind ground = GroundKind::kNone;  // likewise, where kind is kGround
-  std::string street = {};  // what visitors call this ground, own or the nearest ancestor's; empty: nothing
-  float radius_m = 0;       // 0: not given
-  float width_m = 0;        // 0: not given
+  std::string street = {};            // what visitors call this ground, own or the nearest ancestor's; empty: nothing
+  TurnsBy turns = TurnsBy::kNothing;  // its own meshes
+  float radius_m = 0;                 // 0: not given
+  float width_m = 0;                  // 0: not given
   // Of kWork, as Place has them:
   std::string clip = {};
   std::vector<std::string> avatars = {};

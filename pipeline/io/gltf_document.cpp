@@ -89,6 +89,7 @@ Error ReadTags(const Value& extras, NodeTags* tags) {
   if (Error e = ReadTextTag(extras, "flaneur_ground", &tags->ground)) return e;
   if (Error e = ReadTextTag(extras, "flaneur_street", &tags->street)) return e;
   if (Error e = ReadTextTag(extras, "flaneur_clip", &tags->clip)) return e;
+  if (Error e = ReadTextTag(extras, "flaneur_turns", &tags->turns)) return e;
   if (Error e = ReadTextTag(extras, "flaneur_avatars", &tags->avatars)) return e;
   if (Error e = ReadNumberTag(extras, "flaneur_seat_m", &tags->seat_m)) return e;
   if (Error e = ReadNumberTag(extras, "flaneur_stay_s", &tags->stay_s)) return e;

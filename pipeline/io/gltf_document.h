@@ -33,7 +33,7 @@ struct DocumentMesh {
 
 // Numbers and strings of ours in a node's extras; empty or 0 where absent.
 struct NodeTags {
-  std::string kind, ground, street, clip, avatars;
+  std::string kind, ground, street, clip, avatars, turns;
   float radius_m = 0, width_m = 0, walk_speed_mps = 0, seat_m = 0, stay_s = 0;
 };
 

@@ -12,6 +12,7 @@ namespace {
 const std::array<NodeKind, 11> kKinds{NodeKind::kBuilding, NodeKind::kWall,   NodeKind::kTree, NodeKind::kLamp,
                                       NodeKind::kOther,    NodeKind::kGround, NodeKind::kDoor, NodeKind::kExit,
                                       NodeKind::kLoiter,   NodeKind::kWork,   NodeKind::kNone};
+const std::array<TurnsBy, 3> kTurns{TurnsBy::kWind, TurnsBy::kHourHand, TurnsBy::kMinuteHand};
 const std::array<GroundKind, 4> kGrounds{GroundKind::kCarriageway, GroundKind::kPavement, GroundKind::kSquare,
                                          GroundKind::kGrass};
 
@@ -61,6 +62,9 @@ Error ApplyTags(const NodeTags& tags, const SceneNode* parent, SceneNode* node) 
     if (Error e = FromName("flaneur_ground", tags.ground, kGrounds, GroundKindName, &node->ground)) {
       return e;
     }
+  }
+  if (!tags.turns.empty()) {
+    if (Error e = FromName("flaneur_turns", tags.turns, kTurns, TurnsByName, &node->turns)) return e;
   }
   const bool is_ground = node->kind == NodeKind::kGround;
   if (!is_ground) node->ground = GroundKind::kNone;

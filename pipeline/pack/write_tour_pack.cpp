@@ -8,6 +8,7 @@
 #include "pipeline/pack/tour_json.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
@@ -62,11 +63,14 @@ std::vector<Mesh> Baked(std::vector<Mesh> meshes, const Mat4& world) {
 }
 
 std::string TagExtras(const SceneNode& node) {
-  if (node.kind == NodeKind::kUntagged) return "";
-  std::string json = std::string("{\"flaneur_kind\":\"") + NodeKindName(node.kind) + "\"";
-  if (node.kind == NodeKind::kGround)
-    json += std::string(",\"flaneur_ground\":\"") + GroundKindName(node.ground) + "\"";
-  return json + "}";
+  std::string json;
+  const auto add = [&json](const char* key, const char* value) {
+    json += std::string(json.empty() ? "{\"" : ",\"") + key + "\":\"" + value + "\"";
+  };
+  if (node.kind != NodeKind::kUntagged) add("flaneur_kind", NodeKindName(node.kind));
+  if (node.kind == NodeKind::kGround) add("flaneur_ground", GroundKindName(node.ground));
+  if (node.turns != TurnsBy::kNothing) add("flaneur_turns", TurnsByName(node.turns));
+  return json.empty() ? json : json + "}";
 }
 
 Error AddTown(const Scene& town, GltfBuilder* builder) {
@@ -81,6 +85,9 @@ Error AddTown(const Scene& town, GltfBuilder* builder) {
     std::vector<Mesh> parts;
     for (int m : node.meshes) parts.push_back(At(town.meshes, m));
     const std::optional<Transform> transform = Decompose(node.world);
+    if (node.turns != TurnsBy::kNothing && !transform)
+      return Fail("town: node '" + OneLine(node.name) +
+                  "' turns (flaneur_turns) but is sheared by its parents' scales: apply them to its mesh");
     int mesh = -1;
     if (const auto found = shared.find(node.meshes); transform && found != shared.end()) {
       mesh = found->second;

@@ -116,6 +116,24 @@ Mat4 LocalMatrix(const Json& node) {
   return FromTranslationRotationScale(t, r, s);
 }
 
+// -1: it stands still.
+int ReadTurning(const Json& node, const Mat4& world, TourPack* pack) {
+  if (!node.contains("extras") || !node["extras"].is_object()) return -1;
+  const std::string name = node["extras"].value("flaneur_turns", "");
+  if (name.empty()) return -1;
+  for (const TurnsBy by : {TurnsBy::kWind, TurnsBy::kHourHand, TurnsBy::kMinuteHand}) {
+    if (name != TurnsByName(by)) continue;
+    if (Count(pack->turning) >= kMaxTurningParts)
+      throw PackRefused("has more than " + std::to_string(kMaxTurningParts) + " turning parts");
+    const Vec3 front = Normalized(GroundFromGltf(TransformDirection(world, {0, 0, 1})));
+    TurningPart part{by, GroundFromGltf(TransformPoint(world, {})), front, std::atan2(front.y, front.x)};
+    if (by == TurnsBy::kWind) part.axis = {0, 0, 1};
+    pack->turning.push_back(part);
+    return Count(pack->turning) - 1;
+  }
+  return -1;  // a newer version's
+}
+
 void ReadTown(const GltfFile& file, MeshTable* meshes, TourPack* pack) {
   const Json& nodes = Member(file.json, "nodes");
   struct Visit {
@@ -137,7 +155,7 @@ void ReadTown(const GltfFile& file, MeshTable* meshes, TourPack* pack) {
     const Mat4 world = visit.parent * LocalMatrix(node);
     if (node.contains("mesh")) {
       const int mesh = Index(node, "mesh", Member(file.json, "meshes").size());
-      pack->town.push_back({node.value("name", ""), meshes->Get(mesh), world});
+      pack->town.push_back({node.value("name", ""), meshes->Get(mesh), world, ReadTurning(node, world, pack)});
     }
     for (const Json& child : node.value("children", Json::array())) {
       stack.push_back({child.get<size_t>(), world, visit.depth + 1});

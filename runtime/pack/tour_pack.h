@@ -20,6 +20,7 @@
 #include "runtime/pack/texture.h"
 #include "runtime/tour_data/avatar_data.h"
 #include "runtime/tour_data/tour_data.h"
+#include "runtime/tour_data/turning_part.h"
 
 namespace flaneur {
 
@@ -61,6 +62,7 @@ struct TownInstance {
   std::string name;
   int mesh = 0;  // index into TourPack::meshes
   Mat4 world;
+  int turning = -1;  // index into TourPack::turning; -1: it stands still
 };
 
 // Skinning matrices (avatar space), sampled at a constant rate; frame `frames` would equal frame 0.
@@ -124,6 +126,7 @@ struct TourPack : TourData {
   std::vector<PackMaterial> materials;
   std::vector<PackMesh> meshes;
   std::vector<TownInstance> town;
+  std::vector<TurningPart> turning;
   std::vector<PackAvatar> avatars;
   Obstacles obstacles;
   SharedGround ground = Share({});

@@ -97,6 +97,9 @@ TourPack PartsForAssets(const TourPack& pack) {
   parts.materials = pack.materials;
   parts.meshes = pack.meshes;
   parts.town = pack.town;
+  parts.turning = pack.turning;
+  parts.obstacles = pack.obstacles;
+  parts.ground = pack.ground;
   for (const PackAvatar& avatar : pack.avatars) {
     PackAvatar part;
     part.height_m = avatar.height_m;
@@ -118,6 +121,7 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
   switch (id.kind) {
     case AssetKind::kTown:
       asset.content->town = BuildTownGeometry(pack, plan);
+      if (!GroundHasShade(pack)) asset.content->wall_shade = BuildWallShade(pack.obstacles, *pack.ground);
       break;
     case AssetKind::kPicture:
       if (plan.pictures[index].array >= 0) {

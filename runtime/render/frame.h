@@ -66,8 +66,11 @@ struct FrameInput {
   // Who is farther from the eye casts the shadow of a coarser figure, and who is beyond the reach none. In a picture of
   // a smaller scale coarser figures begin nearer.
   float fine_shadow_m = kFineShadow_m, shadow_reach_m = kShadowReach_m;
-  float contact_shade = 0.3f;     // of the light, that feet keep from the ground about them
-  std::vector<SmokePuff> smoke;   // farthest first
+  float contact_shade = 0.3f;    // of the light, that feet and walls keep from the ground about them
+  std::vector<SmokePuff> smoke;  // farthest first
+  // How each of the pack's turning parts has turned from where it is modelled, radians about its axis; of those beyond
+  // the last: not at all.
+  std::vector<float> turns_rad;
   std::vector<Vec3> ground_mark;  // a strip of triangles over the ground; empty: none
   std::string caption;            // UTF-8, at the foot of the picture; empty: none
   float caption_share = 1;        // how much of it is seen, 0 to 1

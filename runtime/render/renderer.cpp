@@ -151,7 +151,8 @@ struct Renderer::Impl {
   }
 
   // The costs are those of one picture, however many are averaged.
-  void DrawSurfaces(Vec3 eye, PassTimer* timer, DrawCost* meshes_and_impostors, DrawCost* of_town) {
+  void DrawSurfaces(Vec3 eye, const Mat4& view_projection, const std::vector<float>& turns_rad, PassTimer* timer,
+                    DrawCost* meshes_and_impostors, DrawCost* of_town) {
     BeginPicture(picture);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
@@ -160,6 +161,7 @@ struct Renderer::Impl {
     timer->Passed(DrawPass::kMeshes);
     if (picture.deferred) glFlush();  // software fills these pixels while it goes through the town's triangles
     *of_town = DrawTown(eye, picture.drawn_width_px, picture.drawn_height_px, options.cull, &town);
+    *of_town += DrawTurningParts(view_projection, turns_rad, options.cull, &town);
     timer->Passed(DrawPass::kTown);
     *meshes_and_impostors += DrawPeople(people, true);
     timer->Passed(DrawPass::kImpostors);
@@ -231,6 +233,7 @@ void Renderer::Add(Asset asset) {
   switch (asset.id.kind) {
     case AssetKind::kTown:
       AddTown(std::move(content.town), &r.town);
+      AddWallShade(content.wall_shade, &r.contact_shade);
       ForgetTownShadows(&r.shadows);
       break;
     case AssetKind::kPicture: {
@@ -290,9 +293,10 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
     if (r.picture.averages > 1) FindVisibleBlocks(aside, eye, r.options.cull, &r.town);
     BindFrameBlock(r.block_buffer, MakeFrameBlock(aside, eye, r.Focal_px(frame), to_sun,
                                                   std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
-    r.DrawSurfaces(eye, &timer, &people, &town);
+    r.DrawSurfaces(eye, aside, frame.turns_rad, &timer, &people, &town);
     if (!r.options.normals) r.DrawSky();
-    mark = r.options.normals ? DrawCost{} : DrawContactShade(r.people, r.contact_shade);
+    mark =
+        r.options.normals ? DrawCost{} : DrawContactShade(aside, eye, frame.contact_shade, r.people, r.contact_shade);
     if (!r.options.normals) mark += DrawSmoke(frame.smoke, r.smoke);
     mark += DrawGroundMark(frame.ground_mark, r.ground_mark);
     timer.Passed(DrawPass::kSky);

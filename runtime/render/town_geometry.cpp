@@ -29,16 +29,16 @@ struct Triangle {
   std::array<uint32_t, 3> corners;
 };
 
-void AppendVertices(const PackPrimitive& p, const Mat4& world, const Vec4& base, int layer, TownGeometry* town) {
+void AppendVertices(const PackPrimitive& p, const Mat4& world, const Vec4& base, int layer,
+                    std::vector<TownVertex>* vertices) {
   const Mat4 inverse = Inverse(world);
   for (size_t i = 0; i < p.positions.size(); ++i) {
     const Vec3 n = TurnNormal(inverse, p.normals[i]);
     const Vec4 c = p.colors.empty() ? Vec4{1, 1, 1, 1} : p.colors[i];
-    town->vertices.push_back(
-        {TransformPoint(world, p.positions[i]),
-         {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), static_cast<int8_t>(layer)},
-         p.uvs.empty() ? Vec2{} : p.uvs[i],
-         {SrgbByte(c.x * base.x), SrgbByte(c.y * base.y), SrgbByte(c.z * base.z), Byte(c.w * base.w)}});
+    vertices->push_back({TransformPoint(world, p.positions[i]),
+                         {SignedByte(n.x), SignedByte(n.y), SignedByte(n.z), static_cast<int8_t>(layer)},
+                         p.uvs.empty() ? Vec2{} : p.uvs[i],
+                         {SrgbByte(c.x * base.x), SrgbByte(c.y * base.y), SrgbByte(c.z * base.z), Byte(c.w * base.w)}});
   }
 }
 
@@ -125,19 +125,48 @@ void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle
   town->blocks.shrink_to_fit();
 }
 
+Vec4 BaseColor(const TourPack& pack, int material) {
+  return material >= 0 ? pack.materials[static_cast<size_t>(material)].base_color : Vec4{1, 1, 1, 1};
+}
+
+TurningGeometry BuildTurning(const TourPack& pack, const SurfacePlan& plan, const TownInstance& instance) {
+  TurningGeometry out;
+  out.index = instance.turning;
+  out.part = pack.turning[static_cast<size_t>(instance.turning)];
+  const bool mirrored = Mirrors(instance.world);
+  for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(instance.mesh)].primitives) {
+    const auto base = static_cast<uint32_t>(out.vertices.size());
+    const Surface& surface = SurfaceOf(p.material, plan);
+    AppendVertices(p, instance.world, BaseColor(pack, p.material), surface.layer, &out.vertices);
+    out.ranges.push_back(
+        {surface.group, static_cast<uint32_t>(out.indices.size()), static_cast<uint32_t>(p.indices.size())});
+    for (const uint32_t i : p.indices) out.indices.push_back(base + i);
+    for (size_t i = out.ranges.back().first; mirrored && i + 2 < out.indices.size(); i += 3)
+      std::swap(out.indices[i + 1], out.indices[i + 2]);
+  }
+  const Vec3 pivot = GltfFromGround(out.part.pivot_m);
+  float reach_m = 0;
+  for (const TownVertex& v : out.vertices) reach_m = std::max(reach_m, Length(v.position - pivot));
+  const Vec3 reach{reach_m, reach_m, reach_m};
+  out.box = {pivot - reach, pivot + reach};
+  return out;
+}
+
 }  // namespace
 
 TownGeometry BuildTownGeometry(const TourPack& pack, const SurfacePlan& plan) {
   TownGeometry town;
   std::map<uint64_t, std::vector<Triangle>> cells;
   for (const TownInstance& instance : pack.town) {
+    if (instance.turning >= 0) {
+      town.turning.push_back(BuildTurning(pack, plan, instance));
+      continue;
+    }
     const bool mirrored = Mirrors(instance.world);
     for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(instance.mesh)].primitives) {
       const auto base = static_cast<uint32_t>(town.vertices.size());
       const Surface& surface = SurfaceOf(p.material, plan);
-      const Vec4 color =
-          p.material >= 0 ? pack.materials[static_cast<size_t>(p.material)].base_color : Vec4{1, 1, 1, 1};
-      AppendVertices(p, instance.world, color, surface.layer, &town);
+      AppendVertices(p, instance.world, BaseColor(pack, p.material), surface.layer, &town.vertices);
       for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
         Triangle t{surface.group, {base + p.indices[i], base + p.indices[i + 1], base + p.indices[i + 2]}};
         if (mirrored) std::swap(t.corners[1], t.corners[2]);

@@ -29,6 +29,16 @@ struct TownBlock {
   int64_t triangles = 0;
 };
 
+// A weathercock, a clock's hand: few triangles, which are drawn on their own, where they have turned to.
+struct TurningGeometry {
+  TurningPart part;
+  int index = 0;                     // of the pack's
+  Box box;                           // however it turns
+  std::vector<TownVertex> vertices;  // as modelled, in the town
+  std::vector<uint32_t> indices;
+  std::vector<TownRange> ranges;  // of the indices
+};
+
 struct TownGeometry {
   std::vector<TownVertex> vertices;
   std::vector<uint32_t>
@@ -36,6 +46,7 @@ struct TownGeometry {
   std::vector<Vec3> positions;  // of the vertices
   std::vector<uint32_t> walls;  // indices of the triangles that are large and opaque enough to hide what is behind them
   std::vector<TownBlock> blocks;  // neighbours near each other
+  std::vector<TurningGeometry> turning;
 };
 
 TownGeometry BuildTownGeometry(const TourPack& pack, const SurfacePlan& plan);

@@ -1,9 +1,11 @@
 #include "runtime/render/town_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 
+#include "runtime/render/vertex_bytes.h"
 #include "runtime/render/visible_triangles.h"
 
 namespace flaneur {
@@ -81,8 +83,9 @@ size_t GatherIndices(Vec3 eye, const TriangleSight* sight, bool cull, TownView* 
 }
 
 void RemoveTown(TownView* town) {
-  const GLuint arrays[] = {town->vertex_array, town->shadow_array};
-  const GLuint buffers[] = {town->visible_indices, town->vertices, town->shadow_indices};
+  const GLuint arrays[] = {town->vertex_array, town->shadow_array, town->turning_array};
+  const GLuint buffers[] = {town->visible_indices, town->vertices, town->shadow_indices, town->turning_vertices,
+                            town->turning_indices};
   glDeleteVertexArrays(static_cast<GLsizei>(std::size(arrays)), arrays);
   glDeleteBuffers(static_cast<GLsizei>(std::size(buffers)), buffers);
   town->box = {};
@@ -114,6 +117,11 @@ void AddTown(TownGeometry geometry, TownView* town) {
   glBindBuffer(GL_ARRAY_BUFFER, town->vertices);
   EnableVertices();
   glGenBuffers(1, &town->visible_indices);
+  glGenVertexArrays(1, &town->turning_array);
+  glBindVertexArray(town->turning_array);
+  town->turning_vertices = CreateBuffer(GL_ARRAY_BUFFER, nullptr, 0);
+  EnableVertices();
+  glGenBuffers(1, &town->turning_indices);
   std::vector<TownVertex>().swap(geometry.vertices);  // its memory too
   town->geometry = std::move(geometry);
   town->masked_groups = MaskedGroups(town->geometry, town->groups);
@@ -171,6 +179,57 @@ DrawCost DrawTown(Vec3 eye, int width_px, int height_px, bool cull, TownView* to
       first += some;
       left -= some;
     }
+  }
+  return cost;
+}
+
+// v turned about `axis`, unit (Rodrigues).
+Vec3 Turned(Vec3 v, Vec3 axis, float sin, float cos) {
+  return v * cos + Cross(axis, v) * sin + axis * (Dot(axis, v) * (1 - cos));
+}
+
+void AppendTurned(const TurningGeometry& part, float turn_rad, TownView* town) {
+  const Vec3 pivot = GltfFromGround(part.part.pivot_m), axis = GltfFromGround(part.part.axis);
+  const float sin = std::sin(turn_rad), cos = std::cos(turn_rad);
+  const auto base = static_cast<uint32_t>(town->turned.size());
+  for (TownVertex v : part.vertices) {
+    v.position = pivot + Turned(v.position - pivot, axis, sin, cos);
+    const Vec3 n =
+        Turned({FromSignedByte(v.normal[0]), FromSignedByte(v.normal[1]), FromSignedByte(v.normal[2])}, axis, sin, cos);
+    for (size_t k = 0; k < 3; ++k) v.normal[k] = SignedByte(k == 0 ? n.x : k == 1 ? n.y : n.z);
+    town->turned.push_back(v);
+  }
+  for (const TownRange& range : part.ranges) {
+    std::vector<uint32_t>& to = town->turned_of[static_cast<size_t>(range.group)];
+    for (uint32_t i = range.first; i < range.first + range.count; ++i) to.push_back(base + part.indices[i]);
+  }
+}
+
+DrawCost DrawTurningParts(const Mat4& view_projection, const std::vector<float>& turns_rad, bool cull, TownView* town) {
+  DrawCost cost;
+  const Frustum frustum = FrustumOf(view_projection);
+  town->turned.clear();
+  town->turned_of.resize(town->groups.size());
+  for (std::vector<uint32_t>& indices : town->turned_of) indices.clear();
+  for (const TurningGeometry& part : town->geometry.turning) {
+    if (cull && (!MayTouch(frustum, part.box) || !MayBeSeen(town->walls, part.box, false))) continue;
+    const auto index = static_cast<size_t>(part.index);
+    AppendTurned(part, index < turns_rad.size() ? turns_rad[index] : 0, town);
+  }
+  if (town->turned.empty()) return cost;
+  glBindVertexArray(town->turning_array);
+  glBindBuffer(GL_ARRAY_BUFFER, town->turning_vertices);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(town->turned.size() * sizeof(TownVertex)), town->turned.data(),
+               GL_STREAM_DRAW);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, town->turning_indices);
+  for (size_t g = 0; g < town->groups.size(); ++g) {
+    const std::vector<uint32_t>& indices = town->turned_of[g];
+    if (indices.empty()) continue;
+    BindGroup(town->groups[g], town->lit, *town);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(uint32_t)), indices.data(),
+                 GL_STREAM_DRAW);
+    DrawIndices(0, static_cast<uint32_t>(indices.size()));
+    cost += {static_cast<int64_t>(indices.size() / 3), 1};
   }
   return cost;
 }

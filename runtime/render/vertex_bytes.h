@@ -9,6 +9,7 @@
 namespace flaneur {
 
 inline int8_t SignedByte(float v) { return static_cast<int8_t>(std::lround(std::clamp(v, -1.0f, 1.0f) * 127)); }
+inline float FromSignedByte(int8_t b) { return static_cast<float>(b) / 127; }
 inline uint8_t Byte(float v) { return static_cast<uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f); }
 
 // Of a linear tint, as the display shows it. Pictures are multiplied by it before they are made linear: once a pixel

@@ -7,8 +7,10 @@
 #include "runtime/crowd/fast_math.h"
 #include "runtime/show/birds.h"
 #include "runtime/show/ground_mark.h"
+#include "runtime/show/hour.h"
 #include "runtime/show/looks.h"
 #include "runtime/show/smoke.h"
+#include "runtime/show/turning_parts.h"
 
 namespace flaneur {
 namespace {
@@ -261,6 +263,7 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks*
   for (int slot : looks->shown) Show(looks->people[static_cast<size_t>(slot)], share, before_s, frame);
   AddBirds(pack, s, between.share, frame);
   AddSmoke(pack, time_s - before_s, frame);
+  TurnParts(pack, time_s - before_s, HourNow(s, frame->to_sun), frame);
 }
 
 }  // namespace flaneur

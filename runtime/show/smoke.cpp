@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/show/looks.h"
+#include "runtime/show/wind.h"
 
 namespace flaneur {
 namespace {
@@ -20,12 +21,6 @@ float Chance(size_t chimney, int puff, float salt) {
   return Fraction(
       std::sin(static_cast<float>(chimney % 1000) * 12.9898f + static_cast<float>(puff % 1000) * 78.233f + salt) *
       4375.85f);
-}
-
-// Where the wind blows to when a puff begins: gusts from either side, none where there is no wind.
-Vec2 WindAt(const WindSettings& wind, float time_s) {
-  const float yaw_rad = wind.yaw_rad + 0.3f * std::sin(0.11f * time_s) + 0.15f * std::sin(0.37f * time_s + 1);
-  return Vec2{std::cos(yaw_rad), std::sin(yaw_rad)} * (wind.speed_mps * (1 + 0.2f * std::sin(0.23f * time_s)));
 }
 
 SmokePuff PuffOf(const Smoke& smoke, size_t chimney, int which, const WindSettings& wind, float time_s) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/base/array.h"
+#include "runtime/show/hour.h"
 
 namespace flaneur {
 namespace {
@@ -168,10 +169,6 @@ void HearMurmur(const Simulation& sim, float follows, Soundscape* s) {
   }
 }
 
-float HourNow(const Simulation& sim, Vec3 to_sun) {
-  return sim.hour ? std::fmod(*sim.hour + Time_s(sim) / 3600, 24.0f) : HourOfSun(to_sun);
-}
-
 void CountStrokes(float hour, float passed_s, bool has_bell, Soundscape* s) {
   const float before = s->hour;
   s->silent_s += passed_s;
@@ -218,11 +215,6 @@ void HearPlaces(const Simulation& sim, const FrameInput& frame, float passed_s, 
 }
 
 }  // namespace
-
-float HourOfSun(Vec3 to_sun) {
-  const float hour = 12 + std::atan2(-to_sun.x, -to_sun.y) * 12 / kPi;
-  return hour < 0 ? hour + 24 : hour;
-}
 
 void PrepareSoundscape(const TourPack& pack, const Walkable& w, Soundscape* s) {
   *s = {};

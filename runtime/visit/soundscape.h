@@ -42,7 +42,4 @@ void PrepareSoundscape(const TourPack& pack, const Walkable& walkable, Soundscap
 void FollowSoundscape(const TourPack& pack, const Simulation& simulation, const FrameInput& frame, float passed_s,
                       bool speaks, bool holds, Soundscape* soundscape);
 
-// By the sun, 0 to 24: 12 where it stands in the south.
-float HourOfSun(Vec3 to_sun);
-
 }  // namespace flaneur

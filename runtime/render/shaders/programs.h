@@ -26,6 +26,7 @@ namespace flaneur {
   PROGRAM(kEnlarge, "enlarge.vert", "enlarge.frag", "") \
   PROGRAM(kCaption, "whole.vert", "caption.frag", "") \
   PROGRAM(kContactShade, "contact_shade.vert", "contact_shade.frag", "") \
+  PROGRAM(kWallShade, "wall_shade.vert", "wall_shade.frag", "") \
   PROGRAM(kSmoke, "smoke.vert", "smoke.frag", "") \
   PROGRAM(kGroundMark, "ground_mark.vert", "ground_mark.frag", "") \
   PROGRAM(kOverlay, "overlay.vert", "overlay.frag", "")

@@ -90,6 +90,14 @@ TEST_F(SceneFile, APlaceOfWorkSaysWhatIsDoneThereAndByWhom) {
   EXPECT_EQ(read.stay_s, 60);
 }
 
+TEST_F(SceneFile, WhatTurnsSaysByWhatAndItsChildrenStandStill) {
+  const int vane = builder_.AddNode(NodeWith("vane", -1, AddQuad("quad"), R"({"flaneur_turns": "wind"})"));
+  builder_.AddNode(NodeWith("nail", vane, AddQuad("nail"), ""));
+  ASSERT_EQ(ReadScene(Finish({vane}), &scene_).message, "");
+  EXPECT_EQ(scene_.nodes[0].turns, TurnsBy::kWind);
+  EXPECT_EQ(scene_.nodes[1].turns, TurnsBy::kNothing);
+}
+
 TEST_F(SceneFile, AnUnknownTagIsAnErrorWithAdvice) {
   const int node = builder_.AddNode(NodeWith("house 7", -1, AddQuad("quad"), R"({"flaneur_kind": "bulding"})"));
   const std::string message = ReadScene(Finish({node}), &scene_).message;

@@ -288,6 +288,32 @@ TEST(TourPack, BringsTheTownAcross) {
   }
 }
 
+TEST(TourPack, BringsWhatTurnsInTheTownAcross) {
+  TourParts parts = SmallTour();
+  SceneNode node;
+  node.name = "hand";
+  node.meshes = {0};
+  node.turns = TurnsBy::kHourHand;
+  node.world = FromTranslationRotationScale({3, 12, -7}, Quat{0, std::sqrt(0.5f), 0, std::sqrt(0.5f)}, {2, 2, 2});
+  parts.town.nodes.push_back(node);
+  const TourPack pack = Read(Written(parts));
+  ASSERT_EQ(pack.turning.size(), 1u);
+  ASSERT_EQ(pack.town.size(), 4u);
+  for (const TownInstance& part : pack.town) EXPECT_EQ(part.turning, part.name == "hand" ? 0 : -1);
+  const TurningPart& hand = pack.turning[0];
+  EXPECT_EQ(hand.by, TurnsBy::kHourHand);
+  EXPECT_NEAR(Length(hand.pivot_m - Vec3{3, 7, 12}), 0, 1e-4f);
+  EXPECT_NEAR(Length(hand.axis - Vec3{1, 0, 0}), 0, 1e-4f) << "its face looks east";
+
+  parts.town.nodes[2].turns = TurnsBy::kWind;
+  TemporaryFolder folder;
+  EXPECT_FALSE(folder.Create("flaneur_test_"));
+  size_t size = 0;
+  const std::string refused = WriteTourPack(folder.path() / "sheared.glb", parts, nullptr, &size).message;
+  EXPECT_NE(refused.find("part_2"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("sheared"), std::string::npos) << refused;
+}
+
 TEST(TourPack, BringsAvatarsAcross) {
   const TourParts parts = SmallTour();
   const TourPack pack = Read(Written(parts));

@@ -692,6 +692,101 @@ TEST_F(Drawing, FeetShadeTheGroundAboutThem) {
   }
 }
 
+// A made-up row of two houses and a tree on a slope of bare ground, from above: darker at the foot of walls, nowhere
+// else, no darker where the houses meet, and not where the ground brings shade of its own.
+TEST_F(Drawing, WallsShadeTheGroundAtTheirFeet) {
+  for (const float rise : {0.0f, 0.1f}) {
+    TourPack pack = MakePack({});
+    pack.materials.push_back({"grey", {0.4f, 0.4f, 0.4f, 1}, -1, false, false, 0.5f});
+    PackPrimitive ground;
+    ground.material = 1;
+    ground.positions = {{-30, -30 * rise, -30}, {-30, -30 * rise, 30}, {30, 30 * rise, 30}, {30, 30 * rise, -30}};
+    ground.normals.assign(4, Normalized(Vec3{-rise, 1, 0}));
+    ground.indices = {0, 1, 2, 0, 2, 3};
+    pack.meshes.push_back({{ground}});
+    pack.town.push_back({"ground", 2, {}});
+    pack.obstacles.polygons = {{{{3, 0}, {6, 0}, {6, 5}, {3, 5}}, {}}, {{{3, -5}, {3, 0}, {6, 0}, {6, -5}}, {}}};
+    pack.obstacles.circles = {{{-1, 0}, 0.3f}};
+    GroundRaster raster{{-30, -30}, 0.5f, 120, 120, {}, {}};
+    raster.kind.assign(120 * 120, 1);
+    for (int cell = 0; cell < 120 * 120; ++cell)
+      raster.height_m.push_back((-30 + (static_cast<float>(cell % 120) + 0.5f) / 2) * rise);
+    pack.ground = Share(raster);
+    FrameInput frame;
+    frame.eye = {2.5f, 0, 40};
+    frame.pitch_rad = -1.55f;
+    frame.fov_rad = 0.6f;
+    frame.to_sun = Normalized(Vec3{0.2f, 0, 1});
+    const Vec3 ahead{std::cos(frame.pitch_rad), 0, std::sin(frame.pitch_rad)}, up{-ahead.z, 0, ahead.x};
+    const auto darker = [&](const std::vector<uint8_t>& without, const std::vector<uint8_t>& with, Vec2 at) {
+      const Vec3 to = Vec3{at.x, at.y, rise * at.x} - frame.eye;
+      const float scale = kWidth / 2 / (Dot(to, ahead) * std::tan(frame.fov_rad / 2));
+      const int x = kWidth / 2 + static_cast<int>(std::floor(-to.y * scale));
+      const int y = kHeight / 2 - static_cast<int>(std::ceil(Dot(to, up) * scale));
+      return Pixel(without, x, y).g - Pixel(with, x, y).g;
+    };
+    for (const int samples : {1, 4}) {
+      SCOPED_TRACE(testing::Message() << "rise " << rise << ", samples " << samples);
+      const RenderOptions options{.samples = samples};
+      frame.contact_shade = 0;
+      const std::vector<uint8_t> without = Draw(pack, frame, options);
+      frame.contact_shade = 0.3f;
+      const std::vector<uint8_t> with = Draw(pack, frame, options);
+      const auto darker_at = [&](float x, float y) { return darker(without, with, {x, y}); };
+      const int at_wall = darker_at(2.88f, 2.5f);
+      EXPECT_GT(at_wall, 12);
+      EXPECT_LT(at_wall, 70) << "faint";
+      EXPECT_NEAR(darker_at(2.88f, 0), at_wall, 6) << "where the houses meet";
+      EXPECT_NEAR(darker_at(6.12f, -2.5f), at_wall, 8) << "on the other side";
+      EXPECT_GT(darker_at(-0.6f, 0), 8) << "the tree";
+      EXPECT_LT(darker_at(2.7f, 2.5f), at_wall) << "it ends";
+      EXPECT_EQ(darker_at(2.3f, 2.5f), 0) << "0.7 m away";
+      EXPECT_EQ(darker_at(1, -3), 0) << "in the open";
+      if (samples > 1) continue;
+      TourPack shaded = pack;
+      shaded.meshes[2].primitives[0].colors = {{1, 1, 1, 1}, {1, 1, 1, 1}, {0.5f, 0.5f, 0.5f, 1}, {1, 1, 1, 1}};
+      const std::vector<uint8_t> own = Draw(shaded, frame, options);
+      frame.contact_shade = 0;
+      EXPECT_EQ(Draw(shaded, frame, options), own) << "the town's own shade";
+    }
+  }
+}
+
+// The face of a clock looks at the eye; its hand is a red board from the middle upwards.
+TEST_F(Drawing, PartsOfTheTownTurn) {
+  TourPack pack = MakePack({});
+  PackPrimitive hand;
+  hand.material = 0;
+  hand.positions = {{-0.1f, 0, 0}, {0.1f, 0, 0}, {0.1f, 1, 0}, {-0.1f, 1, 0}};
+  hand.normals.assign(4, {0, 0, 1});
+  hand.indices = {0, 1, 2, 0, 2, 3};
+  pack.meshes.push_back({{hand}});
+  const Quat to_west{0, -std::sqrt(0.5f), 0, std::sqrt(0.5f)};
+  pack.turning = {{TurnsBy::kHourHand, {8, 0, 1.6f}, {-1, 0, 0}, kPi}};
+  pack.town.push_back({"hand", 2, FromTranslationRotationScale({8, 1.6f, 0}, to_west, {1, 1, 1}), 0});
+  FrameInput frame = LookEast();
+  const float metre_px = kWidth / 2 / std::tan(frame.fov_rad / 2) / 8;
+  const auto red_at = [&](const std::vector<uint8_t>& rgb, float right_m, float up_m) {
+    return IsRed(
+        Pixel(rgb, kWidth / 2 + static_cast<int>(right_m * metre_px), kHeight / 2 - static_cast<int>(up_m * metre_px)));
+  };
+  for (const int samples : {1, 4}) {
+    for (const bool cull : {true, false}) {
+      const RenderOptions options{.samples = samples, .cull = cull};
+      SCOPED_TRACE(testing::Message() << "samples " << samples << ", cull " << cull);
+      frame.turns_rad = {};
+      EXPECT_TRUE(red_at(Draw(pack, frame, options), 0, 0.7f)) << "as modelled";
+      frame.turns_rad = {-kPi / 2};
+      const std::vector<uint8_t> at_three = Draw(pack, frame, options);
+      EXPECT_TRUE(red_at(at_three, 0.7f, 0)) << "clockwise";
+      EXPECT_FALSE(red_at(at_three, 0, 0.7f));
+      EXPECT_FALSE(red_at(at_three, -0.7f, 0));
+      frame.turns_rad = {-kPi * 1.5f};
+      EXPECT_TRUE(red_at(Draw(pack, frame, options), -0.7f, 0));
+    }
+  }
+}
+
 TEST_F(Drawing, WhoIsBeyondTheReachOfShadowsCastsNone) {
   const TourPack pack = MakePack({});
   FrameInput frame = LookEast();

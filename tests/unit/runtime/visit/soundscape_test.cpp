@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "runtime/show/hour.h"
 #include "runtime/simulation/scenario.h"
 
 namespace flaneur {
