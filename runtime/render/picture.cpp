@@ -99,6 +99,12 @@ void DrawWhole(const Program& program, const Picture& p) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void BindFinished(const Picture& p) {
+  const bool onto_window = p.finished == 0;
+  glBindFramebuffer(GL_FRAMEBUFFER, onto_window ? p.window : p.finished);
+  glViewport(onto_window ? p.left_px : 0, onto_window ? p.bottom_px : 0, p.width_px, p.height_px);
+}
+
 // Into `framebuffer`, as large as it was drawn.
 void Smooth(GLuint framebuffer, const Program& program, const Picture& p) {
   if (p.samples > 1) {
@@ -108,14 +114,14 @@ void Smooth(GLuint framebuffer, const Program& program, const Picture& p) {
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
     return;
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  if (framebuffer == p.finished) BindFinished(p);
+  else glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   BindTexture(kColorUnit, p.deferred ? p.lit_color : p.color);
   DrawWhole(program, p);
 }
 
 void Enlarge(GLuint texture, const Picture& p) {
-  glBindFramebuffer(GL_FRAMEBUFFER, p.finished);
-  glViewport(0, 0, p.width_px, p.height_px);
+  BindFinished(p);
   BindTexture(kColorUnit, texture);
   DrawWhole(p.enlarge_program, p);
 }
@@ -211,6 +217,14 @@ void FinishPicture(int average, const Picture& p) {
   const bool coarse = IsCoarse(p);
   Smooth(coarse ? p.coarse : p.finished, coarse ? p.sharpen_program : p.smooth_program, p);
   if (coarse) Enlarge(p.coarse_color, p);
+}
+
+void PresentPicture(const Picture& p) {
+  if (p.finished == 0) return;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, p.finished);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, p.window);
+  glBlitFramebuffer(0, 0, p.width_px, p.height_px, p.left_px, p.bottom_px, p.left_px + p.width_px,
+                    p.bottom_px + p.height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 }  // namespace flaneur

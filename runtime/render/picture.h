@@ -20,6 +20,8 @@ struct Picture {
   GLuint depth_copy = 0, depth_copy_target = 0;  // likewise, where depth cannot be looked up while it is drawn into
   GLuint coarse_color = 0, coarse = 0;           // smooth but not yet enlarged
   GLuint finished_color = 0, finished = 0;       // framebuffer of the finished picture; 0: the window's own
+  GLuint window = 0;                             // the window's own, or a headset's,
+  int left_px = 0, bottom_px = 0;                // and where in it the finished picture is
   Program light_program, smooth_program, sharpen_program, enlarge_program;
   GLuint empty_array = 0;
 };
@@ -41,5 +43,7 @@ void BeginPicture(const Picture& picture);
 void LightPicture(const Picture& picture);
 // Leaves the finished picture bound for drawing, all of it. average: which of the pictures this was, from 0.
 void FinishPicture(int average, const Picture& picture);
+// Onto the window's surface, where it is not finished there.
+void PresentPicture(const Picture& picture);
 
 }  // namespace flaneur
