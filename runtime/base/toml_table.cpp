@@ -8,6 +8,7 @@
 #include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
+#include "runtime/base/toml_text.h"
 
 namespace flaneur {
 namespace {

@@ -25,8 +25,6 @@ struct TomlContext {
 
 // Errors: unreadable, not TOML; FILE:LINE in front.
 Error ReadToml(const std::filesystem::path& path, toml::table* root);
-// The same of a text; `name` stands for the file.
-Error ParseToml(const std::string& text, const std::string& name, toml::table* root);
 
 class TomlTable {
  public:

@@ -3,8 +3,6 @@
 namespace flaneur {
 namespace {
 
-constexpr float kWidest_rad = 170 * kPi / 180;
-
 // Whether straight up or down lies within the eye's picture.
 bool SeesVertical(const EyeFrustum& e) {
   for (const float vertical : {-1.0f, 1.0f}) {
@@ -22,7 +20,8 @@ float Wrapped(float angle_rad) { return std::remainder(angle_rad, 2 * kPi); }
 }  // namespace
 
 // What an eye sees is a cone of four edges. Where the vertical is not within it, its shadow on the ground is a wedge of
-// less than half a turn, and the edges of that are edges of the cone.
+// less than half a turn, and the edges of that are edges of the cone. An eye beside the place sees along them what,
+// from the place, lies beyond them by the angle under which the way to the eye is seen from there.
 HeadView ViewOfHead(Vec2 place, std::span<const EyeFrustum> eyes) {
   HeadView head;
   if (eyes.empty()) return head;
@@ -30,11 +29,11 @@ HeadView ViewOfHead(Vec2 place, std::span<const EyeFrustum> eyes) {
   const Vec3 middle = first.ahead + first.right * ((first.left_tangent + first.right_tangent) / 2) +
                       first.up * ((first.lower_tangent + first.upper_tangent) / 2);
   const float middle_rad = std::atan2(middle.y, middle.x);
-  float low_rad = 0, high_rad = 0;
+  float low_rad = 0, high_rad = 0, aside_m = 0;
   head.is_bounded = true;
   for (const EyeFrustum& e : eyes) {
     head.is_bounded = head.is_bounded && !SeesVertical(e);
-    head.aside_m = std::max(head.aside_m, Length(Vec2{e.place.x, e.place.y} - place));
+    aside_m = std::max(aside_m, Length(Vec2{e.place.x, e.place.y} - place));
     for (const float x : {e.left_tangent, e.right_tangent}) {
       for (const float y : {e.lower_tangent, e.upper_tangent}) {
         const Vec3 edge = e.ahead + e.right * x + e.up * y;
@@ -44,25 +43,15 @@ HeadView ViewOfHead(Vec2 place, std::span<const EyeFrustum> eyes) {
       }
     }
   }
-  head.fov_rad = high_rad - low_rad;
+  const float aside_rad = std::asin(std::min(1.0f, aside_m / kNearestToHead_m));
+  head.fov_rad = high_rad - low_rad + 2 * aside_rad;
   head.yaw_rad = Wrapped(middle_rad + (low_rad + high_rad) / 2);
-  head.is_bounded = head.is_bounded && head.fov_rad < kWidest_rad;
+  head.pitch_rad = std::asin(std::clamp(first.ahead.z, -1.0f, 1.0f));
+  head.is_bounded = head.is_bounded && head.fov_rad < kWidestHead_rad;
+  if (head.is_bounded) return head;
+  head.fov_rad = kWidestHead_rad;
+  head.yaw_rad = std::atan2(first.ahead.y, first.ahead.x);
   return head;
-}
-
-ViewCamera Behind(const ViewCamera& camera, float aside_m) {
-  ViewCamera behind = camera;
-  const Vec2 axis{std::cos(camera.yaw_rad), std::sin(camera.yaw_rad)};
-  behind.position = camera.position - axis * (aside_m / std::sin(camera.fov_rad / 2));
-  return behind;
-}
-
-MotionLimits WithHead(MotionLimits limits) {
-  limits.yaw_rate_radps = std::max(limits.yaw_rate_radps, kHeadTurn_radps);
-  limits.camera_speed_mps += kHeadSpeed_mps;
-  limits.reach_m += kHeadReach_m;
-  limits.reach_grows_m = 0;  // the wedge holds all that an eye sees, however it is pitched
-  return limits;
 }
 
 }  // namespace flaneur

@@ -14,27 +14,23 @@ struct EyeFrustum {
   float left_tangent = -1, right_tangent = 1, lower_tangent = -1, upper_tangent = 1;
 };
 
-// Heads turn by up to 600 degrees a second when gaze leaps to the side, and some athletes' faster; they lean and step
-// beside the body's walk.
-inline constexpr float kHeadTurn_radps = 800 * kPi / 180, kHeadSpeed_mps = 2;
-// A turn about any axis moves what is above or below the eye as if it were farther away than on the ground, by no more
-// than it is above or below.
-inline constexpr float kHeadReach_m = 3;
+// Heads turn by up to 600 degrees a second when gaze leaps to the side, and some athletes' faster. With this as the
+// limits' yaw rate the outer volume holds for a head as it does for hands (OuterApexBack_m): a turn about any axis
+// moves what is level with the eye, as people are, by no more than the same turn about the vertical.
+inline constexpr float kHeadTurn_radps = 800 * kPi / 180;
+// From the body on, nearer than which nobody comes who should be seen at the edge of an eye's picture.
+inline constexpr float kNearestToHead_m = 0.5f;
 
 struct HeadView {
   bool is_bounded = false;         // else an eye looks straight up or down, and sees to all sides
   float yaw_rad = 0, fov_rad = 1;  // of the wedge
-  float aside_m = 0;               // how far an eye is from the place at most, on the ground
+  float pitch_rad = 0;
 };
 
-// `place`: of the body. The pictures of all eyes lie within the wedge of that yaw and field of view whose apex is
-// `Behind` the place by aside_m.
+// `place`: of the body, beside which the head may lean a little. Whatever an eye sees farther than kNearestToHead_m
+// from it lies within the wedge from the place with that yaw and field of view.
 HeadView ViewOfHead(Vec2 place, std::span<const EyeFrustum> eyes);
-
-// A wedge that holds the one of the camera from every apex within aside_m of it.
-ViewCamera Behind(const ViewCamera& camera, float aside_m);
-
-// The same limits for a head instead of hands, see OuterApexBack_m.
-MotionLimits WithHead(MotionLimits limits);
+// The same as a camera's, also of a head that is not bounded: then as wide as a wedge can be, and pitched.
+inline constexpr float kWidestHead_rad = 170 * kPi / 180;
 
 }  // namespace flaneur

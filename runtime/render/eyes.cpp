@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace flaneur {
 namespace {
@@ -13,7 +14,15 @@ Vec3 Towards(const Mat4& inverse, float x, float y, Vec3 eye) {
   return Normalized(point - eye);
 }
 
+const EyesInstead* eyes_now = nullptr;
+
 }  // namespace
+
+EyesInstead::EyesInstead(std::vector<EyePicture> all, unsigned onto) : eyes(std::move(all)), framebuffer(onto) {
+  eyes_now = this;
+}
+EyesInstead::~EyesInstead() { eyes_now = nullptr; }
+const EyesInstead* EyesNow() { return eyes_now; }
 
 EyesTogether Together(const std::vector<EyePicture>& eyes, float near_m, float far_m) {
   EyesTogether all;
@@ -42,8 +51,8 @@ EyesTogether Together(const std::vector<EyePicture>& eyes, float near_m, float f
     back_m = std::max({back_m, std::abs(Dot(off, right)) / wide - ahead, std::abs(Dot(off, up)) / high - ahead});
   }
   all.eye = all.eye - all.ahead * back_m;
-  all.view_projection = Perspective(2 * std::atan(wide), wide / high, near_m, far_m) *
-                        LookMatrix(all.eye, all.ahead, some_up);
+  all.view_projection =
+      Perspective(2 * std::atan(wide), wide / high, near_m, far_m) * LookMatrix(all.eye, all.ahead, some_up);
   // The projection's first row is twice the near plane over its width, whatever the view turns it to.
   const EyePicture& first = eyes.front();
   const Mat4& m = first.view_projection;

@@ -58,13 +58,6 @@ struct CaptionStyle {
   friend bool operator==(const CaptionStyle&, const CaptionStyle&) = default;
 };
 
-// What an eye of a headset is to see, and where in the headset's picture. glTF axes.
-struct EyePicture {
-  Mat4 view_projection;
-  Vec3 eye;
-  int left_px = 0, bottom_px = 0, width_px = 0, height_px = 0;
-};
-
 struct FrameInput {
   Vec3 eye;
   float yaw_rad = 0, pitch_rad = 0, fov_rad = 1;  // horizontal
@@ -86,10 +79,6 @@ struct FrameInput {
   // shadows end at this share of their reach.
   float detail = 1;
   bool keeps_levels = false;  // draws people by their levels even so
-  // Of a headset, instead of eye, yaw, pitch and field of view: each eye's, all as large, into that framebuffer. What is
-  // drawn is chosen once for all of them, and the shadows are drawn once.
-  std::vector<EyePicture> eyes;
-  unsigned eyes_framebuffer = 0;
 };
 
 // The parts of a picture in the order in which they are drawn.

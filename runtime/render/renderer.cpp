@@ -130,14 +130,15 @@ struct Renderer::Impl {
   AtlasFormats formats;
   std::vector<GLuint> arrays;
   PictureClock clock;
-  bool waits = true;  // for every picture
+  bool waits = true;       // for every picture
   bool drew_eyes = false;  // the last picture was a headset's, where it is already
   Program sky_program;
   GLuint empty_array = 0, block_buffer = 0;
 
   // From where the picture is chosen, of both eyes together.
-  EyesTogether Chosen(const FrameInput& frame, int width_px, int height_px) const {
-    if (!frame.eyes.empty()) return Together(frame.eyes, kNear_m, kFar_m);
+  static EyesTogether Chosen(const FrameInput& frame, const std::vector<EyePicture>& eyes, int width_px,
+                             int height_px) {
+    if (!eyes.empty()) return Together(eyes, kNear_m, kFar_m);
     return {ViewProjection(frame, width_px, height_px), GltfFromGround(frame.eye), Ahead(frame),
             static_cast<float>(width_px) / 2 / std::tan(frame.fov_rad / 2)};
   }
@@ -175,6 +176,9 @@ struct Renderer::Impl {
     LightPicture(picture);
     timer->Passed(DrawPass::kLight);
   }
+
+  void Draw(const FrameInput& frame, const std::vector<EyePicture>& eyes, int width_px, int height_px,
+            FrameStatistics* statistics);
 
   void DrawSky() const {
     glUseProgram(sky_program.id);
@@ -265,16 +269,23 @@ void Renderer::StartAnew() { ForgetTownShadows(&impl_->shadows); }
 
 std::vector<AssetId> Renderer::AssetsFor(const FrameInput& frame, int width_px, int height_px) {
   Impl& r = *impl_;
-  const EyesTogether view = r.Chosen(frame, width_px, height_px);
+  const EyesTogether view = Impl::Chosen(frame, {}, width_px, height_px);
   FindVisibleBlocks(view.view_projection, view.eye, r.options.cull, &r.town);
   ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
   return flaneur::AssetsFor(frame.people, r.Sight(frame, view), r.people);
 }
 
 void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics) {
+  const EyesInstead* instead = EyesNow();
+  impl_->picture.window = instead != nullptr ? instead->framebuffer : 0;
+  impl_->Draw(frame, instead != nullptr ? instead->eyes : std::vector<EyePicture>(), width_px, height_px, statistics);
+}
+
+void Renderer::Impl::Draw(const FrameInput& frame, const std::vector<EyePicture>& eyes, int width_px, int height_px,
+                          FrameStatistics* statistics) {
   const double start_ms = Now_ms();
-  Impl& r = *impl_;
-  const EyesTogether view = r.Chosen(frame, width_px, height_px);
+  Impl& r = *this;
+  const EyesTogether view = Chosen(frame, eyes, width_px, height_px);
   const Mat4& view_projection = view.view_projection;
   PassTimer timer(r.options.time_passes, &statistics->pass_ms);
   FindVisibleBlocks(view_projection, view.eye, r.options.cull, &r.town);
@@ -287,18 +298,19 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   UploadPeople(&r.people);
   statistics->people_ms = Now_ms() - people_ms;
   timer.Passed(DrawPass::kCull);
-  DrawCost shadows = DrawPeopleShadows(eye, view.ahead, to_sun, r.block_buffer, r.people, &r.shadows);
-  statistics->people_shadow_triangles = shadows.triangles;
+  DrawCost shadow_cost = DrawPeopleShadows(eye, view.ahead, to_sun, r.block_buffer, r.people, &r.shadows);
+  statistics->people_shadow_triangles = shadow_cost.triangles;
   timer.Passed(DrawPass::kPeopleShadow);
-  shadows += UpdateTownShadows(eye, to_sun, std::max(kMinShadowShare, frame.resolution_scale * frame.resolution_scale),
-                               r.block_buffer, r.town, &r.shadows);
+  shadow_cost +=
+      UpdateTownShadows(eye, to_sun, std::max(kMinShadowShare, frame.resolution_scale * frame.resolution_scale),
+                        r.block_buffer, r.town, &r.shadows);
   timer.Passed(DrawPass::kTownShadow);
 
-  DrawCost people, town, mark;
+  DrawCost people_cost, town_cost, mark;
   const auto draw_view = [&](const Mat4& matrix, Vec3 from, bool picks, int average) {
     BindFrameBlock(r.block_buffer, MakeFrameBlock(matrix, from, r.Focal_px(view), to_sun,
                                                   std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
-    r.DrawSurfaces(from, picks, &timer, &people, &town);
+    r.DrawSurfaces(from, picks, &timer, &people_cost, &town_cost);
     if (!r.options.normals) r.DrawSky();
     mark = r.options.normals ? DrawCost{} : DrawContactShade(r.people, r.contact_shade);
     if (!r.options.normals) mark += DrawSmoke(frame.smoke, r.smoke);
@@ -306,15 +318,14 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
     timer.Passed(DrawPass::kSky);
     FinishPicture(average, r.picture);
   };
-  r.picture.window = r.picture.left_px = r.picture.bottom_px = 0;
-  r.drew_eyes = !frame.eyes.empty();
+  r.picture.left_px = r.picture.bottom_px = 0;
+  r.drew_eyes = !eyes.empty();
   for (int k = 0; k < r.picture.averages && !r.drew_eyes; ++k) {
     const Mat4 aside = Aside(k, r.picture) * view_projection;
     if (r.picture.averages > 1) FindVisibleBlocks(aside, eye, r.options.cull, &r.town);
     draw_view(aside, eye, true, k);
   }
-  for (const EyePicture& e : frame.eyes) {
-    r.picture.window = frame.eyes_framebuffer;
+  for (const EyePicture& e : eyes) {
     r.picture.left_px = e.left_px;
     r.picture.bottom_px = e.bottom_px;
     draw_view(e.view_projection, e.eye, false, 0);
@@ -325,10 +336,10 @@ void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameS
   if (r.waits) glFinish();  // so that draw_ms means the picture, not the handing over of commands
   else EndPictureTime(&r.clock);
   constexpr int kWholePictures = 4;  // light, sky, smoothing, caption
-  statistics->town_triangles = town.triangles;
-  statistics->people_triangles = people.triangles;
-  statistics->shadow_triangles = shadows.triangles;
-  statistics->draw_calls = people.calls + town.calls + shadows.calls + mark.calls + kWholePictures;
+  statistics->town_triangles = town_cost.triangles;
+  statistics->people_triangles = people_cost.triangles;
+  statistics->shadow_triangles = shadow_cost.triangles;
+  statistics->draw_calls = people_cost.calls + town_cost.calls + shadow_cost.calls + mark.calls + kWholePictures;
   statistics->resolution_scale = frame.resolution_scale;
   statistics->people_hidden = r.people.batches.hidden;
   statistics->people_not_loaded = r.people.batches.not_loaded;

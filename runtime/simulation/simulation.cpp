@@ -179,7 +179,6 @@ void DeriveGap(Simulation* s) {
     limits.yaw_rate_radps = std::max(limits.yaw_rate_radps, leg.rate_dps * kPi / 180);
     limits.camera_speed_mps = std::max(limits.camera_speed_mps, leg.speed_mps);
   }
-  if (s->visitor.camera.head) limits = WithHead(limits);
   s->control.outer_apex_back_m = OuterApexBack_m(limits, s->visitor.camera.view.fov_rad);
 }
 
@@ -193,7 +192,7 @@ struct ViewOfStep {
 
 ViewOfStep ViewNow(const Simulation& s) {
   const CameraState& camera = s.visitor.camera;
-  ViewOfStep view{VolumesOf(SeenFrom(camera), s.control.outer_apex_back_m), {}, camera.pitch_rad != 0, 0};
+  ViewOfStep view{VolumesOf(camera.view, s.control.outer_apex_back_m), {}, camera.pitch_rad != 0, 0};
   if (!view.tilted) return view;
   view.tilt = TiltOf(camera.pitch_rad, camera.view.fov_rad, Aspect(s));
   view.eye_m = HeightAt(s.town.walkable, camera.view.position) + camera.eye_height_m;
@@ -219,21 +218,18 @@ void ClassifyAll(Simulation* s) {
   for (size_t i = 0; i < c.size(); ++i) {
     c.was_visible[i] = c.view[i] == ViewClass::kVisible ? 1 : 0;
     ClassifyOne(i, view, s->town.walkable, &c);
-    if (SeesAround(s->visitor.camera)) c.view[i] = ViewClass::kVisible;
+    if (!s->visitor.camera.present) c.view[i] = ViewClass::kVisible;
   }
 }
-
-// So far behind the eye begins an outer volume that holds every town.
-constexpr float kAllAround_m = 1e5f;
 
 Viewer ViewerOf(const Simulation& s) {
   const LevelState& levels = s.control.levels;
   const bool counted = levels.r_high_m > 0;  // not before the first step: nothing is full then
   return {s.control.settings,
           s.visitor.camera.present,
-          SeenFrom(s.visitor.camera),
+          s.visitor.camera.view,
           s.visitor.camera.velocity,
-          SeesAround(s.visitor.camera) ? kAllAround_m : s.control.outer_apex_back_m,
+          s.control.outer_apex_back_m,
           levels.high,
           counted ? levels.limit : std::numeric_limits<int>::max()};
 }
@@ -338,14 +334,6 @@ void SetFieldOfView(float fov_rad, Simulation* s) {
   DeriveGap(s);
 }
 
-void SetHead(const std::optional<HeadView>& head, float eye_height_m, Simulation* s) {
-  CameraState& camera = s->visitor.camera;
-  camera.head = head;
-  camera.eye_height_m = eye_height_m;
-  if (head && head->is_bounded) camera.view.fov_rad = head->fov_rad;
-  DeriveGap(s);
-}
-
 void SetPictureSize(int width_px, int height_px, Simulation* s) {
   if (width_px == s->screen_width_px && height_px == s->screen_height_px) return;
   s->screen_width_px = width_px;
@@ -373,7 +361,7 @@ void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   LeaveAndArrive(ViewerOf(*s), &town);
   StepFlocks(camera.view.position, camera.present, Step_s(*s), &town);
   ClassifyAll(s);
-  if (!SeesAround(camera)) SeparateUnseen(s);
+  if (camera.present) SeparateUnseen(s);
   ControlCrowd(frame_ms, s);
   ++town.step;
   s->step_ms = Now_ms() - start_ms;

@@ -39,10 +39,6 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
 // Horizontal; the outer volume follows.
 void SetFieldOfView(float fov_rad, Simulation* simulation);
 
-// Before each step of a visit by headset; none: hands turn the view again, whose field of view is to be set. The outer
-// volume follows.
-void SetHead(const std::optional<HeadView>& head, float eye_height_m, Simulation* simulation);
-
 // The picture's size: levels, and what a pitched camera sees, follow.
 void SetPictureSize(int width_px, int height_px, Simulation* simulation);
 

@@ -23,7 +23,6 @@ struct Controls {
   bool toggles_views = false, switches_adaptation = false, opens_pages = false;  // taken once
   bool opens_map = false, takes_photo = false, asks = false;                     // likewise
   bool has_photos = false;                                                       // they are kept somewhere
-  bool can_quit = true;                    // there is a program to end, not a web page to leave
   bool acted = false;                      // the visitor has walked, turned or clicked by now
   bool applies = false;                    // changed settings have still to be heeded
   float to_turn_rad = 0, to_look_rad = 0;  // that the mouse or a snap asked for, and the simulation has still to do

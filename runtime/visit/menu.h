@@ -1,5 +1,5 @@
-// The visitor's pages: go on, tour or free walk, the tour's stops, language, settings, keys. By mouse, touch, keyboard and
-// gamepad. Which one is open; menu_rows.h says what stands there, menu_view.h draws it.
+// The visitor's pages: go on, tour or free walk, the tour's stops, language, settings, keys. By mouse, touch, keyboard
+// and gamepad. Which one is open; menu_rows.h says what stands there, menu_view.h draws it.
 #pragma once
 #include <bitset>
 #include <optional>
@@ -19,6 +19,7 @@ enum class Page { kNone, kMain, kStops, kLanguages, kSettings, kKeys, kMap, kPho
 struct Menu {
   Page page = Page::kNone;
   std::string thanks;             // said on the page at the tour's end
+  bool can_quit = true;           // there is a program to end, not a web page to leave
   bool begins = false;            // somebody new meets the pages before the town
   size_t first = 0;               // of the rows, where not all fit
   std::optional<Action> rebinds;  // whose new key is waited for

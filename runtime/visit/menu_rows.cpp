@@ -122,7 +122,7 @@ void ShowMain(PageView* v) {
     OpenPage(Page::kLanguages, v->menu);
   if (Row(*v, v->Words(Phrase::kSettings), "settings")) OpenPage(Page::kSettings, v->menu);
   if (!c->settings.kiosk && Row(*v, v->Words(Phrase::kKeys), "keys")) OpenPage(Page::kKeys, v->menu);
-  if (c->can_quit && !c->settings.kiosk && Row(*v, v->Words(Phrase::kEnd), "end")) v->choice.ends = true;
+  if (v->menu->can_quit && !c->settings.kiosk && Row(*v, v->Words(Phrase::kEnd), "end")) v->choice.ends = true;
 }
 
 void ShowEndOfTour(PageView* v) {

@@ -6,7 +6,8 @@
 
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
-#include "runtime/base/toml_table.h"
+#include "runtime/base/toml_text.h"
+#include "runtime/visit/settings_text.h"
 #include "runtime/visit/window_input.h"
 
 namespace flaneur {

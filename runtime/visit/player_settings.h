@@ -81,10 +81,6 @@ std::filesystem::path PlayerSettingsPath();
 Error ReadPlayerSettings(const std::filesystem::path& path, PlayerSettings* settings,
                          std::vector<std::string>* warnings);
 
-// The same of a file's text; `name` tells the warnings of whom.
-Error TakePlayerSettings(const std::string& text, const std::string& name, PlayerSettings* settings,
-                         std::vector<std::string>* warnings);
-
 // "walk_speed_mps=1.2" or "keys.pause=p,pad_x". Errors: no such setting (names the nearest), a value out of range.
 Error SetPlayerSetting(const std::string& assignment, PlayerSettings* settings);
 

@@ -30,8 +30,8 @@ namespace flaneur {
 namespace {
 
 constexpr double kLongUpload_ms = 50,
-                 kUpload_ms = 3;       // of what has been loaded: before the first picture, and in each later one
-constexpr int kMaxStepsPerFrame = 4;   // a machine that can't keep up slows the town down rather than freeze
+                 kUpload_ms = 3;      // of what has been loaded: before the first picture, and in each later one
+constexpr int kMaxStepsPerFrame = 4;  // a machine that can't keep up slows the town down rather than freeze
 
 bool IsUsed(const WindowInput& input) {
   constexpr float kMoved = 0.3f;
@@ -67,7 +67,7 @@ struct Visit::Impl {
   Discovery discovery{};
   Resolution resolution{};
   OwnView own{};
-  double owed_s = 0;         // of simulated time
+  double owed_s = 0;  // of simulated time
   TourEnd end{};
   float says_nothing_s = 0;  // since they were asked what next
   int width_px = 0, height_px = 0;

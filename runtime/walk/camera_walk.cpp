@@ -280,7 +280,9 @@ void Fly(const FlyingCamera& to, const VisitorInTown& v) {
   camera.actual_mps = 0;
 }
 
-void MoveBody(const CameraInput& input, const VisitorInTown& v) {
+}  // namespace
+
+void MoveCamera(const CameraInput& input, const VisitorInTown& v) {
   CameraState& camera = v.visitor.camera;
   camera.velocity = camera.asked_velocity = {};
   camera.yaw_rate_radps = camera.asked_mps = camera.actual_mps = 0;
@@ -303,24 +305,6 @@ void MoveBody(const CameraInput& input, const VisitorInTown& v) {
   if (!v.visitor.legs.empty()) FollowLegs(v);
   else if (!v.visitor.tour.stops.empty()) FollowTour(input, v);
   if (v.visitor.stuck_s >= kPatience_s) StirLoiterers(camera.view.position, kLoitererYieldRadius_m, &v.town);
-}
-
-// Whatever turned the body: the head looks where it looks.
-void TurnHead(float before_rad, const VisitorInTown& v) {
-  CameraState& camera = v.visitor.camera;
-  if (!camera.head) return;
-  if (camera.head->is_bounded) camera.view.yaw_rad = camera.head->yaw_rad;
-  else camera.view.yaw_rad = before_rad;
-  camera.pitch_rad = 0;
-  camera.yaw_rate_radps = WrapAngle(camera.view.yaw_rad - before_rad) / Step_s(v.settings);
-}
-
-}  // namespace
-
-void MoveCamera(const CameraInput& input, const VisitorInTown& v) {
-  const float before_rad = v.visitor.camera.view.yaw_rad;
-  MoveBody(input, v);
-  TurnHead(before_rad, v);
 }
 
 }  // namespace flaneur

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/control/head_view.h"
+#include "runtime/control/view_volumes.h"
 #include "runtime/town/town.h"
 #include "runtime/walk/guide.h"
 #include "runtime/walk/guided_tour.h"
@@ -49,19 +49,8 @@ struct CameraState {
   Vec2 asked_velocity;  // what the visitor wants: who holds them up sees it
   float yaw_rate_radps = 0, asked_mps = 0, actual_mps = 0;
   bool present = true;  // false: everybody counts as visible
-  // In a headset the view is the head's, whatever moves the body: `view` has its yaw and field of view.
-  std::optional<HeadView> head = std::nullopt;
   bool flies = false;   // above heads
 };
-
-// By what people are classed: of a head the wedge that holds both eyes' pictures.
-inline ViewCamera SeenFrom(const CameraState& camera) {
-  return camera.head ? Behind(camera.view, camera.head->aside_m) : camera.view;
-}
-// It sees people to all sides.
-inline bool SeesAround(const CameraState& camera) {
-  return !camera.present || (camera.head && !camera.head->is_bounded);
-}
 
 // A part of a scenario's way.
 struct CameraLeg {

@@ -44,18 +44,28 @@ EyeFrustum FrustumOf(const RoomEye& eye, const Mat4& town_from_room) {
 
 }  // namespace
 
-void PutOn(Vec3 head, const Simulation& s, Headset* h) {
+void PutOn(Vec3 head, float pictures_per_s, Simulation* s, Headset* h) {
   *h = {};
   h->worn = true;
   h->head = head;
   h->middle_m = {head.x, head.z};
-  h->yaw_rad = s.visitor.camera.view.yaw_rad;
-  h->own_fov_rad = s.visitor.camera.view.fov_rad;
-  h->own_eye_m = s.visitor.camera.eye_height_m;
+  h->yaw_rad = s->visitor.camera.view.yaw_rad;
+  h->own_fov_rad = s->visitor.camera.view.fov_rad;
+  h->own_eye_m = s->visitor.camera.eye_height_m;
+  ControlSettings& settings = s->control.settings;
+  h->own_settings = settings;
+  settings.max_yaw_rate_dps = kHeadTurn_radps * 180 / kPi;
+  settings.method = LimitMethod::kFrameTime;
+  settings.target_ms = 1000 / std::max(1.0f, pictures_per_s);
 }
 
 void TakeOff(const Headset& h, Simulation* s) {
-  SetHead(std::nullopt, h.own_eye_m, s);
+  ControlSettings& settings = s->control.settings;
+  settings.max_yaw_rate_dps = h.own_settings.max_yaw_rate_dps;
+  settings.method = h.own_settings.method;
+  settings.target_ms = h.own_settings.target_ms;
+  s->visitor.camera.eye_height_m = h.own_eye_m;
+  s->visitor.camera.pitch_rad = 0;
   SetFieldOfView(h.own_fov_rad, s);
 }
 
@@ -74,17 +84,23 @@ Mat4 TownFromRoom(Vec3 body, const Headset& h) {
   return to_body * turn * from_middle;
 }
 
-void LookWithHead(const Headset& h, Simulation* s) {
+void LookWithHead(const Headset& h, Simulation* s, CameraInput* input) {
+  constexpr float kHardly_radps = 1e-5f;  // so that the tour leaves the view alone
+  CameraState& camera = s->visitor.camera;
   const Mat4 town_from_room = TownFromRoom(Body(*s), h);
   std::vector<EyeFrustum> eyes;
   for (const RoomEye& eye : h.eyes) eyes.push_back(FrustumOf(eye, town_from_room));
-  const HeadView head = ViewOfHead(s->visitor.camera.view.position, eyes);
-  SetHead(head, h.head.y, s);
-  if (h.eyes.empty() || !head.is_bounded) return;
+  const HeadView head = ViewOfHead(camera.view.position, eyes);
+  camera.eye_height_m = h.head.y;
+  // The wedge of a bounded view holds all that the eyes see, however the head is pitched and rolled.
+  input->pitch_rad = head.is_bounded ? 0 : head.pitch_rad;
+  const float turn_rad = std::remainder(head.yaw_rad - camera.view.yaw_rad, 2 * kPi);
+  input->yaw_rate_radps = turn_rad / Step_s(*s) + kHardly_radps;
   // Levels go by how large people are in an eye's picture, not in one as wide as both of them together.
   const RoomEye& eye = h.eyes.front();
   const float focal_px = eye.projection.m[0][0] * static_cast<float>(eye.width_px) / 2;
   SetPictureSize(static_cast<int>(2 * std::tan(head.fov_rad / 2) * focal_px), eye.height_px, s);
+  SetFieldOfView(head.fov_rad, s);  // and with it the outer volume
 }
 
 std::optional<Vec2> WalkUnderHead(const Headset& h) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "runtime/control/head_view.h"
-#include "runtime/render/frame.h"
+#include "runtime/render/eyes.h"
 #include "runtime/simulation/simulation.h"
 
 namespace flaneur {
@@ -22,13 +22,14 @@ struct Headset {
   bool worn = false;
   float yaw_rad = 0;  // of the room's front, in the town
   Vec2 middle_m;      // of the room's floor (x, z): what of it stands where the visitor's body is
-  float own_fov_rad = 1, own_eye_m = kEyeHeight_m;
+  float own_fov_rad = 1, own_eye_m = kEyeHeight_m;  // without it
+  ControlSettings own_settings;
   std::vector<RoomEye> eyes;
   Vec3 head;  // in the room
 };
 
-// The room's front is where the visitor looks.
-void PutOn(Vec3 head, const Simulation& simulation, Headset* headset);
+// The room's front is where the visitor looks. Control follows the headset's pictures and a head's turns from now on.
+void PutOn(Vec3 head, float pictures_per_s, Simulation* simulation, Headset* headset);
 void TakeOff(const Headset& headset, Simulation* simulation);
 // The room turns about the visitor's head.
 void TurnRoom(float angle_rad, Headset* headset);
@@ -36,8 +37,8 @@ void TurnRoom(float angle_rad, Headset* headset);
 // From the room to the town, in glTF's axes, for a body there.
 Mat4 TownFromRoom(Vec3 body_on_ground, const Headset& headset);
 
-// Before a step: the simulation sees by the head. body: where it is.
-void LookWithHead(const Headset& headset, Simulation* simulation);
+// Before a step: the simulation sees by the head, to where `input` turns the view.
+void LookWithHead(const Headset& headset, Simulation* simulation, CameraInput* input);
 // A wish to walk that takes the body to where the head has gone in the room; none while it has hardly gone.
 std::optional<Vec2> WalkUnderHead(const Headset& headset);
 // After it: so far the body has followed.

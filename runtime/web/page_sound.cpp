@@ -38,7 +38,8 @@ nlohmann::json PageSound::Take() {
   for (const HeardSound& sound : heard_.round) round.push_back(Told(sound, heard_));
   for (const HeardSound& sound : once_) once.push_back(Told(sound, heard_));
   once_.clear();
-  return {{"spoken", speaks_ ? number_ : 0}, {"paused", paused_}, {"volume", volume_}, {"round", round}, {"once", once}};
+  return {
+      {"spoken", speaks_ ? number_ : 0}, {"paused", paused_}, {"volume", volume_}, {"round", round}, {"once", once}};
 }
 
 bool PageSound::IsComputed(size_t recording) const {

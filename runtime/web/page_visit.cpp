@@ -19,6 +19,7 @@
 #include "runtime/visit/phrases.h"
 #include "runtime/visit/resolution.h"
 #include "runtime/visit/settings_in_force.h"
+#include "runtime/visit/settings_text.h"
 #include "runtime/visit/soundscape.h"
 #include "runtime/visit/tour_end.h"
 #include "runtime/walk/staging.h"
@@ -114,7 +115,6 @@ struct PageVisit::Impl {
   bool open = false, has_kept = false;  // has_kept: settings that are to be kept
   bool photo_asked = false, photo_taken = false;
   float aspect = 1;
-  ControlSettings own_limits;  // without a headset
   double owed_s = 0;
   int64_t pictures = 0;
 
@@ -172,7 +172,7 @@ Error PageVisit::Open(const std::string& settings) {
   std::vector<std::string> warnings;  // of what another version of the page kept: defaults serve
   if (TakePlayerSettings(settings, "settings", &v.settings, &warnings)) v.settings = {};
   v.controls = MakeControls(v.settings, {}, v.s);
-  v.controls.can_quit = false;
+  v.menu.can_quit = false;
   v.controls.has_photos = true;
   v.ApplySettings();
   BeginHint(v.controls, v.s, &v.notices);
@@ -199,6 +199,10 @@ void PageVisit::Impl::ApplySettings() {
   HeedSettings(controls.settings, own, &s);
   sound.SetVolume(controls.settings.sound_volume);
   controls.applies = false;
+  if (!notices.is_hint) return;
+  const float left_s = notices.left_s;
+  BeginHint(controls, s, &notices);  // in the language that is chosen now
+  notices.left_s = left_s;
 }
 
 void PageVisit::Impl::Jump(size_t stop) {
@@ -211,7 +215,6 @@ void PageVisit::Impl::Do(const MenuChoice& choice) {
   wishes.tour.toggle_pause = wishes.tour.toggle_pause || choice.toggles_pause;
   if (!choice.home) return;
   GoHome(controls.settings, {s, controls, wishes, notices});
-  controls.can_quit = false;
   controls.has_photos = true;
   CloseHotspot(&hotspots);
   leading = {};
@@ -253,10 +256,8 @@ void PageVisit::Impl::TakeWishes() {
 // The head turns the view. Where hands do not walk, the body goes where the head has gone in its room.
 void PageVisit::Impl::StepInRoom(float passed_s) {
   constexpr float kMost_mps = 2;
-  LookWithHead(headset, &s);
   CameraInput input = NextStep(wishes, s, &controls);
-  input.yaw_rate_radps = 0;
-  input.pitch_rad.reset();
+  LookWithHead(headset, &s, &input);
   const auto off = WalkUnderHead(headset);
   const bool follows_head = off && input.active && input.speed_mps <= 0 && !input.walk_to;
   if (follows_head) {
@@ -319,12 +320,11 @@ void PageVisit::Impl::DrawInRoom(unsigned framebuffer) {
   FrameFromSimulation(pack, s, &looks, &frame, {share, 0, 0, 0});
   ShowNotice(notices, false, controls.settings.captions_always, &frame);
   const Vec3 body{frame.eye.x, frame.eye.y, frame.eye.z - s.visitor.camera.eye_height_m};
-  frame.eyes = PicturesOf(headset, body);
-  frame.eyes_framebuffer = framebuffer;
   frame.resolution_scale = frame.detail = 1;
   ++pictures;
-  renderer.Draw(frame, headset.eyes.front().width_px, headset.eyes.front().height_px, &statistics);
-  frame.eyes.clear();
+  const RoomEye& eye = headset.eyes.front();
+  const EyesInstead instead(PicturesOf(headset, body), framebuffer);
+  renderer.Draw(frame, eye.width_px, eye.height_px, &statistics);
 }
 
 // What is said waits until its file has arrived.
@@ -362,10 +362,7 @@ Error PageVisit::Picture(const WindowInput& input, int width_px, int height_px, 
 
 void PageVisit::PutOnHeadset(Vec3 head, float pictures_per_s) {
   Impl& v = *impl_;
-  PutOn(head, v.s, &v.headset);
-  v.own_limits = v.s.control.settings;
-  v.s.control.settings.method = LimitMethod::kFrameTime;
-  v.s.control.settings.target_ms = 1000 / std::max(1.0f, pictures_per_s);
+  PutOn(head, pictures_per_s, &v.s, &v.headset);
   v.owed_s = 0;
 }
 
@@ -374,8 +371,6 @@ void PageVisit::TakeOffHeadset() {
   if (!v.headset.worn) return;
   TakeOff(v.headset, &v.s);
   v.headset = {};
-  v.s.control.settings.method = v.own_limits.method;
-  v.s.control.settings.target_ms = v.own_limits.target_ms;
   v.looks = {};
 }
 
@@ -528,7 +523,8 @@ std::string PageVisit::TakeSettings() {
 nlohmann::json PageVisit::Impl::Page() {
   if (!pages()) return nullptr;
   const std::string language = Language();
-  nlohmann::json page{{"name", kPageNames[static_cast<size_t>(menu.page)]}, {"waits_for_key", menu.rebinds.has_value()}};
+  nlohmann::json page{{"name", kPageNames[static_cast<size_t>(menu.page)]},
+                      {"waits_for_key", menu.rebinds.has_value()}};
   if (IsOfTown(menu.page)) {
     page["head"] = Say(menu.page == Page::kMap ? Phrase::kMap : Phrase::kPhoto, language);
     page["back"] = Say(Phrase::kContinue, language);

@@ -21,8 +21,8 @@ class PageVisit {
   void Expect(size_t bytes);
   // Errors: beyond the end.
   Error Arrive(size_t offset, std::span<const uint8_t> bytes);
-  // Once as much is there as a first picture takes. settings: what TakeSettings gave in an earlier visit, or lines of it.
-  // Errors: those of the pack.
+  // Once as much is there as a first picture takes. settings: what TakeSettings gave in an earlier visit, or lines of
+  // it. Errors: those of the pack.
   Error Open(const std::string& settings);
   // Needs a current context, for the visit's whole life. Errors: those of Renderer::Begin.
   Error Begin();
@@ -33,12 +33,12 @@ class PageVisit {
   // The last picture, by the browser's clock: what lay between it and the one before.
   void TellTime(float took_ms);
 
-  // With a headset, in whose room x is to the right, y up from the floor, z behind; `head` is in it. pictures_per_s: the
-  // headset's.
+  // With a headset, in whose room x is to the right, y up from the floor, z behind; `head` is in it. pictures_per_s:
+  // the headset's.
   void PutOnHeadset(Vec3 head, float pictures_per_s);
   void TakeOffHeadset();
-  // eyes: kFloatsOfEye each, the projection and the view column by column, where the eye is, and left, bottom, width and
-  // height of its part of the framebuffer. Sticks walk to where the head looks. Errors: of a piece that streams in.
+  // eyes: kFloatsOfEye each, the projection and the view column by column, where the eye is, and left, bottom, width
+  // and height of its part of the framebuffer. Sticks walk to where the head looks. Errors: of a piece that streams in.
   static constexpr size_t kFloatsOfEye = 39;
   Error PictureInRoom(const WindowInput& input, Vec3 head, std::span<const float> eyes, unsigned framebuffer,
                       float passed_s);
@@ -51,12 +51,12 @@ class PageVisit {
   void GoToStop(size_t stop);  // from 0; of those that there are
   void TakeTour(bool follows);
   void Pause(bool pauses);
-  void WidenView(float factor);  // of the field of view
+  void WidenView(float factor);         // of the field of view
   void Ask(const std::string& action);  // by its name in settings: menu, map, photo, ask, tour, pause, next, back
   // On the visitor's page of that name: its row, and of a choice which button, of an amount how many steps.
   void Press(const std::string& page, int row, int which);
-  void GoBack();                  // to the page before, or out of the pages
-  void TapHotspot(int hotspot);   // it tells, or ends
+  void GoBack();                 // to the page before, or out of the pages
+  void TapHotspot(int hotspot);  // it tells, or ends
   // The map's picture: RGBA, top row first; good until the next one. Then what stands on it, as JSON, and the way to a
   // place or a stop of it.
   const std::vector<uint8_t>& Map(int width_px, int height_px, float times);

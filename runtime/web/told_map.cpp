@@ -10,7 +10,8 @@ namespace flaneur {
 
 void DrawMap(const Simulation& s, int width_px, int height_px, float times, ToldMap* map) {
   constexpr int kMost_px = 2048;
-  const MapView whole = WholeTown(s.town.walkable, std::clamp(width_px, 1, kMost_px), std::clamp(height_px, 1, kMost_px));
+  const MapView whole =
+      WholeTown(s.town.walkable, std::clamp(width_px, 1, kMost_px), std::clamp(height_px, 1, kMost_px));
   map->view = Enlarged(whole, std::max(1.0f, times), s.visitor.camera.view.position);
   map->rgba = DrawTownMap(s.town.walkable, map->view);
 }
@@ -35,8 +36,7 @@ nlohmann::json MarksOf(const ToldMap& map, const TourPack& pack, const Simulatio
   const ViewCamera& view = s.visitor.camera.view;
   const int street = StreetAt(pack.streets, view.position);
   const std::string name = street < 0 ? "" : TextIn(At(pack.streets, street).names, language, pack.language);
-  const std::string here =
-      name.empty() ? Say(Phrase::kYouAreHere, language) : Say(Phrase::kYouAreIn, language, {name});
+  const std::string here = name.empty() ? Say(Phrase::kYouAreHere, language) : Say(Phrase::kYouAreIn, language, {name});
   return {{"stops", stops},
           {"streets", streets},
           {"here", {{"place", place(view.position)}, {"yaw_rad", view.yaw_rad}, {"text", here}}}};

@@ -27,7 +27,8 @@ std::vector<EyePicture> SomeEyes(Random* random) {
   const Vec3 ahead{std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
   const Vec3 level = Normalized(Cross(ahead, {0, 1, 0})), above = Cross(level, ahead);
   const Vec3 up = above * std::cos(roll) - level * std::sin(roll), right = Cross(ahead, up);
-  const float outer = random->Uniform(0.6f, 1.4f), inner = random->Uniform(0.5f, 1), lower = random->Uniform(0.6f, 1.2f);
+  const float outer = random->Uniform(0.6f, 1.4f), inner = random->Uniform(0.5f, 1),
+              lower = random->Uniform(0.6f, 1.2f);
   const Vec3 head{random->Uniform(-50, 50), 1.7f, random->Uniform(-50, 50)};
   std::vector<EyePicture> eyes;
   for (const float side : {-1.0f, 1.0f}) {
