@@ -521,6 +521,19 @@ const tests = {
     await end(page);
     await host.close();
   },
+  async 'the npm package has its files, and types for all that the element does; a server may load it'() {
+    const npm = path.join(player, '..', 'package');
+    const [packed] = JSON.parse(execFileSync('npm', ['pack', '--dry-run', '--json'], {cwd: npm, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore']}));
+    assert.deepEqual(packed.files.map((f) => f.path).sort(),
+                     ['LICENSE', 'README.md', 'flaneur-tour.js', 'index.d.ts', 'index.js', 'package.json']);
+    assert.equal((await import(path.join(npm, 'index.js'))).FlaneurTour, undefined);  // there is no page here
+    const script = fs.readFileSync(path.join(npm, 'flaneur-tour.js'), 'utf8'), types = fs.readFileSync(path.join(npm, 'index.d.ts'), 'utf8');
+    const offered = [...script.matchAll(/^    (?:get |set )?(\w+)\([^)]*\) \{ /gm)].map(([, name]) => name);
+    assert.ok(offered.length > 8, String(offered));
+    for (const name of offered) assert.match(types, new RegExp(`\\b${name}\\b`), `${name} has no type`);
+    const version = fs.readdirSync(site).find((name) => /^flaneur-tour-.*\.js$/.test(name)).slice('flaneur-tour-'.length, -3);
+    assert.equal(packed.version, version);
+  },
   async 'on pages of another origin elements and frames wait for a click, tell of themselves and are told'() {
     const host = await serve(site);
     const foreign = path.join(folder, 'foreign'), address = host.url.replace('127.0.0.1', 'localhost');
@@ -567,6 +580,7 @@ const tests = {
       const {stop, language, follows_tour} = document.getElementById('tour').flaneur.state();
       return stop === k && language === 'de' && !follows_tour;
     }, {timeout: 30000}, other);
+    await page.$eval('#a', (e) => e.takeTour());
     await hears('failed', 'c');
     assert.match(await page.$eval('#c', (e) => e.shadowRoot.textContent), /no tour at this address/);
     await enter('#b >>> iframe');
