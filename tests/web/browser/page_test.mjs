@@ -42,6 +42,7 @@ async function newPage(url, prepare = async () => {}) {
   open.push(browser);
   const page = await browser.newPage();
   await page.setViewport({width: 320, height: 200});
+  page.setDefaultNavigationTimeout(180000);
   page.said = [];
   page.on('console', (m) => page.said.push(`${m.type()}: ${m.text()}`));
   page.on('pageerror', (e) => page.said.push(`error: ${e.message}`));
