@@ -100,9 +100,8 @@ void DrawWhole(const Program& program, const Picture& p) {
 }
 
 void BindFinished(const Picture& p) {
-  const bool onto_window = p.finished == 0;
-  glBindFramebuffer(GL_FRAMEBUFFER, onto_window ? p.window : p.finished);
-  glViewport(onto_window ? p.left_px : 0, onto_window ? p.bottom_px : 0, p.width_px, p.height_px);
+  glBindFramebuffer(GL_FRAMEBUFFER, p.finished);
+  glViewport(0, 0, p.width_px, p.height_px);
 }
 
 // Into `framebuffer`, as large as it was drawn.
@@ -186,6 +185,20 @@ void ResizePicture(int width_px, int height_px, float scale, Picture* p) {
   glRenderbufferStorage(GL_RENDERBUFFER, p->averages > 1 ? GL_RGB10_A2 : GL_RGBA8, width_px, height_px);
   glBindFramebuffer(GL_FRAMEBUFFER, p->finished);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, p->finished_color);
+}
+
+void FinishBeside(bool beside, Picture* p) {
+  if (beside && p->finished == 0) {
+    glGenRenderbuffers(1, &p->finished_color);
+    glGenFramebuffers(1, &p->finished);
+    p->finishes_beside = true;
+    p->width_px = 0;  // so that its size is set
+  } else if (!beside && p->finishes_beside) {
+    glDeleteRenderbuffers(1, &p->finished_color);
+    glDeleteFramebuffers(1, &p->finished);
+    p->finished = p->finished_color = 0;
+    p->finishes_beside = false;
+  }
 }
 
 void BeginPicture(const Picture& p) {

@@ -277,6 +277,7 @@ std::vector<AssetId> Renderer::AssetsFor(const FrameInput& frame, int width_px, 
 
 void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics) {
   const EyesInstead* instead = EyesNow();
+  FinishBeside(instead != nullptr, &impl_->picture);
   impl_->picture.window = instead != nullptr ? instead->framebuffer : 0;
   impl_->Draw(frame, instead != nullptr ? instead->eyes : std::vector<EyePicture>(), width_px, height_px, statistics);
 }
