@@ -4,6 +4,7 @@
 #include "pipeline/cli/arguments.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/web/serve.h"
+#include "pipeline/web/snippets.h"
 #include "pipeline/web/write_site.h"
 
 namespace flaneur {
@@ -17,6 +18,9 @@ int RunWeb(const Arguments& args) {
   app.add_option("--player", options.player, "Folder of the page's player; default: what came with this program");
   app.add_option("--quality", options.lighter.picture_quality, "Of JPEG pictures, 1 to 100; 0: as they are")
       ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  std::string address = "https://example.org/tour/";
+  app.add_option("--address", address, "Where the site will stand, for the lines that other pages embed it with")
       ->capture_default_str();
   bool full_atlases = false;
   app.add_flag("--full-atlases", full_atlases, "People far away as fine as in the pack, in four times the bytes");
@@ -34,6 +38,9 @@ int RunWeb(const Arguments& args) {
   std::printf("%s: %.2f MB in %zu pieces, %.2f MB until the first picture\n", options.folder.c_str(),
               static_cast<double>(result.all_bytes) / 1e6, result.pieces,
               static_cast<double>(result.first_bytes) / 1e6);
+  const SnippetOptions snippet{address, result.title, result.language, result.element_script};
+  std::printf("in another page, as a frame:\n%s\nor as an element:\n%s\n", FrameSnippet(snippet).c_str(),
+              ElementSnippet(snippet).c_str());
   if (serve->count() == 0) return 0;
   return Report(ServeSite(options.folder, port == 0 && serve->as<std::string>().empty() ? 8080 : port));
 }

@@ -12,6 +12,7 @@
 #include "pipeline/core/fingerprint.h"
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/web/compress.h"
+#include "pipeline/web/html_text.h"
 #include "pipeline/web/jpeg.h"
 #include "runtime/base/file.h"
 #include "runtime/base/pixels.h"
@@ -25,7 +26,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kList = "tour.json";
 constexpr const char* kGenerator = "flaneur web";
-constexpr const char* kPageFiles[] = {"page.js", "bar.js", "page.css", "sentences.js", "worker.js"};
+constexpr const char* kWorker = "worker.js";
+constexpr const char* kMainFiles[] = {"page.js", "page.css", kWorker};  // without which there is no page
+constexpr const char* kElement = "flaneur-tour";  // other pages' script; its name says the version, which they keep
 
 fs::path PlayerFolder(const SiteOptions& options) {
   if (!options.player.empty()) return options.player;
@@ -35,8 +38,8 @@ fs::path PlayerFolder(const SiteOptions& options) {
 }
 
 Error CheckPlayer(const fs::path& folder) {
-  std::vector<std::string> files{"player.js", "player.wasm", "index.html.in"};
-  files.insert(files.end(), std::begin(kPageFiles), std::end(kPageFiles));
+  std::vector<std::string> files{"player.js", "player.wasm", "index.html.in", std::string(kElement) + ".js"};
+  files.insert(files.end(), std::begin(kMainFiles), std::end(kMainFiles));
   std::error_code ec;
   for (const std::string& file : files) {
     if (!fs::is_regular_file(folder / file, ec))
@@ -44,6 +47,19 @@ Error CheckPlayer(const fs::path& folder) {
                   "--target page' (Debian packages emscripten, nodejs), or name another folder with --player");
   }
   return Ok();
+}
+
+// What the page asks for by its name: all scripts and looks but the player's and the element's.
+std::vector<std::string> PageFiles(const fs::path& folder) {
+  std::vector<std::string> files;
+  std::error_code ec;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ec)) {
+    const std::string name = entry.path().filename().string();
+    const bool of_page = name.ends_with(".js") || name.ends_with(".css");
+    if (of_page && name != "player.js" && name != std::string(kElement) + ".js") files.push_back(name);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 // Nothing of anybody else's is ever replaced.
@@ -59,29 +75,6 @@ Error CheckFolder(const fs::path& folder) {
     if (list.is_object() && list.value("generator", "") == kGenerator) return Ok();
   }
   return Fail(folder.string() + ": holds files that flaneur web has not written; name a new or empty folder");
-}
-
-std::string Escaped(std::string_view text) {
-  std::string out;
-  for (char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 void Replace(std::string_view mark, const std::string& by, std::string* text) {
@@ -152,12 +145,21 @@ Error WritePage(const SiteOptions& options, const fs::path& player, const std::s
   Replace("@LANGUAGE@", Escaped(language), &html);
   Replace("@TITLE@", Escaped(title.title), &html);
   if (Error e = site->WriteText("index.html", html)) return e;
-  for (const char* name : kPageFiles) {
+  const std::vector<std::string> files = PageFiles(player);
+  std::string kept;  // for a visit without a network
+  for (const std::string& name : files) kept += name == kWorker ? "" : ", '" + name + "'";
+  for (const std::string& name : files) {
     std::string text;
     if (Error e = ReadTextFile(player / name, &text)) return e;
+    if (name == kWorker) Replace(", '@FILES@'", kept, &text);
     if (Error e = site->WriteText(name, text)) return e;
   }
-  return Ok();
+  std::string element;
+  result->title = title.title;
+  result->language = language;
+  result->element_script = std::string(kElement) + "-" FLANEUR_VERSION ".js";
+  if (Error e = ReadTextFile(player / (std::string(kElement) + ".js"), &element)) return e;
+  return site->WriteText(result->element_script, element);
 }
 
 Error WritePlayer(const fs::path& player, Site* site, Json* list, SiteResult* result) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 #include "pipeline/web/lighter_pack.h"
 #include "pipeline/web/pieces.h"
@@ -20,6 +21,8 @@ struct SiteOptions {
 struct SiteResult {
   size_t first_bytes = 0, all_bytes = 0;  // on the line: until the first picture, and all of the tour
   size_t pieces = 0;
+  std::string title, language;  // of the tour
+  std::string element_script;   // for other pages, in the site's folder
 };
 
 // Writes beside the folder first, and takes its place as a whole; a site that was there before is gone then. Errors: no

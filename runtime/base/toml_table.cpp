@@ -8,6 +8,7 @@
 #include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
+#include "runtime/base/toml_text.h"
 
 namespace flaneur {
 namespace {
@@ -37,14 +38,17 @@ void TomlContext::Refuse(const toml::node* node, const std::string& why) {
 Error ReadToml(const std::filesystem::path& path, toml::table* root) {
   std::string text;
   if (Error e = ReadTextFile(path, &text)) return e;
+  return ParseToml(text, path.string(), root);
+}
+
+Error ParseToml(const std::string& text, const std::string& name, toml::table* root) {
   if (const int line = LineOfTooLongKey(text); line > 0)
-    return Fail(path.string() + ":" + std::to_string(line) + ": a key of more than 200 parts");
+    return Fail(name + ":" + std::to_string(line) + ": a key of more than 200 parts");
   try {
-    *root = toml::parse(text, path.string());
+    *root = toml::parse(text, name);
     return Ok();
   } catch (const toml::parse_error& e) {
-    return Fail(path.string() + ":" + std::to_string(e.source().begin.line) +
-                ": not TOML: " + OneLine(e.description()));
+    return Fail(name + ":" + std::to_string(e.source().begin.line) + ": not TOML: " + OneLine(e.description()));
   }
 }
 

@@ -99,6 +99,11 @@ void DrawWhole(const Program& program, const Picture& p) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void BindFinished(const Picture& p) {
+  glBindFramebuffer(GL_FRAMEBUFFER, p.finished);
+  glViewport(0, 0, p.width_px, p.height_px);
+}
+
 // Into `framebuffer`, as large as it was drawn.
 void Smooth(GLuint framebuffer, const Program& program, const Picture& p) {
   if (p.samples > 1) {
@@ -108,14 +113,14 @@ void Smooth(GLuint framebuffer, const Program& program, const Picture& p) {
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
     return;
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  if (framebuffer == p.finished) BindFinished(p);
+  else glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   BindTexture(kColorUnit, p.deferred ? p.lit_color : p.color);
   DrawWhole(program, p);
 }
 
 void Enlarge(GLuint texture, const Picture& p) {
-  glBindFramebuffer(GL_FRAMEBUFFER, p.finished);
-  glViewport(0, 0, p.width_px, p.height_px);
+  BindFinished(p);
   BindTexture(kColorUnit, texture);
   DrawWhole(p.enlarge_program, p);
 }
@@ -182,6 +187,20 @@ void ResizePicture(int width_px, int height_px, float scale, Picture* p) {
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, p->finished_color);
 }
 
+void FinishBeside(bool beside, Picture* p) {
+  if (beside && p->finished == 0) {
+    glGenRenderbuffers(1, &p->finished_color);
+    glGenFramebuffers(1, &p->finished);
+    p->finishes_beside = true;
+    p->width_px = 0;  // so that its size is set
+  } else if (!beside && p->finishes_beside) {
+    glDeleteRenderbuffers(1, &p->finished_color);
+    glDeleteFramebuffers(1, &p->finished);
+    p->finished = p->finished_color = 0;
+    p->finishes_beside = false;
+  }
+}
+
 void BeginPicture(const Picture& p) {
   glBindFramebuffer(GL_FRAMEBUFFER, p.framebuffer);
   glViewport(0, 0, p.drawn_width_px, p.drawn_height_px);
@@ -211,6 +230,14 @@ void FinishPicture(int average, const Picture& p) {
   const bool coarse = IsCoarse(p);
   Smooth(coarse ? p.coarse : p.finished, coarse ? p.sharpen_program : p.smooth_program, p);
   if (coarse) Enlarge(p.coarse_color, p);
+}
+
+void PresentPicture(const Picture& p) {
+  if (p.finished == 0) return;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, p.finished);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, p.window);
+  glBlitFramebuffer(0, 0, p.width_px, p.height_px, p.left_px, p.bottom_px, p.left_px + p.width_px,
+                    p.bottom_px + p.height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 }  // namespace flaneur

@@ -20,6 +20,9 @@ struct Picture {
   GLuint depth_copy = 0, depth_copy_target = 0;  // likewise, where depth cannot be looked up while it is drawn into
   GLuint coarse_color = 0, coarse = 0;           // smooth but not yet enlarged
   GLuint finished_color = 0, finished = 0;       // framebuffer of the finished picture; 0: the window's own
+  bool finishes_beside = false;                  // finished is there for a headset alone
+  GLuint window = 0;                             // the window's own, or a headset's,
+  int left_px = 0, bottom_px = 0;                // and where in it the finished picture is
   Program light_program, smooth_program, sharpen_program, enlarge_program;
   GLuint empty_array = 0;
 };
@@ -34,6 +37,9 @@ struct PictureOptions {
 Error CreatePicture(const PictureOptions& options, ShaderMode mode, Picture* picture);
 // scale: FrameInput::resolution_scale.
 void ResizePicture(int width_px, int height_px, float scale, Picture* picture);
+// Whether the picture is finished beside the window's surface, as a part of a headset's has to be: shaders go by where in
+// their picture a pixel is. Before ResizePicture.
+void FinishBeside(bool beside, Picture* picture);
 // Empties what is drawn into, and leaves it bound.
 void BeginPicture(const Picture& picture);
 // Lights the surfaces where that has been deferred, and leaves bound what the sky is drawn into. The frame block must
@@ -41,5 +47,7 @@ void BeginPicture(const Picture& picture);
 void LightPicture(const Picture& picture);
 // Leaves the finished picture bound for drawing, all of it. average: which of the pictures this was, from 0.
 void FinishPicture(int average, const Picture& picture);
+// Onto the window's surface, where it is not finished there.
+void PresentPicture(const Picture& picture);
 
 }  // namespace flaneur

@@ -9,6 +9,7 @@
 #include "runtime/render/asset_content.h"
 #include "runtime/render/caption.h"
 #include "runtime/render/contact_shade.h"
+#include "runtime/render/eyes.h"
 #include "runtime/render/ground_mark.h"
 #include "runtime/render/light.h"
 #include "runtime/render/people_view.h"
@@ -129,30 +130,39 @@ struct Renderer::Impl {
   AtlasFormats formats;
   std::vector<GLuint> arrays;
   PictureClock clock;
-  bool waits = true;  // for every picture
+  bool waits = true;       // for every picture
+  bool drew_eyes = false;  // the last picture was a headset's, where it is already
   Program sky_program;
   GLuint empty_array = 0, block_buffer = 0;
 
-  float Focal_px(const FrameInput& frame) const {
-    return static_cast<float>(picture.drawn_width_px) / 2 / std::tan(frame.fov_rad / 2);
+  // From where the picture is chosen, of both eyes together.
+  static EyesTogether Chosen(const FrameInput& frame, const std::vector<EyePicture>& eyes, int width_px,
+                             int height_px) {
+    if (!eyes.empty()) return Together(eyes, kNear_m, kFar_m);
+    return {ViewProjection(frame, width_px, height_px), GltfFromGround(frame.eye), Ahead(frame),
+            static_cast<float>(width_px) / 2 / std::tan(frame.fov_rad / 2)};
+  }
+  float Focal_px(const EyesTogether& view) const {
+    return view.focal_px * static_cast<float>(picture.drawn_width_px) / static_cast<float>(picture.width_px);
   }
 
-  PeopleSight Sight(const FrameInput& frame, const Mat4& view_projection) const {
-    const Vec3 eye = GltfFromGround(frame.eye), to_sun = Normalized(GltfFromGround(frame.to_sun));
+  PeopleSight Sight(const FrameInput& frame, const EyesTogether& view) const {
+    const Vec3 eye = view.eye, to_sun = Normalized(GltfFromGround(frame.to_sun));
     return {eye,
             to_sun,
-            FrustumOf(view_projection),
+            FrustumOf(view.view_projection),
             options.cull ? &town.walls : nullptr,
             std::min(2 * kPeopleShadow_m, frame.shadow_reach_m) * frame.detail,
-            frame.resolution_scale * frame.detail < 1 && !frame.keeps_levels ? Focal_px(frame) * frame.detail : 0,
+            frame.resolution_scale * frame.detail < 1 && !frame.keeps_levels ? Focal_px(view) * frame.detail : 0,
             frame.fine_shadow_m * (1 + frame.resolution_scale) / 2 * frame.detail,
-            FrustumOf(PeopleShadowMatrices(eye, Ahead(frame), to_sun)[0]),
+            FrustumOf(PeopleShadowMatrices(eye, view.ahead, to_sun)[0]),
             frame.contact_shade};
   }
 
-  // The costs are those of one picture, however many are averaged.
-  void DrawSurfaces(Vec3 eye, const Mat4& view_projection, const std::vector<float>& turns_rad, PassTimer* timer,
-                    DrawCost* meshes_and_impostors, DrawCost* of_town) {
+  // The costs are those of one picture, however many are averaged. picks: the town's triangles that this very view
+  // shows, not those for both eyes.
+  void DrawSurfaces(Vec3 eye, const Mat4& view_projection, bool picks, const std::vector<float>& turns_rad,
+                    PassTimer* timer, DrawCost* meshes_and_impostors, DrawCost* of_town) {
     BeginPicture(picture);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
@@ -160,14 +170,17 @@ struct Renderer::Impl {
     *meshes_and_impostors = DrawPeople(people, false);
     timer->Passed(DrawPass::kMeshes);
     if (picture.deferred) glFlush();  // software fills these pixels while it goes through the town's triangles
-    *of_town = DrawTown(eye, picture.drawn_width_px, picture.drawn_height_px, options.cull, &town);
-    *of_town += DrawTurningParts(view_projection, turns_rad, options.cull, &town);
+    *of_town = DrawTown(eye, picture.drawn_width_px, picture.drawn_height_px, options.cull && picks, &town);
+    *of_town += DrawTurningParts(view_projection, turns_rad, options.cull && picks, &town);
     timer->Passed(DrawPass::kTown);
     *meshes_and_impostors += DrawPeople(people, true);
     timer->Passed(DrawPass::kImpostors);
     LightPicture(picture);
     timer->Passed(DrawPass::kLight);
   }
+
+  void Draw(const FrameInput& frame, const std::vector<EyePicture>& eyes, int width_px, int height_px,
+            FrameStatistics* statistics);
 
   void DrawSky() const {
     glUseProgram(sky_program.id);
@@ -259,58 +272,79 @@ void Renderer::StartAnew() { ForgetTownShadows(&impl_->shadows); }
 
 std::vector<AssetId> Renderer::AssetsFor(const FrameInput& frame, int width_px, int height_px) {
   Impl& r = *impl_;
-  const Mat4 view_projection = ViewProjection(frame, width_px, height_px);
-  FindVisibleBlocks(view_projection, GltfFromGround(frame.eye), r.options.cull, &r.town);
+  const EyesTogether view = Impl::Chosen(frame, {}, width_px, height_px);
+  FindVisibleBlocks(view.view_projection, view.eye, r.options.cull, &r.town);
   ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
-  return flaneur::AssetsFor(frame.people, r.Sight(frame, view_projection), r.people);
+  return flaneur::AssetsFor(frame.people, r.Sight(frame, view), r.people);
 }
 
 void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics) {
+  const EyesInstead* instead = EyesNow();
+  FinishBeside(instead != nullptr, &impl_->picture);
+  impl_->picture.window = instead != nullptr ? instead->framebuffer : 0;
+  impl_->Draw(frame, instead != nullptr ? instead->eyes : std::vector<EyePicture>(), width_px, height_px, statistics);
+}
+
+void Renderer::Impl::Draw(const FrameInput& frame, const std::vector<EyePicture>& eyes, int width_px, int height_px,
+                          FrameStatistics* statistics) {
   const double start_ms = Now_ms();
-  Impl& r = *impl_;
-  const Mat4 view_projection = ViewProjection(frame, width_px, height_px);
+  Impl& r = *this;
+  const EyesTogether view = Chosen(frame, eyes, width_px, height_px);
+  const Mat4& view_projection = view.view_projection;
   PassTimer timer(r.options.time_passes, &statistics->pass_ms);
-  FindVisibleBlocks(view_projection, GltfFromGround(frame.eye), r.options.cull, &r.town);
+  FindVisibleBlocks(view_projection, view.eye, r.options.cull, &r.town);
   if (!r.waits) BeginPictureTime(&r.clock);
   const double people_ms = Now_ms();
   ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
-  const PeopleSight sight = r.Sight(frame, view_projection);
+  const PeopleSight sight = r.Sight(frame, view);
   const Vec3 eye = sight.eye, to_sun = sight.to_sun;
   SortPeople(frame.people, r.people.layouts, r.people.ready, sight, &r.people.batches);
   UploadPeople(&r.people);
   statistics->people_ms = Now_ms() - people_ms;
   timer.Passed(DrawPass::kCull);
-  DrawCost shadows = DrawPeopleShadows(eye, Ahead(frame), to_sun, r.block_buffer, r.people, &r.shadows);
-  statistics->people_shadow_triangles = shadows.triangles;
+  DrawCost shadow_cost = DrawPeopleShadows(eye, view.ahead, to_sun, r.block_buffer, r.people, &r.shadows);
+  statistics->people_shadow_triangles = shadow_cost.triangles;
   timer.Passed(DrawPass::kPeopleShadow);
-  shadows += UpdateTownShadows(eye, to_sun, std::max(kMinShadowShare, frame.resolution_scale * frame.resolution_scale),
-                               r.block_buffer, r.town, &r.shadows);
+  shadow_cost +=
+      UpdateTownShadows(eye, to_sun, std::max(kMinShadowShare, frame.resolution_scale * frame.resolution_scale),
+                        r.block_buffer, r.town, &r.shadows);
   timer.Passed(DrawPass::kTownShadow);
 
-  DrawCost people, town, mark;
-  for (int k = 0; k < r.picture.averages; ++k) {
-    const Mat4 aside = Aside(k, r.picture) * view_projection;
-    if (r.picture.averages > 1) FindVisibleBlocks(aside, eye, r.options.cull, &r.town);
-    BindFrameBlock(r.block_buffer, MakeFrameBlock(aside, eye, r.Focal_px(frame), to_sun,
+  DrawCost people_cost, town_cost, mark;
+  const auto draw_view = [&](const Mat4& matrix, Vec3 from, bool picks, int average) {
+    BindFrameBlock(r.block_buffer, MakeFrameBlock(matrix, from, r.Focal_px(view), to_sun,
                                                   std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
-    r.DrawSurfaces(eye, aside, frame.turns_rad, &timer, &people, &town);
+    r.DrawSurfaces(from, matrix, picks, frame.turns_rad, &timer, &people_cost, &town_cost);
     if (!r.options.normals) r.DrawSky();
-    mark =
-        r.options.normals ? DrawCost{} : DrawContactShade(aside, eye, frame.contact_shade, r.people, r.contact_shade);
+    mark = r.options.normals ? DrawCost{}
+                             : DrawContactShade(matrix, from, frame.contact_shade, r.people, r.contact_shade);
     if (!r.options.normals) mark += DrawSmoke(frame.smoke, r.smoke);
     mark += DrawGroundMark(frame.ground_mark, r.ground_mark);
     timer.Passed(DrawPass::kSky);
-    FinishPicture(k, r.picture);
+    FinishPicture(average, r.picture);
+  };
+  r.picture.left_px = r.picture.bottom_px = 0;
+  r.drew_eyes = !eyes.empty();
+  for (int k = 0; k < r.picture.averages && !r.drew_eyes; ++k) {
+    const Mat4 aside = Aside(k, r.picture) * view_projection;
+    if (r.picture.averages > 1) FindVisibleBlocks(aside, eye, r.options.cull, &r.town);
+    draw_view(aside, eye, true, k);
+  }
+  for (const EyePicture& e : eyes) {
+    r.picture.left_px = e.left_px;
+    r.picture.bottom_px = e.bottom_px;
+    draw_view(e.view_projection, e.eye, false, 0);
+    PresentPicture(r.picture);
   }
   DrawCaption(frame, width_px, height_px, &r.caption);
   timer.Passed(DrawPass::kFinish);
   if (r.waits) glFinish();  // so that draw_ms means the picture, not the handing over of commands
   else EndPictureTime(&r.clock);
   constexpr int kWholePictures = 4;  // light, sky, smoothing, caption
-  statistics->town_triangles = town.triangles;
-  statistics->people_triangles = people.triangles;
-  statistics->shadow_triangles = shadows.triangles;
-  statistics->draw_calls = people.calls + town.calls + shadows.calls + mark.calls + kWholePictures;
+  statistics->town_triangles = town_cost.triangles;
+  statistics->people_triangles = people_cost.triangles;
+  statistics->shadow_triangles = shadow_cost.triangles;
+  statistics->draw_calls = people_cost.calls + town_cost.calls + shadow_cost.calls + mark.calls + kWholePictures;
   statistics->resolution_scale = frame.resolution_scale;
   statistics->people_hidden = r.people.batches.hidden;
   statistics->people_not_loaded = r.people.batches.not_loaded;
@@ -345,11 +379,7 @@ void Renderer::Read(std::vector<uint8_t>* rgb) {
 }
 
 void Renderer::Present() {
-  const Picture& p = impl_->picture;
-  if (p.finished == 0) return;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, p.finished);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  glBlitFramebuffer(0, 0, p.width_px, p.height_px, 0, 0, p.width_px, p.height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  if (!impl_->drew_eyes) PresentPicture(impl_->picture);
 }
 
 }  // namespace flaneur

@@ -14,7 +14,6 @@ namespace flaneur {
 namespace {
 
 constexpr float kTapReach = 0.045f;              // of the picture's height, around a hotspot
-constexpr float kPlaceReach_m = 25;              // from a place tapped on the map to where one can walk
 constexpr float kButton = 2, kButtonGap = 0.4f;  // in letters
 
 float Aspect(int width_px, int height_px) {
@@ -23,35 +22,7 @@ float Aspect(int width_px, int height_px) {
 
 void Tell(const std::string& text, const DiscoveryIn& in) { TellNotice(text, in.controls, in.s, &in.notices); }
 
-void LeadToStop(size_t stop, const DiscoveryIn& in) {
-  in.wishes.tour.lead_to = stop;
-  in.controls.follows_tour = true;
-  in.d.led = false;
-  Tell(Say(Phrase::kLedTo, PageLanguage(in.controls, in.s), {NameOfStop(in.s.visitor.tour, stop)}), in);
-}
-
-void LeadToPlace(Vec2 place, const DiscoveryIn& in) {
-  const Walkable& w = in.s.town.walkable;
-  const std::string language = PageLanguage(in.controls, in.s);
-  const int cell = IsFree(w, place) ? CellAt(w, place) : NearestFreeCell(w, place, kPlaceReach_m);
-  const int own = NearestFreeCell(w, in.s.visitor.camera.view.position, kPlaceReach_m);
-  if (cell < 0 || own < 0 || At(w.component, cell) != At(w.component, own))
-    return Tell(Say(Phrase::kNoWay, language), in);
-  in.wishes.walk_to = IsFree(w, place) ? place : CellCenter(w, cell);
-  in.controls.follows_tour = false;
-  in.d.led = true;
-  Tell(Say(Phrase::kLedThere, language), in);
-}
-
-// Any key, and any tap, ends being led; a key that walks does so by itself.
-void StopWhereAsked(const WindowInput& input, const DiscoveryIn& in) {
-  const std::bitset<kInputCodes> pressed = input.down & ~in.d.was_down;
-  in.d.was_down = input.down;
-  in.d.led = in.d.led && (in.wishes.walk_to || !in.s.visitor.point_walk.route.points.empty());
-  if (!in.d.led || in.wishes.walk_to || (pressed.none() && input.clicks.empty())) return;
-  in.d.led = false;
-  in.wishes.walk_to = in.s.visitor.camera.view.position;
-}
+LeadingIn LeadingOf(const DiscoveryIn& in) { return {in.s, in.controls, in.notices, in.wishes, in.d.leading}; }
 
 // A button of the corner's, with a picture that needs no word. which: 0 map, 1 photo.
 bool CornerButton(int which, int place, const PageLook& look, int width_px) {
@@ -127,13 +98,13 @@ void PrepareDiscovery(const DiscoveryIn& in) {
 
 void TakeDiscoveryInput(bool pages, int width_px, int height_px, const DiscoveryIn& in, WindowInput* input) {
   if (pages) {
-    in.d.was_down = input->down;
+    in.d.leading.was_down = input->down;
     return;
   }
   std::erase_if(input->clicks, [&](const Vec2& click) {
     return TapHotspot(click, Aspect(width_px, height_px), kTapReach, &in.d.hotspots);
   });
-  StopWhereAsked(*input, in);
+  StopWhereAsked(*input, LeadingOf(in));
 }
 
 void TakeDiscoveryWishes(const DiscoveryIn& in) {
@@ -150,8 +121,8 @@ void ShowDiscoveryPages(const PageLook& look, int width_px, int height_px, const
   FollowKeeping(in);
   const bool pages = in.menu.page != Page::kNone;
   const MapChoice choice = ShowMapPage(in.pack, in.s, look, width_px, height_px, &in.menu, overlay, &in.d.map);
-  if (choice.stop) LeadToStop(*choice.stop, in);
-  if (choice.place) LeadToPlace(*choice.place, in);
+  if (choice.stop) LeadToStop(*choice.stop, LeadingOf(in));
+  if (choice.place) LeadToPlace(*choice.place, LeadingOf(in));
   ShowPhotoPage(in.d.photo, PhotoFolder(in.settings), !in.settings.kiosk, look, width_px, height_px, &in.menu, overlay);
   if (!in.controls.points || pages) return;
   if (CornerButton(0, 1, look, width_px)) OpenPage(Page::kMap, &in.menu);
@@ -200,7 +171,7 @@ void ShowDiscovery(const FrameInput& frame, const Renderer& renderer, float pass
   const GuidedTour& tour = in.s.visitor.tour;
   const bool is_led = in.controls.follows_tour && HasTour(tour) && !tour.paused;
   LookForHotspots(
-      in.pack.hotspots, frame, Aspect(width_px, height_px), !is_led && !in.d.led, passed_s,
+      in.pack.hotspots, frame, Aspect(width_px, height_px), !is_led && !in.d.leading.led, passed_s,
       [&](Vec3 point) { return renderer.Hides(point); }, &in.d.hotspots);
   ShowHotspotMarks(in.d.hotspots, look, width_px, height_px);
   if (ShowHotspotPanel(in.pack, in.d.hotspots, look, width_px, height_px, overlay, &in.d.hotspot_picture))
@@ -224,7 +195,7 @@ void HearTown(const FrameInput& frame, float passed_s, bool speaks, bool holds, 
 void ForgetDiscovery(const DiscoveryIn& in) {
   CloseHotspot(&in.d.hotspots);
   in.d.hotspots.closed = -1;
-  in.d.photo_asked = in.d.led = false;
+  in.d.photo_asked = in.d.leading.led = false;
   in.d.map.times = 1;
 }
 

@@ -6,6 +6,7 @@
 
 #include "runtime/render/renderer.h"
 #include "runtime/visit/hotspot_view.h"
+#include "runtime/visit/leading.h"
 #include "runtime/visit/map_page.h"
 #include "runtime/visit/narration.h"
 #include "runtime/visit/notices.h"
@@ -22,8 +23,7 @@ struct Discovery {
   Soundscape soundscape;
   TakenPhoto photo;
   bool photo_asked = false;  // with the next picture
-  bool led = false;          // by the map, to a place that is no stop
-  std::bitset<kInputCodes> was_down;
+  Leading leading;           // by the map
 };
 
 // What a visit's parts of it work on.

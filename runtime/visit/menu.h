@@ -1,5 +1,5 @@
-// The visitor's pages over the picture: go on, tour or free walk, the tour's stops, language, settings, keys. By mouse,
-// touch, keyboard and gamepad; what is chosen counts at once.
+// The visitor's pages: go on, tour or free walk, the tour's stops, language, settings, keys. By mouse, touch, keyboard
+// and gamepad. Which one is open; menu_rows.h says what stands there, menu_view.h draws it.
 #pragma once
 #include <bitset>
 #include <optional>
@@ -13,12 +13,13 @@
 
 namespace flaneur {
 
-// Map and photo are pages of their own, which ShowMenu leaves alone.
+// Map and photo are pages of their own, which FillRows leaves alone.
 enum class Page { kNone, kMain, kStops, kLanguages, kSettings, kKeys, kMap, kPhoto, kEnd };
 
 struct Menu {
   Page page = Page::kNone;
   std::string thanks;             // said on the page at the tour's end
+  bool can_quit = true;           // there is a program to end, not a web page to leave
   bool begins = false;            // somebody new meets the pages before the town
   size_t first = 0;               // of the rows, where not all fit
   std::optional<Action> rebinds;  // whose new key is waited for
@@ -55,13 +56,12 @@ OverlayInput OverlayInputFrom(const WindowInput& input, const Menu& menu, const 
 // out.
 std::bitset<kInputCodes> FollowHands(const WindowInput& input, const Controls& controls, Menu* menu);
 
+// To the page before, or out of the pages; from a key that is waited for to none.
+void GoBack(Menu* menu, Controls* controls);
 // Back to the page before, and the key that is waited for. Once a picture.
 void TakePageInput(const WindowInput& input, Menu* menu, Controls* controls);
 
-// These between an Overlay's Begin and Draw. The page that is open, or nothing.
-MenuChoice ShowMenu(const std::string& title, const Simulation& simulation, int width_px, int height_px, Menu* menu,
-                    Controls* controls, TextLayer* text);
-// In the picture's corner, for who has no keys. True when it is pressed.
-bool ShowMenuButton(const PageLook& look, int width_px);
+// The page closes, and the visitor goes where they like.
+void WalkOnOwn(Menu* menu, Controls* controls);
 
 }  // namespace flaneur

@@ -6,6 +6,7 @@
 
 #include "runtime/render/text_layer.h"
 #include "runtime/visit/page_look.h"
+#include "runtime/visit/rows.h"
 
 namespace flaneur {
 
@@ -26,16 +27,14 @@ void ShowKeyMark(KeyMark* mark, bool at_once = true);
 
 // A page is gone through twice: first its rows only tell how high they are and none is pressed, then those that have
 // room are there.
-class PageRows {
+class PageRows : public Rows {
  public:
   PageRows(const PageLook& look, float width_px, TextLayer* text);
 
-  bool Button(const std::string& text, const std::string& id);  // pressed
-  void Words(const std::string& text);                          // only to be read
-  // Less and more; by how many steps it shall change.
-  int Amount(const std::string& text, const std::string& value);
-  // Buttons beside what they are for; which one was pressed, -1: none.
-  int Choice(const std::string& text, const std::vector<std::string>& buttons, const std::string& id);
+  bool Button(const std::string& text, const std::string& id) override;
+  void Words(const std::string& text) override;
+  int Amount(const std::string& text, const std::string& value) override;
+  int Choice(const std::string& text, const std::vector<std::string>& buttons, const std::string& id) override;
 
   // From the first time to the second: rows from `first` on that fit into so many pixels, with a button for more where
   // not all do. False: there are no such rows.

@@ -6,7 +6,8 @@
 
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
-#include "runtime/base/toml_table.h"
+#include "runtime/base/toml_text.h"
+#include "runtime/visit/settings_text.h"
 #include "runtime/visit/window_input.h"
 
 namespace flaneur {
@@ -218,14 +219,20 @@ std::filesystem::path PlayerSettingsPath() {
 Error ReadPlayerSettings(const std::filesystem::path& path, PlayerSettings* settings,
                          std::vector<std::string>* warnings) {
   std::error_code ec;
+  std::string text;
   if (path.empty() || !std::filesystem::exists(path, ec)) return Ok();
+  if (Error e = ReadTextFile(path, &text)) return e;
+  return TakePlayerSettings(text, path.string(), settings, warnings);
+}
+
+Error TakePlayerSettings(const std::string& text, const std::string& name, PlayerSettings* settings,
+                         std::vector<std::string>* warnings) {
   toml::table root;
-  if (Error e = ReadToml(path, &root)) return e;
-  const auto take = [&](const std::string& name, const toml::node& node) {
-    const std::string wrong = Take(name, node, settings);
+  if (Error e = ParseToml(text, name, &root)) return e;
+  const auto take = [&](const std::string& setting, const toml::node& node) {
+    const std::string wrong = Take(setting, node, settings);
     if (wrong.empty()) return;
-    warnings->push_back(path.string() + ":" + std::to_string(node.source().begin.line) + ": " + OneLine(name) + " " +
-                        wrong);
+    warnings->push_back(name + ":" + std::to_string(node.source().begin.line) + ": " + OneLine(setting) + " " + wrong);
   };
   for (const auto& [key, node] : root) {
     const toml::table* table = node.as_table();

@@ -17,19 +17,21 @@
 #include "runtime/visit/home.h"
 #include "runtime/visit/kiosk.h"
 #include "runtime/visit/menu.h"
+#include "runtime/visit/menu_view.h"
 #include "runtime/visit/narration.h"
 #include "runtime/visit/notices.h"
 #include "runtime/visit/operator_page.h"
 #include "runtime/visit/phrases.h"
 #include "runtime/visit/resolution.h"
+#include "runtime/visit/settings_in_force.h"
+#include "runtime/visit/tour_end.h"
 
 namespace flaneur {
 namespace {
 
 constexpr double kLongUpload_ms = 50,
-                 kUpload_ms = 3;       // of what has been loaded: before the first picture, and in each later one
-constexpr int kMaxStepsPerFrame = 4;   // a machine that can't keep up slows the town down rather than freeze
-constexpr float kTakesLeave_s = 2.5f;  // of the guide, before the visitor is asked what next
+                 kUpload_ms = 3;      // of what has been loaded: before the first picture, and in each later one
+constexpr int kMaxStepsPerFrame = 4;  // a machine that can't keep up slows the town down rather than freeze
 
 bool IsUsed(const WindowInput& input) {
   constexpr float kMoved = 0.3f;
@@ -64,9 +66,9 @@ struct Visit::Impl {
   Narration narration{};
   Discovery discovery{};
   Resolution resolution{};
-  float own_fov_rad = 0, own_eye_m = kEyeHeight_m;
-  double owed_s = 0;         // of simulated time
-  float over_s = 0;          // since the tour ended for a visitor whom it led
+  OwnView own{};
+  double owed_s = 0;  // of simulated time
+  TourEnd end{};
   float says_nothing_s = 0;  // since they were asked what next
   int width_px = 0, height_px = 0;
   bool for_pages = false;  // what the hands do in this picture, even where that closes them
@@ -102,15 +104,8 @@ struct Visit::Impl {
 // What the settings ask for, now and whenever they change.
 void Visit::Impl::ApplySettings() {
   const PlayerSettings& chosen = controls.settings;
-  s->visitor.gentle = chosen.reduced_motion;
-  s->visitor.comfort = {chosen.pace, chosen.captions_always, chosen.high_contrast};
-  s->visitor.camera.eye_height_m = EyeHeight_m(chosen, own_eye_m);
-  SetFieldOfView(chosen.field_of_view_deg > 0 ? chosen.field_of_view_deg * kPi / 180 : own_fov_rad, s);
+  HeedSettings(chosen, own, s);
   shell.sound.SetVolume(chosen.sound_volume);
-  const std::vector<std::string>& known = s->visitor.tour.languages;
-  const bool spoken = std::find(known.begin(), known.end(), chosen.language) != known.end();
-  const std::string language = spoken ? chosen.language : known.empty() ? s->visitor.tour.language : known.front();
-  if (language != s->visitor.tour.language) SetLanguage(language, &s->visitor.tour);
   if (!notices.is_hint) return;
   const float left_s = notices.left_s;
   BeginHint(controls, *s, &notices);  // in the language that is chosen now
@@ -195,13 +190,8 @@ void Visit::Impl::EndVisitNow() {
 
 // Thanks, and what next; who does not say it any more has left.
 void Visit::Impl::EndTour(const WindowInput& input, float passed_s) {
-  over_s = s->visitor.tour.over && controls.follows_tour && !attracts() ? over_s + passed_s : 0;
-  if (over_s > kTakesLeave_s && !pages()) {
-    wishes = {};
-    controls.turn_radps = 0;
-    const std::string language = PageLanguage(controls, *s), thanks = ThanksOf(pack, language);
-    OpenEndOfTour(thanks.empty() ? Say(Phrase::kThanks, language) : thanks, &menu);
-  }
+  if (!attracts()) FollowTourEnd(pack, *s, pages(), passed_s, &end, &controls, &wishes, &menu);
+  else end = {};
   says_nothing_s = menu.page == Page::kEnd && !IsUsed(input) ? says_nothing_s + passed_s : 0;
   if (pack.home_after_s > 0 && says_nothing_s > pack.home_after_s) EndVisitNow();
 }
@@ -368,8 +358,7 @@ Error Visit::Enter(bool views) {
   Impl& v = *impl_;
   if (Error e = v.overlay.Create()) return e;
   v.views.shown = views && !v.settings.kiosk;
-  v.own_fov_rad = v.s->visitor.camera.view.fov_rad;
-  v.own_eye_m = v.s->visitor.camera.eye_height_m;
+  v.own = {v.s->visitor.camera.view.fov_rad, v.s->visitor.camera.eye_height_m};
   v.MakeControlsAnew();
   v.ApplySettings();
   BeginHint(v.controls, *v.s, &v.notices);

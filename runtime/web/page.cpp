@@ -23,6 +23,11 @@ const char* Told(std::string text) {
   return told.c_str();
 }
 
+const uint8_t* Given(std::span<const uint8_t> bytes, int* count) {
+  *count = static_cast<int>(bytes.size());
+  return bytes.data();
+}
+
 // Whatever goes wrong reaches the page as a sentence.
 const char* Try(auto work) {
   try {
@@ -65,8 +70,8 @@ EMSCRIPTEN_KEEPALIVE const char* page_expect(double bytes) {
 EMSCRIPTEN_KEEPALIVE const char* page_arrive(double offset, const uint8_t* bytes, double count) {
   return Try([&] { return visit->Arrive(static_cast<size_t>(offset), {bytes, static_cast<size_t>(count)}); });
 }
-EMSCRIPTEN_KEEPALIVE const char* page_open() {
-  return Try([] { return visit->Open(); });
+EMSCRIPTEN_KEEPALIVE const char* page_open(const char* settings) {
+  return Try([&] { return visit->Open(settings); });
 }
 EMSCRIPTEN_KEEPALIVE const char* page_begin(const char* canvas) {
   return Try([&] {
@@ -85,6 +90,31 @@ EMSCRIPTEN_KEEPALIVE const char* page_picture(int width_px, int height_px, float
     input = {};
     return e;
   });
+}
+
+EMSCRIPTEN_KEEPALIVE void page_put_on(float x, float y, float z, float pictures_per_s) {
+  visit->PutOnHeadset({x, y, z}, pictures_per_s);
+}
+EMSCRIPTEN_KEEPALIVE void page_take_off() { visit->TakeOffHeadset(); }
+EMSCRIPTEN_KEEPALIVE const char* page_picture_in_room(float x, float y, float z, const float* eyes, int count,
+                                                      int framebuffer, float passed_s) {
+  return Try([&] {
+    input.down |= held;
+    const Error e = visit->PictureInRoom(input, {x, y, z}, {eyes, static_cast<size_t>(count) * PageVisit::kFloatsOfEye},
+                                         static_cast<unsigned>(framebuffer), passed_s);
+    input = {};
+    return e;
+  });
+}
+EMSCRIPTEN_KEEPALIVE void page_turn_in_room(float angle_rad) { visit->TurnInRoom(angle_rad); }
+// ray: where it begins and its direction; the place comes into its first three. False: nowhere.
+EMSCRIPTEN_KEEPALIVE bool page_land(float* ray, bool goes) {
+  Vec3 there;
+  if (!visit->Land({ray[0], ray[1], ray[2]}, {ray[3], ray[4], ray[5]}, goes, &there)) return false;
+  ray[0] = there.x;
+  ray[1] = there.y;
+  ray[2] = there.z;
+  return true;
 }
 
 // By the names of WindowInput.
@@ -106,10 +136,30 @@ EMSCRIPTEN_KEEPALIVE void page_language(const char* language) { visit->SetLangua
 EMSCRIPTEN_KEEPALIVE void page_go_to_stop(int stop) { visit->GoToStop(static_cast<size_t>(stop)); }
 EMSCRIPTEN_KEEPALIVE void page_take_tour(bool follows) { visit->TakeTour(follows); }
 EMSCRIPTEN_KEEPALIVE void page_pause(bool pauses) { visit->Pause(pauses); }
-EMSCRIPTEN_KEEPALIVE const uint8_t* page_sound(int sound) { return visit->Sound(static_cast<size_t>(sound)).data(); }
-EMSCRIPTEN_KEEPALIVE int page_sound_bytes(int sound) {
-  return static_cast<int>(visit->Sound(static_cast<size_t>(sound)).size());
+EMSCRIPTEN_KEEPALIVE void page_ask(const char* action) { visit->Ask(action); }
+EMSCRIPTEN_KEEPALIVE void page_press(const char* page, int row, int which) { visit->Press(page, row, which); }
+EMSCRIPTEN_KEEPALIVE void page_back() { visit->GoBack(); }
+EMSCRIPTEN_KEEPALIVE void page_tap_hotspot(int hotspot) { visit->TapHotspot(hotspot); }
+EMSCRIPTEN_KEEPALIVE const uint8_t* page_map(int width_px, int height_px, float times) {
+  return visit->Map(width_px, height_px, times).data();
 }
+EMSCRIPTEN_KEEPALIVE const char* page_map_marks() { return Told(visit->MapMarks()); }
+EMSCRIPTEN_KEEPALIVE void page_lead_to_place(float x_px, float y_px) { visit->LeadTo(x_px, y_px); }
+EMSCRIPTEN_KEEPALIVE void page_lead_to_stop(int stop) { visit->LeadTo(static_cast<size_t>(stop)); }
+EMSCRIPTEN_KEEPALIVE bool page_photo_taken() { return visit->photo_taken(); }
+EMSCRIPTEN_KEEPALIVE const char* page_settings() { return Told(visit->TakeSettings()); }
+
+// Bytes: where they begin, and into `count` how many; good until the next call.
+EMSCRIPTEN_KEEPALIVE const uint8_t* page_spoken(int* count) { return Given(visit->Spoken(), count); }
+EMSCRIPTEN_KEEPALIVE const uint8_t* page_recording(int recording, int* count) {
+  return Given(visit->RecordingOf(recording), count);
+}
+EMSCRIPTEN_KEEPALIVE bool page_is_computed(int recording) { return visit->IsComputed(recording); }
+EMSCRIPTEN_KEEPALIVE const uint8_t* page_pack_picture(int picture, int* count) {
+  return Given(visit->PackPicture(picture), count);
+}
+EMSCRIPTEN_KEEPALIVE const char* page_sounds() { return Told(visit->Sounds()); }
+EMSCRIPTEN_KEEPALIVE const char* page_hotspots() { return Told(visit->HotspotsNow()); }
 EMSCRIPTEN_KEEPALIVE const char* page_state() { return Told(visit->State()); }
 EMSCRIPTEN_KEEPALIVE const char* page_words(const char* language) { return Told(visit->Words(language)); }
 EMSCRIPTEN_KEEPALIVE const char* page_description() { return Told(visit->Description()); }

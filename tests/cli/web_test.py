@@ -61,14 +61,28 @@ class Web(ProgramTest):
 
     def test_text_files_stand_there_compressed_too_and_the_page_asks_nobody_else(self):
         self.assert_succeeds(self.write())
-        for name in ("index.html", "page.js", "bar.js", "page.css", "tour.json", "worker.js", "sentences.js"):
+        element, = (p.name for p in self.site.glob("flaneur-tour-*.js"))
+        self.assertRegex(element, r"^flaneur-tour-\d+\.\d+\.\d+\.js$")
+        page_files = [p.name for p in PAGE.glob("*.js") if p.name != "flaneur-tour.js"]
+        for name in ("index.html", "page.css", "tour.json", element, *page_files):
             text = (self.site / name).read_bytes()
             self.assertEqual(gzip.decompress((self.site / (name + ".gz")).read_bytes()), text)
             self.assertTrue((self.site / (name + ".br")).exists())
             self.assertEqual(re.findall(rb"https?://", text), [], name)
+        kept = set(re.findall(r"'([^']+\.(?:js|css))'", (self.site / "worker.js").read_text()))
+        self.assertEqual(kept, {"page.css", *page_files} - {"worker.js"}, "without a network a file of the page is missing")
         page = (self.site / "index.html").read_text()
         self.assertIn("default-src 'none'", page)
         self.assertNotRegex(page, "'unsafe-(inline|eval)'|<style|<script>|@[A-Z]+@")
+
+    def test_lines_for_other_pages_are_printed(self):
+        result = self.write("--address", "https://museum.example/a&b")
+        self.assert_succeeds(result)
+        frame, script, element = [line for line in result.stdout.splitlines() if line.startswith("<")]
+        self.assertRegex(frame, r'^<iframe src="https://museum\.example/a&amp;b/[^"]*" title="[^"]+" .*></iframe>$')
+        name = re.fullmatch(r'<script src="https://museum\.example/a&amp;b/(flaneur-tour-[\d.]+\.js)"></script>', script)[1]
+        self.assertTrue((self.site / name).is_file())
+        self.assertRegex(element, r'^<flaneur-tour src="https://museum\.example/a&amp;b/"( lang="[a-z]+")? title="[^"]+"></flaneur-tour>$')
 
     def test_the_same_tour_gives_the_same_site(self):
         self.assert_succeeds(self.write())

@@ -1,6 +1,6 @@
 // Keeps the page itself for a visit without a network; the tour's pieces the page has put into the same store.
 const kStore = 'flaneur ' + new URL('.', self.location).pathname;
-const kPage = ['./', 'index.html', 'page.js', 'page.css', 'sentences.js'];
+const kPage = ['./', 'index.html', '@FILES@'];  // flaneur web fills in the rest
 
 self.addEventListener('install', (e) => {
   e.waitUntil(caches.open(kStore).then((store) => store.addAll(kPage)).then(() => self.skipWaiting()));

@@ -1,11 +1,13 @@
-// page_bench.mjs SITE: figures of a site that `flaneur web` wrote, in Debian's Chromium without a graphics card. Bytes are those that
-// came over the line.
+// page_bench.mjs SITE [STEP_CLOCK STEP_CLOCK.js]: figures of a site that `flaneur web` wrote, in Debian's Chromium without a graphics
+// card. Bytes are those that came over the line. With the two programs of tests/bench/step_clock.cpp, native and as a page's code, also
+// what a step of 10,000 people takes in each, run in turn.
+import {execFileSync} from 'node:child_process';
 import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';
 import puppeteer from 'puppeteer-core';
 
-const [site] = process.argv.slice(2);
+const [site, clock, pageClock] = process.argv.slice(2);
 if (!site || !fs.existsSync(path.join(site, 'tour.json'))) {
   console.error('page_bench.mjs: error: name a folder that flaneur web wrote');
   process.exit(2);
@@ -43,10 +45,20 @@ await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
 const browser = await puppeteer.launch({executablePath: '/usr/bin/chromium', args: kFlags, protocolTimeout: 300000});
 const page = await browser.newPage();
 await page.setViewport({width: 1280, height: 720});
+let complaints = 0;
+page.on('console', (m) => { complaints += m.type() === 'error' || m.type() === 'warn' ? 1 : 0; });
+page.on('pageerror', () => { ++complaints; });
 const sentUntil = {};
 await page.exposeFunction('told', (mark) => { sentUntil[mark] = sent; });
 await page.evaluateOnNewDocument(() => {
   globalThis.tasks = [];
+  globalThis.glErrors = 0;
+  const get = HTMLCanvasElement.prototype.getContext;
+  HTMLCanvasElement.prototype.getContext = function(...kind) {
+    const gl = get.apply(this, kind);
+    if (gl && kind[0] === 'webgl2') globalThis.gl = gl;
+    return gl;
+  };
   globalThis.marks = {};
   new PerformanceObserver((list) => {
     for (const task of list.getEntries()) globalThis.tasks.push([task.startTime, task.duration]);
@@ -67,7 +79,8 @@ const pictures = () => page.evaluate(() => document.getElementById('tour').flane
 const before = await pictures(), seconds = 5;
 await new Promise((done) => setTimeout(done, 1000 * seconds));
 const drawn = await pictures() - before;
-const {longest, heap} = await page.evaluate(() => ({
+const {longest, heap, wrong} = await page.evaluate(() => ({
+  wrong: globalThis.gl.getError(),
   longest: Math.max(0, ...globalThis.tasks.filter(([at]) => at > globalThis.marks['tour-loaded']).map(([, ms]) => ms)),
   heap: document.getElementById('tour').flaneur.heapBytes()}));
 const code = fs.readdirSync(site).filter((f) => f.endsWith('.js.br')).map((f) => path.join(site, f));
@@ -80,6 +93,18 @@ console.log(`first picture from a cold start, 20 Mbit/s      ${(first_ms / 1000)
 console.log(`all that there is, on the same line             ${(whole_ms / 1000).toFixed(1)} s`);
 console.log(`longest task after the first picture            ${longest.toFixed(0)} ms`);
 console.log(`heap of the player                              ${(heap / 1e6).toFixed(0)} MB`);
+console.log(`complaints of the console and of OpenGL             ${complaints + (wrong ? 1 : 0)}`);
 console.log(`pictures a second at 1280 x 720                 ${(drawn / seconds).toFixed(1)}`);
 await browser.close();
+if (clock && pageClock) {
+  const run = (program, ...args) => Number(execFileSync(program, args, {encoding: 'utf8'}));
+  const native_ms = [], page_ms = [];
+  for (let k = 0; k < 3; ++k) {
+    native_ms.push(run(clock, '10000'));
+    page_ms.push(run(process.execPath, '--no-experimental-fetch', pageClock, '10000'));
+  }
+  const least = (all) => Math.min(...all);  // whatever else the machine does only adds
+  console.log(`a step of 10,000 people, native and in a page   ${least(native_ms).toFixed(2)} ms, ${least(page_ms).toFixed(2)} ms, ` +
+              `${(least(page_ms) / least(native_ms)).toFixed(2)} times`);
+}
 process.exit();

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "runtime/control/crowd_influence.h"
+#include "runtime/control/head_view.h"
 #include "runtime/control/level_control.h"
 #include "runtime/control/view_volumes.h"
 
@@ -265,6 +267,136 @@ int UnforeseenPeople(int steps, float back_share) {
 TEST(ViewVolumes, NobodyBecomesVisibleWithoutAStepInTheBoundary) { EXPECT_EQ(UnforeseenPeople(1'000'000, 1), 0); }
 
 TEST(ViewVolumes, TheGapIsNoWiderThanItHasToBe) { EXPECT_GT(UnforeseenPeople(100'000, 0.9f), 0); }
+
+// A head somewhere, and both its eyes, which a headset has look past their own middle.
+struct Head {
+  Vec3 place{0, 0, 1.6f};
+  float yaw_rad = 0, pitch_rad = 0, roll_rad = 0;
+  float outer_tangent = 1.2f, inner_tangent = 0.9f, upper_tangent = 0.9f, lower_tangent = 1.1f;
+};
+
+std::array<EyeFrustum, 2> EyesOf(const Head& h) {
+  constexpr float kHalf_m = 0.032f;
+  const float cy = std::cos(h.yaw_rad), sy = std::sin(h.yaw_rad), cp = std::cos(h.pitch_rad),
+              sp = std::sin(h.pitch_rad);
+  const Vec3 ahead{cy * cp, sy * cp, sp}, level{sy, -cy, 0}, above = Cross(level, ahead);
+  const Vec3 right = level * std::cos(h.roll_rad) + above * std::sin(h.roll_rad), up = Cross(right, ahead);
+  std::array<EyeFrustum, 2> eyes;
+  for (size_t k = 0; k < 2; ++k) {
+    const float side = k == 0 ? -1.0f : 1.0f;
+    eyes[k] = {h.place + right * (side * kHalf_m),
+               ahead,
+               right,
+               up,
+               k == 0 ? -h.outer_tangent : -h.inner_tangent,
+               k == 0 ? h.inner_tangent : h.outer_tangent,
+               -h.lower_tangent,
+               h.upper_tangent};
+  }
+  return eyes;
+}
+
+bool Shows(const EyeFrustum& e, Vec3 point) {
+  const Vec3 off = point - e.place;
+  const float ahead = Dot(off, e.ahead), right = Dot(off, e.right), up = Dot(off, e.up);
+  return ahead > 0 && right >= e.left_tangent * ahead && right <= e.right_tangent * ahead &&
+         up >= e.lower_tangent * ahead && up <= e.upper_tangent * ahead;
+}
+bool Shows(const Head& head, Vec3 point) {
+  const auto eyes = EyesOf(head);
+  return Shows(eyes[0], point) || Shows(eyes[1], point);
+}
+
+Head SomeHead(Random* random) {
+  Head h;
+  h.yaw_rad = random->Uniform(-kPi, kPi);
+  h.pitch_rad = random->Uniform(-1.4f, 1.4f);
+  h.roll_rad = random->Uniform(-1, 1);
+  for (float* tangent : {&h.outer_tangent, &h.inner_tangent, &h.upper_tangent, &h.lower_tangent})
+    *tangent = random->Uniform(0.4f, 1.6f);
+  return h;
+}
+
+TEST(HeadView, HoldsWhateverEitherEyeSees) {
+  Random random{31};
+  int shown = 0, around = 0;
+  for (int i = 0; i < 400000; ++i) {
+    Head h = SomeHead(&random);
+    h.place = h.place + Vec3{random.Uniform(-0.06f, 0.06f), random.Uniform(-0.06f, 0.06f), 0};  // it leans
+    const HeadView view = ViewOfHead({0, 0}, EyesOf(h));
+    around += view.is_bounded ? 0 : 1;
+    const Vec3 point{random.Uniform(-9, 9), random.Uniform(-9, 9), random.Uniform(-1, 3)};
+    if (!view.is_bounded || !Shows(h, point) || Length(Vec2{point.x, point.y}) < kNearestToHead_m) continue;
+    ++shown;
+    const ViewCamera camera{{}, view.yaw_rad, view.fov_rad};
+    ASSERT_EQ(Classify({point.x, point.y}, 1e-3f, camera, 0), ViewClass::kVisible)
+        << point.x << ", " << point.y << ", " << point.z << " yaw " << h.yaw_rad << " pitch " << h.pitch_rad;
+  }
+  EXPECT_GT(shown, 30000);
+  EXPECT_GT(around, 1000) << "nobody looks at the sky";
+  EXPECT_LT(around, 300000) << "hardly a view is bounded";
+}
+
+TEST(HeadView, IsNoWiderThanALevelHeadSees) {
+  Head h;
+  const HeadView view = ViewOfHead({0, 0}, EyesOf(h));
+  EXPECT_NEAR(view.fov_rad, 2 * std::atan(h.outer_tangent) + 2 * std::asin(0.032f / kNearestToHead_m), 1e-3f);
+  EXPECT_NEAR(view.yaw_rad, 0, 1e-3f);
+  EXPECT_NEAR(view.pitch_rad, 0, 1e-3f);
+}
+
+// Turns by about an angle, about any axis; the body walks and the head leans.
+Head Moved(Head h, float turn_rad, float step_m, Random* random) {
+  const float share = random->Uniform(-1, 1), rest = std::sqrt(1 - share * share);
+  const float roll = random->Uniform(-1, 1) * rest * turn_rad;
+  h.yaw_rad += share * turn_rad * 0.7f;  // yaw, pitch and roll of a turn are not its parts: together less than it
+  h.pitch_rad = std::clamp(h.pitch_rad + rest * turn_rad * random->Uniform(-0.5f, 0.5f), -1.4f, 1.4f);
+  h.roll_rad = std::clamp(h.roll_rad + roll * 0.3f, -1.0f, 1.0f);
+  const float way = random->Uniform(-kPi, kPi);
+  h.place = h.place + Vec3{std::cos(way), std::sin(way), 0} * step_m;
+  return h;
+}
+
+// Of guarantee 4.3.1 for both eyes of a head that turns as fast as heads do, in steps as long as pictures at 30, 72 and
+// 90 a second: people of whom no eye could see anything and who were outside the outer volume, and whom one sees next.
+int UnforeseenByHead(int steps, float back_share) {
+  constexpr float kReach_m = 0.7f, kTallestOffEye_m = 2;
+  Random random{17};
+  int unforeseen = 0;
+  for (int step = 0; step < steps; ++step) {
+    MotionLimits limits;
+    limits.reach_m = 60;
+    limits.step_s = 1 / (step % 3 == 0 ? 30.0f : step % 3 == 1 ? 72.0f : 90.0f);
+    limits.yaw_rate_radps = kHeadTurn_radps;
+    const Head before = SomeHead(&random);
+    const HeadView view = ViewOfHead({before.place.x, before.place.y}, EyesOf(before));
+    if (!view.is_bounded) continue;
+    const ViewCamera camera{{before.place.x, before.place.y}, view.yaw_rad, view.fov_rad};
+    limits.reach_grows_m =
+        std::tan(view.fov_rad / 2) * kTallestOffEye_m;  // as the simulation allows for a pitched view
+    const float back_m = OuterApexBack_m(limits, view.fov_rad) * back_share;
+    const Head after =
+        Moved(before, limits.yaw_rate_radps * limits.step_s, limits.camera_speed_mps * limits.step_s, &random);
+    const ViewVolumes volumes = VolumesOf(camera, back_m);
+    for (int k = 0; k < 8; ++k) {
+      const float side = k % 2 == 0 ? 1.0f : -1.0f, edge = camera.yaw_rad + side * camera.fov_rad / 2;
+      const Vec2 along{std::cos(edge), std::sin(edge)}, outwards = Vec2{-along.y, along.x} * side;
+      const Vec2 person = volumes.outer_apex + along * random.Uniform(0, 60 + back_m) +
+                          outwards * (kReach_m + random.Uniform(0.01f, 0.3f));
+      if (Length(person - camera.position) > limits.reach_m) continue;
+      if (Classify(person, kReach_m, volumes) != ViewClass::kOutside) continue;
+      const Vec2 moved = person - outwards * (limits.person_speed_mps * limits.step_s);
+      const float angle = random.Uniform(-kPi, kPi);
+      const Vec2 part = moved + Vec2{std::cos(angle), std::sin(angle)} * kReach_m;
+      unforeseen += Shows(after, {part.x, part.y, random.Uniform(0, 1.9f)}) ? 1 : 0;
+    }
+  }
+  return unforeseen;
+}
+
+TEST(HeadView, NobodyIsSeenByAnEyeWithoutAStepInTheBoundary) { EXPECT_EQ(UnforeseenByHead(300'000, 1), 0); }
+
+TEST(HeadView, AHandsBoundaryWouldNotDoForAHead) { EXPECT_GT(UnforeseenByHead(300'000, 0.15f), 0); }
 
 Crowd PeopleInView(int count, Random* random) {
   Crowd crowd;

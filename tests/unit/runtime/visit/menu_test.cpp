@@ -16,6 +16,7 @@
 #include "runtime/visit/home.h"
 #include "runtime/visit/hotspot_view.h"
 #include "runtime/visit/map_page.h"
+#include "runtime/visit/menu_view.h"
 #include "runtime/visit/notices.h"
 #include "runtime/visit/operator_page.h"
 #include "runtime/visit/photo_page.h"

@@ -1,0 +1,42 @@
+// Both eyes of a headset: what is chosen for a picture is chosen once, for a frustum that holds theirs. No OpenGL.
+#pragma once
+#include <vector>
+
+#include "runtime/render/projection.h"
+
+namespace flaneur {
+
+// What an eye is to see, and where in the headset's picture. glTF axes.
+struct EyePicture {
+  Mat4 view_projection;
+  Vec3 eye;
+  int left_px = 0, bottom_px = 0, width_px = 0, height_px = 0;
+};
+
+// From which place, and which way, both eyes' pictures are chosen for. glTF axes.
+struct EyesTogether {
+  Mat4 view_projection;
+  Vec3 eye, ahead;
+  float focal_px = 1;  // pixels that a metre takes at a distance of one, in the middle of an eye's picture
+};
+
+// At least one eye, each with the perspective of a camera.
+EyesTogether Together(const std::vector<EyePicture>& eyes, float near_m, float far_m);
+
+// As long as it lives, Renderer::Draw draws what these eyes see onto a headset's framebuffer, instead of what eye, yaw,
+// pitch and field of view of the frame say. All eyes' pictures are as large; what is drawn is chosen once for all of
+// them, and the shadows are drawn once. One at a time.
+class EyesInstead {
+ public:
+  EyesInstead(std::vector<EyePicture> eyes, unsigned framebuffer);
+  ~EyesInstead();
+  EyesInstead(const EyesInstead&) = delete;
+  EyesInstead& operator=(const EyesInstead&) = delete;
+
+  const std::vector<EyePicture> eyes;
+  const unsigned framebuffer;
+};
+// The one that lives; null: none.
+const EyesInstead* EyesNow();
+
+}  // namespace flaneur
