@@ -316,8 +316,14 @@ Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings
   ReadAll(TomlTable(&context, &root, ""), &read);
   CheckWhole(&context, read);
   if (context.error) return context.error;
+  for (const auto& [file, place] : context.files) read.places_of_files.try_emplace(file, place);
   *settings = std::move(read);
   return Ok();
+}
+
+std::string PlaceOfFile(const TourSettings& settings, const std::filesystem::path& file) {
+  const auto place = settings.places_of_files.find(file);
+  return place == settings.places_of_files.end() ? "" : place->second + ": ";
 }
 
 std::vector<std::string> KnownSettings() {

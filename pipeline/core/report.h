@@ -14,7 +14,8 @@ namespace flaneur {
 
 struct StageReport {
   std::string stage, item;
-  double seconds = 0;
+  double seconds = 0;  // of the clock, in this bake
+  double work_s = 0;   // of processors, when it was made
   bool cached = false;
   double peak_mb = 0;  // of the child process that did the work, else of this one so far
   std::vector<std::pair<std::string, double>> figures;  // further numbers, by their key in report.json
@@ -41,6 +42,14 @@ struct BakeReport {
 
 // Writes report.json and report.html into the folder. Errors: as for WriteFile.
 Error WriteReport(const std::filesystem::path& folder, const BakeReport& report);
+
+// A tour in the report over many.
+struct TourRow {
+  std::string name, state, error, report;  // report: where it is, from the page's folder
+  double pack_mb = 0, work_s = 0;
+  size_t warnings = 0, errors_found = 0;
+};
+std::string ToursHtml(const std::vector<TourRow>& tours);
 
 // The page as text: needs no other file.
 std::string ReportHtml(const BakeReport& report);

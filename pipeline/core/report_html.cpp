@@ -182,6 +182,22 @@ std::string Stages(const BakeReport& report) {
 
 }  // namespace
 
+std::string ToursHtml(const std::vector<TourRow>& tours) {
+  std::string out = "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>Bake report</title><style>" +
+                    std::string(kStyle) + "</style>\n<h1>" + Figure(static_cast<double>(tours.size())) +
+                    " tours</h1><p><table><tr><th>Tour<th>State<th class=\"n\">Pack, MB<th class=\"n\">Work, s"
+                    "<th class=\"n\">Warnings<th class=\"n\">Errors the check found</tr>";
+  for (const TourRow& tour : tours) {
+    const std::string name = Escaped(tour.name);
+    out += "<tr><td>" + (tour.error.empty() ? "<a href=\"" + Escaped(tour.report) + "\">" + name + "</a>" : name) +
+           "<td><span class=\"" + (tour.error.empty() ? "soft" : "error") + "\">" + tour.state + "</span> " +
+           Escaped(tour.error) + "<td class=\"n\">" + Format("%.1f", tour.pack_mb) + "<td class=\"n\">" +
+           Format("%.1f", tour.work_s) + "<td class=\"n\">" + Figure(static_cast<double>(tour.warnings)) +
+           "<td class=\"n\">" + Figure(static_cast<double>(tour.errors_found)) + "</tr>\n";
+  }
+  return out + "</table></html>\n";
+}
+
 std::string ReportHtml(const BakeReport& report) {
   std::string out = "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>" + Escaped(report.tour) +
                     ": bake report</title><style>" + kStyle + "</style>\n";
