@@ -109,6 +109,8 @@ Error MakeFolders(Baking* baking, FolderLock* lock) {
   if (Error e = lock->Take(baking->output)) return e;
   RecoverResults(baking->output);
   SweepLeftovers(baking->store.folder);
+  std::error_code none;
+  SweepLeftovers(fs::temp_directory_path(none));
   return Ok();
 }
 
@@ -140,7 +142,8 @@ BakedTour Told(const fs::path& tour, const Ordered& ordered) {
   told.unchanged = ordered.unchanged;
   told.warnings = baking.report.warnings.size();
   for (const StageReport& stage : baking.report.stages) told.work_s += stage.cached ? 0 : stage.work_s;
-  for (const ReportFinding& finding : baking.report.findings) told.errors_found += finding.severity == "error" ? 1u : 0u;
+  for (const ReportFinding& finding : baking.report.findings)
+    told.errors_found += finding.severity == "error" ? 1u : 0u;
   return told;
 }
 

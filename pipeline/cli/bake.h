@@ -15,10 +15,10 @@ struct BakeOptions {
   // What steps have made. Empty: what FLANEUR_CACHE names, else the output folder's cache; of several tours one beside
   // their outputs.
   std::filesystem::path cache;
-  size_t jobs = 0;            // steps at a time; 0: as many as there are cores
-  double memory_mb = 0;       // that steps may take together; 0: four fifths of what is free
-  double time_limit_s = 3600; // of each program that a step starts; 0: none
-  bool draft = false;         // all of it, coarsely
+  size_t jobs = 0;             // steps at a time; 0: as many as there are cores
+  double memory_mb = 0;        // that steps may take together; 0: four fifths of what is free
+  double time_limit_s = 3600;  // of each program that a step starts; 0: none
+  bool draft = false;          // all of it, coarsely
   Trust trust;
 };
 
@@ -40,11 +40,11 @@ Error Bake(const std::vector<std::filesystem::path>& tours, const BakeOptions& o
 // One step of a plan.
 struct PlannedStep {
   std::string name;
-  std::vector<std::string> needs;  // names of steps
+  std::vector<std::string> needs;            // names of steps
   std::vector<std::string> inputs, outputs;  // files
   std::string key;
-  bool in_store = false;     // its result is there
-  bool provisional = false;  // the key becomes another once a script has run
+  bool in_store = false;              // its result is there
+  bool provisional = false;           // the key becomes another once a script has run
   double seconds = 0, memory_mb = 0;  // expected
 };
 

@@ -5,9 +5,10 @@
 namespace flaneur {
 
 void AddPlaces(CLI::App* app, BakeOptions* options) {
-  app->add_option("-o,--output", options->output,
-                  "Folder for the results, made where missing (default: build_assets/NAME); of several tours: for their "
-                  "folders");
+  app->add_option(
+      "-o,--output", options->output,
+      "Folder for the results, made where missing (default: build_assets/NAME); of several tours: for their "
+      "folders");
   app->add_option("--cache", options->cache,
                   "Folder for what steps have made, which tours, machines and users may share (default: what "
                   "FLANEUR_CACHE names, else the output's cache)");

@@ -12,6 +12,7 @@
 #include "pipeline/io/geojson.h"
 #include "runtime/base/array.h"
 #include "runtime/base/clock.h"
+#include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
 #include "runtime/text/system_fonts.h"
 
@@ -103,6 +104,23 @@ bool SaysAllCached(std::string* text) {
   return true;
 }
 
+// What a person can do and wear.
+std::vector<std::pair<std::string, std::string>> NotesOf(const Baking& baking, const std::string& avatar) {
+  std::string clips, tints;
+  for (size_t i = 0; i < baking.settings.avatars.size(); ++i) {
+    if (baking.settings.avatars[i].name != avatar) continue;
+    for (const Clip& clip : baking.parts.avatars[i].levels.avatar.clips)
+      clips += (clips.empty() ? "" : ", ") + clip.name;
+    for (const Tint& tint : baking.parts.avatars[i].tints) {
+      tints += (tints.empty() ? "" : "; ") + TextFromColor(tint.color) + " as";
+      for (const Vec3& color : tint.colors) tints += " " + TextFromColor(color);
+    }
+  }
+  std::vector<std::pair<std::string, std::string>> notes{{"clips", clips}};
+  if (!tints.empty()) notes.emplace_back("tints", tints);
+  return notes;
+}
+
 }  // namespace
 
 void AddPackSteps(Baking* baking) {
@@ -123,12 +141,19 @@ void AddPackSteps(Baking* baking) {
 }
 
 void FillReport(Baking* baking) {
+  baking->report.stops.clear();
+  for (const TourStop& stop : baking->settings.path) {
+    ReportStop told{stop.position_m, stop.captions};
+    if (!stop.caption.empty()) told.captions[baking->settings.language] = stop.caption;
+    baking->report.stops.push_back(std::move(told));
+  }
   baking->report.tour = baking->settings.name;
   baking->report.stages.clear();
   baking->report.warnings.clear();
   for (const Step& step : baking->steps) {
     if (step.report.stage.empty() || step.stage == "media" || step.stage == "painting") continue;
     baking->report.stages.push_back(step.report);
+    if (step.stage == "avatar") baking->report.stages.back().notes = NotesOf(*baking, step.item);
     for (const std::string& warning : step.warnings)
       baking->report.warnings.push_back(step.stage + " " + step.item + ": " + warning);
   }

@@ -6,6 +6,7 @@
 #include "pipeline/cli/stage_inputs.h"
 #include "pipeline/cli/thumbnail.h"
 #include "pipeline/cli/tint_reach.h"
+#include "pipeline/cli/trust.h"
 #include "pipeline/io/gltf.h"
 #include "runtime/base/color_text.h"
 
@@ -32,6 +33,7 @@ Error MakeAvatar(Baking* baking, size_t i, StageReport* report, Warnings* warnin
   for (const ClipSettings& clip : settings.clips) read.other_clips.emplace_back(clip.name, clip.clip);
   for (const Prop& prop : settings.props) read.props.push_back(prop.name);
   Avatar avatar;
+  if (Error e = CheckFilesOfModel(file)) return BadSource(baking, i + 1, e);
   if (Error e = ReadAvatar(file, read, &avatar, warnings)) return BadSource(baking, i + 1, e);
   if (Error e = BindTints(settings.tint_materials, &avatar)) return e;
   LevelsOptions options = baking->settings.levels;

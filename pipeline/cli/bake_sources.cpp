@@ -40,8 +40,8 @@ bool IsUnder(const fs::path& file, const fs::path& folder) { return LiesWithin(f
 Error Reads(const std::vector<fs::path>& files, const SourceSettings& source,
             std::vector<std::pair<std::string, std::string>>* reads) {
   for (const fs::path& file : files) {
-    const bool script = file.extension() == ".py" && (IsUnder(file, source.file.parent_path()) ||
-                                                      IsUnder(file, BlenderScriptsFolder()));
+    const bool script = file.extension() == ".py" &&
+                        (IsUnder(file, source.file.parent_path()) || IsUnder(file, BlenderScriptsFolder()));
     std::string sha256;
     if (script || Sha256OfFile(file, &sha256)) continue;
     reads->emplace_back(file.string(), sha256);

@@ -18,8 +18,9 @@ constexpr double kReading_s = 0.05;  // from the store
 
 // Of steps that nobody has done yet on this machine.
 const std::map<std::string, StepCost> kTypicalCosts{
-    {"source", {8, 500}}, {"town", {1, 300}}, {"footprints", {2, 400}}, {"painting", {0.2, 100}}, {"check", {2, 400}},
-    {"avatar", {3, 300}}, {"impostor", {10, 500}}, {"tint", {0.2, 100}}, {"media", {1, 100}}, {"pack", {2, 600}}};
+    {"source", {8, 500}}, {"town", {1, 300}},   {"footprints", {2, 400}}, {"painting", {0.2, 100}},
+    {"check", {2, 400}},  {"avatar", {3, 300}}, {"impostor", {10, 500}},  {"tint", {0.2, 100}},
+    {"media", {1, 100}},  {"pack", {2, 600}}};
 
 double PeakMemory_mb() {
   rusage usage{};
@@ -129,7 +130,8 @@ Error CheckFile(const Store& store, Step* step) {
   if (Error e = Make(store, step, &step->report, &step->warnings)) return e;
   step->report.cached = false;
   if (step->entry.sha256 == sha256) return Ok();
-  return Fail(step->name() + ": what was kept of it was damaged, and it came out otherwise when made again; bake again");
+  return Fail(step->name() +
+              ": what was kept of it was damaged, and it came out otherwise when made again; bake again");
 }
 
 StepCost ExpectedCost(const Store& store, const Step& step) {

@@ -23,7 +23,7 @@ struct Step {
   std::string stage, item;
   std::vector<size_t> needs;                  // steps of the same bake, all before this one
   std::vector<std::filesystem::path> inputs;  // files and folders of the user's
-  std::function<std::string()> key;           // of all that it is made from; the needs have been done, or are in the store
+  std::function<std::string()> key;  // of all that it is made from; the needs have been done, or are in the store
   StepWork make;
   // How its result goes into the store and comes back; no extension: it is made each time. A file: the one that `make`
   // has written and named here; else what `pack` gives and `unpack` takes.
@@ -36,10 +36,10 @@ struct Step {
 
   // What the run finds out.
   std::string known_key;
-  StoreEntry entry;       // where in_store
+  StoreEntry entry;  // where in_store
   bool in_store = false, done = false;
-  double progress = 0;    // share, where it tells
-  std::mutex mutex;       // held while it is done
+  double progress = 0;  // share, where it tells
+  std::mutex mutex;     // held while it is done
   StageReport report;
   Warnings warnings;
 

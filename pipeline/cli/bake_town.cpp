@@ -6,6 +6,7 @@
 #include "pipeline/cli/assemble_town.h"
 #include "pipeline/cli/baking.h"
 #include "pipeline/cli/stage_inputs.h"
+#include "pipeline/cli/trust.h"
 #include "pipeline/cli/work_clips.h"
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/footprint/check.h"
@@ -16,6 +17,13 @@
 #include "runtime/base/file.h"
 
 namespace flaneur {
+
+// For stage_cache.h.
+template <typename A>
+void Fields(A& a, TownFacts* v) {
+  a(&v->places, &v->streets, &v->triangles);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,7 +32,10 @@ constexpr float kBareGroundMargin_m = 15;
 
 Error ReadTown(Baking* baking, Scene* town, Warnings* warnings) {
   const TourSettings& s = baking->settings;
-  const auto read = [&](const fs::path& file, Scene* part) { return ReadScene(file, part, warnings); };
+  const auto read = [&](const fs::path& file, Scene* part) -> Error {
+    if (Error e = CheckFilesOfModel(file)) return e;
+    return ReadScene(file, part, warnings);
+  };
   if (!s.town.file.empty()) {
     fs::path file;
     Scene whole;
@@ -177,6 +188,8 @@ Error CheckTown(Baking* baking, StageReport* report, Warnings* warnings) {
   MapOptions map;
   map.title = baking->settings.name;
   map.ground = &baking->parts.ground;
+  for (const TourStop& stop : baking->settings.path)
+    map.stops.push_back({static_cast<double>(stop.position_m.x), static_cast<double>(stop.position_m.y)});
   if (Error e = ReadTownOnce(baking)) return e;
   if (Error e = Check(baking->parts.footprints, &baking->parts.town, options, &map.findings)) return e;
   SummarizeErrors(map.findings, warnings);
@@ -191,9 +204,8 @@ Error CheckTown(Baking* baking, StageReport* report, Warnings* warnings) {
 }  // namespace
 
 Error ReadTownOnce(Baking* baking) {
-  std::call_once(baking->town_read_once, [&] {
-    baking->town_read = ReadTown(baking, &baking->parts.town, &baking->town_warnings);
-  });
+  std::call_once(baking->town_read_once,
+                 [&] { baking->town_read = ReadTown(baking, &baking->parts.town, &baking->town_warnings); });
   return baking->town_read;
 }
 
@@ -237,9 +249,7 @@ void AddCheckStep(Baking* baking) {
   for (size_t i = 0; i < baking->steps.size(); ++i) {
     if (baking->steps[i].stage == "footprints") check->needs.push_back(i);
   }
-  check->key = [baking] {
-    return CheckInputs(baking->settings, FootprintsInputs(baking->settings, ShapeKey(baking)));
-  };
+  check->key = [baking] { return CheckInputs(baking->settings, FootprintsInputs(baking->settings, ShapeKey(baking))); };
   check->make = [baking](StageReport* r, Warnings* w) { return CheckTown(baking, r, w); };
   Keep(check, &baking->report.findings, &baking->report.map_svg);
 }

@@ -59,6 +59,7 @@ int RunBake(const Arguments& args) {
   app.add_flag("--watch", watch, "Bake again whenever a file changes, until interrupted");
   if (const int status = ParseArguments(&app, args); status >= 0) return status;
   CatchInterruptions();
+  if (watch) BeginWatching(tours);
   int status = BakeOnce(tours, options);
   while (watch && AwaitChange(tours)) status = BakeOnce(tours, options);
   EndAsInterrupted();

@@ -58,7 +58,8 @@ int RunCache(const Arguments& args) {
   if (const char* named = std::getenv("FLANEUR_CACHE")) a.folder = named;
   app.add_option("DIR", a.folder, "The cache: an output's folder cache, or a shared one (default: FLANEUR_CACHE)");
   app.add_flag("--list", a.list, "Each entry: key, size, days since it was last of use, step");
-  app.add_flag("--verify", a.verify, "Read all and compare checksums; what is damaged goes. Exit status 1 where any was");
+  app.add_flag("--verify", a.verify,
+               "Read all and compare checksums; what is damaged goes. Exit status 1 where any was");
   app.add_option("--trim-mb", a.most_mb, "Remove what was unused for longest until so many megabytes are left")
       ->check(CLI::Range(0.0, 1e9));
   app.add_option("--trim-days", a.most_days, "Remove what was of no use for so many days")->check(CLI::Range(0.0, 1e6));
@@ -74,8 +75,8 @@ int RunCache(const Arguments& args) {
   }
   if (a.most_mb >= 0 || a.most_days >= 0) {
     constexpr double kAny = std::numeric_limits<double>::max();
-    const uintmax_t bytes = a.most_mb < 0 ? std::numeric_limits<uintmax_t>::max()
-                                          : static_cast<uintmax_t>(a.most_mb * 1e6);
+    const uintmax_t bytes =
+        a.most_mb < 0 ? std::numeric_limits<uintmax_t>::max() : static_cast<uintmax_t>(a.most_mb * 1e6);
     std::printf("%zu removed\n", TrimStore(store, bytes, a.most_days < 0 ? kAny : a.most_days));
   }
   a.list ? PrintList(ListStore(store)) : PrintSummary(ListStore(store));

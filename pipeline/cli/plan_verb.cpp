@@ -43,7 +43,8 @@ void PrintTable(const std::vector<PlannedStep>& plan) {
 
 int RunPlan(const Arguments& args) {
   CLI::App app{
-      "Lists the steps of a bake: what each needs, from which files it is made, where its result goes, its key, and what "
+      "Lists the steps of a bake: what each needs, from which files it is made, where its result goes, its key, and "
+      "what "
       "it will probably take.\n`flaneur step` does one of them, on any machine that shares the cache.",
       "flaneur plan"};
   std::filesystem::path tour;

@@ -47,7 +47,8 @@ Progress::Progress(size_t count, double all_s, size_t at_a_time, bool)
       start_s_(Now_s()),
       terminal_(::isatty(STDERR_FILENO) != 0),
       painter_(1),
-      painting_(StartJob(&painter_, [this] { return Watch(); }, Urgency::kMeanwhile)) {}
+      painting_(StartJob(
+          &painter_, [this] { return Watch(); }, Urgency::kMeanwhile)) {}
 
 Progress::~Progress() {
   {

@@ -1,7 +1,7 @@
 #include "pipeline/cli/stage_inputs.h"
 
-#include "pipeline/core/fingerprint.h"
 #include "pipeline/core/blender.h"
+#include "pipeline/core/fingerprint.h"
 
 namespace flaneur {
 namespace fs = std::filesystem;
@@ -66,7 +66,11 @@ std::string AvatarInputs(const AvatarSettings& avatar, const std::string& conten
 std::string ImpostorInputs(const AvatarSettings& avatar, const std::string& content, const std::string& blender,
                            int max_triangles, const ImpostorOptions& impostor) {
   Fingerprint print;
-  print.Add("impostor").Add(kImpostorVersion).Add(blender).AddFile(BlenderScriptsFolder() / "bake").AddFile(BlenderScriptsFolder() / "common");
+  print.Add("impostor")
+      .Add(kImpostorVersion)
+      .Add(blender)
+      .AddFile(BlenderScriptsFolder() / "bake")
+      .AddFile(BlenderScriptsFolder() / "common");
   AddReading(avatar, content, &print);
   const auto& [directions, elevations_deg, clips, work_phases, height_px, border_px, memory_kb, samples, seed, threads,
                log_file, progress] = impostor;
@@ -115,6 +119,7 @@ std::string CheckInputs(const TourSettings& s, const std::string& footprints_inp
   for (const Place& place : s.places) {
     print.Add(place.name).Add(place.kind).Add(place.position_m.x).Add(place.position_m.y).Add(place.width_m);
   }
+  for (const TourStop& stop : s.path) print.Add(stop.position_m.x).Add(stop.position_m.y);
   return print.Hex();
 }
 

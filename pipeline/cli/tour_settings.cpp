@@ -309,7 +309,7 @@ void CheckWhole(TomlContext* context, const TourSettings& s) {
 Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings) {
   toml::table root;
   if (Error e = ReadToml(path, &root)) return e;
-  TomlContext context{path, {}, {}};
+  TomlContext context{path, {}, {}, {}};
   TourSettings read;
   read.name = path.stem().string() == "tour" ? std::filesystem::absolute(path).parent_path().filename().string()
                                              : path.stem().string();

@@ -39,11 +39,11 @@ Error WriteToursReport(const fs::path& folder, const std::vector<BakedTour>& bak
     std::error_code ec;
     const double mb = tour.error ? 0 : static_cast<double>(fs::file_size(tour.pack, ec)) / 1e6;
     rows.push_back({tour.name.empty() ? tour.tour.string() : tour.name, StateOf(tour), tour.error.message,
-                    fs::relative(tour.report, folder, ec).string(), mb, tour.work_s, tour.warnings,
-                    tour.errors_found});
+                    fs::relative(tour.report, folder, ec).string(), mb, tour.work_s, tour.warnings, tour.errors_found});
   }
   if (Error e = WriteTextFile(folder / "report.html", ToursHtml(rows))) return e;
-  return WriteTextFile(folder / "report.json", all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  return WriteTextFile(folder / "report.json",
+                       all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace flaneur

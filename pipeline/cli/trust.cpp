@@ -2,15 +2,19 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "pipeline/cli/stage_inputs.h"
 #include "pipeline/core/blender.h"
 #include "pipeline/core/child_policy.h"
 #include "runtime/base/file.h"
+#include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
@@ -48,8 +52,7 @@ Error Remember(const fs::path& folder) {
 // Whether the user says yes. Where nobody can be asked: no.
 bool Ask(const fs::path& tour, const fs::path& script, const fs::path& folder) {
   if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDERR_FILENO) == 0) return false;
-  std::fprintf(stderr,
-               "%s runs the script %s, which can do what you can.\nTrust everything in %s from now on? [y/N] ",
+  std::fprintf(stderr, "%s runs the script %s, which can do what you can.\nTrust everything in %s from now on? [y/N] ",
                tour.c_str(), script.c_str(), folder.c_str());
   std::string answer;
   return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
@@ -65,7 +68,53 @@ std::vector<fs::path> FilesOf(const TourSettings& s) {
   return files;
 }
 
+// %20 and its like as the character.
+std::string Decoded(const std::string& uri) {
+  std::string out;
+  for (size_t i = 0; i < uri.size(); ++i) {
+    unsigned code = 0;
+    if (uri[i] == '%' && std::sscanf(uri.c_str() + i + 1, "%2x", &code) == 1) {
+      out += static_cast<char>(code);
+      i += 2;
+    } else {
+      out += uri[i];
+    }
+  }
+  return out;
+}
+
+// The JSON of a .gltf or .glb; broken ones are left to who reads them.
+nlohmann::json JsonOf(const std::string& bytes) {
+  constexpr size_t kJsonOffset = 20;
+  std::string_view text(bytes);
+  if (text.substr(0, 4) == "glTF" && text.size() > kJsonOffset) {
+    uint32_t length = 0;
+    std::memcpy(&length, text.data() + 12, sizeof length);
+    text = text.substr(kJsonOffset, length);
+  }
+  if (NestsTooDeep(text)) return {};
+  return nlohmann::json::parse(text, nullptr, false);
+}
+
 }  // namespace
+
+Error CheckFilesOfModel(const fs::path& model) {
+  std::string bytes;
+  if (GetChildPolicy().roots.empty() || !(HasExtension(model, ".gltf") || HasExtension(model, ".glb"))) return Ok();
+  if (Error e = ReadTextFile(model, &bytes)) return e;
+  const nlohmann::json json = JsonOf(bytes);
+  for (const char* list : {"buffers", "images"}) {
+    if (!json.is_object() || !json.contains(list) || !json[list].is_array()) continue;
+    for (const nlohmann::json& each : json[list]) {
+      if (!each.is_object() || !each.contains("uri") || !each["uri"].is_string()) continue;
+      const std::string uri = each["uri"];
+      if (uri.rfind("data:", 0) == 0) continue;
+      if (Error e = CheckWithinRoots(model.parent_path() / Decoded(uri)))
+        return Fail(model.string() + " names " + e.message);
+    }
+  }
+  return Ok();
+}
 
 fs::path TrustedFoldersFile() {
   const char* config = std::getenv("XDG_CONFIG_HOME");

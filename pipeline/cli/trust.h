@@ -18,6 +18,9 @@ struct Trust {
 // Errors: it was refused; names the line of tour.toml, and the option.
 Error CheckTrust(const std::filesystem::path& tour, const TourSettings& settings, const Trust& trust);
 
+// Whether a model (glTF; others name no files that are read) names only files that may be read. Errors: names the file.
+Error CheckFilesOfModel(const std::filesystem::path& model);
+
 // The file that holds the trusted folders, one a line. Empty: there is no home for it.
 std::filesystem::path TrustedFoldersFile();
 

@@ -50,8 +50,9 @@ Ages& Seen() {
 
 }  // namespace
 
+void BeginWatching(const std::vector<fs::path>& tours) { Seen() = Look(tours, {}); }
+
 bool AwaitChange(const std::vector<fs::path>& tours) {
-  if (Seen().empty()) Seen() = Look(tours, {});
   std::fprintf(stderr, "watching %zu files; Ctrl-C ends\n", Seen().size());
   Ages now = Seen();
   for (bool changed = false; !Interrupted();) {

@@ -5,8 +5,10 @@
 
 namespace flaneur {
 
-// Returns when a file of these tours, or a script beside one, has changed since the last call, and the change is over.
-// False: interrupted.
+// Remembers the files of these tours, and scripts beside them, as they are. Before the first bake.
+void BeginWatching(const std::vector<std::filesystem::path>& tours);
+
+// Returns when one has changed since then, or since the last return, and the change is over. False: interrupted.
 bool AwaitChange(const std::vector<std::filesystem::path>& tours);
 
 }  // namespace flaneur

@@ -77,8 +77,8 @@ std::vector<fs::path> Lines(const fs::path& file) {
 std::vector<std::string> Command(const fs::path& blender, const fs::path& script, const fs::path& settings,
                                  const BlenderOptions& options) {
   const std::string record = fs::absolute(BlenderScriptsFolder() / kRecordReads).string();
-  std::vector<std::string> argv = {blender.string(),      "--background", "--factory-startup",
-                                   "--python-exit-code", "1",            "--disable-autoexec"};
+  std::vector<std::string> argv = {blender.string(),    "--background", "--factory-startup", "--python-exit-code", "1",
+                                   "--disable-autoexec"};
   if (options.threads > 0) argv.insert(argv.end(), {"--threads", std::to_string(options.threads)});
   if (options.files_read) argv.insert(argv.end(), {"--python", record});
   argv.insert(argv.end(), {"--python", script.string()});
@@ -151,7 +151,9 @@ Error RunBlenderScript(const fs::path& script, const std::string& settings_json,
                      "PATH=" + blender.parent_path().string() + ":" + (folders ? folders : "")};
   const fs::path cache = ByteCodeCache();
   if (cache.empty()) run.environment.push_back("PYTHONDONTWRITEBYTECODE=1");
-  else run.environment.insert(run.environment.end(), {"PYTHONDONTWRITEBYTECODE=", "PYTHONPYCACHEPREFIX=" + cache.string()});
+  else
+    run.environment.insert(run.environment.end(),
+                           {"PYTHONDONTWRITEBYTECODE=", "PYTHONPYCACHEPREFIX=" + cache.string()});
   if (options.progress) run.meanwhile = [&] { options.progress(ShareDone(run.log_file)); };
   const std::vector<std::string> argv =
       InSandbox(Command(blender, path, settings, options), blender, path, folder.path(), options);

@@ -22,7 +22,8 @@ class Fingerprint {
   // The content, not the name or age; a file that cannot be read counts as empty. For a .gltf or .glb also the
   // files it names, each once, for a folder all its .py files, in order of their names.
   Fingerprint& AddFile(const std::filesystem::path& path);
-  // 64 digits: SHA-256 (FIPS 180-4), which holds against whoever wants two inputs mistaken for each other. Call it last.
+  // 64 digits: SHA-256 (FIPS 180-4), which holds against whoever wants two inputs mistaken for each other. Call it
+  // last.
   std::string Hex();
 
  private:

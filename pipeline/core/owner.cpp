@@ -54,7 +54,8 @@ bool OwnerHasEnded(std::string_view name) {
   const std::string mark(name.substr(begin + kBegin.size()));
   char machine[kDigits + 1] = {}, boot[kDigits + 1] = {}, start[24] = {};
   long process = 0;
-  if (std::sscanf(mark.c_str(), "%8[0-9a-f]-%8[0-9a-f]-%ld-%23[0-9]-", machine, boot, &process, start) != 4) return false;
+  if (std::sscanf(mark.c_str(), "%8[0-9a-f]-%8[0-9a-f]-%ld-%23[0-9]-", machine, boot, &process, start) != 4)
+    return false;
   if (machine != Machine()) return false;
   if (boot != Boot()) return true;
   return StartOf(process) != start;

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,9 +19,16 @@ struct StageReport {
   double work_s = 0;   // of processors, when it was made
   bool cached = false;
   double peak_mb = 0;  // of the child process that did the work, else of this one so far
-  std::vector<std::pair<std::string, double>> figures;  // further numbers, by their key in report.json
-  std::vector<AvatarLevel> levels;                      // an avatar's, without geometry
-  std::vector<uint8_t> picture_png;                     // shown in report.html; may be empty
+  std::vector<std::pair<std::string, double>> figures;     // further numbers, by their key in report.json
+  std::vector<AvatarLevel> levels;                         // an avatar's, without geometry
+  std::vector<uint8_t> picture_png;                        // shown in report.html; may be empty
+  std::vector<std::pair<std::string, std::string>> notes;  // what report.html says besides: a word and a text
+};
+
+// Of the guided tour.
+struct ReportStop {
+  Vec2 position_m;
+  std::map<std::string, std::string> captions;  // by language
 };
 
 // What the check found, see docs/findings.md.
@@ -37,6 +45,7 @@ struct BakeReport {
   size_t pack_bytes = 0;
   std::string map_svg;  // the town's plan, inline in the HTML; may be empty
   std::vector<ReportFinding> findings;
+  std::vector<ReportStop> stops;
   std::vector<std::string> warnings;
 };
 

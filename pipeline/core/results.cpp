@@ -89,7 +89,9 @@ Error ReplaceOneByOne(const fs::path& folder, const fs::path& staging, const std
   return Ok();
 }
 
-bool KnowsNoLinks(int reason) { return reason == EPERM || reason == EOPNOTSUPP || reason == ENOSYS || reason == EMLINK; }
+bool KnowsNoLinks(int reason) {
+  return reason == EPERM || reason == EOPNOTSUPP || reason == ENOSYS || reason == EMLINK;
+}
 
 nlohmann::json ReadManifest(const fs::path& folder) {
   std::string text;

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "bwrap";
 // What a system brings. All other folders at the root (home, tmp, mnt, var ...) may hold what is people's own.
-constexpr const char* kSystemFolders[] = {"/bin", "/dev", "/etc", "/lib",  "/lib32", "/lib64", "/libx32",
+constexpr const char* kSystemFolders[] = {"/bin", "/dev", "/etc",  "/lib",  "/lib32", "/lib64", "/libx32",
                                           "/nix", "/opt", "/proc", "/sbin", "/sys",   "/usr"};
 
 std::vector<std::string> Isolated() {
@@ -40,8 +40,8 @@ std::vector<std::string> Sandboxed(const std::vector<std::string>& argv, const s
   std::vector<std::string> all = Isolated();
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator("/", fs::directory_options::skip_permission_denied, ec)) {
-    const bool system = std::find(std::begin(kSystemFolders), std::end(kSystemFolders), entry.path()) !=
-                        std::end(kSystemFolders);
+    const bool system =
+        std::find(std::begin(kSystemFolders), std::end(kSystemFolders), entry.path()) != std::end(kSystemFolders);
     if (!system && entry.is_directory(ec) && !entry.is_symlink(ec)) Add(&all, {"--tmpfs", entry.path().string()});
   }
   Add(&all, {"--dev", "/dev", "--proc", "/proc"});

@@ -26,8 +26,8 @@ fs::path Beside(const Store& store, const std::string& key, const std::string& e
 
 // The description is checked by a checksum of its own, which it carries.
 std::string TextOf(const StoreEntry& entry) {
-  Json json{{"step", entry.step},       {"extension", entry.extension}, {"seconds", entry.seconds},
-            {"memory_mb", entry.memory_mb}, {"bytes", entry.bytes},     {"sha256", entry.sha256}};
+  Json json{{"step", entry.step},           {"extension", entry.extension}, {"seconds", entry.seconds},
+            {"memory_mb", entry.memory_mb}, {"bytes", entry.bytes},         {"sha256", entry.sha256}};
   json["reads"] = Json::array();
   for (const auto& [path, sha256] : entry.reads) json["reads"].push_back({path, sha256});
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -82,6 +82,31 @@ Error Move(const fs::path& from, const fs::path& to) {
   return ec ? Fail(to.string() + ": cannot be written: " + ec.message()) : Ok();
 }
 
+// Written elsewhere and moved there, so that a kill leaves nothing that the next sweep does not find.
+Error Place(const Store& store, const fs::path& path, const std::string& text) {
+  std::error_code ec;
+  fs::create_directories(path.parent_path(), ec);
+  TemporaryFolder folder;
+  if (Error e = folder.Create(".flaneur_note_", store.folder)) return e;
+  if (Error e = WriteTextFile(folder.path() / "text", text)) return e;
+  return Move(folder.path() / "text", path);
+}
+
+// Contents whose description is not there: of who was killed between the two.
+void RemoveOrphans(const Store& store) {
+  constexpr double kOld_days = 1.0 / 24;  // others may be between the two now
+  std::error_code ec;
+  std::vector<fs::path> orphans;
+  for (fs::recursive_directory_iterator it(store.folder, ec), end; !ec && it != end; it.increment(ec)) {
+    const fs::path path = it->path();
+    const bool content =
+        it.depth() == 1 && path.parent_path().filename().string().size() == kPrefix && path.extension() != kDescription;
+    if (content && DaysSince(path) > kOld_days && !fs::exists(fs::path(path).replace_extension(kDescription), ec))
+      orphans.push_back(path);
+  }
+  for (const fs::path& path : orphans) fs::remove(path, ec);
+}
+
 }  // namespace
 
 fs::path EntryFile(const Store& store, const std::string& key, const std::string& extension) {
@@ -134,7 +159,7 @@ Error PutEntry(const Store& store, const std::string& key, StoreEntry entry, std
   if (Error e = Move(made, final)) return e;
   if (Error e = Move(description, Beside(store, key, kDescription))) return e;
   const Json taken{{"step", entry.step}, {"seconds", entry.seconds}, {"memory_mb", entry.memory_mb}};
-  return WriteTextFile(store.folder / "taken" / (Named(entry.step) + kDescription), taken.dump());
+  return Place(store, store.folder / "taken" / (Named(entry.step) + kDescription), taken.dump());
 }
 
 void DropEntry(const Store& store, const std::string& key) {
@@ -167,7 +192,7 @@ std::string ProgramSha256(const Store& store, const fs::path& program) {
   std::string hex;
   if (!ReadTextFile(remembered, &hex) && hex.size() == Sha256("").size()) return hex;
   if (Sha256OfFile(real, &hex)) return "";
-  if (Error e = WriteTextFile(remembered, hex)) hex += "";  // then it is read again next time
+  const Error not_remembered = Place(store, remembered, hex);  // then it is read again next time
   return hex;
 }
 
@@ -209,6 +234,7 @@ size_t VerifyStore(const Store& store) {
 
 size_t TrimStore(const Store& store, uintmax_t most_bytes, double most_days) {
   SweepLeftovers(store.folder);
+  RemoveOrphans(store);
   std::vector<StoreListing> all = ListStore(store);
   std::sort(all.begin(), all.end(),
             [](const StoreListing& a, const StoreListing& b) { return a.unused_days < b.unused_days; });

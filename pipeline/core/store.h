@@ -17,8 +17,8 @@ struct Store {
 };
 
 struct StoreEntry {
-  std::string step;       // what made it, such as "avatar:monk"
-  std::string extension;  // of its file, such as ".glb"
+  std::string step;                   // what made it, such as "avatar:monk"
+  std::string extension;              // of its file, such as ".glb"
   double seconds = 0, memory_mb = 0;  // what that took
   // Files that were read besides those in the key, by path, each with its SHA-256: where one has changed, the entry
   // does not count.

@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kGrace_s = 3;     // from being asked to end to being killed
-constexpr int kGlance_ms = 200;    // between looks at the clock and at what the child prints
+constexpr double kGrace_s = 3;   // from being asked to end to being killed
+constexpr int kGlance_ms = 200;  // between looks at the clock and at what the child prints
 constexpr int kGroupSignals[] = {SIGTERM, SIGKILL};
 
 std::vector<char*> Pointers(std::vector<std::string>* texts) {
@@ -155,8 +155,7 @@ Error RunProcess(const std::vector<std::string>& argv, const RunOptions& options
   if (::wait4(child, &status, 0, &usage) < 0) return Fail(argv[0] + ": cannot wait for it: " + std::strerror(errno));
   if (Error e = Interrupted()) return e;
   if (too_long) {
-    return Fail(NameOf(argv[0]) + " was stopped after " +
-                std::to_string(std::lround(GetChildPolicy().time_limit_s)) +
+    return Fail(NameOf(argv[0]) + " was stopped after " + std::to_string(std::lround(GetChildPolicy().time_limit_s)) +
                 " s, its time limit; --time-limit sets another");
   }
   result->wall_s = Now_s() - start_s;

@@ -8,7 +8,8 @@
 
 namespace flaneur {
 
-// Removes what processes that were killed have left in `folder`. What living ones, and other machines, have there stays.
+// Removes what processes that were killed have left in `folder`. What living ones, and other machines, have there
+// stays.
 void SweepLeftovers(const std::filesystem::path& folder);
 
 // Of this process, all; nobody makes new ones then. For who ends it in the middle of its work.

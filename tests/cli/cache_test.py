@@ -71,7 +71,7 @@ class Cache(ProgramTest):
         self.assertEqual(self.bake(), set(), "nothing changed")
 
         self.settings += "[control]\nbudget_triangles = 4321\n[[stop]]\nposition_m = [10, 10]\n"
-        self.assert_made(set())
+        self.assert_made({"check small"})  # whose map shows the stops
         inspected = run("flaneur", "inspect", self.pack, "--json")
         self.assertEqual(json.loads(inspected.stdout)["path_stops"], 1)
 
