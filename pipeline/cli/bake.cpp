@@ -123,9 +123,8 @@ struct Ordered {
   bool unchanged = false;
 };
 
-Error Begin(const fs::path& tour, const BakeOptions& options, bool several, Jobs* jobs, Ordered* ordered) {
+Error Begin(Ordered* ordered) {
   Baking* baking = &ordered->baking;
-  if (Error e = Open(tour, options, several, jobs, baking)) return e;
   if (Error e = MakeFolders(baking, &ordered->lock)) return e;
   if (Error e = Resolve(baking)) return e;
   ordered->unchanged = ResultsAreUpToDate(baking);
@@ -172,9 +171,10 @@ Error Bake(const std::vector<fs::path>& tours, const BakeOptions& options, std::
   std::vector<size_t> places;  // of each of these among all
   for (const fs::path& tour : tours) {
     all.emplace_back();
-    errors.push_back(Begin(tour, options, tours.size() > 1, &jobs, &all.back()));
+    errors.push_back(Open(tour, options, tours.size() > 1, &jobs, &all.back().baking));
+    if (Error e = CheckDistinct(all)) return e;  // before a second lock on one folder
+    if (!errors.back()) errors.back() = Begin(&all.back());
     if (Error e = Interrupted()) return e;
-    if (Error e = CheckDistinct(all)) return e;
     if (errors.back() || all.back().unchanged) continue;
     bakings.push_back(&all.back().baking);
     places.push_back(all.size() - 1);
