@@ -331,7 +331,9 @@ def main():
     set_up_output(settings, scene)
     first = band = 0
     while first < settings["height_px"]:
+        start = first
         first += show_band(settings, scene, distance, first)
+        print("flaneur: progress %.4f %.4f" % (start / settings["height_px"], first / settings["height_px"]), flush=True)
         scene.render.filepath = os.path.join(settings["output"], "band_%04d.exr" % band)
         bpy.ops.render.render(write_still=True)
         band += 1

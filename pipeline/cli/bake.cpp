@@ -1,520 +1,292 @@
 #include "pipeline/cli/bake.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
+#include <cstdlib>
+#include <deque>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <sstream>
 
-#include "pipeline/avatar/decimate.h"
-#include "pipeline/cli/assemble_town.h"
-#include "pipeline/cli/bake_steps.h"
-#include "pipeline/cli/check_words.h"
+#include "pipeline/cli/baking.h"
+#include "pipeline/cli/draft.h"
+#include "pipeline/cli/run_steps.h"
 #include "pipeline/cli/stage_inputs.h"
-#include "pipeline/cli/thumbnail.h"
-#include "pipeline/cli/tint_reach.h"
-#include "pipeline/cli/tour_settings.h"
-#include "pipeline/cli/visitor_media.h"
-#include "pipeline/cli/work_clips.h"
-#include "pipeline/core/subprocess.h"
+#include "pipeline/core/child_policy.h"
+#include "pipeline/core/interruption.h"
+#include "pipeline/core/results.h"
 #include "pipeline/core/temporary_folder.h"
-#include "pipeline/footprint/check.h"
-#include "pipeline/footprint/map.h"
-#include "pipeline/footprint/polygon_sets.h"
-#include "pipeline/io/geojson.h"
-#include "pipeline/io/gltf.h"
-#include "pipeline/pack/write_tour_pack.h"
 #include "runtime/base/array.h"
-#include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
-#include "runtime/text/system_fonts.h"
+#include "runtime/base/text.h"
 
 namespace flaneur {
-namespace fs = std::filesystem;
 namespace {
 
-constexpr float kBareGroundMargin_m = 15;
-constexpr int kUnseen_px = 16;           // of an impostor that nobody sees
-constexpr float kMinTintShare = 0.005f;  // of the surface
+namespace fs = std::filesystem;
 
-struct Baking {
-  TourSettings settings;
-  fs::path output;
-  std::vector<fs::path> sources;  // the town's file (may be empty), then one an avatar
-  TourParts parts;
-  BakeSteps steps;
-  Jobs jobs{ThreadsOfThisMachine() - 1};  // beside the caller's
+constexpr double kShareOfFreeMemory = 0.8;
 
-  fs::path Cache(const std::string& name) const { return steps.cache / name; }
-};
-
-Error RequireFile(const fs::path& file) {
+Error RequireFile(const TourSettings& s, const fs::path& file) {
   std::error_code ec;
-  if (fs::is_regular_file(file, ec)) return Ok();
-  return Fail(file.string() + ": no such file");
-}
-
-Error RunSourceScript(const SourceSettings& source, const fs::path& output, const fs::path& log, StageReport* report) {
-  nlohmann::json settings{{"output", fs::absolute(output).string()}, {"seed", source.seed}};
-  settings["options"] = nlohmann::json::parse(source.options_json, nullptr, false);
-  BlenderOptions options;
-  options.log_file = log;
-  ProcessResult result;
-  if (Error e = RunBlenderScript(fs::absolute(source.file), settings.dump(), options, &result)) return e;
-  report->peak_mb = static_cast<double>(result.peak_memory_bytes) / 1e6;
-  return RequireFile(output);
+  if (file.empty() || fs::is_regular_file(file, ec)) return Ok();
+  return Fail(PlaceOfFile(s, file) + file.string() + ": no such file");
 }
 
 // All of them before the first minute of work.
 Error RequireFiles(const TourSettings& s) {
-  if (!s.town.file.empty()) {
-    if (Error e = RequireFile(s.town.file)) return e;
-  }
-  for (const TownPart& part : s.parts) {
-    if (Error e = RequireFile(part.file)) return e;
-  }
+  std::vector<fs::path> files{s.town.file};
+  for (const TownPart& part : s.parts) files.push_back(part.file);
   for (const AvatarSettings& avatar : s.avatars) {
-    if (Error e = RequireFile(avatar.source.file)) return e;
-    for (const fs::path& file : FilesBeside(avatar)) {
-      if (Error e = RequireFile(file)) return e;
-    }
+    files.push_back(avatar.source.file);
+    for (const fs::path& file : FilesBeside(avatar)) files.push_back(file);
   }
-  for (const fs::path& file : FilesOf(s.title_page)) {
-    if (Error e = RequireFile(file)) return e;
+  for (const fs::path& file : MediaFiles(s)) files.push_back(file);
+  for (const fs::path& file : files) {
+    if (Error e = RequireFile(s, file)) return e;
   }
-  for (const fs::path& file : FilesOf(s.visitor_files)) {
-    if (Error e = RequireFile(file)) return e;
-  }
-  return s.painting_file.file.empty() ? Ok() : RequireFile(s.painting_file.file);
+  return Ok();
 }
 
-// Where the source's glTF is: the file itself, or what its script makes.
-Error MakeSource(Baking* baking, const SourceSettings& source, const std::string& item, fs::path* file) {
-  if (!IsScript(source.file)) {
-    *file = source.file;
-    return Ok();
+fs::path CacheOf(const BakeOptions& options, const fs::path& beside) {
+  const char* named = std::getenv("FLANEUR_CACHE");
+  if (!options.cache.empty()) return options.cache;
+  return named && *named ? fs::path(named) : beside / "cache";
+}
+
+double FreeMemory_mb() {
+  std::string text, word;
+  double kilobytes = 0;
+  if (ReadTextFile("/proc/meminfo", &text)) return 4000;
+  std::istringstream words(text.substr(std::min(text.find("MemAvailable:"), text.size())));
+  words >> word >> kilobytes;
+  return kilobytes / 1024;
+}
+
+// What the tour's settings and the store say; nothing is made but what is known from the store already.
+Error Open(const fs::path& tour, const BakeOptions& options, bool several, Jobs* jobs, Baking* baking) {
+  baking->tour = tour;
+  baking->jobs = jobs;
+  if (Error e = ReadTourSettings(tour, &baking->settings)) return e;
+  if (options.draft) MakeDraft(&baking->settings);
+  const fs::path folder = options.output.empty() ? fs::path("build_assets") : options.output;
+  baking->output = several || options.output.empty() ? folder / baking->settings.name : folder;
+  baking->store.folder = CacheOf(options, several ? folder : baking->output);
+  static_cast<TourData&>(baking->parts) = baking->settings;
+  if (Error e = RequireFiles(baking->settings)) return e;
+  if (Error e = CheckTrust(tour, baking->settings, options.trust)) return e;
+  AddSourceSteps(baking);
+  AddTownSteps(baking);
+  AddPeopleSteps(baking);
+  AddCheckStep(baking);
+  AddPackSteps(baking);
+  return Ok();
+}
+
+// Which results are in the store. What the town is has to be read to know what people do there.
+Error Resolve(Baking* baking) {
+  for (Step& step : baking->steps) {
+    step.known_key = step.key();
+    if (!step.kept()) continue;
+    step.in_store = FindEntry(baking->store, step.known_key, &step.entry);
+    if (!step.in_store || IndexOf(*baking, &step) != static_cast<size_t>(baking->town_step)) continue;
+    if (Error e = DoStep(baking->store, &step)) return e;
   }
-  const std::string stem = &source == &baking->settings.town ? "town" : "source_" + item;
-  *file = baking->Cache(stem + ".glb");
-  const std::string inputs = ScriptInputs(source);
-  return RunStep(&baking->steps, "source", item, [&](StageReport* report, std::vector<std::string>*) -> Error {
-    std::string known;
-    const fs::path key = file->string() + ".fingerprint";
-    report->cached = !ReadTextFile(key, &known) && known == inputs && !RequireFile(*file);
-    if (report->cached) return Ok();
-    TemporaryFolder folder;  // of a script that fails or is interrupted nothing stays
-    if (Error e = folder.Create(".flaneur_source_", baking->steps.cache)) return e;
-    const fs::path made = folder.path() / file->filename();
-    if (Error e = RunSourceScript(source, made, baking->Cache(stem + ".log"), report)) return e;
+  return Ok();
+}
+
+void SetPolicy(const std::vector<fs::path>& tours, const BakeOptions& options) {
+  ChildPolicy policy;
+  policy.time_limit_s = options.time_limit_s;
+  std::error_code ec;
+  if (!options.trust.outside) {
+    for (const fs::path& tour : tours) policy.roots.push_back(fs::absolute(tour, ec).parent_path());
+  }
+  SetChildPolicy(std::move(policy));
+}
+
+Error MakeFolders(Baking* baking, FolderLock* lock) {
+  for (const fs::path& folder : {baking->output, baking->store.folder}) {
     std::error_code ec;
-    fs::remove(key, ec);
-    fs::rename(made, *file, ec);
-    if (ec) return Fail(file->string() + ": cannot be written: " + ec.message());
-    return WriteTextFile(key, inputs);
-  });
-}
-
-Error MakeSources(Baking* baking) {
-  const TourSettings& s = baking->settings;
-  baking->sources.resize(1 + s.avatars.size());
-  return RunParallel(&baking->jobs, baking->sources.size(), [&](size_t i) -> Error {
-    if (i == 0) return s.town.file.empty() ? Ok() : MakeSource(baking, s.town, "town", &baking->sources[0]);
-    const AvatarSettings& avatar = s.avatars[i - 1];
-    return MakeSource(baking, avatar.source, avatar.name, &baking->sources[i]);
-  });
-}
-
-Error ReadTown(Baking* baking, Scene* town, std::vector<std::string>* warnings) {
-  const std::string& crs = baking->settings.georeference.crs;
-  bool brought = false;  // from degrees into metres, as the reader knew the wish
-  const auto append = [&](const fs::path& file, float scale, float yaw_deg, Vec2 position_m) -> Error {
-    Scene part;
-    SceneSource source;
-    if (Error e = ReadScene(file, &part, warnings, {crs == "none" || file != baking->sources[0] ? "" : crs}, &source))
-      return e;
-    if (file == baking->sources[0]) {
-      town->origin_m = {part.origin_m.x * scale, part.origin_m.y * scale};
-      town->reference_system = part.reference_system;
-      brought = !source.system.empty();
-    }
-    AppendScene(std::move(part), scale, yaw_deg * kPi / 180, position_m, town);
-    return Ok();
-  };
-  if (!baking->sources[0].empty()) {
-    if (Error e = append(baking->sources[0], baking->settings.town_scale, 0, {})) return e;
+    fs::create_directories(folder, ec);
+    if (ec) return Fail(folder.string() + ": cannot make this folder: " + ec.message());
   }
-  for (const TownPart& part : baking->settings.parts) {
-    if (Error e = append(part.file, part.scale, part.yaw_deg, part.position_m)) return e;
-  }
-  Georeference georeference = baking->settings.georeference;
-  if (georeference.crs.empty()) town->reference_system.clear();
-  if (brought) georeference.crs.clear();
-  if (Error e = SetGeoreference(georeference, 1, town, warnings)) return Fail("town.georeference: " + e.message);
-  if (AddGroundWhereNone(kBareGroundMargin_m, town)) {
-    warnings->push_back("most of the town has no ground under it; a flat square was added");
-  }
+  if (Error e = lock->Take(baking->output)) return e;
+  RecoverResults(baking->output);
+  SweepLeftovers(baking->store.folder);
+  std::error_code none;
+  SweepLeftovers(fs::temp_directory_path(none));
   return Ok();
 }
 
-// Streets of tour.toml stand for those of the same name in the town.
-void AddUnlessNamed(Street street, TourData* tour) {
-  const std::string name = TextIn(street.names, tour->language, tour->language);
-  const auto same = [&](const Street& s) { return TextIn(s.names, tour->language, tour->language) == name; };
-  if (std::none_of(tour->streets.begin(), tour->streets.end(), same)) tour->streets.push_back(std::move(street));
-}
+size_t JobsOf(const BakeOptions& options) { return options.jobs > 0 ? options.jobs : ThreadsOfThisMachine(); }
 
-Error MakeTown(Baking* baking) {
-  const std::string& name = baking->settings.name;
-  return RunStep(&baking->steps, "town", name, [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
-    if (Error e = ReadTown(baking, &baking->parts.town, warnings)) return e;
-    baking->parts.places = TaggedPlaces(baking->parts.town);
-    baking->parts.places.insert(baking->parts.places.end(), baking->settings.places.begin(),
-                                baking->settings.places.end());
-    for (Street& street : TaggedStreets(baking->parts.town, baking->settings.language))
-      AddUnlessNamed(std::move(street), &baking->parts);
-    if (Error e = ChooseWorkClips(baking->parts.places, baking->settings.flocks, &baking->settings.avatars, warnings))
-      return e;
-    double triangles = 0;
-    for (const SceneNode& node : baking->parts.town.nodes) {
-      for (int m : node.meshes) triangles += TriangleCount(At(baking->parts.town.meshes, m));
-    }
-    report->figures = {{"triangles", triangles}, {"places", static_cast<double>(baking->parts.places.size())}};
-    return Ok();
-  });
-}
+// One tour of a bake.
+struct Ordered {
+  Baking baking;
+  FolderLock lock;
+  bool unchanged = false;
+};
 
-Error MakeAvatar(Baking* baking, size_t i) {
-  const AvatarSettings& settings = baking->settings.avatars[i];
-  const fs::path& file = baking->sources[i + 1];
-  AvatarLevels* levels = &baking->parts.avatars[i].levels;
-  const auto make = [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
-    ReadAvatarOptions read;
-    read.name = settings.name;
-    read.walk = settings.walk;
-    read.idle = settings.idle;
-    read.talk = settings.talk;
-    read.height_m = settings.height_m;
-    read.hide = settings.hide;
-    read.scale = settings.scale;
-    read.up = settings.up;
-    read.forward = settings.forward;
-    read.parts = settings.parts;
-    for (const auto* clips : {&settings.usual_clips, &settings.clips}) {
-      for (const ClipSettings& clip : *clips) read.other_clips.push_back({clip.name, clip.clip, clip.file});
-    }
-    for (const Prop& prop : settings.props) read.props.push_back(prop.name);
-    Avatar avatar;
-    if (Error e = ReadAvatar(file, read, &avatar, warnings)) return e;
-    if (Error e = BindTints(settings.tint_materials, &avatar)) return e;
-    LevelsOptions options = baking->settings.levels;
-    options.jobs = &baking->jobs;
-    if (Error e = BuildLevels(avatar, options, levels, warnings)) return e;
-    for (AvatarLevel level : levels->levels) {
-      level.meshes.clear();
-      report->levels.push_back(std::move(level));
-    }
-    report->figures = {{"walk_speed_mps", static_cast<double>(avatar.walk_speed_mps)},
-                       {"joints", static_cast<double>(avatar.joints.size())}};
-    return Ok();
-  };
-  return RunKeptStep(&baking->steps, "avatar", settings.name, AvatarInputs(settings, file, baking->settings.levels),
-                     make, levels);
-}
-
-// Of birds no impostor is ever seen, unless they are people too.
-bool IsBirdOnly(const AvatarSettings& avatar, const Baking& baking) {
-  if (avatar.share > 0 || avatar.name == baking.settings.guide) return false;
-  const auto works = [&](const Place& place) {
-    return std::find(place.avatars.begin(), place.avatars.end(), avatar.name) != place.avatars.end();
-  };
-  if (std::any_of(baking.parts.places.begin(), baking.parts.places.end(), works)) return false;
-  return std::any_of(baking.settings.flocks.begin(), baking.settings.flocks.end(),
-                     [&](const Flock& flock) { return flock.avatar == avatar.name; });
-}
-
-Error MakeImpostor(Baking* baking, size_t i) {
-  const AvatarSettings& settings = baking->settings.avatars[i];
-  TourAvatar* avatar = &baking->parts.avatars[i];
-  ImpostorOptions options = baking->settings.impostor;
-  options.threads = 1;  // one avatar a core
-  for (const ClipSettings& clip : settings.clips)
-    options.clips.push_back({clip.name, clip.speed_mps > 0 ? options.clips.front().phases : options.work_phases});
-  if (IsBirdOnly(settings, *baking)) {
-    options.height_px = kUnseen_px;
-    for (ImpostorClipOptions& clip : options.clips) clip.phases = 1;
-  }
-  const auto make = [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
-    ImpostorStatistics statistics;
-    if (Error e = BakeImpostor(avatar->levels.avatar, options, &avatar->impostor, &statistics, warnings)) return e;
-    report->peak_mb = static_cast<double>(statistics.blender_peak_memory_bytes) / 1e6;
-    report->figures = {{"cells", statistics.cells},
-                       {"fill_rate", statistics.fill_rate},
-                       {"texture_mb", static_cast<double>(statistics.memory_bytes) / 1e6},
-                       {"blender_cpu_s", statistics.blender_cpu_s}};
-    report->picture_png = ImpostorThumbnail(avatar->impostor);
-    return Ok();
-  };
-  const std::string inputs =
-      ImpostorInputs(settings, baking->sources[i + 1], baking->settings.levels.max_triangles, options);
-  return RunKeptStep(&baking->steps, "impostor", settings.name, inputs, make, &avatar->impostor);
-}
-
-// What each tint reaches, in figures and as a picture, so that nobody has to guess.
-Error CheckTints(Baking* baking, size_t i) {
-  const TourAvatar& avatar = baking->parts.avatars[i];
-  const std::string& name = baking->settings.avatars[i].name;
-  if (avatar.tints.empty()) return Ok();
-  return RunStep(&baking->steps, "tint", name, [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
-    std::vector<float> shares;
-    if (Error e = TintReach(avatar.levels.avatar, avatar.tints, &shares)) return e;
-    report->picture_png = TintThumbnail(avatar.impostor, avatar.tints);
-    for (size_t t = 0; t < shares.size(); ++t) {
-      const std::string color = TextFromColor(avatar.tints[t].color);
-      report->figures.push_back({color + "_surface_share", std::round(static_cast<double>(shares[t]) * 1e3) / 1e3});
-      if (shares[t] >= kMinTintShare) continue;
-      warnings->push_back("tint " + color +
-                          " reaches almost nothing of the avatar; `flaneur avatar` lists the colours that it has");
-    }
-    return Ok();
-  });
-}
-
-Error MakePeople(Baking* baking) {
-  const size_t count = baking->settings.avatars.size();
-  baking->parts.avatars.resize(count);
-  for (size_t i = 0; i < count; ++i) {
-    baking->parts.avatars[i].share = baking->settings.avatars[i].share;
-    baking->parts.avatars[i].height_spread = baking->settings.avatars[i].height_spread;
-    baking->parts.avatars[i].tints = baking->settings.avatars[i].tints;
-    baking->parts.avatars[i].props = baking->settings.avatars[i].props;
-    for (const ClipSettings& clip : baking->settings.avatars[i].clips)
-      baking->parts.avatars[i].clips.push_back({clip.name, clip.seat_m, clip.speed_mps});
-  }
-  if (Error e = RunParallel(&baking->jobs, count, [&](size_t i) { return MakeAvatar(baking, i); })) return e;
-  if (Error e = RunParallel(&baking->jobs, count, [&](size_t i) { return MakeImpostor(baking, i); })) return e;
-  for (size_t i = 0; i < count; ++i) {
-    if (Error e = CheckTints(baking, i)) return e;
-  }
+Error Begin(Ordered* ordered) {
+  Baking* baking = &ordered->baking;
+  if (Error e = MakeFolders(baking, &ordered->lock)) return e;
+  if (Error e = Resolve(baking)) return e;
+  ordered->unchanged = ResultsAreUpToDate(baking);
   return Ok();
 }
 
-bool Covers(const Obstacle& o, Point2 p) {
-  if (o.outer.empty()) return std::hypot(p.x - o.center.x, p.y - o.center.y) <= o.radius_m;
-  return Contains(o.outer, p) &&
-         std::none_of(o.holes.begin(), o.holes.end(), [&](const auto& hole) { return Contains(hole, p); });
+BakedTour Told(const fs::path& tour, const Ordered& ordered) {
+  const Baking& baking = ordered.baking;
+  BakedTour told;
+  told.tour = tour;
+  told.name = baking.settings.name;
+  told.pack = baking.output / (baking.settings.name + ".glb");
+  told.report = baking.output / "report.html";
+  told.unchanged = ordered.unchanged;
+  told.warnings = baking.report.warnings.size();
+  for (const StageReport& stage : baking.report.stages) told.work_s += stage.cached ? 0 : stage.work_s;
+  for (const ReportFinding& finding : baking.report.findings)
+    told.errors_found += finding.severity == "error" ? 1u : 0u;
+  return told;
 }
 
-// Somewhere there must be ground that nothing stands on.
-bool AnywhereToWalk(const GroundRaster& ground, const Footprints& footprints) {
-  const double cell_m = static_cast<double>(ground.cell_m);
-  for (size_t k = 0; k < ground.kind.size(); ++k) {
-    if (ground.kind[k] == 0) continue;
-    const size_t columns = static_cast<size_t>(ground.columns), row = k / columns;
-    const Point2 p{static_cast<double>(ground.min_m.x) + (static_cast<double>(k % columns) + 0.5) * cell_m,
-                   static_cast<double>(ground.min_m.y) + (static_cast<double>(row) + 0.5) * cell_m};
-    const auto& obstacles = footprints.obstacles;
-    if (std::none_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& o) { return Covers(o, p); })) return true;
-  }
-  return false;
-}
-
-Error MakeFootprints(Baking* baking) {
-  const TourSettings& s = baking->settings;
-  TourParts* parts = &baking->parts;
-  const auto make = [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
-    if (Error e = RasterizeGround(parts->town, s.ground, &parts->ground)) return e;
-    FootprintStats stats;
-    if (Error e = ExtractFootprints(parts->town, s.footprints, &parts->footprints, &stats, warnings)) return e;
-    if (!AnywhereToWalk(parts->ground, parts->footprints)) {
-      return Fail(
-          "the town has no walkable ground: obstacles cover all of it; mark the ground's nodes with flaneur_kind "
-          "\"ground\"");
+// Two tours of a name would write the same files.
+Error CheckDistinct(const std::deque<Ordered>& all) {
+  std::map<fs::path, fs::path> outputs;
+  for (const Ordered& ordered : all) {
+    const auto [other, fresh] = outputs.try_emplace(ordered.baking.output, ordered.baking.tour);
+    if (!fresh && !ordered.baking.output.empty()) {
+      return Fail(ordered.baking.tour.string() + " and " + other->second.string() + " have one name, '" +
+                  ordered.baking.settings.name + "'; give one of them another tour.name");
     }
-    report->figures = {{"obstacles", stats.obstacles}, {"covered_m2", stats.covered_m2}};
-    return Ok();
-  };
-  return RunKeptStep(&baking->steps, "footprints", s.name, FootprintsInputs(s, baking->sources[0]), make,
-                     &parts->footprints, &parts->ground);
-}
-
-Error MakePainting(Baking* baking) {
-  const PaintingSettings& painting = baking->settings.painting_file;
-  return painting.file.empty() ? Ok() : ReadPainting(painting, baking->parts.ground, &baking->parts.painting);
-}
-
-// The doors and exits of tour.toml; the check finds the town's own by itself.
-std::vector<Gate> GatesOfSettings(const TourSettings& settings) {
-  std::vector<Gate> gates;
-  for (const Place& place : settings.places) {
-    if (place.kind != "door" && place.kind != "exit") continue;
-    const Point2 at{static_cast<double>(place.position_m.x), static_cast<double>(place.position_m.y)};
-    gates.push_back({place.name, at, {}, place.kind == "exit"});
-  }
-  return gates;
-}
-
-// One line for each kind of error: how often, and the first place.
-void SummarizeErrors(const std::vector<Finding>& findings, std::vector<std::string>* warnings) {
-  std::map<int, std::pair<int, const Finding*>> by_code;
-  for (const Finding& f : findings) {
-    if (f.severity != Severity::kError) continue;
-    auto& [count, first] = by_code[f.code];
-    if (count++ == 0) first = &f;
-  }
-  for (const auto& [code, entry] : by_code) {
-    char place[64];
-    std::snprintf(place, sizeof place, " at (%.1f, %.1f): ", entry.second->at_m.x, entry.second->at_m.y);
-    warnings->push_back(std::to_string(code) + " " + KindOf(code).title + ", " + std::to_string(entry.first) +
-                        (entry.first == 1 ? " time: " : " times, first: ") + entry.second->feature + place +
-                        entry.second->message);
-  }
-}
-
-void ReportFindings(const std::vector<Finding>& findings, StageReport* stage, BakeReport* report) {
-  double errors = 0, warnings = 0;
-  for (const Finding& f : findings) {
-    const FindingKind& kind = KindOf(f.code);
-    errors += f.severity == Severity::kError ? 1 : 0;
-    warnings += f.severity == Severity::kWarning ? 1 : 0;
-    report->findings.push_back({f.code,
-                                SeverityName(f.severity),
-                                kind.title,
-                                f.feature,
-                                f.reason.empty() ? f.message : f.message + " (accepted: " + f.reason + ")",
-                                kind.advice,
-                                {static_cast<float>(f.at_m.x), static_cast<float>(f.at_m.y)}});
-  }
-  stage->figures = {{"errors", errors}, {"warnings", warnings}};
-}
-
-// Findings do not stop a bake: the designer reads them in the report and decides.
-Error CheckTown(Baking* baking) {
-  const TourSettings& s = baking->settings;
-  BakeReport* whole = &baking->steps.report;
-  const auto make = [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
-    CheckOptions options;
-    options.gates = GatesOfSettings(s);
-    MapOptions map;
-    map.title = s.name;
-    map.ground = &baking->parts.ground;
-    if (Error e = Check(baking->parts.footprints, &baking->parts.town, options, &map.findings)) return e;
-    for (const size_t idle : AcceptFindings(s.accepted, &map.findings))
-      warnings->push_back("footprints.accept " + std::to_string(s.accepted[idle].code) + " (" +
-                          s.accepted[idle].reason + ") meets no finding any more; remove it, or correct its at_m");
-    SummarizeErrors(map.findings, warnings);
-    ReportFindings(map.findings, report, whole);
-    if (Error e = WriteTextFile(baking->Cache("findings.json"), FindingsJson(map.findings))) return e;
-    const fs::path svg = baking->Cache("map.svg");
-    if (Error e = WriteMap(svg, baking->parts.footprints, map)) return e;
-    return ReadTextFile(svg, &whole->map_svg);
-  };
-  return RunKeptStep(&baking->steps, "check", s.name, CheckInputs(s, FootprintsInputs(s, baking->sources[0])), make,
-                     &whole->findings, &whole->map_svg);
-}
-
-// Into the folder `staging`.
-Error WritePack(Baking* baking, const fs::path& staging) {
-  const std::string& name = baking->settings.name;
-  return RunStep(&baking->steps, "pack", name, [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
-    Fonts fonts(SystemFonts());
-    *warnings = WarningsOfWords(baking->parts, &fonts);
-    TourParts& parts = baking->parts;
-    parts.footprints.origin_m = parts.town.origin_m;  // kept ones may have another
-    parts.footprints.reference_system = parts.town.reference_system;
-    BakeReport& whole = baking->steps.report;
-    const fs::path footprints = staging / "footprints.geojson";
-    if (Error e = WriteGeoJson(footprints, parts.footprints)) return e;
-    if (!parts.footprints.reference_system.empty()) {
-      if (Error e = WriteLongitudeLatitude(LongitudeLatitudePath(footprints), parts.footprints)) return e;
-    }
-    if (Error e = WritePlan(staging / "plan.png", parts.ground, parts.footprints)) return e;
-    if (Error e = WriteTourPack(staging / (name + ".glb"), parts, &baking->jobs, &whole.pack_bytes)) return e;
-    whole.pack_path = (baking->output / (name + ".glb")).string();
-    report->figures = {{"bytes", static_cast<double>(whole.pack_bytes)}};
-    return Ok();
-  });
-}
-
-// All results appear together, once all are there.
-Error WriteResults(Baking* baking) {
-  std::error_code ec;
-  TemporaryFolder staging;
-  if (Error e = staging.Create(".flaneur_results_", baking->output)) return e;
-  if (Error e = WritePack(baking, staging.path())) return e;
-  if (Error e = WriteReport(staging.path(), baking->steps.report)) return e;
-  fs::remove(baking->Cache("fingerprint"), ec);
-  const std::string on_earth = LongitudeLatitudePath("footprints.geojson");
-  std::vector<std::string> names{baking->settings.name + ".glb", "footprints.geojson", "plan.png", "report.html",
-                                 "report.json"};
-  if (fs::exists(staging.path() / on_earth, ec)) names.push_back(on_earth);
-  else fs::remove(baking->output / on_earth, ec);  // of a georeference that is gone
-  for (const std::string& name : names) {
-    fs::rename(staging.path() / name, baking->output / name, ec);
-    if (ec) return Fail((baking->output / name).string() + ": cannot be written: " + ec.message());
   }
   return Ok();
-}
-
-int CountSteps(const TourSettings& s) {
-  int more = IsScript(s.town.file) ? 1 : 0;  // scripts and tints
-  for (const AvatarSettings& avatar : s.avatars)
-    more += (IsScript(avatar.source.file) ? 1 : 0) + (avatar.tints.empty() ? 0 : 1);
-  return more + 2 * Count(s.avatars) + 4;  // town, footprints, check, pack
-}
-
-// Nothing changed since the last bake: the report says so, nothing else is touched.
-bool ReportUnchanged(const Baking& baking, const std::string& inputs) {
-  const fs::path &output = baking.output, pack = output / (baking.settings.name + ".glb");
-  std::string known, text;
-  std::error_code ec;
-  if (ReadTextFile(baking.Cache("fingerprint"), &known) || known != inputs || !fs::exists(pack, ec) ||
-      !fs::exists(output / "report.html", ec) || !fs::exists(output / "footprints.geojson", ec) ||
-      !fs::exists(output / "plan.png", ec) ||
-      (!baking.settings.georeference.crs.empty() && baking.settings.georeference.crs != "none" &&
-       !fs::exists(LongitudeLatitudePath(output / "footprints.geojson"), ec)) ||
-      ReadTextFile(output / "report.json", &text)) {
-    return false;
-  }
-  auto report = nlohmann::ordered_json::parse(text, nullptr, false);
-  if (!report.is_object() || !report.contains("stages") || !report.contains("pack")) return false;
-  if (report["pack"].value("bytes", uintmax_t{0}) != fs::file_size(pack, ec)) return false;
-  for (auto& stage : report["stages"]) {
-    stage["cached"] = true;
-    stage["seconds"] = 0;
-  }
-  return !WriteTextFile(output / "report.json", report.dump(1) + "\n");
 }
 
 }  // namespace
 
-Error Bake(const fs::path& tour, const fs::path& output) {
-  Baking baking;
-  if (Error e = ReadTourSettings(tour, &baking.settings)) return e;
-  const std::string& name = baking.settings.name;
-  baking.output = output.empty() ? fs::path("build_assets") / name : output;
-  baking.steps.cache = baking.output / "cache";
-  baking.steps.report.tour = name;
-  baking.steps.count = CountSteps(baking.settings);
-  const std::string inputs = TourInputs(tour, baking.settings);
-  if (ReportUnchanged(baking, inputs)) {
-    std::fprintf(stderr, "nothing changed since the last bake\n");
-    return Ok();
+Error Bake(const std::vector<fs::path>& tours, const BakeOptions& options, std::vector<BakedTour>* baked) {
+  SetPolicy(tours, options);
+  const size_t at_a_time = JobsOf(options);
+  Jobs jobs(at_a_time - 1);
+  std::deque<Ordered> all;
+  std::vector<Error> errors;
+  std::vector<Baking*> bakings;
+  std::vector<size_t> places;  // of each of these among all
+  for (const fs::path& tour : tours) {
+    all.emplace_back();
+    errors.push_back(Open(tour, options, tours.size() > 1, &jobs, &all.back().baking));
+    if (Error e = CheckDistinct(all)) return e;  // before a second lock on one folder
+    if (!errors.back()) errors.back() = Begin(&all.back());
+    if (Error e = Interrupted()) return e;
+    if (errors.back() || all.back().unchanged) continue;
+    bakings.push_back(&all.back().baking);
+    places.push_back(all.size() - 1);
   }
-  if (Error e = RequireFiles(baking.settings)) return e;
+  std::vector<Error> of_steps;
+  const double memory_mb = options.memory_mb > 0 ? options.memory_mb : kShareOfFreeMemory * FreeMemory_mb();
+  if (!bakings.empty()) RunSteps(bakings, {at_a_time, memory_mb}, &of_steps);
+  for (size_t i = 0; i < of_steps.size(); ++i) errors[places[i]] = std::move(of_steps[i]);
+  Error first;
+  for (size_t i = 0; i < all.size(); ++i) {
+    baked->push_back(Told(tours[i], all[i]));
+    baked->back().error = errors[i];
+    if (errors[i] && !first) first = errors[i];
+  }
+  return first;
+}
+
+Error PlanBake(const fs::path& tour, const BakeOptions& options, std::vector<PlannedStep>* plan) {
+  SetPolicy({tour}, options);
+  Baking baking;
+  if (Error e = Open(tour, options, false, nullptr, &baking)) return e;
+  if (Error e = Resolve(&baking)) return e;
+  for (const Step& step : baking.steps) {
+    PlannedStep planned;
+    planned.name = step.name();
+    planned.key = step.known_key;
+    planned.in_store = step.in_store;
+    const StepCost cost = ExpectedCost(baking.store, step);
+    planned.seconds = cost.seconds;
+    planned.memory_mb = cost.memory_mb;
+    for (const size_t need : step.needs) {
+      planned.needs.push_back(baking.steps[need].name());
+      planned.inputs.insert(planned.inputs.end(), (*plan)[need].outputs.begin(), (*plan)[need].outputs.end());
+      const bool undone_script = baking.steps[need].stage == "source" && !baking.steps[need].in_store;
+      planned.provisional = planned.provisional || undone_script || (*plan)[need].provisional;
+    }
+    for (const fs::path& input : step.inputs) planned.inputs.push_back(input.string());
+    if (step.kept()) planned.outputs.push_back(EntryFile(baking.store, step.known_key, step.extension).string());
+    if (step.stage == "pack") {
+      planned.in_store = ResultsAreWhole(baking.output, step.known_key);
+      for (const char* name : {"report.html", "report.json", "footprints.geojson", "plan.png", kManifest})
+        planned.outputs.push_back((baking.output / name).string());
+      planned.outputs.insert(planned.outputs.begin(), (baking.output / (baking.settings.name + ".glb")).string());
+    }
+    plan->push_back(std::move(planned));
+  }
+  return Ok();
+}
+
+Error BakeStep(const fs::path& tour, const BakeOptions& options, const std::string& name) {
+  SetPolicy({tour}, options);
+  Jobs jobs(JobsOf(options) - 1);
+  Baking baking;
+  if (Error e = Open(tour, options, false, &jobs, &baking)) return e;
+  std::vector<std::string> names;
+  for (const Step& step : baking.steps) names.push_back(step.name());
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    return Fail(tour.string() + " has no step '" + OneLine(name) + "'" + DidYouMean(name, names) +
+                "; flaneur plan lists them");
+  }
+  const size_t wanted = static_cast<size_t>(found - names.begin());
+  FolderLock lock;
   std::error_code ec;
-  fs::create_directories(baking.steps.cache, ec);
-  if (ec) return Fail(baking.steps.cache.string() + ": cannot make this folder: " + ec.message());
-  static_cast<TourData&>(baking.parts) = baking.settings;
-  if (Error e = MakeVisitorMedia(baking.settings, baking.steps.cache, &baking.parts)) return e;
-  if (Error e = MakeTitlePage(baking.settings.title_page, &baking.parts.title_page)) return e;
-  if (Error e = MakeSources(&baking)) return e;
-  if (Error e = MakeTown(&baking)) return e;
-  if (Error e = MakeFootprints(&baking)) return e;
-  if (Error e = MakePainting(&baking)) return e;
-  if (Error e = MakePeople(&baking)) return e;
-  if (Error e = CheckTown(&baking)) return e;
-  if (Error e = WriteResults(&baking)) return e;
-  return WriteTextFile(baking.Cache("fingerprint"), inputs);
+  fs::create_directories(baking.store.folder, ec);
+  if (baking.steps[wanted].stage == "pack") {
+    if (Error e = MakeFolders(&baking, &lock)) return e;
+  }
+  if (Error e = Resolve(&baking)) return e;
+  if (baking.steps[wanted].stage == "pack" && ResultsAreUpToDate(&baking)) return Ok();
+  // Everything before a step that it needs, and its needs'.
+  std::vector<bool> needed(baking.steps.size(), false);
+  needed[wanted] = true;
+  for (size_t i = wanted + 1; i-- > 0;) {
+    if (!needed[i]) continue;
+    for (const size_t need : baking.steps[i].needs) needed[need] = true;
+  }
+  for (size_t i = 0; i <= wanted; ++i) {
+    const bool there = i != wanted && baking.steps[i].in_store && baking.steps[i].is_file;
+    if (!needed[i] || there) continue;
+    if (Error e = DoStep(baking.store, &baking.steps[i])) return e;
+  }
+  return Ok();
+}
+
+Error FilesOfTour(const fs::path& tour, std::vector<fs::path>* files) {
+  BakeOptions options;
+  options.trust = {true, true};
+  Baking baking;
+  files->push_back(tour);
+  if (Error e = Open(tour, options, false, nullptr, &baking)) return e;
+  for (const Step& step : baking.steps) {
+    for (const fs::path& input : step.inputs) files->push_back(input);
+  }
+  return Ok();
+}
+
+Step* AddStep(Baking* baking, const std::string& stage, const std::string& item) {
+  Step* step = &baking->steps.emplace_back();
+  step->stage = stage;
+  step->item = item;
+  return step;
+}
+
+size_t IndexOf(const Baking& baking, const Step* step) {
+  for (size_t i = 0; i < baking.steps.size(); ++i) {
+    if (&baking.steps[i] == step) return i;
+  }
+  return baking.steps.size();
 }
 
 }  // namespace flaneur

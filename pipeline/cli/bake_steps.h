@@ -1,5 +1,5 @@
-// The steps of a bake as its user sees them: reported, timed, shown as they end, side by side where they do not depend
-// on each other, and kept for the next bake. Internal to pipeline/cli.
+// A bake as steps: each made from what earlier ones made and from files, and kept under a key of all that. Internal to
+// pipeline/cli.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -9,39 +9,64 @@
 
 #include "pipeline/cli/stage_cache.h"
 #include "pipeline/core/report.h"
+#include "pipeline/core/store.h"
 #include "runtime/base/error.h"
-#include "runtime/base/jobs.h"
 
 namespace flaneur {
 
-struct BakeSteps {
-  std::filesystem::path cache;  // folder
-  BakeReport report;
-  std::mutex mutex;  // guards report and the progress line
-  int done = 0, count = 0;
+using Warnings = std::vector<std::string>;
+
+// Does the work. It may fill in what the report says of it, and warn.
+using StepWork = std::function<Error(StageReport*, Warnings*)>;
+
+struct Step {
+  std::string stage, item;
+  std::vector<size_t> needs;                  // steps of the same bake, all before this one
+  std::vector<std::filesystem::path> inputs;  // files and folders of the user's
+  std::function<std::string()> key;  // of all that it is made from; the needs have been done, or are in the store
+  StepWork make;
+  // How its result goes into the store and comes back; no extension: it is made each time. A file: the one that `make`
+  // has written and named here; else what `pack` gives and `unpack` takes.
+  std::string extension;
+  bool is_file = false;
+  std::filesystem::path file;
+  std::function<std::string(StageReport*, Warnings*)> pack;
+  std::function<bool(const std::string&, StageReport*, Warnings*)> unpack;
+  std::function<Error(Warnings*)> then;  // after it was made or read; may be empty
+
+  // What the run finds out.
+  std::string known_key;
+  StoreEntry entry;  // where in_store
+  bool in_store = false, done = false;
+  double progress = 0;  // share, where it tells
+  std::mutex mutex;     // held while it is done
+  StageReport report;
+  Warnings warnings;
+
+  std::string name() const { return stage + ":" + item; }
+  bool kept() const { return !extension.empty(); }
 };
 
-// One item of a stage. It may fill in what the report says of it, and warn.
-using StepWork = std::function<Error(StageReport*, std::vector<std::string>*)>;
-
-// Errors: the work's; interrupted.
-Error RunStep(BakeSteps* steps, const std::string& stage, const std::string& item, const StepWork& work);
-
-// The same for work that makes `parts` and depends on `inputs` (a fingerprint) alone: where the last bake had the same
-// inputs its parts, figures and warnings are taken.
+// The step's result in the store is all these.
 template <typename... Parts>
-Error RunKeptStep(BakeSteps* steps, const std::string& stage, const std::string& item, const std::string& inputs,
-                  const StepWork& work, Parts*... parts) {
-  return RunStep(steps, stage, item, [&](StageReport* report, std::vector<std::string>* warnings) -> Error {
-    const std::filesystem::path file = steps->cache / (stage + "_" + item + ".kept");
-    report->cached = ReadKept(file, inputs, parts..., report, warnings);
-    if (report->cached) return Ok();
-    if (Error e = work(report, warnings)) return e;
-    return WriteKept(file, inputs, parts..., report, warnings);
-  });
+void Keep(Step* step, Parts*... parts) {
+  step->extension = ".kept";
+  step->pack = [parts...](StageReport* report, Warnings* warnings) { return Packed(parts..., report, warnings); };
+  step->unpack = [parts...](const std::string& content, StageReport* report, Warnings* warnings) {
+    return Unpacked(content, parts..., report, warnings);
+  };
 }
 
-// Runs work(0) ... work(count - 1), several at a time; the error of the lowest index counts.
-Error RunParallel(Jobs* jobs, size_t count, const std::function<Error(size_t)>& work);
+// Takes the result from the store, or makes it and keeps it. Once, whoever asks. Errors: the work's; interrupted.
+Error DoStep(const Store& store, Step* step);
+
+// Whether the result of a step that was done with a file is whole, which is made again where it is not.
+Error CheckFile(const Store& store, Step* step);
+
+// Seconds of the clock and megabytes that it will probably take.
+struct StepCost {
+  double seconds = 0, memory_mb = 0;
+};
+StepCost ExpectedCost(const Store& store, const Step& step);
 
 }  // namespace flaneur

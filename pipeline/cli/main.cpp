@@ -22,7 +22,10 @@ struct Verb {
 };
 
 const std::map<std::string, Verb> kVerbs{
-    {"bake", {kInBake, "TOUR.toml [-o DIR]", "all stages, from tour.toml to a tour pack"}},
+    {"bake", {kInBake, "TOUR.toml... [-o DIR]", "all stages, from tour.toml to a tour pack"}},
+    {"plan", {kInBake, "TOUR.toml [--json]", "the steps of a bake, for this machine or many"}},
+    {"step", {kInBake, "TOUR.toml NAME", "one of these steps"}},
+    {"cache", {flaneur::RunCache, "[DIR] [--verify]", "what steps have made and keep"}},
     {"avatar", {flaneur::RunAvatar, "IN.glb -o OUT.glb", "levels of detail of a rigged character"}},
     {"impostor", {kInBake, "IN.glb -o DIR", "impostor atlas of a rigged character"}},
     {"footprints", {flaneur::RunFootprints, "TOWN.glb -o OUT.geojson", "obstacles from a town model"}},

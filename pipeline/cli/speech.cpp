@@ -1,5 +1,8 @@
 #include "pipeline/cli/speech.h"
 
+#include <cstdlib>
+#include <sstream>
+
 #include "pipeline/core/fingerprint.h"
 #include "pipeline/core/subprocess.h"
 #include "pipeline/core/temporary_folder.h"
@@ -12,9 +15,19 @@ namespace {
 
 constexpr const char* kVersion = "1";  // changed when the same text comes out otherwise
 
+std::string ProgramOnPathSha256(const Store& store, const std::string& program) {
+  const char* folders = std::getenv("PATH");
+  std::istringstream list(folders ? folders : "");
+  for (std::string folder; std::getline(list, folder, ':');) {
+    const std::string sha256 = ProgramSha256(store, fs::path(folder) / program);
+    if (!sha256.empty()) return sha256;
+  }
+  return "";
+}
+
 Error RunTool(const std::vector<std::string>& argv, const fs::path& log) {
   ProcessResult result;
-  if (Error e = RunProcess(argv, {log, {}}, &result)) return e;
+  if (Error e = RunProcess(argv, {log, {}, {}}, &result)) return e;
   if (result.exit_status == 0) return Ok();
   std::string text;
   if (ReadTextFile(log, &text)) text.clear();
@@ -23,14 +36,18 @@ Error RunTool(const std::vector<std::string>& argv, const fs::path& log) {
 
 }  // namespace
 
-Error Speak(const Speech& speech, const fs::path& cache, fs::path* file) {
+Error Speak(const Speech& speech, const Store& store, fs::path* file) {
   Fingerprint print;
   print.Add(kVersion).Add(speech.text).Add(speech.voice).Add(speech.words_per_minute);
-  *file = cache / ("speech_" + print.Hex() + ".ogg");
-  std::error_code ec;
-  if (fs::is_regular_file(*file, ec)) return Ok();
+  for (const char* program : {"espeak-ng", "ffmpeg"}) print.Add(ProgramOnPathSha256(store, program));
+  const std::string key = print.Hex();
+  StoreEntry entry;
+  entry.step = "speech:" + OneLine(speech.text.substr(0, 40));
+  entry.extension = ".ogg";
+  *file = EntryFile(store, key, entry.extension);
+  if (ReadEntry(store, key, &entry, nullptr)) return Ok();
   TemporaryFolder folder;
-  if (Error e = folder.Create(".flaneur_speech_", cache)) return e;
+  if (Error e = folder.Create(".flaneur_speech_", store.folder)) return e;
   const fs::path text = folder.path() / "text", wave = folder.path() / "spoken.wav", ogg = folder.path() / "spoken.ogg";
   if (Error e = WriteTextFile(text, speech.text)) return e;
   const fs::path log = folder.path() / "log";
@@ -45,8 +62,7 @@ Error Speak(const Speech& speech, const fs::path& cache, fs::path* file) {
            "-fflags", "+bitexact", ogg.string()},
           log))
     return e;
-  fs::rename(ogg, *file, ec);
-  return ec ? Fail(file->string() + ": cannot be written: " + ec.message()) : Ok();
+  return PutEntry(store, key, entry, "", ogg);
 }
 
 }  // namespace flaneur

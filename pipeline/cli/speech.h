@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "pipeline/core/store.h"
 #include "runtime/base/error.h"
 
 namespace flaneur {
@@ -13,8 +14,8 @@ struct Speech {
   int words_per_minute = 145;
 };
 
-// Makes an Ogg Opus file in `cache`, or finds the one that an earlier bake made of the same. Errors: no espeak-ng or
+// Makes an Ogg Opus file in the store, or finds the one that an earlier bake made of the same. Errors: no espeak-ng or
 // ffmpeg on PATH, an unknown voice.
-Error Speak(const Speech& speech, const std::filesystem::path& cache, std::filesystem::path* file);
+Error Speak(const Speech& speech, const Store& store, std::filesystem::path* file);
 
 }  // namespace flaneur

@@ -1,8 +1,7 @@
-// What a stage made, kept in a file under the fingerprint of all it was made from. The file is no format: the program
-// that wrote it reads it again, on the same machine; anything else in it counts as nothing kept.
+// What a step made as one text, and back. The text is no format: the program that wrote it reads it again.
 #pragma once
 #include <cstring>
-#include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -11,11 +10,10 @@
 #include <vector>
 
 #include "pipeline/core/avatar.h"
-#include "pipeline/core/fingerprint.h"
 #include "pipeline/core/footprint.h"
 #include "pipeline/core/impostor.h"
 #include "pipeline/core/report.h"
-#include "runtime/base/file.h"
+#include "runtime/tour_data/tour_data.h"
 
 namespace flaneur {
 
@@ -83,6 +81,15 @@ void Fields(A& a, GroundRaster* v) {
   a(&v->min_m, &v->cell_m, &v->columns, &v->rows, &v->height_m, &v->kind);
 }
 template <typename A>
+void Fields(A& a, Place* v) {
+  a(&v->name, &v->kind, &v->position_m, &v->width_m, &v->yaw_rad, &v->clip, &v->avatars, &v->seat_m, &v->stay_s,
+    &v->people);
+}
+template <typename A>
+void Fields(A& a, Street* v) {
+  a(&v->names, &v->points);
+}
+template <typename A>
 void Fields(A& a, ReportFinding* v) {
   a(&v->code, &v->severity, &v->title, &v->feature, &v->message, &v->advice, &v->at_m);
 }
@@ -117,6 +124,11 @@ class StageWriter {
     else
       for (T& value : *values) Put(&value);
   }
+  template <typename K, typename V>
+  void Put(std::map<K, V>* values) {
+    std::vector<std::pair<K, V>> pairs(values->begin(), values->end());
+    Put(&pairs);
+  }
   void PutSize(uint64_t size) { Raw(&size, sizeof size); }
   void Raw(const void* data, size_t size) { text_.append(static_cast<const char*>(data), size); }
 
@@ -150,6 +162,12 @@ class StageReader {
     else
       for (T& value : *values) Get(&value);
   }
+  template <typename K, typename V>
+  void Get(std::map<K, V>* values) {
+    std::vector<std::pair<K, V>> pairs;
+    Get(&pairs);
+    *values = {pairs.begin(), pairs.end()};
+  }
   // How many elements of at least so many bytes follow.
   size_t Size(size_t bytes) {
     uint64_t size = 0;
@@ -168,27 +186,21 @@ class StageReader {
   bool good_ = true;
 };
 
-// Whether `file` held what was made under this fingerprint; else nothing is changed.
+// All of them in one text, and back. Whether the text held just that; else nothing is changed.
 template <typename... Parts>
-bool ReadKept(const std::filesystem::path& file, const std::string& fingerprint, Parts*... parts) {
-  std::string text;
-  if (ReadTextFile(file, &text) || text.size() < 2 * fingerprint.size()) return false;
-  const std::string_view made(std::string_view(text).substr(2 * fingerprint.size()));
-  if (text.compare(0, 2 * fingerprint.size(), fingerprint + Fingerprint().Add(made).Hex()) != 0) return false;
+std::string Packed(Parts*... parts) {
+  StageWriter writer;
+  writer(parts...);
+  return writer.text();
+}
+template <typename... Parts>
+bool Unpacked(const std::string& text, Parts*... parts) {
   std::tuple<Parts...> read;
-  StageReader reader(made);
+  StageReader reader(text);
   std::apply([&](Parts&... values) { reader(&values...); }, read);
   if (!reader.whole()) return false;
   std::tie(*parts...) = std::move(read);
   return true;
-}
-
-// Errors: as for WriteFile.
-template <typename... Parts>
-Error WriteKept(const std::filesystem::path& file, const std::string& fingerprint, Parts*... parts) {
-  StageWriter writer;
-  writer(parts...);
-  return WriteTextFile(file, fingerprint + Fingerprint().Add(writer.text()).Hex() + writer.text());
 }
 
 }  // namespace flaneur

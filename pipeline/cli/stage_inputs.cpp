@@ -1,7 +1,7 @@
 #include "pipeline/cli/stage_inputs.h"
 
+#include "pipeline/core/blender.h"
 #include "pipeline/core/fingerprint.h"
-#include "pipeline/core/subprocess.h"
 #include "pipeline/io/motion_reader.h"
 
 namespace flaneur {
@@ -37,8 +37,8 @@ std::vector<fs::path> ClipFiles(const AvatarSettings& a) {
   return files;
 }
 
-void AddReading(const AvatarSettings& a, const fs::path& file, Fingerprint* print) {
-  print->AddFile(file).Add(a.walk).Add(a.idle).Add(a.talk).Add(a.height_m);
+void AddReading(const AvatarSettings& a, const std::string& content, Fingerprint* print) {
+  print->Add(content).Add(a.walk).Add(a.idle).Add(a.talk).Add(a.height_m);
   AddAll(a.hide, print);
   for (const Prop& prop : a.props) print->Add(prop.name);
   for (const auto& materials : a.tint_materials) AddAll(materials, print);
@@ -60,17 +60,27 @@ std::vector<fs::path> FilesBeside(const AvatarSettings& avatar) {
 
 bool IsScript(const fs::path& file) { return file.extension() == ".py"; }
 
-std::string ScriptInputs(const SourceSettings& source) {
+std::string ScriptInputs(const SourceSettings& source, const std::string& blender) {
   Fingerprint print;
-  print.Add(kBlenderStagesVersion).AddFile(source.file.parent_path()).AddFile(BlenderScriptsFolder() / "common");
+  print.Add("source").Add(kBlenderStagesVersion).Add(blender);
+  print.AddFile(source.file.parent_path()).AddFile(BlenderScriptsFolder() / "common");
   return print.Add(source.file.filename().string()).Add(source.seed).Add(source.options_json).Hex();
 }
 
-// The structured bindings below name every option: one that is added has to be added here too.
-std::string AvatarInputs(const AvatarSettings& avatar, const fs::path& file, const LevelsOptions& levels) {
+std::string TownShapeInputs(const TourSettings& s, const std::vector<std::string>& contents) {
   Fingerprint print;
-  print.Add(ThisProgram()).Add(avatar.name);
-  AddReading(avatar, file, &print);
+  print.Add("shape").Add(ThisProgram()).Add(s.town_scale).Add(s.georeference.crs);
+  AddAll(contents, &print);
+  for (const TownPart& part : s.parts)
+    print.Add(part.position_m.x).Add(part.position_m.y).Add(part.yaw_deg).Add(part.scale);
+  return print.Hex();
+}
+
+// The structured bindings below name every option: one that is added has to be added here too.
+std::string AvatarInputs(const AvatarSettings& avatar, const std::string& content, const LevelsOptions& levels) {
+  Fingerprint print;
+  print.Add("avatar").Add(ThisProgram()).Add(avatar.name);
+  AddReading(avatar, content, &print);
   const auto& [ratios, error_px, max_triangles, min_triangles, error_samples, walk_poses, max_joints, jobs] = levels;
   AddAll(ratios, &print);
   return print.Add(error_px)
@@ -82,13 +92,17 @@ std::string AvatarInputs(const AvatarSettings& avatar, const fs::path& file, con
       .Hex();
 }
 
-std::string ImpostorInputs(const AvatarSettings& avatar, const fs::path& file, int max_triangles,
-                           const ImpostorOptions& impostor) {
+std::string ImpostorInputs(const AvatarSettings& avatar, const std::string& content, const std::string& blender,
+                           int max_triangles, const ImpostorOptions& impostor) {
   Fingerprint print;
-  print.Add(kImpostorVersion).AddFile(BlenderScriptsFolder() / "bake").AddFile(BlenderScriptsFolder() / "common");
-  AddReading(avatar, file, &print);
+  print.Add("impostor")
+      .Add(kImpostorVersion)
+      .Add(blender)
+      .AddFile(BlenderScriptsFolder() / "bake")
+      .AddFile(BlenderScriptsFolder() / "common");
+  AddReading(avatar, content, &print);
   const auto& [directions, elevations_deg, clips, work_phases, height_px, border_px, memory_kb, samples, seed, threads,
-               log_file] = impostor;
+               log_file, progress] = impostor;
   AddAll(elevations_deg, &print);
   for (const ImpostorClipOptions& clip : clips) print.Add(clip.name).Add(clip.phases);
   return print.Add(max_triangles)
@@ -101,13 +115,26 @@ std::string ImpostorInputs(const AvatarSettings& avatar, const fs::path& file, i
       .Hex();
 }
 
-std::string FootprintsInputs(const TourSettings& s, const fs::path& town) {
+std::string TintInputs(const AvatarSettings& avatar, const std::string& avatar_inputs,
+                       const std::string& impostor_inputs) {
   Fingerprint print;
-  print.Add(ThisProgram()).Add(s.town_scale);
-  if (!town.empty()) print.AddFile(town);
-  for (const TownPart& part : s.parts) {
-    print.AddFile(part.file).Add(part.position_m.x).Add(part.position_m.y).Add(part.yaw_deg).Add(part.scale);
+  print.Add("tint").Add(avatar_inputs).Add(impostor_inputs);
+  for (const Tint& tint : avatar.tints) {
+    print.Add(tint.color.x).Add(tint.color.y).Add(tint.color.z).Add(tint.reach);
+    for (const Vec3& color : tint.colors) print.Add(color.x).Add(color.y).Add(color.z);
   }
+  return print.Hex();
+}
+
+std::string TownInputs(const TourSettings& s, const std::string& shape_inputs) {
+  Fingerprint print;
+  print.Add("town").Add(shape_inputs).Add(s.language).Add(s.georeference.crs);
+  return print.Add(s.georeference.origin_m.x).Add(s.georeference.origin_m.y).Hex();
+}
+
+std::string FootprintsInputs(const TourSettings& s, const std::string& shape_inputs) {
+  Fingerprint print;
+  print.Add("footprints").Add(shape_inputs);
   const auto& [clearance_m, band_m, tolerance_m, bridge_m, open_yard_m2, scale, merge_blocks, threads] = s.footprints;
   AddAll(band_m, &print);
   print.Add(clearance_m).Add(tolerance_m).Add(bridge_m).Add(open_yard_m2).Add(scale).Add(merge_blocks);
@@ -117,32 +144,32 @@ std::string FootprintsInputs(const TourSettings& s, const fs::path& town) {
 
 std::string CheckInputs(const TourSettings& s, const std::string& footprints_inputs) {
   Fingerprint print;
-  print.Add(footprints_inputs).Add(s.name);
+  print.Add("check").Add(footprints_inputs).Add(s.name);
   for (const Place& place : s.places) {
     print.Add(place.name).Add(place.kind).Add(place.position_m.x).Add(place.position_m.y).Add(place.width_m);
   }
   for (const AcceptedFinding& a : s.accepted)
     print.Add(a.code).Add(a.at_m.x).Add(a.at_m.y).Add(a.within_m).Add(a.reason);
+  for (const TourStop& stop : s.path) print.Add(stop.position_m.x).Add(stop.position_m.y);
   return print.Hex();
 }
 
-std::string TourInputs(const fs::path& tour, const TourSettings& s) {
+std::string PackInputs(const fs::path& tour, const TourSettings& s, const std::vector<std::string>& needs) {
   Fingerprint print;
-  print.AddFile(tour).Add(ThisProgram()).AddFile(BlenderScriptsFolder());
-  const auto add = [&](const fs::path& file) { print.AddFile(IsScript(file) ? file.parent_path() : file); };
-  add(s.town.file);
-  if (!s.painting_file.file.empty()) print.AddFile(s.painting_file.file);
-  for (const fs::path& file : FilesOf(s.title_page)) print.AddFile(file);
-  for (const fs::path& file : FilesOf(s.visitor_files)) print.AddFile(file);
-  for (const FilesByLanguage& sounds : s.sounds) {
-    for (const auto& [language, file] : sounds) print.AddFile(file);
-  }
-  for (const TownPart& part : s.parts) add(part.file);
-  for (const AvatarSettings& avatar : s.avatars) {
-    add(avatar.source.file);
-    for (const fs::path& file : FilesBeside(avatar)) add(file);
-  }
+  print.Add("pack").Add(ThisProgram()).AddFile(tour).Add(s.name);
+  AddAll(needs, &print);
+  for (const fs::path& file : MediaFiles(s)) print.AddFile(file);
   return print.Hex();
+}
+
+std::vector<fs::path> MediaFiles(const TourSettings& s) {
+  std::vector<fs::path> files = FilesOf(s.title_page);
+  for (const fs::path& file : FilesOf(s.visitor_files)) files.push_back(file);
+  for (const FilesByLanguage& sounds : s.sounds) {
+    for (const auto& [language, file] : sounds) files.push_back(file);
+  }
+  if (!s.painting_file.file.empty()) files.push_back(s.painting_file.file);
+  return files;
 }
 
 }  // namespace flaneur

@@ -352,15 +352,21 @@ void CheckWhole(TomlContext* context, const TourSettings& s) {
 Error ReadTourSettings(const std::filesystem::path& path, TourSettings* settings) {
   toml::table root;
   if (Error e = ReadToml(path, &root)) return e;
-  TomlContext context{path, {}, {}};
+  TomlContext context{path, {}, {}, {}};
   TourSettings read;
   read.name = path.stem().string() == "tour" ? std::filesystem::absolute(path).parent_path().filename().string()
                                              : path.stem().string();
   ReadAll(TomlTable(&context, &root, ""), &read);
   CheckWhole(&context, read);
   if (context.error) return context.error;
+  for (const auto& [file, place] : context.files) read.places_of_files.try_emplace(file, place);
   *settings = std::move(read);
   return Ok();
+}
+
+std::string PlaceOfFile(const TourSettings& settings, const std::filesystem::path& file) {
+  const auto place = settings.places_of_files.find(file);
+  return place == settings.places_of_files.end() ? "" : place->second + ": ";
 }
 
 std::vector<std::string> KnownSettings() {

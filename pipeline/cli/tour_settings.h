@@ -77,7 +77,11 @@ struct TourSettings : TourData {
   TitlePageSettings title_page;
   std::vector<FilesByLanguage> sounds;  // by stop of the path
   VisitorFiles visitor_files;
+  std::map<std::filesystem::path, std::string> places_of_files;  // where tour.toml names it first: "FILE:LINE: key"
 };
+
+// The place for the beginning of a message: "tour.toml:12: avatar.file: ". Empty where it is not known.
+std::string PlaceOfFile(const TourSettings& settings, const std::filesystem::path& file);
 
 // Errors: unreadable, not TOML, an unknown key (with the nearest known one), a wrong type, a value out of range, no
 // town, no avatar, two of a name; each as FILE:LINE.

@@ -10,10 +10,13 @@ using Arguments = std::vector<std::string>;
 
 int RunAvatar(const Arguments& args);
 int RunBake(const Arguments& args);
+int RunCache(const Arguments& args);
 int RunCheck(const Arguments& args);
 int RunFootprints(const Arguments& args);
 int RunImpostor(const Arguments& args);
 int RunInspect(const Arguments& args);
+int RunPlan(const Arguments& args);
+int RunStep(const Arguments& args);
 int RunWeb(const Arguments& args);
 
 }  // namespace flaneur

@@ -12,7 +12,7 @@ namespace {
 
 struct Media {
   const TourSettings& settings;
-  const fs::path& cache;
+  const Store& store;
   TourParts* parts;
   std::map<fs::path, StopSound> sounds;  // each file once
   std::map<fs::path, int> pictures;
@@ -47,7 +47,7 @@ struct Media {
       const auto voice = speech.voices.find(language);
       fs::path file;
       if (Error e = Speak({text, voice == speech.voices.end() ? language : voice->second, speech.words_per_minute},
-                          cache, &file))
+                          store, &file))
         return Fail("'" + OneLine(text.substr(0, 40)) + "' cannot be spoken: " + e.message);
       files[language] = file;
     }
@@ -100,8 +100,8 @@ Error MakeSoundPlaces(Media* media) {
 
 }  // namespace
 
-Error MakeVisitorMedia(const TourSettings& settings, const fs::path& cache, TourParts* parts) {
-  Media media{settings, cache, parts, {}, {}};
+Error MakeVisitorMedia(const TourSettings& settings, const Store& store, TourParts* parts) {
+  Media media{settings, store, parts, {}, {}};
   if (Error e = MakeStops(&media)) return e;
   if (Error e = MakeHotspots(&media)) return e;
   return MakeSoundPlaces(&media);

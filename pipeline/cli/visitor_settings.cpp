@@ -87,7 +87,7 @@ FilesByLanguage ReadFiles(const char* key, const std::string& own, TomlTable* ta
   table->Translations(key, own, &names);
   FilesByLanguage files;
   for (const auto& [language, file] : names) {
-    if (!file.empty()) files[language] = table->Beside(file);
+    if (!file.empty()) files[language] = table->Beside(key, file);
   }
   return files;
 }

@@ -1,7 +1,10 @@
 #include "pipeline/core/fingerprint.h"
 
+#include <openssl/evp.h>
+
 #include <algorithm>
 #include <cstdio>
+#include <set>
 #include <vector>
 
 #include "runtime/base/file.h"
@@ -51,12 +54,43 @@ std::vector<fs::path> NamedFiles(const fs::path& gltf, const std::string& text) 
   return files;
 }
 
+bool IsGltf(const fs::path& path) { return HasExtension(path, ".gltf") || HasExtension(path, ".glb"); }
+
+struct Digest {
+  Digest() : context(EVP_MD_CTX_new()) { EVP_DigestInit_ex(context, EVP_sha256(), nullptr); }
+  Digest(const Digest&) = delete;
+  Digest& operator=(const Digest&) = delete;
+  ~Digest() { EVP_MD_CTX_free(context); }
+
+  void Add(const void* data, size_t size) { EVP_DigestUpdate(context, data, size); }
+  std::string Hex() {
+    unsigned char bytes[EVP_MAX_MD_SIZE];
+    unsigned size = 0;
+    EVP_DigestFinal_ex(context, bytes, &size);
+    constexpr const char* kDigits = "0123456789abcdef";
+    std::string hex;
+    for (unsigned i = 0; i < size; ++i) hex.append({kDigits[bytes[i] >> 4], kDigits[bytes[i] & 15]});
+    return hex;
+  }
+
+  EVP_MD_CTX* context;
+};
+
 }  // namespace
 
+struct Fingerprint::State : Digest {
+  std::set<fs::path> open;  // being added: files may name each other
+};
+
+Fingerprint::Fingerprint() : state_(std::make_unique<State>()) {}
+Fingerprint::~Fingerprint() = default;
+Fingerprint::Fingerprint(Fingerprint&&) noexcept = default;
+Fingerprint& Fingerprint::operator=(Fingerprint&&) noexcept = default;
+
 Fingerprint& Fingerprint::Add(std::string_view part) {
-  const auto mix = [this](uint8_t byte) { state_ = (state_ ^ byte) * 1099511628211ull; };
-  for (uint64_t size = part.size(), i = 0; i < 8; ++i) mix(static_cast<uint8_t>(size >> (8 * i)));
-  for (char c : part) mix(static_cast<uint8_t>(c));
+  const uint64_t size = part.size();
+  state_->Add(&size, sizeof size);
+  state_->Add(part.data(), part.size());
   return *this;
 }
 
@@ -75,16 +109,26 @@ Fingerprint& Fingerprint::AddFile(const fs::path& path) {
   std::string text;
   if (ReadTextFile(path, &text)) text.clear();
   Add(text);
-  if (path.extension() == ".gltf" || path.extension() == ".glb") {
-    for (const fs::path& file : NamedFiles(path, text)) AddFile(file);
-  }
+  if (!IsGltf(path)) return *this;
+  const fs::path real = fs::weakly_canonical(path, ec);
+  if (!state_->open.insert(real).second) return *this;
+  for (const fs::path& file : NamedFiles(path, text)) AddFile(file);
   return *this;
 }
 
-std::string Fingerprint::Hex() const {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(state_));
-  return text;
+std::string Fingerprint::Hex() { return state_->Hex(); }
+
+std::string Sha256(std::string_view bytes) {
+  Digest digest;
+  digest.Add(bytes.data(), bytes.size());
+  return digest.Hex();
+}
+
+Error Sha256OfFile(const fs::path& path, std::string* hex) {
+  std::string bytes;
+  if (Error e = ReadTextFile(path, &bytes)) return e;
+  *hex = Sha256(bytes);
+  return Ok();
 }
 
 }  // namespace flaneur

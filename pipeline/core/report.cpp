@@ -29,6 +29,7 @@ Json StageJson(const StageReport& stage) {
   Json json{{"stage", stage.stage},
             {"item", stage.item},
             {"seconds", Rounded(stage.seconds)},
+            {"work_s", Rounded(stage.work_s)},
             {"cached", stage.cached},
             {"peak_mb", Rounded(stage.peak_mb)}};
   for (const auto& [key, value] : stage.figures) json[key] = Rounded(value);

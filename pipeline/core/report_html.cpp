@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <set>
 
 #include "pipeline/core/report.h"
 #include "runtime/base/array.h"
@@ -82,7 +83,7 @@ std::string Card(const std::string& value, const std::string& meaning) {
 std::string Summary(const BakeReport& report) {
   double work_s = 0, kinds = 0;
   for (const StageReport& stage : report.stages) {
-    work_s += stage.seconds;
+    work_s += stage.work_s;
     kinds += stage.stage == "avatar" ? 1 : 0;
   }
   const auto errors = std::count_if(report.findings.begin(), report.findings.end(),
@@ -93,7 +94,7 @@ std::string Summary(const BakeReport& report) {
          Card(Figure(FigureOf(report, "town", "triangles")), "triangles of the town") +
          Card(Figure(FigureOf(report, "footprints", "obstacles")), "obstacles") +
          Card(Figure(static_cast<double>(errors)), "errors the check found") +
-         Card(Format("%.0f s", work_s), "of work, all stages added") + "</div>";
+         Card(Format("%.0f s", work_s), "of processors' work, when made") + "</div>";
 }
 
 std::string Warnings(const BakeReport& report) {
@@ -122,6 +123,8 @@ std::string Person(const BakeReport& report, const StageReport& avatar) {
   std::string out = "<div class=\"person\"><div><h3>" + Escaped(avatar.item) + "</h3><div class=\"soft\">";
   for (const auto& [key, value] : avatar.figures) out += Escaped(key) + " " + Figure(value) + " &nbsp; ";
   out += "</div>";
+  for (const auto& [word, text] : avatar.notes)
+    out += "<div><span class=\"soft\">" + Escaped(word) + "</span> " + Escaped(text) + "</div>";
   out += Picture(report, "impostor", avatar.item) + Picture(report, "tint", avatar.item);
   out +=
       "</div><table><tr><th class=\"n\">Triangles<th class=\"n\">Error, bind pose<th class=\"n\">Error, walking"
@@ -167,13 +170,52 @@ std::string Findings(const BakeReport& report) {
   return out;
 }
 
+// The stops' captions, a column a language.
+std::string Stops(const BakeReport& report) {
+  if (report.stops.empty()) return "";
+  std::set<std::string> languages;
+  for (const ReportStop& stop : report.stops) {
+    for (const auto& [language, caption] : stop.captions) languages.insert(language);
+  }
+  std::string out = "<h2>Guided tour</h2><table><tr><th class=\"n\">Stop<th class=\"n\">At, m";
+  for (const std::string& language : languages) out += "<th>" + Escaped(language);
+  out += "</tr>";
+  for (size_t i = 0; i < report.stops.size(); ++i) {
+    const ReportStop& stop = report.stops[i];
+    out += "<tr><td class=\"n\">" + Figure(static_cast<double>(i + 1)) + "<td class=\"n\">" +
+           Format("%.1f, ", static_cast<double>(stop.position_m.x)) +
+           Format("%.1f", static_cast<double>(stop.position_m.y));
+    for (const std::string& language : languages) {
+      const auto caption = stop.captions.find(language);
+      out += "<td>" + (caption == stop.captions.end() ? "<span class=\"soft\">–</span>" : Escaped(caption->second));
+    }
+    out += "</tr>\n";
+  }
+  return out + "</table>";
+}
+
+// What this bake made, and what was as before.
+std::string Changed(const BakeReport& report) {
+  std::string made;
+  size_t kept = 0;
+  for (const StageReport& stage : report.stages) {
+    if (stage.cached) ++kept;
+    else made += (made.empty() ? "" : ", ") + stage.stage + " " + stage.item;
+  }
+  return "<h2>Since the last bake</h2><p>Made anew: " + Escaped(made.empty() ? "nothing" : made) +
+         ".<br><span class=\"soft\">" + Figure(static_cast<double>(kept)) + " of " +
+         Figure(static_cast<double>(report.stages.size())) + " steps were as before.</span></p>";
+}
+
 std::string Stages(const BakeReport& report) {
   std::string out =
-      "<h2>Stages</h2><table><tr><th>Stage<th>Item<th class=\"n\">Seconds<th class=\"n\">Peak MB<th>Figures</tr>";
+      "<h2>What it took</h2><table><tr><th>Step<th>Item<th class=\"n\">Clock, s<th class=\"n\">Work, s<th "
+      "class=\"n\">Memory, MB"
+      "<th>Figures</tr>";
   for (const StageReport& stage : report.stages) {
     out += "<tr><td>" + Escaped(stage.stage) + "<td>" + Escaped(stage.item) + "<td class=\"n\">" +
-           (stage.cached ? std::string("cached") : Format("%.1f", stage.seconds)) + "<td class=\"n\">" +
-           Format("%.0f", stage.peak_mb) + "<td class=\"soft\">";
+           (stage.cached ? std::string("as before") : Format("%.1f", stage.seconds)) + "<td class=\"n\">" +
+           Format("%.1f", stage.work_s) + "<td class=\"n\">" + Format("%.0f", stage.peak_mb) + "<td class=\"soft\">";
     for (const auto& [key, value] : stage.figures) out += Escaped(key) + " " + Figure(value) + " &nbsp; ";
     out += "</tr>";
   }
@@ -181,6 +223,22 @@ std::string Stages(const BakeReport& report) {
 }
 
 }  // namespace
+
+std::string ToursHtml(const std::vector<TourRow>& tours) {
+  std::string out = "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>Bake report</title><style>" +
+                    std::string(kStyle) + "</style>\n<h1>" + Figure(static_cast<double>(tours.size())) +
+                    " tours</h1><p><table><tr><th>Tour<th>State<th class=\"n\">Pack, MB<th class=\"n\">Work, s"
+                    "<th class=\"n\">Warnings<th class=\"n\">Errors the check found</tr>";
+  for (const TourRow& tour : tours) {
+    const std::string name = Escaped(tour.name);
+    out += "<tr><td>" + (tour.error.empty() ? "<a href=\"" + Escaped(tour.report) + "\">" + name + "</a>" : name) +
+           "<td><span class=\"" + (tour.error.empty() ? "soft" : "error") + "\">" + tour.state + "</span> " +
+           Escaped(tour.error) + "<td class=\"n\">" + Format("%.1f", tour.pack_mb) + "<td class=\"n\">" +
+           Format("%.1f", tour.work_s) + "<td class=\"n\">" + Figure(static_cast<double>(tour.warnings)) +
+           "<td class=\"n\">" + Figure(static_cast<double>(tour.errors_found)) + "</tr>\n";
+  }
+  return out + "</table></html>\n";
+}
 
 std::string ReportHtml(const BakeReport& report) {
   std::string out = "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>" + Escaped(report.tour) +
@@ -191,7 +249,7 @@ std::string ReportHtml(const BakeReport& report) {
     out += "<h2>Town and obstacles</h2><div class=\"map\">" +
            report.map_svg.substr(svg == std::string::npos ? 0 : svg) + "</div>\n";
   }
-  return out + Findings(report) + "\n" + Stages(report) + "</html>\n";
+  return out + Stops(report) + "\n" + Findings(report) + "\n" + Changed(report) + "\n" + Stages(report) + "</html>\n";
 }
 
 }  // namespace flaneur

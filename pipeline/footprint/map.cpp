@@ -91,6 +91,7 @@ class Plan {
     out_ += Format("<text x=\"%.0f\" y=\"30\" font-size=\"20\">", kMargin) + Escaped(options_.title) + "</text>\n";
     out_ += Format("<g transform=\"translate(%.0f %.0f)\">\n", kMargin, kMargin + 10);
     DrawTown();
+    DrawStops();
     DrawMarks();
     out_ += "</g>\n";
     DrawLegend();
@@ -120,6 +121,21 @@ class Plan {
     DrawGround();
     for (const auto& street : options_.streets) DrawStreet(street);
     for (const Obstacle& o : footprints_.obstacles) DrawObstacle(o);
+  }
+
+  // The line is straight from stop to stop: the guide's own way goes around what stands there.
+  void DrawStops() {
+    std::string path;
+    for (const Point2& p : options_.stops) path += Format("%s%.1f %.1f", path.empty() ? "M" : "L", X(p.x), Y(p.y));
+    if (path.empty()) return;
+    out_ += "<path fill=\"none\" stroke=\"#2a5d8a\" stroke-width=\"2\" stroke-dasharray=\"5 4\" d=\"" + path + "\"/>\n";
+    for (size_t i = 0; i < options_.stops.size(); ++i) {
+      const Point2& p = options_.stops[i];
+      out_ += Format(
+          "<g transform=\"translate(%.1f %.1f)\"><circle r=\"9\" fill=\"#2a5d8a\" stroke=\"#fff\"/><text y=\"4\" "
+          "text-anchor=\"middle\" font-size=\"11\" fill=\"#fff\">%zu</text></g>\n",
+          X(p.x), Y(p.y), i + 1);
+    }
   }
 
   void DrawStreet(const std::vector<Point2>& street) {

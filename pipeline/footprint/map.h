@@ -15,6 +15,7 @@ struct MapOptions {
   const GroundRaster* ground = nullptr;           // drawn below, where given
   std::vector<Finding> findings;                  // marked and listed
   std::vector<std::vector<Point2>> streets = {};  // their middle lines
+  std::vector<Point2> stops = {};                 // of the guided tour, in order: a numbered line
 };
 
 // North is up; hovering shows names. Errors: as for WriteFile.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/core/subprocess.h"
+#include "pipeline/core/blender.h"
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/impostor/atlas_image.h"
 #include "pipeline/impostor/atlas_layers.h"
@@ -276,8 +276,11 @@ Error BakeImpostor(const Avatar& avatar, const ImpostorOptions& options, Imposto
   if (Error error = WriteTextures(folder.path(), avatar, materials, made.texel_m)) return error;
   ProcessResult process;
   const json settings = Settings(folder.path(), materials, geometry, options, made);
-  if (Error error =
-          RunBlenderScript("bake/impostor.py", settings.dump(1), {options.log_file, options.threads}, &process)) {
+  BlenderOptions blender;
+  blender.log_file = options.log_file;
+  blender.threads = options.threads;
+  blender.progress = options.progress;
+  if (Error error = RunBlenderScript("bake/impostor.py", settings.dump(1), blender, &process)) {
     return Fail("avatar '" + avatar.name + "': " + error.message);
   }
   if (Error error = Assemble(folder.path(), &made, statistics)) return error;

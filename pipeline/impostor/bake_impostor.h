@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct ImpostorOptions {
   int samples = 16;      // a pixel, 1 to 4096; coverage comes in as many steps
   int seed = 0;          // of the sample pattern, >= 0
   int threads = 0;       // of Blender, 0: one a core; the atlas does not depend on it
-  std::filesystem::path log_file;  // keeps what Blender printed; empty: nobody needs it
+  std::filesystem::path log_file;        // keeps what Blender printed; empty: nobody needs it
+  std::function<void(double)> progress;  // gets the share that is done, a few times a second; may be empty
 };
 
 struct ImpostorStatistics {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "pipeline/core/subprocess.h"
+#include "pipeline/core/blender.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {

@@ -199,11 +199,15 @@ void TomlTable::MapPoint(const char* key, double* east_m, double* north_m) {
 void TomlTable::File(const char* key, std::filesystem::path* value) {
   std::string text;
   Text(key, &text);
-  if (!text.empty()) *value = Beside(text);
+  if (!text.empty()) *value = Beside(key, text);
 }
 
-std::filesystem::path TomlTable::Beside(const std::string& file) const {
-  return (context_->path.parent_path() / file).lexically_normal();
+std::filesystem::path TomlTable::Beside(const char* key, const std::string& file) {
+  const toml::node* node = table_ != nullptr ? table_->get(key) : nullptr;
+  const std::string line = node != nullptr ? ":" + std::to_string(node->source().begin.line) : "";
+  const std::filesystem::path path = (context_->path.parent_path() / file).lexically_normal();
+  context_->files.emplace_back(path, context_->path.string() + line + ": " + Name(key));
+  return path;
 }
 
 void TomlTable::Translations(const char* key, const std::string& own, std::map<std::string, std::string>* texts) {

@@ -18,7 +18,8 @@ namespace flaneur {
 struct TomlContext {
   std::filesystem::path path;
   Error error;
-  std::vector<std::string> known;  // "section.key"
+  std::vector<std::string> known;                                    // "section.key"
+  std::vector<std::pair<std::filesystem::path, std::string>> files;  // that it names, each with "FILE:LINE: key"
 
   void Refuse(const toml::node* node, const std::string& why);  // keeps the first
 };
@@ -56,8 +57,8 @@ class TomlTable {
   void File(const char* key, std::filesystem::path* value);         // relative to the file's folder
   // Texts by language: one text, which is in `own`, or a table of them.
   void Translations(const char* key, const std::string& own, std::map<std::string, std::string>* texts);
-  void Json(const char* key, std::string* json);                // a table, as a JSON object
-  std::filesystem::path Beside(const std::string& file) const;  // the same of a name that was read otherwise
+  void Json(const char* key, std::string* json);                           // a table, as a JSON object
+  std::filesystem::path Beside(const char* key, const std::string& file);  // the same of a name that was read otherwise
   // The table, or array of tables, under the key.
   TomlTable Table(const char* key);
   std::vector<TomlTable> Tables(const char* key);

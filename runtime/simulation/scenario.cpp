@@ -151,7 +151,7 @@ Scenario ScenarioOf(const TourPack& pack) {
 Error ReadScenario(const std::filesystem::path& path, Scenario* scenario) {
   toml::table root;
   if (Error e = ReadToml(path, &root)) return e;
-  TomlContext context{path, {}, {}};
+  TomlContext context{path, {}, {}, {}};
   Scenario read = *scenario;
   ReadAll(TomlTable(&context, &root, ""), &read);
   if (context.error) return context.error;

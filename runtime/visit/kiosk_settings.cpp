@@ -46,7 +46,7 @@ std::filesystem::path KioskSettingsPath() {
 Error ReadKioskSettings(const std::filesystem::path& path, KioskSettings* settings) {
   toml::table root;
   if (Error e = ReadToml(path, &root)) return e;
-  TomlContext context{path, {}, {}};
+  TomlContext context{path, {}, {}, {}};
   KioskSettings read = *settings;
   ReadAll(TomlTable(&context, &root, ""), &read);
   if (context.error) return context.error;

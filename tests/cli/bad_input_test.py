@@ -34,7 +34,7 @@ class BadInput(ProgramTest):
         return path
 
     def bake(self, path, **options):
-        return run("flaneur", "bake", path, "-o", self.folder / "out", **options)
+        return run("flaneur", "bake", path, "-o", self.folder / "out", "--allow-scripts", **options)
 
     def with_avatar(self):
         write_person(self.folder / "avatar.glb")

@@ -58,7 +58,7 @@ class Cache(ProgramTest):
     def bake(self, out=None):
         """The steps that were made anew, as "stage item"."""
         (self.folder / "tour.toml").write_text(self.settings)
-        self.assert_succeeds(run("flaneur", "bake", self.folder / "tour.toml", "-o", out or self.out))
+        self.assert_succeeds(run("flaneur", "bake", self.folder / "tour.toml", "-o", out or self.out, "--allow-scripts"))
         report = json.loads(((out or self.out) / "report.json").read_text())
         return {f"{s['stage']} {s['item']}" for s in report["stages"] if not s["cached"]}
 
@@ -71,7 +71,7 @@ class Cache(ProgramTest):
         self.assertEqual(self.bake(), set(), "nothing changed")
 
         self.settings += "[control]\nbudget_triangles = 4321\n[[stop]]\nposition_m = [10, 10]\n"
-        self.assert_made(set())
+        self.assert_made({"check small"})  # whose map shows the stops
         inspected = run("flaneur", "inspect", self.pack, "--json")
         self.assertEqual(json.loads(inspected.stdout)["path_stops"], 1)
 
@@ -100,10 +100,10 @@ class Cache(ProgramTest):
     def test_a_damaged_cache_is_no_cache(self):
         self.bake()
         good = self.pack.read_bytes()
-        for kept in (self.out / "cache").glob("*.kept"):
+        for number, kept in enumerate(sorted((self.out / "cache").rglob("*.kept"))):
             data = bytearray(kept.read_bytes())
             data[len(data) // 2] ^= 0x40
-            kept.write_bytes(data if "painted" in kept.name else data[:-5])
+            kept.write_bytes(data if number % 2 else data[:-5])
         self.pack.unlink()
         self.assert_made(PEOPLE | TOWN)
         self.assertEqual(self.pack.read_bytes(), good)

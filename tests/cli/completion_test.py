@@ -30,7 +30,7 @@ class Completion(unittest.TestCase):
 
     def test_every_verb_and_each_ones_options(self):
         verbs = complete("flaneur", "")
-        for verb in ("avatar", "bake", "check", "footprints", "impostor", "inspect", "web"):
+        for verb in ("avatar", "bake", "cache", "check", "footprints", "impostor", "inspect", "plan", "step", "web"):
             self.assertIn(verb, verbs)
             said = options("flaneur", verb)
             self.assertIn("--help", said)

@@ -59,7 +59,7 @@ class ForeignTour(ProgramTest):
     def test_baked_and_played(self):
         (self.folder / "tour.toml").write_text(tour_of_foreign_parts())
         out = self.folder / "out"
-        self.assert_succeeds(run("flaneur", "bake", self.folder / "tour.toml", "-o", out))
+        self.assert_succeeds(run("flaneur", "bake", self.folder / "tour.toml", "-o", out, "--allow-outside"))
         pack = out / "foreign.glb"
         self.assert_valid(pack)
         self.check_report(json.loads((out / "report.json").read_text()))
@@ -107,7 +107,7 @@ class ForeignTour(ProgramTest):
 
     def check_second_bake(self, out, pack):
         before = pack.read_bytes()
-        self.assert_succeeds(run("flaneur", "bake", self.folder / "tour.toml", "-o", out))
+        self.assert_succeeds(run("flaneur", "bake", self.folder / "tour.toml", "-o", out, "--allow-outside"))
         self.assertEqual(pack.read_bytes(), before)
         report = json.loads((out / "report.json").read_text())
         self.assertTrue(all(s["cached"] for s in report["stages"] if s["stage"] in ("avatar", "impostor")))

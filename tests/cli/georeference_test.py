@@ -280,15 +280,15 @@ class Georeference(ProgramTest):
         write_person(self.folder / "person.glb")
         tour, out = self.folder / "tour.toml", self.folder / "out"
         tour.write_text(TOUR % 'georeference = { crs = "EPSG:32632", origin_m = [10.5, 52.1] }')
-        self.assert_fails(run("flaneur", "bake", tour, "-o", out), "town.georeference", "looks like degrees")
+        self.assert_fails(run("flaneur", "bake", tour, "-o", out, "--allow-outside"), "town.georeference", "looks like degrees")
         tour.write_text(TOUR % 'georeference = { crs = "EPSG:32632", origin_m = [500000, 1000] }')
-        self.assert_succeeds(run("flaneur", "bake", tour, "-o", out))
+        self.assert_succeeds(run("flaneur", "bake", tour, "-o", out, "--allow-outside"))
         local = json.loads((out / "footprints.geojson").read_text())
         self.assertEqual(local["flaneur"]["origin_m"], [500000, 1000])
         on_earth = out / "footprints_wgs84.geojson"
         self.assert_on_earth(local, json.loads(on_earth.read_text()))
         tour.write_text(TOUR % "")
-        self.assert_succeeds(run("flaneur", "bake", tour, "-o", out))
+        self.assert_succeeds(run("flaneur", "bake", tour, "-o", out, "--allow-outside"))
         self.assertEqual(json.loads((out / "footprints.geojson").read_text())["flaneur"]["origin_m"], [0, 0])
         self.assertFalse(on_earth.exists(), "it would be another town's")
 

@@ -62,6 +62,13 @@ def baked_demo():
     return folder
 
 
+def made_by(step, tour=DEMO_TOUR, output=SOURCE / "build_assets/wolfenbuettel"):
+    """The file that holds what a step of a bake has made, such as "source:town"."""
+    plan = json.loads(run("flaneur", "plan", tour, "-o", output, "--json").stdout)
+    path, = (each["outputs"][0] for each in plan["steps"] if each["name"] == step)
+    return pathlib.Path(path)
+
+
 def run_blender_script(script, output, seed, **options):
     """Runs a script of blender_scripts/ as the pipeline does; a failure shows what Blender said."""
     blender = os.environ.get("FLANEUR_BLENDER") or shutil.which("blender")

@@ -8,7 +8,7 @@ import struct
 import sys
 import unittest
 
-from support import baked_demo, split_glb
+from support import baked_demo, made_by, split_glb
 
 KINDS = {"building", "wall", "tree", "lamp", "other", "ground", "door", "exit", "loiter", "work", "none"}
 GROUNDS = {"carriageway", "pavement", "square", "grass"}
@@ -139,7 +139,8 @@ class Town(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         if cls.path is None:
-            cls.path = baked_demo() / "cache/town.glb"
+            baked_demo()
+            cls.path = made_by("source:town")
         cls.gltf, cls.binary = split_glb(cls.path)
 
     def assert_kept(self, check, *arguments):

@@ -90,7 +90,7 @@ TEST_F(VisitorSettings, WhatIsToBeSpokenIsInEveryLanguageAndARecordingStaysAsItI
             "");
   TourParts parts;
   static_cast<TourData&>(parts) = settings;
-  ASSERT_EQ(MakeVisitorMedia(settings, folder.path(), &parts).message, "");
+  ASSERT_EQ(MakeVisitorMedia(settings, Store{folder.path()}, &parts).message, "");
   EXPECT_TRUE(parts.path[1].sounds.empty());
   ASSERT_EQ(parts.path[0].sounds.size(), 2u);
   EXPECT_EQ(parts.sounds.size(), 2u);
@@ -102,14 +102,14 @@ TEST_F(VisitorSettings, WhatIsToBeSpokenIsInEveryLanguageAndARecordingStaysAsItI
 
   settings.sounds[0]["de"] = folder.path() / "own.wav";
   std::vector<uint8_t> own;
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
     if (entry.path().extension() != ".ogg") continue;
     ASSERT_FALSE(ReadFile(entry.path(), &own));
   }
   ASSERT_FALSE(WriteFile(folder.path() / "own.wav", own));
   TourParts again;
   static_cast<TourData&>(again) = settings;
-  ASSERT_EQ(MakeVisitorMedia(settings, folder.path(), &again).message, "");
+  ASSERT_EQ(MakeVisitorMedia(settings, Store{folder.path()}, &again).message, "");
   EXPECT_EQ(again.sounds[static_cast<size_t>(again.path[0].sounds.at("de").sound)], own);
 }
 
@@ -119,7 +119,7 @@ TEST_F(VisitorSettings, AVoiceThatThereIsNotIsNamed) {
       "");
   TourParts parts;
   static_cast<TourData&>(parts) = settings;
-  const std::string message = MakeVisitorMedia(settings, folder.path(), &parts).message;
+  const std::string message = MakeVisitorMedia(settings, Store{folder.path()}, &parts).message;
   EXPECT_NE(message.find("'nobody'"), std::string::npos) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }

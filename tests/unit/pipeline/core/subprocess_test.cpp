@@ -1,4 +1,4 @@
-#include "pipeline/core/subprocess.h"
+#include "pipeline/core/blender.h"
 
 #include <gtest/gtest.h>
 
