@@ -37,8 +37,8 @@ struct PictureOptions {
 Error CreatePicture(const PictureOptions& options, ShaderMode mode, Picture* picture);
 // scale: FrameInput::resolution_scale.
 void ResizePicture(int width_px, int height_px, float scale, Picture* picture);
-// Whether the picture is finished beside the window's surface, as a part of a headset's has to be: shaders go by where in
-// their picture a pixel is. Before ResizePicture.
+// Whether the picture is finished beside the window's surface, as a part of a headset's has to be: shaders go by where
+// in their picture a pixel is. Before ResizePicture.
 void FinishBeside(bool beside, Picture* picture);
 // Empties what is drawn into, and leaves it bound.
 void BeginPicture(const Picture& picture);

@@ -316,8 +316,8 @@ void Renderer::Impl::Draw(const FrameInput& frame, const std::vector<EyePicture>
                                                   std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
     r.DrawSurfaces(from, matrix, picks, frame.turns_rad, &timer, &people_cost, &town_cost);
     if (!r.options.normals) r.DrawSky();
-    mark = r.options.normals ? DrawCost{}
-                             : DrawContactShade(matrix, from, frame.contact_shade, r.people, r.contact_shade);
+    mark =
+        r.options.normals ? DrawCost{} : DrawContactShade(matrix, from, frame.contact_shade, r.people, r.contact_shade);
     if (!r.options.normals) mark += DrawSmoke(frame.smoke, r.smoke);
     mark += DrawGroundMark(frame.ground_mark, r.ground_mark);
     timer.Passed(DrawPass::kSky);
