@@ -138,8 +138,8 @@ std::string FootprintsInputs(const TourSettings& s, const std::string& shape_inp
   const auto& [clearance_m, band_m, tolerance_m, bridge_m, open_yard_m2, scale, merge_blocks, threads] = s.footprints;
   AddAll(band_m, &print);
   print.Add(clearance_m).Add(tolerance_m).Add(bridge_m).Add(open_yard_m2).Add(scale).Add(merge_blocks);
-  const auto& [cell_m, max_cells, ground_scale, bare_margin_m] = s.ground;
-  return print.Add(cell_m).Add(max_cells).Add(ground_scale).Add(bare_margin_m).Hex();
+  const auto& [cell_m, max_cells, ground_scale, bare_margin_m, with_decks] = s.ground;
+  return print.Add(cell_m).Add(max_cells).Add(ground_scale).Add(bare_margin_m).Add(with_decks).Hex();
 }
 
 std::string CheckInputs(const TourSettings& s, const std::string& footprints_inputs) {
