@@ -60,9 +60,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"towers, untagged, no ground", kTowers, {.name = "", .no_ground = true}, false, 0.998},
                     Case{"basins", kBasins, {}, true, 0.998}, Case{"basins, untagged", kBasins, {}, false, 0.998},
                     Case{"terraces, untagged", kTerraces, {}, false, 0.998}),
-    [](const testing::TestParamInfo<Case>& info) {
+    [](const testing::TestParamInfo<Case>& tested) {
       std::string name;
-      for (const char c : std::string(info.param.name)) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+      for (const char c : std::string(tested.param.name)) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
       return name;
     });
 
