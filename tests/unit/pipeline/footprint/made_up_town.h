@@ -334,7 +334,7 @@ inline Scene ToScene(const Town& town, Tags tags) {
     builder.AddPolygon(ground ? builder.FoundationOf(house) : house, face.kind, face.rings);
   }
   Scene scene;
-  if (const Error error = builder.Finish("made-up", "EPSG:25832", &scene, nullptr)) std::abort();
+  if (const Error error = builder.Finish("made-up", {"EPSG:25832", false}, &scene, nullptr, nullptr)) std::abort();
   return scene;
 }
 

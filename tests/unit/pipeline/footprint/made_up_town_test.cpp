@@ -54,7 +54,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"rows, walls of one owner", kRowsOfOne, {}, true, 0.99},
                     Case{"yards, walls of one owner", kYardsOfOne, {}, true, 0.99},
                     Case{"huge, untagged", kHuge, {}, false, 0.998},
-                    Case{"huge, untagged, no ground", kHuge, {.name = "", .no_ground = true}, false, 0.998},
                     Case{"huge, untagged, jittered", kHuge, {.name = "", .jitter = true}, false, 0.995},
                     Case{"towers, untagged", kTowers, {}, false, 0.998},
                     Case{"towers, untagged, no ground", kTowers, {.name = "", .no_ground = true}, false, 0.998},
