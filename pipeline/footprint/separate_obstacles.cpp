@@ -128,6 +128,22 @@ Rings GroundOfBoth(const Shape& a, const BoundingBox& box_a, const Shape& b, con
   return shared;
 }
 
+// Without points so near the one before that a check would take them for one.
+Rings WithoutShortEdges(Rings rings) {
+  constexpr double kShort_m = 0.0015;
+  const auto near = [](Point2 a, Point2 b) { return std::hypot(a.x - b.x, a.y - b.y) < kShort_m; };
+  for (auto& ring : rings) {
+    auto kept = ring;
+    kept.clear();
+    for (const Point2& p : ring) {
+      if (kept.empty() || !near(kept.back(), p)) kept.push_back(p);
+    }
+    while (kept.size() > 3 && near(kept.front(), kept.back())) kept.pop_back();
+    if (kept.size() >= 3) ring = std::move(kept);
+  }
+  return rings;
+}
+
 }  // namespace
 
 void SeparateObstacles(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes, double width_m,
@@ -170,7 +186,7 @@ void SeparateObstacles(const std::vector<TownObject>& objects, const std::vector
       append(shared.empty() ? both : Difference(both, shared), &taken);
     }
     if (Area(taken) >= kMinStrip_m2)
-      (*enlarged)[i] = WithoutSpecks(DifferenceOfAreas((*enlarged)[i], UnionOfAreas(taken)));
+      (*enlarged)[i] = WithoutShortEdges(WithoutSpecks(DifferenceOfAreas((*enlarged)[i], UnionOfAreas(taken))));
   };
   const std::vector<std::vector<size_t>> groups = Groups(neighbours);
   ForEach(groups.size(), threads, [&](size_t k) {

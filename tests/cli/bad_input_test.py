@@ -71,13 +71,10 @@ class BadInput(ProgramTest):
         write_box_town(statue, houses=1)
         self.assert_fails(run("flaneur", "avatar", statue, "-o", self.folder / "o.glb"), "statue.glb", "skin")
 
-    def test_no_walk_clip(self):
-        still = self.folder / "still.glb"
-        write_person(still)
-        gltf, binary = split_glb(still)
-        gltf.pop("animations")
-        write_glb(still, gltf, binary)
-        self.assert_fails(run("flaneur", "avatar", still, "-o", self.folder / "o.glb"), "still.glb", "walk")
+    def test_a_walk_that_is_not_there_is_named(self):
+        person = self.folder / "person.glb"
+        write_person(person)
+        self.assert_fails(run("flaneur", "avatar", person, "--walk", "stroll", "-o", self.folder / "o.glb"), "person.glb", "stroll")
 
     def test_empty_town(self):
         empty = self.folder / "empty.glb"
@@ -175,7 +172,7 @@ class BadInput(ProgramTest):
     def test_outputs_that_cannot_be_written_are_named(self):
         self.with_avatar()
         write_box_town(self.folder / "town.glb")
-        for arguments in (("avatar", "avatar.glb", "-o", "."), ("avatar", "avatar.glb", "-o", "town.glb/x.glb"),
+        for arguments in (("avatar", "avatar.glb", "-o", "town.glb/x.glb"),
                           ("impostor", "avatar.glb", "-o", "town.glb"), ("footprints", "town.glb", "-o", "."),
                           ("footprints", "town.glb", "-o", "town.glb/x.geojson")):
             with self.subTest(arguments):
