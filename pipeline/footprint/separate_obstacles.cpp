@@ -128,22 +128,6 @@ Rings GroundOfBoth(const Shape& a, const BoundingBox& box_a, const Shape& b, con
   return shared;
 }
 
-// Without points so near the one before that a check would take them for one.
-Rings WithoutShortEdges(Rings rings) {
-  constexpr double kShort_m = 0.0015;
-  const auto near = [](Point2 a, Point2 b) { return std::hypot(a.x - b.x, a.y - b.y) < kShort_m; };
-  for (auto& ring : rings) {
-    auto kept = ring;
-    kept.clear();
-    for (const Point2& p : ring) {
-      if (kept.empty() || !near(kept.back(), p)) kept.push_back(p);
-    }
-    while (kept.size() > 3 && near(kept.front(), kept.back())) kept.pop_back();
-    if (kept.size() >= 3) ring = std::move(kept);
-  }
-  return rings;
-}
-
 }  // namespace
 
 void SeparateObstacles(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes, double width_m,
@@ -173,26 +157,8 @@ void SeparateObstacles(const std::vector<TownObject>& objects, const std::vector
     (*enlarged)[i] = kept;
     AssignToNeighbours(strips, i, neighbours[i], width_m, &boxes, enlarged);
   };
-  // Tidying moves corners by hairs, and strips that were given away may reach over a third one's.
-  const auto part = [&](size_t i) {
-    Rings taken;
-    const BoundingBox box = BoundingBoxOf((*enlarged)[i]);
-    for (const size_t j : neighbours[i]) {
-      if (j > i || (*enlarged)[j].empty() || Apart(box, BoundingBoxOf((*enlarged)[j]))) continue;
-      const Rings both = Intersection((*enlarged)[i], (*enlarged)[j]);
-      if (both.empty()) continue;
-      const Rings shared =
-          is_house(i) && is_house(j) ? GroundOfBoth(shapes[i], solid_boxes[i], shapes[j], solid_boxes[j]) : Rings();
-      append(shared.empty() ? both : Difference(both, shared), &taken);
-    }
-    if (Area(taken) >= kMinStrip_m2)
-      (*enlarged)[i] = WithoutShortEdges(WithoutSpecks(DifferenceOfAreas((*enlarged)[i], UnionOfAreas(taken))));
-  };
   const std::vector<std::vector<size_t>> groups = Groups(neighbours);
-  ForEach(groups.size(), threads, [&](size_t k) {
-    std::for_each(groups[k].begin(), groups[k].end(), separate);
-    std::for_each(groups[k].begin(), groups[k].end(), part);
-  });
+  ForEach(groups.size(), threads, [&](size_t k) { std::for_each(groups[k].begin(), groups[k].end(), separate); });
 }
 
 }  // namespace flaneur

@@ -96,13 +96,6 @@ class Damaged(SmallTourTest):
         self.assertIn("source", made)
         self.assertIn("footprints", made)
 
-    def test_another_blender_draws_impostors_anew(self):
-        self.assert_succeeds(self.bake())
-        other = write_program(self.folder / "blender", f'exec "{shutil.which("blender")}" "$@"\n')
-        self.assert_succeeds(self.bake(FLANEUR_BLENDER=str(other)))
-        made = {stage["stage"] for stage in json.loads((self.out / "report.json").read_text())["stages"] if not stage["cached"]}
-        self.assertEqual(made, {"impostor", "pack"})
-
 
 class Killed(SmallTourTest):
     def start(self, *options, **variables):
