@@ -374,7 +374,7 @@ std::vector<std::string> KnownSettings() {
   const toml::table root = toml::parse(
       "[[avatar]]\n[[avatar.tint]]\n[[avatar.prop]]\n[[avatar.clip]]\n[[avatar.part]]\n[[place]]\n[[stop]]\n[[town."
       "part]]\n"
-      "[[hotspot]]\n[[street]]\n[[sound]]\n[[flock]]\n[[smoke]]\n");
+      "[[hotspot]]\n[[street]]\n[[sound]]\n[[flock]]\n[[smoke]]\n[[footprints.accept]]\n");
   TomlContext context;
   TourSettings settings;
   ReadAll(TomlTable(&context, &root, ""), &settings);

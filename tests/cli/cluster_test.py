@@ -1,5 +1,6 @@
 """A tour of twelve people baked by Snakemake: on this machine, and through Slurm, where a node is taken away in the middle."""
 import json
+import os
 import subprocess
 import time
 import unittest
@@ -12,6 +13,7 @@ SCRIPTS = SOURCE / "scripts/cluster"
 MADE = ("small.glb", "footprints.geojson", "plan.png")
 
 
+@unittest.skipUnless(os.environ.get("FLANEUR_CLUSTER"), "FLANEUR_CLUSTER=1 starts a cluster of one node")
 class OfTwelve(SmallTourTest):
     avatars = tuple(f"person_{i}" for i in range(12))
 
@@ -61,6 +63,7 @@ class OfTwelve(SmallTourTest):
         self.assertEqual(plan, [], "all is there")
 
 
+@unittest.skipUnless(os.environ.get("FLANEUR_CLUSTER"), "FLANEUR_CLUSTER=1 has Snakemake bake a tour")
 class OfOne(SmallTourTest):
     def test_on_this_machine(self):
         if not has_tools("snakemake"):
