@@ -108,7 +108,8 @@ Failure BuildScene(const FlaneurFootprintsDef& def, Town* town) {
       builder.AddPolygon(node, SurfaceKind::kOther,
                          {{Corner(object, k), Corner(object, k + 1), Corner(object, k + 2)}});
   }
-  if (Error error = builder.Finish("the town", {"", false}, &town->scene, nullptr, &town->warnings)) return BadInput(error);
+  if (Error error = builder.Finish("the town", {"", false}, &town->scene, nullptr, &town->warnings))
+    return BadInput(error);
   for (size_t i = 0; i < radii.size(); ++i) town->scene.nodes[i].radius_m = radii[i];
   return {};
 }
