@@ -13,6 +13,7 @@
 #include "pipeline/io/gltf.h"
 #include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
+#include "runtime/base/option_range.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -41,7 +42,7 @@ void AddPerson(CLI::App* app, AvatarArguments* a) {
   app->add_option("--talk", a->read.talk, "Name of the talk clip")->group(person);
   app->add_option("--height", a->read.height_m,
                   "Metres to scale the person to; 0: as it is, or 1.75 where that is no person's height")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(NumberFrom(0.0, 10.0))
       ->group(person);
   app->add_option("--hide", a->read.hide, "Names of nodes left out with what hangs on them, separated by commas")
       ->delimiter(',')
@@ -54,7 +55,7 @@ void AddLevels(CLI::App* app, AvatarArguments* a) {
                   "Share of the triangles in each level, falling, separated by commas; empty: as "
                   "the levels' errors say")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(NumberFrom(0.0, 1.0))
       ->group(levels);
   app->add_option("--error-px", a->levels.error_px,
                   "Pixels that a level's error may span on the screen where it is shown")

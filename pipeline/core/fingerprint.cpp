@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 #include <vector>
 
 #include "runtime/base/file.h"
@@ -75,8 +76,15 @@ Fingerprint& Fingerprint::AddFile(const fs::path& path) {
   std::string text;
   if (ReadTextFile(path, &text)) text.clear();
   Add(text);
-  if (path.extension() == ".gltf" || path.extension() == ".glb") {
-    for (const fs::path& file : NamedFiles(path, text)) AddFile(file);
+  if (path.extension() != ".gltf" && path.extension() != ".glb") return *this;
+  // What a model names is taken as bytes, whatever it is: models may name themselves, or each other, but name no files
+  // in turn that count.
+  std::set<fs::path> added;
+  for (const fs::path& file : NamedFiles(path, text)) {
+    if (!added.insert(file.lexically_normal()).second) continue;
+    std::string bytes;
+    if (ReadTextFile(file, &bytes)) bytes.clear();
+    Add(bytes);
   }
   return *this;
 }

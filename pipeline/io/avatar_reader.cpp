@@ -10,6 +10,7 @@
 #include "pipeline/io/gltf_pose.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/base/limits.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -158,7 +159,7 @@ class AvatarReader {
   void AttachVertices(const Part& part, Mesh* mesh) const;
   int PropOf(int node) const;
   Mesh* MergedMesh(int material, std::vector<Mesh>* meshes) const;
-  void AddClip(const ChosenClip& chosen);
+  Error AddClip(const ChosenClip& chosen);
   void DropUnusedMaterials();
 
   const DocumentNode& Node(int i) const { return At(document_.nodes, i); }
@@ -240,15 +241,17 @@ Error AvatarReader::FindJoints() {
     const int mesh = Node(part.node).mesh;
     for (const auto& primitive : At(document_.meshes, mesh).primitives) {
       const Influences& in = primitive.influences;
+      bool any_weight = false;
       for (size_t i = 0; i < in.joints.size(); ++i) {
         if (in.weights[i] <= 0) continue;
+        any_weight = true;
         if (!InRange(skin.joints, in.joints[i])) {
           return Fail("mesh " + Quoted(primitive.mesh.name) + ": joint " + std::to_string(in.joints[i]) +
                       " is not in its skin");
         }
         At(used, At(skin.joints, in.joints[i])) = true;
       }
-      if (in.per_vertex == 0) At(used, skin.joints[0]) = true;
+      if (!any_weight) At(used, skin.joints[0]) = true;
     }
   }
   for (auto it = document_.order.rbegin(); it != document_.order.rend(); ++it) {
@@ -478,13 +481,17 @@ Error AvatarReader::AddPart(const Part& part) {
   return Ok();
 }
 
-void AvatarReader::AddClip(const ChosenClip& chosen) {
+Error AvatarReader::AddClip(const ChosenClip& chosen) {
   const DocumentClip& source = At(document_.clips, chosen.source);
   const ClipSpan span = SpanOf(source);
   Clip clip;
   clip.name = chosen.name;
   clip.duration_s = span.end_s - span.start_s;
+  if (!(clip.duration_s < kMostClip_s)) return Fail("clip " + Quoted(clip.name) + " is longer than ten minutes");
   clip.keys = std::max(2, 1 + static_cast<int>(std::lround(clip.duration_s * kKeysPerSecond)));
+  if (static_cast<size_t>(clip.keys) * (document_.nodes.size() + source.channels.size()) > kMostPoses)
+    return Fail("clip " + Quoted(clip.name) +
+                " is too long for so many nodes and channels; cut it, or simplify the file");
   if (!(clip.duration_s > 0)) clip.duration_s = 1;  // a pose, held
   const size_t joints = joint_nodes_.size();
   for (int k = 0; k < clip.keys; ++k) {
@@ -504,6 +511,7 @@ void AvatarReader::AddClip(const ChosenClip& chosen) {
     }
   }
   avatar_->clips.push_back(std::move(clip));
+  return Ok();
 }
 
 void AvatarReader::DropUnusedMaterials() {
@@ -549,7 +557,9 @@ Error AvatarReader::Read() {
     if (prop.meshes.empty()) return Fail("prop " + Quoted(prop.name) + " shows no mesh that hangs on a bone");
   }
   DropUnusedMaterials();
-  for (const ChosenClip& clip : clips_) AddClip(clip);
+  for (const ChosenClip& clip : clips_) {
+    if (Error e = AddClip(clip)) return e;
+  }
   if (unnormalized_ > 0) {
     notes_->push_back(std::to_string(unnormalized_) + " vertices had weights that do not sum to 1; they were scaled");
   }

@@ -12,6 +12,7 @@
 #include "pipeline/io/scene_reader.h"
 #include "pipeline/io/town_builder.h"
 #include "runtime/base/array.h"
+#include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -79,6 +80,7 @@ class Reader {
       : path_(path), warnings_(warnings), parser_(XML_ParserCreateNS(nullptr, kSeparator), &XML_ParserFree) {}
 
   Error Read(Scene* scene) {
+    if (Error e = CheckReadable(path_)) return e;
     const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path_.c_str(), "rb"), &std::fclose);
     if (!file) return Fail(path_.string() + ": cannot be opened");
     XML_SetUserData(parser_.get(), this);

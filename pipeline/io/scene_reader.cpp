@@ -27,6 +27,7 @@ bool IsXml(const std::string& text, char first) {
 }  // namespace
 
 Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings) {
+  if (Error e = CheckReadable(path)) return e;
   if (NeedsBlender(path)) {
     TemporaryFolder folder;
     std::filesystem::path gltf;
