@@ -6,6 +6,8 @@
 #include <cstring>
 #include <memory>
 
+#include "runtime/base/limits.h"
+
 namespace flaneur {
 namespace {
 

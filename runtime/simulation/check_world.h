@@ -1,6 +1,7 @@
 // Whether ground and obstacles can be walked on at all, before anything is made of them. Internal to
 // runtime/simulation.
 #pragma once
+#include "runtime/base/error.h"
 #include "runtime/crowd/walkable.h"
 
 namespace flaneur {

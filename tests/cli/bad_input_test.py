@@ -338,7 +338,7 @@ class Playing(ProgramTest):
                     self.assert_fails(run("flaneur", verb, path, *output), path, "device, pipe or socket")
 
     def test_a_large_still_can_be_interrupted(self):
-        command = [BIN / "flaneur-player", self.pack, "--headless", "--seconds", "0.1", "--size", "8192x8192", "--samples", "8",
+        command = [BIN / "flaneur-player", self.pack, "--headless", "--seconds", "0.1", "--size", "4096x4096", "--samples", "4",
                    "--screenshot", self.folder / "large.png"]
         with subprocess.Popen(list(map(str, command)), stderr=subprocess.PIPE, text=True) as player:
             time.sleep(3)

@@ -1,7 +1,7 @@
 // Small packs that ask for much: each is refused in one line before anything is allocated or done for it.
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <algorithm>
 
 #include "runtime/pack/tour_pack.h"
 #include "tests/unit/pipeline/pack/small_tour.h"
@@ -222,8 +222,9 @@ TEST(PackLimits, DeepJsonIsRefusedBeforeItIsParsed) {
   Asking pack;
   std::string deep = "{\"a\":" + std::string(200000, '[') + std::string(200000, ']') + "}";
   deep.resize((deep.size() + 3) / 4 * 4, ' ');
-  std::vector<uint8_t> bytes(pack.whole.begin(), pack.whole.begin() + 20);
-  bytes.insert(bytes.end(), deep.begin(), deep.end());
+  std::vector<uint8_t> bytes = pack.whole;
+  bytes.resize(20 + deep.size());
+  std::copy(deep.begin(), deep.end(), bytes.begin() + 20);
   PutWord(&bytes, 8, bytes.size());
   PutWord(&bytes, 12, deep.size());
   PackFile file;

@@ -70,7 +70,9 @@ TEST(Walkable, IsFreeWhereNoHouseIsAndNoWallIsNear) {
         EXPECT_TRUE(IsFree(w, p)) << p.x << " " << p.y;
         ++free;
       }
-      if (wall_m < w.person_radius_m) EXPECT_LE(Clearance(w, cell, p), wall_m + kNearlyAlike_m);
+      if (wall_m < w.person_radius_m) {
+        EXPECT_LE(Clearance(w, cell, p), wall_m + kNearlyAlike_m);
+      }
     }
     EXPECT_GT(free, 1000);
   }
