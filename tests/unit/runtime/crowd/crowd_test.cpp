@@ -65,7 +65,9 @@ TEST(Walkable, IsFreeWhereNoHouseIsAndNoWallIsNear) {
       const Vec2 p = CellCenter(w, cell);
       const float wall_m = DistanceToWalls_m(w, p);
       if (InsideObstacle(w, p) || std::max(std::abs(p.x), std::abs(p.y)) > 20) {
-        EXPECT_FALSE(IsFree(w, p)) << p.x << " " << p.y;
+        // Where a person just fits through between two walls, the way is open though a cell's middle lies in one.
+        const bool is_door = w.cost[static_cast<size_t>(cell)] == kGroundCost[3] * kNarrowCost;
+        EXPECT_TRUE(!IsFree(w, p) || is_door) << p.x << " " << p.y;
       } else if (wall_m > w.person_radius_m + kNearlyAlike_m) {
         EXPECT_TRUE(IsFree(w, p)) << p.x << " " << p.y;
         ++free;
