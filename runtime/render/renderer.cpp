@@ -161,8 +161,7 @@ struct Renderer::Impl {
 
   // The costs are those of one picture, however many are averaged. picks: the town's triangles that this very view
   // shows, not those for both eyes.
-  void DrawSurfaces(Vec3 eye, const Mat4& view_projection, bool picks, const std::vector<float>& turns_rad,
-                    PassTimer* timer, DrawCost* meshes_and_impostors, DrawCost* of_town) {
+  void DrawSurfaces(Vec3 eye, bool picks, PassTimer* timer, DrawCost* meshes_and_impostors, DrawCost* of_town) {
     BeginPicture(picture);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
@@ -171,7 +170,6 @@ struct Renderer::Impl {
     timer->Passed(DrawPass::kMeshes);
     if (picture.deferred) glFlush();  // software fills these pixels while it goes through the town's triangles
     *of_town = DrawTown(eye, picture.drawn_width_px, picture.drawn_height_px, options.cull && picks, &town);
-    *of_town += DrawTurningParts(view_projection, turns_rad, options.cull && picks, &town);
     timer->Passed(DrawPass::kTown);
     *meshes_and_impostors += DrawPeople(people, true);
     timer->Passed(DrawPass::kImpostors);
@@ -293,6 +291,7 @@ void Renderer::Impl::Draw(const FrameInput& frame, const std::vector<EyePicture>
   const Mat4& view_projection = view.view_projection;
   PassTimer timer(r.options.time_passes, &statistics->pass_ms);
   FindVisibleBlocks(view_projection, view.eye, r.options.cull, &r.town);
+  PlaceTurningParts(view_projection, frame.turns_rad, r.options.cull, &r.town);
   if (!r.waits) BeginPictureTime(&r.clock);
   const double people_ms = Now_ms();
   ResizePicture(width_px, height_px, frame.resolution_scale, &r.picture);
@@ -314,7 +313,7 @@ void Renderer::Impl::Draw(const FrameInput& frame, const std::vector<EyePicture>
   const auto draw_view = [&](const Mat4& matrix, Vec3 from, bool picks, int average) {
     BindFrameBlock(r.block_buffer, MakeFrameBlock(matrix, from, r.Focal_px(view), to_sun,
                                                   std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
-    r.DrawSurfaces(from, matrix, picks, frame.turns_rad, &timer, &people_cost, &town_cost);
+    r.DrawSurfaces(from, picks, &timer, &people_cost, &town_cost);
     if (!r.options.normals) r.DrawSky();
     mark =
         r.options.normals ? DrawCost{} : DrawContactShade(matrix, from, frame.contact_shade, r.people, r.contact_shade);

@@ -77,15 +77,15 @@ size_t GatherIndices(Vec3 eye, const TriangleSight* sight, bool cull, TownView* 
                   : std::copy_n(&town->geometry.indices[range.first], range.count, to);
       }
     }
+    if (g < town->turned_of.size()) to = std::copy(town->turned_of[g].begin(), town->turned_of[g].end(), to);
     town->counts[g] = static_cast<uint32_t>(to - before);
   }
   return static_cast<size_t>(to - town->indices.get());
 }
 
 void RemoveTown(TownView* town) {
-  const GLuint arrays[] = {town->vertex_array, town->shadow_array, town->turning_array};
-  const GLuint buffers[] = {town->visible_indices, town->vertices, town->shadow_indices, town->turning_vertices,
-                            town->turning_indices};
+  const GLuint arrays[] = {town->vertex_array, town->shadow_array};
+  const GLuint buffers[] = {town->visible_indices, town->vertices, town->shadow_indices};
   glDeleteVertexArrays(static_cast<GLsizei>(std::size(arrays)), arrays);
   glDeleteBuffers(static_cast<GLsizei>(std::size(buffers)), buffers);
   town->box = {};
@@ -107,6 +107,12 @@ void AddTown(TownGeometry geometry, TownView* town) {
   if (town->vertex_array != 0) RemoveTown(town);
   glGenVertexArrays(1, &town->shadow_array);
   glBindVertexArray(town->shadow_array);
+  town->still = static_cast<uint32_t>(geometry.vertices.size());
+  size_t turning = 0;
+  for (const TurningGeometry& part : geometry.turning) {
+    geometry.vertices.insert(geometry.vertices.end(), part.vertices.begin(), part.vertices.end());
+    turning += part.indices.size();
+  }
   town->vertices =
       CreateBuffer(GL_ARRAY_BUFFER, geometry.vertices.data(), geometry.vertices.size() * sizeof(TownVertex));
   town->shadow_indices =
@@ -117,11 +123,6 @@ void AddTown(TownGeometry geometry, TownView* town) {
   glBindBuffer(GL_ARRAY_BUFFER, town->vertices);
   EnableVertices();
   glGenBuffers(1, &town->visible_indices);
-  glGenVertexArrays(1, &town->turning_array);
-  glBindVertexArray(town->turning_array);
-  town->turning_vertices = CreateBuffer(GL_ARRAY_BUFFER, nullptr, 0);
-  EnableVertices();
-  glGenBuffers(1, &town->turning_indices);
   std::vector<TownVertex>().swap(geometry.vertices);  // its memory too
   town->geometry = std::move(geometry);
   town->masked_groups = MaskedGroups(town->geometry, town->groups);
@@ -131,7 +132,7 @@ void AddTown(TownGeometry geometry, TownView* town) {
   }
   town->order.reserve(town->geometry.blocks.size());
   town->visible.reserve(town->geometry.blocks.size());
-  town->indices.reset(new uint32_t[town->geometry.indices.size() + 3]);
+  town->indices.reset(new uint32_t[town->geometry.indices.size() + turning + 3]);
 }
 
 void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownView* town) {
@@ -191,7 +192,7 @@ Vec3 Turned(Vec3 v, Vec3 axis, float sin, float cos) {
 void AppendTurned(const TurningGeometry& part, float turn_rad, TownView* town) {
   const Vec3 pivot = GltfFromGround(part.part.pivot_m), axis = GltfFromGround(part.part.axis);
   const float sin = std::sin(turn_rad), cos = std::cos(turn_rad);
-  const auto base = static_cast<uint32_t>(town->turned.size());
+  const auto base = town->still + static_cast<uint32_t>(town->turned.size());
   for (TownVertex v : part.vertices) {
     v.position = pivot + Turned(v.position - pivot, axis, sin, cos);
     const Vec3 n =
@@ -205,8 +206,7 @@ void AppendTurned(const TurningGeometry& part, float turn_rad, TownView* town) {
   }
 }
 
-DrawCost DrawTurningParts(const Mat4& view_projection, const std::vector<float>& turns_rad, bool cull, TownView* town) {
-  DrawCost cost;
+void PlaceTurningParts(const Mat4& view_projection, const std::vector<float>& turns_rad, bool cull, TownView* town) {
   const Frustum frustum = FrustumOf(view_projection);
   town->turned.clear();
   town->turned_of.resize(town->groups.size());
@@ -216,22 +216,10 @@ DrawCost DrawTurningParts(const Mat4& view_projection, const std::vector<float>&
     const auto index = static_cast<size_t>(part.index);
     AppendTurned(part, index < turns_rad.size() ? turns_rad[index] : 0, town);
   }
-  if (town->turned.empty()) return cost;
-  glBindVertexArray(town->turning_array);
-  glBindBuffer(GL_ARRAY_BUFFER, town->turning_vertices);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(town->turned.size() * sizeof(TownVertex)), town->turned.data(),
-               GL_STREAM_DRAW);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, town->turning_indices);
-  for (size_t g = 0; g < town->groups.size(); ++g) {
-    const std::vector<uint32_t>& indices = town->turned_of[g];
-    if (indices.empty()) continue;
-    BindGroup(town->groups[g], town->lit, *town);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(uint32_t)), indices.data(),
-                 GL_STREAM_DRAW);
-    DrawIndices(0, static_cast<uint32_t>(indices.size()));
-    cost += {static_cast<int64_t>(indices.size() / 3), 1};
-  }
-  return cost;
+  if (town->turned.empty()) return;
+  glBindBuffer(GL_ARRAY_BUFFER, town->vertices);
+  glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(town->still * sizeof(TownVertex)),
+                  static_cast<GLsizeiptr>(town->turned.size() * sizeof(TownVertex)), town->turned.data());
 }
 
 size_t ShadowSteps(const TownView& town) { return town.geometry.blocks.size() * (1 + town.masked_groups.size()); }

@@ -28,10 +28,10 @@ struct TownView {
   std::unique_ptr<uint32_t[]>
       indices;  // of them, group by group; room for all, of which no more is touched than pictures need
   std::vector<uint32_t> counts;  // of indices, by group
-  // Parts that turn.
-  GLuint turning_array = 0, turning_vertices = 0, turning_indices = 0;
+  // Parts that turn: where they have turned to stands behind the `still` vertices.
+  uint32_t still = 0;
   std::vector<TownVertex> turned;                // scratch
-  std::vector<std::vector<uint32_t>> turned_of;  // scratch, by group
+  std::vector<std::vector<uint32_t>> turned_of;  // of the last picture, by group
 };
 
 Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town);
@@ -45,9 +45,9 @@ void FindVisibleBlocks(const Mat4& view_projection, Vec3 eye, bool cull, TownVie
 // its corners. Without `cull` all of the blocks. width_px, height_px: of what is drawn. The frame block must be bound.
 DrawCost DrawTown(Vec3 eye, int width_px, int height_px, bool cull, TownView* town);
 
-// Parts that turn, where they have turned to: FrameInput::turns_rad. What walls hide is left out, as after
-// FindVisibleBlocks.
-DrawCost DrawTurningParts(const Mat4& view_projection, const std::vector<float>& turns_rad, bool cull, TownView* town);
+// Parts that turn are drawn with the town, where they have turned to: FrameInput::turns_rad. After FindVisibleBlocks,
+// for what walls hide is left out.
+void PlaceTurningParts(const Mat4& view_projection, const std::vector<float>& turns_rad, bool cull, TownView* town);
 
 // Depth only, step by step: all blocks' opaque triangles, then of each group that is cut out all blocks' again. From
 // *next_step on what the light's view touches, until `triangles` are drawn. *next_step: where to go on.
