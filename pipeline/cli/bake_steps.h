@@ -1,6 +1,7 @@
 // A bake as steps: each made from what earlier ones made and from files, and kept under a key of all that. Internal to
 // pipeline/cli.
 #pragma once
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <mutex>
@@ -38,8 +39,8 @@ struct Step {
   std::string known_key;
   StoreEntry entry;  // where in_store
   bool in_store = false, done = false;
-  double progress = 0;  // share, where it tells
-  std::mutex mutex;     // held while it is done
+  std::atomic<double> progress = 0;  // share, where it tells
+  std::mutex mutex;                  // held while it is done
   StageReport report;
   Warnings warnings;
 

@@ -60,7 +60,8 @@ class Placing {
           reading.as_the_towns && as_read.place_is_sure && Length(other_fit.shift_m) <= 2 * tolerance_m_;
       other.faults = before;
       if (agreed)
-        warnings->push_back(path_.string() + ": the obstacles name " + as_read.footprints.reference_system +
+        warnings->push_back(path_.string() + ": the obstacles name " +
+                            (as_read.town_system.empty() ? as_read.footprints.reference_system : as_read.town_system) +
                             ", the town " + System() + ", but their coordinates fit; taken for the same");
       else Tell(reading.fault, &other);
       *file = std::move(other);
@@ -106,7 +107,11 @@ class Placing {
   }
 
   bool Try(const Reading& reading, const GeoJsonFile& as_read, GeoJsonFile* other, TownFit* fit) const {
-    if (reading.as_the_towns && as_read.system.empty() && !as_read.footprints.reference_system.empty()) {
+    std::string towns = System();
+    if (reading.as_the_towns && as_read.place_is_sure && !as_read.town_system.empty()) {
+      *other = as_read;  // our own file in degrees knows better than the town what the town is in
+      towns = as_read.town_system;
+    } else if (reading.as_the_towns && as_read.system.empty() && !as_read.footprints.reference_system.empty()) {
       *other = as_read;  // our own file, or a map of metres: only its system's name is another
       other->footprints.reference_system = System();
     } else {
@@ -115,7 +120,7 @@ class Placing {
       if (ReadGeoJson(path_, options, other)) return false;
     }
     other->faults.clear();
-    if (MoveToTown(System(), Origin(), other) || !other->faults.empty()) return false;
+    if (MoveToTown(towns, Origin(), other) || !other->faults.empty()) return false;
     *fit = FitToTown(other->footprints, town_);
     return true;
   }

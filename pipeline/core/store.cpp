@@ -1,7 +1,9 @@
 #include "pipeline/core/store.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -92,6 +94,37 @@ Error Place(const Store& store, const fs::path& path, const std::string& text) {
   return Move(folder.path() / "text", path);
 }
 
+// Content and description change together for all who hold it. Where a file system knows no locks, it holds nothing:
+// then two who write one entry at the same moment may both have to make it again.
+class StoreLock {
+ public:
+  explicit StoreLock(const Store& store)
+      : descriptor_(::open((store.folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
+  }
+  StoreLock(const StoreLock&) = delete;
+  StoreLock& operator=(const StoreLock&) = delete;
+  ~StoreLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+
+ private:
+  int descriptor_;
+};
+
+bool ReadWhole(const Store& store, const std::string& key, StoreEntry* entry, std::string* content) {
+  return FindEntry(store, key, entry) && !ReadTextFile(Beside(store, key, entry->extension), content) &&
+         Sha256(*content) == entry->sha256;
+}
+
+void Remove(const Store& store, const std::string& key) {
+  StoreEntry entry;
+  std::error_code ec;
+  const bool known = ReadDescription(store, key, &entry);
+  fs::remove(Beside(store, key, kDescription), ec);
+  if (known) fs::remove(Beside(store, key, entry.extension), ec);
+}
+
 // Contents whose description is not there: of who was killed between the two.
 void RemoveOrphans(const Store& store) {
   constexpr double kOld_days = 1.0 / 24;  // others may be between the two now
@@ -126,9 +159,9 @@ bool ReadEntry(const Store& store, const std::string& key, StoreEntry* entry, st
   StoreEntry found;
   std::string text;
   if (!FindEntry(store, key, &found)) return false;
-  if (ReadTextFile(Beside(store, key, found.extension), &text) || Sha256(text) != found.sha256) {
-    DropEntry(store, key);
-    return false;
+  if (!ReadWhole(store, key, &found, &text)) {
+    const StoreLock lock(store);  // perhaps somebody was just writing it
+    if (!ReadWhole(store, key, &found, &text)) return Remove(store, key), false;
   }
   Touch(Beside(store, key, kDescription));
   *entry = std::move(found);
@@ -156,18 +189,22 @@ Error PutEntry(const Store& store, const std::string& key, StoreEntry entry, std
   }
   const fs::path description = folder.path() / "description";
   if (Error e = WriteTextFile(description, TextOf(entry))) return e;
-  if (Error e = Move(made, final)) return e;
-  if (Error e = Move(description, Beside(store, key, kDescription))) return e;
+  {
+    const StoreLock lock(store);
+    StoreEntry there;
+    std::string text;
+    if (!ReadWhole(store, key, &there, &text)) {  // else somebody was quicker, and others may read it already
+      if (Error e = Move(made, final)) return e;
+      if (Error e = Move(description, Beside(store, key, kDescription))) return e;
+    }
+  }
   const Json taken{{"step", entry.step}, {"seconds", entry.seconds}, {"memory_mb", entry.memory_mb}};
   return Place(store, store.folder / "taken" / (Named(entry.step) + kDescription), taken.dump());
 }
 
 void DropEntry(const Store& store, const std::string& key) {
-  StoreEntry entry;
-  std::error_code ec;
-  const bool known = ReadDescription(store, key, &entry);
-  fs::remove(Beside(store, key, kDescription), ec);
-  if (known) fs::remove(Beside(store, key, entry.extension), ec);
+  const StoreLock lock(store);
+  Remove(store, key);
 }
 
 bool LastTaken(const Store& store, const std::string& step, double* seconds, double* memory_mb) {
@@ -223,10 +260,11 @@ size_t VerifyStore(const Store& store) {
   for (const StoreListing& listing : ListStore(store)) {
     StoreEntry entry;
     std::string text;
+    const StoreLock lock(store);
     if (ReadDescription(store, listing.key, &entry) &&
         !ReadTextFile(Beside(store, listing.key, entry.extension), &text) && Sha256(text) == entry.sha256)
       continue;
-    DropEntry(store, listing.key);
+    Remove(store, listing.key);
     ++damaged;
   }
   return damaged;

@@ -38,7 +38,7 @@ bool FindEntry(const Store& store, const std::string& key, StoreEntry* entry);
 bool ReadEntry(const Store& store, const std::string& key, StoreEntry* entry, std::string* content);
 
 // The content is taken from `content`, or moved from `file` where that is not empty. Several processes may put and read
-// the same at once: each sees nothing or all. Errors: no permission, disk full.
+// the same at once: each sees nothing or all, and the first whole one stays. Errors: no permission, disk full.
 Error PutEntry(const Store& store, const std::string& key, StoreEntry entry, std::string_view content,
                const std::filesystem::path& file = {});
 void DropEntry(const Store& store, const std::string& key);

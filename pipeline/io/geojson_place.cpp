@@ -141,14 +141,15 @@ class Misplacement {
     if (FindMapSystem(file_.town_system, &system))
       return Tell("its town_crs '" + file_.town_system + "' is not known"), Ok();
     if (Error error = TransformPoints(file_.town_system, kLongitudeLatitude, &town)) return error;
-    if (Known(town[0]) && Apart_m(town[0], middle_) < kSameTown_m) return Ok();
+    if (Known(town[0]) && Apart_m(town[0], middle_) < kSameTown_m) return file_.place_is_sure = true, Ok();
     Tell("its town_crs " + file_.town_system + " and town_origin_m put the town at " +
          (Known(town[0]) ? Degrees(town[0]) : "no place") + ", but its coordinates are at " + Degrees(middle_) +
          Looks(SystemsThatPut(file_.town_origin_m, middle_, kSameTown_m), "town_crs"));
     return Ok();
   }
 
-  // Where the stated places are by the file's own coordinates, each at the nearest corner of its obstacle.
+  // Where the stated places are by the file's own coordinates: at the corner of their obstacle that is there, however
+  // its ring was turned since; where none is, at the first, of which it was said.
   struct Witness {
     Point2 stated_deg, stated_m, own_m;
   };
@@ -168,10 +169,10 @@ class Misplacement {
       const auto far = [&](Point2 p) { return std::hypot(p.x - stated[i].x, p.y - stated[i].y); };
       std::erase_if(corners, [](Point2 p) { return !Known(p); });
       if (corners.empty()) continue;
-      const Point2 own = Known(stated[i]) ? *std::min_element(corners.begin(), corners.end(),
-                                                              [&](Point2 a, Point2 b) { return far(a) < far(b); })
-                                          : corners[0];
-      all.push_back({place_.places_deg[i].second, stated[i], own});
+      const Point2 nearest = *std::min_element(corners.begin(), corners.end(),
+                                               [&](Point2 a, Point2 b) { return far(a) < far(b); });
+      const bool there = Known(stated[i]) && far(nearest) < kSamePlace_m;
+      all.push_back({place_.places_deg[i].second, stated[i], there ? nearest : corners[0]});
     }
     return all;
   }

@@ -283,7 +283,6 @@ class Check(ProgramTest):
         _, made = self.extracted(city_of_two(self.folder / "town.json"))
         self.assertFalse(any("open_shell" in f["properties"] for f in made["features"]))
 
-    @unittest.expectedFailure  # the finding is there, what it says of the place is not yet right
     def test_origins_are_compared(self):
         town = city_of_two(self.folder / "town.json")
         _, made = self.extracted(town)
@@ -346,7 +345,6 @@ class Check(ProgramTest):
             for arguments in ([], ["--town", town]):
                 self.assertEqual(self.check(path, *arguments)[1], [])
 
-    @unittest.expectedFailure  # the finding is there, what it says of the place is not yet right
     def test_a_wrong_crs(self):
         for wrong in ("EPSG:25833", "EPSG:31467", "EPSG:23032", "EPSG:3857", "EPSG:2056"):
             with self.subTest(wrong):
@@ -357,7 +355,6 @@ class Check(ProgramTest):
             made["crs"] = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}
         self.assert_one_907(*self.on_earth(name_another), "EPSG:25832", "longitude and latitude")
 
-    @unittest.expectedFailure  # the finding is there, what it says of the place is not yet right
     def test_a_wrong_origin(self):
         for off in ((100, 0), (0, -100), (37.5, 12.25)):
             with self.subTest(off):

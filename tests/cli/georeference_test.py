@@ -175,7 +175,6 @@ class Georeference(ProgramTest):
                 self.assert_succeeds(self.footprints(town))
                 self.assert_own_output_is_right(town)
 
-    @unittest.expectedFailure  # the finding is there, what it says of the place is not yet right
     def test_a_system_that_only_the_extraction_was_told(self):
         bare = self.folder / "town.glb"
         write_box_town(bare)

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
 #include "pipeline/core/fingerprint.h"
 #include "pipeline/core/temporary_folder.h"
 #include "runtime/base/file.h"
@@ -64,6 +69,24 @@ TEST_F(StoreTest, AnyFlippedBitCountsAsMissing) {
     EXPECT_FALSE(PutEntry(store_, key_, Described("a"), "content"));
     EXPECT_TRUE(Has(key_)) << "made again";
   }
+}
+
+TEST_F(StoreTest, ManyWhoMakeTheSameAtOnceAllFindItWhole) {
+  std::atomic<int> missing = 0, failed = 0;
+  std::vector<std::thread> writers;
+  for (int writer = 0; writer < 4; ++writer) {
+    writers.emplace_back([&, writer] {
+      for (int round = 0; round < 50; ++round) {
+        const std::string key = Sha256(std::to_string(round));
+        if (Has(key)) continue;
+        failed += static_cast<bool>(PutEntry(store_, key, Described("a"), std::string(1000 + writer, 'x')));
+        missing += !Has(key);
+      }
+    });
+  }
+  for (std::thread& writer : writers) writer.join();
+  EXPECT_EQ(failed, 0);
+  EXPECT_EQ(missing, 0);
 }
 
 TEST_F(StoreTest, CountsOnlyWhileTheFilesThatWereReadAreTheSame) {
