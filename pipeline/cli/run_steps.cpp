@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <set>
 
@@ -82,6 +83,15 @@ bool AllDone(const Queue& queue) {
   return std::all_of(queue.tasks.begin(), queue.tasks.end(), [](const Task& t) { return t.state == State::kDone; });
 }
 
+// What a step threw would leave the others waiting for its end.
+Error DoStepSafely(const Store& store, Step* step) {
+  try {
+    return DoStep(store, step);
+  } catch (const std::exception& exception) {
+    return Fail(step->name() + ": " + exception.what());
+  }
+}
+
 // What one of several workers does.
 void Work(Queue* queue, const std::vector<Baking*>& bakings, Progress* progress, std::vector<Error>* errors) {
   std::unique_lock lock(queue->mutex);
@@ -97,7 +107,7 @@ void Work(Queue* queue, const std::vector<Baking*>& bakings, Progress* progress,
     ++queue->running;
     lock.unlock();
     progress->Begin(*task->step);
-    Error error = DoStep(bakings[task->tour]->store, task->step);
+    Error error = DoStepSafely(bakings[task->tour]->store, task->step);
     progress->End(*task->step, task->cost.seconds, static_cast<bool>(error));
     lock.lock();
     task->state = State::kDone;
