@@ -56,6 +56,19 @@ Enclosure Enclose(const Site& site, const BandParts& parts, const Roofs& under_d
   return out;
 }
 
+// Whether at this side of the deck, on it or a step before it, the ground is as high as the deck: its mouth.
+bool LeadsOn(const Segment& side, const LocalGround& deck, const LocalGround& ground) {
+  const Point2 middle{(side.a.x + side.b.x) / 2, (side.a.y + side.b.y) / 2};
+  const double dx = side.b.x - side.a.x, dy = side.b.y - side.a.y;
+  const double step = kDeckMouth_m / std::max(std::hypot(dx, dy), kDeckMouth_m / 1000);
+  const double deck_m = deck.Height(middle.x, middle.y);
+  for (const double off : {0.0, step, -step}) {
+    const double ground_m = ground.Height(middle.x - dy * off, middle.y + dx * off);
+    if (std::abs(deck_m - ground_m) <= kMaxDeckSlope_m) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Shape BridgeShape(const Site& site, const TownObject& bridge) {
@@ -79,11 +92,8 @@ Shape BridgeShape(const Site& site, const TownObject& bridge) {
   if (site.ground) {
     std::vector<Segment> sides = Outline(below.wide);
     sides.insert(sides.end(), below.lines.begin(), below.lines.end());
-    for (const Segment& s : sides) {
-      const Point2 middle{(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2};
-      const double deck_m = deck.Height(middle.x, middle.y) - site.ground->Height(middle.x, middle.y);
-      if (std::abs(deck_m) > kMaxDeckSlope_m) lines.push_back(s);
-    }
+    for (const Segment& s : sides)
+      if (!LeadsOn(s, deck, *site.ground)) lines.push_back(s);
   }
   SetLoose(lines, &shape);
   shape.open_m = 0;

@@ -69,6 +69,7 @@ inline constexpr double kMinBuried_m2 = 0.5;  // smaller parts beneath the terra
 inline constexpr double kMaxPylon_m = 4;         // wide; what is wider and carries the deck is walked over
 inline constexpr double kMinDeck_m = 2;          // wide; narrower tops are those of pylons and parapets
 inline constexpr double kMaxDeckSlope_m = 0.35;  // a deck this near to the ground in height leads on to it
+inline constexpr double kDeckMouth_m = 0.6;      // before its end the ground is looked at
 
 // What walls do not quite enclose, on a building's ground.
 inline constexpr double kMinWalledGround = 0.7;  // of its outline is walls, where the model says that it is ground

@@ -132,6 +132,8 @@ TEST(Bridges, AreWalkedOverWhereTheGroundLeadsOn) {
   const Footprints f = Extract(town);
   EXPECT_FALSE(Blocked(f, {30, 13})) << "on it";
   EXPECT_TRUE(Blocked(f, {30, 10})) << "its side";
+  EXPECT_FALSE(Blocked(f, {10, 13})) << "its western end";
+  EXPECT_FALSE(Blocked(f, {50, 13})) << "its eastern end";
   GroundRaster raster;
   ASSERT_EQ(RasterizeGround(town.scene, {}, &raster).message, "");
   const LocalGround ground(raster);
