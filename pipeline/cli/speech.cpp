@@ -31,7 +31,7 @@ Error RunTool(const std::vector<std::string>& argv, const fs::path& log) {
   if (result.exit_status == 0) return Ok();
   std::string text;
   if (ReadTextFile(log, &text)) text.clear();
-  return Fail(argv.front() + " failed: " + OneLine(text.substr(0, 200)));
+  return Fail(argv.front() + " failed: " + OneLine(Beginning(text, 200)));
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ Error Speak(const Speech& speech, const Store& store, fs::path* file) {
   for (const char* program : {"espeak-ng", "ffmpeg"}) print.Add(ProgramOnPathSha256(store, program));
   const std::string key = print.Hex();
   StoreEntry entry;
-  entry.step = "speech:" + OneLine(speech.text.substr(0, 40));
+  entry.step = "speech:" + OneLine(Beginning(speech.text, 40));
   entry.extension = ".ogg";
   *file = EntryFile(store, key, entry.extension);
   if (ReadEntry(store, key, &entry, nullptr)) return Ok();

@@ -48,7 +48,7 @@ struct Media {
       fs::path file;
       if (Error e = Speak({text, voice == speech.voices.end() ? language : voice->second, speech.words_per_minute},
                           store, &file))
-        return Fail("'" + OneLine(text.substr(0, 40)) + "' cannot be spoken: " + e.message);
+        return Fail("'" + OneLine(Beginning(text, 40)) + "' cannot be spoken: " + e.message);
       files[language] = file;
     }
     for (const auto& [language, file] : files) {

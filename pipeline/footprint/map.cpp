@@ -7,6 +7,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
@@ -244,7 +245,7 @@ class Plan {
     for (size_t i = 0; i < std::min(options_.findings.size(), kMaxListed); ++i) {
       const Finding& f = options_.findings[i];
       std::string text = std::to_string(f.code) + " " + f.message;
-      if (text.size() > 68) text = text.substr(0, 66) + "…";
+      if (text.size() > 68) text = std::string(Beginning(text, 66)) + "…";
       out_ += Format("<text x=\"%.0f\" y=\"%.0f\"><tspan fill=\"%s\" font-weight=\"bold\">%zu</tspan> ", x, y,
                      MarkFill(f), i + 1) +
               Escaped(text) + "</text>\n";

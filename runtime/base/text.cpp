@@ -43,6 +43,13 @@ std::string DidYouMean(std::string_view name, std::span<const std::string> candi
   return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
 }
 
+std::string_view Beginning(std::string_view text, size_t most_bytes) {
+  if (text.size() <= most_bytes) return text;
+  const auto continues = [&](size_t at) { return (static_cast<uint8_t>(text[at]) & 0xC0) == 0x80; };
+  while (most_bytes > 0 && continues(most_bytes)) --most_bytes;
+  return text.substr(0, most_bytes);
+}
+
 std::string Compact(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", number);

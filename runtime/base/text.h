@@ -16,6 +16,9 @@ std::string DidYouMean(std::string_view name, std::span<const std::string> candi
 // Line breaks and control characters become spaces, so that any text fits in a one-line message.
 std::string OneLine(std::string_view text);
 
+// As many whole characters of UTF-8 as fit in so many bytes, from the first.
+std::string_view Beginning(std::string_view text, size_t most_bytes);
+
 // At most six digits: "0.25", "1e+06".
 std::string Compact(double number);
 

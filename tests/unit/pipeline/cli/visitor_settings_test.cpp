@@ -113,6 +113,17 @@ TEST_F(VisitorSettings, WhatIsToBeSpokenIsInEveryLanguageAndARecordingStaysAsItI
   EXPECT_EQ(again.sounds[static_cast<size_t>(again.path[0].sounds.at("de").sound)], own);
 }
 
+TEST_F(VisitorSettings, TextsOfAnyLengthInAnyLetterAreSpoken) {
+  const std::string letters = "Türme", ones = "Das sind nun schon zwei Dutzend ";
+  for (size_t more = 0; more < 6; ++more) {  // wherever the letter of two bytes stands
+    const std::string text = ones + std::string(more, 'a') + " " + letters;
+    ASSERT_EQ(Read("[[stop]]\nposition_m = [0, 0]\ncaption = { de = \"" + text + "\" }\nspeak = true\n"), "");
+    TourParts parts;
+    static_cast<TourData&>(parts) = settings;
+    EXPECT_EQ(MakeVisitorMedia(settings, Store{folder.path()}, &parts).message, "");
+  }
+}
+
 TEST_F(VisitorSettings, AVoiceThatThereIsNotIsNamed) {
   ASSERT_EQ(
       Read("[speech]\nvoice = { en = \"nobody\" }\n[[stop]]\nposition_m = [0, 0]\ncaption = \"Hear\"\nspeak = true\n"),

@@ -71,6 +71,14 @@ Mat4 RandomTransform(std::mt19937& random) {
                                       {1.5f + u(random), 1.5f + u(random), -1.5f + u(random)});
 }
 
+TEST(Text, ABeginningCutsNoLetter) {
+  EXPECT_EQ(Beginning("Türme", 2), "T");
+  EXPECT_EQ(Beginning("Türme", 3), "Tü");
+  EXPECT_EQ(Beginning("Türme", 99), "Türme");
+  EXPECT_EQ(Beginning("\xF0\x9F\x8F\xB0", 3), "");
+  EXPECT_EQ(Beginning("", 5), "");
+}
+
 TEST(Text, FindsWhatNestsTooDeep) {
   const auto nested = [](int depth) {
     return "{\"a\": " + std::string(static_cast<size_t>(depth - 1), '[') + "1" +
