@@ -199,7 +199,8 @@ Error PutEntry(const Store& store, const std::string& key, StoreEntry entry, std
     }
   }
   const Json taken{{"step", entry.step}, {"seconds", entry.seconds}, {"memory_mb", entry.memory_mb}};
-  return Place(store, store.folder / "taken" / (Named(entry.step) + kDescription), taken.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return Place(store, store.folder / "taken" / (Named(entry.step) + kDescription),
+               taken.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 void DropEntry(const Store& store, const std::string& key) {

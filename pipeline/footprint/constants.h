@@ -92,6 +92,7 @@ inline constexpr double kSliver_m = 0.022;       // strips narrower than this th
 inline constexpr double kSlit_m = 0.4;           // narrower yards are none
 inline constexpr double kThinWall_m = 0.001;     // half the thickness of a wall without any, before the clearance
 inline constexpr double kMinStrip_m2 = 1e-4;     // of those that go to a neighbour instead
+inline constexpr double kMinOverlap_m2 = 0.005;  // less is none, half of what the check finds
 inline constexpr double kAgainst_m = 0.0005;     // strips nearer than this to a neighbour lie against it
 inline constexpr double kJoint_m = 1.5;          // houses that overlap by less are meant to touch
 

@@ -157,8 +157,27 @@ void SeparateObstacles(const std::vector<TownObject>& objects, const std::vector
     (*enlarged)[i] = kept;
     AssignToNeighbours(strips, i, neighbours[i], width_m, &boxes, enlarged);
   };
+  // Tidying moves corners by hairs, and strips that were given away may reach over a third one's.
+  const auto part = [&](size_t i) {
+    Rings taken;
+    const BoundingBox box = BoundingBoxOf((*enlarged)[i]);
+    for (const size_t j : neighbours[i]) {
+      if (j > i || (*enlarged)[j].empty() || Apart(box, BoundingBoxOf((*enlarged)[j]))) continue;
+      const Rings both = Intersection((*enlarged)[i], (*enlarged)[j]);
+      if (Area(both) < kMinOverlap_m2) continue;
+      const Rings shared =
+          is_house(i) && is_house(j) ? GroundOfBoth(shapes[i], solid_boxes[i], shapes[j], solid_boxes[j]) : Rings();
+      append(shared.empty() ? both : Difference(both, shared), &taken);
+    }
+    if (Area(taken) < kMinOverlap_m2) return;
+    const Rings rest = Difference((*enlarged)[i], Offset(UnionOfAreas(taken), kAgainst_m));
+    (*enlarged)[i] = WithoutSpecks(Tidy(rest, width_m));
+  };
   const std::vector<std::vector<size_t>> groups = Groups(neighbours);
-  ForEach(groups.size(), threads, [&](size_t k) { std::for_each(groups[k].begin(), groups[k].end(), separate); });
+  ForEach(groups.size(), threads, [&](size_t k) {
+    std::for_each(groups[k].begin(), groups[k].end(), separate);
+    std::for_each(groups[k].begin(), groups[k].end(), part);
+  });
 }
 
 }  // namespace flaneur

@@ -169,8 +169,8 @@ class Misplacement {
       const auto far = [&](Point2 p) { return std::hypot(p.x - stated[i].x, p.y - stated[i].y); };
       std::erase_if(corners, [](Point2 p) { return !Known(p); });
       if (corners.empty()) continue;
-      const Point2 nearest = *std::min_element(corners.begin(), corners.end(),
-                                               [&](Point2 a, Point2 b) { return far(a) < far(b); });
+      const Point2 nearest =
+          *std::min_element(corners.begin(), corners.end(), [&](Point2 a, Point2 b) { return far(a) < far(b); });
       const bool there = Known(stated[i]) && far(nearest) < kSamePlace_m;
       all.push_back({place_.places_deg[i].second, stated[i], there ? nearest : corners[0]});
     }

@@ -64,6 +64,16 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
+TEST(MadeUpTowns, NeighboursDoNotOverlap) {
+  const made_up::Town town = made_up::Build({"rows", PartyWalls::kBoth, true, true, false, false, false, false}, 6, 3);
+  Footprints footprints;
+  ASSERT_EQ(ExtractFootprints(ToScene(town, Tags::kCityModel), {}, &footprints).message, "");
+  for (size_t i = 0; i < footprints.obstacles.size(); ++i)
+    for (size_t j = 0; j < i; ++j)
+      EXPECT_LT(Area(Intersection(RingsOf(footprints.obstacles[i]), RingsOf(footprints.obstacles[j]))), 0.01)
+          << footprints.obstacles[i].name << ", " << footprints.obstacles[j].name;
+}
+
 // ---- What is left out is named ----
 
 std::vector<std::string> WarningsOf(const TestTown& town) {
