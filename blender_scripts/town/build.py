@@ -151,7 +151,8 @@ def add_walls(town, streets, garden_lines, gardens, rng):
                 nature.add_ivy(mesh, (a, b), lambda t: low + (high - low) * t, lambda t: low + (high - low) * t + height, rng)
         if index in gardens.openings:
             mesh = town_wall.opened_wall(*backs.cut(line, gardens.openings[index]), height, color)
-        town.add("garden_wall_%02d" % (index + 1), mesh, "wall")
+        if not backs.in_gate(line, streets):
+            town.add("garden_wall_%02d" % (index + 1), mesh, "wall")
     town.add("churchyard_wall", town_wall.churchyard_wall(), "wall")
 
 

@@ -107,8 +107,7 @@ def _room(points, streets, plots):
     d = -plan.distance_to_polygon(points, [p for i, p in enumerate(ring) if p != ring[i - 1]]) - THICK / 2
     for index, corner in enumerate(plan.WALL_RING):
         if index in plan.WALL_GATES:
-            spot, way = gate_axis(index, streets)
-            d = np.minimum(d, _box_distance(points, spot - way * GATE_DEPTH / 2, way, GATE_DEPTH, -GATE_WIDTH / 2, GATE_WIDTH / 2))
+            d = np.minimum(d, _gate_distance(points, index, streets))
         else:
             d = np.minimum(d, np.hypot(*(points - corner).T) - 2.75)
     for plot in plots:
@@ -117,6 +116,16 @@ def _room(points, streets, plots):
             house = np.maximum(house, GATEWAY_WIDTH_M / 2 - np.abs((points - plot.origin) @ plot.along - plot.width / 2))
         d = np.minimum(d, house)
     return d
+
+
+def _gate_distance(points, index, streets):
+    spot, way = gate_axis(index, streets)
+    return _box_distance(points, spot - way * GATE_DEPTH / 2, way, GATE_DEPTH, -GATE_WIDTH / 2, GATE_WIDTH / 2)
+
+
+def in_gate(line, streets):
+    """Whether a garden wall along this line would stand within a gate of the town wall."""
+    return any(_gate_distance(np.array(line), index, streets).max() < 0.1 for index in plan.WALL_GATES)
 
 
 def _box_distance(points, origin, along, length, low, high):

@@ -184,7 +184,7 @@ PEOPLE = {
             {"piece": "upper", "name": "bodice", "bottom": ["waist", -0.06], "ease": 0.006,
              "smooth": 14,
              "sleeve": [[0, 0.090], [0.4, 0.094], [1, 0.070], [1.7, 0.050], [1.93, 0.044]]},
-            {"piece": "skirt", "name": "gown", "top": ["waist", 0.0], "hem": ["sole", 0.03],
+            {"piece": "skirt", "name": "gown", "top": ["waist", 0.0], "hem": ["sole", 0.055],
              "ease": 0.04,
              "flare": 0.20, "folds": 15, "fold_depth": 0.03, "gather": 0.15, "columns": 60},
             {"piece": "belt", "at": ["waist", -0.01], "height": 0.022, "thickness": 0.007},
