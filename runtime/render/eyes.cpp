@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace flaneur {
 namespace {
@@ -14,15 +13,7 @@ Vec3 Towards(const Mat4& inverse, float x, float y, Vec3 eye) {
   return Normalized(point - eye);
 }
 
-const EyesInstead* eyes_now = nullptr;
-
 }  // namespace
-
-EyesInstead::EyesInstead(std::vector<EyePicture> all, unsigned onto) : eyes(std::move(all)), framebuffer(onto) {
-  eyes_now = this;
-}
-EyesInstead::~EyesInstead() { eyes_now = nullptr; }
-const EyesInstead* EyesNow() { return eyes_now; }
 
 EyesTogether Together(const std::vector<EyePicture>& eyes, float near_m, float far_m) {
   EyesTogether all;

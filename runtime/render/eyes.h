@@ -23,20 +23,4 @@ struct EyesTogether {
 // At least one eye, each with the perspective of a camera.
 EyesTogether Together(const std::vector<EyePicture>& eyes, float near_m, float far_m);
 
-// As long as it lives, Renderer::Draw draws what these eyes see onto a headset's framebuffer, instead of what eye, yaw,
-// pitch and field of view of the frame say. All eyes' pictures are as large; what is drawn is chosen once for all of
-// them, and the shadows are drawn once. One at a time.
-class EyesInstead {
- public:
-  EyesInstead(std::vector<EyePicture> eyes, unsigned framebuffer);
-  ~EyesInstead();
-  EyesInstead(const EyesInstead&) = delete;
-  EyesInstead& operator=(const EyesInstead&) = delete;
-
-  const std::vector<EyePicture> eyes;
-  const unsigned framebuffer;
-};
-// The one that lives; null: none.
-const EyesInstead* EyesNow();
-
 }  // namespace flaneur

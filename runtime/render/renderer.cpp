@@ -277,10 +277,16 @@ std::vector<AssetId> Renderer::AssetsFor(const FrameInput& frame, int width_px, 
 }
 
 void Renderer::Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics) {
-  const EyesInstead* instead = EyesNow();
-  FinishBeside(instead != nullptr, &impl_->picture);
-  impl_->picture.window = instead != nullptr ? instead->framebuffer : 0;
-  impl_->Draw(frame, instead != nullptr ? instead->eyes : std::vector<EyePicture>(), width_px, height_px, statistics);
+  FinishBeside(false, &impl_->picture);
+  impl_->picture.window = 0;
+  impl_->Draw(frame, {}, width_px, height_px, statistics);
+}
+
+void Renderer::DrawEyes(const FrameInput& frame, const std::vector<EyePicture>& eyes, unsigned framebuffer,
+                        FrameStatistics* statistics) {
+  FinishBeside(true, &impl_->picture);
+  impl_->picture.window = framebuffer;
+  impl_->Draw(frame, eyes, eyes.front().width_px, eyes.front().height_px, statistics);
 }
 
 void Renderer::Impl::Draw(const FrameInput& frame, const std::vector<EyePicture>& eyes, int width_px, int height_px,

@@ -12,6 +12,7 @@
 
 namespace flaneur {
 
+struct EyePicture;
 struct SurfacePlan;
 struct AtlasFormats;
 
@@ -53,6 +54,11 @@ class Renderer {
   void StartAnew();
   // Draws into a picture of its own; Read or Present brings it out.
   void Draw(const FrameInput& frame, int width_px, int height_px, FrameStatistics* statistics);
+  // What a headset's eyes see, onto its framebuffer, instead of what eye, yaw, pitch and field of view of the frame
+  // say. At least one eye, all of the same size; what is drawn is chosen once for all of them, and shadows are drawn
+  // once.
+  void DrawEyes(const FrameInput& frame, const std::vector<EyePicture>& eyes, unsigned framebuffer,
+                FrameStatistics* statistics);
   // Whether walls of the last picture hide a point, in the ground's axes; false where that is not known.
   bool Hides(Vec3 point) const;
   // The last picture: RGB, 8 bits a channel, top row first.

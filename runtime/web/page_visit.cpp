@@ -322,9 +322,7 @@ void PageVisit::Impl::DrawInRoom(unsigned framebuffer) {
   const Vec3 body{frame.eye.x, frame.eye.y, frame.eye.z - s.visitor.camera.eye_height_m};
   frame.resolution_scale = frame.detail = 1;
   ++pictures;
-  const RoomEye& eye = headset.eyes.front();
-  const EyesInstead instead(PicturesOf(headset, body), framebuffer);
-  renderer.Draw(frame, eye.width_px, eye.height_px, &statistics);
+  renderer.DrawEyes(frame, PicturesOf(headset, body), framebuffer, &statistics);
 }
 
 // What is said waits until its file has arrived.

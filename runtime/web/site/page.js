@@ -201,7 +201,16 @@ function build(canvas, player, described, visit) {
   const parts = {player, pages, hands: new Hands(canvas, player, pages, signal), sounds: new Sounds(player, signal),
           bar: new Bar(page, described, player, wordsIn, signal), marks: new HotspotMarks(page, player, wordsIn, signal)};
   parts.headset = new Headset(page, player, (state) => follow(state, parts), wordsIn, signal);
+  offerHeadset(parts).catch(() => {});
   return parts;
+}
+
+async function offerHeadset({headset, bar, pages}) {
+  if (!await Headset.isThere()) return;
+  bar.addHeadset(say('headset'), () => {
+    pages.close();
+    headset.enter().catch((e) => e.name === 'AbortError' || showMessage(`${say('noHeadset')} (${e.message})`));
+  });
 }
 
 async function visitTour(visit, wishesNow) {

@@ -90,7 +90,7 @@ const kHeadset = fs.readFileSync(createRequire(import.meta.url).resolve('iwer/bu
 const eyePictures = (page) => page.evaluate(() => new Promise((done) => {
   const take = () => {
     const canvas = document.querySelector('canvas#canvas') ?? [...document.querySelectorAll('canvas')].find((c) => c.getContext('webgl2'));
-    const copy = Object.assign(document.createElement('canvas'), {width: canvas.width, height: canvas.height}), ink = copy.getContext('2d');
+    const copy = Object.assign(document.createElement('canvas'), {width: canvas.width, height: canvas.height}), ink = copy.getContext('2d', {willReadFrequently: true});
     ink.drawImage(canvas, 0, 0);
     const half = canvas.width >> 1;
     const grey = (left) => {
@@ -116,7 +116,7 @@ const countErrors = (page) => page.evaluateOnNewDocument(() => {
   const get = HTMLCanvasElement.prototype.getContext;
   HTMLCanvasElement.prototype.getContext = function(...kind) {
     const gl = get.apply(this, kind);
-    if (gl) {
+    if (gl?.getError) {
       globalThis.gl = gl;
       const look = () => {
         for (let e = gl.getError(); e && e !== gl.CONTEXT_LOST_WEBGL; e = gl.getError()) globalThis.glErrors.push(e);
@@ -449,6 +449,78 @@ const tests = {
     await until(page, 'people', (s) => s.people_drawn > 0);
     await complete(page);
     await end(page);
+  },
+  async 'with a headset both eyes see the town, the head turns the view, and controllers walk, turn, leap and press'() {
+    const host = await serve(site);
+    const page = await newPage(host.url + '#lang=en', async (p) => {
+      await countErrors(p);
+      await p.evaluateOnNewDocument(kHeadset);
+    });
+    await page.setViewport({width: 480, height: 240});
+    await inState(page, 'visiting');
+    await until(page, 'pictures', (s) => s.pictures > 1);
+    await page.waitForSelector('#bar button[aria-label="Enter VR"]', {timeout: 30000});
+    await page.evaluate(() => document.querySelector('#bar button[aria-label="Enter VR"]').click());
+    await page.waitForFunction(() => document.getElementById('tour').dataset.headset === 'worn', {timeout: 30000});
+    const before = await stateOf(page);
+    let state = await until(page, 'pictures in the headset', (s) => s.pictures > before.pictures + 3 && Math.abs(s.eye_height_m - 1.6) < 0.01);
+    assert.ok(state.people_drawn > 0);
+    const eyes = await eyePictures(page);
+    const mean = (all) => all.reduce((sum, v) => sum + v, 0) / all.length;
+    const same = difference(eyes, 0), shifts = Array.from({length: 25}, (_, k) => k - 12), moved = shifts.map((k) => difference(eyes, k));
+    const best = shifts[moved.indexOf(Math.min(...moved))];
+    assert.ok(mean(eyes.left) > 20 && Math.abs(mean(eyes.left) - mean(eyes.right)) < 12, `${mean(eyes.left)} and ${mean(eyes.right)}`);
+    assert.ok(same > 0.5, `the eyes see the same: they differ by ${same}`);
+    assert.ok(best >= 0 && best <= 8, `what the right eye sees is ${best} pixels to the left`);
+
+    const yaw = state.yaw_rad;
+    await page.evaluate(() => device.quaternion.set(0, Math.sin(0.35), 0, Math.cos(0.35)));
+    await until(page, 'the head turned the view to the left', (s) => Math.abs(Math.sin(s.yaw_rad - yaw) - Math.sin(0.7)) < 0.1);
+    await page.evaluate(() => device.quaternion.set(0, 0, 0, 1));
+    state = await until(page, 'and back', (s) => Math.abs(Math.sin(s.yaw_rad - yaw)) < 0.05);
+    const stick = (hand, x, y) => page.evaluate((h, sx, sy) => device.controllers[h].updateAxes('thumbstick', sx, sy), hand, x, y);
+    await stick('left', 0, -1);
+    const walked = await until(page, 'walks', (s) => apart(s.place_m, state.place_m) > 0.5);
+    await stick('left', 0, 0);
+    const way = Math.atan2(walked.place_m[1] - state.place_m[1], walked.place_m[0] - state.place_m[0]);
+    assert.ok(Math.cos(way - yaw) > 0.7, 'it walks to where the head looks');
+    await stick('right', 1, 0);
+    await until(page, 'a turn of 30 degrees to the right', (s) => Math.abs(Math.sin(yaw - s.yaw_rad) - 0.5) < 0.05);
+    await stick('right', 0, 0);
+    await pause(300);
+    const stood = await stateOf(page);
+    await page.evaluate(() => {
+      device.controllers.right.position.set(0.2, 1.2, -0.3);
+      device.controllers.right.quaternion.set(-Math.sin(0.25), 0, 0, Math.cos(0.25));  // down
+    });
+    await stick('right', 0, -1);
+    await pause(600);
+    await stick('right', 0, 0);
+    await until(page, 'a leap', (s) => apart(s.place_m, stood.place_m) > 0.5);
+    const press = async (hand, button) => {
+      await page.evaluate((h, b) => device.controllers[h].updateButtonValue(b, 1), hand, button);
+      await pause(400);
+      await page.evaluate((h, b) => device.controllers[h].updateButtonValue(b, 0), hand, button);
+    };
+    await page.evaluate(() => device.controllers.right.quaternion.set(0, 0, 0, 1));
+    await press('left', 'x-button');
+    await until(page, 'the pages', (s) => s.page?.name === 'main');
+    await pause(500);
+    await page.evaluate(() => {  // to the first row: below the panel's head
+      device.controllers.right.position.set(0, 1.6, 0);
+      device.controllers.right.quaternion.set(Math.sin(0.08), 0, 0, Math.cos(0.08));
+    });
+    await pause(300);
+    await press('right', 'trigger');
+    await until(page, 'something pressed', (s) => s.page?.name !== 'main');
+    assert.deepEqual(await page.evaluate(() => globalThis.glErrors), []);
+    assert.deepEqual(page.said.filter((line) => !/iwer/i.test(line)), []);
+    await page.evaluate(() => document.querySelector('#bar button[aria-label="Enter VR"]').click());
+    await page.waitForFunction(() => !document.getElementById('tour').dataset.headset, {timeout: 30000});
+    const after = await stateOf(page);
+    await until(page, 'pictures in the page', (s) => s.pictures > after.pictures + 2 && s.eye_height_m > 1.6);
+    await end(page);
+    await host.close();
   },
   async 'the npm package has its files, and types for all that the element does; a server may load it'() {
     const npm = path.join(player, '..', 'package');
