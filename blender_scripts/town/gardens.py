@@ -125,7 +125,7 @@ def _gate_distance(points, index, streets):
 
 def in_gate(line, streets):
     """Whether a garden wall along this line would stand within a gate of the town wall."""
-    return any(_gate_distance(np.array(line), index, streets).max() < 0.1 for index in plan.WALL_GATES)
+    return any(_gate_distance(np.array(line), index, streets).max() < 0.5 for index in plan.WALL_GATES)
 
 
 def _box_distance(points, origin, along, length, low, high):
