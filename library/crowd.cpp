@@ -272,7 +272,7 @@ int FieldOf(Vec2 goal, LibraryCrowd* c) {
     c->crowd.fields.emplace_back();
     c->goals.users.push_back(0);
   }
-  c->crowd.fields[static_cast<size_t>(field)] = FlowField{goal, {}, 0};
+  c->crowd.fields[static_cast<size_t>(field)] = FlowField{goal, {}};
   return entry->second = field;
 }
 

@@ -11,6 +11,7 @@ import sys
 import layering_test
 
 DRAWING = "docs/architecture.md"
+LIMITS = "docs/limits.md"
 BEGIN, END = "<!-- rooms: begin -->", "<!-- rooms: end -->"
 # A path from the root, wherever it stands in the text; capitals and * stand for any name.
 FOLDERS = r"runtime|pipeline|tests|docs|assets_src|blender_scripts|scripts|packaging|include|library|samples|\.ci"
@@ -115,12 +116,34 @@ def outdated_drawing(root):
         yield f"{DRAWING}: the rooms are not as drawn; python3 tests/docs_test.py . --write draws them anew"
 
 
+def limits(root):
+    """{name: number} of runtime/base/limits.h."""
+    text = re.sub(r"//.*", "", (root / "runtime/base/limits.h").read_text(encoding="utf-8"))
+    found = {}
+    for line in re.findall(r"inline constexpr \w+ ([^;]*);", text):
+        for name, number in re.findall(r"(\w+) = ([^,]+)", line):
+            found[name] = float(number)
+    return found
+
+
+def limits_told_otherwise(root):
+    told = {}
+    for line in (root / LIMITS).read_text(encoding="utf-8").splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if len(cells) == 3 and cells[2].startswith("`k"):
+            told[cells[2].strip("`")] = float(cells[1])
+    true = limits(root)
+    for name in sorted({*true, *told}):
+        if true.get(name) != told.get(name):
+            yield f"{LIMITS}: {name} is {true.get(name)}, and told as {told.get(name)}"
+
+
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     if "--write" in sys.argv:
         before, _, after = split_drawing((root / DRAWING).read_text(encoding="utf-8"))
         (root / DRAWING).write_text(f"{before}{BEGIN}\n{drawing(root)}\n{END}{after}", encoding="utf-8")
-    found = [*missing_paths(root), *missing_words(root), *outdated_drawing(root)]
+    found = [*missing_paths(root), *missing_words(root), *outdated_drawing(root), *limits_told_otherwise(root)]
     print("\n".join(found) or "the documentation names what is there")
     return 1 if found else 0
 

@@ -16,6 +16,7 @@
 #include "pipeline/io/gltf.h"
 #include "runtime/base/color_text.h"
 #include "runtime/base/file.h"
+#include "runtime/base/option_range.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -57,11 +58,11 @@ void AddPerson(CLI::App* app, AvatarArguments* a) {
       ->group(person);
   app->add_option("--height", a->read.height_m,
                   "Metres to scale the person to; 0: as it is, or 1.75 where that is no person's height")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(NumberFrom(0.0, 10.0))
       ->group(person);
   const std::string axes = "x, y, z, -x, -y or -z; empty: by the skeleton";
   app->add_option("--scale", a->read.scale, "Metres per unit of the file; 0: by the height")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(NumberFrom(0.0, 1e6))
       ->group(person);
   app->add_option("--up", a->read.up, "Where the figure's head is in the file: " + axes)->group(person);
   app->add_option("--forward", a->read.forward, "Where the figure faces in the file: " + axes)->group(person);
@@ -79,11 +80,11 @@ void AddLevels(CLI::App* app, AvatarArguments* a) {
                   "Share of the triangles in each level, falling, separated by commas; empty: as "
                   "the levels' errors say")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(NumberFrom(0.0, 1.0))
       ->group(levels);
   app->add_option("--error-px", a->levels.error_px,
                   "Pixels that a level's error may span on the screen where it is shown")
-      ->check(CLI::PositiveNumber)
+      ->check(NumberFrom(1e-3, 1e6))
       ->group(levels);
   app->add_option("--max-triangles", a->levels.max_triangles, "Most triangles of the finest level; 0: no limit")
       ->check(CLI::NonNegativeNumber)

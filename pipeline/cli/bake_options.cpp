@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "runtime/base/option_range.h"
+
 namespace flaneur {
 
 void AddPlaces(CLI::App* app, BakeOptions* options) {
@@ -23,10 +25,10 @@ void AddLimits(CLI::App* app, BakeOptions* options) {
   app->add_option("-j,--jobs", options->jobs, "Steps at a time (default: one a core)")->check(CLI::Range(1, 1024));
   app->add_option("--memory", options->memory_mb,
                   "Megabytes that steps may take together (default: four fifths of what is free)")
-      ->check(CLI::Range(1.0, 1e9));
+      ->check(NumberFrom(1.0, 1e9));
   app->add_option("--time-limit", options->time_limit_s,
                   "Seconds for each program that a step starts, such as Blender; 0: none")
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(NumberFrom(0.0, 1e9))
       ->capture_default_str();
 }
 

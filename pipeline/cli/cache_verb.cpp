@@ -7,6 +7,7 @@
 #include "pipeline/cli/arguments.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/core/store.h"
+#include "runtime/base/option_range.h"
 
 namespace flaneur {
 namespace {
@@ -61,8 +62,8 @@ int RunCache(const Arguments& args) {
   app.add_flag("--verify", a.verify,
                "Read all and compare checksums; what is damaged goes. Exit status 1 where any was");
   app.add_option("--trim-mb", a.most_mb, "Remove what was unused for longest until so many megabytes are left")
-      ->check(CLI::Range(0.0, 1e9));
-  app.add_option("--trim-days", a.most_days, "Remove what was of no use for so many days")->check(CLI::Range(0.0, 1e6));
+      ->check(NumberFrom(0.0, 1e9));
+  app.add_option("--trim-days", a.most_days, "Remove what was of no use for so many days")->check(NumberFrom(0.0, 1e6));
   if (const int status = ParseArguments(&app, args); status >= 0) return status;
   std::error_code ec;
   if (a.folder.empty()) return Report(Fail("name the cache's folder, or set FLANEUR_CACHE"));

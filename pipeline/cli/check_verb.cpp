@@ -14,6 +14,7 @@
 #include "pipeline/io/geojson.h"
 #include "pipeline/io/scene_reader.h"
 #include "runtime/base/file.h"
+#include "runtime/base/option_range.h"
 
 namespace flaneur {
 namespace {
@@ -42,7 +43,7 @@ void AddOptions(CLI::App* app, CheckArguments* a) {
       ->transform(CLI::CheckedTransformer(units, CLI::ignore_case));
   app->add_option("--crs", a->reading.system, "The coordinates' system, such as EPSG:25832, whatever the file says");
   app->add_option("--clearance-m", a->options.clearance_m, "Least distance from wall to outline [default: the file's]")
-      ->check(CLI::Range(0.0, 10.0));
+      ->check(NumberFrom(0.0, 10.0));
   app->option_defaults()->always_capture_default();
   app->add_option("--threads", a->options.threads, "0: one a core; the result is the same")->check(CLI::Range(0, 1024));
   app->add_option("--most-points", a->options.most_points, "In a ring; more are reported (108)");

@@ -14,6 +14,7 @@
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/io/geojson.h"
 #include "pipeline/io/scene_tiles.h"
+#include "runtime/base/option_range.h"
 
 namespace flaneur {
 namespace {
@@ -43,16 +44,16 @@ void AddOptions(CLI::App* app, FootprintsArguments* a) {
                   "city models have their own");
   AddObjUp(app, &a->obj_up);
   app->option_defaults()->always_capture_default();
-  app->add_option("--clearance-m", a->options.clearance_m, "Enlarge obstacles by this")->check(CLI::Range(0.0, 10.0));
+  app->add_option("--clearance-m", a->options.clearance_m, "Enlarge obstacles by this")->check(NumberFrom(0.0, 10.0));
   app->add_option("--band", a->options.band_m,
                   "Heights over the local ground between which things block, in metres: LOW HIGH")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(NumberFrom(0.0, 100.0));
   app->add_option("--tolerance-m", a->options.tolerance_m, "Simplification moves outlines outwards by at most this")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(NumberFrom(0.0, 1.0));
   app->add_option("--bridge-m", a->options.bridge_m, "Walls that miss each other by less are joined")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(NumberFrom(0.0, 1.0));
   app->add_option("--threads", a->options.threads, "0: one a core; the result is the same")->check(CLI::Range(0, 1024));
-  app->add_option("--scale", a->options.scale, "Metres per unit of the file")->check(CLI::PositiveNumber);
+  app->add_option("--scale", a->options.scale, "Metres per unit of the file")->check(NumberFrom(1e-6, 1e6));
   app->add_flag("--merge-blocks", a->options.merge_blocks, "Make one obstacle of houses that adjoin");
 }
 

@@ -12,6 +12,7 @@
 #include "pipeline/io/gltf.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/base/option_range.h"
 
 namespace flaneur {
 namespace {
@@ -37,7 +38,7 @@ void AddOptions(CLI::App* app, ImpostorArguments* a) {
                   "Camera's heights above the horizon in degrees, separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::Range(-89.0, 89.0))
+      ->check(NumberFrom(-89.0, 89.0))
       ->group(views);
   app->add_option("--walk-phases", a->walk_phases, "Pictures of the walk, evenly spaced")
       ->check(CLI::Range(1, 256))
@@ -78,7 +79,7 @@ void AddPersonOptions(CLI::App* app, ImpostorArguments* a) {
   app->add_option("--height", a->read.height_m,
                   "Metres to scale the person to; 0: as it is, or 1.75 where that is no "
                   "person's height")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(NumberFrom(0.0, 10.0))
       ->group(person);
   app->add_option("--hide", a->read.hide, "Names of nodes left out, separated by commas")
       ->delimiter(',')

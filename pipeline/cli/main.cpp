@@ -76,5 +76,11 @@ int main(int argc, char** argv) {
     return Refuse("there is no verb '" + args[0] + "'" + flaneur::DidYouMean(args[0], names));
   }
   if (verb->second.run == kInBake) return HandToBake(argv);
-  return verb->second.run({args.begin() + 1, args.end()});
+  try {
+    return verb->second.run({args.begin() + 1, args.end()});
+  } catch (const std::bad_alloc&) {
+    return Refuse("there is not enough memory for " + args[0] + " of this");
+  } catch (const std::exception& e) {
+    return Refuse(args[0] + ": " + flaneur::OneLine(e.what()));
+  }
 }

@@ -296,12 +296,12 @@ void ReadAll(TomlTable root, TourSettings* settings) {
   tour.Number("home_after_s", &settings->home_after_s, 0, kLongestIdle_s);
   tour.Finish();
   ReadTown(root.Table("town"), settings);
-  for (TomlTable& avatar : root.Tables("avatar")) ReadAvatarSettings(avatar, settings);
+  for (TomlTable& avatar : root.Tables("avatar", kMostAvatars)) ReadAvatarSettings(avatar, settings);
   ReadLevels(root.Table("levels"), &settings->levels);
   ReadImpostor(root.Table("impostor"), &settings->impostor);
   ReadFootprints(root.Table("footprints"), &settings->footprints, &settings->ground, &settings->accepted);
   for (TomlTable& place : root.Tables("place")) ReadPlace(place, settings);
-  for (TomlTable& stop : root.Tables("stop")) ReadStop(stop, settings);
+  for (TomlTable& stop : root.Tables("stop", kMostStops)) ReadStop(stop, settings);
   ReadVisitorSettings(&root, settings, &settings->visitor_files);
   ReadLifeSettings(&root, settings);
   ReadPaintingSettings(root.Table("painting"), &settings->painting_file);

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 
 #include "pipeline/core/sandbox.h"
@@ -35,10 +36,24 @@ fs::path ByteCodeCache() {
   return folder.empty() ? folder : folder / "flaneur" / "python";
 }
 
+// The end of what may be long.
+Error ReadLastWords(const fs::path& log_file, std::string* text) {
+  constexpr std::streamoff kMost_bytes = 1 << 20;
+  if (Error e = CheckReadable(log_file)) return e;
+  std::ifstream file(log_file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg(), count = std::min(size, kMost_bytes);
+  if (size < 0) return Fail(log_file.string() + ": cannot be read");
+  file.seekg(size - count);
+  text->assign(static_cast<size_t>(count), '\0');
+  file.read(text->data(), count);
+  text->resize(static_cast<size_t>(file.gcount()));
+  return Ok();
+}
+
 // Blender's own last words are about its exit; a Python exception says more.
 std::string Reason(const fs::path& log_file) {
   std::string text, line, last, exception, ours;
-  if (Error error = ReadTextFile(log_file, &text)) return error.message;
+  if (Error error = ReadLastWords(log_file, &text)) return error.message;
   std::istringstream lines(text);
   while (std::getline(lines, line)) {
     const size_t at = line.find(kErrorPrefix);
@@ -56,7 +71,7 @@ std::string Reason(const fs::path& log_file) {
 double ShareDone(const fs::path& log_file) {
   constexpr std::string_view kOurs = "flaneur: progress ", kSample = "Sample ";
   std::string text;
-  if (ReadTextFile(log_file, &text)) return 0;
+  if (ReadLastWords(log_file, &text)) return 0;
   double from = 0, to = 1, sample = 0, samples = 0;
   const size_t ours = text.rfind(kOurs), blenders = text.rfind(kSample);
   if (ours != std::string::npos) std::sscanf(text.c_str() + ours + kOurs.size(), "%lf %lf", &from, &to);

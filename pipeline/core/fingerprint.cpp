@@ -78,9 +78,7 @@ struct Digest {
 
 }  // namespace
 
-struct Fingerprint::State : Digest {
-  std::set<fs::path> open;  // being added: files may name each other
-};
+struct Fingerprint::State : Digest {};
 
 Fingerprint::Fingerprint() : state_(std::make_unique<State>()) {}
 Fingerprint::~Fingerprint() = default;
@@ -110,9 +108,15 @@ Fingerprint& Fingerprint::AddFile(const fs::path& path) {
   if (ReadTextFile(path, &text)) text.clear();
   Add(text);
   if (!IsGltf(path)) return *this;
-  const fs::path real = fs::weakly_canonical(path, ec);
-  if (!state_->open.insert(real).second) return *this;
-  for (const fs::path& file : NamedFiles(path, text)) AddFile(file);
+  // What a model names is taken as bytes, whatever it is: models may name themselves, or each other, but name no files
+  // in turn that count.
+  std::set<fs::path> added;
+  for (const fs::path& file : NamedFiles(path, text)) {
+    if (!added.insert(file.lexically_normal()).second) continue;
+    std::string bytes;
+    if (ReadTextFile(file, &bytes)) bytes.clear();
+    Add(bytes);
+  }
   return *this;
 }
 

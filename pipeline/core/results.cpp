@@ -48,8 +48,11 @@ Error CannotWrite(const fs::path& path, int reason) {
 bool Settle(const fs::path& folder) {
   std::error_code ec;
   const fs::path current = folder / kCurrent;
-  const fs::path shown = folder / fs::read_symlink(current, ec);
+  const fs::path target = fs::read_symlink(current, ec), shown = folder / target;
   if (ec) return true;
+  // Folders of strangers may bring a link of that name that shows elsewhere.
+  const bool is_ours = target == target.filename() && target.string().rfind(".flaneur_", 0) == 0;
+  if (!is_ours || fs::is_symlink(shown, ec)) return ::unlink(current.c_str()) == 0;
   std::vector<fs::path> links;
   for (fs::directory_iterator it(folder, ec), end; !ec && it != end; it.increment(ec)) {
     if (IsOurLink(it->path())) links.push_back(it->path());
@@ -97,7 +100,9 @@ nlohmann::json ReadManifest(const fs::path& folder) {
   std::string text;
   if (ReadTextFile(folder / kManifest, &text)) return {};
   nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-  return json.is_object() && json.contains("files") && json["files"].is_object() ? json : nlohmann::json{};
+  const bool good = json.is_object() && json.contains("files") && json["files"].is_object() && json.contains("key") &&
+                    json["key"].is_string();
+  return good ? json : nlohmann::json{};
 }
 
 Error AddFiles(nlohmann::json manifest, const fs::path& staging, const std::vector<std::string>& names) {
@@ -173,7 +178,8 @@ bool ResultsAreWhole(const fs::path& folder, const std::string& key) {
   if (manifest.is_null() || manifest.value("key", "") != key) return false;
   for (const auto& [name, file] : manifest["files"].items()) {
     std::string sha256;
-    if (!file.is_object() || Sha256OfFile(folder / name, &sha256) || file.value("sha256", "") != sha256) return false;
+    if (!file.is_object() || !file.contains("sha256") || !file["sha256"].is_string()) return false;
+    if (Sha256OfFile(folder / name, &sha256) || file["sha256"] != sha256) return false;
   }
   return true;
 }
@@ -182,7 +188,10 @@ std::vector<std::string> ResultNames(const fs::path& folder) {
   std::vector<std::string> names;
   const nlohmann::json manifest = ReadManifest(folder);
   if (manifest.is_null()) return names;
-  for (const auto& [name, file] : manifest["files"].items()) names.push_back(name);
+  for (const auto& [name, file] : manifest["files"].items()) {
+    const bool is_here = !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
+    if (is_here) names.push_back(name);  // a stranger's manifest may name anything
+  }
   return names;
 }
 

@@ -42,7 +42,7 @@ bool FromText(const std::string& text, StoreEntry* entry) {
   const std::string body = text.substr(line + 1, text.size() - line - 2);
   if (text.substr(0, line) != Sha256(body)) return false;
   const Json json = Json::parse(body, nullptr, false);
-  if (!json.is_object()) return false;
+  if (!json.is_object() || !json.contains("reads")) return false;
   entry->step = json.value("step", "");
   entry->extension = json.value("extension", "");
   entry->seconds = json.value("seconds", 0.0);

@@ -17,6 +17,7 @@
 #include "pipeline/core/interruption.h"
 #include "pipeline/core/keeper.h"
 #include "runtime/base/clock.h"
+#include "runtime/base/limits.h"
 
 namespace flaneur {
 namespace {
@@ -104,19 +105,28 @@ void WaitALittle(int process) {
   ::poll(&descriptor, process < 0 ? 0 : 1, process < 0 ? kGlance_ms / 10 : kGlance_ms);
 }
 
-// Waits until it has ended, and sees to it where it should and does not. Whether it took too long.
-bool AwaitEnd(pid_t child, const RunOptions& options) {
+bool PrintedTooMuch(const fs::path& log) {
+  std::error_code ec;
+  const auto size = log.empty() ? 0 : fs::file_size(log, ec);
+  return !ec && size > kMostLog_bytes;
+}
+
+// Waits until it has ended, and sees to it where it should and does not. Why it was ended, where it was.
+std::string AwaitEnd(pid_t child, const RunOptions& options) {
   const double limit_s = GetChildPolicy().time_limit_s, start_s = Now_s();
   double asked_s = 0;
   size_t next_signal = 0;
-  bool too_long = false;
+  std::string why;
   const int process = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));
   while (!HasEnded(child)) {
     WaitALittle(process);
     const double now_s = Now_s();
     if (options.meanwhile) options.meanwhile();
-    too_long = too_long || (limit_s > 0 && now_s - start_s > limit_s);
-    if (!too_long && !Interrupted()) continue;
+    if (why.empty() && limit_s > 0 && now_s - start_s > limit_s)
+      why = "after " + std::to_string(std::lround(limit_s)) + " s, its time limit; --time-limit sets another";
+    if (why.empty() && PrintedTooMuch(options.log_file))
+      why = "after it had printed " + std::to_string(kMostLog_bytes >> 20) + " MiB; let it print less";
+    if (why.empty() && !Interrupted()) continue;
     if (next_signal < std::size(kGroupSignals) && (next_signal == 0 || now_s - asked_s > kGrace_s)) {
       ::kill(-child, kGroupSignals[next_signal++]);
       asked_s = now_s;
@@ -124,7 +134,7 @@ bool AwaitEnd(pid_t child, const RunOptions& options) {
   }
   if (process >= 0) ::close(process);
   ::kill(-child, SIGKILL);  // what it started and left behind
-  return too_long;
+  return why;
 }
 
 double Seconds(const timeval& time) {
@@ -147,17 +157,14 @@ Error RunProcess(const std::vector<std::string>& argv, const RunOptions& options
   if (code) return Fail(argv[0] + ": cannot run: " + std::strerror(code));
   KeepGroup(child);
   EndWithUs(child);
-  const bool too_long = AwaitEnd(child, options);
+  const std::string why_ended = AwaitEnd(child, options);
   Forget(child);
   ReleaseGroup(child);
   int status = 0;
   rusage usage{};
   if (::wait4(child, &status, 0, &usage) < 0) return Fail(argv[0] + ": cannot wait for it: " + std::strerror(errno));
   if (Error e = Interrupted()) return e;
-  if (too_long) {
-    return Fail(NameOf(argv[0]) + " was stopped after " + std::to_string(std::lround(GetChildPolicy().time_limit_s)) +
-                " s, its time limit; --time-limit sets another");
-  }
+  if (!why_ended.empty()) return Fail(NameOf(argv[0]) + " was stopped " + why_ended);
   result->wall_s = Now_s() - start_s;
   result->cpu_s = Seconds(usage.ru_utime) + Seconds(usage.ru_stime);
   result->peak_memory_bytes = static_cast<int64_t>(usage.ru_maxrss) * 1024;

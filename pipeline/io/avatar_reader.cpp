@@ -183,15 +183,17 @@ Error AvatarReader::FindJoints() {
     const int mesh = Node(part.node).mesh;
     for (const auto& primitive : At(document_.meshes, mesh).primitives) {
       const Influences& in = primitive.influences;
+      bool any_weight = false;
       for (size_t i = 0; i < in.joints.size(); ++i) {
         if (in.weights[i] <= 0) continue;
+        any_weight = true;
         if (!InRange(skin.joints, in.joints[i])) {
           return Fail("mesh " + Quoted(primitive.mesh.name) + ": joint " + std::to_string(in.joints[i]) +
                       " is not in its skin");
         }
         At(used, At(skin.joints, in.joints[i])) = true;
       }
-      if (in.per_vertex == 0) At(used, skin.joints[0]) = true;
+      if (!any_weight) At(used, skin.joints[0]) = true;
     }
   }
   for (auto it = document_.order.rbegin(); it != document_.order.rend(); ++it) {
@@ -452,7 +454,8 @@ std::vector<NamedBone> AvatarReader::Told() const {
 // A clip of another file: as it is where the skeletons are one, else retargeted, else by the joints' names.
 Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std::string& why) {
   const MotionFile& motion = At(clips_.files, chosen.file);
-  Clip clip = ClipOf(motion, chosen.index);
+  Clip clip;
+  if (Error e = ClipOf(motion, chosen.index, &clip)) return e;
   const std::vector<Joint>& joints = motion.skeleton.joints;
   if (chosen.name == "walk") CutToCycle(joints, &clip);
   if (clip.duration_s > kLongestLoop_s) {
@@ -500,9 +503,12 @@ Error AvatarReader::AddClips() {
   const bool human = clips_.files.empty() || MakeRig(*avatar_, Told(), &rig, &why);
   for (const ChosenClip& chosen : clips_.clips) {
     if (chosen.file < 0) {
-      avatar_->clips.push_back(
-          SampleClip(document_, document_.clips[chosen.index], avatar_->joints, joint_nodes_, to_metres_));
-      avatar_->clips.back().name = chosen.name;
+      Clip clip;
+      if (Error e =
+              SampleClip(document_, document_.clips[chosen.index], avatar_->joints, joint_nodes_, to_metres_, &clip))
+        return e;
+      clip.name = chosen.name;
+      avatar_->clips.push_back(std::move(clip));
       continue;
     }
     const bool shipped = clips_.shipped == chosen.file;

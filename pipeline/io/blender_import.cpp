@@ -14,8 +14,7 @@ bool NeedsBlender(const fs::path& path) {
 }
 
 Error ConvertToGltf(const fs::path& path, TemporaryFolder* folder, fs::path* gltf) {
-  std::error_code ec;
-  if (!fs::is_regular_file(path, ec)) return Fail(path.string() + ": no such file");
+  if (Error e = CheckReadable(path)) return e;
   if (Error e = folder->Create("flaneur_import_")) return e;
   *gltf = folder->path() / path.filename().replace_extension(".glb");
   const nlohmann::json settings{{"output", gltf->string()}, {"options", {{"input", fs::absolute(path).string()}}}};

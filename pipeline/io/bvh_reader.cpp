@@ -10,6 +10,7 @@
 #include "pipeline/core/rotation.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/base/limits.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -17,6 +18,7 @@ namespace {
 
 constexpr float kKeysPerSecond = 30;
 constexpr size_t kMostJoints = 4096;
+constexpr float kMostFrames = 1e6f;  // of a minute
 
 enum class Channel { kX, kY, kZ, kTurnX, kTurnY, kTurnZ };
 
@@ -114,6 +116,8 @@ class BvhReader {
 
   Error Open(const std::string& name, int parent, std::vector<int>* open) {
     if (words_.Next() != "{") return Wrong("no { after joint '" + OneLine(name) + "'");
+    if (name.size() > kMostName_bytes)
+      return Wrong("a joint's name is longer than " + std::to_string(kMostName_bytes) + " bytes");
     if (skeleton_.joints.size() >= kMostJoints) return Wrong("more than " + std::to_string(kMostJoints) + " joints");
     Joint joint;
     joint.name = name;
@@ -149,7 +153,10 @@ class BvhReader {
     if (!timed) return Wrong("no Frame Time: after Frames:");
     if (Error e = Number(&frame_s)) return e;
     if (!(frames >= 1) || !(frame_s > 0)) return Wrong("no frames, or they take no time");
-    const float wanted = std::min(frames, std::floor(longest_s / frame_s) + 1);
+    const float wanted = std::min({frames, std::floor(longest_s / frame_s) + 1, kMostFrames});
+    const float keys = 2 + wanted * frame_s * kKeysPerSecond;
+    if (keys * static_cast<float>(skeleton_.joints.size()) > static_cast<float>(kMostPoses))
+      return Wrong("its motion is too long for so many joints; cut it");
     std::vector<float> values;
     for (size_t i = 0; i < static_cast<size_t>(wanted) * width_; ++i) {
       values.push_back(0);

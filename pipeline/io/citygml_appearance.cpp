@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "pipeline/core/child_policy.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {
@@ -42,11 +43,11 @@ std::string MimeTypeOf(const std::string& bytes) {
 }
 
 // Beside the model or below its folder.
-bool ReadImage(const std::filesystem::path& model, const std::string& name, Image* image) {
-  const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
+bool ReadImage(const std::filesystem::path& model, const std::filesystem::path& relative, Image* image) {
   if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") return false;
+  const std::filesystem::path path = model.parent_path() / relative;
   std::string bytes;
-  if (ReadTextFile(model.parent_path() / relative, &bytes)) return false;
+  if (CheckWithinRoots(path) || ReadTextFile(path, &bytes)) return false;
   image->name = relative.string();
   image->mime_type = MimeTypeOf(bytes);
   image->bytes.assign(bytes.begin(), bytes.end());
@@ -90,7 +91,7 @@ const std::vector<Vec2>* CityAppearances::TextureCoordinates(const std::string& 
 std::vector<int> AddMaterials(const std::filesystem::path& model, const std::vector<CityLook>& looks,
                               TownBuilder* builder, std::vector<std::string>* warnings) {
   std::vector<int> numbers;
-  std::map<std::string, int> of_image;
+  std::map<std::filesystem::path, int> of_image;  // one name may be spelled in many ways
   int unread = 0;
   std::string first_unread;
   for (const CityLook& look : looks) {
@@ -102,9 +103,10 @@ std::vector<int> AddMaterials(const std::filesystem::path& model, const std::vec
       numbers.push_back(builder->AddMaterial(material, nullptr));
       continue;
     }
-    const auto [entry, is_new] = of_image.try_emplace(look.image, -1);
+    const std::filesystem::path name = std::filesystem::path(look.image).lexically_normal();
+    const auto [entry, is_new] = of_image.try_emplace(name, -1);
     Image image;
-    if (is_new && ReadImage(model, look.image, &image)) {
+    if (is_new && ReadImage(model, name, &image)) {
       material.name = look.image;
       entry->second = builder->AddMaterial(material, &image);
     } else if (is_new && unread++ == 0) {

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 
@@ -12,7 +13,9 @@
 #include "pipeline/io/citygml_appearance.h"
 #include "pipeline/io/scene_reader.h"
 #include "pipeline/io/town_builder.h"
+#include "pipeline/io/town_points.h"
 #include "runtime/base/array.h"
+#include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -96,6 +99,7 @@ class Reader {
   bool NeedsRings() const { return !keep_rings_ && !appearances_.empty(); }
 
   Error Parse() {
+    if (Error e = CheckReadable(path_)) return e;
     const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path_.c_str(), "rb"), &std::fclose);
     if (!file) return Fail(path_.string() + ": cannot be opened");
     XML_SetUserData(parser_.get(), this);
@@ -114,8 +118,11 @@ class Reader {
   }
 
   Error Build(Scene* scene) {
-    PlaceImplicits();
-    TakeReferences();
+    std::error_code ec;
+    TownPoints left(std::filesystem::file_size(path_, ec));
+    Error too_many = PlaceImplicits(&left);
+    if (!too_many) too_many = TakeReferences(&left);
+    if (too_many) return Fail(path_.string() + ": " + too_many.message);
     if (without_geometry_ > 0 && warnings_)
       warnings_->push_back(path_.string() + ": " + std::to_string(without_geometry_) +
                            " objects show models in other files; they were left out");
@@ -336,7 +343,15 @@ class Reader {
     else implicits_.push_back(std::move(place));
   }
 
-  void PlaceImplicits() {
+  Error TakeCopy(StoredPolygon polygon, TownPoints* left) {
+    size_t points = 1;
+    for (const auto& ring : polygon.rings) points += ring.size();
+    if (Error e = left->Take(points)) return e;
+    polygons_.push_back(std::move(polygon));
+    return Ok();
+  }
+
+  Error PlaceImplicits(TownPoints* left) {
     for (const Implicit& place : implicits_) {
       Range range = place.prototype;
       if (!place.id.empty()) {
@@ -345,28 +360,30 @@ class Reader {
         range = found->second;
       }
       for (size_t i = range.begin; i < range.end; ++i) {
-        StoredPolygon polygon = polygons_[i];
+        if (Error e = TakeCopy(StoredPolygon(polygons_[i]), left)) return e;
+        StoredPolygon& polygon = polygons_.back();
         polygon.object = place.object, polygon.feature = place.feature, polygon.lod = place.lod;
         for (auto& ring : polygon.rings)
           for (Point3& p : ring) p = Transformed(place.matrix, p, place.at);
-        polygons_.push_back(std::move(polygon));
       }
     }
+    return Ok();
   }
 
   // A solid often only lists the polygons of its own building's surfaces; a neighbour's wall is taken over.
-  void TakeReferences() {
+  Error TakeReferences(TownPoints* left) {
     for (const Reference& r : references_) {
       const auto found = ranges_.find(r.id);
       if (found == ranges_.end()) continue;
       const Range range = found->second;
       for (size_t i = range.begin; i < range.end; ++i) {
         if (polygons_[i].object == r.object) continue;
-        StoredPolygon polygon = polygons_[i];
+        if (Error e = TakeCopy(StoredPolygon(polygons_[i]), left)) return e;
+        StoredPolygon& polygon = polygons_.back();
         polygon.object = r.object, polygon.feature = r.feature, polygon.lod = r.lod;
-        polygons_.push_back(std::move(polygon));
       }
     }
+    return Ok();
   }
 
   // Level 4 only where there is no other: it is about interiors.
@@ -387,12 +404,21 @@ class Reader {
 
   // The looks of polygons, by the ids of these or of what holds them; the first one counts.
   void TakeLooks(const std::vector<int>& materials) {
+    // Of each polygon the first from it on that may have no look yet: many looks may name the same whole town.
+    std::vector<size_t> next(polygons_.size() + 1);
+    std::iota(next.begin(), next.end(), size_t{0});
+    const auto without_look = [&next](size_t i) {
+      while (next[i] != i) i = next[i] = next[next[i]];
+      return i;
+    };
     for (size_t k = 0; k < materials.size(); ++k) {
       for (const std::string& target : appearances_.looks()[k].targets) {
         const auto found = ranges_.find(target);
         if (found == ranges_.end()) continue;
-        for (size_t i = found->second.begin; i < found->second.end; ++i)
+        for (size_t i = without_look(found->second.begin); i < found->second.end; i = without_look(i)) {
           if (polygons_[i].look < 0) polygons_[i].look = static_cast<int>(k);
+          next[i] = i + 1;
+        }
       }
     }
   }

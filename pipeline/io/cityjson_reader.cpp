@@ -3,11 +3,14 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 #include <string_view>
 
 #include "pipeline/io/city_objects.h"
 #include "pipeline/io/scene_reader.h"
 #include "pipeline/io/town_builder.h"
+#include "pipeline/io/town_points.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
@@ -20,6 +23,18 @@ using Rings = std::vector<std::vector<Point3>>;
 struct Transform {
   Point3 scale{1, 1, 1}, translate;
 };
+
+// Of a template: a matrix row by row, then a point.
+struct Place {
+  std::array<double, 16> matrix{};
+  Point3 at;
+};
+
+Point3 Placed(const Point3& p, const Place& place) {
+  const std::array<double, 16>& m = place.matrix;
+  const auto row = [&](size_t i) { return m[i] * p.x + m[i + 1] * p.y + m[i + 2] * p.z + m[i + 3]; };
+  return {row(0) + place.at.x, row(4) + place.at.y, row(8) + place.at.z};
+}
 
 // Nesting of surfaces in a geometry's boundaries: a MultiSurface is a list of surfaces, a Solid a list of shells, ...
 int DepthOf(const std::string& type) {
@@ -39,6 +54,7 @@ class Reader {
     std::string text;
     if (Error e = ReadTextFile(path_, &text)) return e;
     if (NestsTooDeep(text)) return Bad(kNestsTooDeep);
+    left_ = TownPoints(text.size());
     // A sequence has a document a line; a document of its own may also be printed over many lines.
     const size_t end = text.find('\n');
     Json first = Json::parse(text.substr(0, end), nullptr, false);
@@ -210,10 +226,12 @@ class Reader {
     double finest = 0;
     const auto children = object.find("children");
     if (children == object.end() || !children->is_array()) return 0;
-    for (const Json& child : *children)
-      if (child.is_string() && objects.contains(child.get<std::string>()) &&
-          FeatureOf(TypeOf(objects[child.get<std::string>()])))
-        finest = std::max(finest, LevelOf(objects[child.get<std::string>()]));
+    std::set<std::string> seen;  // one child may be named many times
+    for (const Json& child : *children) {
+      if (!child.is_string() || !seen.insert(child.get<std::string>()).second) continue;
+      const auto part = objects.find(child.get<std::string>());
+      if (part != objects.end() && FeatureOf(TypeOf(*part))) finest = std::max(finest, LevelOf(*part));
+    }
     return finest;
   }
 
@@ -240,18 +258,16 @@ class Reader {
         where[0].get<size_t>() >= vertices_.size())
       return Bad("its place is none of the vertices");
     if (!matrix.is_array() || matrix.size() != 16) return Bad("its transformationMatrix needs 16 numbers");
-    std::array<double, 16> m;
+    Place place;
     for (size_t i = 0; i < 16; ++i) {
       if (!matrix[i].is_number()) return Bad("its transformationMatrix needs 16 numbers");
-      m[i] = matrix[i].get<double>();
+      place.matrix[i] = matrix[i].get<double>();
     }
-    const Point3 at = vertices_[where[0].get<size_t>()];
-    std::vector<Point3> placed = template_vertices_;
-    for (Point3& p : placed) {
-      const auto row = [&](size_t i) { return m[i] * p.x + m[i + 1] * p.y + m[i + 2] * p.z + m[i + 3]; };
-      p = {row(0) + at.x, row(4) + at.y, row(8) + at.z};
-    }
-    return ReadShape(templates_[which.get<size_t>()], placed, node, kind);
+    place.at = vertices_[where[0].get<size_t>()];
+    place_ = place;
+    const Error error = ReadShape(templates_[which.get<size_t>()], template_vertices_, node, kind);
+    place_.reset();
+    return error;
   }
 
   Error ReadShape(const Json& geometry, const std::vector<Point3>& points, int node, NodeKind kind) {
@@ -263,13 +279,22 @@ class Reader {
     const Json none;
     const auto semantics = geometry.find("semantics");
     const bool has = semantics != geometry.end() && semantics->is_object() && semantics->contains("values");
-    surfaces_ = has ? semantics->value("surfaces", Json::array()) : Json::array();
+    const auto surfaces = has ? semantics->find("surfaces") : geometry.end();
+    surfaces_ = has && surfaces != semantics->end() ? &*surfaces : nullptr;
     points_ = &points, node_ = node, kind_ = kind;
     return ReadNested(*boundaries, has ? (*semantics)["values"] : none, depth);
   }
 
+  // What stands once in the file needs no count.
+  Error TakePoints(const Json& list) {
+    if (!place_) return Ok();
+    const Error error = left_.Take(list.size());
+    return error ? Bad(error.message) : Ok();
+  }
+
   Error ReadNested(const Json& list, const Json& values, int depth) {
     if (!list.is_array()) return Bad("boundaries must be lists");
+    if (Error e = TakePoints(list)) return e;
     static const Json none;
     for (size_t i = 0; i < list.size(); ++i) {
       const Json& value = values.is_array() ? (i < values.size() ? values[i] : none) : values;
@@ -279,8 +304,9 @@ class Reader {
   }
 
   const CitySurface* SurfaceOf(const Json& value) const {
-    if (!value.is_number_unsigned() || !surfaces_.is_array() || value.get<size_t>() >= surfaces_.size()) return nullptr;
-    return FindCitySurface(TypeOf(surfaces_[value.get<size_t>()]));
+    if (!value.is_number_unsigned() || surfaces_ == nullptr || !surfaces_->is_array()) return nullptr;
+    if (value.get<size_t>() >= surfaces_->size()) return nullptr;
+    return FindCitySurface(TypeOf((*surfaces_)[value.get<size_t>()]));
   }
 
   Error ReadSurface(const Json& surface, const Json& value) {
@@ -290,11 +316,13 @@ class Reader {
     Rings rings;
     for (const Json& ring : surface) {
       if (!ring.is_array()) return Bad("a ring must be a list of vertices");
+      if (Error e = TakePoints(ring)) return e;
       std::vector<Point3> points;
       for (const Json& index : ring) {
         if (!index.is_number_integer() || index.get<int64_t>() < 0 || index.get<uint64_t>() >= points_->size())
           return Bad("vertex " + index.dump().substr(0, 20) + " is none of the " + std::to_string(points_->size()));
-        points.push_back((*points_)[index.get<size_t>()]);
+        const Point3& point = (*points_)[index.get<size_t>()];
+        points.push_back(place_ ? Placed(point, *place_) : point);
       }
       if (points.size() >= 3 || rings.empty()) rings.push_back(std::move(points));
     }
@@ -311,8 +339,11 @@ class Reader {
   std::string where_, reference_system_;
   Transform transform_;
   std::vector<Point3> vertices_, template_vertices_;
-  Json templates_ = Json::array(), surfaces_;
+  Json templates_ = Json::array();
+  const Json* surfaces_ = nullptr;  // of what is read; null: none
   const std::vector<Point3>* points_ = nullptr;
+  std::optional<Place> place_;  // of what is read, where it is a template
+  TownPoints left_{0};
   int node_ = 0;
   NodeKind kind_ = NodeKind::kBuilding;
   TownBuilder builder_;

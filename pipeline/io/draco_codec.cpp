@@ -8,6 +8,9 @@
 #include <cmath>
 #include <memory>
 
+#include "runtime/base/draco_size.h"
+#include "runtime/base/limits.h"
+
 namespace flaneur {
 namespace {
 
@@ -115,6 +118,11 @@ Error MeasureDecoded(DracoMesh* out) {
 
 Error DecodeDraco(std::span<const uint8_t> bytes, std::span<DracoAttribute> attributes,
                   std::vector<uint32_t>* indices) {
+  const auto size = DracoSizeOf(bytes);
+  if (!size) return Fail("Draco data is broken, or of a kind that is not read: write it anew, without metadata");
+  const uint64_t most = kFreeDracoFaces + kDracoFacesAByte * bytes.size();
+  if (size->vertices > most || size->faces > most)
+    return Fail("Draco data asks for far more triangles than its size is worth");
   std::unique_ptr<draco::Mesh> mesh;
   if (Error e = DecodeMesh(bytes, &mesh)) return e;
   for (DracoAttribute& attribute : attributes) {

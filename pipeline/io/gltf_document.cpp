@@ -512,6 +512,7 @@ Error ReadMeshes(const Model& model, const std::vector<UvSource>& uv_sources, Gl
 
 Error ReadSkin(const Model& model, const tinygltf::Skin& in, DocumentSkin* out) {
   out->joints = in.joints;
+  if (in.joints.empty()) return Fail("it has no joints");
   for (const int joint : in.joints) {
     if (!InRange(model.nodes, joint)) {
       return Fail("joint " + std::to_string(joint) + " does not exist");

@@ -7,8 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/core/child_policy.h"
+#include "pipeline/io/gltf_demands.h"
 #include "pipeline/io/meshopt_codec.h"
 #include "runtime/base/file.h"
+#include "runtime/base/limits.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -81,6 +84,29 @@ void FindMeshoptBytes(json* root) {
   });
 }
 
+// The files that a model names beside itself are read as all files are: of the disk alone, and no more than there may
+// be.
+struct NamedFiles {
+  uint64_t bytes = 0;  // of all of them, each as often as it is named
+};
+
+bool IsThere(const std::string& path, void*) {
+  std::error_code ec;
+  return std::filesystem::exists(path, ec);
+}
+
+std::string AsItStands(const std::string& path, void*) { return path; }
+
+bool ReadNamedFile(std::vector<unsigned char>* out, std::string* error, const std::string& path, void* files) {
+  auto* named = static_cast<NamedFiles*>(files);
+  Error e = CheckWithinRoots(path);
+  if (!e) e = ReadFile(path, out);
+  named->bytes += out->size();
+  if (!e && named->bytes > kMostFile_bytes) e = Fail(path + ": the files that the model names are larger than 4 GiB");
+  if (e) *error += e.message + "\n";
+  return !e;
+}
+
 // Empty where a binary is broken.
 std::string_view JsonOf(bool binary, const std::vector<uint8_t>& bytes) {
   const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -122,22 +148,27 @@ Error ParseGltf(const std::filesystem::path& path, tinygltf::Model* model) {
   const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
   std::string error, warning;
   bool ok = false;
+  uint64_t read_bytes = bytes.size();
   try {
     if (NestsTooDeep(JsonOf(binary, bytes))) return Fail(file + ": its JSON " + kNestsTooDeep);
     PrepareExtensions(binary, &bytes);
     if (bytes.size() > 0xffffffffu) return Fail(file + ": larger than 4 GiB; split it");
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(KeepImageBytes, nullptr);
+    NamedFiles named;
+    loader.SetFsCallbacks({IsThere, AsItStands, ReadNamedFile, nullptr, &named});
     const std::string folder = path.parent_path().string();
     const unsigned size = static_cast<unsigned>(bytes.size());
     ok = binary ? loader.LoadBinaryFromMemory(model, &error, &warning, bytes.data(), size, folder)
                 : loader.LoadASCIIFromString(model, &error, &warning, reinterpret_cast<const char*>(bytes.data()), size,
                                              folder);
+    read_bytes += named.bytes;
   } catch (const std::exception& e) {
     error = e.what();
   }
   if (ok) {
-    Error decoded = DecodeMeshoptViews(model);
+    Error decoded = CheckDemands(*model, read_bytes);
+    if (!decoded) decoded = DecodeMeshoptViews(model);
     return decoded ? Fail(file + ": " + decoded.message) : Ok();
   }
   if (error.empty()) error = "broken";

@@ -79,17 +79,18 @@ ClipSpan SpanOf(const DocumentClip& clip) {
 std::vector<Mat4> PoseAt(const GltfDocument& document, const DocumentClip& clip, float time_s) {
   std::vector<Mat4> world(document.nodes.size());
   std::vector<Mat4> local(document.nodes.size());
-  for (size_t i = 0; i < local.size(); ++i) local[i] = LocalMatrix(document.nodes[i]);
-  // Channels of one node mostly stand together; the node is copied once for each run of them.
-  for (size_t c = 0; c < clip.channels.size();) {
-    const int target = clip.channels[c].node;
-    DocumentNode node = At(document.nodes, target);
-    for (const DocumentChannel& channel : clip.channels) {
-      if (channel.node == target) Apply(channel, time_s, &node);
+  std::vector<int> moved_of(document.nodes.size(), -1);
+  std::vector<DocumentNode> moved;
+  for (const DocumentChannel& channel : clip.channels) {
+    int& index = At(moved_of, channel.node);
+    if (index < 0) {
+      index = Count(moved);
+      moved.push_back(At(document.nodes, channel.node));
     }
-    At(local, target) = LocalMatrix(node);
-    while (c < clip.channels.size() && clip.channels[c].node == target) ++c;
+    Apply(channel, time_s, &At(moved, index));
   }
+  for (size_t i = 0; i < local.size(); ++i)
+    local[i] = LocalMatrix(moved_of[i] < 0 ? document.nodes[i] : At(moved, moved_of[i]));
   for (const int i : document.order) {
     const int parent = At(document.nodes, i).parent;
     const size_t n = static_cast<size_t>(i);

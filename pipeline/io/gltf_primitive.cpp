@@ -92,6 +92,9 @@ std::vector<Vec4> Colors(const Floats& values, size_t vertices) {
   return colors;
 }
 
+// Beyond what any skin has; what is larger is refused with it.
+constexpr float kMostJointIndex = 65536;
+
 Influences ReadInfluences(const RawPrimitive& raw, size_t vertices) {
   Influences out;
   int sets = 0;
@@ -107,7 +110,7 @@ Influences ReadInfluences(const RawPrimitive& raw, size_t vertices) {
     const Floats& weights = *Find(raw, "WEIGHTS_" + std::to_string(s));
     for (size_t i = 0; i < vertices * 4; ++i) {
       const size_t to = i / 4 * 4 * static_cast<size_t>(sets) + 4 * s + i % 4;
-      out.joints[to] = static_cast<int>(joints[i]);
+      out.joints[to] = static_cast<int>(std::clamp(joints[i], -1.0f, kMostJointIndex));
       out.weights[to] = weights[i];
     }
   }

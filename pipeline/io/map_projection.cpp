@@ -8,6 +8,8 @@
 #include <limits>
 #include <memory>
 
+#include "runtime/base/limits.h"
+
 namespace flaneur {
 namespace {
 
@@ -81,6 +83,7 @@ Object PlaneOf(PJ_CONTEXT* context, Object system) {
 }
 
 Object MakeSystem(PJ_CONTEXT* context, const std::string& name) {
+  if (name.size() > kMostText_bytes) return nullptr;
   Object object(proj_create(context, name.c_str()));
   if (object && !proj_is_crs(object.get())) object.reset();
   return object;

@@ -9,6 +9,8 @@
 #include "pipeline/io/gltf_pose.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/base/limits.h"
+#include "runtime/base/text.h"
 
 namespace flaneur {
 namespace fs = std::filesystem;
@@ -80,13 +82,16 @@ Mat4 Unscaled(const Mat4& rest) {
   return FromTranslationRotationScale({}, {}, {scale, scale, scale});
 }
 
-Clip SampleClip(const GltfDocument& document, const DocumentClip& source, const std::vector<Joint>& joints,
-                const std::vector<int>& joint_nodes, const std::vector<Mat4>& unscale) {
+Error SampleClip(const GltfDocument& document, const DocumentClip& source, const std::vector<Joint>& joints,
+                 const std::vector<int>& joint_nodes, const std::vector<Mat4>& unscale, Clip* out) {
   const ClipSpan span = SpanOf(source);
   Clip clip;
   clip.name = source.name;
   clip.duration_s = std::min(span.end_s - span.start_s, kLongestClip_s);
   clip.keys = std::max(2, 1 + static_cast<int>(std::lround(clip.duration_s * kKeysPerSecond)));
+  if (static_cast<size_t>(clip.keys) * (document.nodes.size() + source.channels.size()) > kMostPoses)
+    return Fail("clip '" + OneLine(source.name) +
+                "' is too long for so many nodes and channels; cut it, or simplify the file");
   const float length_s = clip.duration_s;
   if (!(clip.duration_s > 0)) clip.duration_s = 1;  // a pose, held
   const size_t count = joints.size();
@@ -106,7 +111,8 @@ Clip SampleClip(const GltfDocument& document, const DocumentClip& source, const 
       clip.transforms.push_back(local);
     }
   }
-  return clip;
+  *out = std::move(clip);
+  return Ok();
 }
 
 Error OpenSkeleton(const fs::path& path, MotionFile* motion) {
@@ -124,10 +130,15 @@ Error OpenMotion(const fs::path& path, MotionFile* motion) {
   return Ok();
 }
 
-Clip ClipOf(const MotionFile& motion, size_t index) {
-  if (!motion.skeleton.clips.empty()) return motion.skeleton.clips[index];
-  return SampleClip(motion.document, motion.document.clips[index], motion.skeleton.joints, motion.joint_nodes,
-                    motion.unscale);
+Error ClipOf(const MotionFile& motion, size_t index, Clip* clip) {
+  if (!motion.skeleton.clips.empty()) {
+    *clip = motion.skeleton.clips[index];
+    return Ok();
+  }
+  if (Error e = SampleClip(motion.document, motion.document.clips[index], motion.skeleton.joints, motion.joint_nodes,
+                           motion.unscale, clip))
+    return Fail(motion.path + ": " + e.message);
+  return Ok();
 }
 
 fs::path ShippedClips() {

@@ -30,16 +30,17 @@ Error OpenMotion(const std::filesystem::path& path, MotionFile* motion);
 // The same, of a file that may hold no clip; the names of its clips stay as they are.
 Error OpenSkeleton(const std::filesystem::path& path, MotionFile* motion);
 
-// One of its clips at 30 Hz, on the skeleton's joints; at most kLongestClip_s of it.
-Clip ClipOf(const MotionFile& motion, size_t index);
+// One of its clips at 30 Hz, on the skeleton's joints; at most kLongestClip_s of it. Errors: too long for so many nodes
+// and channels (kMostPoses of runtime/base/limits.h).
+Error ClipOf(const MotionFile& motion, size_t index, Clip* clip);
 
 // The file's clips for people that bring none, beside the program or in the source tree.
 std::filesystem::path ShippedClips();
 
 // Joints, skeleton and one clip of a glTF document: what OpenMotion and ReadAvatar share. `joints`: of these nodes,
-// parents before children.
-Clip SampleClip(const GltfDocument& document, const DocumentClip& source, const std::vector<Joint>& joints,
-                const std::vector<int>& joint_nodes, const std::vector<Mat4>& unscale);
+// parents before children. Errors: as for ClipOf.
+Error SampleClip(const GltfDocument& document, const DocumentClip& source, const std::vector<Joint>& joints,
+                 const std::vector<int>& joint_nodes, const std::vector<Mat4>& unscale, Clip* clip);
 
 // Takes the scale off each node's rest matrix.
 Mat4 Unscaled(const Mat4& rest);

@@ -28,6 +28,7 @@ bool IsXml(const std::string& text, char first) {
 
 Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings,
                 const ReadSceneOptions& options, SceneSource* source) {
+  if (Error e = CheckReadable(path)) return e;
   SceneSource unasked;
   if (!source) source = &unasked;
   *source = {};

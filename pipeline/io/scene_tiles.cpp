@@ -79,7 +79,7 @@ class KnownShapes {
   }
 
  private:
-  static int64_t Cell(double v) { return static_cast<int64_t>(std::floor(v)); }
+  static int64_t Cell(double v) { return std::abs(v) < 1e15 ? static_cast<int64_t>(std::floor(v)) : 0; }
   std::map<std::pair<int64_t, int64_t>, std::vector<Shape>> cells_;
 };
 
@@ -156,13 +156,15 @@ class Joiner {
  private:
   std::string Unique(const std::string& wish) {
     std::string name = wish;
-    for (int i = 2; !names_.insert(name).second; ++i) name = wish + "_" + std::to_string(i);
+    while (!names_.insert(name).second)
+      name = wish + "_" + std::to_string(++numbers_.try_emplace(wish, 1).first->second);
     return name;
   }
 
   Scene& whole_;
   KnownShapes shapes_;
   std::set<std::string> names_;
+  std::map<std::string, int> numbers_;  // the last that was tried behind a name
   int twice_ = 0, kept_ = 0;
 };
 

@@ -108,6 +108,13 @@ uint32_t PointOf(Vertex v, const std::vector<Kernel::Point_2>& points) {
   return v->info().point;
 }
 
+// A scribble rather than a polygon: what crosses itself everywhere has as many corners as the square of its points.
+bool CrossesTooOften(size_t points, size_t vertices) {
+  constexpr size_t kFree = 100, kForEachPoint = 10, kMostComparisons = 50000000;
+  const size_t crossings = vertices > points ? vertices - points : 0;
+  return crossings > kFree + kForEachPoint * points || crossings * points > kMostComparisons;
+}
+
 bool IsTriangle(const std::vector<std::vector<Point3>>& rings) { return rings.size() == 1 && rings[0].size() == 3; }
 
 // A convex quad, split at its shorter diagonal.
@@ -139,6 +146,7 @@ std::vector<std::array<uint32_t, 3>> TriangulatePolygon(const std::vector<std::v
     for (size_t i = 0; i < ring.size(); ++i) {
       const Vertex a = vertices[first + i], b = vertices[first + (i + 1) % ring.size()];
       if (a != b) triangulation.insert_constraint(a, b);
+      if (CrossesTooOften(points.size(), triangulation.number_of_vertices())) return out;
     }
     first += ring.size();
   }

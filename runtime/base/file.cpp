@@ -1,34 +1,62 @@
 #include "runtime/base/file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
+
+#include "runtime/base/limits.h"
 
 namespace flaneur {
 namespace fs = std::filesystem;
 namespace {
 
-Error ReadInto(const fs::path& path, auto* out) {
-  std::error_code ec;
-  if (!fs::exists(path, ec)) return Fail(path.string() + ": no such file");
-  if (fs::is_directory(path, ec)) return Fail(path.string() + ": is a folder, a file is needed");
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return Fail(path.string() + ": cannot be read: " + std::strerror(errno));
-  out->clear();
-  const auto size = fs::file_size(path, ec);
-  if (!ec) out->reserve(size);
-  char buffer[1 << 16];
-  ssize_t count = 0;
-  while ((count = ::read(fd, buffer, sizeof buffer)) > 0) out->insert(out->end(), buffer, buffer + count);
-  const int read_errno = errno;
-  ::close(fd);
-  if (count < 0) return Fail(path.string() + ": cannot be read: " + std::strerror(read_errno));
+Error CannotBeWritten(const fs::path& path, int reason) {
+  return Fail(path.string() + ": cannot be written: " + std::strerror(reason));
+}
+
+// Without a descriptor: opening a device may do something already.
+Error CheckKind(const fs::path& path, const struct stat& is) {
+  if (S_ISDIR(is.st_mode)) return Fail(path.string() + ": is a folder, a file is needed");
+  if (!S_ISREG(is.st_mode))
+    return Fail(path.string() + ": is a device, pipe or socket; copy what it gives into a file and name that");
+  if (static_cast<uint64_t>(is.st_size) > kMostFile_bytes) return Fail(path.string() + ": is larger than 4 GiB");
   return Ok();
+}
+
+Error ReadAll(int fd, const fs::path& path, auto* out) {
+  char buffer[1 << 16];
+  while (true) {
+    const ssize_t count = ::read(fd, buffer, sizeof buffer);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return Fail(path.string() + ": cannot be read: " + std::strerror(errno));
+    if (count == 0) return Ok();
+    if (out->size() + static_cast<size_t>(count) > kMostFile_bytes)
+      return Fail(path.string() + ": is larger than 4 GiB");
+    out->insert(out->end(), buffer, buffer + count);
+  }
+}
+
+Error ReadInto(const fs::path& path, auto* out) {
+  if (Error e = CheckReadable(path)) return e;
+  // A pipe that has taken the file's place meanwhile would wait for somebody to write.
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) return Fail(path.string() + ": cannot be read: " + std::strerror(errno));
+  struct stat is {};
+  Error error = ::fstat(fd, &is) == 0 ? CheckKind(path, is) : Fail(path.string() + ": cannot be read");
+  out->clear();
+  if (!error) {
+    out->reserve(static_cast<size_t>(is.st_size));
+    error = ReadAll(fd, path, out);
+  }
+  ::close(fd);
+  return error;
 }
 
 bool WriteAll(int fd, const uint8_t* data, size_t size) {
@@ -39,7 +67,83 @@ bool WriteAll(int fd, const uint8_t* data, size_t size) {
     data += count;
     size -= static_cast<size_t>(count);
   }
-  return ::fsync(fd) == 0 || errno == EINVAL;
+  return true;
+}
+
+// Where what is written goes.
+struct Target {
+  fs::path path;          // behind links
+  bool as_it_is = false;  // a terminal, device or pipe: nothing takes its place
+};
+
+bool IsOfTheSystem(const fs::path& path) {
+  const std::string text = path.string();
+  return text.rfind("/dev/", 0) == 0 || text.rfind("/proc/", 0) == 0;
+}
+
+Error FindTarget(const fs::path& path, Target* target) {
+  target->path = path;
+  struct stat is {};
+  if (::stat(path.c_str(), &is) != 0) return Ok();
+  if (S_ISDIR(is.st_mode)) return Fail(path.string() + ": is a folder, a file is needed");
+  if (S_ISBLK(is.st_mode) || S_ISSOCK(is.st_mode))
+    return Fail(path.string() + ": is a device or socket; name a file to write");
+  std::error_code ec;
+  target->as_it_is = !S_ISREG(is.st_mode) || IsOfTheSystem(fs::absolute(path, ec));
+  if (target->as_it_is) return Ok();
+  if (const fs::path real = fs::canonical(path, ec); !ec && fs::is_symlink(path, ec)) target->path = real;
+  return Ok();
+}
+
+// A reader who goes away is an error like any other, not the end of the program.
+class NoSignalOfPipes {
+ public:
+  NoSignalOfPipes() : before_(::signal(SIGPIPE, SIG_IGN)) {}
+  NoSignalOfPipes(const NoSignalOfPipes&) = delete;
+  NoSignalOfPipes& operator=(const NoSignalOfPipes&) = delete;
+  ~NoSignalOfPipes() { ::signal(SIGPIPE, before_); }
+
+ private:
+  void (*before_)(int);
+};
+
+// Without waiting for a reader of a pipe who may never come.
+int OpenAsItIs(const fs::path& path) {
+  const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+  if (fd >= 0) ::fcntl(fd, F_SETFL, O_APPEND);
+  return fd;
+}
+
+Error WriteAsItIs(const fs::path& path, std::span<const uint8_t> bytes) {
+  const NoSignalOfPipes quiet;
+  const int fd = OpenAsItIs(path);
+  if (fd < 0 && errno == ENXIO) return Fail(path.string() + ": cannot be written: nobody reads from this pipe");
+  if (fd < 0) return CannotBeWritten(path, errno);
+  const bool written = WriteAll(fd, bytes.data(), bytes.size());
+  const int reason = errno;
+  ::close(fd);
+  return written ? Ok() : CannotBeWritten(path, reason);
+}
+
+// A name beside the target that nobody has, tried by `make`, which tells as system calls do.
+bool UnderNewName(const fs::path& target, fs::path* name, auto make) {
+  constexpr int kTries = 1000;
+  for (int i = 0; i < kTries; ++i) {
+    *name = target.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(i);
+    if (make(name->c_str()) == 0) return true;
+    if (errno != EEXIST) return false;
+  }
+  return false;
+}
+
+fs::path FolderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+// So that the name outlives a power cut too.
+void SyncFolder(const fs::path& folder) {
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
 }
 
 }  // namespace
@@ -50,13 +154,22 @@ bool HasExtension(const fs::path& path, std::string_view extension) {
                     [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
 }
 
+Error CheckReadable(const fs::path& path) {
+  struct stat is {};
+  if (::stat(path.c_str(), &is) == 0) return CheckKind(path, is);
+  if (errno == ENOENT || errno == ENOTDIR) return Fail(path.string() + ": no such file");
+  return Fail(path.string() + ": cannot be read: " + std::strerror(errno));
+}
+
 Error ReadFile(const fs::path& path, std::vector<uint8_t>* bytes) { return ReadInto(path, bytes); }
 Error ReadTextFile(const fs::path& path, std::string* text) { return ReadInto(path, text); }
 
 Error CheckWritable(const fs::path& path) {
+  Target target;
+  if (Error e = FindTarget(path, &target)) return e;
+  if (target.as_it_is) return ::access(path.c_str(), W_OK) == 0 ? Ok() : CannotBeWritten(path, errno);
   std::error_code ec;
-  if (fs::is_directory(path, ec)) return Fail(path.string() + ": is a folder, a file is needed");
-  fs::path folder = fs::absolute(path, ec).parent_path();
+  fs::path folder = fs::absolute(target.path, ec).parent_path();
   while (!fs::exists(folder, ec) && folder.has_relative_path()) folder = folder.parent_path();
   std::string name = (folder / ".flaneur_XXXXXX").string();
   const int fd = ::mkostemp(name.data(), O_CLOEXEC);
@@ -66,25 +179,75 @@ Error CheckWritable(const fs::path& path) {
     ::close(fd);
     ::unlink(name.c_str());
   }
-  return written ? Ok() : Fail(path.string() + ": cannot be written: " + std::strerror(reason));
+  return written ? Ok() : CannotBeWritten(path, reason);
+}
+
+Error CheckReplaceable(const fs::path& path) {
+  struct stat is {};
+  if (::stat(path.c_str(), &is) == 0 && !S_ISREG(is.st_mode) && !S_ISDIR(is.st_mode))
+    return Fail(path.string() + ": is a device, pipe or socket; name a file to write");
+  return CheckWritable(path);
+}
+
+UnfinishedFile::~UnfinishedFile() {
+  if (fd_ >= 0) ::close(fd_);
+  if (!name_.empty()) ::unlink(name_.c_str());
+}
+
+Error UnfinishedFile::Start(const fs::path& path) {
+  Target target;
+  if (Error e = FindTarget(path, &target)) return e;
+  if (target.as_it_is) return Fail(path.string() + ": is a device, pipe or socket; name a file to write");
+  target_ = target.path;
+  std::error_code ec;
+  if (target_.has_parent_path()) fs::create_directories(target_.parent_path(), ec);
+#ifdef O_TMPFILE
+  fd_ = ::open(FolderOf(target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+  if (fd_ >= 0 && ::access("/proc/self/fd", X_OK) == 0) return Ok();
+  if (fd_ >= 0) ::close(fd_);
+#endif
+  const bool opened = UnderNewName(target_, &name_, [&](const char* name) {
+    fd_ = ::open(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    return fd_ < 0 ? -1 : 0;
+  });
+  if (opened) return Ok();
+  name_.clear();  // somebody else's
+  return CannotBeWritten(path, errno);
+}
+
+// In one moment for everybody else.
+bool UnfinishedFile::TakeName() {
+  if (name_.empty()) {
+    const std::string open = "/proc/self/fd/" + std::to_string(fd_);
+    const auto link = [&](const char* name) {
+      return ::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW);
+    };
+    if (link(target_.c_str()) == 0) return true;
+    if (errno != EEXIST) return false;
+    fs::path name;
+    if (!UnderNewName(target_, &name, link)) return false;
+    name_ = name;
+  }
+  if (::rename(name_.c_str(), target_.c_str()) != 0) return false;
+  name_.clear();
+  return true;
+}
+
+Error UnfinishedFile::Finish() {
+  const bool whole = (::fsync(fd_) == 0 || errno == EINVAL || errno == EROFS) && TakeName();
+  if (!whole) return CannotBeWritten(target_, errno);
+  SyncFolder(FolderOf(target_));
+  return Ok();
 }
 
 Error WriteFile(const fs::path& path, std::span<const uint8_t> bytes) {
-  std::error_code ec;
-  if (fs::is_directory(path, ec)) return Fail(path.string() + ": is a folder, a file is needed");
-  if (path.has_parent_path()) fs::create_directories(path.parent_path(), ec);
-  const std::string temporary = path.string() + ".part-" + std::to_string(::getpid());
-  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd < 0) return Fail(path.string() + ": cannot be written: " + std::strerror(errno));
-  const bool written = WriteAll(fd, bytes.data(), bytes.size());
-  const int write_errno = errno;
-  const bool closed = ::close(fd) == 0;
-  if (!written || !closed || ::rename(temporary.c_str(), path.c_str()) != 0) {
-    const int reason = written ? errno : write_errno;
-    ::unlink(temporary.c_str());
-    return Fail(path.string() + ": cannot be written: " + std::strerror(reason));
-  }
-  return Ok();
+  Target target;
+  if (Error e = FindTarget(path, &target)) return e;
+  if (target.as_it_is) return WriteAsItIs(path, bytes);
+  UnfinishedFile file;
+  if (Error e = file.Start(path)) return e;
+  if (!WriteAll(file.descriptor(), bytes.data(), bytes.size())) return CannotBeWritten(path, errno);
+  return file.Finish();
 }
 
 Error WriteTextFile(const fs::path& path, std::string_view text) {

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <vector>
 
+#include "runtime/base/limits.h"
+
 namespace flaneur {
 namespace {
 
@@ -62,7 +64,13 @@ std::string PlainJsonError(std::string_view what) {
 }
 
 std::string OneLine(std::string_view text) {
-  std::string out(text);
+  constexpr std::string_view kMore = " ...";
+  std::string out(text.substr(0, kMostMessage_bytes));
+  if (text.size() > out.size()) {
+    while (!out.empty() && (static_cast<unsigned char>(text[out.size()]) & 0xC0) == 0x80)
+      out.pop_back();  // whole letters
+    out += kMore;
+  }
   for (char& c : out) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   }
@@ -71,21 +79,19 @@ std::string OneLine(std::string_view text) {
 }
 
 bool NestsTooDeep(std::string_view json) {
-  constexpr int kDeepest = 200;
   int depth = 0;
   bool in_string = false;
   for (size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
     if (in_string && c == '\\') ++i;
     else if (c == '"') in_string = !in_string;
-    else if (!in_string && (c == '[' || c == '{') && ++depth > kDeepest) return true;
+    else if (!in_string && (c == '[' || c == '{') && ++depth > kMostNesting) return true;
     else if (!in_string && (c == ']' || c == '}')) --depth;
   }
   return false;
 }
 
 int LineOfTooLongKey(std::string_view toml) {
-  constexpr int kMostParts = 200;
   int line = 1, parts = 1;
   char quote = 0;  // of the string or comment that we are in; three quotes open and close like one
   for (size_t i = 0; i < toml.size(); ++i) {
@@ -98,7 +104,7 @@ int LineOfTooLongKey(std::string_view toml) {
       else if (c == quote) quote = 0;
     } else if (c == '"' || c == '\'' || c == '#') {
       quote = c;
-    } else if (c == '.' && ++parts > kMostParts) {
+    } else if (c == '.' && ++parts > kMostKeyParts) {
       return line;
     }
     if (quote == 0 && std::string_view("=,[]{}\n").find(c) != std::string_view::npos) parts = 1;

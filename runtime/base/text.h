@@ -13,7 +13,8 @@ std::string NearestName(std::string_view name, std::span<const std::string> cand
 // `"; did you mean 'X'?"`, or empty where nothing is near.
 std::string DidYouMean(std::string_view name, std::span<const std::string> candidates);
 
-// Line breaks and control characters become spaces, so that any text fits in a one-line message.
+// Line breaks and control characters become spaces, so that any text fits in a one-line message; what is longer than
+// kMostMessage_bytes (runtime/base/limits.h) is cut off.
 std::string OneLine(std::string_view text);
 
 // As many whole characters of UTF-8 as fit in so many bytes, from the first.

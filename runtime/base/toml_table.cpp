@@ -110,7 +110,14 @@ void TomlTable::Text(const char* key, std::string* value) {
   const toml::node* node = Find(key);
   if (node == nullptr) return;
   if (!node->is_string()) return context_->Refuse(node, Name(key) + " must be text in quotes");
-  *value = *node->value<std::string>();
+  TakeText(*node, key, value);
+}
+
+void TomlTable::TakeText(const toml::node& node, const char* key, std::string* value) {
+  std::string text = *node.value<std::string>();
+  if (text.size() > kMostText_bytes)
+    return context_->Refuse(&node, Name(key) + " is text of more than " + std::to_string(kMostText_bytes) + " bytes");
+  *value = std::move(text);
 }
 
 void TomlTable::Flag(const char* key, bool* value) {
@@ -144,7 +151,7 @@ void TomlTable::Texts(const char* key, std::vector<std::string>* values) {
   values->clear();
   for (const toml::node& element : *array) {
     if (!element.is_string()) return context_->Refuse(&element, Name(key) + " must be a list of texts");
-    values->push_back(*element.value<std::string>());
+    TakeText(element, key, &values->emplace_back());
   }
 }
 
@@ -216,13 +223,13 @@ void TomlTable::Translations(const char* key, const std::string& own, std::map<s
   const char* const wanted =
       " must be text in quotes, or a table of texts by language such as { en = \"...\", de = \"...\" }";
   if (node->is_string()) {
-    (*texts)[own] = *node->value<std::string>();
+    TakeText(*node, key, &(*texts)[own]);
     return;
   }
   if (!node->is_table()) return context_->Refuse(node, Name(key) + wanted);
   for (const auto& [language, text] : *node->as_table()) {
     if (!text.is_string() || language.str().empty()) return context_->Refuse(&text, Name(key) + wanted);
-    (*texts)[std::string(language.str())] = *text.value<std::string>();
+    TakeText(text, key, &(*texts)[std::string(language.str())]);
   }
 }
 
@@ -242,7 +249,7 @@ TomlTable TomlTable::Table(const char* key) {
   return {context_, node == nullptr ? nullptr : node->as_table(), Name(key)};
 }
 
-std::vector<TomlTable> TomlTable::Tables(const char* key) {
+std::vector<TomlTable> TomlTable::Tables(const char* key, size_t most) {
   const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
   keys_.push_back(key);
   std::vector<TomlTable> tables;
@@ -250,6 +257,11 @@ std::vector<TomlTable> TomlTable::Tables(const char* key) {
   const toml::array* array = node->as_array();
   if (array == nullptr) {
     context_->Refuse(node, "write [[" + Name(key) + "]] with two brackets: there may be several");
+    return tables;
+  }
+  if (array->size() > most) {
+    context_->Refuse(
+        node, std::to_string(array->size()) + " tables of [[" + Name(key) + "]], there may be " + std::to_string(most));
     return tables;
   }
   for (const toml::node& element : *array) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/base/error.h"
+#include "runtime/base/limits.h"
 #include "runtime/base/math.h"
 
 namespace flaneur {
@@ -59,9 +60,9 @@ class TomlTable {
   void Translations(const char* key, const std::string& own, std::map<std::string, std::string>* texts);
   void Json(const char* key, std::string* json);                           // a table, as a JSON object
   std::filesystem::path Beside(const char* key, const std::string& file);  // the same of a name that was read otherwise
-  // The table, or array of tables, under the key.
+  // The table, or array of tables, under the key; of these so many at most.
   TomlTable Table(const char* key);
-  std::vector<TomlTable> Tables(const char* key);
+  std::vector<TomlTable> Tables(const char* key, size_t most = kMostTables);
 
   bool Has(const char* key) const { return table_ != nullptr && table_->contains(key); }
   // Something is wrong with this table as a whole.
@@ -71,6 +72,7 @@ class TomlTable {
 
  private:
   const toml::node* Find(const char* key);
+  void TakeText(const toml::node& node, const char* key, std::string* value);  // no longer than kMostText_bytes
   bool ReadNumber(const char* key, bool integer, double least, double most, double* number);
   std::string Name(const char* key) const;
 

@@ -91,6 +91,10 @@ inline constexpr float kHeldUp = 0.4f;
 
 // So many questions for the way to one goal are worth a flow field.
 inline constexpr int kSharedGoal = 8;
+// Every so many steps it is looked who still goes where; a field that nobody has gone by at two looks is let go: it
+// takes as many bytes as the ground has cells, and most goals (a spot to stand at) are taken once in minutes.
+inline constexpr int kFieldLook_steps = 300;
+inline constexpr int kDesertedLooks = 2;
 
 // People decide about ten times a second: reaction times are 0.1 to 0.2 s.
 inline constexpr int kTurnEvery_steps = 3;

@@ -235,6 +235,27 @@ void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, 
   }
 }
 
+// What was asked for and is still being built is left to its builder.
+void LetGo(FlowField* f) {
+  f->deserted = 0;
+  if (!IsBuilt(*f) && f->questions >= kSharedGoal) return;
+  std::vector<DirectionTile>().swap(f->tiles);
+  f->questions = 0;
+}
+
+void LetGoOfDesertedFields(CrowdScratch* s, Crowd* c) {
+  if (c->step % kFieldLook_steps != 0) return;
+  s->field_is_used.assign(c->fields.size(), 0);
+  for (const int field : c->field) {
+    if (field >= 0) s->field_is_used[static_cast<size_t>(field)] = 1;
+  }
+  for (size_t f = 0; f < c->fields.size(); ++f) {
+    FlowField& field = c->fields[f];
+    field.deserted = s->field_is_used[f] ? 0 : field.deserted + 1;
+    if (field.deserted >= kDesertedLooks) LetGo(&field);
+  }
+}
+
 }  // namespace
 
 void SetGoal(size_t i, int field, Crowd* c) {
@@ -251,7 +272,7 @@ int FieldFor(Vec2 goal, Crowd* c) {
   for (size_t f = 0; f < c->fields.size(); ++f) {
     if (c->fields[f].goal.x == goal.x && c->fields[f].goal.y == goal.y) return static_cast<int>(f);
   }
-  c->fields.push_back({goal, {}, 0});
+  c->fields.push_back({goal, {}});
   return static_cast<int>(c->fields.size()) - 1;
 }
 
@@ -270,6 +291,7 @@ Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, 
 }
 
 void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, CrowdScratch* s, Crowd* c) {
+  LetGoOfDesertedFields(s, c);
   FollowOrCare(w, moving, step_s, &s->caring, c);
   RenewWays(w, s->caring, c);
   SortIntoGrid(s->caring, c->position, c->velocity, c->radius_m, kGridCell_m, &s->neighbours);

@@ -88,7 +88,7 @@ struct Crowd {
   std::vector<Mind> mind;
   std::vector<uint8_t> coast;      // steps left to walk straight on, out of sight and far from everything
   std::vector<int> group;          // index into groups; -1: alone
-  std::vector<FlowField> fields;   // built where enough people have the same goal
+  std::vector<FlowField> fields;   // built where enough people have the same goal, let go where nobody has
   bool fields_come_later = false;  // true: a FieldBuilder builds those in asked_fields, not the step that asks
   std::vector<int> asked_fields;   // indices into fields
   std::vector<Group> groups;
@@ -118,6 +118,7 @@ struct CrowdScratch {
   std::vector<uint64_t> order;  // where people are, along a curve, with their index
   std::vector<int> number;      // new index by old
   std::vector<std::byte> spare;
+  std::vector<uint8_t> field_is_used;  // by field
 };
 
 struct Person {

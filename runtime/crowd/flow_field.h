@@ -22,6 +22,7 @@ struct FlowField {
   std::vector<DirectionTile>
       tiles;          // of the best way, in 1/255 turns anticlockwise from +x; 255: none. Empty until built
   int questions = 0;  // asked for ways before it was built
+  int deserted = 0;   // looks in a row at which nobody was on the way there
 };
 
 // Index of the direction of the cell at column x and row y, over all tiles.

@@ -1,9 +1,12 @@
 #include "runtime/crowd/neighbours.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flaneur {
 namespace {
+
+constexpr float kMostCells = 4e6f;  // people far from each other get larger cells
 
 void Span(const std::vector<int>& people, const std::vector<Vec2>& position, float cell_m, NeighbourGrid* g) {
   Vec2 min{}, max{};
@@ -14,7 +17,9 @@ void Span(const std::vector<int>& people, const std::vector<Vec2>& position, flo
     max = {std::max(max.x, p.x), std::max(max.y, p.y)};
   }
   g->min_m = min;
-  g->cell_m = cell_m;
+  const Vec2 cells = (max - min) * (1 / cell_m);
+  g->cell_m = cell_m * std::max(1.0f, std::sqrt((cells.x + 1) * (cells.y + 1) / kMostCells));
+  cell_m = g->cell_m;
   g->columns = static_cast<int>((max.x - min.x) / cell_m) + 1;
   g->rows = static_cast<int>((max.y - min.y) / cell_m) + 1;
 }

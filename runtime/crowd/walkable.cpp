@@ -32,26 +32,65 @@ bool InsidePolygon(Vec2 p, const PolygonObstacle& polygon) {
   return true;
 }
 
+Walkable::Box BoxOf(const std::vector<Vec2>& ring) {
+  Walkable::Box box{ring.front(), ring.front()};
+  for (const Vec2 p : ring) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  }
+  return box;
+}
+
 void AddEdges(const std::vector<Vec2>& ring, std::vector<Walkable::Edge>* edges) {
   for (size_t i = 0; i < ring.size(); ++i) edges->push_back({ring[i], ring[(i + 1) % ring.size()]});
+}
+
+// Of the cell at v; the first or last one beyond them.
+int IndexAlong(float v, float origin, float cell_m, int count) {
+  return static_cast<int>(std::clamp(std::floor((v - origin) / cell_m), 0.0f, static_cast<float>(count - 1)));
 }
 
 // Calls visit(cell) for the cells that the box, grown by reach_m, touches.
 template <typename Visit>
 void VisitCells(const Walkable& w, Vec2 low, Vec2 high, float reach_m, Visit visit) {
-  const auto index = [&](float v, float origin, int count) {
-    return std::clamp(static_cast<int>(std::floor((v - origin) / w.cell_m)), 0, count - 1);
-  };
-  const int x0 = index(low.x - reach_m, w.min_m.x, w.columns), x1 = index(high.x + reach_m, w.min_m.x, w.columns);
-  const int y0 = index(low.y - reach_m, w.min_m.y, w.rows), y1 = index(high.y + reach_m, w.min_m.y, w.rows);
+  const int x0 = IndexAlong(low.x - reach_m, w.min_m.x, w.cell_m, w.columns),
+            x1 = IndexAlong(high.x + reach_m, w.min_m.x, w.cell_m, w.columns);
+  const int y0 = IndexAlong(low.y - reach_m, w.min_m.y, w.cell_m, w.rows),
+            y1 = IndexAlong(high.y + reach_m, w.min_m.y, w.cell_m, w.rows);
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) visit(y * w.columns + x);
   }
 }
 
+int RowAt(const Walkable& w, float y) {
+  return static_cast<int>(std::clamp((y - w.min_m.y) / w.cell_m, -1.0f, static_cast<float>(w.rows)));
+}
+
 bool EdgeNearCell(const Walkable& w, const Walkable::Edge& e, int cell, float reach_m) {
   const Vec2 c = CellCenter(w, cell);
   return Length(NearestOnSegment(c, e.a, e.b) - c) <= reach_m + w.cell_m * 0.71f;
+}
+
+// Calls visit(cell) for the cells that VisitCells finds in the box of an edge, but row by row only for those about the
+// part of the edge there: long edges lead through few of their box's cells.
+template <typename Visit>
+void VisitCellsAlong(const Walkable& w, const Walkable::Edge& e, float reach_m, Visit visit) {
+  const Vec2 low = e.a.y <= e.b.y ? e.a : e.b, high = e.a.y <= e.b.y ? e.b : e.a;
+  const float left_m = std::min(low.x, high.x), right_m = std::max(low.x, high.x), rise_m = high.y - low.y;
+  const float around_m = reach_m + w.cell_m;
+  const auto x_at = [&](float y) {
+    return rise_m > 0 ? low.x + std::clamp((y - low.y) / rise_m, 0.0f, 1.0f) * (high.x - low.x) : low.x;
+  };
+  const int first = IndexAlong(low.y - reach_m, w.min_m.y, w.cell_m, w.rows);
+  const int last = IndexAlong(high.y + reach_m, w.min_m.y, w.cell_m, w.rows);
+  for (int row = first; row <= last; ++row) {
+    const float y = CellCenter(w, row * w.columns).y;
+    const float p = x_at(y - around_m), q = rise_m > 0 ? x_at(y + around_m) : high.x;
+    const float from_m = std::max(std::min(p, q) - around_m, left_m - reach_m);
+    const float to_m = std::min(std::max(p, q) + around_m, right_m + reach_m);
+    const int end = IndexAlong(to_m, w.min_m.x, w.cell_m, w.columns);
+    for (int x = IndexAlong(from_m, w.min_m.x, w.cell_m, w.columns); x <= end; ++x) visit(row * w.columns + x);
+  }
 }
 
 // Turns (cell, item) pairs, given twice by `each`, into ranges by cell.
@@ -72,9 +111,7 @@ void BucketObstacles(float reach_m, Walkable* w) {
       [&](auto add) {
         for (size_t e = 0; e < w->edges.size(); ++e) {
           const auto& edge = w->edges[e];
-          const Vec2 low{std::min(edge.a.x, edge.b.x), std::min(edge.a.y, edge.b.y)};
-          const Vec2 high{std::max(edge.a.x, edge.b.x), std::max(edge.a.y, edge.b.y)};
-          VisitCells(*w, low, high, reach_m, [&](int cell) {
+          VisitCellsAlong(*w, edge, reach_m, [&](int cell) {
             if (EdgeNearCell(*w, edge, cell, reach_m)) add(cell, static_cast<int>(e));
           });
         }
@@ -92,18 +129,70 @@ void BucketObstacles(float reach_m, Walkable* w) {
       &w->circle_start, &w->wall_circles);
 }
 
-// Marks what lies inside polygons, row by row.
-std::vector<char> Covered(const Walkable& w) {
-  std::vector<char> covered(w.cost.size(), 0);
-  for (const PolygonObstacle& polygon : w.polygons) {
-    Vec2 low = polygon.outer[0], high = low;
-    for (Vec2 p : polygon.outer) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+// Of a ring: where its edges cross the middle of a row of cells, as InsideRing has it.
+struct RowCrossing {
+  int row = 0;
+  float x = 0;
+};
+
+// By row and from left to right.
+void FindCrossings(const Walkable& w, const std::vector<Vec2>& ring, std::vector<RowCrossing>* crossings) {
+  crossings->clear();
+  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Vec2 a = ring[i], b = ring[j];
+    const int first = std::max(0, RowAt(w, std::min(a.y, b.y)) - 1);
+    const int last = std::min(w.rows - 1, RowAt(w, std::max(a.y, b.y)) + 1);
+    for (int row = first; row <= last; ++row) {
+      const float y = CellCenter(w, row * w.columns).y;
+      if ((a.y > y) != (b.y > y)) crossings->push_back({row, (b.x - a.x) * (y - a.y) / (b.y - a.y) + a.x});
     }
-    VisitCells(w, low, high, 0, [&](int cell) {
-      if (InsidePolygon(CellCenter(w, cell), polygon)) covered[static_cast<size_t>(cell)] = 1;
+  }
+  std::sort(crossings->begin(), crossings->end(),
+            [](const RowCrossing& p, const RowCrossing& q) { return p.row != q.row ? p.row < q.row : p.x < q.x; });
+}
+
+// Columns whose middles lie left of x.
+int ColumnsBefore(const Walkable& w, int row, float x) {
+  const float guess = std::clamp((x - w.min_m.x) / w.cell_m + 0.5f, 0.0f, static_cast<float>(w.columns));
+  int column = static_cast<int>(guess);
+  const auto is_before = [&](int c) { return CellCenter(w, row * w.columns + c).x < x; };
+  while (column > 0 && !is_before(column - 1)) --column;
+  while (column < w.columns && is_before(column)) ++column;
+  return column;
+}
+
+// Calls visit(cell) for every cell whose middle InsideRing finds inside.
+template <typename Visit>
+void VisitInside(const Walkable& w, const std::vector<Vec2>& ring, std::vector<RowCrossing>* crossings, Visit visit) {
+  FindCrossings(w, ring, crossings);
+  for (size_t k = 0; k + 1 < crossings->size(); k += 2) {  // a ring crosses a line an even number of times
+    const RowCrossing &in = (*crossings)[k], &out = (*crossings)[k + 1];
+    const int end = ColumnsBefore(w, in.row, out.x);
+    for (int column = ColumnsBefore(w, in.row, in.x); column < end; ++column) visit(in.row * w.columns + column);
+  }
+}
+
+// Marks what lies inside polygons. Rings are gone along once, not once a cell.
+std::vector<char> Covered(const Walkable& w) {
+  constexpr char kCovered = 1, kHere = 2, kHole = 4;
+  std::vector<char> covered(w.cost.size(), 0);
+  std::vector<RowCrossing> crossings;
+  std::vector<int> here;
+  for (const PolygonObstacle& polygon : w.polygons) {
+    here.clear();
+    VisitInside(w, polygon.outer, &crossings, [&](int cell) {
+      covered[static_cast<size_t>(cell)] |= kHere;
+      here.push_back(cell);
     });
+    for (const auto& hole : polygon.holes) {
+      VisitInside(w, hole, &crossings, [&](int cell) {
+        if (covered[static_cast<size_t>(cell)] & kHere) covered[static_cast<size_t>(cell)] |= kHole;
+      });
+    }
+    for (const int cell : here) {
+      char& c = covered[static_cast<size_t>(cell)];
+      c = static_cast<char>((c & kCovered) | (c & kHole ? 0 : kCovered));
+    }
   }
   return covered;
 }
@@ -311,7 +400,9 @@ void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
   w->least_cost = *std::max_element(std::begin(kGroundCost), std::end(kGroundCost));
   w->cells.assign(cells, {});
   w->edges.clear();
+  w->polygon_boxes.clear();
   for (const PolygonObstacle& polygon : w->polygons) {
+    w->polygon_boxes.push_back(BoxOf(polygon.outer));
     AddEdges(polygon.outer, &w->edges);
     for (const auto& hole : polygon.holes) AddEdges(hole, &w->edges);
   }
@@ -378,8 +469,10 @@ bool InsideObstacle(const Walkable& w, Vec2 p) {
   for (const CircleObstacle& c : w.circles) {
     if (Length(p - c.center) < c.radius_m) return true;
   }
-  for (const PolygonObstacle& polygon : w.polygons) {
-    if (InsidePolygon(p, polygon)) return true;
+  for (size_t k = 0; k < w.polygons.size(); ++k) {
+    const Walkable::Box& box = w.polygon_boxes[k];
+    const bool may_be = p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y;
+    if (may_be && InsidePolygon(p, w.polygons[k])) return true;
   }
   return false;
 }

@@ -32,6 +32,10 @@ struct Walkable : Obstacles {
     Vec2 a, b;
   };
   std::vector<Edge> edges;  // of all polygons
+  struct Box {
+    Vec2 low, high;
+  };
+  std::vector<Box> polygon_boxes;  // about their outer rings
   // What a person in a cell, or stepping out of it, can touch: ranges [start[cell], start[cell + 1]) of the lists.
   std::vector<int> wall_start, wall_edges;
   std::vector<int> circle_start, wall_circles;

@@ -11,14 +11,18 @@
 #include <cerrno>
 #include <cstring>
 
-#include "runtime/base/file.h"
 #include "runtime/base/text.h"
+#include "runtime/desktop/interruption.h"
 
 extern char** environ;
 
 namespace flaneur {
 
 namespace {
+
+// Ffmpeg writes into a file that has no name yet: none of which it could take a part for a protocol or an option.
+constexpr int kFilmDescriptor = 3;
+constexpr const char* kFilmInFfmpeg = "file:/proc/self/fd/3";
 
 // Of what has been written to it.
 std::string LastLine(int file) {
@@ -40,44 +44,20 @@ FilmWriter::~FilmWriter() {
     ::waitpid(process_, nullptr, 0);
   }
   if (complaints_ >= 0) ::close(complaints_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
 Error FilmWriter::Start(const std::filesystem::path& path, int width_px, int height_px, float frames_per_s) {
   if (width_px % 2 != 0 || height_px % 2 != 0)
     return Fail("a film needs an even --size, not " + std::to_string(width_px) + "x" + std::to_string(height_px));
-  std::error_code ec;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ec);
   path_ = path;
-  temporary_ = path.string() + ".part-" + std::to_string(::getpid()) + ".mp4";
+  if (Error e = file_.Start(path)) return e;
   const std::string size = std::to_string(width_px) + "x" + std::to_string(height_px),
                     rate = std::to_string(frames_per_s);
-  const char* argv[] = {"ffmpeg",
-                        "-v",
-                        "error",
-                        "-y",
-                        "-f",
-                        "rawvideo",
-                        "-pixel_format",
-                        "rgb24",
-                        "-video_size",
-                        size.c_str(),
-                        "-framerate",
-                        rate.c_str(),
-                        "-i",
-                        "-",
-                        "-c:v",
-                        "libx264",
-                        "-preset",
-                        "veryfast",
-                        "-crf",
-                        "20",
-                        "-pix_fmt",
-                        "yuv420p",
-                        "-movflags",
-                        "+faststart",
-                        temporary_.c_str(),
-                        nullptr};
+  const char* argv[] = {
+      "ffmpeg",  "-v",          "error",      "-y",         "-f",         "rawvideo",    "-pixel_format",
+      "rgb24",   "-video_size", size.c_str(), "-framerate", rate.c_str(), "-i",          "-",
+      "-c:v",    "libx264",     "-preset",    "veryfast",   "-crf",       "20",          "-pix_fmt",
+      "yuv420p", "-movflags",   "+faststart", "-f",         "mp4",        kFilmInFfmpeg, nullptr};
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return Fail("no pipe to ffmpeg: " + std::string(std::strerror(errno)));
   complaints_ = ::memfd_create("complaints", MFD_CLOEXEC);
@@ -85,6 +65,7 @@ Error FilmWriter::Start(const std::filesystem::path& path, int width_px, int hei
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
   if (complaints_ >= 0) posix_spawn_file_actions_adddup2(&actions, complaints_, STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, file_.descriptor(), kFilmDescriptor);
   ::signal(SIGPIPE, SIG_IGN);
   const int failed = ::posix_spawnp(&process_, "ffmpeg", &actions, nullptr, const_cast<char**>(argv), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -95,6 +76,7 @@ Error FilmWriter::Start(const std::filesystem::path& path, int width_px, int hei
     return Fail("ffmpeg cannot be started: install the Debian package ffmpeg, or leave --film out");
   }
   pipe_ = ends[1];
+  EndsWithUs(process_);
   return Ok();
 }
 
@@ -124,13 +106,10 @@ Error FilmWriter::Finish() {
   int status = 0;
   ::waitpid(process_, &status, 0);
   process_ = -1;
+  EndsWithUs(0);
   // A disk that is full at the film's very end is an error to ffmpeg, but not one to end with another status for.
   const bool whole = WIFEXITED(status) && WEXITSTATUS(status) == 0 && LastLine(complaints_).empty();
-  if (!whole) return Failed();
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0)
-    return Fail(path_.string() + ": cannot be written: " + std::strerror(errno));
-  temporary_.clear();
-  return Ok();
+  return whole ? file_.Finish() : Failed();
 }
 
 }  // namespace flaneur

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/base/error.h"
+#include "runtime/base/file.h"
 
 namespace flaneur {
 
@@ -24,7 +25,8 @@ class FilmWriter {
  private:
   Error Failed() const;  // with what ffmpeg says about it
 
-  std::filesystem::path path_, temporary_;
+  std::filesystem::path path_;
+  UnfinishedFile file_;
   int pipe_ = -1;
   int process_ = -1;
   int complaints_ = -1;  // a file in memory

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
 #include <vector>
 
 #include "runtime/base/file.h"
@@ -16,9 +19,12 @@ namespace flaneur {
 namespace {
 
 Error CheckOutputs(const PlayerOptions& options) {
-  for (const auto* path : {&options.metrics, &options.trajectories, &options.film}) {
+  for (const auto* path : {&options.metrics, &options.trajectories}) {
     if (path->empty()) continue;
     if (Error e = CheckWritable(*path)) return e;
+  }
+  if (!options.film.empty()) {
+    if (Error e = CheckReplaceable(options.film)) return e;
   }
   for (const Still& still : StillsOf(options, 1)) {
     if (Error e = CheckWritable(still.path)) return e;
@@ -72,7 +78,14 @@ int main(int argc, char** argv) {
   flaneur::PlayerOptions options;
   if (const int status = flaneur::ParsePlayerOptions(argc, argv, &options); status >= 0) return status;
   int status = 0;
-  const flaneur::Error error = flaneur::Run(options, argv, &status);
+  flaneur::Error error;
+  try {
+    error = flaneur::Run(options, argv, &status);
+  } catch (const std::bad_alloc&) {
+    error = flaneur::Fail("there is not enough memory for this");
+  } catch (const std::exception& e) {
+    error = flaneur::Fail(std::string("this cannot be played: ") + e.what());
+  }
   if (!error) return status;
   std::fprintf(stderr, "flaneur-player: error: %s\n", flaneur::OneLine(error.message).c_str());
   return 2;

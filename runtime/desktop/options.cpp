@@ -1,23 +1,34 @@
 #include "runtime/desktop/options.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
+#include <string_view>
 
+#include "runtime/base/option_range.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
+
+constexpr int kLeastPictureSide_px = 16, kMostPictureSide_px = 8192;
 
 int Refuse(const std::string& why) {
   std::fprintf(stderr, "flaneur-player: error: %s; see flaneur-player --help\n", OneLine(why).c_str());
   return 2;
 }
 
-bool ParseSize(const std::string& text, PlayerOptions* o) {
-  int used = 0;
-  return std::sscanf(text.c_str(), "%dx%d%n", &o->width_px, &o->height_px, &used) == 2 &&
-         static_cast<size_t>(used) == text.size() && o->width_px >= 16 && o->height_px >= 16 && o->width_px <= 8192 &&
-         o->height_px <= 8192;
+bool ParseSide(std::string_view text, int* side_px) {
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, *side_px);
+  return read.ec == std::errc() && read.ptr == end && *side_px >= kLeastPictureSide_px &&
+         *side_px <= kMostPictureSide_px;
+}
+
+bool ParseSize(std::string_view text, PlayerOptions* o) {
+  const size_t x = text.find('x');
+  return x != std::string_view::npos && ParseSide(text.substr(0, x), &o->width_px) &&
+         ParseSide(text.substr(x + 1), &o->height_px);
 }
 
 }  // namespace
@@ -46,7 +57,7 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("--monitor", o->monitor, "Open the window on this monitor: its number, from 1, or its name");
   app.add_option("--seconds", o->seconds,
                  "End after so much simulated time (default: the scenario's, else the guided tour's end, else 60)")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(NumberFrom(0.0, 1e6));
   app.add_option("--scenario", o->scenario, "Scenario file (TOML)");
   app.add_option("--metrics", o->metrics, "Write one row a frame (CSV)");
   app.add_option("--trajectories", o->trajectories, "Write one row a person a frame (CSV)");
@@ -54,7 +65,7 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("--at", o->at_s,
                  "Moments of --screenshot in seconds, such as 10,25.5: a still each, FILE_10s.png and FILE_25.5s.png")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(NumberFrom(0.0, 1e6));
   app.add_option("--film", o->film, "Write a film (MP4, H.264)");
   app.add_option("--samples", o->samples,
                  "Samples a pixel of --screenshot and --film (default: 4, but 1 for films without a graphics card)")
@@ -65,13 +76,13 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
   app.add_option("--seed", o->seed, "Seed of the crowd (default: likewise)");
   app.add_option("--hour", o->hour,
                  "Hour of the day at the start, such as 19.5 (default: likewise); it sets sun and sky")
-      ->check(CLI::Range(0.0, 24.0));
+      ->check(NumberFrom(0.0, 24.0));
   app.add_option("--adaptation", o->adaptation,
                  "How the crowd keeps out of the visitor's way: off, paper or full (default: likewise)")
       ->check(CLI::IsMember({"off", "paper", "full"}));
   app.add_option("--discretion", o->discretion,
                  "With full adaptation: 1 for unnoticed, 0 for the limit at any price (default: likewise)")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(NumberFrom(0.0, 1.0));
   app.add_option("--language", o->language,
                  "Of the guided tour's captions and sounds, such as en (default: the tour's own)");
   app.add_flag("--kiosk", o->kiosk,
@@ -91,6 +102,10 @@ int ParsePlayerOptions(int argc, char** argv, PlayerOptions* o) {
          "--threads", o->threads,
          "Threads that work beside the one that plays (default: one a core, two at least); 0: it does all itself")
       ->check(CLI::Range(0, 256));
+  app.add_option("--pack-memory-mib", o->pack_memory_mib,
+                 "Memory that a pack may ask for beside its file, and as much again for its pictures")
+      ->check(CLI::Range(16, 65536))
+      ->capture_default_str();
   app.add_option("--compare", o->compare,
                  "Two adaptations on the same walk, side by side in one film or picture, such as: off full")
       ->expected(2)

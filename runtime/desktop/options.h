@@ -6,7 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/limits.h"
+
 namespace flaneur {
+
+inline constexpr uint64_t kBytesAMebibyte = 1048576;
 
 struct PlayerOptions {
   std::filesystem::path pack, scenario, metrics, trajectories, screenshot, film;
@@ -26,6 +30,7 @@ struct PlayerOptions {
   std::vector<std::string> compare;  // adaptations side by side: two, or none
   int width_px = 1280, height_px = 720;
   std::optional<int> samples;  // a pixel, of stills and films
+  int pack_memory_mib = static_cast<int>(kPackMemory_bytes / kBytesAMebibyte);
   std::optional<int> threads;  // beside the one that plays
 };
 

@@ -204,6 +204,7 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   if (films) {
     if (Error e = run.film.Finish()) return e;
   }
+  if (Error e = EndWatching()) return e;
   return WriteRecords(run.records, options.metrics, options.trajectories);
 }
 

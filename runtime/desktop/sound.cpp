@@ -6,10 +6,12 @@
 #include <cstring>
 #include <memory>
 
+#include "runtime/base/limits.h"
+
 namespace flaneur {
 namespace {
 
-constexpr sf_count_t kMaxLength_frames = 48000 * 3600, kBlock_frames = 4096;
+constexpr sf_count_t kBlock_frames = 4096;
 
 // The bytes as a file for libsndfile.
 struct Memory {
@@ -45,7 +47,7 @@ Sound DecodeSound(const std::vector<uint8_t>& bytes) {
   SF_INFO info{};
   const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open_virtual(&io, SFM_READ, &info, &memory), &sf_close);
   Sound out;
-  if (file == nullptr || info.channels < 1 || info.frames < 1 || info.frames > kMaxLength_frames) return out;
+  if (file == nullptr || info.channels < 1 || info.frames < 1 || info.frames > kMostSound_frames) return out;
   out.channels = info.channels == 2 ? 2 : 1;
   out.rate_hz = info.samplerate;
   // Read as floats, -1 to 1 whatever the file holds: as integers a file of floats would be silent.

@@ -34,7 +34,8 @@ StartingTour::StartingTour(const PlayerOptions& options)
 
 Error OpenTour(const PlayerOptions& options, StartingTour* tour) {
   if (!options.pack.empty()) {
-    if (Error e = tour->file.Open(options.pack, &tour->pack)) return e;
+    const uint64_t most_bytes = static_cast<uint64_t>(options.pack_memory_mib) * kBytesAMebibyte;
+    if (Error e = tour->file.Open(options.pack, &tour->pack, {most_bytes, most_bytes})) return e;
     AddGuideFigure(&tour->pack);
     tour->scenario = ScenarioOf(tour->pack);
   }

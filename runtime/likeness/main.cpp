@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "runtime/base/file.h"
+#include "runtime/base/option_range.h"
 #include "runtime/base/text.h"
 #include "runtime/desktop/context.h"
 #include "runtime/likeness/measure.h"
@@ -35,10 +36,10 @@ int Parse(int argc, char** argv, LikenessArguments* a) {
   app.add_option("--phases", a->measure.phases, "Moments of the clip")->check(CLI::Range(1, 256));
   app.add_option("--suns", a->measure.suns, "Directions of the sun")->check(CLI::Range(1, 3));
   app.add_option("--between", a->measure.between, "Moves headings and phases on by so much of their spacing")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(NumberFrom(0.0, 1.0));
   app.add_option("--person-px", a->measure.person_px,
                  "Height on screen where all are compared; 0: each at its switch distance")
-      ->check(CLI::Range(0.0, 2000.0));
+      ->check(NumberFrom(0.0, 2000.0));
   app.add_option("--supersampling", a->supersampling,
                  "Pixels a pixel and side: 1 keeps the player's own noise in both pictures")
       ->check(CLI::Range(1, 8));

@@ -4,7 +4,10 @@
 #include <cstring>
 
 #include "runtime/base/array.h"
+#include "runtime/base/json_text.h"
 #include "runtime/base/text.h"
+#include "runtime/pack/allowance.h"
+#include "runtime/pack/gltf_check.h"
 #include "runtime/pack/meshopt_view.h"
 
 namespace flaneur {
@@ -81,6 +84,10 @@ void VisitComponents(const GltfFile& file, int accessor_index, Visit visit) {
       (count > 0 && offset + (count - 1) * stride + size * components > view.size())) {
     throw PackRefused("has " + name + " that reaches beyond its buffer view");
   }
+  if (file.allowance != nullptr) {
+    file.allowance->TakeMemory(count * components * sizeof(float), name);
+    file.allowance->TakeWork(count * components, name);
+  }
   for (size_t i = 0; i < count; ++i) {
     for (size_t c = 0; c < components; ++c) {
       visit(ReadComponent(view.data() + offset + i * stride + c * size, type));
@@ -89,7 +96,7 @@ void VisitComponents(const GltfFile& file, int accessor_index, Visit visit) {
 }
 
 // A range of the binary chunk, as a buffer view or an extension of one gives it.
-std::span<const uint8_t> Place(const GltfFile& file, const Json& range, int view) {
+std::span<const uint8_t> PlaceInBinary(const GltfFile& file, const Json& range, int view) {
   const size_t offset = range.value("byteOffset", size_t{0});
   const size_t length = Member(range, "byteLength").get<size_t>();
   if (range.value("buffer", 0) != 0 || offset > file.binary.size() || length > file.binary.size() - offset) {
@@ -103,7 +110,7 @@ ByteRange RangeOf(const GltfFile& file, std::span<const uint8_t> part) {
 }
 
 std::span<const uint8_t> Range(const GltfFile& file, const Json& range, int view) {
-  const std::span<const uint8_t> place = Place(file, range, view);
+  const std::span<const uint8_t> place = PlaceInBinary(file, range, view);
   if (file.there && !file.there->Holds(RangeOf(file, place)))
     throw PackRefused("has not arrived as far as buffer view " + std::to_string(view));
   return place;
@@ -117,6 +124,10 @@ void DecodeViews(GltfFile* file) {
     if (extensions != view.end() && extensions->contains(kMeshoptExtension)) {
       const Json& packed = (*extensions)[kMeshoptExtension];
       if (packed.value("mode", "") != "ATTRIBUTES") throw PackRefused("has a buffer view compressed in an unknown way");
+      const uint64_t bytes =
+          Product(Member(packed, "count").get<uint64_t>(), Member(packed, "byteStride").get<uint64_t>());
+      file->allowance->TakeMemory(bytes, "buffer view " + std::to_string(index));
+      file->allowance->TakeWork(bytes, "buffer view " + std::to_string(index));
       file->decoded[index] =
           DecodeMeshoptView(Range(*file, packed, index), Member(packed, "count").get<size_t>(),
                             Member(packed, "byteStride").get<size_t>(), packed.value("filter", "NONE"));
@@ -132,8 +143,9 @@ std::string Complaint(const std::exception& e) {
   return "is broken: in its JSON, " + PlainJsonError(e.what());
 }
 
-GltfFile OpenGltf(std::vector<uint8_t> bytes, std::optional<ByteRanges> there) {
+GltfFile OpenGltf(std::vector<uint8_t> bytes, std::optional<ByteRanges> there, Allowance* allowance) {
   GltfFile file;
+  file.allowance = allowance;
   file.bytes = std::move(bytes);
   file.there = std::move(there);
   const std::span<const uint8_t> all(file.bytes);
@@ -143,9 +155,13 @@ GltfFile OpenGltf(std::vector<uint8_t> bytes, std::optional<ByteRanges> there) {
   const size_t json_size = Word(all, 12);
   if (Word(all, 16) != kJsonChunk || json_size > all.size() - 20) throw PackRefused("is truncated");
   const auto text = all.subspan(20, json_size);
-  if (NestsTooDeep({reinterpret_cast<const char*>(text.data()), text.size()})) throw PackRefused(kNestsTooDeep);
+  const std::string_view json(reinterpret_cast<const char*>(text.data()), text.size());
+  if (NestsTooDeep(json)) throw PackRefused(kNestsTooDeep);
+  allowance->TakeMemory(MemoryOfJson_bytes(json), "its JSON");
   file.json = Json::parse(text.begin(), text.end(), nullptr, false);
   if (!file.json.is_object()) throw PackRefused("holds broken JSON");
+  CheckGltf(file.json);
+  file.tree = TreeOf(file.json);
   const size_t chunk = 20 + json_size;
   if (chunk + 8 <= all.size() && Word(all, chunk + 4) == kBinaryChunk) {
     const size_t binary_size = Word(all, chunk);
@@ -184,6 +200,15 @@ const Json& Element(const Json& root, const char* array, int index) {
   return At(all, index);
 }
 
+size_t CountOf(const Json& root, const char* array) {
+  const auto found = root.find(array);
+  return found != root.end() && found->is_array() ? found->size() : 0;
+}
+
+uint64_t CountOfValues(const GltfFile& file, int accessor) {
+  return Member(Element(file.json, "accessors", accessor), "count").get<uint64_t>();
+}
+
 std::span<const uint8_t> BufferView(const GltfFile& file, int index) {
   const Json& view = Element(file.json, "bufferViews", index);
   const auto decoded = file.decoded.find(index);
@@ -191,7 +216,7 @@ std::span<const uint8_t> BufferView(const GltfFile& file, int index) {
 }
 
 std::span<const uint8_t> BeginningOfView(const GltfFile& file, int index) {
-  const std::span<const uint8_t> place = Place(file, Element(file.json, "bufferViews", index), index);
+  const std::span<const uint8_t> place = PlaceInBinary(file, Element(file.json, "bufferViews", index), index);
   return file.there ? place.first(std::min(place.size(), file.there->HeldFrom(RangeOf(file, place).offset))) : place;
 }
 
@@ -199,7 +224,7 @@ ByteRange RangeOfView(const GltfFile& file, int index) {
   const Json& view = Element(file.json, "bufferViews", index);
   const auto extensions = view.find("extensions");
   const bool packed = extensions != view.end() && extensions->contains(kMeshoptExtension);
-  return RangeOf(file, Place(file, packed ? (*extensions)[kMeshoptExtension] : view, index));
+  return RangeOf(file, PlaceInBinary(file, packed ? (*extensions)[kMeshoptExtension] : view, index));
 }
 
 int ComponentCount(const std::string& type) {

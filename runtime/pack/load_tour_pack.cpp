@@ -6,8 +6,10 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/base/limits.h"
 #include "runtime/base/pixels.h"
 #include "runtime/base/text.h"
+#include "runtime/pack/allowance.h"
 #include "runtime/pack/gltf_file.h"
 #include "runtime/pack/ktx2.h"
 #include "runtime/pack/reach.h"
@@ -21,10 +23,6 @@
 
 namespace flaneur {
 namespace {
-
-constexpr int kMaxImageSide_px = 16384;
-constexpr size_t kMaxJoints = 1024;
-constexpr float kMostReach_m = 20;  // of a person; what is farther out is a fault of the model
 
 float Finite(const Json& json) {
   const float value = json.get<float>();
@@ -48,7 +46,7 @@ std::span<const uint8_t> ImageBytes(const GltfFile& file, int image) {
 
 PackImage ReadImageSize(const GltfFile& file, int index) {
   const auto size = DecodedSize(BeginningOfView(file, ImageView(file, index)));
-  if (!size || size->width > kMaxImageSide_px || size->height > kMaxImageSide_px) {
+  if (!size || size->width > kMostPictureSide_px || size->height > kMostPictureSide_px) {
     throw PackRefused("has " + NameOf(file, index) + " that is neither PNG nor JPEG, or too large");
   }
   PackImage image;
@@ -71,7 +69,9 @@ PackMaterial ReadMaterial(const GltfFile& file, const Json& json) {
   material.double_sided = json.value("doubleSided", false);
   material.alpha_mask = json.value("alphaMode", "OPAQUE") != "OPAQUE";
   material.alpha_cutoff = json.value("alphaCutoff", 0.5f);
-  const Json pbr = json.value("pbrMetallicRoughness", Json::object());
+  static const Json kNothing = Json::object();
+  const auto found = json.find("pbrMetallicRoughness");
+  const Json& pbr = found != json.end() ? *found : kNothing;
   if (pbr.contains("baseColorFactor")) {
     const Json& c = pbr["baseColorFactor"];
     material.base_color = {c.at(0), c.at(1), c.at(2), c.at(3)};
@@ -134,40 +134,58 @@ int ReadTurning(const Json& node, const Mat4& world, TourPack* pack) {
   return -1;  // a newer version's
 }
 
+// Neither beyond the world nor blown up out of it.
+void CheckPlacement(const Mat4& world, size_t node) {
+  for (const auto& column : world.m) {
+    for (const float number : column) {
+      if (!(std::abs(static_cast<double>(number)) <= kMostCoordinate_m))
+        throw PackRefused("has node " + std::to_string(node) + " placed out of range");
+    }
+  }
+}
+
 void ReadTown(const GltfFile& file, MeshTable* meshes, TourPack* pack) {
   const Json& nodes = Member(file.json, "nodes");
   struct Visit {
     size_t node;
     Mat4 parent;
-    size_t depth;
   };
   std::vector<Visit> stack;
-  for (const Json& root : Element(file.json, "scenes", 0).value("nodes", Json::array())) {
-    stack.push_back({root.get<size_t>(), Mat4{}, 0});
-  }
+  std::vector<bool> seen(nodes.size(), false);
+  const auto visit_later = [&](const Json& node, const Mat4& parent) {
+    const auto n = node.get<size_t>();
+    if (n >= nodes.size() || seen[n]) throw PackRefused("has a broken node tree");
+    seen[n] = true;
+    stack.push_back({n, parent});
+  };
+  const auto visit_list_later = [&](const Json& of, const char* list, const Mat4& parent) {
+    if (!of.contains(list)) return;
+    for (const Json& node : of[list]) visit_later(node, parent);
+  };
+  visit_list_later(Element(file.json, "scenes", 0), "nodes", Mat4{});
   while (!stack.empty()) {
     const Visit visit = stack.back();
     stack.pop_back();
-    if (visit.node >= nodes.size() || visit.depth > 64 || pack->town.size() > nodes.size()) {
-      throw PackRefused("has a broken node tree");
-    }
     const Json& node = nodes[visit.node];
     const Mat4 world = visit.parent * LocalMatrix(node);
     if (node.contains("mesh")) {
+      CheckPlacement(world, visit.node);
       const int mesh = Index(node, "mesh", Member(file.json, "meshes").size());
       pack->town.push_back({node.value("name", ""), meshes->Get(mesh), world, ReadTurning(node, world, pack)});
     }
-    for (const Json& child : node.value("children", Json::array())) {
-      stack.push_back({child.get<size_t>(), world, visit.depth + 1});
-    }
+    visit_list_later(node, "children", world);
   }
 }
 
-std::vector<ImpostorCell> ReadCells(std::span<const uint8_t> bytes, const PackImpostor& impostor) {
+std::vector<ImpostorCell> ReadCells(const GltfFile& file, std::span<const uint8_t> bytes,
+                                    const PackImpostor& impostor) {
   const size_t count =
       static_cast<size_t>(impostor.directions) * static_cast<size_t>(impostor.frames) * impostor.elevations_deg.size();
   using CellNumbers = std::array<int16_t, 6>;
   if (bytes.size() != count * sizeof(CellNumbers)) throw PackRefused("has an impostor with a wrong number of cells");
+  constexpr uint64_t kCell_bytes = sizeof(CellNumbers) + 2 * sizeof(ImpostorCell);
+  file.allowance->TakeMemory(Product(count, kCell_bytes), "an impostor's cells");
+  file.allowance->TakeWork(count, "an impostor's cells");
   std::vector<CellNumbers> numbers(count);
   std::memcpy(numbers.data(), bytes.data(), bytes.size());
   std::vector<ImpostorCell> cells;
@@ -190,29 +208,29 @@ ImpostorClip ReadPhases(const TourObject& json, std::string name, int frames) {
 }
 
 void ReadOtherPhases(const TourObject& json, PackImpostor* impostor) {
-  for (const TourObject& c : json.Objects("other_clips"))
+  for (const TourObject& c : json.Objects("other_clips", kMaxOtherClips))
     impostor->clips.push_back(ReadPhases(c, c.Text("name"), impostor->frames));
-  if (impostor->clips.size() > 3 + kMaxOtherClips) json.Refuse("has more than eight other_clips");
 }
 
 PackImpostor ReadImpostor(const GltfFile& file, const TourObject& json) {
-  constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
+  constexpr double kAboveZero = TourObject::kAboveZero;
   PackImpostor out;
   out.directions = json.Whole("directions", 1, 1024);
   out.frames = json.Whole("frames", 1, 4096);
   out.elevations_deg = json.Reals("elevations_deg", -90, 90);
-  out.width_px = json.Whole("width_px", 1, kMaxImageSide_px);
-  out.height_px = json.Whole("height_px", 1, kMaxImageSide_px);
-  out.texel_m = json.Real("texel_m", kAboveZero, kAnything);
-  out.depth_range_m = json.Real("depth_range_m", kAboveZero, kAnything);
-  out.motion_range_m = json.Real("motion_range_m", kAboveZero, kAnything);
-  out.bend_range_m = json.Real("bend_range_m", kAboveZero, kAnything);
-  for (const TourObject& c : json.Objects("clips"))
+  if (out.elevations_deg.size() > kMostElevations) json.Refuse("has more than 64 elevations_deg");
+  out.width_px = json.Whole("width_px", 1, kMostPictureSide_px);
+  out.height_px = json.Whole("height_px", 1, kMostPictureSide_px);
+  out.texel_m = json.Real("texel_m", kAboveZero, kMostSide_m);
+  out.depth_range_m = json.Real("depth_range_m", kAboveZero, kMostSide_m);
+  out.motion_range_m = json.Real("motion_range_m", kAboveZero, kMostSide_m);
+  out.bend_range_m = json.Real("bend_range_m", kAboveZero, kMostSide_m);
+  for (const TourObject& c : json.Objects("clips", 3))
     out.clips.push_back(ReadPhases(c, c.OneOf("name", {"walk", "idle", "talk"}), out.frames));
   if (out.clips.empty()) json.Refuse("has no clips");
   if (json.Has("other_clips")) ReadOtherPhases(json, &out);
   const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
-  out.cells = ReadCells(BufferView(file, json.Whole("cells_view", 0, last)), out);
+  out.cells = ReadCells(file, BufferView(file, json.Whole("cells_view", 0, last)), out);
   return out;
 }
 
@@ -297,7 +315,7 @@ Tint ReadTint(const GltfFile& file, const TourObject& json) {
   tint.colors = json.Colors("colors");
   if (tint.colors.size() > kMaxTintColors) json.Refuse("has more than eight colors");
   if (json.Has("materials")) {
-    const size_t materials = file.json.value("materials", Json::array()).size();
+    const size_t materials = CountOf(file.json, "materials");
     tint.materials = json.Wholes("materials", 0, static_cast<double>(materials) - 1);
     if (tint.materials.empty()) json.Refuse("may dye none of the materials");
   }
@@ -318,12 +336,11 @@ PackProp ReadProp(const GltfFile& file, int skin, const TourObject& json, MeshTa
   return prop;
 }
 
-std::vector<PackOtherClip> ReadOtherClips(const GltfFile& file, int skin, const TourObject& avatar) {
+std::vector<PackOtherClip> ReadOtherClips(const GltfFile& file, const Skin& skin, const TourObject& avatar) {
   std::vector<PackOtherClip> clips;
   if (!avatar.Has("other_clips")) return clips;
-  const double last = static_cast<double>(file.json.value("animations", Json::array()).size()) - 1;
-  const std::vector<TourObject> objects = avatar.Objects("other_clips");
-  if (objects.size() > kMaxOtherClips) avatar.Refuse("has more than eight other_clips");
+  const double last = static_cast<double>(CountOf(file.json, "animations")) - 1;
+  const std::vector<TourObject> objects = avatar.Objects("other_clips", kMaxOtherClips);
   for (const TourObject& c : objects) {
     clips.push_back({c.Text("name"), ReadClip(file, skin, c.Whole("animation", 0, last))});
     if (c.Has("seat_m")) clips.back().seat_m = c.Real("seat_m", 0, kMaxSeat_m);
@@ -336,15 +353,15 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   constexpr double kAboveZero = TourObject::kAboveZero, kAnything = TourObject::kAnything;
   PackAvatar avatar;
   avatar.name = json.Text("name");
-  avatar.share = json.Real("share", 0, kAnything);
-  avatar.height_m = json.Real("height_m", kAboveZero, kAnything);
-  avatar.radius_m = json.Real("radius_m", kAboveZero, kAnything);
+  avatar.share = json.Real("share", 0, kMostShare);
+  avatar.height_m = json.Real("height_m", kLeastPerson_m, kMostPerson_m);
+  avatar.radius_m = json.Real("radius_m", kAboveZero, kMostPersonRadius_m);
   avatar.reach_m = json.Has("reach_m") ? json.Real("reach_m", kAboveZero, kMostReach_m) : 0;
-  avatar.walk_speed_mps = json.Real("walk_speed_mps", kAboveZero, kAnything);
+  avatar.walk_speed_mps = json.Real("walk_speed_mps", kAboveZero, kMostWalk_mps);
   if (json.Has("height_spread")) avatar.height_spread = json.Real("height_spread", 0, kMaxHeightSpread);
   const Json& nodes = Member(file.json, "nodes");
-  int skin = -1;
-  for (const TourObject& level_json : json.Objects("levels")) {
+  int skin_index = -1;
+  for (const TourObject& level_json : json.Objects("levels", kMostLevels)) {
     const Json& node = At(nodes, level_json.Whole("node", 0, static_cast<double>(nodes.size()) - 1));
     PackLevel level;
     level.mesh = meshes->Get(Index(node, "mesh", Member(file.json, "meshes").size()));
@@ -353,15 +370,15 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
     level.posed_error_mm = level_json.Real("posed_error_mm", 0, kAnything);
     level.switch_px = level_json.Real("switch_px", 0, kAnything);
     const int level_skin = Index(node, "skin", Member(file.json, "skins").size());
-    if (skin >= 0 && level_skin != skin) level_json.Refuse("has another skin than the level before");
-    skin = level_skin;
+    if (skin_index >= 0 && level_skin != skin_index) level_json.Refuse("has another skin than the level before");
+    skin_index = level_skin;
     avatar.levels.push_back(level);
   }
   if (avatar.levels.empty()) json.Refuse("has no levels");
-  avatar.joints = static_cast<int>(Member(Element(file.json, "skins", skin), "joints").size());
-  if (avatar.joints < 1 || static_cast<size_t>(avatar.joints) > kMaxJoints) throw PackRefused("has too many joints");
+  const Skin skin = ReadSkin(file, skin_index);
+  avatar.joints = Count(skin.joints);
   avatar.skeleton = ReadSkeleton(file, skin);
-  const double last = static_cast<double>(file.json.value("animations", Json::array()).size()) - 1;
+  const double last = static_cast<double>(CountOf(file.json, "animations")) - 1;
   const TourObject clips = json.Object("clips");
   const auto clip = [&](const char* name) { return ReadClip(file, skin, clips.Whole(name, -1, last)); };
   avatar.walk = clip("walk");
@@ -370,26 +387,28 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   avatar.other_clips = ReadOtherClips(file, skin, json);
   avatar.impostor = ReadImpostor(file, json.Object("impostor"));
   if (json.Has("props")) {
-    for (const TourObject& prop : json.Objects("props")) avatar.props.push_back(ReadProp(file, skin, prop, meshes));
-    if (avatar.props.size() > kMaxProps) json.Refuse("has more than seven props");
+    for (const TourObject& prop : json.Objects("props", kMaxProps))
+      avatar.props.push_back(ReadProp(file, skin_index, prop, meshes));
   }
   if (json.Has("tints")) {
-    for (const TourObject& tint : json.Objects("tints")) avatar.tints.push_back(ReadTint(file, tint));
-    if (avatar.tints.size() > kMaxTints) json.Refuse("has more than three tints");
+    for (const TourObject& tint : json.Objects("tints", kMaxTints)) avatar.tints.push_back(ReadTint(file, tint));
   }
   return avatar;
 }
 
-void ReadObstacle(const TourObject& json, Obstacles* obstacles) {
+void ReadObstacle(const TourObject& json, size_t* points, Obstacles* obstacles) {
   json.Text("name");
   json.OneOf("kind", {"building", "wall", "tree", "lamp", "other"});
   if (json.Has("radius_m")) {
-    const float radius_m = json.Real("radius_m", TourObject::kAboveZero, TourObject::kAnything);
+    const float radius_m = json.Real("radius_m", TourObject::kAboveZero, kMostSide_m);
     obstacles->circles.push_back({json.Point("center_m"), radius_m});
     return;
   }
   PolygonObstacle polygon{json.Ring("outer_m"), {}};
   if (json.Has("holes_m")) polygon.holes = json.Rings("holes_m");
+  *points += polygon.outer.size();
+  for (const auto& hole : polygon.holes) *points += hole.size();
+  if (*points > kMostObstaclePoints) json.Refuse("and those before it have more points than a tour may have");
   obstacles->polygons.push_back(std::move(polygon));
 }
 
@@ -397,9 +416,10 @@ void ReadObstacle(const TourObject& json, Obstacles* obstacles) {
 template <typename Raster>
 size_t ReadRasterFrame(const TourObject& json, Raster* raster) {
   raster->min_m = json.Point("min_m");
-  raster->cell_m = json.Real("cell_m", TourObject::kAboveZero, TourObject::kAnything);
-  raster->columns = json.Whole("columns", 1, 100000);
-  raster->rows = json.Whole("rows", 1, 100000);
+  raster->cell_m = json.Real("cell_m", kLeastCell_m, kMostCell_m);
+  const double most = std::floor(kMostSide_m / static_cast<double>(raster->cell_m));
+  raster->columns = json.Whole("columns", 1, most);
+  raster->rows = json.Whole("rows", 1, most);
   return static_cast<size_t>(raster->columns) * static_cast<size_t>(raster->rows);
 }
 
@@ -410,10 +430,12 @@ GroundRaster ReadGround(const GltfFile& file, const TourObject& json) {
   const auto heights = BufferView(file, json.Whole("height_view", 0, last));
   const auto kinds = BufferView(file, json.Whole("kind_view", 0, last));
   if (heights.size() != cells * 4 || kinds.size() != cells) json.Refuse("has views of the wrong size");
+  file.allowance->TakeMemory(5 * cells, "the ground");
   ground.height_m.resize(cells);
   std::memcpy(ground.height_m.data(), heights.data(), heights.size());
   for (float h : ground.height_m) {
-    if (!std::isfinite(h)) throw PackRefused("has a ground height that is not finite");
+    if (!(std::abs(static_cast<double>(h)) <= kMostCoordinate_m))
+      throw PackRefused("has a ground height that is not finite, or out of range");
   }
   ground.kind.assign(kinds.begin(), kinds.end());
   return ground;
@@ -426,14 +448,15 @@ Painting ReadPainting(const GltfFile& file, const TourObject& json) {
   const auto people = BufferView(file, json.Whole("people_view", 0, last));
   const auto loiter = BufferView(file, json.Whole("loiter_view", 0, last));
   if (people.size() != cells || loiter.size() != cells) json.Refuse("has views of the wrong size");
+  file.allowance->TakeMemory(2 * cells, "the painting");
   painting.people.assign(people.begin(), people.end());
   painting.loiter.assign(loiter.begin(), loiter.end());
   return painting;
 }
 
 TourStop ReadStop(const GltfFile& file, const TourObject& json, TourPack* pack) {
-  TourStop stop{json.Point("position_m"), json.Real("yaw_rad"), json.Real("pause_s", 0, TourObject::kAnything),
-                json.Text("caption")};
+  TourStop stop{json.Point("position_m"), json.Yaw("yaw_rad"), json.Real("pause_s", 0, kMostPause_s),
+                json.Text("caption", kMostText_bytes)};
   stop.captions = ReadTranslations(json, "captions");
   stop.sounds = ReadSounds(file, json, pack);
   return stop;
@@ -450,7 +473,7 @@ Place ReadPlay(const TourObject& json) {
 
 Place ReadWork(const TourObject& json) {
   Place place{json.Text("name"), "work", json.Point("position_m")};
-  place.yaw_rad = json.Real("yaw_rad");
+  place.yaw_rad = json.Yaw("yaw_rad");
   if (json.Has("clip")) place.clip = json.Text("clip");
   if (json.Has("avatars")) place.avatars = json.Texts("avatars");
   if (json.Has("seat_m")) place.seat_m = json.Real("seat_m", 0, kMaxSeat_m);
@@ -461,20 +484,21 @@ Place ReadWork(const TourObject& json) {
 void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   pack->name = tour.Text("name");
   pack->titles = ReadTranslations(tour, "titles");
-  for (const TourObject& o : tour.Objects("obstacles")) ReadObstacle(o, &pack->obstacles);
-  for (const TourObject& p : tour.Objects("places")) {
+  size_t points = 0;
+  for (const TourObject& o : tour.Objects("obstacles", kMostObstacles)) ReadObstacle(o, &points, &pack->obstacles);
+  for (const TourObject& p : tour.Objects("places", kMostPlaces)) {
     pack->places.push_back({p.Text("name"), p.OneOf("kind", {"door", "exit", "goal", "loiter", "spawn"}),
-                            p.Point("position_m"), p.Real("width_m", TourObject::kAboveZero, TourObject::kAnything)});
-    if (p.Has("yaw_rad")) pack->places.back().yaw_rad = p.Real("yaw_rad");
+                            p.Point("position_m"), p.Real("width_m", TourObject::kAboveZero, kMostSide_m)});
+    if (p.Has("yaw_rad")) pack->places.back().yaw_rad = p.Yaw("yaw_rad");
   }
   if (tour.Has("work")) {
-    for (const TourObject& w : tour.Objects("work")) pack->places.push_back(ReadWork(w));
+    for (const TourObject& w : tour.Objects("work", kMostPlaces)) pack->places.push_back(ReadWork(w));
   }
   if (tour.Has("play")) {
-    for (const TourObject& p : tour.Objects("play")) pack->places.push_back(ReadPlay(p));
+    for (const TourObject& p : tour.Objects("play", kMostPlaces)) pack->places.push_back(ReadPlay(p));
   }
   if (tour.Has("painting")) pack->painting = ReadPainting(file, tour.Object("painting"));
-  for (const TourObject& s : tour.Objects("path")) pack->path.push_back(ReadStop(file, s, pack));
+  for (const TourObject& s : tour.Objects("path", kMostStops)) pack->path.push_back(ReadStop(file, s, pack));
   if (tour.Has("language")) pack->language = tour.Text("language");
   if (tour.Has("guide")) pack->guide = tour.Text("guide");
   if (tour.Has("title_page")) {
@@ -505,11 +529,13 @@ PackMesh ReadOutline(const GltfFile& file, int mesh) {
 }
 
 // Notes in the materials of an avatar's levels which tints may dye them.
-void BindTints(const PackAvatar& avatar, const std::vector<PackMesh>& meshes, std::vector<PackMaterial>* materials) {
+void BindTints(const PackAvatar& avatar, const std::vector<PackMesh>& meshes, Allowance* allowance,
+               std::vector<PackMaterial>* materials) {
   for (size_t t = 0; t < avatar.tints.size(); ++t) {
     const std::vector<int>& dyed = avatar.tints[t].materials;
     if (dyed.empty()) continue;
     for (const PackLevel& level : avatar.levels) {
+      allowance->TakeWork(Product(At(meshes, level.mesh).primitives.size(), dyed.size()), "a tint's materials");
       for (const PackPrimitive& primitive : At(meshes, level.mesh).primitives) {
         if (primitive.material < 0 || std::find(dyed.begin(), dyed.end(), primitive.material) != dyed.end()) continue;
         uint8_t& tints = At(*materials, primitive.material).tints;
@@ -552,6 +578,12 @@ struct PackFile::Impl {
     return read;
   }
 
+  void TakeReach(const PackAvatar& avatar, int mesh) const {
+    constexpr uint64_t kVertexWork = 8;
+    const auto frames = static_cast<uint64_t>(avatar.walk.frames + avatar.idle.frames + avatar.talk.frames);
+    file.allowance->TakeWork(Product(SizeOfMesh(file, At(meshes, mesh)).vertices, frames * kVertexWork), "a prop");
+  }
+
   // Packs of before do not say it.
   void FindReach(PackAvatar* avatar) const {
     const bool said = avatar->reach_m > 0;
@@ -559,6 +591,7 @@ struct PackFile::Impl {
     if (said) return;
     avatar->reach_m = std::max(avatar->reach_m, std::min(kMostReach_m, ReachOfPictures_m(avatar->impostor)));
     for (const PackProp& prop : avatar->props) {
+      TakeReach(*avatar, prop.mesh);
       const PackMesh mesh = Mesh(static_cast<size_t>(prop.mesh));
       for (const PackClip* clip : {&avatar->walk, &avatar->idle, &avatar->talk})
         avatar->reach_m = std::max(avatar->reach_m, std::min(kMostReach_m, PosedReach_m(mesh, *clip, avatar->joints)));
@@ -570,33 +603,65 @@ struct PackFile::Impl {
     CheckVersion(tour);
     ReadTour(file, tour, pack);
     pack->ground = Share(ReadGround(file, tour.Object("ground")));
-    for (const Json& m : file.json.value("materials", Json::array())) pack->materials.push_back(ReadMaterial(file, m));
+    for (size_t m = 0; m < CountOf(file.json, "materials"); ++m)
+      pack->materials.push_back(ReadMaterial(file, file.json["materials"][m]));
     MeshTable table;
     ReadTown(file, &table, pack);
-    for (const TourObject& a : tour.Objects("avatars")) {
+    for (const TourObject& a : tour.Objects("avatars", kMostAvatars)) {
       pack->avatars.push_back(ReadAvatar(file, a, &table));
       impostors.push_back(a.Object("impostor"));
       atlases.push_back(pack->avatars.back().impostor);
     }
     if (pack->avatars.empty()) tour.Refuse("has no avatars");
+    const auto has_share = [](const PackAvatar& a) { return a.share > 0; };
+    if (std::none_of(pack->avatars.begin(), pack->avatars.end(), has_share))
+      tour.Refuse("has no avatar with a share above 0: nobody could live there");
     const auto is_guide = [&](const PackAvatar& a) { return a.name == pack->guide; };
     if (!pack->guide.empty() && std::none_of(pack->avatars.begin(), pack->avatars.end(), is_guide)) {
       tour.Refuse("has a guide '" + pack->guide + "' who is none of its avatars");
     }
     meshes = table.used();
+    TakeBulk(*pack);
     joints.resize(meshes.size());
     for (int mesh : meshes) pack->meshes.push_back(ReadOutline(file, mesh));
     for (const PackAvatar& avatar : pack->avatars) {
       for (const PackLevel& level : avatar.levels) At(joints, level.mesh) = avatar.joints;
       for (const PackProp& prop : avatar.props) At(joints, prop.mesh) = avatar.joints;
-      BindTints(avatar, pack->meshes, &pack->materials);
+      BindTints(avatar, pack->meshes, file.allowance, &pack->materials);
     }
     for (PackAvatar& avatar : pack->avatars) {
       FindReach(&avatar);
       avatar.reach_m = std::min(kMostReach_m, avatar.reach_m * (1 + avatar.height_spread));
     }
-    const size_t images = file.json.value("images", Json::array()).size();
-    for (size_t i = 0; i < images; ++i) pack->images.push_back(ReadImageSize(file, static_cast<int>(i)));
+    for (size_t i = 0; i < CountOf(file.json, "images"); ++i) {
+      pack->images.push_back(ReadImageSize(file, static_cast<int>(i)));
+      const PackImage& image = pack->images.back();
+      file.allowance->TakePicture(image.width_px, image.height_px, NameOf(file, static_cast<int>(i)));
+    }
+  }
+
+  // A mesh that is read for each who shows it, and drawn as often.
+  void TakeMesh(int mesh) {
+    const MeshSize size = SizeOfMesh(file, At(meshes, mesh));
+    const std::string what = "mesh " + std::to_string(At(meshes, mesh));
+    constexpr uint64_t kVertex_bytes = 64, kIndex_bytes = 4, kVertexWork = 20, kIndexWork = 5;
+    file.allowance->TakeMemory(Product(size.vertices, kVertex_bytes) + Product(size.indices, kIndex_bytes), what);
+    file.allowance->TakeWork(Product(size.vertices, kVertexWork) + Product(size.indices, kIndexWork) + size.primitives,
+                             what);
+  }
+
+  // What will be read and drawn later: who shares something has it all the same.
+  void TakeBulk(const TourPack& pack) {
+    for (const TownInstance& instance : pack.town) TakeMesh(instance.mesh);
+    for (size_t a = 0; a < pack.avatars.size(); ++a) {
+      for (const PackLevel& level : pack.avatars[a].levels) TakeMesh(level.mesh);
+      for (const PackProp& prop : pack.avatars[a].props) TakeMesh(prop.mesh);
+      for (const AtlasView& view : kAtlasViews) {
+        if (!impostors[a].Has(view.name)) continue;
+        const int index = impostors[a].View(view.name, CountOf(file.json, "bufferViews"));
+        file.allowance->TakeMemory(RangeOfView(file, index).bytes, std::string("an impostor's ") + view.name);
+      }
+    }
   }
 };
 
@@ -606,6 +671,8 @@ Error Caught(const std::string& name, auto read) {
   try {
     read();
     return Ok();
+  } catch (const std::bad_alloc&) {
+    return Fail(name + ": there is not enough memory for it");
   } catch (const std::exception& e) {
     return Fail(name + ": " + OneLine(Complaint(e)));
   }
@@ -618,29 +685,31 @@ PackFile::PackFile(PackFile&&) noexcept = default;
 PackFile& PackFile::operator=(PackFile&&) noexcept = default;
 PackFile::~PackFile() = default;
 
-Error PackFile::Open(const std::filesystem::path& path, TourPack* pack) {
+Error PackFile::Open(const std::filesystem::path& path, TourPack* pack, const PackLimits& limits) {
   std::vector<uint8_t> bytes;
   if (Error e = ReadFile(path, &bytes)) return e;
-  return Open(std::move(bytes), path.string(), pack);
+  return Open(std::move(bytes), path.string(), pack, limits);
 }
 
-Error PackFile::Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack) {
-  return OpenPart(std::move(bytes), {}, name, pack);
+Error PackFile::Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack, const PackLimits& limits) {
+  return OpenPart(std::move(bytes), {}, name, pack, limits);
 }
 
 Error PackFile::Open(std::vector<uint8_t> bytes, ByteRanges there, const std::string& name, TourPack* pack) {
   if (there.Holds({0, bytes.size()})) return Open(std::move(bytes), name, pack);
-  return OpenPart(std::move(bytes), std::move(there), name, pack);
+  return OpenPart(std::move(bytes), std::move(there), name, pack, {});
 }
 
 Error PackFile::OpenPart(std::vector<uint8_t> bytes, std::optional<ByteRanges> there, const std::string& name,
-                         TourPack* pack) {
+                         TourPack* pack, const PackLimits& limits) {
   return Caught(name, [&] {
     auto impl = std::make_unique<Impl>();
-    impl->file = OpenGltf(std::move(bytes), std::move(there));
+    Allowance allowance(bytes.size(), limits);
+    impl->file = OpenGltf(std::move(bytes), std::move(there), &allowance);
     impl->name = name;
     TourPack read;
     impl->Read(&read);
+    impl->file.allowance = nullptr;
     impl_ = std::move(impl);
     *pack = std::move(read);
   });
@@ -728,7 +797,7 @@ Error LoadTourPack(const std::filesystem::path& path, const LoadOptions& options
 Error ParseTourPack(std::vector<uint8_t> bytes, const std::string& name, const LoadOptions& options, TourPack* pack) {
   PackFile file;
   TourPack loaded;
-  if (Error e = file.Open(std::move(bytes), name, &loaded)) return e;
+  if (Error e = file.Open(std::move(bytes), name, &loaded, options.limits)) return e;
   if (options.geometry_and_images) {
     const size_t images = loaded.images.size(), meshes = loaded.meshes.size(),
                  count = images + meshes + loaded.avatars.size();

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "runtime/base/array.h"
+#include "runtime/base/limits.h"
+#include "runtime/pack/allowance.h"
 
 namespace flaneur {
 namespace {
@@ -31,25 +34,6 @@ NodePose RestPose(const Json& node) {
   if (node.contains("rotation")) pose.rotation = ReadQuat(node["rotation"]);
   if (node.contains("scale")) pose.scale = ReadVec3(node["scale"]);
   return pose;
-}
-
-// For each node its parent, -1 for roots; a node with two parents or a loop is refused.
-std::vector<int> Parents(const Json& nodes) {
-  std::vector<int> parents(nodes.size(), -1);
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    for (const Json& child : nodes[i].value("children", Json::array())) {
-      const auto c = child.get<size_t>();
-      if (c >= nodes.size() || parents[c] >= 0) throw PackRefused("has a broken node tree");
-      parents[c] = static_cast<int>(i);
-    }
-  }
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    size_t depth = 0;
-    for (int n = static_cast<int>(i); n >= 0; n = At(parents, n)) {
-      if (++depth > nodes.size()) throw PackRefused("has a loop in its node tree");
-    }
-  }
-  return parents;
 }
 
 Channel ReadChannel(const GltfFile& file, const Json& animation, const Json& json) {
@@ -105,45 +89,100 @@ std::vector<Mat4> InverseBinds(const GltfFile& file, const Json& skin, size_t jo
 }
 
 std::vector<size_t> JointNodes(const Json& skin, size_t nodes) {
+  const Json& json = Member(skin, "joints");
+  if (json.empty() || json.size() > kMostJoints) throw PackRefused("has too many joints, or none");
   std::vector<size_t> joints;
-  for (const Json& joint : Member(skin, "joints")) {
+  for (const Json& joint : json) {
     if (joint.get<size_t>() >= nodes) throw PackRefused("has a skin whose joint is no node");
     joints.push_back(joint.get<size_t>());
   }
   return joints;
 }
 
+// Of the file's nodes those that a skin's joints hang on, parents first.
+void FindNodes(const NodeTree& tree, Skin* skin) {
+  std::vector<int> here(tree.parent.size(), -1);
+  for (const size_t joint : skin->joints) {
+    for (int n = static_cast<int>(joint); n >= 0 && At(here, n) < 0; n = At(tree.parent, n)) {
+      At(here, n) = 0;
+      skin->nodes.push_back(n);
+    }
+  }
+  std::stable_sort(skin->nodes.begin(), skin->nodes.end(),
+                   [&](int a, int b) { return At(tree.depth, a) < At(tree.depth, b); });
+  for (size_t k = 0; k < skin->nodes.size(); ++k) At(here, skin->nodes[k]) = static_cast<int>(k);
+  for (const int n : skin->nodes) skin->parent.push_back(At(tree.parent, n) < 0 ? -1 : At(here, At(tree.parent, n)));
+  for (const size_t joint : skin->joints) skin->joint_node.push_back(static_cast<size_t>(here[joint]));
+}
+
+// Where each node of the skin is.
+void PoseAll(const Skin& skin, const std::vector<NodePose>& pose, std::vector<Mat4>* global) {
+  global->resize(pose.size());
+  for (size_t k = 0; k < pose.size(); ++k) {
+    const Mat4 local = FromTranslationRotationScale(pose[k].translation, pose[k].rotation, pose[k].scale);
+    (*global)[k] = skin.parent[k] < 0 ? local : At(*global, skin.parent[k]) * local;
+  }
+}
+
+bool IsWithinReach(Vec3 p) {
+  const auto within = [](float m) { return std::abs(static_cast<double>(m)) <= kMostCoordinate_m; };
+  return within(p.x) && within(p.y) && within(p.z);
+}
+
+void CheckMatrices(const std::vector<Mat4>& matrices) {
+  for (const Mat4& matrix : matrices) {
+    for (const auto& column : matrix.m) {
+      if (!IsWithinReach({column[0], column[1], column[2]}))
+        throw PackRefused("has a clip that moves joints out of range");
+    }
+  }
+}
+
+// What a clip of so many frames takes.
+void TakeFrames(const GltfFile& file, const Skin& skin, size_t channels, int frames) {
+  if (file.allowance == nullptr) return;
+  constexpr uint64_t kNodeWork = 10, kChannelWork = 5;
+  const auto count = static_cast<uint64_t>(frames);
+  file.allowance->TakeMemory(Product(count, skin.joints.size() * sizeof(Mat4)), "a clip");
+  file.allowance->TakeWork(
+      Product(count, kNodeWork * (skin.nodes.size() + skin.joints.size()) + kChannelWork * channels), "a clip");
+}
+
 }  // namespace
 
-std::vector<PackJoint> ReadSkeleton(const GltfFile& file, int skin_index) {
+Skin ReadSkin(const GltfFile& file, int index) {
   const Json& nodes = Member(file.json, "nodes");
-  const Json& skin = Element(file.json, "skins", skin_index);
-  const std::vector<int> parents = Parents(nodes);
-  const std::vector<size_t> joints = JointNodes(skin, nodes.size());
-  const std::vector<Mat4> inverse_binds = InverseBinds(file, skin, joints.size());
-  std::vector<int> joint_of(nodes.size(), -1);
-  for (size_t j = 0; j < joints.size(); ++j) joint_of[joints[j]] = static_cast<int>(j);
+  const Json& json = Element(file.json, "skins", index);
+  if (file.allowance != nullptr) file.allowance->TakeWork(nodes.size(), "a skin");
+  Skin skin;
+  skin.joints = JointNodes(json, nodes.size());
+  skin.inverse_binds = InverseBinds(file, json, skin.joints.size());
+  FindNodes(file.tree, &skin);
+  return skin;
+}
+
+std::vector<PackJoint> ReadSkeleton(const GltfFile& file, const Skin& skin) {
+  const Json& nodes = Member(file.json, "nodes");
+  std::vector<int> joint_of(skin.nodes.size(), -1);
+  for (size_t j = 0; j < skin.joints.size(); ++j) joint_of[skin.joint_node[j]] = static_cast<int>(j);
   std::vector<PackJoint> skeleton;
-  for (size_t j = 0; j < joints.size(); ++j) {
+  for (size_t j = 0; j < skin.joints.size(); ++j) {
     PackJoint joint;
-    const Json& node = nodes[joints[j]];
+    const Json& node = nodes[skin.joints[j]];
     if (node.contains("name") && node["name"].is_string()) joint.name = node["name"].get<std::string>();
-    int above = parents[joints[j]];
-    while (above >= 0 && At(joint_of, above) < 0) above = At(parents, above);
+    int above = skin.parent[skin.joint_node[j]];
+    while (above >= 0 && At(joint_of, above) < 0) above = At(skin.parent, above);
     if (above >= 0) joint.parent = At(joint_of, above);
-    joint.rest_m = TransformPoint(Inverse(inverse_binds[j]), {});
+    if (file.allowance != nullptr) file.allowance->TakeMemory(joint.name.size() + sizeof joint, "a skeleton");
+    joint.rest_m = TransformPoint(Inverse(skin.inverse_binds[j]), {});
+    if (!IsWithinReach(joint.rest_m)) throw PackRefused("has a skin whose joint rests out of range");
     skeleton.push_back(std::move(joint));
   }
   return skeleton;
 }
 
-PackClip ReadClip(const GltfFile& file, int skin_index, int animation_index) {
+PackClip ReadClip(const GltfFile& file, const Skin& skin, int animation_index) {
   const Json& nodes = Member(file.json, "nodes");
-  const Json& skin = Element(file.json, "skins", skin_index);
-  const std::vector<int> parents = Parents(nodes);
-  const std::vector<size_t> joints = JointNodes(skin, nodes.size());
-  const std::vector<Mat4> inverse_binds = InverseBinds(file, skin, joints.size());
-
   std::vector<Channel> channels;
   PackClip clip;
   if (animation_index >= 0) {
@@ -151,24 +190,30 @@ PackClip ReadClip(const GltfFile& file, int skin_index, int animation_index) {
     for (const Json& json : Member(animation, "channels")) channels.push_back(ReadChannel(file, animation, json));
     for (const Channel& c : channels) clip.duration_s = std::max(clip.duration_s, c.times_s.back());
   }
-  if (!(clip.duration_s >= 0 && clip.duration_s < 600)) throw PackRefused("has an animation of odd length");
+  if (!(clip.duration_s >= 0 && clip.duration_s < kMostClip_s)) throw PackRefused("has an animation of odd length");
   clip.frames = std::max(1, static_cast<int>(std::lround(clip.duration_s * kClipRateHz)));
+  TakeFrames(file, skin, channels.size(), clip.frames);
 
-  std::vector<NodePose> rest(nodes.size());
-  for (size_t i = 0; i < nodes.size(); ++i) rest[i] = RestPose(nodes[i]);
+  std::map<int, size_t> here;  // by node of the file
+  std::vector<NodePose> rest;
+  for (const int n : skin.nodes) {
+    here.emplace(n, rest.size());
+    rest.push_back(RestPose(At(nodes, n)));
+  }
+  std::erase_if(channels, [&](const Channel& c) { return !here.contains(c.node); });
+  for (Channel& c : channels) c.node = static_cast<int>(here.at(c.node));
+  std::vector<NodePose> pose;
+  std::vector<Mat4> global;
+  clip.matrices.reserve(static_cast<size_t>(clip.frames) * skin.joints.size());
   for (int frame = 0; frame < clip.frames; ++frame) {
-    std::vector<NodePose> pose = rest;
+    pose = rest;
     const float time_s = clip.duration_s * static_cast<float>(frame) / static_cast<float>(clip.frames);
     for (const Channel& c : channels) Apply(c, time_s, &At(pose, c.node));
-    for (size_t j = 0; j < joints.size(); ++j) {
-      Mat4 global;
-      for (int n = static_cast<int>(joints[j]); n >= 0; n = At(parents, n)) {
-        const NodePose& p = At(pose, n);
-        global = FromTranslationRotationScale(p.translation, p.rotation, p.scale) * global;
-      }
-      clip.matrices.push_back(global * inverse_binds[j]);
-    }
+    PoseAll(skin, pose, &global);
+    for (size_t j = 0; j < skin.joints.size(); ++j)
+      clip.matrices.push_back(global[skin.joint_node[j]] * skin.inverse_binds[j]);
   }
+  CheckMatrices(clip.matrices);
   return clip;
 }
 

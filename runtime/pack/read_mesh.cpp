@@ -7,6 +7,9 @@
 #include <functional>
 #include <span>
 
+#include "runtime/base/draco_size.h"
+#include "runtime/base/limits.h"
+
 namespace flaneur {
 namespace {
 
@@ -15,14 +18,27 @@ constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 // Gives an attribute's values by its glTF name, empty where the primitive has none.
 using AttributeSource = std::function<Values(const char* name)>;
 
-std::unique_ptr<draco::Mesh> DecodeDraco(const GltfFile& file, const Json& extension) {
+// The decoder allocates for what the data's beginning says: that must not be more than what the primitive says, which
+// has been counted.
+void CheckDracoBeginning(std::span<const uint8_t> bytes, const MeshSize& most) {
+  const auto size = DracoSizeOf(bytes);
+  if (!size) throw PackRefused("holds Draco data that is broken, or of another kind");
+  if (size->vertices > most.vertices || 3 * size->faces > most.indices)
+    throw PackRefused("holds Draco data of more vertices or triangles than it says");
+}
+
+std::unique_ptr<draco::Mesh> DecodeDraco(const GltfFile& file, const Json& extension, const MeshSize& most) {
   const auto view = BufferView(file, Member(extension, "bufferView").get<int>());
+  CheckDracoBeginning(view, most);
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(view.data()), view.size());
   draco::Decoder decoder;
   auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
   if (!decoded.ok())
     throw PackRefused("holds Draco data that cannot be decoded: " + decoded.status().error_msg_string());
+  const draco::Mesh& mesh = *decoded.value();
+  if (mesh.num_points() > most.vertices || 3 * uint64_t{mesh.num_faces()} > most.indices)
+    throw PackRefused("holds Draco data of more vertices or triangles than it says");
   return std::move(decoded).value();
 }
 
@@ -48,6 +64,10 @@ Values DracoAttribute(const draco::Mesh& mesh, int unique_id, const Json& access
 void Expect(const Values& values, size_t count, int components, const char* name) {
   if (values.components != components || values.count() != count) {
     throw PackRefused("has an attribute " + std::string(name) + " of the wrong size");
+  }
+  for (const float number : values.numbers) {
+    if (!(std::abs(static_cast<double>(number)) <= kMostCoordinate_m))
+      throw PackRefused("has an attribute " + std::string(name) + " that is not finite, or out of range");
   }
 }
 
@@ -102,9 +122,6 @@ void FillVertices(const AttributeSource& attribute, PackPrimitive* primitive) {
   Expect(positions, positions.count(), 3, "POSITION");
   primitive->positions = ToVec3(positions);
   const size_t count = primitive->positions.size();
-  for (const Vec3& p : primitive->positions) {
-    if (!std::isfinite(p.x + p.y + p.z)) throw PackRefused("has a non-finite position");
-  }
   const Values normals = attribute("NORMAL");
   if (normals.components == 0) {
     primitive->normals.assign(count, Vec3{0, 1, 0});
@@ -125,6 +142,11 @@ void FillVertices(const AttributeSource& attribute, PackPrimitive* primitive) {
   }
 }
 
+MeshSize SizeOfPrimitive(const GltfFile& file, const Json& primitive) {
+  const Json& positions = Member(Member(primitive, "attributes"), "POSITION");
+  return {1, CountOfValues(file, positions.get<int>()), CountOfValues(file, Member(primitive, "indices").get<int>())};
+}
+
 PackPrimitive ReadPrimitive(const GltfFile& file, const Json& json) {
   PackPrimitive primitive;
   if (json.value("mode", 4) != 4) throw PackRefused("has a primitive that is not of triangles");
@@ -133,7 +155,7 @@ PackPrimitive ReadPrimitive(const GltfFile& file, const Json& json) {
   const bool compressed = json.contains("extensions") && json["extensions"].contains(kDracoExtension);
   if (compressed) {
     const Json& extension = json["extensions"][kDracoExtension];
-    const auto mesh = DecodeDraco(file, extension);
+    const auto mesh = DecodeDraco(file, extension, SizeOfPrimitive(file, json));
     const Json& ids = Member(extension, "attributes");
     FillVertices(
         [&](const char* name) {
@@ -171,6 +193,17 @@ PackMesh ReadMesh(const GltfFile& file, int mesh) {
   } catch (const std::exception& e) {
     throw PackRefused("mesh " + std::to_string(mesh) + " '" + json.value("name", "") + "' " + Complaint(e));
   }
+}
+
+MeshSize SizeOfMesh(const GltfFile& file, int mesh) {
+  MeshSize size;
+  for (const Json& primitive : Member(Element(file.json, "meshes", mesh), "primitives")) {
+    const MeshSize one = SizeOfPrimitive(file, primitive);
+    size.primitives += one.primitives;
+    size.vertices += one.vertices;
+    size.indices += one.indices;
+  }
+  return size;
 }
 
 std::vector<int> ViewsOfMesh(const GltfFile& file, int mesh) {

@@ -4,21 +4,28 @@
 #include <iterator>
 
 #include "runtime/base/array.h"
+#include "runtime/base/limits.h"
+#include "runtime/pack/allowance.h"
 
 namespace flaneur {
 namespace {
 
 constexpr double kMaxHeight_m = 500, kMaxRadius_m = 1000;
 
-// A file in the pack: one of `files`, and where it stands.
-void AddFile(const GltfFile& file, const TourObject& json, const char* key, std::vector<std::vector<uint8_t>>* files,
-             std::vector<ByteRange>* ranges) {
-  const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
-  const int view = json.Whole(key, 0, last);
-  ranges->push_back(RangeOfView(file, view));
+// A file in the pack: the number of one of `files`, where all who name the same bytes find them.
+int AddFile(const GltfFile& file, const TourObject& json, const char* key, std::vector<std::vector<uint8_t>>* files,
+            std::vector<ByteRange>* ranges) {
+  const int view = json.View(key, Member(file.json, "bufferViews").size());
+  const ByteRange range = RangeOfView(file, view);
+  file.allowance->TakeWork(ranges->size(), "a sound or picture");
+  const auto same = std::find(ranges->begin(), ranges->end(), range);
+  if (same != ranges->end()) return static_cast<int>(same - ranges->begin());
+  file.allowance->TakeMemory(range.bytes, "a sound or picture");
+  ranges->push_back(range);
   const bool there = !file.there || file.there->Holds(ranges->back());
   const auto bytes = there ? BufferView(file, view) : std::span<const uint8_t>();
   files->emplace_back(bytes.begin(), bytes.end());
+  return Count(*files) - 1;
 }
 
 Hotspot ReadHotspot(const GltfFile& file, const TourObject& json, TourPack* pack) {
@@ -28,8 +35,7 @@ Hotspot ReadHotspot(const GltfFile& file, const TourObject& json, TourPack* pack
   hotspot.texts = ReadTranslations(json, "texts");
   hotspot.sounds = ReadSounds(file, json, pack);
   if (!json.Has("picture_view")) return hotspot;
-  hotspot.picture = Count(pack->pictures);
-  AddFile(file, json, "picture_view", &pack->pictures, &pack->picture_ranges);
+  hotspot.picture = AddFile(file, json, "picture_view", &pack->pictures, &pack->picture_ranges);
   return hotspot;
 }
 
@@ -43,8 +49,7 @@ SoundPlace ReadSoundPlace(const GltfFile& file, const TourObject& json, TourPack
   place.radius_m = json.Real("radius_m", TourObject::kAboveZero, kMaxRadius_m);
   place.volume = json.Real("volume", 0, 4);
   if (json.Has("view")) {
-    place.sound = Count(pack->sounds);
-    AddFile(file, json, "view", &pack->sounds, &pack->sound_ranges);
+    place.sound = AddFile(file, json, "view", &pack->sounds, &pack->sound_ranges);
   } else if (place.kind == SoundKind::kLoop) {
     json.Refuse("is a loop without a view of its sound");
   }
@@ -63,7 +68,7 @@ TextsByLanguage ReadTranslations(const TourObject& json, const char* key) {
   TextsByLanguage texts;
   if (!json.Has(key)) return texts;
   const TourObject object = json.Object(key);
-  for (const std::string& language : object.Keys()) texts[language] = object.Text(language.c_str());
+  for (const std::string& language : object.Keys()) texts[language] = object.Text(language.c_str(), kMostText_bytes);
   return texts;
 }
 
@@ -73,22 +78,24 @@ std::map<std::string, StopSound> ReadSounds(const GltfFile& file, const TourObje
   const TourObject object = json.Object("sounds");
   for (const std::string& language : object.Keys()) {
     const TourObject sound = object.Object(language.c_str());
-    sounds[language] = {Count(pack->sounds), sound.Real("duration_s", 0, 36000)};
-    AddFile(file, sound, "view", &pack->sounds, &pack->sound_ranges);
+    sounds[language] = {AddFile(file, sound, "view", &pack->sounds, &pack->sound_ranges),
+                        sound.Real("duration_s", 0, kMostPause_s)};
   }
   return sounds;
 }
 
 void ReadVisitorData(const GltfFile& file, const TourObject& tour, TourPack* pack) {
   if (tour.Has("hotspots")) {
-    for (const TourObject& h : tour.Objects("hotspots")) pack->hotspots.push_back(ReadHotspot(file, h, pack));
+    for (const TourObject& h : tour.Objects("hotspots", kMostHotspots))
+      pack->hotspots.push_back(ReadHotspot(file, h, pack));
   }
   if (tour.Has("streets")) {
-    for (const TourObject& s : tour.Objects("streets"))
+    for (const TourObject& s : tour.Objects("streets", kMostStreets))
       pack->streets.push_back({ReadTranslations(s, "names"), ReadLine(s)});
   }
   if (tour.Has("sounds")) {
-    for (const TourObject& p : tour.Objects("sounds")) pack->sound_places.push_back(ReadSoundPlace(file, p, pack));
+    for (const TourObject& p : tour.Objects("sounds", kMostSounds))
+      pack->sound_places.push_back(ReadSoundPlace(file, p, pack));
   }
   if (!tour.Has("photo")) return;
   const TourObject photo = tour.Object("photo");

@@ -4,6 +4,9 @@
 #include <cstring>
 #include <fstream>
 
+#include "runtime/base/file.h"
+#include "runtime/base/json_text.h"
+#include "runtime/base/limits.h"
 #include "runtime/base/text.h"
 #include "runtime/pack/tour_object.h"
 #include "runtime/pack/tour_pack.h"
@@ -30,6 +33,7 @@ bool ReadAt(uint64_t at, uint64_t count, std::ifstream* file, char* out) {
 
 bool Open(const std::filesystem::path& path, Parts* parts) {
   std::error_code ec;
+  if (CheckReadable(path)) return false;
   parts->bytes = std::filesystem::file_size(path, ec);
   parts->file.open(path, std::ios::binary);
   std::array<char, kHead> head{};
@@ -41,7 +45,7 @@ bool Open(const std::filesystem::path& path, Parts* parts) {
   if (words[3] > kMostDescription || kHead + words[3] > parts->bytes) return false;
   std::string text(words[3], ' ');
   if (!ReadAt(kHead, text.size(), &parts->file, text.data())) return false;
-  if (NestsTooDeep(text)) return false;
+  if (NestsTooDeep(text) || MemoryOfJson_bytes(text) > kPackMemory_bytes) return false;
   parts->json = Json::parse(text, nullptr, false);
   parts->binary_at = kHead + text.size() + kChunkHead;
   return parts->json.is_object();

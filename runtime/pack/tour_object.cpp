@@ -56,8 +56,8 @@ double TourObject::Checked(const Json& json, const std::string& place, bool whol
 
 Vec2 TourObject::CheckedPoint(const Json& json, const std::string& place) {
   if (!json.is_array() || json.size() != 2) RefuseMember(place, "must be [x, y]");
-  return {static_cast<float>(Checked(json[0], Item(place, 0), false, -kAnything, kAnything)),
-          static_cast<float>(Checked(json[1], Item(place, 1), false, -kAnything, kAnything))};
+  return {static_cast<float>(Checked(json[0], Item(place, 0), false, -kMostCoordinate_m, kMostCoordinate_m)),
+          static_cast<float>(Checked(json[1], Item(place, 1), false, -kMostCoordinate_m, kMostCoordinate_m))};
 }
 
 std::vector<Vec2> TourObject::CheckedRing(const Json& json, const std::string& place) {
@@ -81,10 +81,19 @@ int TourObject::Whole(const char* key, double least, double most) const {
   return static_cast<int>(Checked(Get(key), Place(key), true, least, most));
 }
 
-std::string TourObject::Text(const char* key) const {
+float TourObject::Yaw(const char* key) const {
+  constexpr double kTurn_rad = 2 * static_cast<double>(kPi);
+  return static_cast<float>(
+      std::remainder(Checked(Get(key), Place(key), false, -kMostYaw_rad, kMostYaw_rad), kTurn_rad));
+}
+
+std::string TourObject::Text(const char* key, size_t most_bytes) const {
   const Json& json = Get(key);
   if (!json.is_string()) RefuseMember(Place(key), "must be text");
-  return json.get<std::string>();
+  const auto& text = json.get_ref<const std::string&>();
+  if (text.size() > most_bytes)
+    RefuseMember(Place(key), "is text of more than " + std::to_string(most_bytes) + " bytes");
+  return text;
 }
 
 std::vector<std::string> TourObject::Texts(const char* key) const {
@@ -160,8 +169,10 @@ std::vector<int> TourObject::Wholes(const char* key, double least, double most) 
 
 TourObject TourObject::Object(const char* key) const { return {Get(key), Place(key)}; }
 
-std::vector<TourObject> TourObject::Objects(const char* key) const {
+std::vector<TourObject> TourObject::Objects(const char* key, size_t most) const {
   const Json& json = Array(key);
+  if (json.size() > most)
+    RefuseMember(Place(key), "has " + std::to_string(json.size()) + " of them, there may be " + std::to_string(most));
   std::vector<TourObject> objects;
   for (size_t i = 0; i < json.size(); ++i) objects.emplace_back(json[i], Item(Place(key), i));
   return objects;

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "runtime/base/limits.h"
 #include "runtime/base/math.h"
 #include "runtime/pack/gltf_file.h"
 
@@ -14,7 +15,8 @@ namespace flaneur {
 
 class TourObject {
  public:
-  static constexpr double kAnything = std::numeric_limits<float>::max();
+  static constexpr double kAnything = 1e30;
+  static constexpr size_t kAnyNumber = std::numeric_limits<size_t>::max();
   static constexpr double kAboveZero = std::numeric_limits<double>::min();  // as the least: zero is refused
 
   // Refuses what is no object. `place` is how messages call it. The JSON must outlive it.
@@ -24,10 +26,11 @@ class TourObject {
   std::vector<std::string> Keys() const;
   float Real(const char* key, double least = -kAnything, double most = kAnything) const;  // finite
   int Whole(const char* key, double least, double most) const;
-  std::string Text(const char* key) const;
+  float Yaw(const char* key) const;  // radians, some turns at most
+  std::string Text(const char* key, size_t most_bytes = kMostName_bytes) const;
   std::vector<std::string> Texts(const char* key) const;
   std::string OneOf(const char* key, std::initializer_list<const char*> allowed) const;
-  Vec2 Point(const char* key) const;
+  Vec2 Point(const char* key) const;  // within kMostCoordinate_m
   std::vector<Vec2> Points(const char* key) const;
   std::vector<Vec2> Ring(const char* key) const;  // at least three points
   std::vector<std::vector<Vec2>> Rings(const char* key) const;
@@ -36,7 +39,7 @@ class TourObject {
   Vec3 Color(const char* key) const;                // "#rrggbb"
   std::vector<Vec3> Colors(const char* key) const;  // at least one
   TourObject Object(const char* key) const;
-  std::vector<TourObject> Objects(const char* key) const;
+  std::vector<TourObject> Objects(const char* key, size_t most = kAnyNumber) const;
 
   // For VisitFields: a member that is missing keeps its value.
   template <typename T>

@@ -15,6 +15,7 @@
 
 #include "runtime/base/error.h"
 #include "runtime/base/jobs.h"
+#include "runtime/base/limits.h"
 #include "runtime/base/math.h"
 #include "runtime/pack/byte_ranges.h"
 #include "runtime/pack/texture.h"
@@ -136,17 +137,23 @@ struct TourPack : TourData {
   std::vector<ByteRange> sound_ranges, picture_ranges;
 };
 
+// What a pack may ask for, beside the limits of runtime/base/limits.h: memory beside the file itself.
+struct PackLimits {
+  uint64_t memory_bytes = kPackMemory_bytes, pictures_bytes = kPackPictures_bytes;
+};
+
 // A tour pack that stands open. Everything but its bulk is read at once, which is enough for a run without drawing; of
 // images the sizes and of meshes the primitives' materials are there as well. The bulk is read piece by piece, in any
-// order, from any thread. Errors: those of LoadTourPack, each of the piece that it is about.
+// order, from any thread. What the pieces will ask for has been counted by then. Errors: those of LoadTourPack, each of
+// the piece that it is about.
 class PackFile {
  public:
   PackFile();
   PackFile(PackFile&&) noexcept;
   PackFile& operator=(PackFile&&) noexcept;
   ~PackFile();
-  Error Open(const std::filesystem::path& path, TourPack* pack);
-  Error Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack);
+  Error Open(const std::filesystem::path& path, TourPack* pack, const PackLimits& limits = {});
+  Error Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack, const PackLimits& limits = {});
   Error ReadImage(int image, PackImage* out) const;
   Error ReadMesh(int mesh, PackMesh* out) const;
   // With its pictures: of one that has not arrived as a whole the levels that are there, at least one of each.
@@ -167,7 +174,8 @@ class PackFile {
 
  private:
   struct Impl;
-  Error OpenPart(std::vector<uint8_t> bytes, std::optional<ByteRanges> there, const std::string& name, TourPack* pack);
+  Error OpenPart(std::vector<uint8_t> bytes, std::optional<ByteRanges> there, const std::string& name, TourPack* pack,
+                 const PackLimits& limits);
   template <typename Collect>
   std::vector<ByteRange> Ranges(Collect collect) const;
   std::unique_ptr<Impl> impl_;
@@ -176,11 +184,12 @@ class PackFile {
 struct LoadOptions {
   bool geometry_and_images = true;  // false: enough for a run without drawing
   Jobs* jobs = nullptr;             // decode with the caller
+  PackLimits limits{};
 };
 
 // The bytes are not trusted: every offset, count and index is checked.
 // Errors: no such file, not a glTF binary, truncated, no FLANEUR_tour, a newer version, an index out of range (names
-// it).
+// it), more than the limits allow.
 Error LoadTourPack(const std::filesystem::path& path, const LoadOptions& options, TourPack* pack);
 
 // The same from memory; `name` stands for the path in messages.

@@ -113,6 +113,20 @@ TourPack PartsForAssets(const TourPack& pack) {
   return parts;
 }
 
+Asset PrepareLevel(const TourPack& pack, const AssetId& id, const PackMesh& mesh, const SurfacePlan& plan) {
+  Asset asset;
+  asset.id = id;
+  asset.content = std::make_unique<Asset::Content>();
+  const PackAvatar& avatar = pack.avatars[static_cast<size_t>(id.index)];
+  asset.content->person = BuildPersonGeometry(pack, mesh, plan);
+  const bool coarsest = static_cast<size_t>(id.level) + 1 == avatar.levels.size();
+  for (size_t k = 0; k < std::size(kShadowCells_m) && coarsest; ++k) {
+    asset.content->shadows[k] =
+        ShadowGeometry(asset.content->person, kShadowCells_m[k], static_cast<size_t>(kMaxShadowTriangles[k]));
+  }
+  return asset;
+}
+
 Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& plan, const AtlasFormats& formats) {
   Asset asset;
   asset.id = id;
@@ -129,16 +143,8 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
             PrepareLayer(pack.images[index], plan.arrays[static_cast<size_t>(plan.pictures[index].array)]);
       }
       break;
-    case AssetKind::kLevel: {
-      const PackAvatar& avatar = pack.avatars[index];
-      asset.content->person = BuildPersonGeometry(pack, MeshOf(avatar, id.level), plan);
-      const bool coarsest = static_cast<size_t>(id.level) + 1 == avatar.levels.size();
-      for (size_t k = 0; k < std::size(kShadowCells_m) && coarsest; ++k) {
-        asset.content->shadows[k] =
-            ShadowGeometry(asset.content->person, kShadowCells_m[k], static_cast<size_t>(kMaxShadowTriangles[k]));
-      }
-      break;
-    }
+    case AssetKind::kLevel:
+      return PrepareLevel(pack, id, pack.meshes[static_cast<size_t>(MeshOf(pack.avatars[index], id.level))], plan);
     case AssetKind::kAtlas: {
       asset.content->atlas = PrepareAtlas(pack.avatars[index].impostor, formats);
       break;

@@ -48,6 +48,9 @@ struct Asset {
   std::unique_ptr<Content> content;
 };
 
+// A level of an avatar or a prop, made of this mesh.
+Asset PrepareLevel(const TourPack& pack, const AssetId& id, const PackMesh& mesh, const SurfacePlan& plan);
+
 // Of a pack that holds what the piece is made of.
 Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& plan, const AtlasFormats& formats);
 

@@ -73,10 +73,10 @@ PersonGeometry WithinCells(const PersonGeometry& of, float cell_m) {
 
 }  // namespace
 
-PersonGeometry BuildPersonGeometry(const TourPack& pack, int mesh, const SurfacePlan& plan) {
+PersonGeometry BuildPersonGeometry(const TourPack& pack, const PackMesh& mesh, const SurfacePlan& plan) {
   PersonGeometry out;
   std::vector<const PackPrimitive*> primitives;
-  for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(mesh)].primitives) primitives.push_back(&p);
+  for (const PackPrimitive& p : mesh.primitives) primitives.push_back(&p);
   std::stable_sort(primitives.begin(), primitives.end(), [&](const PackPrimitive* a, const PackPrimitive* b) {
     return SurfaceOf(a->material, plan).group < SurfaceOf(b->material, plan).group;
   });

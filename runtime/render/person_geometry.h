@@ -30,7 +30,7 @@ struct PersonGeometry {
   std::vector<PersonRange> ranges;  // one a group
 };
 
-PersonGeometry BuildPersonGeometry(const TourPack& pack, int mesh, const SurfacePlan& plan);
+PersonGeometry BuildPersonGeometry(const TourPack& pack, const PackMesh& mesh, const SurfacePlan& plan);
 
 // The shape alone: of all vertices within a cell of `cell_m` the one farthest from the figure's middle, so that hats
 // and hems keep their size, on the heaviest of its joints. Cells are larger where there were more than `most_triangles`

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "runtime/base/limits.h"
 #include "runtime/base/toml_table.h"
 
 namespace flaneur {
@@ -38,7 +39,7 @@ void ReadCamera(TomlTable t, Scenario* s) {
   t.Number("r_high_m", &s->control.r_high_m, 0, 1000);
   t.Number("eye_height_m", &s->eye_height_m, 0.1, 200);
   t.Number("pitch_deg", &s->pitch_deg, -89, 89);
-  for (TomlTable& leg : t.Tables("leg")) s->legs.push_back(ReadLeg(leg));
+  for (TomlTable& leg : t.Tables("leg", kMostStops)) s->legs.push_back(ReadLeg(leg));
   t.Finish();
 }
 
@@ -87,7 +88,7 @@ void ReadLimit(TomlTable t, Scenario* s) {
   VisitChoice(t, "method", kLimitMethodNames, &s->control.method);
   t.Number("high", &s->control.high_limit, 0, 100000);
   t.Number("target_ms", &s->control.target_ms, 1, 1000);
-  t.Number("budget_triangles", &s->control.budget_triangles, 0, 1e9);
+  t.Number("budget_triangles", &s->control.budget_triangles, 1, 1e9);
   t.Number("draw_base_ms", &s->drawing.base_ms, 0, 1000);
   t.Number("draw_ms_per_million_triangles", &s->drawing.ms_per_million_triangles, 0, 1e6);
   t.Finish();
@@ -99,8 +100,9 @@ void ReadGround(TomlTable t, Scenario* s) {
   t.Point("max_m", &s->ground_max_m);
   t.Finish();
   const Vec2 size = s->ground_max_m - s->ground_min_m;
-  if (!(size.x >= 1 && size.y >= 1 && size.x * size.y <= 4e6f)) {
-    t.Refuse("ground must have min_m below max_m, at least 1 m and at most 4 square kilometres");
+  const auto most_m = static_cast<float>(kMostSide_m);
+  if (!(size.x >= 1 && size.y >= 1 && size.x <= most_m && size.y <= most_m && size.x * size.y <= 4e6f)) {
+    t.Refuse("ground must have min_m below max_m, 1 m to 20 km of each, and at most 4 square kilometres");
   }
 }
 
@@ -134,8 +136,8 @@ void ReadAll(TomlTable root, Scenario* s) {
   if (TomlTable tour = root.Table("tour"); root.Has("tour")) ReadTourCut(tour, s);
   if (root.Has("ground")) ReadGround(ground, s);
   if (root.Has("crowd_area")) ReadCrowdArea(area, s);
-  for (TomlTable& person : root.Tables("person")) ReadPerson(person, s);
-  for (TomlTable& obstacle : root.Tables("obstacle")) ReadObstacle(obstacle, s);
+  for (TomlTable& person : root.Tables("person", kMostPeople)) ReadPerson(person, s);
+  for (TomlTable& obstacle : root.Tables("obstacle", kMostObstacles)) ReadObstacle(obstacle, s);
   root.Finish();
 }
 

@@ -9,6 +9,7 @@
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/fast_math.h"
 #include "runtime/simulation/check_limits.h"
+#include "runtime/simulation/check_world.h"
 #include "runtime/town/coming_and_going.h"
 #include "runtime/town/places.h"
 #include "runtime/town/play.h"
@@ -296,6 +297,7 @@ Error StartSimulation(const TourPack* pack, const Scenario& scenario, Simulation
   float max_radius_m = 0;
   for (const Resident& resident : town.residents) max_radius_m = std::max(max_radius_m, resident.radius_m);
   if (pack == nullptr) max_radius_m = LargestRadius_m(scenario, max_radius_m);
+  if (Error e = CheckWorld(town.walkable, std::max(max_radius_m + kByChoice_m, 0.5f))) return e;
   BuildWalkable(max_radius_m + kByChoice_m, &town.walkable, std::max(max_radius_m, 0.5f));
   if (BestFreeCell(town.walkable) < 0) return Fail("there is no walkable ground");
   s.relief_m = Relief_m(town.walkable);

@@ -97,7 +97,7 @@ void VisitFields(Fields&& fields, ControlSettings* s) {
   fields.Number("discretion", &s->discretion, 0, 1);
   fields.Number("high_limit", &s->high_limit, 0, 10000);
   fields.Number("target_ms", &s->target_ms, 1, 1000);
-  fields.Number("budget_triangles", &s->budget_triangles, 0, 1e9);
+  fields.Number("budget_triangles", &s->budget_triangles, 1, 1e9);
   fields.Number("r_personal_m", &s->r_personal_m, 0, 10);
   fields.Number("r_high_m", &s->r_high_m, 0, 1000);
   fields.Number("r_unimportant_m", &s->r_unimportant_m, 0, 10000);

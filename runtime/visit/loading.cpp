@@ -60,7 +60,10 @@ struct Piece {
 
 struct Loader::Impl {
   PackFile file;
-  TourPack pack;  // PartsForAssets: pieces are read into it, made ready, and taken out again
+  // PartsForAssets: pieces are read into it, made ready, and taken out again. Each of its meshes, images and atlases is
+  // of one asset alone: several people may show one mesh, and threads read them side by side.
+  TourPack pack;
+  std::vector<PackMesh> of_people;  // by asset
   std::vector<AssetId> assets;
   AssetStages stages;
   bool town_comes_twice = false;  // first what is there of it at the beginning
@@ -95,9 +98,8 @@ struct Loader::Impl {
   void Do(const Piece& piece);
   void StopWithError(Error e);
   Error Read(const Task& task);
-  Error ReadMesh(int mesh);
-  Error ReadLevel(const AssetId& id);
-  void Clear(const AssetId& id);
+  Error ReadLevel(const AssetId& id, PackMesh* out);
+  void Clear(size_t asset);
   void Prepare(size_t asset);
   bool TakeReady(Asset* asset);
   void NoteUploaded(const AssetId& id);
@@ -106,18 +108,16 @@ struct Loader::Impl {
   Error UploadUntil(const std::function<bool()>& is_there, Loader* loader, Renderer* renderer);
 };
 
-Error Loader::Impl::ReadMesh(int mesh) { return file.ReadMesh(mesh, &pack.meshes[static_cast<size_t>(mesh)]); }
-
 // The guide's figure is made of the meshes of whom it is like, which come from the file as often as they are needed.
-Error Loader::Impl::ReadLevel(const AssetId& id) {
+Error Loader::Impl::ReadLevel(const AssetId& id, PackMesh* out) {
   const PackAvatar& avatar = pack.avatars[static_cast<size_t>(id.index)];
   const auto level = static_cast<size_t>(id.level);
-  if (avatar.impostor_of < 0) return ReadMesh(MeshesOf(id, pack).front());
+  if (avatar.impostor_of < 0) return file.ReadMesh(MeshesOf(id, pack).front(), out);
   const PackAvatar& like = pack.avatars[static_cast<size_t>(avatar.impostor_of)];
   PackMesh mesh, finest;
   if (Error e = file.ReadMesh(like.levels[level].mesh, &mesh)) return e;
   if (Error e = file.ReadMesh(like.levels.front().mesh, &finest)) return e;
-  pack.meshes[static_cast<size_t>(avatar.levels[level].mesh)] = GuideMesh(std::move(mesh), finest, avatar);
+  *out = GuideMesh(std::move(mesh), finest, avatar);
   return Ok();
 }
 
@@ -126,24 +126,29 @@ Error Loader::Impl::Read(const Task& task) {
   const auto index = static_cast<size_t>(id.index);
   switch (id.kind) {
     case AssetKind::kTown:
-      return task.town_mesh >= 0 ? ReadMesh(task.town_mesh) : Ok();
+      return task.town_mesh >= 0 ? file.ReadMesh(task.town_mesh, &pack.meshes[static_cast<size_t>(task.town_mesh)])
+                                 : Ok();
     case AssetKind::kPicture:
       return file.ReadImage(id.index, &pack.images[index]);
     case AssetKind::kLevel:
-      return ReadLevel(id);
+      return ReadLevel(id, &of_people[task.asset]);
     case AssetKind::kAtlas:
       return file.ReadAtlas(id.index, &pack.avatars[index].impostor);
   }
   return Ok();
 }
 
-void Loader::Impl::Clear(const AssetId& id) {
+void Loader::Impl::Clear(size_t asset) {
+  const AssetId& id = assets[asset];
   const auto index = static_cast<size_t>(id.index);
-  for (int mesh : MeshesOf(id, pack)) {
-    for (PackPrimitive& p : pack.meshes[static_cast<size_t>(mesh)].primitives) {
-      const int material = p.material;
-      p = {};
-      p.material = material;
+  if (id.kind == AssetKind::kLevel) of_people[asset] = {};
+  if (id.kind == AssetKind::kTown) {
+    for (int mesh : MeshesOf(id, pack)) {
+      for (PackPrimitive& p : pack.meshes[static_cast<size_t>(mesh)].primitives) {
+        const int material = p.material;
+        p = {};
+        p.material = material;
+      }
     }
   }
   if (id.kind == AssetKind::kPicture) std::vector<uint8_t>().swap(pack.images[index].rgba);
@@ -155,9 +160,11 @@ void Loader::Impl::Clear(const AssetId& id) {
 }
 
 void Loader::Impl::Prepare(size_t index) {
-  Asset asset = PrepareAsset(pack, assets[index], plan, formats);
+  const AssetId& id = assets[index];
+  Asset asset = id.kind == AssetKind::kLevel ? PrepareLevel(pack, id, of_people[index], plan)
+                                             : PrepareAsset(pack, id, plan, formats);
   const bool again = town_comes_twice && assets[index].kind == AssetKind::kTown && assets[index].index != kWholeTown;
-  if (!again) Clear(assets[index]);
+  if (!again) Clear(index);
   const std::lock_guard lock(mutex);
   ready.push_back(std::move(asset));
   changed.notify_all();
@@ -307,6 +314,7 @@ void Loader::Start(PackFile file, const TourPack& pack) {
     l.looks_for_pieces = true;
   }
   l.uploaded.assign(l.assets.size(), false);
+  l.of_people.resize(l.assets.size());
   l.AddTasks(pack);
   l.unread_tasks = l.tasks.size();
   while (l.asked_tasks < l.tasks.size() && l.tasks[l.asked_tasks].asset < l.stages.town) ++l.asked_tasks;

@@ -33,7 +33,7 @@ std::string LineOf(const VisitRecord& visit) {
 
 void MakeRoom(const fs::path& folder) {
   std::error_code ec;
-  if (fs::file_size(LogPath(folder, 0), ec) < kMostLog_bytes || ec) return;
+  if (fs::file_size(LogPath(folder, 0), ec) < kMostVisitLog_bytes || ec) return;
   fs::remove(LogPath(folder, kOldLogs), ec);
   for (int age = kOldLogs; age > 0; --age) fs::rename(LogPath(folder, age - 1), LogPath(folder, age), ec);
 }

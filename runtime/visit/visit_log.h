@@ -23,9 +23,9 @@ class VisitLog {
 };
 
 // One line at the end of FOLDER/visits.csv, on the disk when it returns. A line that a power cut left unfinished is
-// taken away first. From kMostLog_bytes on the file becomes visits.1.csv, that one visits.2.csv, and so on; the oldest
-// of kOldLogs goes. Errors: what the system says.
-inline constexpr std::uintmax_t kMostLog_bytes = 1000000;
+// taken away first. From kMostVisitLog_bytes on the file becomes visits.1.csv, that one visits.2.csv, and so on; the
+// oldest of kOldLogs goes. Errors: what the system says.
+inline constexpr std::uintmax_t kMostVisitLog_bytes = 1000000;
 inline constexpr int kOldLogs = 4;
 Error AppendVisit(const std::filesystem::path& folder, const VisitRecord& visit);
 

@@ -69,7 +69,8 @@ bool SourceHips(const std::filesystem::path& file, float* hips) {
     std::string name = motion.clip_names[i];
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
     if (name.find("walk") == std::string::npos && motion.clip_names.size() > 1) continue;
-    Clip clip = ClipOf(motion, i);
+    Clip clip;
+    if (ClipOf(motion, i, &clip)) continue;
     CutToCycle(motion.skeleton.joints, &clip);
     *hips = HipsHeight(rig, clip);
     return true;

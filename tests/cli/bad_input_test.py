@@ -5,6 +5,7 @@ import pathlib
 import struct
 import subprocess
 import tempfile
+import time
 import unittest
 
 from scenes import box, quad, write_box_town, write_person, write_png, write_town
@@ -293,10 +294,66 @@ class Playing(ProgramTest):
         self.assertEqual([p.name for p in self.folder.iterdir()], ["file"])
 
     def test_sizes(self):
-        for size in ("64", "x", "64x", "0x0", "64x64x", "64x64.5", "-64x64", "99999x64", "", "axb"):
+        for size in ("64", "x", "64x", "0x0", "64x64x", "64x64.5", "-64x64", "99999x64", "", "axb", "4294967360x64"):
             with self.subTest(size):
                 self.assert_fails(self.play("--size", size, draw=True), "--size", "16 to 8192")
         self.assert_fails(self.play("--size", "65x64", "--film", self.folder / "film.mp4", draw=True), "even", "65x64")
+
+    def test_what_is_no_number_is_no_number(self):
+        still = ("--screenshot", self.folder / "a.png", "--size", "64x32")
+        for option in ("--seconds", "--hour", "--discretion", "--at"):
+            for number in ("nan", "-nan", "inf"):
+                with self.subTest(f"{option} {number}"):
+                    self.assert_fails(self.play(option, number, *(still if option == "--at" else ()), draw=True), option)
+
+    def test_outputs_go_into_pipes_and_leave_them(self):
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        self.assert_fails(self.play("--metrics", pipe), "pipe", "nobody reads")
+        reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+        try:
+            self.assert_succeeds(self.play("--metrics", pipe))
+            self.assertIn(b"frame", os.read(reader, 10000))
+        finally:
+            os.close(reader)
+        self.assertTrue(pipe.is_fifo())
+        written = self.play("--metrics", "/dev/stdout")
+        self.assert_succeeds(written)
+        self.assertIn("frame", written.stdout)
+        self.assert_fails(self.play("--film", pipe, "--size", "64x64", draw=True), "pipe", "name a file")
+        self.assertTrue(pipe.is_fifo())
+
+    def test_devices_and_pipes_are_no_inputs(self):
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        for path in (pipe, "/dev/zero"):
+            self.assert_fails(self.play(pack=path), path, "device, pipe or socket")
+            self.assert_fails(self.play("--scenario", path), path, "device, pipe or socket")
+            for verb in ("avatar", "footprints", "check", "inspect"):
+                with self.subTest(f"{verb} {path}"):
+                    output = [] if verb in ("check", "inspect") else ["-o", self.folder / "out"]
+                    self.assert_fails(run("flaneur", verb, path, *output), path, "device, pipe or socket")
+
+    def test_a_large_still_can_be_interrupted(self):
+        command = [BIN / "flaneur-player", self.pack, "--headless", "--seconds", "0.1", "--size", "4096x4096", "--samples", "4",
+                   "--screenshot", self.folder / "large.png"]
+        with subprocess.Popen(list(map(str, command)), stderr=subprocess.PIPE, text=True) as player:
+            time.sleep(3)
+            began = time.monotonic()
+            player.terminate()
+            _, said = player.communicate(timeout=100)
+        if player.returncode == 0:
+            self.skipTest("it was drawn before it could be interrupted")
+        self.assertEqual((player.returncode, len(said.splitlines())), (2, 1), said)
+        self.assertIn("interrupted", said)
+        self.assertLess(time.monotonic() - began, 60, "it goes on drawing")  # takes 116 s where nothing but the picture's end is waited for
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_film_may_be_called_as_one_likes(self):
+        for name in ("-y.mp4", "http:x.mp4"):
+            result = run("flaneur-player", self.pack, "--headless", "--seconds", 0.1, "--size", "64x64", f"--film={name}", cwd=self.folder)
+            self.assert_succeeds(result)
+            self.assertEqual((self.folder / name).read_bytes()[4:8], b"ftyp")
 
     def test_no_ffmpeg(self):
         result = self.play("--film", self.folder / "film.mp4", "--size", "64x64", draw=True, env=dict(os.environ, PATH="/none"))

@@ -8,7 +8,7 @@ import path from 'node:path';
 import {createRequire} from 'node:module';
 import puppeteer from 'puppeteer-core';
 
-const [flaneur, pack, player] = process.argv.slice(2, 5).map((file) => path.resolve(file));
+const [flaneur, pack, player] = process.argv.slice(2);
 const kFlags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
                 '--autoplay-policy=no-user-gesture-required'];
 const axeCore = fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');

@@ -39,6 +39,16 @@ TEST_F(FingerprintFiles, OfAGltfFollowTheFilesItNames) {
   EXPECT_NE(Of("house.gltf"), before);
 }
 
+TEST_F(FingerprintFiles, OfModelsThatNameThemselvesAndEachOtherComeToAnEnd) {
+  Put("self.gltf", R"({"buffers": [{"uri": "self.gltf"}]})");
+  Put("a.gltf", R"({"buffers": [{"uri": "b.gltf"}]})");
+  Put("b.gltf", R"({"images": [{"uri": "a.gltf"}]})");
+  EXPECT_FALSE(Of("self.gltf").empty());
+  const std::string before = Of("a.gltf");
+  Put("b.gltf", R"({"images": [{"uri": "./a.gltf"}]})");
+  EXPECT_NE(Of("a.gltf"), before);
+}
+
 TEST_F(FingerprintFiles, OfAFolderFollowItsScripts) {
   Put("scripts/build.py", "a");
   Put("scripts/notes.txt", "b");

@@ -63,6 +63,31 @@ TEST_F(ResultsTest, AFolderInTheWayChangesNothing) {
   EXPECT_EQ(text, "1");
 }
 
+TEST_F(ResultsTest, AStrangersLinksTakeNothingFromElsewhere) {
+  const fs::path home = outer_.path() / "home";
+  ASSERT_FALSE(WriteTextFile(home / "a", "kept"));
+  fs::create_symlink("../home", folder_ / ".flaneur_current");
+  fs::create_symlink(".flaneur_current/a", folder_ / "a");
+  RecoverResults(folder_);
+  EXPECT_TRUE(fs::is_regular_file(home / "a"));
+  ASSERT_FALSE(Replace("1", "1"));
+  EXPECT_EQ(All(), "a=1;b=1;");
+  std::string text;
+  ASSERT_FALSE(ReadTextFile(home / "a", &text));
+  EXPECT_EQ(text, "kept");
+}
+
+TEST_F(ResultsTest, AManifestNamesFilesOfItsFolderAlone) {
+  ASSERT_FALSE(WriteTextFile(folder_ / kManifest,
+                             R"({"key": "k", "files": {"a": {}, "../b": {}, "/etc/c": {}, "..": {}, "": {}}})"));
+  EXPECT_EQ(ResultNames(folder_), std::vector<std::string>{"a"});
+  EXPECT_FALSE(ResultsAreWhole(folder_, "k"));
+  for (const char* text : {R"({"key": 5, "files": {}})", R"({"files": {"a": {"sha256": 5}}, "key": "k"})", "[]", "5"}) {
+    ASSERT_FALSE(WriteTextFile(folder_ / kManifest, text));
+    EXPECT_FALSE(ResultsAreWhole(folder_, "k")) << text;
+  }
+}
+
 TEST_F(ResultsTest, WhatAKilledProcessLeftGoes) {
   const pid_t child = ::fork();
   if (child == 0) {

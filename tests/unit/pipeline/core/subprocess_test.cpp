@@ -74,6 +74,14 @@ TEST_F(Subprocess, TellsHowItEnded) {
   EXPECT_GT(result_.peak_memory_bytes, 0);
 }
 
+TEST_F(Subprocess, WhoPrintsForeverIsStopped) {
+  RunOptions options;
+  options.log_file = folder_.path() / "log.txt";
+  const Error error = RunProcess({"yes", std::string(10000, 'y')}, options, &result_);
+  EXPECT_NE(error.message.find("after it had printed 256 MiB"), std::string::npos) << error.message;
+  std::filesystem::remove(options.log_file);
+}
+
 TEST_F(Subprocess, MissingProgramIsNamed) {
   const Error error = RunProcess({"flaneur-no-such-program"}, {}, &result_);
   EXPECT_NE(error.message.find("flaneur-no-such-program"), std::string::npos);

@@ -1,10 +1,16 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <random>
 
+#include "runtime/base/draco_size.h"
 #include "runtime/base/file.h"
+#include "runtime/base/limits.h"
 #include "runtime/base/math.h"
 #include "runtime/base/text.h"
 
@@ -54,6 +60,110 @@ TEST(File, MissingAndFolderAreNamed) {
   std::string text;
   EXPECT_NE(ReadTextFile("/no/such/file", &text).message.find("/no/such/file: no such file"), std::string::npos);
   EXPECT_NE(ReadTextFile("/", &text).message.find("folder"), std::string::npos);
+}
+
+TEST(File, ADeviceOrPipeIsNoInput) {
+  TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::string text;
+  for (const fs::path& path : {fs::path("/dev/zero"), pipe})  // the one never ends, the other never begins
+    EXPECT_NE(ReadTextFile(path, &text).message.find("device, pipe or socket"), std::string::npos) << path;
+}
+
+TEST(File, APipeIsWrittenIntoAndStaysOne) {
+  TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NE(WriteTextFile(pipe, "lost").message.find("nobody reads"), std::string::npos);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  EXPECT_EQ(WriteTextFile(pipe, "rows").message, "");
+  char got[16] = {};
+  EXPECT_EQ(::read(reader, got, sizeof got), 4);
+  ::close(reader);
+  EXPECT_EQ(std::string(got), "rows");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(FilesIn(folder.path()), 1u);
+}
+
+TEST(File, ADeviceStaysADevice) {
+  TemporaryFolder folder;
+  const fs::path null = folder.path() / "null";
+  if (::mknod(null.c_str(), S_IFCHR | 0666, makedev(1, 3)) != 0 || ::access(null.c_str(), W_OK) != 0)
+    GTEST_SKIP() << "only root makes devices";
+  const int opened = ::open(null.c_str(), O_WRONLY);
+  if (opened < 0) GTEST_SKIP() << "devices do not work here";
+  ::close(opened);
+  EXPECT_EQ(CheckWritable(null).message, "");
+  EXPECT_EQ(WriteTextFile(null, "gone").message, "");
+  EXPECT_TRUE(fs::is_character_file(null));
+  EXPECT_NE(CheckReplaceable(null).message.find("device"), std::string::npos);
+}
+
+TEST(File, ALinkStaysAndItsTargetIsWritten) {
+  TemporaryFolder folder;
+  const fs::path there = folder.path() / "elsewhere" / "there", link = folder.path() / "link";
+  ASSERT_EQ(WriteTextFile(there, "old").message, "");
+  fs::create_symlink(there, link);
+  ASSERT_EQ(WriteTextFile(link, "new").message, "");
+  std::string text;
+  EXPECT_EQ(ReadTextFile(there, &text).message, "");
+  EXPECT_EQ(text, "new");
+  EXPECT_TRUE(fs::is_symlink(link));
+}
+
+// Whoever may write to the folder could lay links where a name is to be expected.
+TEST(File, NothingIsWrittenThroughALinkUnderATemporaryName) {
+  TemporaryFolder folder;
+  const fs::path victim = folder.path() / "victim", out = folder.path() / "out";
+  ASSERT_EQ(WriteTextFile(victim, "whole").message, "");
+  const std::string part = out.string() + ".part-" + std::to_string(::getpid());
+  for (const char* end : {"", "-0", "-1"}) fs::create_symlink(victim, part + end);
+  ASSERT_EQ(WriteTextFile(out, "one").message, "");
+  ASSERT_EQ(WriteTextFile(out, "two").message, "");
+  std::string text;
+  EXPECT_EQ(ReadTextFile(victim, &text).message, "");
+  EXPECT_EQ(text, "whole");
+  EXPECT_EQ(ReadTextFile(out, &text).message, "");
+  EXPECT_EQ(text, "two");
+}
+
+TEST(File, NothingIsLeftOfWhatWasNotFinished) {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "film";
+  ASSERT_EQ(WriteTextFile(path, "old").message, "");
+  {
+    UnfinishedFile file;
+    ASSERT_EQ(file.Start(path).message, "");
+    ASSERT_EQ(::write(file.descriptor(), "new", 3), 3);
+  }
+  std::string text;
+  EXPECT_EQ(ReadTextFile(path, &text).message, "");
+  EXPECT_EQ(text, "old");
+  EXPECT_EQ(FilesIn(folder.path()), 1u);
+}
+
+TEST(Text, ALongComplaintIsCutOff) {
+  const std::string line = OneLine(std::string(300'000'000, 'a'));
+  EXPECT_LT(line.size(), kMostMessage_bytes + 10);
+  EXPECT_EQ(line.substr(line.size() - 5), "a ...");
+  std::string letters;
+  for (size_t i = 0; i < kMostMessage_bytes; ++i) letters += "\u00fc";
+  const std::string cut = OneLine("a" + letters);
+  EXPECT_EQ(static_cast<unsigned char>(cut[cut.size() - 5]) & 0xC0, 0x80) << "letters stay whole";
+}
+
+TEST(Draco, TellsItsSizeBeforeItIsDecoded) {
+  const std::vector<uint8_t> sequential{'D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, 0x85, 0x02, 0x07};
+  const auto size = DracoSizeOf(sequential);
+  ASSERT_TRUE(size);
+  EXPECT_EQ(size->faces, 261u);
+  EXPECT_EQ(size->vertices, 7u);
+  const std::vector<uint8_t> edge_breaker{'D', 'R', 'A', 'C', 'O', 2, 2, 1, 1, 0, 0, 0, 0x07, 0x85, 0x02};
+  EXPECT_EQ(DracoSizeOf(edge_breaker)->faces, 261u);
+  for (size_t bytes = 0; bytes < sequential.size(); ++bytes)
+    EXPECT_FALSE(DracoSizeOf(std::span(sequential).first(bytes))) << bytes;
 }
 
 TEST(Text, SuggestsTheNearestNameOnly) {

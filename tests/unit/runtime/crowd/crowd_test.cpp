@@ -6,6 +6,7 @@
 
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/fast_math.h"
+#include "runtime/crowd/walls.h"
 
 namespace flaneur {
 namespace {
@@ -23,6 +24,74 @@ Walkable Field() {
   w.circles.push_back({{0, 6}, 0.5f});
   BuildWalkable(0.3f, &w);
   return w;
+}
+
+// Jagged houses with yards, over each other and over the ground's edge.
+Walkable JaggedTown(Random* random) {
+  Walkable w;
+  w.ground = Share({{-20, -20}, 0.5f, 80, 80, std::vector<float>(6400, 0), std::vector<uint8_t>(6400, 3)});
+  const auto ring = [&](Vec2 middle, float least_m, float most_m) {
+    std::vector<Vec2> points;
+    const int corners = 3 + random->Below(12);
+    for (int k = 0; k < corners; ++k) {
+      const float angle = 2 * kPi * static_cast<float>(k) / static_cast<float>(corners);
+      points.push_back(middle + DirectionOf(angle) * random->Uniform(least_m, most_m));
+    }
+    return points;
+  };
+  for (int k = 0; k < 12; ++k) {
+    const Vec2 middle{random->Uniform(-22, 22), random->Uniform(-22, 22)};
+    w.polygons.push_back({ring(middle, 2, 6), {}});
+    for (int hole = random->Below(3); hole > 0; --hole) w.polygons.back().holes.push_back(ring(middle, 0.5f, 3));
+  }
+  BuildWalkable(0.3f, &w);
+  return w;
+}
+
+float DistanceToWalls_m(const Walkable& w, Vec2 p) {
+  float least_m = 1e9f;
+  for (const Walkable::Edge& e : w.edges) least_m = std::min(least_m, Length(NearestOnSegment(p, e.a, e.b) - p));
+  return least_m;
+}
+
+// In the cell about p, or in a cell beside it: for somebody who squeezes through.
+bool HasRoomAround(const Walkable& w, Vec2 p) {
+  constexpr int kSteps = 30;
+  constexpr float kNearlyAlike_m = 0.02f;
+  for (int y = -kSteps; y <= kSteps; ++y) {
+    for (int x = -kSteps; x <= kSteps; ++x) {
+      const Vec2 q = p + Vec2{static_cast<float>(x), static_cast<float>(y)} * (1.5f * w.cell_m / kSteps);
+      if (!InsideObstacle(w, q) && DistanceToWalls_m(w, q) > w.person_radius_m - kByChoice_m - kNearlyAlike_m)
+        return true;
+    }
+  }
+  return false;
+}
+
+// By looking at every wall and house from every cell.
+TEST(Walkable, IsFreeWhereNoHouseIsAndNoWallIsNear) {
+  constexpr float kNearlyAlike_m = 0.01f;
+  Random random{28};
+  for (int town = 0; town < 20; ++town) {
+    const Walkable w = JaggedTown(&random);
+    int free = 0;
+    for (int cell = 0; cell < static_cast<int>(w.cost.size()); ++cell) {
+      const Vec2 p = CellCenter(w, cell);
+      const float wall_m = DistanceToWalls_m(w, p);
+      if (InsideObstacle(w, p) || std::max(std::abs(p.x), std::abs(p.y)) > 20) {
+        // Where a person just fits through between two walls, the way is open though a cell's middle lies in one.
+        const bool is_door = w.cost[static_cast<size_t>(cell)] == kGroundCost[3] * kNarrowCost && HasRoomAround(w, p);
+        EXPECT_TRUE(!IsFree(w, p) || is_door) << p.x << " " << p.y;
+      } else if (wall_m > w.person_radius_m + kNearlyAlike_m) {
+        EXPECT_TRUE(IsFree(w, p)) << p.x << " " << p.y;
+        ++free;
+      }
+      if (wall_m < w.person_radius_m) {
+        EXPECT_LE(Clearance(w, cell, p), wall_m + kNearlyAlike_m);
+      }
+    }
+    EXPECT_GT(free, 1000);
+  }
 }
 
 Crowd PeopleWhoCross(const Walkable& w, int count) {

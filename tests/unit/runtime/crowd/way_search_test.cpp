@@ -121,6 +121,28 @@ TEST(WaySearch, AGoalThatManyShareGetsAField) {
   EXPECT_TRUE(IsBuilt(crowd.fields[0]));
 }
 
+TEST(WaySearch, AFieldThatNobodyGoesByIsLetGoAndComesBack) {
+  const Walkable w = Labyrinth();
+  Crowd crowd;
+  for (int k = 0; k < 20; ++k) {
+    Person p;
+    p.position = {2, 2 + static_cast<float>(k)};
+    p.field = FieldFor({57, 57}, &crowd);
+    AddPerson(p, &crowd);
+  }
+  const int shared = crowd.field[0];
+  const auto go = [&](int field, int steps) {
+    for (size_t i = 0; i < crowd.size(); ++i) SetGoal(i, field, &crowd);
+    for (int step = 0; step < steps; ++step) StepCrowd(w, {}, kStep_s, &scratch, &crowd);
+  };
+  go(shared, 2 * 300);
+  EXPECT_TRUE(IsBuilt(crowd.fields[0]));
+  go(-1, 3 * 300);
+  EXPECT_FALSE(IsBuilt(crowd.fields[0])) << "it would take its memory for ever";
+  go(shared, 1);
+  EXPECT_TRUE(IsBuilt(crowd.fields[0]));
+}
+
 // The first step after which each field is there.
 std::vector<int> BuiltAfter(const Walkable& w, Jobs* jobs, uint64_t* state) {
   Crowd crowd;

@@ -1087,7 +1087,7 @@ TEST(ShadowGeometry, IsMuchSmallerAndStaysInShape) {
         p.indices.push_back(corner);
     }
   }
-  const PersonGeometry whole = BuildPersonGeometry(pack, 0, PlanSurfaces(pack, {})),
+  const PersonGeometry whole = BuildPersonGeometry(pack, pack.meshes[0], PlanSurfaces(pack, {})),
                        shadow = ShadowGeometry(whole, 0.16f, 1000);
   EXPECT_LT(shadow.indices.size(), whole.indices.size() / 10);
   EXPECT_LE(ShadowGeometry(whole, 0.01f, 100).indices.size() / 3, 100u) << "whatever the cells";
@@ -1113,7 +1113,8 @@ TEST(ShadowGeometry, KeepsTheBrimOfAHat) {
         p.indices.push_back(corner);
     }
   }
-  const PersonGeometry shadow = ShadowGeometry(BuildPersonGeometry(pack, 0, PlanSurfaces(pack, {})), 0.1f, 1000);
+  const PersonGeometry shadow =
+      ShadowGeometry(BuildPersonGeometry(pack, pack.meshes[0], PlanSurfaces(pack, {})), 0.1f, 1000);
   Box box;
   for (uint32_t i : shadow.indices) Include(shadow.vertices[i].position, &box);
   EXPECT_GT(box.high.x - box.low.x, 0.38f);

@@ -63,6 +63,21 @@ TEST(BadWorld, NoWalkableGround) {
   EXPECT_EQ(Complaint(pack, Watched(pack)), "there is no walkable ground");
 }
 
+TEST(BadWorld, ObstaclesUponEachOtherWithoutEnd) {
+  TourPack pack = Town();
+  for (int k = 0; k < 200; ++k) pack.obstacles.polygons.push_back(Box({0, 0}, {20, 20}));
+  EXPECT_NE(Complaint(pack, Watched(pack)).find("lie over each other"), std::string::npos);
+  pack = Town();
+  pack.obstacles.circles.assign(200, {{10, 10}, 1000});
+  EXPECT_NE(Complaint(pack, Watched(pack)).find("lie over each other"), std::string::npos);
+  pack = Town();
+  PolygonObstacle comb;  // a ring that goes to and fro
+  for (int k = 0; k < 200000; ++k)
+    comb.outer.push_back({1 + 1e-5f * static_cast<float>(k), k % 2 == 0 ? -1000.0f : 1000.0f});
+  pack.obstacles.polygons.push_back(comb);
+  EXPECT_NE(Complaint(pack, Watched(pack)).find("more walls"), std::string::npos);
+}
+
 TEST(BadWorld, PlacesInsideAHouseAndBehindWalls) {
   TourPack pack = Town();
   pack.places.push_back({"cellar", "goal", {11, 11}, 1});

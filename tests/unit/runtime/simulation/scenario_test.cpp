@@ -101,6 +101,17 @@ TEST(Scenario, MistakesAreNamedWithTheirLine) {
   EXPECT_NE(Parse("[[camera.leg]]\nwait_s = 1\n[tour]\nmost_rest_s = 3\n", &s).message.find(":3: [tour] is for runs"),
             std::string::npos);
   EXPECT_NE(Parse("seconds = -1\n", &s).message.find("seconds is -1, it must be from 0 to"), std::string::npos);
+  EXPECT_NE(Parse("[limit]\nbudget_triangles = 0\n", &s).message.find("budget_triangles is 0"), std::string::npos);
+}
+
+TEST(Scenario, MayAskForMuchButNotForEverything) {
+  Scenario s;
+  EXPECT_NE(Parse("[ground]\nmin_m = [0, 0]\nmax_m = [900000, 2]\n", &s).message.find("20 km"), std::string::npos);
+  std::string many;
+  for (int k = 0; k < 20001; ++k) many += "[[person]]\nposition_m = [0, 0]\n";
+  EXPECT_NE(Parse(many, &s).message.find("there may be 20000"), std::string::npos);
+  EXPECT_NE(Parse("name = \"" + std::string(2000000, 'a') + "\"\n", &s).message.find("more than 20000 bytes"),
+            std::string::npos);
 }
 
 Simulation Played(const std::string& text, int steps) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <span>
 
@@ -202,6 +203,68 @@ TEST_F(LoaderOfTheDemo, BringsTheSamePictureOfAPackThatArrivesInPieces) {
   at_once.PrepareFor(other);
   ASSERT_EQ(at_once.UploadAll(&other).message, "");
   EXPECT_EQ(in_pieces, Picture(&other));
+}
+
+// The small tour's person eight times, each with thirty levels of two meshes that all of them share.
+std::vector<uint8_t> PackOfSharedMeshes() {
+  std::vector<uint8_t> bytes;
+  EXPECT_EQ(ReadFile(std::filesystem::path(FLANEUR_SOURCE_DIR) / "tests/data/fuzz/pack/small.glb", &bytes).message, "");
+  const auto word = [&](size_t at) -> uint32_t& { return *reinterpret_cast<uint32_t*>(bytes.data() + at); };
+  const std::ptrdiff_t json_bytes = word(12);
+  nlohmann::json json = nlohmann::json::parse(bytes.begin() + 20, bytes.begin() + 20 + json_bytes);
+  nlohmann::json& avatars = json["extensions"]["FLANEUR_tour"]["avatars"];
+  nlohmann::json avatar = avatars[0];
+  nlohmann::json levels = nlohmann::json::array();
+  for (size_t k = 0; k < 30; ++k) levels.push_back(avatar["levels"][k / 15]);
+  avatar["levels"] = levels;
+  avatars.clear();
+  for (int k = 0; k < 8; ++k) {
+    avatars.push_back(avatar);
+    if (k > 0) avatars.back()["name"] = "made " + std::to_string(k);
+  }
+  std::string text = json.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  bytes.erase(bytes.begin() + 20, bytes.begin() + 20 + json_bytes);
+  bytes.insert(bytes.begin() + 20, text.begin(), text.end());
+  word(8) = static_cast<uint32_t>(bytes.size());
+  word(12) = static_cast<uint32_t>(text.size());
+  return bytes;
+}
+
+TEST(Loader, BringsAMeshToAllWhoShareItWithAnyNumberOfThreads) {
+  HeadlessContext context;
+  if (const Error error = context.Create()) GTEST_SKIP() << error.message;
+  const std::vector<uint8_t> bytes = PackOfSharedMeshes();
+  std::vector<uint8_t> first;
+  for (size_t threads : {0, 1, 8, 8, 8}) {
+    Jobs jobs(threads);
+    Loader loader(&jobs);
+    TourPack pack;
+    PackFile file;
+    ASSERT_EQ(file.Open(bytes, "shared.glb", &pack).message, "");
+    loader.Start(std::move(file), pack);
+    Renderer renderer;
+    ASSERT_EQ(renderer.Begin(pack, {.samples = 1}).message, "");
+    loader.PrepareFor(renderer);
+    ASSERT_EQ(loader.UploadAll(&renderer).message, "");
+    FrameInput frame;
+    frame.eye = {-8, 0, 1.6f};
+    for (int k = 0; k < 8; ++k) {
+      for (int level : {0, 29}) {
+        DrawnPerson person;
+        person.avatar = k;
+        person.position = {level == 0 ? 0.0f : 2.0f, static_cast<float>(k) - 3.5f, 0};
+        person.level = MeshLevel(level);
+        frame.people.push_back(person);
+      }
+    }
+    FrameStatistics statistics;
+    std::vector<uint8_t> rgb;
+    renderer.Draw(frame, kWidth_px, kHeight_px, &statistics);
+    renderer.Read(&rgb);
+    if (first.empty()) first = rgb;
+    EXPECT_EQ(rgb, first) << threads << " threads";
+  }
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(VisitLog, NeverGrowsBeyondItsBounds) {
   const Folder folder;
   for (int k = 0; k < kOldLogs + 3; ++k) {
     ASSERT_FALSE(AppendVisit(folder.path, Visit(static_cast<float>(k), "de")));
-    std::ofstream(folder.path / "visits.csv", std::ios::app) << std::string(kMostLog_bytes, 'x') << '\n';
+    std::ofstream(folder.path / "visits.csv", std::ios::app) << std::string(kMostVisitLog_bytes, 'x') << '\n';
   }
   ASSERT_FALSE(AppendVisit(folder.path, Visit(99, "fr")));
   size_t files = 0;
