@@ -295,7 +295,7 @@ void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
   FollowOrCare(w, moving, step_s, &s->caring, c);
   RenewWays(w, s->caring, c);
   SortIntoGrid(s->caring, c->position, c->velocity, c->radius_m, kGridCell_m, &s->neighbours);
-  Decide(w, moving, s->neighbours, c);
+  Decide(w, moving, s->neighbours, step_s, c);
   WalkTogether(w, c);
   FindContacts(*c, step_s, s);
   Move(w, moving, step_s, s, c);

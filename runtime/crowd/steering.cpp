@@ -6,6 +6,7 @@
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/go_round.h"
+#include "runtime/crowd/variation.h"
 #include "runtime/crowd/walls.h"
 
 namespace flaneur {
@@ -270,8 +271,40 @@ bool LetsOthersGo(float filled, Vec2 velocity, int id, int64_t step, const Mind&
   return static_cast<float>(hash >> 16) < kLetGo * 65536;
 }
 
+// From 0 to 1, while the value goes from one to the other.
+float Grown(float value, float from, float to) { return std::clamp((value - from) / (to - from), 0.0f, 1.0f); }
+float Grown(float value, const float (&between)[2]) { return Grown(value, between[0], between[1]); }
+
+// How freely somebody who walks varies, 0 to 1.
+float Ease(float clear_m, size_t i, const Crowd& c) {
+  const Mind& mind = c.mind[i];
+  if (mind.stands || c.field[i] < 0) return 0;
+  float ease = Grown(clear_m - c.radius_m[i], kVariesFromWall_m) * Grown(mind.lately, kVariesGettingOn);
+  if (!c.sees_goal[i]) return ease;
+  const float goal_m = Length(c.fields[static_cast<size_t>(c.field[i])].goal - c.position[i]);
+  return ease * Grown(goal_m, kVariesFromGoal_m);
+}
+
+// Who walks together varies together.
+void Vary(float density_pm2, float clear_m, float step_s, size_t i, Crowd* c) {
+  const float ease = Ease(clear_m, i, *c) * (1 - Grown(density_pm2, kThrong_pm2));
+  if (ease <= 0) return;
+  const int group = c->group[i];
+  const size_t who = group >= 0 ? static_cast<size_t>(c->groups[static_cast<size_t>(group)].member[0]) : i;
+  const Variation v = VariationAt(ClockAt(c->step, step_s), c->id[who]);
+  Mind& mind = c->mind[i];
+  const float company = Grown(density_pm2, kCompany_pm2), some = kAlone + (1 - kAlone) * company;
+  const float strolls = company * (1 - Grown(mind.asked_mps, kStrolls_mps, kHurries_mps));
+  const auto amount = [strolls](const float(&most)[2]) { return most[0] + (most[1] - most[0]) * strolls; };
+  const float pace = company * amount(kSlowPace) * v.slow_pace + some * amount(kQuickPace) * v.quick_pace;
+  const float course_rad = some * (amount(kSlowCourse_rad) * v.slow_course + amount(kQuickCourse_rad) * v.quick_course);
+  mind.asked_mps *= 1 + ease * pace;
+  const Vec2 way = GoingTo(*c, i);
+  mind.push = mind.push + Vec2{-way.y, way.x} * (ease * course_rad * mind.asked_mps / kRelaxation_s);
+}
+
 void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours,
-            const Neighbour& self, Crowd* c) {
+            const Neighbour& self, float step_s, Crowd* c) {
   const size_t i = static_cast<size_t>(self.person);
   Mind& mind = c->mind[i];
   const Looking me{self.position, self.velocity, mind.ahead, self.radius_m, self.person};
@@ -294,6 +327,8 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
   BendWay(w, moving, i, c);
   mind.clear_from = me.position;
   mind.clear_m = ClearAround_m(w, cell);
+  const bool makes_room = Dot(room, room) > 0 || mind.round.x != 0 || mind.round.y != 0;
+  if (!lets_go && !makes_room) Vary(density_pm2, mind.clear_m, step_s, i, c);
 }
 
 }  // namespace
@@ -308,7 +343,8 @@ float SpeedOnSlope(const Walkable& w, int cell, float level_mps) {
   return cell >= 0 ? level_mps / (1 + kSlopeSlows * SlopeOf(w, cell)) : level_mps;
 }
 
-void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours, Crowd* c) {
+void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours, float step_s,
+            Crowd* c) {
   const std::vector<Neighbour>& people = neighbours.people;
   for (size_t k = 0; k < people.size(); ++k) {
     const Neighbour& soon = people[std::min(k + kFetchAhead, people.size() - 1)];
@@ -317,15 +353,14 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
       const int cell = CellAt(w, soon.position);
       if (cell >= 0) __builtin_prefetch(&w.cells[static_cast<size_t>(cell)]);
     }
-    if (c->turn[static_cast<size_t>(people[k].person)]) Decide(w, moving, neighbours, people[k], c);
+    if (c->turn[static_cast<size_t>(people[k].person)]) Decide(w, moving, neighbours, people[k], step_s, c);
   }
 }
 
 void ChooseVelocity(float step_s, size_t i, Crowd* c) {
   const Mind& mind = c->mind[i];
   Vec2 preferred;
-  if (c->detour_s[i] > 0)
-    preferred = c->detour[i] * (mind.alone_mps > 0 ? std::min(1.0f, mind.asked_mps / mind.alone_mps) : 1.0f);
+  if (c->detour_s[i] > 0) preferred = c->detour[i] * (mind.alone_mps > 0 ? mind.asked_mps / mind.alone_mps : 1.0f);
   else if (c->activity[i] == Activity::kWalking && c->field[i] >= 0) preferred = c->way[i] * mind.asked_mps;
   if (mind.round.x != 0 || mind.round.y != 0) preferred = mind.round * Length(preferred);
   const Vec2 change = preferred + mind.push * kRelaxation_s - c->velocity[i];

@@ -27,7 +27,7 @@ except ImportError:  # Debian's numpy belongs to Debian's Python, which need not
         sys.exit("scenarios: error: numpy not found: install the Debian package python3-numpy")
     os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
 
-from figures import drawn_runs, page, plots, runs, summary, told_apart  # noqa: E402
+from figures import drawn_runs, page, plots, runs, summary, told_apart, trade  # noqa: E402
 from figures.targets import DRAWN, MODES  # noqa: E402
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -55,6 +55,8 @@ def arguments():
                         "of the crowd (default: 20; 0: none)")
     parser.add_argument("--path-seed", type=int, default=1, metavar="S", help="the seed that they are drawn from (default: 1)")
     parser.add_argument("--without-paper", action="store_true", help="leave out the paper's own adaptation on drawn paths: a third faster")
+    parser.add_argument("--trade", action="store_true", help="play the drawn paths with less discretion as well, and draw how much shows for "
+                        "how much detail: three times as long")
     parser.add_argument("--only-paths", action="store_true", help="leave out the scenarios")
     parser.add_argument("--jobs", type=positive, default=len(os.sched_getaffinity(0)), metavar="N", help="runs at once (default: cores)")
     parser.add_argument("--seconds", type=float, help="end each run after so much simulated time")
@@ -149,6 +151,14 @@ def drawn_figures(judged, names):
     return figures
 
 
+def trade_figure(points):
+    """None where nothing can be told apart."""
+    if not any(p["told_apart"] for p in points):
+        return []
+    return [("How much shows for how much detail", "Frames exceeded on the drawn paths, and how well a classifier tells people near the "
+             "visitor from free ones: off, the paper's way, and full from no discretion to all of it.", trade.plot(points))]
+
+
 def write(path, text):
     """Whole or not at all."""
     beside = path.with_name(path.name + ".part")
@@ -171,23 +181,28 @@ def main():
     try:
         options.output.mkdir(parents=True, exist_ok=True)
         jobs = [] if options.only_paths else planned_jobs(options, pack_facts)
-        judged = play_all(jobs + drawn_jobs(options, pack_facts), options.jobs)
+        paths_jobs = drawn_jobs(options, pack_facts)
+        played = play_all(jobs + paths_jobs + (trade.planned_jobs(paths_jobs) if options.trade else []), options.jobs)
+        judged, others = [run for run in played if run["group"] != trade.GROUP], [run for run in played if run["group"] == trade.GROUP]
         for group in {run["group"] for run in judged} - {DRAWN}:
             runs.compare_with_off([run for run in judged if run["group"] == group])
         drawn = [run for run in judged if run["group"] == DRAWN]
         paths = paths_facts(options, drawn)
+        traded = trade.points(drawn, others) if others else []
         table = summary.summarise(judged)
         results = summary.verdicts(table)
         facts = {"pack": str(options.pack), "runs": len(judged), "seeds": options.seeds,
                  "simulated_s": sum(float(run["time_s"][-1]) for run in judged), "seconds": time.monotonic() - start_s}
         small = {name: plots.candidates_plot(first_case(judged, name), height=110) for name in table}
         write(options.output / "figures.json",
-              json.dumps(finite({**facts, "targets": results, "scenarios": table, "paths": paths}), indent=1))
-        write(options.output / "index.html", page.page(facts, table, results, drawn_figures(judged, table), small, paths))
+              json.dumps(finite({**facts, "targets": results, "scenarios": table, "paths": paths, "trade": traded}), indent=1))
+        write(options.output / "index.html", page.page(facts, table, results, drawn_figures(judged, table) + trade_figure(traded), small, paths))
     except OSError as error:
         raise runs.Failed(f"{error.filename or options.output}: {(error.strerror or str(error)).lower()}") from error
     print(summary.terminal_table(results))
     print(summary.paths_table(paths))
+    for p in traded:
+        print(f"trade: {p['name']}: exceeded {p['exceeded']:.2%}, told apart {p['told_apart'] or math.nan:.3f}")
     print(f"page    {options.output / 'index.html'}")
     return 0 if options.report_only or all(v["reached"] for v in results) else 1
 

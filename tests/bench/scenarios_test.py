@@ -53,6 +53,16 @@ class Scenarios(ProgramTest):
         for path in facts["paths"]["paths"]:
             self.assertIn(path, page)
 
+    def test_how_much_shows_for_how_much_detail(self):
+        self.assert_succeeds(self.play("--only-paths", "--paths", 2, "--path-seed", 4, "--without-paper", "--seconds", 8, "--trade",
+                                       "--report-only"))
+        facts = json.loads((self.folder / "out/figures.json").read_text())
+        self.assertEqual([p["name"] for p in facts["trade"]], ["off"] + [f"full, discretion {d}" for d in ("0", "0.25", "0.5", "0.75", "1")])
+        for point in facts["trade"]:
+            self.assertTrue(0 <= point["exceeded"] <= 1)
+        self.assertEqual(facts["scenarios"]["drawn paths"]["full"]["exceeded"]["cases"].keys(),
+                         facts["scenarios"]["drawn paths"]["off"]["exceeded"]["cases"].keys(), "other discretions are judged apart")
+
     def test_bad_input(self):
         self.assert_fails(self.play("--scenario", "walkabout"), "walkabout", "there are", "spin")
         self.assert_fails(scenarios(self.folder / "none.glb", "-o", self.folder), "none.glb", "no such file")

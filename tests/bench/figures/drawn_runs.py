@@ -45,10 +45,10 @@ def run_and_measure(job):
     facts = read_scenario(job["scenario"], job["pack_facts"])
     with tempfile.TemporaryDirectory(dir=job["folder"], prefix=".run-") as folder:
         metrics, people = play(job["player"], job["pack"], job["scenario"], job["seed"], job["mode"], job["seconds"],
-                               pathlib.Path(folder))
+                               pathlib.Path(folder), job.get("discretion"))
     counts = measures.candidates(metrics, people, facts["r_high_m"])
     return {
-        **{key: job[key] for key in ("group", "case", "mode", "path", "seed")},
+        **{key: job[key] for key in ("group", "case", "mode", "path", "seed")}, "discretion": job.get("discretion"),
         "figures": {
             "over_budget": len(judge.frames_over_budget(rows_of(metrics))),
             "exceeded": measures.share_exceeded(counts, metrics["limit"]),

@@ -54,13 +54,14 @@ def read_scenario(path, pack):
             "gates": pack["gates"], "has_camera": "camera" in data}
 
 
-def play(player, pack, scenario, seed, mode, seconds, folder):
-    """The recording of a run: metrics and people."""
+def play(player, pack, scenario, seed, mode, seconds, folder, discretion=None):
+    """The recording of a run: metrics and people. pack: None where the scenario has its own ground."""
     metrics, trajectories = folder / "metrics.csv", folder / "trajectories.csv"
-    command = [player, pack, "--headless", "--no-draw", "--scenario", scenario, "--adaptation", mode,
+    command = [player, *([pack] if pack else []), "--headless", "--no-draw", "--scenario", scenario, "--adaptation", mode,
                "--metrics", metrics, "--trajectories", trajectories]
     command += ["--seed", seed] if seed is not None else []
     command += ["--seconds", seconds] if seconds is not None else []
+    command += ["--discretion", discretion] if discretion is not None else []
     try:
         result = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=LONGEST_S, check=False)
     except OSError as error:
