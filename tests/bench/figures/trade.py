@@ -43,6 +43,6 @@ def plot(found, width=760, height=440):
     for k, p in enumerate(shown):
         script += (f'set label {k + 1} "  {p["name"]}" at {100 * p["exceeded"]:.4f},{p["told_apart"]:.4f} left point pt 7 ps 0.8 '
                    f'lc rgb "{plots.COLOURS[p["mode"]]}" textcolor rgb "{plots.COLOURS[p["mode"]]}"\n')
-    rows = [[100 * p["exceeded"], p["told_apart"], p["mode"] == "full"] for p in shown]
-    script += (f'plot "all" u 1:2 w p pt 7 ps 0.1 lc rgb "#ffffff", "all" u ($3 ? $1 : NaN):2 w l lc rgb "{plots.COLOURS["full"]}"\n')
+    rows = [[100 * p["exceeded"], p["told_apart"], 1 if p["mode"] == "full" else 0] for p in shown]
+    script += (f'plot "all" u 1:2 w p pt 7 ps 0.1 lc rgb "#ffffff", "all" u ($3 > 0.5 ? $1 : NaN):2 w l lc rgb "{plots.COLOURS["full"]}"\n')
     return plots.gnuplot(script, {"all": rows})
