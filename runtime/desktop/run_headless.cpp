@@ -14,6 +14,7 @@
 #include "runtime/render/renderer.h"
 #include "runtime/show/frame_from_simulation.h"
 #include "runtime/simulation/records.h"
+#include "runtime/simulation/side_by_side.h"
 #include "runtime/text/system_fonts.h"
 #include "runtime/visit/developer_views.h"
 #include "runtime/visit/page_look.h"
@@ -172,10 +173,14 @@ void RecordStep(HeadlessRun* run) {
 }
 
 void StepAll(HeadlessRun* run) {
+  std::vector<Simulation*> runs;
+  std::vector<float> frame_ms;
   for (Pane& pane : run->panes) {
     if (IsOver(*pane.simulation, *run)) continue;
-    StepSimulation({}, static_cast<float>(pane.statistics.draw_ms), pane.simulation);
+    runs.push_back(pane.simulation);
+    frame_ms.push_back(static_cast<float>(pane.statistics.draw_ms));
   }
+  StepSideBySide(runs, frame_ms);
 }
 
 }  // namespace

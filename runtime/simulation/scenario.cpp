@@ -4,6 +4,7 @@
 
 #include "runtime/base/limits.h"
 #include "runtime/base/toml_table.h"
+#include "runtime/walk/wander.h"
 
 namespace flaneur {
 namespace {
@@ -19,15 +20,22 @@ CameraLeg ReadLeg(TomlTable t) {
   t.Number("look_about_deg", &leg.look_about_deg, 0, 180);
   t.Number("follow_s", &leg.follow_s, 0, 36000);
   t.Number("behind_m", &leg.behind_m, 0.5, 100);
+  t.Number("wander_s", &leg.wander_s, 0, 36000);
+  t.Number("seed", &leg.seed, 0, 4294967295.0);
   t.Finish();
-  const bool walk = t.Has("walk_to_m"), turn = t.Has("turn_by_deg"), wait = t.Has("wait_s"), follow = t.Has("follow_s");
-  if (walk + turn + wait + follow != 1)
-    t.Refuse("a camera.leg needs exactly one of walk_to_m, turn_by_deg, wait_s and follow_s");
+  const bool walk = t.Has("walk_to_m"), turn = t.Has("turn_by_deg"), wait = t.Has("wait_s"), follow = t.Has("follow_s"),
+             wander = t.Has("wander_s");
+  if (walk + turn + wait + follow + wander != 1)
+    t.Refuse("a camera.leg needs exactly one of walk_to_m, turn_by_deg, wait_s, follow_s and wander_s");
   if (t.Has("facing_deg") && !walk) t.Refuse("facing_deg belongs to a camera.leg with walk_to_m");
   if (t.Has("look_about_deg") && !wait) t.Refuse("look_about_deg belongs to a camera.leg with wait_s");
   if (t.Has("behind_m") && !follow) t.Refuse("behind_m belongs to a camera.leg with follow_s");
+  if (t.Has("seed") && !wander) t.Refuse("seed belongs to a camera.leg with wander_s");
+  if (wander && (t.Has("speed_mps") || t.Has("rate_dps")))
+    t.Refuse("a camera.leg with wander_s draws its own speeds; leave out speed_mps and rate_dps");
+  if (wander) leg.speed_mps = kWanderMost_mps, leg.rate_dps = kWanderMost_dps;
   using Kind = CameraLeg::Kind;
-  leg.kind = walk ? Kind::kWalk : turn ? Kind::kTurn : wait ? Kind::kWait : Kind::kFollow;
+  leg.kind = walk ? Kind::kWalk : turn ? Kind::kTurn : wait ? Kind::kWait : follow ? Kind::kFollow : Kind::kWander;
   return leg;
 }
 

@@ -9,6 +9,7 @@
 #include "runtime/town/loitering.h"
 #include "runtime/walk/guide.h"
 #include "runtime/walk/staging.h"
+#include "runtime/walk/wander.h"
 
 namespace flaneur {
 namespace {
@@ -41,14 +42,23 @@ void TurnTowards(float yaw_rad, float rate_radps, const VisitorInTown& v) {
   v.visitor.camera.yaw_rate_radps = turn / Step_s(v.settings);
 }
 
+// Calls visit(position, radius_m) for everybody who can hold the visitor up.
+template <typename Visit>
+void VisitPeople(const VisitorInTown& v, Visit visit) {
+  const Crowd& c = v.town.crowd;
+  for (size_t i = 0; i < c.size(); ++i) visit(c.position[i], c.radius_m[i]);
+  if (v.others == nullptr) return;
+  for (size_t i = 0; i < v.others->position.size(); ++i) visit(v.others->position[i], v.others->radius_m[i]);
+}
+
 // The user's speed falls in proportion to the density of the crowd ahead.
 float DensityFactor(const VisitorInTown& v, Vec2 direction) {
   float people = 0;
-  for (size_t i = 0; i < v.town.crowd.size(); ++i) {
-    const Vec2 off = v.town.crowd.position[i] - v.visitor.camera.view.position;
+  VisitPeople(v, [&](Vec2 p, float) {
+    const Vec2 off = p - v.visitor.camera.view.position;
     const float distance_m = Length(off);
     if (distance_m < kLookAhead_m && Dot(off, direction) > 0.7071f * distance_m) people += 1;
-  }
+  });
   const float density = people / (kPi / 4 * kLookAhead_m * kLookAhead_m);
   return std::clamp(1 - density / kDenseAhead_pm2, kMinSpeedFactor, 1.0f);
 }
@@ -58,18 +68,15 @@ float FreeShare(const VisitorInTown& v, Vec2 step) {
   float share = 1;
   const float step2 = Dot(step, step);
   if (step2 <= 0) return 0;
-  for (size_t i = 0; i < v.town.crowd.size(); ++i) {
-    const Vec2 off = v.town.crowd.position[i] - v.visitor.camera.view.position;
-    const float reach_m =
-        v.settings.r_personal_m + v.town.crowd.radius_m[i] + 0.06f;  // room for the person's own next step
+  VisitPeople(v, [&](Vec2 p, float radius_m) {
+    const Vec2 off = p - v.visitor.camera.view.position;
+    const float reach_m = v.settings.r_personal_m + radius_m + 0.06f;  // room for the person's own next step
     const float along = Dot(off, step);
-    if (along <= 0) continue;
-    const float gap2 = Dot(off, off) - reach_m * reach_m;
-    if (gap2 <= 0) return 0;
-    const float discriminant = along * along - step2 * gap2;
-    if (discriminant <= 0) continue;
-    share = std::min(share, std::max(0.0f, (along - std::sqrt(discriminant)) / step2));
-  }
+    if (along <= 0) return;
+    const float gap2 = Dot(off, off) - reach_m * reach_m, discriminant = along * along - step2 * gap2;
+    if (gap2 <= 0) share = 0;
+    else if (discriminant > 0) share = std::min(share, std::max(0.0f, (along - std::sqrt(discriminant)) / step2));
+  });
   return share;
 }
 
@@ -106,13 +113,6 @@ void Walk(Vec2 direction, float asked_mps, const VisitorInTown& v) {
   if (got_on) v.visitor.stuck_at = camera.view.position;
 }
 
-void NextLeg(const VisitorInTown& v) {
-  v.visitor.leg_done = 0;
-  v.visitor.followed_id = -1;
-  v.visitor.stuck_s = 0;
-  if (++v.visitor.leg >= v.visitor.legs.size()) v.visitor.finished = true;
-}
-
 // Straight on at first, then between both sides.
 void LookToAndFro(const CameraLeg& leg, const VisitorInTown& v) {
   if (leg.look_about_deg <= 0) return;
@@ -147,19 +147,17 @@ void FollowSomebody(const CameraLeg& leg, const VisitorInTown& v) {
   if (way_m > leg.behind_m) Walk(way * (1 / way_m), leg.speed_mps, v);
 }
 
-void FollowLegs(const VisitorInTown& v) {
-  const CameraLeg& leg = v.visitor.legs[v.visitor.leg];
+// True: the leg is over.
+bool FollowLeg(const CameraLeg& leg, const VisitorInTown& v) {
   switch (leg.kind) {
     case CameraLeg::Kind::kWait:
       LookToAndFro(leg, v);
       v.visitor.leg_done += Step_s(v.settings);
-      if (v.visitor.leg_done >= leg.wait_s) NextLeg(v);
-      return;
+      return v.visitor.leg_done >= leg.wait_s;
     case CameraLeg::Kind::kFollow:
       FollowSomebody(leg, v);
       v.visitor.leg_done += Step_s(v.settings);
-      if (v.visitor.leg_done >= leg.follow_s) NextLeg(v);
-      return;
+      return v.visitor.leg_done >= leg.follow_s;
     case CameraLeg::Kind::kTurn: {
       const float left = std::abs(leg.turn_deg * kPi / 180) - v.visitor.leg_done;
       const float turn = std::min(left, leg.rate_dps * kPi / 180 * Step_s(v.settings));
@@ -167,18 +165,47 @@ void FollowLegs(const VisitorInTown& v) {
       const float signed_turn = leg.turn_deg >= 0 ? turn : -turn;
       v.visitor.camera.view.yaw_rad = WrapAngle(v.visitor.camera.view.yaw_rad + signed_turn);
       v.visitor.camera.yaw_rate_radps = signed_turn / Step_s(v.settings);
-      if (left - turn <= 1e-6f) NextLeg(v);
-      return;
+      return left - turn <= 1e-6f;
     }
     case CameraLeg::Kind::kWalk: {
       const Vec2 way = leg.to_m - v.visitor.camera.view.position;
       const float way_m = Length(way);
-      if (way_m < kReached_m || v.visitor.stuck_s > kGiveUp_s) return NextLeg(v);
+      if (way_m < kReached_m || v.visitor.stuck_s > kGiveUp_s) return true;
       TurnTowards(std::atan2(way.y, way.x) + leg.facing_deg * kPi / 180, MaxYawRate_radps(v.settings) * 0.75f, v);
       Walk(way * (1 / way_m), leg.speed_mps, v);
-      return;
+      return false;
     }
+    case CameraLeg::Kind::kWander:
+      break;
   }
+  return true;
+}
+
+void ForgetLeg(Visitor* visitor) {
+  visitor->leg_done = visitor->stuck_s = 0;
+  visitor->followed_id = -1;
+}
+
+// True: it is over.
+bool Wander(const CameraLeg& leg, const VisitorInTown& v) {
+  Visitor& visitor = v.visitor;
+  const bool begins = visitor.wandered_s <= 0;
+  if (begins) visitor.wander.state = leg.seed;
+  visitor.wandered_s += Step_s(v.settings);
+  if (begins || FollowLeg(visitor.drawn_leg, v)) {
+    ForgetLeg(&visitor);
+    visitor.drawn_leg = DrawLeg(v, &visitor.wander);
+  }
+  return visitor.wandered_s >= leg.wander_s;
+}
+
+void FollowLegs(const VisitorInTown& v) {
+  const CameraLeg& leg = v.visitor.legs[v.visitor.leg];
+  const bool over = leg.kind == CameraLeg::Kind::kWander ? Wander(leg, v) : FollowLeg(leg, v);
+  if (!over) return;
+  ForgetLeg(&v.visitor);
+  v.visitor.wandered_s = 0;
+  if (++v.visitor.leg >= v.visitor.legs.size()) v.visitor.finished = true;
 }
 
 float TourSpeed_mps(const VisitorInTown& v) {
@@ -280,9 +307,21 @@ void Fly(const FlyingCamera& to, const VisitorInTown& v) {
   camera.actual_mps = 0;
 }
 
+// Where another run's visitor has gone.
+void GoAs(const Visitor& other, Visitor* visitor) {
+  const CameraState own = visitor->camera;
+  visitor->camera = other.camera;
+  visitor->camera.aspect = own.aspect;
+  visitor->camera.present = own.present;
+  visitor->leg = other.leg;
+  visitor->stuck_s = other.stuck_s;
+  visitor->finished = other.finished;
+}
+
 }  // namespace
 
-void MoveCamera(const CameraInput& input, const VisitorInTown& v) {
+void MoveCamera(const CameraInput& input, const VisitorInTown& town) {
+  const VisitorInTown v{town.settings, town.town, town.visitor, input.minds};
   CameraState& camera = v.visitor.camera;
   camera.velocity = camera.asked_velocity = {};
   camera.yaw_rate_radps = camera.asked_mps = camera.actual_mps = 0;
@@ -302,7 +341,8 @@ void MoveCamera(const CameraInput& input, const VisitorInTown& v) {
     return;
   }
   if (v.visitor.finished && !v.visitor.tour.over) return;
-  if (!v.visitor.legs.empty()) FollowLegs(v);
+  if (input.as != nullptr) GoAs(*input.as, &v.visitor);
+  else if (!v.visitor.legs.empty()) FollowLegs(v);
   else if (!v.visitor.tour.stops.empty()) FollowTour(input, v);
   if (v.visitor.stuck_s >= kPatience_s) StirLoiterers(camera.view.position, kLoitererYieldRadius_m, &v.town);
 }

@@ -29,6 +29,14 @@ struct FlyingCamera {
   std::optional<float> yaw_rad;  // at once
 };
 
+struct Visitor;
+
+// People who hold the visitor up though they are not of this town: those of a run that is shown beside it.
+struct OtherPeople {
+  std::vector<Vec2> position;
+  std::vector<float> radius_m;
+};
+
 // What the visitor asks for in a step.
 struct CameraInput {
   bool active = false;  // false: scenario or guided tour moves the camera
@@ -39,6 +47,10 @@ struct CameraInput {
   std::optional<float> pitch_rad;
   std::optional<FlyingCamera> flies;  // while active
   TourWish tour;                      // active or not
+  // Runs shown side by side go the same way at the same moments: one minds the others' people as well, all others go as
+  // it has gone.
+  const OtherPeople* minds = nullptr;
+  const Visitor* as = nullptr;
 };
 
 struct CameraState {
@@ -54,13 +66,15 @@ struct CameraState {
 
 // A part of a scenario's way.
 struct CameraLeg {
-  enum class Kind { kWalk, kTurn, kWait, kFollow } kind = Kind::kWait;
+  enum class Kind { kWalk, kTurn, kWait, kFollow, kWander } kind = Kind::kWait;
   Vec2 to_m;
   float speed_mps = 1.4f;
   float facing_deg = 0;  // while walking: the view's direction from the way's, anticlockwise
   float turn_deg = 0, rate_dps = 60;
   float wait_s = 0, look_about_deg = 0;  // so far to either side, to and fro at rate_dps
   float follow_s = 0, behind_m = 2.5f;   // whoever walks in view and is nearest when nobody is followed yet
+  float wander_s = 0;                    // by legs drawn from the seed, see wander.h
+  uint64_t seed = 1;
 };
 
 // How the visitor likes to be shown about.
@@ -84,6 +98,9 @@ struct Visitor {
   size_t leg = 0;
   float leg_done = 0;    // seconds waited or followed, or radians turned
   int followed_id = -1;  // by the leg; -1: nobody
+  Random wander;         // of a leg that draws others,
+  CameraLeg drawn_leg;   // the one drawn last,
+  float wandered_s = 0;  // and since when it does; 0: nothing is drawn yet
   float stuck_s = 0;     // since the camera got away from stuck_at
   Vec2 stuck_at;
   bool finished = false;  // the last leg is over
@@ -94,6 +111,7 @@ struct VisitorInTown {
   const ControlSettings& settings;
   Town& town;
   Visitor& visitor;
+  const OtherPeople* others = nullptr;  // who hold the visitor up as well
 };
 
 }  // namespace flaneur

@@ -70,7 +70,7 @@ def exceeded(job):
 def plot(shares, width=1040, height=300):
     """One panel a fullness: frames exceeded by what the visitor does, a line a mode."""
     script = (f'set terminal svg size {width},{height} {plots.FONT} background rgb "#ffffff"\nset output "plot.svg"\n{plots.STYLE}'
-              f"set encoding utf8\nset multiplot layout 1,{len(FULLNESS)} margins 0.06,0.99,0.3,0.9 spacing 0.04,0\n"
+              f"set encoding utf8\nset multiplot layout 1,{len(FULLNESS)} margins 0.07,0.99,0.3,0.86 spacing 0.04,0\n"
               f"set yrange [0:100]\nset xrange [-0.5:{len(VISITORS) - 0.5}]\nset xtics rotate by 30 right ("
               + ", ".join(f'"{name}" {k}' for k, name in enumerate(VISITORS)) + ")\n")
     data = {}
@@ -81,7 +81,9 @@ def plot(shares, width=1040, height=300):
             data[f"{mode}{k}"] = [(x, 100 * shares[name, fullness, mode]) for x, name in enumerate(VISITORS)]
             lines.append(f'"{mode}{k}" u 1:2 w lp pt 7 ps 0.6 lw 1.5 lc rgb "{plots.COLOURS[mode]}"')
             y = 0.94 - 0.08 * MODES.index(mode)
-            script += f'set label {MODES.index(mode) + 1} "{mode}" at graph 0.04,{y:.2f} textcolor rgb "{plots.COLOURS[mode]}"\n'
+            named = k == 0  # there is room above the lines where few frames are exceeded
+            script += (f'set label {MODES.index(mode) + 1} "{mode}" at graph 0.9,{y:.2f} textcolor rgb "{plots.COLOURS[mode]}"\n'
+                       if named else f"unset label {MODES.index(mode) + 1}\n")
         script += "plot " + ", ".join(lines) + "\n"
     return plots.gnuplot(script + "unset multiplot\n", data)
 

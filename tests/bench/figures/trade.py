@@ -39,7 +39,7 @@ def plot(found, width=760, height=440):
     shown = [p for p in found if p["told_apart"] is not None]
     script = (f'set terminal svg size {width},{height} {plots.FONT} background rgb "#ffffff"\nset output "plot.svg"\n{plots.STYLE}'
               'set encoding utf8\nset xlabel "frames exceeded, mean over the paths, %"\nset ylabel "told apart from off, AUC within 15 m"\n'
-              "set offsets graph 0.05, graph 0.3, graph 0.1, graph 0.1\n")
+              "set offsets 0, graph 0.3, graph 0.1, graph 0.1\nset xrange [0:]\n")
     for k, p in enumerate(shown):
         script += (f'set label {k + 1} "  {p["name"]}" at {100 * p["exceeded"]:.4f},{p["told_apart"]:.4f} left point pt 7 ps 0.8 '
                    f'lc rgb "{plots.COLOURS[p["mode"]]}" textcolor rgb "{plots.COLOURS[p["mode"]]}"\n')

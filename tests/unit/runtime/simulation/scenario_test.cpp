@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "runtime/base/file.h"
+#include "runtime/simulation/side_by_side.h"
 #include "runtime/simulation/simulation.h"
 
 namespace flaneur {
@@ -165,8 +166,55 @@ TEST(Legs, LookingAboutStaysWithinBothSides) {
   EXPECT_NEAR(most_rad * 180 / kPi, 45, 6);
 }
 
+const std::string kWanders = "[camera]\nposition_m = [0, 0]\n[[camera.leg]]\nwander_s = 40\nseed = ";
+
+TEST(Legs, AWandererGoesAboutAsTheSeedSays) {
+  std::vector<Vec2> ends;
+  for (const char* seed : {"7", "7", "8"}) {
+    const Simulation s = Played(kWanders + seed + "\n", 900);
+    EXPECT_FALSE(s.visitor.finished);
+    ends.push_back(s.visitor.camera.view.position);
+  }
+  EXPECT_EQ(Length(ends[0] - ends[1]), 0);
+  EXPECT_GT(Length(ends[0] - ends[2]), 0.5f);
+  EXPECT_TRUE(Played(kWanders + "7\n", 1210).visitor.finished);
+}
+
+// A crowd that walks about in the visitor's way, as free people and as the control asks them to.
+TEST(SideBySide, VisitorsAreAtTheSamePlaceAtTheSameMomentsAndComeTooNearToNobody) {
+  const std::string text = kWanders + "3\n";
+  std::vector<Simulation> runs(2);
+  for (size_t k = 0; k < 2; ++k) {
+    Scenario scenario;
+    ASSERT_EQ(Parse("people = 120\nadaptation = \"" + std::string(k == 0 ? "off" : "full") + "\"\n" + kGround + text,
+                    &scenario)
+                  .message,
+              "");
+    ASSERT_FALSE(StartSimulation(nullptr, scenario, &runs[k]));
+  }
+  const float personal_m = runs[0].control.settings.r_personal_m;
+  double apart_m = 0, walked_m = 0;
+  for (int step = 0; step < 900; ++step) {
+    StepSideBySide({&runs[0], &runs[1]}, {0, 0});
+    const CameraState &first = runs[0].visitor.camera, &second = runs[1].visitor.camera;
+    ASSERT_EQ(Length(first.view.position - second.view.position), 0);
+    ASSERT_EQ(first.view.yaw_rad, second.view.yaw_rad);
+    walked_m += static_cast<double>(first.actual_mps * Step_s(runs[0]));
+    for (const Simulation& run : runs) {
+      for (const Vec2 p : run.town.crowd.position) ASSERT_GE(Length(p - first.view.position), personal_m);
+    }
+    for (size_t i = 0; i < 10; ++i)
+      apart_m += static_cast<double>(Length(runs[0].town.crowd.position[i] - runs[1].town.crowd.position[i]));
+  }
+  EXPECT_GT(walked_m, 5);
+  EXPECT_GT(apart_m, 0) << "the crowds are not the same";
+}
+
 TEST(Legs, AKeyOfAnotherKindIsRefused) {
   Scenario s;
+  EXPECT_NE(Parse("[[camera.leg]]\nwait_s = 1\nseed = 3\n", &s).message.find("seed belongs"), std::string::npos);
+  EXPECT_NE(Parse("[[camera.leg]]\nwander_s = 1\nspeed_mps = 3\n", &s).message.find("draws its own"),
+            std::string::npos);
   EXPECT_NE(Parse("[[camera.leg]]\nwait_s = 1\nfacing_deg = 90\n", &s).message.find("facing_deg belongs"),
             std::string::npos);
   EXPECT_NE(Parse("[[camera.leg]]\nwalk_to_m = [1, 1]\nbehind_m = 2\n", &s).message.find("behind_m belongs"),
