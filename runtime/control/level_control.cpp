@@ -12,13 +12,14 @@ namespace {
 
 using Memory = LevelState::Memory;
 
-constexpr float kFall_mps = 2.0f;  // r_high moves no faster than people walk,
-constexpr float kRise_mps = 0.5f;  // and comes back slowly: whoever it passes over switches in view
+constexpr float kFall_mps = 10.0f;  // r_high moves in soon
+constexpr float kRise_mps = 0.1f;   // and comes back slowly: whoever it passes over switches in view
 // A newly chosen level serves at so many times the pixels, at most, and at least where the limit is a number of people,
 // or what the budget affords of people served well.
 constexpr float kMostHeadroom = 8.0f, kLeastHeadroom = 0.05f, kLeastHeadroomOfTime = 1.0f;
-constexpr float kKeeps = 3.0f;  // a level is kept while it serves at so much less than that
-constexpr float kHeadroomFalls = 0.9f, kHeadroomRises = 1.02f;  // a step
+constexpr float kKeeps = 4.0f;      // a level is kept while it serves at so much less than that,
+constexpr float kKeepsFine = 4.0f;  // or is so much finer than it need be
+constexpr float kHeadroomFalls = 0.9f, kHeadroomRises = 1.01f;  // a step
 constexpr float kBudgetIsAmple = 0.8f;                          // this share of it in use
 constexpr float kReserve = 0.2f;                       // of limit and budget, kept for those who come into view near
 constexpr float kFallGain = 0.08f, kRiseGain = 0.02f;  // a step, of the relative error of the frame time (method 2)
@@ -84,8 +85,8 @@ int PeopleAfforded(const std::vector<AvatarCosts>& avatars, LevelState* state) {
 // every switch is one that could be seen.
 int WantedMesh(const AvatarCosts& avatar, float px, float headroom, Level last) {
   const int coarsest = CoarsestAt(avatar, px * std::min(headroom / kKeeps, 1.0f));
-  const int finest = CoarsestAt(avatar, px * headroom);
-  return !IsMesh(last) || last.mesh > coarsest ? finest : std::clamp(last.mesh, finest, coarsest);
+  if (!IsMesh(last) || last.mesh > coarsest) return CoarsestAt(avatar, px * headroom);
+  return std::clamp(last.mesh, CoarsestAt(avatar, px * headroom * kKeepsFine), coarsest);
 }
 
 // A level for somebody within r_high that still fits the budget, else the impostor.
@@ -209,13 +210,14 @@ void ListShadowCasters(const Crowd& crowd, const std::vector<AvatarCosts>& avata
   }
 }
 
-// r_high moves towards the distance that leaves `limit` people inside: soon where there are more, slowly where there
-// are fewer.
+// r_high moves towards the distance that leaves `limit` people inside, those counted who are meshes and stay it: soon
+// where there are more, slowly where there are fewer.
 void MoveBoundary(const ControlSettings& s, LevelState* state) {
   float wanted_m = s.r_high_m;
   state->nearest.clear();
   for (const LevelState::InSight& v : state->in_sight) {
-    if (v.distance_m < wanted_m) state->nearest.push_back(v.distance_m);
+    const float from_m = v.priority == kAppears ? v.distance_m : v.key_m;
+    if (from_m < wanted_m) state->nearest.push_back(from_m);
   }
   if (static_cast<size_t>(state->limit) < state->nearest.size()) {
     const auto next = state->nearest.begin() + state->limit;
@@ -262,15 +264,27 @@ struct Serving {
   const std::vector<AvatarCosts>& avatars;
   const LevelQuery& query;
   int64_t budget = 0, drawable = 0;  // triangles without shadows; people who fit as impostors
+  bool packed = false;               // more are near than there may be meshes, or nearly so
 };
 
-// Of limit and budget, for this person: the reserve is for those who come near.
-float ShareFor(const LevelState::InSight& v) {
-  return v.priority != kAppears || v.key_m < kNear_m ? 1.0f : 1 - kReserve;
+bool IsPacked(const LevelState& state) {
+  const auto is_near = [](const LevelState::InSight& v) { return v.distance_m < kNear_m; };
+  const auto near = std::count_if(state.in_sight.begin(), state.in_sight.end(), is_near);
+  return static_cast<float>(near) > std::ceil((1 - kReserve) * static_cast<float>(state.limit));
 }
 
-bool HasPlace(const LevelState::InSight& v, int meshes, int limit) {
-  return v.priority != kStays && static_cast<float>(meshes) < ShareFor(v) * static_cast<float>(limit);
+// Of limit and budget, for this person: the reserve is for those who come into view near, where it is packed within
+// r_high in force.
+float ShareFor(const LevelState::InSight& v, const Serving& serving, const LevelState& state) {
+  if (v.priority != kAppears) return 1;
+  return v.key_m < (serving.packed ? std::min(kNear_m, state.r_high_m) : kNear_m) ? 1.0f : 1 - kReserve;
+}
+
+// Where it is packed, nobody who is in view already is switched for a place that comes free: whoever comes next needs
+// it, and nobody sees them change.
+bool HasPlace(const LevelState::InSight& v, int meshes, const Serving& serving, const LevelState& state) {
+  if (v.priority == kStays || (v.priority == kWhereRoom && serving.packed)) return false;
+  return static_cast<float>(meshes) < ShareFor(v, serving, state) * static_cast<float>(state.limit);
 }
 
 float PixelsHigh(const LevelState::InSight& v, const AvatarCosts& avatar, const LevelQuery& query) {
@@ -283,7 +297,7 @@ int64_t TrianglesWanted(float headroom, const Serving& serving, const LevelState
   int meshes = 0;
   for (const LevelState::InSight& v : state.in_sight) {
     if (meshes >= state.limit) break;
-    if (!HasPlace(v, meshes, state.limit)) continue;
+    if (!HasPlace(v, meshes, serving, state)) continue;
     const auto i = static_cast<size_t>(v.person);
     const AvatarCosts& avatar = serving.avatars[static_cast<size_t>(serving.crowd.avatar[i])];
     const Level last = LastSeen(state.memory[static_cast<size_t>(serving.crowd.slot[i])]);
@@ -309,8 +323,8 @@ void FitHeadroom(const ControlSettings& s, const Serving& serving, LevelState* s
 
 Level LevelFor(const LevelState::InSight& v, const AvatarCosts& avatar, float px, Level last, const Serving& serving,
                const LevelState& state) {
-  if (!HasPlace(v, state.meshes, state.limit)) return kImpostor;
-  const auto budget = static_cast<int64_t>(ShareFor(v) * static_cast<float>(serving.budget));
+  if (!HasPlace(v, state.meshes, serving, state)) return kImpostor;
+  const auto budget = static_cast<int64_t>(ShareFor(v, serving, state) * static_cast<float>(serving.budget));
   return AffordableLevel(avatar, WantedMesh(avatar, px, state.headroom, last), budget, state.triangles);
 }
 
@@ -322,8 +336,9 @@ void Serve(const LevelState::InSight& v, bool fits, const Serving& serving, Leve
   const AvatarCosts& avatar = serving.avatars[static_cast<size_t>(crowd.avatar[i])];
   const Level last = LastSeen(m);
   const bool in_view = crowd.view[i] == ViewClass::kVisible;
-  // Who comes into the picture with the view's edge needs no fading.
-  const bool fades = IsDrawn(m.level) || (state->started && crowd.was_visible[i] != 0);
+  // Who comes into the picture with the view's edge needs no fading, nor who is beside it.
+  const bool was_in_view = state->started && crowd.was_visible[i] != 0;
+  const bool fades = was_in_view || (in_view && IsDrawn(m.level));
   Level level = kNotDrawn;
   if (fits) {
     const float px = PixelsHigh(v, avatar, serving.query);
@@ -380,7 +395,7 @@ void ChooseLevels(const Crowd& crowd, const std::vector<AvatarCosts>& avatars, c
   state->triangles =
       std::min<int64_t>(static_cast<int64_t>(state->in_sight.size()), drawable) * kImpostorTriangles + besides;
   state->high = state->low = state->meshes = state->impostors = state->shortfalls = state->switches_in_view = 0;
-  const Serving serving{crowd, avatars, query, budget, drawable};
+  const Serving serving{crowd, avatars, query, budget, drawable, IsPacked(*state)};
   FitHeadroom(s, serving, state);
   int64_t rank = 0;
   for (const LevelState::InSight& v : state->in_sight) Serve(v, rank++ < drawable, serving, state);

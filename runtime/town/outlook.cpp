@@ -25,7 +25,7 @@ constexpr float kLax = 1.0f;            // without pressure so many times the li
 constexpr float kElsewhere = 0.85f;     // a full view matters that much while the visitor looks elsewhere
 constexpr float kNeighbourhood = 2.5f;  // times r_high
 constexpr float kStays = 0.35f;         // share of usual people beyond the limit who stay for discretion
-constexpr float kPressureAtStart = 0.7f, kFillsAtStart = 0.9f, kStartRim_m = 0.5f;
+constexpr float kPressureAtStart = 0.7f, kFillsAtStart = 0.9f, kStartRim_m = 0.5f, kStartBody_m = 0.6f;
 constexpr int kEveryCell = 2;
 constexpr float kUsual = 0.05f;
 constexpr float kWorthFilling = 0.25f;
@@ -236,6 +236,18 @@ void BeginOutlook(int people, const Viewer& viewer, Town* town) {
   o.usual = share * static_cast<float>(people);
 }
 
+bool ShowsTooManyAtStart(const Viewer& viewer, const Town& town, Vec2 p) {
+  const ViewVolumes view = VolumesOf(viewer.camera, 0);
+  const float reach_m = town.outlook.reach_m + kStartRim_m;
+  const auto shows = [&](Vec2 place) {
+    const Vec2 off = place - viewer.camera.position;
+    return Dot(off, off) < reach_m * reach_m && Meets(place, kStartBody_m + kStartRim_m, view.inner_apex, view);
+  };
+  if (!CountsAtStart(viewer) || viewer.settings.high_limit <= 0 || !shows(p)) return false;
+  const auto& others = town.crowd.position;
+  return std::count_if(others.begin(), others.end(), shows) >= viewer.settings.high_limit;
+}
+
 bool HasRoomAtStart(const Viewer& viewer, const Town& town, Vec2 p) {
   const Outlook& o = town.outlook;
   const float reach_m = o.reach_m + kStartRim_m;
@@ -246,6 +258,7 @@ bool HasRoomAtStart(const Viewer& viewer, const Town& town, Vec2 p) {
     const Vec2 off = other - visitor;
     if (Dot(off, off) < reach_m * reach_m) sectors[static_cast<size_t>(SectorOf(off))] += 1;
   }
+  if (ShowsTooManyAtStart(viewer, town, p)) return false;
   const float most = FullestOver(sectors, SectorsOfView(viewer.camera.fov_rad) + 1)[static_cast<size_t>(SectorOf(own))];
   return most + 1 <= kFillsAtStart * Allowed(viewer.settings.high_limit, o.usual, viewer.settings.discretion);
 }

@@ -28,8 +28,10 @@ struct Outlook {
   std::array<Moment, kMoments> moments{};
 };
 
-// Before anybody is placed: where they start heeds the limit as well, so that the first picture keeps it.
+// Before anybody is placed: where they start heeds the limit as well. The first picture keeps it however many are usual
+// there; in other views as many more may be as later.
 void BeginOutlook(int people, const Viewer& viewer, Town* town);
+bool ShowsTooManyAtStart(const Viewer& viewer, const Town& town, Vec2 p);
 bool HasRoomAtStart(const Viewer& viewer, const Town& town, Vec2 p);
 
 // Only with full adaptation. Looks a few times a second, and sends people elsewhere who are out of sight, or far away,

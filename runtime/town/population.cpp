@@ -35,13 +35,16 @@ int PickAvatar(Town* town) {
   return 0;
 }
 
+// What places to start at leave room in: every view that there may be, or only the first.
+enum class Heeds { kEveryView, kFirstPicture, kNothing };
+
 // Which cells of the navigation grid are still to be had: looked up, so that starting is linear in people.
 struct Spots {
   std::vector<int> cells;     // where people may live, in random order
   std::vector<int> occupant;  // by cell of the grid: index in the crowd, -1: nobody
   size_t next = 0;
   float gap_m = kWideGap_m;  // beyond touching, to everybody else
-  bool heeds_limit = true;   // leaves room in the visitor's first view
+  Heeds heeds = Heeds::kEveryView;
 };
 
 void Occupy(const Walkable& w, const Crowd& c, size_t i, Spots* spots) {
@@ -81,7 +84,8 @@ bool IsToBeHad(const Viewer& viewer, const Town& town, const Spots& spots, int c
       if (Length(town.crowd.position[j] - p) < radius_m + town.crowd.radius_m[j] + spots.gap_m) return false;
     }
   }
-  if (spots.heeds_limit && !HasRoomAtStart(viewer, town, p)) return false;
+  if (spots.heeds == Heeds::kEveryView && !HasRoomAtStart(viewer, town, p)) return false;
+  if (spots.heeds == Heeds::kFirstPicture && ShowsTooManyAtStart(viewer, town, p)) return false;
   return !viewer.present || Length(p - viewer.camera.position) > viewer.settings.r_personal_m + radius_m + 0.5f;
 }
 
@@ -91,9 +95,10 @@ int NextSpot(const Viewer& viewer, const Town& town, float radius_m, Spots* spot
     while (spots->next < spots->cells.size() && !IsToBeHad(viewer, town, *spots, spots->cells[spots->next], radius_m))
       ++spots->next;
     if (spots->next < spots->cells.size()) return spots->cells[spots->next];
-    if (spots->gap_m <= kMinGap_m && !spots->heeds_limit) return -1;
-    if (spots->gap_m <= kMinGap_m) spots->heeds_limit = false;
-    spots->gap_m = kMinGap_m;
+    if (spots->gap_m > kMinGap_m) spots->gap_m = kMinGap_m;
+    else if (spots->heeds == Heeds::kEveryView) spots->heeds = Heeds::kFirstPicture;
+    else if (spots->heeds == Heeds::kFirstPicture) spots->heeds = Heeds::kNothing;
+    else return -1;
     spots->next = 0;
   }
 }

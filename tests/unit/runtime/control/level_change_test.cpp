@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/random.h"
 #include "runtime/control/level_control.h"
 
 namespace flaneur {
@@ -134,8 +135,6 @@ TEST(LevelChange, FartherThanAnybodyIsDrawnPeopleFadeOutAndIn) {
   EXPECT_TRUE(IsDrawn(s.at(0).level));
 }
 
-// As many arrivals as ten hours of a busy square have: what is kept about people grows with how many there are at once,
-// not with how many there have been.
 // Twenty who mill about at 3 to 9 m, for a minute, with a budget for half of what they would get where there is plenty.
 // The first in order got all of it, so that the last changed with every step they took past each other.
 TEST(LevelChange, WhereTheBudgetIsShortPeopleWhoMillAboutKeepTheirLevels) {
@@ -162,6 +161,46 @@ TEST(LevelChange, WhereTheBudgetIsShortPeopleWhoMillAboutKeepTheirLevels) {
   EXPECT_EQ(fewest, 20) << "nobody near is an impostor for lack of budget while others have more than they need";
 }
 
+// A visitor who turns on the spot in a throng, thrice as many in view as there may be meshes: who comes into view near
+// is served with a mesh, before anybody sees them change, and hardly anybody changes while they pass.
+TEST(LevelChange, WhoTurnsInAThrongSeesFewPeopleChange) {
+  Stage s(0);
+  Random random{4};
+  for (int k = 0; k < 240; ++k) {
+    Person person;
+    const float around = 2 * kPi * random.Uniform(), away_m = 1.5f + 10.5f * std::sqrt(random.Uniform());
+    person.position = {away_m * std::cos(around), away_m * std::sin(around)};
+    AddPerson(person, &s.crowd);
+  }
+  s.settings.high_limit = 14;
+  ViewCamera camera;
+  constexpr float kTurns_radps = 0.4f;
+  int switches = 0, seen = 0, near = 0, near_meshes = 0;
+  for (int step = 0; step < 70 * 30; ++step) {
+    camera.yaw_rad = std::remainder(camera.yaw_rad + kTurns_radps * kStep_s, 2 * kPi);
+    for (size_t i = 0; i < s.crowd.size(); ++i) {
+      s.crowd.was_visible[i] = s.crowd.view[i] == ViewClass::kVisible;
+      s.crowd.view[i] = Classify(s.crowd.position[i], s.crowd.reach_m[i], camera, 10);
+    }
+    ChooseLevels(s.crowd, s.avatars, s.settings, {camera, {{}, kTurns_radps}, 0}, &s.state);
+    ASSERT_LE(s.state.meshes, s.settings.high_limit);
+    if (step < 10 * 30) continue;  // until it has found how far meshes reach
+    switches += s.state.switches_in_view;
+    for (size_t i = 0; i < s.crowd.size(); ++i) {
+      if (s.crowd.view[i] != ViewClass::kVisible) continue;
+      ++seen;
+      if (Length(s.crowd.position[i]) > 3.5f) continue;
+      ++near, near_meshes += IsMesh(s.at(i).level);
+    }
+  }
+  const float minutes = static_cast<float>(seen) * kStep_s / 60;
+  EXPECT_GT(seen, 30 * 1800) << "it is a throng";
+  EXPECT_LE(static_cast<float>(switches), 2 * minutes);
+  EXPECT_GE(near_meshes, 9 * near / 10) << "who is nearest is drawn best";
+}
+
+// As many arrivals as ten hours of a busy square have: what is kept about people grows with how many there are at once,
+// not with how many there have been.
 TEST(LevelChange, TenHoursOfArrivalsKeepMemoryFlat) {
   Stage s(40);
   s.avatars[0].props = {{"hat", 0.5f, "", 10}};

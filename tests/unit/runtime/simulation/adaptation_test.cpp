@@ -146,6 +146,27 @@ TEST(Discretion, TheFirstPictureKeepsTheLimitWhereTheTownIsFull) {
   EXPECT_EQ(full, 0);
 }
 
+// As a market is: more people than the limit allows in any view, and nowhere else to go. The first picture keeps it
+// still.
+TEST(Discretion, TheFirstPictureKeepsTheLimitInAThrong) {
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    Scenario s = Square(Adaptation::kFull, 1.9f, seed);
+    s.persons.clear();
+    s.crowd.people = 120;
+    s.crowd_area = Area{{-9, -9}, {9, 9}};
+    s.control.high_limit = 14;
+    s.crowd.seed = seed;
+    s.camera_position_m = {0, 0};
+    s.camera_yaw_deg = 36 * static_cast<float>(seed);
+    Simulation simulation;
+    const Error e = StartSimulation(nullptr, s, &simulation);
+    ASSERT_FALSE(e) << e.message;
+    StepSimulation({}, 0, &simulation);
+    EXPECT_GE(simulation.town.crowd.size(), 115u);
+    EXPECT_FALSE(simulation.control.levels.exceeded) << "seed " << seed;
+  }
+}
+
 TEST(PersonalSpace, IsKeptWhereTheVisitorTurnsInADenseSquare) {
   Scenario scenario = Square(Adaptation::kOff, 1.9f, 1);
   scenario.camera_position_m = {0, 0};
