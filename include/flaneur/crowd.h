@@ -82,7 +82,7 @@ typedef struct FlaneurCrowdDef {
   int method;                 // FLANEUR_LIMIT_COUNT
   int high_limit;             // 12, 0 to 10,000
   float target_ms;            // 16.7, of a frame, 1 to 1,000
-  int budget_triangles;       // 200,000, of all people in view, whatever the method; 0 to 1e9
+  int budget_triangles;       // 200,000, of all people in view, whatever the method; 1 to 1e9
   float r_personal_m;         // 0.6; nobody comes nearer to the camera; 0 to 10
   float r_high_m;             // 10; high resolution within it; 0 for nobody, else above r_personal_m and below r_far_m
   float r_unimportant_m;      // 40; beyond it people are not asked to go elsewhere

@@ -87,14 +87,43 @@ std::vector<Shape> ShapesOf(const Site& site, const std::vector<TownObject>& obj
   return shapes;
 }
 
+// Whether triangles were lost all over the town, as in a spoilt file: then some walls are missing whole.
+bool HasLostTriangles(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes) {
+  int missing = 0, all = 0;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].kind != ObstacleKind::kBuilding) continue;
+    missing += shapes[i].missing_triangles;
+    all += Count(objects[i].triangles);
+  }
+  return missing >= kMinLostTriangles && missing >= kMinLostShare * all;
+}
+
+// What is left of a floor is one as well.
+void FindLostFloors(const Site& site, const std::vector<Neighbours>& neighbours, std::vector<TownObject>* objects,
+                    std::vector<Shape>* shapes) {
+  std::vector<char> is_new(objects->size(), false);  // no vector<bool>: threads write beside each other
+  ForEach(objects->size(), site.options.threads, [&](size_t i) {
+    TownObject& object = (*objects)[i];
+    if (object.kind != ObstacleKind::kBuilding || !object.foundation.empty()) return;
+    object.foundation = FloorOf(object.triangles, kMinFloorLost);
+    is_new[i] = !object.foundation.empty();
+  });
+  ForEach(objects->size(), site.options.threads, [&](size_t i) {
+    if (is_new[i]) (*shapes)[i] = ShapeOf(site, (*objects)[i], neighbours[i]);
+  });
+}
+
 // Closes what is open in the buildings' shells, each with its neighbours and then by itself; says which were open.
 void CloseShells(const Site& site, const std::vector<TownObject>& objects, const std::vector<Block>& blocks,
-                 const std::vector<Neighbours>& neighbours, std::vector<Shape>* shapes) {
+                 const std::vector<Neighbours>& neighbours, bool has_lost, std::vector<Shape>* shapes) {
   ForEach(blocks.size(), site.options.threads, [&](size_t k) { ShareBlock(site, objects, blocks[k], shapes); });
+  const std::vector<std::vector<size_t>> adjoining = Adjoining(objects);
   ForEach(shapes->size(), site.options.threads, [&](size_t i) {
     Shape& shape = (*shapes)[i];
+    Neighbours beside;
+    for (const size_t k : adjoining[i]) beside.push_back(&objects[k]);
     CloseRooms(site, objects[i], neighbours[i], &shape);
-    CloseGround(site, objects[i], &shape);
+    CloseGround(site, objects[i], beside, has_lost, &shape);
     shape.open_shell = objects[i].kind == ObstacleKind::kBuilding && (shape.guessed || shape.open_m > kMaxOpenShell_m);
   });
 }
@@ -251,7 +280,9 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   const std::vector<Block> blocks = BlocksOf(objects);
   const std::vector<Neighbours> neighbours = NeighboursOf(site, objects);
   std::vector<Shape> shapes = ShapesOf(site, objects, neighbours);
-  CloseShells(site, objects, blocks, neighbours, &shapes);
+  const bool has_lost = HasLostTriangles(objects, shapes);
+  if (has_lost) FindLostFloors(site, neighbours, &town.obstacles, &shapes);
+  CloseShells(site, objects, blocks, neighbours, has_lost, &shapes);
   FootprintStats counts = Count(objects, shapes);
   if (options.merge_blocks)
     for (const Block& block : blocks) MergeBlock(block, &shapes);

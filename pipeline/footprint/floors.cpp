@@ -32,7 +32,7 @@ class FloorFinder {
     level_ = lowest_;
   }
 
-  std::vector<Triangle3> Run() {
+  std::vector<Triangle3> Run(double least_share) {
     for (const Triangle3& t : triangles_) {
       DrawEdges(t, &lowest_), DrawArea(t, &lowest_);
       if (IsLevel(t)) DrawArea(t, &level_);
@@ -44,7 +44,7 @@ class FloorFinder {
         covered += lowest_.height_m[CellAt(lowest_, column, row)] != kNoHeight;
         if (IsLowest(column, row) && !is_floor_[CellAt(level_, column, row)]) floor += TakePart(column, row);
       }
-    if (2 * floor < covered) return {};
+    if (static_cast<double>(floor) < least_share * static_cast<double>(covered)) return {};
     std::vector<Triangle3> out;
     for (const Triangle3& t : triangles_)
       if (IsLevel(t) && LiesOnFloor(t)) out.push_back(t);
@@ -138,8 +138,8 @@ class FloorFinder {
 
 }  // namespace
 
-std::vector<Triangle3> FloorOf(const std::vector<Triangle3>& triangles) {
-  return triangles.empty() ? std::vector<Triangle3>() : FloorFinder(triangles).Run();
+std::vector<Triangle3> FloorOf(const std::vector<Triangle3>& triangles, double least_share) {
+  return triangles.empty() ? std::vector<Triangle3>() : FloorFinder(triangles).Run(least_share);
 }
 
 }  // namespace flaneur

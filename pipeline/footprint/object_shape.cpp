@@ -9,6 +9,7 @@
 #include "pipeline/footprint/one_mouth.h"
 #include "pipeline/footprint/repair_shell.h"
 #include "pipeline/footprint/segment_grid.h"
+#include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
@@ -68,8 +69,26 @@ LocalGround Level(double height_m) {
   return LocalGround(raster);
 }
 
-// The share of a ring's length that runs along walls.
-double WalledShare(const Ring& ring, const std::vector<Segment>& walls, const SegmentGrid& grid) {
+// Segments that are asked whether a point lies on one of them.
+class LineSet {
+ public:
+  explicit LineSet(const std::vector<Segment>& segments)
+      : segments_(segments), grid_(segments_, kMinLoosePiece_m, segments.empty() ? kMaxCutCell_m : CellFor(segments)) {}
+
+  bool Pass(Point2 p) const {
+    const std::vector<size_t>& near = grid_.Near(p);
+    return std::any_of(near.begin(), near.end(), [&](size_t i) {
+      return DistanceToSegment(p, segments_[i].a, segments_[i].b) < kMinLoosePiece_m;
+    });
+  }
+
+ private:
+  std::vector<Segment> segments_;
+  SegmentGrid grid_;
+};
+
+// The share of a ring's length that runs along walls; where it runs along a joint without a wall it does not count.
+double WalledShare(const Ring& ring, const LineSet& walls, const LineSet& joints) {
   constexpr double kStep_m = 0.5;
   double walled = 0, all = 0;
   for (const Segment& edge : Outline({ring})) {
@@ -77,15 +96,12 @@ double WalledShare(const Ring& ring, const std::vector<Segment>& walls, const Se
     for (int k = 0; k < steps; ++k) {
       const double s = (k + 0.5) / steps;
       const Point2 p{edge.a.x + s * (edge.b.x - edge.a.x), edge.a.y + s * (edge.b.y - edge.a.y)};
-      const std::vector<size_t>& near = grid.Near(p);
-      const bool is_wall = std::any_of(near.begin(), near.end(), [&](size_t i) {
-        return DistanceToSegment(p, walls[i].a, walls[i].b) < kMinLoosePiece_m;
-      });
+      if (walls.Pass(p)) walled += Length(edge) / steps;
+      else if (joints.Pass(p)) continue;
       all += Length(edge) / steps;
-      if (is_wall) walled += Length(edge) / steps;
     }
   }
-  return all > 0 ? walled / all : 0;
+  return all > 0 ? walled / all : 1;
 }
 
 // Nobody gets into a hole. Where no walls bound it, or the model says that the building stands there, it is none: some
@@ -93,11 +109,11 @@ double WalledShare(const Ring& ring, const std::vector<Segment>& walls, const Se
 void FillHoles(const std::vector<Segment>& walls, const TownObject& object, Shape* shape) {
   if (std::none_of(shape->solid.begin(), shape->solid.end(), [](const Ring& r) { return SignedArea(r) < 0; })) return;
   const Rings ground = object.foundation_is_given ? InPlan(object.foundation) : Rings();
-  const SegmentGrid grid(walls, kMinLoosePiece_m, walls.empty() ? kMaxCutCell_m : CellFor(walls));
+  const LineSet all_walls(walls), no_joints({});
   const size_t filled = std::erase_if(shape->solid, [&](const Ring& ring) {
     if (SignedArea(ring) >= 0) return false;
     const Rings hole{Ring(ring.rbegin(), ring.rend())};
-    return WalledShare(ring, walls, grid) < kMinWalledHole ||
+    return WalledShare(ring, all_walls, no_joints) < kMinWalledHole ||
            (!ground.empty() && Area(Difference(hole, ground)) < kMaxOffGround * Area(hole));
   });
   if (filled == 0) return;
@@ -106,12 +122,14 @@ void FillHoles(const std::vector<Segment>& walls, const TownObject& object, Shap
 }
 
 // Closes what is missing from a building's shell; whether that is something in the band.
-bool Repair(const Site& site, const Stand& stand, const TownObject& object, std::vector<Triangle3>* triangles) {
+bool Repair(const Site& site, const Stand& stand, const TownObject& object, std::vector<Triangle3>* triangles,
+            int* missing_triangles) {
   if (object.kind != ObstacleKind::kBuilding) return false;
   std::vector<Triangle3> shell = object.triangles;
   shell.insert(shell.end(), object.foundation.begin(), object.foundation.end());
   const std::vector<Triangle3> missing = MissingTriangles(shell);
   if (missing.empty()) return false;
+  *missing_triangles = Count(missing);
   triangles->insert(triangles->end(), missing.begin(), missing.end());
   const BandParts parts = PartsInBand(site, stand, missing);
   return !parts.walls.empty() || !parts.areas.empty();
@@ -163,7 +181,7 @@ Shape ShapeOf(const Site& site, const TownObject& object, const Neighbours& neig
   Shape shape;
   shape.ground_z_m = GroundInTheMiddle(stand, object);
   std::vector<Triangle3> triangles = object.triangles;
-  shape.guessed = Repair(site, stand, object, &triangles);
+  shape.guessed = Repair(site, stand, object, &triangles, &shape.missing_triangles);
   const BandParts parts = PartsInBand(site, stand, triangles);
   const Overhead overhead({&triangles});
   const Roofs is_solid(site, stand.ground(0), overhead);
@@ -196,25 +214,68 @@ void CloseRooms(const Site& site, const TownObject& object, const Neighbours& ne
   SetLoose(std::vector<Segment>(shape->loose), shape);
 }
 
-void CloseGround(const Site& site, const TownObject& object, Shape* shape) {
-  if (object.kind != ObstacleKind::kBuilding || object.foundation.empty() || shape->open_m <= kMaxOpenShell_m) return;
+namespace {
+
+void AppendEdges(const std::vector<Triangle3>& triangles, std::vector<Segment>* to) {
+  for (const Triangle3& t : triangles)
+    for (size_t i = 0; i < 3; ++i) {
+      const Point3 &a = t[i], &b = t[(i + 1) % 3];
+      if (a.x != b.x || a.y != b.y) to->push_back({{a.x, a.y}, {b.x, b.y}});
+    }
+}
+
+// A building's ground: as it is, or where the town has lost triangles with what its edges, walls and the grounds beside
+// it enclose under its roof.
+Rings WholeGround(const TownObject& object, const Neighbours& beside, const Roofs& is_solid, std::vector<Segment> walls,
+                  bool has_lost) {
+  Rings ground = InPlan(object.foundation);
+  if (!has_lost) return ground;
+  AppendEdges(object.foundation, &walls);
+  Rings others;
+  for (const TownObject* other : beside) {
+    AppendEdges(other->foundation, &walls);
+    const Rings theirs = InPlan(other->foundation);
+    others.insert(others.end(), theirs.begin(), theirs.end());
+  }
+  const Rings enclosed = EncloseRegions(CutWhereTheyMeet(std::move(walls)), is_solid).solid;
+  const Rings notches = Difference(enclosed, UnionOfAreas(others));
+  ground.insert(ground.end(), notches.begin(), notches.end());
+  return Offset(Offset(UnionOfAreas(ground), kSeamInPlan_m), -kSeamInPlan_m);
+}
+
+double LeastWalled(const TownObject& object, bool has_lost) {
+  if (has_lost) return kMinWalledLost;
+  return object.foundation_is_given ? kMinWalledGround : kMinWalledFloor;
+}
+
+}  // namespace
+
+void CloseGround(const Site& site, const TownObject& object, const Neighbours& beside, bool has_lost, Shape* shape) {
+  const bool is_lost = has_lost && shape->solid.empty();  // its own walls may all lie against others'
+  if (object.kind != ObstacleKind::kBuilding || object.foundation.empty()) return;
+  if (shape->open_m <= kMaxOpenShell_m && !is_lost) return;
   const Point3& at = object.foundation[0][0];
   if (site.ground && std::abs(site.ground->Height(at.x, at.y) - at.z) > kSameGround_m) return;
-  const Rings open = Difference(InPlan(object.foundation), Offset(shape->solid, kOnOutline_m));
-  std::vector<Segment> walls = shape->loose;
+  std::vector<Segment> walls = shape->loose, joints;
   const std::vector<Segment> outline = Outline(shape->solid);
   walls.insert(walls.end(), outline.begin(), outline.end());
-  if (open.empty() || walls.empty()) return;
-  const SegmentGrid grid(walls, kMinLoosePiece_m, CellFor(walls));
+  if (walls.empty() && !has_lost) return;
   const Overhead overhead({&object.triangles});
-  const LocalGround ground = Level(at.z);
-  const Roofs is_solid(site, ground, overhead);
+  const LocalGround level = Level(at.z);
+  const Roofs is_solid(site, level, overhead);
+  const Rings open =
+      Difference(WholeGround(object, beside, is_solid, walls, has_lost), Offset(shape->solid, kOnOutline_m));
+  for (const TownObject* other : beside) {
+    const std::vector<Segment> ground = Outline(InPlan(other->foundation));
+    joints.insert(joints.end(), ground.begin(), ground.end());
+  }
+  const LineSet all_walls(walls), all_joints(joints);
   Rings all = shape->solid;
   for (const Polygon& polygon : ToPolygons(open)) {
     Rings rings{polygon.outer};
     rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
-    const double least = object.foundation_is_given ? kMinWalledGround : kMinWalledFloor;
-    if (Area(rings) < kMinClaim_m2 || WalledShare(polygon.outer, walls, grid) < least || !is_solid(rings)) continue;
+    if (Area(rings) < kMinClaim_m2 || !(has_lost || is_solid(rings))) continue;  // its roof may be among the lost
+    if (WalledShare(polygon.outer, all_walls, all_joints) < LeastWalled(object, has_lost)) continue;
     all.insert(all.end(), rings.begin(), rings.end());
   }
   if (all.size() == shape->solid.size()) return;

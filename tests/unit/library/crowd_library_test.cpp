@@ -286,7 +286,8 @@ TEST(Crowds, EveryNumberOfADefinitionMayBeAnything) {
   EXPECT_EQ(StatusOf([](Def* def) { def->r_personal_m = def->r_high_m = 5; }), FLANEUR_ERROR_INPUT);
   EXPECT_EQ(StatusOf([](Def* def) { def->r_far_m = def->r_high_m; }), FLANEUR_ERROR_INPUT);
   EXPECT_EQ(StatusOf([](Def* def) { def->r_high_m = 0; }), FLANEUR_OK);
-  EXPECT_EQ(StatusOf([](Def* def) { def->high_limit = 0, def->budget_triangles = 0; }), FLANEUR_OK);
+  EXPECT_EQ(StatusOf([](Def* def) { def->high_limit = 0; }), FLANEUR_OK);
+  EXPECT_EQ(StatusOf([](Def* def) { def->budget_triangles = 0; }), FLANEUR_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(StatusOf([](Def* def) { def->internal_value = 0; }), FLANEUR_ERROR_DEFINITION);
 }
 
