@@ -2,6 +2,7 @@
 import csv
 import json
 import math
+import pathlib
 import re
 import signal
 import subprocess
@@ -94,12 +95,14 @@ class DemoTour(ProgramTest):
                 self.assertLess(min(math.dist(stop["position_m"], place) for place in way), 1.0)
 
     def test_interrupted_film_leaves_nothing(self):
-        film = subprocess.Popen([BIN / "flaneur-player", self.pack, "--headless", "--seconds", "60", "--size", "160x90",
+        film = subprocess.Popen([BIN / "flaneur-player", self.pack, "--headless", "--seconds", "600", "--size", "160x90",
                                  "--film", self.folder / "film.mp4"], stderr=subprocess.PIPE, text=True)
+        def encodes():  # until it is whole the film has no name
+            return any(children.read_text() for children in pathlib.Path(f"/proc/{film.pid}/task").glob("*/children"))
         deadline = time.monotonic() + 120
-        while not list(self.folder.iterdir()) and film.poll() is None and time.monotonic() < deadline:
+        while not encodes() and film.poll() is None and time.monotonic() < deadline:
             time.sleep(0.05)
-        self.assertTrue(list(self.folder.iterdir()), "the film never began")
+        self.assertTrue(encodes(), "the film never began")
         film.send_signal(signal.SIGTERM)
         complaint = film.communicate(timeout=60)[1]
         self.assertEqual(film.returncode, 2)
