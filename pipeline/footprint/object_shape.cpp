@@ -251,7 +251,7 @@ double LeastWalled(const TownObject& object, bool has_lost) {
 }  // namespace
 
 void CloseGround(const Site& site, const TownObject& object, const Neighbours& beside, bool has_lost, Shape* shape) {
-  const bool is_lost = has_lost && shape->solid.empty();  // its own walls may all lie against others'
+  const bool is_lost = has_lost && shape->solid.empty();
   if (object.kind != ObstacleKind::kBuilding || object.foundation.empty()) return;
   if (shape->open_m <= kMaxOpenShell_m && !is_lost) return;
   const Point3& at = object.foundation[0][0];
@@ -259,7 +259,11 @@ void CloseGround(const Site& site, const TownObject& object, const Neighbours& b
   std::vector<Segment> walls = shape->loose, joints;
   const std::vector<Segment> outline = Outline(shape->solid);
   walls.insert(walls.end(), outline.begin(), outline.end());
-  if (walls.empty() && !has_lost) return;
+  if (is_lost) {  // walls that lie against others' are none of the loose ones
+    const std::vector<Segment> own = Lines(PartsInBand(site, Stand(site, object), object.triangles));
+    walls.insert(walls.end(), own.begin(), own.end());
+  }
+  if (walls.empty()) return;
   const Overhead overhead({&object.triangles});
   const LocalGround level = Level(at.z);
   const Roofs is_solid(site, level, overhead);
