@@ -104,11 +104,11 @@ double WalledShare(const Ring& ring, const LineSet& walls, const LineSet& joints
   return all > 0 ? walled / all : 1;
 }
 
-// Nobody gets into a hole. Where no walls bound it, or the model says that the building stands there, it is none: some
-// part lower than the band.
+// Nobody gets into a hole. Where no walls bound it, parts of the building cover it, or the model says that the building
+// stands there, it is none: some part lower than the band.
 void FillHoles(const std::vector<Segment>& walls, const TownObject& object, Shape* shape) {
   if (std::none_of(shape->solid.begin(), shape->solid.end(), [](const Ring& r) { return SignedArea(r) < 0; })) return;
-  const Rings ground = object.foundation_is_given ? InPlan(object.foundation) : Rings();
+  const Rings ground = InPlan(object.foundation_is_given ? object.foundation : object.triangles);
   const LineSet all_walls(walls), no_joints({});
   const size_t filled = std::erase_if(shape->solid, [&](const Ring& ring) {
     if (SignedArea(ring) >= 0) return false;
