@@ -75,7 +75,7 @@ inline constexpr double kDeckMouth_m = 0.6;      // before its end the ground is
 inline constexpr double kMinWalledGround = 0.7;  // of its outline is walls, where the model says that it is ground
 inline constexpr double kMinWalledFloor = 0.85;  // likewise on a floor that was found
 inline constexpr double kMinWalledLost = 0.3;    // likewise in a town that has lost triangles
-inline constexpr double kMinFloorLost = 0.25;    // of a building lies over what is left of its floor, likewise
+inline constexpr double kMinFloorLost = 0.15;    // of a building lies over what is left of its floor, likewise
 inline constexpr double kMinLostShare =
     0.01;  // of a town's triangles missing singly: others are missing with their neighbours
 inline constexpr int kMinLostTriangles = 5;

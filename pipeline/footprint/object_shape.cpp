@@ -121,6 +121,15 @@ void FillHoles(const std::vector<Segment>& walls, const TownObject& object, Shap
   SetLoose(std::vector<Segment>(shape->loose), shape);
 }
 
+// Walls that lean by a hair cover a hair of ground: where a building is nothing but such, they are lines.
+void TakeStripsAsWalls(Shape* shape) {
+  if (shape->solid.empty() || !Offset(shape->solid, -kStripe_m / 2).empty()) return;
+  std::vector<Segment> lines = Outline(shape->solid);
+  lines.insert(lines.end(), shape->loose.begin(), shape->loose.end());
+  shape->solid.clear();
+  SetLoose(lines, shape);
+}
+
 // Closes what is missing from a building's shell; whether that is something in the band.
 bool Repair(const Site& site, const Stand& stand, const TownObject& object, std::vector<Triangle3>* triangles,
             int* missing_triangles) {
@@ -194,7 +203,7 @@ Shape ShapeOf(const Site& site, const TownObject& object, const Neighbours& neig
     CloseUnderRoofs(shape.loose, kNoWay_m, is_solid, &shape);
     shape.guessed |= Area(shape.solid) > before + kMinGap_m2;
   }
-  if (object.kind == ObstacleKind::kBuilding) FillHoles(parts.walls, object, &shape);
+  if (object.kind == ObstacleKind::kBuilding) FillHoles(parts.walls, object, &shape), TakeStripsAsWalls(&shape);
   return shape;
 }
 

@@ -43,6 +43,7 @@ constexpr made_up::Mix kRows{"rows", PartyWalls::kNone, true, false, false, fals
 constexpr made_up::Mix kRowsOfOne{"rows of one", PartyWalls::kOneOwner, true, false, false, false, false, false};
 constexpr made_up::Mix kYardsOfOne{"yards of one", PartyWalls::kOneOwner, false, true, false, false, false, false};
 constexpr made_up::Mix kYards{"yards", PartyWalls::kNone, false, true, false, false, false, false};
+constexpr made_up::Mix kYardsOfHouses{"yards", PartyWalls::kBoth, false, true, false, false, false, false};
 constexpr made_up::Mix kHuge{"huge", PartyWalls::kBoth, false, false, true, false, false, false};
 constexpr made_up::Mix kTowers{"towers", PartyWalls::kBoth, false, false, false, true, false, false};
 constexpr made_up::Mix kBasins{"basins", PartyWalls::kBoth, false, false, false, false, true, false};
@@ -54,6 +55,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"rows without party walls, untagged", kRows, {}, false, 0.99},
                     Case{"rows without party walls, dropped", kRows, {.name = "", .drop = true}, false, 0.97},
                     Case{"yards without party walls, dropped", kYards, {.name = "", .drop = true}, false, 0.97},
+                    Case{"rows without party walls, jittered", kRows, {.name = "", .jitter = true}, false, 0.995},
+                    Case{"yards, untagged", kYardsOfHouses, {}, false, 0.999},
+                    Case{"huge, no ground", kHuge, {.name = "", .no_ground = true}, false, 0.998},
+                    Case{"towers, no ground", kTowers, {.name = "", .no_ground = true}, false, 0.998},
+                    Case{"basins, no ground", kBasins, {.name = "", .no_ground = true}, false, 0.998},
                     Case{"rows, walls of one owner", kRowsOfOne, {}, true, 0.99},
                     Case{"yards, walls of one owner", kYardsOfOne, {}, true, 0.99},
                     Case{"huge, untagged", kHuge, {}, false, 0.998},
