@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "runtime/base/array.h"
@@ -39,15 +41,48 @@ bool Moves(const DocumentClip& clip) {
   });
 }
 
-// -1: none. Of several names that contain the word the shortest is the plainest; file order breaks ties.
+// In words: "Rig|Jump_Idle2" and "rigJumpIdle" both have jump and idle.
+std::vector<std::string> WordsOf(const std::string& name) {
+  std::vector<std::string> words;
+  char before = ' ';
+  for (const char c : name) {
+    const bool is_letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
+    const bool begins = std::isupper(static_cast<unsigned char>(c)) && std::islower(static_cast<unsigned char>(before));
+    if (is_letter && (begins || !std::isalpha(static_cast<unsigned char>(before)))) words.emplace_back();
+    if (is_letter) words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    before = c;
+  }
+  return words;
+}
+
+// Whether a name says that something else is done than strolling, standing or talking through a town.
+bool SaysMore(const std::string& name) {
+  static constexpr std::string_view kOthers[] = {
+      "aim",    "attack", "back",     "backward", "backwards", "block", "bow",     "carry",  "climb",  "combat",
+      "crawl",  "crouch", "dead",     "death",    "die",       "fall",  "falling", "fight",  "fly",    "gun",
+      "hang",   "hit",    "jump",     "left",     "lie",       "lying", "melee",   "pistol", "ranged", "ride",
+      "riding", "rifle",  "right",    "shield",   "shoot",     "sit",   "sitting", "sleep",  "sneak",  "spear",
+      "strafe", "swim",   "swimming", "sword",    "weapon",    "zombie"};
+  const std::vector<std::string> words = WordsOf(name);
+  return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return std::find(std::begin(kOthers), std::end(kOthers), word) != std::end(kOthers);
+  });
+}
+
+// -1: none. Of several names that contain the word the shortest is the plainest; file order breaks ties. Who walks may
+// do so with a weapon where there is no other walk; who stands does not hang in the air.
 int GuessClip(const std::vector<std::string>& names, const std::string& word) {
   int best = -1;
+  bool best_says_more = false;
   for (size_t i = 0; i < names.size(); ++i) {
     const std::string name = Lower(names[i]);
     const size_t space = name.find_last_of('|');
     if (name == word || (space != std::string::npos && name.substr(space + 1) == word)) return static_cast<int>(i);
-    if (name.find(word) == std::string::npos) continue;
-    if (best < 0 || name.size() < At(names, best).size()) best = static_cast<int>(i);
+    const bool says_more = SaysMore(names[i]);
+    if (name.find(word) == std::string::npos || (says_more && (word == "idle" || word == "talk"))) continue;
+    const bool is_plainer =
+        says_more != best_says_more ? best_says_more : best >= 0 && name.size() < At(names, best).size();
+    if (best < 0 || is_plainer) best = static_cast<int>(i), best_says_more = says_more;
   }
   return best;
 }
