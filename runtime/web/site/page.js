@@ -117,8 +117,11 @@ function follow(state, parts) {
   for (const part of [parts.bar, parts.pages, parts.hands]) part.show(state);
   parts.sounds.follow();
   keepSettings(parts.player.text('page_settings'));
-  if (state.caption !== caption.textContent) caption.textContent = state.caption;
   caption.hidden = !state.caption;
+  if (state.caption !== caption.textContent) {
+    caption.textContent = state.caption;
+    caption.classList.toggle('scrolls', caption.scrollHeight > caption.clientHeight);
+  }
   caption.lang = state.language;
   Object.assign(page.dataset, {textSize: state.text_size, contrast: state.high_contrast ? 'high' : 'usual',
                                motion: state.reduced_motion ? 'reduced' : 'usual'});

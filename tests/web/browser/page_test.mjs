@@ -180,6 +180,13 @@ const tests = {
     await until(page, 'turns', (s) => Math.sin(s.yaw_rad - before.yaw_rad) < -0.05);
     await pause(1500);
     before = await stateOf(page);
+    assert.equal(await page.evaluate(() => {
+      const caption = document.getElementById('caption');
+      caption.hidden = false;
+      caption.textContent ||= 'words over the town';
+      const box = caption.getBoundingClientRect();
+      return document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2).id;
+    }), 'canvas', 'a caption is in the way of hands');
     await tap(page, 160, 380);
     await until(page, 'goes where was tapped', (s) => apart(s.place_m, before.place_m) > 0.4);
     before = await stateOf(page);
