@@ -30,26 +30,32 @@ namespace fs = std::filesystem;
 
 constexpr float kBareGroundMargin_m = 15;
 
+UpAxis UpAxisOf(const std::string& name) {
+  return name.empty() ? UpAxis::kJudged : name == "y" ? UpAxis::kY : UpAxis::kZ;
+}
+
 Error ReadTown(Baking* baking, Scene* town, Warnings* warnings) {
   const TourSettings& s = baking->settings;
   SceneSource source;  // of the town's own file
-  const auto read = [&](const fs::path& file, Scene* part, const std::string& crs, SceneSource* of) -> Error {
+  const auto read = [&](const fs::path& file, const ReadSceneOptions& options, Scene* part, SceneSource* of) -> Error {
     if (Error e = CheckFilesOfModel(file)) return e;
-    return ReadScene(file, part, warnings, {.system = crs}, of);
+    return ReadScene(file, part, warnings, options, of);
   };
   if (!s.town.file.empty()) {
     fs::path file;
     Scene whole;
     if (Error e = SourceFile(baking, 0, &file)) return e;
     const std::string& crs = s.georeference.crs;
-    if (Error e = read(file, &whole, crs == "none" ? "" : crs, &source)) return BadSource(baking, 0, e);
+    if (Error e = read(file, {crs == "none" ? "" : crs, UpAxisOf(s.town_obj_up)}, &whole, &source))
+      return BadSource(baking, 0, e);
     town->origin_m = {whole.origin_m.x * s.town_scale, whole.origin_m.y * s.town_scale};
     town->reference_system = whole.reference_system;
     AppendScene(std::move(whole), s.town_scale, 0, {}, town);
   }
   for (const TownPart& part : s.parts) {
     Scene scene;
-    if (Error e = read(part.file, &scene, "", nullptr)) return Fail(PlaceOfFile(s, part.file) + e.message);
+    if (Error e = read(part.file, {"", UpAxisOf(part.obj_up)}, &scene, nullptr))
+      return Fail(PlaceOfFile(s, part.file) + e.message);
     AppendScene(std::move(scene), part.scale, part.yaw_deg * kPi / 180, part.position_m, town);
   }
   Georeference georeference = s.georeference;

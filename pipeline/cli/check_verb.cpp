@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/cli/arguments.h"
+#include "pipeline/cli/obj_up.h"
 #include "pipeline/cli/place_obstacles.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/footprint/check.h"
@@ -23,6 +24,7 @@ struct CheckArguments {
   std::filesystem::path obstacles, town, json, geojson, map, page;
   CheckOptions options;
   ReadGeoJsonOptions reading;
+  UpAxis obj_up = UpAxis::kJudged;
   bool warnings_as_errors = false;
   size_t most_listed = 10;
 };
@@ -42,6 +44,7 @@ void AddOptions(CLI::App* app, CheckArguments* a) {
   app->add_option("--units", a->reading.units, "Of the coordinates: auto, metres or degrees")
       ->transform(CLI::CheckedTransformer(units, CLI::ignore_case));
   app->add_option("--crs", a->reading.system, "The coordinates' system, such as EPSG:25832, whatever the file says");
+  AddObjUp(app, &a->obj_up);
   app->add_option("--clearance-m", a->options.clearance_m, "Least distance from wall to outline [default: the file's]")
       ->check(NumberFrom(0.0, 10.0));
   app->option_defaults()->always_capture_default();
@@ -118,7 +121,7 @@ struct TownToCheck {
 // The town, with the obstacles moved to where it stands.
 Error ReadTown(const CheckArguments& a, GeoJsonFile* file, std::vector<Finding>* faults, TownToCheck* town) {
   std::vector<std::string> warnings;
-  if (Error error = ReadScene(a.town, &town->scene, &warnings)) return error;
+  if (Error error = ReadScene(a.town, &town->scene, &warnings, {"", a.obj_up})) return error;
   if (Error error = PrepareTown(town->scene, file->footprints, a.options, &town->prepared))
     return Fail(a.town.string() + ": " + error.message);
   const Error error =

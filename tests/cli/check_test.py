@@ -274,6 +274,18 @@ class Check(ProgramTest):
         result, findings = self.check(out, "--town", town)
         self.assertEqual((result.returncode, findings), (0, []), "each house stands on its own ground")
 
+    def test_a_model_whose_up_axis_has_to_be_told(self):
+        """A tower that lies or stands: the format does not say, and a judge may be wrong."""
+        town, standing, lying = self.folder / "tower.obj", self.folder / "standing.geojson", self.folder / "lying.geojson"
+        corners = [(x, y, z) for z in (0, 40) for x, y in ((0, 0), (8, 0), (8, 6), (0, 6))]
+        faces = ((4, 3, 2, 1), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8))
+        town.write_text("o tower\n" + "".join("v %g %g %g\n" % c for c in corners) + "".join("f %d %d %d %d\n" % f for f in faces))
+        self.assert_succeeds(run("flaneur", "footprints", town, "-o", standing, "--obj-up", "z"))
+        self.assert_succeeds(run("flaneur", "footprints", town, "-o", lying, "--obj-up", "y"))
+        for obstacles, up, status in ((standing, "z", 0), (lying, "y", 0), (standing, "y", 1), (lying, "z", 1)):
+            with self.subTest(obstacles=obstacles.name, up=up):
+                self.assertEqual(run("flaneur", "check", obstacles, "--town", town, "--obj-up", up).returncode, status)
+
     def test_open_shells_are_told_by_the_file_too(self):
         out, made = self.extracted(CASES / "306.gltf")
         self.assertTrue(any(f["properties"].get("open_shell") is True for f in made["features"]))
