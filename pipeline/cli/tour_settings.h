@@ -30,8 +30,8 @@ struct SourceSettings {
 struct TownPart {
   std::filesystem::path file;
   Vec2 position_m;
-  float yaw_deg = 0;  // anticlockwise
-  float scale = 1;    // metres per unit of the file
+  float yaw_deg = 0;   // anticlockwise
+  float scale = 1;     // metres per unit of the file
   std::string obj_up;  // axis of an OBJ that points up: y or z; empty: judged
 };
 

@@ -10,9 +10,9 @@ namespace flaneur {
 
 Shape ShapeOf(const Site& site, const TownObject& object, const Neighbours& neighbours);
 
-// What of its ground walls enclose but for some that are missing, as where triangles were lost: a guess. Houses beside it
-// need no wall where their grounds meet. Where the town has lost triangles, whole walls and parts of the ground may be among
-// them.
+// What of its ground walls enclose but for some that are missing, as where triangles were lost: a guess. Houses beside
+// it need no wall where their grounds meet. Where the town has lost triangles, whole walls and parts of the ground may
+// be among them.
 void CloseGround(const Site& site, const TownObject& object, const Neighbours& beside, bool has_lost, Shape* shape);
 
 // Closes what neither the building's own walls nor its block's have closed.
