@@ -121,7 +121,7 @@ std::string PosterName(const std::vector<uint8_t>& picture) {
 
 // Smaller, where that is.
 Bytes PosterOf(const PackTitle& title) {
-  constexpr int kQuality = 60;
+  constexpr int kQuality = 50;
   const auto pixels = Decoded(title.page.picture);
   Bytes smaller = pixels ? EncodeJpeg(*pixels, kQuality) : Bytes();
   return smaller.empty() || smaller.size() > title.page.picture.size() ? title.page.picture : smaller;

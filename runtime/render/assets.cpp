@@ -127,6 +127,15 @@ Asset PrepareLevel(const TourPack& pack, const AssetId& id, const PackMesh& mesh
   return asset;
 }
 
+Asset PrepareTown(const TourPack& pack, const AssetId& id, TownGeometry geometry) {
+  Asset asset;
+  asset.id = id;
+  asset.content = std::make_unique<Asset::Content>();
+  asset.content->town = std::move(geometry);
+  if (!GroundHasShade(pack)) asset.content->wall_shade = BuildWallShade(pack.obstacles, *pack.ground);
+  return asset;
+}
+
 Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& plan, const AtlasFormats& formats) {
   Asset asset;
   asset.id = id;
@@ -134,9 +143,7 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
   const auto index = static_cast<size_t>(id.index);
   switch (id.kind) {
     case AssetKind::kTown:
-      asset.content->town = BuildTownGeometry(pack, plan);
-      if (!GroundHasShade(pack)) asset.content->wall_shade = BuildWallShade(pack.obstacles, *pack.ground);
-      break;
+      return PrepareTown(pack, id, BuildTownGeometry(pack, plan));
     case AssetKind::kPicture:
       if (plan.pictures[index].array >= 0) {
         asset.content->picture =

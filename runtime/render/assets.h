@@ -8,6 +8,8 @@
 
 namespace flaneur {
 
+struct TownGeometry;
+
 struct SurfacePlan;
 struct AtlasFormats;
 
@@ -53,5 +55,8 @@ Asset PrepareLevel(const TourPack& pack, const AssetId& id, const PackMesh& mesh
 
 // Of a pack that holds what the piece is made of.
 Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& plan, const AtlasFormats& formats);
+
+// The town's, of a geometry that was built in parts (town_geometry.h).
+Asset PrepareTown(const TourPack& pack, const AssetId& id, TownGeometry geometry);
 
 }  // namespace flaneur

@@ -11,17 +11,26 @@ namespace {
 
 constexpr GLuint kFrameBinding = 0;
 
-Error Compile(GLenum kind, const std::string& source, GLuint* shader) {
-  *shader = glCreateShader(kind);
+// Nobody asks at once how it went: drivers compile on other threads until somebody does.
+GLuint Compile(GLenum kind, const std::string& source) {
+  const GLuint shader = glCreateShader(kind);
   const char* text = source.c_str();
-  glShaderSource(*shader, 1, &text, nullptr);
-  glCompileShader(*shader);
-  GLint good = 0;
-  glGetShaderiv(*shader, GL_COMPILE_STATUS, &good);
-  if (good) return Ok();
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  return shader;
+}
+
+std::string WhyNot(GLuint program, GLuint vertex, GLuint fragment) {
   char log[1024] = "";
-  glGetShaderInfoLog(*shader, sizeof log, nullptr, log);
-  return Fail("the OpenGL driver refuses a shader: " + OneLine(log));
+  for (const GLuint shader : {vertex, fragment}) {
+    GLint good = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    if (good) continue;
+    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+    return "the OpenGL driver refuses a shader: " + OneLine(log);
+  }
+  glGetProgramInfoLog(program, sizeof log, nullptr, log);
+  return "the OpenGL driver refuses a shader program: " + OneLine(log);
 }
 
 void TakePlaces(Program* p) {
@@ -62,26 +71,21 @@ void TakePlaces(Program* p) {
 
 Error BuildProgram(ShaderProgram which, ShaderMode mode, Program* program) {
   const ShaderSource source = SourceOf(which, mode);
-  GLuint v = 0, f = 0;
-  if (Error e = Compile(GL_VERTEX_SHADER, source.vertex, &v)) return e;
-  if (Error e = Compile(GL_FRAGMENT_SHADER, source.fragment, &f)) return e;
+  const GLuint v = Compile(GL_VERTEX_SHADER, source.vertex), f = Compile(GL_FRAGMENT_SHADER, source.fragment);
   const GLuint id = program->id = glCreateProgram();
   glAttachShader(id, v);
   glAttachShader(id, f);
   glLinkProgram(id);
+  GLint good = 0;
+  glGetProgramiv(id, GL_LINK_STATUS, &good);
+  const std::string refusal = good ? "" : WhyNot(id, v, f);
   for (GLuint shader : {v, f}) {  // drivers keep what they made of it as long as it is attached
     glDetachShader(id, shader);
     glDeleteShader(shader);
   }
-  GLint good = 0;
-  glGetProgramiv(id, GL_LINK_STATUS, &good);
-  if (good) {
-    TakePlaces(program);
-    return Ok();
-  }
-  char log[1024] = "";
-  glGetProgramInfoLog(id, sizeof log, nullptr, log);
-  return Fail("the OpenGL driver refuses a shader program: " + OneLine(log));
+  if (!good) return Fail(refusal);
+  TakePlaces(program);
+  return Ok();
 }
 
 Error BuildProgram(ShaderProgram which, Program* program) { return BuildProgram(which, ShaderMode::kGpu, program); }

@@ -78,53 +78,6 @@ void AppendMasked(const std::vector<std::vector<uint32_t>>& masked, TownGeometry
   }
 }
 
-// The index array in order of block and group; vertices in order of their first use, so that a block's lie together.
-void PackBlocks(const SurfacePlan& plan, std::map<uint64_t, std::vector<Triangle>>* cells, TownGeometry* town) {
-  const std::vector<TownVertex> all = std::move(town->vertices);
-  std::vector<uint32_t> place(all.size(), UINT32_MAX);
-  town->vertices.clear();
-  town->vertices.reserve(all.size());
-  size_t count = 0;
-  for (const auto& [cell, triangles] : *cells) count += triangles.size();
-  town->indices.reserve(3 * count);
-  std::vector<std::vector<uint32_t>> masked(plan.groups.size());
-  for (auto& [cell, triangles] : *cells) {
-    std::stable_sort(triangles.begin(), triangles.end(),
-                     [](const Triangle& a, const Triangle& b) { return a.group < b.group; });
-    TownBlock block;
-    block.triangles = static_cast<int64_t>(triangles.size());
-    block.first_wall = town->walls.size();
-    for (const Triangle& t : triangles) {
-      const auto group = static_cast<size_t>(t.group);
-      std::vector<uint32_t>& indices = plan.groups[group].masked ? masked[group] : town->indices;
-      if (block.ranges.empty() || block.ranges.back().group != t.group) {
-        block.ranges.push_back({t.group, static_cast<uint32_t>(indices.size()), 0});
-      }
-      for (uint32_t corner : t.corners) {
-        if (place[corner] == UINT32_MAX) {
-          place[corner] = static_cast<uint32_t>(town->vertices.size());
-          town->vertices.push_back(all[corner]);
-        }
-        indices.push_back(place[corner]);
-        Include(all[corner].position, &block.box);
-      }
-      block.ranges.back().count += 3;
-      if (!HidesWhatIsBehind(t, plan, all)) continue;
-      for (uint32_t corner : t.corners) town->walls.push_back(place[corner]);
-      if (!plan.groups[group].double_sided) continue;
-      for (const size_t k : {2u, 1u, 0u}) town->walls.push_back(place[t.corners[k]]);
-    }
-    block.walls = town->walls.size() - block.first_wall;
-    block.ranges.shrink_to_fit();
-    town->blocks.push_back(std::move(block));
-  }
-  AppendMasked(masked, town);
-  town->positions.reserve(town->vertices.size());
-  for (const TownVertex& v : town->vertices) town->positions.push_back(v.position);
-  town->walls.shrink_to_fit();
-  town->blocks.shrink_to_fit();
-}
-
 Vec4 BaseColor(const TourPack& pack, int material) {
   return material >= 0 ? pack.materials[static_cast<size_t>(material)].base_color : Vec4{1, 1, 1, 1};
 }
@@ -154,28 +107,142 @@ TurningGeometry BuildTurning(const TourPack& pack, const SurfacePlan& plan, cons
 
 }  // namespace
 
-TownGeometry BuildTownGeometry(const TourPack& pack, const SurfacePlan& plan) {
+// The index array in order of block and group; vertices in order of their first use, so that a block's lie together.
+struct TownBuilder::Impl {
+  const TourPack& pack;
+  const SurfacePlan& plan;
   TownGeometry town;
   std::map<uint64_t, std::vector<Triangle>> cells;
-  for (const TownInstance& instance : pack.town) {
-    if (instance.turning >= 0) {
-      town.turning.push_back(BuildTurning(pack, plan, instance));
-      continue;
-    }
-    const bool mirrored = Mirrors(instance.world);
-    for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(instance.mesh)].primitives) {
-      const auto base = static_cast<uint32_t>(town.vertices.size());
-      const Surface& surface = SurfaceOf(p.material, plan);
-      AppendVertices(p, instance.world, BaseColor(pack, p.material), surface.layer, &town.vertices);
-      for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
-        Triangle t{surface.group, {base + p.indices[i], base + p.indices[i + 1], base + p.indices[i + 2]}};
-        if (mirrored) std::swap(t.corners[1], t.corners[2]);
-        cells[CellOf(t.corners, town)].push_back(t);
-      }
-    }
+  size_t next_instance = 0;
+  bool packs = false;  // all instances are in cells
+  std::map<uint64_t, std::vector<Triangle>>::iterator next_cell;
+  std::vector<TownVertex> all;                // as they came
+  std::vector<uint32_t> place;                // of them in the town
+  std::vector<std::vector<uint32_t>> masked;  // indices, by group
+
+  Impl(const TourPack& of_pack, const SurfacePlan& of_plan) : pack(of_pack), plan(of_plan) {}
+  void Reserve();
+  size_t Append(const TownInstance& instance);
+  void BeginPacking();
+  void Pack(std::vector<Triangle>* triangles);
+  void Finish();
+};
+
+void TownBuilder::Impl::Reserve() {
+  size_t vertices = 0;
+  for (const TownInstance& instance : pack.town)
+    for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(instance.mesh)].primitives)
+      vertices += p.positions.size();
+  town.vertices.reserve(vertices);
+}
+
+// How many triangles it has.
+size_t TownBuilder::Impl::Append(const TownInstance& instance) {
+  if (instance.turning >= 0) {
+    town.turning.push_back(BuildTurning(pack, plan, instance));
+    return 0;
   }
-  PackBlocks(plan, &cells, &town);
-  return town;
+  size_t count = 0;
+  const bool mirrored = Mirrors(instance.world);
+  for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(instance.mesh)].primitives) {
+    const auto base = static_cast<uint32_t>(town.vertices.size());
+    const Surface& surface = SurfaceOf(p.material, plan);
+    AppendVertices(p, instance.world, BaseColor(pack, p.material), surface.layer, &town.vertices);
+    for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+      Triangle t{surface.group, {base + p.indices[i], base + p.indices[i + 1], base + p.indices[i + 2]}};
+      if (mirrored) std::swap(t.corners[1], t.corners[2]);
+      cells[CellOf(t.corners, town)].push_back(t);
+    }
+    count += p.indices.size() / 3;
+  }
+  return count;
+}
+
+void TownBuilder::Impl::BeginPacking() {
+  packs = true;
+  all = std::move(town.vertices);
+  place.assign(all.size(), UINT32_MAX);
+  masked.resize(plan.groups.size());
+  town.vertices.clear();
+  town.vertices.reserve(all.size());
+  size_t count = 0;
+  for (const auto& [cell, triangles] : cells) count += triangles.size();
+  town.indices.reserve(3 * count);
+  next_cell = cells.begin();
+}
+
+void TownBuilder::Impl::Pack(std::vector<Triangle>* triangles) {
+  std::stable_sort(triangles->begin(), triangles->end(),
+                   [](const Triangle& a, const Triangle& b) { return a.group < b.group; });
+  TownBlock block;
+  block.triangles = static_cast<int64_t>(triangles->size());
+  block.first_wall = town.walls.size();
+  for (const Triangle& t : *triangles) {
+    const auto group = static_cast<size_t>(t.group);
+    std::vector<uint32_t>& indices = plan.groups[group].masked ? masked[group] : town.indices;
+    if (block.ranges.empty() || block.ranges.back().group != t.group) {
+      block.ranges.push_back({t.group, static_cast<uint32_t>(indices.size()), 0});
+    }
+    for (uint32_t corner : t.corners) {
+      if (place[corner] == UINT32_MAX) {
+        place[corner] = static_cast<uint32_t>(town.vertices.size());
+        town.vertices.push_back(all[corner]);
+      }
+      indices.push_back(place[corner]);
+      Include(all[corner].position, &block.box);
+    }
+    block.ranges.back().count += 3;
+    if (!HidesWhatIsBehind(t, plan, all)) continue;
+    for (uint32_t corner : t.corners) town.walls.push_back(place[corner]);
+    if (!plan.groups[group].double_sided) continue;
+    for (const size_t k : {2u, 1u, 0u}) town.walls.push_back(place[t.corners[k]]);
+  }
+  block.walls = town.walls.size() - block.first_wall;
+  block.ranges.shrink_to_fit();
+  town.blocks.push_back(std::move(block));
+}
+
+void TownBuilder::Impl::Finish() {
+  AppendMasked(masked, &town);
+  town.positions.reserve(town.vertices.size());
+  for (const TownVertex& v : town.vertices) town.positions.push_back(v.position);
+  town.walls.shrink_to_fit();
+  town.blocks.shrink_to_fit();
+}
+
+TownBuilder::TownBuilder(const TourPack& pack, const SurfacePlan& plan) : impl_(std::make_unique<Impl>(pack, plan)) {
+  impl_->Reserve();
+}
+TownBuilder::TownBuilder(TownBuilder&&) noexcept = default;
+TownBuilder& TownBuilder::operator=(TownBuilder&&) noexcept = default;
+TownBuilder::~TownBuilder() = default;
+
+bool TownBuilder::Advance() {
+  constexpr size_t kTrianglesAtOnce = 10000;  // a few milliseconds
+  Impl& b = *impl_;
+  size_t done = 0;
+  while (b.next_instance < b.pack.town.size() && done < kTrianglesAtOnce)
+    done += b.Append(b.pack.town[b.next_instance++]);
+  if (b.next_instance < b.pack.town.size()) return false;
+  if (!b.packs) {
+    b.BeginPacking();
+    return false;
+  }
+  for (; b.next_cell != b.cells.end() && done < kTrianglesAtOnce; ++b.next_cell) {
+    b.Pack(&b.next_cell->second);
+    done += b.next_cell->second.size();
+  }
+  if (b.next_cell != b.cells.end()) return false;
+  b.Finish();
+  return true;
+}
+
+TownGeometry TownBuilder::Take() { return std::move(impl_->town); }
+
+TownGeometry BuildTownGeometry(const TourPack& pack, const SurfacePlan& plan) {
+  TownBuilder builder(pack, plan);
+  while (!builder.Advance()) {}
+  return builder.Take();
 }
 
 }  // namespace flaneur

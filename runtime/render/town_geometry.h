@@ -2,6 +2,7 @@
 // Internal to runtime/render; no OpenGL.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "runtime/pack/tour_pack.h"
@@ -50,5 +51,21 @@ struct TownGeometry {
 };
 
 TownGeometry BuildTownGeometry(const TourPack& pack, const SurfacePlan& plan);
+
+// The same in parts, for who has other things to do between them. pack and plan must live longer.
+class TownBuilder {
+ public:
+  TownBuilder(const TourPack& pack, const SurfacePlan& plan);
+  TownBuilder(TownBuilder&&) noexcept;
+  TownBuilder& operator=(TownBuilder&&) noexcept;
+  ~TownBuilder();
+  // Some thousands of triangles more; true: these were the last.
+  bool Advance();
+  TownGeometry Take();  // once, after the last
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace flaneur

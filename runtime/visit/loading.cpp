@@ -15,6 +15,7 @@
 
 #include "runtime/base/clock.h"
 #include "runtime/render/surface_plan.h"
+#include "runtime/render/town_geometry.h"
 #include "runtime/show/guide_figure.h"
 #include "runtime/visit/arriving.h"
 
@@ -50,11 +51,11 @@ struct Task {
   int town_mesh = -1;
 };
 
-// What a slice does: reads, or makes ready what has been read.
+// What a slice does: reads a task, makes an asset ready that has been read, or goes on with the town.
 struct Piece {
-  bool read = false;
-  size_t index = 0;
-};  // of tasks, of assets
+  enum Kind { kRead, kPrepare, kBuild } kind = kRead;
+  size_t index = 0;  // of tasks, of assets
+};
 
 }  // namespace
 
@@ -81,7 +82,9 @@ struct Loader::Impl {
   bool may_prepare = false, may_go_on = false, stop = false;
   SurfacePlan plan;  // of the renderer
   AtlasFormats formats;
-  std::deque<size_t> read;  // assets
+  std::deque<size_t> read;             // assets
+  std::optional<TownBuilder> builder;  // without threads: the town is built between pictures
+  size_t builds = 0;                   // of assets
   std::deque<Asset> ready;
   Error error;
 
@@ -101,6 +104,8 @@ struct Loader::Impl {
   Error ReadLevel(const AssetId& id, PackMesh* out);
   void Clear(size_t asset);
   void Prepare(size_t asset);
+  void Build(size_t asset);
+  void TakeIn(size_t asset, Asset made);
   bool TakeReady(Asset* asset);
   void NoteUploaded(const AssetId& id);
   bool AreUploaded(size_t first_assets) const;
@@ -161,8 +166,23 @@ void Loader::Impl::Clear(size_t asset) {
 
 void Loader::Impl::Prepare(size_t index) {
   const AssetId& id = assets[index];
-  Asset asset = id.kind == AssetKind::kLevel ? PrepareLevel(pack, id, of_people[index], plan)
-                                             : PrepareAsset(pack, id, plan, formats);
+  if (id.kind == AssetKind::kTown && (jobs == nullptr || jobs->threads() == 0)) {
+    builder.emplace(pack, plan);
+    builds = index;
+    return;
+  }
+  TakeIn(index, id.kind == AssetKind::kLevel ? PrepareLevel(pack, id, of_people[index], plan)
+                                             : PrepareAsset(pack, id, plan, formats));
+}
+
+void Loader::Impl::Build(size_t index) {
+  if (!builder->Advance()) return;
+  TownGeometry geometry = builder->Take();
+  builder.reset();
+  TakeIn(index, PrepareTown(pack, assets[index], std::move(geometry)));
+}
+
+void Loader::Impl::TakeIn(size_t index, Asset asset) {
   const bool again = town_comes_twice && assets[index].kind == AssetKind::kTown && assets[index].index != kWholeTown;
   if (!again) Clear(index);
   const std::lock_guard lock(mutex);
@@ -174,10 +194,11 @@ void Loader::Impl::Prepare(size_t index) {
 // ever.
 std::optional<Piece> Loader::Impl::NextPiece() {
   if (stop) return {};
+  if (builder) return Piece{Piece::kBuild, builds};
   if (!read.empty() && may_prepare && ready.size() < kMaxReadyAssets) {
     const size_t asset = read.front();
     read.pop_front();
-    return Piece{false, asset};
+    return Piece{Piece::kPrepare, asset};
   }
   if (next_task == tasks.size() || !FindTask()) return {};
   const Task& task = tasks[next_task];
@@ -185,7 +206,7 @@ std::optional<Piece> Loader::Impl::NextPiece() {
   if (next_task >= asked_tasks && !may_go_on) return {};
   if (!of_town && in_hand >= kMaxReadyAssets + most_readers) return {};
   in_hand += of_town ? 0 : 1;
-  return Piece{true, next_task++};
+  return Piece{Piece::kRead, next_task++};
 }
 
 // Puts what is there before what is not.
@@ -205,7 +226,8 @@ bool Loader::Impl::FindTask() {
 }
 
 void Loader::Impl::Do(const Piece& piece) {
-  if (!piece.read) return Prepare(piece.index);
+  if (piece.kind == Piece::kPrepare) return Prepare(piece.index);
+  if (piece.kind == Piece::kBuild) return Build(piece.index);
   const Task& task = tasks[piece.index];
   if (Error e = Read(task)) return StopWithError(std::move(e));
   bool last = false;

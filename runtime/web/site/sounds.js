@@ -5,19 +5,11 @@ const kFollows_s = 0.12;  // changes are as slow as they are told of
 export class Sounds {
   constructor(player, signal) {
     Object.assign(this, {player, spoken: 0, speech: null, round: new Map(), buffers: new Map(), computes: false});
-    this.context = new AudioContext();
-    this.voice = this.#gain();
-    this.town = this.#gain();
-    const wake = () => document.hidden || this.context.resume().catch(() => {});
-    for (const type of ['pointerdown', 'keydown', 'touchend']) addEventListener(type, wake, {signal, capture: true});
-    document.addEventListener('visibilitychange', () => {
-      if (this.context.state === 'closed') return;
-      (document.hidden ? this.context.suspend() : this.context.resume()).catch(() => {});
-    }, {signal});
-    signal.addEventListener('abort', () => this.context.close().catch(() => {}));
+    this.signal = signal;
   }
-  // Some times a second.
+  // Some times a second; the device is opened by the first, when there is a picture: that may take a moment.
   follow() {
+    if (!this.context) this.#open();
     if (this.context.state === 'closed') return;
     const told = this.player.read('page_sounds');
     this.computes = false;
@@ -29,6 +21,19 @@ export class Sounds {
     for (const sound of told.once) this.#play(sound);
   }
 
+  #open() {
+    const {signal} = this;
+    this.context = new AudioContext();
+    this.voice = this.#gain();
+    this.town = this.#gain();
+    const wake = () => document.hidden || this.context.resume().catch(() => {});
+    for (const type of ['pointerdown', 'keydown', 'touchend']) addEventListener(type, wake, {signal, capture: true});
+    document.addEventListener('visibilitychange', () => {
+      if (this.context.state === 'closed') return;
+      (document.hidden ? this.context.suspend() : this.context.resume()).catch(() => {});
+    }, {signal});
+    signal.addEventListener('abort', () => this.context.close().catch(() => {}));
+  }
   #gain() {
     const gain = new GainNode(this.context);
     gain.connect(this.context.destination);

@@ -1152,6 +1152,18 @@ TourPack HousesAndTrees() {
   return pack;
 }
 
+TEST(TownGeometry, IsBuiltInPartsWhereThereAreManyTriangles) {
+  TourPack pack = HousesAndTrees();
+  const std::vector<TownInstance> once = pack.town;
+  for (int k = 0; k < 6; ++k) pack.town.insert(pack.town.end(), once.begin(), once.end());
+  const SurfacePlan plan = PlanSurfaces(pack, {});
+  TownBuilder builder(pack, plan);
+  int parts = 1;
+  while (!builder.Advance()) ++parts;
+  EXPECT_GE(parts, 4) << "two that append, two that pack";
+  EXPECT_EQ(builder.Take().indices, BuildTownGeometry(pack, plan).indices);
+}
+
 TEST(TownGeometry, WhatIsCutOutStandsTogetherBehindWhatIsOpaque) {
   const TourPack pack = HousesAndTrees();
   const SurfacePlan plan = PlanSurfaces(pack, {});
