@@ -163,8 +163,10 @@ void TownBuilder::Impl::BeginPacking() {
   all = std::move(town.vertices);
   place.assign(all.size(), UINT32_MAX);
   masked.resize(plan.groups.size());
+  size_t turning = 0;  // stand behind the others in one buffer, later
+  for (const TurningGeometry& part : town.turning) turning += part.vertices.size();
   town.vertices.clear();
-  town.vertices.reserve(all.size());
+  town.vertices.reserve(all.size() + turning);
   size_t count = 0;
   for (const auto& [cell, triangles] : cells) count += triangles.size();
   town.indices.reserve(3 * count);
