@@ -135,9 +135,9 @@ async function timePictures(address, ready, count, picture) {
 
 const keep = process.env.FLANEUR_BENCH_PICTURES;
 const standsAndIsComplete = () => {
-  const {flaneur} = document.getElementById('tour');
-  flaneur?.takeTour(false);  // the visitor stays where the tour begins
-  return flaneur?.state().complete;
+  const {flaneur} = document.getElementById('tour'), state = flaneur?.state();
+  if (state?.follows_tour) flaneur.takeTour(false);  // the visitor stays where the tour begins
+  return state?.complete;
 };
 const ours = await timePictures('/', standsAndIsComplete,
   () => document.getElementById('tour').flaneur.state(), keep && path.join(keep, 'ours.png'));
