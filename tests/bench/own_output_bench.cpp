@@ -149,6 +149,7 @@ int Run(int wanted, unsigned seed) {
   Random random(seed);
   TemporaryFolder folder;
   if (Error e = folder.Create("flaneur_own_output_", fs::temp_directory_path())) return std::puts(e.message.c_str()), 1;
+  int tried = 0, degrees = 0, wrong = 0;
   for (int codes = 0; tried < wanted && codes < 200 * wanted; ++codes) {
     const std::string name = "EPSG:" + std::to_string(2000 + random() % 30761);
     MapSystem system;
