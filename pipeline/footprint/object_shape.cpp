@@ -106,9 +106,12 @@ double WalledShare(const Ring& ring, const LineSet& walls, const LineSet& joints
 
 // Nobody gets into a hole. Where no walls bound it, parts of the building cover it, or the model says that the building
 // stands there, it is none: some part lower than the band.
-void FillHoles(const std::vector<Segment>& walls, const TownObject& object, Shape* shape) {
+void FillHoles(const Site& site, const std::vector<Segment>& walls, const TownObject& object, Shape* shape) {
   if (std::none_of(shape->solid.begin(), shape->solid.end(), [](const Ring& r) { return SignedArea(r) < 0; })) return;
-  const Rings ground = InPlan(object.foundation_is_given ? object.foundation : object.triangles);
+  // Under terrain the band's foot is known, and what it leaves open is open.
+  const Rings ground = object.foundation_is_given ? InPlan(object.foundation)
+                       : site.ground              ? Rings()
+                                                  : InPlan(object.triangles);
   const LineSet all_walls(walls), no_joints({});
   const size_t filled = std::erase_if(shape->solid, [&](const Ring& ring) {
     if (SignedArea(ring) >= 0) return false;
@@ -121,9 +124,12 @@ void FillHoles(const std::vector<Segment>& walls, const TownObject& object, Shap
   SetLoose(std::vector<Segment>(shape->loose), shape);
 }
 
-// Walls that lean by a hair cover a hair of ground: where a building is nothing but such, they are lines.
-void TakeStripsAsWalls(Shape* shape) {
-  if (shape->solid.empty() || !Offset(shape->solid, -kStripe_m / 2).empty()) return;
+// Walls that lean by a hair cover a hair of ground: where a house is nothing but such round a floor, they are lines.
+void TakeStripsAsWalls(const TownObject& object, Shape* shape) {
+  constexpr double kMinFloorOfStrips = 4;
+  if (shape->solid.empty() || object.foundation.empty()) return;
+  if (!Offset(shape->solid, -kStripe_m / 2).empty()) return;
+  if (Area(InPlan(object.foundation)) < kMinFloorOfStrips * Area(shape->solid)) return;
   std::vector<Segment> lines = Outline(shape->solid);
   lines.insert(lines.end(), shape->loose.begin(), shape->loose.end());
   shape->solid.clear();
@@ -203,7 +209,8 @@ Shape ShapeOf(const Site& site, const TownObject& object, const Neighbours& neig
     CloseUnderRoofs(shape.loose, kNoWay_m, is_solid, &shape);
     shape.guessed |= Area(shape.solid) > before + kMinGap_m2;
   }
-  if (object.kind == ObstacleKind::kBuilding) FillHoles(parts.walls, object, &shape), TakeStripsAsWalls(&shape);
+  if (object.kind == ObstacleKind::kBuilding)
+    FillHoles(site, parts.walls, object, &shape), TakeStripsAsWalls(object, &shape);
   return shape;
 }
 
