@@ -5,6 +5,7 @@
 
 #include "pipeline/cli/assemble_town.h"
 #include "pipeline/cli/baking.h"
+#include "pipeline/cli/obj_up.h"
 #include "pipeline/cli/stage_inputs.h"
 #include "pipeline/cli/trust.h"
 #include "pipeline/cli/work_clips.h"
@@ -30,10 +31,6 @@ namespace fs = std::filesystem;
 
 constexpr float kBareGroundMargin_m = 15;
 
-UpAxis UpAxisOf(const std::string& name) {
-  return name.empty() ? UpAxis::kJudged : name == "y" ? UpAxis::kY : UpAxis::kZ;
-}
-
 Error ReadTown(Baking* baking, Scene* town, Warnings* warnings) {
   const TourSettings& s = baking->settings;
   SceneSource source;  // of the town's own file
@@ -46,7 +43,7 @@ Error ReadTown(Baking* baking, Scene* town, Warnings* warnings) {
     Scene whole;
     if (Error e = SourceFile(baking, 0, &file)) return e;
     const std::string& crs = s.georeference.crs;
-    if (Error e = read(file, {crs == "none" ? "" : crs, UpAxisOf(s.town_obj_up)}, &whole, &source))
+    if (Error e = read(file, {crs == "none" ? "" : crs, UpAxisNamed(s.town_obj_up)}, &whole, &source))
       return BadSource(baking, 0, e);
     town->origin_m = {whole.origin_m.x * s.town_scale, whole.origin_m.y * s.town_scale};
     town->reference_system = whole.reference_system;
@@ -54,7 +51,7 @@ Error ReadTown(Baking* baking, Scene* town, Warnings* warnings) {
   }
   for (const TownPart& part : s.parts) {
     Scene scene;
-    if (Error e = read(part.file, {"", UpAxisOf(part.obj_up)}, &scene, nullptr))
+    if (Error e = read(part.file, {"", UpAxisNamed(part.obj_up)}, &scene, nullptr))
       return Fail(PlaceOfFile(s, part.file) + e.message);
     AppendScene(std::move(scene), part.scale, part.yaw_deg * kPi / 180, part.position_m, town);
   }

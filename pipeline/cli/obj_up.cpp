@@ -6,11 +6,18 @@
 
 namespace flaneur {
 
+namespace {
+
+const std::map<std::string, UpAxis> kAxes{{"y", UpAxis::kY}, {"z", UpAxis::kZ}};
+
+}  // namespace
+
 void AddObjUp(CLI::App* app, UpAxis* up) {
-  const std::map<std::string, UpAxis> axes{{"y", UpAxis::kY}, {"z", UpAxis::kZ}};
   app->add_option("--obj-up", *up, "Axis of an OBJ that points up, which the format does not say: y or z; else judged")
-      ->transform(CLI::CheckedTransformer(axes))
+      ->transform(CLI::CheckedTransformer(kAxes))
       ->type_name("AXIS");
 }
+
+UpAxis UpAxisNamed(const std::string& name) { return name.empty() ? UpAxis::kJudged : kAxes.at(name); }
 
 }  // namespace flaneur

@@ -1,5 +1,7 @@
 // The option that says which axis of an OBJ points up.
 #pragma once
+#include <string>
+
 #include "pipeline/io/scene_reader.h"
 
 namespace CLI {
@@ -9,5 +11,8 @@ class App;
 namespace flaneur {
 
 void AddObjUp(CLI::App* app, UpAxis* up);
+
+// What the option and tour.toml call it: "y", "z"; empty: judged.
+UpAxis UpAxisNamed(const std::string& name);
 
 }  // namespace flaneur

@@ -108,7 +108,8 @@ GroundRaster OfFeet(const TownObject& object, const Neighbours& neighbours) {
 }  // namespace
 
 GroundRaster BaseOf(const TownObject& object, const Neighbours& neighbours) {
-  const std::vector<Triangle3> floor = object.foundation.empty() ? FloorOf(object.triangles) : std::vector<Triangle3>();
+  const std::vector<Triangle3> floor =
+      object.foundation.empty() ? FloorOf(object.triangles, kMinFloor) : std::vector<Triangle3>();
   const std::vector<Triangle3>& foundation = object.foundation.empty() ? floor : object.foundation;
   return foundation.empty() ? OfFeet(object, neighbours) : OfFoundation(object, foundation);
 }

@@ -53,13 +53,12 @@ std::vector<std::vector<size_t>> Adjoining(const std::vector<TownObject>& object
   return adjoining;
 }
 
-std::vector<Block> BlocksOf(const std::vector<TownObject>& objects) {
-  const std::vector<std::vector<size_t>> adjoins = Adjoining(objects);
-  DisjointSets adjoining(objects.size());
-  for (size_t i = 0; i < adjoins.size(); ++i)
-    for (const size_t j : adjoins[i]) adjoining.Join(i, j);
+std::vector<Block> BlocksOf(const std::vector<std::vector<size_t>>& adjoining) {
+  DisjointSets joined(adjoining.size());
+  for (size_t i = 0; i < adjoining.size(); ++i)
+    for (const size_t j : adjoining[i]) joined.Join(i, j);
   std::map<size_t, Block> by_first;
-  for (size_t i = 0; i < objects.size(); ++i) by_first[adjoining.Root(i)].push_back(i);
+  for (size_t i = 0; i < adjoining.size(); ++i) by_first[joined.Root(i)].push_back(i);
   std::vector<Block> blocks;
   for (auto& [_, members] : by_first) blocks.push_back(std::move(members));
   return blocks;

@@ -12,8 +12,8 @@ using Block = std::vector<size_t>;  // of objects, rising
 // For each object the buildings and walls that adjoin it, rising; none for other kinds.
 std::vector<std::vector<size_t>> Adjoining(const std::vector<TownObject>& objects);
 
-// Groups of buildings and walls whose boxes lie within reach of each other; all other objects alone.
-std::vector<Block> BlocksOf(const std::vector<TownObject>& objects);
+// Groups of those that adjoin each other; all other objects alone.
+std::vector<Block> BlocksOf(const std::vector<std::vector<size_t>>& adjoining);
 
 // Whether the boxes of two objects lie within reach of each other.
 bool Adjoin(const TownObject& a, const TownObject& b);

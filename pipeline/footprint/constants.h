@@ -75,10 +75,11 @@ inline constexpr double kDeckMouth_m = 0.6;      // before its end the ground is
 inline constexpr double kMinWalledGround = 0.7;  // of its outline is walls, where the model says that it is ground
 inline constexpr double kMinWalledFloor = 0.85;  // likewise on a floor that was found
 inline constexpr double kMinWalledLost = 0.3;    // likewise in a town that has lost triangles
-inline constexpr double kMinFloorLost = 0.15;    // of a building lies over what is left of its floor, likewise
-inline constexpr double kMinLostShare =
-    0.01;  // of a town's triangles missing singly: others are missing with their neighbours
-inline constexpr int kMinLostTriangles = 5;
+inline constexpr double kMinFloor = 0.2;         // of a building lies over its floor
+inline constexpr double kMinFloorLost = 0.15;    // likewise in a town that has lost triangles
+inline constexpr double kMinFloorOfStrips = 4;   // times what walls that lean by a hair cover of it
+inline constexpr double kMinLostShare = 0.01;  // of a town's triangles missing singly, and others with their neighbours
+inline constexpr int kMinLostTriangles = 5;    // and so many at least: the town has lost triangles
 
 // Holes that are none.
 inline constexpr double kMinWalledHole = 0.5;  // of a yard's outline is walls, else it is a part below the band

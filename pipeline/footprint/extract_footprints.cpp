@@ -58,23 +58,35 @@ bool IsRound(const TownObject& object) {
   return object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp;
 }
 
-// A floor for each building that the model gives none.
-void FindFloors(const FootprintOptions& options, std::vector<TownObject>* objects) {
+// A floor for each building that has none; which of them have one now. Not vector<bool>: threads write beside each
+// other.
+std::vector<char> FindFloors(const FootprintOptions& options, double least_share, std::vector<TownObject>* objects) {
+  std::vector<char> found(objects->size(), false);
   ForEach(objects->size(), options.threads, [&](size_t i) {
     TownObject& object = (*objects)[i];
-    if (object.kind == ObstacleKind::kBuilding && object.foundation.empty())
-      object.foundation = FloorOf(object.triangles);
+    if (object.kind != ObstacleKind::kBuilding || !object.foundation.empty()) return;
+    object.foundation = FloorOf(object.triangles, least_share);
+    found[i] = !object.foundation.empty();
   });
+  return found;
+}
+
+// The objects themselves, of indices.
+std::vector<Neighbours> Chosen(const std::vector<TownObject>& objects,
+                               const std::vector<std::vector<size_t>>& indices) {
+  std::vector<Neighbours> chosen(indices.size());
+  for (size_t i = 0; i < indices.size(); ++i)
+    for (const size_t j : indices[i]) chosen[i].push_back(&objects[j]);
+  return chosen;
 }
 
 // Those that tell something of the ground under an object: none where it knows that itself.
-std::vector<Neighbours> NeighboursOf(const Site& site, const std::vector<TownObject>& objects) {
+std::vector<Neighbours> NeighboursOf(const Site& site, const std::vector<TownObject>& objects,
+                                     const std::vector<Neighbours>& beside) {
   std::vector<Neighbours> neighbours(objects.size());
   if (site.ground) return neighbours;
-  const std::vector<std::vector<size_t>> adjoining = Adjoining(objects);
   for (size_t i = 0; i < objects.size(); ++i)
-    if (objects[i].foundation.empty())
-      for (const size_t j : adjoining[i]) neighbours[i].push_back(&objects[j]);
+    if (objects[i].foundation.empty()) neighbours[i] = beside[i];
   return neighbours;
 }
 
@@ -101,13 +113,7 @@ bool HasLostTriangles(const std::vector<TownObject>& objects, const std::vector<
 // What is left of a floor is one as well.
 void FindLostFloors(const Site& site, const std::vector<Neighbours>& neighbours, std::vector<TownObject>* objects,
                     std::vector<Shape>* shapes) {
-  std::vector<char> is_new(objects->size(), false);  // no vector<bool>: threads write beside each other
-  ForEach(objects->size(), site.options.threads, [&](size_t i) {
-    TownObject& object = (*objects)[i];
-    if (object.kind != ObstacleKind::kBuilding || !object.foundation.empty()) return;
-    object.foundation = FloorOf(object.triangles, kMinFloorLost);
-    is_new[i] = !object.foundation.empty();
-  });
+  const std::vector<char> is_new = FindFloors(site.options, kMinFloorLost, objects);
   ForEach(objects->size(), site.options.threads, [&](size_t i) {
     if (is_new[i]) (*shapes)[i] = ShapeOf(site, (*objects)[i], neighbours[i]);
   });
@@ -115,15 +121,13 @@ void FindLostFloors(const Site& site, const std::vector<Neighbours>& neighbours,
 
 // Closes what is open in the buildings' shells, each with its neighbours and then by itself; says which were open.
 void CloseShells(const Site& site, const std::vector<TownObject>& objects, const std::vector<Block>& blocks,
-                 const std::vector<Neighbours>& neighbours, bool has_lost, std::vector<Shape>* shapes) {
+                 const std::vector<Neighbours>& beside, const std::vector<Neighbours>& neighbours, bool has_lost,
+                 std::vector<Shape>* shapes) {
   ForEach(blocks.size(), site.options.threads, [&](size_t k) { ShareBlock(site, objects, blocks[k], shapes); });
-  const std::vector<std::vector<size_t>> adjoining = Adjoining(objects);
   ForEach(shapes->size(), site.options.threads, [&](size_t i) {
     Shape& shape = (*shapes)[i];
-    Neighbours beside;
-    for (const size_t k : adjoining[i]) beside.push_back(&objects[k]);
     CloseRooms(site, objects[i], neighbours[i], &shape);
-    CloseGround(site, objects[i], beside, has_lost, &shape);
+    CloseGround(site, objects[i], beside[i], has_lost, &shape);
     shape.open_shell = objects[i].kind == ObstacleKind::kBuilding && (shape.guessed || shape.open_m > kMaxOpenShell_m);
   });
 }
@@ -262,7 +266,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
                         FootprintStats* stats, std::vector<std::string>* warnings) {
   if (Error error = CheckOptions(options)) return error;
   TownObjects town = SortTown(scene, options.scale);
-  FindFloors(options, &town.obstacles);
+  FindFloors(options, kMinFloor, &town.obstacles);
   const std::vector<TownObject>& objects = town.obstacles;
   if (town.ground.empty() && objects.empty()) return Fail("the town has neither ground nor obstacles");
   if (Error error = CheckExtents(town)) return error;
@@ -277,12 +281,14 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   }
   const Site site{options, ground ? &*ground : nullptr};
 
-  const std::vector<Block> blocks = BlocksOf(objects);
-  const std::vector<Neighbours> neighbours = NeighboursOf(site, objects);
+  const std::vector<std::vector<size_t>> adjoining = Adjoining(objects);
+  const std::vector<Block> blocks = BlocksOf(adjoining);
+  const std::vector<Neighbours> beside = Chosen(objects, adjoining);
+  const std::vector<Neighbours> neighbours = NeighboursOf(site, objects, beside);
   std::vector<Shape> shapes = ShapesOf(site, objects, neighbours);
   const bool has_lost = HasLostTriangles(objects, shapes);
   if (has_lost) FindLostFloors(site, neighbours, &town.obstacles, &shapes);
-  CloseShells(site, objects, blocks, neighbours, has_lost, &shapes);
+  CloseShells(site, objects, blocks, beside, neighbours, has_lost, &shapes);
   FootprintStats counts = Count(objects, shapes);
   if (options.merge_blocks)
     for (const Block& block : blocks) MergeBlock(block, &shapes);

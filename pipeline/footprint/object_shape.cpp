@@ -72,8 +72,9 @@ LocalGround Level(double height_m) {
 // Segments that are asked whether a point lies on one of them.
 class LineSet {
  public:
-  explicit LineSet(const std::vector<Segment>& segments)
-      : segments_(segments), grid_(segments_, kMinLoosePiece_m, segments.empty() ? kMaxCutCell_m : CellFor(segments)) {}
+  explicit LineSet(std::vector<Segment> segments)
+      : segments_(std::move(segments)),
+        grid_(segments_, kMinLoosePiece_m, segments_.empty() ? kMaxCutCell_m : CellFor(segments_)) {}
 
   bool Pass(Point2 p) const {
     const std::vector<size_t>& near = grid_.Near(p);
@@ -126,7 +127,6 @@ void FillHoles(const Site& site, const std::vector<Segment>& walls, const TownOb
 
 // Walls that lean by a hair cover a hair of ground: where a house is nothing but such round a floor, they are lines.
 void TakeStripsAsWalls(const TownObject& object, Shape* shape) {
-  constexpr double kMinFloorOfStrips = 4;
   if (shape->solid.empty() || object.foundation.empty()) return;
   if (!Offset(shape->solid, -kStripe_m / 2).empty()) return;
   if (Area(InPlan(object.foundation)) < kMinFloorOfStrips * Area(shape->solid)) return;
@@ -240,21 +240,22 @@ void AppendEdges(const std::vector<Triangle3>& triangles, std::vector<Segment>* 
     }
 }
 
-// A building's ground: as it is, or where the town has lost triangles with what its edges, walls and the grounds beside
-// it enclose under its roof.
-Rings WholeGround(const TownObject& object, const Neighbours& beside, const Roofs& is_solid, std::vector<Segment> walls,
-                  bool has_lost) {
-  Rings ground = InPlan(object.foundation);
-  if (!has_lost) return ground;
-  AppendEdges(object.foundation, &walls);
-  Rings others;
-  for (const TownObject* other : beside) {
-    AppendEdges(other->foundation, &walls);
-    const Rings theirs = InPlan(other->foundation);
-    others.insert(others.end(), theirs.begin(), theirs.end());
+Rings GroundsOf(const Neighbours& objects) {
+  Rings grounds;
+  for (const TownObject* object : objects) {
+    const Rings ground = InPlan(object->foundation);
+    grounds.insert(grounds.end(), ground.begin(), ground.end());
   }
+  return grounds;
+}
+
+// A building's ground with what its edges, walls and the grounds beside it enclose under its roof: what was lost of it.
+Rings WithNotches(Rings ground, const TownObject& object, const Neighbours& beside, const Rings& grounds_beside,
+                  const Roofs& is_solid, std::vector<Segment> walls) {
+  AppendEdges(object.foundation, &walls);
+  for (const TownObject* other : beside) AppendEdges(other->foundation, &walls);
   const Rings enclosed = EncloseRegions(CutWhereTheyMeet(std::move(walls)), is_solid).solid;
-  const Rings notches = Difference(enclosed, UnionOfAreas(others));
+  const Rings notches = Difference(enclosed, UnionOfAreas(grounds_beside));
   ground.insert(ground.end(), notches.begin(), notches.end());
   return Offset(Offset(UnionOfAreas(ground), kSeamInPlan_m), -kSeamInPlan_m);
 }
@@ -272,7 +273,7 @@ void CloseGround(const Site& site, const TownObject& object, const Neighbours& b
   if (shape->open_m <= kMaxOpenShell_m && !is_lost) return;
   const Point3& at = object.foundation[0][0];
   if (site.ground && std::abs(site.ground->Height(at.x, at.y) - at.z) > kSameGround_m) return;
-  std::vector<Segment> walls = shape->loose, joints;
+  std::vector<Segment> walls = shape->loose;
   const std::vector<Segment> outline = Outline(shape->solid);
   walls.insert(walls.end(), outline.begin(), outline.end());
   if (is_lost) {  // walls that lie against others' are none of the loose ones
@@ -283,19 +284,21 @@ void CloseGround(const Site& site, const TownObject& object, const Neighbours& b
   const Overhead overhead({&object.triangles});
   const LocalGround level = Level(at.z);
   const Roofs is_solid(site, level, overhead);
-  const Rings open =
-      Difference(WholeGround(object, beside, is_solid, walls, has_lost), Offset(shape->solid, kOnOutline_m));
-  for (const TownObject* other : beside) {
-    const std::vector<Segment> ground = Outline(InPlan(other->foundation));
-    joints.insert(joints.end(), ground.begin(), ground.end());
+  Rings ground = InPlan(object.foundation), grounds_beside;
+  if (has_lost) {
+    grounds_beside = GroundsOf(beside);
+    ground = WithNotches(std::move(ground), object, beside, grounds_beside, is_solid, walls);
   }
-  const LineSet all_walls(walls), all_joints(joints);
+  const Rings open = Difference(ground, Offset(shape->solid, kOnOutline_m));
+  if (open.empty()) return;
+  if (!has_lost) grounds_beside = GroundsOf(beside);
+  const LineSet all_walls(std::move(walls)), joints(Outline(grounds_beside));
   Rings all = shape->solid;
   for (const Polygon& polygon : ToPolygons(open)) {
     Rings rings{polygon.outer};
     rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
     if (Area(rings) < kMinClaim_m2 || !(has_lost || is_solid(rings))) continue;  // its roof may be among the lost
-    if (WalledShare(polygon.outer, all_walls, all_joints) < LeastWalled(object, has_lost)) continue;
+    if (WalledShare(polygon.outer, all_walls, joints) < LeastWalled(object, has_lost)) continue;
     all.insert(all.end(), rings.begin(), rings.end());
   }
   if (all.size() == shape->solid.size()) return;

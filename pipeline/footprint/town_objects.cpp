@@ -1,34 +1,14 @@
 #include "pipeline/footprint/town_objects.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
-#include <set>
 
+#include "pipeline/core/name_words.h"
 #include "pipeline/footprint/constants.h"
 #include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
-
-// Lower-case words of a name: "hex_grass.001" and "HexGrass" are both hex, grass.
-std::set<std::string> Words(const std::string& name) {
-  std::set<std::string> words;
-  std::string word;
-  const auto end_word = [&] {
-    if (!word.empty()) words.insert(std::move(word));
-    word.clear();
-  };
-  char before = 0;
-  for (const char c : name) {
-    const auto letter = static_cast<unsigned char>(c);
-    if (!std::isalpha(letter) || (std::isupper(letter) && std::islower(static_cast<unsigned char>(before)))) end_word();
-    if (std::isalpha(letter)) word += static_cast<char>(std::tolower(letter));
-    before = c;
-  }
-  end_word();
-  return words;
-}
 
 struct Meaning {
   NodeKind kind;
@@ -54,10 +34,10 @@ Meaning FromName(const std::string& name, const Point3& min, const Point3& max) 
   const double height_m = max.z - min.z;
   const double longer_m = std::max(max.x - min.x, max.y - min.y);
   const double shorter_m = std::min(max.x - min.x, max.y - min.y);
-  const std::set<std::string> words = Words(name);
+  const std::vector<std::string> words = NameWords(name);
   for (const NamedMeaning& named : kNamedMeanings) {
     const bool matches =
-        std::any_of(named.words.begin(), named.words.end(), [&](const char* word) { return words.contains(word); });
+        std::find_first_of(words.begin(), words.end(), named.words.begin(), named.words.end()) != words.end();
     if (!matches) continue;
     const bool is_ground = named.meaning.kind == NodeKind::kGround;
     if (!is_ground || height_m <= kMaxGroundSteepness * longer_m) return named.meaning;

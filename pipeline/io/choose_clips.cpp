@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "pipeline/core/name_words.h"
 #include "runtime/base/array.h"
 #include "runtime/base/text.h"
 
@@ -41,20 +42,6 @@ bool Moves(const DocumentClip& clip) {
   });
 }
 
-// In words: "Rig|Jump_Idle2" and "rigJumpIdle" both have jump and idle.
-std::vector<std::string> WordsOf(const std::string& name) {
-  std::vector<std::string> words;
-  char before = ' ';
-  for (const char c : name) {
-    const bool is_letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
-    const bool begins = std::isupper(static_cast<unsigned char>(c)) && std::islower(static_cast<unsigned char>(before));
-    if (is_letter && (begins || !std::isalpha(static_cast<unsigned char>(before)))) words.emplace_back();
-    if (is_letter) words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    before = c;
-  }
-  return words;
-}
-
 // Whether a name says that something else is done than strolling, standing or talking through a town.
 bool SaysMore(const std::string& name) {
   static constexpr std::string_view kOthers[] = {
@@ -63,10 +50,8 @@ bool SaysMore(const std::string& name) {
       "hang",   "hit",    "jump",     "left",     "lie",       "lying", "melee",   "pistol", "ranged", "ride",
       "riding", "rifle",  "right",    "shield",   "shoot",     "sit",   "sitting", "sleep",  "sneak",  "spear",
       "strafe", "swim",   "swimming", "sword",    "weapon",    "zombie"};
-  const std::vector<std::string> words = WordsOf(name);
-  return std::any_of(words.begin(), words.end(), [](const std::string& word) {
-    return std::find(std::begin(kOthers), std::end(kOthers), word) != std::end(kOthers);
-  });
+  const std::vector<std::string> words = NameWords(name);
+  return std::find_first_of(words.begin(), words.end(), std::begin(kOthers), std::end(kOthers)) != words.end();
 }
 
 // -1: none. Of several names that contain the word the shortest is the plainest; file order breaks ties. Who walks may

@@ -8,10 +8,9 @@
 
 namespace flaneur {
 
-struct TownGeometry;
-
 struct SurfacePlan;
 struct AtlasFormats;
+struct TownGeometry;
 
 // kTown: all of the town's meshes. kPicture: an image. kLevel: a level of an avatar, or
 // behind them one of its props. kAtlas: an avatar's impostor.

@@ -5,7 +5,7 @@ import {execFileSync} from 'node:child_process';
 import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';
-import puppeteer from 'puppeteer-core';
+import {launch, typeOf} from './chromium.mjs';
 
 const [site, clock, pageClock] = process.argv.slice(2);
 if (!site || !fs.existsSync(path.join(site, 'tour.json'))) {
@@ -13,14 +13,12 @@ if (!site || !fs.existsSync(path.join(site, 'tour.json'))) {
   process.exit(2);
 }
 const kBytesAMillisecond = 20e6 / 8 / 1000, kDelay_ms = 40, kPart_bytes = 8192;  // of the line, which all answers share
-const kFlags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-const kTypes = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.jpg': 'image/jpeg'};
 
 let sent = 0;
 const server = http.createServer((request, response) => {
   const name = request.url.split('?')[0].replace(/\/$/, '/index.html').slice(1), file = path.join(site, name);
   if (!fs.existsSync(file)) return response.writeHead(404).end();
-  const headers = {'Content-Type': kTypes[path.extname(file)] ?? 'application/octet-stream'};
+  const headers = {'Content-Type': typeOf(file)};
   const packed = fs.existsSync(file + '.gz');  // as most hosts do
   if (packed) headers['Content-Encoding'] = 'gzip';
   const body = fs.readFileSync(packed ? file + '.gz' : file);
@@ -42,7 +40,7 @@ setInterval(() => {
 }, 2);
 await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
 
-const browser = await puppeteer.launch({executablePath: '/usr/bin/chromium', args: kFlags, protocolTimeout: 300000});
+const browser = await launch();
 const page = await browser.newPage();
 await page.setViewport({width: 1280, height: 720});
 let complaints = 0;

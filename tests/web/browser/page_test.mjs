@@ -6,13 +6,10 @@ import http from 'node:http';
 import os from 'node:os';
 import path from 'node:path';
 import {createRequire} from 'node:module';
-import puppeteer from 'puppeteer-core';
+import {launch, typeOf} from './chromium.mjs';
 
 const [flaneur, pack, player] = process.argv.slice(2);
-const kFlags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-                '--autoplay-policy=no-user-gesture-required'];
 const axeCore = fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-const kTypes = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.jpg': 'image/jpeg'};
 
 // A plain static host; `change` may answer otherwise: {body}, {cut: bytes} or {status}.
 function serve(folder, change = () => null) {
@@ -23,7 +20,7 @@ function serve(folder, change = () => null) {
     const file = path.join(folder, name), other = change(name);
     if (other?.status || !fs.existsSync(file)) return response.writeHead(other?.status ?? 404).end();
     const body = other?.body ?? fs.readFileSync(file);
-    response.writeHead(200, {'Content-Type': kTypes[path.extname(file)] ?? 'application/octet-stream', 'Content-Length': body.length});
+    response.writeHead(200, {'Content-Type': typeOf(file), 'Content-Length': body.length});
     if (other?.cut === undefined) return response.end(body);
     response.write(body.subarray(0, other.cut), () => response.destroy());
   });
@@ -38,7 +35,7 @@ const open = [];  // to be closed at the end
 let failed = 0;
 
 async function newPage(url, prepare = async () => {}) {
-  const browser = await puppeteer.launch({executablePath: '/usr/bin/chromium', args: kFlags, protocolTimeout: 300000});
+  const browser = await launch(300000, '--autoplay-policy=no-user-gesture-required');
   open.push(browser);
   const page = await browser.newPage();
   await page.setViewport({width: 320, height: 200});

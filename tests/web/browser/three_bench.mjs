@@ -7,7 +7,7 @@ import fs from 'node:fs';
 import http from 'node:http';
 import os from 'node:os';
 import path from 'node:path';
-import puppeteer from 'puppeteer-core';
+import {launch, typeOf} from './chromium.mjs';
 
 const [site, pack, player] = process.argv.slice(2);
 if (!player || !fs.existsSync(path.join(site, 'tour.json'))) {
@@ -15,10 +15,11 @@ if (!player || !fs.existsSync(path.join(site, 'tour.json'))) {
   process.exit(2);
 }
 const kWidth_px = 1280, kHeight_px = 720, kSeconds = 20;
-const kFlags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-const kTypes = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.jpg': 'image/jpeg',
-  '.wasm': 'application/wasm'};
 const modules = path.join(import.meta.dirname, 'node_modules');
+if (!fs.existsSync(path.join(modules, '@three.ez/instanced-mesh'))) {
+  console.error('three_bench.mjs: error: three.js is not installed here: npm ci --prefix ' + path.relative('.', import.meta.dirname));
+  process.exit(2);
+}
 
 // Where everybody is in the first picture, and from where it is seen.
 function placesOfAll() {
@@ -108,14 +109,14 @@ const server = http.createServer((request, response) => {
   const file = url === '/pack.glb' ? pack : url.startsWith('/modules/') ? path.join(modules, url.slice(9))
     : path.join(site, url.replace(/\/$/, '/index.html').slice(1));
   if (!fs.existsSync(file)) return response.writeHead(404).end();
-  response.writeHead(200, {'Content-Type': kTypes[path.extname(file)] ?? 'application/octet-stream'});
+  response.writeHead(200, {'Content-Type': typeOf(file)});
   fs.createReadStream(file).pipe(response);
 });
 await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
 
 // Milliseconds a picture, over kSeconds or ten pictures; and a picture to look at.
 async function timePictures(address, ready, count, picture) {
-  const browser = await puppeteer.launch({executablePath: '/usr/bin/chromium', args: kFlags, protocolTimeout: 600000});
+  const browser = await launch(600000);
   const page = await browser.newPage();
   page.on('pageerror', (e) => console.error(`three_bench.mjs: ${address}: ${e.message}`));
   await page.setViewport({width: kWidth_px, height: kHeight_px});
