@@ -117,14 +117,14 @@ function follow(state, parts) {
   for (const part of [parts.bar, parts.pages, parts.hands]) part.show(state);
   parts.sounds.follow();
   keepSettings(parts.player.text('page_settings'));
+  Object.assign(page.dataset, {textSize: state.text_size, contrast: state.high_contrast ? 'high' : 'usual',
+                               motion: state.reduced_motion ? 'reduced' : 'usual'});
   caption.hidden = !state.caption;
   if (state.caption !== caption.textContent) {
     caption.textContent = state.caption;
     caption.classList.toggle('scrolls', caption.scrollHeight > caption.clientHeight);
   }
   caption.lang = state.language;
-  Object.assign(page.dataset, {textSize: state.text_size, contrast: state.high_contrast ? 'high' : 'usual',
-                               motion: state.reduced_motion ? 'reduced' : 'usual'});
   if (state.resting && (!shown?.resting || shown.stop !== state.stop)) tell('stop-reached', {stop: state.stop + 1});
   if (state.over && !shown?.over) tell('ended');
   shown = state;

@@ -4,8 +4,7 @@ const kFollows_s = 0.12;  // changes are as slow as they are told of
 
 export class Sounds {
   constructor(player, signal) {
-    Object.assign(this, {player, spoken: 0, speech: null, round: new Map(), buffers: new Map(), computes: false});
-    this.signal = signal;
+    Object.assign(this, {player, signal, spoken: 0, speech: null, round: new Map(), buffers: new Map(), computes: false});
   }
   // Some times a second; the device is opened by the first, when there is a picture: that may take a moment.
   follow() {
