@@ -77,6 +77,7 @@ Error Open(const fs::path& tour, const BakeOptions& options, bool several, Jobs*
   AddTownSteps(baking);
   AddPeopleSteps(baking);
   AddCheckStep(baking);
+  AddModelsStep(baking);
   AddPackSteps(baking);
   return Ok();
 }
@@ -179,6 +180,7 @@ Error Bake(const std::vector<fs::path>& tours, const BakeOptions& options, std::
     if (!errors.back()) errors.back() = Begin(&all.back());
     if (Error e = Interrupted()) return e;
     if (errors.back() || all.back().unchanged) continue;
+    LeaveOutUnneeded(&all.back().baking, static_cast<size_t>(all.back().baking.pack_step));
     bakings.push_back(&all.back().baking);
     places.push_back(all.size() - 1);
   }
@@ -248,13 +250,7 @@ Error BakeStep(const fs::path& tour, const BakeOptions& options, const std::stri
   }
   if (Error e = Resolve(&baking)) return e;
   if (baking.steps[wanted].stage == "pack" && ResultsAreUpToDate(&baking)) return Ok();
-  // Everything before a step that it needs, and its needs'.
-  std::vector<bool> needed(baking.steps.size(), false);
-  needed[wanted] = true;
-  for (size_t i = wanted + 1; i-- > 0;) {
-    if (!needed[i]) continue;
-    for (const size_t need : baking.steps[i].needs) needed[need] = true;
-  }
+  const std::vector<bool> needed = LeaveOutUnneeded(&baking, wanted);
   for (size_t i = 0; i <= wanted; ++i) {
     const bool there = i != wanted && baking.steps[i].in_store && baking.steps[i].is_file;
     if (!needed[i] || there) continue;
@@ -273,6 +269,18 @@ Error FilesOfTour(const fs::path& tour, std::vector<fs::path>* files) {
     for (const fs::path& input : step.inputs) files->push_back(input);
   }
   return Ok();
+}
+
+std::vector<bool> LeaveOutUnneeded(Baking* baking, size_t wanted) {
+  std::vector<bool> needed(baking->steps.size(), false);
+  needed[wanted] = true;
+  for (size_t i = wanted + 1; i-- > 0;) {  // needs stand before those that need them
+    const Step& step = baking->steps[i];
+    if (!needed[i] || (step.stands_for_needs && step.in_store)) continue;
+    for (const size_t need : step.needs) needed[need] = true;
+  }
+  for (size_t i = 0; i < needed.size(); ++i) baking->steps[i].left_out = !needed[i];
+  return needed;
 }
 
 Step* AddStep(Baking* baking, const std::string& stage, const std::string& item) {

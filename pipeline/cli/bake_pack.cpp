@@ -1,10 +1,10 @@
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/cli/baking.h"
 #include "pipeline/cli/check_words.h"
 #include "pipeline/cli/stage_inputs.h"
-#include "pipeline/cli/title_page.h"
 #include "pipeline/cli/visitor_media.h"
 #include "pipeline/core/interruption.h"
 #include "pipeline/core/results.h"
@@ -29,8 +29,9 @@ Error WritePack(Baking* baking, const fs::path& staging, std::vector<std::string
   Fonts fonts(SystemFonts());
   TourParts& parts = baking->parts;
   *warnings = WarningsOfWords(parts, &fonts);
-  parts.footprints.origin_m = parts.town.origin_m;  // kept ones may have another
-  parts.footprints.reference_system = parts.town.reference_system;
+  parts.footprints.origin_m = baking->town.origin_m;  // kept ones may have another
+  parts.footprints.reference_system = baking->town.reference_system;
+  parts.title_page.background = baking->settings.title_page.background;
   const std::string pack = baking->settings.name + ".glb";
   BakeReport& whole = baking->report;
   if (Error e = WriteGeoJson(staging / kFootprints, parts.footprints)) return e;
@@ -40,7 +41,7 @@ Error WritePack(Baking* baking, const fs::path& staging, std::vector<std::string
     if (Error e = WriteLongitudeLatitude(staging / names->back(), parts.footprints)) return e;
   }
   if (Error e = WritePlan(staging / "plan.png", parts.ground, parts.footprints)) return e;
-  if (Error e = WriteTourPack(staging / pack, parts, baking->jobs, &whole.pack_bytes)) return e;
+  if (Error e = WriteTourPack(staging / pack, parts, baking->models, &whole.pack_bytes)) return e;
   whole.pack_path = (baking->output / pack).string();
   report->figures = {{"bytes", static_cast<double>(whole.pack_bytes)}};
   return Ok();
@@ -49,7 +50,6 @@ Error WritePack(Baking* baking, const fs::path& staging, std::vector<std::string
 Error MakeMedia(Baking* baking) {
   std::call_once(baking->media_read_once, [&] {
     baking->media_read = MakeVisitorMedia(baking->settings, baking->store, &baking->parts);
-    if (!baking->media_read) baking->media_read = MakeTitlePage(baking->settings.title_page, &baking->parts.title_page);
   });
   return baking->media_read;
 }
@@ -64,7 +64,6 @@ void AddEarlierNames(const Baking& baking, std::vector<std::string>* names) {
 // All results appear together, once all are there.
 Error MakePack(Baking* baking, Step* step, StageReport* report, Warnings* warnings) {
   const double start_s = Now_s();
-  if (Error e = ReadTownOnce(baking)) return e;
   if (Error e = MakeMedia(baking)) return e;
   TemporaryFolder staging;
   if (Error e = staging.Create(".flaneur_results_", baking->output)) return e;
@@ -74,6 +73,11 @@ Error MakePack(Baking* baking, Step* step, StageReport* report, Warnings* warnin
   step->report.stage = step->stage;
   step->report.item = step->item;
   step->report.seconds = Now_s() - start_s;
+  for (const Step& models : baking->steps) {  // which the report counts as the pack's
+    if (models.stage != "models" || models.report.cached) continue;
+    step->report.seconds += models.report.seconds;
+    step->report.work_s += models.report.work_s;
+  }
   step->warnings = *warnings;
   FillReport(baking);
   if (Error e = WriteReport(staging.path(), baking->report)) return e;
@@ -90,6 +94,15 @@ std::vector<std::string> KeysOfNeeds(Baking* baking, const Step& step) {
   for (const size_t need : step.needs) keys.push_back(baking->steps[need].key());
   return keys;
 }
+
+// The pack's models stand for all others.
+bool IsOfPack(const std::string& stage) {
+  constexpr const char* kStages[] = {"town", "footprints", "painting", "check", "models", "media"};
+  return std::find(std::begin(kStages), std::end(kStages), stage) != std::end(kStages);
+}
+
+// Steps that the report does not list.
+bool IsUntold(const std::string& stage) { return stage == "media" || stage == "painting" || stage == "models"; }
 
 // As if it had been baked anew from the store: no seconds, all cached.
 bool SaysAllCached(std::string* text) {
@@ -133,7 +146,7 @@ void AddPackSteps(Baking* baking) {
   Step* pack = AddStep(baking, "pack", name);
   baking->pack_step = static_cast<int>(IndexOf(*baking, pack));
   for (size_t i = 0; i + 1 < baking->steps.size(); ++i) {
-    if (baking->steps[i].stage != "source") pack->needs.push_back(i);
+    if (IsOfPack(baking->steps[i].stage)) pack->needs.push_back(i);
   }
   pack->inputs = {baking->tour};
   pack->key = [baking, pack] { return PackInputs(baking->tour, baking->settings, KeysOfNeeds(baking, *pack)); };
@@ -151,7 +164,7 @@ void FillReport(Baking* baking) {
   baking->report.stages.clear();
   baking->report.warnings.clear();
   for (const Step& step : baking->steps) {
-    if (step.report.stage.empty() || step.stage == "media" || step.stage == "painting") continue;
+    if (step.report.stage.empty() || IsUntold(step.stage)) continue;
     baking->report.stages.push_back(step.report);
     if (step.stage == "avatar") baking->report.stages.back().notes = NotesOf(*baking, step.item);
     for (const std::string& warning : step.warnings)

@@ -20,7 +20,8 @@ constexpr float kMinTintShare = 0.005f;  // of the surface
 
 Error MakeAvatar(Baking* baking, size_t i, StageReport* report, Warnings* warnings) {
   const AvatarSettings& settings = baking->settings.avatars[i];
-  AvatarLevels* levels = &baking->parts.avatars[i].levels;
+  TourAvatar* parts = &baking->parts.avatars[i];
+  AvatarLevels* levels = &parts->levels;
   fs::path file;
   if (Error e = SourceFile(baking, i + 1, &file)) return e;
   ReadAvatarOptions read;
@@ -48,6 +49,7 @@ Error MakeAvatar(Baking* baking, size_t i, StageReport* report, Warnings* warnin
   LevelsOptions options = baking->settings.levels;
   options.jobs = baking->jobs;
   if (Error e = BuildLevels(avatar, options, levels, warnings)) return e;
+  if (Error e = EncodeTourAvatar(parts, baking->jobs)) return Fail("avatar '" + settings.name + "': " + e.message);
   for (AvatarLevel level : levels->levels) {
     level.meshes.clear();
     report->levels.push_back(std::move(level));
@@ -134,7 +136,7 @@ void AddStepsOf(Baking* baking, size_t i) {
     return AvatarInputs(baking->settings.avatars[i], ContentOf(baking, i + 1), baking->settings.levels);
   };
   avatar->make = [baking, i](StageReport* r, Warnings* w) { return MakeAvatar(baking, i, r, w); };
-  Keep(avatar, &parts->levels);
+  Keep(avatar, &parts->levels, &parts->encoded, &parts->reach_m, &parts->prop_triangles);
 
   Step* impostor = AddStep(baking, "impostor", settings.name);
   impostor->needs = {IndexOf(*baking, avatar)};

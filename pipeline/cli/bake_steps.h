@@ -35,10 +35,14 @@ struct Step {
   std::function<bool(const std::string&, StageReport*, Warnings*)> unpack;
   std::function<Error(Warnings*)> then;  // after it was made or read; may be empty
 
+  // With its result in the store nobody reads those of its needs: it brings their reports.
+  bool stands_for_needs = false;
+
   // What the run finds out.
   std::string known_key;
   StoreEntry entry;  // where in_store
   bool in_store = false, done = false;
+  bool left_out = false;  // nobody asks for its result in this run
   std::atomic<double> progress = 0;  // share, where it tells
   std::mutex mutex;                  // held while it is done
   StageReport report;

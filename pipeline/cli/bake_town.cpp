@@ -22,7 +22,7 @@ namespace flaneur {
 // For stage_cache.h.
 template <typename A>
 void Fields(A& a, TownFacts* v) {
-  a(&v->places, &v->streets, &v->triangles);
+  a(&v->places, &v->streets, &v->triangles, &v->origin_m, &v->reference_system);
 }
 
 namespace {
@@ -85,6 +85,8 @@ Error MakeTown(Baking* baking, StageReport* report) {
   const Scene& town = baking->parts.town;
   baking->town.places = TaggedPlaces(town);
   baking->town.streets = TaggedStreets(town, baking->settings.language);
+  baking->town.origin_m = town.origin_m;
+  baking->town.reference_system = town.reference_system;
   for (const SceneNode& node : town.nodes) {
     for (int m : node.meshes) baking->town.triangles += TriangleCount(At(town.meshes, m));
   }

@@ -20,6 +20,8 @@ struct TownFacts {
   std::vector<Place> places;
   std::vector<Street> streets;
   double triangles = 0;
+  Point2 origin_m;
+  std::string reference_system;
 };
 
 struct Baking {
@@ -33,6 +35,7 @@ struct Baking {
   int town_step = -1, painting_step = -1, pack_step = -1;
 
   TourParts parts;
+  TourModels models;
   TownFacts town;
   BakeReport report;
   std::once_flag town_read_once, media_read_once, blender_once;
@@ -64,12 +67,18 @@ Error ReadTownOnce(Baking* baking);  // into parts.town
 // ---- People (bake_people.cpp): levels, impostors, tints.
 void AddPeopleSteps(Baking* baking);
 
+// ---- The pack's models, all that takes long to write (bake_models.cpp).
+void AddModelsStep(Baking* baking);
+
 // ---- Sounds, pictures, the pack and the report (bake_pack.cpp).
 void AddPackSteps(Baking* baking);
 // The report's stages and warnings, of all steps in their order.
 void FillReport(Baking* baking);
 // Whether the results of an earlier bake are what this one would make; then its report says so.
 bool ResultsAreUpToDate(Baking* baking);
+
+// By step whether `wanted` needs it to be done in this run. Those that it does not need are left out.
+std::vector<bool> LeaveOutUnneeded(Baking* baking, size_t wanted);
 
 // Adds a step. References to steps stay good.
 Step* AddStep(Baking* baking, const std::string& stage, const std::string& item);

@@ -13,6 +13,7 @@
 #include "pipeline/core/footprint.h"
 #include "pipeline/core/impostor.h"
 #include "pipeline/core/report.h"
+#include "pipeline/pack/write_tour_pack.h"
 #include "runtime/tour_data/tour_data.h"
 
 namespace flaneur {
@@ -92,6 +93,40 @@ void Fields(A& a, Street* v) {
 template <typename A>
 void Fields(A& a, ReportFinding* v) {
   a(&v->code, &v->severity, &v->title, &v->feature, &v->message, &v->advice, &v->at_m);
+}
+template <typename A>
+void Fields(A& a, DracoMesh* v) {
+  a(&v->bytes, &v->position, &v->normal, &v->uv, &v->uv1, &v->color, &v->joints, &v->weights, &v->vertices,
+    &v->triangles, &v->min, &v->max);
+}
+template <typename A>
+void Fields(A& a, EncodedPart* v) {
+  a(&v->material, &v->draco, &v->mesh);
+}
+template <typename A>
+void Fields(A& a, EncodedMesh* v) {
+  a(&v->compressed, &v->byte_joints, &v->parts);
+}
+template <typename A>
+void Fields(A& a, KeyChannel* v) {
+  a(&v->joint, &v->path, &v->knots, &v->times, &v->values, &v->rounded);
+}
+template <typename A>
+void Fields(A& a, EncodedAvatar* v) {
+  a(&v->levels, &v->props, &v->clips);
+}
+template <typename A>
+void Fields(A& a, AvatarPart* v) {
+  a(&v->skin, &v->skeleton_node, &v->joint_nodes, &v->level_nodes, &v->prop_nodes, &v->animations, &v->materials);
+}
+template <typename A>
+void Fields(A& a, TourIndices* v) {
+  a(&v->avatars, &v->impostors, &v->height_view, &v->kind_view, &v->people_view, &v->loiter_view,
+    &v->title_picture_view, &v->title_logo_view, &v->sounds, &v->pictures);
+}
+template <typename A>
+void Fields(A& a, TourModels* v) {
+  a(&v->glb, &v->indices);
 }
 template <typename A>
 void Fields(A& a, StageReport* v) {

@@ -81,6 +81,7 @@ std::string AvatarInputs(const AvatarSettings& avatar, const std::string& conten
   Fingerprint print;
   print.Add("avatar").Add(ThisProgram()).Add(avatar.name);
   AddReading(avatar, content, &print);
+  for (const Prop& prop : avatar.props) print.Add(prop.clip);
   const auto& [ratios, error_px, max_triangles, min_triangles, error_samples, walk_poses, max_joints, jobs] = levels;
   AddAll(ratios, &print);
   return print.Add(error_px)
@@ -151,6 +152,14 @@ std::string CheckInputs(const TourSettings& s, const std::string& footprints_inp
   for (const AcceptedFinding& a : s.accepted)
     print.Add(a.code).Add(a.at_m.x).Add(a.at_m.y).Add(a.within_m).Add(a.reason);
   for (const TourStop& stop : s.path) print.Add(stop.position_m.x).Add(stop.position_m.y);
+  return print.Hex();
+}
+
+std::string ModelsInputs(const TourSettings& s, const std::vector<std::string>& needs) {
+  Fingerprint print;
+  print.Add("models").Add(ThisProgram());
+  AddAll(needs, &print);
+  for (const fs::path& file : FilesOf(s.title_page)) print.AddFile(file);
   return print.Hex();
 }
 

@@ -23,7 +23,8 @@ std::string TintInputs(const AvatarSettings& avatar, const std::string& avatar_i
                        const std::string& impostor_inputs);
 std::string FootprintsInputs(const TourSettings& settings, const std::string& shape_inputs);
 std::string CheckInputs(const TourSettings& settings, const std::string& footprints_inputs);
-// `needs`: the keys of the steps that the pack is made from.
+// `needs`: the keys of the steps that the models, or the pack, are made from.
+std::string ModelsInputs(const TourSettings& settings, const std::vector<std::string>& needs);
 std::string PackInputs(const std::filesystem::path& tour, const TourSettings& settings,
                        const std::vector<std::string>& needs);
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/io/encode_avatar.h"
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_builder.h"
 #include "runtime/base/array.h"
@@ -14,41 +14,12 @@ namespace {
 // MSFT_lod's thresholds are shares of the screen's height; ours are pixels, taken on a screen this
 // high.
 constexpr float kScreenHeight_px = 1080;
-constexpr int kManyTriangles = 30000;   // whose closest compression takes longer than all the rest
-constexpr float kRoundedShare = 0.02f;  // of a level's error, that a position may be rounded by
-
-// Rounding stays well below the level's own error.
-int PositionBits(const AvatarLevel& level, float height_m) {
-  const float error_m = std::max(level.error_mm, level.posed_error_mm) / 1000;
-  if (!(error_m > 0)) return 0;
-  const float bits = std::ceil(std::log2(height_m / (kRoundedShare * error_m)));
-  return static_cast<int>(std::clamp(bits, 12.0f, 16.0f));
-}
-
-// Without the uvs of materials that have no picture.
-std::vector<Mesh> WithoutIdleUvs(std::vector<Mesh> meshes, const std::vector<Material>& materials) {
-  for (Mesh& mesh : meshes) {
-    const Material* material = mesh.material >= 0 ? &At(materials, mesh.material) : nullptr;
-    const bool pictured = material != nullptr && (material->base_color_image >= 0 || material->normal_image >= 0);
-    if (pictured) continue;
-    mesh.uvs.clear();
-    mesh.uvs1.clear();
-  }
-  return meshes;
-}
-
 std::string LevelExtras(const AvatarLevel& level) {
   const nlohmann::json extras = {{"flaneur_triangles", level.triangles},
                                  {"flaneur_error_mm", level.error_mm},
                                  {"flaneur_posed_error_mm", level.posed_error_mm},
                                  {"flaneur_switch_px", level.switch_px}};
   return extras.dump();
-}
-
-std::shared_ptr<const EncodedMesh> EncodedLevel(const Avatar& avatar, const AvatarLevel& level, DracoOptions draco) {
-  if (draco.position_bits == 0) draco.position_bits = PositionBits(level, avatar.height_m);
-  if (level.triangles > kManyTriangles) draco.speed = std::max(draco.speed, 2);
-  return EncodeMesh(WithoutIdleUvs(level.meshes, avatar.materials), draco);
 }
 
 void AddSkeleton(GltfBuilder* builder, const Avatar& avatar, const std::string& prefix, AvatarPart* part) {
@@ -70,19 +41,15 @@ void AddSkeleton(GltfBuilder* builder, const Avatar& avatar, const std::string& 
 
 }  // namespace
 
-Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix, const DracoOptions& draco,
-                Jobs* jobs, AvatarPart* part) {
+Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const EncodedAvatar& encoded,
+                const std::string& prefix, AvatarPart* part) {
   const Avatar& avatar = levels.avatar;
   *part = {};
   AddSkeleton(builder, avatar, prefix, part);
   const std::vector<int>& materials = part->materials = builder->AddMaterials(avatar.materials, avatar.images);
-  std::vector<std::shared_ptr<const EncodedMesh>> meshes(levels.levels.size());
-  ParallelFor(jobs, meshes.size(), [&](size_t k) { meshes[k] = EncodedLevel(avatar, levels.levels[k], draco); });
-  std::vector<Mesh> moved = levels.levels[0].meshes;  // that tell how exact a clip must be
-  for (const AvatarProp& prop : avatar.props) moved.insert(moved.end(), prop.meshes.begin(), prop.meshes.end());
-  for (const Clip& clip : avatar.clips) {
+  for (size_t c = 0; c < avatar.clips.size(); ++c) {
     part->animations.push_back(
-        builder->AddAnimation(prefix + clip.name, clip, avatar.joints, moved, part->joint_nodes, draco.compress));
+        builder->AddAnimation(prefix + avatar.clips[c].name, encoded.clips[c], part->joint_nodes));
   }
   std::vector<float> switch_shares;
   for (size_t k = 0; k < levels.levels.size(); ++k) {
@@ -90,16 +57,15 @@ Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::str
     node.name = prefix + "level" + std::to_string(k);
     node.skin = part->skin;
     node.extras = LevelExtras(levels.levels[k]);
-    if (Error e = builder->AddMesh(node.name, *meshes[k], materials, &node.mesh)) return e;
+    if (Error e = builder->AddMesh(node.name, encoded.levels[k], materials, &node.mesh)) return e;
     part->level_nodes.push_back(builder->AddNode(node));
     switch_shares.push_back(std::min(levels.levels[k].switch_px / kScreenHeight_px, 1.0f));
   }
-  for (const AvatarProp& prop : avatar.props) {
+  for (size_t k = 0; k < avatar.props.size(); ++k) {
     GltfNode node;
-    node.name = prefix + prop.name;
+    node.name = prefix + avatar.props[k].name;
     node.skin = part->skin;
-    const auto mesh = EncodeMesh(WithoutIdleUvs(prop.meshes, avatar.materials), draco);
-    if (Error e = builder->AddMesh(node.name, *mesh, materials, &node.mesh)) return e;
+    if (Error e = builder->AddMesh(node.name, encoded.props[k], materials, &node.mesh)) return e;
     part->prop_nodes.push_back(builder->AddNode(node));
   }
   if (part->level_nodes.size() > 1) {
@@ -112,9 +78,9 @@ Error WriteAvatarGlb(const std::filesystem::path& path, const AvatarLevels& leve
                      Jobs* jobs) {
   GltfBuilder builder;
   AvatarPart part;
-  if (Error e = AddAvatar(&builder, levels, "", draco, jobs, &part)) {
-    return Fail(path.string() + ": " + e.message);
-  }
+  EncodedAvatar encoded;
+  if (Error e = EncodeAvatar(levels, draco, jobs, &encoded)) return Fail(path.string() + ": " + e.message);
+  if (Error e = AddAvatar(&builder, levels, encoded, "", &part)) return Fail(path.string() + ": " + e.message);
   std::vector<int> roots{part.level_nodes[0], part.skeleton_node};
   roots.insert(roots.end(), part.prop_nodes.begin(), part.prop_nodes.end());
   builder.AddScene(levels.avatar.name, roots);

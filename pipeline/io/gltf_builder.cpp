@@ -8,7 +8,7 @@
 #include <set>
 
 #include "pipeline/io/clip_keys.h"
-#include "pipeline/io/draco_codec.h"
+#include "pipeline/io/encode_avatar.h"
 #include "pipeline/io/meshopt_codec.h"
 #include "runtime/base/array.h"
 #include "runtime/base/text.h"
@@ -20,9 +20,9 @@ using nlohmann::json;
 
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // glTF component types
 constexpr int kSignedShort = 5122;
-constexpr float kKeyError_m = 0.001f;               // by which a clip's rounding may move any vertex
 constexpr int kTimeExponent = -15;                  // keys' times are rounded to that power of two, 31 us
 constexpr float kMaxTime_s = 250;                   // that 24 bits hold so; longer clips keep floats
+constexpr size_t kGlbHeader_bytes = 12, kChunkHeader_bytes = 8;
 constexpr int kVertices = 34962, kIndices = 34963;  // glTF bufferView targets
 
 json Numbers(Vec3 v) { return {v.x, v.y, v.z}; }
@@ -49,76 +49,6 @@ struct FloatPool {
   std::vector<int> waiting;                     // accessors whose bufferView is still to come
 };
 
-PositionGrid GridAround(std::span<const Mesh> parts) {
-  Vec3 min{1e30f, 1e30f, 1e30f}, max{-1e30f, -1e30f, -1e30f};
-  for (const Mesh& mesh : parts) {
-    for (const uint32_t i : mesh.indices) {
-      const Vec3 p = mesh.positions[i];
-      min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
-      max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
-    }
-  }
-  const Vec3 size = max - min;
-  const float largest = std::max({size.x, size.y, size.z});
-  return {min, largest > 0 ? largest : 1.0f};
-}
-
-Error CheckPart(const Mesh& mesh) {
-  const size_t n = mesh.positions.size();
-  const auto fits = [n](size_t size) { return size == 0 || size == n; };
-  if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.uvs1.size()) || !fits(mesh.colors.size()) ||
-      !fits(mesh.joints.size()) || !fits(mesh.weights.size())) {
-    return Fail("an attribute has not one value a vertex");
-  }
-  if (mesh.indices.size() % 3 != 0) return Fail("its indices are not triangles");
-  for (const uint32_t i : mesh.indices) {
-    if (i >= n) return Fail("an index is out of range");
-  }
-  return Ok();
-}
-
-// Only the vertices that triangles use, in order of first use.
-Mesh Compact(const Mesh& in) {
-  std::vector<uint32_t> to(in.positions.size(), 0xffffffffu), from;
-  Mesh out;
-  out.material = in.material;
-  for (const uint32_t i : in.indices) {
-    if (to[i] == 0xffffffffu) {
-      to[i] = static_cast<uint32_t>(from.size());
-      from.push_back(i);
-    }
-    out.indices.push_back(to[i]);
-  }
-  const auto gather = [&from](const auto& values, auto* result) {
-    if (values.empty()) return;
-    for (const uint32_t i : from) result->push_back(values[i]);
-  };
-  gather(in.positions, &out.positions);
-  gather(in.normals, &out.normals);
-  gather(in.uvs, &out.uvs);
-  gather(in.uvs1, &out.uvs1);
-  gather(in.colors, &out.colors);
-  gather(in.joints, &out.joints);
-  gather(in.weights, &out.weights);
-  // glTF wants joint 0 where the weight, as it is stored, is 0.
-  for (size_t v = 0; v < out.weights.size() && v < out.joints.size(); ++v) {
-    const auto bytes = WeightBytes(out.weights[v]);
-    for (size_t i = 0; i < 4; ++i) {
-      if (bytes[i] == 0) out.joints[v][i] = 0;
-    }
-  }
-  return out;
-}
-
-bool JointsFitBytes(std::span<const Mesh> parts) {
-  for (const Mesh& mesh : parts) {
-    for (const auto& joints : mesh.joints) {
-      if (*std::max_element(joints.begin(), joints.end()) > 255) return false;
-    }
-  }
-  return true;
-}
-
 void PutU32(uint32_t value, std::vector<uint8_t>* out) {
   for (int i = 0; i < 4; ++i) out->push_back(static_cast<uint8_t>(value >> (8 * i)));
 }
@@ -132,35 +62,6 @@ void PutChunk(uint32_t type, std::span<const uint8_t> bytes, uint8_t padding, st
 }
 
 }  // namespace
-
-struct EncodedMesh {
-  struct Part {
-    Mesh mesh;        // compact
-    DracoMesh draco;  // where it is compressed
-  };
-  Error problem;
-  bool compressed = false, byte_joints = false;
-  std::vector<Part> parts;
-};
-
-std::shared_ptr<const EncodedMesh> EncodeMesh(std::span<const Mesh> parts, const DracoOptions& draco) {
-  auto out = std::make_shared<EncodedMesh>();
-  for (const Mesh& part : parts) {
-    if ((out->problem = CheckPart(part))) return out;
-  }
-  const PositionGrid grid = GridAround(parts);
-  out->compressed = draco.compress;
-  out->byte_joints = JointsFitBytes(parts);
-  for (const Mesh& part : parts) {
-    if (part.indices.empty()) continue;
-    EncodedMesh::Part& to = out->parts.emplace_back();
-    to.mesh = Compact(part);
-    if (!draco.compress) continue;
-    out->problem = EncodeDraco(to.mesh, draco, grid, out->byte_joints, &to.draco);
-    if (out->problem) return out;
-  }
-  return out;
-}
 
 struct GltfBuilder::Impl {
   json root = {{"asset", {{"version", "2.0"}, {"generator", "Flaneur"}}}};
@@ -424,17 +325,18 @@ std::vector<int> GltfBuilder::AddMaterials(std::span<const Material> materials, 
 
 Error GltfBuilder::AddMesh(const std::string& name, std::span<const Mesh> parts, std::span<const int> materials,
                            const DracoOptions& draco, int* mesh) {
-  return AddMesh(name, *EncodeMesh(parts, draco), materials, mesh);
+  EncodedMesh encoded;
+  if (Error e = EncodeMesh(parts, draco, &encoded)) return Fail("mesh '" + OneLine(name) + "': " + e.message);
+  return AddMesh(name, encoded, materials, mesh);
 }
 
 Error GltfBuilder::AddMesh(const std::string& name, const EncodedMesh& encoded, std::span<const int> materials,
                            int* mesh) {
   const std::string quoted = "mesh '" + OneLine(name) + "'";
-  if (encoded.problem) return Fail(quoted + ": " + encoded.problem.message);
   json primitives = json::array();
-  for (const EncodedMesh::Part& part : encoded.parts) {
+  for (const EncodedPart& part : encoded.parts) {
     json primitive = json::object();
-    const int material = part.mesh.material;
+    const int material = part.material;
     if (material >= Count(materials)) {
       return Fail(quoted + ": its material is out of range");
     }
@@ -490,11 +392,9 @@ int GltfBuilder::AddSkin(const std::string& name, std::span<const int> joint_nod
   return impl_->Add("skins", std::move(item));
 }
 
-int GltfBuilder::AddAnimation(const std::string& name, const Clip& clip, std::span<const Joint> joints,
-                              std::span<const Mesh> meshes, std::span<const int> joint_nodes, bool compress) {
+int GltfBuilder::AddAnimation(const std::string& name, std::span<const KeyChannel> kept,
+                              std::span<const int> joint_nodes) {
   json channels = json::array(), samplers = json::array();
-  const std::vector<KeyChannel> kept =
-      compress ? ReduceKeysTogether(clip, joints, meshes, kKeyError_m) : AllKeys(clip, joints);
   for (const KeyChannel& channel : kept) {
     channels.push_back(
         {{"sampler", samplers.size()}, {"target", {{"node", joint_nodes[channel.joint]}, {"path", channel.path}}}});
@@ -565,7 +465,7 @@ Error GltfBuilder::Finish(std::vector<uint8_t>* glb) {
     *this = GltfBuilder();
     return Fail(std::string("glTF: ") + OneLine(e.what()));
   }
-  const size_t size = 12 + 8 + text.size() + 3 + 8 + impl.binary.size() + 3;
+  const size_t size = kGlbHeader_bytes + kChunkHeader_bytes + text.size() + 3 + kChunkHeader_bytes + impl.binary.size() + 3;
   if (!problem && size > 0xffffffffu) {
     *this = GltfBuilder();
     return Fail("glTF: more than the 4 GiB that a binary file can hold");
@@ -578,6 +478,35 @@ Error GltfBuilder::Finish(std::vector<uint8_t>* glb) {
   for (size_t i = 0; i < 4; ++i) (*glb)[8 + i] = static_cast<uint8_t>(glb->size() >> (8 * i));
   *this = GltfBuilder();
   return problem;
+}
+
+Error GltfBuilder::Resume(std::span<const uint8_t> glb) {
+  const Error broken = Fail("glTF: what is to be gone on with is no whole binary file");
+  const auto word = [&glb](size_t at) {
+    uint32_t value = 0;
+    for (size_t i = 4; i-- > 0;) value = value << 8 | glb[at + i];
+    return size_t{value};
+  };
+  *this = GltfBuilder();
+  if (glb.size() < kGlbHeader_bytes + kChunkHeader_bytes || word(8) != glb.size()) return broken;
+  const size_t text_size = word(kGlbHeader_bytes), text_at = kGlbHeader_bytes + kChunkHeader_bytes;
+  if (text_size > glb.size() - text_at) return broken;
+  Impl& impl = *impl_;
+  impl.root = json::parse(glb.begin() + static_cast<std::ptrdiff_t>(text_at),
+                          glb.begin() + static_cast<std::ptrdiff_t>(text_at + text_size), nullptr, false);
+  if (!impl.root.is_object()) return broken;
+  const json buffers = impl.root.value("buffers", json::array());
+  impl.root.erase("buffers");
+  if (!buffers.empty()) {
+    const size_t at = text_at + text_size + kChunkHeader_bytes, size = buffers[0].value("byteLength", size_t{0});
+    if (at > glb.size() || size > glb.size() - at) return broken;
+    impl.binary.assign(glb.begin() + static_cast<std::ptrdiff_t>(at),
+                       glb.begin() + static_cast<std::ptrdiff_t>(at + size));
+  }
+  if (buffers.size() > 1) impl.fallback_bytes = buffers[1].value("byteLength", size_t{0});
+  impl.used = impl.root.value("extensionsUsed", std::set<std::string>{});
+  impl.required = impl.root.value("extensionsRequired", std::set<std::string>{});
+  return Ok();
 }
 
 }  // namespace flaneur

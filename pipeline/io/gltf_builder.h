@@ -11,7 +11,6 @@
 #include "pipeline/core/avatar.h"
 #include "pipeline/core/mesh.h"
 #include "runtime/base/error.h"
-#include "runtime/base/jobs.h"
 #include "runtime/base/math.h"
 
 namespace flaneur {
@@ -36,10 +35,9 @@ struct GltfNode {
   std::string extras;  // a JSON object, or empty
 };
 
-// A mesh's parts as AddMesh stores them. Most of the work, and apart from the builder, so that several can be made at
-// once.
+struct EncodedAvatar;
 struct EncodedMesh;
-std::shared_ptr<const EncodedMesh> EncodeMesh(std::span<const Mesh> parts, const DracoOptions& draco);
+struct KeyChannel;
 
 class GltfBuilder {
  public:
@@ -69,12 +67,8 @@ class GltfBuilder {
   int AddNode(const GltfNode& node);
   int AddSkin(const std::string& name, std::span<const int> joint_nodes, std::span<const Mat4> inverse_binds,
               int skeleton_node);
-  // `compress`: with as few and as rough keys as keep every vertex of `meshes` within 1 mm (see
-  // ReduceKeysTogether), packed by EXT_meshopt_compression; else every key of whatever moves as
-  // floats. Channels that only hold the joint's rest transform are left out. Returns -1, and adds
-  // nothing, where no channel is left.
-  int AddAnimation(const std::string& name, const Clip& clip, std::span<const Joint> joints,
-                   std::span<const Mesh> meshes, std::span<const int> joint_nodes, bool compress);
+  // Rounded channels are packed by EXT_meshopt_compression. Returns -1, and adds nothing, where there is none.
+  int AddAnimation(const std::string& name, std::span<const KeyChannel> channels, std::span<const int> joint_nodes);
   int AddScene(const std::string& name,
                std::span<const int> root_nodes);  // the first is the default scene
 
@@ -94,6 +88,9 @@ class GltfBuilder {
 
   // The whole file. The builder is empty afterwards.
   Error Finish(std::vector<uint8_t>* glb);
+  // Goes on with what Finish gave, in the place of all that was added so far. Images, textures and clips that are added
+  // then are not compared with those in the file. Errors: no glTF binary.
+  Error Resume(std::span<const uint8_t> glb);
 
  private:
   struct Impl;
@@ -112,9 +109,9 @@ struct AvatarPart {
 };
 
 // Adds skeleton, skin, levels (chained by MSFT_lod) and clips; names of nodes and animations start
-// with `prefix`. The caller puts `skeleton_node`, `level_nodes[0]` and `prop_nodes` into a scene. Errors: as
-// AddMesh.
-Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const std::string& prefix, const DracoOptions& draco,
-                Jobs* jobs, AvatarPart* part);
+// with `prefix`. `encoded` is of the same levels. The caller puts `skeleton_node`, `level_nodes[0]` and `prop_nodes`
+// into a scene. Errors: as AddMesh.
+Error AddAvatar(GltfBuilder* builder, const AvatarLevels& levels, const EncodedAvatar& encoded,
+                const std::string& prefix, AvatarPart* part);
 
 }  // namespace flaneur

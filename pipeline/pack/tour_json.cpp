@@ -5,7 +5,6 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/core/reach.h"
 #include "runtime/base/array.h"
 #include "runtime/base/color_text.h"
 #include "runtime/tour_data/settings.h"
@@ -112,13 +111,6 @@ Json OtherClipJson(const std::string& name, int animation, const std::vector<Tou
   return json;
 }
 
-// By prop the clip that it is for.
-std::vector<std::string> ToolsOf(const TourAvatar& avatar) {
-  std::vector<std::string> clips;
-  for (const Prop& prop : avatar.props) clips.push_back(prop.clip);
-  return clips;
-}
-
 Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const ImpostorViews& views) {
   const Avatar& person = avatar.levels.avatar;
   Json levels = Json::array(), clips = Json::object(), others = Json::array();
@@ -139,7 +131,7 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
             {"share", Short(avatar.share)},
             {"height_m", Short(person.height_m)},
             {"radius_m", Short(person.radius_m)},
-            {"reach_m", Short(Reach_m(avatar.levels, ToolsOf(avatar)))},
+            {"reach_m", Short(avatar.reach_m)},
             {"walk_speed_mps", Short(person.walk_speed_mps)},
             {"clips", clips},
             {"levels", levels},
@@ -149,11 +141,9 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
   for (size_t t = 0; t < avatar.tints.size(); ++t)
     json["tints"].push_back(TintJson(avatar.tints[t], t, person.materials, part));
   for (size_t k = 0; k < person.props.size(); ++k) {
-    int triangles = 0;
-    for (const Mesh& mesh : person.props[k].meshes) triangles += TriangleCount(mesh);
     json["props"].push_back({{"name", person.props[k].name},
                              {"node", part.prop_nodes[k]},
-                             {"triangles", triangles},
+                             {"triangles", avatar.prop_triangles[k]},
                              {"share", Short(avatar.props[k].share)},
                              {"slot", avatar.props[k].slot}});
     if (!avatar.props[k].clip.empty()) json["props"].back()["clip"] = avatar.props[k].clip;
@@ -310,7 +300,8 @@ std::string TourJson(const TourParts& parts, const TourIndices& indices) {
   for (const auto& [language, title] : parts.titles) tour["titles"][language] = title;
   tour["language"] = parts.language;
   if (!parts.guide.empty()) tour["guide"] = parts.guide;
-  if (parts.title_page.there()) tour["title_page"] = TitlePageJson(parts.title_page, indices);
+  if (indices.title_picture_view >= 0 || indices.title_logo_view >= 0)
+    tour["title_page"] = TitlePageJson(parts.title_page, indices);
   AddVisitorJson(parts, indices, &tour);
   for (const Flock& flock : parts.flocks) tour["flocks"].push_back(FlockJson(flock));
   for (const Smoke& smoke : parts.smokes) tour["smokes"].push_back(SmokeJson(smoke));

@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "pipeline/io/gltf_builder.h"
+#include "pipeline/core/reach.h"
 #include "pipeline/pack/tour_json.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
@@ -73,34 +73,70 @@ std::string TagExtras(const SceneNode& node) {
   return json.empty() ? json : json + "}";
 }
 
-Error AddTown(const Scene& town, GltfBuilder* builder) {
+// A node of the town as glTF has it.
+struct TownNode {
+  const SceneNode* node = nullptr;
+  std::optional<Transform> transform;  // none: it shears, and its mesh is baked
+  size_t mesh = 0;                     // among those that are encoded
+};
+
+// Nodes with the same meshes share theirs.
+std::vector<TownNode> NodesOf(const Scene& town, size_t* mesh_count) {
+  std::vector<TownNode> nodes;
+  std::map<std::vector<int>, size_t> shared;
+  *mesh_count = 0;
+  for (const SceneNode& node : town.nodes) {
+    if (node.meshes.empty()) continue;
+    TownNode& out = nodes.emplace_back(TownNode{&node, Decompose(node.world), *mesh_count});
+    if (out.transform) out.mesh = shared.try_emplace(node.meshes, *mesh_count).first->second;
+    if (out.mesh == *mesh_count) ++*mesh_count;
+  }
+  return nodes;
+}
+
+Error EncodeTown(const Scene& town, const std::vector<TownNode>& nodes, Jobs* jobs, std::vector<EncodedMesh>* meshes) {
   DracoOptions draco;
   draco.position_bits = kTownPositionBits;
   draco.uv_bits = kTownUvBits;
-  const std::vector<int> materials = builder->AddMaterials(town.materials, town.images);
-  std::map<std::vector<int>, int> shared;  // a node's meshes -> their glTF mesh
-  std::vector<int> roots;
-  for (const SceneNode& node : town.nodes) {
-    if (node.meshes.empty()) continue;
+  std::vector<const TownNode*> first(meshes->size(), nullptr);
+  for (const TownNode& node : nodes) {
+    if (first[node.mesh] == nullptr) first[node.mesh] = &node;
+  }
+  std::vector<Error> errors(meshes->size());
+  ParallelFor(jobs, meshes->size(), [&](size_t k) {
     std::vector<Mesh> parts;
-    for (int m : node.meshes) parts.push_back(At(town.meshes, m));
-    const std::optional<Transform> transform = Decompose(node.world);
-    if (node.turns != TurnsBy::kNothing && !transform)
-      return Fail("town: node '" + OneLine(node.name) +
+    for (int m : first[k]->node->meshes) parts.push_back(At(town.meshes, m));
+    if (!first[k]->transform) parts = Baked(std::move(parts), first[k]->node->world);
+    errors[k] = EncodeMesh(parts, draco, &(*meshes)[k]);
+  });
+  for (size_t k = 0; k < errors.size(); ++k) {
+    if (errors[k]) return Fail("mesh '" + OneLine(first[k]->node->name) + "': " + errors[k].message);
+  }
+  return Ok();
+}
+
+Error AddTown(const Scene& town, Jobs* jobs, GltfBuilder* builder) {
+  const std::vector<int> materials = builder->AddMaterials(town.materials, town.images);
+  size_t mesh_count = 0;
+  const std::vector<TownNode> nodes = NodesOf(town, &mesh_count);
+  for (const TownNode& node : nodes) {
+    if (node.node->turns != TurnsBy::kNothing && !node.transform)
+      return Fail("town: node '" + OneLine(node.node->name) +
                   "' turns (flaneur_turns) but is sheared by its parents' scales: apply them to its mesh");
-    int mesh = -1;
-    if (const auto found = shared.find(node.meshes); transform && found != shared.end()) {
-      mesh = found->second;
-    } else {
-      if (!transform) parts = Baked(std::move(parts), node.world);
-      if (Error e = builder->AddMesh(node.name, parts, materials, draco, &mesh)) return e;
-      if (transform) shared[node.meshes] = mesh;
+  }
+  std::vector<EncodedMesh> encoded(mesh_count);
+  if (Error e = EncodeTown(town, nodes, jobs, &encoded)) return e;
+  std::vector<int> meshes(mesh_count, -1), roots;
+  for (const TownNode& node : nodes) {
+    int& mesh = meshes[node.mesh];
+    if (mesh < 0) {
+      if (Error e = builder->AddMesh(node.node->name, encoded[node.mesh], materials, &mesh)) return e;
     }
     GltfNode out;
-    out.name = node.name;
+    out.name = node.node->name;
     out.mesh = mesh;
-    out.transform = transform.value_or(Transform{});
-    out.extras = TagExtras(node);
+    out.transform = node.transform.value_or(Transform{});
+    out.extras = TagExtras(*node.node);
     roots.push_back(builder->AddNode(out));
   }
   builder->AddScene("town", roots);
@@ -124,11 +160,11 @@ ImpostorViews AddImpostor(const ImpostorAtlas& atlas, GltfBuilder* builder) {
   return views;
 }
 
-Error AddAvatars(const TourParts& parts, Jobs* jobs, GltfBuilder* builder, TourIndices* indices) {
+Error AddAvatars(const TourParts& parts, GltfBuilder* builder, TourIndices* indices) {
   for (const TourAvatar& avatar : parts.avatars) {
     const std::string& name = avatar.levels.avatar.name;
     AvatarPart part;
-    if (Error e = AddAvatar(builder, avatar.levels, name + "_", DracoOptions{}, jobs, &part)) return e;
+    if (Error e = AddAvatar(builder, avatar.levels, avatar.encoded, name + "_", &part)) return e;
     std::vector<int> roots{part.skeleton_node, part.level_nodes.front()};
     roots.insert(roots.end(), part.prop_nodes.begin(), part.prop_nodes.end());
     builder->AddScene(name, roots);
@@ -138,16 +174,61 @@ Error AddAvatars(const TourParts& parts, Jobs* jobs, GltfBuilder* builder, TourI
   return Ok();
 }
 
+// By prop the clip that it is for.
+std::vector<std::string> ToolsOf(const TourAvatar& avatar) {
+  std::vector<std::string> clips;
+  for (const Prop& prop : avatar.props) clips.push_back(prop.clip);
+  return clips;
+}
+
 }  // namespace
 
-Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, Jobs* jobs, size_t* bytes) {
+Error EncodeTourAvatar(TourAvatar* avatar, Jobs* jobs) {
+  const AvatarLevels& levels = avatar->levels;
+  avatar->reach_m = Reach_m(levels, ToolsOf(*avatar));
+  avatar->prop_triangles.clear();
+  for (const AvatarProp& prop : levels.avatar.props) {
+    int& triangles = avatar->prop_triangles.emplace_back(0);
+    for (const Mesh& mesh : prop.meshes) triangles += TriangleCount(mesh);
+  }
+  return EncodeAvatar(levels, DracoOptions{}, jobs, &avatar->encoded);
+}
+
+TourAvatar WithoutBulk(const TourAvatar& avatar) {
+  TourAvatar light;
+  light.share = avatar.share;
+  light.tints = avatar.tints;
+  light.props = avatar.props;
+  light.clips = avatar.clips;
+  light.height_spread = avatar.height_spread;
+  light.reach_m = avatar.reach_m;
+  light.prop_triangles = avatar.prop_triangles;
+  const Avatar& person = avatar.levels.avatar;
+  light.levels.avatar.name = person.name;
+  light.levels.avatar.materials = person.materials;
+  light.levels.avatar.height_m = person.height_m;
+  light.levels.avatar.radius_m = person.radius_m;
+  light.levels.avatar.walk_speed_mps = person.walk_speed_mps;
+  for (const Clip& clip : person.clips) light.levels.avatar.clips.push_back({clip.name, clip.duration_s, clip.keys, {}});
+  for (const AvatarProp& prop : person.props) light.levels.avatar.props.push_back({prop.name, {}});
+  for (const AvatarLevel& level : avatar.levels.levels) {
+    light.levels.levels.push_back({{}, level.triangles, level.error_mm, level.posed_error_mm, level.normal_deg,
+                                   level.joints, level.switch_px});
+  }
+  static_cast<ImpostorLayout&>(light.impostor) = avatar.impostor;
+  light.impostor.cells.clear();
+  light.impostor.tint_regions = avatar.impostor.tint_regions;
+  return light;
+}
+
+Error BuildModels(const TourParts& parts, Jobs* jobs, TourModels* models) {
   GltfBuilder builder;
-  TourIndices indices;
+  TourIndices& indices = models->indices = {};
   // First in the file, as they are read first.
   if (!parts.title_page.picture.empty()) indices.title_picture_view = builder.AddBufferView(parts.title_page.picture);
   if (!parts.title_page.logo.empty()) indices.title_logo_view = builder.AddBufferView(parts.title_page.logo);
-  if (Error e = AddTown(parts.town, &builder)) return e;
-  if (Error e = AddAvatars(parts, jobs, &builder, &indices)) return e;
+  if (Error e = AddTown(parts.town, jobs, &builder)) return e;
+  if (Error e = AddAvatars(parts, &builder, &indices)) return e;
   const auto& heights = parts.ground.height_m;
   indices.height_view =
       builder.AddBufferView({reinterpret_cast<const uint8_t*>(heights.data()), heights.size() * sizeof(float)});
@@ -156,6 +237,14 @@ Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, J
     indices.people_view = builder.AddBufferView(parts.painting.people);
     indices.loiter_view = builder.AddBufferView(parts.painting.loiter);
   }
+  return builder.Finish(&models->glb);
+}
+
+Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, const TourModels& models,
+                    size_t* bytes) {
+  GltfBuilder builder;
+  TourIndices indices = models.indices;
+  if (Error e = builder.Resume(models.glb)) return e;
   for (const auto& sound : parts.sounds) indices.sounds.push_back(builder.AddBufferView(sound));
   for (const auto& picture : parts.pictures) indices.pictures.push_back(builder.AddBufferView(picture));
   builder.SetRootExtension(kTourExtension, TourJson(parts, indices));

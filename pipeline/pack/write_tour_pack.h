@@ -8,6 +8,8 @@
 #include "pipeline/core/footprint.h"
 #include "pipeline/core/impostor.h"
 #include "pipeline/core/scene.h"
+#include "pipeline/io/encode_avatar.h"
+#include "pipeline/io/gltf_builder.h"
 #include "runtime/base/error.h"
 #include "runtime/base/jobs.h"
 #include "runtime/pack/tour_pack.h"
@@ -30,6 +32,10 @@ struct TourAvatar {
   std::vector<Prop> props = {};  // one for each of the avatar's
   std::vector<TourClip> clips = {};
   float height_spread = 0;  // as PackAvatar's
+  // By EncodeTourAvatar:
+  EncodedAvatar encoded = {};
+  float reach_m = 0;                     // see Reach_m
+  std::vector<int> prop_triangles = {};  // by prop
 };
 
 struct TourParts : TourData {
@@ -42,8 +48,39 @@ struct TourParts : TourData {
   TitlePage title_page;
 };
 
-// Scene 0 is the town; one scene more holds each avatar. The same parts give the same bytes.
-// Errors: geometry that cannot be compressed (names the mesh); as for WriteFile.
-Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, Jobs* jobs, size_t* bytes);
+// An impostor's buffer views.
+struct ImpostorViews {
+  int cells = -1, albedo = -1, normal = -1, depth = -1, motion = -1, tints = -1;
+};
+
+// Where the glTF part of the pack put what the extension refers to.
+struct TourIndices {
+  std::vector<AvatarPart> avatars;
+  std::vector<ImpostorViews> impostors;  // one an avatar
+  int height_view = -1, kind_view = -1;
+  int people_view = -1, loiter_view = -1;             // -1: no painting
+  int title_picture_view = -1, title_logo_view = -1;  // -1: none
+  std::vector<int> sounds;    // views, by sound
+  std::vector<int> pictures;  // views, by picture
+};
+
+// The glTF part of a pack: most of the work and of the bytes. What tour.toml alone says may change without it.
+struct TourModels {
+  std::vector<uint8_t> glb;
+  TourIndices indices;
+};
+
+// Fills in the avatar's last three fields from the others. Errors: as for EncodeAvatar.
+Error EncodeTourAvatar(TourAvatar* avatar, Jobs* jobs);
+
+// The avatar without what its models hold already: meshes, pictures, keys.
+TourAvatar WithoutBulk(const TourAvatar& avatar);
+
+// Of encoded avatars. Scene 0 is the town; one scene more holds each avatar. The same parts give the same bytes.
+// Errors: geometry that cannot be compressed (names the mesh).
+Error BuildModels(const TourParts& parts, Jobs* jobs, TourModels* models);
+
+// `parts` may be without the town, and its avatars WithoutBulk. Errors: as for WriteFile.
+Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, const TourModels& models, size_t* bytes);
 
 }  // namespace flaneur

@@ -97,6 +97,43 @@ class Cache(ProgramTest):
         self.bake(fresh)
         self.assertEqual(self.pack.read_bytes(), (fresh / "small.glb").read_bytes(), "cached or not, the pack is the same")
 
+    def kept_by(self, *steps):
+        """The files of the cache that these steps made."""
+        descriptions = [path for path in self.out.glob("cache/??/*.json")
+                        if json.loads(path.read_text().split("\n")[1])["step"] in steps]
+        self.assertEqual(len(descriptions), len(steps))
+        return [next(path for path in description.parent.glob(description.stem + ".*") if path != description)
+                for description in descriptions]
+
+    def test_a_caption_asks_for_nothing_but_the_models(self):
+        stop = '[[stop]]\nposition_m = [10, 10]\ncaption = "%s"\n'
+        plain = self.settings
+        self.settings = plain + stop % "The square"
+        self.bake()
+        report = json.loads((self.out / "report.json").read_text())
+        for kept in self.kept_by("avatar:painted", "impostor:plain"):
+            kept.unlink()
+        self.settings = plain + stop % "The market square"
+        self.assert_made(set())
+        cold = self.folder / "cold"
+        self.bake(cold)
+        for name in ("small.glb", "footprints.geojson", "plan.png"):
+            self.assertEqual((self.out / name).read_bytes(), (cold / name).read_bytes(), name)
+        again = json.loads((self.out / "report.json").read_text())
+        self.assertEqual([stage["stage"] + stage["item"] for stage in again["stages"]],
+                         [stage["stage"] + stage["item"] for stage in report["stages"]])
+
+    def test_damaged_models_are_made_again(self):
+        self.bake()
+        before = self.pack.read_bytes()
+        for kept in self.kept_by("models:small", "impostor:plain"):
+            data = bytearray(kept.read_bytes())
+            data[len(data) // 2] ^= 1
+            kept.write_bytes(data)
+        self.pack.unlink()
+        self.assert_made({"impostor plain"})
+        self.assertEqual(self.pack.read_bytes(), before)
+
     def test_a_damaged_cache_is_no_cache(self):
         self.bake()
         good = self.pack.read_bytes()

@@ -30,7 +30,7 @@ class Plan(SmallTourTest):
         steps = self.plan()
         names = [step["name"] for step in steps]
         self.assertEqual(names, ["town:small", "footprints:small", "avatar:anna", "impostor:anna", "avatar:berta two",
-                                 "impostor:berta two", "check:small", "media:small", "pack:small"])
+                                 "impostor:berta two", "check:small", "models:small", "media:small", "pack:small"])
         for number, step in enumerate(steps):
             self.assertLessEqual(set(step["needs"]), set(names[:number]))
             self.assertRegex(step["key"], "^[0-9a-f]{64}$")
@@ -55,7 +55,7 @@ class Plan(SmallTourTest):
         data[-4] ^= 1
         person.write_bytes(data)
         changed = {name for name, key in self.keys().items() if key != before[name]}
-        self.assertEqual(changed, {"avatar:anna", "impostor:anna", "pack:small"})
+        self.assertEqual(changed, {"avatar:anna", "impostor:anna", "models:small", "pack:small"})
 
     def test_steps_one_by_one_give_the_same_bytes_as_a_bake(self):
         self.assert_succeeds(self.bake())

@@ -157,7 +157,7 @@ TEST(TourPack, BringsWhatTurnsInTheTownAcross) {
   TemporaryFolder folder;
   EXPECT_FALSE(folder.Create("flaneur_test_"));
   size_t size = 0;
-  const std::string refused = WriteTourPack(folder.path() / "sheared.glb", parts, nullptr, &size).message;
+  const std::string refused = WriteWhole(folder.path() / "sheared.glb", parts, &size).message;
   EXPECT_NE(refused.find("part_2"), std::string::npos) << refused;
   EXPECT_NE(refused.find("sheared"), std::string::npos) << refused;
 }
