@@ -31,6 +31,10 @@ class Cutter {
   void Add(const std::vector<ByteRange>& ranges) {
     for (const ByteRange& range : ranges) Add(range);
   }
+  void EndOfOpening() {
+    for (PackPiece& piece : pieces_) piece.opens = true;
+    starts_ = true;
+  }
   void EndOfFirst() {
     for (PackPiece& piece : pieces_) piece.first = true;
     starts_ = true;
@@ -192,6 +196,7 @@ std::vector<PackPiece> PiecesOf(const PackFile& file, const TourPack& pack, size
     for (size_t a = 0; a < pack.avatars.size(); ++a) add(static_cast<int>(a), pack.avatars[a]);
   };
   AddFrame(file, pack, bytes, &cutter);
+  cutter.EndOfOpening();
   AddNearTown(file, pack, town, limits.first_town_bytes, &cutter);
   for_avatars([&](int a, const PackAvatar&) { cutter.Add(file.RangesOfAtlas(a, kCoarsestAtlasLevel)); });
   cutter.EndOfFirst();

@@ -8,6 +8,7 @@ namespace flaneur {
 
 struct PackPiece {
   std::vector<ByteRange> parts;  // of the file, one after the other
+  bool opens = false;            // the pack is opened with it
   bool first = false;            // a picture with people needs it
 };
 

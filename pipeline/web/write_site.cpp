@@ -178,7 +178,7 @@ Error WritePlayer(const fs::path& player, Site* site, Json* list, SiteResult* re
 
 Error WritePieces(const std::vector<PackPiece>& pieces, const Bytes& pack, Site* site, Json* list, SiteResult* result) {
   Json written = Json::array();
-  size_t first = 0;
+  size_t opens = 0, first = 0;
   for (const PackPiece& piece : pieces) {
     Bytes content;
     Json parts = Json::array();
@@ -191,10 +191,12 @@ Error WritePieces(const std::vector<PackPiece>& pieces, const Bytes& pack, Site*
     size_t bytes = 0;
     if (Error e = site->WritePacked(content, &name, &bytes)) return e;
     written.push_back({{"file", name}, {"parts", parts}});
+    opens += piece.opens ? 1 : 0;
     first += piece.first ? 1 : 0;
     result->first_bytes += piece.first ? bytes : 0;
     result->all_bytes += bytes;
   }
+  (*list)["opens"] = opens;
   (*list)["first"] = first;
   (*list)["pieces"] = written;
   result->pieces = pieces.size();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <utility>
 
 #include "runtime/base/text.h"
 #include "runtime/render/shader_source.h"
@@ -11,7 +13,11 @@ namespace {
 
 constexpr GLuint kFrameBinding = 0;
 
-// Nobody asks at once how it went: drivers compile on other threads until somebody does.
+struct BegunProgram {
+  GLuint id = 0, vertex = 0, fragment = 0;
+};
+std::map<std::pair<ShaderProgram, ShaderMode>, BegunProgram> begun;
+
 GLuint Compile(GLenum kind, const std::string& source) {
   const GLuint shader = glCreateShader(kind);
   const char* text = source.c_str();
@@ -69,17 +75,25 @@ void TakePlaces(Program* p) {
 
 }  // namespace
 
-Error BuildProgram(ShaderProgram which, ShaderMode mode, Program* program) {
+void BeginProgram(ShaderProgram which, ShaderMode mode) {
+  const auto [place, fresh] = begun.try_emplace({which, mode});
+  if (!fresh) return;
+  BegunProgram& p = place->second;
   const ShaderSource source = SourceOf(which, mode);
-  const GLuint v = Compile(GL_VERTEX_SHADER, source.vertex), f = Compile(GL_FRAGMENT_SHADER, source.fragment);
-  const GLuint id = program->id = glCreateProgram();
-  glAttachShader(id, v);
-  glAttachShader(id, f);
-  glLinkProgram(id);
+  p = {glCreateProgram(), Compile(GL_VERTEX_SHADER, source.vertex), Compile(GL_FRAGMENT_SHADER, source.fragment)};
+  glAttachShader(p.id, p.vertex);
+  glAttachShader(p.id, p.fragment);
+  glLinkProgram(p.id);
+}
+
+Error BuildProgram(ShaderProgram which, ShaderMode mode, Program* program) {
+  BeginProgram(which, mode);
+  const auto [id, vertex, fragment] = begun.extract({which, mode}).mapped();
+  program->id = id;
   GLint good = 0;
   glGetProgramiv(id, GL_LINK_STATUS, &good);
-  const std::string refusal = good ? "" : WhyNot(id, v, f);
-  for (GLuint shader : {v, f}) {  // drivers keep what they made of it as long as it is attached
+  const std::string refusal = good ? "" : WhyNot(id, vertex, fragment);
+  for (GLuint shader : {vertex, fragment}) {  // drivers keep what they made of it as long as it is attached
     glDetachShader(id, shader);
     glDeleteShader(shader);
   }

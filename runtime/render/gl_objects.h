@@ -42,6 +42,9 @@ struct Program {
   GLint atlas = -1, ranges = -1, directions = -1, tints = -1, tint_shifts = -1, tint_regions = -1;
   GLint alpha_cutoff = -1, share = -1, size = -1;
 };
+// Drivers may compile on other threads until somebody asks how it went: many programs of the context in force are begun
+// at once, and BuildProgram goes on with those.
+void BeginProgram(ShaderProgram which, ShaderMode mode = ShaderMode::kGpu);
 // Errors: what the driver says against it.
 Error BuildProgram(ShaderProgram which, ShaderMode mode, Program* program);
 Error BuildProgram(ShaderProgram which, Program* program);  // where all modes are alike

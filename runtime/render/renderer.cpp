@@ -45,6 +45,24 @@ ShaderMode ModeFor(bool software, bool several_samples, bool averages, bool norm
   return normals ? ShaderMode::kSoftwareNormals : ShaderMode::kSoftware;
 }
 
+// How this machine draws what is asked for.
+struct DrawingWay {
+  ShaderMode mode;
+  int samples;  // that are drawn at once, of `wished`
+  int wished;
+  bool averages, fast, deferred;  // fast: for a picture many times a second; stills may take their time
+};
+
+DrawingWay WayOf(const RenderOptions& options) {
+  const bool software = DrawsInSoftware();
+  // In software four samples cost a dozen times the whole rest of a frame.
+  const int wished = options.samples > 0 ? options.samples : software ? 1 : 4;
+  const bool averages = software && options.averages && wished > 1 && !options.normals;
+  const int samples = averages ? 1 : wished;
+  const ShaderMode mode = ModeFor(software, samples > 1, averages, options.normals);
+  return {mode, samples, wished, averages, software && wished == 1, mode == ShaderMode::kSoftware || averages};
+}
+
 // By the processor's time of all threads: software draws on several, and others use the machine too.
 class PassTimer {
  public:
@@ -201,16 +219,23 @@ Error Renderer::Create(const TourPack& pack, const RenderOptions& options) {
   return Ok();
 }
 
+void Renderer::Expect(const RenderOptions& options) {
+  const DrawingWay way = WayOf(options);
+  using enum ShaderProgram;
+  for (const ShaderProgram program : {kTown, kPersonImpostor, kTownShadow, kPersonShadow, kSky, kTownMasked,
+                                      kTownShadowMasked, kPerson, kPersonMasked, kPersonFades, kPersonMaskedFades,
+                                      kSmooth, kSharpen})
+    BeginProgram(program, way.mode);
+  if (way.deferred) BeginProgram(kLight, way.mode);
+  for (const ShaderProgram program : {kEnlarge, kCaption, kWallShade, kContactShade, kGroundMark, kSmoke})
+    BeginProgram(program);
+}
+
 Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   Impl& r = *impl_;
   r.options = options;
-  const bool software = DrawsInSoftware();
-  // In software four samples cost a dozen times the whole rest of a frame.
-  const int wished = options.samples > 0 ? options.samples : software ? 1 : 4;
-  const bool averages = software && options.averages && wished > 1 && !options.normals;
-  const int samples = averages ? 1 : wished;
-  const bool fast = software && wished == 1;  // for a picture many times a second; stills may take their time
-  const ShaderMode mode = ModeFor(software, samples > 1, averages, options.normals);
+  Expect(options);
+  const auto [mode, samples, wished, averages, fast, deferred] = WayOf(options);
   r.formats = FormatsOfThisMachine(fast);
   r.people.smooth_edges = samples > 1 && !options.normals;
   r.pictures_left = pack.images.size();
@@ -220,7 +245,6 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   if (Error e = CreateTownView(mode, r.plan, r.arrays, &r.town)) return e;
   if (Error e = CreatePeopleView(pack, mode, r.plan, r.arrays, &r.people)) return e;
   if (Error e = BuildProgram(ShaderProgram::kSky, mode, &r.sky_program)) return e;
-  const bool deferred = mode == ShaderMode::kSoftware || averages;
   if (Error e = CreatePicture({samples, averages ? wished : 1, deferred, options.onto_window}, mode, &r.picture))
     return e;
   if (Error e = CreateCaptionView(options.fonts, &r.caption)) return e;

@@ -41,6 +41,9 @@ class Renderer {
   // Uploads the pack, which is not needed afterwards. Errors: a shader that the driver refuses, a machine that cannot
   // hold an avatar.
   Error Create(const TourPack& pack, const RenderOptions& options = {});
+  // Begins to compile what a renderer with these options needs. Before Begin, and long before where there is time: it
+  // then waits less.
+  void Expect(const RenderOptions& options = {});
   // The same in pieces, in any order: `pack` without its bulk first, then one asset after the other. What has not come
   // yet is drawn by the nearest level that has, or not at all.
   Error Begin(const TourPack& pack, const RenderOptions& options = {});

@@ -70,14 +70,18 @@ EMSCRIPTEN_KEEPALIVE const char* page_expect(double bytes) {
 EMSCRIPTEN_KEEPALIVE const char* page_arrive(double offset, const uint8_t* bytes, double count) {
   return Try([&] { return visit->Arrive(static_cast<size_t>(offset), {bytes, static_cast<size_t>(count)}); });
 }
+EMSCRIPTEN_KEEPALIVE const char* page_prepare(const char* canvas) {
+  return Try([&] {
+    if (Error e = MakeContext(canvas)) return e;
+    visit->Prepare();
+    return Ok();
+  });
+}
 EMSCRIPTEN_KEEPALIVE const char* page_open(const char* settings) {
   return Try([&] { return visit->Open(settings); });
 }
-EMSCRIPTEN_KEEPALIVE const char* page_begin(const char* canvas) {
-  return Try([&] {
-    if (Error e = MakeContext(canvas)) return e;
-    return visit->Begin();
-  });
+EMSCRIPTEN_KEEPALIVE const char* page_begin() {
+  return Try([&] { return visit->Begin(); });
 }
 EMSCRIPTEN_KEEPALIVE const char* page_load(bool* there) {
   return Try([&] { return visit->Load(there); });

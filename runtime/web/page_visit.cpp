@@ -61,6 +61,7 @@ void Fill(size_t offset, std::span<const uint8_t> bytes, std::vector<LateFile>* 
 }
 
 constexpr double kLongUpload_ms = 30, kUpload_ms = 3;  // before the first picture, and in each later one
+const RenderOptions kDrawing{.onto_window = true, .runs_ahead = true};
 constexpr int kMaxStepsPerFrame = 4;                   // a machine that cannot keep up slows the town down
 constexpr float kTapReach = 0.045f;                    // of the picture's height, around a hotspot
 
@@ -90,6 +91,7 @@ struct PageVisit::Impl {
   std::vector<uint8_t> bytes;  // until the file is open
   ByteRanges there;
   TourPack pack;
+  PackFile file;               // between its opening and the loader's start
   std::vector<LateFile> late;  // of the pack's
   Loader loader;
   Simulation s;
@@ -112,7 +114,7 @@ struct PageVisit::Impl {
   CameraInput wishes;
   FrameStatistics statistics;
   Resolution resolution;
-  bool open = false, has_kept = false;  // has_kept: settings that are to be kept
+  bool open = false, loads = false, has_kept = false;  // has_kept: settings that are to be kept
   bool photo_asked = false, photo_taken = false;
   float aspect = 1;
   double owed_s = 0;
@@ -148,7 +150,7 @@ Error PageVisit::Arrive(size_t offset, std::span<const uint8_t> bytes) {
   Impl& v = *impl_;
   if (v.open) {
     Fill(offset, bytes, &v.late);
-    return v.loader.Arrive(offset, bytes);
+    return v.loads ? v.loader.Arrive(offset, bytes) : v.file.Arrive(offset, bytes);
   }
   if (offset > v.bytes.size() || bytes.size() > v.bytes.size() - offset)
     return Fail("a piece lies beyond the tour's end");
@@ -159,13 +161,11 @@ Error PageVisit::Arrive(size_t offset, std::span<const uint8_t> bytes) {
 
 Error PageVisit::Open(const std::string& settings) {
   Impl& v = *impl_;
-  PackFile file;
-  if (Error e = file.Open(std::move(v.bytes), std::move(v.there), "the tour", &v.pack)) return e;
+  if (Error e = v.file.Open(std::move(v.bytes), std::move(v.there), "the tour", &v.pack)) return e;
   AddGuideFigure(&v.pack);
   AddLate(v.pack.sound_ranges, &v.pack.sounds, &v.late);
   AddLate(v.pack.picture_ranges, &v.pack.pictures, &v.late);
   if (Error e = StartSimulation(&v.pack, ScenarioOf(v.pack), &v.s)) return e;
-  v.loader.Start(std::move(file), v.pack);
   v.open = true;
   v.own = {v.s.visitor.camera.view.fov_rad, v.s.visitor.camera.eye_height_m};
   v.settings.pointer = "point";
@@ -182,9 +182,14 @@ Error PageVisit::Open(const std::string& settings) {
   return Ok();
 }
 
+void PageVisit::Prepare() { impl_->renderer.Expect(kDrawing); }
+
 Error PageVisit::Begin() {
-  if (Error e = impl_->renderer.Begin(impl_->pack, {.onto_window = true, .runs_ahead = true})) return e;
-  impl_->loader.PrepareFor(impl_->renderer);
+  Impl& v = *impl_;
+  v.loader.Start(std::move(v.file), v.pack);
+  v.loads = true;
+  if (Error e = v.renderer.Begin(v.pack, kDrawing)) return e;
+  v.loader.PrepareFor(v.renderer);
   return Ok();
 }
 

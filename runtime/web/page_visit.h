@@ -21,10 +21,12 @@ class PageVisit {
   void Expect(size_t bytes);
   // Errors: beyond the end.
   Error Arrive(size_t offset, std::span<const uint8_t> bytes);
-  // Once as much is there as a first picture takes. settings: what TakeSettings gave in an earlier visit, or lines of
+  // Needs a current context, for the visit's whole life. What takes long without the tour begins.
+  void Prepare();
+  // Once as much is there as a pack is opened with. settings: what TakeSettings gave in an earlier visit, or lines of
   // it. Errors: those of the pack.
   Error Open(const std::string& settings);
-  // Needs a current context, for the visit's whole life. Errors: those of Renderer::Begin.
+  // Once as much is there as a first picture takes. Errors: those of Renderer::Begin.
   Error Begin();
   // A part of what is to be made ready before the first picture; `there`: it is. Errors: of a piece.
   Error Load(bool* there);

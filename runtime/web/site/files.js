@@ -3,7 +3,7 @@ import {pause, Trouble} from './trouble.js';
 
 const kTries = 4, kFirstPause_ms = 500;  // of a file that does not come
 const kStalls_ms = 20000;                // without a byte
-const kAtOnce = 4;
+const kAtOnce = 6;  // as many as browsers ask one host for
 
 // What has been fetched once stays on the device; where the browser keeps nothing, each visit fetches anew.
 export async function openStore() {

@@ -176,20 +176,32 @@ function listen(commands, visit) {
   }, {signal});
 }
 
-// The player with as much of the tour as a first picture takes.
+// The player with as much of the tour as a first picture takes. While the line brings more, the player makes ready what it
+// can: its shaders, and the tour as soon as its beginning is there.
 async function load(store, site, canvas) {
-  const first = site.pieces.slice(0, site.first), contents = [];
-  const modulePromise = makeModule(store, site, canvas);
-  modulePromise.catch(() => {});
-  await fetchPieces(store, first, async (piece, content) => {
-    contents.push([piece, content]);
-    progress.value = contents.length / first.length;
+  const first = site.pieces.slice(0, site.first), waiting = [];
+  let player = null, came = 0, missing = site.opens;
+  const goOn = () => {
+    if (!player) return;
+    for (const [piece, content] of waiting.splice(0)) {
+      player.arrive(piece, content);
+      if (site.pieces.indexOf(piece) < site.opens && --missing === 0) player.call('page_open', ['string'], [settings()]);
+    }
+  };
+  const begun = makeModule(store, site, canvas).then((module) => {
+    player = new Player(module);
+    player.call('page_expect', ['number'], [site.bytes]);
+    player.call('page_prepare', ['string'], ['#canvas']);
+    goOn();
   });
-  const player = new Player(await modulePromise);
-  player.call('page_expect', ['number'], [site.bytes]);
-  for (const [piece, content] of contents.splice(0)) player.arrive(piece, content);
-  player.call('page_open', ['string'], [settings()]);
-  player.call('page_begin', ['string'], ['#canvas']);
+  begun.catch(() => {});
+  await fetchPieces(store, first, async (piece, content) => {
+    waiting.push([piece, content]);
+    progress.value = ++came / first.length;
+    goOn();
+  });
+  await begun;
+  player.call('page_begin');
   while (!player.isLoaded()) await pause(0);
   return player;
 }
