@@ -41,7 +41,7 @@ Error WritePack(Baking* baking, const fs::path& staging, std::vector<std::string
     if (Error e = WriteLongitudeLatitude(staging / names->back(), parts.footprints)) return e;
   }
   if (Error e = WritePlan(staging / "plan.png", parts.ground, parts.footprints)) return e;
-  if (Error e = WriteTourPack(staging / pack, parts, baking->models, &whole.pack_bytes)) return e;
+  if (Error e = WriteTourPack(staging / pack, parts, std::move(baking->models), &whole.pack_bytes)) return e;
   whole.pack_path = (baking->output / pack).string();
   report->figures = {{"bytes", static_cast<double>(whole.pack_bytes)}};
   return Ok();

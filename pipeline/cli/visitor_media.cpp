@@ -2,8 +2,11 @@
 
 #include "pipeline/cli/scaled_picture.h"
 #include "pipeline/cli/speech.h"
+#include "pipeline/cli/stage_cache.h"
+#include "pipeline/core/fingerprint.h"
 #include "pipeline/io/sound_file.h"
 #include "runtime/base/array.h"
+#include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -20,13 +23,27 @@ struct Media {
   Error Sound(const fs::path& file, StopSound* out) {
     const auto [entry, fresh] = sounds.try_emplace(file, StopSound{Count(parts->sounds), 0});
     if (fresh) {
-      SoundFile sound;
-      if (Error e = ReadSoundFile(file, &sound)) return e;
-      entry->second.duration_s = sound.duration_s;
-      parts->sounds.push_back(std::move(sound.bytes));
+      parts->sounds.emplace_back();
+      if (Error e = ReadFile(file, &parts->sounds.back())) return e;
+      if (Error e = Duration(file, &entry->second.duration_s)) return e;
     }
     *out = entry->second;
     return Ok();
+  }
+
+  // To know it, all of the sound has to be decoded.
+  Error Duration(const fs::path& file, float* duration_s) {
+    const std::string key = Fingerprint().Add("duration").Add(SoundReaderVersion()).AddFile(file).Hex();
+    StoreEntry entry;
+    std::string kept;
+    if (ReadEntry(store, key, &entry, &kept) && Unpacked(kept, duration_s)) return Ok();
+    SoundFile sound;
+    if (Error e = ReadSoundFile(file, &sound)) return e;
+    *duration_s = sound.duration_s;
+    entry = {};
+    entry.step = "duration:" + OneLine(file.filename().string());
+    entry.extension = ".kept";
+    return PutEntry(store, key, entry, Packed(duration_s));
   }
 
   Error Picture(const fs::path& file, int* out) {

@@ -11,6 +11,7 @@
 #include "pipeline/io/encode_avatar.h"
 #include "pipeline/io/meshopt_codec.h"
 #include "runtime/base/array.h"
+#include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -51,14 +52,6 @@ struct FloatPool {
 
 void PutU32(uint32_t value, std::vector<uint8_t>* out) {
   for (int i = 0; i < 4; ++i) out->push_back(static_cast<uint8_t>(value >> (8 * i)));
-}
-
-void PutChunk(uint32_t type, std::span<const uint8_t> bytes, uint8_t padding, std::vector<uint8_t>* out) {
-  const size_t padded = (bytes.size() + 3) / 4 * 4;
-  PutU32(static_cast<uint32_t>(padded), out);
-  PutU32(type, out);
-  out->insert(out->end(), bytes.begin(), bytes.end());
-  out->insert(out->end(), padded - bytes.size(), padding);
 }
 
 }  // namespace
@@ -172,6 +165,8 @@ struct GltfBuilder::Impl {
 
   void AddCompressed(const DracoMesh& draco, bool byte_joints, json* primitive);
   void AddPlain(const Mesh& mesh, bool byte_joints, json* primitive);
+  // What of the file stands before its binary part, which is whole then.
+  Error End(std::vector<uint8_t>* head);
   int AddKeyTimes(const KeyChannel& channel);
   int AddKeyValues(const KeyChannel& channel);
 };
@@ -442,45 +437,59 @@ void GltfBuilder::SetLevels(int node, std::span<const int> coarser, std::span<co
   UseExtension("MSFT_lod");
 }
 
-Error GltfBuilder::Finish(std::vector<uint8_t>* glb) {
-  Impl& impl = *impl_;
-  for (FloatPool* pool : {&impl.binds, &impl.key_times, &impl.key_values}) impl.FlushPool(pool);
-  for (const KeyStream* stream : {&impl.rounded_times, &impl.rounded_rotations, &impl.rounded_vectors}) {
-    impl.FlushStream(*stream);
+Error GltfBuilder::Impl::End(std::vector<uint8_t>* head) {
+  for (FloatPool* pool : {&binds, &key_times, &key_values}) FlushPool(pool);
+  for (const KeyStream* stream : {&rounded_times, &rounded_rotations, &rounded_vectors}) FlushStream(*stream);
+  if (!used.empty()) root["extensionsUsed"] = used;
+  if (!required.empty()) root["extensionsRequired"] = required;
+  if (!binary.empty()) root["buffers"] = json::array({{{"byteLength", binary.size()}}});
+  if (fallback_bytes > 0) {
+    root["buffers"].push_back(
+        {{"byteLength", fallback_bytes}, {"extensions", {{kMeshoptExtension, {{"fallback", true}}}}}});
   }
-  if (!impl.used.empty()) impl.root["extensionsUsed"] = impl.used;
-  if (!impl.required.empty()) impl.root["extensionsRequired"] = impl.required;
-  if (!impl.binary.empty()) {
-    impl.root["buffers"] = json::array({{{"byteLength", impl.binary.size()}}});
-  }
-  if (impl.fallback_bytes > 0) {
-    impl.root["buffers"].push_back(
-        {{"byteLength", impl.fallback_bytes}, {"extensions", {{kMeshoptExtension, {{"fallback", true}}}}}});
-  }
-  Error problem = impl.problem;
+  if (problem) return problem;
   std::string text;
   try {
-    text = impl.root.dump();
+    text = root.dump();
   } catch (const json::exception& e) {  // text that is not UTF-8
-    *this = GltfBuilder();
     return Fail(std::string("glTF: ") + OneLine(e.what()));
   }
-  const size_t size = kGlbHeader_bytes + kChunkHeader_bytes + text.size() + 3 + kChunkHeader_bytes + impl.binary.size() + 3;
-  if (!problem && size > 0xffffffffu) {
-    *this = GltfBuilder();
-    return Fail("glTF: more than the 4 GiB that a binary file can hold");
-  }
-  glb->clear();
-  glb->reserve(size);
-  for (const uint32_t word : {0x46546c67u, 2u, 0u}) PutU32(word, glb);
-  PutChunk(0x4e4f534au, {reinterpret_cast<const uint8_t*>(text.data()), text.size()}, ' ', glb);
-  if (!impl.binary.empty()) PutChunk(0x004e4942u, impl.binary, 0, glb);
-  for (size_t i = 0; i < 4; ++i) (*glb)[8 + i] = static_cast<uint8_t>(glb->size() >> (8 * i));
-  *this = GltfBuilder();
-  return problem;
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  binary.resize((binary.size() + 3) / 4 * 4);
+  const size_t chunks = binary.empty() ? 1 : 2;
+  const size_t size = kGlbHeader_bytes + chunks * kChunkHeader_bytes + text.size() + binary.size();
+  if (size > 0xffffffffu) return Fail("glTF: more than the 4 GiB that a binary file can hold");
+  const auto put = [head](size_t word) { PutU32(static_cast<uint32_t>(word), head); };
+  for (const size_t word : {size_t{0x46546c67}, size_t{2}, size, text.size(), size_t{0x4e4f534a}}) put(word);
+  head->insert(head->end(), text.begin(), text.end());
+  if (chunks == 1) return Ok();
+  put(binary.size());
+  put(0x004e4942);
+  return Ok();
 }
 
-Error GltfBuilder::Resume(std::span<const uint8_t> glb) {
+Error GltfBuilder::Finish(std::vector<uint8_t>* glb) {
+  GltfBuilder done;
+  std::swap(impl_, done.impl_);
+  std::vector<uint8_t> head;
+  if (Error e = done.impl_->End(&head)) return e;
+  std::vector<uint8_t>& binary = done.impl_->binary;
+  binary.insert(binary.begin(), head.begin(), head.end());
+  *glb = std::move(binary);
+  return Ok();
+}
+
+Error GltfBuilder::Write(const std::filesystem::path& path, size_t* bytes) {
+  GltfBuilder done;
+  std::swap(impl_, done.impl_);
+  std::vector<uint8_t> head;
+  if (Error e = done.impl_->End(&head)) return e;
+  const std::span<const uint8_t> parts[] = {head, done.impl_->binary};
+  *bytes = parts[0].size() + parts[1].size();
+  return WriteFile(path, parts);
+}
+
+Error GltfBuilder::Resume(std::vector<uint8_t> glb) {
   const Error broken = Fail("glTF: what is to be gone on with is no whole binary file");
   const auto word = [&glb](size_t at) {
     uint32_t value = 0;
@@ -500,8 +509,9 @@ Error GltfBuilder::Resume(std::span<const uint8_t> glb) {
   if (!buffers.empty()) {
     const size_t at = text_at + text_size + kChunkHeader_bytes, size = buffers[0].value("byteLength", size_t{0});
     if (at > glb.size() || size > glb.size() - at) return broken;
-    impl.binary.assign(glb.begin() + static_cast<std::ptrdiff_t>(at),
-                       glb.begin() + static_cast<std::ptrdiff_t>(at + size));
+    impl.binary = std::move(glb);
+    impl.binary.resize(at + size);
+    impl.binary.erase(impl.binary.begin(), impl.binary.begin() + static_cast<std::ptrdiff_t>(at));
   }
   if (buffers.size() > 1) impl.fallback_bytes = buffers[1].value("byteLength", size_t{0});
   impl.used = impl.root.value("extensionsUsed", std::set<std::string>{});

@@ -2,6 +2,7 @@
 // uses.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -88,9 +89,11 @@ class GltfBuilder {
 
   // The whole file. The builder is empty afterwards.
   Error Finish(std::vector<uint8_t>* glb);
+  // The same into a file; `bytes`: its size. Errors: also those of WriteFile.
+  Error Write(const std::filesystem::path& path, size_t* bytes);
   // Goes on with what Finish gave, in the place of all that was added so far. Images, textures and clips that are added
   // then are not compared with those in the file. Errors: no glTF binary.
-  Error Resume(std::span<const uint8_t> glb);
+  Error Resume(std::vector<uint8_t> glb);
 
  private:
   struct Impl;

@@ -14,6 +14,8 @@ constexpr sf_count_t kBlock_frames = 1 << 14;
 
 }  // namespace
 
+std::string SoundReaderVersion() { return sf_version_string(); }
+
 Error ReadSoundFile(const std::filesystem::path& path, SoundFile* sound) {
   if (Error e = ReadFile(path, &sound->bytes)) return e;
   SF_INFO info{};

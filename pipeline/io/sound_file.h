@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "runtime/base/error.h"
@@ -16,5 +17,8 @@ struct SoundFile {
 // WAV, FLAC, Ogg Vorbis or Opus, MP3. The sound is decoded to its end.
 // Errors: unreadable, none of these, broken, silent for want of samples, longer than an hour.
 Error ReadSoundFile(const std::filesystem::path& path, SoundFile* sound);
+
+// Of the library that reads them.
+std::string SoundReaderVersion();
 
 }  // namespace flaneur

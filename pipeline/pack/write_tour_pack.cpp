@@ -3,11 +3,11 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "pipeline/core/reach.h"
 #include "pipeline/pack/tour_json.h"
 #include "runtime/base/array.h"
-#include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -240,18 +240,14 @@ Error BuildModels(const TourParts& parts, Jobs* jobs, TourModels* models) {
   return builder.Finish(&models->glb);
 }
 
-Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, const TourModels& models,
-                    size_t* bytes) {
+Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, TourModels models, size_t* bytes) {
   GltfBuilder builder;
-  TourIndices indices = models.indices;
-  if (Error e = builder.Resume(models.glb)) return e;
+  TourIndices& indices = models.indices;
+  if (Error e = builder.Resume(std::move(models.glb))) return e;
   for (const auto& sound : parts.sounds) indices.sounds.push_back(builder.AddBufferView(sound));
   for (const auto& picture : parts.pictures) indices.pictures.push_back(builder.AddBufferView(picture));
   builder.SetRootExtension(kTourExtension, TourJson(parts, indices));
-  std::vector<uint8_t> glb;
-  if (Error e = builder.Finish(&glb)) return e;
-  *bytes = glb.size();
-  return WriteFile(path, glb);
+  return builder.Write(path, bytes);
 }
 
 }  // namespace flaneur

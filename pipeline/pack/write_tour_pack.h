@@ -81,6 +81,6 @@ TourAvatar WithoutBulk(const TourAvatar& avatar);
 Error BuildModels(const TourParts& parts, Jobs* jobs, TourModels* models);
 
 // `parts` may be without the town, and its avatars WithoutBulk. Errors: as for WriteFile.
-Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, const TourModels& models, size_t* bytes);
+Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, TourModels models, size_t* bytes);
 
 }  // namespace flaneur

@@ -114,12 +114,19 @@ int OpenAsItIs(const fs::path& path) {
   return fd;
 }
 
-Error WriteAsItIs(const fs::path& path, std::span<const uint8_t> bytes) {
+using Parts = std::span<const std::span<const uint8_t>>;
+
+bool WriteAll(int fd, Parts parts) {
+  return std::all_of(parts.begin(), parts.end(),
+                     [fd](std::span<const uint8_t> part) { return WriteAll(fd, part.data(), part.size()); });
+}
+
+Error WriteAsItIs(const fs::path& path, Parts parts) {
   const NoSignalOfPipes quiet;
   const int fd = OpenAsItIs(path);
   if (fd < 0 && errno == ENXIO) return Fail(path.string() + ": cannot be written: nobody reads from this pipe");
   if (fd < 0) return CannotBeWritten(path, errno);
-  const bool written = WriteAll(fd, bytes.data(), bytes.size());
+  const bool written = WriteAll(fd, parts);
   const int reason = errno;
   ::close(fd);
   return written ? Ok() : CannotBeWritten(path, reason);
@@ -240,13 +247,15 @@ Error UnfinishedFile::Finish() {
   return Ok();
 }
 
-Error WriteFile(const fs::path& path, std::span<const uint8_t> bytes) {
+Error WriteFile(const fs::path& path, std::span<const uint8_t> bytes) { return WriteFile(path, Parts{&bytes, 1}); }
+
+Error WriteFile(const fs::path& path, Parts parts) {
   Target target;
   if (Error e = FindTarget(path, &target)) return e;
-  if (target.as_it_is) return WriteAsItIs(path, bytes);
+  if (target.as_it_is) return WriteAsItIs(path, parts);
   UnfinishedFile file;
   if (Error e = file.Start(path)) return e;
-  if (!WriteAll(file.descriptor(), bytes.data(), bytes.size())) return CannotBeWritten(path, errno);
+  if (!WriteAll(file.descriptor(), parts)) return CannotBeWritten(path, errno);
   return file.Finish();
 }
 

@@ -46,6 +46,7 @@ class UnfinishedFile {
 // The same at once. A terminal, character device or pipe is written into as it is, and stays. Errors: those of
 // UnfinishedFile, a pipe from which nobody reads.
 Error WriteFile(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+Error WriteFile(const std::filesystem::path& path, std::span<const std::span<const uint8_t>> parts);
 Error WriteTextFile(const std::filesystem::path& path, std::string_view text);
 
 // What WriteFile would complain of by now, told before long work instead of after it: a folder in the way, no
