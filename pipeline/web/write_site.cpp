@@ -144,8 +144,13 @@ Error WritePage(const SiteOptions& options, const fs::path& player, const std::s
   Replace("@POSTER@", poster, &html);
   Replace("@LANGUAGE@", Escaped(language), &html);
   Replace("@TITLE@", Escaped(title.title), &html);
-  if (Error e = site->WriteText("index.html", html)) return e;
   const std::vector<std::string> files = PageFiles(player);
+  std::string preloads;  // all scripts at once, rather than each when another names it
+  for (const std::string& name : files) {
+    if (name.ends_with(".js") && name != kWorker) preloads += "<link rel=\"modulepreload\" href=\"" + name + "\">\n";
+  }
+  Replace("@PRELOADS@\n", preloads, &html);
+  if (Error e = site->WriteText("index.html", html)) return e;
   std::string kept;  // for a visit without a network
   for (const std::string& name : files) kept += name == kWorker ? "" : ", '" + name + "'";
   for (const std::string& name : files) {

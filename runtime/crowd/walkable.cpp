@@ -371,13 +371,16 @@ void OpenAlong(Vec2 place, Vec2 along, float radius_m, const std::vector<float>&
 
 // Doors that are wide enough for a person but miss the centres of cells. Nothing else is opened: only between walls on
 // either side can't a whole cell hide another way.
-void OpenNarrowDoors(float radius_m, Walkable* w) {
+void OpenNarrowDoors(const std::vector<char>& covered, float radius_m, Walkable* w) {
   const std::vector<float> cost = w->cost;
+  const float around_m = 0.75f * w->cell_m;  // from a cell's centre to its corners, and a little more
   for (int cell = 0; cell < static_cast<int>(cost.size()); ++cell) {
     const size_t k = static_cast<size_t>(cell);
     const int near = w->wall_start[k + 1] - w->wall_start[k] + w->circle_start[k + 1] - w->circle_start[k];
+    if (cost[k] > 0 || near < 2) continue;
+    if (covered[k] && Clearance(*w, cell, CellCenter(*w, cell)) > around_m) continue;  // wholly inside an obstacle
     Vec2 place;
-    if (cost[k] > 0 || near < 2 || !FitsBetween(*w, cell, radius_m, &place) || InsideObstacle(*w, place)) continue;
+    if (!FitsBetween(*w, cell, radius_m, &place) || InsideObstacle(*w, place)) continue;
     const Vec2 aside = Unit(AwayFromNearest(*w, cell, place)), along{-aside.y, aside.x};
     OpenAlong(place, along, radius_m, cost, w);
     OpenAlong(place, along * -1, radius_m, cost, w);
@@ -419,7 +422,7 @@ void BuildWalkable(float person_radius_m, Walkable* w, float most_radius_m) {
     w->least_cost = std::min(w->least_cost, kGroundCost[kind]);
     w->cells[static_cast<size_t>(cell)].slope = static_cast<uint8_t>(SlopeAt(*w, center) / Walkable::kSlopeUnit);
   }
-  OpenNarrowDoors(std::max(person_radius_m - kByChoice_m, 0.05f), w);
+  OpenNarrowDoors(covered, std::max(person_radius_m - kByChoice_m, 0.05f), w);
   NumberComponents(w);
   MeasureOpenShares(covered, w);
   MeasureClearances(covered, std::max(person_radius_m, most_radius_m) + kReachBeyondRadius_m, w);

@@ -40,6 +40,7 @@ bool NothingNear(const Walkable& w, int cell) {
 Vec2 PushOut(const Walkable& w, int cell, Vec2 p, float radius_m) {
   Vec2 out = p;
   const size_t k = static_cast<size_t>(cell);
+  const float far_m2 = radius_m * radius_m * 1.0001f;  // certainly out of reach, without a root
   const auto push = [&](Vec2 away, float distance_m) {
     if (distance_m >= radius_m || std::abs(distance_m) < 1e-5f) return;
     out = out + away * ((radius_m - distance_m) / distance_m);
@@ -47,7 +48,7 @@ Vec2 PushOut(const Walkable& w, int cell, Vec2 p, float radius_m) {
   for (int i = w.wall_start[k]; i < w.wall_start[k + 1]; ++i) {
     const Walkable::Edge& e = w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(i)])];
     const Vec2 away = out - NearestOnSegment(out, e.a, e.b);
-    push(away, Length(away));
+    if (Dot(away, away) < far_m2) push(away, Length(away));
   }
   for (int i = w.circle_start[k]; i < w.circle_start[k + 1]; ++i) {
     const CircleObstacle& c = w.circles[static_cast<size_t>(w.wall_circles[static_cast<size_t>(i)])];

@@ -91,7 +91,7 @@ struct PageVisit::Impl {
   std::vector<uint8_t> bytes;  // until the file is open
   ByteRanges there;
   TourPack pack;
-  PackFile file;               // between its opening and the loader's start
+  PackFile pack_file;          // between its opening and the loader's start
   std::vector<LateFile> late;  // of the pack's
   Loader loader;
   Simulation s;
@@ -150,7 +150,7 @@ Error PageVisit::Arrive(size_t offset, std::span<const uint8_t> bytes) {
   Impl& v = *impl_;
   if (v.open) {
     Fill(offset, bytes, &v.late);
-    return v.loads ? v.loader.Arrive(offset, bytes) : v.file.Arrive(offset, bytes);
+    return v.loads ? v.loader.Arrive(offset, bytes) : v.pack_file.Arrive(offset, bytes);
   }
   if (offset > v.bytes.size() || bytes.size() > v.bytes.size() - offset)
     return Fail("a piece lies beyond the tour's end");
@@ -161,7 +161,7 @@ Error PageVisit::Arrive(size_t offset, std::span<const uint8_t> bytes) {
 
 Error PageVisit::Open(const std::string& settings) {
   Impl& v = *impl_;
-  if (Error e = v.file.Open(std::move(v.bytes), std::move(v.there), "the tour", &v.pack)) return e;
+  if (Error e = v.pack_file.Open(std::move(v.bytes), std::move(v.there), "the tour", &v.pack)) return e;
   AddGuideFigure(&v.pack);
   AddLate(v.pack.sound_ranges, &v.pack.sounds, &v.late);
   AddLate(v.pack.picture_ranges, &v.pack.pictures, &v.late);
@@ -186,7 +186,7 @@ void PageVisit::Prepare() { impl_->renderer.Expect(kDrawing); }
 
 Error PageVisit::Begin() {
   Impl& v = *impl_;
-  v.loader.Start(std::move(v.file), v.pack);
+  v.loader.Start(std::move(v.pack_file), v.pack);
   v.loads = true;
   if (Error e = v.renderer.Begin(v.pack, kDrawing)) return e;
   v.loader.PrepareFor(v.renderer);

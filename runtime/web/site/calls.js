@@ -61,10 +61,12 @@ export class Player {
 }
 
 export async function makeModule(store, site, canvas) {
+  const script = import('./' + site.script);
+  script.catch(() => {});
   const binary = await fetchPacked(store, site.player);
   let make = null;
   try {
-    ({default: make} = await import('./' + site.script));
+    ({default: make} = await script);
   } catch (e) {
     throw new Trouble(e instanceof SyntaxError ? 'corrupt' : 'cut', site.script);
   }

@@ -253,6 +253,7 @@ async function visitTour(visit, wishesNow) {
   const drawn = drawPictures(canvas, parts, visit);
   await Promise.race([lost, drawn, nextPicture().then(nextPicture)]);  // what is not in it does not hold it up
   tell('tour-loaded', described);
+  keepPage();
   const all = fetchPiecesMeanwhile(store, site.pieces.slice(site.first), (piece, content) => player.arrive(piece, content),
                                    visit.signal, (cut) => cut !== message.hidden || showMessage(cut ? say('cutMeanwhile') : ''))
     .then(async () => {
@@ -261,6 +262,11 @@ async function visitTour(visit, wishesNow) {
       page.dataset.complete = 'yes';
     });
   await Promise.race([lost, drawn, all.then(() => new Promise(() => {}))]);
+}
+
+// For a visit without a network; what it fetches for that does not hold up the first picture.
+function keepPage() {
+  if ('serviceWorker' in navigator) navigator.serviceWorker.register('worker.js').catch(() => {});
 }
 
 // Where the device takes the picture away, it is set up anew, at the same stop.
@@ -291,7 +297,6 @@ async function run() {
   }
 }
 
-if ('serviceWorker' in navigator) navigator.serviceWorker.register('worker.js').catch(() => {});
 tell('ready', {speaks: kSpeaks});
 if (parent !== window) offerToBegin('begin', run);
 else run();

@@ -5,11 +5,16 @@ const kFollows_s = 0.12;  // changes are as slow as they are told of
 export class Sounds {
   constructor(player, signal) {
     Object.assign(this, {player, signal, spoken: 0, speech: null, round: new Map(), buffers: new Map(), computes: false});
+    const wake = () => {
+      if (!this.context) this.#open();
+      if (!document.hidden && this.context.state !== 'closed') this.context.resume().catch(() => {});
+    };
+    for (const type of ['pointerdown', 'keydown', 'touchend']) addEventListener(type, wake, {signal, capture: true});
+    if (navigator.userActivation?.hasBeenActive) wake();  // who has begun the tour by a button
   }
-  // Some times a second; the device is opened by the first, when there is a picture: that may take a moment.
+  // Some times a second.
   follow() {
-    if (!this.context) this.#open();
-    if (this.context.state === 'closed') return;
+    if (!this.context || this.context.state === 'closed') return;
     const told = this.player.read('page_sounds');
     this.computes = false;
     this.#glide(this.voice.gain, told.volume);
@@ -25,8 +30,6 @@ export class Sounds {
     this.context = new AudioContext();
     this.voice = this.#gain();
     this.town = this.#gain();
-    const wake = () => document.hidden || this.context.resume().catch(() => {});
-    for (const type of ['pointerdown', 'keydown', 'touchend']) addEventListener(type, wake, {signal, capture: true});
     document.addEventListener('visibilitychange', () => {
       if (this.context.state === 'closed') return;
       (document.hidden ? this.context.suspend() : this.context.resume()).catch(() => {});
