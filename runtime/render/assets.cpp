@@ -136,6 +136,14 @@ Asset PrepareTown(const TourPack& pack, const AssetId& id, TownGeometry geometry
   return asset;
 }
 
+Asset PreparePicture(const AssetId& id, std::vector<std::vector<uint8_t>> layer) {
+  Asset asset;
+  asset.id = id;
+  asset.content = std::make_unique<Asset::Content>();
+  asset.content->picture = std::move(layer);
+  return asset;
+}
+
 Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& plan, const AtlasFormats& formats) {
   Asset asset;
   asset.id = id;

@@ -58,4 +58,7 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
 // The town's, of a geometry that was built in parts (town_geometry.h).
 Asset PrepareTown(const TourPack& pack, const AssetId& id, TownGeometry geometry);
 
+// A picture's, of a layer that was prepared in steps (surface_plan.h).
+Asset PreparePicture(const AssetId& id, std::vector<std::vector<uint8_t>> layer);
+
 }  // namespace flaneur

@@ -262,6 +262,12 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
 const SurfacePlan& Renderer::surfaces() const { return impl_->plan; }
 const AtlasFormats& Renderer::formats() const { return impl_->formats; }
 
+bool Renderer::AddPart(size_t most_bytes, Asset* asset) {
+  if (asset->id.kind == AssetKind::kTown && !UploadTown(most_bytes, &asset->content->town, &impl_->town)) return false;
+  Add(std::move(*asset));
+  return true;
+}
+
 void Renderer::Add(Asset asset) {
   Impl& r = *impl_;
   Asset::Content& content = *asset.content;

@@ -48,6 +48,8 @@ class Renderer {
   // yet is drawn by the nearest level that has, or not at all.
   Error Begin(const TourPack& pack, const RenderOptions& options = {});
   void Add(Asset asset);
+  // About so many bytes more of a large asset; true: all of it is there, and drawn from now on. One asset at a time.
+  bool AddPart(size_t most_bytes, Asset* asset);
   // For PrepareAsset, from any thread, after Begin.
   const SurfacePlan& surfaces() const;
   const AtlasFormats& formats() const;

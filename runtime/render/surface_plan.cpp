@@ -99,26 +99,47 @@ const Surface& SurfaceOf(int material, const SurfacePlan& plan) {
   return material >= 0 ? plan.surfaces[static_cast<size_t>(material)] : plan.surfaces.back();
 }
 
-std::vector<PackImage> PreparePicture(const PackImage& image, int side_px) {
-  std::vector<PackImage> levels;
-  if (image.width_px == side_px && image.height_px == side_px) {
-    levels.push_back(image);
-  } else {
-    levels.push_back(
-        {side_px, side_px, std::vector<uint8_t>(static_cast<size_t>(side_px) * static_cast<size_t>(side_px) * 4)});
-    stbir_resize_uint8_srgb_edgemode(image.rgba.data(), image.width_px, image.height_px, 0, levels[0].rgba.data(),
-                                     side_px, side_px, 0, 4, 3, 0, STBIR_EDGE_WRAP);
+PackImage SquarePicture(const PackImage& image, int side_px) {
+  if (image.width_px == side_px && image.height_px == side_px) return image;
+  for (int k = 1; k < kMaxMipLevel; ++k) {  // a mip level of it, which takes a fraction of the time
+    if (image.width_px == side_px << k && image.height_px == side_px << k) return MakeMipChain(image, true, k).back();
   }
+  const size_t side = static_cast<size_t>(side_px);
+  PackImage square{side_px, side_px, std::vector<uint8_t>(side * side * 4)};
+  stbir_resize_uint8_srgb_edgemode(image.rgba.data(), image.width_px, image.height_px, 0, square.rgba.data(), side_px,
+                                   side_px, 0, 4, 3, 0, STBIR_EDGE_WRAP);
+  return square;
+}
+
+std::vector<PackImage> PreparePicture(const PackImage& image, int side_px) {
+  std::vector<PackImage> levels{SquarePicture(image, side_px)};
   std::vector<PackImage> smaller = MakeMipChain(levels[0], true, kMaxMipLevel);
   for (PackImage& level : smaller) levels.push_back(std::move(level));
   return levels;
 }
 
+LayerBuilder::LayerBuilder(const PackImage& image, const TextureArrayPlan& array) : image_(&image), array_(array) {}
+
+bool LayerBuilder::Advance() {
+  if (levels_.empty()) {
+    levels_.push_back(SquarePicture(*image_, array_.side_px));
+    return false;
+  }
+  if (bytes_.empty()) {
+    for (PackImage& level : MakeMipChain(levels_[0], true, kMaxMipLevel)) levels_.push_back(std::move(level));
+    bytes_.resize(levels_.size());
+    if (array_.blocks) return false;
+  }
+  for (size_t k = 0; k < levels_.size(); ++k)
+    bytes_[k] = array_.blocks ? Bc1Blocks(levels_[k]) : std::move(levels_[k].rgba);
+  return true;
+}
+
 std::vector<std::vector<uint8_t>> PrepareLayer(const PackImage& image, const TextureArrayPlan& array) {
-  std::vector<std::vector<uint8_t>> bytes;
-  for (PackImage& level : PreparePicture(image, array.side_px))
-    bytes.push_back(array.blocks ? Bc1Blocks(level) : std::move(level.rgba));
-  return bytes;
+  LayerBuilder builder(image, array);
+  while (!builder.Advance()) {
+  }
+  return builder.Take();
 }
 
 }  // namespace flaneur

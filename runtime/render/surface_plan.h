@@ -1,6 +1,7 @@
 // Which pictures share a texture array, and which surfaces are therefore drawn together. Internal to runtime/render; no
 // OpenGL.
 #pragma once
+#include <utility>
 #include <vector>
 
 #include "runtime/pack/tour_pack.h"
@@ -56,5 +57,18 @@ const Surface& SurfaceOf(int material, const SurfacePlan& plan);
 std::vector<PackImage> PreparePicture(const PackImage& image, int side_px);
 // By level the bytes that are uploaded.
 std::vector<std::vector<uint8_t>> PrepareLayer(const PackImage& image, const TextureArrayPlan& array);
+// The same in a few steps, for who has no thread for it. The image outlives it.
+class LayerBuilder {
+ public:
+  LayerBuilder(const PackImage& image, const TextureArrayPlan& array);
+  bool Advance();  // true: this was the last step
+  std::vector<std::vector<uint8_t>> Take() { return std::move(bytes_); }
+
+ private:
+  const PackImage* image_;
+  TextureArrayPlan array_;
+  std::vector<PackImage> levels_;
+  std::vector<std::vector<uint8_t>> bytes_;
+};
 
 }  // namespace flaneur

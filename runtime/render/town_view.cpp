@@ -1,6 +1,7 @@
 #include "runtime/render/town_view.h"
 
 #include <algorithm>
+#include <limits>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -103,20 +104,55 @@ Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector
   return Ok();
 }
 
+bool UploadTown(size_t most_bytes, TownGeometry* geometry, TownView* town) {
+  TownUpload& upload = town->upload;
+  const size_t vertex_bytes = geometry->vertices.size() * sizeof(TownVertex);
+  const size_t index_bytes = geometry->indices.size() * sizeof(uint32_t);
+  glBindVertexArray(0);
+  if (upload.vertices == 0) {
+    size_t turning_bytes = 0;
+    for (const TurningGeometry& part : geometry->turning) turning_bytes += part.vertices.size() * sizeof(TownVertex);
+    upload.vertices = CreateBuffer(GL_ARRAY_BUFFER, nullptr, vertex_bytes + turning_bytes);
+    upload.indices = CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, nullptr, index_bytes);
+  }
+  const auto put = [&](GLenum target, GLuint buffer, const void* data, size_t from, size_t bytes) {
+    glBindBuffer(target, buffer);
+    glBufferSubData(target, static_cast<GLintptr>(from), static_cast<GLsizeiptr>(bytes),
+                    static_cast<const uint8_t*>(data) + from);
+    upload.done_bytes += bytes;
+  };
+  if (upload.done_bytes < vertex_bytes) {
+    const size_t from = upload.done_bytes;
+    put(GL_ARRAY_BUFFER, upload.vertices, geometry->vertices.data(), from, std::min(most_bytes, vertex_bytes - from));
+  } else if (upload.done_bytes < vertex_bytes + index_bytes) {
+    const size_t from = upload.done_bytes - vertex_bytes;
+    put(GL_ELEMENT_ARRAY_BUFFER, upload.indices, geometry->indices.data(), from,
+        std::min(most_bytes, index_bytes - from));
+  }
+  return upload.done_bytes == vertex_bytes + index_bytes;
+}
+
 void AddTown(TownGeometry geometry, TownView* town) {
+  while (!UploadTown(std::numeric_limits<size_t>::max(), &geometry, town)) {
+  }
   if (town->vertex_array != 0) RemoveTown(town);
   glGenVertexArrays(1, &town->shadow_array);
   glBindVertexArray(town->shadow_array);
+  town->vertices = town->upload.vertices;
+  town->shadow_indices = town->upload.indices;
+  town->upload = {};
+  glBindBuffer(GL_ARRAY_BUFFER, town->vertices);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, town->shadow_indices);
   town->still = static_cast<uint32_t>(geometry.vertices.size());
-  size_t turning = 0;
+  size_t turning = 0, place_bytes = geometry.vertices.size() * sizeof(TownVertex);
   for (const TurningGeometry& part : geometry.turning) {
-    geometry.vertices.insert(geometry.vertices.end(), part.vertices.begin(), part.vertices.end());
+    const size_t bytes = part.vertices.size() * sizeof(TownVertex);
+    if (bytes > 0)
+      glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(place_bytes), static_cast<GLsizeiptr>(bytes),
+                      part.vertices.data());
+    place_bytes += bytes;
     turning += part.indices.size();
   }
-  town->vertices =
-      CreateBuffer(GL_ARRAY_BUFFER, geometry.vertices.data(), geometry.vertices.size() * sizeof(TownVertex));
-  town->shadow_indices =
-      CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, geometry.indices.data(), geometry.indices.size() * sizeof(uint32_t));
   EnableVertices();
   glGenVertexArrays(1, &town->vertex_array);
   glBindVertexArray(town->vertex_array);

@@ -10,6 +10,12 @@
 
 namespace flaneur {
 
+// Of a town that comes.
+struct TownUpload {
+  GLuint vertices = 0, indices = 0;  // buffers
+  size_t done_bytes = 0;
+};
+
 struct TownView {
   Program lit[2], shadow[2];  // [masked]
   GLuint vertex_array = 0, shadow_array = 0, visible_indices = 0;
@@ -32,9 +38,12 @@ struct TownView {
   uint32_t still = 0;
   std::vector<TownVertex> turned;                // scratch
   std::vector<std::vector<uint32_t>> turned_of;  // of the last picture, by group
+  TownUpload upload;
 };
 
 Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town);
+// About so many bytes more of what AddTown takes then; true: that was all. Meanwhile the one before is drawn.
+bool UploadTown(size_t most_bytes, TownGeometry* geometry, TownView* town);
 // Instead of the one that was added before.
 void AddTown(TownGeometry geometry, TownView* town);
 

@@ -45,13 +45,15 @@ void KeepForPictures() {
 constexpr size_t kMaxReadyAssets =
     4;  // pieces that wait for their upload; faster threads wait too, for people's pictures take 10 MB each
 
+constexpr size_t kUpload_bytes = 2 << 20;  // at a time: drivers take a millisecond and more for each
+
 // What is read at a time: one mesh of the town, or all of another asset.
 struct Task {
   size_t asset = 0;
   int town_mesh = -1;
 };
 
-// What a slice does: reads a task, makes an asset ready that has been read, or goes on with the town.
+// What a slice does: reads a task, makes an asset ready that has been read, or goes on with what is built in steps.
 struct Piece {
   enum Kind { kRead, kPrepare, kBuild } kind = kRead;
   size_t index = 0;  // of tasks, of assets
@@ -83,12 +85,14 @@ struct Loader::Impl {
   SurfacePlan plan;  // of the renderer
   AtlasFormats formats;
   std::deque<size_t> read;             // assets
-  std::optional<TownBuilder> builder;  // without threads: the town is built between pictures
-  size_t builds = 0;                   // of assets
+  std::optional<TownBuilder> town_builder;    // without threads the town is built between pictures,
+  std::optional<LayerBuilder> layer_builder;  // and pictures are made ready in steps
+  size_t builds = 0;                          // of assets
   std::deque<Asset> ready;
   Error error;
 
-  std::vector<bool> uploaded;  // by asset; only of the thread with the context, as what follows
+  std::vector<bool> uploaded;      // by asset; only of the thread with the context, as what follows
+  std::optional<Asset> uploading;  // a part of it is there
   size_t uploads = 0;
   std::vector<Job> reading;  // last, so that it ends first: it uses the rest
 
@@ -166,19 +170,28 @@ void Loader::Impl::Clear(size_t asset) {
 
 void Loader::Impl::Prepare(size_t index) {
   const AssetId& id = assets[index];
-  if (id.kind == AssetKind::kTown && (jobs == nullptr || jobs->threads() == 0)) {
-    builder.emplace(pack, plan);
+  if (jobs == nullptr || jobs->threads() == 0) {
     builds = index;
-    return;
+    if (id.kind == AssetKind::kTown) return void(town_builder.emplace(pack, plan));
+    const int array = id.kind == AssetKind::kPicture ? plan.pictures[static_cast<size_t>(id.index)].array : -1;
+    if (array >= 0)
+      return void(layer_builder.emplace(pack.images[static_cast<size_t>(id.index)],
+                                        plan.arrays[static_cast<size_t>(array)]));
   }
   TakeIn(index, id.kind == AssetKind::kLevel ? PrepareLevel(pack, id, of_people[index], plan)
                                              : PrepareAsset(pack, id, plan, formats));
 }
 
 void Loader::Impl::Build(size_t index) {
-  if (!builder->Advance()) return;
-  TownGeometry geometry = builder->Take();
-  builder.reset();
+  if (layer_builder) {
+    if (!layer_builder->Advance()) return;
+    Asset asset = PreparePicture(assets[index], layer_builder->Take());
+    layer_builder.reset();
+    return TakeIn(index, std::move(asset));
+  }
+  if (!town_builder->Advance()) return;
+  TownGeometry geometry = town_builder->Take();
+  town_builder.reset();
   TakeIn(index, PrepareTown(pack, assets[index], std::move(geometry)));
 }
 
@@ -194,7 +207,7 @@ void Loader::Impl::TakeIn(size_t index, Asset asset) {
 // ever.
 std::optional<Piece> Loader::Impl::NextPiece() {
   if (stop) return {};
-  if (builder) return Piece{Piece::kBuild, builds};
+  if (town_builder || layer_builder) return Piece{Piece::kBuild, builds};
   if (!read.empty() && may_prepare && ready.size() < kMaxReadyAssets) {
     const size_t asset = read.front();
     read.pop_front();
@@ -394,10 +407,14 @@ Error Loader::Upload(double most_ms, Renderer* renderer) {
   const double start_ms = Now_ms();
   do {
     Asset asset;
-    if (l.TakeReady(&asset)) {
+    if (!l.uploading && l.TakeReady(&asset)) {
       l.GoOnReading(1);
-      const AssetId id = asset.id;
-      renderer->Add(std::move(asset));
+      l.uploading = std::move(asset);
+    }
+    if (l.uploading) {
+      if (!renderer->AddPart(kUpload_bytes, &*l.uploading)) continue;
+      const AssetId id = l.uploading->id;
+      l.uploading.reset();
       l.NoteUploaded(id);
     } else if (!l.ReadHere()) {
       break;

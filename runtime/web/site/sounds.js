@@ -1,4 +1,6 @@
 // Spoken stops and the town's own sounds, from the visitor's first touch on: before it browsers play nothing.
+import {pause} from './trouble.js';
+
 const kRate_hz = 24000;   // of what the player computes
 const kFollows_s = 0.12;  // changes are as slow as they are told of
 
@@ -65,11 +67,14 @@ export class Sounds {
     const computed = this.player.ask('page_is_computed', ['number'], [recording]);
     if (computed && this.computes) return null;
     this.computes = this.computes || computed;
+    if (computed) await pause(0);  // not in the time of a picture
+    if (this.signal.aborted) return null;
     const bytes = this.player.bytes('page_recording', ['number'], [recording]);
     if (bytes.length === 0) return null;
     let buffer = null;
     if (computed) {
-      const samples = Float32Array.from(new Int16Array(bytes.buffer), (s) => s / 32768);
+      const whole = new Int16Array(bytes.buffer), samples = new Float32Array(whole.length);
+      for (let k = 0; k < whole.length; ++k) samples[k] = whole[k] / 32768;
       buffer = new AudioBuffer({length: samples.length, sampleRate: kRate_hz});
       buffer.copyToChannel(samples, 0);
       this.buffers.set(recording, buffer);
