@@ -6,6 +6,7 @@ SETTINGS.json: {"output": "monk.glb", "seed": 1, "options": {"person": "monk"}}.
 in people.py.
 """
 
+import gc
 import os
 import sys
 
@@ -91,6 +92,7 @@ def with_props(tailor, person, name_of_person, whole):
 
 
 def main():
+    gc.disable()  # little here goes round in circles, and looking for it takes a tenth of the time
     settings = load_settings(
         required=("output", "seed"), options={"person": "merchant", "human_rig": body.HUMAN_RIG}
     )
