@@ -121,9 +121,8 @@ def main():
     for name, prop in with_props(tailor, person, options["person"], surface).items():
         uv = looks.texture_coordinates(prop.surface, places)
         scene.make_mesh(name, prop.surface, made, material_of_cell, uv, armature, joints, prop.tint)
-    for clip in moves + tuple(work_clips.work_clips(figure, options["person"], manner)):
-        scene.add_clip(armature, figure.skeleton, clip)
-    write_atomically(settings["output"], scene.export_glb)
+    moves += tuple(work_clips.work_clips(figure, options["person"], manner))
+    write_atomically(settings["output"], lambda path: scene.write_glb(path, armature, figure.skeleton, moves))
     print(
         "townsperson %s: %d triangles, %d joints, walks %.2f m/s"
         % (options["person"], sf.triangle_count(surface), len(figure.skeleton.names), speed_mps)
