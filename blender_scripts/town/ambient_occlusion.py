@@ -1,6 +1,7 @@
 """Ambient occlusion of every vertex by casting rays over its hemisphere, and the colours that come of it."""
 
 import math
+from itertools import repeat
 
 import numpy as np
 from mathutils.bvhtree import BVHTree
@@ -99,16 +100,26 @@ def _cast(part, corners, tree, samples):
     light, buried = np.ones(len(p)), np.zeros(len(p), bool)
     cast, share, most = tree.ray_cast, 1.0 / REACH_M, 0.6 * samples
     for i, (origin, rays) in enumerate(zip(start.tolist(), ways)):
-        found = [cast(origin, ray, REACH_M) for ray in rays]
+        found = list(map(cast, repeat(origin), rays, repeat(REACH_M)))
         hits = [1 - (distance * share) ** 2 for *_, distance in found if distance is not None]
         light[i] = 1 - sum(hits) / samples
-        buried[i] = len(hits) > most and sum(map(_from_inside, found, rays)) > most
+        buried[i] = len(hits) > most and _is_inside(found, rays, most)
     return light, buried
 
 
-def _from_inside(found, ray):
-    normal = found[1]
-    return normal is not None and normal[0] * ray[0] + normal[1] * ray[1] + normal[2] * ray[2] > 0
+def _is_inside(found, rays, most):
+    """Whether more than `most` rays hit something from behind."""
+    behind, others = 0, len(rays) - most
+    for (_, normal, _, _), ray in zip(found, rays):
+        if normal is not None and normal[0] * ray[0] + normal[1] * ray[1] + normal[2] * ray[2] > 0:
+            behind += 1
+            if behind > most:
+                return True
+        else:
+            others -= 1
+            if others <= 0:
+                return False
+    return False
 
 
 def _fill(part, light, buried):

@@ -36,7 +36,7 @@ class Gardens:
     def __init__(self, streets, public, plots, lines, rng):
         self.public, self.plots = public, plots
         walls = _between_walls(streets)
-        behind = Field(public, STEP_M).values > 0.6
+        behind = Field.of(public, STEP_M).values > 0.6
         self.yards = _yards(_room(walls, streets, plots), behind)[1]
         self.openings = {}                              # index of a garden wall -> lengths along it
         self.ways = []                                  # (x, y) just inside each
@@ -44,8 +44,9 @@ class Gardens:
         self._make_gateways(streets)
         room = _room(walls, streets, plots)
         labels, self.yards = _yards(room, behind)
-        self.room = Field(lambda _: _opened(room, labels > 0), STEP_M)
-        self.path = Field(self._path_distance, 0.5)
+        self.room = Field(_opened(room, labels > 0), STEP_M)
+        lines = self._path_lines()
+        self.path = Field.of(lambda p: np.min([plan.distance_to_line(p, line) for line in lines], axis=0) - PATH_M)
         self.rng = rng
 
     def _open_walls(self, streets, lines):
@@ -92,25 +93,19 @@ class Gardens:
                     self.ways.append(tuple(back))
                 plot, back = max(houses, key=lambda h: self._to_next_way(h[1]))
 
-    def _path_distance(self, points):
-        spines = [plan.smooth_line(line) for line in plan.GARDEN_PATHS]
-        d = np.full(len(points), 1e9)
-        for spine in spines:
-            d = np.minimum(d, plan.distance_to_line(points, spine))
-        for plot in self.plots:
-            if plot.gateway:
-                d = np.minimum(d, plan.distance_to_line(points, [plot.at(plot.width / 2, -0.5), plot.at(plot.width / 2, plot.depth + 1.6)]))
-        for way in self.ways:
-            nearest = min((p for spine in spines for p in spine), key=lambda p: math.dist(p, way))
-            d = np.minimum(d, plan.distance_to_line(points, [way, nearest]))
-        return d - PATH_M
+    def _path_lines(self):
+        """The middles of the trodden paths, and of the ways to them through walls and houses."""
+        lines = [plan.smooth_line(line) for line in plan.GARDEN_PATHS]
+        middles = np.concatenate(lines).tolist()
+        lines += [[plot.at(plot.width / 2, -0.5), plot.at(plot.width / 2, plot.depth + 1.6)] for plot in self.plots if plot.gateway]
+        return lines + [[way, min(middles, key=lambda p: math.dist(p, way))] for way in self.ways]
 
 
 def _between_walls(streets):
     """Distance to the town wall at the cells of the grid, negative in it and outside."""
     ring = [tuple(p) for i in range(len(plan.WALL_RING)) for p in run_ends(i, streets)]
     ring = [p for i, p in enumerate(ring) if p != ring[i - 1]]
-    return -Field(lambda p: plan.distance_to_polygon(p, ring), STEP_M).values - THICK / 2
+    return -Field.of(lambda p: plan.distance_to_polygon(p, ring), STEP_M).values - THICK / 2
 
 
 def _room(walls, streets, plots):

@@ -11,17 +11,26 @@ import numpy as np
 import plan
 
 GAP_M = 0.35   # a house front may lie this far behind the line of the street
+TILE = 48      # points a side
 
 
 class Field:
     """A signed distance sampled on a grid over the whole town, read back between the samples."""
 
-    def __init__(self, function, step=0.5):
-        """function: from points to values."""
+    def __init__(self, values, step):
+        self.values, self.step = values, step
         self.xs, self.ys = grid_axes(step)
-        points = np.stack(np.meshgrid(self.xs, self.ys), axis=-1).reshape(-1, 2)
-        self.values = function(points).reshape(len(self.ys), len(self.xs))
-        self.step = step
+
+    @classmethod
+    def of(cls, function, step=0.5):
+        """function: from points to values; it is given a tile's at once, which have much the same near them."""
+        points = np.stack(np.meshgrid(*grid_axes(step)), axis=-1)
+        values = np.empty(points.shape[:2])
+        for j in range(0, values.shape[0], TILE):
+            for i in range(0, values.shape[1], TILE):
+                tile = points[j:j + TILE, i:i + TILE]
+                values[j:j + TILE, i:i + TILE] = function(tile.reshape(-1, 2)).reshape(tile.shape[:2])
+        return cls(values, step)
 
     def __call__(self, points):
         p = np.asarray(points, float).reshape(-1, 2)
@@ -46,6 +55,7 @@ class Plot:
         self.left_open = self.right_open = self.back_open = True    # no other house stands against it
         self.left_seen = self.right_seen = True                     # and it can be seen from a street
         self.middle = self.at(width / 2, depth / 2)
+        self.x, self.y = self.middle.tolist()
         self._x, self._y, self._along = float(origin[0]), float(origin[1]), (float(along[0]), float(along[1]))
         self.gateway = False                                        # people walk through it into the garden behind
 
@@ -75,14 +85,10 @@ class Plot:
 
 def _overlap(a, b):
     """How deep two plots lie in each other (separating axes), 0 if apart."""
-    pa, pb = a.corners(), b.corners()
-    least = 1e9
-    for axis in (a.along, a.back, b.along, b.back):
-        ia, ib = pa @ axis, pb @ axis
-        least = min(least, min(ia.max(), ib.max()) - max(ia.min(), ib.min()))
-        if least <= 0:
-            return 0.0
-    return least
+    axes = np.array([a.along, a.back, b.along, b.back]).T
+    on_a, on_b = a.corners() @ axes, b.corners() @ axes
+    common = np.minimum(on_a.max(axis=0), on_b.max(axis=0)) - np.maximum(on_a.min(axis=0), on_b.min(axis=0))
+    return max(0.0, common.min())
 
 
 def offset_line(axis, distance):
@@ -138,7 +144,7 @@ def _first_that_fits(wanted, plots, public, inside):
     for plot in (p for p, is_free in zip(wanted, free) if is_free):
         if np.any(inside(plot.corners()) > -2.2):
             continue
-        near = [o for o in plots if np.abs(o.middle - plot.middle).max() < 16.0]
+        near = [o for o in plots if abs(o.x - plot.x) < 16.0 and abs(o.y - plot.y) < 16.0]
         if all(_overlap(plot, other) < 0.3 for other in near):
             return plot
     return None
@@ -173,7 +179,7 @@ def special_plots():
 def place_houses(streets, public, rng, width_m):
     """Plots in the order of their frontages; `width_m` is the mean width."""
     plots = special_plots()
-    inside = Field(lambda p: plan.distance_to_polygon(p, plan.BUILT_RING), 1.0)
+    inside = Field.of(lambda p: plan.distance_to_polygon(p, plan.BUILT_RING), 1.0)
     for points in frontages(streets):
         line = _Line(points)
         s = 0.0
@@ -311,7 +317,7 @@ def garden_walls(public, plots):
 def make_layout(rng, width_m):
     """Streets, the signed distance to the edge of the public space, plots and garden walls."""
     streets = plan.make_streets(rng)
-    public = Field(lambda p: plan.walkable_distance(p, streets))
+    public = Field.of(lambda p: plan.walkable_distance(p, streets))
     plots = place_houses(streets, public, rng, width_m)
     return streets, public, plots, garden_walls(public, plots)
 

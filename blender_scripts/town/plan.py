@@ -66,6 +66,9 @@ def smooth_line(points, step=1.0):
     return np.array(out)
 
 
+CHURCH_WAYS = [smooth_line(path) for path in CHURCH_PATHS]
+
+
 def make_streets(rng):
     """All streets. The seed moves the bends a little; junctions and gates stay."""
     def bend(x, y, most=1.2):
@@ -106,12 +109,20 @@ def distance_to_line(points, line):
     ux, uy = ends[1:, :1] - ax, ends[1:, 1:] - ay
     squares = np.maximum(1e-12, ux * ux + uy * uy)
 
+    def to_edges(x, y, edges):
+        dx, dy = x - ax[edges], y - ay[edges]
+        t = np.minimum(np.maximum((dx * ux[edges] + dy * uy[edges]) / squares[edges], 0), 1)
+        dx -= t * ux[edges]
+        dy -= t * uy[edges]
+        return dx * dx + dy * dy
+
     def of_part(x, y):
-        dx, dy = x - ax, y - ay
-        t = np.minimum(np.maximum((dx * ux + dy * uy) / squares, 0), 1)
-        dx -= t * ux
-        dy -= t * uy
-        return np.sqrt((dx * dx + dy * dy).min(axis=0))
+        edges = slice(None)
+        if x.shape[1] > 1 and len(ax) > 8:      # edges that can be the nearest of one of these points
+            low, high = np.array((x.min(), y.min())), np.array((x.max(), y.max()))
+            from_middle = np.sqrt(to_edges(*(low + high) / 2, slice(None))[:, 0])
+            edges = from_middle <= from_middle.min() + math.dist(low, high) + 1e-6
+        return np.sqrt(to_edges(x, y, edges).min(axis=0))
 
     return _by_parts(of_part, points, len(ax))
 
@@ -189,8 +200,8 @@ def grass_distance(points):
     """Signed distance to the edge of the lawns, negative on them."""
     d = distance_to_polygon(points, CHURCHYARD)
     d = np.maximum(d, -distance_to_polygon(points, CHURCH_PLAZA))
-    for path in CHURCH_PATHS:
-        d = np.maximum(d, 1.1 - distance_to_line(points, smooth_line(path)))
+    for way in CHURCH_WAYS:
+        d = np.maximum(d, 1.1 - distance_to_line(points, way))
     return d
 
 
