@@ -231,7 +231,11 @@ def without_speckles(picture):
     def around(values, combine):
         """Each texel combined with those two to every side of it: first across, then up and down."""
         for axis in (1, 0):
-            values = combine(combine(np.roll(values, -2, axis), values), np.roll(values, 2, axis))
+            old, values = np.moveaxis(values, axis, 0), values.copy()
+            new = np.moveaxis(values, axis, 0)
+            for ahead in (2, -2):
+                combine(new[:-ahead], old[ahead:], out=new[:-ahead])
+                combine(new[-ahead:], old[:ahead], out=new[-ahead:])
         return values
 
     closed = around(around(picture, np.maximum), np.minimum)

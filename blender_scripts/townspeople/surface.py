@@ -65,6 +65,11 @@ def face_means(values, faces):
     return means.reshape(len(faces), *values.shape[1:])
 
 
+def face_least(values, faces):
+    """The least of what each face's vertices have; of truths: whether all are true."""
+    return np.minimum.reduceat(values[corners_of(faces)[0]], corner_starts(faces)[:-1])
+
+
 def keep_faces(surface, keep):
     """The part whose face flags are true, without loose vertices."""
     starts = corner_starts(surface.faces)
