@@ -32,17 +32,14 @@ def unique_rows(whole):
 
     np.unique with an axis finds the same, but compares rows as bytes.
     """
-    inverse = np.zeros(len(whole), np.int64)
-    chosen = np.zeros(min(1, len(whole)), np.int64)
-    sorts = 1
-    for column in (whole - whole.min(axis=0, initial=0)).T if len(whole) else ():
-        span = int(column.max()) + 1
+    number, sorts = np.zeros(len(whole), np.int64), 1
+    for column in (whole - whole.min(axis=0, initial=0)).T:
+        span = int(column.max(initial=0)) + 1
         if sorts * span >= 1 << 62:
-            _, inverse = np.unique(inverse, return_inverse=True)
-            sorts = int(inverse.max()) + 1
-        inverse, sorts = inverse * span + column, sorts * span
-    if len(whole):
-        _, chosen, inverse = np.unique(inverse, return_index=True, return_inverse=True)
+            _, number = np.unique(number, return_inverse=True)
+            sorts = int(number.max()) + 1
+        number, sorts = number * span + column, sorts * span
+    _, chosen, inverse = np.unique(number, return_index=True, return_inverse=True)
     return chosen, inverse
 
 

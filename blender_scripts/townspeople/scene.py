@@ -105,13 +105,16 @@ def _product(a, b):
     return b @ np.array([[w, z, -y, -x], [-z, w, x, -y], [y, -x, w, -z], [x, y, z, w]])
 
 
-def _add_clip(document, binary, nodes, rests, skeleton, clip, every_frame):
-    """One animation. What hardly changes keeps its first and last frame only."""
+def _add_clip(document, binary, nodes, rests, skeleton, clip, seconds):
+    """One animation. What hardly changes keeps its first and last frame only.
+
+    nodes: index by joint. rests: each joint's rotation in Blender's rest pose. seconds: accessors of the times of all
+    frames, and of the first and the last.
+    """
     animation = {"name": clip.name, "samplers": [], "channels": []}
-    ends = every_frame[len(clip.rotations)]
 
     def add(name, path, rows, steady):
-        sampler = {"input": ends[steady], "interpolation": "LINEAR",
+        sampler = {"input": seconds[1 if steady else 0], "interpolation": "LINEAR",
                    "output": glb.add_floats(document, binary, rows[[0, -1]] if steady else rows)}
         animation["channels"].append({"sampler": len(animation["samplers"]), "target": {"node": nodes[name], "path": path}})
         animation["samplers"].append(sampler)
@@ -147,10 +150,11 @@ def write_glb(path, armature, skeleton, clips):
     document, binary = glb.read(path)
     nodes = {node["name"]: index for index, node in enumerate(document["nodes"])}
     rests = [np.array(armature.data.bones[name].matrix_local)[:3, :3].astype(float) for name in skeleton.names]
-    every_frame = {}
-    for frames in sorted({len(clip.rotations) for clip in clips}):
-        seconds = np.arange(frames) / WALK_FRAMES_PER_SECOND
-        every_frame[frames] = [glb.add_floats(document, binary, some, bounds=True) for some in (seconds, seconds[[0, -1]])]
+    seconds = {}
     for clip in sorted(clips, key=lambda clip: clip.name):
-        _add_clip(document, binary, nodes, rests, skeleton, clip, every_frame)
+        frames = len(clip.rotations)
+        if frames not in seconds:
+            times = np.arange(frames) / WALK_FRAMES_PER_SECOND
+            seconds[frames] = [glb.add_floats(document, binary, some, bounds=True) for some in (times, times[[0, -1]])]
+        _add_clip(document, binary, nodes, rests, skeleton, clip, seconds[frames])
     glb.write(path, document, binary)
