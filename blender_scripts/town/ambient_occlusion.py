@@ -98,12 +98,12 @@ def _cast(part, corners, tree, samples):
     x, y = dome[:, 0] * c - dome[:, 1] * s, dome[:, 0] * s + dome[:, 1] * c
     ways = (x[..., None] * t[:, None] + y[..., None] * b[:, None] + dome[None, :, 2:3] * n[:, None]).tolist()
     light, buried = np.ones(len(p)), np.zeros(len(p), bool)
-    cast, share, most = tree.ray_cast, 1.0 / REACH_M, 0.6 * samples
+    cast, share, most = tree.ray_cast, 1.0 / REACH_M ** 2, 0.6 * samples
     for i, (origin, rays) in enumerate(zip(start.tolist(), ways)):
         found = list(map(cast, repeat(origin), rays, repeat(REACH_M)))
-        hits = [1 - (distance * share) ** 2 for *_, distance in found if distance is not None]
-        light[i] = 1 - sum(hits) / samples
-        buried[i] = len(hits) > most and _is_inside(found, rays, most)
+        squares = [distance * distance for _, _, _, distance in found if distance is not None]
+        light[i] = 1 - (len(squares) - sum(squares) * share) / samples
+        buried[i] = len(squares) > most and _is_inside(found, rays, most)
     return light, buried
 
 
