@@ -31,9 +31,7 @@ def main():
     made.append(gaits.renamed(standing.idle_clip(figure, old), "idle_old"))
     made += [make(figure, usual) for make in work_clips.CLIPS.values()]
     armature = scene.make_armature(figure.skeleton)
-    for clip in made:
-        scene.add_clip(armature, figure.skeleton, clip)
-    write_atomically(settings["output"], scene.export_glb)
+    write_atomically(settings["output"], lambda path: scene.write_glb(path, armature, figure.skeleton, made))
     frames = sum(len(clip.rotations) for clip in made)
     print("clips: %d of %.1f s together" % (len(made), frames / body.WALK_FRAMES_PER_SECOND))
 

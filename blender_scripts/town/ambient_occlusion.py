@@ -1,9 +1,12 @@
 """Ambient occlusion of every vertex by casting rays over its hemisphere, and the colours that come of it."""
 
 import math
+from itertools import repeat
 
 import numpy as np
 from mathutils.bvhtree import BVHTree
+
+from mesh import rows_of, unique_rows
 
 SMALL_PARTS = ("timber", "planks", "glass", "iron", "cloth", "leaves", "bark")
 REACH_M = 6.0        # farther things darken nothing
@@ -16,7 +19,7 @@ class Corners:
     """A mesh as arrays, one row a corner."""
 
     def __init__(self, mesh):
-        self.points = np.array(mesh.points, float).reshape(-1, 3)
+        self.points = rows_of(mesh.points, 3)
         self.sizes = np.array(mesh.sizes, int)
         self.first = np.concatenate([[0], np.cumsum(self.sizes)[:-1]]).astype(int)
         self.face = np.repeat(np.arange(len(self.sizes)), self.sizes)
@@ -25,8 +28,7 @@ class Corners:
         last = self.first + self.sizes - 1
         nxt[last] = self.first
         cross = np.cross(p - p[self.first][self.face], p[nxt] - p[self.first][self.face])
-        normal = np.zeros((len(self.sizes), 3))
-        np.add.at(normal, self.face, cross)
+        normal = self._by_face(cross)
         length = np.linalg.norm(normal, axis=1)
         self.area = length / 2
         self.face_normal = normal / np.maximum(1e-12, length)[:, None]
@@ -35,23 +37,21 @@ class Corners:
             f = self.first[index]
             n = np.array(values, float)
             self.normals[f:f + len(n)] = n / np.maximum(1e-9, np.linalg.norm(n, axis=1))[:, None]
-        middle = np.zeros((len(self.sizes), 3))
-        np.add.at(middle, self.face, p)
-        self.middle = middle / self.sizes[:, None]
-        self.coarse = np.isin(np.array(mesh.materials), SMALL_PARTS)
-        self.colors = np.array(mesh.colors, float).reshape(-1, 3)[self.face]
+        self.middle = self._by_face(p) / self.sizes[:, None]
+        self.coarse = np.array([material in SMALL_PARTS for material in mesh.materials], bool)
+        self.colors = rows_of(mesh.colors, 3)[self.face]
 
-    def polygons(self, start=0):
-        return [list(range(start + f, start + f + n)) for f, n in zip(self.first.tolist(), self.sizes.tolist())]
+    def _by_face(self, values):
+        """Sums over the corners of each polygon."""
+        return np.stack([np.bincount(self.face, column, len(self.sizes)) for column in values.T], axis=1)
 
 
-def make_tree(parts):
-    """A search tree over the polygons of several Corners."""
-    points, polygons = [], []
-    for part in parts:
-        polygons.extend(part.polygons(len(points)))
-        points.extend(map(tuple, part.points.tolist()))
-    return BVHTree.FromPolygons(points, polygons)
+def make_tree(solids):
+    """A search tree over several solids, each (points a corner, corners a polygon)."""
+    points = np.concatenate([p for p, _ in solids])
+    sizes = np.concatenate([sizes for _, sizes in solids])
+    ends = np.cumsum(sizes)
+    return BVHTree.FromPolygons(list(map(tuple, points.tolist())), list(map(range, (ends - sizes).tolist(), ends.tolist())))
 
 
 def _hemisphere(count):
@@ -66,18 +66,17 @@ def _cells(part, coarse):
     """Corners that share one set of rays: the same place and normal, or, on small parts, nearly so."""
     cell = np.where(coarse[part.face], 0.22, 0.02)[:, None]
     key = np.round(np.concatenate([part.points / cell, part.normals * 5, coarse[part.face][:, None]], axis=1))
-    _, chosen, inverse = np.unique(key.astype(np.int64), axis=0, return_index=True, return_inverse=True)
-    return chosen, inverse.reshape(-1)
+    return unique_rows(key.astype(np.int64))
 
 
-def occlusion(part, tree, samples, coarse):
+def occlusion(part, tree, samples):
     """Open share of the sky dome at every corner, 0 to 1; corners inside other solids take their neighbours'.
 
-    coarse: for every polygon, whether it is a small part whose corners may share rays and have fewer of them.
+    The corners of small parts share rays and have fewer of them.
     """
-    chosen, inverse = _cells(part, coarse)
+    chosen, inverse = _cells(part, part.coarse)
     light, buried = np.ones(len(chosen)), np.zeros(len(chosen), bool)
-    few = coarse[part.face[chosen]]
+    few = part.coarse[part.face[chosen]]
     for rows, count in ((np.nonzero(few)[0], max(4, samples // 2)), (np.nonzero(~few)[0], samples)):
         for first in range(0, len(rows), 4096):
             some = rows[first:first + 4096]
@@ -97,28 +96,36 @@ def _cast(part, corners, tree, samples):
     turn = np.abs(np.round(p * 50)) @ np.array([12.9898, 78.233, 37.719]) % (2 * math.pi)
     c, s = np.cos(turn)[:, None], np.sin(turn)[:, None]
     x, y = dome[:, 0] * c - dome[:, 1] * s, dome[:, 0] * s + dome[:, 1] * c
-    rays = (x[..., None] * t[:, None] + y[..., None] * b[:, None] + dome[None, :, 2:3] * n[:, None]).tolist()
+    ways = (x[..., None] * t[:, None] + y[..., None] * b[:, None] + dome[None, :, 2:3] * n[:, None]).tolist()
     light, buried = np.ones(len(p)), np.zeros(len(p), bool)
-    cast, share = tree.ray_cast, 1.0 / REACH_M
-    for i, origin in enumerate(start.tolist()):
-        shadow, inside = 0.0, 0
-        for ray in rays[i]:
-            hit, normal, _, distance = cast(origin, ray, REACH_M)
-            if hit is not None:
-                shadow += 1 - (distance * share) ** 2
-                if normal[0] * ray[0] + normal[1] * ray[1] + normal[2] * ray[2] > 0:
-                    inside += 1
-        light[i] = 1 - shadow / samples
-        buried[i] = inside > 0.6 * samples
+    cast, share, most = tree.ray_cast, 1.0 / REACH_M ** 2, 0.6 * samples
+    for i, (origin, rays) in enumerate(zip(start.tolist(), ways)):
+        found = list(map(cast, repeat(origin), rays, repeat(REACH_M)))
+        squares = [distance * distance for _, _, _, distance in found if distance is not None]
+        light[i] = 1 - (len(squares) - sum(squares) * share) / samples
+        buried[i] = len(squares) > most and _is_inside(found, rays, most)
     return light, buried
+
+
+def _is_inside(found, rays, most):
+    """Whether more than `most` rays hit something from behind."""
+    behind, others = 0, len(rays) - most
+    for (_, normal, _, _), ray in zip(found, rays):
+        if normal is not None and normal[0] * ray[0] + normal[1] * ray[1] + normal[2] * ray[2] > 0:
+            behind += 1
+            if behind > most:
+                return True
+        else:
+            others -= 1
+            if others <= 0:
+                return False
+    return False
 
 
 def _fill(part, light, buried):
     """Corners inside other solids take the mean of the open corners of their polygon."""
-    total = np.zeros(len(part.sizes))
-    count = np.zeros(len(part.sizes))
-    np.add.at(total, part.face, np.where(buried, 0, light))
-    np.add.at(count, part.face, ~buried)
+    total = np.bincount(part.face, np.where(buried, 0, light), len(part.sizes))
+    count = np.bincount(part.face, ~buried, len(part.sizes))
     mean = np.where(count > 0, total / np.maximum(count, 1), 0.3)
     return np.where(buried, mean[part.face] * 0.93, light)
 

@@ -1,15 +1,14 @@
 """Blender objects from the gathered meshes, and the GLB."""
 
-import json
 import math
 import os
-import struct
 
 import bpy
 import numpy as np
 
 import textures
-from common import gltf
+from common import glb, gltf
+from mesh import unique_rows
 
 
 def make_materials(names, pixels, seed, folder):
@@ -70,8 +69,7 @@ def make_blender_mesh(name, mesh, part, colors, materials):
     normals = part.normals[corner_kept]
     key = np.concatenate([np.round(points * 10000), np.round(colors[corner_kept] * 4095), np.round(normals * 100)], axis=1)
     key = key.astype(np.int64)
-    _, chosen, inverse = np.unique(key, axis=0, return_index=True, return_inverse=True)
-    inverse = inverse.reshape(-1)
+    chosen, inverse = unique_rows(key)
     sizes = part.sizes[keep]
     data = bpy.data.meshes.new(name)
     data.vertices.add(len(chosen))
@@ -126,19 +124,10 @@ def write_glb(path):
 
 def _snap_normals(path):
     """Rounds the file's normals: Blender sums them on several threads, so that their last bits differ between runs."""
-    with open(path, "rb") as file:
-        data = bytearray(file.read())
-    length = struct.unpack_from("<I", data, 12)[0]
-    gltf = json.loads(data[20:20 + length])
-    binary = 20 + length + 8
-    for mesh in gltf["meshes"]:
+    document, binary = glb.read(path)
+    for mesh in document["meshes"]:
         for primitive in mesh["primitives"]:
-            accessor = gltf["accessors"][primitive["attributes"]["NORMAL"]]
-            view = gltf["bufferViews"][accessor["bufferView"]]
-            start = binary + view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-            normals = np.frombuffer(data, np.float32, accessor["count"] * 3, start).reshape(-1, 3)
-            normals = np.round(normals.astype(np.float64) * 4096) / 4096 + 0.0
-            normals /= np.linalg.norm(normals, axis=1)[:, None]
-            data[start:start + normals.size * 4] = normals.astype(np.float32).tobytes()
-    with open(path, "wb") as file:
-        file.write(data)
+            own = glb.floats(document, binary, primitive["attributes"]["NORMAL"])
+            normals = np.round(own.astype(np.float64) * 4096) / 4096 + 0.0
+            own[:] = normals / np.linalg.norm(normals, axis=1)[:, None]
+    glb.write(path, document, binary)

@@ -82,7 +82,7 @@ def graves(rng):
     for y in (46.6, 44.6, 16.6, 14.4):
         for i in range(9):
             x = 40 + i * 3.3 + rng.uniform(-0.5, 0.5)
-            far = min(plan.distance_to_line([(x, y)], plan.smooth_line(path))[0] for path in plan.CHURCH_PATHS)
+            far = min(plan.distance_to_line([(x, y)], way)[0] for way in plan.CHURCH_WAYS)
             free = all(math.dist((x, y), tree) > 1.8 for tree in CHURCHYARD_TREES)
             if rng.random() < 0.75 and free and far > 1.9 and plan.distance_to_polygon([(x, y)], plan.CHURCHYARD)[0] < -1:
                 places.append((x, y, rng.uniform(-0.15, 0.15)))

@@ -16,6 +16,8 @@ from town_wall import GATE_DEPTH, GATE_WIDTH, THICK, gate_axis, run_ends
 ROOM_M = 0.65             # people walk wherever a circle of this radius fits
 UNDER_WALLS_M = 0.45      # the ground goes on this far
 STEP_M = 0.25
+NEAR_M = 6.0              # so far around each house its distance is looked at first
+TOWER_M = 2.75            # radius of the wall's towers
 LEAST_M2 = 300.0          # smaller yards stay closed
 OPENING_M, LEAST_OPENING_M = 2.6, 1.8      # in a garden wall
 OPENING_EVERY_M = 36.0
@@ -33,15 +35,19 @@ class Gardens:
 
     def __init__(self, streets, public, plots, lines, rng):
         self.public, self.plots = public, plots
-        _, self.yards = _region(streets, public, plots)
+        walls = _between_walls(streets)
+        behind = Field.of(public, STEP_M).values > 0.6
+        self.yards = _yards(_room(walls, streets, plots), behind)[1]
         self.openings = {}                              # index of a garden wall -> lengths along it
         self.ways = []                                  # (x, y) just inside each
         self._open_walls(streets, lines)
         self._make_gateways(streets)
-        self.room, self.yards = _region(streets, public, plots)
-        self.path = Field(self._path_distance, 0.5)
+        room = _room(walls, streets, plots)
+        labels, self.yards = _yards(room, behind)
+        self.room = Field(_opened(room, labels > 0), STEP_M)
+        lines = self._path_lines()
+        self.path = Field.of(lambda p: np.min([plan.distance_to_line(p, line) for line in lines], axis=0) - PATH_M)
         self.rng = rng
-
 
     def _open_walls(self, streets, lines):
         for index, line in enumerate(lines):
@@ -87,67 +93,83 @@ class Gardens:
                     self.ways.append(tuple(back))
                 plot, back = max(houses, key=lambda h: self._to_next_way(h[1]))
 
-    def _path_distance(self, points):
-        spines = [plan.smooth_line(line) for line in plan.GARDEN_PATHS]
-        d = np.full(len(points), 1e9)
-        for spine in spines:
-            d = np.minimum(d, plan.distance_to_line(points, spine))
-        for plot in self.plots:
-            if plot.gateway:
-                d = np.minimum(d, plan.distance_to_line(points, [plot.at(plot.width / 2, -0.5), plot.at(plot.width / 2, plot.depth + 1.6)]))
-        for way in self.ways:
-            nearest = min((p for spine in spines for p in spine), key=lambda p: math.dist(p, way))
-            d = np.minimum(d, plan.distance_to_line(points, [way, nearest]))
-        return d - PATH_M
+    def _path_lines(self):
+        """The middles of the trodden paths, and of the ways to them through walls and houses."""
+        lines = [plan.smooth_line(line) for line in plan.GARDEN_PATHS]
+        middles = np.concatenate(lines).tolist()
+        lines += [[plot.at(plot.width / 2, -0.5), plot.at(plot.width / 2, plot.depth + 1.6)] for plot in self.plots if plot.gateway]
+        return lines + [[way, min(middles, key=lambda p: math.dist(p, way))] for way in self.ways]
 
 
-def _room(points, streets, plots):
-    """Distance to the nearest house, gate or town wall, negative in them."""
+def _between_walls(streets):
+    """Distance to the town wall at the cells of the grid, negative in it and outside."""
     ring = [tuple(p) for i in range(len(plan.WALL_RING)) for p in run_ends(i, streets)]
-    d = -plan.distance_to_polygon(points, [p for i, p in enumerate(ring) if p != ring[i - 1]]) - THICK / 2
-    for index, corner in enumerate(plan.WALL_RING):
+    ring = [p for i, p in enumerate(ring) if p != ring[i - 1]]
+    return -Field.of(lambda p: plan.distance_to_polygon(p, ring), STEP_M).values - THICK / 2
+
+
+def _room(walls, streets, plots):
+    """The lesser of `walls` and the distance to the nearest house, gate or tower, negative in them."""
+    xs, ys = grid_axes(STEP_M)
+    room, solids = walls.copy(), _solids(streets, plots)
+    for (x, y, half), distance in solids:
+        i, j = (slice(*np.searchsorted(axis, (at - half - NEAR_M, at + half + NEAR_M))) for axis, at in ((xs, x), (ys, y)))
+        room[j, i] = np.minimum(room[j, i], distance(xs[None, i], ys[j, None]))
+    j, i = np.nonzero(room > NEAR_M)      # elsewhere what is farther away than NEAR_M changes nothing
+    far, x, y = room[j, i], xs[i], ys[j]
+    for _, distance in solids:
+        far = np.minimum(far, distance(x, y))
+    room[j, i] = far
+    return room
+
+
+def _solids(streets, plots):
+    """Of each house, gate and tower: middle and half the edge of a square about it, and its distance from x and y."""
+    solids = []
+    for index, (cx, cy) in enumerate(plan.WALL_RING):
         if index in plan.WALL_GATES:
-            d = np.minimum(d, _gate_distance(points, index, streets))
+            spot = gate_axis(index, streets)[0]
+            solids.append(((*spot, GATE_DEPTH + GATE_WIDTH), lambda x, y, index=index: _gate_distance(x, y, index, streets)))
         else:
-            d = np.minimum(d, np.hypot(*(points - corner).T) - 2.75)
-    for plot in plots:
-        house = _box_distance(points, plot.origin, plot.along, plot.width, 0, plot.depth)
-        if plot.gateway:
-            house = np.maximum(house, GATEWAY_WIDTH_M / 2 - np.abs((points - plot.origin) @ plot.along - plot.width / 2))
-        d = np.minimum(d, house)
-    return d
+            solids.append(((cx, cy, TOWER_M), lambda x, y, cx=cx, cy=cy: np.hypot(x - cx, y - cy) - TOWER_M))
+    return solids + [((*plot.middle, plot.width + plot.depth), lambda x, y, plot=plot: _house_distance(x, y, plot)) for plot in plots]
 
 
-def _gate_distance(points, index, streets):
+def _house_distance(x, y, plot):
+    house = _box_distance(x, y, plot.origin, plot.along, plot.width, 0, plot.depth)
+    if plot.gateway:
+        u = (x - plot.origin[0]) * plot.along[0] + (y - plot.origin[1]) * plot.along[1]
+        house = np.maximum(house, GATEWAY_WIDTH_M / 2 - np.abs(u - plot.width / 2))
+    return house
+
+
+def _gate_distance(x, y, index, streets):
     spot, way = gate_axis(index, streets)
-    return _box_distance(points, spot - way * GATE_DEPTH / 2, way, GATE_DEPTH, -GATE_WIDTH / 2, GATE_WIDTH / 2)
+    return _box_distance(x, y, spot - way * GATE_DEPTH / 2, way, GATE_DEPTH, -GATE_WIDTH / 2, GATE_WIDTH / 2)
 
 
 def in_gate(line, streets):
     """Whether a garden wall along this line would stand within a gate of the town wall."""
-    return any(_gate_distance(np.array(line), index, streets).max() < 0.5 for index in plan.WALL_GATES)
+    x, y = np.array(line, float).T
+    return any(_gate_distance(x, y, index, streets).max() < 0.5 for index in plan.WALL_GATES)
 
 
-def _box_distance(points, origin, along, length, low, high):
-    q = points - origin
-    u, v = q @ along, q @ np.array((-along[1], along[0]))
-    dx, dy = np.maximum(-u, u - length), np.maximum(low - v, v - high)
-    return np.where((dx > 0) & (dy > 0), np.hypot(dx, dy), np.maximum(dx, dy))
+def _box_distance(x, y, origin, along, length, low, high):
+    x, y = x - origin[0], y - origin[1]
+    u, v = x * along[0] + y * along[1], y * along[0] - x * along[1]
+    return plan.outside_corner(np.maximum(-u, u - length), np.maximum(low - v, v - high))
 
 
-def _region(streets, public, plots):
-    """A field, positive where a circle of ROOM_M fits inside a large yard, and a function from place to the number of its yard, 0: none."""
-    field = Field(lambda p: _room(p, streets, plots), STEP_M)
+def _yards(room, behind):
+    """By cell the number of the large yard where a circle of ROOM_M fits, 0: none; and the function from place to number."""
     xs, ys = grid_axes(STEP_M)
-    behind = public(np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)).reshape(field.values.shape) > 0.6
-    yards = _label((field.values >= ROOM_M) & behind)
-    field.values = _opened(field.values, yards > 0)
+    yards = _label((room >= ROOM_M) & behind)
 
     def number(place):
         i, j = round((place[0] - xs[0]) / STEP_M), round((place[1] - ys[0]) / STEP_M)
         return int(yards[j, i]) if 0 <= i < len(xs) and 0 <= j < len(ys) else 0
 
-    return field, number
+    return yards, number
 
 
 def _opened(room, kept):
@@ -156,31 +178,45 @@ def _opened(room, kept):
     padded = np.pad(np.where(kept, room, -9.0), reach, constant_values=-9.0)
     ny, nx = room.shape
     best = np.full(room.shape, -1.0)
-    for j in range(-reach, reach + 1):
-        for i in range(-reach, reach + 1):
-            best = np.maximum(best, padded[reach + j:reach + j + ny, reach + i:reach + i + nx] - STEP_M * math.hypot(i, j))
+    band = 16                             # rows at once: they stay in the processor's cache
+    for top in range(0, ny, band):
+        mine = best[top:top + band]
+        for j in range(2 * reach + 1):
+            rows = padded[top + j:top + j + len(mine)]
+            for i in range(2 * reach + 1):
+                np.maximum(mine, rows[:, i:i + nx] - STEP_M * math.hypot(i - reach, j - reach), out=mine)
     return best
 
 
 def _label(cells):
     """Numbers of the connected parts of at least LEAST_M2, from 1; 0 elsewhere."""
-    labels, number = np.zeros(cells.shape, int), 0
-    left = cells.copy()
-    for start in zip(*np.nonzero(cells)):
-        if not left[start]:
-            continue
-        part, stack = [], [start]
-        left[start] = False
-        while stack:
-            j, i = stack.pop()
-            part.append((j, i))
-            for c in ((j + 1, i), (j - 1, i), (j, i + 1), (j, i - 1)):
-                if 0 <= c[0] < cells.shape[0] and 0 <= c[1] < cells.shape[1] and left[c]:
-                    left[c] = False
-                    stack.append(c)
-        if len(part) * STEP_M ** 2 >= LEAST_M2:
-            number += 1
-            labels[tuple(np.array(part).T)] = number
+    edges = np.diff(np.pad(cells, ((0, 0), (1, 1))).astype(np.int8), axis=1)
+    row, first = np.nonzero(edges == 1)               # runs of cells along the rows
+    last = np.nonzero(edges == -1)[1]
+    size, leader = (last - first).tolist(), list(range(len(row)))
+
+    def lead(run):
+        while leader[run] != run:
+            leader[run] = run = leader[leader[run]]
+        return run
+
+    start = np.searchsorted(row, np.arange(len(cells) + 1)).tolist()
+    ends = list(zip(first.tolist(), last.tolist()))
+    for j in range(1, len(cells)):
+        a, b = start[j - 1], start[j]
+        while a < start[j] and b < start[j + 1]:
+            if ends[a][0] < ends[b][1] and ends[b][0] < ends[a][1]:
+                one, other = sorted((lead(a), lead(b)))
+                if one != other:
+                    leader[other] = one               # the first run of a part leads it
+                    size[one] += size[other]
+            a, b = (a + 1, b) if ends[a][1] < ends[b][1] else (a, b + 1)
+    leaders = [lead(run) for run in range(len(row))]
+    large = [run for run in sorted(set(leaders)) if size[run] * STEP_M ** 2 >= LEAST_M2]
+    number_of = {run: k + 1 for k, run in enumerate(large)}
+    labels = np.zeros(cells.shape, int)
+    for j, (i, k), leading in zip(row.tolist(), ends, leaders):
+        labels[j, i:k] = number_of.get(leading, 0)
     return labels
 
 

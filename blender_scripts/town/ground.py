@@ -25,9 +25,9 @@ TINT = {"carriageway": (0.95, 0.94, 0.92), "square": (1.0, 0.98, 0.95), "pavemen
 
 def _lines(streets, public, gardens):
     """Lines that the triangulation has to keep."""
-    carriage = Field(lambda p: plan.carriage_distance(p, streets))
-    grass = Field(plan.grass_distance)
-    square = Field(plan.square_distance)
+    carriage = Field.of(lambda p: plan.carriage_distance(p, streets))
+    grass = Field.of(plan.grass_distance)
+    square = Field.of(plan.square_distance)
     fields = [(carriage, 0.0, 0.02), (carriage, KERB_STONE_M, 0.03), (grass, 0.0, 0.04), (square, 0.0, 0.04),
               (public, 0.0, 0.05), (public, -0.7, 0.06), (public, UNDER_WALLS_M, 0.06),
               (gardens.room, -UNDER_GARDEN_WALLS_M, 0.06), (gardens.path, 0.0, 0.06)]

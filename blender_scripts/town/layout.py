@@ -11,20 +11,32 @@ import numpy as np
 import plan
 
 GAP_M = 0.35   # a house front may lie this far behind the line of the street
+TILE = 48      # points a side
 
 
 class Field:
     """A signed distance sampled on a grid over the whole town, read back between the samples."""
 
-    def __init__(self, function, step=0.5):
-        self.values, self.xs, self.ys = grid_field(function, step)
-        self.step = step
+    def __init__(self, values, step):
+        self.values, self.step = values, step
+        self.xs, self.ys = grid_axes(step)
+
+    @classmethod
+    def of(cls, function, step=0.5):
+        """function: from points to values; it is given a tile's at once, which have much the same near them."""
+        points = np.stack(np.meshgrid(*grid_axes(step)), axis=-1)
+        values = np.empty(points.shape[:2])
+        for j in range(0, values.shape[0], TILE):
+            for i in range(0, values.shape[1], TILE):
+                tile = points[j:j + TILE, i:i + TILE]
+                values[j:j + TILE, i:i + TILE] = function(tile.reshape(-1, 2)).reshape(tile.shape[:2])
+        return cls(values, step)
 
     def __call__(self, points):
         p = np.asarray(points, float).reshape(-1, 2)
         ny, nx = self.values.shape
-        gx = np.clip((p[:, 0] - self.xs[0]) / self.step, 0, nx - 1.001)
-        gy = np.clip((p[:, 1] - self.ys[0]) / self.step, 0, ny - 1.001)
+        gx = np.minimum(np.maximum((p[:, 0] - self.xs[0]) / self.step, 0), nx - 1.001)
+        gy = np.minimum(np.maximum((p[:, 1] - self.ys[0]) / self.step, 0), ny - 1.001)
         i, j = gx.astype(int), gy.astype(int)
         fx, fy = gx - i, gy - j
         v = self.values
@@ -43,6 +55,8 @@ class Plot:
         self.left_open = self.right_open = self.back_open = True    # no other house stands against it
         self.left_seen = self.right_seen = True                     # and it can be seen from a street
         self.middle = self.at(width / 2, depth / 2)
+        self.x, self.y = self.middle.tolist()
+        self._x, self._y, self._along = float(origin[0]), float(origin[1]), (float(along[0]), float(along[1]))
         self.gateway = False                                        # people walk through it into the garden behind
 
     @property
@@ -57,27 +71,24 @@ class Plot:
     def at(self, u, v):
         return self.origin + self.along * u + self.back * v
 
-    def samples(self):
-        """Points over the plot, as an array."""
-        u, v = np.meshgrid(np.linspace(0.05, self.width - 0.05, 6), np.linspace(GAP_M, self.depth, 7))
-        return self.origin + u.reshape(-1, 1) * self.along + v.reshape(-1, 1) * self.back
-
     def contains(self, points, grow=0.0):
         p = np.asarray(points, float).reshape(-1, 2) - self.origin
         u, v = p @ self.along, p @ self.back
         return (u > -grow) & (u < self.width + grow) & (v > -grow) & (v < self.depth + grow)
 
+    def holds(self, place, grow=0.0):
+        """The same for one place, much sooner."""
+        x, y = float(place[0]) - self._x, float(place[1]) - self._y
+        u, v = x * self._along[0] + y * self._along[1], y * self._along[0] - x * self._along[1]
+        return -grow < u < self.width + grow and -grow < v < self.depth + grow
+
 
 def _overlap(a, b):
     """How deep two plots lie in each other (separating axes), 0 if apart."""
-    pa, pb = a.corners(), b.corners()
-    least = 1e9
-    for axis in (a.along, a.back, b.along, b.back):
-        ia, ib = pa @ axis, pb @ axis
-        least = min(least, min(ia.max(), ib.max()) - max(ia.min(), ib.min()))
-        if least <= 0:
-            return 0.0
-    return least
+    axes = np.array([a.along, a.back, b.along, b.back]).T
+    on_a, on_b = a.corners() @ axes, b.corners() @ axes
+    common = np.minimum(on_a.max(axis=0), on_b.max(axis=0)) - np.maximum(on_a.min(axis=0), on_b.min(axis=0))
+    return max(0.0, common.min())
 
 
 def offset_line(axis, distance):
@@ -117,27 +128,43 @@ def frontages(streets):
     return lines
 
 
-def _fits(plot, plots, public, inside):
-    if np.any(public(plot.samples()) < 0.0):
-        return False
-    if np.any(inside(plot.corners()) > -2.2):
-        return False
-    near = [o for o in plots if np.abs(o.middle - plot.middle).max() < 16.0]
-    return all(_overlap(plot, other) < 0.3 for other in near)
+def _samples(plots):
+    """Points all over each plot, shape (plots, points, 2)."""
+    width, depth = np.array([p.width for p in plots]), np.array([p.depth for p in plots])
+    u, v = np.linspace(0.05, width - 0.05, 6, axis=1)[:, None, :, None], np.linspace(GAP_M, depth, 7, axis=1)[:, :, None, None]
+    origin, along, back = (np.array([getattr(p, key) for p in plots])[:, None, None] for key in ("origin", "along", "back"))
+    return (origin + u * along + v * back).reshape(len(plots), -1, 2)
 
 
-def _try(line, s, width, depth, setback, plots, public, inside):
-    if s + width > line.s[-1]:
+def _first_that_fits(wanted, plots, public, inside):
+    """The first of the wanted plots that lies off the public space, inside the town and beside all other plots."""
+    if not wanted:
         return None
-    start, end = line.at(s), line.at(s + width)
-    chord = end - start
-    length = np.linalg.norm(chord)
-    along = chord / length
-    back = np.array((-along[1], along[0]))
-    middle = line.at(s + width / 2)
-    bulge = max(0.0, float((middle - start) @ back))
-    plot = Plot(start + back * (bulge + 0.02 + setback), along, length, depth)
-    return plot if _fits(plot, plots, public, inside) else None
+    free = public(_samples(wanted)).reshape(len(wanted), -1).min(axis=1) >= 0.0
+    for plot in (p for p, is_free in zip(wanted, free) if is_free):
+        if np.any(inside(plot.corners()) > -2.2):
+            continue
+        near = [o for o in plots if abs(o.x - plot.x) < 16.0 and abs(o.y - plot.y) < 16.0]
+        if all(_overlap(plot, other) < 0.3 for other in near):
+            return plot
+    return None
+
+
+def _wanted(line, s, widths, depths, setback):
+    """Plots of all these sizes whose fronts begin at `s`."""
+    made = []
+    for width in widths:
+        if s + width > line.s[-1]:
+            continue
+        start, end = line.at(s), line.at(s + width)
+        chord = end - start
+        length = np.linalg.norm(chord)
+        along = chord / length
+        back = np.array((-along[1], along[0]))
+        middle = line.at(s + width / 2)
+        bulge = max(0.0, float((middle - start) @ back))
+        made += [Plot(start + back * (bulge + 0.02 + setback), along, length, depth) for depth in depths]
+    return made
 
 
 def special_plots():
@@ -152,23 +179,21 @@ def special_plots():
 def place_houses(streets, public, rng, width_m):
     """Plots in the order of their frontages; `width_m` is the mean width."""
     plots = special_plots()
-    inside = Field(lambda p: plan.distance_to_polygon(p, plan.BUILT_RING), 1.0)
+    inside = Field.of(lambda p: plan.distance_to_polygon(p, plan.BUILT_RING), 1.0)
     for points in frontages(streets):
         line = _Line(points)
         s = 0.0
         while s < line.s[-1] - 4.8:
             wish = min(9.0, max(5.2, rng.gauss(width_m, 0.95)))
             depth, setback = rng.uniform(8.4, 10.2), 0.14 * rng.random()
-            plot = None
             start, ahead = line.at(s + 0.3), line.at(s + 0.4) - line.at(s + 0.3)
             behind = start + 1.5 * np.array((-ahead[1], ahead[0])) / max(1e-9, np.linalg.norm(ahead))
-            if public([behind])[0] < 0.2 or any(o.contains([behind], -0.35)[0] for o in plots):
+            if public([behind])[0] < 0.2 or any(o.holds(behind, -0.35) for o in plots):
                 s += 0.3
                 continue
-            for width in (wish, 0.85 * wish, 5.6, 5.0):
-                for cut in (0.0, 1.6, 3.0):
-                    plot = plot or _try(line, s, max(5.0, width), max(6.2, depth - cut), setback,
-                                        plots, public, inside)
+            widths = [max(5.0, width) for width in (wish, 0.85 * wish, 5.6, 5.0)]
+            depths = [max(6.2, depth - cut) for cut in (0.0, 1.6, 3.0)]
+            plot = _first_that_fits(_wanted(line, s, widths, depths, setback), plots, public, inside)
             if plot is None:
                 s += 0.3
                 continue
@@ -181,7 +206,7 @@ def place_houses(streets, public, rng, width_m):
 
 def _find_open_sides(plot, plots, public):
     def free(points):
-        return any(not any(o is not plot and o.contains(p, 0.25)[0] for o in plots) for p in points)
+        return any(not any(o is not plot and o.holds(p, 0.25) for o in plots) for p in points)
 
     w, d = plot.width, plot.depth
     plot.left_open = free([plot.at(-0.5, d * 0.3), plot.at(-0.5, d * 0.7)])
@@ -259,12 +284,6 @@ def grid_axes(step):
     return np.arange(-96.0, 96.0 + step / 2, step), np.arange(-92.0, 92.0 + step / 2, step)
 
 
-def grid_field(function, step):
-    xs, ys = grid_axes(step)
-    gx, gy = np.meshgrid(xs, ys)
-    return function(np.stack([gx.ravel(), gy.ravel()], axis=1)).reshape(gx.shape), xs, ys
-
-
 def garden_walls(public, plots):
     """Lines along the edge of the public space where no house closes it, lengthened a little into the houses."""
     ring = np.array(plan.BUILT_RING)
@@ -298,7 +317,7 @@ def garden_walls(public, plots):
 def make_layout(rng, width_m):
     """Streets, the signed distance to the edge of the public space, plots and garden walls."""
     streets = plan.make_streets(rng)
-    public = Field(lambda p: plan.walkable_distance(p, streets))
+    public = Field.of(lambda p: plan.walkable_distance(p, streets))
     plots = place_houses(streets, public, rng, width_m)
     return streets, public, plots, garden_walls(public, plots)
 

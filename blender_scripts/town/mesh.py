@@ -4,6 +4,7 @@ A Mesh is a soup of flat polygons, anticlockwise seen from outside, with texture
 material name each. Lengths in metres. Texture coordinates are metres divided by the size of the material's tile.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -19,6 +20,27 @@ def srgb(text):
     """Linear RGB of a colour written as in a style sheet, such as '8a5a3c'."""
     values = [int(text[i:i + 2], 16) / 255 for i in (0, 2, 4)]
     return tuple(v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in values)
+
+
+def rows_of(tuples, count):
+    """An array of tuples of `count` numbers each, twice as fast as np.array makes it."""
+    return np.fromiter(itertools.chain.from_iterable(tuples), float, count * len(tuples)).reshape(-1, count)
+
+
+def unique_rows(whole):
+    """The first of each sort of rows of whole numbers, the sorts in order, and by row the number of its sort.
+
+    np.unique with an axis finds the same, but compares rows as bytes.
+    """
+    number, sorts = np.zeros(len(whole), np.int64), 1
+    for column in (whole - whole.min(axis=0, initial=0)).T:
+        span = int(column.max(initial=0)) + 1
+        if sorts * span >= 1 << 62:
+            _, number = np.unique(number, return_inverse=True)
+            sorts = int(number.max()) + 1
+        number, sorts = number * span + column, sorts * span
+    _, chosen, inverse = np.unique(number, return_index=True, return_inverse=True)
+    return chosen, inverse
 
 
 def shade(color, factor):
@@ -64,12 +86,12 @@ class Mesh:
     def moved(self, x, y, z, yaw=0.0, shear_x=0.0, shear_y=0.0):
         """A copy, sheared by height, turned about z and moved; the shears are slopes (leaning walls)."""
         copy = Mesh()
-        p = np.array(self.points, dtype=float).reshape(-1, 3)
+        p = rows_of(self.points, 3)
         p[:, 0] += shear_x * p[:, 2]
         p[:, 1] += shear_y * p[:, 2]
         c, s = math.cos(yaw), math.sin(yaw)
         turned = np.stack([c * p[:, 0] - s * p[:, 1] + x, s * p[:, 0] + c * p[:, 1] + y, p[:, 2] + z], axis=1)
-        copy.points = [tuple(row) for row in turned.tolist()]
+        copy.points = list(map(tuple, turned.tolist()))
         copy.uvs, copy.sizes = list(self.uvs), list(self.sizes)
         copy.materials, copy.colors = list(self.materials), list(self.colors)
         for index, normals in self.normals.items():

@@ -66,6 +66,9 @@ def smooth_line(points, step=1.0):
     return np.array(out)
 
 
+CHURCH_WAYS = [smooth_line(path) for path in CHURCH_PATHS]
+
+
 def make_streets(rng):
     """All streets. The seed moves the bends a little; junctions and gates stay."""
     def bend(x, y, most=1.2):
@@ -91,44 +94,72 @@ def ground_height(x, y):
     return -SLOPE * run + 0.0 * np.asarray(x, float)
 
 
+def _by_parts(of_part, points, edges):
+    """of_part(x, y), x and y being rows, for as many points at once as stay in the processor's cache with all edges."""
+    p = np.asarray(points, float).reshape(-1, 2)
+    count = max(1, 32768 // edges)
+    parts = [of_part(p[k:k + count, 0][None], p[k:k + count, 1][None]) for k in range(0, max(1, len(p)), count)]
+    return np.concatenate(parts)
+
+
 def distance_to_line(points, line):
     """Distance of each point to a line of points."""
-    p = np.asarray(points, float).reshape(-1, 2)
-    best = np.full(len(p), 1e18)
-    px, py = p[:, 0].copy(), p[:, 1].copy()
-    for (ax, ay), (bx, by) in zip(line[:-1], line[1:]):
-        ux, uy = bx - ax, by - ay
-        dx, dy = px - ax, py - ay
-        t = np.clip((dx * ux + dy * uy) / max(1e-12, ux * ux + uy * uy), 0, 1)
-        dx -= t * ux
-        dy -= t * uy
-        best = np.minimum(best, dx * dx + dy * dy)
-    return np.sqrt(best)
+    ends = np.array(line, float)
+    ax, ay = ends[:-1, :1], ends[:-1, 1:]
+    ux, uy = ends[1:, :1] - ax, ends[1:, 1:] - ay
+    squares = np.maximum(1e-12, ux * ux + uy * uy)
+
+    def to_edges(x, y, edges):
+        dx, dy = x - ax[edges], y - ay[edges]
+        t = np.minimum(np.maximum((dx * ux[edges] + dy * uy[edges]) / squares[edges], 0), 1)
+        dx -= t * ux[edges]
+        dy -= t * uy[edges]
+        return dx * dx + dy * dy
+
+    def of_part(x, y):
+        edges = slice(None)
+        if x.shape[1] > 1 and len(ax) > 8:      # edges that can be the nearest of one of these points
+            low, high = np.array((x.min(), y.min())), np.array((x.max(), y.max()))
+            from_middle = np.sqrt(to_edges(*(low + high) / 2, slice(None))[:, 0])
+            edges = from_middle <= from_middle.min() + math.dist(low, high) + 1e-6
+        return np.sqrt(to_edges(x, y, edges).min(axis=0))
+
+    return _by_parts(of_part, points, len(ax))
 
 
 def distance_to_polygon(points, polygon):
     """Signed distance, negative inside."""
-    p = np.asarray(points, float).reshape(-1, 2)
     ring = np.array(list(polygon) + [polygon[0]], float)
-    inside = np.zeros(len(p), bool)
-    for (ax, ay), (bx, by) in zip(ring[:-1], ring[1:]):
-        crosses = (ay > p[:, 1]) != (by > p[:, 1])
+    ax, ay, bx, by = ring[:-1, :1], ring[:-1, 1:], ring[1:, :1], ring[1:, 1:]
+
+    def inside(x, y):
+        crosses = (ay > y) != (by > y)
         with np.errstate(divide="ignore", invalid="ignore"):
-            inside ^= crosses & (p[:, 0] < (bx - ax) * (p[:, 1] - ay) / (by - ay) + ax)
-    away = distance_to_line(p, ring)
-    return np.where(inside, -away, away)
+            crosses &= x < (bx - ax) * (y - ay) / (by - ay) + ax
+        return np.logical_xor.reduce(crosses, axis=0)
+
+    away = distance_to_line(points, ring)
+    return np.where(_by_parts(inside, points, len(ax)), -away, away)
 
 
 def distance_to_box(points, x0, x1, y0, y1):
     p = np.asarray(points, float).reshape(-1, 2)
     dx = np.maximum(x0 - p[:, 0], p[:, 0] - x1)
     dy = np.maximum(y0 - p[:, 1], p[:, 1] - y1)
-    return np.where((dx > 0) & (dy > 0), np.hypot(dx, dy), np.maximum(dx, dy))
+    return outside_corner(dx, dy)
+
+
+def outside_corner(dx, dy):
+    """Signed distance to a corner, from how far points lie beyond its two sides."""
+    d = np.maximum(dx, dy)
+    beyond = np.minimum(dx, dy) > 0
+    d[beyond] = np.hypot(dx[beyond], dy[beyond])
+    return d
 
 
 def smooth_min(a, b, radius):
     """The lesser of two distances, with the corner between them rounded."""
-    h = np.clip(0.5 + 0.5 * (b - a) / radius, 0, 1)
+    h = np.minimum(np.maximum(0.5 + 0.5 * (b - a) / radius, 0), 1)   # np.clip takes longer over few
     return b + (a - b) * h - radius * h * (1 - h)
 
 
@@ -169,8 +200,8 @@ def grass_distance(points):
     """Signed distance to the edge of the lawns, negative on them."""
     d = distance_to_polygon(points, CHURCHYARD)
     d = np.maximum(d, -distance_to_polygon(points, CHURCH_PLAZA))
-    for path in CHURCH_PATHS:
-        d = np.maximum(d, 1.1 - distance_to_line(points, smooth_line(path)))
+    for way in CHURCH_WAYS:
+        d = np.maximum(d, 1.1 - distance_to_line(points, way))
     return d
 
 

@@ -2,9 +2,14 @@
 
 Every texture is bright and nearly neutral where the vertex colour is to tint it (plaster, timber, planks, cloth,
 roof tiles, leaves), and fully coloured elsewhere. Rows run upwards, as in Blender's images.
+
+All is reckoned in single precision, and what needs many arrays a pixel in bands of rows: more would not fit into the
+processor's cache.
 """
 
 import numpy as np
+
+BAND = 32      # rows
 
 
 def _rng(seed, name):
@@ -19,26 +24,34 @@ def _noise(rng, size, cells):
     x = np.arange(size) / size * cx
     y0, x0 = y.astype(int), x.astype(int)
     fy, fx = y - y0, x - x0
-    fy, fx = fy * fy * (3 - 2 * fy), fx * fx * (3 - 2 * fx)
+    fy, fx = fy * fy * (3 - 2 * fy), (fx * fx * (3 - 2 * fx)).astype(np.float32)
     rows0, rows1 = grid[y0 % cy], grid[(y0 + 1) % cy]
-    column = rows0 * (1 - fy)[:, None] + rows1 * fy[:, None]
-    return column[:, x0 % cx] * (1 - fx) + column[:, (x0 + 1) % cx] * fx
+    column = (rows0 * (1 - fy)[:, None] + rows1 * fy[:, None]).astype(np.float32)
+    noise = np.take(column, x0 % cx, axis=1)
+    noise *= 1 - fx
+    after = np.take(column, (x0 + 1) % cx, axis=1)
+    after *= fx
+    noise += after
+    return noise
 
 
 def _fractal(rng, size, cells, octaves=5, gain=0.5):
-    total, weight, amount = 0.0, 1.0, 0.0
+    total, weight, amount = np.zeros((size, size), np.float32), 1.0, 0.0
     for _ in range(octaves):
-        total = total + weight * _noise(rng, size, cells)
+        layer = _noise(rng, size, cells)
+        layer *= weight
+        total += layer
         amount += weight
         weight *= gain
         cells = cells * 2 if isinstance(cells, int) else (cells[0] * 2, cells[1] * 2)
         if (cells if isinstance(cells, int) else max(cells)) > size:
             break
-    return total / amount
+    total /= amount
+    return total
 
 
 def _grid(size):
-    y, x = np.mgrid[0:size, 0:size] / size
+    y, x = np.mgrid[0:size, 0:size].astype(np.float32) / np.float32(size)
     return x, y
 
 
@@ -59,50 +72,62 @@ def _mix(a, b, t):
 
 
 def _rgb(*values):
-    return np.array(values, dtype=float)
+    return np.array(values, np.float32)
 
 
 def _cells(rng, x, y, across, up, jitter, row_shift=0.5):
     """Tiling Voronoi cells: distance to the border between the two nearest (in cells), and the cell's number."""
-    jx = (rng.rand(up, across) - 0.5) * jitter
-    jy = (rng.rand(up, across) - 0.5) * jitter
-    gx, gy = x * across, y * up
-    iy = np.floor(gy).astype(int)
-    near = np.full(x.shape, 9.0)
-    second = np.full(x.shape, 9.0)
-    label = np.zeros(x.shape, int)
-    for oy in (-1, 0, 1):
-        row = iy + oy
-        shift = (row % 2) * row_shift
-        ix = np.floor(gx - shift).astype(int)
-        for ox in (-1, 0, 1):
-            column = ix + ox
-            r, c = row % up, column % across
-            d = np.hypot(gx - (column + 0.5 + shift + jx[r, c]), gy - (row + 0.5 + jy[r, c]))
-            closer = d < near
-            second = np.where(closer, near, np.minimum(second, d))
-            label = np.where(closer, r * across + c, label)
-            near = np.where(closer, d, near)
-    return second - near, near, label
+    jx = ((rng.rand(up, across) - 0.5) * jitter).astype(np.float32).ravel()
+    jy = ((rng.rand(up, across) - 0.5) * jitter).astype(np.float32).ravel()
+    near, second = np.full((2, *x.shape), 81.0, np.float32)      # squares, until the end
+    label = np.zeros(x.shape, np.int32)
+    for first in range(0, len(x), BAND):
+        band = slice(first, first + BAND)
+        gx, gy = x[band] * np.float32(across), y[band] * np.float32(up)
+        iy = np.floor(gy)
+        for oy in (-1, 0, 1):
+            row = iy + oy
+            shift = (row % 2) * np.float32(row_shift)
+            ix = np.floor(gx - shift)
+            dx, dy = gx - ix - shift - np.float32(0.5), gy - row - np.float32(0.5)
+            first_in_row, column = (row % up * across).astype(np.int32), ix.astype(np.int32)
+            for ox in (-1, 0, 1):
+                cell = first_in_row + (column + ox) % across
+                d = np.square(dx - ox - jx[cell]) + np.square(dy - jy[cell])
+                closer = d < near[band]
+                np.minimum(second[band], np.maximum(d, near[band]), out=second[band])
+                np.copyto(label[band], cell, where=closer)
+                np.copyto(near[band], d, where=closer)
+    np.sqrt(near, out=near)
+    np.sqrt(second, out=second)
+    second -= near
+    return second, near, label
 
 
 def _bricks(rng, x, y, across, up, width_jitter=0.3, shift=True):
     """Courses of blocks: distance to the nearest joint in tiles (horizontal, vertical), the block's number."""
-    row = np.floor(y * up).astype(int) % up
-    fy = y * up - np.floor(y * up)
-    cuts = (np.arange(across) + 0.5)[None, :] + (rng.rand(up, across) - 0.5) * width_jitter
-    cuts = cuts + (rng.rand(up, 1) * across if shift else 0)
-    gx = x * across
-    left = np.full(x.shape, -99.0)
-    right = np.full(x.shape, 99.0)
-    label = np.zeros(x.shape, int)
-    for i in range(across):
-        d = (gx - cuts[row, i]) % across
-        nearer = d < np.where(left < -98, 99.0, left)
-        label = np.where(nearer, row * across + i, label)
-        left = np.where(nearer, d, left)
-        right = np.minimum(right, across - d)
-    return np.minimum(left, right) / across, np.minimum(fy, 1 - fy) / up, label
+    row = np.floor(y * np.float32(up))
+    fy = y * np.float32(up) - row
+    row = row.astype(np.int32) % up
+    off = ((rng.rand(up, across) - 0.5) * width_jitter).astype(np.float32).ravel()
+    start = (rng.rand(up) * across if shift else np.zeros(up)).astype(np.float32) + np.float32(0.5)
+    away = np.empty(x.shape, np.float32)
+    label = np.zeros(x.shape, np.int32)
+    for first in range(0, len(x), BAND):
+        band = slice(first, first + BAND)
+        gx = (x[band] * np.float32(across) - start[row[band]]) % across
+        whole = np.floor(gx)
+        i = whole.astype(np.int32)
+        left, right = np.full((2, *gx.shape), 99.0, np.float32)
+        for k in (-1, 0, 1, 2):              # no cut is off its place by half a block: these are the nearest
+            block = row[band] * across + (i + k) % across
+            d = gx - whole - k - off[block]
+            np.copyto(label[band], block, where=(d >= 0) & (d < left))
+            np.copyto(left, d, where=(d >= 0) & (d < left))
+            np.copyto(right, -d, where=(d < 0) & (-d < right))
+        np.minimum(left, right, out=away[band])
+    away /= across
+    return away, np.minimum(fy, 1 - fy) / up, label
 
 
 def _stones(size, distance, label, rng, palette, joint, joint_color, soft, bump, grain=0.25):
@@ -113,8 +138,8 @@ def _stones(size, distance, label, rng, palette, joint, joint_color, soft, bump,
     count = int(label.max()) + 1
     pick = rng.randint(0, len(palette), count)
     tone = 0.85 + 0.28 * rng.rand(count)
-    stone = np.array(palette)[pick][label] * tone[label][..., None]
-    stone = stone * (1 - grain / 2 + grain * rough)[..., None]
+    stone = np.take((np.array(palette)[pick] * tone[:, None]).astype(np.float32), label, axis=0)
+    stone *= (1 - grain / 2 + grain * rough)[..., None]
     dirt = _fractal(rng, size, 5, 4)
     color = _mix(_rgb(*joint_color) * (0.7 + 0.6 * rough)[..., None], stone, _step(joint * 0.6, joint + soft * 0.5,
                                                                                 distance))
@@ -126,11 +151,16 @@ def _levelled(color, stones):
     """Without differences of brightness that are wider than two of `stones` a side: repeated over a square, and seen
     flat from afar, they would make waves."""
     size = color.shape[0]
-    frequency = np.fft.fftfreq(size) * size
-    keeps = np.exp(-0.5 * (np.hypot(frequency[:, None], frequency[None, :]) / (0.25 * stones)) ** 2)
     light = color.mean(axis=2)
-    wide = np.real(np.fft.ifft2(np.fft.fft2(light) * keeps))
-    return color * (light.mean() / np.maximum(wide, 0.2 * light.mean()))[..., None] ** 0.85
+    few = 2 * stones                         # of the frequencies: what the others hold is less than a thousandth of a level
+    squares = (np.fft.fftfreq(size) * size) ** 2
+    near = np.nonzero(squares <= few ** 2)[0]
+    keeps = np.exp(-0.5 * (squares[near][:, None] + squares[:few + 1]) / (0.25 * stones) ** 2)
+    waves = np.zeros((size, size // 2 + 1), complex)
+    waves[near, :few + 1] = np.fft.fft(np.fft.rfft(light)[:, :few + 1], axis=0)[near] * keeps
+    wide = np.fft.irfft(np.fft.ifft(waves[:, :few + 1], axis=0), size)
+    even = light.mean() / np.maximum(wide.astype(np.float32), 0.2 * light.mean())
+    return color * even[..., None] ** np.float32(0.85)
 
 
 def cobble(size, seed):
@@ -237,21 +267,21 @@ def roof_tile(size, seed):
     rng = _rng(seed, "roof_tile")
     x, y = _grid(size)
     across, up = 14, 10
-    row = np.floor(y * up).astype(int)
-    fy = y * up - row
-    wobble = (rng.rand(up, across) - 0.5) * 0.06
-    column = np.floor(x * across).astype(int)
-    fx = (x * across - column + wobble[row % up, column % across]) % 1.0
+    row, column = np.floor(y * up), np.floor(x * across)
+    fy, fx = y * up - row, x * across - column
+    wobble = ((rng.rand(up, across) - 0.5) * 0.06).astype(np.float32)
+    row, column = row.astype(int), column.astype(int)
+    fx = (fx + wobble[row % up, column % across]) % 1.0
     roll = 0.5 + 0.5 * np.cos(2 * np.pi * (fx - 0.28))
     light = 0.62 + 0.48 * roll ** 1.2 - 0.22 * np.exp(-((fx - 0.86) / 0.08) ** 2)
-    lip = fy + (rng.rand(up, across) * 0.05)[row % up, column % across]
+    lip = fy + (rng.rand(up, across) * 0.05).astype(np.float32)[row % up, column % across]
     shadow = 1 - 0.62 * np.exp(-((1.0 - lip) / 0.07) ** 2) - 0.22 * _step(0.75, 1.0, lip)
     edge = 1 + 0.22 * np.exp(-((lip - 0.03) / 0.035) ** 2)
     palette = np.array([(0.80, 0.44, 0.30), (0.74, 0.38, 0.25), (0.86, 0.50, 0.35), (0.66, 0.35, 0.25),
                         (0.78, 0.46, 0.36), (0.60, 0.34, 0.26)])
     pick = rng.randint(0, len(palette), (up, across))
     tone = 0.84 + 0.3 * rng.rand(up, across)
-    color = (palette[pick] * tone[..., None])[row % up, column % across]
+    color = (palette[pick] * tone[..., None]).astype(np.float32)[row % up, column % across]
     rough = _fractal(rng, size, 48, 4)
     moss = _step(0.56, 0.74, _fractal(rng, size, (5, 8), 5)) * _step(0.35, 0.6, rough)
     color = color * (light * shadow * edge * (0.82 + 0.36 * rough))[..., None]
@@ -295,28 +325,27 @@ def leaves(size, seed):
     """Overlapping leaves seen from outside the crown; bright, to be tinted."""
     rng = _rng(seed, "leaves")
     x, y = _grid(size)
-    image = np.zeros((size, size, 3))
+    image = np.zeros((size, size, 3), np.float32)
     image[:] = (0.30, 0.32, 0.22)
     for layer in range(5):
         count = 13 + layer
         border, near, label = _cells(rng, (x + 0.13 * layer) % 1, (y + 0.29 * layer) % 1, count, count, 0.95, 0.5)
         cells = count * count
-        angle = (rng.rand(cells) * np.pi)[label]
-        tone = (0.55 + 0.45 * rng.rand(cells))[label] * (0.6 + 0.1 * layer)
+        angle = (rng.rand(cells) * np.pi).astype(np.float32)
+        tone = ((0.55 + 0.45 * rng.rand(cells)) * (0.6 + 0.1 * layer)).astype(np.float32)[label]
         kept = (rng.rand(cells) < 0.62)[label]
-        vein = np.abs(np.cos(angle) * (x * count % 1 - 0.5) + np.sin(angle) * (y * count % 1 - 0.5))
+        vein = np.abs(np.cos(angle)[label] * (x * count % 1 - 0.5) + np.sin(angle)[label] * (y * count % 1 - 0.5))
         leaf = kept & (near < 0.46) & (border > 0.05)
-        body = np.stack([0.76 + 0.16 * (tone - 0.7), 0.80 + 0 * tone, 0.60 + 0 * tone], axis=-1)
-        color = body * (tone * (0.75 + 0.5 * np.clip(0.5 - near, 0, 0.5)) * (1 + 0.3 * (vein < 0.03)))[..., None]
-        image = np.where(leaf[..., None], color, image * np.where(near < 0.5, 0.9, 1.0)[..., None])
+        light = tone * (0.75 + 0.5 * np.clip(0.5 - near, 0, 0.5)) * np.where(vein < 0.03, np.float32(1.3), np.float32(1))
+        image *= np.where(near < 0.5, np.float32(0.9), np.float32(1))[..., None]
+        image[leaf] = (np.stack([0.76 + 0.16 * (tone - 0.7), 0.80 + 0 * tone, 0.60 + 0 * tone], axis=-1) * light[..., None])[leaf]
     return np.clip(image * 1.25, 0, 1)
 
 
 def twigs(size, seed):
     """Four twigs, two by two, cut out: leaves that point outwards from the middle. Bright, to be tinted."""
     rng = _rng(seed, "twigs")
-    x, y = _grid(size)
-    image = np.zeros((size, size, 4))
+    image = np.zeros((size, size, 4), np.float32)
     image[..., :3] = (0.50, 0.53, 0.38)
     for quarter in range(4):
         mx, my = 0.25 + 0.5 * (quarter % 2), 0.25 + 0.5 * (quarter // 2)
@@ -325,14 +354,17 @@ def twigs(size, seed):
             cx, cy = mx + out * np.cos(around), my + out * np.sin(around)
             way = around + rng.uniform(-0.9, 0.9)
             long, wide = rng.uniform(0.036, 0.05), rng.uniform(0.017, 0.024)
-            u = ((x - cx) * np.cos(way) + (y - cy) * np.sin(way)) / long
-            v = (-(x - cx) * np.sin(way) + (y - cy) * np.cos(way)) / wide
+            i, j = (slice(max(0, int((at - long) * size)), int((at + long) * size) + 2) for at in (cx, cy))   # long is more than wide
+            x, y = np.arange(size)[None, i] / size - cx, np.arange(size)[j, None] / size - cy
+            u = (x * np.cos(way) + y * np.sin(way)) / long
+            v = (-x * np.sin(way) + y * np.cos(way)) / wide
             inside = np.abs(v) < 1 - u * u
             tone = (0.62 + 0.38 * rng.rand()) * (0.78 + 0.22 * leaf / 45)
             color = np.array([0.80, 0.84, 0.60]) * tone
             shade = (0.86 + 0.14 * u) * np.where(np.abs(v) < 0.09, 1.14, 1.0) * np.where(v > 0, 1.0, 0.92)
-            image[..., :3] = np.where(inside[..., None], color * shade[..., None], image[..., :3])
-            image[..., 3] = np.where(inside, 1.0, image[..., 3])
+            part = image[j, i]
+            part[inside, :3] = color * shade[inside][:, None]
+            part[inside, 3] = 1.0
     return np.clip(image, 0, 1)
 
 

@@ -6,6 +6,7 @@ SETTINGS.json: {"output": "monk.glb", "seed": 1, "options": {"person": "monk"}}.
 in people.py.
 """
 
+import gc
 import os
 import sys
 
@@ -91,6 +92,7 @@ def with_props(tailor, person, name_of_person, whole):
 
 
 def main():
+    gc.disable()  # little here goes round in circles, and looking for it takes a tenth of the time
     settings = load_settings(
         required=("output", "seed"), options={"person": "merchant", "human_rig": body.HUMAN_RIG}
     )
@@ -119,9 +121,8 @@ def main():
     for name, prop in with_props(tailor, person, options["person"], surface).items():
         uv = looks.texture_coordinates(prop.surface, places)
         scene.make_mesh(name, prop.surface, made, material_of_cell, uv, armature, joints, prop.tint)
-    for clip in moves + tuple(work_clips.work_clips(figure, options["person"], manner)):
-        scene.add_clip(armature, figure.skeleton, clip)
-    write_atomically(settings["output"], scene.export_glb)
+    moves += tuple(work_clips.work_clips(figure, options["person"], manner))
+    write_atomically(settings["output"], lambda path: scene.write_glb(path, armature, figure.skeleton, moves))
     print(
         "townsperson %s: %d triangles, %d joints, walks %.2f m/s"
         % (options["person"], sf.triangle_count(surface), len(figure.skeleton.names), speed_mps)

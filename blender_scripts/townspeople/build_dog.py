@@ -25,9 +25,8 @@ def main():
     walk, speed_mps = dog.walk_clip(skeleton)
     armature["flaneur_walk_speed_mps"] = round(speed_mps, 4)
     faces = animal.make_mesh("dog_mesh", dog.dog_surface("coat", "belly", "dark"), colors, armature)
-    for clip in (walk, dog.idle_clip(skeleton), dog.lie_clip(skeleton)):
-        scene.add_clip(armature, skeleton, clip)
-    write_atomically(settings["output"], scene.export_glb)
+    made = (walk, dog.idle_clip(skeleton), dog.lie_clip(skeleton))
+    write_atomically(settings["output"], lambda path: scene.write_glb(path, armature, skeleton, made))
     print("dog: %d polygons, %d joints, walks %.2f m/s" % (faces, len(skeleton.names), speed_mps))
 
 

@@ -26,9 +26,8 @@ def main():
     walk, speed_mps = pigeon.walk_clip(skeleton)
     armature["flaneur_walk_speed_mps"] = round(speed_mps, 4)
     faces = animal.make_mesh("pigeon_mesh", pigeon.pigeon_surface(), colors, armature)
-    for clip in (walk, pigeon.idle_clip(skeleton), pigeon.fly_clip(skeleton)):
-        scene.add_clip(armature, skeleton, clip)
-    write_atomically(settings["output"], scene.export_glb)
+    made = (walk, pigeon.idle_clip(skeleton), pigeon.fly_clip(skeleton))
+    write_atomically(settings["output"], lambda path: scene.write_glb(path, armature, skeleton, made))
     print("pigeon: %d polygons, %d joints, walks %.2f m/s" % (faces, len(skeleton.names), speed_mps))
 
 

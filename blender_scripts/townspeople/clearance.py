@@ -41,11 +41,11 @@ def drawn_in(points, tree, gap_m, search_m=0.04):
 def _needs(points, outward, tree, gap_m):
     """How far each point would have to move outwards (0: stays)."""
     needs = np.zeros(len(points))
-    for i, (point, way) in enumerate(zip(points, outward)):
-        location, normal, _, _ = tree.find_nearest(Vector(point), SEARCH_M)
+    for i, (point, way) in enumerate(zip(map(Vector, points.tolist()), outward.tolist())):
+        location, normal, _, _ = tree.find_nearest(point, SEARCH_M)
         if location is None or normal.dot(Vector(way)) < 0.25:
             continue
-        needs[i] = max(gap_m - (Vector(point) - location).dot(normal), 0.0)
+        needs[i] = max(gap_m - (point - location).dot(normal), 0.0)
     return needs
 
 

@@ -141,8 +141,8 @@ def _curl_fingers(skeleton, frame, side, sign):
     """Fingers a little bent towards the palm, as hands hang."""
     along = skeleton.head("finger3-2" + side) - skeleton.head("finger3-1" + side)
     thumb = skeleton.head("finger1-1" + side) - skeleton.head("wrist" + side)
-    palm = np.cross(along, thumb) * sign
-    axis = np.cross(along, palm)
+    palm = sk.cross(along, thumb) * sign
+    axis = sk.cross(along, palm)
     axis /= np.linalg.norm(axis)
     for name, degrees in (("finger3-1", 30.0), ("finger3-2", 38.0)):
         joint = skeleton.index(name + side)

@@ -106,7 +106,7 @@ def _frame_of(way, side):
     way = way / np.linalg.norm(way)
     left = side - way * (side @ way)
     left = left / np.linalg.norm(left)
-    return np.stack([way, left, np.cross(way, left)], axis=1)
+    return np.stack([way, left, sk.cross(way, left)], axis=1)
 
 
 def _leg_rotations(skeleton, side, hip, ankle, left):
@@ -116,7 +116,7 @@ def _leg_rotations(skeleton, side, hip, ankle, left):
     line = ankle - hip
     distance = min(np.linalg.norm(line), STRAIGHTEST * (thigh + shin))
     line = line / np.linalg.norm(line)
-    forward = np.cross(line, left)
+    forward = sk.cross(line, left)
     forward = forward / np.linalg.norm(forward)
     if forward[1] > 0:
         forward = -forward

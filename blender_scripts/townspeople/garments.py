@@ -5,6 +5,7 @@ Surfaces to what is worn. Lengths are metres on a figure of 1.7 m.
 import numpy as np
 
 from townspeople import clearance
+from townspeople import skeleton as sk
 from townspeople import surface as sf
 from townspeople import tailor as tl
 from townspeople.body import joint_share
@@ -25,14 +26,11 @@ def upper(
     base = sf.offset(sf.smoothed(figure.parts["shirt"], smooth), ease * size)
     arm = joint_share(figure, base, tl.ARM_JOINTS)
     z_bottom = tailor.height(bottom)
-    keep = [
-        base.vertices[list(face), 2].mean() > z_bottom
-        and (sleeve is not None or arm[list(face)].mean() < 0.5)
-        for face in base.faces
-    ]
+    keep = base_above(base, z_bottom)
+    if sleeve is None:
+        keep &= sf.face_means(arm, base.faces) < 0.5
     base = sf.keep_faces(base, keep)
-    arm = joint_share(figure, base, tl.ARM_JOINTS)
-    is_arm = [arm[list(face)].mean() > 0.5 for face in base.faces]
+    is_arm = sf.face_means(joint_share(figure, base, tl.ARM_JOINTS), base.faces) > 0.5
     base = _trunk_mapping(tailor, base, is_arm, z_bottom, cell, sleeve_cell)
     if sleeve is not None:
         for side in ("_L", "_R"):
@@ -114,18 +112,14 @@ def _arm_frame(tailor, side, place):
     outside = np.array([1.0 if side == "_L" else -1.0, 0.0, 0.0])
     outside -= way * (outside @ way)
     outside /= np.linalg.norm(outside)
-    front = np.cross(way, outside)
+    front = sk.cross(way, outside)
     front *= -np.sign(front[1]) if abs(front[1]) > 1e-6 else 1.0
     return centre, way, front, outside
 
 
 def _arm_coordinates(tailor, side, points):
     """Place along the arm, angle about it (0 outside) and distance from it, of points."""
-    path = _arm_path(tailor, side)
-    upper_way, lower_way = path[1] - path[0], path[2] - path[1]
-    along_upper = ((points - path[0]) @ upper_way) / (upper_way @ upper_way)
-    along_lower = ((points - path[1]) @ lower_way) / (lower_way @ lower_way)
-    place = np.where(along_lower > 0, 1.0 + along_lower, np.minimum(along_upper, 1.0))
+    place = _arm_places(tailor, side, points)
     angles, distances = [], []
     for point, at in zip(points, place):
         centre, _, front, outside = _arm_frame(tailor, side, float(np.clip(at, 0.0, 2.2)))
@@ -133,6 +127,14 @@ def _arm_coordinates(tailor, side, points):
         angles.append(np.arctan2(b, a))
         distances.append(np.hypot(a, b))
     return place, np.array(angles), np.array(distances)
+
+
+def _arm_places(tailor, side, points):
+    path = _arm_path(tailor, side)
+    upper_way, lower_way = path[1] - path[0], path[2] - path[1]
+    along_upper = ((points - path[0]) @ upper_way) / (upper_way @ upper_way)
+    along_lower = ((points - path[1]) @ lower_way) / (lower_way @ lower_way)
+    return np.where(along_lower > 0, 1.0 + along_lower, np.minimum(along_upper, 1.0))
 
 
 def arm_size(tailor, side="_L"):
@@ -341,7 +343,7 @@ def trousers(tailor, name, bottom, ease=0.004, puff=0.0, smooth=6, cell="trouser
 
 
 def base_above(base, z):
-    return [base.vertices[list(face), 2].mean() > z for face in base.faces]
+    return sf.face_means(base.vertices[:, 2], base.faces) > z
 
 
 def _knee_band(base, loop, size, cell):
@@ -417,4 +419,4 @@ def _leg_weights(tailor, side, place, columns):
 
 def arm_place(tailor, side, point):
     """Where along the arm a point lies: 0 shoulder, 1 elbow, 2 wrist."""
-    return float(_arm_coordinates(tailor, side, point[None])[0][0])
+    return float(_arm_places(tailor, side, point[None])[0])

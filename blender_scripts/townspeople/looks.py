@@ -54,9 +54,7 @@ def make_materials(figure, person, seed, cells):
 
 def texture_coordinates(surface, places):
     uv = surface.corner_uv.copy()
-    starts = sf.corner_starts(surface.faces)
-    for index, cell in enumerate(surface.cells):
-        if cell in places:
-            corners = slice(starts[index], starts[index + 1])
-            uv[corners] = materials.atlas_uv(uv[corners], places[cell])
+    cells = np.repeat(np.array(surface.cells), np.diff(sf.corner_starts(surface.faces)))
+    for cell in set(surface.cells) & set(places):
+        uv[cells == cell] = materials.atlas_uv(uv[cells == cell], places[cell])
     return uv

@@ -25,9 +25,8 @@ def value_noise(random, height, width, cells_down, cells_across):
     y0, x0 = y.astype(int), x.astype(int)
     fy, fx = y - y0, x - x0
     fy, fx = fy * fy * (3 - 2 * fy), fx * fx * (3 - 2 * fx)
-    top = grid[y0, x0] * (1 - fx) + grid[y0, x0 + 1] * fx
-    bottom = grid[y0 + 1, x0] * (1 - fx) + grid[y0 + 1, x0 + 1] * fx
-    return top * (1 - fy) + bottom * fy
+    rows = grid[:, x0[0]] * (1 - fx) + grid[:, x0[0] + 1] * fx
+    return rows[y0[:, 0]] * (1 - fy) + rows[y0[:, 0] + 1] * fy
 
 
 def _mottled(random, h, w, amount):
@@ -191,7 +190,8 @@ def shrunk(picture, width, height):
     h, w = picture.shape[:2]
     fy, fx = h // height, w // width
     if fy >= 1 and fx >= 1 and h % height == 0 and w % width == 0:
-        return picture.reshape(height, fy, width, fx, 3).mean(axis=(1, 3))
+        rows = sum(picture[k::fy] for k in range(fy))
+        return sum(rows[:, k::fx] for k in range(fx)) / np.float32(fy * fx)
     rows = (np.arange(height) + 0.5) * h // height
     columns = (np.arange(width) + 0.5) * w // width
     return picture[rows.astype(int)][:, columns.astype(int)]
@@ -228,14 +228,18 @@ def without_speckles(picture):
     filters.
     """
 
-    def shifted(stack_of):
-        return np.stack(
-            [np.roll(np.roll(stack_of, dy, 0), dx, 1) for dy in (-2, 0, 2) for dx in (-2, 0, 2)]
-        )
+    def around(values, combine):
+        """Each texel combined with those two to every side of it: first across, then up and down."""
+        for axis in (1, 0):
+            old, values = np.moveaxis(values, axis, 0), values.copy()
+            new = np.moveaxis(values, axis, 0)
+            for ahead in (2, -2):
+                combine(new[:-ahead], old[ahead:], out=new[:-ahead])
+                combine(new[-ahead:], old[:ahead], out=new[-ahead:])
+        return values
 
-    closed = shifted(shifted(picture).max(axis=0)).min(axis=0)
-    blurred = shifted(closed).mean(axis=0)
-    return blurred
+    closed = around(around(picture, np.maximum), np.minimum)
+    return around(closed, np.add) / np.float32(9)
 
 
 def blender_image(name, picture, quality=88):

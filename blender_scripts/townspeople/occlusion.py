@@ -1,7 +1,6 @@
 """Ambient occlusion a vertex, by rays over the hemisphere, with the ground as an occluder."""
 
 import numpy as np
-from mathutils import Vector
 
 from townspeople import surface as sf
 
@@ -36,23 +35,21 @@ def with_shade(surface, lightest_for, beside=()):
     tree = sf.tree_of([surface, *beside])
     normals = sf.vertex_normals(surface)
     tangents, bitangents = _frames(normals)
-    hidden = np.zeros(len(surface.vertices))
-    local = _hemisphere(RAYS)
-    for v, start in enumerate(surface.vertices + normals * LIFT_M):
-        rays = (
-            local[:, :1] * tangents[v] + local[:, 1:2] * bitangents[v] + local[:, 2:] * normals[v]
-        )
-        origin = Vector(start)
-        for ray in rays:
-            distance = tree.ray_cast(origin, Vector(ray), REACH_M)[3]
-            if distance is None and ray[2] < -0.05:
-                fall = max(start[2], 0.0) / -ray[2]
-                distance = fall if fall < REACH_M else None
-            if distance is not None:
-                hidden[v] += 1.0 - 0.6 * distance / REACH_M
+    local, starts, cast = _hemisphere(RAYS), surface.vertices + normals * LIFT_M, tree.ray_cast
+    hits = []
+    for part in np.split(np.arange(len(starts)), range(1024, len(starts), 1024)):
+        frame = np.stack([tangents[part], bitangents[part], normals[part]], axis=1)[:, :, None]
+        rays = local[:, :1] * frame[:, 0] + local[:, 1:2] * frame[:, 1] + local[:, 2:] * frame[:, 2]
+        found = [[cast(start, ray, REACH_M)[3] for ray in own] for start, own in zip(starts[part].tolist(), rays.tolist())]
+        distance = np.array(found, float)  # None becomes NaN
+        with np.errstate(divide="ignore"):
+            fall = np.where(rays[..., 2] < -0.05, np.maximum(starts[part, 2:], 0.0) / -rays[..., 2], np.inf)
+        hits.append(np.where(np.isnan(distance), fall, distance))
+    distance = np.concatenate(hits)
+    hidden = np.where(distance <= REACH_M, 1.0 - 0.6 * distance / REACH_M, 0.0).sum(axis=1)
     open_share = 1.0 - hidden / RAYS
     shade = DARKEST + (1.0 - DARKEST) * sf.smoothstep(0.0, 0.9, open_share)
-    for face, cell in zip(surface.faces, surface.cells):
-        if cell in lightest_for:
-            shade[list(face)] = np.maximum(shade[list(face)], lightest_for[cell])
+    corners, face_of_corner = sf.corners_of(surface.faces)
+    least = np.array([lightest_for.get(cell, 0.0) for cell in surface.cells])
+    np.maximum.at(shade, corners, least[face_of_corner])
     return sf.with_parts(surface, shade=shade)

@@ -2,11 +2,12 @@
 
 import bpy
 import numpy as np
-from mathutils import Matrix
+from mathutils import Quaternion
 
-from common import gltf
-from townspeople import skeleton as sk
+from common import glb, gltf
 from townspeople.body import WALK_FRAMES_PER_SECOND
+
+STEADY = 1e-4  # a joint's quaternion, or the root's place in metres, that changes less stands still
 
 
 def empty_scene():
@@ -80,62 +81,80 @@ def make_mesh(name, surface, materials, material_of_cell, uv, armature, joints, 
     return thing
 
 
-def add_clip(armature, skeleton, clip):
-    """One action in one NLA track, both named as the clip."""
-    action = bpy.data.actions.new(clip.name)
-    action.use_fake_user = True
-    frames = np.arange(len(clip.rotations), dtype=float)
-    local = np.array([sk.local_from_global(skeleton, frame) for frame in clip.rotations])
+def _quaternions(matrices):
+    """Of rotations (frames, 3, 3) as rows (x, y, z, w), each next to the one before it (of both signs)."""
+    m = matrices
+    squares = 0.25 * np.maximum(1.0 + np.array([
+        m[:, 0, 0] - m[:, 1, 1] - m[:, 2, 2], m[:, 1, 1] - m[:, 0, 0] - m[:, 2, 2],
+        m[:, 2, 2] - m[:, 0, 0] - m[:, 1, 1], m[:, 0, 0] + m[:, 1, 1] + m[:, 2, 2]]), 0.0)
+    xy, xz, yz = (0.25 * (m[:, i, j] + m[:, j, i]) for i, j in ((0, 1), (0, 2), (1, 2)))
+    xw, yw, zw = (0.25 * (m[:, i, j] - m[:, j, i]) for i, j in ((2, 1), (0, 2), (1, 0)))
+    products = np.array([[squares[0], xy, xz, xw], [xy, squares[1], yz, yw], [xz, yz, squares[2], zw], [xw, yw, zw, squares[3]]])
+    largest = squares.argmax(axis=0)
+    rows = products[largest, :, np.arange(len(m))]  # each times its largest part, which so is positive
+    rows /= np.linalg.norm(rows, axis=1, keepdims=True)
+    rows[0] *= -1.0 if rows[0, 3] < 0 else 1.0
+    signs = np.sign((rows[1:] * rows[:-1]).sum(axis=1))
+    rows[1:] *= np.cumprod(np.where(signs < 0, -1.0, 1.0))[:, None]
+    return rows
+
+
+def _product(a, b):
+    """Quaternion a times the quaternions b."""
+    x, y, z, w = a
+    return b @ np.array([[w, z, -y, -x], [-z, w, x, -y], [y, -x, w, -z], [x, y, z, w]])
+
+
+def _add_clip(document, binary, nodes, rests, skeleton, clip, seconds):
+    """One animation. What hardly changes keeps its first and last frame only.
+
+    nodes: index by joint. rests: each joint's rotation in Blender's rest pose. seconds: accessors of the times of all
+    frames, and of the first and the last.
+    """
+    animation = {"name": clip.name, "samplers": [], "channels": []}
+
+    def add(name, path, rows, steady):
+        sampler = {"input": seconds[1 if steady else 0], "interpolation": "LINEAR",
+                   "output": glb.add_floats(document, binary, rows[[0, -1]] if steady else rows)}
+        animation["channels"].append({"sampler": len(animation["samplers"]), "target": {"node": nodes[name], "path": path}})
+        animation["samplers"].append(sampler)
+
     for joint, name in enumerate(skeleton.names):
-        rest = np.array(armature.data.bones[name].matrix_local)[:3, :3]
-        turns = [
-            Matrix((rest.T @ frame @ rest).tolist()).to_quaternion() for frame in local[:, joint]
-        ]
-        for before, after in zip(turns, turns[1:]):
-            if before.dot(after) < 0:
-                after.negate()
-        path = 'pose.bones["%s"].' % name
-        for axis in range(4):
-            _curve(
-                action, path + "rotation_quaternion", axis, name, frames, [q[axis] for q in turns]
-            )
-        if skeleton.parents[joint] < 0:
+        node, parent, rest = document["nodes"][nodes[name]], skeleton.parents[joint], rests[joint]
+        local = clip.rotations[:, joint]
+        if parent < 0:
             moves = (clip.roots - skeleton.heads[joint]) @ rest
-            for axis in range(3):
-                _curve(action, path + "location", axis, name, frames, moves[:, axis])
-    armature.animation_data_create()
-    track = armature.animation_data.nla_tracks.new()
-    track.name = clip.name
-    strip = track.strips.new(clip.name, 0, action)
-    strip.name = clip.name
-    return action
+            turned = moves @ _matrix(node).T
+            add(name, "translation", turned + node.get("translation", [0.0] * 3), np.ptp(moves, axis=0).max() < STEADY)
+        else:
+            local = clip.rotations[:, parent].transpose(0, 2, 1) @ local
+        turns = _quaternions(rest.T @ local @ rest)
+        rows = _product(node.get("rotation", [0.0, 0.0, 0.0, 1.0]), turns)
+        add(name, "rotation", rows / np.linalg.norm(rows, axis=1, keepdims=True), np.ptp(turns, axis=0).max() < STEADY)
+    document.setdefault("animations", []).append(animation)
 
 
-def _curve(action, path, axis, group, frames, values):
-    curve = action.fcurves.new(path, index=axis, action_group=group)
-    curve.keyframe_points.add(len(frames))
-    pairs = np.stack([frames, np.asarray(values, float)], axis=1)
-    curve.keyframe_points.foreach_set("co", pairs.ravel())
-    for point in curve.keyframe_points:
-        point.interpolation = "LINEAR"
-    curve.update()
+def _matrix(node):
+    """A node's rotation."""
+    x, y, z, w = node.get("rotation", [0.0, 0.0, 0.0, 1.0])
+    return np.array(Quaternion((w, x, y, z)).to_matrix())
 
 
-def export_glb(path):
-    """Everything in the scene as one GLB."""
-    gltf.export_glb(
-        path,
-        export_apply=False,
-        export_animations=True,
-        export_frame_range=False,
-        export_force_sampling=True,
-        export_nla_strips=True,
-        export_animation_mode="NLA_TRACKS",
-        export_def_bones=True,
-        export_skins=True,
-        export_all_influences=False,
-        export_optimize_animation_size=True,
-        export_optimize_animation_keep_anim_armature=False,
-        export_anim_single_armature=True,
-        export_reset_pose_bones=True,
-    )
+def write_glb(path, armature, skeleton, clips):
+    """Everything in the scene as one GLB, and the clips by name.
+
+    They go past Blender, whose exporter poses the armature anew for each frame of each joint's each property.
+    """
+    gltf.export_glb(path, export_apply=False, export_animations=False, export_def_bones=True, export_skins=True,
+                    export_all_influences=False)
+    document, binary = glb.read(path)
+    nodes = {node["name"]: index for index, node in enumerate(document["nodes"])}
+    rests = [np.array(armature.data.bones[name].matrix_local)[:3, :3].astype(float) for name in skeleton.names]
+    seconds = {}
+    for clip in sorted(clips, key=lambda clip: clip.name):
+        frames = len(clip.rotations)
+        if frames not in seconds:
+            times = np.arange(frames) / WALK_FRAMES_PER_SECOND
+            seconds[frames] = [glb.add_floats(document, binary, some, bounds=True) for some in (times, times[[0, -1]])]
+        _add_clip(document, binary, nodes, rests, skeleton, clip, seconds[frames])
+    glb.write(path, document, binary)

@@ -14,11 +14,11 @@ def visible_skin(tailor, person):
     arms = body.joint_share(figure, skin, ("shoulder02", "upperarm", "lowerarm", "wrist", "finger"))
     legs = body.joint_share(figure, skin, ("upperleg", "lowerleg", "foot"))
     keep = []
-    for face, centre in zip(skin.faces, centres):
-        ids = list(face)
-        if legs[ids].mean() > 0.5:
+    arms, legs = sf.face_means(arms, skin.faces), sf.face_means(legs, skin.faces)
+    for on_arm, on_leg, centre in zip(arms, legs, centres):
+        if on_leg > 0.5:
             keep.append(False)
-        elif arms[ids].mean() > 0.5:
+        elif on_arm > 0.5:
             side = "_L" if centre[0] > 0 else "_R"
             place = garments.arm_place(tailor, side, centre)
             keep.append(place > person.get("bare_arm_from", 1.7))

@@ -3,6 +3,7 @@
 Axes: x to the person's left, -y forward, z up; metres. Weights have one column a joint.
 """
 
+import itertools
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -43,20 +44,47 @@ def corner_starts(faces):
     return np.concatenate([[0], np.cumsum([len(face) for face in faces])]).astype(int)
 
 
+def corners_of(faces):
+    """The vertex of each corner of all faces, and its face."""
+    sizes = [len(face) for face in faces]
+    vertices = np.fromiter(itertools.chain.from_iterable(faces), int, sum(sizes))
+    return vertices, np.repeat(np.arange(len(faces)), sizes)
+
+
+def _sums(groups, rows, count):
+    """Sums of the rows of each of `count` groups."""
+    return np.stack([np.bincount(groups, column, count) for column in rows.T], axis=1)
+
+
+def face_means(values, faces):
+    """The mean over each face's corners of what its vertices have (a number or a row each)."""
+    corners, face_of_corner = corners_of(faces)
+    rows = values[corners].reshape(len(corners), -1)
+    sizes = np.bincount(face_of_corner, minlength=len(faces))
+    means = _sums(face_of_corner, rows, len(faces)) / sizes[:, None]
+    return means.reshape(len(faces), *values.shape[1:])
+
+
+def face_least(values, faces):
+    """The least of what each face's vertices have; of truths: whether all are true."""
+    return np.minimum.reduceat(values[corners_of(faces)[0]], corner_starts(faces)[:-1])
+
+
 def keep_faces(surface, keep):
     """The part whose face flags are true, without loose vertices."""
     starts = corner_starts(surface.faces)
     kept = [index for index, flag in enumerate(keep) if flag]
     faces = [surface.faces[index] for index in kept]
-    corners = [c for index in kept for c in range(starts[index], starts[index + 1])]
-    used = np.unique([v for face in faces for v in face]).astype(int)
+    corners = np.repeat(np.asarray(keep, bool), np.diff(starts))
+    used = np.unique(corners_of(faces)[0])
     renumber = np.full(len(surface.vertices), -1)
     renumber[used] = np.arange(len(used))
+    renumber = renumber.tolist()
     return with_parts(
         surface,
         vertices=surface.vertices[used],
         weights=surface.weights[used],
-        faces=[tuple(int(renumber[v]) for v in face) for face in faces],
+        faces=[tuple([renumber[v] for v in face]) for face in faces],
         corner_uv=surface.corner_uv[corners],
         cells=[surface.cells[index] for index in kept],
         shade=None if surface.shade is None else surface.shade[used],
@@ -64,7 +92,7 @@ def keep_faces(surface, keep):
 
 
 def face_centres(surface):
-    return np.array([surface.vertices[list(face)].mean(axis=0) for face in surface.faces])
+    return face_means(surface.vertices, surface.faces)
 
 
 def triangle_count(surface):
@@ -73,11 +101,13 @@ def triangle_count(surface):
 
 def vertex_normals(surface):
     """Area-weighted unit normals (Newell's sum of cross products)."""
-    normals = np.zeros_like(surface.vertices)
-    for face in surface.faces:
-        points = surface.vertices[list(face)]
-        normal = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
-        normals[list(face)] += normal
+    corners, face_of_corner = corners_of(surface.faces)
+    starts = corner_starts(surface.faces)
+    after = np.arange(len(corners)) + 1
+    after[starts[1:] - 1] = starts[:-1]
+    points = surface.vertices[corners]
+    normal = _sums(face_of_corner, np.cross(points, points[after]), len(surface.faces))
+    normals = _sums(corners, normal[face_of_corner], len(surface.vertices))
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     return normals / np.maximum(lengths, 1e-12)
 
@@ -137,7 +167,7 @@ def joined(surfaces):
     """One surface of several."""
     start, faces = 0, []
     for part in surfaces:
-        faces += [tuple(v + start for v in face) for face in part.faces]
+        faces += [tuple([v + start for v in face]) for face in part.faces] if start else part.faces
         start += len(part.vertices)
     return with_parts(
         surfaces[0],
@@ -191,8 +221,8 @@ def hull_radii(points_xy, angles):
 
 def tree_of(surfaces):
     """A BVHTree over several surfaces, for rays."""
-    whole = joined(surfaces)
-    return BVHTree.FromPolygons([Vector(v) for v in whole.vertices], whole.faces)
+    whole = joined(surfaces) if len(surfaces) > 1 else surfaces[0]
+    return BVHTree.FromPolygons(whole.vertices.tolist(), whole.faces)
 
 
 def outermost(tree, centre, direction, reach_m=2.0):

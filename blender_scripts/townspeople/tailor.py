@@ -24,6 +24,7 @@ class Tailor:
     )  # name -> (points, weights, angles) of lofted garments
     size: float = 1.0  # lengths in people.py are for a figure of 1.7 m
     poses: list = field(default_factory=list)  # sampled skinning matrices of all clips
+    trunk_trees: dict = field(default_factory=dict)  # arms -> (what is worn, tree): the last ones made
 
     def height(self, place):
         """z in metres of a landmark name, or of [landmark, offset in m at 1.7 m]."""
@@ -69,12 +70,7 @@ def slice_points(tailor, arms, skirts=False):
         elbow = joint_share(figure, part, HAND_JOINTS + ("lowerarm",))
         kept = (elbow < 0.3) if arms else (share < 0.35)
         clouds.append(part.vertices[kept])
-        centres = [
-            part.vertices[list(face)].mean(axis=0)
-            for face in part.faces
-            if all(kept[v] for v in face)
-        ]
-        clouds.append(np.array(centres).reshape(-1, 3))
+        clouds.append(sf.face_centres(part)[sf.face_least(kept, part.faces)])
     return np.concatenate(clouds)
 
 
@@ -174,15 +170,16 @@ def trunk_tree(tailor, arms):
     figure = tailor.figure
     parts = [figure.parts["shirt"], figure.parts["body"], figure.parts["trousers"]]
     parts += [worn for name, worn in tailor.worn.items() if not name.startswith(("hair", "head"))]
+    before, tree = tailor.trunk_trees.get(arms, ([], None))
+    if len(before) == len(parts) and all(one is other for one, other in zip(before, parts)):
+        return tree
     kept = []
     for part in parts:
         share = joint_share(figure, part, HAND_JOINTS + ("lowerarm",) if arms else ARM_JOINTS)
         head = joint_share(figure, part, ("head",))
-        flags = [
-            max(share[list(face)]) < 0.5 and max(head[list(face)]) < 0.9 for face in part.faces
-        ]
-        kept.append(sf.keep_faces(part, flags))
-    return sf.tree_of(kept)
+        kept.append(sf.keep_faces(part, sf.face_least((share < 0.5) & (head < 0.9), part.faces)))
+    tailor.trunk_trees[arms] = (parts, sf.tree_of(kept))
+    return tailor.trunk_trees[arms][1]
 
 
 def star_rows(tree, centre, angles, elevations_deg, ease, fallback):

@@ -25,20 +25,15 @@ WORK = {
 
 
 def _unit(v):
-    return np.asarray(v, float) / np.linalg.norm(v)
+    v = np.asarray(v, float)
+    return v / np.sqrt(v @ v)
 
 
 def _frame(way, side):
     """Columns: the way, what is left of `side` across it, and both's normal."""
     way = _unit(way)
     left = _unit(side - way * (side @ way))
-    return np.stack([way, left, np.cross(way, left)], axis=1)
-
-
-def _joint(skeleton, matrices, name):
-    """Where a joint's head is in a pose."""
-    m = matrices[skeleton.index(name)]
-    return m[:3, :3] @ skeleton.head(name) + m[:3, 3]
+    return np.stack([way, left, sk.cross(way, left)], axis=1)
 
 
 def _reach(skeleton, rotations, root, side, hand, elbow, turn=None):
@@ -48,7 +43,7 @@ def _reach(skeleton, rotations, root, side, hand, elbow, turn=None):
     """
     rest = [skeleton.head(name + side) for name in ("shoulder02", "lowerarm01", "wrist")]
     upper, fore = np.linalg.norm(rest[1] - rest[0]), np.linalg.norm(rest[2] - rest[1])
-    start = _joint(skeleton, sk.transforms(skeleton, rotations, root), "shoulder02" + side)
+    start = sk.head_in_pose(skeleton, rotations, root, skeleton.index("shoulder02" + side))
     line = hand - start
     distance = np.clip(np.linalg.norm(line), 0.3 * (upper + fore), 0.995 * (upper + fore))
     line = _unit(line)
@@ -56,8 +51,8 @@ def _reach(skeleton, rotations, root, side, hand, elbow, turn=None):
     along = (upper**2 - fore**2 + distance**2) / (2 * distance)
     bend = start + line * along + out * np.sqrt(max(upper**2 - along**2, 0.0))
     end = start + line * distance
-    hinge = _unit(np.cross(end - bend, bend - start))
-    at_rest = np.cross(rest[2] - rest[1], rest[1] - rest[0])
+    hinge = _unit(sk.cross(end - bend, bend - start))
+    at_rest = sk.cross(rest[2] - rest[1], rest[1] - rest[0])
     at_rest = _unit(at_rest) if np.linalg.norm(at_rest) > 1e-6 else np.array([1.0, 0.0, 0.0])
     first = _frame(bend - start, hinge) @ _frame(rest[1] - rest[0], at_rest).T
     second = _frame(end - bend, hinge) @ _frame(rest[2] - rest[1], at_rest).T
