@@ -156,6 +156,8 @@ class BandCutter {
     Add({m, b, c}, depth + 1);
   }
 
+  bool any() const { return !parts_.walls.empty() || !parts_.areas.empty(); }
+
   BandParts Finish() {
     std::sort(parts_.walls.begin(), parts_.walls.end(),
               [](const Segment& s, const Segment& t) { return Before(s, t); });
@@ -236,6 +238,13 @@ BandParts CutToBand(const std::vector<Triangle3>& triangles, const LocalGround& 
   BandCutter cutter(ground, band_m);
   for (const Triangle3& t : triangles) cutter.Add(t);
   return cutter.Finish();
+}
+
+bool AnyInBand(const std::vector<Triangle3>& triangles, const LocalGround& ground,
+               const std::array<double, 2>& band_m) {
+  BandCutter cutter(ground, band_m);
+  return std::any_of(triangles.begin(), triangles.end(),
+                     [&](const Triangle3& t) { return cutter.Add(t), cutter.any(); });
 }
 
 }  // namespace flaneur

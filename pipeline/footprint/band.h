@@ -22,4 +22,7 @@ std::vector<Segment> Lines(const BandParts& parts);
 BandParts CutToBand(const std::vector<Triangle3>& triangles, const LocalGround& ground,
                     const std::array<double, 2>& band_m);
 
+// Whether that gives anything.
+bool AnyInBand(const std::vector<Triangle3>& triangles, const LocalGround& ground, const std::array<double, 2>& band_m);
+
 }  // namespace flaneur

@@ -81,22 +81,32 @@ void ForgetInside(const GroundRaster& cover, GroundRaster* feet) {
   if (any) *feet = std::move(outer);
 }
 
+// Forgets walls that stand on roofs or hang from ceilings.
+void ForgetOnFaces(const std::vector<const Triangle3*>& faces, GroundRaster* feet) {
+  const float lowest = *std::min_element(feet->height_m.begin(), feet->height_m.end());
+  GroundRaster outer = *feet;
+  for (const Triangle3* t : faces) ForgetAt(*t, kFoot_m, lowest + static_cast<float>(kFoot_m), &outer);
+  *feet = std::move(outer);
+}
+
 // An opening, as of greyscale pictures: narrow heights vanish, wide ones keep their borders.
 GroundRaster OfFeet(const TownObject& object, const Neighbours& neighbours) {
   GroundRaster feet = Around(object, 2 * kBaseCell_m), cover = feet;
   bool any_wall = false;
+  std::vector<const Triangle3*> faces;
   const auto draw = [&](const Triangle3& t) {
     if (!Reaches(t, feet)) return;
-    if (!IsWall(t)) return DrawArea(t, &cover);
+    if (!IsWall(t)) return faces.push_back(&t), DrawArea(t, &cover);
     any_wall = true;
     DrawEdges(t, &feet);
   };
   for (const Triangle3& t : object.triangles) draw(t);
-  if (!any_wall)
-    for (const Triangle3& t : object.triangles) DrawEdges(t, &feet);
   for (const TownObject* neighbour : neighbours)
     for (const Triangle3& t : neighbour->triangles) draw(t);
+  if (!any_wall)
+    for (const Triangle3& t : object.triangles) DrawEdges(t, &feet);
   ForgetInside(cover, &feet);
+  if (any_wall) ForgetOnFaces(faces, &feet);
   MarkKnown(&feet);
   FillGaps(&feet);
   const int reach = static_cast<int>(std::ceil(kOverhang_m / feet.cell_m));
@@ -108,8 +118,8 @@ GroundRaster OfFeet(const TownObject& object, const Neighbours& neighbours) {
 }  // namespace
 
 GroundRaster BaseOf(const TownObject& object, const Neighbours& neighbours) {
-  const std::vector<Triangle3> floor =
-      object.foundation.empty() ? FloorOf(object.triangles, kMinFloor) : std::vector<Triangle3>();
+  std::vector<Triangle3> floor;
+  if (object.foundation.empty() && !object.has_no_floor) floor = FloorOf(object.triangles, kMinFloor);
   const std::vector<Triangle3>& foundation = object.foundation.empty() ? floor : object.foundation;
   return foundation.empty() ? OfFeet(object, neighbours) : OfFoundation(object, foundation);
 }

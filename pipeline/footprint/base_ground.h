@@ -11,8 +11,8 @@ namespace flaneur {
 using Neighbours = std::vector<const TownObject*>;
 
 // Where the object's foundation lies, else its floor, else the feet of its walls; cells of which nothing is known have
-// no kind. Walls that stand on roofs, the object's own or its neighbours', and parts that hang over lower ones and are
-// narrower than 6 m (arcades, passages, jetties) do not count as feet.
+// no kind. Walls that stand on roofs or hang from ceilings, the object's own or its neighbours', and parts that hang
+// over lower ones and are narrower than 6 m (arcades, passages, jetties) do not count as feet.
 GroundRaster BaseOf(const TownObject& object, const Neighbours& neighbours = {});
 
 // One ground, or two where the object stands on terraces: at a step, walls of the upper and of the lower terrace are in

@@ -19,10 +19,14 @@ TownObject Merged(const std::vector<TownObject>& objects, const Block& block) {
   for (size_t k = 1; k < block.size(); ++k) {
     const TownObject& o = objects[block[k]];
     all.triangles.insert(all.triangles.end(), o.triangles.begin(), o.triangles.end());
+    all.has_no_floor |= o.has_no_floor;
+    all.foundation_is_given |= o.foundation_is_given;
     all.foundation.insert(all.foundation.end(), o.foundation.begin(), o.foundation.end());
     all.min_m = {std::min(all.min_m.x, o.min_m.x), std::min(all.min_m.y, o.min_m.y), std::min(all.min_m.z, o.min_m.z)};
     all.max_m = {std::max(all.max_m.x, o.max_m.x), std::max(all.max_m.y, o.max_m.y), std::max(all.max_m.z, o.max_m.z)};
   }
+  // Where some have none, the others' floors that were found may be roofs.
+  if (all.has_no_floor && !all.foundation_is_given) all.foundation.clear();
   return all;
 }
 

@@ -65,8 +65,9 @@ std::vector<char> FindFloors(const FootprintOptions& options, double least_share
   ForEach(objects->size(), options.threads, [&](size_t i) {
     TownObject& object = (*objects)[i];
     if (object.kind != ObstacleKind::kBuilding || !object.foundation.empty()) return;
-    object.foundation = FloorOf(object.triangles, least_share);
+    if (!object.is_roof) object.foundation = FloorOf(object.triangles, least_share);
     found[i] = !object.foundation.empty();
+    object.has_no_floor = !found[i];
   });
   return found;
 }

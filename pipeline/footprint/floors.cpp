@@ -117,9 +117,18 @@ class FloorFinder {
 
   // Whether a square as wide as what may hang over lower parts finds room in it.
   bool IsWide(const std::vector<std::pair<int, int>>& part) const {
-    GroundRaster inside = level_;
-    std::fill(inside.height_m.begin(), inside.height_m.end(), 0.0f);
-    for (const auto& [x, y] : part) inside.height_m[CellAt(inside, x, y)] = 1;
+    auto [x0, y0] = part[0];
+    int x1 = x0, y1 = y0;
+    for (const auto& [x, y] : part)
+      x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
+    // With what lies round it, which is not inside; where the raster ends, nothing is.
+    x0 = std::max(x0 - 1, 0), y0 = std::max(y0 - 1, 0);
+    x1 = std::min(x1 + 1, level_.columns - 1), y1 = std::min(y1 + 1, level_.rows - 1);
+    GroundRaster inside;
+    inside.cell_m = level_.cell_m;
+    inside.columns = x1 - x0 + 1, inside.rows = y1 - y0 + 1;
+    inside.height_m.assign(static_cast<size_t>(inside.columns) * static_cast<size_t>(inside.rows), 0.0f);
+    for (const auto& [x, y] : part) inside.height_m[CellAt(inside, x - x0, y - y0)] = 1;
     TakeLeast(static_cast<int>(std::ceil(kOverhang_m / inside.cell_m)) - 1, &inside);
     return std::any_of(inside.height_m.begin(), inside.height_m.end(), [](float v) { return v > 0; });
   }

@@ -146,8 +146,7 @@ bool Repair(const Site& site, const Stand& stand, const TownObject& object, std:
   if (missing.empty()) return false;
   *missing_triangles = Count(missing);
   triangles->insert(triangles->end(), missing.begin(), missing.end());
-  const BandParts parts = PartsInBand(site, stand, missing);
-  return !parts.walls.empty() || !parts.areas.empty();
+  return AnyInBand(site, stand, missing);
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ bool IsWall(const Triangle3& triangle);
 // Lowers the cells that a triangle's edges pass to their height there; likewise those whose middle it covers.
 void DrawEdges(const Triangle3& triangle, GroundRaster* raster);
 void DrawArea(const Triangle3& triangle, GroundRaster* raster);
+// Of both kinds those lose their height, from `least_m` on, that it passes within so much of it.
+void ForgetAt(const Triangle3& triangle, double within_m, float least_m, GroundRaster* raster);
 
 // Each cell with a height takes the least, or the greatest, of those within `reach` cells.
 void TakeLeast(int reach, GroundRaster* raster);

@@ -94,20 +94,38 @@ void DrawTriangle(const Triangle3& t, GroundKind kind, GroundRaster* raster) {
 
 void SmoothGaps(GroundRaster* raster) {
   const int columns = raster->columns, rows = raster->rows;
-  for (int round = 0; round < kSmoothingRounds; ++round) {
-    for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < columns; ++column) {
-        const size_t i = RowMajor(row, columns, column);
-        if (raster->kind[i]) continue;
-        const size_t stride = static_cast<size_t>(columns);
-        const float west = column > 0 ? raster->height_m[i - 1] : raster->height_m[i];
-        const float east = column + 1 < columns ? raster->height_m[i + 1] : raster->height_m[i];
-        const float south = row > 0 ? raster->height_m[i - stride] : raster->height_m[i];
-        const float north = row + 1 < rows ? raster->height_m[i + stride] : raster->height_m[i];
-        raster->height_m[i] = (west + east + south + north) / 4;
-      }
+  const auto stride = static_cast<size_t>(columns);
+  std::vector<float>& heights = raster->height_m;
+  const auto smooth = [&](int row, int from, int to) {
+    bool changed = false;
+    for (int column = from; column < to; ++column) {
+      const size_t i = RowMajor(row, columns, column);
+      if (raster->kind[i]) continue;
+      const float before = heights[i];
+      const float west = column > 0 ? heights[i - 1] : before;
+      const float east = column + 1 < columns ? heights[i + 1] : before;
+      const float south = row > 0 ? heights[i - stride] : before;
+      const float north = row + 1 < rows ? heights[i + stride] : before;
+      heights[i] = (west + east + south + north) / 4;
+      changed |= heights[i] != before;
     }
-  }
+    return changed;
+  };
+  // Cells side by side, of which nothing need be looked at while nothing in them and beside them has changed.
+  constexpr int kStretch = 32;
+  const int stretches = (columns + kStretch - 1) / kStretch;
+  std::vector<int> changed_in(static_cast<size_t>(stretches) * static_cast<size_t>(rows), 0);  // the last round
+  const auto is_restless = [&](int row, int k, int round) {
+    const auto changed = [&](int r, int s) {
+      return r >= 0 && r < rows && s >= 0 && s < stretches && changed_in[RowMajor(r, stretches, s)] >= round - 1;
+    };
+    return changed(row, k) || changed(row, k - 1) || changed(row, k + 1) || changed(row - 1, k) || changed(row + 1, k);
+  };
+  for (int round = 1; round <= kSmoothingRounds; ++round)
+    for (int row = 0; row < rows; ++row)
+      for (int k = 0; k < stretches; ++k)
+        if (is_restless(row, k, round) && smooth(row, k * kStretch, std::min((k + 1) * kStretch, columns)))
+          changed_in[RowMajor(row, stretches, k)] = round;
 }
 
 // The decks of bridges are ground as far as one gets on them from the ground, in low steps.

@@ -63,7 +63,8 @@ class BlockShares {
     for (size_t k = 0; k < block_.size(); ++k) {
       if (!IsHouse(k)) continue;
       Shape& shape = ShapeAt(k);
-      if (shape.open_m > kMaxOpenShell_m || (shape.solid.empty() && HasGround(k))) asks_[k] = true;
+      const bool has_nothing = shape.solid.empty() && (HasGround(k) || (shape.lines == 0 && !site_.ground));
+      if (shape.open_m > kMaxOpenShell_m || has_nothing) asks_[k] = true;
       if (block_.size() == 1 || !MayIntrude(k)) continue;
       const BoundingBox box = BoundingBoxOf(shape.solid);
       for (size_t l = 0; l < block_.size(); ++l)

@@ -12,6 +12,12 @@ BandParts PartsInBand(const Site& site, const Stand& stand, const std::vector<Tr
   return parts;
 }
 
+bool AnyInBand(const Site& site, const Stand& stand, const std::vector<Triangle3>& triangles) {
+  for (size_t i = 0; i < stand.count(); ++i)
+    if (AnyInBand(triangles, stand.ground(i), site.options.band_m)) return true;
+  return false;
+}
+
 double GroundInTheMiddle(const Stand& stand, const TownObject& object) {
   return stand.ground(0).Height((object.min_m.x + object.max_m.x) / 2, (object.min_m.y + object.max_m.y) / 2);
 }

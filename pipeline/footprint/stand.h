@@ -31,6 +31,7 @@ class Stand {
 
 // Of all grounds under it.
 BandParts PartsInBand(const Site& site, const Stand& stand, const std::vector<Triangle3>& triangles);
+bool AnyInBand(const Site& site, const Stand& stand, const std::vector<Triangle3>& triangles);
 
 double GroundInTheMiddle(const Stand& stand, const TownObject& object);
 

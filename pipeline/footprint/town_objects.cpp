@@ -4,6 +4,7 @@
 #include <map>
 
 #include "pipeline/core/name_words.h"
+#include "pipeline/footprint/box_grid.h"
 #include "pipeline/footprint/constants.h"
 #include "runtime/base/array.h"
 
@@ -105,12 +106,63 @@ bool ObstacleKindOf(NodeKind kind, ObstacleKind* out) {
   }
 }
 
+// An untagged object that is ground only because it is flat.
+struct FlatObject {
+  size_t node, patch;  // the latter of TownObjects::ground
+  Point3 min_m, max_m;
+};
+
+bool LiesWithin(const Point3& min, const Point3& max, const Point3& outer_min, const Point3& outer_max) {
+  return min.x > outer_min.x - kBlockReach_m && max.x < outer_max.x + kBlockReach_m &&
+         min.y > outer_min.y - kBlockReach_m && max.y < outer_max.y + kBlockReach_m;
+}
+
+// Whether it lies high within another object, with nothing standing on it.
+bool IsRoof(const FlatObject& flat, const std::vector<TownObject>& objects, const BoxGrid& grid) {
+  bool high = false;
+  for (const size_t i : grid.Near({{flat.min_m.x, flat.min_m.y}, {flat.max_m.x, flat.max_m.y}})) {
+    const TownObject& o = objects[i];
+    if (std::abs(o.min_m.z - flat.max_m.z) <= kFoot_m && LiesWithin(o.min_m, o.max_m, flat.min_m, flat.max_m))
+      return false;
+    high |= o.min_m.z < flat.min_m.z - kPassageHeight_m && LiesWithin(flat.min_m, flat.max_m, o.min_m, o.max_m);
+  }
+  return high;
+}
+
+// Where a town has no other ground, flat roofs that are objects of their own are not taken for it.
+void TakeRoofsForBuildings(const Scene& scene, const std::vector<FlatObject>& flat, TownObjects* town) {
+  if (flat.empty() || flat.size() != town->ground.size()) return;
+  std::vector<BoundingBox> boxes;
+  for (const TownObject& o : town->obstacles) boxes.push_back({{o.min_m.x, o.min_m.y}, {o.max_m.x, o.max_m.y}});
+  const BoxGrid grid(std::move(boxes));
+  std::vector<TownObject> roofs;
+  std::vector<GroundPatch> ground;
+  std::vector<std::string> names;
+  for (size_t i = 0; i < flat.size(); ++i) {
+    GroundPatch& patch = town->ground[flat[i].patch];
+    if (!IsRoof(flat[i], town->obstacles, grid)) {
+      ground.push_back(std::move(patch)), names.push_back(std::move(town->flat[i]));
+      continue;
+    }
+    const std::string& name = scene.nodes[flat[i].node].name;
+    TownObject& roof = roofs.emplace_back();
+    roof.name = name.empty() ? "node_" + std::to_string(flat[i].node) : name;
+    roof.triangles = std::move(patch.triangles);
+    roof.min_m = flat[i].min_m, roof.max_m = flat[i].max_m;
+    roof.is_roof = true;
+  }
+  town->ground = std::move(ground), town->flat = std::move(names);
+  town->obstacles.insert(town->obstacles.end(), std::make_move_iterator(roofs.begin()),
+                         std::make_move_iterator(roofs.end()));
+}
+
 }  // namespace
 
 TownObjects SortTown(const Scene& scene, double scale) {
   TownObjects town;
   std::map<int, size_t> object_of_root;
   std::vector<std::pair<int, std::vector<Triangle3>>> foundations;  // by root
+  std::vector<FlatObject> flat;
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
     const SceneNode& node = scene.nodes[i];
     if (node.meshes.empty() || (node.kind == NodeKind::kNone && !node.is_foundation)) continue;
@@ -127,7 +179,7 @@ TownObjects SortTown(const Scene& scene, double scale) {
     if (meaning.kind == NodeKind::kGround) {
       if (meaning.ground == GroundKind::kNone) meaning.ground = GroundKind::kPavement;
       town.ground.push_back({meaning.ground, std::move(triangles)});
-      if (meaning.is_flat) town.flat.push_back(node.name);
+      if (meaning.is_flat) town.flat.push_back(node.name), flat.push_back({i, town.ground.size() - 1, min, max});
       continue;
     }
     ObstacleKind kind;
@@ -151,6 +203,7 @@ TownObjects SortTown(const Scene& scene, double scale) {
     foundation.insert(foundation.end(), triangles.begin(), triangles.end());
     town.obstacles[entry->second].foundation_is_given = true;
   }
+  TakeRoofsForBuildings(scene, flat, &town);
   return town;
 }
 

@@ -20,6 +20,8 @@ struct TownObject {
   Point3 min_m, max_m;                // of `triangles`
   bool is_bridge = false;
   bool foundation_is_given = false;  // by the model; else it is found among `triangles`
+  bool is_roof = false;              // a flat roof and nothing else
+  bool has_no_floor = false;         // looked for among `triangles`, and not found
 };
 
 struct GroundPatch {
@@ -35,7 +37,8 @@ struct TownObjects {
 
 // Parts of one tagged node are one object. Untagged nodes are told by the words of their names (tree; lamp, lantern;
 // road, street, grass, square, ground, terrain, floor, hex, path and the like, unless too high for ground), flat ones
-// are ground, and the rest are buildings. Nodes tagged none, door, exit or loiter are left out. `scale` turns the
+// are ground (but not those high within another object where a town has no other ground: flat roofs), and the rest are
+// buildings. Nodes tagged none, door, exit or loiter are left out. `scale` turns the
 // scene's units into metres. Degenerate triangles are kept.
 TownObjects SortTown(const Scene& scene, double scale);
 

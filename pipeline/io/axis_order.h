@@ -13,14 +13,14 @@ struct Corners {
   int all = 0, right = 0;  // right: to 0.6 degrees
 };
 
-// Of rings whose points are longitude (x) and latitude (y) in degrees.
-Corners CornersOf(const std::vector<PlanRing>& rings);
+// Of rings whose points are longitude (x) and latitude (y) in units of so many degrees.
+Corners CornersOf(const std::vector<PlanRing>& rings, double unit_deg = 1);
 
 enum class AxisEvidence { kNone, kAsGiven, kSwapped };
 
 // Of rings whose points are longitude and latitude as given, or the other way round. A degree is not as long in both
 // directions, so that houses lose their right angles when read the wrong way; towns at the equator and houses that
 // stand along the meridian tell nothing.
-AxisEvidence AxesByRightAngles(const std::vector<PlanRing>& rings);
+AxisEvidence AxesByRightAngles(const std::vector<PlanRing>& rings, double unit_deg = 1);
 
 }  // namespace flaneur

@@ -70,7 +70,7 @@ class Misplacement {
     if (system.degrees && InOneBox(middle_) == 0)
       Tell("its bbox does not hold most of it, which lies at " + Degrees(middle_) +
            "; was it moved, or is the bbox old?");
-    return system.degrees ? TownsPlace() : Ok();
+    return system.degrees ? TownsPlace(FromGreenwich(system, middle_)) : Ok();
   }
 
  private:
@@ -103,20 +103,22 @@ class Misplacement {
       why_ = "only so it is where " + name + " is used";
       return !IsUsedAt(system, given[0]) && IsUsedAt(system, other[0], 0.25);
     }
-    if (std::abs(turned.x) > 180 || std::abs(turned.y) > 90) return false;
-    if (std::abs(middle_.y) > 90 && std::abs(middle_.x) <= 90 && std::abs(middle_.y) <= 180) return true;
+    const double right = 90 / system.unit_deg;
+    if (std::abs(turned.x) > 2 * right || std::abs(turned.y) > right) return false;
+    if (std::abs(middle_.y) > right && std::abs(middle_.x) <= right && std::abs(middle_.y) <= 2 * right) return true;
     if (InOneBox(middle_) == 0 && InOneBox(turned) == 1) return why_ = "the second is in its bbox", true;
     if (!file_.town_system.empty()) {
       std::vector<Point2> town{file_.town_origin_m};
       if (!TransformPoints(file_.town_system, kLongitudeLatitude, &town) && Known(town[0])) {
-        const double given_m = Apart_m(middle_, town[0]), turned_m = Apart_m(turned, town[0]);
+        const double given_m = Apart_m(FromGreenwich(system, middle_), town[0]);
+        const double turned_m = Apart_m(FromGreenwich(system, turned), town[0]);
         if (given_m > kSameTown_m && turned_m < kSameTown_m)
           return why_ = "there the town is, by its town_origin_m", true;
         if (given_m < kSameTown_m) return false;
       }
     }
     why_ = "only so houses have right angles";
-    return AxesByRightAngles(RingsOf(file_)) == AxisEvidence::kSwapped;
+    return AxesByRightAngles(RingsOf(file_), system.unit_deg) == AxisEvidence::kSwapped;
   }
 
   // Besides our own member: the two must not contradict each other.
@@ -134,17 +136,17 @@ class Misplacement {
   }
 
   // Of our own file in degrees.
-  Error TownsPlace() {
+  Error TownsPlace(Point2 middle_deg) {
     if (file_.town_system.empty()) return Ok();
     std::vector<Point2> town{file_.town_origin_m};
     MapSystem system;
     if (FindMapSystem(file_.town_system, &system))
       return Tell("its town_crs '" + file_.town_system + "' is not known"), Ok();
     if (Error error = TransformPoints(file_.town_system, kLongitudeLatitude, &town)) return error;
-    if (Known(town[0]) && Apart_m(town[0], middle_) < kSameTown_m) return file_.place_is_sure = true, Ok();
+    if (Known(town[0]) && Apart_m(town[0], middle_deg) < kSameTown_m) return file_.place_is_sure = true, Ok();
     Tell("its town_crs " + file_.town_system + " and town_origin_m put the town at " +
-         (Known(town[0]) ? Degrees(town[0]) : "no place") + ", but its coordinates are at " + Degrees(middle_) +
-         Looks(SystemsThatPut(file_.town_origin_m, middle_, kSameTown_m), "town_crs"));
+         (Known(town[0]) ? Degrees(town[0]) : "no place") + ", but its coordinates are at " + Degrees(middle_deg) +
+         Looks(SystemsThatPut(file_.town_origin_m, middle_deg, kSameTown_m), "town_crs"));
     return Ok();
   }
 

@@ -37,12 +37,14 @@ class Systems {
  private:
   void FindMiddle() { middle_ = Median(points_); }
 
-  static bool OnEarth(Point2 p) { return std::abs(p.x) <= 180 && std::abs(p.y) <= 90; }
+  static bool OnEarth(Point2 p, double unit_deg = 1) {
+    return std::abs(p.x) * unit_deg <= 180 && std::abs(p.y) * unit_deg <= 90;
+  }
 
-  bool MostlyOffEarth() const {
+  bool MostlyOffEarth(double unit_deg = 1) const {
     size_t finite = 0, off = 0;
     for (const Point2& p : points_)
-      if (std::isfinite(p.x) && std::isfinite(p.y)) ++finite, off += !OnEarth(p);
+      if (std::isfinite(p.x) && std::isfinite(p.y)) ++finite, off += !OnEarth(p, unit_deg);
     return 2 * off > finite;
   }
 
@@ -71,8 +73,8 @@ class Systems {
     return Ok();
   }
 
-  Error Degrees(const std::string& system, const std::string& stated) {
-    if (MostlyOffEarth()) return Other(stated, "beyond 180 and 90 degrees; read as metres", "");
+  Error Degrees(const std::string& system, const std::string& stated, double unit_deg = 1) {
+    if (MostlyOffEarth(unit_deg)) return Other(stated, "beyond 180 and 90 degrees; read as metres", "");
     return Transform(system);
   }
 
@@ -82,7 +84,7 @@ class Systems {
       file_.faults.push_back({GeoJsonFaultKind::kUnknownSystem, "", error.message});
       return MostlyOffEarth() ? (MoveNearZero(), Ok()) : Transform(kLongitudeLatitude);
     }
-    if (system.degrees) return Degrees(stated_.system, "degrees of " + stated_.system);
+    if (system.degrees) return Degrees(stated_.system, "degrees of " + stated_.system, system.unit_deg);
     if (LooksLikeDegrees()) return Other(stated_.system, "longitudes and latitudes", kLongitudeLatitude);
     Points place{middle_};
     if (Error error = TransformPoints(stated_.system, kLongitudeLatitude, &place)) return error;

@@ -51,6 +51,18 @@ bool FirstAxisIsNorth(PJ_CONTEXT* context, const PJ* plane) {
          direction && std::string(direction) == "north";
 }
 
+// What one of a system's coordinates is, in degrees, and where its longitudes count from.
+void FindDegrees(PJ_CONTEXT* context, const PJ* plane, MapSystem* system) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  const Object axes(proj_crs_get_coordinate_system(context, plane)), meridian(proj_get_prime_meridian(context, plane));
+  double unit = kDegree, from = 0, from_unit = kDegree;
+  if (axes &&
+      proj_cs_get_axis_info(context, axes.get(), 0, nullptr, nullptr, nullptr, &unit, nullptr, nullptr, nullptr))
+    system->unit_deg = std::abs(unit / kDegree - 1) < 1e-9 ? 1 : unit / kDegree;
+  if (meridian && proj_prime_meridian_get_parameters(context, meridian.get(), &from, &from_unit, nullptr))
+    system->meridian_deg = from * from_unit / kDegree;
+}
+
 // Those whose area of use holds the place: code and name.
 std::vector<std::pair<std::string, std::string>> ProjectedSystemsAt(PJ_CONTEXT* context, Point2 place) {
   PROJ_CRS_LIST_PARAMETERS* const wish = proj_get_crs_list_parameters_create();
@@ -227,7 +239,8 @@ Error FindMapSystem(const std::string& name, MapSystem* system) {
   if (type == PJ_TYPE_UNKNOWN || type == PJ_TYPE_VERTICAL_CRS || type == PJ_TYPE_GEOCENTRIC_CRS)
     return Fail("coordinate system '" + name + "' is none of a map");
   system->degrees = type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
-  if (!system->degrees) system->other_unit = OtherUnit(context.get(), plane.get());
+  if (system->degrees) FindDegrees(context.get(), plane.get(), system);
+  else system->other_unit = OtherUnit(context.get(), plane.get());
   system->north_first = FirstAxisIsNorth(context.get(), plane.get());
   const char* area = nullptr;
   double w = 0, s = 0, e = 0, n = 0;
@@ -236,6 +249,11 @@ Error FindMapSystem(const std::string& name, MapSystem* system) {
     system->west = w, system->south = s, system->east = e, system->north = n;
   }
   return Ok();
+}
+
+Point2 FromGreenwich(const MapSystem& system, Point2 p) {
+  const double longitude = p.x * system.unit_deg + system.meridian_deg;
+  return {system.meridian_deg == 0 ? longitude : std::remainder(longitude, 360.0), p.y * system.unit_deg};
 }
 
 std::string MetricSystemAt(const std::string& system, Point2 place) {

@@ -25,13 +25,18 @@ std::string LocalMapSystem(Point2 longitude_latitude);
 Error TransformPoints(const std::string& from, const std::string& to, std::vector<Point2>* points);
 
 struct MapSystem {
-  bool degrees = false;
+  bool degrees = false;      // or grads: longitude and latitude, of which
+  double unit_deg = 1;       // one is so many degrees,
+  double meridian_deg = 0;   // and longitudes count from here, east of Greenwich
   bool north_first = false;  // its authority gives latitude or northing as the first coordinate
   std::string other_unit;    // "US survey foot": of coordinates that are neither degrees nor metres
   bool has_area = false;
   double west = -180, south = -90, east = 180, north = 90;  // where it is meant to be used, degrees
 };
 Error FindMapSystem(const std::string& name, MapSystem* system);
+
+// Of coordinates of a system of degrees, longitude first: degrees east of Greenwich and north, on its own datum.
+Point2 FromGreenwich(const MapSystem& system, Point2 longitude_latitude);
 
 // The fitting system in metres, x east and y north, for a town at this place: the UTM zone on the same datum where
 // there is one, else on WGS 84, near the poles a local map.

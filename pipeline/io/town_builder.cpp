@@ -82,6 +82,7 @@ Error ChooseAxes(const std::string& name, const MapSystem& system, Point2 middle
                  bool* swapped, std::vector<std::string>* notes) {
   const bool said = *swapped;
   const auto possible = [&](Point2 p) {
+    p = FromGreenwich(system, p);
     return std::abs(p.y) <= 90 && (!system.has_area || IsUsedAt(system, p, kBesideArea_deg));
   };
   const bool given = possible(middle), turned = possible({middle.y, middle.x});
@@ -89,7 +90,7 @@ Error ChooseAxes(const std::string& name, const MapSystem& system, Point2 middle
   std::snprintf(at, sizeof at, "(%.6g, %.6g)", middle.x, middle.y);
   if (!given && !turned)
     return Fail(std::string(at) + " is outside the area that '" + name + "' is for; are the degrees another system's?");
-  const AxisEvidence evidence = AxesByRightAngles(rings);
+  const AxisEvidence evidence = AxesByRightAngles(rings, system.unit_deg);
   if (given != turned) *swapped = turned;
   else if (evidence != AxisEvidence::kNone) *swapped = evidence == AxisEvidence::kSwapped;
   if (*swapped != said)

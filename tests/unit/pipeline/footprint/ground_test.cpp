@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "pipeline/footprint/base_ground.h"
 #include "pipeline/footprint/overhead.h"
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/footprint/town_objects.h"
@@ -125,6 +127,40 @@ TEST(SortTown, ReadsWholeWordsAndTakesNothingHighForGround) {
   EXPECT_EQ(objects.obstacles[2].kind, ObstacleKind::kLamp);
   ASSERT_EQ(objects.ground.size(), 1u);
   EXPECT_EQ(objects.ground[0].kind, GroundKind::kGrass);
+}
+
+// A shell whose flat roof is an object of its own.
+void AddShell(TestTown* town) {
+  town->Node("shell", NodeKind::kUntagged).Box({0, 0, 0}, {20, 10, 6}, {Side::kTop, Side::kBottom});
+  town->Node("roof", NodeKind::kUntagged).Quad({0, 0, 6}, {20, 0, 6}, {20, 10, 6}, {0, 10, 6});
+}
+
+TEST(SortTown, AFlatRoofIsNoGroundWhereThereIsNoOther) {
+  TestTown bare, among, carries;
+  AddShell(&bare);
+  const TownObjects roof = SortTown(bare.scene, 1);
+  EXPECT_TRUE(roof.ground.empty() && roof.flat.empty());
+  ASSERT_EQ(roof.obstacles.size(), 2u);
+  EXPECT_EQ(roof.obstacles[1].name, "roof");
+
+  among.Ground();
+  AddShell(&among);
+  EXPECT_EQ(SortTown(among.scene, 1).ground.size(), 2u) << "there is other ground";
+
+  AddShell(&carries);
+  carries.Node("house", NodeKind::kUntagged).Box({5, 3, 6}, {12, 8, 12});
+  EXPECT_EQ(SortTown(carries.scene, 1).ground.size(), 1u) << "a house stands on it: a terrace";
+}
+
+// Walls of a tower that stands on a house's roof at its edge, and those that hang over a passage.
+TEST(BaseOf, WallsOnRoofsAndOverPassagesAreNoFeet) {
+  TestTown town;
+  town.Node("house", NodeKind::kBuilding).Box({0, 0, 0}, {60, 40, 8}, {Side::kBottom});
+  town.Box({30, 0, 8}, {60, 24, 14}, {Side::kBottom});
+  town.Box({60, 6, 3}, {64, 14, 8});
+  const TownObjects objects = SortTown(town.scene, 1);
+  const GroundRaster base = BaseOf(objects.obstacles[0]);
+  EXPECT_NEAR(*std::max_element(base.height_m.begin(), base.height_m.end()), 0, 1e-6);
 }
 
 TEST(SortTown, PartsOfOneTaggedNodeAreOneObject) {

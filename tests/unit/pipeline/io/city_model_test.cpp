@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "pipeline/io/geojson.h"
+#include "pipeline/io/map_projection.h"
 #include "pipeline/io/scene_reader.h"
 #include "pipeline/io/town_builder.h"
 
@@ -276,6 +278,109 @@ TEST_F(CityModel, BadCityJsonIsNamed) {
             std::string::npos);
   EXPECT_NE(Read("bad.json", R"({"type":"CityJSON","version":"2.0",)").find("JSON"), std::string::npos);
 }
+
+// ---- Degrees from other meridians, and grads ----
+
+// Corners of six houses askew at this place, four each, in this system.
+std::vector<Point2> HousesIn(const std::string& system, Point2 place) {
+  std::vector<Point2> corners;
+  for (int i = 0; i < 6; ++i)
+    for (const Point2 p : {Point2{0, 0}, {12, 0}, {12, 8}, {0, 8}})
+      corners.push_back({0.8 * (p.x + 20 * i) - 0.6 * p.y, 0.6 * (p.x + 20 * i) + 0.8 * p.y});
+  EXPECT_EQ(TransformPoints(LocalMapSystem(place), system, &corners).message, "");
+  return corners;
+}
+
+std::string InDegrees(Point2 p) {
+  char text[80];
+  std::snprintf(text, sizeof text, "[%.10f,%.10f", p.x, p.y);
+  return text;
+}
+
+struct MeridianCase {
+  const char* system;
+  Point2 place;
+};
+void PrintTo(const MeridianCase& test, std::ostream* out) { *out << test.system; }
+
+class OtherMeridian : public CityModel, public testing::WithParamInterface<MeridianCase> {
+ protected:
+  void SetUp() override { folder_ = testing::TempDir(), file_ = folder_ / "other_meridian.json"; }
+  void TearDown() override { std::filesystem::remove(file_); }
+  std::filesystem::path file_;
+};
+
+TEST_P(OtherMeridian, TownsOfEitherOrderOfAxes) {
+  const auto& [system, place] = GetParam();
+  const std::string local = LocalMapSystem(place);
+  std::vector<Point2> truth = HousesIn(local, place), corners = HousesIn(system, place);
+  for (const bool swapped : {false, true}) {
+    std::string vertices, objects;
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const Point2 p = swapped ? Point2{corners[i].y, corners[i].x} : corners[i];
+      for (const char* z : {",0],", ",5],"}) vertices += InDegrees(p) + z;
+    }
+    for (int i = 0; i < 6; ++i) {
+      std::string walls;
+      for (int k = 0; k < 4; ++k) {
+        const int a = 8 * i + 2 * k, b = 8 * i + 2 * ((k + 1) % 4);
+        for (const int v : {a, b, b + 1, a + 1}) walls += (v == a ? "[[" : ",") + std::to_string(v);
+        walls += "]],";
+      }
+      walls.pop_back();
+      objects += "\"house_" + std::to_string(i) +
+                 R"(":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2","boundaries":[)" + walls +
+                 "]}]},";
+    }
+    vertices.pop_back(), objects.pop_back();
+    ASSERT_EQ(Read(file_.filename(), R"({"type":"CityJSON","version":"2.0","metadata":{"referenceSystem":")" +
+                                         std::string(system) + R"("},"vertices":[)" + vertices +
+                                         R"(],"CityObjects":{)" + objects + "}}"),
+              "");
+    std::vector<Point2> found;
+    for (const Mesh& mesh : scene_.meshes)
+      for (const Vec3 g : mesh.positions) {
+        const Vec3 p = GroundFromGltf(g);
+        found.push_back({p.x + scene_.origin_m.x, p.y + scene_.origin_m.y});
+      }
+    ASSERT_EQ(TransformPoints(scene_.reference_system, local, &found).message, "");
+    for (const Point2 p : truth) {
+      double nearest_m = 1e9;
+      for (const Point2 q : found) nearest_m = std::min(nearest_m, std::hypot(p.x - q.x, p.y - q.y));
+      EXPECT_LT(nearest_m, 0.01) << (swapped ? "latitude first" : "longitude first");
+    }
+  }
+}
+
+TEST_P(OtherMeridian, ObstaclesOfEitherOrderOfAxes) {
+  const auto& [system, place] = GetParam();
+  const std::vector<Point2> corners = HousesIn(system, place);
+  for (const bool swapped : {false, true}) {
+    std::string features;
+    for (size_t i = 0; i < corners.size(); i += 4) {
+      features += R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[)";
+      for (size_t k = 0; k <= 4; ++k) {
+        const Point2 p = corners[i + k % 4];
+        features += InDegrees(swapped ? Point2{p.y, p.x} : p) + (k < 4 ? "]," : "]]]}},");
+      }
+    }
+    features.pop_back();
+    std::ofstream(file_) << R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":")" << system
+                         << R"("}},"features":[)" << features << "]}";
+    GeoJsonFile file;
+    ASSERT_EQ(ReadGeoJson(file_, {}, &file).message, "");
+    EXPECT_EQ(file.faults.size(), swapped ? 1u : 0u) << (file.faults.empty() ? "" : file.faults[0].message);
+    std::vector<Point2> found = file.footprints.obstacles[0].outer;
+    ASSERT_EQ(TransformPoints(file.local_system, LocalMapSystem(place), &found).message, "");
+    EXPECT_NEAR(std::hypot(found[0].x, found[0].y), 0, 0.01) << (swapped ? "latitude first" : "longitude first");
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Geographic, OtherMeridian,
+                         testing::Values(MeridianCase{"EPSG:4815", {23.7, 38}}, MeridianCase{"EPSG:4818", {14.4, 50}},
+                                         MeridianCase{"EPSG:5229", {14.4, 50}}, MeridianCase{"EPSG:4801", {8.5, 47.4}},
+                                         MeridianCase{"EPSG:4817", {10.8, 59.9}},
+                                         MeridianCase{"EPSG:4807", {2.4, 48.9}},
+                                         MeridianCase{"EPSG:4819", {7.7, 36.9}}));
 
 // ---- OBJ ----
 

@@ -102,6 +102,25 @@ TEST(MapProjection, TheSystemInMetresThatFits) {
   EXPECT_NE(MetricSystemAt("EPSG:4326", {10.5, 89}).find("+proj=tmerc"), std::string::npos);
 }
 
+class MeridianOfSystem : public testing::TestWithParam<const char*> {};
+
+TEST_P(MeridianOfSystem, DegreesFromGreenwich) {
+  MapSystem system;
+  ASSERT_EQ(FindMapSystem(GetParam(), &system).message, "");
+  ASSERT_TRUE(system.degrees && system.has_area);
+  EXPECT_NE(system.meridian_deg, 0);
+  const Point2 place{(system.west + system.east) / 2, (system.south + system.north) / 2};
+  std::vector<Point2> there{place};
+  ASSERT_EQ(TransformPoints(kLongitudeLatitude, GetParam(), &there).message, "");
+  const Point2 back = FromGreenwich(system, there[0]);
+  EXPECT_NEAR(back.x, place.x, 0.05) << "but for the datum";
+  EXPECT_NEAR(back.y, place.y, 0.05);
+}
+// Athens, Ferro, Bern, Bogota, Rome, Jakarta, Oslo; Paris in grads.
+INSTANTIATE_TEST_SUITE_P(Geographic, MeridianOfSystem,
+                         testing::Values("EPSG:4815", "EPSG:4818", "EPSG:5229", "EPSG:4801", "EPSG:4802", "EPSG:4806",
+                                         "EPSG:4813", "EPSG:4817", "EPSG:4807", "EPSG:4810", "EPSG:4819"));
+
 TEST(MapProjection, HeightsAloneAreNoMap) {
   MapSystem system;
   for (const char* name : {"EPSG:5723", "EPSG:4978"})
