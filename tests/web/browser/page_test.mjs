@@ -160,6 +160,25 @@ const tests = {
     await end(page);
     await host.close();
   },
+  async 'before the first picture nothing is asked for that it does not need, and all scripts at once'() {
+    const host = await serve(site);
+    const page = await newPage(host.url);
+    const asked = [];
+    page.on('request', (request) => asked.push(new URL(request.url()).pathname.slice(1)));
+    await page.reload();
+    await inState(page, 'visiting');
+    await until(page, 'a picture', (s) => s.pictures > 0);
+    const list = JSON.parse(fs.readFileSync(path.join(site, 'tour.json')));
+    const until_first = asked.slice(0, asked.indexOf(list.pieces[list.first - 1].file) + 1);
+    assert.ok(until_first.length > list.first, asked.join(' '));
+    assert.ok(!until_first.includes('worker.js'), asked.join(' '));
+    const scripts = asked.filter((name) => name.endsWith('.js') && !name.startsWith('player-') && name !== 'worker.js');
+    assert.ok(scripts.every((name) => asked.indexOf(name) < asked.indexOf('tour.json')), asked.join(' '));
+    assert.ok(asked.indexOf(list.script) < asked.indexOf(list.pieces[list.opens].file), asked.join(' '));
+    assert.ok(0 < list.opens && list.opens < list.first, JSON.stringify([list.opens, list.first]));
+    await end(page);
+    await host.close();
+  },
   async 'keys walk and turn, a drag turns, a tap walks there, two fingers widen the view'() {
     const host = await serve(site);
     const page = await newPage(host.url, (p) => p.emulate({viewport: {width: 320, height: 480, hasTouch: true, isMobile: true}, userAgent: 'phone'}));

@@ -10,6 +10,7 @@
 #include "runtime/desktop/context.h"
 #include "runtime/render/block_picture.h"
 #include "runtime/render/caption.h"
+#include "runtime/render/mip_chain.h"
 #include "runtime/render/occlusion.h"
 #include "runtime/render/people_batches.h"
 #include "runtime/render/person_geometry.h"
@@ -1031,6 +1032,14 @@ TEST(SurfacePlan, PicturesOfOneSizeShareAnArrayAndSurfacesOfOneKindAGroup) {
   EXPECT_LT(levels[0].rgba[static_cast<size_t>(32 * 64 + 16) * 4], 40);
   EXPECT_GT(levels[0].rgba[static_cast<size_t>(32 * 64 + 48) * 4], 215);
   EXPECT_EQ(levels.back().width_px, 1);
+
+  PackImage large{128, 128, std::vector<uint8_t>(128 * 128 * 4, 255)};
+  for (size_t i = 0; i < 128 * 64 * 4; ++i) large.rgba[i] = 40;
+  const std::vector<PackImage> halves = PreparePicture(large, 64);
+  ASSERT_EQ(halves.size(), 7u);
+  EXPECT_EQ(halves[0].rgba, MakeMipChain(large, true, 1).back().rgba);
+  EXPECT_EQ(halves[0].rgba[0], 40);
+  EXPECT_EQ(halves[0].rgba[static_cast<size_t>(63 * 64) * 4], 255);
 }
 
 TEST(SurfacePlan, PicturesThatCutOutKeepTheirAlphaWhereOthersAreBlocks) {
