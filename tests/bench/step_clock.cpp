@@ -1,6 +1,6 @@
-// step_clock [PEOPLE]: milliseconds by the clock of a crowd's step on the open field, the median of many. The same source
-// natively and as a page's code, whose clock of the processor's time ticks once a millisecond, so that the two can be
-// compared in one run on an idle machine.
+// step_clock [PEOPLE]: milliseconds by the clock of a crowd's step on the open field, the median of many. The same
+// source natively and as a page's code, whose clock of the processor's time ticks once a millisecond, so that the two
+// can be compared in one run on an idle machine.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
