@@ -48,9 +48,8 @@ Error WritePack(Baking* baking, const fs::path& staging, std::vector<std::string
 }
 
 Error MakeMedia(Baking* baking) {
-  std::call_once(baking->media_read_once, [&] {
-    baking->media_read = MakeVisitorMedia(baking->settings, baking->store, &baking->parts);
-  });
+  std::call_once(baking->media_read_once,
+                 [&] { baking->media_read = MakeVisitorMedia(baking->settings, baking->store, &baking->parts); });
   return baking->media_read;
 }
 

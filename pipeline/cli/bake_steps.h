@@ -42,7 +42,7 @@ struct Step {
   std::string known_key;
   StoreEntry entry;  // where in_store
   bool in_store = false, done = false;
-  bool left_out = false;  // nobody asks for its result in this run
+  bool left_out = false;             // nobody asks for its result in this run
   std::atomic<double> progress = 0;  // share, where it tells
   std::mutex mutex;                  // held while it is done
   StageReport report;

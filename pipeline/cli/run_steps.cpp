@@ -39,7 +39,9 @@ std::vector<Task> TasksOf(const std::vector<Baking*>& bakings) {
   for (size_t tour = 0; tour < bakings.size(); ++tour) {
     const size_t first = tasks.size();
     for (Step& step : bakings[tour]->steps) {
-      Task task{tour, &step, {}, ExpectedCost(bakings[tour]->store, step), 0, step.done || step.left_out ? State::kDone : State::kWaits};
+      Task task{tour, &step,
+                {},   ExpectedCost(bakings[tour]->store, step),
+                0,    step.done || step.left_out ? State::kDone : State::kWaits};
       for (const size_t need : step.needs) task.needs.push_back(first + need);
       tasks.push_back(std::move(task));
     }

@@ -149,8 +149,8 @@ Error EncodeAvatar(const AvatarLevels& levels, const DracoOptions& draco, Jobs* 
     } else {
       const size_t c = i - errors.size();
       const Clip& clip = avatar.clips[c];
-      encoded->clips[c] = draco.compress ? ReduceKeysTogether(clip, avatar.joints, moved, kKeyError_m)
-                                         : AllKeys(clip, avatar.joints);
+      encoded->clips[c] =
+          draco.compress ? ReduceKeysTogether(clip, avatar.joints, moved, kKeyError_m) : AllKeys(clip, avatar.joints);
     }
   });
   for (size_t i = 0; i < errors.size(); ++i) {

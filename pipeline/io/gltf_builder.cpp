@@ -21,8 +21,8 @@ using nlohmann::json;
 
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // glTF component types
 constexpr int kSignedShort = 5122;
-constexpr int kTimeExponent = -15;                  // keys' times are rounded to that power of two, 31 us
-constexpr float kMaxTime_s = 250;                   // that 24 bits hold so; longer clips keep floats
+constexpr int kTimeExponent = -15;  // keys' times are rounded to that power of two, 31 us
+constexpr float kMaxTime_s = 250;   // that 24 bits hold so; longer clips keep floats
 constexpr size_t kGlbHeader_bytes = 12, kChunkHeader_bytes = 8;
 constexpr int kVertices = 34962, kIndices = 34963;  // glTF bufferView targets
 

@@ -209,11 +209,12 @@ TourAvatar WithoutBulk(const TourAvatar& avatar) {
   light.levels.avatar.height_m = person.height_m;
   light.levels.avatar.radius_m = person.radius_m;
   light.levels.avatar.walk_speed_mps = person.walk_speed_mps;
-  for (const Clip& clip : person.clips) light.levels.avatar.clips.push_back({clip.name, clip.duration_s, clip.keys, {}});
+  for (const Clip& clip : person.clips)
+    light.levels.avatar.clips.push_back({clip.name, clip.duration_s, clip.keys, {}});
   for (const AvatarProp& prop : person.props) light.levels.avatar.props.push_back({prop.name, {}});
   for (const AvatarLevel& level : avatar.levels.levels) {
-    light.levels.levels.push_back({{}, level.triangles, level.error_mm, level.posed_error_mm, level.normal_deg,
-                                   level.joints, level.switch_px});
+    light.levels.levels.push_back(
+        {{}, level.triangles, level.error_mm, level.posed_error_mm, level.normal_deg, level.joints, level.switch_px});
   }
   static_cast<ImpostorLayout&>(light.impostor) = avatar.impostor;
   light.impostor.cells.clear();

@@ -60,8 +60,8 @@ struct TourIndices {
   int height_view = -1, kind_view = -1;
   int people_view = -1, loiter_view = -1;             // -1: no painting
   int title_picture_view = -1, title_logo_view = -1;  // -1: none
-  std::vector<int> sounds;    // views, by sound
-  std::vector<int> pictures;  // views, by picture
+  std::vector<int> sounds;                            // views, by sound
+  std::vector<int> pictures;                          // views, by picture
 };
 
 // The glTF part of a pack: most of the work and of the bytes. What tour.toml alone says may change without it.

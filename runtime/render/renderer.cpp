@@ -222,9 +222,9 @@ Error Renderer::Create(const TourPack& pack, const RenderOptions& options) {
 void Renderer::Expect(const RenderOptions& options) {
   const DrawingWay way = WayOf(options);
   using enum ShaderProgram;
-  for (const ShaderProgram program : {kTown, kPersonImpostor, kTownShadow, kPersonShadow, kSky, kTownMasked,
-                                      kTownShadowMasked, kPerson, kPersonMasked, kPersonFades, kPersonMaskedFades,
-                                      kSmooth, kSharpen})
+  for (const ShaderProgram program :
+       {kTown, kPersonImpostor, kTownShadow, kPersonShadow, kSky, kTownMasked, kTownShadowMasked, kPerson,
+        kPersonMasked, kPersonFades, kPersonMaskedFades, kSmooth, kSharpen})
     BeginProgram(program, way.mode);
   if (way.deferred) BeginProgram(kLight, way.mode);
   for (const ShaderProgram program : {kEnlarge, kCaption, kWallShade, kContactShade, kGroundMark, kSmoke})

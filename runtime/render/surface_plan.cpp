@@ -137,8 +137,7 @@ bool LayerBuilder::Advance() {
 
 std::vector<std::vector<uint8_t>> PrepareLayer(const PackImage& image, const TextureArrayPlan& array) {
   LayerBuilder builder(image, array);
-  while (!builder.Advance()) {
-  }
+  while (!builder.Advance()) {}
   return builder.Take();
 }
 

@@ -84,7 +84,7 @@ struct Loader::Impl {
   bool may_prepare = false, may_go_on = false, stop = false;
   SurfacePlan plan;  // of the renderer
   AtlasFormats formats;
-  std::deque<size_t> read;             // assets
+  std::deque<size_t> read;                    // assets
   std::optional<TownBuilder> town_builder;    // without threads the town is built between pictures,
   std::optional<LayerBuilder> layer_builder;  // and pictures are made ready in steps
   size_t builds = 0;                          // of assets
@@ -175,8 +175,8 @@ void Loader::Impl::Prepare(size_t index) {
     if (id.kind == AssetKind::kTown) return void(town_builder.emplace(pack, plan));
     const int array = id.kind == AssetKind::kPicture ? plan.pictures[static_cast<size_t>(id.index)].array : -1;
     if (array >= 0)
-      return void(layer_builder.emplace(pack.images[static_cast<size_t>(id.index)],
-                                        plan.arrays[static_cast<size_t>(array)]));
+      return void(
+          layer_builder.emplace(pack.images[static_cast<size_t>(id.index)], plan.arrays[static_cast<size_t>(array)]));
   }
   TakeIn(index, id.kind == AssetKind::kLevel ? PrepareLevel(pack, id, of_people[index], plan)
                                              : PrepareAsset(pack, id, plan, formats));
