@@ -28,6 +28,22 @@ constexpr int kRefinements = 3;
 constexpr double kGoodEnough = 16;  // summed squares of a block that needs no second pair of ends
 constexpr size_t kTried = 3;        // partitions whose colours lie nearest to two lines
 
+// The texels channel by channel, as processors take many at once.
+using Four = float __attribute__((vector_size(16)));
+using FourInts = int __attribute__((vector_size(16)));
+struct Planes {
+  Four fours[4][4];  // by channel
+  float At(size_t channel, size_t texel) const { return fours[channel][texel / 4][texel % 4]; }
+};
+
+Planes PlanesOf(const BlockTexels& texels) {
+  Planes planes{};
+  for (size_t i = 0; i < 16; ++i) {
+    for (size_t c = 0; c < 4; ++c) planes.fours[c][i / 4][i % 4] = static_cast<float>(texels[i][c]);
+  }
+  return planes;
+}
+
 // Bits of a block from the lowest on.
 class BitWriter {
  public:
@@ -58,41 +74,48 @@ bool IsOn(const Line& line, size_t texel) { return (line.members >> texel & 1) !
 int Between(int a, int b, int weight) { return ((64 - weight) * a + weight * b + 32) >> 6; }
 
 // Error with the best indices for these ends.
-void Fit(const BlockTexels& texels, const Weights& weights, const Ends& ends, Line* line) {
-  std::array<std::array<int, 4>, 16> palette{};
+void Fit(const Planes& texels, const Weights& weights, const Ends& ends, Line* line) {
+  std::array<float, 16> nearest;
+  std::array<int, 16> indices;
+  std::array<std::array<float, 4>, 16> palette{};
+  const size_t end = line->first + line->count;
   for (size_t s = 0; s < line->steps.size(); ++s) {
-    for (size_t c = line->first; c < line->first + line->count; ++c)
-      palette[s][c] = Between(ends[0][c], ends[1][c], line->steps[s]);
+    for (size_t c = line->first; c < end; ++c)
+      palette[s][c] = static_cast<float>(Between(ends[0][c], ends[1][c], line->steps[s]));
   }
-  std::array<int, 16> indices{};
-  double error = 0;
-  for (size_t i = 0; i < 16; ++i) {
-    if (!IsOn(*line, i)) continue;
-    float nearest = 1e30f;
+  for (size_t k = 0; k < 4; ++k) {
+    Four least = Four{} + 1e30f, weight;
+    FourInts best{};
+    std::memcpy(&weight, &weights[4 * k], sizeof weight);
     for (size_t s = 0; s < line->steps.size(); ++s) {
-      float off = 0;
-      for (size_t c = line->first; c < line->first + line->count; ++c) {
-        const auto d = static_cast<float>(palette[s][c] - texels[i][c]);
-        off += d * d * (c == 3 ? kAlphaWeight : weights[i]);
+      Four off{};
+      for (size_t c = line->first; c < end; ++c) {
+        const Four d = palette[s][c] - texels.fours[c][k];
+        off += c == 3 ? d * d * kAlphaWeight : d * d * weight;
       }
-      if (off < nearest) nearest = off, indices[i] = static_cast<int>(s);
+      const FourInts nearer = off < least;
+      best = nearer ? FourInts{} + static_cast<int>(s) : best;
+      least = nearer ? off : least;
     }
-    error += static_cast<double>(nearest);
+    std::memcpy(&nearest[4 * k], &least, sizeof least);
+    std::memcpy(&indices[4 * k], &best, sizeof best);
   }
+  double error = 0;
+  for (size_t i = 0; i < 16; ++i) error += IsOn(*line, i) ? static_cast<double>(nearest[i]) : 0.0;
   if (error >= line->error) return;
+  for (size_t i = 0; i < 16; ++i) line->indices[i] = IsOn(*line, i) ? indices[i] : 0;
   line->ends = ends;
-  line->indices = indices;
   line->error = error;
 }
 
 // The direction in which the colours differ most, by power iteration.
-void PrincipalAxis(const BlockTexels& texels, const Weights& weights, const Line& line, Color* mean, Color* axis) {
+void PrincipalAxis(const Planes& texels, const Weights& weights, const Line& line, Color* mean, Color* axis) {
   float sum = 1e-6f;
   *mean = {};
   for (size_t i = 0; i < 16; ++i) {
     if (!IsOn(line, i)) continue;
     sum += weights[i];
-    for (size_t c = 0; c < 4; ++c) (*mean)[c] += weights[i] * static_cast<float>(texels[i][c]);
+    for (size_t c = 0; c < 4; ++c) (*mean)[c] += weights[i] * texels.At(c, i);
   }
   for (float& m : *mean) m /= sum;
   *axis = {1, 1, 1, 1};
@@ -102,8 +125,8 @@ void PrincipalAxis(const BlockTexels& texels, const Weights& weights, const Line
       if (!IsOn(line, i)) continue;
       float along = 0;
       for (size_t c = line.first; c < line.first + line.count; ++c)
-        along += (*axis)[c] * (static_cast<float>(texels[i][c]) - (*mean)[c]);
-      for (size_t c = 0; c < 4; ++c) next[c] += weights[i] * along * (static_cast<float>(texels[i][c]) - (*mean)[c]);
+        along += (*axis)[c] * (texels.At(c, i) - (*mean)[c]);
+      for (size_t c = 0; c < 4; ++c) next[c] += weights[i] * along * (texels.At(c, i) - (*mean)[c]);
     }
     float length = 0;
     for (size_t c = line.first; c < line.first + line.count; ++c) length += next[c] * next[c];
@@ -116,7 +139,7 @@ void PrincipalAxis(const BlockTexels& texels, const Weights& weights, const Line
 using Quantize = Ends (*)(const std::array<Color, 2>& ends, int variant);
 
 // Ends that serve the chosen indices best: a least-squares line for each channel.
-std::array<Color, 2> Refined(const BlockTexels& texels, const Weights& weights, const Line& line) {
+std::array<Color, 2> Refined(const Planes& texels, const Weights& weights, const Line& line) {
   float aa = 0, ab = 0, bb = 0;
   Color a{}, b{};
   for (size_t i = 0; i < 16; ++i) {
@@ -127,8 +150,8 @@ std::array<Color, 2> Refined(const BlockTexels& texels, const Weights& weights, 
     ab += w * (1 - t) * t;
     bb += w * t * t;
     for (size_t c = 0; c < 4; ++c) {
-      a[c] += w * (1 - t) * static_cast<float>(texels[i][c]);
-      b[c] += w * t * static_cast<float>(texels[i][c]);
+      a[c] += w * (1 - t) * texels.At(c, i);
+      b[c] += w * t * texels.At(c, i);
     }
   }
   std::array<Color, 2> ends{};
@@ -144,16 +167,14 @@ std::array<Color, 2> Refined(const BlockTexels& texels, const Weights& weights, 
   return ends;
 }
 
-void Solve(const BlockTexels& texels, const Weights& weights, Quantize quantize, int variants, int refinements,
-           Line* line) {
+void Solve(const Planes& texels, const Weights& weights, Quantize quantize, int variants, int refinements, Line* line) {
   Color mean, axis;
   PrincipalAxis(texels, weights, *line, &mean, &axis);
   float least = 0, most = 0;
   for (size_t i = 0; i < 16; ++i) {
     if (!IsOn(*line, i)) continue;
     float along = 0;
-    for (size_t c = line->first; c < line->first + line->count; ++c)
-      along += axis[c] * (static_cast<float>(texels[i][c]) - mean[c]);
+    for (size_t c = line->first; c < line->first + line->count; ++c) along += axis[c] * (texels.At(c, i) - mean[c]);
     if (weights[i] < 0.05f) continue;
     least = std::min(least, along);
     most = std::max(most, along);
@@ -262,24 +283,23 @@ Moments MomentsOf(const std::array<uint8_t, 4>& texel, float weight) {
 // Summed squares of the distances from the line that fits best: the variance less that along it.
 float OffLine(const Moments& m) {
   if (m.weight < 1e-3f) return 0;
-  float spread[4][4], all = 0;
+  Four spread[4];  // columns, and rows as well
+  float all = 0;
   size_t k = 0;
   for (size_t c = 0; c < 4; ++c) {
     for (size_t d = c; d < 4; ++d, ++k) spread[c][d] = spread[d][c] = m.second[k] - m.first[c] * m.first[d] / m.weight;
     all += spread[c][c];
   }
-  Color axis{1, 1, 1, 1};
+  Four axis{1, 1, 1, 1};
   float most = 0;
   for (int round = 0; round < 4; ++round) {
-    Color next{};
-    for (size_t c = 0; c < 4; ++c) {
-      for (size_t d = 0; d < 4; ++d) next[c] += spread[c][d] * axis[d];
-    }
-    float length = 0;
-    for (float n : next) length += n * n;
+    Four next{};
+    for (size_t d = 0; d < 4; ++d) next += spread[d] * axis[d];
+    const Four squares = next * next;
+    const float length = squares[0] + squares[1] + squares[2] + squares[3];
     if (length < 1e-6f) return all;
     most = std::sqrt(length);
-    for (size_t c = 0; c < 4; ++c) axis[c] = next[c] / most;
+    axis = next / most;
   }
   return std::max(0.0f, all - most);
 }
@@ -348,7 +368,7 @@ struct Pair {
   double error = 1e30;
 };
 
-Pair SolvePair(const BlockTexels& texels, const Weights& weights, size_t partition, bool with_alpha) {
+Pair SolvePair(const Planes& texels, const Weights& weights, size_t partition, bool with_alpha) {
   Pair pair{partition, with_alpha, {}, 0};
   for (size_t k = 0; k < 2; ++k) {
     Line& line = pair.lines[k];
@@ -392,15 +412,16 @@ bool AllAlphas(const BlockTexels& texels, uint8_t alpha) {
 void CompressBc7(const BlockTexels& texels, const std::array<float, 16>& weights, std::span<uint8_t, 16> block) {
   constexpr Weights kAllAlike{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   const bool unseen = AllAlphas(texels, 0);
+  const Planes planes = PlanesOf(texels);
   Line together{0, 4, kBc7FourBitWeights, 0xFFFF, {}, {}};
-  Solve(texels, weights, QuantizeMode6, unseen ? 1 : 4, unseen ? 1 : kRefinements, &together);
+  Solve(planes, weights, QuantizeMode6, unseen ? 1 : 4, unseen ? 1 : kRefinements, &together);
   if (unseen || together.error < kGoodEnough) return WriteMode6(together, block);
   Line color{0, 3, kBc7TwoBitWeights, 0xFFFF, {}, {}}, alpha{3, 1, kBc7TwoBitWeights, 0xFFFF, {}, {}};
-  Solve(texels, weights, QuantizeMode5, 1, kRefinements, &color);
-  Solve(texels, kAllAlike, QuantizeMode5, 1, kRefinements, &alpha);
+  Solve(planes, weights, QuantizeMode5, 1, kRefinements, &color);
+  Solve(planes, kAllAlike, QuantizeMode5, 1, kRefinements, &alpha);
   Pair pair;
   for (size_t partition : LikelyPartitions(texels, weights)) {
-    Pair next = SolvePair(texels, weights, partition, !AllAlphas(texels, 255));
+    Pair next = SolvePair(planes, weights, partition, !AllAlphas(texels, 255));
     if (next.error < pair.error) pair = next;
   }
   if (pair.error < std::min(together.error, color.error + alpha.error)) WritePair(pair, block);
