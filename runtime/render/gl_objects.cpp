@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
-#include <utility>
+#include <vector>
 
 #include "runtime/base/text.h"
 #include "runtime/render/shader_source.h"
@@ -14,9 +13,16 @@ namespace {
 constexpr GLuint kFrameBinding = 0;
 
 struct BegunProgram {
+  ShaderProgram which;
+  ShaderMode mode;
   GLuint id = 0, vertex = 0, fragment = 0;
 };
-std::map<std::pair<ShaderProgram, ShaderMode>, BegunProgram> begun;
+std::vector<BegunProgram> begun;
+
+auto FindBegun(ShaderProgram which, ShaderMode mode) {
+  return std::find_if(begun.begin(), begun.end(),
+                      [&](const BegunProgram& p) { return p.which == which && p.mode == mode; });
+}
 
 GLuint Compile(GLenum kind, const std::string& source) {
   const GLuint shader = glCreateShader(kind);
@@ -76,20 +82,21 @@ void TakePlaces(Program* p) {
 }  // namespace
 
 void BeginProgram(ShaderProgram which, ShaderMode mode) {
-  const auto [place, fresh] = begun.try_emplace({which, mode});
-  if (!fresh) return;
-  BegunProgram& p = place->second;
+  if (FindBegun(which, mode) != begun.end()) return;
   const ShaderSource source = SourceOf(which, mode);
-  p = {glCreateProgram(), Compile(GL_VERTEX_SHADER, source.vertex), Compile(GL_FRAGMENT_SHADER, source.fragment)};
+  const BegunProgram p{which, mode, glCreateProgram(), Compile(GL_VERTEX_SHADER, source.vertex),
+                       Compile(GL_FRAGMENT_SHADER, source.fragment)};
   glAttachShader(p.id, p.vertex);
   glAttachShader(p.id, p.fragment);
   glLinkProgram(p.id);
+  begun.push_back(p);
 }
 
 Error BuildProgram(ShaderProgram which, ShaderMode mode, Program* program) {
   BeginProgram(which, mode);
-  const auto [id, vertex, fragment] = begun.extract({which, mode}).mapped();
-  program->id = id;
+  const auto place = FindBegun(which, mode);
+  const GLuint id = program->id = place->id, vertex = place->vertex, fragment = place->fragment;
+  begun.erase(place);
   GLint good = 0;
   glGetProgramiv(id, GL_LINK_STATUS, &good);
   const std::string refusal = good ? "" : WhyNot(id, vertex, fragment);

@@ -153,7 +153,7 @@ class Comfort(SmallTourTest):
         self.assert_succeeds(result)
         for words in (f"pack    {self.out}/small.glb", f"report  {self.out}/report.html", f"flaneur-player {self.out}/small.glb"):
             self.assertIn(words, result.stdout)
-        self.assertRegex(result.stderr, r"\[1/7\] +\d+ %  \w+")
+        self.assertRegex(result.stderr, r"\[1/8\] +\d+ %  \w+")
         self.assertIn("100 %", result.stderr)
 
     def test_a_draft_is_a_whole_tour(self):
