@@ -189,18 +189,17 @@ async function load(store, site, canvas) {
     }
   };
   const begun = makeModule(store, site, canvas).then((module) => {
-    player = new Player(module);
-    player.call('page_expect', ['number'], [site.bytes]);
-    player.call('page_prepare', ['string'], ['#canvas']);
+    const made = new Player(module);
+    made.call('page_expect', ['number'], [site.bytes]);
+    made.call('page_prepare', ['string'], ['#canvas']);
+    player = made;
     goOn();
   });
-  begun.catch(() => {});
-  await fetchPieces(store, first, async (piece, content) => {
+  await Promise.all([begun, fetchPieces(store, first, async (piece, content) => {
     waiting.push([piece, content]);
     progress.value = ++came / first.length;
     goOn();
-  });
-  await begun;
+  })]);
   player.call('page_begin');
   while (!player.isLoaded()) await pause(0);
   return player;
