@@ -25,7 +25,10 @@ __attribute__((constructor)) static void begin(void) {
   const char* program = getenv("FAULT_PROGRAM");
   const char* which = getenv("FAULT_AT");
   const char* kind = getenv("FAULT_KIND");
-  meant = program != NULL && strcmp(program_invocation_short_name, program) == 0;
+  char self[4096] = "";  // not the name that it was called by: flaneur gives its own to what it starts
+  const ssize_t size = readlink("/proc/self/exe", self, sizeof self - 1);
+  const char* name = size > 0 ? strrchr(self, '/') : NULL;
+  meant = program != NULL && name != NULL && strcmp(name + 1, program) == 0;
   at = which == NULL ? 0 : atol(which);
   kills = kind != NULL && strcmp(kind, "kill") == 0;
 }
