@@ -305,8 +305,10 @@ void PrintTo(const MeridianCase& test, std::ostream* out) { *out << test.system;
 
 class OtherMeridian : public CityModel, public testing::WithParamInterface<MeridianCase> {
  protected:
-  void SetUp() override { folder_ = testing::TempDir(), file_ = folder_ / "other_meridian.json"; }
-  void TearDown() override { std::filesystem::remove(file_); }
+  void SetUp() override {
+    CityModel::SetUp();
+    file_ = folder_ / "town.json";
+  }
   std::filesystem::path file_;
 };
 
