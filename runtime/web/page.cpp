@@ -86,6 +86,9 @@ EMSCRIPTEN_KEEPALIVE const char* page_begin() {
 EMSCRIPTEN_KEEPALIVE const char* page_load(bool* there) {
   return Try([&] { return visit->Load(there); });
 }
+EMSCRIPTEN_KEEPALIVE const char* page_load_more() {
+  return Try([&] { return visit->LoadMore(); });
+}
 EMSCRIPTEN_KEEPALIVE const char* page_picture(int width_px, int height_px, float passed_s, float took_ms) {
   return Try([&] {
     input.down |= held;

@@ -347,10 +347,11 @@ void PageVisit::Impl::Sound(float passed_s) {
   sound.Hear(soundscape.heard);
 }
 
+Error PageVisit::LoadMore() { return impl_->loader.Upload(kUpload_ms, &impl_->renderer); }
+
 Error PageVisit::Picture(const WindowInput& input, int width_px, int height_px, float passed_s) {
   Impl& v = *impl_;
   v.photo_taken = false;
-  if (Error e = v.loader.Upload(kUpload_ms, &v.renderer)) return e;
   if (width_px <= 0 || height_px <= 0) return Ok();
   v.aspect = static_cast<float>(width_px) / static_cast<float>(height_px);
   SetPictureSize(width_px, height_px, &v.s);

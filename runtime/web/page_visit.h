@@ -30,7 +30,8 @@ class PageVisit {
   Error Begin();
   // A part of what is to be made ready before the first picture; `there`: it is. Errors: of a piece.
   Error Load(bool* there);
-  // Errors: of a piece that streams in.
+  // A part of what streams in, as a task of its own between pictures. Errors: of a piece.
+  Error LoadMore();
   Error Picture(const WindowInput& input, int width_px, int height_px, float passed_s);
   // The last picture, by the browser's clock: what lay between it and the one before.
   void TellTime(float took_ms);

@@ -141,28 +141,32 @@ function drawPictures(canvas, parts, visit) {
   let last = 0, told = 0;
   return new Promise((_, reject) => {
     parts.headset.onTrouble = reject;
-    const draw = (now) => {
+    const attempt = (work) => {
       if (visit.signal.aborted) return;
       try {
-        requestAnimationFrame(draw);
-        const passed_ms = last && now - last < kAway_ms && !parts.headset.isWorn ? now - last : 0;
-        last = now;
-        if (parts.headset.isWorn) return;  // which asks for its own pictures
-        fit(canvas);
-        hands.takeGamepad();
-        player.call('page_picture', ['number', 'number', 'number', 'number'],
-                    [canvas.width, canvas.height, passed_ms / 1000, passed_ms]);
-        if (player.ask('page_photo_taken')) pages.takePhoto(canvas, player.read('page_state').page?.line ?? '');
-        if (now - told > kTold_ms) {
-          told = now;
-          follow(player.read('page_state'), parts);
-        }
-        if (shown) marks.follow(shown);
+        work();
       } catch (e) {
         reject(e);
         visit.abort();
       }
     };
+    const draw = (now) => attempt(() => {
+      requestAnimationFrame(draw);
+      const passed_ms = last && now - last < kAway_ms && !parts.headset.isWorn ? now - last : 0;
+      last = now;
+      if (parts.headset.isWorn) return;  // which asks for its own pictures
+      fit(canvas);
+      hands.takeGamepad();
+      player.call('page_picture', ['number', 'number', 'number', 'number'],
+                  [canvas.width, canvas.height, passed_ms / 1000, passed_ms]);
+      if (player.ask('page_photo_taken')) pages.takePhoto(canvas, player.read('page_state').page?.line ?? '');
+      if (now - told > kTold_ms) {
+        told = now;
+        follow(player.read('page_state'), parts);
+      }
+      if (shown) marks.follow(shown);
+      setTimeout(() => attempt(() => player.call('page_load_more')));  // not in the time of a picture
+    });
     requestAnimationFrame(draw);
   });
 }
