@@ -183,13 +183,13 @@ function listen(commands, visit) {
 // The player with as much of the tour as a first picture takes. While the line brings more, the player makes ready what it
 // can: its shaders, and the tour as soon as its beginning is there.
 async function load(store, site, canvas) {
-  const first = site.pieces.slice(0, site.first), waiting = [];
-  let player = null, came = 0, missing = site.opens;
+  const first = site.pieces.slice(0, site.first), opening = new Set(first.slice(0, site.opens)), waiting = [];
+  let player = null, came = 0;
   const goOn = () => {
     if (!player) return;
     for (const [piece, content] of waiting.splice(0)) {
       player.arrive(piece, content);
-      if (site.pieces.indexOf(piece) < site.opens && --missing === 0) player.call('page_open', ['string'], [settings()]);
+      if (opening.delete(piece) && opening.size === 0) player.call('page_open', ['string'], [settings()]);
     }
   };
   const begun = makeModule(store, site, canvas).then((module) => {
