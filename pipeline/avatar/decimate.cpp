@@ -68,12 +68,6 @@ Error CheckOptions(const LevelsOptions& options) {
   return Ok();
 }
 
-int CountTriangles(const std::vector<Mesh>& meshes) {
-  int count = 0;
-  for (const Mesh& mesh : meshes) count += TriangleCount(mesh);
-  return count;
-}
-
 // 1, 0.5, 0.4, 0.2, 0.1, 0.05, ... as long as so few triangles save anything.
 std::vector<float> Ladder(int triangles) {
   std::vector<float> ratios{1};
@@ -182,7 +176,7 @@ AvatarLevel FinishedLevel(const Avatar& avatar, const LevelsOptions& options, co
   reference.look.Fit(&surface);
   AvatarLevel level;
   level.meshes = SplitWedges(surface, avatar.meshes);
-  level.triangles = CountTriangles(level.meshes);
+  level.triangles = TriangleCount(level.meshes);
   reference.meter.MeasureDistance(&level);
   if (options.ratios.empty()) reference.meter.MeasureNormals(&level);
   return level;
@@ -191,7 +185,7 @@ AvatarLevel FinishedLevel(const Avatar& avatar, const LevelsOptions& options, co
 // Levels of so many triangles.
 std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const LevelsOptions& options,
                                          std::vector<std::string>* warnings) {
-  const int original = CountTriangles(avatar.meshes);
+  const int original = TriangleCount(avatar.meshes);
   const std::vector<int> targets = Targets(options, original);
   std::vector<AvatarLevel> levels(targets.size());
   size_t first = 0;  // that is decimated
@@ -225,7 +219,7 @@ std::vector<AvatarLevel> DecimatedLevels(const Avatar& avatar, const LevelsOptio
 
 // To few enough triangles that it may be drawn beside an impostor.
 void ReduceProp(const Avatar& avatar, Jobs* jobs, std::vector<std::string>* warnings, AvatarProp* prop) {
-  const int triangles = CountTriangles(prop->meshes);
+  const int triangles = TriangleCount(prop->meshes);
   if (triangles <= kMaxPropTriangles) return;
   Avatar alone = avatar;
   alone.name = avatar.name + "', prop '" + prop->name;

@@ -283,6 +283,14 @@ std::vector<bool> LeaveOutUnneeded(Baking* baking, size_t wanted) {
   return needed;
 }
 
+std::vector<std::string> KeysOfNeeds(const Baking& baking, const Step& step) {
+  std::vector<std::string> keys;
+  for (const size_t need : step.needs) {
+    if (baking.steps[need].stage != "source") keys.push_back(baking.steps[need].key());
+  }
+  return keys;
+}
+
 Step* AddStep(Baking* baking, const std::string& stage, const std::string& item) {
   Step* step = &baking->steps.emplace_back();
   step->stage = stage;

@@ -74,27 +74,18 @@ bool UnpackModels(Baking* baking, const Step& step, const std::string& content, 
   return true;
 }
 
-// Of what scripts make, avatars and town know the content.
-std::string ModelsKey(Baking* baking, const Step& step) {
-  std::vector<std::string> keys;
-  for (const size_t need : step.needs) {
-    if (baking->steps[need].stage != "source") keys.push_back(baking->steps[need].key());
-  }
-  return ModelsInputs(baking->settings, keys);
-}
-
 }  // namespace
 
 void AddModelsStep(Baking* baking) {
   Step* models = AddStep(baking, "models", baking->settings.name);
+  baking->models_step = static_cast<int>(IndexOf(*baking, models));
   for (size_t i = 0; i + 1 < baking->steps.size(); ++i) {
-    const std::string& stage = baking->steps[i].stage;
-    if (stage != "check") models->needs.push_back(i);
+    if (baking->steps[i].stage != "check") models->needs.push_back(i);
   }
   models->inputs = FilesOf(baking->settings.title_page);
   models->stands_for_needs = true;
   models->extension = ".kept";
-  models->key = [baking, models] { return ModelsKey(baking, *models); };
+  models->key = [baking, models] { return ModelsInputs(baking->settings, KeysOfNeeds(*baking, *models)); };
   models->make = [baking, models](StageReport*, Warnings*) { return MakeModels(baking, *models); };
   models->pack = [baking, models](StageReport* r, Warnings* w) { return PackModels(baking, *models, r, w); };
   models->unpack = [baking, models](const std::string& content, StageReport* r, Warnings* w) {

@@ -72,10 +72,10 @@ Error MakePack(Baking* baking, Step* step, StageReport* report, Warnings* warnin
   step->report.stage = step->stage;
   step->report.item = step->item;
   step->report.seconds = Now_s() - start_s;
-  for (const Step& models : baking->steps) {  // which the report counts as the pack's
-    if (models.stage != "models" || models.report.cached) continue;
-    step->report.seconds += models.report.seconds;
-    step->report.work_s += models.report.work_s;
+  const StageReport& models = At(baking->steps, baking->models_step).report;  // which the report counts as the pack's
+  if (!models.cached) {
+    step->report.seconds += models.seconds;
+    step->report.work_s += models.work_s;
   }
   step->warnings = *warnings;
   FillReport(baking);
@@ -86,12 +86,6 @@ Error MakePack(Baking* baking, Step* step, StageReport* report, Warnings* warnin
   AddEarlierNames(*baking, &names);
   names.push_back(kManifest);
   return ReplaceTogether(baking->output, &staging, names);
-}
-
-std::vector<std::string> KeysOfNeeds(Baking* baking, const Step& step) {
-  std::vector<std::string> keys;
-  for (const size_t need : step.needs) keys.push_back(baking->steps[need].key());
-  return keys;
 }
 
 // The pack's models stand for all others.
@@ -148,7 +142,7 @@ void AddPackSteps(Baking* baking) {
     if (IsOfPack(baking->steps[i].stage)) pack->needs.push_back(i);
   }
   pack->inputs = {baking->tour};
-  pack->key = [baking, pack] { return PackInputs(baking->tour, baking->settings, KeysOfNeeds(baking, *pack)); };
+  pack->key = [baking, pack] { return PackInputs(baking->tour, baking->settings, KeysOfNeeds(*baking, *pack)); };
   pack->make = [baking, pack](StageReport* r, Warnings* w) { return MakePack(baking, pack, r, w); };
 }
 

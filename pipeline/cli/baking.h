@@ -32,7 +32,7 @@ struct Baking {
   std::deque<Step> steps;  // each after those that it needs
   // By source: the town's (may be none), then one an avatar: its step, -1 where it is no script.
   std::vector<int> source_steps;
-  int town_step = -1, painting_step = -1, pack_step = -1;
+  int town_step = -1, painting_step = -1, models_step = -1, pack_step = -1;
 
   TourParts parts;
   TourModels models;
@@ -79,6 +79,9 @@ bool ResultsAreUpToDate(Baking* baking);
 
 // By step whether `wanted` needs it to be done in this run. Those that it does not need are left out.
 std::vector<bool> LeaveOutUnneeded(Baking* baking, size_t wanted);
+
+// The keys of the steps that it needs, but of scripts: who reads what they make has its content in the key.
+std::vector<std::string> KeysOfNeeds(const Baking& baking, const Step& step);
 
 // Adds a step. References to steps stay good.
 Step* AddStep(Baking* baking, const std::string& stage, const std::string& item);

@@ -1,5 +1,8 @@
 #include "pipeline/cli/visitor_media.h"
 
+#include <span>
+#include <string_view>
+
 #include "pipeline/cli/scaled_picture.h"
 #include "pipeline/cli/speech.h"
 #include "pipeline/cli/stage_cache.h"
@@ -24,16 +27,18 @@ struct Media {
     const auto [entry, fresh] = sounds.try_emplace(file, StopSound{Count(parts->sounds), 0});
     if (fresh) {
       parts->sounds.emplace_back();
-      if (Error e = ReadFile(file, &parts->sounds.back())) return e;
-      if (Error e = Duration(file, &entry->second.duration_s)) return e;
+      std::vector<uint8_t>& bytes = parts->sounds.back();
+      if (Error e = ReadFile(file, &bytes)) return e;
+      if (Error e = Duration(file, bytes, &entry->second.duration_s)) return e;
     }
     *out = entry->second;
     return Ok();
   }
 
   // To know it, all of the sound has to be decoded.
-  Error Duration(const fs::path& file, float* duration_s) {
-    const std::string key = Fingerprint().Add("duration").Add(SoundReaderVersion()).AddFile(file).Hex();
+  Error Duration(const fs::path& file, std::span<const uint8_t> bytes, float* duration_s) {
+    const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string key = Fingerprint().Add("duration").Add(SoundReaderVersion()).Add(content).Hex();
     StoreEntry entry;
     std::string kept;
     if (ReadEntry(store, key, &entry, &kept) && Unpacked(kept, duration_s)) return Ok();

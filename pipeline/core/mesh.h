@@ -45,5 +45,10 @@ struct Mesh {
 };
 
 inline int TriangleCount(const Mesh& mesh) { return static_cast<int>(mesh.indices.size() / 3); }
+inline int TriangleCount(const std::vector<Mesh>& meshes) {
+  int count = 0;
+  for (const Mesh& mesh : meshes) count += TriangleCount(mesh);
+  return count;
+}
 
 }  // namespace flaneur

@@ -26,6 +26,7 @@ struct EncodedMesh {
   std::vector<EncodedPart> parts;
 };
 
+// All parts share one grid of rounded positions, so that they stay joined; those without triangles are left out.
 // Errors: an index or array length out of range, Draco's refusal.
 Error EncodeMesh(std::span<const Mesh> parts, const DracoOptions& draco, EncodedMesh* encoded);
 

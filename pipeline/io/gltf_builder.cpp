@@ -318,13 +318,6 @@ std::vector<int> GltfBuilder::AddMaterials(std::span<const Material> materials, 
   return added;
 }
 
-Error GltfBuilder::AddMesh(const std::string& name, std::span<const Mesh> parts, std::span<const int> materials,
-                           const DracoOptions& draco, int* mesh) {
-  EncodedMesh encoded;
-  if (Error e = EncodeMesh(parts, draco, &encoded)) return Fail("mesh '" + OneLine(name) + "': " + e.message);
-  return AddMesh(name, encoded, materials, mesh);
-}
-
 Error GltfBuilder::AddMesh(const std::string& name, const EncodedMesh& encoded, std::span<const int> materials,
                            int* mesh) {
   const std::string quoted = "mesh '" + OneLine(name) + "'";

@@ -56,13 +56,9 @@ class GltfBuilder {
   // AddMesh.
   std::vector<int> AddMaterials(std::span<const Material> materials, std::span<const Image> images);
 
-  // One glTF mesh with a primitive for each of `parts`; `materials[part.material]` is its material
-  // here. All parts share one grid of rounded positions, so that they stay joined. Parts without
-  // triangles are left out; at least one must have some. Joint indices are those of the skin that
-  // the node will name. Errors: an index or array length out of range, Draco's refusal; each names
-  // the mesh.
-  Error AddMesh(const std::string& name, std::span<const Mesh> parts, std::span<const int> materials,
-                const DracoOptions& draco, int* mesh);
+  // One glTF mesh with a primitive for each of the encoded parts; `materials[part.material]` is its material here.
+  // At least one part; joint indices are those of the skin that the node will name. Errors: a material out of range,
+  // no triangle; each names the mesh.
   Error AddMesh(const std::string& name, const EncodedMesh& encoded, std::span<const int> materials, int* mesh);
 
   int AddNode(const GltfNode& node);

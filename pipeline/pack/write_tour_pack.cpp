@@ -187,10 +187,7 @@ Error EncodeTourAvatar(TourAvatar* avatar, Jobs* jobs) {
   const AvatarLevels& levels = avatar->levels;
   avatar->reach_m = Reach_m(levels, ToolsOf(*avatar));
   avatar->prop_triangles.clear();
-  for (const AvatarProp& prop : levels.avatar.props) {
-    int& triangles = avatar->prop_triangles.emplace_back(0);
-    for (const Mesh& mesh : prop.meshes) triangles += TriangleCount(mesh);
-  }
+  for (const AvatarProp& prop : levels.avatar.props) avatar->prop_triangles.push_back(TriangleCount(prop.meshes));
   return EncodeAvatar(levels, DracoOptions{}, jobs, &avatar->encoded);
 }
 

@@ -263,7 +263,7 @@ const SurfacePlan& Renderer::surfaces() const { return impl_->plan; }
 const AtlasFormats& Renderer::formats() const { return impl_->formats; }
 
 bool Renderer::AddPart(size_t most_bytes, Asset* asset) {
-  if (asset->id.kind == AssetKind::kTown && !UploadTown(most_bytes, &asset->content->town, &impl_->town)) return false;
+  if (asset->id.kind == AssetKind::kTown && !UploadTown(most_bytes, asset->content->town, &impl_->town)) return false;
   Add(std::move(*asset));
   return true;
 }

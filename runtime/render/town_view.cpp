@@ -104,14 +104,14 @@ Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector
   return Ok();
 }
 
-bool UploadTown(size_t most_bytes, TownGeometry* geometry, TownView* town) {
+bool UploadTown(size_t most_bytes, const TownGeometry& geometry, TownView* town) {
   TownUpload& upload = town->upload;
-  const size_t vertex_bytes = geometry->vertices.size() * sizeof(TownVertex);
-  const size_t index_bytes = geometry->indices.size() * sizeof(uint32_t);
+  const size_t vertex_bytes = geometry.vertices.size() * sizeof(TownVertex);
+  const size_t index_bytes = geometry.indices.size() * sizeof(uint32_t);
   glBindVertexArray(0);
   if (upload.vertices == 0) {
     size_t turning_bytes = 0;
-    for (const TurningGeometry& part : geometry->turning) turning_bytes += part.vertices.size() * sizeof(TownVertex);
+    for (const TurningGeometry& part : geometry.turning) turning_bytes += part.vertices.size() * sizeof(TownVertex);
     upload.vertices = CreateBuffer(GL_ARRAY_BUFFER, nullptr, vertex_bytes + turning_bytes);
     upload.indices = CreateBuffer(GL_ELEMENT_ARRAY_BUFFER, nullptr, index_bytes);
   }
@@ -123,17 +123,17 @@ bool UploadTown(size_t most_bytes, TownGeometry* geometry, TownView* town) {
   };
   if (upload.done_bytes < vertex_bytes) {
     const size_t from = upload.done_bytes;
-    put(GL_ARRAY_BUFFER, upload.vertices, geometry->vertices.data(), from, std::min(most_bytes, vertex_bytes - from));
+    put(GL_ARRAY_BUFFER, upload.vertices, geometry.vertices.data(), from, std::min(most_bytes, vertex_bytes - from));
   } else if (upload.done_bytes < vertex_bytes + index_bytes) {
     const size_t from = upload.done_bytes - vertex_bytes;
-    put(GL_ELEMENT_ARRAY_BUFFER, upload.indices, geometry->indices.data(), from,
+    put(GL_ELEMENT_ARRAY_BUFFER, upload.indices, geometry.indices.data(), from,
         std::min(most_bytes, index_bytes - from));
   }
   return upload.done_bytes == vertex_bytes + index_bytes;
 }
 
 void AddTown(TownGeometry geometry, TownView* town) {
-  while (!UploadTown(std::numeric_limits<size_t>::max(), &geometry, town)) {}
+  while (!UploadTown(std::numeric_limits<size_t>::max(), geometry, town)) {}
   if (town->vertex_array != 0) RemoveTown(town);
   glGenVertexArrays(1, &town->shadow_array);
   glBindVertexArray(town->shadow_array);

@@ -43,7 +43,7 @@ struct TownView {
 
 Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town);
 // About so many bytes more of what AddTown takes then; true: that was all. Meanwhile the one before is drawn.
-bool UploadTown(size_t most_bytes, TownGeometry* geometry, TownView* town);
+bool UploadTown(size_t most_bytes, const TownGeometry& geometry, TownView* town);
 // Instead of the one that was added before.
 void AddTown(TownGeometry geometry, TownView* town);
 

@@ -381,7 +381,7 @@ void PageVisit::TakeOffHeadset() {
 Error PageVisit::PictureInRoom(const WindowInput& input, Vec3 head, std::span<const float> eyes, unsigned framebuffer,
                                float passed_s) {
   Impl& v = *impl_;
-  if (Error e = v.loader.Upload(kUpload_ms, &v.renderer)) return e;
+  if (Error e = LoadMore()) return e;
   v.headset.head = head;
   v.headset.eyes.clear();
   for (size_t k = 0; k + kFloatsOfEye <= eyes.size(); k += kFloatsOfEye) v.headset.eyes.push_back(EyeFrom(&eyes[k]));

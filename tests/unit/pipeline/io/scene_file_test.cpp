@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "pipeline/io/encode_avatar.h"
 #include "pipeline/io/gltf.h"
 #include "runtime/base/file.h"
 #include "tests/unit/pipeline/test_person.h"
@@ -33,7 +34,9 @@ class SceneFile : public testing::Test {
     DracoOptions plain;
     plain.compress = false;
     int mesh = -1;
-    EXPECT_EQ(builder_.AddMesh(name, {&quad_, 1}, {}, plain, &mesh).message, "");
+    EncodedMesh encoded;
+    EXPECT_EQ(EncodeMesh({&quad_, 1}, plain, &encoded).message, "");
+    EXPECT_EQ(builder_.AddMesh(name, encoded, {}, &mesh).message, "");
     return mesh;
   }
 
