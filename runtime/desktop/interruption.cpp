@@ -8,7 +8,7 @@ namespace flaneur {
 namespace {
 
 constexpr unsigned kPatience_s = 1;
-constexpr char kInterrupted[] = "flaneur-player: error: interrupted; nothing was written\n";
+constexpr char kInterrupted[] = "flaneur-player: error: interrupted; nothing more was written\n";
 
 volatile std::sig_atomic_t interrupted = 0, watching = 0, child = 0;
 
@@ -33,7 +33,7 @@ void WatchForInterruption() {
   for (int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, Remember);
 }
 
-Error CheckInterruption() { return interrupted != 0 ? Fail("interrupted; nothing was written") : Ok(); }
+Error CheckInterruption() { return interrupted != 0 ? Fail("interrupted; nothing more was written") : Ok(); }
 
 Error EndWatching() {
   watching = 0;

@@ -10,7 +10,7 @@ namespace flaneur {
 void WatchForInterruption();
 // An error once one of them has come.
 Error CheckInterruption();
-// The same for the last time: what is written now is written to its end.
+// The same for the last time, before a run's last files are written: each is written to its end.
 Error EndWatching();
 // A child that would outlive the program where it ends so; 0: none any more.
 void EndsWithUs(int process);

@@ -141,11 +141,14 @@ Error PrepareOutputs(float seconds, HeadlessRun* run) {
               run->stills.back().path.string() + "; --at must be earlier");
 }
 
+bool IsStillDue(bool last, const HeadlessRun& run) {
+  return !run.stills.empty() && (run.stills.front().frame == run.simulations.front().town.step || last);
+}
+
 // The picture of this step, where one is asked for. last: the run ends with it.
 Error MakePicture(bool last, HeadlessRun* run) {
   const PlayerOptions& options = run->options;
-  const int64_t step = run->simulations.front().town.step;
-  const bool still = !run->stills.empty() && (run->stills.front().frame == step || last);
+  const bool still = IsStillDue(last, *run);
   if (!still && !run->draws_all) return Ok();
   if (!run->draws_all) {
     run->renderer.StartAnew();
@@ -158,10 +161,7 @@ Error MakePicture(bool last, HeadlessRun* run) {
     if (Error e = DrawPane(options, run->pack, width_px, run->films || still, loader, &run->renderer, overlay, &pane))
       return e;
   }
-  if (run->films) {
-    if (Error e = run->film.Add(Joined(run->panes, options.height_px))) return e;
-  }
-  return still ? WriteDue(run->panes, options, step, last, &run->stills) : Ok();
+  return Ok();
 }
 
 void RecordStep(HeadlessRun* run) {
@@ -170,6 +170,17 @@ void RecordStep(HeadlessRun* run) {
   const FrameStatistics& drawn = pane.statistics;
   Record(first, {drawn.town_triangles, drawn.shadow_triangles, drawn.draw_ms}, &run->records);
   RememberFrame(first, drawn, static_cast<float>(drawn.draw_ms), &pane.views.history);
+}
+
+// Into the film, the stills and the records.
+Error KeepPicture(bool last, HeadlessRun* run) {
+  if (run->films) {
+    if (Error e = run->film.Add(Joined(run->panes, run->options.height_px))) return e;
+  }
+  RecordStep(run);
+  return IsStillDue(last, *run)
+             ? WriteDue(run->panes, run->options, run->simulations.front().town.step, last, &run->stills)
+             : Ok();
 }
 
 void StepAll(HeadlessRun* run) {
@@ -203,13 +214,15 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
     if (Error e = CheckInterruption()) return e;
     last = std::all_of(simulations->begin(), simulations->end(), [&](const Simulation& s) { return IsOver(s, run); });
     if (Error e = MakePicture(last, &run)) return e;
-    RecordStep(&run);
+    if (last) {
+      if (Error e = EndWatching()) return e;
+    }
+    if (Error e = KeepPicture(last, &run)) return e;
     if (!last) StepAll(&run);
   }
   if (films) {
     if (Error e = run.film.Finish()) return e;
   }
-  if (Error e = EndWatching()) return e;
   return WriteRecords(run.records, options.metrics, options.trajectories);
 }
 

@@ -349,6 +349,22 @@ class Playing(ProgramTest):
         self.assertLess(time.monotonic() - began, 60, "it goes on drawing")  # takes 116 s where nothing but the picture's end is waited for
         self.assertEqual(list(self.folder.iterdir()), [])
 
+    def test_a_still_is_there_or_it_was_interrupted(self):
+        """Whenever the request to stop comes: one of the two is said and done, never both."""
+        picture = self.folder / "still.png"
+        command = list(map(str, [BIN / "flaneur-player", self.pack, "--headless", "--seconds", "0.1", "--size", "640x480", "--screenshot", picture]))
+        began = time.monotonic()
+        subprocess.run(command, check=True, capture_output=True)
+        takes_s = time.monotonic() - began
+        for share in range(2, 12):
+            picture.unlink(missing_ok=True)
+            with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as player:
+                time.sleep(takes_s * share / 10)
+                player.terminate()
+                _, said = player.communicate(timeout=100)
+            with self.subTest(share=share):
+                self.assertEqual(picture.exists(), player.returncode == 0, said)
+
     def test_a_film_may_be_called_as_one_likes(self):
         for name in ("-y.mp4", "http:x.mp4"):
             result = run("flaneur-player", self.pack, "--headless", "--seconds", 0.1, "--size", "64x64", f"--film={name}", cwd=self.folder)
