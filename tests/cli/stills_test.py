@@ -1,7 +1,7 @@
 """The demo tour's pictures look as they did when somebody last looked at them.
 
 Reference stills stand beside their scenarios in tests/data/stills. `stills_test.py --remake` draws them anew, from the demo tour as it
-is baked now: look at each before committing it.
+is baked now: look at each before committing it. `stills_test.py --compare FOLDER` compares those that a folder holds with them.
 """
 import os
 import pathlib
@@ -114,8 +114,19 @@ def remake():
         print(STILLS / f"{name}.png")
 
 
+def compare(folder):
+    """The exit status: 0 where all that are in the folder look like the reference stills of their names."""
+    pictures = sorted(pathlib.Path(folder).glob("*.png"))
+    alike = [look_alike(STILLS / picture.name, picture) for picture in pictures]
+    for picture, (same, said) in zip(pictures, alike):
+        print(picture.name, "is alike" if same else f"differs:\n{said}")
+    return 0 if pictures and all(same for same, _ in alike) else 1
+
+
 if __name__ == "__main__":
     if sys.argv[1:] == ["--remake"]:
         remake()
+    elif sys.argv[1:2] == ["--compare"]:
+        sys.exit(compare(sys.argv[2]))
     else:
         unittest.main()
