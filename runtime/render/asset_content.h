@@ -16,7 +16,7 @@ struct Asset::Content {
   std::vector<std::vector<uint8_t>> picture;  // by level
   PersonGeometry person;
   ShadowLevels shadows;                            // with the coarsest level alone
-  std::array<AtlasPicture, kAtlasPictures> atlas;  // as PrepareAtlas
+  std::array<AtlasPicture, kAtlasPictures> atlas;  // as BuildAtlas
 };
 
 }  // namespace flaneur

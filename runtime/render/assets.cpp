@@ -144,6 +144,14 @@ Asset PreparePicture(const AssetId& id, std::vector<std::vector<uint8_t>> layer)
   return asset;
 }
 
+Asset PrepareAtlas(const AssetId& id, std::array<AtlasPicture, kAtlasPictures> pictures) {
+  Asset asset;
+  asset.id = id;
+  asset.content = std::make_unique<Asset::Content>();
+  asset.content->atlas = std::move(pictures);
+  return asset;
+}
+
 Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& plan, const AtlasFormats& formats) {
   Asset asset;
   asset.id = id;
@@ -160,10 +168,8 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
       break;
     case AssetKind::kLevel:
       return PrepareLevel(pack, id, pack.meshes[static_cast<size_t>(MeshOf(pack.avatars[index], id.level))], plan);
-    case AssetKind::kAtlas: {
-      asset.content->atlas = PrepareAtlas(pack.avatars[index].impostor, formats);
-      break;
-    }
+    case AssetKind::kAtlas:
+      return PrepareAtlas(id, BuildAtlas(pack.avatars[index].impostor, formats));
   }
   return asset;
 }

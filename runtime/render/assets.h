@@ -1,15 +1,16 @@
 // The bulk of a pack, piece by piece as the renderer takes it: prepared on any thread, uploaded on the one with the
 // context.
 #pragma once
+#include <array>
 #include <memory>
 #include <vector>
 
 #include "runtime/pack/tour_pack.h"
+#include "runtime/render/atlas_pictures.h"
 
 namespace flaneur {
 
 struct SurfacePlan;
-struct AtlasFormats;
 struct TownGeometry;
 
 // kTown: all of the town's meshes. kPicture: an image. kLevel: a level of an avatar, or
@@ -57,6 +58,9 @@ Asset PrepareAsset(const TourPack& pack, const AssetId& id, const SurfacePlan& p
 
 // The town's, of a geometry that was built in parts (town_geometry.h).
 Asset PrepareTown(const TourPack& pack, const AssetId& id, TownGeometry geometry);
+
+// An impostor's, of pictures that were made ready in steps.
+Asset PrepareAtlas(const AssetId& id, std::array<AtlasPicture, kAtlasPictures> pictures);
 
 // A picture's, of a layer that was prepared in steps (surface_plan.h).
 Asset PreparePicture(const AssetId& id, std::vector<std::vector<uint8_t>> layer);

@@ -35,13 +35,6 @@ struct SurfacePlan {
   std::vector<Surface> surfaces;  // by material; the last one of primitives without material
 };
 
-struct AtlasFormats {
-  bool bc7_blocks = false, rgtc_blocks = false;  // that OpenGL reads
-  // Impostors' normals half as large, depth and motion together in one picture half as large: they look the same, take
-  // less memory and are looked up faster.
-  bool pack_details = false;
-};
-
 struct PictureLimits {
   int town_px = 4096, people_px = 1024;  // longest sides; larger pictures are made smaller
   bool blocks = false;                   // of pictures whose alpha nothing is cut out by

@@ -2,10 +2,9 @@
 #pragma once
 #include <GLES3/gl3.h>
 
-#include <array>
 #include <vector>
 
-#include "runtime/pack/tour_pack.h"
+#include "runtime/render/atlas_pictures.h"
 #include "runtime/render/surface_plan.h"
 
 namespace flaneur {
@@ -17,20 +16,8 @@ void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer,
                  const std::vector<std::vector<uint8_t>>& levels);
 bool ReadsBc1();  // needs a context
 
-inline constexpr size_t kAtlasPictures = 5;
-
-// An impostor's picture as it is uploaded: blocks where OpenGL reads them and `decode` is not asked for, else texels.
-struct AtlasPicture {
-  TextureFormat format = TextureFormat::kBc7Srgb;
-  int width_px = 0, height_px = 0;
-  bool blocks = false;
-  std::vector<std::vector<uint8_t>> levels;
-};
-AtlasFormats FormatsOfThisMachine(
-    bool fast);  // needs a context; in software no blocks: there one is decoded for every look-up
-// Albedo, normals, depth, motion, where tints may dye (empty: everywhere). Where details are packed motion is with the
-// depth, as colour, and its own picture is empty.
-std::array<AtlasPicture, kAtlasPictures> PrepareAtlas(const PackImpostor& atlas, const AtlasFormats& formats);
+// Needs a context. fast: for many pictures a second.
+AtlasFormats FormatsOfThisMachine(bool fast);
 GLuint UploadAtlasPicture(const AtlasPicture& picture);  // 0 where it is empty
 
 }  // namespace flaneur

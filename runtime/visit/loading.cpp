@@ -86,7 +86,8 @@ struct Loader::Impl {
   AtlasFormats formats;
   std::deque<size_t> read;                    // assets
   std::optional<TownBuilder> town_builder;    // without threads the town is built between pictures,
-  std::optional<LayerBuilder> layer_builder;  // and pictures are made ready in steps
+  std::optional<LayerBuilder> layer_builder;  // and pictures are made ready in steps,
+  std::optional<AtlasBuilder> atlas_builder;  // as impostors are
   size_t builds = 0;                          // of assets
   std::deque<Asset> ready;
   Error error;
@@ -173,6 +174,8 @@ void Loader::Impl::Prepare(size_t index) {
   if (jobs == nullptr || jobs->threads() == 0) {
     builds = index;
     if (id.kind == AssetKind::kTown) return void(town_builder.emplace(pack, plan));
+    if (id.kind == AssetKind::kAtlas)
+      return void(atlas_builder.emplace(pack.avatars[static_cast<size_t>(id.index)].impostor, formats));
     const int array = id.kind == AssetKind::kPicture ? plan.pictures[static_cast<size_t>(id.index)].array : -1;
     if (array >= 0)
       return void(
@@ -187,6 +190,12 @@ void Loader::Impl::Build(size_t index) {
     if (!layer_builder->Advance()) return;
     Asset asset = PreparePicture(assets[index], layer_builder->Take());
     layer_builder.reset();
+    return TakeIn(index, std::move(asset));
+  }
+  if (atlas_builder) {
+    if (!atlas_builder->Advance()) return;
+    Asset asset = PrepareAtlas(assets[index], atlas_builder->Take());
+    atlas_builder.reset();
     return TakeIn(index, std::move(asset));
   }
   if (!town_builder->Advance()) return;
@@ -207,7 +216,7 @@ void Loader::Impl::TakeIn(size_t index, Asset asset) {
 // ever.
 std::optional<Piece> Loader::Impl::NextPiece() {
   if (stop) return {};
-  if (town_builder || layer_builder) return Piece{Piece::kBuild, builds};
+  if (town_builder || layer_builder || atlas_builder) return Piece{Piece::kBuild, builds};
   if (!read.empty() && may_prepare && ready.size() < kMaxReadyAssets) {
     const size_t asset = read.front();
     read.pop_front();
