@@ -20,6 +20,13 @@ inline Vec2 ClampLength(Vec2 v, float most) {
   return length2 > most * most ? v * (most / std::sqrt(length2)) : v;
 }
 
+// To the nearest whole number, halves away from zero, as std::lround says it by a call of a page's own.
+inline int Rounded(float a) {
+  const int whole = static_cast<int>(a);
+  const float rest = a - static_cast<float>(whole);
+  return whole + (rest >= 0.5f ? 1 : 0) - (rest <= -0.5f ? 1 : 0);
+}
+
 // Of length 1; zero for what is as good as zero.
 inline Vec2 Unit(Vec2 v) {
   const float length = Length(v);

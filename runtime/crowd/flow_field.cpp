@@ -126,7 +126,7 @@ uint8_t Descent(const Walkable& w, const FieldBuild& build, int cell) {
            a.y.value < t ? static_cast<float>(a.y.side) * (t - a.y.value) : 0.0f};
   }
   const float turn = AngleOf(way) / (2 * kPi);
-  return static_cast<uint8_t>(static_cast<int>(std::lround(turn * 255.0f) + 255) % 255);
+  return static_cast<uint8_t>((Rounded(turn * 255.0f) + 255) % 255);
 }
 
 std::array<Vec2, 256> MakeDirections() {
