@@ -13,6 +13,7 @@
 namespace flaneur {
 namespace {
 
+constexpr float kHardly_mps = 0.2f;
 constexpr size_t kFetchAhead = 24;  // people
 
 // People decide one after the other, each in a step of their own; neighbours, who often have ids in a row, in no
@@ -111,6 +112,8 @@ void RenewWays(const Walkable& w, const std::vector<int>& caring, Crowd* c) {
     if (lost || c->turn[i]) {
       const int every = c->sees_goal[i] ? 2 * kSightEvery_steps : kSightEvery_steps;
       RenewWay(w, i, lost || IsTurn(*c, i, every), false, c);
+      if (Dot(c->velocity[i], c->velocity[i]) < kHardly_mps * kHardly_mps)
+        c->way[i] = AlongToDoor(w, c->position[i], c->radius_m[i], c->way[i]);
     }
   }
 }

@@ -346,7 +346,8 @@ bool FitsBetween(const Walkable& w, int cell, float radius_m, Vec2* place) {
   return false;
 }
 
-// Opens the cells of the way through a door from a place in it, one way: until a cell that is free anyway.
+// Opens the cells of the way through a door from a place in it, one way: until a cell that is free anyway, and no lone
+// one before the door, as those around it are too.
 void OpenAlong(Vec2 place, Vec2 along, float radius_m, const std::vector<float>& cost, Walkable* w) {
   constexpr float kStep_m = 0.05f, kThickestWall_m = 3;
   const auto open = [&](int x, int y) {
@@ -363,7 +364,8 @@ void OpenAlong(Vec2 place, Vec2 along, float radius_m, const std::vector<float>&
     const GridPlace at = PlaceAt(*w, place);
     if (at.x < 0 || Clearance(*w, before, place) < radius_m - 0.001f) return;
     if (at.x != last.x && at.y != last.y) open(at.x, last.y);  // ways lead from side to side of cells
-    if (cost[static_cast<size_t>(at.y * w->columns + at.x)] > 0) return;
+    const int cell = at.y * w->columns + at.x;
+    if (cost[static_cast<size_t>(cell)] > 0 && Clearance(*w, cell, place) > w->person_radius_m + w->cell_m) return;
     open(at.x, at.y);
     last = at;
   }

@@ -132,6 +132,29 @@ bool HasWallsOnEitherSide(const Walkable& w, int cell, Vec2 p, float reach_m) {
   return found;
 }
 
+Vec2 AlongToDoor(const Walkable& w, Vec2 p, float radius_m, Vec2 way) {
+  constexpr float kTouching_m = 0.03f, kInto = 0.8f, kFarthest_m = 0.6f, kStep_m = 0.05f, kThrough_m = 0.3f;
+  const int cell = CellAt(w, p);
+  if (cell < 0 || ClearAround_m(w, cell) > radius_m + kTouching_m) return way;
+  const Vec2 away = AwayFromNearest(w, cell, p);
+  const float away_m = Length(away);
+  if (away_m < 1e-4f || away_m > radius_m + kTouching_m || Dot(way, away) > -kInto * away_m) return way;
+  Vec2 along{-away.y / away_m, away.x / away_m};
+  if (Dot(along, way) < 0) along = along * -1;
+  const auto fits = [&](float aside_m) {
+    const Vec2 beyond = p + along * aside_m + way * kThrough_m;
+    const int there = CellAt(w, beyond);
+    const Vec2 pushed = there >= 0 ? PushedOff(w, there, beyond, radius_m) : p;
+    return Dot(pushed - p, way) > 0.7f * kThrough_m && Length(pushed - beyond) < 2 * kStep_m &&
+           Clearance(w, there, pushed) > radius_m - 1e-3f;
+  };
+  for (float aside_m = kStep_m; aside_m < kFarthest_m; aside_m += kStep_m) {
+    if (fits(aside_m)) return along;
+    if (fits(-aside_m)) return along * -1;
+  }
+  return way;
+}
+
 Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {
   const float way_m = Length(to - from);
   if (ClearAround_m(w, CellAt(w, from)) >= radius_m + way_m) return to;

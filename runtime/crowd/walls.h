@@ -29,6 +29,10 @@ inline float ClearAround_m(const Walkable& w, int cell) {
 // is.
 Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m);
 
+// For somebody who stands at a wall and wishes to walk along the unit vector `way`, into it: along the wall to where
+// they fit through, where a door is as near as that; else `way`.
+Vec2 AlongToDoor(const Walkable& w, Vec2 p, float radius_m, Vec2 way);
+
 // Sum of gentle pushes away from walls within kWallComfort_m beyond touching, metres per second squared.
 Vec2 WallPush(const Walkable& w, Vec2 p, float radius_m);
 

@@ -132,9 +132,10 @@ Vec2 FirstCorner(const Walkable& w, Vec2 p, Vec2 goal, WaySearch* s) {
 
 Vec2 WayByCorners(const Walkable& w, Vec2 p, Vec2 goal, bool look, Corner* corner, WaySearch* s) {
   if (s->regions.region_of.size() != w.cost.size()) s->regions = BuildRegions(w);
-  const bool there = Length(corner->point - p) < kAtCorner_m;
+  const bool there = Length(corner->point - p) < kAtCorner_m ||
+                     Dot(p - corner->point, corner->point - corner->from) > 0;  // or past it: pushed by others
   if (!corner->known || there || (look && !StraightWay(w, p, corner->point)))
-    *corner = {FirstCorner(w, p, goal, s), true};
+    *corner = {FirstCorner(w, p, goal, s), p, true};
   const Vec2 way = corner->point - p;
   const float way_m = Length(way);
   return way_m > 1e-3f ? way * (1 / way_m) : Vec2{};

@@ -29,13 +29,13 @@ struct WaySearch {
 
 // Where somebody is heading for on the way; unknown after a new goal.
 struct Corner {
-  Vec2 point;
+  Vec2 point, from;  // from: where it was chosen
   bool known = false;
 };
 
 // Unit vector from p to the next corner of a good way to the goal: A* over the regions, then straight to the farthest
-// of their points that is in sight; over the cells where none is. A corner is kept until it is reached or, where
-// `look`, out of sight. Zero where there is no way.
+// of their points that is in sight; over the cells where none is. A corner is kept until it is reached, passed or,
+// where `look`, out of sight. Zero where there is no way.
 Vec2 WayByCorners(const Walkable& w, Vec2 p, Vec2 goal, bool look, Corner* corner, WaySearch* search);
 
 }  // namespace flaneur

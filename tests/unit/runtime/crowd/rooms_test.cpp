@@ -42,6 +42,16 @@ TEST(Rooms, RandomOnesEmpty) {
   }
 }
 
+// In the first three the last one stood beside the door, pushed off its far jamb; the fourth had no way through its
+// door, whose cells met those of the room at a corner only.
+TEST(Rooms, WhoStandsBesideADoorFindsItAndWaysThroughDoorsAreWhole) {
+  for (uint64_t seed : {120, 295, 547, 681, 848}) {
+    const RoomPlan plan = RandomRoom(seed);
+    Room room = MakeRoom(plan);
+    EXPECT_EQ(EmptyRoom(&room, kMost_s).left, 0) << Described(plan);
+  }
+}
+
 // Everybody to one place, and from there to a place of their own: who leaves has to get through who comes.
 TEST(Rooms, LargePeopleReachACommonGoalAndLeaveIt) {
   constexpr int kPeople = 100;
