@@ -577,6 +577,11 @@ Error AvatarReader::Read() {
     notes_->push_back("the file holds more than one person (" + Quoted(which) +
                       " is of another): hide all but one, see flaneur avatar --list");
   }
+  if (IsHeadless(*avatar_, Told())) {
+    notes_->push_back(
+        "nothing hangs on the skeleton's head: where the file is an outfit, add the body as a further part "
+        "([[avatar.part]])");
+  }
   if (Error e = AddClips()) return e;
   if (unnormalized_ > 0) {
     notes_->push_back(std::to_string(unnormalized_) + " vertices had weights that do not sum to 1; they were scaled");

@@ -41,6 +41,23 @@ bool StanceOfClip(const Avatar& avatar, const Humanoid& h, const Clip& clip, Vec
 // By quarters, so that +Y is up; the figure's facing comes nearest to +Z.
 bool Lies(Vec3 up) { return AngleBetween(up, {0, 1, 0}) > kUpright_rad; }
 
+// Vertices that hang on one of the joints or what is below it.
+std::vector<bool> OnOrBelow(const Avatar& avatar, const std::vector<int>& joints, const Mesh& mesh) {
+  std::vector<bool> theirs(avatar.joints.size(), false);
+  for (size_t j = 0; j < theirs.size(); ++j) {
+    const int parent = avatar.joints[j].parent;
+    theirs[j] = std::find(joints.begin(), joints.end(), static_cast<int>(j)) != joints.end() ||
+                (parent >= 0 && At(theirs, parent));
+  }
+  std::vector<bool> on(mesh.positions.size(), false);
+  for (size_t v = 0; v < mesh.joints.size(); ++v) {
+    float weight = 0;
+    for (size_t i = 0; i < 4; ++i) weight += At(theirs, mesh.joints[v][i]) ? mesh.weights[v][i] : 0;
+    on[v] = weight > 0.5f;
+  }
+  return on;
+}
+
 }  // namespace
 
 Error ReadAxis(const std::string& text, Vec3* axis) {
@@ -156,23 +173,21 @@ float UnitOf(float height) {
 std::vector<bool> OnFeet(const Avatar& avatar, const std::vector<NamedBone>& told, const Mesh& mesh) {
   Humanoid h;
   std::string why;
-  if (!FindHumanoid(avatar.joints, BindPose(avatar.joints).positions, told, &h, &why)) return {};
-  std::vector<bool> foot(avatar.joints.size(), false);
-  for (size_t j = 0; j < foot.size(); ++j) {
-    for (const HumanoidLeg& leg : h.legs) {
-      const int from = leg.foot >= 0 ? leg.foot : leg.lower >= 0 ? leg.lower : leg.upper;
-      foot[j] = foot[j] || static_cast<int>(j) == from;
-    }
-    const int parent = avatar.joints[j].parent;
-    foot[j] = foot[j] || (parent >= 0 && At(foot, parent));
-  }
-  std::vector<bool> on(mesh.positions.size(), false);
-  for (size_t v = 0; v < mesh.joints.size(); ++v) {
-    float weight = 0;
-    for (size_t i = 0; i < 4; ++i) weight += At(foot, mesh.joints[v][i]) ? mesh.weights[v][i] : 0;
-    on[v] = weight > 0.5f;
-  }
-  return on;
+  if (!FindHumanoid(avatar.joints, BindPose(avatar.joints).positions, told, &h, &why) || h.quadruped) return {};
+  std::vector<int> feet;
+  for (const HumanoidLeg& leg : h.legs)
+    feet.push_back(leg.foot >= 0 ? leg.foot : leg.lower >= 0 ? leg.lower : leg.upper);
+  return OnOrBelow(avatar, feet, mesh);
+}
+
+bool IsHeadless(const Avatar& avatar, const std::vector<NamedBone>& told) {
+  Humanoid h;
+  std::string why;
+  if (!FindHumanoid(avatar.joints, BindPose(avatar.joints).positions, told, &h, &why) || h.head < 0) return false;
+  return std::none_of(avatar.meshes.begin(), avatar.meshes.end(), [&](const Mesh& mesh) {
+    const std::vector<bool> on = OnOrBelow(avatar, {h.head}, mesh);
+    return std::find(on.begin(), on.end(), true) != on.end();
+  });
 }
 
 bool HasSecondPerson(const std::vector<Joint>& joints, std::string* which) {

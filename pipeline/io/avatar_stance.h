@@ -34,6 +34,9 @@ float UnitOf(float height);
 // Vertices that hang on feet or what is below them; empty where no feet are known.
 std::vector<bool> OnFeet(const Avatar& avatar, const std::vector<NamedBone>& told, const Mesh& mesh);
 
+// Whether the skeleton has a head that nothing hangs on, as outfits have that are sold without a body.
+bool IsHeadless(const Avatar& avatar, const std::vector<NamedBone>& told);
+
 // Whether a second person's bones are among the joints; `which`: one of them.
 bool HasSecondPerson(const std::vector<Joint>& joints, std::string* which);
 

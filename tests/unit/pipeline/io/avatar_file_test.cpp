@@ -474,6 +474,23 @@ TEST_F(AvatarFile, ReadsPeopleOfManyRigs) {
   }
 }
 
+TEST_F(AvatarFile, SaysOfAnOutfitWithoutABodyThatItHasNoHead) {
+  if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
+  const auto headless = [&] {
+    return std::any_of(warnings_.begin(), warnings_.end(), [](const auto& w) {
+      return w.find("nothing hangs on the skeleton's head") != std::string::npos;
+    });
+  };
+  const fs::path people = SharedData() / "avatars";
+  ASSERT_EQ(Read(people / "quaternius-outfits/Male_Peasant.gltf"), "");
+  EXPECT_TRUE(headless());
+  for (const char* file :
+       {"kaykit/Knight.glb", "vrm/Godette_vrm_v4.vrm", "quaternius-ubc/Superhero_Female_FullBody.gltf"}) {
+    ASSERT_EQ(Read(people / file), "");
+    EXPECT_FALSE(headless()) << file;
+  }
+}
+
 TEST_F(AvatarFile, ReadsRealPeople) {
   if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
   const fs::path people = SharedData() / "avatars";
