@@ -161,7 +161,6 @@ void SetLoose(const std::vector<Segment>& lines, const Rings& solid, Shape* shap
   if (loose.empty()) return;
   const std::vector<Segment> apart = Outside(loose, Offset(solid, kMinLoosePiece_m));  // not covered with what is solid
   shape->loose = WithoutCrumbs(loose);
-  shape->loose.insert(shape->loose.end(), apart.begin(), apart.end());
   for (const Segment& s : apart) shape->open_m += Length(s);
 }
 
