@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/base/file.h"
+#include "runtime/base/memory.h"
 #include "runtime/base/text.h"
 #include "runtime/desktop/options.h"
 #include "runtime/desktop/run.h"
@@ -75,6 +76,7 @@ Error Run(PlayerOptions options, char** argv, int* status) {
 }  // namespace flaneur
 
 int main(int argc, char** argv) {
+  flaneur::KeepNoLargeStock();
   flaneur::PlayerOptions options;
   if (const int status = flaneur::ParsePlayerOptions(argc, argv, &options); status >= 0) return status;
   int status = 0;

@@ -14,6 +14,7 @@
 #endif
 
 #include "runtime/base/clock.h"
+#include "runtime/base/memory.h"
 #include "runtime/render/surface_plan.h"
 #include "runtime/render/town_geometry.h"
 #include "runtime/show/guide_figure.h"
@@ -40,6 +41,7 @@ void KeepForPictures() {
 #ifdef __GLIBC__
   mallopt(M_TRIM_THRESHOLD, 8 * 1024 * 1024);
 #endif
+  KeepNoLargeStock();
 }
 
 constexpr size_t kMaxReadyAssets =
