@@ -62,7 +62,9 @@ Error CheckExtensions(const Model& model) {
   for (const std::string& name : model.extensionsRequired) {
     if (kKnownExtensions.count(name) > 0) continue;
     if (name == "KHR_texture_basisu") {
-      return Fail("its pictures are KTX2 alone (KHR_texture_basisu), which is not read; save them as PNG or JPEG");
+      return Fail(
+          "its pictures are KTX2 alone (KHR_texture_basisu), which is not read; make them PNG: gltf-transform "
+          "ktxdecompress IN.glb OUT.glb");
     }
     return Fail("needs the extension " + OneLine(name) + ", which is not supported; export the file without it");
   }
