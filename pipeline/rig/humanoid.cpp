@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pipeline/core/rotation.h"
 #include "pipeline/rig/humanoid_shape.h"
@@ -198,6 +199,29 @@ bool IsQuadruped(const Humanoid& h, const std::vector<Vec3>& positions) {
   return square && AngleBetween(knees - hips, elbows - shoulders) < 0.9f && width < 1.2f * Length(trunk);
 }
 
+// Of both feet, away from their joints; square to `trunk`.
+Vec3 ToesOf(const Humanoid& h, const std::vector<Vec3>& positions, Vec3 trunk) {
+  Vec3 toes;
+  for (const HumanoidLeg& leg : h.legs) {
+    if (leg.foot >= 0 && leg.toes >= 0) toes = toes + At(positions, leg.toes) - At(positions, leg.foot);
+  }
+  return toes - trunk * Dot(toes, trunk);
+}
+
+// Whose toes point behind has its sides the wrong way round: a mirrored figure, or names that were mixed up.
+void SetSides(const std::vector<Vec3>& positions, Humanoid* h) {
+  Vec3 up, forward;
+  if (!h->sides_known || !FindStance(*h, positions, &up, &forward)) return;
+  const float ahead = Dot(ToesOf(*h, positions, up), forward);
+  float feet = 0;
+  for (const HumanoidLeg& leg : h->legs) {
+    if (leg.foot >= 0 && leg.toes >= 0) feet += Length(At(positions, leg.toes) - At(positions, leg.foot));
+  }
+  if (ahead >= -0.5f * feet || !(feet > 0)) return;
+  std::swap(h->legs[kLeft], h->legs[kRight]);
+  std::swap(h->arms[kLeft], h->arms[kRight]);
+}
+
 }  // namespace
 
 bool FindHumanoid(const Joints& joints, const std::vector<Vec3>& positions, const std::vector<NamedBone>& told,
@@ -210,9 +234,11 @@ bool FindHumanoid(const Joints& joints, const std::vector<Vec3>& positions, cons
     shaped.by_shape = true;
     std::string nothing;
     if (!IsComplete(joints, &shaped, &nothing)) return false;
+    if (shaped.quadruped && !IsQuadruped(shaped, positions)) return false;
     *humanoid = std::move(shaped);
   }
   humanoid->quadruped = IsQuadruped(*humanoid, positions);
+  if (!humanoid->quadruped) SetSides(positions, humanoid);
   return true;
 }
 
@@ -234,11 +260,7 @@ bool FindStance(const Humanoid& h, const std::vector<Vec3>& positions, Vec3* up,
   if (!(Length(trunk) > 0.5f) || !(Length(left) > 0.5f)) return false;
   *up = trunk;
   *forward = Cross(left, trunk);
-  Vec3 toes;
-  for (const HumanoidLeg& leg : h.legs) {
-    if (leg.foot >= 0 && leg.toes >= 0) toes = toes + at(leg.toes) - at(leg.foot);
-  }
-  toes = toes - trunk * Dot(toes, trunk);
+  const Vec3 toes = ToesOf(h, positions, trunk);
   if (!h.sides_known && Dot(Normalized(toes), *forward) < -0.5f) *forward = *forward * -1;
   return true;
 }

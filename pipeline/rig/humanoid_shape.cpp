@@ -146,6 +146,15 @@ bool FindHumanoidByShape(const std::vector<Joint>& joints, const std::vector<Vec
       if (legs == nullptr || lower.length + upper.length > legs->length + arms->length) legs = &lower, arms = &upper;
     }
   }
+  if (legs == nullptr) {  // four legs on a trunk whose root is in its middle
+    h->quadruped = true;
+    for (const Pair& hind : pairs) {
+      for (const Pair& fore : pairs) {
+        if (IsBelow(tree, fore.at, hind.at) || IsBelow(tree, hind.at, fore.at)) continue;
+        if (legs == nullptr || hind.length + fore.length > legs->length + arms->length) legs = &hind, arms = &fore;
+      }
+    }
+  }
   if (legs == nullptr) return false;
   SetLimbs(tree, *legs, *arms, h);
   const Vec3 hips = At(positions, legs->at),
