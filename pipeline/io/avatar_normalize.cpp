@@ -6,6 +6,7 @@
 
 #include "pipeline/io/avatar_stance.h"
 #include "pipeline/rig/clip_loop.h"
+#include "pipeline/rig/steps.h"
 #include "runtime/base/array.h"
 
 namespace flaneur {
@@ -16,7 +17,7 @@ constexpr float kMinHeight_m = 0.5f, kMaxHeight_m = 2.3f;  // kept as they are i
 constexpr float kFlat = 0.4f;                              // of its width: a lower figure hardly stands
 constexpr float kHangs = 0.02f;                            // of the height: what hangs lower than the soles by more
 constexpr float kDefaultSpeed_mps = 1.3f;                  // of an adult, where nothing tells
-constexpr float kMinSpeed_mps = 0.2f;                      // slower is not a walk
+constexpr float kMinSpeed_mps = 0.2f;                      // slower is not a walk, of an adult
 constexpr float kSole = 0.015f;                            // of the height: how near the ground a standing sole is
 constexpr size_t kMaxBodyVertices = 16000;                 // at a millimetre or two from one another's height
 
@@ -76,6 +77,16 @@ float LowestOf(const std::vector<Vec3>& points) {
   return lowest;
 }
 
+// Of the feet over the walk: by how much the lowest of them dips into the ground that the others stand on.
+float DipOf(const Avatar& avatar, const std::vector<NamedBone>& told, const std::vector<std::vector<Vec3>>& feet) {
+  Rig rig;
+  std::string why;
+  if (!MakeRig(avatar, told, &rig, &why) || !BendsKnees(rig)) return 0;
+  std::vector<float> lowest;
+  for (const auto& positions : feet) lowest.push_back(LowestOf(positions));
+  return std::max(0.0f, GroundUnder(lowest, rig.leg_m, true) - *std::min_element(lowest.begin(), lowest.end()));
+}
+
 float Lowest(const std::vector<std::vector<Vec3>>& keys) {
   float lowest = 1e30f;
   for (const auto& positions : keys) lowest = std::min(lowest, LowestOf(positions));
@@ -118,27 +129,32 @@ Mesh Only(const std::vector<bool>& marked, const Mesh& mesh) {
 
 // Feet on the ground, trunk over the origin. Idle and talk keep their place beside the walk unless they stray; what is
 // done besides is moved as the walk is: who sits has the trunk behind the feet, and a child's feet over the ground.
-// Feet are the lowest there is, unless something hangs below them in the walk: then they alone count.
+// Feet are the lowest there is, unless something hangs below them in the walk: then they alone count. Toes and heels
+// that dip deep into what the feet stand on in a stylized walk lift nobody off it.
 void PlaceClips(const Mesh& whole, const std::vector<NamedBone>& told, Avatar* avatar,
                 std::vector<std::string>* warnings) {
   const Clip& walk_clip = *FindClip(*avatar, "walk");
   const auto walk = BodyOverClip(*avatar, walk_clip, whole);
   float walk_ground = Lowest(walk);
   const Mesh feet = Only(OnFeet(*avatar, told, whole), whole);
-  const float soles = feet.positions.empty() ? walk_ground : Lowest(BodyOverClip(*avatar, walk_clip, feet));
+  const auto steps = BodyOverClip(*avatar, walk_clip, feet);
+  const float soles = feet.positions.empty() ? walk_ground : Lowest(steps);
+  const float dip = feet.positions.empty() ? 0 : DipOf(*avatar, told, steps);
   const bool hangs = soles - walk_ground > kHangs * avatar->height_m;
   if (hangs) {
     warnings->push_back("something hangs " + Metres(soles - walk_ground) +
                         " m below the soles; the soles stand on the ground: hide it, or see flaneur avatar --list");
     walk_ground = soles;
   }
+  walk_ground += dip;
   for (Clip& clip : avatar->clips) {
     if (clip.name != "walk" && clip.name != "idle" && clip.name != "talk") {
       ShiftClip(avatar->joints, &clip, {0, -walk_ground, 0});
       continue;
     }
     const auto keys = BodyOverClip(*avatar, clip, whole);
-    const float ground = hangs ? Lowest(BodyOverClip(*avatar, clip, feet)) : Lowest(keys);
+    const float lowest = hangs ? Lowest(BodyOverClip(*avatar, clip, feet)) : Lowest(keys);
+    const float ground = lowest + (clip.name == "walk" ? dip : 0);
     Vec3 center = MedianOf(Trunk(keys, ground, avatar->height_m));
     const bool strays = Length(center) > 0.1f * avatar->height_m;
     if (clip.name != "walk" && !strays) center = {};
@@ -218,7 +234,7 @@ void TurnToFace(Vec3 walk_mps, Avatar* avatar, Mesh* body, std::vector<std::stri
 // The first that is known: told by the source, the root's travel, the soles.
 void SetWalkSpeed(float told_mps, Vec3 walk_mps, Avatar* avatar, std::vector<std::string>* warnings) {
   avatar->walk_speed_mps = told_mps > 0 ? told_mps : Length(walk_mps);
-  if (avatar->walk_speed_mps > kMinSpeed_mps) return;
+  if (avatar->walk_speed_mps > kMinSpeed_mps * std::min(1.0f, avatar->height_m / kDefaultHeight_m)) return;
   avatar->walk_speed_mps = kDefaultSpeed_mps * std::sqrt(avatar->height_m / kDefaultHeight_m);
   warnings->push_back("the walk's speed cannot be told from its soles; " + Metres(avatar->walk_speed_mps) +
                       " m/s is taken");

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <utility>
 
@@ -89,6 +90,8 @@ class AvatarReader {
   Mesh* MergedMesh(int material, std::vector<Mesh>* meshes) const;
   void WarnOfFullHands() const;
   Error AddClips();
+  float ToldSpeed() const;
+  void PlantWalk(const Rig& rig, Retargeted* walk);
   Error FitClip(const ChosenClip& chosen, const Rig* rig, const std::string& why);
   void Glide();
   std::vector<NamedBone> Told() const;
@@ -106,7 +109,7 @@ class AvatarReader {
   std::vector<int> joint_nodes_;  // node of each of the avatar's joints
   std::vector<int> joint_of_;     // joint of each node, -1: none
   std::vector<Mat4> rest_;        // world matrices of the file's own pose
-  std::vector<Mat4> to_metres_;   // a joint: removes the scale that its node has at rest
+  std::vector<Mat4> to_metres_;   // a joint: removes the scale that its node has at rest, and mirroring
   float walk_speed_ = 0;          // of a walk made to fit, in units of the file
   Mesh body_;                     // skinned parts: what stands on the ground
   int unnormalized_ = 0;
@@ -255,11 +258,11 @@ void AvatarReader::FindBindPose() {
   const Mat4 to_bind = Inverse(from_bind);
   for (size_t j = 0; j < binds.size(); ++j) {
     const Mat4& rest = At(rest_, joint_nodes_[j]);
-    const float volume = std::abs(Determinant(rest));
-    const float scale = volume > 0 ? std::cbrt(volume) : 1.0f;
-    to_metres_.push_back(UniformScale(1 / scale));  // as Unscaled
+    const float volume = Determinant(rest), scale = volume != 0 ? std::cbrt(std::abs(volume)) : 1.0f;
+    to_metres_.push_back(Unscaled(rest));
     const Mat4 inverse = binds[j] != nullptr ? *binds[j] * to_bind : Inverse(rest);
-    avatar_->joints[j].inverse_bind = UniformScale(scale) * inverse;
+    const Mat4 from_metres = FromTranslationRotationScale({}, {}, {volume < 0 ? -scale : scale, scale, scale});
+    avatar_->joints[j].inverse_bind = from_metres * inverse;
     const int parent = avatar_->joints[j].parent;
     const Mat4 own = rest * to_metres_[j];
     const size_t p = static_cast<size_t>(std::max(parent, 0));
@@ -451,6 +454,23 @@ std::vector<NamedBone> AvatarReader::Told() const {
   return told;
 }
 
+// Stylized walks drag their feet through the ground: as they are where the skeletons are one, but for that.
+void AvatarReader::PlantWalk(const Rig& rig, Retargeted* walk) {
+  if (!PlantFeet(rig, walk)) return;
+  walk_speed_ = walk->walk_speed_mps;
+  char share[16];
+  std::snprintf(share, sizeof share, "%.0f", static_cast<double>(100 * walk->source_slide));
+  notes_->push_back("the walk's feet slide over the ground by " + std::string(share) +
+                    " % of its speed; they are set anew");
+}
+
+// Of the file's own walk, by itself; 0: it does not say.
+float AvatarReader::ToldSpeed() const {
+  float speed = 0;
+  for (const DocumentNode& node : document_.nodes) speed = std::max(speed, node.tags.walk_speed_mps);
+  return speed;
+}
+
 // A clip of another file: as it is where the skeletons are one, else retargeted, else by the joints' names.
 Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std::string& why) {
   const MotionFile& motion = At(clips_.files, chosen.file);
@@ -469,8 +489,9 @@ Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std:
   Retargeted made;
   if (SameSkeleton(joints, avatar_->joints, &scale)) {
     CopyClip(joints, clip, avatar_->joints, &made.clip);
+    if (chosen.name == "walk" && rig != nullptr) PlantWalk(*rig, &made);
   } else if (rig != nullptr && MakeRig(motion.skeleton, motion.told, &source, &source_why)) {
-    made = Retarget(source, clip, *rig);
+    made = chosen.name == "walk" ? ClearLegs(*avatar_, source, clip, *rig) : Retarget(source, clip, *rig);
     if (chosen.name == "walk") walk_speed_ = made.walk_speed_mps;
     if (chosen.name == "walk" || chosen.name == "idle" || chosen.name == "talk") ClearHands(*avatar_, *rig, &made.clip);
   } else {
@@ -500,7 +521,7 @@ void AvatarReader::Glide() {
 Error AvatarReader::AddClips() {
   Rig rig;
   std::string why;
-  const bool human = clips_.files.empty() || MakeRig(*avatar_, Told(), &rig, &why);
+  const bool human = MakeRig(*avatar_, Told(), &rig, &why);
   for (const ChosenClip& chosen : clips_.clips) {
     if (chosen.file < 0) {
       Clip clip;
@@ -508,7 +529,9 @@ Error AvatarReader::AddClips() {
               SampleClip(document_, document_.clips[chosen.index], avatar_->joints, joint_nodes_, to_metres_, &clip))
         return e;
       clip.name = chosen.name;
-      avatar_->clips.push_back(std::move(clip));
+      Retargeted own{std::move(clip)};
+      if (human && chosen.name == "walk" && ToldSpeed() <= 0) PlantWalk(rig, &own);
+      avatar_->clips.push_back(std::move(own.clip));
       continue;
     }
     const bool shipped = clips_.shipped == chosen.file;
@@ -595,9 +618,9 @@ Error AvatarReader::Read() {
   normalize.up = options_.up;
   normalize.forward = options_.forward;
   normalize.told = Told();
-  for (const DocumentNode& node : document_.nodes) {
-    normalize.walk_speed_mps = std::max(normalize.walk_speed_mps, node.tags.walk_speed_mps);
-  }
+  const bool own_walk = std::none_of(clips_.clips.begin(), clips_.clips.end(),
+                                     [](const ChosenClip& clip) { return clip.name == "walk" && clip.file >= 0; });
+  if (own_walk) normalize.walk_speed_mps = ToldSpeed();
   if (walk_speed_ > 0) normalize.walk_speed_mps = walk_speed_;
   return NormalizeAvatar(normalize, body_, avatar_, notes_);
 }

@@ -25,18 +25,32 @@ float Determinant(const Mat4& m) {
   return Dot(Cross(x, y), z);
 }
 
-// All nodes that may be bones: those of the scene that show nothing themselves, and what a clip moves.
+// All nodes that may be bones: what a clip moves, joints of skins and what they hang on; without skins all nodes that
+// show nothing themselves. Objects that hold a mesh are often called after the limb that they show.
+std::vector<bool> Bones(const GltfDocument& document) {
+  const bool skinned = !document.skins.empty();
+  std::vector<bool> bones(document.nodes.size(), false);
+  for (const DocumentClip& clip : document.clips) {
+    for (const DocumentChannel& channel : clip.channels) At(bones, channel.node) = true;
+  }
+  for (const DocumentSkin& skin : document.skins) {
+    for (const int joint : skin.joints) At(bones, joint) = true;
+  }
+  for (size_t i = 0; i < bones.size(); ++i) {
+    bones[i] = bones[i] || (!skinned && document.nodes[i].mesh < 0);
+    for (int a = document.nodes[i].parent; bones[i] && a >= 0; a = At(document.nodes, a).parent) At(bones, a) = true;
+  }
+  return bones;
+}
+
 void TakeSkeleton(MotionFile* motion) {
   const GltfDocument& document = motion->document;
-  std::vector<bool> moves(document.nodes.size(), false);
-  for (const DocumentClip& clip : document.clips) {
-    for (const DocumentChannel& channel : clip.channels) At(moves, channel.node) = true;
-  }
+  const std::vector<bool> bones = Bones(document);
   const std::vector<Mat4> rest = WorldMatrices(document);
   std::vector<int> joint_of(document.nodes.size(), -1);
   for (const int node : document.order) {
     const DocumentNode& own = At(document.nodes, node);
-    if (!own.in_scene || (own.mesh >= 0 && !At(moves, node))) continue;
+    if (!own.in_scene || !At(bones, node)) continue;
     Joint joint;
     joint.name = own.name;
     for (int a = own.parent; a >= 0 && joint.parent < 0; a = At(document.nodes, a).parent)
@@ -77,9 +91,9 @@ Error Open(const fs::path& path, MotionFile* motion) {
 }  // namespace
 
 Mat4 Unscaled(const Mat4& rest) {
-  const float volume = std::abs(Determinant(rest));
-  const float scale = volume > 0 ? 1 / std::cbrt(volume) : 1.0f;
-  return FromTranslationRotationScale({}, {}, {scale, scale, scale});
+  const float volume = Determinant(rest);
+  const float scale = volume != 0 ? 1 / std::cbrt(std::abs(volume)) : 1.0f;
+  return FromTranslationRotationScale({}, {}, {volume < 0 ? -scale : scale, scale, scale});
 }
 
 Error SampleClip(const GltfDocument& document, const DocumentClip& source, const std::vector<Joint>& joints,

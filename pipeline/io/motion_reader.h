@@ -20,7 +20,7 @@ struct MotionFile {
   std::vector<std::string> clip_names;  // where the file holds one clip alone, the file's name stands before its own
   GltfDocument document;
   std::vector<int> joint_nodes;
-  std::vector<Mat4> unscale;  // a joint: removes the scale that its node has at rest
+  std::vector<Mat4> unscale;  // a joint: removes the scale that its node has at rest, and mirroring
 };
 
 // Opens glTF (VRM and VRMA too), BVH, and by Blender .fbx, .blend and .dae; meshes don't matter. Errors: as for
@@ -42,7 +42,7 @@ std::filesystem::path ShippedClips();
 Error SampleClip(const GltfDocument& document, const DocumentClip& source, const std::vector<Joint>& joints,
                  const std::vector<int>& joint_nodes, const std::vector<Mat4>& unscale, Clip* clip);
 
-// Takes the scale off each node's rest matrix.
+// Takes the scale off a node's rest matrix, and the mirroring of one that mirrors.
 Mat4 Unscaled(const Mat4& rest);
 
 }  // namespace flaneur

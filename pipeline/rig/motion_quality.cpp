@@ -5,16 +5,21 @@
 #include <cmath>
 
 #include "pipeline/core/rotation.h"
+#include "pipeline/rig/steps.h"
 #include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
 
-constexpr size_t kTrunkPoints = 900, kArmPoints = 140;  // that depths are looked for with
-constexpr float kFarthest = 0.12f;  // of the leg's length: deeper than that is another side of the body
-constexpr float kClear = 0.006f;    // of the leg's length: a hand may be so deep
+constexpr size_t kTrunkPoints = 900, kArmPoints = 140, kFootPoints = 20000;  // that are looked at
+constexpr float kSoleBand = 0.024f;  // of the leg's length, about 2 cm: how near the ground a sole is on it
+constexpr float kFarthest = 0.12f;   // of the leg's length: deeper than that is another side of the body
+constexpr float kClear = 0.006f;     // of the leg's length: a hand may be so deep
 constexpr float kMostOpen_deg = 45, kOpenStep_deg = 3;
-constexpr int kKeys = 8;
+constexpr float kWidest = 0.08f, kWiderStep = 0.01f;  // of the leg's length: how much farther out each foot may be set
+constexpr int kKeys = 8, kLegKeys = 24;               // moments of a clip that are looked at
+// What human joints bend to, least and most; mocap's own errors keep within.
+constexpr float kKnee_deg[] = {-5, 160}, kElbow_deg[] = {-15, 160}, kAnkle_deg[] = {-50, 75};  // ankle: toes down
 
 float Median(std::vector<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -47,6 +52,26 @@ std::vector<bool> ArmJoints(const Rig& rig, size_t side) {
     At(arm, j) = IsBelow(rig.joints, j, from) || (h.hand >= 0 && IsBelow(rig.joints, j, h.hand));
   }
   return arm;
+}
+
+// From the knee.
+std::vector<bool> LegJoints(const Rig& rig, size_t side) {
+  std::vector<bool> leg(rig.joints.size(), false);
+  const RigLeg& h = rig.legs[side];
+  const int from = h.lower >= 0 ? h.lower : h.upper;
+  for (int j = 0; j < Count(rig.joints); ++j) {
+    At(leg, j) = IsBelow(rig.joints, j, from) || (h.foot >= 0 && IsBelow(rig.joints, j, h.foot));
+  }
+  return leg;
+}
+
+// What is below the ankles.
+std::vector<bool> FootJoints(const Rig& rig) {
+  std::vector<bool> feet(rig.joints.size(), false);
+  for (int j = 0; j < Count(rig.joints); ++j) {
+    for (const RigLeg& leg : rig.legs) At(feet, j) = At(feet, j) || IsBelow(rig.joints, j, leg.ankle.joint);
+  }
+  return feet;
 }
 
 // Vertices that hang mostly on these joints, thinned to `most`.
@@ -85,6 +110,12 @@ float DepthOf(Vec3 point, const Mesh& trunk, float farthest) {
     depth = -Dot(off, trunk.normals[v]);
   }
   return nearest < farthest * farthest ? std::max(depth, 0.0f) : 0;
+}
+
+float DeepestIn(const Mesh& body, const std::vector<Vec3>& points, float farthest) {
+  float deepest = 0;
+  for (const Vec3 p : points) deepest = std::max(deepest, DepthOf(p, body, farthest));
+  return deepest;
 }
 
 struct ArmOverClip {
@@ -137,26 +168,65 @@ void OpenArm(const Rig& rig, int upper, Quat turn, Clip* clip) {
   }
 }
 
+// How far a bend in radians is outside what a human's does.
+float Past(float bend, float least_deg, float most_deg) {
+  return std::max({0.0f, least_deg * kPi / 180 - bend, bend - most_deg * kPi / 180});
+}
+
+// Of the middle of three joints; negative where the last bone goes elsewhere than `towards`.
+float BendOf(Vec3 first, Vec3 middle, Vec3 last, Vec3 towards) {
+  const Vec3 upper = middle - first, lower = last - middle;
+  const float bend = AngleBetween(upper, lower);
+  return Dot(Cross(upper, lower), Cross(upper, towards)) < 0 ? -bend : bend;
+}
+
+Quat FrameOf(const Rig& rig, const Pose& pose, int joint, Quat reference_frame) {
+  return Product(Product(At(pose.rotations, joint), Conjugate(At(rig.reference.rotations, joint))), reference_frame);
+}
+
+float LegPastLimits(const Rig& rig, const Pose& pose, size_t side) {
+  const RigLeg& leg = rig.legs[side];
+  if (leg.lower < 0) return 0;
+  const Vec3 back = Rotated(FrameOf(rig, pose, leg.upper, rig.leg_upper[side]), {0, 0, -1});
+  const float knee =
+      BendOf(At(pose.positions, leg.upper), At(pose.positions, leg.lower), PlaceOf(leg.ankle, pose), back);
+  float past = Past(knee, kKnee_deg[0], kKnee_deg[1]);
+  if (leg.foot < 0) return past;
+  const Quat shin = FrameOf(rig, pose, leg.lower, rig.leg_lower[side]);
+  const Vec3 ahead = Rotated(Product(Conjugate(shin), FrameOf(rig, pose, leg.foot, {})), {0, 0, 1});
+  return std::max(past, Past(std::asin(std::clamp(-ahead.y, -1.0f, 1.0f)), kAnkle_deg[0], kAnkle_deg[1]));
+}
+
+float ArmPastLimits(const Rig& rig, const Pose& pose, size_t side) {
+  const HumanoidArm& arm = rig.humanoid.arms[side];
+  if (arm.upper < 0 || arm.lower < 0 || arm.hand < 0) return 0;
+  const Vec3 front = Rotated(FrameOf(rig, pose, arm.upper, rig.arms[side].upper), {0, 0, 1});
+  const float elbow =
+      BendOf(At(pose.positions, arm.upper), At(pose.positions, arm.lower), At(pose.positions, arm.hand), front);
+  return Past(elbow, kElbow_deg[0], kElbow_deg[1]);
+}
+
 }  // namespace
 
-float FootSlide(const Avatar& person, const Clip& walk, float speed_mps, float band) {
+float FootSlide(const Avatar& person, const Clip& walk, float speed_mps) {
+  Rig rig;
+  std::string why;
+  const bool human = MakeRig(person, {}, &rig, &why);
   if (!(speed_mps > 0) || walk.keys < 3) return 0;
   const float step_s = walk.duration_s / static_cast<float>(walk.keys - 1);
+  const float band = kSoleBand * (human ? rig.leg_m : 0.5f * person.height_m);
+  const Mesh feet =
+      PointsOn(person, human ? FootJoints(rig) : std::vector<bool>(person.joints.size(), true), kFootPoints);
   std::vector<std::vector<Vec3>> keys;
   for (int k = 0; k + 1 < walk.keys; ++k) {
-    const std::vector<Mat4> pose = SkinningMatrices(person, walk, step_s * static_cast<float>(k));
-    std::vector<Vec3>& points = keys.emplace_back();
-    for (const Mesh& mesh : person.meshes) {
-      const std::vector<Vec3> posed = SkinnedPositions(mesh, pose);
-      points.insert(points.end(), posed.begin(), posed.end());
-    }
+    keys.push_back(SkinnedPositions(feet, SkinningMatrices(person, walk, step_s * static_cast<float>(k))));
   }
   float sum = 0, count = 0;
   for (size_t k = 0; k < keys.size(); ++k) {
     const std::vector<Vec3>& next = keys[(k + 1) % keys.size()];
     std::vector<float> slides;
     for (size_t v = 0; v < next.size(); ++v) {
-      if (std::max(keys[k][v].y, next[v].y) > band * person.height_m) continue;
+      if (std::max(keys[k][v].y, next[v].y) > band) continue;
       Vec3 velocity = (next[v] - keys[k][v]) * (1 / step_s);
       velocity.y = 0;
       velocity.z += speed_mps;
@@ -167,39 +237,30 @@ float FootSlide(const Avatar& person, const Clip& walk, float speed_mps, float b
   return count > 0 ? sum / count : 0;
 }
 
-float HipsHeight(const Rig& rig, const Clip& clip) {
+float HipsHeight(const Rig& rig, const Clip& walk) {
   const size_t joints = rig.joints.size();
-  float sum = 0, lowest = 1e30f;
-  for (int k = 0; k < clip.keys; ++k) {
-    Pose pose = PoseOf(rig.joints, clip.transforms.data() + static_cast<size_t>(k) * joints);
+  float sum = 0;
+  std::vector<float> lowest;
+  for (int k = 0; k < walk.keys; ++k) {
+    Pose pose = PoseOf(rig.joints, walk.transforms.data() + static_cast<size_t>(k) * joints);
     TurnPose(rig.turn, &pose);
+    lowest.push_back(1e30f);
     for (const RigLeg& leg : rig.legs) {
-      sum += 0.5f * At(pose.positions, leg.upper).y / static_cast<float>(clip.keys);
-      for (const JointPoint& point : leg.sole) lowest = std::min(lowest, PlaceOf(point, pose).y);
+      sum += 0.5f * At(pose.positions, leg.upper).y / static_cast<float>(walk.keys);
+      for (const SolePoint& point : leg.sole) lowest.back() = std::min(lowest.back(), PlaceOf(point, pose).y);
     }
   }
   const float ankle = 0.5f * (rig.legs[kLeft].ankle_height_m + rig.legs[kRight].ankle_height_m);
-  return (sum - lowest - ankle) / rig.leg_m;
+  return (sum - GroundUnder(lowest, rig.leg_m, BendsKnees(rig)) - ankle) / rig.leg_m;
 }
 
-float WrongBend(const Rig& rig, const Clip& clip) {
-  const size_t joints = rig.joints.size();
+float PastLimits(const Rig& rig, const Clip& clip) {
   float worst = 0;
   for (int k = 0; k < clip.keys; ++k) {
-    Pose pose = PoseOf(rig.joints, clip.transforms.data() + static_cast<size_t>(k) * joints);
+    Pose pose = PoseOf(rig.joints, clip.transforms.data() + static_cast<size_t>(k) * rig.joints.size());
     TurnPose(rig.turn, &pose);
     for (const size_t side : {kLeft, kRight}) {
-      const RigLeg& leg = rig.legs[side];
-      if (leg.lower < 0) continue;
-      const Vec3 hip = At(pose.positions, leg.upper), knee = At(pose.positions, leg.lower),
-                 ankle = PlaceOf(leg.ankle, pose);
-      const Quat turned = Product(At(pose.rotations, leg.upper), Conjugate(At(rig.reference.rotations, leg.upper)));
-      const Vec3 front = Rotated(Product(turned, rig.leg_upper[side]), {0, 0, 1});
-      // A knee behind the line from hip to ankle bends backwards.
-      const Vec3 line = Normalized(ankle - hip);
-      const Vec3 off = (knee - hip) - line * Dot(knee - hip, line);
-      const float bend = AngleBetween(knee - hip, ankle - knee);
-      if (Dot(off, front) < 0) worst = std::max(worst, bend);
+      worst = std::max({worst, LegPastLimits(rig, pose, side), ArmPastLimits(rig, pose, side)});
     }
   }
   return worst;
@@ -208,6 +269,32 @@ float WrongBend(const Rig& rig, const Clip& clip) {
 float HandDepth(const Avatar& person, const Rig& rig, const Clip& clip, size_t side, int keys) {
   if (rig.humanoid.arms[side].upper < 0) return 0;
   return Deepest(Sampled(person, rig, clip, side, keys), {0, 0, 1}, 0, kFarthest * rig.leg_m, 1e30f);
+}
+
+float LegDepth(const Avatar& person, const Rig& rig, const Clip& clip, int keys) {
+  const Mesh left = PointsOn(person, LegJoints(rig, kLeft), kTrunkPoints);
+  const Mesh right = PointsOn(person, LegJoints(rig, kRight), kTrunkPoints);
+  float deepest = 0;
+  for (int k = 0; k < keys; ++k) {
+    const float time_s = clip.duration_s * static_cast<float>(k) / static_cast<float>(keys);
+    const std::vector<Mat4> pose = SkinningMatrices(person, clip, time_s);
+    deepest = std::max(deepest, DeepestIn(Skinned(left, pose), SkinnedPositions(right, pose), kFarthest * rig.leg_m));
+  }
+  return deepest;
+}
+
+Retargeted ClearLegs(const Avatar& person, const Rig& source, const Clip& walk, const Rig& rig) {
+  const float farthest = kFarthest * rig.leg_m;
+  const float enough =
+      kClear * rig.leg_m + DeepestIn(PointsOn(person, LegJoints(rig, kLeft), kTrunkPoints),
+                                     PointsOn(person, LegJoints(rig, kRight), kTrunkPoints).positions, farthest);
+  RetargetOptions options{.walks = true};
+  Retargeted made = Retarget(source, walk, rig, options);
+  while (options.wider < kWidest && LegDepth(person, rig, made.clip, kLegKeys) > enough) {
+    options.wider += kWiderStep;
+    made = Retarget(source, walk, rig, options);
+  }
+  return made;
 }
 
 float ClearHands(const Avatar& person, const Rig& rig, Clip* clip) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "pipeline/core/rotation.h"
 #include "pipeline/rig/steps.h"
@@ -11,15 +12,29 @@
 namespace flaneur {
 namespace {
 
+constexpr float kShortestStride = 0.5f, kStrideStep = 0.025f;  // of the source's, in legs
+constexpr std::ptrdiff_t kEasedShare = 10;                     // of a cycle's keys, one of so many, hips take to sink
+// Of the leg's length: how much lower hips may be for their steps' sake, and than they are whatever the steps.
+constexpr float kSunk = 0.024f, kSunkMore = 0.01f;
 constexpr float kStraightest = 0.998f;        // of a leg's length: a knee never stretches further
 constexpr float kMaxFlatten_rad = 0.6f;       // that a standing foot may be turned to lie flat
 constexpr float kCurl_rad = 0.25f;            // of each finger joint of a hand whose source has no fingers
 constexpr float kStraightFinger_rad = 0.35f;  // fingers that rest more bent than this stay as they are
+constexpr float kStiffFoot = 0.35f;           // of the turn of a leg of one bone that a foot with an ankle makes
 constexpr float kToeBend_rad = 0.75f;         // at most, where the source has no toes
 constexpr float kToeLift = 0.07f;             // of the leg's length above the ground: toes bend no more
-constexpr float kGroundShare = 0.02f;         // of the keys may have a sole below what counts as the ground
 
 Quat Between(Quat a, Quat b, float t) { return Slerp(a, b, std::clamp(t, 0.0f, 1.0f)); }
+
+float Mean(const std::vector<float>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0f) / static_cast<float>(values.size());
+}
+
+// How high a hip may be above its ankle, which is so far away on the level.
+float HighestHip(const RigLeg& leg, Vec3 off) {
+  const float reach = kStraightest * (leg.thigh_m + leg.shin_m);
+  return std::sqrt(std::max(reach * reach - off.x * off.x - off.z * off.z, 0.01f * reach * reach));
+}
 
 // The source's motion by body part, free of any skeleton; lengths in source units, upright, on the spot or travelling.
 struct Motion {
@@ -31,7 +46,7 @@ struct Motion {
 
 class Source {
  public:
-  Source(const Rig& rig, const Clip& clip) : rig_(rig) {
+  Source(const Rig& rig, const Clip& clip, bool walks) : rig_(rig), walks_(walks) {
     const size_t joints = rig.joints.size();
     motion_.step_s = clip.keys > 1 ? clip.duration_s / static_cast<float>(clip.keys - 1) : 1.0f / 30;
     for (int k = 0; k < clip.keys; ++k) {
@@ -47,6 +62,8 @@ class Source {
   const Motion& motion() const { return motion_; }
   const std::vector<bool>& stands(size_t side) const { return stands_[side]; }
   const Rig& rig() const { return rig_; }
+  float slide() const { return slide_; }
+  bool stiff() const { return walks_ && !BendsKnees(rig_); }
 
   // How far the joint has turned from its reference.
   Quat Turned(size_t key, int joint) const {
@@ -55,6 +72,22 @@ class Source {
 
   Vec3 Place(size_t key, int joint) const { return At(motion_.poses[key].positions, joint); }
   Vec3 Ankle(size_t key, size_t side) const { return PlaceOf(rig_.legs[side].ankle, motion_.poses[key]); }
+  // By how much the hips would be lower, a key, if all feet that stand stood on the ground.
+  std::vector<float> Sinks() const {
+    std::vector<float> lower(motion_.poses.size(), 0.0f);
+    for (size_t k = 0; k < lower.size(); ++k) {
+      for (const size_t side : {kLeft, kRight}) {
+        if (!stands_[side][k]) continue;
+        const RigLeg& leg = rig_.legs[side];
+        float low = 1e30f;
+        for (const SolePoint& point : leg.sole) low = std::min(low, PlaceOf(point, motion_.poses[k]).y);
+        const Vec3 off = Place(k, leg.upper) - Ankle(k, side);
+        lower[k] = std::max(lower[k], off.y + low - HighestHip(leg, off));
+      }
+    }
+    return lower;
+  }
+
   Vec3 Middle(size_t key) const {
     return (Place(key, rig_.legs[kLeft].upper) + Place(key, rig_.legs[kRight].upper)) * 0.5f;
   }
@@ -133,11 +166,11 @@ class Source {
     for (Vec3& p : pose->positions) p = p + by;
   }
 
-  std::vector<std::vector<Vec3>> Soles(size_t side) const {
-    std::vector<std::vector<Vec3>> soles;
+  Soles SolesOf(size_t side) const {
+    Soles soles;
     for (const Pose& pose : motion_.poses) {
       std::vector<Vec3>& points = soles.emplace_back();
-      for (const JointPoint& point : rig_.legs[side].sole) points.push_back(PlaceOf(point, pose));
+      for (const SolePoint& point : rig_.legs[side].sole) points.push_back(PlaceOf(point, pose));
     }
     return soles;
   }
@@ -147,31 +180,57 @@ class Source {
     for (const Pose& pose : motion_.poses) {
       float low = 1e30f;
       for (const RigLeg& leg : rig_.legs) {
-        for (const JointPoint& point : leg.sole) low = std::min(low, PlaceOf(point, pose).y);
+        for (const SolePoint& point : leg.sole) low = std::min(low, PlaceOf(point, pose).y);
       }
       lowest.push_back(low);
     }
-    const auto at = lowest.begin() + static_cast<std::ptrdiff_t>(kGroundShare * static_cast<float>(lowest.size()));
-    std::nth_element(lowest.begin(), at, lowest.end());
-    for (Pose& pose : motion_.poses) Shift({0, -*at, 0}, &pose);
+    // Legs of one bone cannot bend, so clips for them hop; walking, each pose stands.
+    const float ground = GroundUnder(lowest, rig_.leg_m, walks_);
+    for (size_t k = 0; k < lowest.size(); ++k) Shift({0, stiff() ? -lowest[k] : -ground, 0}, &motion_.poses[k]);
   }
 
   void FindSpeed() {
-    const auto left = Soles(kLeft), right = Soles(kRight);
-    if (motion_.speed == 0) motion_.speed = SpeedOfSoles(left, right, motion_.step_s, rig_.leg_m);
     motion_.loops = motion_.poses.size() > 2;
-    std::array<std::vector<std::vector<Vec3>>, 2> soles{left, right};
-    for (const size_t side : {kLeft, kRight}) {
-      if (motion_.loops) soles[side].pop_back();  // the last key is the first
-      stands_[side] = FindStance(soles[side], motion_.speed, motion_.step_s, rig_.leg_m, motion_.loops);
-    }
-    StandSomewhere(soles[kLeft], soles[kRight], rig_.leg_m, &stands_[kLeft], &stands_[kRight]);
+    if (stiff()) FindStiffSteps();
+    else FindSteps();
     for (std::vector<bool>& stands : stands_) {
-      if (motion_.loops) stands.push_back(stands.front());
+      if (motion_.loops) stands.push_back(stands.front());  // the last key is the first
     }
   }
 
+  void FindSteps() {
+    const auto left = SolesOf(kLeft), right = SolesOf(kRight);
+    if (motion_.speed == 0) motion_.speed = SpeedOfSoles(left, right, motion_.step_s, rig_.leg_m);
+    std::array<Soles, 2> soles{left, right};
+    for (const size_t side : {kLeft, kRight}) {
+      if (motion_.loops) soles[side].pop_back();
+      stands_[side] = FindStance(soles[side], motion_.speed, motion_.step_s, rig_.leg_m, motion_.loops);
+    }
+    slide_ = SlideOfSoles(left, right, motion_.step_s, rig_.leg_m, motion_.speed);
+    StandSomewhere(soles[kLeft], soles[kRight], rig_.leg_m, walks_ && motion_.speed != 0, &stands_[kLeft],
+                   &stands_[kRight]);
+  }
+
+  // Both legs of one bone pass the ground at one height: that which goes back stands.
+  void FindStiffSteps() {
+    float way = 0, keys = 0;
+    for (size_t k = 0; k + 1 < motion_.poses.size(); ++k) {
+      for (const size_t side : {kLeft, kRight}) {
+        const float back = Ankle(k, side).z - Ankle(k + 1, side).z;
+        const float other = Ankle(k, 1 - side).z - Ankle(k + 1, 1 - side).z;
+        stands_[side].push_back(back >= other);
+        if (back >= other) way += back, keys += 1;
+      }
+    }
+    if (motion_.speed == 0 && keys > 0) motion_.speed = way / (keys * motion_.step_s);
+    if (!motion_.loops) stands_[kLeft].push_back(true), stands_[kRight].push_back(true);
+    const Soles level(stands_[kLeft].size(), {Vec3{}});
+    StandSomewhere(level, level, rig_.leg_m, true, &stands_[kLeft], &stands_[kRight]);
+  }
+
   const Rig& rig_;
+  bool walks_;
+  float slide_ = 0;
   Motion motion_;
   std::array<std::vector<bool>, 2> stands_;
 };
@@ -185,12 +244,13 @@ struct Wanted {
 
 class Retargeter {
  public:
-  Retargeter(const Rig& source, const Clip& clip, const Rig& target)
-      : source_(source, clip),
+  Retargeter(const Rig& source, const Clip& clip, const Rig& target, const RetargetOptions& options)
+      : source_(source, clip, options.walks),
         s_(source),
         t_(target),
         keys_(source_.motion().poses.size()),
-        scale_(target.leg_m / source.leg_m) {}
+        scale_(target.leg_m / source.leg_m),
+        wider_(options.wider * target.leg_m) {}
 
   Retargeted Make(const Clip& clip) {
     wanted_.resize(keys_);
@@ -201,15 +261,18 @@ class Retargeter {
         TurnLeg(k, side);
         TurnArm(k, side);
       }
-      const Vec3 rest = ReferenceMiddle(t_), from = ReferenceMiddle(s_), now = source_.Middle(k);
+      const Vec3 rest = ReferenceMiddle(t_), from = ReferenceMiddle(s_);
+      Vec3 now = source_.Middle(k);
+      if (source_.stiff()) now.y = from.y;  // who can bend knees need not bob
       wanted_[k].middle = {rest.x + scale_ * (now.x - from.x), HipHeight(now.y), rest.z + scale_ * (now.z - from.z)};
     }
-    const float step_m = scale_ * source_.motion().speed * source_.motion().step_s;
-    for (const size_t side : {kLeft, kRight}) SetFeet(side, step_m);
-    LowerHips();
+    const bool stiff = !BendsKnees(t_);
+    if (stiff) StandOnStiffLegs();
+    else SetStride();
     Retargeted out;
-    out.walk_speed_mps = scale_ * source_.motion().speed;
-    for (size_t k = 0; k < keys_; ++k) poses_.push_back(Finish(k));
+    for (size_t k = 0; k < keys_; ++k) poses_.push_back(stiff ? Posed(k) : Finish(k));
+    out.source_slide = source_.slide();
+    out.walk_speed_mps = stiff ? 0 : scale_ * stride_ * source_.motion().speed;
     out.clip = ClipOf(clip);
     return out;
   }
@@ -265,7 +328,8 @@ class Retargeter {
     const Quat lower = from.lower >= 0 ? SourceFrame(k, from.lower, s_.leg_lower[side]) : upper;
     SetLeg(k, side, upper, lower);
     if (to.foot < 0) return;
-    const Quat foot = Product(flatten_[side], source_.Turned(k, from.ankle.joint));
+    Quat foot = Product(flatten_[side], source_.Turned(k, from.ankle.joint));
+    if (source_.stiff()) foot = Between({}, foot, kStiffFoot);
     Turn(k, to.foot, foot);
     if (to.toes < 0) return;
     if (from.toes >= 0) {
@@ -280,7 +344,7 @@ class Retargeter {
   Quat ToeBend(size_t k, size_t side, Quat foot) const {
     const Vec3 ahead = Rotated(foot, {0, 0, 1});
     float low = 1e30f;
-    for (const JointPoint& point : s_.legs[side].sole) {
+    for (const SolePoint& point : s_.legs[side].sole) {
       low = std::min(low, PlaceOf(point, source_.motion().poses[k]).y);
     }
     const float near = std::clamp(1 - low / (kToeLift * s_.leg_m), 0.0f, 1.0f);
@@ -368,7 +432,7 @@ class Retargeter {
     for (size_t k = 1; k + 1 < keys_; ++k) {
       if (!stands[k] || !stands[k - 1] || !stands[k + 1]) continue;
       float low = 1e30f, high = -1e30f;
-      for (const JointPoint& point : leg.sole) {
+      for (const SolePoint& point : leg.sole) {
         const float y = PlaceOf(point, source_.motion().poses[k]).y;
         low = std::min(low, y), high = std::max(high, y);
       }
@@ -381,17 +445,40 @@ class Retargeter {
     if (AngleOf(level) < kMaxFlatten_rad) flatten_[side] = level;
   }
 
-  void SetFeet(size_t side, float step_m) {
+  // Steps as long as the source's, in legs, or as much shorter as keeps the hips up: who has larger feet rolls farther
+  // over them than these legs reach.
+  void SetStride() {
+    const auto sinks = [&](float stride) {
+      stride_ = stride;
+      for (const size_t side : {kLeft, kRight}) SetFeet(side);
+      lower_ = Eased(LoweredHips());
+      return Mean(lower_);
+    };
+    const float least = std::max(scale_ * Mean(Eased(source_.Sinks())), sinks(kShortestStride));
+    const float enough = std::max(kSunk * t_.leg_m, least + kSunkMore * t_.leg_m);
+    const float shortest = source_.motion().speed > 0 ? kShortestStride : 1.0f;
+    float stride = 1;
+    while (sinks(stride) > enough && stride > shortest) stride -= kStrideStep;
+    for (size_t k = 0; k < keys_; ++k) wanted_[k].middle.y -= lower_[k];
+    for (const size_t side : {kLeft, kRight}) {  // again, now that it is known how shins stand, which heels go with
+      for (size_t k = 0; k < keys_; ++k) MeetFoot(k, side);
+      SetFeet(side);
+    }
+  }
+
+  void SetFeet(size_t side) {
+    const float step_m = scale_ * stride_ * source_.motion().speed * source_.motion().step_s;
     const RigLeg &from = s_.legs[side], &to = t_.legs[side];
     FootTrack track;
     const Vec3 own_hip = At(t_.reference.positions, to.upper) - ReferenceMiddle(t_);
     const Vec3 their_hip = At(s_.reference.positions, from.upper) - ReferenceMiddle(s_);
     const Vec3 rest = ReferenceMiddle(t_), their_rest = ReferenceMiddle(s_);
+    const float wider = own_hip.x < 0 ? -wider_ : wider_;
     for (size_t k = 0; k < keys_; ++k) {
       const Vec3 ankle = source_.Ankle(k, side);
-      track.wanted.push_back({rest.x + own_hip.x + scale_ * (ankle.x - their_rest.x - their_hip.x),
+      track.wanted.push_back({rest.x + own_hip.x + wider + scale_ * (ankle.x - their_rest.x - their_hip.x),
                               to.ankle_height_m + scale_ * (ankle.y - from.ankle_height_m),
-                              rest.z + own_hip.z + scale_ * (ankle.z - their_rest.z - their_hip.z)});
+                              rest.z + own_hip.z + scale_ * stride_ * (ankle.z - their_rest.z - their_hip.z)});
       track.sole.push_back(SoleAgainstAnkle(k, side));
     }
     track.stands = source_.stands(side);
@@ -408,20 +495,22 @@ class Retargeter {
   std::vector<Vec3> SoleAgainstAnkle(size_t k, size_t side) const {
     const RigLeg& leg = t_.legs[side];
     const auto& turned = wanted_[k].rotations;
-    const Quat foot = turned.at(leg.ankle.joint);
-    Vec3 toes;  // of the toes' joint
-    if (leg.toes >= 0) {
-      const Vec3 out = At(t_.reference.positions, leg.toes) - At(t_.reference.positions, leg.foot);
-      toes = Rotated(Product(foot, Conjugate(ReferenceOf(leg.foot))), out);
+    Pose pose;  // of the foot alone, its ankle at the origin
+    pose.positions.resize(t_.joints.size());
+    pose.rotations.resize(t_.joints.size());
+    const auto set = [&](int joint, Vec3 place) {
+      At(pose.rotations, joint) = turned.at(joint);
+      At(pose.positions, joint) = place;
+    };
+    const int foot = leg.ankle.joint;
+    set(foot, Rotated(turned.at(foot), leg.ankle.offset) * -1);
+    if (leg.toes >= 0) set(leg.toes, Hung(leg.toes, foot, pose));
+    if (leg.foot >= 0) {
+      const Vec3 out = At(t_.reference.positions, leg.lower) - PlaceOf(leg.ankle, t_.reference);
+      set(leg.lower, Rotated(Product(turned.at(leg.lower), Conjugate(ReferenceOf(leg.lower))), out));
     }
     std::vector<Vec3> sole;
-    for (const JointPoint& point : leg.sole) {
-      if (point.joint == leg.toes && leg.toes >= 0) {
-        sole.push_back(toes + Rotated(turned.at(leg.toes), point.offset));
-      } else {
-        sole.push_back(Rotated(foot, point.offset - leg.ankle.offset));
-      }
-    }
+    for (const SolePoint& point : leg.sole) sole.push_back(PlaceOf(point, pose));
     return sole;
   }
 
@@ -431,25 +520,18 @@ class Retargeter {
     return Rotated(Product(wanted_[k].rotations.at(t_.humanoid.hips), Conjugate(ReferenceOf(t_.humanoid.hips))), out);
   }
 
-  // So that every standing foot is within reach.
-  void LowerHips() {
+  // By how much, a key, so that every standing foot is within reach.
+  std::vector<float> LoweredHips() const {
     std::vector<float> lower(keys_, 0.0f);
     for (size_t k = 0; k < keys_; ++k) {
       for (const size_t side : {kLeft, kRight}) {
+        if (!source_.stands(side)[k]) continue;
         const RigLeg& leg = t_.legs[side];
-        const Vec3 hip = wanted_[k].middle + HipOffset(k, side);
-        const Vec3 off = hip - ankles_[side][k];
-        const float reach = kStraightest * (leg.thigh_m + leg.shin_m);
-        const float level = off.x * off.x + off.z * off.z;
-        const float height = std::sqrt(std::max(reach * reach - level, 0.01f * reach * reach));
-        const bool bound = source_.stands(side)[k];
-        if (bound || leg.shin_m > 0) lower[k] = std::max(lower[k], (off.y - height) * (bound ? 1.0f : 0.0f));
-        // One bone cannot bend: it stands as high as it is long.
-        if (bound && leg.shin_m <= 0) wanted_[k].middle.y = std::min(wanted_[k].middle.y, hip.y - off.y + height);
+        const Vec3 off = wanted_[k].middle + HipOffset(k, side) - ankles_[side][k];
+        lower[k] = std::max(lower[k], off.y - HighestHip(leg, off));
       }
     }
-    const std::vector<float> eased = Eased(lower);
-    for (size_t k = 0; k < keys_; ++k) wanted_[k].middle.y -= eased[k];
+    return lower;
   }
 
   // No less than `lower` anywhere, without sudden steps.
@@ -457,21 +539,21 @@ class Retargeter {
     const auto n = static_cast<std::ptrdiff_t>(keys_);
     const bool loops = source_.motion().loops && keys_ > 1;
     const std::ptrdiff_t period = loops ? n - 1 : n;
-    constexpr std::ptrdiff_t kReach = 4;  // keys to either side
+    const std::ptrdiff_t reach = std::clamp<std::ptrdiff_t>(period / kEasedShare, 1, 4);  // keys to either side
     const auto at = [&](const std::vector<float>& list, std::ptrdiff_t k) {
       const std::ptrdiff_t i = loops ? (k % period + period) % period : std::clamp<std::ptrdiff_t>(k, 0, n - 1);
       return list[static_cast<size_t>(i)];
     };
     std::vector<float> widest(keys_), eased(keys_);
     for (std::ptrdiff_t k = 0; k < n; ++k) {
-      for (std::ptrdiff_t d = -kReach; d <= kReach; ++d) {
+      for (std::ptrdiff_t d = -reach; d <= reach; ++d) {
         widest[static_cast<size_t>(k)] = std::max(widest[static_cast<size_t>(k)], at(lower, k + d));
       }
     }
     for (std::ptrdiff_t k = 0; k < n; ++k) {
       float sum = 0, weights = 0;
-      for (std::ptrdiff_t d = -kReach; d <= kReach; ++d) {
-        const float weight = static_cast<float>(kReach + 1 - std::abs(d));
+      for (std::ptrdiff_t d = -reach; d <= reach; ++d) {
+        const float weight = static_cast<float>(reach + 1 - std::abs(d));
         sum += weight * at(widest, k + d), weights += weight;
       }
       eased[static_cast<size_t>(k)] = sum / weights;
@@ -481,10 +563,38 @@ class Retargeter {
 
   Pose Finish(size_t k) {
     for (const size_t side : {kLeft, kRight}) MeetFoot(k, side);
+    return Posed(k);
+  }
+
+  // Hips and all else where the hip joints' middle is.
+  Pose Posed(size_t k) {
     const Vec3 hips = At(t_.reference.positions, t_.humanoid.hips) - ReferenceMiddle(t_);
     const Quat turn = Product(wanted_[k].rotations.at(t_.humanoid.hips), Conjugate(ReferenceOf(t_.humanoid.hips)));
     wanted_[k].positions[t_.humanoid.hips] = wanted_[k].middle + Rotated(turn, hips);
     return Solve(k);
+  }
+
+  std::vector<Vec3> SoleOf(const Pose& pose, size_t side) const {
+    std::vector<Vec3> sole;
+    for (const SolePoint& point : t_.legs[side].sole) sole.push_back(PlaceOf(point, pose));
+    return sole;
+  }
+
+  // Legs of one bone point where the source's ankles are, and the hips are as high as the lower one of them stands.
+  void StandOnStiffLegs() {
+    for (size_t k = 0; k < keys_; ++k) {
+      for (const size_t side : {kLeft, kRight}) {
+        const Vec3 way = source_.Ankle(k, side) - source_.Place(k, s_.legs[side].upper);
+        const Quat frame = LegFrame(way, Cross(way, Rotated(frames_.at({k, side}).first, {1, 0, 0})));
+        SetLeg(k, side, frame, frame);
+      }
+      const Pose pose = Posed(k);
+      float lowest = 1e30f;
+      for (const size_t side : {kLeft, kRight}) {
+        for (const Vec3 p : SoleOf(pose, side)) lowest = std::min(lowest, p.y);
+      }
+      wanted_[k].middle.y -= lowest;
+    }
   }
 
   // Bends the knee so that the ankle is where the foot is set.
@@ -493,26 +603,20 @@ class Retargeter {
     const Vec3 hip = wanted_[k].middle + HipOffset(k, side);
     Vec3 line = ankles_[side][k] - hip;
     const auto [upper, lower] = frames_.at({k, side});
-    const Vec3 front = Normalized(Rotated(upper, {0, 0, 1}) + Rotated(lower, {0, 0, 1}));
-    if (leg.shin_m <= 0) {
-      // As far ahead or behind as the foot is, whatever that does to its height.
-      const float level = std::min(std::sqrt(line.x * line.x + line.z * line.z), 0.8f * leg.thigh_m);
-      const Vec3 out = Normalized(Vec3{line.x, 0, line.z}) * level;
-      line = {out.x, -std::sqrt(leg.thigh_m * leg.thigh_m - level * level), out.z};
-      SetLeg(k, side, LegFrame(line, front), LegFrame(line, front));
-      return;
-    }
+    // The knee's axis, which stays where it is however far the knee bends.
+    const Vec3 axis = Normalized(Rotated(upper, {1, 0, 0}) + Rotated(lower, {1, 0, 0}));
+    const auto front = [&](Vec3 along) { return Cross(along, axis); };
     const float longest = kStraightest * (leg.thigh_m + leg.shin_m);
     const float shortest = 1.05f * std::abs(leg.thigh_m - leg.shin_m) + 0.1f * longest;
     const float distance = std::clamp(Length(line), shortest, longest);
     line = Normalized(line);
-    Vec3 across = front - line * Dot(front, line);
+    Vec3 across = front(line);
     across = Length(across) > 1e-3f ? Normalized(across) : Normalized(Vec3{0, 0, 1} - line * line.z);
     const float along = (leg.thigh_m * leg.thigh_m - leg.shin_m * leg.shin_m + distance * distance) / (2 * distance);
     const float out = std::sqrt(std::max(leg.thigh_m * leg.thigh_m - along * along, 0.0f));
     const Vec3 thigh = line * along + across * out;
     const Vec3 shin = line * distance - thigh;
-    SetLeg(k, side, LegFrame(thigh, front), LegFrame(shin, front));
+    SetLeg(k, side, LegFrame(thigh, front(thigh)), LegFrame(shin, front(shin)));
     if (leg.foot >= 0) wanted_[k].positions[leg.foot] = hip + line * distance;
   }
 
@@ -613,6 +717,9 @@ class Retargeter {
   std::map<std::pair<size_t, size_t>, std::pair<Quat, Quat>> frames_;  // of the legs, by key and side
   std::array<Quat, 2> flatten_;
   std::array<std::vector<Vec3>, 2> ankles_;
+  float wider_;
+  float stride_ = 1;  // of the source's, in legs
+  std::vector<float> lower_;
   std::vector<Pose> poses_;
 };
 
@@ -620,6 +727,25 @@ std::map<std::string, int> ByName(const std::vector<Joint>& joints) {
   std::map<std::string, int> by_name;
   for (int j = 0; j < Count(joints); ++j) by_name.try_emplace(BareName(At(joints, j).name), j);
   return by_name;
+}
+
+constexpr float kSlides = 0.15f;  // of the walking speed: what soles may slide before feet are set anew
+constexpr float kPlanted = 0.5f;  // of the slide before, that may be left then
+// Legs, hips, what they hang on, and limbs that hang on neither: the joints that PlantFeet moves.
+std::vector<bool> SteppingJoints(const Rig& rig) {
+  std::vector<bool> above_legs(rig.joints.size(), false), on_hips(rig.joints.size(), false);
+  for (const RigLeg& leg : rig.legs) {
+    for (const int from : {leg.upper, leg.lower, leg.foot, leg.toes}) {
+      for (int a = from; a >= 0; a = At(rig.joints, a).parent) At(above_legs, a) = true;
+    }
+  }
+  for (size_t j = 0; j < on_hips.size(); ++j) {
+    const int parent = rig.joints[j].parent;
+    on_hips[j] = parent >= 0 && (parent == rig.humanoid.hips || At(on_hips, parent));
+  }
+  std::vector<bool> stepping(rig.joints.size());
+  for (size_t j = 0; j < stepping.size(); ++j) stepping[j] = above_legs[j] || !on_hips[j];
+  return stepping;
 }
 
 constexpr float kSameTurn_rad = 0.09f;  // between the rests of two joints that are the same
@@ -690,8 +816,25 @@ int CopyClip(const std::vector<Joint>& source, const Clip& clip, const std::vect
   return found;
 }
 
-Retargeted Retarget(const Rig& source, const Clip& clip, const Rig& target) {
-  return Retargeter(source, clip, target).Make(clip);
+Retargeted Retarget(const Rig& source, const Clip& clip, const Rig& target, const RetargetOptions& options) {
+  return Retargeter(source, clip, target, options).Make(clip);
+}
+
+bool PlantFeet(const Rig& rig, Retargeted* walk) {
+  if (rig.humanoid.by_shape || !BendsKnees(rig) || walk->clip.keys < 3) return false;
+  Retargeted planted = Retarget(rig, walk->clip, rig, {.walks = true});
+  if (planted.source_slide < kSlides || !(planted.walk_speed_mps > 0)) return false;
+  if (Retarget(rig, planted.clip, rig, {.walks = true}).source_slide > kPlanted * planted.source_slide) return false;
+  const std::vector<bool> stepping = SteppingJoints(rig);
+  for (size_t i = 0; i < planted.clip.transforms.size(); ++i) {
+    const size_t joint = i % rig.joints.size(), key = i / rig.joints.size();
+    const size_t last = static_cast<size_t>(walk->clip.keys) - 1;
+    if (!stepping[joint])
+      planted.clip.transforms[i] = walk->clip.transforms[std::min(key, last) * rig.joints.size() + joint];
+  }
+  planted.clip.name = walk->clip.name;
+  *walk = std::move(planted);
+  return true;
 }
 
 }  // namespace flaneur

@@ -13,6 +13,7 @@ constexpr float kOwnWeight = 0.4f;                               // a vertex of 
 constexpr float kSoleBand = 0.05f;                               // of the leg's length, above its lowest point
 constexpr size_t kSoleDirections = 16;                           // that the sole's outline is kept in
 constexpr float kAnkleHeight = 0.09f;                            // of the leg's length, where nothing tells
+constexpr float kShortestLeg = 0.2f;                             // of the trunk's length
 constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;            // of the leg's length: where y = 0 may be the ground
 constexpr float kBall = 0.19f, kToeTip = 0.27f, kHeel = -0.06f;  // of the leg's length, before the ankle
 
@@ -70,64 +71,93 @@ class RigMaker {
     leg.shin_m = leg.lower >= 0 ? Length(ankle - knee) : 0;
   }
 
-  // Calls with the place of every vertex that hangs on the joint or on what is below it.
+  // Calls with the place of every vertex that hangs on the joint or on what is below it, and its mesh and number.
   template <typename Use>
   void ForOwnVertices(int joint, Use use) const {
-    std::vector<bool> own(rig_.joints.size());
-    for (int j = 0; j < Count(rig_.joints); ++j) At(own, j) = IsBelow(rig_.joints, j, joint);
+    const std::vector<bool> own = Below(joint);
     for (const Mesh& mesh : person_.meshes) {
       for (size_t v = 0; v < mesh.joints.size(); ++v) {
-        float weight = 0;
-        size_t heaviest = 0;
-        for (size_t i = 0; i < 4; ++i) {
-          if (At(own, mesh.joints[v][i])) weight += mesh.weights[v][i];
-          if (mesh.weights[v][i] > mesh.weights[v][heaviest]) heaviest = i;
-        }
-        if (weight < kOwnWeight) continue;
-        const int on = At(own, mesh.joints[v][heaviest]) ? mesh.joints[v][heaviest] : joint;
-        use(Rotated(rig_.turn, mesh.positions[v]) + rig_.shift, on);
+        if (WeightOn(own, mesh, v) >= kOwnWeight) use(Rotated(rig_.turn, mesh.positions[v]) + rig_.shift, mesh, v);
       }
     }
   }
 
+  std::vector<bool> Below(int joint) const {
+    std::vector<bool> below(rig_.joints.size());
+    for (int j = 0; j < Count(rig_.joints); ++j) At(below, j) = IsBelow(rig_.joints, j, joint);
+    return below;
+  }
+
+  static float WeightOn(const std::vector<bool>& joints, const Mesh& mesh, size_t v) {
+    float weight = 0;
+    for (size_t i = 0; i < 4; ++i) weight += At(joints, mesh.joints[v][i]) ? mesh.weights[v][i] : 0;
+    return weight;
+  }
+
   float LowestOf(int joint, Vec3 otherwise) const {
     float lowest = 1e30f;
-    ForOwnVertices(joint, [&](Vec3 place, int) { lowest = std::min(lowest, place.y); });
+    ForOwnVertices(joint, [&](Vec3 place, const Mesh&, size_t) { lowest = std::min(lowest, place.y); });
     if (lowest < 1e29f) return lowest;
+    const float ground = -rig_.shift.y;  // the file's own, where the leg stands on it
+    if (otherwise.y - ground > kShortestLeg * TrunkLength()) return ground;
     for (int j = 0; j < Count(rig_.joints); ++j) {
       if (IsBelow(rig_.joints, j, joint)) lowest = std::min(lowest, Place(j).y);
     }
     return std::min(lowest, otherwise.y - 1e-3f);
   }
 
-  // The outline of what is lowest of the foot, else what a foot of that length would have.
+  float TrunkLength() const {
+    const Humanoid& h = rig_.humanoid;
+    const int top = h.head >= 0 ? h.head : h.arms[kLeft].upper;
+    return top < 0 ? 0 : Length(Place(top) - Place(h.hips));
+  }
+
+  // The outlines of what is lowest of the foot and of its toes, else what a foot of that length would have.
   void MakeSole(size_t side) {
     RigLeg& leg = rig_.legs[side];
     const Vec3 ankle = PlaceOf(leg.ankle, rig_.reference);
     float lowest = 1e30f;
-    ForOwnVertices(leg.ankle.joint, [&](Vec3 place, int) { lowest = std::min(lowest, place.y); });
+    ForOwnVertices(leg.ankle.joint, [&](Vec3 place, const Mesh&, size_t) { lowest = std::min(lowest, place.y); });
     if (lowest > ankle.y) return SoleOfBones(&leg, ankle);
-    struct Far {
-      float reach = -1e30f;
-      Vec3 place;
-      int joint = -1;
-    };
-    std::array<Far, kSoleDirections> outline;
-    ForOwnVertices(leg.ankle.joint, [&](Vec3 place, int joint) {
-      if (place.y > lowest + kSoleBand * rig_.leg_m) return;
-      for (size_t d = 0; d < kSoleDirections; ++d) {
-        const float angle = 2 * kPi * static_cast<float>(d) / kSoleDirections;
-        // Of two as far out the lower one is the sole's.
-        const float reach = place.x * std::cos(angle) + place.z * std::sin(angle) - 2 * (place.y - lowest);
-        if (reach > outline[d].reach) outline[d] = {reach, place, joint};
+    const std::vector<bool> toes = leg.toes >= 0 ? Below(leg.toes) : std::vector<bool>(rig_.joints.size(), false);
+    std::vector<bool> foot = Below(leg.ankle.joint), shin(rig_.joints.size(), false);
+    if (leg.foot >= 0) At(shin, leg.lower) = true;
+    for (const bool on_toes : {false, true}) {
+      std::array<FarPoint, kSoleDirections> outline;
+      ForOwnVertices(leg.ankle.joint, [&](Vec3 place, const Mesh& mesh, size_t v) {
+        const float toes_weight = WeightOn(toes, mesh, v), foot_weight = WeightOn(foot, mesh, v);
+        if (place.y > lowest + kSoleBand * rig_.leg_m || (toes_weight > 0.5f * foot_weight) != on_toes) return;
+        const float shin_weight = WeightOn(shin, mesh, v), all = foot_weight + shin_weight;
+        Extend({0, place, toes_weight / all, shin_weight / all}, &outline);
+      });
+      for (const FarPoint& far : outline) {
+        if (far.reach > -1e29f) leg.sole.push_back(SolePointAt(leg, far));
       }
-    });
-    for (const Far& far : outline) {
-      if (far.joint < 0) continue;
-      const int joint = leg.toes >= 0 && IsBelow(rig_.joints, far.joint, leg.toes) ? leg.toes : leg.ankle.joint;
-      leg.sole.push_back({joint, InFrame(rig_.reference, joint, far.place)});
     }
     leg.ankle_height_m = ankle.y - lowest;
+  }
+
+  struct FarPoint {
+    float reach = -1e30f;
+    Vec3 place;
+    float toes_weight = 0, shin_weight = 0;
+  };
+
+  static void Extend(FarPoint far, std::array<FarPoint, kSoleDirections>* outline) {
+    for (size_t d = 0; d < kSoleDirections; ++d) {
+      const float angle = 2 * kPi * static_cast<float>(d) / kSoleDirections;
+      // Of two as far out the lower one is the sole's.
+      far.reach = far.place.x * std::cos(angle) + far.place.z * std::sin(angle) - 2 * far.place.y;
+      if (far.reach > (*outline)[d].reach) (*outline)[d] = far;
+    }
+  }
+
+  SolePoint SolePointAt(const RigLeg& leg, const FarPoint& far) const {
+    const auto on = [&](int joint) { return JointPoint{joint, InFrame(rig_.reference, joint, far.place)}; };
+    SolePoint point{on(leg.ankle.joint), {}, {}, far.toes_weight, far.shin_weight};
+    if (far.toes_weight > 0) point.toes = on(leg.toes);
+    if (far.shin_weight > 0) point.shin = on(leg.lower);
+    return point;
   }
 
   void SoleOfBones(RigLeg* leg, Vec3 ankle) const {
@@ -156,8 +186,7 @@ class RigMaker {
       for (const float side : {-1.0f, 1.0f}) {
         Vec3 place = ankle + ahead * (along * length) + across * side;
         place.y = ankle.y - height;
-        const int joint = along > kBall && leg->toes >= 0 ? leg->toes : leg->ankle.joint;
-        leg->sole.push_back({joint, InFrame(rig_.reference, joint, place)});
+        leg->sole.push_back(SolePointAt(*leg, {0, place, along > kBall && leg->toes >= 0 ? 1.0f : 0.0f, 0}));
       }
     }
   }
@@ -205,7 +234,7 @@ class RigMaker {
   Vec3 EndOf(int joint) const {
     Vec3 sum;
     float count = 0;
-    ForOwnVertices(joint, [&](Vec3 place, int) { sum = sum + place, count += 1; });
+    ForOwnVertices(joint, [&](Vec3 place, const Mesh&, size_t) { sum = sum + place, count += 1; });
     return count > 0 ? sum * (1 / count) : Place(joint) + Vec3{0, -1, 0};
   }
 
@@ -247,6 +276,13 @@ Vec3 PlaceOf(const JointPoint& point, const Pose& pose) {
   return At(pose.positions, point.joint) + Rotated(At(pose.rotations, point.joint), point.offset);
 }
 
+Vec3 PlaceOf(const SolePoint& point, const Pose& pose) {
+  Vec3 place = PlaceOf(point.foot, pose) * (1 - point.toes_weight - point.shin_weight);
+  if (point.toes_weight > 0) place = place + PlaceOf(point.toes, pose) * point.toes_weight;
+  if (point.shin_weight > 0) place = place + PlaceOf(point.shin, pose) * point.shin_weight;
+  return place;
+}
+
 Quat QuarterTurn(Vec3 up, Vec3 forward) {
   const std::array<Vec3, 6> axes = {Vec3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   Vec3 best_up{0, 1, 0}, best_forward{0, 0, 1};
@@ -268,6 +304,8 @@ Quat LegFrame(Vec3 along, Vec3 front) {
   z = Normalized(z);
   return Normalized(QuatFromBasis(Cross(y, z), y, z));
 }
+
+bool BendsKnees(const Rig& rig) { return rig.legs[kLeft].shin_m > 0 && rig.legs[kRight].shin_m > 0; }
 
 bool MakeRig(const Avatar& person, const std::vector<NamedBone>& told, Rig* rig, std::string* why) {
   *rig = {};

@@ -31,13 +31,20 @@ struct JointPoint {
 };
 Vec3 PlaceOf(const JointPoint& point, const Pose& pose);
 
+// A point of a sole: it moves with the foot, and in part with toes and shin.
+struct SolePoint {
+  JointPoint foot, toes, shin;
+  float toes_weight = 0, shin_weight = 0;  // 0: the joint is not set
+};
+Vec3 PlaceOf(const SolePoint& point, const Pose& pose);
+
 // One leg with all that a step needs. `lower`, `foot` and `toes` are -1 where the rig has none.
 struct RigLeg {
   int upper = -1, lower = -1, foot = -1, toes = -1;
   JointPoint ankle;               // the foot's joint, or where it would be
   float thigh_m = 0, shin_m = 0;  // shin_m 0: the leg is one bone
   float ankle_height_m = 0;       // above the sole's lowest point
-  std::vector<JointPoint> sole;
+  std::vector<SolePoint> sole;
 };
 
 // Directions and turns of one arm in the reference pose. A limb's frame is the turn that brings the like limb of a
@@ -57,6 +64,9 @@ struct Rig {
   std::array<RigArm, 2> arms;
   float leg_m = 0;  // thigh and shin
 };
+
+// Else legs are one bone each, and who walks on them floats or bobs.
+bool BendsKnees(const Rig& rig);
 
 // `person`: with meshes, whose soles are then known, or without. False where it is no human skeleton; `why` says what
 // is missing.

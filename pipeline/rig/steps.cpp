@@ -8,12 +8,16 @@
 namespace flaneur {
 namespace {
 
-constexpr float kLow = 0.045f;    // of the leg's length: how near the ground a standing foot is
-constexpr float kLoose = 0.4f;    // of the walking speed: what a standing foot may seem to move
-constexpr float kStill = 0.25f;   // leg lengths a second, the same on the spot
-constexpr float kWalks = 0.12f;   // leg lengths a second: slower is no walk
-constexpr float kClear = 0.045f;  // of the leg's length: how high a swinging foot is over the ground at least
-constexpr int kGap = 2;           // keys: shorter gaps and stands are noise
+constexpr float kLow = 0.045f;       // of the leg's length: how near the ground a standing foot is
+constexpr float kOnGround = 0.024f;  // of the leg's length: how near the ground a sole is on it
+constexpr float kLoose = 0.4f;       // of the walking speed: what a standing foot may seem to move
+constexpr float kStill = 0.25f;      // leg lengths a second, the same on the spot
+constexpr float kWalks = 0.12f;      // leg lengths a second: slower is no walk
+constexpr float kClear = 0.045f;     // of the leg's length: how high a swinging foot is over the ground at least
+constexpr float kGroundShare = 0.02f, kStandShare = 0.4f;  // of the keys may have a sole lower: ever; in a walk
+constexpr float kDip = 0.02f;                              // of the leg's length: less is a foot that rolls
+constexpr size_t kGapShare = 6;  // of a walk's keys, one of so many: for longer who stands on no foot flies
+constexpr int kGap = 2;          // keys: shorter gaps and stands are noise
 
 size_t LowestOf(const std::vector<Vec3>& points) {
   return static_cast<size_t>(std::min_element(points.begin(), points.end(), [](Vec3 a, Vec3 b) { return a.y < b.y; }) -
@@ -105,33 +109,51 @@ void KeepAbove(const FootTrack& track, const std::vector<float>& clear_m, std::v
   }
 }
 
-}  // namespace
-
-float SpeedOfSoles(const std::vector<std::vector<Vec3>>& left, const std::vector<std::vector<Vec3>>& right,
-                   float step_s, float leg) {
-  const size_t n = left.size();
-  std::vector<float> speeds;
-  for (size_t k = 0; k + 1 < n; ++k) {
-    const size_t next = k + 1;
-    float lowest = 1e30f, speed = 0;
-    for (const auto* soles : {&left, &right}) {
-      const std::vector<Vec3>& now = (*soles)[k];
-      const std::vector<Vec3>& then = (*soles)[next];
+// How the lowest point of both soles moves from each key to the next, where it is lower than `height`.
+std::vector<Vec3> WaysOfLowest(const Soles& left, const Soles& right, float height) {
+  std::vector<Vec3> ways;
+  for (size_t k = 0; k + 1 < left.size(); ++k) {
+    float lowest = 1e30f;
+    Vec3 way;
+    for (const Soles* soles : {&left, &right}) {
+      const std::vector<Vec3>&now = (*soles)[k], &then = (*soles)[k + 1];
       for (size_t p = 0; p < now.size(); ++p) {
-        const float height = std::max(now[p].y, then[p].y);
-        if (height >= lowest) continue;
-        lowest = height;
-        speed = (now[p].z - then[p].z) / step_s;
+        const float high = std::max(now[p].y, then[p].y);
+        if (high < lowest) lowest = high, way = then[p] - now[p];
       }
     }
-    if (lowest < kLow * leg) speeds.push_back(speed);
+    if (lowest < height) ways.push_back(way);
   }
+  return ways;
+}
+
+}  // namespace
+
+float GroundUnder(std::vector<float> lowest, float leg, bool walks) {
+  if (lowest.empty()) return 0;
+  std::sort(lowest.begin(), lowest.end());
+  const auto at = [&](float share) { return lowest[static_cast<size_t>(share * static_cast<float>(lowest.size()))]; };
+  const float ground = at(kGroundShare), stands = at(kStandShare);
+  return walks && stands - ground > kDip * leg ? stands : ground;
+}
+
+float SpeedOfSoles(const Soles& left, const Soles& right, float step_s, float leg) {
+  std::vector<float> speeds;
+  for (const Vec3 way : WaysOfLowest(left, right, kLow * leg)) speeds.push_back(-way.z / step_s);
   const float speed = TrimmedMean(std::move(speeds));
   return std::abs(speed) > kWalks * leg ? speed : 0;
 }
 
-std::vector<bool> FindStance(const std::vector<std::vector<Vec3>>& sole, float speed, float step_s, float leg,
-                             bool loops) {
+float SlideOfSoles(const Soles& left, const Soles& right, float step_s, float leg, float speed) {
+  if (!(speed > 0)) return 0;
+  float sum = 0, count = 0;
+  for (const Vec3 way : WaysOfLowest(left, right, kOnGround * leg)) {
+    sum += Length({way.x / step_s, 0, way.z / step_s + speed}) / speed, count += 1;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+std::vector<bool> FindStance(const Soles& sole, float speed, float step_s, float leg, bool loops) {
   const size_t n = sole.size();
   std::vector<bool> stands(n);
   const float loose = std::max(kLoose * std::abs(speed), kStill * leg);
@@ -149,13 +171,28 @@ std::vector<bool> FindStance(const std::vector<std::vector<Vec3>>& sole, float s
   return stands;
 }
 
-void StandSomewhere(const std::vector<std::vector<Vec3>>& left, const std::vector<std::vector<Vec3>>& right, float leg,
-                    std::vector<bool>* left_stands, std::vector<bool>* right_stands) {
-  for (size_t k = 0; k < left_stands->size(); ++k) {
-    if ((*left_stands)[k] || (*right_stands)[k]) continue;
+void StandSomewhere(const Soles& left, const Soles& right, float leg, bool walks, std::vector<bool>* left_stands,
+                    std::vector<bool>* right_stands) {
+  std::vector<bool>&l = *left_stands, &r = *right_stands;
+  const size_t n = l.size();
+  std::vector<bool> lost(n);  // neither foot stands
+  for (size_t k = 0; k < n; ++k) lost[k] = !l[k] && !r[k];
+  const auto is_short = [&](size_t k) {
+    size_t length = 1;
+    for (size_t i = 1; i < n && lost[(k + i) % n]; ++i) ++length;
+    for (size_t i = 1; i < n && lost[(k + n - i) % n]; ++i) ++length;
+    return length <= 1 + n / kGapShare;
+  };
+  for (size_t k = 0; k < n; ++k) {
+    if (!lost[k]) continue;
     const float a = left[k][LowestOf(left[k])].y, b = right[k][LowestOf(right[k])].y;
-    if (std::min(a, b) > kLow * leg) continue;
-    (*(a < b ? left_stands : right_stands))[k] = true;
+    if (!(walks && is_short(k)) && std::min(a, b) > kLow * leg) continue;
+    (a < b ? l : r)[k] = true;
+  }
+  for (size_t k = 0; walks && k < n; ++k) {
+    const size_t next = (k + 1) % n;
+    if ((l[k] && l[next]) || (r[k] && r[next]) || (!l[k] && !r[k]) || (!l[next] && !r[next])) continue;
+    (l[k] ? l : r)[next] = true;  // who stood until now stands until the other does
   }
 }
 

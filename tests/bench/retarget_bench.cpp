@@ -1,15 +1,16 @@
-// Walks made to fit other skeletons: retarget_bench FILE... takes the walk of each file that has one and makes every
-// other file's figure walk by it, and by the clips that come with Flaneur. Prints for each pair the slide of the soles
-// (share of the walking speed), the hips' height against the source's (mm), the deepest hand in the body beyond the
-// source's own (mm) and the worst bend of a knee the wrong way (degrees); then median and worst of all.
+// Walks made to fit other skeletons: retarget_bench [--csv FILE] FILE... takes the walk of each file that has one, and
+// the walks that come with Flaneur, and makes every file's figure walk by it. Prints for each pair the slide of the
+// soles (share of the walking speed), the hips' height against the source's (mm), hands in the body and feet in the
+// other leg beyond the source's own (mm), and by how much joints are past what a human's bend to (degrees); then
+// median and worst of all. Files that hold no figure are sources alone, those without a walk targets alone.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "pipeline/io/blender_import.h"
-#include "pipeline/io/choose_clips.h"
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/motion_reader.h"
 #include "pipeline/rig/clip_loop.h"
@@ -19,117 +20,164 @@
 namespace flaneur {
 namespace {
 
-struct Person {
+constexpr int kKeys = 12;  // of a clip, at which depths are looked for
+
+struct File {
   std::string name;
-  std::filesystem::path file;  // glTF, whatever it was
+  std::filesystem::path path;  // glTF or BVH, whatever it was
   std::unique_ptr<TemporaryFolder> folder = std::make_unique<TemporaryFolder>();
 };
 
-struct Figures {
-  std::vector<float> slide, hips_mm, depth_mm, bend_deg;
+// One walk, and how its own figure goes by it; depths are shares of the height.
+struct Walk {
+  std::string name, clip;
+  std::filesystem::path path;
+  float hips = 0, hands = 0, legs = 0;
 };
 
-float At_(std::vector<float> values, float share) {
+struct Figure {
+  const char* what;
+  const char* unit;
+  std::vector<float> values;
+};
+
+double Share(std::vector<float> values, float share) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
-  return values[static_cast<size_t>(share * static_cast<float>(values.size() - 1))];
+  return static_cast<double>(values[static_cast<size_t>(share * static_cast<float>(values.size() - 1))]);
 }
 
-Error OpenAll(int argc, char** argv, std::vector<Person>* people) {
+std::vector<File> OpenAll(int argc, char** argv) {
+  std::vector<File> files;
   for (int i = 1; i < argc; ++i) {
-    Person person;
-    person.file = argv[i];
-    person.name = person.file.stem().string();
-    if (NeedsBlender(person.file)) {
-      if (Error e = ConvertToGltf(argv[i], person.folder.get(), &person.file)) return e;
+    File file;
+    file.path = argv[i];
+    file.name = file.path.stem().string();
+    if (NeedsBlender(file.path)) {
+      if (const Error e = ConvertToGltf(argv[i], file.folder.get(), &file.path)) {
+        std::printf("%s: %s\n", argv[i], e.message.c_str());
+        continue;
+      }
     }
-    people->push_back(std::move(person));
+    files.push_back(std::move(file));
   }
-  return Ok();
+  return files;
 }
 
-// How deep the source's own hands are in it, as a share of its height; 0 where it has no body.
-float OwnDepth(const std::filesystem::path& file) {
+ReadAvatarOptions WalkingBy(const Walk& walk) {
+  ReadAvatarOptions options;
+  options.other_clips = {{"walk", walk.clip, walk.path}};
+  return options;
+}
+
+float Hands(const Avatar& person, const Rig& rig, const Clip& walk) {
+  return std::max(HandDepth(person, rig, walk, kLeft, kKeys), HandDepth(person, rig, walk, kRight, kKeys));
+}
+
+// What the file's own figure does by its own walk, where it has one.
+void MeasureOwn(Walk* walk) {
   Avatar avatar;
   std::vector<std::string> warnings;
   Rig rig;
   std::string why;
-  if (ReadAvatar(file, {}, &avatar, &warnings) || !MakeRig(avatar, {}, &rig, &why)) return 0;
-  const Clip* walk = FindClip(avatar, "walk");
-  return std::max(HandDepth(avatar, rig, *walk, kLeft, 12), HandDepth(avatar, rig, *walk, kRight, 12)) /
-         avatar.height_m;
+  ReadAvatarOptions options;
+  options.walk = walk->clip;
+  if (ReadAvatar(walk->path, options, &avatar, &warnings) || !MakeRig(avatar, {}, &rig, &why)) return;
+  const Clip& own = *FindClip(avatar, "walk");
+  walk->hands = Hands(avatar, rig, own) / avatar.height_m;
+  walk->legs = LegDepth(avatar, rig, own, kKeys) / avatar.height_m;
+  std::printf("%-24s as it is: slide %5.1f %%  hands %5.1f mm  legs %5.1f mm  limits %4.1f deg  %.2f m/s  %d keys\n",
+              walk->name.c_str(), 100 * static_cast<double>(FootSlide(avatar, own, avatar.walk_speed_mps)),
+              1000 * static_cast<double>(walk->hands * avatar.height_m),
+              1000 * static_cast<double>(walk->legs * avatar.height_m),
+              static_cast<double>(PastLimits(rig, own)) * 180 / static_cast<double>(kPi),
+              static_cast<double>(avatar.walk_speed_mps), own.keys);
 }
 
-bool SourceHips(const std::filesystem::path& file, float* hips) {
+// False where the file holds no walk of a human.
+bool OpenWalk(const File& file, const std::string& clip, Walk* walk) {
   MotionFile motion;
   Rig rig;
   std::string why;
-  if (OpenMotion(file, &motion) || !MakeRig(motion.skeleton, motion.told, &rig, &why)) return false;
+  if (OpenMotion(file.path, &motion) || !MakeRig(motion.skeleton, motion.told, &rig, &why)) return false;
+  size_t found = motion.clip_names.size();
   for (size_t i = 0; i < motion.clip_names.size(); ++i) {
     std::string name = motion.clip_names[i];
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (name.find("walk") == std::string::npos && motion.clip_names.size() > 1) continue;
-    Clip clip;
-    if (ClipOf(motion, i, &clip)) continue;
-    CutToCycle(motion.skeleton.joints, &clip);
-    *hips = HipsHeight(rig, clip);
-    return true;
+    const bool walks = name.find("walk") != std::string::npos || motion.clip_names.size() == 1;
+    const bool fits = clip.empty() ? walks : name == clip;
+    if (fits && (found == motion.clip_names.size() || name.size() < motion.clip_names[found].size())) found = i;
   }
-  return false;
+  Clip made;
+  if (found == motion.clip_names.size() || ClipOf(motion, found, &made)) return false;
+  CutToCycle(motion.skeleton.joints, &made);
+  *walk = {clip.empty() ? file.name : clip, motion.clip_names[found], file.path};
+  walk->hips = HipsHeight(rig, made);
+  return true;
 }
 
-void Measure(const Person& source, float own_depth, float source_hips, const Person& target, Figures* all) {
-  ReadAvatarOptions options;
-  options.clip_files = {source.file};
+void MeasurePair(const Walk& source, const File& target, FILE* csv, std::vector<Figure>* all) {
   Avatar avatar;
   std::vector<std::string> warnings;
-  if (const Error e = ReadAvatar(target.file, options, &avatar, &warnings)) {
-    std::printf("%-28s -> %-24s %s\n", source.name.c_str(), target.name.c_str(), e.message.c_str());
+  if (const Error e = ReadAvatar(target.path, WalkingBy(source), &avatar, &warnings)) {
+    std::printf("%-24s -> %-24s %s\n", source.name.c_str(), target.name.c_str(), e.message.c_str());
     return;
+  }
+  for (const std::string& warning : warnings) {
+    if (warning.find("speed cannot be told") != std::string::npos) return;  // no walk
   }
   Rig rig;
   std::string why;
   if (!MakeRig(avatar, {}, &rig, &why)) return;
   const Clip& walk = *FindClip(avatar, "walk");
-  const float slide = FootSlide(avatar, walk, avatar.walk_speed_mps);
-  const float hips_mm = 1000 * rig.leg_m * (HipsHeight(rig, walk) - source_hips);
-  const float depth = std::max(HandDepth(avatar, rig, walk, kLeft, 12), HandDepth(avatar, rig, walk, kRight, 12));
-  const float depth_mm = 1000 * std::max(0.0f, depth - own_depth * avatar.height_m);
-  const float bend_deg = WrongBend(rig, walk) * 180 / kPi;
-  std::printf("%-28s -> %-24s slide %5.1f %%  hips %+6.1f mm  hands %5.1f mm  knees %4.1f deg  %.2f m/s\n",
-              source.name.c_str(), target.name.c_str(), 100 * static_cast<double>(slide), static_cast<double>(hips_mm),
-              static_cast<double>(depth_mm), static_cast<double>(bend_deg), static_cast<double>(avatar.walk_speed_mps));
-  all->slide.push_back(slide);
-  all->hips_mm.push_back(std::abs(hips_mm));
-  all->depth_mm.push_back(depth_mm);
-  all->bend_deg.push_back(bend_deg);
+  const auto beyond_mm = [&](float depth, float own) { return 1000 * std::max(0.0f, depth - own * avatar.height_m); };
+  const float values[] = {
+      100 * FootSlide(avatar, walk, avatar.walk_speed_mps), 1000 * rig.leg_m * (HipsHeight(rig, walk) - source.hips),
+      beyond_mm(Hands(avatar, rig, walk), source.hands), beyond_mm(LegDepth(avatar, rig, walk, kKeys), source.legs),
+      PastLimits(rig, walk) * 180 / kPi};
+  std::printf("%-24s -> %-24s", source.name.c_str(), target.name.c_str());
+  if (csv) std::fprintf(csv, "%s,%s", source.name.c_str(), target.name.c_str());
+  for (size_t i = 0; i < all->size(); ++i) {
+    Figure& figure = (*all)[i];
+    std::printf("  %s %+6.1f %s", figure.what, static_cast<double>(values[i]), figure.unit);
+    if (csv) std::fprintf(csv, ",%.2f", static_cast<double>(values[i]));
+    figure.values.push_back(std::abs(values[i]));
+  }
+  std::printf("  %.2f m/s\n", static_cast<double>(avatar.walk_speed_mps));
+  if (csv) std::fprintf(csv, ",%.3f\n", static_cast<double>(avatar.walk_speed_mps));
+  std::fflush(stdout);
 }
 
 int Run(int argc, char** argv) {
-  std::vector<Person> people;
-  if (const Error e = OpenAll(argc, argv, &people)) return std::fprintf(stderr, "%s\n", e.message.c_str()), 1;
-  Person shipped;
-  shipped.name = "shipped";
-  shipped.file = ShippedClips();
-  people.push_back(std::move(shipped));
-  Figures all;
-  for (const Person& source : people) {
-    float hips = 0;
-    if (!SourceHips(source.file, &hips)) continue;
-    const float own_depth = OwnDepth(source.file);
-    for (const Person& target : people) {
-      if (&source != &target && target.name != "shipped") Measure(source, own_depth, hips, target, &all);
+  FILE* csv = nullptr;
+  if (argc > 2 && std::string(argv[1]) == "--csv") {
+    csv = std::fopen(argv[2], "w");
+    argc -= 2, argv += 2;
+  }
+  const std::vector<File> files = OpenAll(argc, argv);
+  File shipped;
+  shipped.path = ShippedClips();
+  std::vector<Walk> walks;
+  Walk walk;
+  for (const char* clip : {"walk", "walk_stroll", "walk_brisk", "walk_old", "walk_child"}) {
+    if (OpenWalk(shipped, clip, &walk)) walks.push_back(walk);
+  }
+  for (const File& file : files) {
+    if (OpenWalk(file, "", &walk)) walks.push_back(walk);
+  }
+  for (Walk& each : walks) MeasureOwn(&each);
+  std::vector<Figure> all{
+      {"slide", "%", {}}, {"hips", "mm", {}}, {"hands", "mm", {}}, {"legs", "mm", {}}, {"limits", "deg", {}}};
+  for (const Walk& source : walks) {
+    for (const File& target : files) {
+      if (source.path != target.path) MeasurePair(source, target, csv, &all);
     }
   }
-  const auto print = [](const char* what, const std::vector<float>& values, float scale, const char* unit) {
-    std::printf("%s: median %.1f %s, worst %.1f %s of %zu pairs\n", what,
-                static_cast<double>(scale * At_(values, 0.5f)), unit, static_cast<double>(scale * At_(values, 1)), unit,
-                values.size());
-  };
-  print("foot slide, share of the walking speed", all.slide, 100, "%");
-  print("hips' height off the leg length's", all.hips_mm, 1, "mm");
-  print("hands in the body beyond the source's", all.depth_mm, 1, "mm");
-  print("knees bent the wrong way", all.bend_deg, 1, "degrees");
+  if (csv) std::fclose(csv);
+  for (const Figure& figure : all) {
+    std::printf("%s: median %.1f %s, worst %.1f %s of %zu pairs\n", figure.what, Share(figure.values, 0.5f),
+                figure.unit, Share(figure.values, 1), figure.unit, figure.values.size());
+  }
   return 0;
 }
 

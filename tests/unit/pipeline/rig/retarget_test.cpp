@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/rig/motion_quality.h"
+#include "pipeline/rig/steps.h"
 #include "tests/unit/pipeline/test_human.h"
 
 namespace flaneur {
@@ -39,7 +40,7 @@ TEST_P(Retargeting, LimbsPointAsTheSourcesDo) {
           << k << " " << a;
     }
   }
-  EXPECT_LT(WrongBend(to, made.clip), 0.02f);
+  EXPECT_LT(PastLimits(to, made.clip), 0.02f);
   EXPECT_NEAR(to.leg_m * (HipsHeight(to, made.clip) - HipsHeight(from, walk)) / GetParam().unit, 0, 0.03f);
   EXPECT_GT(made.walk_speed_mps, 0.5f * GetParam().leg_m * GetParam().unit);
 }
@@ -89,6 +90,68 @@ TEST(Retarget, HandsAreLedOutOfABroadBody) {
   EXPECT_LT(std::max(HandDepth(human, rig, down, kLeft, 2), HandDepth(human, rig, down, kRight, 2)), 0.01f);
 }
 
+TEST(Retarget, KneesBendForwardHoweverHighTheyAreLifted) {
+  const Avatar source = MadeHuman({});
+  const Avatar target = MadeHuman({.leg_m = 0.7f});
+  const Rig from = RigOf(source), to = RigOf(target);
+  Clip high = MadeWalk(source);
+  for (int k = 0; k < high.keys; ++k) {
+    const float phase = 2 * kPi * static_cast<float>(k) / static_cast<float>(high.keys - 1);
+    for (const size_t leg : {size_t{10}, size_t{14}}) {
+      const float lift = std::max(0.0f, std::cos(leg == 14 ? phase + kPi : phase));
+      Transform* key = high.transforms.data() + static_cast<size_t>(k) * 18;
+      key[leg].rotation = TurnAbout({1, 0, 0}, -1.9f * lift);
+      key[leg + 1].rotation = TurnAbout({1, 0, 0}, 2.4f * lift);
+      key[leg + 2].rotation = TurnAbout({1, 0, 0}, -0.5f * lift);
+    }
+  }
+  EXPECT_LT(PastLimits(to, Retarget(from, high, to, {.walks = true}).clip), 0.1f);
+}
+
+TEST(Retarget, LegsOfOneBoneWithoutAMeshReachTheGround) {
+  Avatar human = MadeHuman({});
+  human.meshes.clear();
+  for (const size_t j : {11u, 12u, 13u, 15u, 16u, 17u}) human.joints[j].name = "cloth", human.joints[j].parent = 0;
+  const Rig rig = RigOf(human);
+  EXPECT_FALSE(BendsKnees(rig));
+  EXPECT_NEAR(rig.leg_m, 0.92f * 0.91f, 0.02f) << "hips at 0.92 m, ankles at a tenth of it";
+}
+
+TEST(Retarget, FeetAreSetFartherApartWhereLegsWouldMeet) {
+  Avatar target = MadeHuman({});
+  for (const uint16_t shin : {uint16_t{11}, uint16_t{15}}) {
+    const float x = shin == 11 ? 0.09f : -0.09f;
+    for (float y = 0.15f; y < 0.4f; y += 0.04f) AddBox({x, y, 0}, {x, y, 0}, 0.06f, shin, &target.meshes[0]);
+  }
+  Avatar source = MadeHuman({});
+  const Rig from = RigOf(source), to = RigOf(target);
+  Clip narrow = MadeWalk(source);
+  for (size_t i = 0; i < narrow.transforms.size(); ++i) {
+    if (i % 18 == 10 || i % 18 == 14)
+      narrow.transforms[i].rotation =
+          Product(TurnAbout({0, 0, 1}, i % 18 == 10 ? -0.05f : 0.05f), narrow.transforms[i].rotation);
+  }
+  const float before = LegDepth(target, to, Retarget(from, narrow, to, {.walks = true}).clip, 12);
+  ASSERT_GT(before, 0.02f);
+  EXPECT_LT(LegDepth(target, to, ClearLegs(target, from, narrow, to).clip, 12), 0.5f * before);
+}
+
+TEST(Steps, AToeThatDipsIntoTheGroundLiftsNobodyOffIt) {
+  const std::vector<float> dips = {0.05f, 0.05f, 0.0f, 0.02f, 0.05f, 0.05f, 0.06f, 0.05f, 0.05f, 0.05f};
+  EXPECT_NEAR(GroundUnder(dips, 0.8f, true), 0.05f, 1e-6f);
+  EXPECT_NEAR(GroundUnder(dips, 0.8f, false), 0, 1e-6f) << "who runs is in the air";
+}
+
+TEST(Steps, WhoWalksStandsUntilTheOtherFootDoes) {
+  const Soles low(6, {Vec3{}}), high(6, {Vec3{0, 1, 0}});
+  std::vector<bool> left = {true, true, false, false, false, false}, right = {false, false, false, false, true, true};
+  StandSomewhere(low, high, 0.8f, true, &left, &right);
+  for (size_t k = 0; k < 6; ++k) {
+    const size_t next = (k + 1) % 6;
+    EXPECT_TRUE((left[k] && left[next]) || (right[k] && right[next])) << k;
+  }
+}
+
 TEST(Humanoid, IsFoundByShapeWhereNamesSayNothing) {
   HumanShape shape;
   for (size_t j = 0; j < shape.names.size(); ++j) shape.names[j] = "node " + std::to_string(j);
@@ -99,6 +162,43 @@ TEST(Humanoid, IsFoundByShapeWhereNamesSayNothing) {
   EXPECT_EQ(rig.humanoid.arms[kLeft].upper, 4);
   EXPECT_EQ(rig.humanoid.hips, 0);
   EXPECT_EQ(rig.humanoid.head, 3);
+}
+
+TEST(Humanoid, OfAMirroredFigureLeftIsWhereItsToesSaySo) {
+  const Avatar human = MadeHuman({});
+  std::vector<Vec3> positions = BindPose(human.joints).positions;
+  for (Vec3& p : positions) p.x = -p.x;
+  Humanoid humanoid;
+  std::string why;
+  ASSERT_TRUE(FindHumanoid(human.joints, positions, {}, &humanoid, &why)) << why;
+  EXPECT_EQ(humanoid.legs[kLeft].upper, 14) << "that is called the right one";
+  EXPECT_EQ(humanoid.arms[kLeft].upper, 7);
+  Vec3 up, forward;
+  ASSERT_TRUE(FindStance(humanoid, positions, &up, &forward));
+  EXPECT_GT(forward.z, 0.9f);
+}
+
+TEST(Humanoid, WhoseTrunkHangsOnItsMiddleGoesOnFourLegs) {
+  std::vector<Joint> joints(16);
+  std::vector<Vec3> places(16);
+  const auto put = [&](int j, int parent, Vec3 place) {
+    joints[static_cast<size_t>(j)].name = "bone " + std::to_string(j);
+    joints[static_cast<size_t>(j)].parent = parent;
+    places[static_cast<size_t>(j)] = place;
+  };
+  put(0, -1, {0, 0.6f, 0});
+  put(1, 0, {0, 0.6f, -0.3f});
+  put(2, 0, {0, 0.6f, 0.3f});
+  put(3, 2, {0, 0.8f, 0.5f});
+  for (int leg = 0; leg < 4; ++leg) {
+    const float x = leg % 2 == 0 ? 0.1f : -0.1f, z = leg < 2 ? -0.3f : 0.3f;
+    for (int k = 0; k < 3; ++k)
+      put(4 + 3 * leg + k, k > 0 ? 3 + 3 * leg + k : (leg < 2 ? 1 : 2), {x, 0.55f - 0.25f * static_cast<float>(k), z});
+  }
+  Humanoid humanoid;
+  std::string why;
+  ASSERT_TRUE(FindHumanoid(joints, places, {}, &humanoid, &why)) << why;
+  EXPECT_TRUE(humanoid.quadruped);
 }
 
 TEST(Humanoid, WhatHasNoLegsIsNone) {
