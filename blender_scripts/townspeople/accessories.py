@@ -249,7 +249,8 @@ def _opened_angles(columns, open_deg):
 def _hung(tailor, points, angles, z_hem, flare, folds, fold_depth, rows):
     """Rows that hang from the last one down to z_hem."""
     size, edge = tailor.size, points[-1]
-    cloud = tl.slice_points(tailor, arms=True, skirts=True)
+    behind = angles[0] > np.radians(100)  # the arms are beside it, not under it
+    cloud = tl.slice_points(tailor, arms=not behind, skirts=True)
     wave = tl.fold_wave(tailor.random, angles, folds)
     inside = sf.smoothstep(0.0, 0.9, np.minimum(angles - angles[0], angles[-1] - angles))  # of an opening's edges
     loose = inside if angles[0] > 0 else np.ones_like(angles)

@@ -144,7 +144,7 @@ def _curl_fingers(skeleton, frame, side, sign):
     palm = sk.cross(along, thumb) * sign
     axis = sk.cross(along, palm)
     axis /= np.linalg.norm(axis)
-    for name, degrees in (("finger3-1", 30.0), ("finger3-2", 38.0)):
+    for name, degrees in (("finger3-1", 16.0), ("finger3-2", 24.0)):
         joint = skeleton.index(name + side)
         frame[joint] = _matrix_of(axis * np.radians(degrees)) @ frame[joint]
 

@@ -12,7 +12,7 @@ from townspeople import surface as sf
 
 SKIN_PX = 1024
 FADED = 3.4  # radii of a soft patch: what lies farther out takes less than a 100,000th of its colour
-BROW = {"rise": 17.5, "arch": 3.0, "inner": -16.0, "outer": 23.0, "half": 2.6, "fall": 3.5, "strength": 0.85}
+BROW = {"rise": 15.0, "lift": 2.6, "arch": 2.2, "inner": -16.5, "outer": 23.5, "half": 3.0, "fall": 2.6, "strength": 0.85}
 BEARD_ABOVE = ((0, -47), (12, -46), (22, -40), (30, -33), (45, -29), (60, -25), (76, -13), (92, 4))
 BEARD_BELOW = ((0, -66), (40, -62), (62, -53), (78, -38), (92, -14))
 SHAVEN = {"upper_edge": BEARD_ABOVE, "lower_edge": BEARD_BELOW}
@@ -136,10 +136,11 @@ def _brows(head, picture, shape, colour):
     shape = dict(BROW, **shape)
     t = (head.x - np.float32(head.eye_x + shape["inner"])) / (shape["outer"] - shape["inner"])
     middle = shape["rise"] + shape["arch"] * np.sin(np.pi * np.clip(t * 0.8 + 0.1, 0, 1)) ** 2
+    middle = middle + shape["lift"] * np.clip(t / 0.65, 0, 1)  # from the nose upwards: the other way round they look worried
     middle = middle - shape["fall"] * np.clip(t - 0.62, 0, 1) ** 1.3 * 3.0
     half = shape["half"] * np.interp(t, [0.0, 0.12, 0.45, 0.8, 1.0], [0.75, 1.0, 0.9, 0.6, 0.25])
     across = (head.z - middle + 0.5 * head.fine) / half
-    mask = np.exp(-np.abs(across) ** 3) * sf.smoothstep(-0.04, 0.06, t) * sf.smoothstep(1.04, 0.85, t)
+    mask = np.exp(-np.abs(across) ** 2.4) * sf.smoothstep(-0.04, 0.06, t) * sf.smoothstep(1.04, 0.85, t)
     mask = mask * (head.y > -30.0) * shape["strength"] * (0.85 + 0.3 * head.fine)
     return _mixed(picture, mask, np.asarray(colour) * 0.62)
 
@@ -166,20 +167,20 @@ def _beard(head, picture, colour, strength, soft=1.0, upper_edge=BEARD_ABOVE, lo
 def _aged(head, picture, age):
     """Furrows of the forehead, crow's feet, folds from nose to mouth, bags under the eyes."""
     e, mouth, nose = head.eye_x, head.mouth_z, head.nose_z
-    lines = [([0, 22, 40], [34 + k * 8, 35 + k * 8, 31 + k * 8], 1.1, 0.22) for k in range(3)]
-    lines += [([e + 19, e + 29], [2 + k * 3, 6 + k * 6 - 6], 0.9, 0.25) for k in (-1, 0, 1)]
+    lines = [([0, 22, 40], [34 + k * 8, 35 + k * 8, 31 + k * 8], 1.7, 0.15) for k in range(3)]
+    lines += [([e + 19, e + 29], [2 + k * 3, 6 + k * 6 - 6], 1.2, 0.16) for k in (-1, 0, 1)]
     lines += [([13, 21, 27], [nose + 2, nose - 14, mouth - 4], 1.8, 0.30),
-              ([e - 12, e, e + 13], [-11, -14.5, -11], 1.6, 0.26), ([3, 4], [14, 22], 1.0, 0.25)]
+              ([e - 12, e, e + 13], [-11, -14.5, -11], 1.6, 0.26), ([3.5, 4], [14, 20], 1.4, 0.13)]
     shade = np.zeros(head.x.shape, np.float32)
     for x, z, width, strength in lines:
         shade = np.maximum(shade, strength * head.line(x, z, width))
-    return picture * (1.0 - age * shade[..., None] * np.array([0.8, 1.0, 1.05], np.float32))
+    return picture * (1.0 - age * shade[..., None] * np.array([0.9, 1.0, 1.0], np.float32))
 
 
 def _features(head, picture, tone, rouge):
     """Lips, and blood where the skin is thin: cheeks, nose, ears; shade in the eyes' corners, lashes."""
     e, mouth, nose = head.eye_x, head.mouth_z, head.nose_z
-    for x, z, rx, rz, share in ((e + 9, nose - 4, 17, 15, 0.20), (0, nose + 3, 9, 8, 0.20), (0, mouth - 26, 12, 9, 0.08)):
+    for x, z, rx, rz, share in ((e + 9, nose - 3, 21, 17, 0.15), (0, nose + 3, 9, 8, 0.12), (0, mouth - 26, 12, 9, 0.08)):
         red = share * (0.6 + 0.7 * rouge) * head.spot(x, z, rx, rz)
         picture = picture * (1.0 - red[..., None] * np.array([0.02, 0.62, 0.60], np.float32))
     lips = head.spot(0, mouth, 20, 7.5) ** 1.5

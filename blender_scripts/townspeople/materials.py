@@ -67,13 +67,15 @@ def _leather(random, h, w):
 
 
 def _metal(random, h, w):
-    v = np.linspace(0, 1, h)[:, None]
+    """Polished: the light that runs down a curved sheet is painted, dark beside it."""
+    u, v = np.linspace(0, 1, w)[None, :], np.linspace(0, 1, h)[:, None]
+    gleam = np.exp(-(((u - 0.17) / 0.05) ** 2)) + 0.6 * np.exp(-(((u - 0.62) / 0.07) ** 2))
     scratches = value_noise(random, h, w, h // 3, max(w // 20, 2))
     return (
-        1.0
-        + 0.10 * np.cos(5 * v)
+        0.82
+        + 0.75 * gleam * (0.75 + 0.25 * np.cos(5 * v))
         + 0.05 * scratches
-        + _mottled(random, h, w, 0.13)
+        + _mottled(random, h, w, 0.10)
         + 0.03 * random.uniform(-1, 1, (h, w))
     )
 

@@ -10,11 +10,11 @@ materials of cells that a tour's tints dye by themselves.
 
 from townspeople.wardrobe import (BAND, BEARD, BELLY, CHILD_FACE, CHILD_SHAPE, CHILDLIKE,
     CLOSE_SLEEVE, COIF, FEMALE, LONG_HAIR, MALE, OLD, SHORT_HAIR, SHORT_STOCKINGS, STOCKINGS, TANNED, WIDE_SLEEVE,
-    WOMAN_BULGES, WOMAN_FACE, WOMAN_HAIR, WOMAN_SHAPE, dyed)
+    WOMAN_BULGES, WOMAN_FACE, WOMAN_HAIR, WOMAN_SHAPE, YOKE, dyed)
 
 PEOPLE = {
     "merchant": {
-        "height_m": 1.76, "skin": dict(MALE, age=0.3), "bulges": [BELLY],
+        "height_m": 1.76, "skin": dict(MALE, age=0.3, iris=(0.30, 0.34, 0.33)), "bulges": [BELLY],
         "manner": {"arm_swing": 0.3, "arm_forward_deg": 13.0},
         "wear": [
             STOCKINGS,
@@ -30,9 +30,10 @@ PEOPLE = {
             {"piece": "pouch", "at": ["waist", -0.05], "angle_deg": -60, "cell": "pouch"},
             dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
             {"piece": "cape", "name": "cloak", "top_deg": 65, "bottom_deg": 0, "ease": 0.024,
-             "open_deg": 88, "stand_off": 0.06,
-             "hem": ["crotch", 0.02], "flare": 0.12, "folds": 9, "fold_depth": 0.04,
+             "open_deg": 108, "stand_off": 0.06,
+             "hem": ["crotch", 0.02], "flare": 0.06, "folds": 9, "fold_depth": 0.04,
              "lining": "lining"},
+            dict(YOKE),
             {"piece": "standing collar", "height": 0.035, "flare": 0.0, "cell": "upper"},
             {"piece": "ruff"},
             {"piece": "hat", "profile": [[0, 0, 0.118], [0.45, 0, 0.120], [0.80, 0, 0.112],
@@ -50,20 +51,20 @@ PEOPLE = {
             "upper": dyed("velvet", (0.35, 0.10, 0.11),
                           placket=[0.03, (0.28, 0.06, 0.07), 12, (0.54, 0.36, 0.19)]),
             "overskirt": dyed("velvet", (0.35, 0.10, 0.11),
-                              trim=[[0.76, 1.0, (0.52, 0.36, 0.17)]]),
+                              trim=[[0.76, 1.0, (0.45, 0.35, 0.21)]]),
             "sleeve": dyed("velvet", (0.35, 0.10, 0.11), trim=[[0.87, 1.0, (0.62, 0.54, 0.46)]],
                            stripes=[2, (0.30, 0.07, 0.08)]),
             "trousers": dyed("wool", (0.17, 0.14, 0.13), stripes=[3, (0.23, 0.185, 0.16)]),
             "hose": dyed("wool", (0.28, 0.25, 0.22)), "cape": dyed("wool", (0.165, 0.155, 0.165)),
             "lining": dyed("linen", (0.42, 0.12, 0.11)),
             "collar": dyed("linen", (0.72, 0.69, 0.63)),
-            "hat": dyed("velvet", (0.125, 0.11, 0.11), trim=[[0.36, 0.5, (0.37, 0.285, 0.14)]]),
+            "hat": dyed("velvet", (0.125, 0.11, 0.11), trim=[[0.44, 0.5, (0.37, 0.285, 0.14)]]),
             "hair": dyed("hair", (0.31, 0.215, 0.145)), "belt": dyed("leather", (0.24, 0.12, 0.085)),
             "pouch": dyed("leather", (0.34, 0.21, 0.12)),
         },
     },
     "farmer": {
-        "height_m": 1.72, "skin": TANNED,
+        "height_m": 1.72, "skin": dict(TANNED, iris=(0.30, 0.38, 0.46)),
         "manner": {"arm_spread_deg": -1.0},
         "wear": [
             dict(STOCKINGS, start=0.2),
@@ -83,6 +84,7 @@ PEOPLE = {
              "edge": [[0, 44], [30, 38], [48, 18], [58, -14], [66, -40], [80, -50], [180, -52]]},
             {"piece": "cape", "name": "hood", "top_deg": 74, "bottom_deg": 12, "ease": 0.026,
              "point": 0.03},
+            {"piece": "roll", "thickness": 0.024, "cell": "hood"},
         ],
         "props": [
             {"piece": "sack", "name": "sack", "cloth": ["skirt", (1.0, 0.88, 0.68)],
@@ -132,7 +134,7 @@ PEOPLE = {
         "cloth": {
             "upper": dyed("linen", (0.63, 0.575, 0.475), placket=[0.012, (0.66, 0.61, 0.50), 0, None]),
             "sleeve": dyed("linen", (0.63, 0.575, 0.475)), "skirt": dyed("linen", (0.63, 0.575, 0.475)),
-            "apron": dyed("leather", (0.43, 0.29, 0.17), hem=0.3),
+            "apron": dyed("leather", (0.38, 0.285, 0.20), hem=0.3),
             "trousers": dyed("wool", (0.22, 0.27, 0.34)),
             "hose": dyed("wool", (0.50, 0.45, 0.36)), "belt": dyed("leather", (0.34, 0.225, 0.14)),
             "hair": dyed("hair", (0.27, 0.19, 0.135)), "collar": dyed("linen", (0.65, 0.60, 0.50)),
@@ -140,7 +142,7 @@ PEOPLE = {
         },
     },
     "townswoman": {
-        "height_m": 1.63, "skin": FEMALE, "proportions": WOMAN_SHAPE,
+        "height_m": 1.63, "skin": dict(FEMALE, iris=(0.34, 0.42, 0.50)), "proportions": WOMAN_SHAPE,
         "bulges": WOMAN_BULGES + WOMAN_FACE,
         "manner": {"arm_spread_deg": 4.0, "stride": 0.92},
         "wear": [
@@ -174,7 +176,7 @@ PEOPLE = {
         },
     },
     "noblewoman": {
-        "height_m": 1.66, "skin": dict(FEMALE, tone=(0.635, 0.51, 0.44), rouge=1.2),
+        "height_m": 1.66, "skin": dict(FEMALE, tone=(0.595, 0.465, 0.39), rouge=1.2, iris=(0.33, 0.38, 0.28)),
         "proportions": WOMAN_SHAPE,
         "bulges": WOMAN_BULGES + WOMAN_FACE,
         "manner": {"arm_spread_deg": 6.0, "arm_swing": 0.3, "arm_forward_deg": 14.0,
@@ -190,9 +192,10 @@ PEOPLE = {
             {"piece": "belt", "at": ["waist", -0.01], "height": 0.022, "thickness": 0.007},
             dict(WOMAN_HAIR),
             {"piece": "cape", "name": "mantle", "top_deg": 64, "bottom_deg": 0, "ease": 0.022,
-             "open_deg": 96, "stand_off": 0.06,
-             "hem": ["knee", -0.22], "flare": 0.10, "folds": 9, "fold_depth": 0.045,
+             "open_deg": 116, "stand_off": 0.08,
+             "hem": ["knee", -0.22], "flare": 0.06, "folds": 9, "fold_depth": 0.045,
              "lining": "lining", "hang_rows": 10},
+            dict(YOKE),
             {"piece": "standing collar", "height": 0.035, "flare": 0.0, "cell": "upper"},
             {"piece": "ruff", "width": 0.072},
             {"piece": "hat", "sit": 0.036, "tilt_deg": -9, "profile": [
@@ -204,21 +207,21 @@ PEOPLE = {
         "dyes": {"gown": ["upper", "sleeve", "skirt"], "mantle": ["cape"]},
         "cloth": {
             "upper": dyed("velvet", (0.13, 0.22, 0.17),
-                          placket=[0.09, (0.52, 0.45, 0.26), 8, (0.66, 0.57, 0.34)]),
+                          placket=[0.09, (0.47, 0.42, 0.29), 8, (0.66, 0.57, 0.34)]),
             "sleeve": dyed("velvet", (0.13, 0.22, 0.17), trim=[[0.87, 1.0, (0.72, 0.70, 0.65)]],
-                           stripes=[2, (0.36, 0.34, 0.20)]),
+                           stripes=[2, (0.35, 0.33, 0.22)]),
             "skirt": dyed("velvet", (0.14, 0.24, 0.18), damask=(0.19, 0.30, 0.22), folds=0.25,
-                          placket=[0.10, (0.50, 0.44, 0.26), 0, None],
+                          placket=[0.10, (0.47, 0.42, 0.29), 0, None],
                           trim=[[0.90, 0.96, (0.44, 0.38, 0.22)]]),
             "cape": dyed("velvet", (0.27, 0.07, 0.10), trim=[[0.92, 1.0, (0.50, 0.38, 0.20)]]),
             "lining": dyed("wool", (0.62, 0.56, 0.46)), "collar": dyed("linen", (0.83, 0.81, 0.77)),
             "hose": dyed("wool", (0.3, 0.27, 0.24)), "belt": dyed("metal", (0.50, 0.42, 0.23)),
             "hair": dyed("hair", (0.42, 0.27, 0.13)),
-            "hat": dyed("velvet", (0.11, 0.09, 0.10), trim=[[0.36, 0.52, (0.42, 0.33, 0.17)]]),
+            "hat": dyed("velvet", (0.11, 0.09, 0.10), trim=[[0.44, 0.5, (0.42, 0.33, 0.17)]]),
         },
     },
     "maid": {
-        "height_m": 1.58, "skin": dict(FEMALE, tone=(0.575, 0.44, 0.36)),
+        "height_m": 1.58, "skin": dict(FEMALE, tone=(0.55, 0.415, 0.335)),
         "proportions": WOMAN_SHAPE,
         "bulges": WOMAN_BULGES + WOMAN_FACE,
         "manner": {"arm_spread_deg": 4.0, "stride": 0.98},
@@ -241,7 +244,7 @@ PEOPLE = {
         ],
         "bare_arm_from": 1.25,
         "props": [
-            {"piece": "head basket", "name": "basket", "wicker": ["coif", (0.50, 0.30, 0.13)],
+            {"piece": "head basket", "name": "basket", "wicker": ["coif", (0.46, 0.31, 0.18)],
              "filling": ["coif", (1.0, 1.0, 1.0)], "pad": ["coif", (0.28, 0.33, 0.40)]},
         ],
         "dyes": {"skirt": ["skirt"], "bodice": ["upper"], "shawl": ["cape"]},
@@ -285,7 +288,7 @@ PEOPLE = {
         },
     },
     "guard": {
-        "height_m": 1.80, "skin": TANNED, "proportions": {"trunk": (1.04, 1.03, 1.0)},
+        "height_m": 1.80, "skin": dict(TANNED, iris=(0.36, 0.43, 0.50)), "proportions": {"trunk": (1.04, 1.03, 1.0)},
         "manner": {"arm_spread_deg": 2.0},
         "wear": [
             dict(STOCKINGS, start=0.9),
@@ -316,13 +319,13 @@ PEOPLE = {
              "metal": ["plate", (0.9, 0.9, 0.9)], "strap": ["belt", (0.5, 0.42, 0.35)]},
         ],
         "cloth": {
-            "upper": dyed("wool", (0.49, 0.37, 0.155)),
-            "sleeve": dyed("wool", (0.49, 0.37, 0.155), stripes=[2, (0.20, 0.24, 0.315)]),
-            "skirt": dyed("wool", (0.49, 0.37, 0.155), stripes=[5, (0.20, 0.24, 0.315)]),
-            "trousers": dyed("wool", (0.44, 0.335, 0.15)),
+            "upper": dyed("wool", (0.46, 0.365, 0.20)),
+            "sleeve": dyed("wool", (0.46, 0.365, 0.20), stripes=[2, (0.215, 0.24, 0.29)]),
+            "skirt": dyed("wool", (0.46, 0.365, 0.20), stripes=[5, (0.215, 0.24, 0.29)]),
+            "trousers": dyed("wool", (0.42, 0.335, 0.19)),
             "hose": dyed("wool", (0.34, 0.29, 0.24)),
             "boots": dyed("leather", (0.25, 0.17, 0.115), hem=0.4),
-            "plate": dyed("metal", (0.42, 0.43, 0.45)), "belt": dyed("leather", (0.27, 0.175, 0.105)),
+            "plate": dyed("metal", (0.41, 0.405, 0.40)), "belt": dyed("leather", (0.27, 0.175, 0.105)),
             "collar": dyed("linen", (0.68, 0.65, 0.58)), "hair": dyed("hair", (0.29, 0.205, 0.14)),
         },
     },
@@ -360,7 +363,7 @@ PEOPLE = {
         },
     },
     "girl": {
-        "height_m": 1.28, "skin": CHILDLIKE,
+        "height_m": 1.28, "skin": dict(CHILDLIKE, iris=(0.33, 0.41, 0.49)),
         "bulges": CHILD_FACE, "proportions": CHILD_SHAPE,
         "manner": {"arm_spread_deg": 5.0},
         "wear": [
@@ -390,7 +393,7 @@ PEOPLE = {
         },
     },
     "old_man": {
-        "height_m": 1.69, "skin": OLD,
+        "height_m": 1.69, "skin": dict(OLD, iris=(0.42, 0.46, 0.48)),
         "bulges": [dict(BELLY, push=(0, -0.035, 0))],
         "manner": {"arm_spread_deg": 1.0, "stride": 0.76, "liveliness": 0.7, "arm_swing": 0.3,
                    "arm_forward_deg": 10.0, "stoop_deg": 8.0},
@@ -406,8 +409,8 @@ PEOPLE = {
             dict(LONG_HAIR), dict(BEARD, thickness=0.02, length=0.10),
             {"piece": "moustache", "thickness": 0.014},
             {"piece": "cape", "name": "cloak", "top_deg": 66, "bottom_deg": 0, "ease": 0.028,
-             "open_deg": 88, "stand_off": 0.06,
-             "hem": ["knee", 0.0], "flare": 0.10, "folds": 9, "fold_depth": 0.045, "hang_rows": 9},
+             "open_deg": 104, "stand_off": 0.06,
+             "hem": ["knee", 0.0], "flare": 0.05, "folds": 9, "fold_depth": 0.045, "hang_rows": 9},
             {"piece": "hat", "name": "cap", "sit": 0.024, "tilt_deg": -8, "profile": [
                 [0, 0, 0.088], [0.6, 0, 0.085], [1.0, 0.024, 0.060], [1.0, 0.036, 0.026],
                 [1.0, 0.010, 0.004], [1.0, 0.008, -0.016],

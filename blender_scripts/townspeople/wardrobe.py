@@ -14,12 +14,12 @@ CELLS = {
 }
 
 MALE = {"tone": (0.565, 0.425, 0.345), "smooth": 0.5}
-FEMALE = {"tone": (0.60, 0.465, 0.385), "smooth": 1.0, "rouge": 0.9,
-          "brow": {"rise": 19.0, "half": 1.7, "arch": 3.6, "strength": 0.75}}
+FEMALE = {"tone": (0.575, 0.44, 0.36), "smooth": 1.0, "rouge": 0.9,
+          "brow": {"rise": 17.0, "half": 2.1, "arch": 2.8, "strength": 0.65}}
 TANNED = {"tone": (0.51, 0.375, 0.30), "smooth": 0.4, "age": 0.2}
-OLD = {"tone": (0.56, 0.43, 0.36), "smooth": 0.4, "age": 1.0, "brow": {"half": 3.2, "fall": 5.0}}
-CHILDLIKE = {"tone": (0.60, 0.465, 0.385), "smooth": 1.0, "rouge": 0.8,
-             "brow": {"rise": 19.5, "half": 1.6, "strength": 0.65}}
+OLD = {"tone": (0.56, 0.43, 0.36), "smooth": 0.4, "age": 1.0, "brow": {"half": 3.4, "fall": 4.0}}
+CHILDLIKE = {"tone": (0.575, 0.44, 0.36), "smooth": 1.0, "rouge": 0.8,
+             "brow": {"rise": 17.0, "half": 2.0, "strength": 0.55}}
 
 WOMAN_SHAPE = {"trunk": (0.90, 0.94, 0.98), "arms": (0.92, 0.92, 0.92), "hands": (0.88, 0.88, 0.88),
                "head": (0.95, 0.96, 0.97), "neck": (0.86, 0.88, 1.02), "feet": (0.88, 0.90, 0.9),
@@ -88,6 +88,8 @@ COIF = {"piece": "shell", "name": "coif", "thickness": 0.006, "crown_thickness":
         "cell": "coif", "edge": [[0, 62], [35, 55], [65, 26], [85, -14], [105, -32], [140, -40],
                                  [180, -44]]}
 BEARD = {"piece": "beard"}
+YOKE = {"piece": "cape", "name": "yoke", "top_deg": 71, "bottom_deg": 46, "ease": 0.008, "columns": 28,
+        "cell": "upper"}
 BAND = {"piece": "cape", "name": "band", "top_deg": 70, "bottom_deg": 50, "ease": 0.012,
         "columns": 28, "cell": "collar"}
 STOCKINGS = {"piece": "legs", "name": "hose", "start": 0.4, "end": 2.0}

@@ -5,16 +5,23 @@
 
 flat in vec3 v_tint0, v_tint1, v_tint2;
 uniform vec4 u_tints[MAX_TINTS];  // colour, with half its lightness taken off, and 1 / reach squared
+const vec3 k_lightness = vec3(0.30, 0.59, 0.11);
 float tint_share(vec3 half_light, vec4 tint) {
   vec3 off = half_light - tint.rgb;
   return clamp(2.0 - 2.0 * dot(off, off) * tint.w, 0.0, 1.0);
 }
+// In folds, darker than the cloth, as much less: all of the way would lead to another hue.
+float in_fold(vec3 half_light, vec4 tint) {
+  return min(1.0, dot(half_light, k_lightness) / max(0.02, dot(tint.rgb, k_lightness)));
+}
 // dyed: by tint, whether it may dye this place.
 vec3 tinted(vec3 color, vec3 dyed) {
-  vec3 half_light = color - 0.5 * dot(color, vec3(0.30, 0.59, 0.11));
+  vec3 half_light = color - 0.5 * dot(color, k_lightness);
   float share0 = dyed.x * tint_share(half_light, u_tints[0]);
   float share1 = min(1.0 - share0, dyed.y * tint_share(half_light, u_tints[1]));
   float share2 = min(1.0 - share0 - share1, dyed.z * tint_share(half_light, u_tints[2]));
-  return clamp(color + share0 * v_tint0 + share1 * v_tint1 + share2 * v_tint2, 0.0, 1.0);
+  color += share0 * in_fold(half_light, u_tints[0]) * v_tint0 + share1 * in_fold(half_light, u_tints[1]) * v_tint1 +
+           share2 * in_fold(half_light, u_tints[2]) * v_tint2;
+  return clamp(color, 0.0, 1.0);
 }
 #endif
