@@ -161,8 +161,9 @@ def gable(mesh, frame, width, slope, colors, rng, decorated=True, windows=True, 
         return
     for index, (low, high) in enumerate(zip(levels, levels[1:])):
         a = low / slope
-        beam(mesh, frame, (a, base + low + 0.09), (width - a, base + low + 0.09), 0.18, PROUD + 0.012, tone(timber, rng), rng,
-             flanks=flanks)
+        lap = 0.04 if index == 0 else 0.0   # over the plate below, so that no plaster shows between them
+        axis, tall = base + low + 0.09 - lap / 2, 0.18 + lap
+        beam(mesh, frame, (a, axis), (width - a, axis), tall, PROUD + 0.012, tone(timber, rng), rng, flanks=flanks)
         span = width - 2 * a
         count = max(2, round(span / 1.12))
         if count % 2 == 0 and span > 2.4:

@@ -3,11 +3,12 @@
 import math
 
 from framing import PATTERNS, bargeboards, bay_edges, gable, jetty, storey, tone, window_bays
-from mesh import Frame, Mesh, beam, extrude, front_frame, panel, shade, srgb
+from mesh import Frame, Mesh, beam, box, extrude, front_frame, panel, shade, srgb
 from openings import door, sign, window
 from roof import chimney, dormer, gable_roof, shed_dormer
 
 DROP = 0.2          # height of the joists between two storeys
+CORNER = 0.034      # how far posts at a corner stand out of both its walls
 PLINTH = 0.42       # top of the stone plinth above the door's ground
 FOOT = -1.1         # walls reach this deep
 
@@ -202,6 +203,8 @@ def sides(house, level):
     for frame, is_open, seen in ((Frame((w, y, 0), (0, 1, 0)), house.right_open, house.right_seen),
                                  (Frame((0, d, 0), (0, -1, 0)), house.left_open, house.left_seen)):
         length = d - y
+        if is_open and level > 0:
+            corner_post(house, frame.u[1] > 0, y, z, height)
         if not is_open:
             panel(mesh, "plaster", frame, 0, length, low, z + height, colors["plaster"], step=4.5)
         elif level == 0:
@@ -225,13 +228,19 @@ def sides(house, level):
             rough_frame(house, back.shifted(0, z), w, height, plaster=False)
 
 
+def corner_post(house, right, y, z, height):
+    """Fills the notch between the posts of two walls, through which a line of plaster would glitter from afar."""
+    x, out = house.width if right else -CORNER, CORNER
+    box(house.mesh, "timber", (x, y - out, z), (x + out, y, z + height), house.colors["timber"], skip="zZY")
+
+
 def rough_frame(house, frame, length, height, plaster=True):
     """Plain framing of a wall that is only seen from afar."""
     colors, rng = house.colors, house.rng
     if plaster:
         panel(house.mesh, "plaster", frame, 0, length, 0, height, colors["plaster"], step=2.6)
     count = max(2, round(length / 1.9))
-    for v in (0.1, height * 0.5, height - 0.1):
+    for v in (0.09, height * 0.5, height - 0.09):  # no plaster shows between them and the timbers above and below
         beam(house.mesh, frame, (0, v), (length, v), 0.18, 0.03, tone(colors["timber"], rng), rng, step=9, flanks=False)
     for i in range(count + 1):
         u = min(max(0.09, length * i / count), length - 0.09)

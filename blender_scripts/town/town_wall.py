@@ -13,6 +13,7 @@ from openings import window
 HEIGHT, THICK = 5.6, 1.1
 GATE_WIDTH, GATE_DEPTH, GATE_OPENING = 9.6, 6.5, 4.8
 WALL_COLOR = srgb("d9ccb4")
+BEVEL_M = 0.09   # below a coping: a level underside would be a dark line thinner than a pixel, and look dashed
 
 
 def outward(index):
@@ -163,17 +164,15 @@ def make_line_wall(line, height, thickness, color, near=0.05):
     along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     for i in range(len(line) - 1):
         j, dark = i + 1, shade(color, 0.92)
-        tops = [(ground[i] + height, ground[j] + height), (ground[i] + height + 0.13, ground[j] + height + 0.13)]
         for side, (a, b) in ((0, (j, i)), (1, (i, j))):
-            _strip(mesh, low[side][a], low[side][b], (ground[a] - 1.2, ground[b] - 1.2), (ground[a] + height, ground[b] + height),
-                   (along[a], along[b]), color)
-            _strip(mesh, cap[side][a], cap[side][b], (ground[a] + height, ground[b] + height),
-                   (ground[a] + height + 0.13, ground[b] + height + 0.13), (along[a], along[b]), dark)
-        for (za, zb), order in ((tops[0], -1), (tops[1], 1)):
-            points = [(*cap[1][i], za), (*cap[1][j], zb), (*cap[0][j], zb), (*cap[0][i], za)]
-            width = thickness + 0.12
-            mesh.face("stone", points[::order], [(along[i], 0), (along[j], 0), (along[j], width), (along[i], width)][::order],
-                      dark)
+            bottom, foot, eave, top = ((ground[a] + up, ground[b] + up) for up in (-1.2, height - BEVEL_M, height, height + 0.13))
+            _strip(mesh, low[side][a], low[side][b], bottom, foot, (along[a], along[b]), color)
+            bevel = [(*low[side][a], foot[0]), (*low[side][b], foot[1]), (*cap[side][b], eave[1]), (*cap[side][a], eave[0])]
+            mesh.face("stone", bevel, [(along[a], 0), (along[b], 0), (along[b], BEVEL_M), (along[a], BEVEL_M)], color)
+            _strip(mesh, cap[side][a], cap[side][b], eave, top, (along[a], along[b]), dark)
+        points = [(*cap[side][k], ground[k] + height + 0.13) for side, k in ((1, i), (1, j), (0, j), (0, i))]
+        width = thickness + 0.12
+        mesh.face("stone", points, [(along[i], 0), (along[j], 0), (along[j], width), (along[i], width)], dark)
     for k, (p, q) in ((0, (0, 1)), (len(line) - 1, (1, 0))):
         _strip(mesh, low[p][k], low[q][k], (ground[k] - 1.2,) * 2, (ground[k] + height,) * 2, (0, thickness), color)
         _strip(mesh, cap[p][k], cap[q][k], (ground[k] + height,) * 2, (ground[k] + height + 0.13,) * 2, (0, thickness), color)

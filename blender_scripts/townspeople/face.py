@@ -183,8 +183,8 @@ def _features(head, picture, tone, rouge):
     for x, z, rx, rz, share in ((e + 9, nose - 3, 21, 17, 0.15), (0, nose + 3, 9, 8, 0.12), (0, mouth - 26, 12, 9, 0.08)):
         red = share * (0.6 + 0.7 * rouge) * head.spot(x, z, rx, rz)
         picture = picture * (1.0 - red[..., None] * np.array([0.02, 0.62, 0.60], np.float32))
-    lips = head.spot(0, mouth, 20, 7.5) ** 1.5
-    picture = _mixed(picture, (0.50 + 0.38 * rouge) * lips, np.asarray(tone) * np.array([0.88, 0.55, 0.53]))
+    lips = np.exp(-(np.square(head.x / 24) + np.square((head.z - mouth + 1.5) / 9.5)) ** 2) * (head.y > -35.0)
+    picture = _mixed(picture, (0.42 + 0.30 * rouge) * lips, np.asarray(tone) * np.array([0.88, 0.55, 0.53]))
     socket = head.spot(e - 14, 4, 8, 10) * 0.16
     return picture * (1.0 - socket[..., None] * np.array([0.8, 1.0, 1.0], np.float32))
 

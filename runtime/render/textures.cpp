@@ -10,6 +10,10 @@
 namespace flaneur {
 namespace {
 
+// In software only pictures larger than this are mixed between mip levels: those are walls' and the ground's, where one
+// sees from afar where the levels change.
+constexpr int kMixed_px = 512;
+
 void SetFilters(GLenum target, GLint wrap, GLint most_level, bool between_levels) {
   glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
   glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
@@ -68,7 +72,7 @@ std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, textures[k]);
     glTexStorage3D(GL_TEXTURE_2D_ARRAY, LevelsOf(a.side_px), a.blocks ? GL_COMPRESSED_RGB_S3TC_DXT1_EXT : GL_RGBA8,
                    a.side_px, a.side_px, std::max(1, a.layers));
-    SetFilters(GL_TEXTURE_2D_ARRAY, GL_REPEAT, LevelsOf(a.side_px) - 1, !fast);
+    SetFilters(GL_TEXTURE_2D_ARRAY, GL_REPEAT, LevelsOf(a.side_px) - 1, !fast || a.side_px > kMixed_px);
     // In software each anisotropic look-up walks an ellipse of texels: too expensive for many pictures a second.
     if (!fast && HasExtension("texture_filter_anisotropic")) {
       glTexParameterf(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_ANISOTROPY_EXT, 4);
