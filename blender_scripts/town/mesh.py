@@ -238,16 +238,27 @@ def extrude(mesh, material, frame, corners, out0, out1, color, front=True, back=
         along += length
 
 
-def lathe(mesh, material, center, profile, sides, color, smooth=True, turn=0.0, caps=True):
-    """A turned solid: `profile` lists (radius, z) from below upwards, about the vertical through center."""
+def _slope(low, high):
+    """Outwards and upwards, the normal of a turned surface between two rings (radius, z)."""
+    length = math.dist(low, high) or 1.0
+    return (high[1] - low[1]) / length, (low[0] - high[0]) / length
+
+
+def lathe(mesh, material, center, profile, sides, color, smooth=True, turn=0.0, caps=True, ball=False):
+    """A turned solid: `profile` lists (radius, z) from below upwards, about the vertical through center.
+
+    smooth: its light turns softly about the axis; ball: from ring to ring too.
+    """
     cx, cy, cz = center
     ring = [(math.cos(turn + 2 * math.pi * i / sides), math.sin(turn + 2 * math.pi * i / sides)) for i in range(sides)]
     along = 0.0
-    for (r0, z0), (r1, z1) in zip(profile, profile[1:]):
+    last = len(profile) - 1
+    for k, ((r0, z0), (r1, z1)) in enumerate(zip(profile, profile[1:])):
         length = math.hypot(r1 - r0, z1 - z0)
         if length < 1e-6:
             continue
-        slope = ((z1 - z0) / length, (r0 - r1) / length)
+        slopes = (_slope(profile[k - 1 if ball and k > 0 else k], profile[k + 1]),
+                  _slope(profile[k], profile[min(k + 2, last) if ball else k + 1]))
         for i in range(sides):
             c0, c1 = ring[i], ring[(i + 1) % sides]
             girth = 2 * math.pi * max(r0, r1) / sides
@@ -255,7 +266,8 @@ def lathe(mesh, material, center, profile, sides, color, smooth=True, turn=0.0, 
                       (cx + r1 * c1[0], cy + r1 * c1[1], cz + z1), (cx + r1 * c0[0], cy + r1 * c0[1], cz + z1)]
             uvs = [(i * girth, along), ((i + 1) * girth, along), ((i + 1) * girth, along + length),
                    (i * girth, along + length)]
-            normals = [(slope[0] * c[0], slope[0] * c[1], slope[1]) for c in (c0, c1, c1, c0)]
+            normals = [(out * c[0], out * c[1], up) for c, (out, up) in
+                       ((c0, slopes[0]), (c1, slopes[0]), (c1, slopes[1]), (c0, slopes[1]))]
             keep = [0, 1, 2, 3]
             if r1 < 1e-6:
                 keep = [0, 1, 2]

@@ -42,8 +42,8 @@ def heap(mesh, x0, x1, y0, y1, z, rng):
         for j in range(ny):
             cx = x0 + (x1 - x0) * (i + 0.5) / nx + rng.uniform(-0.01, 0.01)
             cy = y0 + (y1 - y0) * (j + 0.5) / ny
-            ball = [(r * 0.95, r * 0.45), (r * 0.97, r * 0.95), (r * 0.74, r * 1.45), (r * 0.38, r * 1.68), (0.0, r * 1.74)]
-            lathe(mesh, "cloth", (cx, cy, z), ball, 7, shade(color, rng.uniform(0.8, 1.1)), caps=False)
+            ball = [(r * 0.82, r * 0.35), (r, r * 0.9), (r * 0.84, r * 1.48), (r * 0.45, r * 1.8), (0.0, r * 1.88)]
+            lathe(mesh, "cloth", (cx, cy, z), ball, 8, shade(color, rng.uniform(0.8, 1.1)), caps=False, ball=True)
 
 
 def sack(mesh, x, y, z, rng):
