@@ -15,6 +15,7 @@
 #include "runtime/render/people_batches.h"
 #include "runtime/render/person_geometry.h"
 #include "runtime/render/projection.h"
+#include "runtime/render/textures.h"
 #include "runtime/render/town_geometry.h"
 #include "runtime/render/visible_triangles.h"
 #include "tests/soak/drivers_stay_loaded.h"
@@ -239,6 +240,19 @@ TEST_F(Drawing, APropIsDrawnBeforeThePersonOrHiddenBehindThem) {
 }
 
 // The red of BoxPerson's pictures is dyed blue or left as it is, and every other colour stays.
+TEST_F(Drawing, LargePicturesAreMixedBetweenMipLevelsInSoftwareToo) {
+  SurfacePlan plan;
+  plan.arrays = {{1024, 1, false}, {512, 1, false}};
+  const std::vector<GLuint> arrays = CreateTextureArrays(plan, true);
+  for (size_t k = 0; k < arrays.size(); ++k) {
+    GLint filter = 0;
+    glBindTexture(GL_TEXTURE_2D_ARRAY, arrays[k]);
+    glGetTexParameteriv(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, &filter);
+    EXPECT_EQ(filter, k == 0 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST) << k;
+  }
+  glDeleteTextures(static_cast<GLsizei>(arrays.size()), arrays.data());
+}
+
 TEST_F(Drawing, ATintDyesMeshAndImpostorOfWhoWearsItAlone) {
   TourPack pack = MakePack({});
   pack.avatars[0].tints = {{{200 / 255.0f, 60 / 255.0f, 60 / 255.0f}, 0.2f, {{0.2f, 0.3f, 0.8f}, {0.2f, 0.7f, 0.3f}}}};
