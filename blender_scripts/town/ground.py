@@ -151,9 +151,12 @@ def far_land(rng):
     return mesh
 
 
+BOUGHS = 0.16   # of the leaves' size: from afar one sees boughs, and leaves would be a grey noise
+
+
 def _copse(mesh, center, radius, rng):
     """Distant trees: a few crowns that overlap, each a lumpy dome whose light turns softly, darker towards the ground."""
-    green = shade(srgb("8d9060"), rng.uniform(0.7, 0.95))
+    green = shade(srgb("9fa465"), rng.uniform(0.75, 1.0))
     own = random.Random(rng.uniform(0, 6))
     for k in range(own.choice((2, 3, 3))):
         turn = own.uniform(0, 2 * math.pi)
@@ -163,13 +166,13 @@ def _copse(mesh, center, radius, rng):
 
 
 def _crown(mesh, center, radius, color, rng):
-    sides, bands = 7, ((1.0, -0.2, 0.62), (1.12, 0.55, 0.85), (0.72, 1.2, 1.0), (0.0, 1.5, 1.08))
+    sides, bands = 7, ((0.8, -0.2, 0.7), (1.12, 0.5, 0.88), (0.78, 1.25, 1.02), (0.0, 1.62, 1.12))
     rings = []
     for width, height, light in bands:
         ring = []
         for i in range(sides):
-            t, r = 2 * math.pi * (i + rng.uniform(-0.2, 0.2)) / sides, radius * width * rng.uniform(0.82, 1.15)
-            d = (r * math.cos(t), r * math.sin(t), radius * (height + (rng.uniform(-0.1, 0.1) if 0 < width else 0.0)))
+            t, r = 2 * math.pi * (i + rng.uniform(-0.2, 0.2)) / sides, radius * width * rng.uniform(0.76, 1.2)
+            d = (r * math.cos(t), r * math.sin(t), radius * (height + (rng.uniform(-0.18, 0.18) if 0 < height else 0.0)))
             ring.append((tuple(center[m] + d[m] for m in range(3)), (d[0], d[1], d[2] - 0.3 * radius)))
         rings.append((ring, light))
     for (low, dark), (high, bright) in zip(rings, rings[1:]):
@@ -177,5 +180,6 @@ def _crown(mesh, center, radius, color, rng):
             j = (i + 1) % sides
             corners = [low[i], low[j], high[j], high[i]] if high is not rings[-1][0] else [low[i], low[j], high[0]]
             girth = 2 * math.pi * radius / sides
-            uvs = [(i * girth, 0), ((i + 1) * girth, 0), ((i + 1) * girth, radius), (i * girth, radius)][:len(corners)]
+            left, right, up = i * girth * BOUGHS, (i + 1) * girth * BOUGHS, radius * BOUGHS
+            uvs = [(left, 0), (right, 0), (right, up), (left, up)][:len(corners)]
             mesh.face("leaves", [p for p, _ in corners], uvs, shade(color, (dark + bright) / 2), [n for _, n in corners])

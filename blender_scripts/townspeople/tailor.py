@@ -58,11 +58,20 @@ def axis_y(tailor, z):
     return float(np.interp(z, [mark[2] for mark in marks], [min(mark[1], 0.02) for mark in marks]))
 
 
+def bare_parts(tailor, covers):
+    """Of the figure's own parts those that nothing of these kinds covers: {part: kinds}.
+
+    What is covered is not worn: a belt or skirt over it would stand off a garment that is smoother.
+    """
+    worn = tuple(tailor.worn)
+    return [tailor.figure.parts[part] for part, kinds in covers.items() if not any(name.startswith(kinds) for name in worn)]
+
+
 def slice_points(tailor, arms, skirts=False):
     """Points all over trunk and legs (and arms down to the elbow, and skirts), as worn so far."""
     figure = tailor.figure
-    parts = [figure.parts["trousers"], figure.parts["shirt"]]
     kinds = ("upper", "trousers", "plate") + (("skirt",) if skirts else ())
+    parts = bare_parts(tailor, {"shirt": ("upper",), "trousers": ("trousers",)})
     parts += [tailor.worn[name] for name in tailor.worn if name.startswith(kinds)]
     clouds = []
     for part in parts:
@@ -168,8 +177,8 @@ def outward_of(tailor, points):
 def trunk_tree(tailor, arms):
     """Rays' target: everything worn on trunk, neck (and upper arms)."""
     figure = tailor.figure
-    parts = [figure.parts["shirt"], figure.parts["body"], figure.parts["trousers"]]
-    parts += [worn for name, worn in tailor.worn.items() if not name.startswith(("hair", "head"))]
+    parts = [worn for name, worn in tailor.worn.items() if not name.startswith(("hair", "head"))]
+    parts += bare_parts(tailor, {"body": (), "shirt": ("upper",), "trousers": ("skirt", "trousers")})
     before, tree = tailor.trunk_trees.get(arms, ([], None))
     if len(before) == len(parts) and all(one is other for one, other in zip(before, parts)):
         return tree
