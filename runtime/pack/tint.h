@@ -16,8 +16,8 @@ Vec3 WithHalfLightness(Vec3 color);
 float TintShare(const Tint& tint, Vec3 color);
 
 // The colour after each tint has moved its share by the way from its own colour to another, which keeps weave and
-// folds: where the colour is darker than the cloth, by as much less, or folds would be of another hue. `chosen`, by tint: 0 its own colour, k the k-th of its others. A share that an earlier tint has taken is not
-// taken again.
+// folds: where the colour is darker than the cloth, by as much less, or folds would be of another hue. `chosen`, by
+// tint: 0 its own colour, k the k-th of its others. A share that an earlier tint has taken is not taken again.
 Vec3 Tinted(const std::vector<Tint>& tints, const std::vector<size_t>& chosen, Vec3 color);
 
 }  // namespace flaneur
