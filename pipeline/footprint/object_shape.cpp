@@ -14,8 +14,9 @@
 namespace flaneur {
 namespace {
 
-// Without the crumbs that stick out of an outline by a hair: connected pieces shorter than kMinLoosePiece_m together.
-std::vector<Segment> WithoutCrumbs(const std::vector<Segment>& loose) {
+// Takes out the crumbs, which mostly stick out of an outline by a hair: connected pieces shorter than kMinLoosePiece_m
+// together.
+std::vector<Segment> TakeCrumbs(std::vector<Segment>* loose) {
   std::map<std::pair<double, double>, size_t> ends;
   DisjointSets connected;
   const auto end = [&](Point2 p) {
@@ -24,16 +25,17 @@ std::vector<Segment> WithoutCrumbs(const std::vector<Segment>& loose) {
     return entry->second;
   };
   std::vector<size_t> start;
-  for (const Segment& s : loose) {
+  for (const Segment& s : *loose) {
     start.push_back(end(s.a));
     connected.Join(start.back(), end(s.b));
   }
   std::vector<double> length_m(connected.size(), 0);
-  for (size_t i = 0; i < loose.size(); ++i) length_m[connected.Root(start[i])] += Length(loose[i]);
-  std::vector<Segment> out;
-  for (size_t i = 0; i < loose.size(); ++i)
-    if (length_m[connected.Root(start[i])] >= kMinLoosePiece_m) out.push_back(loose[i]);
-  return out;
+  for (size_t i = 0; i < loose->size(); ++i) length_m[connected.Root(start[i])] += Length((*loose)[i]);
+  std::vector<Segment> kept, crumbs;
+  for (size_t i = 0; i < loose->size(); ++i)
+    (length_m[connected.Root(start[i])] >= kMinLoosePiece_m ? kept : crumbs).push_back((*loose)[i]);
+  *loose = std::move(kept);
+  return crumbs;
 }
 
 // How many lines end at each point.
@@ -157,11 +159,15 @@ void SetLoose(const std::vector<Segment>& lines, const Rings& solid, Shape* shap
   shape->loose.clear();
   shape->open_m = 0;
   if (lines.empty()) return;
-  const std::vector<Segment> loose = Outside(lines, Offset(solid, kOnOutline_m));
-  if (loose.empty()) return;
-  const std::vector<Segment> apart = Outside(loose, Offset(solid, kMinLoosePiece_m));  // not covered with what is solid
-  shape->loose = WithoutCrumbs(loose);
-  for (const Segment& s : apart) shape->open_m += Length(s);
+  shape->loose = Outside(lines, Offset(solid, kOnOutline_m));
+  if (shape->loose.empty()) return;
+  const Rings near = Offset(solid, kMinLoosePiece_m);  // covered with what is solid
+  const std::vector<Segment> crumbs = TakeCrumbs(&shape->loose);
+  for (const Segment& s : Outside(shape->loose, near)) shape->open_m += Length(s);
+  for (const Segment& s : Outside(crumbs, near)) {
+    shape->open_m += Length(s);
+    shape->loose.push_back(s);
+  }
 }
 
 Rings InPlan(const std::vector<Triangle3>& triangles) {
