@@ -1,24 +1,22 @@
 #include "pipeline/web/compress.h"
 
 #include <brotli/encode.h>
-#include <zlib.h>
+#include <libdeflate.h>
+
+#include <memory>
 
 namespace flaneur {
 
 Error Gzip(std::span<const uint8_t> bytes, Bytes* packed) {
-  constexpr int kGzipWindow = 15 + 16, kMostMemory = 9;
-  z_stream stream{};
-  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzipWindow, kMostMemory, Z_DEFAULT_STRATEGY) != Z_OK)
-    return Fail("there is not enough memory to compress the tour");
-  packed->resize(deflateBound(&stream, bytes.size()));
-  stream.next_in = const_cast<uint8_t*>(bytes.data());
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = packed->data();
-  stream.avail_out = static_cast<uInt>(packed->size());
-  const int status = deflate(&stream, Z_FINISH);
-  packed->resize(stream.total_out);
-  deflateEnd(&stream);
-  return status == Z_STREAM_END ? Ok() : Fail("the tour cannot be compressed");
+  constexpr int kSmallest = 12;
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(kSmallest), libdeflate_free_compressor);
+  if (!compressor) return Fail("there is not enough memory to compress the tour");
+  packed->resize(libdeflate_gzip_compress_bound(compressor.get(), bytes.size()));
+  const size_t size =
+      libdeflate_gzip_compress(compressor.get(), bytes.data(), bytes.size(), packed->data(), packed->size());
+  packed->resize(size);
+  return size > 0 ? Ok() : Fail("the tour cannot be compressed");
 }
 
 Error Brotli(std::span<const uint8_t> bytes, Bytes* packed) {
