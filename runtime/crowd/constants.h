@@ -67,7 +67,7 @@ inline constexpr float kNearWall_m = 0.35f;
 // leaves them less is gone through all the same, at such a cost that straight ways and whoever has another keep out of
 // it.
 inline constexpr float kByChoice_m = 0.05f;
-inline constexpr float kNarrowCost = 3;
+inline constexpr float kNarrowCost = 1.5f;
 // A metre up or down a gradient g counts 1 + 4 |g|, near the energy of walking on gentle slopes (Minetti et al. 2002).
 inline constexpr float kSlopeCost = 4.0f;
 // Gentler slopes are level to those who look for a straight way: they cost no more than a wall near by.

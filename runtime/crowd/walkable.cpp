@@ -365,7 +365,8 @@ void OpenAlong(Vec2 place, Vec2 along, float radius_m, const std::vector<float>&
     if (at.x < 0 || Clearance(*w, before, place) < radius_m - 0.001f) return;
     if (at.x != last.x && at.y != last.y) open(at.x, last.y);  // ways lead from side to side of cells
     const int cell = at.y * w->columns + at.x;
-    if (cost[static_cast<size_t>(cell)] > 0 && Clearance(*w, cell, place) > w->person_radius_m + w->cell_m) return;
+    if (cost[static_cast<size_t>(cell)] > 0 && Clearance(*w, cell, place) > w->person_radius_m + 0.25f * w->cell_m)
+      return;
     open(at.x, at.y);
     last = at;
   }
