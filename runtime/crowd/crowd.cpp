@@ -26,20 +26,23 @@ bool IsTurn(const Crowd& c, size_t i, int every_steps) {
 bool IsLost(const Crowd& c, size_t i) { return c.way[i].x == 0 && c.way[i].y == 0; }
 
 // Straight to the goal where it is in sight, else as the flow field says.
+Vec2 WayOn(const Walkable& w, size_t i, bool roughly, Crowd* c) {
+  const FlowField& field = c->fields[static_cast<size_t>(c->field[i])];
+  if (c->sees_goal[i]) {
+    const Vec2 way = field.goal - c->position[i];
+    const float way_m = Length(way);
+    return way_m > 1e-3f ? way * (1 / way_m) : Vec2{};
+  }
+  if (roughly && IsBuilt(field)) return RoughWayAt(w, field, c->position[i]);
+  return WayToGoal(w, c->field[i], c->position[i], IsTurn(*c, i, kSightEvery_steps), &c->corner[i], c);
+}
+
 void RenewWay(const Walkable& w, size_t i, bool look, bool roughly, Crowd* c) {
   const Vec2 goal = c->fields[static_cast<size_t>(c->field[i])].goal;
   if (look) c->sees_goal[i] = StraightWay(w, c->position[i], goal) ? 1 : 0;
-  if (!c->sees_goal[i]) {
-    const FlowField& field = c->fields[static_cast<size_t>(c->field[i])];
-    const bool rough = roughly && IsBuilt(field);
-    const bool sight = IsTurn(*c, i, kSightEvery_steps);
-    c->way[i] = rough ? RoughWayAt(w, field, c->position[i])
-                      : WayToGoal(w, c->field[i], c->position[i], sight, &c->corner[i], c);
-    return;
-  }
-  const Vec2 way = goal - c->position[i];
-  const float way_m = Length(way);
-  c->way[i] = way_m > 1e-3f ? way * (1 / way_m) : Vec2{};
+  c->way[i] = WayOn(w, i, roughly, c);
+  if (Dot(c->velocity[i], c->velocity[i]) < kHardly_mps * kHardly_mps)
+    c->way[i] = AlongToDoor(w, c->position[i], c->radius_m[i], c->way[i]);
 }
 
 // How many steps the person can walk straight on without coming near a wall, the goal or somebody's private disc.
@@ -112,8 +115,6 @@ void RenewWays(const Walkable& w, const std::vector<int>& caring, Crowd* c) {
     if (lost || c->turn[i]) {
       const int every = c->sees_goal[i] ? 2 * kSightEvery_steps : kSightEvery_steps;
       RenewWay(w, i, lost || IsTurn(*c, i, every), false, c);
-      if (Dot(c->velocity[i], c->velocity[i]) < kHardly_mps * kHardly_mps)
-        c->way[i] = AlongToDoor(w, c->position[i], c->radius_m[i], c->way[i]);
     }
   }
 }
