@@ -50,6 +50,19 @@ Vec3 TransformNormal(const Mat4& m, Vec3 n) {
 
 }  // namespace
 
+bool IsBelow(const std::vector<Joint>& joints, int joint, int above) {
+  for (int a = joint; a >= 0; a = At(joints, a).parent) {
+    if (a == above) return true;
+  }
+  return false;
+}
+
+float WeightOn(const std::vector<bool>& joints, const Mesh& mesh, size_t vertex) {
+  float weight = 0;
+  for (size_t i = 0; i < 4; ++i) weight += At(joints, mesh.joints[vertex][i]) ? mesh.weights[vertex][i] : 0;
+  return weight;
+}
+
 std::vector<Mesh*> AllMeshes(Avatar* avatar) {
   std::vector<Mesh*> meshes;
   for (Mesh& mesh : avatar->meshes) meshes.push_back(&mesh);

@@ -65,6 +65,12 @@ struct AvatarLevels {
   std::vector<AvatarLevel> levels;
 };
 
+// Whether a joint is `above` or hangs on it.
+bool IsBelow(const std::vector<Joint>& joints, int joint, int above);
+
+// How much of a vertex of a mesh with joints hangs on those that are marked, 0 to 1.
+float WeightOn(const std::vector<bool>& joints, const Mesh& mesh, size_t vertex);
+
 // What everybody has, then the props' meshes.
 std::vector<Mesh*> AllMeshes(Avatar* avatar);
 

@@ -44,17 +44,11 @@ bool Lies(Vec3 up) { return AngleBetween(up, {0, 1, 0}) > kUpright_rad; }
 // Vertices that hang on one of the joints or what is below it.
 std::vector<bool> OnOrBelow(const Avatar& avatar, const std::vector<int>& joints, const Mesh& mesh) {
   std::vector<bool> theirs(avatar.joints.size(), false);
-  for (size_t j = 0; j < theirs.size(); ++j) {
-    const int parent = avatar.joints[j].parent;
-    theirs[j] = std::find(joints.begin(), joints.end(), static_cast<int>(j)) != joints.end() ||
-                (parent >= 0 && At(theirs, parent));
+  for (int j = 0; j < Count(avatar.joints); ++j) {
+    for (const int above : joints) At(theirs, j) = At(theirs, j) || IsBelow(avatar.joints, j, above);
   }
   std::vector<bool> on(mesh.positions.size(), false);
-  for (size_t v = 0; v < mesh.joints.size(); ++v) {
-    float weight = 0;
-    for (size_t i = 0; i < 4; ++i) weight += At(theirs, mesh.joints[v][i]) ? mesh.weights[v][i] : 0;
-    on[v] = weight > 0.5f;
-  }
+  for (size_t v = 0; v < mesh.joints.size(); ++v) on[v] = WeightOn(theirs, mesh, v) > 0.5f;
   return on;
 }
 

@@ -22,13 +22,6 @@ int DepthOf(const Joints& joints, int joint) {
   return depth;
 }
 
-bool IsBelow(const Joints& joints, int joint, int above) {
-  for (int a = joint; a >= 0; a = At(joints, a).parent) {
-    if (a == above) return true;
-  }
-  return false;
-}
-
 int CommonAncestor(const Joints& joints, int a, int b) {
   for (int up = a; up >= 0; up = At(joints, up).parent) {
     if (IsBelow(joints, b, up)) return up;

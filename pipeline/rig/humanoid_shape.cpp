@@ -81,13 +81,6 @@ std::vector<Pair> FindPairs(const Tree& tree) {
   return pairs;
 }
 
-bool IsBelow(const Tree& tree, int joint, int above) {
-  for (int a = joint; a >= 0; a = At(tree.joints, a).parent) {
-    if (a == above) return true;
-  }
-  return false;
-}
-
 // Where in the chain the limb's upper bone begins: the two longest neighbours are the limb.
 size_t UpperOf(const Tree& tree, const Chain& chain) {
   size_t best = 0;
@@ -140,8 +133,9 @@ bool FindHumanoidByShape(const std::vector<Joint>& joints, const std::vector<Vec
   const Pair *legs = nullptr, *arms = nullptr;
   for (const Pair& lower : pairs) {
     for (const Pair& upper : pairs) {
-      if (lower.at == upper.at || !IsBelow(tree, upper.at, lower.at)) continue;
-      const bool inside = IsBelow(tree, upper.at, lower.a.front()) || IsBelow(tree, upper.at, lower.b.front());
+      if (lower.at == upper.at || !IsBelow(tree.joints, upper.at, lower.at)) continue;
+      const bool inside =
+          IsBelow(tree.joints, upper.at, lower.a.front()) || IsBelow(tree.joints, upper.at, lower.b.front());
       if (inside) continue;
       if (legs == nullptr || lower.length + upper.length > legs->length + arms->length) legs = &lower, arms = &upper;
     }
@@ -150,7 +144,7 @@ bool FindHumanoidByShape(const std::vector<Joint>& joints, const std::vector<Vec
     h->quadruped = true;
     for (const Pair& hind : pairs) {
       for (const Pair& fore : pairs) {
-        if (IsBelow(tree, fore.at, hind.at) || IsBelow(tree, hind.at, fore.at)) continue;
+        if (IsBelow(tree.joints, fore.at, hind.at) || IsBelow(tree.joints, hind.at, fore.at)) continue;
         if (legs == nullptr || hind.length + fore.length > legs->length + arms->length) legs = &hind, arms = &fore;
       }
     }

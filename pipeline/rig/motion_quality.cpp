@@ -27,13 +27,6 @@ float Median(std::vector<float> values) {
   return *middle;
 }
 
-bool IsBelow(const std::vector<Joint>& joints, int joint, int above) {
-  for (int a = joint; a >= 0; a = At(joints, a).parent) {
-    if (a == above) return true;
-  }
-  return false;
-}
-
 // Which joints move what: trunk with thighs, or one arm from the elbow.
 std::vector<bool> TrunkJoints(const Rig& rig) {
   std::vector<bool> trunk(rig.joints.size(), false);
@@ -79,9 +72,7 @@ Mesh PointsOn(const Avatar& person, const std::vector<bool>& joints, size_t most
   Mesh all;
   for (const Mesh& mesh : person.meshes) {
     for (size_t v = 0; v < mesh.joints.size(); ++v) {
-      float weight = 0;
-      for (size_t i = 0; i < 4; ++i) weight += At(joints, mesh.joints[v][i]) ? mesh.weights[v][i] : 0;
-      if (weight < 0.6f) continue;
+      if (WeightOn(joints, mesh, v) < 0.6f) continue;
       all.positions.push_back(mesh.positions[v]);
       all.normals.push_back(mesh.normals[v]);
       all.joints.push_back(mesh.joints[v]);

@@ -21,13 +21,6 @@ Vec3 InFrame(const Pose& pose, int joint, Vec3 place) {
   return Rotated(Conjugate(At(pose.rotations, joint)), place - At(pose.positions, joint));
 }
 
-bool IsBelow(const std::vector<Joint>& joints, int joint, int above) {
-  for (int a = joint; a >= 0; a = At(joints, a).parent) {
-    if (a == above) return true;
-  }
-  return false;
-}
-
 class RigMaker {
  public:
   RigMaker(const Avatar& person, Rig* rig) : person_(person), rig_(*rig) {}
@@ -86,12 +79,6 @@ class RigMaker {
     std::vector<bool> below(rig_.joints.size());
     for (int j = 0; j < Count(rig_.joints); ++j) At(below, j) = IsBelow(rig_.joints, j, joint);
     return below;
-  }
-
-  static float WeightOn(const std::vector<bool>& joints, const Mesh& mesh, size_t v) {
-    float weight = 0;
-    for (size_t i = 0; i < 4; ++i) weight += At(joints, mesh.joints[v][i]) ? mesh.weights[v][i] : 0;
-    return weight;
   }
 
   float LowestOf(int joint, Vec3 otherwise) const {

@@ -13,8 +13,8 @@
 namespace flaneur {
 namespace {
 
-constexpr float kHardly_mps = 0.2f;
-constexpr size_t kFetchAhead = 24;  // people
+constexpr float kHardly_mps = 0.2f;  // slower, at a wall, they look for the door beside them
+constexpr size_t kFetchAhead = 24;   // people
 
 // People decide one after the other, each in a step of their own; neighbours, who often have ids in a row, in no
 // regular pattern.

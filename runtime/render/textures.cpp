@@ -105,9 +105,10 @@ bool ReadsBc1() {
 
 AtlasFormats FormatsOfThisMachine(bool fast) {
   AtlasFormats formats;
-  formats.pack_details = fast;
-  if (DrawsInSoftware()) return formats;
-  formats.pack_details = false;
+  if (DrawsInSoftware()) {
+    formats.pack_details = fast;
+    return formats;
+  }
   formats.bc7_blocks = HasExtension(FormatOf(TextureFormat::kBc7Srgb).extension);
   formats.rgtc_blocks = HasExtension(FormatOf(TextureFormat::kBc5).extension);
   formats.etc2_blocks = ReadsEtc2();

@@ -27,11 +27,10 @@ Error MakeContext() {
   return Fail("this browser does not offer WebGL 2");
 }
 
-Error Walk(const Scenario& scenario, Simulation* simulation) {
+void Walk(const Scenario& scenario, Simulation* simulation) {
   const auto steps = static_cast<int64_t>(scenario.seconds.value_or(0) / Step_s(*simulation) + 0.5f);
   while (simulation->town.step < steps && !simulation->visitor.finished)
     StepSimulation({}, FrameTimeByModel_ms(*simulation), simulation);
-  return Ok();
 }
 
 Error DrawStill(int width_px, int height_px) {
@@ -47,7 +46,7 @@ Error DrawStill(int width_px, int height_px) {
   loader.Start(std::move(file), pack);
   Simulation simulation;
   if (Error e = StartSimulation(&pack, scenario, &simulation)) return e;
-  if (Error e = Walk(scenario, &simulation)) return e;
+  Walk(scenario, &simulation);
   if (Error e = MakeContext()) return e;
   Renderer renderer;
   RenderOptions options;
