@@ -74,15 +74,18 @@ void FindContacts(const Crowd& c, float step_s, CrowdScratch* s) {
       if (Dot(apart, apart) < reach_m * reach_m) s->contacts.push_back({a.person, b.person});
     }
   };
-  for (int k = 0; k < static_cast<int>(g.people.size()); ++k) {
-    const Neighbour& a = g.people[static_cast<size_t>(k)];
-    const int x = CellIndex(a.position.x, g.min_m.x, g.cell_m, g.columns);
-    const int y = CellIndex(a.position.y, g.min_m.y, g.cell_m, g.rows);
-    const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, g.columns - 1);
-    test(a, k + 1, g.start[static_cast<size_t>(y * g.columns + x1) + 1]);
-    if (y + 1 == g.rows) continue;
-    const int next = (y + 1) * g.columns;
-    test(a, g.start[static_cast<size_t>(next + x0)], g.start[static_cast<size_t>(next + x1) + 1]);
+  // Everybody with who comes later in the row of cells, and with the three cells of the next row.
+  for (int y = 0; y < g.rows; ++y) {
+    const int* row = &g.start[static_cast<size_t>(y * g.columns)];
+    const int* next = y + 1 < g.rows ? row + g.columns : nullptr;
+    for (int x = 0; x < g.columns; ++x) {
+      const int before = std::max(x - 1, 0), after = std::min(x + 2, g.columns);
+      for (int k = row[x]; k < row[x + 1]; ++k) {
+        const Neighbour& a = g.people[static_cast<size_t>(k)];
+        test(a, k + 1, row[after]);
+        if (next) test(a, next[before], next[after]);
+      }
+    }
   }
 }
 

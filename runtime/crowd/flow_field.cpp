@@ -140,6 +140,20 @@ std::array<Vec2, 256> MakeDirections() {
 
 const std::array<Vec2, 256> kDirections = MakeDirections();
 
+// The two cells of a row, or of a column, that a place lies between, and their shares; one that is outside has none.
+struct Between {
+  int low = 0, high = 0;
+  float low_share = 0, high_share = 0;
+};
+
+Between BetweenCells(float at, int count) {
+  const int low = static_cast<int>(std::floor(at)), high = low + 1;
+  const float rest = at - static_cast<float>(low);
+  if (low >= 0 && high < count) return {low, high, 1 - rest, rest};
+  return {std::clamp(low, 0, count - 1), std::clamp(high, 0, count - 1), low >= 0 && low < count ? 1 - rest : 0.0f,
+          high >= 0 && high < count ? rest : 0.0f};
+}
+
 }  // namespace
 
 float CostOfGround(const Walkable& w, int cell) {
@@ -177,17 +191,16 @@ bool Reachable(const Walkable& w, const FlowField& field, Vec2 from) {
 }
 
 Vec2 WayAt(const Walkable& w, const FlowField& field, Vec2 p) {
-  // Bilinear over the four nearest cells, those without a way left out.
+  // Bilinear over the four nearest cells; those without a way, or outside, add nothing.
   const float fx = (p.x - w.min_m.x) / w.cell_m - 0.5f, fy = (p.y - w.min_m.y) / w.cell_m - 0.5f;
-  const int x0 = static_cast<int>(std::floor(fx)), y0 = static_cast<int>(std::floor(fy));
-  const float tx = fx - static_cast<float>(x0), ty = fy - static_cast<float>(y0);
-  Vec2 sum;
-  for (int k = 0; k < 4; ++k) {
-    const int x = x0 + (k & 1), y = y0 + (k >> 1);
-    if (x < 0 || y < 0 || x >= w.columns || y >= w.rows) continue;
-    const float share = ((k & 1) ? tx : 1 - tx) * ((k >> 1) ? ty : 1 - ty);
-    sum = sum + kDirections[DirectionAt(field, DirectionIndex(w, x, y))] * share;
-  }
+  const Between x = BetweenCells(fx, w.columns), y = BetweenCells(fy, w.rows);
+  const size_t low_row = DirectionRow(w, y.low), high_row = DirectionRow(w, y.high);
+  const size_t low_column = DirectionColumn(x.low), high_column = DirectionColumn(x.high);
+  const auto way = [&](size_t index) { return kDirections[DirectionAt(field, index)]; };
+  const Vec2 sum = way(low_row + low_column) * (x.low_share * y.low_share) +
+                   way(low_row + high_column) * (x.high_share * y.low_share) +
+                   way(high_row + low_column) * (x.low_share * y.high_share) +
+                   way(high_row + high_column) * (x.high_share * y.high_share);
   if (Dot(sum, sum) > 0.01f) return Unit(sum);
   const int cell = NearestFreeCell(w, p, kPlaceReach_m);  // squeezed against a wall: back to where ways are known
   if (cell < 0) return {};

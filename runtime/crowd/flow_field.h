@@ -25,11 +25,13 @@ struct FlowField {
   int deserted = 0;   // looks in a row at which nobody was on the way there
 };
 
-// Index of the direction of the cell at column x and row y, over all tiles.
-inline size_t DirectionIndex(const Walkable& w, int x, int y) {
-  const int square = (y >> 6) * ((w.columns + 63) >> 6) + (x >> 6), tile = (y >> 3 & 7) * 8 + (x >> 3 & 7);
-  return static_cast<size_t>(square) * 4096 + static_cast<size_t>(tile * 64 + (y & 7) * 8 + (x & 7));
+// Index of the direction of the cell at column x and row y, over all tiles: what the row gives and what the column gives.
+inline size_t DirectionRow(const Walkable& w, int y) {
+  const int squares = (y >> 6) * ((w.columns + 63) >> 6);
+  return static_cast<size_t>(squares * 4096 + (y >> 3 & 7) * 512 + (y & 7) * 8);
 }
+inline size_t DirectionColumn(int x) { return static_cast<size_t>((x >> 6) * 4096 + (x >> 3 & 7) * 64 + (x & 7)); }
+inline size_t DirectionIndex(const Walkable& w, int x, int y) { return DirectionRow(w, y) + DirectionColumn(x); }
 inline const uint8_t& DirectionAt(const FlowField& field, size_t index) {
   return field.tiles[index >> 6].direction[index & 63];
 }

@@ -1,7 +1,7 @@
 # What the rooms need beside each other, for a page: header libraries are the installed ones,
 # Draco's decoder is compiled from its source. Included before the rooms, which then look for none of it.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
-add_compile_options(-fwasm-exceptions -msimd128)
+add_compile_options(-fwasm-exceptions -msimd128 -mnontrapping-fptoint)
 add_link_options(-fwasm-exceptions)
 add_compile_options(-Wno-unknown-warning-option)  # GCC's own
 
