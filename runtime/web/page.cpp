@@ -89,6 +89,12 @@ EMSCRIPTEN_KEEPALIVE const char* page_load(bool* there) {
 EMSCRIPTEN_KEEPALIVE const char* page_load_more() {
   return Try([&] { return visit->LoadMore(); });
 }
+EMSCRIPTEN_KEEPALIVE const char* page_step_meanwhile(float passed_s) {
+  return Try([&] {
+    visit->StepMeanwhile(passed_s);
+    return Ok();
+  });
+}
 EMSCRIPTEN_KEEPALIVE const char* page_picture(int width_px, int height_px, float passed_s, float took_ms) {
   return Try([&] {
     input.down |= held;

@@ -118,6 +118,9 @@ struct PageVisit::Impl {
   bool photo_asked = false, photo_taken = false;
   float aspect = 1;
   double owed_s = 0;
+  float picture_s = 0;   // the last one took
+  float ahead_s = 0;     // of the next one's time, what was stepped through already
+  bool stepped = false;  // since then
   int64_t pictures = 0;
 
   bool pages() const { return menu.page != Page::kNone; }
@@ -132,7 +135,8 @@ struct PageVisit::Impl {
   void TakeHands(const WindowInput& input, float passed_s);
   void TakeWishes();
   void Step(float passed_s);
-  void StepInRoom(float passed_s);
+  void StepsOfPicture(float passed_s);
+  void StepInRoom(CameraInput input, float picture_ms);
   void DrawInRoom(unsigned framebuffer);
   void Draw(int width_px, int height_px, float passed_s);
   void TakePhoto(int width_px, int height_px);
@@ -259,9 +263,8 @@ void PageVisit::Impl::TakeWishes() {
 }
 
 // The head turns the view. Where hands do not walk, the body goes where the head has gone in its room.
-void PageVisit::Impl::StepInRoom(float passed_s) {
+void PageVisit::Impl::StepInRoom(CameraInput input, float picture_ms) {
   constexpr float kMost_mps = 2;
-  CameraInput input = NextStep(wishes, s, &controls);
   LookWithHead(headset, &s, &input);
   const auto off = WalkUnderHead(headset);
   const bool follows_head = off && input.active && input.speed_mps <= 0 && !input.walk_to;
@@ -270,20 +273,29 @@ void PageVisit::Impl::StepInRoom(float passed_s) {
     input.speed_mps = std::min(kMost_mps, Length(*off) / Step_s(s));
   }
   const Vec2 before = s.visitor.camera.view.position;
-  StepSimulation(input, passed_s * 1000, &s);
+  StepSimulation(input, picture_ms, &s);
   if (follows_head) Followed(s.visitor.camera.view.position - before, &headset);
 }
 
 void PageVisit::Impl::Step(float passed_s) {
+  const float picture_ms = picture_s * 1000;
   const double step_s = static_cast<double>(Step_s(s));
   if (!HoldsTown(menu)) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMaxStepsPerFrame);
-  if (owed_s >= step_s) controls.turned_rad = 0;
+  if (owed_s >= step_s && !std::exchange(stepped, true)) controls.turned_rad = 0;
   for (; owed_s >= step_s; owed_s -= step_s) {
-    if (headset.worn) StepInRoom(passed_s);
-    else StepSimulation(NextStep(wishes, s, &controls), passed_s * 1000, &s);
+    const CameraInput input = NextStep(wishes, s, &controls);
+    if (headset.worn) StepInRoom(input, picture_ms);
+    else StepSimulation(input, picture_ms, &s);
     wishes.tour = {};
     wishes.walk_to.reset();
   }
+}
+
+void PageVisit::Impl::StepsOfPicture(float passed_s) {
+  picture_s = passed_s;
+  Step(std::max(0.0f, passed_s - ahead_s));
+  ahead_s = 0;
+  stepped = false;
   if (!pages()) FollowNotices(controls, s, passed_s, &notices);
 }
 
@@ -349,6 +361,12 @@ void PageVisit::Impl::Sound(float passed_s) {
 
 Error PageVisit::LoadMore() { return impl_->loader.Upload(kUpload_ms, &impl_->renderer); }
 
+void PageVisit::StepMeanwhile(float passed_s) {
+  Impl& v = *impl_;
+  v.ahead_s += passed_s;
+  v.Step(passed_s);
+}
+
 Error PageVisit::Picture(const WindowInput& input, int width_px, int height_px, float passed_s) {
   Impl& v = *impl_;
   v.photo_taken = false;
@@ -357,7 +375,7 @@ Error PageVisit::Picture(const WindowInput& input, int width_px, int height_px, 
   SetPictureSize(width_px, height_px, &v.s);
   v.TakeHands(input, passed_s);
   FollowTourEnd(v.pack, v.s, v.pages(), passed_s, &v.end, &v.controls, &v.wishes, &v.menu);
-  v.Step(passed_s);
+  v.StepsOfPicture(passed_s);
   v.Draw(width_px, height_px, passed_s);
   v.Sound(passed_s);
   v.loader.GoOn();
@@ -388,7 +406,7 @@ Error PageVisit::PictureInRoom(const WindowInput& input, Vec3 head, std::span<co
   if (v.headset.eyes.empty()) return Ok();
   v.TakeHands(input, passed_s);
   FollowTourEnd(v.pack, v.s, v.pages(), passed_s, &v.end, &v.controls, &v.wishes, &v.menu);
-  v.Step(passed_s);
+  v.StepsOfPicture(passed_s);
   v.DrawInRoom(framebuffer);
   v.Sound(passed_s);
   v.loader.GoOn();

@@ -32,6 +32,8 @@ class PageVisit {
   Error Load(bool* there);
   // A part of what streams in, as a task of its own between pictures. Errors: of a piece.
   Error LoadMore();
+  // Between pictures that take long: so much of the time until the next one, which steps only through the rest.
+  void StepMeanwhile(float passed_s);
   Error Picture(const WindowInput& input, int width_px, int height_px, float passed_s);
   // The last picture, by the browser's clock: what lay between it and the one before.
   void TellTime(float took_ms);

@@ -2,9 +2,9 @@
 
     python3 tests/bench/cluster_bench.py REPORT.json [--nodes 100] [--steps 2000]
 
-REPORT.json is that of a baked tour: the steps of a made-up tour of so many steps take as long as its steps did, in turn,
-but only sleep, each on a node of its own. Ideal is all work divided by the nodes, or the longest chain where that is
-more.
+REPORT.json is that of a baked tour. Made-up tours of 50 characters, so many steps in all, need each other's steps as a
+tour's do and take as long as its steps did, in turn, but only sleep, each on a node of its own. Ideal is all work divided
+by the nodes, or the longest chain where that is more.
 """
 import argparse
 import json
@@ -14,7 +14,7 @@ import tempfile
 import time
 
 SNAKEFILE = pathlib.Path(__file__).resolve().parents[2] / "scripts/cluster/Snakefile"
-STAGES = ("avatar", "impostor", "tint")
+CHARACTERS = 50  # of a tour
 
 
 def times_of(report):
@@ -26,20 +26,25 @@ def times_of(report):
 
 
 def made_up(times, count):
-    def step(name, needs, seconds):
-        return {"name": name, "needs": needs, "key": name.replace(":", "_"), "done": False, "provisional": False,
-                "seconds": seconds, "memory_mb": 100}
-    steps = [step("town:big", [], max(times.get("town", [1])))]
-    number = 0
-    while len(steps) < count - 2:
-        before = "town:big"
-        for stage in STAGES:
-            name = "%s:%d" % (stage, number)
-            of_stage = times.get(stage, [0.1])
-            steps.append(step(name, [before], of_stage[number % len(of_stage)]))
-            before = name
-        number += 1
-    steps.append(step("pack:big", [each["name"] for each in steps], max(times["pack"])))
+    steps = []
+
+    def step(stage, item, needs):
+        of_stage = times.get(stage, [0.1])
+        steps.append({"name": "%s:%s" % (stage, item), "needs": needs, "key": "%s_%s" % (stage, item), "done": False, "provisional": False,
+                      "seconds": of_stage[len(steps) % len(of_stage)], "memory_mb": 100})
+        return steps[-1]["name"]
+
+    tour = 0
+    while len(steps) < count:
+        town = step("town", tour, [step("source", "town_%d" % tour, [])])
+        needs = [town, step("check", tour, [step("footprints", tour, [town])])]
+        for character in range(CHARACTERS):
+            item = "%d_%d" % (tour, character)
+            avatar = step("avatar", item, [step("source", item, []), town])
+            impostor = step("impostor", item, [avatar])
+            needs += [impostor, step("tint", item, [avatar, impostor])]
+        step("pack", tour, needs)
+        tour += 1
     return steps
 
 

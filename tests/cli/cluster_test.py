@@ -44,7 +44,7 @@ class OfTwelve(SmallTourTest):
                               stderr=subprocess.STDOUT, text=True) as engine:
             marks = self.folder / ".flaneur_cluster/marks"
             deadline = time.monotonic() + 200
-            while len(list(marks.glob("*.done"))) < 8 and engine.poll() is None and time.monotonic() < deadline:
+            while len(list(marks.rglob("*.done"))) < 8 and engine.poll() is None and time.monotonic() < deadline:
                 time.sleep(0.2)
             # What steps took is noted when they are done. Slurm may not have heard of the last ones and start them again; those
             # find their results.

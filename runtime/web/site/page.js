@@ -13,6 +13,7 @@ import {nextPicture, pause, Trouble} from './trouble.js';
 
 const kMostPixels = 2;    // drawn a CSS pixel's side
 const kTold_ms = 100;     // the page follows so often
+const kMeanwhile_ms = 33; // of pictures that take longer, people walk so long in tasks of their own
 const kAway_ms = 1000;    // who comes back to a tab that was hidden longer goes on where they were
 const kTriesOfContext = 4;
 const kSpeaks = 1;        // of the messages; flaneur-tour.js knows which it understands
@@ -138,7 +139,7 @@ function fit(canvas) {
 
 function drawPictures(canvas, parts, visit) {
   const {player, hands, pages, marks} = parts;
-  let last = 0, told = 0;
+  let last = 0, told = 0, stepped = 0, timer = 0;
   return new Promise((_, reject) => {
     parts.headset.onTrouble = reject;
     const attempt = (work) => {
@@ -150,7 +151,15 @@ function drawPictures(canvas, parts, visit) {
         visit.abort();
       }
     };
+    const stepMeanwhile = () => attempt(() => {
+      const now = performance.now(), passed_ms = now - stepped;
+      if (parts.headset.isWorn || document.hidden || now - last > kAway_ms) return;
+      stepped = now;
+      timer = setTimeout(stepMeanwhile, kMeanwhile_ms);
+      player.call('page_step_meanwhile', ['number'], [passed_ms / 1000]);
+    });
     const draw = (now) => attempt(() => {
+      clearTimeout(timer);
       requestAnimationFrame(draw);
       const passed_ms = last && now - last < kAway_ms && !parts.headset.isWorn ? now - last : 0;
       last = now;
@@ -160,12 +169,15 @@ function drawPictures(canvas, parts, visit) {
       player.call('page_picture', ['number', 'number', 'number', 'number'],
                   [canvas.width, canvas.height, passed_ms / 1000, passed_ms]);
       if (player.ask('page_photo_taken')) pages.takePhoto(canvas, player.read('page_state').page?.line ?? '');
+      if (shown) marks.follow(shown);
+      // Not in the time of a picture, each a task of its own.
       if (now - told > kTold_ms) {
         told = now;
-        follow(player.read('page_state'), parts);
+        setTimeout(() => attempt(() => follow(player.read('page_state'), parts)));
       }
-      if (shown) marks.follow(shown);
-      setTimeout(() => attempt(() => player.call('page_load_more')));  // not in the time of a picture
+      setTimeout(() => attempt(() => player.call('page_load_more')));
+      stepped = performance.now();
+      timer = setTimeout(stepMeanwhile, kMeanwhile_ms);
     });
     requestAnimationFrame(draw);
   });
