@@ -142,10 +142,10 @@ def add_walls(town, streets, garden_lines, gardens, rng):
                                  (float(spot[0]), float(spot[1]), z), math.atan2(inward[0], -inward[1])))
         else:
             town.add("town_wall_tower_%02d" % (index + 1), town_wall.make_tower(index, rng), "wall")
-    for index, line in enumerate(garden_lines):
+    for index, (line, built) in enumerate(zip(garden_lines, layout.before_corners(garden_lines))):
         height, tint = rng.uniform(2.1, 2.6), rng.uniform(0.85, 1.0)
         color = tuple(c * tint for c in srgb("ddd0b8"))
-        mesh = town_wall.make_line_wall(line, height, 0.4, color)
+        mesh = town_wall.make_line_wall(built, height, 0.4, color)
         for a, b in zip(line[:-1].tolist(), line[1:].tolist()):
             if math.dist(a, b) > 1.6 and rng.random() < 0.55:
                 low, high = float(plan.pavement_height(*a)), float(plan.pavement_height(*b))
@@ -168,7 +168,8 @@ def add_furniture(town, streets, public, plots, doors, rng):
     for i, (x, y, yaw) in enumerate(furnish.STALLS):
         put("market_stall_%d" % (i + 1), square.make_stall(rng), x, y, yaw)
     for i, (x, y, yaw) in enumerate(furnish.CARTS):
-        put("cart_%d" % (i + 1), square.make_cart(rng), x, y, yaw)
+        put("cart_%d" % (i + 1), square.make_cart(rng, i == furnish.HORSE_CART), x, y, yaw)
+    put("trough", square.make_trough(random.Random("trough")), *life.before_cart(life.TROUGH_M))
     counts, benches = {"bench": 0, "pile": 0}, []
     for kind, x, y, yaw, free in furnish.along_fronts(plots, doors, streets, public, rng):
         mesh = (square.make_bench if kind == "bench" else square.make_pile)(rng)

@@ -11,6 +11,7 @@ import numpy as np
 import plan
 
 GAP_M = 0.35   # a house front may lie this far behind the line of the street
+CORNER_M, CLEAR_OF_CORNER_M = 0.8, 0.32   # of a house between the ends of two garden walls: so wide at most, and passed in front so far
 TILE = 48      # points a side
 
 
@@ -312,6 +313,19 @@ def garden_walls(public, plots):
                     runs.append(simplify(p[a:b], 0.05))
                 start = None
     return [run for run in runs if len(run) > 1]
+
+
+def before_corners(lines):
+    """The lines of garden walls; where two end at the same corner of a house they meet before it, and it stays behind them."""
+    moved = [line.copy() for line in lines]
+    for i, line in enumerate(lines):
+        for j, other in enumerate(lines):
+            if i == j or not 0.05 < math.dist(line[-1], other[0]) < CORNER_M:
+                continue
+            way = (other[1] - line[-2]) / np.linalg.norm(other[1] - line[-2])
+            spot = (line[-1] + other[0]) / 2 + CLEAR_OF_CORNER_M * np.array((-way[1], way[0]))
+            moved[i][-1], moved[j][0] = spot + 0.1 * way, spot - 0.1 * way
+    return moved
 
 
 def make_layout(rng, width_m):

@@ -10,6 +10,7 @@ import plan
 
 KEEPER = (-0.2, 0.36)   # in a stall, behind its counter
 DOGS = {0: (-2.1, -0.5), 4: (2.1, -0.5), 7: (-2.1, -0.5)}  # by stall at the end of a row: beside it, in nobody's way
+HORSE_M, TROUGH_M = 2.1, 3.8  # before a cart's middle: the middle of the horse, and what it eats from
 BEFORE_BENCH_M = 0.62   # from a bench's middle to where a sitter's feet are
 SEAT_M = 0.46
 FROM_WELL_M = 1.76      # from its middle
@@ -20,6 +21,12 @@ BESIDE_DOOR_M = (1.3, 0.95)  # along the front, and out of it
 def _turned(x, y, yaw, along, back):
     c, s = math.cos(yaw), math.sin(yaw)
     return x + c * along - s * back, y + s * along + c * back
+
+
+def before_cart(away_m):
+    """(x, y, yaw) of a place between the shafts of the cart with the horse, which looks along local -x."""
+    x, y, yaw = furnish.CARTS[furnish.HORSE_CART]
+    return (*_turned(x, y, yaw, -away_m, 0.0), yaw)
 
 
 def _work(town, name, spot, yaw, clip, avatars="", **more):
@@ -38,6 +45,8 @@ def add_work(town, benches):
     for i, (x, y, yaw) in enumerate(benches):
         side = -0.42 if i % 2 else 0.42
         _work(town, "sitter_%02d" % (i + 1), _turned(x, y, yaw, side, -BEFORE_BENCH_M), yaw, "sit", seat_m=SEAT_M)
+    x, y, yaw = before_cart(HORSE_M)
+    _work(town, "cart_horse", (x, y), yaw - math.pi / 2, "idle", "horse")
     x, y = furnish.WELL
     for i, angle in enumerate((-2.4, 0.5)):
         spot = (x + FROM_WELL_M * math.cos(angle), y + FROM_WELL_M * math.sin(angle))

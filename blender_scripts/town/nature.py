@@ -5,7 +5,24 @@ import math
 from mesh import Mesh, lathe, shade, srgb
 
 TRUNK_RADIUS_M = 0.28
+BARK_M = 0.5  # side of its picture
 LAMP_RADIUS_M = 0.14
+
+
+def _trunk(mesh, rings, sides, color):
+    """An upright stem through rings of (centre, radius), whose bark runs on from one to the next and all round."""
+    around, along = round(2 * math.pi * rings[-2][1] / BARK_M) * BARK_M, 0.0
+    for (low, r0), (high, r1) in zip(rings, rings[1:]):
+        length = math.dist(low, high)
+        for i in range(sides):
+            points, uvs, normals = [], [], []
+            for k, c, r, s in ((i, low, r0, 0), (i + 1, low, r0, 0), (i + 1, high, r1, length), (i, high, r1, length)):
+                d = (math.cos(2 * math.pi * k / sides), math.sin(2 * math.pi * k / sides), 0.0)
+                points.append((c[0] + r * d[0], c[1] + r * d[1], c[2]))
+                uvs.append((around * k / sides, along + s))
+                normals.append(d)
+            mesh.face("bark", points, uvs, color, normals)
+        along += length
 
 
 def _limb(mesh, start, end, r0, r1, sides, color):
@@ -45,10 +62,8 @@ def make_tree(rng, height, crown, tint, detail=1.0):
     bark = srgb("c9bba8")
     fork = height * 0.36
     lean = (rng.uniform(-0.15, 0.15), rng.uniform(-0.15, 0.15))
-    mesh_base = [(0.42, -0.6), (0.33, 0.0), (0.27, 0.35), (0.23, fork * 0.6)]
-    lathe(mesh, "bark", (0, 0, 0), mesh_base, 9, bark, caps=False)
     top = (lean[0], lean[1], fork)
-    _limb(mesh, (0, 0, fork * 0.6 - 0.12), top, 0.226, 0.2, 9, bark)
+    _trunk(mesh, [((0, 0, -0.6), 0.42), ((0, 0, 0.0), 0.33), ((0, 0, 0.35), 0.27), ((0, 0, fork * 0.6), 0.23), (top, 0.2)], 9, bark)
     clumps = []
     arms = 6 if detail > 0.8 else 4
     for i in range(arms):

@@ -1,6 +1,7 @@
 """What stands about in the town: well, market stalls, carts, benches, barrels, crates, sacks, graves."""
 
 import math
+import random
 
 from masonry import LIMESTONE
 from mesh import Frame, Mesh, beam, box, extrude, lathe, panel, polygon, shade, srgb
@@ -49,8 +50,18 @@ def heap(mesh, x0, x1, y0, y1, z, rng):
 def sack(mesh, x, y, z, rng):
     cloth = shade(srgb("c9b48a"), rng.uniform(0.8, 1.05))
     r, h = rng.uniform(0.22, 0.28), rng.uniform(0.5, 0.65)
-    lathe(mesh, "cloth", (x, y, z), [(r * 0.85, 0.0), (r * 1.05, h * 0.2), (r, h * 0.5), (r * 0.72, h * 0.78), (r * 0.3, h * 0.86),
-                                     (r * 0.42, h)], 9, cloth)
+    first, slump = len(mesh.points), 9 * x + 5 * y
+    lathe(mesh, "cloth", (x, y, z), [(r * 0.8, 0.0), (r * 1.06, h * 0.14), (r * 1.08, h * 0.42), (r * 0.92, h * 0.68), (r * 0.5, h * 0.83),
+                                     (r * 0.26, h * 0.87), (r * 0.4, h * 0.92), (r * 0.52, h)], 10, cloth)
+    for k in range(first, len(mesh.points)):
+        px, py, pz = mesh.points[k]
+        angle = math.atan2(py - y, px - x)
+        swell = 1 + 0.09 * math.cos(2 * angle + slump) + 0.06 * math.cos(3 * angle + 2 * slump + 4 * (pz - z))
+        lean = 0.1 * (pz - z) ** 2 / h
+        mesh.points[k] = (x + (px - x) * swell + lean * math.cos(slump), y + (py - y) * swell + lean * math.sin(slump), pz)
+    top = 0.1 * (0.87 * h) ** 2 / h
+    lathe(mesh, "cloth", (x + top * math.cos(slump), y + top * math.sin(slump), z + h * 0.85), [(r * 0.36, 0.0), (r * 0.36, h * 0.05)], 8,
+          shade(cloth, 0.45), caps=False)
 
 
 def make_stall(rng):
@@ -171,29 +182,64 @@ def make_bench(rng):
     return mesh
 
 
-def make_cart(rng):
-    """A two-wheeled hand cart with hay, its shafts resting towards -x."""
+def make_cart(rng, horse=False):
+    """A two-wheeled cart with hay, its shafts towards -x: a hand cart's on the ground, or level at both sides of a horse."""
     mesh = Mesh()
     wood = rng.choice(WOOD)
-    tilt = 0.16
+    tilt, wheel, shafts, apart = (0.0, 0.62, 2.9, 0.48) if horse else (0.16, 0.5, 2.3, 0.38)
     body = Mesh()
     box(body, "planks", (-1.0, -0.5, 0.0), (1.0, 0.5, 0.07), wood)
     for y0, y1 in ((-0.55, -0.5), (0.5, 0.55)):
         box(body, "planks", (-1.0, y0, 0.0), (1.0, y1, 0.42), shade(wood, 0.92))
     for x0, x1 in ((-1.05, -1.0), (1.0, 1.05)):
         box(body, "planks", (x0, -0.55, 0.0), (x1, 0.55, 0.36), shade(wood, 0.92))
-    for y in (-0.42, 0.34):
-        box(body, "timber", (-2.3, y, -0.02), (-0.9, y + 0.08, 0.06), wood)
-    hay = srgb("d6bd72")
-    for _ in range(46):
-        leaf_tuft(body, (rng.uniform(-0.9, 0.9), rng.uniform(-0.42, 0.42), 0.3 + rng.uniform(0, 0.25)), 0.42, hay, rng, 2)
-    lathe(body, "grass", (0, 0, 0.05), [(0.5, 0.0), (0.48, 0.35), (0.2, 0.55), (0.0, 0.58)], 8, srgb("e8d48c"), caps=False)
-    body.points = [(p[0], p[1], p[2] + 0.62 + tilt * p[0]) for p in body.points]
+    for y in (-apart - 0.04, apart - 0.04):
+        box(body, "timber", (-shafts, y, -0.02), (-0.9, y + 0.08, 0.06), wood)
+    for _ in range(46 * 13):
+        rng.random()    # what stands beside carts is drawn after them
+    hay(body, 0.98, 0.48, 0.3, 0.68, random.Random("hay %d" % horse))
+    body.points = [(p[0], p[1], p[2] + wheel + 0.12 + tilt * p[0]) for p in body.points]
     mesh.add(body)
     for y in (-0.68, 0.6):
-        _wheel(mesh, 0.1, y, 0.5, wood)
-    box(mesh, "timber", (0.06, -0.75, 0.46), (0.14, 0.75, 0.54), shade(wood, 0.8))
+        _wheel(mesh, 0.1, y, wheel, wood)
+    box(mesh, "timber", (0.06, -0.75, wheel - 0.04), (0.14, 0.75, wheel + 0.04), shade(wood, 0.8))
     return mesh
+
+
+def make_trough(rng):
+    """A wooden trough with hay, along y."""
+    mesh = Mesh()
+    box(mesh, "planks", (-0.24, -0.6, -0.3), (0.24, 0.6, 0.52), srgb("6b5138"), skip="zZ")
+    heap_of_hay = Mesh()
+    hay(heap_of_hay, 0.24, 0.6, 0.4, 0.6, rng)
+    mesh.add(heap_of_hay)
+    return mesh
+
+
+def hay(mesh, half_x, half_y, low, high, rng):
+    """An uneven heap on a rectangle, with stalks that stick out of it."""
+    straw, across, along = srgb("a8904f"), 7, 7
+    spots = {}
+    for i in range(across + 1):
+        for k in range(along + 1):
+            u, v = 2 * i / across - 1, 2 * k / along - 1
+            rise = (1 - u ** 4) * (1 - v ** 4)
+            spots[i, k] = (u * half_x, v * half_y, low + (high - low) * rise * rng.uniform(0.75, 1.1))
+    for i in range(across):
+        for k in range(along):
+            points = [spots[i, k], spots[i + 1, k], spots[i + 1, k + 1], spots[i, k + 1]]
+            mesh.face("plaster", points, [(p[0], p[1]) for p in points], shade(straw, rng.uniform(0.75, 1.0)),
+                      [(0.5 * p[0] / half_x, 0.5 * p[1] / half_y, 0.8) for p in points])
+    for _ in range(round(300 * half_x * half_y / 0.47)):
+        x, y, z = spots[rng.randrange(1, across), rng.randrange(1, along)]
+        x, y, z = x + rng.uniform(-0.12, 0.12) * half_x, y + rng.uniform(-0.12, 0.12) * half_y, z - 0.03
+        yaw, rise, length = rng.uniform(0, 2 * math.pi), rng.uniform(-0.1, 0.8), rng.uniform(0.14, 0.34)
+        way = (math.cos(yaw) * math.cos(rise), math.sin(yaw) * math.cos(rise), math.sin(rise))
+        side = (-0.008 * math.sin(yaw), 0.008 * math.cos(yaw))
+        tip = (x + way[0] * length, y + way[1] * length, z + way[2] * length + 0.02)
+        blade = [(x - side[0], y - side[1], z), (x + side[0], y + side[1], z), (tip[0] + side[0] / 2, tip[1] + side[1] / 2, tip[2]),
+                 (tip[0] - side[0] / 2, tip[1] - side[1] / 2, tip[2])]
+        mesh.face("plaster", blade, [(0, 0), (0.02, 0), (0.02, length), (0, length)], shade(straw, rng.uniform(0.8, 1.25)), [(0, 0, 1)] * 4)
 
 
 def _wheel(mesh, x, y, r, wood):

@@ -326,16 +326,15 @@ def _neck_rings(tailor, name, shape, cell, columns=28):
     tree = sf.tree_of([tailor.figure.parts["body"]])
     base = tailor.height(("neck", -0.015))
     low, high = tailor.figure.landmarks["shoulder"], tailor.figure.landmarks["neck"]
+    neck = np.array([sf.outermost(tree, high, ray, 0.12 * size) or 0.06 * size for ray in tl.direction(angles)])
     rows = []
     for up, out in shape:
         centre = low + (high - low) * ((base + up * size - low[2]) / (high[2] - low[2]))
         tilt = 0.022 * size * np.cos(angles)
-        reach = np.array(
-            [
-                sf.outermost(tree, high, ray, 0.12 * size) or 0.06 * size
-                for ray in tl.direction(angles)
-            ]
-        )
+        reach = neck
+        if up < 0:  # the neck widens towards the shoulders
+            own = np.array([sf.outermost(tree, centre - [0, 0, t], ray, 0.12 * size) or 0.0 for t, ray in zip(tilt, tl.direction(angles))])
+            reach = np.clip(own, neck, neck + 0.03 * size)
         ring = centre + tl.direction(angles) * (tl.circular_blur(reach, 3) + out * size)[:, None]
         ring[:, 2] = base + up * size - tilt
         rows.append(ring)
@@ -346,7 +345,7 @@ def _neck_rings(tailor, name, shape, cell, columns=28):
     tailor.worn["neck " + name] = sf.grid(points, weights, cell, sf.mirrored_u(angles))
 
 
-def ruff(tailor, name, width=0.062, height=0.034, pleats=19, lift=0.012, cell="collar"):
+def ruff(tailor, name, width=0.062, height=0.032, pleats=22, lift=0.010, cell="collar"):
     """A pleated ruff that lies about the neck: a figure-of-eight frill whose inside begins at the skin."""
     size, columns = tailor.size, pleats * 4
     angles = tl.angles_of(columns)
@@ -356,13 +355,13 @@ def ruff(tailor, name, width=0.062, height=0.034, pleats=19, lift=0.012, cell="c
     middle = low + (high - low) * ((base - low[2]) / (high[2] - low[2]))
     reach = [sf.outermost(tree, middle, ray, 0.11 * size) or 0.06 * size for ray in tl.direction(angles)]
     reach = np.clip(tl.circular_blur(np.array(reach), 6), 0.045 * size, 0.075 * size)
-    frill = np.sin(pleats * angles) * (0.9 + 0.1 * np.cos(7 * angles))
+    frill = 1.35 * np.sin(pleats * angles + 0.25 * np.pi) * (0.9 + 0.1 * np.cos(7 * angles))
     rows = []
     for t in (0.0, 0.4, 0.75, 1.0):
         radius = reach - 0.004 * size + width * size * t
         ring = middle + tl.direction(angles) * radius[:, None]
         swell = 0.5 * height * min(0.3 + t * 1.3, 1.0) * frill
-        droop = 0.006 * t - 0.016 * np.cos(angles) * (0.6 + 0.4 * t)  # lower before the chin than behind
+        droop = 0.006 * t - 0.016 * np.maximum(np.cos(angles), -0.1) * (0.6 + 0.4 * t)  # lower before the chin than behind
         ring[:, 2] = base + (swell + droop) * size
         rows.append(ring)
     points = np.array(rows)

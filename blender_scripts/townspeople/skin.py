@@ -5,6 +5,8 @@ import numpy as np
 from townspeople import body, clearance, garments
 from townspeople import surface as sf
 
+FACE_HALF_WIDTH, FACE_DEPTH = 0.10, 0.22  # of what is made finer, in heights of the head
+
 
 def visible_skin(tailor, person):
     """Head, neck and hands: whatever the garments leave to be seen."""
@@ -24,7 +26,17 @@ def visible_skin(tailor, person):
             keep.append(place > person.get("bare_arm_from", 1.7))
         else:
             keep.append(centre[2] > tailor.height(("shoulder", -0.02)))
-    return _lengthened_neck(tailor, _tucked(tailor, sf.keep_faces(skin, keep)))
+    return _rounded_face(figure, _lengthened_neck(tailor, _tucked(tailor, sf.keep_faces(skin, keep))))
+
+
+def _rounded_face(figure, skin):
+    """Nose and lips finer, whose few corners show from nearby."""
+    marks, centres = figure.landmarks, sf.face_centres(skin)
+    head = marks["crown"][2] - marks["chin"][2]
+    chosen = np.abs(centres[:, 0]) < FACE_HALF_WIDTH * head
+    chosen &= (centres[:, 2] > marks["mouth"][2] - 0.09 * head) & (centres[:, 2] < marks["nose"][2] + 0.2 * head)
+    chosen &= centres[:, 1] < marks["nose"][1] + FACE_DEPTH * head
+    return sf.refined(skin, chosen)
 
 
 def _tucked(tailor, skin):

@@ -155,6 +155,45 @@ def smoothed(surface, rounds, hold_boundary=True):
     return with_parts(surface, vertices=points)
 
 
+def refined(surface, chosen, roundness=0.75):
+    """The chosen faces cut into four each, their new corners raised to where the surface's normals bend it (Phong tessellation,
+    Boubekeur and Alexa 2008); faces beside them only get the corners.
+    """
+    normals, points = vertex_normals(surface), surface.vertices
+    edges, added, weights = {}, [], []
+
+    def corner(of):
+        """Number of the new vertex amid these, raised by what their tangent planes say."""
+        middle = points[of].mean(axis=0)
+        over = ((middle - points[of]) * normals[of]).sum(axis=1, keepdims=True) * normals[of]
+        added.append(middle - roundness * over.mean(axis=0))
+        weights.append(surface.weights[of].mean(axis=0))
+        return len(points) + len(added) - 1
+
+    for face, cut in zip(surface.faces, chosen):
+        for edge in zip(face, face[1:] + face[:1]) if cut else ():
+            if tuple(sorted(edge)) not in edges:
+                edges[tuple(sorted(edge))] = corner(list(edge))
+    starts, faces, uvs, cells = corner_starts(surface.faces), [], [], []
+    for face, cut, start, cell in zip(surface.faces, chosen, starts, surface.cells):
+        uv = surface.corner_uv[start:start + len(face)]
+        middles = [edges.get(tuple(sorted(edge))) for edge in zip(face, face[1:] + face[:1])]
+        halves = 0.5 * (uv + np.roll(uv, -1, axis=0))
+        if cut:
+            centre = corner(list(face))
+            for k in range(len(face)):
+                faces.append((face[k], middles[k], centre, middles[k - 1]))
+                uvs += [uv[k], halves[k], uv.mean(axis=0), halves[k - 1]]
+                cells.append(cell)
+            continue
+        ring = [(v, t) for k in range(len(face)) for v, t in ((face[k], uv[k]), (middles[k], halves[k])) if v is not None]
+        faces.append(tuple(v for v, _ in ring))
+        uvs += [t for _, t in ring]
+        cells.append(cell)
+    return with_parts(surface, vertices=np.concatenate([points, added]), faces=faces, corner_uv=np.array(uvs), cells=cells,
+                      weights=np.concatenate([surface.weights, weights]))
+
+
 def offset(surface, distance_m):
     """Every vertex moved along its normal; `distance_m` a number or one a vertex."""
     distance = np.broadcast_to(np.asarray(distance_m, float), (len(surface.vertices),))

@@ -177,8 +177,10 @@ def sit(figure, manner):
                 pose[skeleton.index(name + side)] = own
             pose[skeleton.index("foot" + side)] = sk.rotation("z", sign * 8.0)
             knee = hip + turns[0] @ (head("lowerleg01" + side) - head("upperleg02" + side))
-            hand = 0.35 * hip + 0.65 * knee + np.array([0.0, 0.0, 0.10 * size])
-            _reach(skeleton, pose, root, side, hand, (sign * 0.8, 0.6, -0.2))
+            hand = 0.45 * hip + 0.55 * knee + np.array([sign * 0.05, 0.0, 0.15]) * size
+            _, way, thumb = hand_frame(skeleton, side)
+            flat = _frame((-sign, 0.35, 0.0), np.array([-sign * 0.3, -0.9, -0.25])) @ _frame(thumb, way).T
+            _reach(skeleton, pose, root, side, hand, (sign * 0.8, 0.6, -0.2), flat)
     return _closed("sit", rotations, roots)
 
 

@@ -1,15 +1,17 @@
-"""Tools of those who work, each a prop of its own (props.py) in the right hand.
+"""Tools of those who work, each a prop of its own (props.py), in the right hand or in the lap.
 
-The hand's grip at rest (work_clips.hand_frame) tells where the tool is; the clip turns the hand.
+The hand's grip at rest (work_clips.hand_frame) tells where a tool is; the clip turns the hand.
 """
 
 import numpy as np
 
 from townspeople import props, work_clips
+from townspeople import surface as sf
 from townspeople import tailor as tl
 
 # By person: the prop's name, and its settings: cells that they wear, with a tint.
 TOOLS = {
+    "merchant": {"open_book": {"cover": ["collar", (0.32, 0.11, 0.07)], "pages": ["collar", (1.0, 0.94, 0.80)]}},
     "farmer": {"broom": {"wood": ["belt", (1.0, 0.9, 0.75)], "twigs": ["belt", (0.8, 0.62, 0.36)]}},
     "craftsman": {"broom": {"wood": ["belt", (1.0, 0.9, 0.75)], "twigs": ["belt", (0.8, 0.62, 0.36)]}},
     "maid": {
@@ -52,7 +54,28 @@ def bucket(tailor, wood, rope):
     return props._prop([_rod(tailor, line, up, rope, 5), _rod(tailor, staves, up, wood, 9)])
 
 
-MAKERS = {"broom": broom, "bucket": bucket}
+def open_book(tailor, cover, pages, width=0.10, height=0.16, thickness=0.02):
+    """On the thighs of who sits: at rest it stands before them. Its two halves rise a little outwards."""
+    size = tailor.size
+    hip, knee = tailor.height("hip"), tailor.height("knee")
+    tree = tl.trunk_tree(tailor, arms=False)
+    places = [(sign * 0.09 * size, 0.02, hip + share * (knee - hip)) for sign in (1, -1) for share in (0.45, 0.65)]
+    front = max(sf.outermost(tree, place, (0.0, -1.0, 0.0), 0.6) or 0.1 for place in places)
+    spine = np.array([0.0, 0.02 - front - 0.02 * size, hip + 0.72 * (knee - hip)])
+    along, parts = np.array([0.0, 0.0, 0.5 * height * size]), []
+    for sign in (1.0, -1.0):
+        side, out = np.array([sign * 0.985, -0.17, 0.0]), np.array([-sign * 0.17, -0.985, 0.0])
+        half, up = side * 0.5 * width * size, along * sign
+        for from_m, thick_m, scale, stuff in ((0.0, 0.004, 1.0, cover), (0.004, thickness, 0.94, pages)):
+            middle = spine + half + out * (from_m + 0.5 * thick_m) * size
+            parts.append(props._box(tailor, "root", middle, (half * scale, up * scale, np.cross(half, up) / np.linalg.norm(half)
+                                                             / np.linalg.norm(up) * 0.5 * thick_m * size), stuff))
+    made = props._prop(parts)
+    weights = 0.5 * (props._held(tailor, made.surface.vertices, "upperleg02_L") + props._held(tailor, made.surface.vertices, "upperleg02_R"))
+    return props.Prop(sf.with_parts(made.surface, weights=weights), made.tint)
+
+
+MAKERS = {"broom": broom, "bucket": bucket, "open_book": open_book}
 
 
 def tools(tailor, person):

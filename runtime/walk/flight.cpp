@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/walls.h"
 #include "runtime/walk/route.h"
 
@@ -13,6 +14,7 @@ constexpr float kSpeed_mps = 1.1f, kAccelerates_mps2 = 0.25f, kLeast_mps = 0.05f
 constexpr int kRounds = 120;  // of pulling the way straight and away from walls
 constexpr float kPull = 0.35f, kPush_m = 0.12f, kFeel_m = 0.75f;
 constexpr float kLeastRoom_m = 0.8f;                // to what stands at the way; less where there is less
+constexpr float kFromPosts_m = 1.2f;                // and to lamp posts and trunks, too thin to be felt from afar
 constexpr float kCloseTo_m = 1.6f, kFarFrom_m = 5;  // of things: the lowest and the highest flight
 constexpr float kSees_m = 3.5f;                     // along the way, that heights are evened out over
 
@@ -38,6 +40,32 @@ std::vector<Vec2> Sampled(const Route& route) {
   return points;
 }
 
+// How far from where they stand too near to p posts push it.
+Vec2 AwayFromPosts(const Walkable& w, Vec2 p) {
+  Vec2 away;
+  for (const CircleObstacle& post : w.circles) {
+    const float gap_m = Length(p - post.center) - post.radius_m;
+    if (gap_m < kFromPosts_m) away = away + Unit(p - post.center) * (kFromPosts_m - gap_m);
+  }
+  return away;
+}
+
+// What passes a post where there is no room to keep off it, as between a lamp and a house, passes it on its other side.
+void ChangeSides(const Walkable& w, std::vector<Vec2>* points) {
+  const std::vector<Vec2> before = *points;
+  for (size_t k = 1; k + 1 < before.size(); ++k) {
+    const Vec2 p = before[k], along = Unit(before[k + 1] - before[k - 1]), left{-along.y, along.x};
+    for (const CircleObstacle& post : w.circles) {
+      const Vec2 off = p - post.center;
+      if (Length(off) - post.radius_m >= kFromPosts_m) continue;
+      const Vec2 beside = post.center + along * Dot(off, along);
+      const Vec2 out = left * (Dot(off, left) < 0 ? -1 : 1) * (post.radius_m + kFromPosts_m);
+      if (RoomAt(w, beside + out) < kLeastRoom_m && RoomAt(w, beside - out) >= kLeastRoom_m)
+        (*points)[k] = beside - out;
+    }
+  }
+}
+
 // Like a band that walls push away: in the middle of streets, in wide bends round corners.
 void Relax(const Walkable& w, std::vector<Vec2>* points) {
   for (int round = 0; round < kRounds; ++round) {
@@ -47,7 +75,7 @@ void Relax(const Walkable& w, std::vector<Vec2>* points) {
       const Vec2 away{RoomAt(w, p + Vec2{kFeel_m, 0}) - RoomAt(w, p - Vec2{kFeel_m, 0}),
                       RoomAt(w, p + Vec2{0, kFeel_m}) - RoomAt(w, p - Vec2{0, kFeel_m})};
       const Vec2 middle = ((*points)[k - 1] + (*points)[k + 1]) * 0.5f;
-      const Vec2 to = p + (middle - p) * kPull + away * kPush_m;
+      const Vec2 to = p + (middle - p) * kPull + away * kPush_m + AwayFromPosts(w, p) * kPull;
       if (RoomAt(w, to) >= std::min(kLeastRoom_m, room_m)) (*points)[k] = to;
     }
   }
@@ -88,6 +116,7 @@ Flight PlanFlight(const Walkable& w, Vec2 from, Vec2 to, WaySearch* search) {
   if (cell < 0 || !ExtendRoute(w, IsFree(w, to) ? to : CellCenter(w, cell), search, &route)) return {};
   Flight f;
   f.points = Sampled(route);
+  ChangeSides(w, &f.points);
   Relax(w, &f.points);
   for (size_t k = 0; k < f.points.size(); ++k)
     f.at_m.push_back(k == 0 ? 0 : f.at_m.back() + Length(f.points[k] - f.points[k - 1]));

@@ -136,7 +136,7 @@ TEST(GuideOfTheDemo, CarriesTheBannerInTheHand) {
   ASSERT_EQ(LoadTourPack(path, {.geometry_and_images = false}, &pack).message, "");
   for (const PackAvatar& avatar : pack.avatars) {
     const auto arm = FindCarryingArm(avatar.skeleton, avatar.height_m);
-    if (avatar.name.ends_with("dog") || IsBird(pack, avatar.name)) {
+    if (avatar.name.ends_with("dog") || avatar.name == "horse" || IsBird(pack, avatar.name)) {
       EXPECT_FALSE(arm) << avatar.name;
       continue;
     }

@@ -20,6 +20,7 @@ namespace {
 
 constexpr float kFastest_mps = 1.5f, kFastestTurn_radps = 0.4f, kFastestRise_mps = 0.8f;
 constexpr float kRoom_m = 0.35f;  // around the eye, more than to the near plane
+constexpr float kFromPosts_m = 0.6f;
 constexpr float kJerk_m = 0.01f;  // from one step to the next: it sets out and stops gently
 
 struct Shown {
@@ -166,17 +167,20 @@ TEST(AttractOfTheDemo, FliesThroughNothing) {
   Attract attract;
   BeginAttract(s, false, &attract);
   std::optional<Vec3> last;
-  float highest_m = 0, way_m = 0;
+  float highest_m = 0, way_m = 0, to_posts_m = 10;
   for (int k = 0; k < 500 * 30; ++k) {
     StepSimulation(NextOfAttract(s, &attract), 0, &s);
     const Vec2 p = s.visitor.camera.view.position;
     const Vec3 eye{p.x, p.y, HeightAt(s.town.walkable, p) + s.visitor.camera.eye_height_m};
     highest_m = std::max(highest_m, s.visitor.camera.eye_height_m);
+    for (const CircleObstacle& post : s.town.walkable.circles)
+      to_posts_m = std::min(to_posts_m, Length(p - post.center) - post.radius_m);
     if (last && Length(eye - *last) < 0.4f) continue;
     EXPECT_FALSE(Touches(triangles, last.value_or(eye), eye, kRoom_m)) << eye.x << " " << eye.y << " " << eye.z;
     way_m += last ? Length(eye - *last) : 0;
     last = eye;
   }
+  EXPECT_GT(to_posts_m, kFromPosts_m) << "lamps and trees";
   EXPECT_GT(highest_m, 3.5f);
   EXPECT_GT(way_m, 200);
 }
