@@ -34,6 +34,8 @@ constexpr float kStands = 0.05f;     // share of the pace
 constexpr float kSidestep_m = 0.7f;  // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;  // after which those who stand in the way move on
 constexpr float kLoitererYieldRadius_m = 2;
+constexpr float kSideways = 0.4f;   // share of the pace, of a guided visitor who still looks aside of the way
+constexpr float kBeforeSight_m = 2.2f, kBeforeSightRadius_m = 1.4f;  // where nobody goes on standing while a stop is shown
 
 void TurnTowards(float yaw_rad, float rate_radps, const VisitorInTown& v) {
   const float most = rate_radps * Step_s(v.settings);
@@ -277,7 +279,9 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   LookAbout(input, v);
   if (!t.begun) return;
   if (t.resting && Length(t.stops[HaltOf(t)].position_m - p) < kAtHalt_m) {
-    return TurnBeside(t.stops[HaltOf(t)].yaw_rad, kMostAsideAtHalt_rad, v);
+    const float look_rad = t.stops[HaltOf(t)].yaw_rad;
+    StirLoiterers(p + DirectionOf(look_rad) * kBeforeSight_m, kBeforeSightRadius_m, &v.town);
+    return TurnBeside(look_rad, kMostAsideAtHalt_rad, v);
   }
   if (t.over) return TurnForTour(LookOfLeave_rad(v.visitor.camera.view.yaw_rad, v), v);
   if (t.paused) return;
@@ -290,7 +294,9 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   const float pace = ShareOfPace(v);
   const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
   if (pace > kStands && Length(look) > kReached_m) TurnBeside(AngleOf(look), kMostAside_rad, v);
-  if (pace > kStands) Walk(RoundPeople(v, way), TourSpeed_mps(v) * pace, v);
+  // Turns first, then walks: but for who looks about.
+  const float ahead = v.visitor.looks_about_s > 0 ? 1 : Dot(DirectionOf(v.visitor.camera.view.yaw_rad), Unit(look));
+  if (pace > kStands) Walk(RoundPeople(v, way), TourSpeed_mps(v) * pace * std::max(kSideways, ahead), v);
   else v.visitor.stuck_s = 0;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "runtime/crowd/fast_math.h"
 #include "tests/unit/runtime/simulation/tour_town.h"
 
 namespace flaneur {
@@ -175,6 +176,37 @@ TEST(Tour, CannotBeCutToStopsWhereNobodyRests) {
     scenario.tour.stops = {stop};
     EXPECT_NE(StartSimulation(&pack, scenario, &s).message.find("nobody rests at stop"), std::string::npos) << stop;
   }
+}
+
+TEST(Tour, TurnsToWhereItGoesBeforeItWalks) {
+  TourPack pack = TourTown(0);
+  pack.guide.clear();
+  Simulation s = Started(pack);
+  ASSERT_EQ(NextRest(&s), 1u);
+  Ask({true, false, false}, &s);
+  ASSERT_EQ(NextRest(&s), 3u);
+  Ask({false, true, false}, &s);  // back, from where the way on is looked along
+  float aside_m = 0;
+  for (int step = 0; step < 150; ++step) {
+    StepSimulation({}, 0, &s);
+    const CameraState& c = s.visitor.camera;
+    if (Dot(c.velocity, DirectionOf(c.view.yaw_rad)) < 0.5f * Length(c.velocity))
+      aside_m += Length(c.velocity) * Step_s(s);
+  }
+  EXPECT_LT(aside_m, 1.3f);
+}
+
+TEST(Tour, NobodyGoesOnStandingBeforeWhatIsShown) {
+  TourPack pack = TourTown(30);
+  Simulation s = Started(pack);
+  ASSERT_EQ(NextRest(&s), 1u);
+  const TourStop& stop = s.visitor.tour.stops[1];
+  Crowd& c = s.town.crowd;
+  const size_t somebody = s.visitor.guide.index == 0 ? 1 : 0;
+  c.position[somebody] = stop.position_m + DirectionOf(stop.yaw_rad) * 2.0f;
+  c.wait_s[somebody] = 40;
+  Step(&s, 2);
+  EXPECT_LT(c.wait_s[somebody], 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutGuide, Tours, ::testing::Values("monk", ""),
