@@ -51,8 +51,8 @@ def sack(mesh, x, y, z, rng):
     cloth = shade(srgb("c9b48a"), rng.uniform(0.8, 1.05))
     r, h = rng.uniform(0.22, 0.28), rng.uniform(0.5, 0.65)
     first, slump = len(mesh.points), 9 * x + 5 * y
-    lathe(mesh, "cloth", (x, y, z), [(r * 0.8, 0.0), (r * 1.06, h * 0.14), (r * 1.08, h * 0.42), (r * 0.92, h * 0.68), (r * 0.5, h * 0.83),
-                                     (r * 0.26, h * 0.87), (r * 0.4, h * 0.92), (r * 0.52, h)], 10, cloth)
+    lathe(mesh, "cloth", (x, y, z), [(r * 0.82, 0.0), (r * 1.07, h * 0.16), (r * 1.04, h * 0.5), (r * 0.72, h * 0.76), (r * 0.26, h * 0.87),
+                                     (r * 0.52, h)], 9, cloth)
     for k in range(first, len(mesh.points)):
         px, py, pz = mesh.points[k]
         angle = math.atan2(py - y, px - x)
@@ -230,7 +230,7 @@ def hay(mesh, half_x, half_y, low, high, rng):
             points = [spots[i, k], spots[i + 1, k], spots[i + 1, k + 1], spots[i, k + 1]]
             mesh.face("plaster", points, [(p[0], p[1]) for p in points], shade(straw, rng.uniform(0.75, 1.0)),
                       [(0.5 * p[0] / half_x, 0.5 * p[1] / half_y, 0.8) for p in points])
-    for _ in range(round(300 * half_x * half_y / 0.47)):
+    for _ in range(round(130 * half_x * half_y / 0.47)):
         x, y, z = spots[rng.randrange(1, across), rng.randrange(1, along)]
         x, y, z = x + rng.uniform(-0.12, 0.12) * half_x, y + rng.uniform(-0.12, 0.12) * half_y, z - 0.03
         yaw, rise, length = rng.uniform(0, 2 * math.pi), rng.uniform(-0.1, 0.8), rng.uniform(0.14, 0.34)

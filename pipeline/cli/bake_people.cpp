@@ -70,6 +70,15 @@ bool IsBirdOnly(const AvatarSettings& avatar, const Baking& baking) {
                      [&](const Flock& flock) { return flock.avatar == avatar.name; });
 }
 
+// Who is nowhere but where they stay, and does nothing there that needs a clip, is never seen to walk.
+bool StandsOnly(const AvatarSettings& avatar, const Baking& baking) {
+  if (avatar.share > 0 || avatar.name == baking.settings.guide || IsBirdOnly(avatar, baking)) return false;
+  return std::all_of(baking.parts.places.begin(), baking.parts.places.end(), [&](const Place& place) {
+    const bool named = std::find(place.avatars.begin(), place.avatars.end(), avatar.name) != place.avatars.end();
+    return !named || (place.stay_s <= 0 && (place.clip.empty() || place.clip == "idle"));
+  });
+}
+
 ImpostorOptions OptionsOf(const Baking& baking, size_t i) {
   const AvatarSettings& settings = baking.settings.avatars[i];
   ImpostorOptions options = baking.settings.impostor;
@@ -79,6 +88,9 @@ ImpostorOptions OptionsOf(const Baking& baking, size_t i) {
   if (IsBirdOnly(settings, baking)) {
     options.height_px = kUnseen_px;
     for (ImpostorClipOptions& clip : options.clips) clip.phases = 1;
+  }
+  if (StandsOnly(settings, baking)) {
+    for (ImpostorClipOptions& clip : options.clips) clip.phases = clip.name == "idle" ? clip.phases : 1;
   }
   return options;
 }

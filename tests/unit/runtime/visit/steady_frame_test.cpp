@@ -14,7 +14,7 @@
 namespace flaneur {
 namespace {
 
-constexpr int kMaxDrawCalls = 80;
+constexpr int kMaxDrawCalls = 84;
 
 class SteadyFrameOfTheDemo : public testing::Test {
  protected:
