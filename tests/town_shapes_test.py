@@ -13,6 +13,8 @@ import numpy as np
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(sys.argv.pop(1)) / "blender_scripts/town"))
 import house  # noqa: E402
+import layout  # noqa: E402
+import nature  # noqa: E402
 import square  # noqa: E402
 import town_wall  # noqa: E402
 from mesh import Mesh  # noqa: E402
@@ -52,6 +54,23 @@ class TownShapes(unittest.TestCase):
                     at_corner = timber[np.hypot(timber[:, 0] - x, timber[:, 1] - y + house.CORNER) < 1e-6][:, 2]
                     self.assertLess(min(abs(at_corner - low)), 1e-6)
                     self.assertGreaterEqual(max(at_corner), high - 1e-6)
+
+    def test_walls_pass_before_a_house_whose_corner_parts_them(self):
+        """It poked out between their ends."""
+        corner = np.array((0.1, -0.1))
+        walls = layout.before_corners([np.array([(0.0, 3.0), (0.0, 0.2)]), np.array([(0.0, 0.0), (0.0, -2.0)])])
+        made = [np.array(town_wall.make_line_wall(line, 2.0, 0.4, (1, 1, 1)).points) for line in walls]
+        self.assertGreater(min(points[:, 0].max() for points in made), corner[0])
+        outer = [points[np.abs(points[:, 1] - corner[1]) < 0.3][:, 0] for points in made]
+        self.assertTrue(any(len(x) and x.min() < corner[0] - 0.05 < corner[0] < x.max() for x in outer), outer)
+
+    def test_bark_runs_on_round_a_trunk_and_up_it(self):
+        """Each ring had its own scale, and showed where the next began."""
+        mesh, at = Mesh(), {}
+        nature._trunk(mesh, [((0, 0, 0), 0.33), ((0, 0, 0.4), 0.27), ((0, 0, 2.0), 0.2)], 9, (1, 1, 1))
+        for point, uv in zip(mesh.points, mesh.uvs):
+            at.setdefault(tuple(np.round(point, 5)), set()).add(tuple(np.round(np.mod(np.add(uv, 1e-5), 1.0), 4)))
+        self.assertEqual([uvs for uvs in at.values() if len(uvs) > 1], [])
 
     def test_fruit_is_round(self):
         """Where two facets meet, the light on them is the same."""

@@ -34,8 +34,9 @@ constexpr float kStands = 0.05f;     // share of the pace
 constexpr float kSidestep_m = 0.7f;  // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;  // after which those who stand in the way move on
 constexpr float kLoitererYieldRadius_m = 2;
-constexpr float kSideways = 0.4f;   // share of the pace, of a guided visitor who still looks aside of the way
-constexpr float kBeforeSight_m = 2.2f, kBeforeSightRadius_m = 1.4f;  // where nobody goes on standing while a stop is shown
+constexpr float kSideways = 0.4f;  // share of the pace, of a guided visitor who still looks aside of the way
+constexpr float kBeforeSight_m = 2.2f,
+                kBeforeSightRadius_m = 1.4f;  // where nobody goes on standing while a stop is shown
 
 void TurnTowards(float yaw_rad, float rate_radps, const VisitorInTown& v) {
   const float most = rate_radps * Step_s(v.settings);

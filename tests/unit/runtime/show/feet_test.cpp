@@ -88,7 +88,8 @@ TEST(FeetOfTheDemo, StandStillWhileTheirOwnerWalks) {
     std::copy_if(slides[who].begin(), slides[who].end(), std::back_inserter(standing), [](float v) { return v >= 0; });
     ASSERT_GT(standing.size(), slides[who].size() / 2) << "no foot is on the ground most of the time";
     const float speed_mps = Length(s.town.crowd.velocity[who]);
-    const bool on_four = pack.avatars[who].name.ends_with("dog") || pack.avatars[who].name == "horse";  // of whose paws two or three stand at a time
+    const bool on_four = pack.avatars[who].name.ends_with("dog") ||
+                         pack.avatars[who].name == "horse";  // of whose paws two or three stand at a time
     EXPECT_LT(Median(standing), (on_four ? 2 : 1) * kMaxSlide * speed_mps);
   }
 }
