@@ -183,7 +183,7 @@ def add_furniture(town, streets, public, plots, doors, rng):
     for i, (x, y, yaw) in enumerate(furnish.loiter_spots()):
         town.empties.append(("loiter_%02d" % (i + 1), {"flaneur_kind": "loiter"},
                              (x, y, float(plan.ground_height(x, y))), yaw))
-    life.add_work(town, benches)
+    life.add_work(town, benches, furnish.lamps(streets, public))
 
 
 def add_gardens(town, gardens):

@@ -15,6 +15,7 @@ BEFORE_BENCH_M = 0.62   # from a bench's middle to where a sitter's feet are
 SEAT_M = 0.46
 FROM_WELL_M = 1.76      # from its middle
 DOORS_SWEPT = 7         # every so many doors somebody sweeps beside it
+BROOM_M = 1.4           # swung about who sweeps
 BESIDE_DOOR_M = (1.3, 0.95)  # along the front, and out of it
 
 
@@ -36,8 +37,8 @@ def _work(town, name, spot, yaw, clip, avatars="", **more):
     town.empties.append((name, extras, (x, y, float(plan.pavement_height(x, y))), yaw))
 
 
-def add_work(town, benches):
-    """benches: (x, y, yaw) of each."""
+def add_work(town, benches, lamps):
+    """benches: (x, y, yaw) of each; lamps: (x, y)."""
     for i, (x, y, yaw) in enumerate(furnish.STALLS):
         _work(town, "keeper_%d" % (i + 1), _turned(x, y, yaw, *KEEPER), yaw, "keep", "merchant, farmer, townswoman")
         if i in DOGS:
@@ -53,5 +54,7 @@ def add_work(town, benches):
         _work(town, "well_%d" % (i + 1), spot, angle - math.pi / 2, "draw_water", "maid", stay_s=90.0)
     doors = [(name, spot, yaw) for name, extras, spot, yaw in town.empties if extras["flaneur_kind"] == "door"]
     for i, (name, (x, y, _), yaw) in enumerate(doors[3::DOORS_SWEPT]):
-        spot = _turned(x, y, yaw, BESIDE_DOOR_M[0], -BESIDE_DOOR_M[1])
-        _work(town, "sweeper_%02d" % (i + 1), spot, yaw + 0.9, "sweep", "maid, farmer, craftsman", stay_s=150.0)
+        sides = [(_turned(x, y, yaw, side * BESIDE_DOOR_M[0], -BESIDE_DOOR_M[1]), yaw + side * 0.9) for side in (1, -1)]
+        free = [all(math.dist(spot, lamp) > BROOM_M for lamp in lamps) for spot, _ in sides]
+        spot, look = sides[0 if free[0] or not free[1] else 1]
+        _work(town, "sweeper_%02d" % (i + 1), spot, look, "sweep", "maid, farmer, craftsman", stay_s=150.0)

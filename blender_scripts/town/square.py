@@ -51,16 +51,16 @@ def sack(mesh, x, y, z, rng):
     cloth = shade(srgb("c9b48a"), rng.uniform(0.8, 1.05))
     r, h = rng.uniform(0.22, 0.28), rng.uniform(0.5, 0.65)
     first, slump = len(mesh.points), 9 * x + 5 * y
-    lathe(mesh, "cloth", (x, y, z), [(r * 0.82, 0.0), (r * 1.07, h * 0.16), (r * 1.04, h * 0.5), (r * 0.72, h * 0.76), (r * 0.26, h * 0.87),
-                                     (r * 0.52, h)], 9, cloth)
+    lathe(mesh, "cloth", (x, y, z), [(r * 0.95, 0.0), (r * 1.06, h * 0.1), (r * 1.0, h * 0.46), (r * 0.84, h * 0.7), (r * 0.34, h * 0.84),
+                                     (r * 0.68, h)], 9, cloth, ball=True)
     for k in range(first, len(mesh.points)):
         px, py, pz = mesh.points[k]
         angle = math.atan2(py - y, px - x)
-        swell = 1 + 0.09 * math.cos(2 * angle + slump) + 0.06 * math.cos(3 * angle + 2 * slump + 4 * (pz - z))
-        lean = 0.1 * (pz - z) ** 2 / h
+        swell = 1 + 0.11 * math.cos(2 * angle + slump) + 0.08 * math.cos(3 * angle + 2 * slump + 5 * (pz - z))
+        lean = 0.16 * (pz - z) ** 2 / h
         mesh.points[k] = (x + (px - x) * swell + lean * math.cos(slump), y + (py - y) * swell + lean * math.sin(slump), pz)
-    top = 0.1 * (0.87 * h) ** 2 / h
-    lathe(mesh, "cloth", (x + top * math.cos(slump), y + top * math.sin(slump), z + h * 0.85), [(r * 0.36, 0.0), (r * 0.36, h * 0.05)], 8,
+    top = 0.16 * (0.84 * h) ** 2 / h
+    lathe(mesh, "cloth", (x + top * math.cos(slump), y + top * math.sin(slump), z + h * 0.81), [(r * 0.4, 0.0), (r * 0.4, h * 0.05)], 8,
           shade(cloth, 0.45), caps=False)
 
 
