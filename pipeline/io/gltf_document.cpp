@@ -7,11 +7,14 @@
 #include <cstring>
 #include <set>
 
+#include "pipeline/io/basis_picture.h"
 #include "pipeline/io/draco_codec.h"
 #include "pipeline/io/gltf_accessor.h"
 #include "pipeline/io/gltf_parse.h"
 #include "pipeline/io/gltf_primitive.h"
 #include "runtime/base/array.h"
+#include "runtime/base/limits.h"
+#include "runtime/base/png.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -26,6 +29,7 @@ const std::set<std::string> kKnownExtensions{"KHR_draco_mesh_compression",
                                              "EXT_meshopt_compression",
                                              "KHR_mesh_quantization",
                                              "KHR_texture_transform",
+                                             "KHR_texture_basisu",
                                              "KHR_materials_pbrSpecularGlossiness",
                                              "KHR_materials_unlit",
                                              "KHR_materials_specular",
@@ -61,11 +65,6 @@ std::string NameOr(const std::string& name, const char* kind, size_t index) {
 Error CheckExtensions(const Model& model) {
   for (const std::string& name : model.extensionsRequired) {
     if (kKnownExtensions.count(name) > 0) continue;
-    if (name == "KHR_texture_basisu") {
-      return Fail(
-          "its pictures are KTX2 alone (KHR_texture_basisu), which is not read; make them PNG: gltf-transform "
-          "ktxdecompress IN.glb OUT.glb");
-    }
     return Fail("needs the extension " + OneLine(name) + ", which is not supported; export the file without it");
   }
   return Ok();
@@ -240,8 +239,8 @@ class ImageTable {
     if (static_cast<size_t>(texture) >= model_.textures.size()) {
       return Fail("texture " + std::to_string(texture) + " does not exist");
     }
-    const int source = At(model_.textures, texture).source;
-    if (source < 0) return Fail("texture " + std::to_string(texture) + " has no PNG or JPEG image");
+    const int source = SourceOf(At(model_.textures, texture));
+    if (source < 0) return Fail("texture " + std::to_string(texture) + " has no PNG, JPEG or KTX2 image");
     if (static_cast<size_t>(source) >= model_.images.size()) {
       return Fail("image " + std::to_string(source) + " does not exist");
     }
@@ -257,9 +256,31 @@ class ImageTable {
   }
 
  private:
+  // PNG or JPEG where the file has both.
+  static int SourceOf(const tinygltf::Texture& texture) {
+    const auto basis = texture.extensions.find("KHR_texture_basisu");
+    const bool only_basis = texture.source < 0 && basis != texture.extensions.end() && basis->second.Has("source") &&
+                            basis->second.Get("source").IsNumber();
+    return only_basis ? basis->second.Get("source").GetNumberAsInt() : texture.source;
+  }
+
+  // As PNG, which all that follows reads.
+  Error Unpack(Image* image) {
+    pixels_left_ += kPixelsAByte * image->bytes.size();
+    Pixels pixels;
+    if (Error e = DecodeBasisPicture(image->bytes, pixels_left_, &pixels)) {
+      return Fail("image " + Quoted(image->name) + " " + e.message);
+    }
+    pixels_left_ -= pixels.rgba.size() / 4;
+    image->mime_type = "image/png";
+    image->bytes = EncodePng(pixels.width, pixels.height, 4, pixels.rgba);
+    return image->bytes.empty() ? Fail("image " + Quoted(image->name) + ": not enough memory") : Ok();
+  }
+
   Error Copy(size_t source, Image* out) {
     const tinygltf::Image& in = model_.images[source];
-    out->name = NameOr(in.name.empty() ? in.uri.substr(0, 200) : in.name, "image", source);
+    const std::string file = in.uri.starts_with("data:") ? "" : in.uri.substr(0, 200);
+    out->name = NameOr(in.name.empty() ? file : in.name, "image", source);
     out->bytes = in.image;
     if (in.bufferView >= 0) {
       std::span<const uint8_t> bytes;
@@ -274,8 +295,10 @@ class ImageTable {
       out->mime_type = "image/png";
     } else if (starts({0xff, 0xd8, 0xff})) {
       out->mime_type = "image/jpeg";
+    } else if (IsKtx2(out->bytes)) {
+      return Unpack(out);
     } else {
-      return Fail("image " + Quoted(out->name) + " is neither PNG nor JPEG; convert it");
+      return Fail("image " + Quoted(out->name) + " is neither PNG, JPEG nor KTX2; convert it");
     }
     return Ok();
   }
@@ -283,6 +306,7 @@ class ImageTable {
   const Model& model_;
   GltfDocument* document_;
   std::vector<int> index_;
+  uint64_t pixels_left_ = kFreePixels;  // of KTX2 pictures
 };
 
 Vec2 Pair(const Value& object, const char* key, Vec2 otherwise) {

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
+constexpr std::string_view kDraco = "KHR_draco_mesh_compression", kKtx2Data = "data:image/ktx2;";
 constexpr size_t kJsonOffset = 20;  // of a binary file's JSON: file header and chunk header
 
 // Keeps the file's bytes; decoding is the affair of whoever uses the picture.
@@ -84,6 +84,16 @@ void FindMeshoptBytes(json* root) {
   });
 }
 
+// tinygltf knows but a few types of data that stand in the JSON itself.
+void RenameKtx2Data(json* root) {
+  if (!root->is_object() || !root->contains("images") || !(*root)["images"].is_array()) return;
+  for (json& image : (*root)["images"]) {
+    if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string()) continue;
+    const std::string& uri = image["uri"].get_ref<const std::string&>();
+    if (uri.starts_with(kKtx2Data)) image["uri"] = "data:application/octet-stream;" + uri.substr(kKtx2Data.size());
+  }
+}
+
 // The files that a model names beside itself are read as all files are: of the disk alone, and no more than there may
 // be.
 struct NamedFiles {
@@ -123,11 +133,13 @@ void PrepareExtensions(bool binary, std::vector<uint8_t>* bytes) {
   const size_t begin = binary ? kJsonOffset : 0, end = begin + text.size();
   const bool draco = text.find(kDraco) != std::string_view::npos;
   const bool meshopt = text.find(kMeshoptExtension) != std::string_view::npos;
-  if (!draco && !meshopt) return;
+  const bool ktx2 = text.find(kKtx2Data) != std::string_view::npos;
+  if (!draco && !meshopt && !ktx2) return;
   json root = json::parse(text, nullptr, false);
   if (root.is_discarded()) return;
   if (draco) DropDracoIndices(&root);
   if (meshopt) FindMeshoptBytes(&root);
+  if (ktx2) RenameKtx2Data(&root);
   std::string changed = root.dump(-1, ' ', false, json::error_handler_t::replace);
   changed.resize((changed.size() + 3) / 4 * 4, ' ');
   const auto at = [&](size_t i) { return bytes->begin() + static_cast<std::ptrdiff_t>(i); };

@@ -1,9 +1,13 @@
 """People whose files leave something out or get it wrong: levels all the same, with a warning, or one clear error."""
+import base64
 import json
+import pathlib
 import unittest
 
 from odd_person import OddPerson
 from support import ProgramTest, run
+
+BASIS = pathlib.Path(__file__).parent.parent / "data" / "basis"
 
 
 class OddPeople(ProgramTest):
@@ -99,6 +103,15 @@ class OddPeople(ProgramTest):
         person = OddPerson()
         person.image = "nowhere.png"
         self.assert_fails(self.bake(person), "nowhere.png")
+
+    def test_a_picture_in_basis_universal(self):
+        for name in ("etc1s", "uastc_zstd_alpha"):
+            person, ktx2 = OddPerson(), (BASIS / f"{name}.ktx2").read_bytes()
+            person.image = "data:image/ktx2;base64," + base64.b64encode(ktx2).decode()
+            self.made(person)
+            with self.subTest("cut short"):
+                person.image = "data:image/ktx2;base64," + base64.b64encode(ktx2[: len(ktx2) // 2]).decode()
+                self.assert_fails(self.bake(person), "image 0", "cut short")
 
     def test_two_triangles(self):
         person = OddPerson(rings=2, sides=4)

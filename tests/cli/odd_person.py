@@ -55,6 +55,9 @@ class OddPerson:
             primitive["material"] = 0
             self.gltf["images"] = [{"uri": self.image}]
             self.gltf["textures"] = [{"source": 0}]
+            if self.image.startswith("data:image/ktx2"):
+                self.gltf["textures"] = [{"extensions": {"KHR_texture_basisu": {"source": 0}}}]
+                self.gltf["extensionsUsed"] = self.gltf["extensionsRequired"] = ["KHR_texture_basisu"]
             self.gltf["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
         self.gltf["meshes"] = [{"name": "body", "primitives": [primitive]}]
         self.add_skeleton()

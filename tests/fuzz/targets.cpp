@@ -7,6 +7,7 @@
 #include <exception>
 #include <vector>
 
+#include "pipeline/io/basis_picture.h"
 #include "pipeline/io/describe_file.h"
 #include "pipeline/io/geojson.h"
 #include "pipeline/io/gltf.h"
@@ -106,6 +107,13 @@ std::string TryKtx2(const std::filesystem::path&, Bytes bytes) {
     width_px = std::max(1, width_px / 2), height_px = std::max(1, height_px / 2);
   }
   return {};
+}
+
+std::string TryBasis(const std::filesystem::path&, Bytes bytes) {
+  Pixels pixels;
+  if (const Error e = DecodeBasisPicture(bytes, kFreePixels, &pixels)) return Refused(e);
+  const size_t texels = static_cast<size_t>(pixels.width) * static_cast<size_t>(pixels.height);
+  return pixels.rgba.size() == 4 * texels ? "" : "another size than it says";
 }
 
 // Count, stride and filter stand in its first eight bytes.
@@ -223,6 +231,12 @@ std::string TrySound(const std::filesystem::path&, Bytes bytes) {
 constexpr std::array kTargets{
     Target{"pack", "glb", Structure::kGlb, {}, TryPack},
     Target{"ktx2", "ktx2", Structure::kBytes, {}, TryKtx2},
+    Target{
+        "basis",
+        "ktx2",
+        Structure::kBytes,
+        {"tests/data/basis/etc1s_alpha.ktx2", "tests/data/basis/uastc.ktx2", "tests/data/basis/uastc_zstd_alpha.ktx2"},
+        TryBasis},
     Target{"meshopt", "bin", Structure::kBytes, {}, TryMeshopt},
     Target{"model", "glb", Structure::kGlb, {"tests/data/towns/street.glb"}, TryModel},
     Target{"gltf", "gltf", Structure::kJson, {"tests/data/check/601.gltf"}, TryModel},
