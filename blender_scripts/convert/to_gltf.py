@@ -66,6 +66,22 @@ def only_clips_of_rigs():
             rig.animation_data.action = None
 
 
+def apply_modifiers_beside_shape_keys():
+    """The exporter applies modifiers to all meshes or to none, and shapes are lost where it does. Whether it may."""
+    meshes = [thing for thing in bpy.context.scene.objects if thing.type == "MESH"]
+    if not any(thing.data.shape_keys for thing in meshes):
+        return True
+    for thing in meshes:
+        changes = [modifier.name for modifier in thing.modifiers if modifier.type != "ARMATURE" and modifier.show_viewport]
+        if thing.data.shape_keys or not changes:
+            continue
+        thing.data = thing.data.copy()  # no other object's
+        with bpy.context.temp_override(object=thing):
+            for name in changes:
+                bpy.ops.object.modifier_apply(modifier=name)
+    return False
+
+
 def main():
     settings = load_settings(required=("output",), options={"input": ""})
     path = settings["options"]["input"]
@@ -76,8 +92,9 @@ def main():
     if not any(thing.type == "MESH" for thing in bpy.context.scene.objects):
         fail("%s: holds no mesh" % path)
     only_clips_of_rigs()
+    apply_all = apply_modifiers_beside_shape_keys()
     write_atomically(settings["output"], lambda out: gltf.export_glb(
-        out, use_visible=True, export_apply=True, export_animations=True, export_nla_strips=True,
+        out, use_visible=True, export_apply=apply_all, export_morph=True, export_morph_normal=False, export_morph_animation=False, export_animations=True, export_nla_strips=True,
         export_animation_mode="NLA_TRACKS", export_frame_range=False, export_force_sampling=True, export_skins=True))
 
 

@@ -2,18 +2,39 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
+#include <span>
 
 namespace flaneur {
 namespace {
 
 constexpr int kPosesOfAClip = 12;
+constexpr float kStill_m = 1e-4f;  // a joint that moves no farther on its parent
 
 using Poses = std::vector<std::vector<Mat4>>;
 using Joints = std::vector<uint16_t>;  // that stands for each one
 
+// Keys in which some joint is farthest from where it begins: lids close for a moment only.
+std::set<size_t> Extremes(const Clip& clip, size_t joints) {
+  std::set<size_t> keys;
+  for (size_t j = 0; j < joints; ++j) {
+    float farthest = 0;
+    size_t key = 0;
+    for (size_t at = j; at < clip.transforms.size(); at += joints) {
+      const float away = Length(clip.transforms[at].translation - clip.transforms[j].translation);
+      if (away > farthest) farthest = away, key = at / joints;
+    }
+    if (farthest > kStill_m) keys.insert(key);
+  }
+  return keys;
+}
+
 Poses AllPoses(const Avatar& avatar) {
   Poses poses;
+  const size_t joints = avatar.joints.size();
   for (const Clip& clip : avatar.clips) {
+    for (const size_t key : Extremes(clip, joints))
+      poses.push_back(SkinningMatrices(avatar.joints, std::span(clip.transforms).subspan(key * joints, joints)));
     for (int i = 0; i < kPosesOfAClip; ++i) {
       const float share = static_cast<float>(i) / kPosesOfAClip;
       poses.push_back(SkinningMatrices(avatar, clip, share * clip.duration_s));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -14,6 +15,7 @@
 #include "pipeline/io/join_documents.h"
 #include "pipeline/io/motion_reader.h"
 #include "pipeline/rig/clip_loop.h"
+#include "pipeline/rig/face.h"
 #include "pipeline/rig/motion_quality.h"
 #include "pipeline/rig/retarget.h"
 #include "runtime/base/array.h"
@@ -58,6 +60,8 @@ struct Part {
   int prop = -1;  // of the avatar's props; -1: everybody has it
 };
 
+using Face = std::array<std::vector<Vec3>, kFaceMoves>;  // as DocumentPrimitive has it
+
 bool HasInfluences(const DocumentMesh& mesh) {
   return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
                      [](const auto& primitive) { return primitive.influences.per_vertex > 0; });
@@ -83,8 +87,9 @@ class AvatarReader {
   Error FindJoints();
   void FindBindPose();
   Error AddPart(const Part& part);
-  Error SkinVertices(const Part& part, const DocumentPrimitive& primitive, Mesh* mesh);
-  void AttachVertices(const Part& part, Mesh* mesh) const;
+  Error SkinVertices(const Part& part, const DocumentPrimitive& primitive, Mesh* mesh, Face* face);
+  void AttachVertices(const Part& part, Mesh* mesh, Face* face) const;
+  void AddToFace(const Face& face, size_t mesh, size_t before);
   int PropOf(int node) const;
   bool HangsOnLeg(const Part& part) const;
   Mesh* MergedMesh(int material, std::vector<Mesh>* meshes) const;
@@ -111,7 +116,8 @@ class AvatarReader {
   std::vector<Mat4> rest_;        // world matrices of the file's own pose
   std::vector<Mat4> to_metres_;   // a joint: removes the scale that its node has at rest, and mirroring
   float walk_speed_ = 0;          // of a walk made to fit, in units of the file
-  Mesh body_;                     // skinned parts: what stands on the ground
+  std::vector<FaceShape> face_{{FaceMove::kBlink, {}}, {FaceMove::kOpenMouth, {}}};
+  Mesh body_;  // skinned parts: what stands on the ground
   int unnormalized_ = 0;
   int weightless_ = 0;
 };
@@ -152,8 +158,13 @@ Error AvatarReader::FindParts() {
     if (!At(visible, i) || node.mesh < 0) continue;
     const DocumentMesh& mesh = At(document_.meshes, node.mesh);
     if (mesh.primitives.empty()) continue;
-    if (mesh.morphs)
-      notes_->push_back("mesh " + Quoted(mesh.name) + ": its morph targets stay at the file's own weights");
+    const bool has_face = std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [](const auto& primitive) {
+      return !primitive.face[0].empty() || !primitive.face[1].empty();
+    });
+    if (mesh.morphs) {
+      notes_->push_back("mesh " + Quoted(mesh.name) + ": its morph targets stay at the file's own weights" +
+                        (has_face ? ", but for those that close eyes and open the mouth" : ""));
+    }
     Part part{i, node.skin >= 0 && HasInfluences(mesh), -1, PropOf(i)};
     for (int a = i; a >= 0 && part.anchor < 0; a = Node(a).parent) {
       if (At(moves, a)) part.anchor = a;
@@ -306,7 +317,13 @@ bool FourHeaviest(std::vector<Weighted> all, std::array<uint16_t, 4>* joints, st
   return true;
 }
 
-Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& primitive, Mesh* mesh) {
+void TransformFace(const Mat4& matrix, size_t vertex, Face* face) {
+  for (std::vector<Vec3>& offsets : *face) {
+    if (!offsets.empty()) offsets[vertex] = TransformDirection(matrix, offsets[vertex]);
+  }
+}
+
+Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& primitive, Mesh* mesh, Face* face) {
   const DocumentSkin& skin = At(document_.skins, Node(part.node).skin);
   std::vector<Mat4> into_bind(skin.joints.size());  // the part's space to the avatar's bind pose
   for (size_t k = 0; k < skin.joints.size(); ++k) {
@@ -351,18 +368,20 @@ Error AvatarReader::SkinVertices(const Part& part, const DocumentPrimitive& prim
     }
     if (Determinant(blend) < 0) ++mirrored;
     Transform3(blend, &mesh->positions[v], &mesh->normals[v]);
+    TransformFace(blend, v, face);
   }
   if (2 * static_cast<size_t>(mirrored) > vertices) TurnRound(mesh);
   return Ok();
 }
 
-void AvatarReader::AttachVertices(const Part& part, Mesh* mesh) const {
+void AvatarReader::AttachVertices(const Part& part, Mesh* mesh, Face* face) const {
   const int joint = At(joint_of_, part.anchor);
   const size_t j = static_cast<size_t>(joint);
   const Mat4 from_anchor = Inverse(At(rest_, part.anchor)) * At(rest_, part.node);
   const Mat4 matrix = Inverse(avatar_->joints[j].inverse_bind) * Inverse(to_metres_[j]) * from_anchor;
   for (size_t v = 0; v < mesh->positions.size(); ++v) {
     Transform3(matrix, &mesh->positions[v], &mesh->normals[v]);
+    TransformFace(matrix, v, face);
   }
   if (Determinant(matrix) < 0) TurnRound(mesh);
   mesh->joints.assign(mesh->positions.size(), {static_cast<uint16_t>(joint), 0, 0, 0});
@@ -406,21 +425,35 @@ void AppendMesh(const Mesh& part, Mesh* mesh) {
   }
 }
 
+// What a part's morph targets move, where its `before` vertices come to lie.
+void AvatarReader::AddToFace(const Face& face, size_t mesh, size_t before) {
+  for (size_t move = 0; move < kFaceMoves; ++move) {
+    if (face[move].empty()) continue;
+    auto& offsets = face_[move].offsets;
+    offsets.resize(std::max(offsets.size(), mesh + 1));
+    offsets[mesh].resize(before);
+    AppendAll(face[move], &offsets[mesh]);
+  }
+}
+
 Error AvatarReader::AddPart(const Part& part) {
   const int mesh_index = Node(part.node).mesh;
   for (const auto& primitive : At(document_.meshes, mesh_index).primitives) {
     Mesh mesh = primitive.mesh;
+    Face face = primitive.face;
     if (part.skinned && primitive.influences.per_vertex > 0) {
-      if (Error e = SkinVertices(part, primitive, &mesh)) return e;
+      if (Error e = SkinVertices(part, primitive, &mesh, &face)) return e;
     } else if (part.anchor >= 0) {
-      AttachVertices(part, &mesh);
+      AttachVertices(part, &mesh, &face);
     } else {
       Part on_skin = part;
       on_skin.anchor = At(document_.skins, Node(part.node).skin).joints[0];
-      AttachVertices(on_skin, &mesh);
+      AttachVertices(on_skin, &mesh, &face);
     }
     std::vector<Mesh>& meshes = part.prop < 0 ? avatar_->meshes : At(avatar_->props, part.prop).meshes;
-    AppendMesh(mesh, MergedMesh(mesh.material, &meshes));
+    Mesh* merged = MergedMesh(mesh.material, &meshes);
+    if (part.prop < 0) AddToFace(face, static_cast<size_t>(merged - meshes.data()), merged->positions.size());
+    AppendMesh(mesh, merged);
     if ((part.skinned || HangsOnLeg(part)) && part.prop < 0) AppendMesh(mesh, &body_);
   }
   return Ok();
@@ -622,7 +655,10 @@ Error AvatarReader::Read() {
                                      [](const ChosenClip& clip) { return clip.name == "walk" && clip.file >= 0; });
   if (own_walk) normalize.walk_speed_mps = ToldSpeed();
   if (walk_speed_ > 0) normalize.walk_speed_mps = walk_speed_;
-  return NormalizeAvatar(normalize, body_, avatar_, notes_);
+  const std::vector<FaceJoint> face = AddFaceJoints(face_, avatar_, notes_);
+  if (Error e = NormalizeAvatar(normalize, body_, avatar_, notes_)) return e;
+  MoveFace(face, avatar_);
+  return Ok();
 }
 
 }  // namespace

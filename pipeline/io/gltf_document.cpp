@@ -9,6 +9,7 @@
 
 #include "pipeline/io/basis_picture.h"
 #include "pipeline/io/draco_codec.h"
+#include "pipeline/io/face_targets.h"
 #include "pipeline/io/gltf_accessor.h"
 #include "pipeline/io/gltf_parse.h"
 #include "pipeline/io/gltf_primitive.h"
@@ -463,28 +464,59 @@ std::vector<double> MorphWeights(const Model& model, size_t mesh) {
   return model.meshes[mesh].weights;
 }
 
+// One target's offsets of an attribute that the primitive has; empty: it has none.
+Error ReadTarget(const Model& model, const tinygltf::Primitive& in, size_t t, const char* name, const RawPrimitive& raw,
+                 std::vector<float>* offsets) {
+  const auto target = in.targets[t].find(name);
+  const auto own = raw.attributes.find(name);
+  if (target == in.targets[t].end() || own == raw.attributes.end()) return Ok();
+  if (Error e = ReadFloats(model, target->second, 3, offsets))
+    return Fail("morph target " + std::to_string(t) + ": " + e.message);
+  if (offsets->size() != own->second.size())
+    return Fail("morph target " + std::to_string(t) + " has not one " + name + " a vertex");
+  if (!std::all_of(offsets->begin(), offsets->end(), [](float v) { return std::isfinite(v); }))
+    return Fail("morph target " + std::to_string(t) + " moves a vertex to where no number is; repair the mesh");
+  return Ok();
+}
+
 // The shape that the file's own weights make: faces are modelled in them.
 Error AddMorphs(const Model& model, const tinygltf::Primitive& in, const std::vector<double>& weights,
                 RawPrimitive* raw) {
   for (size_t t = 0; t < std::min(weights.size(), in.targets.size()); ++t) {
     if (weights[t] == 0 || !std::isfinite(weights[t])) continue;
     for (const char* name : {"POSITION", "NORMAL"}) {
-      const auto target = in.targets[t].find(name);
-      const auto own = raw->attributes.find(name);
-      if (target == in.targets[t].end() || own == raw->attributes.end()) continue;
-      std::vector<float> moved;
-      if (Error e = ReadFloats(model, target->second, 3, &moved))
-        return Fail("morph target " + std::to_string(t) + ": " + e.message);
-      if (moved.size() != own->second.size())
-        return Fail("morph target " + std::to_string(t) + " has not one " + name + " a vertex");
-      for (size_t i = 0; i < moved.size(); ++i) own->second[i] += static_cast<float>(weights[t]) * moved[i];
+      std::vector<float> offsets;
+      if (Error e = ReadTarget(model, in, t, name, *raw, &offsets)) return e;
+      for (size_t i = 0; i < offsets.size(); ++i)
+        raw->attributes[name][i] += static_cast<float>(weights[t]) * offsets[i];
     }
   }
   return Ok();
 }
 
+Error AddFace(const Model& model, const tinygltf::Primitive& in, const FaceTargets& face, RawPrimitive* raw) {
+  for (size_t move = 0; move < kFaceMoves; ++move) {
+    std::vector<float> sum;
+    for (const WeightedTarget& each : face[move]) {
+      std::vector<float> offsets;
+      if (each.target >= in.targets.size()) continue;
+      if (Error e = ReadTarget(model, in, each.target, "POSITION", *raw, &offsets)) return e;
+      sum.resize(offsets.size());
+      for (size_t i = 0; i < sum.size(); ++i) sum[i] += each.weight * offsets[i];
+    }
+    if (!sum.empty()) raw->attributes["FACE_" + std::to_string(move)] = std::move(sum);
+  }
+  return Ok();
+}
+
+// What a mesh's morph targets are for.
+struct MorphUse {
+  std::vector<double> weights;  // at rest
+  FaceTargets face;
+};
+
 Error ReadPrimitive(const Model& model, const tinygltf::Primitive& in, const std::vector<UvSource>& uv_sources,
-                    const std::vector<double>& morph_weights, DocumentPrimitive* out) {
+                    const MorphUse& morphs, DocumentPrimitive* out) {
   RawPrimitive raw;
   if (in.mode == TINYGLTF_MODE_TRIANGLE_STRIP) raw.mode = TriangleMode::kStrip;
   if (in.mode == TINYGLTF_MODE_TRIANGLE_FAN) raw.mode = TriangleMode::kFan;
@@ -494,7 +526,8 @@ Error ReadPrimitive(const Model& model, const tinygltf::Primitive& in, const std
   if (Error e = compressed ? ReadDracoPrimitive(model, in, draco->second, &raw) : ReadPlainPrimitive(model, in, &raw)) {
     return e;
   }
-  if (Error e = AddMorphs(model, in, morph_weights, &raw)) return e;
+  if (Error e = AddMorphs(model, in, morphs.weights, &raw)) return e;
+  if (Error e = AddFace(model, in, morphs.face, &raw)) return e;
   UvSource uv_source;
   if (in.material >= Count(uv_sources)) {
     return Fail("material " + std::to_string(in.material) + " does not exist");
@@ -505,14 +538,14 @@ Error ReadPrimitive(const Model& model, const tinygltf::Primitive& in, const std
 }
 
 Error ReadMesh(const Model& model, size_t index, const std::vector<UvSource>& uv_sources, DocumentMesh* out) {
-  const std::vector<double> morph_weights = MorphWeights(model, index);
+  const MorphUse morphs{MorphWeights(model, index), FindFaceTargets(model, index)};
   for (const tinygltf::Primitive& in : model.meshes[index].primitives) {
     out->morphs = out->morphs || !in.targets.empty();
     const bool triangles =
         in.mode == -1 || (in.mode >= TINYGLTF_MODE_TRIANGLES && in.mode <= TINYGLTF_MODE_TRIANGLE_FAN);
     if (!triangles) continue;
     DocumentPrimitive primitive;
-    if (Error e = ReadPrimitive(model, in, uv_sources, morph_weights, &primitive)) return e;
+    if (Error e = ReadPrimitive(model, in, uv_sources, morphs, &primitive)) return e;
     primitive.mesh.name = out->name;
     if (!primitive.mesh.indices.empty()) out->primitives.push_back(std::move(primitive));
   }
@@ -646,11 +679,10 @@ Error ReadModel(const Model& model, GltfDocument* document, std::vector<std::str
       return Fail("skin " + std::to_string(i) + ": " + e.message);
     }
   }
-  document->clips.resize(model.animations.size());
   for (size_t i = 0; i < model.animations.size(); ++i) {
-    if (Error e = ReadClip(model, i, &document->clips[i])) {
-      return Fail("clip " + Quoted(document->clips[i].name) + ": " + e.message);
-    }
+    DocumentClip clip;
+    if (Error e = ReadClip(model, i, &clip)) return Fail("clip " + Quoted(clip.name) + ": " + e.message);
+    if (!clip.channels.empty()) document->clips.push_back(std::move(clip));  // else it moves morph targets alone
   }
   return Ok();
 }

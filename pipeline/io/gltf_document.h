@@ -8,6 +8,7 @@
 
 #include "pipeline/core/mesh.h"
 #include "pipeline/rig/bone_names.h"
+#include "pipeline/rig/face_names.h"
 #include "runtime/base/error.h"
 #include "runtime/base/math.h"
 
@@ -23,6 +24,8 @@ struct Influences {
 struct DocumentPrimitive {
   Mesh mesh;  // normals and indices always there; joints and weights empty
   Influences influences;
+  std::array<std::vector<Vec3>, kFaceMoves>
+      face;  // by FaceMove: where a morph target takes each vertex; empty: nowhere
 };
 
 struct DocumentMesh {

@@ -147,6 +147,7 @@ void AddFlatNormals(DocumentPrimitive* out) {
   Gather(from, 1, &mesh.colors);
   Gather(from, static_cast<size_t>(out->influences.per_vertex), &out->influences.joints);
   Gather(from, static_cast<size_t>(out->influences.per_vertex), &out->influences.weights);
+  for (std::vector<Vec3>& offsets : out->face) Gather(from, 1, &offsets);
   mesh.normals.resize(from.size());
   for (size_t i = 0; i < from.size(); ++i) mesh.indices[i] = static_cast<uint32_t>(i);
   for (size_t i = 0; i < from.size(); ++i) mesh.normals[i] = FaceNormal(mesh, i / 3);
@@ -176,6 +177,7 @@ Error CheckWidths(const RawPrimitive& raw, size_t vertices) {
                           : name.starts_with("TEXCOORD") ? 2
                           : name.starts_with("COLOR")    ? (width == 3 ? 3 : 4)
                           : name.starts_with("POSITION") ? 3
+                          : name.starts_with("FACE")     ? 3
                                                          : 4;
     if (width != wanted || values.size() != width * vertices) {
       return Fail(name + " has not " + std::to_string(wanted) + " numbers a vertex");
@@ -202,6 +204,9 @@ Error MakePrimitive(RawPrimitive raw, const UvSource& uv_source, DocumentPrimiti
   if (uvs1 != nullptr && uv_source.set == 0) mesh.uvs1 = Packed<Vec2>(*uvs1);
   if (const Floats* colors = Find(raw, "COLOR_0")) mesh.colors = Colors(*colors, vertices);
   out->influences = ReadInfluences(raw, vertices);
+  for (size_t move = 0; move < kFaceMoves; ++move) {
+    if (const Floats* offsets = Find(raw, "FACE_" + std::to_string(move))) out->face[move] = Packed<Vec3>(*offsets);
+  }
   const Floats* normals = Find(raw, "NORMAL");
   if (normals == nullptr) {
     AddFlatNormals(out);

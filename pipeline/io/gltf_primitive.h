@@ -20,7 +20,7 @@ struct UvSource {
 enum class TriangleMode { kList, kStrip, kFan };
 
 struct RawPrimitive {
-  std::map<std::string, std::vector<float>> attributes;  // by glTF's names, packed
+  std::map<std::string, std::vector<float>> attributes;  // by glTF's names, packed; FACE_0, ...: by FaceMove
   std::vector<uint32_t> indices;                         // empty: 0, 1, 2, ...
   bool indexed = false;
   TriangleMode mode = TriangleMode::kList;

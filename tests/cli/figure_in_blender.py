@@ -44,6 +44,16 @@ def hang_part(rig, name, center, half_size):
     part.modifiers.new("armature", "ARMATURE").object = rig
 
 
+def add_blink(head):
+    """Two lids in front that close as ARKit calls it."""
+    head.shape_key_add(name="Basis")
+    for side, sign in (("Left", 1), ("Right", -1)):
+        shape = head.shape_key_add(name="eyeBlink" + side)
+        for point in shape.data:
+            if point.co.z > 1.62 and point.co.y < -0.05 and sign * point.co.x > 0:
+                point.co.z -= 0.03
+
+
 def add_action(rig, action, swing_rad):
     rig.animation_data_create()
     rig.animation_data.action = bpy.data.actions.new(action)
@@ -61,6 +71,7 @@ def make_figure(folder):
     rig = make_rig()
     for name, (center, half_size) in PARTS.items():
         hang_part(rig, name, center, half_size)
+    add_blink(bpy.data.objects["head"])
     add_action(rig, "idle", 0.03)
     add_action(rig, "walk", 0.6)
     bpy.context.scene.frame_end = 25

@@ -113,6 +113,18 @@ class OddPeople(ProgramTest):
                 person.image = "data:image/ktx2;base64," + base64.b64encode(ktx2[: len(ktx2) // 2]).decode()
                 self.assert_fails(self.bake(person), "image 0", "cut short")
 
+    def test_eyes_that_close_by_morph_targets(self):
+        person = OddPerson()
+        lids = [(0, -0.02, 0) if y > 1.6 and z > 0 else (0, 0, 0) for _, y, z in person.positions]
+        person.targets = {"smile": lids, "eyeBlinkLeft": lids}
+        facts = self.made(person, "morph targets", "close eyes")
+        self.assertEqual(facts["joints"], 3 + 1)
+        self.assertEqual([clip["name"] for clip in facts["clips"]], ["walk", "idle", "talk"])
+        person.targets = {"eyeBlinkLeft": lids[:-1]}
+        self.assert_fails(self.bake(person), "morph target 0")
+        person.targets = {"eyeBlinkLeft": [(float("inf"), 0, 0)] * len(lids)}
+        self.assert_fails(self.bake(person), "morph target 0", "repair")
+
     def test_two_triangles(self):
         person = OddPerson(rings=2, sides=4)
         person.indices = [0, 4, 1, 1, 4, 5]

@@ -17,6 +17,7 @@ class OddPerson:
         self.scale = None  # of the node above all
         self.more_influences = False  # a second set of joints and weights
         self.image = None  # uri of the picture
+        self.targets = {}  # morph targets: offsets by name
         for x, bone in ((0.1, 1), (-0.1, 2)):
             self.add_tube(x, bone, rings, sides)
 
@@ -59,7 +60,11 @@ class OddPerson:
                 self.gltf["textures"] = [{"extensions": {"KHR_texture_basisu": {"source": 0}}}]
                 self.gltf["extensionsUsed"] = self.gltf["extensionsRequired"] = ["KHR_texture_basisu"]
             self.gltf["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
-        self.gltf["meshes"] = [{"name": "body", "primitives": [primitive]}]
+        mesh = {"name": "body", "primitives": [primitive]}
+        if self.targets:
+            primitive["targets"] = [{"POSITION": self.add("VEC3", offsets)} for offsets in self.targets.values()]
+            mesh["extras"] = {"targetNames": list(self.targets)}
+        self.gltf["meshes"] = [mesh]
         self.add_skeleton()
         uri = "data:application/octet-stream;base64," + base64.b64encode(bytes(self.bytes)).decode()
         self.gltf["buffers"] = [{"byteLength": len(self.bytes), "uri": uri}]

@@ -516,6 +516,24 @@ TEST_F(AvatarFile, ReadsPeopleOfManyRigs) {
   }
 }
 
+TEST_F(AvatarFile, BlinksAndSpeaksByMorphTargets) {
+  if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
+  Avatar avatar;
+  std::vector<std::string> warnings;
+  ASSERT_EQ(ReadAvatar(SharedData() / "avatars/vrm/Godette_vrm_v4.vrm", {}, &avatar, &warnings).message, "");
+  const Clip &idle = *FindClip(avatar, "idle"), &talk = *FindClip(avatar, "talk");
+  const size_t joints = avatar.joints.size();
+  const auto moves = [&](const Clip& clip, const std::string& name) {
+    for (size_t i = 0; i < clip.transforms.size(); ++i) {
+      if (avatar.joints[i % joints].name == name && Length(clip.transforms[i].translation) > 0.01f) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(moves(idle, "Blink"));
+  EXPECT_FALSE(moves(idle, "OpenMouth"));
+  EXPECT_TRUE(moves(talk, "OpenMouth"));
+}
+
 TEST_F(AvatarFile, SaysOfAnOutfitWithoutABodyThatItHasNoHead) {
   if (SharedData().empty()) GTEST_SKIP() << "the folder of real data is not there";
   const auto headless = [&] {
