@@ -479,7 +479,11 @@ class Retargeter {
       track.wanted.push_back({rest.x + own_hip.x + wider + scale_ * (ankle.x - their_rest.x - their_hip.x),
                               to.ankle_height_m + scale_ * (ankle.y - from.ankle_height_m),
                               rest.z + own_hip.z + scale_ * stride_ * (ankle.z - their_rest.z - their_hip.z)});
-      track.sole.push_back(SoleAgainstAnkle(k, side));
+      const Pose foot = FootAgainstAnkle(k, side);
+      track.sole.push_back(SoleOf(foot, side));
+      track.lowest.push_back(0);
+      for (const Vec3 p : track.sole.back()) track.lowest.back() = std::min(track.lowest.back(), p.y);
+      for (const SolePoint& tip : to.tips) track.lowest.back() = std::min(track.lowest.back(), PlaceOf(tip, foot).y);
     }
     track.stands = source_.stands(side);
     const bool loops = source_.motion().loops && keys_ > 1;
@@ -487,15 +491,17 @@ class Retargeter {
       track.stands.pop_back();
       track.wanted.pop_back();
       track.sole.pop_back();
+      track.lowest.pop_back();
     }
     ankles_[side] = RollFoot(track, step_m, t_.leg_m, loops);
     if (loops) ankles_[side].push_back(ankles_[side].front());
   }
 
-  std::vector<Vec3> SoleAgainstAnkle(size_t k, size_t side) const {
+  // The foot alone, its ankle at the origin.
+  Pose FootAgainstAnkle(size_t k, size_t side) const {
     const RigLeg& leg = t_.legs[side];
     const auto& turned = wanted_[k].rotations;
-    Pose pose;  // of the foot alone, its ankle at the origin
+    Pose pose;
     pose.positions.resize(t_.joints.size());
     pose.rotations.resize(t_.joints.size());
     const auto set = [&](int joint, Vec3 place) {
@@ -509,9 +515,7 @@ class Retargeter {
       const Vec3 out = At(t_.reference.positions, leg.lower) - PlaceOf(leg.ankle, t_.reference);
       set(leg.lower, Rotated(Product(turned.at(leg.lower), Conjugate(ReferenceOf(leg.lower))), out));
     }
-    std::vector<Vec3> sole;
-    for (const SolePoint& point : leg.sole) sole.push_back(PlaceOf(point, pose));
-    return sole;
+    return pose;
   }
 
   // Hip joint of a leg against the middle of both, in the key.

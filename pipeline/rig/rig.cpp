@@ -9,11 +9,12 @@
 namespace flaneur {
 namespace {
 
-constexpr float kOwnWeight = 0.4f;                               // a vertex of the sole hangs on its foot by as much
-constexpr float kSoleBand = 0.05f;                               // of the leg's length, above its lowest point
-constexpr size_t kSoleDirections = 16;                           // that the sole's outline is kept in
-constexpr float kAnkleHeight = 0.09f;                            // of the leg's length, where nothing tells
-constexpr float kShortestLeg = 0.2f;                             // of the trunk's length
+constexpr float kOwnWeight = 0.4f;      // a vertex of the sole hangs on its foot by as much
+constexpr float kSoleBand = 0.05f;      // of the leg's length, above its lowest point
+constexpr size_t kSoleDirections = 16;  // that the sole's outline is kept in
+constexpr std::array<float, 6> kPitches_deg{-90, -60, -35, 35, 60, 90};  // in which the foot's tips are looked for
+constexpr float kAnkleHeight = 0.09f;                                    // of the leg's length, where nothing tells
+constexpr float kShortestLeg = 0.2f;                                     // of the trunk's length
 constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;            // of the leg's length: where y = 0 may be the ground
 constexpr float kBall = 0.19f, kToeTip = 0.27f, kHeel = -0.06f;  // of the leg's length, before the ankle
 
@@ -121,7 +122,23 @@ class RigMaker {
         if (far.reach > -1e29f) leg.sole.push_back(SolePointAt(leg, far));
       }
     }
+    MakeTips(toes, foot, shin, &leg);
     leg.ankle_height_m = ankle.y - lowest;
+  }
+
+  void MakeTips(const std::vector<bool>& toes, const std::vector<bool>& foot, const std::vector<bool>& shin,
+                RigLeg* leg) const {
+    std::array<FarPoint, kPitches_deg.size()> tips;
+    ForOwnVertices(leg->ankle.joint, [&](Vec3 place, const Mesh& mesh, size_t v) {
+      const float foot_weight = WeightOn(foot, mesh, v), shin_weight = WeightOn(shin, mesh, v);
+      const float all = foot_weight + shin_weight;
+      for (size_t i = 0; i < tips.size(); ++i) {
+        const float pitch = kPitches_deg[i] * kPi / 180;
+        const float reach = place.z * std::sin(pitch) - place.y * std::cos(pitch);
+        if (reach > tips[i].reach) tips[i] = {reach, place, WeightOn(toes, mesh, v) / all, shin_weight / all};
+      }
+    });
+    for (const FarPoint& tip : tips) leg->tips.push_back(SolePointAt(*leg, tip));
   }
 
   struct FarPoint {

@@ -45,6 +45,7 @@ struct RigLeg {
   float thigh_m = 0, shin_m = 0;  // shin_m 0: the leg is one bone
   float ankle_height_m = 0;       // above the sole's lowest point
   std::vector<SolePoint> sole;
+  std::vector<SolePoint> tips;  // of the foot, that come lowest where it is pitched far: a boot's cap, its heel's back
 };
 
 // Directions and turns of one arm in the reference pose. A limb's frame is the turn that brings the like limb of a

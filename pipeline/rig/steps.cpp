@@ -104,7 +104,7 @@ float Smooth(float t) { return t * t * (3 - 2 * t); }
 // Above the ground, and in the middle of a swing clear of it: a foot that skims it seems to slide.
 void KeepAbove(const FootTrack& track, const std::vector<float>& clear_m, std::vector<Vec3>* ankles) {
   for (size_t k = 0; k < ankles->size(); ++k) {
-    const float low = (*ankles)[k].y + track.sole[k][LowestOf(track.sole[k])].y;
+    const float low = (*ankles)[k].y + (clear_m[k] > 0 ? track.lowest[k] : track.sole[k][LowestOf(track.sole[k])].y);
     if (low < clear_m[k]) (*ankles)[k].y += clear_m[k] - low;
   }
 }

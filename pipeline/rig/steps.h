@@ -16,6 +16,7 @@ struct FootTrack {
   std::vector<Vec3> wanted;  // where the ankle would be as the source's is
   // Of the sole's points against the ankle, with the foot turned as it will be.
   std::vector<std::vector<Vec3>> sole;
+  std::vector<float> lowest;  // of the whole foot against the ankle, likewise
 };
 
 // How high the ground is under one whose lowest points these are, one a key. Of who `walks`, so that a foot is always
