@@ -26,6 +26,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kLongestLoop_s = 12;  // of a clip from another file
+constexpr float kMostSlide = 0.15f;   // of the walking speed: what soles may slide before a clip is not taken as it is
 
 std::string Quoted(const std::string& name) { return std::string("'").append(OneLine(name)) + "'"; }
 
@@ -520,14 +521,16 @@ Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std:
   Rig source;
   std::string source_why;
   Retargeted made;
-  if (SameSkeleton(joints, avatar_->joints, &scale)) {
-    CopyClip(joints, clip, avatar_->joints, &made.clip);
-    if (chosen.name == "walk" && rig != nullptr) PlantWalk(*rig, &made);
-  } else if (rig != nullptr && MakeRig(motion.skeleton, motion.told, &source, &source_why)) {
+  const bool same = SameSkeleton(joints, avatar_->joints, &scale), walks = chosen.name == "walk" && rig != nullptr;
+  if (same) CopyClip(joints, clip, avatar_->joints, &made.clip);
+  if (same && walks) PlantWalk(*rig, &made);
+  // Larger boots on the same bones may slide whatever is done to the clip as it is.
+  const bool slides = same && walks && BendsKnees(*rig) && SlideOfWalk(*rig, made.clip) > kMostSlide;
+  if ((!same || slides) && rig != nullptr && MakeRig(motion.skeleton, motion.told, &source, &source_why)) {
     made = chosen.name == "walk" ? ClearLegs(*avatar_, source, clip, *rig) : Retarget(source, clip, *rig);
     if (chosen.name == "walk") walk_speed_ = made.walk_speed_mps;
     if (chosen.name == "walk" || chosen.name == "idle" || chosen.name == "talk") ClearHands(*avatar_, *rig, &made.clip);
-  } else {
+  } else if (!same) {
     const int found = CopyClip(joints, clip, avatar_->joints, &made.clip);
     if (2 * found < Count(avatar_->joints)) {
       return Fail(

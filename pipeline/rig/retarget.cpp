@@ -824,11 +824,13 @@ Retargeted Retarget(const Rig& source, const Clip& clip, const Rig& target, cons
   return Retargeter(source, clip, target, options).Make(clip);
 }
 
+float SlideOfWalk(const Rig& rig, const Clip& walk) { return Retarget(rig, walk, rig, {.walks = true}).source_slide; }
+
 bool PlantFeet(const Rig& rig, Retargeted* walk) {
   if (rig.humanoid.by_shape || !BendsKnees(rig) || walk->clip.keys < 3) return false;
   Retargeted planted = Retarget(rig, walk->clip, rig, {.walks = true});
   if (planted.source_slide < kSlides || !(planted.walk_speed_mps > 0)) return false;
-  if (Retarget(rig, planted.clip, rig, {.walks = true}).source_slide > kPlanted * planted.source_slide) return false;
+  if (SlideOfWalk(rig, planted.clip) > kPlanted * planted.source_slide) return false;
   const std::vector<bool> stepping = SteppingJoints(rig);
   for (size_t i = 0; i < planted.clip.transforms.size(); ++i) {
     const size_t joint = i % rig.joints.size(), key = i / rig.joints.size();

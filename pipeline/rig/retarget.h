@@ -27,6 +27,9 @@ struct RetargetOptions {
 // parents. `clip` may travel or walk on the spot; it is on `source`'s joints, in their own space.
 Retargeted Retarget(const Rig& source, const Clip& clip, const Rig& target, const RetargetOptions& options = {});
 
+// Of the soles of a walk on its own skeleton over the ground, as a share of its speed; 0 where it tells none.
+float SlideOfWalk(const Rig& rig, const Clip& walk);
+
 // Sets the feet of a walk on its own skeleton anew, where they slide over the ground and can be kept from it; false
 // where nothing is changed. The rig is one that names tell and that bends its knees.
 bool PlantFeet(const Rig& rig, Retargeted* walk);
