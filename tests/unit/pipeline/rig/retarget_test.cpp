@@ -142,6 +142,23 @@ TEST(Steps, AToeThatDipsIntoTheGroundLiftsNobodyOffIt) {
   EXPECT_NEAR(GroundUnder(dips, 0.8f, false), 0, 1e-6f) << "who runs is in the air";
 }
 
+TEST(Steps, ABootsCapClearsTheGroundInTheSwing) {
+  FootTrack track;
+  for (size_t k = 0; k < 20; ++k) {
+    const bool stands = k < 10;
+    track.stands.push_back(stands);
+    track.wanted.push_back({0, 0.1f, 0.02f * static_cast<float>(stands ? 10 - k : k - 10)});
+    track.sole.push_back({{0, -0.1f, 0.1f}});
+    track.lowest.push_back(stands ? -0.1f : -0.25f);  // as the foot points down, its cap is lower than its sole
+  }
+  const std::vector<Vec3> ankles = RollFoot(track, 0.02f, 0.8f, true);
+  for (size_t k = 0; k < 20; ++k) {
+    const float low = ankles[k].y + track.lowest[k];
+    EXPECT_GT(low, track.stands[k] ? -1e-5f : 0.01f) << k;
+    EXPECT_LT(low, track.stands[k] ? 1e-5f : 0.1f) << k;
+  }
+}
+
 TEST(Steps, WhoWalksStandsUntilTheOtherFootDoes) {
   const Soles low(6, {Vec3{}}), high(6, {Vec3{0, 1, 0}});
   std::vector<bool> left = {true, true, false, false, false, false}, right = {false, false, false, false, true, true};
