@@ -529,7 +529,8 @@ Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std:
   if ((!same || slides) && rig != nullptr && MakeRig(motion.skeleton, motion.told, &source, &source_why)) {
     made = chosen.name == "walk" ? ClearLegs(*avatar_, source, clip, *rig) : Retarget(source, clip, *rig);
     if (chosen.name == "walk") walk_speed_ = made.walk_speed_mps;
-    if (chosen.name == "walk" || chosen.name == "idle" || chosen.name == "talk") ClearHands(*avatar_, *rig, &made.clip);
+    const bool led = chosen.name == "walk" || chosen.name == "idle" || chosen.name == "talk";
+    if (led && !same) ClearHands(*avatar_, *rig, &made.clip);
   } else if (!same) {
     const int found = CopyClip(joints, clip, avatar_->joints, &made.clip);
     if (2 * found < Count(avatar_->joints)) {
