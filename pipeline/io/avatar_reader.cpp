@@ -25,7 +25,8 @@
 namespace flaneur {
 namespace {
 
-constexpr float kLongestLoop_s = 12;  // of a clip from another file
+constexpr float kLongestLoop_s = 12;  // of a walk, and of any clip from another file
+constexpr float kLongestOwn_s = 59;   // of any other clip of the figure's own
 constexpr float kMostSlide = 0.15f;   // of the walking speed: what soles may slide before a clip is not taken as it is
 
 std::string Quoted(const std::string& name) { return std::string("'").append(OneLine(name)) + "'"; }
@@ -98,6 +99,7 @@ class AvatarReader {
   Error AddClips();
   float ToldSpeed() const;
   void PlantWalk(const Rig& rig, Retargeted* walk);
+  void Shorten(const std::string& clip_name, bool walks, const std::vector<Joint>& joints, Clip* clip);
   Error FitClip(const ChosenClip& chosen, const Rig* rig, const std::string& why);
   void Glide();
   std::vector<NamedBone> Told() const;
@@ -505,18 +507,22 @@ float AvatarReader::ToldSpeed() const {
   return speed;
 }
 
+// A recording of minutes to what is repeated: of a walk one cycle.
+void AvatarReader::Shorten(const std::string& clip_name, bool walks, const std::vector<Joint>& joints, Clip* clip) {
+  if (walks) CutToCycle(joints, clip);
+  if (clip->duration_s <= kLongestLoop_s) return;
+  notes_->push_back("clip " + clip_name + " is long; its first " + std::to_string(static_cast<int>(kLongestLoop_s)) +
+                    " s are taken");
+  CutTo(kLongestLoop_s, joints.size(), clip);
+}
+
 // A clip of another file: as it is where the skeletons are one, else retargeted, else by the joints' names.
 Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std::string& why) {
   const MotionFile& motion = At(clips_.files, chosen.file);
   Clip clip;
   if (Error e = ClipOf(motion, chosen.index, &clip)) return e;
   const std::vector<Joint>& joints = motion.skeleton.joints;
-  if (chosen.name == "walk") CutToCycle(joints, &clip);
-  if (clip.duration_s > kLongestLoop_s) {
-    notes_->push_back("clip " + Quoted(motion.clip_names[chosen.index]) + " of " + motion.path +
-                      " is long; its first " + std::to_string(static_cast<int>(kLongestLoop_s)) + " s are taken");
-    CutTo(kLongestLoop_s, joints.size(), &clip);
-  }
+  Shorten(Quoted(motion.clip_names[chosen.index]) + " of " + motion.path, chosen.name == "walk", joints, &clip);
   float scale = 1;
   Rig source;
   std::string source_why;
@@ -565,9 +571,12 @@ Error AvatarReader::AddClips() {
       if (Error e =
               SampleClip(document_, document_.clips[chosen.index], avatar_->joints, joint_nodes_, to_metres_, &clip))
         return e;
+      const bool walks = chosen.name == "walk";
+      if (clip.duration_s > (walks ? kLongestLoop_s : kLongestOwn_s))
+        Shorten(Quoted(document_.clips[chosen.index].name), walks, avatar_->joints, &clip);
       clip.name = chosen.name;
       Retargeted own{std::move(clip)};
-      if (human && chosen.name == "walk" && ToldSpeed() <= 0) PlantWalk(rig, &own);
+      if (human && walks && ToldSpeed() <= 0) PlantWalk(rig, &own);
       avatar_->clips.push_back(std::move(own.clip));
       continue;
     }

@@ -193,6 +193,8 @@ class Chooser {
       return Ok();
     }
     choice_.missing = "the file has: " + Listed(own_) + (own_.empty() ? "" : "; name the one to walk with");
+    if (const int still = GuessClip(own_, "walk"); still >= 0)
+      choice_.missing = Quoted(At(own_, still)) + " moves nothing";
     int shipped = -1;
     if (Error e = OpenOnce(kShipped, &shipped)) return Fail("no walk clip; " + choice_.missing + "; " + e.message);
     choice_.shipped_walk = true;

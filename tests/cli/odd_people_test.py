@@ -125,6 +125,17 @@ class OddPeople(ProgramTest):
         person.targets = {"eyeBlinkLeft": [(float("inf"), 0, 0)] * len(lids)}
         self.assert_fails(self.bake(person), "morph target 0", "repair")
 
+    def test_a_walk_of_ten_minutes_is_cut(self):
+        person = OddPerson()
+        person.cycles = 600
+        (walk,) = self.made(person, "'walk' is long")["clips"]
+        self.assertLessEqual(walk["duration_s"], 12.1)
+
+    def test_a_walk_of_one_frame_is_none(self):
+        person = OddPerson()
+        person.keys = 1
+        self.assert_fails(self.bake(person), "no walk clip", "'walk' moves nothing")
+
     def test_two_triangles(self):
         person = OddPerson(rings=2, sides=4)
         person.indices = [0, 4, 1, 1, 4, 5]

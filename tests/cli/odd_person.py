@@ -17,6 +17,7 @@ class OddPerson:
         self.scale = None  # of the node above all
         self.more_influences = False  # a second set of joints and weights
         self.image = None  # uri of the picture
+        self.cycles, self.keys = 1, 21  # of the walk: a second each, with so many keys
         self.targets = {}  # morph targets: offsets by name
         for x, bone in ((0.1, 1), (-0.1, 2)):
             self.add_tube(x, bone, rings, sides)
@@ -87,8 +88,9 @@ class OddPerson:
         self.gltf["skins"] = [{"joints": list(range(2, 2 + self.bones))}]
         if inverse:
             self.gltf["skins"][0]["inverseBindMatrices"] = self.add("MAT4", inverse)
-        times = [(k / 20,) for k in range(21)]
-        swings = [0.3 * math.sin(2 * math.pi * k / 20) for k in range(21)]
+        keys = range((self.keys - 1) * self.cycles + 1)
+        times = [(k / max(self.keys - 1, 1),) for k in keys]
+        swings = [0.3 * math.sin(2 * math.pi * t) for t, in times]
         samplers, channels = [], []
         for bone, sign in ((1, 1), (2, -1)):
             turns = [(math.sin(sign * s / 2), 0, 0, math.cos(s / 2)) for s in swings]
