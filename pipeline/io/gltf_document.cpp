@@ -678,6 +678,10 @@ Error ReadModel(const Model& model, GltfDocument* document, std::vector<std::str
     if (Error e = ReadSkin(model, model.skins[i], &document->skins[i])) {
       return Fail("skin " + std::to_string(i) + ": " + e.message);
     }
+    if (model.skins[i].inverseBindMatrices < 0) {
+      warnings->push_back("skin " + Quoted(NameOr(model.skins[i].name, "skin", i)) +
+                          " has no inverse bind matrices: where the figure comes apart, export it anew with them");
+    }
   }
   for (size_t i = 0; i < model.animations.size(); ++i) {
     DocumentClip clip;

@@ -93,6 +93,11 @@ class OddPeople(ProgramTest):
         person.joints = [(k % 500, 0, 0, 0) for k in range(len(person.joints))]
         self.assertLessEqual(self.made(person, "joints", "reduced")["joints"], 256)
 
+    def test_a_skin_without_bind_matrices(self):
+        person = OddPerson()
+        person.binds = False
+        self.made(person, "inverse bind matrices", "export")
+
     def test_mirrored_scale(self):
         person = OddPerson()
         person.scale = [-1, 1, 1]

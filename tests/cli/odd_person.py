@@ -16,6 +16,7 @@ class OddPerson:
         self.bones = 3  # root, left leg, right leg; more hang on the root and move nothing
         self.scale = None  # of the node above all
         self.more_influences = False  # a second set of joints and weights
+        self.binds = True  # inverse bind matrices
         self.image = None  # uri of the picture
         self.cycles, self.keys = 1, 21  # of the walk: a second each, with so many keys
         self.targets = {}  # morph targets: offsets by name
@@ -86,7 +87,7 @@ class OddPerson:
         self.gltf["nodes"], self.gltf["scenes"] = nodes, [{"nodes": [0]}]
         inverse = [(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -x, -y, -z, 1) for x, y, z in places[:self.bones]]
         self.gltf["skins"] = [{"joints": list(range(2, 2 + self.bones))}]
-        if inverse:
+        if inverse and self.binds:
             self.gltf["skins"][0]["inverseBindMatrices"] = self.add("MAT4", inverse)
         keys = range((self.keys - 1) * self.cycles + 1)
         times = [(k / max(self.keys - 1, 1),) for k in keys]
