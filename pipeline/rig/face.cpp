@@ -16,6 +16,7 @@ constexpr float kEnough = 0.97f;     // with which no further joint is worth its
 constexpr float kGain = 0.02f;       // of the shape, that a further one must add
 constexpr size_t kMostJoints = 4;    // a shape: lids go down and up, lips up, down and together
 constexpr float kLeast = 0.0005f;    // of the figure's height: what moves less is not seen
+constexpr float kMost = 0.12f;       // likewise: what moves farther is no face
 constexpr float kMostWeight = 0.3f;  // of a vertex on a joint of the face: the rest stays with head, jaw and neck
 constexpr float kLeastWeight = 1 / 255.0f;  // less is none in a file
 constexpr float kIdle_s = 12, kTalk_s = 6;  // about as long as these get, for blinks and words that do not come in time
@@ -259,22 +260,33 @@ Clip* Find(const char* name, Avatar* avatar) {
   return found == avatar->clips.end() ? nullptr : &*found;
 }
 
+std::string WhyNot(FaceMove move, float share, float most) {
+  char text[200];
+  const char* what = move == FaceMove::kBlink ? "closing the eyes" : "opening the mouth";
+  if (most > kMost) {
+    std::snprintf(text, sizeof text,
+                  "its morph target for %s is left out: it moves vertices by %.0f %% of the figure's height", what,
+                  100 * static_cast<double>(most));
+  } else {
+    std::snprintf(text, sizeof text, "its morph target for %s is left out: joints make only %.0f %% of it", what,
+                  100 * static_cast<double>(share));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<FaceJoint> AddFaceJoints(const std::vector<FaceShape>& shapes, Avatar* avatar,
                                      std::vector<std::string>* warnings) {
   std::vector<FaceJoint> face;
-  const float least = kLeast * HeightOf(*avatar);
+  const float height = HeightOf(*avatar);
   for (const FaceShape& shape : shapes) {
-    if (Fit(shape).most < least) continue;
+    const float most = Fit(shape).most / height;
+    if (!(most > kLeast)) continue;
     float share = 0;
     const std::vector<OneWay> ways = FitAll(shape, &share);
-    if (share < kLeastShare) {
-      char text[160];
-      std::snprintf(text, sizeof text, "its morph target for %s is left out: joints make only %.0f %% of it",
-                    shape.move == FaceMove::kBlink ? "closing the eyes" : "opening the mouth",
-                    100 * static_cast<double>(share));
-      warnings->push_back(text);
+    if (share < kLeastShare || most > kMost) {
+      warnings->push_back(WhyNot(shape.move, share, most));
       continue;
     }
     const int carrier = Carrier(shape, *avatar);

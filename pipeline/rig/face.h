@@ -19,10 +19,10 @@ struct FaceJoint {
   FaceMove move = FaceMove::kNone;
 };
 
-// Makes of each shape one to three joints that hang on the one which its vertices follow most, the head: a joint moves
+// Makes of each shape one to four joints that hang on the one which its vertices follow most, the head: a joint moves
 // along one direction, and takes each vertex along by its weight as far as the shape goes that way. The joints' rest is
-// the movement's end; in all clips they lie still on the head. A shape that joints make too little of is left out, with
-// a warning, and one that nobody could see without.
+// the movement's end; in all clips they lie still on the head. A shape that joints make too little of, or that moves
+// more than a face, is left out, with a warning, and one that nobody could see without.
 std::vector<FaceJoint> AddFaceJoints(const std::vector<FaceShape>& shapes, Avatar* avatar,
                                      std::vector<std::string>* warnings);
 

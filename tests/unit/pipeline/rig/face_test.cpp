@@ -177,6 +177,16 @@ TEST(Face, TheMouthOpensInTalkAlone) {
   EXPECT_EQ(std::count(idle.begin(), idle.end(), 0.0f), static_cast<std::ptrdiff_t>(idle.size()));
 }
 
+TEST(Face, WhatMovesTheWholeFigureIsNoFace) {
+  Avatar avatar = MadePerson();
+  const FaceShape lift{FaceMove::kBlink, {std::vector<Vec3>(avatar.meshes[0].positions.size(), Vec3{0, 0.5f, 0})}};
+  std::vector<std::string> warnings;
+  EXPECT_TRUE(AddFaceJoints({lift}, &avatar, &warnings).empty());
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("closing the eyes is left out"), std::string::npos) << warnings[0];
+  EXPECT_EQ(avatar.joints.size(), 3u);
+}
+
 TEST(Face, WithoutAShapeNothingChanges) {
   Avatar avatar = MadePerson();
   std::vector<std::string> warnings;
