@@ -11,7 +11,7 @@ import numpy as np
 import plan
 
 GAP_M = 0.35   # a house front may lie this far behind the line of the street
-CORNER_M, CLEAR_OF_CORNER_M = 0.8, 0.32   # of a house between the ends of two garden walls: so wide at most, and passed in front so far
+CORNER_M, CLEAR_OF_CORNER_M = 0.8, 0.27   # of a house between the ends of two garden walls: so wide at most, and passed in front so far
 TILE = 48      # points a side
 
 
