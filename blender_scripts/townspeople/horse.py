@@ -143,10 +143,10 @@ def walk_clip(skeleton):
     """Four beats; also the speed of the feet that stand, in m/s."""
 
     def pose_at(t, pose):
-        pose.root[2] += 0.012 * np.sin(2 * t)
         pose.turn("hips", "y", 1.6 * np.sin(t))
         pose.turn("neck", "x", 3.0 * np.sin(2 * t + 0.6))
         pose.turn("tail", "y", 6.0 * np.sin(t))
+        upright = 1.0
         for leg, side, ahead in STEPS:
             own = (t - 2.0 * np.pi * ahead) % (2.0 * np.pi)
             # Backward at one pace while it stands, forward while it is lifted.
@@ -160,6 +160,10 @@ def walk_clip(skeleton):
                 pose.turn("hind_lower" + side, "x", 26.0 * lift)
                 pose.turn("hind_hock" + side, "x", -34.0 * lift)
                 pose.turn("hind_foot" + side, "x", 40.0 * lift)
+            if own < np.pi:  # the hoof lies flat
+                pose.turn(leg + "_foot" + side, "x", SWING_DEG * swing)
+                upright = min(upright, abs(swing))
+        pose.root[2] -= leg_m * (1.0 - np.cos(np.radians(SWING_DEG * upright)))  # who stands most upright carries
 
     leg_m = 0.96
     stride_m = 2.0 * leg_m * np.sin(np.radians(SWING_DEG))
