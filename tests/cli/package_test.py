@@ -107,7 +107,7 @@ class Packages(unittest.TestCase):
     def test_notice_names_every_library_that_a_program_links_itself(self):
         notice = (self.root / "usr/share/doc/flaneur/NOTICE").read_text().lower()
         spelled = {"polyclipping": "clipper", "brotlienc": "brotli", "tomlplusplus": "toml++", "glesv2": "opengl es", "openal": "openal soft",
-                   "openimageio_util": "openimageio", "openmeshcore": "openmesh"}
+                   "openimageio_util": "openimageio", "openmeshcore": "openmesh", "zstd": "zstandard"}
         system = {"c", "m", "gcc_s", "stdc++", "ld-linux-x86-64", "asan", "ubsan"}
         for binary in ("bin/flaneur-player", "bin/flaneur", "bin/flaneur-bake", "lib/libflaneur_crowd.so.0.2", "lib/libflaneur_footprints.so.0.2"):
             for library in re.findall(r"NEEDED +(?:lib)?(\S+?)\.so", output("objdump", "-p", self.root / "usr" / binary)):
