@@ -25,7 +25,8 @@ struct FlowField {
   int deserted = 0;   // looks in a row at which nobody was on the way there
 };
 
-// Index of the direction of the cell at column x and row y, over all tiles: what the row gives and what the column gives.
+// Index of the direction of the cell at column x and row y, over all tiles: what the row gives and what the column
+// gives.
 inline size_t DirectionRow(const Walkable& w, int y) {
   const int squares = (y >> 6) * ((w.columns + 63) >> 6);
   return static_cast<size_t>(squares * 4096 + (y >> 3 & 7) * 512 + (y & 7) * 8);
