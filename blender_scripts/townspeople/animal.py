@@ -1,11 +1,12 @@
-"""Blender objects of an animal: its materials and its skinned mesh."""
+"""An animal as a GLB: its materials, its skinned mesh and its clips."""
 
 import bpy
 
-from common.settings import fail
+from common.settings import fail, load_settings, write_atomically
+from townspeople import scene
 
 
-def linear(key, text):
+def _linear(key, text):
     """Linear RGBA of six hexadecimal digits."""
     try:
         values = [int(text[i:i + 2], 16) / 255 for i in (0, 2, 4)]
@@ -23,7 +24,7 @@ def _make_material(name, color):
     return material
 
 
-def make_mesh(name, tubes, colors, armature):
+def _make_mesh(name, tubes, colors, armature):
     """How many polygons it has."""
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(tubes.points, [], tubes.faces)
@@ -40,3 +41,19 @@ def make_mesh(name, tubes, colors, armature):
             groups[joint].add([vertex], share, "REPLACE")
     thing.modifiers.new("Armature", "ARMATURE").object = armature
     return len(tubes.faces)
+
+
+def build(name, colors, skeleton, surface, walk_clip, *other_clips):
+    """What the script of an animal does. colors: the options with which it may be dyed, and their defaults; surface() makes its tubes,
+    walk_clip(skeleton) its walk and its speed, each of other_clips(skeleton) one clip more.
+    """
+    settings = load_settings(required=("output", "seed"), options=colors)
+    colors = {key: _linear(key, settings["options"][key]) for key in colors}
+    scene.empty_scene()
+    armature = scene.make_armature(skeleton)
+    walk, speed_mps = walk_clip(skeleton)
+    armature["flaneur_walk_speed_mps"] = round(speed_mps, 4)
+    faces = _make_mesh(name + "_mesh", surface(), colors, armature)
+    made = (walk, *(clip(skeleton) for clip in other_clips))
+    write_atomically(settings["output"], lambda path: scene.write_glb(path, armature, skeleton, made))
+    print("%s: %d polygons, %d joints, walks %.2f m/s" % (name, faces, len(skeleton.names), speed_mps))

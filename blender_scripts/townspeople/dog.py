@@ -76,9 +76,7 @@ class Tubes:
 
 
 def dog_skeleton():
-    names = [name for name, _, _ in JOINTS]
-    parents = [names.index(parent) if parent else -1 for _, parent, _ in JOINTS]
-    return sk.Skeleton(names, parents, np.array([head for _, _, head in JOINTS], float))
+    return sk.of_joints(JOINTS)
 
 
 def _between(a, b, share):

@@ -29,9 +29,7 @@ for _side, _x in (("_L", 1.0), ("_R", -1.0)):
 
 
 def horse_skeleton():
-    names = [name for name, _, _ in JOINTS]
-    parents = [names.index(parent) if parent else -1 for _, parent, _ in JOINTS]
-    return sk.Skeleton(names, parents, np.array([head for _, _, head in JOINTS], float))
+    return sk.of_joints(JOINTS)
 
 
 def horse_surface():

@@ -6,7 +6,7 @@ At rest its wings are spread, as it flies; on the ground they lie folded along i
 import numpy as np
 
 from townspeople import skeleton as sk
-from townspeople.dog import Pose, Tubes, make_clip
+from townspeople.dog import Pose, Tubes, _between, make_clip
 
 WALK_S, IDLE_S, FLY_S = 0.5, 5.0, 0.25
 STEP_DEG = 26.0
@@ -27,13 +27,7 @@ for _side, _x in (("_L", 1.0), ("_R", -1.0)):
 
 
 def pigeon_skeleton():
-    names = [name for name, _, _ in JOINTS]
-    parents = [names.index(parent) if parent else -1 for _, parent, _ in JOINTS]
-    return sk.Skeleton(names, parents, np.array([head for _, _, head in JOINTS], float))
-
-
-def _between(a, b, share):
-    return {a: 1.0 - share, b: share}
+    return sk.of_joints(JOINTS)
 
 
 def _wing(t, x, inner, outer):

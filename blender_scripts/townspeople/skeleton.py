@@ -45,6 +45,13 @@ class Skeleton:
         return self.heads[self.names.index(name)]
 
 
+def of_joints(joints):
+    """joints: (name, parent's name or "", head) of each."""
+    names = [name for name, _, _ in joints]
+    parents = [names.index(parent) if parent else -1 for _, parent, _ in joints]
+    return Skeleton(names, parents, np.array([head for _, _, head in joints], float))
+
+
 def rotation(axis, degrees):
     """Rotation matrix about a world axis ("x", "y" or "z"), right-handed."""
     angle = np.radians(degrees)
