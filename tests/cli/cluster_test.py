@@ -1,7 +1,9 @@
 """A tour of twelve people baked by Snakemake: on this machine, and through Slurm, where a node is taken away in the middle."""
 import json
 import os
+import pathlib
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -79,6 +81,25 @@ class OfOne(SmallTourTest):
         self.assert_succeeds(self.bake())
         for name in MADE:
             self.assertEqual((self.folder / "snake" / name).read_bytes(), (self.out / name).read_bytes())
+
+
+@unittest.skipUnless(has_tools("snakemake"), "no snakemake: install the Debian package snakemake")
+class OfTwoTours(unittest.TestCase):
+    def test_a_step_that_both_need_is_done_once(self):
+        """However much longer one of them waits for it: it was done for each."""
+        def step(name, key, needs, seconds):
+            return {"name": name, "key": key, "needs": needs, "seconds": seconds, "memory_mb": 100, "done": False}
+        with tempfile.TemporaryDirectory() as text:
+            folder = pathlib.Path(text)
+            for tour, seconds in (("one", 0.1), ("two", 40)):
+                steps = [step("source:x", "shared", [], 0.1), step("pack:" + tour, tour, ["source:x"], seconds)]
+                (folder / f"{tour}.json").write_text(json.dumps({"steps": steps}))
+            plans = folder / "plans"  # answers as flaneur plan
+            plans.write_text('#!/bin/sh\ncat "$2"\n')
+            plans.chmod(0o755)
+            subprocess.run(["snakemake", "--quiet", "-s", SCRIPTS / "Snakefile", "-j", "2", "--config", "tours=one.json two.json",
+                            f"flaneur={plans}", "simulate=0.001"], cwd=folder, check=True, capture_output=True)
+            self.assertEqual(sorted(done.stem for done in (folder / ".flaneur_cluster/marks").rglob("*.done")), ["one", "shared", "two"])
 
 
 if __name__ == "__main__":
