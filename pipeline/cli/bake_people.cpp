@@ -59,24 +59,30 @@ Error MakeAvatar(Baking* baking, size_t i, StageReport* report, Warnings* warnin
   return Ok();
 }
 
+// One of those who walk about the town.
+bool WalksAbout(const AvatarSettings& avatar, const Baking& baking) {
+  return avatar.share > 0 || avatar.name == baking.settings.guide;
+}
+
+bool IsFor(const AvatarSettings& avatar, const Place& place) {
+  return std::find(place.avatars.begin(), place.avatars.end(), avatar.name) != place.avatars.end();
+}
+
 // Of birds no impostor is ever seen, unless they are people too.
 bool IsBirdOnly(const AvatarSettings& avatar, const Baking& baking) {
-  if (avatar.share > 0 || avatar.name == baking.settings.guide) return false;
-  const auto works = [&](const Place& place) {
-    return std::find(place.avatars.begin(), place.avatars.end(), avatar.name) != place.avatars.end();
-  };
-  if (std::any_of(baking.parts.places.begin(), baking.parts.places.end(), works)) return false;
+  const auto works = [&](const Place& place) { return IsFor(avatar, place); };
+  if (WalksAbout(avatar, baking) || std::any_of(baking.parts.places.begin(), baking.parts.places.end(), works))
+    return false;
   return std::any_of(baking.settings.flocks.begin(), baking.settings.flocks.end(),
                      [&](const Flock& flock) { return flock.avatar == avatar.name; });
 }
 
 // Who is nowhere but where they stay, and does nothing there that needs a clip, is never seen to walk.
 bool StandsOnly(const AvatarSettings& avatar, const Baking& baking) {
-  if (avatar.share > 0 || avatar.name == baking.settings.guide || IsBirdOnly(avatar, baking)) return false;
-  return std::all_of(baking.parts.places.begin(), baking.parts.places.end(), [&](const Place& place) {
-    const bool named = std::find(place.avatars.begin(), place.avatars.end(), avatar.name) != place.avatars.end();
-    return !named || (place.stay_s <= 0 && (place.clip.empty() || place.clip == "idle"));
-  });
+  const auto lets_stand = [&](const Place& place) {
+    return !IsFor(avatar, place) || (place.stay_s <= 0 && (place.clip.empty() || place.clip == "idle"));
+  };
+  return !WalksAbout(avatar, baking) && std::all_of(baking.parts.places.begin(), baking.parts.places.end(), lets_stand);
 }
 
 ImpostorOptions OptionsOf(const Baking& baking, size_t i) {
@@ -88,8 +94,7 @@ ImpostorOptions OptionsOf(const Baking& baking, size_t i) {
   if (IsBirdOnly(settings, baking)) {
     options.height_px = kUnseen_px;
     for (ImpostorClipOptions& clip : options.clips) clip.phases = 1;
-  }
-  if (StandsOnly(settings, baking)) {
+  } else if (StandsOnly(settings, baking)) {
     for (ImpostorClipOptions& clip : options.clips) clip.phases = clip.name == "idle" ? clip.phases : 1;
   }
   return options;
