@@ -41,7 +41,8 @@ struct Goals {
 };
 
 struct LibraryCrowd {
-  FlaneurPoint origin_m{};  // of the coordinates inside: floats stay fine on any map
+  std::unique_ptr<Jobs> jobs;  // outlives whoever works with them; none: no threads
+  FlaneurPoint origin_m{};     // of the coordinates inside: floats stay fine on any map
   Walkable walkable;
   Crowd crowd;
   FieldBuilder field_builder;
@@ -422,7 +423,7 @@ void Step(const FlaneurCamera* camera, const ViewCamera& view, float frame_ms, L
     Renumber(c);
   }
   c->field_builder.Step(c->walkable, nullptr, &crowd);
-  StepCrowd(c->walkable, c->moving, Step_s(settings), &c->scratch, &crowd);
+  StepCrowd(c->walkable, c->moving, Step_s(settings), &c->scratch, &crowd, c->jobs.get());
   c->camera = view, c->has_camera = camera != nullptr;
   c->moving.clear();
   if (camera) {
@@ -542,6 +543,15 @@ FlaneurStatus flaneur_crowd_step(FlaneurCrowdId crowd, const FlaneurCamera* came
       if (Failure failure = TakeCamera(*camera, *c, &view)) return failure;
     if (Failure failure = CheckRanges(std::array{Range{"frame_ms", frame_ms, 0, 10'000}})) return failure;
     Step(camera, view, frame_ms, c);
+    return {};
+  });
+}
+
+FlaneurStatus flaneur_crowd_set_threads(FlaneurCrowdId crowd, int threads) {
+  return WithCrowd(crowd, [&](LibraryCrowd* c) -> Failure {
+    if (Failure failure = CheckRanges(std::array{Range{"threads", static_cast<double>(threads), 0, 64}}))
+      return failure;
+    c->jobs = threads > 0 ? std::make_unique<Jobs>(static_cast<size_t>(threads)) : nullptr;
     return {};
   });
 }

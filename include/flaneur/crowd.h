@@ -20,7 +20,7 @@
 //
 // Units: metres, seconds, radians; x east, y north; angles anticlockwise from +x. base.h has the rules for errors, ids,
 // spans and threads. The same calls give the same bits, on every machine with the same build of the library. It starts
-// no threads.
+// no threads but those that flaneur_crowd_set_threads asks for.
 #ifndef FLANEUR_CROWD_H
 #define FLANEUR_CROWD_H
 
@@ -193,6 +193,11 @@ FLANEUR_API FlaneurStatus flaneur_crowd_clear_goal(FlaneurCrowdId crowd, Flaneur
 // what the last frame took, 0 to 10,000; 0: not known. A camera that was more than 10 m away in the step before has
 // jumped.
 FLANEUR_API FlaneurStatus flaneur_crowd_step(FlaneurCrowdId crowd, const FlaneurCamera* camera, float frame_ms);
+
+// So many threads (0, as before the first call, to 64; or as many as the system starts) share the steps of crowds of
+// some thousands with the caller's. The bits stay the same. They sleep between steps, and end with the crowd or the
+// next call.
+FLANEUR_API FlaneurStatus flaneur_crowd_set_threads(FlaneurCrowdId crowd, int threads);
 
 // Everybody after the last step, in no order that lasts; none before the first. Stays until the next step.
 FLANEUR_API FlaneurStatus flaneur_crowd_people(FlaneurCrowdId crowd, FlaneurPersonSpan* people);

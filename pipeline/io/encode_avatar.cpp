@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/io/mesh_pieces.h"
 #include "runtime/base/array.h"
 #include "runtime/base/text.h"
 
@@ -41,12 +42,12 @@ Error CheckPart(const Mesh& mesh) {
   return Ok();
 }
 
-// Only the vertices that triangles use, in order of first use.
-Mesh Compact(const Mesh& in) {
+// The triangles with only the vertices that they use, in order of first use.
+Mesh Compact(const Mesh& in, std::span<const uint32_t> triangles) {
   std::vector<uint32_t> to(in.positions.size(), 0xffffffffu), from;
   Mesh out;
   out.material = in.material;
-  for (const uint32_t i : in.indices) {
+  for (const uint32_t i : triangles) {
     if (to[i] == 0xffffffffu) {
       to[i] = static_cast<uint32_t>(from.size());
       from.push_back(i);
@@ -121,12 +122,14 @@ Error EncodeMesh(std::span<const Mesh> parts, const DracoOptions& draco, Encoded
   encoded->byte_joints = JointsFitBytes(parts);
   for (const Mesh& part : parts) {
     if (part.indices.empty()) continue;
-    EncodedPart& to = encoded->parts.emplace_back();
-    to.material = part.material;
-    to.mesh = Compact(part);
-    if (!draco.compress) continue;
-    if (Error e = EncodeDraco(to.mesh, draco, grid, encoded->byte_joints, &to.draco)) return e;
-    to.mesh = {};
+    for (const std::vector<uint32_t>& piece : InPieces(part, draco.most_triangles)) {
+      EncodedPart& to = encoded->parts.emplace_back();
+      to.material = part.material;
+      to.mesh = Compact(part, piece);
+      if (!draco.compress) continue;
+      if (Error e = EncodeDraco(to.mesh, draco, grid, encoded->byte_joints, &to.draco)) return e;
+      to.mesh = {};
+    }
   }
   return Ok();
 }

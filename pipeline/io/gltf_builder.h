@@ -24,7 +24,8 @@ struct DracoOptions {
   int normal_bits = 10;
   int uv_bits = 12;
   int color_bits = 10;
-  int speed = 0;  // 0: smallest, 10: fastest
+  int speed = 0;              // 0: smallest, 10: fastest
+  size_t most_triangles = 0;  // a primitive: larger ones are cut into several, see InPieces; 0: any
 };
 
 struct GltfNode {

@@ -16,6 +16,9 @@ namespace {
 // A street's ground is hundreds of metres wide, and its textures repeat: both need finer steps than a person.
 constexpr int kTownPositionBits = 18, kTownUvBits = 16;
 
+// What a page decodes between two pictures: some milliseconds.
+constexpr size_t kTownPrimitive_triangles = 5000;
+
 // The matrix as translation, rotation and scale; none where it shears.
 std::optional<Transform> Decompose(const Mat4& m) {
   Vec3 axes[3];
@@ -98,6 +101,7 @@ Error EncodeTown(const Scene& town, const std::vector<TownNode>& nodes, Jobs* jo
   DracoOptions draco;
   draco.position_bits = kTownPositionBits;
   draco.uv_bits = kTownUvBits;
+  draco.most_triangles = kTownPrimitive_triangles;
   std::vector<const TownNode*> first(meshes->size(), nullptr);
   for (const TownNode& node : nodes) {
     if (first[node.mesh] == nullptr) first[node.mesh] = &node;

@@ -7,6 +7,7 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -89,7 +90,10 @@ void Jobs::Impl::Work() {
 }
 
 Jobs::Jobs(size_t threads) : impl_(std::make_shared<Impl>()) {
-  for (size_t t = 0; t < threads; ++t) impl_->threads.emplace_back([this] { impl_->Work(); });
+  try {
+    for (size_t t = 0; t < threads; ++t) impl_->threads.emplace_back([this] { impl_->Work(); });
+  } catch (const std::system_error&) {  // the system starts no more: fewer do the same work
+  }
 }
 
 Jobs::~Jobs() {

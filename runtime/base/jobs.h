@@ -41,7 +41,8 @@ class Job {
 
 class Jobs {
  public:
-  explicit Jobs(size_t threads);  // 0: all work is done where it is waited for
+  // Or as many as the system starts. 0: all work is done where it is waited for
+  explicit Jobs(size_t threads);
   // Ends the threads after their present slices. What is left can still be waited for: it is done there.
   ~Jobs();
   Jobs(const Jobs&) = delete;
@@ -65,5 +66,21 @@ Job StartJob(Jobs* jobs, Slice slice, Urgency urgency = Urgency::kAwaited);
 // are done. Of exceptions that calls throw, the one of the least index is thrown here again; calls that had not begun
 // by then are left out.
 void ParallelFor(Jobs* jobs, size_t count, const std::function<void(size_t)>& work);
+
+// Into how many parts `count` elements are best cut for all threads; 1 without threads, or where there are fewer than
+// `few`, which are quicker done than shared out.
+inline size_t BlocksFor(const Jobs* jobs, size_t count, size_t few) {
+  const size_t threads = jobs != nullptr ? jobs->threads() : 0;
+  return threads == 0 || count < few ? 1 : 4 * (threads + 1);
+}
+
+// The elements 0 .. count - 1 in that many blocks: work(first, end) for each, as ParallelFor does. One block is done
+// here, without any allocation.
+template <typename Work>
+void InBlocks(Jobs* jobs, size_t count, size_t few, const Work& work) {
+  const size_t blocks = BlocksFor(jobs, count, few);
+  if (blocks == 1) return work(size_t{0}, count);
+  ParallelFor(jobs, blocks, [&](size_t b) { work(count * b / blocks, count * (b + 1) / blocks); });
+}
 
 }  // namespace flaneur

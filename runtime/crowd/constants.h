@@ -1,8 +1,12 @@
 // Tuned numbers of the crowd, each with its unit and reason.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 
 namespace flaneur {
+
+// Fewer than this take a step in the caller's thread alone: sharing them out takes as long as their step.
+inline constexpr size_t kFewPeople = 4000;
 
 // Starting, stopping and stepping aside take adults about half a second (Fruin 1971; Teknomo 2002).
 inline constexpr float kMaxAcceleration_mps2 = 3.0f;

@@ -47,6 +47,31 @@ float ShareOf(const Crowd& c, const std::vector<Vec2>& moved, float step_s, size
   return i_follows ? 0.5f + spared : 0.5f - spared;
 }
 
+// Everybody with who comes later in the row of cells, and with the three cells of the next row.
+void FindContacts(const NeighbourGrid& g, int first_row, int end_row, float margin_m,
+                  std::vector<std::pair<int, int>>* contacts) {
+  const auto test = [&](const Neighbour& a, int first, int end) {
+    for (int k = first; k < end; ++k) {
+      const Neighbour& b = g.people[static_cast<size_t>(k)];
+      const Vec2 apart = a.position - b.position;
+      const float reach_m = a.radius_m + b.radius_m + margin_m;
+      if (Dot(apart, apart) < reach_m * reach_m) contacts->push_back({a.person, b.person});
+    }
+  };
+  for (int y = first_row; y < end_row; ++y) {
+    const int* row = &g.start[static_cast<size_t>(y * g.columns)];
+    const int* next = y + 1 < g.rows ? row + g.columns : nullptr;
+    for (int x = 0; x < g.columns; ++x) {
+      const int before = std::max(x - 1, 0), after = std::min(x + 2, g.columns);
+      for (int k = row[x]; k < row[x + 1]; ++k) {
+        const Neighbour& a = g.people[static_cast<size_t>(k)];
+        test(a, k + 1, row[after]);
+        if (next) test(a, next[before], next[after]);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c, size_t i,
@@ -59,34 +84,22 @@ Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, f
   return turned ? KeepOut(moving, from, KeepOffWalls(w, from, out, c.radius_m[i]), c.radius_m[i]) : out;
 }
 
-void FindContacts(const Crowd& c, float step_s, CrowdScratch* s) {
+void FindContacts(const Crowd& c, float step_s, Jobs* jobs, CrowdScratch* s) {
   s->contacts.clear();
   s->contacts.reserve(kMaxContacts * c.size());
-  const NeighbourGrid& g = s->neighbours;
   float most_mps = 0;
   for (int i : s->caring) most_mps = std::max(most_mps, c.top_mps[static_cast<size_t>(i)]);
   const float margin_m = 2 * most_mps * step_s + kContactMargin_m;
-  const auto test = [&](const Neighbour& a, int first, int end) {
-    for (int k = first; k < end; ++k) {
-      const Neighbour& b = g.people[static_cast<size_t>(k)];
-      const Vec2 apart = a.position - b.position;
-      const float reach_m = a.radius_m + b.radius_m + margin_m;
-      if (Dot(apart, apart) < reach_m * reach_m) s->contacts.push_back({a.person, b.person});
-    }
-  };
-  // Everybody with who comes later in the row of cells, and with the three cells of the next row.
-  for (int y = 0; y < g.rows; ++y) {
-    const int* row = &g.start[static_cast<size_t>(y * g.columns)];
-    const int* next = y + 1 < g.rows ? row + g.columns : nullptr;
-    for (int x = 0; x < g.columns; ++x) {
-      const int before = std::max(x - 1, 0), after = std::min(x + 2, g.columns);
-      for (int k = row[x]; k < row[x + 1]; ++k) {
-        const Neighbour& a = g.people[static_cast<size_t>(k)];
-        test(a, k + 1, row[after]);
-        if (next) test(a, next[before], next[after]);
-      }
-    }
-  }
+  const NeighbourGrid& g = s->neighbours;
+  const size_t blocks = BlocksFor(jobs, s->caring.size(), kFewPeople);
+  if (blocks == 1) return FindContacts(g, 0, g.rows, margin_m, &s->contacts);
+  s->contacts_of_block.resize(blocks);
+  const auto row = [&](size_t block) { return static_cast<int>(static_cast<size_t>(g.rows) * block / blocks); };
+  ParallelFor(jobs, blocks, [&](size_t b) {
+    s->contacts_of_block[b].clear();
+    FindContacts(g, row(b), row(b + 1), margin_m, &s->contacts_of_block[b]);
+  });
+  for (const auto& some : s->contacts_of_block) s->contacts.insert(s->contacts.end(), some.begin(), some.end());
 }
 
 void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& c,

@@ -12,7 +12,7 @@ Vec2 WalkTowards(const Walkable& w, const std::vector<MovingObstacle>& moving, f
                  Vec2 to);
 
 // Fills scratch->contacts with the pairs of scratch->neighbours that could touch in this step.
-void FindContacts(const Crowd& crowd, float step_s, CrowdScratch* scratch);
+void FindContacts(const Crowd& crowd, float step_s, Jobs* jobs, CrowdScratch* scratch);
 
 // Corrects scratch->moved (as in Weiss et al. 2019, position-based crowds), within what walking allows.
 void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, const Crowd& crowd,

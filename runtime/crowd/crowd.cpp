@@ -95,27 +95,42 @@ void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
   __builtin_prefetch(&DirectionAt(field, DirectionIndex(w, at.x, at.y)));
 }
 
+// A search remembers what it found, and who asks for a field may have it built: such people come one after the other,
+// in the order of their indices.
+bool HasToSearch(const Crowd& c, size_t i) {
+  return c.field[i] >= 0 && !IsBuilt(c.fields[static_cast<size_t>(c.field[i])]);
+}
+
+void RenewOwnWay(const Walkable& w, size_t i, Crowd* c) {
+  const bool lost = IsLost(*c, i);
+  if (!lost && !c->turn[i]) return;
+  const int every = c->sees_goal[i] ? 2 * kSightEvery_steps : kSightEvery_steps;
+  RenewWay(w, i, lost || IsTurn(*c, i, every), false, c);
+}
+
 // Where those who take care go next, and what they have in mind; some of them look around in this step.
-void RenewWays(const Walkable& w, const std::vector<int>& caring, Crowd* c) {
-  for (size_t k = 0; k < caring.size(); ++k) {
-    const size_t i = static_cast<size_t>(caring[k]);
-    const size_t soon = static_cast<size_t>(caring[std::min(k + kFetchAhead, caring.size() - 1)]);
-    if (c->turn[soon]) FetchGround(w, soon, *c);
-    c->coast[i] = 0;
-    if (c->turn[i]) {
-      Mind& mind = c->mind[i];
-      const bool on_detour = c->detour_s[i] > 0;
-      mind.alone_mps = on_detour ? Length(c->detour[i]) : c->preferred_mps[i];
-      mind.ahead = DirectionOf(c->heading_rad[i]);
-      mind.stands = c->activity[i] != Activity::kWalking && !on_detour;
-      mind.avoids_camera = c->avoids_camera[i] != 0;
+void RenewWays(const Walkable& w, Jobs* jobs, CrowdScratch* s, Crowd* c) {
+  const std::vector<int>& caring = s->caring;
+  InBlocks(jobs, caring.size(), kFewPeople, [&](size_t first, size_t end) {
+    for (size_t k = first; k < end; ++k) {
+      const size_t i = static_cast<size_t>(caring[k]);
+      const size_t soon = static_cast<size_t>(caring[std::min(k + kFetchAhead, end - 1)]);
+      if (c->turn[soon]) FetchGround(w, soon, *c);
+      c->coast[i] = 0;
+      if (c->turn[i]) {
+        Mind& mind = c->mind[i];
+        const bool on_detour = c->detour_s[i] > 0;
+        mind.alone_mps = on_detour ? Length(c->detour[i]) : c->preferred_mps[i];
+        mind.ahead = DirectionOf(c->heading_rad[i]);
+        mind.stands = c->activity[i] != Activity::kWalking && !on_detour;
+        mind.avoids_camera = c->avoids_camera[i] != 0;
+      }
+      s->waits[i] = HasToSearch(*c, i);
+      if (c->field[i] >= 0 && !s->waits[i]) RenewOwnWay(w, i, c);
     }
-    if (c->field[i] < 0) continue;
-    const bool lost = IsLost(*c, i);
-    if (lost || c->turn[i]) {
-      const int every = c->sees_goal[i] ? 2 * kSightEvery_steps : kSightEvery_steps;
-      RenewWay(w, i, lost || IsTurn(*c, i, every), false, c);
-    }
+  });
+  for (int who : caring) {
+    if (s->waits[static_cast<size_t>(who)]) RenewOwnWay(w, static_cast<size_t>(who), c);
   }
 }
 
@@ -141,13 +156,16 @@ Vec2 Stepped(const Walkable& w, const std::vector<MovingObstacle>& moving, float
   return free ? to : WalkTowards(w, moving, step_s, c, i, to);
 }
 
-void Move(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, CrowdScratch* s, Crowd* c) {
+void Move(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Jobs* jobs, CrowdScratch* s,
+          Crowd* c) {
   s->moved.resize(c->size());
-  for (int who : s->caring) {
-    const size_t i = static_cast<size_t>(who);
-    ChooseVelocity(step_s, i, c);
-    s->moved[i] = Stepped(w, moving, step_s, i, *c);
-  }
+  InBlocks(jobs, s->caring.size(), kFewPeople, [&](size_t first, size_t end) {
+    for (size_t k = first; k < end; ++k) {
+      const size_t i = static_cast<size_t>(s->caring[k]);
+      ChooseVelocity(step_s, i, c);
+      s->moved[i] = Stepped(w, moving, step_s, i, *c);
+    }
+  });
 }
 
 void TurnTo(Vec2 direction, float most_rad, float* now_rad) {
@@ -204,38 +222,57 @@ void Arrive(Vec2 to, float step_s, size_t i, Crowd* c) {
   Turn(step, walked_m, step_s, i, c);
 }
 
-// The whole step of those who take no care of anybody, and a list of those who do.
-void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, std::vector<int>* caring,
-                  Crowd* c) {
+// The whole step of somebody who takes no care of anybody.
+void FollowAndArrive(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, size_t i, Crowd* c) {
+  c->turn[i] = IsTurn(*c, i, kTurnEvery_steps);
+  c->coast[i] = 0;
+  FollowWay(w, moving, step_s, i, c);
+  const bool coasts = c->coast[i] > 0;
+  Arrive(coasts ? c->position[i] + c->wanted[i] * step_s : Stepped(w, moving, step_s, i, *c), step_s, i, c);
+}
+
+// Whether they take care, or else their step, unless they have to search: true, then it is still to be taken.
+bool FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, size_t i, Crowd* c) {
   const float far2_m2 = c->r_far_m * c->r_far_m, unimportant2_m2 = c->r_unimportant_m * c->r_unimportant_m;
-  caring->clear();
-  caring->reserve(c->size());
+  const Vec2 off = c->position[i] - c->viewer;
+  const float distance2_m2 = Dot(off, off);
+  c->cares[i] = c->view[i] != ViewClass::kOutside && distance2_m2 <= far2_m2;
+  if (c->cares[i]) {
+    const int every = distance2_m2 <= unimportant2_m2       ? kTurnEvery_steps
+                      : distance2_m2 <= 4 * unimportant2_m2 ? kFarTurnEvery_steps
+                                                            : kFarthestTurnEvery_steps;
+    c->turn[i] = IsTurn(*c, i, every);
+  } else if (c->coast[i] > 0 && c->detour_s[i] <= 0) {
+    const Vec2 step = c->wanted[i] * step_s;
+    c->position[i] = c->position[i] + step;
+    c->walked_m[i] += Length(step);
+    --c->coast[i];
+  } else if (HasToSearch(*c, i)) {
+    return true;
+  } else {
+    FollowAndArrive(w, moving, step_s, i, c);
+  }
+  return false;
+}
+
+// The whole step of those who take no care of anybody, and a list of those who do.
+void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Jobs* jobs,
+                  CrowdScratch* s, Crowd* c) {
+  s->waits.resize(c->size());
+  InBlocks(jobs, c->size(), kFewPeople, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) {
+      if (const size_t soon = i + kFetchAhead;
+          soon < end && c->coast[soon] == 0 && IsTurn(*c, soon, kTurnEvery_steps)) {
+        FetchGround(w, soon, *c);
+      }
+      s->waits[i] = FollowOrCare(w, moving, step_s, i, c);
+    }
+  });
+  s->caring.clear();
+  s->caring.reserve(c->size());
   for (size_t i = 0; i < c->size(); ++i) {
-    if (const size_t soon = i + kFetchAhead;
-        soon < c->size() && c->coast[soon] == 0 && IsTurn(*c, soon, kTurnEvery_steps)) {
-      FetchGround(w, soon, *c);
-    }
-    const Vec2 off = c->position[i] - c->viewer;
-    const float distance2_m2 = Dot(off, off);
-    c->cares[i] = c->view[i] != ViewClass::kOutside && distance2_m2 <= far2_m2;
-    if (c->cares[i]) {
-      const int every = distance2_m2 <= unimportant2_m2       ? kTurnEvery_steps
-                        : distance2_m2 <= 4 * unimportant2_m2 ? kFarTurnEvery_steps
-                                                              : kFarthestTurnEvery_steps;
-      c->turn[i] = IsTurn(*c, i, every);
-      caring->push_back(static_cast<int>(i));
-    } else if (c->coast[i] > 0 && c->detour_s[i] <= 0) {
-      const Vec2 step = c->wanted[i] * step_s;
-      c->position[i] = c->position[i] + step;
-      c->walked_m[i] += Length(step);
-      --c->coast[i];
-    } else {
-      c->turn[i] = IsTurn(*c, i, kTurnEvery_steps);
-      c->coast[i] = 0;
-      FollowWay(w, moving, step_s, i, c);
-      const bool coasts = c->coast[i] > 0;
-      Arrive(coasts ? c->position[i] + c->wanted[i] * step_s : Stepped(w, moving, step_s, i, *c), step_s, i, c);
-    }
+    if (c->cares[i]) s->caring.push_back(static_cast<int>(i));
+    else if (s->waits[i]) FollowAndArrive(w, moving, step_s, i, c);
   }
 }
 
@@ -294,17 +331,25 @@ Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, 
   return WayByCorners(w, p, f.goal, look, corner, &c->search);
 }
 
-void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, CrowdScratch* s, Crowd* c) {
+// A pass writes only what belongs to its person or group, and reads of others what no pass beside it writes: so its
+// blocks may be done side by side.
+void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, CrowdScratch* s, Crowd* c,
+               Jobs* jobs) {
   LetGoOfDesertedFields(s, c);
-  FollowOrCare(w, moving, step_s, &s->caring, c);
-  RenewWays(w, s->caring, c);
+  FollowOrCare(w, moving, step_s, jobs, s, c);
+  RenewWays(w, jobs, s, c);
   SortIntoGrid(s->caring, c->position, c->velocity, c->radius_m, kGridCell_m, &s->neighbours);
-  Decide(w, moving, s->neighbours, step_s, c);
-  WalkTogether(w, c);
-  FindContacts(*c, step_s, s);
-  Move(w, moving, step_s, s, c);
+  Decide(w, moving, s->neighbours, step_s, jobs, c);
+  WalkTogether(w, jobs, c);
+  FindContacts(*c, step_s, jobs, s);
+  Move(w, moving, step_s, jobs, s, c);
   ResolveContacts(w, moving, step_s, *c, s);
-  for (int who : s->caring) Arrive(s->moved[static_cast<size_t>(who)], step_s, static_cast<size_t>(who), c);
+  InBlocks(jobs, s->caring.size(), kFewPeople, [&](size_t first, size_t end) {
+    for (size_t k = first; k < end; ++k) {
+      const size_t i = static_cast<size_t>(s->caring[k]);
+      Arrive(s->moved[i], step_s, i, c);
+    }
+  });
   ++c->step;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/base/jobs.h"
 #include "runtime/base/random.h"
 #include "runtime/crowd/flow_field.h"
 #include "runtime/crowd/groups.h"
@@ -109,10 +110,12 @@ struct Crowd {
 // What passes need for their duration alone, whichever crowd it is: kept by who steps one so that a steady step
 // allocates nothing. Holds nothing from one call to the next.
 struct CrowdScratch {
-  std::vector<int> caring;   // who cares, by index
-  std::vector<Vec2> moved;   // by person: to where
-  NeighbourGrid neighbours;  // of those who care
+  std::vector<int> caring;     // who cares, by index
+  std::vector<Vec2> moved;     // by person: to where
+  NeighbourGrid neighbours;    // of those who care
+  std::vector<uint8_t> waits;  // by person: until everybody else has been looked at
   std::vector<std::pair<int, int>> contacts;
+  std::vector<std::vector<std::pair<int, int>>> contacts_of_block;
   std::vector<uint8_t> pushed_in;  // by person: the pass of contact resolution that moved them last
   Displaced displaced;
   std::vector<uint64_t> order;  // where people are, along a curve, with their index
@@ -147,9 +150,10 @@ Vec2 WayToGoal(const Walkable& w, int field, Vec2 p, bool look, Corner* corner, 
 
 // One step of step_s. The same on every machine. Visible and boundary people within r_far_m of the viewer avoid each
 // other; others only follow their way. Nobody's centre comes nearer to an obstacle than radius_m, nobody moves farther
-// than top_mps * step_s.
+// than top_mps * step_s. `jobs`: whose threads share the work where it is worth it (kFewPeople); the same bits with any
+// number of them.
 void StepCrowd(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, CrowdScratch* scratch,
-               Crowd* crowd);
+               Crowd* crowd, Jobs* jobs = nullptr);
 
 // Boundary people who overlap are moved apart at once, none of them into the inner volume (paper, section 4.3.1).
 // Whoever was visible one step ago stays where they are: the others make room. keep_out(p, reach_m) is true where

@@ -194,6 +194,19 @@ void Plan(const Walkable& w, bool look, Group* g, Crowd* c) {
   for (int k = 0; k < f.count; ++k) Ask(w, *c, f, k, g);
 }
 
+void WalkTogether(const Walkable& w, size_t which, Crowd* c) {
+  Group& g = c->groups[which];
+  for (int k = 0; k < g.size; ++k) {
+    const size_t i = static_cast<size_t>(g.member[k]);
+    if (!c->turn[i]) continue;
+    const int64_t turn = c->step / kTurnEvery_steps + static_cast<int64_t>(which);
+    if (k == 0) Plan(w, turn % kLookEvery_turns == 0, &g, c);
+    if (g.pace[k] <= 0 || !Walks(*c, i)) continue;
+    c->mind[i].asked_mps *= g.pace[k];
+    c->mind[i].push = c->mind[i].push + g.push[k];
+  }
+}
+
 void Drop(int which, Crowd* c) {
   const size_t g = static_cast<size_t>(which);
   c->groups[g] = c->groups.back();
@@ -228,19 +241,10 @@ void LeaveGroup(size_t index, Crowd* c) {
   Drop(which, c);
 }
 
-void WalkTogether(const Walkable& w, Crowd* c) {
-  for (size_t which = 0; which < c->groups.size(); ++which) {
-    Group& g = c->groups[which];
-    for (int k = 0; k < g.size; ++k) {
-      const size_t i = static_cast<size_t>(g.member[k]);
-      if (!c->turn[i]) continue;
-      const int64_t turn = c->step / kTurnEvery_steps + static_cast<int64_t>(which);
-      if (k == 0) Plan(w, turn % kLookEvery_turns == 0, &g, c);
-      if (g.pace[k] <= 0 || !Walks(*c, i)) continue;
-      c->mind[i].asked_mps *= g.pace[k];
-      c->mind[i].push = c->mind[i].push + g.push[k];
-    }
-  }
+void WalkTogether(const Walkable& w, Jobs* jobs, Crowd* c) {
+  InBlocks(jobs, c->groups.size(), kFewPeople / kMaxGroupSize, [&](size_t first, size_t end) {
+    for (size_t which = first; which < end; ++which) WalkTogether(w, which, c);
+  });
 }
 
 }  // namespace flaneur

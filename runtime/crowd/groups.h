@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include "runtime/base/jobs.h"
 #include "runtime/crowd/walkable.h"
 
 namespace flaneur {
@@ -34,6 +35,6 @@ void LeaveGroup(size_t index, Crowd* crowd);
 // Places in a row are an elbow room apart, the inner ones of three and more slightly back: the V and U shapes of
 // Moussaid, Perozo, Garnier, Helbing and Theraulaz, The walking behaviour of pedestrian social groups, PLoS ONE 5(4),
 // 2010.
-void WalkTogether(const Walkable& w, Crowd* crowd);
+void WalkTogether(const Walkable& w, Jobs* jobs, Crowd* crowd);
 
 }  // namespace flaneur

@@ -344,17 +344,19 @@ float SpeedOnSlope(const Walkable& w, int cell, float level_mps) {
 }
 
 void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours, float step_s,
-            Crowd* c) {
+            Jobs* jobs, Crowd* c) {
   const std::vector<Neighbour>& people = neighbours.people;
-  for (size_t k = 0; k < people.size(); ++k) {
-    const Neighbour& soon = people[std::min(k + kFetchAhead, people.size() - 1)];
-    if (c->turn[static_cast<size_t>(soon.person)]) {
-      __builtin_prefetch(&c->mind[static_cast<size_t>(soon.person)]);
-      const int cell = CellAt(w, soon.position);
-      if (cell >= 0) __builtin_prefetch(&w.cells[static_cast<size_t>(cell)]);
+  InBlocks(jobs, people.size(), kFewPeople, [&](size_t first, size_t end) {
+    for (size_t k = first; k < end; ++k) {
+      const Neighbour& soon = people[std::min(k + kFetchAhead, end - 1)];
+      if (c->turn[static_cast<size_t>(soon.person)]) {
+        __builtin_prefetch(&c->mind[static_cast<size_t>(soon.person)]);
+        const int cell = CellAt(w, soon.position);
+        if (cell >= 0) __builtin_prefetch(&w.cells[static_cast<size_t>(cell)]);
+      }
+      if (c->turn[static_cast<size_t>(people[k].person)]) Decide(w, moving, neighbours, people[k], step_s, c);
     }
-    if (c->turn[static_cast<size_t>(people[k].person)]) Decide(w, moving, neighbours, people[k], step_s, c);
-  }
+  });
 }
 
 void ChooseVelocity(float step_s, size_t i, Crowd* c) {

@@ -16,7 +16,7 @@ float SpeedOnSlope(const Walkable& w, int cell, float level_mps);
 // Those of the neighbours whose turn it is renew what they ask for: the push, the speed and the clearance in
 // crowd->mind.
 void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours, float step_s,
-            Crowd* crowd);
+            Jobs* jobs, Crowd* crowd);
 
 // Fills crowd->wanted[i] from what the person asks for.
 void ChooseVelocity(float step_s, size_t i, Crowd* crowd);

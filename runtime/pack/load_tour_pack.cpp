@@ -291,12 +291,10 @@ void ReadAtlas(const GltfFile& file, const TourObject& json, PackImpostor* impos
   LeaveOutLevels(impostor);
 }
 
-void CheckJoints(const PackMesh& mesh, int joints) {
-  for (const PackPrimitive& primitive : mesh.primitives) {
-    for (const auto& four : primitive.joints) {
-      for (uint16_t j : four) {
-        if (j >= joints) throw PackRefused("has a joint index beyond its skin");
-      }
+void CheckJoints(const PackPrimitive& primitive, int joints) {
+  for (const auto& four : primitive.joints) {
+    for (uint16_t j : four) {
+      if (j >= joints) throw PackRefused("has a joint index beyond its skin");
     }
   }
 }
@@ -574,8 +572,12 @@ struct PackFile::Impl {
 
   PackMesh Mesh(size_t mesh) const {
     PackMesh read = flaneur::ReadMesh(file, meshes[mesh]);
-    if (joints[mesh] > 0) CheckJoints(read, joints[mesh]);
+    for (const PackPrimitive& primitive : read.primitives) CheckJointsOf(mesh, primitive);
     return read;
+  }
+
+  void CheckJointsOf(size_t mesh, const PackPrimitive& primitive) const {
+    if (joints[mesh] > 0) CheckJoints(primitive, joints[mesh]);
   }
 
   void TakeReach(const PackAvatar& avatar, int mesh) const {
@@ -721,6 +723,14 @@ Error PackFile::ReadImage(int image, PackImage* out) const {
 
 Error PackFile::ReadMesh(int mesh, PackMesh* out) const {
   return Caught(impl_->name, [&] { *out = impl_->Mesh(static_cast<size_t>(mesh)); });
+}
+
+Error PackFile::ReadPrimitive(int mesh, size_t primitive, PackPrimitive* out) const {
+  return Caught(impl_->name, [&] {
+    PackPrimitive read = flaneur::ReadPrimitive(impl_->file, At(impl_->meshes, mesh), primitive);
+    impl_->CheckJointsOf(static_cast<size_t>(mesh), read);
+    *out = std::move(read);
+  });
 }
 
 Error PackFile::ReadAtlas(int avatar, PackImpostor* out) const {

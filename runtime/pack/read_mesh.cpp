@@ -147,7 +147,7 @@ MeshSize SizeOfPrimitive(const GltfFile& file, const Json& primitive) {
   return {1, CountOfValues(file, positions.get<int>()), CountOfValues(file, Member(primitive, "indices").get<int>())};
 }
 
-PackPrimitive ReadPrimitive(const GltfFile& file, const Json& json) {
+PackPrimitive ReadThis(const GltfFile& file, const Json& json) {
   PackPrimitive primitive;
   if (json.value("mode", 4) != 4) throw PackRefused("has a primitive that is not of triangles");
   primitive.material = IndexOrNone(json, "material", Member(file.json, "materials").size());
@@ -184,15 +184,20 @@ PackPrimitive ReadPrimitive(const GltfFile& file, const Json& json) {
 
 }  // namespace
 
-PackMesh ReadMesh(const GltfFile& file, int mesh) {
+PackPrimitive ReadPrimitive(const GltfFile& file, int mesh, size_t primitive) {
   const Json& json = Element(file.json, "meshes", mesh);
   try {
-    PackMesh out;
-    for (const Json& primitive : Member(json, "primitives")) out.primitives.push_back(ReadPrimitive(file, primitive));
-    return out;
+    return ReadThis(file, Element(json, "primitives", static_cast<int>(primitive)));
   } catch (const std::exception& e) {
     throw PackRefused("mesh " + std::to_string(mesh) + " '" + json.value("name", "") + "' " + Complaint(e));
   }
+}
+
+PackMesh ReadMesh(const GltfFile& file, int mesh) {
+  PackMesh out;
+  const size_t primitives = Member(Element(file.json, "meshes", mesh), "primitives").size();
+  for (size_t p = 0; p < primitives; ++p) out.primitives.push_back(ReadPrimitive(file, mesh, p));
+  return out;
 }
 
 MeshSize SizeOfMesh(const GltfFile& file, int mesh) {

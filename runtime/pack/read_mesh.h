@@ -8,6 +8,7 @@ namespace flaneur {
 // Plain or Draco-compressed. Every index is below the vertex count, every array as long as the positions, every
 // position finite, weights sum to 255. Throws PackRefused naming the mesh.
 PackMesh ReadMesh(const GltfFile& file, int mesh);
+PackPrimitive ReadPrimitive(const GltfFile& file, int mesh, size_t primitive);
 // What it says to hold; ReadMesh refuses one that holds more. Throws PackRefused.
 struct MeshSize {
   uint64_t primitives = 0, vertices = 0, indices = 0;

@@ -156,6 +156,7 @@ class PackFile {
   Error Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack, const PackLimits& limits = {});
   Error ReadImage(int image, PackImage* out) const;
   Error ReadMesh(int mesh, PackMesh* out) const;
+  Error ReadPrimitive(int mesh, size_t primitive, PackPrimitive* out) const;  // one of the mesh's
   // With its pictures: of one that has not arrived as a whole the levels that are there, at least one of each.
   Error ReadAtlas(int avatar, PackImpostor* out) const;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "runtime/base/array.h"
 #include "runtime/render/vertex_bytes.h"
 
 namespace flaneur {
@@ -113,7 +114,7 @@ struct TownBuilder::Impl {
   const SurfacePlan& plan;
   TownGeometry town;
   std::map<uint64_t, std::vector<Triangle>> cells;
-  size_t next_instance = 0;
+  size_t next_instance = 0, next_primitive = 0;
   bool packs = false;  // all instances are in cells
   std::map<uint64_t, std::vector<Triangle>>::iterator next_cell;
   std::vector<TownVertex> all;                // as they came
@@ -122,7 +123,7 @@ struct TownBuilder::Impl {
 
   Impl(const TourPack& of_pack, const SurfacePlan& of_plan) : pack(of_pack), plan(of_plan) {}
   void Reserve();
-  size_t Append(const TownInstance& instance);
+  size_t AppendNext();
   void BeginPacking();
   void Pack(std::vector<Triangle>* triangles);
   void Finish();
@@ -136,26 +137,28 @@ void TownBuilder::Impl::Reserve() {
   town.vertices.reserve(vertices);
 }
 
-// How many triangles it has.
-size_t TownBuilder::Impl::Append(const TownInstance& instance) {
-  if (instance.turning >= 0) {
-    town.turning.push_back(BuildTurning(pack, plan, instance));
+// The next instance's next primitive. How many triangles it has.
+size_t TownBuilder::Impl::AppendNext() {
+  const TownInstance& instance = pack.town[next_instance];
+  const std::vector<PackPrimitive>& primitives = At(pack.meshes, instance.mesh).primitives;
+  const bool turns = instance.turning >= 0;
+  if (turns) town.turning.push_back(BuildTurning(pack, plan, instance));
+  if (turns || next_primitive >= primitives.size()) {
+    ++next_instance;
+    next_primitive = 0;
     return 0;
   }
-  size_t count = 0;
+  const PackPrimitive& p = primitives[next_primitive++];
   const bool mirrored = Mirrors(instance.world);
-  for (const PackPrimitive& p : pack.meshes[static_cast<size_t>(instance.mesh)].primitives) {
-    const auto base = static_cast<uint32_t>(town.vertices.size());
-    const Surface& surface = SurfaceOf(p.material, plan);
-    AppendVertices(p, instance.world, BaseColor(pack, p.material), surface.layer, &town.vertices);
-    for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
-      Triangle t{surface.group, {base + p.indices[i], base + p.indices[i + 1], base + p.indices[i + 2]}};
-      if (mirrored) std::swap(t.corners[1], t.corners[2]);
-      cells[CellOf(t.corners, town)].push_back(t);
-    }
-    count += p.indices.size() / 3;
+  const auto base = static_cast<uint32_t>(town.vertices.size());
+  const Surface& surface = SurfaceOf(p.material, plan);
+  AppendVertices(p, instance.world, BaseColor(pack, p.material), surface.layer, &town.vertices);
+  for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+    Triangle t{surface.group, {base + p.indices[i], base + p.indices[i + 1], base + p.indices[i + 2]}};
+    if (mirrored) std::swap(t.corners[1], t.corners[2]);
+    cells[CellOf(t.corners, town)].push_back(t);
   }
-  return count;
+  return p.indices.size() / 3;
 }
 
 void TownBuilder::Impl::BeginPacking() {
@@ -167,6 +170,7 @@ void TownBuilder::Impl::BeginPacking() {
   for (const TurningGeometry& part : town.turning) turning += part.vertices.size();
   town.vertices.clear();
   town.vertices.reserve(all.size() + turning);
+  town.positions.reserve(all.size());
   size_t count = 0;
   for (const auto& [cell, triangles] : cells) count += triangles.size();
   town.indices.reserve(3 * count);
@@ -189,6 +193,7 @@ void TownBuilder::Impl::Pack(std::vector<Triangle>* triangles) {
       if (place[corner] == UINT32_MAX) {
         place[corner] = static_cast<uint32_t>(town.vertices.size());
         town.vertices.push_back(all[corner]);
+        town.positions.push_back(all[corner].position);
       }
       indices.push_back(place[corner]);
       Include(all[corner].position, &block.box);
@@ -206,8 +211,6 @@ void TownBuilder::Impl::Pack(std::vector<Triangle>* triangles) {
 
 void TownBuilder::Impl::Finish() {
   AppendMasked(masked, &town);
-  town.positions.reserve(town.vertices.size());
-  for (const TownVertex& v : town.vertices) town.positions.push_back(v.position);
   town.walls.shrink_to_fit();
   town.blocks.shrink_to_fit();
 }
@@ -223,8 +226,7 @@ bool TownBuilder::Advance() {
   constexpr size_t kTrianglesAtOnce = 10000;  // a few milliseconds
   Impl& b = *impl_;
   size_t done = 0;
-  while (b.next_instance < b.pack.town.size() && done < kTrianglesAtOnce)
-    done += b.Append(b.pack.town[b.next_instance++]);
+  while (b.next_instance < b.pack.town.size() && done < kTrianglesAtOnce) done += b.AppendNext();
   if (b.next_instance < b.pack.town.size()) return false;
   if (!b.packs) {
     b.BeginPacking();

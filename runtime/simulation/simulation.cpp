@@ -359,7 +359,7 @@ void StepSimulation(const CameraInput& input, float frame_ms, Simulation* s) {
   town.crowd.viewer = camera.view.position;
   if (town.step % kSortEvery_steps == 0) SortBySpace(&town.scratch, &town.crowd);
   town.field_builder.Step(town.walkable, town.jobs, &town.crowd);
-  StepCrowd(town.walkable, s->moving, Step_s(*s), &town.scratch, &town.crowd);
+  StepCrowd(town.walkable, s->moving, Step_s(*s), &town.scratch, &town.crowd, town.jobs);
   LeaveAndArrive(ViewerOf(*s), &town);
   StepFlocks(camera.view.position, camera.present, Step_s(*s), &town);
   ClassifyAll(s);

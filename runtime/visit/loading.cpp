@@ -7,12 +7,14 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
+#include "runtime/base/array.h"
 #include "runtime/base/clock.h"
 #include "runtime/base/memory.h"
 #include "runtime/render/surface_plan.h"
@@ -55,10 +57,18 @@ struct Task {
   int town_mesh = -1;
 };
 
-// What a slice does: reads a task, makes an asset ready that has been read, or goes on with what is built in steps.
+// What a slice does: reads a task, or its meshes' next primitive, makes an asset ready that has been read, or goes on
+// with what is built in steps.
 struct Piece {
-  enum Kind { kRead, kPrepare, kBuild } kind = kRead;
+  enum Kind { kRead, kReadOn, kPrepare, kBuild } kind = kRead;
   size_t index = 0;  // of tasks, of assets
+};
+
+// The meshes of a task, of which some primitives have been read.
+struct MeshReading {
+  size_t task = 0;
+  std::vector<int> meshes;     // of the pack
+  std::vector<PackMesh> read;  // the last may lack some
 };
 
 }  // namespace
@@ -87,7 +97,8 @@ struct Loader::Impl {
   SurfacePlan plan;  // of the renderer
   AtlasFormats formats;
   std::deque<size_t> read;                    // assets
-  std::optional<TownBuilder> town_builder;    // without threads the town is built between pictures,
+  std::optional<MeshReading> mesh_reading;    // without threads meshes are read a primitive at a time,
+  std::optional<TownBuilder> town_builder;    // the town is built between pictures,
   std::optional<LayerBuilder> layer_builder;  // and pictures are made ready in steps,
   std::optional<AtlasBuilder> atlas_builder;  // as impostors are
   size_t builds = 0;                          // of assets
@@ -107,8 +118,13 @@ struct Loader::Impl {
   bool FindTask();
   void Do(const Piece& piece);
   void StopWithError(Error e);
-  Error Read(const Task& task);
-  Error ReadLevel(const AssetId& id, PackMesh* out);
+  bool HasThreads() const { return jobs != nullptr && jobs->threads() > 0; }
+  std::vector<int> MeshesToRead(const Task& task) const;
+  Error ReadNextPrimitive(MeshReading* reading, bool* was_last) const;
+  void TakeMeshes(MeshReading reading);
+  Error Read(size_t task);
+  Error ReadOn();
+  void NoteRead(size_t task);
   void Clear(size_t asset);
   void Prepare(size_t asset);
   void Build(size_t asset);
@@ -121,33 +137,85 @@ struct Loader::Impl {
 };
 
 // The guide's figure is made of the meshes of whom it is like, which come from the file as often as they are needed.
-Error Loader::Impl::ReadLevel(const AssetId& id, PackMesh* out) {
-  const PackAvatar& avatar = pack.avatars[static_cast<size_t>(id.index)];
-  const auto level = static_cast<size_t>(id.level);
-  if (avatar.impostor_of < 0) return file.ReadMesh(MeshesOf(id, pack).front(), out);
-  const PackAvatar& like = pack.avatars[static_cast<size_t>(avatar.impostor_of)];
-  PackMesh mesh, finest;
-  if (Error e = file.ReadMesh(like.levels[level].mesh, &mesh)) return e;
-  if (Error e = file.ReadMesh(like.levels.front().mesh, &finest)) return e;
-  *out = GuideMesh(std::move(mesh), finest, avatar);
+std::vector<int> Loader::Impl::MeshesToRead(const Task& task) const {
+  const AssetId& id = assets[task.asset];
+  if (task.town_mesh >= 0) return {task.town_mesh};
+  if (id.kind != AssetKind::kLevel) return {};
+  const PackAvatar& avatar = At(pack.avatars, id.index);
+  if (avatar.impostor_of < 0) return {MeshesOf(id, pack).front()};
+  const PackAvatar& like = At(pack.avatars, avatar.impostor_of);
+  return {At(like.levels, id.level).mesh, like.levels.front().mesh};
+}
+
+Error Loader::Impl::ReadNextPrimitive(MeshReading* reading, bool* was_last) const {
+  const auto primitives = [&](size_t k) { return At(pack.meshes, reading->meshes[k]).primitives.size(); };
+  if (reading->read.empty()) reading->read.emplace_back();
+  size_t k = reading->read.size() - 1;
+  std::vector<PackPrimitive>& read = reading->read.back().primitives;
+  if (read.size() < primitives(k)) {
+    if (Error e = file.ReadPrimitive(reading->meshes[k], read.size(), &read.emplace_back())) return e;
+  }
+  if (read.size() < primitives(k)) return Ok();
+  *was_last = ++k == reading->meshes.size();
+  if (!*was_last) reading->read.emplace_back();
   return Ok();
 }
 
-Error Loader::Impl::Read(const Task& task) {
-  const AssetId& id = assets[task.asset];
-  const auto index = static_cast<size_t>(id.index);
-  switch (id.kind) {
-    case AssetKind::kTown:
-      return task.town_mesh >= 0 ? file.ReadMesh(task.town_mesh, &pack.meshes[static_cast<size_t>(task.town_mesh)])
-                                 : Ok();
-    case AssetKind::kPicture:
-      return file.ReadImage(id.index, &pack.images[index]);
-    case AssetKind::kLevel:
-      return ReadLevel(id, &of_people[task.asset]);
-    case AssetKind::kAtlas:
-      return file.ReadAtlas(id.index, &pack.avatars[index].impostor);
+void Loader::Impl::TakeMeshes(MeshReading reading) {
+  const Task& task = tasks[reading.task];
+  PackMesh& mesh = reading.read.front();
+  if (task.town_mesh >= 0) {
+    At(pack.meshes, task.town_mesh) = std::move(mesh);
+    return;
   }
+  const PackAvatar& avatar = At(pack.avatars, assets[task.asset].index);
+  of_people[task.asset] =
+      avatar.impostor_of < 0 ? std::move(mesh) : GuideMesh(std::move(mesh), reading.read.back(), avatar);
+}
+
+// With threads all of it; else of meshes the beginning.
+Error Loader::Impl::Read(size_t task) {
+  const AssetId& id = assets[tasks[task].asset];
+  if (std::vector<int> meshes = MeshesToRead(tasks[task]); !meshes.empty()) {
+    MeshReading reading{task, std::move(meshes), {}};
+    if (!HasThreads()) {
+      mesh_reading = std::move(reading);
+      return ReadOn();
+    }
+    for (bool was_last = false; !was_last;) {
+      if (Error e = ReadNextPrimitive(&reading, &was_last)) return e;
+    }
+    TakeMeshes(std::move(reading));
+  } else if (id.kind == AssetKind::kPicture) {
+    if (Error e = file.ReadImage(id.index, &At(pack.images, id.index))) return e;
+  } else if (id.kind == AssetKind::kAtlas) {
+    if (Error e = file.ReadAtlas(id.index, &At(pack.avatars, id.index).impostor)) return e;
+  }
+  NoteRead(task);
   return Ok();
+}
+
+Error Loader::Impl::ReadOn() {
+  bool was_last = false;
+  if (Error e = ReadNextPrimitive(&*mesh_reading, &was_last)) return e;
+  if (!was_last) return Ok();
+  const size_t task = mesh_reading->task;
+  TakeMeshes(*std::exchange(mesh_reading, {}));
+  NoteRead(task);
+  return Ok();
+}
+
+void Loader::Impl::NoteRead(size_t task) {
+  bool last = false;
+  {
+    const std::lock_guard lock(mutex);
+    last = --unread_tasks == 0;
+    const size_t asset = tasks[task].asset;
+    if (--parts_left[asset] == 0) read.push_back(asset);
+  }
+  if (!last) return;
+  file = PackFile();  // nobody reads any more
+  ReleaseMemory();
 }
 
 void Loader::Impl::Clear(size_t asset) {
@@ -173,7 +241,7 @@ void Loader::Impl::Clear(size_t asset) {
 
 void Loader::Impl::Prepare(size_t index) {
   const AssetId& id = assets[index];
-  if (jobs == nullptr || jobs->threads() == 0) {
+  if (!HasThreads()) {
     builds = index;
     if (id.kind == AssetKind::kTown) return void(town_builder.emplace(pack, plan));
     if (id.kind == AssetKind::kAtlas)
@@ -218,6 +286,7 @@ void Loader::Impl::TakeIn(size_t index, Asset asset) {
 // ever.
 std::optional<Piece> Loader::Impl::NextPiece() {
   if (stop) return {};
+  if (mesh_reading) return Piece{Piece::kReadOn, mesh_reading->task};
   if (town_builder || layer_builder || atlas_builder) return Piece{Piece::kBuild, builds};
   if (!read.empty() && may_prepare && ready.size() < kMaxReadyAssets) {
     const size_t asset = read.front();
@@ -252,17 +321,7 @@ bool Loader::Impl::FindTask() {
 void Loader::Impl::Do(const Piece& piece) {
   if (piece.kind == Piece::kPrepare) return Prepare(piece.index);
   if (piece.kind == Piece::kBuild) return Build(piece.index);
-  const Task& task = tasks[piece.index];
-  if (Error e = Read(task)) return StopWithError(std::move(e));
-  bool last = false;
-  {
-    const std::lock_guard lock(mutex);
-    last = --unread_tasks == 0;
-    if (--parts_left[task.asset] == 0) read.push_back(task.asset);
-  }
-  if (!last) return;
-  file = PackFile();  // nobody reads any more
-  ReleaseMemory();
+  if (Error e = piece.kind == Piece::kReadOn ? ReadOn() : Read(piece.index)) StopWithError(std::move(e));
 }
 
 // A slice of one of the readers, who end as soon as nothing may be done: true.
@@ -290,7 +349,7 @@ void Loader::Impl::GoOnReading(size_t most_more) {
   size_t more = 0;
   {
     const std::lock_guard lock(mutex);
-    if (stop || (read.empty() && next_task == tasks.size())) return;
+    if (stop || (read.empty() && next_task == tasks.size() && !mesh_reading)) return;
     more = std::min(most_more, most_readers - readers);
     readers += more;
   }
@@ -301,7 +360,7 @@ void Loader::Impl::GoOnReading(size_t most_more) {
 
 // Without threads: does the next piece. False: none may be done, or threads do it.
 bool Loader::Impl::ReadHere() {
-  if (jobs != nullptr && jobs->threads() > 0) return false;
+  if (HasThreads()) return false;
   GoOnReading(1);
   if (reading.empty()) return false;
   reading.front().Advance();

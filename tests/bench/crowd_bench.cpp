@@ -2,6 +2,7 @@
 // everybody with full behaviour, 36 circles of 1 to 2 m, steps of 1/30 s, one thread.
 #include <benchmark/benchmark.h>
 
+#include "runtime/base/clock.h"
 #include "runtime/control/level_control.h"
 #include "runtime/crowd/constants.h"
 #include "tests/bench/time_steps.h"
@@ -31,6 +32,24 @@ void OpenFieldStep(benchmark::State& state) {
   TimeSteps(state, [&] { SortAndStep(&field); });
 }
 BENCHMARK(OpenFieldStep)->Arg(1000)->Arg(10000)->Arg(100000)->Iterations(kSteps)->Unit(benchmark::kMillisecond);
+
+// The same with so many threads beside the caller's.
+void OpenFieldStepOfThreads(benchmark::State& state) {
+  OpenField field = BusyField(100'000);
+  Jobs jobs(static_cast<size_t>(state.range(0)));
+  const auto step = [&] {
+    if (field.crowd.step % kSortEvery_steps == 0) SortBySpace(&field.scratch, &field.crowd);
+    StepOpenField(&field, &jobs);
+  };
+  TimeSteps(state, step, Now_ms);
+}
+BENCHMARK(OpenFieldStepOfThreads)
+    ->Arg(0)
+    ->Arg(1)
+    ->Arg(3)
+    ->Iterations(kSteps)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 // So many people are sent somewhere else in the same frame; with the step that follows, in which all of them set out.
 void NewGoals(benchmark::State& state) {

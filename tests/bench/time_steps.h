@@ -16,12 +16,12 @@ inline double ThreadTime_ms() {
 
 // Runs `step` for every iteration; the median and the least of what the iterations took become counters.
 template <typename Step>
-void TimeSteps(benchmark::State& state, Step step) {
+void TimeSteps(benchmark::State& state, Step step, double (*clock_ms)() = ThreadTime_ms) {
   std::vector<double> took_ms;
   for (auto _ : state) {
-    const double before_ms = ThreadTime_ms();
+    const double before_ms = clock_ms();
     step();
-    took_ms.push_back(ThreadTime_ms() - before_ms);
+    took_ms.push_back(clock_ms() - before_ms);
   }
   std::sort(took_ms.begin(), took_ms.end());
   state.counters["median_ms"] = took_ms[took_ms.size() / 2];

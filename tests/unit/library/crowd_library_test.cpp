@@ -175,6 +175,58 @@ TEST(Crowds, GiveTheSameBitsForTheSameCallsInAnyThread) {
   for (const std::vector<double>& result : results) EXPECT_EQ(result, expected);
 }
 
+// A crowd of some thousands on their way between twelve places; `threads` of each step.
+std::vector<FlaneurPerson> PeopleAfterSteps(const std::vector<int>& threads) {
+  FlaneurCrowdDef def = flaneur_default_crowd_def();
+  def.ground_max_m = {200, 200};
+  FlaneurCrowdId crowd{};
+  EXPECT_EQ(flaneur_create_crowd(&def, &crowd), FLANEUR_OK) << flaneur_crowd_last_error();
+  for (int k = 0; k < 5000; ++k) {
+    FlaneurPersonDef person = flaneur_default_person_def();
+    person.position_m = {2 + k % 71 * 2.7, 2 + k / 71 * 2.7};
+    FlaneurPersonId id{};
+    EXPECT_EQ(flaneur_crowd_add_person(crowd, &person, &id), FLANEUR_OK) << flaneur_crowd_last_error();
+    if (k % 5 != 0) EXPECT_EQ(flaneur_crowd_set_goal(crowd, id, {10.0 + k % 12 * 15, 100}), FLANEUR_OK);
+  }
+  const FlaneurCamera camera{{100, 60}, 1.57f, 1.05f, 1280};
+  FlaneurPersonSpan people{};
+  for (int count : threads) {
+    EXPECT_EQ(flaneur_crowd_set_threads(crowd, count), FLANEUR_OK) << flaneur_crowd_last_error();
+    EXPECT_EQ(flaneur_crowd_step(crowd, &camera, 0), FLANEUR_OK) << flaneur_crowd_last_error();
+  }
+  EXPECT_EQ(flaneur_crowd_people(crowd, &people), FLANEUR_OK);
+  std::vector<FlaneurPerson> result(people.items, people.items + people.count);
+  EXPECT_EQ(flaneur_destroy_crowd(crowd), FLANEUR_OK);
+  return result;
+}
+
+TEST(Crowds, WalkInTheSameBitsWithAnyNumberOfThreads) {
+  std::vector<int> alone(60, 0), with_three(60, 3), now_and_then;
+  for (int step = 0; step < 60; ++step) now_and_then.push_back(step % 7);
+  const std::vector<FlaneurPerson> people = PeopleAfterSteps(alone);
+  ASSERT_EQ(people.size(), 5000u);
+  EXPECT_GT(std::count_if(people.begin(), people.end(), [](const FlaneurPerson& p) { return p.walked_m > 1; }), 3000);
+  for (const auto& threads : {with_three, now_and_then}) {
+    const std::vector<FlaneurPerson> others = PeopleAfterSteps(threads);
+    ASSERT_EQ(others.size(), people.size());
+    for (size_t i = 0; i < people.size(); ++i) {
+      ASSERT_EQ(others[i].id.index1, people[i].id.index1);
+      ASSERT_EQ(others[i].position_m.x, people[i].position_m.x) << i;
+      ASSERT_EQ(others[i].position_m.y, people[i].position_m.y) << i;
+      ASSERT_EQ(others[i].heading_rad, people[i].heading_rad) << i;
+      ASSERT_EQ(others[i].level, people[i].level) << i;
+    }
+  }
+}
+
+TEST_F(ACrowd, HasNoLessThanNoThreads) {
+  for (int count : {-1, 65, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
+    EXPECT_EQ(flaneur_crowd_set_threads(crowd, count), FLANEUR_ERROR_OUT_OF_RANGE) << count;
+    EXPECT_NE(std::string(flaneur_crowd_last_error()).find("threads"), std::string::npos);
+  }
+  EXPECT_EQ(flaneur_crowd_set_threads({}, 1), FLANEUR_ERROR_ID);
+}
+
 TEST_F(ACrowd, KnowsItsPeopleByIdsThatAreNeverUsedAgain) {
   std::vector<FlaneurPersonId> ids, gone;
   for (int round = 0; round < 300; ++round) {

@@ -69,9 +69,9 @@ inline OpenField MakeOpenField(int people, int places_aside = 8, uint64_t seed =
 }
 
 // Who comes near a place goes on to another, so that the field stays evenly full.
-inline void StepOpenField(OpenField* f) {
+inline void StepOpenField(OpenField* f, Jobs* jobs = nullptr) {
   Crowd& c = f->crowd;
-  StepCrowd(f->walkable, {}, kOpenFieldStep_s, &f->scratch, &c);
+  StepCrowd(f->walkable, {}, kOpenFieldStep_s, &f->scratch, &c, jobs);
   for (size_t i = 0; i < c.size(); ++i) {
     const Vec2 left = c.fields[static_cast<size_t>(c.field[i])].goal - c.position[i];
     if (c.arrived[i] == Arrival::kThere || Dot(left, left) < f->turn_round_m * f->turn_round_m)
