@@ -120,8 +120,8 @@ struct Loader::Impl {
   void StopWithError(Error e);
   bool HasThreads() const { return jobs != nullptr && jobs->threads() > 0; }
   std::vector<int> MeshesToRead(const Task& task) const;
-  Error ReadNextPrimitive(MeshReading* reading, bool* was_last) const;
-  void TakeMeshes(MeshReading reading);
+  Error ReadNextPrimitive(MeshReading* m, bool* was_last) const;
+  void TakeMeshes(MeshReading done);
   Error Read(size_t task);
   Error ReadOn();
   void NoteRead(size_t task);
@@ -147,45 +147,45 @@ std::vector<int> Loader::Impl::MeshesToRead(const Task& task) const {
   return {At(like.levels, id.level).mesh, like.levels.front().mesh};
 }
 
-Error Loader::Impl::ReadNextPrimitive(MeshReading* reading, bool* was_last) const {
-  const auto primitives = [&](size_t k) { return At(pack.meshes, reading->meshes[k]).primitives.size(); };
-  if (reading->read.empty()) reading->read.emplace_back();
-  size_t k = reading->read.size() - 1;
-  std::vector<PackPrimitive>& read = reading->read.back().primitives;
-  if (read.size() < primitives(k)) {
-    if (Error e = file.ReadPrimitive(reading->meshes[k], read.size(), &read.emplace_back())) return e;
+Error Loader::Impl::ReadNextPrimitive(MeshReading* m, bool* was_last) const {
+  const auto primitives = [&](size_t k) { return At(pack.meshes, m->meshes[k]).primitives.size(); };
+  if (m->read.empty()) m->read.emplace_back();
+  size_t k = m->read.size() - 1;
+  std::vector<PackPrimitive>& there = m->read.back().primitives;
+  if (there.size() < primitives(k)) {
+    if (Error e = file.ReadPrimitive(m->meshes[k], there.size(), &there.emplace_back())) return e;
   }
-  if (read.size() < primitives(k)) return Ok();
-  *was_last = ++k == reading->meshes.size();
-  if (!*was_last) reading->read.emplace_back();
+  if (there.size() < primitives(k)) return Ok();
+  *was_last = ++k == m->meshes.size();
+  if (!*was_last) m->read.emplace_back();
   return Ok();
 }
 
-void Loader::Impl::TakeMeshes(MeshReading reading) {
-  const Task& task = tasks[reading.task];
-  PackMesh& mesh = reading.read.front();
+void Loader::Impl::TakeMeshes(MeshReading done) {
+  const Task& task = tasks[done.task];
+  PackMesh& mesh = done.read.front();
   if (task.town_mesh >= 0) {
     At(pack.meshes, task.town_mesh) = std::move(mesh);
     return;
   }
   const PackAvatar& avatar = At(pack.avatars, assets[task.asset].index);
   of_people[task.asset] =
-      avatar.impostor_of < 0 ? std::move(mesh) : GuideMesh(std::move(mesh), reading.read.back(), avatar);
+      avatar.impostor_of < 0 ? std::move(mesh) : GuideMesh(std::move(mesh), done.read.back(), avatar);
 }
 
 // With threads all of it; else of meshes the beginning.
 Error Loader::Impl::Read(size_t task) {
   const AssetId& id = assets[tasks[task].asset];
   if (std::vector<int> meshes = MeshesToRead(tasks[task]); !meshes.empty()) {
-    MeshReading reading{task, std::move(meshes), {}};
+    MeshReading m{task, std::move(meshes), {}};
     if (!HasThreads()) {
-      mesh_reading = std::move(reading);
+      mesh_reading = std::move(m);
       return ReadOn();
     }
     for (bool was_last = false; !was_last;) {
-      if (Error e = ReadNextPrimitive(&reading, &was_last)) return e;
+      if (Error e = ReadNextPrimitive(&m, &was_last)) return e;
     }
-    TakeMeshes(std::move(reading));
+    TakeMeshes(std::move(m));
   } else if (id.kind == AssetKind::kPicture) {
     if (Error e = file.ReadImage(id.index, &At(pack.images, id.index))) return e;
   } else if (id.kind == AssetKind::kAtlas) {
