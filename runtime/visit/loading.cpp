@@ -153,7 +153,8 @@ Error Loader::Impl::ReadNextPrimitive(MeshReading* m, bool* was_last) const {
   size_t k = m->read.size() - 1;
   std::vector<PackPrimitive>& there = m->read.back().primitives;
   if (there.size() < primitives(k)) {
-    if (Error e = file.ReadPrimitive(m->meshes[k], there.size(), &there.emplace_back())) return e;
+    const size_t next = there.size();
+    if (Error e = file.ReadPrimitive(m->meshes[k], next, &there.emplace_back())) return e;
   }
   if (there.size() < primitives(k)) return Ok();
   *was_last = ++k == m->meshes.size();
