@@ -86,8 +86,8 @@ EMSCRIPTEN_KEEPALIVE const char* page_begin() {
 EMSCRIPTEN_KEEPALIVE const char* page_load(bool* there) {
   return Try([&] { return visit->Load(there); });
 }
-EMSCRIPTEN_KEEPALIVE const char* page_load_more() {
-  return Try([&] { return visit->LoadMore(); });
+EMSCRIPTEN_KEEPALIVE const char* page_load_more(bool* all) {
+  return Try([&] { return visit->LoadMore(all); });
 }
 EMSCRIPTEN_KEEPALIVE const char* page_step_meanwhile(float passed_s) {
   return Try([&] {

@@ -359,7 +359,12 @@ void PageVisit::Impl::Sound(float passed_s) {
   sound.Hear(soundscape.heard);
 }
 
-Error PageVisit::LoadMore() { return impl_->loader.Upload(kUpload_ms, &impl_->renderer); }
+Error PageVisit::LoadMore(bool* all) {
+  Loader& loader = impl_->loader;
+  const Error e = loader.Upload(kUpload_ms, &impl_->renderer);
+  *all = loader.Done();
+  return e;
+}
 
 void PageVisit::StepMeanwhile(float passed_s) {
   Impl& v = *impl_;
@@ -399,7 +404,6 @@ void PageVisit::TakeOffHeadset() {
 Error PageVisit::PictureInRoom(const WindowInput& input, Vec3 head, std::span<const float> eyes, unsigned framebuffer,
                                float passed_s) {
   Impl& v = *impl_;
-  if (Error e = LoadMore()) return e;
   v.headset.head = head;
   v.headset.eyes.clear();
   for (size_t k = 0; k + kFloatsOfEye <= eyes.size(); k += kFloatsOfEye) v.headset.eyes.push_back(EyeFrom(&eyes[k]));

@@ -43,9 +43,11 @@ export class Player {
       }
     });
   }
-  isLoaded() {
+  isLoaded() { return this.#isSaid('page_load'); }
+  isAllLoaded() { return this.#isSaid('page_load_more'); }
+  #isSaid(name) {
     return this.#withPlace(1, (place) => {
-      this.call('page_load', ['number'], [place]);
+      this.call(name, ['number'], [place]);
       return this.module.HEAPU8[place] !== 0;
     });
   }

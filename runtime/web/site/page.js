@@ -13,6 +13,7 @@ import {nextPicture, pause, Trouble} from './trouble.js';
 
 const kMostPixels = 2;    // drawn a CSS pixel's side
 const kTold_ms = 100;     // the page follows so often
+const kLoad_ms = 16;      // between two tasks that make ready what has come
 const kMeanwhile_ms = 33; // of pictures that take longer, people walk so long in tasks of their own
 const kAway_ms = 1000;    // who comes back to a tab that was hidden longer goes on where they were
 const kTriesOfContext = 4;
@@ -170,16 +171,19 @@ function drawPictures(canvas, parts, visit) {
                   [canvas.width, canvas.height, passed_ms / 1000, passed_ms]);
       if (player.ask('page_photo_taken')) pages.takePhoto(canvas, player.read('page_state').page?.line ?? '');
       if (shown) marks.follow(shown);
-      // Not in the time of a picture, each a task of its own.
       if (now - told > kTold_ms) {
         told = now;
-        setTimeout(() => attempt(() => follow(player.read('page_state'), parts)));
+        setTimeout(() => attempt(() => follow(player.read('page_state'), parts)));  // not in the time of a picture
       }
-      setTimeout(() => attempt(() => player.call('page_load_more')));
       stepped = performance.now();
       timer = setTimeout(stepMeanwhile, kMeanwhile_ms);
     });
+    // Whatever draws, the page or a headset, and however slowly.
+    const loadMore = () => attempt(() => {
+      if (!player.isAllLoaded()) setTimeout(loadMore, kLoad_ms);
+    });
     requestAnimationFrame(draw);
+    setTimeout(loadMore);
   });
 }
 

@@ -546,6 +546,7 @@ const tests = {
     await pause(300);
     await press('right', 'trigger');
     await until(page, 'something pressed', (s) => s.page?.name !== 'main');
+    await until(page, 'the rest of the town, with the headset on', (s) => s.complete, 180);
     assert.deepEqual(await page.evaluate(() => globalThis.glErrors), []);
     assert.deepEqual(page.said.filter((line) => !/iwer/i.test(line)), []);
     await page.evaluate(() => document.querySelector('#bar button[aria-label="Enter VR"]').click());
