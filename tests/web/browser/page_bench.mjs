@@ -102,7 +102,8 @@ const came = async (mark) => {
 };
 const first_ms = await came('tour-loaded');
 const whole_ms = await came('complete');
-await page.waitForFunction(() => document.getElementById('tour').flaneur.state().complete, {timeout: 280000});
+await page.waitForFunction(() => document.getElementById('tour').flaneur.state().complete, {timeout: 280000, polling: 200});
+const ready_ms = await page.evaluate(() => performance.now());
 await new Promise((done) => setTimeout(done, 5000));
 const pictures = () => page.evaluate(() => document.getElementById('tour').flaneur.state().pictures);
 const before = await pictures(), seconds = 5;
@@ -120,6 +121,7 @@ console.log(`bytes until the first picture with people       ${(sentUntil['tour-
 console.log(`bytes of the whole tour                         ${(sent / 1e6).toFixed(2)} MB`);
 console.log(`first picture from a cold start, 20 Mbit/s      ${(first_ms / 1000).toFixed(1)} s`);
 console.log(`all that there is, on the same line             ${(whole_ms / 1000).toFixed(1)} s`);
+console.log(`and all of it made ready                       ${(ready_ms / 1000).toFixed(1)} s`);
 console.log(`longest task after the first picture            ${longest.toFixed(0)} ms`);
 console.log(`heap of the player                              ${(heap / 1e6).toFixed(0)} MB`);
 console.log(`complaints of the console and of OpenGL             ${complaints + (wrong ? 1 : 0)}`);
