@@ -85,22 +85,48 @@ export async function fetchPieces(store, pieces, take) {
 }
 
 // The same while the visitor walks already: a line that breaks is waited for, and `tellCut` hears of it.
-export async function fetchPiecesMeanwhile(store, pieces, take, signal, tellCut) {
+export async function fetchPiecesMeanwhile(store, pieces, take, tellCut) {
   const left = new Set(pieces);
-  while (left.size > 0 && !signal.aborted) {
+  while (left.size > 0) {
     try {
-      await fetchPieces(store, [...left], async (piece, content) => {
-        if (signal.aborted) return;
-        await take(piece, content);
+      await fetchPieces(store, [...left], (piece, content) => {
+        take(piece, content);
         left.delete(piece);
         tellCut(false);
       });
     } catch (e) {
       if (!(e instanceof Trouble) || e.kind !== 'cut') throw e;
       tellCut(true);
-      await Promise.race([pause(5000), new Promise((done) => addEventListener('online', done, {once: true, signal}))]);
+      await Promise.race([pause(5000), new Promise((done) => addEventListener('online', done, {once: true}))]);
     }
   }
+}
+
+// And beside the page; where there are no workers, in it.
+export function fetchPiecesBeside(store, pieces, take, signal, tellCut) {
+  return new Promise((resolve, reject) => {
+    const worker = new Worker('fetch_worker.js', {type: 'module'}), end = () => worker.terminate();
+    const takeHere = (piece, content) => signal.aborted || take(piece, content);
+    signal.addEventListener('abort', end, {once: true});
+    worker.onerror = () => resolve(fetchPiecesMeanwhile(store, pieces, takeHere, tellCut));
+    worker.onmessage = ({data: {piece, content, cut, trouble}}) => {
+      if (content) {
+        try {
+          take(piece, content);
+        } catch (e) {
+          end();
+          reject(e);
+        }
+        worker.postMessage(content, [content.buffer]);
+      } else if (cut !== undefined) {
+        tellCut(cut);
+      } else {
+        end();
+        trouble ? reject(new Trouble(trouble.kind, trouble.detail)) : resolve();
+      }
+    };
+    worker.postMessage({pieces});
+  });
 }
 
 // The list of pieces may change under its name: the newest that can be had.

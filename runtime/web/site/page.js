@@ -2,7 +2,7 @@
 // the still picture. Nothing but this folder is asked for anything.
 import {Bar} from './bar.js';
 import {makeModule, Player} from './calls.js';
-import {fetchPieces, fetchPiecesMeanwhile, forgetOthers, openStore, readSite} from './files.js';
+import {fetchPieces, fetchPiecesBeside, forgetOthers, openStore, readSite} from './files.js';
 import {Hands} from './hands.js';
 import {Headset} from './headset.js';
 import {HotspotMarks} from './hotspots.js';
@@ -273,8 +273,8 @@ async function visitTour(visit, wishesNow) {
   await Promise.race([lost, drawn, nextPicture().then(nextPicture)]);  // what is not in it does not hold it up
   tell('tour-loaded', described);
   keepPage();
-  const all = fetchPiecesMeanwhile(store, site.pieces.slice(site.first), (piece, content) => player.arrive(piece, content),
-                                   visit.signal, (cut) => cut !== message.hidden || showMessage(cut ? say('cutMeanwhile') : ''))
+  const all = fetchPiecesBeside(store, site.pieces.slice(site.first), (piece, content) => player.arrive(piece, content),
+                                visit.signal, (cut) => cut !== message.hidden || showMessage(cut ? say('cutMeanwhile') : ''))
     .then(async () => {
       await forgetOthers(store, site);
       tell('complete');

@@ -172,7 +172,7 @@ const tests = {
     const until_first = asked.slice(0, asked.indexOf(list.pieces[list.first - 1].file) + 1);
     assert.ok(until_first.length > list.first, asked.join(' '));
     assert.ok(!until_first.includes('worker.js'), asked.join(' '));
-    const scripts = asked.filter((name) => name.endsWith('.js') && !name.startsWith('player-') && name !== 'worker.js');
+    const scripts = asked.filter((name) => name.endsWith('.js') && !name.startsWith('player-') && !name.endsWith('worker.js'));
     assert.ok(scripts.every((name) => asked.indexOf(name) < asked.indexOf('tour.json')), asked.join(' '));
     assert.ok(asked.indexOf(list.script) < asked.indexOf(list.pieces[list.opens].file), asked.join(' '));
     assert.ok(0 < list.opens && list.opens < list.first, JSON.stringify([list.opens, list.first]));
@@ -382,11 +382,12 @@ const tests = {
   },
   async 'a piece that is corrupt, cut or missing is one clear sentence'() {
     const list = JSON.parse(fs.readFileSync(path.join(site, 'tour.json')));
-    const victim = list.pieces[0].file, whole = fs.readFileSync(path.join(site, victim));
+    const first = list.pieces[0].file, last = list.pieces.at(-1).file, whole = fs.readFileSync(path.join(site, first));
     const spoilt = Buffer.from(whole);
     spoilt[spoilt.length >> 1] ^= 0xFF;
-    const cases = [[{body: spoilt}, /damaged/], [{cut: whole.length >> 1}, /line broke/], [{status: 404}, /not on this server/]];
-    for (const [answer, expected] of cases) {
+    const cases = [[first, {body: spoilt}, /damaged/], [first, {cut: whole.length >> 1}, /line broke/],
+                   [first, {status: 404}, /not on this server/], [last, {body: spoilt}, /damaged/], [last, {status: 404}, /not on this server/]];
+    for (const [victim, answer, expected] of cases) {
       const host = await serve(site, (name) => (name === victim ? answer : null));
       const page = await newPage(host.url);
       await inState(page, 'failed');
@@ -394,6 +395,19 @@ const tests = {
       await end(page);
       await host.close();
     }
+  },
+  async 'where the browser starts no worker the page fetches the tour itself'() {
+    const host = await serve(site);
+    const page = await newPage(host.url, (p) => p.evaluateOnNewDocument(() => {
+      globalThis.Worker = class {
+        postMessage() { setTimeout(() => this.onerror()); }
+        terminate() {}
+      };
+    }));
+    await complete(page);
+    assert.deepEqual(page.said, []);
+    await end(page);
+    await host.close();
   },
   async 'a line that breaks is waited for: before the first picture with a sentence, and after it beside the town'() {
     const list = JSON.parse(fs.readFileSync(path.join(site, 'tour.json')));
