@@ -495,6 +495,13 @@ Error Loader::Upload(double most_ms, Renderer* renderer) {
   return l.error;
 }
 
+Error Loader::ReadOn(double most_ms) {
+  const double start_ms = Now_ms();
+  while (impl_->ReadHere() && Now_ms() - start_ms < most_ms) {}
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->error;
+}
+
 Error Loader::Impl::UploadUntil(const std::function<bool()>& is_there, Loader* loader, Renderer* renderer) {
   while (!is_there()) {
     if (Error e = loader->Upload(1e9, renderer)) return e;

@@ -30,6 +30,8 @@ class Loader {
 
   // Hands over what is ready, for about `most_ms`. Errors: of a piece that cannot be read.
   Error Upload(double most_ms, Renderer* renderer);
+  // Reads and makes ready, for about as long, and uploads nothing. Without threads; else they do.
+  Error ReadOn(double most_ms);
   Error UploadAll(Renderer* renderer);
   // The town and what else a picture needs; the rest stays unread.
   Error UploadTown(Renderer* renderer);

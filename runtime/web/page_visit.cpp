@@ -118,10 +118,10 @@ struct PageVisit::Impl {
   bool photo_asked = false, photo_taken = false;
   float aspect = 1;
   double owed_s = 0;
-  float picture_s = 0;   // the last one took
-  float ahead_s = 0;     // of the next one's time, what was stepped through already
-  bool stepped = false;  // since then
-  int64_t pictures = 0;
+  float picture_s = 0;                     // the last one took
+  float ahead_s = 0;                       // of the next one's time, what was stepped through already
+  bool stepped = false;                    // since then
+  int64_t pictures = 0, uploaded_at = -1;  // uploaded_at: so many pictures
 
   bool pages() const { return menu.page != Page::kNone; }
   std::string Language() const { return PageLanguage(controls, s); }
@@ -134,7 +134,7 @@ struct PageVisit::Impl {
   void Do(const MenuChoice& choice);
   void TakeHands(const WindowInput& input, float passed_s);
   void TakeWishes();
-  void Step(float passed_s);
+  void Step(float passed_s, int most_steps);
   void StepsOfPicture(float passed_s);
   void StepInRoom(CameraInput input, float picture_ms);
   void DrawInRoom(unsigned framebuffer);
@@ -277,12 +277,12 @@ void PageVisit::Impl::StepInRoom(CameraInput input, float picture_ms) {
   if (follows_head) Followed(s.visitor.camera.view.position - before, &headset);
 }
 
-void PageVisit::Impl::Step(float passed_s) {
+void PageVisit::Impl::Step(float passed_s, int most_steps) {
   const float picture_ms = picture_s * 1000;
   const double step_s = static_cast<double>(Step_s(s));
   if (!HoldsTown(menu)) owed_s = std::min(owed_s + static_cast<double>(passed_s), step_s * kMaxStepsPerFrame);
   if (owed_s >= step_s && !std::exchange(stepped, true)) controls.turned_rad = 0;
-  for (; owed_s >= step_s; owed_s -= step_s) {
+  for (int k = 0; k < most_steps && owed_s >= step_s; ++k, owed_s -= step_s) {
     const CameraInput input = NextStep(wishes, s, &controls);
     if (headset.worn) StepInRoom(input, picture_ms);
     else StepSimulation(input, picture_ms, &s);
@@ -293,7 +293,7 @@ void PageVisit::Impl::Step(float passed_s) {
 
 void PageVisit::Impl::StepsOfPicture(float passed_s) {
   picture_s = passed_s;
-  Step(std::max(0.0f, passed_s - ahead_s));
+  Step(std::max(0.0f, passed_s - ahead_s), kMaxStepsPerFrame);
   ahead_s = 0;
   stepped = false;
   if (!pages()) FollowNotices(controls, s, passed_s, &notices);
@@ -361,7 +361,8 @@ void PageVisit::Impl::Sound(float passed_s) {
 
 Error PageVisit::LoadMore(bool* all) {
   Loader& loader = impl_->loader;
-  const Error e = loader.Upload(kUpload_ms, &impl_->renderer);
+  const bool uploads = std::exchange(impl_->uploaded_at, impl_->pictures) != impl_->pictures;
+  const Error e = uploads ? loader.Upload(kUpload_ms, &impl_->renderer) : loader.ReadOn(kUpload_ms);
   *all = loader.Done();
   return e;
 }
@@ -369,7 +370,7 @@ Error PageVisit::LoadMore(bool* all) {
 void PageVisit::StepMeanwhile(float passed_s) {
   Impl& v = *impl_;
   v.ahead_s += passed_s;
-  v.Step(passed_s);
+  v.Step(passed_s, 1);
 }
 
 Error PageVisit::Picture(const WindowInput& input, int width_px, int height_px, float passed_s) {

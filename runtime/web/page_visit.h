@@ -30,7 +30,8 @@ class PageVisit {
   Error Begin();
   // A part of what is to be made ready before the first picture; `there`: it is. Errors: of a piece.
   Error Load(bool* there);
-  // A part of what streams in, as a task of its own between pictures; `all`: nothing is left. Errors: of a piece.
+  // A part of what streams in, as a task of its own between pictures; `all`: nothing is left. Uploads once a picture:
+  // more would wait for its being drawn. Errors: of a piece.
   Error LoadMore(bool* all);
   // Between pictures that take long: so much of the time until the next one, which steps only through the rest.
   void StepMeanwhile(float passed_s);

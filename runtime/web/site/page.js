@@ -14,7 +14,7 @@ import {nextPicture, pause, Trouble} from './trouble.js';
 const kMostPixels = 2;    // drawn a CSS pixel's side
 const kTold_ms = 100;     // the page follows so often
 const kLoad_ms = 16;      // between two tasks that make ready what has come
-const kMeanwhile_ms = 33; // of pictures that take longer, people walk so long in tasks of their own
+const kMeanwhile_ms = 20; // of pictures that take longer, people walk so often in tasks of their own, a step at most in each
 const kAway_ms = 1000;    // who comes back to a tab that was hidden longer goes on where they were
 const kTriesOfContext = 4;
 const kSpeaks = 1;        // of the messages; flaneur-tour.js knows which it understands
