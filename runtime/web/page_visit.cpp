@@ -62,8 +62,7 @@ void Fill(size_t offset, std::span<const uint8_t> bytes, std::vector<LateFile>* 
 
 constexpr double kLongUpload_ms = 30, kUpload_ms = 3;  // before the first picture, and in each later one
 const RenderOptions kDrawing{.onto_window = true, .runs_ahead = true};
-constexpr int kStepsBefore =
-    2;  // the first picture: in them everybody finds a way, which takes some tenths of a second
+constexpr int kStepsBefore = 2;  // the first picture: in them everybody finds a way, which takes tenths of a second
 constexpr int kMaxStepsPerFrame = 4;  // a machine that cannot keep up slows the town down
 constexpr float kTapReach = 0.045f;   // of the picture's height, around a hotspot
 
