@@ -60,6 +60,7 @@ inline constexpr double kSameCorner_m = 0.001;  // corners this near are one
 inline constexpr double kThinTriangle_m = 0.02;
 inline constexpr double kFoot_m = 0.3;              // how far a wall's foot may go up and down
 inline constexpr size_t kMaxHoleEdges = 8;          // edges round a hole; longer ones are openings
+inline constexpr double kFlatHole_m = 0.02;         // corners of a plane hole leave its plane by no more
 inline constexpr double kMinOverheadCell_m = 0.05;  // of the grid that finds what is overhead
 inline constexpr double kMaxOverheadEntries = 6;    // for each triangle; larger cells hold fewer
 

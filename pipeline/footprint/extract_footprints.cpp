@@ -8,9 +8,9 @@
 
 #include "pipeline/footprint/blocks.h"
 #include "pipeline/footprint/constants.h"
-#include "pipeline/footprint/floors.h"
 #include "pipeline/footprint/for_each.h"
 #include "pipeline/footprint/left_out.h"
+#include "pipeline/footprint/lost_triangles.h"
 #include "pipeline/footprint/object_shape.h"
 #include "pipeline/footprint/separate_obstacles.h"
 #include "runtime/base/array.h"
@@ -58,20 +58,6 @@ bool IsRound(const TownObject& object) {
   return object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp;
 }
 
-// A floor for each building that has none; which of them have one now. Not vector<bool>: threads write beside each
-// other.
-std::vector<char> FindFloors(const FootprintOptions& options, double least_share, std::vector<TownObject>* objects) {
-  std::vector<char> found(objects->size(), false);
-  ForEach(objects->size(), options.threads, [&](size_t i) {
-    TownObject& object = (*objects)[i];
-    if (object.kind != ObstacleKind::kBuilding || !object.foundation.empty()) return;
-    if (!object.is_roof) object.foundation = FloorOf(object.triangles, least_share);
-    found[i] = !object.foundation.empty();
-    object.has_no_floor = !found[i];
-  });
-  return found;
-}
-
 // The objects themselves, of indices.
 std::vector<Neighbours> Chosen(const std::vector<TownObject>& objects,
                                const std::vector<std::vector<size_t>>& indices) {
@@ -98,26 +84,6 @@ std::vector<Shape> ShapesOf(const Site& site, const std::vector<TownObject>& obj
     if (!IsRound(objects[i])) shapes[i] = ShapeOf(site, objects[i], neighbours[i]);
   });
   return shapes;
-}
-
-// Whether triangles were lost all over the town, as in a spoilt file: then some walls are missing whole.
-bool HasLostTriangles(const std::vector<TownObject>& objects, const std::vector<Shape>& shapes) {
-  int missing = 0, all = 0;
-  for (size_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].kind != ObstacleKind::kBuilding) continue;
-    missing += shapes[i].missing_triangles;
-    all += Count(objects[i].triangles);
-  }
-  return missing >= kMinLostTriangles && missing >= kMinLostShare * all;
-}
-
-// What is left of a floor is one as well.
-void FindLostFloors(const Site& site, const std::vector<Neighbours>& neighbours, std::vector<TownObject>* objects,
-                    std::vector<Shape>* shapes) {
-  const std::vector<char> is_new = FindFloors(site.options, kMinFloorLost, objects);
-  ForEach(objects->size(), site.options.threads, [&](size_t i) {
-    if (is_new[i]) (*shapes)[i] = ShapeOf(site, (*objects)[i], neighbours[i]);
-  });
 }
 
 // Closes what is open in the buildings' shells, each with its neighbours and then by itself; says which were open.
@@ -287,8 +253,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   const std::vector<Neighbours> beside = Chosen(objects, adjoining);
   const std::vector<Neighbours> neighbours = NeighboursOf(site, objects, beside);
   std::vector<Shape> shapes = ShapesOf(site, objects, neighbours);
-  const bool has_lost = HasLostTriangles(objects, shapes);
-  if (has_lost) FindLostFloors(site, neighbours, &town.obstacles, &shapes);
+  const bool has_lost = PutBackLost(site, blocks, neighbours, &town.obstacles, &shapes);
   CloseShells(site, objects, blocks, beside, neighbours, has_lost, &shapes);
   FootprintStats counts = Count(objects, shapes);
   if (options.merge_blocks)

@@ -140,15 +140,14 @@ void TakeStripsAsWalls(const TownObject& object, Shape* shape) {
 
 // Closes what is missing from a building's shell; whether that is something in the band.
 bool Repair(const Site& site, const Stand& stand, const TownObject& object, std::vector<Triangle3>* triangles,
-            int* missing_triangles) {
+            int* lost_triangles) {
   if (object.kind != ObstacleKind::kBuilding) return false;
   std::vector<Triangle3> shell = object.triangles;
   shell.insert(shell.end(), object.foundation.begin(), object.foundation.end());
-  const std::vector<Triangle3> missing = MissingTriangles(shell);
-  if (missing.empty()) return false;
-  *missing_triangles = Count(missing);
-  triangles->insert(triangles->end(), missing.begin(), missing.end());
-  return AnyInBand(site, stand, missing);
+  const MissingFromShell missing = MissingTriangles(shell);
+  *lost_triangles = missing.of_faces;
+  triangles->insert(triangles->end(), missing.triangles.begin(), missing.triangles.end());
+  return AnyInBand(site, stand, missing.triangles);
 }
 
 }  // namespace
@@ -200,7 +199,7 @@ Shape ShapeOf(const Site& site, const TownObject& object, const Neighbours& neig
   Shape shape;
   shape.ground_z_m = GroundInTheMiddle(stand, object);
   std::vector<Triangle3> triangles = object.triangles;
-  shape.guessed = Repair(site, stand, object, &triangles, &shape.missing_triangles);
+  shape.guessed = Repair(site, stand, object, &triangles, &shape.lost_triangles);
   const BandParts parts = PartsInBand(site, stand, triangles);
   const Overhead overhead({&triangles});
   const Roofs is_solid(site, stand.ground(0), overhead);

@@ -9,7 +9,7 @@ namespace flaneur {
 // An object's part in the band.
 struct Shape {
   int lines = 0;
-  int missing_triangles = 0;  // from its shell, and put back
+  int lost_triangles = 0;  // surely missing from faces of its shell
   Rings solid;
   std::vector<Segment> loose;  // walls without area
   double open_m = 0;           // length of walls beside nothing solid

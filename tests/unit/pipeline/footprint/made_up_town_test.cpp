@@ -56,6 +56,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"rows without party walls, untagged", kRows, {}, false, 0.99},
         Case{"rows without party walls, dropped", kRows, {.name = "", .drop = true}, false, 0.97},
         Case{"yards without party walls, dropped", kYards, {.name = "", .drop = true}, false, 0.97},
+        Case{"rows, walls of one owner, dropped", kRowsOfOne, {.name = "", .drop = true}, false, 0.99},
+        Case{"yards, walls of one owner, dropped", kYardsOfOne, {.name = "", .drop = true}, false, 0.97},
         Case{"rows without party walls, jittered", kRows, {.name = "", .jitter = true}, false, 0.995},
         Case{"yards, untagged", kYardsOfHouses, {}, false, 0.999},
         Case{"huge, no ground", kHuge, {.name = "", .no_ground = true}, false, 0.998},

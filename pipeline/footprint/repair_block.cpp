@@ -1,0 +1,203 @@
+#include "pipeline/footprint/repair_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+
+#include "pipeline/footprint/constants.h"
+#include "pipeline/footprint/overhead.h"
+#include "pipeline/footprint/plan_raster.h"
+#include "pipeline/footprint/welded_shell.h"
+#include "pipeline/io/triangulate_polygon.h"
+
+namespace flaneur {
+namespace {
+
+using Loop = std::vector<CornerIndex>;
+
+double Dot(const Point3& a, const Point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+double Norm(const Point3& a) { return std::sqrt(Dot(a, a)); }
+Point3 Minus(const Point3& a, const Point3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+struct Origin {
+  size_t member;
+  bool of_foundation;
+};
+
+class BlockRepair {
+ public:
+  explicit BlockRepair(const std::vector<const TownObject*>& houses) : houses_(houses), overhead_(houses.size()) {
+    for (size_t k = 0; k < houses.size(); ++k) {
+      Add(houses[k]->triangles, {k, false});
+      if (houses[k]->foundation_is_given) Add(houses[k]->foundation, {k, true});
+    }
+    shell_ = Weld(all_);
+    edges_ = FindBorderEdges(shell_);
+    borders_ = ToBorders(edges_);
+  }
+
+  std::vector<MissingTriangle> Run() {
+    for (size_t edges = 3; edges <= kMaxHoleEdges; ++edges) FillHolesOf(edges);
+    return std::move(out_);
+  }
+
+ private:
+  void Add(const std::vector<Triangle3>& triangles, Origin origin) {
+    all_.insert(all_.end(), triangles.begin(), triangles.end());
+    origin_.resize(all_.size(), origin);
+  }
+
+  void FillHolesOf(size_t edges) {
+    std::vector<CornerEdge> starts;
+    for (const auto& [a, others] : borders_)
+      for (const CornerIndex b : others)
+        if (a < b) starts.emplace_back(a, b);
+    for (const auto& [a, b] : starts) {
+      if (!IsBorder(a, b)) continue;
+      const Loop loop = ShortestLoop(a, b, edges);
+      if (loop.size() == edges) Fill(loop);
+    }
+  }
+
+  bool IsBorder(CornerIndex a, CornerIndex b) const {
+    const auto entry = borders_.find(a);
+    return entry != borders_.end() && entry->second.contains(b);
+  }
+
+  // The way round from b to a along other borders, a first; empty where it has more than so many edges.
+  Loop ShortestLoop(CornerIndex a, CornerIndex b, size_t most_edges) const {
+    std::map<CornerIndex, CornerIndex> from{{b, b}};
+    std::vector<CornerIndex> front{b};
+    for (size_t length = 1; length < most_edges && !front.empty(); ++length) {
+      std::vector<CornerIndex> next;
+      for (const CornerIndex p : front) {
+        for (const CornerIndex q : borders_.at(p)) {
+          if ((p == b && q == a) || !from.try_emplace(q, p).second) continue;
+          if (q == a) return Backwards(from, a, b);
+          next.push_back(q);
+        }
+      }
+      front = std::move(next);
+    }
+    return {};
+  }
+
+  static Loop Backwards(const std::map<CornerIndex, CornerIndex>& from, CornerIndex a, CornerIndex b) {
+    Loop loop{a};
+    while (loop.back() != b) loop.push_back(from.at(loop.back()));
+    return loop;
+  }
+
+  Triangle3 At3(const Corners& c) const { return {shell_.points[c[0]], shell_.points[c[1]], shell_.points[c[2]]}; }
+
+  void Fill(const Loop& loop) {
+    std::vector<Corners> filling;
+    if (loop.size() == 3) filling = {{loop[0], loop[1], loop[2]}};
+    else if (IsPlane(loop)) filling = Triangulated(loop);
+    else if (loop.size() == 4) filling = AlongPlanes(loop);
+    if (filling.empty() || std::any_of(filling.begin(), filling.end(), [&](Corners t) { return IsThere(t); })) return;
+    std::vector<MissingTriangle> found;
+    for (const Corners& t : filling) {
+      const std::optional<MissingTriangle> one = WithOwner(t, loop);
+      if (!one) return;
+      if (ThicknessOf(one->triangle) > kThinTriangle_m) found.push_back(*one);
+    }
+    for (size_t i = 0; i < loop.size(); ++i) RemoveBorder(loop[i], loop[(i + 1) % loop.size()], &borders_);
+    out_.insert(out_.end(), found.begin(), found.end());
+  }
+
+  bool IsThere(Corners t) const {
+    std::sort(t.begin(), t.end());
+    return std::binary_search(shell_.triangles.begin(), shell_.triangles.end(), t);
+  }
+
+  std::vector<Corners> Triangulated(const Loop& loop) const {
+    std::vector<Point3> ring;
+    for (const CornerIndex i : loop) ring.push_back(shell_.points[i]);
+    std::vector<Corners> out;
+    for (const auto& [a, b, c] : TriangulatePolygon({ring})) out.push_back({loop[a], loop[b], loop[c]});
+    return out;
+  }
+
+  bool IsPlane(const Loop& loop) const {
+    Point3 normal{0, 0, 0};
+    const Point3& start = shell_.points[loop[0]];
+    for (size_t i = 1; i + 1 < loop.size(); ++i) {
+      const Point3 n = NormalOf({start, shell_.points[loop[i]], shell_.points[loop[i + 1]]});
+      normal = {normal.x + n.x, normal.y + n.y, normal.z + n.z};
+    }
+    const double length = Norm(normal);
+    return length > 0 && std::all_of(loop.begin(), loop.end(), [&](CornerIndex i) {
+             return std::abs(Dot(normal, Minus(shell_.points[i], start))) <= kFlatHole_m * length;
+           });
+  }
+
+  // Two triangles that each go on in the plane of one beside them.
+  std::vector<Corners> AlongPlanes(const Loop& q) const {
+    for (size_t i = 0; i < 2; ++i) {
+      const Corners one{q[i], q[i + 1], q[i + 2]}, other{q[i + 2], q[(i + 3) % 4], q[i]};
+      if (GoesOn(one, q) && GoesOn(other, q)) return {one, other};
+    }
+    return {};
+  }
+  bool GoesOn(const Corners& t, const Loop& loop) const {
+    bool any = false;
+    ForNeighbours(t, loop, [&](size_t beside, double) { any |= GoesOnIn(At3(t), all_[beside]); });
+    return any;
+  }
+
+  // visit(triangle, length of the edge) for those beside the hole's edges that are the triangle's.
+  template <typename Visit>
+  void ForNeighbours(const Corners& t, const Loop& loop, const Visit& visit) const {
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const CornerIndex a = loop[i], b = loop[(i + 1) % loop.size()];
+      if (std::find(t.begin(), t.end(), a) == t.end() || std::find(t.begin(), t.end(), b) == t.end()) continue;
+      visit(shell_.source[TriangleAt(edges_, a, b)], Norm(Minus(shell_.points[a], shell_.points[b])));
+    }
+  }
+
+  // By what lies over or under it, then by the plane, then by the longest edge. None: level, and nothing is there.
+  std::optional<MissingTriangle> WithOwner(const Corners& corners, const Loop& loop) {
+    const Triangle3 t = At3(corners);
+    const Point2 middle{(t[0].x + t[1].x + t[2].x) / 3, (t[0].y + t[1].y + t[2].y) / 3};
+    using Rank = std::tuple<bool, bool, double>;
+    std::optional<Rank> best;
+    MissingTriangle out{t};
+    ForNeighbours(corners, loop, [&](size_t beside, double length_m) {
+      const Origin& origin = origin_[beside];
+      const Rank rank{CoverOf(origin.member).Covers(middle, kLowest), GoesOnIn(t, all_[beside]), length_m};
+      if (best && rank <= *best) return;
+      best = rank;
+      out.member = origin.member, out.of_foundation = origin.of_foundation;
+      out.is_of_face |= loop.size() == 3 && std::get<1>(rank);
+    });
+    const bool may_be_open = loop.size() > 3 && !IsWall(t);
+    if (!best || (may_be_open && !std::get<0>(*best))) return std::nullopt;
+    return out;
+  }
+
+  const Overhead& CoverOf(size_t member) {
+    if (!overhead_[member]) overhead_[member].emplace(std::vector{&houses_[member]->triangles});
+    return *overhead_[member];
+  }
+
+  static constexpr double kLowest = -std::numeric_limits<double>::infinity();
+  const std::vector<const TownObject*>& houses_;
+  std::vector<Triangle3> all_;
+  std::vector<Origin> origin_;  // of each
+  WeldedShell shell_;
+  std::vector<BorderEdge> edges_;
+  Borders borders_;
+  std::vector<std::optional<Overhead>> overhead_;
+  std::vector<MissingTriangle> out_;
+};
+
+}  // namespace
+
+std::vector<MissingTriangle> MissingTogether(const std::vector<const TownObject*>& houses) {
+  return BlockRepair(houses).Run();
+}
+
+}  // namespace flaneur

@@ -1,0 +1,59 @@
+// Towns that have lost triangles: what houses have together is put back.
+#include <gtest/gtest.h>
+
+#include "pipeline/footprint/repair_block.h"
+#include "tests/unit/pipeline/footprint/test_town.h"
+
+namespace flaneur {
+namespace {
+
+// Two houses without a wall between them.
+TestTown TwoHouses() {
+  TestTown town;
+  town.Node("west", NodeKind::kBuilding).Box({0, 0, 0}, {8, 10, 6}, {Side::kEast});
+  town.Node("east", NodeKind::kBuilding).Box({8, 0, 0}, {15, 10, 6}, {Side::kWest});
+  return town;
+}
+
+std::vector<MissingTriangle> Missing(const std::vector<TownObject>& houses) {
+  std::vector<const TownObject*> all;
+  for (const TownObject& house : houses) all.push_back(&house);
+  return MissingTogether(all);
+}
+
+TEST(MissingTogether, IsNothingWhereHousesCloseEachOther) {
+  EXPECT_TRUE(Missing(SortTown(TwoHouses().scene, 1).obstacles).empty());
+}
+
+TEST(MissingTogether, IsEachTriangleThatWasLost) {
+  const std::vector<TownObject> houses = SortTown(TwoHouses().scene, 1).obstacles;
+  for (size_t k = 0; k < houses.size(); ++k) {
+    for (size_t i = 0; i < houses[k].triangles.size(); ++i) {
+      std::vector<TownObject> spoilt = houses;
+      spoilt[k].triangles.erase(spoilt[k].triangles.begin() + static_cast<long>(i));
+      const std::vector<MissingTriangle> missing = Missing(spoilt);
+      ASSERT_EQ(missing.size(), 1u);
+      EXPECT_EQ(missing[0].member, k);
+      EXPECT_TRUE(missing[0].is_of_face);
+    }
+  }
+}
+
+TEST(MissingTogether, IsAWholeWallToo) {
+  TestTown town;
+  town.Node("west", NodeKind::kBuilding).Box({0, 0, 0}, {8, 10, 6}, {Side::kEast, Side::kSouth});
+  town.Node("east", NodeKind::kBuilding).Box({8, 0, 0}, {15, 10, 6}, {Side::kWest});
+  const std::vector<MissingTriangle> missing = Missing(SortTown(town.scene, 1).obstacles);
+  ASSERT_EQ(missing.size(), 2u);
+  for (const MissingTriangle& each : missing) EXPECT_EQ(each.member, 0u);
+}
+
+TEST(MissingTogether, IsNoRoofOverAWalledYard) {
+  TestTown town;
+  town.Node("house", NodeKind::kBuilding).Box({0, 0, 0}, {8, 10, 6}, {Side::kEast});
+  town.Node("walls", NodeKind::kBuilding).Box({8, 0, 0}, {15, 10, 6}, {Side::kTop, Side::kBottom});
+  EXPECT_TRUE(Missing(SortTown(town.scene, 1).obstacles).empty());
+}
+
+}  // namespace
+}  // namespace flaneur
