@@ -8,6 +8,8 @@ namespace flaneur {
 // Which objects of a scene are ground.
 inline constexpr double kMaxFlatHeight_m = 0.15;  // a node no higher than this,
 inline constexpr double kMinFlatWidth_m = 1.0;    // and wider than this is ground to walk on
+// Flat things that cover less than this share of what houses do are no town's ground, where it has no other.
+inline constexpr double kMinGroundToHouses = 0.2;
 // What is higher than this share of its length is no ground, whatever its name: mountain_grass, Square Tower.
 inline constexpr double kMaxGroundSteepness = 0.3;
 

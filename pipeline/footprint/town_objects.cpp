@@ -129,31 +129,56 @@ bool IsRoof(const FlatObject& flat, const std::vector<TownObject>& objects, cons
   return high;
 }
 
-// Where a town has no other ground, flat roofs that are objects of their own are not taken for it.
-void TakeRoofsForBuildings(const Scene& scene, const std::vector<FlatObject>& flat, TownObjects* town) {
-  if (flat.empty() || flat.size() != town->ground.size()) return;
+double PlanArea(const std::vector<Triangle3>& triangles) {
+  double area_m2 = 0;
+  for (const auto& [a, b, c] : triangles)
+    area_m2 += std::abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) / 2;
+  return area_m2;
+}
+
+std::vector<bool> AreRoofs(const std::vector<FlatObject>& flat, const std::vector<TownObject>& objects) {
   std::vector<BoundingBox> boxes;
-  for (const TownObject& o : town->obstacles) boxes.push_back({{o.min_m.x, o.min_m.y}, {o.max_m.x, o.max_m.y}});
+  for (const TownObject& o : objects) boxes.push_back({{o.min_m.x, o.min_m.y}, {o.max_m.x, o.max_m.y}});
   const BoxGrid grid(std::move(boxes));
-  std::vector<TownObject> roofs;
+  std::vector<bool> are_roofs;
+  for (const FlatObject& each : flat) are_roofs.push_back(IsRoof(each, objects, grid));
+  return are_roofs;
+}
+
+// Whether what is flat and no roof is large enough beside the houses to be a town's ground.
+bool MakeGround(const std::vector<FlatObject>& flat, const std::vector<bool>& are_roofs, const TownObjects& town) {
+  double ground_m2 = 0, houses_m2 = 0;
+  for (size_t i = 0; i < flat.size(); ++i)
+    if (!are_roofs[i]) ground_m2 += PlanArea(town.ground[flat[i].patch].triangles);
+  for (const TownObject& o : town.obstacles) houses_m2 += PlanArea(o.triangles) / 2;  // roofs and floors
+  return ground_m2 >= kMinGroundToHouses * houses_m2;
+}
+
+// Where a town has no other ground, flat roofs that are objects of their own are not taken for it, nor are a few slabs
+// among many houses.
+void TakeSlabsForBuildings(const Scene& scene, const std::vector<FlatObject>& flat, TownObjects* town) {
+  if (flat.empty() || flat.size() != town->ground.size()) return;
+  const std::vector<bool> are_roofs = AreRoofs(flat, town->obstacles);
+  const bool make_ground = MakeGround(flat, are_roofs, *town);
+  std::vector<TownObject> slabs;
   std::vector<GroundPatch> ground;
   std::vector<std::string> names;
   for (size_t i = 0; i < flat.size(); ++i) {
     GroundPatch& patch = town->ground[flat[i].patch];
-    if (!IsRoof(flat[i], town->obstacles, grid)) {
+    if (make_ground && !are_roofs[i]) {
       ground.push_back(std::move(patch)), names.push_back(std::move(town->flat[i]));
       continue;
     }
     const std::string& name = scene.nodes[flat[i].node].name;
-    TownObject& roof = roofs.emplace_back();
-    roof.name = name.empty() ? "node_" + std::to_string(flat[i].node) : name;
-    roof.triangles = std::move(patch.triangles);
-    roof.min_m = flat[i].min_m, roof.max_m = flat[i].max_m;
-    roof.is_roof = true;
+    TownObject& slab = slabs.emplace_back();
+    slab.name = name.empty() ? "node_" + std::to_string(flat[i].node) : name;
+    slab.triangles = std::move(patch.triangles);
+    slab.min_m = flat[i].min_m, slab.max_m = flat[i].max_m;
+    slab.is_roof = are_roofs[i];
   }
   town->ground = std::move(ground), town->flat = std::move(names);
-  town->obstacles.insert(town->obstacles.end(), std::make_move_iterator(roofs.begin()),
-                         std::make_move_iterator(roofs.end()));
+  town->obstacles.insert(town->obstacles.end(), std::make_move_iterator(slabs.begin()),
+                         std::make_move_iterator(slabs.end()));
 }
 
 }  // namespace
@@ -203,7 +228,7 @@ TownObjects SortTown(const Scene& scene, double scale) {
     foundation.insert(foundation.end(), triangles.begin(), triangles.end());
     town.obstacles[entry->second].foundation_is_given = true;
   }
-  TakeRoofsForBuildings(scene, flat, &town);
+  TakeSlabsForBuildings(scene, flat, &town);
   return town;
 }
 

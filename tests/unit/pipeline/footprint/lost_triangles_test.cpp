@@ -55,5 +55,18 @@ TEST(MissingTogether, IsNoRoofOverAWalledYard) {
   EXPECT_TRUE(Missing(SortTown(town.scene, 1).obstacles).empty());
 }
 
+// Such is a house that has lost its roof. It is no terrain for houses that stand higher and lower on a hill.
+TEST(LostTriangles, ASlabAmongManyHousesIsNoGround) {
+  TestTown town;
+  for (int i = 0; i < 8; ++i) {
+    const float x = 20.0f * static_cast<float>(i), z = 3.0f * static_cast<float>(i);
+    town.Node("house_" + std::to_string(i), NodeKind::kUntagged).Box({x, 0, z}, {x + 10, 10, z + 6});
+  }
+  town.Node("slab", NodeKind::kUntagged).Quad({90, 20, 12}, {100, 20, 12}, {100, 30, 12}, {90, 30, 12});
+  const Footprints f = Extract(town);
+  EXPECT_EQ(f.obstacles.size(), 8u);
+  for (int i = 0; i < 8; ++i) EXPECT_TRUE(Blocked(f, {20.0 * i + 5, 5})) << i;
+}
+
 }  // namespace
 }  // namespace flaneur
