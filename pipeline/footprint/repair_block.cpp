@@ -17,9 +17,7 @@ namespace {
 
 using Loop = std::vector<CornerIndex>;
 
-double Dot(const Point3& a, const Point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-double Norm(const Point3& a) { return std::sqrt(Dot(a, a)); }
-Point3 Minus(const Point3& a, const Point3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double Distance(const Point3& a, const Point3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 struct Origin {
   size_t member;
@@ -95,7 +93,7 @@ class BlockRepair {
   void Fill(const Loop& loop) {
     std::vector<Corners> filling;
     if (loop.size() == 3) filling = {{loop[0], loop[1], loop[2]}};
-    else if (IsPlane(loop)) filling = Triangulated(loop);
+    else if (IsPlane(RingOf(loop))) filling = Triangulated(loop);
     else if (loop.size() == 4) filling = AlongPlanes(loop);
     if (filling.empty() || std::any_of(filling.begin(), filling.end(), [&](Corners t) { return IsThere(t); })) return;
     std::vector<MissingTriangle> found;
@@ -113,25 +111,16 @@ class BlockRepair {
     return std::binary_search(shell_.triangles.begin(), shell_.triangles.end(), t);
   }
 
-  std::vector<Corners> Triangulated(const Loop& loop) const {
+  std::vector<Point3> RingOf(const Loop& loop) const {
     std::vector<Point3> ring;
     for (const CornerIndex i : loop) ring.push_back(shell_.points[i]);
-    std::vector<Corners> out;
-    for (const auto& [a, b, c] : TriangulatePolygon({ring})) out.push_back({loop[a], loop[b], loop[c]});
-    return out;
+    return ring;
   }
 
-  bool IsPlane(const Loop& loop) const {
-    Point3 normal{0, 0, 0};
-    const Point3& start = shell_.points[loop[0]];
-    for (size_t i = 1; i + 1 < loop.size(); ++i) {
-      const Point3 n = NormalOf({start, shell_.points[loop[i]], shell_.points[loop[i + 1]]});
-      normal = {normal.x + n.x, normal.y + n.y, normal.z + n.z};
-    }
-    const double length = Norm(normal);
-    return length > 0 && std::all_of(loop.begin(), loop.end(), [&](CornerIndex i) {
-             return std::abs(Dot(normal, Minus(shell_.points[i], start))) <= kFlatHole_m * length;
-           });
+  std::vector<Corners> Triangulated(const Loop& loop) const {
+    std::vector<Corners> out;
+    for (const auto& [a, b, c] : TriangulatePolygon({RingOf(loop)})) out.push_back({loop[a], loop[b], loop[c]});
+    return out;
   }
 
   // Two triangles that each go on in the plane of one beside them.
@@ -154,7 +143,7 @@ class BlockRepair {
     for (size_t i = 0; i < loop.size(); ++i) {
       const CornerIndex a = loop[i], b = loop[(i + 1) % loop.size()];
       if (std::find(t.begin(), t.end(), a) == t.end() || std::find(t.begin(), t.end(), b) == t.end()) continue;
-      visit(shell_.source[TriangleAt(edges_, a, b)], Norm(Minus(shell_.points[a], shell_.points[b])));
+      visit(shell_.source[TriangleAt(edges_, a, b)], Distance(shell_.points[a], shell_.points[b]));
     }
   }
 

@@ -90,6 +90,7 @@ class Repair {
   void Fill(const std::vector<CornerIndex>& hole) {
     std::vector<Point3> ring;
     for (const CornerIndex i : hole) ring.push_back(shell_.points[i]);
+    if (!IsPlane(ring)) return;  // two walls that met at a corner, say
     for (const auto& [a, b, c] : TriangulatePolygon({ring})) Add({hole[a], hole[b], hole[c]});
   }
 

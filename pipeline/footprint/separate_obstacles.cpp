@@ -59,8 +59,10 @@ bool IsTidy(const Rings& rings, double width_m) {
 void AssignToNeighbours(const Rings& strips, size_t from, const std::vector<size_t>& neighbours, double width_m,
                         std::vector<BoundingBox>* boxes, std::vector<Rings>* enlarged) {
   for (const Polygon& strip : ToPolygons(strips)) {
-    if (SignedArea(strip.outer) < kMinStrip_m2) continue;
-    const Rings grown = Offset({strip.outer}, kAgainst_m);
+    Rings rings{strip.outer};  // a strip may run all round a house
+    rings.insert(rings.end(), strip.holes.begin(), strip.holes.end());
+    if (Area(rings) < kMinStrip_m2) continue;
+    const Rings grown = Offset(rings, kAgainst_m);
     size_t owner = from;
     double most = 0;
     for (const size_t j : neighbours) {

@@ -13,6 +13,12 @@ bool Before(const Point3& a, const Point3& b) { return std::tie(a.x, a.y, a.z) <
 
 double Length(const Point3& a, const Point3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
+// How far along a direction p lies from o; NaN where that is none.
+double Along(const Point3& direction, const Point3& o, const Point3& p) {
+  const auto& [x, y, z] = direction;
+  return (x * (p.x - o.x) + y * (p.y - o.y) + z * (p.z - o.z)) / std::hypot(x, y, z);
+}
+
 // The point of each corner of all triangles, one after the other.
 std::vector<CornerIndex> WeldCorners(const std::vector<Triangle3>& shell, std::vector<Point3>* points) {
   using Cell = std::array<int64_t, 3>;
@@ -105,12 +111,19 @@ Point3 NormalOf(const Triangle3& t) {
 }
 
 bool GoesOnIn(const Triangle3& triangle, const Triangle3& plane) {
-  const Point3 n = NormalOf(plane);
-  const double length = std::hypot(n.x, n.y, n.z);
-  return std::all_of(triangle.begin(), triangle.end(), [&](const Point3& p) {
-    const Point3& o = plane[0];
-    return std::abs(n.x * (p.x - o.x) + n.y * (p.y - o.y) + n.z * (p.z - o.z)) <= kFlatHole_m * length;
-  });
+  const Point3 normal = NormalOf(plane);
+  return std::all_of(triangle.begin(), triangle.end(),
+                     [&](const Point3& p) { return std::abs(Along(normal, plane[0], p)) <= kFlatHole_m; });
+}
+
+bool IsPlane(const std::vector<Point3>& ring) {
+  Point3 normal{0, 0, 0};
+  for (size_t i = 1; i + 1 < ring.size(); ++i) {
+    const Point3 n = NormalOf({ring[0], ring[i], ring[i + 1]});
+    normal = {normal.x + n.x, normal.y + n.y, normal.z + n.z};
+  }
+  return std::all_of(ring.begin(), ring.end(),
+                     [&](const Point3& p) { return std::abs(Along(normal, ring[0], p)) <= kFlatHole_m; });
 }
 
 double ThicknessOf(const Triangle3& t) {

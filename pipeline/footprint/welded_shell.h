@@ -37,7 +37,8 @@ void RemoveBorder(CornerIndex a, CornerIndex b, Borders* borders);
 
 Point3 NormalOf(const Triangle3& triangle);     // as long as twice the area
 double ThicknessOf(const Triangle3& triangle);  // over its longest edge
-// Whether it lies in the plane of another, give or take 2 cm.
+// Give or take 2 cm: whether it lies in the plane of another, and whether a ring's corners lie in one.
 bool GoesOnIn(const Triangle3& triangle, const Triangle3& plane);
+bool IsPlane(const std::vector<Point3>& ring);
 
 }  // namespace flaneur

@@ -160,6 +160,21 @@ TEST(ExtractFootprints, HousesThatShareOneWallAreBothSolid) {
   EXPECT_TRUE(stats.open_shells.empty()) << "nothing is missing from the two together";
 }
 
+// Its two missing walls are its neighbours': no wall runs from corner to corner instead.
+TEST(ExtractFootprints, AHouseAtACornerOfABlockKeepsItsCorner) {
+  TestTown town;
+  town.Ground();
+  const float z = TestTown::kBelow;
+  town.Node("corner", NodeKind::kBuilding).Box({20, 5, z}, {28, 13, 8}, {Side::kWest, Side::kNorth});
+  town.Node("west", NodeKind::kBuilding).Box({10, 5, z}, {20, 13, 8});
+  town.Node("north", NodeKind::kBuilding).Box({20, 13, z}, {28, 23, 8});
+  FootprintOptions exactly;
+  exactly.clearance_m = exactly.tolerance_m = 0;
+  const Footprints f = Extract(town, exactly);
+  ASSERT_EQ(f.obstacles.size(), 3u);
+  EXPECT_LT(Differ(RingsOf(f.obstacles[0]), {Rectangle(20, 5, 28, 13)}), 0.05);
+}
+
 TEST(ExtractFootprints, AHouseWithoutOneWallIsOpenOnThatSideAndNamed) {
   FootprintStats stats;
   const Footprints f = Extract(House({Side::kSouth}), {}, &stats);
