@@ -38,6 +38,11 @@ bool HasLostTriangles(const std::vector<TownObject>& objects, const std::vector<
   return missing >= kMinLostTriangles && missing >= kMinLostShare * all;
 }
 
+void PutBack(const MissingTriangle& missing, TownObject* object) {
+  (missing.of_foundation ? object->foundation : object->triangles).push_back(missing.triangle);
+  if (!object->foundation_is_given) object->foundation.clear();
+}
+
 }  // namespace
 
 std::vector<char> FindFloors(const FootprintOptions& options, double least_share, std::vector<TownObject>* objects) {
@@ -55,21 +60,26 @@ std::vector<char> FindFloors(const FootprintOptions& options, double least_share
 bool PutBackLost(const Site& site, const std::vector<Block>& blocks, const std::vector<Neighbours>& neighbours,
                  std::vector<TownObject>* objects, std::vector<Shape>* shapes) {
   std::vector<std::vector<MissingTriangle>> missing(blocks.size());
-  ForEach(blocks.size(), site.options.threads, [&](size_t k) { missing[k] = MissingOf(*objects, *shapes, blocks[k]); });
+  const auto find_missing = [&] {
+    ForEach(blocks.size(), site.options.threads,
+            [&](size_t k) { missing[k] = MissingOf(*objects, *shapes, blocks[k]); });
+  };
+  find_missing();
   int together = 0;
   for (const std::vector<MissingTriangle>& block : missing)
     for (const MissingTriangle& each : block) together += each.is_of_face;
-
   if (!HasLostTriangles(*objects, *shapes, together)) return false;
   std::vector<char> changed(objects->size(), false);
-  for (const std::vector<MissingTriangle>& block : missing) {
-    for (const MissingTriangle& each : block) {
-      TownObject& object = (*objects)[each.member];
-      (each.of_foundation ? object.foundation : object.triangles).push_back(each.triangle);
-      if (!object.foundation_is_given) object.foundation.clear();
-      changed[each.member] = true;
-    }
-  }
+  ForEach(objects->size(), site.options.threads, [&](size_t i) {
+    TownObject& object = (*objects)[i];
+    if (!IsHouse(object)) return;
+    const std::vector<MissingTriangle> own = MissingTogether({&object}, Holes::kPartsOfFaces);
+    for (const MissingTriangle& each : own) PutBack(each, &object);
+    changed[i] = !own.empty();
+  });
+  find_missing();
+  for (const std::vector<MissingTriangle>& block : missing)
+    for (const MissingTriangle& each : block) PutBack(each, &(*objects)[each.member]), changed[each.member] = true;
   const std::vector<char> has_new_floor = FindFloors(site.options, kMinFloorLost, objects);
   ForEach(objects->size(), site.options.threads, [&](size_t i) {
     if (!changed[i] && !has_new_floor[i]) return;

@@ -263,6 +263,11 @@ Rings WithNotches(Rings ground, const TownObject& object, const Neighbours& besi
   return Offset(Offset(UnionOfAreas(ground), kSeamInPlan_m), -kSeamInPlan_m);
 }
 
+void AppendWalls(const Site& site, const TownObject& object, std::vector<Segment>* to) {
+  const std::vector<Segment> walls = Lines(PartsInBand(site, Stand(site, object), object.triangles));
+  to->insert(to->end(), walls.begin(), walls.end());
+}
+
 double LeastWalled(const TownObject& object, bool has_lost) {
   if (has_lost) return kMinWalledLost;
   return object.foundation_is_given ? kMinWalledGround : kMinWalledFloor;
@@ -279,10 +284,9 @@ void CloseGround(const Site& site, const TownObject& object, const Neighbours& b
   std::vector<Segment> walls = shape->loose;
   const std::vector<Segment> outline = Outline(shape->solid);
   walls.insert(walls.end(), outline.begin(), outline.end());
-  if (is_lost) {  // walls that lie against others' are none of the loose ones
-    const std::vector<Segment> own = Lines(PartsInBand(site, Stand(site, object), object.triangles));
-    walls.insert(walls.end(), own.begin(), own.end());
-  }
+  if (is_lost) AppendWalls(site, object, &walls);  // those that lie against others' are none of the loose ones
+  for (const TownObject* other : beside)           // one house may own the walls of all
+    if (has_lost) AppendWalls(site, *other, &walls);
   if (walls.empty()) return;
   const Overhead overhead({&object.triangles});
   const LocalGround level = Level(at.z);

@@ -26,7 +26,8 @@ struct Origin {
 
 class BlockRepair {
  public:
-  explicit BlockRepair(const std::vector<const TownObject*>& houses) : houses_(houses), overhead_(houses.size()) {
+  BlockRepair(const std::vector<const TownObject*>& houses, Holes holes)
+      : houses_(houses), holes_(holes), overhead_(houses.size()) {
     for (size_t k = 0; k < houses.size(); ++k) {
       Add(houses[k]->triangles, {k, false});
       if (houses[k]->foundation_is_given) Add(houses[k]->foundation, {k, true});
@@ -96,6 +97,8 @@ class BlockRepair {
     else if (IsPlane(RingOf(loop))) filling = Triangulated(loop);
     else if (loop.size() == 4) filling = AlongPlanes(loop);
     if (filling.empty() || std::any_of(filling.begin(), filling.end(), [&](Corners t) { return IsThere(t); })) return;
+    const auto goes_on = [&](const Corners& t) { return GoesOn(t, loop); };
+    if (holes_ == Holes::kPartsOfFaces && !std::all_of(filling.begin(), filling.end(), goes_on)) return;
     std::vector<MissingTriangle> found;
     for (const Corners& t : filling) {
       const std::optional<MissingTriangle> one = WithOwner(t, loop);
@@ -174,6 +177,7 @@ class BlockRepair {
 
   static constexpr double kLowest = -std::numeric_limits<double>::infinity();
   const std::vector<const TownObject*>& houses_;
+  const Holes holes_;
   std::vector<Triangle3> all_;
   std::vector<Origin> origin_;  // of each
   WeldedShell shell_;
@@ -185,8 +189,8 @@ class BlockRepair {
 
 }  // namespace
 
-std::vector<MissingTriangle> MissingTogether(const std::vector<const TownObject*>& houses) {
-  return BlockRepair(houses).Run();
+std::vector<MissingTriangle> MissingTogether(const std::vector<const TownObject*>& houses, Holes holes) {
+  return BlockRepair(houses, holes).Run();
 }
 
 }  // namespace flaneur

@@ -79,17 +79,33 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-// One house's strip may run all round another.
-TEST(MadeUpTowns, WallsRoundABlockSwallowNobody) {
-  const made_up::Town town =
-      made_up::Build({"", PartyWalls::kOneOwner, false, true, false, false, false, false}, 12, 31);
-  const Scene scene = ToScene(town, Tags::kCityModel);
+std::vector<figures::BuildingFit> FitsOf(const Scene& clean, const Scene& town) {
   FootprintOptions exactly;
   exactly.clearance_m = exactly.tolerance_m = 0;
   Footprints footprints;
   FootprintStats stats;
-  ASSERT_EQ(ExtractFootprints(scene, exactly, &footprints, &stats).message, "");
-  for (const figures::BuildingFit& fit : figures::Fits(scene, footprints, stats)) EXPECT_GT(fit.iou, 0.99) << fit.name;
+  EXPECT_EQ(ExtractFootprints(town, exactly, &footprints, &stats).message, "");
+  return figures::Fits(clean, footprints, stats);
+}
+
+// One house's strip may run all round another.
+TEST(MadeUpTowns, WallsRoundABlockSwallowNobody) {
+  const Scene town = ToScene(made_up::Build(kYardsOfOne, 12, 31), Tags::kCityModel);
+  for (const figures::BuildingFit& fit : FitsOf(town, town)) EXPECT_GT(fit.iou, 0.99) << fit.name;
+}
+
+// Where a block's walls have lost too much to enclose it, they still stand round its houses' floors.
+TEST(MadeUpTowns, WallsOfOneOwnerStandRoundFloorsWhereSomeAreLost) {
+  const Scene town = ToScene(made_up::Build(kRowsOfOne, 12, 301), Tags::kCityModel);
+  const Scene spoilt = figures::Untagged(figures::Spoilt(town, {.name = "", .drop = true}));
+  EXPECT_GT(figures::MeanIou(FitsOf(town, spoilt)), 0.99);
+}
+
+// Holes at corners of faces, and several in one house, close by the planes that they lie in.
+TEST(MadeUpTowns, ClosedHousesThatHaveLostTrianglesKeepTheirGround) {
+  const Scene town = ToScene(made_up::Build(kYardsOfHouses, 12, 302), Tags::kCityModel);
+  const Scene spoilt = figures::Untagged(figures::Spoilt(town, {.name = "", .drop = true}));
+  EXPECT_GT(figures::MeanIou(FitsOf(town, spoilt)), 0.999);
 }
 
 TEST(MadeUpTowns, NeighboursDoNotOverlap) {
