@@ -126,7 +126,8 @@ GroundRaster BaseOf(const TownObject& object, const Neighbours& neighbours) {
 
 std::vector<LocalGround> GroundsUnder(const TownObject& object, const Neighbours& neighbours) {
   GroundRaster low;
-  if (!IsLevel(object.foundation, &low)) low = BaseOf(object, neighbours);
+  if (object.foundation.empty() && object.level_feet_m) low = Level(static_cast<float>(*object.level_feet_m));
+  else if (!IsLevel(object.foundation, &low)) low = BaseOf(object, neighbours);
   Flatten(&low);
   GroundRaster high = low;
   TakeGreatest(1, &high);

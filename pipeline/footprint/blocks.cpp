@@ -20,6 +20,7 @@ TownObject Merged(const std::vector<TownObject>& objects, const Block& block) {
     const TownObject& o = objects[block[k]];
     all.triangles.insert(all.triangles.end(), o.triangles.begin(), o.triangles.end());
     all.has_no_floor |= o.has_no_floor;
+    if (o.level_feet_m) all.level_feet_m = o.level_feet_m;
     all.foundation_is_given |= o.foundation_is_given;
     all.foundation.insert(all.foundation.end(), o.foundation.begin(), o.foundation.end());
     all.min_m = {std::min(all.min_m.x, o.min_m.x), std::min(all.min_m.y, o.min_m.y), std::min(all.min_m.z, o.min_m.z)};

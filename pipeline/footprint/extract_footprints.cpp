@@ -8,6 +8,7 @@
 
 #include "pipeline/footprint/blocks.h"
 #include "pipeline/footprint/constants.h"
+#include "pipeline/footprint/feet.h"
 #include "pipeline/footprint/for_each.h"
 #include "pipeline/footprint/left_out.h"
 #include "pipeline/footprint/lost_triangles.h"
@@ -250,6 +251,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
 
   const std::vector<std::vector<size_t>> adjoining = Adjoining(objects);
   const std::vector<Block> blocks = BlocksOf(adjoining);
+  if (!site.ground) FindLevelFeet(blocks, options.threads, &town.obstacles);
   const std::vector<Neighbours> beside = Chosen(objects, adjoining);
   const std::vector<Neighbours> neighbours = NeighboursOf(site, objects, beside);
   std::vector<Shape> shapes = ShapesOf(site, objects, neighbours);

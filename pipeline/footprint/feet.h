@@ -1,0 +1,14 @@
+// Where houses without floors stand, where that is plain from their shells. Internal to the extraction.
+#pragma once
+#include <vector>
+
+#include "pipeline/footprint/blocks.h"
+
+namespace flaneur {
+
+// Finds for each block with houses that have no floor the height at which the shell that its houses have together is
+// open below, if it lies lowest and is so everywhere: what is open elsewhere must lie over what is enclosed there. None
+// where houses stand on several heights.
+void FindLevelFeet(const std::vector<Block>& blocks, int threads, std::vector<TownObject>* objects);
+
+}  // namespace flaneur

@@ -1,0 +1,46 @@
+// Where houses without floors stand.
+#include "pipeline/footprint/feet.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/pipeline/footprint/test_town.h"
+
+namespace flaneur {
+namespace {
+
+std::optional<double> FeetOfFirst(const TestTown& town) {
+  std::vector<TownObject> objects = SortTown(town.scene, 1).obstacles;
+  for (TownObject& object : objects) object.has_no_floor = true;
+  FindLevelFeet(BlocksOf(Adjoining(objects)), 1, &objects);
+  return objects[0].level_feet_m;
+}
+
+TEST(LevelFeet, AreWhereTheShellOfABlockIsOpenBelow) {
+  TestTown town;
+  town.Node("west", NodeKind::kBuilding).Box({0, 0, 3}, {8, 10, 9}, {Side::kEast, Side::kBottom});
+  town.Node("east", NodeKind::kBuilding).Box({8, 0, 3}, {15, 10, 9}, {Side::kWest, Side::kBottom});
+  EXPECT_EQ(FeetOfFirst(town), 3);
+}
+
+TEST(LevelFeet, DoNotMindWhatStandsOnARoof) {
+  TestTown town;
+  town.Node("house", NodeKind::kBuilding).Box({0, 0, 3}, {8, 10, 9}, {Side::kBottom});
+  town.Box({2, 2, 9}, {4, 4, 11}, {Side::kBottom});
+  EXPECT_EQ(FeetOfFirst(town), 3);
+}
+
+TEST(LevelFeet, AreUnknownWhereAHouseBesideStandsHigher) {
+  TestTown town;
+  town.Node("low", NodeKind::kBuilding).Box({0, 0, 3}, {8, 10, 9}, {Side::kBottom});
+  town.Node("high", NodeKind::kBuilding).Box({8, 0, 5}, {15, 10, 11}, {Side::kBottom});
+  EXPECT_EQ(FeetOfFirst(town), std::nullopt);
+}
+
+TEST(LevelFeet, AreUnknownWhereAHouseIsClosed) {
+  TestTown town;
+  town.Node("house", NodeKind::kBuilding).Box({0, 0, 3}, {8, 10, 9});
+  EXPECT_EQ(FeetOfFirst(town), std::nullopt);
+}
+
+}  // namespace
+}  // namespace flaneur
