@@ -17,7 +17,25 @@ namespace {
 
 using Loop = std::vector<CornerIndex>;
 
+using Segment3 = std::array<Point3, 2>;
+
 double Distance(const Point3& a, const Point3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+// How far the middle of a triangle lies to the left of an edge, in the plane that the normal tells; no unit.
+double LeftOf(const Segment3& edge, const Point3& normal, const Triangle3& t) {
+  const auto& [a, b] = edge;
+  const auto& [x, y, z] = normal;
+  const Point3 u{b.x - a.x, b.y - a.y, b.z - a.z};
+  const auto from_a = [&](double p, double q, double r, double start) { return (p + q + r) / 3 - start; };
+  return (y * u.z - z * u.y) * from_a(t[0].x, t[1].x, t[2].x, a.x) +
+         (z * u.x - x * u.z) * from_a(t[0].y, t[1].y, t[2].y, a.y) +
+         (x * u.y - y * u.x) * from_a(t[0].z, t[1].z, t[2].z, a.z);
+}
+
+bool AreAcross(const Triangle3& a, const Triangle3& b, const Segment3& edge) {
+  const Point3 normal = NormalOf(b);
+  return LeftOf(edge, normal, a) * LeftOf(edge, normal, b) < 0;
+}
 
 struct Origin {
   size_t member;
@@ -92,10 +110,7 @@ class BlockRepair {
   Triangle3 At3(const Corners& c) const { return {shell_.points[c[0]], shell_.points[c[1]], shell_.points[c[2]]}; }
 
   void Fill(const Loop& loop) {
-    std::vector<Corners> filling;
-    if (loop.size() == 3) filling = {{loop[0], loop[1], loop[2]}};
-    else if (IsPlane(RingOf(loop))) filling = Triangulated(loop);
-    else if (loop.size() == 4) filling = AlongPlanes(loop);
+    const std::vector<Corners> filling = FillingOf(loop);
     if (filling.empty() || std::any_of(filling.begin(), filling.end(), [&](Corners t) { return IsThere(t); })) return;
     const auto goes_on = [&](const Corners& t) { return GoesOn(t, loop); };
     if (holes_ == Holes::kPartsOfFaces && !std::all_of(filling.begin(), filling.end(), goes_on)) return;
@@ -126,46 +141,68 @@ class BlockRepair {
     return out;
   }
 
-  // Two triangles that each go on in the plane of one beside them.
-  std::vector<Corners> AlongPlanes(const Loop& q) const {
-    for (size_t i = 0; i < 2; ++i) {
-      const Corners one{q[i], q[i + 1], q[i + 2]}, other{q[i + 2], q[(i + 3) % 4], q[i]};
-      if (GoesOn(one, q) && GoesOn(other, q)) return {one, other};
+  // Corners that go on in the planes beside them are cut off until the rest is plane; nothing where it never is.
+  std::vector<Corners> FillingOf(const Loop& loop) const {
+    std::vector<Corners> filling;
+    Loop rest = loop;
+    while (rest.size() > 3 && !IsPlane(RingOf(rest))) {
+      const std::optional<size_t> ear = FindEar(rest, loop);
+      if (!ear) return {};
+      filling.push_back(EarAt(rest, *ear));
+      rest.erase(rest.begin() + static_cast<long>(*ear));
     }
-    return {};
+    const std::vector<Corners> plane = rest.size() == 3 ? std::vector{EarAt(rest, 1)} : Triangulated(rest);
+    const auto goes_on = [&](const Corners& t) { return GoesOn(t, loop); };
+    if (!filling.empty() && std::none_of(plane.begin(), plane.end(), goes_on)) return {};
+    filling.insert(filling.end(), plane.begin(), plane.end());
+    return filling;
   }
+  static Corners EarAt(const Loop& loop, size_t i) {
+    return {loop[(i + loop.size() - 1) % loop.size()], loop[i], loop[(i + 1) % loop.size()]};
+  }
+  std::optional<size_t> FindEar(const Loop& rest, const Loop& loop) const {
+    for (size_t i = 0; i < rest.size(); ++i)
+      if (GoesOn(EarAt(rest, i), loop) && !IsThere(EarAt(rest, i))) return i;
+    return std::nullopt;
+  }
+
+  // Whether it lies in the plane of one beside it, across their edge.
   bool GoesOn(const Corners& t, const Loop& loop) const {
     bool any = false;
-    ForNeighbours(t, loop, [&](size_t beside, double) { any |= GoesOnIn(At3(t), all_[beside]); });
+    ForNeighbours(t, loop, [&](size_t beside, const Segment3& edge) {
+      any |= GoesOnIn(At3(t), all_[beside]) && AreAcross(At3(t), all_[beside], edge);
+    });
     return any;
   }
 
-  // visit(triangle, length of the edge) for those beside the hole's edges that are the triangle's.
+  // visit(triangle, edge) for those beside the hole's edges that are the triangle's.
   template <typename Visit>
   void ForNeighbours(const Corners& t, const Loop& loop, const Visit& visit) const {
     for (size_t i = 0; i < loop.size(); ++i) {
       const CornerIndex a = loop[i], b = loop[(i + 1) % loop.size()];
       if (std::find(t.begin(), t.end(), a) == t.end() || std::find(t.begin(), t.end(), b) == t.end()) continue;
-      visit(shell_.source[TriangleAt(edges_, a, b)], Distance(shell_.points[a], shell_.points[b]));
+      visit(shell_.source[TriangleAt(edges_, a, b)], Segment3{shell_.points[a], shell_.points[b]});
     }
   }
 
-  // By what lies over or under it, then by the plane, then by the longest edge. None: level, and nothing is there.
+  // By what lies over or under it, then by the plane, then by the longest edge. None: level, of no
+  // face that is there, and nothing is over or under it.
   std::optional<MissingTriangle> WithOwner(const Corners& corners, const Loop& loop) {
     const Triangle3 t = At3(corners);
     const Point2 middle{(t[0].x + t[1].x + t[2].x) / 3, (t[0].y + t[1].y + t[2].y) / 3};
     using Rank = std::tuple<bool, bool, double>;
     std::optional<Rank> best;
     MissingTriangle out{t};
-    ForNeighbours(corners, loop, [&](size_t beside, double length_m) {
+    ForNeighbours(corners, loop, [&](size_t beside, const Segment3& edge) {
       const Origin& origin = origin_[beside];
-      const Rank rank{CoverOf(origin.member).Covers(middle, kLowest), GoesOnIn(t, all_[beside]), length_m};
+      const Rank rank{CoverOf(origin.member).Covers(middle, kLowest), GoesOnIn(t, all_[beside]),
+                      Distance(edge[0], edge[1])};
       if (best && rank <= *best) return;
       best = rank;
       out.member = origin.member, out.of_foundation = origin.of_foundation;
       out.is_of_face |= loop.size() == 3 && std::get<1>(rank);
     });
-    const bool may_be_open = loop.size() > 3 && !IsWall(t);
+    const bool may_be_open = loop.size() > 3 && !IsWall(t) && !GoesOn(corners, loop);
     if (!best || (may_be_open && !std::get<0>(*best))) return std::nullopt;
     return out;
   }

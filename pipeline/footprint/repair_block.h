@@ -14,10 +14,10 @@ struct MissingTriangle {
 };
 
 // Houses that share walls are open each, and closed together. Returns triangles for the holes of up to eight edges in
-// what they make together, shortest first: such as three edges bound, and larger ones that are plane or, of four edges,
-// go on in the planes beside them; of parts of faces only such as go on in a plane. A level hole must have something of
-// the house over or under it. Each triangle goes to the house that lies over or under it, else to the one in whose
-// plane it goes on.
+// what they make together, shortest first: such as are plane, or become so once corners that go on in the planes beside
+// them are cut off; of parts of faces only such as go on in a plane. A whole level face must have something of the
+// house over or under it. Each triangle goes to the house that lies over or under it, else to the one in whose plane it
+// goes on.
 enum class Holes { kAll, kPartsOfFaces };
 std::vector<MissingTriangle> MissingTogether(const std::vector<const TownObject*>& houses, Holes holes = Holes::kAll);
 

@@ -48,6 +48,24 @@ TEST(MissingTogether, IsAWholeWallToo) {
   for (const MissingTriangle& each : missing) EXPECT_EQ(each.member, 0u);
 }
 
+// A wall's and a floor's with an edge in common leave a hole that is not plane.
+TEST(MissingTogether, GoesOnInThePlanesBesideIt) {
+  TestTown town;
+  town.Node("house", NodeKind::kBuilding).Box({0, 0, 0}, {8, 10, 6});
+  TownObject house = SortTown(town.scene, 1).obstacles[0];
+  const auto is_lost = [](const Triangle3& t) {  // the lower of the southern wall's, and the southern of the floor's
+    const auto lies = [&](auto test) { return std::all_of(t.begin(), t.end(), test); };
+    const auto count = [&](auto test) { return std::count_if(t.begin(), t.end(), test); };
+    const auto is_south = [](const Point3& p) { return p.y == 0; };
+    const auto is_low = [](const Point3& p) { return p.z == 0; };
+    return (lies(is_south) && count(is_low) == 2) || (lies(is_low) && count(is_south) == 2);
+  };
+  ASSERT_EQ(std::erase_if(house.triangles, is_lost), 2u);
+  const std::vector<MissingTriangle> missing = MissingTogether({&house}, Holes::kPartsOfFaces);
+  EXPECT_EQ(missing.size(), 2u);
+  for (const MissingTriangle& each : missing) EXPECT_TRUE(is_lost(each.triangle));
+}
+
 TEST(MissingTogether, IsNoRoofOverAWalledYard) {
   TestTown town;
   town.Node("house", NodeKind::kBuilding).Box({0, 0, 0}, {8, 10, 6}, {Side::kEast});
