@@ -79,8 +79,10 @@ inline constexpr double kMinWalledGround = 0.7;  // of its outline is walls, whe
 inline constexpr double kMinWalledFloor = 0.85;  // likewise on a floor that was found
 inline constexpr double kMinWalledLost = 0.3;    // likewise in a town that has lost triangles
 inline constexpr double kMinFloor = 0.2;         // of a building lies over its floor
-inline constexpr double kMinFloorLost = 0.15;    // likewise in a town that has lost triangles
-inline constexpr double kMinFloorOfStrips = 4;   // times what walls that lean by a hair cover of it
+inline constexpr double kMinPlainFloor =
+    0.999;  // times what is not upright over them: the lowest faces are all of a floor
+inline constexpr double kMinFloorLost = 0.15;   // likewise in a town that has lost triangles
+inline constexpr double kMinFloorOfStrips = 4;  // times what walls that lean by a hair cover of it
 inline constexpr double kMinLostShare = 0.01;  // of a town's triangles missing singly, and others with their neighbours
 inline constexpr int kMinLostTriangles = 5;    // and so many at least: the town has lost triangles
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/plan_raster.h"
@@ -145,10 +146,34 @@ class FloorFinder {
   std::vector<char> is_floor_;
 };
 
+double PlanArea(const Triangle3& t) {
+  const auto& [a, b, c] = t;
+  return std::abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) / 2;
+}
+
+// The lowest level faces, if all that is not upright fits over them: a house on one floor, as most are. Then there is
+// no need to ask cell by cell. Else nothing.
+std::vector<Triangle3> PlainFloorOf(const std::vector<Triangle3>& triangles) {
+  double lowest = std::numeric_limits<double>::max();
+  for (const Triangle3& t : triangles)
+    for (const Point3& p : t) lowest = std::min(lowest, p.z);
+  std::vector<Triangle3> floor;
+  double floor_m2 = 0, others_m2 = 0;
+  for (const Triangle3& t : triangles) {
+    const bool is_low = std::all_of(t.begin(), t.end(), [&](const Point3& p) { return p.z <= lowest + kFoot_m; });
+    if (is_low && IsLevel(t)) floor.push_back(t), floor_m2 += PlanArea(t);
+    else if (!IsWall(t)) others_m2 += PlanArea(t);
+  }
+  if (floor_m2 < kMinPlainFloor * others_m2) floor.clear();
+  return floor;
+}
+
 }  // namespace
 
 std::vector<Triangle3> FloorOf(const std::vector<Triangle3>& triangles, double least_share) {
-  return triangles.empty() ? std::vector<Triangle3>() : FloorFinder(triangles).Run(least_share);
+  if (triangles.empty()) return {};
+  std::vector<Triangle3> floor = PlainFloorOf(triangles);
+  return floor.empty() ? FloorFinder(triangles).Run(least_share) : floor;
 }
 
 }  // namespace flaneur
