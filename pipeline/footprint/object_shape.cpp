@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "pipeline/footprint/bridges.h"
 #include "pipeline/footprint/constants.h"
@@ -138,6 +139,22 @@ void TakeStripsAsWalls(const TownObject& object, Shape* shape) {
   SetLoose(lines, shape);
 }
 
+// Where a town has no other ground a floor that was found is the ground, and not in anybody's way.
+std::vector<Triangle3> WithoutFloor(const Site& site, const TownObject& object, std::vector<Triangle3> triangles) {
+  if (site.ground || object.foundation_is_given || object.foundation.empty()) return triangles;
+  const auto before = [](const Triangle3& s, const Triangle3& t) {
+    const auto less = [](const Point3& p, const Point3& q) {
+      return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+    };
+    return std::lexicographical_compare(s.begin(), s.end(), t.begin(), t.end(), less);
+  };
+  std::vector<Triangle3> floor = object.foundation;
+  std::sort(floor.begin(), floor.end(), before);
+  std::erase_if(triangles,
+                [&](const Triangle3& t) { return std::binary_search(floor.begin(), floor.end(), t, before); });
+  return triangles;
+}
+
 // Closes what is missing from a building's shell; whether that is something in the band.
 bool Repair(const Site& site, const Stand& stand, const TownObject& object, std::vector<Triangle3>* triangles,
             int* lost_triangles) {
@@ -200,7 +217,7 @@ Shape ShapeOf(const Site& site, const TownObject& object, const Neighbours& neig
   shape.ground_z_m = GroundInTheMiddle(stand, object);
   std::vector<Triangle3> triangles = object.triangles;
   shape.guessed = Repair(site, stand, object, &triangles, &shape.lost_triangles);
-  const BandParts parts = PartsInBand(site, stand, triangles);
+  const BandParts parts = PartsInBand(site, stand, WithoutFloor(site, object, triangles));
   const Overhead overhead({&triangles});
   const Roofs is_solid(site, stand.ground(0), overhead);
   shape.lines = static_cast<int>(parts.walls.size() + parts.areas.size());
@@ -264,7 +281,8 @@ Rings WithNotches(Rings ground, const TownObject& object, const Neighbours& besi
 }
 
 void AppendWalls(const Site& site, const TownObject& object, std::vector<Segment>* to) {
-  const std::vector<Segment> walls = Lines(PartsInBand(site, Stand(site, object), object.triangles));
+  const std::vector<Segment> walls =
+      Lines(PartsInBand(site, Stand(site, object), WithoutFloor(site, object, object.triangles)));
   to->insert(to->end(), walls.begin(), walls.end());
 }
 
