@@ -29,7 +29,12 @@ Rings StandingRoom(const std::vector<const TownObject*>& houses, const std::vect
   return Offset(EncloseRegions(CutWhereTheyMeet(feet), is_roofed).solid, kFoot_m);
 }
 
-std::optional<double> LevelFeetOf(const std::vector<const TownObject*>& houses) {
+struct LevelFeet {
+  double height_m;
+  std::vector<Segment> feet;
+};
+
+std::optional<LevelFeet> LevelFeetOf(const std::vector<const TownObject*>& houses) {
   std::vector<Triangle3> all;
   for (const TownObject* house : houses) all.insert(all.end(), house->triangles.begin(), house->triangles.end());
   const WeldedShell shell = Weld(all);
@@ -41,27 +46,59 @@ std::optional<double> LevelFeetOf(const std::vector<const TownObject*>& houses) 
     (std::max(a.z, b.z) <= lowest + kLevelGround_m ? feet : others).push_back(InPlan(a, b));
   }
   if (feet.empty()) return std::nullopt;
-  if (others.empty()) return lowest;
+  if (others.empty()) return LevelFeet{lowest, std::move(feet)};
   const Rings room = StandingRoom(houses, feet);
   const bool all_over = std::all_of(others.begin(), others.end(), [&](const Segment& s) {
     return Contains(room, {(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2});
   });
-  return all_over ? std::optional(lowest) : std::nullopt;
+  return all_over ? std::optional(LevelFeet{lowest, std::move(feet)}) : std::nullopt;
+}
+
+double LowestOf(const std::vector<Triangle3>& triangles) {
+  double lowest = std::numeric_limits<double>::max();
+  for (const Triangle3& t : triangles)
+    for (const Point3& p : t) lowest = std::min(lowest, p.z);
+  return lowest;
+}
+
+bool HasHighFloor(const TownObject& house, double feet_m) {
+  return !house.foundation_is_given && !house.foundation.empty() && LowestOf(house.foundation) > feet_m + kFoot_m;
+}
+
+bool LiesOver(const Rings& room, const std::vector<Triangle3>& faces) {
+  return std::all_of(faces.begin(), faces.end(), [&](const Triangle3& t) {
+    return Contains(room, {(t[0].x + t[1].x + t[2].x) / 3, (t[0].y + t[1].y + t[2].y) / 3});
+  });
+}
+
+void FindLevelFeet(const Block& block, std::vector<TownObject>* objects) {
+  std::vector<const TownObject*> houses;
+  double lowest_m = std::numeric_limits<double>::max();
+  for (const size_t i : block) {
+    const TownObject& object = (*objects)[i];
+    if (object.kind != ObstacleKind::kBuilding) continue;
+    houses.push_back(&object);
+    lowest_m = std::min(lowest_m, object.min_m.z);
+  }
+  const auto asks = [&](const TownObject* house) { return house->has_no_floor || HasHighFloor(*house, lowest_m); };
+  if (std::none_of(houses.begin(), houses.end(), asks)) return;
+  const std::optional<LevelFeet> found = LevelFeetOf(houses);
+  if (!found) return;
+  std::optional<Rings> room;
+  for (const size_t i : block) {
+    TownObject& object = (*objects)[i];
+    if (object.kind == ObstacleKind::kBuilding && HasHighFloor(object, found->height_m)) {
+      if (!room) room = StandingRoom(houses, found->feet);
+      if (LiesOver(*room, object.foundation)) object.foundation.clear(), object.has_no_floor = true;
+    }
+    if (object.has_no_floor) object.level_feet_m = found->height_m;
+  }
 }
 
 }  // namespace
 
 void FindLevelFeet(const std::vector<Block>& blocks, int threads, std::vector<TownObject>* objects) {
-  ForEach(blocks.size(), threads, [&](size_t k) {
-    std::vector<const TownObject*> houses;
-    for (const size_t i : blocks[k])
-      if ((*objects)[i].kind == ObstacleKind::kBuilding) houses.push_back(&(*objects)[i]);
-    const auto has_no_floor = [](const TownObject* house) { return house->has_no_floor; };
-    if (std::none_of(houses.begin(), houses.end(), has_no_floor)) return;
-    const std::optional<double> feet_m = LevelFeetOf(houses);
-    for (const size_t i : blocks[k])
-      if ((*objects)[i].has_no_floor) (*objects)[i].level_feet_m = feet_m;
-  });
+  ForEach(blocks.size(), threads, [&](size_t k) { FindLevelFeet(blocks[k], objects); });
 }
 
 }  // namespace flaneur

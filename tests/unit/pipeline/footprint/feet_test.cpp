@@ -36,6 +36,21 @@ TEST(LevelFeet, AreUnknownWhereAHouseBesideStandsHigher) {
   EXPECT_EQ(FeetOfFirst(town), std::nullopt);
 }
 
+// One house owns the walls under another's low roof.
+TEST(LevelFeet, LieBelowTheRoofOfALowPart) {
+  TestTown town;
+  town.Node("owner", NodeKind::kBuilding).Box({0, 0, 3}, {8, 10, 9}, {Side::kEast, Side::kBottom});
+  town.Box({8, 0, 3}, {15, 10, 6}, {Side::kWest, Side::kTop, Side::kBottom});
+  town.Node("low", NodeKind::kBuilding).Quad({8, 0, 6}, {15, 0, 6}, {15, 10, 6}, {8, 10, 6});
+  std::vector<TownObject> objects = SortTown(town.scene, 1).obstacles;
+  ASSERT_EQ(objects.size(), 2u);
+  objects[0].has_no_floor = true;
+  objects[1].foundation = objects[1].triangles;  // as it was found
+  FindLevelFeet(BlocksOf(Adjoining(objects)), 1, &objects);
+  EXPECT_TRUE(objects[1].foundation.empty());
+  EXPECT_EQ(objects[1].level_feet_m, 3);
+}
+
 TEST(LevelFeet, AreUnknownWhereAHouseIsClosed) {
   TestTown town;
   town.Node("house", NodeKind::kBuilding).Box({0, 0, 3}, {8, 10, 9});
