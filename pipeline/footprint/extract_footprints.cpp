@@ -234,8 +234,11 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
                         FootprintStats* stats, std::vector<std::string>* warnings) {
   if (Error error = CheckOptions(options)) return error;
   TownObjects town = SortTown(scene, options.scale);
-  FindFloors(options, kMinFloor, &town.obstacles);
   const std::vector<TownObject>& objects = town.obstacles;
+  const std::vector<std::vector<size_t>> adjoining = Adjoining(objects);
+  const std::vector<Block> blocks = BlocksOf(adjoining);
+  if (town.ground.empty()) FindLevelFeet(blocks, options.threads, &town.obstacles);
+  FindFloors(options, kMinFloor, &town.obstacles);
   if (town.ground.empty() && objects.empty()) return Fail("the town has neither ground nor obstacles");
   if (Error error = CheckExtents(town)) return error;
   if (warnings) WarnOfUnits(town, warnings);
@@ -249,9 +252,6 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   }
   const Site site{options, ground ? &*ground : nullptr};
 
-  const std::vector<std::vector<size_t>> adjoining = Adjoining(objects);
-  const std::vector<Block> blocks = BlocksOf(adjoining);
-  if (!site.ground) FindLevelFeet(blocks, options.threads, &town.obstacles);
   const std::vector<Neighbours> beside = Chosen(objects, adjoining);
   const std::vector<Neighbours> neighbours = NeighboursOf(site, objects, beside);
   std::vector<Shape> shapes = ShapesOf(site, objects, neighbours);

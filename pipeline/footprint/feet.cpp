@@ -8,6 +8,7 @@
 #include "pipeline/footprint/enclosed_regions.h"
 #include "pipeline/footprint/for_each.h"
 #include "pipeline/footprint/overhead.h"
+#include "pipeline/footprint/plan_raster.h"
 #include "pipeline/footprint/segment_grid.h"
 #include "pipeline/footprint/welded_shell.h"
 
@@ -54,20 +55,16 @@ std::optional<LevelFeet> LevelFeetOf(const std::vector<const TownObject*>& house
   return all_over ? std::optional(LevelFeet{lowest, std::move(feet)}) : std::nullopt;
 }
 
-double LowestOf(const std::vector<Triangle3>& triangles) {
-  double lowest = std::numeric_limits<double>::max();
-  for (const Triangle3& t : triangles)
-    for (const Point3& p : t) lowest = std::min(lowest, p.z);
-  return lowest;
+bool HasLowFace(const TownObject& house, double feet_m) {
+  return std::any_of(house.triangles.begin(), house.triangles.end(), [&](const Triangle3& t) {
+    return !IsWall(t) && std::min({t[0].z, t[1].z, t[2].z}) <= feet_m + kFoot_m;
+  });
 }
 
-bool HasHighFloor(const TownObject& house, double feet_m) {
-  return !house.foundation_is_given && !house.foundation.empty() && LowestOf(house.foundation) > feet_m + kFoot_m;
-}
-
-bool LiesOver(const Rings& room, const std::vector<Triangle3>& faces) {
-  return std::all_of(faces.begin(), faces.end(), [&](const Triangle3& t) {
-    return Contains(room, {(t[0].x + t[1].x + t[2].x) / 3, (t[0].y + t[1].y + t[2].y) / 3});
+// But for its walls.
+bool LiesOver(const Rings& room, const TownObject& house) {
+  return std::all_of(house.triangles.begin(), house.triangles.end(), [&](const Triangle3& t) {
+    return IsWall(t) || Contains(room, {(t[0].x + t[1].x + t[2].x) / 3, (t[0].y + t[1].y + t[2].y) / 3});
   });
 }
 
@@ -80,18 +77,18 @@ void FindLevelFeet(const Block& block, std::vector<TownObject>* objects) {
     houses.push_back(&object);
     lowest_m = std::min(lowest_m, object.min_m.z);
   }
-  const auto asks = [&](const TownObject* house) { return house->has_no_floor || HasHighFloor(*house, lowest_m); };
-  if (std::none_of(houses.begin(), houses.end(), asks)) return;
+  const auto has_floor = [&](const TownObject* house) {
+    return !house->foundation.empty() || HasLowFace(*house, lowest_m);
+  };
+  if (std::all_of(houses.begin(), houses.end(), has_floor)) return;
   const std::optional<LevelFeet> found = LevelFeetOf(houses);
   if (!found) return;
-  std::optional<Rings> room;
+  const Rings room = StandingRoom(houses, found->feet);
   for (const size_t i : block) {
     TownObject& object = (*objects)[i];
-    if (object.kind == ObstacleKind::kBuilding && HasHighFloor(object, found->height_m)) {
-      if (!room) room = StandingRoom(houses, found->feet);
-      if (LiesOver(*room, object.foundation)) object.foundation.clear(), object.has_no_floor = true;
-    }
-    if (object.has_no_floor) object.level_feet_m = found->height_m;
+    if (object.kind != ObstacleKind::kBuilding || !object.foundation.empty()) continue;
+    object.level_feet_m = found->height_m;
+    object.has_no_floor = !HasLowFace(object, found->height_m) && LiesOver(room, object);
   }
 }
 

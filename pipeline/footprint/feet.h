@@ -6,10 +6,10 @@
 
 namespace flaneur {
 
-// Finds for each block with houses that have no floor the height at which the shell that its houses have together is
-// open below, if it lies lowest and is so everywhere: what is open elsewhere must lie over what is enclosed there. None
-// where houses stand on several heights. A floor that was found higher, over what is enclosed there, is the roof of a
-// low part, and forgotten.
+// Finds for each block with houses that have nothing but walls below the height at which the shell that its houses have
+// together is open, if it lies lowest and is so everywhere: what is open elsewhere must lie over what is enclosed
+// there. None where houses stand on several heights. Such houses have no floor; a low flat roof might else be taken for
+// one.
 void FindLevelFeet(const std::vector<Block>& blocks, int threads, std::vector<TownObject>* objects);
 
 }  // namespace flaneur

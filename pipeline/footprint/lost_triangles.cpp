@@ -50,7 +50,7 @@ std::vector<char> FindFloors(const FootprintOptions& options, double least_share
   ForEach(objects->size(), options.threads, [&](size_t i) {
     TownObject& object = (*objects)[i];
     if (!IsHouse(object) || !object.foundation.empty()) return;
-    if (!object.is_roof) object.foundation = FloorOf(object.triangles, least_share);
+    if (!object.is_roof && !object.has_no_floor) object.foundation = FloorOf(object.triangles, least_share);
     found[i] = !object.foundation.empty();
     object.has_no_floor = !found[i];
   });

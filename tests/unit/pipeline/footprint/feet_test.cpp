@@ -10,7 +10,6 @@ namespace {
 
 std::optional<double> FeetOfFirst(const TestTown& town) {
   std::vector<TownObject> objects = SortTown(town.scene, 1).obstacles;
-  for (TownObject& object : objects) object.has_no_floor = true;
   FindLevelFeet(BlocksOf(Adjoining(objects)), 1, &objects);
   return objects[0].level_feet_m;
 }
@@ -44,10 +43,8 @@ TEST(LevelFeet, LieBelowTheRoofOfALowPart) {
   town.Node("low", NodeKind::kBuilding).Quad({8, 0, 6}, {15, 0, 6}, {15, 10, 6}, {8, 10, 6});
   std::vector<TownObject> objects = SortTown(town.scene, 1).obstacles;
   ASSERT_EQ(objects.size(), 2u);
-  objects[0].has_no_floor = true;
-  objects[1].foundation = objects[1].triangles;  // as it was found
   FindLevelFeet(BlocksOf(Adjoining(objects)), 1, &objects);
-  EXPECT_TRUE(objects[1].foundation.empty());
+  EXPECT_TRUE(objects[1].has_no_floor);
   EXPECT_EQ(objects[1].level_feet_m, 3);
 }
 
