@@ -235,12 +235,12 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   if (Error error = CheckOptions(options)) return error;
   TownObjects town = SortTown(scene, options.scale);
   const std::vector<TownObject>& objects = town.obstacles;
+  if (town.ground.empty() && objects.empty()) return Fail("the town has neither ground nor obstacles");
+  if (Error error = CheckExtents(town)) return error;
   const std::vector<std::vector<size_t>> adjoining = Adjoining(objects);
   const std::vector<Block> blocks = BlocksOf(adjoining);
   if (town.ground.empty()) FindLevelFeet(blocks, options.threads, &town.obstacles);
   FindFloors(options, kMinFloor, &town.obstacles);
-  if (town.ground.empty() && objects.empty()) return Fail("the town has neither ground nor obstacles");
-  if (Error error = CheckExtents(town)) return error;
   if (warnings) WarnOfUnits(town, warnings);
   GroundRaster raster;
   std::optional<LocalGround> ground;

@@ -1,10 +1,13 @@
 #include "pipeline/footprint/feet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "pipeline/footprint/constants.h"
+#include "pipeline/footprint/disjoint_sets.h"
 #include "pipeline/footprint/enclosed_regions.h"
 #include "pipeline/footprint/for_each.h"
 #include "pipeline/footprint/overhead.h"
@@ -15,6 +18,9 @@
 namespace flaneur {
 namespace {
 
+constexpr double kLowest = -std::numeric_limits<double>::infinity();
+constexpr double kLeastFace_m2 = 1e-6;  // in plan; what has less is an edge
+
 Segment InPlan(const Point3& a, const Point3& b) { return {{a.x, a.y}, {b.x, b.y}}; }
 
 // What the feet enclose under a roof, and a little more.
@@ -23,9 +29,8 @@ Rings StandingRoom(const std::vector<const TownObject*>& houses, const std::vect
   for (const TownObject* house : houses) triangles.push_back(&house->triangles);
   const Overhead overhead(triangles);
   const auto is_roofed = [&](double, const std::vector<RegionSample>& samples) {
-    return std::any_of(samples.begin(), samples.end(), [&](const RegionSample& sample) {
-      return overhead.Covers(sample.first, -std::numeric_limits<double>::infinity());
-    });
+    return std::any_of(samples.begin(), samples.end(),
+                       [&](const RegionSample& sample) { return overhead.Covers(sample.first, kLowest); });
   };
   return Offset(EncloseRegions(CutWhereTheyMeet(feet), is_roofed).solid, kFoot_m);
 }
@@ -55,41 +60,89 @@ std::optional<LevelFeet> LevelFeetOf(const std::vector<const TownObject*>& house
   return all_over ? std::optional(LevelFeet{lowest, std::move(feet)}) : std::nullopt;
 }
 
+// Neither upright nor without area.
+bool IsFace(const Triangle3& t) {
+  const auto& [a, b, c] = t;
+  return !IsWall(t) && std::abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) > kLeastFace_m2;
+}
+
 bool HasLowFace(const TownObject& house, double feet_m) {
   return std::any_of(house.triangles.begin(), house.triangles.end(), [&](const Triangle3& t) {
-    return !IsWall(t) && std::min({t[0].z, t[1].z, t[2].z}) <= feet_m + kFoot_m;
+    return IsFace(t) && std::min({t[0].z, t[1].z, t[2].z}) <= feet_m + kFoot_m;
   });
 }
 
 // But for its walls.
 bool LiesOver(const Rings& room, const TownObject& house) {
   return std::all_of(house.triangles.begin(), house.triangles.end(), [&](const Triangle3& t) {
-    return IsWall(t) || Contains(room, {(t[0].x + t[1].x + t[2].x) / 3, (t[0].y + t[1].y + t[2].y) / 3});
+    return !IsFace(t) || Contains(room, {(t[0].x + t[1].x + t[2].x) / 3, (t[0].y + t[1].y + t[2].y) / 3});
   });
 }
 
-void FindLevelFeet(const Block& block, std::vector<TownObject>* objects) {
-  std::vector<const TownObject*> houses;
-  double lowest_m = std::numeric_limits<double>::max();
-  for (const size_t i : block) {
-    const TownObject& object = (*objects)[i];
-    if (object.kind != ObstacleKind::kBuilding) continue;
-    houses.push_back(&object);
-    lowest_m = std::min(lowest_m, object.min_m.z);
+using Houses = std::vector<TownObject*>;
+
+// Those that have corners in common, together.
+std::vector<Houses> Joined(const Houses& houses) {
+  std::vector<Triangle3> all;
+  std::vector<size_t> house_of;
+  for (size_t k = 0; k < houses.size(); ++k) {
+    all.insert(all.end(), houses[k]->triangles.begin(), houses[k]->triangles.end());
+    house_of.resize(all.size(), k);
   }
+  const WeldedShell shell = Weld(all);
+  std::vector<size_t> first(shell.points.size(), houses.size());
+  DisjointSets joined(houses.size());
+  for (size_t i = 0; i < shell.triangles.size(); ++i) {
+    const size_t house = house_of[shell.source[i]];
+    for (const CornerIndex corner : shell.triangles[i])
+      if (first[corner] == houses.size()) first[corner] = house;
+      else joined.Join(first[corner], house);
+  }
+  std::map<size_t, Houses> by_first;
+  for (size_t k = 0; k < houses.size(); ++k) by_first[joined.Root(k)].push_back(houses[k]);
+  std::vector<Houses> groups;
+  for (auto& [_, members] : by_first) groups.push_back(std::move(members));
+  return groups;
+}
+
+// Whether any of the feet has a face of others at its height or below: it stands on their roofs.
+bool StandOn(const LevelFeet& found, const std::vector<const std::vector<Triangle3>*>& others) {
+  const Overhead faces(others);
+  return std::any_of(found.feet.begin(), found.feet.end(), [&](const Segment& s) {
+    const Point2 middle{(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2};
+    return faces.LowestAbove(middle, kLowest) <= found.height_m + kFoot_m;
+  });
+}
+
+void FindLevelFeet(const Houses& group, const Houses& block) {
+  double lowest_m = std::numeric_limits<double>::max();
+  for (const TownObject* house : group) lowest_m = std::min(lowest_m, house->min_m.z);
   const auto has_floor = [&](const TownObject* house) {
     return !house->foundation.empty() || HasLowFace(*house, lowest_m);
   };
-  if (std::all_of(houses.begin(), houses.end(), has_floor)) return;
+  if (std::all_of(group.begin(), group.end(), has_floor)) return;
+  const std::vector<const TownObject*> houses(group.begin(), group.end());
   const std::optional<LevelFeet> found = LevelFeetOf(houses);
   if (!found) return;
+  std::vector<const std::vector<Triangle3>*> others;
+  for (const TownObject* house : block)
+    if (std::find(group.begin(), group.end(), house) == group.end()) others.push_back(&house->triangles);
+  if (!others.empty() && StandOn(*found, others)) return;
   const Rings room = StandingRoom(houses, found->feet);
-  for (const size_t i : block) {
-    TownObject& object = (*objects)[i];
-    if (object.kind != ObstacleKind::kBuilding || !object.foundation.empty()) continue;
-    object.level_feet_m = found->height_m;
-    object.has_no_floor = !HasLowFace(object, found->height_m) && LiesOver(room, object);
+  for (TownObject* house : group) {
+    if (!house->foundation.empty()) continue;
+    house->level_feet_m = found->height_m;
+    house->has_no_floor = !HasLowFace(*house, found->height_m) && LiesOver(room, *house);
   }
+}
+
+void FindLevelFeet(const Block& block, std::vector<TownObject>* objects) {
+  Houses houses;
+  for (const size_t i : block)
+    if ((*objects)[i].kind == ObstacleKind::kBuilding) houses.push_back(&(*objects)[i]);
+  const auto has_ground = [](const TownObject* house) { return !house->foundation.empty(); };
+  if (std::all_of(houses.begin(), houses.end(), has_ground)) return;
+  for (const Houses& group : Joined(houses)) FindLevelFeet(group, houses);
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 
 namespace flaneur {
 
-// Finds for each block with houses that have nothing but walls below the height at which the shell that its houses have
-// together is open, if it lies lowest and is so everywhere: what is open elsewhere must lie over what is enclosed
-// there. None where houses stand on several heights. Such houses have no floor; a low flat roof might else be taken for
-// one.
+// Houses that have corners in common are looked at together. Where some have nothing but walls below: finds the height
+// at which the shell that they have together is open, if it lies lowest and is so everywhere: what is open elsewhere
+// must lie over what is enclosed there. None where they stand on several heights, or on others' roofs. Such houses have
+// no floor; a low flat roof might else be taken for one.
 void FindLevelFeet(const std::vector<Block>& blocks, int threads, std::vector<TownObject>* objects);
 
 }  // namespace flaneur

@@ -31,7 +31,21 @@ TEST(LevelFeet, DoNotMindWhatStandsOnARoof) {
 TEST(LevelFeet, AreUnknownWhereAHouseBesideStandsHigher) {
   TestTown town;
   town.Node("low", NodeKind::kBuilding).Box({0, 0, 3}, {8, 10, 9}, {Side::kBottom});
-  town.Node("high", NodeKind::kBuilding).Box({8, 0, 5}, {15, 10, 11}, {Side::kBottom});
+  town.Node("high", NodeKind::kBuilding).Box({8, 0, 9}, {15, 10, 12}, {Side::kBottom});
+  EXPECT_EQ(FeetOfFirst(town), std::nullopt);
+}
+
+TEST(LevelFeet, AreEachHousesOwnWhereTheyHaveNoCornerInCommon) {
+  TestTown town;
+  town.Node("low", NodeKind::kBuilding).Box({0, 0, 3}, {8, 10, 9}, {Side::kBottom});
+  town.Node("high", NodeKind::kBuilding).Box({8, 1, 5}, {15, 9, 11}, {Side::kBottom});
+  EXPECT_EQ(FeetOfFirst(town), 3);
+}
+
+TEST(LevelFeet, AreUnknownOnAnothersRoof) {
+  TestTown town;
+  town.Node("tower", NodeKind::kBuilding).Box({2, 2, 9}, {6, 6, 15}, {Side::kBottom});
+  town.Node("house", NodeKind::kBuilding).Box({0, 0, 3}, {8, 10, 9}, {Side::kBottom});
   EXPECT_EQ(FeetOfFirst(town), std::nullopt);
 }
 
