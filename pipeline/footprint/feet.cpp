@@ -5,15 +5,18 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/disjoint_sets.h"
 #include "pipeline/footprint/enclosed_regions.h"
+#include "pipeline/footprint/floors.h"
 #include "pipeline/footprint/for_each.h"
 #include "pipeline/footprint/overhead.h"
 #include "pipeline/footprint/plan_raster.h"
 #include "pipeline/footprint/segment_grid.h"
 #include "pipeline/footprint/welded_shell.h"
+#include "pipeline/io/triangulate_polygon.h"
 
 namespace flaneur {
 namespace {
@@ -79,6 +82,37 @@ bool LiesOver(const Rings& room, const TownObject& house) {
   });
 }
 
+// The loop of borders from a point, if it is one and on a level; else nothing.
+std::vector<Point3> LevelLoop(const WeldedShell& shell, const Borders& borders, CornerIndex start,
+                              std::set<CornerIndex>* done) {
+  std::vector<Point3> ring;
+  CornerIndex before = start, at = start;
+  do {
+    const std::set<CornerIndex>& next = borders.at(at);
+    done->insert(at);
+    if (next.size() != 2 || std::abs(shell.points[at].z - shell.points[start].z) > kFlatHole_m) return {};
+    ring.push_back(shell.points[at]);
+    const CornerIndex to = *next.begin() == before ? *next.rbegin() : *next.begin();
+    before = at, at = to;
+  } while (at != start);
+  return ring;
+}
+
+// The floor that a house on several levels would have where its shell is open on a level.
+std::vector<Triangle3> FloorOfHoles(const TownObject& house) {
+  const WeldedShell shell = Weld(house.triangles);
+  const Borders borders = ToBorders(FindBorderEdges(shell));
+  std::vector<Triangle3> all = house.triangles;
+  std::set<CornerIndex> done;
+  for (const auto& [start, _] : borders) {
+    if (done.contains(start)) continue;
+    const std::vector<Point3> ring = LevelLoop(shell, borders, start, &done);
+    if (ring.size() < 3) continue;
+    for (const auto& [a, b, c] : TriangulatePolygon({ring})) all.push_back({ring[a], ring[b], ring[c]});
+  }
+  return all.size() > house.triangles.size() ? FloorOf(all, kMinFloor) : std::vector<Triangle3>();
+}
+
 using Houses = std::vector<TownObject*>;
 
 // Those that have corners in common, together.
@@ -123,7 +157,11 @@ void FindLevelFeet(const Houses& group, const Houses& block) {
   if (std::all_of(group.begin(), group.end(), has_floor)) return;
   const std::vector<const TownObject*> houses(group.begin(), group.end());
   const std::optional<LevelFeet> found = LevelFeetOf(houses);
-  if (!found) return;
+  if (!found) {
+    for (TownObject* house : group)
+      if (!has_floor(house)) house->foundation = FloorOfHoles(*house);
+    return;
+  }
   std::vector<const std::vector<Triangle3>*> others;
   for (const TownObject* house : block)
     if (std::find(group.begin(), group.end(), house) == group.end()) others.push_back(&house->triangles);

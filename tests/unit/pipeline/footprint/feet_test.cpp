@@ -49,6 +49,18 @@ TEST(LevelFeet, AreUnknownOnAnothersRoof) {
   EXPECT_EQ(FeetOfFirst(town), std::nullopt);
 }
 
+TEST(LevelFeet, OfAHouseOnTwoTerracesAreItsFloor) {
+  TestTown town;
+  town.Node("house", NodeKind::kBuilding).Box({0, 0, 3}, {8, 10, 4}, {Side::kBottom, Side::kEast, Side::kTop});
+  town.Box({0, 0, 4}, {8, 10, 9}, {Side::kBottom, Side::kEast});
+  town.Box({8, 0, 4}, {16, 10, 9}, {Side::kBottom, Side::kWest});
+  town.Quad({8, 0, 3}, {8, 10, 3}, {8, 10, 4}, {8, 0, 4});  // the step
+  std::vector<TownObject> objects = SortTown(town.scene, 1).obstacles;
+  FindLevelFeet(BlocksOf(Adjoining(objects)), 1, &objects);
+  ASSERT_EQ(objects[0].foundation.size(), 4u);
+  for (const Triangle3& t : objects[0].foundation) EXPECT_EQ(t[0].z, t[0].x + t[1].x + t[2].x < 24 ? 3 : 4);
+}
+
 // One house owns the walls under another's low roof.
 TEST(LevelFeet, LieBelowTheRoofOfALowPart) {
   TestTown town;
