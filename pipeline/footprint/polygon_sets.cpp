@@ -30,10 +30,31 @@ cl::Paths ToPaths(const Rings& rings) {
   return paths;
 }
 
-// ClipperOffset takes the ring with the lowest point for an outer one, of several with that point the first.
+// Of a path what ClipperOffset calls its lowest point.
+cl::IntPoint LowestOf(const cl::Path& path) {
+  return *std::min_element(path.begin(), path.end(), [](const cl::IntPoint& p, const cl::IntPoint& q) {
+    return p.Y != q.Y ? p.Y > q.Y : p.X < q.X;
+  });
+}
+
+// ClipperOffset takes the ring with the lowest point for an outer one, of several with that point the first. A hole
+// that lies lower than all areas is none, but a sliver that rounding has turned: it would turn everything.
 cl::Paths OutersFirst(const Rings& rings) {
   cl::Paths paths = ToPaths(rings);
-  std::stable_partition(paths.begin(), paths.end(), [](const cl::Path& path) { return cl::Orientation(path); });
+  std::erase_if(paths, [](const cl::Path& path) { return path.empty(); });
+  const auto holes =
+      std::stable_partition(paths.begin(), paths.end(), [](const cl::Path& path) { return cl::Orientation(path); });
+  if (holes == paths.begin()) return paths;
+  cl::IntPoint lowest = LowestOf(paths[0]);
+  for (auto outer = paths.begin(); outer != holes; ++outer) {
+    const cl::IntPoint p = LowestOf(*outer);
+    if (p.Y > lowest.Y || (p.Y == lowest.Y && p.X < lowest.X)) lowest = p;
+  }
+  const auto is_none = [&](const cl::Path& hole) {
+    const cl::IntPoint p = LowestOf(hole);
+    return p.Y > lowest.Y || (p.Y == lowest.Y && p.X < lowest.X);
+  };
+  paths.erase(std::remove_if(holes, paths.end(), is_none), paths.end());
   return paths;
 }
 

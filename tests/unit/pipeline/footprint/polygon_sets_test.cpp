@@ -61,6 +61,15 @@ TEST(PolygonSets, OffsetsStayWithinTheMitre) {
   }
 }
 
+// Rounding has turned it, so that it looks like a hole: of nothing.
+TEST(PolygonSets, ASliverBesideAnAreaDoesNotTurnIt) {
+  const Ring square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+  const Ring sliver{{0, 20}, {3, 20.0001}, {8, 20}};
+  ASSERT_LT(SignedArea(sliver), 0);
+  EXPECT_NEAR(Area(Offset({square, sliver}, 0.5)), 121, 0.01);
+  EXPECT_NEAR(Area(Offset({sliver, square}, -0.5)), 81, 0.01);
+}
+
 TEST(PolygonSets, SimplifyingMovesTheBoundaryByTheToleranceAtMost) {
   const Rings round = {Star(100, 5, 5.004)};
   const Rings simple = Simplify(round, 0.02);
