@@ -20,9 +20,9 @@ struct TownObject {
   std::vector<Triangle3> foundation;  // the ground under it, where the model has that; none of `triangles`
   Point3 min_m, max_m;                // of `triangles`
   bool is_bridge = false;
-  bool foundation_is_given = false;    // by the model; else it is found among `triangles`
-  bool is_roof = false;                // a flat roof and nothing else
-  bool has_no_floor = false;           // looked for among `triangles`, and not found
+  bool foundation_is_given = false;      // by the model; else it is found among `triangles`
+  bool is_roof = false;                  // a flat roof and nothing else
+  bool has_no_floor = false;             // looked for among `triangles`, and not found
   std::optional<double> level_feet_m{};  // of one without a floor, where it and the houses beside it stand level
 };
 
