@@ -147,7 +147,8 @@ Error WritePage(const SiteOptions& options, const fs::path& player, const std::s
   const std::vector<std::string> files = PageFiles(player);
   std::string preloads;  // all scripts at once, rather than each when another names it
   for (const std::string& name : files) {
-    if (name.ends_with(".js") && !name.ends_with(kWorker)) preloads += "<link rel=\"modulepreload\" href=\"" + name + "\">\n";
+    if (name.ends_with(".js") && !name.ends_with(kWorker))
+      preloads += "<link rel=\"modulepreload\" href=\"" + name + "\">\n";
   }
   Replace("@PRELOADS@\n", preloads, &html);
   if (Error e = site->WriteText("index.html", html)) return e;
