@@ -19,8 +19,6 @@ using Loop = std::vector<CornerIndex>;
 
 using Segment3 = std::array<Point3, 2>;
 
-double Distance(const Point3& a, const Point3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
-
 // How far the middle of a triangle lies to the left of an edge, in the plane that the normal tells; no unit.
 double LeftOf(const Segment3& edge, const Point3& normal, const Triangle3& t) {
   const auto& [a, b] = edge;

@@ -11,8 +11,6 @@ namespace {
 
 bool Before(const Point3& a, const Point3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
-double Length(const Point3& a, const Point3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
-
 // How far along a direction p lies from o; NaN where that is none.
 double Along(const Point3& direction, const Point3& o, const Point3& p) {
   const auto& [x, y, z] = direction;
@@ -104,6 +102,8 @@ void RemoveBorder(CornerIndex a, CornerIndex b, Borders* borders) {
   }
 }
 
+double Distance(const Point3& a, const Point3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
 Point3 NormalOf(const Triangle3& t) {
   const auto& [a, b, c] = t;
   return {(b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y), (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z),
@@ -128,7 +128,7 @@ bool IsPlane(const std::vector<Point3>& ring) {
 
 double ThicknessOf(const Triangle3& t) {
   const Point3 n = NormalOf(t);
-  const double longest = std::max({Length(t[0], t[1]), Length(t[1], t[2]), Length(t[2], t[0])});
+  const double longest = std::max({Distance(t[0], t[1]), Distance(t[1], t[2]), Distance(t[2], t[0])});
   return longest > 0 ? std::hypot(n.x, n.y, n.z) / longest : 0;
 }
 

@@ -35,6 +35,7 @@ size_t TriangleAt(const std::vector<BorderEdge>& edges, CornerIndex a, CornerInd
 Borders ToBorders(const std::vector<BorderEdge>& edges);
 void RemoveBorder(CornerIndex a, CornerIndex b, Borders* borders);
 
+double Distance(const Point3& a, const Point3& b);
 Point3 NormalOf(const Triangle3& triangle);     // as long as twice the area
 double ThicknessOf(const Triangle3& triangle);  // over its longest edge
 // Give or take 2 cm: whether it lies in the plane of another, and whether a ring's corners lie in one.

@@ -366,13 +366,12 @@ void PageVisit::Impl::Sound(float passed_s) {
 }
 
 Error PageVisit::LoadMore(bool* all) {
-  Loader& loader = impl_->loader;
   Impl& v = *impl_;
   const bool uploads = std::exchange(v.uploaded_at, v.pictures) != v.pictures;
   // Between a headset's pictures browsers find time for few tasks.
   const double most_ms = v.headset.worn ? std::clamp(100.0 * v.picture_s, kUpload_ms, 4 * kUpload_ms) : kUpload_ms;
-  const Error e = uploads ? loader.Upload(most_ms, &v.renderer) : loader.ReadOn(most_ms);
-  *all = loader.Done();
+  const Error e = uploads ? v.loader.Upload(most_ms, &v.renderer) : v.loader.ReadOn(most_ms);
+  *all = v.loader.Done();
   return e;
 }
 

@@ -107,8 +107,9 @@ export function fetchPiecesBeside(store, pieces, take, signal, tellCut) {
   return new Promise((resolve, reject) => {
     const worker = new Worker('fetch_worker.js', {type: 'module'}), end = () => worker.terminate();
     const takeHere = (piece, content) => signal.aborted || take(piece, content);
+    const tellHere = (cut) => signal.aborted || tellCut(cut);
     signal.addEventListener('abort', end, {once: true});
-    worker.onerror = () => resolve(fetchPiecesMeanwhile(store, pieces, takeHere, tellCut));
+    worker.onerror = () => resolve(fetchPiecesMeanwhile(store, pieces, takeHere, tellHere));
     worker.onmessage = ({data: {piece, content, cut, trouble}}) => {
       if (content) {
         try {

@@ -68,28 +68,5 @@ TEST(Threads, TakeStepsInTheSameBits) {
   }
 }
 
-TEST(Blocks, AreEveryElementOnce) {
-  for (size_t threads : {0u, 1u, 5u}) {
-    Jobs jobs(threads);
-    for (size_t count : {size_t{0}, size_t{1}, size_t{7}, size_t{1000}}) {
-      std::vector<int> visits(count, 0);
-      InBlocks(&jobs, count, 1, [&](size_t first, size_t end) {
-        for (size_t k = first; k < end; ++k) ++visits[k];
-      });
-      EXPECT_EQ(visits, std::vector<int>(count, 1));
-    }
-  }
-}
-
-TEST(Blocks, OfFewAreOneInTheCallersThread) {
-  Jobs jobs(3);
-  int calls = 0;
-  InBlocks(&jobs, 99, 100, [&](size_t first, size_t end) {
-    ++calls;
-    EXPECT_EQ(end - first, 99u);
-  });
-  EXPECT_EQ(calls, 1);
-}
-
 }  // namespace
 }  // namespace flaneur
