@@ -93,6 +93,53 @@ std::set<size_t> TakeTitlePage(Json* json) {
   return views;
 }
 
+// The index that stands for each accessor from now on: the page asks none for its bounds, and those that say the same
+// are one. What is packed with Draco has many of them, which are read before anything is seen.
+std::vector<size_t> MergeAccessors(Json* json) {
+  std::vector<size_t> now;
+  std::map<std::string, size_t> known;
+  Json kept = Json::array();
+  for (Json& accessor : (*json)["accessors"]) {
+    accessor.erase("min");
+    accessor.erase("max");
+    const auto [place, is_new] = known.try_emplace(accessor.dump(), kept.size());
+    now.push_back(place->second);
+    if (is_new) kept.push_back(std::move(accessor));
+  }
+  (*json)["accessors"] = std::move(kept);
+  return now;
+}
+
+void UseFewerAccessors(Json* json) {
+  if (!json->contains("accessors")) return;
+  const std::vector<size_t> now = MergeAccessors(json);
+  const auto change = [&](Json& owner, const char* key) {
+    if (owner.contains(key)) owner[key] = now[owner[key].get<size_t>()];
+  };
+  const auto change_all = [&](Json& owner) {
+    for (auto& [name, accessor] : owner.items()) accessor = now[accessor.get<size_t>()];
+  };
+  const auto visit = [&](const char* list, const char* inner, auto each) {
+    for (Json& owner : (*json)[list]) {
+      for (Json& item : owner[inner]) each(item);
+    }
+  };
+  if (json->contains("meshes"))
+    visit("meshes", "primitives", [&](Json& primitive) {
+      change(primitive, "indices");
+      change_all(primitive["attributes"]);
+      if (primitive.contains("targets"))
+        for (Json& target : primitive["targets"]) change_all(target);
+    });
+  if (json->contains("animations"))
+    visit("animations", "samplers", [&](Json& sampler) {
+      change(sampler, "input");
+      change(sampler, "output");
+    });
+  if (json->contains("skins"))
+    for (Json& skin : (*json)["skins"]) change(skin, "inverseBindMatrices");
+}
+
 // As it is where that is smaller.
 void Recode(int quality, std::vector<uint8_t>* picture) {
   const auto pixels = Decoded(*picture);
@@ -136,6 +183,7 @@ Error MakeLighter(const Lighter& lighter, std::vector<uint8_t>* pack) {
   }
   binary.resize((binary.size() + 3) / 4 * 4);
   json["buffers"][0]["byteLength"] = binary.size();
+  UseFewerAccessors(&json);
   *pack = Glb(json, binary);
   return Ok();
 }

@@ -30,6 +30,20 @@ Error CheckKind(const fs::path& path, const struct stat& is) {
   return Ok();
 }
 
+// More of a file that grows meanwhile is left.
+Error ReadAll(int fd, const fs::path& path, FileBytes* out) {
+  size_t at = 0;
+  while (at < out->size()) {
+    const ssize_t count = ::read(fd, out->data() + at, out->size() - at);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return Fail(path.string() + ": cannot be read: " + std::strerror(errno));
+    if (count == 0) break;
+    at += static_cast<size_t>(count);
+  }
+  out->Shorten(at);
+  return Ok();
+}
+
 Error ReadAll(int fd, const fs::path& path, auto* out) {
   char buffer[1 << 16];
   while (true) {
@@ -43,6 +57,9 @@ Error ReadAll(int fd, const fs::path& path, auto* out) {
   }
 }
 
+void MakeRoom(size_t count, FileBytes* out) { *out = FileBytes::Room(count); }
+void MakeRoom(size_t count, auto* out) { out->reserve(count); }
+
 Error ReadInto(const fs::path& path, auto* out) {
   if (Error e = CheckReadable(path)) return e;
   // A pipe that has taken the file's place meanwhile would wait for somebody to write.
@@ -50,9 +67,9 @@ Error ReadInto(const fs::path& path, auto* out) {
   if (fd < 0) return Fail(path.string() + ": cannot be read: " + std::strerror(errno));
   struct stat is {};
   Error error = ::fstat(fd, &is) == 0 ? CheckKind(path, is) : Fail(path.string() + ": cannot be read");
-  out->clear();
+  *out = {};
   if (!error) {
-    out->reserve(static_cast<size_t>(is.st_size));
+    MakeRoom(static_cast<size_t>(is.st_size), out);
     error = ReadAll(fd, path, out);
   }
   ::close(fd);
@@ -169,6 +186,7 @@ Error CheckReadable(const fs::path& path) {
 }
 
 Error ReadFile(const fs::path& path, std::vector<uint8_t>* bytes) { return ReadInto(path, bytes); }
+Error ReadFile(const fs::path& path, FileBytes* bytes) { return ReadInto(path, bytes); }
 Error ReadTextFile(const fs::path& path, std::string* text) { return ReadInto(path, text); }
 
 Error CheckWritable(const fs::path& path) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/base/error.h"
+#include "runtime/base/file_bytes.h"
 
 namespace flaneur {
 
@@ -17,6 +18,7 @@ bool HasExtension(const std::filesystem::path& path, std::string_view extension)
 // Files of the disk alone: what devices and pipes give may never end. Errors: missing, a directory, a device, pipe or
 // socket, unreadable, larger than kMostFile_bytes (runtime/base/limits.h); each names the path.
 Error ReadFile(const std::filesystem::path& path, std::vector<uint8_t>* bytes);
+Error ReadFile(const std::filesystem::path& path, FileBytes* bytes);
 Error ReadTextFile(const std::filesystem::path& path, std::string* text);
 
 // The same errors, without reading: for whoever hands the name on to another library.

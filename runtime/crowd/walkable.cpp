@@ -93,40 +93,48 @@ void VisitCellsAlong(const Walkable& w, const Walkable::Edge& e, float reach_m, 
   }
 }
 
-// Turns (cell, item) pairs, given twice by `each`, into ranges by cell.
-template <typename Each>
-void Bucket(int cells, Each each, std::vector<int>* start, std::vector<int>* items) {
+// An item that `count` cells of a row share.
+struct InCells {
+  int cell = 0, count = 0, item = 0;
+};
+
+void AddCell(int cell, int item, std::vector<InCells>* all) {
+  if (!all->empty() && all->back().item == item && all->back().cell + all->back().count == cell) ++all->back().count;
+  else all->push_back({cell, 1, item});
+}
+
+// Turns them into ranges by cell, each in the order given.
+void Bucket(int cells, const std::vector<InCells>& all, std::vector<int>* start, std::vector<int>* items) {
   start->assign(static_cast<size_t>(cells) + 1, 0);
-  each([&](int cell, int) { ++(*start)[static_cast<size_t>(cell) + 1]; });
+  for (const InCells& in : all) {
+    for (int k = 1; k <= in.count; ++k) ++(*start)[static_cast<size_t>(in.cell + k)];
+  }
   for (size_t i = 1; i < start->size(); ++i) (*start)[i] += (*start)[i - 1];
   items->resize(static_cast<size_t>(start->back()));
   std::vector<int> fill(start->begin(), start->end() - 1);
-  each([&](int cell, int item) { (*items)[static_cast<size_t>(fill[static_cast<size_t>(cell)]++)] = item; });
+  for (const InCells& in : all) {
+    for (int k = 0; k < in.count; ++k)
+      (*items)[static_cast<size_t>(fill[static_cast<size_t>(in.cell + k)]++)] = in.item;
+  }
 }
 
 void BucketObstacles(float reach_m, Walkable* w) {
   const int cells = w->columns * w->rows;
-  Bucket(
-      cells,
-      [&](auto add) {
-        for (size_t e = 0; e < w->edges.size(); ++e) {
-          const auto& edge = w->edges[e];
-          VisitCellsAlong(*w, edge, reach_m, [&](int cell) {
-            if (EdgeNearCell(*w, edge, cell, reach_m)) add(cell, static_cast<int>(e));
-          });
-        }
-      },
-      &w->wall_start, &w->wall_edges);
-  Bucket(
-      cells,
-      [&](auto add) {
-        for (size_t c = 0; c < w->circles.size(); ++c) {
-          const Vec2 r{w->circles[c].radius_m, w->circles[c].radius_m};
-          VisitCells(*w, w->circles[c].center - r, w->circles[c].center + r, reach_m,
-                     [&](int cell) { add(cell, static_cast<int>(c)); });
-        }
-      },
-      &w->circle_start, &w->wall_circles);
+  std::vector<InCells> all;
+  for (size_t e = 0; e < w->edges.size(); ++e) {
+    const auto& edge = w->edges[e];
+    VisitCellsAlong(*w, edge, reach_m, [&](int cell) {
+      if (EdgeNearCell(*w, edge, cell, reach_m)) AddCell(cell, static_cast<int>(e), &all);
+    });
+  }
+  Bucket(cells, all, &w->wall_start, &w->wall_edges);
+  all.clear();
+  for (size_t c = 0; c < w->circles.size(); ++c) {
+    const Vec2 r{w->circles[c].radius_m, w->circles[c].radius_m};
+    VisitCells(*w, w->circles[c].center - r, w->circles[c].center + r, reach_m,
+               [&](int cell) { AddCell(cell, static_cast<int>(c), &all); });
+  }
+  Bucket(cells, all, &w->circle_start, &w->wall_circles);
 }
 
 // Of a ring: where its edges cross the middle of a row of cells, as InsideRing has it.
@@ -329,14 +337,15 @@ void MeasureSame(Walkable* w) {
 
 // The place in the cell where a person fits between walls on either side, which is no wider than that there: found from
 // several points of the cell by pushing off whatever is too near.
-bool FitsBetween(const Walkable& w, int cell, float radius_m, Vec2* place) {
+bool FitsBetween(const Walkable& w, int cell, float radius_m, NearEdges* edges, Vec2* place) {
   constexpr float kPoints[] = {0, -0.45f, 0.45f};
   constexpr float kSloppy_m = 0.002f;
   const Vec2 center = CellCenter(w, cell);
   const float half_m = 0.5f * w.cell_m + kSloppy_m;
+  edges->LookAt(w, cell);
   for (const float x : kPoints) {
     for (const float y : kPoints) {
-      const Vec2 p = PushedOff(w, cell, center + Vec2{x, y} * w.cell_m, radius_m + kSloppy_m);
+      const Vec2 p = edges->PushedOff(center + Vec2{x, y} * w.cell_m, radius_m + kSloppy_m);
       if (std::abs(p.x - center.x) > half_m || std::abs(p.y - center.y) > half_m) continue;
       if (Clearance(w, cell, p) < radius_m || !HasWallsOnEitherSide(w, cell, p, radius_m + w.cell_m)) continue;
       *place = p;
@@ -348,7 +357,7 @@ bool FitsBetween(const Walkable& w, int cell, float radius_m, Vec2* place) {
 
 // Opens the cells of the way through a door from a place in it, one way: until a cell that is free anyway, and no lone
 // one before the door, as those around it are too.
-void OpenAlong(Vec2 place, Vec2 along, float radius_m, const std::vector<float>& cost, Walkable* w) {
+void OpenAlong(Vec2 place, Vec2 along, float radius_m, const std::vector<float>& cost, NearEdges* edges, Walkable* w) {
   constexpr float kStep_m = 0.05f, kThickestWall_m = 3;
   const auto open = [&](int x, int y) {
     const int cell = y * w->columns + x, ground = GroundCell(*w->ground, CellCenter(*w, cell));
@@ -360,7 +369,8 @@ void OpenAlong(Vec2 place, Vec2 along, float radius_m, const std::vector<float>&
   open(last.x, last.y);
   for (float m = 0; m < kThickestWall_m; m += kStep_m) {
     const int before = CellAt(*w, place);
-    place = PushedOff(*w, before, place + along * kStep_m, radius_m);
+    edges->LookAt(*w, before);
+    place = edges->PushedOff(place + along * kStep_m, radius_m);
     const GridPlace at = PlaceAt(*w, place);
     if (at.x < 0 || Clearance(*w, before, place) < radius_m - 0.001f) return;
     if (at.x != last.x && at.y != last.y) open(at.x, last.y);  // ways lead from side to side of cells
@@ -376,6 +386,7 @@ void OpenAlong(Vec2 place, Vec2 along, float radius_m, const std::vector<float>&
 // either side can't a whole cell hide another way.
 void OpenNarrowDoors(const std::vector<char>& covered, float radius_m, Walkable* w) {
   const std::vector<float> cost = w->cost;
+  NearEdges edges;
   const float around_m = 0.75f * w->cell_m;  // from a cell's centre to its corners, and a little more
   for (int cell = 0; cell < static_cast<int>(cost.size()); ++cell) {
     const size_t k = static_cast<size_t>(cell);
@@ -383,10 +394,10 @@ void OpenNarrowDoors(const std::vector<char>& covered, float radius_m, Walkable*
     if (cost[k] > 0 || near < 2) continue;
     if (covered[k] && Clearance(*w, cell, CellCenter(*w, cell)) > around_m) continue;  // wholly inside an obstacle
     Vec2 place;
-    if (!FitsBetween(*w, cell, radius_m, &place) || InsideObstacle(*w, place)) continue;
+    if (!FitsBetween(*w, cell, radius_m, &edges, &place) || InsideObstacle(*w, place)) continue;
     const Vec2 aside = Unit(AwayFromNearest(*w, cell, place)), along{-aside.y, aside.x};
-    OpenAlong(place, along, radius_m, cost, w);
-    OpenAlong(place, along * -1, radius_m, cost, w);
+    OpenAlong(place, along, radius_m, cost, &edges, w);
+    OpenAlong(place, along * -1, radius_m, cost, &edges, w);
   }
 }
 

@@ -37,26 +37,43 @@ bool NothingNear(const Walkable& w, int cell) {
   return w.wall_start[k] == w.wall_start[k + 1] && w.circle_start[k] == w.circle_start[k + 1];
 }
 
-Vec2 PushOut(const Walkable& w, int cell, Vec2 p, float radius_m) {
-  Vec2 out = p;
-  const size_t k = static_cast<size_t>(cell);
+void Push(Vec2 away, float distance_m, float radius_m, Vec2* p) {
+  if (distance_m >= radius_m || std::abs(distance_m) < 1e-5f) return;
+  *p = *p + away * ((radius_m - distance_m) / distance_m);
+}
+
+void PushOutOfEdge(const Walkable::Edge& e, float radius_m, Vec2* p) {
   const float far_m2 = radius_m * radius_m * 1.0001f;  // certainly out of reach, without a root
-  const auto push = [&](Vec2 away, float distance_m) {
-    if (distance_m >= radius_m || std::abs(distance_m) < 1e-5f) return;
-    out = out + away * ((radius_m - distance_m) / distance_m);
-  };
-  for (int i = w.wall_start[k]; i < w.wall_start[k + 1]; ++i) {
-    const Walkable::Edge& e = w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(i)])];
-    const Vec2 away = out - NearestOnSegment(out, e.a, e.b);
-    if (Dot(away, away) < far_m2) push(away, Length(away));
-  }
+  const Vec2 away = *p - NearestOnSegment(*p, e.a, e.b);
+  if (Dot(away, away) < far_m2) Push(away, Length(away), radius_m, p);
+}
+
+void PushOutOfCircles(const Walkable& w, int cell, float radius_m, Vec2* p) {
+  const size_t k = static_cast<size_t>(cell);
   for (int i = w.circle_start[k]; i < w.circle_start[k + 1]; ++i) {
     const CircleObstacle& c = w.circles[static_cast<size_t>(w.wall_circles[static_cast<size_t>(i)])];
-    const Vec2 off = out - c.center;
+    const Vec2 off = *p - c.center;
     const float length = Length(off);
-    if (length > 1e-6f) push(off * ((length - c.radius_m) / length), length - c.radius_m);
+    if (length > 1e-6f) Push(off * ((length - c.radius_m) / length), length - c.radius_m, radius_m, p);
   }
-  return out;
+}
+
+Vec2 PushOut(const Walkable& w, int cell, Vec2 p, float radius_m) {
+  const size_t k = static_cast<size_t>(cell);
+  for (int i = w.wall_start[k]; i < w.wall_start[k + 1]; ++i)
+    PushOutOfEdge(w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(i)])], radius_m, &p);
+  PushOutOfCircles(w, cell, radius_m, &p);
+  return p;
+}
+
+// Until nothing pushes any more.
+Vec2 PushedBy(auto push_out, Vec2 p) {
+  for (int push = 0; push < kPushes; ++push) {
+    const Vec2 pushed = push_out(p);
+    if (pushed.x == p.x && pushed.y == p.y) break;
+    p = pushed;
+  }
+  return p;
 }
 
 // One step no longer than half the radius: too short to reach a wall's other side.
@@ -98,18 +115,71 @@ Vec2 NearestOnSegment(Vec2 p, Vec2 a, Vec2 b) {
 }
 
 float Clearance(const Walkable& w, int cell, Vec2 p) {
-  float nearest_m = 1e9f;
-  VisitWalls(w, cell, p, [&](Vec2, float distance_m) { nearest_m = std::min(nearest_m, distance_m); });
+  float nearest_m2 = 1e18f;  // one root for all
+  const size_t k = static_cast<size_t>(cell);
+  for (int i = w.wall_start[k]; i < w.wall_start[k + 1]; ++i) {
+    const Walkable::Edge& e = w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(i)])];
+    const Vec2 away = p - NearestOnSegment(p, e.a, e.b);
+    nearest_m2 = std::min(nearest_m2, Dot(away, away));
+  }
+  float nearest_m = std::sqrt(nearest_m2);
+  for (int i = w.circle_start[k]; i < w.circle_start[k + 1]; ++i) {
+    const CircleObstacle& c = w.circles[static_cast<size_t>(w.wall_circles[static_cast<size_t>(i)])];
+    nearest_m = std::min(nearest_m, Length(p - c.center) - c.radius_m);
+  }
   return nearest_m;
 }
 
 Vec2 PushedOff(const Walkable& w, int cell, Vec2 p, float radius_m) {
-  for (int push = 0; push < kPushes; ++push) {
-    const Vec2 pushed = PushOut(w, cell, p, radius_m);
-    if (pushed.x == p.x && pushed.y == p.y) break;
-    p = pushed;
+  return PushedBy([&](Vec2 now) { return PushOut(w, cell, now, radius_m); }, p);
+}
+
+void NearEdges::LookAt(const Walkable& w, int cell) {
+  if (w_ == &w && cell_ == cell) return;
+  w_ = &w;
+  cell_ = cell;
+  const size_t k = static_cast<size_t>(cell);
+  const int first = w.wall_start[k], count = w.wall_start[k + 1] - first;
+  fours_.assign(static_cast<size_t>(count + 3) / 4, {});
+  for (int i = 0; i < count; ++i) {
+    const Walkable::Edge& e = w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(first + i)])];
+    const Vec2 ab = e.b - e.a;
+    const float length2 = Dot(ab, ab);
+    Four& four = fours_[static_cast<size_t>(i / 4)];
+    const int lane = i % 4;
+    four.edges[lane] = &e;
+    four.ax[lane] = e.a.x;
+    four.ay[lane] = e.a.y;
+    four.along_x[lane] = ab.x;
+    four.along_y[lane] = ab.y;
+    four.per_length2[lane] = length2 > 0 ? 1 / length2 : 0;
   }
-  return p;
+}
+
+bool NearEdges::Reaches(const Four& four, Vec2 p, float reach_m2) {
+  const Lanes x = p.x - four.ax, y = p.y - four.ay;
+  Lanes t = (x * four.along_x + y * four.along_y) * four.per_length2;
+  t = t < 0 ? Lanes{} : t;
+  t = t > 1 ? Lanes{1, 1, 1, 1} : t;
+  const Lanes away_x = x - t * four.along_x, away_y = y - t * four.along_y;
+  const auto near = away_x * away_x + away_y * away_y < reach_m2;
+  return (near[0] | near[1] | near[2] | near[3]) != 0;
+}
+
+Vec2 NearEdges::PushedOff(Vec2 p, float radius_m) const {
+  const float reach_m2 = radius_m * radius_m * 1.01f;  // more than rounding makes of it
+  return PushedBy(
+      [&](Vec2 now) {
+        for (const Four& four : fours_) {
+          if (!Reaches(four, now, reach_m2)) continue;
+          for (const Walkable::Edge* e : four.edges) {
+            if (e != nullptr) PushOutOfEdge(*e, radius_m, &now);
+          }
+        }
+        PushOutOfCircles(*w_, cell_, radius_m, &now);
+        return now;
+      },
+      p);
 }
 
 Vec2 AwayFromNearest(const Walkable& w, int cell, Vec2 p) {
@@ -122,12 +192,18 @@ Vec2 AwayFromNearest(const Walkable& w, int cell, Vec2 p) {
 }
 
 bool HasWallsOnEitherSide(const Walkable& w, int cell, Vec2 p, float reach_m) {
+  struct Wall {
+    Vec2 away;
+    float distance_m;
+  };
+  std::vector<Wall> near;
   bool found = false;
   VisitWalls(w, cell, p, [&](Vec2 away, float distance_m) {
     if (found || distance_m > reach_m || distance_m < 1e-4f) return;
-    VisitWalls(w, cell, p, [&](Vec2 other, float other_m) {
-      if (other_m <= reach_m && other_m >= 1e-4f && Dot(away, other) < -kOpposite * distance_m * other_m) found = true;
+    found = std::any_of(near.begin(), near.end(), [&](const Wall& other) {
+      return Dot(away, other.away) < -kOpposite * distance_m * other.distance_m;
     });
+    near.push_back({away, distance_m});
   });
   return found;
 }

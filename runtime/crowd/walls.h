@@ -12,6 +12,25 @@ float Clearance(const Walkable& w, int cell, Vec2 p);
 // The point near p that is radius_m from the walls and trees near the cell, if a few pushes find one.
 Vec2 PushedOff(const Walkable& w, int cell, Vec2 p, float radius_m);
 
+// What may push people in one cell, for many questions about it: four edges are looked at at a time.
+class NearEdges {
+ public:
+  // Before anything else; w stays as it is meanwhile.
+  void LookAt(const Walkable& w, int cell);
+  Vec2 PushedOff(Vec2 p, float radius_m) const;  // the same place as above, bit for bit
+
+ private:
+  using Lanes = float __attribute__((vector_size(16)));
+  struct Four {
+    Lanes ax = Lanes{} + 1e6f, ay = ax, along_x{}, along_y{}, per_length2{};
+    const Walkable::Edge* edges[4] = {};
+  };
+  static bool Reaches(const Four& four, Vec2 p, float reach_m2);
+  const Walkable* w_ = nullptr;
+  int cell_ = -1;
+  std::vector<Four> fours_;
+};
+
 // From the nearest wall or tree near the cell to p; zero where none is.
 Vec2 AwayFromNearest(const Walkable& w, int cell, Vec2 p);
 

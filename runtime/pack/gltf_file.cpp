@@ -143,12 +143,12 @@ std::string Complaint(const std::exception& e) {
   return "is broken: in its JSON, " + PlainJsonError(e.what());
 }
 
-GltfFile OpenGltf(std::vector<uint8_t> bytes, std::optional<ByteRanges> there, Allowance* allowance) {
+GltfFile OpenGltf(FileBytes bytes, std::optional<ByteRanges> there, Allowance* allowance) {
   GltfFile file;
   file.allowance = allowance;
   file.bytes = std::move(bytes);
   file.there = std::move(there);
-  const std::span<const uint8_t> all(file.bytes);
+  const std::span<const uint8_t> all = std::as_const(file.bytes).span();
   if (all.size() < 12 || Word(all, 0) != kMagic) throw PackRefused("is not a glTF binary");
   if (Word(all, 4) != 2) throw PackRefused("is not glTF 2.0");
   if (Word(all, 8) != all.size()) throw PackRefused("is truncated");

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/file_bytes.h"
 #include "runtime/pack/byte_ranges.h"
 
 namespace flaneur {
@@ -33,7 +34,7 @@ struct NodeTree {
 };
 
 struct GltfFile {
-  std::vector<uint8_t> bytes;
+  FileBytes bytes;
   Json json;
   std::span<const uint8_t> binary;              // into bytes
   std::map<int, std::vector<uint8_t>> decoded;  // by buffer view, those that were compressed
@@ -45,7 +46,7 @@ struct GltfFile {
 // Splits the container, parses and checks the JSON (every index and size is a whole number from 0, every other number
 // finite, nodes make trees) and decodes what EXT_meshopt_compression packed. Throws PackRefused. The allowance is in
 // the file that comes back, for whoever reads on.
-GltfFile OpenGltf(std::vector<uint8_t> bytes, std::optional<ByteRanges> there, Allowance* allowance);
+GltfFile OpenGltf(FileBytes bytes, std::optional<ByteRanges> there, Allowance* allowance);
 
 // Member access that names what is missing or of the wrong type.
 const Json& Member(const Json& object, const char* key);

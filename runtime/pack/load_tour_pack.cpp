@@ -688,22 +688,22 @@ PackFile& PackFile::operator=(PackFile&&) noexcept = default;
 PackFile::~PackFile() = default;
 
 Error PackFile::Open(const std::filesystem::path& path, TourPack* pack, const PackLimits& limits) {
-  std::vector<uint8_t> bytes;
+  FileBytes bytes;
   if (Error e = ReadFile(path, &bytes)) return e;
   return Open(std::move(bytes), path.string(), pack, limits);
 }
 
-Error PackFile::Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack, const PackLimits& limits) {
+Error PackFile::Open(FileBytes bytes, const std::string& name, TourPack* pack, const PackLimits& limits) {
   return OpenPart(std::move(bytes), {}, name, pack, limits);
 }
 
-Error PackFile::Open(std::vector<uint8_t> bytes, ByteRanges there, const std::string& name, TourPack* pack) {
+Error PackFile::Open(FileBytes bytes, ByteRanges there, const std::string& name, TourPack* pack) {
   if (there.Holds({0, bytes.size()})) return Open(std::move(bytes), name, pack);
   return OpenPart(std::move(bytes), std::move(there), name, pack, {});
 }
 
-Error PackFile::OpenPart(std::vector<uint8_t> bytes, std::optional<ByteRanges> there, const std::string& name,
-                         TourPack* pack, const PackLimits& limits) {
+Error PackFile::OpenPart(FileBytes bytes, std::optional<ByteRanges> there, const std::string& name, TourPack* pack,
+                         const PackLimits& limits) {
   return Caught(name, [&] {
     auto impl = std::make_unique<Impl>();
     Allowance allowance(bytes.size(), limits);
@@ -751,7 +751,7 @@ std::vector<ByteRange> PackFile::Ranges(Collect collect) const {
 
 Error PackFile::Arrive(size_t offset, std::span<const uint8_t> bytes) {
   if (!impl_) return Ok();  // nobody reads any more
-  std::vector<uint8_t>& all = impl_->file.bytes;
+  const std::span<uint8_t> all = impl_->file.bytes.span();
   if (offset > all.size() || bytes.size() > all.size() - offset)
     return Fail(impl_->name + ": has a piece beyond its end");
   std::optional<ByteRanges>& there = impl_->file.there;
@@ -799,12 +799,12 @@ std::vector<ByteRange> PackFile::RangesOfAtlas(int avatar, int finest_level) con
 }
 
 Error LoadTourPack(const std::filesystem::path& path, const LoadOptions& options, TourPack* pack) {
-  std::vector<uint8_t> bytes;
+  FileBytes bytes;
   if (Error e = ReadFile(path, &bytes)) return e;
   return ParseTourPack(std::move(bytes), path.string(), options, pack);
 }
 
-Error ParseTourPack(std::vector<uint8_t> bytes, const std::string& name, const LoadOptions& options, TourPack* pack) {
+Error ParseTourPack(FileBytes bytes, const std::string& name, const LoadOptions& options, TourPack* pack) {
   PackFile file;
   TourPack loaded;
   if (Error e = file.Open(std::move(bytes), name, &loaded, options.limits)) return e;

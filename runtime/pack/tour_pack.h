@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "runtime/base/error.h"
+#include "runtime/base/file_bytes.h"
 #include "runtime/base/jobs.h"
 #include "runtime/base/limits.h"
 #include "runtime/base/math.h"
@@ -153,7 +154,7 @@ class PackFile {
   PackFile& operator=(PackFile&&) noexcept;
   ~PackFile();
   Error Open(const std::filesystem::path& path, TourPack* pack, const PackLimits& limits = {});
-  Error Open(std::vector<uint8_t> bytes, const std::string& name, TourPack* pack, const PackLimits& limits = {});
+  Error Open(FileBytes bytes, const std::string& name, TourPack* pack, const PackLimits& limits = {});
   Error ReadImage(int image, PackImage* out) const;
   Error ReadMesh(int mesh, PackMesh* out) const;
   Error ReadPrimitive(int mesh, size_t primitive, PackPrimitive* out) const;  // one of the mesh's
@@ -162,7 +163,7 @@ class PackFile {
 
   // A file that arrives in pieces: `bytes` are as many as it has, and of them so many are there that all but the bulk
   // can be read, and of each image what tells its size.
-  Error Open(std::vector<uint8_t> bytes, ByteRanges there, const std::string& name, TourPack* pack);
+  Error Open(FileBytes bytes, ByteRanges there, const std::string& name, TourPack* pack);
   // More of it; whoever reads at the same time must be in this thread. Errors: beyond the file's end.
   Error Arrive(size_t offset, std::span<const uint8_t> bytes);
   bool IsWhole() const;  // or was never in pieces
@@ -175,7 +176,7 @@ class PackFile {
 
  private:
   struct Impl;
-  Error OpenPart(std::vector<uint8_t> bytes, std::optional<ByteRanges> there, const std::string& name, TourPack* pack,
+  Error OpenPart(FileBytes bytes, std::optional<ByteRanges> there, const std::string& name, TourPack* pack,
                  const PackLimits& limits);
   template <typename Collect>
   std::vector<ByteRange> Ranges(Collect collect) const;
@@ -194,6 +195,6 @@ struct LoadOptions {
 Error LoadTourPack(const std::filesystem::path& path, const LoadOptions& options, TourPack* pack);
 
 // The same from memory; `name` stands for the path in messages.
-Error ParseTourPack(std::vector<uint8_t> bytes, const std::string& name, const LoadOptions& options, TourPack* pack);
+Error ParseTourPack(FileBytes bytes, const std::string& name, const LoadOptions& options, TourPack* pack);
 
 }  // namespace flaneur

@@ -92,6 +92,13 @@ void BeginProgram(ShaderProgram which, ShaderMode mode) {
   begun.push_back(p);
 }
 
+void AwaitBegunPrograms() {
+  for (const BegunProgram& p : begun) {
+    GLint good = 0;
+    glGetProgramiv(p.id, GL_LINK_STATUS, &good);
+  }
+}
+
 Error BuildProgram(ShaderProgram which, ShaderMode mode, Program* program) {
   BeginProgram(which, mode);
   const auto place = FindBegun(which, mode);

@@ -45,6 +45,8 @@ struct Program {
 // Drivers may compile on other threads until somebody asks how it went: many programs of the context in force are begun
 // at once, and BuildProgram goes on with those.
 void BeginProgram(ShaderProgram which, ShaderMode mode = ShaderMode::kGpu);
+// Until all that have begun are compiled, and not until whatever else the driver has been asked for afterwards.
+void AwaitBegunPrograms();
 // Errors: what the driver says against it.
 Error BuildProgram(ShaderProgram which, ShaderMode mode, Program* program);
 Error BuildProgram(ShaderProgram which, Program* program);  // where all modes are alike

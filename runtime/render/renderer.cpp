@@ -229,6 +229,7 @@ void Renderer::Expect(const RenderOptions& options) {
   if (way.deferred) BeginProgram(kLight, way.mode);
   for (const ShaderProgram program : {kEnlarge, kCaption, kWallShade, kContactShade, kGroundMark, kSmoke})
     BeginProgram(program);
+  glFlush();  // they may wait in a buffer otherwise
 }
 
 Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
@@ -241,6 +242,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   r.pictures_left = pack.images.size();
   r.town.triangle_by_triangle = fast || averages;
   r.plan = PlanSurfaces(pack, LimitsOfThisMachine(fast));
+  AwaitBegunPrograms();  // the arrays' memory takes a software driver longer
   r.arrays = CreateTextureArrays(r.plan, fast || averages);
   if (Error e = CreateTownView(mode, r.plan, r.arrays, &r.town)) return e;
   if (Error e = CreatePeopleView(pack, mode, r.plan, r.arrays, &r.people)) return e;

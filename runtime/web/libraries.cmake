@@ -3,6 +3,10 @@
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 add_compile_options(-fwasm-exceptions -msimd128 -mnontrapping-fptoint)
 add_link_options(-fwasm-exceptions)
+# What is called in one place alone stays a function of its own: browsers compile a hot function as a whole, and rooms
+# that had become one function of 50 kB took them seconds while a tour begins.
+set(web_apart -fno-inline-functions)  # the same, of the functions of a file that is gone through once
+add_link_options("-sBINARYEN_EXTRA_PASSES=--one-caller-inline-max-function-size=40")
 add_compile_options(-Wno-unknown-warning-option)  # GCC's own
 
 set(web_headers ${CMAKE_BINARY_DIR}/include)

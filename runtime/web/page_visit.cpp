@@ -89,7 +89,7 @@ constexpr const char* kPageNames[] = {"", "main", "stops", "languages", "setting
 }  // namespace
 
 struct PageVisit::Impl {
-  std::vector<uint8_t> bytes;  // until the file is open
+  FileBytes bytes;  // until the file is open
   ByteRanges there;
   TourPack pack;
   PackFile pack_file;          // between its opening and the loader's start
@@ -149,7 +149,7 @@ struct PageVisit::Impl {
 PageVisit::PageVisit() : impl_(std::make_unique<Impl>()) {}
 PageVisit::~PageVisit() = default;
 
-void PageVisit::Expect(size_t bytes) { impl_->bytes.resize(bytes); }
+void PageVisit::Expect(size_t bytes) { impl_->bytes = FileBytes::Room(bytes); }
 
 Error PageVisit::Arrive(size_t offset, std::span<const uint8_t> bytes) {
   Impl& v = *impl_;
@@ -159,7 +159,7 @@ Error PageVisit::Arrive(size_t offset, std::span<const uint8_t> bytes) {
   }
   if (offset > v.bytes.size() || bytes.size() > v.bytes.size() - offset)
     return Fail("a piece lies beyond the tour's end");
-  std::copy(bytes.begin(), bytes.end(), v.bytes.begin() + static_cast<std::ptrdiff_t>(offset));
+  std::copy(bytes.begin(), bytes.end(), v.bytes.data() + offset);
   v.there.Add({offset, bytes.size()});
   return Ok();
 }
@@ -170,6 +170,7 @@ Error PageVisit::Open(const std::string& settings) {
   AddGuideFigure(&v.pack);
   AddLate(v.pack.sound_ranges, &v.pack.sounds, &v.late);
   AddLate(v.pack.picture_ranges, &v.pack.pictures, &v.late);
+  if (Error e = v.renderer.Begin(v.pack, kDrawing)) return e;  // the driver works on while the town is prepared
   if (Error e = StartSimulation(&v.pack, ScenarioOf(v.pack), &v.s)) return e;
   v.open = true;
   v.own = {v.s.visitor.camera.view.fov_rad, v.s.visitor.camera.eye_height_m};
@@ -193,7 +194,6 @@ Error PageVisit::Begin() {
   Impl& v = *impl_;
   v.loader.Start(std::move(v.pack_file), v.pack);
   v.loads = true;
-  if (Error e = v.renderer.Begin(v.pack, kDrawing)) return e;
   v.loader.PrepareFor(v.renderer);
   return Ok();
 }

@@ -92,7 +92,7 @@ std::string TryPack(const std::filesystem::path& path, Bytes bytes) {
   ReadPackTitle(path, "en", &title);
   PackFile file;
   TourPack pack;
-  if (const Error e = file.Open({bytes.begin(), bytes.end()}, "input", &pack)) return Refused(e);
+  if (const Error e = file.Open(std::vector<uint8_t>(bytes.begin(), bytes.end()), "input", &pack)) return Refused(e);
   if (std::string fault = ReadBulk(file, pack); !fault.empty()) return fault;
   return Play(&pack, ScenarioOf(pack));
 }

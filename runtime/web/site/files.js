@@ -14,10 +14,18 @@ export async function openStore() {
   }
 }
 
+let heard_ms = 0;  // when a byte of any file came last
+
+// Stops what waits while nothing comes at all: browsers let files wait for one another.
+function watchLine(stop) {
+  heard_ms = performance.now();
+  const watch = setInterval(() => performance.now() - heard_ms > kStalls_ms && stop.abort(), kStalls_ms / 4);
+  return () => clearInterval(watch);
+}
+
 // All of it, or nothing where the line has stalled or broken.
 async function readWhole(file) {
-  const stop = new AbortController();
-  let watch = setTimeout(() => stop.abort(), kStalls_ms);
+  const stop = new AbortController(), unwatch = watchLine(stop);
   try {
     const answer = await fetch(file, {signal: stop.signal});
     if (answer.status === 404 || answer.status === 410) throw new Trouble('missing', file);
@@ -26,9 +34,8 @@ async function readWhole(file) {
     let bytes = 0;
     for (const reader = answer.body.getReader();;) {
       const {done, value} = await reader.read();
-      clearTimeout(watch);
+      heard_ms = performance.now();
       if (done) break;
-      watch = setTimeout(() => stop.abort(), kStalls_ms);
       parts.push(value);
       bytes += value.length;
     }
@@ -39,7 +46,7 @@ async function readWhole(file) {
     if (e instanceof Trouble) throw e;
     return null;
   } finally {
-    clearTimeout(watch);
+    unwatch();
   }
 }
 
@@ -74,9 +81,9 @@ export async function fetchPacked(store, file, bytes) {
 const sizeOf = (piece) => piece.parts.reduce((sum, [, bytes]) => sum + bytes, 0);
 
 // A few at a time, in order of their need.
-export async function fetchPieces(store, pieces, take) {
+export async function fetchPieces(store, pieces, take, atOnce = kAtOnce) {
   let next = 0;
-  await Promise.all(Array.from({length: kAtOnce}, async () => {
+  await Promise.all(Array.from({length: atOnce}, async () => {
     while (next < pieces.length) {
       const piece = pieces[next++];
       await take(piece, await fetchPacked(store, piece.file, sizeOf(piece)));

@@ -8,6 +8,11 @@ const kKeys = {
 const kPadButtons = ['a', 'b', 'x', 'y', 'left_bumper', 'right_bumper', null, null, 'back', 'start', 'left_thumb',
                      'right_thumb', 'up', 'down', 'left', 'right'];
 
+// Browsers tell of a gamepad from its first button on; who asks without one there may wait for a tenth of a second.
+let gamepads = 0;
+addEventListener('gamepadconnected', () => { ++gamepads; });
+addEventListener('gamepaddisconnected', () => { --gamepads; });
+
 // Tab stays with the page, so that the keyboard alone reaches its buttons, and the browser has its own F keys.
 function nameOfKey(code) {
   const plain = /^(?:Key|Digit)(.)$/.exec(code);
@@ -119,7 +124,8 @@ export class Hands {
   }
   // Once a picture.
   takeGamepad() {
-    const pad = navigator.getGamepads?.().find((p) => p?.mapping === 'standard');
+    if (gamepads === 0) return;
+    const pad = navigator.getGamepads().find((p) => p?.mapping === 'standard');
     if (!pad) return;
     pad.buttons.forEach((button, k) => {
       const name = kPadButtons[k];

@@ -219,7 +219,7 @@ async function load(store, site, canvas) {
     waiting.push([piece, content]);
     progress.value = ++came / first.length;
     goOn();
-  })]);
+  }, first.length)]);
   player.call('page_begin');
   while (!player.isLoaded()) await pause(0);
   return player;

@@ -6,10 +6,10 @@ const kFollows_s = 0.12;  // changes are as slow as they are told of
 
 export class Sounds {
   constructor(player, signal) {
-    Object.assign(this, {player, signal, spoken: 0, speech: null, round: new Map(), buffers: new Map(), computes: false});
+    Object.assign(this, {player, signal, spoken: 0, speech: null, round: new Map(), buffers: new Map(), computes: false, opening: null});
     const wake = () => {
-      if (!this.context) this.#open();
-      if (!document.hidden && this.context.state !== 'closed') this.context.resume().catch(() => {});
+      this.opening ??= this.#open();
+      if (!document.hidden && this.context?.state === 'suspended') this.context.resume().catch(() => {});
     };
     for (const type of ['pointerdown', 'keydown', 'touchend']) addEventListener(type, wake, {signal, capture: true});
     if (navigator.userActivation?.hasBeenActive) wake();  // who has begun the tour by a button
@@ -27,8 +27,11 @@ export class Sounds {
     for (const sound of told.once) this.#play(sound);
   }
 
-  #open() {
+  // Browsers find out about the machine's sound when they are asked for its devices, and else hold the page up for it.
+  async #open() {
     const {signal} = this;
+    await navigator.mediaDevices?.enumerateDevices().catch(() => {});
+    if (signal.aborted) return;
     this.context = new AudioContext();
     this.voice = this.#gain();
     this.town = this.#gain();

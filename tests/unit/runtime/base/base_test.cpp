@@ -4,6 +4,8 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -44,6 +46,22 @@ TEST(File, ComesBackAsWritten) {
   ASSERT_EQ(ReadFile(path, &back).message, "");
   EXPECT_EQ(back, bytes);
   EXPECT_EQ(FilesIn(path.parent_path()), 1u);
+}
+
+TEST(File, ComesBackIntoRoomThatNobodyHasWritten) {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.bin";
+  std::vector<uint8_t> bytes(50'000);
+  for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<uint8_t>(i * 7 / 3);
+  ASSERT_EQ(WriteFile(path, bytes).message, "");
+  FileBytes back;
+  ASSERT_EQ(ReadFile(path, &back).message, "");
+  EXPECT_TRUE(std::ranges::equal(back.span(), bytes));
+  ASSERT_EQ(WriteFile(path, std::span<const uint8_t>{}).message, "");
+  ASSERT_EQ(ReadFile(path, &back).message, "");
+  EXPECT_TRUE(back.empty());
+  EXPECT_FALSE(ReadFile(folder.path(), &back).message.empty());
+  EXPECT_TRUE(std::ranges::equal(FileBytes(bytes).span(), bytes));
 }
 
 TEST(File, AFailedWriteKeepsWhatWasThere) {

@@ -94,6 +94,24 @@ TEST(Walkable, IsFreeWhereNoHouseIsAndNoWallIsNear) {
   }
 }
 
+TEST(NearEdges, PushToTheSamePlaceAsTheListOfWalls) {
+  Random random{31};
+  const Walkable w = JaggedTown(&random);
+  NearEdges edges;
+  int pushed = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const Vec2 p{random.Uniform(-19, 19), random.Uniform(-19, 19)};
+    const float radius_m = random.Uniform(0.1f, 0.5f);
+    const int cell = CellAt(w, p);
+    edges.LookAt(w, cell);
+    const Vec2 expected = PushedOff(w, cell, p, radius_m), found = edges.PushedOff(p, radius_m);
+    ASSERT_EQ(found.x, expected.x) << p.x << " " << p.y;
+    ASSERT_EQ(found.y, expected.y) << p.x << " " << p.y;
+    pushed += found.x != p.x ? 1 : 0;
+  }
+  EXPECT_GT(pushed, 1000);
+}
+
 Crowd PeopleWhoCross(const Walkable& w, int count) {
   Crowd crowd;
   Random random{7};
