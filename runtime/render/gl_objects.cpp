@@ -16,6 +16,9 @@ struct BegunProgram {
   ShaderProgram which;
   ShaderMode mode;
   GLuint id = 0, vertex = 0, fragment = 0;
+  bool asked = false;  // the rest is known; browsers ask the driver anew, and wait for it, where there is no block
+  GLint good = 0;
+  GLuint frame_block = GL_INVALID_INDEX;
 };
 std::vector<BegunProgram> begun;
 
@@ -45,10 +48,16 @@ std::string WhyNot(GLuint program, GLuint vertex, GLuint fragment) {
   return "the OpenGL driver refuses a shader program: " + OneLine(log);
 }
 
-void TakePlaces(Program* p) {
+void Ask(BegunProgram* p) {
+  if (p->asked) return;
+  p->asked = true;
+  glGetProgramiv(p->id, GL_LINK_STATUS, &p->good);
+  if (p->good) p->frame_block = glGetUniformBlockIndex(p->id, "Frame");
+}
+
+void TakePlaces(GLuint block, Program* p) {
   const GLuint program = p->id;
   glUseProgram(program);
-  const GLuint block = glGetUniformBlockIndex(program, "Frame");
   if (block != GL_INVALID_INDEX) glUniformBlockBinding(program, block, kFrameBinding);
   const struct {
     const char* name;
@@ -93,26 +102,23 @@ void BeginProgram(ShaderProgram which, ShaderMode mode) {
 }
 
 void AwaitBegunPrograms() {
-  for (const BegunProgram& p : begun) {
-    GLint good = 0;
-    glGetProgramiv(p.id, GL_LINK_STATUS, &good);
-  }
+  for (BegunProgram& p : begun) Ask(&p);
 }
 
 Error BuildProgram(ShaderProgram which, ShaderMode mode, Program* program) {
   BeginProgram(which, mode);
   const auto place = FindBegun(which, mode);
-  const GLuint id = program->id = place->id, vertex = place->vertex, fragment = place->fragment;
+  Ask(&*place);
+  const BegunProgram p = *place;
   begun.erase(place);
-  GLint good = 0;
-  glGetProgramiv(id, GL_LINK_STATUS, &good);
-  const std::string refusal = good ? "" : WhyNot(id, vertex, fragment);
-  for (GLuint shader : {vertex, fragment}) {  // drivers keep what they made of it as long as it is attached
-    glDetachShader(id, shader);
+  program->id = p.id;
+  const std::string refusal = p.good ? "" : WhyNot(p.id, p.vertex, p.fragment);
+  for (GLuint shader : {p.vertex, p.fragment}) {  // drivers keep what they made of it as long as it is attached
+    glDetachShader(p.id, shader);
     glDeleteShader(shader);
   }
-  if (!good) return Fail(refusal);
-  TakePlaces(program);
+  if (!p.good) return Fail(refusal);
+  TakePlaces(p.frame_block, program);
   return Ok();
 }
 
