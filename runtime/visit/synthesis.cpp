@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "runtime/base/math.h"
 
@@ -86,32 +87,47 @@ void AddVoice(uint64_t seed, Signal* out) {
   }
 }
 
-Signal Murmur() {
-  Signal s(Samples(9), 0);
-  for (uint64_t k = 0; k < 14; ++k) AddVoice(40 + k, &s);
-  LowPass walls(1600);
-  for (float& value : s) value = walls(value);
-  return Rounded(std::move(s), Samples(8));
+using Part = std::function<void(Signal*)>;  // of the work on a sound
+using Parts = std::vector<Part>;
+
+Parts Murmur() {
+  Parts parts{[](Signal* s) { s->assign(Samples(9), 0); }};
+  for (uint64_t k = 0; k < 14; ++k) parts.push_back([k](Signal* s) { AddVoice(40 + k, s); });
+  parts.push_back([](Signal* s) {
+    LowPass walls(1600);
+    for (float& value : *s) value = walls(value);
+    *s = Rounded(std::move(*s), Samples(8));
+  });
+  return parts;
 }
 
-Signal Water() {
-  Signal s(Samples(6), 0);
-  Chance chance{7};
-  LowPass hiss(5200), rumble(700);
-  for (float& value : s) {
-    const float noise = hiss(chance.Noise());
-    value = 0.35f * (noise - rumble(noise));
+// Bubbles ring the higher the smaller they get.
+void AddBubble(Chance* chance, Signal* s) {
+  const size_t at = Samples(chance->Between(0, 5.8f));
+  const float hz = chance->Between(500, 2400), loud = chance->Between(0.03f, 0.16f), lives_s = 14 / hz;
+  float phase = 0;
+  for (size_t i = 0; i < Samples(5 * lives_s) && at + i < s->size(); ++i) {
+    phase += hz * (1 + 6 * Time_s(i)) * kStep_s;
+    (*s)[at + i] += loud * std::exp(-Time_s(i) / lives_s) * std::sin(2 * kPi * phase);
   }
-  for (int k = 0; k < 260; ++k) {  // bubbles ring the higher the smaller they get
-    const size_t at = Samples(chance.Between(0, 5.8f));
-    const float hz = chance.Between(500, 2400), loud = chance.Between(0.03f, 0.16f), lives_s = 14 / hz;
-    float phase = 0;
-    for (size_t i = 0; i < Samples(5 * lives_s) && at + i < s.size(); ++i) {
-      phase += hz * (1 + 6 * Time_s(i)) * kStep_s;
-      s[at + i] += loud * std::exp(-Time_s(i) / lives_s) * std::sin(2 * kPi * phase);
+}
+
+Parts Water() {
+  const auto chance = std::make_shared<Chance>(Chance{7});
+  Parts parts{[chance](Signal* s) {
+    s->assign(Samples(6), 0);
+    LowPass hiss(5200), rumble(700);
+    for (float& value : *s) {
+      const float noise = hiss(chance->Noise());
+      value = 0.35f * (noise - rumble(noise));
     }
-  }
-  return Rounded(std::move(s), Samples(5));
+  }};
+  for (int k = 0; k < 13; ++k)
+    parts.push_back([chance](Signal* s) {
+      for (int bubble = 0; bubble < 20; ++bubble) AddBubble(chance.get(), s);
+    });
+  parts.push_back([](Signal* s) { *s = Rounded(std::move(*s), Samples(5)); });
+  return parts;
 }
 
 // Heel and sole on stone.
@@ -151,30 +167,37 @@ Signal Song(int variant) {
 }
 
 // One stroke: the partials of a bell with its minor third.
-Signal Stroke() {
+Parts Stroke() {
   constexpr float kStrike_hz = 233;
-  constexpr float kPartials[][3] = {{0.5f, 0.5f, 2.6f}, {1, 0.9f, 1.7f},     {1.2f, 0.8f, 1.4f}, {1.5f, 0.35f, 1.0f},
-                                    {2, 0.8f, 0.9f},    {2.67f, 0.3f, 0.5f}, {3, 0.25f, 0.4f},   {4.1f, 0.18f, 0.25f}};
-  Signal s(Samples(6), 0);
-  for (const auto& [ratio, loud, lives_s] : kPartials) {
-    for (size_t i = 0; i < s.size(); ++i)
-      s[i] += loud * std::exp(-Time_s(i) / lives_s) * std::sin(2 * kPi * kStrike_hz * ratio * Time_s(i));
+  struct Partial {
+    float ratio, loud, lives_s;
+  };
+  constexpr Partial kPartials[] = {{0.5f, 0.5f, 2.6f}, {1, 0.9f, 1.7f},     {1.2f, 0.8f, 1.4f}, {1.5f, 0.35f, 1.0f},
+                                   {2, 0.8f, 0.9f},    {2.67f, 0.3f, 0.5f}, {3, 0.25f, 0.4f},   {4.1f, 0.18f, 0.25f}};
+  Parts parts{[](Signal* s) { s->assign(Samples(6), 0); }};
+  for (const Partial& p : kPartials) {
+    parts.push_back([p](Signal* s) {
+      for (size_t i = 0; i < s->size(); ++i)
+        (*s)[i] += p.loud * std::exp(-Time_s(i) / p.lives_s) * std::sin(2 * kPi * kStrike_hz * p.ratio * Time_s(i));
+    });
   }
-  for (size_t i = 0; i < s.size(); ++i)
-    s[i] *= std::min(1.0f, Time_s(i) / 0.003f) * std::min(1.0f, (Time_s(s.size()) - Time_s(i)) / 0.5f);
-  return s;
+  parts.push_back([](Signal* s) {
+    for (size_t i = 0; i < s->size(); ++i)
+      (*s)[i] *= std::min(1.0f, Time_s(i) / 0.003f) * std::min(1.0f, (Time_s(s->size()) - Time_s(i)) / 0.5f);
+  });
+  return parts;
 }
 
-Signal SignalOf(SoundKind kind, int variant) {
+Parts PartsOf(SoundKind kind, int variant) {
   switch (kind) {
     case SoundKind::kSteps:
-      return Footfall(variant);
+      return {[variant](Signal* s) { *s = Footfall(variant); }};
     case SoundKind::kMurmur:
       return Murmur();
     case SoundKind::kWater:
       return Water();
     case SoundKind::kBirds:
-      return Song(variant);
+      return {[variant](Signal* s) { *s = Song(variant); }};
     case SoundKind::kBell:
       return Stroke();
     case SoundKind::kLoop:
@@ -183,17 +206,43 @@ Signal SignalOf(SoundKind kind, int variant) {
   return {};
 }
 
-}  // namespace
-
-std::vector<int16_t> Synthesize(SoundKind kind, int variant) {
+std::vector<int16_t> AsSamples(const Signal& signal) {
   constexpr float kPeak = 0.8f;
-  const Signal signal = SignalOf(kind, variant);
   float peak = 1e-6f;
   for (float value : signal) peak = std::max(peak, std::abs(value));
   std::vector<int16_t> samples;
   samples.reserve(signal.size());
   for (float value : signal) samples.push_back(static_cast<int16_t>(std::lround(value / peak * kPeak * 32767)));
   return samples;
+}
+
+}  // namespace
+
+struct Synthesis::Impl {
+  Parts parts;
+  size_t done = 0;
+  Signal signal;
+};
+
+Synthesis::Synthesis(SoundKind kind, int variant) : impl_(new Impl{PartsOf(kind, variant), 0, {}}) {}
+Synthesis::Synthesis(Synthesis&&) noexcept = default;
+Synthesis& Synthesis::operator=(Synthesis&&) noexcept = default;
+Synthesis::~Synthesis() = default;
+
+bool Synthesis::GoOn(std::vector<int16_t>* sound) {
+  if (impl_->done < impl_->parts.size()) {
+    impl_->parts[impl_->done++](&impl_->signal);
+    return false;
+  }
+  *sound = AsSamples(impl_->signal);
+  return true;
+}
+
+std::vector<int16_t> Synthesize(SoundKind kind, int variant) {
+  Synthesis synthesis(kind, variant);
+  std::vector<int16_t> sound;
+  while (!synthesis.GoOn(&sound)) {}
+  return sound;
 }
 
 }  // namespace flaneur

@@ -50,7 +50,9 @@ std::span<const uint8_t> PageSound::BytesOf(size_t recording) {
   if (recording >= recordings_.size()) return {};
   const Recording& r = recordings_[recording];
   if (r.file != nullptr) return *r.file;
-  computed_ = Synthesize(r.kind, r.variant);
+  Synthesis& synthesis = begun_.try_emplace(recording, r.kind, r.variant).first->second;
+  if (!synthesis.GoOn(&computed_)) return {};
+  begun_.erase(recording);
   return {reinterpret_cast<const uint8_t*>(computed_.data()), computed_.size() * sizeof computed_[0]};
 }
 

@@ -1,12 +1,14 @@
 // What is heard, for a page to let it sound: it asks some times a second. Internal to runtime/web.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "runtime/visit/shell.h"
+#include "runtime/visit/synthesis.h"
 
 namespace flaneur {
 
@@ -24,7 +26,8 @@ class PageSound : public SoundOutput {
   nlohmann::json Take();
   // A file's bytes, as of the number that Take tells.
   std::span<const uint8_t> Spoken() const { return spoken_; }
-  // A file's bytes, which may still be on their way (empty), or one channel of 16-bit samples of kSynthesisRate_hz.
+  // A file's bytes, which may still be on their way (empty), or one channel of 16-bit samples of kSynthesisRate_hz,
+  // which are computed a part a call until they are there (empty).
   std::span<const uint8_t> BytesOf(size_t recording);
   bool IsComputed(size_t recording) const;
 
@@ -34,7 +37,8 @@ class PageSound : public SoundOutput {
   bool speaks_ = false, paused_ = false;
   float volume_ = 1;
   std::vector<Recording> recordings_;
-  std::vector<int16_t> computed_;  // the last one asked for
+  std::map<size_t, Synthesis> begun_;  // by recording
+  std::vector<int16_t> computed_;      // the last one that was finished
   Heard heard_;
   std::vector<HeardSound> once_;  // since Take
 };

@@ -109,32 +109,44 @@ export async function fetchPiecesMeanwhile(store, pieces, take, tellCut) {
   }
 }
 
-// And beside the page; where there are no workers, in it.
-export function fetchPiecesBeside(store, pieces, take, signal, tellCut) {
-  return new Promise((resolve, reject) => {
-    const worker = new Worker('fetch_worker.js', {type: 'module'}), end = () => worker.terminate();
-    const takeHere = (piece, content) => signal.aborted || take(piece, content);
-    const tellHere = (cut) => signal.aborted || tellCut(cut);
-    signal.addEventListener('abort', end, {once: true});
-    worker.onerror = () => resolve(fetchPiecesMeanwhile(store, pieces, takeHere, tellHere));
-    worker.onmessage = ({data: {piece, content, cut, trouble}}) => {
-      if (content) {
-        try {
-          take(piece, content);
-        } catch (e) {
-          end();
-          reject(e);
-        }
-        worker.postMessage(content, [content.buffer]);
-      } else if (cut !== undefined) {
-        tellCut(cut);
-      } else {
-        end();
-        trouble ? reject(new Trouble(trouble.kind, trouble.detail)) : resolve();
-      }
+// Fetches and unpacks beside the page, one list of pieces after the other; where there are no workers, in it.
+export class PieceFetcher {
+  constructor(store, signal) {
+    Object.assign(this, {store, signal, job: null, worker: new Worker('fetch_worker.js', {type: 'module'})});
+    signal.addEventListener('abort', () => this.worker?.terminate(), {once: true});
+    this.worker.onerror = () => {
+      this.worker = null;
+      this.job?.doHere();
     };
-    worker.postMessage({pieces});
-  });
+    this.worker.onmessage = ({data}) => this.job?.hear(data);
+  }
+  // tellCut: as of fetchPiecesMeanwhile; without it a line that breaks is a trouble.
+  fetch(pieces, take, tellCut = null) {
+    const {store, signal} = this;
+    return new Promise((resolve, reject) => {
+      const takeHere = (piece, content) => signal.aborted || take(piece, content);
+      const tellHere = tellCut && ((cut) => signal.aborted || tellCut(cut));
+      const doHere = () => resolve(tellCut ? fetchPiecesMeanwhile(store, pieces, takeHere, tellHere) : fetchPieces(store, pieces, takeHere, pieces.length));
+      const hear = ({piece, content, cut, trouble}) => {
+        if (content) {
+          try {
+            take(piece, content);
+          } catch (e) {
+            this.worker.terminate();
+            reject(e);
+          }
+          this.worker.postMessage(content, [content.buffer]);
+        } else if (cut !== undefined) {
+          tellCut(cut);
+        } else {
+          trouble ? reject(new Trouble(trouble.kind, trouble.detail)) : resolve();
+        }
+      };
+      this.job = {doHere, hear};
+      if (this.worker) this.worker.postMessage({pieces, waits: tellCut !== null});
+      else doHere();
+    });
+  }
 }
 
 // The list of pieces may change under its name: the newest that can be had.

@@ -2,7 +2,7 @@
 // the still picture. Nothing but this folder is asked for anything.
 import {Bar} from './bar.js';
 import {makeModule, Player} from './calls.js';
-import {fetchPieces, fetchPiecesBeside, forgetOthers, openStore, readSite} from './files.js';
+import {fetchPieces, forgetOthers, openStore, PieceFetcher, readSite} from './files.js';
 import {Hands} from './hands.js';
 import {Headset} from './headset.js';
 import {HotspotMarks} from './hotspots.js';
@@ -198,8 +198,8 @@ function listen(commands, visit) {
 
 // The player with as much of the tour as a first picture takes. While the line brings more, the player makes ready what it
 // can: its shaders, and the tour as soon as its beginning is there.
-async function load(store, site, canvas) {
-  const first = site.pieces.slice(0, site.first), opening = new Set(first.slice(0, site.opens)), waiting = [];
+async function load(store, site, canvas, fetcher) {
+  const first = site.pieces.slice(0, site.first), opens = first.slice(0, site.opens), opening = new Set(opens), waiting = [];
   let player = null, came = 0;
   const goOn = () => {
     if (!player) return;
@@ -215,11 +215,13 @@ async function load(store, site, canvas) {
     player = made;
     goOn();
   });
-  await Promise.all([begun, fetchPieces(store, first, async (piece, content) => {
+  const take = (piece, content) => {
     waiting.push([piece, content]);
     progress.value = ++came / first.length;
     goOn();
-  }, first.length)]);
+  };
+  // The others are unpacked beside the page, which is busy with the beginning.
+  await Promise.all([begun, fetchPieces(store, opens, take, opens.length), fetcher.fetch(first.slice(site.opens), take)]);
   player.call('page_begin');
   while (!player.isLoaded()) await pause(0);
   return player;
@@ -259,7 +261,8 @@ async function visitTour(visit, wishesNow) {
     }, {signal: visit.signal});
   });
   lost.catch(() => {});
-  const player = await load(store, site, canvas);
+  const fetcher = new PieceFetcher(store, visit.signal);
+  const player = await load(store, site, canvas, fetcher);
   const described = player.read('page_description');
   const commands = offer(player, described);
   wishesNow(commands);
@@ -273,8 +276,8 @@ async function visitTour(visit, wishesNow) {
   await Promise.race([lost, drawn, nextPicture().then(nextPicture)]);  // what is not in it does not hold it up
   tell('tour-loaded', described);
   keepPage();
-  const all = fetchPiecesBeside(store, site.pieces.slice(site.first), (piece, content) => player.arrive(piece, content),
-                                visit.signal, (cut) => cut !== message.hidden || showMessage(cut ? say('cutMeanwhile') : ''))
+  const all = fetcher.fetch(site.pieces.slice(site.first), (piece, content) => player.arrive(piece, content),
+                            (cut) => cut !== message.hidden || showMessage(cut ? say('cutMeanwhile') : ''))
     .then(async () => {
       await forgetOthers(store, site);
       tell('complete');

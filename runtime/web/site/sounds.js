@@ -2,6 +2,7 @@
 import {pause} from './trouble.js';
 
 const kRate_hz = 24000;   // of what the player computes
+const kPart_ms = 20, kMostParts = 100;
 const kFollows_s = 0.12;  // changes are as slow as they are told of
 
 export class Sounds {
@@ -18,7 +19,6 @@ export class Sounds {
   follow() {
     if (!this.context || this.context.state === 'closed') return;
     const told = this.player.read('page_sounds');
-    this.computes = false;
     this.#glide(this.voice.gain, told.volume);
     this.#glide(this.town.gain, told.volume);
     this.#speak(told);
@@ -63,30 +63,35 @@ export class Sounds {
     this.speech.connect(this.voice);
     this.speech.start();
   }
-  // Null while its file is on its way. One a moment is computed: each takes some milliseconds.
+  // Null while its file is on its way, or while it or another one is computed.
   async #bufferOf(recording) {
     const known = this.buffers.get(recording);
     if (known) return known;
-    const computed = this.player.ask('page_is_computed', ['number'], [recording]);
-    if (computed && this.computes) return null;
-    this.computes = this.computes || computed;
-    if (computed) await pause(0);  // not in the time of a picture
-    if (this.signal.aborted) return null;
+    if (this.player.ask('page_is_computed', ['number'], [recording])) return this.#compute(recording);
     const bytes = this.player.bytes('page_recording', ['number'], [recording]);
     if (bytes.length === 0) return null;
-    let buffer = null;
-    if (computed) {
+    const decoded = this.context.decodeAudioData(bytes.buffer).catch(() => null);
+    this.buffers.set(recording, decoded);
+    return await decoded;
+  }
+  // A part at a time, between pictures.
+  async #compute(recording) {
+    if (this.computes) return null;
+    this.computes = true;
+    for (let part = 0; part < kMostParts; ++part) {
+      await pause(kPart_ms);
+      if (this.signal.aborted) return null;
+      const bytes = this.player.bytes('page_recording', ['number'], [recording]);
+      if (bytes.length === 0) continue;
       const whole = new Int16Array(bytes.buffer), samples = new Float32Array(whole.length);
       for (let k = 0; k < whole.length; ++k) samples[k] = whole[k] / 32768;
-      buffer = new AudioBuffer({length: samples.length, sampleRate: kRate_hz});
+      const buffer = new AudioBuffer({length: samples.length, sampleRate: kRate_hz});
       buffer.copyToChannel(samples, 0);
       this.buffers.set(recording, buffer);
-    } else {
-      const decoded = this.context.decodeAudioData(bytes.buffer).catch(() => null);
-      this.buffers.set(recording, decoded);
-      buffer = await decoded;
+      break;
     }
-    return buffer;
+    this.computes = false;
+    return this.buffers.get(recording) ?? null;
   }
   // From its side; how loud it is there has been computed already.
   async #start(sound, loop) {

@@ -12,6 +12,7 @@ if (!site || !fs.existsSync(path.join(site, 'tour.json'))) {
   console.error('page_bench.mjs: error: name a folder that flaneur web wrote');
   process.exit(2);
 }
+const kSettles_ms = 2000;  // the browser, whose own pages take both cores while it starts; a visitor's is there already
 const kBytesAMillisecond = 20e6 / 8 / 1000, kDelay_ms = 40, kPart_bytes = 8192;  // of the line, which all answers share
 
 let sent = 0;
@@ -96,6 +97,7 @@ await page.evaluateOnNewDocument(() => {
   for (const type of ['tour-loaded', 'complete'])
     addEventListener(type, () => { globalThis.marks[type] = performance.now(), globalThis.told(type); });
 });
+await new Promise((done) => setTimeout(done, kSettles_ms));
 await page.goto(`http://127.0.0.1:${server.address().port}/`);
 const came = async (mark) => {
   await page.waitForFunction((m) => globalThis.marks[m], {timeout: 280000}, mark);
