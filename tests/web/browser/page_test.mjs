@@ -179,7 +179,7 @@ const tests = {
     await end(page);
     await host.close();
   },
-  async 'keys walk and turn, a drag turns, a tap walks there, two fingers widen the view'() {
+  async 'keys walk and turn, a drag turns, a tap walks there, two fingers widen the view, a gamepad turns'() {
     const host = await serve(site);
     const page = await newPage(host.url, (p) => p.emulate({viewport: {width: 320, height: 480, hasTouch: true, isMobile: true}, userAgent: 'phone'}));
     await inState(page, 'visiting');
@@ -210,6 +210,13 @@ const tests = {
     for (let k = 1; k < 9; ++k) await a.move(140 - 8 * k, 240), await b.move(180 + 8 * k, 240);
     await a.end(), await b.end();
     await until(page, 'a narrower view', (s) => s.fov_rad < before.fov_rad - 0.1);
+    before = await stateOf(page);
+    await page.evaluate(() => {  // as a browser tells of a gamepad: when its first button is pressed
+      const pad = {mapping: 'standard', buttons: Array.from({length: 17}, () => ({pressed: false})), axes: [0, 0, 1, 0]};
+      navigator.getGamepads = () => [null, pad];
+      dispatchEvent(new Event('gamepadconnected'));
+    });
+    await until(page, 'a stick turns', (s) => Math.sin(s.yaw_rad - before.yaw_rad) < -0.05);
     await end(page);
     await host.close();
   },
