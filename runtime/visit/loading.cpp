@@ -27,10 +27,11 @@ namespace {
 
 // The pieces on their way are large and soon gone: what they took goes back to the system at once, not into the
 // allocator's stock. Those that many pieces need for a moment (a mesh's tables take 4 MB) would cost more time in the
-// system than their reading.
+// system than their reading: a stock of some tens of them stays until all is read.
 void KeepNoStock() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 6 * 1024 * 1024);
+  mallopt(M_TRIM_THRESHOLD, 32 * 1024 * 1024);
 #endif
 }
 void ReleaseMemory() {
