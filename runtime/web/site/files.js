@@ -16,10 +16,15 @@ export async function openStore() {
 
 let heard_ms = 0;  // when a byte of any file came last
 
-// Stops what waits while nothing comes at all: browsers let files wait for one another.
+// Stops what waits while nothing comes at all: browsers let files wait for one another. Looked at twice, since after long
+// work, or in a tab that was hidden, what has come meanwhile is told later than the clock.
 function watchLine(stop) {
+  let silent = 0;
   heard_ms = performance.now();
-  const watch = setInterval(() => performance.now() - heard_ms > kStalls_ms && stop.abort(), kStalls_ms / 4);
+  const watch = setInterval(() => {
+    silent = performance.now() - heard_ms > kStalls_ms ? silent + 1 : 0;
+    if (silent > 1) stop.abort();
+  }, kStalls_ms / 4);
   return () => clearInterval(watch);
 }
 

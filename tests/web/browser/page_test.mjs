@@ -389,11 +389,12 @@ const tests = {
   },
   async 'a piece that is corrupt, cut or missing is one clear sentence'() {
     const list = JSON.parse(fs.readFileSync(path.join(site, 'tour.json')));
-    const first = list.pieces[0].file, last = list.pieces.at(-1).file, whole = fs.readFileSync(path.join(site, first));
+    const first = list.pieces[0].file, beside = list.pieces[list.opens].file, last = list.pieces.at(-1).file, whole = fs.readFileSync(path.join(site, first));
     const spoilt = Buffer.from(whole);
     spoilt[spoilt.length >> 1] ^= 0xFF;
     const cases = [[first, {body: spoilt}, /damaged/], [first, {cut: whole.length >> 1}, /line broke/],
-                   [first, {status: 404}, /not on this server/], [last, {body: spoilt}, /damaged/], [last, {status: 404}, /not on this server/]];
+                   [first, {status: 404}, /not on this server/],
+                   [beside, {body: spoilt}, /damaged/], [beside, {cut: 1000}, /line broke/], [last, {body: spoilt}, /damaged/], [last, {status: 404}, /not on this server/]];
     for (const [victim, answer, expected] of cases) {
       const host = await serve(site, (name) => (name === victim ? answer : null));
       const page = await newPage(host.url);
