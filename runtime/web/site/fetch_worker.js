@@ -3,7 +3,7 @@ import {fetchPieces, fetchPiecesMeanwhile, openStore} from './files.js';
 
 const tell = (piece, content) => postMessage({piece, content}, [content.buffer]);
 
-// Told pieces, and whether a line that breaks is waited for; later a piece's content comes back to be cleared away here.
+// Told pieces, and whether a line that breaks is waited for; later a piece's content may come back to be cleared away here.
 onmessage = async ({data: {pieces, waits}}) => {
   if (!pieces) return;
   try {

@@ -140,7 +140,7 @@ export class PieceFetcher {
             this.worker.terminate();
             reject(e);
           }
-          this.worker.postMessage(content, [content.buffer]);
+          if (tellCut) this.worker.postMessage(content, [content.buffer]);  // before the first picture they wait for the player
         } else if (cut !== undefined) {
           tellCut(cut);
         } else {
