@@ -162,10 +162,7 @@ const tests = {
   },
   async 'before the first picture nothing is asked for that it does not need, and all scripts at once'() {
     const host = await serve(site);
-    const page = await newPage(host.url);
-    const asked = [];
-    page.on('request', (request) => asked.push(new URL(request.url()).pathname.slice(1)));
-    await page.reload();
+    const page = await newPage(host.url), {asked} = host;  // also what the page's workers ask for
     await inState(page, 'visiting');
     await until(page, 'a picture', (s) => s.pictures > 0);
     const list = JSON.parse(fs.readFileSync(path.join(site, 'tour.json')));
