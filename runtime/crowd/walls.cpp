@@ -115,18 +115,8 @@ Vec2 NearestOnSegment(Vec2 p, Vec2 a, Vec2 b) {
 }
 
 float Clearance(const Walkable& w, int cell, Vec2 p) {
-  float nearest_m2 = 1e18f;  // one root for all
-  const size_t k = static_cast<size_t>(cell);
-  for (int i = w.wall_start[k]; i < w.wall_start[k + 1]; ++i) {
-    const Walkable::Edge& e = w.edges[static_cast<size_t>(w.wall_edges[static_cast<size_t>(i)])];
-    const Vec2 away = p - NearestOnSegment(p, e.a, e.b);
-    nearest_m2 = std::min(nearest_m2, Dot(away, away));
-  }
-  float nearest_m = std::sqrt(nearest_m2);
-  for (int i = w.circle_start[k]; i < w.circle_start[k + 1]; ++i) {
-    const CircleObstacle& c = w.circles[static_cast<size_t>(w.wall_circles[static_cast<size_t>(i)])];
-    nearest_m = std::min(nearest_m, Length(p - c.center) - c.radius_m);
-  }
+  float nearest_m = 1e9f;
+  VisitWalls(w, cell, p, [&](Vec2, float distance_m) { nearest_m = std::min(nearest_m, distance_m); });
   return nearest_m;
 }
 

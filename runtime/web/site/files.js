@@ -118,12 +118,15 @@ export async function fetchPiecesMeanwhile(store, pieces, take, tellCut) {
 export class PieceFetcher {
   constructor(store, signal) {
     Object.assign(this, {store, signal, job: null, worker: new Worker('fetch_worker.js', {type: 'module'})});
-    signal.addEventListener('abort', () => this.worker?.terminate(), {once: true});
+    signal.addEventListener('abort', () => this.end(), {once: true});
     this.worker.onerror = () => {
       this.worker = null;
       this.job?.doHere();
     };
     this.worker.onmessage = ({data}) => this.job?.hear(data);
+  }
+  end() {
+    this.worker?.terminate();
   }
   // tellCut: as of fetchPiecesMeanwhile; without it a line that breaks is a trouble.
   fetch(pieces, take, tellCut = null) {
@@ -137,7 +140,7 @@ export class PieceFetcher {
           try {
             take(piece, content);
           } catch (e) {
-            this.worker.terminate();
+            this.end();
             reject(e);
           }
           if (tellCut) this.worker.postMessage(content, [content.buffer]);  // before the first picture they wait for the player

@@ -279,6 +279,7 @@ async function visitTour(visit, wishesNow) {
   const all = fetcher.fetch(site.pieces.slice(site.first), (piece, content) => player.arrive(piece, content),
                             (cut) => cut !== message.hidden || showMessage(cut ? say('cutMeanwhile') : ''))
     .then(async () => {
+      fetcher.end();
       await forgetOthers(store, site);
       tell('complete');
       page.dataset.complete = 'yes';
