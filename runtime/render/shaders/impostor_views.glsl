@@ -69,7 +69,7 @@ vec3 moved_and_depth(View view, vec2 at) {
 }
 #ifdef FAST
 // Depth and motion where the ray crosses the quad say where to look.
-Meeting meet(View view, View other, float others_part, mat2 pixel) {
+Meeting meet(View view) {
   vec3 guess = moved_and_depth(view, within(view, place_at(view, 0.0, vec2(0.0))));
   vec2 at = place_at(view, guess.z, guess.xy);
   vec4 color = textureLod(u_texture, within(view, at), v_level);
@@ -87,7 +87,7 @@ View beside(View view, int cell) {
   vec4 rectangle = cell_texel(cell, 0) / u_atlas.zwzw;
   return View(view.point, view.ray, rectangle, cell_texel(cell, 1).xy / u_atlas.zw, view.turn, since);
 }
-const float k_most_steps = 24.0;
+const float k_most_steps = 12.0, k_texels_a_step = 2.0;
 const float k_solid = 0.1;         // coverage of a texel that can be met
 const float k_thickness_m = 0.06;  // behind the surface by more than this and a step, the ray passes behind it
 const float k_exact_m = 0.03;      // between two guesses of the depth
@@ -100,11 +100,11 @@ COVER cover_from(View view, float along, mat2 pixel) {
   for (int k = 0; k < 3; ++k) at = place_at(view, p.z, moved_and_depth(view, within(view, at)).xy);
   return is_within(view, at) ? cover_at(within(view, at), pixel) : COVER(0.0);
 }
-// How many steps take the ray from the person's front to the back, a texel each.
+// How many steps take the ray from the person's front to the back.
 float steps_through(View view) {
   vec2 front = place_at(view, u_ranges.x, vec2(0.0)), back = place_at(view, -u_ranges.x, vec2(0.0));
   float texels = length((front - back) * u_atlas.zw);
-  return clamp(ceil(texels * exp2(-v_level) / v_texels), 1.0, k_most_steps);
+  return clamp(ceil(texels * exp2(-v_level) / (k_texels_a_step * v_texels)), 1.0, k_most_steps);
 }
 bool is_solid(View view, vec2 at) {
   return is_within(view, at) && textureLod(u_texture, within(view, at), v_level).a >= k_solid;
@@ -155,26 +155,38 @@ Surface first_surface(View view) {
   }
   return Surface(found, met, least_gap < k_near_m);
 }
-// How much of the pixel the person covers where the ray meets it, as far as the other picture does not see through
-// there.
-COVER agreed_cover(vec2 at, float along, View other, float others_part, mat2 pixel) {
-  COVER cover = cover_at(at, pixel);
-  if (others_part > 0.0) {
-    COVER others = max(cover_from(other, along, pixel), COVER(1.0 - k_counts * others_part));
-    cover = min(cover, others);
-  }
-  return cover;
+// What a ray has been found to come upon, until now.
+struct Known {
+  bool anything, nothing;  // neither: no picture has been asked
+  float along;             // the ray
+};
+// Nearly everywhere a guess comes to rest at once, from what another picture found or from the person's axis; where it
+// does not, there are edges, and the ray is followed through the person, unless there is nobody in any other picture.
+Surface surface_met(View view, Known known) {
+  bool exact;
+  vec3 shown = refined(view, vec3(0.0, 0.0, known.anything ? view.point.z + known.along * view.ray.z : 0.0), exact);
+  bool solid = is_solid(view, place_at(view, shown.z, shown.xy));
+  Surface surface = Surface(shown, exact && solid, exact && solid);
+  if (!exact && !known.nothing && (solid || !known.anything)) surface = first_surface(view);
+  return surface;
 }
 // None of these returns early: Mesa 22.3 draws some pixels wrongly in software after that.
-Meeting meet(View view, View other, float others_part, mat2 pixel) {
-  Surface surface = first_surface(view);
+Meeting meet(View view, Known known, mat2 pixel) {
+  Surface surface = surface_met(view, known);
   vec2 ends = place_at(view, surface.shown.z, surface.shown.xy), at = within(view, ends);
   float along = (surface.shown.z - view.point.z) / view.ray.z;
   COVER cover = COVER(0.0);
-  if (is_within(view, ends) && (surface.met || surface.passed)) {
-    cover = agreed_cover(at, along, other, others_part, pixel);
-  }
+  if (is_within(view, ends) && (surface.met || surface.passed)) cover = cover_at(at, pixel);
   return Meeting(at, textureLod(u_texture, at, v_level).rgb, cover, along, surface.met ? 1.0 : k_guess_trust);
+}
+// How much of the pixel the person covers where the ray meets it, as far as the other picture, whose share is `part`,
+// does not see through there.
+COVER agreed_cover(Meeting m, View other, float part, mat2 pixel) {
+  COVER cover = m.cover;
+  if (part > 0.0 && mean_of(cover) > 0.0) {
+    cover = min(cover, max(cover_from(other, m.along, pixel), COVER(1.0 - k_counts * part)));
+  }
+  return cover;
 }
 #endif
 #endif

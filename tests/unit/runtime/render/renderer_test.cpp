@@ -358,6 +358,26 @@ TEST_F(Drawing, AnImpostorsBlocksLookAsDecoded) {
   for (size_t i = 0; i < decoded.size(); ++i) EXPECT_EQ(decoded[i], (std::array<int, 4>{200, 60, 62, 254})[i % 4]);
 }
 
+// Drivers that dither what alpha makes of coverage left a grid of holes in impostors whose pixels were fully covered but
+// had less than all of it.
+TEST_F(Drawing, AnImpostorIsOpaqueWithinItsEdge) {
+  Renderer renderer;
+  ASSERT_EQ(renderer.Create(MakePack({}), {.samples = 4}).message, "");
+  FrameInput frame = LookEast();
+  frame.people = {PersonAt(6, 0, -1)};
+  renderer.Draw(frame, kWidth, kHeight, &statistics_);
+  std::vector<uint8_t> rgba;
+  renderer.ReadWithAlpha(&rgba);
+  int red = 0, opaque = 0;
+  for (size_t i = 0; i < rgba.size(); i += 4) {
+    if (!IsRed({rgba[i], rgba[i + 1], rgba[i + 2]})) continue;
+    ++red;
+    opaque += rgba[i + 3] == 255;
+  }
+  EXPECT_GT(red, 500);
+  EXPECT_GT(opaque, 0.8 * red);
+}
+
 // What stands behind the axis but before the picture's own depth must not hide it: to the centimetre with several
 // samples a pixel.
 TEST_F(Drawing, AnImpostorHasItsDepthInThePicture) {
