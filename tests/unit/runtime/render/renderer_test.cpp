@@ -358,8 +358,8 @@ TEST_F(Drawing, AnImpostorsBlocksLookAsDecoded) {
   for (size_t i = 0; i < decoded.size(); ++i) EXPECT_EQ(decoded[i], (std::array<int, 4>{200, 60, 62, 254})[i % 4]);
 }
 
-// Drivers that dither what alpha makes of coverage left a grid of holes in impostors whose pixels were fully covered but
-// had less than all of it.
+// Drivers that dither what alpha makes of coverage left a grid of holes in impostors whose pixels were fully covered
+// but had less than all of it.
 TEST_F(Drawing, AnImpostorIsOpaqueWithinItsEdge) {
   Renderer renderer;
   ASSERT_EQ(renderer.Create(MakePack({}), {.samples = 4}).message, "");
