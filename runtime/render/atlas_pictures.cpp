@@ -9,9 +9,11 @@ namespace {
 
 constexpr int kStrip_texels = 1 << 15;  // made ready at a time: a few milliseconds
 
-StoredAs StoredHow(TextureFormat format, const AtlasFormats& formats) {
+StoredAs StoredHow(const PackTexture& from, const AtlasFormats& formats) {
+  const TextureFormat format = from.format;
   const bool rgtc = format == TextureFormat::kBc4 || format == TextureFormat::kBc5;
-  if (rgtc ? formats.rgtc_blocks : formats.bc7_blocks) return StoredAs::kOwnBlocks;
+  const bool fits = !formats.whole_blocks || (from.width_px % 4 == 0 && from.height_px % 4 == 0);
+  if (fits && (rgtc ? formats.rgtc_blocks : formats.bc7_blocks)) return StoredAs::kOwnBlocks;
   // ETC2's colours differ in brightness alone: what is no colour would lose what its channels say.
   return formats.etc2_blocks && format != TextureFormat::kBc7 ? StoredAs::kEtc2Blocks : StoredAs::kTexels;
 }
@@ -66,7 +68,7 @@ AtlasBuilder::AtlasBuilder(const PackImpostor& impostor, const AtlasFormats& for
   for (size_t k = 0; k < from_.size(); ++k) {
     const PackTexture& from = *from_[k];
     if (from.levels.empty()) continue;
-    const StoredAs stored_as = StoredHow(from.format, formats);
+    const StoredAs stored_as = StoredHow(from, formats);
     const bool details = k == 1 || k == 2;
     const bool coarser = formats.pack_details ? details : formats.fewer_texels && stored_as == StoredAs::kTexels;
     first_[k] = std::min<size_t>(coarser ? 1 : 0, from.levels.size() - 1);

@@ -14,6 +14,7 @@ enum class StoredAs { kTexels, kOwnBlocks, kEtc2Blocks };
 struct AtlasFormats {
   bool bc7_blocks = false, rgtc_blocks = false;  // that OpenGL reads
   bool etc2_blocks = false;                      // likewise
+  bool whole_blocks = false;  // and of a picture whose sides are no multiples of four it reads no blocks: WebGL
   bool fewer_texels = false;  // where there are no blocks: half as large, for they take four times the memory
   // Normals half as large, depth and motion together in one picture half as large: they look the same, take less memory
   // and are looked up faster.

@@ -47,14 +47,14 @@ BlockFormat FormatOf(TextureFormat format) {
           "GL_EXT_texture_compression_bptc"};
 }
 
-// Every OpenGL ES 3 does; a page's says whether the card does itself.
-bool ReadsEtc2() {
 #ifdef __EMSCRIPTEN__
-  return HasExtension("WEBGL_compressed_texture_etc");
+constexpr bool kIsWebGl = true;
 #else
-  return true;
+constexpr bool kIsWebGl = false;
 #endif
-}
+
+// Every OpenGL ES 3 does; a page's says whether the card does itself.
+bool ReadsEtc2() { return !kIsWebGl || HasExtension("WEBGL_compressed_texture_etc"); }
 
 GLint LevelsOf(int side_px) {
   GLint levels = 1;
@@ -112,6 +112,7 @@ AtlasFormats FormatsOfThisMachine(bool fast) {
   formats.bc7_blocks = HasExtension(FormatOf(TextureFormat::kBc7Srgb).extension);
   formats.rgtc_blocks = HasExtension(FormatOf(TextureFormat::kBc5).extension);
   formats.etc2_blocks = ReadsEtc2();
+  formats.whole_blocks = kIsWebGl;
   formats.fewer_texels = !formats.bc7_blocks && !formats.etc2_blocks;
   return formats;
 }

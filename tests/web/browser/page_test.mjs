@@ -360,6 +360,27 @@ const tests = {
     await end(page);
     await host.close();
   },
+  async 'graphics cards that read these blocks, those or none draw it without a complaint'() {
+    const host = await serve(site);
+    for (const missing of ['astc|etc', 'bptc|rgtc|s3tc|astc', 'compressed|compression']) {
+      const page = await newPage(host.url, async (p) => {
+        await countErrors(p);
+        await p.evaluateOnNewDocument((names) => {
+          const {getParameter, getExtension, getSupportedExtensions} = WebGL2RenderingContext.prototype, hidden = new RegExp(names, 'i');
+          Object.assign(WebGL2RenderingContext.prototype, {
+            getParameter(name) { return name === 0x9246 ? 'A card' : getParameter.call(this, name); },  // UNMASKED_RENDERER_WEBGL
+            getExtension(name) { return hidden.test(name) ? null : getExtension.call(this, name); },
+            getSupportedExtensions() { return getSupportedExtensions.call(this).filter((name) => !hidden.test(name)); }});
+        }, missing);
+      });
+      await inState(page, 'visiting');
+      await until(page, 'people', (s) => s.pictures > 20 && s.people_drawn > 0, 120);  // so a card's way to draw takes long here
+      assert.deepEqual(await page.evaluate(() => globalThis.glErrors), [], missing);
+      assert.deepEqual(page.said, [], missing);
+      await end(page);
+    }
+    await host.close();
+  },
   async 'a lost context comes back at the same place'() {
     const host = await serve(site);
     const page = await newPage(host.url, countErrors);

@@ -162,8 +162,8 @@ TEST(AtlasBuilder, InStepsMakesTheSameAsAtOnce) {
 
 TEST(AtlasBuilder, TakesWhatTheMachineReads) {
   const PackImpostor impostor = NoisyImpostor();
-  AtlasFormats all{true, true, true, false, false}, telephone{false, false, true, false, false};
-  AtlasFormats none{false, false, false, true, false};
+  AtlasFormats all, telephone, none;
+  all.bc7_blocks = all.rgtc_blocks = all.etc2_blocks = telephone.etc2_blocks = none.fewer_texels = true;
   const auto of_all = BuildAtlas(impostor, all), of_telephone = BuildAtlas(impostor, telephone),
              of_none = BuildAtlas(impostor, none);
   EXPECT_EQ(of_all[0].levels[0], impostor.albedo.levels[0]);
@@ -175,6 +175,16 @@ TEST(AtlasBuilder, TakesWhatTheMachineReads) {
   }
   EXPECT_EQ(of_telephone[3].stored_as, StoredAs::kTexels) << "what is no colour keeps its channels apart";
   EXPECT_EQ(of_none[0].width_px, 258) << "texels take four times the memory: a fourth of them";
+}
+
+// Of a page's tour the coarse levels come first, as pictures of their own.
+TEST(AtlasBuilder, GivesWebGlBlocksOfPicturesThatTheyFillAlone) {
+  AtlasFormats page;
+  page.bc7_blocks = page.rgtc_blocks = page.whole_blocks = true;
+  const PackImpostor impostor = NoisyImpostor();
+  const auto pictures = BuildAtlas(impostor, page);
+  for (size_t k : {0u, 1u, 2u}) EXPECT_EQ(pictures[k].stored_as, StoredAs::kOwnBlocks);
+  EXPECT_EQ(pictures[3].stored_as, StoredAs::kTexels) << "258 texels wide";
 }
 
 }  // namespace
