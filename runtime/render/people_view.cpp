@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 #include "runtime/pack/tint.h"
 
@@ -246,10 +247,12 @@ void ShowLevels(PeopleView* people) {
 void AddAtlas(int avatar, const std::array<AtlasPicture, kAtlasPictures>& pictures, PeopleView* people) {
   AvatarView& view = people->avatars[static_cast<size_t>(avatar)];
   GLuint* textures[] = {&view.albedo, &view.normals, &view.depth, &view.motion, &view.tint_regions};
+  while (!UploadAtlas(std::numeric_limits<size_t>::max(), pictures, &people->upload)) {}
   for (size_t k = 0; k < pictures.size(); ++k) {
     if (*textures[k] != 0) glDeleteTextures(1, textures[k]);
-    *textures[k] = UploadAtlasPicture(pictures[k]);
+    *textures[k] = people->upload.textures[k];
   }
+  people->upload = {};
   people->ready[static_cast<size_t>(avatar)].impostor = true;
   for (size_t other = 0; other < people->avatars.size(); ++other) {
     if (people->avatars[other].impostor_of != avatar) continue;

@@ -40,6 +40,7 @@ struct PeopleView {
   std::vector<SurfaceGroup> groups;
   std::vector<GLuint> arrays;
   PeopleBatches batches;
+  AtlasUpload upload;  // of the atlas that comes next
 };
 
 // Of the pack without its bulk. Errors: a shader that the driver refuses, more joints than a texture is wide.
@@ -47,6 +48,7 @@ Error CreatePeopleView(const TourPack& pack, ShaderMode mode, const SurfacePlan&
                        const std::vector<GLuint>& arrays, PeopleView* people);
 void AddLevel(int avatar, int level, const PersonGeometry& person, const ShadowLevels& shadows, PeopleView* people);
 void ShowLevels(PeopleView* people);  // all that have been added, from now on
+// With what of it is not there yet. One atlas at a time.
 void AddAtlas(int avatar, const std::array<AtlasPicture, kAtlasPictures>& pictures, PeopleView* people);
 
 // What the people of a picture are drawn with, their shadows too, whether it is there or not.

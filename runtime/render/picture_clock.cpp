@@ -68,4 +68,8 @@ void EndPictureTime(PictureClock* clock) {
   clock->measured = true;
 }
 
+bool IsOnItsWay(const PictureClock& clock) {
+  return clock.drawn != nullptr && glClientWaitSync(clock.drawn, GL_SYNC_FLUSH_COMMANDS_BIT, 0) == GL_TIMEOUT_EXPIRED;
+}
+
 }  // namespace flaneur

@@ -16,5 +16,7 @@ bool CreatePictureClock(PictureClock* clock);
 // Around the commands of a picture. The first waits for the picture before, so that no more than one is on its way.
 void BeginPictureTime(PictureClock* clock);
 void EndPictureTime(PictureClock* clock);
+// Whether the last picture is still on its way. Never waits.
+bool IsOnItsWay(const PictureClock& clock);
 
 }  // namespace flaneur

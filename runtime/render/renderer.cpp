@@ -148,7 +148,8 @@ struct Renderer::Impl {
   AtlasFormats formats;
   std::vector<GLuint> arrays;
   PictureClock clock;
-  bool waits = true;       // for every picture
+  bool waits = true;  // for every picture
+  bool software = false;
   bool drew_eyes = false;  // the last picture was a headset's, where it is already
   Program sky_program;
   GLuint empty_array = 0, block_buffer = 0;
@@ -237,6 +238,7 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
   r.options = options;
   Expect(options);
   const auto [mode, samples, wished, averages, fast, deferred] = WayOf(options);
+  r.software = DrawsInSoftware();
   r.formats = FormatsOfThisMachine(fast);
   r.people.smooth_edges = samples > 1 && !options.normals;
   r.pictures_left = pack.images.size();
@@ -266,6 +268,8 @@ const AtlasFormats& Renderer::formats() const { return impl_->formats; }
 
 bool Renderer::AddPart(size_t most_bytes, Asset* asset) {
   if (asset->id.kind == AssetKind::kTown && !UploadTown(most_bytes, asset->content->town, &impl_->town)) return false;
+  if (asset->id.kind == AssetKind::kAtlas && !UploadAtlas(most_bytes, asset->content->atlas, &impl_->people.upload))
+    return false;
   Add(std::move(*asset));
   return true;
 }
@@ -388,6 +392,10 @@ void Renderer::Impl::Draw(const FrameInput& frame, const std::vector<EyePicture>
   statistics->people_drawn = static_cast<int>(frame.people.size()) - statistics->people_hidden;
   statistics->draw_ms = std::max(Now_ms() - start_ms, r.clock.took_ms);
 }
+
+bool Renderer::IsDrawing() const { return IsOnItsWay(impl_->clock); }
+
+bool Renderer::software() const { return impl_->software; }
 
 bool Renderer::Hides(Vec3 point) const {
   constexpr float kHalf_m = 0.1f;

@@ -64,6 +64,10 @@ class Renderer {
   // once.
   void DrawEyes(const FrameInput& frame, const std::vector<EyePicture>& eyes, unsigned framebuffer,
                 FrameStatistics* statistics);
+  // Whether the last picture of who runs ahead is still on its way. What is drawn or uploaded meanwhile can take long:
+  // software has all of the processor then, and browsers wait until there is room.
+  bool IsDrawing() const;
+  bool software() const;
   // Whether walls of the last picture hide a point, in the ground's axes; false where that is not known.
   bool Hides(Vec3 point) const;
   // The last picture: RGB, 8 bits a channel, top row first.

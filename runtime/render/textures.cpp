@@ -62,6 +62,48 @@ GLint LevelsOf(int side_px) {
   return levels;
 }
 
+GLenum StorageOf(const AtlasPicture& picture) {
+  const BlockFormat f = FormatOf(picture.format);
+  if (picture.stored_as == StoredAs::kTexels) return f.internal;
+  return picture.stored_as == StoredAs::kOwnBlocks ? f.own_blocks : f.etc2_blocks;
+}
+
+GLuint CreateAtlasTexture(const AtlasPicture& picture) {
+  GLuint texture = 0;
+  glGenTextures(1, &texture);
+  glBindTexture(GL_TEXTURE_2D, texture);
+  const auto levels = static_cast<GLsizei>(picture.levels.size());
+  glTexStorage2D(GL_TEXTURE_2D, levels, StorageOf(picture), picture.width_px, picture.height_px);
+  SetFilters(GL_TEXTURE_2D, GL_CLAMP_TO_EDGE, levels - 1, true);
+  return texture;
+}
+
+// Rows of blocks or of texels of the level that comes next, at least one; returns their bytes.
+size_t UploadRows(GLuint texture, const AtlasPicture& picture, size_t most_bytes, AtlasUpload* upload) {
+  const std::vector<uint8_t>& bytes = picture.levels[upload->level];
+  const auto level = static_cast<GLint>(upload->level);
+  const int width_px = std::max(1, picture.width_px >> level), height_px = std::max(1, picture.height_px >> level);
+  const bool blocks = picture.stored_as != StoredAs::kTexels;
+  const int unit_px = blocks ? 4 : 1, units = (height_px + unit_px - 1) / unit_px, first = upload->row_px / unit_px;
+  const size_t unit_bytes = bytes.size() / static_cast<size_t>(units);
+  const int count = std::clamp(static_cast<int>(most_bytes / unit_bytes), 1, units - first);
+  const int rows_px = std::min(height_px, (first + count) * unit_px) - upload->row_px;
+  const size_t sent = static_cast<size_t>(count) * unit_bytes;
+  const uint8_t* from = bytes.data() + static_cast<size_t>(first) * unit_bytes;
+  glBindTexture(GL_TEXTURE_2D, texture);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  if (blocks) {
+    glCompressedTexSubImage2D(GL_TEXTURE_2D, level, 0, upload->row_px, width_px, rows_px, StorageOf(picture),
+                              static_cast<GLsizei>(sent), from);
+  } else {
+    glTexSubImage2D(GL_TEXTURE_2D, level, 0, upload->row_px, width_px, rows_px, FormatOf(picture.format).format,
+                    GL_UNSIGNED_BYTE, from);
+  }
+  upload->row_px += rows_px;
+  if (upload->row_px == height_px) upload->row_px = 0, ++upload->level;
+  return sent;
+}
+
 }  // namespace
 
 std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast) {
@@ -117,32 +159,19 @@ AtlasFormats FormatsOfThisMachine(bool fast) {
   return formats;
 }
 
-GLuint UploadAtlasPicture(const AtlasPicture& picture) {
-  GLuint texture = 0;
-  if (picture.levels.empty()) return texture;
-  glGenTextures(1, &texture);
-  glBindTexture(GL_TEXTURE_2D, texture);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  const BlockFormat f = FormatOf(picture.format);
-  const bool blocks = picture.stored_as != StoredAs::kTexels;
-  const GLenum storage = !blocks                                     ? f.internal
-                         : picture.stored_as == StoredAs::kOwnBlocks ? f.own_blocks
-                                                                     : f.etc2_blocks;
-  glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(picture.levels.size()), storage, picture.width_px,
-                 picture.height_px);
-  for (size_t k = 0; k < picture.levels.size(); ++k) {
-    const GLsizei width = std::max(1, picture.width_px >> k), height = std::max(1, picture.height_px >> k);
-    const auto level = static_cast<GLint>(k);
-    const std::vector<uint8_t>& bytes = picture.levels[k];
-    if (blocks) {
-      glCompressedTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, width, height, storage, static_cast<GLsizei>(bytes.size()),
-                                bytes.data());
-    } else {
-      glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, width, height, f.format, GL_UNSIGNED_BYTE, bytes.data());
-    }
+bool UploadAtlas(size_t most_bytes, const std::array<AtlasPicture, kAtlasPictures>& pictures, AtlasUpload* upload) {
+  AtlasUpload& u = *upload;
+  const auto skip = [&] {
+    while (u.picture < pictures.size() && u.level == pictures[u.picture].levels.size()) ++u.picture, u.level = 0;
+    return u.picture == pictures.size();
+  };
+  for (size_t sent = 0; !skip() && sent < most_bytes;) {
+    const AtlasPicture& picture = pictures[u.picture];
+    GLuint& texture = u.textures[u.picture];
+    if (texture == 0) texture = CreateAtlasTexture(picture);
+    sent += UploadRows(texture, picture, most_bytes - sent, &u);
   }
-  SetFilters(GL_TEXTURE_2D, GL_CLAMP_TO_EDGE, static_cast<GLint>(picture.levels.size()) - 1, true);
-  return texture;
+  return skip();
 }
 
 }  // namespace flaneur

@@ -2,6 +2,7 @@
 #pragma once
 #include <GLES3/gl3.h>
 
+#include <array>
 #include <vector>
 
 #include "runtime/render/atlas_pictures.h"
@@ -18,6 +19,14 @@ bool ReadsBc1();  // needs a context
 
 // Needs a context. fast: for many pictures a second.
 AtlasFormats FormatsOfThisMachine(bool fast);
-GLuint UploadAtlasPicture(const AtlasPicture& picture);  // 0 where it is empty
+
+// An atlas on its way, in parts.
+struct AtlasUpload {
+  std::array<GLuint, kAtlasPictures> textures{};  // 0 of a picture that is empty
+  size_t picture = 0, level = 0;                  // that come next, from that row of texels on
+  int row_px = 0;
+};
+// About so many bytes more; true: all of it is there.
+bool UploadAtlas(size_t most_bytes, const std::array<AtlasPicture, kAtlasPictures>& pictures, AtlasUpload* upload);
 
 }  // namespace flaneur

@@ -50,7 +50,7 @@ void KeepForPictures() {
 constexpr size_t kMaxReadyAssets =
     4;  // pieces that wait for their upload; faster threads wait too, for people's pictures take 10 MB each
 
-constexpr size_t kUpload_bytes = 2 << 20;  // at a time: drivers take a millisecond and more for each
+constexpr size_t kUpload_bytes = 1 << 19;  // at a time, of which drivers take some in a millisecond
 
 // What is read at a time: one mesh of the town, or all of another asset.
 struct Task {

@@ -159,6 +159,7 @@ EMSCRIPTEN_KEEPALIVE const uint8_t* page_map(int width_px, int height_px, float 
 EMSCRIPTEN_KEEPALIVE const char* page_map_marks() { return Told(visit->MapMarks()); }
 EMSCRIPTEN_KEEPALIVE void page_lead_to_place(float x_px, float y_px) { visit->LeadTo(x_px, y_px); }
 EMSCRIPTEN_KEEPALIVE void page_lead_to_stop(int stop) { visit->LeadTo(static_cast<size_t>(stop)); }
+EMSCRIPTEN_KEEPALIVE bool page_is_busy() { return visit->IsBusy(); }
 EMSCRIPTEN_KEEPALIVE bool page_photo_taken() { return visit->photo_taken(); }
 EMSCRIPTEN_KEEPALIVE const char* page_settings() { return Told(visit->TakeSettings()); }
 

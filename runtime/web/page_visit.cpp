@@ -61,6 +61,7 @@ void Fill(size_t offset, std::span<const uint8_t> bytes, std::vector<LateFile>* 
 }
 
 constexpr double kLongUpload_ms = 30, kUpload_ms = 3;  // before the first picture, and in each later one
+constexpr int kWaitsForRoom = 8;  // pictures at most, each of which is still being drawn when there is time to upload
 const RenderOptions kDrawing{.onto_window = true, .runs_ahead = true};
 constexpr int kStepsBefore = 2;  // the first picture: in them everybody finds a way, which takes tenths of a second
 constexpr int kMaxStepsPerFrame = 4;  // a machine that cannot keep up slows the town down
@@ -367,7 +368,8 @@ void PageVisit::Impl::Sound(float passed_s) {
 
 Error PageVisit::LoadMore(bool* all) {
   Impl& v = *impl_;
-  const bool uploads = std::exchange(v.uploaded_at, v.pictures) != v.pictures;
+  const bool waits = !v.renderer.software() && v.renderer.IsDrawing() && v.pictures < v.uploaded_at + kWaitsForRoom;
+  const bool uploads = !waits && std::exchange(v.uploaded_at, v.pictures) != v.pictures;
   // Between a headset's pictures browsers find time for few tasks.
   const double most_ms = v.headset.worn ? std::clamp(100.0 * v.picture_s, kUpload_ms, 4 * kUpload_ms) : kUpload_ms;
   const Error e = uploads ? v.loader.Upload(most_ms, &v.renderer) : v.loader.ReadOn(most_ms);
@@ -395,6 +397,8 @@ Error PageVisit::Picture(const WindowInput& input, int width_px, int height_px, 
   v.loader.GoOn();
   return Ok();
 }
+
+bool PageVisit::IsBusy() const { return impl_->renderer.software() && impl_->renderer.IsDrawing(); }
 
 void PageVisit::PutOnHeadset(Vec3 head, float pictures_per_s) {
   Impl& v = *impl_;

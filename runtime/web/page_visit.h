@@ -36,6 +36,7 @@ class PageVisit {
   // Between pictures that take long: so much of the time until the next one, which steps only through the rest.
   void StepMeanwhile(float passed_s);
   Error Picture(const WindowInput& input, int width_px, int height_px, float passed_s);
+  bool IsBusy() const;  // still at the last picture, in software
   // The last picture, by the browser's clock: what lay between it and the one before.
   void TellTime(float took_ms);
 

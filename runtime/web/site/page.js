@@ -160,8 +160,9 @@ function drawPictures(canvas, parts, visit) {
       player.call('page_step_meanwhile', ['number'], [passed_ms / 1000]);
     });
     const draw = (now) => attempt(() => {
-      clearTimeout(timer);
       requestAnimationFrame(draw);
+      if (player.ask('page_is_busy')) return;  // in software, which would take the cores from the page's own work
+      clearTimeout(timer);
       const passed_ms = last && now - last < kAway_ms && !parts.headset.isWorn ? now - last : 0;
       last = now;
       if (parts.headset.isWorn) return;  // which asks for its own pictures
