@@ -378,6 +378,25 @@ TEST_F(Drawing, AnImpostorIsOpaqueWithinItsEdge) {
   EXPECT_GT(opaque, 0.8 * red);
 }
 
+TEST_F(Drawing, AnAtlasThatComesInPartsIsTheSame) {
+  TourPack pack = MakePack({});
+  std::vector<uint8_t>& blocks = pack.avatars[0].impostor.albedo.levels[0];
+  const PackTexture green = Flat(TextureFormat::kBc7Srgb, 128, 96, {60, 200, 60, 254});
+  for (size_t k = blocks.size() / 3; k < blocks.size() / 2; ++k) blocks[k] = green.levels[0][k];
+  FrameInput frame = LookEast();
+  frame.people = {PersonAt(6, 0, -1)};
+  const std::vector<uint8_t> whole = Draw(pack, frame);
+  Renderer renderer;
+  ASSERT_EQ(renderer.Begin(pack, {}).message, "");
+  for (const AssetId& id : AssetsOf(pack)) {
+    Asset asset = PrepareAsset(pack, id, renderer.surfaces(), renderer.formats());
+    int parts = 1;
+    while (!renderer.AddPart(1000, &asset)) ++parts;
+    EXPECT_TRUE(id.kind != AssetKind::kAtlas || parts > 20) << parts;
+  }
+  EXPECT_EQ(DrawWith(frame, &renderer), whole);
+}
+
 // What stands behind the axis but before the picture's own depth must not hide it: to the centimetre with several
 // samples a pixel.
 TEST_F(Drawing, AnImpostorHasItsDepthInThePicture) {
