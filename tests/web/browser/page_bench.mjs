@@ -76,9 +76,9 @@ async function compareSteps() {
 
 const page = await browser.newPage();
 await page.setViewport({width: 1280, height: 720});
-let complaints = 0;
-page.on('console', (m) => { complaints += m.type() === 'error' || m.type() === 'warn' ? 1 : 0; });
-page.on('pageerror', () => { ++complaints; });
+const complaints = [];
+page.on('console', (m) => { if (m.type() === 'error' || m.type() === 'warn') complaints.push(m.text()); });
+page.on('pageerror', (e) => complaints.push(e.message));
 const sentUntil = {};
 await page.exposeFunction('told', (mark) => { sentUntil[mark] = sent; });
 await page.evaluateOnNewDocument(() => {
@@ -127,7 +127,7 @@ console.log(`all that there is, on the same line             ${(whole_ms / 1000)
 console.log(`and all of it made ready                       ${(ready_ms / 1000).toFixed(1)} s`);
 console.log(`longest task after the first picture            ${longest.toFixed(0)} ms`);
 console.log(`heap of the player                              ${(heap / 1e6).toFixed(0)} MB`);
-console.log(`complaints of the console and of OpenGL             ${complaints + (wrong ? 1 : 0)}`);
+console.log(`complaints of the console and of OpenGL             ${complaints.length + (wrong ? 1 : 0)}  ${complaints[0] ?? ''}`.trimEnd());
 console.log(`pictures a second at 1280 x 720                 ${(drawn / seconds).toFixed(1)}`);
 await page.close();
 if (clock && pageClock) await compareSteps();
