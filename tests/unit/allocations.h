@@ -1,9 +1,10 @@
 // Counts what operator new gives out in the program that includes this; for one source file of a program.
 #pragma once
+#include <atomic>
 #include <cstdlib>
 #include <new>
 
-inline long allocations = 0;
+inline std::atomic<long> allocations = 0;  // in whatever thread
 
 // Not inlined: where only one of a pair is, GCC 12 takes them for a mismatch.
 [[gnu::noinline]] void* operator new(std::size_t size) {
