@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <ctime>
+#include <limits>
 
 #include "runtime/base/clock.h"
 #include "runtime/render/asset_content.h"
@@ -145,6 +146,7 @@ struct Renderer::Impl {
   SmokeView smoke;
   SurfacePlan plan;
   size_t pictures_left = 0;  // to come
+  UploadPlace picture_upload;
   AtlasFormats formats;
   std::vector<GLuint> arrays;
   PictureClock clock;
@@ -160,6 +162,12 @@ struct Renderer::Impl {
     if (!eyes.empty()) return Together(eyes, kNear_m, kFar_m);
     return {ViewProjection(frame, width_px, height_px), GltfFromGround(frame.eye), Ahead(frame),
             static_cast<float>(width_px) / 2 / std::tan(frame.fov_rad / 2)};
+  }
+  // About so many bytes more of a picture of surfaces; true: all of it is there.
+  bool UploadPicture(size_t most_bytes, const PicturePlace& place, const std::vector<std::vector<uint8_t>>& levels) {
+    if (place.array < 0) return true;
+    const auto array = static_cast<size_t>(place.array);
+    return UploadLayer(most_bytes, arrays[array], plan.arrays[array], place.layer, levels, &picture_upload);
   }
   float Focal_px(const EyesTogether& view) const {
     return view.focal_px * static_cast<float>(picture.drawn_width_px) / static_cast<float>(picture.width_px);
@@ -268,6 +276,10 @@ const AtlasFormats& Renderer::formats() const { return impl_->formats; }
 
 bool Renderer::AddPart(size_t most_bytes, Asset* asset) {
   if (asset->id.kind == AssetKind::kTown && !UploadTown(most_bytes, asset->content->town, &impl_->town)) return false;
+  if (asset->id.kind == AssetKind::kPicture) {
+    const PicturePlace& place = impl_->plan.pictures[static_cast<size_t>(asset->id.index)];
+    if (!impl_->UploadPicture(most_bytes, place, asset->content->picture)) return false;
+  }
   if (asset->id.kind == AssetKind::kAtlas && !UploadAtlas(most_bytes, asset->content->atlas, &impl_->people.upload))
     return false;
   Add(std::move(*asset));
@@ -285,10 +297,8 @@ void Renderer::Add(Asset asset) {
       break;
     case AssetKind::kPicture: {
       const PicturePlace& place = r.plan.pictures[static_cast<size_t>(asset.id.index)];
-      if (place.array >= 0) {
-        const auto array = static_cast<size_t>(place.array);
-        UploadLayer(r.arrays[array], r.plan.arrays[array], place.layer, content.picture);
-      }
+      while (!r.UploadPicture(std::numeric_limits<size_t>::max(), place, content.picture)) {}
+      r.picture_upload = {};
       if (--r.pictures_left == 0) ShowLevels(&r.people);
       break;
     }

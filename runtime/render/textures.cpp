@@ -78,30 +78,41 @@ GLuint CreateAtlasTexture(const AtlasPicture& picture) {
   return texture;
 }
 
-// Rows of blocks or of texels of the level that comes next, at least one; returns their bytes.
-size_t UploadRows(GLuint texture, const AtlasPicture& picture, size_t most_bytes, AtlasUpload* upload) {
-  const std::vector<uint8_t>& bytes = picture.levels[upload->level];
-  const auto level = static_cast<GLint>(upload->level);
+// Rows of blocks or of texels of a level.
+struct Rows {
+  int first_px = 0, count_px = 0;
+  const uint8_t* from = nullptr;
+  size_t bytes = 0;
+};
+
+// Those that come next of a level, about so many bytes of it but one row at least; goes on behind them.
+Rows TakeRows(const std::vector<uint8_t>& level, int height_px, bool blocks, size_t most_bytes, UploadPlace* next) {
+  const int unit_px = blocks ? 4 : 1, units = (height_px + unit_px - 1) / unit_px, first = next->row_px / unit_px;
+  const size_t unit_bytes = level.size() / static_cast<size_t>(units);
+  const int count =
+      static_cast<int>(std::clamp<size_t>(most_bytes / unit_bytes, 1, static_cast<size_t>(units - first)));
+  const Rows rows{next->row_px, std::min(height_px, (first + count) * unit_px) - next->row_px,
+                  level.data() + static_cast<size_t>(first) * unit_bytes, static_cast<size_t>(count) * unit_bytes};
+  next->row_px += rows.count_px;
+  if (next->row_px == height_px) next->row_px = 0, ++next->level;
+  return rows;
+}
+
+size_t UploadRows(GLuint texture, const AtlasPicture& picture, size_t most_bytes, UploadPlace* next) {
+  const auto level = static_cast<GLint>(next->level);
   const int width_px = std::max(1, picture.width_px >> level), height_px = std::max(1, picture.height_px >> level);
   const bool blocks = picture.stored_as != StoredAs::kTexels;
-  const int unit_px = blocks ? 4 : 1, units = (height_px + unit_px - 1) / unit_px, first = upload->row_px / unit_px;
-  const size_t unit_bytes = bytes.size() / static_cast<size_t>(units);
-  const int count = std::clamp(static_cast<int>(most_bytes / unit_bytes), 1, units - first);
-  const int rows_px = std::min(height_px, (first + count) * unit_px) - upload->row_px;
-  const size_t sent = static_cast<size_t>(count) * unit_bytes;
-  const uint8_t* from = bytes.data() + static_cast<size_t>(first) * unit_bytes;
+  const Rows rows = TakeRows(picture.levels[next->level], height_px, blocks, most_bytes, next);
   glBindTexture(GL_TEXTURE_2D, texture);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   if (blocks) {
-    glCompressedTexSubImage2D(GL_TEXTURE_2D, level, 0, upload->row_px, width_px, rows_px, StorageOf(picture),
-                              static_cast<GLsizei>(sent), from);
+    glCompressedTexSubImage2D(GL_TEXTURE_2D, level, 0, rows.first_px, width_px, rows.count_px, StorageOf(picture),
+                              static_cast<GLsizei>(rows.bytes), rows.from);
   } else {
-    glTexSubImage2D(GL_TEXTURE_2D, level, 0, upload->row_px, width_px, rows_px, FormatOf(picture.format).format,
-                    GL_UNSIGNED_BYTE, from);
+    glTexSubImage2D(GL_TEXTURE_2D, level, 0, rows.first_px, width_px, rows.count_px, FormatOf(picture.format).format,
+                    GL_UNSIGNED_BYTE, rows.from);
   }
-  upload->row_px += rows_px;
-  if (upload->row_px == height_px) upload->row_px = 0, ++upload->level;
-  return sent;
+  return rows.bytes;
 }
 
 }  // namespace
@@ -123,21 +134,24 @@ std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast) {
   return textures;
 }
 
-void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer,
-                 const std::vector<std::vector<uint8_t>>& levels) {
+bool UploadLayer(size_t most_bytes, GLuint texture, const TextureArrayPlan& array, int layer,
+                 const std::vector<std::vector<uint8_t>>& levels, UploadPlace* next) {
   glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  for (size_t k = 0; k < levels.size(); ++k) {
-    const GLsizei side = std::max(1, array.side_px >> k);
-    const auto level = static_cast<GLint>(k);
-    const std::vector<uint8_t>& bytes = levels[k];
+  for (size_t sent = 0; next->level < levels.size() && sent < most_bytes;) {
+    const auto level = static_cast<GLint>(next->level);
+    const GLsizei side_px = std::max(1, array.side_px >> level);
+    const Rows rows = TakeRows(levels[next->level], side_px, array.blocks, most_bytes - sent, next);
     if (array.blocks) {
-      glCompressedTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, layer, side, side, 1, GL_COMPRESSED_RGB_S3TC_DXT1_EXT,
-                                static_cast<GLsizei>(bytes.size()), bytes.data());
+      glCompressedTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, rows.first_px, layer, side_px, rows.count_px, 1,
+                                GL_COMPRESSED_RGB_S3TC_DXT1_EXT, static_cast<GLsizei>(rows.bytes), rows.from);
     } else {
-      glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, layer, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+      glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, rows.first_px, layer, side_px, rows.count_px, 1, GL_RGBA,
+                      GL_UNSIGNED_BYTE, rows.from);
     }
+    sent += rows.bytes;
   }
+  return next->level == levels.size();
 }
 
 bool ReadsBc1() {
@@ -160,16 +174,17 @@ AtlasFormats FormatsOfThisMachine(bool fast) {
 }
 
 bool UploadAtlas(size_t most_bytes, const std::array<AtlasPicture, kAtlasPictures>& pictures, AtlasUpload* upload) {
-  AtlasUpload& u = *upload;
+  UploadPlace& next = upload->next;
   const auto skip = [&] {
-    while (u.picture < pictures.size() && u.level == pictures[u.picture].levels.size()) ++u.picture, u.level = 0;
-    return u.picture == pictures.size();
+    while (next.picture < pictures.size() && next.level == pictures[next.picture].levels.size())
+      ++next.picture, next.level = 0;
+    return next.picture == pictures.size();
   };
   for (size_t sent = 0; !skip() && sent < most_bytes;) {
-    const AtlasPicture& picture = pictures[u.picture];
-    GLuint& texture = u.textures[u.picture];
+    const AtlasPicture& picture = pictures[next.picture];
+    GLuint& texture = upload->textures[next.picture];
     if (texture == 0) texture = CreateAtlasTexture(picture);
-    sent += UploadRows(texture, picture, most_bytes - sent, &u);
+    sent += UploadRows(texture, picture, most_bytes - sent, &next);
   }
   return skip();
 }

@@ -13,9 +13,16 @@ namespace flaneur {
 // One a planned array, grey until its layers arrive; they repeat.
 // fast: from one mip level, for a look-up between two costs software twice as much.
 std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast);
-void UploadLayer(GLuint texture, const TextureArrayPlan& array, int layer,
-                 const std::vector<std::vector<uint8_t>>& levels);
 bool ReadsBc1();  // needs a context
+
+// The rows of texels that come next of pictures on their way, which stand one after the other.
+struct UploadPlace {
+  size_t picture = 0, level = 0;
+  int row_px = 0;
+};
+// About so many bytes more; true: all of the layer is there.
+bool UploadLayer(size_t most_bytes, GLuint texture, const TextureArrayPlan& array, int layer,
+                 const std::vector<std::vector<uint8_t>>& levels, UploadPlace* next);
 
 // Needs a context. fast: for many pictures a second.
 AtlasFormats FormatsOfThisMachine(bool fast);
@@ -23,10 +30,8 @@ AtlasFormats FormatsOfThisMachine(bool fast);
 // An atlas on its way, in parts.
 struct AtlasUpload {
   std::array<GLuint, kAtlasPictures> textures{};  // 0 of a picture that is empty
-  size_t picture = 0, level = 0;                  // that come next, from that row of texels on
-  int row_px = 0;
+  UploadPlace next;
 };
-// About so many bytes more; true: all of it is there.
 bool UploadAtlas(size_t most_bytes, const std::array<AtlasPicture, kAtlasPictures>& pictures, AtlasUpload* upload);
 
 }  // namespace flaneur
