@@ -73,7 +73,6 @@ void main() {
     }
     Known known = Known(s.weight > 0.01, k == 1 && s.weight <= 0.01, s.along / max(s.weight, 0.01));
     Meeting m = meet(view, known, pixel);
-    if (!known.anything && m.trust * mean_of(m.cover) > 0.1) known = Known(true, false, m.along);
     Meeting others = meet(other, known, pixel);
     if (k == 0) {  // the phase beside adds to what has been agreed on
       m.cover = agreed_cover(m, other, second, pixel);

@@ -155,19 +155,24 @@ Surface first_surface(View view) {
   }
   return Surface(found, met, least_gap < k_near_m);
 }
-// What a ray has been found to come upon, until now.
+// What a ray has been found to come upon, in the pictures of the phase before.
 struct Known {
-  bool anything, nothing;  // neither: no picture has been asked
+  bool anything, nothing;  // neither: there is no phase before
   float along;             // the ray
 };
-// Nearly everywhere a guess comes to rest at once, from what another picture found or from the person's axis; where it
-// does not, there are edges, and the ray is followed through the person, unless there is nobody in any other picture.
+const float k_edge_levels = 2.0;  // that coarse a texel beside the person still has of them
+const float k_edge_cover = 0.05;
+// Nearly everywhere a guess comes to rest at once, from what is known or from the person's axis. Where it does not, or
+// does beside the person, there are edges, and the ray is followed through them.
 Surface surface_met(View view, Known known) {
   bool exact;
   vec3 shown = refined(view, vec3(0.0, 0.0, known.anything ? view.point.z + known.along * view.ray.z : 0.0), exact);
-  bool solid = is_solid(view, place_at(view, shown.z, shown.xy));
+  vec2 ends = place_at(view, shown.z, shown.xy);
+  bool solid = is_solid(view, ends);
+  bool beside = !solid && textureLod(u_texture, within(view, ends), v_level + k_edge_levels).a > k_edge_cover;
+  bool doubtful = !exact && !known.nothing && (solid || !known.anything);
   Surface surface = Surface(shown, exact && solid, exact && solid);
-  if (!exact && !known.nothing && (solid || !known.anything)) surface = first_surface(view);
+  if (beside || doubtful) surface = first_surface(view);
   return surface;
 }
 // None of these returns early: Mesa 22.3 draws some pixels wrongly in software after that.
