@@ -95,6 +95,14 @@ EMSCRIPTEN_KEEPALIVE const char* page_step_meanwhile(float passed_s) {
     return Ok();
   });
 }
+EMSCRIPTEN_KEEPALIVE const char* page_hands_meanwhile(float passed_s) {
+  return Try([&] {
+    input.down |= held;
+    visit->HandsMeanwhile(input, passed_s);
+    input = {};
+    return Ok();
+  });
+}
 EMSCRIPTEN_KEEPALIVE const char* page_picture(int width_px, int height_px, float passed_s, float took_ms) {
   return Try([&] {
     input.down |= held;

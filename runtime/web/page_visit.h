@@ -35,6 +35,8 @@ class PageVisit {
   Error LoadMore(bool* all);
   // Between pictures that take long: so much of the time until the next one, which steps only through the rest.
   void StepMeanwhile(float passed_s);
+  // Likewise what hands do: the next picture takes them for the rest of its time.
+  void HandsMeanwhile(const WindowInput& input, float passed_s);
   Error Picture(const WindowInput& input, int width_px, int height_px, float passed_s);
   bool IsBusy() const;  // still at the last picture, in software
   // The last picture, by the browser's clock: what lay between it and the one before.

@@ -140,7 +140,7 @@ function fit(canvas) {
 
 function drawPictures(canvas, parts, visit) {
   const {player, hands, pages, marks} = parts;
-  let last = 0, told = 0, stepped = 0, timer = 0;
+  let last = 0, handled = 0, told = 0, stepped = 0, timer = 0;
   return new Promise((_, reject) => {
     parts.headset.onTrouble = reject;
     const attempt = (work) => {
@@ -161,7 +161,13 @@ function drawPictures(canvas, parts, visit) {
     });
     const draw = (now) => attempt(() => {
       requestAnimationFrame(draw);
-      if (player.ask('page_is_busy')) return;  // in software, which would take the cores from the page's own work
+      const handled_ms = handled && now - handled < kAway_ms ? now - handled : 0;
+      handled = now;
+      if (!parts.headset.isWorn && player.ask('page_is_busy')) {  // in software, which takes the cores from the page's own work
+        hands.takeGamepad();
+        player.call('page_hands_meanwhile', ['number'], [handled_ms / 1000]);
+        return;
+      }
       clearTimeout(timer);
       const passed_ms = last && now - last < kAway_ms && !parts.headset.isWorn ? now - last : 0;
       last = now;
