@@ -174,17 +174,16 @@ AtlasFormats FormatsOfThisMachine(bool fast) {
 }
 
 bool UploadAtlas(size_t most_bytes, const std::array<AtlasPicture, kAtlasPictures>& pictures, AtlasUpload* upload) {
-  UploadPlace& next = upload->next;
+  AtlasUpload& u = *upload;
   const auto skip = [&] {
-    while (next.picture < pictures.size() && next.level == pictures[next.picture].levels.size())
-      ++next.picture, next.level = 0;
-    return next.picture == pictures.size();
+    while (u.picture < pictures.size() && u.next.level == pictures[u.picture].levels.size()) ++u.picture, u.next = {};
+    return u.picture == pictures.size();
   };
   for (size_t sent = 0; !skip() && sent < most_bytes;) {
-    const AtlasPicture& picture = pictures[next.picture];
-    GLuint& texture = upload->textures[next.picture];
+    const AtlasPicture& picture = pictures[u.picture];
+    GLuint& texture = u.textures[u.picture];
     if (texture == 0) texture = CreateAtlasTexture(picture);
-    sent += UploadRows(texture, picture, most_bytes - sent, &next);
+    sent += UploadRows(texture, picture, most_bytes - sent, &u.next);
   }
   return skip();
 }

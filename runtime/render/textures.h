@@ -15,9 +15,9 @@ namespace flaneur {
 std::vector<GLuint> CreateTextureArrays(const SurfacePlan& plan, bool fast);
 bool ReadsBc1();  // needs a context
 
-// The rows of texels that come next of pictures on their way, which stand one after the other.
+// The rows of texels that come next of a picture on its way.
 struct UploadPlace {
-  size_t picture = 0, level = 0;
+  size_t level = 0;
   int row_px = 0;
 };
 // About so many bytes more; true: all of the layer is there.
@@ -30,8 +30,10 @@ AtlasFormats FormatsOfThisMachine(bool fast);
 // An atlas on its way, in parts.
 struct AtlasUpload {
   std::array<GLuint, kAtlasPictures> textures{};  // 0 of a picture that is empty
-  UploadPlace next;
+  size_t picture = 0;                             // that comes next
+  UploadPlace next;                               // of it
 };
+// Likewise of all its pictures.
 bool UploadAtlas(size_t most_bytes, const std::array<AtlasPicture, kAtlasPictures>& pictures, AtlasUpload* upload);
 
 }  // namespace flaneur
