@@ -89,16 +89,10 @@ EMSCRIPTEN_KEEPALIVE const char* page_load(bool* there) {
 EMSCRIPTEN_KEEPALIVE const char* page_load_more(bool* all) {
   return Try([&] { return visit->LoadMore(all); });
 }
-EMSCRIPTEN_KEEPALIVE const char* page_step_meanwhile(float passed_s) {
-  return Try([&] {
-    visit->StepMeanwhile(passed_s);
-    return Ok();
-  });
-}
-EMSCRIPTEN_KEEPALIVE const char* page_hands_meanwhile(float passed_s) {
+EMSCRIPTEN_KEEPALIVE const char* page_meanwhile(float passed_s) {
   return Try([&] {
     input.down |= held;
-    visit->HandsMeanwhile(input, passed_s);
+    visit->Meanwhile(input, passed_s);
     input = {};
     return Ok();
   });

@@ -121,8 +121,7 @@ struct PageVisit::Impl {
   float aspect = 1;
   double owed_s = 0;
   float picture_s = 0;                     // the last one took
-  float ahead_s = 0;                       // of the next one's time, what was stepped through already
-  float hands_ahead_s = 0;                 // likewise, what hands did already
+  float ahead_s = 0;                       // of the next one's time, what hands and steps have been through already
   bool stepped = false;                    // since then
   int64_t pictures = 0, uploaded_at = -1;  // uploaded_at: so many pictures
 
@@ -378,16 +377,11 @@ Error PageVisit::LoadMore(bool* all) {
   return e;
 }
 
-void PageVisit::StepMeanwhile(float passed_s) {
+void PageVisit::Meanwhile(const WindowInput& input, float passed_s) {
   Impl& v = *impl_;
   v.ahead_s += passed_s;
-  v.Step(passed_s, 1);
-}
-
-void PageVisit::HandsMeanwhile(const WindowInput& input, float passed_s) {
-  Impl& v = *impl_;
-  v.hands_ahead_s += passed_s;
   v.TakeHands(input, passed_s);
+  v.Step(passed_s, 1);
 }
 
 Error PageVisit::Picture(const WindowInput& input, int width_px, int height_px, float passed_s) {
@@ -396,7 +390,7 @@ Error PageVisit::Picture(const WindowInput& input, int width_px, int height_px, 
   if (width_px <= 0 || height_px <= 0) return Ok();
   v.aspect = static_cast<float>(width_px) / static_cast<float>(height_px);
   SetPictureSize(width_px, height_px, &v.s);
-  v.TakeHands(input, std::max(0.0f, passed_s - std::exchange(v.hands_ahead_s, 0.0f)));
+  v.TakeHands(input, std::max(0.0f, passed_s - v.ahead_s));
   FollowTourEnd(v.pack, v.s, v.pages(), passed_s, &v.end, &v.controls, &v.wishes, &v.menu);
   v.StepsOfPicture(passed_s);
   v.Draw(width_px, height_px, passed_s);

@@ -33,10 +33,9 @@ class PageVisit {
   // A part of what streams in, as a task of its own between pictures; `all`: nothing is left. Uploads once a picture:
   // more would wait for its being drawn. Errors: of a piece.
   Error LoadMore(bool* all);
-  // Between pictures that take long: so much of the time until the next one, which steps only through the rest.
-  void StepMeanwhile(float passed_s);
-  // Likewise what hands do: the next picture takes them for the rest of its time.
-  void HandsMeanwhile(const WindowInput& input, float passed_s);
+  // Between pictures that take long: what hands do in so much of the time until the next one, and a step at most; the
+  // picture itself goes through the rest.
+  void Meanwhile(const WindowInput& input, float passed_s);
   Error Picture(const WindowInput& input, int width_px, int height_px, float passed_s);
   bool IsBusy() const;  // still at the last picture, in software
   // The last picture, by the browser's clock: what lay between it and the one before.

@@ -14,7 +14,7 @@ import {nextPicture, pause, Trouble} from './trouble.js';
 const kMostPixels = 2;    // drawn a CSS pixel's side
 const kTold_ms = 100;     // the page follows so often
 const kLoad_ms = 16;      // between two tasks that make ready what has come
-const kMeanwhile_ms = 20; // of pictures that take longer, people walk so often in tasks of their own, a step at most in each
+const kMeanwhile_ms = 20; // of pictures that take longer, hands are heard and people walk so often, a step at most each time
 const kAway_ms = 1000;    // who comes back to a tab that was hidden longer goes on where they were
 const kTriesOfContext = 4;
 const kSpeaks = 1;        // of the messages; flaneur-tour.js knows which it understands
@@ -140,7 +140,7 @@ function fit(canvas) {
 
 function drawPictures(canvas, parts, visit) {
   const {player, hands, pages, marks} = parts;
-  let last = 0, handled = 0, told = 0, stepped = 0, timer = 0;
+  let last = 0, told = 0, stepped = 0, timer = 0;
   return new Promise((_, reject) => {
     parts.headset.onTrouble = reject;
     const attempt = (work) => {
@@ -152,22 +152,18 @@ function drawPictures(canvas, parts, visit) {
         visit.abort();
       }
     };
-    const stepMeanwhile = () => attempt(() => {
-      const now = performance.now(), passed_ms = now - stepped;
-      if (parts.headset.isWorn || document.hidden || now - last > kAway_ms) return;
+    const goOnMeanwhile = () => attempt(() => {
+      if (parts.headset.isWorn || document.hidden) return;
+      const now = performance.now(), passed_ms = now - stepped < kAway_ms ? now - stepped : 0;
       stepped = now;
-      timer = setTimeout(stepMeanwhile, kMeanwhile_ms);
-      player.call('page_step_meanwhile', ['number'], [passed_ms / 1000]);
+      timer = setTimeout(goOnMeanwhile, kMeanwhile_ms);
+      hands.takeGamepad();
+      player.call('page_meanwhile', ['number'], [passed_ms / 1000]);
     });
     const draw = (now) => attempt(() => {
       requestAnimationFrame(draw);
-      const handled_ms = handled && now - handled < kAway_ms ? now - handled : 0;
-      handled = now;
-      if (!parts.headset.isWorn && player.ask('page_is_busy')) {  // in software, which takes the cores from the page's own work
-        hands.takeGamepad();
-        player.call('page_hands_meanwhile', ['number'], [handled_ms / 1000]);
-        return;
-      }
+      // In software, which takes the cores from the page's own work.
+      if (!parts.headset.isWorn && player.ask('page_is_busy')) return;
       clearTimeout(timer);
       const passed_ms = last && now - last < kAway_ms && !parts.headset.isWorn ? now - last : 0;
       last = now;
@@ -183,7 +179,7 @@ function drawPictures(canvas, parts, visit) {
         setTimeout(() => attempt(() => follow(player.read('page_state'), parts)));  // not in the time of a picture
       }
       stepped = performance.now();
-      timer = setTimeout(stepMeanwhile, kMeanwhile_ms);
+      timer = setTimeout(goOnMeanwhile, kMeanwhile_ms);
     });
     // Whatever draws, the page or a headset, and however slowly.
     const loadMore = () => attempt(() => {
