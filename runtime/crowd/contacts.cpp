@@ -35,10 +35,16 @@ bool WalksTowards(const Crowd& c, size_t i, Vec2 direction) {
   return c.activity[i] == Activity::kWalking && c.field[i] >= 0 && Dot(c.way[i], direction) > kAheadOf;
 }
 
-// Of the correction of two who would touch, i's share; `normal` points from j to i. Who walks into the back of somebody
-// who is held up takes all of it, as long as they only step back: else the many behind press those before a door into
-// an arch that nobody leaves.
+bool Works(const Crowd& c, size_t i) { return c.activity[i] == Activity::kWorking; }
+
+// Of the correction of two who would touch, i's share; `normal` points from j to i. Who works gives nothing but to
+// those who would be held up for long. Who walks into the back of somebody who is held up takes all of it, as long as
+// they only step back: else the many behind press those before a door into an arch that nobody leaves.
 float ShareOf(const Crowd& c, const std::vector<Vec2>& moved, float step_s, size_t i, size_t j, Vec2 normal) {
+  if (Works(c, i) != Works(c, j)) {
+    const float insists = 0.5f * IsHeldUp(c.mind[Works(c, i) ? j : i]);
+    return Works(c, i) ? insists : 1 - insists;
+  }
   const bool i_follows = WalksTowards(c, i, normal * -1), j_follows = WalksTowards(c, j, normal);
   if (i_follows == j_follows) return 0.5f;
   const size_t follows = i_follows ? i : j, held_up = i_follows ? j : i;
@@ -127,6 +133,8 @@ void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& movin
       const Vec2 before = s->moved[first];
       s->moved[first] = WalkTowards(w, moving, step_s, c, first, before + first_gives);
       const Vec2 given = s->moved[first] - before, rest = j_first ? whole + given : given - whole;
+      // The walker tries again, along the wall that is in the way.
+      if ((share == 0 || share == 1) && Works(c, other) && pass < kContactPasses) continue;
       s->moved[other] = WalkTowards(w, moving, step_s, c, other, s->moved[other] + rest);
     }
     if (!any) return;

@@ -68,7 +68,8 @@ void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
   mind.push = {};
   if (c->detour_s[i] > 0 || c->activity[i] != Activity::kWalking || c->field[i] < 0) {
     if (c->turn[i] && c->field[i] >= 0) RenewWay(w, i, false, true, c);
-    c->wanted[i] = c->detour_s[i] > 0 ? c->detour[i] : Vec2{};
+    const Vec2 still = c->activity[i] == Activity::kWorking ? ToPost_mps(i, *c) : Vec2{};
+    c->wanted[i] = c->detour_s[i] > 0 ? c->detour[i] : still;
     return;
   }
   const bool lost = IsLost(*c, i);

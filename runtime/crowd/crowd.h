@@ -20,7 +20,7 @@ namespace flaneur {
 enum class ViewClass : uint8_t { kOutside, kBoundary, kVisible };
 // kNear: within kNearArrival_m of the goal, and held up by others.
 enum class Arrival : uint8_t { kNot, kNear, kThere };
-// kWorking: keeps to a place, and is not asked to make room for the visitor's sake.
+// kWorking: keeps to a post, where nobody pushes them from, and is not asked to make room for the visitor's sake.
 enum class Activity : uint8_t { kWalking, kStanding, kTalking, kWorking };
 
 // A disc that some people keep out of: the visitor, or the paper's camera obstacles.
@@ -76,6 +76,7 @@ struct Crowd {
   std::vector<uint8_t> sees_goal;   // walks straight to it; renewed now and then
   std::vector<Corner> corner;       // else, as long as the field isn't built: where the way leads first
   std::vector<Activity> activity;
+  std::vector<Vec2> post;     // at work: where they stand or sit
   std::vector<int8_t> doing;  // at work: which of the avatar's other clips; -1: none
   std::vector<float> wait_s;  // left to stand
   std::vector<Vec2> facing;   // where to look while standing; zero: as before

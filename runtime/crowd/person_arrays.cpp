@@ -22,7 +22,7 @@ void VisitPersonArrays(Crowd* c, Visit visit) {
   visit(&c->activity), visit(&c->wait_s), visit(&c->facing), visit(&c->view), visit(&c->was_visible),
       visit(&c->avoids_camera);
   visit(&c->arrived), visit(&c->detour), visit(&c->detour_s), visit(&c->walked_m), visit(&c->mind), visit(&c->coast);
-  visit(&c->group), visit(&c->cares), visit(&c->turn), visit(&c->wanted), visit(&c->doing);
+  visit(&c->group), visit(&c->cares), visit(&c->turn), visit(&c->wanted), visit(&c->post), visit(&c->doing);
 }
 
 // The bits of a number below 65,536, each followed by a zero.
@@ -94,6 +94,7 @@ int AddPerson(const Person& p, Crowd* c) {
   c->cares.push_back(0);
   c->turn.push_back(0);
   c->wanted.push_back({});
+  c->post.push_back(p.position);
   c->doing.push_back(-1);
   return c->next_id++;
 }

@@ -108,7 +108,8 @@ void SeparateBoundary(const Walkable& w, bool (*keep_out)(Vec2, float, const voi
   s->displaced.next.resize(c->size());
   for (int who : s->caring) {
     const size_t i = static_cast<size_t>(who);
-    if (c->view[i] != ViewClass::kBoundary || c->was_visible[i] || !Overlaps(spot, *c, i, c->position[i])) continue;
+    if (c->view[i] != ViewClass::kBoundary || c->was_visible[i] || c->activity[i] == Activity::kWorking) continue;
+    if (!Overlaps(spot, *c, i, c->position[i])) continue;
     Displace(spot, i, c);
   }
 }

@@ -18,6 +18,7 @@ constexpr float kMinAcceleration_mps2 = 0.5f;  // a turn ends, and doesn't fade 
 constexpr int kReturnDecisions = 45;           // after which a line is forgotten;
 constexpr int kPassing = 7;                    // and the first of them, while the visitor passes, change nothing
 constexpr float kReturn_s = 1.0f, kMaxReturn_mps = 0.5f, kOnLine_m = 0.1f;
+constexpr float kToPost_s = 1.0f, kMaxToPost_mps = 0.35f;  // a little aside they do not turn to walk
 constexpr float kStuck = 0.05f, kLetGo = 0.7f;
 constexpr float kLately = 0.05f;  // of the mean, each decision
 constexpr float kStuckFilled =
@@ -359,11 +360,16 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
   });
 }
 
+Vec2 ToPost_mps(size_t i, const Crowd& c) {
+  return ClampLength((c.post[i] - c.position[i]) * (1 / kToPost_s), kMaxToPost_mps);
+}
+
 void ChooseVelocity(float step_s, size_t i, Crowd* c) {
   const Mind& mind = c->mind[i];
   Vec2 preferred;
   if (c->detour_s[i] > 0) preferred = c->detour[i] * (mind.alone_mps > 0 ? mind.asked_mps / mind.alone_mps : 1.0f);
   else if (c->activity[i] == Activity::kWalking && c->field[i] >= 0) preferred = c->way[i] * mind.asked_mps;
+  else if (c->activity[i] == Activity::kWorking) preferred = ToPost_mps(i, *c);
   if (mind.round.x != 0 || mind.round.y != 0) preferred = mind.round * Length(preferred);
   const Vec2 change = preferred + mind.push * kRelaxation_s - c->velocity[i];
   const float change_mps = Length(change);

@@ -18,6 +18,9 @@ float SpeedOnSlope(const Walkable& w, int cell, float level_mps);
 void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours, float step_s,
             Jobs* jobs, Crowd* crowd);
 
+// Of who works: to their post, where they are not there.
+Vec2 ToPost_mps(size_t i, const Crowd& crowd);
+
 // Fills crowd->wanted[i] from what the person asks for.
 void ChooseVelocity(float step_s, size_t i, Crowd* crowd);
 

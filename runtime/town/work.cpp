@@ -14,9 +14,11 @@ namespace flaneur {
 namespace {
 
 constexpr int kLookEvery_steps = 10;
-constexpr float kPushedAside_m = 0.25f;  // from the spot: who sits or sweeps beside it looks wrong
-constexpr float kNearEnough_m = 0.6f;    // who cannot come nearer, because no way leads there, works where they are
-constexpr float kGap_m = 0.7f;           // between people at the start, from middle to middle
+constexpr float kAtPost_m = 0.03f;                   // who sits or sweeps beside the spot looks wrong
+constexpr float kStands_mps = 0.02f;                 // who comes no nearer
+constexpr float kPushedAside_m = 0.25f;              // so far they come back as they came
+constexpr float kNearEnough_m = 0.6f;                // where no way leads nearer, they step there
+constexpr float kGap_m = 0.7f;                       // between people at the start, from middle to middle
 constexpr float kMinShare = 0.5f, kMaxShare = 1.5f;  // of stay_s, that one stays
 constexpr float kMinRest_s = 10, kMaxRest_s = 40;    // a place lies idle so long
 constexpr float kFetch_m = 40;                       // who strolls within it may come to work
@@ -75,13 +77,19 @@ int MostWorkers(float people, const Town& town) { return static_cast<int>(town.s
 
 void Begin(size_t i, WorkSpot* spot, Town* town) {
   Crowd& c = town->crowd;
-  const Place& place = PlaceOf(*spot, *town);
   SetGoal(i, -1, &c);
   spot->there = true;
   c.wait_s[i] = 0;
   c.facing[i] = spot->look;
+  c.post[i] = spot->position_m;
   c.activity[i] = Activity::kWorking;
-  c.doing[i] = static_cast<int8_t>(ClipOf(town->residents[static_cast<size_t>(c.avatar[i])], place.clip));
+}
+
+// Whoever is there.
+void DoWork(size_t i, const WorkSpot& spot, Town* town) {
+  Crowd& c = town->crowd;
+  const Resident& resident = town->residents[static_cast<size_t>(c.avatar[i])];
+  c.doing[i] = static_cast<int8_t>(ClipOf(resident, PlaceOf(spot, *town).clip));
 }
 
 void Take(size_t i, int which, Town* town) {
@@ -110,6 +118,7 @@ void Work(size_t i, float passed_s, const Viewer& viewer, Town* town) {
     Send(i, PickDestination(viewer, c.position[i], false, town), town);
     return;
   }
+  if (c.doing[i] < 0 && (away_m < kAtPost_m || Length(c.velocity[i]) < kStands_mps)) DoWork(i, spot, town);
   if (away_m > kPushedAside_m && Length(c.velocity[i]) < 0.05f && IsFree(town->walkable, spot.position_m)) {
     spot.there = false;
     GoThere(i, spot, town);
@@ -193,6 +202,7 @@ int PlaceWorkers(int wanted, const Viewer& viewer, Town* town) {
     AddToTown(p, PersonPlan{{}, false, false}, town);
     Take(town->crowd.size() - 1, which, town);
     Begin(town->crowd.size() - 1, &spot, town);
+    DoWork(town->crowd.size() - 1, spot, town);
     ++placed;
   }
   return placed;

@@ -103,6 +103,49 @@ TEST(Work, WhoWorksSomewhereStaysThereAllDayAndDoesWhatIsDoneThere) {
   EXPECT_NEAR(s.town.crowd.heading_rad[keeper], -kPi / 2, 1e-3f);
 }
 
+// Everybody else walks through the lane, which the seat makes narrower.
+TEST(Work, NobodyIsPushedOffTheirSeat) {
+  TourPack pack = Square(150);
+  pack.places = {
+      {"west", "exit", {-29, 0}, 3}, {"east", "exit", {29, 0}, 3}, Work("bench", {0, 0.7f}, -kPi / 2, "sit", {}, 0)};
+  pack.obstacles.polygons = {Box({-8, -8}, {8, -1}), Box({-8, 1}, {8, 8})};
+  Scenario scenario = ScenarioOf(pack);
+  scenario.has_camera = true;
+  scenario.camera_position_m = {-5, -0.3f};
+  Simulation s = Started(pack, scenario);
+  int near = 0;
+  float away_m = 0;
+  for (int step = 0; step < 4000; ++step) {
+    StepSimulation({}, 0, &s);
+    const int i = WorkerOf(s, 0);
+    ASSERT_GE(i, 0);
+    const Crowd& c = s.town.crowd;
+    ASSERT_GE(c.doing[static_cast<size_t>(i)], 0);
+    away_m = std::max(away_m, Length(c.position[static_cast<size_t>(i)] - s.town.work_spots[0].position_m));
+    near += std::count_if(c.position.begin(), c.position.end(), [](Vec2 p) {
+              return Length(p - Vec2{0, 0.7f}) < 0.9f;
+            }) > 1;
+  }
+  EXPECT_GT(near, 500) << "hardly anybody came by";
+  EXPECT_LT(away_m, 0.1f);
+}
+
+// As grids of the ground leave it where obstacles are near.
+TEST(Work, WhoFindsNoWayToTheSpotItselfStepsThere) {
+  const TourPack pack = Square(60);
+  Scenario scenario = ScenarioOf(pack);
+  scenario.has_camera = true;
+  scenario.camera_position_m = {0, -12};
+  Simulation s = Started(pack, scenario);
+  const int stall = WorkerOf(s, kStallSpot);
+  ASSERT_GE(stall, 0);
+  s.town.crowd.position[static_cast<size_t>(stall)] = {0, 1.4f};
+  for (int step = 0; step < 600; ++step) StepSimulation({}, 0, &s);
+  const auto keeper = static_cast<size_t>(WorkerOf(s, kStallSpot));
+  EXPECT_LT(Length(s.town.crowd.position[keeper] - Vec2{0, 0.4f}), 0.05f);
+  EXPECT_GE(s.town.crowd.doing[keeper], 0);
+}
+
 TEST(Work, OneWithoutAShareIsAtTheirPlaceAndNowhereElse) {
   const Simulation s = Started(Square(80));
   EXPECT_EQ(std::count(s.town.crowd.avatar.begin(), s.town.crowd.avatar.end(), 2), 1);
