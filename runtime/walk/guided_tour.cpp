@@ -50,8 +50,10 @@ void Plan(const std::vector<size_t>& stops, const VisitorInTown& v) {
   t.stop_m.clear();
   t.route = {{v.visitor.camera.view.position}, {0}};
   for (size_t k : stops) {
+    const size_t from = t.route.points.size() - 1;
     if (!ExtendRoute(v.town.walkable, t.stops[k].position_m, &v.town.crowd.search, &t.route) && k != stops.back())
       continue;
+    MakeRoomOnRoute(v.town.walkable, from, &t.route);
     t.stage.push_back(k);
     t.stop_m.push_back(LengthOf_m(t.route));
   }

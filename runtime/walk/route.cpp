@@ -14,6 +14,25 @@ constexpr float kMinCorner_m = 0.05f, kAsNear_m = 0.05f;
 constexpr float kAhead_m[] = {1.2f, 0.6f,
                               0.3f};  // of the route, walked towards: shorter where the line there cuts a corner
 
+constexpr float kRoom_m = 1.5f;  // wished for on either side of the route
+constexpr float kBend_m = 0.8f;  // between points that can be moved
+constexpr int kSides = 16;       // directions that are looked at
+constexpr int kMostBends = 60;   // passes over all points
+constexpr int kTries = 3;        // a whole step, half of it, a quarter
+constexpr float kEvens = 0.2f, kPush_m = 0.4f, kStill_m = 0.01f;
+
+// Away from what leaves less than kRoom_m, at most kPush_m.
+Vec2 OffWalls(const Walkable& w, Vec2 p) {
+  Vec2 push;
+  for (int k = 0; k < kSides; ++k) {
+    const Vec2 side = DirectionOf(2 * kPi * static_cast<float>(k) / kSides);
+    float free_m = 0.5f * w.cell_m;
+    while (free_m < kRoom_m && IsFree(w, p + side * free_m)) free_m += 0.5f * w.cell_m;
+    if (free_m < kRoom_m) push = push - side * (1 - free_m / kRoom_m);
+  }
+  return ClampLength(push * (8 * kPush_m / kSides), kPush_m);
+}
+
 void Append(Vec2 p, Route* route) {
   route->at_m.push_back(route->points.empty() ? 0 : route->at_m.back() + Length(p - route->points.back()));
   route->points.push_back(p);
@@ -38,6 +57,33 @@ bool ExtendRoute(const Walkable& w, Vec2 goal, WaySearch* search, Route* route) 
   route->points.resize(before);
   route->at_m.resize(before);
   return false;
+}
+
+void MakeRoomOnRoute(const Walkable& w, size_t first, Route* route) {
+  std::vector<Vec2> points{route->points[first]};
+  for (size_t k = first + 1; k < route->points.size(); ++k) {
+    const Vec2 from = points.back(), step = route->points[k] - from;
+    const int parts = 1 + static_cast<int>(Length(step) / kBend_m);
+    for (int part = 1; part <= parts; ++part)
+      points.push_back(from + step * (static_cast<float>(part) / static_cast<float>(parts)));
+  }
+  float moved_m = kRoom_m;
+  for (int pass = 0; pass < kMostBends && moved_m > kStill_m; ++pass) {
+    moved_m = 0;
+    for (size_t k = 1; k + 1 < points.size(); ++k) {
+      const Vec2 before = points[k - 1], p = points[k], after = points[k + 1];
+      Vec2 step = ((before + after) * 0.5f - p) * kEvens + OffWalls(w, p);
+      for (int tries = 0; tries < kTries; ++tries, step = step * 0.5f) {
+        if (!StraightWay(w, before, p + step) || !StraightWay(w, p + step, after)) continue;
+        points[k] = p + step;
+        moved_m = std::max(moved_m, Length(step));
+        break;
+      }
+    }
+  }
+  route->points.resize(first + 1);
+  route->at_m.resize(first + 1);
+  for (size_t k = 1; k < points.size(); ++k) Append(points[k], route);
 }
 
 Vec2 PointAt(const Route& route, float way_m) {

@@ -17,6 +17,10 @@ inline float LengthOf_m(const Route& route) { return route.at_m.empty() ? 0 : ro
 // The route's next part, to `goal`. Without a way there it ends where it did; false then.
 bool ExtendRoute(const Walkable& w, Vec2 goal, WaySearch* search, Route* route);
 
+// Bends the route's part from this point on off walls and posts, as one walks who looks about: not round corners by the
+// shortest way, but where there is room with room to either side. Its ends stay, and all of it can be walked as before.
+void MakeRoomOnRoute(const Walkable& w, size_t first, Route* route);
+
 // The point so far along the route, or its nearer end.
 Vec2 PointAt(const Route& route, float way_m);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "runtime/crowd/fast_math.h"
+#include "tests/unit/runtime/simulation/box_obstacle.h"
 #include "tests/unit/runtime/simulation/tour_town.h"
 
 namespace flaneur {
@@ -194,6 +195,30 @@ TEST(Tour, TurnsToWhereItGoesBeforeItWalks) {
       aside_m += Length(c.velocity) * Step_s(s);
   }
   EXPECT_LT(aside_m, 1.3f);
+}
+
+// A house stands between the stops, and a passage of 1.6 m leads to the last.
+TEST(Tour, KeepsOffWallsWhereThereIsRoom) {
+  TourPack pack = TourTown(0);
+  pack.guide.clear();
+  pack.obstacles.polygons = {Box({24, 10}, {36, 22}), Box({0, 30}, {29.2f, 33}), Box({30.8f, 30}, {60, 33})};
+  const auto stop = [](Vec2 at, float pause_s) {
+    TourStop made;
+    made.position_m = at, made.pause_s = pause_s;
+    return made;
+  };
+  pack.path = {stop({20, 6}, 1), stop({40, 26}, 1), stop({20, 26}, 1), stop({30, 37}, 1)};
+  Simulation s = Started(pack);
+  const auto to_house_m = [](Vec2 p) {
+    return Length(Vec2{std::max(std::abs(p.x - 30) - 6, 0.0f), std::max(std::abs(p.y - 16) - 6, 0.0f)});
+  };
+  float nearest_m = 100;
+  for (int step = 0; step < 30 * 200 && !s.visitor.finished; ++step) {
+    StepSimulation({}, 0, &s);
+    nearest_m = std::min(nearest_m, to_house_m(s.visitor.camera.view.position));
+  }
+  EXPECT_TRUE(s.visitor.finished) << "the passage is not walked through";
+  EXPECT_GT(nearest_m, 1.0f) << "0.4 m by the shortest way";
 }
 
 TEST(Tour, NobodyGoesOnStandingBeforeWhatIsShown) {
