@@ -339,7 +339,22 @@ def trousers(tailor, name, bottom, ease=0.004, puff=0.0, smooth=6, cell="trouser
     for loop in sf.boundary_loops(base):
         if base.vertices[loop][:, 2].mean() < low + 0.1 * size:
             base = _knee_band(base, loop, size, cell)
+    _tucked_in(tailor, base, low)
     tailor.worn["trousers " + name] = base
+
+
+def _tucked_in(tailor, cloth, low):
+    """Stockings above `low` lie beneath the cloth and move with it, so that no bent knee shows them."""
+    tree = sf.tree_of([cloth])
+    for name, worn in tailor.worn.items():
+        hidden = worn.vertices[:, 2] > low
+        if not name.startswith("legs ") or not hidden.any():
+            continue
+        vertices, weights = worn.vertices.copy(), worn.weights.copy()
+        vertices[hidden] = clearance.drawn_in(vertices[hidden], tree, 0.01 * tailor.size, 0.08)
+        apart = np.linalg.norm(vertices[hidden][:, None] - cloth.vertices[None], axis=2)
+        weights[hidden] = cloth.weights[apart.argmin(axis=1)]
+        tailor.worn[name] = sf.with_parts(worn, vertices=vertices, weights=weights)
 
 
 def base_above(base, z):
