@@ -79,7 +79,7 @@ std::vector<uint8_t> Ktx2(const std::vector<AtlasLevel>& levels, size_t first, T
   for (size_t k = first; k < std::min(levels.size(), size_t{kAtlasLevels}); ++k) {
     texture.levels.push_back(CompressLevel(levels[k], format, compress));
   }
-  return WriteKtx2(texture);
+  return WriteKtx2(texture, Supercompression::kZstandard);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ Error LeaveOut(int levels, const std::string& view, std::span<const uint8_t> bef
     texture.width_px = std::max(1, texture.width_px / 2);
     texture.height_px = std::max(1, texture.height_px / 2);
   }
-  *after = WriteKtx2(texture);
+  *after = WriteKtx2(texture, Supercompression::kNone);  // a site's files are compressed as they are sent
   return Ok();
 }
 

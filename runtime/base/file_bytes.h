@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace flaneur {
@@ -11,6 +12,12 @@ namespace flaneur {
 class FileBytes {
  public:
   FileBytes() = default;
+  FileBytes(FileBytes&& other) noexcept { *this = std::move(other); }
+  FileBytes& operator=(FileBytes&& other) noexcept {
+    owner_ = std::move(other.owner_);
+    bytes_ = std::exchange(other.bytes_, {});
+    return *this;
+  }
   FileBytes(std::vector<uint8_t> bytes);  // takes them as they are
   // Room for so many, without a value until they are written: fresh memory costs nothing before it is touched, and then
   // often more than what is done with it. Throws std::bad_alloc.

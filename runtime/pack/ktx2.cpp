@@ -4,12 +4,25 @@
 #include <array>
 #include <string_view>
 
+#include "runtime/pack/zstandard.h"
+
 namespace flaneur {
 namespace {
 
 constexpr std::array<uint8_t, 12> kIdentifier{0xAB, 'K', 'T', 'X', ' ', '2', '0', 0xBB, '\r', '\n', 0x1A, '\n'};
 constexpr size_t kHeaderBytes = 80, kLevelEntryBytes = 24, kMaxLevels = 16;
 constexpr uint32_t kMaxSide_px = 16384;
+enum : size_t {
+  kFormat,
+  kTypeSize,
+  kWidth,
+  kHeight,
+  kDepth,
+  kLayers,
+  kFaces,
+  kLevels,
+  kScheme
+};  // words of the header
 
 class Bytes {
  public:
@@ -72,9 +85,18 @@ uint32_t Word(std::span<const uint8_t> bytes, size_t index) {
   return static_cast<uint32_t>(Number(bytes, kIdentifier.size() + 4 * index, 4));
 }
 
+size_t BytesOfLevel(std::span<const uint8_t> bytes, TextureFormat format, size_t level) {
+  const auto side_px = [&](uint32_t whole_px) { return std::max(1, static_cast<int>(whole_px >> level)); };
+  return LevelBytes(format, side_px(Word(bytes, kWidth)), side_px(Word(bytes, kHeight)));
+}
+
 }  // namespace
 
-std::vector<uint8_t> WriteKtx2(const PackTexture& texture) {
+std::vector<uint8_t> WriteKtx2(const PackTexture& texture, Supercompression packed) {
+  std::vector<std::vector<uint8_t>> zipped;
+  if (packed == Supercompression::kZstandard)
+    for (const std::vector<uint8_t>& level : texture.levels) zipped.push_back(PackedByZstandard(level));
+  const std::vector<std::vector<uint8_t>>& levels = zipped.empty() ? texture.levels : zipped;
   const std::vector<uint8_t> descriptor = Descriptor(texture.format), pairs = KeyValues();
   const size_t descriptor_at = kHeaderBytes + kLevelEntryBytes * texture.levels.size();
   Bytes out;
@@ -85,7 +107,7 @@ std::vector<uint8_t> WriteKtx2(const PackTexture& texture) {
   out.Put(static_cast<uint32_t>(texture.height_px));
   for (uint32_t depth_layers_faces : {0u, 0u, 1u}) out.Put(depth_layers_faces);
   out.Put(static_cast<uint32_t>(texture.levels.size()));
-  out.Put(uint32_t{0});  // no supercompression
+  out.Put(static_cast<uint32_t>(packed));
   out.Put(static_cast<uint32_t>(descriptor_at));
   out.Put(static_cast<uint32_t>(descriptor.size()));
   out.Put(static_cast<uint32_t>(descriptor_at + descriptor.size()));
@@ -94,19 +116,19 @@ std::vector<uint8_t> WriteKtx2(const PackTexture& texture) {
   out.Put(uint64_t{0});
   // The smallest level stands first in the file.
   const auto aligned = [](size_t at) { return (at + 15) / 16 * 16; };
-  std::vector<size_t> offsets(texture.levels.size());
+  std::vector<size_t> offsets(levels.size());
   size_t at = descriptor_at + descriptor.size() + pairs.size();
-  for (size_t k = texture.levels.size(); k-- > 0; at += texture.levels[k].size()) offsets[k] = at = aligned(at);
-  for (size_t k = 0; k < texture.levels.size(); ++k) {
+  for (size_t k = levels.size(); k-- > 0; at += levels[k].size()) offsets[k] = at = aligned(at);
+  for (size_t k = 0; k < levels.size(); ++k) {
     out.Put(static_cast<uint64_t>(offsets[k]));
-    out.Put(static_cast<uint64_t>(texture.levels[k].size()));
+    out.Put(static_cast<uint64_t>(levels[k].size()));
     out.Put(static_cast<uint64_t>(texture.levels[k].size()));
   }
   out.data.insert(out.data.end(), descriptor.begin(), descriptor.end());
   out.data.insert(out.data.end(), pairs.begin(), pairs.end());
-  for (size_t k = texture.levels.size(); k-- > 0;) {
+  for (size_t k = levels.size(); k-- > 0;) {
     out.data.resize(offsets[k]);
-    out.data.insert(out.data.end(), texture.levels[k].begin(), texture.levels[k].end());
+    out.data.insert(out.data.end(), levels[k].begin(), levels[k].end());
   }
   return out.data;
 }
@@ -115,11 +137,20 @@ Error ReadKtx2(std::span<const uint8_t> bytes, PackTexture* texture) {
   return ReadKtx2Beginning(bytes, bytes.size(), texture);
 }
 
+uint64_t Ktx2BytesInMemory(std::span<const uint8_t> bytes) {
+  if (bytes.size() < kHeaderBytes) return 0;
+  const size_t levels = std::min<size_t>(Word(bytes, kLevels), kMaxLevels);
+  uint64_t sum = 0;
+  if (std::max(Word(bytes, kWidth), Word(bytes, kHeight)) > kMaxSide_px) return 0;  // refused when it is read
+  for (size_t k = 0; k < levels; ++k) sum += BytesOfLevel(bytes, static_cast<TextureFormat>(Word(bytes, kFormat)), k);
+  return sum;
+}
+
 size_t Ktx2BytesOfWidth(std::span<const uint8_t> bytes, size_t whole, int width_px) {
   if (bytes.size() < kHeaderBytes) return whole;
-  const size_t levels = std::min<size_t>(Word(bytes, 7), kMaxLevels);
+  const size_t levels = std::min<size_t>(Word(bytes, kLevels), kMaxLevels);
   for (size_t k = 0; k < levels && bytes.size() >= kHeaderBytes + kLevelEntryBytes * (k + 1); ++k) {
-    if (static_cast<int>(Word(bytes, 2)) >> k > width_px) continue;
+    if (static_cast<int>(Word(bytes, kWidth)) >> k > width_px) continue;
     const uint64_t offset = Number(bytes, kHeaderBytes + kLevelEntryBytes * k, 8);
     return static_cast<size_t>(
         std::min<uint64_t>(whole, offset + Number(bytes, kHeaderBytes + kLevelEntryBytes * k + 8, 8)));
@@ -131,16 +162,18 @@ Error ReadKtx2Beginning(std::span<const uint8_t> bytes, size_t whole, PackTextur
   if (bytes.size() < kHeaderBytes || !std::equal(kIdentifier.begin(), kIdentifier.end(), bytes.begin())) {
     return Fail("is no KTX2 picture");
   }
-  enum : size_t { kFormat, kTypeSize, kWidth, kHeight, kDepth, kLayers, kFaces, kLevels, kScheme };
   const uint32_t format = Word(bytes, kFormat), width = Word(bytes, kWidth), height = Word(bytes, kHeight);
   if (format != static_cast<uint32_t>(TextureFormat::kBc4) && format != static_cast<uint32_t>(TextureFormat::kBc5) &&
       format != static_cast<uint32_t>(TextureFormat::kBc7) &&
       format != static_cast<uint32_t>(TextureFormat::kBc7Srgb)) {
     return Fail("is a KTX2 picture of format " + std::to_string(format) + ", not BC4, BC5 or BC7");
   }
-  if (Word(bytes, kDepth) != 0 || Word(bytes, kLayers) != 0 || Word(bytes, kFaces) != 1 || Word(bytes, kScheme) != 0) {
+  if (Word(bytes, kDepth) != 0 || Word(bytes, kLayers) != 0 || Word(bytes, kFaces) != 1) {
     return Fail("is a KTX2 picture that is no plain 2D picture");
   }
+  const auto packed = static_cast<Supercompression>(Word(bytes, kScheme));
+  if (packed != Supercompression::kNone && packed != Supercompression::kZstandard)
+    return Fail("is a KTX2 picture that is packed otherwise than by Zstandard");
   const size_t levels = Word(bytes, kLevels);
   if (width < 1 || height < 1 || width > kMaxSide_px || height > kMaxSide_px || levels < 1 || levels > kMaxLevels) {
     return Fail("is a KTX2 picture of an impossible size");
@@ -151,15 +184,19 @@ Error ReadKtx2Beginning(std::span<const uint8_t> bytes, size_t whole, PackTextur
     const uint64_t offset = Number(bytes, kHeaderBytes + kLevelEntryBytes * k, 8);
     const uint64_t length = Number(bytes, kHeaderBytes + kLevelEntryBytes * k + 8, 8);
     if (offset > whole || length > whole - offset) return Fail("is a truncated KTX2 picture");
-    if (length !=
-        LevelBytes(out.format, std::max(1, static_cast<int>(width) >> k), std::max(1, static_cast<int>(height) >> k))) {
+    const uint64_t unpacked = Number(bytes, kHeaderBytes + kLevelEntryBytes * k + 16, 8);
+    const bool is_packed = packed == Supercompression::kZstandard;
+    if ((is_packed ? unpacked : length) != BytesOfLevel(bytes, out.format, k))
       return Fail("is a KTX2 picture with a level of the wrong length");
-    }
     if (offset + length > bytes.size()) continue;  // coarser ones stand before it
     if (out.levels.empty())
       out.width_px = std::max(1, out.width_px >> k), out.height_px = std::max(1, out.height_px >> k);
-    const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(offset);
-    out.levels.emplace_back(first, first + static_cast<std::ptrdiff_t>(length));
+    const auto level = bytes.subspan(static_cast<size_t>(offset), static_cast<size_t>(length));
+    if (!is_packed) {
+      out.levels.emplace_back(level.begin(), level.end());
+    } else if (!UnpackZstandard(level, out.levels.emplace_back(static_cast<size_t>(unpacked)))) {
+      return Fail("is a KTX2 picture whose Zstandard data is damaged");
+    }
   }
   if (out.levels.empty()) return Fail("is a KTX2 picture of which nothing has arrived");
   *texture = std::move(out);

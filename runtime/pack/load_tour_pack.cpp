@@ -554,7 +554,7 @@ TourObject TourOf(const GltfFile& file) {
 
 void CheckVersion(const TourObject& tour) {
   const int version = tour.Whole("version", 0, 1e9);
-  if (version == kTourPackVersion) return;
+  if (version >= kOldestTourPackVersion && version <= kTourPackVersion) return;
   throw PackRefused("is a tour pack of version " + std::to_string(version) + ", this player reads version " +
                     std::to_string(kTourPackVersion) +
                     (version > kTourPackVersion ? "; use a newer player" : "; bake the tour again"));
@@ -661,7 +661,9 @@ struct PackFile::Impl {
       for (const AtlasView& view : kAtlasViews) {
         if (!impostors[a].Has(view.name)) continue;
         const int index = impostors[a].View(view.name, CountOf(file.json, "bufferViews"));
-        file.allowance->TakeMemory(RangeOfView(file, index).bytes, std::string("an impostor's ") + view.name);
+        const uint64_t bytes =
+            std::max<uint64_t>(RangeOfView(file, index).bytes, Ktx2BytesInMemory(BeginningOfView(file, index)));
+        file.allowance->TakeMemory(bytes, std::string("an impostor's ") + view.name);
       }
     }
   }

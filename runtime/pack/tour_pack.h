@@ -26,8 +26,9 @@
 
 namespace flaneur {
 
-inline constexpr int kTourPackVersion = 3;
-inline constexpr int kCoarsestAtlasLevel = 3;  // of its mip levels: in coarser ones several cells share a texel
+inline constexpr int kTourPackVersion = 4;
+inline constexpr int kOldestTourPackVersion = 3;  // that is read; its atlases are not packed
+inline constexpr int kCoarsestAtlasLevel = 3;     // of its mip levels: in coarser ones several cells share a texel
 inline constexpr const char* kTourExtension = "FLANEUR_tour";
 
 struct PackImage {  // decoded, 8 bits a channel

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 
 #include "runtime/pack/tint.h"
 
@@ -244,11 +243,10 @@ void ShowLevels(PeopleView* people) {
   }
 }
 
-void AddAtlas(int avatar, const std::array<AtlasPicture, kAtlasPictures>& pictures, PeopleView* people) {
+void AddAtlas(int avatar, PeopleView* people) {
   AvatarView& view = people->avatars[static_cast<size_t>(avatar)];
   GLuint* textures[] = {&view.albedo, &view.normals, &view.depth, &view.motion, &view.tint_regions};
-  while (!UploadAtlas(std::numeric_limits<size_t>::max(), pictures, &people->upload)) {}
-  for (size_t k = 0; k < pictures.size(); ++k) {
+  for (size_t k = 0; k < kAtlasPictures; ++k) {
     if (*textures[k] != 0) glDeleteTextures(1, textures[k]);
     *textures[k] = people->upload.textures[k];
   }

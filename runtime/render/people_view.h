@@ -47,9 +47,8 @@ struct PeopleView {
 Error CreatePeopleView(const TourPack& pack, ShaderMode mode, const SurfacePlan& plan,
                        const std::vector<GLuint>& arrays, PeopleView* people);
 void AddLevel(int avatar, int level, const PersonGeometry& person, const ShadowLevels& shadows, PeopleView* people);
-void ShowLevels(PeopleView* people);  // all that have been added, from now on
-// With what of it is not there yet. One atlas at a time.
-void AddAtlas(int avatar, const std::array<AtlasPicture, kAtlasPictures>& pictures, PeopleView* people);
+void ShowLevels(PeopleView* people);            // all that have been added, from now on
+void AddAtlas(int avatar, PeopleView* people);  // the one that was uploaded
 
 // What the people of a picture are drawn with, their shadows too, whether it is there or not.
 std::vector<AssetId> AssetsFor(const std::vector<DrawnPerson>& drawn, const PeopleSight& sight,

@@ -164,7 +164,8 @@ struct Renderer::Impl {
             static_cast<float>(width_px) / 2 / std::tan(frame.fov_rad / 2)};
   }
   // About so many bytes more of a picture of surfaces; true: all of it is there.
-  bool UploadPicture(size_t most_bytes, const PicturePlace& place, const std::vector<std::vector<uint8_t>>& levels) {
+  bool UploadPicture(size_t most_bytes, int which, const std::vector<std::vector<uint8_t>>& levels) {
+    const PicturePlace& place = plan.pictures[static_cast<size_t>(which)];
     if (place.array < 0) return true;
     const auto array = static_cast<size_t>(place.array);
     return UploadLayer(most_bytes, arrays[array], plan.arrays[array], place.layer, levels, &picture_upload);
@@ -224,7 +225,10 @@ Error Renderer::Create(const TourPack& pack, const RenderOptions& options) {
   std::vector<Asset> assets(ids.size());
   ParallelFor(options.jobs, ids.size(),
               [&](size_t i) { assets[i] = PrepareAsset(pack, ids[i], surfaces(), formats()); });
-  for (Asset& asset : assets) Add(std::move(asset));
+  for (Asset& asset : assets) {
+    while (!Add(std::numeric_limits<size_t>::max(), &asset)) {}
+    asset.content.reset();
+  }
   return Ok();
 }
 
@@ -274,42 +278,31 @@ Error Renderer::Begin(const TourPack& pack, const RenderOptions& options) {
 const SurfacePlan& Renderer::surfaces() const { return impl_->plan; }
 const AtlasFormats& Renderer::formats() const { return impl_->formats; }
 
-bool Renderer::AddPart(size_t most_bytes, Asset* asset) {
-  if (asset->id.kind == AssetKind::kTown && !UploadTown(most_bytes, asset->content->town, &impl_->town)) return false;
-  if (asset->id.kind == AssetKind::kPicture) {
-    const PicturePlace& place = impl_->plan.pictures[static_cast<size_t>(asset->id.index)];
-    if (!impl_->UploadPicture(most_bytes, place, asset->content->picture)) return false;
-  }
-  if (asset->id.kind == AssetKind::kAtlas && !UploadAtlas(most_bytes, asset->content->atlas, &impl_->people.upload))
-    return false;
-  Add(std::move(*asset));
-  return true;
-}
-
-void Renderer::Add(Asset asset) {
+bool Renderer::Add(size_t most_bytes, Asset* asset) {
   Impl& r = *impl_;
-  Asset::Content& content = *asset.content;
-  switch (asset.id.kind) {
+  Asset::Content& content = *asset->content;
+  switch (asset->id.kind) {
     case AssetKind::kTown:
+      if (!UploadTown(most_bytes, content.town, &r.town)) return false;
       AddTown(std::move(content.town), &r.town);
       AddWallShade(content.wall_shade, &r.contact_shade);
       ForgetTownShadows(&r.shadows);
       break;
-    case AssetKind::kPicture: {
-      const PicturePlace& place = r.plan.pictures[static_cast<size_t>(asset.id.index)];
-      while (!r.UploadPicture(std::numeric_limits<size_t>::max(), place, content.picture)) {}
+    case AssetKind::kPicture:
+      if (!r.UploadPicture(most_bytes, asset->id.index, content.picture)) return false;
       r.picture_upload = {};
       if (--r.pictures_left == 0) ShowLevels(&r.people);
       break;
-    }
     case AssetKind::kLevel:
-      AddLevel(asset.id.index, asset.id.level, content.person, content.shadows, &r.people);
+      AddLevel(asset->id.index, asset->id.level, content.person, content.shadows, &r.people);
       if (r.pictures_left == 0) ShowLevels(&r.people);  // never without their clothes
       break;
     case AssetKind::kAtlas:
-      AddAtlas(asset.id.index, content.atlas, &r.people);
+      if (!UploadAtlas(most_bytes, content.atlas, &r.people.upload)) return false;
+      AddAtlas(asset->id.index, &r.people);
       break;
   }
+  return true;
 }
 
 void Renderer::StartAnew() { ForgetTownShadows(&impl_->shadows); }

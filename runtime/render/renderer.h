@@ -47,9 +47,8 @@ class Renderer {
   // The same in pieces, in any order: `pack` without its bulk first, then one asset after the other. What has not come
   // yet is drawn by the nearest level that has, or not at all.
   Error Begin(const TourPack& pack, const RenderOptions& options = {});
-  void Add(Asset asset);
-  // About so many bytes more of a large asset; true: all of it is there, and drawn from now on. One asset at a time.
-  bool AddPart(size_t most_bytes, Asset* asset);
+  // About so many bytes more of an asset; true: all of it is there, and drawn from now on. One asset at a time.
+  bool Add(size_t most_bytes, Asset* asset);
   // For PrepareAsset, from any thread, after Begin.
   const SurfacePlan& surfaces() const;
   const AtlasFormats& formats() const;

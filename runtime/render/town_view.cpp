@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 
 #include "runtime/render/vertex_bytes.h"
 #include "runtime/render/visible_triangles.h"
@@ -133,7 +132,6 @@ bool UploadTown(size_t most_bytes, const TownGeometry& geometry, TownView* town)
 }
 
 void AddTown(TownGeometry geometry, TownView* town) {
-  while (!UploadTown(std::numeric_limits<size_t>::max(), geometry, town)) {}
   if (town->vertex_array != 0) RemoveTown(town);
   glGenVertexArrays(1, &town->shadow_array);
   glBindVertexArray(town->shadow_array);

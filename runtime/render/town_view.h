@@ -44,7 +44,7 @@ struct TownView {
 Error CreateTownView(ShaderMode mode, const SurfacePlan& plan, const std::vector<GLuint>& arrays, TownView* town);
 // About so many bytes more of what AddTown takes then; true: that was all. Meanwhile the one before is drawn.
 bool UploadTown(size_t most_bytes, const TownGeometry& geometry, TownView* town);
-// Instead of the one that was added before.
+// Of what was uploaded, instead of the one that was added before.
 void AddTown(TownGeometry geometry, TownView* town);
 
 // Fills visible and walls: blocks within the view that no nearer walls hide. Without `cull` all blocks and no walls.

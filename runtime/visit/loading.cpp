@@ -484,7 +484,7 @@ Error Loader::Upload(double most_ms, Renderer* renderer) {
       l.uploading = std::move(asset);
     }
     if (l.uploading) {
-      if (!renderer->AddPart(kUpload_bytes, &*l.uploading)) continue;
+      if (!renderer->Add(kUpload_bytes, &*l.uploading)) continue;
       const AssetId id = l.uploading->id;
       l.uploading.reset();
       l.NoteUploaded(id);

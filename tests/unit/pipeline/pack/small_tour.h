@@ -64,7 +64,7 @@ inline std::vector<uint8_t> Ktx2(TextureFormat format, int width, int height) {
     texture.levels.emplace_back(LevelBytes(format, width >> k, height >> k));
     std::iota(texture.levels.back().begin(), texture.levels.back().end(), uint8_t{1});
   }
-  return WriteKtx2(texture);
+  return WriteKtx2(texture, Supercompression::kZstandard);
 }
 
 inline ImpostorAtlas SmallAtlas() {

@@ -495,6 +495,16 @@ TEST(TourPack, OtherVersionsAreRefusedByNumber) {
   EXPECT_NE(message.find("version 9"), std::string::npos) << message;
 }
 
+TEST(TourPack, TheVersionBeforeIsReadAsWell) {
+  std::vector<uint8_t> bytes = Written(SmallTour());
+  const std::string member = "\"version\":" + std::to_string(kTourPackVersion);
+  const auto at = std::search(bytes.begin(), bytes.end(), member.begin(), member.end());
+  ASSERT_NE(at, bytes.end());
+  at[static_cast<std::ptrdiff_t>(member.size()) - 1] = static_cast<uint8_t>('0' + kOldestTourPackVersion);
+  TourPack pack;
+  EXPECT_EQ(ParseTourPack(bytes, "small.glb", LoadOptions{}, &pack).message, "");
+}
+
 TEST(TourPack, AGlbWithoutATourIsNamedSo) {
   TourPack pack;
   const std::vector<uint8_t> whole = Written(SmallTour());

@@ -391,7 +391,7 @@ TEST_F(Drawing, AnAtlasThatComesInPartsIsTheSame) {
   for (const AssetId& id : AssetsOf(pack)) {
     Asset asset = PrepareAsset(pack, id, renderer.surfaces(), renderer.formats());
     int parts = 1;
-    while (!renderer.AddPart(1000, &asset)) ++parts;
+    while (!renderer.Add(1000, &asset)) ++parts;
     EXPECT_TRUE(id.kind != AssetKind::kAtlas || parts > 20) << parts;
   }
   EXPECT_EQ(DrawWith(frame, &renderer), whole);
