@@ -1,4 +1,5 @@
-// Zstandard (RFC 8878), as KTX2's levels may be packed with. A page has none: its files are compressed as they are sent.
+// Zstandard (RFC 8878), as KTX2's levels may be packed with. A page has none: its files are compressed as they are
+// sent.
 #pragma once
 #include <cstdint>
 #include <span>
