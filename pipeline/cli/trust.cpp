@@ -13,6 +13,7 @@
 #include "pipeline/cli/stage_inputs.h"
 #include "pipeline/core/blender.h"
 #include "pipeline/core/child_policy.h"
+#include "pipeline/core/uri.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
@@ -71,21 +72,6 @@ std::vector<fs::path> FilesOf(const TourSettings& s) {
   return files;
 }
 
-// %20 and its like as the character.
-std::string Decoded(const std::string& uri) {
-  std::string out;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    unsigned code = 0;
-    if (uri[i] == '%' && std::sscanf(uri.c_str() + i + 1, "%2x", &code) == 1) {
-      out += static_cast<char>(code);
-      i += 2;
-    } else {
-      out += uri[i];
-    }
-  }
-  return out;
-}
-
 // The JSON of a .gltf or .glb; broken ones are left to who reads them.
 nlohmann::json JsonOf(const std::string& bytes) {
   constexpr size_t kJsonOffset = 20;
@@ -112,7 +98,7 @@ Error CheckFilesOfModel(const fs::path& model) {
       if (!each.is_object() || !each.contains("uri") || !each["uri"].is_string()) continue;
       const std::string uri = each["uri"];
       if (uri.rfind("data:", 0) == 0) continue;
-      if (Error e = CheckWithinRoots(model.parent_path() / Decoded(uri)))
+      if (Error e = CheckWithinRoots(model.parent_path() / DecodedUri(uri)))
         return Fail(model.string() + " names " + e.message);
     }
   }

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "pipeline/core/uri.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {
@@ -23,21 +24,6 @@ std::vector<fs::path> PythonFiles(const fs::path& folder) {
   return files;
 }
 
-// %20 and its like as the character.
-std::string Decoded(const std::string& uri) {
-  std::string out;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    unsigned code = 0;
-    if (uri[i] == '%' && std::sscanf(uri.c_str() + i + 1, "%2x", &code) == 1) {
-      out += static_cast<char>(code);
-      i += 2;
-    } else {
-      out += uri[i];
-    }
-  }
-  return out;
-}
-
 // The files beside a glTF file that its text names by "uri".
 std::vector<fs::path> NamedFiles(const fs::path& gltf, const std::string& text) {
   constexpr std::string_view kKey = "\"uri\"";
@@ -49,7 +35,7 @@ std::vector<fs::path> NamedFiles(const fs::path& gltf, const std::string& text) 
     const size_t close = text.find('"', open + 1);
     if (close == std::string::npos) break;
     const std::string uri = text.substr(open + 1, close - open - 1);
-    if (uri.rfind("data:", 0) != 0) files.push_back(gltf.parent_path() / Decoded(uri));
+    if (uri.rfind("data:", 0) != 0) files.push_back(gltf.parent_path() / DecodedUri(uri));
   }
   return files;
 }
