@@ -21,7 +21,6 @@
 namespace flaneur {
 namespace {
 
-constexpr double kLowest = -std::numeric_limits<double>::infinity();
 constexpr double kLeastFace_m2 = 1e-6;  // in plan; what has less is an edge
 
 Segment InPlan(const Point3& a, const Point3& b) { return {{a.x, a.y}, {b.x, b.y}}; }

@@ -1,6 +1,7 @@
 // Answers what stands over a place.
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "pipeline/footprint/town_objects.h"
 
 namespace flaneur {
+
+inline constexpr double kLowest = -std::numeric_limits<double>::infinity();  // below everything
 
 // Holds pointers to the triangles: they must outlive it.
 class Overhead {

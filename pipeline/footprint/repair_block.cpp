@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -210,7 +209,6 @@ class BlockRepair {
     return *overhead_[member];
   }
 
-  static constexpr double kLowest = -std::numeric_limits<double>::infinity();
   const std::vector<const TownObject*>& houses_;
   const Holes holes_;
   std::vector<Triangle3> all_;
