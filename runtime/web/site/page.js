@@ -115,18 +115,31 @@ function takeWishes(commands) {
   if (Number.isInteger(stop) && stop > 0) commands.goToStop(stop);
 }
 
-function follow(state, parts) {
-  for (const part of [parts.bar, parts.pages, parts.hands]) part.show(state);
-  parts.sounds.follow();
-  keepSettings(parts.player.text('page_settings'));
+// True: it says something else now.
+function showCaption(state) {
   Object.assign(page.dataset, {textSize: state.text_size, contrast: state.high_contrast ? 'high' : 'usual',
                                motion: state.reduced_motion ? 'reduced' : 'usual'});
   caption.hidden = !state.caption;
-  if (state.caption !== caption.textContent) {
-    caption.textContent = state.caption;
-    caption.classList.toggle('scrolls', caption.scrollHeight > caption.clientHeight);
-  }
   caption.lang = state.language;
+  if (state.caption === caption.textContent) return false;  // which screen readers would say again
+  caption.textContent = state.caption;
+  return true;
+}
+
+// `inTask` calls what it is given, soon: together it would be a long task.
+function follow(state, parts, inTask) {
+  for (const part of [parts.bar, parts.pages, parts.hands]) inTask(() => part.show(state));
+  inTask(() => {
+    parts.sounds.follow();
+    keepSettings(parts.player.text('page_settings'));
+  });
+  inTask(() => {
+    if (showCaption(state)) inTask(() => caption.classList.toggle('scrolls', caption.scrollHeight > caption.clientHeight));
+  });
+  inTask(() => tellOf(state));
+}
+
+function tellOf(state) {
   if (state.resting && (!shown?.resting || shown.stop !== state.stop)) tell('stop-reached', {stop: state.stop + 1});
   if (state.over && !shown?.over) tell('ended');
   shown = state;
@@ -176,7 +189,8 @@ function drawPictures(canvas, parts, visit) {
       if (shown) marks.follow(shown);
       if (now - told > kTold_ms) {
         told = now;
-        setTimeout(() => attempt(() => follow(player.read('page_state'), parts)));  // not in the time of a picture
+        const inTask = (work) => setTimeout(() => attempt(work));  // not in the time of a picture
+        inTask(() => follow(player.read('page_state'), parts, inTask));
       }
       stepped = performance.now();
       timer = setTimeout(goOnMeanwhile, kMeanwhile_ms);
@@ -239,7 +253,7 @@ function build(canvas, player, described, visit) {
   const pages = new Pages(page, player, wordsIn, signal);
   const parts = {player, pages, hands: new Hands(canvas, player, pages, signal), sounds: new Sounds(player, signal),
           bar: new Bar(page, described, player, wordsIn, signal), marks: new HotspotMarks(page, player, wordsIn, signal)};
-  parts.headset = new Headset(page, player, (state) => follow(state, parts), wordsIn, signal);
+  parts.headset = new Headset(page, player, (state) => follow(state, parts, (work) => work()), wordsIn, signal);
   offerHeadset(parts).catch(() => {});
   return parts;
 }
