@@ -67,19 +67,25 @@ void MakeRoomOnRoute(const Walkable& w, size_t first, Route* route) {
     for (int part = 1; part <= parts; ++part)
       points.push_back(from + step * (static_cast<float>(part) / static_cast<float>(parts)));
   }
-  float moved_m = kRoom_m;
-  for (int pass = 0; pass < kMostBends && moved_m > kStill_m; ++pass) {
-    moved_m = 0;
+  // Who and whose neighbours stay where they are is not looked at again.
+  std::vector<char> moved(points.size(), 1), moves(points.size(), 0);
+  bool any = true;
+  for (int pass = 0; pass < kMostBends && any; ++pass) {
+    any = false;
+    std::fill(moves.begin(), moves.end(), 0);
     for (size_t k = 1; k + 1 < points.size(); ++k) {
+      if (!moved[k - 1] && !moved[k] && !moved[k + 1]) continue;
       const Vec2 before = points[k - 1], p = points[k], after = points[k + 1];
       Vec2 step = ((before + after) * 0.5f - p) * kEvens + OffWalls(w, p);
       for (int tries = 0; tries < kTries; ++tries, step = step * 0.5f) {
         if (!StraightWay(w, before, p + step) || !StraightWay(w, p + step, after)) continue;
         points[k] = p + step;
-        moved_m = std::max(moved_m, Length(step));
+        moves[k] = Length(step) > kStill_m;
+        any = any || moves[k];
         break;
       }
     }
+    moved.swap(moves);
   }
   route->points.resize(first + 1);
   route->at_m.resize(first + 1);
