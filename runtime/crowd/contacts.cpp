@@ -134,7 +134,7 @@ void ResolveContacts(const Walkable& w, const std::vector<MovingObstacle>& movin
       s->moved[first] = WalkTowards(w, moving, step_s, c, first, before + first_gives);
       const Vec2 given = s->moved[first] - before, rest = j_first ? whole + given : given - whole;
       // The walker tries again, along the wall that is in the way.
-      if ((share == 0 || share == 1) && Works(c, other) && pass < kContactPasses) continue;
+      if ((share == 0 || share == 1) && Works(c, other) && pass <= kContactPasses / 2) continue;
       s->moved[other] = WalkTowards(w, moving, step_s, c, other, s->moved[other] + rest);
     }
     if (!any) return;

@@ -115,7 +115,8 @@ std::vector<uint8_t> WriteKtx2(const PackTexture& texture, Supercompression pack
   out.Put(uint64_t{0});
   out.Put(uint64_t{0});
   // The smallest level stands first in the file.
-  const auto aligned = [](size_t at) { return (at + 15) / 16 * 16; };
+  const size_t alignment = packed == Supercompression::kNone ? 16 : 1;
+  const auto aligned = [alignment](size_t at) { return (at + alignment - 1) / alignment * alignment; };
   std::vector<size_t> offsets(levels.size());
   size_t at = descriptor_at + descriptor.size() + pairs.size();
   for (size_t k = levels.size(); k-- > 0; at += levels[k].size()) offsets[k] = at = aligned(at);

@@ -3,6 +3,7 @@
 
 // Vulkan's format: bytes a block of 4 x 4 texels, and the colour model of Khronos's data format descriptor.
 const FORMATS = {139: [8, 131], 141: [16, 132], 145: [16, 134], 146: [16, 134]};  // BC4, BC5, BC7 linear and sRGB
+const NONE = 0, ZSTANDARD = 2;  // supercompression
 const VIEWS = ['albedo_view', 'normal_view', 'depth_view', 'motion_view'];
 
 function levelFindings(picture, name) {
@@ -11,7 +12,10 @@ function levelFindings(picture, name) {
   picture.levels.forEach((level, k) => {
     const blocks = (size) => Math.ceil(Math.max(1, size >> k) / 4);
     const wanted = blocks(picture.pixelWidth) * blocks(picture.pixelHeight) * blockBytes;
-    if (level.levelData.byteLength !== wanted) found.push(`${name}: level ${k} has ${level.levelData.byteLength} bytes, not ${wanted}`);
+    const bytes = picture.supercompressionScheme === NONE ? level.levelData.byteLength : level.uncompressedByteLength;
+    if (bytes !== wanted) found.push(`${name}: level ${k} has ${bytes} bytes, not ${wanted}`);
+    if (picture.supercompressionScheme === ZSTANDARD && level.levelData.byteLength > wanted + 64)
+      found.push(`${name}: level ${k} is larger packed than as it is`);
   });
   return found;
 }
@@ -19,6 +23,7 @@ function levelFindings(picture, name) {
 function pictureFindings(picture, impostor, view, name) {
   if (!FORMATS[picture.vkFormat]) return [`${name}: format ${picture.vkFormat}`];
   const found = [];
+  if (![NONE, ZSTANDARD].includes(picture.supercompressionScheme)) found.push(`${name}: supercompression ${picture.supercompressionScheme}`);
   const share = view === 'motion_view' ? 2 : 1;  // of the atlas's size: motion is smooth
   if (picture.pixelWidth !== impostor.width_px / share || picture.pixelHeight !== impostor.height_px / share) {
     found.push(`${name}: ${picture.pixelWidth} x ${picture.pixelHeight} is not the atlas's size`);
