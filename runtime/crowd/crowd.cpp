@@ -308,6 +308,7 @@ void SetGoal(size_t i, int field, Crowd* c) {
   c->arrived[i] = Arrival::kNot;
   c->activity[i] = field >= 0 ? Activity::kWalking : Activity::kStanding;
   c->doing[i] = -1;
+  c->sits[i] = 0;
 }
 
 int FieldFor(Vec2 goal, Crowd* c) {

@@ -78,6 +78,7 @@ struct Crowd {
   std::vector<Activity> activity;
   std::vector<Vec2> post;     // at work: where they stand or sit
   std::vector<int8_t> doing;  // at work: which of the avatar's other clips; -1: none
+  std::vector<uint8_t> sits;  // at work: whoever comes, the visitor too, goes round them
   std::vector<float> wait_s;  // left to stand
   std::vector<Vec2> facing;   // where to look while standing; zero: as before
   std::vector<ViewClass> view;

@@ -22,7 +22,8 @@ void VisitPersonArrays(Crowd* c, Visit visit) {
   visit(&c->activity), visit(&c->wait_s), visit(&c->facing), visit(&c->view), visit(&c->was_visible),
       visit(&c->avoids_camera);
   visit(&c->arrived), visit(&c->detour), visit(&c->detour_s), visit(&c->walked_m), visit(&c->mind), visit(&c->coast);
-  visit(&c->group), visit(&c->cares), visit(&c->turn), visit(&c->wanted), visit(&c->post), visit(&c->doing);
+  visit(&c->group), visit(&c->cares), visit(&c->turn), visit(&c->wanted), visit(&c->post), visit(&c->doing),
+      visit(&c->sits);
 }
 
 // The bits of a number below 65,536, each followed by a zero.
@@ -96,6 +97,7 @@ int AddPerson(const Person& p, Crowd* c) {
   c->wanted.push_back({});
   c->post.push_back(p.position);
   c->doing.push_back(-1);
+  c->sits.push_back(0);
   return c->next_id++;
 }
 

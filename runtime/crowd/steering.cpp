@@ -321,7 +321,7 @@ void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const 
   Vec2 push = around.foremost + around.separation;
   const bool works = c->activity[i] == Activity::kWorking && mind.stands;
   if (works || (mind.stands && Dot(push, push) < 1)) push = {};  // people who stand give way only when pressed
-  const Vec2 room = AvoidMoving(w, moving, me, mind.avoids_camera);
+  const Vec2 room = c->sits[i] ? Vec2{} : AvoidMoving(w, moving, me, mind.avoids_camera);
   push = push + room;
   if (!mind.stands) push = push + BackToLine(Dot(room, room) > 0, me.position, c->way[i], &mind);
   mind.push = works ? push : push + WallPush(w, me.position, me.radius_m);  // a counter is near by choice

@@ -41,6 +41,7 @@ void TakeAvatar(const PackAvatar& avatar, Simulation* s) {
   for (const PackOtherClip& clip : avatar.other_clips) {
     resident.other_clips.push_back(clip.name);
     resident.clip_mps.push_back(clip.speed_mps);
+    resident.clip_sits.push_back(clip.seat_m > 0);
   }
   costs.other_clips = resident.other_clips;
   s->town.residents.push_back(std::move(resident));

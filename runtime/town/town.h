@@ -80,6 +80,7 @@ struct Resident {
   bool leads = false;                         // is the guide's figure, and nobody's besides
   std::vector<std::string> other_clips = {};  // what they can do at work, by Crowd::doing
   std::vector<float> clip_mps = {};           // of each, the speed it is made for; 0: on the spot
+  std::vector<uint8_t> clip_sits = {};        // of each, whether it has a seat
 };
 
 inline constexpr const char* kPlainFigure = "person";  // everybody's avatar where there is no pack

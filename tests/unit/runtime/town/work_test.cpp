@@ -130,6 +130,27 @@ TEST(Work, NobodyIsPushedOffTheirSeat) {
   EXPECT_LT(away_m, 0.1f);
 }
 
+TEST(Work, WhoSitsStaysSeatedWhenTheVisitorWalksUpToThem) {
+  TourPack pack = Square(0);
+  pack.places = {Work("bench", {0, 10}, -kPi / 2, "sit", {}, 0)};
+  pack.crowd.people = 1;
+  pack.crowd.work_share = 1;
+  Scenario scenario = ScenarioOf(pack);
+  scenario.has_camera = true;
+  scenario.camera_position_m = {0, 4};
+  Simulation s = Started(pack, scenario);
+  ASSERT_EQ(WorkerOf(s, 0), 0);
+  CameraInput up_to_them;
+  up_to_them.active = true;
+  up_to_them.direction = {0, 1};
+  up_to_them.speed_mps = 1.4f;
+  for (int step = 0; step < 300; ++step) {
+    StepSimulation(up_to_them, 0, &s);
+    ASSERT_LT(Length(s.town.crowd.position[0] - Vec2{0, 10}), 0.02f) << step;
+  }
+  EXPECT_LT(Length(s.visitor.camera.view.position - Vec2{0, 10}), 1.6f) << "the visitor did not come near";
+}
+
 // As grids of the ground leave it where obstacles are near.
 TEST(Work, WhoFindsNoWayToTheSpotItselfStepsThere) {
   const TourPack pack = Square(60);
