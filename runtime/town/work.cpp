@@ -89,9 +89,10 @@ void Begin(size_t i, WorkSpot* spot, Town* town) {
 void DoWork(size_t i, const WorkSpot& spot, Town* town) {
   Crowd& c = town->crowd;
   const Resident& resident = town->residents[static_cast<size_t>(c.avatar[i])];
-  const int clip = ClipOf(resident, PlaceOf(spot, *town).clip);
+  const Place& place = PlaceOf(spot, *town);
+  const int clip = ClipOf(resident, place.clip);
   c.doing[i] = static_cast<int8_t>(clip);
-  c.sits[i] = clip >= 0 && resident.clip_sits[static_cast<size_t>(clip)];
+  c.sits[i] = clip >= 0 && (place.seat_m > 0 || resident.clip_sits[static_cast<size_t>(clip)]);
 }
 
 void Take(size_t i, int which, Town* town) {
