@@ -201,24 +201,26 @@ def add_ivy(mesh, line, low, high, rng):
     way = ((line[1][0] - line[0][0]) / length, (line[1][1] - line[0][1]) / length)
     out = (-way[1], way[0])
     reach, center = min(length / 2, rng.uniform(0.9, 2.0)), rng.uniform(0.3, 0.7)
-    for _ in range(int(34 * reach)):
+    for _ in range(int(70 * reach)):
         t = center + rng.gauss(0, 0.45) * reach / length
         if not 0.02 < t < 0.98:
             continue
         fall = abs(rng.gauss(0, 0.42)) * max(0.15, 1 - abs(t - center) * length / reach / 1.3)
-        half = rng.uniform(0.17, 0.27)
-        z = max(low(t) + half, high(t) + 0.12 - 1.9 * fall)
-        off = rng.uniform(-0.42, 0.04) if z > high(t) + 0.02 else rng.uniform(0.03, 0.1)
-        p = (line[0][0] + way[0] * length * t + out[0] * off, line[0][1] + way[1] * length * t + out[1] * off, z)
-        turn, lean, nod = rng.uniform(0, 2 * math.pi), rng.uniform(-0.25, 0.25), rng.uniform(-0.1, 0.45)
-        faces = _unit((out[0] + way[0] * lean, out[1] + way[1] * lean, nod if off > 0 else 2.0))
+        z = max(low(t) + 0.15, high(t) + 0.2 - 1.9 * fall)
+        off = rng.uniform(-0.42, 0.06) if z > high(t) + 0.1 else rng.uniform(0.02, 0.09)
+        half, turn, which, tint = 1.45 * rng.uniform(0.1, 0.19), 3.4 * rng.uniform(-0.9, 0.9), rng.random(), rng.uniform(0.6, 1.1)
+        if which >= 0.5:  # of these places every other is enough
+            continue
+        p = (line[0][0] + way[0] * length * t + out[0] * off, line[0][1] + way[1] * length * t + out[1] * off, max(z, low(t) + half))
+        lies = 2.0 if off < 0 else 0.15 + 0.1 * turn
+        faces = _unit((out[0] + way[0] * 0.08 * turn, out[1] + way[1] * 0.08 * turn, lies))
         across = _unit(_cross((0, 0, 1), faces))
         rise = _cross(faces, across)
         side = tuple(math.cos(turn) * across[m] + math.sin(turn) * rise[m] for m in range(3))
         up = _cross(faces, side)
         corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
         points = [tuple(p[m] + half * (u * side[m] + v * up[m]) for m in range(3)) for u, v in corners]
-        column, row = rng.randrange(2), rng.randrange(2)
+        column, row = int(4 * which), int(8 * which) % 2
         uvs = [((column + (u + 1) / 2) / 2, (row + (v + 1) / 2) / 2) for u, v in corners]
         light = _unit((out[0] * 0.8, out[1] * 0.8, 0.6))
-        mesh.face("twigs", points, uvs, shade(srgb("6f8a3c"), rng.uniform(0.6, 1.1)), [light] * 4)
+        mesh.face("twigs", points, uvs, shade(srgb("6f8a3c"), tint), [light] * 4)
