@@ -12,6 +12,7 @@ namespace flaneur {
 namespace {
 
 constexpr int kMaxSteps = 30 * 300;
+constexpr float kFarthest_m = 10.5f;  // the lead, 4 m for a visitor who is held up, and what stopping takes
 
 Vec2 GuideOf(const Simulation& s) { return s.town.crowd.position[s.visitor.guide.index]; }
 float Apart_m(const Simulation& s) { return Length(GuideOf(s) - s.visitor.camera.view.position); }
@@ -40,7 +41,7 @@ TEST(Guide, WalksAheadWithinAFewMetresUntilTheEnd) {
     int plans = 0, turned_at = 0;
     for (int step = 0; step < kMaxSteps && !s.visitor.finished; ++step) {
       Step(&s, 1);
-      ASSERT_LT(Apart_m(s), 10.2f) << people << " people, step " << step;
+      ASSERT_LT(Apart_m(s), kFarthest_m) << people << " people, step " << step;
       if (s.visitor.tour.plans != plans) plans = s.visitor.tour.plans, turned_at = step;
       const bool turning = step - turned_at < 10 * 30;  // from a halt the way may lead back past the visitor
       const bool arrives =
