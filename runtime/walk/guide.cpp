@@ -60,8 +60,10 @@ void FollowPlan(Vec2 p, const VisitorInTown& v) {
 }
 
 bool GoesToPlace(const VisitorInTown& v) {
-  return v.visitor.tour.resting || v.visitor.tour.over ||
-         LengthOf_m(v.visitor.tour.route) - v.visitor.guide.way_m < kNearHalt_m;
+  const GuidedTour& tour = v.visitor.tour;
+  if (tour.resting || tour.over) return true;
+  const Vec2 p = v.town.crowd.position[v.visitor.guide.index];
+  return LengthOf_m(tour.route) - v.visitor.guide.way_m < kNearHalt_m && !(tour.follows && IsFar(v, p));
 }
 
 // Speed along the route: the visitor's own, and what the lead asks for.
