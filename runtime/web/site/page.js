@@ -128,7 +128,8 @@ function showCaption(state) {
 
 // `inTask` calls what it is given, soon: together it would be a long task.
 function follow(state, parts, inTask) {
-  for (const part of [parts.bar, parts.pages, parts.hands]) inTask(() => part.show(state));
+  for (const part of [parts.bar, parts.hands]) inTask(() => part.show(state));
+  inTask(() => parts.pages.show(parts.player.read('page_state')));  // hands may have opened another since
   inTask(() => {
     parts.sounds.follow();
     keepSettings(parts.player.text('page_settings'));

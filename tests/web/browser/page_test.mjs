@@ -294,6 +294,38 @@ const tests = {
     await end(page);
     await host.close();
   },
+  async 'the page that is open stays open, however late a slow browser\'s tasks are'() {
+    const host = await serve(site);
+    const page = await newPage(host.url + '#lang=en', (p) => p.evaluateOnNewDocument(() => {
+      const inTime = globalThis.setTimeout;
+      globalThis.late_ms = 0;
+      globalThis.setTimeout = (work, ms = 0, ...rest) => inTime(work, ms || globalThis.late_ms, ...rest);
+    }));
+    await inState(page, 'visiting');
+    const shown = await page.evaluate(async () => {
+      const pages = document.getElementById('pages'), names = [], {flaneur} = document.getElementById('tour');
+      new MutationObserver(() => names.push(pages.className)).observe(pages, {attributeFilter: ['class']});
+      const come = async (name) => {
+        while (flaneur.state().page?.name !== name || pages.className !== 'of-' + name) await new Promise(requestAnimationFrame);
+      };
+      document.querySelector('#bar button:nth-last-of-type(2)').click();  // the menu; full screen is the last
+      await come('main');
+      globalThis.late_ms = 300;
+      await new Promise((done) => setTimeout(done, 1000));
+      for (let k = 0; k < 5; ++k) {
+        await come('main');
+        const {rows} = flaneur.state().page;
+        pages.querySelectorAll('button')[rows.findIndex((row) => row.id === 'settings')].click();
+        await come('settings');
+        await new Promise((done) => setTimeout(done, 1000));
+        pages.querySelector('.back').click();
+      }
+      return names;
+    });
+    assert.deepEqual(shown.map((name) => name.slice(3)), ['main', ...Array(5).fill(['settings', 'main']).flat()]);
+    await end(page);
+    await host.close();
+  },
   async 'map, photo and what is to be seen are elements of the page, and the town is heard'() {
     const host = await serve(site);
     const page = await newPage(host.url + '#lang=en', (p) => p.evaluateOnNewDocument(() => {
