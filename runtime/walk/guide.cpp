@@ -17,7 +17,7 @@ constexpr float kSetsOff_mps = 0.4f, kStops_mps = 0.15f;
 constexpr float kWaits_m = 4;     // a visitor so much farther than the lead has to come first
 constexpr float kNearHalt_m = 3;  // from the route's end the guide goes to where to stand there
 constexpr float kOffPlace_m = 0.5f, kAtPlace_m = 0.15f;
-constexpr float kToPlace_mps = 1.6f;
+constexpr float kToPlace_mps = 1.6f, kComesToStand_s = 0.3f;
 constexpr float kAhead = 0.5f,
                 kFullPace = 0.85f;   // of the lead, with which the visitor begins to walk, and walks as usual
 constexpr float kPatience_s = 8;     // of a visitor who waits for the guide to get ahead
@@ -62,7 +62,8 @@ void FollowPlan(Vec2 p, const VisitorInTown& v) {
 bool GoesToPlace(const VisitorInTown& v) {
   const GuidedTour& tour = v.visitor.tour;
   if (tour.resting || tour.over) return true;
-  const Vec2 p = v.town.crowd.position[v.visitor.guide.index];
+  const size_t g = v.visitor.guide.index;
+  const Vec2 p = v.town.crowd.position[g] + v.town.crowd.velocity[g] * kComesToStand_s;
   return LengthOf_m(tour.route) - v.visitor.guide.way_m < kNearHalt_m && !(tour.follows && IsFar(v, p));
 }
 

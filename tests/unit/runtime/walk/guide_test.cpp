@@ -12,7 +12,7 @@ namespace flaneur {
 namespace {
 
 constexpr int kMaxSteps = 30 * 300;
-constexpr float kFarthest_m = 10.5f;  // the lead, 4 m for a visitor who is held up, and what stopping takes
+constexpr float kFarthest_m = 10.2f;  // the lead, 4 m for a visitor who is held up, and what stopping takes
 
 Vec2 GuideOf(const Simulation& s) { return s.town.crowd.position[s.visitor.guide.index]; }
 float Apart_m(const Simulation& s) { return Length(GuideOf(s) - s.visitor.camera.view.position); }
