@@ -135,6 +135,7 @@ Error CheckTints(const Baking& baking, size_t i, StageReport* report, Warnings* 
 void TakeSettings(const AvatarSettings& settings, TourAvatar* avatar) {
   avatar->share = settings.share;
   avatar->height_spread = settings.height_spread;
+  avatar->breadth_spread = settings.breadth_spread;
   avatar->tints = settings.tints;
   avatar->props = settings.props;
 }

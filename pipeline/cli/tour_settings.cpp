@@ -132,6 +132,7 @@ void ReadAvatarSettings(TomlTable table, TourSettings* settings) {
   table.Number("share", &avatar.share, 0, 1e6);
   table.Number("height_m", &avatar.height_m, 0, 10);
   table.Number("height_spread", &avatar.height_spread, 0, static_cast<double>(kMaxHeightSpread));
+  table.Number("breadth_spread", &avatar.breadth_spread, 0, static_cast<double>(kMaxBreadthSpread));
   ReadStance(&table, &avatar);
   table.Text("walk", &avatar.walk);
   table.Text("idle", &avatar.idle);

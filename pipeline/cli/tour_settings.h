@@ -46,11 +46,11 @@ struct ClipSettings {
 struct AvatarSettings {
   std::string name;
   SourceSettings source;
-  float share = 1;              // of the crowd, relative to the others'
-  float height_m = 0;           // 0: as in the file, see ReadAvatarOptions
-  float height_spread = 0.04f;  // as a share, 0 to kMaxHeightSpread
-  float scale = 0;              // metres per unit of the file; 0: see ReadAvatarOptions
-  std::string up, forward;      // of the figure in the file; empty: found
+  float share = 1;                                      // of the crowd, relative to the others'
+  float height_m = 0;                                   // 0: as in the file, see ReadAvatarOptions
+  float height_spread = 0.04f, breadth_spread = 0.06f;  // as shares, 0 to kMaxHeightSpread and kMaxBreadthSpread
+  float scale = 0;                                      // metres per unit of the file; 0: see ReadAvatarOptions
+  std::string up, forward;                              // of the figure in the file; empty: found
   std::string walk, idle, talk;
   std::vector<std::string> hide;
   std::vector<std::filesystem::path> parts;  // further files on its skeleton

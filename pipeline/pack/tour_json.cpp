@@ -138,6 +138,7 @@ Json AvatarJson(const TourAvatar& avatar, const AvatarPart& part, const Impostor
             {"impostor", ImpostorJson(avatar.impostor, views)}};
   if (!others.empty()) json["other_clips"] = others;
   if (avatar.height_spread > 0) json["height_spread"] = Short(avatar.height_spread);
+  if (avatar.breadth_spread > 0) json["breadth_spread"] = Short(avatar.breadth_spread);
   for (size_t t = 0; t < avatar.tints.size(); ++t)
     json["tints"].push_back(TintJson(avatar.tints[t], t, person.materials, part));
   for (size_t k = 0; k < person.props.size(); ++k) {

@@ -202,6 +202,7 @@ TourAvatar WithoutBulk(const TourAvatar& avatar) {
   light.props = avatar.props;
   light.clips = avatar.clips;
   light.height_spread = avatar.height_spread;
+  light.breadth_spread = avatar.breadth_spread;
   light.reach_m = avatar.reach_m;
   light.prop_triangles = avatar.prop_triangles;
   const Avatar& person = avatar.levels.avatar;

@@ -31,7 +31,7 @@ struct TourAvatar {
   std::vector<Tint> tints = {};
   std::vector<Prop> props = {};  // one for each of the avatar's
   std::vector<TourClip> clips = {};
-  float height_spread = 0;  // as PackAvatar's
+  float height_spread = 0, breadth_spread = 0;  // as PackAvatar's
   // By EncodeTourAvatar:
   EncodedAvatar encoded = {};
   float reach_m = 0;                     // see Reach_m

@@ -357,6 +357,7 @@ PackAvatar ReadAvatar(const GltfFile& file, const TourObject& json, MeshTable* m
   avatar.reach_m = json.Has("reach_m") ? json.Real("reach_m", kAboveZero, kMostReach_m) : 0;
   avatar.walk_speed_mps = json.Real("walk_speed_mps", kAboveZero, kMostWalk_mps);
   if (json.Has("height_spread")) avatar.height_spread = json.Real("height_spread", 0, kMaxHeightSpread);
+  if (json.Has("breadth_spread")) avatar.breadth_spread = json.Real("breadth_spread", 0, kMaxBreadthSpread);
   const Json& nodes = Member(file.json, "nodes");
   int skin_index = -1;
   for (const TourObject& level_json : json.Objects("levels", kMostLevels)) {
@@ -633,7 +634,8 @@ struct PackFile::Impl {
     }
     for (PackAvatar& avatar : pack->avatars) {
       FindReach(&avatar);
-      avatar.reach_m = std::min(kMostReach_m, avatar.reach_m * (1 + avatar.height_spread));
+      avatar.reach_m =
+          std::min(kMostReach_m, avatar.reach_m * (1 + avatar.height_spread) * (1 + avatar.breadth_spread));
     }
     for (size_t i = 0; i < CountOf(file.json, "images"); ++i) {
       pack->images.push_back(ReadImageSize(file, static_cast<int>(i)));

@@ -111,7 +111,8 @@ struct PackAvatar {
   float height_m = 1.75f, radius_m = 0.25f;
   float reach_m = 0.25f;    // of all that is drawn, about where the person stands: arms, clothes, props of the largest;
                             // radius_m or more
-  float height_spread = 0;  // people are up to so much larger or smaller, as a share, 0 to kMaxHeightSpread
+  float height_spread = 0;  // people are up to so much larger or smaller, as a share, 0 to kMaxHeightSpread,
+  float breadth_spread = 0;     // and up to so much broader or narrower besides, 0 to kMaxBreadthSpread
   float walk_speed_mps = 1.3f;  // at which the walk clip's feet don't slide
   int joints = 0;
   std::vector<PackJoint> skeleton;         // a joint each

@@ -40,7 +40,8 @@ struct DrawnPerson {
   uint8_t props = 0;               // bit k: the k-th of the avatar's is drawn too,
   float props_share = 1;           // [0, props_share) of the pattern
   std::array<uint8_t, 3> tints{};  // by tint of the avatar: 0 its own colour, k the k-th of its others
-  float size = 1;                  // of the avatar's, 0.9 to 1.1: everybody of one model is as high or wide as they are
+  float size = 1;                  // of the avatar's, 0.9 to 1.1,
+  float breadth = 1;               // and across, of what the size makes it: 0.9 to 1.1
 };
 
 // A soft spot that turns to the eye.

@@ -106,7 +106,7 @@ PersonInstance Placed(const DrawnPerson& person, float row, float phases) {
   const auto& t = person.tints;
   return {{p.x, p.y, p.z, person.heading_rad + kPi / 2},
           {row, person.share_from, person.share_to, phases},
-          {t[0], t[1], t[2], SizeByte(person.size)}};
+          {static_cast<uint8_t>(t[0] | t[1] << 4), t[2], SizeByte(person.breadth), SizeByte(person.size)}};
 }
 
 // By ClipKind; -1 without pictures of it. Without pictures of what else they do people stand.
@@ -164,7 +164,7 @@ PersonInstance AsCoarseShadow(const DrawnPerson& person, const AvatarLayout& ava
 
 Box BoxOf(const DrawnPerson& person, const AvatarLayout& avatar) {
   const Vec3 p = GltfFromGround(person.position);
-  const float around_m = person.size * (avatar.radius_m + kAround_m);
+  const float around_m = person.size * person.breadth * (avatar.radius_m + kAround_m);
   return {{p.x - around_m, p.y - 0.1f, p.z - around_m},
           {p.x + around_m, p.y + person.size * avatar.height_m * 1.15f + 0.1f, p.z + around_m}};
 }
@@ -299,7 +299,8 @@ void AddContact(const DrawnPerson& person, float distance_m, const AvatarLayout&
   PersonInstance contact = Placed(person, 0, 0);
   contact.place.y -= person.lift_m;
   contact.look = {person.slope.x, -person.slope.y,
-                  person.size * std::min(avatar.radius_m, 0.5f * avatar.height_m) + kAroundFeet_m, share};
+                  person.size * person.breadth * std::min(avatar.radius_m, 0.5f * avatar.height_m) + kAroundFeet_m,
+                  share};
   out->contact_instances.push_back(contact);
 }
 

@@ -41,6 +41,7 @@ void AddBirds(const TourPack& pack, const Simulation& s, float share, FrameInput
     drawn.avatar = flock.avatar;
     drawn.tints = TintsOf(avatar, number);
     drawn.size = SizeOf(avatar, number);
+    drawn.breadth = BreadthOf(avatar, number);
     drawn.moment = MomentOf(avatar, flock.place, bird, bird.state, number, time_s);
     drawn.other = MomentOf(avatar, flock.place, bird, bird.last, number, time_s);
     if (drawn.other.clip != drawn.moment.clip)

@@ -69,18 +69,19 @@ bool Talks(const Simulation& s, size_t i) {
   return s.town.places[static_cast<size_t>(spot.place)].clip == "talk";
 }
 
-ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, float size, ClipKind last) {
+// step: how long theirs are, of the avatar's.
+ClipMoment MomentOf(const Simulation& s, size_t i, const PackAvatar& avatar, float step, ClipKind last) {
   const float speed_mps = Length(s.town.crowd.velocity[i]);
   const int doing = s.town.crowd.doing[i];
   const PackOtherClip* other = doing >= 0 ? &avatar.other_clips[static_cast<size_t>(doing)] : nullptr;
   if (other != nullptr && other->speed_mps > 0 &&
       speed_mps > other->speed_mps * (last == OtherClip(doing) ? kRunsAbove - kRunsBand : kRunsAbove)) {
-    const float cycle_m = size * other->speed_mps * std::max(other->clip.duration_s, 0.1f);
+    const float cycle_m = step * other->speed_mps * std::max(other->clip.duration_s, 0.1f);
     return {OtherClip(doing), Fraction(s.town.crowd.walked_m[i] / cycle_m)};
   }
   if (speed_mps > (last == ClipKind::kWalk ? kStandsBelow_mps : kWalksAbove_mps)) {
     // One clip's length of way for each turn of the walk, so that feet don't slide: longer legs take longer steps.
-    const float cycle_m = size * avatar.walk_speed_mps * std::max(avatar.walk.duration_s, 0.1f);
+    const float cycle_m = step * avatar.walk_speed_mps * std::max(avatar.walk.duration_s, 0.1f);
     return {ClipKind::kWalk, Fraction(s.town.crowd.walked_m[i] / cycle_m)};
   }
   const float own_time_s =
@@ -139,6 +140,7 @@ void Show(const PersonLook& look, float share, float before_s, FrameInput* frame
   person.avatar = look.avatar;
   person.tints = look.tints;
   person.size = look.size;
+  person.breadth = look.breadth;
   person.moment = {look.moment.clip, Fraction(look.moment.phase - (1 - share) * look.phase_step)};
   person.other = look.last_moment;
   person.other_share = std::max(0.0f, 1 - look.clip_s / kMix_s);
@@ -195,13 +197,14 @@ void FollowPerson(const TourPack& pack, const Simulation& s, size_t i, float pas
   if (anew) {
     look.tints = TintsOf(avatar, crowd.id[i]);
     look.size = SizeOf(avatar, crowd.id[i]);
+    look.breadth = BreadthOf(avatar, crowd.id[i]);
   }
   const Vec2 p = crowd.position[i];
   look.slope = SlopeAt(s.town.walkable, p);
   look.lift_m = Lift_m(s, i, avatar);
   Move({p.x, p.y, HeightAt(s.town.walkable, p) + look.lift_m}, crowd.heading_rad[i], anew, &look);
   const ClipMoment before = look.moment;
-  FollowClip(MomentOf(s, i, avatar, look.size, look.moment.clip), anew, passed_s, &look);
+  FollowClip(MomentOf(s, i, avatar, look.size * look.breadth, look.moment.clip), anew, passed_s, &look);
   look.phase_step = anew ? 0 : PhaseStep(before, look.moment);
   looks->shown.push_back(crowd.slot[i]);
 }

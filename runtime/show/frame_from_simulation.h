@@ -26,7 +26,7 @@ struct PersonLook {
   float heading_rad = 0, heading_before_rad = 0;
   float phase_step = 0;            // of the clip, since before
   std::array<uint8_t, 3> tints{};  // DrawnPerson's,
-  float size = 1;
+  float size = 1, breadth = 1;
   uint8_t props = 0;  // and these
 };
 

@@ -121,7 +121,7 @@ void AddGuideFigure(TourPack* pack) {
   PackAvatar figure = *found;
   figure.share = 0;
   figure.tints.clear();  // known by the own colours
-  figure.height_spread = 0;
+  figure.height_spread = figure.breadth_spread = 0;
   figure.props.clear();
   figure.other_clips.clear();  // does nothing but lead
   if (const auto arm = FindCarryingArm(figure.skeleton, figure.height_m)) CarryInClips(*arm, &figure);

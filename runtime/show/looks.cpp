@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace flaneur {
+namespace {
+
+// From -1 to 1, by the multiples of a fraction that spread evenly.
+float EvenlySpread(int id, float step) { return 2 * Fraction(static_cast<float>(id % 4096 + 1) * step) - 1; }
+
+}  // namespace
 
 // The same person wears the same all day, and people who came one after the other, as those of a group, wear different
 // colours.
@@ -17,11 +23,8 @@ std::array<uint8_t, 3> TintsOf(const PackAvatar& avatar, int id) {
   return tints;
 }
 
-// Likewise for life; evenly over the avatar's spread.
-float SizeOf(const PackAvatar& avatar, int id) {
-  constexpr float kLowDiscrepancyStep = 0.438579f;
-  const float at = Fraction(static_cast<float>(id % 4096 + 1) * kLowDiscrepancyStep);
-  return 1 + avatar.height_spread * (2 * at - 1);
-}
+// Likewise for life; evenly over the avatar's spreads, and whether tall or not.
+float SizeOf(const PackAvatar& avatar, int id) { return 1 + avatar.height_spread * EvenlySpread(id, 0.438579f); }
+float BreadthOf(const PackAvatar& avatar, int id) { return 1 + avatar.breadth_spread * EvenlySpread(id, 0.671044f); }
 
 }  // namespace flaneur

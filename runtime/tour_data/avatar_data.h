@@ -12,7 +12,7 @@ namespace flaneur {
 inline constexpr size_t kMaxTints = 3;       // of an avatar
 inline constexpr size_t kMaxTintColors = 8;  // of a tint, besides its own
 inline constexpr float kMinTintReach = 0.01f;
-inline constexpr float kMaxHeightSpread = 0.1f;
+inline constexpr float kMaxHeightSpread = 0.1f, kMaxBreadthSpread = 0.1f;
 
 // People of one model wear their cloth in several colours, sRGB, 0 to 1 (runtime/pack/tint.h says how a cloth is
 // known).

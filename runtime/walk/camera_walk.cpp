@@ -294,9 +294,10 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   }
   const float pace = ShareOfPace(v);
   const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
-  if (pace > kStands && Length(look) > kReached_m) TurnBeside(AngleOf(look), kMostAside_rad, v);
+  const float look_rad = AngleOf(look) + LookBeforeHalt_rad(AngleOf(look), v);
+  if (pace > kStands && Length(look) > kReached_m) TurnBeside(look_rad, kMostAside_rad, v);
   // Turns first, then walks: but for who looks about.
-  const float ahead = v.visitor.looks_about_s > 0 ? 1 : Dot(DirectionOf(v.visitor.camera.view.yaw_rad), Unit(look));
+  const float ahead = v.visitor.looks_about_s > 0 ? 1 : std::cos(v.visitor.camera.view.yaw_rad - look_rad);
   if (pace > kStands) Walk(RoundPeople(v, way), TourSpeed_mps(v) * pace * std::max(kSideways, ahead), v);
   else v.visitor.stuck_s = 0;
 }

@@ -14,8 +14,11 @@ constexpr float kLeastDepth_m = 2.6f, kMostDepth_m = 7;
 constexpr float kFeetClear = 1.18f;  // of the depth at which feet stand on the picture's lower edge
 constexpr float kSideClear_m = 0.12f;
 constexpr float kTangent_m = 0.4f, kRoomStep_m = 0.25f;
-constexpr float kRoomAhead_m[] = {-1, 0, 1.5f, 3};   // where along the route there should be room
-constexpr float kTurnAhead_m = 6, kTurn_rad = 0.5f;  // a turn within that counts
+constexpr float kRoomAhead_m[] = {-1, 0, 1.5f, 3};  // where along the route there should be room
+constexpr float kLooksBeforeHalt_m = 8, kTurnsWithin_m = 4, kMostBeforeHalt_rad = 0.9f;
+constexpr float kAtHalt_m = 2.5f, kMoreAtHalt_rad = 0.5f;  // in the last steps
+constexpr float kGuideWithin = 0.8f;                       // of half the view
+constexpr float kTurnAhead_m = 6, kTurn_rad = 0.5f;        // a turn within that counts
 constexpr float kStartTurn_rad = 0.35f, kBehind_rad = 2.2f;
 constexpr float kOfTurn = 0.25f, kOfStart = 0.5f, kOfNow = 0.35f;  // preferences, in shares of the room that it takes
 
@@ -109,6 +112,25 @@ Vec2 BesideRoute(float way_m, float side, const VisitorInTown& v) {
   const float takes_m = ClearSide_m(v.visitor.camera, LeadDepth_m(v.visitor.camera));
   const Vec2 out = LeftOf(AlongRoute(route, way_m)) * side;
   return PointAt(route, way_m) + out * Room_m(way_m, side, takes_m, v);
+}
+
+float LookBeforeHalt_rad(float way_rad, const VisitorInTown& v) {
+  const GuidedTour& t = v.visitor.tour;
+  const Guide& g = v.visitor.guide;
+  const CameraState& camera = v.visitor.camera;
+  const float left_m = LengthOf_m(t.route) - t.visitor_m;
+  const float near = std::clamp((kLooksBeforeHalt_m - left_m) / kTurnsWithin_m, 0.0f, 1.0f);
+  const float most_rad = kMostBeforeHalt_rad + kMoreAtHalt_rad * std::clamp(1 - left_m / kAtHalt_m, 0.0f, 1.0f);
+  const float sight_rad = WrapAngle(LookAt_rad(t, HaltOf(t)) - way_rad);
+  const float to_one_side = std::min(1.0f, kPi - std::abs(sight_rad));  // what lies behind is on neither
+  float look_rad = to_one_side * std::clamp(sight_rad, -most_rad, most_rad);
+  if (g.id >= 0 && g.index < v.town.crowd.size()) {
+    const float guide_rad = WrapAngle(AngleOf(v.town.crowd.position[g.index] - camera.view.position) - way_rad);
+    const float within_rad = kGuideWithin * camera.view.fov_rad / 2;
+    if (std::abs(guide_rad) < kBehind_rad)
+      look_rad = std::clamp(look_rad, guide_rad - within_rad, guide_rad + within_rad);
+  }
+  return near * std::clamp(look_rad, -most_rad, most_rad);
 }
 
 float LookAside_rad(float look_rad, float most_rad, const VisitorInTown& v) {

@@ -24,6 +24,10 @@ float SideToWalk(float way_m, float now, const VisitorInTown& v);
 // A point of the route, as far to that side as it takes to be clear of the view's middle, or as there is room.
 Vec2 BesideRoute(float way_m, float side, const VisitorInTown& v);
 
+// How far from the way the view turns where a halt is near: to what there is to see, so that the guide, who goes to
+// stand beside it, stays in the picture. Who walks looks where they go besides.
+float LookBeforeHalt_rad(float way_rad, const VisitorInTown& v);
+
 // How the tour turns the view a little away from a guide for whom there is too little room; 0 where it need not.
 float LookAside_rad(float look_rad, float most_rad, const VisitorInTown& v);
 

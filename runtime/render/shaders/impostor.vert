@@ -42,7 +42,8 @@ void main() {
   vec2 low0 = vec2(cell0.x - origin0.x, origin0.y - cell0.w), high0 = vec2(cell0.z - origin0.x, origin0.y - cell0.y);
   vec2 low1 = vec2(cell1.x - origin1.x, origin1.y - cell1.w), high1 = vec2(cell1.z - origin1.x, origin1.y - cell1.y);
   vec2 low = min(min(low0, low1), vec2(0.0)), high = max(max(high0, high1), vec2(0.0));
-  float size = person_size(), texel_m = 1.0 / (u_atlas.x * u_atlas.z);
+  vec3 size = person_size();
+  float texel_m = 1.0 / (u_atlas.x * u_atlas.z);
 #ifdef FAST
   float around_px = k_around_px;
 #else
@@ -68,7 +69,7 @@ void main() {
   v_haze = haze_at(a_place.xyz);
   gl_Position = frame.view_projection * vec4(p, 1.0);
   v_texels = u_atlas.z / float(textureSize(u_texture, 0).x);
-  v_level = max(0.0, log2(max((frame.view_projection * vec4(a_place.xyz, 1.0)).w, 0.1) / (frame.eye.w * texel_m * v_texels * size)));
+  v_level = max(0.0, log2(max((frame.view_projection * vec4(a_place.xyz, 1.0)).w, 0.1) / (frame.eye.w * texel_m * v_texels * size.y)));
   float between = fract(direction);
   vec2 beside0 = cell_texel(first + d0, 2).xy, beside1 = cell_texel(first + d1, 2).xy;
   v_pictures = ivec3(2, a_look.w < 0.0 ? vec2(beside0.y, beside1.y) : vec2(beside0.x, beside1.x));

@@ -20,7 +20,7 @@
 #define MAX_TINTS 3
 #define MAX_TINT_COLORS 8
 
-// Of a person's size in ATTRIBUTE_TINTS: what stands for the pack's own, and a step, as a share of it.
+// Of a person's size and breadth in ATTRIBUTE_TINTS: what stands for the pack's own, and a step, as a share of it.
 #define SIZE_MIDDLE 128.0
 #define SIZE_STEP 0.001
 

@@ -125,7 +125,8 @@ inline TourParts SmallTour() {
                     {{{0.2f, 0.4f, 0.6f}, 0.1f, {{1, 0, 0}, {0, 0.6f, 0}}}},
                     {{"stick", 0.5f, "hand"}},
                     {},
-                    0.05f}};
+                    0.05f,
+                    0.03f}};
   parts.footprints = SmallFootprints();
   parts.ground = {{-20, -20}, 10, 4, 3, std::vector<float>(12, 0.25f), std::vector<uint8_t>(12, 3)};
   parts.ground.height_m[5] = -1.5f;

@@ -182,6 +182,7 @@ TEST(TourPack, BringsAvatarsAcross) {
   ASSERT_EQ(avatar.tints[0].colors.size(), 2u);
   EXPECT_TRUE(avatar.tints[0].materials.empty()) << "bound to nothing";
   EXPECT_EQ(avatar.height_spread, 0.05f);
+  EXPECT_EQ(avatar.breadth_spread, 0.03f);
   EXPECT_NEAR(avatar.tints[0].colors[1].y, 0.6f, 1e-6f);
   ASSERT_EQ(avatar.levels.size(), 2u);
   EXPECT_EQ(avatar.levels[0].switch_px, 90);
@@ -412,9 +413,9 @@ TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
   const std::set<std::string> optional{
-      "painting",      "guide",        "titles",       "language", "captions", "sounds",  "tints", "props",
-      "title_page",    "picture_view", "logo_view",    "photo",    "hotspots", "streets", "texts", "reach_m",
-      "height_spread", "thanks",       "home_after_s", "flocks",   "play",     "smokes",  "wind"};
+      "painting",      "guide",          "titles",    "language",     "captions", "sounds",  "tints",  "props",
+      "title_page",    "picture_view",   "logo_view", "photo",        "hotspots", "streets", "texts",  "reach_m",
+      "height_spread", "breadth_spread", "thanks",    "home_after_s", "flocks",   "play",    "smokes", "wind"};
   for (const char* object :
        {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0", "/avatars/0/impostor",
         "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground", "/title_page", "/places/0", "/painting", "/path/0",

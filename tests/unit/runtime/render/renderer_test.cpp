@@ -337,6 +337,22 @@ TEST_F(Drawing, WhoIsLargerIsDrawnLargerAtEveryLevel) {
   }
 }
 
+TEST_F(Drawing, WhoIsBroaderIsDrawnBroaderAndNoHigherAtEveryLevel) {
+  const TourPack pack = MakePack({});
+  for (const int samples : {4, 1}) {
+    for (int level : {0, -1}) {
+      const auto patch = [&](float breadth) {
+        FrameInput frame = LookEast();
+        frame.people = {PersonAt(6, 0, level)};
+        frame.people[0].breadth = breadth;
+        return RedPatch(Draw(pack, frame, {.samples = samples}));
+      };
+      EXPECT_NEAR(patch(1.1f).count, 1.1 * patch(1).count, 0.07 * patch(1).count) << "level " << level;
+      EXPECT_NEAR(patch(0.9f).count, 0.9 * patch(1).count, 0.07 * patch(1).count) << "level " << level;
+    }
+  }
+}
+
 TEST_F(Drawing, MeshAndImpostorLookAlike) {
   const TourPack pack = MakePack({});
   FrameInput frame = LookEast();

@@ -88,7 +88,7 @@ TEST(FrameFromSimulation, PeopleOfOneModelAreOfSeveralSizesAndKeepThem) {
   stage.s.town.crowd.view.assign(kPeople, ViewClass::kVisible);
   for (const DrawnPerson& person : stage.Next()) EXPECT_EQ(person.size, 1) << "a pack without a spread";
   stage.looks = {};
-  stage.pack.avatars[0].height_spread = 0.05f;
+  stage.pack.avatars[0].height_spread = stage.pack.avatars[0].breadth_spread = 0.05f;
   const auto people = stage.Next();
   float least = 1, most = 1, sum = 0;
   for (const DrawnPerson& person : people) {
@@ -99,6 +99,12 @@ TEST(FrameFromSimulation, PeopleOfOneModelAreOfSeveralSizesAndKeepThem) {
   EXPECT_NEAR(least, 0.95f, 0.005f);
   EXPECT_NEAR(most, 1.05f, 0.005f);
   EXPECT_NEAR(sum, 1, 0.005f);
+  int tall_and_narrow = 0;
+  for (const DrawnPerson& person : people) {
+    EXPECT_NEAR(person.breadth, 1, 0.0501f);
+    tall_and_narrow += person.size > 1.02f && person.breadth < 0.98f;
+  }
+  EXPECT_NEAR(tall_and_narrow, 0.09 * kPeople, 0.03 * kPeople) << "as often as chance has it";
   const auto later = stage.Next();
   for (size_t k = 0; k < people.size(); ++k) EXPECT_EQ(later[k].size, people[k].size);
 }

@@ -102,6 +102,25 @@ TEST(Guide, FacesTheVisitorAtEveryHaltAndIsSeen) {
   EXPECT_LT(turned_away, steps / 4);
 }
 
+// Beside which the guide goes to stand while the visitor still walks up to it.
+TEST(Guide, IsSeenOnTheWayToAHaltThatLooksAside) {
+  for (const float aside_deg : {-70, -50, -30, 0, 30, 50, 70}) {
+    TourPack pack = TourTown(1);
+    pack.path = {Waypoint({3, 30}), Halt({19, 30}, aside_deg * kPi / 180, 3)};
+    Simulation s = Started(pack);
+    int steps = 0, unseen = 0;
+    float turned_rad = 0;
+    for (; steps < kMaxSteps && !s.visitor.tour.resting; ++steps) {
+      Step(&s, 1);
+      const Vec2 way = GuideOf(s) - s.visitor.camera.view.position;
+      unseen += std::abs(WrapAngle(AngleOf(way) - s.visitor.camera.view.yaw_rad)) > s.visitor.camera.view.fov_rad / 2;
+      turned_rad = std::max(turned_rad, std::abs(s.visitor.camera.view.yaw_rad));
+    }
+    EXPECT_LT(unseen, steps / 20) << aside_deg << " degrees, of " << steps;
+    EXPECT_LT(turned_rad, 1.3f) << "who walks looks where they go besides";
+  }
+}
+
 // Which is a place that nobody rests at: what a visitor looks at there is the way they came along.
 TEST(Guide, IsSeenAtTheToursEndAndFacesTheVisitor) {
   TourPack pack = TourTown(60);
