@@ -85,7 +85,7 @@ def _ring(centre, side, front, angles):
     return centre + np.cos(angles)[:, None] * front + np.sin(angles)[:, None] * side
 
 
-def _strap(tailor, high, low, angles_deg, stuff, columns=8, width=0.035, thickness=0.010):
+def _strap(tailor, high, low, angles_deg, stuff, columns=14, width=0.035, thickness=0.010):
     """A leather band about the trunk in the plane that holds the points `high` and `low` and
     the forward direction; the angles go from forward (0) by `high` (90) to the back; both ends
     slip under the garments.
@@ -99,10 +99,12 @@ def _strap(tailor, high, low, angles_deg, stuff, columns=8, width=0.035, thickne
     centre = 0.5 * (high + low)
     below_arms, over_sleeves = (tl.trunk_tree(tailor, arms=arms) for arms in (False, True))
     around = tl.angles_of(48)
+    edge = 0.5 * width * size * across
     reach = []
     for c, s in zip(np.cos(around), np.sin(around)):
         tree = over_sleeves if s > 0.5 else below_arms
-        reach.append(sf.outermost(tree, centre, c * ahead + s * up, 0.5 * size) or 0.02)
+        beneath = [sf.outermost(tree, centre + k * edge, c * ahead + s * up, 0.5 * size) for k in (-1, 0, 1)]
+        reach.append(max((r for r in beneath if r), default=0.02))
     flat = np.array(reach)[:, None] * np.stack([np.sin(around), -np.cos(around)], axis=1)
     angles = np.linspace(*np.radians(angles_deg), columns)
     corner = np.cos(0.5 * (angles[1] - angles[0]))  # the sides touch the trunk, not the corners
@@ -110,7 +112,6 @@ def _strap(tailor, high, low, angles_deg, stuff, columns=8, width=0.035, thickne
     taut[[0, -1]] *= 0.88
     rays = np.cos(angles)[:, None] * ahead + np.sin(angles)[:, None] * up
     outside = centre + rays * (taut + thickness * size)
-    edge = 0.5 * width * size * across
     inside = centre + rays * (taut - thickness * size)
     points = np.array([outside + edge, outside - edge, inside, outside + edge])
     weights = tl.trunk_weights(tailor, points.reshape(-1, 3)).reshape(points.shape[:2] + (-1,))
@@ -184,7 +185,7 @@ def back_basket(tailor, wicker, filling, strap, height=0.44, width=0.17, depth=0
         top, pit = tailor.height("shoulder"), tailor.height(("chest", -0.02))
         over = np.array([sign * 0.075 * size, tl.axis_y(tailor, top), top])
         under = np.array([sign * 0.165 * size, tl.axis_y(tailor, pit), pit])
-        parts.append(_strap(tailor, over, under, (-100, 130), strap, columns=6))
+        parts.append(_strap(tailor, over, under, (-100, 130), strap, columns=11))
     return _prop(parts)
 
 

@@ -48,7 +48,7 @@ inline constexpr float kGridCell_m = kNeighbourRadius_m / 2;
 inline constexpr float kComfort_m = 0.12f;
 inline constexpr float kSeparation_mps2 = 0.6f;
 // Contacts are resolved until nothing moves, at most so many times a step.
-inline constexpr int kContactPasses = 6;
+inline constexpr int kContactPasses = 10;
 // Pairs that corrections could bring together are watched too.
 inline constexpr float kContactMargin_m = 0.02f;
 
