@@ -29,7 +29,7 @@ constexpr float kLooksAbout_s = 2.5f;  // after looking to the side, until the t
 constexpr float kGiveUpPoint_s = 3, kGiveUpFarPoint_s = 10, kFarPoint_m = 20;  // the longer the way, the more patient
 constexpr float kLooksAside_radps = 0.15f;  // from the guide, and so far: on the way, and from what there is to see
 constexpr float kMostAside_rad = 0.19f, kMostAsideAtHalt_rad = 0.08f;
-constexpr float kBack_rad = 2.3f;    // a turn of more goes by the guide's side
+constexpr float kBack_rad = 2.3f;    // a turn of more goes by where the guide is
 constexpr float kStands = 0.05f;     // share of the pace
 constexpr float kSidestep_m = 0.7f;  // looked ahead when walking round people
 constexpr float kPatience_s = 1.5f;  // after which those who stand in the way move on
@@ -227,10 +227,11 @@ void TurnBeside(float yaw_rad, float most_aside_rad, const VisitorInTown& v) {
   const float most = kLooksAside_radps * Step_s(v.settings);
   const float aside_rad = LookAside_rad(yaw_rad, most_aside_rad, v);
   visitor.looks_aside_rad += std::clamp(aside_rad - visitor.looks_aside_rad, -most, most);
-  const float now_rad = visitor.camera.view.yaw_rad, side = visitor.guide.side;
-  const float turn_rad = WrapAngle(yaw_rad - now_rad);
-  const bool back = std::abs(turn_rad) > kBack_rad && turn_rad * side < 0;
-  TurnForTour(back ? now_rad + side * kBack_rad / 2 : yaw_rad + visitor.looks_aside_rad, v);
+  const float now_rad = visitor.camera.view.yaw_rad, turn_rad = WrapAngle(yaw_rad - now_rad);
+  const auto guide = WayToGuide(v);
+  const float guide_rad = guide ? WrapAngle(AngleOf(*guide) - now_rad) : 0;
+  const bool back = std::abs(turn_rad) > kBack_rad && turn_rad * guide_rad < 0;
+  TurnForTour(back ? now_rad + std::copysign(kBack_rad / 2, guide_rad) : yaw_rad + visitor.looks_aside_rad, v);
 }
 
 void TurnCamera(float yaw_rate_radps, const VisitorInTown& v) {
@@ -294,7 +295,7 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   }
   const float pace = ShareOfPace(v);
   const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
-  const float look_rad = AngleOf(look) + LookBeforeHalt_rad(AngleOf(look), v);
+  const float look_rad = AngleOf(look) + LookOffWay_rad(AngleOf(look), v);
   if (pace > kStands && Length(look) > kReached_m) TurnBeside(look_rad, kMostAside_rad, v);
   // Turns first, then walks: but for who looks about.
   const float ahead = v.visitor.looks_about_s > 0 ? 1 : std::cos(v.visitor.camera.view.yaw_rad - look_rad);

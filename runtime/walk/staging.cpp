@@ -15,7 +15,7 @@ constexpr float kFeetClear = 1.18f;  // of the depth at which feet stand on the 
 constexpr float kSideClear_m = 0.12f;
 constexpr float kTangent_m = 0.4f, kRoomStep_m = 0.25f;
 constexpr float kRoomAhead_m[] = {-1, 0, 1.5f, 3};  // where along the route there should be room
-constexpr float kLooksBeforeHalt_m = 8, kTurnsWithin_m = 4, kMostBeforeHalt_rad = 0.9f;
+constexpr float kLooksBeforeHalt_m = 8, kTurnsWithin_m = 4, kMostOffWay_rad = 0.6f, kMostBeforeHalt_rad = 0.9f;
 constexpr float kAtHalt_m = 2.5f, kMoreAtHalt_rad = 0.5f;  // in the last steps
 constexpr float kGuideWithin = 0.8f;                       // of half the view
 constexpr float kTurnAhead_m = 6, kTurn_rad = 0.5f;        // a turn within that counts
@@ -114,31 +114,36 @@ Vec2 BesideRoute(float way_m, float side, const VisitorInTown& v) {
   return PointAt(route, way_m) + out * Room_m(way_m, side, takes_m, v);
 }
 
-float LookBeforeHalt_rad(float way_rad, const VisitorInTown& v) {
-  const GuidedTour& t = v.visitor.tour;
+std::optional<Vec2> WayToGuide(const VisitorInTown& v) {
   const Guide& g = v.visitor.guide;
-  const CameraState& camera = v.visitor.camera;
+  if (g.id < 0 || g.index >= v.town.crowd.size()) return std::nullopt;
+  return v.town.crowd.position[g.index] - v.visitor.camera.view.position;
+}
+
+float LookOffWay_rad(float way_rad, const VisitorInTown& v) {
+  const GuidedTour& t = v.visitor.tour;
   const float left_m = LengthOf_m(t.route) - t.visitor_m;
-  const float near = std::clamp((kLooksBeforeHalt_m - left_m) / kTurnsWithin_m, 0.0f, 1.0f);
-  const float most_rad = kMostBeforeHalt_rad + kMoreAtHalt_rad * std::clamp(1 - left_m / kAtHalt_m, 0.0f, 1.0f);
+  const float arrives = std::clamp((kLooksBeforeHalt_m - left_m) / kTurnsWithin_m, 0.0f, 1.0f);
+  const float most_rad = kMostOffWay_rad + arrives * (kMostBeforeHalt_rad - kMostOffWay_rad) +
+                         kMoreAtHalt_rad * std::clamp(1 - left_m / kAtHalt_m, 0.0f, 1.0f);
   const float sight_rad = WrapAngle(LookAt_rad(t, HaltOf(t)) - way_rad);
   const float to_one_side = std::min(1.0f, kPi - std::abs(sight_rad));  // what lies behind is on neither
-  float look_rad = to_one_side * std::clamp(sight_rad, -most_rad, most_rad);
-  if (g.id >= 0 && g.index < v.town.crowd.size()) {
-    const float guide_rad = WrapAngle(AngleOf(v.town.crowd.position[g.index] - camera.view.position) - way_rad);
-    const float within_rad = kGuideWithin * camera.view.fov_rad / 2;
+  float look_rad = arrives * to_one_side * std::clamp(sight_rad, -most_rad, most_rad);
+  if (const auto guide = WayToGuide(v)) {
+    const float guide_rad = WrapAngle(AngleOf(*guide) - way_rad);
+    const float within_rad = kGuideWithin * v.visitor.camera.view.fov_rad / 2;
     if (std::abs(guide_rad) < kBehind_rad)
       look_rad = std::clamp(look_rad, guide_rad - within_rad, guide_rad + within_rad);
   }
-  return near * std::clamp(look_rad, -most_rad, most_rad);
+  return std::clamp(look_rad, -most_rad, most_rad);
 }
 
 float LookAside_rad(float look_rad, float most_rad, const VisitorInTown& v) {
   const Guide& g = v.visitor.guide;
   const CameraState& camera = v.visitor.camera;
-  if (g.id < 0 || g.index >= v.town.crowd.size()) return 0;
-  const Vec2 off = v.town.crowd.position[g.index] - camera.view.position;
-  const float far_m = Length(off), at_rad = WrapAngle(AngleOf(off) - look_rad);
+  const auto off = WayToGuide(v);
+  if (!off) return 0;
+  const float far_m = Length(*off), at_rad = WrapAngle(AngleOf(*off) - look_rad);
   if (far_m < 1 || at_rad * (g.is_left ? 1.0f : -1.0f) <= 0 || std::abs(at_rad) > camera.view.fov_rad / 2) return 0;
   const float takes_rad = std::atan(HalfTan(camera) / 3) + std::atan((kHalfWidth_m + kSideClear_m) / far_m);
   return (g.is_left ? -1.0f : 1.0f) * std::clamp(takes_rad - std::abs(at_rad), 0.0f, most_rad);

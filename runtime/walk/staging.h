@@ -1,6 +1,8 @@
 // Where the guide walks and stands so that visitors see both the guide, from head to foot, and what the guide shows
 // them. Internal to runtime/walk.
 #pragma once
+#include <optional>
+
 #include "runtime/base/math.h"
 
 namespace flaneur {
@@ -24,9 +26,12 @@ float SideToWalk(float way_m, float now, const VisitorInTown& v);
 // A point of the route, as far to that side as it takes to be clear of the view's middle, or as there is room.
 Vec2 BesideRoute(float way_m, float side, const VisitorInTown& v);
 
-// How far from the way the view turns where a halt is near: to what there is to see, so that the guide, who goes to
-// stand beside it, stays in the picture. Who walks looks where they go besides.
-float LookBeforeHalt_rad(float way_rad, const VisitorInTown& v);
+// From the visitor; none: there is no guide.
+std::optional<Vec2> WayToGuide(const VisitorInTown& v);
+
+// How far from the way who follows the tour looks: with the guide in the picture, and on the last metres to a halt to
+// what there is to see. Who walks looks where they go besides.
+float LookOffWay_rad(float way_rad, const VisitorInTown& v);
 
 // How the tour turns the view a little away from a guide for whom there is too little room; 0 where it need not.
 float LookAside_rad(float look_rad, float most_rad, const VisitorInTown& v);

@@ -121,6 +121,32 @@ TEST(Guide, IsSeenOnTheWayToAHaltThatLooksAside) {
   }
 }
 
+// However the next stop lies.
+TEST(Guide, IsNotTurnedAwayFromWhereATourLeavesAHalt) {
+  constexpr Vec2 kHalt{20, 29};
+  for (int look_deg = -180; look_deg < 180; look_deg += 30) {
+    for (int next_deg = -180; next_deg < 180; next_deg += 30) {
+      const float look_rad = static_cast<float>(look_deg) * kPi / 180,
+                  next_rad = static_cast<float>(next_deg) * kPi / 180;
+      TourPack pack = TourTown(1);
+      pack.path = {Waypoint({4, 29}), Halt(kHalt, look_rad, 3), Halt(kHalt + DirectionOf(next_rad) * 8, next_rad, 3)};
+      Simulation s = Started(pack);
+      while (!s.visitor.tour.resting) Step(&s, 1);
+      while (s.visitor.tour.resting) Step(&s, 1);
+      float away_rad = 0;
+      for (int step = 0; step < 30 * 4; ++step) {
+        const float before_rad = s.visitor.camera.view.yaw_rad;
+        const Vec2 guide = GuideOf(s) - s.visitor.camera.view.position;
+        const float guide_rad = WrapAngle(AngleOf(guide) - before_rad);
+        Step(&s, 1);
+        const float turn_rad = WrapAngle(s.visitor.camera.view.yaw_rad - before_rad);
+        if (turn_rad * guide_rad < 0 && std::abs(guide_rad) > 0.6f) away_rad += std::abs(turn_rad);
+      }
+      EXPECT_LT(away_rad, 0.3f) << look_deg << ", " << next_deg << " degrees";
+    }
+  }
+}
+
 // Which is a place that nobody rests at: what a visitor looks at there is the way they came along.
 TEST(Guide, IsSeenAtTheToursEndAndFacesTheVisitor) {
   TourPack pack = TourTown(60);
