@@ -9,7 +9,8 @@ namespace flaneur {
 namespace {
 
 constexpr float kTolerance_m = 1e-3f;
-constexpr int kSlides = 3;  // a corner needs two
+constexpr float kGetsUp_m = 0.01f;  // a step, from a bench: at once, those near would be thrown aside
+constexpr int kSlides = 3;          // a corner needs two
 constexpr int kPushes = 24;
 constexpr float kOpposite = 0.7f;
 
@@ -88,11 +89,12 @@ Vec2 ShortStep(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {
     return grounded({from.x, to.y}) ? Vec2{from.x, to.y} : from;
   }
   if (Clearance(w, cell, to) >= radius_m && grounded(to)) return to;  // as below, by one look
-  const float least_m = std::min(radius_m - kTolerance_m, Clearance(w, cell, from));
+  const float before_m = Clearance(w, cell, from);
+  const float least_m = std::min(radius_m - kTolerance_m, before_m), out_m = std::min(radius_m, before_m + kGetsUp_m);
   const float asked_m = Length(to - from);
   Vec2 p = to;
   for (int slide = 0; slide < kSlides; ++slide) {
-    const Vec2 pushed = PushOut(w, cell, p, radius_m);
+    const Vec2 pushed = PushOut(w, cell, p, out_m);
     if (pushed.x == p.x && pushed.y == p.y) break;
     p = pushed;
   }

@@ -112,6 +112,23 @@ TEST(NearEdges, PushToTheSamePlaceAsTheListOfWalls) {
   EXPECT_GT(pushed, 1000);
 }
 
+// As those who get up from a bench do; thrown off it they would throw aside who stands there.
+TEST(KeepOffWalls, LetsWhoIsNearerThanTheirRadiusComeAwayLittleByLittle) {
+  const Walkable w = Field();
+  constexpr float kRadius_m = 0.3f, kWall_m = -3;  // the house's eastern
+  for (const float off_m : {0.02f, 0.1f, 0.2f, 0.28f}) {
+    Vec2 p{kWall_m + off_m, 0};
+    for (int step = 0; step < 45; ++step) {
+      const Vec2 to = KeepOffWalls(w, p, p + Vec2{0, 0.06f}, kRadius_m);
+      EXPECT_LT(to.x - p.x, 0.015f);
+      EXPECT_GE(to.x, p.x - 1e-4f);
+      EXPECT_GT(to.y, p.y + 0.03f) << "and gets on";
+      p = to;
+    }
+    EXPECT_GT(p.x, kWall_m + kRadius_m - 0.002f) << off_m;
+  }
+}
+
 Crowd PeopleWhoCross(const Walkable& w, int count) {
   Crowd crowd;
   Random random{7};
