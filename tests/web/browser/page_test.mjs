@@ -304,7 +304,7 @@ const tests = {
     await inState(page, 'visiting');
     const shown = await page.evaluate(async () => {
       const pages = document.getElementById('pages'), names = [], {flaneur} = document.getElementById('tour');
-      new MutationObserver(() => names.push(pages.className)).observe(pages, {attributeFilter: ['class']});
+      new MutationObserver(() => pages.className !== names.at(-1) && names.push(pages.className)).observe(pages, {attributeFilter: ['class']});
       const come = async (name) => {
         while (flaneur.state().page?.name !== name || pages.className !== 'of-' + name) await new Promise(requestAnimationFrame);
       };
