@@ -59,7 +59,7 @@ def _wing(t, x, inner, outer):
                     face = face[::-1]
                 t.faces.append(face[::-1])
                 dark = k >= 4 or (k == 3 and p == 2)
-                t.colors.append("dark" if dark and not low else "bar" if k == 3 or (k == 1 and p > 0) else "wing")
+                t.colors.append("dark" if dark and not low else "bar" if p == 2 or (k == 3 and p == 1) else "wing")
 
 
 def pigeon_surface():

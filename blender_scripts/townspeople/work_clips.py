@@ -16,6 +16,7 @@ UNDER_HIP_M = 0.085  # from the hip joint down to the seat
 ARM = ("shoulder02", "upperarm02", "lowerarm01", "lowerarm02", "wrist")
 FINGERS = ("finger1-1", "finger3-1", "finger3-2")
 SIDES = (("_L", 1.0), ("_R", -1.0))
+ON_PALM = 0.28  # of a palm's length, that what is gripped lies before it
 
 # By person, what they can do. Skirts and long tunics stand off like bells where somebody sits.
 WORK = {
@@ -65,13 +66,30 @@ def _reach(skeleton, rotations, root, side, hand, elbow, turn=None):
 
 
 def hand_frame(skeleton, side):
-    """Of a hand at rest: the middle of the palm, the way of the fingers, and up along what it
+    """Of a hand at rest: the middle of what it grips, the way of the fingers, and up along what it
     grips (where the thumb is).
     """
     wrist, knuckle = skeleton.head("wrist" + side), skeleton.head("finger3-1" + side)
     fingers = _unit(knuckle - wrist)
     thumb = skeleton.head("finger1-1" + side) - wrist
-    return wrist + 0.75 * (knuckle - wrist), fingers, _unit(thumb - fingers * (thumb @ fingers))
+    thumb = _unit(thumb - fingers * (thumb @ fingers))
+    off_palm = ON_PALM * np.linalg.norm(knuckle - wrist) * _palm(fingers, thumb, side)
+    return wrist + 0.85 * (knuckle - wrist) + off_palm, fingers, thumb
+
+
+def _palm(fingers, thumb, side):
+    """The way that the palm looks."""
+    return sk.cross(fingers, thumb) * dict(SIDES)[side]
+
+
+def _close(skeleton, rotations, side):
+    """Fingers and thumb about what lies on the palm."""
+    _, fingers, thumb = hand_frame(skeleton, side)
+    palm = _palm(fingers, thumb, side)
+    hand = rotations[skeleton.index("wrist" + side)]
+    for name, way, degrees in (("finger3-1", fingers, 62.0), ("finger3-2", fingers, 140.0), ("finger1-1", thumb, 40.0)):
+        turn = clips._matrix_of(sk.cross(way, palm) * np.radians(degrees))
+        rotations[skeleton.index(name + side)] = hand @ turn
 
 
 def _grip(skeleton, rotations, root, side, at, up, fingers, elbow):
@@ -80,6 +98,7 @@ def _grip(skeleton, rotations, root, side, at, up, fingers, elbow):
     turn = _frame(up, np.asarray(fingers, float)) @ _frame(thumb, way).T
     hand = at - turn @ (palm - skeleton.head("wrist" + side))
     _reach(skeleton, rotations, root, side, hand, elbow, turn)
+    _close(skeleton, rotations, side)
 
 
 def _stand(figure, manner, seconds, bend, turn=None):
@@ -135,7 +154,8 @@ def sweep(figure, manner):
         top, down = broom_line(t, size)
         _grip(skeleton, pose, root, "_R", top + 0.14 * size * down, -down, (0.8, -0.6, 0.0),
               (-0.8, 0.5, 0.1))
-        _grip(skeleton, pose, root, "_L", top + 0.50 * size * down, -down, (-0.8, -0.6, 0.0),
+        far = 0.38 + 0.12 * np.sin(t)  # no farther than the left arm reaches across
+        _grip(skeleton, pose, root, "_L", top + far * size * down, -down, (-0.8, -0.6, 0.0),
               (0.8, 0.5, -0.2))
     return _closed("sweep", rotations, roots)
 

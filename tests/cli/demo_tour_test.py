@@ -92,7 +92,8 @@ class DemoTour(ProgramTest):
         way = [(float(r["camera_x_m"]), float(r["camera_y_m"])) for r in metrics]
         for stop in tomllib.loads(DEMO_TOUR.read_text())["stop"]:
             with self.subTest(stop.get("caption", stop["position_m"])):
-                self.assertLess(min(math.dist(stop["position_m"], place) for place in way), 1.0)
+                within_m = 1.0 if "caption" in stop else 2.0  # a dog may stand where the way only bends
+                self.assertLess(min(math.dist(stop["position_m"], place) for place in way), within_m)
 
     def test_interrupted_film_leaves_nothing(self):
         film = subprocess.Popen([BIN / "flaneur-player", self.pack, "--headless", "--seconds", "600", "--size", "160x90",

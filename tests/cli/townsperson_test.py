@@ -138,6 +138,25 @@ class TownspersonTest(unittest.TestCase):
                     moving.add(names[channel["target"]["node"]])
             self.assertTrue({"upperleg02_L", "upperleg02_R"} <= moving, moving)
 
+    def test_who_sweeps_or_hauls_grips_what_they_hold(self):
+        """Fingers bent by more than they hang, all the time."""
+        gripped = 0
+        for glb in self.each():
+            nodes = glb.json["nodes"]
+            for animation in glb.json["animations"]:
+                if animation["name"] not in ("sweep", "draw_water"):
+                    continue
+                for channel in animation["channels"]:
+                    node = nodes[channel["target"]["node"]]
+                    if not node["name"].startswith("finger3-") or channel["target"]["path"] != "rotation":
+                        continue
+                    rest = node.get("rotation", [0, 0, 0, 1])
+                    for turn in glb.values(animation["samplers"][channel["sampler"]]["output"]):
+                        half = min(1.0, abs(sum(a * b for a, b in zip(rest, turn))))
+                        self.assertGreater(2 * math.degrees(math.acos(half)), 45, node["name"])
+                    gripped += 1
+        self.assertTrue(gripped >= 8 or not self.of_the_demo, gripped)
+
     def test_speed_is_named(self):
         for glb in self.each():
             speeds = [
