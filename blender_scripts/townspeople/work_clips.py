@@ -82,9 +82,8 @@ def _palm(fingers, thumb, side):
     return sk.cross(fingers, thumb) * dict(SIDES)[side]
 
 
-def _close(skeleton, rotations, side):
-    """Fingers and thumb about what lies on the palm."""
-    _, fingers, thumb = hand_frame(skeleton, side)
+def _close(skeleton, rotations, side, fingers, thumb):
+    """Fingers and thumb, whose ways at rest these are, about what lies on the palm."""
     palm = _palm(fingers, thumb, side)
     hand = rotations[skeleton.index("wrist" + side)]
     for name, way, degrees in (("finger3-1", fingers, 62.0), ("finger3-2", fingers, 140.0), ("finger1-1", thumb, 40.0)):
@@ -94,11 +93,11 @@ def _close(skeleton, rotations, side):
 
 def _grip(skeleton, rotations, root, side, at, up, fingers, elbow):
     """The hand holds a stick at `at` that goes `up` through it."""
-    palm, way, thumb = hand_frame(skeleton, side)
+    held, way, thumb = hand_frame(skeleton, side)
     turn = _frame(up, np.asarray(fingers, float)) @ _frame(thumb, way).T
-    hand = at - turn @ (palm - skeleton.head("wrist" + side))
+    hand = at - turn @ (held - skeleton.head("wrist" + side))
     _reach(skeleton, rotations, root, side, hand, elbow, turn)
-    _close(skeleton, rotations, side)
+    _close(skeleton, rotations, side, way, thumb)
 
 
 def _stand(figure, manner, seconds, bend, turn=None):

@@ -9,8 +9,8 @@ namespace flaneur {
 namespace {
 
 constexpr float kTolerance_m = 1e-3f;
-constexpr float kGetsUp_m = 0.01f;  // a step, from a bench: at once, those near would be thrown aside
-constexpr int kSlides = 3;          // a corner needs two
+constexpr float kComesOff_m = 0.01f;  // a step, for who starts closer than their radius: at once they would shoot off
+constexpr int kSlides = 3;            // a corner needs two
 constexpr int kPushes = 24;
 constexpr float kOpposite = 0.7f;
 
@@ -90,7 +90,7 @@ Vec2 ShortStep(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {
   }
   if (Clearance(w, cell, to) >= radius_m && grounded(to)) return to;  // as below, by one look
   const float before_m = Clearance(w, cell, from);
-  const float least_m = std::min(radius_m - kTolerance_m, before_m), out_m = std::min(radius_m, before_m + kGetsUp_m);
+  const float least_m = std::min(radius_m - kTolerance_m, before_m), out_m = std::min(radius_m, before_m + kComesOff_m);
   const float asked_m = Length(to - from);
   Vec2 p = to;
   for (int slide = 0; slide < kSlides; ++slide) {

@@ -51,7 +51,7 @@ struct PersonInstance {
   Vec4 look;   // mesh: row of the poses; impostor: first cell of its picture; shadow: row of the poses, or of those for
               // coarse shadows; then share of the pattern from, to; and, impostor: phases since its picture, prop: 1 on
               // an impostor
-  std::array<uint8_t, 4> tints{};  // DrawnPerson's, and its size as the shaders read it
+  std::array<uint8_t, 4> tints{};  // DrawnPerson's, its breadth and size, as tint_choice.glsl reads them
 };
 
 // One draw: instances first ... first + count - 1 of one avatar at one level (-1: impostor; behind the last one: a

@@ -171,6 +171,7 @@ DrawCost DrawMeshes(const PeopleView& people, const PeopleBatch& batch) {
 }
 
 static_assert(kMaxTints == MAX_TINTS && kMaxTintColors == MAX_TINT_COLORS, "the shaders have as many");
+static_assert(kMaxTintColors < 16, "an instance has four bits for each tint");
 
 void AddTints(const std::vector<Tint>& tints, AvatarView* view) {
   for (size_t t = 0; t < std::min(tints.size(), kMaxTints); ++t) {

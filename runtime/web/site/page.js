@@ -126,10 +126,11 @@ function showCaption(state) {
   return true;
 }
 
-// `inTask` calls what it is given, soon: together it would be a long task.
+// `inTask` calls what it is given, soon: together it would be a long task. Pages follow at once: hands may open another
+// until then, which an older state would close.
 function follow(state, parts, inTask) {
+  parts.pages.show(state);
   for (const part of [parts.bar, parts.hands]) inTask(() => part.show(state));
-  inTask(() => parts.pages.show(parts.player.read('page_state')));  // hands may have opened another since
   inTask(() => {
     parts.sounds.follow();
     keepSettings(parts.player.text('page_settings'));

@@ -112,7 +112,7 @@ TEST(NearEdges, PushToTheSamePlaceAsTheListOfWalls) {
   EXPECT_GT(pushed, 1000);
 }
 
-// As those who get up from a bench do; thrown off it they would throw aside who stands there.
+// However they are pushed along the wall: they had been thrown off it as fast as they may walk.
 TEST(KeepOffWalls, LetsWhoIsNearerThanTheirRadiusComeAwayLittleByLittle) {
   const Walkable w = Field();
   constexpr float kRadius_m = 0.3f, kWall_m = -3;  // the house's eastern

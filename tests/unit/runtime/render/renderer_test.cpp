@@ -155,6 +155,8 @@ class Drawing : public ::testing::Test {
     return rgb;
   }
 
+  void ExpectAreas(float DrawnPerson::*part, double of_larger, double of_smaller, double tolerance);
+
   HeadlessContext context_;
   FrameStatistics statistics_;
 };
@@ -320,37 +322,28 @@ TEST_F(Drawing, ATintBoundToAMaterialLeavesAnotherOfTheSameColour) {
   }
 }
 
-// Mesh, impostor and shadow of somebody tall, against the model's own size.
-TEST_F(Drawing, WhoIsLargerIsDrawnLargerAtEveryLevel) {
+// Of somebody whose part is 1.1 and 0.9 of the model's, mesh and impostor, against the model's own.
+void Drawing::ExpectAreas(float DrawnPerson::*part, double of_larger, double of_smaller, double tolerance) {
   const TourPack pack = MakePack({});
   for (const int samples : {4, 1}) {
     for (int level : {0, -1}) {
-      const auto patch = [&](float size) {
+      const auto area = [&](float value) {
         FrameInput frame = LookEast();
         frame.people = {PersonAt(6, 0, level)};
-        frame.people[0].size = size;
-        return RedPatch(Draw(pack, frame, {.samples = samples}));
+        frame.people[0].*part = value;
+        return RedPatch(Draw(pack, frame, {.samples = samples})).count;
       };
-      EXPECT_NEAR(patch(1.1f).count, 1.21 * patch(1).count, 0.05 * patch(1).count) << "level " << level;
-      EXPECT_NEAR(patch(0.9f).count, 0.81 * patch(1).count, 0.05 * patch(1).count) << "level " << level;
+      const int own = area(1);
+      EXPECT_NEAR(area(1.1f), of_larger * own, tolerance * own) << "level " << level;
+      EXPECT_NEAR(area(0.9f), of_smaller * own, tolerance * own) << "level " << level;
     }
   }
 }
 
+TEST_F(Drawing, WhoIsLargerIsDrawnLargerAtEveryLevel) { ExpectAreas(&DrawnPerson::size, 1.21, 0.81, 0.05); }
+
 TEST_F(Drawing, WhoIsBroaderIsDrawnBroaderAndNoHigherAtEveryLevel) {
-  const TourPack pack = MakePack({});
-  for (const int samples : {4, 1}) {
-    for (int level : {0, -1}) {
-      const auto patch = [&](float breadth) {
-        FrameInput frame = LookEast();
-        frame.people = {PersonAt(6, 0, level)};
-        frame.people[0].breadth = breadth;
-        return RedPatch(Draw(pack, frame, {.samples = samples}));
-      };
-      EXPECT_NEAR(patch(1.1f).count, 1.1 * patch(1).count, 0.07 * patch(1).count) << "level " << level;
-      EXPECT_NEAR(patch(0.9f).count, 0.9 * patch(1).count, 0.07 * patch(1).count) << "level " << level;
-    }
-  }
+  ExpectAreas(&DrawnPerson::breadth, 1.1, 0.9, 0.07);
 }
 
 TEST_F(Drawing, MeshAndImpostorLookAlike) {
