@@ -238,12 +238,15 @@ def skirt(
     front_flare=0.6,
     follow=1.0,
     shin=0.45,
+    cling=0.0,
     cell="skirt",
     hidden=False,
 ):
     """Cloth that hangs from `top` (a place on the trunk) to `hem`: tunic skirt, habit, gown.
 
     flare: extra radius at the hem for a fall of 1 m. gather: how soon the folds reach full depth.
+    cling: how much of the way back to the legs it falls in a row, from the hips down: what hangs
+    straight from the belly lies a hand above the thighs of who sits.
     hidden: only a form for an apron to be laid over.
     """
     size = tailor.size
@@ -258,11 +261,10 @@ def skirt(
         fall = (z_rows[0] - z) / size
         outline = tl.slice_radii(tailor, cloud, z, angles, 0.015 if reach is None else 0.03)
         outline = reach if outline is None else tl.circular_blur(outline, 2)
-        reach = (
-            outline
-            if reach is None
-            else np.maximum(outline, reach * (1.0 if z < hip + 0.1 else 0.0))
-        )
+        if reach is None or z >= hip + 0.1:
+            reach = outline
+        else:
+            reach = np.maximum(outline, reach + (outline - reach) * (cling if z < hip else 0.0))
         depth = fold_depth * size * min(fall / gather, 1.0) if gather > 0 else fold_depth * size
         spread = flare * size * max(fall, 0.0) * (1.0 - (1.0 - front_flare) * facing)
         loose = ease * size * (0.25 + 0.75 * min(fall / 0.08, 1.0))

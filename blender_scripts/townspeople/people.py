@@ -15,7 +15,7 @@ from townspeople.wardrobe import (BAND, BEARD, BELLY, CHILD_FACE, CHILD_SHAPE, C
 PEOPLE = {
     "merchant": {
         "height_m": 1.76, "skin": dict(MALE, age=0.3, iris=(0.30, 0.34, 0.33)), "bulges": [BELLY],
-        "manner": {"arm_swing": 0.3, "arm_forward_deg": 13.0},
+        "manner": {"arm_swing": 0.3, "arm_forward_deg": 13.0, "liveliness": 0.85},
         "wear": [
             STOCKINGS,
             {"piece": "trousers", "name": "breeches", "bottom": ["knee", 0.02], "ease": 0.012,
@@ -65,7 +65,7 @@ PEOPLE = {
     },
     "farmer": {
         "height_m": 1.72, "skin": dict(TANNED, iris=(0.30, 0.38, 0.46)),
-        "manner": {"arm_spread_deg": -1.0},
+        "manner": {"arm_spread_deg": -1.0, "liveliness": 1.3, "stoop_deg": 2.5},
         "wear": [
             dict(STOCKINGS, start=0.2),
             {"piece": "upper", "name": "tunic", "bottom": ["waist", -0.05], "ease": 0.014,
@@ -102,7 +102,7 @@ PEOPLE = {
     },
     "craftsman": {
         "height_m": 1.75, "skin": TANNED, "bare_arm_from": 0.9,
-        "manner": {"arm_spread_deg": 0.0},
+        "manner": {"liveliness": 1.15},
         "wear": [
             dict(STOCKINGS, start=0.9),
             {"piece": "trousers", "name": "breeches", "bottom": ["knee", -0.06], "ease": 0.006,
@@ -113,12 +113,12 @@ PEOPLE = {
             {"piece": "skirt", "name": "shirt", "top": ["waist", 0.0], "hem": ["crotch", -0.06],
              "ease": 0.010,
              "flare": 0.08, "folds": 12, "fold_depth": 0.012, "rows": 7},
-            {"piece": "skirt", "name": "form", "top": ["waist", 0.0], "hem": ["knee", -0.06],
+            {"piece": "skirt", "name": "form", "top": ["waist", 0.0], "hem": ["knee", 0.03],
              "ease": 0.012,
-             "flare": 0.05, "front_flare": 0.3, "folds": 8, "fold_depth": 0.016, "rows": 9,
-             "shin": 0.3, "hidden": True},
+             "flare": 0.05, "front_flare": 0.3, "folds": 8, "fold_depth": 0.010, "rows": 9,
+             "shin": 0.3, "cling": 0.25, "hidden": True},
             {"piece": "apron", "over": "form", "hem_row": 1.0, "bib_top": ["chest", 0.05],
-             "half_angle_deg": 66, "lift": 0.007},
+             "half_angle_deg": 66, "lift": 0.018},
             {"piece": "belt", "at": ["waist", 0.0], "height": 0.028}, dict(BAND),
             dict(SHORT_HAIR), dict(BEARD), {"piece": "moustache"},
             {"piece": "hat", "name": "cap", "sit": 0.024, "tilt_deg": -10, "profile": [
@@ -144,7 +144,7 @@ PEOPLE = {
     "townswoman": {
         "height_m": 1.63, "skin": dict(FEMALE, iris=(0.34, 0.42, 0.50)), "proportions": WOMAN_SHAPE,
         "bulges": WOMAN_BULGES + WOMAN_FACE,
-        "manner": {"arm_spread_deg": 4.0, "stride": 0.92},
+        "manner": {"arm_spread_deg": 4.0, "stride": 0.92, "liveliness": 1.2},
         "wear": [
             SHORT_STOCKINGS,
             {"piece": "upper", "name": "bodice", "bottom": ["waist", -0.05], "ease": 0.006,
@@ -239,7 +239,7 @@ PEOPLE = {
             dict(COIF, peak=0.03, edge=[[0, 58], [35, 50], [65, 24], [85, 0], [105, -12],
                                         [140, -30], [180, -40]]),
             {"piece": "cape", "name": "shawl", "top_deg": 67, "bottom_deg": 16, "ease": 0.018,
-             "point": 0.10},
+             "point": 0.10, "calm_arms": 0.15},
             {"piece": "roll", "thickness": 0.018},
         ],
         "bare_arm_from": 1.25,
@@ -289,7 +289,7 @@ PEOPLE = {
     },
     "guard": {
         "height_m": 1.80, "skin": dict(TANNED, iris=(0.36, 0.43, 0.50)), "proportions": {"trunk": (1.04, 1.03, 1.0)},
-        "manner": {"arm_spread_deg": 2.0},
+        "manner": {"arm_spread_deg": 2.0, "liveliness": 0.75, "arm_swing": 1.25},
         "wear": [
             dict(STOCKINGS, start=0.9),
             {"piece": "trousers", "name": "breeches", "bottom": ["knee", 0.0], "ease": 0.016,
