@@ -1,14 +1,12 @@
 #include "pipeline/cli/painting.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "pipeline/impostor/atlas_image.h"
+#include "pipeline/pictures/picture_files.h"
 #include "runtime/base/array.h"
-#include "runtime/base/file.h"
+#include "runtime/base/png.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -34,19 +32,18 @@ uint8_t Beyond(int value, int others, int alpha) {
 }
 
 Error ReadPicture(const fs::path& file, Picture* picture) {
-  const auto input = OIIO::ImageInput::open(file.string());
-  if (!input) return Fail(file.string() + ": " + OneLine(OIIO::geterror()));
-  const OIIO::ImageSpec& spec = input->spec();
-  const int channels = spec.nchannels;
-  picture->width = spec.width;
-  picture->height = spec.height;
-  const size_t pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
-  if (channels < 3)
-    return Fail(file.string() + ": has no colours; paint red where people go and green where they stand about");
-  std::vector<uint8_t> values(pixels * static_cast<size_t>(channels));
-  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, values.data())) {
-    return Fail(file.string() + ": " + OneLine(input->geterror()));
-  }
+  int channels = 0;
+  std::vector<uint8_t> values;
+  const auto accept = [&](const PictureShape& shape) {
+    picture->width = shape.width;
+    picture->height = shape.height;
+    channels = Count(shape.channels);
+    return channels < 3
+               ? Fail(file.string() + ": has no colours; paint red where people go and green where they stand about")
+               : Ok();
+  };
+  if (Error e = flaneur::ReadPicture(file, accept, &values)) return e;
+  const size_t pixels = static_cast<size_t>(picture->width) * static_cast<size_t>(picture->height);
   picture->red.resize(pixels);
   picture->green.resize(pixels);
   for (size_t i = 0; i < pixels; ++i) {
@@ -160,7 +157,6 @@ Error ReadPainting(const PaintingSettings& settings, const GroundRaster& ground,
 }
 
 Error WritePlan(const fs::path& path, const GroundRaster& g, const Footprints& footprints) {
-  Pixels pixels{g.columns, g.rows, {}};
   const auto at = [&](int column, int row) {
     return static_cast<size_t>(g.rows - 1 - row) * static_cast<size_t>(g.columns) + static_cast<size_t>(column);
   };
@@ -174,10 +170,10 @@ Error WritePlan(const fs::path& path, const GroundRaster& g, const Footprints& f
       FillRow(o, g, row, [&](int column) { grey[at(column, row)] = kGreyOfObstacle; });
     }
   }
-  for (uint8_t value : grey) pixels.rgba.insert(pixels.rgba.end(), {value, value, value, 255});
-  Image png;
-  if (Error e = EncodePng(pixels, true, &png)) return e;
-  return WriteFile(path, png.bytes);
+  std::vector<uint8_t> rgb;
+  rgb.reserve(3 * grey.size());
+  for (uint8_t value : grey) rgb.insert(rgb.end(), {value, value, value});
+  return WritePng(path, g.columns, g.rows, rgb);
 }
 
 }  // namespace flaneur

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pipeline/impostor/atlas_image.h"
+#include "pipeline/pictures/picture_files.h"
 #include "runtime/base/array.h"
 #include "runtime/pack/tint.h"
 

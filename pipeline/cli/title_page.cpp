@@ -1,6 +1,6 @@
 #include "pipeline/cli/title_page.h"
 
-#include "pipeline/cli/scaled_picture.h"
+#include "pipeline/pictures/picture_files.h"
 
 namespace flaneur {
 

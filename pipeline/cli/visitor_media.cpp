@@ -3,11 +3,11 @@
 #include <span>
 #include <string_view>
 
-#include "pipeline/cli/scaled_picture.h"
 #include "pipeline/cli/speech.h"
 #include "pipeline/cli/stage_cache.h"
 #include "pipeline/core/fingerprint.h"
 #include "pipeline/io/sound_file.h"
+#include "pipeline/pictures/picture_files.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
@@ -51,11 +51,30 @@ struct Media {
     return PutEntry(store, key, entry, Packed(duration_s));
   }
 
+  // Made once: what scales pictures takes longer to load than all the rest of this.
+  Error Scaled(const fs::path& file, std::vector<uint8_t>* bytes) {
+    std::string content;
+    if (Error e = ReadTextFile(file, &content)) return e;
+    const std::string key =
+        Fingerprint().Add("picture").Add(PictureVersion()).Add(kMaxPictureSide_px).Add(content).Hex();
+    StoreEntry entry;
+    std::string kept;
+    if (ReadEntry(store, key, &entry, &kept)) {
+      bytes->assign(kept.begin(), kept.end());
+      return Ok();
+    }
+    if (Error e = ScaledPicture(file, kMaxPictureSide_px, bytes)) return e;
+    entry = {};
+    entry.step = "picture:" + OneLine(file.filename().string());
+    entry.extension = ".kept";
+    return PutEntry(store, key, entry, std::string_view(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
+  }
+
   Error Picture(const fs::path& file, int* out) {
     const auto [entry, fresh] = pictures.try_emplace(file, Count(parts->pictures));
     if (fresh) {
       parts->pictures.emplace_back();
-      if (Error e = ScaledPicture(file, kMaxPictureSide_px, &parts->pictures.back())) return e;
+      if (Error e = Scaled(file, &parts->pictures.back())) return e;
     }
     *out = entry->second;
     return Ok();

@@ -1,15 +1,10 @@
 #include "pipeline/impostor/atlas_image.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <array>
 #include <cmath>
-#include <string>
 
 #include "runtime/base/array.h"
 #include "runtime/base/srgb.h"
-#include "runtime/base/text.h"
 
 namespace flaneur {
 
@@ -40,23 +35,6 @@ Pixels Halved(const Pixels& from) {
     }
   }
   return to;
-}
-
-Error EncodePng(const Pixels& pixels, bool srgb, Image* image) {
-  OIIO::ImageSpec spec(pixels.width, pixels.height, 4, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:UnassociatedAlpha", 1);  // else the writer would divide by it
-  if (srgb) spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("png:compressionLevel", 6);
-  OIIO::Filesystem::IOVecOutput bytes;
-  auto output = OIIO::ImageOutput::create("atlas.png", &bytes);
-  if (!output) return Fail("OpenImageIO cannot write PNG: " + OneLine(OIIO::geterror()));
-  if (!output->open("atlas.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, pixels.rgba.data()) ||
-      !output->close()) {
-    return Fail("OpenImageIO cannot write PNG: " + OneLine(output->geterror()));
-  }
-  image->mime_type = "image/png";
-  image->bytes = bytes.buffer();
-  return Ok();
 }
 
 }  // namespace flaneur

@@ -1,12 +1,11 @@
 #include "pipeline/impostor/atlas_layers.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <functional>
 #include <string>
 
 #include "pipeline/impostor/view_geometry.h"
+#include "pipeline/pictures/picture_files.h"
 #include "runtime/base/array.h"
 #include "runtime/base/text.h"
 
@@ -58,10 +57,10 @@ int FindChannel(const std::vector<std::string>& names, const std::string& wanted
   return -1;
 }
 
-Error FindChannels(const fs::path& exr, const OIIO::ImageSpec& spec, std::array<int, kLayers>* channels) {
+Error FindChannels(const fs::path& exr, const PictureShape& shape, std::array<int, kLayers>* channels) {
   for (size_t i = 0; i < kLayers; ++i) {
-    int found = FindChannel(spec.channelnames, kLayerNames[i]);
-    if (found < 0) found = FindChannel(spec.channelnames, kOtherNames[i]);
+    int found = FindChannel(shape.channels, kLayerNames[i]);
+    if (found < 0) found = FindChannel(shape.channels, kOtherNames[i]);
     if (found < 0 && i < kTint0) {
       return Fail(exr.string() + ": Blender wrote no layer '" + kLayerNames[i] + "'; use Blender 3.4 to 4.x");
     }
@@ -135,21 +134,20 @@ float ThresholdFor(const AtlasLevel& level, double share) {
 }  // namespace
 
 Error ReadLayers(const fs::path& exr, int first_row, AtlasLevel* level) {
-  const auto input = OIIO::ImageInput::open(exr.string());
-  if (!input) return Fail(exr.string() + ": " + OneLine(OIIO::geterror()));
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width != level->width || first_row + spec.height > level->height) {
-    return Fail(exr.string() + ": Blender rendered " + std::to_string(spec.width) + " x " +
-                std::to_string(spec.height) + " pixels, not what it was asked for");
-  }
   std::array<int, kLayers> channels{};
-  if (Error error = FindChannels(exr, spec, &channels)) return error;
-  const auto stride = static_cast<size_t>(spec.nchannels);
-  std::vector<float> values(stride * static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) {
-    return Fail(exr.string() + ": " + OneLine(input->geterror()));
-  }
-  const size_t first = static_cast<size_t>(first_row) * static_cast<size_t>(spec.width);
+  size_t width = 0, stride = 0;
+  const auto accept = [&](const PictureShape& shape) {
+    if (shape.width != level->width || first_row + shape.height > level->height) {
+      return Fail(exr.string() + ": Blender rendered " + std::to_string(shape.width) + " x " +
+                  std::to_string(shape.height) + " pixels, not what it was asked for");
+    }
+    width = static_cast<size_t>(shape.width);
+    stride = shape.channels.size();
+    return FindChannels(exr, shape, &channels);
+  };
+  std::vector<float> values;
+  if (Error error = ReadPicture(exr, accept, &values)) return error;
+  const size_t first = static_cast<size_t>(first_row) * width;
   for (size_t i = 0; i < values.size() / stride; ++i) {
     std::array<float, kLayers> layers{};
     for (size_t c = 0; c < kLayers; ++c) {

@@ -11,6 +11,7 @@
 #include "pipeline/impostor/atlas_layout.h"
 #include "pipeline/impostor/compress_atlas.h"
 #include "pipeline/impostor/view_geometry.h"
+#include "pipeline/pictures/picture_files.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
 

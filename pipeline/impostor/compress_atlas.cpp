@@ -8,6 +8,7 @@
 #include "pipeline/impostor/atlas_layout.h"
 #include "pipeline/impostor/block_compression.h"
 #include "pipeline/impostor/view_geometry.h"
+#include "pipeline/pictures/picture_files.h"
 #include "runtime/base/array.h"
 #include "runtime/pack/ktx2.h"
 

@@ -5,40 +5,25 @@
 // Bakes 16 directions x 8 phases of the walk at 128 px, once as by default (or with SAMPLES a pixel) and once with
 // REFERENCE_SAMPLES (64; 0: without), then the whole impostor's mip levels after compression against exact means of the
 // finest.
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
-#include "pipeline/core/temporary_folder.h"
 #include "pipeline/impostor/atlas_layers.h"
 #include "pipeline/impostor/bake_impostor.h"
 #include "pipeline/io/gltf.h"
-#include "runtime/base/file.h"
+#include "runtime/base/pixels.h"
 #include "runtime/pack/ktx2.h"
 
 namespace flaneur {
 namespace {
 
-struct Rgba {
-  int width = 0, height = 0;
-  std::vector<uint8_t> bytes;
-};
-
-Error Decode(const Image& image, Rgba* out) {
-  TemporaryFolder folder;
-  if (Error e = folder.Create("flaneur_bench_")) return e;
-  const std::filesystem::path file = folder.path() / "atlas.png";
-  if (Error e = WriteFile(file, image.bytes)) return e;
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  const auto input = OIIO::ImageInput::open(file.string(), &config);
-  if (!input) return Fail(OIIO::geterror());
-  out->width = input->spec().width, out->height = input->spec().height;
-  out->bytes.resize(size_t{4} * static_cast<size_t>(out->width) * static_cast<size_t>(out->height));
-  return input->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, out->bytes.data()) ? Ok() : Fail(input->geterror());
+Error Decode(const Image& image, Pixels* out) {
+  const std::optional<Pixels> pixels = Decoded(image.bytes);
+  if (!pixels) return Fail("the atlas cannot be decoded");
+  *out = *pixels;
+  return Ok();
 }
 
 Vec3 NormalOf(const uint8_t* texel) {
@@ -47,25 +32,25 @@ Vec3 NormalOf(const uint8_t* texel) {
 }
 
 Error CompareSamples(const ImpostorAtlas& few, const ImpostorAtlas& many) {
-  Rgba a, b, m, n;
+  Pixels a, b, m, n;
   if (Error e = Decode(few.albedo, &a)) return e;
   if (Error e = Decode(many.albedo, &b)) return e;
   if (Error e = Decode(few.normal, &m)) return e;
   if (Error e = Decode(many.normal, &n)) return e;
   double squares = 0, edge_squares = 0, degrees = 0;
   size_t edges = 0, covered = 0;
-  for (size_t i = 0; i + 3 < a.bytes.size(); i += 4) {
-    const double off = a.bytes[i + 3] - b.bytes[i + 3];
+  for (size_t i = 0; i + 3 < a.rgba.size(); i += 4) {
+    const double off = a.rgba[i + 3] - b.rgba[i + 3];
     squares += off * off;
-    if (b.bytes[i + 3] > 0 && b.bytes[i + 3] < 255) edge_squares += off * off, ++edges;
-    if (a.bytes[i + 3] < 128 || b.bytes[i + 3] < 128) continue;
-    const Vec3 u = NormalOf(&m.bytes[i]), v = NormalOf(&n.bytes[i]);
+    if (b.rgba[i + 3] > 0 && b.rgba[i + 3] < 255) edge_squares += off * off, ++edges;
+    if (a.rgba[i + 3] < 128 || b.rgba[i + 3] < 128) continue;
+    const Vec3 u = NormalOf(&m.rgba[i]), v = NormalOf(&n.rgba[i]);
     degrees +=
         std::atan2(static_cast<double>(Length(Cross(u, v))), static_cast<double>(Dot(u, v))) * 180 / 3.14159265358979;
     ++covered;
   }
   std::printf("alpha off by %.2f of 255 (root mean square; on edges alone %.2f), normals by %.2f degrees\n",
-              std::sqrt(4 * squares / static_cast<double>(a.bytes.size())),
+              std::sqrt(4 * squares / static_cast<double>(a.rgba.size())),
               std::sqrt(edge_squares / static_cast<double>(edges)), degrees / static_cast<double>(covered));
   std::fflush(stdout);
   return Ok();
@@ -73,10 +58,10 @@ Error CompareSamples(const ImpostorAtlas& few, const ImpostorAtlas& many) {
 
 float Share(uint8_t byte) { return static_cast<float>(byte) / 255; }
 
-AtlasLevel Finest(const Rgba& albedo) {
+AtlasLevel Finest(const Pixels& albedo) {
   AtlasLevel level{albedo.width, albedo.height, {}};
-  for (size_t i = 0; i + 3 < albedo.bytes.size(); i += 4) {
-    const uint8_t* t = &albedo.bytes[i];
+  for (size_t i = 0; i + 3 < albedo.rgba.size(); i += 4) {
+    const uint8_t* t = &albedo.rgba[i];
     level.texels.push_back({Share(t[3]), {Share(t[0]), Share(t[1]), Share(t[2])}, {}, 0, {}, {}, {}});
   }
   return level;
@@ -84,7 +69,7 @@ AtlasLevel Finest(const Rgba& albedo) {
 
 Error CompareLevels(const ImpostorAtlas& atlas) {
   PackTexture texture;
-  Rgba albedo;
+  Pixels albedo;
   if (Error e = ReadKtx2(atlas.albedo_ktx2, &texture)) return e;
   if (Error e = Decode(atlas.albedo, &albedo)) return e;
   const std::vector<AtlasLevel> levels = MakeLevels(Finest(albedo));

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/core/temporary_folder.h"
-#include "pipeline/impostor/atlas_image.h"
+#include "pipeline/pictures/picture_files.h"
 #include "runtime/base/file.h"
 
 namespace flaneur {

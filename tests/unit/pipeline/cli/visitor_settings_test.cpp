@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "pipeline/cli/assemble_town.h"
-#include "pipeline/cli/scaled_picture.h"
 #include "pipeline/cli/tour_settings.h"
 #include "pipeline/cli/visitor_media.h"
 #include "pipeline/core/temporary_folder.h"
+#include "pipeline/pictures/picture_files.h"
 #include "runtime/base/file.h"
 #include "runtime/base/pixels.h"
 #include "runtime/base/png.h"
