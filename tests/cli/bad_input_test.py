@@ -2,6 +2,7 @@
 import csv
 import os
 import pathlib
+import shutil
 import struct
 import subprocess
 import tempfile
@@ -142,6 +143,18 @@ class BadInput(ProgramTest):
                              ('file = "red.png"\nmin_m = [0, 0]', ("tour.toml:", "min_m and max_m"))):
             with self.subTest(table):
                 self.assert_fails(self.bake(self.write_tour(more=f"[painting]\n{table}\n")), *words)
+
+    def test_what_is_not_installed_beside_the_programs_is_named(self):
+        (self.folder / "avatar.glb").write_text("never read")
+        write_box_town(self.folder / "town.glb")
+        write_png(self.folder / "red.png", 255, 0, 0)
+        alone = self.folder / "bin"
+        alone.mkdir()
+        for program in ("flaneur", "flaneur-bake"):
+            shutil.copy2(BIN / program, alone)
+        command = [alone / "flaneur", "bake", self.write_tour(more='[painting]\nfile = "red.png"\n'), "-o", self.folder / "out"]
+        result = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
+        self.assert_fails(result, "flaneur_pictures.so", "install")
 
     def test_a_bad_source_stops_the_bake_in_one_line(self):
         self.with_avatar()
