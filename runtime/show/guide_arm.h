@@ -1,16 +1,19 @@
 // The arm with which the guide carries the banner, whatever skeleton the figure has. Internal to runtime/show.
 #pragma once
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "runtime/pack/tour_pack.h"
 
 namespace flaneur {
 
-// The right one, bent so that the hand is before the body. Places in avatar axes (x to the left, y up, z ahead) as they
-// are while the trunk rests.
+// The right one, bent so that the hand is before the body; where the skeleton names a thumb, it points up and the
+// fingers are closed. Places in avatar axes (x to the left, y up, z ahead) as they are while the trunk rests.
 struct CarryingArm {
   int trunk = -1, shoulder = -1, elbow = -1, hand = -1;  // joints
-  Mat4 upper, fore;                                      // from the rest pose to the bent arm
+  std::vector<std::pair<int, Mat4>> bent;                // all the arm's joints: from the rest pose to the bent arm
+  Mat4 hand_bent;                                        // of them the hand's
   Vec3 grip_m;                                           // what the hand is closed round
 };
 

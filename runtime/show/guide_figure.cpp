@@ -50,7 +50,7 @@ Carrier CarrierOf(const PackMesh& finest, const PackAvatar& figure) {
   Carrier hand;
   hand.pole = arm->grip_m;
   hand.joints[0] = static_cast<uint16_t>(arm->hand);
-  hand.to_rest = Inverse(arm->fore);
+  hand.to_rest = Inverse(arm->hand_bent);
   hand.foot = kFootInHand, hand.left = kLeftInHand, hand.right = kRightInHand;
   return hand;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "runtime/show/guide_arm.h"
@@ -143,6 +144,17 @@ TEST(GuideOfTheDemo, CarriesTheBannerInTheHand) {
     ASSERT_TRUE(arm) << avatar.name;
     EXPECT_LT(arm->grip_m.x, -0.1f * avatar.height_m) << avatar.name;
     EXPECT_GT(arm->grip_m.z, 0.05f * avatar.height_m) << avatar.name;
+    int fingers = 0;
+    for (const auto& [joint, bent] : arm->bent) {
+      const PackJoint& j = avatar.skeleton[static_cast<size_t>(joint)];
+      if (joint == arm->hand || j.parent == arm->hand) continue;
+      ++fingers;
+      const Vec3 at = TransformPoint(bent, j.rest_m), from = arm->grip_m;
+      if (j.name.find("finger") != 0) continue;
+      EXPECT_LT(std::hypot(at.x - from.x, at.z - from.z), 0.045f)
+          << avatar.name << ": " << j.name << " is round the pole";
+    }
+    EXPECT_GE(fingers, 1) << avatar.name;
   }
 }
 
