@@ -19,7 +19,7 @@ constexpr float kGrip = 0.045f;                      // from the wrist on
 constexpr float kOnPalm = 0.016f;       // of the height: from the wrist's bones to what lies on the palm
 constexpr float kMostTwist_rad = 1.7f;  // of the hand, half of it the forearm's
 // A closed hand's joints, from the knuckles on; degrees, as a hand round a stick of 3 cm has them.
-constexpr float kFingers_deg[] = {62, 78, 40}, kThumb_deg[] = {40, 20, 10};
+constexpr float kFingers_deg[] = {72, 88, 40}, kThumb_deg[] = {40, 20, 10};
 constexpr Vec3 kHand{-0.16f, -0.60f, 0.55f}, kElbow{-0.35f, -0.6f, -0.7f};
 
 size_t I(int joint) { return static_cast<size_t>(joint); }
@@ -115,18 +115,16 @@ struct HandAxes {
   Vec3 fingers, thumb, palm;
 };
 
-// None without a joint that is called a thumb, and one that is not.
-std::optional<HandAxes> AxesOf(const std::vector<PackJoint>& s, int hand) {
-  const Vec3 at = s[I(hand)].rest_m;
-  Vec3 fingers{}, thumb{};
+// Thumbs point ahead in all rest poses, arms down or stretched out; few skeletons have a joint there. None where the
+// fingers point ahead themselves.
+std::optional<HandAxes> AxesOf(const std::vector<PackJoint>& s, const CarryingArm& arm) {
+  const Vec3 at = s[I(arm.hand)].rest_m;
+  Vec3 fingers = (at - s[I(arm.elbow)].rest_m) * 0.01f;  // where there are no fingers
   for (size_t j = 0; j < s.size(); ++j) {
-    const int joint = static_cast<int>(j);
-    if (joint == hand || !HangsOn(s, joint, hand)) continue;
-    (IsCalledThumb(s[j].name) ? thumb : fingers) = (IsCalledThumb(s[j].name) ? thumb : fingers) + (s[j].rest_m - at);
+    if (HangsOn(s, static_cast<int>(j), arm.hand) && !IsCalledThumb(s[j].name)) fingers = fingers + (s[j].rest_m - at);
   }
-  if (Length(fingers) < 1e-4f || Length(thumb) < 1e-4f) return std::nullopt;
-  const Vec3 way = Normalized(fingers), beside = thumb - way * Dot(thumb, way);
-  if (Length(beside) < 1e-4f) return std::nullopt;
+  const Vec3 way = Normalized(fingers), beside = Vec3{0, 0, 1} - way * way.z;
+  if (Length(beside) < 0.3f) return std::nullopt;
   return HandAxes{way, Normalized(beside), Normalized(Cross(beside, way))};
 }
 
@@ -155,7 +153,7 @@ float Twist_rad(const Bent& bent, const HandAxes& axes) {
 }
 
 void PlaceJoints(const std::vector<PackJoint>& s, float height_m, const Bent& bent, CarryingArm* arm) {
-  const std::optional<HandAxes> axes = AxesOf(s, arm->hand);
+  const std::optional<HandAxes> axes = AxesOf(s, *arm);
   const Vec3 way = Normalized(bent.hand - bent.elbow);
   const float twist_rad = axes ? Twist_rad(bent, *axes) : 0;
   const auto twisted = [&](float share) {

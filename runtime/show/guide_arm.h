@@ -8,8 +8,8 @@
 
 namespace flaneur {
 
-// The right one, bent so that the hand is before the body; where the skeleton names a thumb, it points up and the
-// fingers are closed. Places in avatar axes (x to the left, y up, z ahead) as they are while the trunk rests.
+// The right one, bent so that the hand is before the body, the thumb above and the fingers closed. Places in avatar
+// axes (x to the left, y up, z ahead) as they are while the trunk rests.
 struct CarryingArm {
   int trunk = -1, shoulder = -1, elbow = -1, hand = -1;  // joints
   std::vector<std::pair<int, Mat4>> bent;                // all the arm's joints: from the rest pose to the bent arm
