@@ -33,6 +33,9 @@ bool IsCalledHand(const std::string& n) {
   return (Has(n, "hand") || Has(n, "wrist")) && !Has(n, "ik") && !Has(n, "finger") && !Has(n, "thumb");
 }
 
+// Where tools and weapons are hung into a hand.
+bool IsForThings(const std::string& n) { return Has(n, "slot") || Has(n, "weapon") || Has(n, "prop") || Has(n, "ik"); }
+
 // "finger1" as MakeHuman counts them.
 bool IsCalledThumb(const std::string& name) { return Has(name, "thumb") || Has(name, "finger1"); }
 
@@ -121,7 +124,8 @@ std::optional<HandAxes> AxesOf(const std::vector<PackJoint>& s, const CarryingAr
   const Vec3 at = s[I(arm.hand)].rest_m;
   Vec3 fingers = (at - s[I(arm.elbow)].rest_m) * 0.01f;  // where there are no fingers
   for (size_t j = 0; j < s.size(); ++j) {
-    if (HangsOn(s, static_cast<int>(j), arm.hand) && !IsCalledThumb(s[j].name)) fingers = fingers + (s[j].rest_m - at);
+    const bool finger = !IsCalledThumb(s[j].name) && !IsForThings(s[j].name);
+    if (finger && HangsOn(s, static_cast<int>(j), arm.hand)) fingers = fingers + (s[j].rest_m - at);
   }
   const Vec3 way = Normalized(fingers), beside = Vec3{0, 0, 1} - way * way.z;
   if (Length(beside) < 0.3f) return std::nullopt;
@@ -137,7 +141,7 @@ Mat4 Closed(const std::vector<PackJoint>& s, const CarryingArm& arm, const HandA
   }
   const Mat4 above = Closed(s, arm, axes, s[I(joint)].parent, finger);
   const PackJoint& j = s[I(joint)];
-  if (Has(j.name, "metacarpal") || *finger >= std::size(kFingers_deg)) return above;
+  if (Has(j.name, "metacarpal") || IsForThings(j.name) || *finger >= std::size(kFingers_deg)) return above;
   const bool thumb = IsCalledThumb(j.name);
   const float turn_rad = kPi / 180 * (thumb ? kThumb_deg : kFingers_deg)[(*finger)++];
   const Vec3 axis = Cross(thumb ? axes.thumb : axes.fingers, axes.palm);
