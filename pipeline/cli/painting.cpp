@@ -7,7 +7,6 @@
 #include "pipeline/pictures/picture_files.h"
 #include "runtime/base/array.h"
 #include "runtime/base/png.h"
-#include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
@@ -31,7 +30,7 @@ uint8_t Beyond(int value, int others, int alpha) {
   return static_cast<uint8_t>(strength < kMinColor ? 0 : strength);
 }
 
-Error ReadPicture(const fs::path& file, Picture* picture) {
+Error ReadPaint(const fs::path& file, Picture* picture) {
   int channels = 0;
   std::vector<uint8_t> values;
   const auto accept = [&](const PictureShape& shape) {
@@ -42,7 +41,7 @@ Error ReadPicture(const fs::path& file, Picture* picture) {
                ? Fail(file.string() + ": has no colours; paint red where people go and green where they stand about")
                : Ok();
   };
-  if (Error e = flaneur::ReadPicture(file, accept, &values)) return e;
+  if (Error e = ReadPicture(file, accept, &values)) return e;
   const size_t pixels = static_cast<size_t>(picture->width) * static_cast<size_t>(picture->height);
   picture->red.resize(pixels);
   picture->green.resize(pixels);
@@ -128,7 +127,7 @@ void FillRow(const Obstacle& o, const GroundRaster& g, int row, Visit visit) {
 Error ReadPainting(const PaintingSettings& settings, const GroundRaster& ground, Painting* out) {
   const std::string name = settings.file.string() + ": ";
   Picture picture;
-  if (Error e = ReadPicture(settings.file, &picture)) return e;
+  if (Error e = ReadPaint(settings.file, &picture)) return e;
   const Vec2 ground_size_m{static_cast<float>(ground.columns) * ground.cell_m,
                            static_cast<float>(ground.rows) * ground.cell_m};
   Painting p;
