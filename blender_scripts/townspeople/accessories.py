@@ -23,11 +23,15 @@ def belt(tailor, name, at, height=0.04, thickness=0.010, ease=0.004, columns=40,
             for ray in tl.direction(angles)
         ]
         rings.append(tl.circular_blur(np.array(reach), 1))
-    high, low = (np.maximum(rings[i], rings[1] - 0.004 * size) + ease * size for i in (0, 2))
+    high, middle, low = (np.maximum(ring, rings[1] - half) + ease * size for ring in rings)
+    bevel = 0.12 * half
     shape = (
-        (half, high, -0.006),
-        (half, high, thickness),
-        (-half, low, thickness),
+        (half, high, -0.012),
+        (half, high, thickness - 0.003),
+        (half - bevel, high, thickness),
+        (0.0, middle, thickness),
+        (bevel - half, low, thickness),
+        (-half, low, thickness - 0.003),
         (-half, low, -0.006),
     )
     points = np.array(
@@ -36,11 +40,26 @@ def belt(tailor, name, at, height=0.04, thickness=0.010, ease=0.004, columns=40,
             for dz, reach, out in shape
         ]
     )
-    flat = points.reshape(-1, 3)
-    weights = tl.as_worn(tailor, flat).reshape(len(shape), columns, -1)
+    weights = tl.as_worn(tailor, points.reshape(-1, 3)).reshape(len(shape), columns, -1)
+    points[1:6] += _room_in_every_pose(tailor, points[1:6], weights[1:6], centre[2])
     tailor.worn["belt " + name] = sf.grid(
-        points, weights, cell, sf.mirrored_u(angles), [0.0, 0.2, 0.8, 1.0]
+        points, weights, cell, sf.mirrored_u(angles), [0.0, 0.15, 0.2, 0.5, 0.8, 0.85, 1.0]
     )
+
+
+def _room_in_every_pose(tailor, points, weights, z):
+    """How far a band's rows have to go out, all alike, for a belly that moves not to come through."""
+    size = tailor.size
+    worn = tl.beneath(tailor, ("upper", "skirt", "plate"))
+    if worn is None:
+        return 0.0
+    near = sf.face_least(np.abs(worn.vertices[:, 2] - z) < 0.08 * size, worn.faces)
+    if not near.any():
+        return 0.0
+    inner = sf.keep_faces(worn, near)
+    ways = tl.outward_of(tailor, points)
+    moved = clearance.cleared(points, weights, ways, inner, tailor.poses, 0.003 * size, 0.012 * size)
+    return ways * np.linalg.norm(moved - points, axis=-1).max(axis=0)[:, None]
 
 
 def cord(tailor, name, start, end, angle_deg, radius=0.011, out=0.02, cell="belt"):

@@ -11,6 +11,7 @@ from townspeople import tailor as tl
 from townspeople.body import joint_share
 
 
+WAISTBAND_M = 0.10  # below a skirt's top, within which it comes to hang freely
 WIDE_HEM_M = 0.06  # radius of a sleeve's end that one can look into
 
 
@@ -279,7 +280,7 @@ def skirt(
     weights = (weights * (1 - top_share) + worn_weights * top_share).reshape(rows, columns, -1)
     legs = tl.beneath(tailor, ("legs", "trousers", "skirt", "shoes"))
     if legs is not None:
-        points = clearance.cleared(
+        cleared = clearance.cleared(
             points,
             weights,
             tl.outward_of(tailor, points),
@@ -288,6 +289,8 @@ def skirt(
             0.008 * size,
             0.08 * size,
         )
+        held = sf.smoothstep(0.0, WAISTBAND_M * size, z_rows[0] - z_rows)  # 0 where a band holds it
+        points += (cleared - points) * held[:, None, None]
     tailor.grids[name] = (points, weights, angles)
     if not hidden:
         tailor.worn["skirt " + name] = _with_hem(points, weights, angles, cell, size)
@@ -323,8 +326,10 @@ def trousers(tailor, name, bottom, ease=0.004, puff=0.0, smooth=6, cell="trouser
     low, top = tailor.height(bottom), tailor.height("waist")
     base = sf.keep_faces(base, base_above(base, low))
     place = np.clip((base.vertices[:, 2] - low) / (tailor.height("crotch") - low), 0.0, 1.3)
+    gathered = 1.0 - sf.smoothstep(1.0, 1.25, place)
     base = sf.offset(
-        base, size * (ease + puff * np.clip(np.sin(np.pi * np.minimum(place, 1.0) * 0.8), 0, 1))
+        base,
+        size * (ease + gathered * puff * np.clip(np.sin(np.pi * np.minimum(place, 1.0) * 0.8), 0, 1)),
     )
     corner_uv = []
     for face in base.faces:

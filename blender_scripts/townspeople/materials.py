@@ -154,7 +154,7 @@ def paint(
         picture = _blend(picture, 0.8 * (np.clip(motif * 3, 0, 1)), damask)
     if stripes is not None:
         wave = np.sin(u * 2 * np.pi * stripes[0]) - 0.2
-        picture = _blend(picture, (0.5 + 2 * wave) * np.ones_like(v), stripes[1])
+        picture = _blend(picture, (0.5 + 8 * wave) * np.ones_like(v), stripes[1])
     for start, end, trim_colour in trim:
         inside = np.minimum(v - start, (end - v) if end < 1 else 1.0)
         picture = _blend(picture, (0.5 + inside * h / 2) * np.ones_like(u), trim_colour)

@@ -49,11 +49,11 @@ PEOPLE = {
         "dyes": {"doublet": ["upper", "overskirt", "sleeve"], "cloak": ["cape"]},
         "cloth": {
             "upper": dyed("velvet", (0.35, 0.10, 0.11),
-                          placket=[0.03, (0.28, 0.06, 0.07), 12, (0.54, 0.36, 0.19)]),
+                          placket=[0.03, (0.27, 0.077, 0.085), 12, (0.54, 0.36, 0.19)]),
             "overskirt": dyed("velvet", (0.35, 0.10, 0.11),
                               trim=[[0.76, 1.0, (0.50, 0.39, 0.20)]]),
             "sleeve": dyed("velvet", (0.35, 0.10, 0.11), trim=[[0.87, 1.0, (0.62, 0.54, 0.46)]],
-                           stripes=[2, (0.30, 0.07, 0.08)]),
+                           stripes=[2, (0.295, 0.084, 0.093)]),
             "trousers": dyed("wool", (0.17, 0.14, 0.13), stripes=[3, (0.23, 0.185, 0.16)]),
             "hose": dyed("wool", (0.28, 0.25, 0.22)), "cape": dyed("wool", (0.165, 0.155, 0.165)),
             "lining": dyed("linen", (0.42, 0.12, 0.11)),
@@ -411,6 +411,7 @@ PEOPLE = {
             {"piece": "cape", "name": "cloak", "top_deg": 66, "bottom_deg": 0, "ease": 0.028,
              "open_deg": 104, "stand_off": 0.06,
              "hem": ["knee", 0.0], "flare": 0.05, "folds": 9, "fold_depth": 0.045, "hang_rows": 9},
+            dict(YOKE, cell="cape"),
             {"piece": "hat", "name": "cap", "sit": 0.024, "tilt_deg": -8, "profile": [
                 [0, 0, 0.088], [0.6, 0, 0.085], [1.0, 0.024, 0.060], [1.0, 0.036, 0.026],
                 [1.0, 0.010, 0.004], [1.0, 0.008, -0.016],

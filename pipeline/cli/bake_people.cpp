@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr float kFullHeight_m = 1.75f;   // of a grown-up: all are seen at the same distances, children and dogs smaller
 constexpr int kUnseen_px = 16;           // of an impostor that nobody sees
 constexpr float kMinTintShare = 0.005f;  // of the surface
 
@@ -88,11 +89,12 @@ bool StandsOnly(const AvatarSettings& avatar, const Baking& baking) {
 ImpostorOptions OptionsOf(const Baking& baking, size_t i) {
   const AvatarSettings& settings = baking.settings.avatars[i];
   ImpostorOptions options = baking.settings.impostor;
-  options.threads = 1;  // one avatar a core
+  options.full_height_m = kFullHeight_m;
   for (const ClipSettings& clip : settings.clips)
     options.clips.push_back({clip.name, clip.speed_mps > 0 ? options.clips.front().phases : options.work_phases});
   if (IsBirdOnly(settings, baking)) {
     options.height_px = kUnseen_px;
+    options.full_height_m = 0;
     for (ImpostorClipOptions& clip : options.clips) clip.phases = 1;
   } else if (StandsOnly(settings, baking)) {
     for (ImpostorClipOptions& clip : options.clips) clip.phases = clip.name == "idle" ? clip.phases : 1;
@@ -103,6 +105,7 @@ ImpostorOptions OptionsOf(const Baking& baking, size_t i) {
 Error MakeImpostor(Baking* baking, size_t i, Step* step, StageReport* report, Warnings* warnings) {
   TourAvatar* avatar = &baking->parts.avatars[i];
   ImpostorOptions options = OptionsOf(*baking, i);
+  options.threads = step->cores;
   options.progress = [step](double share) { step->progress = share; };
   ImpostorStatistics statistics;
   if (Error e = BakeImpostor(avatar->levels.avatar, options, &avatar->impostor, &statistics, warnings)) return e;

@@ -43,6 +43,7 @@ struct Step {
   StoreEntry entry;  // where in_store
   bool in_store = false, done = false;
   bool left_out = false;             // nobody asks for its result in this run
+  int cores = 1;                     // that it may use: more where nothing else could
   std::atomic<double> progress = 0;  // share, where it tells
   std::mutex mutex;                  // held while it is done
   StageReport report;

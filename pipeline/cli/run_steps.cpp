@@ -75,6 +75,14 @@ Task* Next(Queue* queue) {
   return best;
 }
 
+// For one that begins now: those that no other step wants.
+int IdleCores(Queue* queue) {
+  const auto ready =
+      std::count_if(queue->tasks.begin(), queue->tasks.end(), [&](Task& t) { return IsReady(*queue, &t); });
+  const int wanted = static_cast<int>(queue->running) + static_cast<int>(ready);
+  return std::max(1, 1 + static_cast<int>(queue->limits.at_a_time) - wanted);
+}
+
 void LeaveOut(Queue* queue, size_t tour) {
   for (Task& task : queue->tasks) {
     if (task.tour == tour && task.state == State::kWaits) task.state = State::kDone;
@@ -107,6 +115,7 @@ void Work(Queue* queue, const std::vector<Baking*>& bakings, Progress* progress,
     queue->keys.insert(task->key);
     queue->memory_mb += task->cost.memory_mb;
     ++queue->running;
+    task->step->cores = IdleCores(queue);
     lock.unlock();
     progress->Begin(*task->step);
     Error error = DoStepSafely(bakings[task->tour]->store, task->step);

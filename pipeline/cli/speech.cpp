@@ -6,6 +6,7 @@
 #include "pipeline/core/fingerprint.h"
 #include "pipeline/core/subprocess.h"
 #include "pipeline/core/temporary_folder.h"
+#include "pipeline/io/sound_file.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
 
@@ -13,7 +14,8 @@ namespace flaneur {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kVersion = "1";  // changed when the same text comes out otherwise
+constexpr double kLoudness_lufs = -18, kMostPeak_dbtp = -2;  // as loud as recordings of speakers are (EBU R 128)
+constexpr const char* kVersion = "2";                        // changed when the same text comes out otherwise
 
 std::string ProgramOnPathSha256(const Store& store, const std::string& program) {
   const char* folders = std::getenv("PATH");
@@ -55,13 +57,13 @@ Error Speak(const Speech& speech, const Store& store, fs::path* file) {
                          text.string(), "-w", wave.string()},
                         log))
     return Fail("voice '" + OneLine(speech.voice) + "': " + e.message);
-  // As loud as recordings of speakers are (EBU R 128), without the silence around.
-  if (Error e = RunTool(
-          {"ffmpeg",  "-nostdin",  "-v",        "error", "-i",      wave.string(), "-af", "loudnorm=I=-18:TP=-2", "-ar",
-           "24000",   "-ac",       "1",         "-c:a",  "libopus", "-b:a",        "28k", "-map_metadata",        "-1",
-           "-fflags", "+bitexact", ogg.string()},
-          log))
-    return e;
+  double gain_db = 0;
+  if (Error e = GainToLoudness_db(wave, kLoudness_lufs, kMostPeak_dbtp, &gain_db)) return e;
+  std::vector<std::string> encode = {"ffmpeg", "-nostdin", "-v", "error", "-i", wave.string()};
+  encode.insert(encode.end(), {"-af", "volume=" + std::to_string(gain_db) + "dB", "-ar", "24000", "-ac", "1"});
+  encode.insert(encode.end(), {"-c:a", "libopus", "-b:a", "28k"});
+  encode.insert(encode.end(), {"-map_metadata", "-1", "-fflags", "+bitexact", ogg.string()});
+  if (Error e = RunTool(encode, log)) return e;
   return PutEntry(store, key, entry, "", ogg);
 }
 

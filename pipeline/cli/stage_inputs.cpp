@@ -102,13 +102,14 @@ std::string ImpostorInputs(const AvatarSettings& avatar, const std::string& cont
       .AddFile(BlenderScriptsFolder() / "bake")
       .AddFile(BlenderScriptsFolder() / "common");
   AddReading(avatar, content, &print);
-  const auto& [directions, elevations_deg, clips, work_phases, height_px, border_px, memory_kb, samples, seed, threads,
-               log_file, progress] = impostor;
+  const auto& [directions, elevations_deg, clips, work_phases, height_px, full_height_m, border_px, memory_kb, samples,
+               seed, threads, log_file, progress] = impostor;
   AddAll(elevations_deg, &print);
   for (const ImpostorClipOptions& clip : clips) print.Add(clip.name).Add(clip.phases);
   return print.Add(max_triangles)
       .Add(directions)
       .Add(height_px)
+      .Add(full_height_m)
       .Add(border_px)
       .Add(memory_kb)
       .Add(samples)
@@ -119,7 +120,7 @@ std::string ImpostorInputs(const AvatarSettings& avatar, const std::string& cont
 std::string TintInputs(const AvatarSettings& avatar, const std::string& avatar_inputs,
                        const std::string& impostor_inputs) {
   Fingerprint print;
-  print.Add("tint").Add(avatar_inputs).Add(impostor_inputs);
+  print.Add("tint2").Add(avatar_inputs).Add(impostor_inputs);
   for (const Tint& tint : avatar.tints) {
     print.Add(tint.color.x).Add(tint.color.y).Add(tint.color.z).Add(tint.reach);
     for (const Vec3& color : tint.colors) print.Add(color.x).Add(color.y).Add(color.z);

@@ -64,6 +64,7 @@ void ReadTint(TomlTable table, AvatarSettings* avatar) {
     table.Refuse("an [[avatar.tint]] needs the color of a cloth, and colors, one to eight, that others wear it in");
   }
   table.Finish();
+  tint.by_material = !materials.empty();
   avatar->tints.push_back(std::move(tint));
   avatar->tint_materials.push_back(std::move(materials));
 }

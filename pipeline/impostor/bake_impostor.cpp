@@ -14,6 +14,7 @@
 #include "pipeline/pictures/picture_files.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/base/jobs.h"
 
 namespace flaneur {
 namespace {
@@ -23,6 +24,7 @@ using nlohmann::json;
 
 constexpr int kMaxAtlasPixels = 8192;    // what every desktop graphics card takes
 constexpr int kPicturePixels = 1 << 21;  // that Blender renders at once
+constexpr float kMaxShrink = 4;          // of a low person's cells
 constexpr float kMaxTexels =
     3;  // of a person's picture, a texel of the atlas: players filter as much where the impostor takes over
 
@@ -35,6 +37,7 @@ Error CheckRange(const char* name, double value, double least, double most) {
 Error CheckOptions(const ImpostorOptions& options) {
   if (Error e = CheckRange("directions", options.directions, 1, 64)) return e;
   if (Error e = CheckRange("height_px", options.height_px, 16, 1024)) return e;
+  if (Error e = CheckRange("full_height_m", static_cast<double>(options.full_height_m), 0, 10)) return e;
   if (Error e = CheckRange("border_px", options.border_px, 1, 16)) return e;
   if (Error e = CheckRange("height_px less both borders", options.height_px - 2 * options.border_px, 8, 1024)) {
     return e;
@@ -76,8 +79,9 @@ Error LayOut(const ViewGeometry& geometry, const ImpostorOptions& options, Impos
   atlas->frames = geometry.frames;
   atlas->clips = geometry.clips;
   const auto views = MeasureViews(geometry, options.directions, options.elevations_deg);
-  const float height_m = HeightOf(views);
-  if (!(height_m > 0)) return Fail("impostor: the avatar is flat; nothing stands upright in it");
+  const float own_m = HeightOf(views);
+  if (!(own_m > 0)) return Fail("impostor: the avatar is flat; nothing stands upright in it");
+  const float height_m = std::clamp(options.full_height_m, own_m, kMaxShrink * own_m);
   const size_t most_bytes = static_cast<size_t>(options.memory_kb) * 1000;
   const int wanted_px = options.height_px - 2 * options.border_px;
   for (int inner_px = wanted_px; 2 * inner_px >= wanted_px; --inner_px) {
@@ -191,7 +195,7 @@ fs::path BandPath(const fs::path& folder, int band) {
   return folder / ("band_" + digits + ".exr");
 }
 
-Error Assemble(const fs::path& folder, ImpostorAtlas* atlas, ImpostorStatistics* statistics) {
+Error Assemble(const fs::path& folder, int threads, ImpostorAtlas* atlas, ImpostorStatistics* statistics) {
   AtlasLevel finest{atlas->width_px, atlas->height_px, {}};
   finest.texels.resize(static_cast<size_t>(finest.width) * static_cast<size_t>(finest.height));
   const int rows = BandRows(*atlas);
@@ -206,7 +210,8 @@ Error Assemble(const fs::path& folder, ImpostorAtlas* atlas, ImpostorStatistics*
   std::vector<AtlasLevel> levels = MakeLevels(std::move(finest));
   FillGutters(&levels);
   KeepCoverage(&levels, kAtlasLevels);
-  CompressAtlas(levels, atlas);
+  Jobs others((threads > 0 ? static_cast<size_t>(threads) : ThreadsOfThisMachine()) - 1);
+  CompressAtlas(levels, &others, atlas);
   return EncodeAtlas(levels.front(), atlas);
 }
 
@@ -284,7 +289,7 @@ Error BakeImpostor(const Avatar& avatar, const ImpostorOptions& options, Imposto
   if (Error error = RunBlenderScript("bake/impostor.py", settings.dump(1), blender, &process)) {
     return Fail("avatar '" + avatar.name + "': " + error.message);
   }
-  if (Error error = Assemble(folder.path(), &made, statistics)) return error;
+  if (Error error = Assemble(folder.path(), options.threads, &made, statistics)) return error;
   statistics->frames = made.frames;
   statistics->cells = made.frames * made.directions * Count(made.elevations_deg);
   statistics->triangles = Count(geometry.materials);

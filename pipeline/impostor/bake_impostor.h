@@ -22,13 +22,14 @@ struct ImpostorOptions {
   int directions = 16;                   // 1 to 64
   std::vector<float> elevations_deg{3};  // 1 to 8 of them, -89 to 89: a grown-up sees a person 15 m away from 3 above
   std::vector<ImpostorClipOptions> clips{{"walk", 8}, {"idle", 2}, {"talk", 2}};
-  int work_phases = 2;   // of each further clip that whoever bakes adds
-  int height_px = 128;   // of the highest cell, 16 to 1024
-  int border_px = 1;     // left empty around the silhouette in each cell, 1 to 16
+  int work_phases = 2;      // of each further clip that whoever bakes adds
+  int height_px = 128;      // of the highest cell, 16 to 1024
+  float full_height_m = 0;  // who is lower has lower cells, down to a quarter, with texels as small as at this height
+  int border_px = 1;        // left empty around the silhouette in each cell, 1 to 16
   int memory_kb = 6000;  // most on the graphics card: where more is needed, cells are lower, down to half; 0: no limit
   int samples = 16;      // a pixel, 1 to 4096; coverage comes in as many steps
   int seed = 0;          // of the sample pattern, >= 0
-  int threads = 0;       // of Blender, 0: one a core; the atlas does not depend on it
+  int threads = 0;       // 0: one a core; the atlas does not depend on it
   std::filesystem::path log_file;        // keeps what Blender printed; empty: nobody needs it
   std::function<void(double)> progress;  // gets the share that is done, a few times a second; may be empty
 };

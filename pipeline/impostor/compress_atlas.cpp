@@ -10,6 +10,7 @@
 #include "pipeline/impostor/view_geometry.h"
 #include "pipeline/pictures/picture_files.h"
 #include "runtime/base/array.h"
+#include "runtime/base/jobs.h"
 #include "runtime/pack/ktx2.h"
 
 namespace flaneur {
@@ -31,11 +32,13 @@ std::array<uint8_t, 4> TintBytes(const AtlasTexel& texel) {
 using Block = std::array<const AtlasTexel*, 16>;
 
 // A level, block by block; at its edge the last texels are repeated.
-std::vector<uint8_t> CompressLevel(const AtlasLevel& level, TextureFormat format,
+std::vector<uint8_t> CompressLevel(const AtlasLevel& level, TextureFormat format, Jobs* jobs,
                                    const std::function<void(const Block&, uint8_t*)>& compress) {
   std::vector<uint8_t> out(LevelBytes(format, level.width, level.height));
-  uint8_t* at = out.data();
-  for (int top = 0; top < level.height; top += 4) {
+  const size_t across = static_cast<size_t>(level.width + 3) / 4, down = static_cast<size_t>(level.height + 3) / 4;
+  ParallelFor(jobs, down, [&](size_t row) {
+    const int top = static_cast<int>(4 * row);
+    uint8_t* at = out.data() + row * across * BlockBytes(format);
     for (int left = 0; left < level.width; left += 4, at += BlockBytes(format)) {
       Block block{};
       for (int i = 0; i < 16; ++i) {
@@ -44,7 +47,7 @@ std::vector<uint8_t> CompressLevel(const AtlasLevel& level, TextureFormat format
       }
       compress(block, at);
     }
-  }
+  });
   return out;
 }
 
@@ -74,11 +77,11 @@ void CompressNormal(const Block& block, uint8_t* out) {
       block, [](const AtlasTexel& t) { return SquareFromNormal(t.normal).y; }, out + 8);
 }
 
-std::vector<uint8_t> Ktx2(const std::vector<AtlasLevel>& levels, size_t first, TextureFormat format,
+std::vector<uint8_t> Ktx2(const std::vector<AtlasLevel>& levels, size_t first, TextureFormat format, Jobs* jobs,
                           const std::function<void(const Block&, uint8_t*)>& compress) {
   PackTexture texture{format, levels[first].width, levels[first].height, {}};
   for (size_t k = first; k < std::min(levels.size(), size_t{kAtlasLevels}); ++k) {
-    texture.levels.push_back(CompressLevel(levels[k], format, compress));
+    texture.levels.push_back(CompressLevel(levels[k], format, jobs, compress));
   }
   return WriteKtx2(texture, Supercompression::kZstandard);
 }
@@ -92,16 +95,16 @@ Vec2 SquareFromNormal(Vec3 n) {
   return {0.5f + 0.5f * (n.x + n.y) / sum, 0.5f + 0.5f * (n.x - n.y) / sum};
 }
 
-void CompressAtlas(const std::vector<AtlasLevel>& levels, ImpostorAtlas* atlas) {
+void CompressAtlas(const std::vector<AtlasLevel>& levels, Jobs* jobs, ImpostorAtlas* atlas) {
   const auto share = [](float value, float range) { return 0.5f + 0.5f * value / range; };
   const auto compress_albedo = [](const Block& block, uint8_t* out) { CompressColors(block, AlbedoBytes, out); };
-  atlas->albedo_ktx2 = Ktx2(levels, 0, TextureFormat::kBc7Srgb, compress_albedo);
-  atlas->normal_ktx2 = Ktx2(levels, 0, TextureFormat::kBc5, CompressNormal);
-  atlas->depth_ktx2 = Ktx2(levels, 0, TextureFormat::kBc4, [&](const Block& block, uint8_t* out) {
+  atlas->albedo_ktx2 = Ktx2(levels, 0, TextureFormat::kBc7Srgb, jobs, compress_albedo);
+  atlas->normal_ktx2 = Ktx2(levels, 0, TextureFormat::kBc5, jobs, CompressNormal);
+  atlas->depth_ktx2 = Ktx2(levels, 0, TextureFormat::kBc4, jobs, [&](const Block& block, uint8_t* out) {
     CompressChannel(
         block, [&](const AtlasTexel& t) { return share(t.depth_m, atlas->depth_range_m); }, out);
   });
-  atlas->motion_ktx2 = Ktx2(levels, 1, TextureFormat::kBc7, [&](const Block& block, uint8_t* out) {
+  atlas->motion_ktx2 = Ktx2(levels, 1, TextureFormat::kBc7, jobs, [&](const Block& block, uint8_t* out) {
     const float motion_m = atlas->motion_range_m, bend_m = atlas->bend_range_m;
     CompressColors(
         block,
@@ -113,7 +116,7 @@ void CompressAtlas(const std::vector<AtlasLevel>& levels, ImpostorAtlas* atlas) 
         out);
   });
   if (!atlas->tint_regions) return;
-  atlas->tints_ktx2 = Ktx2(levels, 1, TextureFormat::kBc7,
+  atlas->tints_ktx2 = Ktx2(levels, 1, TextureFormat::kBc7, jobs,
                            [](const Block& block, uint8_t* out) { CompressColors(block, TintBytes, out); });
 }
 

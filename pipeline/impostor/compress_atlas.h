@@ -5,6 +5,7 @@
 #include "pipeline/core/impostor.h"
 #include "pipeline/impostor/atlas_layers.h"
 #include "runtime/base/error.h"
+#include "runtime/base/jobs.h"
 
 namespace flaneur {
 
@@ -13,8 +14,9 @@ namespace flaneur {
 // rim.
 Vec2 SquareFromNormal(Vec3 normal);
 
-// Fills in the four KTX2 files from levels as FillGutters and KeepCoverage leave them.
-void CompressAtlas(const std::vector<AtlasLevel>& levels, ImpostorAtlas* atlas);
+// Fills in the KTX2 files from levels as FillGutters and KeepCoverage leave them. `jobs` share the work; the same
+// bytes.
+void CompressAtlas(const std::vector<AtlasLevel>& levels, Jobs* jobs, ImpostorAtlas* atlas);
 
 // The two PNG files from the finest level. Errors: what OpenImageIO says.
 Error EncodeAtlas(const AtlasLevel& finest, ImpostorAtlas* atlas);

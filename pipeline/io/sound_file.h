@@ -18,6 +18,11 @@ struct SoundFile {
 // Errors: unreadable, none of these, broken, silent for want of samples, longer than an hour.
 Error ReadSoundFile(const std::filesystem::path& path, SoundFile* sound);
 
+// What makes a sound as loud as `loudness_lufs` by EBU R 128, or less where its peaks would pass `most_peak_dbtp`
+// (true peaks, ITU-R BS.1770); 0 for silence and what is shorter than 0.4 s. Errors: as of ReadSoundFile.
+Error GainToLoudness_db(const std::filesystem::path& path, double loudness_lufs, double most_peak_dbtp,
+                        double* gain_db);
+
 // Of the library that reads them.
 std::string SoundReaderVersion();
 

@@ -315,6 +315,7 @@ Tint ReadTint(const GltfFile& file, const TourObject& json) {
   if (json.Has("materials")) {
     const size_t materials = CountOf(file.json, "materials");
     tint.materials = json.Wholes("materials", 0, static_cast<double>(materials) - 1);
+    tint.by_material = true;
     if (tint.materials.empty()) json.Refuse("may dye none of the materials");
   }
   return tint;

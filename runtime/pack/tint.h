@@ -12,7 +12,8 @@ namespace flaneur {
 // Colours are compared as points without half of their lightness, since folds and dirt darken a cloth.
 Vec3 WithHalfLightness(Vec3 color);
 
-// How much of a colour is the tint's cloth: 1 within 0.7 of its reach from its colour, falling to 0 at its reach.
+// How much of a colour is the tint's cloth: 1 within 0.7 of its reach from its colour, falling to 0 at its reach. Of a
+// tint that is bound to materials, shadows of its colour are nearer: there no other garment or hair may have them.
 float TintShare(const Tint& tint, Vec3 color);
 
 // The colour after each tint has moved its share by the way from its own colour to another, which keeps weave and

@@ -177,7 +177,8 @@ void AddTints(const std::vector<Tint>& tints, AvatarView* view) {
   for (size_t t = 0; t < std::min(tints.size(), kMaxTints); ++t) {
     const Tint& tint = tints[t];
     const Vec3 color = WithHalfLightness(tint.color);
-    view->tints[t] = {color.x, color.y, color.z, 1 / (tint.reach * tint.reach)};
+    const float nearness = 1 / (tint.reach * tint.reach);
+    view->tints[t] = {color.x, color.y, color.z, tint.by_material ? -nearness : nearness};
     for (size_t k = 0; k < std::min(tint.colors.size(), kMaxTintColors); ++k) {
       const Vec3 shift = tint.colors[k] - tint.color;
       view->tint_shifts[t * kMaxTintColors + k] = {shift.x, shift.y, shift.z, 0};

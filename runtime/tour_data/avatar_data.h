@@ -21,6 +21,7 @@ struct Tint {
   float reach = 0.2f;               // kMinTintReach to 1: colours farther off than this are not dyed
   std::vector<Vec3> colors;         // in which others wear it; at least one
   std::vector<int> materials = {};  // of the pack, that alone it dyes; empty: all
+  bool by_material = false;         // it is bound to some: what is dark there is its cloth in shadow
 };
 
 inline constexpr size_t kMaxProps = 7;  // of an avatar

@@ -228,6 +228,32 @@ class TownspersonTest(unittest.TestCase):
                             self.assertLess(y - knee[1], 0.17)
         self.assertTrue(sitters or not self.of_the_demo)
 
+    def test_a_belt_lies_on_what_it_holds(self):
+        """Before the belly, where skirts that kept clear of the thighs began 7 cm off it and took the belt along."""
+        belted = 0
+        for glb in self.each():
+            names = [glb.json["nodes"][joint]["name"] for joint in glb.json["skins"][0]["joints"]]
+            arms = {k for k, name in enumerate(names) if name.startswith(("upperarm", "lowerarm", "wrist", "finger"))}
+            trim, others = [], []
+            for mesh in glb.json["meshes"]:
+                for primitive in mesh["primitives"] if mesh["name"].startswith("person_mesh") else []:
+                    of, name = primitive["attributes"], glb.json["materials"][primitive["material"]]["name"]
+                    for point, by, weights in zip(*(glb.values(of[a]) for a in ("POSITION", "JOINTS_0", "WEIGHTS_0"))):
+                        if name == "trim":
+                            trim.append(point)
+                        elif sum(w for j, w in zip(by, weights) if int(j) in arms) < 0.1:
+                            others.append(point)
+            waist = Pose(glb, {"channels": []}).of(glb.json["skins"][0]["joints"][names.index("spine03")])[0][1]
+            belt = [p for p in trim if abs(p[1] - waist) < 0.12]
+            front = [p for p in belt if abs(p[0]) < 0.06 and p[2] > 0]
+            if not front:
+                continue
+            belted += 1
+            top, out = max(p[1] for p in front), max(p[2] for p in front)
+            above = [p[2] for p in others if abs(p[0]) < 0.06 and top < p[1] < top + 0.06]
+            self.assertLess(out - max(above), 0.05)
+        self.assertTrue(belted or not self.of_the_demo)
+
     def test_speed_is_named(self):
         for glb in self.each():
             speeds = [

@@ -257,6 +257,18 @@ TEST_F(BoxImpostor, SilhouettesHaveTheirSize) {
   }
 }
 
+TEST_F(BoxImpostor, OfWhoIsLowHasTexelsAsLargeAsAGrownUps) {
+  ImpostorOptions options = SmallOptions();
+  options.full_height_m = 2 * 2 * kHalf.y;
+  ImpostorAtlas low;
+  ImpostorStatistics statistics;
+  const Error error = BakeImpostor(BoxAvatar(), options, &low, &statistics);
+  ASSERT_FALSE(error) << error.message;
+  EXPECT_NEAR(low.texel_m, 2 * atlas_.texel_m, 1e-4f);
+  for (size_t i = 0; i < low.cells.size(); ++i) EXPECT_LE(low.cells[i].height, 28) << i;
+  EXPECT_LT(low.width_px * low.height_px, atlas_.width_px * atlas_.height_px / 2);
+}
+
 TEST_F(BoxImpostor, GuttersCarryThePersonsColors) {
   for (int d = 1; d < 4; ++d) {  // cell 0 has two colours
     const ImpostorCell& cell = atlas_.cells[static_cast<size_t>(d)];

@@ -23,6 +23,17 @@ TEST(Tint, AFoldIsDyedWithItsCloth) {
   EXPECT_NEAR(Length(dyed_fold - dyed * 0.7f), 0, 1e-6f) << "of the same hue, as deep as before";
 }
 
+TEST(Tint, OfMaterialsDyesTheirDeepestShadowsToo) {
+  Tint bound = kBlue;
+  bound.by_material = true;
+  const Vec3 crease = kBlue.color * 0.3f;
+  EXPECT_LT(TintShare(kBlue, crease), 0.6f) << "as dark as hair may be";
+  EXPECT_EQ(TintShare(bound, crease), 1);
+  EXPECT_EQ(TintShare(bound, {0.78f, 0.75f, 0.70f}), 0) << "linen sewn to it";
+  const Vec3 dyed = Tinted({bound}, {1}, kBlue.color);
+  EXPECT_NEAR(Length(Tinted({bound}, {1}, crease) - dyed * 0.3f), 0, 1e-6f);
+}
+
 TEST(Tint, ChangesLittleWhereTheColourChangesLittle) {
   Vec3 before = Tinted({kBlue}, {1}, kBlue.color);
   for (int k = 1; k <= 500; ++k) {
