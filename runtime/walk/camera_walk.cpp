@@ -29,10 +29,11 @@ constexpr float kLooksAbout_s = 2.5f;  // after looking to the side, until the t
 constexpr float kGiveUpPoint_s = 3, kGiveUpFarPoint_s = 10, kFarPoint_m = 20;  // the longer the way, the more patient
 constexpr float kLooksAside_radps = 0.15f;  // from the guide, and so far: on the way, and from what there is to see
 constexpr float kMostAside_rad = 0.19f, kMostAsideAtHalt_rad = 0.08f;
-constexpr float kBack_rad = 2.3f;    // a turn of more goes by where the guide is
-constexpr float kStands = 0.05f;     // share of the pace
-constexpr float kSidestep_m = 0.7f;  // looked ahead when walking round people
-constexpr float kPatience_s = 1.5f;  // after which those who stand in the way move on
+constexpr float kBack_rad = 2.3f;          // a turn of more goes by where the guide is
+constexpr float kKeepsGuideWithin = 0.7f;  // of half the view
+constexpr float kStands = 0.05f;           // share of the pace
+constexpr float kSidestep_m = 0.7f;        // looked ahead when walking round people
+constexpr float kPatience_s = 1.5f;        // after which those who stand in the way move on
 constexpr float kLoitererYieldRadius_m = 2;
 constexpr float kSideways = 0.4f;  // share of the pace, of a guided visitor who still looks aside of the way
 constexpr float kBeforeSight_m = 2.2f,
@@ -234,6 +235,15 @@ void TurnBeside(float yaw_rad, float most_aside_rad, const VisitorInTown& v) {
   TurnForTour(back ? now_rad + std::copysign(kBack_rad / 2, guide_rad) : yaw_rad + visitor.looks_aside_rad, v);
 }
 
+// Of a visitor who waits until the guide is ahead, while that leads out of the picture.
+void LookAfterGuide(const VisitorInTown& v) {
+  const auto guide = WayToGuide(v);
+  if (!guide) return;
+  const ViewCamera& view = v.visitor.camera.view;
+  const float guide_rad = WrapAngle(AngleOf(*guide) - view.yaw_rad), most_rad = kKeepsGuideWithin * view.fov_rad / 2;
+  if (std::abs(guide_rad) > most_rad) TurnForTour(view.yaw_rad + guide_rad - std::copysign(most_rad, guide_rad), v);
+}
+
 void TurnCamera(float yaw_rate_radps, const VisitorInTown& v) {
   CameraState& camera = v.visitor.camera;
   camera.yaw_rate_radps = std::clamp(yaw_rate_radps, -MaxYawRate_radps(v.settings), MaxYawRate_radps(v.settings));
@@ -297,6 +307,7 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   const Vec2 look = PointAt(t.route, t.visitor_m + kLooksAhead_m) - p;
   const float look_rad = AngleOf(look) + LookOffWay_rad(AngleOf(look), v);
   if (pace > kStands && Length(look) > kReached_m) TurnBeside(look_rad, kMostAside_rad, v);
+  else if (pace <= kStands) LookAfterGuide(v);
   // Turns first, then walks: but for who looks about.
   const float ahead = v.visitor.looks_about_s > 0 ? 1 : std::cos(v.visitor.camera.view.yaw_rad - look_rad);
   if (pace > kStands) Walk(RoundPeople(v, way), TourSpeed_mps(v) * pace * std::max(kSideways, ahead), v);

@@ -17,6 +17,7 @@ constexpr float kTangent_m = 0.4f, kRoomStep_m = 0.25f;
 constexpr float kRoomAhead_m[] = {-1, 0, 1.5f, 3};  // where along the route there should be room
 constexpr float kLooksBeforeHalt_m = 8, kTurnsWithin_m = 4, kMostOffWay_rad = 0.6f, kMostBeforeHalt_rad = 0.9f;
 constexpr float kAtHalt_m = 2.5f, kMoreAtHalt_rad = 0.5f;  // in the last steps
+constexpr float kTurnsToSight_m = 1.4f;                    // within this, wherever the way goes; at half of it wholly
 constexpr float kGuideWithin = 0.8f;                       // of half the view
 constexpr float kTurnAhead_m = 6, kTurn_rad = 0.5f;        // a turn within that counts
 constexpr float kStartTurn_rad = 0.35f, kBehind_rad = 2.2f;
@@ -135,7 +136,11 @@ float LookOffWay_rad(float way_rad, const VisitorInTown& v) {
     if (std::abs(guide_rad) < kBehind_rad)
       look_rad = std::clamp(look_rad, guide_rad - within_rad, guide_rad + within_rad);
   }
-  return std::clamp(look_rad, -most_rad, most_rad);
+  look_rad = std::clamp(look_rad, -most_rad, most_rad);
+  // Whoever has to walk round people there may come from any side.
+  const float from_halt_m = Length(t.stops[HaltOf(t)].position_m - v.visitor.camera.view.position);
+  const float there = std::clamp((kTurnsToSight_m - from_halt_m) / kTurnsToSight_m * 2, 0.0f, 1.0f);
+  return look_rad + there * WrapAngle(sight_rad - look_rad);
 }
 
 float LookAside_rad(float look_rad, float most_rad, const VisitorInTown& v) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "runtime/crowd/fast_math.h"
+#include "runtime/walk/staging.h"
 #include "tests/unit/runtime/simulation/tour_town.h"
 
 namespace flaneur {
@@ -121,6 +122,19 @@ TEST(Guide, IsSeenOnTheWayToAHaltThatLooksAside) {
   }
 }
 
+// Where a passer-by was walked round, the way's last step may lead anywhere: the view turned with it, off the guide.
+TEST(Guide, IsLookedPastToTheSightFromTheLastStepsOfAnyWay) {
+  TourPack pack = TourTown(1);
+  pack.path = {Waypoint({3, 30}), Halt({19, 30}, -kPi / 2, 3)};
+  Simulation s = Started(pack);
+  for (int step = 0; step < kMaxSteps && Length(s.visitor.camera.view.position - Vec2{19, 30}) > 0.6f; ++step)
+    Step(&s, 1);
+  for (int way_deg = -180; way_deg < 180; way_deg += 20) {
+    const float way_rad = static_cast<float>(way_deg) * kPi / 180;
+    EXPECT_NEAR(WrapAngle(way_rad + LookOffWay_rad(way_rad, InTown(&s)) + kPi / 2), 0, 0.01f) << way_deg;
+  }
+}
+
 // However the next stop lies.
 TEST(Guide, IsNotTurnedAwayFromWhereATourLeavesAHalt) {
   constexpr Vec2 kHalt{20, 29};
@@ -144,6 +158,28 @@ TEST(Guide, IsNotTurnedAwayFromWhereATourLeavesAHalt) {
       }
       EXPECT_LT(away_rad, 0.3f) << look_deg << ", " << next_deg << " degrees";
     }
+  }
+}
+
+// Who waits for the guide to get ahead does not stare where nobody is any more.
+TEST(Guide, IsLookedAfterByAVisitorWhoStillStands) {
+  constexpr Vec2 kHalt{20, 29};
+  for (int next_deg = -180; next_deg < 180; next_deg += 30) {
+    const float next_rad = static_cast<float>(next_deg) * kPi / 180;
+    TourPack pack = TourTown(1);
+    pack.path = {Waypoint({4, 29}), Halt(kHalt, 0, 3), Halt(kHalt + DirectionOf(next_rad) * 8, next_rad, 3)};
+    Simulation s = Started(pack);
+    while (!s.visitor.tour.resting) Step(&s, 1);
+    while (s.visitor.tour.resting) Step(&s, 1);
+    int staring = 0;
+    for (int step = 0; step < 30 * 6; ++step) {
+      const float before_rad = s.visitor.camera.view.yaw_rad;
+      Step(&s, 1);
+      const float guide_rad = WrapAngle(AngleOf(GuideOf(s) - s.visitor.camera.view.position) - before_rad);
+      const bool stares = std::abs(WrapAngle(s.visitor.camera.view.yaw_rad - before_rad)) < 1e-4f;
+      staring += stares && std::abs(guide_rad) > s.visitor.camera.view.fov_rad / 2;
+    }
+    EXPECT_LT(staring, 10) << next_deg << " degrees";
   }
 }
 
