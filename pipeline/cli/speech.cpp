@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kLoudness_lufs = -18, kMostPeak_dbtp = -2;  // as loud as recordings of speakers are (EBU R 128)
-constexpr const char* kVersion = "2";                        // changed when the same text comes out otherwise
+constexpr const char* kVersion = "3";                        // changed when the same text comes out otherwise
 
 std::string ProgramOnPathSha256(const Store& store, const std::string& program) {
   const char* folders = std::getenv("PATH");
@@ -41,7 +41,7 @@ Error RunTool(const std::vector<std::string>& argv, const fs::path& log) {
 Error Speak(const Speech& speech, const Store& store, fs::path* file) {
   Fingerprint print;
   print.Add(kVersion).Add(speech.text).Add(speech.voice).Add(speech.words_per_minute);
-  for (const char* program : {"espeak-ng", "ffmpeg"}) print.Add(ProgramOnPathSha256(store, program));
+  print.Add(ProgramOnPathSha256(store, "espeak-ng"));
   const std::string key = print.Hex();
   StoreEntry entry;
   entry.step = "speech:" + OneLine(Beginning(speech.text, 40));
@@ -59,11 +59,7 @@ Error Speak(const Speech& speech, const Store& store, fs::path* file) {
     return Fail("voice '" + OneLine(speech.voice) + "': " + e.message);
   double gain_db = 0;
   if (Error e = GainToLoudness_db(wave, kLoudness_lufs, kMostPeak_dbtp, &gain_db)) return e;
-  std::vector<std::string> encode = {"ffmpeg", "-nostdin", "-v", "error", "-i", wave.string()};
-  encode.insert(encode.end(), {"-af", "volume=" + std::to_string(gain_db) + "dB", "-ar", "24000", "-ac", "1"});
-  encode.insert(encode.end(), {"-c:a", "libopus", "-b:a", "28k"});
-  encode.insert(encode.end(), {"-map_metadata", "-1", "-fflags", "+bitexact", ogg.string()});
-  if (Error e = RunTool(encode, log)) return e;
+  if (Error e = EncodeSpeech(wave, gain_db, ogg)) return e;
   return PutEntry(store, key, entry, "", ogg);
 }
 

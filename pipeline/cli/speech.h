@@ -14,8 +14,8 @@ struct Speech {
   int words_per_minute = 145;
 };
 
-// Makes an Ogg Opus file in the store, or finds the one that an earlier bake made of the same. Errors: no espeak-ng or
-// ffmpeg on PATH, an unknown voice.
+// Makes an Ogg Opus file in the store, or finds the one that an earlier bake made of the same. Errors: no espeak-ng
+// on PATH, an unknown voice.
 Error Speak(const Speech& speech, const Store& store, std::filesystem::path* file);
 
 }  // namespace flaneur

@@ -192,10 +192,17 @@ class StageReader {
   template <typename T>
   void Get(std::vector<T>* values) {
     constexpr bool kRaw = std::is_trivially_copyable_v<T>;
-    values->resize(Size(kRaw ? sizeof(T) : 1));
-    if constexpr (kRaw) Raw(values->data(), values->size() * sizeof(T));
-    else
-      for (T& value : *values) Get(&value);
+    const size_t count = Size(kRaw ? sizeof(T) : 1);
+    if constexpr (kRaw && sizeof(T) == 1) {  // a whole pack may be in it: not set to zero first
+      const auto* bytes = reinterpret_cast<const T*>(text_.data());
+      values->assign(bytes, bytes + count);
+      text_.remove_prefix(count);
+    } else {
+      values->resize(count);
+      if constexpr (kRaw) Raw(values->data(), count * sizeof(T));
+      else
+        for (T& value : *values) Get(&value);
+    }
   }
   template <typename K, typename V>
   void Get(std::map<K, V>* values) {

@@ -58,7 +58,9 @@ void PutU32(uint32_t value, std::vector<uint8_t>* out) {
 
 struct GltfBuilder::Impl {
   json root = {{"asset", {{"version", "2.0"}, {"generator", "Flaneur"}}}};
-  std::vector<uint8_t> binary;
+  std::vector<uint8_t> earlier;  // a file that is gone on with; of it this is its binary part
+  size_t earlier_at = 0, earlier_bytes = 0;
+  std::vector<uint8_t> binary;  // after that
   std::set<std::string> used, required;
   std::map<std::string, int> images;  // by their bytes
   std::map<std::pair<int, bool>, int> textures;
@@ -73,9 +75,13 @@ struct GltfBuilder::Impl {
     return Count(root[list]) - 1;
   }
 
+  size_t BinarySize() const { return earlier_bytes + binary.size(); }
+  void Pad() { binary.resize(binary.size() + (4 - BinarySize() % 4) % 4); }
+  std::span<const uint8_t> Earlier() const { return std::span(earlier).subspan(earlier_at, earlier_bytes); }
+
   int AddView(std::span<const uint8_t> bytes, int target) {
-    binary.resize((binary.size() + 3) / 4 * 4);
-    json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
+    Pad();
+    json view = {{"buffer", 0}, {"byteOffset", BinarySize()}, {"byteLength", bytes.size()}};
     if (target != 0) view["target"] = target;
     binary.insert(binary.end(), bytes.begin(), bytes.end());
     return Add("bufferViews", std::move(view));
@@ -435,7 +441,7 @@ Error GltfBuilder::Impl::End(std::vector<uint8_t>* head) {
   for (const KeyStream* stream : {&rounded_times, &rounded_rotations, &rounded_vectors}) FlushStream(*stream);
   if (!used.empty()) root["extensionsUsed"] = used;
   if (!required.empty()) root["extensionsRequired"] = required;
-  if (!binary.empty()) root["buffers"] = json::array({{{"byteLength", binary.size()}}});
+  if (BinarySize() > 0) root["buffers"] = json::array({{{"byteLength", BinarySize()}}});
   if (fallback_bytes > 0) {
     root["buffers"].push_back(
         {{"byteLength", fallback_bytes}, {"extensions", {{kMeshoptExtension, {{"fallback", true}}}}}});
@@ -448,15 +454,15 @@ Error GltfBuilder::Impl::End(std::vector<uint8_t>* head) {
     return Fail(std::string("glTF: ") + OneLine(e.what()));
   }
   text.resize((text.size() + 3) / 4 * 4, ' ');
-  binary.resize((binary.size() + 3) / 4 * 4);
-  const size_t chunks = binary.empty() ? 1 : 2;
-  const size_t size = kGlbHeader_bytes + chunks * kChunkHeader_bytes + text.size() + binary.size();
+  Pad();
+  const size_t chunks = BinarySize() == 0 ? 1 : 2;
+  const size_t size = kGlbHeader_bytes + chunks * kChunkHeader_bytes + text.size() + BinarySize();
   if (size > 0xffffffffu) return Fail("glTF: more than the 4 GiB that a binary file can hold");
   const auto put = [head](size_t word) { PutU32(static_cast<uint32_t>(word), head); };
   for (const size_t word : {size_t{0x46546c67}, size_t{2}, size, text.size(), size_t{0x4e4f534a}}) put(word);
   head->insert(head->end(), text.begin(), text.end());
   if (chunks == 1) return Ok();
-  put(binary.size());
+  put(BinarySize());
   put(0x004e4942);
   return Ok();
 }
@@ -467,6 +473,8 @@ Error GltfBuilder::Finish(std::vector<uint8_t>* glb) {
   std::vector<uint8_t> head;
   if (Error e = done.impl_->End(&head)) return e;
   std::vector<uint8_t>& binary = done.impl_->binary;
+  const std::span<const uint8_t> earlier = done.impl_->Earlier();
+  head.insert(head.end(), earlier.begin(), earlier.end());
   binary.insert(binary.begin(), head.begin(), head.end());
   *glb = std::move(binary);
   return Ok();
@@ -477,8 +485,9 @@ Error GltfBuilder::Write(const std::filesystem::path& path, size_t* bytes) {
   std::swap(impl_, done.impl_);
   std::vector<uint8_t> head;
   if (Error e = done.impl_->End(&head)) return e;
-  const std::span<const uint8_t> parts[] = {head, done.impl_->binary};
-  *bytes = parts[0].size() + parts[1].size();
+  const std::span<const uint8_t> parts[] = {head, done.impl_->Earlier(), done.impl_->binary};
+  *bytes = 0;
+  for (const auto& part : parts) *bytes += part.size();
   return WriteFile(path, parts);
 }
 
@@ -502,9 +511,9 @@ Error GltfBuilder::Resume(std::vector<uint8_t> glb) {
   if (!buffers.empty()) {
     const size_t at = text_at + text_size + kChunkHeader_bytes, size = buffers[0].value("byteLength", size_t{0});
     if (at > glb.size() || size > glb.size() - at) return broken;
-    impl.binary = std::move(glb);
-    impl.binary.resize(at + size);
-    impl.binary.erase(impl.binary.begin(), impl.binary.begin() + static_cast<std::ptrdiff_t>(at));
+    impl.earlier = std::move(glb);
+    impl.earlier_at = at;
+    impl.earlier_bytes = size;
   }
   if (buffers.size() > 1) impl.fallback_bytes = buffers[1].value("byteLength", size_t{0});
   impl.used = impl.root.value("extensionsUsed", std::set<std::string>{});

@@ -1,6 +1,7 @@
 #include "pipeline/io/sound_file.h"
 
 #include <ebur128.h>
+#include <opusenc.h>
 #include <sndfile.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kMaxDuration_s = 3600;
+constexpr int kSpeech_bps = 28000;  // for each channel
 constexpr sf_count_t kBlock_frames = 1 << 14;
 
 // Decodes a sound to its end: `take` gets it in blocks of interleaved samples.
@@ -69,6 +71,32 @@ Error GainToLoudness_db(const std::filesystem::path& path, double loudness_lufs,
                  ? std::min(loudness_lufs - loudness, most_peak_dbtp - 20 * std::log10(peak))
                  : 0;
   return Ok();
+}
+
+Error EncodeSpeech(const std::filesystem::path& from, double gain_db, const std::filesystem::path& to) {
+  const std::unique_ptr<OggOpusComments, void (*)(OggOpusComments*)> comments(ope_comments_create(),
+                                                                              &ope_comments_destroy);
+  std::unique_ptr<OggOpusEnc, void (*)(OggOpusEnc*)> encoder(nullptr, &ope_encoder_destroy);
+  SF_INFO info{};
+  int status = OPE_OK;
+  std::vector<float> louder;
+  const float gain = static_cast<float>(std::pow(10, gain_db / 20));
+  const Error error = Decode(from, &info, [&](const float* samples, size_t frames) {
+    if (encoder == nullptr && status == OPE_OK) {
+      encoder.reset(ope_encoder_create_file(to.c_str(), comments.get(), info.samplerate, info.channels, 0, &status));
+      if (encoder == nullptr) return;
+      ope_encoder_ctl(encoder.get(), OPUS_SET_BITRATE(kSpeech_bps * info.channels));
+      ope_encoder_ctl(encoder.get(), OPUS_SET_SIGNAL(OPUS_SIGNAL_VOICE));
+      ope_encoder_ctl(encoder.get(), OPE_SET_SERIALNO(1));  // else it is drawn by chance
+    }
+    if (status != OPE_OK) return;
+    louder.assign(samples, samples + frames * static_cast<size_t>(info.channels));
+    for (float& sample : louder) sample *= gain;
+    status = ope_encoder_write_float(encoder.get(), louder.data(), static_cast<int>(frames));
+  });
+  if (error) return error;
+  if (status == OPE_OK) status = ope_encoder_drain(encoder.get());
+  return status == OPE_OK ? Ok() : Fail(to.string() + ": cannot be written as Opus: " + ope_strerror(status));
 }
 
 }  // namespace flaneur

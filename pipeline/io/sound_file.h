@@ -23,6 +23,10 @@ Error ReadSoundFile(const std::filesystem::path& path, SoundFile* sound);
 Error GainToLoudness_db(const std::filesystem::path& path, double loudness_lufs, double most_peak_dbtp,
                         double* gain_db);
 
+// Writes a sound so much louder as Ogg Opus, for speech, mono or stereo. The same sound gives the same bytes. Errors:
+// as of ReadSoundFile, or the file cannot be written.
+Error EncodeSpeech(const std::filesystem::path& from, double gain_db, const std::filesystem::path& to);
+
 // Of the library that reads them.
 std::string SoundReaderVersion();
 

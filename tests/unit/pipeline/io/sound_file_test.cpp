@@ -53,6 +53,28 @@ TEST(GainToLoudness, LeavesRoomForPeaksAndSilenceAlone) {
   EXPECT_EQ(Gain_db(Tone(folder, 0, 997), -18, -2), 0);
 }
 
+TEST(EncodeSpeech, IsAsLongAndAsLoudAsAskedAndTheSameEachTime) {
+  TemporaryFolder folder;
+  ASSERT_FALSE(folder.Create("flaneur_sound_"));
+  const std::filesystem::path tone = Tone(folder, 0.1, 997), once = folder.path() / "once", again = folder.path() / "2";
+  ASSERT_FALSE(EncodeSpeech(tone, Gain_db(tone, -18, -2), once));
+  ASSERT_FALSE(EncodeSpeech(tone, Gain_db(tone, -18, -2), again));
+  SoundFile first, second;
+  ASSERT_FALSE(ReadSoundFile(once, &first));
+  ASSERT_FALSE(ReadSoundFile(again, &second));
+  EXPECT_NEAR(first.duration_s, 3, 0.01f);
+  EXPECT_NEAR(Gain_db(once, -18, -2), 0, 0.5);
+  EXPECT_LT(first.bytes.size(), 15000u);
+  EXPECT_EQ(first.bytes, second.bytes);
+}
+
+TEST(EncodeSpeech, SaysWhatCannotBeWritten) {
+  TemporaryFolder folder;
+  ASSERT_FALSE(folder.Create("flaneur_sound_"));
+  const Error error = EncodeSpeech(Tone(folder, 0.1, 997), 0, folder.path() / "missing" / "out.ogg");
+  EXPECT_NE(error.message.find("missing/out.ogg"), std::string::npos) << error.message;
+}
+
 TEST(GainToLoudness, SaysWhatIsNoSound) {
   double gain_db = 0;
   const Error error = GainToLoudness_db("/dev/null", -18, -2, &gain_db);
