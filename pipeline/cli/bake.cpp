@@ -82,9 +82,20 @@ Error Open(const fs::path& tour, const BakeOptions& options, bool several, Jobs*
   return Ok();
 }
 
-// Which results are in the store. What the town is has to be read to know what people do there.
-Error Resolve(Baking* baking) {
+// With all that it needs, and what that needs.
+std::vector<bool> NeededFor(const Baking& baking, size_t wanted) {
+  std::vector<bool> needed(baking.steps.size(), false);
+  needed[wanted] = true;
+  for (size_t i = wanted + 1; i-- > 0;) {  // needs stand before those that need them
+    for (const size_t need : baking.steps[i].needs) needed[need] = needed[need] || needed[i];
+  }
+  return needed;
+}
+
+// Which of these results are in the store. What the town is has to be read to know what people do there.
+Error Resolve(const std::vector<bool>& asked, Baking* baking) {
   for (Step& step : baking->steps) {
+    if (!asked[IndexOf(*baking, &step)]) continue;
     step.known_key = step.key();
     if (!step.kept()) continue;
     step.in_store = FindEntry(baking->store, step.known_key, &step.entry);
@@ -93,6 +104,8 @@ Error Resolve(Baking* baking) {
   }
   return Ok();
 }
+
+Error Resolve(Baking* baking) { return Resolve(std::vector<bool>(baking->steps.size(), true), baking); }
 
 void SetPolicy(const std::vector<fs::path>& tours, const BakeOptions& options) {
   ChildPolicy policy;
@@ -248,7 +261,7 @@ Error BakeStep(const fs::path& tour, const BakeOptions& options, const std::stri
   if (baking.steps[wanted].stage == "pack") {
     if (Error e = MakeFolders(&baking, &lock)) return e;
   }
-  if (Error e = Resolve(&baking)) return e;
+  if (Error e = Resolve(NeededFor(baking, wanted), &baking)) return e;
   if (baking.steps[wanted].stage == "pack" && ResultsAreUpToDate(&baking)) return Ok();
   const std::vector<bool> needed = LeaveOutUnneeded(&baking, wanted);
   for (size_t i = 0; i <= wanted; ++i) {

@@ -1,10 +1,15 @@
 #include "pipeline/core/fingerprint.h"
 
 #include <openssl/evp.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
+#include <map>
+#include <mutex>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "pipeline/core/uri.h"
@@ -62,6 +67,50 @@ struct Digest {
   EVP_MD_CTX* context;
 };
 
+struct Content {
+  std::string sha256;           // of nothing where it cannot be read
+  std::vector<fs::path> named;  // of a glTF file
+};
+
+// By what changes whenever a file does.
+using Version = std::tuple<dev_t, ino_t, off_t, time_t, long, time_t, long>;
+
+bool VersionOf(const fs::path& path, Version* version, time_t* changed_s) {
+  struct stat is {};
+  if (::stat(path.c_str(), &is) != 0) return false;
+  *version = {is.st_dev,          is.st_ino,         is.st_size,        is.st_mtim.tv_sec,
+              is.st_mtim.tv_nsec, is.st_ctim.tv_sec, is.st_ctim.tv_nsec};
+  *changed_s = is.st_ctim.tv_sec;
+  return true;
+}
+
+// Read once while it stays as it is: a tour of hundreds asks for the same files again and again. What was changed a
+// moment ago might be changed once more within the same tick of the file system's clock, and is not kept.
+Content ContentOf(const fs::path& path) {
+  constexpr time_t kSettled_s = 2;
+  static std::mutex mutex;
+  static std::map<fs::path, std::pair<Version, Content>> known;
+  Version before{}, after{};
+  time_t changed_s = 0;
+  const bool there = VersionOf(path, &before, &changed_s);
+  {
+    const std::lock_guard lock(mutex);
+    const auto found = known.find(path);
+    if (there && found != known.end() && found->second.first == before) return found->second.second;
+  }
+  Content content;
+  std::string text;
+  if (ReadTextFile(path, &text)) text.clear();
+  content.sha256 = Sha256(text);
+  if (IsGltf(path)) content.named = NamedFiles(path, text);
+  const bool settled = VersionOf(path, &after, &changed_s) && std::time(nullptr) - changed_s > kSettled_s;
+  if (there && settled && before == after) {
+    const std::lock_guard lock(mutex);
+    known[path] = {before, content};
+  }
+  return content;
+}
+
 }  // namespace
 
 struct Fingerprint::State : Digest {};
@@ -90,18 +139,13 @@ Fingerprint& Fingerprint::AddFile(const fs::path& path) {
     for (const fs::path& file : PythonFiles(path)) Add(file.filename().string()).AddFile(file);
     return *this;
   }
-  std::string text;
-  if (ReadTextFile(path, &text)) text.clear();
-  Add(text);
-  if (!IsGltf(path)) return *this;
+  const Content content = ContentOf(path);
+  Add(content.sha256);
   // What a model names is taken as bytes, whatever it is: models may name themselves, or each other, but name no files
   // in turn that count.
   std::set<fs::path> added;
-  for (const fs::path& file : NamedFiles(path, text)) {
-    if (!added.insert(file.lexically_normal()).second) continue;
-    std::string bytes;
-    if (ReadTextFile(file, &bytes)) bytes.clear();
-    Add(bytes);
+  for (const fs::path& file : content.named) {
+    if (added.insert(file.lexically_normal()).second) Add(ContentOf(file).sha256);
   }
   return *this;
 }

@@ -2,7 +2,7 @@
 
     python3 tests/bench/cluster_bake.py [--avatars 200] [--cpus 2]
 
-The characters are one simple figure in as many sizes, with impostors of 8 directions and 64 px. Both start with an empty
+The characters are one simple figure in as many sizes, with impostors as usual. Both start with an empty
 cache, one after the other; Slurm's node (munge, slurmctld, slurmd; needs root) has as many cores as the bake may use.
 """
 import argparse
@@ -24,8 +24,8 @@ name = "many"
 [town]
 file = "town.glb"
 [impostor]
-directions = 8
-height_px = 64
+directions = 16
+height_px = 128
 """
 MADE = ("many.glb", "footprints.geojson", "plan.png")
 
@@ -64,7 +64,7 @@ def main():
             sys.exit(f"no Slurm here: {reason}")
         try:
             slurm_s = seconds_of(
-                ["snakemake", "--quiet", "-s", scripts / "Snakefile", "--profile", scripts / "slurm", "-j", 2 * a.cpus, "--latency-wait", 10,
+                ["snakemake", "--quiet", "-s", scripts / "Snakefile", "--profile", scripts / "slurm", "-j", 3 * a.cpus, "--latency-wait", 10,
                  "--config", f"tours={tour}", f"flaneur={flaneur}", f"options=--cache {folder / 'shared'} -o {folder / 'by_slurm'}"],
                 cwd=folder, env=cluster.environment)
         finally:

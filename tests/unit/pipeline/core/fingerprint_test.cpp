@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <fstream>
+#include <thread>
+
 #include "pipeline/core/temporary_folder.h"
 #include "runtime/base/file.h"
 
@@ -47,6 +51,23 @@ TEST_F(FingerprintFiles, OfModelsThatNameThemselvesAndEachOtherComeToAnEnd) {
   const std::string before = Of("a.gltf");
   Put("b.gltf", R"({"images": [{"uri": "./a.gltf"}]})");
   EXPECT_NE(Of("a.gltf"), before);
+}
+
+// Contents are kept by what the file system says of a file.
+TEST_F(FingerprintFiles, NoticeEveryChangeOfAFileThatWasReadBefore) {
+  const auto write_in_place = [&](const std::string& text) { std::ofstream(At("a.py")) << text; };
+  write_in_place("one");
+  const std::string one = Of("a.py");
+  const auto age = std::filesystem::last_write_time(At("a.py"));
+  write_in_place("two");
+  std::filesystem::last_write_time(At("a.py"), age);
+  const std::string two = Of("a.py");
+  EXPECT_NE(two, one) << "as large and as old, a moment later";
+  std::this_thread::sleep_for(std::chrono::milliseconds(3200));
+  EXPECT_EQ(Of("a.py"), two);
+  write_in_place("one");
+  std::filesystem::last_write_time(At("a.py"), age);
+  EXPECT_EQ(Of("a.py"), one) << "long after it was read";
 }
 
 TEST_F(FingerprintFiles, OfAFolderFollowItsScripts) {
