@@ -13,7 +13,7 @@ namespace {
 constexpr float kTrunk = 0.045f;                     // joints nearer to the middle belong to the trunk
 constexpr float kFinger = 0.055f;                    // bones shorter than that are a hand's
 constexpr float kHandLow = 0.3f, kHandHigh = 0.9f;   // of the rest pose, arms down or stretched out
-constexpr float kShortest = 0.2f, kLongest = 0.55f;  // arm
+constexpr float kShortest = 0.1f, kLongest = 0.55f;  // arm; short under tall hats
 constexpr float kGrip = 0.045f;                      // from the wrist on
 // Shares of the arm's length, from the shoulder: where the hand is, and to where the elbow points.
 constexpr float kOnPalm = 0.016f;       // of the height: from the wrist's bones to what lies on the palm

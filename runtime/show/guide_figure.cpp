@@ -18,6 +18,9 @@ constexpr float kLeftOfPole = 0.10f, kRightOfPole = 0.10f;             // the cl
 constexpr float kLeftInHand = 0.03f, kRightInHand = 0.15f;             // and in the hand, away from the head
 constexpr float kPole_m = 0.014f, kBar_m = 0.011f, kCloth_m = 0.008f;  // half as thick
 constexpr float kOffBack_m = 0.03f;
+constexpr float kOffHat_m = 0.03f, kMostLean_rad = 0.6f;
+constexpr float kAboveShoulders = 0.06f, kMiddle = 0.06f;  // where joints carry a head or hat
+constexpr float kShortFoot = 0.12f;                        // below the hand, of a pole that leans
 constexpr Vec4 kWood{0.10f, 0.05f, 0.02f, 1}, kRed{0.42f, 0.015f, 0.02f, 1}, kGold{0.80f, 0.48f, 0.06f, 1};
 constexpr int kTriangles = 36;  // 12 a box, 12 the cloth
 
@@ -44,6 +47,32 @@ Carrier BackOf(const PackMesh& mesh, float height_m) {
   return back;
 }
 
+// How far a pole that is held at a point has to lean outwards to stand clear of a hat.
+float Lean_rad(const PackMesh& mesh, const PackAvatar& figure, Vec3 held_m, float shoulder_m) {
+  const Vec3 out = Normalized(Vec3{held_m.x, 0, held_m.z});
+  const float off_m = Dot(held_m, out), least_m = shoulder_m + kAboveShoulders * figure.height_m;
+  float lean_rad = 0;
+  for (const PackPrimitive& p : mesh.primitives) {
+    for (size_t i = 0; i < p.positions.size() && i < p.joints.size(); ++i) {
+      const Vec3 v = p.positions[i];
+      const size_t joint = p.joints[i][0];
+      const bool middle =
+          joint < figure.skeleton.size() && std::abs(figure.skeleton[joint].rest_m.x) < kMiddle * figure.height_m;
+      const float far_m = std::hypot(v.x, v.z);
+      if (!middle || v.y < std::max(least_m, held_m.y + kOffHat_m) || Dot(v, out) < 0.5f * far_m) continue;
+      lean_rad = std::max(lean_rad, std::atan2(far_m + kOffHat_m - off_m, v.y - held_m.y));
+    }
+  }
+  return std::min(lean_rad, kMostLean_rad);
+}
+
+// Turned about where it is held.
+Mat4 Leaning(Vec3 held_m, float lean_rad) {
+  const Vec3 axis = Normalized(Cross({0, 1, 0}, {held_m.x, 0, held_m.z})) * std::sin(lean_rad / 2);
+  const Mat4 turned = FromTranslationRotationScale(held_m, {axis.x, axis.y, axis.z, std::cos(lean_rad / 2)}, {1, 1, 1});
+  return turned * FromTranslationRotationScale(held_m * -1, {}, {1, 1, 1});
+}
+
 Carrier CarrierOf(const PackMesh& finest, const PackAvatar& figure) {
   const std::optional<CarryingArm> arm = FindCarryingArm(figure.skeleton, figure.height_m);
   if (!arm) return BackOf(finest, figure.height_m);
@@ -52,6 +81,11 @@ Carrier CarrierOf(const PackMesh& finest, const PackAvatar& figure) {
   hand.joints[0] = static_cast<uint16_t>(arm->hand);
   hand.to_rest = Inverse(arm->hand_bent);
   hand.foot = kFootInHand, hand.left = kLeftInHand, hand.right = kRightInHand;
+  const float shoulder_m = figure.skeleton[static_cast<size_t>(arm->shoulder)].rest_m.y;
+  const float lean_rad = Lean_rad(finest, figure, arm->grip_m, shoulder_m);
+  if (lean_rad <= 0) return hand;
+  hand.to_rest = hand.to_rest * Leaning(arm->grip_m, lean_rad);
+  hand.foot = std::max(hand.foot, arm->grip_m.y / figure.height_m - kShortFoot);
   return hand;
 }
 

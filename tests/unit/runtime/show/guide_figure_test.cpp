@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "runtime/show/guide_arm.h"
@@ -112,6 +113,52 @@ TEST(GuideFigure, CarriesTheBannerInTheHandOfAnySkeleton) {
       EXPECT_EQ(pack.avatars[1].walk.matrices.back().m[3][2], 0.0f) << "the townspeople keep their arms";
       EXPECT_EQ(pack.avatars[1].walk.matrices[figure.skeleton.size() + 4].m[3][2], 5.0f);
     }
+  }
+}
+
+// The brim of a hat, all round, on a head.
+PackPrimitive Brim(float radius_m, float height_m, uint16_t head) {
+  PackPrimitive brim;
+  for (int k = 0; k < 24; ++k) {
+    const float angle = 2 * kPi * static_cast<float>(k) / 24;
+    brim.positions.push_back({radius_m * std::sin(angle), height_m, radius_m * std::cos(angle)});
+    brim.normals.push_back({0, 1, 0});
+    brim.joints.push_back({head, 0, 0, 0});
+    brim.weights.push_back({255, 0, 0, 0});
+    brim.indices.push_back(static_cast<uint32_t>(k));
+  }
+  return brim;
+}
+
+TEST(GuideFigure, HoldsTheBannerClearOfAHatsBrim) {
+  for (const float brim_m : {0.15f, 0.5f, 0.6f}) {
+    SCOPED_TRACE(brim_m);
+    TourPack pack = WithMeshes();
+    std::vector<PackJoint> skeleton = Skeleton(true, true);
+    skeleton.push_back({"Head", 1, {0, 1.5f, 0}});
+    for (PackMesh& mesh : pack.meshes)
+      mesh.primitives.push_back(Brim(brim_m, 1.6f, static_cast<uint16_t>(skeleton.size() - 1)));
+    for (PackAvatar& avatar : pack.avatars) {
+      avatar.skeleton = skeleton;
+      avatar.joints = static_cast<int>(skeleton.size());
+    }
+    AddGuideFigure(&pack);
+    const PackAvatar& figure = pack.avatars.back();
+    const auto arm = FindCarryingArm(figure.skeleton, figure.height_m);
+    ASSERT_TRUE(arm);
+    const PackPrimitive& banner = pack.meshes[static_cast<size_t>(figure.levels[0].mesh)].primitives.back();
+    Vec3 foot, top;  // of the pole, which is the first box
+    for (size_t i = 0; i < 24; ++i) {
+      const Vec3 p = TransformPoint(arm->hand_bent, banner.positions[i]);
+      (p.y < arm->grip_m.y ? foot : top) = (p.y < arm->grip_m.y ? foot : top) + p * (1 / 12.0f);
+    }
+    const Vec3 at_brim = foot + (top - foot) * ((1.6f - foot.y) / (top.y - foot.y));
+    EXPECT_GT(std::hypot(at_brim.x, at_brim.z), brim_m);
+    EXPECT_GT(top.y, 1.6f + 0.1f);
+    const Vec3 on_way = foot + (top - foot) * ((arm->grip_m.y - foot.y) / (top.y - foot.y));
+    EXPECT_LT(Length(on_way - arm->grip_m), 0.02f) << "in the hand";
+    if (brim_m > 0.2f) continue;
+    EXPECT_LT(std::hypot(top.x - foot.x, top.z - foot.z), 0.01f) << "upright";
   }
 }
 
