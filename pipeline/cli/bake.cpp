@@ -82,12 +82,14 @@ Error Open(const fs::path& tour, const BakeOptions& options, bool several, Jobs*
   return Ok();
 }
 
-// With all that it needs, and what that needs.
+// With what it needs, and what that needs: all of it as long as nobody has looked what is in the store.
 std::vector<bool> NeededFor(const Baking& baking, size_t wanted) {
   std::vector<bool> needed(baking.steps.size(), false);
   needed[wanted] = true;
   for (size_t i = wanted + 1; i-- > 0;) {  // needs stand before those that need them
-    for (const size_t need : baking.steps[i].needs) needed[need] = needed[need] || needed[i];
+    const Step& step = baking.steps[i];
+    if (!needed[i] || (step.stands_for_needs && step.in_store)) continue;
+    for (const size_t need : step.needs) needed[need] = true;
   }
   return needed;
 }
@@ -285,13 +287,7 @@ Error FilesOfTour(const fs::path& tour, std::vector<fs::path>* files) {
 }
 
 std::vector<bool> LeaveOutUnneeded(Baking* baking, size_t wanted) {
-  std::vector<bool> needed(baking->steps.size(), false);
-  needed[wanted] = true;
-  for (size_t i = wanted + 1; i-- > 0;) {  // needs stand before those that need them
-    const Step& step = baking->steps[i];
-    if (!needed[i] || (step.stands_for_needs && step.in_store)) continue;
-    for (const size_t need : step.needs) needed[need] = true;
-  }
+  std::vector<bool> needed = NeededFor(*baking, wanted);
   for (size_t i = 0; i < needed.size(); ++i) baking->steps[i].left_out = !needed[i];
   return needed;
 }

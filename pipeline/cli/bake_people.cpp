@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kFullHeight_m =
-    1.5f;                       // of a small grown-up: all are seen at the same distances, children and dogs smaller
-constexpr int kUnseen_px = 16;  // of an impostor that nobody sees
+// Of a small grown-up: all are seen from the same distances, and who is lower is smaller in the picture.
+constexpr float kFullHeight_m = 1.5f;
+constexpr int kUnseen_px = 16;           // of an impostor that nobody sees
 constexpr float kMinTintShare = 0.005f;  // of the surface
 
 Error MakeAvatar(Baking* baking, size_t i, StageReport* report, Warnings* warnings) {

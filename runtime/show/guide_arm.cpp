@@ -75,12 +75,6 @@ Quat Turning(Vec3 from, Vec3 to) {
   return Normalized(Quat{axis.x, axis.y, axis.z, 1 + Dot(a, b)});
 }
 
-// What is at `from` comes to `to`, turned about there.
-Mat4 Carried(Vec3 from, Vec3 to, Quat turn) {
-  const Mat4 rotation = FromTranslationRotationScale(to, turn, {1, 1, 1});
-  return rotation * FromTranslationRotationScale(from * -1, {}, {1, 1, 1});
-}
-
 // Whether `above` is the joint or one above it.
 bool HangsOn(const std::vector<PackJoint>& s, int joint, int above) {
   while (joint >= 0 && joint != above) joint = s[I(joint)].parent;
@@ -106,11 +100,6 @@ std::optional<Bent> Bend(const std::vector<PackJoint>& s, float height_m, const 
   const Vec3 bent = shoulder + way * along_m + out * std::sqrt(out2);
   return Bent{Carried(shoulder, shoulder, Turning(elbow - shoulder, bent - shoulder)),
               Carried(elbow, bent, Turning(hand - elbow, shoulder + reach - bent)), bent, shoulder + reach};
-}
-
-Quat About(Vec3 axis, float angle_rad) {
-  const Vec3 v = Normalized(axis) * std::sin(angle_rad / 2);
-  return {v.x, v.y, v.z, std::cos(angle_rad / 2)};
 }
 
 // Ways in the rest pose: along the fingers, to where the thumb is, and off the palm.
@@ -177,6 +166,16 @@ void PlaceJoints(const std::vector<PackJoint>& s, float height_m, const Bent& be
 }
 
 }  // namespace
+
+Quat About(Vec3 axis, float angle_rad) {
+  const Vec3 v = Normalized(axis) * std::sin(angle_rad / 2);
+  return {v.x, v.y, v.z, std::cos(angle_rad / 2)};
+}
+
+Mat4 Carried(Vec3 from, Vec3 to, Quat turn) {
+  const Mat4 rotation = FromTranslationRotationScale(to, turn, {1, 1, 1});
+  return rotation * FromTranslationRotationScale(from * -1, {}, {1, 1, 1});
+}
 
 std::optional<CarryingArm> FindCarryingArm(const std::vector<PackJoint>& s, float height_m) {
   CarryingArm arm;

@@ -17,6 +17,11 @@ struct CarryingArm {
   Vec3 grip_m;                                           // what the hand is closed round
 };
 
+Quat About(Vec3 axis, float angle_rad);
+
+// What is at `from` comes to `to`, turned about there.
+Mat4 Carried(Vec3 from, Vec3 to, Quat turn);
+
 // By the joints' names and places; none where nothing there looks like a right arm.
 std::optional<CarryingArm> FindCarryingArm(const std::vector<PackJoint>& skeleton, float height_m);
 

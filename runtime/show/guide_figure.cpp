@@ -66,13 +66,6 @@ float Lean_rad(const PackMesh& mesh, const PackAvatar& figure, Vec3 held_m, floa
   return std::min(lean_rad, kMostLean_rad);
 }
 
-// Turned about where it is held.
-Mat4 Leaning(Vec3 held_m, float lean_rad) {
-  const Vec3 axis = Normalized(Cross({0, 1, 0}, {held_m.x, 0, held_m.z})) * std::sin(lean_rad / 2);
-  const Mat4 turned = FromTranslationRotationScale(held_m, {axis.x, axis.y, axis.z, std::cos(lean_rad / 2)}, {1, 1, 1});
-  return turned * FromTranslationRotationScale(held_m * -1, {}, {1, 1, 1});
-}
-
 Carrier CarrierOf(const PackMesh& finest, const PackAvatar& figure) {
   const std::optional<CarryingArm> arm = FindCarryingArm(figure.skeleton, figure.height_m);
   if (!arm) return BackOf(finest, figure.height_m);
@@ -84,7 +77,8 @@ Carrier CarrierOf(const PackMesh& finest, const PackAvatar& figure) {
   const float shoulder_m = figure.skeleton[static_cast<size_t>(arm->shoulder)].rest_m.y;
   const float lean_rad = Lean_rad(finest, figure, arm->grip_m, shoulder_m);
   if (lean_rad <= 0) return hand;
-  hand.to_rest = hand.to_rest * Leaning(arm->grip_m, lean_rad);
+  const Vec3 axis = Cross({0, 1, 0}, {arm->grip_m.x, 0, arm->grip_m.z});
+  hand.to_rest = hand.to_rest * Carried(arm->grip_m, arm->grip_m, About(axis, lean_rad));
   hand.foot = std::max(hand.foot, arm->grip_m.y / figure.height_m - kShortFoot);
   return hand;
 }

@@ -135,18 +135,24 @@ TEST(Guide, IsLookedPastToTheSightFromTheLastStepsOfAnyWay) {
   }
 }
 
+// From a halt that looks so to one that lies and looks so, 8 m away.
+Simulation JustLeftAHalt(float look_rad, float next_rad) {
+  constexpr Vec2 kHalt{20, 29};
+  TourPack pack = TourTown(1);
+  pack.path = {Waypoint({4, 29}), Halt(kHalt, look_rad, 3), Halt(kHalt + DirectionOf(next_rad) * 8, next_rad, 3)};
+  Simulation s = Started(pack);
+  while (!s.visitor.tour.resting) Step(&s, 1);
+  while (s.visitor.tour.resting) Step(&s, 1);
+  return s;
+}
+
 // However the next stop lies.
 TEST(Guide, IsNotTurnedAwayFromWhereATourLeavesAHalt) {
-  constexpr Vec2 kHalt{20, 29};
   for (int look_deg = -180; look_deg < 180; look_deg += 30) {
     for (int next_deg = -180; next_deg < 180; next_deg += 30) {
       const float look_rad = static_cast<float>(look_deg) * kPi / 180,
                   next_rad = static_cast<float>(next_deg) * kPi / 180;
-      TourPack pack = TourTown(1);
-      pack.path = {Waypoint({4, 29}), Halt(kHalt, look_rad, 3), Halt(kHalt + DirectionOf(next_rad) * 8, next_rad, 3)};
-      Simulation s = Started(pack);
-      while (!s.visitor.tour.resting) Step(&s, 1);
-      while (s.visitor.tour.resting) Step(&s, 1);
+      Simulation s = JustLeftAHalt(look_rad, next_rad);
       float away_rad = 0;
       for (int step = 0; step < 30 * 4; ++step) {
         const float before_rad = s.visitor.camera.view.yaw_rad;
@@ -163,14 +169,8 @@ TEST(Guide, IsNotTurnedAwayFromWhereATourLeavesAHalt) {
 
 // Who waits for the guide to get ahead does not stare where nobody is any more.
 TEST(Guide, IsLookedAfterByAVisitorWhoStillStands) {
-  constexpr Vec2 kHalt{20, 29};
   for (int next_deg = -180; next_deg < 180; next_deg += 30) {
-    const float next_rad = static_cast<float>(next_deg) * kPi / 180;
-    TourPack pack = TourTown(1);
-    pack.path = {Waypoint({4, 29}), Halt(kHalt, 0, 3), Halt(kHalt + DirectionOf(next_rad) * 8, next_rad, 3)};
-    Simulation s = Started(pack);
-    while (!s.visitor.tour.resting) Step(&s, 1);
-    while (s.visitor.tour.resting) Step(&s, 1);
+    Simulation s = JustLeftAHalt(0, static_cast<float>(next_deg) * kPi / 180);
     int staring = 0;
     for (int step = 0; step < 30 * 6; ++step) {
       const float before_rad = s.visitor.camera.view.yaw_rad;
