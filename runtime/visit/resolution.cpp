@@ -23,7 +23,7 @@ constexpr float kFrameTimeSeparation =
 
 // The time that `share` of the last `count` pictures did not exceed.
 float Quantile(const Resolution& r, int count, float share) {
-  std::array<float, Resolution::kTimes> sorted;
+  std::array<float, Resolution::kTimes> sorted{};
   for (int k = 0; k < count; ++k) {
     sorted[static_cast<size_t>(k)] =
         r.took_ms[static_cast<size_t>((r.next + Resolution::kTimes - 1 - k) % Resolution::kTimes)];
@@ -74,6 +74,13 @@ void Change(float scale, float usual_ms, Resolution* r) {
   r->times = 0;
 }
 
+// The finest scale that fits for sure.
+float FinestFor(float took_ms, float frame_ms, const Resolution& r) {
+  float scale = r.scale;
+  while (scale < 1 && Finer_ms(took_ms, r, r.scale, Finer(scale)) <= kSpare * frame_ms) scale = Finer(scale);
+  return scale;
+}
+
 // Says nothing about what pixels cost.
 void ChangeDetail(float by, float usual_ms, Resolution* r) {
   const float pixels_ms = r->pixels_ms;
@@ -83,6 +90,12 @@ void ChangeDetail(float by, float usual_ms, Resolution* r) {
 }
 
 }  // namespace
+
+Resolution FirstResolution(const ResolutionSettings& s, bool software) {
+  Resolution first;
+  if (software) first.scale = s.least_scale;
+  return first;
+}
 
 float ScaleNow(const ResolutionSettings& s, const Resolution& r) {
   return std::max(std::min(s.least_scale, r.scale), r.scale * r.moment);
@@ -110,6 +123,11 @@ void FollowPictureTime(float took_ms, bool moves, const ResolutionSettings& s, R
     return Change(scale, usual_ms, r);
   }
   if (usual_ms > kTooLong * s.frame_ms && r->detail > kLeastDetail) return ChangeDetail(-kDetailStep, usual_ms, r);
+  const bool is_first = r->before_ms <= 0;
+  if (is_first && r->times == kSoon) {
+    const float finest = FinestFor(Quantile(*r, kSoon, 0.9f), s.frame_ms, *r);
+    if (finest > r->scale) return Change(finest, usual_ms, r);
+  }
   if (r->detail < 1 && r->times == Resolution::kTimes && r->steady_s >= r->patience_s) {
     const float more = r->detail + kDetailStep, cost = kDetailCost * (more * more / (r->detail * r->detail) - 1);
     if (Quantile(*r, Resolution::kTimes, 0.9f) * (1 + cost) <= kSpare * s.frame_ms)

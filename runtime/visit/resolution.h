@@ -27,6 +27,10 @@ struct Resolution {
   float pixels_ms = -1;  // what all pixels would take at scale 1, by what the last change did; negative: not known
 };
 
+// As a visit begins: at the least scale where the processor draws, which elsewhere would take a second or two to be found
+// in, with pictures that everybody sees come one by one; at the finest on a graphics card.
+Resolution FirstResolution(const ResolutionSettings& settings, bool software);
+
 // What the next picture is to be drawn at; never coarser than the least scale.
 float ScaleNow(const ResolutionSettings& settings, const Resolution& resolution);
 // FrameInput::detail: what the pixels may not give, people's meshes and shadows do.
@@ -37,7 +41,7 @@ float DetailNow(const ResolutionSettings& settings, const Resolution& resolution
 // or, from the least scale on, of the detail. A coarser scale is chosen when half of the last pictures took too long,
 // and less detail when the least one does not do; a finer one only when nine in ten leave room for the pixels it adds,
 // with what these cost rather over- than underestimated: so under the same load it never goes to and fro. Where the
-// load itself does, finer scales are waited for longer.
+// load itself does, finer scales are waited for longer. The first finer scale is the finest that fits, and soon.
 inline constexpr float kMinMotionScale = 0.65f;
 void FollowPictureTime(float took_ms, bool moves, const ResolutionSettings& settings, Resolution* resolution);
 

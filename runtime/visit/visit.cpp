@@ -361,6 +361,7 @@ Error Visit::Enter(bool views) {
   v.own = {v.s->visitor.camera.view.fov_rad, v.s->visitor.camera.eye_height_m};
   v.MakeControlsAnew();
   v.ApplySettings();
+  v.resolution = FirstResolution(v.ResolutionWished(), v.renderer.software());
   BeginHint(v.controls, *v.s, &v.notices);
   PrepareDiscovery(v.find());
   if (v.settings.kiosk) v.EndVisitor();

@@ -182,6 +182,7 @@ Error PageVisit::Open(const std::string& settings) {
   v.menu.can_quit = false;
   v.controls.has_photos = true;
   v.ApplySettings();
+  v.resolution = FirstResolution(v.ResolutionWished(), v.renderer.software());
   BeginHint(v.controls, v.s, &v.notices);
   PrepareHotspots(v.pack.hotspots, v.s.town.walkable, &v.hotspots);
   PrepareSoundscape(v.pack, v.s.town.walkable, &v.soundscape);

@@ -124,7 +124,9 @@ Error Run(int argc, char** argv) {
   FrameInput frame;
   FrameFromSimulation(pack, s, &looks, &frame);
   const PlayerSettings settings;
-  Rule rule{by_rule, ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, s.control.settings), {}};
+  const ResolutionSettings wished =
+      ResolutionFor(settings.frames_per_s, settings.least_resolution_scale, s.control.settings);
+  Rule rule{by_rule, wished, FirstResolution(wished, renderer.software())};
   for (int k = 0; k < frames + kWarm && !s.visitor.finished; ++k) {
     const double before = Clock_ms();
     FrameFromSimulation(pack, s, &looks, &frame);

@@ -140,6 +140,32 @@ TEST(ResolutionRule, AFastMachineDrawsAsFineAsTheWindow) {
   for (float scale : Play({2, 12, 0.2f}, {}, 1000, &r, &random)) EXPECT_EQ(scale, 1);
 }
 
+TEST(ResolutionRule, WhereTheProcessorDrawsNoFirstPictureTakesLongerThanTheLaterOnes) {
+  const Machine slow{20, 200, 0.05f};
+  const ResolutionSettings settings{40, 0.5f};
+  for (const bool software : {true, false}) {
+    SCOPED_TRACE(software);
+    Resolution r = FirstResolution(settings, software);
+    std::mt19937 random(1);
+    EXPECT_FLOAT_EQ(ScaleNow(settings, r), software ? 0.5f : 1.0f);
+    const std::vector<float> scales = Play(slow, settings, 200, &r, &random);
+    if (!software) continue;
+    for (float scale : scales) EXPECT_FLOAT_EQ(scale, 0.5f);
+  }
+}
+
+TEST(ResolutionRule, WhereAFastProcessorDrawsPicturesAreSoonAsFineAsItCan) {
+  const ResolutionSettings settings{40, 0.5f};
+  std::mt19937 random(1);
+  Resolution quick = FirstResolution(settings, true), middling = quick;
+  Play({2, 20, 0}, settings, 11, &quick, &random);
+  EXPECT_EQ(quick.scale, 1);
+  const Machine machine{4, 50, 0};
+  Play(machine, settings, 11, &middling, &random);
+  EXPECT_GT(middling.scale, 0.65f);
+  EXPECT_LT(Took_ms(machine, middling.scale, &random), settings.frame_ms);
+}
+
 TEST(ResolutionRule, WhoeverWishesNoCoarserPictureGetsNone) {
   Resolution r;
   std::mt19937 random(1);
