@@ -1,7 +1,4 @@
-#include <unistd.h>
-
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,10 +8,6 @@
 
 namespace {
 
-// The verbs of flaneur-bake, which stands beside this program, need image libraries that take a third of a second to
-// load.
-constexpr auto kInBake = nullptr;
-
 struct Verb {
   int (*run)(const flaneur::Arguments&);
   const char* usage;
@@ -22,12 +15,12 @@ struct Verb {
 };
 
 const std::map<std::string, Verb> kVerbs{
-    {"bake", {kInBake, "TOUR.toml... [-o DIR]", "all stages, from tour.toml to a tour pack"}},
-    {"plan", {kInBake, "TOUR.toml [--json]", "the steps of a bake, for this machine or many"}},
-    {"step", {kInBake, "TOUR.toml NAME", "one of these steps"}},
+    {"bake", {flaneur::RunBake, "TOUR.toml... [-o DIR]", "all stages, from tour.toml to a tour pack"}},
+    {"plan", {flaneur::RunPlan, "TOUR.toml [--json]", "the steps of a bake, for this machine or many"}},
+    {"step", {flaneur::RunStep, "TOUR.toml NAME", "one of these steps"}},
     {"cache", {flaneur::RunCache, "[DIR] [--verify]", "what steps have made and keep"}},
     {"avatar", {flaneur::RunAvatar, "IN.glb -o OUT.glb", "levels of detail of a rigged character"}},
-    {"impostor", {kInBake, "IN.glb -o DIR", "impostor atlas of a rigged character"}},
+    {"impostor", {flaneur::RunImpostor, "IN.glb -o DIR", "impostor atlas of a rigged character"}},
     {"footprints", {flaneur::RunFootprints, "TOWN.glb -o OUT.geojson", "obstacles from a town model"}},
     {"check", {flaneur::RunCheck, "OUT.geojson [--town TOWN.glb]", "whether obstacles are fit for a crowd"}},
     {"web", {flaneur::RunWeb, "PACK.glb -o DIR", "a tour as a static web site"}},
@@ -46,14 +39,6 @@ void PrintHelp() {
 int Refuse(const std::string& why) {
   std::fprintf(stderr, "flaneur: error: %s; see flaneur --help\n", why.c_str());
   return 2;
-}
-
-int HandToBake(char** argv) {
-  std::error_code error;
-  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::string bake = (own.parent_path() / "flaneur-bake").string();
-  execv(bake.c_str(), argv);
-  return Refuse("the program flaneur-bake, which this verb needs, should stand beside flaneur as " + bake);
 }
 
 }  // namespace
@@ -75,7 +60,6 @@ int main(int argc, char** argv) {
     for (const auto& [name, unused] : kVerbs) names.push_back(name);
     return Refuse("there is no verb '" + args[0] + "'" + flaneur::DidYouMean(args[0], names));
   }
-  if (verb->second.run == kInBake) return HandToBake(argv);
   try {
     return verb->second.run({args.begin() + 1, args.end()});
   } catch (const std::bad_alloc&) {

@@ -23,7 +23,7 @@ class Faults(SmallTourTest):
             self.skipTest(f"no {LIBRARY}: the tests' libraries are not built, or this build has sanitizers, which stand no other preload")
 
     def faulty(self, number, kind):
-        return self.bake("-j", "1", LD_PRELOAD=str(LIBRARY), FAULT_PROGRAM="flaneur-bake", FAULT_AT=str(number), FAULT_KIND=kind,
+        return self.bake("-j", "1", LD_PRELOAD=str(LIBRARY), FAULT_PROGRAM="flaneur", FAULT_AT=str(number), FAULT_KIND=kind,
                          FAULT_COUNT=str(self.folder / "count"))
 
     def made(self):

@@ -67,7 +67,11 @@ export class Hands {
     const canvas = this.canvas, on = (type, take, options) => this.#on(canvas, type, take, options);
     on('pointerdown', (e) => {
       if (e.button !== 0 || this.#isLocked()) return;
-      canvas.setPointerCapture(e.pointerId);
+      try {
+        canvas.setPointerCapture(e.pointerId);
+      } catch {
+        return;  // the browser is about to catch the pointer for good, as the last click has asked
+      }
       this.down.set(e.pointerId, {x: e.clientX, y: e.clientY});
       this.began = this.down.size === 1 ? {x: e.clientX, y: e.clientY, time: e.timeStamp} : null;
       canvas.focus();

@@ -16,7 +16,7 @@ const kTold_ms = 100;     // the page follows so often
 const kLoad_ms = 16;      // between two tasks that make ready what has come
 const kMeanwhile_ms = 20; // of pictures that take longer, hands are heard and people walk so often, a step at most each time
 const kAway_ms = 1000;    // who comes back to a tab that was hidden longer goes on where they were
-const kTriesOfContext = 4;
+const kTriesOfContext = 4, kHolds_ms = 20000;  // in a row; a picture that stood so long was no vain try
 const kSpeaks = 1;        // of the messages; flaneur-tour.js knows which it understands
 const kSettings = 'flaneur settings ' + new URL('.', location).pathname;
 
@@ -28,6 +28,7 @@ const wishes = () => new URLSearchParams(location.hash.slice(1));
 const language = () => wishes().get('lang') || navigator.language.slice(0, 2);
 const say = (kind) => sentences.say(kind, shown?.language ?? language());
 let shown = null;  // of the last picture
+let seenSince = Infinity;
 
 // To whoever embeds the page, and to its own scripts.
 function tell(event, detail = {}) {
@@ -289,6 +290,7 @@ async function visitTour(visit, wishesNow) {
   poster.hidden = true;
   showMessage('');
   page.dataset.state = 'visiting';
+  seenSince = performance.now();
   const parts = build(canvas, player, described, visit);
   canvas.focus();
   const drawn = drawPictures(canvas, parts, visit);
@@ -320,12 +322,15 @@ async function run() {
   let again = takeWishes;
   for (let tries = 1;; ++tries) {
     const visit = new AbortController();
+    seenSince = Infinity;
     try {
       page.dataset.state = 'loading';
       await visitTour(visit, again);
     } catch (e) {
       visit.abort();
-      if (!(e instanceof Trouble) || e.kind !== 'lost' || tries === kTriesOfContext) return fail(e);
+      if (!(e instanceof Trouble) || e.kind !== 'lost') return fail(e);
+      if (performance.now() - seenSince > kHolds_ms) tries = 1;
+      if (tries === kTriesOfContext) return fail(new Trouble('gone'));
       const before = shown;
       poster.hidden = false;
       showMessage(say('lost'));

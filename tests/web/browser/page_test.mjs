@@ -415,16 +415,34 @@ const tests = {
     }
     await host.close();
   },
-  async 'a lost context comes back at the same place'() {
+  async 'a lost context comes back at the same place, however often in a day'() {
     const host = await serve(site);
     const page = await newPage(host.url, countErrors);
-    await inState(page, 'visiting');
-    await page.evaluate(() => globalThis.gl.getExtension('WEBGL_lose_context').loseContext());
-    await inState(page, 'loading');
-    assert.match(await sentence(page), /moment/);
+    const lose = () => page.evaluate(() => globalThis.gl.getExtension('WEBGL_lose_context').loseContext());
+    for (let time = 0; time < 5; ++time) {
+      await inState(page, 'visiting');
+      await page.evaluate(() => {  // a minute later
+        const now = performance.now.bind(performance);
+        performance.now = () => now() + 60000;
+      });
+      await lose();
+      await inState(page, 'loading');
+      assert.match(await sentence(page), /moment/);
+    }
     await inState(page, 'visiting');
     await until(page, 'pictures', (s) => s.pictures > 1);
     assert.equal(await sentence(page), '');
+    await end(page);
+    await host.close();
+  },
+  async 'a context that is lost as soon as it is there is not tried for ever'() {
+    const host = await serve(site);
+    const page = await newPage(host.url, (p) => p.evaluateOnNewDocument(() => {
+      addEventListener('tour-loaded', () => document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext());
+    }));
+    await inState(page, 'failed');
+    assert.match(await sentence(page), /again and again/);
+    assert.equal(await page.$eval('#begin', (e) => e.hidden), false);
     await end(page);
     await host.close();
   },
