@@ -28,9 +28,8 @@ Error MakeModels(Baking* baking, const Step& step) {
   for (const size_t need : step.needs) {
     if (Error e = DoStep(baking->store, &baking->steps[need])) return e;
   }
-  if (Error e = ReadTownOnce(baking)) return e;
   if (Error e = MakeTitlePage(baking->settings.title_page, &baking->parts.title_page)) return e;
-  return BuildModels(baking->parts, baking->jobs, &baking->models);
+  return BuildModels(baking->parts, &baking->models);
 }
 
 std::string PackModels(Baking* baking, const Step& step, StageReport* report, Warnings* warnings) {

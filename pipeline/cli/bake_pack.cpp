@@ -90,12 +90,14 @@ Error MakePack(Baking* baking, Step* step, StageReport* report, Warnings* warnin
 
 // The pack's models stand for all others.
 bool IsOfPack(const std::string& stage) {
-  constexpr const char* kStages[] = {"town", "footprints", "painting", "check", "models", "media"};
+  constexpr const char* kStages[] = {"town", "footprints", "meshes", "painting", "check", "models", "media"};
   return std::find(std::begin(kStages), std::end(kStages), stage) != std::end(kStages);
 }
 
 // Steps that the report does not list.
-bool IsUntold(const std::string& stage) { return stage == "media" || stage == "painting" || stage == "models"; }
+bool IsUntold(const std::string& stage) {
+  return stage == "media" || stage == "painting" || stage == "meshes" || stage == "models";
+}
 
 // As if it had been baked anew from the store: no seconds, all cached.
 bool SaysAllCached(std::string* text) {

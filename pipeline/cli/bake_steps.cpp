@@ -20,7 +20,7 @@ constexpr double kReading_s = 0.05;  // from the store
 const std::map<std::string, StepCost> kTypicalCosts{
     {"source", {8, 500}}, {"town", {1, 300}},   {"footprints", {2, 400}}, {"painting", {0.2, 100}},
     {"check", {2, 400}},  {"avatar", {3, 300}}, {"impostor", {10, 500}},  {"tint", {0.2, 100}},
-    {"models", {2, 600}}, {"media", {1, 100}},  {"pack", {0.5, 300}}};
+    {"meshes", {3, 400}}, {"models", {1, 600}}, {"media", {1, 100}},      {"pack", {0.5, 300}}};
 
 double PeakMemory_mb() {
   rusage usage{};

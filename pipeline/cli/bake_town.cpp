@@ -243,6 +243,15 @@ void AddTownSteps(Baking* baking) {
   footprints->key = [baking] { return FootprintsInputs(baking->settings, ShapeKey(baking)); };
   footprints->make = [baking](StageReport* r, Warnings* w) { return MakeFootprints(baking, r, w); };
   Keep(footprints, &baking->parts.footprints, &baking->parts.ground);
+
+  Step* meshes = AddStep(baking, "meshes", s.name);
+  meshes->needs = {IndexOf(*baking, town)};
+  meshes->key = [baking] { return TownMeshesInputs(ShapeKey(baking)); };
+  meshes->make = [baking](StageReport*, Warnings*) {
+    if (Error e = ReadTownOnce(baking)) return e;
+    return EncodeTown(baking->parts.town, baking->jobs, &baking->parts.encoded_town);
+  };
+  Keep(meshes, &baking->parts.encoded_town);
   if (s.painting_file.file.empty()) return;
 
   Step* painting = AddStep(baking, "painting", s.name);  // before the people are made, for it may be wrong

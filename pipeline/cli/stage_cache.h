@@ -116,6 +116,14 @@ void Fields(A& a, EncodedAvatar* v) {
   a(&v->levels, &v->props, &v->clips);
 }
 template <typename A>
+void Fields(A& a, EncodedTown::Node* v) {
+  a(&v->name, &v->mesh, &v->transform, &v->extras);
+}
+template <typename A>
+void Fields(A& a, EncodedTown* v) {
+  a(&v->materials, &v->images, &v->nodes, &v->meshes);
+}
+template <typename A>
 void Fields(A& a, AvatarPart* v) {
   a(&v->skin, &v->skeleton_node, &v->joint_nodes, &v->level_nodes, &v->prop_nodes, &v->animations, &v->materials);
 }

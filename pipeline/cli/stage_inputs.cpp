@@ -134,6 +134,10 @@ std::string TownInputs(const TourSettings& s, const std::string& shape_inputs) {
   return print.Add(s.georeference.origin_m.x).Add(s.georeference.origin_m.y).Hex();
 }
 
+std::string TownMeshesInputs(const std::string& shape_inputs) {
+  return Fingerprint().Add("meshes").Add(shape_inputs).Hex();
+}
+
 std::string FootprintsInputs(const TourSettings& s, const std::string& shape_inputs) {
   Fingerprint print;
   print.Add("footprints").Add(shape_inputs);

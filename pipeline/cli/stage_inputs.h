@@ -16,6 +16,7 @@ std::string ScriptInputs(const SourceSettings& source, const std::string& blende
 // `contents`: of the town's file, where it has one, and of its parts'.
 std::string TownShapeInputs(const TourSettings& settings, const std::vector<std::string>& contents);
 std::string TownInputs(const TourSettings& settings, const std::string& shape_inputs);
+std::string TownMeshesInputs(const std::string& shape_inputs);
 std::string AvatarInputs(const AvatarSettings& avatar, const std::string& content, const LevelsOptions& levels);
 std::string ImpostorInputs(const AvatarSettings& avatar, const std::string& content, const std::string& blender,
                            int max_triangles, const ImpostorOptions& impostor);

@@ -135,27 +135,25 @@ float ThresholdFor(const AtlasLevel& level, double share) {
 
 Error ReadLayers(const fs::path& exr, int first_row, AtlasLevel* level) {
   std::array<int, kLayers> channels{};
-  size_t width = 0, stride = 0;
+  size_t stride = 0;
   const auto accept = [&](const PictureShape& shape) {
     if (shape.width != level->width || first_row + shape.height > level->height) {
       return Fail(exr.string() + ": Blender rendered " + std::to_string(shape.width) + " x " +
                   std::to_string(shape.height) + " pixels, not what it was asked for");
     }
-    width = static_cast<size_t>(shape.width);
     stride = shape.channels.size();
     return FindChannels(exr, shape, &channels);
   };
-  std::vector<float> values;
-  if (Error error = ReadPicture(exr, accept, &values)) return error;
-  const size_t first = static_cast<size_t>(first_row) * width;
-  for (size_t i = 0; i < values.size() / stride; ++i) {
-    std::array<float, kLayers> layers{};
-    for (size_t c = 0; c < kLayers; ++c) {
-      if (channels[c] >= 0) layers[c] = values[i * stride + static_cast<size_t>(channels[c])];
+  return ReadPicture(exr, accept, [&](int row, std::span<const float> values) {
+    AtlasTexel* texels = &At(level->texels, (first_row + row) * level->width);
+    for (size_t i = 0; i < values.size() / stride; ++i) {
+      std::array<float, kLayers> layers{};
+      for (size_t c = 0; c < kLayers; ++c) {
+        if (channels[c] >= 0) layers[c] = values[i * stride + static_cast<size_t>(channels[c])];
+      }
+      texels[i] = TexelOf(layers);
     }
-    level->texels[first + i] = TexelOf(layers);
-  }
-  return Ok();
+  });
 }
 
 void TurnIntoCells(const ImpostorAtlas& atlas, AtlasLevel* level) {

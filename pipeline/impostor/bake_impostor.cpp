@@ -212,7 +212,7 @@ Error Assemble(const fs::path& folder, int threads, ImpostorAtlas* atlas, Impost
   KeepCoverage(&levels, kAtlasLevels);
   Jobs others((threads > 0 ? static_cast<size_t>(threads) : ThreadsOfThisMachine()) - 1);
   CompressAtlas(levels, &others, atlas);
-  return EncodeAtlas(levels.front(), atlas);
+  return EncodeAtlas(levels.front(), &others, atlas);
 }
 
 json Description(const ImpostorAtlas& atlas) {

@@ -86,6 +86,39 @@ std::vector<uint8_t> Ktx2(const std::vector<AtlasLevel>& levels, size_t first, T
   return WriteKtx2(texture, Supercompression::kZstandard);
 }
 
+template <typename Bytes>
+Pixels PixelsOf(const AtlasLevel& level, Bytes of) {
+  Pixels pixels{level.width, level.height, {}};
+  pixels.rgba.reserve(4 * level.texels.size());
+  for (const AtlasTexel& texel : level.texels) {
+    const auto bytes = of(texel);
+    pixels.rgba.insert(pixels.rgba.end(), bytes.begin(), bytes.end());
+  }
+  return pixels;
+}
+
+// In the avatar's axes, with the depth as alpha.
+Pixels NormalsOf(const AtlasLevel& finest, const ImpostorAtlas& atlas) {
+  Pixels normal{finest.width, finest.height, {}};
+  normal.rgba.assign(4 * finest.texels.size(), 128);
+  const size_t directions = static_cast<size_t>(atlas.directions);
+  for (size_t i = 0; i < atlas.cells.size(); ++i) {
+    const ImpostorCell& cell = atlas.cells[i];
+    const ViewAxes axes = AxesOf(static_cast<int>(i % directions), atlas.directions,
+                                 atlas.elevations_deg[i / directions % atlas.elevations_deg.size()]);
+    for (int y = cell.y; y < cell.y + cell.height; ++y) {
+      for (int x = cell.x; x < cell.x + cell.width; ++x) {
+        const size_t at = RowMajor(y, finest.width, x);
+        const AtlasTexel& texel = finest.texels[at];
+        const Vec3 n = Normalized(axes.right * texel.normal.x + axes.up * texel.normal.y + axes.near * texel.normal.z);
+        const float channels[] = {n.x, n.y, n.z, texel.depth_m / atlas.depth_range_m};
+        for (size_t c = 0; c < 4; ++c) normal.rgba[4 * at + c] = Quantized(0.5f + 0.5f * channels[c]);
+      }
+    }
+  }
+  return normal;
+}
+
 }  // namespace
 
 Vec2 SquareFromNormal(Vec3 n) {
@@ -120,38 +153,17 @@ void CompressAtlas(const std::vector<AtlasLevel>& levels, Jobs* jobs, ImpostorAt
                            [](const Block& block, uint8_t* out) { CompressColors(block, TintBytes, out); });
 }
 
-Error EncodeAtlas(const AtlasLevel& finest, ImpostorAtlas* atlas) {
-  Pixels albedo{finest.width, finest.height, {}}, normal = albedo;
-  for (const AtlasTexel& texel : finest.texels) {
-    const auto bytes = AlbedoBytes(texel);
-    albedo.rgba.insert(albedo.rgba.end(), bytes.begin(), bytes.end());
+Error EncodeAtlas(const AtlasLevel& finest, Jobs* jobs, ImpostorAtlas* atlas) {
+  const std::array<std::function<Error()>, 3> pictures{
+      [&] { return EncodePng(PixelsOf(finest, AlbedoBytes), true, &atlas->albedo); },
+      [&] { return EncodePng(NormalsOf(finest, *atlas), false, &atlas->normal); },
+      [&] { return atlas->tint_regions ? EncodePng(PixelsOf(finest, TintBytes), false, &atlas->tints) : Ok(); }};
+  std::array<Error, 3> errors;
+  ParallelFor(jobs, pictures.size(), [&](size_t i) { errors[i] = pictures[i](); });
+  for (Error& error : errors) {
+    if (error) return std::move(error);
   }
-  normal.rgba.assign(albedo.rgba.size(), 128);
-  const size_t directions = static_cast<size_t>(atlas->directions);
-  for (size_t i = 0; i < atlas->cells.size(); ++i) {
-    const ImpostorCell& cell = atlas->cells[i];
-    const ViewAxes axes = AxesOf(static_cast<int>(i % directions), atlas->directions,
-                                 atlas->elevations_deg[i / directions % atlas->elevations_deg.size()]);
-    for (int y = cell.y; y < cell.y + cell.height; ++y) {
-      for (int x = cell.x; x < cell.x + cell.width; ++x) {
-        const size_t at = RowMajor(y, finest.width, x);
-        const AtlasTexel& texel = finest.texels[at];
-        const Vec3 n = Normalized(axes.right * texel.normal.x + axes.up * texel.normal.y + axes.near * texel.normal.z);
-        const float channels[] = {n.x, n.y, n.z, texel.depth_m / atlas->depth_range_m};
-        for (size_t c = 0; c < 4; ++c) normal.rgba[4 * at + c] = Quantized(0.5f + 0.5f * channels[c]);
-      }
-    }
-  }
-  if (Error error = EncodePng(albedo, true, &atlas->albedo)) return error;
-  if (atlas->tint_regions) {
-    Pixels tints{finest.width, finest.height, {}};
-    for (const AtlasTexel& texel : finest.texels) {
-      const auto bytes = TintBytes(texel);
-      tints.rgba.insert(tints.rgba.end(), bytes.begin(), bytes.end());
-    }
-    if (Error error = EncodePng(tints, false, &atlas->tints)) return error;
-  }
-  return EncodePng(normal, false, &atlas->normal);
+  return Ok();
 }
 
 }  // namespace flaneur

@@ -18,7 +18,7 @@ Vec2 SquareFromNormal(Vec3 normal);
 // bytes.
 void CompressAtlas(const std::vector<AtlasLevel>& levels, Jobs* jobs, ImpostorAtlas* atlas);
 
-// The two PNG files from the finest level. Errors: what OpenImageIO says.
-Error EncodeAtlas(const AtlasLevel& finest, ImpostorAtlas* atlas);
+// The PNG files from the finest level, side by side. Errors: what OpenImageIO says.
+Error EncodeAtlas(const AtlasLevel& finest, Jobs* jobs, ImpostorAtlas* atlas);
 
 }  // namespace flaneur

@@ -1,146 +1,26 @@
 #include "pipeline/pack/write_tour_pack.h"
 
-#include <cmath>
-#include <map>
-#include <optional>
 #include <utility>
 
 #include "pipeline/core/reach.h"
 #include "pipeline/pack/tour_json.h"
-#include "runtime/base/array.h"
-#include "runtime/base/text.h"
 
 namespace flaneur {
 namespace {
 
-// A street's ground is hundreds of metres wide, and its textures repeat: both need finer steps than a person.
-constexpr int kTownPositionBits = 18, kTownUvBits = 16;
-
-// What a page decodes between two pictures: some milliseconds.
-constexpr size_t kTownPrimitive_triangles = 5000;
-
-// The matrix as translation, rotation and scale; none where it shears.
-std::optional<Transform> Decompose(const Mat4& m) {
-  Vec3 axes[3];
-  float lengths[3];
-  for (size_t c = 0; c < 3; ++c) {
-    axes[c] = {m.m[c][0], m.m[c][1], m.m[c][2]};
-    lengths[c] = Length(axes[c]);
-    if (!(lengths[c] > 1e-6f)) return std::nullopt;
-    axes[c] = axes[c] * (1 / lengths[c]);
-  }
-  if (std::abs(Dot(axes[0], axes[1])) > 1e-4f || std::abs(Dot(axes[0], axes[2])) > 1e-4f ||
-      std::abs(Dot(axes[1], axes[2])) > 1e-4f) {
-    return std::nullopt;
-  }
-  if (Dot(Cross(axes[0], axes[1]), axes[2]) < 0) {
-    axes[0] = axes[0] * -1;
-    lengths[0] = -lengths[0];
-  }
-  // Shepperd's choice of the largest component keeps the square root away from zero.
-  const float trace = axes[0].x + axes[1].y + axes[2].z;
-  Quat q;
-  if (trace > 0) {
-    q = {axes[1].z - axes[2].y, axes[2].x - axes[0].z, axes[0].y - axes[1].x, 1 + trace};
-  } else if (axes[0].x >= axes[1].y && axes[0].x >= axes[2].z) {
-    q = {1 + axes[0].x - axes[1].y - axes[2].z, axes[0].y + axes[1].x, axes[2].x + axes[0].z, axes[1].z - axes[2].y};
-  } else if (axes[1].y >= axes[2].z) {
-    q = {axes[0].y + axes[1].x, 1 - axes[0].x + axes[1].y - axes[2].z, axes[1].z + axes[2].y, axes[2].x - axes[0].z};
-  } else {
-    q = {axes[2].x + axes[0].z, axes[1].z + axes[2].y, 1 - axes[0].x - axes[1].y + axes[2].z, axes[0].y - axes[1].x};
-  }
-  return Transform{{m.m[3][0], m.m[3][1], m.m[3][2]}, Normalized(q), {lengths[0], lengths[1], lengths[2]}};
-}
-
-std::vector<Mesh> Baked(std::vector<Mesh> meshes, const Mat4& world) {
-  const Mat4 inverse = Inverse(world);
-  for (Mesh& mesh : meshes) {
-    for (Vec3& p : mesh.positions) p = TransformPoint(world, p);
-    for (Vec3& n : mesh.normals) {  // by the inverse transpose
-      n = Normalized(Vec3{inverse.m[0][0] * n.x + inverse.m[0][1] * n.y + inverse.m[0][2] * n.z,
-                          inverse.m[1][0] * n.x + inverse.m[1][1] * n.y + inverse.m[1][2] * n.z,
-                          inverse.m[2][0] * n.x + inverse.m[2][1] * n.y + inverse.m[2][2] * n.z});
-    }
-  }
-  return meshes;
-}
-
-std::string TagExtras(const SceneNode& node) {
-  std::string json;
-  const auto add = [&json](const char* key, const char* value) {
-    json += std::string(json.empty() ? "{\"" : ",\"") + key + "\":\"" + value + "\"";
-  };
-  if (node.kind != NodeKind::kUntagged) add("flaneur_kind", NodeKindName(node.kind));
-  if (node.kind == NodeKind::kGround) add("flaneur_ground", GroundKindName(node.ground));
-  if (node.turns != TurnsBy::kNothing) add("flaneur_turns", TurnsByName(node.turns));
-  return json.empty() ? json : json + "}";
-}
-
-// A node of the town as glTF has it.
-struct TownNode {
-  const SceneNode* node = nullptr;
-  std::optional<Transform> transform;  // none: it shears, and its mesh is baked
-  size_t mesh = 0;                     // among those that are encoded
-};
-
-// Nodes with the same meshes share theirs.
-std::vector<TownNode> NodesOf(const Scene& town, size_t* mesh_count) {
-  std::vector<TownNode> nodes;
-  std::map<std::vector<int>, size_t> shared;
-  *mesh_count = 0;
-  for (const SceneNode& node : town.nodes) {
-    if (node.meshes.empty()) continue;
-    TownNode& out = nodes.emplace_back(TownNode{&node, Decompose(node.world), *mesh_count});
-    if (out.transform) out.mesh = shared.try_emplace(node.meshes, *mesh_count).first->second;
-    if (out.mesh == *mesh_count) ++*mesh_count;
-  }
-  return nodes;
-}
-
-Error EncodeTown(const Scene& town, const std::vector<TownNode>& nodes, Jobs* jobs, std::vector<EncodedMesh>* meshes) {
-  DracoOptions draco;
-  draco.position_bits = kTownPositionBits;
-  draco.uv_bits = kTownUvBits;
-  draco.most_triangles = kTownPrimitive_triangles;
-  std::vector<const TownNode*> first(meshes->size(), nullptr);
-  for (const TownNode& node : nodes) {
-    if (first[node.mesh] == nullptr) first[node.mesh] = &node;
-  }
-  std::vector<Error> errors(meshes->size());
-  ParallelFor(jobs, meshes->size(), [&](size_t k) {
-    std::vector<Mesh> parts;
-    for (int m : first[k]->node->meshes) parts.push_back(At(town.meshes, m));
-    if (!first[k]->transform) parts = Baked(std::move(parts), first[k]->node->world);
-    errors[k] = EncodeMesh(parts, draco, &(*meshes)[k]);
-  });
-  for (size_t k = 0; k < errors.size(); ++k) {
-    if (errors[k]) return Fail("mesh '" + OneLine(first[k]->node->name) + "': " + errors[k].message);
-  }
-  return Ok();
-}
-
-Error AddTown(const Scene& town, Jobs* jobs, GltfBuilder* builder) {
+Error AddTown(const EncodedTown& town, GltfBuilder* builder) {
   const std::vector<int> materials = builder->AddMaterials(town.materials, town.images);
-  size_t mesh_count = 0;
-  const std::vector<TownNode> nodes = NodesOf(town, &mesh_count);
-  for (const TownNode& node : nodes) {
-    if (node.node->turns != TurnsBy::kNothing && !node.transform)
-      return Fail("town: node '" + OneLine(node.node->name) +
-                  "' turns (flaneur_turns) but is sheared by its parents' scales: apply them to its mesh");
-  }
-  std::vector<EncodedMesh> encoded(mesh_count);
-  if (Error e = EncodeTown(town, nodes, jobs, &encoded)) return e;
-  std::vector<int> meshes(mesh_count, -1), roots;
-  for (const TownNode& node : nodes) {
+  std::vector<int> meshes(town.meshes.size(), -1), roots;
+  for (const EncodedTown::Node& node : town.nodes) {
     int& mesh = meshes[node.mesh];
     if (mesh < 0) {
-      if (Error e = builder->AddMesh(node.node->name, encoded[node.mesh], materials, &mesh)) return e;
+      if (Error e = builder->AddMesh(node.name, town.meshes[node.mesh], materials, &mesh)) return e;
     }
     GltfNode out;
-    out.name = node.node->name;
+    out.name = node.name;
     out.mesh = mesh;
-    out.transform = node.transform.value_or(Transform{});
-    out.extras = TagExtras(*node.node);
+    out.transform = node.transform;
+    out.extras = node.extras;
     roots.push_back(builder->AddNode(out));
   }
   builder->AddScene("town", roots);
@@ -224,13 +104,13 @@ TourAvatar WithoutBulk(const TourAvatar& avatar) {
   return light;
 }
 
-Error BuildModels(const TourParts& parts, Jobs* jobs, TourModels* models) {
+Error BuildModels(const TourParts& parts, TourModels* models) {
   GltfBuilder builder;
   TourIndices& indices = models->indices = {};
   // First in the file, as they are read first.
   if (!parts.title_page.picture.empty()) indices.title_picture_view = builder.AddBufferView(parts.title_page.picture);
   if (!parts.title_page.logo.empty()) indices.title_logo_view = builder.AddBufferView(parts.title_page.logo);
-  if (Error e = AddTown(parts.town, jobs, &builder)) return e;
+  if (Error e = AddTown(parts.encoded_town, &builder)) return e;
   if (Error e = AddAvatars(parts, &builder, &indices)) return e;
   const auto& heights = parts.ground.height_m;
   indices.height_view =

@@ -10,6 +10,7 @@
 #include "pipeline/core/scene.h"
 #include "pipeline/io/encode_avatar.h"
 #include "pipeline/io/gltf_builder.h"
+#include "pipeline/pack/encode_town.h"
 #include "runtime/base/error.h"
 #include "runtime/base/jobs.h"
 #include "runtime/pack/tour_pack.h"
@@ -40,6 +41,7 @@ struct TourAvatar {
 
 struct TourParts : TourData {
   Scene town;
+  EncodedTown encoded_town;  // by EncodeTown
   std::vector<TourAvatar> avatars;
   Footprints footprints;
   GroundRaster ground;
@@ -76,9 +78,9 @@ Error EncodeTourAvatar(TourAvatar* avatar, Jobs* jobs);
 // The avatar without what its models hold already: meshes, pictures, keys.
 TourAvatar WithoutBulk(const TourAvatar& avatar);
 
-// Of encoded avatars. Scene 0 is the town; one scene more holds each avatar. The same parts give the same bytes.
-// Errors: geometry that cannot be compressed (names the mesh).
-Error BuildModels(const TourParts& parts, Jobs* jobs, TourModels* models);
+// Of an encoded town and encoded avatars. Scene 0 is the town; one scene more holds each avatar. The same parts give
+// the same bytes. Errors: meshes that do not fit into a glTF file (names them).
+Error BuildModels(const TourParts& parts, TourModels* models);
 
 // `parts` may be without the town, and its avatars WithoutBulk. Errors: as for WriteFile.
 Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, TourModels models, size_t* bytes);

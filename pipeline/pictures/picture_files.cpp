@@ -35,9 +35,8 @@ Error Module(const PictureModule** module) {
   return loaded.error;
 }
 
-template <typename Value, typename Function>
-Error Read(const fs::path& file, const AcceptPicture& accept, std::vector<Value>* values,
-           Function PictureModule::*read) {
+template <typename Values, typename Function>
+Error Read(const fs::path& file, const AcceptPicture& accept, Values values, Function PictureModule::*read) {
   const PictureModule* module = nullptr;
   if (Error e = Module(&module)) return e;
   Error refused;
@@ -48,8 +47,8 @@ Error Read(const fs::path& file, const AcceptPicture& accept, std::vector<Value>
 
 }  // namespace
 
-Error ReadPicture(const fs::path& file, const AcceptPicture& accept, std::vector<float>* values) {
-  return Read(file, accept, values, &PictureModule::read_floats);
+Error ReadPicture(const fs::path& file, const AcceptPicture& accept, const TakeRows& take) {
+  return Read<const TakeRows&>(file, accept, take, &PictureModule::read_floats);
 }
 
 Error ReadPicture(const fs::path& file, const AcceptPicture& accept, std::vector<uint8_t>* values) {

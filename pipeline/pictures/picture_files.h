@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,15 +22,17 @@ struct PictureShape {
 };
 
 // Rows from the top, the channels of a pixel side by side; floats as the file has them, bytes as sRGB files have them.
-// accept: asked before any pixel is read; its error is the result. Errors: a file that is no picture; names it.
+// accept: asked before any pixel is read; its error is the result. take: gets some whole rows at a time, from `first`
+// on. Errors: a file that is no picture; names it.
 using AcceptPicture = std::function<Error(const PictureShape&)>;
-Error ReadPicture(const std::filesystem::path& file, const AcceptPicture& accept, std::vector<float>* values);
+using TakeRows = std::function<void(int first, std::span<const float> values)>;
+Error ReadPicture(const std::filesystem::path& file, const AcceptPicture& accept, const TakeRows& take);
 Error ReadPicture(const std::filesystem::path& file, const AcceptPicture& accept, std::vector<uint8_t>* values);
 
 // Of what reads and writes them, for the keys of results that are kept.
 std::string PictureVersion();
 
-// Straight alpha. Errors: what OpenImageIO says.
+// Straight alpha, packed quickly rather than well. Errors: what OpenImageIO says.
 Error EncodePng(const Pixels& pixels, bool srgb, Image* image);
 
 // Upright, no side longer than most_px; as JPEG, or as PNG where it is translucent. Errors: a file that is no picture;

@@ -10,10 +10,29 @@
 namespace flaneur {
 namespace {
 
-constexpr int kJpegQuality = 90;
+constexpr int kJpegQuality = 90, kPngLevel = 2, kRowsAtOnce = 32;
 
-template <typename Value>
-std::string Read(const std::string& file, const AcceptPicture& accept, std::vector<Value>* values, Error* refused) {
+// Not the whole picture at once: what Blender renders of an impostor takes 140 MB.
+std::string ReadFloats(const std::string& file, const AcceptPicture& accept, const TakeRows& take, Error* refused) {
+  const auto input = OIIO::ImageInput::open(file);
+  if (!input) return OIIO::geterror();
+  const OIIO::ImageSpec& spec = input->spec();
+  *refused = accept({spec.width, spec.height, spec.channelnames});
+  if (*refused) return "";
+  const size_t row = static_cast<size_t>(spec.nchannels) * static_cast<size_t>(spec.width);
+  std::vector<float> values(kRowsAtOnce * row);
+  for (int y = 0; y < spec.height; y += kRowsAtOnce) {
+    const int end = std::min(y + kRowsAtOnce, spec.height);
+    if (!input->read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT,
+                               values.data()))
+      return input->geterror();
+    take(y, {values.data(), static_cast<size_t>(end - y) * row});
+  }
+  return "";
+}
+
+std::string ReadBytes(const std::string& file, const AcceptPicture& accept, std::vector<uint8_t>* values,
+                      Error* refused) {
   const auto input = OIIO::ImageInput::open(file);
   if (!input) return OIIO::geterror();
   const OIIO::ImageSpec& spec = input->spec();
@@ -21,8 +40,7 @@ std::string Read(const std::string& file, const AcceptPicture& accept, std::vect
   if (*refused) return "";
   values->resize(static_cast<size_t>(spec.nchannels) * static_cast<size_t>(spec.width) *
                  static_cast<size_t>(spec.height));
-  const OIIO::TypeDesc type = OIIO::BaseTypeFromC<Value>::value;
-  return input->read_image(0, 0, 0, spec.nchannels, type, values->data()) ? "" : input->geterror();
+  return input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, values->data()) ? "" : input->geterror();
 }
 
 std::string Write(const char* name, const OIIO::ImageSpec& spec, const uint8_t* pixels, std::vector<uint8_t>* bytes) {
@@ -39,7 +57,7 @@ std::string EncodeAsPng(const Pixels& pixels, bool srgb, std::vector<uint8_t>* b
   OIIO::ImageSpec spec(pixels.width, pixels.height, 4, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:UnassociatedAlpha", 1);  // else the writer would divide by it
   if (srgb) spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("png:compressionLevel", 6);
+  spec.attribute("png:compressionLevel", kPngLevel);
   return Write("picture.png", spec, pixels.rgba.data(), bytes);
 }
 
@@ -80,7 +98,7 @@ std::string Scaled(const std::string& file, int most_px, std::vector<uint8_t>* b
 }  // namespace flaneur
 
 const flaneur::PictureModule* FlaneurPictureModule() {
-  static const flaneur::PictureModule module{flaneur::Read<float>, flaneur::Read<uint8_t>, flaneur::EncodeAsPng,
+  static const flaneur::PictureModule module{flaneur::ReadFloats, flaneur::ReadBytes, flaneur::EncodeAsPng,
                                              flaneur::Scaled};
   return &module;
 }

@@ -11,7 +11,7 @@ namespace flaneur {
 
 struct PictureModule {
   // accept's error goes into *refused.
-  std::string (*read_floats)(const std::string& file, const AcceptPicture& accept, std::vector<float>* values,
+  std::string (*read_floats)(const std::string& file, const AcceptPicture& accept, const TakeRows& take,
                              Error* refused);
   std::string (*read_bytes)(const std::string& file, const AcceptPicture& accept, std::vector<uint8_t>* values,
                             Error* refused);

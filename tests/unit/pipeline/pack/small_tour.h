@@ -166,10 +166,12 @@ inline Error WriteWhole(const std::filesystem::path& path, TourParts parts, size
   for (TourAvatar& avatar : parts.avatars) {
     if (Error e = EncodeTourAvatar(&avatar, nullptr)) return e;
   }
+  if (Error e = EncodeTown(parts.town, nullptr, &parts.encoded_town)) return e;
   TourModels models;
-  if (Error e = BuildModels(parts, nullptr, &models)) return e;
+  if (Error e = BuildModels(parts, &models)) return e;
   for (TourAvatar& avatar : parts.avatars) avatar = WithoutBulk(avatar);
   parts.town = {};
+  parts.encoded_town = {};
   return WriteTourPack(path, parts, models, size);
 }
 
