@@ -180,9 +180,29 @@ def _bib(tailor, name, top, bottom, half_angle_deg, lift, cell):
         np.linspace(0.0, 0.32, len(rows)),
         closed=False,
     )
-    tailor.worn["upper bib " + name] = sf.lined(
-        sheet, len(angles), len(rows), False, 0.006 * tailor.size, cell
-    )
+    bib = sf.lined(sheet, len(angles), len(rows), False, 0.006 * tailor.size, cell)
+    loop = [_bib_strap(tailor, tree, points[0, column], lift, cell) for column in (0, -1)]
+    tailor.worn["upper bib " + name] = sf.joined([bib] + loop)
+
+
+def _bib_strap(tailor, tree, corner, lift, cell, half_width=0.011):
+    """From a bib's corner over the shoulder until it is beside the neck, under a collar."""
+    size, centre = tailor.size, _shoulder_centre(tailor)
+    side = np.sign(corner[0])
+    start, end = corner - centre, tl.direction(np.radians(side * 88)) + [0, 0, 2.0]
+    turns = np.linspace(start / np.linalg.norm(start), end / np.linalg.norm(end), 10)
+    turns /= np.linalg.norm(turns, axis=1, keepdims=True)
+    reach = np.array([sf.outermost(tree, centre, ray, 0.6) or 0.12 for ray in turns])
+    reach = tl.circular_blur(reach, 1, closed=False) + lift * size * np.linspace(0.7, 0.25, len(turns))
+    reach[0] = np.linalg.norm(start)
+    spine = centre + turns * reach[:, None]
+    across = np.cross(turns, np.gradient(spine, axis=0)) * side
+    across *= half_width * size / np.linalg.norm(across, axis=1, keepdims=True)
+    points = np.stack([spine + across, spine - across])
+    weights = tl.transferred(tailor, points.reshape(-1, 3), tailor.figure.parts["shirt"], 1.0)
+    sheet = sf.grid(points, weights.reshape(points.shape[:2] + (-1,)), cell, np.linspace(0.0, 1.0, len(spine)),
+                    np.array([0.02, 0.06]), closed=False)
+    return sf.lined(sheet, len(spine), 2, False, 0.004 * size, cell)
 
 
 def _shoulder_centre(tailor):

@@ -254,6 +254,17 @@ class TownspersonTest(unittest.TestCase):
             self.assertLess(out - max(above), 0.05)
         self.assertTrue(belted or not self.of_the_demo)
 
+    def test_a_bib_hangs_by_straps(self):
+        """The craftsman's ended 8 cm below the collar and hung from nothing."""
+        for glb in self.each():
+            materials = [material["name"] for material in glb.json["materials"]]
+            if "breeches" not in materials or "shirt" not in materials:  # no craftsman
+                continue
+            for side in (1, -1):
+                heights = sorted(y for primitive in glb.primitives() if materials[primitive["material"]] == "cloth"
+                                 for x, y, z in glb.values(primitive["attributes"]["POSITION"]) if z > 0 and 0.05 < side * x < 0.2 and y > 1.1)
+                self.assertLess(max(b - a for a, b in zip(heights, heights[1:])), 0.06)
+
     def test_speed_is_named(self):
         for glb in self.each():
             speeds = [

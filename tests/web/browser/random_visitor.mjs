@@ -34,7 +34,7 @@ const page = await browser.newPage();
 const hand = await page.createCDPSession();
 const done = [], wrong = [];
 let lost_ms = -Infinity;
-const kBrowsersOwn = /CONTEXT_LOST_WEBGL|context lost|ERR_INTERNET_DISCONNECTED|GPU stall|restoreContext/i;  // what was done to it
+const kBrowsersOwn = /CONTEXT_LOST_WEBGL|context lost|ERR_INTERNET_DISCONNECTED|GPU stall|restoreContext|GPU stall/i;  // what was done to it
 page.on('console', (m) => { if (/^(error|warn)/.test(m.type()) && !kBrowsersOwn.test(m.text())) wrong.push(`${m.type()}: ${m.text()}`); });
 page.on('pageerror', (e) => wrong.push(`thrown: ${e.stack ?? e.message}`));
 page.on('dialog', (d) => d.dismiss());
