@@ -29,8 +29,8 @@ class Plan(SmallTourTest):
     def test_says_what_is_made_from_what(self):
         steps = self.plan()
         names = [step["name"] for step in steps]
-        self.assertEqual(names, ["town:small", "footprints:small", "avatar:anna", "impostor:anna", "avatar:berta two",
-                                 "impostor:berta two", "check:small", "models:small", "media:small", "pack:small"])
+        self.assertEqual(names, ["town:small", "footprints:small", "meshes:small", "avatar:anna", "impostor:anna",
+                                 "avatar:berta two", "impostor:berta two", "check:small", "models:small", "media:small", "pack:small"])
         for number, step in enumerate(steps):
             self.assertLessEqual(set(step["needs"]), set(names[:number]))
             self.assertRegex(step["key"], "^[0-9a-f]{64}$")
@@ -153,7 +153,7 @@ class Comfort(SmallTourTest):
         self.assert_succeeds(result)
         for words in (f"pack    {self.out}/small.glb", f"report  {self.out}/report.html", f"flaneur-player {self.out}/small.glb"):
             self.assertIn(words, result.stdout)
-        self.assertRegex(result.stderr, r"\[1/8\] +\d+ %  \w+")
+        self.assertRegex(result.stderr, r"\[1/9\] +\d+ %  \w+")
         self.assertIn("100 %", result.stderr)
 
     def test_a_draft_is_a_whole_tour(self):
