@@ -149,7 +149,7 @@ Error Run(AvatarArguments a, const fs::path& input, AvatarLevels* levels, std::v
   }
   Avatar avatar;
   if (Error e = ReadAvatar(input, a.read, &avatar, warnings)) return e;
-  Jobs jobs(ThreadsOfThisMachine() - 1);
+  Jobs jobs(OtherThreads(0));
   a.levels.jobs = &jobs;
   if (Error e = BuildLevels(avatar, a.levels, levels, warnings)) return e;
   if (Error e = MainColors(avatar, colors)) return e;

@@ -6,11 +6,6 @@
 
 namespace flaneur {
 
-// Beside the caller's; 0: one a core, with it.
-inline size_t OtherThreads(int threads) {
-  return (threads > 0 ? static_cast<size_t>(threads) : ThreadsOfThisMachine()) - 1;
-}
-
 // Calls work(0) to work(count - 1), several at a time. What one of them throws is thrown here, once all threads have
 // ended; the rest may be left out then.
 template <typename Work>

@@ -210,7 +210,7 @@ Error Assemble(const fs::path& folder, int threads, ImpostorAtlas* atlas, Impost
   std::vector<AtlasLevel> levels = MakeLevels(std::move(finest));
   FillGutters(&levels);
   KeepCoverage(&levels, kAtlasLevels);
-  Jobs others((threads > 0 ? static_cast<size_t>(threads) : ThreadsOfThisMachine()) - 1);
+  Jobs others(OtherThreads(threads));
   CompressAtlas(levels, &others, atlas);
   return EncodeAtlas(levels.front(), &others, atlas);
 }

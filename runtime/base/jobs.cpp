@@ -110,6 +110,8 @@ size_t Jobs::threads() const { return impl_->threads.size(); }
 
 size_t ThreadsOfThisMachine() { return std::max(2u, std::thread::hardware_concurrency()); }
 
+size_t OtherThreads(int threads) { return (threads > 0 ? static_cast<size_t>(threads) : ThreadsOfThisMachine()) - 1; }
+
 Job StartJob(Jobs* jobs, Slice slice, Urgency urgency) {
   auto state = std::make_shared<Job::State>();
   state->slice = std::move(slice);

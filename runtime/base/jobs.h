@@ -59,6 +59,9 @@ class Jobs {
 // As many as there are cores, and two at least: who waits for a file or a device leaves the core to another.
 size_t ThreadsOfThisMachine();
 
+// As an option says: so many threads with the caller's, which these are beside; 0 or fewer: as above.
+size_t OtherThreads(int threads);
+
 // Has the slices done one after the other, until one is the last.
 Job StartJob(Jobs* jobs, Slice slice, Urgency urgency = Urgency::kAwaited);
 
