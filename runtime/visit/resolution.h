@@ -27,8 +27,8 @@ struct Resolution {
   float pixels_ms = -1;  // what all pixels would take at scale 1, by what the last change did; negative: not known
 };
 
-// As a visit begins: at the least scale where the processor draws, which elsewhere would take a second or two to be
-// found in, with pictures that everybody sees come one by one; at the finest on a graphics card.
+// As a visit begins: at the finest scale on a graphics card, at the least where the processor draws. The rule would
+// come to that only after ten pictures, each of them long enough to be seen coming.
 Resolution FirstResolution(const ResolutionSettings& settings, bool software);
 
 // What the next picture is to be drawn at; never coarser than the least scale.

@@ -164,8 +164,6 @@ def main():
                 program, log = start(display, arguments, folder)
                 starts += 1
                 display.wait_for("frames/s", program)
-        if wrong and program.poll() is None:
-            os.kill(program.pid, signal.SIGQUIT)
         if program.poll() is None:
             os.killpg(program.pid, signal.SIGTERM)
             try:

@@ -6,19 +6,33 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace flaneur {
 namespace {
 
 constexpr int kJpegQuality = 90, kPngLevel = 2, kRowsAtOnce = 32;
 
-// Not the whole picture at once: what Blender renders of an impostor takes 140 MB.
-std::string ReadFloats(const std::string& file, const AcceptPicture& accept, const TakeRows& take, Error* refused) {
-  const auto input = OIIO::ImageInput::open(file);
-  if (!input) return OIIO::geterror();
+// None: why not, or accept's error in *refused.
+std::unique_ptr<OIIO::ImageInput> Opened(const std::string& file, const AcceptPicture& accept, std::string* why,
+                                         Error* refused) {
+  auto input = OIIO::ImageInput::open(file);
+  if (!input) {
+    *why = OIIO::geterror();
+    return nullptr;
+  }
   const OIIO::ImageSpec& spec = input->spec();
   *refused = accept({spec.width, spec.height, spec.channelnames});
-  if (*refused) return "";
+  return *refused ? nullptr : std::move(input);
+}
+
+// Not the whole picture at once: what Blender renders of an impostor takes 140 MB.
+std::string ReadFloats(const std::string& file, const AcceptPicture& accept, const TakeRows& take, Error* refused) {
+  std::string why;
+  const auto input = Opened(file, accept, &why, refused);
+  if (!input) return why;
+  const OIIO::ImageSpec& spec = input->spec();
   const size_t row = static_cast<size_t>(spec.nchannels) * static_cast<size_t>(spec.width);
   std::vector<float> values(kRowsAtOnce * row);
   for (int y = 0; y < spec.height; y += kRowsAtOnce) {
@@ -33,11 +47,10 @@ std::string ReadFloats(const std::string& file, const AcceptPicture& accept, con
 
 std::string ReadBytes(const std::string& file, const AcceptPicture& accept, std::vector<uint8_t>* values,
                       Error* refused) {
-  const auto input = OIIO::ImageInput::open(file);
-  if (!input) return OIIO::geterror();
+  std::string why;
+  const auto input = Opened(file, accept, &why, refused);
+  if (!input) return why;
   const OIIO::ImageSpec& spec = input->spec();
-  *refused = accept({spec.width, spec.height, spec.channelnames});
-  if (*refused) return "";
   values->resize(static_cast<size_t>(spec.nchannels) * static_cast<size_t>(spec.width) *
                  static_cast<size_t>(spec.height));
   return input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, values->data()) ? "" : input->geterror();

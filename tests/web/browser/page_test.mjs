@@ -2,32 +2,13 @@
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import fs from 'node:fs';
-import http from 'node:http';
 import os from 'node:os';
 import path from 'node:path';
 import {createRequire} from 'node:module';
-import {launch, typeOf} from './chromium.mjs';
+import {launch, serve} from './chromium.mjs';
 
 const [flaneur, pack, player] = process.argv.slice(2);
 const axeCore = fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-
-// A plain static host; `change` may answer otherwise: {body}, {cut: bytes} or {status}.
-function serve(folder, change = () => null) {
-  const asked = [];
-  const server = http.createServer((request, response) => {
-    const name = decodeURI(request.url.split('?')[0]).replace(/\/$/, '/index.html').slice(1);
-    asked.push(name);
-    const file = path.join(folder, name), other = change(name);
-    if (other?.status || !fs.existsSync(file)) return response.writeHead(other?.status ?? 404).end();
-    const body = other?.body ?? fs.readFileSync(file);
-    response.writeHead(200, {'Content-Type': typeOf(file), 'Content-Length': body.length});
-    if (other?.cut === undefined) return response.end(body);
-    response.write(body.subarray(0, other.cut), () => response.destroy());
-  });
-  return new Promise((ready) => server.listen(0, '127.0.0.1', () => ready({
-    server, asked, url: `http://127.0.0.1:${server.address().port}/`,
-    close: () => new Promise((done) => { server.closeAllConnections(); server.close(done); })})));
-}
 
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'flaneur_page_'));
 const site = path.join(folder, 'site');

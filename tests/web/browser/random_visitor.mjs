@@ -2,16 +2,15 @@
 // order, in Debian's Chromium. What the page may never do: throw, complain on the console, stop drawing, say that it failed, or
 // come to a place that is none. Prints the seed, so that the same visitor comes again; exit status 1 with what was wrong.
 import fs from 'node:fs';
-import http from 'node:http';
 import path from 'node:path';
-import {launch, typeOf} from './chromium.mjs';
+import {launch, serve} from './chromium.mjs';
 
 const [site, seconds = '120', seedGiven] = process.argv.slice(2);
 if (!site || !fs.existsSync(path.join(site, 'tour.json'))) {
   console.error('random_visitor.mjs: error: name a folder that flaneur web wrote');
   process.exit(2);
 }
-let seed = Number(seedGiven ?? Date.now() % 1000000);
+let seed = Number(seedGiven ?? 1 + Date.now() % 1000000);
 console.log(`seed ${seed}`);
 function random() {  // of Park and Miller (1988): the same visitor for a seed
   seed = seed * 48271 % 2147483647;
@@ -21,20 +20,13 @@ const below = (n) => Math.floor(random() * n);
 const one = (all) => all[below(all.length)];
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
-const server = http.createServer((request, response) => {
-  const file = path.join(site, decodeURI(request.url.split('?')[0]).replace(/\/$/, '/index.html'));
-  if (!fs.existsSync(file)) return response.writeHead(404).end();
-  response.writeHead(200, {'Content-Type': typeOf(file)}).end(fs.readFileSync(file));
-});
-await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
-const url = `http://127.0.0.1:${server.address().port}/`;
-
+const {url} = await serve(site);
 const browser = await launch(120000);
 const page = await browser.newPage();
 const hand = await page.createCDPSession();
 const done = [], wrong = [];
 let lost_ms = -Infinity;
-const kBrowsersOwn = /CONTEXT_LOST_WEBGL|context lost|ERR_INTERNET_DISCONNECTED|GPU stall|restoreContext|GPU stall/i;  // what was done to it
+const kBrowsersOwn = /CONTEXT_LOST_WEBGL|context lost|ERR_INTERNET_DISCONNECTED|GPU stall|restoreContext/i;  // what was done to it
 page.on('console', (m) => { if (/^(error|warn)/.test(m.type()) && !kBrowsersOwn.test(m.text())) wrong.push(`${m.type()}: ${m.text()}`); });
 page.on('pageerror', (e) => wrong.push(`thrown: ${e.stack ?? e.message}`));
 page.on('dialog', (d) => d.dismiss());
