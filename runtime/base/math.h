@@ -20,12 +20,13 @@ struct Quat {
   float x = 0, y = 0, z = 0, w = 1;
 };  // unit quaternion, glTF order
 
-inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
-inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
-inline Vec2 operator*(Vec2 a, float s) { return {a.x * s, a.y * s}; }
-inline float Dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-inline float Cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-inline float Length(Vec2 a) { return std::sqrt(Dot(a, a)); }
+// By reference: of a copy of both numbers at once, WebAssembly's compilers take each out again.
+inline Vec2 operator+(const Vec2& a, const Vec2& b) { return {a.x + b.x, a.y + b.y}; }
+inline Vec2 operator-(const Vec2& a, const Vec2& b) { return {a.x - b.x, a.y - b.y}; }
+inline Vec2 operator*(const Vec2& a, float s) { return {a.x * s, a.y * s}; }
+inline float Dot(const Vec2& a, const Vec2& b) { return a.x * b.x + a.y * b.y; }
+inline float Cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+inline float Length(const Vec2& a) { return std::sqrt(Dot(a, a)); }
 
 inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }

@@ -70,7 +70,7 @@ void FindContacts(const NeighbourGrid& g, int first_row, int end_row, float marg
     for (int x = 0; x < g.columns; ++x) {
       const int before = std::max(x - 1, 0), after = std::min(x + 2, g.columns);
       for (int k = row[x]; k < row[x + 1]; ++k) {
-        const Neighbour& a = g.people[static_cast<size_t>(k)];
+        const Neighbour a = g.people[static_cast<size_t>(k)];  // a copy: the list that grows cannot change it
         test(a, k + 1, row[after]);
         if (next) test(a, next[before], next[after]);
       }

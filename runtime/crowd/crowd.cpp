@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "runtime/base/fetch.h"
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/contacts.h"
 #include "runtime/crowd/fast_math.h"
@@ -14,7 +15,6 @@ namespace flaneur {
 namespace {
 
 constexpr float kHardly_mps = 0.2f;  // slower, at a wall, they look for the door beside them
-constexpr size_t kFetchAhead = 24;   // people
 
 // People decide one after the other, each in a step of their own; neighbours, who often have ids in a row, in no
 // regular pattern.
@@ -92,8 +92,8 @@ void FollowWay(const Walkable& w, const std::vector<MovingObstacle>& moving, flo
   const FlowField& field = c.fields[static_cast<size_t>(c.field[i])];
   const GridPlace at = PlaceAt(w, c.position[i]);
   if (at.x < 0 || !IsBuilt(field)) return;
-  __builtin_prefetch(&w.cells[static_cast<size_t>(at.y * w.columns + at.x)]);
-  __builtin_prefetch(&DirectionAt(field, DirectionIndex(w, at.x, at.y)));
+  Fetch(&w.cells[static_cast<size_t>(at.y * w.columns + at.x)]);
+  Fetch(&DirectionAt(field, DirectionIndex(w, at.x, at.y)));
 }
 
 // A search remembers what it found, and who asks for a field may have it built: such people come one after the other,
@@ -112,24 +112,24 @@ void RenewOwnWay(const Walkable& w, size_t i, Crowd* c) {
 // Where those who take care go next, and what they have in mind; some of them look around in this step.
 void RenewWays(const Walkable& w, Jobs* jobs, CrowdScratch* s, Crowd* c) {
   const std::vector<int>& caring = s->caring;
-  InBlocks(jobs, caring.size(), kFewPeople, [&](size_t first, size_t end) {
-    for (size_t k = first; k < end; ++k) {
-      const size_t i = static_cast<size_t>(caring[k]);
-      const size_t soon = static_cast<size_t>(caring[std::min(k + kFetchAhead, end - 1)]);
-      if (c->turn[soon]) FetchGround(w, soon, *c);
-      c->coast[i] = 0;
-      if (c->turn[i]) {
-        Mind& mind = c->mind[i];
-        const bool on_detour = c->detour_s[i] > 0;
-        mind.alone_mps = on_detour ? Length(c->detour[i]) : c->preferred_mps[i];
-        mind.ahead = DirectionOf(c->heading_rad[i]);
-        mind.stands = c->activity[i] != Activity::kWalking && !on_detour;
-        mind.avoids_camera = c->avoids_camera[i] != 0;
-      }
-      s->waits[i] = HasToSearch(*c, i);
-      if (c->field[i] >= 0 && !s->waits[i]) RenewOwnWay(w, i, c);
+  const auto fetch = [&](size_t k) {
+    if (const size_t i = static_cast<size_t>(caring[k]); c->turn[i]) FetchGround(w, i, *c);
+  };
+  const auto renew = [&](size_t k) {
+    const size_t i = static_cast<size_t>(caring[k]);
+    c->coast[i] = 0;
+    if (c->turn[i]) {
+      Mind& mind = c->mind[i];
+      const bool on_detour = c->detour_s[i] > 0;
+      mind.alone_mps = on_detour ? Length(c->detour[i]) : c->preferred_mps[i];
+      mind.ahead = DirectionOf(c->heading_rad[i]);
+      mind.stands = c->activity[i] != Activity::kWalking && !on_detour;
+      mind.avoids_camera = c->avoids_camera[i] != 0;
     }
-  });
+    s->waits[i] = HasToSearch(*c, i);
+    if (c->field[i] >= 0 && !s->waits[i]) RenewOwnWay(w, i, c);
+  };
+  InBlocks(jobs, caring.size(), kFewPeople, [&](size_t first, size_t end) { FetchAndVisit(first, end, fetch, renew); });
   for (int who : caring) {
     if (s->waits[static_cast<size_t>(who)]) RenewOwnWay(w, static_cast<size_t>(who), c);
   }
@@ -260,15 +260,11 @@ bool FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, 
 void FollowOrCare(const Walkable& w, const std::vector<MovingObstacle>& moving, float step_s, Jobs* jobs,
                   CrowdScratch* s, Crowd* c) {
   s->waits.resize(c->size());
-  InBlocks(jobs, c->size(), kFewPeople, [&](size_t first, size_t end) {
-    for (size_t i = first; i < end; ++i) {
-      if (const size_t soon = i + kFetchAhead;
-          soon < end && c->coast[soon] == 0 && IsTurn(*c, soon, kTurnEvery_steps)) {
-        FetchGround(w, soon, *c);
-      }
-      s->waits[i] = FollowOrCare(w, moving, step_s, i, c);
-    }
-  });
+  const auto fetch = [&](size_t i) {
+    if (!c->cares[i] && c->coast[i] == 0 && IsTurn(*c, i, kTurnEvery_steps)) FetchGround(w, i, *c);
+  };
+  const auto follow = [&](size_t i) { s->waits[i] = FollowOrCare(w, moving, step_s, i, c); };
+  InBlocks(jobs, c->size(), kFewPeople, [&](size_t first, size_t end) { FetchAndVisit(first, end, fetch, follow); });
   s->caring.clear();
   s->caring.reserve(c->size());
   for (size_t i = 0; i < c->size(); ++i) {

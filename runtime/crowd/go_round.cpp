@@ -90,11 +90,18 @@ void Consider(const Walkable& w, std::span<const Disc> discs, const Disc& passed
 }  // namespace
 
 Vec2 WayRound(const Walkable& w, const std::vector<MovingObstacle>& moving, const Walking& me, int8_t* side) {
+  const auto counts = [&](const MovingObstacle& m) {
+    return m.everyone && m.room_m > 0 && Length(m.center - me.position) <= kSeen_m;
+  };
+  if (std::none_of(moving.begin(), moving.end(), counts)) {
+    *side = 0;
+    return me.way;
+  }
   for (const bool with_room : {true, false}) {
     std::array<Disc, kMostDiscs> near;
     size_t count = 0;
     for (const MovingObstacle& m : moving) {
-      if (!m.everyone || m.room_m <= 0 || Length(m.center - me.position) > kSeen_m) continue;
+      if (!counts(m)) continue;
       const Disc disc = DiscOf(m, me, with_room);
       if (count < kMostDiscs && !IsBeyondGoal(disc, me)) near[count++] = disc;
     }

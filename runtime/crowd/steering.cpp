@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/fetch.h"
 #include "runtime/crowd/constants.h"
 #include "runtime/crowd/fast_math.h"
 #include "runtime/crowd/go_round.h"
@@ -13,7 +14,6 @@ namespace flaneur {
 namespace {
 
 constexpr int kBlock = 64;                     // people looked at together
-constexpr size_t kFetchAhead = 9;              // people, whose cells lie anywhere
 constexpr float kMinAcceleration_mps2 = 0.5f;  // a turn ends, and doesn't fade away
 constexpr int kReturnDecisions = 45;           // after which a line is forgotten;
 constexpr int kPassing = 7;                    // and the first of them, while the visitor passes, change nothing
@@ -347,17 +347,16 @@ float SpeedOnSlope(const Walkable& w, int cell, float level_mps) {
 void Decide(const Walkable& w, const std::vector<MovingObstacle>& moving, const NeighbourGrid& neighbours, float step_s,
             Jobs* jobs, Crowd* c) {
   const std::vector<Neighbour>& people = neighbours.people;
-  InBlocks(jobs, people.size(), kFewPeople, [&](size_t first, size_t end) {
-    for (size_t k = first; k < end; ++k) {
-      const Neighbour& soon = people[std::min(k + kFetchAhead, end - 1)];
-      if (c->turn[static_cast<size_t>(soon.person)]) {
-        __builtin_prefetch(&c->mind[static_cast<size_t>(soon.person)]);
-        const int cell = CellAt(w, soon.position);
-        if (cell >= 0) __builtin_prefetch(&w.cells[static_cast<size_t>(cell)]);
-      }
-      if (c->turn[static_cast<size_t>(people[k].person)]) Decide(w, moving, neighbours, people[k], step_s, c);
-    }
-  });
+  const auto fetch = [&](size_t k) {
+    if (!c->turn[static_cast<size_t>(people[k].person)]) return;
+    Fetch(&c->mind[static_cast<size_t>(people[k].person)]);
+    if (const int cell = CellAt(w, people[k].position); cell >= 0) Fetch(&w.cells[static_cast<size_t>(cell)]);
+  };
+  const auto decide = [&](size_t k) {
+    if (c->turn[static_cast<size_t>(people[k].person)]) Decide(w, moving, neighbours, people[k], step_s, c);
+  };
+  InBlocks(jobs, people.size(), kFewPeople,
+           [&](size_t first, size_t end) { FetchAndVisit(first, end, fetch, decide); });
 }
 
 Vec2 ToPost_mps(size_t i, const Crowd& c) {
