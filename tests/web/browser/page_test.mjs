@@ -514,6 +514,15 @@ const tests = {
     const turned = await until(page, 'pictures', (s) => s.pictures > after.pictures + 2);
     assert.ok(turned.people_drawn > 0);
     assert.deepEqual(await page.$eval('#canvas', (c) => [c.width, c.height]), [200, 320]);
+    await page.setViewport({width: 360, height: 640, hasTouch: true, isMobile: true});
+    const buttons = await page.$$eval('#bar button', (all) => all.filter((b) => b.offsetParent).map((b) => b.getBoundingClientRect().toJSON()));
+    assert.ok(buttons.length > 6 && buttons.every((b) => b.top === buttons[0].top && b.width >= 40), JSON.stringify(buttons));
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('dialog button:focus-visible');
+    const rows = await page.$$('dialog button');
+    await rows[2].hover();
+    assert.equal(await page.$$eval('dialog button', (all) => all.filter((b) => getComputedStyle(b).outlineStyle !== 'none').length), 1,
+                 'what the mouse lies on looks as what Enter presses');
     await end(page);
     await host.close();
   },
