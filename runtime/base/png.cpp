@@ -4,6 +4,22 @@
 
 #include "runtime/base/file.h"
 
+#ifndef __EMSCRIPTEN__
+#include <libdeflate.h>
+
+// stb's own takes five times as long for a fourth more bytes.
+static unsigned char* DeflatedForPng(unsigned char* data, int count, int* deflated, int) {
+  libdeflate_compressor* compressor = libdeflate_alloc_compressor(1);
+  if (compressor == nullptr) return nullptr;
+  const size_t bytes = static_cast<size_t>(count), most = libdeflate_zlib_compress_bound(compressor, bytes);
+  auto* to = static_cast<unsigned char*>(std::malloc(most));
+  if (to != nullptr) *deflated = static_cast<int>(libdeflate_zlib_compress(compressor, data, bytes, to, most));
+  libdeflate_free_compressor(compressor);
+  return to;
+}
+#define STBIW_ZLIB_COMPRESS DeflatedForPng
+#endif
+
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #pragma GCC diagnostic push

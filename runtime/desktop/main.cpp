@@ -39,13 +39,12 @@ Error Play(const PlayerOptions& options, UserSettings* user, bool* starts_anew) 
     return Fail("nothing to draw without a pack; add --headless --no-draw or name a pack");
   StartingTour tour(options);
   if (!options.headless) return RunInWindow(options, &tour, user, starts_anew);
+  if (!options.no_draw) return RunHeadless(options, user->settings, &tour);
   if (Error e = OpenTour(options, &tour)) return e;
-  if (!options.pack.empty() && !options.no_draw) tour.loader.Start(std::move(tour.file), tour.pack);
   if (Error e = StartSimulations(options, &tour)) return e;
   WarnOfTour(tour);
   const float seconds = RunLength_s(options, tour.scenario, tour.simulations.front());
-  if (options.no_draw) return RunWithoutDrawing(options, seconds, &tour.simulations.front());
-  return RunHeadless(options, seconds, tour.pack, user->settings, &tour.loader, &tour.simulations);
+  return RunWithoutDrawing(options, seconds, &tour.simulations.front());
 }
 
 // The exit status, unless something is wrong.

@@ -6,9 +6,7 @@
 #include "runtime/desktop/options.h"
 #include "runtime/desktop/tour_start.h"
 #include "runtime/desktop/user_settings.h"
-#include "runtime/pack/tour_pack.h"
 #include "runtime/simulation/simulation.h"
-#include "runtime/visit/loading.h"
 
 namespace flaneur {
 
@@ -16,10 +14,9 @@ namespace flaneur {
 float RunLength_s(const PlayerOptions& options, const Scenario& scenario, const Simulation& simulation);
 
 Error RunWithoutDrawing(const PlayerOptions& options, float seconds, Simulation* simulation);
-// Several simulations, as many as options.compare names, are drawn side by side; records are of the first.
-// `loader` has been started with the pack. Of the settings eye height and what captions look like hold.
-Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, const PlayerSettings& settings,
-                  Loader* loader, std::vector<Simulation>* simulations);
+// Opens `tour`, which must name a pack. Several simulations, as many as options.compare names, are drawn side by side;
+// records are of the first. Of the settings eye height and what captions look like hold.
+Error RunHeadless(const PlayerOptions& options, const PlayerSettings& settings, StartingTour* tour);
 // `tour` has not been opened. Settings that the visitor changes are saved. starts_anew: so that the program is to be
 // started again.
 Error RunInWindow(const PlayerOptions& options, StartingTour* tour, UserSettings* user, bool* starts_anew);

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "runtime/base/jobs.h"
 #include "runtime/base/png.h"
 #include "runtime/base/text.h"
 #include "runtime/desktop/context.h"
@@ -45,7 +48,6 @@ Error DrawPane(const PlayerOptions& options, const TourPack& pack, int width_px,
     pane->frame.caption_share = 1;
   }
   if (loader != nullptr) {
-    if (Error e = loader->UploadTown(renderer)) return e;
     const std::vector<AssetId> needed = renderer->AssetsFor(pane->frame, width_px, options.height_px);
     if (Error e = loader->UploadThese(needed, renderer)) return e;
   }
@@ -91,9 +93,7 @@ Error WriteDue(const std::vector<Pane>& panes, const PlayerOptions& options, int
 // All that a run without a window draws with and writes into.
 struct HeadlessRun {
   const PlayerOptions& options;
-  const TourPack& pack;
-  Loader& loader;
-  std::vector<Simulation>& simulations;
+  StartingTour& tour;
   bool films, draws_all;
   int64_t steps = 0;
   HeadlessContext context{};
@@ -108,26 +108,50 @@ struct HeadlessRun {
 
 bool IsOver(const Simulation& s, const HeadlessRun& run) { return s.town.step >= run.steps || s.visitor.finished; }
 
+// The town and all pictures, or whatever there is.
 Error PrepareDrawing(HeadlessRun* run) {
-  if (Error e = run->context.Create()) return e;
   RenderOptions options;
   options.averages = true;
   options.fonts = &run->fonts;
   if (run->options.samples || !run->draws_all) options.samples = run->options.samples.value_or(kStillSamples);
-  if (Error e = run->renderer.Begin(run->pack, options)) return e;
-  run->loader.PrepareFor(run->renderer);
-  if (run->draws_all) {
-    if (Error e = run->loader.UploadAll(&run->renderer)) return e;
+  if (Error e = run->renderer.Begin(run->tour.pack, options)) return e;
+  if (run->options.views) {
+    if (Error e = run->overlay.Create()) return e;
   }
-  return run->options.views ? run->overlay.Create() : Ok();
+  Loader& loader = run->tour.loader;
+  loader.PrepareFor(run->renderer);
+  return run->draws_all ? loader.UploadAll(&run->renderer) : loader.UploadThese({}, &run->renderer);
 }
 
-Error PrepareOutputs(float seconds, HeadlessRun* run) {
+// One beside the other, as nearly all the time until a first still goes into them. What is wrong with the tour comes
+// first.
+Error Beside(Jobs* jobs, const std::function<Error()>& of_tour, const std::function<Error()>& here) {
+  Error wrong_tour;
+  Job job = StartJob(jobs, [&] { return wrong_tour = of_tour(), true; });
+  Error wrong_here = here();
+  job.Wait();
+  return wrong_tour ? wrong_tour : wrong_here;
+}
+
+Error Prepare(HeadlessRun* run) {
+  StartingTour* tour = &run->tour;
+  const auto open = [&] { return OpenTour(run->options, tour); };
+  if (Error e = Beside(&tour->jobs, open, [&] { return run->context.Create(); })) return e;
+  tour->loader.Start(std::move(tour->file), tour->pack);
+  const auto start = [&] { return StartSimulations(run->options, tour); };
+  if (Error e = Beside(&tour->jobs, start, [&] { return PrepareDrawing(run); })) return e;
+  WarnOfTour(*tour);
+  return Ok();
+}
+
+Error PrepareOutputs(HeadlessRun* run) {
   const PlayerOptions& options = run->options;
-  const float step_s = Step_s(run->simulations.front());
-  for (size_t k = 0; k < run->simulations.size(); ++k) {
+  std::vector<Simulation>& simulations = run->tour.simulations;
+  const float seconds = RunLength_s(options, run->tour.scenario, simulations.front());
+  const float step_s = Step_s(simulations.front());
+  for (size_t k = 0; k < simulations.size(); ++k) {
     const std::string label = options.compare.empty() ? "" : "adaptation: " + options.compare[k];
-    run->panes.push_back({&run->simulations[k], label, {}, {}, {}, {}, {}});
+    run->panes.push_back({&simulations[k], label, {}, {}, {}, {}, {}});
   }
   run->records.keep_metrics = !options.metrics.empty();
   run->records.keep_trajectories = !options.trajectories.empty();
@@ -142,7 +166,7 @@ Error PrepareOutputs(float seconds, HeadlessRun* run) {
 }
 
 bool IsStillDue(bool last, const HeadlessRun& run) {
-  return !run.stills.empty() && (run.stills.front().frame == run.simulations.front().town.step || last);
+  return !run.stills.empty() && (run.stills.front().frame == run.tour.simulations.front().town.step || last);
 }
 
 // The picture of this step, where one is asked for. last: the run ends with it.
@@ -157,15 +181,16 @@ Error MakePicture(bool last, HeadlessRun* run) {
   const int width_px = options.width_px / static_cast<int>(run->panes.size());
   Overlay* overlay = options.views ? &run->overlay : nullptr;
   for (Pane& pane : run->panes) {
-    Loader* loader = run->draws_all ? nullptr : &run->loader;
-    if (Error e = DrawPane(options, run->pack, width_px, run->films || still, loader, &run->renderer, overlay, &pane))
+    Loader* loader = run->draws_all ? nullptr : &run->tour.loader;
+    if (Error e =
+            DrawPane(options, run->tour.pack, width_px, run->films || still, loader, &run->renderer, overlay, &pane))
       return e;
   }
   return Ok();
 }
 
 void RecordStep(HeadlessRun* run) {
-  const Simulation& first = run->simulations.front();
+  const Simulation& first = run->tour.simulations.front();
   Pane& pane = run->panes.front();
   const FrameStatistics& drawn = pane.statistics;
   Record(first, {drawn.town_triangles, drawn.shadow_triangles, drawn.draw_ms}, &run->records);
@@ -179,7 +204,7 @@ Error KeepPicture(bool last, HeadlessRun* run) {
   }
   RecordStep(run);
   return IsStillDue(last, *run)
-             ? WriteDue(run->panes, run->options, run->simulations.front().town.step, last, &run->stills)
+             ? WriteDue(run->panes, run->options, run->tour.simulations.front().town.step, last, &run->stills)
              : Ok();
 }
 
@@ -196,15 +221,14 @@ void StepAll(HeadlessRun* run) {
 
 }  // namespace
 
-Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& pack, const PlayerSettings& settings,
-                  Loader* loader, std::vector<Simulation>* simulations) {
+Error RunHeadless(const PlayerOptions& options, const PlayerSettings& settings, StartingTour* tour) {
   WatchForInterruption();
   // Stills alone need only their own pictures drawn, and may take their time for that.
   const bool films = !options.film.empty();
   const bool draws_all = films || !options.metrics.empty() || options.screenshot.empty();
-  HeadlessRun run{options, pack, *loader, *simulations, films, draws_all};
-  if (Error e = PrepareDrawing(&run)) return e;
-  if (Error e = PrepareOutputs(seconds, &run)) return e;
+  HeadlessRun run{options, *tour, films, draws_all};
+  if (Error e = Prepare(&run)) return e;
+  if (Error e = PrepareOutputs(&run)) return e;
   for (Pane& pane : run.panes) {
     CameraState& camera = pane.simulation->visitor.camera;
     camera.eye_height_m = EyeHeight_m(settings, camera.eye_height_m);
@@ -212,7 +236,8 @@ Error RunHeadless(const PlayerOptions& options, float seconds, const TourPack& p
   }
   for (bool last = false; !last;) {
     if (Error e = CheckInterruption()) return e;
-    last = std::all_of(simulations->begin(), simulations->end(), [&](const Simulation& s) { return IsOver(s, run); });
+    last = std::all_of(tour->simulations.begin(), tour->simulations.end(),
+                       [&](const Simulation& s) { return IsOver(s, run); });
     if (Error e = MakePicture(last, &run)) return e;
     if (last) {
       if (Error e = EndWatching()) return e;

@@ -1,6 +1,8 @@
 #include "runtime/pack/texture.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 #include "runtime/base/array.h"
 
@@ -12,16 +14,22 @@ using Texels = std::array<std::array<uint8_t, 4>, 16>;
 // Bits of a block from the lowest on.
 class BitReader {
  public:
-  explicit BitReader(const uint8_t* bytes) : bytes_(bytes) {}
+  // count: of bytes, 16 at most.
+  BitReader(const uint8_t* bytes, size_t count) {
+    std::array<uint64_t, 2> halves{};
+    std::memcpy(halves.data(), bytes, count);
+    low_ = halves[0], high_ = halves[1];
+  }
+  // count: 1 to 8.
   int Next(int count) {
-    int value = 0;
-    for (int i = 0; i < count; ++i, ++at_) value |= (bytes_[at_ / 8] >> (at_ % 8) & 1) << i;
+    const int value = static_cast<int>(low_ & ((uint64_t{1} << count) - 1));
+    low_ = low_ >> count | high_ << (64 - count);
+    high_ >>= count;
     return value;
   }
 
  private:
-  const uint8_t* bytes_;
-  size_t at_ = 0;
+  uint64_t low_ = 0, high_ = 0;
 };
 
 uint8_t Between(int a, int b, int weight) { return static_cast<uint8_t>(((64 - weight) * a + weight * b + 32) >> 6); }
@@ -87,7 +95,7 @@ void DecodePairs(BitReader bits, bool with_alpha, Texels* out) {
 
 void DecodeBc7(const uint8_t* block, Texels* out) {
   *out = {};
-  BitReader bits(block);
+  BitReader bits(block, 16);
   int mode = 0;
   while (mode < 8 && bits.Next(1) == 0) ++mode;
   if (mode == 1 || mode == 7) DecodePairs(bits, mode == 7, out);
@@ -101,7 +109,7 @@ void DecodeBc4(const uint8_t* block, size_t channel, Texels* out) {
   const int steps = a > b ? 7 : 5;
   for (int i = 1; i < steps; ++i) At(values, i + 1) = ((steps - i) * a + i * b + steps / 2) / steps;
   if (steps == 5) values[6] = 0, values[7] = 255;
-  BitReader bits(block + 2);
+  BitReader bits(block + 2, 6);
   for (auto& texel : *out) texel[channel] = static_cast<uint8_t>(At(values, bits.Next(3)));
 }
 
@@ -111,6 +119,22 @@ void DecodeBlock(TextureFormat format, const uint8_t* block, Texels* out) {
   if (format == TextureFormat::kBc5) DecodeBc4(block + 8, 1, out);
 }
 
+template <size_t kChannels>
+void DecodeBlocks(TextureFormat format, size_t width, size_t height, const uint8_t* block, uint8_t* out) {
+  Texels texels{};
+  for (size_t top = 0; top < height; top += 4) {
+    const size_t rows = std::min<size_t>(4, height - top);
+    for (size_t left = 0; left < width; left += 4, block += BlockBytes(format)) {
+      DecodeBlock(format, block, &texels);
+      const size_t columns = std::min<size_t>(4, width - left);
+      for (size_t y = 0; y < rows; ++y) {
+        uint8_t* to = out + ((top + y) * width + left) * kChannels;
+        for (size_t x = 0; x < columns; ++x) std::copy_n(texels[4 * y + x].begin(), kChannels, to + x * kChannels);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<uint8_t> DecodeLevel(TextureFormat format, int width_px, int height_px,
@@ -118,18 +142,8 @@ std::vector<uint8_t> DecodeLevel(TextureFormat format, int width_px, int height_
   const auto channels = static_cast<size_t>(Channels(format));
   const auto width = static_cast<size_t>(width_px), height = static_cast<size_t>(height_px);
   std::vector<uint8_t> out(width * height * channels);
-  const uint8_t* block = blocks.data();
-  Texels texels{};
-  for (size_t top = 0; top < height; top += 4) {
-    for (size_t left = 0; left < width; left += 4, block += BlockBytes(format)) {
-      DecodeBlock(format, block, &texels);
-      for (size_t y = top; y < std::min(top + 4, height); ++y) {
-        for (size_t x = left; x < std::min(left + 4, width); ++x) {
-          std::copy_n(texels[4 * (y - top) + x - left].begin(), channels, &out[(y * width + x) * channels]);
-        }
-      }
-    }
-  }
+  const auto decode = channels == 4 ? DecodeBlocks<4> : channels == 2 ? DecodeBlocks<2> : DecodeBlocks<1>;
+  decode(format, width, height, blocks.data(), out.data());
   return out;
 }
 

@@ -528,10 +528,6 @@ Error Loader::UploadAll(Renderer* renderer) {
   return impl_->UploadUntil([this] { return Done(); }, this, renderer);
 }
 
-Error Loader::UploadTown(Renderer* renderer) {
-  return impl_->UploadUntil([this] { return TownIsThere(); }, this, renderer);
-}
-
 Error Loader::UploadThese(const std::vector<AssetId>& ids, Renderer* renderer) {
   Impl& l = *impl_;
   std::vector<bool> needed(l.assets.size());

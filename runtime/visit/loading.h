@@ -33,8 +33,7 @@ class Loader {
   // Reads and makes ready, for about as long, and uploads nothing. Without threads; else they do.
   Error ReadOn(double most_ms);
   Error UploadAll(Renderer* renderer);
-  // The town and what else a picture needs; the rest stays unread.
-  Error UploadTown(Renderer* renderer);
+  // The town, all pictures and what else a still needs; the rest stays unread.
   Error UploadThese(const std::vector<AssetId>& needed, Renderer* renderer);
 
   bool TownIsThere() const;         // with its pictures

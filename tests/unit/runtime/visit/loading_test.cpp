@@ -113,7 +113,7 @@ TEST_F(LoaderOfTheDemo, BringsForAStillWhatItShowsAndNoMore) {
         whole = Picture(&renderer);
         continue;
       }
-      ASSERT_EQ(loader.UploadTown(&renderer).message, "");
+      ASSERT_EQ(loader.UploadThese({}, &renderer).message, "");
       ASSERT_EQ(loader.UploadThese(renderer.AssetsFor(Frame(), kWidth_px, kHeight_px), &renderer).message, "");
       EXPECT_EQ(Picture(&renderer), whole);
       EXPECT_FALSE(loader.Done());
