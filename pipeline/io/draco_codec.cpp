@@ -98,6 +98,15 @@ void AddFaces(const Mesh& in, draco::Mesh* mesh) {
   }
 }
 
+// Draco writes a grid down with six digits after the point. Rounded outwards here, or what lies at its least would come
+// to lie outside, where Draco refuses uvs.
+PositionGrid AsWrittenDown(const PositionGrid& grid) {
+  constexpr double kUnit = 1e-6;
+  const auto down = [](float a) { return static_cast<float>(std::floor(static_cast<double>(a) / kUnit) * kUnit); };
+  const double size_m = (std::ceil(static_cast<double>(grid.size_m) / kUnit) + 1) * kUnit;
+  return {{down(grid.min.x), down(grid.min.y), down(grid.min.z)}, static_cast<float>(size_m)};
+}
+
 // What a reader will see: counts and bounds after Draco has merged, reordered and rounded.
 Error MeasureDecoded(DracoMesh* out) {
   DracoAttribute position{out->position, 0, false, {}};
@@ -157,7 +166,7 @@ std::array<uint8_t, 4> WeightBytes(const std::array<float, 4>& weights) {
   return bytes;
 }
 
-Error EncodeDraco(const Mesh& in, const DracoOptions& options, const PositionGrid& grid, bool byte_joints,
+Error EncodeDraco(const Mesh& in, const DracoOptions& options, const PositionGrid& around, bool byte_joints,
                   DracoMesh* out) {
   using Attribute = draco::GeometryAttribute;
   draco::Mesh mesh;
@@ -177,6 +186,7 @@ Error EncodeDraco(const Mesh& in, const DracoOptions& options, const PositionGri
 
   draco::ExpertEncoder encoder(mesh);
   encoder.SetSpeedOptions(options.speed, options.speed);
+  const PositionGrid grid = AsWrittenDown(around);
   const float origin[3] = {grid.min.x, grid.min.y, grid.min.z};
   const int position_bits = options.position_bits > 0 ? options.position_bits : kPositionBits;
   encoder.SetAttributeExplicitQuantization(out->position, position_bits, 3, origin, grid.size_m);
