@@ -4,7 +4,9 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <utility>
 
+#include "pipeline/cli/bare_ground.h"
 #include "pipeline/footprint/town_objects.h"
 #include "runtime/base/array.h"
 
@@ -125,24 +127,11 @@ std::vector<Street> TaggedStreets(const Scene& town, const std::string& language
   return streets;
 }
 
-bool AddGroundWhereNone(float margin_m, Scene* town) {
+bool AddGroundWhereNone(bool on_one_level, float margin_m, Scene* town) {
   const TownObjects objects = SortTown(*town, 1);
   if (objects.obstacles.empty() || StandsOnGround(objects)) return false;
-  Point3 low = objects.obstacles.front().min_m, high = objects.obstacles.front().max_m;
-  for (const TownObject& o : objects.obstacles) {
-    low = {std::min(low.x, o.min_m.x), std::min(low.y, o.min_m.y), std::min(low.z, o.min_m.z)};
-    high = {std::max(high.x, o.max_m.x), std::max(high.y, o.max_m.y), high.z};
-  }
-  const auto corner = [&](double x, double y) {
-    return GltfFromGround({static_cast<float>(x), static_cast<float>(y), static_cast<float>(low.z)});
-  };
-  Mesh mesh;
-  mesh.name = "ground";
+  Mesh mesh = BareGround(objects.obstacles, on_one_level, margin_m);
   mesh.material = Count(town->materials);
-  mesh.positions = {corner(low.x - margin_m, low.y - margin_m), corner(high.x + margin_m, low.y - margin_m),
-                    corner(high.x + margin_m, high.y + margin_m), corner(low.x - margin_m, high.y + margin_m)};
-  mesh.normals.assign(4, Vec3{0, 1, 0});
-  mesh.indices = {0, 1, 2, 0, 2, 3};
   Material material;
   material.name = "ground";
   material.base_color = {0.30f, 0.27f, 0.22f, 1};
@@ -152,7 +141,7 @@ bool AddGroundWhereNone(float margin_m, Scene* town) {
   node.kind = NodeKind::kGround;
   node.ground = GroundKind::kSquare;
   town->materials.push_back(material);
-  town->meshes.push_back(mesh);
+  town->meshes.push_back(std::move(mesh));
   town->nodes.push_back(node);
   return true;
 }

@@ -16,8 +16,8 @@ std::vector<Place> TaggedPlaces(const Scene& town);
 // Ground that is tagged with a street's name, in this language: of each name the long middle line of all its ground.
 std::vector<Street> TaggedStreets(const Scene& town, const std::string& language);
 
-// Gives a town that has no ground under most of its things a flat square at their lowest point, `margin_m` wider than
-// the town; else does nothing. Returns whether it did.
-bool AddGroundWhereNone(float margin_m, Scene* town);
+// Gives a town that has no ground under most of its things a square through their feet (bare_ground.h), `margin_m`
+// wider than the town; else does nothing. Returns whether it did. on_one_level: all stand on one plane.
+bool AddGroundWhereNone(bool on_one_level, float margin_m, Scene* town);
 
 }  // namespace flaneur

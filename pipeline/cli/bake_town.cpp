@@ -59,8 +59,9 @@ Error ReadTown(Baking* baking, Scene* town, Warnings* warnings) {
   if (georeference.crs.empty()) town->reference_system.clear();
   if (!source.system.empty()) georeference.crs.clear();  // brought from degrees into metres by the reader
   if (Error e = SetGeoreference(georeference, 1, town, warnings)) return Fail("town.georeference: " + e.message);
-  if (AddGroundWhereNone(kBareGroundMargin_m, town)) {
-    warnings->push_back("most of the town has no ground under it; a flat square was added");
+  // Parts are put on one plane, a town's own model may stand on hills.
+  if (AddGroundWhereNone(s.town.file.empty(), kBareGroundMargin_m, town)) {
+    warnings->push_back("most things in the town have no ground under them; a square through their feet was added");
   }
   return Ok();
 }

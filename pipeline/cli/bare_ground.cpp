@@ -1,0 +1,169 @@
+#include "pipeline/cli/bare_ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace flaneur {
+namespace {
+
+constexpr double kLevel_m = 0.3;  // feet that differ by less stand on a flat square
+constexpr double kNear_m = 25;    // things in cells of this size, and in those beside them, are near each other
+constexpr double kLikeOthers_m = 2,
+                 kSteep = 0.25;    // of the feet near it one at least differs by less, or it is no foot
+constexpr double kOver_m = 0.5;    // what begins so much higher, with its middle over another, is a part of it,
+constexpr double kBeside_m = 0.5;  // or before its wall, as windows lie,
+constexpr double kHouse_m = 60;    // unless that is larger, as a town wall's is
+constexpr double kLeastCell_m = 2.5;
+constexpr int kMostCells = 100;  // a side
+
+// A thing's box on the map, and how high it begins.
+struct Foot {
+  double left_m, bottom_m, right_m, top_m;
+  double height_m, reaches_m;
+};
+
+using Cell = std::pair<int, int>;
+
+int CellIndex(double m) { return static_cast<int>(std::floor(m / kNear_m)); }
+Cell CellOf(const Foot& f) { return {CellIndex((f.left_m + f.right_m) / 2), CellIndex((f.bottom_m + f.top_m) / 2)}; }
+
+bool IsOver(const Foot& part, const Foot& house) {
+  const double x = (part.left_m + part.right_m) / 2, y = (part.bottom_m + part.top_m) / 2;
+  return house.height_m < part.height_m - kOver_m && house.reaches_m > part.height_m - kOver_m &&
+         house.left_m - kBeside_m <= x && x <= house.right_m + kBeside_m && house.bottom_m - kBeside_m <= y &&
+         y <= house.top_m + kBeside_m;
+}
+
+// By the cells that a part of them may have its middle in.
+std::map<Cell, std::vector<const Foot*>> HousesByCell(const std::vector<Foot>& all) {
+  std::map<Cell, std::vector<const Foot*>> houses;
+  for (const Foot& f : all) {
+    if (f.right_m - f.left_m > kHouse_m || f.top_m - f.bottom_m > kHouse_m) continue;
+    for (int y = CellIndex(f.bottom_m - kBeside_m); y <= CellIndex(f.top_m + kBeside_m); ++y) {
+      for (int x = CellIndex(f.left_m - kBeside_m); x <= CellIndex(f.right_m + kBeside_m); ++x) {
+        houses[{x, y}].push_back(&f);
+      }
+    }
+  }
+  return houses;
+}
+
+// Without roofs, windows and what else is modelled apart.
+std::vector<Foot> WithoutParts(const std::vector<Foot>& all) {
+  const std::map<Cell, std::vector<const Foot*>> houses = HousesByCell(all);
+  std::vector<Foot> feet;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(feet), [&](const Foot& f) {
+    const auto here = houses.find(CellOf(f));
+    return here == houses.end() ||
+           std::none_of(here->second.begin(), here->second.end(), [&](const Foot* house) { return IsOver(f, *house); });
+  });
+  return feet;
+}
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Whether one could walk from foot to foot, were there ground.
+bool AreAlike(const Foot& a, const Foot& b) {
+  const double dx = (a.left_m + a.right_m - b.left_m - b.right_m) / 2;
+  const double dy = (a.bottom_m + a.top_m - b.bottom_m - b.top_m) / 2;
+  return std::abs(a.height_m - b.height_m) < kLikeOthers_m + kSteep * std::hypot(dx, dy);
+}
+
+// Without cellars, and what flies.
+std::vector<Foot> WithoutStrays(const std::vector<Foot>& all) {
+  std::map<Cell, std::vector<const Foot*>> cells;
+  for (const Foot& f : all) cells[CellOf(f)].push_back(&f);
+  std::vector<Foot> feet;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(feet), [&](const Foot& f) {
+    size_t near = 0, alike = 0;  // itself among them
+    for (const int x : {-1, 0, 1}) {
+      for (const int y : {-1, 0, 1}) {
+        const Cell cell = CellOf(f);
+        const auto found = cells.find({cell.first + x, cell.second + y});
+        if (found == cells.end()) continue;
+        near += found->second.size();
+        for (const Foot* other : found->second) alike += static_cast<size_t>(AreAlike(f, *other));
+      }
+    }
+    return alike > 1 || near < 3;
+  });
+  return feet;
+}
+
+std::vector<Foot> FeetOf(const std::vector<TownObject>& things) {
+  std::vector<Foot> feet;
+  for (const TownObject& t : things) feet.push_back({t.min_m.x, t.min_m.y, t.max_m.x, t.max_m.y, t.min_m.z, t.max_m.z});
+  const std::vector<Foot> alone = WithoutStrays(WithoutParts(feet));
+  return alone.empty() ? feet : alone;
+}
+
+double HeightAt(const std::vector<Foot>& feet, double x, double y) {
+  double sum = 0, weights = 0;
+  for (const Foot& f : feet) {
+    const double dx = std::max({f.left_m - x, x - f.right_m, 0.0}), dy = std::max({f.bottom_m - y, y - f.top_m, 0.0});
+    const double distance2 = dx * dx + dy * dy + 1;
+    const double weight = 1 / (distance2 * distance2);
+    sum += weight * f.height_m, weights += weight;
+  }
+  return sum / weights;
+}
+
+Vec3 Normal(const std::vector<Foot>& feet, double x, double y, double cell_m) {
+  const double dx = HeightAt(feet, x + cell_m, y) - HeightAt(feet, x - cell_m, y);
+  const double dy = HeightAt(feet, x, y + cell_m) - HeightAt(feet, x, y - cell_m);
+  return Normalized(GltfFromGround({static_cast<float>(-dx), static_cast<float>(-dy), static_cast<float>(2 * cell_m)}));
+}
+
+bool IsLevel(const std::vector<Foot>& feet) {
+  const auto lower = [](const Foot& a, const Foot& b) { return a.height_m < b.height_m; };
+  const auto [least, most] = std::minmax_element(feet.begin(), feet.end(), lower);
+  return most->height_m - least->height_m <= kLevel_m;
+}
+
+}  // namespace
+
+Mesh BareGround(const std::vector<TownObject>& things, bool on_one_level, float margin_m) {
+  const std::vector<Foot> feet = FeetOf(things);
+  Foot around = feet.front();
+  std::vector<double> heights;
+  for (const Foot& f : feet) {
+    around.left_m = std::min(around.left_m, f.left_m), around.bottom_m = std::min(around.bottom_m, f.bottom_m);
+    around.right_m = std::max(around.right_m, f.right_m), around.top_m = std::max(around.top_m, f.top_m);
+    heights.push_back(f.height_m);
+  }
+  const bool level = on_one_level || IsLevel(feet);
+  const double level_m = Median(std::move(heights)), margin = static_cast<double>(margin_m);
+  const double left_m = around.left_m - margin, bottom_m = around.bottom_m - margin;
+  const double width_m = around.right_m + margin - left_m, height_m = around.top_m + margin - bottom_m;
+  const auto cells = [&](double side_m) {
+    return level ? 1 : std::clamp(static_cast<int>(std::ceil(side_m / kLeastCell_m)), 1, kMostCells);
+  };
+  const int columns = cells(width_m), rows = cells(height_m);
+  const double cell_m = std::max(width_m / columns, height_m / rows);
+  Mesh mesh;
+  mesh.name = "ground";
+  for (int row = 0; row <= rows; ++row) {
+    for (int column = 0; column <= columns; ++column) {
+      const double x = left_m + width_m * column / columns, y = bottom_m + height_m * row / rows;
+      const double z = level ? level_m : HeightAt(feet, x, y);
+      mesh.positions.push_back(GltfFromGround({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)}));
+      mesh.normals.push_back(level ? Vec3{0, 1, 0} : Normal(feet, x, y, cell_m));
+    }
+  }
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const auto at = [&](int dx, int dy) { return static_cast<uint32_t>((row + dy) * (columns + 1) + column + dx); };
+      mesh.indices.insert(mesh.indices.end(), {at(0, 0), at(1, 0), at(1, 1), at(0, 0), at(1, 1), at(0, 1)});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace flaneur

@@ -1,0 +1,80 @@
+// Ground for towns that come without: through the feet of what stands there.
+#include "pipeline/cli/bare_ground.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace flaneur {
+namespace {
+
+TownObject Box(Point3 low, Point3 size) {
+  TownObject box;
+  box.min_m = low;
+  box.max_m = {low.x + size.x, low.y + size.y, low.z + size.z};
+  return box;
+}
+
+// Of the ground's corners the heights, by place on the map.
+struct Spot {
+  double x, y, z;
+};
+std::vector<Spot> SpotsOf(const Mesh& ground) {
+  std::vector<Spot> spots;
+  for (const Vec3& p : ground.positions) {
+    const Vec3 at = GroundFromGltf(p);
+    spots.push_back({static_cast<double>(at.x), static_cast<double>(at.y), static_cast<double>(at.z)});
+  }
+  return spots;
+}
+
+double Off(const Spot& s, const TownObject& t) {
+  return std::hypot(std::max({t.min_m.x - s.x, s.x - t.max_m.x, 0.0}),
+                    std::max({t.min_m.y - s.y, s.y - t.max_m.y, 0.0}));
+}
+
+TEST(BareGround, LiesUnderPartsOnOnePlaneWhateverHangsBelowOrFliesAboveIt) {
+  std::vector<TownObject> things;
+  for (int k = 0; k < 9; ++k) things.push_back(Box({12.0 * k, 0, 0}, {8, 8, 6}));
+  things.push_back(Box({20, 20, -7}, {3, 3, 9}));
+  things.push_back(Box({40, 20, 30}, {9, 9, 2}));
+  for (const Spot& s : SpotsOf(BareGround(things, true, 15))) EXPECT_EQ(s.z, 0);
+  EXPECT_EQ(BareGround(things, true, 15).positions.size(), 4u);
+}
+
+TEST(BareGround, FollowsAHillsideByTheFeetOfItsHousesAndNotByTheirRoofs) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> share(0, 1);
+    const double east = 0.12 * share(random), north = 0.12 * share(random);
+    std::vector<TownObject> walls, things;
+    for (int k = 0; k < 30; ++k) {
+      const double x = 25.0 * (k % 6) + 6 * share(random), y = 25.0 * (k / 6) + 6 * share(random);
+      const double z = 300 + east * x + north * y, up = 5 + 4 * share(random);
+      walls.push_back(Box({x, y, z}, {10, 8, up}));
+      things.push_back(walls.back());
+      things.push_back(Box({x - 0.4, y - 0.4, z + up}, {10.8, 8.8, 3}));
+      things.push_back(Box({x + 4, y - 0.1, z + 2}, {1, 0.1, 1}));
+      things.push_back(Box({x + 4, y + 4, z + up + 3}, {0.6, 0.6, 1}));
+    }
+    std::shuffle(things.begin(), things.end(), random);
+    things.push_back(Box({60, 60, 280}, {4, 4, 3}));  // a cellar
+    const Mesh ground = BareGround(things, false, 15);
+    int beside = 0;
+    for (const Spot& s : SpotsOf(ground)) {
+      EXPECT_NEAR(s.z, 300 + east * s.x + north * s.y, 8) << "seed " << seed;
+      for (const TownObject& wall : walls) {
+        if (Off(s, wall) > 1) continue;
+        EXPECT_NEAR(s.z, wall.min_m.z, 0.15) << "seed " << seed;
+        ++beside;
+      }
+    }
+    EXPECT_GT(beside, 30);
+    for (const Vec3& n : ground.normals) EXPECT_GT(n.y, 0.7f);
+  }
+}
+
+}  // namespace
+}  // namespace flaneur
