@@ -115,52 +115,74 @@ double HeightAt(const std::vector<Foot>& feet, double x, double y) {
   return sum / weights;
 }
 
-Vec3 Normal(const std::vector<Foot>& feet, double x, double y, double cell_m) {
-  const double dx = HeightAt(feet, x + cell_m, y) - HeightAt(feet, x - cell_m, y);
-  const double dy = HeightAt(feet, x, y + cell_m) - HeightAt(feet, x, y - cell_m);
-  return Normalized(GltfFromGround({static_cast<float>(-dx), static_cast<float>(-dy), static_cast<float>(2 * cell_m)}));
-}
-
 bool IsLevel(const std::vector<Foot>& feet) {
   const auto lower = [](const Foot& a, const Foot& b) { return a.height_m < b.height_m; };
   const auto [least, most] = std::minmax_element(feet.begin(), feet.end(), lower);
   return most->height_m - least->height_m <= kLevel_m;
 }
 
+// A lattice over the map, and its heights, row by row.
+struct Lattice {
+  double left_m = 0, bottom_m = 0, width_m = 0, depth_m = 0;
+  int columns = 1, rows = 1;  // of cells
+  std::vector<double> heights_m{};
+};
+
+Lattice Over(const std::vector<Foot>& feet, bool level, double margin_m) {
+  Foot around = feet.front();
+  std::vector<double> heights_m;
+  for (const Foot& f : feet) {
+    around.left_m = std::min(around.left_m, f.left_m), around.bottom_m = std::min(around.bottom_m, f.bottom_m);
+    around.right_m = std::max(around.right_m, f.right_m), around.top_m = std::max(around.top_m, f.top_m);
+    heights_m.push_back(f.height_m);
+  }
+  Lattice l{around.left_m - margin_m, around.bottom_m - margin_m, around.right_m - around.left_m + 2 * margin_m,
+            around.top_m - around.bottom_m + 2 * margin_m};
+  if (level) {
+    l.heights_m.assign(4, Median(std::move(heights_m)));
+    return l;
+  }
+  const auto cells = [](double m) { return std::clamp(static_cast<int>(m / kLeastCell_m) + 1, 1, kMostCells); };
+  l.columns = cells(l.width_m), l.rows = cells(l.depth_m);
+  for (int row = 0; row <= l.rows; ++row) {
+    for (int column = 0; column <= l.columns; ++column) {
+      l.heights_m.push_back(
+          HeightAt(feet, l.left_m + l.width_m * column / l.columns, l.bottom_m + l.depth_m * row / l.rows));
+    }
+  }
+  return l;
+}
+
+size_t IndexIn(const Lattice& l, int column, int row) { return static_cast<size_t>(row * (l.columns + 1) + column); }
+
+Vec3 NormalAt(const Lattice& l, int column, int row) {
+  const int west = std::max(column - 1, 0), east = std::min(column + 1, l.columns);
+  const int south = std::max(row - 1, 0), north = std::min(row + 1, l.rows);
+  const auto rise = [&](int from_column, int from_row, int to_column, int to_row) {
+    return l.heights_m[IndexIn(l, to_column, to_row)] - l.heights_m[IndexIn(l, from_column, from_row)];
+  };
+  const double x = rise(west, row, east, row) / (l.width_m / l.columns * (east - west));
+  const double y = rise(column, south, column, north) / (l.depth_m / l.rows * (north - south));
+  return Normalized(GltfFromGround({static_cast<float>(-x), static_cast<float>(-y), 1}));
+}
+
 }  // namespace
 
 Mesh BareGround(const std::vector<TownObject>& things, bool on_one_level, float margin_m) {
   const std::vector<Foot> feet = FeetOf(things);
-  Foot around = feet.front();
-  std::vector<double> heights;
-  for (const Foot& f : feet) {
-    around.left_m = std::min(around.left_m, f.left_m), around.bottom_m = std::min(around.bottom_m, f.bottom_m);
-    around.right_m = std::max(around.right_m, f.right_m), around.top_m = std::max(around.top_m, f.top_m);
-    heights.push_back(f.height_m);
-  }
-  const bool level = on_one_level || IsLevel(feet);
-  const double level_m = Median(std::move(heights)), margin = static_cast<double>(margin_m);
-  const double left_m = around.left_m - margin, bottom_m = around.bottom_m - margin;
-  const double width_m = around.right_m + margin - left_m, height_m = around.top_m + margin - bottom_m;
-  const auto cells = [&](double side_m) {
-    return level ? 1 : std::clamp(static_cast<int>(std::ceil(side_m / kLeastCell_m)), 1, kMostCells);
-  };
-  const int columns = cells(width_m), rows = cells(height_m);
-  const double cell_m = std::max(width_m / columns, height_m / rows);
+  const Lattice l = Over(feet, on_one_level || IsLevel(feet), static_cast<double>(margin_m));
   Mesh mesh;
   mesh.name = "ground";
-  for (int row = 0; row <= rows; ++row) {
-    for (int column = 0; column <= columns; ++column) {
-      const double x = left_m + width_m * column / columns, y = bottom_m + height_m * row / rows;
-      const double z = level ? level_m : HeightAt(feet, x, y);
-      mesh.positions.push_back(GltfFromGround({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)}));
-      mesh.normals.push_back(level ? Vec3{0, 1, 0} : Normal(feet, x, y, cell_m));
-    }
-  }
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const auto at = [&](int dx, int dy) { return static_cast<uint32_t>((row + dy) * (columns + 1) + column + dx); };
-      mesh.indices.insert(mesh.indices.end(), {at(0, 0), at(1, 0), at(1, 1), at(0, 0), at(1, 1), at(0, 1)});
+  for (int row = 0; row <= l.rows; ++row) {
+    for (int column = 0; column <= l.columns; ++column) {
+      mesh.positions.push_back(GltfFromGround({static_cast<float>(l.left_m + l.width_m * column / l.columns),
+                                               static_cast<float>(l.bottom_m + l.depth_m * row / l.rows),
+                                               static_cast<float>(l.heights_m[IndexIn(l, column, row)])}));
+      mesh.normals.push_back(NormalAt(l, column, row));
+      if (column == l.columns || row == l.rows) continue;
+      const auto corner = [&](int dx, int dy) { return static_cast<uint32_t>(IndexIn(l, column + dx, row + dy)); };
+      mesh.indices.insert(mesh.indices.end(),
+                          {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 0), corner(1, 1), corner(0, 1)});
     }
   }
   return mesh;
