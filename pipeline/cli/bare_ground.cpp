@@ -4,7 +4,10 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <tuple>
 #include <utility>
+
+#include "pipeline/footprint/disjoint_sets.h"
 
 namespace flaneur {
 namespace {
@@ -30,6 +33,8 @@ using Cell = std::pair<int, int>;
 int CellIndex(double m) { return static_cast<int>(std::floor(m / kNear_m)); }
 Cell CellOf(const Foot& f) { return {CellIndex((f.left_m + f.right_m) / 2), CellIndex((f.bottom_m + f.top_m) / 2)}; }
 
+bool IsLarge(const Foot& f) { return f.right_m - f.left_m > kHouse_m || f.top_m - f.bottom_m > kHouse_m; }
+
 bool IsOver(const Foot& part, const Foot& house) {
   const double x = (part.left_m + part.right_m) / 2, y = (part.bottom_m + part.top_m) / 2;
   return house.height_m < part.height_m - kOver_m && house.reaches_m > part.height_m - kOver_m &&
@@ -41,7 +46,7 @@ bool IsOver(const Foot& part, const Foot& house) {
 std::map<Cell, std::vector<const Foot*>> HousesByCell(const std::vector<Foot>& all) {
   std::map<Cell, std::vector<const Foot*>> houses;
   for (const Foot& f : all) {
-    if (f.right_m - f.left_m > kHouse_m || f.top_m - f.bottom_m > kHouse_m) continue;
+    if (IsLarge(f)) continue;
     for (int y = CellIndex(f.bottom_m - kBeside_m); y <= CellIndex(f.top_m + kBeside_m); ++y) {
       for (int x = CellIndex(f.left_m - kBeside_m); x <= CellIndex(f.right_m + kBeside_m); ++x) {
         houses[{x, y}].push_back(&f);
@@ -97,9 +102,41 @@ std::vector<Foot> WithoutStrays(const std::vector<Foot>& all) {
   return feet;
 }
 
+// Of a model of many houses in one mesh, a box for each of its connected pieces.
+void AddPieces(const TownObject& thing, std::vector<Foot>* feet) {
+  std::map<std::tuple<double, double, double>, size_t> corners;
+  DisjointSets pieces;
+  std::vector<size_t> first;
+  for (const Triangle3& triangle : thing.triangles) {
+    size_t before = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const Point3& p = triangle[k];
+      const auto [corner, is_new] = corners.try_emplace({p.x, p.y, p.z}, pieces.size());
+      if (is_new) pieces.Add();
+      if (k > 0) pieces.Join(before, corner->second);
+      before = corner->second;
+    }
+    first.push_back(before);
+  }
+  std::map<size_t, Foot> boxes;
+  for (size_t t = 0; t < first.size(); ++t) {
+    for (const Point3& p : thing.triangles[t]) {
+      Foot& f = boxes.try_emplace(pieces.Root(first[t]), Foot{p.x, p.y, p.x, p.y, p.z, p.z}).first->second;
+      f.left_m = std::min(f.left_m, p.x), f.right_m = std::max(f.right_m, p.x);
+      f.bottom_m = std::min(f.bottom_m, p.y), f.top_m = std::max(f.top_m, p.y);
+      f.height_m = std::min(f.height_m, p.z), f.reaches_m = std::max(f.reaches_m, p.z);
+    }
+  }
+  for (const auto& [root, box] : boxes) feet->push_back(box);
+}
+
 std::vector<Foot> FeetOf(const std::vector<TownObject>& things) {
   std::vector<Foot> feet;
-  for (const TownObject& t : things) feet.push_back({t.min_m.x, t.min_m.y, t.max_m.x, t.max_m.y, t.min_m.z, t.max_m.z});
+  for (const TownObject& t : things) {
+    const Foot whole{t.min_m.x, t.min_m.y, t.max_m.x, t.max_m.y, t.min_m.z, t.max_m.z};
+    if (IsLarge(whole) && !t.triangles.empty()) AddPieces(t, &feet);
+    else feet.push_back(whole);
+  }
   const std::vector<Foot> alone = WithoutStrays(WithoutParts(feet));
   return alone.empty() ? feet : alone;
 }
