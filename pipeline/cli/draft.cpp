@@ -6,7 +6,7 @@ namespace flaneur {
 namespace {
 
 constexpr int kDirections = 8, kPhases = 3, kHeight_px = 48;  // fewer, and who moves falls to pieces
-constexpr int kErrorSamples = 2000, kWalkPoses = 2;  // what levels are measured by
+constexpr int kErrorSamples = 2000, kWalkPoses = 2;           // what levels are measured by
 
 }  // namespace
 
