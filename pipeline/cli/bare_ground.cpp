@@ -7,135 +7,112 @@
 #include <tuple>
 #include <utility>
 
+#include "pipeline/footprint/box_grid.h"
 #include "pipeline/footprint/disjoint_sets.h"
 
 namespace flaneur {
 namespace {
 
 constexpr double kLevel_m = 0.3;  // feet that differ by less stand on a flat square
-constexpr double kNear_m = 25;    // things in cells of this size, and in those beside them, are near each other
-constexpr double kLikeOthers_m = 2,
-                 kSteep = 0.25;    // of the feet near it one at least differs by less, or it is no foot
+// Of the feet so near one at least differs by no more than this, and this share of how far it is, or it is no foot.
+constexpr double kNear_m = 25, kLikeOthers_m = 2, kSteep = 0.25;
 constexpr double kOver_m = 0.5;    // what begins so much higher, with its middle over another, is a part of it,
 constexpr double kBeside_m = 0.5;  // or before its wall, as windows lie,
 constexpr double kHouse_m = 60;    // unless that is larger, as a town wall's is
 constexpr double kLeastCell_m = 2.5;
 constexpr int kMostCells = 100;  // a side
 
-// A thing's box on the map, and how high it begins.
+// A thing's box on the map, and from where to where it reaches above it.
 struct Foot {
-  double left_m, bottom_m, right_m, top_m;
-  double height_m, reaches_m;
+  BoundingBox box;
+  double height_m = 1e300, top_m = -1e300;
 };
 
-using Cell = std::pair<int, int>;
-
-int CellIndex(double m) { return static_cast<int>(std::floor(m / kNear_m)); }
-Cell CellOf(const Foot& f) { return {CellIndex((f.left_m + f.right_m) / 2), CellIndex((f.bottom_m + f.top_m) / 2)}; }
-
-bool IsLarge(const Foot& f) { return f.right_m - f.left_m > kHouse_m || f.top_m - f.bottom_m > kHouse_m; }
-
-bool IsOver(const Foot& part, const Foot& house) {
-  const double x = (part.left_m + part.right_m) / 2, y = (part.bottom_m + part.top_m) / 2;
-  return house.height_m < part.height_m - kOver_m && house.reaches_m > part.height_m - kOver_m &&
-         house.left_m - kBeside_m <= x && x <= house.right_m + kBeside_m && house.bottom_m - kBeside_m <= y &&
-         y <= house.top_m + kBeside_m;
+void Grow(const Point3& p, Foot* f) {
+  f->box.min = {std::min(f->box.min.x, p.x), std::min(f->box.min.y, p.y)};
+  f->box.max = {std::max(f->box.max.x, p.x), std::max(f->box.max.y, p.y)};
+  f->height_m = std::min(f->height_m, p.z), f->top_m = std::max(f->top_m, p.z);
 }
 
-// By the cells that a part of them may have its middle in.
-std::map<Cell, std::vector<const Foot*>> HousesByCell(const std::vector<Foot>& all) {
-  std::map<Cell, std::vector<const Foot*>> houses;
-  for (const Foot& f : all) {
-    if (IsLarge(f)) continue;
-    for (int y = CellIndex(f.bottom_m - kBeside_m); y <= CellIndex(f.top_m + kBeside_m); ++y) {
-      for (int x = CellIndex(f.left_m - kBeside_m); x <= CellIndex(f.right_m + kBeside_m); ++x) {
-        houses[{x, y}].push_back(&f);
-      }
-    }
-  }
-  return houses;
+Point2 Middle(const BoundingBox& box) { return {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2}; }
+
+BoxGrid GridOf(const std::vector<Foot>& feet) {
+  std::vector<BoundingBox> boxes;
+  for (const Foot& f : feet) boxes.push_back(f.box);
+  return BoxGrid(std::move(boxes));
+}
+
+template <typename Point>
+bool IsLarge(const Point& min, const Point& max) {
+  return max.x - min.x > kHouse_m || max.y - min.y > kHouse_m;
+}
+
+// Of what lies over each other on the map.
+bool IsPartOf(const Foot& part, const Foot& house) {
+  return !IsLarge(house.box.min, house.box.max) && house.height_m < part.height_m - kOver_m &&
+         house.top_m > part.height_m - kOver_m;
 }
 
 // Without roofs, windows and what else is modelled apart.
 std::vector<Foot> WithoutParts(const std::vector<Foot>& all) {
-  const std::map<Cell, std::vector<const Foot*>> houses = HousesByCell(all);
+  const BoxGrid grid = GridOf(all);
   std::vector<Foot> feet;
   std::copy_if(all.begin(), all.end(), std::back_inserter(feet), [&](const Foot& f) {
-    const auto here = houses.find(CellOf(f));
-    return here == houses.end() ||
-           std::none_of(here->second.begin(), here->second.end(), [&](const Foot* house) { return IsOver(f, *house); });
+    const Point2 middle = Middle(f.box);
+    const std::vector<size_t> here = grid.Near({middle, middle}, kBeside_m);
+    return std::none_of(here.begin(), here.end(), [&](size_t house) { return IsPartOf(f, all[house]); });
   });
   return feet;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Whether one could walk from foot to foot, were there ground.
 bool AreAlike(const Foot& a, const Foot& b) {
-  const double dx = (a.left_m + a.right_m - b.left_m - b.right_m) / 2;
-  const double dy = (a.bottom_m + a.top_m - b.bottom_m - b.top_m) / 2;
-  return std::abs(a.height_m - b.height_m) < kLikeOthers_m + kSteep * std::hypot(dx, dy);
+  const Point2 from = Middle(a.box), to = Middle(b.box);
+  return std::abs(a.height_m - b.height_m) < kLikeOthers_m + kSteep * std::hypot(from.x - to.x, from.y - to.y);
 }
 
 // Without cellars, and what flies.
 std::vector<Foot> WithoutStrays(const std::vector<Foot>& all) {
-  std::map<Cell, std::vector<const Foot*>> cells;
-  for (const Foot& f : all) cells[CellOf(f)].push_back(&f);
+  const BoxGrid grid = GridOf(all);
   std::vector<Foot> feet;
   std::copy_if(all.begin(), all.end(), std::back_inserter(feet), [&](const Foot& f) {
-    size_t near = 0, alike = 0;  // itself among them
-    for (const int x : {-1, 0, 1}) {
-      for (const int y : {-1, 0, 1}) {
-        const Cell cell = CellOf(f);
-        const auto found = cells.find({cell.first + x, cell.second + y});
-        if (found == cells.end()) continue;
-        near += found->second.size();
-        for (const Foot* other : found->second) alike += static_cast<size_t>(AreAlike(f, *other));
-      }
-    }
-    return alike > 1 || near < 3;
+    const std::vector<size_t> near = grid.Near(f.box, kNear_m);  // itself among them
+    const auto alike = std::count_if(near.begin(), near.end(), [&](size_t k) { return AreAlike(f, all[k]); });
+    return alike > 1 || near.size() < 3;
   });
   return feet;
 }
 
-// Of a model of many houses in one mesh, a box for each of its connected pieces.
+// Of a model of many houses in one mesh, one for each of its connected pieces.
 void AddPieces(const TownObject& thing, std::vector<Foot>* feet) {
   std::map<std::tuple<double, double, double>, size_t> corners;
   DisjointSets pieces;
-  std::vector<size_t> first;
+  const auto corner = [&](const Point3& p) {
+    const auto [entry, is_new] = corners.try_emplace({p.x, p.y, p.z}, pieces.size());
+    if (is_new) pieces.Add();
+    return entry->second;
+  };
+  for (const auto& [a, b, c] : thing.triangles) {
+    pieces.Join(corner(a), corner(b));
+    pieces.Join(corner(b), corner(c));
+  }
+  std::map<size_t, Foot> by_piece;
   for (const Triangle3& triangle : thing.triangles) {
-    size_t before = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      const Point3& p = triangle[k];
-      const auto [corner, is_new] = corners.try_emplace({p.x, p.y, p.z}, pieces.size());
-      if (is_new) pieces.Add();
-      if (k > 0) pieces.Join(before, corner->second);
-      before = corner->second;
-    }
-    first.push_back(before);
+    Foot& foot = by_piece[pieces.Root(corner(triangle[0]))];
+    for (const Point3& p : triangle) Grow(p, &foot);
   }
-  std::map<size_t, Foot> boxes;
-  for (size_t t = 0; t < first.size(); ++t) {
-    for (const Point3& p : thing.triangles[t]) {
-      Foot& f = boxes.try_emplace(pieces.Root(first[t]), Foot{p.x, p.y, p.x, p.y, p.z, p.z}).first->second;
-      f.left_m = std::min(f.left_m, p.x), f.right_m = std::max(f.right_m, p.x);
-      f.bottom_m = std::min(f.bottom_m, p.y), f.top_m = std::max(f.top_m, p.y);
-      f.height_m = std::min(f.height_m, p.z), f.reaches_m = std::max(f.reaches_m, p.z);
-    }
-  }
-  for (const auto& [root, box] : boxes) feet->push_back(box);
+  for (const auto& [root, foot] : by_piece) feet->push_back(foot);
 }
 
 std::vector<Foot> FeetOf(const std::vector<TownObject>& things) {
   std::vector<Foot> feet;
   for (const TownObject& t : things) {
-    const Foot whole{t.min_m.x, t.min_m.y, t.max_m.x, t.max_m.y, t.min_m.z, t.max_m.z};
-    if (IsLarge(whole) && !t.triangles.empty()) AddPieces(t, &feet);
-    else feet.push_back(whole);
+    if (IsLarge(t.min_m, t.max_m) && !t.triangles.empty()) {
+      AddPieces(t, &feet);
+      continue;
+    }
+    Grow(t.min_m, &feet.emplace_back());
+    Grow(t.max_m, &feet.back());
   }
   const std::vector<Foot> alone = WithoutStrays(WithoutParts(feet));
   return alone.empty() ? feet : alone;
@@ -144,18 +121,13 @@ std::vector<Foot> FeetOf(const std::vector<TownObject>& things) {
 double HeightAt(const std::vector<Foot>& feet, double x, double y) {
   double sum = 0, weights = 0;
   for (const Foot& f : feet) {
-    const double dx = std::max({f.left_m - x, x - f.right_m, 0.0}), dy = std::max({f.bottom_m - y, y - f.top_m, 0.0});
+    const double dx = std::max({f.box.min.x - x, x - f.box.max.x, 0.0});
+    const double dy = std::max({f.box.min.y - y, y - f.box.max.y, 0.0});
     const double distance2 = dx * dx + dy * dy + 1;
     const double weight = 1 / (distance2 * distance2);
     sum += weight * f.height_m, weights += weight;
   }
   return sum / weights;
-}
-
-bool IsLevel(const std::vector<Foot>& feet) {
-  const auto lower = [](const Foot& a, const Foot& b) { return a.height_m < b.height_m; };
-  const auto [least, most] = std::minmax_element(feet.begin(), feet.end(), lower);
-  return most->height_m - least->height_m <= kLevel_m;
 }
 
 // A lattice over the map, and its heights, row by row.
@@ -165,18 +137,15 @@ struct Lattice {
   std::vector<double> heights_m{};
 };
 
-Lattice Over(const std::vector<Foot>& feet, bool level, double margin_m) {
-  Foot around = feet.front();
+// around: all things; the ground is wider by the margin.
+Lattice Over(const Foot& around, const std::vector<Foot>& feet, bool on_one_level, double margin_m) {
+  Lattice l{around.box.min.x - margin_m, around.box.min.y - margin_m,
+            around.box.max.x - around.box.min.x + 2 * margin_m, around.box.max.y - around.box.min.y + 2 * margin_m};
   std::vector<double> heights_m;
-  for (const Foot& f : feet) {
-    around.left_m = std::min(around.left_m, f.left_m), around.bottom_m = std::min(around.bottom_m, f.bottom_m);
-    around.right_m = std::max(around.right_m, f.right_m), around.top_m = std::max(around.top_m, f.top_m);
-    heights_m.push_back(f.height_m);
-  }
-  Lattice l{around.left_m - margin_m, around.bottom_m - margin_m, around.right_m - around.left_m + 2 * margin_m,
-            around.top_m - around.bottom_m + 2 * margin_m};
-  if (level) {
-    l.heights_m.assign(4, Median(std::move(heights_m)));
+  for (const Foot& f : feet) heights_m.push_back(f.height_m);
+  std::sort(heights_m.begin(), heights_m.end());
+  if (on_one_level || heights_m.back() - heights_m.front() <= kLevel_m) {
+    l.heights_m.assign(4, heights_m[heights_m.size() / 2]);
     return l;
   }
   const auto cells = [](double m) { return std::clamp(static_cast<int>(m / kLeastCell_m) + 1, 1, kMostCells); };
@@ -206,8 +175,9 @@ Vec3 NormalAt(const Lattice& l, int column, int row) {
 }  // namespace
 
 Mesh BareGround(const std::vector<TownObject>& things, bool on_one_level, float margin_m) {
-  const std::vector<Foot> feet = FeetOf(things);
-  const Lattice l = Over(feet, on_one_level || IsLevel(feet), static_cast<double>(margin_m));
+  Foot around;
+  for (const TownObject& t : things) Grow(t.min_m, &around), Grow(t.max_m, &around);
+  const Lattice l = Over(around, FeetOf(things), on_one_level, static_cast<double>(margin_m));
   Mesh mesh;
   mesh.name = "ground";
   for (int row = 0; row <= l.rows; ++row) {

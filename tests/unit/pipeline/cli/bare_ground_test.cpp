@@ -42,7 +42,12 @@ TEST(BareGround, LiesUnderPartsOnOnePlaneWhateverHangsBelowOrFliesAboveIt) {
   things.push_back(Box({20, 20, -7}, {3, 3, 9}));
   things.push_back(Box({40, 20, 30}, {9, 9, 2}));
   for (const Spot& s : SpotsOf(BareGround(things, true, 15))) EXPECT_EQ(s.z, 0);
-  EXPECT_EQ(BareGround(things, true, 15).positions.size(), 4u);
+  const std::vector<Spot> corners = SpotsOf(BareGround(things, true, 15));
+  ASSERT_EQ(corners.size(), 4u);
+  EXPECT_EQ(corners[0].x, -15);
+  EXPECT_EQ(corners[0].y, -15);
+  EXPECT_EQ(corners[3].x, 104 + 15);
+  EXPECT_EQ(corners[3].y, 29 + 15);  // the farthest is the kite
 }
 
 // The triangles of boxes, as one thing.
