@@ -33,6 +33,7 @@ struct MovingObstacle {
   // far before its own.
   float room_m = 0;
   Vec2 before{};
+  Vec2 talks_with{};  // from its middle, somebody to listen to: who has the choice does not pass between. Zero: nobody
 };
 
 // What a person has in mind between looks around (steering.h says when those are).

@@ -20,15 +20,21 @@ constexpr float kOutwards = 0.15f;      // who is within a disc's room walks out
 constexpr float kFarthestTurn = -0.6f;  // cosine of it
 constexpr float kKeepsSide = 0.4f;      // cost of going round on the other side, where a turn by a costs 1 - cos a
 
+// What people give up in turn where there is no such way.
+enum class Manners : uint8_t { kAll, kRoom, kNone };
+
 struct Disc {
   Vec2 off;  // from the person to its middle
   Vec2 velocity;
   float reach_m = 0;
+  Vec2 talker, listener{};  // as `off`; the same: nobody talks
 };
 
-Disc DiscOf(const MovingObstacle& m, const Walking& me, bool with_room) {
-  if (!with_room) return {m.center - me.position, m.velocity, m.radius_m + me.radius_m + kTouching_m};
-  return {m.center + m.before - me.position, m.velocity, m.radius_m + m.room_m + me.radius_m};
+Disc DiscOf(const MovingObstacle& m, const Walking& me, Manners manners) {
+  const Vec2 off = m.center - me.position;
+  const Vec2 listener = manners == Manners::kAll ? off + m.talks_with : off;
+  if (manners == Manners::kNone) return {off, m.velocity, m.radius_m + me.radius_m + kTouching_m, off, listener};
+  return {off + m.before, m.velocity, m.radius_m + m.room_m + me.radius_m, off, listener};
 }
 
 // The goal is reached before, or lies within: no way there keeps the disc's room.
@@ -44,6 +50,15 @@ bool Meets(const Disc& d, Vec2 way, const Walking& me) {
   if (off2 < reach_m * reach_m) return along > -0.5f * kOutwards * std::sqrt(off2 * closing2);
   if (along <= 0 || along > kForeseen_s * closing2) return false;
   return off2 * closing2 - along * along < reach_m * reach_m * closing2;
+}
+
+// Who stands between them already goes on.
+bool PassesBetween(const Disc& d, Vec2 way, const Walking& me) {
+  const Vec2 line = d.listener - d.talker;
+  const float across = Cross(way, line), far_m = std::min(me.goal_m, kForeseen_s * me.speed_mps);
+  if (across == 0) return false;
+  const float after_m = Cross(d.talker, line) / across, on = Cross(d.talker, way) / across;
+  return after_m > 0 && after_m < far_m && on > 0 && on < 1;
 }
 
 bool IsFreeWay(const Walkable& w, const Walking& me, Vec2 way, float far_m) {
@@ -81,8 +96,8 @@ void Consider(const Walkable& w, std::span<const Disc> discs, const Disc& passed
   const bool turns = last_side != 0 && static_cast<float>(last_side) != side;
   const float cost = 1 - cosine + (turns ? kKeepsSide : 0);
   if (cosine < kFarthestTurn || cost >= best->cost) return;
-  if (std::any_of(discs.begin(), discs.end(), [&](const Disc& d) { return &d != &passed && Meets(d, way, me); }))
-    return;
+  const auto hinders = [&](const Disc& d) { return (&d != &passed && Meets(d, way, me)) || PassesBetween(d, way, me); };
+  if (std::any_of(discs.begin(), discs.end(), hinders)) return;
   if (!IsFreeWay(w, me, way, std::min(kLooks_m, PastAfter_m(passed)))) return;
   *best = {way, cost, static_cast<int8_t>(side)};
 }
@@ -97,18 +112,18 @@ Vec2 WayRound(const Walkable& w, const std::vector<MovingObstacle>& moving, cons
     *side = 0;
     return me.way;
   }
-  for (const bool with_room : {true, false}) {
+  for (const Manners manners : {Manners::kAll, Manners::kRoom, Manners::kNone}) {
     std::array<Disc, kMostDiscs> near;
     size_t count = 0;
     for (const MovingObstacle& m : moving) {
       if (!counts(m)) continue;
-      const Disc disc = DiscOf(m, me, with_room);
+      const Disc disc = DiscOf(m, me, manners);
       if (count < kMostDiscs && !IsBeyondGoal(disc, me)) near[count++] = disc;
     }
     const std::span<const Disc> discs{near.data(), count};
-    const auto meets = [&](const Disc& d) { return Meets(d, me.way, me); };
+    const auto meets = [&](const Disc& d) { return Meets(d, me.way, me) || PassesBetween(d, me.way, me); };
     if (std::none_of(discs.begin(), discs.end(), meets)) {
-      if (with_room) *side = 0;
+      if (manners != Manners::kNone) *side = 0;
       return me.way;
     }
     Choice best;

@@ -28,6 +28,8 @@ constexpr int kChooseSideEvery_steps = 15;
 constexpr float kClearlyBeside_rad = 0.1f;  // of the picture's middle
 constexpr float kClears_m = 0.15f;          // people keep so much more than touching from the guide
 constexpr float kRoom_m = 0.25f;            // and so much more where they have the choice
+constexpr float kTalks_m = 10;              // to a visitor who is no farther,
+constexpr float kSoon_m = 4;                // or has so far to go to the halt where the guide stands already
 constexpr float kStuck_s = 1.5f, kGetsOn_m = 0.5f, kLoitererYieldRadius_m = 1.6f;
 constexpr float kFarthest_m = 20;  // of a new route the guide is looked for so far
 
@@ -164,6 +166,13 @@ bool FindStart(const VisitorInTown& v, Vec2* start) {
   return cell >= 0 && fits(*start);
 }
 
+// Zero but at a halt.
+Vec2 ToListener(Vec2 guide, const VisitorInTown& v) {
+  const Vec2 visitor = v.visitor.camera.view.position - guide;
+  const bool talks = v.visitor.tour.resting && !v.visitor.guide.walks && Length(visitor) < kTalks_m;
+  return talks ? visitor : Vec2{};
+}
+
 }  // namespace
 
 void PlaceGuide(const VisitorInTown& v) {
@@ -224,8 +233,9 @@ void ShieldGuide(const VisitorInTown& v, std::vector<MovingObstacle>* moving) {
   // Who is on a fresh detour is not sent on another.
   v.town.crowd.detour[i] = v.visitor.guide.velocity;
   v.town.crowd.detour_s[i] = 1e3f;
+  const Vec2 place = v.town.crowd.position[i];
   moving->push_back(
-      {v.town.crowd.position[i], v.town.crowd.radius_m[i] + kClears_m, true, v.visitor.guide.velocity, kRoom_m});
+      {place, v.town.crowd.radius_m[i] + kClears_m, true, v.visitor.guide.velocity, kRoom_m, {}, ToListener(place, v)});
 }
 
 void UnshieldGuide(const VisitorInTown& v) {

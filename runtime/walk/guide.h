@@ -39,7 +39,7 @@ float LookOfLeave_rad(float now_rad, const VisitorInTown& v);
 void LeadOn(const VisitorInTown& v);
 
 // Before and after the control looks at the crowd: nobody asks the guide to make room, and everybody makes room for the
-// guide.
+// guide, and does not pass between the two at a halt.
 void ShieldGuide(const VisitorInTown& v, std::vector<MovingObstacle>* moving);
 void UnshieldGuide(const VisitorInTown& v);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "runtime/crowd/fast_math.h"
 #include "runtime/walk/staging.h"
@@ -219,6 +220,41 @@ TEST(Guide, TouchesNobodyAndNothing) {
 }
 
 // People who stand packed across the square, with nowhere to go.
+// On which side of the line from the visitor to the guide everybody is who stands beside it, by id.
+std::map<int, bool> SidesOfTalk(const Simulation& s) {
+  const Crowd& c = s.town.crowd;
+  const Vec2 visitor = s.visitor.camera.view.position, line = GuideOf(s) - visitor;
+  std::map<int, bool> sides;
+  for (size_t i = 0; i < c.size(); ++i) {
+    const Vec2 off = c.position[i] - visitor;
+    const float along = Dot(off, line);
+    if (i != s.visitor.guide.index && along > 0 && along < Dot(line, line)) sides[c.id[i]] = Cross(line, off) > 0;
+  }
+  return sides;
+}
+
+TEST(Guide, IsNotWalkedInFrontOfWhileTalkingWhereThereIsRoomToGoRound) {
+  TourPack pack = TourTown(140);
+  pack.obstacles.polygons.clear();
+  for (TourStop& stop : pack.path) stop.pause_s *= 5;
+  int crossed = 0, beside = 0;
+  for (uint64_t seed = 1; seed <= 6; ++seed) {
+    pack.crowd.seed = seed;
+    Simulation s = Started(pack);
+    std::map<int, bool> before;
+    for (int step = 0; step < kMaxSteps && !s.visitor.finished; ++step) {
+      Step(&s, 1);
+      const bool talks = s.visitor.tour.resting && !s.visitor.guide.walks;
+      const std::map<int, bool> now = talks ? SidesOfTalk(s) : std::map<int, bool>{};
+      beside += static_cast<int>(now.size());
+      for (const auto& [id, side] : now) crossed += before.contains(id) && before[id] != side;
+      before = now;
+    }
+  }
+  EXPECT_GT(beside, 5000) << "steps of people beside the two";
+  EXPECT_LE(crossed, 20);
+}
+
 TEST(Guide, IsLetThroughARow) {
   const TourPack pack = TourTown(1);
   Scenario scenario = ScenarioOf(pack);
