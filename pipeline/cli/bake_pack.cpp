@@ -150,7 +150,7 @@ void AddPackSteps(Baking* baking) {
 
 void FillReport(Baking* baking) {
   baking->report.stops.clear();
-  for (const TourStop& stop : baking->settings.path) {
+  for (const TourStop& stop : baking->parts.path) {
     ReportStop told{stop.position_m, stop.captions};
     if (!stop.caption.empty()) told.captions[baking->settings.language] = stop.caption;
     baking->report.stops.push_back(std::move(told));

@@ -5,6 +5,7 @@
 
 #include "pipeline/cli/assemble_town.h"
 #include "pipeline/cli/baking.h"
+#include "pipeline/cli/far_town.h"
 #include "pipeline/cli/obj_up.h"
 #include "pipeline/cli/stage_inputs.h"
 #include "pipeline/cli/trust.h"
@@ -22,7 +23,7 @@ namespace flaneur {
 // For stage_cache.h.
 template <typename A>
 void Fields(A& a, TownFacts* v) {
-  a(&v->places, &v->streets, &v->triangles, &v->origin_m, &v->reference_system);
+  a(&v->places, &v->streets, &v->triangles, &v->origin_m, &v->moved_m, &v->reference_system);
 }
 
 namespace {
@@ -58,7 +59,11 @@ Error ReadTown(Baking* baking, Scene* town, Warnings* warnings) {
   Georeference georeference = s.georeference;
   if (georeference.crs.empty()) town->reference_system.clear();
   if (!source.system.empty()) georeference.crs.clear();  // brought from degrees into metres by the reader
-  if (Error e = SetGeoreference(georeference, 1, town, warnings)) return Fail("town.georeference: " + e.message);
+  const Point2 by_reader = town->origin_m;
+  Point2 moved;
+  if (Error e = PlaceTown(georeference, kFarToDraw_m, 1, town, &moved, warnings))
+    return Fail("town.georeference: " + e.message);
+  baking->town_moved_m = {by_reader.x + moved.x, by_reader.y + moved.y};
   // Parts are put on one plane, a town's own model may stand on hills.
   if (AddGroundWhereNone(s.town.file.empty(), kBareGroundMargin_m, town)) {
     warnings->push_back("most things in the town have no ground under them; a square through their feet was added");
@@ -87,6 +92,7 @@ Error MakeTown(Baking* baking, StageReport* report) {
   baking->town.places = TaggedPlaces(town);
   baking->town.streets = TaggedStreets(town, baking->settings.language);
   baking->town.origin_m = town.origin_m;
+  baking->town.moved_m = baking->town_moved_m;
   baking->town.reference_system = town.reference_system;
   for (const SceneNode& node : town.nodes) {
     for (int m : node.meshes) baking->town.triangles += TriangleCount(At(town.meshes, m));
@@ -97,8 +103,9 @@ Error MakeTown(Baking* baking, StageReport* report) {
 
 Error UseTown(Baking* baking, Warnings* warnings) {
   TourParts* parts = &baking->parts;
-  parts->places = baking->town.places;
-  parts->places.insert(parts->places.end(), baking->settings.places.begin(), baking->settings.places.end());
+  parts->places = baking->settings.places;
+  TakeIntoMovedTown(baking->town.moved_m, parts);
+  parts->places.insert(parts->places.begin(), baking->town.places.begin(), baking->town.places.end());
   for (const Street& street : baking->town.streets) AddUnlessNamed(street, parts);
   std::vector<AvatarSettings>& avatars = baking->settings.avatars;
   if (Error e = ChooseWorkClips(parts->places, baking->settings.flocks, &avatars, warnings)) return e;
@@ -146,12 +153,12 @@ Error MakeFootprints(Baking* baking, StageReport* report, Warnings* warnings) {
 }
 
 // The doors and exits of tour.toml; the check finds the town's own by itself.
-std::vector<Gate> GatesOfSettings(const TourSettings& settings) {
+std::vector<Gate> GatesOfSettings(const Baking& baking) {
   std::vector<Gate> gates;
-  for (const Place& place : settings.places) {
+  for (const Place& place : baking.settings.places) {
     if (place.kind != "door" && place.kind != "exit") continue;
     const Point2 at{static_cast<double>(place.position_m.x), static_cast<double>(place.position_m.y)};
-    gates.push_back({place.name, at, {}, place.kind == "exit"});
+    gates.push_back({place.name, InMovedTown(at, baking.town.moved_m), {}, place.kind == "exit"});
   }
   return gates;
 }
@@ -194,15 +201,15 @@ void ReportFindings(const std::vector<Finding>& findings, StageReport* stage, Ba
 Error CheckTown(Baking* baking, StageReport* report, Warnings* warnings) {
   BakeReport* whole = &baking->report;
   CheckOptions options;
-  options.gates = GatesOfSettings(baking->settings);
+  options.gates = GatesOfSettings(*baking);
   MapOptions map;
   map.title = baking->settings.name;
   map.ground = &baking->parts.ground;
-  for (const TourStop& stop : baking->settings.path)
+  for (const TourStop& stop : baking->parts.path)
     map.stops.push_back({static_cast<double>(stop.position_m.x), static_cast<double>(stop.position_m.y)});
   if (Error e = ReadTownOnce(baking)) return e;
   if (Error e = Check(baking->parts.footprints, &baking->parts.town, options, &map.findings)) return e;
-  const std::vector<AcceptedFinding>& accepted = baking->settings.accepted;
+  const std::vector<AcceptedFinding> accepted = InMovedTown(baking->settings.accepted, baking->town.moved_m);
   for (const size_t idle : AcceptFindings(accepted, &map.findings))
     warnings->push_back("footprints.accept " + std::to_string(accepted[idle].code) + " (" + accepted[idle].reason +
                         ") meets no finding any more; remove it, or correct its at_m");
@@ -263,7 +270,8 @@ void AddTownSteps(Baking* baking) {
     return footprints->key() + ContentOfFile(baking, baking->settings.painting_file.file);
   };
   painting->make = [baking](StageReport*, Warnings*) {
-    return ReadPainting(baking->settings.painting_file, baking->parts.ground, &baking->parts.painting);
+    const PaintingSettings painted = InMovedTown(baking->settings.painting_file, baking->town.moved_m);
+    return ReadPainting(painted, baking->parts.ground, &baking->parts.painting);
   };
 }
 

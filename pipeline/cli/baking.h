@@ -21,6 +21,7 @@ struct TownFacts {
   std::vector<Street> streets;
   double triangles = 0;
   Point2 origin_m;
+  Point2 moved_m;  // subtracted from its file's coordinates (far_town.h)
   std::string reference_system;
 };
 
@@ -40,6 +41,7 @@ struct Baking {
   BakeReport report;
   std::once_flag town_read_once, media_read_once, blender_once;
   Error town_read, media_read;
+  Point2 town_moved_m;  // once it is read: see TownFacts
   Warnings town_warnings;
   std::string blender_sha256;
   std::mutex contents_mutex;

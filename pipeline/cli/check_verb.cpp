@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/cli/arguments.h"
+#include "pipeline/cli/far_town.h"
 #include "pipeline/cli/obj_up.h"
 #include "pipeline/cli/place_obstacles.h"
 #include "pipeline/cli/verbs.h"
@@ -118,10 +120,29 @@ struct TownToCheck {
   bool found = true;  // the obstacles are in its coordinates
 };
 
+// In the town's own coordinates, one for all of them.
+Point2 PlaceOf(const GeoJsonFile& file) {
+  const Obstacle& first = file.footprints.obstacles.front();
+  const Point2 p = first.outer.empty() ? first.center : first.outer.front();
+  if (file.system.empty() || file.town_system.empty()) return p;
+  return {p.x + file.local_origin_m.x - file.town_origin_m.x, p.y + file.local_origin_m.y - file.town_origin_m.y};
+}
+
+// A bake moves a town near zero that its file has far away, and its obstacles are as it stands then.
+void MoveAsBaked(const GeoJsonFile& file, Scene* town) {
+  if (town->origin_m.x != 0 || town->origin_m.y != 0) return;
+  Scene moved = *town;
+  const Point2 by = MoveNearZero(kFarToDraw_m, 1, &moved), at = PlaceOf(file);
+  if (std::hypot(at.x, at.y) >= std::hypot(at.x - by.x, at.y - by.y)) return;
+  moved.origin_m = {};
+  *town = std::move(moved);
+}
+
 // The town, with the obstacles moved to where it stands.
 Error ReadTown(const CheckArguments& a, GeoJsonFile* file, std::vector<Finding>* faults, TownToCheck* town) {
   std::vector<std::string> warnings;
   if (Error error = ReadScene(a.town, &town->scene, &warnings, {"", a.obj_up})) return error;
+  MoveAsBaked(*file, &town->scene);
   if (Error error = PrepareTown(town->scene, file->footprints, a.options, &town->prepared))
     return Fail(a.town.string() + ": " + error.message);
   const Error error =

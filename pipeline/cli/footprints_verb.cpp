@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/cli/arguments.h"
+#include "pipeline/cli/far_town.h"
 #include "pipeline/cli/georeference.h"
 #include "pipeline/cli/obj_up.h"
 #include "pipeline/cli/verbs.h"
@@ -74,7 +75,7 @@ Error Run(const FootprintsArguments& a) {
   Georeference georeference = a.georeference;
   if (!source.system.empty()) georeference.crs.clear();  // done by the reader
   georeference.origin_m = {a.origin_m[0], a.origin_m[1]};
-  if (Error error = SetGeoreference(georeference, a.options.scale, &scene, &warnings))
+  if (Error error = PlaceTown(georeference, kFarForOthers_m, a.options.scale, &scene, nullptr, &warnings))
     return Fail(towns + ": " + error.message);
   if (Error error = ExtractFootprints(scene, a.options, &footprints, &stats, &warnings))
     return Fail(towns + ": " + error.message);

@@ -5,12 +5,12 @@
 namespace flaneur {
 namespace {
 
-constexpr double kMostPlace_m = 1e5;
+constexpr double kMostPlace_m = 1e8;  // of a map
 
 void ReadFlock(TomlTable table, TourData* tour) {
   Flock flock;
   table.Text("avatar", &flock.avatar);
-  table.Point("position_m", &flock.position_m);
+  table.TownPoint("position_m", &flock.position_m);
   table.Number("radius_m", &flock.radius_m, 0.5, static_cast<double>(kMaxFlockRadius_m));
   table.Number("birds", &flock.birds, 1, kMaxBirds);
   table.Number("shy_m", &flock.shy_m, 0, static_cast<double>(kMaxShy_m));

@@ -221,7 +221,7 @@ void ReadPlace(TomlTable table, TourSettings* settings) {
   place.kind = "goal";
   table.Text("name", &place.name);
   table.Choice("kind", &place.kind, {"door", "exit", "goal", "loiter", "spawn", "work", "play"});
-  table.Point("position_m", &place.position_m);
+  table.TownPoint("position_m", &place.position_m);
   table.Number("width_m", &place.width_m, 0.1, 1000);
   float yaw_rad = 0;
   table.Angle("yaw", &yaw_rad, -360, 360);
@@ -249,8 +249,8 @@ void ReadPlace(TomlTable table, TourSettings* settings) {
 void ReadPaintingSettings(TomlTable table, PaintingSettings* painting) {
   Vec2 min_m, max_m;
   table.File("file", &painting->file);
-  table.Point("min_m", &min_m);
-  table.Point("max_m", &max_m);
+  table.TownPoint("min_m", &min_m);
+  table.TownPoint("max_m", &max_m);
   table.Finish();
   if (!table.Has("min_m") && !table.Has("max_m")) return;
   if (painting->file.empty()) table.Refuse("[painting] needs a file");
@@ -263,7 +263,7 @@ void ReadPaintingSettings(TomlTable table, PaintingSettings* painting) {
 
 void ReadStop(TomlTable table, TourSettings* settings) {
   TourStop stop;
-  table.Point("position_m", &stop.position_m);
+  table.TownPoint("position_m", &stop.position_m);
   table.Angle("yaw", &stop.yaw_rad, -360, 360);
   table.Number("pause_s", &stop.pause_s, 0, 3600);
   table.Translations("caption", settings->language, &stop.captions);

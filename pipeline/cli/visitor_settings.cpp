@@ -19,7 +19,7 @@ void ReadTexts(const char* key, const std::string& own, TomlTable* table, TextsB
 void ReadHotspot(TomlTable table, TourData* tour, VisitorFiles* files) {
   Hotspot hotspot;
   VisitorFiles::OfHotspot of;
-  table.Point("position_m", &hotspot.position_m);
+  table.TownPoint("position_m", &hotspot.position_m);
   table.Number("height_m", &hotspot.height_m, -500, 500);
   table.Number("radius_m", &hotspot.radius_m, 0.5, 1000);
   ReadTexts("title", tour->language, &table, &hotspot.titles);
@@ -37,7 +37,7 @@ void ReadHotspot(TomlTable table, TourData* tour, VisitorFiles* files) {
 void ReadStreet(TomlTable table, TourData* tour) {
   Street street;
   ReadTexts("name", tour->language, &table, &street.names);
-  table.Points("points_m", &street.points);
+  table.TownPoints("points_m", &street.points);
   if (street.names.empty()) table.Refuse("a [[street]] needs a name");
   if (street.points.size() < 2) table.Refuse("a [[street]] needs points_m = [[x, y], [x, y], ...], two at least");
   table.Finish();
@@ -52,7 +52,7 @@ void ReadSoundPlace(TomlTable table, TourData* tour, VisitorFiles* files) {
   const auto* const found = std::find(std::begin(kSoundKindNames), std::end(kSoundKindNames), kind);
   if (found != std::end(kSoundKindNames)) place.kind = static_cast<SoundKind>(found - std::begin(kSoundKindNames));
   table.File("file", &file);
-  table.Point("position_m", &place.position_m);
+  table.TownPoint("position_m", &place.position_m);
   table.Number("height_m", &place.height_m, -500, 500);
   table.Number("radius_m", &place.radius_m, 0.5, 1000);
   table.Number("volume", &place.volume, 0, 4);

@@ -180,7 +180,9 @@ Vec3 Between(const std::vector<Vec3>& positions, int a, int b) { return (At(posi
 
 // Arms that reach as far down as the legs do and a trunk that lies: four legs.
 bool IsQuadruped(const Humanoid& h, const std::vector<Vec3>& positions) {
-  if (!h.has_arms() || h.legs[kLeft].lower < 0 || h.arms[kLeft].lower < 0) return false;
+  if (!h.has_arms()) return false;
+  for (const size_t side : {kLeft, kRight})
+    if (h.legs[side].lower < 0 || h.arms[side].lower < 0) return false;
   const Vec3 hips = Between(positions, h.legs[kLeft].upper, h.legs[kRight].upper);
   const Vec3 shoulders = Between(positions, h.arms[kLeft].upper, h.arms[kRight].upper);
   const Vec3 knees = Between(positions, h.legs[kLeft].lower, h.legs[kRight].lower);

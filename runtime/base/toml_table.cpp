@@ -184,14 +184,25 @@ void TomlTable::Point(const char* key, Vec2* value) {
   *value = {numbers[0], numbers[1]};
 }
 
-void TomlTable::Points(const char* key, std::vector<Vec2>* values) {
+void TomlTable::TownPoint(const char* key, Vec2* value) {
+  double x = static_cast<double>(value->x), y = static_cast<double>(value->y);
+  const toml::node* node = Find(key);
+  if (node != nullptr && !ReadPair(*node, kMaxMap_m, &x, &y))
+    return context_->Refuse(node, Name(key) + " must be [x, y] in metres");
+  *value = {static_cast<float>(x), static_cast<float>(y)};
+}
+
+void TomlTable::Points(const char* key, std::vector<Vec2>* values) { TakePoints(key, kMaxLength_m, values); }
+void TomlTable::TownPoints(const char* key, std::vector<Vec2>* values) { TakePoints(key, kMaxMap_m, values); }
+
+void TomlTable::TakePoints(const char* key, double largest_m, std::vector<Vec2>* values) {
   const toml::node* node = Find(key);
   if (node == nullptr) return;
   const toml::array* points = node->as_array();
   bool sound = points != nullptr;
   for (size_t i = 0; sound && i < points->size(); ++i) {
     double x = 0, y = 0;
-    sound = ReadPair((*points)[i], kMaxLength_m, &x, &y);
+    sound = ReadPair((*points)[i], largest_m, &x, &y);
     if (sound) values->push_back({static_cast<float>(x), static_cast<float>(y)});
   }
   if (!sound) context_->Refuse(node, Name(key) + " must be a list of [x, y] in metres");

@@ -53,7 +53,10 @@ class TomlTable {
   void Color(const char* key, Vec3* value);  // "#rrggbb"; sRGB, 0 to 1
   void Colors(const char* key, std::vector<Vec3>* values);
   void Point(const char* key, Vec2* value);
+  // As large as coordinates of a map are, which floats hold to half a metre.
+  void TownPoint(const char* key, Vec2* value);
   void Points(const char* key, std::vector<Vec2>* values);
+  void TownPoints(const char* key, std::vector<Vec2>* values);
   void MapPoint(const char* key, double* east_m, double* north_m);  // of any size, in full precision
   void File(const char* key, std::filesystem::path* value);         // relative to the file's folder
   // Texts by language: one text, which is in `own`, or a table of them.
@@ -72,6 +75,7 @@ class TomlTable {
 
  private:
   const toml::node* Find(const char* key);
+  void TakePoints(const char* key, double largest_m, std::vector<Vec2>* values);
   void TakeText(const toml::node& node, const char* key, std::string* value);  // no longer than kMostText_bytes
   bool ReadNumber(const char* key, bool integer, double least, double most, double* number);
   std::string Name(const char* key) const;

@@ -39,7 +39,7 @@ bool IsOneLine(const std::string& text) {
 std::string Refused(const Error& error) {
   if (!IsOneLine(error.message)) return "not one line: " + error.message;
   if (error.message.size() > 3 * kMostMessage_bytes) return "a message of " + std::to_string(error.message.size());
-  if (error.message.find("not enough memory") != std::string::npos) return "asked for all memory: " + error.message;
+  if (error.message.ends_with("there is not enough memory for it")) return "asked for all memory: " + error.message;
   return {};
 }
 

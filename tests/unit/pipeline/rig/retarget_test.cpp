@@ -218,6 +218,26 @@ TEST(Humanoid, WhoseTrunkHangsOnItsMiddleGoesOnFourLegs) {
   EXPECT_TRUE(humanoid.quadruped);
 }
 
+// A pirate with one arm, a statue without hands: of one side alone there may be bones.
+TEST(Humanoid, MayLackAnyOneBoneAndWalks) {
+  const Avatar whole = MadeHuman({});
+  const Clip walk = MadeWalk(whole);
+  for (size_t lacks = 1; lacks < whole.joints.size(); ++lacks) {
+    HumanShape shape;
+    shape.names[lacks] = "ornament";
+    const Avatar person = MadeHuman(shape);
+    Humanoid humanoid;
+    std::string why;
+    if (!FindHumanoid(person.joints, BindPose(person.joints).positions, {}, &humanoid, &why)) continue;
+    EXPECT_FALSE(humanoid.quadruped) << lacks;
+    for (const auto& [from, to] : {std::pair{&whole, &person}, {&person, &whole}}) {
+      const Retargeted made = Retarget(RigOf(*from), walk, RigOf(*to));
+      for (const Transform& t : made.clip.transforms)
+        ASSERT_TRUE(std::isfinite(Length(t.translation)) && std::isfinite(t.rotation.w)) << lacks;
+    }
+  }
+}
+
 TEST(Humanoid, WhatHasNoLegsIsNone) {
   Avatar human = MadeHuman({});
   for (size_t j = 10; j < human.joints.size(); ++j) human.joints[j].name = "cloth";
