@@ -136,6 +136,27 @@ TEST(TourPack, BringsTheTownAcross) {
   }
 }
 
+// Houses that a modeller mirrored, or a town with its whole root mirrored: outside stays outside, also where it shears.
+TEST(TourPack, MirroredPartsShowTheirOutside) {
+  TourParts parts = SmallTour();
+  Mesh& mesh = parts.town.meshes[0];
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) std::swap(mesh.indices[i], mesh.indices[i + 1]);  // as readers do
+  for (SceneNode& node : parts.town.nodes) {
+    node.meshes = {0};
+    for (float& x : node.world.m[0]) x = -x;
+  }
+  const TourPack pack = Read(Written(parts));
+  ASSERT_EQ(pack.town.size(), 3u);
+  for (const TownInstance& part : pack.town) {
+    const PackPrimitive& quad = pack.meshes[static_cast<size_t>(part.mesh)].primitives.at(0);
+    const auto at = [&](size_t i) { return TransformPoint(part.world, quad.positions[quad.indices[i]]); };
+    Vec3 outside = Cross(at(1) - at(0), at(2) - at(0));
+    const auto column = [&](size_t c) { return Vec3{part.world.m[c][0], part.world.m[c][1], part.world.m[c][2]}; };
+    if (Dot(Cross(column(0), column(1)), column(2)) < 0) outside = outside * -1;  // as glTF says
+    EXPECT_GT(outside.y, 0) << part.name << ": ground is seen from above";
+  }
+}
+
 TEST(TourPack, BringsWhatTurnsInTheTownAcross) {
   TourParts parts = SmallTour();
   SceneNode node;
