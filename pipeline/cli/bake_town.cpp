@@ -8,6 +8,7 @@
 #include "pipeline/cli/far_town.h"
 #include "pipeline/cli/obj_up.h"
 #include "pipeline/cli/stage_inputs.h"
+#include "pipeline/cli/town_brightness.h"
 #include "pipeline/cli/trust.h"
 #include "pipeline/cli/work_clips.h"
 #include "pipeline/core/temporary_folder.h"
@@ -23,7 +24,7 @@ namespace flaneur {
 // For stage_cache.h.
 template <typename A>
 void Fields(A& a, TownFacts* v) {
-  a(&v->places, &v->streets, &v->triangles, &v->origin_m, &v->moved_m, &v->reference_system);
+  a(&v->places, &v->streets, &v->triangles, &v->brightness, &v->origin_m, &v->moved_m, &v->reference_system);
 }
 
 namespace {
@@ -89,6 +90,7 @@ std::string ShapeKey(Baking* baking) {
 Error MakeTown(Baking* baking, StageReport* report) {
   if (Error e = ReadTownOnce(baking)) return e;
   const Scene& town = baking->parts.town;
+  baking->town.brightness = BrightnessOf(town, baking->jobs);
   baking->town.places = TaggedPlaces(town);
   baking->town.streets = TaggedStreets(town, baking->settings.language);
   baking->town.origin_m = town.origin_m;
@@ -105,6 +107,7 @@ Error UseTown(Baking* baking, Warnings* warnings) {
   TourParts* parts = &baking->parts;
   parts->places = baking->settings.places;
   TakeIntoMovedTown(baking->town.moved_m, parts);
+  if (parts->light.exposure == 0) parts->light.exposure = ExposureFor(baking->town.brightness);
   parts->places.insert(parts->places.begin(), baking->town.places.begin(), baking->town.places.end());
   for (const Street& street : baking->town.streets) AddUnlessNamed(street, parts);
   std::vector<AvatarSettings>& avatars = baking->settings.avatars;

@@ -20,6 +20,7 @@ struct TownFacts {
   std::vector<Place> places;
   std::vector<Street> streets;
   double triangles = 0;
+  float brightness = 0;  // town_brightness.h
   Point2 origin_m;
   Point2 moved_m;  // subtracted from its file's coordinates (far_town.h)
   std::string reference_system;

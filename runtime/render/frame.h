@@ -63,6 +63,7 @@ struct FrameInput {
   Vec3 eye;
   float yaw_rad = 0, pitch_rad = 0, fov_rad = 1;  // horizontal
   Vec3 to_sun{0, 0, 1};                           // unit
+  float exposure = 1;                             // of all that the light falls on
   std::vector<DrawnPerson> people;
   // Who is farther from the eye casts the shadow of a coarser figure, and who is beyond the reach none. In a picture of
   // a smaller scale coarser figures begin nearer.

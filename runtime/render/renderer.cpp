@@ -109,8 +109,8 @@ Mat4 Aside(int k, const Picture& p) {
 }
 
 // focal_px: pixels that a metre takes at a distance of one.
-FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px, Vec3 to_sun, float shadow_reach_m,
-                          const ShadowMaps& shadows) {
+FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px, Vec3 to_sun, float exposure,
+                          float shadow_reach_m, const ShadowMaps& shadows) {
   const Light light = LightFor(to_sun);
   FrameBlock block;
   block.view_projection = view_projection;
@@ -124,9 +124,9 @@ FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px,
   block.shadow_texels = {Texel_m(shadows.near), Texel_m(shadows.far), kPeopleTexels_m[0], kPeopleTexels_m[1]};
   block.eye = {eye.x, eye.y, eye.z, focal_px};
   block.to_sun = Wide(to_sun);
-  block.sun_color = Wide(light.sun);
-  block.sky_color = Wide(light.sky);
-  block.ground_color = Wide(light.ground);
+  block.sun_color = Wide(light.sun * exposure);  // the sky is as it is: no town makes that too bright
+  block.sky_color = Wide(light.sky * exposure);
+  block.ground_color = Wide(light.ground * exposure);
   block.haze_color = Wide(light.haze);
   block.zenith_color = Wide(light.zenith);
   return block;
@@ -356,7 +356,7 @@ void Renderer::Impl::Draw(const FrameInput& frame, const std::vector<EyePicture>
 
   DrawCost people_cost, town_cost, mark;
   const auto draw_view = [&](const Mat4& matrix, Vec3 from, bool picks, int average) {
-    BindFrameBlock(r.block_buffer, MakeFrameBlock(matrix, from, r.Focal_px(view), to_sun,
+    BindFrameBlock(r.block_buffer, MakeFrameBlock(matrix, from, r.Focal_px(view), to_sun, frame.exposure,
                                                   std::max(sight.shadow_reach_m, 1e-3f), r.shadows));
     r.DrawSurfaces(from, picks, &timer, &people_cost, &town_cost);
     if (!r.options.normals) r.DrawSky();

@@ -255,6 +255,7 @@ void FrameFromSimulation(const TourPack& pack, const Simulation& s, PersonLooks*
   frame->pitch_rad = s.visitor.camera.pitch_rad + between.look_rad;
   frame->fov_rad = s.visitor.camera.view.fov_rad;
   const float time_s = static_cast<float>(s.town.step) * Step_s(s);
+  frame->exposure = pack.light.exposure > 0 ? pack.light.exposure : 1;
   frame->to_sun = s.hour ? SunAt(*s.hour + time_s / 3600) : ToSun(pack.light, time_s);
   frame->fine_shadow_m = s.control.levels.shadows.fine_m;
   frame->shadow_reach_m = s.control.levels.shadows.reach_m;

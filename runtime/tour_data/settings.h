@@ -52,6 +52,7 @@ inline float MaxYawRate_radps(const ControlSettings& s) { return s.max_yaw_rate_
 struct LightSettings {
   float sun_azimuth_rad = 0.75f * kPi, sun_elevation_rad = kPi / 4.5f;  // direction to the sun at the start
   float day_length_s = 600;  // time for the sun's way across the sky; 0: it stands still
+  float exposure = 0;        // of the picture; 0: in tour.toml by how bright the town is, in a pack 1
 };
 
 struct WindSettings {
@@ -113,6 +114,7 @@ void VisitFields(Fields&& fields, LightSettings* s) {
   fields.Angle("sun_azimuth", &s->sun_azimuth_rad, -360, 360);
   fields.Angle("sun_elevation", &s->sun_elevation_rad, 0, 90);
   fields.Number("day_length_s", &s->day_length_s, 0, 1e6);
+  fields.Number("exposure", &s->exposure, 0, 4);
 }
 
 template <typename Fields>
