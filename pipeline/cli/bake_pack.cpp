@@ -31,6 +31,7 @@ Error WritePack(Baking* baking, const fs::path& staging, std::vector<std::string
   *warnings = WarningsOfWords(parts, &fonts);
   parts.footprints.origin_m = baking->town.origin_m;  // kept ones may have another
   parts.footprints.reference_system = baking->town.reference_system;
+  for (Obstacle& o : parts.footprints.obstacles) o.ground_z_m += baking->town.lowered_m;  // as the town's file has it
   parts.title_page.background = baking->settings.title_page.background;
   const std::string pack = baking->settings.name + ".glb";
   BakeReport& whole = baking->report;

@@ -24,7 +24,8 @@ namespace flaneur {
 // For stage_cache.h.
 template <typename A>
 void Fields(A& a, TownFacts* v) {
-  a(&v->places, &v->streets, &v->triangles, &v->brightness, &v->origin_m, &v->moved_m, &v->reference_system);
+  a(&v->places, &v->streets, &v->triangles, &v->brightness, &v->origin_m, &v->moved_m, &v->lowered_m,
+    &v->reference_system);
 }
 
 namespace {
@@ -64,6 +65,7 @@ Error ReadTown(Baking* baking, Scene* town, Warnings* warnings) {
   Point2 moved;
   if (Error e = PlaceTown(georeference, kFarToDraw_m, 1, town, &moved, warnings))
     return Fail("town.georeference: " + e.message);
+  baking->town_lowered_m = LowerToZero(kFarToDraw_m, town);
   baking->town_moved_m = {by_reader.x + moved.x, by_reader.y + moved.y};
   // Parts are put on one plane, a town's own model may stand on hills.
   if (AddGroundWhereNone(s.town.file.empty(), kBareGroundMargin_m, town)) {
@@ -95,6 +97,7 @@ Error MakeTown(Baking* baking, StageReport* report) {
   baking->town.streets = TaggedStreets(town, baking->settings.language);
   baking->town.origin_m = town.origin_m;
   baking->town.moved_m = baking->town_moved_m;
+  baking->town.lowered_m = baking->town_lowered_m;
   baking->town.reference_system = town.reference_system;
   for (const SceneNode& node : town.nodes) {
     for (int m : node.meshes) baking->town.triangles += TriangleCount(At(town.meshes, m));
@@ -106,7 +109,7 @@ Error MakeTown(Baking* baking, StageReport* report) {
 Error UseTown(Baking* baking, Warnings* warnings) {
   TourParts* parts = &baking->parts;
   parts->places = baking->settings.places;
-  TakeIntoMovedTown(baking->town.moved_m, parts);
+  TakeIntoMovedTown(baking->town.moved_m, baking->town.lowered_m, parts);
   if (parts->light.exposure == 0) parts->light.exposure = ExposureFor(baking->town.brightness);
   parts->places.insert(parts->places.begin(), baking->town.places.begin(), baking->town.places.end());
   for (const Street& street : baking->town.streets) AddUnlessNamed(street, parts);

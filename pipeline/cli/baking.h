@@ -22,7 +22,8 @@ struct TownFacts {
   double triangles = 0;
   float brightness = 0;  // town_brightness.h
   Point2 origin_m;
-  Point2 moved_m;  // subtracted from its file's coordinates (far_town.h)
+  Point2 moved_m;        // subtracted from its file's coordinates (far_town.h)
+  double lowered_m = 0;  // from its heights
   std::string reference_system;
 };
 
@@ -43,6 +44,7 @@ struct Baking {
   std::once_flag town_read_once, media_read_once, blender_once;
   Error town_read, media_read;
   Point2 town_moved_m;  // once it is read: see TownFacts
+  double town_lowered_m = 0;
   Warnings town_warnings;
   std::string blender_sha256;
   std::mutex contents_mutex;

@@ -10,33 +10,44 @@ namespace {
 
 constexpr double kStep_m = 100;
 
-bool Middle(const Scene& town, Point2* middle) {
-  Point2 low{1e300, 1e300}, high{-1e300, -1e300};
+// x east, y north, z up.
+bool Middle(const Scene& town, Point3* middle) {
+  Point3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (const SceneNode& node : town.nodes) {
     for (const int mesh : node.meshes) {
       for (const Vec3& position : At(town.meshes, mesh).positions) {
         const Vec3 p = GroundFromGltf(TransformPoint(node.world, position));
-        low = {std::min<double>(low.x, p.x), std::min<double>(low.y, p.y)};
-        high = {std::max<double>(high.x, p.x), std::max<double>(high.y, p.y)};
+        low = {std::min<double>(low.x, p.x), std::min<double>(low.y, p.y), std::min<double>(low.z, p.z)};
+        high = {std::max<double>(high.x, p.x), std::max<double>(high.y, p.y), std::max<double>(high.z, p.z)};
       }
     }
   }
-  *middle = {(low.x + high.x) / 2, (low.y + high.y) / 2};
+  *middle = {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
   return low.x <= high.x;
 }
+
+void Subtract(double by, float* value) { *value = static_cast<float>(static_cast<double>(*value) - by); }
 
 }  // namespace
 
 Point2 MoveNearZero(double far_m, double scale, Scene* town) {
-  Point2 middle;
+  Point3 middle;
   const double far = far_m / scale, step = kStep_m / scale;
   if (!Middle(*town, &middle) || std::max(std::abs(middle.x), std::abs(middle.y)) <= far) return {};
   const Point2 by{std::floor(middle.x / step) * step, std::floor(middle.y / step) * step};
   for (SceneNode& node : town->nodes) {
-    node.world.m[3][0] = static_cast<float>(static_cast<double>(node.world.m[3][0]) - by.x);
-    node.world.m[3][2] = static_cast<float>(static_cast<double>(node.world.m[3][2]) + by.y);  // glTF's +Z is south
+    Subtract(by.x, &node.world.m[3][0]);
+    Subtract(-by.y, &node.world.m[3][2]);  // glTF's +Z is south
   }
   town->origin_m = {town->origin_m.x + by.x, town->origin_m.y + by.y};
+  return by;
+}
+
+double LowerToZero(double far_m, Scene* town) {
+  Point3 middle;
+  if (!Middle(*town, &middle) || std::abs(middle.z) <= far_m) return 0;
+  const double by = std::floor(middle.z / kStep_m) * kStep_m;
+  for (SceneNode& node : town->nodes) Subtract(by, &node.world.m[3][1]);
   return by;
 }
 
@@ -62,7 +73,7 @@ Vec2 InMovedTown(Vec2 p, Point2 moved_m) {
   return {static_cast<float>(there.x), static_cast<float>(there.y)};
 }
 
-void TakeIntoMovedTown(Point2 moved_m, TourData* tour) {
+void TakeIntoMovedTown(Point2 moved_m, double lowered_m, TourData* tour) {
   const auto take = [&](Vec2* p) { *p = InMovedTown(*p, moved_m); };
   for (Place& place : tour->places) take(&place.position_m);
   for (TourStop& stop : tour->path) take(&stop.position_m);
@@ -73,7 +84,8 @@ void TakeIntoMovedTown(Point2 moved_m, TourData* tour) {
     std::for_each(street.points.begin(), street.points.end(), [&](Vec2& p) { take(&p); });
   for (Smoke& smoke : tour->smokes) {
     const Vec2 p = InMovedTown(Vec2{smoke.position_m.x, smoke.position_m.y}, moved_m);
-    smoke.position_m = {p.x, p.y, smoke.position_m.z};
+    const auto z = static_cast<double>(smoke.position_m.z), there = z - lowered_m;
+    smoke.position_m = {p.x, p.y, static_cast<float>(std::abs(there) < std::abs(z) ? there : z)};
   }
 }
 

@@ -19,7 +19,10 @@ inline constexpr double kFarToDraw_m = 1000, kFarForOthers_m = 10'000;
 // town. Returns what was subtracted (x east, y north, in units), and adds it to `town->origin_m`.
 Point2 MoveNearZero(double far_m, double scale, Scene* town);
 
-// The same with SetGeoreference: an origin that is stated is where the file's zero is on the map; without one the
+// Towns on high mountains: heights the same way. Returns what was subtracted.
+double LowerToZero(double far_m, Scene* town);
+
+// MoveNearZero with SetGeoreference: an origin that is stated is where the file's zero is on the map; without one the
 // file's coordinates are the map's. moved (may be null): what MoveNearZero returns.
 Error PlaceTown(const Georeference& wish, double far_m, double scale, Scene* town, Point2* moved,
                 std::vector<std::string>* warnings);
@@ -28,8 +31,8 @@ Error PlaceTown(const Georeference& wish, double far_m, double scale, Scene* tow
 // moved is meant as in the file.
 Vec2 InMovedTown(Vec2 place_m, Point2 moved_m);
 Point2 InMovedTown(Point2 place_m, Point2 moved_m);
-// All places of the tour; of a painting's area; of accepted findings.
-void TakeIntoMovedTown(Point2 moved_m, TourData* tour);
+// All places of the tour, and the heights of its smoke; of a painting's area; of accepted findings.
+void TakeIntoMovedTown(Point2 moved_m, double lowered_m, TourData* tour);
 PaintingSettings InMovedTown(PaintingSettings painting, Point2 moved_m);
 std::vector<AcceptedFinding> InMovedTown(std::vector<AcceptedFinding> accepted, Point2 moved_m);
 

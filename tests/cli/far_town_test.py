@@ -5,7 +5,7 @@ import unittest
 from small_tour import SmallTourTest
 from support import run, split_glb, write_glb
 
-EAST, NORTH = 350000, 5790000
+EAST, NORTH, UP = 350000, 5790000, 3640
 PLACES = """
 [[stop]]
 position_m = [%(x)d, %(y)d]
@@ -21,15 +21,15 @@ position_m = [%(x)d, %(y2)d]
 position_m = [%(x2)d, %(y)d]
 title = "A well"
 [[smoke]]
-position_m = [%(x)d.5, %(y)d.5, 12]
+position_m = [%(x)d.5, %(y)d.5, %(z)d]
 [[street]]
 name = "Lane"
 points_m = [[%(x)d, %(y)d], [%(x2)d, %(y2)d]]
 """
 
 
-def places(east, north):
-    return PLACES % {"x": east - 10, "y": north + 15, "x2": east + 20, "y2": north - 12}
+def places(east, north, up):
+    return PLACES % {"x": east - 10, "y": north + 15, "x2": east + 20, "y2": north - 12, "z": up + 12}
 
 
 class FarTown(SmallTourTest):
@@ -39,7 +39,7 @@ class FarTown(SmallTourTest):
         super().setUp()
         self.town = self.tour.parent / "town.glb"
         gltf, binary = split_glb(self.town)
-        gltf["nodes"].append({"name": "map", "translation": [EAST, 0, -NORTH], "children": gltf["scenes"][0]["nodes"]})
+        gltf["nodes"].append({"name": "map", "translation": [EAST, UP, -NORTH], "children": gltf["scenes"][0]["nodes"]})
         gltf["scenes"][0]["nodes"] = [len(gltf["nodes"]) - 1]
         write_glb(self.town, gltf, binary)
 
@@ -56,18 +56,21 @@ class FarTown(SmallTourTest):
         self.assertEqual(len(found), 7)
         for x, y in found:
             self.assertLess(max(abs(x), abs(y)), 150)
+        self.assertAlmostEqual(tour["smokes"][0]["position_m"][2], UP % 100 + 12, delta=0.01)
 
     def test_places_as_in_the_file_or_as_in_the_moved_town(self):
-        far, obstacles = self.baked(places(EAST, NORTH))
+        far, obstacles = self.baked(places(EAST, NORTH, UP))
         self.assert_near(far)
         self.assertEqual(obstacles["flaneur"]["origin_m"], [EAST, NORTH])
-        near, _ = self.baked(places(0, 0))
+        for house in obstacles["features"]:
+            self.assertAlmostEqual(house["properties"]["ground_z_m"], UP, delta=0.01)
+        near, _ = self.baked(places(0, 0, 40))
         for a, b in zip(far["path"], near["path"]):
             for k in range(2):
                 self.assertAlmostEqual(a["position_m"][k], b["position_m"][k], delta=0.5)  # floats, that far away
 
     def test_its_own_obstacles_fit_the_file(self):
-        self.baked(places(EAST, NORTH))
+        self.baked(places(EAST, NORTH, UP))
         for more in ([], ["--origin-m", "100", "200"]):
             direct = self.folder / "direct.geojson"
             self.assert_succeeds(run("flaneur", "footprints", self.town, "-o", direct, *more))
