@@ -289,8 +289,8 @@ void TomlTable::Finish() {
   for (const auto& [key, node] : *table_) {
     const std::string name(key.str());
     if (std::find(keys_.begin(), keys_.end(), name) != keys_.end()) continue;
-    context_->Refuse(
-        &node, "unknown key '" + name + "'" + (name_.empty() ? "" : " in [" + name_ + "]") + DidYouMean(name, keys_));
+    context_->Refuse(&node, "unknown key '" + OneLine(name) + "'" + (name_.empty() ? "" : " in [" + name_ + "]") +
+                                DidYouMean(name, keys_));
   }
 }
 

@@ -31,7 +31,7 @@ sf_count_t Seek(sf_count_t offset, int whence, void* memory) {
 sf_count_t Read(void* to, sf_count_t count, void* memory) {
   auto* m = static_cast<Memory*>(memory);
   const sf_count_t n = std::clamp<sf_count_t>(SizeOf(memory) - m->at, 0, count);
-  std::memcpy(to, m->bytes->data() + m->at, static_cast<size_t>(n));
+  if (n > 0) std::memcpy(to, m->bytes->data() + m->at, static_cast<size_t>(n));
   m->at += n;
   return n;
 }

@@ -28,8 +28,7 @@ constexpr int kChooseSideEvery_steps = 15;
 constexpr float kClearlyBeside_rad = 0.1f;  // of the picture's middle
 constexpr float kClears_m = 0.15f;          // people keep so much more than touching from the guide
 constexpr float kRoom_m = 0.25f;            // and so much more where they have the choice
-constexpr float kTalks_m = 10;              // to a visitor who is no farther,
-constexpr float kSoon_m = 4;                // or has so far to go to the halt where the guide stands already
+constexpr float kTalks_m = 10;              // to a visitor who is no farther
 constexpr float kStuck_s = 1.5f, kGetsOn_m = 0.5f, kLoitererYieldRadius_m = 1.6f;
 constexpr float kFarthest_m = 20;  // of a new route the guide is looked for so far
 

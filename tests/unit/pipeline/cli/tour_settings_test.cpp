@@ -314,6 +314,10 @@ void ExpectInSchema(const nlohmann::json& definition, const std::set<std::string
   EXPECT_EQ(required, check.seen);
 }
 
+TEST(TourSettings, AKeyWithoutEndIsNotRepeatedWhole) {
+  EXPECT_LT(Refusal(std::string(kMinimalTour) + std::string(100'000, 'k') + " = 1\n").size(), 5'000u);
+}
+
 TEST(TourSettings, ThePacksSchemaKnowsThem) {
   std::string text;
   ASSERT_FALSE(
