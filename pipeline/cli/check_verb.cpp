@@ -131,11 +131,10 @@ Point2 PlaceOf(const GeoJsonFile& file) {
 // A bake moves a town near zero that its file has far away, and its obstacles are as it stands then.
 void MoveAsBaked(const GeoJsonFile& file, Scene* town) {
   if (town->origin_m.x != 0 || town->origin_m.y != 0) return;
-  Scene moved = *town;
-  const Point2 by = MoveNearZero(kFarToDraw_m, 1, &moved), at = PlaceOf(file);
+  const Point2 by = FarFromZero(kFarToDraw_m, 1, *town), at = PlaceOf(file);
   if (std::hypot(at.x, at.y) >= std::hypot(at.x - by.x, at.y - by.y)) return;
-  moved.origin_m = {};
-  *town = std::move(moved);
+  MoveNearZero(by, town);
+  town->origin_m = {};
 }
 
 // The town, with the obstacles moved to where it stands.

@@ -30,17 +30,19 @@ void Subtract(double by, float* value) { *value = static_cast<float>(static_cast
 
 }  // namespace
 
-Point2 MoveNearZero(double far_m, double scale, Scene* town) {
+Point2 FarFromZero(double far_m, double scale, const Scene& town) {
   Point3 middle;
   const double far = far_m / scale, step = kStep_m / scale;
-  if (!Middle(*town, &middle) || std::max(std::abs(middle.x), std::abs(middle.y)) <= far) return {};
-  const Point2 by{std::floor(middle.x / step) * step, std::floor(middle.y / step) * step};
+  if (!Middle(town, &middle) || std::max(std::abs(middle.x), std::abs(middle.y)) <= far) return {};
+  return {std::floor(middle.x / step) * step, std::floor(middle.y / step) * step};
+}
+
+void MoveNearZero(Point2 by, Scene* town) {
   for (SceneNode& node : town->nodes) {
     Subtract(by.x, &node.world.m[3][0]);
     Subtract(-by.y, &node.world.m[3][2]);  // glTF's +Z is south
   }
   town->origin_m = {town->origin_m.x + by.x, town->origin_m.y + by.y};
-  return by;
 }
 
 double LowerToZero(double far_m, Scene* town) {
@@ -54,7 +56,8 @@ double LowerToZero(double far_m, Scene* town) {
 Error PlaceTown(const Georeference& wish, double far_m, double scale, Scene* town, Point2* moved,
                 std::vector<std::string>* warnings) {
   Georeference georeference = wish;
-  const Point2 own = town->origin_m, by = MoveNearZero(far_m, scale, town);
+  const Point2 own = town->origin_m, by = FarFromZero(far_m, scale, *town);
+  MoveNearZero(by, town);
   if (moved) *moved = by;
   if (wish.origin_m.x != 0 || wish.origin_m.y != 0) {
     georeference.origin_m = {wish.origin_m.x + by.x * scale, wish.origin_m.y + by.y * scale};

@@ -15,15 +15,17 @@ namespace flaneur {
 // shadows; obstacles for other programs are moved only as readers of city models move them.
 inline constexpr double kFarToDraw_m = 1000, kFarForOthers_m = 10'000;
 
-// Moves a town whose middle is farther from zero near it, by whole hundreds of metres. scale: metres per unit of the
-// town. Returns what was subtracted (x east, y north, in units), and adds it to `town->origin_m`.
-Point2 MoveNearZero(double far_m, double scale, Scene* town);
+// By how much a town is to be moved (x east, y north) whose middle is farther than far_m from zero: whole hundreds of
+// metres; else zero. scale: metres per unit of the town.
+Point2 FarFromZero(double far_m, double scale, const Scene& town);
+// Subtracts that, and adds it to `town->origin_m`.
+void MoveNearZero(Point2 by, Scene* town);
 
 // Towns on high mountains: heights the same way. Returns what was subtracted.
 double LowerToZero(double far_m, Scene* town);
 
 // MoveNearZero with SetGeoreference: an origin that is stated is where the file's zero is on the map; without one the
-// file's coordinates are the map's. moved (may be null): what MoveNearZero returns.
+// file's coordinates are the map's. moved (may be null): by how much it was.
 Error PlaceTown(const Georeference& wish, double far_m, double scale, Scene* town, Point2* moved,
                 std::vector<std::string>* warnings);
 

@@ -29,8 +29,8 @@ bool StandsAlone(uint8_t marker) {
 }  // namespace
 
 bool HasSoundHuffmanTables(std::span<const uint8_t> bytes) {
-  if (bytes.size() < 2 || bytes[0] != kMarker || bytes[1] != kStart) return true;
-  size_t at = 2;
+  if (bytes.empty() || bytes[0] != kMarker) return true;
+  size_t at = 0;
   while (true) {
     while (at < bytes.size() && bytes[at] != kMarker) ++at;  // padding, or a scan's data
     while (at < bytes.size() && bytes[at] == kMarker) ++at;

@@ -46,6 +46,9 @@ TEST(Pixels, RefusesAJpegWithATableOfTooManyCodes) {
     EXPECT_FALSE(Decoded(WithTable(300, 0, before_end))) << before_end;
   }
   EXPECT_FALSE(DecodedSize(WithTable(300, 300, 0)));
+  Bytes filled = WithTable(300, 300, 0);
+  filled.insert(filled.begin(), 0xFF);  // markers may be filled up
+  EXPECT_FALSE(Decoded(filled));
 }
 
 TEST(Pixels, WhatIsCutAnywhereEndsWell) {
