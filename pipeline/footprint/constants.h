@@ -16,6 +16,7 @@ inline constexpr double kMaxGroundSteepness = 0.3;
 // Towns that are not in metres.
 inline constexpr double kMaxObject_m = 100'000;  // wide; beyond, coordinates lose millimetres
 inline constexpr double kMaxGround_m = 100'000;  // wide
+inline constexpr double kMaxCrack_m = 0.5;       // in the ground, that people step over
 inline constexpr double kMinHouse_m = 0.5;       // wide, half of a town's buildings at least
 inline constexpr double kMaxHouse_m = 500;       // wide, half of a town's buildings at most
 

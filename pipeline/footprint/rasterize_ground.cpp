@@ -128,6 +128,40 @@ void SmoothGaps(GroundRaster* raster) {
           changed_in[RowMajor(row, stretches, k)] = round;
 }
 
+// How many cells after this one in a direction there is ground, up to `most`; 0: none.
+int GroundAfter(const GroundRaster& raster, int column, int row, int dx, int dy, int most) {
+  for (int k = 1; k <= most; ++k) {
+    const int c = column + k * dx, r = row + k * dy;
+    if (c < 0 || r < 0 || c >= raster.columns || r >= raster.rows) return 0;
+    if (raster.kind[CellAt(raster, c, r)]) return k;
+  }
+  return 0;
+}
+
+// People step over cracks between pieces of ground: the tiles of a square need not meet.
+void StepOverCracks(GroundRaster* raster) {
+  const int most = static_cast<int>(kMaxCrack_m / static_cast<double>(raster->cell_m) + 1e-6);
+  const GroundRaster drawn = *raster;
+  for (int row = 0; row < drawn.rows; ++row) {
+    for (int column = 0; column < drawn.columns; ++column) {
+      const size_t cell = CellAt(drawn, column, row);
+      if (drawn.kind[cell]) continue;
+      for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(0, 1)}) {
+        const int after = GroundAfter(drawn, column, row, dx, dy, most);
+        const int before = after == 0 ? 0 : GroundAfter(drawn, column, row, -dx, -dy, most);
+        if (before == 0 || after + before - 1 > most) continue;
+        const size_t a = CellAt(drawn, column + after * dx, row + after * dy);
+        const size_t b = CellAt(drawn, column - before * dx, row - before * dy);
+        if (std::abs(drawn.height_m[a] - drawn.height_m[b]) > kMaxDeckSlope_m) continue;
+        const float share = static_cast<float>(before) / static_cast<float>(before + after);
+        raster->height_m[cell] = drawn.height_m[b] + share * (drawn.height_m[a] - drawn.height_m[b]);
+        raster->kind[cell] = std::max(drawn.kind[a], drawn.kind[b]);
+        break;
+      }
+    }
+  }
+}
+
 // The decks of bridges are ground as far as one gets on them from the ground, in low steps.
 void DrawDecks(const TownObjects& town, GroundRaster* raster) {
   GroundRaster deck = *raster;  // upside down: its drawing keeps the lowest
@@ -244,6 +278,7 @@ Error RasterizeGround(const TownObjects& town, const GroundRasterOptions& option
   if (bare) DrawBases(town, raster);
   for (const GroundPatch& patch : town.ground)
     for (const Triangle3& t : patch.triangles) DrawTriangle(t, patch.kind, raster);
+  StepOverCracks(raster);
   const bool any_bridge =
       std::any_of(town.obstacles.begin(), town.obstacles.end(), [](const TownObject& o) { return o.is_bridge; });
   if (options.with_decks && any_bridge && !bare) DrawDecks(town, raster);

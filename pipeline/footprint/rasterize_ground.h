@@ -17,9 +17,9 @@ struct GroundRasterOptions {
   bool with_decks = true;     // of bridges, where the ground leads on to them
 };
 
-// Each cell takes the topmost ground triangle over its centre. A town without any ground stands on a square that joins
-// the feet of its buildings. Errors: an option out of range, nothing in the scene, a town wider than 100 km (names the
-// extent).
+// Each cell takes the topmost ground triangle over its centre; cracks of up to half a metre are ground. A town without
+// any ground stands on a square that joins the feet of its buildings. Errors: an option out of range, nothing in the
+// scene, a town wider than 100 km (names the extent).
 Error RasterizeGround(const Scene& scene, const GroundRasterOptions& options, GroundRaster* raster);
 Error RasterizeGround(const TownObjects& town, const GroundRasterOptions& options, GroundRaster* raster);
 

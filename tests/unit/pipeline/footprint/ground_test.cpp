@@ -55,6 +55,39 @@ TEST(RasterizeGround, TheTopmostGroundWinsWhateverTheOrder) {
   }
 }
 
+// Two tiles with a crack between them, along either axis; the second higher by `step_m`.
+bool IsWhole(float crack_m, float offset_m, float step_m, bool northwards) {
+  TestTown town;
+  const auto tile = [&](float from, float to, float z) {
+    const auto at = [&](float along, float across) {
+      return northwards ? Vec3{across, along, z} : Vec3{along, across, z};
+    };
+    town.Node("tile", NodeKind::kGround);
+    town.Quad(at(from, 0), at(to, 0), at(to, 8), at(from, 8));
+  };
+  const float border_m = 5 + offset_m;
+  tile(0, border_m, 0), tile(border_m + crack_m, 12, step_m);
+  const GroundRaster raster = Rasterize(town);
+  for (double along = 1; along < 11; along += 0.25) {
+    if (raster.kind[northwards ? CellAt(raster, 4, along) : CellAt(raster, along, 4)] == 0) return false;
+  }
+  return true;
+}
+
+TEST(RasterizeGround, PeopleStepOverCracksButNotOverDitchesAndTerraces) {
+  for (const bool northwards : {false, true}) {
+    for (float offset_m = 0; offset_m < 0.25f; offset_m += 0.03f) {
+      for (const float crack_m : {0.001f, 0.02f, 0.1f, 0.3f, 0.49f}) {
+        EXPECT_TRUE(IsWhole(crack_m, offset_m, 0.1f, northwards)) << crack_m << " " << offset_m;
+        if (crack_m > 0.26f) {
+          EXPECT_FALSE(IsWhole(crack_m, offset_m, 1, northwards)) << crack_m << " " << offset_m;
+        }
+      }
+      EXPECT_FALSE(IsWhole(0.8f, offset_m, 0.1f, northwards)) << offset_m;
+    }
+  }
+}
+
 TEST(RasterizeGround, ATownWithoutGroundStandsOnASquare) {
   TestTown town;
   town.Node("house", NodeKind::kBuilding).Box({10, 10, 2}, {18, 16, 8});
