@@ -325,7 +325,7 @@ TEST(TourSettings, ThePacksSchemaKnowsThem) {
   const nlohmann::json definitions = nlohmann::json::parse(text)["$defs"];
   ExpectInSchema<CrowdSettings>(definitions["crowd"]);
   ExpectInSchema<ControlSettings>(definitions["control"], {"discretion"});
-  ExpectInSchema<LightSettings>(definitions["light"]);
+  ExpectInSchema<LightSettings>(definitions["light"], {"exposure"});
   ExpectInSchema<WindSettings>(definitions["wind"]);
 }
 
