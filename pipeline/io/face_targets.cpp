@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "pipeline/io/gltf_number.h"
+
 namespace flaneur {
 namespace {
 
@@ -40,14 +42,13 @@ std::vector<WeightedTarget> BindsOf(const Model& model, const Value& binds, size
     const Value& bind = binds.Get(static_cast<int>(i));
     const Value &by_mesh = Member(bind, "mesh"), &by_node = Member(bind, "node");
     const Value &index = Member(bind, "index"), &weight = Member(bind, "weight");
-    int shown = by_mesh.IsNumber() ? by_mesh.GetNumberAsInt() : -1;
-    const int node = by_node.IsNumber() ? by_node.GetNumberAsInt() : -1;
+    int shown = IndexOf(by_mesh);
+    const int node = IndexOf(by_node);
     if (node >= 0 && static_cast<size_t>(node) < model.nodes.size())
       shown = model.nodes[static_cast<size_t>(node)].mesh;
-    if (shown != static_cast<int>(mesh) || !index.IsNumber() || index.GetNumberAsInt() < 0) continue;
+    if (shown != static_cast<int>(mesh) || IndexOf(index) < 0) continue;
     const double share = weight.IsNumber() ? weight.GetNumberAsDouble() / whole : 1;
-    if (share > 0 && share <= 1)
-      found.push_back({static_cast<size_t>(index.GetNumberAsInt()), static_cast<float>(share)});
+    if (share > 0 && share <= 1) found.push_back({static_cast<size_t>(IndexOf(index)), static_cast<float>(share)});
   }
   return found;
 }

@@ -11,6 +11,7 @@
 #include "pipeline/io/draco_codec.h"
 #include "pipeline/io/face_targets.h"
 #include "pipeline/io/gltf_accessor.h"
+#include "pipeline/io/gltf_number.h"
 #include "pipeline/io/gltf_parse.h"
 #include "pipeline/io/gltf_primitive.h"
 #include "runtime/base/array.h"
@@ -184,7 +185,7 @@ std::set<int> CoarserLevels(const Model& model) {
     const Value& ids = lod->second.Get("ids");
     const int count = ids.IsArray() ? static_cast<int>(ids.ArrayLen()) : 0;
     for (int i = 0; i < count; ++i) {
-      if (ids.Get(i).IsNumber()) nodes.insert(ids.Get(i).GetNumberAsInt());
+      if (ids.Get(i).IsNumber()) nodes.insert(IndexOf(ids.Get(i)));
     }
   }
   return nodes;
@@ -262,7 +263,7 @@ class ImageTable {
     const auto basis = texture.extensions.find("KHR_texture_basisu");
     const bool only_basis = texture.source < 0 && basis != texture.extensions.end() && basis->second.Has("source") &&
                             basis->second.Get("source").IsNumber();
-    return only_basis ? basis->second.Get("source").GetNumberAsInt() : texture.source;
+    return only_basis ? IndexOf(basis->second.Get("source")) : texture.source;
   }
 
   // As PNG, which all that follows reads.
@@ -327,7 +328,7 @@ UvSource ReadUvSource(int set, const tinygltf::ExtensionMap& extensions) {
   if (transform.Has("rotation")) {
     out.rotation_rad = static_cast<float>(transform.Get("rotation").GetNumberAsDouble());
   }
-  if (transform.Has("texCoord")) out.set = transform.Get("texCoord").GetNumberAsInt();
+  if (transform.Has("texCoord")) out.set = IndexOf(transform.Get("texCoord"));
   return out;
 }
 
@@ -348,7 +349,7 @@ void ReadDiffuse(const Value& extension, Vec4* factor, int* texture) {
     *factor = Factor(values);
   }
   if (extension.Has("diffuseTexture") && extension.Get("diffuseTexture").Has("index")) {
-    *texture = extension.Get("diffuseTexture").Get("index").GetNumberAsInt();
+    *texture = IndexOf(extension.Get("diffuseTexture").Get("index"));
   }
 }
 
@@ -415,7 +416,7 @@ Error ReadDracoPrimitive(const Model& model, const tinygltf::Primitive& in, cons
     return Fail("KHR_draco_mesh_compression lacks bufferView or attributes");
   }
   std::span<const uint8_t> bytes;
-  if (Error e = BufferViewBytes(model, extension.Get("bufferView").GetNumberAsInt(), &bytes)) {
+  if (Error e = BufferViewBytes(model, IndexOf(extension.Get("bufferView")), &bytes)) {
     return e;
   }
   std::vector<std::string> names;
@@ -423,7 +424,7 @@ Error ReadDracoPrimitive(const Model& model, const tinygltf::Primitive& in, cons
   for (const std::string& name : extension.Get("attributes").Keys()) {
     if (!WantedAttribute(name)) continue;
     names.push_back(name);
-    attributes.push_back({extension.Get("attributes").Get(name).GetNumberAsInt(), 0, false, {}});
+    attributes.push_back({IndexOf(extension.Get("attributes").Get(name)), 0, false, {}});
   }
   if (Error e = DecodeDraco(bytes, attributes, &raw->indices)) return e;
   raw->indexed = true;
@@ -643,8 +644,8 @@ Error ReadClip(const Model& model, size_t index, DocumentClip* out) {
 // VRM's own names ("leftUpperArm") read as any others.
 void AddBone(const std::string& name, const Value& node, GltfDocument* document) {
   const BoneName bone = ReadBoneName(name);
-  if (bone.part == BodyPart::kNone || !node.IsNumber() || !InRange(document->nodes, node.GetNumberAsInt())) return;
-  document->bones.push_back({node.GetNumberAsInt(), bone.part, bone.side});
+  if (bone.part == BodyPart::kNone || !InRange(document->nodes, IndexOf(node))) return;
+  document->bones.push_back({IndexOf(node), bone.part, bone.side});
 }
 
 void ReadBones(const Model& model, GltfDocument* document) {

@@ -157,7 +157,7 @@ std::vector<bool> FindStance(const Soles& sole, float speed, float step_s, float
   const size_t n = sole.size();
   std::vector<bool> stands(n);
   const float loose = std::max(kLoose * std::abs(speed), kStill * leg);
-  for (size_t k = 0; k < n; ++k) {
+  for (size_t k = 0; k < n && !sole[k].empty(); ++k) {  // a leg may have no foot
     const size_t low = LowestOf(sole[k]);
     const size_t before = k > 0 ? k - 1 : loops ? n - 1 : 0, after = k + 1 < n ? k + 1 : loops ? 0 : n - 1;
     const float keys = static_cast<float>(k > 0 || loops) + static_cast<float>(k + 1 < n || loops);
@@ -185,6 +185,7 @@ void StandSomewhere(const Soles& left, const Soles& right, float leg, bool walks
   };
   for (size_t k = 0; k < n; ++k) {
     if (!lost[k]) continue;
+    if (left[k].empty() || right[k].empty()) continue;
     const float a = left[k][LowestOf(left[k])].y, b = right[k][LowestOf(right[k])].y;
     if (!(walks && is_short(k)) && std::min(a, b) > kLow * leg) continue;
     (a < b ? l : r)[k] = true;

@@ -159,6 +159,14 @@ TEST(Steps, ABootsCapClearsTheGroundInTheSwing) {
   }
 }
 
+TEST(Steps, ALegWithoutAFootStandsNowhere) {
+  const Soles none(6), some(6, {{0, 0, 0}});
+  EXPECT_EQ(FindStance(none, 0, 0.1f, 0.8f, true), std::vector<bool>(6, false));
+  std::vector<bool> left(6), right(6);
+  StandSomewhere(none, some, 0.8f, true, &left, &right);
+  EXPECT_EQ(left, std::vector<bool>(6, false));
+}
+
 TEST(Steps, WhoWalksStandsUntilTheOtherFootDoes) {
   const Soles low(6, {Vec3{}}), high(6, {Vec3{0, 1, 0}});
   std::vector<bool> left = {true, true, false, false, false, false}, right = {false, false, false, false, true, true};
