@@ -1,6 +1,7 @@
 #include "pipeline/io/gltf_number.h"
 
 #include <gtest/gtest.h>
+#include <tiny_gltf.h>
 
 #include <limits>
 
