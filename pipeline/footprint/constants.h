@@ -16,7 +16,6 @@ inline constexpr double kMaxGroundSteepness = 0.3;
 // Towns that are not in metres.
 inline constexpr double kMaxObject_m = 100'000;  // wide; beyond, coordinates lose millimetres
 inline constexpr double kMaxGround_m = 100'000;  // wide
-inline constexpr double kMaxCrack_m = 0.5;       // in the ground, that people step over
 inline constexpr double kMinHouse_m = 0.5;       // wide, half of a town's buildings at least
 inline constexpr double kMaxHouse_m = 500;       // wide, half of a town's buildings at most
 
@@ -68,6 +67,9 @@ inline constexpr double kMinOverheadCell_m = 0.05;  // of the grid that finds wh
 inline constexpr double kMaxOverheadEntries = 6;    // for each triangle; larger cells hold fewer
 
 inline constexpr double kMinBuried_m2 = 0.5;  // smaller parts beneath the terrain are not worth a word
+
+// Between pieces of ground, that people step over where both sides are so alike in height.
+inline constexpr double kMaxCrack_m = 0.5, kMaxCrackStep_m = 0.35;
 
 // Bridges.
 inline constexpr double kMaxPylon_m = 4;         // wide; what is wider and carries the deck is walked over

@@ -152,7 +152,7 @@ void StepOverCracks(GroundRaster* raster) {
         if (before == 0 || after + before - 1 > most) continue;
         const size_t a = CellAt(drawn, column + after * dx, row + after * dy);
         const size_t b = CellAt(drawn, column - before * dx, row - before * dy);
-        if (std::abs(drawn.height_m[a] - drawn.height_m[b]) > kMaxDeckSlope_m) continue;
+        if (std::abs(drawn.height_m[a] - drawn.height_m[b]) > kMaxCrackStep_m) continue;
         const float share = static_cast<float>(before) / static_cast<float>(before + after);
         raster->height_m[cell] = drawn.height_m[b] + share * (drawn.height_m[a] - drawn.height_m[b]);
         raster->kind[cell] = std::max(drawn.kind[a], drawn.kind[b]);

@@ -1,6 +1,7 @@
 #include <array>
 #include <sstream>
 
+#include "pipeline/core/turn_round.h"
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_document.h"
 #include "runtime/base/array.h"
@@ -100,9 +101,7 @@ class MeshTable {
     for (const DocumentPrimitive& p : At(document_->meshes, mesh).primitives) {
       indices.push_back(Count(scene_->meshes));
       scene_->meshes.push_back(p.mesh);
-      if (!mirrored) continue;
-      auto& triangles = scene_->meshes.back().indices;
-      for (size_t i = 0; i < triangles.size(); i += 3) std::swap(triangles[i], triangles[i + 1]);
+      if (mirrored) TurnRound(&scene_->meshes.back());
     }
     return indices;
   }

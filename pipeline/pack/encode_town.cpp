@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "pipeline/core/turn_round.h"
 #include "runtime/base/array.h"
 #include "runtime/base/text.h"
 
@@ -63,12 +64,6 @@ std::vector<Mesh> Baked(std::vector<Mesh> meshes, const Mat4& world) {
   return meshes;
 }
 
-// glTF turns a mirrored node's triangles round, as the scene's already are.
-void TurnRound(std::vector<Mesh>* meshes) {
-  for (Mesh& mesh : *meshes)
-    for (size_t i = 0; i < mesh.indices.size(); i += 3) std::swap(mesh.indices[i], mesh.indices[i + 1]);
-}
-
 std::string TagExtras(const SceneNode& node) {
   std::string json;
   const auto add = [&json](const char* key, const char* value) {
@@ -116,7 +111,8 @@ Error EncodeMeshes(const Scene& town, const std::vector<PlacedNode>& nodes, Jobs
     for (int m : first[k]->node->meshes) parts.push_back(At(town.meshes, m));
     const std::optional<Transform>& transform = first[k]->transform;
     if (!transform) parts = Baked(std::move(parts), first[k]->node->world);
-    else if (transform->scale.x < 0) TurnRound(&parts);  // see Decompose
+    else if (transform->scale.x < 0)  // see Decompose; glTF turns its triangles round, as the scene's already are
+      for (Mesh& part : parts) TurnRound(&part);
     errors[k] = EncodeMesh(parts, draco, &(*meshes)[k]);
   });
   for (size_t k = 0; k < errors.size(); ++k) {
