@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "pipeline/core/rotation.h"
 #include "pipeline/io/avatar_stance.h"
 #include "pipeline/rig/clip_loop.h"
 #include "pipeline/rig/steps.h"
@@ -19,6 +20,7 @@ constexpr float kHangs = 0.02f;                            // of the height: wha
 constexpr float kDefaultSpeed_mps = 1.3f;                  // of an adult, where nothing tells
 constexpr float kMinSpeed_mps = 0.2f;                      // slower is not a walk, of an adult
 constexpr float kSole = 0.015f;                            // of the height: how near the ground a standing sole is
+constexpr float kAsItFaces_rad = 0.5f;                     // who goes elsewhere by more walks sideways
 constexpr size_t kMaxBodyVertices = 16000;                 // at a millimetre or two from one another's height
 
 std::string Metres(float value) {
@@ -218,26 +220,50 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
   return Ok();
 }
 
-// Turns the figure about the vertical by the quarter that brings its walk nearest to +Z.
-void TurnToFace(Vec3 walk_mps, Avatar* avatar, Mesh* body, std::vector<std::string>* warnings) {
-  const float away_rad = std::atan2(walk_mps.x, walk_mps.z);
-  const float quarters = std::round(away_rad / (kPi / 2));
-  if (quarters == 0) return;
-  const float half_rad = -quarters * kPi / 4;
-  const Quat turn{0, std::sin(half_rad), 0, std::cos(half_rad)};
+// Turns the figure about the vertical by the quarter that brings its walk nearest to +Z, or, where `exactly`, by what
+// is needed.
+void TurnToFace(Vec3 walk, bool exactly, Avatar* avatar, Mesh* body, std::vector<std::string>* warnings) {
+  const Vec3 up{0, 1, 0}, way = Normalized(walk);
+  const Quat turn = exactly ? TurnToFront(up, way) : QuarterTurn(up, way);
+  const float turn_rad = 2 * std::atan2(turn.y, turn.w);
+  if (std::abs(turn_rad) < 1e-3f) return;
   TurnFigure(turn, true, avatar, body);
   char degrees[16];
-  std::snprintf(degrees, sizeof degrees, "%.0f", static_cast<double>(-quarters * 90));
+  std::snprintf(degrees, sizeof degrees, "%.0f", static_cast<double>(std::remainder(turn_rad, 2 * kPi) / kPi * 180));
   warnings->push_back("the walk does not go towards +Z; the figure is turned by " + std::string(degrees) + " degrees");
 }
 
-// The first that is known: told by the source, the root's travel, the soles.
-void SetWalkSpeed(float told_mps, Vec3 walk_mps, Avatar* avatar, std::vector<std::string>* warnings) {
-  avatar->walk_speed_mps = told_mps > 0 ? told_mps : Length(walk_mps);
-  if (avatar->walk_speed_mps > kMinSpeed_mps * std::min(1.0f, avatar->height_m / kDefaultHeight_m)) return;
-  avatar->walk_speed_mps = kDefaultSpeed_mps * std::sqrt(avatar->height_m / kDefaultHeight_m);
-  warnings->push_back("the walk's speed cannot be told from its soles; " + Metres(avatar->walk_speed_mps) +
-                      " m/s is taken");
+// Turns the figure so that it walks towards +Z, and returns how fast it does, m/s. The way is that of the root's travel,
+// else of the face, else of the soles, which mistake it where they hop or slide; a face also tells it to the degree.
+float FaceForward(Vec3 travel_mps, const std::vector<NamedBone>& told, Avatar* avatar, Mesh* body,
+                         std::vector<std::string>* warnings) {
+  const Clip& walk = *FindClip(*avatar, "walk");
+  const bool travels = Length(travel_mps) > 0;
+  const Vec3 walk_mps = travels ? travel_mps : MeasureWalk(*avatar, walk, *body);
+  const float speed_mps = Length(walk_mps);
+  Vec3 face;
+  bool by_shape = false;
+  const bool faces = FacingInWalk(*avatar, told, walk, &face, &by_shape);
+  const bool goes = speed_mps > kMinSpeed_mps;
+  if (by_shape && Dot(face, goes ? walk_mps : Vec3{0, 0, 1}) < 0) face = face * -1;
+  const bool sure = !travels && !by_shape;
+  const bool as_it_faces = faces && (sure || !goes || AngleBetween(face, walk_mps) < kAsItFaces_rad);
+  if (as_it_faces || goes) TurnToFace(as_it_faces ? face : walk_mps, as_it_faces, avatar, body, warnings);
+  return speed_mps;
+}
+
+// The first that is known: told by the source, the root's travel, the soles. `told`: in metres or in the file's unit,
+// whichever comes nearer to what the walk looks like.
+void SetWalkSpeed(float told, float scale, float measured_mps, Avatar* avatar, std::vector<std::string>* warnings) {
+  const bool measured = measured_mps > kMinSpeed_mps * std::min(1.0f, avatar->height_m / kDefaultHeight_m);
+  const float likely_mps = measured ? measured_mps : kDefaultSpeed_mps * std::sqrt(avatar->height_m / kDefaultHeight_m);
+  avatar->walk_speed_mps = likely_mps;
+  if (told > 0) {
+    const auto off = [&](float mps) { return std::abs(std::log(mps / likely_mps)); };
+    avatar->walk_speed_mps = off(told) < off(told * scale) ? told : told * scale;
+  } else if (!measured) {
+    warnings->push_back("the walk's speed cannot be told from its soles; " + Metres(likely_mps) + " m/s is taken");
+  }
 }
 
 // Skin alone, of no more vertices than tell where soles and trunk are.
@@ -280,23 +306,16 @@ Error NormalizeAvatar(const NormalizeOptions& options, const Mesh& whole_body, A
   float scale = 1;
   if (Error e = StandUp(options.up, options.forward, options.told, avatar, &body, warnings)) return e;
   if (Error e = ScaleToHeight(options, avatar, &body, &scale, warnings)) return e;
-  Vec3 walk_mps;
+  Vec3 walk_mps;  // as its root travels
   for (Clip& clip : avatar->clips) {
     const Vec3 travel_mps = RemoveTravel(avatar->joints, avatar->height_m, &clip);
     if (clip.name == "walk") walk_mps = travel_mps;
     MakeLoop(avatar->joints, &clip, warnings);
   }
-  const Clip& walk = *FindClip(*avatar, "walk");
-  if (!(Length(walk_mps) > 0)) {
-    walk_mps = MeasureWalk(*avatar, walk, body);
-    // Soles that hop or slide mistake the way, a face does not.
-    Vec3 forward;
-    if (FacingInWalk(*avatar, options.told, walk, &forward)) walk_mps = forward * Length(walk_mps);
-  }
-  if (Length(walk_mps) > kMinSpeed_mps) TurnToFace(walk_mps, avatar, &body, warnings);
+  const float speed_mps = FaceForward(walk_mps, options.told, avatar, &body, warnings);
   PlaceClips(body, options.told, avatar, warnings);
-  avatar->radius_m = TrunkRadius(*avatar, walk, body);
-  SetWalkSpeed(options.walk_speed_mps * scale, walk_mps, avatar, warnings);
+  avatar->radius_m = TrunkRadius(*avatar, *FindClip(*avatar, "walk"), body);
+  SetWalkSpeed(options.walk_speed, scale, speed_mps, avatar, warnings);
   return Ok();
 }
 

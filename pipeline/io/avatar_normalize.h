@@ -14,11 +14,11 @@ struct NormalizeOptions {
   float scale = 0;              // metres per unit of the file, whatever height that makes; 0: by the height
   std::string up, forward;      // the figure's in the file: "z", "-y", ...; empty: by its skeleton and walk
   std::vector<NamedBone> told;  // by the file, of the avatar's joints
-  float walk_speed_mps = 0;     // known from the source, before any scaling; 0: measure
+  float walk_speed = 0;         // known from the source, in metres or in units of the file a second; 0: measure
 };
 
-// Stands the figure up where it lies, removes travel from the clips, makes them loop, turns the figure by quarters so
-// that it walks towards +Z, scales, sets the feet on y = 0 (lowest point over each clip) and the trunk over x = z = 0,
+// Stands the figure up where it lies, removes travel from the clips, makes them loop, turns the figure so that it walks
+// towards +Z (by quarters, or by any angle of more than 10 degrees that its skeleton shows), scales, sets the feet on y = 0 (lowest point over each clip) and the trunk over x = z = 0,
 // then measures height, radius and walking speed. `body`: the part of the surface that can touch the ground and that
 // gives the trunk's width, without what is carried; on the avatar's joints. Errors: a figure without height, numbers
 // beyond reason.

@@ -666,8 +666,8 @@ Error AvatarReader::Read() {
   normalize.told = Told();
   const bool own_walk = std::none_of(clips_.clips.begin(), clips_.clips.end(),
                                      [](const ChosenClip& clip) { return clip.name == "walk" && clip.file >= 0; });
-  if (own_walk) normalize.walk_speed_mps = ToldSpeed();
-  if (walk_speed_ > 0) normalize.walk_speed_mps = walk_speed_;
+  if (own_walk) normalize.walk_speed = ToldSpeed();
+  if (walk_speed_ > 0) normalize.walk_speed = walk_speed_;
   const std::vector<FaceJoint> face = AddFaceJoints(face_, avatar_, notes_);
   if (Error e = NormalizeAvatar(normalize, body_, avatar_, notes_)) return e;
   MoveFace(face, avatar_);

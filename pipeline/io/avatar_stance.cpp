@@ -14,6 +14,7 @@ namespace {
 
 constexpr float kUpright_rad = 0.9f;  // a skeleton further off vertical than this lies
 constexpr float kHeadJoint = 0.87f;   // of a person's height: where the head's joint is
+constexpr float kSways_rad = 0.4f;    // a body's turn over a walk, to one side at most
 constexpr int kPoses = 16;            // of a walk, whose mean tells how it stands
 
 bool Stance(const Avatar& avatar, const std::vector<NamedBone>& told, Humanoid* h, Vec3* up, Vec3* forward) {
@@ -128,13 +129,14 @@ Error StandUp(const std::string& up_text, const std::string& forward_text, const
   return Ok();
 }
 
-bool FacingInWalk(const Avatar& avatar, const std::vector<NamedBone>& told, const Clip& walk, Vec3* forward) {
+bool FacingInWalk(const Avatar& avatar, const std::vector<NamedBone>& told, const Clip& walk, Vec3* forward,
+                  bool* by_shape) {
   Humanoid h;
-  Vec3 up;
-  if (!Stance(avatar, told, &h, &up, forward) || h.by_shape) return false;
-  if (!StanceOfClip(avatar, h, walk, &up, forward)) return false;
-  forward->y = 0;
-  *forward = Normalized(*forward);
+  Vec3 up, bound, walks;
+  if (!Stance(avatar, told, &h, &up, &bound) || !StanceOfClip(avatar, h, walk, &up, &walks)) return false;
+  bound.y = walks.y = 0;
+  *by_shape = h.by_shape;
+  *forward = Normalized(AngleBetween(bound, walks) < kSways_rad ? bound : walks);
   return Length(*forward) > 0.5f;
 }
 

@@ -22,8 +22,11 @@ void TurnClip(Quat turn, const Avatar& avatar, Clip* clip);
 Error StandUp(const std::string& up, const std::string& forward, const std::vector<NamedBone>& told, Avatar* avatar,
               Mesh* body, std::vector<std::string>* warnings);
 
-// Where the figure faces in its walk, by its joints' names; unit and level. False where names don't tell.
-bool FacingInWalk(const Avatar& avatar, const std::vector<NamedBone>& told, const Clip& walk, Vec3* forward);
+// Where the figure faces in its walk, unit and level: on the whole as the mean over the walk, which sways, and to the
+// degree as the bind pose where that faces the same way. `by_shape`: the joints' names don't tell, so that front and
+// back may be the wrong way round. False where nothing tells.
+bool FacingInWalk(const Avatar& avatar, const std::vector<NamedBone>& told, const Clip& walk, Vec3* forward,
+                  bool* by_shape);
 
 // The height that a person with this skeleton would have, without hats and hair, in the figure's unit; 0: not told.
 float HeightOfSkeleton(const Avatar& avatar, const std::vector<NamedBone>& told);

@@ -342,6 +342,36 @@ TEST_F(AvatarFile, WhoHasNoClipsWalksByThoseThatComeWithTheProgram) {
   EXPECT_NE(FindClip(avatar_, "sweep"), nullptr);
 }
 
+// From the right hip to the left, in the clip's first key.
+Vec3 AcrossHips(const Avatar& avatar, const Clip& clip, const HumanShape& shape) {
+  const Pose pose = PoseOf(avatar.joints, clip.transforms.data());
+  std::array<Vec3, 2> hips;
+  for (size_t j = 0; j < avatar.joints.size(); ++j) {
+    if (avatar.joints[j].name == shape.names[10]) hips[0] = pose.positions[j];
+    if (avatar.joints[j].name == shape.names[14]) hips[1] = pose.positions[j];
+  }
+  return Normalized(hips[0] - hips[1]);
+}
+
+TEST_F(AvatarFile, WhoStandsAtAnOddAngleIsTurnedByIt) {
+  HumanShape nameless;
+  for (size_t j = 0; j < nameless.names.size(); ++j) nameless.names[j] = "bone " + std::to_string(j);
+  for (HumanShape shape : {HumanShape{}, nameless}) {
+    for (const float angle_rad : {0.35f, 0.65f, -1.2f, -2.8f}) {
+      shape.turn = TurnAbout({0, 1, 0}, angle_rad);
+      Avatar walker = MadeHuman(shape);
+      walker.clips = {MadeWalk(walker)};
+      ASSERT_EQ(Read(Write(walker)), "");
+      EXPECT_GT(AcrossHips(avatar_, avatar_.clips[0], shape).x, 0.998f) << angle_rad << " " << shape.names[0];
+      if (shape.names == nameless.names) continue;
+      walker.clips.clear();
+      ASSERT_EQ(Read(Write(walker)), "");
+      for (const Clip& clip : avatar_.clips)
+        EXPECT_GT(AcrossHips(avatar_, clip, shape).x, 0.98f) << angle_rad << " " << clip.name;
+    }
+  }
+}
+
 TEST_F(AvatarFile, ClipsOfAnotherFileAreTakenAsTheyAreWhereTheSkeletonIsOne) {
   Avatar walker = MadeHuman({});
   walker.clips = {MadeWalk(walker)};
@@ -382,6 +412,13 @@ TEST_F(AvatarFile, ASpeedThatTheFileTellsIsThatOfItsOwnWalk) {
   ASSERT_EQ(WriteAvatarGlb(clips, OneLevel(walker)).message, "");
   ASSERT_EQ(Read(Write(other)), "");
   EXPECT_NEAR(avatar_.walk_speed_mps, 3, 1e-3f);
+  for (const float told : {1.1f, 110.0f}) {  // of a file in centimetres
+    Avatar large = MadeHuman({.unit = 100});
+    large.clips = {MadeWalk(large)};
+    large.walk_speed_mps = told;
+    ASSERT_EQ(Read(Write(large)), "");
+    EXPECT_NEAR(avatar_.walk_speed_mps, 1.1f, 1e-3f) << told;
+  }
   ReadAvatarOptions options;
   options.clip_files = {clips};
   ASSERT_EQ(Read(Write(other), options), "");
