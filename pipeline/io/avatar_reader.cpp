@@ -581,7 +581,7 @@ Error AvatarReader::AddClips() {
       continue;
     }
     const bool shipped = clips_.shipped == chosen.file;
-    if (!human && shipped && rig.humanoid.quadruped) {
+    if (!human && clips_.shipped_walk && rig.humanoid.quadruped) {
       return Fail("no walk clip, and it goes on four legs: only its own clips make it walk; " + clips_.missing);
     }
     if (!human && shipped) continue;  // said below
@@ -594,6 +594,8 @@ Error AvatarReader::AddClips() {
     Glide();
   } else if (clips_.shipped_walk) {
     notes_->push_back("it has no walk clip (" + clips_.missing + "): it walks by one that comes with Flaneur");
+  } else if (clips_.shipped_idle && human) {
+    notes_->push_back("it has no idle clip: it stands and talks by those that come with Flaneur");
   }
   return Ok();
 }

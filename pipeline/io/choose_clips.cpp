@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -54,22 +55,56 @@ bool SaysMore(const std::string& name) {
   return std::find_first_of(words.begin(), words.end(), std::begin(kOthers), std::end(kOthers)) != words.end();
 }
 
-// -1: none. Of several names that contain the word the shortest is the plainest; file order breaks ties. Who walks may
-// do so with a weapon where there is no other walk; who stands does not hang in the air.
+bool Contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+// Whether the name says the same in another word or language. Poses and ways from one to another do not.
+bool SaysOtherwise(const std::string& name, const std::string& word) {
+  using Words = std::vector<std::string_view>;
+  static const std::map<std::string_view, std::pair<Words, Words>> kOthers = {
+      {"walk",
+       {{"stroll", "strolling", "gehen", "gehend", "laufen", "marche", "marcher", "caminar", "caminando", "andar",
+         "andando", "camminare", "camminata", "lopen", "wandelen"},
+        {"步行", "行走", "走路", "歩", "걷"}}},
+      {"idle",
+       {{"stand", "standing", "breathe", "breathing", "wait", "waiting", "stehen", "stehend", "warten", "debout",
+         "attente", "reposo", "espera", "fermo", "attesa", "staan"},
+        {"待机", "待機", "站立", "立ち", "대기"}}},
+      {"talk",
+       {{"speak", "speaking", "conversation", "chat", "chatting", "reden", "sprechen", "parler", "hablar", "hablando",
+         "parlare", "praten"},
+        {"说话", "說話", "話す", "会話", "말하"}}}};
+  static constexpr std::string_view kBetween[] = {"up", "down", "to", "pose", "tpose", "apose"};
+  const auto others = kOthers.find(word);
+  if (others == kOthers.end()) return false;
+  const std::vector<std::string> words = NameWords(name);
+  const auto any = [&](const auto& these) {
+    return std::find_first_of(words.begin(), words.end(), std::begin(these), std::end(these)) != words.end();
+  };
+  if (any(kBetween)) return false;
+  const auto& [letters, ideographs] = others->second;
+  return any(letters) || std::any_of(ideographs.begin(), ideographs.end(), [&](auto w) { return Contains(name, w); });
+}
+
+// -1: none. Of several names that contain the word, or else say it in another, the shortest is the plainest; file order
+// breaks ties. Who walks may do so with a weapon where there is no other walk; who stands does not hang in the air.
 int GuessClip(const std::vector<std::string>& names, const std::string& word) {
-  int best = -1;
-  bool best_says_more = false;
-  for (size_t i = 0; i < names.size(); ++i) {
-    const std::string name = Lower(names[i]);
-    const size_t space = name.find_last_of('|');
-    if (name == word || (space != std::string::npos && name.substr(space + 1) == word)) return static_cast<int>(i);
-    const bool says_more = SaysMore(names[i]);
-    if (name.find(word) == std::string::npos || (says_more && (word == "idle" || word == "talk"))) continue;
-    const bool is_plainer =
-        says_more != best_says_more ? best_says_more : best >= 0 && name.size() < At(names, best).size();
-    if (best < 0 || is_plainer) best = static_cast<int>(i), best_says_more = says_more;
+  for (const bool by_word : {true, false}) {
+    int best = -1;
+    bool best_says_more = false;
+    for (size_t i = 0; i < names.size(); ++i) {
+      const std::string name = Lower(names[i]);
+      const size_t space = name.find_last_of('|');
+      if (name == word || (space != std::string::npos && name.substr(space + 1) == word)) return static_cast<int>(i);
+      const bool says_more = SaysMore(names[i]);
+      const bool says_it = by_word ? Contains(name, word) : SaysOtherwise(names[i], word);
+      if (!says_it || (says_more && (word == "idle" || word == "talk"))) continue;
+      const bool is_plainer =
+          says_more != best_says_more ? best_says_more : best >= 0 && name.size() < At(names, best).size();
+      if (best < 0 || is_plainer) best = static_cast<int>(i), best_says_more = says_more;
+    }
+    if (best >= 0) return best;
   }
-  return best;
+  return -1;
 }
 
 // Of that very name, upper and lower case alike; what a program writes before a bar need not be given.
@@ -180,7 +215,11 @@ class Chooser {
       return Ok();
     }
     if (name == "walk") return ChooseAnyWalk();
-    if (choice_.shipped_walk) TakeShipped(name);
+    if (name == "talk" && !choice_.shipped_idle) return Ok();  // talks as they stand
+    int shipped = -1;
+    if (Error e = OpenOnce(kShipped, &shipped)) return e;
+    if (name == "idle") choice_.shipped_idle = true;
+    TakeShipped(name);
     return Ok();
   }
 

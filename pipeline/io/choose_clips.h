@@ -20,6 +20,7 @@ struct ClipChoice {
   std::vector<MotionFile> files;
   int shipped = -1;           // of files: those that come with the program, where any is needed
   bool shipped_walk = false;  // for want of another
+  bool shipped_idle = false;  // the same; then `talk` too
   std::string missing;        // what the avatar's own file has instead of a walk
 };
 

@@ -1,6 +1,7 @@
 // A small made-up human figure for tests, in any rest pose, unit and naming; every number is known.
 #pragma once
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,11 @@ struct HumanShape {
                                     "LeftUpLeg",   "LeftLeg",   "LeftFoot",    "LeftToeBase",  "RightUpLeg",
                                     "RightLeg",    "RightFoot", "RightToeBase"};
 };
+
+inline void PrintTo(const HumanShape& shape, std::ostream* out) {
+  *out << "unit " << shape.unit << ", leg " << shape.leg_m << ", arms " << shape.arm_down_deg << " down, turned by "
+       << AngleOf(shape.turn) << (shape.feet_on_root ? ", feet on root" : "");
+}
 
 inline void AddBox(Vec3 from, Vec3 to, float half, uint16_t joint, Mesh* mesh) {
   const Vec3 low{std::min(from.x, to.x) - half, std::min(from.y, to.y) - half, std::min(from.z, to.z) - half};

@@ -400,7 +400,7 @@ TEST_F(AvatarFile, ClipsOfAnotherSkeletonAreMadeToFit) {
   ASSERT_EQ(Read(Write(MadeHuman(other)), options), "");
   ExpectSoundAvatar(avatar_);
   EXPECT_GT(avatar_.walk_speed_mps, 0.3f);
-  EXPECT_EQ(avatar_.clips.size(), 1u);
+  EXPECT_EQ(avatar_.clips.size(), 3u) << "idle and talk come with the program";
 }
 
 TEST_F(AvatarFile, ASpeedThatTheFileTellsIsThatOfItsOwnWalk) {
@@ -437,7 +437,7 @@ TEST_F(AvatarFile, FeetThatSlideInAWalkAreSetAnew) {
     std::copy_n(even.begin() + static_cast<std::ptrdiff_t>(from), 18, walk.transforms.begin() + k * 18);
   }
   ASSERT_EQ(Read(Write(walker)), "");
-  ASSERT_EQ(warnings_.size(), 1u);
+  ASSERT_EQ(warnings_.size(), 2u);
   EXPECT_NE(warnings_[0].find("they are set anew"), std::string::npos);
   EXPECT_LT(FootSlide(avatar_, *FindClip(avatar_, "walk"), avatar_.walk_speed_mps), 0.05f);
 }

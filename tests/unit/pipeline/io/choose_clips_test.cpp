@@ -46,5 +46,29 @@ TEST(ChooseClips, ThePlainWalkIsTaken) {
   EXPECT_EQ(Chosen({"mixamo.com|walk", "Walk2"}).at("walk"), "mixamo.com|walk");
 }
 
+TEST(ChooseClips, AnyLanguageIsUnderstood) {
+  using Clips = std::map<std::string, std::string>;
+  EXPECT_EQ(Chosen({"Rennen", "Gehen_Schleife", "Stehen", "Reden"}),
+            (Clips{{"walk", "Gehen_Schleife"}, {"idle", "Stehen"}, {"talk", "Reden"}}));
+  EXPECT_EQ(Chosen({"奔跑", "步行", "待机"}), (Clips{{"walk", "步行"}, {"idle", "待机"}}));
+  EXPECT_EQ(Chosen({"Armature|marche", "Armature|attente"}),
+            (Clips{{"walk", "Armature|marche"}, {"idle", "Armature|attente"}}));
+  EXPECT_EQ(Chosen({"Walk", "Stand_Up", "Standing T-Pose", "Stand To Sit"}), (Clips{{"walk", "Walk"}}));
+  EXPECT_EQ(Chosen({"Walk", "Standing", "Idle_long_look_around"}).at("idle"), "Idle_long_look_around");
+}
+
+TEST(ChooseClips, WhoOnlyWalksStandsByWhatComesWithTheProgram) {
+  GltfDocument document;
+  document.clips = {Moving("mixamo.com")};
+  ClipChoice choice;
+  ASSERT_EQ(ChooseClips(document, ReadAvatarOptions(), &choice).message, "");
+  ASSERT_EQ(choice.clips.size(), 3u);
+  EXPECT_TRUE(choice.shipped_idle && !choice.shipped_walk);
+  document.clips.push_back(Moving("idle"));
+  choice = {};
+  ASSERT_EQ(ChooseClips(document, ReadAvatarOptions(), &choice).message, "");
+  EXPECT_EQ(choice.clips.size(), 2u) << "who has an idle of their own talks as they stand";
+}
+
 }  // namespace
 }  // namespace flaneur
