@@ -522,6 +522,7 @@ Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std:
   Clip clip;
   if (Error e = ClipOf(motion, chosen.index, &clip)) return e;
   const std::vector<Joint>& joints = motion.skeleton.joints;
+  DropRestPose(joints, &clip);
   Shorten(Quoted(motion.clip_names[chosen.index]) + " of " + motion.path, chosen.name == "walk", joints, &clip);
   float scale = 1;
   Rig source;
@@ -572,6 +573,7 @@ Error AvatarReader::AddClips() {
               SampleClip(document_, document_.clips[chosen.index], avatar_->joints, joint_nodes_, to_metres_, &clip))
         return e;
       const bool walks = chosen.name == "walk";
+      DropRestPose(avatar_->joints, &clip);
       if (clip.duration_s > (walks ? kLongestLoop_s : kLongestOwn_s))
         Shorten(Quoted(document_.clips[chosen.index].name), walks, avatar_->joints, &clip);
       clip.name = chosen.name;

@@ -26,8 +26,12 @@ Vec3 RemoveTravel(const std::vector<Joint>& joints, float height, Clip* clip);
 // blending the clip's end into its first pose.
 void MakeLoop(const std::vector<Joint>& joints, Clip* clip, std::vector<std::string>* warnings);
 
-// Of a long recording the stretch of 0.6 to 2.5 s that comes back nearest to where it began while it moves on: one
-// cycle of a walk. False where none does well enough; the clip then stays whole.
+// Leaves out the keys at either end, of three at most, from which the figure jumps: the rest pose that motion capture
+// begins with.
+void DropRestPose(const std::vector<Joint>& joints, Clip* clip);
+
+// Of a long recording the stretch of 0.6 to 2.5 s that comes back nearest to where it began while it moves on all the
+// time: one cycle of a walk, without who stood before and after. False where none does well enough; the clip then stays whole.
 bool CutToCycle(const std::vector<Joint>& joints, Clip* clip);
 
 // The clip's first `duration_s` seconds.
