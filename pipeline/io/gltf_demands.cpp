@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/io/gltf_instancing.h"
 #include "pipeline/io/meshopt_codec.h"
 #include "pipeline/io/town_points.h"
 #include "runtime/base/array.h"
@@ -53,6 +54,14 @@ void AddMeshes(const tinygltf::Model& model, Demands* demands) {
   }
 }
 
+// Attributes of instances, and the nodes that they become.
+void AddInstances(const tinygltf::Model& model, Demands* demands) {
+  for (const tinygltf::Node& node : model.nodes) {
+    if (const uint64_t count = CountInstances(model, node); count > 1)
+      demands->Add(Times(count, sizeof(DocumentNode) + 10 * sizeof(float)));
+  }
+}
+
 uint64_t CountOf(const tinygltf::Model& model, int accessor) {
   return InRange(model.accessors, accessor) ? At(model.accessors, accessor).count : 0;
 }
@@ -71,7 +80,7 @@ Error CheckShown(const tinygltf::Model& model, uint64_t file_bytes) {
   TownPoints left(file_bytes);
   for (const tinygltf::Node& node : model.nodes) {
     if (!InRange(model.meshes, node.mesh)) continue;
-    if (Error e = left.Take(At(points, node.mesh))) return e;
+    if (Error e = left.Take(Times(CountInstances(model, node), At(points, node.mesh)))) return e;
   }
   return Ok();
 }
@@ -139,6 +148,7 @@ Error CheckDepth(const tinygltf::Model& model) {
 Error CheckDemands(const tinygltf::Model& model, uint64_t file_bytes) {
   Demands demands(model);
   AddMeshes(model, &demands);
+  AddInstances(model, &demands);
   AddAnimations(model, &demands);
   AddImages(model, &demands);
   AddCompressedViews(model, &demands);

@@ -11,9 +11,11 @@
 #include "pipeline/io/draco_codec.h"
 #include "pipeline/io/face_targets.h"
 #include "pipeline/io/gltf_accessor.h"
+#include "pipeline/io/gltf_instancing.h"
 #include "pipeline/io/gltf_number.h"
 #include "pipeline/io/gltf_parse.h"
 #include "pipeline/io/gltf_primitive.h"
+#include "pipeline/io/webp_picture.h"
 #include "runtime/base/array.h"
 #include "runtime/base/limits.h"
 #include "runtime/base/png.h"
@@ -32,6 +34,8 @@ const std::set<std::string> kKnownExtensions{"KHR_draco_mesh_compression",
                                              "KHR_mesh_quantization",
                                              "KHR_texture_transform",
                                              "KHR_texture_basisu",
+                                             "EXT_texture_webp",
+                                             "EXT_mesh_gpu_instancing",
                                              "KHR_materials_pbrSpecularGlossiness",
                                              "KHR_materials_unlit",
                                              "KHR_materials_specular",
@@ -159,8 +163,23 @@ Error LinkNodes(const Model& model, GltfDocument* document) {
   return Ok();
 }
 
+// Programs that compress a file hang a node's mesh on a nameless child with the quantized mesh's transform.
+void NameAsParents(const Model& model, GltfDocument* document) {
+  for (size_t i = 0; i < model.nodes.size(); ++i) {
+    DocumentNode& node = document->nodes[i];
+    if (!model.nodes[i].name.empty() || node.mesh < 0 || node.parent < 0) continue;
+    const DocumentNode& parent = At(document->nodes, node.parent);
+    if (parent.mesh < 0 && !At(model.nodes, node.parent).name.empty()) node.name = parent.name;
+  }
+}
+
 // Depth first from the roots; nodes in a ring are never reached.
 Error OrderNodes(const Model& model, GltfDocument* document) {
+  std::vector<std::vector<int>> children_of;
+  for (const tinygltf::Node& node : model.nodes) children_of.push_back(node.children);
+  children_of.resize(document->nodes.size());
+  for (int i = Count(model.nodes); i < Count(document->nodes); ++i)
+    At(children_of, At(document->nodes, i).parent).push_back(i);
   std::vector<int> stack;
   for (int i = Count(document->nodes) - 1; i >= 0; --i) {
     if (At(document->nodes, i).parent < 0) stack.push_back(i);
@@ -169,7 +188,7 @@ Error OrderNodes(const Model& model, GltfDocument* document) {
     const int node = stack.back();
     stack.pop_back();
     document->order.push_back(node);
-    const auto& children = At(model.nodes, node).children;
+    const auto& children = At(children_of, node);
     stack.insert(stack.end(), children.rbegin(), children.rend());
   }
   if (document->order.size() != document->nodes.size()) return Fail("its nodes form a ring");
@@ -223,6 +242,8 @@ Error ReadNodes(const Model& model, GltfDocument* document) {
     }
   }
   if (Error e = LinkNodes(model, document)) return e;
+  NameAsParents(model, document);
+  if (Error e = SpreadInstances(model, document)) return e;
   if (Error e = OrderNodes(model, document)) return e;
   MarkScene(model, document);
   return Ok();
@@ -242,7 +263,7 @@ class ImageTable {
       return Fail("texture " + std::to_string(texture) + " does not exist");
     }
     const int source = SourceOf(At(model_.textures, texture));
-    if (source < 0) return Fail("texture " + std::to_string(texture) + " has no PNG, JPEG or KTX2 image");
+    if (source < 0) return Fail("texture " + std::to_string(texture) + " has no PNG, JPEG, WebP or KTX2 image");
     if (static_cast<size_t>(source) >= model_.images.size()) {
       return Fail("image " + std::to_string(source) + " does not exist");
     }
@@ -258,19 +279,22 @@ class ImageTable {
   }
 
  private:
-  // PNG or JPEG where the file has both.
+  // PNG or JPEG where the file has another besides.
   static int SourceOf(const tinygltf::Texture& texture) {
-    const auto basis = texture.extensions.find("KHR_texture_basisu");
-    const bool only_basis = texture.source < 0 && basis != texture.extensions.end() && basis->second.Has("source") &&
-                            basis->second.Get("source").IsNumber();
-    return only_basis ? IndexOf(basis->second.Get("source")) : texture.source;
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"}) {
+      const auto other = texture.extensions.find(name);
+      if (texture.source < 0 && other != texture.extensions.end() && other->second.Has("source"))
+        return IndexOf(other->second.Get("source"));
+    }
+    return texture.source;
   }
 
   // As PNG, which all that follows reads.
   Error Unpack(Image* image) {
     pixels_left_ += kPixelsAByte * image->bytes.size();
     Pixels pixels;
-    if (Error e = DecodeBasisPicture(image->bytes, pixels_left_, &pixels)) {
+    if (Error e = IsWebp(image->bytes) ? DecodeWebpPicture(image->bytes, pixels_left_, &pixels)
+                                       : DecodeBasisPicture(image->bytes, pixels_left_, &pixels)) {
       return Fail("image " + Quoted(image->name) + " " + e.message);
     }
     pixels_left_ -= pixels.rgba.size() / 4;
@@ -297,10 +321,10 @@ class ImageTable {
       out->mime_type = "image/png";
     } else if (starts({0xff, 0xd8, 0xff})) {
       out->mime_type = "image/jpeg";
-    } else if (IsKtx2(out->bytes)) {
+    } else if (IsKtx2(out->bytes) || IsWebp(out->bytes)) {
       return Unpack(out);
     } else {
-      return Fail("image " + Quoted(out->name) + " is neither PNG, JPEG nor KTX2; convert it");
+      return Fail("image " + Quoted(out->name) + " is neither PNG, JPEG, WebP nor KTX2; convert it");
     }
     return Ok();
   }
@@ -308,7 +332,7 @@ class ImageTable {
   const Model& model_;
   GltfDocument* document_;
   std::vector<int> index_;
-  uint64_t pixels_left_ = kFreePixels;  // of KTX2 pictures
+  uint64_t pixels_left_ = kFreePixels;  // of KTX2 and WebP pictures
 };
 
 Vec2 Pair(const Value& object, const char* key, Vec2 otherwise) {
